@@ -1,0 +1,44 @@
+# SPDX-FileCopyrightText: 2026 The tofray authors
+# SPDX-License-Identifier: Apache-2.0
+
+# Flags that every target of ours takes. No product may be fused into a sum unless the source says fma: the same bits everywhere.
+add_library(tofray_flags INTERFACE)
+target_compile_options(tofray_flags INTERFACE -ffp-contract=off -Wall -Wextra -Wpedantic -Wshadow -Wconversion
+  -Wno-sign-conversion $<$<BOOL:${TOFRAY_WARNINGS_AS_ERRORS}>:-Werror>)
+
+# tofray_folder(name [SOURCES file…] [USES folder…] [LIBRARIES target…])
+#
+# One folder of src/ is one target, tofray_<name>, with an include root of its own: a link in the build tree that holds the folder
+# and nothing else. An include of a folder that is not named in USES therefore does not build.
+function(tofray_folder name)
+  cmake_parse_arguments(arg "" "" "SOURCES;USES;LIBRARIES" ${ARGN})
+  set(root ${CMAKE_BINARY_DIR}/roots/${name})
+  file(MAKE_DIRECTORY ${root})
+  file(CREATE_LINK ${CMAKE_CURRENT_SOURCE_DIR} ${root}/${name} SYMBOLIC)
+  list(TRANSFORM arg_USES PREPEND tofray_)
+  if(arg_SOURCES)
+    add_library(tofray_${name} OBJECT ${arg_SOURCES})
+    target_include_directories(tofray_${name} PUBLIC ${root})
+    target_link_libraries(tofray_${name} PUBLIC ${arg_USES} PRIVATE tofray_flags ${arg_LIBRARIES})
+    set_property(GLOBAL APPEND PROPERTY tofray_objects tofray_${name})
+    set_property(GLOBAL APPEND PROPERTY tofray_libraries ${arg_LIBRARIES})
+  else()
+    add_library(tofray_${name} INTERFACE)
+    target_include_directories(tofray_${name} INTERFACE ${root})
+    target_link_libraries(tofray_${name} INTERFACE ${arg_USES})
+  endif()
+endfunction()
+
+# tofray_use_all(target): the whole library, linked in as objects (command line and tests see the internals, too).
+function(tofray_use_all target)
+  get_property(objects GLOBAL PROPERTY tofray_objects)
+  get_property(libraries GLOBAL PROPERTY tofray_libraries)
+  list(REMOVE_DUPLICATES libraries)
+  foreach(object ${objects})
+    target_sources(${target} PRIVATE $<TARGET_OBJECTS:${object}>)
+  endforeach()
+  foreach(object ${objects})
+    target_include_directories(${target} PRIVATE $<TARGET_PROPERTY:${object},INTERFACE_INCLUDE_DIRECTORIES>)
+  endforeach()
+  target_link_libraries(${target} PRIVATE tofray_flags ${libraries})
+endfunction()

@@ -1,0 +1,96 @@
+// SPDX-FileCopyrightText: 2026 The tofray authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include <array>
+#include <optional>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
+
+/// What the user describes: objects, materials, ambient light and where the camera stands.
+///
+/// World frame: right-handed, metres. SI units throughout; a member's name ends in its unit where it is not metres.
+namespace tofray {
+
+using Vec3 = std::array<double, 3>;
+
+/// How a surface sends light back, at the illumination wavelength.
+struct Material {
+  enum class Brdf { lambert, phong };
+  std::string name;            ///< empty for a material written inside an object
+  Brdf brdf = Brdf::lambert;
+  double diffuse = 0.0;        ///< k_d, 0…1: Lambertian reflectivity (Lambert: the reflectivity rho)
+  double specular = 0.0;       ///< k_s, 0…1 with k_d + k_s <= 1: the Phong lobe's share (0 for Lambert)
+  double exponent = 1.0;       ///< n >= 1: the Phong lobe's exponent
+
+  /// Share of the light that comes back at normal incidence: k_d + k_s.
+  [[nodiscard]] double reflectivity() const { return diffuse + specular; }
+};
+
+struct Plane { Vec3 point{}; Vec3 normal{0, 0, -1}; };              ///< infinite; the normal need not be of unit length
+struct Sphere { Vec3 center{}; double radius = 1; };
+struct Box { Vec3 min{}; Vec3 max{}; };                             ///< along the axes before its rotation
+struct Triangle { std::array<Vec3, 3> vertices{}; };
+
+/// A turn by the right-hand rule about `axis` (any length but zero).
+struct Rotation { Vec3 axis{0, 0, 1}; double angle_rad = 0; };
+
+/// One thing in the scene. Order of operations: rotation about its own centre (sphere and box: the centre; triangle: the
+/// centroid; plane: its point), then the shift `position`, then velocity · t.
+struct Object {
+  std::string name;
+  std::variant<Plane, Sphere, Box, Triangle> shape;
+  int material = 0;            ///< index in Scene::materials
+  Vec3 position{0, 0, 0};      ///< shift [m]
+  Rotation rotation{};
+  Vec3 velocity_m_per_s{0, 0, 0};
+};
+
+/// Light that is not the camera's own. One of level, illuminance and band irradiance says how much.
+struct Ambient {
+  enum class Spectrum { none, sun_am15, equal_energy, table };
+  enum class Quantity {
+    level,             ///< 1 = the spectrum as it is tabulated (sun_am15: the global standard sun, 1000 W/m2 in all)
+    illuminance_lx,    ///< photometric, through the CIE photopic curve
+    band_irradiance_w_per_m2,  ///< E_B itself: the irradiance within the camera's filter
+  };
+  Spectrum spectrum = Spectrum::none;
+  Quantity quantity = Quantity::level;
+  double amount = 0;                    ///< in the quantity's unit
+  std::vector<double> table_wavelength_m;       ///< spectrum `table`: ascending
+  std::vector<double> table_irradiance_w_per_m3;  ///< spectral irradiance per metre of wavelength (1 W m-2 nm-1 = 1e9 W m-3)
+  std::optional<Vec3> direction;        ///< direction in which the light travels (a sun); none: uniform from everywhere
+};
+
+/// Where the camera stands. Camera frame: x right, y down, z forward.
+struct Pose {
+  Vec3 position{0, 0, 0};
+  Vec3 look_at{0, 0, 1};       ///< a point on the optical axis
+  Vec3 up{0, -1, 0};
+};
+
+/// The scene's `camera` section: which profile and mode to take, and what to change in it.
+struct CameraChoice {
+  std::string profile = "pico-flexx";   ///< a built-in name or a file
+  std::string mode;                     ///< empty: the profile's first
+  Pose pose;
+  /// Keys under `camera` that override the profile's, as dotted path and the text of the value,
+  /// e.g. {"lens.f_number", "1.2"} or {"integration_time", "500 us"}.
+  std::vector<std::pair<std::string, std::string>> overrides;
+};
+
+struct Scene {
+  std::string name;            ///< the file's stem, or a built-in name
+  std::string source;          ///< the file it came from, empty if built in code
+  CameraChoice camera;
+  Ambient ambient;
+  std::vector<Material> materials;
+  std::vector<Object> objects;
+};
+
+/// Reads a scene file (YAML 1.2 or JSON), or a built-in scene by name.
+/// @throws Error with every fault of the file at once.
+Scene load_scene(const std::string& file_or_name);
+
+}  // namespace tofray

@@ -1,0 +1,60 @@
+// SPDX-FileCopyrightText: 2026 The tofray authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include <cstdint>
+#include <memory>
+#include <string>
+
+#include "tofray/camera.h"
+#include "tofray/frame.h"
+#include "tofray/scene.h"
+
+namespace tofray {
+
+enum class Noise {
+  off,     ///< expected values: no draw; wells and codes still clip, depth comes from the unrounded A−B
+  fast,    ///< one merged normal per tap and raw frame
+  exact,   ///< true Poisson, then read noise (the default)
+};
+
+/// Which machine code runs. All give the same bytes.
+enum class Isa { best, scalar, scalar_fma, avx2, avx512 };
+
+struct SimulatorOptions {
+  std::uint64_t seed = 0;
+  Noise noise = Noise::exact;
+  int threads = 0;             ///< 0: as many as the machine has cores
+  Isa isa = Isa::best;         ///< best: the environment's TOFRAY_ISA, else what the CPU can do
+  bool truth = true;           ///< fill Frame::truth
+  bool culling = true;         ///< off: every pixel tests every object (slower, same bytes; for tests)
+};
+
+/// Simulates frames of one scene seen by one camera. frame(i) depends on nothing but (scene, camera, options, i).
+class Simulator {
+ public:
+  /// @throws Error (bad_input) where scene, camera and options do not fit together.
+  Simulator(const Scene& scene, const Camera& camera, const SimulatorOptions& options = {});
+  ~Simulator();
+  Simulator(Simulator&&) noexcept;
+  Simulator& operator=(Simulator&&) noexcept;
+
+  /// Frame i starts at i / frame_rate.
+  [[nodiscard]] Frame frame(std::uint64_t index);
+  /// The same into memory that the caller keeps: arrays of the right size are not allocated anew.
+  void frame(std::uint64_t index, Frame& into);
+
+  /// What runs: "scalar", "scalar_fma", "avx2" or "avx512".
+  [[nodiscard]] std::string isa() const;
+  [[nodiscard]] int threads() const;
+
+  struct Impl;
+
+ private:
+  std::unique_ptr<Impl> impl_;
+};
+
+/// Decodes raw data, simulated or measured, into depth (physics: 4). Needs `raw`, or `tap_a` and `tap_b`, and the arrays by
+/// phase; the camera says the rest. Taps, where present, are taken unrounded only if `raw` is empty.
+Depth process(const Raw& raw, const Camera& camera, const SimulatorOptions& options = {});
+
+}  // namespace tofray

@@ -1,0 +1,8 @@
+// SPDX-FileCopyrightText: 2026 The tofray authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "tofray/camera.h"
+#include "tofray/error.h"
+#include "tofray/frame.h"
+#include "tofray/scene.h"
+#include "tofray/simulator.h"
