@@ -1,0 +1,42 @@
+// SPDX-FileCopyrightText: 2026 The tofray authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include <algorithm>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/spline.h"
+#include "tofray/camera.h"
+#include "tofray/error.h"
+
+namespace tofray::base {
+
+/// A measured function of one variable as profiles give it: a not-a-knot spline through its samples, held at its first and last value
+/// outside their range (a cubic that runs on would soon be far from anything measured). One sample is a constant.
+class ClampedCurve {
+ public:
+  /// @param what what the curve describes, for the message
+  /// @throws Error (bad_input) for no samples, and as Spline does
+  ClampedCurve(const Curve& curve, const std::string& what) : positions_(curve.x) {
+    if (curve.y.empty()) throw Error(ErrorKind::bad_input, "error: " + what + " has no samples");
+    first_ = curve.y.front();
+    last_ = curve.y.back();
+    if (curve.y.size() > 1) spline_.emplace(curve.x, curve.y);
+  }
+
+  [[nodiscard]] double evaluate(double x) const {
+    if (!spline_ || x <= positions_.front()) return first_;
+    return x >= positions_.back() ? last_ : spline_->evaluate(x);
+  }
+
+  /// Where one cubic ends and the next begins; empty for a constant.
+  [[nodiscard]] std::vector<double> knots() const { return spline_ ? positions_ : std::vector<double>{}; }
+
+ private:
+  std::vector<double> positions_;
+  std::optional<Spline> spline_;
+  double first_ = 0, last_ = 0;
+};
+
+}  // namespace tofray::base

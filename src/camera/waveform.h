@@ -1,0 +1,36 @@
+// SPDX-FileCopyrightText: 2026 The tofray authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include <vector>
+
+#include "tofray/camera.h"
+
+namespace tofray::camera {
+
+/// One harmonic m of the correlation between the modulated light and a pixel's gate.
+struct Harmonic {
+  int order = 1;          ///< m
+  double amplitude = 0;   ///< a_m, may be negative
+  double phase_rad = 0;   ///< ψ_m
+};
+
+/// The correlation's harmonics at one modulation frequency.
+///
+/// A pixel with light phasors Z_m (electrons) has the tap difference
+///
+///     D(τ) = Re Σ_m a_m · e^{i(mτ + ψ_m)} · Z_m                                                   [theory: chapter 3]
+///
+/// Rectangular light of duty δ against a 50 % square gate, m = 1, 3, 5, …:
+///
+///     a_m = 4/(πm) · sin(mπ/2) · sinc(mδ) · sinc(m f t_rise) · g(m f/f_gate) · g(m f/f_light) · exp(−½(2πmfσ_jitter)²) · K(f)
+///     ψ_m = −atan(m f/f_gate) + atan(m f/f_light),        sinc x = sin(πx)/(πx),   g(x) = 1/√(1 + x²) (a single pole)
+///
+/// `sine` keeps the first harmonic of this formula alone. `measured` takes a_m·e^{iψ_m} = (2/n)·Σ_k D(τ_k)/S·e^{−imτ_k}, odd m < n/2, from the
+/// curve, which has everything in it: no other member of the waveform, and no pole or contrast of the pixel, is applied to it.
+///
+/// @param modulation_frequency_hz f > 0
+/// @return orders 1, 3, 5, …, `waveform.harmonics` of them (fewer where a measured curve has too few samples)
+/// @throws Error (bad_input) for a frequency, duty, number of harmonics or curve that makes no sense
+std::vector<Harmonic> correlation_harmonics(const Waveform& waveform, const Pixel& pixel, double modulation_frequency_hz);
+
+}  // namespace tofray::camera
