@@ -5,6 +5,7 @@
 #include <cmath>
 #include <string>
 
+#include "base/constants.h"
 #include "base/curve.h"
 #include "num/setup_math.h"
 #include "tofray/error.h"
@@ -14,8 +15,7 @@ namespace tofray::camera {
 namespace {
 
 namespace setup = num::setup;
-
-constexpr double pi = 3.141592653589793;
+using base::pi;
 
 void refuse(const std::string& message) { throw Error(ErrorKind::bad_input, "error: " + message); }
 

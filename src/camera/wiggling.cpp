@@ -6,6 +6,7 @@
 #include <cmath>
 #include <string>
 
+#include "base/constants.h"
 #include "num/setup_math.h"
 #include "tofray/error.h"
 
@@ -14,8 +15,7 @@ namespace tofray::camera {
 namespace {
 
 namespace setup = num::setup;
-
-constexpr double two_pi = 6.283185307179586;
+using base::two_pi;
 
 void refuse(const std::string& message) { throw Error(ErrorKind::bad_input, "error: " + message); }
 

@@ -1,0 +1,42 @@
+// SPDX-FileCopyrightText: 2026 The tofray authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include <functional>
+#include <vector>
+
+namespace tofray::base {
+
+/// A function of wavelength given by samples that straight lines join; zero outside their range.
+///
+/// Lines and not a cubic spline: the spectrum behind the atmosphere is a comb of absorption lines, not smooth on any grid.
+struct Spectrum {
+  std::vector<double> wavelength_m;   ///< ascending, at least 2
+  std::vector<double> value;          ///< spectral irradiance [W m⁻³] (1 W m⁻² nm⁻¹ is 1e9 W m⁻³), or no unit
+
+  /// @throws Error (bad_input) where the samples make no spectrum: fewer than 2, not ascending, not finite, negative
+  void check() const;
+  [[nodiscard]] double evaluate(double wavelength) const;
+};
+
+/// Sun at sea level, air mass 1.5, on a surface tilted by 37° toward it, sky light included: 300 to 2500 nm, 994 W/m² of the 1000 W/m² in all.
+///
+/// Published values at 1 nm from 400 to 1100 nm, at every 2, 5 and 20 nm below, above, and beyond 1700 nm.
+/// [ASTM G173-03, Standard Tables for Reference Solar Spectral Irradiances, global tilt; computed there with SMARTS 2.9.2]
+const Spectrum& sun_am15();
+
+/// Spectral luminous efficiency V(λ) of the light-adapted eye, largest 1 at 555 nm; 380 to 780 nm at every 5 nm. [CIE 1924; ISO 23539]
+const Spectrum& photopic();
+
+/// Illuminance E_v = 683 lm/W · ∫ E_λ·V dλ  [lx]
+double illuminance_lx(const Spectrum& irradiance);
+
+/// ∫ E_λ(λ)·weight(λ) dλ from `from_m` to `to_m`, exact up to rounding for a weight that is a polynomial of degree 8 or less between its knots.
+///
+/// Five Gauss–Legendre points on every piece between two neighbouring samples, knots or ends (exact up to degree 9). A weight that is the product
+/// of two cubic splines and of the wavelength has degree 7.
+///
+/// @param knots where pieces of the weight meet, in any order; those outside the range are ignored
+double integrate(const Spectrum& spectrum, double from_m, double to_m, const std::vector<double>& knots,
+                 const std::function<double(double)>& weight);
+
+}  // namespace tofray::base
