@@ -18,7 +18,7 @@ struct Spectrum {
   [[nodiscard]] double evaluate(double wavelength) const;
 };
 
-/// Sun at sea level, air mass 1.5, on a surface tilted by 37° toward it, sky light included: 300 to 2500 nm, 994 W/m² of the 1000 W/m² in all.
+/// Sun at sea level, air mass 1.5, on a surface tilted by 37° toward it, sky light included: 300 to 2500 nm, 994 of 1000 W/m² in all.
 ///
 /// Published values at 1 nm from 400 to 1100 nm, at every 2, 5 and 20 nm below, above, and beyond 1700 nm.
 /// [ASTM G173-03, Standard Tables for Reference Solar Spectral Irradiances, global tilt; computed there with SMARTS 2.9.2]
@@ -30,10 +30,10 @@ const Spectrum& photopic();
 /// Illuminance E_v = 683 lm/W · ∫ E_λ·V dλ  [lx]
 double illuminance_lx(const Spectrum& irradiance);
 
-/// ∫ E_λ(λ)·weight(λ) dλ from `from_m` to `to_m`, exact up to rounding for a weight that is a polynomial of degree 8 or less between its knots.
+/// ∫ E_λ(λ)·weight(λ) dλ from `from_m` to `to_m`, exact up to rounding for a weight that is a polynomial of degree <= 8 between its knots.
 ///
-/// Five Gauss–Legendre points on every piece between two neighbouring samples, knots or ends (exact up to degree 9). A weight that is the product
-/// of two cubic splines and of the wavelength has degree 7.
+/// Five Gauss–Legendre points on every piece between two neighbouring samples, knots or ends (exact up to degree 9). A weight that is the
+/// product of two cubic splines and of the wavelength has degree 7.
 ///
 /// @param knots where pieces of the weight meet, in any order; those outside the range are ignored
 double integrate(const Spectrum& spectrum, double from_m, double to_m, const std::vector<double>& knots,

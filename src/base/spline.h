@@ -14,9 +14,9 @@ class Spline {
  public:
   enum class Kind {
     /// C² everywhere, and the third derivative is continuous at the second and the last-but-one knot. 2 knots give a line, 3 a
-    /// parabola, 4 one cubic; any cubic is reproduced exactly. Beyond the ends the outer pieces go on. [de Boor, A Practical Guide to Splines]
+    /// parabola, 4 one cubic; any cubic is reproduced exactly. Beyond the ends the outer pieces go on.   [theory: eq. 6.5]
     not_a_knot,
-    /// C² with period x_last − x_first; the last value must equal the first. 2 knots give a constant. Arguments are taken modulo the period.
+    /// C² with period x_last − x_first; the last value must equal the first. 2 knots give a constant. Arguments: modulo the period.
     periodic,
     /// Straight lines between the knots; beyond the ends the outer ones go on.
     linear,

@@ -18,15 +18,16 @@ struct Harmonic {
 ///
 /// A pixel with light phasors Z_m (electrons) has the tap difference
 ///
-///     D(τ) = Re Σ_m a_m · e^{i(mτ + ψ_m)} · Z_m                                                   [theory: chapter 3]
+///     D(τ) = Re Σ_m a_m · e^{i(mτ + ψ_m)} · Z_m                                                    [theory: eq. 3.2]
 ///
 /// Rectangular light of duty δ against a 50 % square gate, m = 1, 3, 5, …:
 ///
 ///     a_m = 4/(πm) · sin(mπ/2) · sinc(mδ) · sinc(m f t_rise) · g(m f/f_gate) · g(m f/f_light) · exp(−½(2πmfσ_jitter)²) · K(f)
-///     ψ_m = −atan(m f/f_gate) + atan(m f/f_light),        sinc x = sin(πx)/(πx),   g(x) = 1/√(1 + x²) (a single pole)
+///     ψ_m = −atan(m f/f_gate) + atan(m f/f_light),        sinc x = sin(πx)/(πx),   g(x) = 1/√(1 + x²)   [theory: eq. 3.3, 3.4]
 ///
-/// `sine` keeps the first harmonic of this formula alone. `measured` takes a_m·e^{iψ_m} = (2/n)·Σ_k D(τ_k)/S·e^{−imτ_k}, odd m < n/2, from the
-/// curve, which has everything in it: no other member of the waveform, and no pole or contrast of the pixel, is applied to it.
+/// `sine` keeps the first harmonic of this formula alone. `measured` takes a_m·e^{iψ_m} = (2/n)·Σ_k D(τ_k)/S·e^{−imτ_k} [theory: eq. 3.12],
+/// odd m < n/2, from the curve, which has everything in it: no other member of the waveform but `harmonics`, and no pole or contrast of the
+/// pixel, is applied to it.
 ///
 /// @param modulation_frequency_hz f > 0
 /// @return orders 1, 3, 5, …, `waveform.harmonics` of them (fewer where a measured curve has too few samples)

@@ -37,7 +37,7 @@ Forward sample(const PhaseResponse& response, int highest_order, int nodes) {
     const bool grows = i == 0 || forward.measured[static_cast<std::size_t>(i)] > forward.measured[static_cast<std::size_t>(i) - 1];
     if (!(value.slope > 0) || !grows)
       refuse("the measured phase does not grow with distance throughout, so that no wiggling table can be made\n  near a phase of " +
-             std::to_string(phase) + " rad; the higher harmonics are too strong for " + "these reference phases");
+             std::to_string(phase) + " rad; the higher harmonics are too strong for these reference phases");
   }
   return forward;
 }
@@ -94,7 +94,8 @@ PhaseResponse::Value PhaseResponse::at(double phase_rad) const {
   return {offset_ + setup::atan2(rest.imag(), rest.real()), (derivative * std::conj(z)).real() / square, std::sqrt(square)};
 }
 
-std::vector<double> wiggling_correction(const std::vector<Harmonic>& harmonics, const std::vector<double>& reference_phases_rad, int nodes) {
+std::vector<double> wiggling_correction(const std::vector<Harmonic>& harmonics, const std::vector<double>& reference_phases_rad,
+                                        int nodes) {
   if (nodes < 2) refuse("a wiggling table needs at least 2 nodes\n  got " + std::to_string(nodes));
   const PhaseResponse response(harmonics, reference_phases_rad);
   int highest_order = 1;

@@ -12,9 +12,11 @@ namespace tofray::camera {
 ///
 /// With D_k = Re Σ_m a_m e^{i(m(φ + τ_k) + ψ_m)} (one electron of light) the sum over k leaves
 ///
-///     Ẑ(φ) = Σ_m P_m·a_m·e^{i(mφ + ψ_m)} + Q_m·a_m·e^{−i(mφ + ψ_m)},   P_m = (1/N)Σ_k e^{i(m−1)τ_k},  Q_m = (1/N)Σ_k e^{−i(m+1)τ_k}
+///     Ẑ(φ) = Σ_m P_m·a_m·e^{i(mφ + ψ_m)} + Q_m·a_m·e^{−i(mφ + ψ_m)}
+///     P_m = (1/N) Σ_k e^{i(m−1)τ_k},   Q_m = (1/N) Σ_k e^{−i(m+1)τ_k}
 ///
-/// For N equally spaced phases P_m is 1 for m ≡ 1, Q_m for m ≡ −1 (mod N), and otherwise 0: only these harmonics leak. [theory: chapter 3]
+/// For N equally spaced phases from τ_0 = 0 on, P_m is 1 for m ≡ 1, Q_m for m ≡ −1 (mod N), and otherwise 0: only these harmonics leak.
+/// For four phases this is [theory: eq. 3.5].
 class PhaseResponse {
  public:
   /// @param reference_phases_rad τ_k, at least 3
@@ -38,7 +40,7 @@ class PhaseResponse {
   double offset_ = 0;                ///< [rad] phase of the first harmonic: what the error swings about
 };
 
-/// Table that takes a measured phase back to the true one: φ = φ̂ + correction(φ̂), in turns, ψ_1 taken out as well.
+/// Table that takes a measured phase back to the true one: φ = φ̂ + correction(φ̂), in turns, ψ_1 taken out as well. [theory: eq. 4.3]
 ///
 /// Every node is solved on the exact forward curve to 1e-12 turns or better.
 ///

@@ -15,14 +15,14 @@ namespace tofray::scene {
 ///
 /// Spectrum `none`, or an amount of 0, gives two samples of zero.
 ///
-/// @throws Error (bad_input) for an amount below zero or not finite, a table that makes no spectrum, light that cannot be scaled because the
-///         eye, or the camera behind its filter, sees nothing of it, and a filter that makes no sense
+/// @throws Error (bad_input) for an amount below zero or not finite, a table that makes no spectrum, a filter that makes no sense, and
+///         light that cannot be scaled because the eye, or the camera behind its filter, sees nothing of it
 base::Spectrum ambient_spectrum(const Ambient& ambient, const Filter& filter);
 
-/// E_B = ∫ E_λ·T(λ) dλ  [W/m²]: ambient irradiance within the camera's filter.                                  [theory: chapter 2]
+/// E_B = ∫ E_λ·T(λ) dλ  [W/m²]: ambient irradiance within the camera's filter.       [theory: eq. 2.10]
 ///
-/// T is `filter.peak` over centre ± half width and 0 outside, or the filter's table: a not-a-knot spline within its samples (never below 0) and
-/// 0 outside; a table of one sample passes all wavelengths alike.
+/// T is `filter.peak` over centre ± half width and 0 outside, or the filter's table: a not-a-knot spline within its samples (never below 0)
+/// and 0 outside; a table of one sample passes all wavelengths alike.
 double band_irradiance(const Ambient& ambient, const Filter& filter);
 
 /// ∫ E_λ·T(λ)·QE(λ)·λ/(hc) dλ  [e⁻ s⁻¹ m⁻²]: photo-electrons per second and area that E_B would make if it fell upon the pixel itself.

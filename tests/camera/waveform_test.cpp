@@ -73,7 +73,8 @@ std::string refusal(const std::function<void()>& act) {
 TEST(correlation_harmonics, of_a_half_duty_square_are_those_of_a_triangle) {
   const auto harmonics = correlation_harmonics(rectangular(0.5, 1000), ideal_pixel(), 60e6);
   ASSERT_EQ(harmonics.size(), 1000u);
-  for (const auto& h : harmonics) EXPECT_NEAR(h.amplitude, 8 / (pi * pi * h.order * h.order), 2e-15 / h.order) << h.order;   // sin at π·order/2
+  for (const auto& h : harmonics)   // error: that of sin at π·order/2, over order
+    EXPECT_NEAR(h.amplitude, 8 / (pi * pi * h.order * h.order), 2e-15 / h.order) << h.order;
   EXPECT_NEAR(harmonics[0].amplitude, 0.810569, 5e-7);
   EXPECT_EQ(harmonics[999].order, 1999);
 }

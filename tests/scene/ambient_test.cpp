@@ -126,14 +126,16 @@ TEST(band_electron_rate_factor, of_narrow_light_is_the_photon_rate_times_efficie
 TEST(ambient, none_or_nothing_gives_no_light) {
   EXPECT_EQ(band_irradiance(Ambient{}, box(850, 15)), 0.0);
   EXPECT_EQ(band_irradiance(sun(0), box(850, 15)), 0.0);
-  EXPECT_EQ(band_electron_rate_factor(light(Ambient::Spectrum::sun_am15, Ambient::Quantity::illuminance_lx, 0), box(850, 15), {{1}, {0.4}}), 0.0);
+  const Ambient dark = light(Ambient::Spectrum::sun_am15, Ambient::Quantity::illuminance_lx, 0);
+  EXPECT_EQ(band_electron_rate_factor(dark, box(850, 15), {{1}, {0.4}}), 0.0);
 }
 
 TEST(ambient, refuses_what_makes_no_sense) {
   expect_refusal(sun(-1), box(850, 15), "must be a number that is not below zero");
   expect_refusal(sun(std::nan("")), box(850, 15), "must be a number that is not below zero");
   expect_refusal(sun(1), box(850, 0), "half width must be above zero");
-  expect_refusal(light(Ambient::Spectrum::sun_am15, Ambient::Quantity::band_irradiance_w_per_m2, 1), box(5000, 15), "filter passes nothing");
+  const Ambient band = light(Ambient::Spectrum::sun_am15, Ambient::Quantity::band_irradiance_w_per_m2, 1);
+  expect_refusal(band, box(5000, 15), "filter passes nothing");
   Ambient infrared = light(Ambient::Spectrum::table, Ambient::Quantity::illuminance_lx, 100);
   infrared.table_wavelength_m = {830e-9, 870e-9};
   infrared.table_irradiance_w_per_m3 = {1e9, 1e9};
