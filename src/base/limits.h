@@ -1,0 +1,38 @@
+// SPDX-FileCopyrightText: 2026 The tofray authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include <cstdint>
+
+/// Every limit of tofray, once: the readers check against these numbers and `tofray --limits` prints them.
+namespace tofray::base {
+
+struct Limit {
+  const char* name;
+  std::int64_t value;
+  const char* what;
+};
+
+namespace limit {
+inline constexpr Limit file_bytes{"file_bytes", 16 << 20, "bytes of one scene, profile or table file"};
+inline constexpr Limit nesting_depth{"nesting_depth", 64, "lists and maps inside each other in one file"};
+inline constexpr Limit nodes{"nodes", 400'000, "values of one file, aliases (*name) written out"};
+inline constexpr Limit faults_shown{"faults_shown", 50, "faults printed for one file; the others are counted"};
+inline constexpr Limit objects{"objects", 20'000, "objects of one scene"};
+inline constexpr Limit materials{"materials", 10'000, "materials of one scene"};
+inline constexpr Limit lights{"lights", 8, "light sources of one camera"};
+inline constexpr Limit raw_frames{"raw_frames", 64, "raw frames of one mode's sequence"};
+inline constexpr Limit modes{"modes", 256, "modes of one camera profile"};
+inline constexpr Limit sensor_side{"sensor_side", 16'384, "pixels along one side of the sensor"};
+inline constexpr Limit sensor_pixels{"sensor_pixels", 1 << 24, "pixels of the sensor"};
+inline constexpr Limit raw_samples{"raw_samples", 1 << 27, "pixels times raw frames of one frame"};
+inline constexpr Limit curve_points{"curve_points", 10'000, "points of one curve or spectrum"};
+inline constexpr Limit table_samples{"table_samples", 1 << 20, "samples of one light pattern"};
+}  // namespace limit
+
+/// All of them, in the order in which they are printed.
+inline constexpr Limit all_limits[] = {
+    limit::file_bytes, limit::nesting_depth, limit::nodes, limit::faults_shown, limit::objects, limit::materials, limit::lights,
+    limit::raw_frames, limit::modes, limit::sensor_side, limit::sensor_pixels, limit::raw_samples, limit::curve_points, limit::table_samples,
+};
+
+}  // namespace tofray::base
