@@ -70,14 +70,21 @@ struct Pose {
   Vec3 up{0, -1, 0};
 };
 
+/// A key of the profile that the scene changes: dotted path and the text of the value, e.g. {"lens.f_number", "1.2"} or
+/// {"integration_time", "500 us"}.
+struct Override {
+  std::string key;
+  std::string value;
+  std::string where = {};      ///< file:line:col for messages; empty if built in code
+};
+
 /// The scene's `camera` section: which profile and mode to take, and what to change in it.
 struct CameraChoice {
   std::string profile = "pico-flexx";   ///< a built-in name or a file
   std::string mode;                     ///< empty: the profile's first
   Pose pose;
-  /// Keys under `camera` that override the profile's, as dotted path and the text of the value,
-  /// e.g. {"lens.f_number", "1.2"} or {"integration_time", "500 us"}.
-  std::vector<std::pair<std::string, std::string>> overrides;
+  std::vector<Override> overrides;
+  std::string profile_where, mode_where;   ///< file:line:col for messages; empty if built in code
 };
 
 struct Scene {

@@ -1,0 +1,108 @@
+// SPDX-FileCopyrightText: 2026 The tofray authors
+// SPDX-License-Identifier: Apache-2.0
+#include "io/form.h"
+
+namespace tofray::io {
+
+Form number(base::Dimension dimension, double low, double high, const std::string& example) {
+  Form form;
+  form.kind = Form::Kind::number;
+  form.dimension = dimension;
+  form.bare = dimension == base::Dimension::none || dimension == base::Dimension::fraction;
+  form.low = low;
+  form.high = high;
+  form.example = example;
+  return form;
+}
+
+Form bare_number(base::Dimension dimension, double low, double high, const std::string& example) {
+  Form form = number(dimension, low, high, example);
+  form.bare = true;
+  return form;
+}
+
+Form integer(double low, double high, const std::string& example) {
+  Form form = number(base::Dimension::none, low, high, example);
+  form.kind = Form::Kind::integer;
+  return form;
+}
+
+Form boolean() {
+  Form form;
+  form.kind = Form::Kind::boolean;
+  form.example = "true";
+  return form;
+}
+
+Form text(const std::string& what, const std::string& example) {
+  Form form;
+  form.kind = Form::Kind::text;
+  form.what = what;
+  form.example = example;
+  return form;
+}
+
+Form choice(std::vector<std::string> names) {
+  Form form;
+  form.kind = Form::Kind::choice;
+  form.example = names.front();
+  form.names = std::move(names);
+  return form;
+}
+
+Form list(Form item, int min_items, int max_items) {
+  Form form;
+  form.kind = Form::Kind::list;
+  form.forms.push_back(std::move(item));
+  form.min_items = min_items;
+  form.max_items = max_items;
+  return form;
+}
+
+Form map(std::vector<Key> keys) {
+  Form form;
+  form.kind = Form::Kind::map;
+  form.keys = std::move(keys);
+  return form;
+}
+
+Form dictionary(Form item, int min_items, int max_items) {
+  Form form = list(std::move(item), min_items, max_items);
+  form.kind = Form::Kind::dictionary;
+  return form;
+}
+
+Form tagged(const std::string& tag, std::vector<std::pair<std::string, std::vector<Key>>> alternatives, const std::string& default_tag) {
+  Form form;
+  form.kind = Form::Kind::tagged;
+  form.tag = tag;
+  form.default_tag = default_tag;
+  for (auto& [name, keys] : alternatives) {
+    form.names.push_back(name);
+    form.forms.push_back(map(std::move(keys)));
+  }
+  return form;
+}
+
+Form either(std::vector<Form> forms) {
+  Form form;
+  form.kind = Form::Kind::either;
+  form.forms = std::move(forms);
+  return form;
+}
+
+Key required(const std::string& name, Form form, const std::string& doc) { return {name, std::move(form), doc, true, {}, nullptr}; }
+
+Key optional(const std::string& name, Form form, const std::string& fallback, const std::string& doc) {
+  auto node = std::make_shared<const Node>(parse_value(fallback, base::whole("default of " + name)));
+  return {name, std::move(form), doc, false, fallback, std::move(node)};
+}
+
+Key absent(const std::string& name, Form form, const std::string& doc) { return {name, std::move(form), doc, false, {}, nullptr}; }
+
+const std::vector<std::string>& provenance_keys() {
+  static const std::vector<std::string> keys = {"source", "assumed", "note"};
+  return keys;
+}
+
+}  // namespace tofray::io
