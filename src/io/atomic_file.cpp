@@ -75,9 +75,9 @@ class LiveTemporary {
   if (code == ENOSPC || code == EDQUOT) {
     struct statvfs room {};
     if (folder >= 0 && fstatvfs(folder, &room) == 0)
-      text += fmt::format("\n  needed {} bytes, free {} bytes in {}", needed,
-                          static_cast<unsigned long long>(room.f_bavail) * room.f_frsize,
-                          path.has_parent_path() ? path.parent_path().native() : ".");
+      text +=
+          fmt::format("\n  needed {} bytes, free {} bytes in {}", needed, static_cast<unsigned long long>(room.f_bavail) * room.f_frsize,
+                      path.has_parent_path() ? path.parent_path().native() : ".");
     else
       text += fmt::format("\n  needed {} bytes", needed);
   } else if (code == ENAMETOOLONG) {
@@ -114,9 +114,7 @@ class Descriptor {
 
 int open_retrying(const FileCalls& calls, int folder, const char* name, int flags) {
   int file = -1;
-  do {
-    file = calls.open_at(folder, name, flags | O_CLOEXEC, 0666);
-  } while (file < 0 && errno == EINTR);
+  do { file = calls.open_at(folder, name, flags | O_CLOEXEC, 0666); } while (file < 0 && errno == EINTR);
   return file;
 }
 
@@ -138,9 +136,7 @@ bool write_all(const FileCalls& calls, int file, std::string_view bytes) {
 /// Some file systems cannot sync a folder, a pipe or a device; that is no failure.
 bool sync(const FileCalls& calls, int file) {
   int result = -1;
-  do {
-    result = calls.sync(file);
-  } while (result < 0 && errno == EINTR);
+  do { result = calls.sync(file); } while (result < 0 && errno == EINTR);
   return result == 0 || errno == EINVAL || errno == ENOTSUP;
 }
 
@@ -203,8 +199,7 @@ void write_file_atomically(const std::filesystem::path& path, std::string_view b
   const std::filesystem::path parent = path.has_parent_path() ? path.parent_path() : std::filesystem::path(".");
   const Descriptor folder(open_retrying(calls, AT_FDCWD, parent.c_str(), O_RDONLY | O_DIRECTORY), calls);
   if (folder.number() < 0) fail(path, "open its folder", errno, bytes.size(), -1);
-  while (!write_and_rename(path, bytes, folder.number(), calls)) {
-  }
+  while (!write_and_rename(path, bytes, folder.number(), calls)) {}
   if (!sync(calls, folder.number())) fail(path, "sync its folder to the disk", errno, bytes.size(), folder.number());
 }
 

@@ -83,14 +83,19 @@ void append_utf8(std::string& text, std::uint32_t code) {
 std::uint32_t take_utf8(std::string_view& text) {
   const auto byte = [&](std::size_t i) { return static_cast<std::uint32_t>(static_cast<unsigned char>(text[i])); };
   const std::uint32_t first = byte(0);
-  const std::size_t length = first < 0x80 ? 1 : first >= 0xC2 && first < 0xE0 ? 2 : first >= 0xE0 && first < 0xF0 ? 3 : first >= 0xF0 && first < 0xF5 ? 4 : 0;
+  const std::size_t length = first < 0x80                    ? 1
+                             : first >= 0xC2 && first < 0xE0 ? 2
+                             : first >= 0xE0 && first < 0xF0 ? 3
+                             : first >= 0xF0 && first < 0xF5 ? 4
+                                                             : 0;
   std::uint32_t code = length == 1 ? first : length == 2 ? first & 31 : length == 3 ? first & 15 : first & 7;
   bool good = length > 0 && text.size() >= length;
   for (std::size_t i = 1; good && i < length; ++i) {
     good = (byte(i) & 0xC0) == 0x80;
     code = code << 6 | (byte(i) & 63);
   }
-  good = good && !(length == 3 && (code < 0x800 || (code >= 0xD800 && code < 0xE000))) && !(length == 4 && (code < 0x10000 || code > 0x10FFFF));
+  good = good && !(length == 3 && (code < 0x800 || (code >= 0xD800 && code < 0xE000))) &&
+         !(length == 4 && (code < 0x10000 || code > 0x10FFFF));
   text.remove_prefix(good ? length : 1);
   return good ? code : 0xFFFD;
 }
@@ -99,11 +104,16 @@ std::uint32_t take_utf8(std::string_view& text) {
 
 std::string NpyType::name() const {
   switch (kind) {
-    case 'b': return "bool";
-    case 'i': return fmt::format("int{}", size * 8);
-    case 'u': return fmt::format("uint{}", size * 8);
-    case 'f': return fmt::format("float{}", size * 8);
-    default: return "str";
+    case 'b':
+      return "bool";
+    case 'i':
+      return fmt::format("int{}", size * 8);
+    case 'u':
+      return fmt::format("uint{}", size * 8);
+    case 'f':
+      return fmt::format("float{}", size * 8);
+    default:
+      return "str";
   }
 }
 
@@ -124,15 +134,22 @@ std::size_t NpyArray::count() const {
 
 double NpyArray::number(std::size_t i) const {
   switch (type.kind) {
-    case 'b': return element<std::uint8_t>(bytes, i) != 0 ? 1.0 : 0.0;
-    case 'f': return type.size == 4 ? element<float>(bytes, i) : element<double>(bytes, i);
+    case 'b':
+      return element<std::uint8_t>(bytes, i) != 0 ? 1.0 : 0.0;
+    case 'f':
+      return type.size == 4 ? element<float>(bytes, i) : element<double>(bytes, i);
     case 'i':
-      return type.size == 1 ? element<std::int8_t>(bytes, i) : type.size == 2 ? element<std::int16_t>(bytes, i)
-           : type.size == 4 ? element<std::int32_t>(bytes, i) : element<std::int64_t>(bytes, i);
+      return type.size == 1   ? element<std::int8_t>(bytes, i)
+             : type.size == 2 ? element<std::int16_t>(bytes, i)
+             : type.size == 4 ? element<std::int32_t>(bytes, i)
+                              : element<std::int64_t>(bytes, i);
     case 'u':
-      return type.size == 1 ? element<std::uint8_t>(bytes, i) : type.size == 2 ? element<std::uint16_t>(bytes, i)
-           : type.size == 4 ? element<std::uint32_t>(bytes, i) : element<std::uint64_t>(bytes, i);
-    default: throw Error(ErrorKind::bug, "error: text has no number");
+      return type.size == 1   ? element<std::uint8_t>(bytes, i)
+             : type.size == 2 ? element<std::uint16_t>(bytes, i)
+             : type.size == 4 ? element<std::uint32_t>(bytes, i)
+                              : element<std::uint64_t>(bytes, i);
+    default:
+      throw Error(ErrorKind::bug, "error: text has no number");
   }
 }
 
@@ -174,9 +191,10 @@ NpyArray parse_npy(std::string_view file, const std::string& where) {
   const NpyHeader header = parse_npy_header(file, where);
   const std::string_view data = file.substr(header.length);
   if (data.size() != header.data_bytes)
-    throw Error(ErrorKind::bad_input, fmt::format("{}: error: the array is {}\n  got {} bytes of data, expected {} for {} of shape {}", where,
-                                                  data.size() < header.data_bytes ? "cut short" : "followed by bytes that are not its own",
-                                                  data.size(), header.data_bytes, header.type.name(), shape_text(header.shape)));
+    throw Error(ErrorKind::bad_input,
+                fmt::format("{}: error: the array is {}\n  got {} bytes of data, expected {} for {} of shape {}", where,
+                            data.size() < header.data_bytes ? "cut short" : "followed by bytes that are not its own", data.size(),
+                            header.data_bytes, header.type.name(), shape_text(header.shape)));
   NpyArray array{header.type, header.shape, std::string(data)};
   if (header.big_endian) swap_byte_order(array);
   if (header.fortran_order) to_c_order(array);

@@ -109,8 +109,9 @@ class DictionaryReader {
     if (rest_.starts_with('[')) refuse(where_, "an array of records is not read\n  expected one number or character type per array");
     const std::string_view descr = quoted();
     const auto unknown = [&] {
-      refuse(where_, fmt::format("an array of type \"{}\" is not read\n  expected bool, int8…int64, uint8…uint64, float32, float64 or str{}",
-                                 printable(descr), descr.find('O') != std::string_view::npos ? "; Python objects could run code when loaded" : ""));
+      refuse(where_,
+             fmt::format("an array of type \"{}\" is not read\n  expected bool, int8…int64, uint8…uint64, float32, float64 or str{}",
+                         printable(descr), descr.find('O') != std::string_view::npos ? "; Python objects could run code when loaded" : ""));
     };
     if (descr.size() < 3 || descr.size() > 10 || std::string_view("<>|=").find(descr[0]) == std::string_view::npos) unknown();
     header.big_endian = descr[0] == '>';
@@ -120,7 +121,8 @@ class DictionaryReader {
       size = size * 10 + static_cast<std::size_t>(c - '0');
     }
     const char kind = descr[1];
-    const bool good = (kind == 'b' && size == 1) || (kind == 'f' && (size == 4 || size == 8)) || (kind == 'U' && size >= 1 && size <= 10'000'000) ||
+    const bool good = (kind == 'b' && size == 1) || (kind == 'f' && (size == 4 || size == 8)) ||
+                      (kind == 'U' && size >= 1 && size <= 10'000'000) ||
                       ((kind == 'i' || kind == 'u') && (size == 1 || size == 2 || size == 4 || size == 8));
     if (!good) unknown();
     header.type = {kind, static_cast<int>(kind == 'U' ? 4 * size : size)};
@@ -168,7 +170,8 @@ NpyHeader parse_npy_header(std::string_view file, const std::string& where) {
   const std::size_t start = version == 1 ? 10 : 12;
   const std::size_t length = version == 1 ? byte(8) | byte(9) << 8 : byte(8) | byte(9) << 8 | byte(10) << 16 | byte(11) << 24;
   if (length > max_npy_header_bytes)
-    throw Error(ErrorKind::limit, fmt::format("{}: error: the array's header has {} bytes, more than {}", where, length, max_npy_header_bytes));
+    throw Error(ErrorKind::limit,
+                fmt::format("{}: error: the array's header has {} bytes, more than {}", where, length, max_npy_header_bytes));
   header.length = start + length;
   if (file.size() < header.length) refuse(where, "the array's header is cut short");
   DictionaryReader(file.substr(start, length), where).read(header);

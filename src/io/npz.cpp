@@ -57,7 +57,8 @@ void add_entry(zip_t* archive, const NpyView& view, const std::string& header) {
 std::string bytes_of(zip_source_t* source) {
   zip_stat_t status;
   zip_stat_init(&status);
-  require(zip_source_stat(source, &status) == 0 && (status.valid & ZIP_STAT_SIZE) != 0 && zip_source_open(source) == 0, "read back its buffer");
+  require(zip_source_stat(source, &status) == 0 && (status.valid & ZIP_STAT_SIZE) != 0 && zip_source_open(source) == 0,
+          "read back its buffer");
   std::string bytes(status.size, '\0');
   const zip_int64_t got = zip_source_read(source, bytes.data(), bytes.size());
   zip_source_close(source);
@@ -72,8 +73,8 @@ std::string bytes_of(zip_source_t* source) {
 /// What the directory of the zip says about one entry, checked before anything is unpacked.
 struct Entry {
   zip_uint64_t index = 0;
-  std::string name;          ///< without ".npy"
-  std::size_t size = 0;      ///< unpacked
+  std::string name;      ///< without ".npy"
+  std::size_t size = 0;  ///< unpacked
 };
 
 Entry checked_entry(zip_t* archive, zip_uint64_t index, std::size_t file_bytes, const std::string& where) {
@@ -86,7 +87,8 @@ Entry checked_entry(zip_t* archive, zip_uint64_t index, std::size_t file_bytes, 
   const std::string here = fmt::format("{}[{}]", where, printable(name));
   if (status.encryption_method != ZIP_EM_NONE) refuse(here, "the entry is encrypted");
   if (status.comp_method != ZIP_CM_STORE && status.comp_method != ZIP_CM_DEFLATE)
-    refuse(here, fmt::format("zip method {} is not read\n  expected stored or deflated, as numpy.savez and numpy.savez_compressed write", status.comp_method));
+    refuse(here, fmt::format("zip method {} is not read\n  expected stored or deflated, as numpy.savez and numpy.savez_compressed write",
+                             status.comp_method));
   if (status.comp_size > file_bytes || (status.comp_method == ZIP_CM_STORE && status.size != status.comp_size))
     refuse(here, "the entry's declared size does not fit the file");
   if (status.size > max_array_bytes + max_npy_header_bytes || status.size / max_pack_ratio > status.comp_size)
@@ -166,7 +168,8 @@ std::vector<NamedArray> parse_npz(std::string_view file, const std::string& wher
     if (!names.insert(entry.name).second) refuse(here, "two arrays have this name");
     if (!wanted.empty() && std::find(wanted.begin(), wanted.end(), entry.name) == wanted.end()) continue;
     total += entry.size;
-    if (total > max_unpacked_bytes) throw Error(ErrorKind::limit, fmt::format("{}: error: the arrays unpack to more than {} bytes", where, max_unpacked_bytes));
+    if (total > max_unpacked_bytes)
+      throw Error(ErrorKind::limit, fmt::format("{}: error: the arrays unpack to more than {} bytes", where, max_unpacked_bytes));
     arrays.push_back({entry.name, parse_npy(unpacked(archive.get(), entry, here), here)});
   }
   return arrays;

@@ -13,7 +13,7 @@ namespace tofray::io {
 
 /// An array to write; the data stay the caller's.
 struct NpyView {
-  std::string name;   ///< without ".npy"
+  std::string name;  ///< without ".npy"
   NpyType type;
   NpyShape shape;
   std::string_view bytes;

@@ -72,7 +72,8 @@ class RawReader {
                           shape[1] <= max_image_side && shape[2] <= max_image_side;
     if (!sensible) {
       fault(fmt::format("array \"{}\" has the wrong shape", name),
-            fmt::format("got {}, expected {}, at most ({}, {}, {})", shape_text(shape), stack_shape, max_phases, max_image_side, max_image_side));
+            fmt::format("got {}, expected {}, at most ({}, {}, {})", shape_text(shape), stack_shape, max_phases, max_image_side,
+                        max_image_side));
       return false;
     }
     if (raw.phases == 0) {
@@ -80,7 +81,8 @@ class RawReader {
       raw.height = static_cast<int>(shape[1]);
       raw.width = static_cast<int>(shape[2]);
     }
-    const NpyShape expected = {static_cast<std::size_t>(raw.phases), static_cast<std::size_t>(raw.height), static_cast<std::size_t>(raw.width)};
+    const NpyShape expected = {static_cast<std::size_t>(raw.phases), static_cast<std::size_t>(raw.height),
+                               static_cast<std::size_t>(raw.width)};
     if (shape == expected) return true;
     fault(fmt::format("array \"{}\" has the wrong shape", name),
           fmt::format("got {}, expected {} as the other raw data have", shape_text(shape), shape_text(expected)));
@@ -97,7 +99,8 @@ class RawReader {
     }
     for (std::size_t i = 0; i < raw.raw.size(); ++i) {
       const double code = array->number(i);
-      if (code < 0 || code > 65535) return fault("array \"raw\" has a code that is no uint16", fmt::format("got {}, expected 0 to 65535", code));
+      if (code < 0 || code > 65535)
+        return fault("array \"raw\" has a code that is no uint16", fmt::format("got {}, expected 0 to 65535", code));
       raw.raw[i] = static_cast<std::uint16_t>(code);
     }
   }
@@ -120,7 +123,8 @@ class RawReader {
     // without raw data there is nothing to compare with, and that fault has been told
     if (array->shape.size() != 1 || (raw.phases > 0 && array->shape[0] != static_cast<std::size_t>(raw.phases))) {
       const std::string expected = raw.phases > 0 ? fmt::format("({},): one per raw frame", raw.phases) : "one per raw frame";
-      return fault(fmt::format("array \"{}\" has the wrong shape", name), fmt::format("got {}, expected {}", shape_text(array->shape), expected));
+      return fault(fmt::format("array \"{}\" has the wrong shape", name),
+                   fmt::format("got {}, expected {}", shape_text(array->shape), expected));
     }
     if (array->count() > max_phases) return;
     for (std::size_t i = 0; i < array->count(); ++i) {
@@ -136,7 +140,8 @@ class RawReader {
   void check_exposures(const Raw& raw) {
     for (std::size_t k = 0; k < raw.lit.size(); ++k) {
       if (raw.lit[k] != 0 && raw.modulation_frequency_hz[k] == 0)
-        fault(fmt::format("raw frame {} is lit and has no modulation frequency", k), "expected modulation_frequency_hz above 0 where lit is true");
+        fault(fmt::format("raw frame {} is lit and has no modulation frequency", k),
+              "expected modulation_frequency_hz above 0 where lit is true");
       if (raw.integration_time_s[k] == 0)
         fault(fmt::format("raw frame {} has no integration time", k), "expected integration_time_s above 0");
     }
@@ -150,7 +155,9 @@ class RawReader {
 }  // namespace
 
 Raw read_raw_npz(const std::string& path) {
-  return RawReader(read_npz(path, {"raw", "tap_a", "tap_b", "modulation_frequency_hz", "reference_phase_rad", "integration_time_s", "start_time_s", "lit"}), path)
+  return RawReader(read_npz(path, {"raw", "tap_a", "tap_b", "modulation_frequency_hz", "reference_phase_rad", "integration_time_s",
+                                   "start_time_s", "lit"}),
+                   path)
       .read();
 }
 

@@ -47,7 +47,8 @@ std::string read_bytes(const std::string& path, std::size_t most) {
   struct stat status {};
   if (fstat(number, &status) != 0) fail(path, errno);
   if (!S_ISREG(status.st_mode))
-    throw Error(ErrorKind::io, fmt::format("{}: error: this is {}\n  expected a file", path, S_ISDIR(status.st_mode) ? "a folder" : "not a regular file"));
+    throw Error(ErrorKind::io,
+                fmt::format("{}: error: this is {}\n  expected a file", path, S_ISDIR(status.st_mode) ? "a folder" : "not a regular file"));
   const auto size = static_cast<std::size_t>(status.st_size);
   if (size > most) throw Error(ErrorKind::limit, fmt::format("{}: error: the file has {} bytes, more than {}", path, size, most));
   return read_all(number, size, path);

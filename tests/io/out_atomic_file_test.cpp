@@ -41,7 +41,9 @@ bool strikes(const char* call) {
 /// Real calls, the chosen one failing; each write takes at most 1000 bytes, so that short writes are the rule.
 const FileCalls faulty_calls{
     [](int folder, const char* name, int flags, mode_t mode) { return strikes("open") ? -1 : ::openat(folder, name, flags, mode); },
-    [](int file, const void* bytes, size_t count) -> ssize_t { return strikes("write") ? -1 : ::write(file, bytes, std::min<size_t>(count, 1000)); },
+    [](int file, const void* bytes, size_t count) -> ssize_t {
+      return strikes("write") ? -1 : ::write(file, bytes, std::min<size_t>(count, 1000));
+    },
     [](int file) { return strikes("sync") ? -1 : ::fsync(file); },
     [](int file) {
       const bool struck = strikes("close");
@@ -81,10 +83,22 @@ TEST(atomic_file, replaces_a_file_and_leaves_nothing_else) {
 
 TEST(atomic_file, whatever_call_fails_old_data_are_intact_and_the_temporary_is_gone) {
   const std::string news(2500, 'n');
-  struct Case { const char* call; int at; int code; };
+  struct Case {
+    const char* call;
+    int at;
+    int code;
+  };
   // the 2nd open is the temporary's; the 1st sync is the file's, the 1st close too
-  for (const Case& c : {Case{"open", 1, EACCES}, {"open", 2, ENOSPC}, {"write", 1, ENOSPC}, {"write", 3, EDQUOT}, {"write", 2, EIO}, {"sync", 1, EIO}, {"sync", 1, ENOSPC},
-                        {"close", 1, EIO}, {"rename", 1, EIO}, {"rename", 1, ENOSPC}}) {
+  for (const Case& c : {Case{"open", 1, EACCES},
+                        {"open", 2, ENOSPC},
+                        {"write", 1, ENOSPC},
+                        {"write", 3, EDQUOT},
+                        {"write", 2, EIO},
+                        {"sync", 1, EIO},
+                        {"sync", 1, ENOSPC},
+                        {"close", 1, EIO},
+                        {"rename", 1, EIO},
+                        {"rename", 1, ENOSPC}}) {
     SCOPED_TRACE(std::string(c.call) + " " + std::to_string(c.at) + " " + std::to_string(c.code));
     TemporaryFolder folder;
     write_file_atomically(folder.file("old"), "old data");
@@ -143,9 +157,11 @@ TEST(atomic_file, full_device_read_only_folder_long_name_and_missing_folder_say_
     EXPECT_EQ(error.kind(), ErrorKind::io);
     return std::string(error.what());
   };
-  EXPECT_NE(message("/dev/full").find("/dev/full: error: cannot write to it: No space left on device\n  needed 4 bytes"), std::string::npos);
+  EXPECT_NE(message("/dev/full").find("/dev/full: error: cannot write to it: No space left on device\n  needed 4 bytes"),
+            std::string::npos);
   EXPECT_TRUE(std::filesystem::is_character_file("/dev/full"));
-  EXPECT_NE(message(folder.file(std::string(300, 'x'))).find("File name too long\n  the name has 300 bytes; most file systems take 255"), std::string::npos);
+  EXPECT_NE(message(folder.file(std::string(300, 'x'))).find("File name too long\n  the name has 300 bytes; most file systems take 255"),
+            std::string::npos);
   EXPECT_NE(message(folder.file("no/such/a")).find("cannot open its folder: No such file or directory"), std::string::npos);
   EXPECT_NE(message(folder.path().string()).find("Is a directory"), std::string::npos);
   EXPECT_NE(message(folder.path().string() + "/").find("this is a folder"), std::string::npos);
@@ -194,7 +210,8 @@ TEST(atomic_file, umask_sets_the_permissions_and_may_not_stop_us) {
   umask(0777);
   write_file_atomically(folder.file("b"), "data");
   umask(before);
-  struct stat a {}, b {};
+  struct stat a {
+  }, b{};
   ASSERT_EQ(stat(folder.file("a").c_str(), &a), 0);
   ASSERT_EQ(stat(folder.file("b").c_str(), &b), 0);
   EXPECT_EQ(a.st_mode & 07777, 0640U);
@@ -243,16 +260,15 @@ TEST(atomic_file, files_written_while_temporaries_are_removed_are_whole_or_absen
       for (int i = 0; i < 100; ++i) {
         try {
           write_file_atomically(folder.file(std::to_string(w)), std::string(5000, static_cast<char>('a' + w)));
-        } catch (const Error& error) {
-          EXPECT_EQ(error.kind(), ErrorKind::io);
-        }
+        } catch (const Error& error) { EXPECT_EQ(error.kind(), ErrorKind::io); }
       }
     });
   for (std::thread& writer : writers) writer.join();
   stop = true;
   remover.join();
   EXPECT_LE(folder.entries(), 4U);
-  for (const auto& entry : std::filesystem::directory_iterator(folder.path())) EXPECT_EQ(read_file(entry.path()).size(), 5000U) << entry.path();
+  for (const auto& entry : std::filesystem::directory_iterator(folder.path()))
+    EXPECT_EQ(read_file(entry.path()).size(), 5000U) << entry.path();
   // and the table is free again
   for (int i = 0; i < 200; ++i) write_file_atomically(folder.file("after"), "data");
 }

@@ -60,7 +60,9 @@ class Python {
  public:
   Python() : there_(std::system("/usr/bin/python3 -c 'import numpy' >/dev/null 2>&1") == 0) {}
   [[nodiscard]] bool there() const { return there_; }
-  [[nodiscard]] bool has(const std::string& module) const { return std::system(("/usr/bin/python3 -c 'import " + module + "' >/dev/null 2>&1").c_str()) == 0; }
+  [[nodiscard]] bool has(const std::string& module) const {
+    return std::system(("/usr/bin/python3 -c 'import " + module + "' >/dev/null 2>&1").c_str()) == 0;
+  }
   /// Runs a script with one argument; what it says goes to the test's output.
   static int run(const std::string& script, const std::string& argument) {
     TemporaryFolder folder;
@@ -78,9 +80,7 @@ template <class Call>
 tofray::Error error_of(const Call& call) {
   try {
     call();
-  } catch (const tofray::Error& error) {
-    return error;
-  }
+  } catch (const tofray::Error& error) { return error; }
   ADD_FAILURE() << "no error was thrown";
   return {tofray::ErrorKind::bug, ""};
 }

@@ -26,8 +26,15 @@ constexpr PoseMatrix identity = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}
 /// −0, subnormals, infinities, both extremes and NaNs with payload and sign.
 template <class T, class Bits>
 std::vector<T> special_values() {
-  std::vector<T> values = {T(0), T(-0.0), std::numeric_limits<T>::denorm_min(), -std::numeric_limits<T>::denorm_min(), std::numeric_limits<T>::min() / 3,
-                           std::numeric_limits<T>::max(), std::numeric_limits<T>::lowest(), std::numeric_limits<T>::infinity(), T(0.1)};
+  std::vector<T> values = {T(0),
+                           T(-0.0),
+                           std::numeric_limits<T>::denorm_min(),
+                           -std::numeric_limits<T>::denorm_min(),
+                           std::numeric_limits<T>::min() / 3,
+                           std::numeric_limits<T>::max(),
+                           std::numeric_limits<T>::lowest(),
+                           std::numeric_limits<T>::infinity(),
+                           T(0.1)};
   const auto quiet = std::bit_cast<Bits>(std::numeric_limits<T>::quiet_NaN());
   values.push_back(std::bit_cast<T>(static_cast<Bits>(quiet | 0x1234)));
   values.push_back(std::bit_cast<T>(static_cast<Bits>(quiet | (Bits{1} << (8 * sizeof(T) - 1)) | 7)));
@@ -94,15 +101,19 @@ TEST(npy, refuses_what_it_cannot_hold) {
   EXPECT_NE(message(header_of("{'descr': [('a', '<f4')], 'fortran_order': False, 'shape': (3,), }")).find("records"), std::string::npos);
   EXPECT_NE(message(header_of("{'descr': '<c8', 'fortran_order': False, 'shape': (3,), }")).find("\"<c8\" is not read"), std::string::npos);
   EXPECT_NE(message(header_of("{'descr': '<f4', 'fortran_order': False, 'shape': (3,), }") + "123").find("cut short"), std::string::npos);
-  EXPECT_NE(message(header_of("{'descr': '<f4', 'fortran_order': False, 'shape': (1,), }") + "12345").find("not its own"), std::string::npos);
+  EXPECT_NE(message(header_of("{'descr': '<f4', 'fortran_order': False, 'shape': (1,), }") + "12345").find("not its own"),
+            std::string::npos);
   EXPECT_NE(message("PK\x03\x04 and so on").find("not a .npy array"), std::string::npos);
   EXPECT_NE(message(std::string("\x93NUMPY\x09\x00 0 0 0 0", 16)).find("version 9"), std::string::npos);
   // declared sizes that overflow 64 bits, or only memory
   for (const char* shape : {"(4294967296, 4294967296, 4)", "(999999999999,)", "(100000000000000000,100000000000000000)"}) {
-    const Error error = error_of([&] { (void)parse_npy(header_of(std::string("{'descr': '<f4', 'fortran_order': False, 'shape': ") + shape + ", }"), "x.npy"); });
+    const Error error = error_of(
+        [&] { (void)parse_npy(header_of(std::string("{'descr': '<f4', 'fortran_order': False, 'shape': ") + shape + ", }"), "x.npy"); });
     EXPECT_EQ(error.kind(), ErrorKind::limit) << shape;
   }
-  EXPECT_EQ(error_of([&] { (void)parse_npy(header_of("{'descr': '<f4', 'fortran_order': False, 'shape': (1,1,1,1,1,1,1,1,1), }"), "x"); }).kind(), ErrorKind::limit);
+  EXPECT_EQ(
+      error_of([&] { (void)parse_npy(header_of("{'descr': '<f4', 'fortran_order': False, 'shape': (1,1,1,1,1,1,1,1,1), }"), "x"); }).kind(),
+      ErrorKind::limit);
 }
 
 TEST(npz, has_the_same_bytes_each_time_and_in_every_time_zone) {
@@ -124,7 +135,8 @@ TEST(npz, frame_is_read_by_numpy_with_every_name_type_and_shape) {
   const Python python;
   if (!python.there()) GTEST_SKIP() << "no /usr/bin/python3 with numpy";
   TemporaryFolder folder;
-  write_frame_npz(folder.file("frame.npz"), out_test::sample_frame(24, 16), out_test::sample_camera(24, 16), identity, R"({"seed": 7, "µ": "σ"})");
+  write_frame_npz(folder.file("frame.npz"), out_test::sample_frame(24, 16), out_test::sample_camera(24, 16), identity,
+                  R"({"seed": 7, "µ": "σ"})");
   EXPECT_EQ(python.run(R"py(
 import sys, json, zipfile, numpy as np
 path = sys.argv[1]
@@ -147,7 +159,9 @@ assert np.array_equal(f['points_m'][..., 2], f['z_m'], equal_nan=True)
 for entry in zipfile.ZipFile(path).infolist():
   assert entry.compress_type == 0 and entry.date_time == (1980, 1, 1, 0, 0, 0), entry
 assert zipfile.ZipFile(path).testzip() is None
-)py", folder.file("frame.npz")), 0);
+)py",
+                       folder.file("frame.npz")),
+            0);
 }
 
 TEST(npz, special_values_arrive_in_numpy_bit_by_bit) {
@@ -160,13 +174,15 @@ TEST(npz, special_values_arrive_in_numpy_bit_by_bit) {
   std::memcpy(f_bits.data(), f.data(), 4 * f.size());
   std::vector<std::uint64_t> d_bits(d.size());
   std::memcpy(d_bits.data(), d.data(), 8 * d.size());
-  out_test::write_file(folder.file("x.npz"), npz_bytes({npy_view("f", {f.size()}, f), npy_view("fb", {f.size()}, f_bits), npy_view("d", {d.size()}, d),
-                                                        npy_view("db", {d.size()}, d_bits)}));
+  out_test::write_file(folder.file("x.npz"), npz_bytes({npy_view("f", {f.size()}, f), npy_view("fb", {f.size()}, f_bits),
+                                                        npy_view("d", {d.size()}, d), npy_view("db", {d.size()}, d_bits)}));
   EXPECT_EQ(python.run(R"py(
 import sys, numpy as np
 f = np.load(sys.argv[1])
 assert np.array_equal(f['f'].view('u4'), f['fb']) and np.array_equal(f['d'].view('u8'), f['db'])
-)py", folder.file("x.npz")), 0);
+)py",
+                       folder.file("x.npz")),
+            0);
 }
 
 TEST(npz, what_numpy_writes_is_read_stored_deflated_fortran_and_big_endian) {
@@ -180,7 +196,9 @@ arrays = dict(c=a, f=np.asfortranarray(a), big=a.astype('>f8'), i=a.astype('>i2'
 np.savez(sys.argv[1] + '/stored.npz', **arrays)
 np.savez_compressed(sys.argv[1] + '/deflated.npz', **arrays, zeros=np.zeros((500, 500)))
 np.save(sys.argv[1] + '/one.npy', np.asfortranarray(a))
-)py", folder.path().string()), 0);
+)py",
+                       folder.path().string()),
+            0);
   std::vector<float> expected(24);
   for (std::size_t i = 0; i < 24; ++i) expected[i] = static_cast<float>(i) / 8;
   for (const char* name : {"stored.npz", "deflated.npz"}) {
@@ -215,7 +233,8 @@ TEST(npz, mutated_files_give_errors_and_never_more) {
     // the headers and the zip's directory are where lies matter: half of the changes go there
     for (std::size_t changes = 1 + random.below(6); changes-- > 0 && !file.empty();) {
       const std::size_t span = random.below(2) == 0 ? file.size() : std::min<std::size_t>(file.size(), 200);
-      const std::size_t at = random.below(2) == 0 ? random.below(span) : file.size() - 1 - random.below(std::min<std::size_t>(file.size(), 3000));
+      const std::size_t at =
+          random.below(2) == 0 ? random.below(span) : file.size() - 1 - random.below(std::min<std::size_t>(file.size(), 3000));
       file[at] = static_cast<char>(random.below(3) == 0 ? 0xFF : random.next());
     }
     try {
@@ -269,17 +288,21 @@ TEST(raw_file, says_everything_that_is_missing_or_misshapen_at_once) {
   const std::vector<std::uint16_t> raw(2 * 3 * 4, 2048);
   const std::vector<double> two = {80e6, 80e6}, three = {1, 2, 3};
   const std::vector<float> tap(24, 1.F);
-  out_test::write_file(folder.file("x.npz"), npz_bytes({npy_view("raw", {2, 3, 4}, raw), npy_view("tap_a", {2, 4, 3}, tap), npy_view("lit", {2}, two),
-                                                        npy_view("modulation_frequency_hz", {3}, three), npy_view("integration_time_s", {2}, two)}));
+  out_test::write_file(folder.file("x.npz"),
+                       npz_bytes({npy_view("raw", {2, 3, 4}, raw), npy_view("tap_a", {2, 4, 3}, tap), npy_view("lit", {2}, two),
+                                  npy_view("modulation_frequency_hz", {3}, three), npy_view("integration_time_s", {2}, two)}));
   const Error error = error_of([&] { (void)read_raw_npz(folder.file("x.npz")); });
   EXPECT_EQ(error.kind(), ErrorKind::bad_input);
   const std::string text = error.what();
-  for (const char* part : {"array \"tap_a\" has the wrong shape\n  got (2, 4, 3), expected (2, 3, 4)", "array \"tap_b\" is missing", "array \"lit\" has the wrong type",
-                           "array \"modulation_frequency_hz\" has the wrong shape\n  got (3,), expected (2,)", "array \"reference_phase_rad\" is missing",
-                           "array \"start_time_s\" is missing"})
+  for (const char* part :
+       {"array \"tap_a\" has the wrong shape\n  got (2, 4, 3), expected (2, 3, 4)", "array \"tap_b\" is missing",
+        "array \"lit\" has the wrong type", "array \"modulation_frequency_hz\" has the wrong shape\n  got (3,), expected (2,)",
+        "array \"reference_phase_rad\" is missing", "array \"start_time_s\" is missing"})
     EXPECT_NE(text.find(part), std::string::npos) << part << "\nin\n" << text;
-  out_test::write_file(folder.file("y.npz"), npz_bytes({npy_view("lit", {2}, raw.size() == 24 ? std::vector<std::uint8_t>{1, 1} : std::vector<std::uint8_t>{})}));
-  EXPECT_NE(std::string(error_of([&] { (void)read_raw_npz(folder.file("y.npz")); }).what()).find("expected raw, or tap_a and tap_b"), std::string::npos);
+  out_test::write_file(folder.file("y.npz"),
+                       npz_bytes({npy_view("lit", {2}, raw.size() == 24 ? std::vector<std::uint8_t>{1, 1} : std::vector<std::uint8_t>{})}));
+  EXPECT_NE(std::string(error_of([&] { (void)read_raw_npz(folder.file("y.npz")); }).what()).find("expected raw, or tap_a and tap_b"),
+            std::string::npos);
 }
 
 TEST(raw_file, wider_integers_are_taken_where_they_fit) {
@@ -288,8 +311,10 @@ TEST(raw_file, wider_integers_are_taken_where_they_fit) {
   const std::vector<std::uint8_t> lit = {1};
   for (const std::int32_t code : {65535, 65536, -1}) {
     const std::vector<std::int32_t> raw = {1, 2, 3, code};
-    out_test::write_file(folder.file("x.npz"), npz_bytes({npy_view("raw", {1, 2, 2}, raw), npy_view("modulation_frequency_hz", {1}, f), npy_view("reference_phase_rad", {1}, tau),
-                                                          npy_view("integration_time_s", {1}, time), npy_view("start_time_s", {1}, tau), npy_view("lit", {1}, lit)}));
+    out_test::write_file(
+        folder.file("x.npz"),
+        npz_bytes({npy_view("raw", {1, 2, 2}, raw), npy_view("modulation_frequency_hz", {1}, f), npy_view("reference_phase_rad", {1}, tau),
+                   npy_view("integration_time_s", {1}, time), npy_view("start_time_s", {1}, tau), npy_view("lit", {1}, lit)}));
     if (code == 65535)
       EXPECT_EQ(read_raw_npz(folder.file("x.npz")).raw, (std::vector<std::uint16_t>{1, 2, 3, 65535}));
     else

@@ -1,0 +1,47 @@
+// SPDX-FileCopyrightText: 2026 The tofray authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "io/output_folder.h"
+
+/// manifest.json: what made the files of a folder, and all it takes to make the same bytes again.
+namespace tofray::io {
+
+/// A file that went in: the scene, a camera profile of one's own.
+struct InputFile {
+  std::string role;  ///< "scene", "profile"
+  std::string name;  ///< as the command line or the scene names it; a built-in name where `text` is empty
+  std::string text;  ///< the whole file, UTF-8; empty for what is built in
+};
+
+struct Manifest {
+  std::string tofray_version;        ///< version() of the writer
+  std::vector<std::string> command;  ///< for people: the command line as it was typed
+  // what is needed to make the same bytes again
+  std::vector<InputFile> inputs;                             ///< the scene first
+  std::vector<std::pair<std::string, std::string>> set;      ///< --set, in order
+  std::vector<std::pair<std::string, std::string>> options;  ///< other options that change the bytes: mode, noise, frames, emit …
+  std::uint64_t seed = 0;
+  // what it ran on; none of it changes the bytes
+  std::string backend;  ///< "cpu"
+  std::string cpu_model;
+  std::string isa;  ///< Simulator::isa()
+  int threads = 0;
+  std::vector<std::pair<std::string, double>> timings_s;  ///< by stage
+  std::vector<FileRecord> files;                          ///< every other file of the folder that this run wrote
+};
+
+/// "model name" of /proc/cpuinfo, or "unknown".
+std::string cpu_model();
+
+std::string manifest_text(const Manifest& manifest);
+
+/// Reads a manifest for `--from`.
+/// @throws Error (bad_input) that names every key that is missing or of another kind; (io) where the file cannot be read
+Manifest read_manifest(const std::string& path);
+
+}  // namespace tofray::io

@@ -1,0 +1,34 @@
+// SPDX-FileCopyrightText: 2026 The tofray authors
+// SPDX-License-Identifier: Apache-2.0
+#include "io/output_folder.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <system_error>
+
+#include "io/atomic_file.h"
+#include "io/sha256.h"
+#include "tofray/error.h"
+
+namespace tofray::io {
+
+OutputFolder::OutputFolder(std::filesystem::path path) : path_(std::move(path)) {
+  std::error_code error;
+  std::filesystem::create_directories(path_, error);
+  if (error)
+    throw Error(ErrorKind::io, fmt::format("{}: error: cannot make this folder: {}\n  choose another one with -o", path_.native(),
+                                           std::generic_category().message(error.value())));
+  if (!std::filesystem::is_directory(path_, error))
+    throw Error(ErrorKind::io, fmt::format("{}: error: this is a file\n  expected a folder, or nothing, in its place", path_.native()));
+}
+
+void OutputFolder::write(const std::string& name, std::string_view bytes) {
+  write_file_atomically(path_ / name, bytes);
+  FileRecord record{name, bytes.size(), sha256_hex(bytes)};
+  const auto before = std::find_if(files_.begin(), files_.end(), [&](const FileRecord& file) { return file.name == name; });
+  if (before != files_.end()) files_.erase(before);
+  files_.push_back(std::move(record));
+}
+
+}  // namespace tofray::io

@@ -1,0 +1,38 @@
+// SPDX-FileCopyrightText: 2026 The tofray authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace tofray::io {
+
+/// A file that was written.
+struct FileRecord {
+  std::string name;  ///< within the folder
+  std::uint64_t bytes = 0;
+  std::string sha256;  ///< 64 hexadecimal digits
+};
+
+/// The folder that results go to: made with its parents where it is missing. Files of the same name are replaced, others left alone, and
+/// each is complete or absent.
+class OutputFolder {
+ public:
+  /// @throws Error (io) where the folder cannot be made, or a file is in its place
+  explicit OutputFolder(std::filesystem::path path);
+
+  /// Writes one file and remembers its size and SHA-256. @throws Error (io)
+  void write(const std::string& name, std::string_view bytes);
+
+  [[nodiscard]] const std::filesystem::path& path() const { return path_; }
+  /// What has been written, in order; a name that was written twice stands once, as last written.
+  [[nodiscard]] const std::vector<FileRecord>& files() const { return files_; }
+
+ private:
+  std::filesystem::path path_;
+  std::vector<FileRecord> files_;
+};
+
+}  // namespace tofray::io
