@@ -1,0 +1,38 @@
+// SPDX-FileCopyrightText: 2026 The tofray authors
+// SPDX-License-Identifier: Apache-2.0
+#include "io/figure.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace tofray::io {
+
+std::vector<Rgb> colored(const std::vector<double>& values, const ValueColors& colors) {
+  std::vector<Rgb> image;
+  image.reserve(values.size());
+  for (const double value : values) image.push_back(std::isfinite(value) ? colors.color(value) : invalid_color);
+  return image;
+}
+
+void draw_scale_bar(Canvas& canvas, int x, int y, int height, const ValueColors& colors) {
+  // the colour of each line: the value whose place is there, found by halving (places rise with values)
+  for (int line = 0; line < height; ++line) {
+    const double place = 1 - (line + 0.5) / height;
+    double low = colors.scale.low, high = colors.scale.high;
+    for (int i = 0; i < 30; ++i) (colors.place(0.5 * (low + high)) < place ? low : high) = 0.5 * (low + high);
+    canvas.fill(x, y + line, figure::bar_width, 1, colors.color(0.5 * (low + high)));
+  }
+  double last = 1e9;
+  for (const double tick : colors.scale.ticks()) {
+    const double line = y + (1 - colors.place(tick)) * height;
+    if (last - line < 2.2 * figure::label_size) continue;  // on a curved bar ticks may crowd
+    last = line;
+    const int at = std::clamp(static_cast<int>(line), y, y + height - 1);
+    canvas.fill(x + figure::bar_width, at, 5, 1, figure::faint_ink);
+    canvas.text(x + figure::bar_width + 10, line + 0.5 * figure::label_size, figure::label_size, figure::ink, colors.scale.label(tick));
+  }
+}
+
+int enlargement(int width, int wanted) { return std::clamp((wanted + width / 2) / std::max(width, 1), 1, 8); }
+
+}  // namespace tofray::io

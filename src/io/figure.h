@@ -1,0 +1,37 @@
+// SPDX-FileCopyrightText: 2026 The tofray authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "io/canvas.h"
+#include "io/picture_scale.h"
+
+namespace tofray::io {
+
+/// Looks of all our figures, in pixels.
+namespace figure {
+inline constexpr Rgb background{23, 24, 28}, ink{226, 228, 232}, faint_ink{150, 154, 162};
+inline constexpr int margin = 26;
+inline constexpr double title_size = 13, label_size = 9, note_size = 9.5;
+inline constexpr int bar_gap = 12, bar_width = 14, label_width = 58;
+}  // namespace figure
+
+/// How values of one quantity become colours.
+struct ValueColors {
+  PictureScale scale;
+  std::function<Rgb(double value)> color;     ///< of a finite value
+  std::function<double(double value)> place;  ///< where a value stands on the bar, 0 low, 1 high
+};
+
+/// Colours of an image's values; NaN is invalid_color.
+std::vector<Rgb> colored(const std::vector<double>& values, const ValueColors& colors);
+
+/// A vertical bar with ticks and labels to its right.
+void draw_scale_bar(Canvas& canvas, int x, int y, int height, const ValueColors& colors);
+
+/// By how much an image of this width is enlarged to be about `wanted` pixels wide: 1…8.
+int enlargement(int width, int wanted);
+
+}  // namespace tofray::io

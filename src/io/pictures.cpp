@@ -1,0 +1,34 @@
+// SPDX-FileCopyrightText: 2026 The tofray authors
+// SPDX-License-Identifier: Apache-2.0
+#include "io/pictures.h"
+
+#include <cmath>
+#include <vector>
+
+#include "io/picture_scale.h"
+#include "io/png_file.h"
+
+namespace tofray::io {
+
+std::string depth_png(const Depth& depth) {
+  std::vector<std::uint16_t> millimetres;
+  millimetres.reserve(depth.z_m.size());
+  for (const float z : depth.z_m) {
+    const double mm = std::floor(1000.0 * static_cast<double>(z) + 0.5);
+    millimetres.push_back(mm >= 1 && mm <= 65535 ? static_cast<std::uint16_t>(mm) : std::uint16_t{0});
+  }
+  return png_grey16(depth.width, depth.height, millimetres);
+}
+
+std::string amplitude_png(const Depth& depth) {
+  const double white = percentile({depth.amplitude_e.begin(), depth.amplitude_e.end()}, 0.995, 1.0);
+  std::vector<std::uint8_t> grey;
+  grey.reserve(depth.amplitude_e.size());
+  for (const float amplitude : depth.amplitude_e) {
+    const double share = white > 0 ? static_cast<double>(amplitude) / white : 0.0;
+    grey.push_back(share > 0 ? static_cast<std::uint8_t>(255 * std::sqrt(share < 1 ? share : 1.0) + 0.5) : std::uint8_t{0});
+  }
+  return png_grey8(depth.width, depth.height, grey);
+}
+
+}  // namespace tofray::io
