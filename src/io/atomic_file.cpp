@@ -114,7 +114,9 @@ class Descriptor {
 
 int open_retrying(const FileCalls& calls, int folder, const char* name, int flags) {
   int file = -1;
-  do { file = calls.open_at(folder, name, flags | O_CLOEXEC, 0666); } while (file < 0 && errno == EINTR);
+  do {
+    file = calls.open_at(folder, name, flags | O_CLOEXEC, 0666);
+  } while (file < 0 && errno == EINTR);
   return file;
 }
 
@@ -136,7 +138,9 @@ bool write_all(const FileCalls& calls, int file, std::string_view bytes) {
 /// Some file systems cannot sync a folder, a pipe or a device; that is no failure.
 bool sync(const FileCalls& calls, int file) {
   int result = -1;
-  do { result = calls.sync(file); } while (result < 0 && errno == EINTR);
+  do {
+    result = calls.sync(file);
+  } while (result < 0 && errno == EINTR);
   return result == 0 || errno == EINVAL || errno == ENOTSUP;
 }
 

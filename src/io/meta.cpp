@@ -76,16 +76,12 @@ Json filter_json(const Filter& filter) {
 Json pattern_json(const Pattern& pattern) {
   Json json = Json::object();
   switch (pattern.kind) {
-    case Pattern::Kind::cone:
-      return json.set("kind", "cone").set("half_angle_rad", pattern.half_angle_rad);
-    case Pattern::Kind::lambertian:
-      return json.set("kind", "lambertian");
-    case Pattern::Kind::cosine_lobe:
-      return json.set("kind", "cosine_lobe").set("exponent", pattern.exponent);
+    case Pattern::Kind::cone: return json.set("kind", "cone").set("half_angle_rad", pattern.half_angle_rad);
+    case Pattern::Kind::lambertian: return json.set("kind", "lambertian");
+    case Pattern::Kind::cosine_lobe: return json.set("kind", "cosine_lobe").set("exponent", pattern.exponent);
     case Pattern::Kind::flat_top:
       return json.set("kind", "flat_top").set("width_rad", pattern.width_rad).set("height_rad", pattern.height_rad);
-    case Pattern::Kind::table:
-      break;
+    case Pattern::Kind::table: break;
   }
   json.set("kind", "table").set("columns", pattern.columns).set("rows", pattern.rows);
   json.set("half_range_x_rad", pattern.half_range_x_rad).set("half_range_y_rad", pattern.half_range_y_rad);
@@ -183,29 +179,18 @@ Json camera_json(const Camera& camera) {
 Json ambient_json(const Ambient& ambient) {
   Json json = Json::object();
   switch (ambient.spectrum) {
-    case Ambient::Spectrum::none:
-      return json.set("spectrum", "none");
-    case Ambient::Spectrum::sun_am15:
-      json.set("spectrum", "sun_am15");
-      break;
-    case Ambient::Spectrum::equal_energy:
-      json.set("spectrum", "equal_energy");
-      break;
+    case Ambient::Spectrum::none: return json.set("spectrum", "none");
+    case Ambient::Spectrum::sun_am15: json.set("spectrum", "sun_am15"); break;
+    case Ambient::Spectrum::equal_energy: json.set("spectrum", "equal_energy"); break;
     case Ambient::Spectrum::table:
       json.set("spectrum", "table").set("table_wavelength_m", Json::list(ambient.table_wavelength_m));
       json.set("table_irradiance_w_per_m3", Json::list(ambient.table_irradiance_w_per_m3));
       break;
   }
   switch (ambient.quantity) {
-    case Ambient::Quantity::level:
-      json.set("level", ambient.amount);
-      break;
-    case Ambient::Quantity::illuminance_lx:
-      json.set("illuminance_lx", ambient.amount);
-      break;
-    case Ambient::Quantity::band_irradiance_w_per_m2:
-      json.set("band_irradiance_w_per_m2", ambient.amount);
-      break;
+    case Ambient::Quantity::level: json.set("level", ambient.amount); break;
+    case Ambient::Quantity::illuminance_lx: json.set("illuminance_lx", ambient.amount); break;
+    case Ambient::Quantity::band_irradiance_w_per_m2: json.set("band_irradiance_w_per_m2", ambient.amount); break;
   }
   if (ambient.direction) json.set("direction", Json::list(*ambient.direction));
   return json;

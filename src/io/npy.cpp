@@ -104,16 +104,11 @@ std::uint32_t take_utf8(std::string_view& text) {
 
 std::string NpyType::name() const {
   switch (kind) {
-    case 'b':
-      return "bool";
-    case 'i':
-      return fmt::format("int{}", size * 8);
-    case 'u':
-      return fmt::format("uint{}", size * 8);
-    case 'f':
-      return fmt::format("float{}", size * 8);
-    default:
-      return "str";
+    case 'b': return "bool";
+    case 'i': return fmt::format("int{}", size * 8);
+    case 'u': return fmt::format("uint{}", size * 8);
+    case 'f': return fmt::format("float{}", size * 8);
+    default: return "str";
   }
 }
 
@@ -134,10 +129,8 @@ std::size_t NpyArray::count() const {
 
 double NpyArray::number(std::size_t i) const {
   switch (type.kind) {
-    case 'b':
-      return element<std::uint8_t>(bytes, i) != 0 ? 1.0 : 0.0;
-    case 'f':
-      return type.size == 4 ? element<float>(bytes, i) : element<double>(bytes, i);
+    case 'b': return element<std::uint8_t>(bytes, i) != 0 ? 1.0 : 0.0;
+    case 'f': return type.size == 4 ? element<float>(bytes, i) : element<double>(bytes, i);
     case 'i':
       return type.size == 1   ? element<std::int8_t>(bytes, i)
              : type.size == 2 ? element<std::int16_t>(bytes, i)
@@ -148,8 +141,7 @@ double NpyArray::number(std::size_t i) const {
              : type.size == 2 ? element<std::uint16_t>(bytes, i)
              : type.size == 4 ? element<std::uint32_t>(bytes, i)
                               : element<std::uint64_t>(bytes, i);
-    default:
-      throw Error(ErrorKind::bug, "error: text has no number");
+    default: throw Error(ErrorKind::bug, "error: text has no number");
   }
 }
 

@@ -21,7 +21,9 @@ void append(png_structp png, png_bytep bytes, png_size_t count) {
   // an exception must not pass through libpng
   try {
     static_cast<std::string*>(png_get_io_ptr(png))->append(reinterpret_cast<const char*>(bytes), count);
-  } catch (...) { png_error(png, "out of memory"); }
+  } catch (...) {
+    png_error(png, "out of memory");
+  }
 }
 
 void ignore_flush(png_structp) {}

@@ -260,7 +260,9 @@ TEST(atomic_file, files_written_while_temporaries_are_removed_are_whole_or_absen
       for (int i = 0; i < 100; ++i) {
         try {
           write_file_atomically(folder.file(std::to_string(w)), std::string(5000, static_cast<char>('a' + w)));
-        } catch (const Error& error) { EXPECT_EQ(error.kind(), ErrorKind::io); }
+        } catch (const Error& error) {
+          EXPECT_EQ(error.kind(), ErrorKind::io);
+        }
       }
     });
   for (std::thread& writer : writers) writer.join();

@@ -80,7 +80,9 @@ template <class Call>
 tofray::Error error_of(const Call& call) {
   try {
     call();
-  } catch (const tofray::Error& error) { return error; }
+  } catch (const tofray::Error& error) {
+    return error;
+  }
   ADD_FAILURE() << "no error was thrown";
   return {tofray::ErrorKind::bug, ""};
 }

@@ -204,14 +204,30 @@ np.save(sys.argv[1] + '/one.npy', np.asfortranarray(a))
   for (const char* name : {"stored.npz", "deflated.npz"}) {
     for (const NamedArray& entry : read_npz(folder.file(name))) {
       SCOPED_TRACE(entry.name);
-      if (entry.name == "c" || entry.name == "f") { EXPECT_EQ(entry.array.bytes, bytes_of(expected)); }
-      if (entry.name == "big") { EXPECT_EQ(entry.array.number(23), 23 / 8.0); }
-      if (entry.name == "i") { EXPECT_EQ(entry.array.number(23), 2.0); }
-      if (entry.name == "text") { EXPECT_EQ(entry.array.text(), "h\xC3\xA9"); }
-      if (entry.name == "t") { EXPECT_EQ(entry.array.number(9), 1.0); }
-      if (entry.name == "empty") { EXPECT_EQ(entry.array.count(), 0U); }
-      if (entry.name == "scalar") { EXPECT_EQ(entry.array.number(0), 2.5); }
-      if (entry.name == "zeros") { EXPECT_EQ(entry.array.count(), 250000U); }
+      if (entry.name == "c" || entry.name == "f") {
+        EXPECT_EQ(entry.array.bytes, bytes_of(expected));
+      }
+      if (entry.name == "big") {
+        EXPECT_EQ(entry.array.number(23), 23 / 8.0);
+      }
+      if (entry.name == "i") {
+        EXPECT_EQ(entry.array.number(23), 2.0);
+      }
+      if (entry.name == "text") {
+        EXPECT_EQ(entry.array.text(), "h\xC3\xA9");
+      }
+      if (entry.name == "t") {
+        EXPECT_EQ(entry.array.number(9), 1.0);
+      }
+      if (entry.name == "empty") {
+        EXPECT_EQ(entry.array.count(), 0U);
+      }
+      if (entry.name == "scalar") {
+        EXPECT_EQ(entry.array.number(0), 2.5);
+      }
+      if (entry.name == "zeros") {
+        EXPECT_EQ(entry.array.count(), 250000U);
+      }
     }
     EXPECT_EQ(read_npz(folder.file(name), {"scalar", "c"}).size(), 2U);
   }

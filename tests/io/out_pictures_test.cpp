@@ -1,0 +1,338 @@
+// SPDX-FileCopyrightText: 2026 The tofray authors
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+#include <png.h>
+
+#include <cmath>
+#include <cstring>
+#include <set>
+
+#include "io/canvas.h"
+#include "io/color_map.h"
+#include "io/out_helpers.h"
+#include "io/picture_scale.h"
+#include "io/pictures.h"
+#include "io/ply.h"
+#include "io/png_file.h"
+#include "io/sha256.h"
+#include "io/stroke_font.h"
+#include "io/terminal_picture.h"
+
+using namespace tofray;
+using namespace tofray::io;
+using out_test::Python;
+using out_test::TemporaryFolder;
+
+namespace {
+
+/// What libpng's reader says: header and rows as they are in the file.
+struct ReadBack {
+  png_uint_32 width = 0, height = 0;
+  int bits = 0, color_type = 0;
+  std::vector<unsigned char> bytes;
+  bool extra_chunks = false;
+};
+
+struct Cursor {
+  const std::string* file;
+  std::size_t at;
+};
+
+ReadBack read_back(const std::string& file) {
+  ReadBack result;
+  png_structp png = png_create_read_struct(PNG_LIBPNG_VER_STRING, nullptr, nullptr, nullptr);
+  png_infop info = png_create_info_struct(png);
+  Cursor cursor{&file, 0};
+  png_set_read_fn(png, &cursor, [](png_structp p, png_bytep out, png_size_t count) {
+    auto* from = static_cast<Cursor*>(png_get_io_ptr(p));
+    if (from->at + count > from->file->size()) png_error(p, "cut short");
+    std::memcpy(out, from->file->data() + from->at, count);
+    from->at += count;
+  });
+  png_read_info(png, info);
+  png_get_IHDR(png, info, &result.width, &result.height, &result.bits, &result.color_type, nullptr, nullptr, nullptr);
+  const std::size_t row = png_get_rowbytes(png, info);
+  result.bytes.resize(row * result.height);
+  for (png_uint_32 v = 0; v < result.height; ++v) png_read_row(png, result.bytes.data() + v * row, nullptr);
+  png_read_end(png, info);
+  result.extra_chunks = png_get_valid(png, info, PNG_INFO_gAMA | PNG_INFO_tIME | PNG_INFO_sRGB | PNG_INFO_tRNS) != 0;
+  png_destroy_read_struct(&png, &info, nullptr);
+  return result;
+}
+
+}  // namespace
+
+TEST(png_file, all_codes_come_back_exactly) {
+  std::vector<std::uint8_t> eight;
+  for (int i = 0; i < 256; ++i) eight.push_back(static_cast<std::uint8_t>(i));
+  const ReadBack grey8 = read_back(png_grey8(32, 8, eight));
+  EXPECT_EQ(grey8.bits, 8);
+  EXPECT_EQ(grey8.color_type, PNG_COLOR_TYPE_GRAY);
+  EXPECT_TRUE(std::equal(eight.begin(), eight.end(), grey8.bytes.begin()));
+  std::vector<std::uint16_t> sixteen;
+  for (int i = 0; i < 65536; ++i) sixteen.push_back(static_cast<std::uint16_t>(i));
+  const ReadBack grey16 = read_back(png_grey16(256, 256, sixteen));
+  EXPECT_EQ(grey16.bits, 16);
+  EXPECT_FALSE(grey16.extra_chunks);
+  for (std::size_t i = 0; i < sixteen.size(); ++i) ASSERT_EQ(grey16.bytes[2 * i] << 8 | grey16.bytes[2 * i + 1], sixteen[i]);
+  const ReadBack rgb = read_back(png_rgb8(2, 1, {1, 2, 3, 253, 254, 255}));
+  EXPECT_EQ(rgb.color_type, PNG_COLOR_TYPE_RGB);
+  EXPECT_EQ(rgb.bytes, (std::vector<unsigned char>{1, 2, 3, 253, 254, 255}));
+}
+
+TEST(png_file, pixels_that_do_not_fit_the_size_are_a_fault_of_ours) {
+  EXPECT_EQ(out_test::error_of([] { (void)png_grey8(3, 3, std::vector<std::uint8_t>(8)); }).kind(), ErrorKind::bug);
+}
+
+TEST(depth_png, holds_z_in_millimetres_and_0_where_there_is_none) {
+  Depth depth;
+  depth.width = 8;
+  depth.height = 1;
+  depth.z_m = {1.0F, 1.2344F, 1.2346F, out_test::nan_f, 65.535F, 65.6F, 0.0004F, -1.F};
+  const ReadBack back = read_back(depth_png(depth));
+  const std::vector<int> expected = {1000, 1234, 1235, 0, 65535, 0, 0, 0};
+  for (std::size_t i = 0; i < expected.size(); ++i) EXPECT_EQ(back.bytes[2 * i] << 8 | back.bytes[2 * i + 1], expected[i]) << i;
+}
+
+TEST(depth_png, agrees_with_pillow) {
+  const Python python;
+  if (!python.there() || !python.has("PIL")) GTEST_SKIP() << "no /usr/bin/python3 with numpy and PIL";
+  TemporaryFolder folder;
+  const Frame frame = out_test::sample_frame(48, 32);
+  out_test::write_file(folder.file("depth.png"), depth_png(frame.depth));
+  out_test::write_file(folder.file("z.bin"), {reinterpret_cast<const char*>(frame.depth.z_m.data()), 4 * frame.depth.z_m.size()});
+  out_test::write_file(folder.file("preview.png"), preview_png(frame.depth, frame.truth, "caption"));
+  EXPECT_EQ(python.run(R"py(
+import sys, numpy as np
+from PIL import Image
+z = np.fromfile(sys.argv[1] + '/z.bin', 'f4').reshape(32, 48)
+image = Image.open(sys.argv[1] + '/depth.png')
+assert image.size == (48, 32) and image.mode.startswith('I')
+expected = np.where(np.isnan(z), 0, np.floor(np.nan_to_num(z).astype('f8') * 1000 + 0.5))
+assert np.array_equal(np.array(image).astype('f8'), expected)
+assert Image.open(sys.argv[1] + '/preview.png').mode == 'RGB'
+)py",
+                       folder.path().string()),
+            0);
+}
+
+TEST(amplitude_png, square_root_of_the_share_of_the_brightest) {
+  Depth depth;
+  depth.width = 400;
+  depth.height = 1;
+  depth.amplitude_e.assign(400, 100.F);
+  depth.amplitude_e[0] = 25.F;
+  depth.amplitude_e[1] = 0.F;
+  depth.amplitude_e[2] = 1e6F;  // one pixel of glare does not darken the rest
+  depth.amplitude_e[3] = out_test::nan_f;
+  const ReadBack back = read_back(amplitude_png(depth));
+  EXPECT_EQ(back.bytes[0], 128);
+  EXPECT_EQ(back.bytes[1], 0);
+  EXPECT_EQ(back.bytes[2], 255);
+  EXPECT_EQ(back.bytes[3], 0);
+  EXPECT_EQ(back.bytes[4], 255);
+}
+
+TEST(pictures, have_the_same_bytes_each_time_and_survive_empty_frames) {
+  const Frame frame = out_test::sample_frame(48, 32);
+  EXPECT_EQ(preview_png(frame.depth, frame.truth, "a"), preview_png(frame.depth, frame.truth, "a"));
+  EXPECT_NE(preview_png(frame.depth, frame.truth, "a"), preview_png(frame.depth, frame.truth, "b"));
+  EXPECT_NE(preview_png(frame.depth, {}, "a"), preview_png(frame.depth, frame.truth, "a"));
+  Frame dark = frame;
+  for (auto* map : {&dark.depth.z_m, &dark.depth.noise_m}) map->assign(map->size(), out_test::nan_f);
+  dark.depth.amplitude_e.assign(dark.depth.amplitude_e.size(), 0.F);
+  EXPECT_GT(read_back(preview_png(dark.depth, dark.truth, "")).width, 1000U);
+  EXPECT_GT(read_back(preview_png(dark.depth, {}, "")).width, 1000U);
+  // taps only, one pixel only
+  Frame one = out_test::sample_frame(1, 1);
+  one.raw.raw.clear();
+  EXPECT_GT(read_back(raw_png(one.raw)).height, 3U);
+  EXPECT_GT(read_back(preview_png(one.depth, one.truth, "")).width, 3U);
+}
+
+TEST(preview, shows_each_image_s_pixels_as_squares_in_the_map_s_colour) {
+  // a wall of two depths: the picture holds both colours in the right share
+  Frame frame = out_test::sample_frame(64, 48);
+  for (std::size_t i = 0; i < frame.depth.z_m.size(); ++i) frame.depth.z_m[i] = i % 64 < 16 ? 1.F : i % 64 < 32 ? out_test::nan_f : 2.F;
+  const ReadBack back = read_back(preview_png(frame.depth, frame.truth, ""));
+  std::size_t near = 0, far = 0, invalid = 0;
+  for (std::size_t i = 0; i + 2 < back.bytes.size(); i += 3) {
+    const Rgb color{back.bytes[i], back.bytes[i + 1], back.bytes[i + 2]};
+    near += color == depth_color(0) ? 1 : 0;
+    far += color == depth_color(1) ? 1 : 0;
+    invalid += color == invalid_color ? 1 : 0;
+  }
+  // scale 7; the bar adds a few pixels of its ends' colours, labels' edges a few of any
+  const std::size_t quarter = 16 * 48 * 49;
+  EXPECT_NEAR(static_cast<double>(near), static_cast<double>(quarter), 60);
+  EXPECT_NEAR(static_cast<double>(far), static_cast<double>(2 * quarter), 60);
+  std::size_t none = 0;  // in z, and in the error map, where the truth's own gap comes on top
+  for (std::size_t i = 0; i < frame.depth.z_m.size(); ++i)
+    none += (std::isnan(frame.depth.z_m[i]) ? 1U : 0U) + (std::isnan(frame.depth.z_m[i] - frame.truth.z_m[i]) ? 1U : 0U);
+  EXPECT_NEAR(static_cast<double>(invalid), static_cast<double>(49 * none), 60);
+}
+
+TEST(picture_scale, ends_and_ticks_are_round) {
+  const PictureScale room = round_scale(1.031, 2.351, 0.1);
+  EXPECT_DOUBLE_EQ(room.low, 1.0);
+  EXPECT_DOUBLE_EQ(room.high, 2.4);
+  EXPECT_DOUBLE_EQ(room.step, 0.2);
+  EXPECT_EQ(room.label(1.2), "1.2");
+  EXPECT_EQ(room.ticks().size(), 8U);
+  const PictureScale wall = round_scale(1.0, 1.0, 0.1);
+  EXPECT_DOUBLE_EQ(wall.low, 0.95);
+  EXPECT_DOUBLE_EQ(wall.high, 1.05);
+  EXPECT_EQ(wall.label(-0.02),
+            "\xE2\x88\x92"
+            "0.02");
+  EXPECT_EQ(wall.label(-0.0), "0.00");
+  for (double span = 1e-6; span < 1e7; span *= 1.7) {
+    const PictureScale scale = round_scale(-0.3 * span, 0.7 * span, 0);
+    EXPECT_LE(scale.low, -0.3 * span * (1 - 1e-6));
+    EXPECT_GE(scale.high, 0.7 * span * (1 - 1e-6));
+    EXPECT_LE(scale.high - scale.low, 1.5 * span);
+    EXPECT_GE(scale.ticks().size(), 3U) << span;
+    EXPECT_LE(scale.ticks().size(), 9U) << span;
+    std::set<std::string> labels;
+    for (const double tick : scale.ticks()) labels.insert(scale.label(tick));
+    EXPECT_EQ(labels.size(), scale.ticks().size()) << span;
+  }
+}
+
+TEST(picture_scale, percentile_leaves_out_what_is_not_finite) {
+  EXPECT_EQ(percentile({5, std::nan(""), 1, 3, 2, 4, INFINITY}, 0.5, -1), 3);
+  EXPECT_EQ(percentile({std::nan("")}, 0.5, -1), -1);
+  EXPECT_EQ(percentile({1, 2, 3}, 1, 0), 3);
+}
+
+TEST(color_map, is_ever_darker_with_distance_and_symmetrical_in_the_error) {
+  const auto luma = [](Rgb c) { return 0.2126 * c.red + 0.7152 * c.green + 0.0722 * c.blue; };
+  for (int i = 1; i <= 200; ++i) EXPECT_LE(luma(depth_color(i / 200.0)), luma(depth_color((i - 1) / 200.0)) + 0.6) << i;
+  for (int i = 0; i <= 20; ++i) EXPECT_NEAR(luma(error_color(i / 20.0)), luma(error_color(-i / 20.0)), 22) << i;
+  EXPECT_EQ(depth_color(-5), depth_color(0));
+  EXPECT_EQ(depth_color(NAN), depth_color(0));
+  EXPECT_EQ(depth_color(7), depth_color(1));
+  EXPECT_EQ(error_color(0), (Rgb{239, 239, 239}));
+}
+
+TEST(stroke_font, knows_what_our_labels_need_and_draws_a_box_for_the_rest) {
+  const Glyph& box = glyph_of("\xE6\x9D\xB1");
+  EXPECT_EQ(box.segments.size(), 4U);
+  for (const char c : std::string("0123456789ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz.,:;-_+=/()[]<>%#*!?'\"| "))
+    EXPECT_NE(&glyph_of(std::string(1, c)), &box) << c;
+  for (const char* sign : {"\xC2\xB0", "\xC2\xB1", "\xC2\xB5", "\xCF\x83", "\xE2\x88\x92", "\xE2\x80\xA6", "\xC2\xB7"})
+    EXPECT_NE(&glyph_of(sign), &box) << sign;
+  // different characters look different
+  std::set<std::vector<double>> shapes;
+  int count = 0;
+  for (char c = '!'; c < 127; ++c) {
+    const Glyph& glyph = glyph_of(std::string(1, c));
+    if (&glyph == &box) continue;
+    std::vector<double> shape;
+    for (const Segment& s : glyph.segments) shape.insert(shape.end(), {s.x0, s.y0, s.x1, s.y1});
+    shapes.insert(shape);
+    ++count;
+  }
+  EXPECT_EQ(shapes.size(), static_cast<std::size_t>(count));
+  std::string_view text = "a\xC2\xB5\xFF\xE2\x88";
+  EXPECT_EQ(take_character(text), "a");
+  EXPECT_EQ(take_character(text), "\xC2\xB5");
+  EXPECT_EQ(take_character(text), "?");
+  EXPECT_EQ(take_character(text), "?");
+  EXPECT_EQ(take_character(text), "?");
+  EXPECT_TRUE(text.empty());
+}
+
+TEST(canvas, draws_nothing_outside_itself) {
+  Canvas canvas(20, 10, {1, 2, 3});
+  canvas.fill(-5, -5, 3, 3, {255, 0, 0});
+  canvas.fill(18, 8, 10, 10, {255, 0, 0});
+  canvas.text(-30, 40, 12, {255, 0, 0}, "far away");
+  std::size_t red = 0;
+  for (std::size_t i = 0; i < canvas.pixels().size(); i += 3) red += canvas.pixels()[i] == 255 ? 1 : 0;
+  EXPECT_EQ(red, 4U);
+}
+
+TEST(ply, holds_the_valid_points_and_projects_back_to_their_pixels) {
+  const Frame frame = out_test::sample_frame(48, 32);
+  const Camera camera = out_test::sample_camera(48, 32);
+  const std::string file = cloud_ply(frame.depth);
+  const std::size_t data = file.find("end_header\n") + 11;
+  ASSERT_NE(file.find("comment tofray: the valid points of 48 x 32 pixels"), std::string::npos);
+  std::size_t at = data, vertex = 0;
+  for (std::size_t i = 0; i < frame.depth.z_m.size(); ++i) {
+    if (!std::isfinite(frame.depth.z_m[i])) continue;
+    float v[4];
+    ASSERT_LE(at + 17, file.size());
+    std::memcpy(v, file.data() + at, 16);
+    EXPECT_EQ(v[2], frame.depth.z_m[i]);
+    EXPECT_EQ(v[3], frame.depth.amplitude_e[i]);
+    EXPECT_EQ(static_cast<std::uint8_t>(file[at + 16]), frame.depth.confidence[i]);
+    // the sample's points lie on the pinhole's rays; float32 keeps 24 bits, so 48 pixels are good to 48 / 2^23 px
+    EXPECT_NEAR(camera.lens.fx_px * static_cast<double>(v[0]) / static_cast<double>(v[2]) + camera.lens.cx_px, static_cast<double>(i % 48),
+                1e-4);
+    EXPECT_NEAR(camera.lens.fy_px * static_cast<double>(v[1]) / static_cast<double>(v[2]) + camera.lens.cy_px, static_cast<double>(i / 48),
+                1e-4);
+    at += 17;
+    ++vertex;
+  }
+  EXPECT_EQ(at, file.size());
+  EXPECT_NE(file.find("element vertex " + std::to_string(vertex) + "\n"), std::string::npos);
+}
+
+TEST(ply, is_read_by_a_reader_that_is_not_ours) {
+  const Python python;
+  if (!python.there()) GTEST_SKIP() << "no /usr/bin/python3 with numpy";
+  TemporaryFolder folder;
+  const Frame frame = out_test::sample_frame(48, 32);
+  out_test::write_file(folder.file("cloud.ply"), cloud_ply(frame.depth));
+  out_test::write_file(folder.file("z.bin"), {reinterpret_cast<const char*>(frame.depth.z_m.data()), 4 * frame.depth.z_m.size()});
+  EXPECT_EQ(python.run(R"py(
+import sys, numpy as np
+data = open(sys.argv[1] + '/cloud.ply', 'rb').read()
+header, body = data.split(b'end_header\n', 1)
+lines = header.decode('ascii').splitlines()
+assert lines[:2] == ['ply', 'format binary_little_endian 1.0']
+types = dict(float='<f4', uchar='u1')
+dtype = [(l.split()[2], types[l.split()[1]]) for l in lines if l.startswith('property')]
+count = int([l for l in lines if l.startswith('element')][0].split()[2])
+v = np.frombuffer(body, dtype)
+z = np.fromfile(sys.argv[1] + '/z.bin', 'f4')
+assert len(v) == count and list(v.dtype.names) == ['x', 'y', 'z', 'amplitude', 'confidence']
+assert np.array_equal(v['z'], z[~np.isnan(z)])
+)py",
+                       folder.path().string()),
+            0);
+}
+
+TEST(terminal_picture, fits_the_terminal_and_resets_its_colours) {
+  const Frame frame = out_test::sample_frame(64, 48);
+  for (const int columns : {1, 7, 40, 64, 500}) {
+    const std::string text = terminal_picture(frame.depth, columns, TerminalColors::full);
+    const int width = std::min(columns, 64);
+    std::size_t lines = 0, at = 0;
+    while (at < text.size()) {
+      const std::string line = text.substr(at, text.find('\n', at) - at);
+      at += line.size() + 1;
+      std::size_t blocks = 0;
+      for (std::size_t i = line.find("\xE2\x96\x80"); i != std::string::npos; i = line.find("\xE2\x96\x80", i + 3)) ++blocks;
+      if (at < text.size()) {
+        EXPECT_EQ(blocks, static_cast<std::size_t>(width));
+        EXPECT_EQ(line.substr(line.size() - 4), "\x1b[0m");
+        ++lines;
+      }
+    }
+    EXPECT_NEAR(static_cast<double>(lines), 0.5 * width * 48 / 64, 1);
+  }
+}
+
+TEST(terminal_picture, without_colours_is_plain_ascii_with_the_near_dense_and_the_invalid_blank) {
+  const Frame frame = out_test::sample_frame(64, 48);
+  const std::string text = terminal_picture(frame.depth, 64, TerminalColors::none);
+  for (const char c : text) EXPECT_TRUE(c == '\n' || (c >= 32 && c < 127));
+  EXPECT_EQ(text[0], ' ');             // the corner without return
+  EXPECT_EQ(text[12 * 65 + 38], '@');  // the ball
+  EXPECT_EQ(text[12 * 65 + 63], '.');  // the far end of the wall
+  EXPECT_NE(text.find("1.00 m @"), std::string::npos);
+  EXPECT_NE(text.find(". 2.40 m\n"), std::string::npos);
+}
