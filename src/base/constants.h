@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-/// Constants of nature, SI units. Those of the SI's definition are exact [BIPM, The International System of Units, 9th edition, 2019].
+/// Constants of nature, SI units. Those of the SI's definition are exact [bipm2019].
 namespace tofray::base {
 
 constexpr double pi = 3.14159265358979323846;

@@ -21,10 +21,11 @@ struct Spectrum {
 /// Sun at sea level, air mass 1.5, on a surface tilted by 37° toward it, sky light included: 300 to 2500 nm, 994 of 1000 W/m² in all.
 ///
 /// Published values at 1 nm from 400 to 1100 nm, at every 2, 5 and 20 nm below, above, and beyond 1700 nm.
-/// [ASTM G173-03, Standard Tables for Reference Solar Spectral Irradiances, global tilt; computed there with SMARTS 2.9.2]
+/// The mean of the tabulated values over 925–955 nm is 0.373 W m⁻² nm⁻¹; the integral, which gives the end values half their weight, 0.368.
+/// [astm-g173, column "global tilt"]
 const Spectrum& sun_am15();
 
-/// Spectral luminous efficiency V(λ) of the light-adapted eye, largest 1 at 555 nm; 380 to 780 nm at every 5 nm. [CIE 1924; ISO 23539]
+/// Spectral luminous efficiency V(λ) of the light-adapted eye, largest 1 at 555 nm; 380 to 780 nm at every 5 nm. [iso23539]
 const Spectrum& photopic();
 
 /// Illuminance E_v = 683 lm/W · ∫ E_λ·V dλ  [lx]

@@ -51,6 +51,21 @@ TEST(setup_math, cosine_is_within_one_ulp) {
   for (const double range : {1e-3, 0.8, 7.0, 1e3, 1e6, 9e8}) EXPECT_LT(worst_ulp(-range, range, setup::cos, oracle), ulps) << range;
 }
 
+// Next to a multiple of π/2 nearly all bits of the argument cancel; only a π/2 of many bits leaves a right rest.
+TEST(setup_math, sine_and_cosine_are_within_one_ulp_next_to_their_zeros) {
+  const long double half_pi = std::acos(-1.0L) / 2;
+  double worst = 0;
+  for (int k = 1; k < 640000; ++k) {
+    const auto x = static_cast<double>(half_pi * k);
+    const long double right = k % 2 ? std::cos(static_cast<long double>(x)) : std::sin(static_cast<long double>(x));
+    const double near = std::fabs(static_cast<double>(right));
+    const double ulp = std::nextafter(near, infinity) - near;
+    const double ours = k % 2 ? setup::cos(x) : setup::sin(x);
+    worst = std::fmax(worst, static_cast<double>(std::fabs(static_cast<long double>(ours) - right)) / ulp);
+  }
+  EXPECT_LT(worst, ulps);
+}
+
 TEST(setup_math, tangent_is_within_one_ulp) {
   const auto oracle = [](long double x) { return std::tan(x); };
   for (const double range : {1e-3, 1.5707, 7.0, 1e3, 1e6}) EXPECT_LT(worst_ulp(-range, range, setup::tan, oracle), ulps) << range;

@@ -90,6 +90,8 @@ TEST(band_irradiance, of_a_filter_table_is_the_integral_of_its_spline) {
   Filter filter;
   filter.table = {{830e-9, 850e-9, 870e-9}, {0, 0.9, 0}};   // three samples: a parabola, 2/3 of its box
   EXPECT_NEAR(band_irradiance(flat(1), filter), 2.0 / 3 * 40 * 0.9, 1e-12);
+  filter.table = {{840e-9, 860e-9}, {0.5, 0.7}};   // a line; nothing passes beside it
+  EXPECT_NEAR(band_irradiance(flat(1), filter), 20 * 0.6, 1e-12);
   filter.table = {{850e-9}, {0.5}};
   EXPECT_NEAR(band_irradiance(flat(1), filter), 0.5 * 3720, 1e-9);   // one sample passes everything
 }
