@@ -1,0 +1,86 @@
+// SPDX-FileCopyrightText: 2026 The tofray authors
+// SPDX-License-Identifier: Apache-2.0
+#include "backend/cpu/cpu.h"
+
+#include <cstdlib>
+#include <thread>
+
+#include "backend/cpu/for_each_tile.h"
+#include "tofray/error.h"
+
+namespace tofray::backend {
+
+bool can_run(Isa isa) {
+  __builtin_cpu_init();
+  const bool fma = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
+  switch (isa) {
+    case Isa::best:
+    case Isa::scalar: return true;
+    case Isa::scalar_fma:
+    case Isa::avx2: return fma;
+    case Isa::avx512:
+      return fma && __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512dq") &&
+             __builtin_cpu_supports("avx512vl");
+  }
+  return false;
+}
+
+std::string isa_name(Isa isa) {
+  switch (isa) {
+    case Isa::scalar: return "scalar";
+    case Isa::scalar_fma: return "scalar_fma";
+    case Isa::avx2: return "avx2";
+    case Isa::avx512: return "avx512";
+    case Isa::best: break;
+  }
+  return "best";
+}
+
+Isa choose_isa(Isa wanted) {
+  const char* named = std::getenv("TOFRAY_ISA");
+  if (wanted == Isa::best && named != nullptr && *named != '\0') {
+    for (const Isa isa : {Isa::scalar, Isa::scalar_fma, Isa::avx2, Isa::avx512}) {
+      if (named == isa_name(isa)) wanted = isa;
+    }
+    if (wanted == Isa::best) {
+      throw Error(ErrorKind::bad_input, "error: TOFRAY_ISA=" + std::string(named) + " is unknown\n  expected scalar, scalar_fma, avx2 or avx512");
+    }
+  }
+  if (wanted == Isa::best) wanted = can_run(Isa::avx512) ? Isa::avx512 : can_run(Isa::avx2) ? Isa::avx2 : Isa::scalar;
+  if (!can_run(wanted)) {
+    throw Error(ErrorKind::device, "error: this processor has no " + isa_name(wanted) + "\n  leave TOFRAY_ISA unset, or choose a lesser instruction set");
+  }
+  return wanted;
+}
+
+struct Cpu::Threads {
+  TileRunner runner;
+};
+
+Cpu::Cpu(Isa isa, int threads, int raw_frames)
+    : isa_(choose_isa(isa)), threads_(threads > 0 ? threads : static_cast<int>(std::max(1u, std::thread::hardware_concurrency()))) {
+  switch (isa_) {
+    case Isa::avx512: kernel_ = tofray_kernel_avx512; break;
+    case Isa::avx2: kernel_ = tofray_kernel_avx2; break;
+    case Isa::scalar_fma: kernel_ = tofray_kernel_scalar_fma; break;
+    default: kernel_ = tofray_kernel_scalar; break;
+  }
+  pool_ = std::make_unique<Threads>(Threads{TileRunner(threads_, kernel_(nullptr, Pass::pixels, raw_frames, nullptr))});
+}
+
+Cpu::~Cpu() = default;
+
+void Cpu::run(const pipeline::Setup& setup, const pipeline::Job& job, const pipeline::Recording* recording) {
+  const Work work{&setup, &job, recording};
+  const int tiles = pipeline::tile_count(setup.lens), bands = (setup.lens.height + 7) / 8;
+  const auto pass = [&](Pass which, int pieces) {
+    pool_->runner.for_each_tile(pieces, [&](int index, void* scratch) { kernel_(&work, which, index, scratch); });
+  };
+  pass(recording != nullptr ? Pass::recording : Pass::pixels, tiles);
+  if (job.out.z == nullptr || job.out.flags == nullptr) return;
+  pass(Pass::flying, bands);
+  if (job.filter != 0) pass(Pass::filter, bands);
+  pass(Pass::settle, bands);
+}
+
+}  // namespace tofray::backend

@@ -1,0 +1,42 @@
+// SPDX-FileCopyrightText: 2026 The tofray authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "backend/cpu/kernel.h"
+#include "tofray/simulator.h"
+
+/// Runs the pipeline on the processor: threads over tiles, lanes within.
+namespace tofray::backend {
+
+/// @throws Error (device) where the processor cannot run the instruction set; (bad_input) for an unknown TOFRAY_ISA
+Isa choose_isa(Isa wanted);
+/// "scalar", "scalar_fma", "avx2", "avx512".
+std::string isa_name(Isa isa);
+bool can_run(Isa isa);
+
+class Cpu {
+ public:
+  /// @param threads     0: one per core
+  /// @param raw_frames  of a scene in which something moves; 0 where nothing does
+  Cpu(Isa isa, int threads, int raw_frames);
+  ~Cpu();
+  Cpu(const Cpu&) = delete;
+  Cpu& operator=(const Cpu&) = delete;
+
+  /// All passes of a frame. `recording`: decode this instead of simulating.
+  void run(const pipeline::Setup& setup, const pipeline::Job& job, const pipeline::Recording* recording = nullptr);
+  [[nodiscard]] Isa isa() const { return isa_; }
+  [[nodiscard]] int threads() const { return threads_; }
+
+ private:
+  struct Threads;
+  Isa isa_;
+  int threads_;
+  Kernel kernel_;
+  std::unique_ptr<Threads> pool_;
+};
+
+}  // namespace tofray::backend

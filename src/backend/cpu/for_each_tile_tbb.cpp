@@ -1,0 +1,49 @@
+// SPDX-FileCopyrightText: 2026 The tofray authors
+// SPDX-License-Identifier: Apache-2.0
+#include <tbb/blocked_range.h>
+#include <tbb/global_control.h>
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+#include <optional>
+
+#include "backend/cpu/for_each_tile.h"
+#include "backend/cpu/scratch.h"
+
+namespace tofray::backend {
+
+struct TileRunner::Impl {
+  int threads;
+  // More threads than cores run only where the global limit allows them.
+  tbb::global_control limit;
+  tbb::task_arena arena;
+  std::vector<ScratchMemory> scratch;
+};
+
+TileRunner::TileRunner(int threads, std::size_t scratch_bytes)
+    : impl_(new Impl{threads,
+                     tbb::global_control(tbb::global_control::max_allowed_parallelism,
+                                         std::max(static_cast<std::size_t>(threads),
+                                                  tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism))),
+                     tbb::task_arena(threads), {}}) {
+  for (int i = 0; i < threads; ++i) impl_->scratch.emplace_back(scratch_bytes);
+}
+
+TileRunner::~TileRunner() = default;
+TileRunner::TileRunner(TileRunner&&) noexcept = default;
+
+void TileRunner::for_each_tile(int count, const std::function<void(int, void*)>& piece) {
+  if (impl_->threads == 1) {
+    for (int i = 0; i < count; ++i) piece(i, impl_->scratch[0].data());
+    return;
+  }
+  impl_->arena.execute([&] {
+    tbb::parallel_for(tbb::blocked_range<int>(0, count, 1), [&](const tbb::blocked_range<int>& range) {
+      void* scratch = impl_->scratch[static_cast<std::size_t>(tbb::this_task_arena::current_thread_index())].data();
+      for (int i = range.begin(); i < range.end(); ++i) piece(i, scratch);
+    });
+  });
+}
+
+}  // namespace tofray::backend

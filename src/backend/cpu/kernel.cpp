@@ -1,0 +1,65 @@
+// SPDX-FileCopyrightText: 2026 The tofray authors
+// SPDX-License-Identifier: Apache-2.0
+// Compiled once per instruction set (TOFRAY_KERNEL_<SET>). It may include nothing that could leave a shared inline function behind: the
+// linker might hand this object's copy of it to a machine that cannot run it. The number type comes first: templates see its functions then.
+#if defined(TOFRAY_KERNEL_AVX512)
+#include "num/avx512.h"
+#define TOFRAY_KERNEL tofray_kernel_avx512
+using F = tofray::num::F32x16;
+#elif defined(TOFRAY_KERNEL_AVX2)
+#include "num/avx2.h"
+#define TOFRAY_KERNEL tofray_kernel_avx2
+using F = tofray::num::F32x8;
+#elif defined(TOFRAY_KERNEL_SCALAR_FMA)
+#define TOFRAY_KERNEL tofray_kernel_scalar_fma
+using F = float;
+#else
+#define TOFRAY_KERNEL tofray_kernel_scalar
+using F = float;
+#endif
+
+#include "backend/cpu/kernel.h"
+#include "pipeline/passes.h"
+#include "pipeline/tile.h"
+
+namespace tofray::backend {
+
+namespace {
+
+using namespace pipeline;
+
+constexpr std::size_t scratch_bytes = (sizeof(Scratch<F>) + 63) / 64 * 64;
+
+void run_tile(const Work& work, int index, void* scratch) {
+  auto* light = reinterpret_cast<flow::Light<F>*>(static_cast<unsigned char*>(scratch) + scratch_bytes);
+  one_tile<F>(*work.setup, *work.job, index, *static_cast<Scratch<F>*>(scratch), light);
+}
+
+void run_recording(const Work& work, int index) {
+  const Tile tile = tile_at(work.setup->lens, index);
+  for (int q = 0; q < max_packs<F>; ++q) {
+    const Pixels p = pack_at<F>(work.setup->lens, tile, q);
+    if (p.count > 0) decode_pixels<F>(*work.setup, *work.job, *work.recording, p);
+  }
+}
+
+void run_rows(const Work& work, Pass pass, int band) {
+  const int height = work.setup->lens.height, first = band * rows_per_band;
+  for (int y = first; y < first + rows_per_band && y < height; ++y) {
+    if (pass == Pass::flying) flag_flying_row<F>(*work.setup, *work.job, y);
+    if (pass == Pass::filter) filter_row(*work.setup, *work.job, y);
+    if (pass == Pass::settle) settle_row<F>(*work.setup, *work.job, y, work.job->filter != 0 ? work.job->filtered : work.job->out.range);
+  }
+}
+
+}  // namespace
+
+extern "C" std::size_t TOFRAY_KERNEL(const Work* work, Pass pass, int index, void* scratch) {
+  if (work == nullptr) return scratch_bytes + static_cast<std::size_t>(index > 0 ? index + 1 : 0) * max_packs<F> * sizeof(flow::Light<F>);
+  if (pass == Pass::pixels) run_tile(*work, index, scratch);
+  if (pass == Pass::recording) run_recording(*work, index);
+  if (pass == Pass::flying || pass == Pass::filter || pass == Pass::settle) run_rows(*work, pass, index);
+  return 0;
+}
+
+}  // namespace tofray::backend

@@ -1,0 +1,146 @@
+// SPDX-FileCopyrightText: 2026 The tofray authors
+// SPDX-License-Identifier: Apache-2.0
+#include "camera/frozen_camera.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "base/constants.h"
+#include "base/curve.h"
+#include "camera/lens.h"
+#include "camera/waveform.h"
+#include "num/philox.h"
+#include "num/setup_math.h"
+
+namespace tofray::camera {
+
+using namespace base;
+namespace setup = num::setup;
+
+namespace {
+float f(double a) { return static_cast<float>(a); }
+}  // namespace
+
+FrozenCamera::FrozenCamera(const Camera& camera, int noise, std::uint64_t seed) : camera_(camera), modulations_(modulations_of(camera.mode)) {
+  if (camera.illumination.size() > flow::max_lights) throw Error(ErrorKind::limit, "error: more than 8 light sources");
+  if (camera.mode.sequence.size() > flow::max_raw_frames) throw Error(ErrorKind::limit, "error: more than 64 raw frames in one sequence");
+  freeze_lens();
+  const ClampedCurve efficiency(camera.pixel.quantum_efficiency, "quantum_efficiency");
+  for (const Illumination& light : camera.illumination) {
+    lights_.push_back(freeze_light(light, efficiency.evaluate(light.illumination_wavelength_m)));
+  }
+  freeze_sequence(seed, noise);
+  freeze_patterns();
+  freeze_decoder(noise);
+}
+
+void FrozenCamera::freeze_lens() {
+  const Sensor& sensor = camera_.sensor;
+  const std::size_t pixels = static_cast<std::size_t>(sensor.width) * static_cast<std::size_t>(sensor.height);
+  ray_x_.assign(pixels, 0), ray_y_.assign(pixels, 0), vignetting_.assign(pixels, 0);
+  lens_.width = sensor.width, lens_.height = sensor.height;
+  std::size_t i = 0;
+  for (int v = 0; v < sensor.height; ++v) {
+    for (int u = 0; u < sensor.width; ++u, ++i) {
+      Point2 p{};
+      if (!unproject(camera_.lens, {static_cast<double>(u), static_cast<double>(v)}, p)) continue;
+      ray_x_[i] = f(p.x), ray_y_[i] = f(p.y);
+      // 0 says "outside the lens model", so that a dark corner of a vignetting table is not mistaken for one
+      vignetting_[i] = std::max(f(vignetting_factor(camera_.lens, p)), std::numeric_limits<float>::min());
+      lens_.max_abs_x = std::max(lens_.max_abs_x, std::abs(ray_x_[i])), lens_.max_abs_y = std::max(lens_.max_abs_y, std::abs(ray_y_[i]));
+    }
+  }
+  lens_.ray_x = ray_x_.data(), lens_.ray_y = ray_y_.data(), lens_.vignetting = vignetting_.data();
+
+  const double area = sensor.pixel_pitch_m * sensor.pixel_pitch_m * sensor.fill_factor;
+  const double number = camera_.lens.f_number;
+  power_.watts_per_radiance = f(pi * camera_.lens.transmission * area / (4 * number * number));       // [theory: eq. 2.5, 2.6]
+  power_.paper_literal = camera_.power_model == PowerModel::paper_literal;
+  const double focal_mm = 1e3 * camera_.lens.fx_px * sensor.pixel_pitch_m;
+  power_.paper_scale = f(pi * area / (4 * number * number * focal_mm * focal_mm));                     // [theory: eq. 2.11]
+}
+
+void FrozenCamera::freeze_sequence(std::uint64_t seed, int noise) {
+  const Pixel& pixel = camera_.pixel;
+  SensorView& s = sensor_;
+  s.raw_frames = static_cast<std::int32_t>(camera_.mode.sequence.size());
+  s.modulations = static_cast<std::int32_t>(modulations_.frequency_hz.size());
+  s.dark_rate = f(pixel.dark_current_e_per_s);
+  s.read_noise = f(pixel.read_noise_e), s.read_variance = f(pixel.read_noise_e * pixel.read_noise_e);
+  s.full_well = f(pixel.full_well_e);
+  s.suppression_threshold = f(pixel.suppression_threshold_e), s.suppression_budget = f(pixel.suppression_budget_e);
+  s.suppression_noise = f(pixel.suppression_noise_factor);
+  s.per_step = f(1 / camera_.adc.step_e_per_dn), s.step = f(camera_.adc.step_e_per_dn), s.mid_code = f(camera_.adc.mid_code);
+  s.max_code = f(setup::pow(2.0, camera_.adc.bits) - 1);
+  s.valid_min = f(camera_.adc.valid_min), s.valid_max = f(camera_.adc.valid_max);
+  s.noise = noise;
+  s.seed_low = static_cast<std::uint32_t>(seed), s.seed_high = static_cast<std::uint32_t>(seed >> 32);
+
+  std::vector<std::vector<Harmonic>> harmonics;      // [modulation · lights + light]
+  for (const double frequency : modulations_.frequency_hz) {
+    for (const Illumination& light : camera_.illumination) {
+      harmonics.push_back(correlation_harmonics(light.waveform, pixel, frequency));
+      s.harmonics = std::max(s.harmonics, static_cast<std::int32_t>(harmonics.back().size()));
+    }
+  }
+  if (s.harmonics > flow::max_harmonics) throw Error(ErrorKind::limit, "error: more than 8 harmonics in a waveform");
+  for (std::size_t i = 0; i < modulations_.frequency_hz.size(); ++i) {
+    ModulationView& m = s.modulation[i];
+    m.frequency = f(modulations_.frequency_hz[i]);
+    const double turns_per_metre = modulations_.frequency_hz[i] * camera_.refractive_index / speed_of_light;
+    m.turns_per_metre_high = f(turns_per_metre);
+    m.turns_per_metre_low = f(turns_per_metre - static_cast<double>(m.turns_per_metre_high));
+    for (std::size_t l = 0; l < lights_.size(); ++l) {
+      for (const Harmonic& h : harmonics[i * lights_.size() + l]) {
+        m.real[l][h.order / 2] = f(h.amplitude * setup::cos(h.phase_rad)), m.imaginary[l][h.order / 2] = f(h.amplitude * setup::sin(h.phase_rad));
+      }
+    }
+  }
+  double start = 0;
+  for (std::size_t k = 0; k < camera_.mode.sequence.size(); ++k) {
+    const RawFrame& frame = camera_.mode.sequence[k];
+    RawFrameView& view = s.frame[k];
+    view.lit = frame.lit;
+    view.modulation = modulations_.of_raw_frame[k];
+    view.integration_time = f(frame.integration_time_s);
+    for (int h = 0; h < s.harmonics; ++h) {
+      view.cosine[h] = f(setup::cos((2 * h + 1) * frame.reference_phase_rad)), view.sine[h] = f(setup::sin((2 * h + 1) * frame.reference_phase_rad));
+    }
+    start_.push_back(start);
+    start += frame.integration_time_s + camera_.readout_time_s;
+  }
+}
+
+void FrozenCamera::freeze_patterns() {
+  const Pixel& pixel = camera_.pixel;
+  const std::size_t pixels = ray_x_.size();
+  // Each pattern is a stream of its own in the random numbers of the sensor's seed.
+  const auto draw = [&](double sigma, double mean, std::uint32_t stream, std::vector<float>& map) -> const float* {
+    if (sigma == 0) return nullptr;
+    for (std::size_t i = 0; i < pixels; ++i) {
+      const auto words = num::philox<float>(static_cast<std::uint32_t>(i), stream, 0, 0, static_cast<std::uint32_t>(pixel.pattern_seed),
+                                            static_cast<std::uint32_t>(pixel.pattern_seed >> 32));
+      float z, other;
+      num::normal_pair<float>(words.w[0], words.w[1], z, other);
+      map.push_back(f(mean + sigma * static_cast<double>(z)));
+    }
+    return map.data();
+  };
+  sensor_.gain = draw(pixel.prnu, 1, 0x50524e55, gain_);
+  sensor_.offset = draw(pixel.dsnu_dn, 0, 0x44534e55, offset_);
+  sensor_.delay = draw(pixel.delay_s, 0, 0x44454c41, delay_);
+}
+
+SensorView FrozenCamera::sensor(double time_s) const {
+  SensorView s = sensor_;
+  const Temperature& t = camera_.temperature;
+  const double warm = t.warm_up_m == 0 ? 0 : t.warm_up_m * (1 - setup::exp(-(t.since_start_s + time_s) / t.warm_up_time_s));
+  const double half_path = t.drift_m_per_kelvin * (t.celsius - t.reference_celsius) + warm;
+  for (int i = 0; i < s.modulations; ++i) {
+    s.modulation[i].delay_turns = f(2 * half_path * modulations_.frequency_hz[static_cast<std::size_t>(i)] * camera_.refractive_index / speed_of_light);
+  }
+  return s;
+}
+
+}  // namespace tofray::camera

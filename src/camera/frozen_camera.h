@@ -1,0 +1,68 @@
+// SPDX-FileCopyrightText: 2026 The tofray authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include <vector>
+
+#include "camera/views.h"
+#include "tofray/camera.h"
+
+namespace tofray::camera {
+
+/// One light: pattern table and numbers; owns the table.
+struct FrozenLight {
+  LightView view{};
+  std::vector<float> table;
+};
+/// @param quantum_efficiency  QE at the light's wavelength
+FrozenLight freeze_light(const Illumination& light, double quantum_efficiency);
+
+/// Integral of a pattern table over its rectangle, dω = (sin θ/θ)·dθx dθy [sr · unit of the samples].
+double table_integral(const std::vector<double>& samples, int columns, int rows, double half_range_x_rad, double half_range_y_rad);
+
+/// Modulation frequencies of the lit raw frames in the order they first appear, and their place in a common base.
+struct Modulations {
+  std::vector<double> frequency_hz;
+  std::vector<int> of_raw_frame;      ///< −1: unlit
+  std::vector<int> cycles;            ///< M_i: f_i = M_i·f_0
+  double base_hz = 0;                 ///< f_0
+};
+/// @throws Error (bad_input) where the frequencies have no common base with cycles up to 1000
+Modulations modulations_of(const Mode& mode);
+
+/// Camera profile → views. Owns all arrays the views point to; not copied.
+class FrozenCamera {
+ public:
+  /// @param noise  0 off, 1 fast, 2 exact
+  /// @throws Error (bad_input) where the profile makes no sense as a whole
+  FrozenCamera(const Camera& camera, int noise, std::uint64_t seed);
+  FrozenCamera(const FrozenCamera&) = delete;
+  FrozenCamera& operator=(const FrozenCamera&) = delete;
+
+  [[nodiscard]] const LensView& lens() const { return lens_; }
+  [[nodiscard]] const std::vector<FrozenLight>& lights() const { return lights_; }
+  [[nodiscard]] const PowerView& power() const { return power_; }
+  [[nodiscard]] const DecoderView& decoder() const { return decoder_; }
+  /// The sensor at frame start time t [s]: only the temperature drift depends on it.
+  [[nodiscard]] SensorView sensor(double time_s) const;
+  /// Start of each raw frame after the start of its frame [s].
+  [[nodiscard]] const std::vector<double>& raw_frame_start_s() const { return start_; }
+
+ private:
+  void freeze_lens();
+  void freeze_sequence(std::uint64_t seed, int noise);
+  void freeze_patterns();
+  void freeze_decoder(int noise);
+
+  Camera camera_;
+  Modulations modulations_;
+  LensView lens_{};
+  PowerView power_{};
+  SensorView sensor_{};
+  DecoderView decoder_{};
+  std::vector<FrozenLight> lights_;
+  std::vector<float> ray_x_, ray_y_, vignetting_, gain_, offset_, delay_;
+  std::vector<std::vector<float>> wiggling_;
+  std::vector<double> start_;
+};
+
+}  // namespace tofray::camera

@@ -1,0 +1,111 @@
+// SPDX-FileCopyrightText: 2026 The tofray authors
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "base/constants.h"
+#include "camera/frozen_camera.h"
+#include "camera/wiggling.h"
+#include "num/setup_math.h"
+#include "tofray/error.h"
+
+namespace tofray::camera {
+
+using namespace base;
+namespace setup = num::setup;
+
+namespace {
+
+constexpr int wiggling_nodes = 1024;
+
+float f(double a) { return static_cast<float>(a); }
+
+/// Reference phases and raw frames of one modulation frequency.
+struct Group {
+  std::vector<int> raw_frame;
+  std::vector<double> tau;
+  double integration_time = 0;
+};
+
+Group group_of(const Mode& mode, const Modulations& modulations, int modulation) {
+  Group g;
+  double sums[4] = {0, 0, 0, 0};
+  for (std::size_t k = 0; k < mode.sequence.size(); ++k) {
+    if (modulations.of_raw_frame[k] != modulation) continue;
+    const RawFrame& frame = mode.sequence[k];
+    if (!g.tau.empty() && frame.integration_time_s != g.integration_time) {
+      throw Error(ErrorKind::bad_input, "error: raw frames of one modulation frequency have different integration times; depth needs them equal");
+    }
+    g.integration_time = frame.integration_time_s;
+    g.raw_frame.push_back(static_cast<int>(k));
+    g.tau.push_back(frame.reference_phase_rad);
+    for (int h = 0; h < 2; ++h) {
+      sums[2 * h] += setup::cos((h + 1) * frame.reference_phase_rad), sums[2 * h + 1] += setup::sin((h + 1) * frame.reference_phase_rad);
+    }
+  }
+  // Σ e^{iτ} = Σ e^{2iτ} = 0 is what (2/N)Σ D e^{−iτ} needs to see neither a constant nor the mirror image.
+  const double most = std::max({std::abs(sums[0]), std::abs(sums[1]), std::abs(sums[2]), std::abs(sums[3])});
+  if (g.tau.size() < 3 || most > 1e-6 * static_cast<double>(g.tau.size())) {
+    throw Error(ErrorKind::bad_input, "error: each modulation frequency needs at least three equally spaced reference phases, such as 0, 90, 180 and 270 deg");
+  }
+  return g;
+}
+
+int opposite_of(const Group& g, std::size_t j) {
+  for (std::size_t i = j + 1; i < g.tau.size(); ++i) {
+    if (std::abs(setup::cos(g.tau[i] - g.tau[j]) + 1) < 1e-9) return g.raw_frame[i];
+  }
+  return -1;
+}
+
+}  // namespace
+
+void FrozenCamera::freeze_decoder(int noise) {
+  DecoderView& d = decoder_;
+  const Mode& mode = camera_.mode;
+  const Decoding& decoding = camera_.decoding;
+  const double wave_speed = speed_of_light / camera_.refractive_index;
+  d.raw_frames = sensor_.raw_frames, d.modulations = sensor_.modulations;
+  d.wiggling_nodes = wiggling_nodes;
+  double grey_time = 0;
+  for (const RawFrame& frame : mode.sequence) grey_time += frame.lit ? 0 : frame.integration_time_s;
+  for (int k = 0; k < d.raw_frames; ++k) d.frame[k] = {-1, 0, 0, -1};
+  for (int i = 0; i < d.modulations; ++i) {
+    const std::size_t at = static_cast<std::size_t>(i);
+    const Group group = group_of(mode, modulations_, i);
+    const double count = static_cast<double>(group.tau.size()), frequency = modulations_.frequency_hz[at];
+    // The first light source is the one that is decoded.
+    if (camera_.illumination.empty()) throw Error(ErrorKind::bad_input, "error: the camera has no light source");
+    auto harmonics = correlation_harmonics(camera_.illumination[0].waveform, camera_.pixel, frequency);
+    const double contrast = harmonics.front().amplitude;
+    if (!decoding.wiggling_correction) harmonics.resize(1);
+    wiggling_.emplace_back();
+    for (const double node : wiggling_correction(harmonics, group.tau, wiggling_nodes)) wiggling_.back().push_back(f(node));
+    wiggling_.back().push_back(wiggling_.back().front());
+    const double half_wave = wave_speed / (2 * frequency);
+    d.modulation[i] = {f(half_wave), f(1 / half_wave), f(modulations_.cycles[at]), f(frequency), f(1 / contrast), f(group.integration_time),
+                       f(grey_time > 0 ? group.integration_time / grey_time : 0), f(2 / (count * 4 * pi * pi)), nullptr};
+    if (modulations_.cycles[at] < modulations_.cycles[static_cast<std::size_t>(d.reference)]) d.reference = i;
+    for (std::size_t j = 0; j < group.tau.size(); ++j) {
+      d.frame[group.raw_frame[j]] = {i, f(2 / count * setup::cos(group.tau[j])), f(2 / count * setup::sin(group.tau[j])), opposite_of(group, j)};
+    }
+  }
+  for (int i = 0; i < d.modulations; ++i) d.modulation[i].wiggling = wiggling_[static_cast<std::size_t>(i)].data();
+  const double common = wave_speed / (2 * modulations_.base_hz);
+  d.common_range = f(common), d.per_common_range = f(1 / common);
+  const Vec3& light = camera_.illumination[0].position;
+  for (std::size_t k = 0; k < 3; ++k) d.light[k] = f(light[k]);
+  d.light_square = f(light[0] * light[0] + light[1] * light[1] + light[2] * light[2]);
+  const double read = camera_.pixel.read_noise_e, step = camera_.adc.step_e_per_dn;
+  d.noise_floor = f(2 * read * read + step * step / 12);
+  d.dark_rate_both = f(2 * camera_.pixel.dark_current_e_per_s);
+  d.low_signal_noise = noise == 0 ? std::numeric_limits<float>::max() : f(decoding.low_signal_noise_m);
+  d.per_confidence_noise = f(1 / decoding.low_signal_noise_m);
+  d.inconsistent_range = f(decoding.inconsistent_range_m);
+  d.flying_near_z = f(decoding.flying_near_z_m), d.flying_near_limit = f(decoding.flying_near_limit_m);
+  d.flying_far_z = f(decoding.flying_far_z_m), d.flying_far_limit = f(decoding.flying_far_limit_m);
+  d.delay = sensor_.delay;
+}
+
+}  // namespace tofray::camera

@@ -1,0 +1,27 @@
+// SPDX-FileCopyrightText: 2026 The tofray authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include <vector>
+
+#include "tofray/camera.h"
+
+namespace tofray::camera {
+
+struct Point2 { double x, y; };
+
+/// Brown–Conrady: undistorted (x, y) = (X/Z, Y/Z) → distorted.
+///     x' = x(1 + k1r² + k2r⁴ + k3r⁶) + 2p1xy + p2(r² + 2x²),  y' = y(…) + p1(r² + 2y²) + 2p2xy
+Point2 distort(const Lens& lens, const Point2& undistorted);
+
+/// Inverse by Newton's method, on the branch that starts at the axis.
+/// @return false where the model has no inverse: the point lies beyond the largest radius up to which distortion grows
+bool undistort(const Lens& lens, const Point2& distorted, Point2& undistorted);
+
+/// (x, y) = (X/Z, Y/Z) → pixel coordinates; pixel (0,0)'s centre is (0, 0).
+Point2 project(const Lens& lens, const Point2& undistorted);
+bool unproject(const Lens& lens, const Point2& pixel, Point2& undistorted);
+
+/// Factor of the image irradiance at angle α to the axis, tan α = √(x² + y²): cos⁴α, 1, or the table's.
+double vignetting_factor(const Lens& lens, const Point2& undistorted);
+
+}  // namespace tofray::camera

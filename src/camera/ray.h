@@ -1,0 +1,19 @@
+// SPDX-FileCopyrightText: 2026 The tofray authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "camera/views.h"
+
+namespace tofray::camera {
+
+/// View ray of each pixel, lens undistorted.
+template <class F>
+TOFRAY_FN flow::Ray<F> ray(const LensView& lens, const flow::Pixels& p) {
+  return flow::make_ray(num::load<F>(lens.ray_x + p.index, p.count), num::load<F>(lens.ray_y + p.index, p.count), F(1.0f));
+}
+
+template <class F>
+TOFRAY_FN F vignetting(const LensView& lens, const flow::Pixels& p) {
+  return num::load<F>(lens.vignetting + p.index, p.count);
+}
+
+}  // namespace tofray::camera

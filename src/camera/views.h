@@ -1,0 +1,121 @@
+// SPDX-FileCopyrightText: 2026 The tofray authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include <cstdint>
+
+#include "flow/flow.h"
+
+/// The camera, frozen for rendering: plain numbers in single precision that kernels read. Built by FrozenCamera.
+namespace tofray::camera {
+
+/// Rays and lens by pixel.
+struct LensView {
+  std::int32_t width, height;
+  const float *ray_x, *ray_y;    ///< [height][width] undistorted: d = (x, y, 1)
+  const float* vignetting;       ///< [height][width] cos⁴α or a table's factor; 0 outside the lens model
+  float max_abs_x, max_abs_y;    ///< largest |ray_x|, |ray_y|
+};
+
+/// How one light spreads its power over directions: I(θx, θy) [W/sr].
+struct PatternView {
+  enum Kind : std::int32_t { cone, cosine_lobe, table };
+  Kind kind;
+  float peak;                    ///< [W/sr] cone: inside; lobe: on the axis
+  float cos_half_angle;          ///< cone
+  float exponent;                ///< lobe
+  const float* samples;          ///< table [rows][columns], W/sr
+  std::int32_t columns, rows;
+  float per_rad_x, per_rad_y;    ///< cells per radian
+  float half_range_x, half_range_y;  ///< [rad]
+};
+
+/// One light source in the camera frame.
+struct LightView {
+  float position[3];
+  float rotation[3][3];          ///< rows: the source's own axes
+  std::int32_t turned;           ///< 0: its axis is the camera's, rotation is the identity
+  PatternView pattern;
+  float electrons_per_joule;     ///< λ·QE/(hc)
+};
+
+/// Watts on the pixel for a radiance of 1: π·T·pitch²·fill_factor/(4N²), without vignetting.
+struct PowerView {
+  float watts_per_radiance;
+  float ambient_rate;            ///< electrons per second from a surface with k_d = 1, without vignetting
+  float sun_direction[3];        ///< unit vector toward it
+  std::int32_t ambient_kind;     ///< 0 none, 1 uniform, 2 directional
+  std::int32_t paper_literal;    ///< 1: the paper's printed formula (power/paper_literal.h)
+  float paper_scale;             ///< its constant factor
+};
+
+/// Correlation and exposure of one raw frame.
+struct RawFrameView {
+  std::int32_t lit;
+  std::int32_t modulation;       ///< index of the modulation frequency
+  float integration_time;        ///< [s]
+  float cosine[flow::max_harmonics], sine[flow::max_harmonics];   ///< of m·τ, for the orders kept
+};
+
+/// One modulation frequency: how light becomes a phasor.
+struct ModulationView {
+  float turns_per_metre_high, turns_per_metre_low;   ///< f·n/c in two parts
+  float delay_turns;             ///< phase of temperature drift, turns
+  float frequency;               ///< [Hz], for delays by pixel
+  /// a_m·e^{iψ_m} of each light
+  float real[flow::max_lights][flow::max_harmonics], imaginary[flow::max_lights][flow::max_harmonics];
+};
+
+/// Sequence, charge, ADC.
+struct SensorView {
+  std::int32_t raw_frames, modulations, harmonics;
+  RawFrameView frame[flow::max_raw_frames];
+  ModulationView modulation[flow::max_modulation_frequencies];
+  float dark_rate;               ///< [e⁻/s] per tap
+  float read_noise, read_variance;
+  float full_well;
+  float suppression_threshold, suppression_budget, suppression_noise;
+  float per_step;                ///< 1/s [DN/e⁻]
+  float step, mid_code, max_code, valid_min, valid_max;
+  const float* gain;             ///< [height][width] 1 + PRNU, both taps alike, or null
+  const float* offset;           ///< [height][width] DSNU [DN], or null
+  const float* delay;            ///< [height][width] [s], or null
+  std::uint32_t seed_low, seed_high;
+  std::int32_t noise;            ///< 0 off, 1 fast, 2 exact
+};
+
+/// One modulation frequency as the decoder sees it.
+struct DecodeModulation {
+  float half_wave;               ///< R = c/(2f) [m], unambiguous half path
+  float per_half_wave;           ///< 1/R
+  float cycles;                  ///< M: periods in the common range
+  float frequency;               ///< [Hz]
+  float per_contrast;            ///< 1/C, C the first harmonic's amplitude
+  float integration_time;
+  float ambient_scale;           ///< t_int over the grey frames' time
+  float variance_factor;         ///< phase variance in turns² is this times V/Â²: 2/(N·4π²)
+  const float* wiggling;         ///< [wiggling_nodes + 1] φ − φ̂ in turns at equidistant φ̂
+};
+
+struct DecodeRawFrame {
+  std::int32_t modulation;       ///< −1: unlit
+  float cosine, sine;            ///< (2/N)·cos τ, (2/N)·sin τ
+  std::int32_t opposite;         ///< raw frame of the same modulation frequency with τ + π, −1 if there is none or it comes before
+};
+
+struct DecoderView {
+  std::int32_t raw_frames, modulations, reference;   ///< reference: the modulation with the fewest cycles
+  DecodeRawFrame frame[flow::max_raw_frames];
+  DecodeModulation modulation[flow::max_modulation_frequencies];
+  float common_range, per_common_range;   ///< R_0 [m], 1/R_0
+  std::int32_t wiggling_nodes;
+  float light[3], light_square;  ///< position of the light, |L|²
+  float noise_floor;             ///< 2σ_r² + s²/12 [e²]
+  float dark_rate_both;          ///< dark electrons per second, both taps together: noise only
+  float low_signal_noise;        ///< [m]; infinite where noise is off
+  float per_confidence_noise;    ///< 1/0.07 m
+  float inconsistent_range;
+  float flying_near_z, flying_near_limit, flying_far_z, flying_far_limit;
+  const float* delay;            ///< [height][width] [s], or null
+};
+
+}  // namespace tofray::camera

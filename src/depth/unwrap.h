@@ -1,0 +1,63 @@
+// SPDX-FileCopyrightText: 2026 The tofray authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "camera/views.h"
+
+/// Which cycle: half paths from wrapped phases of one or more modulation frequencies.            [theory: eq. 4.4–4.7]
+namespace tofray::depth {
+
+using num::Mask;
+
+template <class F>
+struct HalfPath {
+  F value;         ///< [m], in [0, R_0)
+  F sigma;         ///< [m] (Σ 1/σ_i²)^−½
+  Mask<F> inconsistent;
+};
+
+/// Half path d_i = R_i(n_i + p_i) of modulation i that lies nearest to `target`.
+template <class F>
+TOFRAY_FN F nearest_half_path(const camera::DecodeModulation& m, F turns, F target) {
+  return F(m.half_wave) * (num::round_even(num::fma(target, F(m.per_half_wave), -turns)) + turns);
+}
+
+/// Each cycle of the modulation with the fewest is tried: the others' nearest half paths say how well it fits; the best fit wins. For two
+/// modulation frequencies of ratio M : N it is the rule k = round(N·p_2 − M·p_1) of the Chinese remainder theorem, for more the closest point.
+/// @param turns  p_i = φ_i/2π in [0, 1)
+/// @param sigma  σ_i of each half path [m]
+template <class F>
+TOFRAY_FN HalfPath<F> unwrap(const camera::DecoderView& s, const F* turns, const F* sigma) {
+  const camera::DecodeModulation& reference = s.modulation[s.reference];
+  F best = F(0.0f), least = F(3e38f);
+  const int cycles = static_cast<int>(reference.cycles);
+  for (int n = 0; n < cycles; ++n) {
+    const F d = F(reference.half_wave) * (turns[s.reference] + F(static_cast<float>(n)));
+    F misfit = F(0.0f);
+    for (int i = 0; i < s.modulations; ++i) {
+      if (i == s.reference) continue;
+      const F off = nearest_half_path(s.modulation[i], turns[i], d) - d;
+      misfit = num::fma(off, off, misfit);
+    }
+    best = num::select(misfit < least, d, best);
+    least = num::min(misfit, least);
+  }
+  // weighted mean first, then back into the common range
+  F weights = F(0.0f), sum = F(0.0f);
+  Mask<F> inconsistent = F(1.0f) < F(0.0f);
+  for (int i = 0; i < s.modulations; ++i) {
+    const F d = nearest_half_path(s.modulation[i], turns[i], best);
+    const F weight = F(1.0f) / (sigma[i] * sigma[i]);
+    weights = weights + weight;
+    sum = num::fma(weight, d - best, sum);
+    const F apart = num::abs(d - best);
+    const F expected = F(9.0f) * num::fma(sigma[i], sigma[i], sigma[s.reference] * sigma[s.reference]);
+    inconsistent = inconsistent | ((apart > F(s.inconsistent_range)) & (apart * apart > expected));
+  }
+  F mean = best + sum / weights;
+  mean = num::fma(-num::floor(mean * F(s.per_common_range)), F(s.common_range), mean);
+  mean = num::select(mean < F(0.0f), mean + F(s.common_range), mean);
+  mean = num::select(mean >= F(s.common_range), mean - F(s.common_range), mean);
+  return {mean, num::sqrt(F(1.0f) / weights), inconsistent};
+}
+
+}  // namespace tofray::depth

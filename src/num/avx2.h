@@ -1,0 +1,160 @@
+// SPDX-FileCopyrightText: 2026 The tofray authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include <immintrin.h>
+
+#include "num/num.h"
+
+/// Eight lanes with AVX2 and FMA.
+namespace tofray::num {
+
+struct Mask8 {
+  __m256 v;
+};
+struct F32x8 {
+  __m256 v;
+  F32x8() = default;
+  TOFRAY_FN F32x8(__m256 a) : v(a) {}
+  TOFRAY_FN F32x8(float a) : v(_mm256_set1_ps(a)) {}
+};
+struct I32x8 {
+  __m256i v;
+  I32x8() = default;
+  TOFRAY_FN I32x8(__m256i a) : v(a) {}
+  TOFRAY_FN I32x8(std::int32_t a) : v(_mm256_set1_epi32(a)) {}
+};
+struct U32x8 {
+  __m256i v;
+  U32x8() = default;
+  TOFRAY_FN U32x8(__m256i a) : v(a) {}
+  TOFRAY_FN U32x8(std::uint32_t a) : v(_mm256_set1_epi32(static_cast<std::int32_t>(a))) {}
+};
+
+template <>
+struct Traits<F32x8> {
+  using Int = I32x8;
+  using Uint = U32x8;
+  using Mask = Mask8;
+  static constexpr int lanes = 8;
+};
+
+TOFRAY_FN F32x8 operator+(F32x8 a, F32x8 b) { return _mm256_add_ps(a.v, b.v); }
+TOFRAY_FN F32x8 operator-(F32x8 a, F32x8 b) { return _mm256_sub_ps(a.v, b.v); }
+TOFRAY_FN F32x8 operator*(F32x8 a, F32x8 b) { return _mm256_mul_ps(a.v, b.v); }
+TOFRAY_FN F32x8 operator/(F32x8 a, F32x8 b) { return _mm256_div_ps(a.v, b.v); }
+TOFRAY_FN F32x8 operator-(F32x8 a) { return _mm256_xor_ps(a.v, _mm256_set1_ps(-0.0f)); }
+TOFRAY_FN Mask8 operator<(F32x8 a, F32x8 b) { return {_mm256_cmp_ps(a.v, b.v, _CMP_LT_OQ)}; }
+TOFRAY_FN Mask8 operator<=(F32x8 a, F32x8 b) { return {_mm256_cmp_ps(a.v, b.v, _CMP_LE_OQ)}; }
+TOFRAY_FN Mask8 operator>(F32x8 a, F32x8 b) { return {_mm256_cmp_ps(a.v, b.v, _CMP_GT_OQ)}; }
+TOFRAY_FN Mask8 operator>=(F32x8 a, F32x8 b) { return {_mm256_cmp_ps(a.v, b.v, _CMP_GE_OQ)}; }
+TOFRAY_FN Mask8 operator==(F32x8 a, F32x8 b) { return {_mm256_cmp_ps(a.v, b.v, _CMP_EQ_OQ)}; }
+TOFRAY_FN Mask8 operator!=(F32x8 a, F32x8 b) { return {_mm256_cmp_ps(a.v, b.v, _CMP_NEQ_UQ)}; }
+
+TOFRAY_FN Mask8 operator&(Mask8 a, Mask8 b) { return {_mm256_and_ps(a.v, b.v)}; }
+TOFRAY_FN Mask8 operator|(Mask8 a, Mask8 b) { return {_mm256_or_ps(a.v, b.v)}; }
+TOFRAY_FN Mask8 operator!(Mask8 a) { return {_mm256_xor_ps(a.v, _mm256_castsi256_ps(_mm256_set1_epi32(-1)))}; }
+TOFRAY_FN bool any(Mask8 a) { return _mm256_movemask_ps(a.v) != 0; }
+TOFRAY_FN bool all(Mask8 a) { return _mm256_movemask_ps(a.v) == 0xff; }
+
+TOFRAY_FN I32x8 operator+(I32x8 a, I32x8 b) { return _mm256_add_epi32(a.v, b.v); }
+TOFRAY_FN I32x8 operator-(I32x8 a, I32x8 b) { return _mm256_sub_epi32(a.v, b.v); }
+TOFRAY_FN I32x8 operator*(I32x8 a, I32x8 b) { return _mm256_mullo_epi32(a.v, b.v); }
+TOFRAY_FN I32x8 operator&(I32x8 a, I32x8 b) { return _mm256_and_si256(a.v, b.v); }
+TOFRAY_FN I32x8 operator|(I32x8 a, I32x8 b) { return _mm256_or_si256(a.v, b.v); }
+TOFRAY_FN Mask8 operator==(I32x8 a, I32x8 b) { return {_mm256_castsi256_ps(_mm256_cmpeq_epi32(a.v, b.v))}; }
+TOFRAY_FN Mask8 operator!=(I32x8 a, I32x8 b) { return !(a == b); }
+TOFRAY_FN Mask8 operator>(I32x8 a, I32x8 b) { return {_mm256_castsi256_ps(_mm256_cmpgt_epi32(a.v, b.v))}; }
+TOFRAY_FN Mask8 operator<(I32x8 a, I32x8 b) { return b > a; }
+
+TOFRAY_FN U32x8 operator+(U32x8 a, U32x8 b) { return _mm256_add_epi32(a.v, b.v); }
+TOFRAY_FN U32x8 operator&(U32x8 a, U32x8 b) { return _mm256_and_si256(a.v, b.v); }
+TOFRAY_FN U32x8 operator|(U32x8 a, U32x8 b) { return _mm256_or_si256(a.v, b.v); }
+TOFRAY_FN U32x8 operator^(U32x8 a, U32x8 b) { return _mm256_xor_si256(a.v, b.v); }
+TOFRAY_FN U32x8 operator<<(U32x8 a, int n) { return _mm256_slli_epi32(a.v, n); }
+TOFRAY_FN U32x8 operator>>(U32x8 a, int n) { return _mm256_srli_epi32(a.v, n); }
+
+TOFRAY_FN F32x8 fma(F32x8 a, F32x8 b, F32x8 c) { return _mm256_fmadd_ps(a.v, b.v, c.v); }
+TOFRAY_FN F32x8 sqrt(F32x8 a) { return _mm256_sqrt_ps(a.v); }
+TOFRAY_FN F32x8 min(F32x8 a, F32x8 b) { return _mm256_min_ps(a.v, b.v); }
+TOFRAY_FN F32x8 max(F32x8 a, F32x8 b) { return _mm256_max_ps(a.v, b.v); }
+TOFRAY_FN F32x8 floor(F32x8 a) { return _mm256_floor_ps(a.v); }
+TOFRAY_FN F32x8 round_even(F32x8 a) { return _mm256_round_ps(a.v, _MM_FROUND_TO_NEAREST_INT | _MM_FROUND_NO_EXC); }
+TOFRAY_FN U32x8 bits(F32x8 a) { return _mm256_castps_si256(a.v); }
+TOFRAY_FN F32x8 from_bits(U32x8 a) { return _mm256_castsi256_ps(a.v); }
+TOFRAY_FN F32x8 abs(F32x8 a) { return from_bits(bits(a) & 0x7fffffffu); }
+TOFRAY_FN F32x8 copy_sign(F32x8 a, F32x8 b) { return from_bits((bits(a) & 0x7fffffffu) | (bits(b) & 0x80000000u)); }
+TOFRAY_FN F32x8 select(Mask8 m, F32x8 a, F32x8 b) { return _mm256_blendv_ps(b.v, a.v, m.v); }
+TOFRAY_FN I32x8 select(Mask8 m, I32x8 a, I32x8 b) {
+  return _mm256_castps_si256(_mm256_blendv_ps(_mm256_castsi256_ps(b.v), _mm256_castsi256_ps(a.v), m.v));
+}
+TOFRAY_FN U32x8 select(Mask8 m, U32x8 a, U32x8 b) { return select(m, I32x8(a.v), I32x8(b.v)).v; }
+TOFRAY_FN I32x8 to_int(F32x8 a) { return _mm256_cvttps_epi32(a.v); }
+TOFRAY_FN F32x8 to_float(I32x8 a) { return _mm256_cvtepi32_ps(a.v); }
+TOFRAY_FN U32x8 to_uint(I32x8 a) { return a.v; }
+TOFRAY_FN I32x8 to_signed(U32x8 a) { return a.v; }
+
+TOFRAY_FN void multiply_wide(U32x8 a, U32x8 b, U32x8& high, U32x8& low) {
+  const __m256i even = _mm256_mul_epu32(a.v, b.v);
+  const __m256i odd = _mm256_mul_epu32(_mm256_srli_epi64(a.v, 32), _mm256_srli_epi64(b.v, 32));
+  high = _mm256_blend_epi32(_mm256_srli_epi64(even, 32), odd, 0xAA);
+  low = _mm256_blend_epi32(even, _mm256_slli_epi64(odd, 32), 0xAA);
+}
+
+TOFRAY_FN F32x8 gather(const float* table, I32x8 index) { return _mm256_i32gather_ps(table, index.v, 4); }
+TOFRAY_FN I32x8 gather(const std::int32_t* table, I32x8 index) { return _mm256_i32gather_epi32(table, index.v, 4); }
+TOFRAY_FN std::int32_t first(I32x8 a) { return _mm256_cvtsi256_si32(a.v); }
+TOFRAY_FN float lane(F32x8 a, int i) {
+  alignas(32) float all_lanes[8];
+  _mm256_store_ps(all_lanes, a.v);
+  return all_lanes[i];
+}
+TOFRAY_FN std::int32_t lane(I32x8 a, int i) {
+  alignas(32) std::int32_t all_lanes[8];
+  _mm256_store_si256(reinterpret_cast<__m256i*>(all_lanes), a.v);
+  return all_lanes[i];
+}
+
+TOFRAY_FN float lowest(F32x8 a) {
+  __m128 m = _mm_min_ps(_mm256_castps256_ps128(a.v), _mm256_extractf128_ps(a.v, 1));
+  m = _mm_min_ps(m, _mm_movehl_ps(m, m));
+  return _mm_cvtss_f32(_mm_min_ss(m, _mm_movehdup_ps(m)));
+}
+TOFRAY_FN float highest(F32x8 a) {
+  __m128 m = _mm_max_ps(_mm256_castps256_ps128(a.v), _mm256_extractf128_ps(a.v, 1));
+  m = _mm_max_ps(m, _mm_movehl_ps(m, m));
+  return _mm_cvtss_f32(_mm_max_ss(m, _mm_movehdup_ps(m)));
+}
+
+template <>
+TOFRAY_FN I32x8 lane_index<F32x8>() { return _mm256_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7); }
+TOFRAY_FN __m256i first_lanes8(int n) { return _mm256_cmpgt_epi32(_mm256_set1_epi32(n), lane_index<F32x8>().v); }
+template <>
+TOFRAY_FN F32x8 load<F32x8>(const float* from, int n) { return n >= 8 ? _mm256_loadu_ps(from) : _mm256_maskload_ps(from, first_lanes8(n)); }
+template <>
+TOFRAY_FN I32x8 load_int<F32x8>(const std::int32_t* from, int n) { return _mm256_maskload_epi32(from, first_lanes8(n)); }
+TOFRAY_FN void store(float* to, F32x8 a, int n) {
+  if (n >= 8) {
+    _mm256_storeu_ps(to, a.v);
+  } else {
+    _mm256_maskstore_ps(to, first_lanes8(n), a.v);
+  }
+}
+TOFRAY_FN void store(std::int32_t* to, I32x8 a, int n) { _mm256_maskstore_epi32(to, first_lanes8(n), a.v); }
+TOFRAY_FN void store(std::uint16_t* to, I32x8 a, int n) {
+  const __m256i halves = _mm256_permute4x64_epi64(_mm256_packus_epi32(a.v, a.v), 0x08);
+  alignas(16) std::uint16_t packed[8];
+  _mm_store_si128(reinterpret_cast<__m128i*>(packed), _mm256_castsi256_si128(halves));
+  std::memcpy(to, packed, static_cast<std::size_t>(n < 8 ? n : 8) * sizeof(std::uint16_t));
+}
+TOFRAY_FN void store(std::uint8_t* to, I32x8 a, int n) {
+  alignas(32) std::int32_t wide[8];
+  _mm256_store_si256(reinterpret_cast<__m256i*>(wide), a.v);
+  for (int i = 0; i < (n < 8 ? n : 8); ++i) to[i] = static_cast<std::uint8_t>(wide[i]);
+}
+TOFRAY_FN void store3(float* to, F32x8 x, F32x8 y, F32x8 z, int n) {
+  alignas(32) float part[3][8];
+  _mm256_store_ps(part[0], x.v), _mm256_store_ps(part[1], y.v), _mm256_store_ps(part[2], z.v);
+  for (int i = 0; i < (n < 8 ? n : 8); ++i) to[3 * i] = part[0][i], to[3 * i + 1] = part[1][i], to[3 * i + 2] = part[2][i];
+}
+
+}  // namespace tofray::num

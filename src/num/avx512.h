@@ -1,0 +1,152 @@
+// SPDX-FileCopyrightText: 2026 The tofray authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include <immintrin.h>
+
+#include "num/num.h"
+
+/// Sixteen lanes with AVX-512 (F, BW, DQ, VL).
+namespace tofray::num {
+
+struct Mask16 {
+  __mmask16 v;
+};
+struct F32x16 {
+  __m512 v;
+  F32x16() = default;
+  TOFRAY_FN F32x16(__m512 a) : v(a) {}
+  TOFRAY_FN F32x16(float a) : v(_mm512_set1_ps(a)) {}
+};
+struct I32x16 {
+  __m512i v;
+  I32x16() = default;
+  TOFRAY_FN I32x16(__m512i a) : v(a) {}
+  TOFRAY_FN I32x16(std::int32_t a) : v(_mm512_set1_epi32(a)) {}
+};
+struct U32x16 {
+  __m512i v;
+  U32x16() = default;
+  TOFRAY_FN U32x16(__m512i a) : v(a) {}
+  TOFRAY_FN U32x16(std::uint32_t a) : v(_mm512_set1_epi32(static_cast<std::int32_t>(a))) {}
+};
+
+template <>
+struct Traits<F32x16> {
+  using Int = I32x16;
+  using Uint = U32x16;
+  using Mask = Mask16;
+  static constexpr int lanes = 16;
+};
+
+TOFRAY_FN F32x16 operator+(F32x16 a, F32x16 b) { return _mm512_add_ps(a.v, b.v); }
+TOFRAY_FN F32x16 operator-(F32x16 a, F32x16 b) { return _mm512_sub_ps(a.v, b.v); }
+TOFRAY_FN F32x16 operator*(F32x16 a, F32x16 b) { return _mm512_mul_ps(a.v, b.v); }
+TOFRAY_FN F32x16 operator/(F32x16 a, F32x16 b) { return _mm512_div_ps(a.v, b.v); }
+TOFRAY_FN F32x16 operator-(F32x16 a) { return _mm512_xor_ps(a.v, _mm512_set1_ps(-0.0f)); }
+TOFRAY_FN Mask16 operator<(F32x16 a, F32x16 b) { return {_mm512_cmp_ps_mask(a.v, b.v, _CMP_LT_OQ)}; }
+TOFRAY_FN Mask16 operator<=(F32x16 a, F32x16 b) { return {_mm512_cmp_ps_mask(a.v, b.v, _CMP_LE_OQ)}; }
+TOFRAY_FN Mask16 operator>(F32x16 a, F32x16 b) { return {_mm512_cmp_ps_mask(a.v, b.v, _CMP_GT_OQ)}; }
+TOFRAY_FN Mask16 operator>=(F32x16 a, F32x16 b) { return {_mm512_cmp_ps_mask(a.v, b.v, _CMP_GE_OQ)}; }
+TOFRAY_FN Mask16 operator==(F32x16 a, F32x16 b) { return {_mm512_cmp_ps_mask(a.v, b.v, _CMP_EQ_OQ)}; }
+TOFRAY_FN Mask16 operator!=(F32x16 a, F32x16 b) { return {_mm512_cmp_ps_mask(a.v, b.v, _CMP_NEQ_UQ)}; }
+
+TOFRAY_FN Mask16 operator&(Mask16 a, Mask16 b) { return {static_cast<__mmask16>(a.v & b.v)}; }
+TOFRAY_FN Mask16 operator|(Mask16 a, Mask16 b) { return {static_cast<__mmask16>(a.v | b.v)}; }
+TOFRAY_FN Mask16 operator!(Mask16 a) { return {static_cast<__mmask16>(~a.v)}; }
+TOFRAY_FN bool any(Mask16 a) { return a.v != 0; }
+TOFRAY_FN bool all(Mask16 a) { return a.v == 0xffff; }
+
+TOFRAY_FN I32x16 operator+(I32x16 a, I32x16 b) { return _mm512_add_epi32(a.v, b.v); }
+TOFRAY_FN I32x16 operator-(I32x16 a, I32x16 b) { return _mm512_sub_epi32(a.v, b.v); }
+TOFRAY_FN I32x16 operator*(I32x16 a, I32x16 b) { return _mm512_mullo_epi32(a.v, b.v); }
+TOFRAY_FN I32x16 operator&(I32x16 a, I32x16 b) { return _mm512_and_si512(a.v, b.v); }
+TOFRAY_FN I32x16 operator|(I32x16 a, I32x16 b) { return _mm512_or_si512(a.v, b.v); }
+TOFRAY_FN Mask16 operator==(I32x16 a, I32x16 b) { return {_mm512_cmpeq_epi32_mask(a.v, b.v)}; }
+TOFRAY_FN Mask16 operator!=(I32x16 a, I32x16 b) { return {_mm512_cmpneq_epi32_mask(a.v, b.v)}; }
+TOFRAY_FN Mask16 operator<(I32x16 a, I32x16 b) { return {_mm512_cmplt_epi32_mask(a.v, b.v)}; }
+TOFRAY_FN Mask16 operator>(I32x16 a, I32x16 b) { return {_mm512_cmpgt_epi32_mask(a.v, b.v)}; }
+
+TOFRAY_FN U32x16 operator+(U32x16 a, U32x16 b) { return _mm512_add_epi32(a.v, b.v); }
+TOFRAY_FN U32x16 operator&(U32x16 a, U32x16 b) { return _mm512_and_si512(a.v, b.v); }
+TOFRAY_FN U32x16 operator|(U32x16 a, U32x16 b) { return _mm512_or_si512(a.v, b.v); }
+TOFRAY_FN U32x16 operator^(U32x16 a, U32x16 b) { return _mm512_xor_si512(a.v, b.v); }
+TOFRAY_FN U32x16 operator<<(U32x16 a, int n) { return _mm512_slli_epi32(a.v, static_cast<unsigned>(n)); }
+TOFRAY_FN U32x16 operator>>(U32x16 a, int n) { return _mm512_srli_epi32(a.v, static_cast<unsigned>(n)); }
+
+TOFRAY_FN F32x16 fma(F32x16 a, F32x16 b, F32x16 c) { return _mm512_fmadd_ps(a.v, b.v, c.v); }
+TOFRAY_FN F32x16 sqrt(F32x16 a) { return _mm512_sqrt_ps(a.v); }
+TOFRAY_FN F32x16 min(F32x16 a, F32x16 b) { return _mm512_min_ps(a.v, b.v); }
+TOFRAY_FN F32x16 max(F32x16 a, F32x16 b) { return _mm512_max_ps(a.v, b.v); }
+TOFRAY_FN F32x16 floor(F32x16 a) { return _mm512_roundscale_ps(a.v, _MM_FROUND_TO_NEG_INF | _MM_FROUND_NO_EXC); }
+TOFRAY_FN F32x16 round_even(F32x16 a) { return _mm512_roundscale_ps(a.v, _MM_FROUND_TO_NEAREST_INT | _MM_FROUND_NO_EXC); }
+TOFRAY_FN U32x16 bits(F32x16 a) { return _mm512_castps_si512(a.v); }
+TOFRAY_FN F32x16 from_bits(U32x16 a) { return _mm512_castsi512_ps(a.v); }
+TOFRAY_FN F32x16 abs(F32x16 a) { return _mm512_abs_ps(a.v); }
+TOFRAY_FN F32x16 copy_sign(F32x16 a, F32x16 b) {
+  return from_bits(_mm512_ternarylogic_epi32(_mm512_set1_epi32(0x7fffffff), bits(a).v, bits(b).v, 0xCA));
+}
+TOFRAY_FN F32x16 select(Mask16 m, F32x16 a, F32x16 b) { return _mm512_mask_blend_ps(m.v, b.v, a.v); }
+TOFRAY_FN I32x16 select(Mask16 m, I32x16 a, I32x16 b) { return _mm512_mask_blend_epi32(m.v, b.v, a.v); }
+TOFRAY_FN U32x16 select(Mask16 m, U32x16 a, U32x16 b) { return _mm512_mask_blend_epi32(m.v, b.v, a.v); }
+TOFRAY_FN I32x16 to_int(F32x16 a) { return _mm512_cvttps_epi32(a.v); }
+TOFRAY_FN F32x16 to_float(I32x16 a) { return _mm512_cvtepi32_ps(a.v); }
+TOFRAY_FN U32x16 to_uint(I32x16 a) { return a.v; }
+TOFRAY_FN I32x16 to_signed(U32x16 a) { return a.v; }
+
+TOFRAY_FN void multiply_wide(U32x16 a, U32x16 b, U32x16& high, U32x16& low) {
+  const __m512i even = _mm512_mul_epu32(a.v, b.v);
+  const __m512i odd = _mm512_mul_epu32(_mm512_srli_epi64(a.v, 32), _mm512_srli_epi64(b.v, 32));
+  high = _mm512_mask_shuffle_epi32(odd, 0x5555, even, static_cast<_MM_PERM_ENUM>(0xF5));
+  low = _mm512_mask_shuffle_epi32(even, 0xAAAA, odd, static_cast<_MM_PERM_ENUM>(0xA0));
+}
+
+TOFRAY_FN F32x16 gather(const float* table, I32x16 index) { return _mm512_i32gather_ps(index.v, table, 4); }
+TOFRAY_FN I32x16 gather(const std::int32_t* table, I32x16 index) { return _mm512_i32gather_epi32(index.v, table, 4); }
+TOFRAY_FN std::int32_t first(I32x16 a) { return _mm_cvtsi128_si32(_mm512_castsi512_si128(a.v)); }
+TOFRAY_FN float lane(F32x16 a, int i) {
+  alignas(64) float all_lanes[16];
+  _mm512_store_ps(all_lanes, a.v);
+  return all_lanes[i];
+}
+TOFRAY_FN std::int32_t lane(I32x16 a, int i) {
+  alignas(64) std::int32_t all_lanes[16];
+  _mm512_store_si512(all_lanes, a.v);
+  return all_lanes[i];
+}
+
+TOFRAY_FN float lowest(F32x16 a) { return _mm512_reduce_min_ps(a.v); }
+TOFRAY_FN float highest(F32x16 a) { return _mm512_reduce_max_ps(a.v); }
+
+TOFRAY_FN __mmask16 first_lanes16(int n) { return static_cast<__mmask16>(n >= 16 ? 0xffffu : (1u << n) - 1u); }
+template <>
+TOFRAY_FN F32x16 load<F32x16>(const float* from, int n) { return _mm512_maskz_loadu_ps(first_lanes16(n), from); }
+template <>
+TOFRAY_FN I32x16 load_int<F32x16>(const std::int32_t* from, int n) { return _mm512_maskz_loadu_epi32(first_lanes16(n), from); }
+TOFRAY_FN void store(float* to, F32x16 a, int n) { _mm512_mask_storeu_ps(to, first_lanes16(n), a.v); }
+TOFRAY_FN void store(std::int32_t* to, I32x16 a, int n) { _mm512_mask_storeu_epi32(to, first_lanes16(n), a.v); }
+TOFRAY_FN void store(std::uint16_t* to, I32x16 a, int n) { _mm512_mask_cvtepi32_storeu_epi16(to, first_lanes16(n), a.v); }
+TOFRAY_FN void store(std::uint8_t* to, I32x16 a, int n) { _mm512_mask_cvtepi32_storeu_epi8(to, first_lanes16(n), a.v); }
+
+/// One third (`part` 0, 1, 2) of x0 y0 z0 x1 y1 z1 …: output element j = 16·part + i is component j mod 3 of lane j / 3.
+template <int part>
+TOFRAY_FN __m512 interleaved3(__m512 x, __m512 y, __m512 z) {
+  alignas(64) std::int32_t from_xy[16];
+  alignas(64) std::int32_t from_z[16];
+  for (int i = 0; i < 16; ++i) {
+    const int j = 16 * part + i;
+    from_xy[i] = j % 3 == 2 ? 0 : (j % 3) * 16 + j / 3;
+    from_z[i] = j % 3 == 2 ? 16 + j / 3 : i;
+  }
+  const __m512 xy = _mm512_permutex2var_ps(x, _mm512_load_si512(from_xy), y);
+  return _mm512_permutex2var_ps(xy, _mm512_load_si512(from_z), z);
+}
+TOFRAY_FN void store3(float* to, F32x16 x, F32x16 y, F32x16 z, int n) {
+  store(to, F32x16(interleaved3<0>(x.v, y.v, z.v)), 3 * n);
+  if (3 * n > 16) store(to + 16, F32x16(interleaved3<1>(x.v, y.v, z.v)), 3 * n - 16);
+  if (3 * n > 32) store(to + 32, F32x16(interleaved3<2>(x.v, y.v, z.v)), 3 * n - 32);
+}
+
+template <>
+TOFRAY_FN I32x16 lane_index<F32x16>() { return _mm512_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15); }
+
+}  // namespace tofray::num

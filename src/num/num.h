@@ -1,0 +1,130 @@
+// SPDX-FileCopyrightText: 2026 The tofray authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+
+/// The number type that kernels are written on.
+///
+/// A kernel is a template over `F`: float (scalar reference and CUDA), or a pack of 8 or 16 floats (avx2.h, avx512.h). With F come
+/// Int<F>, Uint<F> (32 bits) and Mask<F>. All of them have the operators + - * / < <= > >= == != & | ! and the free functions of this
+/// file; nothing else is needed to add a machine. Every function gives the same bits on every machine: IEEE single precision,
+/// rounded to nearest, subnormals kept; min and max are comparisons (the second argument where one is NaN).
+#if defined(__CUDACC__)
+#define TOFRAY_FN __host__ __device__ __forceinline__
+#define TOFRAY_CONSTANT __device__ constexpr
+#else
+#define TOFRAY_FN __attribute__((always_inline)) inline
+#define TOFRAY_CONSTANT inline constexpr
+#endif
+
+namespace tofray::num {
+
+template <class F>
+struct Traits;
+
+template <>
+struct Traits<float> {
+  using Int = std::int32_t;
+  using Uint = std::uint32_t;
+  using Mask = bool;
+  static constexpr int lanes = 1;
+};
+
+template <class F>
+using Int = typename Traits<F>::Int;
+template <class F>
+using Uint = typename Traits<F>::Uint;
+template <class F>
+using Mask = typename Traits<F>::Mask;
+template <class F>
+constexpr int lanes = Traits<F>::lanes;
+
+/// a·b + c, rounded once.
+TOFRAY_FN float fma(float a, float b, float c) { return __builtin_fmaf(a, b, c); }
+TOFRAY_FN float sqrt(float a) { return __builtin_sqrtf(a); }
+TOFRAY_FN float min(float a, float b) { return a < b ? a : b; }
+TOFRAY_FN float max(float a, float b) { return a > b ? a : b; }
+TOFRAY_FN float floor(float a) { return __builtin_floorf(a); }
+/// To the nearest integer, halves to the even one.
+TOFRAY_FN float round_even(float a) { return __builtin_rintf(a); }
+
+TOFRAY_FN std::uint32_t bits(float a) {
+#if defined(__CUDA_ARCH__)
+  return __float_as_uint(a);
+#else
+  return __builtin_bit_cast(std::uint32_t, a);
+#endif
+}
+TOFRAY_FN float from_bits(std::uint32_t a) {
+#if defined(__CUDA_ARCH__)
+  return __uint_as_float(a);
+#else
+  return __builtin_bit_cast(float, a);
+#endif
+}
+TOFRAY_FN float abs(float a) { return from_bits(bits(a) & 0x7fffffffu); }
+/// The magnitude of a with the sign of b.
+TOFRAY_FN float copy_sign(float a, float b) { return from_bits((bits(a) & 0x7fffffffu) | (bits(b) & 0x80000000u)); }
+
+TOFRAY_FN float select(bool m, float a, float b) { return m ? a : b; }
+TOFRAY_FN std::int32_t select(bool m, std::int32_t a, std::int32_t b) { return m ? a : b; }
+TOFRAY_FN std::uint32_t select(bool m, std::uint32_t a, std::uint32_t b) { return m ? a : b; }
+TOFRAY_FN bool any(bool m) { return m; }
+TOFRAY_FN bool all(bool m) { return m; }
+
+/// Toward zero. The argument must fit: machines differ beyond.
+TOFRAY_FN std::int32_t to_int(float a) { return static_cast<std::int32_t>(a); }
+TOFRAY_FN float to_float(std::int32_t a) { return static_cast<float>(a); }
+TOFRAY_FN std::uint32_t to_uint(std::int32_t a) { return static_cast<std::uint32_t>(a); }
+TOFRAY_FN std::int32_t to_signed(std::uint32_t a) { return static_cast<std::int32_t>(a); }
+
+/// Both halves of a 32 × 32 bit product.
+TOFRAY_FN void multiply_wide(std::uint32_t a, std::uint32_t b, std::uint32_t& high, std::uint32_t& low) {
+#if defined(__CUDA_ARCH__)
+  high = __umulhi(a, b);
+  low = a * b;
+#else
+  const std::uint64_t product = static_cast<std::uint64_t>(a) * b;
+  high = static_cast<std::uint32_t>(product >> 32);
+  low = static_cast<std::uint32_t>(product);
+#endif
+}
+
+/// table[index], lane by lane.
+TOFRAY_FN float gather(const float* table, std::int32_t index) { return table[index]; }
+TOFRAY_FN std::int32_t gather(const std::int32_t* table, std::int32_t index) { return table[index]; }
+
+/// The value of lane 0.
+TOFRAY_FN std::int32_t first(std::int32_t a) { return a; }
+/// The value of lane 0 … lanes−1.
+TOFRAY_FN float lane(float a, int) { return a; }
+TOFRAY_FN std::int32_t lane(std::int32_t a, int) { return a; }
+/// Smallest and largest of all lanes.
+TOFRAY_FN float lowest(float a) { return a; }
+TOFRAY_FN float highest(float a) { return a; }
+
+/// The first n lanes to or from memory; the others read as 0 and are not written.
+template <class F>
+TOFRAY_FN F load(const float* from, int n);
+template <class F>
+TOFRAY_FN Int<F> load_int(const std::int32_t* from, int n);
+template <>
+TOFRAY_FN float load<float>(const float* from, int) { return *from; }
+template <>
+TOFRAY_FN std::int32_t load_int<float>(const std::int32_t* from, int) { return *from; }
+TOFRAY_FN void store(float* to, float a, int) { *to = a; }
+TOFRAY_FN void store(std::int32_t* to, std::int32_t a, int) { *to = a; }
+TOFRAY_FN void store(std::uint16_t* to, std::int32_t a, int) { *to = static_cast<std::uint16_t>(a); }
+TOFRAY_FN void store(std::uint8_t* to, std::int32_t a, int) { *to = static_cast<std::uint8_t>(a); }
+/// x0 y0 z0 x1 y1 z1 …
+TOFRAY_FN void store3(float* to, float x, float y, float z, int) { to[0] = x, to[1] = y, to[2] = z; }
+
+/// 0, 1, 2 … lanes−1.
+template <class F>
+TOFRAY_FN Int<F> lane_index();
+template <>
+TOFRAY_FN std::int32_t lane_index<float>() { return 0; }
+
+}  // namespace tofray::num

@@ -1,0 +1,57 @@
+// SPDX-FileCopyrightText: 2026 The tofray authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "num/elementary.h"
+
+/// Counter-based random numbers: Philox4x32-10 (Salmon et al. 2011). No state and no order: what is drawn depends on key and
+/// counter alone, so threads, lanes, tiles and machines do not matter.
+namespace tofray::num {
+
+template <class F>
+struct Random4 {
+  Uint<F> w[4];
+};
+
+/// One block of four words for a counter (c0…c3) and a key (k0, k1). Only c0 differs from lane to lane.
+template <class F>
+TOFRAY_FN Random4<F> philox(Uint<F> c0, std::uint32_t c1, std::uint32_t c2, std::uint32_t c3, std::uint32_t k0, std::uint32_t k1) {
+  constexpr std::uint32_t m0 = 0xD2511F53u, m1 = 0xCD9E8D57u, weyl0 = 0x9E3779B9u, weyl1 = 0xBB67AE85u;
+  // The first round's second product is the same in every lane.
+  std::uint32_t uniform_high, uniform_low;
+  multiply_wide(c2, m1, uniform_high, uniform_low);
+  Uint<F> high0, low0, high1, low1;
+  multiply_wide(c0, Uint<F>(m0), high0, low0);
+  Random4<F> r{{Uint<F>(uniform_high ^ c1 ^ k0), Uint<F>(uniform_low), high0 ^ Uint<F>(c3 ^ k1), low0}};
+  for (int round = 1; round < 10; ++round) {
+    k0 += weyl0, k1 += weyl1;
+    multiply_wide(r.w[0], Uint<F>(m0), high0, low0);
+    multiply_wide(r.w[2], Uint<F>(m1), high1, low1);
+    r = {{high1 ^ r.w[1] ^ Uint<F>(k0), low1, high0 ^ r.w[3] ^ Uint<F>(k1), low0}};
+  }
+  return r;
+}
+
+/// Uniform in (0, 1): the middle of one of 2^23 equal cells.
+template <class F>
+TOFRAY_FN F uniform(Uint<F> word) {
+  return fma(to_float(to_signed(word >> 9)), F(0x1p-23f), F(0x1p-24f));
+}
+
+/// Two independent standard normals from two words (Box and Muller 1958): radius from 24 bits, angle from a quarter (2 bits) and a
+/// place in it (24 bits). |z| <= 5.9.
+template <class F>
+TOFRAY_FN void normal_pair(Uint<F> radius_word, Uint<F> angle_word, F& first, F& second) {
+  const F u = fma(to_float(to_signed(radius_word >> 8)), F(0x1p-24f), F(0x1p-24f));
+  const F radius = sqrt(log(u) * F(-2.0f));
+  // r in (−1/8, 1/8) turns, then one of four quarter turns
+  const F r = fma(to_float(to_signed((angle_word >> 6) & Uint<F>(0xffffffu))), F(0x1p-26f), F(0x1p-27f - 0.125f));
+  const F v = r * r;
+  const F s = r * fma(v, fma(v, fma(v, F(-75.3935623f), F(81.5923538f)), F(-41.3416634f)), F(6.28318548f));
+  const F c = fma(v, fma(v, fma(v, F(-85.4437408f), F(64.9393234f)), F(-19.7392082f)), F(1.0f));
+  const auto swap = to_signed(angle_word) < Int<F>(0);
+  const Uint<F> half_turn = (angle_word << 1) & Uint<F>(0x80000000u);
+  first = radius * from_bits(bits(select(swap, s, c)) ^ half_turn);
+  second = radius * from_bits(bits(select(swap, c, s)) ^ half_turn);
+}
+
+}  // namespace tofray::num

@@ -1,0 +1,122 @@
+// SPDX-FileCopyrightText: 2026 The tofray authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "camera/ray.h"
+#include "pipeline/store.h"
+#include "power/received.h"
+#include "raw/expose.h"
+#include "trace/visible.h"
+
+/// The pipeline, and the only place that knows its order:
+///
+///     ray → nearest surface → light that reaches it → power received → raw frames → depth
+///
+/// A tile of pixels goes to `see` first and on from there, so that shadow rays can be culled for what the tile sees.
+namespace tofray::pipeline {
+
+/// Which forms the pixels of a tile can meet: seen from the camera, and from each light.
+struct Near {
+  trace::Culled camera_still, camera_moving;
+  trace::Culled light_still[flow::max_lights], light_moving[flow::max_lights];
+};
+
+/// Stage 1: the nearest surface, of what stands still.
+template <class F>
+TOFRAY_FN flow::Hit<F> see_still(const Setup& s, const Near& near, const flow::Ray<F>& ray) {
+  return trace::nearest(s.scene.camera_still, near.camera_still, ray, flow::Hit<F>{F(0.0f), num::Int<F>(0)});
+}
+
+/// … and of what moves, at the time of one raw frame.
+template <class F>
+TOFRAY_FN flow::Hit<F> see_moving(const Setup& s, const Near& near, int slot, const flow::Ray<F>& ray, const flow::Hit<F>& still) {
+  return trace::nearest(s.scene.camera_moving[slot], near.camera_moving, ray, still);
+}
+
+/// Light that a surface point sends to its pixel.
+template <class F>
+struct Lighting {
+  flow::Light<F> light;
+  flow::Radiometry<F> radiometry;
+};
+
+/// Stages 1 and 2: shadow rays, then power.
+/// @param moving  whether anything that moves can stand in the way
+template <class F>
+TOFRAY_FN void light_up(const Setup& s, const Near& near, int slot, bool moving, const flow::Ray<F>& ray, const flow::Surface<F>& p, F vignetting,
+                        Lighting<F>& out) {
+  out.radiometry = {F(0.0f), F(0.0f), F(0.0f)};
+  for (int l = 0; l < s.scene.lights; ++l) {
+    const flow::Ray<F> from_light = power::light_ray(s.lights[l], p);
+    auto dark = trace::blocked(s.scene.light_still[l], near.light_still[l], from_light, p.object);
+    if (moving) {
+      dark = dark | trace::blocked(s.scene.light_moving[slot * s.scene.lights + l], near.light_moving[l], from_light, p.object);
+    }
+    power::add_light<F>(s.power, s.lights[l], p, ray, from_light, dark, vignetting, out.light.signal_rate[l], out.light.path_length[l],
+                        out.radiometry);
+  }
+  num::Mask<F> shade = F(1.0f) < F(0.0f);
+  if (s.power.ambient_kind == 2) {
+    shade = trace::blocked_parallel(s.scene.sun_still, s.power.sun_direction, p);
+    if (s.scene.slots > 1) shade = shade | trace::blocked_parallel(s.scene.sun_moving[slot], s.power.sun_direction, p);
+  }
+  out.light.ambient_rate = s.power.ambient_kind == 0 ? F(0.0f) : power::ambient_rate<F>(s.power, p, shade, vignetting);
+}
+
+/// Stage 3 for one raw frame.
+template <class F>
+TOFRAY_FN flow::Taps<F> collect(const Setup& s, const Job& job, const Pixels& p, int k, const flow::Light<F>& light, bool light_changed,
+                                raw::Exposure<F>& exposure) {
+  const flow::Taps<F> taps = raw::expose(s.sensor, k, light, s.scene.lights, light_changed, raw::FrameIndex{job.index_low, job.index_high}, exposure);
+  store_taps(s.lens.width * s.lens.height, job.out, p, k, taps);
+  if (job.out.gt_signal != nullptr) {
+    F rate = F(0.0f);
+    for (int l = 0; l < s.scene.lights; ++l) rate = rate + light.signal_rate[l];
+    const F signal = s.sensor.frame[k].lit != 0 ? rate * F(s.sensor.frame[k].integration_time) : F(0.0f);
+    num::store(job.out.gt_signal + p.index + k * s.lens.width * s.lens.height, signal, p.count);
+  }
+  return taps;
+}
+
+/// Stage 4.
+template <class F>
+TOFRAY_FN void find_depth(const Setup& s, const Job& job, const Pixels& p, const flow::Ray<F>& ray, const F* difference, num::Mask<F> clipped, F delay,
+                          F vignetting) {
+  const auto outside = !(vignetting > F(0.0f));
+  const flow::Depth<F> found = depth::decode<F>(s.decoder, difference, clipped, outside, ray, delay);
+  store(job.out.amplitude, p, found.amplitude);
+  store(job.out.ambient, p, found.ambient);
+  store_range(s, job.out, p, ray, found.range, found.noise, found.flags);
+  store(job.out.noise, p, num::select((found.flags & num::Int<F>(depth::no_return)) == num::Int<F>(0), found.noise, nan<F>()));
+}
+
+/// Stages 3 and 4: every raw frame, then depth.
+/// @param light     the light of raw frame k is light[entry[k]]
+/// @param entry     a null pointer: always light[0]
+template <class F>
+TOFRAY_FN void measure(const Setup& s, const Job& job, const Pixels& p, const flow::Ray<F>& ray, F vignetting, const flow::Light<F>* light,
+                       const std::int32_t* entry) {
+  raw::Exposure<F> exposure = raw::start<F>(s.sensor, p);
+  F difference[flow::max_raw_frames];
+  num::Mask<F> clipped = F(1.0f) < F(0.0f);
+  for (int k = 0; k < s.sensor.raw_frames; ++k) {
+    const std::int32_t now = entry != nullptr ? entry[k] : 0;
+    const bool changed = entry != nullptr && k > 0 && entry[k] != entry[k - 1];
+    const flow::Taps<F> taps = collect(s, job, p, k, light[now], changed, exposure);
+    difference[k] = taps.difference;
+    clipped = clipped | taps.saturated;
+  }
+  find_depth(s, job, p, ray, difference, clipped, exposure.delay, vignetting);
+}
+
+/// Everything that follows once the nearest surface is known, where nothing moves.
+template <class F>
+TOFRAY_FN void one_pixel(const Setup& s, const Job& job, const Near& near, const Pixels& p, const flow::Ray<F>& ray, const flow::Hit<F>& hit) {
+  const F vignetting = camera::vignetting<F>(s.lens, p);
+  const flow::Surface<F> surface = trace::surface(s.scene, ray, hit);
+  Lighting<F> lighting;
+  light_up(s, near, 0, false, ray, surface, vignetting, lighting);
+  store_truth(job.out, p, surface, lighting.radiometry);
+  measure(s, job, p, ray, vignetting, &lighting.light, nullptr);
+}
+
+}  // namespace tofray::pipeline

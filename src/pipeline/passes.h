@@ -1,0 +1,63 @@
+// SPDX-FileCopyrightText: 2026 The tofray authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "camera/ray.h"
+#include "depth/filters.h"
+#include "depth/passes.h"
+#include "pipeline/setup.h"
+#include "pipeline/store.h"
+
+/// The passes over whole images that follow the pixels: flying pixels, filters, and the range that is left.
+namespace tofray::pipeline {
+
+constexpr int rows_per_band = 8;
+
+/// Pass 1: flags flying pixels of one row; z is only read.
+template <class F>
+TOFRAY_FN void flag_flying_row(const Setup& s, const Job& job, int y) {
+  const int width = s.lens.width;
+  const bool has_rows = y > 0 && y + 1 < s.lens.height;
+  const float* z = job.out.z + y * width;
+  std::uint16_t* flags = job.out.flags + y * width;
+  const auto mark = [&](int x, bool flying) __attribute__((always_inline)) {
+    if (flying) flags[x] = static_cast<std::uint16_t>(flags[x] | depth::flying_pixel);
+  };
+  if (width < 1) return;
+  mark(0, depth::flies<float>(s.decoder, z, width, 1, has_rows, false));
+  if (width > 1) mark(width - 1, depth::flies<float>(s.decoder, z + width - 1, width, 1, has_rows, false));
+  for (int x = 1; x < width - 1; x += num::lanes<F>) {
+    const int count = width - 1 - x < num::lanes<F> ? width - 1 - x : num::lanes<F>;
+    const auto flying = depth::flies<F>(s.decoder, z + x, width, count, has_rows, true);
+    if (!num::any(flying)) continue;
+    const num::Int<F> marks = num::select(flying, num::Int<F>(1), num::Int<F>(0));
+    for (int i = 0; i < count; ++i) mark(x + i, num::lane(marks, i) != 0);
+  }
+}
+
+/// Pass 2, where a filter is on: filtered range of one row, from `out.range` to `filtered`. Flying pixels count as invalid already.
+TOFRAY_FN void filter_row(const Setup& s, const Job& job, int y) {
+  const depth::RangeImage image{job.out.range, job.out.flags, s.lens.width, s.lens.height};
+  for (int x = 0; x < image.width; ++x) {
+    float value = image.range[y * image.width + x];
+    if (image.valid(x, y)) {
+      value = job.filter == 1 ? depth::gaussian(image, x, y, job.filter_radius, job.filter_weights) : depth::median(image, x, y, job.filter_radius);
+    }
+    job.filtered[y * image.width + x] = value;
+  }
+}
+
+/// Pass 3: range (filtered or not) of one row → z, point, confidence; flying pixels become invalid.
+template <class F>
+TOFRAY_FN void settle_row(const Setup& s, const Job& job, int y, const float* range) {
+  const int width = s.lens.width;
+  for (int x = 0; x < width; x += num::lanes<F>) {
+    const Pixels p{y * width + x, width - x < num::lanes<F> ? width - x : num::lanes<F>};
+    std::int32_t flags[16], any_flying = 0;
+    for (int i = 0; i < p.count; ++i) flags[i] = job.out.flags[p.index + i], any_flying |= flags[i] & depth::flying_pixel;
+    if (any_flying == 0 && job.filter == 0) continue;
+    const F noise = num::load<F>(job.out.noise + p.index, p.count);
+    store_range(s, job.out, p, camera::ray<F>(s.lens, p), num::load<F>(range + p.index, p.count), noise, num::load_int<F>(flags, p.count));
+  }
+}
+
+}  // namespace tofray::pipeline

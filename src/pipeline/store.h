@@ -1,0 +1,67 @@
+// SPDX-FileCopyrightText: 2026 The tofray authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "depth/decode.h"
+#include "pipeline/setup.h"
+
+/// From a pixel's values to the frame's arrays. Invalid values become one written NaN: those that arithmetic makes differ between machines.
+namespace tofray::pipeline {
+
+using flow::Pixels;
+
+template <class F>
+TOFRAY_FN F nan() { return num::from_bits(num::Uint<F>(0x7fc00000u)); }
+
+template <class F>
+TOFRAY_FN void store(float* to, const Pixels& p, F value) {
+  if (to != nullptr) num::store(to + p.index, value, p.count);
+}
+template <class F>
+TOFRAY_FN void store3(float* to, const Pixels& p, F x, F y, F z) {
+  if (to != nullptr) num::store3(to + 3 * p.index, x, y, z, p.count);
+}
+
+template <class F>
+TOFRAY_FN void store_taps(int pixels, const flow::FrameView& out, const Pixels& p, int k, const flow::Taps<F>& taps) {
+  const Pixels at{p.index + k * pixels, p.count};
+  store(out.tap_a, at, taps.a);
+  store(out.tap_b, at, taps.b);
+  if (out.raw != nullptr) num::store(out.raw + at.index, num::to_int(taps.code), at.count);
+}
+
+/// What the surface shows: the paper's matrices.
+template <class F>
+TOFRAY_FN void store_truth(const flow::FrameView& out, const Pixels& p, const flow::Surface<F>& s, const flow::Radiometry<F>& r) {
+  const auto value = [&](F a) __attribute__((always_inline)) { return num::select(s.found, a, nan<F>()); };
+  store(out.gt_range, p, value(s.range));
+  store(out.gt_z, p, value(s.z));
+  store(out.gt_reflectivity, p, value(s.diffuse + s.specular));
+  store3(out.gt_position, p, value(s.x), value(s.y), value(s.z));
+  store3(out.gt_normal, p, value(s.nx), value(s.ny), value(s.nz));
+  if (out.gt_object != nullptr) num::store(out.gt_object + p.index, num::select(s.found, s.object, num::Int<F>(-1)), p.count);
+  store(out.gt_irradiance, p, r.irradiance);
+  store(out.gt_radiance, p, r.radiance);
+  store(out.gt_power, p, r.power);
+}
+
+/// Confidence 255·max(0, 1 − σ̂/0.07 m), rounded.                                                     [theory: eq. 4.10]
+template <class F>
+TOFRAY_FN num::Int<F> confidence(const camera::DecoderView& s, F noise) {
+  return num::to_int(num::round_even(F(255.0f) * num::max(num::fma(-noise, F(s.per_confidence_noise), F(1.0f)), F(0.0f))));
+}
+
+/// Point, z and confidence of a valid range; NaN and 0 elsewhere.
+template <class F>
+TOFRAY_FN void store_range(const Setup& s, const flow::FrameView& out, const Pixels& p, const flow::Ray<F>& ray, F range, F noise, num::Int<F> flags) {
+  const auto valid = (flags & num::Int<F>(depth::invalid)) == num::Int<F>(0);
+  const F z = num::select(valid, range / num::sqrt(ray.square), nan<F>());
+  store(out.z, p, z);
+  store(out.range, p, num::select(valid, range, nan<F>()));
+  store3(out.points, p, num::select(valid, ray.x * z, nan<F>()), num::select(valid, ray.y * z, nan<F>()), z);
+  if (out.confidence != nullptr) {
+    num::store(out.confidence + p.index, num::select(valid, confidence(s.decoder, noise), num::Int<F>(0)), p.count);
+  }
+  if (out.flags != nullptr) num::store(out.flags + p.index, flags, p.count);
+}
+
+}  // namespace tofray::pipeline

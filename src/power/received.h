@@ -1,0 +1,62 @@
+// SPDX-FileCopyrightText: 2026 The tofray authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "power/light_source.h"
+#include "power/paper_literal.h"
+#include "power/reflection.h"
+
+/// Stage 2: how much light each pixel receives, and over which path.
+namespace tofray::power {
+
+using flow::Light;
+using flow::Radiometry;
+using flow::Ray;
+using flow::Surface;
+using num::Mask;
+
+/// The ray from a light to the surface point, d = P − L.
+template <class F>
+TOFRAY_FN Ray<F> light_ray(const camera::LightView& light, const Surface<F>& p) {
+  return flow::make_ray(p.x - F(light.position[0]), p.y - F(light.position[1]), p.z - F(light.position[2]));
+}
+
+/// One light source: E_s = I·max(0, n·l)·V/r_L²  [eq. 2.2], L = f_r·E_s, S/t = L·(π T pitch² FF/4N²)·vignetting·λQE/(hc)  [eq. 2.5–2.7],
+/// ℓ = |P − L| + |P|  [eq. 2.8].
+template <class F>
+TOFRAY_FN void add_light(const camera::PowerView& s, const camera::LightView& light, const Surface<F>& p, const Ray<F>& ray, const Ray<F>& from_light,
+                         Mask<F> dark, F vignetting, F& rate, F& path_length, Radiometry<F>& sum) {
+  const F distance = num::sqrt(from_light.square);
+  const F per_distance = F(1.0f) / num::max(distance, F(1e-9f));
+  const F cos_light = -num::fma(p.nx, from_light.x, num::fma(p.ny, from_light.y, p.nz * from_light.z)) * per_distance;
+  const auto lit = p.found & (!dark) & (cos_light > F(0.0f));
+  const F radiant = intensity(light, from_light.x, from_light.y, from_light.z, per_distance);
+  const F irradiance = num::select(lit, radiant * cos_light * (per_distance * per_distance), F(0.0f));
+  // both directions point from the surface: to the light −from_light/r_L, to the camera −ray/|ray|
+  const F towards = num::fma(ray.x, from_light.x, num::fma(ray.y, from_light.y, ray.z * from_light.z));
+  const F cos_between = towards * per_distance / num::sqrt(ray.square);
+  F radiance = irradiance * reflection(p.diffuse, p.specular, p.exponent, cos_light, p.cos_view, cos_between);
+  F watts = radiance * F(s.watts_per_radiance) * vignetting;
+  if (s.paper_literal != 0) {
+    radiance = paper_radiance(light, p, p.found & (!dark));
+    watts = radiance * F(s.paper_scale) * vignetting;
+  }
+  rate = watts * F(light.electrons_per_joule);
+  path_length = num::select(p.found, distance + p.range, F(0.0f));
+  sum.irradiance = sum.irradiance + irradiance;
+  sum.radiance = sum.radiance + radiance;
+  sum.power = sum.power + watts;
+}
+
+/// Electrons per second from ambient light, both taps together: k_d·E_B/π through lens and pixel. [theory: eq. 2.10]
+template <class F>
+TOFRAY_FN F ambient_rate(const camera::PowerView& s, const Surface<F>& p, Mask<F> dark, F vignetting) {
+  F rate = F(s.ambient_rate) * p.diffuse * vignetting;
+  if (s.ambient_kind == 2) {
+    const float* sun = s.sun_direction;
+    const F cosine = num::fma(p.nx, F(sun[0]), num::fma(p.ny, F(sun[1]), p.nz * F(sun[2])));
+    rate = num::select(!dark, rate * num::max(cosine, F(0.0f)), F(0.0f));
+  }
+  return num::select(p.found, rate, F(0.0f));
+}
+
+}  // namespace tofray::power

@@ -1,0 +1,118 @@
+// SPDX-FileCopyrightText: 2026 The tofray authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "camera/views.h"
+#include "num/philox.h"
+#include "raw/correlation.h"
+
+/// From expected electrons to noisy charge.                                                   [theory: eq. 3.6, 3.10, 3.11]
+namespace tofray::raw {
+
+using flow::Taps;
+
+/// What a draw is for: part of the random counter, beside pixel, raw frame and frame.
+enum Purpose : std::uint32_t { shot_and_read = 0, small_counts = 1, merged = 2, suppression = 3 };
+
+struct FrameIndex {
+  std::uint32_t low, high;
+};
+
+template <class F>
+TOFRAY_FN num::Random4<F> draw(const camera::SensorView& s, num::Int<F> pixel, int raw_frame, FrameIndex frame, Purpose purpose) {
+  return num::philox<F>(num::to_uint(pixel), static_cast<std::uint32_t>(raw_frame) | (static_cast<std::uint32_t>(purpose) << 16), frame.low,
+                        frame.high, s.seed_low, s.seed_high);
+}
+
+/// Means below this are drawn by inversion, those above by the quantile expansion.
+constexpr float inversion_limit = 16.0f;
+
+/// Poisson count by inversion: the smallest k with P(N <= k) >= u. Lanes that have `mean` 0 are done at once.
+template <class F>
+TOFRAY_FN F poisson_by_inversion(F mean, F u) {
+  F term = num::exp(-mean), sum = term, count = F(0.0f);
+  for (int k = 1; k < 80; ++k) {
+    const auto more = u > sum;
+    if (!num::any(more)) break;
+    count = num::select(more, F(static_cast<float>(k)), count);
+    term = term * mean * F(1.0f / static_cast<float>(k));
+    sum = sum + term;
+  }
+  return count;
+}
+
+/// Poisson count from a standard normal: Cornish and Fisher's expansion of the quantile with the correction for whole numbers,
+/// N = ⌊λ + √λ·z + (z² + 2)/6 − (z + z³/2)/(36√λ)⌋.                                                       [eq. 3.10]
+template <class F>
+TOFRAY_FN F poisson_by_expansion(F mean, F z) {
+  const F held = num::max(mean, F(inversion_limit));
+  const F root = num::sqrt(held);
+  const F square = z * z;
+  const F first = num::fma(root, z, mean) + num::fma(square, F(1.0f / 6.0f), F(1.0f / 3.0f));
+  const F second = z * num::fma(square, F(-1.0f / 72.0f), F(-1.0f / 36.0f)) / root;
+  return num::max(num::floor(first + second), F(0.0f));
+}
+
+template <class F>
+TOFRAY_FN Means<F> expose_exact(const camera::SensorView& s, const Means<F>& mean, num::Int<F> pixel, int k, FrameIndex frame) {
+  const num::Random4<F> words = draw<F>(s, pixel, k, frame, shot_and_read);
+  F shot_a, shot_b, read_a, read_b;
+  num::normal_pair<F>(words.w[0], words.w[1], shot_a, shot_b);
+  num::normal_pair<F>(words.w[2], words.w[3], read_a, read_b);
+  F a = poisson_by_expansion(mean.a, shot_a), b = poisson_by_expansion(mean.b, shot_b);
+  const auto small_a = mean.a < F(inversion_limit), small_b = mean.b < F(inversion_limit);
+  if (num::any(small_a | small_b)) {
+    const num::Random4<F> extra = draw<F>(s, pixel, k, frame, small_counts);
+    a = num::select(small_a, poisson_by_inversion<F>(num::select(small_a, mean.a, F(0.0f)), num::uniform<F>(extra.w[0])), a);
+    b = num::select(small_b, poisson_by_inversion<F>(num::select(small_b, mean.b, F(0.0f)), num::uniform<F>(extra.w[1])), b);
+  }
+  return {num::fma(F(s.read_noise), read_a, a), num::fma(F(s.read_noise), read_b, b)};
+}
+
+/// Shot and read noise in one normal z, with the share of the skew that Poisson has in the sum:
+/// λ + √(λ + σ²)·z + (z² − 1)/6·λ/(λ + σ²).                                                               [eq. 3.11]
+template <class F>
+TOFRAY_FN F merged_normal(const camera::SensorView& s, F mean, F z) {
+  const F variance = mean + F(s.read_variance);
+  const F skew = num::fma(z, z, F(-1.0f)) * F(1.0f / 6.0f) * mean / num::max(variance, F(1e-20f));
+  return num::fma(num::sqrt(variance), z, mean) + skew;
+}
+
+/// One block of words serves two raw frames.
+template <class F>
+TOFRAY_FN Means<F> expose_fast(const camera::SensorView& s, const Means<F>& mean, int k, const num::Random4<F>& words) {
+  F a, b;
+  num::normal_pair<F>(words.w[2 * (k & 1)], words.w[2 * (k & 1) + 1], a, b);
+  return {merged_normal(s, mean.a, a), merged_normal(s, mean.b, b)};
+}
+
+/// Equal charge x = min(budget, max(0, min(A, B) − threshold)) off both taps; each removal adds its own variance factor²·x. [eq. 3.7]
+template <class F>
+TOFRAY_FN Means<F> suppress(const camera::SensorView& s, const Means<F>& charge, num::Int<F> pixel, int k, FrameIndex frame) {
+  const F excess = num::max(num::min(charge.a, charge.b) - F(s.suppression_threshold), F(0.0f));
+  const F removed = num::min(excess, F(s.suppression_budget));
+  Means<F> left{charge.a - removed, charge.b - removed};
+  if (s.noise != 0 && s.suppression_noise > 0 && num::any(removed > F(0.0f))) {
+    const num::Random4<F> words = draw<F>(s, pixel, k, frame, suppression);
+    F a, b;
+    num::normal_pair<F>(words.w[0], words.w[1], a, b);
+    const F sigma = F(s.suppression_noise) * num::sqrt(removed);
+    left.a = num::fma(sigma, a, left.a), left.b = num::fma(sigma, b, left.b);
+  }
+  return left;
+}
+
+/// Full well per tap, then A−B through the ADC: DN = round((A−B)/s + mid + offset), held to the code range.   [eq. 3.8]
+template <class F>
+TOFRAY_FN Taps<F> read_out(const camera::SensorView& s, const camera::RawFrameView& frame, const Means<F>& charge, F offset) {
+  Taps<F> out;
+  out.a = num::min(charge.a, F(s.full_well)), out.b = num::min(charge.b, F(s.full_well));
+  const F difference = out.a - out.b;
+  const F level = num::fma(difference, F(s.per_step), F(s.mid_code) + offset);
+  out.code = num::min(num::max(num::round_even(level), F(0.0f)), F(s.max_code));
+  out.difference = s.noise == 0 ? difference : (out.code - F(s.mid_code)) * F(s.step);
+  out.saturated = (charge.a >= F(s.full_well)) | (charge.b >= F(s.full_well)) | (out.code < F(s.valid_min)) | (out.code > F(s.valid_max));
+  if (frame.lit == 0) out.saturated = F(1.0f) < F(0.0f);
+  return out;
+}
+
+}  // namespace tofray::raw

@@ -1,0 +1,64 @@
+// SPDX-FileCopyrightText: 2026 The tofray authors
+// SPDX-License-Identifier: Apache-2.0
+#include "backend/cpu/cpu.h"
+#include "camera/frozen_camera.h"
+#include "num/setup_math.h"
+#include "simulator/filter.h"
+#include "simulator/frame_memory.h"
+#include "tofray/error.h"
+#include "tofray/simulator.h"
+
+namespace tofray {
+
+namespace {
+
+/// The camera with the sequence that the raw data says it was taken with.
+Camera camera_of(const Raw& raw, const Camera& profile) {
+  const auto complain = [](const std::string& what) { throw Error(ErrorKind::bad_input, "error: " + what); };
+  if (raw.width != profile.sensor.width || raw.height != profile.sensor.height) {
+    complain("raw data has " + std::to_string(raw.width) + " × " + std::to_string(raw.height) + " pixels, the camera profile " +
+             std::to_string(profile.sensor.width) + " × " + std::to_string(profile.sensor.height));
+  }
+  const std::size_t phases = static_cast<std::size_t>(raw.phases);
+  const std::size_t all = phases * static_cast<std::size_t>(raw.width) * static_cast<std::size_t>(raw.height);
+  if (raw.phases < 1) complain("raw data has no raw frames");
+  if (raw.raw.empty() ? raw.tap_a.size() != all || raw.tap_b.size() != all : raw.raw.size() != all) {
+    complain("raw data needs raw, or tap_a and tap_b, of shape [phase][height][width]");
+  }
+  if (raw.tap_a.size() != raw.tap_b.size() || (!raw.tap_a.empty() && raw.tap_a.size() != all)) complain("tap_a and tap_b must have the shape of raw");
+  if (raw.modulation_frequency_hz.size() != phases || raw.reference_phase_rad.size() != phases || raw.integration_time_s.size() != phases ||
+      raw.lit.size() != phases) {
+    complain("raw data needs modulation_frequency_hz, reference_phase_rad, integration_time_s and lit, one value for each raw frame");
+  }
+  Camera camera = profile;
+  camera.mode.sequence.clear();
+  for (std::size_t k = 0; k < phases; ++k) {
+    camera.mode.sequence.push_back({raw.lit[k] != 0, raw.modulation_frequency_hz[k], raw.reference_phase_rad[k], raw.integration_time_s[k]});
+  }
+  return camera;
+}
+
+}  // namespace
+
+Depth process(const Raw& raw, const Camera& profile, const SimulatorOptions& options) {
+  const Camera camera = camera_of(raw, profile);
+  const camera::FrozenCamera frozen(camera, static_cast<int>(options.noise), options.seed);
+  pipeline::Setup setup{};
+  setup.lens = frozen.lens();
+  setup.power = frozen.power();
+  setup.sensor = frozen.sensor(0);
+  setup.decoder = frozen.decoder();
+  pipeline::Job job{};
+  simulator::set_filter(camera.decoding.filter, job);
+  Depth depth;
+  simulator::prepare(depth, raw.width, raw.height);
+  std::vector<float> filtered(job.filter != 0 ? depth.z_m.size() : 0);
+  job.filtered = filtered.data();
+  job.out = simulator::view_of(depth);
+  const pipeline::Recording recording{raw.raw.empty() ? nullptr : raw.raw.data(), raw.tap_a.empty() ? nullptr : raw.tap_a.data(),
+                                      raw.tap_b.empty() ? nullptr : raw.tap_b.data()};
+  backend::Cpu(options.isa, options.threads, 0).run(setup, job, &recording);
+  return depth;
+}
+
+}  // namespace tofray

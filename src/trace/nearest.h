@@ -1,0 +1,78 @@
+// SPDX-FileCopyrightText: 2026 The tofray authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "trace/cull.h"
+#include "trace/shapes.h"
+
+/// Stage 1: the nearest surface along a camera ray, and whether a light reaches it.
+namespace tofray::trace {
+
+using flow::Hit;
+using flow::Surface;
+using num::Int;
+
+template <class F>
+TOFRAY_FN void keep_nearer(Hit<F>& hit, F w, Int<F> facet) {
+  const auto nearer = w > hit.w;
+  hit.facet = num::select(nearer, facet, hit.facet);
+  hit.w = num::select(nearer, w, hit.w);
+}
+
+/// The nearer of `hit` and the forms in `culled`; of two at the same place the first one stays.
+template <class F>
+TOFRAY_FN Hit<F> nearest(const scene::Forms& forms, const Culled& culled, const Ray<F>& ray, Hit<F> hit) {
+  for (int i = 0; i < culled.planes.count; ++i) {
+    const scene::PlaneForm& plane = forms.planes[culled.planes.at(i)];
+    keep_nearer(hit, inverse_range(plane, ray), Int<F>(plane.facet));
+  }
+  for (int i = 0; i < culled.spheres.count; ++i) {
+    const scene::SphereForm& sphere = forms.spheres[culled.spheres.at(i)];
+    keep_nearer(hit, inverse_range(sphere, ray), Int<F>(sphere.facet));
+  }
+  for (int i = 0; i < culled.boxes.count; ++i) {
+    const scene::BoxForm& box = forms.boxes[culled.boxes.at(i)];
+    Int<F> axis;
+    const F w = inverse_range(box, ray, axis);
+    keep_nearer(hit, w, Int<F>(box.facet) + axis);
+  }
+  for (int i = 0; i < culled.triangles.count; ++i) {
+    const scene::TriangleForm& triangle = forms.triangles[culled.triangles.at(i)];
+    keep_nearer(hit, inverse_range(triangle, ray), Int<F>(triangle.facet));
+  }
+  return hit;
+}
+
+/// Column `c` of each lane's facet. A pack that sees a single facet reads it once.
+template <class F>
+TOFRAY_FN F facet_value(const scene::Facet* facets, Int<F> facet, bool same, int c) {
+  const float* table = reinterpret_cast<const float*>(facets);
+  if (same) return F(table[num::first(facet) * scene::facet_floats + c]);
+  return num::gather(table + c, facet * Int<F>(scene::facet_floats));
+}
+
+/// Where and what the hit is: position, normal toward the camera, material.
+template <class F>
+TOFRAY_FN Surface<F> surface(const scene::SceneView& s, const Ray<F>& ray, const Hit<F>& hit) {
+  const bool same = num::all(hit.facet == Int<F>(num::first(hit.facet)));
+  const auto column = [&](int c) __attribute__((always_inline)) { return facet_value<F>(s.facets, hit.facet, same, c); };
+  Surface<F> out;
+  out.found = hit.w > F(0.0f);
+  const F t = F(1.0f) / num::select(out.found, hit.w, F(1.0f));
+  out.x = ray.x * t, out.y = ray.y * t, out.z = ray.z * t;
+  const F length = num::sqrt(ray.square);
+  out.range = length * t;
+  const F curvature = column(3);
+  const F nx = num::fma(out.x, curvature, column(0)), ny = num::fma(out.y, curvature, column(1)), nz = num::fma(out.z, curvature, column(2));
+  const F along = num::fma(nx, ray.x, num::fma(ny, ray.y, nz * ray.z));
+  const F sign = num::select(along > F(0.0f), F(-1.0f), F(1.0f));
+  out.nx = nx * sign, out.ny = ny * sign, out.nz = nz * sign;
+  out.cos_view = num::abs(along) / length;
+  out.diffuse = column(4), out.specular = F(0.0f), out.exponent = F(1.0f);
+  if (s.any_specular != 0) out.specular = column(5), out.exponent = column(6);
+  const std::int32_t* objects = reinterpret_cast<const std::int32_t*>(s.facets);
+  out.object = same ? Int<F>(objects[num::first(hit.facet) * scene::facet_floats + 7])
+                    : num::gather(objects + 7, hit.facet * Int<F>(scene::facet_floats));
+  return out;
+}
+
+}  // namespace tofray::trace
