@@ -21,7 +21,9 @@ class Json {
 
   Json() = default;
   Json(std::nullptr_t) {}
-  Json(bool value) : value_(value) {}
+  /// A true bool only: a pointer must not turn into one.
+  template <class T>
+  requires(std::is_same_v<T, bool>) Json(T value) : value_(value) {}
   template <class T>
   requires(std::is_integral_v<T> && !std::is_same_v<T, bool> && std::is_signed_v<T>) Json(T value)
       : value_(static_cast<std::int64_t>(value)) {}

@@ -92,8 +92,8 @@ std::string letters(const Cells& cells, const PictureScale& scale) {
 
 /// The scale from near to far with its ends written beside it.
 std::string legend(const PictureScale& scale, int columns, TerminalColors colors) {
-  const auto end = [&](double value) { return fmt::format("{:.{}f} m", value, scale.decimals + 1); };
-  const std::string near = end(scale.low) + " ", far = " " + end(scale.high);
+  const auto end = [&](double value, const char* form) { return fmt::format(fmt::runtime(form), value, scale.decimals + 1); };
+  const std::string near = end(scale.low, "{:.{}f} m "), far = end(scale.high, " {:.{}f} m");
   const int bar = std::clamp(columns - static_cast<int>(near.size() + far.size()), 4, 32);
   std::string text = near;
   for (int i = 0; i < bar; ++i) {

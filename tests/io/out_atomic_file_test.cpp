@@ -194,10 +194,10 @@ TEST(atomic_file, any_path_that_the_system_takes_is_good) {
   // 4 kB: one byte below the longest path there is
   std::string path = folder.path().string();
   while (path.size() < 3890) {
-    path += "/" + std::string(200, 'd');
+    path += std::string("/").append(200, 'd');
     std::filesystem::create_directory(path);
   }
-  path += "/" + std::string(4095 - 1 - path.size(), 'f');
+  path += std::string("/").append(4095 - 1 - path.size(), 'f');
   ASSERT_EQ(path.size(), 4095U);
   write_file_atomically(path, "data");
   EXPECT_EQ(read_file(path), "data");
