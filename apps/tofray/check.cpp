@@ -1,0 +1,79 @@
+// SPDX-FileCopyrightText: 2026 The tofray authors
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include "commands.h"
+#include "console.h"
+#include "inputs.h"
+#include "io/builtin.h"
+#include "io/convert.h"
+#include "io/json.h"
+#include "io/load.h"
+#include "io/provenance.h"
+#include "io/text_file.h"
+#include "tofray/error.h"
+
+namespace tofray::app {
+
+namespace {
+
+/// A camera profile is told from a scene by what it has to have.
+bool looks_like_a_profile(const std::string& text, const std::string& name) {
+  const io::Node root = io::parse_tree(text, name);
+  return root.find("objects") == nullptr && (root.find("modes") != nullptr || root.find("sensor") != nullptr || root.find("lens") != nullptr);
+}
+
+struct Report {
+  io::Json json = io::Json::object();
+  std::string text, warnings;
+};
+
+Report check_profile(const std::string& text, const std::string& name, const Options& options) {
+  CameraOptions wanted{options.mode, options.set, {}};
+  const auto load = [&] { return io::camera_from_text(text, name, io::folder_of(name), wanted); };
+  const Camera first = load();
+  // A fault can be in any mode.
+  for (const std::string& mode : first.mode_names) {
+    wanted.mode = mode;
+    Simulator(Scene(), load(), simulator_options(options));
+  }
+  Report report;
+  const std::vector<std::string> unsourced = io::unsourced_numbers(io::parse_tree(text, name));
+  for (const std::string& one : unsourced) report.warnings += fmt::format("{}: warning: this number does not say where it comes from\n", one.substr(0, one.rfind(": ")));
+  if (!unsourced.empty()) report.warnings += "  expected source: or assumed: beside it, or for its group\n";
+  report.json.set("kind", "camera").set("name", first.name).set("modes", io::Json::list(first.mode_names)).set("unsourced_numbers", io::Json::list(unsourced));
+  report.text = fmt::format("{}: good: camera {}, {} x {} pixels, {} modes\n", name, first.name, first.sensor.width, first.sensor.height, first.mode_names.size());
+  return report;
+}
+
+Report check_scene(const std::string& name, const Options& options) {
+  const Inputs in = load_inputs(name, options);
+  Simulator(in.scene, in.camera, simulator_options(options));
+  Report report;
+  report.warnings = warnings(in.scene, in.camera);
+  report.json.set("kind", "scene").set("name", in.scene.name).set("objects", in.scene.objects.size()).set("materials", in.scene.materials.size());
+  report.json.set("camera", in.camera.name).set("mode", in.camera.mode.name).set("raw_frames", in.camera.mode.sequence.size());
+  report.text = fmt::format("{}: good: scene with {} object{}, camera {} in mode {}, {} raw frames\n", name, in.scene.objects.size(),
+                            in.scene.objects.size() == 1 ? "" : "s", in.camera.name, in.camera.mode.name, in.camera.mode.sequence.size());
+  return report;
+}
+
+Report check(const Options& options) {
+  const std::string& name = options.words[0];
+  if (io::find_builtin(io::builtin_scenes(), name) != nullptr) return check_scene(name, options);
+  if (const io::Builtin* profile = io::find_builtin(io::builtin_profiles(), name)) return check_profile(std::string(profile->text), name, options);
+  const std::string text = io::read_named("scene", name, io::builtin_scenes());
+  return looks_like_a_profile(text, name) ? check_profile(text, name, options) : check_scene(name, options);
+}
+
+}  // namespace
+
+int run_check(const Options& options) {
+  Report report = check(options);
+  say(report.warnings);
+  if (options.json) print(io::json_text(report.json.set("good", true), 2) + "\n");
+  else if (!options.quiet) print(report.text);
+  return 0;
+}
+
+}  // namespace tofray::app

@@ -1,0 +1,65 @@
+// SPDX-FileCopyrightText: 2026 The tofray authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "options.h"
+
+/// What the command line knows. Parsing, help, suggestions and shell completion all come from these tables.
+namespace tofray::app {
+
+/// An option that some commands have.
+struct OptionSpec {
+  const char* name;                              ///< "--seed"
+  char letter;                                   ///< 'o' for -o; 0: none
+  const char* value;                             ///< "N" as help shows it; a null pointer: a switch
+  const char* help;
+  /// Takes the value over. @throws Error (bad_input) where it is no good
+  void (*take)(Options& options, const std::string& value);
+  std::vector<std::string> choices;              ///< for completion and suggestions; empty: anything
+  bool file = false;                             ///< completion offers files
+};
+
+struct Command {
+  const char* name;
+  const char* usage;                             ///< "SCENE [options]"
+  const char* summary;                           ///< one line
+  const char* examples;                          ///< lines "command      # what it does"
+  const char* more;                              ///< further text; may be empty
+  std::vector<const char*> options;              ///< names of OptionSpecs
+  std::size_t least_words, most_words;
+  int (*run)(const Options& options);
+  const char* completes;                         ///< what a word can be: "scenes", "files", a list of words, or ""
+};
+
+const std::vector<OptionSpec>& all_options();
+const std::vector<Command>& all_commands();
+/// The one of that name, or none.
+const Command* find_command(std::string_view name);
+const OptionSpec& option(std::string_view name);
+/// The options that a command has.
+std::vector<const OptionSpec*> options_of(const Command& command);
+
+/// Reads `arguments`, all that stands after the command's name.
+/// @throws Error (bad_input) with a suggestion where a word is near to a known one
+Options parse(const Command& command, const std::vector<std::string>& arguments);
+
+/// `tofray --help` and `tofray COMMAND --help`.
+std::string overview_text();
+std::string help_text(const Command& command);
+
+// Each returns the exit code.
+int run_demo(const Options& options);
+int run_render(const Options& options);
+int run_process(const Options& options);
+int run_inspect(const Options& options);
+int run_check(const Options& options);
+int run_list(const Options& options);
+int run_schema(const Options& options);
+int run_doctor(const Options& options);
+int run_bench(const Options& options);
+int run_completion(const Options& options);
+
+}  // namespace tofray::app

@@ -1,0 +1,99 @@
+// SPDX-FileCopyrightText: 2026 The tofray authors
+// SPDX-License-Identifier: Apache-2.0
+#include "console.h"
+
+#include <fcntl.h>
+#include <sys/ioctl.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <cerrno>
+#include <csignal>
+#include <cstdlib>
+#include <string>
+#include <system_error>
+
+#include "io/atomic_file.h"
+#include "tofray/error.h"
+
+namespace tofray::app {
+
+namespace {
+
+/// All bytes, over interruptions and short writes; false with errno set.
+bool write_all(int file, std::string_view bytes) {
+  while (!bytes.empty()) {
+    const ssize_t written = ::write(file, bytes.data(), bytes.size());
+    if (written < 0 && errno == EINTR) continue;
+    if (written <= 0) return false;
+    bytes.remove_prefix(static_cast<std::size_t>(written));
+  }
+  return true;
+}
+
+std::atomic<bool> ending{false};
+static_assert(std::atomic<bool>::is_always_lock_free);
+
+// Only async-signal-safe calls.
+extern "C" void end_on_signal(int signal) {
+  // Another thread is at it already.
+  if (ending.exchange(true)) {
+    for (;;) ::pause();
+  }
+  io::remove_live_temporaries();
+  if (signal == SIGINT && ::isatty(STDERR_FILENO) != 0) write_all(STDERR_FILENO, "\ninterrupted\n");
+  ::_exit(128 + signal);
+}
+
+bool is_set(const char* name) {
+  const char* value = std::getenv(name);
+  return value != nullptr && *value != '\0';
+}
+
+}  // namespace
+
+void secure_standard_files() {
+  // Lowest number first: open() takes the lowest that is free. stdout opened for reading refuses every write, as a closed one does.
+  const int flags[] = {O_RDONLY, O_RDONLY, O_WRONLY};
+  for (int file = 0; file < 3; ++file) {
+    if (::fcntl(file, F_GETFD) < 0 && errno == EBADF && ::open("/dev/null", flags[file]) < 0) ::_exit(static_cast<int>(ErrorKind::io));
+  }
+}
+
+void print(std::string_view text) {
+  if (!write_all(STDOUT_FILENO, text))
+    throw Error(ErrorKind::io, "error: cannot write to standard output: " + std::generic_category().message(errno));
+}
+
+void say(std::string_view text) { write_all(STDERR_FILENO, text); }
+
+bool stdout_is_terminal() { return ::isatty(STDOUT_FILENO) != 0; }
+bool stderr_is_terminal() { return ::isatty(STDERR_FILENO) != 0; }
+
+bool stdout_has_colors() {
+  const char* terminal = std::getenv("TERM");
+  return stdout_is_terminal() && !is_set("NO_COLOR") && !(terminal != nullptr && std::string_view(terminal) == "dumb");
+}
+
+int terminal_columns() {
+  winsize size{};
+  for (const int file : {STDOUT_FILENO, STDERR_FILENO}) {
+    if (::ioctl(file, TIOCGWINSZ, &size) == 0 && size.ws_col > 0) return size.ws_col;
+  }
+  const char* columns = std::getenv("COLUMNS");
+  const long wanted = columns != nullptr ? std::strtol(columns, nullptr, 10) : 0;
+  return wanted > 0 && wanted < 10'000 ? static_cast<int>(wanted) : 80;
+}
+
+void end_cleanly_on_signals() {
+  struct sigaction action {};
+  action.sa_handler = end_on_signal;
+  sigfillset(&action.sa_mask);
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGPIPE}) {
+    struct sigaction before {};
+    // nohup and shells in the background ignore some: so do we.
+    if (::sigaction(signal, nullptr, &before) == 0 && before.sa_handler != SIG_IGN) ::sigaction(signal, &action, nullptr);
+  }
+}
+
+}  // namespace tofray::app

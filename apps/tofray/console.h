@@ -1,0 +1,40 @@
+// SPDX-FileCopyrightText: 2026 The tofray authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include <string_view>
+
+/// Data goes to stdout, talk to stderr.
+namespace tofray::app {
+
+/// Opens what the caller left closed, so that no file of ours becomes stdout or stderr by accident. A closed stdout stays unwritable.
+void secure_standard_files();
+
+/// Writes data to stdout, at once and completely. @throws Error (io) where that fails
+void print(std::string_view text);
+
+/// Writes talk to stderr; where that fails nobody can be told.
+void say(std::string_view text);
+
+/// The same unless --quiet was given.
+class Talk {
+ public:
+  explicit Talk(bool quiet) : quiet_(quiet) {}
+  void operator()(std::string_view text) const {
+    if (!quiet_) say(text);
+  }
+
+ private:
+  bool quiet_;
+};
+
+bool stdout_is_terminal();
+bool stderr_is_terminal();
+/// Whether stdout is a terminal with colours, and NO_COLOR is not set (no-color.org).
+bool stdout_has_colors();
+/// Width of the terminal, COLUMNS or 80.
+int terminal_columns();
+
+/// Ctrl-C, a hang-up, a polite end and a reader that went away: unfinished files are removed, then the process ends with 128 + signal.
+void end_cleanly_on_signals();
+
+}  // namespace tofray::app

@@ -1,0 +1,59 @@
+// SPDX-FileCopyrightText: 2026 The tofray authors
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "commands.h"
+#include "console.h"
+#include "io/terminal_picture.h"
+#include "results.h"
+
+namespace tofray::app {
+
+namespace {
+
+std::string told(const Frame& frame, const Inputs& in, const Simulator& simulator, const io::OutputFolder& folder, const Stopwatch& stopwatch) {
+  const Validity pixels = validity(frame.depth);
+  const Sensor& sensor = in.camera.sensor;
+  std::string text = fmt::format("{} in mode {}: {} x {} pixels, {} raw frames, {} objects, depth as colour\n", in.camera.name, in.camera.mode.name,
+                                 sensor.width, sensor.height, in.camera.mode.sequence.size(), in.scene.objects.size());
+  text += fmt::format("{} of {} pixels have a depth{}{}\n", pixels.valid, pixels.pixels, pixels.reasons.empty() ? "" : "; invalid: ", pixels.reasons);
+  text += fmt::format("{} files in {}, {:.2f} s with {} on {} thread{}\n", folder.files().size(), folder.path().native(), stopwatch.total(), simulator.isa(),
+                      simulator.threads(), simulator.threads() == 1 ? "" : "s");
+  const std::string npz = (folder.path() / "frame.npz").native();
+  text += "\nNext:\n";
+  if (std::any_of(folder.files().begin(), folder.files().end(), [](const io::FileRecord& file) { return file.name == "frame.npz"; }))
+    text += fmt::format("  tofray inspect {} --pixel 112,86      # how one pixel gets its depth\n", npz);
+  text += "  tofray demo --set camera.illumination.0.power=\"0.02 W\"   # a tenth of the light\n";
+  text += "  tofray list scenes                                       # more scenes; `tofray render` takes your own\n";
+  return text;
+}
+
+}  // namespace
+
+int run_demo(const Options& options) {
+  Stopwatch stopwatch;
+  Inputs in = load_inputs("demo", options);
+  say(warnings(in.scene, in.camera));
+  io::OutputFolder folder(options.output.empty() ? "tofray-demo" : options.output);
+  const SimulatorOptions wanted = simulator_options(options);
+  Simulator simulator(in.scene, in.camera, wanted);
+  stopwatch.lap("prepare");
+  const Frame frame = simulator.frame(0);
+  stopwatch.lap("simulate");
+  write_frame(folder, options.emit.value_or(std::vector<std::string>{"npz", "png", "ply"}), "", frame, in, wanted);
+  stopwatch.lap("write");
+  const Machine machine{simulator.isa(), simulator.threads()};
+  write_manifest(folder, options, in.files, machine, stopwatch);
+  if (options.json) {
+    print(io::json_text(summary_json(folder, frame.depth, 1, machine, stopwatch), 2) + "\n");
+  } else {
+    const auto colors = stdout_has_colors() ? io::TerminalColors::full : io::TerminalColors::none;
+    if (!options.quiet) print(io::terminal_picture(frame.depth, std::min(terminal_columns(), 100), colors) + "\n");
+    if (!options.quiet) print(told(frame, in, simulator, folder, stopwatch));
+  }
+  return 0;
+}
+
+}  // namespace tofray::app

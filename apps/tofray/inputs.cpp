@@ -1,0 +1,76 @@
+// SPDX-FileCopyrightText: 2026 The tofray authors
+// SPDX-License-Identifier: Apache-2.0
+#include "inputs.h"
+
+#include <algorithm>
+
+#include "io/builtin.h"
+#include "io/convert.h"
+#include "io/load.h"
+#include "io/text_file.h"
+#include "tofray/error.h"
+
+namespace tofray::app {
+
+namespace {
+
+bool is_builtin_source(const std::string& source) { return source.starts_with("<"); }
+
+/// The camera that the scene asks for, out of a profile's text.
+Camera camera_of_text(const Scene& scene, const io::InputFile& profile, const std::string& mode) {
+  CameraOptions wanted;
+  wanted.mode = mode.empty() ? scene.camera.mode : mode;
+  for (const Override& one : scene.camera.overrides) wanted.set.emplace_back(one.key, one.value);
+  return io::camera_from_text(profile.text, profile.name, io::folder_of(profile.name), wanted);
+}
+
+}  // namespace
+
+Inputs load_inputs(const std::string& scene, const Options& options) {
+  Inputs in;
+  if (io::find_builtin(io::builtin_scenes(), scene) != nullptr) {
+    in.scene = io::load_scene(scene, options.set);
+    in.files.push_back({"scene", scene, {}});
+  } else {
+    // Read once, so that a pipe is good, too, and the manifest holds what was simulated.
+    const std::string text = io::read_named("scene", scene, io::builtin_scenes());
+    in.scene = io::scene_from_text(text, scene, options.set);
+    in.files.push_back({"scene", scene, text});
+  }
+  in.camera = load_camera(in.scene, {options.mode, {}, options.root});
+  if (!is_builtin_source(in.camera.source)) in.files.push_back({"profile", in.camera.source, io::read_text(in.camera.source)});
+  return in;
+}
+
+Inputs inputs_of(const io::Manifest& manifest, const Options& options) {
+  if (manifest.inputs.empty() || manifest.inputs[0].role != "scene")
+    throw Error(ErrorKind::bad_input, options.from + ": error: inputs has no scene\n  expected the manifest.json of a `tofray render`");
+  const io::InputFile& first = manifest.inputs[0];
+  Inputs in;
+  in.files = manifest.inputs;
+  in.scene = first.text.empty() ? io::load_scene(first.name, options.set) : io::scene_from_text(first.text, first.name, options.set);
+  const auto profile = std::find_if(in.files.begin(), in.files.end(), [](const io::InputFile& file) { return file.role == "profile"; });
+  in.camera = profile == in.files.end() ? load_camera(in.scene, {options.mode, {}, {}}) : camera_of_text(in.scene, *profile, options.mode);
+  return in;
+}
+
+std::string warnings(const Scene& scene, const Camera& camera) {
+  std::string text;
+  if (scene.objects.empty()) text += "warning: the scene has no objects\n  no pixel gets any light back, and every depth is invalid\n";
+  const bool power = std::any_of(camera.illumination.begin(), camera.illumination.end(), [](const Illumination& one) { return one.power_w > 0; });
+  const bool lit = std::any_of(camera.mode.sequence.begin(), camera.mode.sequence.end(), [](const RawFrame& one) { return one.lit; });
+  if (camera.illumination.empty()) text += "warning: the camera has no light source\n  every depth is invalid\n";
+  else if (!power) text += "warning: the camera's light sources have no power\n  every depth is invalid\n";
+  if (!lit) text += "warning: no raw frame of the mode is lit\n  every depth is invalid\n";
+  return text;
+}
+
+SimulatorOptions simulator_options(const Options& options) {
+  SimulatorOptions out;
+  out.seed = options.seed.value_or(0);
+  out.noise = options.noise.value_or(Noise::exact);
+  out.threads = options.threads;
+  return out;
+}
+
+}  // namespace tofray::app

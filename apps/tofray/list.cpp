@@ -1,0 +1,117 @@
+// SPDX-FileCopyrightText: 2026 The tofray authors
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include "base/text.h"
+#include "commands.h"
+#include "console.h"
+#include "io/builtin.h"
+#include "io/json.h"
+#include "io/load.h"
+#include "tofray/error.h"
+
+namespace tofray::app {
+
+namespace {
+
+io::Json list_scenes(std::string& text) {
+  io::Json json = io::Json::array();
+  for (const io::Builtin& one : io::builtin_scenes()) {
+    const Scene scene = load_scene(one.name);
+    json.push(io::Json::object().set("name", one.name).set("description", one.description).set("objects", scene.objects.size()));
+    text += fmt::format("{:<18} {}\n", one.name, one.description);
+  }
+  return json;
+}
+
+io::Json mode_json(const Camera& camera) {
+  std::vector<std::string> frequencies;
+  io::Json unlike = io::Json::array();
+  double before = 0;
+  for (const RawFrame& k : camera.mode.sequence) {
+    if (k.lit && k.modulation_frequency_hz != before) unlike.push(before = k.modulation_frequency_hz);
+  }
+  io::Json json = io::Json::object();
+  json.set("name", camera.mode.name).set("frame_rate_hz", camera.mode.frame_rate_hz).set("raw_frames", camera.mode.sequence.size());
+  return json.set("modulation_frequency_hz", std::move(unlike));
+}
+
+std::string mode_line(const Camera& camera) {
+  std::string frequencies;
+  double before = 0, longest = 0;
+  for (const RawFrame& k : camera.mode.sequence) {
+    if (!k.lit) continue;
+    longest = std::max(longest, k.integration_time_s);
+    if (k.modulation_frequency_hz == before) continue;
+    before = k.modulation_frequency_hz;
+    frequencies += fmt::format("{}{:g}", frequencies.empty() ? "" : ", ", 1e-6 * before);
+  }
+  return fmt::format("  {:<22} {:>4g} frames/s, {:>2} raw frames of up to {:g} us at {} MHz\n", camera.mode.name, camera.mode.frame_rate_hz,
+                     camera.mode.sequence.size(), 1e6 * longest, frequencies);
+}
+
+io::Json list_cameras(std::string& text) {
+  io::Json json = io::Json::array();
+  for (const io::Builtin& one : io::builtin_profiles()) {
+    const Camera camera = load_camera(one.name);
+    io::Json modes = io::Json::array();
+    text += fmt::format("{:<18} {}\n", one.name, one.description);
+    for (const std::string& name : camera.mode_names) {
+      const Camera in_mode = load_camera(one.name, {name, {}, {}});
+      modes.push(mode_json(in_mode));
+      text += mode_line(in_mode);
+    }
+    json.push(io::Json::object()
+                  .set("name", one.name)
+                  .set("description", one.description)
+                  .set("width", camera.sensor.width)
+                  .set("height", camera.sensor.height)
+                  .set("modes", std::move(modes)));
+  }
+  return json;
+}
+
+void list_materials_of(const std::string& scene_name, io::Json& json, std::string& text) {
+  const Scene scene = load_scene(scene_name);
+  for (const Material& one : scene.materials) {
+    if (one.name.empty()) continue;
+    const bool phong = one.brdf == Material::Brdf::phong;
+    json.push(io::Json::object()
+                  .set("name", one.name)
+                  .set("scene", scene.name)
+                  .set("brdf", phong ? "phong" : "lambert")
+                  .set("diffuse", one.diffuse)
+                  .set("specular", one.specular)
+                  .set("exponent", one.exponent));
+    text += fmt::format("{:<14} {:<18} {}", one.name, scene.name, phong ? "phong  " : "lambert");
+    text += phong ? fmt::format("  diffuse {:g}, specular {:g}, exponent {:g}\n", one.diffuse, one.specular, one.exponent)
+                  : fmt::format("  reflectivity {:g}\n", one.diffuse);
+  }
+}
+
+}  // namespace
+
+int run_list(const Options& options) {
+  const std::string& what = options.words[0];
+  const std::vector<std::string> kinds = {"cameras", "scenes", "materials"};
+  if (options.words.size() == 2 && what != "materials")
+    throw Error(ErrorKind::bad_input, fmt::format("error: unexpected {}\n  expected tofray list {}", base::in_quotes(options.words[1]), what));
+  std::string text;
+  io::Json json = io::Json::array();
+  if (what == "scenes") {
+    json = list_scenes(text);
+  } else if (what == "cameras") {
+    json = list_cameras(text);
+  } else if (what == "materials") {
+    if (options.words.size() == 2) list_materials_of(options.words[1], json, text);
+    else
+      for (const io::Builtin& one : io::builtin_scenes()) list_materials_of(one.name, json, text);
+  } else {
+    throw Error(ErrorKind::bad_input, fmt::format("error: there is no list of {}{}\n  expected {}", base::in_quotes(what), base::did_you_mean(what, kinds),
+                                                  base::listed(kinds)));
+  }
+  print(options.json ? io::json_text(io::Json::object().set(what, std::move(json)), 2) + "\n" : text);
+  return 0;
+}
+
+}  // namespace tofray::app

@@ -1,0 +1,112 @@
+// SPDX-FileCopyrightText: 2026 The tofray authors
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <exception>
+#include <new>
+
+#include "base/limits.h"
+#include "base/text.h"
+#include "commands.h"
+#include "console.h"
+#include "io/json.h"
+#include "io/version.h"
+#include "tofray/error.h"
+
+namespace tofray::app {
+
+namespace {
+
+bool has(const std::vector<std::string>& words, const char* word) { return std::find(words.begin(), words.end(), word) != words.end(); }
+
+void print_version(bool json) {
+  if (json) return print(io::json_text(io::Json::object().set("tofray", io::version())) + "\n");
+  print(fmt::format("tofray {}\n", io::version()));
+}
+
+void print_limits(bool json) {
+  io::Json all = io::Json::object();
+  std::string text;
+  for (const base::Limit& limit : base::all_limits) {
+    all.set(limit.name, limit.value);
+    text += fmt::format("{:<16}{:>12}  {}\n", limit.name, limit.value, limit.what);
+  }
+  print(json ? io::json_text(all, 2) + "\n" : text);
+}
+
+[[noreturn]] void unknown_command(const std::string& word) {
+  std::vector<std::string> names;
+  for (const Command& command : all_commands()) names.emplace_back(command.name);
+  if (word.starts_with('-')) {
+    std::vector<std::string> options = {"--help", "--version", "--limits"};
+    for (const OptionSpec& one : all_options()) {
+      if (word == one.name)
+        throw Error(ErrorKind::bad_input, fmt::format("error: option {} stands before the command\n  expected tofray COMMAND {} …", word, word));
+      options.emplace_back(one.name);
+    }
+    throw Error(ErrorKind::bad_input, fmt::format("error: unknown option {}{}\n  expected a command: {}", base::in_quotes(word),
+                                                  base::did_you_mean(word, options), base::listed(names)));
+  }
+  throw Error(ErrorKind::bad_input, fmt::format("error: unknown command {}{}\n  expected {}", base::in_quotes(word),
+                                                base::did_you_mean(word, names), base::listed(names)));
+}
+
+int help(const std::vector<std::string>& rest) {
+  if (rest.empty()) {
+    print(overview_text());
+  } else if (const Command* command = find_command(rest[0])) {
+    print(help_text(*command));
+  } else {
+    unknown_command(rest[0]);
+  }
+  return 0;
+}
+
+int run(const std::vector<std::string>& arguments) {
+  if (arguments.size() < 2) {
+    say(overview_text());
+    return static_cast<int>(ErrorKind::bad_input);
+  }
+  const std::string& word = arguments[1];
+  const std::vector<std::string> rest(arguments.begin() + 2, arguments.end());
+  if (word == "--help" || word == "-h" || word == "help") return help(rest);
+  if (word == "--version") return print_version(has(rest, "--json")), 0;
+  if (word == "--limits") return print_limits(has(rest, "--json")), 0;
+  const Command* command = find_command(word);
+  if (command == nullptr) unknown_command(word);
+  const auto end = std::find(rest.begin(), rest.end(), "--");
+  if (std::any_of(rest.begin(), end, [](const std::string& one) { return one == "--help" || one == "-h"; })) return help({word});
+  Options options = parse(*command, rest);
+  options.typed = arguments;
+  return command->run(options);
+}
+
+/// What went wrong as the user reads it, and the exit code.
+int guarded(const std::vector<std::string>& arguments) {
+  try {
+    return run(arguments);
+  } catch (const Error& error) {
+    say(std::string(error.what()) + "\n");
+    if (error.kind() == ErrorKind::bug) say("  this is a fault of tofray's: please report it with the output of `tofray doctor`\n");
+    return static_cast<int>(error.kind());
+  } catch (const std::bad_alloc&) {
+    say("error: out of memory\n  a smaller sensor, fewer raw frames or fewer threads need less; `tofray --limits` lists what is allowed at all\n");
+    return static_cast<int>(ErrorKind::limit);
+  } catch (const std::exception& error) {
+    say(fmt::format("error: unexpected: {}\n  this is a fault of tofray's: please report it with the output of `tofray doctor`\n", error.what()));
+  } catch (...) {
+    say("error: unexpected\n  this is a fault of tofray's: please report it with the output of `tofray doctor`\n");
+  }
+  return static_cast<int>(ErrorKind::bug);
+}
+
+}  // namespace
+
+}  // namespace tofray::app
+
+int main(int argc, char** argv) {
+  tofray::app::secure_standard_files();
+  tofray::app::end_cleanly_on_signals();
+  return tofray::app::guarded(std::vector<std::string>(argv, argv + argc));
+}

@@ -1,0 +1,31 @@
+// SPDX-FileCopyrightText: 2026 The tofray authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "tofray/simulator.h"
+
+namespace tofray::app {
+
+/// What the user wrote after `tofray COMMAND`, checked. A command sees only options that it has (see commands.h).
+struct Options {
+  std::vector<std::string> typed;                        ///< the whole command line, for manifest.json
+  std::vector<std::string> words;                        ///< what stands there without an option's name: files, names
+  std::vector<std::pair<std::string, std::string>> set;  ///< --set, in order
+  std::optional<std::uint64_t> seed;
+  std::optional<Noise> noise;
+  std::optional<std::vector<std::string>> emit;          ///< out of npz, png, ply
+  std::optional<std::uint64_t> frames;
+  std::optional<std::pair<int, int>> pixel;              ///< u, v
+  std::uint64_t first_frame = 0;
+  std::uint64_t warmup = 3;
+  int threads = 0;                                       ///< 0: one per core
+  std::string mode, camera, root, from, output;
+  bool json = false, quiet = false, compare = false;
+};
+
+}  // namespace tofray::app

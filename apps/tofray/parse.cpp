@@ -1,0 +1,77 @@
+// SPDX-FileCopyrightText: 2026 The tofray authors
+// SPDX-License-Identifier: Apache-2.0
+// The only file that sees CLI11, whose header takes seconds to compile: it takes the words apart, the tables say what they mean.
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+
+#include "base/text.h"
+#include "commands.h"
+#include "tofray/error.h"
+
+namespace tofray::app {
+
+namespace {
+
+[[noreturn]] void refuse(const Command& command, const std::string& what, const std::string& more = {}) {
+  throw Error(ErrorKind::bad_input,
+              fmt::format("error: {}\n{}  try `tofray {} --help`", what, more.empty() ? "" : "  " + more + "\n", command.name));
+}
+
+void refuse_unknown(const Command& command, const std::string& word) {
+  std::vector<std::string> names;
+  for (const OptionSpec* one : options_of(command)) names.emplace_back(one->name);
+  names.emplace_back("--help");
+  const std::string name = word.substr(0, word.find('='));
+  for (const OptionSpec& one : all_options()) {
+    if (name == one.name) refuse(command, fmt::format("`tofray {}` has no option {}", command.name, name), "it has " + base::listed(names, "and"));
+  }
+  if (word.starts_with('-'))
+    refuse(command, fmt::format("unknown option {}{}", base::in_quotes(name), base::did_you_mean(name, names)));
+  refuse(command, fmt::format("unexpected {}", base::in_quotes(word)), fmt::format("expected tofray {} {}", command.name, command.usage));
+}
+
+std::string names_of(const OptionSpec& one) { return one.letter != 0 ? fmt::format("-{},{}", one.letter, one.name) : std::string(one.name); }
+
+void add(CLI::App& app, const OptionSpec& one, Options& options) {
+  if (one.value == nullptr) {
+    app.add_flag_callback(names_of(one), [&one, &options] { one.take(options, {}); });
+    return;
+  }
+  const auto take = [&one, &options](const std::vector<std::string>& values) {
+    for (const std::string& value : values) one.take(options, value);
+    return true;
+  };
+  app.add_option(names_of(one), take)->type_name(one.value)->expected(1)->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)->allow_extra_args(false);
+}
+
+}  // namespace
+
+Options parse(const Command& command, const std::vector<std::string>& arguments) {
+  Options options;
+  CLI::App app;
+  app.set_help_flag();
+  app.allow_extras();
+  for (const OptionSpec* one : options_of(command)) add(app, *one, options);
+  std::vector<std::string> reversed(arguments.rbegin(), arguments.rend());
+  try {
+    app.parse(std::move(reversed));
+  } catch (const CLI::ParseError& error) {
+    refuse(command, error.what());
+  }
+  bool all_words = false;
+  for (const std::string& word : app.remaining()) {
+    if (!all_words && word == "--") {
+      all_words = true;
+    } else if ((!all_words && word.size() > 1 && word.starts_with('-')) || options.words.size() == command.most_words) {
+      refuse_unknown(command, word);
+    } else {
+      options.words.push_back(word);
+    }
+  }
+  if (options.words.size() < command.least_words && options.from.empty())
+    refuse(command, fmt::format("`tofray {}` needs {}", command.name, command.usage));
+  return options;
+}
+
+}  // namespace tofray::app

@@ -1,0 +1,109 @@
+// SPDX-FileCopyrightText: 2026 The tofray authors
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "base/text.h"
+#include "commands.h"
+#include "console.h"
+#include "io/version.h"
+#include "progress.h"
+#include "results.h"
+#include "tofray/error.h"
+
+namespace tofray::app {
+
+namespace {
+
+/// What a run was told, put back from its manifest. What changes no bytes (threads, folder) stays as it was typed now.
+Options recalled(const Options& now, const io::Manifest& manifest) {
+  Options options = now;
+  if (!now.words.empty() || !now.set.empty() || !now.mode.empty() || now.seed || now.noise || now.emit || now.frames || now.first_frame != 0)
+    throw Error(ErrorKind::bad_input, "error: --from makes the same bytes again and takes no other scene and no other settings\n"
+                                      "  with it there may be -o, --threads, --backend, --json and --quiet");
+  options.set = manifest.set;
+  options.seed = manifest.seed;
+  for (const auto& [key, value] : manifest.options) {
+    if (key == "mode") options.mode = value;
+    else if (key == "noise" || key == "emit" || key == "frames" || key == "first-frame") option("--" + key).take(options, value);
+    else throw Error(ErrorKind::bad_input, fmt::format("{}: error: unknown option {}\n  a newer tofray wrote this", now.from, base::in_quotes(key)));
+  }
+  if (manifest.tofray_version != io::version())
+    say(fmt::format("warning: tofray {} wrote this manifest, this is {}\n  the bytes may differ\n", manifest.tofray_version, io::version()));
+  return options;
+}
+
+/// The files whose bytes are not those of the manifest.
+std::vector<std::string> changed_files(const io::Manifest& before, const io::OutputFolder& folder) {
+  std::vector<std::string> changed;
+  for (const io::FileRecord& old : before.files) {
+    const auto same = [&](const io::FileRecord& file) { return file.name == old.name && file.sha256 == old.sha256; };
+    if (std::none_of(folder.files().begin(), folder.files().end(), same)) changed.push_back(old.name);
+  }
+  return changed;
+}
+
+std::string suffix_of(std::uint64_t index, std::uint64_t last) {
+  const std::size_t digits = std::max<std::size_t>(4, fmt::formatted_size("{}", last));
+  return fmt::format("_{:0{}}", index, digits);
+}
+
+struct Rendered {
+  Frame frame;                                   ///< the last one
+  std::uint64_t all_invalid = 0;                 ///< frames without any valid pixel
+};
+
+void render_frames(Simulator& simulator, const Options& options, const Inputs& in, io::OutputFolder& folder, Stopwatch& stopwatch, Rendered& out) {
+  const std::uint64_t frames = options.frames.value_or(1), first = options.first_frame;
+  // One frame has no number, unless it was asked for by number.
+  const bool numbered = options.frames.has_value() || first > 0;
+  const std::vector<std::string> all = {"npz", "png", "ply"}, one = {"npz"};
+  const std::vector<std::string>& emit = options.emit ? *options.emit : frames > 1 ? one : all;
+  Progress progress(frames, "frames", options.quiet);
+  for (std::uint64_t i = first; i < first + frames; ++i) {
+    simulator.frame(i, out.frame);
+    stopwatch.lap("simulate");
+    if (validity(out.frame.depth).valid == 0) ++out.all_invalid;
+    write_frame(folder, emit, numbered ? suffix_of(i, first + frames - 1) : "", out.frame, in, simulator_options(options));
+    stopwatch.lap("write");
+    progress.step();
+  }
+}
+
+void warn_of_invalid(const Rendered& out, std::uint64_t frames) {
+  if (out.all_invalid == 0) return;
+  say(fmt::format("warning: no pixel has a valid depth in {} of {} frame{}\n  in the last frame: {}\n", out.all_invalid, frames, frames == 1 ? "" : "s",
+                  validity(out.frame.depth).reasons));
+}
+
+}  // namespace
+
+int run_render(const Options& typed) {
+  Stopwatch stopwatch;
+  io::Manifest before;
+  if (!typed.from.empty()) before = io::read_manifest(typed.from);
+  const Options options = typed.from.empty() ? typed : recalled(typed, before);
+  const Inputs in = typed.from.empty() ? load_inputs(options.words[0], options) : inputs_of(before, options);
+  say(warnings(in.scene, in.camera));
+  Simulator simulator(in.scene, in.camera, simulator_options(options));
+  io::OutputFolder folder(options.output.empty() ? in.scene.name : options.output);
+  stopwatch.lap("prepare");
+
+  Rendered out;
+  const std::uint64_t frames = options.frames.value_or(1);
+  render_frames(simulator, options, in, folder, stopwatch, out);
+  const Machine machine{simulator.isa(), simulator.threads()};
+  write_manifest(folder, options, in.files, machine, stopwatch);
+  warn_of_invalid(out, frames);
+
+  if (options.json) print(io::json_text(summary_json(folder, out.frame.depth, frames, machine, stopwatch), 2) + "\n");
+  else Talk(options.quiet)(summary_text(folder, out.frame.depth, frames, machine, stopwatch));
+  const std::vector<std::string> changed = typed.from.empty() ? std::vector<std::string>() : changed_files(before, folder);
+  if (changed.empty()) return 0;
+  say(fmt::format("error: {} of {} files are not the bytes that {} lists: {}\n  it was written by tofray {} on {} ({})\n", changed.size(), before.files.size(),
+                  typed.from, base::listed(changed, "and"), before.tofray_version, before.cpu_model, before.isa));
+  return 1;
+}
+
+}  // namespace tofray::app

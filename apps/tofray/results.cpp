@@ -1,0 +1,98 @@
+// SPDX-FileCopyrightText: 2026 The tofray authors
+// SPDX-License-Identifier: Apache-2.0
+#include "results.h"
+
+#include <fmt/format.h>
+
+#include "io/meta.h"
+#include "io/pictures.h"
+#include "io/ply.h"
+#include "scene/frozen_scene.h"
+
+namespace tofray::app {
+
+namespace {
+
+std::string caption(const Frame& frame, const Inputs& inputs) {
+  std::string text = fmt::format("{} seen by {}", inputs.scene.name, inputs.camera.name);
+  if (!inputs.camera.mode.name.empty()) text += " " + inputs.camera.mode.name;
+  if (frame.index > 0) text += fmt::format(", frame {}", frame.index);
+  return text;
+}
+
+}  // namespace
+
+void Stopwatch::lap(const std::string& stage) {
+  const Clock::time_point now = Clock::now();
+  const double seconds = std::chrono::duration<double>(now - last_).count();
+  last_ = now;
+  for (auto& [name, sum] : stages_) {
+    if (name == stage) {
+      sum += seconds;
+      return;
+    }
+  }
+  stages_.emplace_back(stage, seconds);
+}
+
+double Stopwatch::total() const {
+  double sum = 0;
+  for (const auto& [name, seconds] : stages_) sum += seconds;
+  return sum;
+}
+
+io::PoseMatrix camera_pose(const Scene& scene) {
+  const scene::CameraFrame frame = scene::camera_frame(scene.camera.pose);
+  io::PoseMatrix pose{};
+  for (std::size_t i = 0; i < 3; ++i) {
+    // The frame's rotation takes world to camera: its transpose goes back.
+    for (std::size_t j = 0; j < 3; ++j) pose[4 * i + j] = frame.rotation[j][i] + 0.0;
+    pose[4 * i + 3] = frame.position[i];
+  }
+  pose[15] = 1;
+  return pose;
+}
+
+const std::vector<std::string>& flag_names() {
+  static const std::vector<std::string> names = {"saturated",           "low signal", "flying pixel", "no return", "outside the lens model",
+                                                 "inconsistent phases", "inconsistent frequencies"};
+  return names;
+}
+
+Validity validity(const Depth& depth) {
+  Validity out;
+  out.pixels = depth.flags.size();
+  std::vector<std::size_t> counts(5);
+  for (const std::uint16_t flags : depth.flags) {
+    if ((flags & flags_invalid) == 0) ++out.valid;
+    // A pixel that got nothing back is also weak and noisy: the flag that explains most comes first.
+    else if ((flags & flag_outside_lens) != 0) ++counts[4];
+    else if ((flags & flag_saturated) != 0) ++counts[0];
+    else if ((flags & flag_no_return) != 0) ++counts[3];
+    else if ((flags & flag_low_signal) != 0) ++counts[1];
+    else ++counts[2];
+  }
+  for (std::size_t i = 0; i < counts.size(); ++i) {
+    if (counts[i] > 0) out.reasons += fmt::format("{}{} {}", out.reasons.empty() ? "" : ", ", counts[i], flag_names()[i]);
+  }
+  return out;
+}
+
+void write_frame(io::OutputFolder& folder, const std::vector<std::string>& emit, const std::string& suffix, const Frame& frame,
+                 const Inputs& inputs, const SimulatorOptions& options) {
+  for (const std::string& kind : emit) {
+    if (kind == "npz") {
+      const std::string meta = io::frame_meta(inputs.scene, inputs.camera, options.seed, options.noise, frame.index);
+      folder.write("frame" + suffix + ".npz", io::frame_npz_bytes(frame, inputs.camera, camera_pose(inputs.scene), meta));
+    } else if (kind == "png") {
+      folder.write("depth" + suffix + ".png", io::depth_png(frame.depth));
+      folder.write("amplitude" + suffix + ".png", io::amplitude_png(frame.depth));
+      folder.write("raw" + suffix + ".png", io::raw_png(frame.raw));
+      folder.write("preview" + suffix + ".png", io::preview_png(frame.depth, frame.truth, caption(frame, inputs)));
+    } else {
+      folder.write("cloud" + suffix + ".ply", io::cloud_ply(frame.depth));
+    }
+  }
+}
+
+}  // namespace tofray::app

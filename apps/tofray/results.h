@@ -1,0 +1,65 @@
+// SPDX-FileCopyrightText: 2026 The tofray authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include <chrono>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "inputs.h"
+#include "io/frame_file.h"
+#include "io/json.h"
+#include "io/manifest.h"
+#include "io/output_folder.h"
+#include "options.h"
+#include "tofray/frame.h"
+
+/// What demo, render and process leave behind.
+namespace tofray::app {
+
+/// Seconds from one stage to the next, added up by name.
+class Stopwatch {
+ public:
+  /// The time since the last call (or the start) belongs to `stage`.
+  void lap(const std::string& stage);
+  [[nodiscard]] const std::vector<std::pair<std::string, double>>& stages() const { return stages_; }
+  [[nodiscard]] double total() const;
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  Clock::time_point last_ = Clock::now();
+  std::vector<std::pair<std::string, double>> stages_;
+};
+
+/// Camera to world of the scene's pose.
+io::PoseMatrix camera_pose(const Scene& scene);
+
+/// How many pixels are invalid, and the first reason of each.
+struct Validity {
+  std::size_t pixels = 0, valid = 0;
+  /// "12 low signal, 3 no return"; empty where all are valid
+  std::string reasons;
+};
+Validity validity(const Depth& depth);
+/// Name of each bit of Depth::flags, from bit 0.
+const std::vector<std::string>& flag_names();
+
+/// Writes the chosen files of one frame, each name with `suffix` before its extension. Where `truth` has no arrays, none are written.
+void write_frame(io::OutputFolder& folder, const std::vector<std::string>& emit, const std::string& suffix, const Frame& frame,
+                 const Inputs& inputs, const SimulatorOptions& options);
+
+/// What a run was computed on.
+struct Machine {
+  std::string isa;
+  int threads = 0;
+};
+
+/// Writes manifest.json, last of all: what made the other files.
+void write_manifest(io::OutputFolder& folder, const Options& options, const std::vector<io::InputFile>& inputs, const Machine& machine,
+                    const Stopwatch& stopwatch);
+
+/// How a run went, for --json and for people.
+io::Json summary_json(const io::OutputFolder& folder, const Depth& last, std::uint64_t frames, const Machine& machine, const Stopwatch& stopwatch);
+std::string summary_text(const io::OutputFolder& folder, const Depth& last, std::uint64_t frames, const Machine& machine, const Stopwatch& stopwatch);
+
+}  // namespace tofray::app

@@ -1,0 +1,15 @@
+// SPDX-FileCopyrightText: 2026 The tofray authors
+// SPDX-License-Identifier: Apache-2.0
+#include "commands.h"
+#include "console.h"
+#include "io/load.h"
+
+namespace tofray::app {
+
+int run_schema(const Options& options) {
+  const std::string text = io::schema_json(options.words[0]);
+  print(text.ends_with('\n') ? text : text + "\n");
+  return 0;
+}
+
+}  // namespace tofray::app

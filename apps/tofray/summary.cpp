@@ -1,0 +1,83 @@
+// SPDX-FileCopyrightText: 2026 The tofray authors
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include "io/json.h"
+#include "io/meta.h"
+#include "io/version.h"
+#include "results.h"
+
+namespace tofray::app {
+
+namespace {
+
+std::string joined(const std::vector<std::string>& words) {
+  std::string text;
+  for (const std::string& word : words) text += (text.empty() ? "" : ",") + word;
+  return text;
+}
+
+/// "1.2 MB".
+std::string size_text(double bytes) {
+  const char* const units[] = {"bytes", "kB", "MB", "GB", "TB"};
+  std::size_t unit = 0;
+  while (bytes >= 1000 && unit < 4) bytes /= 1000, ++unit;
+  return fmt::format("{:.{}f} {}", bytes, unit == 0 ? 0 : 1, units[unit]);
+}
+
+double stage_seconds(const Stopwatch& stopwatch, const char* stage) {
+  for (const auto& [name, seconds] : stopwatch.stages()) {
+    if (name == stage) return seconds;
+  }
+  return 0;
+}
+
+}  // namespace
+
+void write_manifest(io::OutputFolder& folder, const Options& options, const std::vector<io::InputFile>& inputs, const Machine& machine,
+                    const Stopwatch& stopwatch) {
+  io::Manifest manifest;
+  manifest.tofray_version = io::version();
+  manifest.command = options.typed;
+  manifest.inputs = inputs;
+  manifest.set = options.set;
+  if (!options.mode.empty()) manifest.options.emplace_back("mode", options.mode);
+  if (options.noise) manifest.options.emplace_back("noise", io::noise_name(*options.noise));
+  if (options.emit) manifest.options.emplace_back("emit", joined(*options.emit));
+  if (options.frames) manifest.options.emplace_back("frames", std::to_string(*options.frames));
+  if (options.first_frame > 0) manifest.options.emplace_back("first-frame", std::to_string(options.first_frame));
+  manifest.seed = options.seed.value_or(0);
+  manifest.backend = "cpu";
+  manifest.cpu_model = io::cpu_model();
+  manifest.isa = machine.isa;
+  manifest.threads = machine.threads;
+  manifest.timings_s = stopwatch.stages();
+  manifest.files = folder.files();
+  folder.write("manifest.json", io::manifest_text(manifest));
+}
+
+io::Json summary_json(const io::OutputFolder& folder, const Depth& last, std::uint64_t frames, const Machine& machine, const Stopwatch& stopwatch) {
+  io::Json files = io::Json::array(), timings = io::Json::object();
+  for (const io::FileRecord& file : folder.files())
+    files.push(io::Json::object().set("name", file.name).set("bytes", file.bytes).set("sha256", file.sha256));
+  for (const auto& [stage, seconds] : stopwatch.stages()) timings.set(stage, seconds);
+  const Validity pixels = validity(last);
+  io::Json json = io::Json::object();
+  json.set("folder", folder.path().native()).set("frames", frames).set("pixels", pixels.pixels).set("valid_pixels", pixels.valid);
+  return json.set("isa", machine.isa).set("threads", machine.threads).set("timings_s", std::move(timings)).set("files", std::move(files));
+}
+
+std::string summary_text(const io::OutputFolder& folder, const Depth& last, std::uint64_t frames, const Machine& machine, const Stopwatch& stopwatch) {
+  double bytes = 0;
+  for (const io::FileRecord& file : folder.files()) bytes += static_cast<double>(file.bytes);
+  const Validity pixels = validity(last);
+  std::string text = fmt::format("{} files, {}, in {}\n", folder.files().size(), size_text(bytes), folder.path().native());
+  text += fmt::format("{} of {} pixels {}have a depth{}{}\n", pixels.valid, pixels.pixels, frames > 1 ? "of the last frame " : "",
+                      pixels.reasons.empty() ? "" : "; invalid: ", pixels.reasons);
+  const double simulating = stage_seconds(stopwatch, "simulate");
+  if (frames > 1) text += fmt::format("{} frames in {:.2f} s: {:.1f} frames/s simulated", frames, stopwatch.total(), static_cast<double>(frames) / simulating);
+  else text += fmt::format("{:.2f} s", stopwatch.total());
+  return text + fmt::format(" with {} on {} thread{}\n", machine.isa, machine.threads, machine.threads == 1 ? "" : "s");
+}
+
+}  // namespace tofray::app
