@@ -40,7 +40,9 @@ bool encode(const Image& image, std::string& file) {
     return false;
   }
   png_set_write_fn(png, &file, append, ignore_flush);
-  png_set_compression_level(png, 6);
+  // unfiltered and at level 3: a third of the time of the defaults for about the same size, as squares of one colour repeat themselves
+  png_set_filter(png, PNG_FILTER_TYPE_BASE, PNG_FILTER_NONE);
+  png_set_compression_level(png, 3);
   png_set_IHDR(png, info, static_cast<png_uint_32>(image.width), static_cast<png_uint_32>(image.height), image.bits, image.color_type,
                PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
   png_write_info(png, info);

@@ -1,5 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The tofray authors
 // SPDX-License-Identifier: Apache-2.0
+#include "io/raw_file.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -7,8 +9,8 @@
 #include <cstring>
 
 #include "io/data_limits.h"
-#include "io/frame_file.h"
 #include "io/npz.h"
+#include "io/read_bytes.h"
 
 namespace tofray::io {
 namespace {
@@ -154,11 +156,12 @@ class RawReader {
 
 }  // namespace
 
-Raw read_raw_npz(const std::string& path) {
-  return RawReader(read_npz(path, {"raw", "tap_a", "tap_b", "modulation_frequency_hz", "reference_phase_rad", "integration_time_s",
-                                   "start_time_s", "lit"}),
-                   path)
-      .read();
+Raw parse_raw_npz(std::string_view file, const std::string& where) {
+  const std::vector<std::string> wanted = {
+      "raw", "tap_a", "tap_b", "modulation_frequency_hz", "reference_phase_rad", "integration_time_s", "start_time_s", "lit"};
+  return RawReader(parse_npz(file, where, wanted), where).read();
 }
+
+Raw read_raw_npz(const std::string& path) { return parse_raw_npz(read_bytes(path, max_data_file_bytes), path); }
 
 }  // namespace tofray::io

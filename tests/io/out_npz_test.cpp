@@ -12,6 +12,7 @@
 #include "io/npy.h"
 #include "io/npz.h"
 #include "io/out_helpers.h"
+#include "io/raw_file.h"
 
 using namespace tofray;
 using namespace tofray::io;

@@ -1,0 +1,40 @@
+// SPDX-FileCopyrightText: 2026 The tofray authors
+// SPDX-License-Identifier: Apache-2.0
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+#include "io/json.h"
+#include "io/npy.h"
+#include "io/npz.h"
+#include "io/raw_file.h"
+#include "tofray/error.h"
+
+namespace {
+
+template <class Call>
+void try_out(const Call& call) {
+  try {
+    call();
+  } catch (const tofray::Error& error) {
+    // an input may be bad or too large; anything else is a fault of ours
+    if (error.kind() != tofray::ErrorKind::bad_input && error.kind() != tofray::ErrorKind::limit) __builtin_trap();
+  }
+}
+
+}  // namespace
+
+/// Any bytes as .npy, as .npz, as raw data and as JSON: an Error or a result, nothing else.
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  const std::string_view file(reinterpret_cast<const char*>(data), size);
+  try_out([&] {
+    const tofray::io::NpyArray array = tofray::io::parse_npy(file, "fuzz");
+    for (std::size_t i = 0; array.type.kind != 'U' && i < array.count(); ++i) (void)array.number(i);
+    (void)array.text();
+  });
+  try_out([&] { (void)tofray::io::parse_npz(file, "fuzz"); });
+  try_out([&] { (void)tofray::io::parse_raw_npz(file, "fuzz"); });
+  try_out([&] { (void)tofray::io::json_text(tofray::io::parse_json(file, "fuzz")); });
+  return 0;
+}
