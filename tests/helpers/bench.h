@@ -1,0 +1,106 @@
+// SPDX-FileCopyrightText: 2026 The tofray authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include <cmath>
+#include <memory>
+#include <vector>
+
+#include "camera/frozen_camera.h"
+#include "depth/decode.h"
+#include "helpers/statistics.h"
+#include "raw/expose.h"
+
+/// One pixel on the bench: light goes in by hand, raw frames and depth come out. The plain float's kernels.
+namespace helpers {
+
+using namespace tofray;
+
+/// A camera without optics to speak of: sine, light at the pupil, no dark current, no read noise, 16 bits of 1 e⁻, wells without a bottom.
+/// @param amplitude  C: first harmonic of the correlation, for any modulation frequency
+inline Camera bench_camera(const std::vector<double>& frequencies_hz = {60.24e6}, int phases = 4, double amplitude = 0.7, bool grey = false) {
+  Camera camera;
+  camera.sensor = {1, 1, 10e-6, 1.0};
+  camera.lens.fx_px = camera.lens.fy_px = 200;
+  camera.lens.vignetting = Lens::Vignetting::off;
+  Illumination light;
+  light.power_w = 0.2;
+  light.waveform.kind = Waveform::Kind::sine;
+  camera.illumination.push_back(light);
+  camera.pixel.quantum_efficiency = {{850e-9}, {0.4}};
+  camera.pixel.contrast = {{60e6}, {amplitude * pi * pi / 8}};   // half duty: a_1 = 8/π²·K
+  camera.adc = {16, 1.0, 32768, 0, 65535};
+  camera.mode.name = "bench", camera.mode.frame_rate_hz = 5;
+  if (grey) camera.mode.sequence.push_back({false, 0, 0, 1e-3});
+  for (const double f : frequencies_hz) {
+    for (int k = 0; k < phases; ++k) camera.mode.sequence.push_back({true, f, two_pi * k / phases, 1e-3});
+  }
+  return camera;
+}
+
+/// What falls on the pixel in each raw frame of 1 ms.
+struct Incoming {
+  double signal_e = 0;      ///< S
+  double half_path_m = 0;   ///< ℓ/2
+  double ambient_e = 0;     ///< B
+};
+
+struct Measured {
+  std::vector<flow::Taps<float>> taps;
+  flow::Depth<float> depth{};
+  [[nodiscard]] double difference(std::size_t k) const { return static_cast<double>(taps[k].difference); }
+};
+
+class Bench {
+ public:
+  /// @param noise  0 off, 1 fast, 2 exact
+  explicit Bench(const Camera& camera, int noise = 0, std::uint64_t seed = 1)
+      : camera_(std::make_unique<camera::FrozenCamera>(camera, noise, seed)), sensor_(camera_->sensor(0)) {}
+
+  [[nodiscard]] const camera::SensorView& sensor() const { return sensor_; }
+  [[nodiscard]] const camera::DecoderView& decoder() const { return camera_->decoder(); }
+
+  /// All raw frames of one pixel.
+  [[nodiscard]] std::vector<flow::Taps<float>> expose(const Incoming& in, int pixel = 0, std::uint64_t frame = 0) const {
+    flow::Light<float> light{};
+    light.signal_rate[0] = static_cast<float>(in.signal_e * 1e3);
+    light.path_length[0] = static_cast<float>(2 * in.half_path_m);
+    light.ambient_rate = static_cast<float>(in.ambient_e * 1e3);
+    raw::Exposure<float> exposure = raw::start<float>(sensor_, {pixel, 1});
+    std::vector<flow::Taps<float>> taps;
+    for (int k = 0; k < sensor_.raw_frames; ++k) {
+      const raw::FrameIndex index{static_cast<std::uint32_t>(frame), static_cast<std::uint32_t>(frame >> 32)};
+      taps.push_back(raw::expose(sensor_, k, light, 1, false, index, exposure));
+    }
+    return taps;
+  }
+
+  [[nodiscard]] flow::Depth<float> decode(const std::vector<float>& difference, bool clipped = false, float delay = 0) const {
+    return depth::decode<float>(camera_->decoder(), difference.data(), clipped, false, flow::make_ray(0.0f, 0.0f, 1.0f), delay);
+  }
+
+  [[nodiscard]] Measured measure(const Incoming& in, int pixel = 0, std::uint64_t frame = 0) const {
+    Measured out;
+    out.taps = expose(in, pixel, frame);
+    std::vector<float> difference;
+    bool clipped = false;
+    for (const auto& t : out.taps) difference.push_back(t.difference), clipped = clipped || t.saturated;
+    out.depth = decode(difference, clipped, sensor_.delay != nullptr ? sensor_.delay[pixel] : 0.0f);
+    return out;
+  }
+
+  /// Phase φ̂ [turns] and amplitude Â of one modulation frequency, before any table.
+  [[nodiscard]] depth::Estimate<float> estimate(const std::vector<flow::Taps<float>>& taps, int modulation = 0) const {
+    float difference[flow::max_raw_frames] = {};
+    for (std::size_t k = 0; k < taps.size(); ++k) difference[k] = taps[k].difference;
+    return depth::estimate<float>(camera_->decoder(), modulation, difference);
+  }
+
+ private:
+  std::unique_ptr<camera::FrozenCamera> camera_;
+  camera::SensorView sensor_;
+};
+
+/// The nearest of all angles that are whole turns apart: in [−½, ½) turns.
+inline double wrapped(double turns) { return turns - std::floor(turns + 0.5); }
+
+}  // namespace helpers

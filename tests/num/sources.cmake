@@ -1,0 +1,16 @@
+# SPDX-FileCopyrightText: 2026 The tofray authors
+# SPDX-License-Identifier: Apache-2.0
+# The functions of each number type, compiled like the kernels.
+function(tofray_pack set)
+  string(TOUPPER ${set} upper)
+  add_library(test_pack_${set} OBJECT ${CMAKE_CURRENT_SOURCE_DIR}/num/pack_functions.cpp)
+  target_compile_definitions(test_pack_${set} PRIVATE PACK_${upper})
+  target_compile_options(test_pack_${set} PRIVATE -O2 -fno-math-errno -fno-trapping-math $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized> ${ARGN})
+  target_include_directories(test_pack_${set} PRIVATE ${CMAKE_CURRENT_SOURCE_DIR})
+  target_link_libraries(test_pack_${set} PRIVATE tofray_flags tofray_raw)
+  target_sources(test_num PRIVATE $<TARGET_OBJECTS:test_pack_${set}>)
+endfunction()
+tofray_pack(scalar)
+tofray_pack(scalar_fma -mavx2 -mfma)
+tofray_pack(avx2 -mavx2 -mfma)
+tofray_pack(avx512 -mavx512f -mavx512bw -mavx512dq -mavx512vl -mavx2 -mfma -mprefer-vector-width=512)

@@ -1,0 +1,226 @@
+// SPDX-FileCopyrightText: 2026 The tofray authors
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+#include "helpers/bench.h"
+
+using namespace helpers;
+
+namespace {
+
+camera::SensorView suppressing(float threshold, float budget, float factor, int noise) {
+  camera::SensorView s{};
+  s.suppression_threshold = threshold, s.suppression_budget = budget, s.suppression_noise = factor, s.noise = noise;
+  return s;
+}
+
+}  // namespace
+
+// Whole electrons, so that floats subtract exactly: the difference does not change by a bit, until the well is full.
+TEST(suppression, takes_the_same_off_both_taps) {
+  const auto s = suppressing(20000, 50000, 1, 0);
+  for (int a = 0; a <= 120000; a += 997) {
+    for (int b = 0; b <= 120000; b += 1009) {
+      const auto left = raw::suppress<float>(s, {static_cast<float>(a), static_cast<float>(b)}, 0, 0, {0, 0});
+      const int removed = std::min(50000, std::max(0, std::min(a, b) - 20000));
+      ASSERT_EQ(left.a, static_cast<float>(a - removed));
+      ASSERT_EQ(left.b, static_cast<float>(b - removed));
+    }
+  }
+}
+
+// Each tap that loses x gains a variance of factor²·x of its own. 2e5 draws: standard error of a variance 0.32 %.
+TEST(suppression, adds_the_variance_of_what_it_takes) {
+  const auto s = suppressing(1000, 1e6, 1.5f, 2);
+  Moments a(1000), b(5000), untouched(500);
+  Correlation taps(1000, 5000);
+  for (int i = 0; i < 200'000; ++i) {
+    const auto left = raw::suppress<float>(s, {9000.0f, 13000.0f}, i, 1, {2, 0});
+    a.add(static_cast<double>(left.a)), b.add(static_cast<double>(left.b)), taps.add(static_cast<double>(left.a), static_cast<double>(left.b));
+    untouched.add(static_cast<double>(raw::suppress<float>(s, {500.0f, 700.0f}, i, 1, {2, 0}).a));
+  }
+  const double expected = 1.5 * 1.5 * 8000;
+  EXPECT_NEAR(a.variance() / expected, 1, 5.5 * std::sqrt(2.0 / 200'000));
+  EXPECT_NEAR(b.variance() / expected, 1, 5.5 * std::sqrt(2.0 / 200'000));
+  EXPECT_LT(std::abs(a.mean() - 1000) / std::sqrt(expected / 200'000), 5.5);
+  EXPECT_LT(std::abs(b.mean() - 5000) / std::sqrt(expected / 200'000), 5.5);
+  EXPECT_LT(std::abs(taps.z()), 5.5);
+  EXPECT_EQ(untouched.variance(), 0.0);
+}
+
+// With suppression a pixel in the sun keeps its depth where it would clip without it.
+TEST(suppression, keeps_a_pixel_from_clipping) {
+  Camera camera = bench_camera();
+  camera.pixel.full_well_e = 100000;
+  const Incoming sunny{20000, 1.0, 250000};
+  EXPECT_NE(Bench(camera).measure(sunny).depth.flags & depth::saturated, 0);
+  camera.pixel.suppression_threshold_e = 20000, camera.pixel.suppression_budget_e = 200000;
+  const Measured kept = Bench(camera).measure(sunny);
+  EXPECT_EQ(kept.depth.flags & depth::invalid, 0);
+  EXPECT_NEAR(static_cast<double>(kept.depth.range), 1.0, 1e-5);
+}
+
+namespace {
+
+/// A row of pixels with every fixed pattern on.
+Camera patterned(int width) {
+  Camera camera = bench_camera({60.24e6}, 4, 0.7, true);
+  camera.sensor.width = width;
+  camera.pixel.prnu = 0.02, camera.pixel.dsnu_dn = 3, camera.pixel.delay_s = 20e-12;
+  return camera;
+}
+
+}  // namespace
+
+TEST(fixed_pattern, has_the_deviations_asked_for_and_no_correlation) {
+  constexpr int width = 100'000;
+  const Bench bench(patterned(width));
+  Moments gain(1), offset, delay;
+  Correlation gain_offset(1, 0), gain_delay(1, 0), neighbours(1, 1);
+  for (int i = 0; i < width; ++i) {
+    const double g = static_cast<double>(bench.sensor().gain[i]), o = static_cast<double>(bench.sensor().offset[i]);
+    gain.add(g), offset.add(o), delay.add(static_cast<double>(bench.sensor().delay[i]));
+    gain_offset.add(g, o), gain_delay.add(g, static_cast<double>(bench.sensor().delay[i]) * 1e12);
+    if (i > 0) neighbours.add(g, static_cast<double>(bench.sensor().gain[i - 1]));
+  }
+  const double tolerance = 5.5 / std::sqrt(2.0 * width);
+  EXPECT_NEAR(gain.deviation() / 0.02, 1, tolerance);
+  EXPECT_NEAR(offset.deviation() / 3, 1, tolerance);
+  EXPECT_NEAR(delay.deviation() / 20e-12, 1, tolerance);
+  EXPECT_NEAR(gain.mean(), 1, 5.5 * 0.02 / std::sqrt(width));
+  EXPECT_LT(std::abs(gain_offset.z()), 5.5);
+  EXPECT_LT(std::abs(gain_delay.z()), 5.5);
+  EXPECT_LT(std::abs(neighbours.z()), 5.5);
+}
+
+TEST(fixed_pattern, belongs_to_the_specimen_not_to_the_run) {
+  Camera camera = patterned(100);
+  const Bench one(camera, 2, 1), again(camera, 2, 99);
+  camera.pixel.pattern_seed = 2;
+  const Bench other(camera, 2, 1);
+  int equal = 0;
+  for (int i = 0; i < 100; ++i) {
+    EXPECT_EQ(one.sensor().gain[i], again.sensor().gain[i]);
+    EXPECT_EQ(one.sensor().offset[i], again.sensor().offset[i]);
+    EXPECT_EQ(one.sensor().delay[i], again.sensor().delay[i]);
+    equal += one.sensor().gain[i] == other.sensor().gain[i];
+  }
+  EXPECT_EQ(equal, 0);
+}
+
+// The mean of n frames: what changes from frame to frame falls as 1/√n, the pattern stays. 4000 pixels.
+TEST(fixed_pattern, stays_where_the_noise_averages_out) {
+  constexpr int width = 4000;
+  const Camera camera = patterned(width);
+  const Bench silent(camera, 0), noisy(camera, 2);
+  const Incoming in{20000, 1.0, 2000};
+  std::vector<double> sum(width), truth(width);
+  for (int i = 0; i < width; ++i) {
+    // without noise depth takes the unrounded difference, which has no offset pattern in it: add it
+    truth[static_cast<std::size_t>(i)] = static_cast<double>(silent.expose(in, i)[1].difference) + static_cast<double>(silent.sensor().offset[i]);
+  }
+  Moments pattern(truth[0]);
+  for (const double t : truth) pattern.add(t);
+  std::vector<double> x, y;
+  for (int n = 1; n <= 256; ++n) {
+    for (int i = 0; i < width; ++i) sum[static_cast<std::size_t>(i)] += static_cast<double>(noisy.expose(in, i, static_cast<std::uint64_t>(n))[1].difference);
+    if ((n & (n - 1)) != 0) continue;
+    double square = 0;
+    Moments mean(truth[0]);
+    for (int i = 0; i < width; ++i) {
+      const double value = sum[static_cast<std::size_t>(i)] / n, off = value - truth[static_cast<std::size_t>(i)];
+      square += off * off;
+      mean.add(value);
+    }
+    x.push_back(std::log(n)), y.push_back(0.5 * std::log(square / width));
+    const double left = square / width;   // temporal variance after n frames
+    EXPECT_NEAR(mean.variance() / (pattern.variance() + left), 1, 0.06) << n;   // 5 sigma of a variance over 2 · 4000 values or so
+  }
+  double mx = 0, my = 0, xx = 0, xy = 0;
+  const double n = static_cast<double>(x.size());
+  for (std::size_t i = 0; i < x.size(); ++i) mx += x[i] / n, my += y[i] / n;
+  for (std::size_t i = 0; i < x.size(); ++i) xx += (x[i] - mx) * (x[i] - mx), xy += (x[i] - mx) * (y[i] - my);
+  EXPECT_NEAR(xy / xx, -0.5, 0.03);
+}
+
+// The delay pattern moves what the raw frames see, and the decoder takes it out again.
+TEST(fixed_pattern, of_delays_moves_the_phase_and_is_taken_out) {
+  const Bench bench(patterned(200));
+  for (int i = 0; i < 200; ++i) {
+    const double delay = static_cast<double>(bench.sensor().delay[i]);
+    const Measured m = bench.measure({20000, 1.0, 0}, i);
+    const auto raw_phase = bench.estimate(m.taps);
+    EXPECT_NEAR(wrapped(static_cast<double>(raw_phase.turns) - 2 * 1.0 * 60.24e6 / c - delay * 60.24e6), 0, 2e-7);
+    EXPECT_NEAR(static_cast<double>(m.depth.range), 1.0, 2e-6);
+  }
+}
+
+// Electrons are linear in exposure and power until they clip.
+TEST(electrons, are_linear_in_light_and_time) {
+  Camera camera = bench_camera();
+  camera.pixel.full_well_e = 100000;
+  const auto one = Bench(camera).expose({1000, 1.0, 300});
+  for (const double factor : {0.01, 0.1, 2.0, 30.0, 100.0}) {
+    const auto brighter = Bench(camera).expose({1000 * factor, 1.0, 300 * factor});
+    Camera longer_camera = camera;
+    for (RawFrame& frame : longer_camera.mode.sequence) frame.integration_time_s *= factor;
+    const auto longer = Bench(longer_camera).expose({1000, 1.0, 300});
+    for (std::size_t k = 0; k < one.size(); ++k) {
+      EXPECT_NEAR(static_cast<double>(brighter[k].a) / (factor * static_cast<double>(one[k].a)), 1, 1e-6);
+      EXPECT_NEAR(static_cast<double>(brighter[k].b) / (factor * static_cast<double>(one[k].b)), 1, 1e-6);
+      EXPECT_NEAR(static_cast<double>(longer[k].a) / (factor * static_cast<double>(one[k].a)), 1, 1e-6);
+      EXPECT_NEAR(static_cast<double>(longer[k].b) / (factor * static_cast<double>(one[k].b)), 1, 1e-6);
+    }
+  }
+  for (const auto& taps : Bench(camera).expose({1e6, 1.0, 0})) EXPECT_LE(std::max(taps.a, taps.b), 100000.0f);
+}
+
+// Both taps together collect all the light, whatever the phase; dark current comes on top in both, unlit as well.
+TEST(electrons, of_both_taps_are_all_that_came) {
+  Camera camera = bench_camera({60.24e6}, 4, 0.7, true);
+  camera.pixel.dark_current_e_per_s = 50000;   // 50 e⁻ per tap
+  for (int i = 0; i < 50; ++i) {
+    const auto taps = Bench(camera).expose({4000, 0.05 * i, 1000});
+    EXPECT_NEAR(static_cast<double>(taps[0].a), 1000 + 50, 1e-3) << "a grey frame's gate rests on A";
+    EXPECT_NEAR(static_cast<double>(taps[0].b), 50, 1e-3);
+    for (std::size_t k = 1; k < taps.size(); ++k) {
+      EXPECT_NEAR(static_cast<double>(taps[k].a + taps[k].b), 5000 + 100, 2e-3);
+      const double phase = two_pi * (2 * 0.05 * i * 60.24e6 / c) + pi / 2 * static_cast<double>(k - 1);
+      EXPECT_NEAR(static_cast<double>(taps[k].a - taps[k].b), 4000 * 0.7 * std::cos(phase), 5e-3);
+    }
+  }
+}
+
+// Harmonics cut off near full contrast can leave a mean below zero: it counts as zero, and only dark current is left.
+TEST(electrons, are_never_expected_below_zero) {
+  Camera camera = bench_camera({60.24e6}, 4, 1.2);
+  camera.pixel.dark_current_e_per_s = 7000;
+  const auto taps = Bench(camera).expose({1000, 0, 0});
+  EXPECT_NEAR(static_cast<double>(taps[0].a), 1100 + 7, 1e-3);
+  EXPECT_FLOAT_EQ(taps[0].b, 7.0f);
+  EXPECT_FLOAT_EQ(taps[2].a, 7.0f);
+}
+
+// Light of several sources adds up as phasors: one source of twice the light, or two equal ones, are the same.
+TEST(electrons, of_several_lights_add_up) {
+  Camera camera = bench_camera({60.24e6}, 4, 0.6);
+  camera.illumination.push_back(camera.illumination[0]);
+  const Bench bench(camera);
+  flow::Light<float> light{};
+  light.signal_rate[0] = 3e6f, light.signal_rate[1] = 1e6f;
+  light.path_length[0] = 2.0f, light.path_length[1] = 3.1f;
+  auto exposure = raw::start<float>(bench.sensor(), {0, 1});
+  for (int k = 0; k < 4; ++k) {
+    const auto taps = raw::expose(bench.sensor(), k, light, 2, false, {0, 0}, exposure);
+    double expected = 0;
+    for (const auto& [signal, path] : {std::pair{3000.0, 2.0}, std::pair{1000.0, 3.1}}) {
+      const double length = static_cast<double>(static_cast<float>(path));
+      expected += 0.6 * signal * std::cos(two_pi * length * 60.24e6 / c + pi / 2 * k);
+    }
+    EXPECT_NEAR(static_cast<double>(taps.a - taps.b), expected, 2e-3);
+    EXPECT_NEAR(static_cast<double>(taps.a + taps.b), 4000, 1e-3);
+  }
+}

@@ -1,0 +1,181 @@
+// SPDX-FileCopyrightText: 2026 The tofray authors
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <vector>
+
+#include "helpers/bench.h"
+
+using namespace helpers;
+
+namespace {
+
+struct Setting {
+  double signal, ambient, read, amplitude;
+  int phases;
+  double step;
+};
+
+/// σ_φ = √(2V/N)/(S·C), V = S + B + 2σ_r² + s²/12.
+double phase_deviation(const Setting& s) {
+  const double variance = s.signal + s.ambient + 2 * s.read * s.read + s.step * s.step / 12;
+  return std::sqrt(2 * variance / s.phases) / (s.signal * s.amplitude);
+}
+
+Camera camera_of(const Setting& s) {
+  Camera camera = bench_camera({60.24e6}, s.phases, s.amplitude);
+  camera.pixel.read_noise_e = s.read;
+  camera.adc.step_e_per_dn = s.step;
+  return camera;
+}
+
+class TwoTapNoise : public testing::TestWithParam<Setting> {};
+
+/// Correlation of two draws over 2e5 pixels, in units of its standard error. Each is a mean and a function of the pixel.
+struct Stream {
+  double mean;
+  std::function<double(int pixel)> draw;
+};
+
+constexpr int samples = 200'000;
+
+double correlation(const Stream& x, const Stream& y) {
+  Correlation c(x.mean, y.mean);
+  for (int i = 0; i < samples; ++i) c.add(x.draw(i), y.draw(i));
+  return c.z();
+}
+
+/// Tap a or b of raw frame k with all that a draw is keyed by.
+struct Key {
+  int tap = 0, k = 0, shift = 0;
+  std::uint64_t frame = 0, seed = 1;
+};
+
+Stream shot(double mean, const Key& key, int noise = 2) {
+  return {mean, [=](int pixel) {
+            camera::SensorView s{};
+            s.seed_low = static_cast<std::uint32_t>(key.seed), s.seed_high = static_cast<std::uint32_t>(key.seed >> 32);
+            const raw::FrameIndex frame{static_cast<std::uint32_t>(key.frame), static_cast<std::uint32_t>(key.frame >> 32)};
+            const raw::Means<float> means{static_cast<float>(mean), static_cast<float>(mean)};
+            raw::Means<float> got;
+            if (noise == 1) {
+              got = raw::expose_fast<float>(s, means, key.k, raw::draw<float>(s, pixel + key.shift, key.k & ~1, frame, raw::merged));
+            } else {
+              got = raw::expose_exact<float>(s, means, pixel + key.shift, key.k, frame);
+            }
+            return static_cast<double>(key.tap == 0 ? got.a : got.b);
+          }};
+}
+
+}  // namespace
+
+// 2e5 samples: the deviation's own standard error is 0.16 %, so that ±1 % is 6 sigma.
+TEST_P(TwoTapNoise, of_the_phase_is_that_of_the_closed_form) {
+  const Setting setting = GetParam();
+  const double expected = phase_deviation(setting);
+  ASSERT_LT(expected, 0.1);   // first order
+  const Bench bench(camera_of(setting), 2);
+  const double phase = 0.37, half_path = phase * c / (2 * 60.24e6);
+  Moments moments, amplitude(setting.signal * setting.amplitude);
+  for (int i = 0; i < samples; ++i) {
+    const auto estimate = bench.estimate(bench.expose({setting.signal, half_path, setting.ambient}, i));
+    moments.add(wrapped(static_cast<double>(estimate.turns) - phase) * two_pi);
+    amplitude.add(static_cast<double>(estimate.amplitude));
+  }
+  EXPECT_NEAR(moments.deviation() / expected, 1, 0.01);
+  EXPECT_LT(std::abs(moments.mean()) / (expected / std::sqrt(samples)), 5);   // no bias
+  // Rice: a noisy phasor is longer by σ²/2 on average, with the standard error of a length.
+  const double rice = 1 + expected * expected / 2, error = expected / std::sqrt(samples);
+  EXPECT_LT(std::abs(amplitude.mean() / (setting.signal * setting.amplitude) - rice), 5 * error);
+}
+
+INSTANTIATE_TEST_SUITE_P(settings, TwoTapNoise,
+                         testing::Values(Setting{5000, 2000, 30, 0.7, 4, 1}, Setting{50000, 0, 0, 0.8, 4, 1}, Setting{2000, 20000, 10, 0.9, 4, 1},
+                                         Setting{10000, 1000, 50, 0.5, 3, 1}, Setting{1200, 100, 5, 0.75, 8, 1}, Setting{8000, 3000, 50, 0.81, 5, 20},
+                                         Setting{1500, 0, 50, 0.8, 4, 20}),
+                         [](const auto& which) { return "setting_" + std::to_string(which.index); });
+
+// The bias is there to be seen: at σ_φ = 0.09 it is 0.4 %, eighteen standard errors.
+TEST(amplitude, of_a_noisy_phasor_is_longer_by_rice_s_share) {
+  const Setting setting{1500, 0, 50, 0.7, 4, 1};
+  const double expected = phase_deviation(setting);
+  const Bench bench(camera_of(setting), 2);
+  Moments amplitude(1050);
+  for (int i = 0; i < samples; ++i) amplitude.add(static_cast<double>(bench.estimate(bench.expose({1500, 0.3, 0}, i)).amplitude));
+  const double error = expected / std::sqrt(samples), longer = amplitude.mean() / 1050 - 1;
+  EXPECT_GT(longer, 10 * error);
+  EXPECT_LT(std::abs(longer - expected * expected / 2), 5 * error);
+}
+
+// 2e5 pairs, |r|·√n < 5.5: false alarm 4e-8 each. Pairs that differ in one thing only, on both sides of the switch.
+TEST(draws, are_independent_of_each_other) {
+  for (const double mean : {8.0, 1000.0}) {
+    const auto base = shot(mean, {});
+    EXPECT_LT(std::abs(correlation(base, shot(mean, {.tap = 1}))), 5.5) << "taps";
+    EXPECT_LT(std::abs(correlation(base, shot(mean, {.k = 1}))), 5.5) << "raw frames";
+    EXPECT_LT(std::abs(correlation(shot(mean, {.k = 2}), shot(mean, {.tap = 1, .k = 3}))), 5.5) << "tap and raw frame";
+    EXPECT_LT(std::abs(correlation(base, shot(mean, {.shift = 1}))), 5.5) << "neighbours";
+    EXPECT_LT(std::abs(correlation(base, shot(mean, {.shift = 224}))), 5.5) << "rows";
+    EXPECT_LT(std::abs(correlation(base, shot(mean, {.frame = 1}))), 5.5) << "frames";
+    EXPECT_LT(std::abs(correlation(base, shot(mean, {.frame = 1ull << 32}))), 5.5) << "frames 2^32 apart";
+    EXPECT_LT(std::abs(correlation(base, shot(mean, {.seed = 2}))), 5.5) << "seeds";
+    EXPECT_LT(std::abs(correlation(base, shot(mean, {.seed = 1 + (1ull << 32)}))), 5.5) << "seeds 2^32 apart";
+  }
+  EXPECT_LT(std::abs(correlation(shot(8, {}), shot(1000, {}))), 5.5) << "inversion and expansion";
+}
+
+TEST(draws, of_fast_noise_are_independent_of_each_other) {
+  const auto base = shot(1000, {}, 1);
+  EXPECT_LT(std::abs(correlation(base, shot(1000, {.tap = 1}, 1))), 5.5) << "taps";
+  EXPECT_LT(std::abs(correlation(base, shot(1000, {.k = 1}, 1))), 5.5) << "raw frames of one block";
+  EXPECT_LT(std::abs(correlation(shot(1000, {.k = 1}, 1), shot(1000, {.k = 2}, 1))), 5.5) << "raw frames of two blocks";
+  EXPECT_LT(std::abs(correlation(base, shot(1000, {.tap = 1, .k = 1}, 1))), 5.5);
+  EXPECT_LT(std::abs(correlation(base, shot(1000, {.shift = 1}, 1))), 5.5) << "neighbours";
+  EXPECT_LT(std::abs(correlation(base, shot(1000, {.frame = 1}, 1))), 5.5) << "frames";
+  EXPECT_LT(std::abs(correlation(base, shot(1000, {.seed = 2}, 1))), 5.5) << "seeds";
+}
+
+// Whole sequences, as frames take them: no raw frame's A or B is like another's, in exact and fast mode.
+TEST(draws, of_a_whole_sequence_are_independent_of_each_other) {
+  for (const int noise : {1, 2}) {
+    Camera camera = bench_camera({80.32e6, 60.24e6}, 4, 0.0001, true);
+    camera.pixel.read_noise_e = 20;
+    const Bench bench(camera, noise);
+    constexpr std::size_t raw_frames = 9, taps = 2 * raw_frames;
+    std::vector<Correlation> pairs(taps * taps, Correlation(500, 500));
+    for (int i = 0; i < samples; ++i) {
+      const auto got = bench.expose({600, 1.0, 400}, i);
+      double value[taps];
+      for (std::size_t k = 0; k < raw_frames; ++k) value[2 * k] = static_cast<double>(got[k].a), value[2 * k + 1] = static_cast<double>(got[k].b);
+      for (std::size_t x = 0; x < taps; ++x) {
+        for (std::size_t y = 0; y < x; ++y) pairs[x * taps + y].add(value[x], value[y]);
+      }
+    }
+    for (std::size_t x = 0; x < taps; ++x) {
+      for (std::size_t y = 0; y < x; ++y) EXPECT_LT(std::abs(pairs[x * taps + y].z()), 6) << "noise " << noise << ": " << x << " and " << y;
+    }
+  }
+}
+
+// The same counter with and without read noise: the rest is the read noise, of the right size, and knows nothing of the shot noise.
+TEST(draws, of_read_noise_are_independent_of_shot_noise) {
+  camera::SensorView silent{}, noisy{};
+  noisy.read_noise = 16;
+  Correlation with_shot(0, 1000), between_taps(0, 0), with_other_shot(0, 1000);
+  Moments size;
+  for (int i = 0; i < samples; ++i) {
+    const auto a = raw::expose_exact<float>(silent, {1000.0f, 1000.0f}, i, 0, {0, 0}), b = raw::expose_exact<float>(noisy, {1000.0f, 1000.0f}, i, 0, {0, 0});
+    const double read_a = static_cast<double>(b.a - a.a), read_b = static_cast<double>(b.b - a.b);
+    with_shot.add(read_a, static_cast<double>(a.a));
+    with_other_shot.add(read_a, static_cast<double>(a.b));
+    between_taps.add(read_a, read_b);
+    size.add(read_a), size.add(read_b);
+  }
+  EXPECT_LT(std::abs(with_shot.z()), 5.5);
+  EXPECT_LT(std::abs(with_other_shot.z()), 5.5);
+  EXPECT_LT(std::abs(between_taps.z()), 5.5);
+  EXPECT_NEAR(size.deviation(), 16, 5.5 * 16 / std::sqrt(4.0 * samples));
+  EXPECT_LT(std::abs(size.mean()), 5.5 * 16 / std::sqrt(2.0 * samples));
+}

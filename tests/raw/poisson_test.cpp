@@ -1,0 +1,137 @@
+// SPDX-FileCopyrightText: 2026 The tofray authors
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "helpers/bench.h"
+
+using namespace helpers;
+
+namespace {
+
+/// P(N = n), in logarithms so that nothing overflows.
+double poisson(double mean, double n) { return std::exp(n * std::log(mean) - mean - std::lgamma(n + 1)); }
+
+/// Cells between whole numbers, each with a chance of about 1 in 200, and their chances.
+struct Cells {
+  std::vector<double> upper, chance;   // counts up to and including upper[i]
+};
+
+Cells cells_of(double mean) {
+  const double spread = 9 * std::sqrt(mean) + 12, first = std::max(0.0, std::floor(mean - spread));
+  Cells out;
+  double share = 0, sum = 0;
+  for (double n = first; n < mean + spread; ++n) {
+    share += poisson(mean, n);
+    if (share < 0.005) continue;
+    out.upper.push_back(n), out.chance.push_back(share);
+    sum += share, share = 0;
+  }
+  out.upper.push_back(1e30), out.chance.push_back(1 - sum);
+  return out;
+}
+
+camera::SensorView sensor(std::uint32_t seed) {
+  camera::SensorView s{};
+  s.seed_low = seed, s.noise = 2;
+  return s;
+}
+
+class Poisson : public testing::TestWithParam<double> {};
+
+constexpr int draws = 1'000'000;
+
+}  // namespace
+
+// Mean, variance and every cell of the distribution, both taps, 1e6 draws each: 60 statistics, |z| < 5.5: false alarm 2e-6 over fresh seeds.
+TEST_P(Poisson, has_mean_variance_and_shape) {
+  const double mean = GetParam();
+  const auto s = sensor(77);
+  const Cells cells = cells_of(mean);
+  for (const bool second_tap : {false, true}) {
+    Moments moments(mean);
+    std::vector<double> seen(cells.upper.size()), expected;
+    for (const double chance : cells.chance) expected.push_back(chance * draws);
+    for (int i = 0; i < draws; ++i) {
+      const auto got = raw::expose_exact<float>(s, {static_cast<float>(mean), static_cast<float>(mean)}, i, 3, {5, 0});
+      const double n = static_cast<double>(second_tap ? got.b : got.a);
+      ASSERT_EQ(n, std::floor(n));
+      ASSERT_GE(n, 0);
+      moments.add(n);
+      ++seen[static_cast<std::size_t>(std::lower_bound(cells.upper.begin(), cells.upper.end(), n) - cells.upper.begin())];
+    }
+    EXPECT_LT(std::abs(moments.mean() - mean) / std::sqrt(mean / draws), 5.5);
+    // variance of the sample variance: (μ4 − σ⁴)/n with μ4 = λ + 3λ²
+    EXPECT_LT(std::abs(moments.variance() - mean) / std::sqrt((mean + 2 * mean * mean) / draws), 5.5);
+    EXPECT_LT(std::abs(chi_square_z(seen, expected)), 5.5) << cells.upper.size() << " cells";
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(means, Poisson, testing::Values(0.1, 1.0, 3.0, 9.9, 10.1, 15.9, 16.1, 30.0, 1e3, 1e5, 1e7), [](const auto& which) {
+  std::string name = std::to_string(which.param);
+  std::replace(name.begin(), name.end(), '.', '_');
+  return name;
+});
+
+TEST(poisson, of_nothing_is_nothing) {
+  const auto s = sensor(1);
+  for (int i = 0; i < 1000; ++i) {
+    const auto got = raw::expose_exact<float>(s, {0.0f, 0.0f}, i, 0, {0, 0});
+    ASSERT_EQ(got.a, 0.0f);
+    ASSERT_EQ(got.b, 0.0f);
+  }
+}
+
+// One tap below the switch and one above draw as if alone.
+TEST(poisson, of_one_tap_does_not_depend_on_the_other) {
+  const auto s = sensor(2);
+  for (int i = 0; i < 1000; ++i) {
+    const auto small = raw::expose_exact<float>(s, {5.0f, 5.0f}, i, 0, {0, 0}), large = raw::expose_exact<float>(s, {500.0f, 500.0f}, i, 0, {0, 0});
+    const auto mixed = raw::expose_exact<float>(s, {5.0f, 500.0f}, i, 0, {0, 0}), turned = raw::expose_exact<float>(s, {500.0f, 5.0f}, i, 0, {0, 0});
+    ASSERT_EQ(mixed.a, small.a);
+    ASSERT_EQ(mixed.b, large.b);
+    ASSERT_EQ(turned.a, large.a);
+    ASSERT_EQ(turned.b, small.b);
+  }
+}
+
+// The expansion is monotone in z: no count is out of order, and z = 0 gives the median.
+TEST(poisson, by_expansion_grows_with_the_normal_it_comes_from) {
+  for (const float mean : {16.0f, 30.0f, 1e3f, 1e5f}) {
+    float before = -1;
+    for (int i = -600; i <= 600; ++i) {
+      const float n = raw::poisson_by_expansion(mean, static_cast<float>(i) * 0.01f);
+      ASSERT_GE(n, before) << mean << " at " << i;
+      before = n;
+    }
+    EXPECT_EQ(raw::poisson_by_expansion(mean, 0.0f), mean);   // the median of a whole mean is the mean
+  }
+}
+
+// Fast mode: mean λ, variance λ + σ², and Poisson's share of the skew, λ/(λ + σ²)^1.5 (to first order: the term itself adds λ²/(18(λ+σ²)²)).
+TEST(fast_noise, has_mean_variance_and_skew) {
+  for (const double read : {0.0, 5.0, 50.0}) {
+    for (const double mean : {40.0, 1e3, 1e5}) {
+      auto s = sensor(9);
+      s.read_noise = static_cast<float>(read), s.read_variance = static_cast<float>(read * read);
+      const double total = mean + read * read, share = mean / total;
+      for (const int tap : {0, 1}) {
+        Moments moments(mean);
+        num::Random4<float> words{};
+        for (int i = 0; i < draws; ++i) {
+          if (i % 2 == 0) words = raw::draw<float>(s, i, 0, {0, 0}, raw::merged);
+          const auto got = raw::expose_fast<float>(s, {static_cast<float>(mean), static_cast<float>(mean)}, i & 1, words);
+          moments.add(static_cast<double>(tap == 0 ? got.a : got.b));
+        }
+        EXPECT_LT(std::abs(moments.mean() - mean) / std::sqrt(total / draws), 5.5);
+        const double variance = total + share * share / 18;   // of (z² − 1)/6·share: 2/36
+        EXPECT_LT(std::abs(moments.variance() / variance - 1) / std::sqrt(2.0 / draws), 5.5) << mean;
+        EXPECT_NEAR(moments.skewness(), mean / std::pow(total, 1.5), 5.5 * std::sqrt(6.0 / draws) + 0.01 * share) << mean << " " << read;
+      }
+    }
+  }
+}
