@@ -31,8 +31,9 @@ inline constexpr Limit table_samples{"table_samples", 1 << 20, "samples of one l
 
 /// All of them, in the order in which they are printed.
 inline constexpr Limit all_limits[] = {
-    limit::file_bytes, limit::nesting_depth, limit::nodes, limit::faults_shown, limit::objects, limit::materials, limit::lights,
-    limit::raw_frames, limit::modes, limit::sensor_side, limit::sensor_pixels, limit::raw_samples, limit::curve_points, limit::table_samples,
+    limit::file_bytes,    limit::nesting_depth, limit::nodes,        limit::faults_shown,  limit::objects,
+    limit::materials,     limit::lights,        limit::raw_frames,   limit::modes,         limit::sensor_side,
+    limit::sensor_pixels, limit::raw_samples,   limit::curve_points, limit::table_samples,
 };
 
 }  // namespace tofray::base

@@ -11,7 +11,7 @@ std::string in_quotes(std::string_view text, std::size_t longest) {
   bool cut = text.size() > longest;
   if (cut) {
     std::size_t end = longest;
-    while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0) == 0x80) --end;   // not inside a UTF-8 character
+    while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0) == 0x80) --end;  // not inside a UTF-8 character
     text = text.substr(0, end);
   }
   constexpr char digits[] = "0123456789abcdef";
@@ -91,9 +91,11 @@ std::string listed(const std::vector<std::string>& words, std::string_view last)
 }
 
 std::string number_text(double value) {
-  char buffer[40];
-  const auto end = std::to_chars(buffer, buffer + sizeof buffer, value);
-  return {buffer, end.ptr};
+  char fixed[400], short_form[40];
+  const auto fixed_end = std::to_chars(fixed, fixed + sizeof fixed, value, std::chars_format::fixed);
+  const auto short_end = std::to_chars(short_form, short_form + sizeof short_form, value);
+  const bool readable = fixed_end.ec == std::errc() && fixed_end.ptr - fixed <= 10;  // 0.0001 rather than 1e-04
+  return readable ? std::string(fixed, fixed_end.ptr) : std::string(short_form, short_end.ptr);
 }
 
 }  // namespace tofray::base

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "base/constants.h"
 #include "base/text.h"
 
 namespace tofray::base {
@@ -13,8 +14,6 @@ namespace tofray::base {
 namespace {
 
 using enum Dimension;
-
-constexpr double pi = 3.14159265358979323846;
 
 // Each dimension's first units are the ones that messages advertise.
 constexpr Unit units[] = {

@@ -9,14 +9,30 @@
 namespace tofray::base {
 
 enum class Dimension {
-  none, fraction, length, time, frequency, angle, speed, power, charge, charge_rate, charge_per_code, code, pixel, celsius, drift,
-  illuminance, irradiance, spectral_irradiance,
+  none,
+  fraction,
+  length,
+  time,
+  frequency,
+  angle,
+  speed,
+  power,
+  charge,
+  charge_rate,
+  charge_per_code,
+  code,
+  pixel,
+  celsius,
+  drift,
+  illuminance,
+  irradiance,
+  spectral_irradiance,
 };
 
 struct Unit {
-  const char* name;            ///< as the user writes it
+  const char* name;  ///< as the user writes it
   Dimension dimension;
-  int exponent;                ///< SI value = number · 10^exponent · factor
+  int exponent;  ///< SI value = number · 10^exponent · factor
   double factor = 1;
 };
 
@@ -33,16 +49,16 @@ const Unit* find_unit(std::string_view name);
 struct Quantity {
   enum class Status {
     good,
-    not_a_number,              ///< no number at the text's start
-    not_finite,                ///< nan, inf
-    out_of_range,              ///< too large or too small for a double
+    not_a_number,  ///< no number at the text's start
+    not_finite,    ///< nan, inf
+    out_of_range,  ///< too large or too small for a double
     unknown_unit,
-    other_dimension,           ///< a unit of something else
-    bare,                      ///< no unit, and the number is not 0
+    other_dimension,  ///< a unit of something else
+    bare,             ///< no unit, and the number is not 0
   };
   Status status = Status::not_a_number;
   std::string unit;
-  double value = 0;            ///< SI; with `bare` the number itself
+  double value = 0;  ///< SI; with `bare` the number itself
 };
 
 /// Reads a number with a unit of `dimension`. The decimal exponent of the unit is joined to the number's before it is rounded:

@@ -9,9 +9,9 @@
 namespace tofray::io {
 
 struct Builtin {
-  std::string name;            ///< the file's stem, e.g. "pico-flexx"
+  std::string name;  ///< the file's stem, e.g. "pico-flexx"
   std::string_view text;
-  std::string description;     ///< the comment in the file's first line
+  std::string description;  ///< the comment in the file's first line
 };
 
 const std::vector<Builtin>& builtin_profiles();
@@ -22,7 +22,7 @@ const Builtin* find_builtin(const std::vector<Builtin>& all, const std::string& 
 
 /// What the build put in (written by cmake/EmbedFiles.cmake into the build tree).
 struct EmbeddedFile {
-  const char* folder;          ///< "profiles", "scenes"
+  const char* folder;  ///< "profiles", "scenes"
   const char* stem;
   std::string_view text;
 };

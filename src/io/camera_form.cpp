@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The tofray authors
 // SPDX-License-Identifier: Apache-2.0
+#include "base/constants.h"
 #include "base/limits.h"
 #include "io/form.h"
 
@@ -10,7 +11,7 @@ namespace {
 
 using enum base::Dimension;
 
-constexpr double pi = 3.14159265358979323846;
+using base::pi;
 const auto curve_points = static_cast<int>(base::limit::curve_points.value);
 
 Form share(const std::string& example) { return number(fraction, 0, 1, example); }
@@ -25,8 +26,7 @@ Form curve(const std::string& x_key, Form x, Form y, const std::string& y_key = 
 
 Form sensor() {
   const auto side = static_cast<double>(base::limit::sensor_side.value);
-  return map({required("width", integer(1, side, "224"), "pixels"),
-              required("height", integer(1, side, "172"), "pixels"),
+  return map({required("width", integer(1, side, "224"), "pixels"), required("height", integer(1, side, "172"), "pixels"),
               required("pixel_pitch", number(length, 0.5e-6, 1e-3, "12 um"), "from pixel to pixel"),
               optional("fill_factor", number(fraction, 1e-3, 1, "0.8"), "1", "share of the pixel's area that collects light")});
 }
@@ -35,8 +35,8 @@ Form lens() {
   Form k = number(none, -10, 10, "-0.3");
   Form distortion = map({optional("k1", k, "0", "radial, r^2"), optional("k2", k, "0", "radial, r^4"), optional("p1", k, "0", "tangential"),
                          optional("p2", k, "0", "tangential"), optional("k3", k, "0", "radial, r^6")});
-  Form vignetting = either({choice({"cos4", "off"}),
-                            curve("angle", number(angle, 0, pi / 2, "30 deg"), number(none, 0, 2, "0.6"), "factor")});
+  Form vignetting =
+      either({choice({"cos4", "off"}), curve("angle", number(angle, 0, pi / 2, "30 deg"), number(none, 0, 2, "0.6"), "factor")});
   return map({required("fx", number(pixel, 1, 1e6, "212 px"), "focal length over pixel pitch, along a row"),
               required("fy", number(pixel, 1, 1e6, "212 px"), "the same along a column"),
               required("cx", number(pixel, -1e5, 1e5, "111.5 px"), "principal point; the centre of pixel (0, 0) is at (0, 0)"),
@@ -44,14 +44,17 @@ Form lens() {
               optional("distortion", std::move(distortion), "{}", "Brown-Conrady, as in OpenCV"),
               required("f_number", number(none, 0.3, 100, "1.6"), "N"),
               optional("transmission", share("0.85"), "1", "of lens and filter at the illumination wavelength"),
-              optional("vignetting", std::move(vignetting), "cos4", "fall-off toward the corners: cos4, off, or a table over the angle to the axis")});
+              optional("vignetting", std::move(vignetting), "cos4",
+                       "fall-off toward the corners: cos4, off, or a table over the angle to the axis")});
 }
 
 Form filter() {
-  Form window = map({absent("center", wavelength(), "the illumination wavelength of the first light unless given"),
-                     optional("half_width", number(length, 0.1e-9, 10e-6, "15 nm"), "15 nm", "passes center - half_width to center + half_width"),
-                     optional("peak", share("0.9"), "1", "transmission inside")});
-  window.keys.push_back(absent("wavelength", list(wavelength(), 2, curve_points), "ascending; a table in place of center, half_width and peak"));
+  Form window =
+      map({absent("center", wavelength(), "the illumination wavelength of the first light unless given"),
+           optional("half_width", number(length, 0.1e-9, 10e-6, "15 nm"), "15 nm", "passes center - half_width to center + half_width"),
+           optional("peak", share("0.9"), "1", "transmission inside")});
+  window.keys.push_back(
+      absent("wavelength", list(wavelength(), 2, curve_points), "ascending; a table in place of center, half_width and peak"));
   window.keys.push_back(absent("transmission", list(share("0.9"), 2, curve_points), "one for each wavelength of the table"));
   return window;
 }
@@ -67,12 +70,16 @@ Form pattern() {
   const Form cells = integer(1, 4096, "172");
   const std::vector<Key> ranges = {required("half_range_x", half, "the table covers +- this across its columns"),
                                    required("half_range_y", half, "the table covers +- this across its rows")};
-  std::vector<Key> measured = {absent("samples", samples(), "rows (from -half_range_y on) of samples (from -half_range_x on), any unit"),
-                               absent("file", text("a file", "pattern.csv"), "the same as text, one row a line, beside the profile or below")};
+  std::vector<Key> measured = {
+      absent("samples", samples(), "rows (from -half_range_y on) of samples (from -half_range_x on), any unit"),
+      absent("file", text("a file", "pattern.csv"), "the same as text, one row a line, beside the profile or below")};
   measured.insert(measured.end(), ranges.begin(), ranges.end());
-  std::vector<Key> flat = {required("width", width, "full width across x at half the peak"), required("height", width, "the same across y"),
-                           absent("half_range_x", half, "zero beyond +- this; the width unless given"), absent("half_range_y", half, "zero beyond +- this; the height unless given"),
-                           absent("columns", cells, "cells of the table it stands for"), absent("rows", cells, "cells of the table it stands for")};
+  std::vector<Key> flat = {required("width", width, "full width across x at half the peak"),
+                           required("height", width, "the same across y"),
+                           absent("half_range_x", half, "zero beyond +- this; the width unless given"),
+                           absent("half_range_y", half, "zero beyond +- this; the height unless given"),
+                           absent("columns", cells, "cells of the table it stands for"),
+                           absent("rows", cells, "cells of the table it stands for")};
   Form form = tagged("kind", {{"lambertian", {}},
                               {"cone", {required("half_angle", half, "uniform up to this angle to the axis")}},
                               {"cosine_lobe", {required("exponent", number(none, 0, 1e4, "4"), "n of cos^n")}},
@@ -87,13 +94,15 @@ Form waveform() {
   const Key jitter = optional("jitter", number(time, 0, 1e-6, "50 ps"), "0", "Gaussian, 1 sigma");
   const Key harmonics = optional("harmonics", integer(1, 16, "4"), "4", "how many odd harmonics are kept: 1, 3, 5, 7 …");
   Form correlation = list(number(none, -10, 10, "0.5"), 4, curve_points);
-  Form form = tagged("kind", {{"rectangular",
-                               {optional("duty", number(fraction, 1e-3, 0.999, "25 %"), "50 %", "width at half height over the period"),
-                                optional("rise_time", number(time, 0, 1e-3, "1 ns"), "0", "linear edge, 0 to 100 %"), bandwidth, jitter, harmonics}},
-                              {"sine", {bandwidth, jitter}},
-                              {"measured",
-                               {absent("correlation", std::move(correlation), "(A-B)/(A+B) at equally spaced reference phases over one period, light and pixel at no distance"),
-                                absent("file", text("a file", "correlation.csv"), "the same as text, beside the profile or below"), harmonics}}});
+  Form form = tagged(
+      "kind", {{"rectangular",
+                {optional("duty", number(fraction, 1e-3, 0.999, "25 %"), "50 %", "width at half height over the period"),
+                 optional("rise_time", number(time, 0, 1e-3, "1 ns"), "0", "linear edge, 0 to 100 %"), bandwidth, jitter, harmonics}},
+               {"sine", {bandwidth, jitter}},
+               {"measured",
+                {absent("correlation", std::move(correlation),
+                        "(A-B)/(A+B) at equally spaced reference phases over one period, light and pixel at no distance"),
+                 absent("file", text("a file", "correlation.csv"), "the same as text, beside the profile or below"), harmonics}}});
   form.forms[2].exactly_one = {"correlation", "file"};
   return form;
 }
@@ -115,18 +124,20 @@ Form pixel_form() {
                        optional("dsnu", number(code, 0, 1e4, "2 DN"), "0", "offset pattern, 1 sigma"),
                        optional("delay", number(time, 0, 1e-6, "20 ps"), "0", "fixed delay per pixel, 1 sigma"),
                        optional("seed", integer(0, 9007199254740991.0, "1"), "1", "which specimen of the sensor")});
-  Form suppression = map({required("threshold", electrons, "starts when the smaller tap reaches it; 0: no suppression"),
-                          required("budget", electrons, "largest charge taken off each tap"),
-                          optional("noise_factor", number(none, 0, 100, "1"), "1", "each tap's removed charge x adds a variance of noise_factor^2 x")});
-  return map({required("quantum_efficiency", either({share("0.4"), curve("wavelength", wavelength(), share("0.4"))}), "electrons per photon"),
-              optional("contrast", either({share("0.75"), curve("modulation_frequency", modulation_frequency(), share("0.75"))}), "1",
-                       "demodulation contrast of the pixel itself"),
-              optional("bandwidth", number(frequency, 0, 1e12, "180 MHz"), "0", "single pole of the gate; 0: none"),
-              optional("full_well", number(charge, 1, 1e30, "100000 e"), "1e30 e", "per tap"),
-              optional("read_noise", number(charge, 0, 1e6, "50 e"), "0", "per tap, reset and read, 1 sigma"),
-              optional("dark_current", number(charge_rate, 0, 1e12, "1000 e/s"), "0", "per tap"),
-              optional("patterns", std::move(patterns), "{}", "what differs from pixel to pixel"),
-              absent("suppression", std::move(suppression), "background suppression; none unless given")});
+  Form suppression =
+      map({required("threshold", electrons, "starts when the smaller tap reaches it; 0: no suppression"),
+           required("budget", electrons, "largest charge taken off each tap"),
+           optional("noise_factor", number(none, 0, 100, "1"), "1", "each tap's removed charge x adds a variance of noise_factor^2 x")});
+  return map(
+      {required("quantum_efficiency", either({share("0.4"), curve("wavelength", wavelength(), share("0.4"))}), "electrons per photon"),
+       optional("contrast", either({share("0.75"), curve("modulation_frequency", modulation_frequency(), share("0.75"))}), "1",
+                "demodulation contrast of the pixel itself"),
+       optional("bandwidth", number(frequency, 0, 1e12, "180 MHz"), "0", "single pole of the gate; 0: none"),
+       optional("full_well", number(charge, 1, 1e30, "100000 e"), "1e30 e", "per tap"),
+       optional("read_noise", number(charge, 0, 1e6, "50 e"), "0", "per tap, reset and read, 1 sigma"),
+       optional("dark_current", number(charge_rate, 0, 1e12, "1000 e/s"), "0", "per tap"),
+       optional("patterns", std::move(patterns), "{}", "what differs from pixel to pixel"),
+       absent("suppression", std::move(suppression), "background suppression; none unless given")});
 }
 
 Form adc() {
@@ -148,7 +159,8 @@ Form decoding() {
                                  {"gaussian", {optional("sigma", number(pixel, 0.1, 20, "1 px"), "1 px", "width of the kernel")}},
                                  {"median", {optional("radius", integer(1, 10, "1"), "1", "window of (2 radius + 1)^2 pixels")}}});
   return map({optional("wiggling_correction", boolean(), "true", "take out what the harmonics do to the phase"),
-              optional("low_signal_noise", number(length, 1e-6, 1e3, "70 mm"), "70 mm", "more noise than this: flagged as low signal; also the scale of confidence"),
+              optional("low_signal_noise", number(length, 1e-6, 1e3, "70 mm"), "70 mm",
+                       "more noise than this: flagged as low signal; also the scale of confidence"),
               optional("flying_pixel", std::move(flying), "{}", "limits of the flying pixel flag"),
               optional("inconsistent_range", number(length, 0, 1e4, "0.1 m"), "0.1 m", "two modulation frequencies may differ by this"),
               optional("filter", std::move(filters), "none", "over the range image")});
@@ -170,8 +182,9 @@ Form modes() {
                     absent("reference_phase", either({tau, list(tau, 1, static_cast<int>(base::limit::raw_frames.value))}),
                            "of lit raw frames; a list makes one raw frame of each"),
                     required("integration_time", integration_time(), "of each raw frame")});
-  Form mode = map({required("frame_rate", number(frequency, 1e-4, 1e5, "5 Hz"), "frame i starts at i / frame_rate"),
-                   required("sequence", list(std::move(entry), 1, static_cast<int>(base::limit::raw_frames.value)), "the raw frames, in order")});
+  Form mode =
+      map({required("frame_rate", number(frequency, 1e-4, 1e5, "5 Hz"), "frame i starts at i / frame_rate"),
+           required("sequence", list(std::move(entry), 1, static_cast<int>(base::limit::raw_frames.value)), "the raw frames, in order")});
   return dictionary(std::move(mode), 1, static_cast<int>(base::limit::modes.value));
 }
 
@@ -182,21 +195,19 @@ FileForm make() {
   file.provenance = true;
   Form timing = map({optional("readout_time", number(time, 0, 10, "3.5 ms"), "0", "from the end of one exposure to the start of the next"),
                      optional("min_integration_time", number(time, 0, 10, "27 us"), "0", "shortest exposure the camera can do")});
-  file.root = map({required("name", text("a name", "mycam"), "of the camera"),
-                   required("sensor", sensor(), "the grid of pixels"),
-                   required("lens", lens(), "from directions to pixels"),
-                   optional("filter", filter(), "{}", "before the sensor, for ambient light"),
-                   required("illumination", illumination(), "the camera's own lights, which add up"),
-                   required("pixel", pixel_form(), "the two-tap pixel"),
-                   required("adc", adc(), "from electrons to codes"),
-                   optional("decoding", decoding(), "{}", "from raw frames to depth"),
-                   optional("temperature", temperature(), "{}", "drift of the range"),
-                   optional("timing", std::move(timing), "{}", "of the readout"),
-                   optional("refractive_index", number(none, 1, 3, "1.0003"), "1", "of the medium"),
-                   optional("power_model", choice({"tofray", "paper_literal"}), "tofray", "paper_literal: the printed formula of the paper, for comparison only"),
-                   required("modes", modes(), "the camera's use cases by name; the first is the default"),
-                   absent("mode", text("a mode", "MODE_9_5FPS_2000"), "which of the modes; the first unless given"),
-                   absent("integration_time", integration_time(), "takes the place of that of every lit raw frame of the mode")});
+  file.root = map(
+      {required("name", text("a name", "mycam"), "of the camera"), required("sensor", sensor(), "the grid of pixels"),
+       required("lens", lens(), "from directions to pixels"), optional("filter", filter(), "{}", "before the sensor, for ambient light"),
+       required("illumination", illumination(), "the camera's own lights, which add up"),
+       required("pixel", pixel_form(), "the two-tap pixel"), required("adc", adc(), "from electrons to codes"),
+       optional("decoding", decoding(), "{}", "from raw frames to depth"),
+       optional("temperature", temperature(), "{}", "drift of the range"), optional("timing", std::move(timing), "{}", "of the readout"),
+       optional("refractive_index", number(none, 1, 3, "1.0003"), "1", "of the medium"),
+       optional("power_model", choice({"tofray", "paper_literal"}), "tofray",
+                "paper_literal: the printed formula of the paper, for comparison only"),
+       required("modes", modes(), "the camera's use cases by name; the first is the default"),
+       absent("mode", text("a mode", "MODE_9_5FPS_2000"), "which of the modes; the first unless given"),
+       absent("integration_time", integration_time(), "takes the place of that of every lit raw frame of the mode")});
   return file;
 }
 

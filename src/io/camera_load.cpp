@@ -36,8 +36,8 @@ Node mode_node(const std::string& name, const base::Place& place) {
 
 struct Profile {
   std::string text;
-  std::string source;          ///< for messages
-  std::string folder;          ///< of its table files; empty: none
+  std::string source;  ///< for messages
+  std::string folder;  ///< of its table files; empty: none
 };
 
 Camera interpret(const Profile& profile, const std::string& mode, const base::Place& mode_place, const std::vector<Change>& changes) {
@@ -68,7 +68,8 @@ Profile profile_of(const Scene& scene, const std::string& root) {
   if (name.find_first_of("/.") == std::string::npos) {
     std::vector<std::string> names;
     for (const auto& one : builtin_profiles()) names.push_back(one.name);
-    base::fail(place, "no such camera: " + base::in_quotes(name) + base::did_you_mean(name, names), "built in: " + base::listed(names, "and") + "; a file's name ends in .yaml");
+    base::fail(place, "no such camera: " + base::in_quotes(name) + base::did_you_mean(name, names),
+               "built in: " + base::listed(names, "and") + "; a file's name ends in .yaml");
   }
   Profile out;
   const std::string folder = scene.source.starts_with("<") ? "." : folder_of(scene.source);
@@ -93,7 +94,8 @@ Camera load_camera(const std::string& file_or_name, const CameraOptions& options
 
 Camera load_camera(const Scene& scene, const CameraOptions& options) {
   std::vector<io::Change> changes;
-  for (const auto& one : scene.camera.overrides) changes.push_back({one.key, one.value, base::whole(one.where.empty() ? "camera." + one.key : one.where)});
+  for (const auto& one : scene.camera.overrides)
+    changes.push_back({one.key, one.value, base::whole(one.where.empty() ? "camera." + one.key : one.where)});
   const bool ours = !options.mode.empty();
   const std::string& where = scene.camera.mode_where;
   const base::Place mode_place = base::whole(ours ? "--mode" : where.empty() ? "camera.mode" : where);

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 
+#include "base/constants.h"
 #include "base/limits.h"
 #include "base/text.h"
 #include "base/units.h"
@@ -13,7 +14,7 @@ namespace tofray::io {
 
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
+using base::pi;
 
 // Largest deviation from equally spaced reference phases [rad]; what is left of 0, 1/3, 2/3 of a turn in decimals of a degree.
 constexpr double spacing_tolerance = 1e-4;
@@ -44,15 +45,17 @@ Mode CameraReader::mode(const Value& value, const std::string& name) {
     raw.lit = entry["lit"].flag;
     raw.integration_time_s = entry["integration_time"].number;
     for (const char* key : {"modulation_frequency", "reference_phase"}) {
-      if (raw.lit && !entry[key]) faults_.add(entry.place(), std::string("a lit raw frame lacks ") + key, "expected " + std::string(key) + ", or lit: false");
-      if (!raw.lit && entry[key]) faults_.add(entry[key].place(), std::string("an unlit raw frame has no ") + key, "take it out, or lit: false");
+      if (raw.lit && !entry[key])
+        faults_.add(entry.place(), std::string("a lit raw frame lacks ") + key, "expected " + std::string(key) + ", or lit: false");
+      if (!raw.lit && entry[key])
+        faults_.add(entry[key].place(), std::string("an unlit raw frame has no ") + key, "take it out, or lit: false");
     }
     raw.modulation_frequency_hz = raw.lit ? entry["modulation_frequency"].number : 0;
     const Value& phase = entry["reference_phase"];
     std::vector<double> phases = {0};
     if (raw.lit && phase) {
       phases = {phase.number};
-      if (phase.alternative == 1) {
+      if (phase.either == 1) {
         phases.clear();
         for (const auto& one : phase.items) phases.push_back(one.number);
       }
@@ -64,8 +67,10 @@ Mode CameraReader::mode(const Value& value, const std::string& name) {
   }
   if (static_cast<long long>(out.sequence.size()) > base::limit::raw_frames.value)
     faults_.add(value["sequence"].place(), "the sequence has too many raw frames",
-                "got " + std::to_string(out.sequence.size()) + ", at most " + std::to_string(base::limit::raw_frames.value), ErrorKind::limit);
-  else check_phases(value["sequence"], out);
+                "got " + std::to_string(out.sequence.size()) + ", at most " + std::to_string(base::limit::raw_frames.value),
+                ErrorKind::limit);
+  else
+    check_phases(value["sequence"], out);
   return out;
 }
 
@@ -73,19 +78,23 @@ void CameraReader::check_phases(const Value& sequence, const Mode& mode) {
   std::map<double, std::vector<const RawFrame*>> lit;
   for (const auto& raw : mode.sequence)
     if (raw.lit) lit[raw.modulation_frequency_hz].push_back(&raw);
-  if (lit.empty()) faults_.add(sequence.place(), "the sequence has no lit raw frame", "depth needs three reference phases or more of a modulation frequency");
+  if (lit.empty())
+    faults_.add(sequence.place(), "the sequence has no lit raw frame",
+                "depth needs three reference phases or more of a modulation frequency");
   for (const auto& [hz, frames] : lit) {
     const std::string at = " at " + base::quantity_text(hz, "1 MHz");
     std::vector<double> phases;
     for (const auto* raw : frames) phases.push_back(raw->reference_phase_rad);
     if (phases.size() < 3)
-      faults_.add(sequence.place(), "too few reference phases" + at, "got " + std::to_string(phases.size()) + ", expected three or more, equally spaced over 360 deg");
+      faults_.add(sequence.place(), "too few reference phases" + at,
+                  "got " + std::to_string(phases.size()) + ", expected three or more, equally spaced over 360 deg");
     else if (!equally_spaced(phases))
       faults_.add(sequence.place(), "the reference phases" + at + " are not equally spaced",
                   "expected " + std::to_string(phases.size()) + " of them, 360/" + std::to_string(phases.size()) + " deg apart, each once");
     for (const auto* raw : frames)
       if (raw->integration_time_s != frames[0]->integration_time_s) {
-        faults_.add(sequence.place(), "the raw frames" + at + " differ in integration_time", "expected one integration_time for each modulation frequency");
+        faults_.add(sequence.place(), "the raw frames" + at + " differ in integration_time",
+                    "expected one integration_time for each modulation frequency");
         break;
       }
   }
@@ -100,8 +109,10 @@ void CameraReader::modes(const Value& root, Camera& out) {
   if (wanted) {
     const auto found = std::find(all.names.begin(), all.names.end(), wanted.text);
     if (found == all.names.end())
-      faults_.add(wanted.place(), "no mode " + base::in_quotes(wanted.text) + base::did_you_mean(wanted.text, all.names), "modes of this camera: " + base::listed(all.names, "and"));
-    else chosen = static_cast<std::size_t>(found - all.names.begin());
+      faults_.add(wanted.place(), "no mode " + base::in_quotes(wanted.text) + base::did_you_mean(wanted.text, all.names),
+                  "modes of this camera: " + base::listed(all.names, "and"));
+    else
+      chosen = static_cast<std::size_t>(found - all.names.begin());
   }
   for (std::size_t i = 0; i < all.items.size(); ++i) {
     const std::size_t before = faults_.size();
@@ -128,18 +139,21 @@ void CameraReader::check_mode(const Value& root, const Value& chosen, Camera& ca
   if (!(total <= frame * (1 + 1e-9)))
     faults_.add(place, "the sequence does not fit into a frame",
                 "got " + std::to_string(raw_frames.size()) + " raw frames of " + milliseconds(total) + " together, readout included; at " +
-                    base::quantity_text(camera.mode.frame_rate_hz, "1 Hz") + " a frame has " + milliseconds(frame) + "\nlower integration_time, or modes." + camera.mode.name + ".frame_rate");
+                    base::quantity_text(camera.mode.frame_rate_hz, "1 Hz") + " a frame has " + milliseconds(frame) +
+                    "\nlower integration_time, or modes." + camera.mode.name + ".frame_rate");
   for (const auto& raw : raw_frames)
     if (raw.integration_time_s < camera.min_integration_time_s) {
       faults_.add(place, "integration_time is below the camera's shortest",
-                  "got " + base::quantity_text(raw.integration_time_s, "1 us") + ", expected at least " + base::quantity_text(camera.min_integration_time_s, "1 us") + " (timing.min_integration_time)");
+                  "got " + base::quantity_text(raw.integration_time_s, "1 us") + ", expected at least " +
+                      base::quantity_text(camera.min_integration_time_s, "1 us") + " (timing.min_integration_time)");
       break;
     }
   const long long samples = static_cast<long long>(camera.sensor.width) * camera.sensor.height * static_cast<long long>(raw_frames.size());
   if (samples > base::limit::raw_samples.value)
     faults_.add(sequence.place(), "a frame has too many raw samples",
-                "got " + std::to_string(camera.sensor.width) + " x " + std::to_string(camera.sensor.height) + " x " + std::to_string(raw_frames.size()) + " raw frames, at most " +
-                    std::to_string(base::limit::raw_samples.value) + " (`tofray --limits`)",
+                "got " + std::to_string(camera.sensor.width) + " x " + std::to_string(camera.sensor.height) + " x " +
+                    std::to_string(raw_frames.size()) + " raw frames, at most " + std::to_string(base::limit::raw_samples.value) +
+                    " (`tofray --limits`)",
                 ErrorKind::limit);
 }
 
@@ -153,7 +167,8 @@ void CameraReader::check_edges(const Value& root, const Camera& camera) {
     const double room = std::min(waveform.duty, 1 - waveform.duty) / highest;
     if (waveform.rise_time_s > room)
       faults_.add(root["illumination"].items[i]["waveform"].place_of("rise_time"), "the pulse's edges are longer than the pulse",
-                  "got rise_time " + base::quantity_text(waveform.rise_time_s, "1 ns") + ", at most " + base::quantity_text(room, "1 ns") + " at " + base::quantity_text(highest, "1 MHz") + " and this duty");
+                  "got rise_time " + base::quantity_text(waveform.rise_time_s, "1 ns") + ", at most " + base::quantity_text(room, "1 ns") +
+                      " at " + base::quantity_text(highest, "1 MHz") + " and this duty");
   }
 }
 

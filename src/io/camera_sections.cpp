@@ -67,8 +67,10 @@ void CameraReader::lens(const Value& value, Lens& out) {
   out.f_number = value["f_number"].number;
   out.transmission = value["transmission"].number;
   const Value& vignetting = value["vignetting"];
-  out.vignetting = vignetting.alternative == 1 ? Lens::Vignetting::table : vignetting.text == "off" ? Lens::Vignetting::off : Lens::Vignetting::cos4;
-  if (vignetting.alternative == 1) table(vignetting, "angle", "factor", faults_, out.vignetting_table.x, out.vignetting_table.y);
+  out.vignetting = vignetting.either == 1     ? Lens::Vignetting::table
+                   : vignetting.text == "off" ? Lens::Vignetting::off
+                                              : Lens::Vignetting::cos4;
+  if (vignetting.either == 1) table(vignetting, "angle", "factor", faults_, out.vignetting_table.x, out.vignetting_table.y);
 }
 
 void CameraReader::filter(const Value& value, const Camera& camera, Filter& out) {
@@ -78,7 +80,9 @@ void CameraReader::filter(const Value& value, const Camera& camera, Filter& out)
   out.half_width_m = value["half_width"].number;
   out.peak = value["peak"].number;
   const bool x = static_cast<bool>(value["wavelength"]), y = static_cast<bool>(value["transmission"]);
-  if (x != y) faults_.add(value.place(), std::string("filter has ") + (x ? "wavelength" : "transmission") + " alone", "expected wavelength and transmission, as long as each other");
+  if (x != y)
+    faults_.add(value.place(), std::string("filter has ") + (x ? "wavelength" : "transmission") + " alone",
+                "expected wavelength and transmission, as long as each other");
   if (x && y) table(value, "wavelength", "transmission", faults_, out.table.x, out.table.y);
 }
 
@@ -88,7 +92,8 @@ Illumination CameraReader::light(const Value& value) {
   out.position = vector(value["position"]);
   out.axis = vector(value["axis"]);
   if (!(std::hypot(out.axis[0], out.axis[1], out.axis[2]) >= 1e-6))
-    faults_.add(value.place_of("axis"), "axis has no length", "got " + flow_text(*value["axis"].node) + ", expected a direction such as [0, 0, 1]");
+    faults_.add(value.place_of("axis"), "axis has no length",
+                "got " + flow_text(*value["axis"].node) + ", expected a direction such as [0, 0, 1]");
   out.illumination_wavelength_m = value["illumination_wavelength"].number;
   out.power_w = value["power"].number;
   pattern(value["pattern"], out.pattern);
@@ -98,7 +103,11 @@ Illumination CameraReader::light(const Value& value) {
 
 void CameraReader::pattern(const Value& value, Pattern& out) {
   using enum Pattern::Kind;
-  out.kind = value.text == "cone" ? cone : value.text == "cosine_lobe" ? cosine_lobe : value.text == "flat_top" ? flat_top : value.text == "table" ? Pattern::Kind::table : lambertian;
+  out.kind = value.text == "cone"          ? cone
+             : value.text == "cosine_lobe" ? cosine_lobe
+             : value.text == "flat_top"    ? flat_top
+             : value.text == "table"       ? Pattern::Kind::table
+                                           : lambertian;
   out.half_angle_rad = value["half_angle"].number;
   if (value["exponent"]) out.exponent = value["exponent"].number;
   out.width_rad = value["width"].number;
@@ -110,14 +119,19 @@ void CameraReader::pattern(const Value& value, Pattern& out) {
   if ((out.columns > 0) != (out.rows > 0)) faults_.add(value.place(), "pattern has columns or rows alone", "expected both, or none");
   if (out.kind != Pattern::Kind::table) return;
   std::vector<std::vector<double>> rows;
-  if (value["file"]) rows = number_file(value["file"]);
-  else for (const auto& row : value["samples"].items) rows.push_back(numbers(row));
+  if (value["file"])
+    rows = number_file(value["file"]);
+  else
+    for (const auto& row : value["samples"].items) rows.push_back(numbers(row));
   const base::Place& place = value["file"] ? value["file"].place() : value["samples"].place();
   double sum = 0;
   for (const auto& row : rows) {
-    if (row.size() != rows[0].size()) return faults_.add(place, "the pattern's rows are not as long as each other", "got rows of " + std::to_string(rows[0].size()) + " and of " + std::to_string(row.size()));
+    if (row.size() != rows[0].size())
+      return faults_.add(place, "the pattern's rows are not as long as each other",
+                         "got rows of " + std::to_string(rows[0].size()) + " and of " + std::to_string(row.size()));
     for (const double sample : row) {
-      if (!(sample >= 0 && sample <= 1e12)) return faults_.add(place, "a sample of the pattern is out of range", "got " + base::number_text(sample) + ", expected 0 to 1e12");
+      if (!(sample >= 0 && sample <= 1e12))
+        return faults_.add(place, "a sample of the pattern is out of range", "got " + base::number_text(sample) + ", expected 0 to 1e12");
       sum += sample;
     }
     out.samples.insert(out.samples.end(), row.begin(), row.end());
@@ -138,8 +152,10 @@ void CameraReader::waveform(const Value& value, Waveform& out) {
   out.jitter_s = value["jitter"].number;
   out.harmonics = value["harmonics"] ? whole(value["harmonics"]) : 1;
   if (out.kind != measured) return;
-  if (value["file"]) for (const auto& row : number_file(value["file"])) out.correlation.insert(out.correlation.end(), row.begin(), row.end());
-  else out.correlation = numbers(value["correlation"]);
+  if (value["file"])
+    for (const auto& row : number_file(value["file"])) out.correlation.insert(out.correlation.end(), row.begin(), row.end());
+  else
+    out.correlation = numbers(value["correlation"]);
   const base::Place& place = value["file"] ? value["file"].place() : value["correlation"].place();
   double largest = 0;
   for (const double sample : out.correlation) largest = std::max(largest, std::abs(sample));
@@ -147,11 +163,12 @@ void CameraReader::waveform(const Value& value, Waveform& out) {
   // Harmonic m needs more than 2 m samples.
   if (static_cast<int>(out.correlation.size()) <= 2 * (2 * out.harmonics - 1))
     faults_.add(place, "too few samples of the correlation for its harmonics",
-                "got " + std::to_string(out.correlation.size()) + " samples, expected more than " + std::to_string(2 * (2 * out.harmonics - 1)) + " for " + std::to_string(out.harmonics) + " odd harmonics");
+                "got " + std::to_string(out.correlation.size()) + " samples, expected more than " +
+                    std::to_string(2 * (2 * out.harmonics - 1)) + " for " + std::to_string(out.harmonics) + " odd harmonics");
 }
 
 void CameraReader::curve(const Value& value, const char* x_key, Curve& out) {
-  if (value.alternative == 1) return table(value, x_key, "value", faults_, out.x, out.y);
+  if (value.either == 1) return table(value, x_key, "value", faults_, out.x, out.y);
   out.x = {0};
   out.y = {value.number};
 }
@@ -184,11 +201,15 @@ void CameraReader::adc(const Value& value, Adc& out) {
   out.mid_code = value["mid_code"] ? value["mid_code"].number : 1 << (out.bits - 1);
   out.valid_min = value["valid_min"] ? whole(value["valid_min"]) : 0;
   out.valid_max = value["valid_max"] ? whole(value["valid_max"]) : largest;
-  for (const auto& [key, code] : {std::pair<const char*, double>{"mid_code", out.mid_code}, {"valid_min", out.valid_min}, {"valid_max", out.valid_max}})
+  for (const auto& [key, code] :
+       {std::pair<const char*, double>{"mid_code", out.mid_code}, {"valid_min", out.valid_min}, {"valid_max", out.valid_max}})
     if (code > largest)
-      faults_.add(value.place_of(key), std::string(key) + " is above the largest code", "got " + base::number_text(code) + ", a code of " + std::to_string(out.bits) + " bits is at most " + std::to_string(largest));
+      faults_.add(
+          value.place_of(key), std::string(key) + " is above the largest code",
+          "got " + base::number_text(code) + ", a code of " + std::to_string(out.bits) + " bits is at most " + std::to_string(largest));
   if (out.valid_min >= out.valid_max)
-    faults_.add(value.place_of("valid_min"), "valid_min is not below valid_max", "got " + std::to_string(out.valid_min) + " and " + std::to_string(out.valid_max));
+    faults_.add(value.place_of("valid_min"), "valid_min is not below valid_max",
+                "got " + std::to_string(out.valid_min) + " and " + std::to_string(out.valid_max));
 }
 
 void CameraReader::decoding(const Value& value, Decoding& out) {
@@ -201,27 +222,32 @@ void CameraReader::decoding(const Value& value, Decoding& out) {
   out.flying_far_z_m = flying["far_z"].number;
   out.flying_far_limit_m = flying["far_limit"].number;
   if (!(out.flying_far_z_m - out.flying_near_z_m >= 1e-6))
-    faults_.add(flying.place_of("far_z"), "far_z is not beyond near_z", "got " + base::number_text(out.flying_far_z_m) + " m and " + base::number_text(out.flying_near_z_m) + " m");
+    faults_.add(flying.place_of("far_z"), "far_z is not beyond near_z",
+                "got " + base::number_text(out.flying_far_z_m) + " m and " + base::number_text(out.flying_near_z_m) + " m");
   out.inconsistent_range_m = value["inconsistent_range"].number;
   const Value& chosen = value["filter"];
-  out.filter.kind = chosen.text == "gaussian" ? ImageFilter::Kind::gaussian : chosen.text == "median" ? ImageFilter::Kind::median : ImageFilter::Kind::none;
+  out.filter.kind = chosen.text == "gaussian" ? ImageFilter::Kind::gaussian
+                    : chosen.text == "median" ? ImageFilter::Kind::median
+                                              : ImageFilter::Kind::none;
   if (chosen["sigma"]) out.filter.sigma_px = chosen["sigma"].number;
   if (chosen["radius"]) out.filter.radius_px = whole(chosen["radius"]);
 }
 
 void CameraReader::temperature(const Value& value, Temperature& out) {
   if (!value || !value.good) return;
-  out = {value["actual"].number, value["reference"].number, value["drift"].number, value["warm_up"].number, value["warm_up_time"].number, value["since_start"].number};
+  out = {value["actual"].number,  value["reference"].number,    value["drift"].number,
+         value["warm_up"].number, value["warm_up_time"].number, value["since_start"].number};
 }
 
 std::vector<std::vector<double>> CameraReader::number_file(const Value& name) {
   std::vector<std::vector<double>> rows;
   std::string path, content;
   try {
-    if (folder_.empty()) base::fail(name.place(), "this profile cannot name files", "got " + in_quotes(name.text) + "; write the numbers into the profile");
+    if (folder_.empty())
+      base::fail(name.place(), "this profile cannot name files", "got " + in_quotes(name.text) + "; write the numbers into the profile");
     content = read_reference(name.text, folder_, {}, name.place(), path);
   } catch (const Error&) {
-    if (faults_.empty()) throw;       // else the file's other faults are reported first
+    if (faults_.empty()) throw;  // else the file's other faults are reported first
     return rows;
   }
   const auto source = std::make_shared<const std::string>(path);
@@ -240,7 +266,8 @@ std::vector<std::vector<double>> CameraReader::number_file(const Value& name) {
       const std::size_t stop = std::min(line.find_first_of(" \t,;\r#", i), line.size());
       const auto number = base::parse_quantity(line.substr(i, stop - i), base::Dimension::none);
       if (number.status != base::Quantity::Status::good && number.status != base::Quantity::Status::bare) {
-        faults_.add({source, line_number, static_cast<int>(i) + 1}, "not a number", "got " + in_quotes(line.substr(i, stop - i)) + ", expected numbers with \",\" or blanks between them");
+        faults_.add({source, line_number, static_cast<int>(i) + 1}, "not a number",
+                    "got " + in_quotes(line.substr(i, stop - i)) + ", expected numbers with \",\" or blanks between them");
         return {};
       }
       row.push_back(number.value);

@@ -17,43 +17,43 @@ struct Key;
 /// What one value may be.
 struct Form {
   enum class Kind {
-    number,                    ///< with the unit of `dimension`
+    number,  ///< with the unit of `dimension`
     integer,
     boolean,
     text,
-    choice,                    ///< one of `names`
-    list,                      ///< of forms[0], min_items … max_items of them
-    map,                       ///< with `keys`
-    dictionary,                ///< free names, each with a value of forms[0]
-    tagged,                    ///< a map whose key `tag` says which of `forms` (maps) it is; `names` are the tags
-    variant,                   ///< a map with exactly one key out of `names`; forms[i] says what stands there
-    either,                    ///< a value of one of `forms`, told apart by being a scalar, a list or a map
-    anything,                  ///< interpreted later
+    choice,      ///< one of `names`
+    list,        ///< of forms[0], min_items … max_items of them
+    map,         ///< with `keys`
+    dictionary,  ///< free names, each with a value of forms[0]
+    tagged,      ///< a map whose key `tag` says which of `forms` (maps) it is; `names` are the tags
+    variant,     ///< a map with exactly one key out of `names`; forms[i] says what stands there
+    either,      ///< a value of one of `forms`, told apart by being a scalar, a list or a map
+    anything,    ///< interpreted later
   };
   Kind kind = Kind::anything;
   base::Dimension dimension = base::Dimension::none;
-  bool bare = false;           ///< a number without a unit is good (in SI units)
-  double low = 0, high = 0;    ///< SI, both included
-  std::string example;         ///< number: as one writes it
+  bool bare = false;         ///< a number without a unit is good (in SI units)
+  double low = 0, high = 0;  ///< SI, both included
+  std::string example;       ///< number: as one writes it
   std::vector<std::string> names;
   std::vector<Form> forms;
   std::vector<Key> keys;
-  std::vector<std::string> exactly_one;   ///< map: exactly one of these keys has to be there
-  std::vector<std::string> at_most_one;   ///< map: not two of these
-  bool open = false;           ///< map: keys that the table does not have are kept, not refused
+  std::vector<std::string> exactly_one;  ///< map: exactly one of these keys has to be there
+  std::vector<std::string> at_most_one;  ///< map: not two of these
+  bool open = false;                     ///< map: keys that the table does not have are kept, not refused
   std::string tag, default_tag;
-  std::string what;            ///< text: what it is, e.g. "the name of a material"
+  std::string what;  ///< text: what it is, e.g. "the name of a material"
   int min_items = 0, max_items = 0;
-  std::vector<std::pair<std::string, std::string>> refused;   ///< variant: names that are known and not there yet, and why
+  std::vector<std::pair<std::string, std::string>> refused;  ///< variant: names that are known and not there yet, and why
 };
 
 /// One row of a table.
 struct Key {
   std::string name;
   Form form;
-  std::string doc;             ///< one line
+  std::string doc;  ///< one line
   bool required = false;
-  std::string fallback;        ///< YAML text taken where the key is absent; empty: the value is then absent, too
+  std::string fallback;  ///< YAML text taken where the key is absent; empty: the value is then absent, too
   std::shared_ptr<const Node> fallback_node;
 };
 
@@ -68,7 +68,8 @@ Form choice(std::vector<std::string> names);
 Form list(Form item, int min_items, int max_items);
 Form map(std::vector<Key> keys);
 Form dictionary(Form item, int min_items, int max_items);
-Form tagged(const std::string& tag, std::vector<std::pair<std::string, std::vector<Key>>> alternatives, const std::string& default_tag = {});
+Form tagged(const std::string& tag, std::vector<std::pair<std::string, std::vector<Key>>> alternatives,
+            const std::string& default_tag = {});
 Form either(std::vector<Form> forms);
 
 Key required(const std::string& name, Form form, const std::string& doc);
@@ -78,7 +79,7 @@ Key absent(const std::string& name, Form form, const std::string& doc);
 
 /// A whole file kind.
 struct FileForm {
-  std::string kind;            ///< "scene", "camera"
+  std::string kind;  ///< "scene", "camera"
   std::string title;
   Form root;
   /// Numbers may be written {value: …, source: …} or {value: …, assumed: …}, and every map may say source, assumed and note.

@@ -12,10 +12,12 @@ bool looks_like_a_number(const std::string& text) {
 }
 
 void walk(const Node& node, bool inherited, std::vector<std::string>& out) {
-  if (node.kind == Node::Kind::scalar && !inherited && looks_like_a_number(node.text)) out.push_back(base::to_string(node.place) + ": " + node.text);
+  if (node.kind == Node::Kind::scalar && !inherited && looks_like_a_number(node.text))
+    out.push_back(base::to_string(node.place) + ": " + node.text);
   const bool says = node.find("source") != nullptr || node.find("assumed") != nullptr;
   for (std::size_t i = 0; i < node.items.size(); ++i) {
-    const bool words = node.kind == Node::Kind::map && (node.keys[i].text == "source" || node.keys[i].text == "assumed" || node.keys[i].text == "note" || node.keys[i].text == "name");
+    const bool words = node.kind == Node::Kind::map && (node.keys[i].text == "source" || node.keys[i].text == "assumed" ||
+                                                        node.keys[i].text == "note" || node.keys[i].text == "name");
     if (!words) walk(node.items[i], inherited || says, out);
   }
 }

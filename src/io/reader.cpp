@@ -24,16 +24,19 @@ const base::Place& Value::place_of(std::string_view key) const {
 
 namespace {
 
-using base::Dimension;
 using base::did_you_mean;
-using base::listed;
+using base::Dimension;
 using base::in_quotes;
+using base::listed;
 using Kind = Form::Kind;
 
-bool contains(const std::vector<std::string>& words, std::string_view word) { return std::find(words.begin(), words.end(), word) != words.end(); }
+bool contains(const std::vector<std::string>& words, std::string_view word) {
+  return std::find(words.begin(), words.end(), word) != words.end();
+}
 
 bool is_scalar_form(const Form& form) {
-  return form.kind == Kind::number || form.kind == Kind::integer || form.kind == Kind::boolean || form.kind == Kind::text || form.kind == Kind::choice;
+  return form.kind == Kind::number || form.kind == Kind::integer || form.kind == Kind::boolean || form.kind == Kind::text ||
+         form.kind == Kind::choice;
 }
 
 std::vector<std::string> key_names(const Form& form) {
@@ -94,7 +97,8 @@ class Reader {
 
  private:
   void wrong(const Form& form, const Node& node, const std::string& label, const std::string& why = {}) {
-    const std::string what = why.empty() ? (node.kind == Node::Kind::null ? label + " has no value" : label + " is not what belongs here") : why;
+    const std::string what =
+        why.empty() ? (node.kind == Node::Kind::null ? label + " has no value" : label + " is not what belongs here") : why;
     faults_.add(node.place, what, "got " + describe(node) + ", expected " + expected(form));
   }
 
@@ -133,13 +137,18 @@ class Reader {
         if (form.bare) break;
         return faults_.add(node.place, label + " has no unit", got + fitting);
       case unknown_unit:
-        return faults_.add(node.place, label + " has the unknown unit " + in_quotes(quantity.unit) + did_you_mean(quantity.unit, units), got + fitting);
+        return faults_.add(node.place, label + " has the unknown unit " + in_quotes(quantity.unit) + did_you_mean(quantity.unit, units),
+                           got + fitting);
       case other_dimension:
         return faults_.add(node.place,
-                           label + (form.dimension == Dimension::none ? " takes no unit" : std::string(" is no ") + base::article_and_name(base::find_unit(quantity.unit)->dimension)),
+                           label + (form.dimension == Dimension::none
+                                        ? " takes no unit"
+                                        : std::string(" is ") + base::article_and_name(base::find_unit(quantity.unit)->dimension) +
+                                              ", not " + base::article_and_name(form.dimension)),
                            got + fitting);
     }
-    if (!(value.number >= form.low && value.number <= form.high)) faults_.add(node.place, label + " is out of range", got + ", " + range(form));
+    if (!(value.number >= form.low && value.number <= form.high))
+      faults_.add(node.place, label + " is out of range", got + ", " + range(form));
   }
 
   static std::string range(const Form& form) {
@@ -153,7 +162,9 @@ class Reader {
     const auto read = std::from_chars(node.text.data(), end, whole);
     if (read.ec == std::errc::invalid_argument || read.ptr != end) return wrong(form, node, label, label + " is not a whole number");
     const bool inside = read.ec == std::errc() && static_cast<double>(whole) >= form.low && static_cast<double>(whole) <= form.high;
-    if (!inside) faults_.add(node.place, label + " is out of range", "got " + in_quotes(node.text) + ", expected " + expected(form) + ", " + range(form));
+    if (!inside)
+      faults_.add(node.place, label + " is out of range",
+                  "got " + in_quotes(node.text) + ", expected " + expected(form) + ", " + range(form));
     value.number = inside ? static_cast<double>(whole) : 0;
   }
 
@@ -170,19 +181,21 @@ class Reader {
 
   void read_choice(const Form& form, const Node& node, const std::string& label, Value& value) {
     if (node.kind != Node::Kind::scalar) return wrong(form, node, label);
-    if (!contains(form.names, node.text)) return wrong(form, node, label, label + " is unknown: " + in_quotes(node.text) + did_you_mean(node.text, form.names));
+    if (!contains(form.names, node.text))
+      return wrong(form, node, label, label + " is unknown: " + in_quotes(node.text) + did_you_mean(node.text, form.names));
     value.text = node.text;
   }
 
   bool count_fits(const Form& form, const Node& node, const std::string& label, const char* noun) {
     const auto size = static_cast<long long>(node.items.size());
     if (size > form.max_items && form.max_items != form.min_items) {
-      faults_.add(node.place, label + " has too many " + noun, "got " + std::to_string(size) + ", at most " + std::to_string(form.max_items),
-                  ErrorKind::limit);
+      faults_.add(node.place, label + " has too many " + noun,
+                  "got " + std::to_string(size) + ", at most " + std::to_string(form.max_items), ErrorKind::limit);
       return false;
     }
     if (size >= form.min_items && size <= form.max_items) return true;
-    const std::string count = form.min_items == form.max_items ? std::to_string(form.min_items) : "at least " + std::to_string(form.min_items);
+    const std::string count =
+        form.min_items == form.max_items ? std::to_string(form.min_items) : "at least " + std::to_string(form.min_items);
     faults_.add(node.place, label + " has the wrong number of " + noun, "got " + std::to_string(size) + ", expected " + count);
     return false;
   }
@@ -223,7 +236,8 @@ class Reader {
       if (given == nullptr) given = key.fallback_node.get();
       value.items.push_back(given != nullptr ? read(key.form, *given, key.name) : Value());
       if (given == nullptr && key.required)
-        faults_.add(node.place, label + " lacks the key " + in_quotes(key.name), key.name + ": " + key.doc + "\nexpected " + expected(key.form));
+        faults_.add(node.place, label + " lacks the key " + in_quotes(key.name),
+                    key.name + ": " + key.doc + "\nexpected " + expected(key.form));
     }
     check_groups(form, node, label);
   }
@@ -245,8 +259,10 @@ class Reader {
     if (!tag.empty()) names.push_back(tag);
     std::string hint = did_you_mean(key.text, names);
     std::string elsewhere = hint.empty() ? home_of(file_.root, key.text, "") : "";
-    if (elsewhere == key.text) elsewhere = "at the top level";
-    else if (!elsewhere.empty()) elsewhere = "as " + elsewhere;
+    if (elsewhere == key.text)
+      elsewhere = "at the top level";
+    else if (!elsewhere.empty())
+      elsewhere = "as " + elsewhere;
     faults_.add(key.place, "unknown key " + in_quotes(key.text) + " in " + label + hint,
                 (elsewhere.empty() ? "" : in_quotes(key.text) + " stands elsewhere: " + elsewhere + "\n") +
                     (names.empty() ? "no keys are known here" : "known keys: " + listed(names, "and")));
@@ -301,7 +317,9 @@ class Reader {
       const auto& key = node.keys[i];
       const auto name = std::find(form.names.begin(), form.names.end(), key.text);
       if (name != form.names.end()) {
-        if (found >= 0) faults_.add(key.place, label + " has " + in_quotes(form.names[static_cast<std::size_t>(found)]) + " and " + in_quotes(key.text), "expected one of them; start a new entry with \"-\"");
+        if (found >= 0)
+          faults_.add(key.place, label + " has " + in_quotes(form.names[static_cast<std::size_t>(found)]) + " and " + in_quotes(key.text),
+                      "expected one of them; start a new entry with \"-\"");
         found = static_cast<int>(name - form.names.begin());
         value.alternative = found;
         value.text = key.text;
@@ -318,7 +336,9 @@ class Reader {
       for (const auto& one : form.forms)
         for (const auto& k : one.keys)
           if (k.name == key.text) inner = "put " + in_quotes(key.text) + " inside, as in \"sphere: {…, " + key.text + ": …}\"\n";
-      faults_.add(key.place, "unknown key " + in_quotes(key.text) + " in " + label + (inner.empty() ? did_you_mean(key.text, form.names) : ""), inner + "known here: " + listed(form.names));
+      faults_.add(key.place,
+                  "unknown key " + in_quotes(key.text) + " in " + label + (inner.empty() ? did_you_mean(key.text, form.names) : ""),
+                  inner + "known here: " + listed(form.names));
       if (found < 0) value.alternative = -1;
     }
     if (found < 0) value.items.clear();
@@ -332,7 +352,7 @@ class Reader {
                         (is_scalar_form(one) && node.kind == Node::Kind::scalar);
       if (!fits) continue;
       Value value = read(one, node, label);
-      if (one.kind != Kind::tagged) value.alternative = static_cast<int>(i);
+      value.either = static_cast<int>(i);
       return value;
     }
     Value value;

@@ -13,15 +13,16 @@ namespace tofray::io {
 
 /// A value as its form says: numbers in SI units, defaults filled in. It points into the tree, which has to stay.
 struct Value {
-  const Node* node = nullptr;      ///< none where the key is absent and has no default
-  bool good = true;                ///< no fault was found in it or below it
-  double number = 0;               ///< number; integer, too (exact up to 2^53)
-  bool flag = false;               ///< boolean
-  std::string text;                ///< text, choice; the tag of a tagged map; the name of a variant
-  int alternative = 0;             ///< tagged, variant, either: which one
-  std::vector<std::string> names;  ///< map, dictionary: keys of `items`; list: empty
-  std::vector<base::Place> key_places;   ///< dictionary and the open part of a map
-  std::vector<Value> items;        ///< list, dictionary, map; variant: the one value
+  const Node* node = nullptr;           ///< none where the key is absent and has no default
+  bool good = true;                     ///< no fault was found in it or below it
+  double number = 0;                    ///< number; integer, too (exact up to 2^53)
+  bool flag = false;                    ///< boolean
+  std::string text;                     ///< text, choice; the tag of a tagged map; the name of a variant
+  int alternative = 0;                  ///< tagged, variant: which one
+  int either = 0;                       ///< which form of Form::Kind::either
+  std::vector<std::string> names;       ///< map, dictionary: keys of `items`; list: empty
+  std::vector<base::Place> key_places;  ///< dictionary and the open part of a map
+  std::vector<Value> items;             ///< list, dictionary, map; variant: the one value
 
   [[nodiscard]] explicit operator bool() const { return node != nullptr; }
   /// A map's value by key; an absent value where there is none.

@@ -10,7 +10,7 @@ namespace {
 
 using enum base::Dimension;
 
-constexpr double far_m = 1e5;         // float carries 8 mm at that distance
+constexpr double far_m = 1e5;  // float carries 8 mm at that distance
 constexpr double finest_m = 1e-6;
 
 Form coordinate() { return bare_number(length, -far_m, far_m, "0.5 m"); }
@@ -18,7 +18,9 @@ Form point() { return list(coordinate(), 3, 3); }
 Form direction() { return list(number(none, -1e6, 1e6, "1"), 3, 3); }
 Form part(const std::string& example) { return number(fraction, 0, 1, example); }
 
-std::vector<Key> lambert_keys() { return {required("reflectivity", part("0.85"), "share of the light that comes back, all of it diffuse")}; }
+std::vector<Key> lambert_keys() {
+  return {required("reflectivity", part("0.85"), "share of the light that comes back, all of it diffuse")};
+}
 
 std::vector<Key> phong_keys() {
   return {required("diffuse", part("0.4"), "k_d, the Lambertian share"),
@@ -31,7 +33,8 @@ Form material() { return tagged("brdf", {{"lambert", lambert_keys()}, {"phong", 
 // What every object has besides its shape.
 Form object(std::vector<Key> shape) {
   shape.push_back(absent("reflectivity", part("0.5"), "of a Lambertian surface, in place of `material`"));
-  shape.push_back(absent("material", either({text("the name of a material", "paper"), material()}), "a name out of `materials`, or a material written here"));
+  shape.push_back(absent("material", either({text("the name of a material", "paper"), material()}),
+                         "a name out of `materials`, or a material written here"));
   shape.push_back(absent("name", text("a name", "ball"), "how listings call the object"));
   shape.push_back(optional("position", point(), "[0, 0, 0]", "a shift [m]"));
   shape.push_back(absent("rotation",
@@ -50,8 +53,8 @@ Form objects() {
   form.names = {"plane", "sphere", "box", "triangle"};
   form.forms.push_back(object({required("point", point(), "a point of the plane [m]"),
                                optional("normal", direction(), "[0, 0, -1]", "any length but zero; both sides reflect")}));
-  form.forms.push_back(object({required("center", point(), "[m]"),
-                               required("radius", bare_number(length, finest_m, far_m, "25 cm"), "[m]")}));
+  form.forms.push_back(
+      object({required("center", point(), "[m]"), required("radius", bare_number(length, finest_m, far_m, "25 cm"), "[m]")}));
   form.forms.push_back(object({required("min", point(), "the corner of the smallest x, y and z, before the rotation [m]"),
                                required("max", point(), "the opposite corner [m]")}));
   form.forms.push_back(object({required("vertices", list(point(), 3, 3), "the three corners [m]")}));
@@ -63,10 +66,11 @@ Form camera() {
   Form pose = map({optional("position", point(), "[0, 0, 0]", "of the entrance pupil [m]"),
                    optional("look_at", point(), "[0, 0, 1]", "a point on the optical axis [m]"),
                    optional("up", direction(), "[0, -1, 0]", "the world's direction that is up in the image")});
-  Form form = map({optional("profile", text("a camera or a file", "pico-flexx"), "pico-flexx", "a built-in camera (`tofray list cameras`), or a profile's file beside the scene or below"),
+  Form form = map({optional("profile", text("a camera or a file", "pico-flexx"), "pico-flexx",
+                            "a built-in camera (`tofray list cameras`), or a profile's file beside the scene or below"),
                    absent("mode", text("a mode of the camera", "MODE_9_5FPS_2000"), "one of the profile's modes; its first unless given"),
                    optional("pose", std::move(pose), "{}", "where the camera stands; the world is the camera's frame unless given")});
-  form.open = true;                   // the profile's own keys may follow and override it
+  form.open = true;  // the profile's own keys may follow and override it
   return form;
 }
 
@@ -74,7 +78,8 @@ Form ambient() {
   const auto count = static_cast<int>(base::limit::curve_points.value);
   Form spectrum = either({choice({"sun_am15", "equal_energy", "none"}),
                           map({required("wavelength", list(number(length, 100e-9, 20e-6, "850 nm"), 2, count), "ascending"),
-                               required("irradiance", list(number(spectral_irradiance, 0, 1e13, "0.9 W/(m2 nm)"), 2, count), "on the surfaces, one for each wavelength")})});
+                               required("irradiance", list(number(spectral_irradiance, 0, 1e13, "0.9 W/(m2 nm)"), 2, count),
+                                        "on the surfaces, one for each wavelength")})});
   Form form = map({required("spectrum", std::move(spectrum), "the light's spectrum: a built-in name, or a table"),
                    absent("level", number(fraction, 0, 100, "5 %"), "share of the spectrum as it is tabulated (sun_am15: of full sun)"),
                    absent("illuminance", number(illuminance, 0, 1e7, "5 klx"), "on the surfaces, as a light meter reads it"),
@@ -90,7 +95,8 @@ FileForm make() {
   file.title = "tofray scene: objects, materials, ambient light, and where the camera stands";
   file.root = map({optional("camera", camera(), "{}", "which camera, where it stands, and what to change in its profile"),
                    absent("ambient", ambient(), "light that is not the camera's own; none unless given"),
-                   absent("materials", dictionary(material(), 0, static_cast<int>(base::limit::materials.value)), "materials by name, at the illumination wavelength"),
+                   absent("materials", dictionary(material(), 0, static_cast<int>(base::limit::materials.value)),
+                          "materials by name, at the illumination wavelength"),
                    required("objects", objects(), "what the camera looks at")});
   return file;
 }

@@ -19,7 +19,7 @@ namespace {
 using base::Faults;
 using base::in_quotes;
 
-constexpr double shortest = 1e-6;     // of a direction written in a file: below, float could not tell it from zero
+constexpr double shortest = 1e-6;  // of a direction written in a file: below, float could not tell it from zero
 
 Vec3 difference(const Vec3& a, const Vec3& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
 Vec3 cross(const Vec3& a, const Vec3& b) { return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]}; }
@@ -47,7 +47,8 @@ class SceneReader {
   Vec3 direction(const Value& value, const char* what) {
     const Vec3 out = vector(value);
     if (value && value.good && length(out) < shortest)
-      faults_.add(value.place(), std::string(what) + " has no length", "got " + flow_text(*value.node) + ", expected a direction such as [0, 0, 1]");
+      faults_.add(value.place(), std::string(what) + " has no length",
+                  "got " + flow_text(*value.node) + ", expected a direction such as [0, 0, 1]");
     return out;
   }
 
@@ -92,24 +93,29 @@ class SceneReader {
   void ambient(const Value& value, Ambient& out) {
     const Value& spectrum = value["spectrum"];
     if (!spectrum || !spectrum.good) return;
-    if (spectrum.alternative == 1) {
+    if (spectrum.either == 1) {
       out.spectrum = Ambient::Spectrum::table;
       table(spectrum, "wavelength", "irradiance", faults_, out.table_wavelength_m, out.table_irradiance_w_per_m3);
     } else {
-      out.spectrum = spectrum.text == "none" ? Ambient::Spectrum::none : spectrum.text == "sun_am15" ? Ambient::Spectrum::sun_am15 : Ambient::Spectrum::equal_energy;
+      out.spectrum = spectrum.text == "none"       ? Ambient::Spectrum::none
+                     : spectrum.text == "sun_am15" ? Ambient::Spectrum::sun_am15
+                                                   : Ambient::Spectrum::equal_energy;
     }
     bool amount = false;
     using enum Ambient::Quantity;
-    for (const auto& [key, quantity] : {std::pair{"level", Ambient::Quantity::level}, {"illuminance", illuminance_lx}, {"band_irradiance", band_irradiance_w_per_m2}}) {
+    for (const auto& [key, quantity] :
+         {std::pair{"level", Ambient::Quantity::level}, {"illuminance", illuminance_lx}, {"band_irradiance", band_irradiance_w_per_m2}}) {
       if (!value[key]) continue;
       out.quantity = quantity;
       out.amount = value[key].number;
       amount = true;
     }
     if (!amount && out.spectrum != Ambient::Spectrum::none)
-      faults_.add(value.place(), "ambient does not say how much light", "expected level: 5 %, illuminance: 5 klx, or band_irradiance: 0.4 W/m2");
+      faults_.add(value.place(), "ambient does not say how much light",
+                  "expected level: 5 %, illuminance: 5 klx, or band_irradiance: 0.4 W/m2");
     if (out.amount > 0 && out.spectrum == Ambient::Spectrum::none)
-      faults_.add(spectrum.place(), "ambient has an amount, but its spectrum is none", "expected a spectrum such as sun_am15, or no amount");
+      faults_.add(spectrum.place(), "ambient has an amount, but its spectrum is none",
+                  "expected a spectrum such as sun_am15, or no amount");
     if (value["direction"]) out.direction = direction(value["direction"], "direction");
   }
 
@@ -125,17 +131,20 @@ class SceneReader {
     out.specular = value["specular"].number;
     out.exponent = value["exponent"].number;
     if (out.diffuse + out.specular > 1 + 1e-12)
-      faults_.add(value.place(), "diffuse + specular is more than 1", "got " + base::number_text(out.diffuse) + " + " + base::number_text(out.specular) +
-                                                                          "; a surface cannot send back more light than it gets");
+      faults_.add(value.place(), "diffuse + specular is more than 1",
+                  "got " + base::number_text(out.diffuse) + " + " + base::number_text(out.specular) +
+                      "; a surface cannot send back more light than it gets");
     return out;
   }
 
   int material_of(const Value& object, Scene& scene) {
     const Value& chosen = object["material"];
-    if (chosen && chosen.alternative == 0) return named_material(chosen, scene);
+    if (chosen && chosen.either == 0) return named_material(chosen, scene);
     Material one;
-    if (chosen) one = material(chosen);
-    else one.diffuse = object["reflectivity"].number;
+    if (chosen)
+      one = material(chosen);
+    else
+      one.diffuse = object["reflectivity"].number;
     scene.materials.push_back(one);
     return static_cast<int>(scene.materials.size()) - 1;
   }
@@ -150,8 +159,10 @@ class SceneReader {
     for (const auto& [name, i] : index_) names.push_back(name);
     const bool many = names.size() > 20;
     faults_.add(chosen.place(), "no material " + in_quotes(chosen.text) + base::did_you_mean(chosen.text, names),
-                names.empty() ? "expected a name out of the scene's materials: section, which is missing; or write reflectivity: 0.5 instead"
-                              : many ? "expected one out of the scene's materials: section" : "materials of this scene: " + base::listed(names, "and"));
+                names.empty()
+                    ? "expected a name out of the scene's materials: section, which is missing; or write reflectivity: 0.5 instead"
+                : many ? "expected one out of the scene's materials: section"
+                       : "materials of this scene: " + base::listed(names, "and"));
     return 0;
   }
 
@@ -178,7 +189,8 @@ class SceneReader {
     for (std::size_t k = 0; k < 3; ++k)
       if (!(out.max[k] - out.min[k] >= shortest))
         faults_.add(value["min"].items[k].place(), std::string("the box's min is not below its max in ") + "xyz"[k],
-                    "got " + base::number_text(out.min[k]) + " m and " + base::number_text(out.max[k]) + " m, expected a thickness of at least 1 um");
+                    "got " + base::number_text(out.min[k]) + " m and " + base::number_text(out.max[k]) +
+                        " m, expected a thickness of at least 1 um");
     return out;
   }
 
@@ -190,7 +202,8 @@ class SceneReader {
     // Height over the longest side; the second bound is what rounding of the coordinates leaves of three points on a line.
     const double height = longest > 0 ? length(cross(a, b)) / longest : 0;
     if (!(height >= shortest && height >= 1e-9 * longest))
-      faults_.add(value["vertices"].place(), "the triangle has no area", "its three corners lie on a line or in one point; expected a height of at least 1 um");
+      faults_.add(value["vertices"].place(), "the triangle has no area",
+                  "its three corners lie on a line or in one point; expected a height of at least 1 um");
     return out;
   }
 

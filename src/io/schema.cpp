@@ -21,8 +21,10 @@ std::string in_json(const std::string& text) {
   for (const char c : text) {
     const auto byte = static_cast<unsigned char>(c);
     if (c == '"' || c == '\\') out += '\\';
-    if (byte < 0x20) out += {'\\', 'u', '0', '0', digits[byte >> 4], digits[byte & 15]};
-    else out += c;
+    if (byte < 0x20)
+      out += {'\\', 'u', '0', '0', digits[byte >> 4], digits[byte & 15]};
+    else
+      out += c;
   }
   return out + "\"";
 }
@@ -41,7 +43,8 @@ std::string string_list(const std::vector<std::string>& words) {
 
 class Writer {
  public:
-  explicit Writer(bool provenance) : provenance_(provenance) {}
+  using Definitions = std::vector<std::pair<std::string, std::string>>;
+  Writer(bool provenance, Definitions& definitions) : provenance_(provenance), definitions_(&definitions) {}
 
   /// @param lax   a part of the whole: nothing is required (a scene's overrides of a profile)
   std::string schema(const Form& form, bool lax = false) const {
@@ -50,7 +53,9 @@ class Writer {
       case Kind::integer:
         return wrapped(R"({"type":"integer","minimum":)" + number_text(form.low) + R"(,"maximum":)" + number_text(form.high) + "}");
       case Kind::boolean: return wrapped(R"({"type":"boolean"})");
-      case Kind::text: return wrapped(R"({"type":["string","number","boolean"],"description":)" + in_json(form.what) + R"(,"examples":[)" + in_json(form.example) + "]}");
+      case Kind::text:
+        return wrapped(R"({"type":["string","number","boolean"],"description":)" + in_json(form.what) + R"(,"examples":[)" +
+                       in_json(form.example) + "]}");
       case Kind::choice: return wrapped(R"({"enum":)" + string_list(form.names) + "}");
       case Kind::list: return wrapped(list(form, lax));
       case Kind::map: return map(form, {}, {}, lax);
@@ -76,22 +81,38 @@ class Writer {
       out.push_back(in_json(key.name) + ":" + one + R"("allOf":[)" + schema(key.form, lax) + "]}");
     }
     if (provenance_)
-      for (const auto& name : provenance_keys()) out.push_back(in_json(name) + R"(:{"type":["string","number","boolean"],"description":"where the numbers here come from"})");
+      for (const auto& name : provenance_keys())
+        out.push_back(in_json(name) + R"(:{"type":["string","number","boolean"],"description":"where the numbers here come from"})");
     return joined(out);
   }
 
  private:
   // {value: …, source: …}
   std::string wrapped(const std::string& plain) const {
-    if (!provenance_) return plain;
-    return R"({"anyOf":[)" + plain + R"(,{"type":"object","required":["value"],"properties":{"value":)" + plain +
-           R"(,"source":{"type":["string","number","boolean"]},"assumed":{"type":["string","number","boolean"]},"note":{"type":["string","number","boolean"]}},"additionalProperties":false}]})";
+    if (!provenance_) return defined(plain);
+    const std::string once = defined(plain);
+    return defined(
+        R"({"anyOf":[)" + once + R"(,{"type":"object","required":["value"],"properties":{"value":)" + once +
+        R"(,"source":{"type":["string","number","boolean"]},"assumed":{"type":["string","number","boolean"]},"note":{"type":["string","number","boolean"]}},"additionalProperties":false}]})");
+  }
+
+  // What is long and comes again is written once.
+  std::string defined(const std::string& schema) const {
+    if (schema.size() < 60) return schema;
+    auto found = std::find_if(definitions_->begin(), definitions_->end(), [&](const auto& one) { return one.second == schema; });
+    if (found == definitions_->end()) {
+      definitions_->emplace_back("value" + std::to_string(definitions_->size() + 1), schema);
+      found = definitions_->end() - 1;
+    }
+    return R"({"$ref":"#/$defs/)" + found->first + "\"}";
   }
 
   static std::string number(const Form& form) {
     const auto units = base::unit_names(form.dimension);
     const std::string range = "from " + base::quantity_text(form.low, form.example) + " to " + base::quantity_text(form.high, form.example);
-    std::string bare = form.bare ? R"({"type":"number","minimum":)" + number_text(form.low) + R"(,"maximum":)" + number_text(form.high) + "}" : R"({"const":0})";
+    std::string bare = form.bare
+                           ? R"({"type":"number","minimum":)" + number_text(form.low) + R"(,"maximum":)" + number_text(form.high) + "}"
+                           : R"({"const":0})";
     if (units.empty()) return bare;
     std::string names;
     for (const auto& unit : units) {
@@ -103,11 +124,13 @@ class Writer {
       names += (names.empty() ? "" : "|") + escaped;
     }
     const std::string pattern = "^[ ]*[+-]?([0-9]+\\.?[0-9]*|\\.[0-9]+)([eE][+-]?[0-9]+)?[ ]*(" + names + ")[ ]*$";
-    return R"({"anyOf":[{"type":"string","pattern":)" + in_json(pattern) + R"(,"description":)" + in_json(range) + R"(,"examples":[)" + in_json(form.example) + "]}," + bare + "]}";
+    return R"({"anyOf":[{"type":"string","pattern":)" + in_json(pattern) + R"(,"description":)" + in_json(range) + R"(,"examples":[)" +
+           in_json(form.example) + "]}," + bare + "]}";
   }
 
   std::string list(const Form& form, bool lax) const {
-    return R"({"type":"array","items":)" + schema(form.forms[0], lax) + R"(,"minItems":)" + std::to_string(form.min_items) + R"(,"maxItems":)" + std::to_string(form.max_items) + "}";
+    return R"({"type":"array","items":)" + schema(form.forms[0], lax) + R"(,"minItems":)" + std::to_string(form.min_items) +
+           R"(,"maxItems":)" + std::to_string(form.max_items) + "}";
   }
 
   std::string map(const Form& form, const std::string& tag, const std::string& tag_schema, bool lax) const {
@@ -116,15 +139,18 @@ class Writer {
     for (const auto& key : form.keys)
       if (key.required && !lax) required.push_back(key.name);
     std::string inside = properties(form, lax);
-    if (!tag.empty()) inside = in_json(tag) + ":" + tag_schema.substr(tag_schema.starts_with("?") ? 1 : 0) + (inside.empty() ? "" : ",") + inside;
+    if (!tag.empty())
+      inside = in_json(tag) + ":" + tag_schema.substr(tag_schema.starts_with("?") ? 1 : 0) + (inside.empty() ? "" : ",") + inside;
     std::string out = R"({"type":"object","properties":{)" + inside + "}";
-    if (!form.open) out += R"(,"additionalProperties":false)";
+    if (form.open) out += R"(,"patternProperties":{"^[a-z_]+[.]":true})";  // overrides with dotted keys
+    out += R"(,"additionalProperties":false)";
     if (!required.empty()) out += R"(,"required":)" + string_list(required);
     if (!form.exactly_one.empty() && !lax) out += R"(,"oneOf":[)" + each_required(form.exactly_one) + "]";
     if (!form.at_most_one.empty()) {
       std::vector<std::string> pairs;
       for (std::size_t i = 0; i < form.at_most_one.size(); ++i)
-        for (std::size_t j = i + 1; j < form.at_most_one.size(); ++j) pairs.push_back(R"({"required":)" + string_list({form.at_most_one[i], form.at_most_one[j]}) + "}");
+        for (std::size_t j = i + 1; j < form.at_most_one.size(); ++j)
+          pairs.push_back(R"({"required":)" + string_list({form.at_most_one[i], form.at_most_one[j]}) + "}");
       out += R"(,"not":{"anyOf":[)" + joined(pairs) + "]}";
     }
     return out + "}";
@@ -139,9 +165,11 @@ class Writer {
   std::string dictionary(const Form& form, bool lax) const {
     std::string fixed;
     if (provenance_)
-      for (const auto& name : provenance_keys()) fixed += (fixed.empty() ? "" : ",") + in_json(name) + R"(:{"type":["string","number","boolean"]})";
-    return R"({"type":"object","properties":{)" + fixed + R"(},"additionalProperties":)" + schema(form.forms[0], lax) + R"(,"maxProperties":)" +
-           std::to_string(form.max_items) + (lax ? "" : R"(,"minProperties":)" + std::to_string(form.min_items)) + "}";
+      for (const auto& name : provenance_keys())
+        fixed += (fixed.empty() ? "" : ",") + in_json(name) + R"(:{"type":["string","number","boolean"]})";
+    return R"({"type":"object","properties":{)" + fixed + R"(},"additionalProperties":)" + schema(form.forms[0], lax) +
+           R"(,"maxProperties":)" + std::to_string(form.max_items) + (lax ? "" : R"(,"minProperties":)" + std::to_string(form.min_items)) +
+           "}";
   }
 
   std::string tagged(const Form& form, bool lax) const {
@@ -150,7 +178,8 @@ class Writer {
       const bool may_lack = lax || form.names[i] == form.default_tag;
       all.push_back(map(form.forms[i], form.tag, (may_lack ? "?" : "") + (R"({"const":)" + in_json(form.names[i]) + "}"), lax));
       const auto& keys = form.forms[i].keys;
-      if (std::none_of(keys.begin(), keys.end(), [](const Key& key) { return key.required; }) && form.forms[i].exactly_one.empty()) brief.push_back(form.names[i]);
+      if (std::none_of(keys.begin(), keys.end(), [](const Key& key) { return key.required; }) && form.forms[i].exactly_one.empty())
+        brief.push_back(form.names[i]);
     }
     if (!brief.empty()) all.push_back(R"({"enum":)" + string_list(brief) + "}");
     return R"({"anyOf":[)" + joined(all) + "]}";
@@ -175,6 +204,7 @@ class Writer {
   }
 
   bool provenance_;
+  Definitions* definitions_;
 };
 
 // One key a line: schemas are read by people, too.
@@ -185,8 +215,10 @@ std::string indented(const std::string& json) {
     const char c = json[i];
     if (text) {
       out += c;
-      if (c == '\\') out += json[++i];
-      else if (c == '"') text = false;
+      if (c == '\\')
+        out += json[++i];
+      else if (c == '"')
+        text = false;
       continue;
     }
     if (c == '"') text = true;
@@ -209,13 +241,13 @@ std::string indented(const std::string& json) {
 }
 
 // A scene's camera section takes the profile's keys, too, and dotted ones.
-std::string with_overrides(const std::string& scene) {
+std::string with_overrides(const std::string& scene, Writer::Definitions& definitions) {
   const std::string mark = R"("camera":{)";
   const std::size_t at = scene.find(R"("properties":{)", scene.find(mark)) + std::string(R"("properties":{)").size();
   const Form& profile = camera_form().root;
   Form rest = profile;
   std::erase_if(rest.keys, [](const Key& key) { return key.name == "mode"; });
-  const std::string more = Writer(true).properties(rest, true);
+  const std::string more = Writer(true, definitions).properties(rest, true);
   std::string out = scene;
   out.insert(at, more + ",");
   return out;
@@ -228,11 +260,16 @@ std::vector<std::string> schema_kinds() { return {"scene", "camera"}; }
 std::string schema_json(const std::string& kind) {
   const auto kinds = schema_kinds();
   if (std::find(kinds.begin(), kinds.end(), kind) == kinds.end())
-    base::fail(base::whole("schema"), "no schema of that kind: " + base::in_quotes(kind) + base::did_you_mean(kind, kinds), "expected one of " + base::listed(kinds));
+    base::fail(base::whole("schema"), "no schema of that kind: " + base::in_quotes(kind) + base::did_you_mean(kind, kinds),
+               "expected one of " + base::listed(kinds));
   const FileForm& file = kind == "scene" ? scene_form() : camera_form();
-  std::string body = Writer(file.provenance).schema(file.root);
-  if (kind == "scene") body = with_overrides(body);
-  return indented(R"({"$schema":"https://json-schema.org/draft/2020-12/schema","title":)" + in_json(file.title) + "," + body.substr(1));
+  Writer::Definitions definitions;
+  std::string body = Writer(file.provenance, definitions).schema(file.root);
+  if (kind == "scene") body = with_overrides(body, definitions);
+  std::vector<std::string> shared;
+  for (const auto& [name, schema] : definitions) shared.push_back(in_json(name) + ":" + schema);
+  return indented(R"({"$schema":"https://json-schema.org/draft/2020-12/schema","title":)" + in_json(file.title) + "," +
+                  body.substr(1, body.size() - 2) + R"(,"$defs":{)" + joined(shared) + "}}");
 }
 
 }  // namespace tofray::io

@@ -40,7 +40,8 @@ Node& child(Node& map, const std::string& key, const Place& place) {
 }
 
 void merge(Node& into, Node value, const Place& place) {
-  const bool maps = into.kind == Node::Kind::map && value.kind == Node::Kind::map && value.find("value") == nullptr && same_kind(into, value);
+  const bool maps =
+      into.kind == Node::Kind::map && value.kind == Node::Kind::map && value.find("value") == nullptr && same_kind(into, value);
   if (!maps) {
     into = std::move(value);
     return;
@@ -54,7 +55,9 @@ Node& element(Node& list, const std::string& part, const std::string& before, co
   if (read.ec == std::errc() && read.ptr == part.data() + part.size() && index < list.items.size()) return list.items[index];
   const std::size_t size = list.items.size();
   base::fail(place, "no such element: " + base::in_quotes(part) + " in " + base::in_quotes(before),
-             size == 0 ? "the list is empty" : "it is a list; expected an index, as in " + before + ".0" + (size > 1 ? " … " + before + "." + std::to_string(size - 1) : ""));
+             size == 0 ? "the list is empty"
+                       : "it is a list; expected an index, as in " + before + ".0" +
+                             (size > 1 ? " … " + before + "." + std::to_string(size - 1) : ""));
 }
 
 }  // namespace
@@ -66,7 +69,9 @@ void set_key(Node& root, const std::string& path, Node value, const Place& place
   for (std::size_t from = 0; from <= path.size();) {
     const std::size_t dot = std::min(path.find('.', from), path.size());
     const std::string part = path.substr(from, dot - from);
-    if (part.empty()) base::fail(place, "the key " + base::in_quotes(path) + " has an empty part", "expected words with one \".\" between them, e.g. lens.f_number");
+    if (part.empty())
+      base::fail(place, "the key " + base::in_quotes(path) + " has an empty part",
+                 "expected words with one \".\" between them, e.g. lens.f_number");
     const bool last = dot == path.size();
     if (here->kind == Node::Kind::list) {
       here = &element(*here, part, before, place);
@@ -101,8 +106,10 @@ void flatten(const Node& map, const std::string& before, const std::vector<std::
     if (before.empty() && std::find(without.begin(), without.end(), key) != without.end()) continue;
     const Node& value = map.items[i];
     const std::string path = before + key;
-    if (value.kind == Node::Kind::map && !stays_whole(value)) flatten(value, path + ".", without, out);
-    else out.push_back({path, flow_text(value), base::to_string(map.keys[i].place)});
+    if (value.kind == Node::Kind::map && !stays_whole(value))
+      flatten(value, path + ".", without, out);
+    else
+      out.push_back({path, flow_text(value), base::to_string(map.keys[i].place)});
   }
 }
 

@@ -20,8 +20,8 @@ namespace tofray::io {
 namespace {
 
 namespace fs = std::filesystem;
-using base::Place;
 using base::in_quotes;
+using base::Place;
 
 class Descriptor {
  public:
@@ -48,7 +48,8 @@ std::string read_all(int descriptor, const Place& place, const std::string& path
     if (got == 0) return text;
     text.append(buffer, static_cast<std::size_t>(got));
     if (text.size() > most)
-      base::fail(place, in_quotes(path, 200) + " is too long", "at most " + std::to_string(most) + " bytes (`tofray --limits`)", ErrorKind::limit);
+      base::fail(place, in_quotes(path, 200) + " is too long", "at most " + std::to_string(most) + " bytes (`tofray --limits`)",
+                 ErrorKind::limit);
   }
 }
 
@@ -99,7 +100,8 @@ std::string read_text(const std::string& path) {
   return read_all(file.get(), place, path);
 }
 
-std::string read_reference(const std::string& reference, const std::string& folder, const std::string& root, const Place& place, std::string& found) {
+std::string read_reference(const std::string& reference, const std::string& folder, const std::string& root, const Place& place,
+                           std::string& found) {
   if (reference.find('\0') != std::string::npos) base::fail(place, "a file's name holds no NUL", "got " + in_quotes(reference));
   std::string from = folder.empty() ? "." : folder;
   fs::path relative(reference);
@@ -116,8 +118,9 @@ std::string read_reference(const std::string& reference, const std::string& fold
     if (errno == EXDEV || errno == ELOOP) refuse(place, reference);
     base::fail(place, "cannot open " + in_quotes(found, 200) + ": " + std::strerror(errno), {}, ErrorKind::io);
   }
-  struct stat status{};
-  if (::fstat(file.get(), &status) != 0 || !S_ISREG(status.st_mode)) base::fail(place, in_quotes(found, 200) + " is not a plain file", {}, ErrorKind::io);
+  struct stat status {};
+  if (::fstat(file.get(), &status) != 0 || !S_ISREG(status.st_mode))
+    base::fail(place, in_quotes(found, 200) + " is not a plain file", {}, ErrorKind::io);
   return read_all(file.get(), place, found);
 }
 

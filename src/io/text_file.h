@@ -17,7 +17,8 @@ std::string read_text(const std::string& path);
 /// @param place    who points there, for messages
 /// @param folder   "" means "."
 /// @param found    set to the path that was opened
-std::string read_reference(const std::string& reference, const std::string& folder, const std::string& root, const base::Place& place, std::string& found);
+std::string read_reference(const std::string& reference, const std::string& folder, const std::string& root, const base::Place& place,
+                           std::string& found);
 
 /// The folder that a path lies in, "." where it names none.
 std::string folder_of(const std::string& path);

@@ -31,11 +31,13 @@ std::string describe(const Node& node) {
 namespace {
 
 bool plain_is_safe(const std::string& text) {
-  if (text.empty() || text.front() == ' ' || text.back() == ' ' || text.front() == '%' || text == "null" || text == "Null" || text == "NULL")
+  if (text.empty() || text.front() == ' ' || text.back() == ' ' || text.front() == '%' || text == "null" || text == "Null" ||
+      text == "NULL")
     return false;
   if (text.starts_with("- ") || text == "-" || text.starts_with("--") || text.starts_with("..")) return false;
   return std::all_of(text.begin(), text.end(), [](char c) {
-    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || std::string_view(" ._+-/%()").find(c) != std::string_view::npos;
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
+           std::string_view(" ._+-/%()").find(c) != std::string_view::npos;
   });
 }
 
@@ -45,8 +47,10 @@ std::string json_quoted(const std::string& text) {
   for (const char c : text) {
     const auto byte = static_cast<unsigned char>(c);
     if (c == '"' || c == '\\') out += '\\';
-    if (byte < 0x20 || byte == 0x7F) out += {'\\', 'x', digits[byte >> 4], digits[byte & 15]};
-    else out += c;
+    if (byte < 0x20 || byte == 0x7F)
+      out += {'\\', 'x', digits[byte >> 4], digits[byte & 15]};
+    else
+      out += c;
   }
   return out + "\"";
 }

@@ -17,12 +17,12 @@ struct Node {
     base::Place place;
   };
   Kind kind = Kind::null;
-  bool quoted = false;         ///< scalar written in quotes: never a boolean
-  int height = 0;              ///< levels of lists and maps in it
-  std::string text;            ///< scalar
-  base::Place place;           ///< where the value starts
-  std::vector<Key> keys;       ///< map: one for each of `items`
-  std::vector<Node> items;     ///< list: its elements; map: its values
+  bool quoted = false;      ///< scalar written in quotes: never a boolean
+  int height = 0;           ///< levels of lists and maps in it
+  std::string text;         ///< scalar
+  base::Place place;        ///< where the value starts
+  std::vector<Key> keys;    ///< map: one for each of `items`
+  std::vector<Node> items;  ///< list: its elements; map: its values
 
   /// The value of a map's key, or none.
   [[nodiscard]] const Node* find(std::string_view key) const;

@@ -33,7 +33,7 @@ class Builder : public YAML::EventHandler {
   // Columns count characters, as editors do.
   Place place(const YAML::Mark& mark) const {
     if (start_.line == 0 || mark.is_null()) return start_;
-    return {start_.source, mark.line + 1, mark.column + 1};
+    return {start_.source, mark.line + 1, column(mark)};
   }
 
   void OnDocumentStart(const YAML::Mark& mark) override {
@@ -47,6 +47,7 @@ class Builder : public YAML::EventHandler {
     Node node;
     node.kind = Node::Kind::scalar;
     node.quoted = tag == "!";
+    if (node.quoted) refuse_open_quote(mark);
     node.text = value;
     add(mark, anchor, std::move(node));
   }
@@ -62,7 +63,8 @@ class Builder : public YAML::EventHandler {
   void OnMapEnd() override { close(); }
   void OnAlias(const YAML::Mark& mark, YAML::anchor_t anchor) override {
     const auto found = anchors_.find(anchor);
-    if (found == anchors_.end()) fail(place(mark), "this alias stands inside its own anchor", "expected a value that does not contain itself");
+    if (found == anchors_.end())
+      fail(place(mark), "this alias stands inside its own anchor", "expected a value that does not contain itself");
     count(mark, size(found->second));
     attach(mark, Node(found->second));
   }
@@ -76,8 +78,38 @@ class Builder : public YAML::EventHandler {
     std::unordered_set<std::string> seen;
   };
 
+  static bool starts_character(char c) { return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U; }
+
+  // yaml-cpp counts bytes. From the last place asked for in the line, so that a file of one long line costs no square.
+  int column(const YAML::Mark& mark) const {
+    const auto position = static_cast<std::size_t>(mark.pos);
+    if (ascii_only_ || mark.pos < mark.column || position > text_.size()) return mark.column + 1;
+    if (mark.line != last_.line) last_ = {mark.line, position - static_cast<std::size_t>(mark.column), 1};
+    for (; last_.position < position; ++last_.position) last_.column += starts_character(text_[last_.position]) ? 1 : 0;
+    for (; last_.position > position; --last_.position) last_.column -= starts_character(text_[last_.position - 1]) ? 1 : 0;
+    return last_.column;
+  }
+
+  // At the end of the text yaml-cpp takes an open quote for a closed one.
+  void refuse_open_quote(const YAML::Mark& mark) const {
+    if (mark.pos < 0 || static_cast<std::size_t>(mark.pos) >= text_.size()) return;
+    std::size_t at = text_.find_first_of("\"'", static_cast<std::size_t>(mark.pos));
+    if (at == std::string_view::npos) return;
+    const char quote = text_[at];
+    for (++at; at < text_.size(); ++at) {
+      if (quote == '"' && text_[at] == '\\')
+        ++at;
+      else if (text_[at] == quote && quote == '\'' && at + 1 < text_.size() && text_[at + 1] == quote)
+        ++at;
+      else if (text_[at] == quote)
+        return;
+    }
+    fail(place(mark), "the quote is not closed", "expected another " + std::string(1, quote) + " at the end of the text");
+  }
+
   void refuse_tag(const YAML::Mark& mark, const std::string& tag) const {
-    const bool written = mark.pos >= 0 && static_cast<std::size_t>(mark.pos) < text_.size() && ascii_only_ && text_[static_cast<std::size_t>(mark.pos)] == '!';
+    const bool written =
+        mark.pos >= 0 && static_cast<std::size_t>(mark.pos) < text_.size() && text_[static_cast<std::size_t>(mark.pos)] == '!';
     if ((tag.empty() || tag == "?" || tag == "!") && !written) return;
     fail(place(mark), "tags such as \"!!str\" are not used here", "got the tag " + base::in_quotes(tag) + "; take it out");
   }
@@ -91,13 +123,14 @@ class Builder : public YAML::EventHandler {
   void count(const YAML::Mark& mark, std::int64_t more) {
     nodes_ += more;
     if (nodes_ > base::limit::nodes.value)
-      fail(place(mark), "too many values", "a file may hold " + std::to_string(base::limit::nodes.value) + ", aliases written out", ErrorKind::limit);
+      fail(place(mark), "too many values", "a file may hold " + std::to_string(base::limit::nodes.value) + ", aliases written out",
+           ErrorKind::limit);
   }
 
   void too_deep(const YAML::Mark& mark, int depth) const {
     if (depth > base::limit::nesting_depth.value)
-      fail(place(mark), "nested too deeply", "lists and maps may stand " + std::to_string(base::limit::nesting_depth.value) + " deep inside each other",
-           ErrorKind::limit);
+      fail(place(mark), "nested too deeply",
+           "lists and maps may stand " + std::to_string(base::limit::nesting_depth.value) + " deep inside each other", ErrorKind::limit);
   }
 
   void open(const YAML::Mark& mark, YAML::anchor_t anchor, Node::Kind kind) {
@@ -127,7 +160,8 @@ class Builder : public YAML::EventHandler {
   void refuse_as_key(const YAML::Mark& mark, Node::Kind kind) const {
     if (stack_.empty() || stack_.back().node.kind != Node::Kind::map || stack_.back().key_pending) return;
     if (kind != Node::Kind::scalar)
-      fail(place(mark), "a key must be a plain word", "got a list, a map or nothing as the key, expected e.g. \"name: value\"; or a closing bracket is missing below");
+      fail(place(mark), "a key must be a plain word",
+           "got a list, a map or nothing as the key, expected e.g. \"name: value\"; or a closing bracket is missing below");
   }
 
   void attach(const YAML::Mark& mark, Node node) {
@@ -160,11 +194,17 @@ class Builder : public YAML::EventHandler {
   }
 
  public:
-  bool ascii_only_ = true;     // then a mark's position is an offset in bytes
+  bool ascii_only_ = true;
 
  private:
   std::string_view text_;
   Place start_;
+  struct Last {
+    int line = -1;
+    std::size_t position = 0;
+    int column = 1;
+  };
+  mutable Last last_;
   int documents_ = 0;
   std::int64_t nodes_ = 0;
   Node root_;
@@ -179,8 +219,7 @@ std::size_t utf8_length(std::string_view text, std::size_t i) {
   const unsigned b = byte(0);
   if (b < 0x80) return 1;
   if (b >= 0xC2 && b <= 0xDF) return more(1) ? 2 : 0;
-  if (b >= 0xE0 && b <= 0xEF)
-    return more(1) && more(2) && (b != 0xE0 || byte(1) >= 0xA0) && (b != 0xED || byte(1) < 0xA0) ? 3 : 0;
+  if (b >= 0xE0 && b <= 0xEF) return more(1) && more(2) && (b != 0xE0 || byte(1) >= 0xA0) && (b != 0xED || byte(1) < 0xA0) ? 3 : 0;
   if (b >= 0xF0 && b <= 0xF4)
     return more(1) && more(2) && more(3) && (b != 0xF0 || byte(1) >= 0x90) && (b != 0xF4 || byte(1) < 0x90) ? 4 : 0;
   return 0;
@@ -228,10 +267,10 @@ std::string syntax_hint(std::string_view text, const YAML::Mark& mark) {
 
 Node parse(std::string_view text, const Place& start) {
   if (static_cast<std::int64_t>(text.size()) > base::limit::file_bytes.value)
-    fail(start, "the text is too long", "got " + std::to_string(text.size()) + " bytes, at most " + std::to_string(base::limit::file_bytes.value),
-         ErrorKind::limit);
+    fail(start, "the text is too long",
+         "got " + std::to_string(text.size()) + " bytes, at most " + std::to_string(base::limit::file_bytes.value), ErrorKind::limit);
   const bool ascii = check_bytes(text, start);
-  if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);   // byte order mark
+  if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);  // byte order mark
   Builder builder(text, start);
   builder.ascii_only_ = ascii;
   try {

@@ -1,0 +1,81 @@
+// SPDX-FileCopyrightText: 2026 The tofray authors
+// SPDX-License-Identifier: Apache-2.0
+#include "base/text.h"
+
+#include <gtest/gtest.h>
+
+#include "base/faults.h"
+#include "base/limits.h"
+
+namespace {
+
+using namespace tofray;
+using namespace tofray::base;
+
+TEST(did_you_mean, finds_typos_swaps_case_and_words_cut_short) {
+  const std::vector<std::string> known = {"integration_time", "modulation_frequency", "mode", "pose", "lens"};
+  EXPECT_EQ(nearest("itegration_time", known), "integration_time");
+  EXPECT_EQ(nearest("integartion_time", known), "integration_time");
+  EXPECT_EQ(nearest("Integration-Time", known), "integration_time");
+  EXPECT_EQ(nearest("modulation", known), "modulation_frequency");
+  EXPECT_EQ(nearest("moed", known), "mode");
+  EXPECT_EQ(nearest("zebra", known), "");
+  EXPECT_EQ(nearest("", known), "");
+  EXPECT_EQ(nearest("x", {}), "");
+  EXPECT_EQ(did_you_mean("lans", known), "; did you mean \"lens\"?");
+}
+
+TEST(edit_distance, counts_inserts_deletes_replacements_and_swaps) {
+  EXPECT_EQ(edit_distance("", "abc"), 3);
+  EXPECT_EQ(edit_distance("kitten", "sitting"), 3);
+  EXPECT_EQ(edit_distance("ab", "ba"), 1);
+  EXPECT_EQ(edit_distance("same", "same"), 0);
+}
+
+TEST(in_quotes, shows_control_characters_and_cuts_at_a_character) {
+  EXPECT_EQ(in_quotes("a\x1b[31m\n"), "\"a\\x1b[31m\\x0a\"");
+  EXPECT_EQ(in_quotes("\xC2\x9B"), "\"\\x9b\"");
+  EXPECT_EQ(in_quotes("abcä", 4), "\"abc…\"");
+}
+
+TEST(number_text, is_short_and_reads_back) {
+  EXPECT_EQ(number_text(0.0001), "0.0001");
+  EXPECT_EQ(number_text(10000000), "10000000");
+  EXPECT_EQ(number_text(1e30), "1e+30");
+  EXPECT_EQ(number_text(0.1), "0.1");
+}
+
+TEST(faults, stand_in_the_order_of_the_file_each_once) {
+  const auto source = std::make_shared<const std::string>("a.yaml");
+  Faults faults;
+  faults.add({source, 9, 1}, "third");
+  faults.add({source, 2, 7}, "second", "got this\nmend that");
+  faults.add({source, 2, 3}, "first");
+  faults.add({source, 9, 1}, "third");
+  EXPECT_EQ(faults.text(), "a.yaml:2:3: error: first\na.yaml:2:7: error: second\n  got this\n  mend that\na.yaml:9:1: error: third");
+}
+
+TEST(faults, beyond_the_limit_are_counted) {
+  Faults faults;
+  for (int i = 1; i <= 53; ++i) faults.add({nullptr, i, 1}, "x");
+  EXPECT_TRUE(faults.text().ends_with("\nand 3 more"));
+  EXPECT_THROW(faults.raise(), Error);
+}
+
+TEST(faults, are_of_kind_limit_only_if_all_are) {
+  Faults faults;
+  faults.add({nullptr, 1, 1}, "x", {}, ErrorKind::limit);
+  try {
+    faults.raise();
+  } catch (const Error& e) {
+    EXPECT_EQ(e.kind(), ErrorKind::limit);
+  }
+  faults.add({nullptr, 2, 1}, "y");
+  try {
+    faults.raise();
+  } catch (const Error& e) {
+    EXPECT_EQ(e.kind(), ErrorKind::bad_input);
+  }
+}
+
+}  // namespace
