@@ -6,6 +6,7 @@
 #include <tuple>
 
 #include "base/limits.h"
+#include "base/text.h"
 
 namespace tofray::base {
 
@@ -18,10 +19,10 @@ std::string to_string(const Place& place) {
 Place whole(const std::string& source) { return {std::make_shared<const std::string>(source), 0, 0}; }
 
 void Faults::add(const Place& place, const std::string& what, const std::string& more, ErrorKind kind) {
-  std::string text = to_string(place) + ": error: " + what;
+  std::string text = printable(to_string(place)) + ": error: " + printable(what);
   for (std::size_t from = 0; from < more.size();) {
     const std::size_t end = std::min(more.find('\n', from), more.size());
-    text += "\n  " + more.substr(from, end - from);
+    text += "\n  " + printable(more.substr(from, end - from));
     from = end + 1;
   }
   faults_.push_back({place, std::move(text), kind});

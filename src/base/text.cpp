@@ -7,15 +7,9 @@
 
 namespace tofray::base {
 
-std::string in_quotes(std::string_view text, std::size_t longest) {
-  bool cut = text.size() > longest;
-  if (cut) {
-    std::size_t end = longest;
-    while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0) == 0x80) --end;  // not inside a UTF-8 character
-    text = text.substr(0, end);
-  }
+std::string printable(std::string_view text) {
   constexpr char digits[] = "0123456789abcdef";
-  std::string out = "\"";
+  std::string out;
   for (std::size_t i = 0; i < text.size(); ++i) {
     const auto byte = static_cast<unsigned char>(text[i]);
     // C0 and C1 control characters could steer a terminal.
@@ -27,7 +21,17 @@ std::string in_quotes(std::string_view text, std::size_t longest) {
       out += static_cast<char>(byte);
     }
   }
-  return out + (cut ? "…\"" : "\"");
+  return out;
+}
+
+std::string in_quotes(std::string_view text, std::size_t longest) {
+  const bool cut = text.size() > longest;
+  if (cut) {
+    std::size_t end = longest;
+    while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0) == 0x80) --end;  // not inside a UTF-8 character
+    text = text.substr(0, end);
+  }
+  return "\"" + printable(text) + (cut ? "…\"" : "\"");
 }
 
 int edit_distance(std::string_view a, std::string_view b) {

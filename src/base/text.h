@@ -8,7 +8,10 @@
 /// Small helpers for texts that people read.
 namespace tofray::base {
 
-/// The text in double quotes for an error message: control characters as \xNN, cut after `longest` bytes.
+/// The text with control characters as \xNN.
+std::string printable(std::string_view text);
+
+/// The text in double quotes for an error message: printable, cut after `longest` bytes.
 std::string in_quotes(std::string_view text, std::size_t longest = 60);
 
 /// Edits (insert, delete, replace, swap neighbours) that turn one word into the other.

@@ -80,20 +80,27 @@ class Writer {
       if (!key.fallback.empty() && key.fallback != "{}") one += R"("default":)" + fallback(key) + ",";
       out.push_back(in_json(key.name) + ":" + one + R"("allOf":[)" + schema(key.form, lax) + "]}");
     }
-    if (provenance_)
-      for (const auto& name : provenance_keys())
-        out.push_back(in_json(name) + R"(:{"type":["string","number","boolean"],"description":"where the numbers here come from"})");
+    if (provenance_) out.push_back(provenance_properties(""));
     return joined(out);
   }
 
  private:
+  // "source": …, "assumed": …, "note": …
+  static std::string provenance_properties(std::string before) {
+    std::string out;
+    for (const auto& name : provenance_keys()) {
+      out += before + in_json(name) + R"(:{"type":["string","number","boolean"],"description":"where the numbers here come from"})";
+      before = ",";
+    }
+    return out;
+  }
+
   // {value: …, source: …}
   std::string wrapped(const std::string& plain) const {
     if (!provenance_) return defined(plain);
     const std::string once = defined(plain);
-    return defined(
-        R"({"anyOf":[)" + once + R"(,{"type":"object","required":["value"],"properties":{"value":)" + once +
-        R"(,"source":{"type":["string","number","boolean"]},"assumed":{"type":["string","number","boolean"]},"note":{"type":["string","number","boolean"]}},"additionalProperties":false}]})");
+    return defined(R"({"anyOf":[)" + once + R"(,{"type":"object","required":["value"],"properties":{"value":)" + once +
+                   provenance_properties(",") + R"(},"additionalProperties":false}]})");
   }
 
   // What is long and comes again is written once.
@@ -163,13 +170,9 @@ class Writer {
   }
 
   std::string dictionary(const Form& form, bool lax) const {
-    std::string fixed;
-    if (provenance_)
-      for (const auto& name : provenance_keys())
-        fixed += (fixed.empty() ? "" : ",") + in_json(name) + R"(:{"type":["string","number","boolean"]})";
-    return R"({"type":"object","properties":{)" + fixed + R"(},"additionalProperties":)" + schema(form.forms[0], lax) +
-           R"(,"maxProperties":)" + std::to_string(form.max_items) + (lax ? "" : R"(,"minProperties":)" + std::to_string(form.min_items)) +
-           "}";
+    return R"({"type":"object","properties":{)" + (provenance_ ? provenance_properties("") : "") + R"(},"additionalProperties":)" +
+           schema(form.forms[0], lax) + R"(,"maxProperties":)" + std::to_string(form.max_items) +
+           (lax ? "" : R"(,"minProperties":)" + std::to_string(form.min_items)) + "}";
   }
 
   std::string tagged(const Form& form, bool lax) const {

@@ -55,6 +55,12 @@ TEST(faults, stand_in_the_order_of_the_file_each_once) {
   EXPECT_EQ(faults.text(), "a.yaml:2:3: error: first\na.yaml:2:7: error: second\n  got this\n  mend that\na.yaml:9:1: error: third");
 }
 
+TEST(faults, show_control_characters_of_names) {
+  Faults faults;
+  faults.add(whole(std::string("--set a\0b", 9)), "no \x1b[31m", "got\r\nthat");
+  EXPECT_EQ(faults.text(), "--set a\\x00b: error: no \\x1b[31m\n  got\\x0d\n  that");
+}
+
 TEST(faults, beyond_the_limit_are_counted) {
   Faults faults;
   for (int i = 1; i <= 53; ++i) faults.add({nullptr, i, 1}, "x");
