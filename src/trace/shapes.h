@@ -74,7 +74,8 @@ TOFRAY_FN F careful_dot(const Ray<F>& ray, const float* high, const float* low) 
 }
 
 /// Triangle: inside where the three d·edge are not negative. Near an edge the sums are taken anew with care, so that neighbours
-/// agree about every ray and nothing leaks between them (watertight as in Woop, Benthin and Wald 2013).
+/// agree about every ray and nothing leaks between them (watertight as in Woop, Benthin and Wald 2013). Where a ray meets a vertex
+/// exactly, the signs of all its edges are rounding and may turn round it without end: what is that small (2^-44) counts as inside.
 template <class F>
 TOFRAY_FN F inverse_range(const scene::TriangleForm& triangle, const Ray<F>& ray) {
   F least = num::min(dot(ray, triangle.edge[0]), num::min(dot(ray, triangle.edge[1]), dot(ray, triangle.edge[2])));
@@ -85,7 +86,7 @@ TOFRAY_FN F inverse_range(const scene::TriangleForm& triangle, const Ray<F>& ray
     const F e2 = careful_dot(ray, triangle.edge[2], triangle.edge_low[2]);
     least = num::min(e0, num::min(e1, e2));
   }
-  return num::select(least >= F(0.0f), dot(ray, triangle.m), F(0.0f));
+  return num::select(least >= doubt * F(-0x1p-23f), dot(ray, triangle.m), F(0.0f));
 }
 
 }  // namespace tofray::trace

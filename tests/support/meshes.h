@@ -1,0 +1,56 @@
+// SPDX-FileCopyrightText: 2026 The tofray authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include <cmath>
+#include <map>
+#include <utility>
+#include <vector>
+
+#include "base/vec.h"
+#include "scene/frozen_scene.h"
+
+namespace tofray::test {
+
+/// A closed mesh; triangles turn to the left seen from outside.
+struct Mesh {
+  std::vector<Vec3> vertices;
+  std::vector<std::array<int, 3>> triangles;
+
+  /// @param own_objects  each triangle is an object of its own
+  [[nodiscard]] scene::Placed placed(bool own_objects = false) const {
+    scene::Placed out;
+    for (std::size_t i = 0; i < triangles.size(); ++i) {
+      const auto& t = triangles[i];
+      out.triangles.push_back({{at(t[0]), at(t[1]), at(t[2])}, own_objects ? static_cast<int>(i) : 0});
+    }
+    return out;
+  }
+  [[nodiscard]] const Vec3& at(int i) const { return vertices[static_cast<std::size_t>(i)]; }
+};
+
+/// The unit icosahedron, each triangle cut into four `cuts` times, vertices on the unit sphere: 20·4^cuts triangles.
+inline Mesh icosphere(int cuts) {
+  using namespace base;
+  const double g = 0.5 * (1 + std::sqrt(5.0));
+  Mesh mesh{{{-1, g, 0}, {1, g, 0}, {-1, -g, 0}, {1, -g, 0}, {0, -1, g}, {0, 1, g}, {0, -1, -g}, {0, 1, -g}, {g, 0, -1}, {g, 0, 1}, {-g, 0, -1}, {-g, 0, 1}},
+            {{0, 11, 5}, {0, 5, 1}, {0, 1, 7}, {0, 7, 10}, {0, 10, 11}, {1, 5, 9}, {5, 11, 4}, {11, 10, 2}, {10, 7, 6}, {7, 1, 8},
+             {3, 9, 4}, {3, 4, 2}, {3, 2, 6}, {3, 6, 8}, {3, 8, 9}, {4, 9, 5}, {2, 4, 11}, {6, 2, 10}, {8, 6, 7}, {9, 8, 1}}};
+  for (Vec3& v : mesh.vertices) v = normalized(v);
+  for (int cut = 0; cut < cuts; ++cut) {
+    std::map<std::pair<int, int>, int> middles;
+    const auto middle = [&](int a, int b) {
+      const auto [found, made] = middles.try_emplace({std::min(a, b), std::max(a, b)}, static_cast<int>(mesh.vertices.size()));
+      if (made) mesh.vertices.push_back(normalized(mesh.at(a) + mesh.at(b)));
+      return found->second;
+    };
+    std::vector<std::array<int, 3>> finer;
+    for (const auto& t : mesh.triangles) {
+      const int ab = middle(t[0], t[1]), bc = middle(t[1], t[2]), ca = middle(t[2], t[0]);
+      for (const std::array<int, 3>& part : {std::array<int, 3>{t[0], ab, ca}, {t[1], bc, ab}, {t[2], ca, bc}, {ab, bc, ca}}) finer.push_back(part);
+    }
+    mesh.triangles = finer;
+  }
+  return mesh;
+}
+
+}  // namespace tofray::test
