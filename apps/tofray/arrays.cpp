@@ -1,0 +1,41 @@
+// SPDX-FileCopyrightText: 2026 The tofray authors
+// SPDX-License-Identifier: Apache-2.0
+#include "arrays.h"
+
+#include <cmath>
+
+namespace tofray::app {
+
+Arrays::Arrays(std::vector<io::NamedArray> arrays, std::string where) : where_(std::move(where)), arrays_(std::move(arrays)) {
+  if (const io::NpyArray* meta = find("meta"); meta != nullptr && meta->type.kind == 'U') {
+    meta_text_ = meta->text();
+    meta_ = io::parse_json(meta_text_, where_ + ": meta");
+  }
+  for (const char* name : {"raw", "tap_a", "z_m", "range_m"}) {
+    const io::NpyArray* array = find(name);
+    if (array == nullptr || array->shape.size() < 2 || array->shape.size() > 3) continue;
+    width_ = array->shape.back();
+    height_ = array->shape[array->shape.size() - 2];
+    if (array->shape.size() == 3 && phases_ == 0) phases_ = array->shape[0];
+  }
+}
+
+const io::NpyArray* Arrays::find(std::string_view name) const {
+  for (const io::NamedArray& one : arrays_) {
+    if (one.name == name) return &one.array;
+  }
+  return nullptr;
+}
+
+double Arrays::at(std::string_view name, std::size_t i) const {
+  const io::NpyArray* array = find(name);
+  return array == nullptr || array->type.kind == 'U' || i >= array->count() ? std::nan("") : array->number(i);
+}
+
+std::string Arrays::unit(const std::string& name) const {
+  const io::Json* units = meta_.find("units");
+  const io::Json* found = units == nullptr ? nullptr : units->find(name);
+  return found == nullptr || !found->is_string() ? "" : *found->string();
+}
+
+}  // namespace tofray::app

@@ -1,0 +1,45 @@
+// SPDX-FileCopyrightText: 2026 The tofray authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include <string>
+#include <vector>
+
+#include "io/json.h"
+#include "io/npz.h"
+
+namespace tofray::app {
+
+/// The arrays of one file, by name, and what `meta` says about them.
+class Arrays {
+ public:
+  /// @param where  the file, for messages
+  Arrays(std::vector<io::NamedArray> arrays, std::string where);
+
+  [[nodiscard]] const std::string& where() const { return where_; }
+  [[nodiscard]] const std::vector<io::NamedArray>& all() const { return arrays_; }
+  [[nodiscard]] const io::NpyArray* find(std::string_view name) const;
+  /// Element i of an array as a number; NaN where there is no such array or element.
+  [[nodiscard]] double at(std::string_view name, std::size_t i) const;
+  /// `meta` as a document; null where there is none.
+  [[nodiscard]] const io::Json& meta() const { return meta_; }
+  [[nodiscard]] const std::string& meta_text() const { return meta_text_; }
+  [[nodiscard]] std::string unit(const std::string& name) const;
+  /// Columns and rows of the image and how many raw frames; 0 where no array says.
+  [[nodiscard]] std::size_t width() const { return width_; }
+  [[nodiscard]] std::size_t height() const { return height_; }
+  [[nodiscard]] std::size_t phases() const { return phases_; }
+
+ private:
+  std::string where_;
+  std::vector<io::NamedArray> arrays_;
+  std::string meta_text_;
+  io::Json meta_;
+  std::size_t width_ = 0, height_ = 0, phases_ = 0;
+};
+
+/// A report on one pixel, for people or as JSON: surface, light, every raw frame, phases, depth.
+/// @throws Error (bad_input) where the pixel is outside the image
+std::string pixel_text(const Arrays& arrays, int u, int v);
+io::Json pixel_json(const Arrays& arrays, int u, int v);
+
+}  // namespace tofray::app

@@ -1,0 +1,132 @@
+// SPDX-FileCopyrightText: 2026 The tofray authors
+// SPDX-License-Identifier: Apache-2.0
+#include "bench.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+
+#include "commands.h"
+#include "console.h"
+#include "io/meta.h"
+#include "io/sha256.h"
+#include "progress.h"
+
+namespace tofray::app {
+
+namespace {
+
+SimulatorOptions without_truth(SimulatorOptions options) {
+  options.truth = false;
+  return options;
+}
+
+template <class T>
+void append(std::string& bytes, const std::vector<T>& array) {
+  bytes.append(reinterpret_cast<const char*>(array.data()), array.size() * sizeof(T));
+}
+
+double number(const io::Json& row, const char* key) {
+  double value = 0;
+  row.find(key)->number(value);
+  return value;
+}
+
+std::string table_of(const io::Json& results, const std::vector<Ratio>& ratios) {
+  std::string text = fmt::format("{:<24} {:<11} {:>7} {:<6} {:>10} {:>10} {:>9} {:>8}  {}\n", "scene", "code", "threads", "noise", "frames/s", "median ms", "p10 ms",
+                                 "peak MB", "SHA-256 of frame 0");
+  for (const io::Json& row : *results.items()) {
+    text += fmt::format("{:<24} {:<11} {:>7.0f} {:<6} {:>10.2f} {:>10.3f} {:>9.3f} {:>8.1f}  {}\n", *row.find("scene")->string(), *row.find("isa")->string(),
+                        number(row, "threads"), *row.find("noise")->string(), number(row, "frames_per_s"), number(row, "ms_median"), number(row, "ms_p10"),
+                        1e-6 * number(row, "peak_bytes"), row.find("sha256")->string()->substr(0, 16));
+  }
+  if (!ratios.empty()) text += "\n";
+  for (const Ratio& one : ratios) text += fmt::format("{:<62} {:>8.3f}\n", one.name, one.value);
+  return text;
+}
+
+}  // namespace
+
+Contender::Contender(const Inputs& in, const SimulatorOptions& options)
+    : scene_(in.scene.name),
+      options_(without_truth(options)),
+      pixels_(static_cast<double>(in.camera.sensor.width) * in.camera.sensor.height),
+      simulator_(in.scene, in.camera, options_) {}
+
+void Contender::step(bool timed) {
+  const auto start = std::chrono::steady_clock::now();
+  simulator_.frame(next_++, frame_);
+  if (timed) ms_.push_back(std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count());
+}
+
+double Contender::percentile_ms(double share) const {
+  std::vector<double> sorted = ms_;
+  std::sort(sorted.begin(), sorted.end());
+  if (sorted.empty()) return std::nan("");
+  const double place = share * static_cast<double>(sorted.size() - 1);
+  const auto below = static_cast<std::size_t>(place);
+  const std::size_t above = std::min(below + 1, sorted.size() - 1);
+  return sorted[below] + (place - static_cast<double>(below)) * (sorted[above] - sorted[below]);
+}
+
+double Contender::pixel_rate() const { return pixels_ / (1e-3 * median_ms()); }
+
+io::Json Contender::result() {
+  simulator_.frame(0, frame_);
+  io::Json row = io::Json::object();
+  row.set("scene", scene_).set("isa", simulator_.isa()).set("threads", simulator_.threads()).set("noise", io::noise_name(options_.noise));
+  row.set("frames_per_s", 1000 / median_ms()).set("ms_median", median_ms()).set("ms_p10", percentile_ms(0.1)).set("stage_ms", io::Json::object());
+  return row.set("peak_bytes", peak_bytes()).set("sha256", arrays_sha256(frame_));
+}
+
+std::uint64_t peak_bytes() {
+  std::FILE* file = std::fopen("/proc/self/status", "re");
+  if (file == nullptr) return 0;
+  char line[256];
+  std::uint64_t bytes = 0;
+  while (std::fgets(line, sizeof line, file) != nullptr) {
+    if (std::strncmp(line, "VmHWM:", 6) == 0) bytes = 1024 * std::strtoull(line + 6, nullptr, 10);
+  }
+  std::fclose(file);
+  return bytes;
+}
+
+std::string arrays_sha256(const Frame& frame) {
+  std::string bytes;
+  append(bytes, frame.raw.tap_a), append(bytes, frame.raw.tap_b), append(bytes, frame.raw.raw);
+  const Depth& d = frame.depth;
+  for (const auto* array : {&d.z_m, &d.range_m, &d.points_m, &d.amplitude_e, &d.ambient_e, &d.noise_m}) append(bytes, *array);
+  append(bytes, d.confidence), append(bytes, d.flags);
+  return io::sha256_hex(bytes);
+}
+
+int run_bench(const Options& options) {
+  const std::string scene = options.words.empty() ? "bench-primitives" : options.words[0];
+  const std::uint64_t frames = options.frames.value_or(100);
+  io::Json results = io::Json::array(), ratios_json = io::Json::array();
+  std::vector<Ratio> ratios;
+  if (options.compare) {
+    ratios = compare(options, scene, results);
+  } else {
+    const Inputs in = load_inputs(scene, options);
+    say(warnings(in.scene, in.camera));
+    Contender one(in, simulator_options(options));
+    Progress progress(frames + options.warmup, "frames", options.json);
+    for (std::uint64_t i = 0; i < frames + options.warmup; ++i) {
+      one.step(i >= options.warmup);
+      progress.step();
+    }
+    results.push(one.result());
+  }
+  for (const Ratio& one : ratios) ratios_json.push(io::Json::object().set("name", one.name).set("value", one.value));
+  if (options.json) print(io::json_text(io::Json::object().set("results", std::move(results)).set("ratios", std::move(ratios_json)), 2) + "\n");
+  else print(table_of(results, ratios));
+  return 0;
+}
+
+}  // namespace tofray::app

@@ -1,0 +1,54 @@
+// SPDX-FileCopyrightText: 2026 The tofray authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "inputs.h"
+#include "io/json.h"
+#include "tofray/frame.h"
+
+namespace tofray::app {
+
+/// One way to simulate a scene, and how long its frames took.
+class Contender {
+ public:
+  Contender(const Inputs& in, const SimulatorOptions& options);
+  /// Simulates the next frame; `timed`: into the record.
+  void step(bool timed);
+  /// The given share of frames took no longer than this [ms].
+  [[nodiscard]] double percentile_ms(double share) const;
+  [[nodiscard]] double median_ms() const { return percentile_ms(0.5); }
+  /// Pixels per second at the median.
+  [[nodiscard]] double pixel_rate() const;
+  /// Row of `results`; its hash is that of frame 0's arrays, whatever was timed.
+  [[nodiscard]] io::Json result();
+
+ private:
+  std::string scene_;
+  SimulatorOptions options_;
+  double pixels_;
+  Simulator simulator_;
+  Frame frame_;
+  std::uint64_t next_ = 0;
+  std::vector<double> ms_;
+};
+
+/// Most memory that this process has had so far [bytes]: VmHWM.
+std::uint64_t peak_bytes();
+
+/// SHA-256 over all arrays of raw data and depth.
+std::string arrays_sha256(const Frame& frame);
+
+/// Two contenders that differ in one thing.
+struct Ratio {
+  std::string name;                              ///< "time of scalar_fma / avx512, 1 thread"
+  double value = 0;
+};
+
+/// Runs pairs in turn, frame by frame (A B A B …), so that the machine's moods meet both alike.
+/// @param results  a row for each contender
+std::vector<Ratio> compare(const Options& options, const std::string& scene, io::Json& results);
+
+}  // namespace tofray::app

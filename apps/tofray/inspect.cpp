@@ -1,0 +1,196 @@
+// SPDX-FileCopyrightText: 2026 The tofray authors
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "arrays.h"
+#include "base/constants.h"
+#include "commands.h"
+#include "console.h"
+#include "io/meta.h"
+#include "io/npy.h"
+#include "results.h"
+#include "tofray/error.h"
+
+namespace tofray::app {
+
+namespace {
+
+struct Statistics {
+  double low = 0, median = 0, high = 0;
+  std::size_t count = 0, invalid = 0;            ///< elements; those that are not finite
+};
+
+Statistics statistics_of(const io::NpyArray& array) {
+  Statistics out;
+  out.count = array.count();
+  std::vector<double> values;
+  values.reserve(out.count);
+  for (std::size_t i = 0; i < out.count; ++i) {
+    const double value = array.number(i);
+    if (std::isfinite(value)) values.push_back(value);
+  }
+  out.invalid = out.count - values.size();
+  if (values.empty()) {
+    out.low = out.median = out.high = std::nan("");
+    return out;
+  }
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  out.median = *middle;
+  out.low = *std::min_element(values.begin(), middle + 1);
+  out.high = *std::max_element(middle, values.end());
+  return out;
+}
+
+std::string array_table(const Arrays& arrays) {
+  std::string text = fmt::format("{:<24} {:<8} {:<16} {:<10} {:>11} {:>11} {:>11} {:>9}\n", "array", "type", "shape", "unit", "min", "median", "max", "invalid");
+  for (const io::NamedArray& one : arrays.all()) {
+    const io::NpyArray& array = one.array;
+    if (array.type.kind == 'U') {
+      text += fmt::format("{:<24} {:<8} {:<16} {}\n", one.name, array.type.name(), io::shape_text(array.shape), "text");
+      continue;
+    }
+    const Statistics s = statistics_of(array);
+    text += fmt::format("{:<24} {:<8} {:<16} {:<10} {:>11.5g} {:>11.5g} {:>11.5g} {:>9}\n", one.name, array.type.name(), io::shape_text(array.shape),
+                        arrays.unit(one.name), s.low, s.median, s.high, s.invalid);
+  }
+  return text;
+}
+
+io::Json array_json(const Arrays& arrays) {
+  io::Json list = io::Json::array();
+  for (const io::NamedArray& one : arrays.all()) {
+    const io::NpyArray& array = one.array;
+    io::Json json = io::Json::object();
+    json.set("name", one.name).set("dtype", array.type.name()).set("shape", io::Json::list(array.shape)).set("unit", arrays.unit(one.name));
+    if (array.type.kind != 'U') {
+      const Statistics s = statistics_of(array);
+      json.set("min", s.low).set("median", s.median).set("max", s.high).set("invalid", s.invalid);
+    }
+    list.push(std::move(json));
+  }
+  return list;
+}
+
+std::string phase_table(const Arrays& arrays) {
+  if (arrays.phases() == 0 || arrays.find("lit") == nullptr) return {};
+  std::string text = fmt::format("\n{:<10} {:>4} {:>15} {:>14} {:>12} {:>10}\n", "raw frame", "lit", "modulation MHz", "reference deg", "exposure us", "start ms");
+  for (std::size_t k = 0; k < arrays.phases(); ++k) {
+    text += fmt::format("{:<10} {:>4} {:>15.6g} {:>14.6g} {:>12.6g} {:>10.5g}\n", k, arrays.at("lit", k) != 0 ? "yes" : "no",
+                        1e-6 * arrays.at("modulation_frequency_hz", k), arrays.at("reference_phase_rad", k) * 180 / base::pi,
+                        1e6 * arrays.at("integration_time_s", k), 1e3 * arrays.at("start_time_s", k));
+  }
+  return text;
+}
+
+io::Json phase_json(const Arrays& arrays) {
+  io::Json list = io::Json::array();
+  for (std::size_t k = 0; k < arrays.phases(); ++k) {
+    io::Json json = io::Json::object();
+    json.set("lit", arrays.at("lit", k) != 0);
+    for (const char* name : {"modulation_frequency_hz", "reference_phase_rad", "integration_time_s", "start_time_s"}) json.set(name, arrays.at(name, k));
+    list.push(std::move(json));
+  }
+  return list;
+}
+
+/// How many pixels have each flag; a pixel can have several.
+std::vector<std::size_t> flag_counts(const Arrays& arrays, std::size_t& valid) {
+  std::vector<std::size_t> counts(flag_names().size());
+  const io::NpyArray* flags = arrays.find("flags");
+  valid = 0;
+  for (std::size_t i = 0; flags != nullptr && i < flags->count(); ++i) {
+    const auto bits = static_cast<unsigned>(flags->number(i));
+    if ((bits & flags_invalid) == 0) ++valid;
+    for (std::size_t bit = 0; bit < counts.size(); ++bit) counts[bit] += bits >> bit & 1u;
+  }
+  return counts;
+}
+
+std::string flag_table(const Arrays& arrays) {
+  const io::NpyArray* flags = arrays.find("flags");
+  if (flags == nullptr) return {};
+  std::size_t valid = 0;
+  const std::vector<std::size_t> counts = flag_counts(arrays, valid);
+  const double pixels = static_cast<double>(std::max<std::size_t>(1, flags->count()));
+  std::string text = fmt::format("\n{:<26} {:>8} {:>7.1f} %\n", "pixels with a depth", valid, 100 * static_cast<double>(valid) / pixels);
+  for (std::size_t bit = 0; bit < counts.size(); ++bit) {
+    const char* effect = (flags_invalid >> bit & 1) != 0 ? "" : "   (a warning, the depth stays)";
+    text += fmt::format("  {:<24} {:>8} {:>7.1f} %{}\n", flag_names()[bit], counts[bit], 100 * static_cast<double>(counts[bit]) / pixels, effect);
+  }
+  return text;
+}
+
+io::Json flag_json(const Arrays& arrays) {
+  std::size_t valid = 0;
+  const std::vector<std::size_t> counts = flag_counts(arrays, valid);
+  io::Json json = io::Json::object().set("valid", valid);
+  for (std::size_t bit = 0; bit < counts.size(); ++bit) {
+    std::string key = flag_names()[bit];
+    std::replace(key.begin(), key.end(), ' ', '_');
+    json.set(key, counts[bit]);
+  }
+  return json;
+}
+
+std::string word(const io::Json& from, const char* key, const char* inner = nullptr) {
+  const io::Json* found = from.find(key);
+  if (found != nullptr && inner != nullptr) found = found->find(inner);
+  return found == nullptr ? "" : found->is_string() ? *found->string() : io::json_text(*found);
+}
+
+/// One line out of `meta`: what made the file.
+std::string origin(const Arrays& arrays) {
+  const io::Json& meta = arrays.meta();
+  if (!meta.is_object()) return arrays.where() + "\n\n";
+  const io::Json* camera = meta.find("camera");
+  return fmt::format("{}: tofray {}, scene {}, camera {} in mode {}, frame {}, seed {}, noise {}\n\n", arrays.where(), word(meta, "tofray"),
+                     word(meta, "scene", "name"), word(meta, "camera", "name"), camera == nullptr ? "" : word(*camera, "mode", "name"), word(meta, "frame"),
+                     word(meta, "seed"), word(meta, "noise"));
+}
+
+bool ends_in(const std::string& path, const char* ending) { return path.ends_with(ending); }
+
+/// The file's arrays; those of a scene are simulated now.
+Arrays arrays_of(const Options& options) {
+  const std::string& path = options.words[0];
+  const bool npz = ends_in(path, ".npz"), npy = ends_in(path, ".npy");
+  if (npz || npy) {
+    if (!options.set.empty() || options.seed || options.noise || !options.mode.empty())
+      throw Error(ErrorKind::bad_input, path + ": error: this file is finished, its settings cannot be changed\n  expected a scene with --set, --mode, --seed and --noise");
+    if (npz) return Arrays(io::read_npz(path), path);
+    std::vector<io::NamedArray> one;
+    one.push_back({"array", io::read_npy(path)});
+    return Arrays(std::move(one), path);
+  }
+  const Inputs in = load_inputs(path, options);
+  say(warnings(in.scene, in.camera));
+  const SimulatorOptions wanted = simulator_options(options);
+  const Frame frame = Simulator(in.scene, in.camera, wanted).frame(0);
+  const std::string meta = io::frame_meta(in.scene, in.camera, wanted.seed, wanted.noise, 0);
+  return Arrays(io::parse_npz(io::frame_npz_bytes(frame, in.camera, camera_pose(in.scene), meta), path), path);
+}
+
+}  // namespace
+
+int run_inspect(const Options& options) {
+  const Arrays arrays = arrays_of(options);
+  if (options.pixel) {
+    const auto [u, v] = *options.pixel;
+    print(options.json ? io::json_text(pixel_json(arrays, u, v), 2) + "\n" : pixel_text(arrays, u, v));
+    return 0;
+  }
+  if (options.json) {
+    io::Json json = io::Json::object();
+    json.set("file", arrays.where()).set("arrays", array_json(arrays)).set("raw_frames", phase_json(arrays)).set("flags", flag_json(arrays));
+    print(io::json_text(json.set("meta", arrays.meta()), 2) + "\n");
+  } else {
+    print(origin(arrays) + array_table(arrays) + phase_table(arrays) + flag_table(arrays));
+  }
+  return 0;
+}
+
+}  // namespace tofray::app

@@ -1,0 +1,167 @@
+// SPDX-FileCopyrightText: 2026 The tofray authors
+// SPDX-License-Identifier: Apache-2.0
+#include "pixel_chain.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "base/constants.h"
+#include "camera/frozen_camera.h"
+#include "io/meta_camera.h"
+#include "num/setup_math.h"
+#include "results.h"
+#include "tofray/error.h"
+
+namespace tofray::app {
+
+namespace {
+
+namespace setup = num::setup;
+
+std::array<double, 3> triple(const Arrays& arrays, const char* name, std::size_t pixel) {
+  return {arrays.at(name, 3 * pixel), arrays.at(name, 3 * pixel + 1), arrays.at(name, 3 * pixel + 2)};
+}
+
+/// What the scene in `meta` calls object number `index`.
+std::string name_of_object(const Arrays& arrays, long index) {
+  const io::Json* scene = arrays.meta().find("scene");
+  const io::Json* objects = scene == nullptr ? nullptr : scene->find("objects");
+  if (objects == nullptr || !objects->is_array() || index < 0 || static_cast<std::size_t>(index) >= objects->items()->size()) return {};
+  for (const char* key : {"name", "shape"}) {
+    const io::Json* found = (*objects->items())[static_cast<std::size_t>(index)].find(key);
+    if (found != nullptr && found->is_string() && !found->string()->empty()) return *found->string();
+  }
+  return {};
+}
+
+void read_truth(const Arrays& arrays, std::size_t pixel, PixelChain& out) {
+  const double object = arrays.at("gt_object_id", pixel);
+  out.object = std::isfinite(object) ? std::lround(object) : -1;
+  out.object_name = name_of_object(arrays, out.object);
+  out.true_range_m = arrays.at("gt_range_m", pixel), out.true_z_m = arrays.at("gt_z_m", pixel);
+  out.reflectivity = arrays.at("gt_reflectivity", pixel);
+  out.position_m = triple(arrays, "gt_position_m", pixel), out.normal = triple(arrays, "gt_normal", pixel);
+  double cosine = 0;
+  for (std::size_t i = 0; i < 3; ++i) cosine -= out.normal[i] * out.position_m[i] / out.true_range_m;
+  out.incidence_rad = std::acos(std::fmin(1, cosine));
+  out.irradiance_w_m2 = arrays.at("gt_irradiance_w_m2", pixel);
+  out.radiance_w_m2_sr = arrays.at("gt_radiance_w_m2_sr", pixel);
+  out.power_w = arrays.at("gt_power_w", pixel);
+}
+
+double meta_number(const Arrays& arrays, const char* section, const char* key, double otherwise) {
+  const io::Json* camera = arrays.meta().find("camera");
+  const io::Json* group = camera == nullptr ? nullptr : camera->find(section);
+  const io::Json* found = group == nullptr ? nullptr : group->find(key);
+  double value = otherwise;
+  if (found != nullptr) found->number(value);
+  return value;
+}
+
+bool is_noise_free(const Arrays& arrays) {
+  const io::Json* noise = arrays.meta().find("noise");
+  return noise != nullptr && noise->is_string() && *noise->string() == "off";
+}
+
+void read_raw_frames(const Arrays& arrays, std::size_t pixel, PixelChain& out) {
+  const std::size_t pixels = arrays.width() * arrays.height();
+  const double step = meta_number(arrays, "adc", "step_e_per_dn", std::nan("")), mid = meta_number(arrays, "adc", "mid_code", std::nan(""));
+  for (std::size_t k = 0; k < arrays.phases(); ++k) {
+    const std::size_t at = k * pixels + pixel;
+    ChainRawFrame one;
+    one.lit = arrays.at("lit", k) != 0;
+    one.modulation_frequency_hz = arrays.at("modulation_frequency_hz", k), one.reference_phase_rad = arrays.at("reference_phase_rad", k);
+    one.integration_time_s = arrays.at("integration_time_s", k);
+    one.signal_e = arrays.at("gt_signal_e", at);
+    one.tap_a_e = arrays.at("tap_a", at), one.tap_b_e = arrays.at("tap_b", at), one.code_dn = arrays.at("raw", at);
+    one.difference_e = step * (one.code_dn - mid);
+    // Without codes, or without noise, depth takes the taps as they are.
+    if (!std::isfinite(one.difference_e) || is_noise_free(arrays)) one.difference_e = one.tap_a_e - one.tap_b_e;
+    out.raw_frames.push_back(one);
+  }
+}
+
+/// Phase and amplitude of each modulation frequency by equation 4.2, in the order in which they first appear.
+void estimate_phases(PixelChain& out) {
+  for (const ChainRawFrame& first : out.raw_frames) {
+    bool known = !first.lit;
+    for (const ChainPhase& before : out.phases) known = known || before.modulation_frequency_hz == first.modulation_frequency_hz;
+    if (known) continue;
+    double real = 0, imaginary = 0, count = 0;
+    for (const ChainRawFrame& k : out.raw_frames) {
+      if (!k.lit || k.modulation_frequency_hz != first.modulation_frequency_hz) continue;
+      real += k.difference_e * setup::cos(k.reference_phase_rad), imaginary -= k.difference_e * setup::sin(k.reference_phase_rad);
+      ++count;
+    }
+    ChainPhase phase;
+    phase.modulation_frequency_hz = first.modulation_frequency_hz;
+    phase.amplitude_e = 2 / count * std::sqrt(real * real + imaginary * imaginary);
+    phase.measured_turns = std::atan2(imaginary, real) / base::two_pi;
+    phase.measured_turns -= std::floor(phase.measured_turns);
+    phase.calibrated_turns = phase.half_wave_m = phase.cycles = phase.half_path_m = std::nan("");
+    out.phases.push_back(phase);
+  }
+}
+
+/// Half the way from the light to the surface that was measured and back.
+double half_path(const PixelChain& chain, const camera::DecoderView& d) {
+  double out = 0, from_light = 0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const double p = chain.point_m[i], q = p - static_cast<double>(d.light[i]);
+    out += p * p, from_light += q * q;
+  }
+  return 0.5 * (std::sqrt(out) + std::sqrt(from_light));
+}
+
+/// Wiggling and delay taken out, and the cycles that go with the range that was found.
+void calibrate(const camera::DecoderView& d, std::size_t pixel, PixelChain& chain) {
+  for (std::size_t i = 0; i < chain.phases.size() && i < static_cast<std::size_t>(d.modulations); ++i) {
+    ChainPhase& phase = chain.phases[i];
+    const camera::DecodeModulation& m = d.modulation[i];
+    const double place = phase.measured_turns * d.wiggling_nodes, node = std::min(std::floor(place), static_cast<double>(d.wiggling_nodes - 1));
+    const auto at = static_cast<std::size_t>(node);
+    const double left = static_cast<double>(m.wiggling[at]), right = static_cast<double>(m.wiggling[at + 1]);
+    const double delay = d.delay == nullptr ? 0 : static_cast<double>(d.delay[pixel]);
+    phase.calibrated_turns = phase.measured_turns + left + (place - node) * (right - left) - delay * phase.modulation_frequency_hz;
+    phase.calibrated_turns -= std::floor(phase.calibrated_turns);
+    phase.half_wave_m = static_cast<double>(m.half_wave);
+    phase.cycles = std::round(half_path(chain, d) / phase.half_wave_m - phase.calibrated_turns) + 0.0;  // no -0
+    phase.half_path_m = phase.half_wave_m * (phase.cycles + phase.calibrated_turns);
+  }
+}
+
+void read_depth(const Arrays& arrays, std::size_t pixel, PixelChain& out) {
+  out.range_m = arrays.at("range_m", pixel), out.z_m = arrays.at("z_m", pixel), out.noise_m = arrays.at("noise_m", pixel);
+  out.amplitude_e = arrays.at("amplitude_e", pixel), out.ambient_e = arrays.at("ambient_e", pixel), out.confidence = arrays.at("confidence", pixel);
+  out.point_m = triple(arrays, "points_m", pixel);
+  const double flags = arrays.at("flags", pixel);
+  const auto bits = static_cast<unsigned>(std::isfinite(flags) ? flags : 0);
+  for (std::size_t bit = 0; bit < flag_names().size(); ++bit) {
+    if ((bits >> bit & 1u) != 0) out.flags.push_back(flag_names()[bit]);
+  }
+}
+
+}  // namespace
+
+PixelChain pixel_chain(const Arrays& arrays, int u, int v) {
+  if (arrays.width() == 0)
+    throw Error(ErrorKind::bad_input, arrays.where() + ": error: there is no image in this file\n  expected raw, tap_a, z_m or range_m [height, width]");
+  if (static_cast<std::size_t>(u) >= arrays.width() || static_cast<std::size_t>(v) >= arrays.height())
+    throw Error(ErrorKind::bad_input, fmt::format("error: pixel {},{} is outside the image\n  expected a column of 0 to {} and a row of 0 to {}", u, v,
+                                                  arrays.width() - 1, arrays.height() - 1));
+  const std::size_t pixel = static_cast<std::size_t>(v) * arrays.width() + static_cast<std::size_t>(u);
+  PixelChain chain;
+  chain.u = u, chain.v = v;
+  read_truth(arrays, pixel, chain);
+  read_raw_frames(arrays, pixel, chain);
+  read_depth(arrays, pixel, chain);
+  estimate_phases(chain);
+  const io::Json* camera = arrays.meta().find("camera");
+  if (camera == nullptr) return chain;
+  const camera::FrozenCamera frozen(io::camera_of_meta(arrays.meta_text(), arrays.where()), static_cast<int>(Noise::exact), 0);
+  calibrate(frozen.decoder(), pixel, chain);
+  return chain;
+}
+
+}  // namespace tofray::app

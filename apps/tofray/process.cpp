@@ -1,0 +1,93 @@
+// SPDX-FileCopyrightText: 2026 The tofray authors
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <thread>
+
+#include "backend/cpu/cpu.h"
+#include "commands.h"
+#include "console.h"
+#include "io/data_limits.h"
+#include "io/json.h"
+#include "io/meta.h"
+#include "io/meta_camera.h"
+#include "io/npz.h"
+#include "io/raw_file.h"
+#include "io/read_bytes.h"
+#include "io/text_file.h"
+#include "results.h"
+#include "tofray/error.h"
+
+namespace tofray::app {
+
+namespace {
+
+/// --set of a command that has no scene: keys of the camera, with or without "camera." before them.
+io::Settings camera_settings(const Options& options) {
+  io::Settings settings = options.set;
+  for (auto& [key, value] : settings) {
+    if (key.starts_with("camera.")) key.erase(0, 7);
+  }
+  return settings;
+}
+
+std::string meta_of(std::string_view bytes, const std::string& path) {
+  const auto found = io::parse_npz(bytes, path, {"meta"});
+  return found.empty() ? "" : found[0].array.text();
+}
+
+/// The profile that was named, or else the camera that the file itself describes.
+Camera camera_for(const Options& options, const std::string& meta, const std::string& path) {
+  if (!options.camera.empty()) return load_camera(options.camera, {options.mode, camera_settings(options), {}});
+  if (meta.empty())
+    throw Error(ErrorKind::bad_input, path + ": error: the file does not say which camera made it\n  name its profile, as in --camera mycam.yaml");
+  if (!options.mode.empty()) throw Error(ErrorKind::bad_input, "error: --mode goes with --camera\n  the file itself says how its raw frames were taken");
+  return io::camera_of_meta(meta, path, camera_settings(options));
+}
+
+/// Whether the file holds expected values. Its depth came from the unrounded taps then, and no pixel was called low signal.
+bool is_noise_free(const std::string& meta, const std::string& path) {
+  if (meta.empty()) return false;
+  const io::Json document = io::parse_json(meta, path + ": meta");
+  const io::Json* noise = document.find("noise");
+  return noise != nullptr && noise->is_string() && *noise->string() == io::noise_name(Noise::off);
+}
+
+}  // namespace
+
+int run_process(const Options& options) {
+  Stopwatch stopwatch;
+  const std::string& path = options.words[0];
+  const std::string bytes = io::read_bytes(path, io::max_data_file_bytes);
+  Inputs in;
+  const std::string meta = meta_of(bytes, path);
+  in.scene.name = std::filesystem::path(path).stem().native();
+  in.camera = camera_for(options, meta, path);
+  in.files.push_back({"raw", path, {}});
+  if (!options.camera.empty() && !in.camera.source.starts_with("<")) in.files.push_back({"profile", in.camera.source, io::read_text(in.camera.source)});
+  Frame frame;
+  frame.raw = io::parse_raw_npz(bytes, path);
+  SimulatorOptions wanted = simulator_options(options);
+  if (is_noise_free(meta, path)) {
+    wanted.noise = Noise::off;
+    if (!frame.raw.tap_a.empty()) frame.raw.raw.clear();
+  }
+  stopwatch.lap("prepare");
+  frame.depth = process(frame.raw, in.camera, wanted);
+  stopwatch.lap("process");
+
+  io::OutputFolder folder(options.output.empty() ? in.scene.name + "-depth" : options.output);
+  write_frame(folder, options.emit.value_or(std::vector<std::string>{"npz", "png", "ply"}), "", frame, in, wanted);
+  stopwatch.lap("write");
+  const int cores = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+  const Machine machine{backend::isa_name(backend::choose_isa(wanted.isa)), wanted.threads > 0 ? wanted.threads : cores};
+  write_manifest(folder, options, in.files, machine, stopwatch);
+  if (validity(frame.depth).valid == 0) say(fmt::format("warning: no pixel has a valid depth: {}\n", validity(frame.depth).reasons));
+  if (options.json) print(io::json_text(summary_json(folder, frame.depth, 1, machine, stopwatch), 2) + "\n");
+  else Talk(options.quiet)(summary_text(folder, frame.depth, 1, machine, stopwatch));
+  return 0;
+}
+
+}  // namespace tofray::app
