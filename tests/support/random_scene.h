@@ -1,0 +1,50 @@
+// SPDX-FileCopyrightText: 2026 The tofray authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "support/pixels.h"
+#include "support/random.h"
+
+namespace tofray::test {
+
+/// Some of everything before a slanted wall; half of it turned, and moving if asked for.
+inline Scene random_scene(Random& random, int objects, bool moving) {
+  Scene scene;
+  scene.materials = {{"matt", Material::Brdf::lambert, 0.7, 0, 1}, {"paint", Material::Brdf::phong, 0.4, 0.3, 12}, {"dark", Material::Brdf::lambert, 0.05, 0, 1}};
+  const double back = random.between(3, 6);
+  const Vec3 slant = random.point(0.4);
+  scene.objects.push_back(object(Plane{{0, 0, back}, Vec3{slant[0], slant[1], -1}}));
+  for (int i = 0; i < objects; ++i) {
+    const double away = random.between(0.6, 4), size = random.scale(0.03, 0.6);
+    const Vec3 aside = random.point(0.7 * away), middle{aside[0], aside[1], away};
+    Object one;
+    const int kind = random.below(8);
+    if (kind < 2) one.shape = Sphere{middle, size};
+    if (kind >= 2 && kind < 4) {
+      const Vec3 half = 0.5 * size * (Vec3{1.2, 1.2, 1.2} + random.point(1));
+      one.shape = Box{middle - half, middle + half};
+    }
+    if (kind >= 4 && kind < 7) {
+      Triangle triangle;
+      for (Vec3& vertex : triangle.vertices) vertex = middle + size * random.direction();
+      one.shape = triangle;
+    }
+    if (kind == 7) one.shape = Plane{middle + Vec3{0, 0, 2}, random.direction()};
+    one.material = random.below(3);
+    if (random.uniform() < 0.5) {
+      one.rotation.axis = random.direction();
+      one.rotation.angle_rad = random.between(-3, 3);
+    }
+    if (moving && random.uniform() < 0.4) one.velocity_m_per_s = random.point(3);
+    scene.objects.push_back(one);
+  }
+  return scene;
+}
+
+/// A camera that looks about from somewhere near zero.
+inline Pose random_pose(Random& random) {
+  const Vec3 at = random.point(0.3);
+  const Vec3 ahead = at + Vec3{0, 0, 2} + random.point(0.5);
+  return {at, ahead, Vec3{0, -1, 0} + random.point(0.6)};
+}
+
+}  // namespace tofray::test

@@ -1,0 +1,75 @@
+// SPDX-FileCopyrightText: 2026 The tofray authors
+// SPDX-License-Identifier: Apache-2.0
+// Culling leaves out only what no ray of the bundle meets.
+#include <gtest/gtest.h>
+
+#include "support/random_scene.h"
+#include "support/rays.h"
+
+using namespace tofray;
+using namespace tofray::test;
+
+namespace {
+
+scene::Bounds random_rectangle(Random& random) {
+  const double width = random.scale(1e-4, 1), height = random.scale(1e-4, 1), x = random.between(-1, 1), y = random.between(-1, 1);
+  return {static_cast<float>(x), static_cast<float>(x + width), static_cast<float>(y), static_cast<float>(y + height)};
+}
+
+/// A ray of the rectangle, often in its rim.
+Ray ray_within(const scene::Bounds& r, Random& random) {
+  const auto pick = [&](float low, float high) {
+    const int place = random.below(4);
+    const auto inner = static_cast<float>(random.between(static_cast<double>(low), static_cast<double>(high)));
+    return place == 0 ? low : place == 1 ? high : std::fmin(std::fmax(inner, low), high);
+  };
+  const float x = pick(r.x_min, r.x_max);
+  const float y = pick(r.y_min, r.y_max);
+  return flow::make_ray(x, y, 1.0f);
+}
+
+}  // namespace
+
+TEST(culling, changes_no_hit_of_any_ray_in_the_rectangle) {
+  Random random(1);
+  long kept = 0, all = 0, hits = 0;
+  for (int trial = 0; trial < 4000; ++trial) {
+    Scene scene = random_scene(random, 30, false);
+    scene.camera.pose = random_pose(random);
+    const scene::FrozenScene frozen(scene, {Vec3{0, 0, 1} + random.point(1.5)}, 1);
+    for (const scene::Forms& forms : {frozen.view().camera_still, frozen.view().light_still[0]}) {
+      const scene::Bounds rectangle = random_rectangle(random);
+      trace::Culled some;
+      trace::cull(forms, &rectangle, some);
+      const trace::Culled full = everything(forms);
+      kept += some.planes.count + some.spheres.count + some.boxes.count + some.triangles.count;
+      all += full.planes.count + full.spheres.count + full.boxes.count + full.triangles.count;
+      for (int i = 0; i < 60; ++i) {
+        const Ray ray = ray_within(rectangle, random);
+        const auto without = trace::nearest(forms, full, ray, flow::Hit<float>{0, 0});
+        const auto with = trace::nearest(forms, some, ray, flow::Hit<float>{0, 0});
+        ASSERT_EQ(num::bits(with.w), num::bits(without.w)) << trial;
+        ASSERT_EQ(with.facet, without.facet) << trial;
+        hits += with.w > 0;
+      }
+    }
+  }
+  EXPECT_GT(hits, 200000);
+  EXPECT_LT(kept, all / 2);    // and it does leave something out
+}
+
+// Just beyond the capacity of the list everything is kept instead.
+TEST(culling, keeps_everything_where_its_list_would_overflow) {
+  for (const int count : {trace::Picked::capacity - 1, trace::Picked::capacity, trace::Picked::capacity + 1, 3000}) {
+    scene::Placed placed;
+    for (int i = 0; i < count; ++i) placed.spheres.push_back({{0.001 * i / count, 0, 2 - 1e-4 * i}, 0.1, i});
+    const scene::View view(placed, {0, 0, 0}, 0);
+    const scene::Bounds middle{-0.01f, 0.01f, -0.01f, 0.01f};
+    trace::Culled culled;
+    trace::cull(view.forms(), &middle, culled);
+    ASSERT_EQ(culled.spheres.count, count);
+    EXPECT_EQ(culled.spheres.everything, count > trace::Picked::capacity);
+    const auto hit = trace::nearest(view.forms(), culled, ray({0, 0, 1}), flow::Hit<float>{0, 0});
+    EXPECT_EQ(hit.facet, count - 1);
+  }
+}

@@ -1,0 +1,216 @@
+// SPDX-FileCopyrightText: 2026 The tofray authors
+// SPDX-License-Identifier: Apache-2.0
+// Rows G6 and G13: shadow rays of lamps and of the sun against brute force; nothing shades itself; lamps in and out of closed bodies.
+#include <gtest/gtest.h>
+
+#include "power/received.h"
+#include "support/brute_force.h"
+#include "support/meshes.h"
+#include "support/random_scene.h"
+#include "support/rays.h"
+#include "trace/visible.h"
+
+using namespace tofray;
+using namespace tofray::test;
+
+namespace {
+
+flow::Surface<float> look(const scene::FrozenScene& frozen, const Ray& ray) {
+  const scene::SceneView& view = frozen.view();
+  return trace::surface(view, ray, trace::nearest(view.camera_still, everything(view.camera_still), ray, flow::Hit<float>{0, 0}));
+}
+
+Vec3 place_of(const flow::Surface<float>& s) { return {static_cast<double>(s.x), static_cast<double>(s.y), static_cast<double>(s.z)}; }
+Vec3 normal_of(const flow::Surface<float>& s) { return {static_cast<double>(s.nx), static_cast<double>(s.ny), static_cast<double>(s.nz)}; }
+
+bool dark(const scene::FrozenScene& frozen, std::size_t light, const Vec3& at, const flow::Surface<float>& s) {
+  const scene::Forms& forms = frozen.view().light_still[light];
+  const Vec3 p = place_of(s);
+  return trace::blocked(forms, everything(forms), ray(p - at), s.object);
+}
+
+bool dark_of_sun(const scene::FrozenScene& frozen, const flow::Surface<float>& s) {
+  const Vec3& toward = frozen.toward_sun();
+  const float sun[3] = {static_cast<float>(toward[0]), static_cast<float>(toward[1]), static_cast<float>(toward[2])};
+  return trace::blocked_parallel(frozen.view().sun_still, sun, s);
+}
+
+enum class Answer { lit, dark, unsure };
+
+/// Does anything but `own` cross p + t·d for t in (low, high)? Unsure within the margin at either end and near outlines.
+Answer crossed(const scene::Placed& placed, const Vec3& p, const Vec3& d, double high, int own) {
+  bool unsure = false;
+  for (const Span& s : spans(placed, p, d)) {
+    if (s.object == own) continue;
+    const double low = 1e-3;
+    if (s.clearance < 1e-4) {
+      unsure = true;
+      continue;
+    }
+    if (s.enter > s.leave || s.leave < 0 || s.enter > high) continue;
+    if (s.leave < low || s.enter > high * (1 - 1e-3)) {
+      unsure = true;
+      continue;
+    }
+    // a body that p or the light is inside of still stands between if its surface is crossed
+    if (s.enter > low || s.leave < high * (1 - 1e-3)) return Answer::dark;
+    if (s.enter > -low || s.leave < high * (1 + 1e-3)) unsure = true;
+  }
+  return unsure ? Answer::unsure : Answer::lit;
+}
+
+constexpr double no_end = 1e6;
+
+}  // namespace
+
+TEST(shadow, of_a_lamp_is_where_brute_force_finds_something_between) {
+  Random random(1);
+  int lit = 0, shaded = 0;
+  for (int trial = 0; trial < 40; ++trial) {
+    Scene scene = random_scene(random, 25, false);
+    scene.camera.pose = random_pose(random);
+    const std::vector<Vec3> lamps{{0.01547, 0, 0}, random.point(0.5), Vec3{0, 0, 2} + random.point(2)};
+    const scene::FrozenScene frozen(scene, lamps, 1);
+    const scene::Placed placed = scene::place(scene, frozen.camera(), scene::Group::still, 0);
+    for (int i = 0; i < 2000; ++i) {
+      const Vec3 aside = random.point(0.6);
+      const flow::Surface<float> s = look(frozen, ray({aside[0], aside[1], 1}));
+      if (!s.found) continue;
+      for (std::size_t l = 0; l < lamps.size(); ++l) {
+        const Vec3 p = place_of(s), to_lamp = lamps[l] - p;
+        if (base::dot(normal_of(s), to_lamp) <= 0) continue;   // turned away: dark without a shadow ray
+        const Answer answer = crossed(placed, p, to_lamp, 1, s.object);
+        if (answer == Answer::unsure) continue;
+        ++(answer == Answer::dark ? shaded : lit);
+        // own closed bodies are a case of their own, below
+        ASSERT_EQ(dark(frozen, l, lamps[l], s), answer == Answer::dark) << trial << " " << i << " " << l << " object " << s.object;
+      }
+    }
+  }
+  EXPECT_GT(lit, 20000);
+  EXPECT_GT(shaded, 20000);
+}
+
+TEST(shadow, of_the_sun_is_where_brute_force_finds_something_between) {
+  Random random(2);
+  int lit = 0, shaded = 0;
+  for (int trial = 0; trial < 60; ++trial) {
+    Scene scene = random_scene(random, 25, false);
+    scene.camera.pose = random_pose(random);
+    scene.ambient.direction = random.direction();
+    const scene::FrozenScene frozen(scene, {}, 1);
+    const scene::Placed placed = scene::place(scene, frozen.camera(), scene::Group::still, 0);
+    const Vec3 toward = frozen.toward_sun();
+    for (int i = 0; i < 2000; ++i) {
+      const Vec3 aside = random.point(0.6);
+      const flow::Surface<float> s = look(frozen, ray({aside[0], aside[1], 1}));
+      if (!s.found || base::dot(normal_of(s), toward) <= 0) continue;
+      const Answer answer = crossed(placed, place_of(s), toward, no_end, s.object);
+      if (answer == Answer::unsure) continue;
+      ++(answer == Answer::dark ? shaded : lit);
+      ASSERT_EQ(dark_of_sun(frozen, s), answer == Answer::dark) << trial << " " << i << " object " << s.object;
+    }
+  }
+  EXPECT_GT(lit, 5000);
+  EXPECT_GT(shaded, 20000);
+}
+
+// G6, on bodies and on a mesh of objects of its own: what faces the light is lit, at any distance from zero.
+TEST(shadow, is_never_cast_by_a_convex_thing_upon_itself) {
+  Random random(3);
+  int points = 0;
+  for (const double far : {0.5, 5.0, 50.0}) {
+    Scene scene = wall(1);
+    scene.objects.clear();
+    const Mesh mesh = icosphere(2);
+    for (const auto& t : mesh.triangles) {
+      Triangle triangle;
+      for (std::size_t k = 0; k < 3; ++k) triangle.vertices[k] = 0.3 * far * mesh.at(t[k]) + Vec3{0, 0, far};
+      scene.objects.push_back(object(triangle));
+    }
+    scene.objects.push_back(object(Sphere{{0.65 * far, 0, far}, 0.3 * far}));
+    scene.objects.push_back(object(Box{{-0.9 * far, -0.2 * far, 0.8 * far}, {-0.4 * far, 0.2 * far, 1.2 * far}}));
+    // only what the body itself can shade is asked for: lamps within the cone around the camera's place that sees no other body between
+    const std::vector<Vec3> lamps{{0, 0.05 * far, 0}, {0, -0.1 * far, 0.2 * far}, {0, 0.4 * far, -0.5 * far}};
+    const scene::FrozenScene frozen(scene, lamps, 1);
+    for (int i = 0; i < 120000; ++i) {
+      const Vec3 d{random.between(-0.9, 0.9), random.between(-0.3, 0.3), 1};
+      const flow::Surface<float> s = look(frozen, ray(d));
+      if (!s.found) continue;
+      for (std::size_t l = 0; l < lamps.size(); ++l) {
+        const Vec3 to_lamp = lamps[l] - place_of(s);
+        if (base::dot(normal_of(s), to_lamp) <= 0) continue;
+        ++points;
+        ASSERT_FALSE(dark(frozen, l, lamps[l], s)) << far << " " << i << " " << l << " object " << s.object;
+      }
+    }
+  }
+  EXPECT_GT(points, 300000);
+}
+
+namespace {
+
+/// Camera at zero, and a closed body about it or not, a lamp inside or not, a wall behind.
+struct Closed {
+  const char* name;
+  bool box;
+  Vec3 center;
+  double size;
+  Vec3 lamp;
+  bool body_dark;          ///< what the camera sees of the body
+  bool wall_dark;          ///< the wall, where the camera sees it
+};
+
+Scene closed_scene(const Closed& c) {
+  Scene scene = wall(4);
+  const Vec3 half{c.size, c.size, c.size};
+  if (c.box) scene.objects.push_back(object(Box{c.center - half, c.center + half}));
+  else scene.objects.push_back(object(Sphere{c.center, c.size}));
+  return scene;
+}
+
+}  // namespace
+
+TEST(shadow, of_a_closed_body_knows_inside_from_outside) {
+  for (const bool box : {false, true}) {
+    const Closed cases[] = {
+        {"camera and lamp inside", box, {0, 0, 0}, 1, {0.3, 0.2, 0}, false, false},
+        {"camera inside, lamp outside", box, {0, 0, 0}, 1, {2.5, 0, 0}, true, false},
+        {"camera outside, lamp inside", box, {0, 0, 2}, 0.5, {0.1, 0, 2}, true, true},
+        {"camera and lamp outside", box, {0, 0, 2}, 0.5, {0.1, 0, 0}, false, false},
+    };
+    for (const Closed& c : cases) {
+      const Scene scene = closed_scene(c);
+      const scene::FrozenScene frozen(scene, {c.lamp}, 1);
+      int body = 0, walls = 0;
+      for (double x = -0.6; x <= 0.6; x += 0.05) {
+        const flow::Surface<float> s = look(frozen, ray({x, 0.01, 1}));
+        ASSERT_TRUE(s.found);
+        const Vec3 to_lamp = c.lamp - place_of(s);
+        if (base::dot(normal_of(s), to_lamp) <= 0 && !(s.object == 1 && c.body_dark)) continue;
+        ++(s.object == 1 ? body : walls);
+        if (s.object == 1) {
+          EXPECT_EQ(dark(frozen, 0, c.lamp, s), c.body_dark) << c.name << (box ? " box " : " sphere ") << x;
+        } else if (c.wall_dark || std::abs(x) > 0.5) {
+          EXPECT_EQ(dark(frozen, 0, c.lamp, s), c.wall_dark) << c.name << (box ? " box " : " sphere ") << x;
+        }
+      }
+      EXPECT_GT(body, 5) << c.name;
+      if (c.center[2] > 0) EXPECT_GT(walls, 5) << c.name;
+    }
+  }
+}
+
+TEST(shadow, inside_a_closed_body_no_sun_shines) {
+  for (const bool box : {false, true}) {
+    Scene scene = closed_scene({"", box, {0, 0, 0}, 1, {}, true, true});
+    scene.objects.push_back(object(Sphere{{0, 0, 0.6}, 0.1}));   // something else inside
+    scene.ambient.direction = Vec3{0.2, 0.1, 1};
+    const scene::FrozenScene frozen(scene, {}, 1);
+    for (const double x : {-0.5, 0.0, 0.05, 0.4}) {
+      const flow::Surface<float> s = look(frozen, ray({x, 0.02, 1}));
+      ASSERT_TRUE(s.found);
+      EXPECT_TRUE(dark_of_sun(frozen, s)) << x;
+    }
+  }
+}
