@@ -35,8 +35,8 @@ TOFRAY_FN F inverse_range(const scene::SphereForm& sphere, const Ray<F>& ray) {
   const F q = b + num::copy_sign(root, b);
   const F near_w = q * F(sphere.inverse_power);
   if (sphere.inside == 0) return num::select((rest >= F(0.0f)) & (b > F(0.0f)), near_w, F(0.0f));
-  // From inside: the far side, t = q/a where d points to the centre, C/q where it points away.
-  return num::select(b > F(0.0f), ray.square / q, near_w);
+  // From inside: the far side, t = q/a where d points to the centre, C/q where it points away (q, not b: b is 0 seen from the centre).
+  return num::select(q > F(0.0f), ray.square / q, near_w);
 }
 
 /// Box by slabs in w; `axis` says through which pair of sides the hit goes.

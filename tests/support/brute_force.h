@@ -12,6 +12,10 @@
 /// Rays against placed objects in double precision, by the forms of the textbook: what the kernels are measured against.
 namespace tofray::test {
 
+using base::operator+;
+using base::operator-;
+using base::operator*;
+
 /// Crossings of the line o + t·d with one convex body: t in [enter, leave]; flat things have both alike. Empty where enter > leave.
 struct Span {
   double enter = 1, leave = 0;

@@ -66,7 +66,7 @@ TEST(nearest, is_the_first_that_brute_force_finds) {
 TEST(nearest, normals_face_the_camera_and_are_those_of_the_shapes) {
   Random random(2);
   int seen[4] = {};
-  for (int trial = 0; trial < 3000; ++trial) {
+  for (int trial = 0; trial < 20000; ++trial) {
     Scene scene = wall(5);
     scene.objects.clear();
     Object one;

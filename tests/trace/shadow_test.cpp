@@ -37,16 +37,17 @@ bool dark_of_sun(const scene::FrozenScene& frozen, const flow::Surface<float>& s
 
 enum class Answer { lit, dark, unsure };
 
-/// Does anything but `own` cross p + t·d for t in (low, high)? Unsure within the margin at either end and near outlines.
+/// Does anything cross p + t·d for t in (low, high)? Unsure within the margin at either end and near outlines. p lies in the surface of
+/// `own`: it counts where the ray goes on through its inside, as it does for a camera within.
 Answer crossed(const scene::Placed& placed, const Vec3& p, const Vec3& d, double high, int own) {
   bool unsure = false;
   for (const Span& s : spans(placed, p, d)) {
-    if (s.object == own) continue;
     const double low = 1e-3;
     if (s.clearance < 1e-4) {
       unsure = true;
       continue;
     }
+    if (s.object == own && s.leave < low) continue;
     if (s.enter > s.leave || s.leave < 0 || s.enter > high) continue;
     if (s.leave < low || s.enter > high * (1 - 1e-3)) {
       unsure = true;
@@ -119,22 +120,24 @@ TEST(shadow, of_the_sun_is_where_brute_force_finds_something_between) {
 TEST(shadow, is_never_cast_by_a_convex_thing_upon_itself) {
   Random random(3);
   int points = 0;
-  for (const double far : {0.5, 5.0, 50.0}) {
+  for (int trial = 0; trial < 9; ++trial) {
+    const double far = 0.5 * std::pow(10, trial / 3);
     Scene scene = wall(1);
     scene.objects.clear();
-    const Mesh mesh = icosphere(2);
-    for (const auto& t : mesh.triangles) {
-      Triangle triangle;
-      for (std::size_t k = 0; k < 3; ++k) triangle.vertices[k] = 0.3 * far * mesh.at(t[k]) + Vec3{0, 0, far};
-      scene.objects.push_back(object(triangle));
+    if (trial % 3 == 0) {
+      const Mesh mesh = icosphere(2);
+      for (const auto& t : mesh.triangles) {
+        Triangle triangle;
+        for (std::size_t k = 0; k < 3; ++k) triangle.vertices[k] = 0.3 * far * mesh.at(t[k]) + Vec3{0, 0, far};
+        scene.objects.push_back(object(triangle));
+      }
     }
-    scene.objects.push_back(object(Sphere{{0.65 * far, 0, far}, 0.3 * far}));
-    scene.objects.push_back(object(Box{{-0.9 * far, -0.2 * far, 0.8 * far}, {-0.4 * far, 0.2 * far, 1.2 * far}}));
-    // only what the body itself can shade is asked for: lamps within the cone around the camera's place that sees no other body between
-    const std::vector<Vec3> lamps{{0, 0.05 * far, 0}, {0, -0.1 * far, 0.2 * far}, {0, 0.4 * far, -0.5 * far}};
+    if (trial % 3 == 1) scene.objects.push_back(object(Sphere{{0.05 * far, 0, far}, 0.3 * far}));
+    if (trial % 3 == 2) scene.objects.push_back(object(Box{{-0.3 * far, -0.2 * far, 0.8 * far}, {0.2 * far, 0.2 * far, 1.2 * far}}));
+    const std::vector<Vec3> lamps{{0, 0.05 * far, 0}, {0, -0.1 * far, 0.2 * far}, {0.9 * far, 0.4 * far, 0.9 * far}};
     const scene::FrozenScene frozen(scene, lamps, 1);
-    for (int i = 0; i < 120000; ++i) {
-      const Vec3 d{random.between(-0.9, 0.9), random.between(-0.3, 0.3), 1};
+    for (int i = 0; i < (trial % 3 == 0 ? 20000 : 100000); ++i) {
+      const Vec3 d{random.between(-0.35, 0.35), random.between(-0.3, 0.3), 1};
       const flow::Surface<float> s = look(frozen, ray(d));
       if (!s.found) continue;
       for (std::size_t l = 0; l < lamps.size(); ++l) {
@@ -196,7 +199,7 @@ TEST(shadow, of_a_closed_body_knows_inside_from_outside) {
         }
       }
       EXPECT_GT(body, 5) << c.name;
-      if (c.center[2] > 0) EXPECT_GT(walls, 5) << c.name;
+      EXPECT_GT(walls, c.center[2] > 0 ? 5 : -1) << c.name;
     }
   }
 }

@@ -95,6 +95,16 @@ TEST(sphere, seen_from_inside_is_hit_by_every_ray_at_its_far_side) {
   }
 }
 
+TEST(sphere, seen_from_its_very_centre_is_at_its_radius_all_around) {
+  Random random(5);
+  for (int i = 0; i < 1000; ++i) {
+    const Vec3 center = random.point(5);
+    const double radius = random.scale(0.05, 20);
+    const test::Ray ray = test::ray(random.direction());
+    ASSERT_NEAR(1 / kernel_w(center, radius, center, ray), radius / length(test::direction(ray)), 8 * 0x1p-24 * radius) << i;
+  }
+}
+
 TEST(sphere, behind_the_origin_is_missed) {
   Random random(4);
   for (int i = 0; i < 100000; ++i) {
