@@ -38,20 +38,24 @@ FrozenCamera::FrozenCamera(const Camera& camera, int noise, std::uint64_t seed) 
 void FrozenCamera::freeze_lens() {
   const Sensor& sensor = camera_.sensor;
   const std::size_t pixels = static_cast<std::size_t>(sensor.width) * static_cast<std::size_t>(sensor.height);
-  ray_x_.assign(pixels, 0), ray_y_.assign(pixels, 0), vignetting_.assign(pixels, 0);
+  ray_x_.assign(pixels, 0), ray_y_.assign(pixels, 0), inverse_length_.assign(pixels, 1), vignetting_.assign(pixels, 0);
   lens_.width = sensor.width, lens_.height = sensor.height;
+  const double limit = growing_radius_squared(camera_.lens);
   std::size_t i = 0;
   for (int v = 0; v < sensor.height; ++v) {
     for (int u = 0; u < sensor.width; ++u, ++i) {
       Point2 p{};
-      if (!unproject(camera_.lens, {static_cast<double>(u), static_cast<double>(v)}, p)) continue;
+      if (!unproject(camera_.lens, limit, {static_cast<double>(u), static_cast<double>(v)}, p)) continue;
       ray_x_[i] = f(p.x), ray_y_[i] = f(p.y);
+      const double x = static_cast<double>(ray_x_[i]), y = static_cast<double>(ray_y_[i]);
+      inverse_length_[i] = f(1 / std::sqrt(x * x + y * y + 1));
       // 0 says "outside the lens model", so that a dark corner of a vignetting table is not mistaken for one
       vignetting_[i] = std::max(f(vignetting_factor(camera_.lens, p)), std::numeric_limits<float>::min());
-      lens_.max_abs_x = std::max(lens_.max_abs_x, std::abs(ray_x_[i])), lens_.max_abs_y = std::max(lens_.max_abs_y, std::abs(ray_y_[i]));
     }
   }
   lens_.ray_x = ray_x_.data(), lens_.ray_y = ray_y_.data(), lens_.vignetting = vignetting_.data();
+  lens_.inverse_length = inverse_length_.data();
+  freeze_tiles();
 
   const double area = sensor.pixel_pitch_m * sensor.pixel_pitch_m * sensor.fill_factor;
   const double number = camera_.lens.f_number;
@@ -61,21 +65,37 @@ void FrozenCamera::freeze_lens() {
   power_.paper_scale = f(pi * area / (4 * number * number * focal_mm * focal_mm));                     // [theory: eq. 2.11]
 }
 
+void FrozenCamera::freeze_tiles() {
+  for (int top = 0; top < lens_.height; top += flow::tile_height) {
+    for (int left = 0; left < lens_.width; left += flow::tile_width) {
+      const float far = std::numeric_limits<float>::max();
+      flow::Bounds b{far, -far, far, -far};
+      for (int v = top; v < std::min(top + flow::tile_height, lens_.height); ++v) {
+        for (int u = left; u < std::min(left + flow::tile_width, lens_.width); ++u) {
+          const std::size_t i = static_cast<std::size_t>(v) * static_cast<std::size_t>(lens_.width) + static_cast<std::size_t>(u);
+          b = {std::min(b.x_min, ray_x_[i]), std::max(b.x_max, ray_x_[i]), std::min(b.y_min, ray_y_[i]), std::max(b.y_max, ray_y_[i])};
+        }
+      }
+      tiles_.push_back(b);
+    }
+  }
+  lens_.tile = tiles_.data();
+}
+
 void FrozenCamera::freeze_sequence(std::uint64_t seed, int noise) {
   const Pixel& pixel = camera_.pixel;
   SensorView& s = sensor_;
   s.raw_frames = static_cast<std::int32_t>(camera_.mode.sequence.size());
   s.modulations = static_cast<std::int32_t>(modulations_.frequency_hz.size());
-  s.dark_rate = f(pixel.dark_current_e_per_s);
   s.read_noise = f(pixel.read_noise_e), s.read_variance = f(pixel.read_noise_e * pixel.read_noise_e);
   s.full_well = f(pixel.full_well_e);
   s.suppression_threshold = f(pixel.suppression_threshold_e), s.suppression_budget = f(pixel.suppression_budget_e);
   s.suppression_noise = f(pixel.suppression_noise_factor);
   s.per_step = f(1 / camera_.adc.step_e_per_dn), s.step = f(camera_.adc.step_e_per_dn), s.mid_code = f(camera_.adc.mid_code);
   s.max_code = f(setup::pow(2.0, camera_.adc.bits) - 1);
-  s.valid_min = f(camera_.adc.valid_min), s.valid_max = f(camera_.adc.valid_max);
+  s.valid_middle = f(0.5 * (camera_.adc.valid_min + camera_.adc.valid_max)), s.valid_half = f(0.5 * (camera_.adc.valid_max - camera_.adc.valid_min));
   s.noise = noise;
-  s.seed_low = static_cast<std::uint32_t>(seed), s.seed_high = static_cast<std::uint32_t>(seed >> 32);
+  s.keys = num::round_keys(static_cast<std::uint32_t>(seed), static_cast<std::uint32_t>(seed >> 32));
 
   std::vector<std::vector<Harmonic>> harmonics;      // [modulation · lights + light]
   for (const double frequency : modulations_.frequency_hz) {
@@ -104,6 +124,7 @@ void FrozenCamera::freeze_sequence(std::uint64_t seed, int noise) {
     view.lit = frame.lit;
     view.modulation = modulations_.of_raw_frame[k];
     view.integration_time = f(frame.integration_time_s);
+    view.dark = f(pixel.dark_current_e_per_s * frame.integration_time_s);
     for (int h = 0; h < s.harmonics; ++h) {
       view.cosine[h] = f(setup::cos((2 * h + 1) * frame.reference_phase_rad)), view.sine[h] = f(setup::sin((2 * h + 1) * frame.reference_phase_rad));
     }
@@ -118,9 +139,9 @@ void FrozenCamera::freeze_patterns() {
   // Each pattern is a stream of its own in the random numbers of the sensor's seed.
   const auto draw = [&](double sigma, double mean, std::uint32_t stream, std::vector<float>& map) -> const float* {
     if (sigma == 0) return nullptr;
+    const num::RoundKeys keys = num::round_keys(static_cast<std::uint32_t>(pixel.pattern_seed), static_cast<std::uint32_t>(pixel.pattern_seed >> 32));
     for (std::size_t i = 0; i < pixels; ++i) {
-      const auto words = num::philox<float>(static_cast<std::uint32_t>(i), stream, 0, 0, static_cast<std::uint32_t>(pixel.pattern_seed),
-                                            static_cast<std::uint32_t>(pixel.pattern_seed >> 32));
+      const auto words = num::philox<float>(static_cast<std::uint32_t>(i), stream, 0, 0, keys);
       float z, other;
       num::normal_pair<float>(words.w[0], words.w[1], z, other);
       map.push_back(f(mean + sigma * static_cast<double>(z)));

@@ -49,6 +49,7 @@ class FrozenCamera {
 
  private:
   void freeze_lens();
+  void freeze_tiles();
   void freeze_sequence(std::uint64_t seed, int noise);
   void freeze_patterns();
   void freeze_decoder(int noise);
@@ -60,8 +61,9 @@ class FrozenCamera {
   SensorView sensor_{};
   DecoderView decoder_{};
   std::vector<FrozenLight> lights_;
-  std::vector<float> ray_x_, ray_y_, vignetting_, gain_, offset_, delay_;
+  std::vector<float> ray_x_, ray_y_, inverse_length_, vignetting_, gain_, offset_, delay_;
   std::vector<std::vector<float>> wiggling_;
+  std::vector<flow::Bounds> tiles_;
   std::vector<double> start_;
 };
 

@@ -52,11 +52,15 @@ Group group_of(const Mode& mode, const Modulations& modulations, int modulation)
   return g;
 }
 
-int opposite_of(const Group& g, std::size_t j) {
-  for (std::size_t i = j + 1; i < g.tau.size(); ++i) {
-    if (std::abs(setup::cos(g.tau[i] - g.tau[j]) + 1) < 1e-9) return g.raw_frame[i];
+/// Raw frames of the group, and each pair with reference phases half a turn apart.
+void list_raw_frames(const Group& g, DecodeModulation& m) {
+  for (std::size_t j = 0; j < g.tau.size(); ++j) {
+    m.raw_frame[m.count++] = g.raw_frame[j];
+    for (std::size_t i = j + 1; i < g.tau.size(); ++i) {
+      if (std::abs(setup::cos(g.tau[i] - g.tau[j]) + 1) > 1e-9 || m.pairs == flow::max_raw_frames / 2) continue;
+      m.pair[m.pairs][0] = g.raw_frame[j], m.pair[m.pairs++][1] = g.raw_frame[i];
+    }
   }
-  return -1;
 }
 
 }  // namespace
@@ -66,11 +70,14 @@ void FrozenCamera::freeze_decoder(int noise) {
   const Mode& mode = camera_.mode;
   const Decoding& decoding = camera_.decoding;
   const double wave_speed = speed_of_light / camera_.refractive_index;
-  d.raw_frames = sensor_.raw_frames, d.modulations = sensor_.modulations;
+  d.modulations = sensor_.modulations;
   d.wiggling_nodes = wiggling_nodes;
   double grey_time = 0;
-  for (const RawFrame& frame : mode.sequence) grey_time += frame.lit ? 0 : frame.integration_time_s;
-  for (int k = 0; k < d.raw_frames; ++k) d.frame[k] = {-1, 0, 0, -1};
+  for (std::size_t k = 0; k < mode.sequence.size(); ++k) {
+    if (mode.sequence[k].lit) continue;
+    grey_time += mode.sequence[k].integration_time_s;
+    d.grey_frame[d.grey_frames++] = static_cast<std::int32_t>(k);
+  }
   for (int i = 0; i < d.modulations; ++i) {
     const std::size_t at = static_cast<std::size_t>(i);
     const Group group = group_of(mode, modulations_, i);
@@ -81,14 +88,20 @@ void FrozenCamera::freeze_decoder(int noise) {
     const double contrast = harmonics.front().amplitude;
     if (!decoding.wiggling_correction) harmonics.resize(1);
     wiggling_.emplace_back();
-    for (const double node : wiggling_correction(harmonics, group.tau, wiggling_nodes)) wiggling_.back().push_back(f(node));
-    wiggling_.back().push_back(wiggling_.back().front());
+    const std::vector<double> correction = wiggling_correction(harmonics, group.tau, wiggling_nodes);
+    for (std::size_t j = 0; j < correction.size(); ++j) {
+      wiggling_.back().push_back(f(correction[j]));
+      wiggling_.back().push_back(f(correction[(j + 1) % correction.size()] - correction[j]));
+    }
     const double half_wave = wave_speed / (2 * frequency);
-    d.modulation[i] = {f(half_wave), f(1 / half_wave), f(modulations_.cycles[at]), f(frequency), f(1 / contrast), f(group.integration_time),
-                       f(grey_time > 0 ? group.integration_time / grey_time : 0), f(2 / (count * 4 * pi * pi)), nullptr};
+    DecodeModulation& m = d.modulation[i];
+    m.half_wave = f(half_wave), m.per_half_wave = f(1 / half_wave), m.cycles = f(modulations_.cycles[at]), m.frequency = f(frequency);
+    m.per_contrast = f(1 / contrast), m.integration_time = f(group.integration_time);
+    m.ambient_scale = f(grey_time > 0 ? group.integration_time / grey_time : 0), m.variance_factor = f(2 / (count * 4 * pi * pi) * half_wave * half_wave);
+    list_raw_frames(group, m);
     if (modulations_.cycles[at] < modulations_.cycles[static_cast<std::size_t>(d.reference)]) d.reference = i;
     for (std::size_t j = 0; j < group.tau.size(); ++j) {
-      d.frame[group.raw_frame[j]] = {i, f(2 / count * setup::cos(group.tau[j])), f(2 / count * setup::sin(group.tau[j])), opposite_of(group, j)};
+      d.frame[group.raw_frame[j]] = {f(2 / count * setup::cos(group.tau[j])), f(2 / count * setup::sin(group.tau[j]))};
     }
   }
   for (int i = 0; i < d.modulations; ++i) d.modulation[i].wiggling = wiggling_[static_cast<std::size_t>(i)].data();

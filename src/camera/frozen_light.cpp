@@ -65,7 +65,14 @@ void freeze_pattern(const Pattern& p, double power, FrozenLight& out) {
       view.exponent = p.kind == Pattern::Kind::lambertian ? 1.0f : f(p.exponent);
       view.peak = f(power * (static_cast<double>(view.exponent) + 1) / (2 * pi));
       break;
-    case Pattern::Kind::flat_top: freeze_table(flat_top(p), power, out); break;
+    case Pattern::Kind::flat_top: {
+      const Table t = flat_top(p);
+      freeze_table(t, power, out);      // the paper's printed formula reads the table; all else takes the formula
+      view.kind = PatternView::flat_top;
+      view.peak = f(power / table_integral(t.samples, t.columns, t.rows, t.half_x, t.half_y));
+      view.per_half_width = f(2 / p.width_rad), view.per_half_height = f(2 / p.height_rad);
+      break;
+    }
     case Pattern::Kind::table: freeze_table({p.columns, p.rows, p.half_range_x_rad, p.half_range_y_rad, p.samples}, power, out); break;
   }
 }

@@ -17,8 +17,9 @@ double radial_slope(const Lens& lens, double square) {
   return 1 + square * (3 * lens.k1 + square * (5 * lens.k2 + square * 7 * lens.k3));
 }
 
-/// Largest r² up to which the radial part grows; 1e4 where it always does.
-double monotone_square(const Lens& lens) {
+}  // namespace
+
+double growing_radius_squared(const Lens& lens) {
   constexpr double farthest = 1e4;
   double low = 0;
   for (double high = 1e-3; high < farthest; high *= 1.02) {
@@ -33,6 +34,8 @@ double monotone_square(const Lens& lens) {
   }
   return farthest;
 }
+
+namespace {
 
 struct Jacobian { double xx, xy, yx, yy; };
 
@@ -52,8 +55,7 @@ Point2 distort(const Lens& l, const Point2& p) {
   return {p.x * radial + 2 * l.p1 * p.x * p.y + l.p2 * (r2 + 2 * p.x * p.x), p.y * radial + l.p1 * (r2 + 2 * p.y * p.y) + 2 * l.p2 * p.x * p.y};
 }
 
-bool undistort(const Lens& lens, const Point2& target, Point2& out) {
-  const double limit = monotone_square(lens);
+bool undistort(const Lens& lens, double limit, const Point2& target, Point2& out) {
   Point2 p = target;
   const double start = p.x * p.x + p.y * p.y;
   if (start > 0.9 * limit) {
@@ -87,8 +89,8 @@ Point2 project(const Lens& lens, const Point2& undistorted) {
   return {lens.fx_px * d.x + lens.cx_px, lens.fy_px * d.y + lens.cy_px};
 }
 
-bool unproject(const Lens& lens, const Point2& pixel, Point2& undistorted) {
-  return undistort(lens, {(pixel.x - lens.cx_px) / lens.fx_px, (pixel.y - lens.cy_px) / lens.fy_px}, undistorted);
+bool unproject(const Lens& lens, double limit, const Point2& pixel, Point2& undistorted) {
+  return undistort(lens, limit, {(pixel.x - lens.cx_px) / lens.fx_px, (pixel.y - lens.cy_px) / lens.fy_px}, undistorted);
 }
 
 double vignetting_factor(const Lens& lens, const Point2& p) {

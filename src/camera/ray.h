@@ -8,7 +8,8 @@ namespace tofray::camera {
 /// View ray of each pixel, lens undistorted.
 template <class F>
 TOFRAY_FN flow::Ray<F> ray(const LensView& lens, const flow::Pixels& p) {
-  return flow::make_ray(num::load<F>(lens.ray_x + p.index, p.count), num::load<F>(lens.ray_y + p.index, p.count), F(1.0f));
+  const F x = num::load<F>(lens.ray_x + p.index, p.count), y = num::load<F>(lens.ray_y + p.index, p.count);
+  return {x, y, F(1.0f), flow::square_of(x, y, F(1.0f)), num::load<F>(lens.inverse_length + p.index, p.count)};
 }
 
 template <class F>

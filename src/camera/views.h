@@ -4,6 +4,7 @@
 #include <cstdint>
 
 #include "flow/flow.h"
+#include "num/philox.h"
 
 /// The camera, frozen for rendering: plain numbers in single precision that kernels read. Built by FrozenCamera.
 namespace tofray::camera {
@@ -12,17 +13,19 @@ namespace tofray::camera {
 struct LensView {
   std::int32_t width, height;
   const float *ray_x, *ray_y;    ///< [height][width] undistorted: d = (x, y, 1)
+  const float* inverse_length;   ///< [height][width] 1/|d|
   const float* vignetting;       ///< [height][width] cos⁴α or a table's factor; 0 outside the lens model
-  float max_abs_x, max_abs_y;    ///< largest |ray_x|, |ray_y|
+  const flow::Bounds* tile;      ///< what each tile of pixels sees
 };
 
 /// How one light spreads its power over directions: I(θx, θy) [W/sr].
 struct PatternView {
-  enum Kind : std::int32_t { cone, cosine_lobe, table };
+  enum Kind : std::int32_t { cone, cosine_lobe, flat_top, table };
   Kind kind;
-  float peak;                    ///< [W/sr] cone: inside; lobe: on the axis
+  float peak;                    ///< [W/sr] cone: inside; lobe and flat top: on the axis
   float cos_half_angle;          ///< cone
   float exponent;                ///< lobe
+  float per_half_width, per_half_height;   ///< flat top: 1/(half width at half peak) [1/rad]
   const float* samples;          ///< table [rows][columns], W/sr
   std::int32_t columns, rows;
   float per_rad_x, per_rad_y;    ///< cells per radian
@@ -41,7 +44,7 @@ struct LightView {
 /// Watts on the pixel for a radiance of 1: π·T·pitch²·fill_factor/(4N²), without vignetting.
 struct PowerView {
   float watts_per_radiance;
-  float ambient_rate;            ///< electrons per second from a surface with k_d = 1, without vignetting
+  float ambient_rate;            ///< electrons per second from a surface with ρ = 1, without vignetting
   float sun_direction[3];        ///< unit vector toward it
   std::int32_t ambient_kind;     ///< 0 none, 1 uniform, 2 directional
   std::int32_t paper_literal;    ///< 1: the paper's printed formula (power/paper_literal.h)
@@ -53,6 +56,7 @@ struct RawFrameView {
   std::int32_t lit;
   std::int32_t modulation;       ///< index of the modulation frequency
   float integration_time;        ///< [s]
+  float dark;                    ///< dark electrons of a tap
   float cosine[flow::max_harmonics], sine[flow::max_harmonics];   ///< of m·τ, for the orders kept
 };
 
@@ -70,16 +74,15 @@ struct SensorView {
   std::int32_t raw_frames, modulations, harmonics;
   RawFrameView frame[flow::max_raw_frames];
   ModulationView modulation[flow::max_modulation_frequencies];
-  float dark_rate;               ///< [e⁻/s] per tap
   float read_noise, read_variance;
   float full_well;
   float suppression_threshold, suppression_budget, suppression_noise;
   float per_step;                ///< 1/s [DN/e⁻]
-  float step, mid_code, max_code, valid_min, valid_max;
+  float step, mid_code, max_code, valid_middle, valid_half;   ///< codes, the valid range as middle and half width
   const float* gain;             ///< [height][width] 1 + PRNU, both taps alike, or null
   const float* offset;           ///< [height][width] DSNU [DN], or null
   const float* delay;            ///< [height][width] [s], or null
-  std::uint32_t seed_low, seed_high;
+  num::RoundKeys keys;           ///< of the seed
   std::int32_t noise;            ///< 0 off, 1 fast, 2 exact
 };
 
@@ -92,18 +95,21 @@ struct DecodeModulation {
   float per_contrast;            ///< 1/C, C the first harmonic's amplitude
   float integration_time;
   float ambient_scale;           ///< t_int over the grey frames' time
-  float variance_factor;         ///< phase variance in turns² is this times V/Â²: 2/(N·4π²)
-  const float* wiggling;         ///< [wiggling_nodes + 1] φ − φ̂ in turns at equidistant φ̂
+  float variance_factor;         ///< variance of the half path is this times V/Â²: (2/N)·(R/2π)²
+  std::int32_t count, pairs;     ///< raw frames of this modulation; pairs of them with τ half a turn apart
+  std::int32_t raw_frame[flow::max_raw_frames];
+  std::int32_t pair[flow::max_raw_frames / 2][2];
+  const float* wiggling;         ///< [wiggling_nodes][2] φ − φ̂ in turns at equidistant φ̂, and the step to the next node
 };
 
 struct DecodeRawFrame {
-  std::int32_t modulation;       ///< −1: unlit
   float cosine, sine;            ///< (2/N)·cos τ, (2/N)·sin τ
-  std::int32_t opposite;         ///< raw frame of the same modulation frequency with τ + π, −1 if there is none or it comes before
 };
 
 struct DecoderView {
-  std::int32_t raw_frames, modulations, reference;   ///< reference: the modulation with the fewest cycles
+  std::int32_t modulations, reference;   ///< reference: the modulation with the fewest cycles
+  std::int32_t grey_frames;
+  std::int32_t grey_frame[flow::max_raw_frames];     ///< the unlit ones
   DecodeRawFrame frame[flow::max_raw_frames];
   DecodeModulation modulation[flow::max_modulation_frequencies];
   float common_range, per_common_range;   ///< R_0 [m], 1/R_0

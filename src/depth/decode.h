@@ -21,12 +21,12 @@ struct Estimate {
 };
 
 template <class F>
-TOFRAY_FN Estimate<F> estimate(const camera::DecoderView& s, int modulation, const F* difference) {
+TOFRAY_FN Estimate<F> estimate(const camera::DecoderView& s, const camera::DecodeModulation& m, const F* difference) {
   F real = F(0.0f), imaginary = F(0.0f);
-  for (int k = 0; k < s.raw_frames; ++k) {
-    if (s.frame[k].modulation != modulation) continue;
+  for (int j = 0; j < m.count; ++j) {
+    const int k = m.raw_frame[j];
     real = num::fma(difference[k], F(s.frame[k].cosine), real);
-    imaginary = num::fma(difference[k], F(-s.frame[k].sine), imaginary);
+    imaginary = num::fnma(difference[k], F(s.frame[k].sine), imaginary);
   }
   const F turns = num::atan2_turns(imaginary, real);
   const F positive = num::select(turns < F(0.0f), turns + F(1.0f), turns);
@@ -39,31 +39,26 @@ TOFRAY_FN F unwiggle(const camera::DecoderView& s, const camera::DecodeModulatio
   const F place = turns * F(static_cast<float>(s.wiggling_nodes));
   const F node = num::min(num::floor(place), F(static_cast<float>(s.wiggling_nodes - 1)));
   const num::Int<F> at = num::to_int(node);
-  const F left = num::gather(m.wiggling, at), right = num::gather(m.wiggling + 1, at);
-  slope = num::fma(right - left, F(static_cast<float>(s.wiggling_nodes)), F(1.0f));
-  return turns + num::fma(place - node, right - left, left);
+  F value, step;
+  num::gather_pair(m.wiggling, at, value, step);
+  slope = num::fma(step, F(static_cast<float>(s.wiggling_nodes)), F(1.0f));
+  return turns + num::fma(place - node, step, value);
 }
 
 /// Ambient electrons per second from the unlit raw frames' A−B, at least 0.
 template <class F>
 TOFRAY_FN F grey_sum(const camera::DecoderView& s, const F* difference) {
   F sum = F(0.0f);
-  for (int k = 0; k < s.raw_frames; ++k) {
-    if (s.frame[k].modulation < 0) sum = sum + difference[k];
-  }
+  for (int j = 0; j < s.grey_frames; ++j) sum = sum + difference[s.grey_frame[j]];
   return num::max(sum, F(0.0f));
 }
 
 /// Opposite reference phases must cancel: |D_k + D_k'| > 5√(2V̂) says that something moved.
 template <class F>
-TOFRAY_FN Mask<F> phases_disagree(const camera::DecoderView& s, int modulation, const F* difference, F variance) {
-  const F limit = F(5.0f) * num::sqrt(F(2.0f) * variance);
-  Mask<F> apart = F(1.0f) < F(0.0f);
-  for (int k = 0; k < s.raw_frames; ++k) {
-    if (s.frame[k].modulation != modulation || s.frame[k].opposite < 0) continue;
-    apart = apart | (num::abs(difference[k] + difference[s.frame[k].opposite]) > limit);
-  }
-  return apart;
+TOFRAY_FN Mask<F> phases_disagree(const camera::DecodeModulation& m, const F* difference, F variance) {
+  F most = F(0.0f);
+  for (int j = 0; j < m.pairs; ++j) most = num::max(most, num::abs(difference[m.pair[j][0]] + difference[m.pair[j][1]]));
+  return most * most > F(50.0f) * variance;
 }
 
 /// Exact inverse of ℓ = |P − L| + |P| along the unit view ray u: range = (ℓ² − |L|²)/(2(ℓ − u·L)).             [eq. 2.9]
@@ -80,37 +75,37 @@ TOFRAY_FN num::Int<F> bit(Mask<F> m, Bits value) { return num::select(m, num::In
 /// @param delay       the pixel's fixed delay [s]
 template <class F>
 TOFRAY_FN Depth<F> decode(const camera::DecoderView& s, const F* difference, Mask<F> clipped, Mask<F> outside, const flow::Ray<F>& ray, F delay) {
-  F turns[flow::max_modulation_frequencies], sigma[flow::max_modulation_frequencies];
+  F turns[flow::max_modulation_frequencies], weight[flow::max_modulation_frequencies];
   F amplitude = F(0.0f), ambient = F(0.0f), weakest = F(3e38f);
   Mask<F> moved = F(1.0f) < F(0.0f);
   const F grey = grey_sum(s, difference);
   for (int i = 0; i < s.modulations; ++i) {
     const camera::DecodeModulation& m = s.modulation[i];
-    const Estimate<F> e = estimate(s, i, difference);
+    const Estimate<F> e = estimate(s, m, difference);
     F slope;
-    const F phi = num::fma(-delay, F(m.frequency), unwiggle(s, m, e.turns, slope));
+    const F phi = num::fnma(delay, F(m.frequency), unwiggle(s, m, e.turns, slope));
     turns[i] = phi - num::floor(phi);
-    // V̂ = Â/C + B̂ + dark + 2σ_r² + s²/12, σ_φ = √(2V̂/N)/Â·dφ/dφ̂                                          [eq. 4.9]
+    // V̂ = Â/C + B̂ + dark + 2σ_r² + s²/12, σ_φ² = (2V̂/N)/Â²·(dφ/dφ̂)²                                       [eq. 4.9]
     const F light = grey * F(m.ambient_scale);
     const F variance = num::fma(e.amplitude, F(m.per_contrast), light) + F(s.noise_floor + s.dark_rate_both * m.integration_time);
-    const F phase_sigma = num::sqrt(variance * F(m.variance_factor)) / num::max(e.amplitude, F(1e-6f)) * num::abs(slope);
-    sigma[i] = num::max(phase_sigma * F(m.half_wave), F(1e-9f));
-    moved = moved | phases_disagree(s, i, difference, variance);
+    const F signal = num::max(e.amplitude, F(1e-3f));
+    weight[i] = signal * signal / (variance * F(m.variance_factor) * (slope * slope));
+    moved = moved | phases_disagree<F>(m, difference, variance);
     amplitude = amplitude + e.amplitude;
     ambient = ambient + light;
     weakest = num::min(weakest, e.amplitude);
   }
   const F per_count = F(1.0f / static_cast<float>(s.modulations));
-  const HalfPath<F> half = unwrap(s, turns, sigma);
+  const HalfPath<F> half = unwrap(s, turns, weight);
   const F path_length = half.value + half.value;
-  const F per_length = F(1.0f) / num::sqrt(ray.square);
+  const F per_length = ray.inverse_length, sigma = num::sqrt(half.variance);
   Depth<F> out;
   out.range = range_from_path(s, path_length, ray.x * per_length, ray.y * per_length, ray.z * per_length);
   out.amplitude = amplitude * per_count;
   out.ambient = ambient * per_count;
-  out.noise = half.sigma;
+  out.noise = sigma;
   const auto nothing = (weakest < F(1.0f)) | (!(path_length * path_length > F(s.light_square)));
-  out.flags = bit<F>(clipped, saturated) | bit<F>(half.sigma > F(s.low_signal_noise), low_signal) | bit<F>(nothing, no_return) |
+  out.flags = bit<F>(clipped, saturated) | bit<F>(sigma > F(s.low_signal_noise), low_signal) | bit<F>(nothing, no_return) |
               bit<F>(outside, outside_lens) | bit<F>(moved, inconsistent_phases) | bit<F>(half.inconsistent, inconsistent_frequencies);
   return out;
 }

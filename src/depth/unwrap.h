@@ -11,7 +11,7 @@ using num::Mask;
 template <class F>
 struct HalfPath {
   F value;         ///< [m], in [0, R_0)
-  F sigma;         ///< [m] (Σ 1/σ_i²)^−½
+  F variance;      ///< [m²] 1/Σ(1/σ_i²)
   Mask<F> inconsistent;
 };
 
@@ -24,9 +24,9 @@ TOFRAY_FN F nearest_half_path(const camera::DecodeModulation& m, F turns, F targ
 /// Each cycle of the modulation with the fewest is tried: the others' nearest half paths say how well it fits; the best fit wins. For two
 /// modulation frequencies of ratio M : N it is the rule k = round(N·p_2 − M·p_1) of the Chinese remainder theorem, for more the closest point.
 /// @param turns  p_i = φ_i/2π in [0, 1)
-/// @param sigma  σ_i of each half path [m]
+/// @param weight 1/σ_i² of each half path [1/m²]
 template <class F>
-TOFRAY_FN HalfPath<F> unwrap(const camera::DecoderView& s, const F* turns, const F* sigma) {
+TOFRAY_FN HalfPath<F> unwrap(const camera::DecoderView& s, const F* turns, const F* weight) {
   const camera::DecodeModulation& reference = s.modulation[s.reference];
   F best = F(0.0f), least = F(3e38f);
   const int cycles = static_cast<int>(reference.cycles);
@@ -46,18 +46,19 @@ TOFRAY_FN HalfPath<F> unwrap(const camera::DecoderView& s, const F* turns, const
   Mask<F> inconsistent = F(1.0f) < F(0.0f);
   for (int i = 0; i < s.modulations; ++i) {
     const F d = nearest_half_path(s.modulation[i], turns[i], best);
-    const F weight = F(1.0f) / (sigma[i] * sigma[i]);
-    weights = weights + weight;
-    sum = num::fma(weight, d - best, sum);
-    const F apart = num::abs(d - best);
-    const F expected = F(9.0f) * num::fma(sigma[i], sigma[i], sigma[s.reference] * sigma[s.reference]);
-    inconsistent = inconsistent | ((apart > F(s.inconsistent_range)) & (apart * apart > expected));
+    weights = weights + weight[i];
+    sum = num::fma(weight[i], d - best, sum);
+    // apart² > 9(σ_i² + σ_ref²), without a division
+    const F apart = num::abs(d - best), reference_weight = weight[s.reference];
+    const F significance = apart * apart * (weight[i] * reference_weight);
+    inconsistent = inconsistent | ((apart > F(s.inconsistent_range)) & (significance > F(9.0f) * (weight[i] + reference_weight)));
   }
-  F mean = best + sum / weights;
-  mean = num::fma(-num::floor(mean * F(s.per_common_range)), F(s.common_range), mean);
+  const F variance = F(1.0f) / weights;
+  F mean = num::fma(sum, variance, best);
+  mean = num::fnma(num::floor(mean * F(s.per_common_range)), F(s.common_range), mean);
   mean = num::select(mean < F(0.0f), mean + F(s.common_range), mean);
   mean = num::select(mean >= F(s.common_range), mean - F(s.common_range), mean);
-  return {mean, num::sqrt(F(1.0f) / weights), inconsistent};
+  return {mean, variance, inconsistent};
 }
 
 }  // namespace tofray::depth

@@ -17,18 +17,30 @@ struct Pixels {
   std::int32_t count;
 };
 
+/// Images are cut into tiles of this size, which see a rectangle of directions each.
+constexpr int tile_width = 32, tile_height = 8;
+
+/// Rectangle in d.x/d.z, d.y/d.z (z > 0).
+struct Bounds {
+  float x_min, x_max, y_min, y_max;
+};
+
 /// A ray from a common origin: P = t·d. Camera rays have z = 1, so that t is z; d is not of unit length.
 template <class F>
 struct Ray {
   F x, y, z;
   F square;          ///< d·d
-  F inverse_square;  ///< 1/(d·d)
+  F inverse_length;  ///< 1/|d|
 };
 
 template <class F>
+TOFRAY_FN F square_of(F x, F y, F z) { return num::fma(x, x, num::fma(y, y, z * z)); }
+
+/// A ray of any direction but zero.
+template <class F>
 TOFRAY_FN Ray<F> make_ray(F x, F y, F z) {
-  const F square = num::fma(x, x, num::fma(y, y, z * z));
-  return {x, y, z, square, F(1.0f) / square};
+  const F square = square_of(x, y, z);
+  return {x, y, z, square, F(1.0f) / num::sqrt(num::max(square, F(1e-30f)))};
 }
 
 /// The nearest surface. w = 1/t; 0: nothing.
@@ -55,6 +67,7 @@ template <class F>
 struct Light {
   F signal_rate[max_lights];   ///< [e⁻/s]
   F path_length[max_lights];   ///< ℓ [m]
+  F total_rate;                ///< sum of the signal rates [e⁻/s]
   F ambient_rate;              ///< [e⁻/s]
 };
 
@@ -72,7 +85,6 @@ struct Taps {
   F a, b;                      ///< [e⁻]
   F code;                      ///< [DN], a whole number
   F difference;                ///< A−B as depth takes it [e⁻]: from the code, or unrounded where noise is off
-  num::Mask<F> saturated;      ///< a tap clipped or the code left the valid range
 };
 
 /// Depth of one pixel.

@@ -74,6 +74,7 @@ TOFRAY_FN U32x8 operator<<(U32x8 a, int n) { return _mm256_slli_epi32(a.v, n); }
 TOFRAY_FN U32x8 operator>>(U32x8 a, int n) { return _mm256_srli_epi32(a.v, n); }
 
 TOFRAY_FN F32x8 fma(F32x8 a, F32x8 b, F32x8 c) { return _mm256_fmadd_ps(a.v, b.v, c.v); }
+TOFRAY_FN F32x8 fnma(F32x8 a, F32x8 b, F32x8 c) { return _mm256_fnmadd_ps(a.v, b.v, c.v); }
 TOFRAY_FN F32x8 sqrt(F32x8 a) { return _mm256_sqrt_ps(a.v); }
 TOFRAY_FN F32x8 min(F32x8 a, F32x8 b) { return _mm256_min_ps(a.v, b.v); }
 TOFRAY_FN F32x8 max(F32x8 a, F32x8 b) { return _mm256_max_ps(a.v, b.v); }
@@ -101,6 +102,14 @@ TOFRAY_FN void multiply_wide(U32x8 a, U32x8 b, U32x8& high, U32x8& low) {
 }
 
 TOFRAY_FN F32x8 gather(const float* table, I32x8 index) { return _mm256_i32gather_ps(table, index.v, 4); }
+TOFRAY_FN void gather_pair(const float* table, I32x8 index, F32x8& first, F32x8& second) {
+  const double* pairs = reinterpret_cast<const double*>(table);
+  const __m256 low = _mm256_castpd_ps(_mm256_i32gather_pd(pairs, _mm256_castsi256_si128(index.v), 8));
+  const __m256 high = _mm256_castpd_ps(_mm256_i32gather_pd(pairs, _mm256_extracti128_si256(index.v, 1), 8));
+  const __m256d firsts = _mm256_castps_pd(_mm256_shuffle_ps(low, high, 0x88)), seconds = _mm256_castps_pd(_mm256_shuffle_ps(low, high, 0xDD));
+  first = _mm256_castpd_ps(_mm256_permute4x64_pd(firsts, 0xD8));
+  second = _mm256_castpd_ps(_mm256_permute4x64_pd(seconds, 0xD8));
+}
 TOFRAY_FN I32x8 gather(const std::int32_t* table, I32x8 index) { return _mm256_i32gather_epi32(table, index.v, 4); }
 TOFRAY_FN std::int32_t first(I32x8 a) { return _mm256_cvtsi256_si32(a.v); }
 TOFRAY_FN float lane(F32x8 a, int i) {
@@ -141,20 +150,38 @@ TOFRAY_FN void store(float* to, F32x8 a, int n) {
 }
 TOFRAY_FN void store(std::int32_t* to, I32x8 a, int n) { _mm256_maskstore_epi32(to, first_lanes8(n), a.v); }
 TOFRAY_FN void store(std::uint16_t* to, I32x8 a, int n) {
-  const __m256i halves = _mm256_permute4x64_epi64(_mm256_packus_epi32(a.v, a.v), 0x08);
-  alignas(16) std::uint16_t packed[8];
-  _mm_store_si128(reinterpret_cast<__m128i*>(packed), _mm256_castsi256_si128(halves));
-  std::memcpy(to, packed, static_cast<std::size_t>(n < 8 ? n : 8) * sizeof(std::uint16_t));
+  const __m128i narrow = _mm256_castsi256_si128(_mm256_permute4x64_epi64(_mm256_packus_epi32(a.v, a.v), 0x08));
+  if (n >= 8) {
+    _mm_storeu_si128(reinterpret_cast<__m128i*>(to), narrow);
+  } else {
+    alignas(16) std::uint16_t packed[8];
+    _mm_store_si128(reinterpret_cast<__m128i*>(packed), narrow);
+    for (int i = 0; i < n; ++i) to[i] = packed[i];
+  }
 }
 TOFRAY_FN void store(std::uint8_t* to, I32x8 a, int n) {
-  alignas(32) std::int32_t wide[8];
-  _mm256_store_si256(reinterpret_cast<__m256i*>(wide), a.v);
-  for (int i = 0; i < (n < 8 ? n : 8); ++i) to[i] = static_cast<std::uint8_t>(wide[i]);
+  const __m128i halves = _mm256_castsi256_si128(_mm256_permute4x64_epi64(_mm256_packus_epi32(a.v, a.v), 0x08));
+  const __m128i narrow = _mm_packus_epi16(halves, halves);
+  if (n >= 8) {
+    _mm_storel_epi64(reinterpret_cast<__m128i*>(to), narrow);
+  } else {
+    alignas(16) std::uint8_t packed[16];
+    _mm_store_si128(reinterpret_cast<__m128i*>(packed), narrow);
+    for (int i = 0; i < n; ++i) to[i] = packed[i];
+  }
+}
+/// Elements of x0 y0 z0 x1 y1 z1 …: all three packs in the same new order, taken in turn.
+template <int x_lanes, int y_lanes>
+TOFRAY_FN __m256 interleaved(__m256 x, __m256 y, __m256 z, __m256i order) {
+  const __m256 xy = _mm256_blend_ps(_mm256_permutevar8x32_ps(z, order), _mm256_permutevar8x32_ps(y, order), y_lanes);
+  return _mm256_blend_ps(xy, _mm256_permutevar8x32_ps(x, order), x_lanes);
 }
 TOFRAY_FN void store3(float* to, F32x8 x, F32x8 y, F32x8 z, int n) {
-  alignas(32) float part[3][8];
-  _mm256_store_ps(part[0], x.v), _mm256_store_ps(part[1], y.v), _mm256_store_ps(part[2], z.v);
-  for (int i = 0; i < (n < 8 ? n : 8); ++i) to[3 * i] = part[0][i], to[3 * i + 1] = part[1][i], to[3 * i + 2] = part[2][i];
+  const __m256i first = _mm256_setr_epi32(0, 0, 0, 1, 1, 1, 2, 2), second = _mm256_setr_epi32(2, 3, 3, 3, 4, 4, 4, 5);
+  const __m256i third = _mm256_setr_epi32(5, 5, 6, 6, 6, 7, 7, 7);
+  store(to, F32x8(interleaved<0x49, 0x92>(x.v, y.v, z.v, first)), 3 * n);
+  if (3 * n > 8) store(to + 8, F32x8(interleaved<0x92, 0x24>(x.v, y.v, z.v, second)), 3 * n - 8);
+  if (3 * n > 16) store(to + 16, F32x8(interleaved<0x24, 0x49>(x.v, y.v, z.v, third)), 3 * n - 16);
 }
 
 }  // namespace tofray::num

@@ -50,9 +50,9 @@ TOFRAY_FN Mask16 operator>=(F32x16 a, F32x16 b) { return {_mm512_cmp_ps_mask(a.v
 TOFRAY_FN Mask16 operator==(F32x16 a, F32x16 b) { return {_mm512_cmp_ps_mask(a.v, b.v, _CMP_EQ_OQ)}; }
 TOFRAY_FN Mask16 operator!=(F32x16 a, F32x16 b) { return {_mm512_cmp_ps_mask(a.v, b.v, _CMP_NEQ_UQ)}; }
 
-TOFRAY_FN Mask16 operator&(Mask16 a, Mask16 b) { return {static_cast<__mmask16>(a.v & b.v)}; }
-TOFRAY_FN Mask16 operator|(Mask16 a, Mask16 b) { return {static_cast<__mmask16>(a.v | b.v)}; }
-TOFRAY_FN Mask16 operator!(Mask16 a) { return {static_cast<__mmask16>(~a.v)}; }
+TOFRAY_FN Mask16 operator&(Mask16 a, Mask16 b) { return {_kand_mask16(a.v, b.v)}; }
+TOFRAY_FN Mask16 operator|(Mask16 a, Mask16 b) { return {_kor_mask16(a.v, b.v)}; }
+TOFRAY_FN Mask16 operator!(Mask16 a) { return {_knot_mask16(a.v)}; }
 TOFRAY_FN bool any(Mask16 a) { return a.v != 0; }
 TOFRAY_FN bool all(Mask16 a) { return a.v == 0xffff; }
 
@@ -74,6 +74,7 @@ TOFRAY_FN U32x16 operator<<(U32x16 a, int n) { return _mm512_slli_epi32(a.v, sta
 TOFRAY_FN U32x16 operator>>(U32x16 a, int n) { return _mm512_srli_epi32(a.v, static_cast<unsigned>(n)); }
 
 TOFRAY_FN F32x16 fma(F32x16 a, F32x16 b, F32x16 c) { return _mm512_fmadd_ps(a.v, b.v, c.v); }
+TOFRAY_FN F32x16 fnma(F32x16 a, F32x16 b, F32x16 c) { return _mm512_fnmadd_ps(a.v, b.v, c.v); }
 TOFRAY_FN F32x16 sqrt(F32x16 a) { return _mm512_sqrt_ps(a.v); }
 TOFRAY_FN F32x16 min(F32x16 a, F32x16 b) { return _mm512_min_ps(a.v, b.v); }
 TOFRAY_FN F32x16 max(F32x16 a, F32x16 b) { return _mm512_max_ps(a.v, b.v); }
@@ -101,6 +102,13 @@ TOFRAY_FN void multiply_wide(U32x16 a, U32x16 b, U32x16& high, U32x16& low) {
 }
 
 TOFRAY_FN F32x16 gather(const float* table, I32x16 index) { return _mm512_i32gather_ps(index.v, table, 4); }
+TOFRAY_FN void gather_pair(const float* table, I32x16 index, F32x16& first, F32x16& second) {
+  const __m512 low = _mm512_castpd_ps(_mm512_i32gather_pd(_mm512_castsi512_si256(index.v), table, 8));
+  const __m512 high = _mm512_castpd_ps(_mm512_i32gather_pd(_mm512_extracti64x4_epi64(index.v, 1), table, 8));
+  const __m512i even = _mm512_setr_epi32(0, 2, 4, 6, 8, 10, 12, 14, 16, 18, 20, 22, 24, 26, 28, 30);
+  first = _mm512_permutex2var_ps(low, even, high);
+  second = _mm512_permutex2var_ps(low, _mm512_add_epi32(even, _mm512_set1_epi32(1)), high);
+}
 TOFRAY_FN I32x16 gather(const std::int32_t* table, I32x16 index) { return _mm512_i32gather_epi32(index.v, table, 4); }
 TOFRAY_FN std::int32_t first(I32x16 a) { return _mm_cvtsi128_si32(_mm512_castsi512_si128(a.v)); }
 TOFRAY_FN float lane(F32x16 a, int i) {
@@ -118,32 +126,60 @@ TOFRAY_FN float lowest(F32x16 a) { return _mm512_reduce_min_ps(a.v); }
 TOFRAY_FN float highest(F32x16 a) { return _mm512_reduce_max_ps(a.v); }
 
 TOFRAY_FN __mmask16 first_lanes16(int n) { return static_cast<__mmask16>(n >= 16 ? 0xffffu : (1u << n) - 1u); }
+// Whole packs go without a mask: masked stores are slower on some machines, and conversion within a masked store much slower.
 template <>
-TOFRAY_FN F32x16 load<F32x16>(const float* from, int n) { return _mm512_maskz_loadu_ps(first_lanes16(n), from); }
+TOFRAY_FN F32x16 load<F32x16>(const float* from, int n) {
+  return n >= 16 ? _mm512_loadu_ps(from) : _mm512_maskz_loadu_ps(first_lanes16(n), from);
+}
 template <>
-TOFRAY_FN I32x16 load_int<F32x16>(const std::int32_t* from, int n) { return _mm512_maskz_loadu_epi32(first_lanes16(n), from); }
-TOFRAY_FN void store(float* to, F32x16 a, int n) { _mm512_mask_storeu_ps(to, first_lanes16(n), a.v); }
-TOFRAY_FN void store(std::int32_t* to, I32x16 a, int n) { _mm512_mask_storeu_epi32(to, first_lanes16(n), a.v); }
-TOFRAY_FN void store(std::uint16_t* to, I32x16 a, int n) { _mm512_mask_cvtepi32_storeu_epi16(to, first_lanes16(n), a.v); }
-TOFRAY_FN void store(std::uint8_t* to, I32x16 a, int n) { _mm512_mask_cvtepi32_storeu_epi8(to, first_lanes16(n), a.v); }
-
-/// One third (`part` 0, 1, 2) of x0 y0 z0 x1 y1 z1 …: output element j = 16·part + i is component j mod 3 of lane j / 3.
-template <int part>
-TOFRAY_FN __m512 interleaved3(__m512 x, __m512 y, __m512 z) {
-  alignas(64) std::int32_t from_xy[16];
-  alignas(64) std::int32_t from_z[16];
-  for (int i = 0; i < 16; ++i) {
-    const int j = 16 * part + i;
-    from_xy[i] = j % 3 == 2 ? 0 : (j % 3) * 16 + j / 3;
-    from_z[i] = j % 3 == 2 ? 16 + j / 3 : i;
+TOFRAY_FN I32x16 load_int<F32x16>(const std::int32_t* from, int n) {
+  return n >= 16 ? _mm512_loadu_si512(from) : _mm512_maskz_loadu_epi32(first_lanes16(n), from);
+}
+TOFRAY_FN void store(float* to, F32x16 a, int n) {
+  if (n >= 16) {
+    _mm512_storeu_ps(to, a.v);
+  } else {
+    _mm512_mask_storeu_ps(to, first_lanes16(n), a.v);
   }
-  const __m512 xy = _mm512_permutex2var_ps(x, _mm512_load_si512(from_xy), y);
-  return _mm512_permutex2var_ps(xy, _mm512_load_si512(from_z), z);
+}
+TOFRAY_FN void store(std::int32_t* to, I32x16 a, int n) {
+  if (n >= 16) {
+    _mm512_storeu_si512(to, a.v);
+  } else {
+    _mm512_mask_storeu_epi32(to, first_lanes16(n), a.v);
+  }
+}
+TOFRAY_FN void store(std::uint16_t* to, I32x16 a, int n) {
+  const __m256i narrow = _mm512_cvtepi32_epi16(a.v);
+  if (n >= 16) {
+    _mm256_storeu_si256(reinterpret_cast<__m256i*>(to), narrow);
+  } else {
+    _mm256_mask_storeu_epi16(to, first_lanes16(n), narrow);
+  }
+}
+TOFRAY_FN void store(std::uint8_t* to, I32x16 a, int n) {
+  const __m128i narrow = _mm512_cvtepi32_epi8(a.v);
+  if (n >= 16) {
+    _mm_storeu_si128(reinterpret_cast<__m128i*>(to), narrow);
+  } else {
+    _mm_mask_storeu_epi8(to, first_lanes16(n), narrow);
+  }
+}
+
+/// Elements of x0 y0 z0 x1 y1 z1 …: those of x and y by `from_xy` (16 on: y), then those of z put in by `from_z` (16 on: z).
+TOFRAY_FN __m512 interleaved(__m512 x, __m512 y, __m512 z, __m512i from_xy, __m512i from_z) {
+  return _mm512_permutex2var_ps(_mm512_permutex2var_ps(x, from_xy, y), from_z, z);
 }
 TOFRAY_FN void store3(float* to, F32x16 x, F32x16 y, F32x16 z, int n) {
-  store(to, F32x16(interleaved3<0>(x.v, y.v, z.v)), 3 * n);
-  if (3 * n > 16) store(to + 16, F32x16(interleaved3<1>(x.v, y.v, z.v)), 3 * n - 16);
-  if (3 * n > 32) store(to + 32, F32x16(interleaved3<2>(x.v, y.v, z.v)), 3 * n - 32);
+  const __m512 first = interleaved(x.v, y.v, z.v, _mm512_setr_epi32(0, 16, 0, 1, 17, 0, 2, 18, 0, 3, 19, 0, 4, 20, 0, 5),
+                                   _mm512_setr_epi32(0, 1, 16, 3, 4, 17, 6, 7, 18, 9, 10, 19, 12, 13, 20, 15));
+  const __m512 second = interleaved(x.v, y.v, z.v, _mm512_setr_epi32(21, 0, 6, 22, 0, 7, 23, 0, 8, 24, 0, 9, 25, 0, 10, 26),
+                                    _mm512_setr_epi32(0, 21, 2, 3, 22, 5, 6, 23, 8, 9, 24, 11, 12, 25, 14, 15));
+  const __m512 third = interleaved(x.v, y.v, z.v, _mm512_setr_epi32(0, 11, 27, 0, 12, 28, 0, 13, 29, 0, 14, 30, 0, 15, 31, 0),
+                                   _mm512_setr_epi32(26, 1, 2, 27, 4, 5, 28, 7, 8, 29, 10, 11, 30, 13, 14, 31));
+  store(to, F32x16(first), 3 * n);
+  if (3 * n > 16) store(to + 16, F32x16(second), 3 * n - 16);
+  if (3 * n > 32) store(to + 32, F32x16(third), 3 * n - 32);
 }
 
 template <>

@@ -43,6 +43,8 @@ constexpr int lanes = Traits<F>::lanes;
 
 /// a·b + c, rounded once.
 TOFRAY_FN float fma(float a, float b, float c) { return __builtin_fmaf(a, b, c); }
+/// c − a·b, rounded once.
+TOFRAY_FN float fnma(float a, float b, float c) { return __builtin_fmaf(-a, b, c); }
 TOFRAY_FN float sqrt(float a) { return __builtin_sqrtf(a); }
 TOFRAY_FN float min(float a, float b) { return a < b ? a : b; }
 TOFRAY_FN float max(float a, float b) { return a > b ? a : b; }
@@ -95,6 +97,9 @@ TOFRAY_FN void multiply_wide(std::uint32_t a, std::uint32_t b, std::uint32_t& hi
 /// table[index], lane by lane.
 TOFRAY_FN float gather(const float* table, std::int32_t index) { return table[index]; }
 TOFRAY_FN std::int32_t gather(const std::int32_t* table, std::int32_t index) { return table[index]; }
+
+/// table[2·index] and table[2·index + 1]; the table is aligned to 8 bytes.
+TOFRAY_FN void gather_pair(const float* table, std::int32_t index, float& first, float& second) { first = table[2 * index], second = table[2 * index + 1]; }
 
 /// The value of lane 0.
 TOFRAY_FN std::int32_t first(std::int32_t a) { return a; }

@@ -12,21 +12,30 @@ struct Random4 {
   Uint<F> w[4];
 };
 
-/// One block of four words for a counter (c0…c3) and a key (k0, k1). Only c0 differs from lane to lane.
+/// A key's ten round keys: both halves grow by Weyl's constants.
+struct RoundKeys {
+  std::uint32_t k0[10], k1[10];
+};
+TOFRAY_FN RoundKeys round_keys(std::uint32_t k0, std::uint32_t k1) {
+  RoundKeys keys{};
+  for (std::uint32_t i = 0; i < 10; ++i) keys.k0[i] = k0 + i * 0x9E3779B9u, keys.k1[i] = k1 + i * 0xBB67AE85u;
+  return keys;
+}
+
+/// One block of four words for a counter (c0…c3) and a key. Only c0 differs from lane to lane.
 template <class F>
-TOFRAY_FN Random4<F> philox(Uint<F> c0, std::uint32_t c1, std::uint32_t c2, std::uint32_t c3, std::uint32_t k0, std::uint32_t k1) {
-  constexpr std::uint32_t m0 = 0xD2511F53u, m1 = 0xCD9E8D57u, weyl0 = 0x9E3779B9u, weyl1 = 0xBB67AE85u;
+TOFRAY_FN Random4<F> philox(Uint<F> c0, std::uint32_t c1, std::uint32_t c2, std::uint32_t c3, const RoundKeys& keys) {
+  constexpr std::uint32_t m0 = 0xD2511F53u, m1 = 0xCD9E8D57u;
   // The first round's second product is the same in every lane.
   std::uint32_t uniform_high, uniform_low;
   multiply_wide(c2, m1, uniform_high, uniform_low);
   Uint<F> high0, low0, high1, low1;
   multiply_wide(c0, Uint<F>(m0), high0, low0);
-  Random4<F> r{{Uint<F>(uniform_high ^ c1 ^ k0), Uint<F>(uniform_low), high0 ^ Uint<F>(c3 ^ k1), low0}};
+  Random4<F> r{{Uint<F>(uniform_high ^ c1 ^ keys.k0[0]), Uint<F>(uniform_low), high0 ^ Uint<F>(c3 ^ keys.k1[0]), low0}};
   for (int round = 1; round < 10; ++round) {
-    k0 += weyl0, k1 += weyl1;
     multiply_wide(r.w[0], Uint<F>(m0), high0, low0);
     multiply_wide(r.w[2], Uint<F>(m1), high1, low1);
-    r = {{high1 ^ r.w[1] ^ Uint<F>(k0), low1, high0 ^ r.w[3] ^ Uint<F>(k1), low0}};
+    r = {{high1 ^ r.w[1] ^ Uint<F>(keys.k0[round]), low1, high0 ^ r.w[3] ^ Uint<F>(keys.k1[round]), low0}};
   }
   return r;
 }

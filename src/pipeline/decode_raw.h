@@ -25,7 +25,7 @@ TOFRAY_FN void decode_pixels(const Setup& s, const Job& job, const Recording& in
       for (int i = 0; i < p.count; ++i) codes[i] = in.raw[at + i];
       const F code = num::to_float(num::load_int<F>(codes, p.count));
       difference[k] = (code - F(sensor.mid_code)) * F(sensor.step);
-      over = (code < F(sensor.valid_min)) | (code > F(sensor.valid_max));
+      over = num::abs(code - F(sensor.valid_middle)) > F(sensor.valid_half);
     }
     if (in.tap_a != nullptr) {
       const F a = num::load<F>(in.tap_a + at, p.count), b = num::load<F>(in.tap_b + at, p.count);

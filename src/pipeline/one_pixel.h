@@ -45,6 +45,7 @@ template <class F>
 TOFRAY_FN void light_up(const Setup& s, const Near& near, int slot, bool moving, const flow::Ray<F>& ray, const flow::Surface<F>& p, F vignetting,
                         Lighting<F>& out) {
   out.radiometry = {F(0.0f), F(0.0f), F(0.0f)};
+  out.light.total_rate = F(0.0f);
   for (int l = 0; l < s.scene.lights; ++l) {
     const flow::Ray<F> from_light = power::light_ray(s.lights[l], p);
     auto dark = trace::blocked(s.scene.light_still[l], near.light_still[l], from_light, p.object);
@@ -53,6 +54,7 @@ TOFRAY_FN void light_up(const Setup& s, const Near& near, int slot, bool moving,
     }
     power::add_light<F>(s.power, s.lights[l], p, ray, from_light, dark, vignetting, out.light.signal_rate[l], out.light.path_length[l],
                         out.radiometry);
+    out.light.total_rate = out.light.total_rate + out.light.signal_rate[l];
   }
   num::Mask<F> shade = F(1.0f) < F(0.0f);
   if (s.power.ambient_kind == 2) {
@@ -62,19 +64,17 @@ TOFRAY_FN void light_up(const Setup& s, const Near& near, int slot, bool moving,
   out.light.ambient_rate = s.power.ambient_kind == 0 ? F(0.0f) : power::ambient_rate<F>(s.power, p, shade, vignetting);
 }
 
-/// Stage 3 for one raw frame.
+/// Stage 3 for one raw frame: A−B as depth takes it.
 template <class F>
-TOFRAY_FN flow::Taps<F> collect(const Setup& s, const Job& job, const Pixels& p, int k, const flow::Light<F>& light, bool light_changed,
+TOFRAY_FN F collect(const Setup& s, const Job& job, const Pixels& p, int k, const flow::Light<F>& light, bool light_changed,
                                 raw::Exposure<F>& exposure) {
   const flow::Taps<F> taps = raw::expose(s.sensor, k, light, s.scene.lights, light_changed, raw::FrameIndex{job.index_low, job.index_high}, exposure);
   store_taps(s.lens.width * s.lens.height, job.out, p, k, taps);
   if (job.out.gt_signal != nullptr) {
-    F rate = F(0.0f);
-    for (int l = 0; l < s.scene.lights; ++l) rate = rate + light.signal_rate[l];
-    const F signal = s.sensor.frame[k].lit != 0 ? rate * F(s.sensor.frame[k].integration_time) : F(0.0f);
+    const F signal = s.sensor.frame[k].lit != 0 ? light.total_rate * F(s.sensor.frame[k].integration_time) : F(0.0f);
     num::store(job.out.gt_signal + p.index + k * s.lens.width * s.lens.height, signal, p.count);
   }
-  return taps;
+  return taps.difference;
 }
 
 /// Stage 4.
@@ -97,15 +97,12 @@ TOFRAY_FN void measure(const Setup& s, const Job& job, const Pixels& p, const fl
                        const std::int32_t* entry) {
   raw::Exposure<F> exposure = raw::start<F>(s.sensor, p);
   F difference[flow::max_raw_frames];
-  num::Mask<F> clipped = F(1.0f) < F(0.0f);
   for (int k = 0; k < s.sensor.raw_frames; ++k) {
     const std::int32_t now = entry != nullptr ? entry[k] : 0;
     const bool changed = entry != nullptr && k > 0 && entry[k] != entry[k - 1];
-    const flow::Taps<F> taps = collect(s, job, p, k, light[now], changed, exposure);
-    difference[k] = taps.difference;
-    clipped = clipped | taps.saturated;
+    difference[k] = collect(s, job, p, k, light[now], changed, exposure);
   }
-  find_depth(s, job, p, ray, difference, clipped, exposure.delay, vignetting);
+  find_depth<F>(s, job, p, ray, difference, raw::saturated(s.sensor, exposure), exposure.delay, vignetting);
 }
 
 /// Everything that follows once the nearest surface is known, where nothing moves.

@@ -29,7 +29,8 @@ struct Job {
   float filter_weights[33];      ///< Gaussian, [0] the middle
 };
 
-constexpr int tile_width = 32, tile_height = 8;
+using flow::tile_height;
+using flow::tile_width;
 
 TOFRAY_FN int tiles_across(const camera::LensView& lens) { return (lens.width + tile_width - 1) / tile_width; }
 TOFRAY_FN int tile_count(const camera::LensView& lens) { return tiles_across(lens) * ((lens.height + tile_height - 1) / tile_height); }

@@ -24,9 +24,9 @@ TOFRAY_FN void store3(float* to, const Pixels& p, F x, F y, F z) {
 template <class F>
 TOFRAY_FN void store_taps(int pixels, const flow::FrameView& out, const Pixels& p, int k, const flow::Taps<F>& taps) {
   const Pixels at{p.index + k * pixels, p.count};
-  store(out.tap_a, at, taps.a);
-  store(out.tap_b, at, taps.b);
-  if (out.raw != nullptr) num::store(out.raw + at.index, num::to_int(taps.code), at.count);
+  num::store(out.tap_a + at.index, taps.a, at.count);
+  num::store(out.tap_b + at.index, taps.b, at.count);
+  num::store(out.raw + at.index, num::to_int(taps.code), at.count);
 }
 
 /// What the surface shows: the paper's matrices.
@@ -47,14 +47,14 @@ TOFRAY_FN void store_truth(const flow::FrameView& out, const Pixels& p, const fl
 /// Confidence 255·max(0, 1 − σ̂/0.07 m), rounded.                                                     [theory: eq. 4.10]
 template <class F>
 TOFRAY_FN num::Int<F> confidence(const camera::DecoderView& s, F noise) {
-  return num::to_int(num::round_even(F(255.0f) * num::max(num::fma(-noise, F(s.per_confidence_noise), F(1.0f)), F(0.0f))));
+  return num::to_int(num::round_even(F(255.0f) * num::max(num::fnma(noise, F(s.per_confidence_noise), F(1.0f)), F(0.0f))));
 }
 
 /// Point, z and confidence of a valid range; NaN and 0 elsewhere.
 template <class F>
 TOFRAY_FN void store_range(const Setup& s, const flow::FrameView& out, const Pixels& p, const flow::Ray<F>& ray, F range, F noise, num::Int<F> flags) {
   const auto valid = (flags & num::Int<F>(depth::invalid)) == num::Int<F>(0);
-  const F z = num::select(valid, range / num::sqrt(ray.square), nan<F>());
+  const F z = num::select(valid, range * ray.inverse_length, nan<F>());
   store(out.z, p, z);
   store(out.range, p, num::select(valid, range, nan<F>()));
   store3(out.points, p, num::select(valid, ray.x * z, nan<F>()), num::select(valid, ray.y * z, nan<F>()), z);

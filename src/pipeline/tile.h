@@ -31,59 +31,52 @@ TOFRAY_FN Pixels pack_at(const camera::LensView& lens, const Tile& tile, int q) 
   return {(tile.y + dy) * lens.width + tile.x + dx, count};
 }
 
-/// Grows a rectangle of directions by the lanes in `use`; directions with z <= 0 make it boundless (`open`).
+/// The rectangle of directions that a light sees of a tile, gathered lane by lane; a direction with z <= 0 leaves it `open`.
+template <class F>
 struct Rectangle {
-  scene::Bounds bounds{3e38f, -3e38f, 3e38f, -3e38f};
+  F x_min = F(3e38f), x_max = F(-3e38f), y_min = F(3e38f), y_max = F(-3e38f);
   bool open = false;
 
-  template <class F>
   TOFRAY_FN void add(F x, F y, F z, num::Mask<F> use) {
-    if (num::any(use & (!(z > F(1e-6f))))) open = true;
-    const F per_z = F(1.0f) / num::select(z > F(1e-6f), z, F(1.0f));
+    const auto ahead = z > F(1e-6f);
+    if (num::any(use & (!ahead))) open = true;
+    const F per_z = F(1.0f) / num::select(ahead, z, F(1.0f));
     const F u = x * per_z, v = y * per_z;
-    bounds.x_min = num::min(bounds.x_min, num::lowest(num::select(use, u, F(3e38f))));
-    bounds.x_max = num::max(bounds.x_max, num::highest(num::select(use, u, F(-3e38f))));
-    bounds.y_min = num::min(bounds.y_min, num::lowest(num::select(use, v, F(3e38f))));
-    bounds.y_max = num::max(bounds.y_max, num::highest(num::select(use, v, F(-3e38f))));
+    x_min = num::min(x_min, num::select(use, u, F(3e38f))), x_max = num::max(x_max, num::select(use, u, F(-3e38f)));
+    y_min = num::min(y_min, num::select(use, v, F(3e38f))), y_max = num::max(y_max, num::select(use, v, F(-3e38f)));
   }
-  /// Null where everything must be kept.
-  TOFRAY_FN const scene::Bounds* get(bool culling) const { return culling && !open ? &bounds : nullptr; }
+  TOFRAY_FN flow::Bounds bounds() const { return {num::lowest(x_min), num::highest(x_max), num::lowest(y_min), num::highest(y_max)}; }
 };
 
 template <class F>
 TOFRAY_FN num::Mask<F> in_use(const Pixels& p) { return num::lane_index<F>() < num::Int<F>(p.count); }
 
-/// What each light sees of the tile: its surface points as directions from the light.
+/// What one light sees of the tile: the way from the light to a surface point is (d − w·L)/w for the ray d that hits it.
+/// @return false where that is no rectangle ahead of the light
 template <class F>
-TOFRAY_FN void cull_lights(const Setup& s, const Tile& tile, const flow::Hit<F>* hits, int slot, bool moving, Near& near) {
-  Rectangle seen[flow::max_lights];
+TOFRAY_FN bool seen_by_light(const Setup& s, const Tile& tile, const flow::Hit<F>* hits, int light, flow::Bounds& bounds) {
+  const float* at = s.lights[light].position;
+  Rectangle<F> seen;
   for (int q = 0; q < max_packs<F>; ++q) {
     const Pixels p = pack_at<F>(s.lens, tile, q);
     if (p.count == 0) continue;
     const flow::Ray<F> ray = camera::ray<F>(s.lens, p);
-    const auto use = in_use<F>(p) & (hits[q].w > F(0.0f));
-    const F t = F(1.0f) / num::select(use, hits[q].w, F(1.0f));
-    for (int l = 0; l < s.scene.lights; ++l) {
-      const float* at = s.lights[l].position;
-      seen[l].template add<F>(num::fma(ray.x, t, F(-at[0])), num::fma(ray.y, t, F(-at[1])), num::fma(ray.z, t, F(-at[2])), use);
-    }
+    const F w = hits[q].w;
+    seen.add(num::fnma(w, F(at[0]), ray.x), num::fnma(w, F(at[1]), ray.y), num::fnma(w, F(at[2]), ray.z), in_use<F>(p) & (w > F(0.0f)));
   }
-  for (int l = 0; l < s.scene.lights; ++l) {
-    trace::cull(s.scene.light_still[l], seen[l].get(s.culling != 0), near.light_still[l]);
-    if (moving) trace::cull(s.scene.light_moving[slot * s.scene.lights + l], seen[l].get(s.culling != 0), near.light_moving[l]);
-  }
+  bounds = seen.bounds();
+  return !seen.open;
 }
 
+/// What can stand between each light and the surfaces in `hits`. `slot` < 0: only what stands still.
 template <class F>
-TOFRAY_FN Rectangle view_of(const Setup& s, const Tile& tile) {
-  Rectangle view;
-  for (int q = 0; q < max_packs<F>; ++q) {
-    const Pixels p = pack_at<F>(s.lens, tile, q);
-    if (p.count == 0) continue;
-    const flow::Ray<F> ray = camera::ray<F>(s.lens, p);
-    view.add<F>(ray.x, ray.y, ray.z, in_use<F>(p));
+TOFRAY_FN void cull_lights(const Setup& s, const Tile& tile, const flow::Hit<F>* hits, int slot, Near& near) {
+  for (int l = 0; l < s.scene.lights; ++l) {
+    flow::Bounds bounds;
+    const flow::Bounds* within = s.culling != 0 && seen_by_light(s, tile, hits, l, bounds) ? &bounds : nullptr;
+    trace::cull(s.scene.light_still[l], within, near.light_still[l]);
+    if (slot >= 0) trace::cull(s.scene.light_moving[slot * s.scene.lights + l], within, near.light_moving[l]);
   }
-  return view;
 }
 
 /// Scratch memory of one worker.
@@ -116,23 +109,29 @@ TOFRAY_FN bool nothing_moves_near(const Setup& s, const Near& near) {
   return empty;
 }
 
+/// What one raw frame sees: where nothing that moves is in view, the surfaces that stand still.
+template <class F>
+TOFRAY_FN const flow::Hit<F>* hits_at(const Setup& s, const Tile& tile, const scene::Bounds* view, int slot, Scratch<F>& scratch) {
+  trace::cull(s.scene.camera_moving[slot], view, scratch.near.camera_moving);
+  if (scratch.near.camera_moving.empty()) return scratch.still;
+  for (int q = 0; q < max_packs<F>; ++q) {
+    const Pixels p = pack_at<F>(s.lens, tile, q);
+    if (p.count > 0) scratch.hits[q] = see_moving(s, scratch.near, slot, camera::ray<F>(s.lens, p), scratch.still[q]);
+  }
+  return scratch.hits;
+}
+
 /// A tile of a scene in which something moves: each raw frame sees it at its own time; where nothing of it comes near, once is enough.
 template <class F>
 TOFRAY_FN void moving_tile(const Setup& s, const Job& job, const Tile& tile, const scene::Bounds* view, Scratch<F>& scratch, flow::Light<F>* light) {
   std::int32_t entry[flow::max_raw_frames];
   bool still_done = false;
   for (int k = 0; k < s.sensor.raw_frames; ++k) {
-    Near& near = scratch.near;
-    trace::cull(s.scene.camera_moving[k], view, near.camera_moving);
-    for (int q = 0; q < max_packs<F>; ++q) {
-      const Pixels p = pack_at<F>(s.lens, tile, q);
-      if (p.count > 0) scratch.hits[q] = see_moving(s, near, k, camera::ray<F>(s.lens, p), scratch.still[q]);
-    }
-    cull_lights(s, tile, scratch.hits, k, true, near);
-    const bool still = nothing_moves_near(s, near);
+    const flow::Hit<F>* hits = hits_at(s, tile, view, k, scratch);
+    cull_lights(s, tile, hits, k, scratch.near);
+    const bool still = nothing_moves_near(s, scratch.near), truth = k == s.truth_slot;
     entry[k] = still ? 0 : (k + 1) * max_packs<F>;
-    const bool truth = k == s.truth_slot;
-    if (!still || !still_done || truth) light_up_tile(s, job, tile, scratch.hits, k, !still, truth, near, light + entry[k]);
+    if (!still || !still_done || truth) light_up_tile(s, job, tile, hits, k, !still, truth, scratch.near, light + entry[k]);
     still_done = still_done || still;
   }
   for (int q = 0; q < max_packs<F>; ++q) {
@@ -147,17 +146,17 @@ TOFRAY_FN void moving_tile(const Setup& s, const Job& job, const Tile& tile, con
 template <class F>
 TOFRAY_FN void one_tile(const Setup& s, const Job& job, int index, Scratch<F>& scratch, flow::Light<F>* light) {
   const Tile tile = tile_at(s.lens, index);
-  const Rectangle view = view_of<F>(s, tile);
-  trace::cull(s.scene.camera_still, view.get(s.culling != 0), scratch.near.camera_still);
+  const flow::Bounds* view = s.culling != 0 ? s.lens.tile + index : nullptr;
+  trace::cull(s.scene.camera_still, view, scratch.near.camera_still);
   for (int q = 0; q < max_packs<F>; ++q) {
     const Pixels p = pack_at<F>(s.lens, tile, q);
     if (p.count > 0) scratch.still[q] = see_still(s, scratch.near, camera::ray<F>(s.lens, p));
   }
   if (s.scene.slots > 1) {
-    moving_tile(s, job, tile, view.get(s.culling != 0), scratch, light);
+    moving_tile(s, job, tile, view, scratch, light);
     return;
   }
-  cull_lights(s, tile, scratch.still, 0, false, scratch.near);
+  cull_lights(s, tile, scratch.still, -1, scratch.near);
   for (int q = 0; q < max_packs<F>; ++q) {
     const Pixels p = pack_at<F>(s.lens, tile, q);
     if (p.count > 0) one_pixel(s, job, scratch.near, p, camera::ray<F>(s.lens, p), scratch.still[q]);

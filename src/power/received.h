@@ -25,15 +25,14 @@ TOFRAY_FN Ray<F> light_ray(const camera::LightView& light, const Surface<F>& p) 
 template <class F>
 TOFRAY_FN void add_light(const camera::PowerView& s, const camera::LightView& light, const Surface<F>& p, const Ray<F>& ray, const Ray<F>& from_light,
                          Mask<F> dark, F vignetting, F& rate, F& path_length, Radiometry<F>& sum) {
-  const F distance = num::sqrt(from_light.square);
-  const F per_distance = F(1.0f) / num::max(distance, F(1e-9f));
+  const F per_distance = from_light.inverse_length, distance = from_light.square * per_distance;
   const F cos_light = -num::fma(p.nx, from_light.x, num::fma(p.ny, from_light.y, p.nz * from_light.z)) * per_distance;
   const auto lit = p.found & (!dark) & (cos_light > F(0.0f));
   const F radiant = intensity(light, from_light.x, from_light.y, from_light.z, per_distance);
   const F irradiance = num::select(lit, radiant * cos_light * (per_distance * per_distance), F(0.0f));
   // both directions point from the surface: to the light −from_light/r_L, to the camera −ray/|ray|
   const F towards = num::fma(ray.x, from_light.x, num::fma(ray.y, from_light.y, ray.z * from_light.z));
-  const F cos_between = towards * per_distance / num::sqrt(ray.square);
+  const F cos_between = towards * per_distance * ray.inverse_length;
   F radiance = irradiance * reflection(p.diffuse, p.specular, p.exponent, cos_light, p.cos_view, cos_between);
   F watts = radiance * F(s.watts_per_radiance) * vignetting;
   if (s.paper_literal != 0) {
@@ -47,10 +46,10 @@ TOFRAY_FN void add_light(const camera::PowerView& s, const camera::LightView& li
   sum.power = sum.power + watts;
 }
 
-/// Electrons per second from ambient light, both taps together: k_d·E_B/π through lens and pixel. [theory: eq. 2.10]
+/// Electrons per second from ambient light, both taps together: ρ·E_B/π, ρ = k_d + k_s, through lens and pixel. [theory: eq. 2.10]
 template <class F>
 TOFRAY_FN F ambient_rate(const camera::PowerView& s, const Surface<F>& p, Mask<F> dark, F vignetting) {
-  F rate = F(s.ambient_rate) * p.diffuse * vignetting;
+  F rate = F(s.ambient_rate) * (p.diffuse + p.specular) * vignetting;
   if (s.ambient_kind == 2) {
     const float* sun = s.sun_direction;
     const F cosine = num::fma(p.nx, F(sun[0]), num::fma(p.ny, F(sun[1]), p.nz * F(sun[2])));

@@ -11,7 +11,7 @@ namespace tofray::raw {
 using flow::Taps;
 
 /// What a draw is for: part of the random counter, beside pixel, raw frame and frame.
-enum Purpose : std::uint32_t { shot_and_read = 0, small_counts = 1, merged = 2, suppression = 3 };
+enum Purpose : std::uint32_t { shot_and_read = 0, merged = 1, suppression = 2 };
 
 struct FrameIndex {
   std::uint32_t low, high;
@@ -20,7 +20,7 @@ struct FrameIndex {
 template <class F>
 TOFRAY_FN num::Random4<F> draw(const camera::SensorView& s, num::Int<F> pixel, int raw_frame, FrameIndex frame, Purpose purpose) {
   return num::philox<F>(num::to_uint(pixel), static_cast<std::uint32_t>(raw_frame) | (static_cast<std::uint32_t>(purpose) << 16), frame.low,
-                        frame.high, s.seed_low, s.seed_high);
+                        frame.high, s.keys);
 }
 
 /// Means below this are drawn by inversion, those above by the quantile expansion.
@@ -48,7 +48,10 @@ TOFRAY_FN F poisson_by_expansion(F mean, F z) {
   const F root = num::sqrt(held);
   const F square = z * z;
   const F first = num::fma(root, z, mean) + num::fma(square, F(1.0f / 6.0f), F(1.0f / 3.0f));
-  const F second = z * num::fma(square, F(-1.0f / 72.0f), F(-1.0f / 36.0f)) / root;
+  // 1/√λ to 0.2 %, enough for a term below 0.1: a first guess from the exponent, one step of Newton's
+  const F guess = num::from_bits(num::to_uint(num::Int<F>(0x5f3759df) - num::to_signed(num::bits(held) >> 1)));
+  const F per_root = guess * num::fnma(F(0.5f) * held, guess * guess, F(1.5f));
+  const F second = z * num::fma(square, F(-1.0f / 72.0f), F(-1.0f / 36.0f)) * per_root;
   return num::max(num::floor(first + second), F(0.0f));
 }
 
@@ -61,9 +64,18 @@ TOFRAY_FN Means<F> expose_exact(const camera::SensorView& s, const Means<F>& mea
   F a = poisson_by_expansion(mean.a, shot_a), b = poisson_by_expansion(mean.b, shot_b);
   const auto small_a = mean.a < F(inversion_limit), small_b = mean.b < F(inversion_limit);
   if (num::any(small_a | small_b)) {
-    const num::Random4<F> extra = draw<F>(s, pixel, k, frame, small_counts);
-    a = num::select(small_a, poisson_by_inversion<F>(num::select(small_a, mean.a, F(0.0f)), num::uniform<F>(extra.w[0])), a);
-    b = num::select(small_b, poisson_by_inversion<F>(num::select(small_b, mean.b, F(0.0f)), num::uniform<F>(extra.w[1])), b);
+    // Uniform words: where both counts are small the normals' words are free; where one is, it takes the 28 bits that the normals left.
+    const num::Uint<F> left = (words.w[0] << 24) | ((words.w[1] & num::Uint<F>(0x3fu)) << 18) | ((words.w[2] & num::Uint<F>(0xffu)) << 10) |
+                              ((words.w[3] & num::Uint<F>(0x3fu)) << 4);
+    const auto both = small_a & small_b;
+    if (num::any(small_a)) {
+      const F u = num::uniform<F>(num::select(both, words.w[0], left));
+      a = num::select(small_a, poisson_by_inversion<F>(num::select(small_a, mean.a, F(0.0f)), u), a);
+    }
+    if (num::any(small_b)) {
+      const F u = num::uniform<F>(num::select(both, words.w[1], left));
+      b = num::select(small_b, poisson_by_inversion<F>(num::select(small_b, mean.b, F(0.0f)), u), b);
+    }
   }
   return {num::fma(F(s.read_noise), read_a, a), num::fma(F(s.read_noise), read_b, b)};
 }
@@ -103,15 +115,13 @@ TOFRAY_FN Means<F> suppress(const camera::SensorView& s, const Means<F>& charge,
 
 /// Full well per tap, then A−B through the ADC: DN = round((A−B)/s + mid + offset), held to the code range.   [eq. 3.8]
 template <class F>
-TOFRAY_FN Taps<F> read_out(const camera::SensorView& s, const camera::RawFrameView& frame, const Means<F>& charge, F offset) {
+TOFRAY_FN Taps<F> read_out(const camera::SensorView& s, const Means<F>& charge, F offset) {
   Taps<F> out;
   out.a = num::min(charge.a, F(s.full_well)), out.b = num::min(charge.b, F(s.full_well));
   const F difference = out.a - out.b;
   const F level = num::fma(difference, F(s.per_step), F(s.mid_code) + offset);
   out.code = num::min(num::max(num::round_even(level), F(0.0f)), F(s.max_code));
   out.difference = s.noise == 0 ? difference : (out.code - F(s.mid_code)) * F(s.step);
-  out.saturated = (charge.a >= F(s.full_well)) | (charge.b >= F(s.full_well)) | (out.code < F(s.valid_min)) | (out.code > F(s.valid_max));
-  if (frame.lit == 0) out.saturated = F(1.0f) < F(0.0f);
   return out;
 }
 

@@ -13,6 +13,7 @@ struct Exposure {
   F gain, offset, delay;
   Phasors<F> phasors;
   num::Random4<F> merged_words;
+  F most_charge, widest_code;   ///< of the lit raw frames: largest charge of a tap, largest distance of a code from the valid range's middle
 };
 
 template <class F>
@@ -26,7 +27,14 @@ TOFRAY_FN Exposure<F> start(const camera::SensorView& s, const flow::Pixels& p) 
   e.pixel = num::Int<F>(p.index) + num::lane_index<F>();
   e.gain = pattern<F>(s.gain, p, 1.0f), e.offset = pattern<F>(s.offset, p, 0.0f);
   e.delay = pattern<F>(s.delay, p, 0.0f);
+  e.most_charge = F(0.0f), e.widest_code = F(0.0f);
   return e;
+}
+
+/// In a lit raw frame a tap clipped or a code left the valid range.
+template <class F>
+TOFRAY_FN Mask<F> saturated(const camera::SensorView& s, const Exposure<F>& e) {
+  return (e.most_charge >= F(s.full_well)) | (e.widest_code > F(s.valid_half));
 }
 
 /// Mean electrons × (1 + PRNU) → Poisson → reset and read noise → background suppression → full well → ADC.
@@ -34,15 +42,19 @@ TOFRAY_FN Exposure<F> start(const camera::SensorView& s, const flow::Pixels& p) 
 template <class F>
 TOFRAY_FN Taps<F> expose(const camera::SensorView& s, int k, const Light<F>& light, int lights, bool light_changed, FrameIndex index, Exposure<F>& e) {
   const camera::RawFrameView& frame = s.frame[k];
-  F signal = F(0.0f), difference = F(0.0f);
+  F difference = F(0.0f);
   if (frame.lit != 0) {
-    if (light_changed || k == 0 || frame.modulation != s.frame[k - 1].modulation) {
-      e.phasors = correlate(s, s.modulation[frame.modulation], light, lights, e.delay);
+    const bool anew = light_changed || k == 0 || frame.modulation != s.frame[k - 1].modulation;
+    const camera::ModulationView& modulation = s.modulation[frame.modulation];
+    if (s.harmonics <= 4) {
+      if (anew) correlate<4>(modulation, light, lights, e.delay, e.phasors);
+      difference = difference_rate<4>(frame, e.phasors);
+    } else {
+      if (anew) correlate<flow::max_harmonics>(modulation, light, lights, e.delay, e.phasors);
+      difference = difference_rate<flow::max_harmonics>(frame, e.phasors);
     }
-    difference = difference_rate(frame, e.phasors, s.harmonics);
-    for (int l = 0; l < lights; ++l) signal = signal + light.signal_rate[l];
   }
-  Means<F> charge = tap_means(s, frame, signal, light.ambient_rate, difference);
+  Means<F> charge = tap_means(frame, light.total_rate, light.ambient_rate, difference);
   charge.a = charge.a * e.gain, charge.b = charge.b * e.gain;
   if (s.noise == 2) {
     charge = expose_exact(s, charge, e.pixel, k, index);
@@ -51,7 +63,10 @@ TOFRAY_FN Taps<F> expose(const camera::SensorView& s, int k, const Light<F>& lig
     charge = expose_fast(s, charge, k, e.merged_words);
   }
   if (s.suppression_threshold > 0) charge = suppress(s, charge, e.pixel, k, index);
-  return read_out(s, frame, charge, e.offset);
+  if (frame.lit != 0) e.most_charge = num::max(e.most_charge, num::max(charge.a, charge.b));
+  const Taps<F> taps = read_out(s, charge, e.offset);
+  if (frame.lit != 0) e.widest_code = num::max(e.widest_code, num::abs(taps.code - F(s.valid_middle)));
+  return taps;
 }
 
 }  // namespace tofray::raw

@@ -3,6 +3,8 @@
 #pragma once
 #include <cstdint>
 
+#include "flow/flow.h"
+
 /// The scene as seen from one point (the camera or a light): what a ray that leaves this point needs to know of each object.
 ///
 /// For rays P = o + t·d of one common origin o the inverse range w = 1/t along d is linear in d for planes and triangles, and so
@@ -10,10 +12,8 @@
 /// Coordinates are the camera frame's, relative to o. Each form knows the facet that its hit names, and the object it belongs to.
 namespace tofray::scene {
 
-/// Rectangle in d.x/d.z, d.y/d.z that holds every direction in which an object can be hit (z > 0); infinite where it reaches z <= 0.
-struct Bounds {
-  float x_min, x_max, y_min, y_max;
-};
+/// Rectangle that holds every direction in which an object can be hit; infinite where it reaches z <= 0.
+using flow::Bounds;
 
 /// w = d·m; hit where w > horizon (|n·d| >= 1e-6).
 struct PlaneForm {

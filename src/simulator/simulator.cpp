@@ -25,7 +25,7 @@ void set_ambient(const Scene& scene, const Camera& camera, const Vec3& toward_su
   if (scene.ambient.spectrum == Ambient::Spectrum::none || scene.ambient.amount == 0) return;
   power.ambient_kind = scene.ambient.direction ? 2 : 1;
   for (std::size_t k = 0; k < 3; ++k) power.sun_direction[k] = static_cast<float>(toward_sun[k]);
-  // k_d·E/π through the lens, as electrons: the kernel multiplies by k_d and vignetting.                    [theory: eq. 2.10]
+  // E/π through the lens, as electrons: the kernel multiplies by reflectivity and vignetting.                    [theory: eq. 2.10]
   const double rate = scene::band_electron_rate_factor(scene.ambient, camera.filter, camera.pixel.quantum_efficiency);
   power.ambient_rate = static_cast<float>(rate * static_cast<double>(power.watts_per_radiance) / base::pi);
 }

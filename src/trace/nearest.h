@@ -59,14 +59,13 @@ TOFRAY_FN Surface<F> surface(const scene::SceneView& s, const Ray<F>& ray, const
   out.found = hit.w > F(0.0f);
   const F t = F(1.0f) / num::select(out.found, hit.w, F(1.0f));
   out.x = ray.x * t, out.y = ray.y * t, out.z = ray.z * t;
-  const F length = num::sqrt(ray.square);
-  out.range = length * t;
+  out.range = ray.square * ray.inverse_length * t;
   const F curvature = column(3);
   const F nx = num::fma(out.x, curvature, column(0)), ny = num::fma(out.y, curvature, column(1)), nz = num::fma(out.z, curvature, column(2));
   const F along = num::fma(nx, ray.x, num::fma(ny, ray.y, nz * ray.z));
   const F sign = num::select(along > F(0.0f), F(-1.0f), F(1.0f));
   out.nx = nx * sign, out.ny = ny * sign, out.nz = nz * sign;
-  out.cos_view = num::abs(along) / length;
+  out.cos_view = num::abs(along) * ray.inverse_length;
   out.diffuse = column(4), out.specular = F(0.0f), out.exponent = F(1.0f);
   if (s.any_specular != 0) out.specular = column(5), out.exponent = column(6);
   const std::int32_t* objects = reinterpret_cast<const std::int32_t*>(s.facets);

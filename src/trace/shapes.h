@@ -28,8 +28,8 @@ TOFRAY_FN F inverse_range(const scene::PlaneForm& plane, const Ray<F>& ray) {
 template <class F>
 TOFRAY_FN F inverse_range(const scene::SphereForm& sphere, const Ray<F>& ray) {
   const F b = dot(ray, sphere.c);
-  const F k = b * ray.inverse_square;
-  const F lx = num::fma(-k, ray.x, F(sphere.c[0])), ly = num::fma(-k, ray.y, F(sphere.c[1])), lz = num::fma(-k, ray.z, F(sphere.c[2]));
+  const F k = b * (ray.inverse_length * ray.inverse_length);
+  const F lx = num::fnma(k, ray.x, F(sphere.c[0])), ly = num::fnma(k, ray.y, F(sphere.c[1])), lz = num::fnma(k, ray.z, F(sphere.c[2]));
   const F rest = F(sphere.radius_squared) - num::fma(lx, lx, num::fma(ly, ly, lz * lz));
   const F root = num::sqrt(ray.square * num::max(rest, F(0.0f)));
   const F q = b + num::copy_sign(root, b);

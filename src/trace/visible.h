@@ -49,7 +49,7 @@ template <class F>
 TOFRAY_FN Mask<F> blocks(const scene::ParallelSphere& sphere, const Surface<F>& p, const float* s, F margin) {
   const F x = F(sphere.c[0]) - p.x, y = F(sphere.c[1]) - p.y, z = F(sphere.c[2]) - p.z;
   const F b = num::fma(x, F(s[0]), num::fma(y, F(s[1]), z * F(s[2])));
-  const F lx = num::fma(-b, F(s[0]), x), ly = num::fma(-b, F(s[1]), y), lz = num::fma(-b, F(s[2]), z);
+  const F lx = num::fnma(b, F(s[0]), x), ly = num::fnma(b, F(s[1]), y), lz = num::fnma(b, F(s[2]), z);
   const F rest = F(sphere.radius_squared) - num::fma(lx, lx, num::fma(ly, ly, lz * lz));
   return (rest > F(0.0f)) & (b + num::sqrt(num::max(rest, F(0.0f))) > margin);
 }
