@@ -31,6 +31,14 @@ TOFRAY_FN Exposure<F> start(const camera::SensorView& s, const flow::Pixels& p) 
   return e;
 }
 
+/// Notes how far a lit raw frame went.
+template <class F>
+TOFRAY_FN void watch(const camera::SensorView& s, const camera::RawFrameView& frame, const Means<F>& charge, const Taps<F>& taps, Exposure<F>& e) {
+  if (frame.lit == 0) return;
+  e.most_charge = num::max(e.most_charge, num::max(charge.a, charge.b));
+  e.widest_code = num::max(e.widest_code, num::abs(taps.code - F(s.valid_middle)));
+}
+
 /// In a lit raw frame a tap clipped or a code left the valid range.
 template <class F>
 TOFRAY_FN Mask<F> saturated(const camera::SensorView& s, const Exposure<F>& e) {
@@ -63,9 +71,8 @@ TOFRAY_FN Taps<F> expose(const camera::SensorView& s, int k, const Light<F>& lig
     charge = expose_fast(s, charge, k, e.merged_words);
   }
   if (s.suppression_threshold > 0) charge = suppress(s, charge, e.pixel, k, index);
-  if (frame.lit != 0) e.most_charge = num::max(e.most_charge, num::max(charge.a, charge.b));
   const Taps<F> taps = read_out(s, charge, e.offset);
-  if (frame.lit != 0) e.widest_code = num::max(e.widest_code, num::abs(taps.code - F(s.valid_middle)));
+  watch(s, frame, charge, taps, e);
   return taps;
 }
 

@@ -39,7 +39,7 @@ Swing swing(int phases, const std::function<double(double)>& correlation, int co
   Swing out;
   for (int i = 0; i < count; ++i) {
     const double phase = two_pi * i / count;
-    const auto estimate = depth::estimate<float>(bench.decoder(), 0, differences(phases, phase, correlation).data());
+    const auto estimate = depth::estimate<float>(bench.decoder(), bench.decoder().modulation[0], differences(phases, phase, correlation).data());
     EXPECT_GE(estimate.turns, 0.0f);
     EXPECT_LT(estimate.turns, 1.0f);
     out.worst_error = std::max(out.worst_error, std::abs(wrapped(static_cast<double>(estimate.turns) - phase / two_pi)) * two_pi);
@@ -91,9 +91,9 @@ TEST(phase, turns_by_half_where_the_taps_are_swapped) {
   const Bench bench(bench_camera());
   for (int i = 0; i < 1000; ++i) {
     auto difference = differences(4, two_pi * i / 1000, [](double x) { return std::cos(x); });
-    const double turns = static_cast<double>(depth::estimate<float>(bench.decoder(), 0, difference.data()).turns);
+    const double turns = static_cast<double>(depth::estimate<float>(bench.decoder(), bench.decoder().modulation[0], difference.data()).turns);
     for (float& d : difference) d = -d;
-    EXPECT_NEAR(wrapped(static_cast<double>(depth::estimate<float>(bench.decoder(), 0, difference.data()).turns) - turns - 0.5), 0, 1e-7);
+    EXPECT_NEAR(wrapped(static_cast<double>(depth::estimate<float>(bench.decoder(), bench.decoder().modulation[0], difference.data()).turns) - turns - 0.5), 0, 1e-7);
   }
 }
 
@@ -101,9 +101,9 @@ TEST(phase, turns_round_where_the_order_of_the_raw_frames_is_reversed) {
   const Bench bench(bench_camera());
   for (int i = 0; i < 1000; ++i) {
     auto difference = differences(4, two_pi * i / 1000, [](double x) { return std::cos(x); });
-    const double turns = static_cast<double>(depth::estimate<float>(bench.decoder(), 0, difference.data()).turns);
+    const double turns = static_cast<double>(depth::estimate<float>(bench.decoder(), bench.decoder().modulation[0], difference.data()).turns);
     std::swap(difference[1], difference[3]);
-    EXPECT_NEAR(wrapped(static_cast<double>(depth::estimate<float>(bench.decoder(), 0, difference.data()).turns) + turns), 0, 1e-7);
+    EXPECT_NEAR(wrapped(static_cast<double>(depth::estimate<float>(bench.decoder(), bench.decoder().modulation[0], difference.data()).turns) + turns), 0, 1e-7);
   }
 }
 
@@ -115,7 +115,7 @@ TEST(wiggling, of_a_third_harmonic_is_that_of_the_closed_form) {
   for (int i = 0; i < 100'000; ++i) {
     const double phase = two_pi * i / 100'000;
     const auto d = differences(4, phase, [&](double x) { return std::cos(x) + a3 * std::cos(3 * x); });
-    const double error = wrapped(static_cast<double>(depth::estimate<float>(bench.decoder(), 0, d.data()).turns) - phase / two_pi) * two_pi;
+    const double error = wrapped(static_cast<double>(depth::estimate<float>(bench.decoder(), bench.decoder().modulation[0], d.data()).turns) - phase / two_pi) * two_pi;
     worst = std::max(worst, std::abs(error - std::atan2(-a3 * std::sin(4 * phase), 1 + a3 * std::cos(4 * phase))));
     largest = std::max(largest, std::abs(error));
   }

@@ -60,9 +60,10 @@ class Bench {
   [[nodiscard]] const camera::DecoderView& decoder() const { return camera_->decoder(); }
 
   /// All raw frames of one pixel.
-  [[nodiscard]] std::vector<flow::Taps<float>> expose(const Incoming& in, int pixel = 0, std::uint64_t frame = 0) const {
+  /// @param saturated  whether a lit one clipped or left the valid codes, if asked for
+  [[nodiscard]] std::vector<flow::Taps<float>> expose(const Incoming& in, int pixel = 0, std::uint64_t frame = 0, bool* saturated = nullptr) const {
     flow::Light<float> light{};
-    light.signal_rate[0] = static_cast<float>(in.signal_e * 1e3);
+    light.signal_rate[0] = light.total_rate = static_cast<float>(in.signal_e * 1e3);
     light.path_length[0] = static_cast<float>(2 * in.half_path_m);
     light.ambient_rate = static_cast<float>(in.ambient_e * 1e3);
     raw::Exposure<float> exposure = raw::start<float>(sensor_, {pixel, 1});
@@ -71,6 +72,7 @@ class Bench {
       const raw::FrameIndex index{static_cast<std::uint32_t>(frame), static_cast<std::uint32_t>(frame >> 32)};
       taps.push_back(raw::expose(sensor_, k, light, 1, false, index, exposure));
     }
+    if (saturated != nullptr) *saturated = raw::saturated(sensor_, exposure);
     return taps;
   }
 
@@ -80,10 +82,10 @@ class Bench {
 
   [[nodiscard]] Measured measure(const Incoming& in, int pixel = 0, std::uint64_t frame = 0) const {
     Measured out;
-    out.taps = expose(in, pixel, frame);
-    std::vector<float> difference;
     bool clipped = false;
-    for (const auto& t : out.taps) difference.push_back(t.difference), clipped = clipped || t.saturated;
+    out.taps = expose(in, pixel, frame, &clipped);
+    std::vector<float> difference;
+    for (const auto& t : out.taps) difference.push_back(t.difference);
     out.depth = decode(difference, clipped, sensor_.delay != nullptr ? sensor_.delay[pixel] : 0.0f);
     return out;
   }
@@ -92,13 +94,20 @@ class Bench {
   [[nodiscard]] depth::Estimate<float> estimate(const std::vector<flow::Taps<float>>& taps, int modulation = 0) const {
     float difference[flow::max_raw_frames] = {};
     for (std::size_t k = 0; k < taps.size(); ++k) difference[k] = taps[k].difference;
-    return depth::estimate<float>(camera_->decoder(), modulation, difference);
+    return depth::estimate<float>(camera_->decoder(), camera_->decoder().modulation[modulation], difference);
   }
 
  private:
   std::unique_ptr<camera::FrozenCamera> camera_;
   camera::SensorView sensor_;
 };
+
+/// Whether one raw frame of this charge flags its pixel.
+inline bool flags(const camera::SensorView& sensor, const camera::RawFrameView& frame, const raw::Means<float>& charge) {
+  raw::Exposure<float> exposure{};
+  raw::watch(sensor, frame, charge, raw::read_out(sensor, charge, 0.0f), exposure);
+  return raw::saturated(sensor, exposure);
+}
 
 /// The nearest of all angles that are whole turns apart: in [−½, ½) turns.
 inline double wrapped(double turns) { return turns - std::floor(turns + 0.5); }

@@ -117,7 +117,7 @@ TOFRAY_FN bool elementary(int which, const PackBlock& block) {
     case 3: EACH(at.put(num::exp2(at.a())); at.put(num::exp(at.a()), 1));
     case 4: EACH(at.put(num::power(num::min(num::abs(at.a()), F(1.0f)), num::abs(at.b()))));
     case 5: return each(block, [&](const At& at) __attribute__((always_inline)) {
-        const auto r = num::philox<F>(at.ua(), block.b[0], block.b[1], block.b[2], block.c[0], block.c[1]);
+        const auto r = num::philox<F>(at.ua(), block.b[0], block.b[1], block.b[2], num::round_keys(block.c[0], block.c[1]));
         for (int k = 0; k < 4; ++k) at.put(r.w[k], k);
       });
     case 6: EACH(F x; F y; num::normal_pair<F>(at.ua(), at.ub(), x, y); at.put(x); at.put(y, 1); at.put(num::uniform<F>(at.ua()), 2));

@@ -17,7 +17,7 @@ namespace {
 using Words = std::array<std::uint32_t, 4>;
 
 Words philox(const Words& counter, std::uint32_t k0, std::uint32_t k1) {
-  const auto r = num::philox<float>(counter[0], counter[1], counter[2], counter[3], k0, k1);
+  const auto r = num::philox<float>(counter[0], counter[1], counter[2], counter[3], num::round_keys(k0, k1));
   return {r.w[0], r.w[1], r.w[2], r.w[3]};
 }
 

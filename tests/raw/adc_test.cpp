@@ -17,7 +17,7 @@ camera::SensorView adc(double step, double mid = 2048, double max_code = 4095, d
   camera::SensorView s{};
   s.full_well = 100000;
   s.per_step = static_cast<float>(1 / step), s.step = static_cast<float>(step), s.mid_code = static_cast<float>(mid);
-  s.max_code = static_cast<float>(max_code), s.valid_min = static_cast<float>(valid_min), s.valid_max = static_cast<float>(valid_max);
+  s.max_code = static_cast<float>(max_code), s.valid_middle = static_cast<float>(0.5 * (valid_min + valid_max)), s.valid_half = static_cast<float>(0.5 * (valid_max - valid_min));
   s.noise = 2;
   return s;
 }
@@ -56,8 +56,8 @@ TEST(photon_transfer, is_the_line_of_the_closed_form) {
     Moments code(1000 + gain * means[at]);
     const auto& frame = bench.sensor().frame[0];
     for (int i = 0; i < samples; ++i) {
-      const auto charge = raw::expose_exact<float>(bench.sensor(), raw::tap_means(bench.sensor(), frame, 0.0f, static_cast<float>(means[at] * 1e3), 0.0f), i, 0, {0, 0});
-      code.add(static_cast<double>(raw::read_out(bench.sensor(), frame, charge, 0.0f).code));
+      const auto charge = raw::expose_exact<float>(bench.sensor(), raw::tap_means(frame, 0.0f, static_cast<float>(means[at] * 1e3), 0.0f), i, 0, {0, 0});
+      code.add(static_cast<double>(raw::read_out(bench.sensor(), charge, 0.0f).code));
     }
     const double expected = gain * gain * (means[at] + read * read) + 1.0 / 12;
     EXPECT_NEAR(expected, known[at], 1e-4);
@@ -85,7 +85,7 @@ TEST(quantiser, has_the_bias_and_variance_of_the_closed_form) {
       Moments code(2048 + x);
       for (const double z : normal) {
         const raw::Means<float> charge{static_cast<float>(20 * (x + s * z) + 1000), 1000.0f};
-        code.add(static_cast<double>(raw::read_out(sensor, lit(), charge, 0.0f).code));
+        code.add(static_cast<double>(raw::read_out(sensor, charge, 0.0f).code));
       }
       worst = std::max(worst, std::abs(code.mean() - 2048 - x));
       if (s >= 0.5) {
@@ -105,7 +105,7 @@ TEST(quantiser, is_monotone_misses_no_code_and_holds_its_ends) {
   double before = -1;
   for (int difference = -60000; difference <= 60000; ++difference) {
     const raw::Means<float> charge{static_cast<float>(difference + 30000 > 0 ? difference + 30000 : 0), static_cast<float>(difference + 30000 > 0 ? 30000 : -difference)};
-    const auto out = raw::read_out(sensor, lit(), charge, 0.0f);
+    const auto out = raw::read_out(sensor, charge, 0.0f);
     const double code = static_cast<double>(out.code), exact = difference / 20.0 + 2048;
     ASSERT_EQ(code, std::floor(code));
     ASSERT_GE(code, before);
@@ -119,16 +119,16 @@ TEST(quantiser, is_monotone_misses_no_code_and_holds_its_ends) {
 
 TEST(quantiser, adds_the_offset_pattern_before_it_rounds) {
   const auto sensor = adc(20);
-  EXPECT_EQ(raw::read_out(sensor, lit(), {1000.0f, 1000.0f}, 3.4f).code, 2051.0f);
-  EXPECT_EQ(raw::read_out(sensor, lit(), {1000.0f, 1000.0f}, 3.6f).code, 2052.0f);
-  EXPECT_EQ(raw::read_out(sensor, lit(), {1005.0f, 1000.0f}, 0.3f).code, 2049.0f);   // 0.25 + 0.3
+  EXPECT_EQ(raw::read_out(sensor, {1000.0f, 1000.0f}, 3.4f).code, 2051.0f);
+  EXPECT_EQ(raw::read_out(sensor, {1000.0f, 1000.0f}, 3.6f).code, 2052.0f);
+  EXPECT_EQ(raw::read_out(sensor, {1005.0f, 1000.0f}, 0.3f).code, 2049.0f);   // 0.25 + 0.3
 }
 
 // Without noise depth comes from the unrounded difference; code, wells and flags are as ever.
 TEST(quantiser, leaves_the_difference_alone_where_noise_is_off) {
   auto sensor = adc(20);
   sensor.noise = 0;
-  const auto out = raw::read_out(sensor, lit(), {1234.5f, 1000.25f}, 0.0f);
+  const auto out = raw::read_out(sensor, {1234.5f, 1000.25f}, 0.0f);
   EXPECT_EQ(out.difference, 234.25f);
   EXPECT_EQ(out.code, 2060.0f);
 }
@@ -139,25 +139,25 @@ TEST(saturation, is_flagged_where_a_tap_clips) {
   struct Case { float a, b; bool flagged; };
   for (const Case& at : {Case{99999, 80000, false}, Case{100000, 80000, true}, Case{100001, 80000, true}, Case{80000, 99999, false},
                          Case{80000, 100000, true}, Case{80000, 100001, true}, Case{100001, 100001, true}, Case{99999, 99999, false}}) {
-    const auto out = raw::read_out(sensor, lit(), {at.a, at.b}, 0.0f);
-    EXPECT_EQ(out.saturated, at.flagged) << at.a << ", " << at.b;
+    const auto out = raw::read_out(sensor, {at.a, at.b}, 0.0f);
+    EXPECT_EQ(helpers::flags(sensor, lit(), {at.a, at.b}), at.flagged) << at.a << ", " << at.b;
     EXPECT_EQ(out.a, std::min(at.a, 100000.0f));
     EXPECT_EQ(out.b, std::min(at.b, 100000.0f));
     EXPECT_EQ(out.difference, (out.code - 2048) * 200);
-    EXPECT_FALSE(raw::read_out(sensor, lit(false), {at.a, at.b}, 0.0f).saturated) << "a grey frame never is";
+    EXPECT_FALSE(helpers::flags(sensor, lit(false), {at.a, at.b})) << "a grey frame never is";
   }
   // Clipping happens per tap, before the difference: both over the well read as equal.
-  EXPECT_EQ(raw::read_out(sensor, lit(), {150000.0f, 120000.0f}, 0.0f).code, 2048.0f);
+  EXPECT_EQ(raw::read_out(sensor, {150000.0f, 120000.0f}, 0.0f).code, 2048.0f);
 }
 
 TEST(saturation, is_flagged_where_a_code_leaves_the_valid_range) {
   const auto sensor = adc(20);
   for (const int code : {399, 400, 401, 2048, 3749, 3750, 3751}) {
     const float difference = static_cast<float>(20 * (code - 2048));
-    const auto out = raw::read_out(sensor, lit(), {50000 + difference / 2, 50000 - difference / 2}, 0.0f);
+    const auto out = raw::read_out(sensor, {50000 + difference / 2, 50000 - difference / 2}, 0.0f);
     EXPECT_EQ(out.code, static_cast<float>(code));
-    EXPECT_EQ(out.saturated, code < 400 || code > 3750) << code;
-    EXPECT_FALSE(raw::read_out(sensor, lit(false), {50000 + difference / 2, 50000 - difference / 2}, 0.0f).saturated);
+    EXPECT_EQ(helpers::flags(sensor, lit(), {50000 + difference / 2, 50000 - difference / 2}), code < 400 || code > 3750) << code;
+    EXPECT_FALSE(helpers::flags(sensor, lit(false), {50000 + difference / 2, 50000 - difference / 2}));
   }
 }
 

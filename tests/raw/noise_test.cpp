@@ -56,7 +56,7 @@ struct Key {
 Stream shot(double mean, const Key& key, int noise = 2) {
   return {mean, [=](int pixel) {
             camera::SensorView s{};
-            s.seed_low = static_cast<std::uint32_t>(key.seed), s.seed_high = static_cast<std::uint32_t>(key.seed >> 32);
+            s.keys = num::round_keys(static_cast<std::uint32_t>(key.seed), static_cast<std::uint32_t>(key.seed >> 32));
             const raw::FrameIndex frame{static_cast<std::uint32_t>(key.frame), static_cast<std::uint32_t>(key.frame >> 32)};
             const raw::Means<float> means{static_cast<float>(mean), static_cast<float>(mean)};
             raw::Means<float> got;

@@ -37,7 +37,7 @@ Cells cells_of(double mean) {
 
 camera::SensorView sensor(std::uint32_t seed) {
   camera::SensorView s{};
-  s.seed_low = seed, s.noise = 2;
+  s.keys = num::round_keys(seed, 0), s.noise = 2;
   return s;
 }
 
