@@ -9,9 +9,10 @@
 #include <vector>
 
 #include "camera/wiggling.h"
-#include "helpers/bench.h"
+#include "support/bench.h"
 
-using namespace helpers;
+using namespace tofray;
+using namespace tofray::test;
 
 namespace {
 
@@ -83,8 +84,9 @@ TEST(phase, grows_with_the_path) {
     before = turns;
   }
   const auto quarter = bench.expose({10000, 0.25 * c / (2 * 60.24e6), 0});
-  EXPECT_NEAR(static_cast<double>(quarter[3].difference), 7000, 0.01);
-  EXPECT_NEAR(static_cast<double>(quarter[1].difference), -7000, 0.01);
+  EXPECT_NEAR(static_cast<double>(quarter[3].a - quarter[3].b), 7000, 0.01);
+  EXPECT_NEAR(static_cast<double>(quarter[1].a - quarter[1].b), -7000, 0.01);
+  for (const auto& taps : quarter) EXPECT_NEAR(static_cast<double>(taps.difference), static_cast<double>(taps.a - taps.b), 0.01);
 }
 
 TEST(phase, turns_by_half_where_the_taps_are_swapped) {
@@ -162,6 +164,27 @@ TEST(wiggling, is_taken_out_by_the_table) {
       // [m]; 0.5 mm are asked for. Without the table the first harmonic's shift alone is taken out, and the wiggling is there.
       EXPECT_LT(worst, correct ? 2e-5 : 0.030) << f;
       EXPECT_GT(worst, correct ? 0 : 0.005) << f;
+    }
+  }
+}
+
+// Radial motion, raw frames T apart: phases of φ_m + (k − 3/2)·4πfvT/c give ε = atan2(t·cos2φ_m, 1 + t·sin2φ_m), t = tan(2πfvT/c).
+TEST(radial_motion, biases_the_phase_as_the_closed_form_says) {
+  const Bench bench(bench_camera({60e6}));
+  for (const auto& [speed, between] : {std::pair{1.0, 1e-3}, std::pair{-1.5, 4.1e-3}, std::pair{5.0, 4.1e-3}}) {
+    const double step = 4 * pi * 60e6 * speed * between / c, t = std::tan(step / 2);
+    double worst = 0, largest = 0;
+    for (int i = 0; i < 10'000; ++i) {
+      const double middle = two_pi * i / 10'000;
+      std::vector<float> d;
+      for (int k = 0; k < 4; ++k) d.push_back(static_cast<float>(1e4 * std::cos(middle + (k - 1.5) * step + k * pi / 2)));
+      const double error = wrapped(static_cast<double>(depth::estimate<float>(bench.decoder(), bench.decoder().modulation[0], d.data()).turns) - middle / two_pi) * two_pi;
+      worst = std::max(worst, std::abs(error - std::atan2(t * std::cos(2 * middle), 1 + t * std::sin(2 * middle))));
+      largest = std::max(largest, std::abs(error));
+    }
+    EXPECT_LT(worst, 2e-6);
+    if (speed == 1.0) {
+      EXPECT_NEAR(largest * c / (4 * pi * 60e6), 0.5e-3, 1e-6);   // vT/2
     }
   }
 }

@@ -8,10 +8,10 @@
 #include <limits>
 #include <random>
 
-#include "helpers/statistics.h"
+#include "support/statistics.h"
 
 using namespace tofray;
-using helpers::two_pi;
+using test::two_pi;
 
 namespace {
 

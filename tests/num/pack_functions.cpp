@@ -71,7 +71,7 @@ TOFRAY_FN bool arithmetic(int which, const PackBlock& block) {
     case 2: EACH(at.put(at.a() * at.b()));
     case 3: EACH(at.put(at.a() / at.b()));
     case 4: EACH(at.put(-at.a()));
-    case 5: EACH(at.put(num::fma(at.a(), at.b(), at.c())));
+    case 5: EACH(at.put(num::fma(at.a(), at.b(), at.c())); at.put(num::fnma(at.a(), at.b(), at.c()), 1));
     case 6: EACH(at.put(num::sqrt(at.a())));
     case 7: EACH(at.put(num::min(at.a(), at.b())));
     case 8: EACH(at.put(num::max(at.a(), at.b())));
@@ -103,6 +103,10 @@ TOFRAY_FN bool whole_numbers(int which, const PackBlock& block) {
         const I index = num::to_signed(at.ua() >> 22);
         at.put(num::gather(block.table, index));
         at.put(num::gather(reinterpret_cast<const std::int32_t*>(block.table), index), 1);
+        F first, second;
+        num::gather_pair(block.table, num::to_signed(at.ua() >> 23), first, second);
+        at.put(first, 2);
+        at.put(second, 3);
       });
     default: return false;
   }

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <vector>
 
-#include "helpers/statistics.h"
+#include "support/statistics.h"
 
 using namespace tofray;
 
@@ -50,7 +50,7 @@ TEST(normal_pair, is_that_of_the_formula) {
     num::normal_pair<float>(radius_word, angle_word, first, second);
     const double u = ((radius_word >> 8) + 1.0) * 0x1p-24, radius = std::sqrt(-2 * std::log(u));
     const double r = ((angle_word >> 6 & 0xffffff) + 0.5) * 0x1p-26 - 0.125;
-    const double s = std::sin(2 * helpers::pi * r), c = std::cos(2 * helpers::pi * r);
+    const double s = std::sin(2 * test::pi * r), c = std::cos(2 * test::pi * r);
     const bool swap = (angle_word >> 31) != 0, turn = (angle_word >> 30 & 1) != 0;
     const double x = radius * (swap ? s : c) * (turn ? -1 : 1), y = radius * (swap ? c : s) * (turn ? -1 : 1);
     worst = std::max({worst, std::abs(static_cast<double>(first) - x), std::abs(static_cast<double>(second) - y)});
@@ -100,5 +100,5 @@ TEST(normal_pair, fills_the_cells_of_a_normal_evenly) {
       ++seen[std::min<std::size_t>(cells - 1, static_cast<std::size_t>(share * cells))];
     }
   }
-  EXPECT_LT(std::abs(helpers::chi_square_z(seen, expected)), 6);
+  EXPECT_LT(std::abs(test::chi_square_z(seen, expected)), 6);
 }

@@ -10,6 +10,7 @@ function(tofray_pack set)
   target_link_libraries(test_pack_${set} PRIVATE tofray_flags tofray_raw)
   target_sources(test_num PRIVATE $<TARGET_OBJECTS:test_pack_${set}>)
 endfunction()
+target_compile_options(test_num PRIVATE -O2)   # millions of arguments: worth optimising in every preset
 tofray_pack(scalar)
 tofray_pack(scalar_fma -mavx2 -mfma)
 tofray_pack(avx2 -mavx2 -mfma)

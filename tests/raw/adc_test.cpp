@@ -6,9 +6,10 @@
 #include <set>
 #include <vector>
 
-#include "helpers/bench.h"
+#include "support/bench.h"
 
-using namespace helpers;
+using namespace tofray;
+using namespace tofray::test;
 
 namespace {
 
@@ -98,6 +99,25 @@ TEST(quantiser, has_the_bias_and_variance_of_the_closed_form) {
   }
 }
 
+// Noise comes before the ADC, which rounds what it has moved: at a quarter LSB of noise a signal of ¼ LSB reads as ¼ − (1/π)·exp(−2π²/16) on
+// average. (Noise after the rounding would read as 0, and no code would be a whole number.)
+TEST(quantiser, rounds_what_the_noise_has_moved) {
+  constexpr int samples = 200'000;
+  Camera camera = bench_camera({60e6}, 4, 0.7, true);
+  camera.pixel.read_noise_e = 0.25 * 20 / std::sqrt(2.0);
+  camera.adc = {12, 20, 2048, 0, 4095};
+  const Bench bench(camera, 2);
+  Moments code(2048);
+  for (int i = 0; i < samples; ++i) {
+    const auto charge = raw::expose_exact<float>(bench.sensor(), {0.0f, 0.0f}, i, 0, {0, 0});
+    const float got = raw::read_out(bench.sensor(), charge, 0.25f).code;
+    ASSERT_EQ(got, std::floor(got));
+    code.add(static_cast<double>(got));
+    ASSERT_EQ(bench.expose({}, i)[0].code, std::round(bench.expose({}, i)[0].code));
+  }
+  EXPECT_NEAR(code.mean() - 2048, 0.25 - std::exp(-2 * pi * pi / 16) / pi, 5.5 * 0.4 / std::sqrt(samples));
+}
+
 // Every whole number of electrons across the range and beyond: the nearest code, no code missing, none twice out of order, ends held.
 TEST(quantiser, is_monotone_misses_no_code_and_holds_its_ends) {
   const auto sensor = adc(20);
@@ -140,11 +160,11 @@ TEST(saturation, is_flagged_where_a_tap_clips) {
   for (const Case& at : {Case{99999, 80000, false}, Case{100000, 80000, true}, Case{100001, 80000, true}, Case{80000, 99999, false},
                          Case{80000, 100000, true}, Case{80000, 100001, true}, Case{100001, 100001, true}, Case{99999, 99999, false}}) {
     const auto out = raw::read_out(sensor, {at.a, at.b}, 0.0f);
-    EXPECT_EQ(helpers::flags(sensor, lit(), {at.a, at.b}), at.flagged) << at.a << ", " << at.b;
+    EXPECT_EQ(test::flags(sensor, lit(), {at.a, at.b}), at.flagged) << at.a << ", " << at.b;
     EXPECT_EQ(out.a, std::min(at.a, 100000.0f));
     EXPECT_EQ(out.b, std::min(at.b, 100000.0f));
     EXPECT_EQ(out.difference, (out.code - 2048) * 200);
-    EXPECT_FALSE(helpers::flags(sensor, lit(false), {at.a, at.b})) << "a grey frame never is";
+    EXPECT_FALSE(test::flags(sensor, lit(false), {at.a, at.b})) << "a grey frame never is";
   }
   // Clipping happens per tap, before the difference: both over the well read as equal.
   EXPECT_EQ(raw::read_out(sensor, {150000.0f, 120000.0f}, 0.0f).code, 2048.0f);
@@ -156,8 +176,8 @@ TEST(saturation, is_flagged_where_a_code_leaves_the_valid_range) {
     const float difference = static_cast<float>(20 * (code - 2048));
     const auto out = raw::read_out(sensor, {50000 + difference / 2, 50000 - difference / 2}, 0.0f);
     EXPECT_EQ(out.code, static_cast<float>(code));
-    EXPECT_EQ(helpers::flags(sensor, lit(), {50000 + difference / 2, 50000 - difference / 2}), code < 400 || code > 3750) << code;
-    EXPECT_FALSE(helpers::flags(sensor, lit(false), {50000 + difference / 2, 50000 - difference / 2}));
+    EXPECT_EQ(test::flags(sensor, lit(), {50000 + difference / 2, 50000 - difference / 2}), code < 400 || code > 3750) << code;
+    EXPECT_FALSE(test::flags(sensor, lit(false), {50000 + difference / 2, 50000 - difference / 2}));
   }
 }
 

@@ -5,9 +5,10 @@
 #include <cmath>
 #include <vector>
 
-#include "helpers/bench.h"
+#include "support/bench.h"
 
-using namespace helpers;
+using namespace tofray;
+using namespace tofray::test;
 
 namespace {
 
@@ -211,6 +212,7 @@ TEST(electrons, of_several_lights_add_up) {
   const Bench bench(camera);
   flow::Light<float> light{};
   light.signal_rate[0] = 3e6f, light.signal_rate[1] = 1e6f;
+  light.total_rate = 4e6f;
   light.path_length[0] = 2.0f, light.path_length[1] = 3.1f;
   auto exposure = raw::start<float>(bench.sensor(), {0, 1});
   for (int k = 0; k < 4; ++k) {

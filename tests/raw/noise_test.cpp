@@ -6,9 +6,10 @@
 #include <functional>
 #include <vector>
 
-#include "helpers/bench.h"
+#include "support/bench.h"
 
-using namespace helpers;
+using namespace tofray;
+using namespace tofray::test;
 
 namespace {
 

@@ -7,13 +7,12 @@
 
 #include "camera/frozen_camera.h"
 #include "depth/decode.h"
-#include "helpers/statistics.h"
+#include "support/statistics.h"
 #include "raw/expose.h"
 
 /// One pixel on the bench: light goes in by hand, raw frames and depth come out. The plain float's kernels.
-namespace helpers {
+namespace tofray::test {
 
-using namespace tofray;
 
 /// A camera without optics to speak of: sine, light at the pupil, no dark current, no read noise, 16 bits of 1 e⁻, wells without a bottom.
 /// @param amplitude  C: first harmonic of the correlation, for any modulation frequency
@@ -112,4 +111,4 @@ inline bool flags(const camera::SensorView& sensor, const camera::RawFrameView& 
 /// The nearest of all angles that are whole turns apart: in [−½, ½) turns.
 inline double wrapped(double turns) { return turns - std::floor(turns + 0.5); }
 
-}  // namespace helpers
+}  // namespace tofray::test

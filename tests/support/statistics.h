@@ -6,7 +6,7 @@
 #include <vector>
 
 /// What tests of random numbers need, in double and without the code under test.
-namespace helpers {
+namespace tofray::test {
 
 constexpr double pi = 3.14159265358979323846;
 constexpr double two_pi = 2 * pi;
@@ -68,4 +68,4 @@ inline double chi_square_z(const std::vector<double>& seen, const std::vector<do
   return (std::cbrt(chi / k) - (1 - spread)) / std::sqrt(spread);
 }
 
-}  // namespace helpers
+}  // namespace tofray::test

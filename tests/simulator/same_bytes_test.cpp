@@ -1,0 +1,117 @@
+// SPDX-FileCopyrightText: 2026 The tofray authors
+// SPDX-License-Identifier: Apache-2.0
+// The same version, scene, camera, options and seed give the same bytes: whatever the instruction set, the number of threads, the compiler,
+// the level of optimisation, and the C library's choice of its own functions. golden_hashes.txt holds SHA-256 of each frame.npz (without
+// meta); `tests/simulator/golden_hashes.sh` writes it anew when numbers change on purpose, which CHANGELOG.md then has to say.
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <fstream>
+#include <map>
+#include <string>
+
+#include "backend/cpu/cpu.h"
+#include "io/frame_file.h"
+#include "io/sha256.h"
+#include "support/files.h"
+#include "tofray/tofray.h"
+
+using namespace tofray;
+using namespace tofray::test;
+
+namespace {
+
+const std::string golden_path = TOFRAY_SOURCE_DIR "/tests/simulator/golden_hashes.txt";
+
+/// "scene noise" → hash.
+std::map<std::string, std::string> golden() {
+  std::map<std::string, std::string> out;
+  std::ifstream file(golden_path);
+  for (std::string scene, noise, hash; file >> scene >> noise >> hash;) out[scene + " " + noise] = hash;
+  return out;
+}
+
+std::string bytes_of(const Scene& scene, const Camera& camera, const SimulatorOptions& options) {
+  constexpr io::PoseMatrix pose{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
+  return io::frame_npz_bytes(Simulator(scene, camera, options).frame(1), camera, pose, "{}");
+}
+
+class SameBytes : public testing::TestWithParam<std::string> {};
+
+}  // namespace
+
+TEST_P(SameBytes, on_every_machine_and_with_any_number_of_threads) {
+  const Scene scene = load_scene(GetParam());
+  Camera camera = load_camera(scene);
+  const std::map<std::string, std::string> known = golden();
+  const char* write_to = std::getenv("TOFRAY_WRITE_GOLDEN");
+  const std::pair<Noise, const char*> modes[] = {{Noise::off, "off"}, {Noise::fast, "fast"}, {Noise::exact, "exact"}};
+  for (const auto& [noise, noise_name] : modes) {
+    const std::string reference = bytes_of(scene, camera, {.seed = 7, .noise = noise, .threads = 1, .isa = Isa::scalar});
+    for (const Isa isa : {Isa::scalar, Isa::scalar_fma, Isa::avx2, Isa::avx512}) {
+      if (!backend::can_run(isa)) continue;   // named by skipped_on_this_machine
+      for (const int threads : {1, 2, 7}) {
+        const std::string bytes = bytes_of(scene, camera, {.seed = 7, .noise = noise, .threads = threads, .isa = isa});
+        EXPECT_TRUE(bytes == reference) << noise_name << ", " << backend::isa_name(isa) << " with " << threads << " threads";
+      }
+    }
+    const std::string hash = io::sha256_hex(reference), key = GetParam() + " " + noise_name;
+    if (write_to != nullptr) {
+      std::ofstream(write_to, std::ios::app) << key << " " << hash << "\n";
+    } else if (known.empty()) {
+      GTEST_SKIP() << "no hashes are recorded yet";
+    } else {
+      ASSERT_TRUE(known.count(key)) << golden_path << " does not have " << key;
+      EXPECT_EQ(hash, known.at(key)) << key << ": numbers have changed. If on purpose: tests/simulator/golden_hashes.sh, and a line in CHANGELOG.md";
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(all, SameBytes, testing::ValuesIn(scene_names()), [](const auto& which) { return test_name(which.param); });
+
+// Filters, fixed patterns, suppression and a second light, which no scene has.
+TEST(same_bytes, with_everything_switched_on) {
+  const Scene scene = load_scene("demo");
+  Camera camera = load_camera(scene);
+  camera.pixel.prnu = 0.01, camera.pixel.dsnu_dn = 1, camera.pixel.delay_s = 1e-11;
+  camera.pixel.suppression_threshold_e = 2000, camera.pixel.suppression_budget_e = 20000;
+  camera.illumination.push_back(camera.illumination[0]);
+  camera.illumination[1].position = {-0.02, 0.01, 0.003}, camera.illumination[1].axis = {0.1, -0.2, 1};
+  camera.illumination[1].waveform.jitter_s = 3e-10;
+  camera.sensor.width = 219, camera.sensor.height = 163;   // no whole tiles
+  camera.temperature.drift_m_per_kelvin = 1e-4, camera.temperature.celsius = 41;
+  for (const auto kind : {ImageFilter::Kind::gaussian, ImageFilter::Kind::median}) {
+    camera.decoding.filter.kind = kind;
+    for (const PowerModel model : {PowerModel::tofray, PowerModel::paper_literal}) {
+      camera.power_model = model;
+      const std::string reference = bytes_of(scene, camera, {.threads = 1, .isa = Isa::scalar});
+      for (const Isa isa : {Isa::scalar_fma, Isa::avx2, Isa::avx512}) {
+        if (!backend::can_run(isa)) continue;
+        EXPECT_TRUE(bytes_of(scene, camera, {.threads = 3, .isa = isa}) == reference) << backend::isa_name(isa);
+        EXPECT_TRUE(bytes_of(scene, camera, {.threads = 2, .isa = isa, .culling = false}) == reference) << backend::isa_name(isa) << " without culling";
+      }
+    }
+  }
+}
+
+TEST(same_bytes, change_with_the_seed_and_the_frame) {
+  const Scene scene = load_scene("card");
+  const Camera camera = load_camera(scene);
+  Simulator simulator(scene, camera, {.seed = 7});
+  const Frame one = simulator.frame(0);
+  EXPECT_NE(one.raw.raw, simulator.frame(1).raw.raw);
+  EXPECT_NE(one.raw.raw, Simulator(scene, camera, {.seed = 8}).frame(0).raw.raw);
+  EXPECT_NE(one.raw.raw, Simulator(scene, camera, {.seed = 7 + (1ull << 32)}).frame(0).raw.raw);
+  EXPECT_NE(one.raw.raw, simulator.frame(1ull << 32).raw.raw);
+  EXPECT_EQ(one.raw.raw, Simulator(scene, camera, {.seed = 7}).frame(0).raw.raw);
+}
+
+class SkippedOnThisMachine : public testing::TestWithParam<Isa> {};
+
+TEST_P(SkippedOnThisMachine, is_what_it_cannot_run) {
+  if (!backend::can_run(GetParam())) GTEST_SKIP() << "this processor has no " << backend::isa_name(GetParam()) << ": its bytes were not compared";
+  EXPECT_EQ(Simulator(load_scene("card"), load_camera(load_scene("card")), {.isa = GetParam()}).isa(), backend::isa_name(GetParam()));
+}
+
+INSTANTIATE_TEST_SUITE_P(same_bytes, SkippedOnThisMachine, testing::Values(Isa::scalar, Isa::scalar_fma, Isa::avx2, Isa::avx512),
+                         [](const auto& which) { return backend::isa_name(which.param); });
