@@ -71,8 +71,10 @@ Json lens(const Json& from) {
   out.number("fx_px", "fx", "px").number("fy_px", "fy", "px").number("cx_px", "cx", "px").number("cy_px", "cy", "px");
   out.set("distortion", Section(from).same("k1").same("k2").same("p1").same("p2").same("k3").take());
   out.same("f_number").same("transmission");
-  if (const Json* table = from.find("vignetting_table")) out.set("vignetting", curve(*table, "angle", "rad", "factor"));
-  else out.same("vignetting");
+  if (const Json* table = from.find("vignetting_table"))
+    out.set("vignetting", curve(*table, "angle", "rad", "factor"));
+  else
+    out.same("vignetting");
   return out.take();
 }
 
@@ -84,7 +86,9 @@ Json filter(const Json& from) {
 Json pattern(const Json& from) {
   Section out(from);
   out.same("kind").number("half_angle_rad", "half_angle", "rad").same("exponent").number("width_rad", "width", "rad");
-  out.number("height_rad", "height", "rad").number("half_range_x_rad", "half_range_x", "rad").number("half_range_y_rad", "half_range_y", "rad");
+  out.number("height_rad", "height", "rad")
+      .number("half_range_x_rad", "half_range_x", "rad")
+      .number("half_range_y_rad", "half_range_y", "rad");
   const Json::Array* samples = member(from, "samples").items();
   std::uint64_t columns = 0;
   if (samples == nullptr || !member(from, "columns").unsigned_integer(columns) || columns == 0) return out.take();
@@ -134,7 +138,9 @@ Json pixel(const Json& from) {
 
 Json decoding(const Json& from) {
   Section out(from), flying(from);
-  out.same("wiggling_correction").number("low_signal_noise_m", "low_signal_noise", "m").number("inconsistent_range_m", "inconsistent_range", "m");
+  out.same("wiggling_correction")
+      .number("low_signal_noise_m", "low_signal_noise", "m")
+      .number("inconsistent_range_m", "inconsistent_range", "m");
   flying.number("flying_near_z_m", "near_z", "m").number("flying_near_limit_m", "near_limit", "m");
   flying.number("flying_far_z_m", "far_z", "m").number("flying_far_limit_m", "far_limit", "m");
   const Json& chosen = member(from, "filter");
@@ -160,7 +166,8 @@ Json modes(const Json& from) {
       const bool* lit = member(raw_frame, "lit").boolean();
       Section out(raw_frame);
       out.same("lit").number("integration_time_s", "integration_time", "s");
-      if (lit != nullptr && *lit) out.number("modulation_frequency_hz", "modulation_frequency", "Hz").number("reference_phase_rad", "reference_phase", "rad");
+      if (lit != nullptr && *lit)
+        out.number("modulation_frequency_hz", "modulation_frequency", "Hz").number("reference_phase_rad", "reference_phase", "rad");
       sequence.push(out.take());
     }
   }
@@ -178,7 +185,9 @@ std::string profile_text(const Json& camera) {
   out.same("name").set("sensor", sensor.take()).set("lens", lens(member(camera, "lens"))).set("filter", filter(member(camera, "filter")));
   out.set("illumination", illumination(member(camera, "illumination"))).set("pixel", pixel(member(camera, "pixel"))).set("adc", adc.take());
   out.set("decoding", decoding(member(camera, "decoding"))).set("temperature", temperature(member(camera, "temperature")));
-  out.set("timing", Section(camera).number("readout_time_s", "readout_time", "s").number("min_integration_time_s", "min_integration_time", "s").take());
+  out.set(
+      "timing",
+      Section(camera).number("readout_time_s", "readout_time", "s").number("min_integration_time_s", "min_integration_time", "s").take());
   return json_text(out.same("refractive_index").same("power_model").set("modes", modes(member(camera, "mode"))).take());
 }
 

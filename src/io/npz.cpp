@@ -6,7 +6,9 @@
 #include <zip.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <memory>
+#include <new>
 #include <set>
 
 #include "io/data_limits.h"
@@ -32,6 +34,13 @@ using EntryFile = std::unique_ptr<zip_file_t, FileClose>;
 /// libzip's errors while writing to memory can only be lack of memory or our own fault.
 void require(bool good, const char* step) {
   if (!good) throw Error(ErrorKind::bug, fmt::format("error: libzip cannot {}", step));
+}
+
+void close_archive(zip_t* archive) {
+  if (zip_close(archive) == 0) return;
+  const zip_error_t* error = zip_get_error(archive);
+  if (zip_error_code_zip(error) == ZIP_ER_MEMORY || zip_error_code_system(error) == ENOMEM) throw std::bad_alloc();
+  require(false, "write the archive");
 }
 
 zip_uint8_t* mutable_bytes(std::string_view text) {
@@ -148,7 +157,7 @@ std::string npz_bytes(const std::vector<NpyView>& arrays) {
   std::vector<std::string> headers;
   headers.reserve(arrays.size());
   for (const NpyView& view : arrays) add_entry(archive.get(), view, headers.emplace_back(npy_header(view.type, view.shape)));
-  require(zip_close(archive.get()) == 0, "write the archive");
+  close_archive(archive.get());
   (void)archive.release();  // closed
   return bytes_of(buffer.get());
 }

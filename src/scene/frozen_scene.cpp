@@ -54,6 +54,8 @@ void FrozenScene::update(const std::vector<double>& slot_times) {
   view_.light_moving = light_moving_.data();
   view_.sun_still = sun_views_.empty() ? ParallelForms{} : sun_views_[0].forms();
   view_.sun_moving = sun_moving_.data();
+  // Where nothing is hit, facet 0 is read all the same, and what it says is thrown away.
+  if (facets_.empty()) facets_.emplace_back();
   view_.facets = facets_.data();
 }
 
