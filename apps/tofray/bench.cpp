@@ -38,12 +38,13 @@ double number(const io::Json& row, const char* key) {
 }
 
 std::string table_of(const io::Json& results, const std::vector<Ratio>& ratios) {
-  std::string text = fmt::format("{:<24} {:<11} {:>7} {:<6} {:>10} {:>10} {:>9} {:>8}  {}\n", "scene", "code", "threads", "noise", "frames/s", "median ms", "p10 ms",
-                                 "peak MB", "SHA-256 of frame 0");
+  std::string text = fmt::format("{:<24} {:<11} {:>7} {:<6} {:>10} {:>10} {:>9} {:>8}  {}\n", "scene", "code", "threads", "noise",
+                                 "frames/s", "median ms", "p10 ms", "peak MB", "SHA-256 of frame 0");
   for (const io::Json& row : *results.items()) {
-    text += fmt::format("{:<24} {:<11} {:>7.0f} {:<6} {:>10.2f} {:>10.3f} {:>9.3f} {:>8.1f}  {}\n", *row.find("scene")->string(), *row.find("isa")->string(),
-                        number(row, "threads"), *row.find("noise")->string(), number(row, "frames_per_s"), number(row, "ms_median"), number(row, "ms_p10"),
-                        1e-6 * number(row, "peak_bytes"), row.find("sha256")->string()->substr(0, 16));
+    text += fmt::format("{:<24} {:<11} {:>7.0f} {:<6} {:>10.2f} {:>10.3f} {:>9.3f} {:>8.1f}  {}\n", *row.find("scene")->string(),
+                        *row.find("isa")->string(), number(row, "threads"), *row.find("noise")->string(), number(row, "frames_per_s"),
+                        number(row, "ms_median"), number(row, "ms_p10"), 1e-6 * number(row, "peak_bytes"),
+                        row.find("sha256")->string()->substr(0, 16));
   }
   if (!ratios.empty()) text += "\n";
   for (const Ratio& one : ratios) text += fmt::format("{:<62} {:>8.3f}\n", one.name, one.value);
@@ -80,7 +81,10 @@ io::Json Contender::result() {
   simulator_.frame(0, frame_);
   io::Json row = io::Json::object();
   row.set("scene", scene_).set("isa", simulator_.isa()).set("threads", simulator_.threads()).set("noise", io::noise_name(options_.noise));
-  row.set("frames_per_s", 1000 / median_ms()).set("ms_median", median_ms()).set("ms_p10", percentile_ms(0.1)).set("stage_ms", io::Json::object());
+  row.set("frames_per_s", 1000 / median_ms())
+      .set("ms_median", median_ms())
+      .set("ms_p10", percentile_ms(0.1))
+      .set("stage_ms", io::Json::object());
   return row.set("peak_bytes", peak_bytes()).set("sha256", arrays_sha256(frame_));
 }
 
@@ -124,8 +128,10 @@ int run_bench(const Options& options) {
     results.push(one.result());
   }
   for (const Ratio& one : ratios) ratios_json.push(io::Json::object().set("name", one.name).set("value", one.value));
-  if (options.json) print(io::json_text(io::Json::object().set("results", std::move(results)).set("ratios", std::move(ratios_json)), 2) + "\n");
-  else print(table_of(results, ratios));
+  if (options.json)
+    print(io::json_text(io::Json::object().set("results", std::move(results)).set("ratios", std::move(ratios_json)), 2) + "\n");
+  else
+    print(table_of(results, ratios));
   return 0;
 }
 

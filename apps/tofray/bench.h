@@ -43,7 +43,7 @@ std::string arrays_sha256(const Frame& frame);
 
 /// Two contenders that differ in one thing.
 struct Ratio {
-  std::string name;                              ///< "time of scalar_fma / avx512, 1 thread"
+  std::string name;  ///< "time of scalar_fma / avx512, 1 thread"
   double value = 0;
 };
 

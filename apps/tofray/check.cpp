@@ -20,7 +20,8 @@ namespace {
 /// A camera profile is told from a scene by what it has to have.
 bool looks_like_a_profile(const std::string& text, const std::string& name) {
   const io::Node root = io::parse_tree(text, name);
-  return root.find("objects") == nullptr && (root.find("modes") != nullptr || root.find("sensor") != nullptr || root.find("lens") != nullptr);
+  return root.find("objects") == nullptr &&
+         (root.find("modes") != nullptr || root.find("sensor") != nullptr || root.find("lens") != nullptr);
 }
 
 struct Report {
@@ -39,10 +40,15 @@ Report check_profile(const std::string& text, const std::string& name, const Opt
   }
   Report report;
   const std::vector<std::string> unsourced = io::unsourced_numbers(io::parse_tree(text, name));
-  for (const std::string& one : unsourced) report.warnings += fmt::format("{}: warning: this number does not say where it comes from\n", one.substr(0, one.rfind(": ")));
+  for (const std::string& one : unsourced)
+    report.warnings += fmt::format("{}: warning: this number does not say where it comes from\n", one.substr(0, one.rfind(": ")));
   if (!unsourced.empty()) report.warnings += "  expected source: or assumed: beside it, or for its group\n";
-  report.json.set("kind", "camera").set("name", first.name).set("modes", io::Json::list(first.mode_names)).set("unsourced_numbers", io::Json::list(unsourced));
-  report.text = fmt::format("{}: good: camera {}, {} x {} pixels, {} modes\n", name, first.name, first.sensor.width, first.sensor.height, first.mode_names.size());
+  report.json.set("kind", "camera")
+      .set("name", first.name)
+      .set("modes", io::Json::list(first.mode_names))
+      .set("unsourced_numbers", io::Json::list(unsourced));
+  report.text = fmt::format("{}: good: camera {}, {} x {} pixels, {} modes\n", name, first.name, first.sensor.width, first.sensor.height,
+                            first.mode_names.size());
   return report;
 }
 
@@ -51,7 +57,10 @@ Report check_scene(const std::string& name, const Options& options) {
   Simulator(in.scene, in.camera, simulator_options(options));
   Report report;
   report.warnings = warnings(in.scene, in.camera);
-  report.json.set("kind", "scene").set("name", in.scene.name).set("objects", in.scene.objects.size()).set("materials", in.scene.materials.size());
+  report.json.set("kind", "scene")
+      .set("name", in.scene.name)
+      .set("objects", in.scene.objects.size())
+      .set("materials", in.scene.materials.size());
   report.json.set("camera", in.camera.name).set("mode", in.camera.mode.name).set("raw_frames", in.camera.mode.sequence.size());
   report.text = fmt::format("{}: good: scene with {} object{}, camera {} in mode {}, {} raw frames\n", name, in.scene.objects.size(),
                             in.scene.objects.size() == 1 ? "" : "s", in.camera.name, in.camera.mode.name, in.camera.mode.sequence.size());
@@ -61,7 +70,8 @@ Report check_scene(const std::string& name, const Options& options) {
 Report check(const Options& options) {
   const std::string& name = options.words[0];
   if (io::find_builtin(io::builtin_scenes(), name) != nullptr) return check_scene(name, options);
-  if (const io::Builtin* profile = io::find_builtin(io::builtin_profiles(), name)) return check_profile(std::string(profile->text), name, options);
+  if (const io::Builtin* profile = io::find_builtin(io::builtin_profiles(), name))
+    return check_profile(std::string(profile->text), name, options);
   const std::string text = io::read_named("scene", name, io::builtin_scenes());
   return looks_like_a_profile(text, name) ? check_profile(text, name, options) : check_scene(name, options);
 }
@@ -71,8 +81,10 @@ Report check(const Options& options) {
 int run_check(const Options& options) {
   Report report = check(options);
   say(report.warnings);
-  if (options.json) print(io::json_text(report.json.set("good", true), 2) + "\n");
-  else if (!options.quiet) print(report.text);
+  if (options.json)
+    print(io::json_text(report.json.set("good", true), 2) + "\n");
+  else if (!options.quiet)
+    print(report.text);
   return 0;
 }
 

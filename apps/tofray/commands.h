@@ -12,26 +12,26 @@ namespace tofray::app {
 
 /// An option that some commands have.
 struct OptionSpec {
-  const char* name;                              ///< "--seed"
-  char letter;                                   ///< 'o' for -o; 0: none
-  const char* value;                             ///< "N" as help shows it; a null pointer: a switch
+  const char* name;   ///< "--seed"
+  char letter;        ///< 'o' for -o; 0: none
+  const char* value;  ///< "N" as help shows it; a null pointer: a switch
   const char* help;
   /// Takes the value over. @throws Error (bad_input) where it is no good
   void (*take)(Options& options, const std::string& value);
-  std::vector<std::string> choices;              ///< for completion and suggestions; empty: anything
-  bool file = false;                             ///< completion offers files
+  std::vector<std::string> choices;  ///< for completion and suggestions; empty: anything
+  bool file = false;                 ///< completion offers files
 };
 
 struct Command {
-  const char* name;
-  const char* usage;                             ///< "SCENE [options]"
-  const char* summary;                           ///< one line
-  const char* examples;                          ///< lines "command      # what it does"
-  const char* more;                              ///< further text; may be empty
-  std::vector<const char*> options;              ///< names of OptionSpecs
-  std::size_t least_words, most_words;
-  int (*run)(const Options& options);
-  const char* completes;                         ///< what a word can be: "scenes", "files", a list of words, or ""
+  const char* name = "";
+  const char* usage = "";                 ///< "SCENE [options]"
+  const char* summary = "";               ///< one line
+  const char* examples = "";              ///< lines "command      # what it does"
+  const char* more = "";                  ///< further text
+  std::vector<const char*> options = {};  ///< names of OptionSpecs
+  std::size_t least_words = 0, most_words = 0;
+  int (*run)(const Options& options) = nullptr;
+  const char* completes = "";  ///< what a word can be: "scenes", "files", or the words themselves
 };
 
 const std::vector<OptionSpec>& all_options();

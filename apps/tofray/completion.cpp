@@ -55,9 +55,11 @@ std::string bash() {
   for (const Command& command : all_commands()) {
     std::string options = "--help";
     for (const OptionSpec* one : options_of(command)) options += fmt::format(" {}", one->name);
-    commands += fmt::format("    {}) options=\"{}\"; words=\"{}\"; files={} ;;\n", command.name, options, words_of(command), takes_files(command) ? 1 : 0);
+    commands += fmt::format("    {}) options=\"{}\"; words=\"{}\"; files={} ;;\n", command.name, options, words_of(command),
+                            takes_files(command) ? 1 : 0);
   }
-  return fmt::format(R"(# tofray: completion for bash. To keep it: tofray completion bash > ~/.local/share/bash-completion/completions/tofray
+  return fmt::format(
+      R"(# tofray: completion for bash. To keep it: tofray completion bash > ~/.local/share/bash-completion/completions/tofray
 _tofray() {{
   local word="${{COMP_WORDS[COMP_CWORD]}}" before="${{COMP_WORDS[COMP_CWORD-1]}}" options="" words="" files=0
   if ((COMP_CWORD == 1)); then
@@ -77,7 +79,7 @@ _tofray() {{
 }}
 complete -o filenames -F _tofray tofray
 )",
-                     command_names(), values, commands);
+      command_names(), values, commands);
 }
 
 /// Text within single quotes of a shell.
@@ -111,9 +113,12 @@ std::string zsh() {
     for (const OptionSpec* one : options_of(command)) cases += zsh_option(*one);
     cases += "      '--help[examples and options]'\n";
     const std::string words = words_of(command);
-    if (takes_files(command) && !words.empty()) cases += fmt::format("      '1:file:{{compadd {}; _files}}'\n", words);
-    else if (takes_files(command)) cases += "      '1:file:_files'\n";
-    else if (!words.empty()) cases += fmt::format("      '1:what:({})'\n", words);
+    if (takes_files(command) && !words.empty())
+      cases += fmt::format("      '1:file:{{compadd {}; _files}}'\n", words);
+    else if (takes_files(command))
+      cases += "      '1:file:_files'\n";
+    else if (!words.empty())
+      cases += fmt::format("      '1:what:({})'\n", words);
     cases += "      ) ;;\n";
   }
   return fmt::format(R"(#compdef tofray
@@ -138,8 +143,9 @@ _tofray "$@"
 }
 
 std::string fish() {
-  std::string text = "# tofray: completion for fish. To keep it: tofray completion fish > ~/.config/fish/completions/tofray.fish\n"
-                     "complete -c tofray -f\n";
+  std::string text =
+      "# tofray: completion for fish. To keep it: tofray completion fish > ~/.config/fish/completions/tofray.fish\n"
+      "complete -c tofray -f\n";
   for (const Command& command : all_commands())
     text += fmt::format("complete -c tofray -n __fish_use_subcommand -a {} -d {}\n", command.name, quoted(command.summary));
   for (const Command& command : all_commands()) {
@@ -147,7 +153,8 @@ std::string fish() {
     for (const OptionSpec* one : options_of(command)) {
       text += fmt::format("complete -c tofray -n {} -l {} -d {}", seen, one->name + 2, quoted(one->help));
       if (one->letter != 0) text += fmt::format(" -s {}", one->letter);
-      if (one->value != nullptr) text += one->file ? " -r -F" : one->choices.empty() ? " -x" : fmt::format(" -x -a '{}'", joined(one->choices));
+      if (one->value != nullptr)
+        text += one->file ? " -r -F" : one->choices.empty() ? " -x" : fmt::format(" -x -a '{}'", joined(one->choices));
       text += "\n";
     }
     const std::string words = words_of(command);
@@ -161,9 +168,12 @@ std::string fish() {
 
 int run_completion(const Options& options) {
   const std::string& shell = options.words[0];
-  if (shell == "bash") print(bash());
-  else if (shell == "zsh") print(zsh());
-  else if (shell == "fish") print(fish());
+  if (shell == "bash")
+    print(bash());
+  else if (shell == "zsh")
+    print(zsh());
+  else if (shell == "fish")
+    print(fish());
   else
     throw Error(ErrorKind::bad_input, fmt::format("error: no completion for {}{}\n  expected bash, zsh or fish", base::in_quotes(shell),
                                                   base::did_you_mean(shell, {"bash", "zsh", "fish"})));

@@ -89,6 +89,8 @@ void end_cleanly_on_signals() {
   struct sigaction action {};
   action.sa_handler = end_on_signal;
   sigfillset(&action.sa_mask);
+  // A file that grows beyond the limit of the user is an error like a full disk, not an end without a word.
+  ::signal(SIGXFSZ, SIG_IGN);
   for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGPIPE}) {
     struct sigaction before {};
     // nohup and shells in the background ignore some: so do we.

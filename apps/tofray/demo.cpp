@@ -13,14 +13,16 @@ namespace tofray::app {
 
 namespace {
 
-std::string told(const Frame& frame, const Inputs& in, const Simulator& simulator, const io::OutputFolder& folder, const Stopwatch& stopwatch) {
+std::string told(const Frame& frame, const Inputs& in, const Simulator& simulator, const io::OutputFolder& folder,
+                 const Stopwatch& stopwatch) {
   const Validity pixels = validity(frame.depth);
   const Sensor& sensor = in.camera.sensor;
-  std::string text = fmt::format("{} in mode {}: {} x {} pixels, {} raw frames, {} objects, depth as colour\n", in.camera.name, in.camera.mode.name,
-                                 sensor.width, sensor.height, in.camera.mode.sequence.size(), in.scene.objects.size());
-  text += fmt::format("{} of {} pixels have a depth{}{}\n", pixels.valid, pixels.pixels, pixels.reasons.empty() ? "" : "; invalid: ", pixels.reasons);
-  text += fmt::format("{} files in {}, {:.2f} s with {} on {} thread{}\n", folder.files().size(), folder.path().native(), stopwatch.total(), simulator.isa(),
-                      simulator.threads(), simulator.threads() == 1 ? "" : "s");
+  std::string text = fmt::format("{} in mode {}: {} x {} pixels, {} raw frames, {} objects, depth as colour\n", in.camera.name,
+                                 in.camera.mode.name, sensor.width, sensor.height, in.camera.mode.sequence.size(), in.scene.objects.size());
+  text += fmt::format("{} of {} pixels have a depth{}{}\n", pixels.valid, pixels.pixels,
+                      pixels.reasons.empty() ? "" : "; invalid: ", pixels.reasons);
+  text += fmt::format("{} files in {}, {:.2f} s with {} on {} thread{}\n", folder.files().size(), folder.path().native(), stopwatch.total(),
+                      simulator.isa(), simulator.threads(), simulator.threads() == 1 ? "" : "s");
   const std::string npz = (folder.path() / "frame.npz").native();
   text += "\nNext:\n";
   if (std::any_of(folder.files().begin(), folder.files().end(), [](const io::FileRecord& file) { return file.name == "frame.npz"; }))

@@ -35,10 +35,10 @@ constexpr const char* compiler = "g++ " __VERSION__;
 /// A wall at 1 m, without noise and harmonics, on one instruction set.
 struct SelfTest {
   std::string isa;
-  double worst_m = 0;                            ///< largest |z - 1 m|
+  double worst_m = 0;  ///< largest |z - 1 m|
   std::size_t pixels = 0, valid = 0;
-  bool same = true;                              ///< the same z in every bit as scalar code
-  std::string fault;                             ///< what stopped it
+  bool same = true;   ///< the same z in every bit as scalar code
+  std::string fault;  ///< what stopped it
   [[nodiscard]] bool good() const { return fault.empty() && same && valid == pixels && pixels > 0 && worst_m < wall_limit_m; }
 };
 
@@ -74,7 +74,8 @@ double memory_bytes(const char* key) {
   double bytes = 0;
   while (bytes == 0 && std::fgets(line, sizeof line, file) != nullptr) {
     const std::string text(line);
-    if (text.starts_with(std::string(key) + ":")) bytes = 1024 * static_cast<double>(std::strtoull(line + std::string(key).size() + 1, nullptr, 10));
+    if (text.starts_with(std::string(key) + ":"))
+      bytes = 1024 * static_cast<double>(std::strtoull(line + std::string(key).size() + 1, nullptr, 10));
   }
   std::fclose(file);
   return bytes;
@@ -89,16 +90,18 @@ int cores_allowed() {
 
 std::vector<std::string> missing_things() {
   std::vector<std::string> missing;
-  if (!backend::can_run(Isa::avx2)) missing.emplace_back("AVX2 with FMA: this processor has neither; scalar code runs, several times slower, with the same results");
-  else if (!backend::can_run(Isa::avx512)) missing.emplace_back("AVX-512: this processor does not have it; AVX2 code runs, with the same results");
+  if (!backend::can_run(Isa::avx2))
+    missing.emplace_back("AVX2 with FMA: this processor has neither; scalar code runs, several times slower, with the same results");
+  else if (!backend::can_run(Isa::avx512))
+    missing.emplace_back("AVX-512: this processor does not have it; AVX2 code runs, with the same results");
   missing.emplace_back("CUDA: this version has no GPU backend; there is nothing to install");
   return missing;
 }
 
 std::string test_line(const SelfTest& test) {
   if (!test.fault.empty()) return fmt::format("  {:<11} FAILED: {}\n", test.isa, test.fault);
-  return fmt::format("  {:<11} {}: {} of {} pixels, at most {:.4f} mm off{}\n", test.isa, test.good() ? "good" : "FAILED", test.valid, test.pixels,
-                     1e3 * test.worst_m, test.same ? "" : ", not the bits of scalar code");
+  return fmt::format("  {:<11} {}: {} of {} pixels, at most {:.4f} mm off{}\n", test.isa, test.good() ? "good" : "FAILED", test.valid,
+                     test.pixels, 1e3 * test.worst_m, test.same ? "" : ", not the bits of scalar code");
 }
 
 struct Diagnosis {
@@ -136,7 +139,8 @@ std::string text_of(const Diagnosis& d) {
   for (const SelfTest& test : d.tests) text += test_line(test);
   text += "missing\n";
   for (const std::string& one : d.missing) text += "  " + one + "\n";
-  return text + (d.good ? "all good\n" : "the self-test FAILED: results on this machine cannot be trusted; please report it with this output\n");
+  return text +
+         (d.good ? "all good\n" : "the self-test FAILED: results on this machine cannot be trusted; please report it with this output\n");
 }
 
 io::Json json_of(const Diagnosis& d) {
@@ -151,7 +155,11 @@ io::Json json_of(const Diagnosis& d) {
                    .set("same_bits", one.same)
                    .set("fault", one.fault));
   io::Json json = io::Json::object();
-  json.set("tofray", io::version()).set("compiler", compiler).set("cpu", io::cpu_model()).set("instruction_sets", io::Json::list(d.sets)).set("isa", d.isa);
+  json.set("tofray", io::version())
+      .set("compiler", compiler)
+      .set("cpu", io::cpu_model())
+      .set("instruction_sets", io::Json::list(d.sets))
+      .set("isa", d.isa);
   json.set("cores", std::thread::hardware_concurrency()).set("cores_allowed", cores_allowed());
   json.set("memory_bytes", memory_bytes("MemTotal")).set("memory_available_bytes", memory_bytes("MemAvailable"));
   return json.set("self_test", std::move(tests)).set("missing", io::Json::list(d.missing)).set("good", d.good);

@@ -50,7 +50,8 @@ std::string overview_text() {
 }
 
 std::string help_text(const Command& command) {
-  std::string text = fmt::format("Examples:\n{}\nUsage: tofray {} {}\n\n  {}\n", indented(command.examples), command.name, command.usage, command.summary);
+  std::string text =
+      fmt::format("Examples:\n{}\nUsage: tofray {} {}\n\n  {}\n", indented(command.examples), command.name, command.usage, command.summary);
   if (*command.more != '\0') text += "\n" + indented(command.more);
   if (command.options.empty()) return text;
   text += "\nOptions:\n";

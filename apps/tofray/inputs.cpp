@@ -8,6 +8,7 @@
 #include "io/convert.h"
 #include "io/load.h"
 #include "io/text_file.h"
+#include "profile_tables.h"
 #include "tofray/error.h"
 
 namespace tofray::app {
@@ -16,12 +17,11 @@ namespace {
 
 bool is_builtin_source(const std::string& source) { return source.starts_with("<"); }
 
-/// The camera that the scene asks for, out of a profile's text.
-Camera camera_of_text(const Scene& scene, const io::InputFile& profile, const std::string& mode) {
+/// The camera that the scene asks for, out of the texts of its profile and of the profile's tables.
+Camera camera_of_texts(const Scene& scene, const io::InputFile& profile, const std::vector<io::InputFile>& files, const std::string& mode) {
   CameraOptions wanted;
   wanted.mode = mode.empty() ? scene.camera.mode : mode;
-  for (const Override& one : scene.camera.overrides) wanted.set.emplace_back(one.key, one.value);
-  return io::camera_from_text(profile.text, profile.name, io::folder_of(profile.name), wanted);
+  return io::camera_from_text(profile_with_tables(profile, scene.camera.overrides, files), profile.name, "", wanted);
 }
 
 }  // namespace
@@ -38,7 +38,10 @@ Inputs load_inputs(const std::string& scene, const Options& options) {
     in.files.push_back({"scene", scene, text});
   }
   in.camera = load_camera(in.scene, {options.mode, {}, options.root});
-  if (!is_builtin_source(in.camera.source)) in.files.push_back({"profile", in.camera.source, io::read_text(in.camera.source)});
+  if (is_builtin_source(in.camera.source)) return in;
+  in.files.push_back({"profile", in.camera.source, io::read_text(in.camera.source)});
+  const auto tables = profile_tables(in.files.back(), io::folder_of(in.camera.source), in.scene.camera.overrides);
+  in.files.insert(in.files.end(), tables.begin(), tables.end());
   return in;
 }
 
@@ -50,18 +53,17 @@ Inputs inputs_of(const io::Manifest& manifest, const Options& options) {
   in.files = manifest.inputs;
   in.scene = first.text.empty() ? io::load_scene(first.name, options.set) : io::scene_from_text(first.text, first.name, options.set);
   const auto profile = std::find_if(in.files.begin(), in.files.end(), [](const io::InputFile& file) { return file.role == "profile"; });
-  in.camera = profile == in.files.end() ? load_camera(in.scene, {options.mode, {}, {}}) : camera_of_text(in.scene, *profile, options.mode);
+  in.camera = profile == in.files.end() ? load_camera(in.scene, {options.mode, {}, {}})
+                                        : camera_of_texts(in.scene, *profile, in.files, options.mode);
   return in;
 }
 
 std::string warnings(const Scene& scene, const Camera& camera) {
   std::string text;
   if (scene.objects.empty()) text += "warning: the scene has no objects\n  no pixel gets any light back, and every depth is invalid\n";
-  const bool power = std::any_of(camera.illumination.begin(), camera.illumination.end(), [](const Illumination& one) { return one.power_w > 0; });
-  const bool lit = std::any_of(camera.mode.sequence.begin(), camera.mode.sequence.end(), [](const RawFrame& one) { return one.lit; });
-  if (camera.illumination.empty()) text += "warning: the camera has no light source\n  every depth is invalid\n";
-  else if (!power) text += "warning: the camera's light sources have no power\n  every depth is invalid\n";
-  if (!lit) text += "warning: no raw frame of the mode is lit\n  every depth is invalid\n";
+  const bool power =
+      std::any_of(camera.illumination.begin(), camera.illumination.end(), [](const Illumination& one) { return one.power_w > 0; });
+  if (!power) text += "warning: the camera's light sources have no power\n  every depth is invalid\n";
   return text;
 }
 

@@ -15,14 +15,14 @@ namespace tofray::app {
 struct Inputs {
   Scene scene;
   Camera camera;
-  std::vector<io::InputFile> files;              ///< for manifest.json: the scene, then a profile of one's own
+  std::vector<io::InputFile> files;  ///< for manifest.json: the scene, a profile of one's own and its tables
 };
 
 /// Reads the scene (a file or a built-in name) with --set, and the camera that it asks for with --mode and --root.
 /// @throws Error
 Inputs load_inputs(const std::string& scene, const Options& options);
 
-/// The same from the texts that a manifest keeps; no other file is read but a profile's tables.
+/// The same from the texts that a manifest keeps; no file is read.
 /// @throws Error
 Inputs inputs_of(const io::Manifest& manifest, const Options& options);
 

@@ -20,7 +20,7 @@ namespace {
 
 struct Statistics {
   double low = 0, median = 0, high = 0;
-  std::size_t count = 0, invalid = 0;            ///< elements; those that are not finite
+  std::size_t count = 0, invalid = 0;  ///< elements; those that are not finite
 };
 
 Statistics statistics_of(const io::NpyArray& array) {
@@ -46,7 +46,8 @@ Statistics statistics_of(const io::NpyArray& array) {
 }
 
 std::string array_table(const Arrays& arrays) {
-  std::string text = fmt::format("{:<24} {:<8} {:<16} {:<10} {:>11} {:>11} {:>11} {:>9}\n", "array", "type", "shape", "unit", "min", "median", "max", "invalid");
+  std::string text = fmt::format("{:<24} {:<8} {:<16} {:<10} {:>11} {:>11} {:>11} {:>9}\n", "array", "type", "shape", "unit", "min",
+                                 "median", "max", "invalid");
   for (const io::NamedArray& one : arrays.all()) {
     const io::NpyArray& array = one.array;
     if (array.type.kind == 'U') {
@@ -54,8 +55,8 @@ std::string array_table(const Arrays& arrays) {
       continue;
     }
     const Statistics s = statistics_of(array);
-    text += fmt::format("{:<24} {:<8} {:<16} {:<10} {:>11.5g} {:>11.5g} {:>11.5g} {:>9}\n", one.name, array.type.name(), io::shape_text(array.shape),
-                        arrays.unit(one.name), s.low, s.median, s.high, s.invalid);
+    text += fmt::format("{:<24} {:<8} {:<16} {:<10} {:>11.5g} {:>11.5g} {:>11.5g} {:>9}\n", one.name, array.type.name(),
+                        io::shape_text(array.shape), arrays.unit(one.name), s.low, s.median, s.high, s.invalid);
   }
   return text;
 }
@@ -77,7 +78,8 @@ io::Json array_json(const Arrays& arrays) {
 
 std::string phase_table(const Arrays& arrays) {
   if (arrays.phases() == 0 || arrays.find("lit") == nullptr) return {};
-  std::string text = fmt::format("\n{:<10} {:>4} {:>15} {:>14} {:>12} {:>10}\n", "raw frame", "lit", "modulation MHz", "reference deg", "exposure us", "start ms");
+  std::string text = fmt::format("\n{:<10} {:>4} {:>15} {:>14} {:>12} {:>10}\n", "raw frame", "lit", "modulation MHz", "reference deg",
+                                 "exposure us", "start ms");
   for (std::size_t k = 0; k < arrays.phases(); ++k) {
     text += fmt::format("{:<10} {:>4} {:>15.6g} {:>14.6g} {:>12.6g} {:>10.5g}\n", k, arrays.at("lit", k) != 0 ? "yes" : "no",
                         1e-6 * arrays.at("modulation_frequency_hz", k), arrays.at("reference_phase_rad", k) * 180 / base::pi,
@@ -91,7 +93,8 @@ io::Json phase_json(const Arrays& arrays) {
   for (std::size_t k = 0; k < arrays.phases(); ++k) {
     io::Json json = io::Json::object();
     json.set("lit", arrays.at("lit", k) != 0);
-    for (const char* name : {"modulation_frequency_hz", "reference_phase_rad", "integration_time_s", "start_time_s"}) json.set(name, arrays.at(name, k));
+    for (const char* name : {"modulation_frequency_hz", "reference_phase_rad", "integration_time_s", "start_time_s"})
+      json.set(name, arrays.at(name, k));
     list.push(std::move(json));
   }
   return list;
@@ -119,7 +122,8 @@ std::string flag_table(const Arrays& arrays) {
   std::string text = fmt::format("\n{:<26} {:>8} {:>7.1f} %\n", "pixels with a depth", valid, 100 * static_cast<double>(valid) / pixels);
   for (std::size_t bit = 0; bit < counts.size(); ++bit) {
     const char* effect = (flags_invalid >> bit & 1) != 0 ? "" : "   (a warning, the depth stays)";
-    text += fmt::format("  {:<24} {:>8} {:>7.1f} %{}\n", flag_names()[bit], counts[bit], 100 * static_cast<double>(counts[bit]) / pixels, effect);
+    text += fmt::format("  {:<24} {:>8} {:>7.1f} %{}\n", flag_names()[bit], counts[bit], 100 * static_cast<double>(counts[bit]) / pixels,
+                        effect);
   }
   return text;
 }
@@ -148,8 +152,8 @@ std::string origin(const Arrays& arrays) {
   if (!meta.is_object()) return arrays.where() + "\n\n";
   const io::Json* camera = meta.find("camera");
   return fmt::format("{}: tofray {}, scene {}, camera {} in mode {}, frame {}, seed {}, noise {}\n\n", arrays.where(), word(meta, "tofray"),
-                     word(meta, "scene", "name"), word(meta, "camera", "name"), camera == nullptr ? "" : word(*camera, "mode", "name"), word(meta, "frame"),
-                     word(meta, "seed"), word(meta, "noise"));
+                     word(meta, "scene", "name"), word(meta, "camera", "name"), camera == nullptr ? "" : word(*camera, "mode", "name"),
+                     word(meta, "frame"), word(meta, "seed"), word(meta, "noise"));
 }
 
 bool ends_in(const std::string& path, const char* ending) { return path.ends_with(ending); }
@@ -160,7 +164,10 @@ Arrays arrays_of(const Options& options) {
   const bool npz = ends_in(path, ".npz"), npy = ends_in(path, ".npy");
   if (npz || npy) {
     if (!options.set.empty() || options.seed || options.noise || !options.mode.empty())
-      throw Error(ErrorKind::bad_input, path + ": error: this file is finished, its settings cannot be changed\n  expected a scene with --set, --mode, --seed and --noise");
+      throw Error(
+          ErrorKind::bad_input,
+          path +
+              ": error: this file is finished, its settings cannot be changed\n  expected a scene with --set, --mode, --seed and --noise");
     if (npz) return Arrays(io::read_npz(path), path);
     std::vector<io::NamedArray> one;
     one.push_back({"array", io::read_npy(path)});
@@ -185,7 +192,10 @@ int run_inspect(const Options& options) {
   }
   if (options.json) {
     io::Json json = io::Json::object();
-    json.set("file", arrays.where()).set("arrays", array_json(arrays)).set("raw_frames", phase_json(arrays)).set("flags", flag_json(arrays));
+    json.set("file", arrays.where())
+        .set("arrays", array_json(arrays))
+        .set("raw_frames", phase_json(arrays))
+        .set("flags", flag_json(arrays));
     print(io::json_text(json.set("meta", arrays.meta()), 2) + "\n");
   } else {
     print(origin(arrays) + array_table(arrays) + phase_table(arrays) + flag_table(arrays));

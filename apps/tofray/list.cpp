@@ -95,7 +95,8 @@ int run_list(const Options& options) {
   const std::string& what = options.words[0];
   const std::vector<std::string> kinds = {"cameras", "scenes", "materials"};
   if (options.words.size() == 2 && what != "materials")
-    throw Error(ErrorKind::bad_input, fmt::format("error: unexpected {}\n  expected tofray list {}", base::in_quotes(options.words[1]), what));
+    throw Error(ErrorKind::bad_input,
+                fmt::format("error: unexpected {}\n  expected tofray list {}", base::in_quotes(options.words[1]), what));
   std::string text;
   io::Json json = io::Json::array();
   if (what == "scenes") {
@@ -103,12 +104,13 @@ int run_list(const Options& options) {
   } else if (what == "cameras") {
     json = list_cameras(text);
   } else if (what == "materials") {
-    if (options.words.size() == 2) list_materials_of(options.words[1], json, text);
+    if (options.words.size() == 2)
+      list_materials_of(options.words[1], json, text);
     else
       for (const io::Builtin& one : io::builtin_scenes()) list_materials_of(one.name, json, text);
   } else {
-    throw Error(ErrorKind::bad_input, fmt::format("error: there is no list of {}{}\n  expected {}", base::in_quotes(what), base::did_you_mean(what, kinds),
-                                                  base::listed(kinds)));
+    throw Error(ErrorKind::bad_input, fmt::format("error: there is no list of {}{}\n  expected {}", base::in_quotes(what),
+                                                  base::did_you_mean(what, kinds), base::listed(kinds)));
   }
   print(options.json ? io::json_text(io::Json::object().set(what, std::move(json)), 2) + "\n" : text);
   return 0;

@@ -42,7 +42,8 @@ void print_limits(bool json) {
     std::vector<std::string> options = {"--help", "--version", "--limits"};
     for (const OptionSpec& one : all_options()) {
       if (word == one.name)
-        throw Error(ErrorKind::bad_input, fmt::format("error: option {} stands before the command\n  expected tofray COMMAND {} …", word, word));
+        throw Error(ErrorKind::bad_input,
+                    fmt::format("error: option {} stands before the command\n  expected tofray COMMAND {} …", word, word));
       options.emplace_back(one.name);
     }
     throw Error(ErrorKind::bad_input, fmt::format("error: unknown option {}{}\n  expected a command: {}", base::in_quotes(word),
@@ -91,10 +92,12 @@ int guarded(const std::vector<std::string>& arguments) {
     if (error.kind() == ErrorKind::bug) say("  this is a fault of tofray's: please report it with the output of `tofray doctor`\n");
     return static_cast<int>(error.kind());
   } catch (const std::bad_alloc&) {
-    say("error: out of memory\n  a smaller sensor, fewer raw frames or fewer threads need less; `tofray --limits` lists what is allowed at all\n");
+    say("error: out of memory\n  a smaller sensor, fewer raw frames or fewer threads need less; `tofray --limits` lists what is allowed at "
+        "all\n");
     return static_cast<int>(ErrorKind::limit);
   } catch (const std::exception& error) {
-    say(fmt::format("error: unexpected: {}\n  this is a fault of tofray's: please report it with the output of `tofray doctor`\n", error.what()));
+    say(fmt::format("error: unexpected: {}\n  this is a fault of tofray's: please report it with the output of `tofray doctor`\n",
+                    error.what()));
   } catch (...) {
     say("error: unexpected\n  this is a fault of tofray's: please report it with the output of `tofray doctor`\n");
   }

@@ -34,16 +34,21 @@ void take_set(Options& o, const std::string& value) {
 }
 
 void take_noise(Options& o, const std::string& value) {
-  if (value == "off") o.noise = Noise::off;
-  else if (value == "fast") o.noise = Noise::fast;
-  else if (value == "exact") o.noise = Noise::exact;
-  else refuse("--noise", value, "off (expected values), fast (one normal per tap) or exact (true Poisson)");
+  if (value == "off")
+    o.noise = Noise::off;
+  else if (value == "fast")
+    o.noise = Noise::fast;
+  else if (value == "exact")
+    o.noise = Noise::exact;
+  else
+    refuse("--noise", value, "off (expected values), fast (one normal per tap) or exact (true Poisson)");
 }
 
 void take_backend(Options&, const std::string& value) {
   if (value == "auto" || value == "cpu") return;
   if (value == "cuda")
-    throw Error(ErrorKind::device, "error: this build of tofray has no CUDA backend\n  use --backend cpu, or auto: the results are what they would be");
+    throw Error(ErrorKind::device,
+                "error: this build of tofray has no CUDA backend\n  use --backend cpu, or auto: the results are what they would be");
   refuse("--backend", value, "auto or cpu");
 }
 
@@ -76,27 +81,89 @@ std::vector<OptionSpec> make() {
   return {
       {"--output", 'o', "DIR", "folder to write to", [](Options& o, const std::string& v) { o.output = v; }, {}, true},
       {"--set", 0, "KEY=VALUE", "change a key of the scene, or of its camera as camera.…; as often as you like", take_set, {}},
-      {"--mode", 0, "NAME", "the camera's mode (`tofray list cameras` names them)", [](Options& o, const std::string& v) { o.mode = v; }, {}},
-      {"--camera", 0, "PROFILE", "camera profile: a built-in name or a file", [](Options& o, const std::string& v) { o.camera = v; }, {}, true},
-      {"--seed", 0, "N", "seed of the noise: another one, other noise (0)",
-       [](Options& o, const std::string& v) { o.seed = whole("--seed", v, 0, UINT64_MAX, "a whole number of 0 to 18446744073709551615"); }, {}},
-      {"--noise", 0, "KIND", "off: expected values; fast: one normal per tap; exact: true Poisson (exact)", take_noise, {"off", "fast", "exact"}},
-      {"--frames", 0, "N", "how many frames",
-       [](Options& o, const std::string& v) { o.frames = whole("--frames", v, 1, most_frames, "a whole number of 1 to 1000000000"); }, {}},
-      {"--first-frame", 0, "I", "number of the first frame: a part of a longer run (0)",
-       [](Options& o, const std::string& v) { o.first_frame = whole("--first-frame", v, 0, most_frames, "a whole number of 0 to 1000000000"); }, {}},
-      {"--emit", 0, "KINDS", "what to write, out of npz,png,ply (all for one frame, npz for many)", take_emit, {"npz", "png", "ply", "npz,png", "npz,png,ply"}},
-      {"--from", 0, "MANIFEST", "make again what a manifest.json describes, byte for byte", [](Options& o, const std::string& v) { o.from = v; }, {}, true},
-      {"--root", 0, "DIR", "where a scene's profile may lie besides the scene's own folder", [](Options& o, const std::string& v) { o.root = v; }, {}, true},
+      {"--mode",
+       0,
+       "NAME",
+       "the camera's mode (`tofray list cameras` names them)",
+       [](Options& o, const std::string& v) { o.mode = v; },
+       {}},
+      {"--camera",
+       0,
+       "PROFILE",
+       "camera profile: a built-in name or a file",
+       [](Options& o, const std::string& v) { o.camera = v; },
+       {},
+       true},
+      {"--seed",
+       0,
+       "N",
+       "seed of the noise: another one, other noise (0)",
+       [](Options& o, const std::string& v) { o.seed = whole("--seed", v, 0, UINT64_MAX, "a whole number of 0 to 18446744073709551615"); },
+       {}},
+      {"--noise",
+       0,
+       "KIND",
+       "off: expected values; fast: one normal per tap; exact: true Poisson (exact)",
+       take_noise,
+       {"off", "fast", "exact"}},
+      {"--frames",
+       0,
+       "N",
+       "how many frames",
+       [](Options& o, const std::string& v) { o.frames = whole("--frames", v, 1, most_frames, "a whole number of 1 to 1000000000"); },
+       {}},
+      {"--first-frame",
+       0,
+       "I",
+       "number of the first frame: a part of a longer run (0)",
+       [](Options& o, const std::string& v) {
+         o.first_frame = whole("--first-frame", v, 0, most_frames, "a whole number of 0 to 1000000000");
+       },
+       {}},
+      {"--emit",
+       0,
+       "KINDS",
+       "what to write, out of npz,png,ply (all for one frame, npz for many)",
+       take_emit,
+       {"npz", "png", "ply", "npz,png", "npz,png,ply"}},
+      {"--from",
+       0,
+       "MANIFEST",
+       "make again what a manifest.json describes, byte for byte",
+       [](Options& o, const std::string& v) { o.from = v; },
+       {},
+       true},
+      {"--root",
+       0,
+       "DIR",
+       "where a scene's profile may lie besides the scene's own folder",
+       [](Options& o, const std::string& v) { o.root = v; },
+       {},
+       true},
       {"--pixel", 0, "U,V", "show one pixel's whole chain, from light to depth", take_pixel, {}},
-      {"--threads", 0, "N", "threads to use; the results are the same (0: one per core)",
-       [](Options& o, const std::string& v) { o.threads = static_cast<int>(whole("--threads", v, 0, 1024, "a whole number of 0 to 1024")); }, {}},
+      {"--threads",
+       0,
+       "N",
+       "threads to use; the results are the same (0: one per core)",
+       [](Options& o, const std::string& v) {
+         o.threads = static_cast<int>(whole("--threads", v, 0, 1024, "a whole number of 0 to 1024"));
+       },
+       {}},
       {"--backend", 0, "NAME", "what to compute on: auto or cpu (auto)", take_backend, {"auto", "cpu"}},
-      {"--warmup", 0, "N", "frames that run before the clock does (3)",
-       [](Options& o, const std::string& v) { o.warmup = whole("--warmup", v, 0, most_frames, "a whole number of 0 to 1000000000"); }, {}},
+      {"--warmup",
+       0,
+       "N",
+       "frames that run before the clock does (3)",
+       [](Options& o, const std::string& v) { o.warmup = whole("--warmup", v, 0, most_frames, "a whole number of 0 to 1000000000"); },
+       {}},
       {"--compare", 0, nullptr, "run variants in turn and print ratios", [](Options& o, const std::string&) { o.compare = true; }, {}},
       {"--json", 0, nullptr, "one JSON object on stdout", [](Options& o, const std::string&) { o.json = true; }, {}},
-      {"--quiet", 'q', nullptr, "no progress and no summary; warnings and errors stay", [](Options& o, const std::string&) { o.quiet = true; }, {}},
+      {"--quiet",
+       'q',
+       nullptr,
+       "no progress and no summary; warnings and errors stay",
+       [](Options& o, const std::string&) { o.quiet = true; },
+       {}},
   };
 }
 

@@ -18,12 +18,12 @@ struct Options {
   std::vector<std::pair<std::string, std::string>> set;  ///< --set, in order
   std::optional<std::uint64_t> seed;
   std::optional<Noise> noise;
-  std::optional<std::vector<std::string>> emit;          ///< out of npz, png, ply
+  std::optional<std::vector<std::string>> emit;  ///< out of npz, png, ply
   std::optional<std::uint64_t> frames;
-  std::optional<std::pair<int, int>> pixel;              ///< u, v
+  std::optional<std::pair<int, int>> pixel;  ///< u, v
   std::uint64_t first_frame = 0;
   std::uint64_t warmup = 3;
-  int threads = 0;                                       ///< 0: one per core
+  int threads = 0;  ///< 0: one per core
   std::string mode, camera, root, from, output;
   bool json = false, quiet = false, compare = false;
 };

@@ -24,14 +24,16 @@ void refuse_unknown(const Command& command, const std::string& word) {
   names.emplace_back("--help");
   const std::string name = word.substr(0, word.find('='));
   for (const OptionSpec& one : all_options()) {
-    if (name == one.name) refuse(command, fmt::format("`tofray {}` has no option {}", command.name, name), "it has " + base::listed(names, "and"));
+    if (name == one.name)
+      refuse(command, fmt::format("`tofray {}` has no option {}", command.name, name), "it has " + base::listed(names, "and"));
   }
-  if (word.starts_with('-'))
-    refuse(command, fmt::format("unknown option {}{}", base::in_quotes(name), base::did_you_mean(name, names)));
+  if (word.starts_with('-')) refuse(command, fmt::format("unknown option {}{}", base::in_quotes(name), base::did_you_mean(name, names)));
   refuse(command, fmt::format("unexpected {}", base::in_quotes(word)), fmt::format("expected tofray {} {}", command.name, command.usage));
 }
 
-std::string names_of(const OptionSpec& one) { return one.letter != 0 ? fmt::format("-{},{}", one.letter, one.name) : std::string(one.name); }
+std::string names_of(const OptionSpec& one) {
+  return one.letter != 0 ? fmt::format("-{},{}", one.letter, one.name) : std::string(one.name);
+}
 
 void add(CLI::App& app, const OptionSpec& one, Options& options) {
   if (one.value == nullptr) {
@@ -42,7 +44,11 @@ void add(CLI::App& app, const OptionSpec& one, Options& options) {
     for (const std::string& value : values) one.take(options, value);
     return true;
   };
-  app.add_option(names_of(one), take)->type_name(one.value)->expected(1)->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)->allow_extra_args(false);
+  app.add_option(names_of(one), take)
+      ->type_name(one.value)
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
+      ->allow_extra_args(false);
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 
 #include "base/constants.h"
 #include "camera/frozen_camera.h"
+#include "depth/decode.h"
 #include "io/meta_camera.h"
 #include "num/setup_math.h"
 #include "results.h"
@@ -119,11 +120,10 @@ void calibrate(const camera::DecoderView& d, std::size_t pixel, PixelChain& chai
   for (std::size_t i = 0; i < chain.phases.size() && i < static_cast<std::size_t>(d.modulations); ++i) {
     ChainPhase& phase = chain.phases[i];
     const camera::DecodeModulation& m = d.modulation[i];
-    const double place = phase.measured_turns * d.wiggling_nodes, node = std::min(std::floor(place), static_cast<double>(d.wiggling_nodes - 1));
-    const auto at = static_cast<std::size_t>(node);
-    const double left = static_cast<double>(m.wiggling[at]), right = static_cast<double>(m.wiggling[at + 1]);
+    float slope = 0;
+    const auto calibrated = static_cast<double>(depth::unwiggle<float>(d, m, static_cast<float>(phase.measured_turns), slope));
     const double delay = d.delay == nullptr ? 0 : static_cast<double>(d.delay[pixel]);
-    phase.calibrated_turns = phase.measured_turns + left + (place - node) * (right - left) - delay * phase.modulation_frequency_hz;
+    phase.calibrated_turns = calibrated - delay * phase.modulation_frequency_hz;
     phase.calibrated_turns -= std::floor(phase.calibrated_turns);
     phase.half_wave_m = static_cast<double>(m.half_wave);
     phase.cycles = std::round(half_path(chain, d) / phase.half_wave_m - phase.calibrated_turns) + 0.0;  // no -0
@@ -133,7 +133,8 @@ void calibrate(const camera::DecoderView& d, std::size_t pixel, PixelChain& chai
 
 void read_depth(const Arrays& arrays, std::size_t pixel, PixelChain& out) {
   out.range_m = arrays.at("range_m", pixel), out.z_m = arrays.at("z_m", pixel), out.noise_m = arrays.at("noise_m", pixel);
-  out.amplitude_e = arrays.at("amplitude_e", pixel), out.ambient_e = arrays.at("ambient_e", pixel), out.confidence = arrays.at("confidence", pixel);
+  out.amplitude_e = arrays.at("amplitude_e", pixel), out.ambient_e = arrays.at("ambient_e", pixel),
+  out.confidence = arrays.at("confidence", pixel);
   out.point_m = triple(arrays, "points_m", pixel);
   const double flags = arrays.at("flags", pixel);
   const auto bits = static_cast<unsigned>(std::isfinite(flags) ? flags : 0);
@@ -146,10 +147,12 @@ void read_depth(const Arrays& arrays, std::size_t pixel, PixelChain& out) {
 
 PixelChain pixel_chain(const Arrays& arrays, int u, int v) {
   if (arrays.width() == 0)
-    throw Error(ErrorKind::bad_input, arrays.where() + ": error: there is no image in this file\n  expected raw, tap_a, z_m or range_m [height, width]");
+    throw Error(ErrorKind::bad_input,
+                arrays.where() + ": error: there is no image in this file\n  expected raw, tap_a, z_m or range_m [height, width]");
   if (static_cast<std::size_t>(u) >= arrays.width() || static_cast<std::size_t>(v) >= arrays.height())
-    throw Error(ErrorKind::bad_input, fmt::format("error: pixel {},{} is outside the image\n  expected a column of 0 to {} and a row of 0 to {}", u, v,
-                                                  arrays.width() - 1, arrays.height() - 1));
+    throw Error(ErrorKind::bad_input,
+                fmt::format("error: pixel {},{} is outside the image\n  expected a column of 0 to {} and a row of 0 to {}", u, v,
+                            arrays.width() - 1, arrays.height() - 1));
   const std::size_t pixel = static_cast<std::size_t>(v) * arrays.width() + static_cast<std::size_t>(u);
   PixelChain chain;
   chain.u = u, chain.v = v;

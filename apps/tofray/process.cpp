@@ -42,8 +42,10 @@ std::string meta_of(std::string_view bytes, const std::string& path) {
 Camera camera_for(const Options& options, const std::string& meta, const std::string& path) {
   if (!options.camera.empty()) return load_camera(options.camera, {options.mode, camera_settings(options), {}});
   if (meta.empty())
-    throw Error(ErrorKind::bad_input, path + ": error: the file does not say which camera made it\n  name its profile, as in --camera mycam.yaml");
-  if (!options.mode.empty()) throw Error(ErrorKind::bad_input, "error: --mode goes with --camera\n  the file itself says how its raw frames were taken");
+    throw Error(ErrorKind::bad_input,
+                path + ": error: the file does not say which camera made it\n  name its profile, as in --camera mycam.yaml");
+  if (!options.mode.empty())
+    throw Error(ErrorKind::bad_input, "error: --mode goes with --camera\n  the file itself says how its raw frames were taken");
   return io::camera_of_meta(meta, path, camera_settings(options));
 }
 
@@ -66,7 +68,8 @@ int run_process(const Options& options) {
   in.scene.name = std::filesystem::path(path).stem().native();
   in.camera = camera_for(options, meta, path);
   in.files.push_back({"raw", path, {}});
-  if (!options.camera.empty() && !in.camera.source.starts_with("<")) in.files.push_back({"profile", in.camera.source, io::read_text(in.camera.source)});
+  if (!options.camera.empty() && !in.camera.source.starts_with("<"))
+    in.files.push_back({"profile", in.camera.source, io::read_text(in.camera.source)});
   Frame frame;
   frame.raw = io::parse_raw_npz(bytes, path);
   SimulatorOptions wanted = simulator_options(options);
@@ -85,8 +88,10 @@ int run_process(const Options& options) {
   const Machine machine{backend::isa_name(backend::choose_isa(wanted.isa)), wanted.threads > 0 ? wanted.threads : cores};
   write_manifest(folder, options, in.files, machine, stopwatch);
   if (validity(frame.depth).valid == 0) say(fmt::format("warning: no pixel has a valid depth: {}\n", validity(frame.depth).reasons));
-  if (options.json) print(io::json_text(summary_json(folder, frame.depth, 1, machine, stopwatch), 2) + "\n");
-  else Talk(options.quiet)(summary_text(folder, frame.depth, 1, machine, stopwatch));
+  if (options.json)
+    print(io::json_text(summary_json(folder, frame.depth, 1, machine, stopwatch), 2) + "\n");
+  else
+    Talk(options.quiet)(summary_text(folder, frame.depth, 1, machine, stopwatch));
   return 0;
 }
 

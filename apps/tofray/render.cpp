@@ -19,18 +19,25 @@ namespace {
 /// What a run was told, put back from its manifest. What changes no bytes (threads, folder) stays as it was typed now.
 Options recalled(const Options& now, const io::Manifest& manifest) {
   Options options = now;
-  if (!now.words.empty() || !now.set.empty() || !now.mode.empty() || now.seed || now.noise || now.emit || now.frames || now.first_frame != 0)
-    throw Error(ErrorKind::bad_input, "error: --from makes the same bytes again and takes no other scene and no other settings\n"
-                                      "  with it there may be -o, --threads, --backend, --json and --quiet");
+  if (!now.words.empty() || !now.set.empty() || !now.mode.empty() || now.seed || now.noise || now.emit || now.frames ||
+      now.first_frame != 0)
+    throw Error(ErrorKind::bad_input,
+                "error: --from makes the same bytes again and takes no other scene and no other settings\n"
+                "  with it there may be -o, --threads, --backend, --json and --quiet");
   options.set = manifest.set;
   options.seed = manifest.seed;
   for (const auto& [key, value] : manifest.options) {
-    if (key == "mode") options.mode = value;
-    else if (key == "noise" || key == "emit" || key == "frames" || key == "first-frame") option("--" + key).take(options, value);
-    else throw Error(ErrorKind::bad_input, fmt::format("{}: error: unknown option {}\n  a newer tofray wrote this", now.from, base::in_quotes(key)));
+    if (key == "mode")
+      options.mode = value;
+    else if (key == "noise" || key == "emit" || key == "frames" || key == "first-frame")
+      option("--" + key).take(options, value);
+    else
+      throw Error(ErrorKind::bad_input,
+                  fmt::format("{}: error: unknown option {}\n  a newer tofray wrote this", now.from, base::in_quotes(key)));
   }
   if (manifest.tofray_version != io::version())
-    say(fmt::format("warning: tofray {} wrote this manifest, this is {}\n  the bytes may differ\n", manifest.tofray_version, io::version()));
+    say(fmt::format("warning: tofray {} wrote this manifest, this is {}\n  the bytes may differ\n", manifest.tofray_version,
+                    io::version()));
   return options;
 }
 
@@ -50,11 +57,12 @@ std::string suffix_of(std::uint64_t index, std::uint64_t last) {
 }
 
 struct Rendered {
-  Frame frame;                                   ///< the last one
-  std::uint64_t all_invalid = 0;                 ///< frames without any valid pixel
+  Frame frame;                    ///< the last one
+  std::uint64_t all_invalid = 0;  ///< frames without any valid pixel
 };
 
-void render_frames(Simulator& simulator, const Options& options, const Inputs& in, io::OutputFolder& folder, Stopwatch& stopwatch, Rendered& out) {
+void render_frames(Simulator& simulator, const Options& options, const Inputs& in, io::OutputFolder& folder, Stopwatch& stopwatch,
+                   Rendered& out) {
   const std::uint64_t frames = options.frames.value_or(1), first = options.first_frame;
   // One frame has no number, unless it was asked for by number.
   const bool numbered = options.frames.has_value() || first > 0;
@@ -73,8 +81,8 @@ void render_frames(Simulator& simulator, const Options& options, const Inputs& i
 
 void warn_of_invalid(const Rendered& out, std::uint64_t frames) {
   if (out.all_invalid == 0) return;
-  say(fmt::format("warning: no pixel has a valid depth in {} of {} frame{}\n  in the last frame: {}\n", out.all_invalid, frames, frames == 1 ? "" : "s",
-                  validity(out.frame.depth).reasons));
+  say(fmt::format("warning: no pixel has a valid depth in {} of {} frame{}\n  in the last frame: {}\n", out.all_invalid, frames,
+                  frames == 1 ? "" : "s", validity(out.frame.depth).reasons));
 }
 
 }  // namespace
@@ -97,12 +105,14 @@ int run_render(const Options& typed) {
   write_manifest(folder, options, in.files, machine, stopwatch);
   warn_of_invalid(out, frames);
 
-  if (options.json) print(io::json_text(summary_json(folder, out.frame.depth, frames, machine, stopwatch), 2) + "\n");
-  else Talk(options.quiet)(summary_text(folder, out.frame.depth, frames, machine, stopwatch));
+  if (options.json)
+    print(io::json_text(summary_json(folder, out.frame.depth, frames, machine, stopwatch), 2) + "\n");
+  else
+    Talk(options.quiet)(summary_text(folder, out.frame.depth, frames, machine, stopwatch));
   const std::vector<std::string> changed = typed.from.empty() ? std::vector<std::string>() : changed_files(before, folder);
   if (changed.empty()) return 0;
-  say(fmt::format("error: {} of {} files are not the bytes that {} lists: {}\n  it was written by tofray {} on {} ({})\n", changed.size(), before.files.size(),
-                  typed.from, base::listed(changed, "and"), before.tofray_version, before.cpu_model, before.isa));
+  say(fmt::format("error: {} of {} files are not the bytes that {} lists: {}\n  it was written by tofray {} on {} ({})\n", changed.size(),
+                  before.files.size(), typed.from, base::listed(changed, "and"), before.tofray_version, before.cpu_model, before.isa));
   return 1;
 }
 

@@ -13,8 +13,11 @@ namespace tofray::app {
 
 namespace {
 
+/// Bytes that are not UTF-8 replaced as JSON replaces them: a scene that comes from a manifest has the same caption.
+std::string as_utf8(const std::string& name) { return *io::parse_json(io::json_text(io::Json(name)), "name").string(); }
+
 std::string caption(const Frame& frame, const Inputs& inputs) {
-  std::string text = fmt::format("{} seen by {}", inputs.scene.name, inputs.camera.name);
+  std::string text = fmt::format("{} seen by {}", as_utf8(inputs.scene.name), inputs.camera.name);
   if (!inputs.camera.mode.name.empty()) text += " " + inputs.camera.mode.name;
   if (frame.index > 0) text += fmt::format(", frame {}", frame.index);
   return text;
@@ -54,8 +57,8 @@ io::PoseMatrix camera_pose(const Scene& scene) {
 }
 
 const std::vector<std::string>& flag_names() {
-  static const std::vector<std::string> names = {"saturated",           "low signal", "flying pixel", "no return", "outside the lens model",
-                                                 "inconsistent phases", "inconsistent frequencies"};
+  static const std::vector<std::string> names = {
+      "saturated", "low signal", "flying pixel", "no return", "outside the lens model", "inconsistent phases", "inconsistent frequencies"};
   return names;
 }
 
@@ -66,11 +69,16 @@ Validity validity(const Depth& depth) {
   for (const std::uint16_t flags : depth.flags) {
     if ((flags & flags_invalid) == 0) ++out.valid;
     // A pixel that got nothing back is also weak and noisy: the flag that explains most comes first.
-    else if ((flags & flag_outside_lens) != 0) ++counts[4];
-    else if ((flags & flag_saturated) != 0) ++counts[0];
-    else if ((flags & flag_no_return) != 0) ++counts[3];
-    else if ((flags & flag_low_signal) != 0) ++counts[1];
-    else ++counts[2];
+    else if ((flags & flag_outside_lens) != 0)
+      ++counts[4];
+    else if ((flags & flag_saturated) != 0)
+      ++counts[0];
+    else if ((flags & flag_no_return) != 0)
+      ++counts[3];
+    else if ((flags & flag_low_signal) != 0)
+      ++counts[1];
+    else
+      ++counts[2];
   }
   for (std::size_t i = 0; i < counts.size(); ++i) {
     if (counts[i] > 0) out.reasons += fmt::format("{}{} {}", out.reasons.empty() ? "" : ", ", counts[i], flag_names()[i]);

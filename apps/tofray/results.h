@@ -59,7 +59,9 @@ void write_manifest(io::OutputFolder& folder, const Options& options, const std:
                     const Stopwatch& stopwatch);
 
 /// How a run went, for --json and for people.
-io::Json summary_json(const io::OutputFolder& folder, const Depth& last, std::uint64_t frames, const Machine& machine, const Stopwatch& stopwatch);
-std::string summary_text(const io::OutputFolder& folder, const Depth& last, std::uint64_t frames, const Machine& machine, const Stopwatch& stopwatch);
+io::Json summary_json(const io::OutputFolder& folder, const Depth& last, std::uint64_t frames, const Machine& machine,
+                      const Stopwatch& stopwatch);
+std::string summary_text(const io::OutputFolder& folder, const Depth& last, std::uint64_t frames, const Machine& machine,
+                         const Stopwatch& stopwatch);
 
 }  // namespace tofray::app

@@ -56,7 +56,8 @@ void write_manifest(io::OutputFolder& folder, const Options& options, const std:
   folder.write("manifest.json", io::manifest_text(manifest));
 }
 
-io::Json summary_json(const io::OutputFolder& folder, const Depth& last, std::uint64_t frames, const Machine& machine, const Stopwatch& stopwatch) {
+io::Json summary_json(const io::OutputFolder& folder, const Depth& last, std::uint64_t frames, const Machine& machine,
+                      const Stopwatch& stopwatch) {
   io::Json files = io::Json::array(), timings = io::Json::object();
   for (const io::FileRecord& file : folder.files())
     files.push(io::Json::object().set("name", file.name).set("bytes", file.bytes).set("sha256", file.sha256));
@@ -67,7 +68,8 @@ io::Json summary_json(const io::OutputFolder& folder, const Depth& last, std::ui
   return json.set("isa", machine.isa).set("threads", machine.threads).set("timings_s", std::move(timings)).set("files", std::move(files));
 }
 
-std::string summary_text(const io::OutputFolder& folder, const Depth& last, std::uint64_t frames, const Machine& machine, const Stopwatch& stopwatch) {
+std::string summary_text(const io::OutputFolder& folder, const Depth& last, std::uint64_t frames, const Machine& machine,
+                         const Stopwatch& stopwatch) {
   double bytes = 0;
   for (const io::FileRecord& file : folder.files()) bytes += static_cast<double>(file.bytes);
   const Validity pixels = validity(last);
@@ -75,8 +77,11 @@ std::string summary_text(const io::OutputFolder& folder, const Depth& last, std:
   text += fmt::format("{} of {} pixels {}have a depth{}{}\n", pixels.valid, pixels.pixels, frames > 1 ? "of the last frame " : "",
                       pixels.reasons.empty() ? "" : "; invalid: ", pixels.reasons);
   const double simulating = stage_seconds(stopwatch, "simulate");
-  if (frames > 1) text += fmt::format("{} frames in {:.2f} s: {:.1f} frames/s simulated", frames, stopwatch.total(), static_cast<double>(frames) / simulating);
-  else text += fmt::format("{:.2f} s", stopwatch.total());
+  if (frames > 1)
+    text += fmt::format("{} frames in {:.2f} s: {:.1f} frames/s simulated", frames, stopwatch.total(),
+                        static_cast<double>(frames) / simulating);
+  else
+    text += fmt::format("{:.2f} s", stopwatch.total());
   return text + fmt::format(" with {} on {} thread{}\n", machine.isa, machine.threads, machine.threads == 1 ? "" : "s");
 }
 

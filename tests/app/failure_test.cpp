@@ -1,0 +1,162 @@
+// SPDX-FileCopyrightText: 2026 The tofray authors
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+
+#include "io/npz.h"
+#include "tool.h"
+
+namespace tofray::test {
+namespace {
+
+/// Names that a run which did not finish may not leave behind.
+std::vector<std::string> temporaries(const fs::path& folder) {
+  std::vector<std::string> found;
+  for (const auto& entry : fs::recursive_directory_iterator(folder)) {
+    if (has(entry.path().filename().native(), ".tmp")) found.push_back(entry.path().native());
+  }
+  return found;
+}
+
+Prepare stdout_to(const char* path) {
+  return [path] { ::dup2(::open(path, O_WRONLY), 1); };
+}
+
+TEST(full_disk, on_stdout_ends_with_3) {
+  for (const Arguments& arguments :
+       {Arguments{"list", "scenes"}, Arguments{"schema", "scene"}, Arguments{"--help"}, Arguments{"completion", "zsh"}}) {
+    const Result result = run(arguments, stdout_to("/dev/full"));
+    EXPECT_EQ(result.code, 3);
+    EXPECT_TRUE(has(result.err, "No space left on device")) << result.err;
+  }
+}
+
+TEST(full_disk, under_a_file_ends_with_3_and_says_how_much_was_needed) {
+  const Folder folder;
+  fs::create_directory(folder / "out");
+  fs::create_symlink("/dev/full", folder / "out" / "depth.png");
+  const Result result = run(with_small_sensor({"render", "card", "-o", "out"}), in_folder(folder.path()));
+  EXPECT_EQ(result.code, 3);
+  EXPECT_TRUE(has(result.err, "depth.png") && has(result.err, "needed ")) << result.err;
+  EXPECT_FALSE(fs::exists(folder / "out" / "manifest.json"));
+}
+
+TEST(full_disk, leaves_the_old_file_and_no_temporary) {
+  const Folder folder;
+  fs::create_directory(folder / "out");
+  std::ofstream(folder / "out" / "frame.npz") << "old";
+  const auto limited = [&] {
+    in_folder(folder.path())();
+    const rlimit limit{20'000, 20'000};
+    ::setrlimit(RLIMIT_FSIZE, &limit);
+  };
+  const Result result = run(with_small_sensor({"render", "card", "-o", "out"}), limited);
+  EXPECT_EQ(result.code, 3);
+  EXPECT_TRUE(has(result.err, "frame.npz")) << result.err;
+  EXPECT_EQ(content(folder / "out" / "frame.npz"), "old");
+  EXPECT_EQ(temporaries(folder.path()), std::vector<std::string>());
+}
+
+TEST(unwritable, places_end_with_3_and_name_the_place) {
+  const Folder folder;
+  std::ofstream(folder / "file") << "x";
+  const std::string long_name(300, 'n');
+  for (const std::string& place :
+       {std::string("/proc/tofray"), std::string("/sys/tofray"), std::string("file"), std::string("file/below"), long_name}) {
+    const Result result = run(with_small_sensor({"render", "card", "-o", place}), in_folder(folder.path()));
+    EXPECT_EQ(result.code, 3) << place;
+    EXPECT_TRUE(has(result.err, place + ": error: ")) << result.err;
+  }
+  EXPECT_EQ(content(folder / "file"), "x");
+}
+
+TEST(unreadable, files_end_with_3) {
+  const Folder folder;
+  fs::create_directory(folder / "folder.yaml");
+  EXPECT_EQ(run({"render", "folder.yaml"}, in_folder(folder.path())).code, 3);
+  EXPECT_EQ(run({"inspect", "folder.npz"}, in_folder(folder.path())).code, 3);
+  EXPECT_EQ(run({"render", "--from", "folder.yaml"}, in_folder(folder.path())).code, 3);
+}
+
+TEST(malformed, files_end_with_2) {
+  const Folder folder;
+  for (const char* name : {"bad.npz", "bad.npy", "bad.yaml", "bad.json"}) std::ofstream(folder / name) << "{[}";
+  const Prepare here = in_folder(folder.path());
+  for (const Arguments& arguments : {Arguments{"inspect", "bad.npz"}, Arguments{"inspect", "bad.npy"}, Arguments{"process", "bad.npz"},
+                                     Arguments{"render", "bad.yaml"}, Arguments{"check", "bad.yaml"},
+                                     Arguments{"render", "--from", "bad.json"}, Arguments{"process", "bad.npz", "--camera", "bad.yaml"}}) {
+    const Result result = run(arguments, here);
+    EXPECT_EQ(result.code, 2) << arguments[0] << " " << arguments[1];
+    EXPECT_TRUE(has(result.err, "bad.")) << result.err;
+  }
+}
+
+TEST(memory, that_does_not_suffice_ends_with_4) {
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+  GTEST_SKIP() << "sanitizers need all the address space for themselves";
+#endif
+  const Folder folder;
+  // Too little for the frame itself, for the file's bytes, or for something in between: about 100 MB each.
+  for (const rlim_t most : {200'000'000, 300'000'000, 400'000'000}) {
+    const Result result = run({"render", "card", "--set", "camera.sensor.width=1200", "--set", "camera.sensor.height=800", "--set",
+                               "camera.lens.distortion={k1: 0}", "--threads", "1"},
+                              [&] {
+                                in_folder(folder.path())();
+                                const rlimit limit{most, most};
+                                ::setrlimit(RLIMIT_AS, &limit);
+                              });
+    EXPECT_EQ(result.code, 4) << most << " " << result.err;
+    EXPECT_TRUE(has(result.err, "out of memory")) << result.err;
+  }
+}
+
+/// Starts a long run, waits until it has written a frame, and then ends it by a signal, a little later each time.
+void interrupt(int signal, int expected) {
+  for (int round = 0; round < 10; ++round) {
+    const Folder folder;
+    const pid_t child = start(with_small_sensor({"render", "flying-ball", "-o", "out", "--frames", "9999"}), folder / "stdout",
+                              folder / "stderr", in_folder(folder.path()));
+    const fs::path second = folder / "out" / "frame_0001.npz";
+    for (int i = 0; i < 10'000 && !fs::exists(second); ++i) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    ASSERT_TRUE(fs::exists(second)) << content(folder / "stderr");
+    std::this_thread::sleep_for(std::chrono::microseconds(137 * round));
+    ::kill(child, signal);
+    EXPECT_EQ(finish(child), expected);
+    EXPECT_EQ(temporaries(folder.path()), std::vector<std::string>());
+    EXPECT_FALSE(fs::exists(folder / "out" / "manifest.json"));
+    for (const auto& entry : fs::directory_iterator(folder / "out")) EXPECT_NO_THROW(io::read_npz(entry.path())) << entry.path();
+  }
+}
+
+TEST(interrupted, by_ctrl_c_ends_with_130_and_whole_files) { interrupt(SIGINT, 130); }
+TEST(interrupted, politely_ends_with_143_and_whole_files) { interrupt(SIGTERM, 143); }
+TEST(interrupted, by_hang_up_ends_with_129_and_whole_files) { interrupt(SIGHUP, 129); }
+TEST(interrupted, by_a_reader_that_went_away_ends_with_141_and_whole_files) { interrupt(SIGPIPE, 141); }
+
+TEST(interrupted, output_to_a_closed_pipe_says_nothing) {
+  for (int round = 0; round < 10; ++round) {
+    const Result result = run({"schema", "scene"}, [] {
+      int ends[2];
+      if (::pipe(ends) != 0) ::_exit(126);
+      ::close(ends[0]);
+      ::dup2(ends[1], 1);
+    });
+    EXPECT_EQ(result.code, 141);
+    EXPECT_EQ(result.err, "");
+  }
+}
+
+TEST(interrupted, nohup_is_respected) {
+  const Folder folder;
+  const pid_t child =
+      start(with_small_sensor({"render", "flying-ball", "-o", "out", "--frames", "40"}), folder / "stdout", folder / "stderr", [&] {
+        in_folder(folder.path())();
+        ::signal(SIGHUP, SIG_IGN);
+      });
+  for (int i = 0; i < 10'000 && !fs::exists(folder / "out" / "frame_0001.npz"); ++i)
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  ::kill(child, SIGHUP);
+  EXPECT_EQ(finish(child), 0) << content(folder / "stderr");
+}
+
+}  // namespace
+}  // namespace tofray::test

@@ -1,0 +1,347 @@
+// SPDX-FileCopyrightText: 2026 The tofray authors
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "io/builtin.h"
+#include "io/json.h"
+#include "io/npz.h"
+#include "io/sha256.h"
+#include "tool.h"
+
+namespace tofray::test {
+namespace {
+
+const std::vector<std::string> all_files = {"amplitude.png", "cloud.ply", "depth.png", "frame.npz", "preview.png", "raw.png"};
+
+std::vector<std::string> names_of(const std::map<std::string, std::string>& files) {
+  std::vector<std::string> names;
+  for (const auto& [name, bytes] : files) names.push_back(name);
+  return names;
+}
+
+TEST(demo, writes_all_files_and_draws_a_picture) {
+  const Folder folder;
+  const Result result = run({"demo"}, in_folder(folder.path()));
+  EXPECT_EQ(result.code, 0) << result.err;
+  EXPECT_EQ(names_of(files_of(folder / "tofray-demo")), all_files);
+  EXPECT_GT(std::count(result.out.begin(), result.out.end(), '\n'), 30);
+  EXPECT_FALSE(has(result.out, "\x1b["));  // no colours where stdout is no terminal
+  EXPECT_TRUE(has(result.out, "pixels have a depth"));
+  EXPECT_EQ(result.err, "");
+}
+
+TEST(demo, manifest_lists_every_file_with_its_hash) {
+  const Folder folder;
+  ASSERT_EQ(run(with_small_sensor({"demo", "-o", "out", "--quiet"}), in_folder(folder.path())).code, 0);
+  const io::Json manifest = io::parse_json(content(folder / "out" / "manifest.json"), "manifest.json");
+  std::map<std::string, std::string> hashes, listed;
+  for (const auto& [name, bytes] : files_of(folder / "out")) hashes[name] = io::sha256_hex(bytes);
+  for (const io::Json& file : *manifest.find("files")->items()) listed[*file.find("name")->string()] = *file.find("sha256")->string();
+  EXPECT_EQ(hashes, listed);
+}
+
+class render_of : public testing::TestWithParam<std::string> {};
+
+TEST_P(render_of, a_builtin_scene_works) {
+  const Folder folder;
+  const Result result = run({"render", GetParam(), "--emit", "npz"}, in_folder(folder.path()));
+  EXPECT_EQ(result.code, 0) << result.err;
+  EXPECT_FALSE(has(result.err, "warning")) << result.err;
+  const auto arrays = io::read_npz(folder / GetParam() / "frame.npz", {"flags"});
+  ASSERT_EQ(arrays.size(), 1u);
+  std::size_t valid = 0;
+  for (std::size_t i = 0; i < arrays[0].array.count(); ++i) valid += (static_cast<unsigned>(arrays[0].array.number(i)) & 31u) == 0 ? 1 : 0;
+  EXPECT_GT(valid, 0u);
+}
+
+std::vector<std::string> scene_names() {
+  std::vector<std::string> names;
+  for (const io::Builtin& one : io::builtin_scenes()) names.push_back(one.name);
+  return names;
+}
+
+std::string test_name(const testing::TestParamInfo<std::string>& scene) {
+  std::string name = scene.param;
+  std::replace(name.begin(), name.end(), '-', '_');
+  return name;
+}
+
+INSTANTIATE_TEST_SUITE_P(every, render_of, testing::ValuesIn(scene_names()), test_name);
+
+TEST(render, gives_the_same_bytes_with_any_number_of_threads) {
+  const Folder folder;
+  const Prepare here = in_folder(folder.path());
+  for (const char* threads : {"1", "2", "7"}) ASSERT_EQ(run({"render", "flying-ball", "-o", threads, "--threads", threads}, here).code, 0);
+  EXPECT_EQ(names_of(files_of(folder / "1")), all_files);
+  EXPECT_EQ(files_of(folder / "1"), files_of(folder / "2"));
+  EXPECT_EQ(files_of(folder / "1"), files_of(folder / "7"));
+}
+
+TEST(render, seed_and_noise_change_the_bytes) {
+  const Folder folder;
+  const Prepare here = in_folder(folder.path());
+  const std::vector<Arguments> all = {{}, {"--seed", "1"}, {"--noise", "fast"}, {"--noise", "off"}};
+  std::vector<std::string> bytes;
+  for (Arguments more : all) {
+    more.insert(more.begin(), {"render", "card", "-o", "out"});
+    ASSERT_EQ(run(with_small_sensor(more), here).code, 0);
+    bytes.push_back(content(folder / "out" / "frame.npz"));
+    for (std::size_t i = 0; i + 1 < bytes.size(); ++i) EXPECT_NE(bytes[i], bytes.back());
+  }
+}
+
+TEST(render, many_frames_are_numbered_and_a_part_is_the_same) {
+  const Folder folder;
+  const Prepare here = in_folder(folder.path());
+  ASSERT_EQ(run(with_small_sensor({"render", "flying-ball", "-o", "all", "--frames", "4"}), here).code, 0);
+  ASSERT_EQ(run(with_small_sensor({"render", "flying-ball", "-o", "part", "--frames", "2", "--first-frame", "2"}), here).code, 0);
+  const auto all = files_of(folder / "all"), part = files_of(folder / "part");
+  EXPECT_EQ(names_of(all), (std::vector<std::string>{"frame_0000.npz", "frame_0001.npz", "frame_0002.npz", "frame_0003.npz"}));
+  EXPECT_EQ(names_of(part), (std::vector<std::string>{"frame_0002.npz", "frame_0003.npz"}));
+  for (const auto& [name, bytes] : part) EXPECT_EQ(bytes, all.at(name)) << name;
+  EXPECT_NE(all.at("frame_0000.npz"), all.at("frame_0001.npz"));
+}
+
+TEST(render, replaces_files_of_the_same_name_and_leaves_others_alone) {
+  const Folder folder;
+  fs::create_directory(folder / "out");
+  std::ofstream(folder / "out" / "frame.npz") << "old";
+  std::ofstream(folder / "out" / "notes.txt") << "mine";
+  ASSERT_EQ(run(with_small_sensor({"render", "card", "-o", "out"}), in_folder(folder.path())).code, 0);
+  EXPECT_GT(content(folder / "out" / "frame.npz").size(), 1000u);
+  EXPECT_EQ(content(folder / "out" / "notes.txt"), "mine");
+}
+
+/// Writes a profile of one's own with a measured light pattern and correlation in files beside it, and a scene that takes it.
+void write_own_camera(const fs::path& folder) {
+  fs::create_directories(folder / "tables");
+  std::string profile(io::find_builtin(io::builtin_profiles(), "pico-flexx")->text);
+  std::ofstream(folder / "mycam.yaml") << profile;
+  std::ofstream(folder / "tables" / "pattern.csv") << "# measured\n1, 2.5, 1 # rim\n2, 4, 2\n\n1; 2.25; 1\n";
+  std::ofstream(folder / "correlation.txt") << "0.7 0.5 0\n-0.5\n-0.7 -0.5 0 0.5\n";
+  std::ofstream(folder / "scene.yaml")
+      << "camera:\n"
+         "  profile: mycam.yaml\n"
+         "  illumination.0.pattern: {kind: table, file: tables/pattern.csv, half_range_x: 35 deg, half_range_y: 30 deg}\n"
+         "  illumination.0.waveform: {kind: measured, file: correlation.txt, harmonics: 1}\n"
+         "objects:\n"
+         "  - plane: {point: [0, 0, 1.2], normal: [0, 0, -1], reflectivity: 0.7}\n";
+}
+
+TEST(render, from_a_manifest_makes_the_same_bytes_without_the_files) {
+  const Folder folder;
+  const Prepare here = in_folder(folder.path());
+  write_own_camera(folder.path());
+  const Arguments told = {"render",
+                          "scene.yaml",
+                          "-o",
+                          "out",
+                          "--seed",
+                          "9",
+                          "--noise",
+                          "fast",
+                          "--mode",
+                          "MODE_9_25FPS_450",
+                          "--frames",
+                          "2",
+                          "--emit",
+                          "npz,png",
+                          "--first-frame",
+                          "1",
+                          "--set",
+                          "objects.0.plane.reflectivity=0.6"};
+  const Result first = run(with_small_sensor(told), here);
+  ASSERT_EQ(first.code, 0) << first.err;
+  for (const char* gone : {"scene.yaml", "mycam.yaml", "tables/pattern.csv", "correlation.txt"}) fs::remove(folder / gone);
+  const Result again = run({"render", "--from", "out/manifest.json", "-o", "again", "--threads", "1"}, here);
+  EXPECT_EQ(again.code, 0) << again.err;
+  EXPECT_EQ(files_of(folder / "out").size(), 10u);
+  EXPECT_EQ(files_of(folder / "out"), files_of(folder / "again"));
+}
+
+TEST(render, from_a_manifest_that_lists_other_bytes_is_a_check_not_met) {
+  const Folder folder;
+  const Prepare here = in_folder(folder.path());
+  ASSERT_EQ(run(with_small_sensor({"render", "card", "-o", "out"}), here).code, 0);
+  std::string text = content(folder / "out" / "manifest.json");
+  text.replace(text.find("\"seed\": 0"), 9, "\"seed\": 1");
+  std::ofstream(folder / "out" / "manifest.json") << text;
+  const Result result = run({"render", "--from", "out/manifest.json", "-o", "again"}, here);
+  EXPECT_EQ(result.code, 1);
+  EXPECT_TRUE(has(result.err, "frame.npz"));
+  EXPECT_EQ(run({"render", "--from", "out/manifest.json", "--seed", "3"}, here).code, 2);
+  EXPECT_EQ(run({"render", "card", "--from", "out/manifest.json"}, here).code, 2);
+}
+
+TEST(process, makes_the_same_depth_from_the_file_alone) {
+  const Folder folder;
+  const Prepare here = in_folder(folder.path());
+  for (const char* noise : {"exact", "off"}) {
+    ASSERT_EQ(run({"render", "step-and-rod", "-o", "out", "--noise", noise, "--seed", "4"}, here).code, 0);
+    const Result result = run({"process", "out/frame.npz", "-o", "again"}, here);
+    ASSERT_EQ(result.code, 0) << result.err;
+    for (const char* name : {"depth.png", "amplitude.png", "raw.png", "cloud.ply"}) {
+      if (std::string(name) == "raw.png" && std::string(noise) == "off") continue;  // shows the taps that were taken
+      EXPECT_EQ(content(folder / "out" / name), content(folder / "again" / name)) << noise << " " << name;
+    }
+  }
+}
+
+TEST(process, takes_other_settings) {
+  const Folder folder;
+  const Prepare here = in_folder(folder.path());
+  ASSERT_EQ(run({"render", "card", "-o", "out"}, here).code, 0);
+  ASSERT_EQ(run({"process", "out/frame.npz", "-o", "same", "--camera", "pico-flexx"}, here).code, 0);
+  ASSERT_EQ(run({"process", "out/frame.npz", "-o", "median", "--set", "camera.decoding.filter.kind=median"}, here).code, 0);
+  ASSERT_EQ(run({"process", "out/frame.npz", "-o", "median2", "--set", "decoding.filter.kind=median", "--camera", "pico-flexx"}, here).code,
+            0);
+  EXPECT_EQ(content(folder / "out/depth.png"), content(folder / "same/depth.png"));
+  EXPECT_NE(content(folder / "out/depth.png"), content(folder / "median/depth.png"));
+  EXPECT_EQ(content(folder / "median/depth.png"), content(folder / "median2/depth.png"));
+  EXPECT_EQ(run({"process", "out/frame.npz", "--set", "camera.decoding.filtre.kind=median"}, here).code, 2);
+}
+
+TEST(inspect, shows_one_pixel_from_light_to_depth) {
+  const Folder folder;
+  const Prepare here = in_folder(folder.path());
+  ASSERT_EQ(run({"render", "card", "-o", "out", "--noise", "off"}, here).code, 0);
+  const Result from_file = run({"inspect", "out/frame.npz", "--pixel", "112,86", "--json"}, here);
+  const Result simulated = run({"inspect", "card", "--pixel", "112,86", "--noise", "off", "--json"}, here);
+  ASSERT_EQ(from_file.code, 0) << from_file.err;
+  const auto after_name = [](const std::string& text) { return text.substr(text.find("\"pixel\"")); };
+  EXPECT_EQ(after_name(from_file.out), after_name(simulated.out));
+  const io::Json json = io::parse_json(from_file.out, "stdout");
+  EXPECT_EQ(*json.find("truth")->find("object")->string(), "card");
+  EXPECT_EQ(json.find("raw_frames")->items()->size(), 9u);
+  // Noise-free, both modulation frequencies agree with half the true path to float precision: some 1e-5 m.
+  double range = 0;
+  ASSERT_TRUE(json.find("truth")->find("range_m")->number(range));
+  ASSERT_EQ(json.find("phases")->items()->size(), 2u);
+  for (const io::Json& phase : *json.find("phases")->items()) {
+    double half_path = 0;
+    ASSERT_TRUE(phase.find("half_path_m")->number(half_path));
+    EXPECT_NEAR(half_path, range, 2e-4);  // the light stands 15 mm beside the lens: half the path is 0.12 mm longer at 1 m
+    EXPECT_GT(half_path, range);
+  }
+}
+
+TEST(inspect, lists_every_array_with_its_unit) {
+  const Folder folder;
+  const Prepare here = in_folder(folder.path());
+  ASSERT_EQ(run(with_small_sensor({"render", "card", "-o", "out"}), here).code, 0);
+  const Result result = run({"inspect", "out/frame.npz"}, here);
+  EXPECT_EQ(result.code, 0);
+  for (const io::NamedArray& one : io::read_npz(folder / "out" / "frame.npz"))
+    EXPECT_TRUE(has(result.out, "\n" + one.name + " ")) << one.name;
+  EXPECT_TRUE(has(result.out, "W/(m2 sr)"));
+  EXPECT_TRUE(has(result.out, "pixels with a depth"));
+}
+
+struct Dark {
+  std::string name;
+  Arguments arguments;
+  std::string warning;
+};
+
+class nothing_to_see : public testing::TestWithParam<Dark> {};
+
+TEST_P(nothing_to_see, is_valid_output_with_a_warning) {
+  const Folder folder;
+  std::ofstream(folder / "empty.yaml") << "objects: []\n";
+  Arguments arguments = GetParam().arguments;
+  arguments.insert(arguments.end(), {"-o", "out"});
+  const Result result = run(with_small_sensor(arguments), in_folder(folder.path()));
+  EXPECT_EQ(result.code, 0) << result.err;
+  EXPECT_TRUE(has(result.err, "warning: " + GetParam().warning)) << result.err;
+  EXPECT_EQ(names_of(files_of(folder / "out")), all_files);
+  const auto arrays = io::read_npz(folder / "out" / "frame.npz", {"z_m", "flags", "confidence"});
+  for (const io::NamedArray& one : arrays) {
+    for (std::size_t i = 0; i < one.array.count(); ++i) {
+      const double value = one.array.number(i);
+      const bool invalid = one.name == "z_m"     ? std::isnan(value)
+                           : one.name == "flags" ? (static_cast<unsigned>(value) & 31u) != 0
+                                                 : value == 0;
+      ASSERT_TRUE(invalid) << one.name << " of pixel " << i;
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    all, nothing_to_see,
+    testing::Values(
+        Dark{"empty", {"render", "empty.yaml", "--noise", "off"}, "the scene has no objects"},
+        Dark{"empty_in_the_sun",
+             {"render", "empty.yaml", "--noise", "off", "--set", "ambient={spectrum: sun_am15, level: 50 %}"},
+             "no pixel has a valid depth"},
+        Dark{"no_power",
+             {"render", "card", "--noise", "off", "--set", "camera.illumination.0.power=0 W"},
+             "the camera's light sources have no power"},
+        Dark{"far_away", {"render", "card", "--noise", "off", "--set", "objects.0.plane.point=[0, 0, 900]"}, "no pixel has a valid depth"},
+        Dark{"behind", {"render", "card", "--noise", "off", "--set", "objects.0.plane.point=[0, 0, -1]"}, "no pixel has a valid depth"},
+        Dark{"saturated", {"render", "card", "--set", "camera.illumination.0.power=10 kW"}, "no pixel has a valid depth"},
+        Dark{"black", {"render", "card", "--noise", "off", "--set", "objects.0.plane.reflectivity=0"}, "no pixel has a valid depth"},
+        Dark{"all_noise", {"render", "card", "--set", "camera.pixel.read_noise=100 ke"}, "no pixel has a valid depth"},
+        Dark{"strict", {"render", "card", "--set", "camera.decoding.low_signal_noise=1 um"}, "no pixel has a valid depth"}),
+    [](const testing::TestParamInfo<Dark>& one) { return one.param.name; });
+
+TEST(check, names_every_fault_with_its_place) {
+  const Folder folder;
+  std::ofstream(folder / "scene.yaml")
+      << "objects:\n  - sphere: {center: [0, 0, 1], raduis: 25 cm}\n  - plane: {point: [0, 0, 2 kg], normal: [0, 0, -1]}\n";
+  const Result result = run({"check", "scene.yaml"}, in_folder(folder.path()));
+  EXPECT_EQ(result.code, 2);
+  EXPECT_TRUE(has(result.err, "scene.yaml:2:")) << result.err;
+  EXPECT_TRUE(has(result.err, "scene.yaml:3:")) << result.err;
+  EXPECT_TRUE(has(result.err, "did you mean \"radius\"?")) << result.err;
+  EXPECT_EQ(run({"check", "demo"}).code, 0);
+}
+
+TEST(check, of_a_profile_names_numbers_without_a_source) {
+  const Folder folder;
+  write_own_camera(folder.path());
+  EXPECT_EQ(run({"check", "mycam.yaml"}, in_folder(folder.path())).err, "");
+  std::string text = content(folder / "mycam.yaml");
+  const std::string with_source = "pixel_pitch: {value: 12 um, assumed: usual for a pixel of this kind}";
+  ASSERT_TRUE(has(text, with_source));
+  text.replace(text.find("  source: the paper; the device's SDK"), 2, "  note: x\n  #");
+  std::ofstream(folder / "mycam.yaml") << text;
+  const Result result = run({"check", "mycam.yaml"}, in_folder(folder.path()));
+  EXPECT_EQ(result.code, 0) << result.err;
+  EXPECT_TRUE(has(result.err, "warning: this number does not say where it comes from")) << result.err;
+}
+
+TEST(doctor, finds_this_machine_well) {
+  const Result result = run({"doctor"});
+  EXPECT_EQ(result.code, 0) << result.out;
+  EXPECT_TRUE(has(result.out, "all good"));
+}
+
+TEST(bench, measures_what_it_says) {
+  const Result result = run(with_small_sensor({"bench", "card", "--frames", "3", "--noise", "fast", "--threads", "1", "--json"}));
+  ASSERT_EQ(result.code, 0) << result.err;
+  const io::Json json = io::parse_json(result.out, "stdout");
+  ASSERT_EQ(json.find("results")->items()->size(), 1u);
+  const io::Json& row = json.find("results")->items()->front();
+  double median = 0, rate = 0, peak = 0;
+  ASSERT_TRUE(row.find("ms_median")->number(median) && row.find("frames_per_s")->number(rate) && row.find("peak_bytes")->number(peak));
+  EXPECT_GT(median, 0);
+  EXPECT_NEAR(rate * median, 1000, 1e-6);
+  EXPECT_GT(peak, 1e6);
+  EXPECT_EQ(row.find("sha256")->string()->size(), 64u);
+}
+
+TEST(bench, compares_variants_that_give_the_same_bytes) {
+  const Result result = run(with_small_sensor({"bench", "--compare", "--frames", "2", "--warmup", "0", "--json"}));
+  ASSERT_EQ(result.code, 0) << result.err;
+  const io::Json json = io::parse_json(result.out, "stdout");
+  EXPECT_EQ(json.find("ratios")->items()->size(), 6u);
+  const auto hash = [&](std::size_t i) { return *(*json.find("results")->items())[i].find("sha256")->string(); };
+  EXPECT_EQ(hash(0), hash(1));  // scalar and vector code
+  EXPECT_EQ(hash(2), hash(3));  // one thread and two
+  EXPECT_NE(hash(4), hash(5));  // with noise and without
+}
+
+}  // namespace
+}  // namespace tofray::test

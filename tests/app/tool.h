@@ -1,0 +1,123 @@
+// SPDX-FileCopyrightText: 2026 The tofray authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include <fcntl.h>
+#include <stdlib.h>
+#include <sys/resource.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <csignal>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <map>
+#include <sstream>
+#include <string>
+#include <thread>
+#include <vector>
+
+/// Drives the real program, TOFRAY_TOOL, as a shell would.
+namespace tofray::test {
+
+namespace fs = std::filesystem;
+
+/// A folder of its own that goes with the test.
+class Folder {
+ public:
+  Folder() {
+    std::string pattern = (fs::temp_directory_path() / "tofray-test-XXXXXX").native();
+    path_ = ::mkdtemp(pattern.data());
+  }
+  ~Folder() {
+    std::error_code ignored;
+    fs::remove_all(path_, ignored);
+  }
+  Folder(const Folder&) = delete;
+  Folder& operator=(const Folder&) = delete;
+  [[nodiscard]] const fs::path& path() const { return path_; }
+  [[nodiscard]] fs::path operator/(const fs::path& name) const { return path_ / name; }
+
+ private:
+  fs::path path_;
+};
+
+struct Result {
+  int code = -1;  ///< exit code; 1000 + signal where one ended the process
+  std::string out, err;
+};
+
+using Arguments = std::vector<std::string>;
+
+/// What is done in the child before the program starts: change of folder, limits, closed files, environment.
+using Prepare = std::function<void()>;
+
+inline std::string content(const fs::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  std::ostringstream text;
+  text << file.rdbuf();
+  return text.str();
+}
+
+/// Starts the program; stdout and stderr go to files of these names.
+inline pid_t start(const Arguments& arguments, const fs::path& out, const fs::path& err, const Prepare& prepare = {}) {
+  std::vector<char*> words = {const_cast<char*>(TOFRAY_TOOL)};
+  for (const std::string& one : arguments) words.push_back(const_cast<char*>(one.c_str()));
+  words.push_back(nullptr);
+  const pid_t child = ::fork();
+  if (child != 0) return child;
+  ::dup2(::open("/dev/null", O_RDONLY), 0);
+  ::dup2(::open(out.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600), 1);
+  ::dup2(::open(err.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600), 2);
+  for (int file = 3; file < 64; ++file) ::close(file);
+  if (prepare) prepare();
+  ::execv(TOFRAY_TOOL, words.data());
+  ::_exit(127);
+}
+
+inline int finish(pid_t child) {
+  int status = 0;
+  while (::waitpid(child, &status, 0) < 0 && errno == EINTR) {}
+  return WIFEXITED(status) ? WEXITSTATUS(status) : 1000 + WTERMSIG(status);
+}
+
+/// Runs the program to its end.
+inline Result run(const Arguments& arguments, const Prepare& prepare = {}) {
+  const Folder folder;
+  Result result;
+  result.code = finish(start(arguments, folder / "out", folder / "err", prepare));
+  result.out = content(folder / "out");
+  result.err = content(folder / "err");
+  return result;
+}
+
+inline Prepare in_folder(const fs::path& path) {
+  return [path] {
+    if (::chdir(path.c_str()) != 0) ::_exit(126);
+  };
+}
+
+/// A small sensor with the view of the large one, so that a run takes milliseconds.
+inline Arguments with_small_sensor(Arguments arguments) {
+  for (const char* set : {"camera.sensor.width=28", "camera.sensor.height=22", "camera.lens.fx=26.5 px", "camera.lens.fy=26.5 px",
+                          "camera.lens.cx=13.5 px", "camera.lens.cy=10.5 px", "camera.sensor.pixel_pitch=96 um"}) {
+    arguments.emplace_back("--set");
+    arguments.emplace_back(set);
+  }
+  return arguments;
+}
+
+/// Every file of a folder with its bytes; manifest.json, which says where and when, is left out.
+inline std::map<std::string, std::string> files_of(const fs::path& folder) {
+  std::map<std::string, std::string> files;
+  for (const auto& entry : fs::directory_iterator(folder)) {
+    if (entry.path().filename() != "manifest.json") files[entry.path().filename().native()] = content(entry.path());
+  }
+  return files;
+}
+
+inline bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
+}  // namespace tofray::test

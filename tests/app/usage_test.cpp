@@ -1,0 +1,151 @@
+// SPDX-FileCopyrightText: 2026 The tofray authors
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+
+#include "io/json.h"
+#include "tool.h"
+
+namespace tofray::test {
+namespace {
+
+const std::vector<std::string> commands = {"demo", "render", "process", "inspect", "check",
+                                           "list", "schema", "doctor",  "bench",   "completion"};
+
+TEST(help, comes_on_stdout_with_examples_first) {
+  for (const Arguments& asked : {Arguments{"--help"}, Arguments{"help"}, Arguments{"-h"}}) {
+    const Result result = run(asked);
+    EXPECT_EQ(result.code, 0);
+    EXPECT_LT(result.out.find("Examples:"), result.out.find("Commands:"));
+    for (const std::string& command : commands) EXPECT_TRUE(has(result.out, "\n  " + command + " ")) << command;
+  }
+  for (const std::string& command : commands) {
+    const Result result = run({command, "--help"});
+    EXPECT_EQ(result.code, 0);
+    EXPECT_TRUE(result.out.starts_with("Examples:\n  ")) << result.out;
+    EXPECT_LT(result.out.find("tofray " + command), result.out.find("Usage:")) << result.out;
+    EXPECT_EQ(result.err, "");
+    EXPECT_EQ(run({"help", command}).out, result.out);
+  }
+}
+
+TEST(usage, nothing_said_is_bad_usage) {
+  const Result result = run({});
+  EXPECT_EQ(result.code, 2);
+  EXPECT_EQ(result.out, "");
+  EXPECT_TRUE(has(result.err, "Commands:"));
+}
+
+TEST(usage, version_and_limits) {
+  EXPECT_EQ(run({"--version"}).out, "tofray 0.1.0\n");
+  EXPECT_TRUE(has(run({"--limits"}).out, "\nsensor_pixels"));
+  EXPECT_EQ(io::parse_json(run({"--version", "--json"}).out, "stdout").find("tofray")->string()->substr(0, 4), "0.1.");
+  EXPECT_NE(io::parse_json(run({"--limits", "--json"}).out, "stdout").find("raw_samples"), nullptr);
+}
+
+struct Mistake {
+  Arguments arguments;
+  int code;
+  std::string says;
+};
+
+class bad_usage : public testing::TestWithParam<Mistake> {};
+
+TEST_P(bad_usage, is_refused_with_a_hint_and_nothing_on_stdout) {
+  const Folder folder;
+  const Result result = run(GetParam().arguments, in_folder(folder.path()));
+  EXPECT_EQ(result.code, GetParam().code) << result.err;
+  EXPECT_TRUE(has(result.err, GetParam().says)) << result.err;
+  EXPECT_EQ(result.out, "");
+  EXPECT_TRUE(fs::is_empty(folder.path()));
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    all, bad_usage,
+    testing::Values(
+        Mistake{{"rendr"}, 2, "did you mean \"render\"?"}, Mistake{{"chek", "demo"}, 2, "did you mean \"check\"?"},
+        Mistake{{"--verison"}, 2, "did you mean \"--version\"?"}, Mistake{{"--seed", "3", "demo"}, 2, "stands before the command"},
+        Mistake{{"demo", "--sede", "3"}, 2, "did you mean \"--seed\"?"}, Mistake{{"demo", "--thread=3"}, 2, "did you mean \"--threads\"?"},
+        Mistake{{"list", "scenes", "--seed", "3"}, 2, "`tofray list` has no option --seed"}, Mistake{{"demo", "--seed"}, 2, "--seed"},
+        Mistake{{"demo", "--seed", "-1"}, 2, "expected a whole number"},
+        Mistake{{"demo", "--seed", "18446744073709551616"}, 2, "18446744073709551615"},
+        Mistake{{"demo", "--seed", "1e3"}, 2, "whole number"}, Mistake{{"demo", "--threads", "1025"}, 2, "0 to 1024"},
+        Mistake{{"demo", "--noise", "of"}, 2, "off (expected values)"}, Mistake{{"demo", "--emit", "npz,pgn"}, 2, "npz, png, ply"},
+        Mistake{{"demo", "--set", "lens"}, 2, "KEY=VALUE"}, Mistake{{"demo", "--set", "=3"}, 2, "KEY=VALUE"},
+        Mistake{{"demo", "--set", "camera.lens.fnumber=1.2"}, 2, "did you mean \"f_number\"?"},
+        Mistake{{"demo", "--backend", "cuda"}, 5, "no CUDA backend"}, Mistake{{"demo", "--backend", "cpus"}, 2, "auto or cpu"},
+        Mistake{{"demo", "card"}, 2, "unexpected \"card\""}, Mistake{{"render"}, 2, "needs SCENE"},
+        Mistake{{"render", "card", "demo"}, 2, "unexpected \"demo\""}, Mistake{{"render", "crad"}, 3, "did you mean \"card\"?"},
+        Mistake{{"render", "./none.yaml"}, 3, "none.yaml"}, Mistake{{"render", "card", "--frames", "0"}, 2, "1 to"},
+        Mistake{{"render", "card", "--mode", "MODE_9_5FPS_200"}, 2, "MODE_9_5FPS_2000"},
+        Mistake{{"render", "card", "--from", "x.json"}, 3, "x.json"}, Mistake{{"process", "none.npz"}, 3, "none.npz"},
+        Mistake{{"inspect", "none.npz"}, 3, "none.npz"}, Mistake{{"inspect", "card", "--pixel", "3"}, 2, "column,row"},
+        Mistake{{"inspect", "card", "--pixel", "224,0"}, 2, "column of 0 to 223"},
+        Mistake{{"list", "scene"}, 2, "did you mean \"scenes\"?"}, Mistake{{"list", "scenes", "card"}, 2, "unexpected"},
+        Mistake{{"schema", "scenes"}, 2, "scene"}, Mistake{{"completion", "bsh"}, 2, "did you mean \"bash\"?"},
+        Mistake{{"demo", "--set", "camera.sensor.width=99999"}, 2, "16384"},
+        Mistake{{"demo", "--set", "camera.sensor.width=16384", "--set", "camera.sensor.height=16384"}, 4, "--limits"},
+        Mistake{{"render", "card", "--set", "camera.illumination=[]"}, 2, "no light source"}));
+
+TEST(usage, options_may_come_in_every_form) {
+  const Folder folder;
+  const Prepare here = in_folder(folder.path());
+  ASSERT_EQ(run(with_small_sensor({"render", "card", "-o", "a", "--seed", "5"}), here).code, 0);
+  ASSERT_EQ(run(with_small_sensor({"render", "-ob", "--seed=5", "card"}), here).code, 0);
+  ASSERT_EQ(run(with_small_sensor({"render", "--output=c", "--seed=4", "--seed=5", "card"}), here).code, 0);
+  EXPECT_EQ(files_of(folder / "a"), files_of(folder / "b"));
+  EXPECT_EQ(files_of(folder / "a"), files_of(folder / "c"));
+}
+
+TEST(json, is_one_object_on_stdout) {
+  const Folder folder;
+  const Prepare here = in_folder(folder.path());
+  const std::vector<Arguments> all = {with_small_sensor({"demo"}),
+                                      with_small_sensor({"render", "card", "-o", "card"}),
+                                      {"process", "card/frame.npz"},
+                                      {"inspect", "card/frame.npz"},
+                                      {"inspect", "card/frame.npz", "--pixel", "3,4"},
+                                      {"check", "card"},
+                                      {"check", "pico-flexx"},
+                                      {"list", "scenes"},
+                                      {"list", "cameras"},
+                                      {"list", "materials"},
+                                      {"doctor"},
+                                      with_small_sensor({"bench", "--frames", "2"})};
+  for (Arguments arguments : all) {
+    arguments.emplace_back("--json");
+    const Result result = run(arguments, here);
+    EXPECT_EQ(result.code, 0) << arguments[0] << result.err;
+    EXPECT_TRUE(io::parse_json(result.out, arguments[0]).is_object());
+    EXPECT_FALSE(has(result.err, "error"));
+  }
+  for (const char* kind : {"scene", "camera"}) EXPECT_NE(io::parse_json(run({"schema", kind}).out, kind).find("$schema"), nullptr);
+}
+
+TEST(completion, of_bash_knows_commands_options_and_scenes) {
+  const Folder folder;
+  ASSERT_EQ(run({"completion", "bash"}).code, 0);
+  std::ofstream(folder / "tofray.bash") << run({"completion", "bash"}).out;
+  const auto replies = [&](const std::string& words, int at) {
+    const std::string script = "source " + (folder / "tofray.bash").native() + "; COMP_WORDS=(" + words +
+                               "); COMP_CWORD=" + std::to_string(at) + "; _tofray; echo \"${COMPREPLY[*]}\" > " +
+                               (folder / "reply").native();
+    EXPECT_EQ(std::system(("bash -c '" + script + "'").c_str()), 0);
+    return content(folder / "reply");
+  };
+  EXPECT_EQ(replies("tofray ren", 1), "render\n");
+  EXPECT_EQ(replies("tofray render --fro", 2), "--from\n");
+  EXPECT_EQ(replies("tofray render bench-p", 2), "bench-primitives\n");
+  EXPECT_EQ(replies("tofray render --noise e", 3), "exact\n");
+}
+
+TEST(completion, of_every_shell_has_every_option) {
+  for (const char* shell : {"bash", "zsh", "fish"}) {
+    const std::string script = run({"completion", shell}).out;
+    for (const std::string& command : commands) EXPECT_TRUE(has(script, command)) << shell << " " << command;
+    for (const char* option : {"output", "set", "seed", "noise", "frames", "emit", "from", "root", "pixel", "threads", "json", "quiet"})
+      EXPECT_TRUE(has(script, option)) << shell << " " << option;
+  }
+}
+
+}  // namespace
+}  // namespace tofray::test
