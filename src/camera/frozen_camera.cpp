@@ -29,6 +29,10 @@ FrozenCamera::FrozenCamera(const Camera& camera, int noise, std::uint64_t seed) 
   const ClampedCurve efficiency(camera.pixel.quantum_efficiency, "quantum_efficiency");
   for (const Illumination& light : camera.illumination) {
     lights_.push_back(freeze_light(light, efficiency.evaluate(light.illumination_wavelength_m)));
+    if (camera.power_model == PowerModel::paper_literal && lights_.back().table.empty()) {
+      throw Error(ErrorKind::bad_input, "error: power_model paper_literal needs light sources with a table\n"
+                                        "  got a cone or lobe; take the pattern flat_top or table, or the power_model tofray");
+    }
   }
   freeze_sequence(seed, noise);
   freeze_patterns();

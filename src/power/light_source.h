@@ -55,7 +55,9 @@ TOFRAY_FN F intensity(const camera::LightView& light, F x, F y, F z, F inverse_l
   const camera::PatternView& p = light.pattern;
   if (p.kind == camera::PatternView::table || p.kind == camera::PatternView::flat_top) {
     const Angles<F> theta = f_theta(u, v, w);
-    const auto within = (num::abs(theta.x) <= F(p.half_range_x)) & (num::abs(theta.y) <= F(p.half_range_y));
+    // straight back the angle is half a turn, but in no direction: dark, not the axis
+    const auto ahead = (w > F(0.0f)) | (num::max(num::abs(u), num::abs(v)) > F(1e-30f));
+    const auto within = (num::abs(theta.x) <= F(p.half_range_x)) & (num::abs(theta.y) <= F(p.half_range_y)) & ahead;
     const F inside = p.kind == camera::PatternView::table ? table_intensity(p, theta) : flat_top_intensity(p, theta);
     return num::select(within, inside, F(0.0f));
   }

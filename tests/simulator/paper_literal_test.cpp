@@ -89,3 +89,16 @@ TEST(paper_literal, divides_by_the_focal_length_squared_once_more) {
     EXPECT_NEAR(static_cast<double>(t.power_w[i]) / (static_cast<double>(t.radiance_w_m2_sr[i]) * right * std::pow(cosine, 4)), 0.1545, 5e-5);
   }
 }
+
+// It has nothing to look up in a cone.
+TEST(paper_literal, is_refused_for_light_without_a_table) {
+  Camera camera = flexx(PowerModel::paper_literal);
+  camera.illumination[0].pattern = {};
+  try {
+    Simulator simulator(wall(1), camera);
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), ErrorKind::bad_input);
+    EXPECT_NE(std::string(error.what()).find("paper_literal"), std::string::npos);
+  }
+}

@@ -1,0 +1,168 @@
+// SPDX-FileCopyrightText: 2026 The tofray authors
+// SPDX-License-Identifier: Apache-2.0
+// Rows G9 and G10: projection and distortion, there and back; beyond the model nothing is made up.
+#include "camera/lens.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "camera/frozen_camera.h"
+#include "support/pixels.h"
+#include "support/random.h"
+
+using namespace tofray;
+using camera::Point2;
+using tofray::test::Random;
+
+namespace {
+
+Lens random_lens(Random& random) {
+  Lens lens;
+  lens.fx_px = random.between(150, 600), lens.fy_px = lens.fx_px * random.between(0.95, 1.05);
+  lens.cx_px = random.between(80, 150), lens.cy_px = random.between(60, 120);
+  lens.k1 = random.between(-0.4, 0.3), lens.k2 = random.between(-0.2, 0.2), lens.k3 = random.between(-0.1, 0.1);
+  lens.p1 = random.between(-0.005, 0.005), lens.p2 = random.between(-0.005, 0.005);
+  return lens;
+}
+
+/// Brown and Conrady's formula as OpenCV documents it, computed here.
+Point2 formula(const Lens& l, double x, double y) {
+  const double r2 = x * x + y * y, radial = 1 + l.k1 * r2 + l.k2 * r2 * r2 + l.k3 * r2 * r2 * r2;
+  return {x * radial + 2 * l.p1 * x * y + l.p2 * (r2 + 2 * x * x), y * radial + l.p1 * (r2 + 2 * y * y) + 2 * l.p2 * x * y};
+}
+
+/// Determinant of its derivative, by differences.
+double growth(const Lens& l, double x, double y) {
+  const double h = 1e-5;
+  const Point2 right = formula(l, x + h, y), left = formula(l, x - h, y), down = formula(l, x, y + h), up = formula(l, x, y - h);
+  return ((right.x - left.x) * (down.y - up.y) - (down.x - up.x) * (right.y - left.y)) / (4 * h * h);
+}
+
+/// True where the model is one to one from the axis to here, with room.
+bool well_behaved(const Lens& l, double x, double y) {
+  for (int i = 0; i <= 40; ++i) {
+    const double s = 1.1 * i / 40, r2 = s * s * (x * x + y * y);
+    if (growth(l, s * x, s * y) < 0.1 || 1 + r2 * (3 * l.k1 + r2 * (5 * l.k2 + r2 * 7 * l.k3)) < 0.1) return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+TEST(lens, distorts_by_the_formula) {
+  Random random(1);
+  for (int i = 0; i < 100000; ++i) {
+    const Lens lens = random_lens(random);
+    const double x = random.between(-1, 1), y = random.between(-1, 1);
+    const Point2 expected = formula(lens, x, y), got = camera::distort(lens, {x, y});
+    ASSERT_NEAR(got.x, expected.x, 1e-14);
+    ASSERT_NEAR(got.y, expected.y, 1e-14);
+  }
+}
+
+// G9 (1e-10 px) and G10 (1e-9 px); |x|, |y| to 0.9: a field of 84 degrees.
+TEST(lens, takes_pixels_to_rays_and_back) {
+  Random random(2);
+  int tried = 0;
+  for (int i = 0; i < 100000; ++i) {
+    const Lens lens = random_lens(random);
+    const double x = random.between(-0.9, 0.9), y = random.between(-0.9, 0.9);
+    if (!well_behaved(lens, x, y)) continue;
+    ++tried;
+    const Point2 pixel = camera::project(lens, {x, y});
+    Point2 back{};
+    ASSERT_TRUE(camera::unproject(lens, pixel, back)) << i;
+    ASSERT_NEAR(back.x * lens.fx_px, x * lens.fx_px, 1e-9) << i;
+    ASSERT_NEAR(back.y * lens.fy_px, y * lens.fy_px, 1e-9) << i;
+    const Point2 again = camera::project(lens, back);
+    ASSERT_NEAR(again.x, pixel.x, 1e-10);
+    ASSERT_NEAR(again.y, pixel.y, 1e-10);
+  }
+  EXPECT_GT(tried, 50000);
+}
+
+TEST(lens, without_distortion_is_a_pinhole) {
+  Lens lens;
+  lens.fx_px = 200, lens.fy_px = 210, lens.cx_px = 111.5, lens.cy_px = 85.5;
+  Point2 p{};
+  ASSERT_TRUE(camera::unproject(lens, {0, 0}, p));
+  EXPECT_DOUBLE_EQ(p.x, -111.5 / 200);
+  EXPECT_DOUBLE_EQ(p.y, -85.5 / 210);
+}
+
+// G10: any target at all; what is called an inverse is one, and lies on the branch that starts at the axis.
+TEST(lens, never_makes_up_an_inverse) {
+  Random random(3);
+  int found = 0, refused = 0;
+  for (int i = 0; i < 100000; ++i) {
+    const Lens lens = random_lens(random);
+    const Point2 target{random.between(-1.5, 1.5), random.between(-1.5, 1.5)};
+    Point2 p{};
+    if (!camera::undistort(lens, target, p)) {
+      ++refused;
+      continue;
+    }
+    ++found;
+    const Point2 at = formula(lens, p.x, p.y);
+    ASSERT_NEAR(at.x, target.x, 1e-11) << i;
+    ASSERT_NEAR(at.y, target.y, 1e-11) << i;
+    for (int s = 0; s <= 20; ++s) {
+      const double r2 = (s / 20.0) * (s / 20.0) * (p.x * p.x + p.y * p.y) * 0.9999;
+      ASSERT_GE(1 + r2 * (3 * lens.k1 + r2 * (5 * lens.k2 + r2 * 7 * lens.k3)), -1e-9) << i;
+    }
+  }
+  EXPECT_GT(found, 40000);
+  EXPECT_GT(refused, 10000);
+}
+
+// k1 alone: r(1 + k1 r²) grows up to r² = −1/(3 k1), where it is ⅔ of that r. Beyond there is no inverse.
+TEST(lens, knows_where_a_barrel_ends) {
+  for (const double k1 : {-0.05, -0.2, -0.30, -0.337, -0.37}) {
+    Lens lens;
+    lens.fx_px = lens.fy_px = 1;
+    lens.k1 = k1;
+    const double farthest = 2.0 / 3 * std::sqrt(-1 / (3 * k1));
+    for (const double angle : {0.0, 0.7, 2.0, 4.0}) {
+      Point2 p{};
+      const double in = farthest * (1 - 1e-6), out = farthest * (1 + 1e-6);
+      EXPECT_TRUE(camera::undistort(lens, {in * std::cos(angle), in * std::sin(angle)}, p)) << k1;
+      EXPECT_FALSE(camera::undistort(lens, {out * std::cos(angle), out * std::sin(angle)}, p)) << k1;
+    }
+  }
+}
+
+// Corners of the pico flexx: its own k1 reaches them, −0.37 does not. Those pixels are flagged, counted, and hold no depth and no light.
+TEST(lens, flags_corners_without_an_inverse) {
+  Camera camera = load_camera("pico-flexx");
+  const Scene scene = test::wall(1, 0.8);
+  for (const std::uint16_t flags : test::expected_frame(scene, camera).depth.flags) ASSERT_EQ(flags & flag_outside_lens, 0);
+  camera.lens.k1 = -0.37;
+  const Frame frame = test::expected_frame(scene, camera);
+  const double farthest = 2.0 / 3 * std::sqrt(1 / (3 * 0.37)) * 212;
+  int outside = 0, expected = 0;
+  for (std::size_t i = 0; i < frame.depth.flags.size(); ++i) {
+    const double x = static_cast<double>(i % 224) - 111.5, y = std::floor(static_cast<double>(i) / 224) - 85.5;
+    const bool flagged = (frame.depth.flags[i] & flag_outside_lens) != 0;
+    expected += std::hypot(x, y) > farthest;
+    outside += flagged;
+    ASSERT_EQ(flagged, std::hypot(x, y) > farthest) << i;
+    if (!flagged) continue;
+    ASSERT_TRUE(std::isnan(frame.depth.z_m[i]) && std::isnan(frame.depth.range_m[i]));
+    ASSERT_EQ(frame.depth.confidence[i], 0);
+    ASSERT_EQ(frame.truth.power_w[i], 0);
+  }
+  EXPECT_EQ(outside, expected);
+  EXPECT_GT(outside, 10);
+}
+
+// G9 in single precision: the rays that kernels read lead back to their pixels.
+TEST(lens, rays_in_single_precision_lead_back_to_their_pixels) {
+  const Camera camera = load_camera("pico-flexx");
+  const camera::FrozenCamera frozen(camera, 0, 0);
+  for (int i = 0; i < 224 * 172; ++i) {
+    const Point2 p = camera::project(camera.lens, {static_cast<double>(frozen.lens().ray_x[i]), static_cast<double>(frozen.lens().ray_y[i])});
+    ASSERT_NEAR(p.x, i % 224, 2e-4);
+    ASSERT_NEAR(p.y, std::floor(i / 224.0), 2e-4);
+  }
+}

@@ -1,0 +1,87 @@
+// SPDX-FileCopyrightText: 2026 The tofray authors
+// SPDX-License-Identifier: Apache-2.0
+// Rows P13 and P14: reciprocity and energy of the surfaces.
+#include "power/reflection.h"
+
+#include <gtest/gtest.h>
+
+#include "support/random.h"
+
+using namespace tofray;
+using namespace tofray::base;
+using tofray::test::Random;
+
+namespace {
+
+const double turn = 2 * std::acos(-1.0);
+
+double f_r(double diffuse, double specular, double exponent, const Vec3& to_light, const Vec3& to_camera) {
+  const auto f = [](double a) { return static_cast<float>(a); };
+  return static_cast<double>(power::reflection(f(diffuse), f(specular), f(exponent), f(to_light[2]), f(to_camera[2]), f(dot(to_light, to_camera))));
+}
+
+/// ∫ f_r cosθ dω over the hemisphere, light at this angle; midpoint rule over 500 × 400 cells.
+double albedo(double diffuse, double specular, double exponent, double light_angle) {
+  const Vec3 light{std::sin(light_angle), 0, std::cos(light_angle)};
+  const int rings = 500, sectors = 400;
+  double sum = 0;
+  for (int i = 0; i < rings; ++i) {
+    const double theta = (i + 0.5) / rings * turn / 4;
+    double ring = 0;
+    for (int k = 0; k < sectors; ++k) {
+      const double psi = (k + 0.5) / sectors * turn;
+      ring += f_r(diffuse, specular, exponent, light, {std::sin(theta) * std::cos(psi), std::sin(theta) * std::sin(psi), std::cos(theta)});
+    }
+    sum += ring * std::sin(theta) * std::cos(theta);
+  }
+  return sum * (turn / 4 / rings) * (turn / sectors);
+}
+
+Vec3 upward(Random& random) {
+  Vec3 d = random.direction();
+  d[2] = std::abs(d[2]);
+  return d;
+}
+
+}  // namespace
+
+// P13. The mirror direction's cosine is rounded twice, to 2^-24 each: n times that where the lobe is as good as one.
+TEST(reflection, is_the_same_with_light_and_camera_exchanged) {
+  Random random(1);
+  for (int i = 0; i < 100000; ++i) {
+    const double diffuse = random.between(0, 0.5), specular = i % 3 == 0 ? 0 : random.between(0, 0.5), exponent = random.scale(1, 100);
+    const Vec3 light = upward(random), camera = upward(random);
+    const double forth = f_r(diffuse, specular, exponent, light, camera), back = f_r(diffuse, specular, exponent, camera, light);
+    const double mirror = std::fmax(2 * light[2] * camera[2] - dot(light, camera), 0.01);
+    ASSERT_NEAR(back, forth, forth * (1e-6 + exponent * 0x1p-22 / mirror)) << i;
+  }
+}
+
+// The closed form, in double.
+TEST(reflection, is_lambert_plus_the_normalised_lobe) {
+  Random random(2);
+  for (int i = 0; i < 100000; ++i) {
+    const double diffuse = random.between(0, 0.5), specular = random.between(0.1, 0.5), exponent = random.scale(1, 100);
+    const Vec3 light = upward(random), camera = upward(random);
+    const Vec3 mirror{-light[0], -light[1], light[2]};
+    const double cosine = std::fmax(dot(mirror, camera), 0);
+    const double expected = diffuse / (turn / 2) + specular * (exponent + 2) / turn * std::pow(cosine, exponent);
+    ASSERT_NEAR(f_r(diffuse, specular, exponent, light, camera), expected, 1e-6 + expected * exponent * 1e-6 / std::fmax(cosine, 0.05)) << i;
+  }
+}
+
+// P14: what of the light comes back.
+TEST(reflection, sends_back_all_light_at_most) {
+  for (const double exponent : {1.0, 10.0, 50.0}) EXPECT_NEAR(albedo(0, 1, exponent, 0), 1, 1e-4) << exponent;
+  EXPECT_NEAR(albedo(0, 1, 1, turn / 6), 0.608998, 1e-4);
+  EXPECT_NEAR(albedo(0, 1, 10, turn / 6), 0.504736, 1e-4);
+  EXPECT_NEAR(albedo(0, 1, 50, turn / 6), 0.500002, 1e-4);
+  EXPECT_NEAR(albedo(0.5, 0, 1, turn / 6), 0.5, 1e-4);
+  for (const double degrees : {15.0, 30.0, 45.0, 75.0, 85.0}) {
+    for (const double exponent : {1.0, 5.0, 50.0}) EXPECT_LE(albedo(0.5, 0.5, exponent, degrees * turn / 360), 1 + 1e-4) << degrees << " " << exponent;
+  }
+}
+
+TEST(reflection, of_a_matt_surface_has_no_lobe) {
+  EXPECT_EQ(f_r(0.6, 0, 5, {0, 0, 1}, {0, 0, 1}), f_r(0.6, 0, 1, {0.6, 0, 0.8}, {0, 0.8, 0.6}));
+}

@@ -1,0 +1,120 @@
+// SPDX-FileCopyrightText: 2026 The tofray authors
+// SPDX-License-Identifier: Apache-2.0
+// Rows G7 (culling), S24 and F11: the same bytes from every instruction set, with and without culling, on scenes of all sorts.
+#include <gtest/gtest.h>
+
+#include <cstring>
+
+#include "backend/cpu/cpu.h"
+#include "support/random_scene.h"
+
+using namespace tofray;
+using namespace tofray::test;
+
+namespace {
+
+constexpr int scenes = 20;
+
+struct Case {
+  Scene scene;
+  Camera camera;
+};
+
+Case random_case(int number) {
+  const int sizes[][2] = {{1, 1}, {7, 5}, {33, 9}, {224, 172}, {64, 48}, {31, 8}, {32, 8}, {65, 17}, {1, 40}, {97, 3}};
+  Random random(static_cast<std::uint64_t>(number) + 1);
+  const int* size = sizes[number % 10];
+  Case c{random_scene(random, 3 + number, number % 3 == 1 && number != 19), load_camera("pico-flexx")};
+  c.scene.camera.pose = random_pose(random);
+  c.camera.sensor.width = number == 19 ? 640 : size[0], c.camera.sensor.height = number == 19 ? 480 : size[1];
+  Lens& lens = c.camera.lens;
+  lens.cx_px = 0.5 * (c.camera.sensor.width - 1), lens.cy_px = 0.5 * (c.camera.sensor.height - 1);
+  lens.fx_px = lens.fy_px = c.camera.sensor.width * 0.9 + 3;
+  if (number % 4 == 1) lens.k1 = -0.5;                            // corners without an inverse
+  for (int i = 0; i < number % 4; ++i) {
+    Illumination light = c.camera.illumination[0];
+    light.position = random.point(0.6);
+    light.axis = Vec3{0, 0, 1} + random.point(0.5);
+    const Pattern::Kind kinds[] = {Pattern::Kind::cone, Pattern::Kind::lambertian, Pattern::Kind::cosine_lobe};
+    light.pattern.kind = kinds[random.below(3)];
+    light.pattern.half_angle_rad = 0.6, light.pattern.exponent = 6;
+    c.camera.illumination.push_back(light);
+  }
+  if (number % 4 == 0) c.camera.power_model = PowerModel::paper_literal;
+  if (number % 2 == 0) {
+    c.scene.ambient.spectrum = Ambient::Spectrum::sun_am15;
+    c.scene.ambient.amount = 0.05;
+    if (number % 4 == 0) c.scene.ambient.direction = Vec3{0.3, 0.8, 0.4} + random.point(0.3);
+  }
+  c.camera.decoding.filter.kind = static_cast<ImageFilter::Kind>(number % 3);
+  return c;
+}
+
+template <class T>
+void same(const std::vector<T>& a, const std::vector<T>& b, const char* name) {
+  ASSERT_EQ(a.size(), b.size()) << name;
+  if (std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0) return;
+  std::size_t first = 0, count = 0;
+  for (std::size_t i = a.size(); i-- > 0;) {
+    if (std::memcmp(&a[i], &b[i], sizeof(T)) != 0) first = i, ++count;
+  }
+  ADD_FAILURE() << name << ": " << count << " of " << a.size() << " differ, the first at " << first << ": " << +a[first] << " and " << +b[first];
+}
+
+/// In the order of the pipeline: the first that differs names the stage.
+void same(const Frame& a, const Frame& b) {
+  same(a.truth.object_id, b.truth.object_id, "object_id");
+  same(a.truth.range_m, b.truth.range_m, "gt range");
+  same(a.truth.normal, b.truth.normal, "normal");
+  same(a.truth.irradiance_w_m2, b.truth.irradiance_w_m2, "irradiance");
+  same(a.truth.radiance_w_m2_sr, b.truth.radiance_w_m2_sr, "radiance");
+  same(a.truth.power_w, b.truth.power_w, "power");
+  same(a.truth.signal_e, b.truth.signal_e, "signal");
+  same(a.raw.tap_a, b.raw.tap_a, "tap_a");
+  same(a.raw.tap_b, b.raw.tap_b, "tap_b");
+  same(a.raw.raw, b.raw.raw, "raw");
+  same(a.depth.range_m, b.depth.range_m, "range");
+  same(a.depth.z_m, b.depth.z_m, "z");
+  same(a.depth.points_m, b.depth.points_m, "points");
+  same(a.depth.amplitude_e, b.depth.amplitude_e, "amplitude");
+  same(a.depth.ambient_e, b.depth.ambient_e, "ambient");
+  same(a.depth.noise_m, b.depth.noise_m, "noise");
+  same(a.depth.confidence, b.depth.confidence, "confidence");
+  same(a.depth.flags, b.depth.flags, "flags");
+}
+
+Frame render(const Case& c, Isa isa, bool culling, int threads = 1) {
+  SimulatorOptions options;
+  options.seed = 7, options.isa = isa, options.culling = culling, options.threads = threads;
+  return Simulator(c.scene, c.camera, options).frame(3);
+}
+
+/// Computed once for all instruction sets.
+const Frame& reference_of(int scene) {
+  static std::vector<Frame> frames(scenes);
+  Frame& frame = frames[static_cast<std::size_t>(scene)];
+  if (frame.raw.raw.empty()) frame = render(random_case(scene), Isa::scalar, false);
+  return frame;
+}
+
+class EveryIsa : public testing::TestWithParam<Isa> {};
+
+std::string isa_of(const testing::TestParamInfo<Isa>& info) { return backend::isa_name(info.param); }
+
+}  // namespace
+
+TEST_P(EveryIsa, renders_random_scenes_as_the_scalar_reference_without_culling) {
+  if (!backend::can_run(GetParam())) GTEST_SKIP() << "this processor has no " << backend::isa_name(GetParam());
+  int hits = 0;
+  for (int i = 0; i < scenes; ++i) {
+    const Case c = random_case(i);
+    const Frame& reference = reference_of(i);
+    for (const std::int32_t id : reference.truth.object_id) hits += id >= 0;
+    SCOPED_TRACE("scene " + std::to_string(i));
+    same(render(c, GetParam(), true), reference);
+    if (GetParam() != Isa::scalar) same(render(c, GetParam(), false), reference);
+    if (i % 4 == 3) same(render(c, GetParam(), true, 3), reference);
+  }
+  EXPECT_GT(hits, 300000);
+}
+INSTANTIATE_TEST_SUITE_P(isa, EveryIsa, testing::Values(Isa::scalar, Isa::scalar_fma, Isa::avx2, Isa::avx512), isa_of);
