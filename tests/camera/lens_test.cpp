@@ -72,7 +72,7 @@ TEST(lens, takes_pixels_to_rays_and_back) {
     ++tried;
     const Point2 pixel = camera::project(lens, {x, y});
     Point2 back{};
-    ASSERT_TRUE(camera::unproject(lens, pixel, back)) << i;
+    ASSERT_TRUE(camera::unproject(lens, camera::growing_radius_squared(lens), pixel, back)) << i;
     ASSERT_NEAR(back.x * lens.fx_px, x * lens.fx_px, 1e-9) << i;
     ASSERT_NEAR(back.y * lens.fy_px, y * lens.fy_px, 1e-9) << i;
     const Point2 again = camera::project(lens, back);
@@ -86,7 +86,7 @@ TEST(lens, without_distortion_is_a_pinhole) {
   Lens lens;
   lens.fx_px = 200, lens.fy_px = 210, lens.cx_px = 111.5, lens.cy_px = 85.5;
   Point2 p{};
-  ASSERT_TRUE(camera::unproject(lens, {0, 0}, p));
+  ASSERT_TRUE(camera::unproject(lens, camera::growing_radius_squared(lens), {0, 0}, p));
   EXPECT_DOUBLE_EQ(p.x, -111.5 / 200);
   EXPECT_DOUBLE_EQ(p.y, -85.5 / 210);
 }
@@ -99,7 +99,7 @@ TEST(lens, never_makes_up_an_inverse) {
     const Lens lens = random_lens(random);
     const Point2 target{random.between(-1.5, 1.5), random.between(-1.5, 1.5)};
     Point2 p{};
-    if (!camera::undistort(lens, target, p)) {
+    if (!camera::undistort(lens, camera::growing_radius_squared(lens), target, p)) {
       ++refused;
       continue;
     }
@@ -126,8 +126,8 @@ TEST(lens, knows_where_a_barrel_ends) {
     for (const double angle : {0.0, 0.7, 2.0, 4.0}) {
       Point2 p{};
       const double in = farthest * (1 - 1e-6), out = farthest * (1 + 1e-6);
-      EXPECT_TRUE(camera::undistort(lens, {in * std::cos(angle), in * std::sin(angle)}, p)) << k1;
-      EXPECT_FALSE(camera::undistort(lens, {out * std::cos(angle), out * std::sin(angle)}, p)) << k1;
+      EXPECT_TRUE(camera::undistort(lens, camera::growing_radius_squared(lens), {in * std::cos(angle), in * std::sin(angle)}, p)) << k1;
+      EXPECT_FALSE(camera::undistort(lens, camera::growing_radius_squared(lens), {out * std::cos(angle), out * std::sin(angle)}, p)) << k1;
     }
   }
 }

@@ -65,7 +65,7 @@ TEST(range, is_z_over_the_cosine_and_a_wall_has_one_z) {
     const double x = (static_cast<double>(i % 31) - 15) / 20, y = (std::floor(static_cast<double>(i) / 31) - 11) / 20;
     EXPECT_NEAR(static_cast<double>(t.z_m[i]), 2.5, 2.5 * 1e-7);
     const double range = 2.5 * std::sqrt(1 + x * x + y * y);
-    EXPECT_NEAR(static_cast<double>(t.range_m[i]), range, range * roundings(3));
+    EXPECT_NEAR(static_cast<double>(t.range_m[i]), range, range * roundings(6));
     EXPECT_NEAR(static_cast<double>(t.position_m[3 * i]), 2.5 * x, 2.5 * roundings(4));
     EXPECT_NEAR(static_cast<double>(t.position_m[3 * i + 1]), 2.5 * y, 2.5 * roundings(4));
   }
