@@ -161,7 +161,8 @@ TEST(lens, rays_in_single_precision_lead_back_to_their_pixels) {
   const Camera camera = load_camera("pico-flexx");
   const camera::FrozenCamera frozen(camera, 0, 0);
   for (int i = 0; i < 224 * 172; ++i) {
-    const Point2 p = camera::project(camera.lens, {static_cast<double>(frozen.lens().ray_x[i]), static_cast<double>(frozen.lens().ray_y[i])});
+    const Point2 ray{static_cast<double>(frozen.lens().ray_x[i]), static_cast<double>(frozen.lens().ray_y[i])};
+    const Point2 p = camera::project(camera.lens, ray);
     ASSERT_NEAR(p.x, i % 224, 2e-4);
     ASSERT_NEAR(p.y, std::floor(i / 224.0), 2e-4);
   }

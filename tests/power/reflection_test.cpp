@@ -17,7 +17,8 @@ const double turn = 2 * std::acos(-1.0);
 
 double f_r(double diffuse, double specular, double exponent, const Vec3& to_light, const Vec3& to_camera) {
   const auto f = [](double a) { return static_cast<float>(a); };
-  return static_cast<double>(power::reflection(f(diffuse), f(specular), f(exponent), f(to_light[2]), f(to_camera[2]), f(dot(to_light, to_camera))));
+  const float between = f(dot(to_light, to_camera));
+  return static_cast<double>(power::reflection(f(diffuse), f(specular), f(exponent), f(to_light[2]), f(to_camera[2]), between));
 }
 
 /// ∫ f_r cosθ dω over the hemisphere, light at this angle; midpoint rule over 500 × 400 cells.
@@ -66,7 +67,8 @@ TEST(reflection, is_lambert_plus_the_normalised_lobe) {
     const Vec3 mirror{-light[0], -light[1], light[2]};
     const double cosine = std::fmax(dot(mirror, camera), 0);
     const double expected = diffuse / (turn / 2) + specular * (exponent + 2) / turn * std::pow(cosine, exponent);
-    ASSERT_NEAR(f_r(diffuse, specular, exponent, light, camera), expected, 1e-6 + expected * exponent * 1e-6 / std::fmax(cosine, 0.05)) << i;
+    const double tolerance = 1e-6 + expected * exponent * 1e-6 / std::fmax(cosine, 0.05);
+    ASSERT_NEAR(f_r(diffuse, specular, exponent, light, camera), expected, tolerance) << i;
   }
 }
 
@@ -78,7 +80,9 @@ TEST(reflection, sends_back_all_light_at_most) {
   EXPECT_NEAR(albedo(0, 1, 50, turn / 6), 0.500002, 1e-4);
   EXPECT_NEAR(albedo(0.5, 0, 1, turn / 6), 0.5, 1e-4);
   for (const double degrees : {15.0, 30.0, 45.0, 75.0, 85.0}) {
-    for (const double exponent : {1.0, 5.0, 50.0}) EXPECT_LE(albedo(0.5, 0.5, exponent, degrees * turn / 360), 1 + 1e-4) << degrees << " " << exponent;
+    for (const double exponent : {1.0, 5.0, 50.0}) {
+      EXPECT_LE(albedo(0.5, 0.5, exponent, degrees * turn / 360), 1 + 1e-4) << degrees << " " << exponent;
+    }
   }
 }
 

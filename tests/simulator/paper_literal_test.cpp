@@ -86,7 +86,8 @@ TEST(paper_literal, divides_by_the_focal_length_squared_once_more) {
   for (std::size_t i = 0; i < t.power_w.size(); ++i) {
     if (!(t.power_w[i] > 0)) continue;
     const double cosine = static_cast<double>(t.z_m[i]) / static_cast<double>(t.range_m[i]);
-    EXPECT_NEAR(static_cast<double>(t.power_w[i]) / (static_cast<double>(t.radiance_w_m2_sr[i]) * right * std::pow(cosine, 4)), 0.1545, 5e-5);
+    const double radiance = static_cast<double>(t.radiance_w_m2_sr[i]);
+    EXPECT_NEAR(static_cast<double>(t.power_w[i]) / (radiance * right * std::pow(cosine, 4)), 0.1545, 5e-5);
   }
 }
 

@@ -135,9 +135,10 @@ TEST(power_chain, vignetting_can_be_switched_off_or_given_by_a_table) {
   camera.lens.vignetting_table = {{0, pi / 4, 1.2}, {0.9, 0.6, 0.1}};   // the pixels beside the middle one look 45 degrees aside
   const Truth table = truth(wall(1), camera);
   const double full = (17.5e-6 * 17.5e-6) * pi / (4 * 0.9 * 0.9);
-  for (const std::size_t i : {0, 1, 4, 8}) EXPECT_NEAR(value(off.power_w, i) / (value(off.radiance_w_m2_sr, i) * full), 1, roundings(6)) << i;
-  EXPECT_NEAR(value(table.power_w, 4) / (value(table.radiance_w_m2_sr, 4) * full), 0.9, 1e-6);
-  for (const std::size_t i : {1, 3, 5, 7}) EXPECT_NEAR(value(table.power_w, i) / (value(table.radiance_w_m2_sr, i) * full), 0.6, 1e-6) << i;
+  const auto factor = [&](const Truth& t, std::size_t i) { return value(t.power_w, i) / (value(t.radiance_w_m2_sr, i) * full); };
+  for (const std::size_t i : {0, 1, 4, 8}) EXPECT_NEAR(factor(off, i), 1, roundings(6)) << i;
+  EXPECT_NEAR(factor(table, 4), 0.9, 1e-6);
+  for (const std::size_t i : {1, 3, 5, 7}) EXPECT_NEAR(factor(table, i), 0.6, 1e-6) << i;
 }
 
 // E_s = I·cos/r², ℓ and r from the light's own place: a wall seen and lit at slant, each pixel by itself.

@@ -58,7 +58,8 @@ void same(const std::vector<T>& a, const std::vector<T>& b, const char* name) {
   for (std::size_t i = a.size(); i-- > 0;) {
     if (std::memcmp(&a[i], &b[i], sizeof(T)) != 0) first = i, ++count;
   }
-  ADD_FAILURE() << name << ": " << count << " of " << a.size() << " differ, the first at " << first << ": " << +a[first] << " and " << +b[first];
+  ADD_FAILURE() << name << ": " << count << " of " << a.size() << " differ, the first at " << first << ": " << +a[first] << " and "
+                << +b[first];
 }
 
 /// In the order of the pipeline: the first that differs names the stage.

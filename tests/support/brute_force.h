@@ -55,8 +55,10 @@ inline Span span(const scene::Placed::PlacedBox& box, const Vec3& o, const Vec3&
 }
 
 inline Span span(const scene::Placed::PlacedTriangle& t, const Vec3& o, const Vec3& d) {
-  const Vec3 a = t.vertices[1] - t.vertices[0], b = t.vertices[2] - t.vertices[0], s = o - t.vertices[0], p = base::cross(d, b), q = base::cross(s, a);
-  const double det = base::dot(a, p), u = base::dot(s, p) / det, v = base::dot(d, q) / det, least = std::fmin(u, std::fmin(v, 1 - u - v));
+  const Vec3 a = t.vertices[1] - t.vertices[0], b = t.vertices[2] - t.vertices[0], s = o - t.vertices[0];
+  const Vec3 p = base::cross(d, b), q = base::cross(s, a);
+  const double det = base::dot(a, p), u = base::dot(s, p) / det, v = base::dot(d, q) / det;
+  const double least = std::fmin(u, std::fmin(v, 1 - u - v));
   const Vec3 n = base::cross(a, b);
   const double along = base::dot(b, q) / det, slant = std::abs(base::dot(n, d)) / (base::length(n) * base::length(d));
   Span out{1, 0, std::fmin(std::abs(least), slant), t.object};

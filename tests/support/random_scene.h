@@ -9,7 +9,9 @@ namespace tofray::test {
 /// Some of everything before a slanted wall; half of it turned, and moving if asked for.
 inline Scene random_scene(Random& random, int objects, bool moving) {
   Scene scene;
-  scene.materials = {{"matt", Material::Brdf::lambert, 0.7, 0, 1}, {"paint", Material::Brdf::phong, 0.4, 0.3, 12}, {"dark", Material::Brdf::lambert, 0.05, 0, 1}};
+  scene.materials = {{"matt", Material::Brdf::lambert, 0.7, 0, 1},
+                     {"paint", Material::Brdf::phong, 0.4, 0.3, 12},
+                     {"dark", Material::Brdf::lambert, 0.05, 0, 1}};
   const double back = random.between(3, 6);
   const Vec3 slant = random.point(0.4);
   scene.objects.push_back(object(Plane{{0, 0, back}, Vec3{slant[0], slant[1], -1}}));

@@ -121,7 +121,7 @@ TEST(box, along_the_axes_is_hit_and_missed_like_the_closed_form_outside_a_shell_
   EXPECT_GT(misses, 50000);
 }
 
-// The rotated axes are rounded, and so are three products and sums: seven half units of the distance for each side, 12 with room for all three.
+// The rotated axes are rounded, and so are three products and sums: seven half units of the distance for each side; 12 with room for all.
 TEST(box, turned_any_way_is_hit_and_missed_like_the_closed_form) {
   Random random(2);
   int hits = 0, misses = 0;

@@ -23,7 +23,9 @@ Found look(const scene::FrozenScene& frozen, const Ray& ray) {
   return {hit, trace::surface(view, ray, hit)};
 }
 
-Vec3 normal(const Found& f) { return {static_cast<double>(f.surface.nx), static_cast<double>(f.surface.ny), static_cast<double>(f.surface.nz)}; }
+Vec3 wide(float x, float y, float z) { return {static_cast<double>(x), static_cast<double>(y), static_cast<double>(z)}; }
+Vec3 normal(const Found& f) { return wide(f.surface.nx, f.surface.ny, f.surface.nz); }
+Vec3 place(const Found& f) { return wide(f.surface.x, f.surface.y, f.surface.z); }
 
 }  // namespace
 
@@ -90,7 +92,7 @@ TEST(nearest, normals_face_the_camera_and_are_those_of_the_shapes) {
     const Found f = look(frozen, ray);
     if (!f.surface.found) continue;
     ++seen[kind];
-    const Vec3 got = normal(f), d = direction(ray), point{static_cast<double>(f.surface.x), static_cast<double>(f.surface.y), static_cast<double>(f.surface.z)};
+    const Vec3 got = normal(f), d = direction(ray), point = place(f);
     ASSERT_NEAR(base::length(got), 1, 2e-6) << kind;
     ASSERT_LE(base::dot(got, d), 0) << kind;
     ASSERT_NEAR(static_cast<double>(f.surface.cos_view), -base::dot(got, d) / base::length(d), 1e-6);
@@ -104,7 +106,9 @@ TEST(nearest, normals_face_the_camera_and_are_those_of_the_shapes) {
     if (kind == 0) best = std::abs(base::dot(got, to_camera(turn(n))));
     if (kind == 1) best = std::abs(base::dot(got, base::normalized(point - to_camera(middle + one.position - camera.position))));
     if (kind == 2) {
-      for (const Vec3& axis : {Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, 1}}) best = std::fmax(best, std::abs(base::dot(got, to_camera(turn(axis)))));
+      for (const Vec3& axis : {Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, 1}}) {
+        best = std::fmax(best, std::abs(base::dot(got, to_camera(turn(axis)))));
+      }
     }
     if (kind == 3) best = std::abs(base::dot(got, to_camera(turn(base::normalized(base::cross(v[1] - v[0], v[2] - v[0]))))));
     ASSERT_NEAR(best, 1, 2e-6) << kind;
@@ -128,12 +132,11 @@ TEST(nearest, names_the_side_of_a_box_that_the_ray_goes_through) {
     const Found f = look(frozen, ray);
     if (!f.surface.found) continue;
     const base::Mat3 back = base::transposed(frozen.camera().rotation);
-    const Vec3 n = back * normal(f), p{static_cast<double>(f.surface.x), static_cast<double>(f.surface.y), static_cast<double>(f.surface.z)};
-    const Vec3 place = back * p + frozen.camera().position - middle;
+    const Vec3 n = back * normal(f), at = back * place(f) + frozen.camera().position - middle;
     for (std::size_t k = 0; k < 3; ++k) {
       if (std::abs(n[k]) < 0.5) continue;
       ++sides[k];
-      ASSERT_NEAR(place[k], std::copysign(half[k], n[k]), 3e-6);
+      ASSERT_NEAR(at[k], std::copysign(half[k], n[k]), 3e-6);
     }
   }
   for (const int count : sides) EXPECT_GT(count, 300);

@@ -32,7 +32,7 @@ struct Inside {
     view = std::make_unique<scene::View>(mesh.placed(), origin, 0);
     forms = view->forms();
   }
-  [[nodiscard]] bool hits(const test::Ray& ray, std::size_t triangle) const { return trace::inverse_range(forms.triangles[triangle], ray) > 0; }
+  [[nodiscard]] bool hits(const test::Ray& ray, std::size_t i) const { return trace::inverse_range(forms.triangles[i], ray) > 0; }
   /// Those that should be hit are tried first, all others only where these fail.
   [[nodiscard]] bool missed(const test::Ray& ray, const std::vector<std::size_t>& likely) const {
     for (const std::size_t i : likely) {
