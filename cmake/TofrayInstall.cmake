@@ -49,3 +49,19 @@ configure_package_config_file(cmake/tofray-config.cmake.in ${CMAKE_BINARY_DIR}/t
 write_basic_package_version_file(${CMAKE_BINARY_DIR}/tofray-config-version.cmake COMPATIBILITY SameMinorVersion)
 install(EXPORT tofray-targets NAMESPACE tofray:: DESTINATION ${tofray_package_dir})
 install(FILES ${CMAKE_BINARY_DIR}/tofray-config.cmake ${CMAKE_BINARY_DIR}/tofray-config-version.cmake DESTINATION ${tofray_package_dir})
+
+# Completion, written by the command itself, where the shells look for it.
+if(NOT CMAKE_CROSSCOMPILING)
+  install(CODE "
+    foreach(place IN ITEMS bash=bash-completion/completions/tofray zsh=zsh/site-functions/_tofray fish=fish/vendor_completions.d/tofray.fish)
+      string(REGEX MATCH \"^[a-z]+\" shell \${place})
+      string(REPLACE \"\${shell}=\" \"\$ENV{DESTDIR}\${CMAKE_INSTALL_PREFIX}/${CMAKE_INSTALL_DATADIR}/\" file \${place})
+      get_filename_component(folder \${file} DIRECTORY)
+      file(MAKE_DIRECTORY \${folder})
+      message(STATUS \"Installing: \${file}\")
+      execute_process(COMMAND \"$<TARGET_FILE:tofray>\" completion \${shell} OUTPUT_FILE \${file} RESULT_VARIABLE status)
+      if(NOT status EQUAL 0)
+        message(FATAL_ERROR \"tofray completion \${shell} failed\")
+      endif()
+    endforeach()")
+endif()
