@@ -113,14 +113,14 @@ TEST(memory, that_does_not_suffice_ends_with_4) {
 void interrupt(int signal, int expected) {
   for (int round = 0; round < 10; ++round) {
     const Folder folder;
-    const pid_t child = start(with_small_sensor({"render", "flying-ball", "-o", "out", "--frames", "9999"}), folder / "stdout",
-                              folder / "stderr", in_folder(folder.path()));
+    Running child(start(with_small_sensor({"render", "flying-ball", "-o", "out", "--frames", "2000"}), folder / "stdout", folder / "stderr",
+                        in_folder(folder.path())));
     const fs::path second = folder / "out" / "frame_0001.npz";
     for (int i = 0; i < 10'000 && !fs::exists(second); ++i) std::this_thread::sleep_for(std::chrono::milliseconds(1));
     ASSERT_TRUE(fs::exists(second)) << content(folder / "stderr");
     std::this_thread::sleep_for(std::chrono::microseconds(137 * round));
-    ::kill(child, signal);
-    EXPECT_EQ(finish(child), expected);
+    child.send(signal);
+    EXPECT_EQ(child.finish(), expected);
     EXPECT_EQ(temporaries(folder.path()), std::vector<std::string>());
     EXPECT_FALSE(fs::exists(folder / "out" / "manifest.json"));
     for (const auto& entry : fs::directory_iterator(folder / "out")) EXPECT_NO_THROW(io::read_npz(entry.path())) << entry.path();
@@ -147,15 +147,16 @@ TEST(interrupted, output_to_a_closed_pipe_says_nothing) {
 
 TEST(interrupted, nohup_is_respected) {
   const Folder folder;
-  const pid_t child =
-      start(with_small_sensor({"render", "flying-ball", "-o", "out", "--frames", "40"}), folder / "stdout", folder / "stderr", [&] {
-        in_folder(folder.path())();
-        ::signal(SIGHUP, SIG_IGN);
-      });
+  const auto ignoring = [&] {
+    in_folder(folder.path())();
+    ::signal(SIGHUP, SIG_IGN);
+  };
+  const Arguments arguments = with_small_sensor({"render", "flying-ball", "-o", "out", "--frames", "40"});
+  Running child(start(arguments, folder / "stdout", folder / "stderr", ignoring));
   for (int i = 0; i < 10'000 && !fs::exists(folder / "out" / "frame_0001.npz"); ++i)
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
-  ::kill(child, SIGHUP);
-  EXPECT_EQ(finish(child), 0) << content(folder / "stderr");
+  child.send(SIGHUP);
+  EXPECT_EQ(child.finish(), 0) << content(folder / "stderr");
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #pragma once
 #include <fcntl.h>
 #include <stdlib.h>
+#include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
@@ -17,6 +18,7 @@
 #include <sstream>
 #include <string>
 #include <thread>
+#include <utility>
 #include <vector>
 
 /// Drives the real program, TOFRAY_TOOL, as a shell would.
@@ -68,6 +70,7 @@ inline pid_t start(const Arguments& arguments, const fs::path& out, const fs::pa
   words.push_back(nullptr);
   const pid_t child = ::fork();
   if (child != 0) return child;
+  ::prctl(PR_SET_PDEATHSIG, SIGKILL);  // a test that fails leaves nothing running behind it
   ::dup2(::open("/dev/null", O_RDONLY), 0);
   ::dup2(::open(out.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600), 1);
   ::dup2(::open(err.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600), 2);
@@ -82,6 +85,24 @@ inline int finish(pid_t child) {
   while (::waitpid(child, &status, 0) < 0 && errno == EINTR) {}
   return WIFEXITED(status) ? WEXITSTATUS(status) : 1000 + WTERMSIG(status);
 }
+
+/// Ends a program that a test gave up on, before the test's folder goes.
+class Running {
+ public:
+  explicit Running(pid_t child) : child_(child) {}
+  ~Running() {
+    if (child_ <= 0) return;
+    ::kill(child_, SIGKILL);
+    finish();
+  }
+  Running(const Running&) = delete;
+  Running& operator=(const Running&) = delete;
+  void send(int signal) const { ::kill(child_, signal); }
+  int finish() { return test::finish(std::exchange(child_, 0)); }
+
+ private:
+  pid_t child_;
+};
 
 /// Runs the program to its end.
 inline Result run(const Arguments& arguments, const Prepare& prepare = {}) {
