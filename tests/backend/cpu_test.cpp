@@ -95,9 +95,11 @@ TEST(for_each_tile, does_every_piece_once) {
 TEST(for_each_tile, lets_an_error_of_a_piece_surface) {
   for (const int threads : {1, 4}) {
     TileRunner runner(threads, 64);
-    EXPECT_THROW(runner.for_each_tile(100, [](int index, void*) {
-      if (index == 37) throw std::runtime_error("piece 37");
-    }), std::runtime_error);
+    EXPECT_THROW(runner.for_each_tile(100,
+                                      [](int index, void*) {
+                                        if (index == 37) throw std::runtime_error("piece 37");
+                                      }),
+                 std::runtime_error);
     std::atomic<int> after{0};
     runner.for_each_tile(10, [&](int, void*) { ++after; });
     EXPECT_EQ(after.load(), 10) << "and goes on working";

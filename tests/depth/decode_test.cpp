@@ -30,7 +30,8 @@ TEST(range, wraps_at_the_unambiguous_range) {
     const Bench bench(bench_camera(frequencies));
     const double range = static_cast<double>(bench.decoder().common_range);
     for (const double d : {0.3, 0.99 * range, 1.01 * range, 1.7 * range, 5.3 * range}) {
-      EXPECT_NEAR(static_cast<double>(bench.measure({10000, d, 0}).depth.range), d - range * std::floor(d / range), 5e-6) << frequencies[0] << " " << d;
+      EXPECT_NEAR(static_cast<double>(bench.measure({10000, d, 0}).depth.range), d - range * std::floor(d / range), 5e-6)
+          << frequencies[0] << " " << d;
     }
   }
 }
@@ -65,15 +66,18 @@ TEST(decode, finds_amplitude_and_ambient) {
 
 TEST(decode, takes_ambient_from_the_grey_frames_share_of_time) {
   Camera camera = two_frequencies();
-  camera.mode.sequence[0].integration_time_s = 0.2e-3;   // a fifth of the lit ones
+  camera.mode.sequence[0].integration_time_s = 0.2e-3;  // a fifth of the lit ones
   EXPECT_NEAR(static_cast<double>(Bench(camera).measure({20000, 1.2, 3000}).depth.ambient), 3000, 0.05);
 }
 
 // σ̂ against the spread that it estimates: 5e4 draws; 2 % for its own first order and the draws' 0.3 %.
 TEST(noise_estimate, is_the_spread_of_the_range) {
-  struct Case { double signal, ambient, half_path; bool wiggling; };
-  for (const Case& at : {Case{20000, 3000, 1.2, false}, Case{5000, 0, 3.3, false}, Case{40000, 50000, 6.0, false}, Case{20000, 3000, 1.23, true},
-                         Case{20000, 3000, 1.5, true}}) {
+  struct Case {
+    double signal, ambient, half_path;
+    bool wiggling;
+  };
+  for (const Case& at : {Case{20000, 3000, 1.2, false}, Case{5000, 0, 3.3, false}, Case{40000, 50000, 6.0, false},
+                         Case{20000, 3000, 1.23, true}, Case{20000, 3000, 1.5, true}}) {
     Camera camera = two_frequencies();
     camera.adc.step_e_per_dn = 20, camera.adc.mid_code = 32768;
     if (at.wiggling) {
@@ -96,9 +100,11 @@ TEST(noise_estimate, is_the_spread_of_the_range) {
 TEST(noise_estimate, counts_dark_current_and_the_step) {
   Camera camera = two_frequencies();
   const double quiet = static_cast<double>(Bench(camera).measure({5000, 1, 0}).depth.noise);
-  const auto sigma = [](double extra) { return std::sqrt((5000 + 1800 + 1.0 / 12 + extra) / 2) / 3500 * c / (4 * pi) / std::hypot(80.32e6, 60.24e6); };
+  const auto sigma = [](double extra) {
+    return std::sqrt((5000 + 1800 + 1.0 / 12 + extra) / 2) / 3500 * c / (4 * pi) / std::hypot(80.32e6, 60.24e6);
+  };
   EXPECT_NEAR(quiet / sigma(0), 1, 1e-4);
-  camera.pixel.dark_current_e_per_s = 2e6;   // 2000 e⁻ in each tap; the grey frame's A−B does not show it
+  camera.pixel.dark_current_e_per_s = 2e6;  // 2000 e⁻ in each tap; the grey frame's A−B does not show it
   EXPECT_NEAR(static_cast<double>(Bench(camera).measure({5000, 1, 0}).depth.noise) / sigma(4000), 1, 1e-4);
   camera.pixel.dark_current_e_per_s = 0;
   camera.adc.step_e_per_dn = 100;
@@ -110,7 +116,7 @@ TEST(flags, are_none_for_a_good_pixel) { EXPECT_EQ(flags_of(Bench(two_frequencie
 // σ̂ of 0.07 m: from either side. Never where noise is off.
 TEST(flags, say_low_signal_where_the_noise_is_above_its_limit) {
   const Camera camera = two_frequencies();
-  const auto signal_for = [](double noise_m) {   // V = S + floor, solved for S by bisection
+  const auto signal_for = [](double noise_m) {  // V = S + floor, solved for S by bisection
     double low = 1, high = 1e6;
     for (int i = 0; i < 100; ++i) {
       const double s = 0.5 * (low + high);
@@ -131,7 +137,7 @@ TEST(flags, say_low_signal_where_the_noise_is_above_its_limit) {
 TEST(flags, say_no_return_where_nothing_comes_back) {
   const Bench bench(two_frequencies());
   EXPECT_EQ(flags_of(bench, {0, 1.2, 3000}) & depth::no_return, depth::no_return);
-  EXPECT_EQ(flags_of(bench, {0.99 / 0.7, 1.2, 0}) & depth::no_return, depth::no_return);   // Â just below one electron
+  EXPECT_EQ(flags_of(bench, {0.99 / 0.7, 1.2, 0}) & depth::no_return, depth::no_return);  // Â just below one electron
   EXPECT_EQ(flags_of(bench, {1.01 / 0.7, 1.2, 0}) & depth::no_return, 0);
 }
 
@@ -188,7 +194,8 @@ TEST(flags, warn_where_the_frequencies_do_not_agree) {
 TEST(depth, does_not_depend_on_the_amplitude) {
   const Bench bench(bench_camera({80.32e6, 60.24e6}));
   const double one = static_cast<double>(bench.measure({100, 2.7, 0}).depth.range);
-  for (const double factor : {3.0, 10.0, 100.0, 1e4}) EXPECT_NEAR(static_cast<double>(bench.measure({100 * factor, 2.7, 0}).depth.range), one, 2e-6);
+  for (const double factor : {3.0, 10.0, 100.0, 1e4})
+    EXPECT_NEAR(static_cast<double>(bench.measure({100 * factor, 2.7, 0}).depth.range), one, 2e-6);
 }
 
 // Temperature moves every measured half path by the drift; the decoder knows nothing of it.

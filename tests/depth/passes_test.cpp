@@ -60,7 +60,8 @@ TEST(flying_pixel, needs_both_neighbours_of_a_pair) {
   for (const double z : {0.5, 2.75, 6.0}) {
     for (const double share : {0.97, 1.03}) {
       for (const double sign : {-1.0, 1.0}) {
-        const float here = static_cast<float>(z), off = static_cast<float>(z + sign * share * limit_at(z)), other = static_cast<float>(z - sign * share * limit_at(z));
+        const float here = static_cast<float>(z), off = static_cast<float>(z + sign * share * limit_at(z)),
+                    other = static_cast<float>(z - sign * share * limit_at(z));
         const bool expected = share > 1;
         EXPECT_EQ(flies(bench, here, off, off, here, here), expected);
         EXPECT_EQ(flies(bench, here, off, other, here, here), expected) << "between front and back";
@@ -125,7 +126,7 @@ TEST(filters, let_no_invalid_pixel_bleed) {
     EXPECT_NEAR(depth::gaussian(image.view(), 3, 3, 3, weights.data()), 1.0f, 1e-6f) << flag;
     EXPECT_EQ(depth::median(image.view(), 3, 3, 2), 1.0f) << flag;
   }
-  Image warned(5, 5, 1.0f);   // a warning is not a fault: the pixel counts
+  Image warned(5, 5, 1.0f);  // a warning is not a fault: the pixel counts
   warned.range[warned.at(2, 2)] = 2.0f, warned.flags[warned.at(2, 2)] = 32 + 64;
   EXPECT_GT(depth::gaussian(warned.view(), 2, 2, 1, weights_of(1.0, 1).data()), 1.1f);
 }
@@ -133,7 +134,7 @@ TEST(filters, let_no_invalid_pixel_bleed) {
 TEST(median, is_that_of_a_sorted_window) {
   std::mt19937 random(31);
   Image image(12, 11, 0);
-  for (float& r : image.range) r = static_cast<float>(random() % 9) * 0.5f;   // many ties
+  for (float& r : image.range) r = static_cast<float>(random() % 9) * 0.5f;  // many ties
   for (std::uint16_t& f : image.flags) f = random() % 4 == 0 ? 8 : 0;
   for (const int radius : {1, 2, 4}) {
     for (int y = 0; y < 11; ++y) {

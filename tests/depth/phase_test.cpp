@@ -30,8 +30,8 @@ std::vector<float> differences(int phases, double phase, const std::function<dou
 }
 
 struct Swing {
-  double worst_error = 0;               ///< [rad]
-  double smallest = 1e30, largest = 0, mean = 0;   ///< amplitude
+  double worst_error = 0;                         ///< [rad]
+  double smallest = 1e30, largest = 0, mean = 0;  ///< amplitude
 };
 
 /// The decoder's φ̂ − φ over many phases.
@@ -40,7 +40,8 @@ Swing swing(int phases, const std::function<double(double)>& correlation, int co
   Swing out;
   for (int i = 0; i < count; ++i) {
     const double phase = two_pi * i / count;
-    const auto estimate = depth::estimate<float>(bench.decoder(), bench.decoder().modulation[0], differences(phases, phase, correlation).data());
+    const auto estimate =
+        depth::estimate<float>(bench.decoder(), bench.decoder().modulation[0], differences(phases, phase, correlation).data());
     EXPECT_GE(estimate.turns, 0.0f);
     EXPECT_LT(estimate.turns, 1.0f);
     out.worst_error = std::max(out.worst_error, std::abs(wrapped(static_cast<double>(estimate.turns) - phase / two_pi)) * two_pi);
@@ -93,9 +94,13 @@ TEST(phase, turns_by_half_where_the_taps_are_swapped) {
   const Bench bench(bench_camera());
   for (int i = 0; i < 1000; ++i) {
     auto difference = differences(4, two_pi * i / 1000, [](double x) { return std::cos(x); });
-    const double turns = static_cast<double>(depth::estimate<float>(bench.decoder(), bench.decoder().modulation[0], difference.data()).turns);
+    const double turns =
+        static_cast<double>(depth::estimate<float>(bench.decoder(), bench.decoder().modulation[0], difference.data()).turns);
     for (float& d : difference) d = -d;
-    EXPECT_NEAR(wrapped(static_cast<double>(depth::estimate<float>(bench.decoder(), bench.decoder().modulation[0], difference.data()).turns) - turns - 0.5), 0, 1e-7);
+    EXPECT_NEAR(
+        wrapped(static_cast<double>(depth::estimate<float>(bench.decoder(), bench.decoder().modulation[0], difference.data()).turns) -
+                turns - 0.5),
+        0, 1e-7);
   }
 }
 
@@ -103,9 +108,13 @@ TEST(phase, turns_round_where_the_order_of_the_raw_frames_is_reversed) {
   const Bench bench(bench_camera());
   for (int i = 0; i < 1000; ++i) {
     auto difference = differences(4, two_pi * i / 1000, [](double x) { return std::cos(x); });
-    const double turns = static_cast<double>(depth::estimate<float>(bench.decoder(), bench.decoder().modulation[0], difference.data()).turns);
+    const double turns =
+        static_cast<double>(depth::estimate<float>(bench.decoder(), bench.decoder().modulation[0], difference.data()).turns);
     std::swap(difference[1], difference[3]);
-    EXPECT_NEAR(wrapped(static_cast<double>(depth::estimate<float>(bench.decoder(), bench.decoder().modulation[0], difference.data()).turns) + turns), 0, 1e-7);
+    EXPECT_NEAR(
+        wrapped(static_cast<double>(depth::estimate<float>(bench.decoder(), bench.decoder().modulation[0], difference.data()).turns) +
+                turns),
+        0, 1e-7);
   }
 }
 
@@ -117,7 +126,10 @@ TEST(wiggling, of_a_third_harmonic_is_that_of_the_closed_form) {
   for (int i = 0; i < 100'000; ++i) {
     const double phase = two_pi * i / 100'000;
     const auto d = differences(4, phase, [&](double x) { return std::cos(x) + a3 * std::cos(3 * x); });
-    const double error = wrapped(static_cast<double>(depth::estimate<float>(bench.decoder(), bench.decoder().modulation[0], d.data()).turns) - phase / two_pi) * two_pi;
+    const double error =
+        wrapped(static_cast<double>(depth::estimate<float>(bench.decoder(), bench.decoder().modulation[0], d.data()).turns) -
+                phase / two_pi) *
+        two_pi;
     worst = std::max(worst, std::abs(error - std::atan2(-a3 * std::sin(4 * phase), 1 + a3 * std::cos(4 * phase))));
     largest = std::max(largest, std::abs(error));
   }
@@ -127,7 +139,10 @@ TEST(wiggling, of_a_third_harmonic_is_that_of_the_closed_form) {
 
 // All harmonics: the exact triangle.
 TEST(wiggling, of_square_by_square_is_that_of_all_its_harmonics) {
-  const struct { int phases; double error, ripple; } known[] = {{3, .019495, .14691}, {6, .019495, .14691}, {4, .071115, .36088}, {5, .004058, .05059}, {8, .008018, .08016}};
+  const struct {
+    int phases;
+    double error, ripple;
+  } known[] = {{3, .019495, .14691}, {6, .019495, .14691}, {4, .071115, .36088}, {5, .004058, .05059}, {8, .008018, .08016}};
   for (const auto& k : known) {
     const Swing s = swing(k.phases, triangle);
     EXPECT_NEAR(s.worst_error, k.error, 1e-5) << k.phases;
@@ -153,7 +168,8 @@ TEST(wiggling, is_taken_out_by_the_table) {
           double sum = 0;
           for (const int m : {1, 3, 5, 7}) {
             const auto sinc = [](double v) { return std::sin(pi * v) / (pi * v); };
-            const double a = 4 / (pi * m) * std::sin(m * pi / 2) * sinc(0.25 * m) * sinc(m * f * 1e-9) * 0.75 / std::sqrt(1 + std::pow(m * f / 180e6, 2));
+            const double a = 4 / (pi * m) * std::sin(m * pi / 2) * sinc(0.25 * m) * sinc(m * f * 1e-9) * 0.75 /
+                             std::sqrt(1 + std::pow(m * f / 180e6, 2));
             sum += a * std::cos(m * x - std::atan(m * f / 180e6));
           }
           return sum;
@@ -178,13 +194,16 @@ TEST(radial_motion, biases_the_phase_as_the_closed_form_says) {
       const double middle = two_pi * i / 10'000;
       std::vector<float> d;
       for (int k = 0; k < 4; ++k) d.push_back(static_cast<float>(1e4 * std::cos(middle + (k - 1.5) * step + k * pi / 2)));
-      const double error = wrapped(static_cast<double>(depth::estimate<float>(bench.decoder(), bench.decoder().modulation[0], d.data()).turns) - middle / two_pi) * two_pi;
+      const double error =
+          wrapped(static_cast<double>(depth::estimate<float>(bench.decoder(), bench.decoder().modulation[0], d.data()).turns) -
+                  middle / two_pi) *
+          two_pi;
       worst = std::max(worst, std::abs(error - std::atan2(t * std::cos(2 * middle), 1 + t * std::sin(2 * middle))));
       largest = std::max(largest, std::abs(error));
     }
     EXPECT_LT(worst, 2e-6);
     if (speed == 1.0) {
-      EXPECT_NEAR(largest * c / (4 * pi * 60e6), 0.5e-3, 1e-6);   // vT/2
+      EXPECT_NEAR(largest * c / (4 * pi * 60e6), 0.5e-3, 1e-6);  // vT/2
     }
   }
 }

@@ -30,10 +30,11 @@ std::vector<float> turns_of(const std::vector<double>& frequencies, double half_
 }
 
 /// The unwrapped half path's error, whole common ranges taken off.
-double error_of(const Bench& bench, const std::vector<double>& frequencies, double common, double half_path, const std::vector<double>& noise = {}) {
+double error_of(const Bench& bench, const std::vector<double>& frequencies, double common, double half_path,
+                const std::vector<double>& noise = {}) {
   const auto turns = turns_of(frequencies, half_path, noise);
   std::vector<float> weight;
-  for (const double f : frequencies) weight.push_back(static_cast<float>(1 / std::pow(0.001 * half_wave(f), 2)));   // equal phase noise
+  for (const double f : frequencies) weight.push_back(static_cast<float>(1 / std::pow(0.001 * half_wave(f), 2)));  // equal phase noise
   const auto got = depth::unwrap<float>(bench.decoder(), turns.data(), weight.data());
   const double d = static_cast<double>(got.value);
   EXPECT_GE(d, 0.0) << half_path;
@@ -43,25 +44,27 @@ double error_of(const Bench& bench, const std::vector<double>& frequencies, doub
 
 double uniform(std::mt19937_64& random) { return static_cast<double>(random() >> 11) * 0x1p-53; }
 
-double normal(std::mt19937_64& random) {
-  return std::sqrt(-2 * std::log(uniform(random) + 1e-300)) * std::cos(two_pi * uniform(random));
-}
+double normal(std::mt19937_64& random) { return std::sqrt(-2 * std::log(uniform(random) + 1e-300)) * std::cos(two_pi * uniform(random)); }
 
 struct Set {
   std::vector<double> frequencies;
   double base;
 };
 
-const std::vector<Set> sets = {{{80.32e6, 60.24e6}, 20.08e6}, {{60.24e6, 80.32e6}, 20.08e6}, {{80e6, 60e6}, 20e6},       {{100e6, 80e6}, 20e6},
-                               {{70e6, 50e6}, 10e6},          {{90e6, 80e6}, 10e6},          {{30e6, 20e6}, 10e6},       {{80e6, 40e6}, 40e6},
-                               {{60e6}, 60e6},                {{100e6, 80e6, 60e6}, 20e6},   {{80e6, 70e6, 60e6}, 10e6}, {{110e6, 70e6, 50e6, 30e6}, 10e6}};
+const std::vector<Set> sets = {{{80.32e6, 60.24e6}, 20.08e6}, {{60.24e6, 80.32e6}, 20.08e6}, {{80e6, 60e6}, 20e6},
+                               {{100e6, 80e6}, 20e6},         {{70e6, 50e6}, 10e6},          {{90e6, 80e6}, 10e6},
+                               {{30e6, 20e6}, 10e6},          {{80e6, 40e6}, 40e6},          {{60e6}, 60e6},
+                               {{100e6, 80e6, 60e6}, 20e6},   {{80e6, 70e6, 60e6}, 10e6},    {{110e6, 70e6, 50e6, 30e6}, 10e6}};
 
 }  // namespace
 
 // c/(2f): what one modulation frequency can tell apart, and c/(2f_0) of several.
 TEST(unambiguous_range, is_that_of_the_common_base) {
-  const struct { std::vector<double> frequencies; double range; } known[] = {
-      {{20e6}, 7.494811450}, {{60e6}, 2.498270483}, {{80e6}, 1.873702863}, {{80.32e6}, 1.866237911}, {{100e6}, 1.498962290}, {{80.32e6, 60.24e6}, 7.464951643}};
+  const struct {
+    std::vector<double> frequencies;
+    double range;
+  } known[] = {{{20e6}, 7.494811450},    {{60e6}, 2.498270483},  {{80e6}, 1.873702863},
+               {{80.32e6}, 1.866237911}, {{100e6}, 1.498962290}, {{80.32e6, 60.24e6}, 7.464951643}};
   for (const auto& k : known) EXPECT_FLOAT_EQ(Bench(bench_camera(k.frequencies)).decoder().common_range, static_cast<float>(k.range));
 }
 
@@ -93,7 +96,8 @@ TEST(unwrapping, is_right_at_every_wrap) {
         for (const double off : {0.0, 1e-16, 1e-9, 1e-8, 3e-8, 6e-8, 1.2e-7, 1e-6, 1e-5}) {
           for (const double sign : {-1.0, 1.0}) {
             const double half_path = half_wave(f) * (n + sign * off);
-            EXPECT_LT(std::abs(error_of(bench, set.frequencies, common, half_path)), 1e-6 * common + 5e-7) << f << ", wrap " << n << " " << sign * off;
+            EXPECT_LT(std::abs(error_of(bench, set.frequencies, common, half_path)), 1e-6 * common + 5e-7)
+                << f << ", wrap " << n << " " << sign * off;
           }
         }
       }
@@ -120,8 +124,11 @@ TEST(unwrapping, keeps_to_its_range_within_a_last_place) {
 
 // P(wrong cycle) = erfc(½/(√2·σ_q)), σ_q = σ·√(M² + N²)/2π. 1e6 half paths over the whole range; binomial 5.5 sigma.
 TEST(unwrapping, of_two_frequencies_fails_as_often_as_the_closed_form_says) {
-  struct Case { double f1, f2, base, sigma; };
-  for (const Case& at : {Case{80e6, 60e6, 20e6, 0.25}, Case{80e6, 60e6, 20e6, 0.35}, Case{80.32e6, 60.24e6, 20.08e6, 0.25}, Case{100e6, 80e6, 20e6, 0.2}}) {
+  struct Case {
+    double f1, f2, base, sigma;
+  };
+  for (const Case& at :
+       {Case{80e6, 60e6, 20e6, 0.25}, Case{80e6, 60e6, 20e6, 0.35}, Case{80.32e6, 60.24e6, 20.08e6, 0.25}, Case{100e6, 80e6, 20e6, 0.2}}) {
     const std::vector<double> frequencies{at.f1, at.f2};
     const Bench bench(bench_camera(frequencies));
     const double common = half_wave(at.base), m = at.f1 / at.base, n = at.f2 / at.base;
@@ -131,10 +138,13 @@ TEST(unwrapping, of_two_frequencies_fails_as_often_as_the_closed_form_says) {
     Moments fused;
     for (int i = 0; i < count; ++i) {
       const double half_path = common * uniform(random);
-      const double error = error_of(bench, frequencies, common, half_path, {at.sigma * normal(random) / two_pi, at.sigma * normal(random) / two_pi});
+      const double error =
+          error_of(bench, frequencies, common, half_path, {at.sigma * normal(random) / two_pi, at.sigma * normal(random) / two_pi});
       // a wrong cycle is off by whole waves of one modulation frequency
-      if (std::abs(error) > 0.5 * half_wave(at.f1)) ++wrong;
-      else fused.add(error);
+      if (std::abs(error) > 0.5 * half_wave(at.f1))
+        ++wrong;
+      else
+        fused.add(error);
     }
     const double share = std::erfc(0.5 / (std::sqrt(2.0) * at.sigma * std::sqrt(m * m + n * n) / two_pi));
     EXPECT_LT(std::abs(wrong - share * count) / std::sqrt(count * share * (1 - share)), 5.5) << at.f1 << " " << at.sigma << ": " << wrong;
@@ -163,7 +173,7 @@ TEST(unwrapping, of_three_frequencies_takes_the_closest_point) {
     for (int k = 0; k < 3; ++k) noise.push_back(0.3 * normal(random) / two_pi);
     const auto turns = turns_of(frequencies, half_path, noise);
     double least = 1e30, best = 0;
-    for (int n = 0; n < 3; ++n) {   // cycles of 60 MHz, the one with the fewest
+    for (int n = 0; n < 3; ++n) {  // cycles of 60 MHz, the one with the fewest
       const double d = half_wave(60e6) * (n + static_cast<double>(turns[2]));
       double misfit = 0, mean = 0, weights = 0;
       for (std::size_t k = 0; k < 3; ++k) {
@@ -175,7 +185,7 @@ TEST(unwrapping, of_three_frequencies_takes_the_closest_point) {
     const double error = half_path + error_of(bench, frequencies, common, half_path, noise) - best;
     if (std::abs(error - common * std::round(error / common)) > 1e-5) ++different;
   }
-  EXPECT_LE(different, 2);   // ties within the rounding of a float
+  EXPECT_LE(different, 2);  // ties within the rounding of a float
 }
 
 // The average first, then the range: near the far end one phase has wrapped and the other has not.
@@ -186,7 +196,9 @@ TEST(unwrapping, averages_before_it_wraps) {
   for (const double shift : {-0.02, 0.02}) {
     for (const double half_path : {0.0, 1e-4, common - 1e-4}) {
       EXPECT_NEAR(error_of(bench, frequencies, common, half_path, {shift, -shift}),
-                  shift * (half_wave(80.32e6) / (half_wave(80.32e6) * half_wave(80.32e6)) - half_wave(60.24e6) / (half_wave(60.24e6) * half_wave(60.24e6))) /
+                  shift *
+                      (half_wave(80.32e6) / (half_wave(80.32e6) * half_wave(80.32e6)) -
+                       half_wave(60.24e6) / (half_wave(60.24e6) * half_wave(60.24e6))) /
                       (1 / (half_wave(80.32e6) * half_wave(80.32e6)) + 1 / (half_wave(60.24e6) * half_wave(60.24e6))),
                   2e-6);
     }

@@ -41,7 +41,7 @@ TEST(wrap_turns, takes_whole_turns_off) {
   sweep(-1e6, 1e6, [](float t) {
     const float w = num::wrap_turns(t);
     ASSERT_LE(std::abs(w), 0.5f);
-    ASSERT_EQ(wide(w), wide(t) - std::nearbyint(wide(t)));   // exact: both have the same grid of last places
+    ASSERT_EQ(wide(w), wide(t) - std::nearbyint(wide(t)));  // exact: both have the same grid of last places
   });
 }
 
@@ -93,7 +93,8 @@ TEST(atan2_turns, is_within_4e_8_turns) {
 }
 
 TEST(atan2_turns, is_exact_on_the_axes_and_diagonals) {
-  const float at[8][3] = {{0, 1, 0}, {1, 1, 0.125f}, {1, 0, 0.25f}, {1, -1, 0.375f}, {0, -1, 0.5f}, {-1, -1, -0.375f}, {-1, 0, -0.25f}, {-1, 1, -0.125f}};
+  const float at[8][3] = {{0, 1, 0},     {1, 1, 0.125f},    {1, 0, 0.25f},   {1, -1, 0.375f},
+                          {0, -1, 0.5f}, {-1, -1, -0.375f}, {-1, 0, -0.25f}, {-1, 1, -0.125f}};
   for (const float size : {1e-30f, 1.0f, 1e30f}) {
     for (const auto& [y, x, turns] : at) EXPECT_NEAR(num::atan2_turns(y * size, x * size), turns, 3e-8f);
   }
@@ -108,10 +109,11 @@ TEST(log, is_within_two_ulps_and_3e_8) {
   std::mt19937_64 random(13);
   const auto check = [&](float a) {
     const double exact = std::log(wide(a)), off = std::abs(wide(num::log(a)) - exact);
-    absolute = std::max(absolute, off - 1.2e-7 * std::abs(exact));   // two units in the last place at worst …
-    if (std::abs(exact) < 0.3) relative = std::max(relative, off / std::max(std::abs(exact), 1e-30));   // … and next to log 1 = 0 as well
+    absolute = std::max(absolute, off - 1.2e-7 * std::abs(exact));  // two units in the last place at worst …
+    if (std::abs(exact) < 0.3) relative = std::max(relative, off / std::max(std::abs(exact), 1e-30));  // … and next to log 1 = 0 as well
   };
-  for (int i = 0; i < 2'000'000; ++i) check(num::from_bits(0x00800000u + static_cast<std::uint32_t>(random() % 0x7f000000u)));   // every binade
+  for (int i = 0; i < 2'000'000; ++i)
+    check(num::from_bits(0x00800000u + static_cast<std::uint32_t>(random() % 0x7f000000u)));  // every binade
   sweep(0.7, 1.42, check);
   EXPECT_LT(absolute, 3e-8);
   EXPECT_LT(relative, 2.4e-7);
@@ -130,9 +132,7 @@ TEST(exp2, is_within_two_ulps_and_cuts_off_where_it_says) {
 
 // The argument's last place counts: |a|·6e-8.
 TEST(exp, is_within_the_rounding_of_its_argument) {
-  sweep(-80, 80, [](float a) {
-    ASSERT_LT(std::abs(wide(num::exp(a)) / std::exp(wide(a)) - 1), 2.4e-7 + 1.2e-7 * std::abs(wide(a))) << a;
-  });
+  sweep(-80, 80, [](float a) { ASSERT_LT(std::abs(wide(num::exp(a)) / std::exp(wide(a)) - 1), 2.4e-7 + 1.2e-7 * std::abs(wide(a))) << a; });
 }
 
 TEST(power, is_that_of_the_formula_within_the_rounding_of_its_exponent) {

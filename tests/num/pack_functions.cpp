@@ -62,7 +62,9 @@ TOFRAY_FN bool each(const PackBlock& block, Function function) {
   return true;
 }
 
-#define EACH(...) return each(block, [](const At& at) __attribute__((always_inline)) { __VA_ARGS__; })
+#define EACH(...) \
+  return each(    \
+      block, [](const At& at) __attribute__((always_inline)) { __VA_ARGS__; })
 
 TOFRAY_FN bool arithmetic(int which, const PackBlock& block) {
   switch (which) {
@@ -82,8 +84,9 @@ TOFRAY_FN bool arithmetic(int which, const PackBlock& block) {
     case 13: EACH(at.put(at.a() < at.b()); at.put(at.a() <= at.b(), 1); at.put(at.a() > at.b(), 2); at.put(at.a() >= at.b(), 3));
     case 14: EACH(at.put(at.a() == at.b()); at.put(at.a() != at.b(), 1));
     case 15: EACH(const M m = at.a() < at.b(); const M n = at.b() < at.c(); at.put(m & n); at.put(m | n, 1); at.put(!m, 2));
-    case 16: EACH(at.put(num::select(at.a() < at.b(), at.b(), at.c())); at.put(num::select(at.a() < at.b(), at.ib(), at.ia()), 1);
-                  at.put(num::select(at.a() < at.b(), at.ub(), at.uc()), 2));
+    case 16:
+      EACH(at.put(num::select(at.a() < at.b(), at.b(), at.c())); at.put(num::select(at.a() < at.b(), at.ib(), at.ia()), 1);
+           at.put(num::select(at.a() < at.b(), at.ub(), at.uc()), 2));
     default: return false;
   }
 }
@@ -93,37 +96,43 @@ TOFRAY_FN bool whole_numbers(int which, const PackBlock& block) {
     case 0: EACH(at.put(at.ua() + at.ub()); at.put(at.ua() & at.ub(), 1); at.put(at.ua() | at.ub(), 2); at.put(at.ua() ^ at.ub(), 3));
     case 1: EACH(at.put(at.ua() << 1); at.put(at.ua() << 31, 1); at.put(at.ua() >> 9, 2); at.put(at.ua() >> 31, 3));
     case 2: EACH(U high; U low; num::multiply_wide(at.ua(), at.ub(), high, low); at.put(high); at.put(low, 1));
-    case 3: EACH(const I x = num::to_signed(at.ua() >> 2); const I y = num::to_signed(at.ub() >> 2); at.put(x + y); at.put(x - y, 1);
-                 at.put(num::to_signed(at.ua() >> 17) * num::to_signed(at.ub() >> 17), 2); at.put(x & y, 3));
+    case 3:
+      EACH(const I x = num::to_signed(at.ua() >> 2); const I y = num::to_signed(at.ub() >> 2); at.put(x + y); at.put(x - y, 1);
+           at.put(num::to_signed(at.ua() >> 17) * num::to_signed(at.ub() >> 17), 2); at.put(x & y, 3));
     case 4: EACH(at.put(at.ia() == at.ib()); at.put(at.ia() != at.ib(), 1); at.put(at.ia() < at.ib(), 2); at.put(at.ia() > at.ib(), 3));
     case 5: EACH(at.put(at.ia() | at.ib()); at.put(num::to_float(at.ia()), 1));
     // to_int wants an argument that fits
     case 6: EACH(at.put(num::to_int(num::select(num::abs(at.a()) < F(2.1e9f), at.a(), F(1.5f)))));
-    case 7: return each(block, [&](const At& at) __attribute__((always_inline)) {
-        const I index = num::to_signed(at.ua() >> 22);
-        at.put(num::gather(block.table, index));
-        at.put(num::gather(reinterpret_cast<const std::int32_t*>(block.table), index), 1);
-        F first, second;
-        num::gather_pair(block.table, num::to_signed(at.ua() >> 23), first, second);
-        at.put(first, 2);
-        at.put(second, 3);
-      });
+    case 7:
+      return each(
+          block, [&](const At& at) __attribute__((always_inline)) {
+            const I index = num::to_signed(at.ua() >> 22);
+            at.put(num::gather(block.table, index));
+            at.put(num::gather(reinterpret_cast<const std::int32_t*>(block.table), index), 1);
+            F first, second;
+            num::gather_pair(block.table, num::to_signed(at.ua() >> 23), first, second);
+            at.put(first, 2);
+            at.put(second, 3);
+          });
     default: return false;
   }
 }
 
 TOFRAY_FN bool elementary(int which, const PackBlock& block) {
   switch (which) {
-    case 0: EACH(const F t = num::select(num::abs(at.a()) < F(0x1p21f), at.a(), F(0.3f)); F s; F c; num::sincos_turns(t, s, c); at.put(s);
-                 at.put(c, 1); at.put(num::wrap_turns(at.a()), 2));
+    case 0:
+      EACH(const F t = num::select(num::abs(at.a()) < F(0x1p21f), at.a(), F(0.3f)); F s; F c; num::sincos_turns(t, s, c); at.put(s);
+           at.put(c, 1); at.put(num::wrap_turns(at.a()), 2));
     case 1: EACH(at.put(num::atan2_turns(at.a(), at.b())));
     case 2: EACH(at.put(num::log(num::abs(at.a()))));
     case 3: EACH(at.put(num::exp2(at.a())); at.put(num::exp(at.a()), 1));
     case 4: EACH(at.put(num::power(num::min(num::abs(at.a()), F(1.0f)), num::abs(at.b()))));
-    case 5: return each(block, [&](const At& at) __attribute__((always_inline)) {
-        const auto r = num::philox<F>(at.ua(), block.b[0], block.b[1], block.b[2], num::round_keys(block.c[0], block.c[1]));
-        for (int k = 0; k < 4; ++k) at.put(r.w[k], k);
-      });
+    case 5:
+      return each(
+          block, [&](const At& at) __attribute__((always_inline)) {
+            const auto r = num::philox<F>(at.ua(), block.b[0], block.b[1], block.b[2], num::round_keys(block.c[0], block.c[1]));
+            for (int k = 0; k < 4; ++k) at.put(r.w[k], k);
+          });
     case 6: EACH(F x; F y; num::normal_pair<F>(at.ua(), at.ub(), x, y); at.put(x); at.put(y, 1); at.put(num::uniform<F>(at.ua()), 2));
     case 7: EACH(at.put(raw::poisson_by_inversion<F>(num::uniform<F>(at.ua()) * F(16.0f), num::uniform<F>(at.ub()))));
     case 8: EACH(at.put(raw::poisson_by_expansion<F>(num::abs(at.a()), num::uniform<F>(at.ub()) * F(12.0f) - F(6.0f))));
@@ -134,44 +143,52 @@ TOFRAY_FN bool elementary(int which, const PackBlock& block) {
 /// What moves between lanes and memory. Results are laid out so that the width of a pack does not show.
 TOFRAY_FN bool memory(int which, const PackBlock& block) {
   switch (which) {
-    case 0: return each(block, [&](const At& at) __attribute__((always_inline)) {   // a part of a pack: the others read 0, are not written
-        alignas(64) float from[lanes], to[lanes];
-        for (int k = 0; k < lanes; ++k) from[k] = num::from_bits(block.a[at.i + k]), to[k] = 7.0f;
-        for (int n = 1; n <= lanes; ++n) {
-          num::store(to, num::load<F>(from, n), n);
-          for (int k = n; k < lanes; ++k) at.block.out[pack_block + at.i + k] |= num::bits(to[k]) ^ num::bits(7.0f);
-          alignas(64) float all[lanes];
-          num::store(all, num::load<F>(from, n), lanes);
-          for (int k = n; k < lanes; ++k) at.block.out[pack_block + at.i + k] |= num::bits(all[k]);
-        }
-        for (int k = 0; k < lanes; ++k) at.block.out[at.i + k] = num::bits(to[k]);
-      });
-    case 1: return each(block, [&](const At& at) __attribute__((always_inline)) {
-        std::uint16_t halves[lanes];
-        std::uint8_t bytes[lanes];
-        for (int k = 0; k < lanes; ++k) halves[k] = 7, bytes[k] = 7;
-        for (int n = 1; n <= lanes; ++n) {
-          num::store(halves, num::to_signed(at.ua() >> 16), n), num::store(bytes, num::to_signed(at.ua() >> 24), n);
-          for (int k = n; k < lanes; ++k) block.out[2 * pack_block + at.i + k] |= (halves[k] ^ 7u) | (bytes[k] ^ 7u);
-        }
-        for (int k = 0; k < lanes; ++k) block.out[at.i + k] = halves[k], block.out[pack_block + at.i + k] = bytes[k];
-      });
-    case 2: return each(block, [&](const At& at) __attribute__((always_inline)) {
-        float points[3 * lanes];
-        for (int k = 0; k < 3 * lanes; ++k) points[k] = 7.0f;
-        for (int n = 1; n <= lanes; ++n) {
-          num::store3(points, at.a(), at.b(), at.c(), n);
-          for (int k = 3 * n; k < 3 * lanes; ++k) block.out[3 * pack_block + at.i] |= num::bits(points[k]) ^ num::bits(7.0f);
-        }
-        for (int k = 0; k < 3 * lanes; ++k) block.out[3 * at.i + k] = num::bits(points[k]);
-      });
-    case 3: return each(block, [&](const At& at) __attribute__((always_inline)) {
-        at.put(num::lane_index<F>() + I(at.i));
-        for (int k = 0; k < lanes; ++k) {
-          block.out[pack_block + at.i + k] = num::bits(num::lane(at.a(), k));
-          block.out[2 * pack_block + at.i + k] = static_cast<std::uint32_t>(num::lane(at.ia(), k));
-        }
-      });
+    case 0:
+      return each(
+          block, [&](const At& at) __attribute__((always_inline)) {  // a part of a pack: the others read 0, are not written
+            alignas(64) float from[lanes], to[lanes];
+            for (int k = 0; k < lanes; ++k) from[k] = num::from_bits(block.a[at.i + k]), to[k] = 7.0f;
+            for (int n = 1; n <= lanes; ++n) {
+              num::store(to, num::load<F>(from, n), n);
+              for (int k = n; k < lanes; ++k) at.block.out[pack_block + at.i + k] |= num::bits(to[k]) ^ num::bits(7.0f);
+              alignas(64) float all[lanes];
+              num::store(all, num::load<F>(from, n), lanes);
+              for (int k = n; k < lanes; ++k) at.block.out[pack_block + at.i + k] |= num::bits(all[k]);
+            }
+            for (int k = 0; k < lanes; ++k) at.block.out[at.i + k] = num::bits(to[k]);
+          });
+    case 1:
+      return each(
+          block, [&](const At& at) __attribute__((always_inline)) {
+            std::uint16_t halves[lanes];
+            std::uint8_t bytes[lanes];
+            for (int k = 0; k < lanes; ++k) halves[k] = 7, bytes[k] = 7;
+            for (int n = 1; n <= lanes; ++n) {
+              num::store(halves, num::to_signed(at.ua() >> 16), n), num::store(bytes, num::to_signed(at.ua() >> 24), n);
+              for (int k = n; k < lanes; ++k) block.out[2 * pack_block + at.i + k] |= (halves[k] ^ 7u) | (bytes[k] ^ 7u);
+            }
+            for (int k = 0; k < lanes; ++k) block.out[at.i + k] = halves[k], block.out[pack_block + at.i + k] = bytes[k];
+          });
+    case 2:
+      return each(
+          block, [&](const At& at) __attribute__((always_inline)) {
+            float points[3 * lanes];
+            for (int k = 0; k < 3 * lanes; ++k) points[k] = 7.0f;
+            for (int n = 1; n <= lanes; ++n) {
+              num::store3(points, at.a(), at.b(), at.c(), n);
+              for (int k = 3 * n; k < 3 * lanes; ++k) block.out[3 * pack_block + at.i] |= num::bits(points[k]) ^ num::bits(7.0f);
+            }
+            for (int k = 0; k < 3 * lanes; ++k) block.out[3 * at.i + k] = num::bits(points[k]);
+          });
+    case 3:
+      return each(
+          block, [&](const At& at) __attribute__((always_inline)) {
+            at.put(num::lane_index<F>() + I(at.i));
+            for (int k = 0; k < lanes; ++k) {
+              block.out[pack_block + at.i + k] = num::bits(num::lane(at.a(), k));
+              block.out[2 * pack_block + at.i + k] = static_cast<std::uint32_t>(num::lane(at.ia(), k));
+            }
+          });
     default: return false;
   }
 }
@@ -179,19 +196,22 @@ TOFRAY_FN bool memory(int which, const PackBlock& block) {
 /// What speaks of all lanes: the smallest, the largest, any and all, the first, against a plain loop over the same pack. 1: agrees.
 TOFRAY_FN bool over_lanes(int which, const PackBlock& block) {
   if (which != 0) return false;
-  return each(block, [&](const At& at) __attribute__((always_inline)) {
-    float low = 3e38f, high = -3e38f;
-    bool some = false, every = true;
-    for (int k = 0; k < lanes; ++k) {
-      const float a = num::from_bits(block.a[at.i + k] & 0xbfffffffu), b = num::from_bits(block.b[at.i + k] & 0xbfffffffu);   // no NaN, no inf
-      low = a < low ? a : low, high = a > high ? a : high;
-      some = some || a < b, every = every && a < b;
-    }
-    const F a = num::from_bits(at.ua() & U(0xbfffffffu)), b = num::from_bits(at.ub() & U(0xbfffffffu));
-    const bool good = num::lowest(a) == low && num::highest(a) == high && num::any(a < b) == some && num::all(a < b) == every &&
-                      num::first(at.ia()) == static_cast<std::int32_t>(block.a[at.i]) && num::any(a == a) && num::all(a == a) && !num::any(a != a);
-    for (int k = 0; k < lanes; ++k) block.out[at.i + k] = good;
-  });
+  return each(
+      block, [&](const At& at) __attribute__((always_inline)) {
+        float low = 3e38f, high = -3e38f;
+        bool some = false, every = true;
+        for (int k = 0; k < lanes; ++k) {
+          const float a = num::from_bits(block.a[at.i + k] & 0xbfffffffu),
+                      b = num::from_bits(block.b[at.i + k] & 0xbfffffffu);  // no NaN, no inf
+          low = a < low ? a : low, high = a > high ? a : high;
+          some = some || a < b, every = every && a < b;
+        }
+        const F a = num::from_bits(at.ua() & U(0xbfffffffu)), b = num::from_bits(at.ub() & U(0xbfffffffu));
+        const bool good = num::lowest(a) == low && num::highest(a) == high && num::any(a < b) == some && num::all(a < b) == every &&
+                          num::first(at.ia()) == static_cast<std::int32_t>(block.a[at.i]) && num::any(a == a) && num::all(a == a) &&
+                          !num::any(a != a);
+        for (int k = 0; k < lanes; ++k) block.out[at.i + k] = good;
+      });
 }
 
 }  // namespace

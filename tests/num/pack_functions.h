@@ -6,12 +6,12 @@
 /// Every function of a number type over arrays of bits, compiled once for each instruction set, so that the results can be compared.
 extern "C" {
 
-constexpr int pack_block = 48;   ///< elements in a call: whole packs of any width
+constexpr int pack_block = 48;  ///< elements in a call: whole packs of any width
 
 struct PackBlock {
-  const std::uint32_t *a, *b, *c;   ///< [pack_block] arguments: bits of floats, or whole numbers
-  std::uint32_t* out;               ///< [4][pack_block] results
-  const float* table;               ///< [1024], for gather
+  const std::uint32_t *a, *b, *c;  ///< [pack_block] arguments: bits of floats, or whole numbers
+  std::uint32_t* out;              ///< [4][pack_block] results
+  const float* table;              ///< [1024], for gather
 };
 
 /// Does function number `which` on one block. Returns false past the last function.

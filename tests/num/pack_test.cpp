@@ -19,10 +19,10 @@ namespace {
 /// Zeros, the smallest and largest of each kind, powers of two, halves, integers, infinities, NaNs, each with both signs.
 std::vector<std::uint32_t> special_values() {
   std::vector<std::uint32_t> values;
-  for (const std::uint32_t v : {0x00000000u, 0x00000001u, 0x007fffffu, 0x00800000u, 0x00ffffffu, 0x33800000u, 0x3effffffu, 0x3f000000u, 0x3f000001u,
-                                0x3f3504f3u, 0x3f3504f4u, 0x3f7fffffu, 0x3f800000u, 0x3f800001u, 0x3fb504f3u, 0x3fc00000u, 0x40200000u, 0x41800000u,
-                                0x42fc0000u, 0x42fe0000u, 0x42fe0001u, 0x4affffffu, 0x4b000000u, 0x4b000001u, 0x4b7fffffu, 0x4b800000u, 0x4effffffu,
-                                0x7f7fffffu, 0x7f800000u, 0x7f800001u, 0x7fc00000u, 0x7fffffffu}) {
+  for (const std::uint32_t v : {0x00000000u, 0x00000001u, 0x007fffffu, 0x00800000u, 0x00ffffffu, 0x33800000u, 0x3effffffu, 0x3f000000u,
+                                0x3f000001u, 0x3f3504f3u, 0x3f3504f4u, 0x3f7fffffu, 0x3f800000u, 0x3f800001u, 0x3fb504f3u, 0x3fc00000u,
+                                0x40200000u, 0x41800000u, 0x42fc0000u, 0x42fe0000u, 0x42fe0001u, 0x4affffffu, 0x4b000000u, 0x4b000001u,
+                                0x4b7fffffu, 0x4b800000u, 0x4effffffu, 0x7f7fffffu, 0x7f800000u, 0x7f800001u, 0x7fc00000u, 0x7fffffffu}) {
     values.push_back(v), values.push_back(v | 0x80000000u);
   }
   return values;
@@ -53,8 +53,11 @@ Arguments arguments() {
 
 bool is_nan(std::uint32_t bits) { return (bits & 0x7fffffffu) > 0x7f800000u; }
 
-/// Functions that only move bits keep a NaN's bits; what arithmetic makes is any NaN (what is stored is one written NaN, in pipeline/store.h).
-bool moves_bits(int which) { return which == 4 || which == 11 || which == 12 || which == 16 || (which >= 100 && which < 200) || which >= 300; }
+/// Functions that only move bits keep a NaN's bits; what arithmetic makes is any NaN (what is stored is one written NaN, in
+/// pipeline/store.h).
+bool moves_bits(int which) {
+  return which == 4 || which == 11 || which == 12 || which == 16 || (which >= 100 && which < 200) || which >= 300;
+}
 
 void compare(PackFunctions machine, PackFunctions reference) {
   const Arguments in = arguments();
@@ -74,8 +77,8 @@ void compare(PackFunctions machine, PackFunctions reference) {
         for (std::size_t k = 0; k < got.size(); ++k) {
           if (got[k] == expected[k] || (!moves_bits(which) && is_nan(got[k]) && is_nan(expected[k]))) continue;
           const std::size_t at = i + k % pack_block;
-          FAIL() << "function " << which << ", result " << k / pack_block << std::hex << ": a " << in.a[at] << " b " << in.b[at] << " c " << in.c[at]
-                 << " gives " << got[k] << ", not " << expected[k];
+          FAIL() << "function " << which << ", result " << k / pack_block << std::hex << ": a " << in.a[at] << " b " << in.b[at] << " c "
+                 << in.c[at] << " gives " << got[k] << ", not " << expected[k];
         }
       }
       if (!known) break;
@@ -92,7 +95,10 @@ class Packs : public testing::TestWithParam<Isa> {};
 TEST_P(Packs, give_the_same_bits_as_the_plain_float_in_every_function) {
   const Isa isa = GetParam();
   if (!can_run(isa)) GTEST_SKIP() << "this processor has no " << tofray::backend::isa_name(isa);
-  compare(isa == Isa::avx512 ? pack_functions_avx512 : isa == Isa::avx2 ? pack_functions_avx2 : pack_functions_scalar_fma, pack_functions_scalar);
+  compare(isa == Isa::avx512 ? pack_functions_avx512
+          : isa == Isa::avx2 ? pack_functions_avx2
+                             : pack_functions_scalar_fma,
+          pack_functions_scalar);
 }
 
 INSTANTIATE_TEST_SUITE_P(machines, Packs, testing::Values(Isa::scalar_fma, Isa::avx2, Isa::avx512),

@@ -62,7 +62,7 @@ TEST(normal_pair, is_that_of_the_formula) {
   for (const std::uint32_t a : {0u, 0xffu, 0x100u, 0x7fffffffu, 0xffffff00u, ~0u}) {
     for (const std::uint32_t b : {0u, 0x3fu, 0x40u, 0x3fffffffu, 0x40000000u, 0x80000000u, 0xc0000000u, ~0u}) check(a, b);
   }
-  EXPECT_LT(worst, 2e-6);   // |z| < 6: four units in its last place
+  EXPECT_LT(worst, 2e-6);  // |z| < 6: four units in its last place
 }
 
 // Moments 1 to 4 of a normal, and those of the two of a pair together. 4e6 draws, 7 statistics, |z| < 6: false alarm 1.4e-8.

@@ -18,7 +18,8 @@ camera::SensorView adc(double step, double mid = 2048, double max_code = 4095, d
   camera::SensorView s{};
   s.full_well = 100000;
   s.per_step = static_cast<float>(1 / step), s.step = static_cast<float>(step), s.mid_code = static_cast<float>(mid);
-  s.max_code = static_cast<float>(max_code), s.valid_middle = static_cast<float>(0.5 * (valid_min + valid_max)), s.valid_half = static_cast<float>(0.5 * (valid_max - valid_min));
+  s.max_code = static_cast<float>(max_code), s.valid_middle = static_cast<float>(0.5 * (valid_min + valid_max)),
+  s.valid_half = static_cast<float>(0.5 * (valid_max - valid_min));
   s.noise = 2;
   return s;
 }
@@ -57,7 +58,8 @@ TEST(photon_transfer, is_the_line_of_the_closed_form) {
     Moments code(1000 + gain * means[at]);
     const auto& frame = bench.sensor().frame[0];
     for (int i = 0; i < samples; ++i) {
-      const auto charge = raw::expose_exact<float>(bench.sensor(), raw::tap_means(frame, 0.0f, static_cast<float>(means[at] * 1e3), 0.0f), i, 0, {0, 0});
+      const auto charge =
+          raw::expose_exact<float>(bench.sensor(), raw::tap_means(frame, 0.0f, static_cast<float>(means[at] * 1e3), 0.0f), i, 0, {0, 0});
       code.add(static_cast<double>(raw::read_out(bench.sensor(), charge, 0.0f).code));
     }
     const double expected = gain * gain * (means[at] + read * read) + 1.0 / 12;
@@ -79,7 +81,7 @@ TEST(quantiser, has_the_bias_and_variance_of_the_closed_form) {
   const auto sensor = adc(20, 2048, 4095);
   const double settings[3][2] = {{0.25, 0.092696}, {0.3, 0.053866}, {0.5, 0.002289}};
   for (const auto& [s, known] : settings) {
-    const double ripple = (1 / (pi * pi) + 4 * s * s) * std::exp(-2 * pi * pi * s * s);   // what is left of the variance's first harmonic
+    const double ripple = (1 / (pi * pi) + 4 * s * s) * std::exp(-2 * pi * pi * s * s);  // what is left of the variance's first harmonic
     double worst = 0;
     for (int j = 0; j < offsets; ++j) {
       const double x = static_cast<double>(j) / offsets;
@@ -99,8 +101,8 @@ TEST(quantiser, has_the_bias_and_variance_of_the_closed_form) {
   }
 }
 
-// Noise comes before the ADC, which rounds what it has moved: at a quarter LSB of noise a signal of ¼ LSB reads as ¼ − (1/π)·exp(−2π²/16) on
-// average. (Noise after the rounding would read as 0, and no code would be a whole number.)
+// Noise comes before the ADC, which rounds what it has moved: at a quarter LSB of noise a signal of ¼ LSB reads as ¼ −
+// (1/π)·exp(−2π²/16) on average. (Noise after the rounding would read as 0, and no code would be a whole number.)
 TEST(quantiser, rounds_what_the_noise_has_moved) {
   constexpr int samples = 200'000;
   Camera camera = bench_camera({60e6}, 4, 0.7, true);
@@ -124,7 +126,8 @@ TEST(quantiser, is_monotone_misses_no_code_and_holds_its_ends) {
   std::set<int> seen;
   double before = -1;
   for (int difference = -60000; difference <= 60000; ++difference) {
-    const raw::Means<float> charge{static_cast<float>(difference + 30000 > 0 ? difference + 30000 : 0), static_cast<float>(difference + 30000 > 0 ? 30000 : -difference)};
+    const raw::Means<float> charge{static_cast<float>(difference + 30000 > 0 ? difference + 30000 : 0),
+                                   static_cast<float>(difference + 30000 > 0 ? 30000 : -difference)};
     const auto out = raw::read_out(sensor, charge, 0.0f);
     const double code = static_cast<double>(out.code), exact = difference / 20.0 + 2048;
     ASSERT_EQ(code, std::floor(code));
@@ -141,7 +144,7 @@ TEST(quantiser, adds_the_offset_pattern_before_it_rounds) {
   const auto sensor = adc(20);
   EXPECT_EQ(raw::read_out(sensor, {1000.0f, 1000.0f}, 3.4f).code, 2051.0f);
   EXPECT_EQ(raw::read_out(sensor, {1000.0f, 1000.0f}, 3.6f).code, 2052.0f);
-  EXPECT_EQ(raw::read_out(sensor, {1005.0f, 1000.0f}, 0.3f).code, 2049.0f);   // 0.25 + 0.3
+  EXPECT_EQ(raw::read_out(sensor, {1005.0f, 1000.0f}, 0.3f).code, 2049.0f);  // 0.25 + 0.3
 }
 
 // Without noise depth comes from the unrounded difference; code, wells and flags are as ever.
@@ -155,8 +158,11 @@ TEST(quantiser, leaves_the_difference_alone_where_noise_is_off) {
 
 // The flag is set exactly where a tap reaches its well, within one electron, and only in a lit raw frame.
 TEST(saturation, is_flagged_where_a_tap_clips) {
-  const auto sensor = adc(200);   // wide enough that no code leaves the valid range
-  struct Case { float a, b; bool flagged; };
+  const auto sensor = adc(200);  // wide enough that no code leaves the valid range
+  struct Case {
+    float a, b;
+    bool flagged;
+  };
   for (const Case& at : {Case{99999, 80000, false}, Case{100000, 80000, true}, Case{100001, 80000, true}, Case{80000, 99999, false},
                          Case{80000, 100000, true}, Case{80000, 100001, true}, Case{100001, 100001, true}, Case{99999, 99999, false}}) {
     const auto out = raw::read_out(sensor, {at.a, at.b}, 0.0f);

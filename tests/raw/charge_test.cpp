@@ -40,7 +40,8 @@ TEST(suppression, adds_the_variance_of_what_it_takes) {
   Correlation taps(1000, 5000);
   for (int i = 0; i < 200'000; ++i) {
     const auto left = raw::suppress<float>(s, {9000.0f, 13000.0f}, i, 1, {2, 0});
-    a.add(static_cast<double>(left.a)), b.add(static_cast<double>(left.b)), taps.add(static_cast<double>(left.a), static_cast<double>(left.b));
+    a.add(static_cast<double>(left.a)), b.add(static_cast<double>(left.b)),
+        taps.add(static_cast<double>(left.a), static_cast<double>(left.b));
     untouched.add(static_cast<double>(raw::suppress<float>(s, {500.0f, 700.0f}, i, 1, {2, 0}).a));
   }
   const double expected = 1.5 * 1.5 * 8000;
@@ -121,13 +122,15 @@ TEST(fixed_pattern, stays_where_the_noise_averages_out) {
   std::vector<double> sum(width), truth(width);
   for (int i = 0; i < width; ++i) {
     // without noise depth takes the unrounded difference, which has no offset pattern in it: add it
-    truth[static_cast<std::size_t>(i)] = static_cast<double>(silent.expose(in, i)[1].difference) + static_cast<double>(silent.sensor().offset[i]);
+    truth[static_cast<std::size_t>(i)] =
+        static_cast<double>(silent.expose(in, i)[1].difference) + static_cast<double>(silent.sensor().offset[i]);
   }
   Moments pattern(truth[0]);
   for (const double t : truth) pattern.add(t);
   std::vector<double> x, y;
   for (int n = 1; n <= 256; ++n) {
-    for (int i = 0; i < width; ++i) sum[static_cast<std::size_t>(i)] += static_cast<double>(noisy.expose(in, i, static_cast<std::uint64_t>(n))[1].difference);
+    for (int i = 0; i < width; ++i)
+      sum[static_cast<std::size_t>(i)] += static_cast<double>(noisy.expose(in, i, static_cast<std::uint64_t>(n))[1].difference);
     if ((n & (n - 1)) != 0) continue;
     double square = 0;
     Moments mean(truth[0]);
@@ -137,8 +140,8 @@ TEST(fixed_pattern, stays_where_the_noise_averages_out) {
       mean.add(value);
     }
     x.push_back(std::log(n)), y.push_back(0.5 * std::log(square / width));
-    const double left = square / width;   // temporal variance after n frames
-    EXPECT_NEAR(mean.variance() / (pattern.variance() + left), 1, 0.06) << n;   // 5 sigma of a variance over 2 · 4000 values or so
+    const double left = square / width;                                        // temporal variance after n frames
+    EXPECT_NEAR(mean.variance() / (pattern.variance() + left), 1, 0.06) << n;  // 5 sigma of a variance over 2 · 4000 values or so
   }
   double mx = 0, my = 0, xx = 0, xy = 0;
   const double n = static_cast<double>(x.size());
@@ -182,7 +185,7 @@ TEST(electrons, are_linear_in_light_and_time) {
 // Both taps together collect all the light, whatever the phase; dark current comes on top in both, unlit as well.
 TEST(electrons, of_both_taps_are_all_that_came) {
   Camera camera = bench_camera({60.24e6}, 4, 0.7, true);
-  camera.pixel.dark_current_e_per_s = 50000;   // 50 e⁻ per tap
+  camera.pixel.dark_current_e_per_s = 50000;  // 50 e⁻ per tap
   for (int i = 0; i < 50; ++i) {
     const auto taps = Bench(camera).expose({4000, 0.05 * i, 1000});
     EXPECT_NEAR(static_cast<double>(taps[0].a), 1000 + 50, 1e-3) << "a grey frame's gate rests on A";

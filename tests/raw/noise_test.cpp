@@ -76,7 +76,7 @@ Stream shot(double mean, const Key& key, int noise = 2) {
 TEST_P(TwoTapNoise, of_the_phase_is_that_of_the_closed_form) {
   const Setting setting = GetParam();
   const double expected = phase_deviation(setting);
-  ASSERT_LT(expected, 0.1);   // first order
+  ASSERT_LT(expected, 0.1);  // first order
   const Bench bench(camera_of(setting), 2);
   const double phase = 0.37, half_path = phase * c / (2 * 60.24e6);
   Moments moments, amplitude(setting.signal * setting.amplitude);
@@ -86,15 +86,16 @@ TEST_P(TwoTapNoise, of_the_phase_is_that_of_the_closed_form) {
     amplitude.add(static_cast<double>(estimate.amplitude));
   }
   EXPECT_NEAR(moments.deviation() / expected, 1, 0.01);
-  EXPECT_LT(std::abs(moments.mean()) / (expected / std::sqrt(samples)), 5);   // no bias
+  EXPECT_LT(std::abs(moments.mean()) / (expected / std::sqrt(samples)), 5);  // no bias
   // Rice: a noisy phasor is longer by σ²/2 on average, with the standard error of a length.
   const double rice = 1 + expected * expected / 2, error = expected / std::sqrt(samples);
   EXPECT_LT(std::abs(amplitude.mean() / (setting.signal * setting.amplitude) - rice), 5 * error);
 }
 
 INSTANTIATE_TEST_SUITE_P(settings, TwoTapNoise,
-                         testing::Values(Setting{5000, 2000, 30, 0.7, 4, 1}, Setting{50000, 0, 0, 0.8, 4, 1}, Setting{2000, 20000, 10, 0.9, 4, 1},
-                                         Setting{10000, 1000, 50, 0.5, 3, 1}, Setting{1200, 100, 5, 0.75, 8, 1}, Setting{8000, 3000, 50, 0.81, 5, 20},
+                         testing::Values(Setting{5000, 2000, 30, 0.7, 4, 1}, Setting{50000, 0, 0, 0.8, 4, 1},
+                                         Setting{2000, 20000, 10, 0.9, 4, 1}, Setting{10000, 1000, 50, 0.5, 3, 1},
+                                         Setting{1200, 100, 5, 0.75, 8, 1}, Setting{8000, 3000, 50, 0.81, 5, 20},
                                          Setting{1500, 0, 50, 0.8, 4, 20}),
                          [](const auto& which) { return "setting_" + std::to_string(which.index); });
 
@@ -149,7 +150,8 @@ TEST(draws, of_a_whole_sequence_are_independent_of_each_other) {
     for (int i = 0; i < samples; ++i) {
       const auto got = bench.expose({600, 1.0, 400}, i);
       double value[taps];
-      for (std::size_t k = 0; k < raw_frames; ++k) value[2 * k] = static_cast<double>(got[k].a), value[2 * k + 1] = static_cast<double>(got[k].b);
+      for (std::size_t k = 0; k < raw_frames; ++k)
+        value[2 * k] = static_cast<double>(got[k].a), value[2 * k + 1] = static_cast<double>(got[k].b);
       for (std::size_t x = 0; x < taps; ++x) {
         for (std::size_t y = 0; y < x; ++y) pairs[x * taps + y].add(value[x], value[y]);
       }
@@ -167,7 +169,8 @@ TEST(draws, of_read_noise_are_independent_of_shot_noise) {
   Correlation with_shot(0, 1000), between_taps(0, 0), with_other_shot(0, 1000);
   Moments size;
   for (int i = 0; i < samples; ++i) {
-    const auto a = raw::expose_exact<float>(silent, {1000.0f, 1000.0f}, i, 0, {0, 0}), b = raw::expose_exact<float>(noisy, {1000.0f, 1000.0f}, i, 0, {0, 0});
+    const auto a = raw::expose_exact<float>(silent, {1000.0f, 1000.0f}, i, 0, {0, 0}),
+               b = raw::expose_exact<float>(noisy, {1000.0f, 1000.0f}, i, 0, {0, 0});
     const double read_a = static_cast<double>(b.a - a.a), read_b = static_cast<double>(b.b - a.b);
     with_shot.add(read_a, static_cast<double>(a.a));
     with_other_shot.add(read_a, static_cast<double>(a.b));

@@ -19,7 +19,7 @@ double poisson(double mean, double n) { return std::exp(n * std::log(mean) - mea
 
 /// Cells between whole numbers, each with a chance of about 1 in 200, and their chances.
 struct Cells {
-  std::vector<double> upper, chance;   // counts up to and including upper[i]
+  std::vector<double> upper, chance;  // counts up to and including upper[i]
 };
 
 Cells cells_of(double mean) {
@@ -48,7 +48,8 @@ constexpr int draws = 1'000'000;
 
 }  // namespace
 
-// Mean, variance and every cell of the distribution, both taps, 1e6 draws each: 60 statistics, |z| < 5.5: false alarm 2e-6 over fresh seeds.
+// Mean, variance and every cell of the distribution, both taps, 1e6 draws each: 60 statistics, |z| < 5.5: false alarm 2e-6 over
+// fresh seeds.
 TEST_P(Poisson, has_mean_variance_and_shape) {
   const double mean = GetParam();
   const auto s = sensor(77);
@@ -100,7 +101,8 @@ TEST(poisson, of_a_small_tap_beside_a_large_one_is_its_own) {
     Correlation taps(mean_a, mean_b), read_a(8, 0), read_b(8, 0), reads(0, 0);
     for (int i = 0; i < draws; ++i) {
       const raw::Means<float> means{static_cast<float>(mean_a), static_cast<float>(mean_b)};
-      const auto got = raw::expose_exact<float>(silent, means, i, 1, {3, 0}), with_read = raw::expose_exact<float>(noisy, means, i, 1, {3, 0});
+      const auto got = raw::expose_exact<float>(silent, means, i, 1, {3, 0}),
+                 with_read = raw::expose_exact<float>(noisy, means, i, 1, {3, 0});
       const double small = static_cast<double>(small_first ? got.a : got.b);
       ++seen[static_cast<std::size_t>(std::lower_bound(cells.upper.begin(), cells.upper.end(), small) - cells.upper.begin())];
       const double ra = static_cast<double>(with_read.a - got.a), rb = static_cast<double>(with_read.b - got.b);
@@ -121,11 +123,12 @@ TEST(poisson, by_expansion_grows_with_the_normal_it_comes_from) {
       ASSERT_GE(n, before) << mean << " at " << i;
       before = n;
     }
-    EXPECT_EQ(raw::poisson_by_expansion(mean, 0.0f), mean);   // the median of a whole mean is the mean
+    EXPECT_EQ(raw::poisson_by_expansion(mean, 0.0f), mean);  // the median of a whole mean is the mean
   }
 }
 
-// Fast mode: mean λ, variance λ + σ², and Poisson's share of the skew, λ/(λ + σ²)^1.5 (to first order: the term itself adds λ²/(18(λ+σ²)²)).
+// Fast mode: mean λ, variance λ + σ², and Poisson's share of the skew, λ/(λ + σ²)^1.5 (to first order: the term itself adds
+// λ²/(18(λ+σ²)²)).
 TEST(fast_noise, has_mean_variance_and_skew) {
   for (const double read : {0.0, 5.0, 50.0}) {
     for (const double mean : {40.0, 1e3, 1e5}) {
@@ -141,7 +144,7 @@ TEST(fast_noise, has_mean_variance_and_skew) {
           moments.add(static_cast<double>(tap == 0 ? got.a : got.b));
         }
         EXPECT_LT(std::abs(moments.mean() - mean) / std::sqrt(total / draws), 5.5);
-        const double variance = total + share * share / 18;   // of (z² − 1)/6·share: 2/36
+        const double variance = total + share * share / 18;  // of (z² − 1)/6·share: 2/36
         EXPECT_LT(std::abs(moments.variance() / variance - 1) / std::sqrt(2.0 / draws), 5.5) << mean;
         EXPECT_NEAR(moments.skewness(), mean / std::pow(total, 1.5), 5.5 * std::sqrt(6.0 / draws) + 0.01 * share) << mean << " " << read;
       }

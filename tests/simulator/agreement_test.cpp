@@ -14,8 +14,8 @@ using namespace tofray::test;
 namespace {
 
 struct Agreement {
-  double worst_range = 0, worst_z = 0;   ///< [m]
-  int compared = 0, seen = 0;            ///< pixels with a valid depth among those that one surface fills
+  double worst_range = 0, worst_z = 0;  ///< [m]
+  int compared = 0, seen = 0;           ///< pixels with a valid depth among those that one surface fills
 };
 
 /// Whether a pixel's eight neighbours see the same object.
@@ -31,7 +31,7 @@ bool one_surface(const Truth& t, int x, int y) {
 
 Agreement compare(const std::string& name, Waveform::Kind kind) {
   Scene scene = load_scene(name);
-  for (Object& object : scene.objects) object.velocity_m_per_s = {0, 0, 0};   // one place in all raw frames
+  for (Object& object : scene.objects) object.velocity_m_per_s = {0, 0, 0};  // one place in all raw frames
   Camera camera = load_camera(scene);
   for (Illumination& light : camera.illumination) light.waveform.kind = kind;
   const Frame frame = Simulator(scene, camera, {.noise = Noise::off}).frame(0);
@@ -58,7 +58,7 @@ TEST_P(Scenes, have_the_depth_of_their_ground_truth_with_a_sine) {
   const Agreement a = compare(GetParam(), Waveform::Kind::sine);
   EXPECT_LT(a.worst_range, 1e-4);
   EXPECT_LT(a.worst_z, 1e-4);
-  EXPECT_GT(a.compared, 0.6 * a.seen) << a.seen;   // shadows and what is too close have no depth
+  EXPECT_GT(a.compared, 0.6 * a.seen) << a.seen;  // shadows and what is too close have no depth
   EXPECT_GT(a.seen, 1000);
 }
 

@@ -40,12 +40,13 @@ double signal(double x, double y, double z, double reflectivity) {
 
 /// Phase noise of one modulation frequency for S electrons and the path ℓ: √(V/2)/(Â·|dφ̂/dφ|).
 double phase_deviation(double electrons, double path, double f) {
-  const double variance = electrons + 2 * 1000 * 2e-3 + 2 * 50.0 * 50.0 + 20.0 * 20.0 / 12;   // no ambient light
+  const double variance = electrons + 2 * 1000 * 2e-3 + 2 * 50.0 * 50.0 + 20.0 * 20.0 / 12;  // no ambient light
   const auto sinc = [](double v) { return std::sin(pi * v) / (pi * v); };
   const double phi = two_pi * f * path / c;
   std::complex<double> z{0, 0}, slope{0, 0};
   for (const int m : {1, 3, 5, 7}) {
-    const double a = 4 / (pi * m) * std::sin(m * pi / 2) * sinc(0.25 * m) * sinc(m * f * 1e-9) * 0.75 / std::sqrt(1 + std::pow(m * f / 180e6, 2));
+    const double a =
+        4 / (pi * m) * std::sin(m * pi / 2) * sinc(0.25 * m) * sinc(m * f * 1e-9) * 0.75 / std::sqrt(1 + std::pow(m * f / 180e6, 2));
     const double turn = (m % 4 == 1 ? 1 : -1) * (m * phi - std::atan(m * f / 180e6)), rate = m % 4 == 1 ? m : -m;
     z += a * std::polar(1.0, turn);
     slope += rate * a * std::polar(1.0, turn);
@@ -59,7 +60,7 @@ double range_deviation(double x, double y, double z, double reflectivity) {
   const double path = range + light, s = signal(x, y, z, reflectivity);
   double weights = 0;
   for (const double f : {80.32e6, 60.24e6}) weights += std::pow(4 * pi * f / (c * phase_deviation(s, path, f)), 2);
-  const double along = x * z / range * 0.01547;   // u·L
+  const double along = x * z / range * 0.01547;  // u·L
   const auto range_of = [&](double l) { return (l * l - 0.01547 * 0.01547) / (2 * (l - along)); };
   const double per_half_path = (range_of(path + 2e-4) - range_of(path - 2e-4)) / 2e-4;
   return per_half_path / std::sqrt(weights);
@@ -102,7 +103,8 @@ TEST_P(DepthNoise, is_that_of_the_closed_form) {
     const Moments& got = range[static_cast<std::size_t>(i)];
     ratio += got.variance() / (expected * expected) / (side * side);
     bias += (got.mean() - card.z * std::sqrt(x * x + y * y + 1)) / expected / (side * side);
-    said += static_cast<double>(frame.depth.noise_m[static_cast<std::size_t>((top + i / side) * 224 + left + i % side)]) / expected / (side * side);
+    said += static_cast<double>(frame.depth.noise_m[static_cast<std::size_t>((top + i / side) * 224 + left + i % side)]) / expected /
+            (side * side);
   }
   EXPECT_NEAR(std::sqrt(ratio), 1, 0.03);
   EXPECT_NEAR(said, 1, 0.03) << "the camera's own estimate";
@@ -110,7 +112,8 @@ TEST_P(DepthNoise, is_that_of_the_closed_form) {
   EXPECT_LT(std::abs(bias), 0.06);
 }
 
-INSTANTIATE_TEST_SUITE_P(cards, DepthNoise, testing::Values(Card{0.8, 0.5}, Card{0.8, 1}, Card{0.8, 2}, Card{0.8, 3}, Card{0.18, 0.5}, Card{0.18, 1}),
+INSTANTIATE_TEST_SUITE_P(cards, DepthNoise,
+                         testing::Values(Card{0.8, 0.5}, Card{0.8, 1}, Card{0.8, 2}, Card{0.8, 3}, Card{0.18, 0.5}, Card{0.18, 1}),
                          [](const auto& which) {
                            return std::to_string(std::lround(100 * which.param.reflectivity)) + "_percent_at_" +
                                   std::to_string(std::lround(1000 * which.param.z)) + "_mm";

@@ -24,8 +24,8 @@ Camera camera() {
   camera.lens.k1 = 0;
   camera.illumination[0].position = {0, 0, 0};
   camera.illumination[0].waveform.kind = Waveform::Kind::sine;
-  camera.pixel.bandwidth_hz = 0;   // ψ_1 = 0
-  camera.decoding.flying_near_limit_m = camera.decoding.flying_far_limit_m = 10;   // a ball's rim may be steep
+  camera.pixel.bandwidth_hz = 0;                                                  // ψ_1 = 0
+  camera.decoding.flying_near_limit_m = camera.decoding.flying_far_limit_m = 10;  // a ball's rim may be steep
   return camera;
 }
 
@@ -59,7 +59,7 @@ void compare(const Object& object, const Surface& surface, int least) {
   int compared = 0;
   for (const std::uint64_t n : {0u, 7u}) {
     const Frame frame = simulator.frame(n);
-    EXPECT_NEAR(frame.truth.time_s, middle_of(1, n), 1e-12);   // the third of five raw frames
+    EXPECT_NEAR(frame.truth.time_s, middle_of(1, n), 1e-12);  // the third of five raw frames
     for (int v = 6; v < 172; v += 16) {
       for (int u = 5; u < 224; u += 16) {
         const double x = (u - 111.5) / 212, y = (v - 85.5) / 212;
@@ -76,7 +76,7 @@ void compare(const Object& object, const Surface& surface, int least) {
     }
   }
   EXPECT_LT(worst, 5e-6);
-  EXPECT_GT(largest_bias, 1e-3);   // the effect is there
+  EXPECT_GT(largest_bias, 1e-3);  // the effect is there
   EXPECT_GE(compared, least);
 }
 
@@ -84,23 +84,29 @@ void compare(const Object& object, const Surface& surface, int least) {
 
 TEST(motion, of_a_plane_is_mixed_from_its_places) {
   for (const double speed : {-1.5, 1.0}) {
-    compare({"wall", Plane{{0, 0, 1.4}, {0, 0, -1}}, 0, {0, 0, 0}, {}, {0, 0, speed}}, [&](double x, double y, double time) {
-      const double length = std::sqrt(x * x + y * y + 1);
-      return Meeting{(1.4 + speed * time) * length, 1 / length};
-    }, 200);
+    compare(
+        {"wall", Plane{{0, 0, 1.4}, {0, 0, -1}}, 0, {0, 0, 0}, {}, {0, 0, speed}},
+        [&](double x, double y, double time) {
+          const double length = std::sqrt(x * x + y * y + 1);
+          return Meeting{(1.4 + speed * time) * length, 1 / length};
+        },
+        200);
   }
 }
 
 TEST(motion, of_a_sphere_is_mixed_from_its_places) {
   for (const double speed : {-1.5, 1.0}) {
-    compare({"ball", Sphere{{0, 0, 1.5}, 0.4}, 0, {0.05, 0, 0}, {}, {0, 0, speed}}, [&](double x, double y, double time) {
-      const double length = std::sqrt(x * x + y * y + 1), ux = x / length, uy = y / length, uz = 1 / length;
-      const double cz = 1.5 + speed * time, along = ux * 0.05 + uz * cz;
-      const double off = std::pow(0.05 - along * ux, 2) + std::pow(along * uy, 2) + std::pow(cz - along * uz, 2);
-      if (off > 0.16) return Meeting{0, 0};
-      const double deep = std::sqrt(0.16 - off);
-      return Meeting{along - deep, deep / 0.4};
-    }, 30);
+    compare(
+        {"ball", Sphere{{0, 0, 1.5}, 0.4}, 0, {0.05, 0, 0}, {}, {0, 0, speed}},
+        [&](double x, double y, double time) {
+          const double length = std::sqrt(x * x + y * y + 1), ux = x / length, uy = y / length, uz = 1 / length;
+          const double cz = 1.5 + speed * time, along = ux * 0.05 + uz * cz;
+          const double off = std::pow(0.05 - along * ux, 2) + std::pow(along * uy, 2) + std::pow(cz - along * uz, 2);
+          if (off > 0.16) return Meeting{0, 0};
+          const double deep = std::sqrt(0.16 - off);
+          return Meeting{along - deep, deep / 0.4};
+        },
+        30);
   }
 }
 
@@ -128,7 +134,7 @@ TEST(motion, raises_the_warning_of_inconsistent_phases) {
     if (moving) {
       EXPECT_GT(warned, 5000);
     } else {
-      EXPECT_EQ(warned, 0);   // 5 sigma, 77 000 pairs of phases: 0.04 expected; the seed is fixed
+      EXPECT_EQ(warned, 0);  // 5 sigma, 77 000 pairs of phases: 0.04 expected; the seed is fixed
     }
   }
 }

@@ -7,16 +7,16 @@
 
 #include "camera/frozen_camera.h"
 #include "depth/decode.h"
-#include "support/statistics.h"
 #include "raw/expose.h"
+#include "support/statistics.h"
 
 /// One pixel on the bench: light goes in by hand, raw frames and depth come out. The plain float's kernels.
 namespace tofray::test {
 
-
 /// A camera without optics to speak of: sine, light at the pupil, no dark current, no read noise, 16 bits of 1 e⁻, wells without a bottom.
 /// @param amplitude  C: first harmonic of the correlation, for any modulation frequency
-inline Camera bench_camera(const std::vector<double>& frequencies_hz = {60.24e6}, int phases = 4, double amplitude = 0.7, bool grey = false) {
+inline Camera bench_camera(const std::vector<double>& frequencies_hz = {60.24e6}, int phases = 4, double amplitude = 0.7,
+                           bool grey = false) {
   Camera camera;
   camera.sensor = {1, 1, 10e-6, 1.0};
   camera.lens.fx_px = camera.lens.fy_px = 200;
@@ -26,7 +26,7 @@ inline Camera bench_camera(const std::vector<double>& frequencies_hz = {60.24e6}
   light.waveform.kind = Waveform::Kind::sine;
   camera.illumination.push_back(light);
   camera.pixel.quantum_efficiency = {{850e-9}, {0.4}};
-  camera.pixel.contrast = {{60e6}, {amplitude * pi * pi / 8}};   // half duty: a_1 = 8/π²·K
+  camera.pixel.contrast = {{60e6}, {amplitude * pi * pi / 8}};  // half duty: a_1 = 8/π²·K
   camera.adc = {16, 1.0, 32768, 0, 65535};
   camera.mode.name = "bench", camera.mode.frame_rate_hz = 5;
   if (grey) camera.mode.sequence.push_back({false, 0, 0, 1e-3});
@@ -38,9 +38,9 @@ inline Camera bench_camera(const std::vector<double>& frequencies_hz = {60.24e6}
 
 /// What falls on the pixel in each raw frame of 1 ms.
 struct Incoming {
-  double signal_e = 0;      ///< S
-  double half_path_m = 0;   ///< ℓ/2
-  double ambient_e = 0;     ///< B
+  double signal_e = 0;     ///< S
+  double half_path_m = 0;  ///< ℓ/2
+  double ambient_e = 0;    ///< B
 };
 
 struct Measured {
@@ -60,7 +60,8 @@ class Bench {
 
   /// All raw frames of one pixel.
   /// @param saturated  whether a lit one clipped or left the valid codes, if asked for
-  [[nodiscard]] std::vector<flow::Taps<float>> expose(const Incoming& in, int pixel = 0, std::uint64_t frame = 0, bool* saturated = nullptr) const {
+  [[nodiscard]] std::vector<flow::Taps<float>> expose(const Incoming& in, int pixel = 0, std::uint64_t frame = 0,
+                                                      bool* saturated = nullptr) const {
     flow::Light<float> light{};
     light.signal_rate[0] = light.total_rate = static_cast<float>(in.signal_e * 1e3);
     light.path_length[0] = static_cast<float>(2 * in.half_path_m);

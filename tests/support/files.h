@@ -20,7 +20,8 @@ inline std::vector<std::string> scene_names() {
 
 /// A name that GoogleTest takes: letters, digits and underscores.
 inline std::string test_name(std::string name) {
-  std::replace_if(name.begin(), name.end(), [](char c) { return c == '-' || c == '.' || c == ' '; }, '_');
+  std::replace_if(
+      name.begin(), name.end(), [](char c) { return c == '-' || c == '.' || c == ' '; }, '_');
   return name;
 }
 

@@ -10,7 +10,7 @@ namespace tofray::test {
 
 constexpr double pi = 3.14159265358979323846;
 constexpr double two_pi = 2 * pi;
-constexpr double c = 299792458.0;   ///< [m/s]
+constexpr double c = 299792458.0;  ///< [m/s]
 
 /// Mean and central moments of a stream of numbers, about a guess of the mean so that nothing cancels.
 class Moments {
@@ -41,9 +41,7 @@ class Correlation {
     x -= gx_, y -= gy_;
     ++n_, x_ += x, y_ += y, xx_ += x * x, yy_ += y * y, xy_ += x * y;
   }
-  [[nodiscard]] double r() const {
-    return (xy_ - x_ * y_ / n_) / std::sqrt((xx_ - x_ * x_ / n_) * (yy_ - y_ * y_ / n_));
-  }
+  [[nodiscard]] double r() const { return (xy_ - x_ * y_ / n_) / std::sqrt((xx_ - x_ * x_ / n_) * (yy_ - y_ * y_ / n_)); }
   /// r in units of its standard error where nothing is correlated.
   [[nodiscard]] double z() const { return r() * std::sqrt(n_); }
 
@@ -63,7 +61,8 @@ inline double chi_square_z(const std::vector<double>& seen, const std::vector<do
     s = 0, e = 0;
   }
   // what is left over joins the last cell
-  if (e > 0 || s > 0) chi += (rest_s + s - rest_e - e) * (rest_s + s - rest_e - e) / (rest_e + e) - (rest_s - rest_e) * (rest_s - rest_e) / rest_e;
+  if (e > 0 || s > 0)
+    chi += (rest_s + s - rest_e - e) * (rest_s + s - rest_e - e) / (rest_e + e) - (rest_s - rest_e) * (rest_s - rest_e) / rest_e;
   const double k = cells - 1, spread = 2 / (9 * k);
   return (std::cbrt(chi / k) - (1 - spread)) / std::sqrt(spread);
 }
