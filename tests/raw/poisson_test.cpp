@@ -98,7 +98,7 @@ TEST(poisson, of_a_small_tap_beside_a_large_one_is_its_own) {
     const Cells cells = cells_of(8);
     std::vector<double> seen(cells.upper.size()), expected;
     for (const double chance : cells.chance) expected.push_back(chance * draws);
-    Correlation taps(mean_a, mean_b), read_a(8, 0), read_b(8, 0), reads(0, 0);
+    Correlation taps(mean_a, mean_b), read_a(8, 0), read_b(8, 0), reads(0, 0), spread(8, 0), read_spread(8, 200);
     for (int i = 0; i < draws; ++i) {
       const raw::Means<float> means{static_cast<float>(mean_a), static_cast<float>(mean_b)};
       const auto got = raw::expose_exact<float>(silent, means, i, 1, {3, 0}),
@@ -108,9 +108,31 @@ TEST(poisson, of_a_small_tap_beside_a_large_one_is_its_own) {
       const double ra = static_cast<double>(with_read.a - got.a), rb = static_cast<double>(with_read.b - got.b);
       taps.add(static_cast<double>(got.a), static_cast<double>(got.b));
       read_a.add(small, ra), read_b.add(small, rb), reads.add(ra, rb);
+      const double other = small_first ? static_cast<double>(got.b) - mean_b : static_cast<double>(got.a) - mean_a;
+      spread.add(small, other * other), read_spread.add(small, ra * ra + rb * rb);  // nor of how far they go
     }
     EXPECT_LT(std::abs(chi_square_z(seen, expected)), 5.5) << mean_a << " " << mean_b;
-    for (const auto* pair : {&taps, &read_a, &read_b, &reads}) EXPECT_LT(std::abs(pair->z()), 5.5) << mean_a << " " << mean_b;
+    for (const auto* pair : {&taps, &read_a, &read_b, &reads, &spread, &read_spread})
+      EXPECT_LT(std::abs(pair->z()), 5.5) << mean_a << " " << mean_b;
+  }
+}
+
+// Against the formula in double: N = ⌊λ + √λ·z + (z² + 2)/6 − (z + z³/2)/(36√λ)⌋, wherever that is not within rounding of a whole number
+// (the last term is worked out to 0.2 %).
+TEST(poisson, by_expansion_is_that_of_the_formula) {
+  for (const double mean : {16.0, 16.7, 23.0, 100.3, 1e3, 1e4}) {
+    const double held = static_cast<double>(static_cast<float>(mean));
+    int compared = 0;
+    for (int i = -5900; i <= 5900; ++i) {
+      const float z = static_cast<float>(i) * 0.001f;
+      const double x = static_cast<double>(z), last = (x + x * x * x / 2) / (36 * std::sqrt(held));
+      const double exact = held + std::sqrt(held) * x + (x * x + 2) / 6 - last;
+      if (std::abs(exact - std::round(exact)) < 0.002 * std::abs(last) + 4e-7 * held + 2e-6) continue;
+      ASSERT_EQ(static_cast<double>(raw::poisson_by_expansion(static_cast<float>(mean), z)), std::max(0.0, std::floor(exact)))
+          << mean << " " << x;
+      ++compared;
+    }
+    EXPECT_GT(compared, 11'000) << mean;
   }
 }
 
