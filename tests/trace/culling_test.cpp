@@ -58,6 +58,46 @@ TEST(culling, changes_no_hit_of_any_ray_in_the_rectangle) {
   EXPECT_LT(kept, all / 2);    // and it does leave something out
 }
 
+// Rays that graze an outline, each in a rectangle of its own: the bounds may not be a hair too small.
+TEST(culling, keeps_what_a_ray_grazes) {
+  Random random(2);
+  int grazed = 0;
+  for (int trial = 0; trial < 100000; ++trial) {
+    const Vec3 middle = Vec3{0, 0, 2} + random.point(1);
+    scene::Placed placed;
+    std::vector<Vec3> outline;
+    if (trial % 3 == 0) {
+      placed.triangles.push_back({{middle + 0.3 * random.direction(), middle + 0.3 * random.direction(), middle + 0.3 * random.direction()}, 0});
+      outline.assign(placed.triangles[0].vertices.begin(), placed.triangles[0].vertices.end());
+    } else if (trial % 3 == 1) {
+      const double radius = random.between(0.05, 0.5);
+      placed.spheres.push_back({middle, radius, 0});
+      const double far = base::length(middle), half = std::asin(radius / far);   // the cone that touches it
+      const Vec3 axis = base::normalized(middle);
+      for (int i = 0; i < 4; ++i) outline.push_back(std::cos(half * (1 - 1e-6)) * axis + std::sin(half * (1 - 1e-6)) * random.across(axis));
+    } else {
+      const Vec3 half{random.between(0.05, 0.4), random.between(0.05, 0.4), random.between(0.05, 0.4)};
+      placed.boxes.push_back({middle, random.rotation(), half, 0});
+      for (int i = 0; i < 8; ++i) {
+        const Vec3 corner{(i & 1 ? 1 : -1) * half[0], (i & 2 ? 1 : -1) * half[1], (i & 4 ? 1 : -1) * half[2]};
+        outline.push_back(middle + (1 - 1e-6) * (base::transposed(placed.boxes[0].axes) * corner));
+      }
+    }
+    const scene::View view(placed, {0, 0, 0}, 0);
+    for (const Vec3& at : outline) {
+      const Ray ray = test::ray({at[0] / at[2], at[1] / at[2], 1});
+      const auto hit = trace::nearest(view.forms(), everything(view.forms()), ray, flow::Hit<float>{0, 0});
+      if (!(hit.w > 0)) continue;
+      ++grazed;
+      const scene::Bounds alone{ray.x, ray.x, ray.y, ray.y};
+      trace::Culled culled;
+      trace::cull(view.forms(), &alone, culled);
+      ASSERT_EQ(culled.triangles.count + culled.spheres.count + culled.boxes.count, 1) << trial;
+    }
+  }
+  EXPECT_GT(grazed, 200000);
+}
+
 // Just beyond the capacity of the list everything is kept instead.
 TEST(culling, keeps_everything_where_its_list_would_overflow) {
   for (const int count : {trace::Picked::capacity - 1, trace::Picked::capacity, trace::Picked::capacity + 1, 3000}) {

@@ -151,6 +151,49 @@ TEST(shadow, is_never_cast_by_a_convex_thing_upon_itself) {
   EXPECT_GT(points, 300000);
 }
 
+// Seen or lit at a grazing angle the range of a flat thing is uncertain by far more than the margin: it must not ask for itself.
+TEST(shadow, is_not_cast_by_a_flat_thing_upon_itself_however_flat_the_light_falls) {
+  Random random(4);
+  for (int trial = 0; trial < 2000; ++trial) {
+    Scene scene = wall(1);
+    scene.objects.clear();
+    const Vec3 n = base::normalized(Vec3{0, 0, -1} + random.point(0.8)), middle{0, 0, 2};
+    const Vec3 x = random.across(n), y = base::cross(n, x);
+    const bool plane = trial % 2 == 0;
+    if (plane) scene.objects.push_back(object(Plane{middle, n}));
+    else scene.objects.push_back(object(Triangle{{{middle + 9.0 * x, middle - 5.0 * x + 8.0 * y, middle - 5.0 * x - 8.0 * y}}}));
+    const double angle = random.between(0, 2 * pi), rise = random.scale(1e-5, 1e-2);
+    const Vec3 lamp = middle + 2.0 * std::cos(angle) * x + 2.0 * std::sin(angle) * y + rise * n;
+    const scene::FrozenScene frozen(scene, {lamp}, 1);
+    for (int i = 0; i < 50; ++i) {
+      const Vec3 aside = random.point(0.1);
+      const flow::Surface<float> s = look(frozen, ray({aside[0], aside[1], 1}));
+      ASSERT_TRUE(s.found);
+      ASSERT_FALSE(dark(frozen, 0, lamp, s)) << trial << " " << rise;
+    }
+  }
+}
+
+// A card that lies in the wall's own plane does not speckle it: rounding puts either in front.
+TEST(shadow, is_not_cast_by_a_card_upon_the_wall_that_it_lies_in) {
+  Random random(5);
+  for (int trial = 0; trial < 300; ++trial) {
+    const Vec3 n = base::normalized(Vec3{0, 0, -1} + random.point(0.3)), middle{0, 0, 2}, x = random.across(n), y = base::cross(n, x);
+    Scene scene = wall(1);
+    scene.objects.clear();
+    scene.objects.push_back(object(Plane{middle, n}));
+    scene.objects.push_back(object(Triangle{{{middle + 0.5 * x, middle - 0.3 * x + 0.4 * y, middle - 0.3 * x - 0.4 * y}}}));
+    const Vec3 lamp = random.point(0.3);
+    const scene::FrozenScene frozen(scene, {lamp}, 1);
+    for (int i = 0; i < 200; ++i) {
+      const Vec3 aside = random.point(0.4);
+      const flow::Surface<float> s = look(frozen, ray({aside[0], aside[1], 1}));
+      ASSERT_TRUE(s.found);
+      ASSERT_FALSE(dark(frozen, 0, lamp, s)) << trial;
+    }
+  }
+}
+
 namespace {
 
 /// Camera at zero, and a closed body about it or not, a lamp inside or not, a wall behind.
