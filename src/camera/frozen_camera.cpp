@@ -121,6 +121,7 @@ void FrozenCamera::freeze_sequence(std::uint64_t seed, int noise) {
       }
     }
   }
+  for (int i = 0; i < s.modulations; ++i) freeze_quadrature(i);
   double start = 0;
   for (std::size_t k = 0; k < camera_.mode.sequence.size(); ++k) {
     const RawFrame& frame = camera_.mode.sequence[k];
@@ -134,6 +135,31 @@ void FrozenCamera::freeze_sequence(std::uint64_t seed, int noise) {
     }
     start_.push_back(start);
     start += frame.integration_time_s + camera_.readout_time_s;
+  }
+}
+
+void FrozenCamera::freeze_quadrature(int modulation) {
+  ModulationView& m = sensor_.modulation[modulation];
+  const auto& sequence = camera_.mode.sequence;
+  double first = 0;
+  m.quadrature = -1;
+  for (std::size_t k = 0; k < sequence.size(); ++k) {
+    if (modulations_.of_raw_frame[k] != modulation) continue;
+    if (m.quadrature < 0) first = sequence[k].reference_phase_rad, m.quadrature = 1;
+    const double quarters = (sequence[k].reference_phase_rad - first) / (pi / 2), whole = std::rint(quarters);
+    if (std::abs(quarters - whole) > 1e-9) m.quadrature = 0;
+    const int quarter = static_cast<int>(whole - 4 * std::floor(whole / 4));
+    sensor_.frame[k].in_phase = quarter == 0 ? 1.0f : quarter == 2 ? -1.0f : 0.0f;
+    sensor_.frame[k].in_quadrature = quarter == 1 ? 1.0f : quarter == 3 ? -1.0f : 0.0f;
+  }
+  for (std::size_t l = 0; l < lights_.size(); ++l) {
+    for (int h = 0; h < sensor_.harmonics; ++h) {
+      const double a = static_cast<double>(m.real[l][h]), b = static_cast<double>(m.imaginary[l][h]);
+      const double tau = (2 * h + 1) * first, c = setup::cos(tau), d = setup::sin(tau);
+      const double x = a * c - b * d, y = a * d + b * c, turn = h % 2 == 0 ? 1 : -1;    // e^{imπ/2} = i, −i, i …
+      m.x_real[l][h] = f(x), m.x_imaginary[l][h] = f(y);
+      m.y_real[l][h] = f(-turn * y), m.y_imaginary[l][h] = f(turn * x);
+    }
   }
 }
 

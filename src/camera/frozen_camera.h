@@ -51,6 +51,7 @@ class FrozenCamera {
   void freeze_lens();
   void freeze_tiles();
   void freeze_sequence(std::uint64_t seed, int noise);
+  void freeze_quadrature(int modulation);
   void freeze_patterns();
   void freeze_decoder(int noise);
 

@@ -58,6 +58,7 @@ struct RawFrameView {
   float integration_time;        ///< [s]
   float dark;                    ///< dark electrons of a tap
   float cosine[flow::max_harmonics], sine[flow::max_harmonics];   ///< of m·τ, for the orders kept
+  float in_phase, in_quadrature; ///< D = in_phase·X + in_quadrature·Y where the modulation has quadrature: 0, 1 or −1
 };
 
 /// One modulation frequency: how light becomes a phasor.
@@ -65,8 +66,12 @@ struct ModulationView {
   float turns_per_metre_high, turns_per_metre_low;   ///< f·n/c in two parts
   float delay_turns;             ///< phase of temperature drift, turns
   float frequency;               ///< [Hz], for delays by pixel
+  std::int32_t quadrature;       ///< 1: all τ are quarter turns from the first, so that two sums X and Y (a quarter turn on) give every D
   /// a_m·e^{iψ_m} of each light
   float real[flow::max_lights][flow::max_harmonics], imaginary[flow::max_lights][flow::max_harmonics];
+  /// the same times e^{imτ} of the first raw frame, and a quarter turn on
+  float x_real[flow::max_lights][flow::max_harmonics], x_imaginary[flow::max_lights][flow::max_harmonics];
+  float y_real[flow::max_lights][flow::max_harmonics], y_imaginary[flow::max_lights][flow::max_harmonics];
 };
 
 /// Sequence, charge, ADC.

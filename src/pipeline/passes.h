@@ -46,15 +46,28 @@ TOFRAY_FN void filter_row(const Setup& s, const Job& job, int y) {
   }
 }
 
+/// Four flags at a time, since few pixels fly.
+TOFRAY_FN bool any_flying(const std::uint16_t* flags, int count) {
+  std::uint64_t found = 0;
+  int i = 0;
+  for (; i + 4 <= count; i += 4) {
+    std::uint64_t four;
+    std::memcpy(&four, flags + i, sizeof four);
+    found |= four;
+  }
+  for (; i < count; ++i) found |= flags[i];
+  return (found & 0x0001000100010001u * depth::flying_pixel) != 0;
+}
+
 /// Pass 3: range (filtered or not) of one row → z, point, confidence; flying pixels become invalid.
 template <class F>
 TOFRAY_FN void settle_row(const Setup& s, const Job& job, int y, const float* range) {
   const int width = s.lens.width;
   for (int x = 0; x < width; x += num::lanes<F>) {
     const Pixels p{y * width + x, width - x < num::lanes<F> ? width - x : num::lanes<F>};
-    std::int32_t flags[16], any_flying = 0;
-    for (int i = 0; i < p.count; ++i) flags[i] = job.out.flags[p.index + i], any_flying |= flags[i] & depth::flying_pixel;
-    if (any_flying == 0 && job.filter == 0) continue;
+    if (job.filter == 0 && !any_flying(job.out.flags + p.index, p.count)) continue;
+    std::int32_t flags[16] = {};
+    for (int i = 0; i < p.count; ++i) flags[i] = job.out.flags[p.index + i];
     const F noise = num::load<F>(job.out.noise + p.index, p.count);
     store_range(s, job.out, p, camera::ray<F>(s.lens, p), num::load<F>(range + p.index, p.count), noise, num::load_int<F>(flags, p.count));
   }

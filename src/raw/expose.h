@@ -50,19 +50,14 @@ TOFRAY_FN Mask<F> saturated(const camera::SensorView& s, const Exposure<F>& e) {
 template <class F>
 TOFRAY_FN Taps<F> expose(const camera::SensorView& s, int k, const Light<F>& light, int lights, bool light_changed, FrameIndex index, Exposure<F>& e) {
   const camera::RawFrameView& frame = s.frame[k];
-  F difference = F(0.0f);
+  F rate = F(0.0f);
   if (frame.lit != 0) {
     const bool anew = light_changed || k == 0 || frame.modulation != s.frame[k - 1].modulation;
     const camera::ModulationView& modulation = s.modulation[frame.modulation];
-    if (s.harmonics <= 4) {
-      if (anew) correlate<4>(modulation, light, lights, e.delay, e.phasors);
-      difference = difference_rate<4>(frame, e.phasors);
-    } else {
-      if (anew) correlate<flow::max_harmonics>(modulation, light, lights, e.delay, e.phasors);
-      difference = difference_rate<flow::max_harmonics>(frame, e.phasors);
-    }
+    rate = s.harmonics <= 4 ? difference<4>(modulation, frame, light, lights, e.delay, anew, e.phasors)
+                            : difference<flow::max_harmonics>(modulation, frame, light, lights, e.delay, anew, e.phasors);
   }
-  Means<F> charge = tap_means(frame, light.total_rate, light.ambient_rate, difference);
+  Means<F> charge = tap_means(frame, light.total_rate, light.ambient_rate, rate);
   charge.a = charge.a * e.gain, charge.b = charge.b * e.gain;
   if (s.noise == 2) {
     charge = expose_exact(s, charge, e.pixel, k, index);
