@@ -134,13 +134,13 @@ TOFRAY_FN float highest(F32x8 a) {
   return _mm_cvtss_f32(_mm_max_ss(m, _mm_movehdup_ps(m)));
 }
 
+TOFRAY_FN __m256i first_lanes8(int n) { return _mm256_cmpgt_epi32(_mm256_set1_epi32(n), _mm256_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7)); }
 template <>
-TOFRAY_FN I32x8 lane_index<F32x8>() { return _mm256_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7); }
-TOFRAY_FN __m256i first_lanes8(int n) { return _mm256_cmpgt_epi32(_mm256_set1_epi32(n), lane_index<F32x8>().v); }
-template <>
-TOFRAY_FN F32x8 load<F32x8>(const float* from, int n) { return n >= 8 ? _mm256_loadu_ps(from) : _mm256_maskload_ps(from, first_lanes8(n)); }
-template <>
-TOFRAY_FN I32x8 load_int<F32x8>(const std::int32_t* from, int n) { return _mm256_maskload_epi32(from, first_lanes8(n)); }
+struct Memory<F32x8> {
+  TOFRAY_FN static I32x8 lane_index() { return _mm256_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7); }
+  TOFRAY_FN static F32x8 load(const float* from, int n) { return n >= 8 ? _mm256_loadu_ps(from) : _mm256_maskload_ps(from, first_lanes8(n)); }
+  TOFRAY_FN static I32x8 load_int(const std::int32_t* from, int n) { return _mm256_maskload_epi32(from, first_lanes8(n)); }
+};
 TOFRAY_FN void store(float* to, F32x8 a, int n) {
   if (n >= 8) {
     _mm256_storeu_ps(to, a.v);

@@ -126,15 +126,17 @@ TOFRAY_FN float lowest(F32x16 a) { return _mm512_reduce_min_ps(a.v); }
 TOFRAY_FN float highest(F32x16 a) { return _mm512_reduce_max_ps(a.v); }
 
 TOFRAY_FN __mmask16 first_lanes16(int n) { return static_cast<__mmask16>(n >= 16 ? 0xffffu : (1u << n) - 1u); }
+template <>
+struct Memory<F32x16> {
+  TOFRAY_FN static I32x16 lane_index() { return _mm512_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15); }
+  TOFRAY_FN static F32x16 load(const float* from, int n) {
+    return n >= 16 ? _mm512_loadu_ps(from) : _mm512_maskz_loadu_ps(first_lanes16(n), from);
+  }
+  TOFRAY_FN static I32x16 load_int(const std::int32_t* from, int n) {
+    return n >= 16 ? _mm512_loadu_si512(from) : _mm512_maskz_loadu_epi32(first_lanes16(n), from);
+  }
+};
 // Whole packs go without a mask: masked stores are slower on some machines, and conversion within a masked store much slower.
-template <>
-TOFRAY_FN F32x16 load<F32x16>(const float* from, int n) {
-  return n >= 16 ? _mm512_loadu_ps(from) : _mm512_maskz_loadu_ps(first_lanes16(n), from);
-}
-template <>
-TOFRAY_FN I32x16 load_int<F32x16>(const std::int32_t* from, int n) {
-  return n >= 16 ? _mm512_loadu_si512(from) : _mm512_maskz_loadu_epi32(first_lanes16(n), from);
-}
 TOFRAY_FN void store(float* to, F32x16 a, int n) {
   if (n >= 16) {
     _mm512_storeu_ps(to, a.v);
@@ -182,7 +184,5 @@ TOFRAY_FN void store3(float* to, F32x16 x, F32x16 y, F32x16 z, int n) {
   if (3 * n > 32) store(to + 32, F32x16(third), 3 * n - 32);
 }
 
-template <>
-TOFRAY_FN I32x16 lane_index<F32x16>() { return _mm512_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15); }
 
 }  // namespace tofray::num

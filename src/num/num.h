@@ -110,26 +110,29 @@ TOFRAY_FN std::int32_t lane(std::int32_t a, int) { return a; }
 TOFRAY_FN float lowest(float a) { return a; }
 TOFRAY_FN float highest(float a) { return a; }
 
+/// What a number type knows of memory and of its lanes.
+template <class F>
+struct Memory;
+template <>
+struct Memory<float> {
+  TOFRAY_FN static float load(const float* from, int) { return *from; }
+  TOFRAY_FN static std::int32_t load_int(const std::int32_t* from, int) { return *from; }
+  TOFRAY_FN static std::int32_t lane_index() { return 0; }
+};
+
 /// The first n lanes to or from memory; the others read as 0 and are not written.
 template <class F>
-TOFRAY_FN F load(const float* from, int n);
+TOFRAY_FN F load(const float* from, int n) { return Memory<F>::load(from, n); }
 template <class F>
-TOFRAY_FN Int<F> load_int(const std::int32_t* from, int n);
-template <>
-TOFRAY_FN float load<float>(const float* from, int) { return *from; }
-template <>
-TOFRAY_FN std::int32_t load_int<float>(const std::int32_t* from, int) { return *from; }
+TOFRAY_FN Int<F> load_int(const std::int32_t* from, int n) { return Memory<F>::load_int(from, n); }
+/// 0, 1, 2 … lanes−1.
+template <class F>
+TOFRAY_FN Int<F> lane_index() { return Memory<F>::lane_index(); }
 TOFRAY_FN void store(float* to, float a, int) { *to = a; }
 TOFRAY_FN void store(std::int32_t* to, std::int32_t a, int) { *to = a; }
 TOFRAY_FN void store(std::uint16_t* to, std::int32_t a, int) { *to = static_cast<std::uint16_t>(a); }
 TOFRAY_FN void store(std::uint8_t* to, std::int32_t a, int) { *to = static_cast<std::uint8_t>(a); }
 /// x0 y0 z0 x1 y1 z1 …
 TOFRAY_FN void store3(float* to, float x, float y, float z, int) { to[0] = x, to[1] = y, to[2] = z; }
-
-/// 0, 1, 2 … lanes−1.
-template <class F>
-TOFRAY_FN Int<F> lane_index();
-template <>
-TOFRAY_FN std::int32_t lane_index<float>() { return 0; }
 
 }  // namespace tofray::num

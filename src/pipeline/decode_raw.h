@@ -21,7 +21,7 @@ TOFRAY_FN void decode_pixels(const Setup& s, const Job& job, const Recording& in
     const std::int32_t at = p.index + k * s.lens.width * s.lens.height;
     num::Mask<F> over = F(1.0f) < F(0.0f);
     if (in.raw != nullptr) {
-      std::int32_t codes[16] = {};
+      std::int32_t codes[num::lanes<F>] = {};
       for (int i = 0; i < p.count; ++i) codes[i] = in.raw[at + i];
       const F code = num::to_float(num::load_int<F>(codes, p.count));
       difference[k] = (code - F(sensor.mid_code)) * F(sensor.step);

@@ -66,7 +66,7 @@ TOFRAY_FN void settle_row(const Setup& s, const Job& job, int y, const float* ra
   for (int x = 0; x < width; x += num::lanes<F>) {
     const Pixels p{y * width + x, width - x < num::lanes<F> ? width - x : num::lanes<F>};
     if (job.filter == 0 && !any_flying(job.out.flags + p.index, p.count)) continue;
-    std::int32_t flags[16] = {};
+    std::int32_t flags[num::lanes<F>] = {};
     for (int i = 0; i < p.count; ++i) flags[i] = job.out.flags[p.index + i];
     const F noise = num::load<F>(job.out.noise + p.index, p.count);
     store_range(s, job.out, p, camera::ray<F>(s.lens, p), num::load<F>(range + p.index, p.count), noise, num::load_int<F>(flags, p.count));

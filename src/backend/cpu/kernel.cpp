@@ -4,8 +4,9 @@
 // linker might hand this object's copy of it to a machine that cannot run it. The number type comes first: templates see its functions then.
 #if defined(TOFRAY_KERNEL_AVX512)
 #include "num/avx512.h"
+#include "num/twin.h"
 #define TOFRAY_KERNEL tofray_kernel_avx512
-using F = tofray::num::F32x16;
+using F = tofray::num::Twin<tofray::num::F32x16>;
 #elif defined(TOFRAY_KERNEL_AVX2)
 #include "num/avx2.h"
 #define TOFRAY_KERNEL tofray_kernel_avx2

@@ -1,0 +1,165 @@
+// SPDX-FileCopyrightText: 2026 The tofray authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "num/num.h"
+
+/// Two packs side by side as one number type: each operation is done for both, so that the processor has two independent chains of
+/// work in hand while one waits for its results.
+namespace tofray::num {
+
+template <class Half>
+struct TwinMask {
+  Mask<Half> a, b;
+};
+template <class Half>
+struct TwinInt {
+  Int<Half> a, b;
+  TwinInt() = default;
+  TOFRAY_FN TwinInt(Int<Half> low, Int<Half> high) : a(low), b(high) {}
+  TOFRAY_FN TwinInt(std::int32_t v) : a(v), b(v) {}
+};
+template <class Half>
+struct TwinUint {
+  Uint<Half> a, b;
+  TwinUint() = default;
+  TOFRAY_FN TwinUint(Uint<Half> low, Uint<Half> high) : a(low), b(high) {}
+  TOFRAY_FN TwinUint(std::uint32_t v) : a(v), b(v) {}
+};
+template <class Half>
+struct Twin {
+  Half a, b;
+  Twin() = default;
+  TOFRAY_FN Twin(Half low, Half high) : a(low), b(high) {}
+  TOFRAY_FN Twin(float v) : a(v), b(v) {}
+};
+
+template <class Half>
+struct Traits<Twin<Half>> {
+  using Int = TwinInt<Half>;
+  using Uint = TwinUint<Half>;
+  using Mask = TwinMask<Half>;
+  static constexpr int lanes = 2 * num::lanes<Half>;
+};
+
+#define TOFRAY_TWIN_BINARY(type, result, op) \
+  template <class H>                         \
+  TOFRAY_FN result<H> operator op(type<H> x, type<H> y) { return {x.a op y.a, x.b op y.b}; }
+TOFRAY_TWIN_BINARY(Twin, Twin, +)
+TOFRAY_TWIN_BINARY(Twin, Twin, -)
+TOFRAY_TWIN_BINARY(Twin, Twin, *)
+TOFRAY_TWIN_BINARY(Twin, Twin, /)
+TOFRAY_TWIN_BINARY(Twin, TwinMask, <)
+TOFRAY_TWIN_BINARY(Twin, TwinMask, <=)
+TOFRAY_TWIN_BINARY(Twin, TwinMask, >)
+TOFRAY_TWIN_BINARY(Twin, TwinMask, >=)
+TOFRAY_TWIN_BINARY(Twin, TwinMask, ==)
+TOFRAY_TWIN_BINARY(Twin, TwinMask, !=)
+TOFRAY_TWIN_BINARY(TwinMask, TwinMask, &)
+TOFRAY_TWIN_BINARY(TwinMask, TwinMask, |)
+TOFRAY_TWIN_BINARY(TwinInt, TwinInt, +)
+TOFRAY_TWIN_BINARY(TwinInt, TwinInt, -)
+TOFRAY_TWIN_BINARY(TwinInt, TwinInt, *)
+TOFRAY_TWIN_BINARY(TwinInt, TwinInt, &)
+TOFRAY_TWIN_BINARY(TwinInt, TwinInt, |)
+TOFRAY_TWIN_BINARY(TwinInt, TwinMask, ==)
+TOFRAY_TWIN_BINARY(TwinInt, TwinMask, !=)
+TOFRAY_TWIN_BINARY(TwinInt, TwinMask, <)
+TOFRAY_TWIN_BINARY(TwinInt, TwinMask, >)
+TOFRAY_TWIN_BINARY(TwinUint, TwinUint, +)
+TOFRAY_TWIN_BINARY(TwinUint, TwinUint, &)
+TOFRAY_TWIN_BINARY(TwinUint, TwinUint, |)
+TOFRAY_TWIN_BINARY(TwinUint, TwinUint, ^)
+#undef TOFRAY_TWIN_BINARY
+
+template <class H>
+TOFRAY_FN Twin<H> operator-(Twin<H> x) { return {-x.a, -x.b}; }
+template <class H>
+TOFRAY_FN TwinMask<H> operator!(TwinMask<H> x) { return {!x.a, !x.b}; }
+template <class H>
+TOFRAY_FN TwinUint<H> operator<<(TwinUint<H> x, int n) { return {x.a << n, x.b << n}; }
+template <class H>
+TOFRAY_FN TwinUint<H> operator>>(TwinUint<H> x, int n) { return {x.a >> n, x.b >> n}; }
+
+#define TOFRAY_TWIN_UNARY(type, result, name) \
+  template <class H>                          \
+  TOFRAY_FN result<H> name(type<H> x) { return {name(x.a), name(x.b)}; }
+TOFRAY_TWIN_UNARY(Twin, Twin, sqrt)
+TOFRAY_TWIN_UNARY(Twin, Twin, floor)
+TOFRAY_TWIN_UNARY(Twin, Twin, round_even)
+TOFRAY_TWIN_UNARY(Twin, Twin, abs)
+TOFRAY_TWIN_UNARY(Twin, TwinUint, bits)
+TOFRAY_TWIN_UNARY(TwinUint, Twin, from_bits)
+TOFRAY_TWIN_UNARY(Twin, TwinInt, to_int)
+TOFRAY_TWIN_UNARY(TwinInt, Twin, to_float)
+TOFRAY_TWIN_UNARY(TwinInt, TwinUint, to_uint)
+TOFRAY_TWIN_UNARY(TwinUint, TwinInt, to_signed)
+#undef TOFRAY_TWIN_UNARY
+
+template <class H>
+TOFRAY_FN Twin<H> fma(Twin<H> x, Twin<H> y, Twin<H> z) { return {fma(x.a, y.a, z.a), fma(x.b, y.b, z.b)}; }
+template <class H>
+TOFRAY_FN Twin<H> fnma(Twin<H> x, Twin<H> y, Twin<H> z) { return {fnma(x.a, y.a, z.a), fnma(x.b, y.b, z.b)}; }
+template <class H>
+TOFRAY_FN Twin<H> min(Twin<H> x, Twin<H> y) { return {min(x.a, y.a), min(x.b, y.b)}; }
+template <class H>
+TOFRAY_FN Twin<H> max(Twin<H> x, Twin<H> y) { return {max(x.a, y.a), max(x.b, y.b)}; }
+template <class H>
+TOFRAY_FN Twin<H> copy_sign(Twin<H> x, Twin<H> y) { return {copy_sign(x.a, y.a), copy_sign(x.b, y.b)}; }
+template <class H>
+TOFRAY_FN Twin<H> select(TwinMask<H> m, Twin<H> x, Twin<H> y) { return {select(m.a, x.a, y.a), select(m.b, x.b, y.b)}; }
+template <class H>
+TOFRAY_FN TwinInt<H> select(TwinMask<H> m, TwinInt<H> x, TwinInt<H> y) { return {select(m.a, x.a, y.a), select(m.b, x.b, y.b)}; }
+template <class H>
+TOFRAY_FN TwinUint<H> select(TwinMask<H> m, TwinUint<H> x, TwinUint<H> y) { return {select(m.a, x.a, y.a), select(m.b, x.b, y.b)}; }
+template <class H>
+TOFRAY_FN bool any(TwinMask<H> m) { return any(m.a | m.b); }
+template <class H>
+TOFRAY_FN bool all(TwinMask<H> m) { return all(m.a & m.b); }
+
+template <class H>
+TOFRAY_FN void multiply_wide(TwinUint<H> x, TwinUint<H> y, TwinUint<H>& high, TwinUint<H>& low) {
+  multiply_wide(x.a, y.a, high.a, low.a);
+  multiply_wide(x.b, y.b, high.b, low.b);
+}
+template <class H>
+TOFRAY_FN Twin<H> gather(const float* table, TwinInt<H> index) { return {gather(table, index.a), gather(table, index.b)}; }
+template <class H>
+TOFRAY_FN TwinInt<H> gather(const std::int32_t* table, TwinInt<H> index) { return {gather(table, index.a), gather(table, index.b)}; }
+template <class H>
+TOFRAY_FN void gather_pair(const float* table, TwinInt<H> index, Twin<H>& first, Twin<H>& second) {
+  gather_pair(table, index.a, first.a, second.a);
+  gather_pair(table, index.b, first.b, second.b);
+}
+template <class H>
+TOFRAY_FN std::int32_t first(TwinInt<H> x) { return first(x.a); }
+template <class H>
+TOFRAY_FN float lane(Twin<H> x, int i) { return i < lanes<H> ? lane(x.a, i) : lane(x.b, i - lanes<H>); }
+template <class H>
+TOFRAY_FN std::int32_t lane(TwinInt<H> x, int i) { return i < lanes<H> ? lane(x.a, i) : lane(x.b, i - lanes<H>); }
+template <class H>
+TOFRAY_FN float lowest(Twin<H> x) { return lowest(min(x.a, x.b)); }
+template <class H>
+TOFRAY_FN float highest(Twin<H> x) { return highest(max(x.a, x.b)); }
+
+/// How many lanes of the second half a count of both reaches.
+template <class H>
+TOFRAY_FN int beyond(int n) { return n > lanes<H> ? n - lanes<H> : 0; }
+
+template <class H>
+struct Memory<Twin<H>> {
+  TOFRAY_FN static Twin<H> load(const float* from, int n) { return {num::load<H>(from, n), num::load<H>(from + lanes<H>, beyond<H>(n))}; }
+  TOFRAY_FN static TwinInt<H> load_int(const std::int32_t* from, int n) {
+    return {num::load_int<H>(from, n), num::load_int<H>(from + lanes<H>, beyond<H>(n))};
+  }
+  TOFRAY_FN static TwinInt<H> lane_index() { return {num::lane_index<H>(), num::lane_index<H>() + Int<H>(lanes<H>)}; }
+};
+template <class H>
+TOFRAY_FN void store(float* to, Twin<H> x, int n) { store(to, x.a, n), store(to + lanes<H>, x.b, beyond<H>(n)); }
+template <class H, class Element>
+TOFRAY_FN void store(Element* to, TwinInt<H> x, int n) { store(to, x.a, n), store(to + lanes<H>, x.b, beyond<H>(n)); }
+template <class H>
+TOFRAY_FN void store3(float* to, Twin<H> x, Twin<H> y, Twin<H> z, int n) {
+  store3(to, x.a, y.a, z.a, n), store3(to + 3 * lanes<H>, x.b, y.b, z.b, beyond<H>(n));
+}
+
+}  // namespace tofray::num
