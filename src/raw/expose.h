@@ -69,8 +69,8 @@ TOFRAY_FN Taps<F> expose(const camera::SensorView& s, int k, const Light<F>& lig
   Taps<F> taps = read_out(s, charge, e.offset);
   if (s.noise == 0 && frame.lit != 0) {
     // Strong ambient light leaves few places of a float to the difference of the taps; where neither clips it is known better than that.
-    const auto whole = (num::max(charge.a, charge.b) < F(s.full_well)) & (num::abs(difference) <= light.total_rate + light.ambient_rate);
-    taps.difference = num::select(whole, difference * F(frame.integration_time) * e.gain, taps.difference);
+    const auto whole = (num::max(charge.a, charge.b) < F(s.full_well)) & (num::abs(rate) <= light.total_rate + light.ambient_rate);
+    taps.difference = num::select(whole, rate * F(frame.integration_time) * e.gain, taps.difference);
   }
   watch(s, frame, charge, taps, e);
   return taps;
