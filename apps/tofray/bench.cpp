@@ -46,6 +46,12 @@ std::string table_of(const io::Json& results, const std::vector<Ratio>& ratios) 
                         number(row, "ms_median"), number(row, "ms_p10"), 1e-6 * number(row, "peak_bytes"),
                         row.find("sha256")->string()->substr(0, 16));
   }
+  for (const io::Json& row : *results.items()) {
+    const io::Json& stages = *row.find("stage_ms");
+    text += fmt::format("{:<24} {:<11} {:>7.0f} {:<6} stages, ms: trace {:.3f}, power {:.3f}, raw {:.3f}, depth {:.3f}\n", *row.find("scene")->string(),
+                        *row.find("isa")->string(), number(row, "threads"), *row.find("noise")->string(), number(stages, "trace"),
+                        number(stages, "power"), number(stages, "raw"), number(stages, "depth"));
+  }
   if (!ratios.empty()) text += "\n";
   for (const Ratio& one : ratios) text += fmt::format("{:<62} {:>8.3f}\n", one.name, one.value);
   return text;
@@ -54,7 +60,8 @@ std::string table_of(const io::Json& results, const std::vector<Ratio>& ratios) 
 }  // namespace
 
 Contender::Contender(const Inputs& in, const SimulatorOptions& options)
-    : scene_(in.scene.name),
+    : in_(in),
+      scene_(in.scene.name),
       options_(without_truth(options)),
       pixels_(static_cast<double>(in.camera.sensor.width) * in.camera.sensor.height),
       simulator_(in.scene, in.camera, options_) {}
@@ -77,6 +84,28 @@ double Contender::percentile_ms(double share) const {
 
 double Contender::pixel_rate() const { return pixels_ / (1e-3 * median_ms()); }
 
+io::Json Contender::stage_ms() {
+  // A run that stops after a stage takes as long as this and all before it: each stage is the difference to the one before.
+  constexpr Stage stages[] = {Stage::trace, Stage::power, Stage::raw, Stage::depth};
+  constexpr const char* names[] = {"trace", "power", "raw", "depth"};
+  std::vector<Contender> upto;
+  for (const Stage stage : stages) {
+    SimulatorOptions options = options_;
+    options.last_stage = stage;
+    upto.emplace_back(in_, options);
+  }
+  for (std::size_t i = 0; i <= std::clamp<std::size_t>(ms_.size(), 1, 50); ++i) {
+    for (Contender& one : upto) one.step(i > 0);
+  }
+  io::Json row = io::Json::object();
+  double before = 0;
+  for (std::size_t i = 0; i < upto.size(); ++i) {
+    row.set(names[i], upto[i].median_ms() - before);
+    before = upto[i].median_ms();
+  }
+  return row;
+}
+
 io::Json Contender::result() {
   simulator_.frame(0, frame_);
   io::Json row = io::Json::object();
@@ -84,7 +113,7 @@ io::Json Contender::result() {
   row.set("frames_per_s", 1000 / median_ms())
       .set("ms_median", median_ms())
       .set("ms_p10", percentile_ms(0.1))
-      .set("stage_ms", io::Json::object());
+      .set("stage_ms", stage_ms());
   return row.set("peak_bytes", peak_bytes()).set("sha256", arrays_sha256(frame_));
 }
 

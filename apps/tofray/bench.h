@@ -26,6 +26,10 @@ class Contender {
   [[nodiscard]] io::Json result();
 
  private:
+  /// Median time of each stage [ms], from runs of their own.
+  [[nodiscard]] io::Json stage_ms();
+
+  Inputs in_;
   std::string scene_;
   SimulatorOptions options_;
   double pixels_;

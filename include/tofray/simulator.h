@@ -20,12 +20,16 @@ enum class Noise {
 /// Which machine code runs. All give the same bytes.
 enum class Isa { best, scalar, scalar_fma, avx2, avx512 };
 
+/// The pipeline's stages, in order.
+enum class Stage { trace, power, raw, depth };
+
 struct SimulatorOptions {
   std::uint64_t seed = 0;
   Noise noise = Noise::exact;
   int threads = 0;             ///< 0: as many as the machine has cores
   Isa isa = Isa::best;         ///< best: the environment's TOFRAY_ISA, else what the CPU can do
   bool truth = true;           ///< fill Frame::truth
+  Stage last_stage = Stage::depth;  ///< stop after this stage: arrays of later ones are left as they are (zero in a new frame)
   bool culling = true;         ///< off: every pixel tests every object (slower, same bytes; for tests)
 };
 

@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: 2026 The tofray authors
+// SPDX-License-Identifier: Apache-2.0
 #include "io/builtin.h"
 
 #include <algorithm>

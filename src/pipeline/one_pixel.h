@@ -44,7 +44,6 @@ struct Lighting {
 template <class F>
 TOFRAY_FN void light_up(const Setup& s, const Near& near, int slot, bool moving, const flow::Ray<F>& ray, const flow::Surface<F>& p, F vignetting,
                         Lighting<F>& out) {
-  out.radiometry = {F(0.0f), F(0.0f), F(0.0f)};
   out.light.total_rate = F(0.0f);
   for (int l = 0; l < s.scene.lights; ++l) {
     const flow::Ray<F> from_light = power::light_ray(s.lights[l], p);
@@ -89,6 +88,16 @@ TOFRAY_FN void find_depth(const Setup& s, const Job& job, const Pixels& p, const
   store(job.out.noise, p, num::select((found.flags & num::Int<F>(depth::no_return)) == num::Int<F>(0), found.noise, nan<F>()));
 }
 
+/// Stages 1 and 2 from the surface on, and what they show of the truth.
+template <class F>
+TOFRAY_FN void light_surface(const Setup& s, const Job& job, const Near& near, int slot, bool moving, bool truth, const Pixels& p,
+                             const flow::Ray<F>& ray, const flow::Hit<F>& hit, F vignetting, Lighting<F>& lighting) {
+  const flow::Surface<F> surface = trace::surface(s.scene, ray, hit);
+  lighting.radiometry = {F(0.0f), F(0.0f), F(0.0f)};
+  if (s.last_stage >= stage_power) light_up(s, near, slot, moving, ray, surface, vignetting, lighting);
+  if (truth) store_truth(job.out, p, surface, lighting.radiometry);
+}
+
 /// Stages 3 and 4: every raw frame, then depth.
 /// @param light     the light of raw frame k is light[entry[k]]
 /// @param entry     a null pointer: always light[0]
@@ -102,6 +111,7 @@ TOFRAY_FN void measure(const Setup& s, const Job& job, const Pixels& p, const fl
     const bool changed = entry != nullptr && k > 0 && entry[k] != entry[k - 1];
     difference[k] = collect(s, job, p, k, light[now], changed, exposure);
   }
+  if (s.last_stage < stage_depth) return;
   find_depth<F>(s, job, p, ray, difference, raw::saturated(s.sensor, exposure), exposure.delay, vignetting);
 }
 
@@ -109,10 +119,9 @@ TOFRAY_FN void measure(const Setup& s, const Job& job, const Pixels& p, const fl
 template <class F>
 TOFRAY_FN void one_pixel(const Setup& s, const Job& job, const Near& near, const Pixels& p, const flow::Ray<F>& ray, const flow::Hit<F>& hit) {
   const F vignetting = camera::vignetting<F>(s.lens, p);
-  const flow::Surface<F> surface = trace::surface(s.scene, ray, hit);
   Lighting<F> lighting;
-  light_up(s, near, 0, false, ray, surface, vignetting, lighting);
-  store_truth(job.out, p, surface, lighting.radiometry);
+  light_surface(s, job, near, 0, false, true, p, ray, hit, vignetting, lighting);
+  if (s.last_stage < stage_raw) return;
   measure(s, job, p, ray, vignetting, &lighting.light, nullptr);
 }
 

@@ -16,6 +16,7 @@ struct Setup {
   camera::SensorView sensor;
   camera::DecoderView decoder;
   std::int32_t truth_slot;       ///< slot of the middle raw frame
+  std::int32_t last_stage;       ///< 0 trace, 1 power, 2 raw, 3 depth: nothing is done after it
   std::int32_t culling;          ///< 0: every pixel tests every form
 };
 
@@ -31,6 +32,8 @@ struct Job {
 
 using flow::tile_height;
 using flow::tile_width;
+
+enum Stages : std::int32_t { stage_trace, stage_power, stage_raw, stage_depth };
 
 TOFRAY_FN int tiles_across(const camera::LensView& lens) { return (lens.width + tile_width - 1) / tile_width; }
 TOFRAY_FN int tile_count(const camera::LensView& lens) { return tiles_across(lens) * ((lens.height + tile_height - 1) / tile_height); }

@@ -95,11 +95,9 @@ TOFRAY_FN void light_up_tile(const Setup& s, const Job& job, const Tile& tile, c
     const Pixels p = pack_at<F>(s.lens, tile, q);
     if (p.count == 0) continue;
     const flow::Ray<F> ray = camera::ray<F>(s.lens, p);
-    const flow::Surface<F> surface = trace::surface(s.scene, ray, hits[q]);
     Lighting<F> lighting;
-    light_up(s, near, slot, moving, ray, surface, camera::vignetting<F>(s.lens, p), lighting);
-    light[q] = lighting.light;
-    if (truth) store_truth(job.out, p, surface, lighting.radiometry);
+    light_surface(s, job, near, slot, moving, truth, p, ray, hits[q], camera::vignetting<F>(s.lens, p), lighting);
+    if (s.last_stage >= stage_power) light[q] = lighting.light;
   }
 }
 
@@ -134,6 +132,7 @@ TOFRAY_FN void moving_tile(const Setup& s, const Job& job, const Tile& tile, con
     if (!still || !still_done || truth) light_up_tile(s, job, tile, hits, k, !still, truth, scratch.near, light + entry[k]);
     still_done = still_done || still;
   }
+  if (s.last_stage < stage_raw) return;
   for (int q = 0; q < max_packs<F>; ++q) {
     const Pixels p = pack_at<F>(s.lens, tile, q);
     if (p.count == 0) continue;

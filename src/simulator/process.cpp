@@ -44,6 +44,7 @@ Depth process(const Raw& raw, const Camera& profile, const SimulatorOptions& opt
   const Camera camera = camera_of(raw, profile);
   const camera::FrozenCamera frozen(camera, static_cast<int>(options.noise), options.seed);
   pipeline::Setup setup{};
+  setup.last_stage = pipeline::stage_depth;
   setup.lens = frozen.lens();
   setup.power = frozen.power();
   setup.sensor = frozen.sensor(0);

@@ -64,6 +64,7 @@ struct Simulator::Impl {
     set_ambient(scene, camera, frozen_scene.toward_sun(), setup.power);
     setup.decoder = frozen_camera.decoder();
     setup.truth_slot = static_cast<std::int32_t>(camera.mode.sequence.size() / 2);
+    setup.last_stage = static_cast<std::int32_t>(options.last_stage);
     setup.culling = options.culling;
     simulator::set_filter(camera.decoding.filter, job);
     if (job.filter != 0) filtered.resize(static_cast<std::size_t>(camera.sensor.width) * static_cast<std::size_t>(camera.sensor.height));

@@ -77,7 +77,7 @@ void Cpu::run(const pipeline::Setup& setup, const pipeline::Job& job, const pipe
     pool_->runner.for_each_tile(pieces, [&](int index, void* scratch) { kernel_(&work, which, index, scratch); });
   };
   pass(recording != nullptr ? Pass::recording : Pass::pixels, tiles);
-  if (job.out.z == nullptr || job.out.flags == nullptr) return;
+  if (setup.last_stage < pipeline::stage_depth || job.out.z == nullptr || job.out.flags == nullptr) return;
   pass(Pass::flying, bands);
   if (job.filter != 0) pass(Pass::filter, bands);
   pass(Pass::settle, bands);
