@@ -172,8 +172,8 @@ inline tofray::Frame sample_frame(int width, int height) {
     depth.amplitude_e.push_back(static_cast<float>(amplitude));
     depth.ambient_e.push_back(120.F);
     depth.noise_m.push_back(value(0.1 * noise));
-    depth.confidence.push_back(invalid ? 0 : static_cast<std::uint8_t>(255 - std::min(255.0, 2000 * noise)));
-    depth.flags.push_back(none ? tofray::flag_no_return : flying ? tofray::flag_flying_pixel : 0);
+    depth.confidence.push_back(static_cast<std::uint8_t>(invalid ? 0.0 : 255 - std::min(255.0, 2000 * noise)));
+    depth.flags.push_back(static_cast<std::uint16_t>(none ? tofray::flag_no_return : flying ? tofray::flag_flying_pixel : 0));
     const auto true_value = [&](double v) { return none ? nan_f : static_cast<float>(v); };
     truth.z_m.push_back(true_value(z));
     truth.range_m.push_back(true_value(z * ray));
