@@ -7,7 +7,7 @@ namespace tofray::app {
 namespace {
 
 const std::vector<const char*> simulation = {"--output", "--set",  "--mode",    "--seed",   "--noise",
-                                             "--emit",   "--root", "--threads", "--backend"};
+                                             "--emit",   "--root", "--threads", "--backend", "--device"};
 
 std::vector<const char*> simulation_and(std::vector<const char*> more) {
   std::vector<const char*> all = simulation;
@@ -48,7 +48,7 @@ std::vector<Command> make() {
                    "tofray process recording.npz --camera mycam.yaml -o out  # your own camera's raw frames\n",
        .more = "RAW.npz holds raw [phase, height, width] (codes), or tap_a and tap_b (electrons), and by phase modulation_frequency_hz,\n"
                "reference_phase_rad, integration_time_s and lit. Without --camera it is the camera that the file says it was made with.\n",
-       .options = {"--camera", "--output", "--set", "--mode", "--emit", "--threads", "--backend", "--json", "--quiet"},
+       .options = {"--camera", "--output", "--set", "--mode", "--emit", "--threads", "--backend", "--device", "--json", "--quiet"},
        .least_words = 1,
        .most_words = 1,
        .run = run_process,
@@ -60,7 +60,7 @@ std::vector<Command> make() {
                    "tofray inspect out/frame.npz --pixel 112,86      # surface, power, electrons, every raw frame, phase, depth\n"
                    "tofray inspect scene.yaml --pixel 112,86         # the same, simulated now\n",
        .more = "FILE is a .npz file, a scene file or the name of a built-in scene.\n",
-       .options = {"--pixel", "--set", "--mode", "--seed", "--noise", "--root", "--threads", "--backend", "--json"},
+       .options = {"--pixel", "--set", "--mode", "--seed", "--noise", "--root", "--threads", "--backend", "--device", "--json"},
        .least_words = 1,
        .most_words = 1,
        .run = run_inspect,
@@ -103,7 +103,7 @@ std::vector<Command> make() {
        .examples = "tofray doctor\n"
                    "tofray doctor --json                             # to attach to a report\n",
        .more = "Exit code 1 where the self-test fails.\n",
-       .options = {"--threads", "--backend", "--json"},
+       .options = {"--threads", "--backend", "--device", "--json"},
        .least_words = 0,
        .most_words = 0,
        .run = run_doctor},
@@ -113,7 +113,7 @@ std::vector<Command> make() {
        .examples = "tofray bench                                     # the scene bench-primitives\n"
                    "tofray bench room --frames 200 --noise fast --threads 1\n"
                    "tofray bench --compare                           # variants in turn, ratios of their medians\n",
-       .options = {"--frames", "--warmup", "--compare", "--set", "--mode", "--seed", "--noise", "--root", "--threads", "--backend",
+       .options = {"--frames", "--warmup", "--compare", "--set", "--mode", "--seed", "--noise", "--root", "--threads", "--backend", "--device",
                    "--json"},
        .least_words = 0,
        .most_words = 1,

@@ -21,8 +21,8 @@ std::string told(const Frame& frame, const Inputs& in, const Simulator& simulato
                                  in.camera.mode.name, sensor.width, sensor.height, in.camera.mode.sequence.size(), in.scene.objects.size());
   text += fmt::format("{} of {} pixels have a depth{}{}\n", pixels.valid, pixels.pixels,
                       pixels.reasons.empty() ? "" : "; invalid: ", pixels.reasons);
-  text += fmt::format("{} files in {}, {:.2f} s with {} on {} thread{}\n", folder.files().size(), folder.path().native(), stopwatch.total(),
-                      simulator.isa(), simulator.threads(), simulator.threads() == 1 ? "" : "s");
+  text += fmt::format("{} files in {}, {:.2f} s with {}\n", folder.files().size(), folder.path().native(), stopwatch.total(),
+                      machine_of(simulator).text());
   const std::string npz = (folder.path() / "frame.npz").native();
   text += "\nNext:\n";
   if (std::any_of(folder.files().begin(), folder.files().end(), [](const io::FileRecord& file) { return file.name == "frame.npz"; }))
@@ -38,15 +38,16 @@ int run_demo(const Options& options) {
   Stopwatch stopwatch;
   Inputs in = load_inputs("demo", options);
   say(warnings(in.scene, in.camera));
-  io::OutputFolder folder(options.output.empty() ? "tofray-demo" : options.output);
   const SimulatorOptions wanted = simulator_options(options);
   Simulator simulator(in.scene, in.camera, wanted);
+  say_fallback(options, simulator.fallback_reason());
+  io::OutputFolder folder(options.output.empty() ? "tofray-demo" : options.output);
   stopwatch.lap("prepare");
   const Frame frame = simulator.frame(0);
   stopwatch.lap("simulate");
   write_frame(folder, options.emit.value_or(std::vector<std::string>{"npz", "png", "ply"}), "", frame, in, wanted);
   stopwatch.lap("write");
-  const Machine machine{simulator.isa(), simulator.threads()};
+  const Machine machine = machine_of(simulator);
   write_manifest(folder, options, in.files, machine, stopwatch);
   if (options.json) {
     print(io::json_text(summary_json(folder, frame.depth, 1, machine, stopwatch), 2) + "\n");

@@ -11,6 +11,7 @@
 #include <thread>
 
 #include "backend/cpu/cpu.h"
+#include "backend/cuda/cuda.h"
 #include "commands.h"
 #include "console.h"
 #include "inputs.h"
@@ -51,6 +52,7 @@ SelfTest test_wall(Isa isa, int threads, std::vector<float>& scalar_z) {
     options.noise = Noise::off;
     options.threads = threads;
     options.isa = isa;
+    options.backend = Backend::cpu;
     const Frame frame = Simulator(scene, load_camera(scene), options).frame(0);
     out.pixels = frame.depth.z_m.size();
     for (const float z : frame.depth.z_m) {
@@ -94,7 +96,8 @@ std::vector<std::string> missing_things() {
     missing.emplace_back("AVX2 with FMA: this processor has neither; scalar code runs, several times slower, with the same results");
   else if (!backend::can_run(Isa::avx512))
     missing.emplace_back("AVX-512: this processor does not have it; AVX2 code runs, with the same results");
-  missing.emplace_back("CUDA: this version has no GPU backend; there is nothing to install");
+  const std::string lack = backend::why_no_cuda(-1).reason;
+  if (!lack.empty()) missing.push_back("GPU: " + lack + "; the processor computes, with the same results");
   return missing;
 }
 

@@ -72,6 +72,8 @@ SimulatorOptions simulator_options(const Options& options) {
   out.seed = options.seed.value_or(0);
   out.noise = options.noise.value_or(Noise::exact);
   out.threads = options.threads;
+  out.backend = options.backend.value_or(Backend::automatic);
+  out.device = options.device;
   return out;
 }
 

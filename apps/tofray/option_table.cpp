@@ -44,12 +44,15 @@ void take_noise(Options& o, const std::string& value) {
     refuse("--noise", value, "off (expected values), fast (one normal per tap) or exact (true Poisson)");
 }
 
-void take_backend(Options&, const std::string& value) {
-  if (value == "auto" || value == "cpu") return;
-  if (value == "cuda")
-    throw Error(ErrorKind::device,
-                "error: this build of tofray has no CUDA backend\n  use --backend cpu, or auto: the results are what they would be");
-  refuse("--backend", value, "auto or cpu");
+void take_backend(Options& o, const std::string& value) {
+  if (value == "auto")
+    o.backend = Backend::automatic;
+  else if (value == "cpu")
+    o.backend = Backend::cpu;
+  else if (value == "cuda")
+    o.backend = Backend::cuda;
+  else
+    refuse("--backend", value, "auto, cpu or cuda");
 }
 
 void take_emit(Options& o, const std::string& value) {
@@ -149,7 +152,18 @@ std::vector<OptionSpec> make() {
          o.threads = static_cast<int>(whole("--threads", v, 0, 1024, "a whole number of 0 to 1024"));
        },
        {}},
-      {"--backend", 0, "NAME", "what to compute on: auto or cpu (auto)", take_backend, {"auto", "cpu"}},
+      {"--backend",
+       0,
+       "NAME",
+       "what to compute on; the results are the same (auto: a GPU if there is one)",
+       take_backend,
+       {"auto", "cpu", "cuda"}},
+      {"--device",
+       0,
+       "N",
+       "which GPU, from 0 on (`tofray doctor` names them)",
+       [](Options& o, const std::string& v) { o.device = static_cast<int>(whole("--device", v, 0, 1023, "a whole number of 0 to 1023")); },
+       {}},
       {"--warmup",
        0,
        "N",

@@ -24,6 +24,8 @@ struct Options {
   std::uint64_t first_frame = 0;
   std::uint64_t warmup = 3;
   int threads = 0;  ///< 0: one per core
+  std::optional<Backend> backend;
+  int device = -1;  ///< which GPU; -1: the first one
   std::string mode, camera, root, from, output;
   bool json = false, quiet = false, compare = false;
 };

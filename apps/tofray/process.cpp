@@ -85,7 +85,7 @@ int run_process(const Options& options) {
   write_frame(folder, options.emit.value_or(std::vector<std::string>{"npz", "png", "ply"}), "", frame, in, wanted);
   stopwatch.lap("write");
   const int cores = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
-  const Machine machine{backend::isa_name(backend::choose_isa(wanted.isa)), wanted.threads > 0 ? wanted.threads : cores};
+  const Machine machine{"cpu", backend::isa_name(backend::choose_isa(wanted.isa)), "", wanted.threads > 0 ? wanted.threads : cores};
   write_manifest(folder, options, in.files, machine, stopwatch);
   if (validity(frame.depth).valid == 0) say(fmt::format("warning: no pixel has a valid depth: {}\n", validity(frame.depth).reasons));
   if (options.json)

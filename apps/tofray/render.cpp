@@ -23,7 +23,7 @@ Options recalled(const Options& now, const io::Manifest& manifest) {
       now.first_frame != 0)
     throw Error(ErrorKind::bad_input,
                 "error: --from makes the same bytes again and takes no other scene and no other settings\n"
-                "  with it there may be -o, --threads, --backend, --json and --quiet");
+                "  with it there may be -o, --threads, --backend, --device, --json and --quiet");
   options.set = manifest.set;
   options.seed = manifest.seed;
   for (const auto& [key, value] : manifest.options) {
@@ -95,13 +95,14 @@ int run_render(const Options& typed) {
   const Inputs in = typed.from.empty() ? load_inputs(options.words[0], options) : inputs_of(before, options);
   say(warnings(in.scene, in.camera));
   Simulator simulator(in.scene, in.camera, simulator_options(options));
+  say_fallback(options, simulator.fallback_reason());
   io::OutputFolder folder(options.output.empty() ? in.scene.name : options.output);
   stopwatch.lap("prepare");
 
   Rendered out;
   const std::uint64_t frames = options.frames.value_or(1);
   render_frames(simulator, options, in, folder, stopwatch, out);
-  const Machine machine{simulator.isa(), simulator.threads()};
+  const Machine machine = machine_of(simulator);
   write_manifest(folder, options, in.files, machine, stopwatch);
   warn_of_invalid(out, frames);
 

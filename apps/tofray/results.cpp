@@ -4,6 +4,8 @@
 
 #include <fmt/format.h>
 
+#include "backend/cuda/cuda.h"
+#include "console.h"
 #include "io/meta.h"
 #include "io/pictures.h"
 #include "io/ply.h"
@@ -24,6 +26,18 @@ std::string caption(const Frame& frame, const Inputs& inputs) {
 }
 
 }  // namespace
+
+std::string Machine::text() const { return backend == "cuda" ? gpu : fmt::format("{} on {} thread{}", isa, threads, threads == 1 ? "" : "s"); }
+
+Machine machine_of(const Simulator& simulator) {
+  const std::string backend = simulator.backend();
+  return {backend, simulator.isa(), backend == "cuda" ? simulator.device() : "", simulator.threads()};
+}
+
+void say_fallback(const Options& options, const std::string& reason) {
+  if (reason.empty() || (!options.backend && !backend::why_no_cuda(options.device).gpu_present)) return;
+  say(fmt::format("note: the processor computes, not a GPU: {}\n", reason));
+}
 
 void Stopwatch::lap(const std::string& stage) {
   const Clock::time_point now = Clock::now();

@@ -50,9 +50,16 @@ void write_frame(io::OutputFolder& folder, const std::vector<std::string>& emit,
 
 /// What a run was computed on.
 struct Machine {
+  std::string backend;  ///< "cpu" or "cuda"
   std::string isa;
+  std::string gpu;  ///< its name; empty where the processor computed
   int threads = 0;
+  [[nodiscard]] std::string text() const;  ///< "avx512 on 2 threads", "NVIDIA H200"
 };
+Machine machine_of(const Simulator& simulator);
+
+/// One line on stderr where the backend was left to choose and no GPU is used: if `auto` was typed, or if there is a GPU all the same.
+void say_fallback(const Options& options, const std::string& reason);
 
 /// Writes manifest.json, last of all: what made the other files.
 void write_manifest(io::OutputFolder& folder, const Options& options, const std::vector<io::InputFile>& inputs, const Machine& machine,

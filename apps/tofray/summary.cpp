@@ -47,7 +47,8 @@ void write_manifest(io::OutputFolder& folder, const Options& options, const std:
   if (options.frames) manifest.options.emplace_back("frames", std::to_string(*options.frames));
   if (options.first_frame > 0) manifest.options.emplace_back("first-frame", std::to_string(options.first_frame));
   manifest.seed = options.seed.value_or(0);
-  manifest.backend = "cpu";
+  manifest.backend = machine.backend;
+  manifest.gpu = machine.gpu;
   manifest.cpu_model = io::cpu_model();
   manifest.isa = machine.isa;
   manifest.threads = machine.threads;
@@ -65,7 +66,7 @@ io::Json summary_json(const io::OutputFolder& folder, const Depth& last, std::ui
   const Validity pixels = validity(last);
   io::Json json = io::Json::object();
   json.set("folder", folder.path().native()).set("frames", frames).set("pixels", pixels.pixels).set("valid_pixels", pixels.valid);
-  return json.set("isa", machine.isa).set("threads", machine.threads).set("timings_s", std::move(timings)).set("files", std::move(files));
+  return json.set("backend", machine.backend).set("gpu", machine.gpu).set("isa", machine.isa).set("threads", machine.threads).set("timings_s", std::move(timings)).set("files", std::move(files));
 }
 
 std::string summary_text(const io::OutputFolder& folder, const Depth& last, std::uint64_t frames, const Machine& machine,
@@ -82,7 +83,7 @@ std::string summary_text(const io::OutputFolder& folder, const Depth& last, std:
                         static_cast<double>(frames) / simulating);
   else
     text += fmt::format("{:.2f} s", stopwatch.total());
-  return text + fmt::format(" with {} on {} thread{}\n", machine.isa, machine.threads, machine.threads == 1 ? "" : "s");
+  return text + fmt::format(" with {}\n", machine.text());
 }
 
 }  // namespace tofray::app

@@ -20,6 +20,13 @@ enum class Noise {
 /// Which machine code runs. All give the same bytes.
 enum class Isa { best, scalar, scalar_fma, avx2, avx512 };
 
+/// What computes the frames. Both give the same bytes.
+enum class Backend {
+  automatic,  ///< a GPU if there is one that can be used, else the processor
+  cpu,
+  cuda,       ///< a GPU, or an error that says why not
+};
+
 /// The pipeline's stages, in order.
 enum class Stage { trace, power, raw, depth };
 
@@ -27,6 +34,9 @@ struct SimulatorOptions {
   std::uint64_t seed = 0;
   Noise noise = Noise::exact;
   int threads = 0;             ///< 0: as many as the machine has cores
+  Backend backend = Backend::automatic;
+  int device = -1;             ///< which GPU, from 0 on; −1: the first one
+  int block_size = 0;          ///< CUDA threads per block, a multiple of 32 up to 1024; 0: chosen
   Isa isa = Isa::best;         ///< best: the environment's TOFRAY_ISA, else what the CPU can do
   bool truth = true;           ///< fill Frame::truth
   Stage last_stage = Stage::depth;  ///< stop after this stage: arrays of later ones are left as they are (zero in a new frame)
@@ -36,7 +46,7 @@ struct SimulatorOptions {
 /// Simulates frames of one scene seen by one camera. frame(i) depends on nothing but (scene, camera, options, i).
 class Simulator {
  public:
-  /// @throws Error (bad_input) where scene, camera and options do not fit together.
+  /// @throws Error (bad_input) where scene, camera and options do not fit together; (device) where Backend::cuda is wanted and cannot be had
   Simulator(const Scene& scene, const Camera& camera, const SimulatorOptions& options = {});
   ~Simulator();
   Simulator(Simulator&&) noexcept;
@@ -47,7 +57,14 @@ class Simulator {
   /// The same into memory that the caller keeps: arrays of the right size are not allocated anew.
   void frame(std::uint64_t index, Frame& into);
 
-  /// What runs: "scalar", "scalar_fma", "avx2" or "avx512".
+  /// What computes the frames: "cpu" or "cuda".
+  [[nodiscard]] std::string backend() const;
+  /// Its name: of the GPU, or of the processor's instruction set.
+  [[nodiscard]] std::string device() const;
+  /// Why Backend::automatic took no GPU; empty where it did, or where the processor was asked for.
+  [[nodiscard]] std::string fallback_reason() const;
+
+  /// The processor's instruction set: "scalar", "scalar_fma", "avx2" or "avx512".
   [[nodiscard]] std::string isa() const;
   [[nodiscard]] int threads() const;
 

@@ -99,6 +99,7 @@ class Reader {
     if (device != nullptr) {
       string(*device, "device.", "cpu", manifest.cpu_model);
       string(*device, "device.", "isa", manifest.isa);
+      if (device->find("gpu") != nullptr) string(*device, "device.", "gpu", manifest.gpu);
     }
     std::uint64_t threads = 0;
     const Json* count = find(document_, "", "threads", "a whole number");
@@ -158,7 +159,9 @@ std::string manifest_text(const Manifest& manifest) {
   Json json = Json::object();
   json.set("tofray", manifest.tofray_version).set("command", Json::list(manifest.command)).set("inputs", std::move(inputs));
   json.set("set", pairs_json(manifest.set)).set("options", pairs_json(manifest.options)).set("seed", manifest.seed);
-  json.set("backend", manifest.backend).set("device", Json::object().set("cpu", manifest.cpu_model).set("isa", manifest.isa));
+  Json device = Json::object().set("cpu", manifest.cpu_model).set("isa", manifest.isa);
+  if (!manifest.gpu.empty()) device.set("gpu", manifest.gpu);
+  json.set("backend", manifest.backend).set("device", std::move(device));
   json.set("threads", manifest.threads).set("timings_s", std::move(timings)).set("files", std::move(files));
   return json_text(json, 2) + "\n";
 }

@@ -27,7 +27,8 @@ struct Manifest {
   std::vector<std::pair<std::string, std::string>> options;  ///< other options that change the bytes: mode, noise, frames, emit …
   std::uint64_t seed = 0;
   // what it ran on; none of it changes the bytes
-  std::string backend;  ///< "cpu"
+  std::string backend;  ///< "cpu" or "cuda"
+  std::string gpu;      ///< its name; empty where the processor computed
   std::string cpu_model;
   std::string isa;  ///< Simulator::isa()
   int threads = 0;

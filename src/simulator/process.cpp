@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The tofray authors
 // SPDX-License-Identifier: Apache-2.0
 #include "backend/cpu/cpu.h"
+#include "backend/cuda/cuda.h"
 #include "camera/frozen_camera.h"
 #include "num/setup_math.h"
 #include "simulator/filter.h"
@@ -41,6 +42,7 @@ Camera camera_of(const Raw& raw, const Camera& profile) {
 }  // namespace
 
 Depth process(const Raw& raw, const Camera& profile, const SimulatorOptions& options) {
+  if (options.backend == Backend::cuda) backend::refuse_cuda(backend::why_no_cuda(options.device).reason);
   const Camera camera = camera_of(raw, profile);
   const camera::FrozenCamera frozen(camera, static_cast<int>(options.noise), options.seed);
   pipeline::Setup setup{};

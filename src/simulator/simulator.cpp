@@ -3,6 +3,7 @@
 #include "tofray/simulator.h"
 
 #include "backend/cpu/cpu.h"
+#include "backend/cuda/cuda.h"
 #include "base/constants.h"
 #include "camera/frozen_camera.h"
 #include "scene/ambient.h"
@@ -51,6 +52,7 @@ struct Simulator::Impl {
   pipeline::Setup setup{};
   pipeline::Job job{};
   std::vector<float> filtered;
+  std::string fallback_reason;
 
   Impl(const Scene& scene, const Camera& profile, const SimulatorOptions& wanted)
       : camera((check(scene, profile), profile)),
@@ -69,6 +71,8 @@ struct Simulator::Impl {
     simulator::set_filter(camera.decoding.filter, job);
     if (job.filter != 0) filtered.resize(static_cast<std::size_t>(camera.sensor.width) * static_cast<std::size_t>(camera.sensor.height));
     job.filtered = filtered.data();
+    if (options.backend != Backend::cpu) fallback_reason = backend::why_no_cuda(options.device).reason;
+    if (options.backend == Backend::cuda) backend::refuse_cuda(fallback_reason);
   }
 
   void frame(std::uint64_t index, Frame& into) {
@@ -103,6 +107,9 @@ Frame Simulator::frame(std::uint64_t index) {
 }
 
 void Simulator::frame(std::uint64_t index, Frame& into) { impl_->frame(index, into); }
+std::string Simulator::backend() const { return "cpu"; }
+std::string Simulator::device() const { return isa(); }
+std::string Simulator::fallback_reason() const { return impl_->fallback_reason; }
 std::string Simulator::isa() const { return backend::isa_name(impl_->cpu.isa()); }
 int Simulator::threads() const { return impl_->cpu.threads(); }
 

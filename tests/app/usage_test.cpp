@@ -72,7 +72,7 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{{"demo", "--noise", "of"}, 2, "off (expected values)"}, Mistake{{"demo", "--emit", "npz,pgn"}, 2, "npz, png, ply"},
         Mistake{{"demo", "--set", "lens"}, 2, "KEY=VALUE"}, Mistake{{"demo", "--set", "=3"}, 2, "KEY=VALUE"},
         Mistake{{"demo", "--set", "camera.lens.fnumber=1.2"}, 2, "did you mean \"f_number\"?"},
-        Mistake{{"demo", "--backend", "cuda"}, 5, "no CUDA backend"}, Mistake{{"demo", "--backend", "cpus"}, 2, "auto or cpu"},
+        Mistake{{"demo", "--backend", "cuda"}, 5, "no GPU can be used"}, Mistake{{"demo", "--backend", "cpus"}, 2, "auto, cpu or cuda"},
         Mistake{{"demo", "card"}, 2, "unexpected \"card\""}, Mistake{{"render"}, 2, "needs SCENE"},
         Mistake{{"render", "card", "demo"}, 2, "unexpected \"demo\""}, Mistake{{"render", "crad"}, 3, "did you mean \"card\"?"},
         Mistake{{"render", "./none.yaml"}, 3, "none.yaml"}, Mistake{{"render", "card", "--frames", "0"}, 2, "1 to"},

@@ -53,7 +53,8 @@ Manifest sample_manifest() {
   manifest.set = {{"camera.lens.f_number", "1.2"}};
   manifest.options = {{"noise", "exact"}, {"emit", "npz,png"}};
   manifest.seed = 18446744073709551615ULL;
-  manifest.backend = "cpu";
+  manifest.backend = "cuda";
+  manifest.gpu = "NVIDIA H200";
   manifest.cpu_model = cpu_model();
   manifest.isa = "avx2";
   manifest.threads = 4;
@@ -141,6 +142,8 @@ TEST(manifest, comes_back_as_it_was_written) {
   EXPECT_EQ(back.options, manifest.options);
   EXPECT_EQ(back.files[0].bytes, 5000000000ULL);
   EXPECT_FALSE(back.cpu_model.empty());
+  EXPECT_EQ(back.backend, "cuda");
+  EXPECT_EQ(back.gpu, "NVIDIA H200");
 }
 
 TEST(manifest, every_missing_or_malformed_key_is_named_at_once) {
