@@ -61,7 +61,7 @@ std::uint64_t counted(std::uint64_t before, std::uint64_t now, std::uint64_t lar
 Rapl::Rapl(const std::string& root) {
   std::string packages;
   for (const std::string& name : top_zones(root)) {
-    const std::string folder = root + "/" + name;
+    const std::string folder = (fs::path(root) / name).native();
     std::string label;
     if (read_line(folder + "/name", label) != 0 || !label.starts_with("package")) continue;
     Zone zone;

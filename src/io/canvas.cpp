@@ -53,6 +53,17 @@ void Canvas::draw(int x, int y, int width, int height, int scale, const std::vec
            image[static_cast<std::size_t>(v) * static_cast<std::size_t>(width) + static_cast<std::size_t>(u)]);
 }
 
+void Canvas::line(double x0, double y0, double x1, double y1, double width, Rgb color) {
+  const double reach = 0.5 * width + 1;
+  const int left = static_cast<int>(std::floor(std::min(x0, x1) - reach)), right = static_cast<int>(std::ceil(std::max(x0, x1) + reach));
+  const int top = static_cast<int>(std::floor(std::min(y0, y1) - reach)), bottom = static_cast<int>(std::ceil(std::max(y0, y1) + reach));
+  for (int v = std::max(top, 0); v <= std::min(bottom, height_ - 1); ++v)
+    for (int u = std::max(left, 0); u <= std::min(right, width_ - 1); ++u) {
+      const double cover = 0.5 * width + 0.5 - distance(u + 0.5, v + 0.5, {x0, y0, x1, y1});
+      if (cover > 0) blend(u, v, color, std::min(cover, 1.0));
+    }
+}
+
 void Canvas::text(double x, double baseline, double size, Rgb color, std::string_view utf8) {
   const double unit = size / cap_height;
   const double half_stroke = std::max(0.62, 0.062 * size);

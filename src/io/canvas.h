@@ -25,6 +25,8 @@ class Canvas {
   void fill(int x, int y, int width, int height, Rgb color);
   /// An image whose pixels become squares of `scale` pixels. @param image [height][width]
   void draw(int x, int y, int width, int height, int scale, const std::vector<Rgb>& image);
+  /// A straight stroke with round ends. @param x0, y0, x1, y1  its ends [px]; whole numbers are the corners of pixels
+  void line(double x0, double y0, double x1, double y1, double width, Rgb color);
   /// One line of UTF-8 text. Letters, digits and the signs of units are known; any other character is an empty box.
   /// @param x, baseline  where the first letter's left edge stands
   /// @param size   height of a capital letter [px]

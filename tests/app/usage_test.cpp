@@ -134,7 +134,7 @@ TEST(completion, of_bash_knows_commands_options_and_scenes) {
   };
   EXPECT_EQ(replies("tofray ren", 1), "render\n");
   EXPECT_EQ(replies("tofray render --fro", 2), "--from\n");
-  EXPECT_EQ(replies("tofray render bench-p", 2), "bench-primitives\n");
+  EXPECT_EQ(replies("tofray render bench-pr", 2), "bench-primitives\n");
   EXPECT_EQ(replies("tofray render --noise e", 3), "exact\n");
 }
 
