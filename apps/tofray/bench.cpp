@@ -13,18 +13,16 @@
 
 #include "commands.h"
 #include "console.h"
+#include "experiment.h"
 #include "io/meta.h"
 #include "io/sha256.h"
 #include "progress.h"
+#include "results.h"
+#include "tofray/error.h"
 
 namespace tofray::app {
 
 namespace {
-
-SimulatorOptions without_truth(SimulatorOptions options) {
-  options.truth = false;
-  return options;
-}
 
 template <class T>
 void append(std::string& bytes, const std::vector<T>& array) {
@@ -37,21 +35,28 @@ double number(const io::Json& row, const char* key) {
   return value;
 }
 
+/// What a row is of, as its lines of the table begin.
+std::string name_of(const io::Json& row) {
+  const bool gpu = *row.find("backend")->string() != "cpu";
+  return fmt::format("{:<24} {:<11} {:>7.0f} {:<6}", *row.find("scene")->string(), *row.find(gpu ? "backend" : "isa")->string(),
+                     number(row, "threads"), *row.find("noise")->string());
+}
+
 std::string table_of(const io::Json& results, const std::vector<Ratio>& ratios) {
   std::string text = fmt::format("{:<24} {:<11} {:>7} {:<6} {:>10} {:>10} {:>9} {:>8}  {}\n", "scene", "code", "threads", "noise",
                                  "frames/s", "median ms", "p10 ms", "peak MB", "SHA-256 of frame 0");
   for (const io::Json& row : *results.items()) {
-    text += fmt::format("{:<24} {:<11} {:>7.0f} {:<6} {:>10.2f} {:>10.3f} {:>9.3f} {:>8.1f}  {}\n", *row.find("scene")->string(),
-                        *row.find("isa")->string(), number(row, "threads"), *row.find("noise")->string(), number(row, "frames_per_s"),
-                        number(row, "ms_median"), number(row, "ms_p10"), 1e-6 * number(row, "peak_bytes"),
-                        row.find("sha256")->string()->substr(0, 16));
+    text +=
+        fmt::format("{} {:>10.2f} {:>10.3f} {:>9.3f} {:>8.1f}  {}\n", name_of(row), number(row, "frames_per_s"), number(row, "ms_median"),
+                    number(row, "ms_p10"), 1e-6 * number(row, "peak_bytes"), row.find("sha256")->string()->substr(0, 16));
   }
   for (const io::Json& row : *results.items()) {
     const io::Json& stages = *row.find("stage_ms");
-    text += fmt::format("{:<24} {:<11} {:>7.0f} {:<6} stages, ms: trace {:.3f}, power {:.3f}, raw {:.3f}, depth {:.3f}\n", *row.find("scene")->string(),
-                        *row.find("isa")->string(), number(row, "threads"), *row.find("noise")->string(), number(stages, "trace"),
+    text += fmt::format("{} stages, ms: trace {:.3f}, power {:.3f}, raw {:.3f}, depth {:.3f}\n", name_of(row), number(stages, "trace"),
                         number(stages, "power"), number(stages, "raw"), number(stages, "depth"));
   }
+  for (const io::Json& row : *results.items())
+    text += fmt::format("{} energy per frame: {}\n", name_of(row), energy_text(*row.find("energy")));
   if (!ratios.empty()) text += "\n";
   for (const Ratio& one : ratios) text += fmt::format("{:<62} {:>8.3f}\n", one.name, one.value);
   return text;
@@ -62,7 +67,7 @@ std::string table_of(const io::Json& results, const std::vector<Ratio>& ratios) 
 Contender::Contender(const Inputs& in, const SimulatorOptions& options)
     : in_(in),
       scene_(in.scene.name),
-      options_(without_truth(options)),
+      options_(options),
       pixels_(static_cast<double>(in.camera.sensor.width) * in.camera.sensor.height),
       simulator_(in.scene, in.camera, options_) {}
 
@@ -106,15 +111,26 @@ io::Json Contender::stage_ms() {
   return row;
 }
 
-io::Json Contender::result() {
+const Frame& Contender::first_frame() {
   simulator_.frame(0, frame_);
+  return frame_;
+}
+
+Energy Contender::energy() {
+  return energy_per_frame(simulator_.backend() == "cuda", "", [this] { step(false); });
+}
+
+io::Json Contender::result() {
+  const std::string hash = arrays_sha256(first_frame());
   io::Json row = io::Json::object();
-  row.set("scene", scene_).set("isa", simulator_.isa()).set("threads", simulator_.threads()).set("noise", io::noise_name(options_.noise));
+  row.set("scene", scene_).set("backend", simulator_.backend()).set("device", simulator_.device()).set("isa", simulator_.isa());
+  row.set("threads", simulator_.threads()).set("noise", io::noise_name(options_.noise));
   row.set("frames_per_s", 1000 / median_ms())
       .set("ms_median", median_ms())
       .set("ms_p10", percentile_ms(0.1))
-      .set("stage_ms", stage_ms());
-  return row.set("peak_bytes", peak_bytes()).set("sha256", arrays_sha256(frame_));
+      .set("stage_ms", stage_ms())
+      .set("energy", energy_json(energy()));
+  return row.set("peak_bytes", peak_bytes()).set("sha256", hash);
 }
 
 std::uint64_t peak_bytes() {
@@ -135,10 +151,26 @@ std::string arrays_sha256(const Frame& frame) {
   const Depth& d = frame.depth;
   for (const auto* array : {&d.z_m, &d.range_m, &d.points_m, &d.amplitude_e, &d.ambient_e, &d.noise_m}) append(bytes, *array);
   append(bytes, d.confidence), append(bytes, d.flags);
+  const Truth& t = frame.truth;
+  for (const auto* array :
+       {&t.range_m, &t.z_m, &t.reflectivity, &t.position_m, &t.normal, &t.irradiance_w_m2, &t.radiance_w_m2_sr, &t.power_w, &t.signal_e})
+    append(bytes, *array);
+  append(bytes, t.object_id);
   return io::sha256_hex(bytes);
 }
 
+SimulatorOptions bench_options(const Options& options) {
+  SimulatorOptions out = simulator_options(options);
+  out.truth = false;
+  return out;
+}
+
 int run_bench(const Options& options) {
+  const bool experiment = !options.stages.empty() || !options.block_sizes.empty();
+  if (options.compare && (experiment || options.backend == Backend::cuda))
+    throw Error(ErrorKind::bad_input,
+                "error: --compare is of the processor's variants\n  it goes without --stage, --block-size and --backend cuda");
+  if (experiment) return run_experiment(options);
   const std::string scene = options.words.empty() ? "bench-primitives" : options.words[0];
   const std::uint64_t frames = options.frames.value_or(100);
   io::Json results = io::Json::array(), ratios_json = io::Json::array();
@@ -148,7 +180,8 @@ int run_bench(const Options& options) {
   } else {
     const Inputs in = load_inputs(scene, options);
     say(warnings(in.scene, in.camera));
-    Contender one(in, simulator_options(options));
+    Contender one(in, bench_options(options));
+    say_fallback(options, one.simulator().fallback_reason());
     Progress progress(frames + options.warmup, "frames", options.json);
     for (std::uint64_t i = 0; i < frames + options.warmup; ++i) {
       one.step(i >= options.warmup);

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "bench_energy.h"
 #include "inputs.h"
 #include "io/json.h"
 #include "tofray/frame.h"
@@ -22,6 +23,11 @@ class Contender {
   [[nodiscard]] double median_ms() const { return percentile_ms(0.5); }
   /// Pixels per second at the median.
   [[nodiscard]] double pixel_rate() const;
+  /// Frame 0 and all that the options ask for of it.
+  [[nodiscard]] const Frame& first_frame();
+  [[nodiscard]] const Simulator& simulator() const { return simulator_; }
+  /// Joules of further frames.
+  [[nodiscard]] Energy energy();
   /// Row of `results`; its hash is that of frame 0's arrays, whatever was timed.
   [[nodiscard]] io::Json result();
 
@@ -42,7 +48,10 @@ class Contender {
 /// Most memory that this process has had so far [bytes]: VmHWM.
 std::uint64_t peak_bytes();
 
-/// SHA-256 over all arrays of raw data and depth.
+/// Options for timing: no ground truth.
+SimulatorOptions bench_options(const Options& options);
+
+/// SHA-256 over all arrays of raw data, depth and ground truth that there are.
 std::string arrays_sha256(const Frame& frame);
 
 /// Two contenders that differ in one thing.

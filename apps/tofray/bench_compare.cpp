@@ -51,7 +51,8 @@ SimulatorOptions with(SimulatorOptions base, Isa isa, int threads, Noise noise) 
 }
 
 std::vector<Pair> pairs_of(const Options& options, const Inputs& in) {
-  const SimulatorOptions base = simulator_options(options);
+  SimulatorOptions base = bench_options(options);
+  base.backend = Backend::cpu;
   const Isa best = backend::choose_isa(Isa::best);
   const std::string vector = backend::isa_name(best);
   const Isa plain = backend::can_run(Isa::scalar_fma) ? Isa::scalar_fma : Isa::scalar;

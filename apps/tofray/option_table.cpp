@@ -55,16 +55,60 @@ void take_backend(Options& o, const std::string& value) {
     refuse("--backend", value, "auto, cpu or cuda");
 }
 
+std::vector<std::string> split(const std::string& text, char at) {
+  std::vector<std::string> parts;
+  for (std::size_t from = 0; from <= text.size();) {
+    const std::size_t end = std::min(text.find(at, from), text.size());
+    parts.push_back(text.substr(from, end - from));
+    from = end + 1;
+  }
+  return parts;
+}
+
 void take_emit(Options& o, const std::string& value) {
   std::vector<std::string> kinds;
-  for (std::size_t from = 0; from <= value.size();) {
-    const std::size_t comma = std::min(value.find(',', from), value.size());
-    const std::string kind = value.substr(from, comma - from);
+  for (const std::string& kind : split(value, ',')) {
     if (kind != "npz" && kind != "png" && kind != "ply") refuse("--emit", value, "npz, png, ply or several of them, as in --emit npz,png");
     if (std::find(kinds.begin(), kinds.end(), kind) == kinds.end()) kinds.push_back(kind);
-    from = comma + 1;
   }
   o.emit = kinds;
+}
+
+constexpr int most_block = 1024;  // CUDA's threads per block; they go together in warps of 32
+constexpr const char* block_sizes_expected =
+    "multiples of 32 up to 1024: 128, or 64,128,256, or first:last:step as in --block-size 32:1024:32";
+
+int warps(const std::string& part, const std::string& value) {
+  const std::uint64_t size = whole("--block-size", part, 32, most_block, block_sizes_expected);
+  if (size % 32 != 0) refuse("--block-size", value, block_sizes_expected);
+  return static_cast<int>(size);
+}
+
+/// "32:1024:32" or "128".
+void add_block_sizes(std::vector<int>& sizes, const std::string& part, const std::string& value) {
+  const std::vector<std::string> parts = split(part, ':');
+  const int first = warps(parts[0], value), last = parts.size() > 1 ? warps(parts[1], value) : first;
+  const int step = parts.size() > 2 ? warps(parts[2], value) : most_block;
+  if (parts.size() == 2 || parts.size() > 3 || first > last) refuse("--block-size", value, block_sizes_expected);
+  for (int size = first; size <= last; size += step) {
+    if (std::find(sizes.begin(), sizes.end(), size) == sizes.end()) sizes.push_back(size);
+  }
+}
+
+void take_block_size(Options& o, const std::string& value) {
+  o.block_sizes.clear();
+  for (const std::string& part : split(value, ',')) add_block_sizes(o.block_sizes, part, value);
+  std::sort(o.block_sizes.begin(), o.block_sizes.end());
+}
+
+void take_stage(Options& o, const std::string& value) {
+  const std::vector<std::string> known = {"trace", "power", "raw", "all"};
+  o.stages.clear();
+  for (const std::string& stage : split(value, ',')) {
+    if (std::find(known.begin(), known.end(), stage) == known.end())
+      refuse("--stage", value, "trace, power, raw, all (the whole frame) or several of them, as in --stage power,all");
+    if (std::find(o.stages.begin(), o.stages.end(), stage) == o.stages.end()) o.stages.push_back(stage);
+  }
 }
 
 void take_pixel(Options& o, const std::string& value) {
@@ -80,7 +124,58 @@ void take_pixel(Options& o, const std::string& value) {
 
 constexpr std::uint64_t most_frames = 1'000'000'000;
 
-std::vector<OptionSpec> make() {
+/// What computes.
+std::vector<OptionSpec> machine_specs() {
+  return {
+      {"--threads",
+       0,
+       "N",
+       "threads to use; the results are the same (0: one per core)",
+       [](Options& o, const std::string& v) {
+         o.threads = static_cast<int>(whole("--threads", v, 0, 1024, "a whole number of 0 to 1024"));
+       },
+       {}},
+      {"--backend",
+       0,
+       "NAME",
+       "what to compute on; the results are the same (auto: a GPU if there is one)",
+       take_backend,
+       {"auto", "cpu", "cuda"}},
+      {"--device",
+       0,
+       "N",
+       "which GPU, from 0 on (`tofray doctor` names them)",
+       [](Options& o, const std::string& v) { o.device = static_cast<int>(whole("--device", v, 0, 1023, "a whole number of 0 to 1023")); },
+       {}},
+  };
+}
+
+/// Of `tofray bench`.
+std::vector<OptionSpec> bench_specs() {
+  return {
+      {"--warmup",
+       0,
+       "N",
+       "frames that run before the clock does (3)",
+       [](Options& o, const std::string& v) { o.warmup = whole("--warmup", v, 0, most_frames, "a whole number of 0 to 1000000000"); },
+       {}},
+      {"--block-size",
+       0,
+       "LIST",
+       "time the GPU with these threads per block: 128, or 64,128,256, or 32:1024:32 (first:last:step)",
+       take_block_size,
+       {"32:1024:32", "128"}},
+      {"--stage",
+       0,
+       "LIST",
+       "time the way to the end of these stages, against sequential code: trace, power, raw, all",
+       take_stage,
+       {"power,all", "all", "trace", "power", "raw"}},
+      {"--compare", 0, nullptr, "run variants in turn and print ratios", [](Options& o, const std::string&) { o.compare = true; }, {}},
+  };
+}
+
+std::vector<OptionSpec> specs() {
   return {
       {"--output", 'o', "DIR", "folder to write to", [](Options& o, const std::string& v) { o.output = v; }, {}, true},
       {"--set", 0, "KEY=VALUE", "change a key of the scene, or of its camera as camera.…; as often as you like", take_set, {}},
@@ -144,33 +239,6 @@ std::vector<OptionSpec> make() {
        {},
        true},
       {"--pixel", 0, "U,V", "show one pixel's whole chain, from light to depth", take_pixel, {}},
-      {"--threads",
-       0,
-       "N",
-       "threads to use; the results are the same (0: one per core)",
-       [](Options& o, const std::string& v) {
-         o.threads = static_cast<int>(whole("--threads", v, 0, 1024, "a whole number of 0 to 1024"));
-       },
-       {}},
-      {"--backend",
-       0,
-       "NAME",
-       "what to compute on; the results are the same (auto: a GPU if there is one)",
-       take_backend,
-       {"auto", "cpu", "cuda"}},
-      {"--device",
-       0,
-       "N",
-       "which GPU, from 0 on (`tofray doctor` names them)",
-       [](Options& o, const std::string& v) { o.device = static_cast<int>(whole("--device", v, 0, 1023, "a whole number of 0 to 1023")); },
-       {}},
-      {"--warmup",
-       0,
-       "N",
-       "frames that run before the clock does (3)",
-       [](Options& o, const std::string& v) { o.warmup = whole("--warmup", v, 0, most_frames, "a whole number of 0 to 1000000000"); },
-       {}},
-      {"--compare", 0, nullptr, "run variants in turn and print ratios", [](Options& o, const std::string&) { o.compare = true; }, {}},
       {"--json", 0, nullptr, "one JSON object on stdout", [](Options& o, const std::string&) { o.json = true; }, {}},
       {"--quiet",
        'q',
@@ -184,7 +252,11 @@ std::vector<OptionSpec> make() {
 }  // namespace
 
 const std::vector<OptionSpec>& all_options() {
-  static const std::vector<OptionSpec> all = make();
+  static const std::vector<OptionSpec> all = [] {
+    std::vector<OptionSpec> joined = specs();
+    for (const std::vector<OptionSpec>& more : {machine_specs(), bench_specs()}) joined.insert(joined.end(), more.begin(), more.end());
+    return joined;
+  }();
   return all;
 }
 

@@ -78,7 +78,7 @@ class Drawing {
       : chart_(chart),
         painter_(painter),
         axis_(y_axis(chart)),
-        top_(figure::margin + 40 + 16.0 * static_cast<double>(chart.notes.size())) {}
+        top_(figure::margin + 56 + 16.0 * static_cast<double>(chart.notes.size())) {}
 
   void draw() {
     double y = figure::margin + figure::title_size;
@@ -119,7 +119,7 @@ class Drawing {
     }
     painter_.curve({{left, top_}, {left, bottom}, {right, bottom}}, 1, figure::faint_ink, false);
     painter_.text({0.5 * (left + right), bottom + 42}, figure::label_size, figure::ink, Align::middle, chart_.x_label);
-    painter_.text({figure::margin, top_ - 14}, figure::label_size, figure::ink, Align::left, chart_.y_label);
+    painter_.text({figure::margin, top_ - 16}, figure::label_size, figure::ink, Align::left, chart_.y_label);
   }
 
   void draw_curve(const Curve& curve) {

@@ -84,6 +84,16 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{{"schema", "scenes"}, 2, "scene"}, Mistake{{"completion", "bsh"}, 2, "did you mean \"bash\"?"},
         Mistake{{"demo", "--set", "camera.sensor.width=99999"}, 2, "16384"},
         Mistake{{"demo", "--set", "camera.sensor.width=16384", "--set", "camera.sensor.height=16384"}, 4, "--limits"},
+        Mistake{{"bench", "--block-size", "33"}, 2, "multiples of 32"}, Mistake{{"bench", "--block-size", "0"}, 2, "multiples of 32"},
+        Mistake{{"bench", "--block-size", "32:1056:32"}, 2, "up to 1024"}, Mistake{{"bench", "--block-size", "64:32:32"}, 2, "first:last:step"},
+        Mistake{{"bench", "--block-size", "32:1024:16"}, 2, "first:last:step"}, Mistake{{"bench", "--block-size", "32:1024"}, 2, "32:1024:32"},
+        Mistake{{"bench", "--block-size", "32:64:32:32"}, 2, "32:1024:32"}, Mistake{{"bench", "--block-size", "32,,64"}, 2, "multiples of 32"},
+        Mistake{{"bench", "--block-size", "-32"}, 2, "multiples of 32"}, Mistake{{"bench", "--block-size", "32 "}, 2, "multiples of 32"},
+        Mistake{{"bench", "--block-size", ""}, 2, "multiples of 32"}, Mistake{{"bench", "--stage", "power,al"}, 2, "trace, power, raw, all"},
+        Mistake{{"bench", "--stage", ""}, 2, "trace, power"}, Mistake{{"bench", "--stage", "power,"}, 2, "trace, power"},
+        Mistake{{"bench", "--backend", "cpu", "--block-size", "64"}, 2, "--block-size is a GPU's"},
+        Mistake{{"bench", "--compare", "--stage", "all"}, 2, "--compare"}, Mistake{{"bench", "--compare", "--backend", "cuda"}, 2, "--compare"},
+        Mistake{{"render", "card", "--block-size", "64"}, 2, "`tofray render` has no option --block-size"},
         Mistake{{"render", "card", "--set", "camera.illumination=[]"}, 2, "no light source"}));
 
 TEST(usage, options_may_come_in_every_form) {

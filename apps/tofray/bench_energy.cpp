@@ -1,0 +1,84 @@
+// SPDX-FileCopyrightText: 2026 The tofray authors
+// SPDX-License-Identifier: Apache-2.0
+#include "bench_energy.h"
+
+#include <fmt/format.h>
+
+#include <chrono>
+#include <memory>
+
+#include "energy/nvml.h"
+#include "energy/rapl.h"
+
+namespace tofray::app {
+
+namespace {
+
+constexpr double rapl_seconds = 1, nvml_seconds = 4;
+constexpr double reread_seconds = 10;  ///< far less than a counter takes to go around twice
+constexpr int least_frames = 10;
+
+FrameEnergy share_of(energy::Meter& meter, double frames) {
+  const double joules = meter.joules();  // before its reason is asked for, which reading may set
+  return {joules / frames, meter.what(), meter.reason()};
+}
+
+void set_json(io::Json& json, const std::string& who, const FrameEnergy& one) {
+  const bool known = one.reason.empty();
+  json.set(who + "_j_per_frame", known ? io::Json(one.joules) : io::Json());
+  json.set(who + "_counter", known ? io::Json(one.what) : io::Json());
+  json.set(who + "_not_readable", known ? io::Json() : io::Json(one.reason));
+}
+
+std::string text_of(const io::Json& json, const std::string& who, const char* name) {
+  double joules = 0;
+  if (!json.find(who + "_j_per_frame")->number(joules))
+    return fmt::format("{} not readable here: {}", name, *json.find(who + "_not_readable")->string());
+  return fmt::format("{} {:.4g} J ({})", name, joules, *json.find(who + "_counter")->string());
+}
+
+}  // namespace
+
+Energy energy_per_frame(energy::Meter& cpu, energy::Meter* gpu, double seconds, const std::function<void()>& frame) {
+  using Clock = std::chrono::steady_clock;
+  const auto since = [](Clock::time_point then) { return std::chrono::duration<double>(Clock::now() - then).count(); };
+  const bool any = cpu.readable() || (gpu != nullptr && gpu->readable());
+  cpu.start();
+  if (gpu != nullptr) gpu->start();
+  const Clock::time_point begin = Clock::now();
+  Clock::time_point last = begin;
+  int frames = 0;
+  while (any && (frames < least_frames || since(begin) < seconds)) {
+    frame();
+    ++frames;
+    if (since(last) < reread_seconds) continue;
+    cpu.joules();
+    if (gpu != nullptr) gpu->joules();
+    last = Clock::now();
+  }
+  Energy out;
+  out.cpu = share_of(cpu, frames);
+  out.with_gpu = gpu != nullptr;
+  if (gpu != nullptr) out.gpu = share_of(*gpu, frames);
+  return out;
+}
+
+Energy energy_per_frame(bool with_gpu, const std::string& pci_bus_id, const std::function<void()>& frame) {
+  energy::Rapl cpu;
+  std::unique_ptr<energy::Meter> gpu;
+  if (with_gpu) gpu = std::make_unique<energy::Nvml>(pci_bus_id);
+  return energy_per_frame(cpu, gpu.get(), with_gpu && gpu->readable() ? nvml_seconds : rapl_seconds, frame);
+}
+
+io::Json energy_json(const Energy& energy) {
+  io::Json json = io::Json::object();
+  set_json(json, "cpu", energy.cpu);
+  if (energy.with_gpu) set_json(json, "gpu", energy.gpu);
+  return json;
+}
+
+std::string energy_text(const io::Json& energy) {
+  return text_of(energy, "cpu", "CPU") + (energy.find("gpu_j_per_frame") != nullptr ? "; " + text_of(energy, "gpu", "GPU") : "");
+}
+
+}  // namespace tofray::app

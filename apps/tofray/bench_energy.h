@@ -1,0 +1,40 @@
+// SPDX-FileCopyrightText: 2026 The tofray authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include <functional>
+#include <string>
+
+#include "energy/meter.h"
+#include "io/json.h"
+
+namespace tofray::app {
+
+/// What one frame takes out of one counter.
+struct FrameEnergy {
+  double joules = 0;   ///< NaN where it cannot be read
+  std::string what;    ///< what the counter counts: "package-0", the GPU's name
+  std::string reason;  ///< why it cannot be read; empty where it can
+};
+
+/// Joules per frame of everything that takes part.
+struct Energy {
+  FrameEnergy cpu, gpu;
+  bool with_gpu = false;
+};
+
+/// Simulates frames one after the other for a while and divides what the counters say by their number. What the machine takes when it
+/// does nothing is in it, and so is all else that runs meanwhile. Returns at once where nothing can be read.
+/// @param gpu      a null pointer where no GPU takes part
+/// @param seconds  how long at least; so long, too, that there are ten frames
+Energy energy_per_frame(energy::Meter& cpu, energy::Meter* gpu, double seconds, const std::function<void()>& frame);
+
+/// The same with this machine's counters, for as long as they need: RAPL's move every millisecond, NVML's every 20 to 100 ms.
+Energy energy_per_frame(bool with_gpu, const std::string& pci_bus_id, const std::function<void()>& frame);
+
+/// {"cpu_j_per_frame", "cpu_counter", "cpu_not_readable"} and the same for the GPU where one takes part; what is not there is null.
+io::Json energy_json(const Energy& energy);
+
+/// What energy_json gave, for people: "CPU 0.0123 J (package-0); GPU not readable here: …".
+std::string energy_text(const io::Json& energy);
+
+}  // namespace tofray::app
