@@ -68,44 +68,33 @@ TOFRAY_FN bool seen_by_light(const Setup& s, const Tile& tile, const flow::Hit<F
   return !seen.open;
 }
 
-/// What can stand between each light and the surfaces in `hits`. `slot` < 0: only what stands still.
+/// The rectangles in which each light sees the tile; `none` where it is no rectangle ahead of the light, or culling is off.
+struct SeenByLights {
+  flow::Bounds bounds[flow::max_lights];
+  bool none[flow::max_lights];
+  TOFRAY_FN const flow::Bounds* of(int light) const { return none[light] ? nullptr : bounds + light; }
+};
+
 template <class F>
-TOFRAY_FN void cull_lights(const Setup& s, const Tile& tile, const flow::Hit<F>* hits, int slot, Near& near) {
-  for (int l = 0; l < s.scene.lights; ++l) {
-    flow::Bounds bounds;
-    const flow::Bounds* within = s.culling != 0 && seen_by_light(s, tile, hits, l, bounds) ? &bounds : nullptr;
-    trace::cull(s.scene.light_still[l], within, near.light_still[l]);
-    if (slot >= 0) trace::cull(s.scene.light_moving[slot * s.scene.lights + l], within, near.light_moving[l]);
-  }
+TOFRAY_FN void find_seen(const Setup& s, const Tile& tile, const flow::Hit<F>* hits, SeenByLights& seen) {
+  for (int l = 0; l < s.scene.lights; ++l) seen.none[l] = s.culling == 0 || !seen_by_light(s, tile, hits, l, seen.bounds[l]);
+}
+
+/// What can stand between each light and the tile, of what stands still.
+TOFRAY_FN void cull_still(const Setup& s, const SeenByLights& seen, Near& near) {
+  for (int l = 0; l < s.scene.lights; ++l) trace::cull(s.scene.light_still[l], seen.of(l), near.light_still[l]);
 }
 
 /// Scratch memory of one worker.
 template <class F>
 struct Scratch {
   Near near;
+  SeenByLights seen;
   flow::Hit<F> still[max_packs<F>];
   flow::Hit<F> hits[max_packs<F>];
+  bool lit[max_packs<F>];                                      ///< the light of what stands still is known
+  std::int32_t entry[max_packs<F>][flow::max_raw_frames];      ///< where the light of each pack's raw frames is
 };
-
-/// Light of entry 0 (what stands still), then of each slot that something moving touches: [entry][pack].
-template <class F>
-TOFRAY_FN void light_up_tile(const Setup& s, const Job& job, const Tile& tile, const flow::Hit<F>* hits, int slot, bool moving, bool truth,
-                             const Near& near, flow::Light<F>* light) {
-  for (int q = 0; q < max_packs<F>; ++q) {
-    const Pixels p = pack_at<F>(s.lens, tile, q);
-    if (p.count == 0) continue;
-    const flow::Ray<F> ray = camera::ray<F>(s.lens, p);
-    Lighting<F> lighting;
-    light_surface(s, job, near, slot, moving, truth, p, ray, hits[q], camera::vignetting<F>(s.lens, p), lighting);
-    if (s.last_stage >= stage_power) light[q] = lighting.light;
-  }
-}
-
-TOFRAY_FN bool nothing_moves_near(const Setup& s, const Near& near) {
-  bool empty = near.camera_moving.empty() && s.power.ambient_kind != 2;
-  for (int l = 0; l < s.scene.lights; ++l) empty = empty && near.light_moving[l].empty();
-  return empty;
-}
 
 /// What one raw frame sees: where nothing that moves is in view, the surfaces that stand still.
 template <class F>
@@ -119,24 +108,66 @@ TOFRAY_FN const flow::Hit<F>* hits_at(const Setup& s, const Tile& tile, const sc
   return scratch.hits;
 }
 
+/// Whether something that moves keeps a light off any of the pixels.
+template <class F>
+TOFRAY_FN bool in_moving_shadow(const Setup& s, const Near& near, int slot, const flow::Ray<F>& ray, const flow::Hit<F>& hit) {
+  if (s.last_stage < stage_power) return false;
+  bool possible = s.power.ambient_kind == 2;
+  for (int l = 0; l < s.scene.lights; ++l) possible = possible || !near.light_moving[l].empty();
+  if (!possible) return false;
+  const flow::Surface<F> surface = trace::surface(s.scene, ray, hit);
+  num::Mask<F> dark = F(1.0f) < F(0.0f);
+  for (int l = 0; l < s.scene.lights; ++l) {
+    if (near.light_moving[l].empty()) continue;
+    const flow::Ray<F> from_light = power::light_ray(s.lights[l], surface);
+    dark = dark | trace::blocked(s.scene.light_moving[slot * s.scene.lights + l], near.light_moving[l], from_light, surface.object);
+  }
+  if (s.power.ambient_kind == 2) dark = dark | trace::blocked_parallel(s.scene.sun_moving[slot], s.power.sun_direction, surface);
+  return num::any(dark & surface.found);
+}
+
+/// Light of one raw frame. A pack that nothing moving touches shares entry 0 with all its raw frames; the others have entry k + 1.
+template <class F>
+TOFRAY_FN void light_up_tile(const Setup& s, const Job& job, const Tile& tile, const flow::Hit<F>* hits, int k, Scratch<F>& scratch,
+                             flow::Light<F>* light) {
+  const bool truth = k == s.truth_slot;
+  for (int q = 0; q < max_packs<F>; ++q) {
+    const Pixels p = pack_at<F>(s.lens, tile, q);
+    if (p.count == 0) continue;
+    const flow::Ray<F> ray = camera::ray<F>(s.lens, p);
+    const bool same = hits == scratch.still || !num::any(hits[q].facet != scratch.still[q].facet);
+    const bool still = same && !in_moving_shadow(s, scratch.near, k, ray, hits[q]);
+    scratch.entry[q][k] = still ? 0 : (k + 1) * max_packs<F>;
+    if (still && scratch.lit[q] && !truth) continue;
+    Lighting<F> lighting;
+    light_surface(s, job, scratch.near, k, !still, truth, p, ray, hits[q], camera::vignetting<F>(s.lens, p), lighting);
+    if (s.last_stage >= stage_power) light[scratch.entry[q][k] + q] = lighting.light;
+    scratch.lit[q] = scratch.lit[q] || still;
+  }
+}
+
 /// A tile of a scene in which something moves: each raw frame sees it at its own time; where nothing of it comes near, once is enough.
 template <class F>
 TOFRAY_FN void moving_tile(const Setup& s, const Job& job, const Tile& tile, const scene::Bounds* view, Scratch<F>& scratch, flow::Light<F>* light) {
-  std::int32_t entry[flow::max_raw_frames];
-  bool still_done = false;
+  const flow::Hit<F>* culled_for = nullptr;
+  for (int q = 0; q < max_packs<F>; ++q) scratch.lit[q] = false;
   for (int k = 0; k < s.sensor.raw_frames; ++k) {
     const flow::Hit<F>* hits = hits_at(s, tile, view, k, scratch);
-    cull_lights(s, tile, hits, k, scratch.near);
-    const bool still = nothing_moves_near(s, scratch.near), truth = k == s.truth_slot;
-    entry[k] = still ? 0 : (k + 1) * max_packs<F>;
-    if (!still || !still_done || truth) light_up_tile(s, job, tile, hits, k, !still, truth, scratch.near, light + entry[k]);
-    still_done = still_done || still;
+    if (s.last_stage >= stage_power && (hits != culled_for || hits != scratch.still)) {
+      find_seen(s, tile, hits, scratch.seen);
+      cull_still(s, scratch.seen, scratch.near);
+      culled_for = hits;
+    }
+    for (int l = 0; l < s.scene.lights && s.last_stage >= stage_power; ++l) {
+      trace::cull(s.scene.light_moving[k * s.scene.lights + l], scratch.seen.of(l), scratch.near.light_moving[l]);
+    }
+    if (s.last_stage >= stage_power || k == s.truth_slot) light_up_tile(s, job, tile, hits, k, scratch, light);
   }
   if (s.last_stage < stage_raw) return;
   for (int q = 0; q < max_packs<F>; ++q) {
     const Pixels p = pack_at<F>(s.lens, tile, q);
     if (p.count == 0) continue;
-    measure(s, job, p, camera::ray<F>(s.lens, p), camera::vignetting<F>(s.lens, p), light + q, entry);
+    measure(s, job, p, camera::ray<F>(s.lens, p), camera::vignetting<F>(s.lens, p), light + q, scratch.entry[q]);
   }
 }
 
@@ -155,7 +186,10 @@ TOFRAY_FN void one_tile(const Setup& s, const Job& job, int index, Scratch<F>& s
     moving_tile(s, job, tile, view, scratch, light);
     return;
   }
-  cull_lights(s, tile, scratch.still, -1, scratch.near);
+  if (s.last_stage >= stage_power) {
+    find_seen(s, tile, scratch.still, scratch.seen);
+    cull_still(s, scratch.seen, scratch.near);
+  }
   for (int q = 0; q < max_packs<F>; ++q) {
     const Pixels p = pack_at<F>(s.lens, tile, q);
     if (p.count > 0) one_pixel(s, job, scratch.near, p, camera::ray<F>(s.lens, p), scratch.still[q]);
