@@ -26,13 +26,16 @@ TOFRAY_FN RoundKeys round_keys(std::uint32_t k0, std::uint32_t k1) {
 template <class F>
 TOFRAY_FN Random4<F> philox(Uint<F> c0, std::uint32_t c1, std::uint32_t c2, std::uint32_t c3, const RoundKeys& keys) {
   constexpr std::uint32_t m0 = 0xD2511F53u, m1 = 0xCD9E8D57u;
-  // The first round's second product is the same in every lane.
-  std::uint32_t uniform_high, uniform_low;
-  multiply_wide(c2, m1, uniform_high, uniform_low);
+  // As long as words are the same in every lane, so are their products: the first round's second one and the second round's first.
+  std::uint32_t high, low;
+  multiply_wide(c2, m1, high, low);
+  const std::uint32_t w0 = high ^ c1 ^ keys.k0[0], w1 = low;
+  multiply_wide(w0, m0, high, low);
   Uint<F> high0, low0, high1, low1;
   multiply_wide(c0, Uint<F>(m0), high0, low0);
-  Random4<F> r{{Uint<F>(uniform_high ^ c1 ^ keys.k0[0]), Uint<F>(uniform_low), high0 ^ Uint<F>(c3 ^ keys.k1[0]), low0}};
-  for (int round = 1; round < 10; ++round) {
+  multiply_wide(high0 ^ Uint<F>(c3 ^ keys.k1[0]), Uint<F>(m1), high1, low1);
+  Random4<F> r{{high1 ^ Uint<F>(w1 ^ keys.k0[1]), low1, low0 ^ Uint<F>(high ^ keys.k1[1]), Uint<F>(low)}};
+  for (int round = 2; round < 10; ++round) {
     multiply_wide(r.w[0], Uint<F>(m0), high0, low0);
     multiply_wide(r.w[2], Uint<F>(m1), high1, low1);
     r = {{high1 ^ r.w[1] ^ Uint<F>(keys.k0[round]), low1, high0 ^ r.w[3] ^ Uint<F>(keys.k1[round]), low0}};
