@@ -130,7 +130,12 @@ void interrupt(int signal, int expected) {
 TEST(interrupted, by_ctrl_c_ends_with_130_and_whole_files) { interrupt(SIGINT, 130); }
 TEST(interrupted, politely_ends_with_143_and_whole_files) { interrupt(SIGTERM, 143); }
 TEST(interrupted, by_hang_up_ends_with_129_and_whole_files) { interrupt(SIGHUP, 129); }
-TEST(interrupted, by_a_reader_that_went_away_ends_with_141_and_whole_files) { interrupt(SIGPIPE, 141); }
+TEST(interrupted, by_a_reader_that_went_away_ends_with_141_and_whole_files) {
+#if defined(__SANITIZE_THREAD__)
+  GTEST_SKIP() << "ThreadSanitizer takes SIGPIPE for a fault of the code under it and runs the handler within its own locks";
+#endif
+  interrupt(SIGPIPE, 141);
+}
 
 TEST(interrupted, output_to_a_closed_pipe_says_nothing) {
   for (int round = 0; round < 10; ++round) {
