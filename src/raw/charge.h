@@ -89,11 +89,27 @@ TOFRAY_FN F merged_normal(const camera::SensorView& s, F mean, F z) {
   return num::fma(num::sqrt(variance), z, mean) + skew;
 }
 
-/// One block of words serves two raw frames.
+/// Words of a pixel's merged normals. Four blocks serve nine raw frames: each block two, and the ninth lives on the byte that each of the eight
+/// radius words before it has to spare.
 template <class F>
-TOFRAY_FN Means<F> expose_fast(const camera::SensorView& s, const Means<F>& mean, int k, const num::Random4<F>& words) {
+struct MergedWords {
+  num::Random4<F> block;
+  num::Uint<F> spare[2];
+};
+
+template <class F>
+TOFRAY_FN Means<F> expose_fast(const camera::SensorView& s, const Means<F>& mean, num::Int<F> pixel, int k, FrameIndex frame, MergedWords<F>& words) {
+  const int place = k % 9;
+  num::Uint<F> radius = words.spare[0], angle = words.spare[1];
+  if (place < 8) {
+    if ((place & 1) == 0) words.block = draw<F>(s, pixel, k, frame, merged);
+    radius = words.block.w[2 * (place & 1)], angle = words.block.w[2 * (place & 1) + 1];
+    num::Uint<F>& spare = words.spare[place >> 2];
+    const num::Uint<F> byte = radius & num::Uint<F>(0xffu);
+    spare = (place & 3) == 0 ? byte : (spare << 8) | byte;
+  }
   F a, b;
-  num::normal_pair<F>(words.w[2 * (k & 1)], words.w[2 * (k & 1) + 1], a, b);
+  num::normal_pair<F>(radius, angle, a, b);
   return {merged_normal(s, mean.a, a), merged_normal(s, mean.b, b)};
 }
 

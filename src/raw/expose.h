@@ -12,7 +12,7 @@ struct Exposure {
   num::Int<F> pixel;
   F gain, offset, delay;
   Phasors<F> phasors;
-  num::Random4<F> merged_words;
+  MergedWords<F> merged_words;
   F most_charge, widest_code;   ///< of the lit raw frames: largest charge of a tap, largest distance of a code from the valid range's middle
 };
 
@@ -62,8 +62,7 @@ TOFRAY_FN Taps<F> expose(const camera::SensorView& s, int k, const Light<F>& lig
   if (s.noise == 2) {
     charge = expose_exact(s, charge, e.pixel, k, index);
   } else if (s.noise == 1) {
-    if ((k & 1) == 0) e.merged_words = draw<F>(s, e.pixel, k, index, merged);
-    charge = expose_fast(s, charge, k, e.merged_words);
+    charge = expose_fast(s, charge, e.pixel, k, index, e.merged_words);
   }
   if (s.suppression_threshold > 0) charge = suppress(s, charge, e.pixel, k, index);
   Taps<F> taps = read_out(s, charge, e.offset);

@@ -62,7 +62,8 @@ Stream shot(double mean, const Key& key, int noise = 2) {
             const raw::Means<float> means{static_cast<float>(mean), static_cast<float>(mean)};
             raw::Means<float> got;
             if (noise == 1) {
-              got = raw::expose_fast<float>(s, means, key.k, raw::draw<float>(s, pixel + key.shift, key.k & ~1, frame, raw::merged));
+              raw::MergedWords<float> words{};
+              for (int k = 0; k <= key.k; ++k) got = raw::expose_fast<float>(s, means, pixel + key.shift, k, frame, words);
             } else {
               got = raw::expose_exact<float>(s, means, pixel + key.shift, key.k, frame);
             }
