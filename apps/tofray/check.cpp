@@ -34,11 +34,14 @@ Report check_profile(const std::string& text, const std::string& name, const Opt
   const auto load = [&] { return io::camera_from_text(text, name, io::folder_of(name), wanted); };
   const Camera first = load();
   // A fault can be in any mode.
+  Report report;
   for (const std::string& mode : first.mode_names) {
     wanted.mode = mode;
-    Simulator(Scene(), load(), simulator_options(options));
+    const Camera camera = load();
+    Simulator(Scene(), camera, simulator_options(options));
+    const std::string more = warnings(camera);
+    if (report.warnings.find(more) == std::string::npos) report.warnings += more;
   }
-  Report report;
   const std::vector<std::string> unsourced = io::unsourced_numbers(io::parse_tree(text, name));
   for (const std::string& one : unsourced)
     report.warnings += fmt::format("{}: warning: this number does not say where it comes from\n", one.substr(0, one.rfind(": ")));

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "inputs.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "io/builtin.h"
@@ -61,9 +63,19 @@ Inputs inputs_of(const io::Manifest& manifest, const Options& options) {
 std::string warnings(const Scene& scene, const Camera& camera) {
   std::string text;
   if (scene.objects.empty()) text += "warning: the scene has no objects\n  no pixel gets any light back, and every depth is invalid\n";
-  const bool power =
-      std::any_of(camera.illumination.begin(), camera.illumination.end(), [](const Illumination& one) { return one.power_w > 0; });
-  if (!power) text += "warning: the camera's light sources have no power\n  every depth is invalid\n";
+  return text + warnings(camera);
+}
+
+std::string warnings(const Camera& camera) {
+  const auto& lights = camera.illumination;
+  const auto& sequence = camera.mode.sequence;
+  std::string text;
+  if (lights.empty())
+    text += "warning: the camera has no light source\n  every depth is invalid\n";
+  else if (std::none_of(lights.begin(), lights.end(), [](const Illumination& one) { return one.power_w > 0; }))
+    text += "warning: the camera's light sources have no power\n  every depth is invalid\n";
+  if (std::none_of(sequence.begin(), sequence.end(), [](const RawFrame& one) { return one.lit; }))
+    text += fmt::format("warning: the mode {} has no lit raw frame\n  every depth is invalid\n", camera.mode.name);
   return text;
 }
 

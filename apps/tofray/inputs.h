@@ -28,6 +28,8 @@ Inputs inputs_of(const io::Manifest& manifest, const Options& options);
 
 /// What is wrong with a scene that can be simulated all the same: no objects, no light. One or two lines each, or nothing.
 std::string warnings(const Scene& scene, const Camera& camera);
+/// … and with a camera alone: no light source, no lit raw frame.
+std::string warnings(const Camera& camera);
 
 SimulatorOptions simulator_options(const Options& options);
 

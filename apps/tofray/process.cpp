@@ -77,6 +77,7 @@ int run_process(const Options& options) {
     wanted.noise = Noise::off;
     if (!frame.raw.tap_a.empty()) frame.raw.raw.clear();
   }
+  say(in.camera.illumination.empty() ? "warning: the camera has no light source\n  every depth is invalid\n" : "");
   stopwatch.lap("prepare");
   frame.depth = process(frame.raw, in.camera, wanted);
   stopwatch.lap("process");

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "base/constants.h"
+#include "base/vec.h"
 #include "camera/frozen_camera.h"
 #include "camera/wiggling.h"
 #include "num/setup_math.h"
@@ -63,30 +64,57 @@ void list_raw_frames(const Group& g, DecodeModulation& m) {
   }
 }
 
+/// The light source that is decoded: the first. Where there is none, a sine at the camera's place stands for it.
+Illumination decoded_light(const Camera& camera) {
+  if (!camera.illumination.empty()) return camera.illumination[0];
+  Illumination none;
+  none.waveform.kind = Waveform::Kind::sine;
+  return none;
+}
+
 }  // namespace
 
 void FrozenCamera::freeze_decoder(int noise) {
   DecoderView& d = decoder_;
-  const Mode& mode = camera_.mode;
   const Decoding& decoding = camera_.decoding;
-  const double wave_speed = speed_of_light / camera_.refractive_index;
+  const Illumination light = decoded_light(camera_);
   d.modulations = sensor_.modulations;
   d.wiggling_nodes = wiggling_nodes;
   double grey_time = 0;
-  for (std::size_t k = 0; k < mode.sequence.size(); ++k) {
-    if (mode.sequence[k].lit) continue;
-    grey_time += mode.sequence[k].integration_time_s;
+  for (std::size_t k = 0; k < camera_.mode.sequence.size(); ++k) {
+    if (camera_.mode.sequence[k].lit) continue;
+    grey_time += camera_.mode.sequence[k].integration_time_s;
     d.grey_frame[d.grey_frames++] = static_cast<std::int32_t>(k);
   }
+  if (d.modulations > 0) {
+    freeze_modulations(light.waveform, grey_time);
+  } else {
+    freeze_without_modulation();
+  }
+  for (std::size_t k = 0; k < 3; ++k) d.light[k] = f(light.position[k]);
+  // No path is that long: without a light source nothing that is measured is a return.
+  d.light_square = camera_.illumination.empty() ? std::numeric_limits<float>::max() : f(dot(light.position, light.position));
+  const double read = camera_.pixel.read_noise_e, step = camera_.adc.step_e_per_dn;
+  d.noise_floor = f(2 * read * read + step * step / 12);
+  d.dark_rate_both = f(2 * camera_.pixel.dark_current_e_per_s);
+  d.low_signal_noise = noise == 0 ? std::numeric_limits<float>::max() : f(decoding.low_signal_noise_m);
+  d.per_confidence_noise = f(1 / decoding.low_signal_noise_m);
+  d.inconsistent_range = f(decoding.inconsistent_range_m);
+  d.flying_near_z = f(decoding.flying_near_z_m), d.flying_near_limit = f(decoding.flying_near_limit_m);
+  d.flying_far_z = f(decoding.flying_far_z_m), d.flying_far_limit = f(decoding.flying_far_limit_m);
+  d.delay = sensor_.delay;
+}
+
+void FrozenCamera::freeze_modulations(const Waveform& waveform, double grey_time) {
+  DecoderView& d = decoder_;
+  const double wave_speed = speed_of_light / camera_.refractive_index;
   for (int i = 0; i < d.modulations; ++i) {
     const std::size_t at = static_cast<std::size_t>(i);
-    const Group group = group_of(mode, modulations_, i);
+    const Group group = group_of(camera_.mode, modulations_, i);
     const double count = static_cast<double>(group.tau.size()), frequency = modulations_.frequency_hz[at];
-    // The first light source is the one that is decoded.
-    if (camera_.illumination.empty()) throw Error(ErrorKind::bad_input, "error: the camera has no light source");
-    auto harmonics = correlation_harmonics(camera_.illumination[0].waveform, camera_.pixel, frequency);
+    auto harmonics = correlation_harmonics(waveform, camera_.pixel, frequency);
     const double contrast = harmonics.front().amplitude;
-    if (!decoding.wiggling_correction) harmonics.resize(1);
+    if (!camera_.decoding.wiggling_correction) harmonics.resize(1);
     wiggling_.emplace_back();
     const std::vector<double> correction = wiggling_correction(harmonics, group.tau, wiggling_nodes);
     for (std::size_t j = 0; j < correction.size(); ++j) {
@@ -107,18 +135,18 @@ void FrozenCamera::freeze_decoder(int noise) {
   for (int i = 0; i < d.modulations; ++i) d.modulation[i].wiggling = wiggling_[static_cast<std::size_t>(i)].data();
   const double common = wave_speed / (2 * modulations_.base_hz);
   d.common_range = f(common), d.per_common_range = f(1 / common);
-  const Vec3& light = camera_.illumination[0].position;
-  for (std::size_t k = 0; k < 3; ++k) d.light[k] = f(light[k]);
-  d.light_square = f(light[0] * light[0] + light[1] * light[1] + light[2] * light[2]);
-  const double read = camera_.pixel.read_noise_e, step = camera_.adc.step_e_per_dn;
-  d.noise_floor = f(2 * read * read + step * step / 12);
-  d.dark_rate_both = f(2 * camera_.pixel.dark_current_e_per_s);
-  d.low_signal_noise = noise == 0 ? std::numeric_limits<float>::max() : f(decoding.low_signal_noise_m);
-  d.per_confidence_noise = f(1 / decoding.low_signal_noise_m);
-  d.inconsistent_range = f(decoding.inconsistent_range_m);
-  d.flying_near_z = f(decoding.flying_near_z_m), d.flying_near_limit = f(decoding.flying_near_limit_m);
-  d.flying_far_z = f(decoding.flying_far_z_m), d.flying_far_limit = f(decoding.flying_far_limit_m);
-  d.delay = sensor_.delay;
+}
+
+// One modulation without raw frames: its amplitude is 0, which says "no return" of every pixel; ambient light is that of the mean exposure.
+void FrozenCamera::freeze_without_modulation() {
+  DecoderView& d = decoder_;
+  d.modulations = 1;
+  wiggling_.emplace_back(2 * wiggling_nodes, 0.0f);
+  DecodeModulation& m = d.modulation[0];
+  m.half_wave = m.per_half_wave = m.cycles = m.per_contrast = m.variance_factor = 1;
+  m.ambient_scale = f(1.0 / d.grey_frames);
+  m.wiggling = wiggling_[0].data();
+  d.common_range = d.per_common_range = 1;
 }
 
 }  // namespace tofray::camera

@@ -40,7 +40,7 @@ Modulations modulations_of(const Mode& mode) {
     out.of_raw_frame.push_back(static_cast<int>(at - out.frequency_hz.begin()));
     if (at == out.frequency_hz.end()) out.frequency_hz.push_back(frame.modulation_frequency_hz);
   }
-  if (out.frequency_hz.empty()) throw Error(ErrorKind::bad_input, "error: the mode's sequence has no lit raw frame");
+  if (out.frequency_hz.empty()) return out;
   if (out.frequency_hz.size() > flow::max_modulation_frequencies) {
     throw Error(ErrorKind::limit, "error: more than " + std::to_string(flow::max_modulation_frequencies) + " modulation frequencies in one sequence");
   }

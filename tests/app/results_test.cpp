@@ -257,6 +257,20 @@ struct Dark {
   std::string warning;
 };
 
+void expect_all_invalid(const fs::path& file) {
+  std::map<std::string, io::NpyArray> arrays;
+  for (io::NamedArray& one : io::read_npz(file)) arrays[one.name] = std::move(one.array);
+  for (std::size_t i = 0; i < arrays.at("flags").count(); ++i) {
+    ASSERT_NE(static_cast<unsigned>(arrays.at("flags").number(i)) & 31u, 0u) << "pixel " << i;
+    ASSERT_EQ(arrays.at("confidence").number(i), 0);
+    for (const char* name : {"z_m", "range_m"}) ASSERT_TRUE(std::isnan(arrays.at(name).number(i))) << name << " of pixel " << i;
+    for (const char* name : {"amplitude_e", "ambient_e"}) ASSERT_TRUE(std::isfinite(arrays.at(name).number(i))) << name << " of pixel " << i;
+  }
+}
+
+const std::string grey_mode =
+    "camera.modes.GREY={frame_rate: 5 Hz, sequence: [{lit: false, integration_time: 1 ms}, {lit: false, integration_time: 3 ms}]}";
+
 class nothing_to_see : public testing::TestWithParam<Dark> {};
 
 TEST_P(nothing_to_see, is_valid_output_with_a_warning) {
@@ -268,16 +282,13 @@ TEST_P(nothing_to_see, is_valid_output_with_a_warning) {
   EXPECT_EQ(result.code, 0) << result.err;
   EXPECT_TRUE(has(result.err, "warning: " + GetParam().warning)) << result.err;
   EXPECT_EQ(names_of(files_of(folder / "out")), all_files);
-  const auto arrays = io::read_npz(folder / "out" / "frame.npz", {"z_m", "flags", "confidence"});
-  for (const io::NamedArray& one : arrays) {
-    for (std::size_t i = 0; i < one.array.count(); ++i) {
-      const double value = one.array.number(i);
-      const bool invalid = one.name == "z_m"     ? std::isnan(value)
-                           : one.name == "flags" ? (static_cast<unsigned>(value) & 31u) != 0
-                                                 : value == 0;
-      ASSERT_TRUE(invalid) << one.name << " of pixel " << i;
-    }
-  }
+  expect_all_invalid(folder / "out" / "frame.npz");
+  // What was written is good to go on with.
+  EXPECT_EQ(run({"inspect", "out/frame.npz", "--pixel", "9,9"}, in_folder(folder.path())).code, 0);
+  const Result processed = run({"process", "out/frame.npz", "-o", "again"}, in_folder(folder.path()));
+  EXPECT_EQ(processed.code, 0) << processed.err;
+  EXPECT_TRUE(has(processed.err, "warning: no pixel has a valid depth")) << processed.err;
+  expect_all_invalid(folder / "again" / "frame.npz");
 }
 
 INSTANTIATE_TEST_SUITE_P(
@@ -290,6 +301,22 @@ INSTANTIATE_TEST_SUITE_P(
         Dark{"no_power",
              {"render", "card", "--noise", "off", "--set", "camera.illumination.0.power=0 W"},
              "the camera's light sources have no power"},
+        Dark{"no_light", {"render", "card", "--set", "camera.illumination=[]"}, "the camera has no light source"},
+        Dark{"no_light_in_the_sun",
+             {"render", "sun-outdoors", "--set", "camera.illumination=[]"},
+             "the camera has no light source"},
+        Dark{"no_lit_raw_frame", {"render", "card", "--set", grey_mode, "--mode", "GREY"}, "the mode GREY has no lit raw frame"},
+        Dark{"no_lit_raw_frame_in_the_sun",
+             {"render", "sun-outdoors", "--noise", "off", "--set", grey_mode, "--mode", "GREY"},
+             "the mode GREY has no lit raw frame"},
+        Dark{"no_light_at_all",
+             {"render", "flying-ball", "--set", grey_mode, "--mode", "GREY", "--set", "camera.illumination=[]"},
+             "the mode GREY has no lit raw frame"},
+        Dark{"no_camera_and_no_objects", {"render", "empty.yaml", "--noise", "off"}, "no pixel has a valid depth"},
+        Dark{"small_wells", {"render", "card", "--set", "camera.pixel.full_well=1 e"}, "no pixel has a valid depth"},
+        Dark{"outside_the_lens_model",
+             {"render", "card", "--set", "camera.lens.distortion={k1: -10}", "--set", "camera.lens.cx=500 px"},
+             "no pixel has a valid depth"},
         Dark{"far_away", {"render", "card", "--noise", "off", "--set", "objects.0.plane.point=[0, 0, 900]"}, "no pixel has a valid depth"},
         Dark{"behind", {"render", "card", "--noise", "off", "--set", "objects.0.plane.point=[0, 0, -1]"}, "no pixel has a valid depth"},
         Dark{"saturated", {"render", "card", "--set", "camera.illumination.0.power=10 kW"}, "no pixel has a valid depth"},
@@ -297,6 +324,16 @@ INSTANTIATE_TEST_SUITE_P(
         Dark{"all_noise", {"render", "card", "--set", "camera.pixel.read_noise=100 ke"}, "no pixel has a valid depth"},
         Dark{"strict", {"render", "card", "--set", "camera.decoding.low_signal_noise=1 um"}, "no pixel has a valid depth"}),
     [](const testing::TestParamInfo<Dark>& one) { return one.param.name; });
+
+TEST(check, warns_of_a_camera_without_light) {
+  const Folder folder;
+  const Result scene = run({"check", "card", "--set", "camera.illumination=[]"});
+  EXPECT_EQ(scene.code, 0);
+  EXPECT_TRUE(has(scene.err, "warning: the camera has no light source")) << scene.err;
+  const Result profile = run({"check", "pico-flexx", "--set", grey_mode.substr(7)});
+  EXPECT_EQ(profile.code, 0) << profile.err;
+  EXPECT_TRUE(has(profile.err, "warning: the mode GREY has no lit raw frame")) << profile.err;
+}
 
 TEST(check, names_every_fault_with_its_place) {
   const Folder folder;
