@@ -92,7 +92,7 @@ void FrozenCamera::freeze_sequence(std::uint64_t seed, int noise) {
   s.raw_frames = static_cast<std::int32_t>(camera_.mode.sequence.size());
   s.modulations = static_cast<std::int32_t>(modulations_.frequency_hz.size());
   s.read_noise = f(pixel.read_noise_e), s.read_variance = f(pixel.read_noise_e * pixel.read_noise_e);
-  s.full_well = f(pixel.full_well_e);
+  s.full_well = std::min(f(pixel.full_well_e), flow::max_charge);
   s.suppression_threshold = f(pixel.suppression_threshold_e), s.suppression_budget = f(pixel.suppression_budget_e);
   s.suppression_noise = f(pixel.suppression_noise_factor);
   s.per_step = f(1 / camera_.adc.step_e_per_dn), s.step = f(camera_.adc.step_e_per_dn), s.mid_code = f(camera_.adc.mid_code);
@@ -166,21 +166,22 @@ void FrozenCamera::freeze_quadrature(int modulation) {
 void FrozenCamera::freeze_patterns() {
   const Pixel& pixel = camera_.pixel;
   const std::size_t pixels = ray_x_.size();
+  constexpr double infinite = std::numeric_limits<double>::infinity();
   // Each pattern is a stream of its own in the random numbers of the sensor's seed.
-  const auto draw = [&](double sigma, double mean, std::uint32_t stream, std::vector<float>& map) -> const float* {
+  const auto draw = [&](double sigma, double mean, double least, std::uint32_t stream, std::vector<float>& map) -> const float* {
     if (sigma == 0) return nullptr;
     const num::RoundKeys keys = num::round_keys(static_cast<std::uint32_t>(pixel.pattern_seed), static_cast<std::uint32_t>(pixel.pattern_seed >> 32));
     for (std::size_t i = 0; i < pixels; ++i) {
       const auto words = num::philox<float>(static_cast<std::uint32_t>(i), stream, 0, 0, keys);
       float z, other;
       num::normal_pair<float>(words.w[0], words.w[1], z, other);
-      map.push_back(f(mean + sigma * static_cast<double>(z)));
+      map.push_back(f(std::max(mean + sigma * static_cast<double>(z), least)));
     }
     return map.data();
   };
-  sensor_.gain = draw(pixel.prnu, 1, 0x50524e55, gain_);
-  sensor_.offset = draw(pixel.dsnu_dn, 0, 0x44534e55, offset_);
-  sensor_.delay = draw(pixel.delay_s, 0, 0x44454c41, delay_);
+  sensor_.gain = draw(pixel.prnu, 1, 0, 0x50524e55, gain_);
+  sensor_.offset = draw(pixel.dsnu_dn, 0, -infinite, 0x44534e55, offset_);
+  sensor_.delay = draw(pixel.delay_s, 0, -infinite, 0x44454c41, delay_);
 }
 
 SensorView FrozenCamera::sensor(double time_s) const {

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "base/constants.h"
+#include "base/text.h"
 #include "base/vec.h"
 #include "camera/frozen_camera.h"
 #include "camera/wiggling.h"
@@ -19,6 +20,7 @@ namespace setup = num::setup;
 namespace {
 
 constexpr int wiggling_nodes = 1024;
+constexpr double least_contrast = 1e-6;   // of a light with which a distance could still be measured
 
 float f(double a) { return static_cast<float>(a); }
 
@@ -114,6 +116,10 @@ void FrozenCamera::freeze_modulations(const Waveform& waveform, double grey_time
     const double count = static_cast<double>(group.tau.size()), frequency = modulations_.frequency_hz[at];
     auto harmonics = correlation_harmonics(waveform, camera_.pixel, frequency);
     const double contrast = harmonics.front().amplitude;
+    if (!(contrast >= least_contrast)) {
+      throw Error(ErrorKind::bad_input, "error: next to nothing is left of the modulation\n  got a contrast of " + number_text(contrast) + " at " +
+                                            number_text(1e-6 * frequency) + " MHz; mind the pixel's contrast, bandwidths, rise time and jitter");
+    }
     if (!camera_.decoding.wiggling_correction) harmonics.resize(1);
     wiggling_.emplace_back();
     const std::vector<double> correction = wiggling_correction(harmonics, group.tau, wiggling_nodes);

@@ -4,25 +4,25 @@
 
 namespace tofray::io {
 
-Form number(base::Dimension dimension, double low, double high, const std::string& example) {
+Form number(base::Dimension dimension, base::Range range, const std::string& example) {
   Form form;
   form.kind = Form::Kind::number;
   form.dimension = dimension;
   form.bare = dimension == base::Dimension::none || dimension == base::Dimension::fraction;
-  form.low = low;
-  form.high = high;
+  form.low = range.low;
+  form.high = range.high;
   form.example = example;
   return form;
 }
 
-Form bare_number(base::Dimension dimension, double low, double high, const std::string& example) {
-  Form form = number(dimension, low, high, example);
+Form bare_number(base::Dimension dimension, base::Range range, const std::string& example) {
+  Form form = number(dimension, range, example);
   form.bare = true;
   return form;
 }
 
-Form integer(double low, double high, const std::string& example) {
-  Form form = number(base::Dimension::none, low, high, example);
+Form integer(base::Range range, const std::string& example) {
+  Form form = number(base::Dimension::none, range, example);
   form.kind = Form::Kind::integer;
   return form;
 }

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/ranges.h"
 #include "base/units.h"
 #include "io/tree.h"
 
@@ -58,10 +59,10 @@ struct Key {
 };
 
 // The rows and forms below are written in this shorthand.
-Form number(base::Dimension dimension, double low, double high, const std::string& example);
+Form number(base::Dimension dimension, base::Range range, const std::string& example);
 /// The same, and a bare number is in SI units.
-Form bare_number(base::Dimension dimension, double low, double high, const std::string& example);
-Form integer(double low, double high, const std::string& example);
+Form bare_number(base::Dimension dimension, base::Range range, const std::string& example);
+Form integer(base::Range range, const std::string& example);
 Form boolean();
 Form text(const std::string& what, const std::string& example);
 Form choice(std::vector<std::string> names);

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The tofray authors
 // SPDX-License-Identifier: Apache-2.0
 #include "base/limits.h"
+#include "base/ranges.h"
 #include "io/form.h"
 
 /// The tables of a scene file. Bounds are those of a scene that a camera of some centimetres could look at, with room to spare.
@@ -10,13 +11,12 @@ namespace {
 
 using enum base::Dimension;
 
-constexpr double far_m = 1e5;  // float carries 8 mm at that distance
-constexpr double finest_m = 1e-6;
+namespace range = base::range;
 
-Form coordinate() { return bare_number(length, -far_m, far_m, "0.5 m"); }
+Form coordinate() { return bare_number(length, range::coordinate_m, "0.5 m"); }
 Form point() { return list(coordinate(), 3, 3); }
-Form direction() { return list(number(none, -1e6, 1e6, "1"), 3, 3); }
-Form part(const std::string& example) { return number(fraction, 0, 1, example); }
+Form direction() { return list(number(none, range::component, "1"), 3, 3); }
+Form part(const std::string& example) { return number(fraction, range::share, example); }
 
 std::vector<Key> lambert_keys() {
   return {required("reflectivity", part("0.85"), "share of the light that comes back, all of it diffuse")};
@@ -25,7 +25,7 @@ std::vector<Key> lambert_keys() {
 std::vector<Key> phong_keys() {
   return {required("diffuse", part("0.4"), "k_d, the Lambertian share"),
           required("specular", part("0.3"), "k_s, the share of the lobe about the mirror direction; diffuse + specular may not exceed 1"),
-          required("exponent", number(none, 1, 1e4, "20"), "n of the lobe's cos^n: the larger, the shinier")};
+          required("exponent", number(none, range::phong_exponent, "20"), "n of the lobe's cos^n: the larger, the shinier")};
 }
 
 Form material() { return tagged("brdf", {{"lambert", lambert_keys()}, {"phong", phong_keys()}}, "lambert"); }
@@ -39,9 +39,9 @@ Form object(std::vector<Key> shape) {
   shape.push_back(optional("position", point(), "[0, 0, 0]", "a shift [m]"));
   shape.push_back(absent("rotation",
                          map({required("axis", direction(), "the axis, by the right-hand rule; any length but zero"),
-                              required("angle", number(angle, -100, 100, "30 deg"), "how far")}),
+                              required("angle", number(angle, range::rotation_rad, "30 deg"), "how far")}),
                          "a turn about the object's own centre (of a plane: about its point)"));
-  shape.push_back(optional("velocity", list(bare_number(speed, -1e4, 1e4, "1 m/s"), 3, 3), "[0, 0, 0]", "[m/s]"));
+  shape.push_back(optional("velocity", list(bare_number(speed, range::velocity_m_per_s, "1 m/s"), 3, 3), "[0, 0, 0]", "[m/s]"));
   Form form = map(std::move(shape));
   form.exactly_one = {"reflectivity", "material"};
   return form;
@@ -54,7 +54,7 @@ Form objects() {
   form.forms.push_back(object({required("point", point(), "a point of the plane [m]"),
                                optional("normal", direction(), "[0, 0, -1]", "any length but zero; both sides reflect")}));
   form.forms.push_back(
-      object({required("center", point(), "[m]"), required("radius", bare_number(length, finest_m, far_m, "25 cm"), "[m]")}));
+      object({required("center", point(), "[m]"), required("radius", bare_number(length, range::radius_m, "25 cm"), "[m]")}));
   form.forms.push_back(object({required("min", point(), "the corner of the smallest x, y and z, before the rotation [m]"),
                                required("max", point(), "the opposite corner [m]")}));
   form.forms.push_back(object({required("vertices", list(point(), 3, 3), "the three corners [m]")}));
@@ -77,13 +77,13 @@ Form camera() {
 Form ambient() {
   const auto count = static_cast<int>(base::limit::curve_points.value);
   Form spectrum = either({choice({"sun_am15", "equal_energy", "none"}),
-                          map({required("wavelength", list(number(length, 100e-9, 20e-6, "850 nm"), 2, count), "ascending"),
-                               required("irradiance", list(number(spectral_irradiance, 0, 1e13, "0.9 W/(m2 nm)"), 2, count),
+                          map({required("wavelength", list(number(length, range::wavelength_m, "850 nm"), 2, count), "ascending"),
+                               required("irradiance", list(number(spectral_irradiance, range::spectral_irradiance_w_per_m3, "0.9 W/(m2 nm)"), 2, count),
                                         "on the surfaces, one for each wavelength")})});
   Form form = map({required("spectrum", std::move(spectrum), "the light's spectrum: a built-in name, or a table"),
-                   absent("level", number(fraction, 0, 100, "5 %"), "share of the spectrum as it is tabulated (sun_am15: of full sun)"),
-                   absent("illuminance", number(illuminance, 0, 1e7, "5 klx"), "on the surfaces, as a light meter reads it"),
-                   absent("band_irradiance", number(irradiance, 0, 1e5, "0.4 W/m2"), "on the surfaces, within the camera's filter"),
+                   absent("level", number(fraction, range::ambient_level, "5 %"), "share of the spectrum as it is tabulated (sun_am15: of full sun)"),
+                   absent("illuminance", number(illuminance, range::illuminance_lx, "5 klx"), "on the surfaces, as a light meter reads it"),
+                   absent("band_irradiance", number(irradiance, range::band_irradiance_w_per_m2, "0.4 W/m2"), "on the surfaces, within the camera's filter"),
                    absent("direction", direction(), "in which the light travels (a sun with shadows); from everywhere unless given")});
   form.at_most_one = {"level", "illuminance", "band_irradiance"};
   return form;

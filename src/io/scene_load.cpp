@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <map>
 
+#include "base/ranges.h"
 #include "base/text.h"
 #include "io/builtin.h"
 #include "io/convert.h"
@@ -19,7 +20,7 @@ namespace {
 using base::Faults;
 using base::in_quotes;
 
-constexpr double shortest = 1e-6;  // of a direction written in a file: below, float could not tell it from zero
+constexpr double shortest = base::range::shortest_m;
 
 Vec3 difference(const Vec3& a, const Vec3& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
 Vec3 cross(const Vec3& a, const Vec3& b) { return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]}; }

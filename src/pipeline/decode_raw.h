@@ -29,8 +29,9 @@ TOFRAY_FN void decode_pixels(const Setup& s, const Job& job, const Recording& in
     }
     if (in.tap_a != nullptr) {
       const F a = num::load<F>(in.tap_a + at, p.count), b = num::load<F>(in.tap_b + at, p.count);
-      if (in.raw == nullptr) difference[k] = a - b;
-      over = over | (a >= F(sensor.full_well)) | (b >= F(sensor.full_well));
+      const auto charges = (num::abs(a) <= F(flow::max_charge)) & (num::abs(b) <= F(flow::max_charge));
+      if (in.raw == nullptr) difference[k] = num::select(charges, a - b, F(0.0f));
+      over = over | !charges | (a >= F(sensor.full_well)) | (b >= F(sensor.full_well));
     }
     if (sensor.frame[k].lit != 0) clipped = clipped | over;
   }

@@ -29,7 +29,7 @@ TOFRAY_FN void add_light(const camera::PowerView& s, const camera::LightView& li
   const F cos_light = -num::fma(p.nx, from_light.x, num::fma(p.ny, from_light.y, p.nz * from_light.z)) * per_distance;
   const auto lit = p.found & (!dark) & (cos_light > F(0.0f));
   const F radiant = intensity(light, from_light.x, from_light.y, from_light.z, per_distance);
-  const F irradiance = num::select(lit, radiant * cos_light * (per_distance * per_distance), F(0.0f));
+  const F irradiance = num::select(lit, num::min(radiant * cos_light * (per_distance * per_distance), F(flow::max_irradiance)), F(0.0f));
   // both directions point from the surface: to the light −from_light/r_L, to the camera −ray/|ray|
   const F towards = num::fma(ray.x, from_light.x, num::fma(ray.y, from_light.y, ray.z * from_light.z));
   const F cos_between = towards * per_distance * ray.inverse_length;

@@ -7,7 +7,7 @@
 namespace tofray::simulator {
 
 /// The decoder's image filter as the passes want it.
-/// @throws Error (bad_input) for a width that makes no sense
+/// Its numbers were checked: see check.h.
 void set_filter(const ImageFilter& filter, pipeline::Job& job);
 
 }  // namespace tofray::simulator

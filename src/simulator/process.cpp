@@ -4,6 +4,7 @@
 #include "backend/cuda/cuda.h"
 #include "camera/frozen_camera.h"
 #include "num/setup_math.h"
+#include "simulator/check.h"
 #include "simulator/filter.h"
 #include "simulator/frame_memory.h"
 #include "tofray/error.h"
@@ -44,6 +45,7 @@ Camera camera_of(const Raw& raw, const Camera& profile) {
 Depth process(const Raw& raw, const Camera& profile, const SimulatorOptions& options) {
   if (options.backend == Backend::cuda) backend::refuse_cuda(backend::why_no_cuda(options.device).reason);
   const Camera camera = camera_of(raw, profile);
+  simulator::check(camera);
   const camera::FrozenCamera frozen(camera, static_cast<int>(options.noise), options.seed);
   pipeline::Setup setup{};
   setup.last_stage = pipeline::stage_depth;

@@ -8,6 +8,7 @@
 #include "camera/frozen_camera.h"
 #include "scene/ambient.h"
 #include "scene/frozen_scene.h"
+#include "simulator/check.h"
 #include "simulator/filter.h"
 #include "simulator/frame_memory.h"
 #include "tofray/error.h"
@@ -28,17 +29,17 @@ void set_ambient(const Scene& scene, const Camera& camera, const Vec3& toward_su
   for (std::size_t k = 0; k < 3; ++k) power.sun_direction[k] = static_cast<float>(toward_sun[k]);
   // E/π through the lens, as electrons: the kernel multiplies by reflectivity and vignetting.                    [theory: eq. 2.10]
   const double rate = scene::band_electron_rate_factor(scene.ambient, camera.filter, camera.pixel.quantum_efficiency);
+  if (!(rate <= 1e30)) {
+    throw Error(ErrorKind::bad_input, "error: the ambient light is beyond measure\n  mind its amount, and the table of its spectrum");
+  }
   power.ambient_rate = static_cast<float>(rate * static_cast<double>(power.watts_per_radiance) / base::pi);
 }
 
-void check(const Scene& scene, const Camera& camera) {
-  const auto complain = [](const std::string& what) { throw Error(ErrorKind::bad_input, "error: " + what); };
-  if (camera.sensor.width < 1 || camera.sensor.height < 1) complain("the camera has no pixels");
-  if (camera.mode.sequence.empty()) complain("the camera's mode has no raw frames");
-  if (!(camera.mode.frame_rate_hz > 0)) complain("the camera's mode has no frame rate");
-  for (const Object& object : scene.objects) {
-    if (object.material < 0 || static_cast<std::size_t>(object.material) >= scene.materials.size()) complain("an object names a material that the scene has not");
-  }
+/// The camera, once both are seen to be good.
+const Camera& checked(const Scene& scene, const Camera& camera) {
+  simulator::check(scene);
+  simulator::check(camera);
+  return camera;
 }
 
 }  // namespace
@@ -55,7 +56,7 @@ struct Simulator::Impl {
   std::string fallback_reason;
 
   Impl(const Scene& scene, const Camera& profile, const SimulatorOptions& wanted)
-      : camera((check(scene, profile), profile)),
+      : camera(checked(scene, profile)),
         options(wanted),
         frozen_camera(camera, static_cast<int>(wanted.noise), wanted.seed),
         frozen_scene(scene, positions(camera), static_cast<int>(camera.mode.sequence.size())),

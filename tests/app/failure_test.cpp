@@ -90,22 +90,108 @@ TEST(malformed, files_end_with_2) {
   }
 }
 
-TEST(memory, that_does_not_suffice_ends_with_4) {
+/// As `ulimit -v` does it, in bytes.
+Prepare with_address_space(const fs::path& folder, rlim_t most) {
+  return [folder, most] {
+    in_folder(folder)();
+    const rlimit limit{most, most};
+    ::setrlimit(RLIMIT_AS, &limit);
+  };
+}
+
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-  GTEST_SKIP() << "sanitizers need all the address space for themselves";
+constexpr bool address_space_is_free = false;   // sanitizers need all of it for themselves
+#else
+constexpr bool address_space_is_free = true;
 #endif
+#define SKIP_WHERE_SANITIZERS_NEED_THE_ADDRESS_SPACE() \
+  if (!address_space_is_free) GTEST_SKIP() << "sanitizers need all the address space for themselves"
+
+TEST(memory, that_does_not_suffice_ends_with_4) {
+  SKIP_WHERE_SANITIZERS_NEED_THE_ADDRESS_SPACE();
   const Folder folder;
   // Too little for the frame itself, for the file's bytes, or for something in between: about 100 MB each.
   for (const rlim_t most : {200'000'000, 300'000'000, 400'000'000}) {
     const Result result = run({"render", "card", "--set", "camera.sensor.width=1200", "--set", "camera.sensor.height=800", "--set",
                                "camera.lens.distortion={k1: 0}", "--threads", "1"},
-                              [&] {
-                                in_folder(folder.path())();
-                                const rlimit limit{most, most};
-                                ::setrlimit(RLIMIT_AS, &limit);
-                              });
+                              with_address_space(folder.path(), most));
     EXPECT_EQ(result.code, 4) << most << " " << result.err;
     EXPECT_TRUE(has(result.err, "out of memory")) << result.err;
+  }
+}
+
+// From too little to load the program up to enough, in steps: wherever it ends, files are old or new and whole.
+TEST(memory, that_does_not_suffice_leaves_whole_files) {
+  SKIP_WHERE_SANITIZERS_NEED_THE_ADDRESS_SPACE();
+  const Folder folder;
+  const Arguments arguments = {"render", "card", "--set", "camera.sensor.width=400", "--set", "camera.sensor.height=300",
+                               "--set", "camera.lens.distortion={k1: 0}", "--threads", "1", "-o", "out"};
+  ASSERT_EQ(run(arguments, in_folder(folder.path())).code, 0);
+  const auto whole = files_of(folder / "out");
+  int failed = 0, good = 0;
+  for (rlim_t most = 20'000'000; most < 400'000'000 && good < 2; most += 3'000'000) {
+    SCOPED_TRACE(most);
+    fs::remove_all(folder / "out");
+    fs::create_directory(folder / "out");
+    std::ofstream(folder / "out" / "frame.npz") << "old";
+    const Result result = run(arguments, with_address_space(folder.path(), most));
+    if (result.code == 0) {
+      ++good;
+      continue;
+    }
+    EXPECT_FALSE(fs::exists(folder / "out" / "manifest.json"));
+    EXPECT_EQ(temporaries(folder.path()), std::vector<std::string>());
+    for (const auto& [name, bytes] : files_of(folder / "out")) EXPECT_TRUE(bytes == whole.at(name) || bytes == "old") << name;
+    if (result.code == 127 && has(result.err, "shared librar")) continue;   // the loader's word: the program never began
+    EXPECT_EQ(result.code, 4) << result.err;
+    EXPECT_TRUE(has(result.err, "error: out of memory\n")) << result.err;
+    ++failed;
+  }
+  EXPECT_EQ(good, 2);
+  EXPECT_GT(failed, 5);
+}
+
+/// A .npy file whose header promises more than there is.
+std::string promising(const std::string& shape) {
+  std::string header = "{'descr': '<f4', 'fortran_order': False, 'shape': " + shape + ", }";
+  header.resize(117, ' ');
+  header += '\n';
+  return std::string("\x93NUMPY\x01\x00", 8) + static_cast<char>(header.size()) + '\0' + header + "0123456789abcdef";
+}
+
+// Counts are compared with their limits before memory is asked for: the address space given here holds the program and little else.
+TEST(memory, is_not_asked_for_where_counts_are_beyond_their_limits) {
+  SKIP_WHERE_SANITIZERS_NEED_THE_ADDRESS_SPACE();
+  const Folder folder;
+  std::ofstream(folder / "objects.yaml") << "objects: [" << [] {
+    std::string list;
+    for (int i = 0; i < 20'001; ++i) list += "{sphere: {center: [0, 0, 1], radius: 1, reflectivity: 1}}, ";
+    return list;
+  }() << "]\n";
+  std::ofstream(folder / "long.yaml") << std::string((16 << 20) + 1, '#');
+  std::vector<std::pair<Arguments, int>> cases = {{{"render", "objects.yaml"}, 4}, {{"render", "long.yaml"}, 4}, {{"check", "long.yaml"}, 4}};
+  for (const char* shape : {"(1000000000,)", "(2147483648, 2147483648)", "(4294967296, 4294967296)", "(9223372036854775807, 2)", "(2000, 2000, 200)"}) {
+    const std::string name = "array" + std::to_string(cases.size()) + ".npy";
+    std::ofstream(folder / name) << promising(shape);
+    cases.push_back({{"inspect", name}, 2});
+  }
+  for (const std::string huge : {"1000000000", "2147483648", "4294967296", "9223372036854775808"}) {
+    for (const char* key : {"sensor.width", "sensor.height", "illumination.0.pattern.columns", "adc.bits"})
+      cases.push_back({{"render", "card", "--set", std::string("camera.") + key + "=" + huge}, 2});
+    for (const char* option : {"--threads", "--frames", "--first-frame"}) {
+      if (huge != "1000000000" || std::string(option) == "--threads") cases.push_back({{"render", "card", option, huge}, 2});
+    }
+    cases.push_back({{"inspect", "card", "--pixel", huge + "," + huge}, 2});
+  }
+  cases.push_back({{"render", "card", "--set", "camera.sensor.width=4097", "--set", "camera.sensor.height=4097"}, 4});
+  cases.push_back({{"render", "card", "--set", "camera.sensor.width=4096", "--set", "camera.sensor.height=4096"}, 4});
+  for (const auto& [arguments, code] : cases) {
+    const Result result = run(arguments, with_address_space(folder.path(), 250'000'000));
+    const bool refused = result.code == code || (code == 2 && result.code == 4);
+    EXPECT_TRUE(refused) << arguments[0] << " " << arguments.back() << ": " << result.code << " " << result.err;
+    EXPECT_FALSE(has(result.err, "out of memory")) << arguments[0] << " " << arguments.back() << ": " << result.err;
+    EXPECT_TRUE(has(result.err, "error: ")) << result.err;
+    EXPECT_FALSE(fs::exists(folder / "card"));
   }
 }
 

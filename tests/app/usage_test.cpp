@@ -93,8 +93,7 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{{"bench", "--stage", ""}, 2, "trace, power"}, Mistake{{"bench", "--stage", "power,"}, 2, "trace, power"},
         Mistake{{"bench", "--backend", "cpu", "--block-size", "64"}, 2, "--block-size is a GPU's"},
         Mistake{{"bench", "--compare", "--stage", "all"}, 2, "--compare"}, Mistake{{"bench", "--compare", "--backend", "cuda"}, 2, "--compare"},
-        Mistake{{"render", "card", "--block-size", "64"}, 2, "`tofray render` has no option --block-size"},
-        Mistake{{"render", "card", "--set", "camera.illumination=[]"}, 2, "no light source"}));
+        Mistake{{"render", "card", "--block-size", "64"}, 2, "`tofray render` has no option --block-size"}));
 
 TEST(usage, options_may_come_in_every_form) {
   const Folder folder;
