@@ -138,3 +138,36 @@ TEST(motion, raises_the_warning_of_inconsistent_phases) {
     }
   }
 }
+
+// Each raw frame is that of a scene which stands still where the moving one is then: its surfaces, its shadows and those of a sun.
+TEST(motion, of_a_raw_frame_is_a_still_scene_at_its_time_shadows_included) {
+  for (const bool sun : {false, true}) {
+    Scene moving;
+    moving.materials.push_back({"", Material::Brdf::lambert, 0.5});
+    moving.objects.push_back({"wall", Plane{{0, 0, 1.2}, {0, 0, -1}}, 0, {0, 0, 0}, {}, {0, 0, 0}});
+    moving.objects.push_back({"ball", Sphere{{-0.15, 0.05, 0.8}, 0.07}, 0, {0, 0, 0}, {}, {4, 1, 0}});
+    if (sun) moving.ambient = {Ambient::Spectrum::sun_am15, Ambient::Quantity::level, 0.3, {}, {}, Vec3{0.5, 0.1, 1}};
+    Camera profile = camera();
+    profile.illumination[0].position = {-0.12, 0, 0};
+    const SimulatorOptions options{.noise = Noise::off};
+    const Raw raw = Simulator(moving, profile, options).frame(0).raw;
+    const std::size_t pixels = 224 * 172;
+    for (int k = 0; k < raw.phases; ++k) {
+      const double middle = raw.start_time_s[static_cast<std::size_t>(k)] + 0.5 * raw.integration_time_s[static_cast<std::size_t>(k)];
+      Scene still = moving;
+      still.objects[1].velocity_m_per_s = {0, 0, 0};
+      still.objects[1].position = {4 * middle, 1 * middle, 0};
+      const Raw expected = Simulator(still, profile, options).frame(0).raw;
+      int off = 0;
+      for (std::size_t i = 0; i < pixels; ++i) {
+        const std::size_t at = static_cast<std::size_t>(k) * pixels + i;
+        off += std::abs(raw.tap_a[at] - expected.tap_a[at]) > 1e-4f * expected.tap_a[at] + 0.01f;
+      }
+      EXPECT_LE(off, 8) << "raw frame " << k << (sun ? ", sun" : "");  // edges: one place is rounded from a sum
+    }
+    // The test can fail: between the second and the last raw frame the shadow moves over many pixels.
+    int moved = 0;
+    for (std::size_t i = 0; i < pixels; ++i) moved += std::abs(raw.tap_a[pixels + i] + raw.tap_b[pixels + i] - raw.tap_a[4 * pixels + i] - raw.tap_b[4 * pixels + i]) > 50;
+    EXPECT_GT(moved, 1000);
+  }
+}
