@@ -19,6 +19,7 @@ set_target_properties(tofray_library PROPERTIES
 target_compile_features(tofray_library PUBLIC cxx_std_20)
 target_include_directories(tofray_library PUBLIC $<BUILD_INTERFACE:${CMAKE_SOURCE_DIR}/include> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
 target_link_libraries(tofray_library PRIVATE ${tofray_private_libraries})
+tofray_add_object_files(tofray_library)
 if(BUILD_SHARED_LIBS)
   # Only the API is visible from outside, so that what we link cannot clash with another version of it in the user's program.
   target_link_options(tofray_library PRIVATE LINKER:--version-script=${CMAKE_SOURCE_DIR}/cmake/tofray.map)

@@ -63,4 +63,19 @@ struct Frame {
   Truth truth;                  ///< empty arrays where not asked for
 };
 
+/// A frame of a batch, where it lies: arrays as in Raw, Depth and Truth. Null where a stage was not reached or the truth not asked for.
+struct FrameArrays {
+  std::uint64_t index = 0;
+  int width = 0, height = 0, phases = 0;
+  int device = -1;                       ///< −1: host memory; else the pointers are for this GPU
+  const float *tap_a = nullptr, *tap_b = nullptr;
+  const std::uint16_t* raw = nullptr;
+  const float *z_m = nullptr, *range_m = nullptr, *points_m = nullptr, *amplitude_e = nullptr, *ambient_e = nullptr, *noise_m = nullptr;
+  const std::uint8_t* confidence = nullptr;
+  const std::uint16_t* flags = nullptr;
+  const float *gt_range_m = nullptr, *gt_z_m = nullptr, *gt_reflectivity = nullptr, *gt_position_m = nullptr, *gt_normal = nullptr;
+  const std::int32_t* gt_object_id = nullptr;
+  const float *gt_irradiance_w_m2 = nullptr, *gt_radiance_w_m2_sr = nullptr, *gt_power_w = nullptr, *gt_signal_e = nullptr;
+};
+
 }  // namespace tofray

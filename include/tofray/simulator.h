@@ -2,7 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include <cstdint>
+#include <functional>
 #include <memory>
+#include <optional>
+#include <span>
 #include <string>
 
 #include "tofray/camera.h"
@@ -37,10 +40,39 @@ struct SimulatorOptions {
   Backend backend = Backend::automatic;
   int device = -1;             ///< which GPU, from 0 on; −1: the first one
   int block_size = 0;          ///< CUDA threads per block, a multiple of 32 up to 1024; 0: chosen
+  std::size_t batch_bytes = 64'000'000;  ///< host memory of one batch on its way from a GPU; there are three of them for each GPU
   Isa isa = Isa::best;         ///< best: the environment's TOFRAY_ISA, else what the CPU can do
   bool truth = true;           ///< fill Frame::truth
   Stage last_stage = Stage::depth;  ///< stop after this stage: arrays of later ones are left as they are (zero in a new frame)
   bool culling = true;         ///< off: every pixel tests every object (slower, same bytes; for tests)
+};
+
+/// One frame of a batch. What is not set is the simulator's.
+struct FrameRequest {
+  std::uint64_t index = 0;              ///< starts at index / frame_rate
+  std::optional<std::uint64_t> seed;
+  std::optional<Pose> pose;             ///< of the camera
+};
+
+/// Frames that stay in a GPU's memory.
+class DeviceFrames {
+ public:
+  DeviceFrames();
+  ~DeviceFrames();
+  DeviceFrames(DeviceFrames&&) noexcept;
+  DeviceFrames& operator=(DeviceFrames&&) noexcept;
+
+  [[nodiscard]] std::uint64_t size() const;
+  /// Pointers of the device's memory, good until the next use of this object.
+  [[nodiscard]] FrameArrays operator[](std::uint64_t i) const;
+  /// How long the device computed, by its own clock [s].
+  [[nodiscard]] double seconds() const;
+
+  struct Impl;
+
+ private:
+  friend class Simulator;
+  std::unique_ptr<Impl> impl_;
 };
 
 /// Simulates frames of one scene seen by one camera. frame(i) depends on nothing but (scene, camera, options, i).
@@ -57,12 +89,26 @@ class Simulator {
   /// The same into memory that the caller keeps: arrays of the right size are not allocated anew.
   void frame(std::uint64_t index, Frame& into);
 
+  /// Many frames, in their order: `count` from `first` on, or one for each request. On GPUs several of them are on their way at once, in
+  /// bounded memory; all GPUs take part unless SimulatorOptions::device names one.
+  /// @param take  is given each frame when it is done; the arrays are good until it returns
+  void frames(std::uint64_t first, std::uint64_t count, const std::function<void(const FrameArrays&)>& take);
+  void frames(std::span<const FrameRequest> requests, const std::function<void(const FrameArrays&)>& take);
+  /// The same, left in the GPU's memory, which `into` holds and uses again where it is large enough.
+  /// @throws Error (device) where the processor computes, or where the memory is too small for them
+  void frames_on_device(std::uint64_t first, std::uint64_t count, DeviceFrames& into);
+  void frames_on_device(std::span<const FrameRequest> requests, DeviceFrames& into);
+
   /// What computes the frames: "cpu" or "cuda".
   [[nodiscard]] std::string backend() const;
   /// Its name: of the GPU, or of the processor's instruction set.
   [[nodiscard]] std::string device() const;
   /// Why Backend::automatic took no GPU; empty where it did, or where the processor was asked for.
   [[nodiscard]] std::string fallback_reason() const;
+
+  /// Threads per block of the kernel from ray to depth, and how full it makes the GPU, 0 … 1. 0 where the processor computes.
+  [[nodiscard]] int block_size() const;
+  [[nodiscard]] double occupancy() const;
 
   /// The processor's instruction set: "scalar", "scalar_fma", "avx2" or "avx512".
   [[nodiscard]] std::string isa() const;

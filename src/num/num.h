@@ -42,15 +42,39 @@ template <class F>
 constexpr int lanes = Traits<F>::lanes;
 
 /// a·b + c, rounded once.
-TOFRAY_FN float fma(float a, float b, float c) { return __builtin_fmaf(a, b, c); }
+TOFRAY_FN float fma(float a, float b, float c) {
+#if defined(__CUDA_ARCH__)
+  return __fmaf_rn(a, b, c);
+#else
+  return __builtin_fmaf(a, b, c);
+#endif
+}
 /// c − a·b, rounded once.
-TOFRAY_FN float fnma(float a, float b, float c) { return __builtin_fmaf(-a, b, c); }
-TOFRAY_FN float sqrt(float a) { return __builtin_sqrtf(a); }
+TOFRAY_FN float fnma(float a, float b, float c) { return fma(-a, b, c); }
+TOFRAY_FN float sqrt(float a) {
+#if defined(__CUDA_ARCH__)
+  return __fsqrt_rn(a);
+#else
+  return __builtin_sqrtf(a);
+#endif
+}
 TOFRAY_FN float min(float a, float b) { return a < b ? a : b; }
 TOFRAY_FN float max(float a, float b) { return a > b ? a : b; }
-TOFRAY_FN float floor(float a) { return __builtin_floorf(a); }
+TOFRAY_FN float floor(float a) {
+#if defined(__CUDA_ARCH__)
+  return ::floorf(a);
+#else
+  return __builtin_floorf(a);
+#endif
+}
 /// To the nearest integer, halves to the even one.
-TOFRAY_FN float round_even(float a) { return __builtin_rintf(a); }
+TOFRAY_FN float round_even(float a) {
+#if defined(__CUDA_ARCH__)
+  return ::rintf(a);
+#else
+  return __builtin_rintf(a);
+#endif
+}
 
 TOFRAY_FN std::uint32_t bits(float a) {
 #if defined(__CUDA_ARCH__)

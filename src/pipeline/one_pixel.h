@@ -18,16 +18,22 @@ namespace tofray::pipeline {
 struct Near {
   trace::Culled camera_still, camera_moving;
   trace::Culled light_still[flow::max_lights], light_moving[flow::max_lights];
+
+  /// What `light` can see of the pixels is known before they are lit: nothing to do for the ray that goes to one of them.
+  template <class F>
+  TOFRAY_FN void look(int, int, const flow::Ray<F>&, num::Mask<F>) const {}
+  TOFRAY_FN const trace::Culled& still_from(int light) const { return light_still[light]; }
+  TOFRAY_FN const trace::Culled& moving_from(int light) const { return light_moving[light]; }
 };
 
 /// Stage 1: the nearest surface, of what stands still.
-template <class F>
+template <class F, class Near>
 TOFRAY_FN flow::Hit<F> see_still(const Setup& s, const Near& near, const flow::Ray<F>& ray) {
   return trace::nearest(s.scene.camera_still, near.camera_still, ray, flow::Hit<F>{F(0.0f), num::Int<F>(0)});
 }
 
 /// … and of what moves, at the time of one raw frame.
-template <class F>
+template <class F, class Near>
 TOFRAY_FN flow::Hit<F> see_moving(const Setup& s, const Near& near, int slot, const flow::Ray<F>& ray, const flow::Hit<F>& still) {
   return trace::nearest(s.scene.camera_moving[slot], near.camera_moving, ray, still);
 }
@@ -41,15 +47,16 @@ struct Lighting {
 
 /// Stages 1 and 2: shadow rays, then power.
 /// @param moving  whether anything that moves can stand in the way
-template <class F>
-TOFRAY_FN void light_up(const Setup& s, const Near& near, int slot, bool moving, const flow::Ray<F>& ray, const flow::Surface<F>& p, F vignetting,
+template <class F, class Near>
+TOFRAY_FN void light_up(const Setup& s, Near& near, int slot, bool moving, const flow::Ray<F>& ray, const flow::Surface<F>& p, F vignetting,
                         Lighting<F>& out) {
   out.light.total_rate = F(0.0f);
   for (int l = 0; l < s.scene.lights; ++l) {
     const flow::Ray<F> from_light = power::light_ray(s.lights[l], p);
-    auto dark = trace::blocked(s.scene.light_still[l], near.light_still[l], from_light, p.object);
+    near.look(slot, l, from_light, p.found);
+    auto dark = trace::blocked(s.scene.light_still[l], near.still_from(l), from_light, p.object);
     if (moving) {
-      dark = dark | trace::blocked(s.scene.light_moving[slot * s.scene.lights + l], near.light_moving[l], from_light, p.object);
+      dark = dark | trace::blocked(s.scene.light_moving[slot * s.scene.lights + l], near.moving_from(l), from_light, p.object);
     }
     power::add_light<F>(s.power, s.lights[l], p, ray, from_light, dark, vignetting, out.light.signal_rate[l], out.light.path_length[l],
                         out.radiometry);
@@ -89,8 +96,8 @@ TOFRAY_FN void find_depth(const Setup& s, const Job& job, const Pixels& p, const
 }
 
 /// Stages 1 and 2 from the surface on, and what they show of the truth.
-template <class F>
-TOFRAY_FN void light_surface(const Setup& s, const Job& job, const Near& near, int slot, bool moving, bool truth, const Pixels& p,
+template <class F, class Near>
+TOFRAY_FN void light_surface(const Setup& s, const Job& job, Near& near, int slot, bool moving, bool truth, const Pixels& p,
                              const flow::Ray<F>& ray, const flow::Hit<F>& hit, F vignetting, Lighting<F>& lighting) {
   const flow::Surface<F> surface = trace::surface(s.scene, ray, hit);
   lighting.radiometry = {F(0.0f), F(0.0f), F(0.0f)};
@@ -116,13 +123,30 @@ TOFRAY_FN void measure(const Setup& s, const Job& job, const Pixels& p, const fl
 }
 
 /// Everything that follows once the nearest surface is known, where nothing moves.
-template <class F>
-TOFRAY_FN void one_pixel(const Setup& s, const Job& job, const Near& near, const Pixels& p, const flow::Ray<F>& ray, const flow::Hit<F>& hit) {
+template <class F, class Near>
+TOFRAY_FN void one_pixel(const Setup& s, const Job& job, Near& near, const Pixels& p, const flow::Ray<F>& ray, const flow::Hit<F>& hit) {
   const F vignetting = camera::vignetting<F>(s.lens, p);
   Lighting<F> lighting;
   light_surface(s, job, near, 0, false, true, p, ray, hit, vignetting, lighting);
   if (s.last_stage < stage_raw) return;
   measure(s, job, p, ray, vignetting, &lighting.light, nullptr);
+}
+
+/// One pixel of a scene in which something moves, raw frame by raw frame, each with the scene at its own time. (Tiles keep the light of
+/// all raw frames instead, to leave out the work that several of them share: pipeline/tile.h.)
+/// @param still  nearest surface of what stands still
+template <class F, class Near>
+TOFRAY_FN void one_moving_pixel(const Setup& s, const Job& job, Near& near, const Pixels& p, const flow::Ray<F>& ray, const flow::Hit<F>& still) {
+  const F vignetting = camera::vignetting<F>(s.lens, p);
+  raw::Exposure<F> exposure = raw::start<F>(s.sensor, p);
+  F difference[flow::max_raw_frames];
+  for (int k = 0; k < s.sensor.raw_frames; ++k) {
+    Lighting<F> lighting;
+    light_surface(s, job, near, k, true, k == s.truth_slot, p, ray, see_moving(s, near, k, ray, still), vignetting, lighting);
+    if (s.last_stage >= stage_raw) difference[k] = collect(s, job, p, k, lighting.light, k > 0, exposure);
+  }
+  if (s.last_stage < stage_depth) return;
+  find_depth<F>(s, job, p, ray, difference, raw::saturated(s.sensor, exposure), exposure.delay, vignetting);
 }
 
 }  // namespace tofray::pipeline

@@ -12,7 +12,14 @@ namespace tofray::pipeline {
 
 constexpr int rows_per_band = 8;
 
-/// Pass 1: flags flying pixels of one row; z is only read.
+/// Pass 1: flags a flying pixel; z is only read.
+TOFRAY_FN void flag_flying_pixel(const Setup& s, const Job& job, int x, int y) {
+  const int width = s.lens.width, at = y * width + x;
+  if (!depth::flies<float>(s.decoder, job.out.z + at, width, 1, y > 0 && y + 1 < s.lens.height, x > 0 && x + 1 < width)) return;
+  job.out.flags[at] = static_cast<std::uint16_t>(job.out.flags[at] | depth::flying_pixel);
+}
+
+/// The same for one row.
 template <class F>
 TOFRAY_FN void flag_flying_row(const Setup& s, const Job& job, int y) {
   const int width = s.lens.width;
@@ -34,16 +41,17 @@ TOFRAY_FN void flag_flying_row(const Setup& s, const Job& job, int y) {
   }
 }
 
-/// Pass 2, where a filter is on: filtered range of one row, from `out.range` to `filtered`. Flying pixels count as invalid already.
-TOFRAY_FN void filter_row(const Setup& s, const Job& job, int y) {
+/// Pass 2, where a filter is on: filtered range of one pixel, from `out.range` to `filtered`. Flying pixels count as invalid already.
+TOFRAY_FN void filter_pixel(const Setup& s, const Job& job, int x, int y) {
   const depth::RangeImage image{job.out.range, job.out.flags, s.lens.width, s.lens.height};
-  for (int x = 0; x < image.width; ++x) {
-    float value = image.range[y * image.width + x];
-    if (image.valid(x, y)) {
-      value = job.filter == 1 ? depth::gaussian(image, x, y, job.filter_radius, job.filter_weights) : depth::median(image, x, y, job.filter_radius);
-    }
-    job.filtered[y * image.width + x] = value;
+  float value = image.range[y * image.width + x];
+  if (image.valid(x, y)) {
+    value = job.filter == 1 ? depth::gaussian(image, x, y, job.filter_radius, job.filter_weights) : depth::median(image, x, y, job.filter_radius);
   }
+  job.filtered[y * image.width + x] = value;
+}
+TOFRAY_FN void filter_row(const Setup& s, const Job& job, int y) {
+  for (int x = 0; x < s.lens.width; ++x) filter_pixel(s, job, x, y);
 }
 
 /// Four flags at a time, since few pixels fly.
@@ -61,15 +69,18 @@ TOFRAY_FN bool any_flying(const std::uint16_t* flags, int count) {
 
 /// Pass 3: range (filtered or not) of one row → z, point, confidence; flying pixels become invalid.
 template <class F>
+TOFRAY_FN void settle(const Setup& s, const Job& job, const Pixels& p, const float* range) {
+  if (job.filter == 0 && !any_flying(job.out.flags + p.index, p.count)) return;
+  std::int32_t flags[num::lanes<F>] = {};
+  for (int i = 0; i < p.count; ++i) flags[i] = job.out.flags[p.index + i];
+  const F noise = num::load<F>(job.out.noise + p.index, p.count);
+  store_range(s, job.out, p, camera::ray<F>(s.lens, p), num::load<F>(range + p.index, p.count), noise, num::load_int<F>(flags, p.count));
+}
+template <class F>
 TOFRAY_FN void settle_row(const Setup& s, const Job& job, int y, const float* range) {
   const int width = s.lens.width;
   for (int x = 0; x < width; x += num::lanes<F>) {
-    const Pixels p{y * width + x, width - x < num::lanes<F> ? width - x : num::lanes<F>};
-    if (job.filter == 0 && !any_flying(job.out.flags + p.index, p.count)) continue;
-    std::int32_t flags[num::lanes<F>] = {};
-    for (int i = 0; i < p.count; ++i) flags[i] = job.out.flags[p.index + i];
-    const F noise = num::load<F>(job.out.noise + p.index, p.count);
-    store_range(s, job.out, p, camera::ray<F>(s.lens, p), num::load<F>(range + p.index, p.count), noise, num::load_int<F>(flags, p.count));
+    settle<F>(s, job, Pixels{y * width + x, width - x < num::lanes<F> ? width - x : num::lanes<F>}, range);
   }
 }
 

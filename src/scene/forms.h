@@ -110,6 +110,7 @@ struct SceneView {
   std::int32_t slots;                ///< 1: nothing moves; else one for each raw frame
   std::int32_t lights;
   std::int32_t any_specular;
+  std::int32_t facet_count;
 };
 
 }  // namespace tofray::scene

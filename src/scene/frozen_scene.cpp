@@ -57,6 +57,7 @@ void FrozenScene::update(const std::vector<double>& slot_times) {
   // Where nothing is hit, facet 0 is read all the same, and what it says is thrown away.
   if (facets_.empty()) facets_.emplace_back();
   view_.facets = facets_.data();
+  view_.facet_count = static_cast<std::int32_t>(facets_.size());
 }
 
 }  // namespace tofray::scene

@@ -43,7 +43,6 @@ Camera camera_of(const Raw& raw, const Camera& profile) {
 }  // namespace
 
 Depth process(const Raw& raw, const Camera& profile, const SimulatorOptions& options) {
-  if (options.backend == Backend::cuda) backend::refuse_cuda(backend::why_no_cuda(options.device).reason);
   const Camera camera = camera_of(raw, profile);
   simulator::check(camera);
   const camera::FrozenCamera frozen(camera, static_cast<int>(options.noise), options.seed);
@@ -62,6 +61,16 @@ Depth process(const Raw& raw, const Camera& profile, const SimulatorOptions& opt
   job.out = simulator::view_of(depth);
   const pipeline::Recording recording{raw.raw.empty() ? nullptr : raw.raw.data(), raw.tap_a.empty() ? nullptr : raw.tap_a.data(),
                                       raw.tap_b.empty() ? nullptr : raw.tap_b.data()};
+  if (options.backend != Backend::cpu) {
+    try {
+      backend::Cuda gpu(options.device, options.block_size);
+      gpu.load(setup);
+      gpu.run(setup, job, &recording);
+      return depth;
+    } catch (const backend::gpu::Fault&) {
+      if (options.backend == Backend::cuda) throw;
+    }
+  }
   backend::Cpu(options.isa, options.threads, 0).run(setup, job, &recording);
   return depth;
 }

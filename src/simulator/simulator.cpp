@@ -2,15 +2,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tofray/simulator.h"
 
-#include "backend/cpu/cpu.h"
-#include "backend/cuda/cuda.h"
 #include "base/constants.h"
-#include "camera/frozen_camera.h"
 #include "scene/ambient.h"
-#include "scene/frozen_scene.h"
 #include "simulator/check.h"
 #include "simulator/filter.h"
 #include "simulator/frame_memory.h"
+#include "simulator/impl.h"
 #include "tofray/error.h"
 
 namespace tofray {
@@ -35,66 +32,101 @@ void set_ambient(const Scene& scene, const Camera& camera, const Vec3& toward_su
   power.ambient_rate = static_cast<float>(rate * static_cast<double>(power.watts_per_radiance) / base::pi);
 }
 
-/// The camera, once both are seen to be good.
-const Camera& checked(const Scene& scene, const Camera& camera) {
+/// The scene, once both are seen to be good.
+const Scene& checked(const Scene& scene, const Camera& camera) {
   simulator::check(scene);
   simulator::check(camera);
-  return camera;
+  return scene;
 }
 
 }  // namespace
 
-struct Simulator::Impl {
-  Camera camera;
-  SimulatorOptions options;
-  camera::FrozenCamera frozen_camera;
-  scene::FrozenScene frozen_scene;
-  backend::Cpu cpu;
-  pipeline::Setup setup{};
-  pipeline::Job job{};
-  std::vector<float> filtered;
-  std::string fallback_reason;
+Simulator::Impl::Impl(const Scene& all, const Camera& profile, const SimulatorOptions& wanted)
+    : scene(checked(all, profile)),
+      camera(profile),
+      options(wanted),
+      frozen_camera(camera, static_cast<int>(wanted.noise), wanted.seed),
+      frozen_scene(scene, positions(camera), static_cast<int>(camera.mode.sequence.size())),
+      cpu(wanted.isa, wanted.threads, frozen_scene.moves() ? static_cast<int>(camera.mode.sequence.size()) : 0) {
+  setup.lens = frozen_camera.lens();
+  for (std::size_t l = 0; l < frozen_camera.lights().size(); ++l) setup.lights[l] = frozen_camera.lights()[l].view;
+  setup.power = frozen_camera.power();
+  set_ambient(scene, camera, frozen_scene.toward_sun(), setup.power);
+  power = setup.power;
+  setup.sensor = frozen_camera.sensor(0);
+  setup.decoder = frozen_camera.decoder();
+  setup.truth_slot = static_cast<std::int32_t>(camera.mode.sequence.size() / 2);
+  setup.last_stage = static_cast<std::int32_t>(options.last_stage);
+  setup.culling = options.culling;
+  setup.scene = frozen_scene.view();
+  simulator::set_filter(camera.decoding.filter, job);
+  if (job.filter != 0) filtered.resize(static_cast<std::size_t>(camera.sensor.width) * static_cast<std::size_t>(camera.sensor.height));
+  job.filtered = filtered.data();
+  backend::check_block_size(options.block_size);
+  if (options.backend != Backend::cpu) open_gpus();
+}
 
-  Impl(const Scene& scene, const Camera& profile, const SimulatorOptions& wanted)
-      : camera(checked(scene, profile)),
-        options(wanted),
-        frozen_camera(camera, static_cast<int>(wanted.noise), wanted.seed),
-        frozen_scene(scene, positions(camera), static_cast<int>(camera.mode.sequence.size())),
-        cpu(wanted.isa, wanted.threads, frozen_scene.moves() ? static_cast<int>(camera.mode.sequence.size()) : 0) {
-    setup.lens = frozen_camera.lens();
-    for (std::size_t l = 0; l < frozen_camera.lights().size(); ++l) setup.lights[l] = frozen_camera.lights()[l].view;
-    setup.power = frozen_camera.power();
-    set_ambient(scene, camera, frozen_scene.toward_sun(), setup.power);
-    setup.decoder = frozen_camera.decoder();
-    setup.truth_slot = static_cast<std::int32_t>(camera.mode.sequence.size() / 2);
-    setup.last_stage = static_cast<std::int32_t>(options.last_stage);
-    setup.culling = options.culling;
-    simulator::set_filter(camera.decoding.filter, job);
-    if (job.filter != 0) filtered.resize(static_cast<std::size_t>(camera.sensor.width) * static_cast<std::size_t>(camera.sensor.height));
-    job.filtered = filtered.data();
-    if (options.backend != Backend::cpu) fallback_reason = backend::why_no_cuda(options.device).reason;
-    if (options.backend == Backend::cuda) backend::refuse_cuda(fallback_reason);
+void Simulator::Impl::open_gpus() {
+  try {
+    gpus.push_back(std::make_unique<backend::Cuda>(options.device, options.block_size));
+    gpus[0]->load(setup);
+  } catch (const backend::gpu::Fault& fault) {
+    give_up(fault);
   }
+}
 
-  void frame(std::uint64_t index, Frame& into) {
-    into.index = index;
-    simulator::prepare(into, camera, options.truth);
-    const double start = static_cast<double>(index) / camera.mode.frame_rate_hz;
-    std::vector<double> middle;
-    into.raw.start_time_s.clear();
-    for (std::size_t k = 0; k < camera.mode.sequence.size(); ++k) {
-      into.raw.start_time_s.push_back(start + frozen_camera.raw_frame_start_s()[k]);
-      middle.push_back(into.raw.start_time_s[k] + 0.5 * camera.mode.sequence[k].integration_time_s);
+void Simulator::Impl::give_up(const backend::gpu::Fault& fault) {
+  if (options.backend == Backend::cuda) throw fault;
+  gpus.clear();
+  fallback_reason = fault.reason();
+}
+
+std::vector<double> Simulator::Impl::middles(double start) const {
+  std::vector<double> out;
+  for (std::size_t k = 0; k < camera.mode.sequence.size(); ++k) {
+    out.push_back(start + frozen_camera.raw_frame_start_s()[k] + 0.5 * camera.mode.sequence[k].integration_time_s);
+  }
+  return out;
+}
+
+void Simulator::Impl::set_frame(const FrameRequest& request) {
+  const double start = start_of(request.index);
+  posed_scene.reset();
+  scene::FrozenScene* frozen = &frozen_scene;
+  setup.power = power;
+  if (request.pose) {
+    Scene posed = scene;
+    posed.camera.pose = *request.pose;
+    frozen = &posed_scene.emplace(posed, positions(camera), static_cast<int>(camera.mode.sequence.size()));
+    set_ambient(scene, camera, frozen->toward_sun(), setup.power);
+  }
+  if (frozen->moves()) frozen->update(middles(start));
+  setup.scene = frozen->view();
+  setup.sensor = frozen_camera.sensor(start);
+  if (request.seed) setup.sensor.keys = num::round_keys(static_cast<std::uint32_t>(*request.seed), static_cast<std::uint32_t>(*request.seed >> 32));
+  job.index_low = static_cast<std::uint32_t>(request.index), job.index_high = static_cast<std::uint32_t>(request.index >> 32);
+}
+
+void Simulator::Impl::frame(std::uint64_t index, Frame& into) {
+  into.index = index;
+  simulator::prepare(into, camera, options.truth);
+  const double start = start_of(index);
+  const std::vector<double> middle = middles(start);
+  into.raw.start_time_s.clear();
+  for (const double after : frozen_camera.raw_frame_start_s()) into.raw.start_time_s.push_back(start + after);
+  into.truth.time_s = middle[middle.size() / 2];
+  set_frame({index, {}, {}});
+  job.out = simulator::view_of(into);
+  if (!gpus.empty()) {
+    try {
+      gpus[0]->run(setup, job);
+      return;
+    } catch (const backend::gpu::Fault& fault) {
+      give_up(fault);
     }
-    into.truth.time_s = middle[middle.size() / 2];
-    if (frozen_scene.moves()) frozen_scene.update(middle);
-    setup.scene = frozen_scene.view();
-    setup.sensor = frozen_camera.sensor(start);
-    job.out = simulator::view_of(into);
-    job.index_low = static_cast<std::uint32_t>(index), job.index_high = static_cast<std::uint32_t>(index >> 32);
-    cpu.run(setup, job);
   }
-};
+  cpu.run(setup, job);
+}
 
 Simulator::Simulator(const Scene& scene, const Camera& camera, const SimulatorOptions& options) : impl_(std::make_unique<Impl>(scene, camera, options)) {}
 Simulator::~Simulator() = default;
@@ -108,8 +140,24 @@ Frame Simulator::frame(std::uint64_t index) {
 }
 
 void Simulator::frame(std::uint64_t index, Frame& into) { impl_->frame(index, into); }
-std::string Simulator::backend() const { return "cpu"; }
-std::string Simulator::device() const { return isa(); }
+
+void Simulator::frames(std::uint64_t first, std::uint64_t count, const std::function<void(const FrameArrays&)>& take) {
+  impl_->frames(count, [first](std::uint64_t i) { return FrameRequest{first + i, {}, {}}; }, take);
+}
+void Simulator::frames(std::span<const FrameRequest> requests, const std::function<void(const FrameArrays&)>& take) {
+  impl_->frames(requests.size(), [requests](std::uint64_t i) { return requests[i]; }, take);
+}
+void Simulator::frames_on_device(std::uint64_t first, std::uint64_t count, DeviceFrames& into) {
+  impl_->frames_on_device(count, [first](std::uint64_t i) { return FrameRequest{first + i, {}, {}}; }, *into.impl_);
+}
+void Simulator::frames_on_device(std::span<const FrameRequest> requests, DeviceFrames& into) {
+  impl_->frames_on_device(requests.size(), [requests](std::uint64_t i) { return requests[i]; }, *into.impl_);
+}
+
+std::string Simulator::backend() const { return impl_->gpus.empty() ? "cpu" : "cuda"; }
+std::string Simulator::device() const { return impl_->gpus.empty() ? isa() : impl_->gpus[0]->device().info().name; }
+int Simulator::block_size() const { return impl_->gpus.empty() ? 0 : impl_->gpus[0]->block_size(); }
+double Simulator::occupancy() const { return impl_->gpus.empty() ? 0 : impl_->gpus[0]->occupancy(); }
 std::string Simulator::fallback_reason() const { return impl_->fallback_reason; }
 std::string Simulator::isa() const { return backend::isa_name(impl_->cpu.isa()); }
 int Simulator::threads() const { return impl_->cpu.threads(); }

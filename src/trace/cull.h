@@ -16,9 +16,23 @@ struct Picked {
   TOFRAY_FN int at(int i) const { return everything ? i : index[i]; }
 };
 
+/// A way through the forms that are left, in their order.
+struct Walk {
+  const Picked& picked;
+  int i;
+  TOFRAY_FN bool more() const { return i < picked.count; }
+  TOFRAY_FN int index() const { return picked.at(i); }
+  TOFRAY_FN void next() { ++i; }
+};
+
+/// What is left of all kinds. (Another type with these four walks can stand in its place.)
 struct Culled {
   Picked planes, spheres, boxes, triangles;
   TOFRAY_FN bool empty() const { return planes.count + spheres.count + boxes.count + triangles.count == 0; }
+  TOFRAY_FN Walk walk(const scene::PlaneForm*, int) const { return {planes, 0}; }
+  TOFRAY_FN Walk walk(const scene::SphereForm*, int) const { return {spheres, 0}; }
+  TOFRAY_FN Walk walk(const scene::BoxForm*, int) const { return {boxes, 0}; }
+  TOFRAY_FN Walk walk(const scene::TriangleForm*, int) const { return {triangles, 0}; }
 };
 
 TOFRAY_FN bool overlap(const scene::Bounds& a, const scene::Bounds& b) {

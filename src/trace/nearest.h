@@ -19,24 +19,24 @@ TOFRAY_FN void keep_nearer(Hit<F>& hit, F w, Int<F> facet) {
 }
 
 /// The nearer of `hit` and the forms in `culled`; of two at the same place the first one stays.
-template <class F>
+template <class F, class Culled>
 TOFRAY_FN Hit<F> nearest(const scene::Forms& forms, const Culled& culled, const Ray<F>& ray, Hit<F> hit) {
-  for (int i = 0; i < culled.planes.count; ++i) {
-    const scene::PlaneForm& plane = forms.planes[culled.planes.at(i)];
+  for (auto i = culled.walk(forms.planes, forms.plane_count); i.more(); i.next()) {
+    const scene::PlaneForm& plane = forms.planes[i.index()];
     keep_nearer(hit, inverse_range(plane, ray), Int<F>(plane.facet));
   }
-  for (int i = 0; i < culled.spheres.count; ++i) {
-    const scene::SphereForm& sphere = forms.spheres[culled.spheres.at(i)];
+  for (auto i = culled.walk(forms.spheres, forms.sphere_count); i.more(); i.next()) {
+    const scene::SphereForm& sphere = forms.spheres[i.index()];
     keep_nearer(hit, inverse_range(sphere, ray), Int<F>(sphere.facet));
   }
-  for (int i = 0; i < culled.boxes.count; ++i) {
-    const scene::BoxForm& box = forms.boxes[culled.boxes.at(i)];
+  for (auto i = culled.walk(forms.boxes, forms.box_count); i.more(); i.next()) {
+    const scene::BoxForm& box = forms.boxes[i.index()];
     Int<F> axis;
     const F w = inverse_range(box, ray, axis);
     keep_nearer(hit, w, Int<F>(box.facet) + axis);
   }
-  for (int i = 0; i < culled.triangles.count; ++i) {
-    const scene::TriangleForm& triangle = forms.triangles[culled.triangles.at(i)];
+  for (auto i = culled.walk(forms.triangles, forms.triangle_count); i.more(); i.next()) {
+    const scene::TriangleForm& triangle = forms.triangles[i.index()];
     keep_nearer(hit, inverse_range(triangle, ray), Int<F>(triangle.facet));
   }
   return hit;

@@ -11,29 +11,29 @@ constexpr float shadow_margin = 1e-4f;
 
 /// True where a form stands between the light and the surface. No object shadows itself, since all are flat or convex; but where light
 /// and camera are on different sides of a closed one, its surface is in the dark (`own_blocks`).
-template <class F>
+template <class F, class Culled>
 TOFRAY_FN Mask<F> blocked(const scene::Forms& forms, const Culled& culled, const Ray<F>& ray, Int<F> own) {
   const F limit = F(1.0f + shadow_margin);
   Mask<F> dark = F(1.0f) < F(0.0f);
-  for (int i = 0; i < culled.planes.count; ++i) {
-    const scene::PlaneForm& plane = forms.planes[culled.planes.at(i)];
+  for (auto i = culled.walk(forms.planes, forms.plane_count); i.more(); i.next()) {
+    const scene::PlaneForm& plane = forms.planes[i.index()];
     dark = dark | ((inverse_range(plane, ray) > limit) & (own != Int<F>(plane.object)));
   }
-  for (int i = 0; i < culled.spheres.count; ++i) {
-    const scene::SphereForm& sphere = forms.spheres[culled.spheres.at(i)];
+  for (auto i = culled.walk(forms.spheres, forms.sphere_count); i.more(); i.next()) {
+    const scene::SphereForm& sphere = forms.spheres[i.index()];
     const auto mine = own == Int<F>(sphere.object);
     dark = dark | ((inverse_range(sphere, ray) > limit) & (!mine));
     if (sphere.own_blocks != 0) dark = dark | mine;
   }
-  for (int i = 0; i < culled.boxes.count; ++i) {
-    const scene::BoxForm& box = forms.boxes[culled.boxes.at(i)];
+  for (auto i = culled.walk(forms.boxes, forms.box_count); i.more(); i.next()) {
+    const scene::BoxForm& box = forms.boxes[i.index()];
     const auto mine = own == Int<F>(box.object);
     Int<F> axis;
     dark = dark | ((inverse_range(box, ray, axis) > limit) & (!mine));
     if (box.own_blocks != 0) dark = dark | mine;
   }
-  for (int i = 0; i < culled.triangles.count; ++i) {
-    const scene::TriangleForm& triangle = forms.triangles[culled.triangles.at(i)];
+  for (auto i = culled.walk(forms.triangles, forms.triangle_count); i.more(); i.next()) {
+    const scene::TriangleForm& triangle = forms.triangles[i.index()];
     dark = dark | ((inverse_range(triangle, ray) > limit) & (own != Int<F>(triangle.object)));
   }
   return dark;

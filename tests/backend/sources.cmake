@@ -6,3 +6,14 @@ foreach(set scalar scalar_fma avx2 avx512)
     COMMAND ${CMAKE_COMMAND} -DNM=${CMAKE_NM} "-DOBJECTS=$<JOIN:$<TARGET_OBJECTS:tofray_kernel_${set}>,|>" -DEXPECTED=tofray_kernel_${set}
       -P ${CMAKE_CURRENT_SOURCE_DIR}/backend/kernel_symbols.cmake)
 endforeach()
+# The pipeline on plain floats is compiled here, too (support/stand_in_cuda.h): worth optimising in every preset, and like the kernels.
+target_compile_options(test_backend PRIVATE -O2 $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>)
+# The device code, as PTX: read, since it cannot be run here. Without nvcc the tests say that they were skipped.
+get_property(nvcc GLOBAL PROPERTY tofray_nvcc)
+get_property(nvcc_flags GLOBAL PROPERTY tofray_nvcc_flags)
+foreach(architecture 75 80 90)
+  add_test(NAME ptx_of_sm_${architecture}_rounds_to_nearest
+    COMMAND ${CMAKE_COMMAND} -DNVCC=${nvcc} "-DFLAGS=$<JOIN:${nvcc_flags},|>" -DARCHITECTURE=${architecture} -DSOURCE=${CMAKE_SOURCE_DIR}/src/backend/cuda/kernels.cu
+      -DFOLDER=${CMAKE_CURRENT_BINARY_DIR}/ptx -P ${CMAKE_CURRENT_SOURCE_DIR}/backend/ptx.cmake)
+  set_tests_properties(ptx_of_sm_${architecture}_rounds_to_nearest PROPERTIES SKIP_REGULAR_EXPRESSION "SKIPPED:")
+endforeach()

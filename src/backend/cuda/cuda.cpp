@@ -2,15 +2,85 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "backend/cuda/cuda.h"
 
-#include "tofray/error.h"
+#include "backend/cuda/pixel.h"
 
 namespace tofray::backend {
 
-CudaLack why_no_cuda(int) { return {"this build of tofray has no CUDA backend", false}; }
+namespace {
 
-void refuse_cuda(const std::string& reason) {
-  if (reason.empty()) return;
-  throw Error(ErrorKind::device, "error: no GPU can be used: " + reason + "\n  take the backend cpu, or auto: the results are what they would be");
+constexpr int usual_block_size = 128;
+
+}  // namespace
+
+int check_block_size(int wanted) {
+  if (wanted == 0) return usual_block_size;
+  if (wanted < gpu::warp_size || wanted > gpu::max_block_size || wanted % gpu::warp_size != 0) {
+    throw Error(ErrorKind::bad_input, "error: the block size is " + std::to_string(wanted) + "\n  expected a multiple of 32 from 32 to 1024, or 0");
+  }
+  return wanted;
+}
+
+CudaLack why_no_cuda(int device) {
+  try {
+    (void)gpu::Device(device);
+    return {};
+  } catch (const gpu::Fault& fault) {
+    return {fault.reason(), fault.gpu_present()};
+  }
+}
+
+Cuda::Cuda(int device, int block_size) : device_(device), block_size_(check_block_size(block_size)) {}
+
+void Cuda::load(const pipeline::Setup& setup) {
+  device_.use();
+  const auto pack = [&](gpu::Packer& packer) {
+    pipeline::Setup to = setup;
+    gpu::pack_camera(packer, setup, to);
+    gpu::pack_still(packer, setup.scene, to.scene);
+    if (setup.scene.slots <= 1) gpu::pack_moving(packer, setup.scene, to.scene);
+    return to;
+  };
+  gpu::Packer measure;
+  (void)pack(measure);
+  const gpu::PinnedMemory staged = device_.allocate_pinned(measure.used());
+  resident_.memory = device_.allocate(measure.used());
+  gpu::Packer packer(staged.get(), resident_.memory.get());
+  resident_.setup = pack(packer);
+  const gpu::Stream stream = device_.stream();
+  device_.check(device_.runtime().copy(resident_.memory.get(), staged.get(), packer.used(), gpu::Way::to_device, stream.get()), "copying the scene to the GPU");
+  device_.check(device_.runtime().synchronize(stream.get()), "copying the scene to the GPU");
+}
+
+gpu::Lane& Cuda::lane(std::size_t i) {
+  device_.use();
+  while (lanes_.size() <= i) lanes_.emplace_back(device_, block_size_);
+  return lanes_[i];
+}
+
+gpu::Lane& Cuda::compute(const pipeline::Setup& setup, const pipeline::Job& job, const pipeline::Recording* recording) {
+  gpu::Lane& first = lane(0);
+  first.begin(resident_, setup, job, setup.scene.slots > 1 ? gpu::Own::moving : gpu::Own::number, 1, recording);
+  first.add(setup, job.index_low | static_cast<std::uint64_t>(job.index_high) << 32);
+  first.submit_graph();
+  first.wait();
+  return first;
+}
+
+void Cuda::run(const pipeline::Setup& setup, const pipeline::Job& job, const pipeline::Recording* recording) {
+  const gpu::Lane& done = compute(setup, job, recording);
+  done.slab().copy_out(done.received(0), job.out);
+}
+
+flow::FrameView Cuda::run_in_place(const pipeline::Setup& setup, const pipeline::Job& job) {
+  const gpu::Lane& done = compute(setup, job, nullptr);
+  return done.slab().view(done.received(0));
+}
+
+double Cuda::occupancy() const {
+  device_.use();
+  int blocks = 0;
+  device_.check(device_.runtime().occupancy(gpu::Kernel::pixels, block_size_, blocks), "asking for the occupancy");
+  return static_cast<double>(blocks * block_size_) / device_.info().threads_per_processor;
 }
 
 }  // namespace tofray::backend

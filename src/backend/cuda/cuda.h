@@ -1,7 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The tofray authors
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include <deque>
 #include <string>
+
+#include "backend/cuda/lane.h"
 
 /// Runs the pipeline on a GPU: one thread for each pixel. No type of CUDA's is in this header.
 namespace tofray::backend {
@@ -14,7 +17,42 @@ struct CudaLack {
 /// @param device  which GPU, from 0 on; −1: the first one
 CudaLack why_no_cuda(int device);
 
-/// @throws Error (device) with the reason, where there is one
-void refuse_cuda(const std::string& reason);
+/// @param wanted  0: chosen
+/// @return threads per block
+/// @throws Error (bad_input) for a number that cannot be
+int check_block_size(int wanted);
+
+/// One GPU with a camera and a scene.
+class Cuda {
+ public:
+  /// @param device      −1: the first one
+  /// @param block_size  threads per block, a multiple of 32 up to 1024; 0: chosen
+  /// @throws gpu::Fault where the GPU cannot be used; Error (bad_input) for a block size that cannot be
+  Cuda(int device, int block_size);
+
+  /// Takes to the GPU what does not change from frame to frame.
+  void load(const pipeline::Setup& setup);
+  /// All passes of a frame, with arrays in host memory. `recording`: decode this instead of simulating.
+  /// @throws gpu::Fault
+  void run(const pipeline::Setup& setup, const pipeline::Job& job, const pipeline::Recording* recording = nullptr);
+  /// The same, left in pinned host memory until the next call.
+  flow::FrameView run_in_place(const pipeline::Setup& setup, const pipeline::Job& job);
+
+  /// Lane i; made where there is none yet.
+  gpu::Lane& lane(std::size_t i);
+  [[nodiscard]] const gpu::Resident& resident() const { return resident_; }
+  [[nodiscard]] const gpu::Device& device() const { return device_; }
+  [[nodiscard]] int block_size() const { return block_size_; }
+  /// How full one multiprocessor is of the kernel that takes the time, 0 … 1.
+  [[nodiscard]] double occupancy() const;
+
+ private:
+  gpu::Lane& compute(const pipeline::Setup& setup, const pipeline::Job& job, const pipeline::Recording* recording);
+
+  gpu::Device device_;
+  int block_size_;
+  gpu::Resident resident_;
+  std::deque<gpu::Lane> lanes_;
+};
 
 }  // namespace tofray::backend

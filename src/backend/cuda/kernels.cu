@@ -1,0 +1,145 @@
+// SPDX-FileCopyrightText: 2026 The tofray authors
+// SPDX-License-Identifier: Apache-2.0
+#include "backend/cuda/kernels.h"
+
+#include <cstddef>
+
+#include "backend/cuda/pixel.h"
+
+namespace tofray::backend::gpu {
+
+namespace {
+
+/// The 32 threads that this one runs with.
+struct DeviceWarp {
+  int lane;
+#if defined(__CUDA_ARCH__)
+  template <class Test>
+  TOFRAY_FN std::uint32_t vote(Test test) const { return __ballot_sync(~0u, test(lane)); }
+  TOFRAY_FN void unite(int, pipeline::Rectangle<float>& seen) const {
+    seen.open = __any_sync(~0u, seen.open) != 0;
+    for (int apart = warp_size / 2; apart > 0; apart /= 2) {
+      seen.x_min = num::min(seen.x_min, __shfl_xor_sync(~0u, seen.x_min, apart));
+      seen.x_max = num::max(seen.x_max, __shfl_xor_sync(~0u, seen.x_max, apart));
+      seen.y_min = num::min(seen.y_min, __shfl_xor_sync(~0u, seen.y_min, apart));
+      seen.y_max = num::max(seen.y_max, __shfl_xor_sync(~0u, seen.y_max, apart));
+    }
+  }
+  TOFRAY_FN static int lowest_bit(std::uint32_t word) { return __ffs(static_cast<int>(word)) - 1; }
+#else
+  template <class Test>
+  TOFRAY_FN std::uint32_t vote(Test) const { return 0; }
+  TOFRAY_FN void unite(int, pipeline::Rectangle<float>&) const {}
+  TOFRAY_FN static int lowest_bit(std::uint32_t) { return 0; }
+#endif
+};
+
+/// The block copies a part of a frame's arguments, from `first` up to `last` of them.
+__device__ void copy_part(FrameArguments& to, const FrameArguments& from, const void* first, const void* last) {
+  const char* base = reinterpret_cast<const char*>(&from);
+  const auto begin = static_cast<unsigned>(static_cast<const char*>(first) - base) / 16, end = (static_cast<unsigned>(static_cast<const char*>(last) - base) + 15) / 16;
+  for (unsigned i = begin + threadIdx.x; i < end; i += blockDim.x) reinterpret_cast<uint4*>(&to)[i] = reinterpret_cast<const uint4*>(&from)[i];
+}
+
+/// What is in use of them: of raw frames and modulation frequencies those that the camera has.
+__device__ void copy_arguments(FrameArguments& to, const FrameArguments& from) {
+  const pipeline::Setup& s = from.setup;
+  copy_part(to, from, &from, &s.sensor.frame[s.sensor.raw_frames]);
+  copy_part(to, from, &s.sensor.modulation[0], &s.sensor.modulation[s.sensor.modulations]);
+  copy_part(to, from, &s.sensor.read_noise, &s.decoder.frame[s.sensor.raw_frames]);
+  copy_part(to, from, &s.decoder.modulation[0], &s.decoder.modulation[s.decoder.modulations]);
+  copy_part(to, from, &s.decoder.common_range, &from + 1);
+  __syncthreads();
+}
+
+/// Which patch this thread's warp has.
+__device__ int patch_of_warp() { return static_cast<int>(blockIdx.x * (blockDim.x / warp_size) + threadIdx.x / warp_size); }
+
+/// Ray to depth of frames that share their arguments, which lie in the constant bank.
+template <int threads>
+__global__ void __launch_bounds__(threads) tofray_pixels(const __grid_constant__ FrameArguments common, const Batch batch) {
+  const int patch = patch_of_warp();
+  if (patch >= patch_count(common.setup.lens)) return;
+  DeviceWarp warp{static_cast<int>(threadIdx.x % warp_size)};
+  const int frame = static_cast<int>(blockIdx.y);
+  run_pixel(common.setup, job_of(common.job, batch.numbers[frame], frame * batch.stride), warp, patch, warp.lane);
+}
+
+/// The same where each frame has arguments of its own: each block takes its frame's into shared memory.
+template <int threads>
+__global__ void __launch_bounds__(threads) tofray_pixels_own(const Batch batch) {
+  __shared__ FrameArguments mine;
+  const int frame = static_cast<int>(blockIdx.y);
+  copy_arguments(mine, batch.own[frame]);
+  const int patch = patch_of_warp();
+  if (patch >= patch_count(mine.setup.lens)) return;
+  DeviceWarp warp{static_cast<int>(threadIdx.x % warp_size)};
+  run_pixel(mine.setup, job_of(mine.job, batch.numbers[frame], 0), warp, patch, warp.lane);
+}
+
+/// A pass over the images of all frames.
+template <Kernel kernel>
+__global__ void __launch_bounds__(max_block_size) tofray_pass(const __grid_constant__ FrameArguments common, const Batch batch,
+                                                              const pipeline::Recording recording) {
+  const int frame = static_cast<int>(blockIdx.y), index = static_cast<int>(blockIdx.x * blockDim.x + threadIdx.x);
+  if (batch.own != nullptr) {
+    run_pass(kernel, batch.own[frame].setup, batch.own[frame].job, recording, index);
+  } else {
+    run_pass(kernel, common.setup, job_of(common.job, batch.numbers[frame], frame * batch.stride), recording, index);
+  }
+}
+
+/// Registers for all threads of a block: a kernel that may take more of them serves the smaller blocks.
+constexpr int few_threads = 256;
+
+template <int threads>
+cudaError_t launch_pixels(const Launch& what, int patches, cudaStream_t stream) {
+  const auto warps = static_cast<unsigned>(what.block_size / warp_size);
+  const dim3 grid((static_cast<unsigned>(patches) + warps - 1) / warps, static_cast<unsigned>(what.batch.frames));
+  if (what.batch.own != nullptr) {
+    tofray_pixels_own<threads><<<grid, what.block_size, 0, stream>>>(what.batch);
+  } else {
+    tofray_pixels<threads><<<grid, what.block_size, 0, stream>>>(*what.common, what.batch);
+  }
+  return cudaGetLastError();
+}
+
+template <Kernel kernel>
+cudaError_t launch_pass(const Launch& what, int pixels, cudaStream_t stream) {
+  const auto block = static_cast<unsigned>(what.block_size);
+  const dim3 grid((static_cast<unsigned>(pixels) + block - 1) / block, static_cast<unsigned>(what.batch.frames));
+  tofray_pass<kernel><<<grid, block, 0, stream>>>(*what.common, what.batch, what.recording);
+  return cudaGetLastError();
+}
+
+}  // namespace
+
+cudaError_t launch_kernel(const Launch& what, cudaStream_t stream) {
+  const camera::LensView& lens = what.common->setup.lens;
+  const int pixels = lens.width * lens.height;
+  switch (what.kernel) {
+    case Kernel::pixels:
+      return what.block_size <= few_threads ? launch_pixels<few_threads>(what, patch_count(lens), stream)
+                                            : launch_pixels<max_block_size>(what, patch_count(lens), stream);
+    case Kernel::recording: return launch_pass<Kernel::recording>(what, pixels, stream);
+    case Kernel::flying: return launch_pass<Kernel::flying>(what, pixels, stream);
+    case Kernel::filter: return launch_pass<Kernel::filter>(what, pixels, stream);
+    case Kernel::settle: return launch_pass<Kernel::settle>(what, pixels, stream);
+  }
+  return cudaErrorInvalidValue;
+}
+
+const void* kernel_function(Kernel kernel, int block_size) {
+  switch (kernel) {
+    case Kernel::pixels:
+      return block_size <= few_threads ? reinterpret_cast<const void*>(&tofray_pixels<few_threads>)
+                                       : reinterpret_cast<const void*>(&tofray_pixels<max_block_size>);
+    case Kernel::recording: return reinterpret_cast<const void*>(&tofray_pass<Kernel::recording>);
+    case Kernel::flying: return reinterpret_cast<const void*>(&tofray_pass<Kernel::flying>);
+    case Kernel::filter: return reinterpret_cast<const void*>(&tofray_pass<Kernel::filter>);
+    case Kernel::settle: break;
+  }
+  return reinterpret_cast<const void*>(&tofray_pass<Kernel::settle>);
+}
+
+}  // namespace tofray::backend::gpu

@@ -1,0 +1,15 @@
+// SPDX-FileCopyrightText: 2026 The tofray authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include <cuda_runtime.h>
+
+#include "backend/cuda/runtime.h"
+
+/// The device code as runtime.cu starts it.
+namespace tofray::backend::gpu {
+
+cudaError_t launch_kernel(const Launch& what, cudaStream_t stream);
+/// The function that a launch of this block size runs.
+const void* kernel_function(Kernel kernel, int block_size);
+
+}  // namespace tofray::backend::gpu

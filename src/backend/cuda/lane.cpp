@@ -1,0 +1,204 @@
+// SPDX-FileCopyrightText: 2026 The tofray authors
+// SPDX-License-Identifier: Apache-2.0
+#include "backend/cuda/lane.h"
+
+#include <algorithm>
+#include <cstring>
+
+namespace tofray::backend::gpu {
+
+namespace {
+
+constexpr std::size_t align(std::size_t bytes) { return (bytes + 255) / 256 * 256; }
+
+/// The recording's arrays, packed.
+pipeline::Recording packed(Packer& packer, const pipeline::Setup& setup, const pipeline::Recording& from) {
+  const std::size_t all = static_cast<std::size_t>(setup.lens.width) * static_cast<std::size_t>(setup.lens.height) *
+                          static_cast<std::size_t>(setup.sensor.raw_frames);
+  return {packer.put(from.raw, all), packer.put(from.tap_a, all), packer.put(from.tap_b, all)};
+}
+
+}  // namespace
+
+Lane::Lane(const Device& device, int block_size)
+    : device_(device), block_size_(block_size), stream_(device.stream()), begin_(device.event()), end_(device.event()) {}
+
+/// The frame's arguments as the device sees them; what is the frame's own goes to `packer`.
+FrameArguments Lane::arguments_of(const pipeline::Setup& setup, Packer& packer) const {
+  FrameArguments out;
+  std::memset(&out, 0, sizeof out);   // so that two of them can be compared byte by byte
+  out.setup = resident_->setup;
+  out.setup.last_stage = setup.last_stage, out.setup.culling = setup.culling, out.setup.truth_slot = setup.truth_slot;
+  out.setup.power = setup.power;
+  const camera::SensorView& maps = resident_->setup.sensor;
+  out.setup.sensor = setup.sensor;
+  out.setup.sensor.gain = maps.gain, out.setup.sensor.offset = maps.offset, out.setup.sensor.delay = maps.delay;
+  const scene::SceneView still = resident_->setup.scene;
+  if (own_ != Own::number) {
+    out.setup.scene = setup.scene;
+    out.setup.scene.camera_still = still.camera_still, out.setup.scene.light_still = still.light_still, out.setup.scene.sun_still = still.sun_still;
+    if (own_ == Own::scene) pack_still(packer, setup.scene, out.setup.scene);
+    pack_moving(packer, setup.scene, out.setup.scene);
+  }
+  out.job = job_;
+  out.job.index_low = out.job.index_high = 0;   // frames have their numbers beside
+  return out;
+}
+
+void Lane::reserve(std::size_t input_bytes, std::size_t output_bytes) {
+  if (input_bytes > input_bytes_) {
+    graph_ = {}, input_bytes_ = 0;
+    staged_ = {}, input_ = {};
+    staged_ = device_.allocate_pinned(input_bytes), input_ = device_.allocate(input_bytes);
+    input_bytes_ = input_bytes;
+  }
+  if (output_bytes > output_bytes_) {
+    graph_ = {}, output_bytes_ = 0;
+    received_ = {}, output_ = {};
+    received_ = device_.allocate_pinned(output_bytes), output_ = device_.allocate(output_bytes);
+    output_bytes_ = output_bytes;
+  }
+}
+
+void Lane::begin(const Resident& resident, const pipeline::Setup& first, const pipeline::Job& job, Own own, int capacity,
+                 const pipeline::Recording* recording) {
+  device_.use();
+  wait();
+  resident_ = &resident;
+  job_ = job;
+  own_ = own, capacity_ = capacity;
+  slab_ = Slab(first, job.out, job.filter != 0);
+  Packer measure;
+  (void)arguments_of(first, measure);
+  const auto frames = static_cast<std::size_t>(capacity);
+  arguments_at_ = align(frames * sizeof(FrameNumber));
+  room_from_ = arguments_at_ + (own != Own::number && capacity > 1 ? align(frames * sizeof(FrameArguments)) : 0);
+  Packer recorded;
+  if (recording != nullptr) (void)packed(recorded, first, *recording);
+  // What moves may show more of itself in one frame than in another: a quarter more than the first one needs, and some.
+  reserve(room_from_ + frames * (align(measure.used()) + align(measure.used() / 4) + 1024) + align(recorded.used()), std::max<std::size_t>(frames * slab_.bytes(), 1));
+  numbers_.clear();
+  used_ = room_from_;
+  has_recording_ = recording != nullptr;
+  if (!has_recording_) return;
+  Packer packer(staged() + used_, input() + used_);
+  recording_ = packed(packer, first, *recording);
+  used_ += align(packer.used());
+}
+
+bool Lane::add(const pipeline::Setup& setup, std::uint64_t index) {
+  if (frames() == capacity_) return false;
+  if (own_ != Own::number) {
+    Packer measure;
+    (void)arguments_of(setup, measure);
+    if (used_ + align(measure.used()) > input_bytes_) {
+      if (frames() > 0) return false;
+      // One frame that is far larger than the first one was measured.
+      const std::size_t begun = used_;
+      reserve(2 * (used_ + align(measure.used())), 0);
+      used_ = begun;
+    }
+  }
+  if (own_ != Own::number || frames() == 0) {
+    Packer packer(staged() + used_, input() + used_);
+    common_ = arguments_of(setup, packer);
+    used_ += align(packer.used());
+    if (own_ != Own::number && capacity_ > 1) {
+      std::memcpy(staged() + arguments_at_ + static_cast<std::size_t>(frames()) * sizeof(FrameArguments), &common_, sizeof common_);
+    }
+  }
+  numbers_.push_back({static_cast<std::uint32_t>(index), static_cast<std::uint32_t>(index >> 32)});
+  return true;
+}
+
+/// Copies in, runs the kernels.
+void Lane::launch_all(void* output) {
+  Runtime& runtime = device_.runtime();
+  Launch launch{Kernel::pixels, block_size_, &common_, {}, recording_};
+  launch.batch.numbers = reinterpret_cast<const FrameNumber*>(input());
+  launch.batch.own = own_ != Own::number && capacity_ > 1 ? reinterpret_cast<const FrameArguments*>(input() + arguments_at_) : nullptr;
+  launch.batch.stride = static_cast<std::int64_t>(slab_.bytes());
+  launch.batch.frames = frames();
+  const auto run = [&](Kernel kernel, const char* doing) {
+    launch.kernel = kernel;
+    device_.check(runtime.launch(launch, stream_.get()), doing);
+  };
+  device_.check(runtime.copy(input(), staged(), used_, Way::to_device, stream_.get()), "copying a frame's settings to the GPU");
+  if (output == nullptr) output = output_.get();
+  if (has_recording_) {
+    run(Kernel::recording, "starting the kernel recording");
+  } else {
+    run(Kernel::pixels, "starting the kernel pixels");
+  }
+  if (common_.setup.last_stage < pipeline::stage_depth || common_.job.out.z == nullptr || common_.job.out.flags == nullptr) return;
+  run(Kernel::flying, "starting the kernel flying");
+  if (common_.job.filter != 0) run(Kernel::filter, "starting the kernel filter");
+  run(Kernel::settle, "starting the kernel settle");
+}
+
+void Lane::submit(void* output) {
+  device_.use();
+  Runtime& runtime = device_.runtime();
+  void* const base = output != nullptr ? output : output_.get();
+  std::memcpy(staged(), numbers_.data(), numbers_.size() * sizeof(FrameNumber));
+  common_.job.out = slab_.view(base), common_.job.filtered = slab_.filtered(base);
+  for (int i = 0; i < frames() && own_ != Own::number && capacity_ > 1; ++i) {
+    void* const at = static_cast<unsigned char*>(base) + static_cast<std::size_t>(i) * slab_.bytes();
+    auto* own = reinterpret_cast<FrameArguments*>(staged() + arguments_at_) + i;
+    own->job.out = slab_.view(at), own->job.filtered = slab_.filtered(at);
+  }
+  submitted_ = timed_ = true;
+  device_.check(runtime.record(begin_.get(), stream_.get()), "starting the clock");
+  launch_all(base);
+  device_.check(runtime.record(end_.get(), stream_.get()), "stopping the clock");
+  if (output != nullptr) return;
+  device_.check(runtime.copy(received_.get(), base, static_cast<std::size_t>(frames()) * slab_.bytes(), Way::to_host, stream_.get()),
+                "copying frames to the host");
+}
+
+void Lane::submit_graph() {
+  device_.use();
+  Runtime& runtime = device_.runtime();
+  std::memcpy(staged(), numbers_.data(), numbers_.size() * sizeof(FrameNumber));
+  common_.job.out = slab_.view(output_.get()), common_.job.filtered = slab_.filtered(output_.get());
+  submitted_ = true, timed_ = false;
+  if (graph_.get() == nullptr || captured_used_ != used_ || std::memcmp(&captured_, &common_, sizeof common_) != 0) {
+    graph_ = {};
+    capture();
+  }
+  device_.check(runtime.launch_graph(graph_.get(), stream_.get()), "launching a graph");
+}
+
+void Lane::capture() {
+  Runtime& runtime = device_.runtime();
+  void* graph = nullptr;
+  device_.check(runtime.begin_capture(stream_.get()), "beginning a graph");
+  try {
+    launch_all(output_.get());
+    device_.check(runtime.copy(received_.get(), output_.get(), slab_.shown_bytes(), Way::to_host, stream_.get()), "copying a frame to the host");
+  } catch (...) {
+    // While a stream keeps what it is asked for, nothing can be given back.
+    (void)runtime.end_capture(stream_.get(), graph);
+    graph_ = Graph(runtime, graph);
+    throw;
+  }
+  const Status made = runtime.end_capture(stream_.get(), graph);
+  graph_ = Graph(runtime, graph);
+  device_.check(made, "making a graph");
+  captured_ = common_, captured_used_ = used_;
+}
+
+void Lane::wait() {
+  if (!submitted_) return;
+  submitted_ = false;
+  device_.check(device_.runtime().synchronize(stream_.get()), "computing frames");
+}
+
+double Lane::seconds() const {
+  if (!timed_) return 0;
+  float milliseconds = 0;
+  device_.check(device_.runtime().elapsed(begin_.get(), end_.get(), milliseconds), "reading the clock");
+  return 1e-3 * static_cast<double>(milliseconds);
+}
+
+}  // namespace tofray::backend::gpu

@@ -1,0 +1,85 @@
+// SPDX-FileCopyrightText: 2026 The tofray authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "backend/cuda/device.h"
+#include "backend/cuda/pack.h"
+#include "backend/cuda/slab.h"
+
+namespace tofray::backend::gpu {
+
+/// What the frames of a batch have for themselves.
+enum class Own {
+  number,   ///< their place in the random numbers
+  moving,   ///< and what moves, the sensor's state and seed
+  scene,    ///< and all of the scene: the camera has another pose in each
+};
+
+/// What does not change from frame to frame, on the device.
+struct Resident {
+  pipeline::Setup setup{};   ///< pointers are the device's
+  DeviceMemory memory;
+};
+
+/// A stream of work on a GPU with memory for some frames. While one lane computes, the host fills or empties another.
+class Lane {
+ public:
+  Lane(const Device& device, int block_size);
+
+  /// Starts a batch of up to `capacity` frames; waits until the last one is done.
+  /// @param first  the first frame's setup (host pointers): memory is measured by it
+  void begin(const Resident& resident, const pipeline::Setup& first, const pipeline::Job& job, Own own, int capacity,
+             const pipeline::Recording* recording = nullptr);
+  /// Takes a frame on; what `setup` points to may change afterwards.
+  /// @return false where there is no room: submit what there is, begin anew
+  bool add(const pipeline::Setup& setup, std::uint64_t index);
+  /// Hands all frames to the GPU and does not wait.
+  /// @param output  device memory of slab().bytes() each; null: the lane's own, from where they go to host memory
+  void submit(void* output = nullptr);
+  /// The same for a single frame as a graph, made anew only where arguments have changed.
+  void submit_graph();
+  void wait();
+
+  [[nodiscard]] int frames() const { return static_cast<int>(numbers_.size()); }
+  [[nodiscard]] const Slab& slab() const { return slab_; }
+  /// Where frame i is in host memory, after wait().
+  [[nodiscard]] void* received(int i) const { return static_cast<unsigned char*>(received_.get()) + static_cast<std::size_t>(i) * slab_.bytes(); }
+  /// Time that the device took from the first kernel to the last, after wait() [s].
+  [[nodiscard]] double seconds() const;
+
+ private:
+  void reserve(std::size_t input_bytes, std::size_t output_bytes);
+  [[nodiscard]] FrameArguments arguments_of(const pipeline::Setup& setup, Packer& packer) const;
+  void launch_all(void* output);
+  void capture();
+  [[nodiscard]] unsigned char* staged() const { return static_cast<unsigned char*>(staged_.get()); }
+  [[nodiscard]] unsigned char* input() const { return static_cast<unsigned char*>(input_.get()); }
+
+  const Device& device_;
+  int block_size_;
+  Stream stream_;
+  Event begin_, end_;
+  DeviceMemory input_, output_;
+  PinnedMemory staged_, received_;
+  std::size_t input_bytes_ = 0, output_bytes_ = 0;
+  Slab slab_;
+  // the batch
+  const Resident* resident_ = nullptr;
+  pipeline::Job job_{};
+  pipeline::Recording recording_{};
+  bool has_recording_ = false, submitted_ = false, timed_ = false;
+  Own own_ = Own::number;
+  int capacity_ = 0;
+  std::size_t arguments_at_ = 0, room_from_ = 0, used_ = 0;
+  std::vector<FrameNumber> numbers_;
+  FrameArguments common_{};
+  // the graph, and what it was made for
+  Graph graph_;
+  FrameArguments captured_{};
+  std::size_t captured_used_ = 0;
+};
+
+}  // namespace tofray::backend::gpu

@@ -1,0 +1,44 @@
+// SPDX-FileCopyrightText: 2026 The tofray authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include <cstddef>
+#include <cstring>
+
+#include "backend/cuda/arguments.h"
+
+/// Copies all that a setup points to into one piece of memory, with pointers as the device will see them.
+namespace tofray::backend::gpu {
+
+/// Lays arrays one after the other, each aligned to 256 bytes. Without memory it only counts.
+class Packer {
+ public:
+  Packer() = default;
+  /// @param host    where the bytes go
+  /// @param device  where they will be when the kernels read them
+  Packer(void* host, const void* device) : host_(static_cast<unsigned char*>(host)), device_(static_cast<const unsigned char*>(device)) {}
+
+  /// @return where the array will be on the device; null for a null pointer
+  template <class T>
+  const T* put(const T* array, std::size_t count) {
+    if (array == nullptr || count == 0) return nullptr;
+    const std::size_t at = (used_ + 255) / 256 * 256;
+    used_ = at + count * sizeof(T);
+    if (host_ == nullptr) return array;
+    std::memcpy(host_ + at, array, count * sizeof(T));
+    return reinterpret_cast<const T*>(device_ + at);
+  }
+  [[nodiscard]] std::size_t used() const { return used_; }
+
+ private:
+  unsigned char* host_ = nullptr;
+  const unsigned char* device_ = nullptr;
+  std::size_t used_ = 0;
+};
+
+/// Lens, patterns and tables. `to` is a copy of `from` and gets other pointers.
+void pack_camera(Packer& packer, const pipeline::Setup& from, pipeline::Setup& to);
+/// What stands still, and what moves with all facets. `to` is a copy of `from` and gets other pointers.
+void pack_still(Packer& packer, const scene::SceneView& from, scene::SceneView& to);
+void pack_moving(Packer& packer, const scene::SceneView& from, scene::SceneView& to);
+
+}  // namespace tofray::backend::gpu

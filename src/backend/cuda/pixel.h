@@ -1,0 +1,140 @@
+// SPDX-FileCopyrightText: 2026 The tofray authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "backend/cuda/arguments.h"
+#include "pipeline/passes.h"
+#include "pipeline/tile.h"
+
+/// What one thread of the GPU does: the pipeline's own functions for one pixel, on plain floats. Compiled for the host, too, where a
+/// stand-in for the CUDA runtime runs it (tests/backend).
+///
+/// The 32 threads of a warp hold a patch of 16 × 2 pixels. Which forms the patch can meet is found by all of them together: each tests
+/// one form against the patch's rectangle of directions, and a vote makes a word of 32 bits out of that, in which the forms keep their
+/// order. No list is kept, so there is no limit to it, and no thread waits for another warp.
+namespace tofray::backend::gpu {
+
+using pipeline::Job;
+using pipeline::Pixels;
+using pipeline::Setup;
+
+constexpr int warp_size = 32, patch_width = 16, patch_height = 2;
+constexpr int max_block_size = 1024;
+
+TOFRAY_FN int patches_across(const camera::LensView& lens) { return (lens.width + patch_width - 1) / patch_width; }
+TOFRAY_FN int patch_count(const camera::LensView& lens) { return patches_across(lens) * ((lens.height + patch_height - 1) / patch_height); }
+
+/// Pixel of one lane. A lane beyond the image does its edge once more, so that all lanes go the same way: both write the same.
+TOFRAY_FN Pixels pixel_of(const camera::LensView& lens, int patch, int lane) {
+  const int across = patches_across(lens);
+  const int x = patch % across * patch_width + lane % patch_width, y = patch / across * patch_height + lane / patch_width;
+  return {(y < lens.height ? y : lens.height - 1) * lens.width + (x < lens.width ? x : lens.width - 1), 1};
+}
+
+/// A way through the forms that a bundle of rays can meet, 32 at a time.
+template <class Warp, class Form>
+struct WarpWalk {
+  Warp& warp;
+  const Form* forms;
+  int count, base;
+  const flow::Bounds* within;   ///< null: all of them
+  std::uint32_t left;           ///< those of the 32 from `base` on that are still to come
+
+  TOFRAY_FN bool more() {
+    while (left == 0) {
+      base += warp_size;
+      if (base >= count) return false;
+      left = within == nullptr ? (count - base < warp_size ? (1u << (count - base)) - 1 : ~0u) : vote();
+    }
+    return true;
+  }
+  TOFRAY_FN int index() const { return base + Warp::lowest_bit(left); }
+  TOFRAY_FN void next() { left &= left - 1; }
+
+ private:
+  TOFRAY_FN std::uint32_t vote() const {
+    return warp.vote([&](int lane) { return base + lane < count && trace::can_meet(forms[base + lane], *within); });
+  }
+};
+
+/// What is left of one view's forms.
+template <class Warp>
+struct WarpCulled {
+  Warp& warp;
+  const flow::Bounds* within;
+  template <class Form>
+  TOFRAY_FN WarpWalk<Warp, Form> walk(const Form* forms, int count) const { return {warp, forms, count, -warp_size, within, 0}; }
+};
+
+/// Which forms a patch can meet, from the camera and from the light that is looked at now.
+template <class Warp>
+struct WarpNear {
+  Warp& warp;
+  bool culling;
+  WarpCulled<Warp> camera_still, camera_moving;
+  flow::Bounds from_light;
+  bool all_from_light;
+
+  TOFRAY_FN WarpNear(Warp& w, const flow::Bounds* view) : warp(w), culling(view != nullptr), camera_still{w, view}, camera_moving{w, view} {}
+
+  /// The rectangle that holds the rays of all lanes from a light to their surfaces.
+  TOFRAY_FN void look(int slot, int light, const flow::Ray<float>& ray, bool use) {
+    if (!culling) return;
+    pipeline::Rectangle<float> seen;
+    seen.add(ray.x, ray.y, ray.z, use);
+    warp.unite(slot * flow::max_lights + light, seen);
+    all_from_light = seen.open;
+    from_light = seen.bounds();
+  }
+  TOFRAY_FN WarpCulled<Warp> still_from(int) const { return {warp, culling && !all_from_light ? &from_light : nullptr}; }
+  TOFRAY_FN WarpCulled<Warp> moving_from(int light) const { return still_from(light); }
+};
+
+/// From ray to depth. All lanes of a warp must come here together.
+template <class Warp>
+TOFRAY_FN void run_pixel(const Setup& s, const Job& job, Warp& warp, int patch, int lane) {
+  const Pixels p = pixel_of(s.lens, patch, lane);
+  WarpNear<Warp> near(warp, s.culling != 0 ? s.lens.tile + patch : nullptr);
+  const flow::Ray<float> ray = camera::ray<float>(s.lens, p);
+  const flow::Hit<float> still = pipeline::see_still(s, near, ray);
+  if (s.scene.slots > 1) {
+    pipeline::one_moving_pixel(s, job, near, p, ray, still);
+  } else {
+    pipeline::one_pixel(s, job, near, p, ray, still);
+  }
+}
+
+/// Raw data to depth, and the passes over images: pixel number `index`.
+TOFRAY_FN void run_pass(Kernel kernel, const Setup& s, const Job& job, const pipeline::Recording& recording, int index) {
+  if (index >= s.lens.width * s.lens.height) return;
+  const Pixels p{index, 1};
+  const int x = index % s.lens.width, y = index / s.lens.width;
+  if (kernel == Kernel::recording) pipeline::decode_pixels<float>(s, job, recording, p);
+  if (kernel == Kernel::flying) pipeline::flag_flying_pixel(s, job, x, y);
+  if (kernel == Kernel::filter) pipeline::filter_pixel(s, job, x, y);
+  if (kernel == Kernel::settle) pipeline::settle<float>(s, job, p, job.filter != 0 ? job.filtered : job.out.range);
+}
+
+/// The same array of a frame `bytes` further on.
+template <class T>
+TOFRAY_FN T* shifted(T* array, std::int64_t bytes) {
+  return array == nullptr ? nullptr : reinterpret_cast<T*>(reinterpret_cast<char*>(array) + bytes);
+}
+
+/// The job of one frame of a batch.
+TOFRAY_FN Job job_of(const Job& first, const FrameNumber& number, std::int64_t bytes) {
+  Job job = first;
+  job.index_low = number.low, job.index_high = number.high;
+  flow::FrameView& out = job.out;
+  out.tap_a = shifted(out.tap_a, bytes), out.tap_b = shifted(out.tap_b, bytes), out.raw = shifted(out.raw, bytes);
+  out.z = shifted(out.z, bytes), out.range = shifted(out.range, bytes), out.points = shifted(out.points, bytes);
+  out.amplitude = shifted(out.amplitude, bytes), out.ambient = shifted(out.ambient, bytes), out.noise = shifted(out.noise, bytes);
+  out.confidence = shifted(out.confidence, bytes), out.flags = shifted(out.flags, bytes);
+  out.gt_range = shifted(out.gt_range, bytes), out.gt_z = shifted(out.gt_z, bytes), out.gt_reflectivity = shifted(out.gt_reflectivity, bytes);
+  out.gt_position = shifted(out.gt_position, bytes), out.gt_normal = shifted(out.gt_normal, bytes), out.gt_object = shifted(out.gt_object, bytes);
+  out.gt_irradiance = shifted(out.gt_irradiance, bytes), out.gt_radiance = shifted(out.gt_radiance, bytes);
+  out.gt_power = shifted(out.gt_power, bytes), out.gt_signal = shifted(out.gt_signal, bytes);
+  job.filtered = shifted(job.filtered, bytes);
+  return job;
+}
+
+}  // namespace tofray::backend::gpu

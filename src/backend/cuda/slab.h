@@ -1,0 +1,34 @@
+// SPDX-FileCopyrightText: 2026 The tofray authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include <cstddef>
+
+#include "pipeline/setup.h"
+
+/// One frame's arrays in one piece of memory, so that a frame is copied by one call.
+namespace tofray::backend::gpu {
+
+class Slab {
+ public:
+  Slab() = default;
+  /// @param wanted  arrays that are null here, and those of stages that are not reached, get no place
+  Slab(const pipeline::Setup& setup, const flow::FrameView& wanted, bool filter);
+
+  /// Bytes from one frame to the next; of them those that the caller wants to see come first.
+  [[nodiscard]] std::size_t bytes() const { return bytes_; }
+  [[nodiscard]] std::size_t shown_bytes() const { return shown_bytes_; }
+  /// The arrays of the frame that begins at `base`.
+  [[nodiscard]] flow::FrameView view(void* base) const;
+  [[nodiscard]] float* filtered(void* base) const;
+  /// The arrays of the frame that begins at `base` → those of `to` that are not null.
+  void copy_out(const void* base, const flow::FrameView& to) const;
+  bool operator==(const Slab&) const = default;
+
+ private:
+  static constexpr int arrays = 21;
+  std::size_t pixels_ = 0, phases_ = 0, bytes_ = 0, shown_bytes_ = 0;
+  std::size_t offset_[arrays] = {};      // +1; 0: no place
+  std::size_t filtered_offset_ = 0;
+};
+
+}  // namespace tofray::backend::gpu

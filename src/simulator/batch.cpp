@@ -1,0 +1,173 @@
+// SPDX-FileCopyrightText: 2026 The tofray authors
+// SPDX-License-Identifier: Apache-2.0
+// Many frames: on the processor one after the other, on GPUs several on their way while the host fills and empties others.
+#include <algorithm>
+#include <deque>
+
+#include "simulator/frame_memory.h"
+#include "simulator/impl.h"
+#include "tofray/error.h"
+
+namespace tofray {
+
+using backend::gpu::Lane;
+using backend::gpu::Own;
+
+namespace {
+
+/// One is filled, one computes, one is emptied.
+constexpr std::uint64_t lanes_per_gpu = 3;
+/// Frames of one launch: a limit of CUDA's grids, with room.
+constexpr std::uint64_t most_frames = 32'768;
+
+}  // namespace
+
+FrameArrays simulator::arrays_of(const flow::FrameView& v, const Camera& camera, std::uint64_t index, int device) {
+  FrameArrays a;
+  a.index = index, a.device = device;
+  a.width = camera.sensor.width, a.height = camera.sensor.height, a.phases = static_cast<int>(camera.mode.sequence.size());
+  a.tap_a = v.tap_a, a.tap_b = v.tap_b, a.raw = v.raw;
+  a.z_m = v.z, a.range_m = v.range, a.points_m = v.points, a.amplitude_e = v.amplitude, a.ambient_e = v.ambient, a.noise_m = v.noise;
+  a.confidence = v.confidence, a.flags = v.flags;
+  a.gt_range_m = v.gt_range, a.gt_z_m = v.gt_z, a.gt_reflectivity = v.gt_reflectivity, a.gt_position_m = v.gt_position, a.gt_normal = v.gt_normal;
+  a.gt_object_id = v.gt_object;
+  a.gt_irradiance_w_m2 = v.gt_irradiance, a.gt_radiance_w_m2_sr = v.gt_radiance, a.gt_power_w = v.gt_power, a.gt_signal_e = v.gt_signal;
+  return a;
+}
+
+void Simulator::Impl::frames_on_cpu(std::uint64_t from, std::uint64_t count, const Request& request, const Take& take) {
+  simulator::prepare(scratch, camera, options.truth);
+  const backend::gpu::Slab shown(setup, simulator::view_of(scratch), false);   // leaves out what is not computed
+  std::vector<unsigned char> memory(shown.bytes());
+  for (std::uint64_t i = from; i < count; ++i) {
+    const FrameRequest wanted = request(i);
+    set_frame(wanted);
+    const flow::FrameView view = shown.view(memory.data());
+    job.out = view;
+    cpu.run(setup, job);
+    take(simulator::arrays_of(view, camera, wanted.index, -1));
+  }
+}
+
+Own Simulator::Impl::own_of(std::uint64_t from, std::uint64_t count, const Request& request) const {
+  Own own = frozen_scene.moves() || camera.temperature.warm_up_m != 0 ? Own::moving : Own::number;
+  for (std::uint64_t i = from; i < from + count; ++i) {
+    const FrameRequest wanted = request(i);
+    if (wanted.pose) return Own::scene;
+    if (wanted.seed) own = Own::moving;
+  }
+  return own;
+}
+
+/// Gives a lane up to `count` frames from number `from` on.
+/// @return how many it took
+std::uint64_t Simulator::Impl::fill(Lane& lane, const backend::Cuda& gpu, std::uint64_t from, std::uint64_t count, const Request& request) {
+  const Own own = own_of(from, count, request);
+  for (std::uint64_t i = 0; i < count; ++i) {
+    const FrameRequest wanted = request(from + i);
+    if (i == 0 || own != Own::number) set_frame(wanted);
+    if (i == 0) lane.begin(gpu.resident(), setup, job, own, static_cast<int>(count));
+    if (!lane.add(setup, wanted.index)) return i;
+  }
+  return count;
+}
+
+void Simulator::Impl::frames_on_gpus(std::uint64_t count, const Request& request, const Take& take, std::uint64_t& taken) {
+  struct Flight {
+    Lane* lane;
+    std::uint64_t from, frames;
+  };
+  simulator::prepare(scratch, camera, options.truth);
+  job.out = simulator::view_of(scratch);
+  const std::size_t frame_bytes = std::max<std::size_t>(1, backend::gpu::Slab(setup, job.out, job.filter != 0).bytes());
+  const std::uint64_t chunk = std::clamp<std::uint64_t>(options.batch_bytes / frame_bytes, 1, most_frames), lanes = lanes_per_gpu * gpus.size();
+  std::deque<Flight> flights;
+  for (std::uint64_t next = 0, started = 0; taken < count;) {
+    if (next < count && flights.size() < lanes) {
+      backend::Cuda& gpu = *gpus[started % gpus.size()];
+      Lane& lane = gpu.lane(1 + started / gpus.size() % lanes_per_gpu);
+      const std::uint64_t frames = fill(lane, gpu, next, std::min(chunk, count - next), request);
+      lane.submit();
+      flights.push_back({&lane, next, frames});
+      next += frames, ++started;
+      continue;
+    }
+    const Flight done = flights.front();
+    flights.pop_front();
+    done.lane->wait();
+    for (std::uint64_t i = 0; i < done.frames; ++i) {
+      const flow::FrameView view = done.lane->slab().view(done.lane->received(static_cast<int>(i)));
+      take(simulator::arrays_of(view, camera, request(done.from + i).index, -1));
+      ++taken;
+    }
+  }
+}
+
+void Simulator::Impl::frames(std::uint64_t count, const Request& request, const Take& take) {
+  std::uint64_t taken = 0;
+  if (!gpus.empty()) {
+    try {
+      open_other_gpus();
+      frames_on_gpus(count, request, take, taken);
+      return;
+    } catch (const backend::gpu::Fault& fault) {
+      give_up(fault);
+    }
+  }
+  frames_on_cpu(taken, count, request, take);
+}
+
+void Simulator::Impl::open_other_gpus() {
+  if (options.device >= 0) return;
+  set_frame({0, {}, {}});
+  for (int i = static_cast<int>(gpus.size()); i < backend::gpu::count_devices(); ++i) {
+    try {
+      auto gpu = std::make_unique<backend::Cuda>(i, options.block_size);
+      gpu->load(setup);
+      gpus.push_back(std::move(gpu));
+    } catch (const backend::gpu::Fault&) {
+      return;   // another one that cannot be used is no reason to do without the first
+    }
+  }
+}
+
+void Simulator::Impl::frames_on_device(std::uint64_t count, const Request& request, DeviceFrames::Impl& into) {
+  if (gpus.empty()) throw backend::gpu::Fault(fallback_reason.empty() ? "the processor computes" : fallback_reason, false);
+  simulator::prepare(scratch, camera, options.truth);
+  job.out = simulator::view_of(scratch);
+  backend::Cuda& gpu = *gpus[0];
+  into.indices.clear();
+  into.seconds = 0;
+  into.slab = backend::gpu::Slab(setup, job.out, job.filter != 0);
+  into.camera = camera;
+  const std::size_t bytes = into.slab.bytes() * count;
+  if (into.memory_bytes < bytes || !into.device || into.device->number() != gpu.device().number()) {
+    into.memory_bytes = 0;
+    into.memory = {};
+    into.device = std::make_unique<backend::gpu::Device>(gpu.device());
+    into.memory = into.device->allocate(bytes);
+    into.memory_bytes = bytes;
+  }
+  Lane& lane = gpu.lane(1);
+  for (std::uint64_t next = 0; next < count;) {
+    const std::uint64_t frames = fill(lane, gpu, next, std::min(most_frames, count - next), request);
+    lane.submit(static_cast<unsigned char*>(into.memory.get()) + next * into.slab.bytes());
+    for (std::uint64_t i = 0; i < frames; ++i) into.indices.push_back(request(next + i).index);
+    next += frames;
+    lane.wait();
+    into.seconds += lane.seconds();
+  }
+}
+
+DeviceFrames::DeviceFrames() : impl_(std::make_unique<Impl>()) {}
+DeviceFrames::~DeviceFrames() = default;
+DeviceFrames::DeviceFrames(DeviceFrames&&) noexcept = default;
+DeviceFrames& DeviceFrames::operator=(DeviceFrames&&) noexcept = default;
+std::uint64_t DeviceFrames::size() const { return impl_->indices.size(); }
+double DeviceFrames::seconds() const { return impl_->seconds; }
+FrameArrays DeviceFrames::operator[](std::uint64_t i) const {
+  void* const at = static_cast<unsigned char*>(impl_->memory.get()) + i * impl_->slab.bytes();
+  return simulator::arrays_of(impl_->slab.view(at), impl_->camera, impl_->indices[i], impl_->device->number());
+}
+
+}  // namespace tofray

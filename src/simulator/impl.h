@@ -1,0 +1,78 @@
+// SPDX-FileCopyrightText: 2026 The tofray authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "backend/cpu/cpu.h"
+#include "backend/cuda/cuda.h"
+#include "camera/frozen_camera.h"
+#include "scene/frozen_scene.h"
+#include "tofray/simulator.h"
+
+namespace tofray {
+
+/// What a simulator holds: scene and camera, frozen, and the backends.
+struct Simulator::Impl {
+  using Request = std::function<FrameRequest(std::uint64_t)>;
+  using Take = std::function<void(const FrameArrays&)>;
+
+  Scene scene;
+  Camera camera;
+  SimulatorOptions options;
+  camera::FrozenCamera frozen_camera;
+  scene::FrozenScene frozen_scene;
+  std::optional<scene::FrozenScene> posed_scene;   ///< of a frame that has a pose of its own
+  backend::Cpu cpu;
+  std::vector<std::unique_ptr<backend::Cuda>> gpus;   ///< empty: the processor computes; the first one does single frames
+  camera::PowerView power{};                       ///< of the scene's own pose
+  pipeline::Setup setup{};
+  pipeline::Job job{};
+  std::vector<float> filtered;
+  std::string fallback_reason;
+  Frame scratch;                                   ///< of a batch on the processor, and the model of one on a GPU
+
+  Impl(const Scene& scene, const Camera& profile, const SimulatorOptions& wanted);
+
+  void frame(std::uint64_t index, Frame& into);
+  void frames(std::uint64_t count, const Request& request, const Take& take);
+  void frames_on_device(std::uint64_t count, const Request& request, DeviceFrames::Impl& into);
+
+  /// Times of a frame's raw frames: start of each, and the middle of its exposure [s].
+  [[nodiscard]] double start_of(std::uint64_t index) const { return static_cast<double>(index) / camera.mode.frame_rate_hz; }
+  /// Puts scene and sensor of a frame into `setup` and `job`.
+  void set_frame(const FrameRequest& request);
+
+ private:
+  void open_gpus();
+  void open_other_gpus();
+  /// Where a GPU failed: throws it on, or goes on with the processor.
+  void give_up(const backend::gpu::Fault& fault);
+  [[nodiscard]] std::vector<double> middles(double start) const;
+  void frames_on_cpu(std::uint64_t from, std::uint64_t count, const Request& request, const Take& take);
+  void frames_on_gpus(std::uint64_t count, const Request& request, const Take& take, std::uint64_t& taken);
+  [[nodiscard]] backend::gpu::Own own_of(std::uint64_t from, std::uint64_t count, const Request& request) const;
+  std::uint64_t fill(backend::gpu::Lane& lane, const backend::Cuda& gpu, std::uint64_t from, std::uint64_t count, const Request& request);
+};
+
+/// Frames in the memory of one GPU.
+struct DeviceFrames::Impl {
+  std::unique_ptr<backend::gpu::Device> device;
+  backend::gpu::DeviceMemory memory;
+  std::size_t memory_bytes = 0;
+  backend::gpu::Slab slab;
+  Camera camera;
+  std::vector<std::uint64_t> indices;
+  double seconds = 0;
+};
+
+namespace simulator {
+
+/// The public names of a view's arrays.
+FrameArrays arrays_of(const flow::FrameView& view, const Camera& camera, std::uint64_t index, int device);
+
+}  // namespace simulator
+
+}  // namespace tofray

@@ -1,0 +1,219 @@
+// SPDX-FileCopyrightText: 2026 The tofray authors
+// SPDX-License-Identifier: Apache-2.0
+// The GPU backend's host side and its functions by pixel, on a stand-in for CUDA's runtime: every frame must have the processor's bytes.
+#include <gtest/gtest.h>
+
+#include "support/cuda_cases.h"
+#include "support/files.h"
+#include "support/random_scene.h"
+#include "support/stand_in_cuda.h"
+#include "tofray/tofray.h"
+
+using namespace tofray;
+using namespace tofray::test;
+
+namespace {
+
+/// Frames 0, 1 and 5 on both backends.
+void expect_same(const Scene& scene, const Camera& camera, const SimulatorOptions& options) {
+  Simulator cpu(scene, camera, on(Backend::cpu, options)), cuda(scene, camera, on(Backend::cuda, options));
+  ASSERT_EQ(cuda.backend(), "cuda");
+  for (const std::uint64_t index : {0ull, 1ull, 5ull, (3ull << 32) + 1}) {
+    EXPECT_EQ(first_difference(cpu.frame(index), cuda.frame(index)), "") << scene.name << ", frame " << index;
+  }
+}
+
+class EveryScene : public testing::TestWithParam<std::string> {};
+
+}  // namespace
+
+TEST_P(EveryScene, has_the_same_bytes_by_the_functions_of_the_gpu) {
+  const WithStandIn here;
+  Scene scene = load_scene(GetParam());
+  // The camera stands exactly in the plane of a box's side there, and rays beside the box count as hits where it is not culled.
+  if (scene.name == "sun-outdoors") scene.camera.pose.position[0] += 1e-3;
+  const Camera camera = small(load_camera(scene));
+  for (const Noise noise : {Noise::off, Noise::fast, Noise::exact}) expect_same(scene, camera, {.seed = 7, .noise = noise});
+}
+
+INSTANTIATE_TEST_SUITE_P(cuda_host, EveryScene, testing::ValuesIn(scene_names()), [](const auto& which) { return test_name(which.param); });
+
+namespace {
+
+/// Filters, fixed patterns, suppression, a second light: what no scene has.
+Camera with_everything(Camera camera) {
+  camera = small(camera);
+  camera.pixel.prnu = 0.01, camera.pixel.dsnu_dn = 1, camera.pixel.delay_s = 1e-11;
+  camera.pixel.suppression_threshold_e = 2000, camera.pixel.suppression_budget_e = 20000;
+  camera.illumination.push_back(camera.illumination[0]);
+  camera.illumination[1].position = {-0.02, 0.01, 0.003}, camera.illumination[1].axis = {0.1, -0.2, 1};
+  camera.illumination[1].waveform.jitter_s = 3e-10;
+  camera.temperature.drift_m_per_kelvin = 1e-4, camera.temperature.celsius = 41;
+  return camera;
+}
+
+/// One of each kind: plain, another seed, another pose, both.
+std::vector<FrameRequest> mixed_requests(const Scene& scene, std::size_t count) {
+  std::vector<FrameRequest> out;
+  for (std::size_t i = 0; i < count; ++i) {
+    FrameRequest one{i * 3, {}, {}};
+    Pose pose = scene.camera.pose;
+    pose.position[0] += 0.01 * static_cast<double>(i), pose.position[2] -= 0.02;
+    if (i % 2 == 1) one.seed = 1000 + i;
+    if (i % 4 >= 2) one.pose = pose;
+    out.push_back(one);
+  }
+  return out;
+}
+
+}  // namespace
+
+TEST(cuda_host, has_the_same_bytes_with_everything_switched_on) {
+  const WithStandIn here;
+  const Scene scene = load_scene("demo");
+  Camera camera = with_everything(load_camera(scene));
+  for (const auto kind : {ImageFilter::Kind::none, ImageFilter::Kind::gaussian, ImageFilter::Kind::median}) {
+    camera.decoding.filter.kind = kind;
+    for (const PowerModel model : {PowerModel::tofray, PowerModel::paper_literal}) {
+      camera.power_model = model;
+      expect_same(scene, camera, {});
+      expect_same(scene, camera, {.culling = false});
+    }
+  }
+}
+
+TEST(cuda_host, has_the_same_bytes_of_random_scenes_still_and_moving) {
+  const WithStandIn here;
+  const Camera camera = small(load_camera("pico-flexx"));
+  for (int i = 0; i < 12; ++i) {
+    Random random(static_cast<std::uint64_t>(i) + 50);
+    Scene scene = random_scene(random, i < 10 ? 3 + 5 * i : 150, i % 2 == 1);
+    scene.name = "random " + std::to_string(i);
+    scene.camera.pose = random_pose(random);
+    expect_same(scene, camera, {});
+  }
+}
+
+TEST(cuda_host, stops_after_any_stage) {
+  const WithStandIn here;
+  for (const char* name : {"demo", "flying-ball"}) {
+    const Scene scene = load_scene(name);
+    const Camera camera = small(load_camera(scene));
+    for (const Stage stage : {Stage::trace, Stage::power, Stage::raw, Stage::depth}) {
+      expect_same(scene, camera, {.last_stage = stage});
+      expect_same(scene, camera, {.truth = false, .last_stage = stage});
+    }
+  }
+}
+
+TEST(cuda_host, any_block_size_gives_the_same_bytes) {
+  WithStandIn here;
+  const Scene scene = load_scene("card");
+  const Camera camera = small(load_camera(scene));
+  const Frame reference = Simulator(scene, camera, on(Backend::cpu)).frame(3);
+  for (int size = 32; size <= 1024; size += 32) {
+    Simulator cuda(scene, camera, on(Backend::cuda, {.block_size = size}));
+    EXPECT_EQ(cuda.block_size(), size);
+    EXPECT_EQ(first_difference(cuda.frame(3), reference), "") << size;
+    EXPECT_GT(here.cuda.launches_by_block_size[size], 0);
+    EXPECT_GT(cuda.occupancy(), 0);
+  }
+  for (const int wrong : {-32, 1, 31, 48, 1056}) {
+    EXPECT_THROW(Simulator(scene, camera, on(Backend::automatic, {.block_size = wrong})), Error) << wrong;
+  }
+}
+
+TEST(cuda_host, makes_the_graph_of_a_frame_once) {
+  WithStandIn here;
+  const Scene scene = load_scene("card");
+  Camera camera = small(load_camera(scene));
+  Simulator cuda(scene, camera, on(Backend::cuda));
+  for (std::uint64_t i = 0; i < 5; ++i) (void)cuda.frame(i);
+  EXPECT_EQ(here.cuda.graphs_made, 1);
+  EXPECT_EQ(here.cuda.graphs_launched, 5);
+  camera.temperature.warm_up_m = 0.01, camera.temperature.warm_up_time_s = 1;   // the sensor is another one in each frame
+  expect_same(scene, camera, {});
+}
+
+TEST(cuda_host, batches_have_the_bytes_of_single_frames) {
+  for (const int devices : {1, 3}) {
+    WithStandIn here;
+    here.cuda.devices = devices;
+    for (const char* name : {"card", "flying-ball"}) {
+      const Scene scene = load_scene(name);
+      const Camera camera = small(load_camera(scene));
+      for (const Backend backend : {Backend::cpu, Backend::cuda}) {
+        Simulator simulator(scene, camera, on(backend, {.seed = 5, .batch_bytes = 2'000'000}));
+        Simulator single(scene, camera, on(Backend::cpu, {.seed = 5}));
+        std::uint64_t next = 2;
+        simulator.frames(2, 30, [&](const FrameArrays& arrays) {
+          ASSERT_EQ(arrays.index, next++);
+          if (arrays.index % 7 != 2) return;
+          EXPECT_EQ(first_difference(copy_of(arrays), arrays_only(single.frame(arrays.index))), "") << arrays.index;
+        });
+        EXPECT_EQ(next, 32u);
+      }
+    }
+    EXPECT_EQ(here.cuda.frames_by_device.size(), static_cast<std::size_t>(devices)) << "all of them take part";
+  }
+}
+
+TEST(cuda_host, batches_take_seeds_and_poses) {
+  const WithStandIn here;
+  for (const char* name : {"card", "flying-ball", "sun-outdoors"}) {
+    Scene scene = load_scene(name);
+    scene.camera.pose.position[0] += 1e-3;
+    const Camera camera = small(load_camera(scene));
+    const std::vector<FrameRequest> requests = mixed_requests(scene, 9);
+    for (const Backend backend : {Backend::cpu, Backend::cuda}) {
+      Simulator simulator(scene, camera, on(backend));
+      std::size_t i = 0;
+      simulator.frames(requests, [&](const FrameArrays& arrays) {
+        EXPECT_EQ(first_difference(copy_of(arrays), alone(scene, camera, {}, requests[i])), "") << name << ", request " << i;
+        ++i;
+      });
+      EXPECT_EQ(i, requests.size());
+      EXPECT_EQ(first_difference(arrays_only(simulator.frame(4)), alone(scene, camera, {}, {4, {}, {}})), "") << "afterwards all is as before";
+    }
+  }
+}
+
+TEST(cuda_host, frames_can_stay_on_the_device) {
+  WithStandIn here;
+  const Scene scene = load_scene("flying-ball");
+  const Camera camera = small(load_camera(scene));
+  Simulator cuda(scene, camera, on(Backend::cuda, {.truth = false}));
+  DeviceFrames frames;
+  const std::vector<FrameRequest> requests = mixed_requests(scene, 6);
+  cuda.frames_on_device(requests, frames);
+  ASSERT_EQ(frames.size(), 6u);
+  EXPECT_GT(frames.seconds(), 0);
+  for (std::size_t i = 0; i < 6; ++i) {
+    EXPECT_EQ(frames[i].device, 0);
+    EXPECT_EQ(frames[i].gt_range_m, nullptr);
+    EXPECT_EQ(first_difference(copy_of(frames[i]), alone(scene, camera, {.truth = false}, requests[i])), "") << i;
+  }
+  const float* memory = frames[0].z_m;
+  cuda.frames_on_device(7, 2, frames);
+  EXPECT_EQ(frames[0].z_m, memory) << "it is used again";
+  EXPECT_EQ(first_difference(copy_of(frames[1]), alone(scene, camera, {.truth = false}, {8, {}, {}})), "");
+  Simulator cpu(scene, camera, on(Backend::cpu));
+  EXPECT_THROW(cpu.frames_on_device(0, 1, frames), Error);
+}
+
+TEST(cuda_host, decodes_recorded_raw_data) {
+  const WithStandIn here;
+  const Scene scene = load_scene("demo");
+  Camera camera = small(load_camera(scene));
+  for (const auto kind : {ImageFilter::Kind::none, ImageFilter::Kind::median}) {
+    camera.decoding.filter.kind = kind;
+    Frame recorded = Simulator(scene, camera, on(Backend::cpu)).frame(0), on_gpu;
+    for (const bool taps : {false, true}) {
+      if (taps) recorded.raw.raw.clear();
+      recorded.depth = process(recorded.raw, camera, on(Backend::cpu));
+      on_gpu = recorded;
+      on_gpu.depth = process(recorded.raw, camera, on(Backend::cuda));
+      EXPECT_EQ(first_difference(recorded, on_gpu), "");
+    }
+  }
+}

@@ -1,0 +1,42 @@
+# SPDX-FileCopyrightText: 2026 The tofray authors
+# SPDX-License-Identifier: Apache-2.0
+# Compiles the device code to PTX for ARCHITECTURE with the build's own flags (joined by "|") and reads it: the same bits as the processor
+# need every float operation rounded to nearest, nothing approximate, no flushed subnormals, and no double where the source has none.
+if(NOT NVCC)
+  message("SKIPPED: tofray was configured without nvcc, so there is no device code to look at")
+  return()
+endif()
+string(REPLACE "|" ";" flags "${FLAGS}")
+set(ptx ${FOLDER}/kernels_${ARCHITECTURE}.ptx)
+file(MAKE_DIRECTORY ${FOLDER})
+execute_process(COMMAND ${NVCC} ${flags} -ptx -arch=compute_${ARCHITECTURE} ${SOURCE} -o ${ptx} COMMAND_ERROR_IS_FATAL ANY)
+
+set(float "\\.f32[ \t]")
+function(refuse what pattern)
+  file(STRINGS ${ptx} found REGEX "${pattern}")
+  list(LENGTH found count)
+  if(count GREATER 0)
+    list(GET found 0 first)
+    string(STRIP "${first}" first)
+    message(FATAL_ERROR "${count} lines of PTX have ${what}, the first one: ${first}")
+  endif()
+endfunction()
+
+# So that the test cannot pass on a file with nothing in it.
+foreach(operation add sub mul div rcp sqrt fma)
+  file(STRINGS ${ptx} rounded REGEX "[ \t]${operation}\\.rn\\.f32[ \t]")
+  file(STRINGS ${ptx} all REGEX "[ \t]${operation}\\.([a-z0-9]+\\.)*f32[ \t]")
+  list(LENGTH rounded rounded_count)
+  list(LENGTH all all_count)
+  if(rounded_count EQUAL 0 OR NOT rounded_count EQUAL all_count)
+    message(FATAL_ERROR "${rounded_count} of ${all_count} ${operation}…f32 are rounded to nearest (.rn); expected all, and at least one")
+  endif()
+  message("${operation}.rn.f32: ${rounded_count}")
+endforeach()
+refuse("an approximation" "\\.approx")
+refuse("flushed subnormals" "\\.ftz")
+refuse("a double" "\\.f64")
+refuse("a function of the hardware" "[ \t](rsqrt|sin|cos|ex2|lg2|tanh|mad)\\.([a-z0-9]+\\.)*f32[ \t]")
+refuse("an operation on halves" "\\.(f16|bf16)")
+refuse("an atomic operation or reduction on floats" "[ \t](atom|red)\\..*f32")
+refuse("a call" "[ \t]call")

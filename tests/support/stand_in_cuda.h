@@ -1,0 +1,223 @@
+// SPDX-FileCopyrightText: 2026 The tofray authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include <cstdlib>
+#include <cstring>
+#include <functional>
+#include <map>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "backend/cuda/pixel.h"
+#include "backend/cuda/runtime.h"
+
+/// A CUDA runtime for machines without a GPU: the device's memory is the host's, and a kernel runs the same functions that nvcc compiles,
+/// pixel by pixel. What is asked of a stream is done at once; what is captured is done when its graph is launched. Device memory is
+/// filled with rubbish first, each call can be made to fail, and what is not given back is counted.
+namespace tofray::test {
+
+/// The 32 lanes of a warp, one after the other. The rectangle that all lanes span is known only when all have been there, so each warp
+/// runs twice: first to collect rectangles (with none, every form is tested), then with them.
+struct HostWarp {
+  std::map<int, pipeline::Rectangle<float>>& seen;
+  bool collecting;
+
+  template <class Test>
+  [[nodiscard]] std::uint32_t vote(const Test& test) const {
+    std::uint32_t word = 0;
+    for (int lane = 0; lane < backend::gpu::warp_size; ++lane) word |= static_cast<std::uint32_t>(test(lane)) << lane;
+    return word;
+  }
+  void unite(int key, pipeline::Rectangle<float>& own) const {
+    if (!collecting) {
+      own = seen.at(key);
+      return;
+    }
+    pipeline::Rectangle<float>& all = seen[key];
+    all.open = all.open || own.open;
+    all.x_min = num::min(all.x_min, own.x_min), all.x_max = num::max(all.x_max, own.x_max);
+    all.y_min = num::min(all.y_min, own.y_min), all.y_max = num::max(all.y_max, own.y_max);
+    own.open = true;
+  }
+  static int lowest_bit(std::uint32_t word) { return __builtin_ctz(word); }
+};
+
+class StandInCuda final : public backend::gpu::Runtime {
+ public:
+  using Status = backend::gpu::Status;
+  using Cause = backend::gpu::Cause;
+  static constexpr Status failed = 999;
+
+  // what a test may change
+  int devices = 1;
+  Cause failure = Cause::other;                ///< what a failing call means
+  std::uint64_t fail_at = 0;                   ///< number of the call that fails, from 1 on; 0: none
+  bool stays_broken = false;                   ///< all calls after it fail, too
+  // what a test may read
+  std::uint64_t calls = 0;
+  int graphs_made = 0, graphs_launched = 0;
+  std::map<int, int> frames_by_device, launches_by_block_size;
+
+  /// What was taken and not given back.
+  [[nodiscard]] std::size_t held() const { return memory_.size() + handles_.size(); }
+
+  std::string text(Status status) override { return "standInError: number " + std::to_string(status); }
+  Cause cause(Status) override { return failure; }
+  std::string driver_version() override { return "11.8"; }
+  std::string runtime_version() override { return "13.0"; }
+  Status count_devices(int& count) override {
+    if (fails()) return failed;
+    count = devices;
+    return 0;
+  }
+  Status describe(int device, backend::gpu::DeviceInfo& info) override {
+    if (fails()) return failed;
+    info = {"Stand-in " + std::to_string(device), 9, 0, 4, 2048, 1u << 30};
+    return 0;
+  }
+  Status use(int device) override {
+    if (fails()) return failed;
+    device_ = device;
+    return 0;
+  }
+  Status find_code() override { return fails() ? failed : 0; }
+  Status occupancy(backend::gpu::Kernel, int block_size, int& blocks) override {
+    if (fails()) return failed;
+    blocks = 1024 / block_size;
+    return 0;
+  }
+  Status allocate(std::size_t bytes, void*& memory) override { return take_memory(bytes, memory); }
+  Status allocate_pinned(std::size_t bytes, void*& memory) override { return take_memory(bytes, memory); }
+  Status create_stream(void*& stream) override { return take_handle(stream); }
+  Status create_event(void*& event) override { return take_handle(event); }
+  Status copy(void* to, const void* from, std::size_t bytes, backend::gpu::Way, void*) override {
+    if (fails() || !within(to, bytes) || !within(from, bytes)) return failed;
+    return later([=] { std::memcpy(to, from, bytes); });
+  }
+  Status launch(const backend::gpu::Launch& what, void*) override {
+    if (fails()) return failed;
+    frames_by_device[device_] += what.kernel == backend::gpu::Kernel::pixels ? what.batch.frames : 0;
+    ++launches_by_block_size[what.block_size];
+    const backend::gpu::FrameArguments common = *what.common;
+    return later([what, common] { run(what, common); });
+  }
+  Status record(void*, void*) override { return fails() ? failed : 0; }
+  Status synchronize(void*) override { return fails() ? failed : 0; }
+  Status elapsed(void*, void*, float& milliseconds) override {
+    milliseconds = 1;
+    return fails() ? failed : 0;
+  }
+  Status begin_capture(void*) override {
+    if (fails()) return failed;
+    capturing_ = true;
+    captured_.clear();
+    return 0;
+  }
+  Status end_capture(void*, void*& graph) override {
+    capturing_ = false;
+    if (fails() || take_handle(graph) != 0) return failed;
+    graphs_[graph] = captured_;
+    ++graphs_made;
+    return 0;
+  }
+  Status launch_graph(void* graph, void*) override {
+    if (fails()) return failed;
+    ++graphs_launched;
+    for (const auto& step : graphs_.at(graph)) step();
+    return 0;
+  }
+  void release(void* memory) override { give_back_memory(memory); }
+  void release_pinned(void* memory) override { give_back_memory(memory); }
+  void destroy_stream(void* stream) override { give_back_handle(stream); }
+  void destroy_event(void* event) override { give_back_handle(event); }
+  void destroy_graph(void* graph) override {
+    graphs_.erase(graph);
+    give_back_handle(graph);
+  }
+
+  ~StandInCuda() override {
+    for (const auto& [memory, bytes] : memory_) std::free(memory);
+    for (void* handle : handles_) std::free(handle);
+  }
+
+ private:
+  bool fails() {
+    ++calls;
+    return fail_at != 0 && (stays_broken ? calls >= fail_at : calls == fail_at);
+  }
+  Status take_memory(std::size_t bytes, void*& memory) {
+    if (fails()) return failed;
+    memory = std::aligned_alloc(256, (bytes + 255) / 256 * 256 + 256);
+    std::memset(memory, 0xa5, bytes);
+    memory_[memory] = bytes;
+    return 0;
+  }
+  void give_back_memory(void* memory) {
+    if (memory_.erase(memory) == 1) std::free(memory);
+  }
+  Status take_handle(void*& handle) {
+    if (fails()) return failed;
+    handles_.insert(handle = std::malloc(1));
+    return 0;
+  }
+  void give_back_handle(void* handle) {
+    if (handles_.erase(handle) == 1) std::free(handle);
+  }
+  /// Whether all of it lies in memory that was taken here.
+  [[nodiscard]] bool within(const void* at, std::size_t bytes) const {
+    auto next = memory_.upper_bound(const_cast<void*>(at));
+    if (next == memory_.begin()) return false;
+    --next;
+    return static_cast<const char*>(at) + bytes <= static_cast<const char*>(next->first) + next->second;
+  }
+  Status later(const std::function<void()>& step) {
+    if (capturing_)
+      captured_.push_back(step);
+    else
+      step();
+    return 0;
+  }
+
+  static void run(const backend::gpu::Launch& what, const backend::gpu::FrameArguments& common) {
+    using namespace backend::gpu;
+    for (int frame = 0; frame < what.batch.frames; ++frame) {
+      const FrameNumber number = what.batch.numbers[frame];
+      const FrameArguments& a = what.batch.own != nullptr ? what.batch.own[frame] : common;
+      const pipeline::Job job = job_of(a.job, number, what.batch.own != nullptr ? 0 : frame * what.batch.stride);
+      if (what.kernel != Kernel::pixels) {
+        for (int i = 0; i < a.setup.lens.width * a.setup.lens.height + 7; ++i) run_pass(what.kernel, a.setup, job, what.recording, i);
+        continue;
+      }
+      for (int patch = 0; patch < patch_count(a.setup.lens); ++patch) {
+        std::map<int, pipeline::Rectangle<float>> seen;
+        for (const bool collecting : {true, false}) {
+          HostWarp warp{seen, collecting};
+          for (int lane = 0; lane < warp_size; ++lane) run_pixel(a.setup, job, warp, patch, lane);
+        }
+      }
+    }
+  }
+
+  std::map<void*, std::size_t> memory_;
+  std::set<void*> handles_;
+  std::map<void*, std::vector<std::function<void()>>> graphs_;
+  std::vector<std::function<void()>> captured_;
+  bool capturing_ = false;
+  int device_ = 0;
+};
+
+/// The stand-in in the place of CUDA's runtime, for the length of a test.
+class WithStandIn {
+ public:
+  WithStandIn() : before_(backend::gpu::replace_runtime(&cuda)) {}
+  ~WithStandIn() { backend::gpu::replace_runtime(before_); }
+  WithStandIn(const WithStandIn&) = delete;
+  WithStandIn& operator=(const WithStandIn&) = delete;
+  StandInCuda cuda;
+
+ private:
+  backend::gpu::Runtime* before_;
+};
+
+}  // namespace tofray::test
