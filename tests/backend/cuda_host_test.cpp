@@ -38,36 +38,6 @@ TEST_P(EveryScene, has_the_same_bytes_by_the_functions_of_the_gpu) {
 
 INSTANTIATE_TEST_SUITE_P(cuda_host, EveryScene, testing::ValuesIn(scene_names()), [](const auto& which) { return test_name(which.param); });
 
-namespace {
-
-/// Filters, fixed patterns, suppression, a second light: what no scene has.
-Camera with_everything(Camera camera) {
-  camera = small(camera);
-  camera.pixel.prnu = 0.01, camera.pixel.dsnu_dn = 1, camera.pixel.delay_s = 1e-11;
-  camera.pixel.suppression_threshold_e = 2000, camera.pixel.suppression_budget_e = 20000;
-  camera.illumination.push_back(camera.illumination[0]);
-  camera.illumination[1].position = {-0.02, 0.01, 0.003}, camera.illumination[1].axis = {0.1, -0.2, 1};
-  camera.illumination[1].waveform.jitter_s = 3e-10;
-  camera.temperature.drift_m_per_kelvin = 1e-4, camera.temperature.celsius = 41;
-  return camera;
-}
-
-/// One of each kind: plain, another seed, another pose, both.
-std::vector<FrameRequest> mixed_requests(const Scene& scene, std::size_t count) {
-  std::vector<FrameRequest> out;
-  for (std::size_t i = 0; i < count; ++i) {
-    FrameRequest one{i * 3, {}, {}};
-    Pose pose = scene.camera.pose;
-    pose.position[0] += 0.01 * static_cast<double>(i), pose.position[2] -= 0.02;
-    if (i % 2 == 1) one.seed = 1000 + i;
-    if (i % 4 >= 2) one.pose = pose;
-    out.push_back(one);
-  }
-  return out;
-}
-
-}  // namespace
-
 TEST(cuda_host, has_the_same_bytes_with_everything_switched_on) {
   const WithStandIn here;
   const Scene scene = load_scene("demo");

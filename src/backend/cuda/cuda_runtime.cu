@@ -12,6 +12,12 @@ namespace {
 std::string version_text(int version) { return std::to_string(version / 1000) + "." + std::to_string(version % 1000 / 10); }
 cudaStream_t stream_of(void* stream) { return static_cast<cudaStream_t>(stream); }
 
+/// What the runtime remembers of a failed call is forgotten: a later launch that asks for the last error must not be blamed for it.
+Status told(cudaError_t status) {
+  if (status != cudaSuccess) (void)cudaGetLastError();
+  return status;
+}
+
 class CudaRuntime final : public Runtime {
  public:
   std::string text(Status status) override {
@@ -33,38 +39,38 @@ class CudaRuntime final : public Runtime {
   std::string driver_version() override { return version_text(driver()); }
   std::string runtime_version() override { return version_text(CUDART_VERSION); }
 
-  Status count_devices(int& count) override { return cudaGetDeviceCount(&count); }
+  Status count_devices(int& count) override { return told(cudaGetDeviceCount(&count)); }
   Status describe(int device, DeviceInfo& info) override {
     cudaDeviceProp p;
     const cudaError_t status = cudaGetDeviceProperties(&p, device);
     if (status == cudaSuccess) info = {p.name, p.major, p.minor, p.multiProcessorCount, p.maxThreadsPerMultiProcessor, p.totalGlobalMem};
-    return status;
+    return told(status);
   }
-  Status use(int device) override { return cudaSetDevice(device); }
+  Status use(int device) override { return told(cudaSetDevice(device)); }
   Status find_code() override {
     cudaFuncAttributes attributes;
-    return cudaFuncGetAttributes(&attributes, kernel_function(Kernel::pixels, 32));
+    return told(cudaFuncGetAttributes(&attributes, kernel_function(Kernel::pixels, 32)));
   }
   Status occupancy(Kernel kernel, int block_size, int& blocks) override {
-    return cudaOccupancyMaxActiveBlocksPerMultiprocessor(&blocks, kernel_function(kernel, block_size), block_size, 0);
+    return told(cudaOccupancyMaxActiveBlocksPerMultiprocessor(&blocks, kernel_function(kernel, block_size), block_size, 0));
   }
 
-  Status allocate(std::size_t bytes, void*& memory) override { return cudaMalloc(&memory, bytes); }
-  Status allocate_pinned(std::size_t bytes, void*& memory) override { return cudaHostAlloc(&memory, bytes, cudaHostAllocPortable); }
-  Status create_stream(void*& stream) override { return cudaStreamCreateWithFlags(reinterpret_cast<cudaStream_t*>(&stream), cudaStreamNonBlocking); }
-  Status create_event(void*& event) override { return cudaEventCreate(reinterpret_cast<cudaEvent_t*>(&event)); }
+  Status allocate(std::size_t bytes, void*& memory) override { return told(cudaMalloc(&memory, bytes)); }
+  Status allocate_pinned(std::size_t bytes, void*& memory) override { return told(cudaHostAlloc(&memory, bytes, cudaHostAllocPortable)); }
+  Status create_stream(void*& stream) override { return told(cudaStreamCreateWithFlags(reinterpret_cast<cudaStream_t*>(&stream), cudaStreamNonBlocking)); }
+  Status create_event(void*& event) override { return told(cudaEventCreate(reinterpret_cast<cudaEvent_t*>(&event))); }
 
   Status copy(void* to, const void* from, std::size_t bytes, Way way, void* stream) override {
-    return cudaMemcpyAsync(to, from, bytes, way == Way::to_device ? cudaMemcpyHostToDevice : cudaMemcpyDeviceToHost, stream_of(stream));
+    return told(cudaMemcpyAsync(to, from, bytes, way == Way::to_device ? cudaMemcpyHostToDevice : cudaMemcpyDeviceToHost, stream_of(stream)));
   }
-  Status launch(const Launch& what, void* stream) override { return launch_kernel(what, stream_of(stream)); }
-  Status record(void* event, void* stream) override { return cudaEventRecord(static_cast<cudaEvent_t>(event), stream_of(stream)); }
-  Status synchronize(void* stream) override { return cudaStreamSynchronize(stream_of(stream)); }
+  Status launch(const Launch& what, void* stream) override { return told(launch_kernel(what, stream_of(stream))); }
+  Status record(void* event, void* stream) override { return told(cudaEventRecord(static_cast<cudaEvent_t>(event), stream_of(stream))); }
+  Status synchronize(void* stream) override { return told(cudaStreamSynchronize(stream_of(stream))); }
   Status elapsed(void* from, void* to, float& milliseconds) override {
-    return cudaEventElapsedTime(&milliseconds, static_cast<cudaEvent_t>(from), static_cast<cudaEvent_t>(to));
+    return told(cudaEventElapsedTime(&milliseconds, static_cast<cudaEvent_t>(from), static_cast<cudaEvent_t>(to)));
   }
 
-  Status begin_capture(void* stream) override { return cudaStreamBeginCapture(stream_of(stream), cudaStreamCaptureModeThreadLocal); }
+  Status begin_capture(void* stream) override { return told(cudaStreamBeginCapture(stream_of(stream), cudaStreamCaptureModeThreadLocal)); }
   Status end_capture(void* stream, void*& graph) override {
     cudaGraph_t captured = nullptr;
     cudaError_t status = cudaStreamEndCapture(stream_of(stream), &captured);
@@ -72,9 +78,9 @@ class CudaRuntime final : public Runtime {
     if (status == cudaSuccess) status = cudaGraphInstantiate(&executable, captured, 0);
     if (captured != nullptr) (void)cudaGraphDestroy(captured);
     graph = executable;
-    return status;
+    return told(status);
   }
-  Status launch_graph(void* graph, void* stream) override { return cudaGraphLaunch(static_cast<cudaGraphExec_t>(graph), stream_of(stream)); }
+  Status launch_graph(void* graph, void* stream) override { return told(cudaGraphLaunch(static_cast<cudaGraphExec_t>(graph), stream_of(stream))); }
 
   void release(void* memory) override { (void)cudaFree(memory); }
   void release_pinned(void* memory) override { (void)cudaFreeHost(memory); }
