@@ -10,6 +10,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <set>
 
 #include "commands.h"
 #include "console.h"
@@ -42,6 +43,18 @@ std::string name_of(const io::Json& row) {
                      number(row, "threads"), *row.find("noise")->string());
 }
 
+/// A line for each run, or a single one where all say the same: that nothing can be read.
+std::string energy_lines(const io::Json& results) {
+  std::set<std::string> texts;
+  std::string lines;
+  for (const io::Json& row : *results.items()) {
+    const std::string text = energy_text(*row.find("energy"));
+    texts.insert(text);
+    lines += fmt::format("{} energy per frame: {}\n", name_of(row), text);
+  }
+  return texts.size() == 1 && results.items()->size() > 1 ? "energy per frame: " + *texts.begin() + "\n" : lines;
+}
+
 std::string table_of(const io::Json& results, const std::vector<Ratio>& ratios) {
   std::string text = fmt::format("{:<24} {:<11} {:>7} {:<6} {:>10} {:>10} {:>9} {:>8}  {}\n", "scene", "code", "threads", "noise",
                                  "frames/s", "median ms", "p10 ms", "peak MB", "SHA-256 of frame 0");
@@ -55,8 +68,7 @@ std::string table_of(const io::Json& results, const std::vector<Ratio>& ratios) 
     text += fmt::format("{} stages, ms: trace {:.3f}, power {:.3f}, raw {:.3f}, depth {:.3f}\n", name_of(row), number(stages, "trace"),
                         number(stages, "power"), number(stages, "raw"), number(stages, "depth"));
   }
-  for (const io::Json& row : *results.items())
-    text += fmt::format("{} energy per frame: {}\n", name_of(row), energy_text(*row.find("energy")));
+  text += energy_lines(results);
   if (!ratios.empty()) text += "\n";
   for (const Ratio& one : ratios) text += fmt::format("{:<62} {:>8.3f}\n", one.name, one.value);
   return text;
