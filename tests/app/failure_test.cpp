@@ -60,8 +60,9 @@ TEST(unwritable, places_end_with_3_and_name_the_place) {
   const Folder folder;
   std::ofstream(folder / "file") << "x";
   const std::string long_name(300, 'n');
-  for (const std::string& place :
-       {std::string("/proc/tofray"), std::string("/sys/tofray"), std::string("file"), std::string("file/below"), long_name}) {
+  std::vector<std::string> places = {"/proc/tofray", "file", "file/below", long_name};
+  if (fs::exists("/sys/kernel")) places.emplace_back("/sys/tofray");   // a bare chroot has an empty folder there
+  for (const std::string& place : places) {
     const Result result = run(with_small_sensor({"render", "card", "-o", place}), in_folder(folder.path()));
     EXPECT_EQ(result.code, 3) << place;
     EXPECT_TRUE(has(result.err, place + ": error: ")) << result.err;
