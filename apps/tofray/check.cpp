@@ -24,6 +24,13 @@ bool looks_like_a_profile(const std::string& text, const std::string& name) {
          (root.find("modes") != nullptr || root.find("sensor") != nullptr || root.find("lens") != nullptr);
 }
 
+/// Scene and camera are put together, and nothing is computed: no reason to wake a GPU.
+SimulatorOptions on_processor(const Options& options) {
+  SimulatorOptions out = simulator_options(options);
+  out.backend = Backend::cpu;
+  return out;
+}
+
 struct Report {
   io::Json json = io::Json::object();
   std::string text, warnings;
@@ -38,7 +45,7 @@ Report check_profile(const std::string& text, const std::string& name, const Opt
   for (const std::string& mode : first.mode_names) {
     wanted.mode = mode;
     const Camera camera = load();
-    Simulator(Scene(), camera, simulator_options(options));
+    Simulator(Scene(), camera, on_processor(options));
     const std::string more = warnings(camera);
     if (report.warnings.find(more) == std::string::npos) report.warnings += more;
   }
@@ -57,7 +64,7 @@ Report check_profile(const std::string& text, const std::string& name, const Opt
 
 Report check_scene(const std::string& name, const Options& options) {
   const Inputs in = load_inputs(name, options);
-  Simulator(in.scene, in.camera, simulator_options(options));
+  Simulator(in.scene, in.camera, on_processor(options));
   Report report;
   report.warnings = warnings(in.scene, in.camera);
   report.json.set("kind", "scene")

@@ -33,9 +33,9 @@ constexpr const char* compiler = "clang " __clang_version__;
 constexpr const char* compiler = "g++ " __VERSION__;
 #endif
 
-/// A wall at 1 m, without noise and harmonics, on one instruction set.
+/// A wall at 1 m, without noise and harmonics, on one instruction set or on the GPU.
 struct SelfTest {
-  std::string isa;
+  std::string isa;  ///< or "cuda"
   double worst_m = 0;  ///< largest |z - 1 m|
   std::size_t pixels = 0, valid = 0;
   bool same = true;   ///< the same z in every bit as scalar code
@@ -43,16 +43,17 @@ struct SelfTest {
   [[nodiscard]] bool good() const { return fault.empty() && same && valid == pixels && pixels > 0 && worst_m < wall_limit_m; }
 };
 
-SelfTest test_wall(Isa isa, int threads, std::vector<float>& scalar_z) {
+SelfTest test_wall(Backend backend, Isa isa, const Options& wanted, std::vector<float>& scalar_z) {
   SelfTest out;
-  out.isa = backend::isa_name(isa);
+  out.isa = backend == Backend::cuda ? "cuda" : backend::isa_name(isa);
   try {
     const Scene scene = io::load_scene("card", {{"camera.illumination.0.waveform", "{kind: sine}"}});
     SimulatorOptions options;
     options.noise = Noise::off;
-    options.threads = threads;
+    options.threads = wanted.threads;
     options.isa = isa;
-    options.backend = Backend::cpu;
+    options.backend = backend;
+    options.device = wanted.device;
     const Frame frame = Simulator(scene, load_camera(scene), options).frame(0);
     out.pixels = frame.depth.z_m.size();
     for (const float z : frame.depth.z_m) {
@@ -109,7 +110,7 @@ std::string test_line(const SelfTest& test) {
 
 struct Diagnosis {
   std::string isa, forced;
-  std::vector<std::string> sets, missing;
+  std::vector<std::string> sets, gpus, missing;
   std::vector<SelfTest> tests;
   bool good = true;
 };
@@ -124,9 +125,13 @@ Diagnosis diagnose(const Options& options) {
   for (const Isa isa : instruction_sets) {
     if (!backend::can_run(isa)) continue;
     out.sets.push_back(backend::isa_name(isa));
-    out.tests.push_back(test_wall(isa, options.threads, scalar_z));
+    out.tests.push_back(test_wall(Backend::cpu, isa, options, scalar_z));
     out.good = out.good && out.tests.back().good();
   }
+  out.gpus = backend::usable_gpus();
+  if (out.gpus.empty()) return out;
+  out.tests.push_back(test_wall(Backend::cuda, Isa::best, options, scalar_z));
+  out.good = out.good && out.tests.back().good();
   return out;
 }
 
@@ -138,6 +143,7 @@ std::string text_of(const Diagnosis& d) {
   text += fmt::format("code        {}; in use: {}{}\n", sets, d.isa, d.forced.empty() ? "" : " (TOFRAY_ISA)");
   text += fmt::format("threads     {} cores, {} of them for this process\n", std::thread::hardware_concurrency(), cores_allowed());
   text += fmt::format("memory      {:.1f} GB, {:.1f} GB available\n", 1e-9 * memory_bytes("MemTotal"), 1e-9 * memory_bytes("MemAvailable"));
+  for (const std::string& gpu : d.gpus) text += fmt::format("GPU         {}\n", gpu);
   text += "self-test   a wall at 1 m, no noise, sine: z within 0.1 mm, the same bits from every code\n";
   for (const SelfTest& test : d.tests) text += test_line(test);
   text += "missing\n";
@@ -162,7 +168,8 @@ io::Json json_of(const Diagnosis& d) {
       .set("compiler", compiler)
       .set("cpu", io::cpu_model())
       .set("instruction_sets", io::Json::list(d.sets))
-      .set("isa", d.isa);
+      .set("isa", d.isa)
+      .set("gpus", io::Json::list(d.gpus));
   json.set("cores", std::thread::hardware_concurrency()).set("cores_allowed", cores_allowed());
   json.set("memory_bytes", memory_bytes("MemTotal")).set("memory_available_bytes", memory_bytes("MemAvailable"));
   return json.set("self_test", std::move(tests)).set("missing", io::Json::list(d.missing)).set("good", d.good);

@@ -7,6 +7,7 @@
 #include <thread>
 
 #include "backend/cpu/cpu.h"
+#include "backend/cuda/cuda.h"
 #include "commands.h"
 #include "console.h"
 #include "io/data_limits.h"
@@ -86,7 +87,9 @@ int run_process(const Options& options) {
   write_frame(folder, options.emit.value_or(std::vector<std::string>{"npz", "png", "ply"}), "", frame, in, wanted);
   stopwatch.lap("write");
   const int cores = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
-  const Machine machine{"cpu", backend::isa_name(backend::choose_isa(wanted.isa)), "", wanted.threads > 0 ? wanted.threads : cores};
+  const backend::CudaLack lack = wanted.backend == Backend::cpu ? backend::CudaLack{"the processor was asked for", false, ""} : backend::why_no_cuda(wanted.device);
+  const Machine machine{lack.reason.empty() ? "cuda" : "cpu", backend::isa_name(backend::choose_isa(wanted.isa)), lack.gpu,
+                        wanted.threads > 0 ? wanted.threads : cores};
   write_manifest(folder, options, in.files, machine, stopwatch);
   if (validity(frame.depth).valid == 0) say(fmt::format("warning: no pixel has a valid depth: {}\n", validity(frame.depth).reasons));
   if (options.json)

@@ -12,6 +12,20 @@ constexpr int usual_block_size = 128;
 
 }  // namespace
 
+std::vector<std::string> usable_gpus() {
+  std::vector<std::string> out;
+  for (int i = 0; i < gpu::count_devices(); ++i) {
+    try {
+      const gpu::DeviceInfo info = gpu::Device(i).info();
+      out.push_back(std::to_string(i) + ": " + info.name + ", compute capability " + std::to_string(info.major) + "." + std::to_string(info.minor) + ", " +
+                    std::to_string(info.memory_bytes / 1'000'000'000) + " GB");
+    } catch (const gpu::Fault&) {
+      continue;   // the first one's reason is told elsewhere
+    }
+  }
+  return out;
+}
+
 int check_block_size(int wanted) {
   if (wanted == 0) return usual_block_size;
   if (wanted < gpu::warp_size || wanted > gpu::max_block_size || wanted % gpu::warp_size != 0) {
@@ -22,10 +36,9 @@ int check_block_size(int wanted) {
 
 CudaLack why_no_cuda(int device) {
   try {
-    (void)gpu::Device(device);
-    return {};
+    return {"", true, gpu::Device(device).info().name};
   } catch (const gpu::Fault& fault) {
-    return {fault.reason(), fault.gpu_present()};
+    return {fault.reason(), fault.gpu_present(), ""};
   }
 }
 

@@ -3,6 +3,7 @@
 #pragma once
 #include <deque>
 #include <string>
+#include <vector>
 
 #include "backend/cuda/lane.h"
 
@@ -13,9 +14,13 @@ namespace tofray::backend {
 struct CudaLack {
   std::string reason;          ///< one line; empty: nothing does
   bool gpu_present = false;    ///< there is a GPU, or its driver, so that its owner will want to know the reason
+  std::string gpu;             ///< name of the one that can be used
 };
 /// @param device  which GPU, from 0 on; −1: the first one
 CudaLack why_no_cuda(int device);
+
+/// "0: NVIDIA H200, compute capability 9.0, 140 GB", one line for each GPU that can be used.
+std::vector<std::string> usable_gpus();
 
 /// @param wanted  0: chosen
 /// @return threads per block
