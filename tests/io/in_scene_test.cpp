@@ -186,6 +186,8 @@ class profile_of_a_scene : public testing::Test {
     profile(top_ / "inside/mine.yaml", "beside");
     profile(top_ / "inside/below/mine.yaml", "below");
     profile(top_ / "outside.yaml", "outside");
+    fs::create_directories(top_ / "inside-too");
+    profile(top_ / "inside-too/mine.yaml", "in a folder whose name begins alike");
     fs::create_symlink("../outside.yaml", top_ / "inside/link.yaml");
     fs::create_symlink("..", top_ / "inside/up");
     fs::create_symlink("mine.yaml", top_ / "inside/good-link.yaml");
@@ -249,6 +251,8 @@ TEST_F(profile_of_a_scene, is_never_read_from_elsewhere) {
                              "\\x2e\\x2e/",  "/proc/self/root/", "/proc/self/cwd/", "${PWD}/",   "$(pwd)/",
                              "../inside/../"})
     for (const char* file : {"outside.yaml", "../outside.yaml"}) escapes.push_back(std::string(prefix) + file);
+  escapes.push_back("../inside-too/mine.yaml");
+  escapes.push_back((top_ / "inside-too/mine.yaml").string());
   EXPECT_GE(escapes.size(), 60U);
   for (const auto& path : escapes) {
     const std::string what = load(path);
@@ -263,6 +267,7 @@ TEST_F(profile_of_a_scene, may_lie_below_a_root_that_the_user_gives) {
   EXPECT_EQ(load("mine.yaml", top_.string()), "beside");
   EXPECT_TRUE(has(load("../../etc/passwd", top_.string()), "leads out"));
   EXPECT_TRUE(has(load("../outside.yaml", (top_ / "inside").string()), "leads out"));
+  EXPECT_TRUE(has(load("../inside-too/mine.yaml", (top_ / "inside").string()), "leads out"));
 }
 
 TEST(overrides, of_the_profile_name_the_scene_where_they_are_wrong) {
