@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <charconv>
 
+#include "base/limits.h"
 #include "base/text.h"
 #include "commands.h"
 #include "tofray/error.h"
@@ -74,6 +75,7 @@ void take_emit(Options& o, const std::string& value) {
   o.emit = kinds;
 }
 
+constexpr auto most_threads = static_cast<std::uint64_t>(base::limit::threads.value);
 constexpr int most_block = 1024;  // CUDA's threads per block; they go together in warps of 32
 constexpr const char* block_sizes_expected =
     "multiples of 32 up to 1024: 128, or 64,128,256, or first:last:step as in --block-size 32:1024:32";
@@ -132,7 +134,7 @@ std::vector<OptionSpec> machine_specs() {
        "N",
        "threads to use; the results are the same (0: one per core)",
        [](Options& o, const std::string& v) {
-         o.threads = static_cast<int>(whole("--threads", v, 0, 1024, "a whole number of 0 to 1024"));
+         o.threads = static_cast<int>(whole("--threads", v, 0, most_threads, "a whole number of 0 to 1024"));
        },
        {}},
       {"--backend",

@@ -35,7 +35,7 @@ struct Depth {
   std::vector<float> range_m;            ///< [height][width] along the pixel's ray
   std::vector<float> points_m;           ///< [height][width][3] x, y, z
   std::vector<float> amplitude_e;        ///< [height][width] mean Â of the frequencies
-  std::vector<float> ambient_e;          ///< [height][width] B̂, both taps, per lit exposure
+  std::vector<float> ambient_e;          ///< [height][width] B̂, both taps, per lit exposure (none lit: of the mean exposure)
   std::vector<float> noise_m;            ///< [height][width] σ̂ of the range, 1 sigma
   std::vector<std::uint8_t> confidence;  ///< [height][width] 0…255
   std::vector<std::uint16_t> flags;      ///< [height][width] bits of Flag

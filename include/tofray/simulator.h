@@ -36,7 +36,7 @@ enum class Stage { trace, power, raw, depth };
 struct SimulatorOptions {
   std::uint64_t seed = 0;
   Noise noise = Noise::exact;
-  int threads = 0;             ///< 0: as many as the machine has cores
+  int threads = 0;             ///< at most 1024; 0: as many as the machine has cores
   Backend backend = Backend::automatic;
   int device = -1;             ///< which GPU, from 0 on; −1: the first one
   int block_size = 0;          ///< CUDA threads per block, a multiple of 32 up to 1024; 0: chosen
@@ -78,7 +78,8 @@ class DeviceFrames {
 /// Simulates frames of one scene seen by one camera. frame(i) depends on nothing but (scene, camera, options, i).
 class Simulator {
  public:
-  /// @throws Error (bad_input) where scene, camera and options do not fit together; (device) where Backend::cuda is wanted and cannot be had
+  /// @throws Error (bad_input) for a number that is not finite or out of its range, and where scene, camera and options do not fit
+  /// together; (limit) where they are beyond a limit; (device) where Backend::cuda is wanted and cannot be had
   Simulator(const Scene& scene, const Camera& camera, const SimulatorOptions& options = {});
   ~Simulator();
   Simulator(Simulator&&) noexcept;
@@ -121,7 +122,8 @@ class Simulator {
 };
 
 /// Decodes raw data, simulated or measured, into depth (physics: 4). Needs `raw`, or `tap_a` and `tap_b`, and the arrays by
-/// phase; the camera says the rest. Taps, where present, are taken unrounded only if `raw` is empty.
+/// phase; the camera says the rest. Taps, where present, are taken unrounded only if `raw` is empty; a tap that holds no
+/// number flags its pixel as saturated.
 Depth process(const Raw& raw, const Camera& camera, const SimulatorOptions& options = {});
 
 }  // namespace tofray

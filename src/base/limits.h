@@ -26,6 +26,7 @@ inline constexpr Limit sensor_side{"sensor_side", 16'384, "pixels along one side
 inline constexpr Limit sensor_pixels{"sensor_pixels", 1 << 24, "pixels of the sensor"};
 inline constexpr Limit raw_samples{"raw_samples", 1 << 27, "pixels times raw frames of one frame"};
 inline constexpr Limit curve_points{"curve_points", 10'000, "points of one curve or spectrum"};
+inline constexpr Limit threads{"threads", 1024, "threads of one run"};
 inline constexpr Limit table_samples{"table_samples", 1 << 20, "samples of one light pattern"};
 }  // namespace limit
 
@@ -34,6 +35,7 @@ inline constexpr Limit all_limits[] = {
     limit::file_bytes,    limit::nesting_depth, limit::nodes,        limit::faults_shown,  limit::objects,
     limit::materials,     limit::lights,        limit::raw_frames,   limit::modes,         limit::sensor_side,
     limit::sensor_pixels, limit::raw_samples,   limit::curve_points, limit::table_samples,
+    limit::threads,
 };
 
 }  // namespace tofray::base

@@ -3,6 +3,7 @@
 #pragma once
 #include "tofray/camera.h"
 #include "tofray/scene.h"
+#include "tofray/simulator.h"
 
 /// What the readers check of files, for scenes and cameras built in code: every number that is used is finite and within its range.
 /// Behind these checks no arithmetic meets NaN or infinity from outside.
@@ -11,5 +12,6 @@ namespace tofray::simulator {
 /// @throws Error (bad_input; limit for counts) naming the member
 void check(const Camera& camera);
 void check(const Scene& scene);
+void check(const SimulatorOptions& options);
 
 }  // namespace tofray::simulator

@@ -171,4 +171,8 @@ void check(const Camera& camera) {
   within(camera.min_integration_time_s, range::pause_s, "min_integration_time_s");
 }
 
+void check(const SimulatorOptions& options) {
+  at_most(options.threads > 0 ? static_cast<std::size_t>(options.threads) : 0, limit::threads.value, "threads");
+}
+
 }  // namespace tofray::simulator

@@ -44,6 +44,7 @@ Camera camera_of(const Raw& raw, const Camera& profile) {
 
 Depth process(const Raw& raw, const Camera& profile, const SimulatorOptions& options) {
   const Camera camera = camera_of(raw, profile);
+  simulator::check(options);
   simulator::check(camera);
   const camera::FrozenCamera frozen(camera, static_cast<int>(options.noise), options.seed);
   pipeline::Setup setup{};

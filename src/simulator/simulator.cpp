@@ -32,8 +32,9 @@ void set_ambient(const Scene& scene, const Camera& camera, const Vec3& toward_su
   power.ambient_rate = static_cast<float>(rate * static_cast<double>(power.watts_per_radiance) / base::pi);
 }
 
-/// The scene, once both are seen to be good.
-const Scene& checked(const Scene& scene, const Camera& camera) {
+/// The scene, once all are seen to be good.
+const Scene& checked(const Scene& scene, const Camera& camera, const SimulatorOptions& options) {
+  simulator::check(options);
   simulator::check(scene);
   simulator::check(camera);
   return scene;
@@ -42,7 +43,7 @@ const Scene& checked(const Scene& scene, const Camera& camera) {
 }  // namespace
 
 Simulator::Impl::Impl(const Scene& all, const Camera& profile, const SimulatorOptions& wanted)
-    : scene(checked(all, profile)),
+    : scene(checked(all, profile, wanted)),
       camera(profile),
       options(wanted),
       frozen_camera(camera, static_cast<int>(wanted.noise), wanted.seed),
