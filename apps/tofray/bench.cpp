@@ -12,6 +12,7 @@
 #include <cstring>
 #include <set>
 
+#include "backend/cuda/cuda.h"
 #include "commands.h"
 #include "console.h"
 #include "experiment.h"
@@ -128,8 +129,12 @@ const Frame& Contender::first_frame() {
   return frame_;
 }
 
+std::string gpu_bus_id(const Simulator& simulator, const SimulatorOptions& options) {
+  return simulator.backend() == "cuda" ? backend::cuda_bus_id(options.device) : std::string();
+}
+
 Energy Contender::energy() {
-  return energy_per_frame(simulator_.backend() == "cuda", "", [this] { step(false); });
+  return energy_per_frame(gpu_bus_id(simulator_, options_), 1, [this] { step(false); });
 }
 
 io::Json Contender::result() {
@@ -182,6 +187,9 @@ int run_bench(const Options& options) {
   if (options.compare && (experiment || options.backend == Backend::cuda))
     throw Error(ErrorKind::bad_input,
                 "error: --compare is of the processor's variants\n  it goes without --stage, --block-size and --backend cuda");
+  if (options.batch && (experiment || options.compare))
+    throw Error(ErrorKind::bad_input, "error: --batch measures whole batches\n  it goes without --stage, --block-size and --compare");
+  if (options.batch) return run_batch_bench(options);
   if (experiment) return run_experiment(options);
   const std::string scene = options.words.empty() ? "bench-primitives" : options.words[0];
   const std::uint64_t frames = options.frames.value_or(100);

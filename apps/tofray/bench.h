@@ -51,6 +51,9 @@ std::uint64_t peak_bytes();
 /// Options for timing: no ground truth.
 SimulatorOptions bench_options(const Options& options);
 
+/// Where the GPU sits that computes; empty where the processor does.
+std::string gpu_bus_id(const Simulator& simulator, const SimulatorOptions& options);
+
 /// SHA-256 over all arrays of raw data, depth and ground truth that there are.
 std::string arrays_sha256(const Frame& frame);
 
@@ -59,6 +62,9 @@ struct Ratio {
   std::string name;  ///< "time of scalar_fma / avx512, 1 thread"
   double value = 0;
 };
+
+/// Frames per second of whole batches. @return the exit code
+int run_batch_bench(const Options& options);
 
 /// Runs pairs in turn, frame by frame (A B A B …), so that the machine's moods meet both alike.
 /// @param results  a row for each contender

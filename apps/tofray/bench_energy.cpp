@@ -16,7 +16,7 @@ namespace {
 
 constexpr double rapl_seconds = 1, nvml_seconds = 4;
 constexpr double reread_seconds = 10;  ///< far less than a counter takes to go around twice
-constexpr int least_frames = 10;
+constexpr int least_calls = 10;
 
 FrameEnergy share_of(energy::Meter& meter, double frames) {
   const double joules = meter.joules();  // before its reason is asked for, which reading may set
@@ -39,7 +39,8 @@ std::string text_of(const io::Json& json, const std::string& who, const char* na
 
 }  // namespace
 
-Energy energy_per_frame(energy::Meter& cpu, energy::Meter* gpu, double seconds, const std::function<void()>& frame) {
+Energy energy_per_frame(energy::Meter& cpu, energy::Meter* gpu, double seconds, std::uint64_t frames,
+                        const std::function<void()>& simulate) {
   using Clock = std::chrono::steady_clock;
   const auto since = [](Clock::time_point then) { return std::chrono::duration<double>(Clock::now() - then).count(); };
   const bool any = cpu.readable() || (gpu != nullptr && gpu->readable());
@@ -47,27 +48,28 @@ Energy energy_per_frame(energy::Meter& cpu, energy::Meter* gpu, double seconds, 
   if (gpu != nullptr) gpu->start();
   const Clock::time_point begin = Clock::now();
   Clock::time_point last = begin;
-  int frames = 0;
-  while (any && (frames < least_frames || since(begin) < seconds)) {
-    frame();
-    ++frames;
+  int calls = 0;
+  while (any && (calls < least_calls || since(begin) < seconds)) {
+    simulate();
+    ++calls;
     if (since(last) < reread_seconds) continue;
     cpu.joules();
     if (gpu != nullptr) gpu->joules();
     last = Clock::now();
   }
   Energy out;
-  out.cpu = share_of(cpu, frames);
+  const double all = static_cast<double>(frames) * calls;
+  out.cpu = share_of(cpu, all);
   out.with_gpu = gpu != nullptr;
-  if (gpu != nullptr) out.gpu = share_of(*gpu, frames);
+  if (gpu != nullptr) out.gpu = share_of(*gpu, all);
   return out;
 }
 
-Energy energy_per_frame(bool with_gpu, const std::string& pci_bus_id, const std::function<void()>& frame) {
+Energy energy_per_frame(const std::string& gpu_bus_id, std::uint64_t frames, const std::function<void()>& simulate) {
   energy::Rapl cpu;
   std::unique_ptr<energy::Meter> gpu;
-  if (with_gpu) gpu = std::make_unique<energy::Nvml>(pci_bus_id);
-  return energy_per_frame(cpu, gpu.get(), with_gpu && gpu->readable() ? nvml_seconds : rapl_seconds, frame);
+  if (!gpu_bus_id.empty()) gpu = std::make_unique<energy::Nvml>(gpu_bus_id);
+  return energy_per_frame(cpu, gpu.get(), gpu != nullptr && gpu->readable() ? nvml_seconds : rapl_seconds, frames, simulate);
 }
 
 io::Json energy_json(const Energy& energy) {

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The tofray authors
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include <cstdint>
 #include <functional>
 #include <string>
 
@@ -22,14 +23,18 @@ struct Energy {
   bool with_gpu = false;
 };
 
-/// Simulates frames one after the other for a while and divides what the counters say by their number. What the machine takes when it
-/// does nothing is in it, and so is all else that runs meanwhile. Returns at once where nothing can be read.
+/// Simulates one time after the other for a while and divides what the counters say by the number of frames. What the machine takes when
+/// it does nothing is in it, and so is all else that runs meanwhile. Returns at once where nothing can be read.
 /// @param gpu      a null pointer where no GPU takes part
-/// @param seconds  how long at least; so long, too, that there are ten frames
-Energy energy_per_frame(energy::Meter& cpu, energy::Meter* gpu, double seconds, const std::function<void()>& frame);
+/// @param seconds  how long at least; so long, too, that there are ten calls
+/// @param frames   that one call of `simulate` is
+Energy energy_per_frame(energy::Meter& cpu, energy::Meter* gpu, double seconds, std::uint64_t frames,
+                        const std::function<void()>& simulate);
 
 /// The same with this machine's counters, for as long as they need: RAPL's move every millisecond, NVML's every 20 to 100 ms.
-Energy energy_per_frame(bool with_gpu, const std::string& pci_bus_id, const std::function<void()>& frame);
+/// @param gpu_bus_id  which GPU takes part; empty: none
+/// @param frames      that one call of `simulate` is
+Energy energy_per_frame(const std::string& gpu_bus_id, std::uint64_t frames, const std::function<void()>& simulate);
 
 /// {"cpu_j_per_frame", "cpu_counter", "cpu_not_readable"} and the same for the GPU where one takes part; what is not there is null.
 io::Json energy_json(const Energy& energy);

@@ -114,12 +114,13 @@ std::vector<Command> make() {
                    "tofray bench room --frames 200 --noise fast --threads 1\n"
                    "tofray bench --compare                           # variants in turn, ratios of their medians\n"
                    "tofray bench --backend cuda --block-size 32:1024:32 --stage power,all    # speed-up over block size\n"
-                   "tofray bench --backend cpu --stage power,all     # the same over threads, without a GPU\n",
+                   "tofray bench --backend cpu --stage power,all     # the same over threads, without a GPU\n"
+                   "tofray bench --backend cuda --batch 4096         # frames per second of whole batches\n",
        .more = "With --stage or --block-size the time from the ray to the end of a stage is measured against one thread of sequential\n"
                "code and against vector code, all in turn, for scenes of 16 spheres, boxes, planes and triangles (or SCENE): a table,\n"
                "and in ./tofray-bench (or -o DIR) experiment.json, experiment.txt, speed-up.png and speed-up.svg.\n"
                "Exit code 1 where not all give the same bytes.\n",
-       .options = {"--frames", "--warmup", "--compare", "--stage", "--block-size", "--output", "--set", "--mode", "--seed", "--noise", "--root",
+       .options = {"--frames", "--warmup", "--compare", "--batch", "--stage", "--block-size", "--output", "--set", "--mode", "--seed", "--noise", "--root",
                    "--threads", "--backend", "--device", "--json"},
        .least_words = 0,
        .most_words = 1,

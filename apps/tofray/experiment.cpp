@@ -73,6 +73,7 @@ Entry enter(const Inputs& in, const SimulatorOptions& options) {
     entry.contender = std::make_unique<Contender>(in, options);
     const Simulator& simulator = entry.contender->simulator();
     if (!gpu) entry.run.code = simulator.isa(), entry.run.threads = simulator.threads();
+    if (gpu) entry.run.occupancy = simulator.occupancy();
     entry.run.sha256 = arrays_sha256(entry.contender->first_frame());
   } catch (const Error& error) {
     // A block size that this GPU, or the kernel's registers, do not allow; without any GPU the run ended before.

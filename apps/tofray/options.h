@@ -21,6 +21,7 @@ struct Options {
   std::optional<std::vector<std::string>> emit;  ///< out of npz, png, ply
   std::optional<std::uint64_t> frames;
   std::optional<std::pair<int, int>> pixel;  ///< u, v
+  std::optional<std::uint64_t> batch;  ///< --batch: frames at once
   std::vector<int> block_sizes;      ///< --block-size: CUDA threads per block
   std::vector<std::string> stages;   ///< --stage, out of trace, power, raw, all
   std::uint64_t first_frame = 0;

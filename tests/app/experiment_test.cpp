@@ -198,6 +198,17 @@ TEST(experiment, with_a_gpu_each_block_size_is_measured) {
   EXPECT_EQ(io::parse_json(result.out, "stdout").find("results")->items()->size(), 2u * 34);
 }
 
+TEST(bench_batch, on_the_processor_frames_go_to_the_host_only) {
+  const Result result = run(with_small_sensor({"bench", "--backend", "cpu", "--batch", "3", "--frames", "2", "--json"}));
+  ASSERT_EQ(result.code, 0) << result.err;
+  const io::Json json = io::parse_json(result.out, "stdout");
+  const io::Json& row = (*json.find("results")->items())[0];
+  EXPECT_GT(number(row, "frames_per_s_host"), 0);
+  EXPECT_TRUE(row.find("frames_per_s_device")->is_null());
+  const Result table = run(with_small_sensor({"bench", "--backend", "cpu", "--batch", "3", "--frames", "2"}));
+  EXPECT_TRUE(has(line_with(table.out, "poses"), "bench-primitives")) << table.out;
+}
+
 /// A counter that goes up by 2 J whenever it is read.
 class FakeMeter : public energy::Meter {
  public:
@@ -212,7 +223,7 @@ class FakeMeter : public energy::Meter {
 TEST(bench_energy, is_joules_by_frames) {
   FakeMeter cpu, gpu;
   int frames = 0;
-  const Energy energy = energy_per_frame(cpu, &gpu, 0, [&] { ++frames; });
+  const Energy energy = energy_per_frame(cpu, &gpu, 0, 1, [&] { ++frames; });
   EXPECT_EQ(frames, 10);  // least
   EXPECT_DOUBLE_EQ(energy.cpu.joules, 0.2);
   EXPECT_DOUBLE_EQ(energy.gpu.joules, 0.2);
@@ -222,7 +233,7 @@ TEST(bench_energy, is_joules_by_frames) {
 TEST(bench_energy, runs_no_frame_where_nothing_can_be_read_and_says_why) {
   FakeMeter cpu("no counter"), gpu("no driver");
   int frames = 0;
-  const Energy energy = energy_per_frame(cpu, &gpu, 100, [&] { ++frames; });
+  const Energy energy = energy_per_frame(cpu, &gpu, 100, 1, [&] { ++frames; });
   EXPECT_EQ(frames, 0);
   const io::Json json = energy_json(energy);
   EXPECT_TRUE(json.find("cpu_j_per_frame")->is_null());
@@ -233,11 +244,11 @@ TEST(bench_energy, runs_no_frame_where_nothing_can_be_read_and_says_why) {
 TEST(bench_energy, a_counter_that_goes_half_way_is_not_readable) {
   FakeMeter cpu, gpu;
   int frames = 0;
-  const Energy energy = energy_per_frame(cpu, &gpu, 0, [&] {
+  const Energy energy = energy_per_frame(cpu, &gpu, 0, 1, [&] {
     if (++frames == 3) cpu.break_down();
   });
   EXPECT_EQ(energy_text(energy_json(energy)), "CPU not readable here: gone; GPU 0.2 J (fake)");
-  EXPECT_TRUE(has(energy_text(energy_json(energy_per_frame(gpu, nullptr, 0, [] {}))), "CPU 0.2 J"));
+  EXPECT_TRUE(has(energy_text(energy_json(energy_per_frame(gpu, nullptr, 0, 1, [] {}))), "CPU 0.2 J"));
 }
 
 TEST(bench_energy, is_in_the_table_and_in_json) {

@@ -3,6 +3,10 @@
 # The tests drive the real program.
 add_dependencies(test_app tofray)
 target_compile_definitions(test_app PRIVATE TOFRAY_TOOL="$<TARGET_FILE:tofray>")
-# … but for what it makes of measured numbers, which tests make up.
-target_sources(test_app PRIVATE ${CMAKE_SOURCE_DIR}/apps/tofray/bench_energy.cpp ${CMAKE_SOURCE_DIR}/apps/tofray/experiment_report.cpp)
+# … but for measuring: there tests make numbers up, and put a stand-in for CUDA in the GPU's place.
+foreach(name bench bench_batch bench_compare bench_energy console experiment experiment_report inputs profile_tables progress results)
+  target_sources(test_app PRIVATE ${CMAKE_SOURCE_DIR}/apps/tofray/${name}.cpp)
+endforeach()
 target_include_directories(test_app PRIVATE ${CMAKE_SOURCE_DIR}/apps/tofray)
+# The stand-in compiles the pipeline on plain floats (tests/backend/sources.cmake).
+set_source_files_properties(app/bench_gpu_test.cpp PROPERTIES COMPILE_OPTIONS "-O2;$<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>")

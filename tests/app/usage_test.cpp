@@ -93,6 +93,8 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{{"bench", "--stage", ""}, 2, "trace, power"}, Mistake{{"bench", "--stage", "power,"}, 2, "trace, power"},
         Mistake{{"bench", "--backend", "cpu", "--block-size", "64"}, 2, "--block-size is a GPU's"},
         Mistake{{"bench", "--compare", "--stage", "all"}, 2, "--compare"}, Mistake{{"bench", "--compare", "--backend", "cuda"}, 2, "--compare"},
+        Mistake{{"bench", "--batch", "0"}, 2, "1 to 1000000"}, Mistake{{"bench", "--batch", "3", "--stage", "all"}, 2, "--batch"},
+        Mistake{{"bench", "--batch", "3", "--compare"}, 2, "--batch"},
         Mistake{{"render", "card", "--block-size", "64"}, 2, "`tofray render` has no option --block-size"}));
 
 TEST(usage, options_may_come_in_every_form) {

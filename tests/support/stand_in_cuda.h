@@ -73,7 +73,7 @@ class StandInCuda final : public backend::gpu::Runtime {
   }
   Status describe(int device, backend::gpu::DeviceInfo& info) override {
     if (fails()) return failed;
-    info = {"Stand-in " + std::to_string(device), 9, 0, 4, 2048, 1u << 30};
+    info = {"Stand-in " + std::to_string(device), 9, 0, 4, 2048, 1u << 30, "0000:3b:00." + std::to_string(device)};
     return 0;
   }
   Status use(int device) override {

@@ -42,6 +42,8 @@ CudaLack why_no_cuda(int device) {
   }
 }
 
+std::string cuda_bus_id(int device) { return gpu::Device(device).info().bus_id; }
+
 Cuda::Cuda(int device, int block_size) : device_(device), block_size_(check_block_size(block_size)) {}
 
 void Cuda::load(const pipeline::Setup& setup) {

@@ -22,6 +22,10 @@ CudaLack why_no_cuda(int device);
 /// "0: NVIDIA H200, compute capability 9.0, 140 GB", one line for each GPU that can be used.
 std::vector<std::string> usable_gpus();
 
+/// Where a GPU sits, as other libraries (NVML) know it: "0000:3b:00.0".
+/// @throws gpu::Fault where it cannot be used
+std::string cuda_bus_id(int device);
+
 /// @param wanted  0: chosen
 /// @return threads per block
 /// @throws Error (bad_input) for a number that cannot be

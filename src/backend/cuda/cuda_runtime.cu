@@ -42,8 +42,10 @@ class CudaRuntime final : public Runtime {
   Status count_devices(int& count) override { return told(cudaGetDeviceCount(&count)); }
   Status describe(int device, DeviceInfo& info) override {
     cudaDeviceProp p;
-    const cudaError_t status = cudaGetDeviceProperties(&p, device);
-    if (status == cudaSuccess) info = {p.name, p.major, p.minor, p.multiProcessorCount, p.maxThreadsPerMultiProcessor, p.totalGlobalMem};
+    char bus_id[32] = "";
+    cudaError_t status = cudaGetDeviceProperties(&p, device);
+    if (status == cudaSuccess) status = cudaDeviceGetPCIBusId(bus_id, sizeof bus_id, device);
+    if (status == cudaSuccess) info = {p.name, p.major, p.minor, p.multiProcessorCount, p.maxThreadsPerMultiProcessor, p.totalGlobalMem, bus_id};
     return told(status);
   }
   Status use(int device) override { return told(cudaSetDevice(device)); }

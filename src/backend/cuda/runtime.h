@@ -21,6 +21,7 @@ struct DeviceInfo {
   int processors = 0;             ///< streaming multiprocessors
   int threads_per_processor = 0;  ///< that one of them can hold
   std::size_t memory_bytes = 0;
+  std::string bus_id;             ///< "0000:3b:00.0": its place, the same in every library that counts GPUs in an order of its own
 };
 
 /// One kernel over all pixels of `batch.frames` frames.

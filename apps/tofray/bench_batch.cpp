@@ -1,0 +1,138 @@
+// SPDX-FileCopyrightText: 2026 The tofray authors
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include "bench.h"
+#include "console.h"
+#include "io/meta.h"
+#include "progress.h"
+#include "results.h"
+
+namespace tofray::app {
+
+namespace {
+
+/// Times of one kind of batch, a value for each repetition [s].
+struct Times {
+  std::vector<double> device;    ///< the GPU's own clock, results left in its memory
+  std::vector<double> resident;  ///< the host's clock for the same: preparing, launching, computing
+  std::vector<double> host;      ///< the host's clock, every frame taken to host memory
+};
+
+double median(std::vector<double> values) {
+  if (values.empty()) return std::nan("");
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+template <class Call>
+double seconds_of(const Call& call) {
+  const auto start = std::chrono::steady_clock::now();
+  call();
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+/// Frames whose noise differs, and, for `poses`, whose camera stands up to 3 cm aside.
+std::vector<FrameRequest> requests_of(const Inputs& in, std::uint64_t count, std::uint64_t seed, bool poses) {
+  std::vector<FrameRequest> requests(count);
+  for (std::uint64_t i = 0; i < count; ++i) {
+    requests[i].index = 0;
+    requests[i].seed = seed + i;
+    if (!poses) continue;
+    Pose pose = in.scene.camera.pose;
+    const double x = 0.01 * (static_cast<double>(i % 7) - 3), y = 0.01 * (static_cast<double>(i / 7 % 5) - 2);
+    pose.position[0] += x, pose.position[1] += y;
+    pose.look_at[0] += x, pose.look_at[1] += y;
+    requests[i].pose = pose;
+  }
+  return requests;
+}
+
+Times measure(Simulator& simulator, const std::vector<FrameRequest>& requests, std::uint64_t repeats) {
+  Times times;
+  const auto ignore = [](const FrameArrays&) {};
+  DeviceFrames frames;
+  const bool gpu = simulator.backend() == "cuda";
+  for (std::uint64_t i = 0; i <= repeats; ++i) {  // the first one is not counted: memory is taken, the GPU's clock goes up
+    const double resident = gpu ? seconds_of([&] { simulator.frames_on_device(requests, frames); }) : 0;
+    const double host = seconds_of([&] { simulator.frames(requests, ignore); });
+    if (i == 0) continue;
+    times.host.push_back(host);
+    if (!gpu) continue;
+    times.resident.push_back(resident);
+    times.device.push_back(frames.seconds());
+  }
+  return times;
+}
+
+io::Json row_of(const Inputs& in, Simulator& simulator, const SimulatorOptions& options, const char* differing,
+                const std::vector<FrameRequest>& requests, std::uint64_t repeats) {
+  const Times times = measure(simulator, requests, repeats);
+  const auto count = static_cast<double>(requests.size());
+  const auto rate = [&](const std::vector<double>& seconds) { return io::Json(count / median(seconds)); };
+  const bool gpu = simulator.backend() == "cuda";
+  DeviceFrames frames;
+  const Energy energy = energy_per_frame(gpu_bus_id(simulator, options), requests.size(), [&] {
+    if (gpu)
+      simulator.frames_on_device(requests, frames);
+    else
+      simulator.frames(requests, [](const FrameArrays&) {});
+  });
+  io::Json row = io::Json::object();
+  row.set("scene", in.scene.name).set("backend", simulator.backend()).set("device", simulator.device()).set("isa", simulator.isa());
+  row.set("threads", simulator.threads()).set("noise", io::noise_name(options.noise)).set("differing", differing);
+  row.set("batch", requests.size()).set("repeats", repeats);
+  row.set("frames_per_s_device", rate(times.device)).set("frames_per_s_resident", rate(times.resident));
+  return row.set("frames_per_s_host", rate(times.host)).set("energy", energy_json(energy));
+}
+
+std::string text_of(const io::Json& row) {
+  const auto rate = [&](const char* key) {
+    double value = 0;
+    return row.find(key)->number(value) && std::isfinite(value) ? fmt::format("{:.0f}", value) : std::string("-");
+  };
+  double batch = 0;
+  row.find("batch")->number(batch);
+  return fmt::format("{:<24} {:<20} {:<6} {:<6} {:>7.0f} {:>13} {:>13} {:>13}\n", *row.find("scene")->string(),
+                     *row.find("device")->string(), *row.find("noise")->string(), *row.find("differing")->string(), batch,
+                     rate("frames_per_s_device"), rate("frames_per_s_resident"), rate("frames_per_s_host"));
+}
+
+}  // namespace
+
+int run_batch_bench(const Options& options) {
+  const Inputs in = load_inputs(options.words.empty() ? "bench-primitives" : options.words[0], options);
+  say(warnings(in.scene, in.camera));
+  SimulatorOptions wanted = bench_options(options);
+  if (wanted.device < 0) wanted.device = 0;  // one GPU, also where frames would be spread over several: its energy is measured
+  Simulator simulator(in.scene, in.camera, wanted);
+  say_fallback(options, simulator.fallback_reason());
+  const std::uint64_t repeats = options.frames.value_or(20);
+  io::Json results = io::Json::array();
+  for (const char* differing : {"seeds", "poses"}) {
+    const bool poses = std::string_view(differing) == "poses";
+    results.push(row_of(in, simulator, wanted, differing, requests_of(in, *options.batch, wanted.seed, poses), repeats));
+  }
+  if (options.json) {
+    print(io::json_text(io::Json::object().set("results", std::move(results)), 2) + "\n");
+    return 0;
+  }
+  std::string text = fmt::format("frames per second, medians of {} batches\n{:<24} {:<20} {:<6} {:<6} {:>7} {:>13} {:>13} {:>13}\n",
+                                 repeats, "scene", "device", "noise", "differ", "batch", "device clock", "left there", "to the host");
+  std::vector<std::string> energy;
+  for (const io::Json& row : *results.items()) {
+    text += text_of(row);
+    const std::string one = fmt::format("energy per frame: {}\n", energy_text(*row.find("energy")));
+    if (energy.empty() || energy.back() != one) energy.push_back(one);  // what cannot be read is said once
+  }
+  for (const std::string& one : energy) text += one;
+  print(text);
+  return 0;
+}
+
+}  // namespace tofray::app
