@@ -57,12 +57,12 @@ std::string energy_lines(const io::Json& results) {
 }
 
 std::string table_of(const io::Json& results, const std::vector<Ratio>& ratios) {
-  std::string text = fmt::format("{:<24} {:<11} {:>7} {:<6} {:>10} {:>10} {:>9} {:>8}  {}\n", "scene", "code", "threads", "noise",
-                                 "frames/s", "median ms", "p10 ms", "peak MB", "SHA-256 of frame 0");
+  std::string text = fmt::format("{:<24} {:<11} {:>7} {:<6} {:>10} {:>10} {:>9} {:>9} {:>8}  {}\n", "scene", "code", "threads", "noise",
+                                 "frames/s", "median ms", "p10 ms", "p99 ms", "peak MB", "SHA-256 of frame 0");
   for (const io::Json& row : *results.items()) {
-    text +=
-        fmt::format("{} {:>10.2f} {:>10.3f} {:>9.3f} {:>8.1f}  {}\n", name_of(row), number(row, "frames_per_s"), number(row, "ms_median"),
-                    number(row, "ms_p10"), 1e-6 * number(row, "peak_bytes"), row.find("sha256")->string()->substr(0, 16));
+    text += fmt::format("{} {:>10.2f} {:>10.3f} {:>9.3f} {:>9.3f} {:>8.1f}  {}\n", name_of(row), number(row, "frames_per_s"),
+                        number(row, "ms_median"), number(row, "ms_p10"), number(row, "ms_p99"), 1e-6 * number(row, "peak_bytes"),
+                        row.find("sha256")->string()->substr(0, 16));
   }
   for (const io::Json& row : *results.items()) {
     const io::Json& stages = *row.find("stage_ms");
@@ -145,6 +145,7 @@ io::Json Contender::result() {
   row.set("frames_per_s", 1000 / median_ms())
       .set("ms_median", median_ms())
       .set("ms_p10", percentile_ms(0.1))
+      .set("ms_p99", percentile_ms(0.99))
       .set("stage_ms", stage_ms())
       .set("energy", energy_json(energy()));
   return row.set("peak_bytes", peak_bytes()).set("sha256", hash);

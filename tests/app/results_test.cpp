@@ -373,9 +373,12 @@ TEST(bench, measures_what_it_says) {
   const io::Json json = io::parse_json(result.out, "stdout");
   ASSERT_EQ(json.find("results")->items()->size(), 1u);
   const io::Json& row = json.find("results")->items()->front();
-  double median = 0, rate = 0, peak = 0;
+  double median = 0, rate = 0, peak = 0, fast = 0, slow = 0;
   ASSERT_TRUE(row.find("ms_median")->number(median) && row.find("frames_per_s")->number(rate) && row.find("peak_bytes")->number(peak));
-  EXPECT_GT(median, 0);
+  ASSERT_TRUE(row.find("ms_p10")->number(fast) && row.find("ms_p99")->number(slow));
+  EXPECT_GT(fast, 0);
+  EXPECT_LE(fast, median);
+  EXPECT_LE(median, slow);
   EXPECT_NEAR(rate * median, 1000, 1e-6);
   EXPECT_GT(peak, 1e6);
   EXPECT_EQ(row.find("sha256")->string()->size(), 64u);
