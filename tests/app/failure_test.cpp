@@ -56,6 +56,56 @@ TEST(full_disk, leaves_the_old_file_and_no_temporary) {
   EXPECT_EQ(temporaries(folder.path()), std::vector<std::string>());
 }
 
+/// Runs the program under strace, which makes the call number `which` of a kind fail.
+Prepare failing(const fs::path& folder, const std::string& call, const std::string& error, int which, const Arguments& arguments) {
+  return [=] {
+    in_folder(folder)();
+    const std::string inject = "inject=" + call + ":error=" + error + ":when=" + std::to_string(which);
+    std::vector<std::string> words = {"strace", "-f", "-qqq", "-o", "/dev/null", "-e", "trace=" + call, "-e", inject, TOFRAY_TOOL};
+    words.insert(words.end(), arguments.begin(), arguments.end());
+    std::vector<char*> pointers;
+    for (std::string& one : words) pointers.push_back(one.data());
+    pointers.push_back(nullptr);
+    ::execvp("strace", pointers.data());
+    ::_exit(127);
+  };
+}
+
+// Row F16: the disk is full or breaks at any of the calls that write. One frame is there from an earlier run.
+TEST(broken_disk, at_any_call_ends_with_3_and_leaves_whole_files) {
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+  GTEST_SKIP() << "sanitizers do not run under strace";
+#endif
+  const Arguments arguments = with_small_sensor({"render", "card", "-o", "out", "--frames", "3", "--threads", "1"});
+  const Folder none;
+  if (run({}, failing(none.path(), "fsync", "EIO", 1000, {"list", "scenes"})).code != 0) GTEST_SKIP() << "no strace here, or it may not trace";
+  for (const char* call : {"write", "fsync", "renameat", "mkdir"}) {
+    int refused = 0, last_refused = 0;
+    for (int which = 1; which <= last_refused + 3; ++which) {
+      const std::string error = which % 2 == 0 ? "EIO" : "ENOSPC";
+      const Folder folder;
+      if (std::string(call) != "mkdir") {
+        fs::create_directory(folder / "out");
+        std::ofstream(folder / "out" / "frame_0001.npz") << "old";
+      }
+      const Result result = run({}, failing(folder.path(), call, error, which, arguments));
+      EXPECT_TRUE(result.code == 0 || result.code == 3) << call << " " << which << ": " << result.code << " " << result.err;
+      EXPECT_EQ(temporaries(folder.path()), std::vector<std::string>()) << call << " " << which;
+      if (result.code == 3) {
+        ++refused, last_refused = which;
+        EXPECT_TRUE(has(result.err, error == "EIO" ? "Input/output error" : "No space left on device")) << result.err;
+      }
+      if (!fs::exists(folder / "out")) continue;
+      for (const auto& entry : fs::directory_iterator(folder / "out")) {
+        if (entry.path().extension() != ".npz" || content(entry.path()) == "old") continue;
+        EXPECT_NO_THROW(io::read_npz(entry.path())) << call << " " << which << ": " << entry.path();
+      }
+    }
+    // Four files, each written, made safe and renamed; one folder.
+    EXPECT_GE(refused, std::string(call) == "mkdir" ? 1 : 4) << call;
+  }
+}
+
 TEST(unwritable, places_end_with_3_and_name_the_place) {
   const Folder folder;
   std::ofstream(folder / "file") << "x";
