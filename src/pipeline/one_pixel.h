@@ -132,18 +132,30 @@ TOFRAY_FN void one_pixel(const Setup& s, const Job& job, Near& near, const Pixel
   measure(s, job, p, ray, vignetting, &lighting.light, nullptr);
 }
 
-/// One pixel of a scene in which something moves, raw frame by raw frame, each with the scene at its own time. (Tiles keep the light of
-/// all raw frames instead, to leave out the work that several of them share: pipeline/tile.h.)
+/// One pixel of a scene in which something moves, raw frame by raw frame, each with the scene at its own time. Where it sees what stands still
+/// and nothing that moves comes between that and a light, the light is what it was. (Tiles keep the light of all raw frames instead:
+/// pipeline/tile.h.)
+/// @param near   knows besides: any(mask), whether it is true for any pixel that goes the same way; clear(s, slot), whether nothing that
+///               moves can stand between the lights and the surfaces that were lit last
 /// @param still  nearest surface of what stands still
 template <class F, class Near>
 TOFRAY_FN void one_moving_pixel(const Setup& s, const Job& job, Near& near, const Pixels& p, const flow::Ray<F>& ray, const flow::Hit<F>& still) {
   const F vignetting = camera::vignetting<F>(s.lens, p);
   raw::Exposure<F> exposure = raw::start<F>(s.sensor, p);
   F difference[flow::max_raw_frames];
+  Lighting<F> lighting;
+  bool undisturbed = false;     // the light in hand is that of what stands still
   for (int k = 0; k < s.sensor.raw_frames; ++k) {
-    Lighting<F> lighting;
-    light_surface(s, job, near, k, true, k == s.truth_slot, p, ray, see_moving(s, near, k, ray, still), vignetting, lighting);
-    if (s.last_stage >= stage_raw) difference[k] = collect(s, job, p, k, lighting.light, k > 0, exposure);
+    const bool truth = k == s.truth_slot;
+    if (s.last_stage < stage_power && !truth) continue;
+    const flow::Hit<F> hit = see_moving(s, near, k, ray, still);
+    const bool same = !near.any(hit.facet != still.facet) && s.power.ambient_kind != 2 && s.last_stage >= stage_power;
+    const bool keep = same && undisturbed && !truth && near.clear(s, k);
+    if (!keep) {
+      light_surface(s, job, near, k, true, truth, p, ray, hit, vignetting, lighting);
+      undisturbed = same && near.clear(s, k);
+    }
+    if (s.last_stage >= stage_raw) difference[k] = collect(s, job, p, k, lighting.light, !keep, exposure);
   }
   if (s.last_stage < stage_depth) return;
   find_depth<F>(s, job, p, ray, difference, raw::saturated(s.sensor, exposure), exposure.delay, vignetting);

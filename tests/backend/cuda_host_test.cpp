@@ -101,6 +101,10 @@ TEST(cuda_host, makes_the_graph_of_a_frame_once) {
   for (std::uint64_t i = 0; i < 5; ++i) (void)cuda.frame(i);
   EXPECT_EQ(here.cuda.graphs_made, 1);
   EXPECT_EQ(here.cuda.graphs_launched, 5);
+  const Scene moving = load_scene("flying-ball");
+  Simulator moved(moving, camera, on(Backend::cuda));
+  for (std::uint64_t i = 0; i < 4; ++i) (void)moved.frame(i);
+  EXPECT_EQ(here.cuda.graphs_made, 2) << "what moves is copied by the graph";
   camera.temperature.warm_up_m = 0.01, camera.temperature.warm_up_time_s = 1;   // the sensor is another one in each frame
   expect_same(scene, camera, {});
 }

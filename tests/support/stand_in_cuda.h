@@ -193,7 +193,12 @@ class StandInCuda final : public backend::gpu::Runtime {
         std::map<int, pipeline::Rectangle<float>> seen;
         for (const bool collecting : {true, false}) {
           HostWarp warp{seen, collecting};
-          for (int lane = 0; lane < warp_size; ++lane) run_pixel(a.setup, job, warp, patch, lane);
+          for (int lane = 0; lane < warp_size; ++lane) {
+            if (what.batch.own != nullptr)
+              run_pixel<true>(a.setup, job, warp, patch, lane);
+            else
+              run_pixel<false>(a.setup, job, warp, patch, lane);
+          }
         }
       }
     }

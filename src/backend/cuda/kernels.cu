@@ -55,14 +55,14 @@ __device__ void copy_arguments(FrameArguments& to, const FrameArguments& from) {
 /// Which patch this thread's warp has.
 __device__ int patch_of_warp() { return static_cast<int>(blockIdx.x * (blockDim.x / warp_size) + threadIdx.x / warp_size); }
 
-/// Ray to depth of frames that share their arguments, which lie in the constant bank.
+/// Ray to depth of frames that share their arguments, which lie in the constant bank: nothing moves in them.
 template <int threads>
 __global__ void __launch_bounds__(threads) tofray_pixels(const __grid_constant__ FrameArguments common, const Batch batch) {
   const int patch = patch_of_warp();
   if (patch >= patch_count(common.setup.lens)) return;
   DeviceWarp warp{static_cast<int>(threadIdx.x % warp_size)};
   const int frame = static_cast<int>(blockIdx.y);
-  run_pixel(common.setup, job_of(common.job, batch.numbers[frame], frame * batch.stride), warp, patch, warp.lane);
+  run_pixel<false>(common.setup, job_of(common.job, batch.numbers[frame], frame * batch.stride), warp, patch, warp.lane);
 }
 
 /// The same where each frame has arguments of its own: each block takes its frame's into shared memory.
@@ -74,7 +74,7 @@ __global__ void __launch_bounds__(threads) tofray_pixels_own(const Batch batch) 
   const int patch = patch_of_warp();
   if (patch >= patch_count(mine.setup.lens)) return;
   DeviceWarp warp{static_cast<int>(threadIdx.x % warp_size)};
-  run_pixel(mine.setup, job_of(mine.job, batch.numbers[frame], 0), warp, patch, warp.lane);
+  run_pixel<true>(mine.setup, job_of(mine.job, batch.numbers[frame], 0), warp, patch, warp.lane);
 }
 
 /// A pass over the images of all frames.

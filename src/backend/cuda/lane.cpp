@@ -72,7 +72,7 @@ void Lane::begin(const Resident& resident, const pipeline::Setup& first, const p
   (void)arguments_of(first, measure);
   const auto frames = static_cast<std::size_t>(capacity);
   arguments_at_ = align(frames * sizeof(FrameNumber));
-  room_from_ = arguments_at_ + (own != Own::number && capacity > 1 ? align(frames * sizeof(FrameArguments)) : 0);
+  room_from_ = arguments_at_ + (own != Own::number ? align(frames * sizeof(FrameArguments)) : 0);
   Packer recorded;
   if (recording != nullptr) (void)packed(recorded, first, *recording);
   // What moves may show more of itself in one frame than in another: a quarter more than the first one needs, and some.
@@ -103,7 +103,7 @@ bool Lane::add(const pipeline::Setup& setup, std::uint64_t index) {
     Packer packer(staged() + used_, input() + used_);
     common_ = arguments_of(setup, packer);
     used_ += align(packer.used());
-    if (own_ != Own::number && capacity_ > 1) {
+    if (own_ != Own::number) {
       std::memcpy(staged() + arguments_at_ + static_cast<std::size_t>(frames()) * sizeof(FrameArguments), &common_, sizeof common_);
     }
   }
@@ -112,11 +112,11 @@ bool Lane::add(const pipeline::Setup& setup, std::uint64_t index) {
 }
 
 /// Copies in, runs the kernels.
-void Lane::launch_all(void* output) {
+void Lane::launch_all() {
   Runtime& runtime = device_.runtime();
   Launch launch{Kernel::pixels, block_size_, &common_, {}, recording_};
   launch.batch.numbers = reinterpret_cast<const FrameNumber*>(input());
-  launch.batch.own = own_ != Own::number && capacity_ > 1 ? reinterpret_cast<const FrameArguments*>(input() + arguments_at_) : nullptr;
+  launch.batch.own = own_ != Own::number ? reinterpret_cast<const FrameArguments*>(input() + arguments_at_) : nullptr;
   launch.batch.stride = static_cast<std::int64_t>(slab_.bytes());
   launch.batch.frames = frames();
   const auto run = [&](Kernel kernel, const char* doing) {
@@ -124,7 +124,6 @@ void Lane::launch_all(void* output) {
     device_.check(runtime.launch(launch, stream_.get()), doing);
   };
   device_.check(runtime.copy(input(), staged(), used_, Way::to_device, stream_.get()), "copying a frame's settings to the GPU");
-  if (output == nullptr) output = output_.get();
   if (has_recording_) {
     run(Kernel::recording, "starting the kernel recording");
   } else {
@@ -136,20 +135,25 @@ void Lane::launch_all(void* output) {
   run(Kernel::settle, "starting the kernel settle");
 }
 
-void Lane::submit(void* output) {
-  device_.use();
-  Runtime& runtime = device_.runtime();
-  void* const base = output != nullptr ? output : output_.get();
+/// Tells the frames where their arrays are, and copies what the host knows to where the GPU will fetch it.
+void Lane::place(void* base) {
   std::memcpy(staged(), numbers_.data(), numbers_.size() * sizeof(FrameNumber));
   common_.job.out = slab_.view(base), common_.job.filtered = slab_.filtered(base);
-  for (int i = 0; i < frames() && own_ != Own::number && capacity_ > 1; ++i) {
+  for (int i = 0; i < frames() && own_ != Own::number; ++i) {
     void* const at = static_cast<unsigned char*>(base) + static_cast<std::size_t>(i) * slab_.bytes();
     auto* own = reinterpret_cast<FrameArguments*>(staged() + arguments_at_) + i;
     own->job.out = slab_.view(at), own->job.filtered = slab_.filtered(at);
   }
+}
+
+void Lane::submit(void* output) {
+  device_.use();
+  Runtime& runtime = device_.runtime();
+  void* const base = output != nullptr ? output : output_.get();
+  place(base);
   submitted_ = timed_ = true;
   device_.check(runtime.record(begin_.get(), stream_.get()), "starting the clock");
-  launch_all(base);
+  launch_all();
   device_.check(runtime.record(end_.get(), stream_.get()), "stopping the clock");
   if (output != nullptr) return;
   device_.check(runtime.copy(received_.get(), base, static_cast<std::size_t>(frames()) * slab_.bytes(), Way::to_host, stream_.get()),
@@ -158,15 +162,13 @@ void Lane::submit(void* output) {
 
 void Lane::submit_graph() {
   device_.use();
-  Runtime& runtime = device_.runtime();
-  std::memcpy(staged(), numbers_.data(), numbers_.size() * sizeof(FrameNumber));
-  common_.job.out = slab_.view(output_.get()), common_.job.filtered = slab_.filtered(output_.get());
+  place(output_.get());
   submitted_ = true, timed_ = false;
-  if (graph_.get() == nullptr || captured_used_ != used_ || std::memcmp(&captured_, &common_, sizeof common_) != 0) {
-    graph_ = {};
-    capture();
-  }
-  device_.check(runtime.launch_graph(graph_.get(), stream_.get()), "launching a graph");
+  // Arguments of a frame's own are copied by the graph; common ones are part of it.
+  const bool same = graph_.get() != nullptr && captured_own_ == own_ && captured_slab_ == slab_ && captured_used_ == used_ &&
+                    (own_ != Own::number || std::memcmp(&captured_, &common_, sizeof common_) == 0);
+  if (!same) capture();
+  device_.check(device_.runtime().launch_graph(graph_.get(), stream_.get()), "launching a graph");
 }
 
 void Lane::capture() {
@@ -174,7 +176,7 @@ void Lane::capture() {
   void* graph = nullptr;
   device_.check(runtime.begin_capture(stream_.get()), "beginning a graph");
   try {
-    launch_all(output_.get());
+    launch_all();
     device_.check(runtime.copy(received_.get(), output_.get(), slab_.shown_bytes(), Way::to_host, stream_.get()), "copying a frame to the host");
   } catch (...) {
     // While a stream keeps what it is asked for, nothing can be given back.
@@ -185,7 +187,7 @@ void Lane::capture() {
   const Status made = runtime.end_capture(stream_.get(), graph);
   graph_ = Graph(runtime, graph);
   device_.check(made, "making a graph");
-  captured_ = common_, captured_used_ = used_;
+  captured_ = common_, captured_used_ = used_, captured_own_ = own_, captured_slab_ = slab_;
 }
 
 void Lane::wait() {

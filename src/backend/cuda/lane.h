@@ -53,7 +53,8 @@ class Lane {
  private:
   void reserve(std::size_t input_bytes, std::size_t output_bytes);
   [[nodiscard]] FrameArguments arguments_of(const pipeline::Setup& setup, Packer& packer) const;
-  void launch_all(void* output);
+  void place(void* base);
+  void launch_all();
   void capture();
   [[nodiscard]] unsigned char* staged() const { return static_cast<unsigned char*>(staged_.get()); }
   [[nodiscard]] unsigned char* input() const { return static_cast<unsigned char*>(input_.get()); }
@@ -80,6 +81,8 @@ class Lane {
   Graph graph_;
   FrameArguments captured_{};
   std::size_t captured_used_ = 0;
+  Own captured_own_ = Own::number;
+  Slab captured_slab_;
 };
 
 }  // namespace tofray::backend::gpu

@@ -73,6 +73,8 @@ struct WarpNear {
   WarpCulled<Warp> camera_still, camera_moving;
   flow::Bounds from_light;
   bool all_from_light;
+  flow::Bounds lit_from[flow::max_lights];   ///< of scenes in which something moves: from_light of each light …
+  bool lit_from_all[flow::max_lights];       ///< … and all_from_light
 
   TOFRAY_FN WarpNear(Warp& w, const flow::Bounds* view) : warp(w), culling(view != nullptr), camera_still{w, view}, camera_moving{w, view} {}
 
@@ -82,25 +84,40 @@ struct WarpNear {
     pipeline::Rectangle<float> seen;
     seen.add(ray.x, ray.y, ray.z, use);
     warp.unite(slot * flow::max_lights + light, seen);
-    all_from_light = seen.open;
-    from_light = seen.bounds();
+    all_from_light = lit_from_all[light] = seen.open;
+    from_light = lit_from[light] = seen.bounds();
+  }
+  TOFRAY_FN bool any(bool mask) const { return warp.vote([&](int) { return mask; }) != 0; }
+  TOFRAY_FN bool clear(const Setup& s, int slot) const {
+    for (int l = 0; l < s.scene.lights; ++l) {
+      const scene::Forms& forms = s.scene.light_moving[slot * s.scene.lights + l];
+      const WarpCulled<Warp> left{warp, culling && !lit_from_all[l] ? lit_from + l : nullptr};
+      if (left.walk(forms.planes, forms.plane_count).more() || left.walk(forms.spheres, forms.sphere_count).more() ||
+          left.walk(forms.boxes, forms.box_count).more() || left.walk(forms.triangles, forms.triangle_count).more()) {
+        return false;
+      }
+    }
+    return true;
   }
   TOFRAY_FN WarpCulled<Warp> still_from(int) const { return {warp, culling && !all_from_light ? &from_light : nullptr}; }
   TOFRAY_FN WarpCulled<Warp> moving_from(int light) const { return still_from(light); }
 };
 
 /// From ray to depth. All lanes of a warp must come here together.
-template <class Warp>
+/// \tparam can_move  false: nothing moves, and the kernel has no code for what does
+template <bool can_move, class Warp>
 TOFRAY_FN void run_pixel(const Setup& s, const Job& job, Warp& warp, int patch, int lane) {
   const Pixels p = pixel_of(s.lens, patch, lane);
   WarpNear<Warp> near(warp, s.culling != 0 ? s.lens.tile + patch : nullptr);
   const flow::Ray<float> ray = camera::ray<float>(s.lens, p);
   const flow::Hit<float> still = pipeline::see_still(s, near, ray);
-  if (s.scene.slots > 1) {
-    pipeline::one_moving_pixel(s, job, near, p, ray, still);
-  } else {
-    pipeline::one_pixel(s, job, near, p, ray, still);
+  if constexpr (can_move) {
+    if (s.scene.slots > 1) {
+      pipeline::one_moving_pixel(s, job, near, p, ray, still);
+      return;
+    }
   }
+  pipeline::one_pixel(s, job, near, p, ray, still);
 }
 
 /// Raw data to depth, and the passes over images: pixel number `index`.
