@@ -23,9 +23,19 @@ pipeline::Recording packed(Packer& packer, const pipeline::Setup& setup, const p
 Lane::Lane(const Device& device, int block_size)
     : device_(device), block_size_(block_size), stream_(device.stream()), begin_(device.event()), end_(device.event()) {}
 
-/// The frame's arguments as the device sees them; what is the frame's own goes to `packer`.
-FrameArguments Lane::arguments_of(const pipeline::Setup& setup, Packer& packer) const {
-  FrameArguments out;
+/// What is the frame's own of the scene goes to `packer`. @return the scene as the device sees it
+scene::SceneView Lane::scene_of(const scene::SceneView& from, Packer& packer) const {
+  const scene::SceneView& still = resident_->setup.scene;
+  if (own_ != Own::scene && from.slots <= 1) return still;
+  scene::SceneView to = from;
+  to.camera_still = still.camera_still, to.light_still = still.light_still, to.sun_still = still.sun_still;
+  if (own_ == Own::scene) pack_still(packer, from, to);
+  pack_moving(packer, from, to);
+  return to;
+}
+
+/// The frame's arguments as the device sees them, with the scene that stays there.
+void Lane::write_arguments(const pipeline::Setup& setup, FrameArguments& out) const {
   std::memset(&out, 0, sizeof out);   // so that two of them can be compared byte by byte
   out.setup = resident_->setup;
   out.setup.last_stage = setup.last_stage, out.setup.culling = setup.culling, out.setup.truth_slot = setup.truth_slot;
@@ -33,16 +43,8 @@ FrameArguments Lane::arguments_of(const pipeline::Setup& setup, Packer& packer) 
   const camera::SensorView& maps = resident_->setup.sensor;
   out.setup.sensor = setup.sensor;
   out.setup.sensor.gain = maps.gain, out.setup.sensor.offset = maps.offset, out.setup.sensor.delay = maps.delay;
-  const scene::SceneView still = resident_->setup.scene;
-  if (own_ != Own::number) {
-    out.setup.scene = setup.scene;
-    out.setup.scene.camera_still = still.camera_still, out.setup.scene.light_still = still.light_still, out.setup.scene.sun_still = still.sun_still;
-    if (own_ == Own::scene) pack_still(packer, setup.scene, out.setup.scene);
-    pack_moving(packer, setup.scene, out.setup.scene);
-  }
   out.job = job_;
   out.job.index_low = out.job.index_high = 0;   // frames have their numbers beside
-  return out;
 }
 
 void Lane::reserve(std::size_t input_bytes, std::size_t output_bytes) {
@@ -69,7 +71,7 @@ void Lane::begin(const Resident& resident, const pipeline::Setup& first, const p
   own_ = own, capacity_ = capacity;
   slab_ = Slab(first, job.out, job.filter != 0);
   Packer measure;
-  (void)arguments_of(first, measure);
+  if (own != Own::number) (void)scene_of(first.scene, measure);
   const auto frames = static_cast<std::size_t>(capacity);
   arguments_at_ = align(frames * sizeof(FrameNumber));
   room_from_ = arguments_at_ + (own != Own::number ? align(frames * sizeof(FrameArguments)) : 0);
@@ -90,23 +92,18 @@ bool Lane::add(const pipeline::Setup& setup, std::uint64_t index) {
   if (frames() == capacity_) return false;
   if (own_ != Own::number) {
     Packer measure;
-    (void)arguments_of(setup, measure);
+    (void)scene_of(setup.scene, measure);
     if (used_ + align(measure.used()) > input_bytes_) {
       if (frames() > 0) return false;
-      // One frame that is far larger than the first one was measured.
-      const std::size_t begun = used_;
-      reserve(2 * (used_ + align(measure.used())), 0);
-      used_ = begun;
+      reserve(2 * (used_ + align(measure.used())), 0);   // one frame that is far larger than the first one was measured
     }
-  }
-  if (own_ != Own::number || frames() == 0) {
     Packer packer(staged() + used_, input() + used_);
-    common_ = arguments_of(setup, packer);
+    auto& arguments = reinterpret_cast<FrameArguments*>(staged() + arguments_at_)[frames()];
+    write_arguments(setup, arguments);
+    arguments.setup.scene = scene_of(setup.scene, packer);
     used_ += align(packer.used());
-    if (own_ != Own::number) {
-      std::memcpy(staged() + arguments_at_ + static_cast<std::size_t>(frames()) * sizeof(FrameArguments), &common_, sizeof common_);
-    }
   }
+  if (frames() == 0) write_arguments(setup, common_);   // where frames have their own, only what is the same for all is read of these
   numbers_.push_back({static_cast<std::uint32_t>(index), static_cast<std::uint32_t>(index >> 32)});
   return true;
 }

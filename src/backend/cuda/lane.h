@@ -52,7 +52,8 @@ class Lane {
 
  private:
   void reserve(std::size_t input_bytes, std::size_t output_bytes);
-  [[nodiscard]] FrameArguments arguments_of(const pipeline::Setup& setup, Packer& packer) const;
+  scene::SceneView scene_of(const scene::SceneView& from, Packer& packer) const;
+  void write_arguments(const pipeline::Setup& setup, FrameArguments& out) const;
   void place(void* base);
   void launch_all();
   void capture();
