@@ -167,6 +167,10 @@ TEST(cuda_host, frames_can_stay_on_the_device) {
     EXPECT_EQ(frames[i].gt_range_m, nullptr);
     EXPECT_EQ(first_difference(copy_of(frames[i]), alone(scene, camera, {.truth = false}, requests[i])), "") << i;
   }
+  const std::size_t pinned = here.cuda.pinned_bytes;
+  DeviceFrames many;
+  cuda.frames_on_device(0, 60, many);
+  EXPECT_LT(here.cuda.pinned_bytes - pinned, 60u * 67 * 43 * 50) << "the host has no room for frames that it does not take";
   const float* memory = frames[0].z_m;
   cuda.frames_on_device(7, 2, frames);
   EXPECT_EQ(frames[0].z_m, memory) << "it is used again";

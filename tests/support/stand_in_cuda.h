@@ -57,6 +57,7 @@ class StandInCuda final : public backend::gpu::Runtime {
   // what a test may read
   std::uint64_t calls = 0;
   int graphs_made = 0, graphs_launched = 0;
+  std::size_t pinned_bytes = 0;                ///< all that were ever taken
   std::map<int, int> frames_by_device, launches_by_block_size;
 
   /// What was taken and not given back.
@@ -88,7 +89,10 @@ class StandInCuda final : public backend::gpu::Runtime {
     return 0;
   }
   Status allocate(std::size_t bytes, void*& memory) override { return take_memory(bytes, memory); }
-  Status allocate_pinned(std::size_t bytes, void*& memory) override { return take_memory(bytes, memory); }
+  Status allocate_pinned(std::size_t bytes, void*& memory) override {
+    pinned_bytes += bytes;
+    return take_memory(bytes, memory);
+  }
   Status create_stream(void*& stream) override { return take_handle(stream); }
   Status create_event(void*& event) override { return take_handle(event); }
   Status copy(void* to, const void* from, std::size_t bytes, backend::gpu::Way, void*) override {

@@ -37,7 +37,8 @@ struct DeviceWarp {
 /// The block copies a part of a frame's arguments, from `first` up to `last` of them.
 __device__ void copy_part(FrameArguments& to, const FrameArguments& from, const void* first, const void* last) {
   const char* base = reinterpret_cast<const char*>(&from);
-  const auto begin = static_cast<unsigned>(static_cast<const char*>(first) - base) / 16, end = (static_cast<unsigned>(static_cast<const char*>(last) - base) + 15) / 16;
+  const auto begin = static_cast<unsigned>(static_cast<const char*>(first) - base) / 16;
+  const auto end = (static_cast<unsigned>(static_cast<const char*>(last) - base) + 15) / 16;
   for (unsigned i = begin + threadIdx.x; i < end; i += blockDim.x) reinterpret_cast<uint4*>(&to)[i] = reinterpret_cast<const uint4*>(&from)[i];
 }
 

@@ -47,19 +47,21 @@ void Lane::write_arguments(const pipeline::Setup& setup, FrameArguments& out) co
   out.job.index_low = out.job.index_high = 0;   // frames have their numbers beside
 }
 
-void Lane::reserve(std::size_t input_bytes, std::size_t output_bytes) {
-  if (input_bytes > input_bytes_) {
-    graph_ = {}, input_bytes_ = 0;
-    staged_ = {}, input_ = {};
-    staged_ = device_.allocate_pinned(input_bytes), input_ = device_.allocate(input_bytes);
-    input_bytes_ = input_bytes;
-  }
-  if (output_bytes > output_bytes_) {
-    graph_ = {}, output_bytes_ = 0;
-    received_ = {}, output_ = {};
-    received_ = device_.allocate_pinned(output_bytes), output_ = device_.allocate(output_bytes);
-    output_bytes_ = output_bytes;
-  }
+void Lane::reserve_input(std::size_t bytes) {
+  if (bytes <= input_bytes_) return;
+  graph_ = {}, input_bytes_ = 0;
+  staged_ = {}, input_ = {};
+  staged_ = device_.allocate_pinned(bytes), input_ = device_.allocate(bytes);
+  input_bytes_ = bytes;
+}
+
+void Lane::reserve_output() {
+  const std::size_t bytes = std::max<std::size_t>(static_cast<std::size_t>(capacity_) * slab_.bytes(), 1);
+  if (bytes <= output_bytes_) return;
+  graph_ = {}, output_bytes_ = 0;
+  received_ = {}, output_ = {};
+  received_ = device_.allocate_pinned(bytes), output_ = device_.allocate(bytes);
+  output_bytes_ = bytes;
 }
 
 void Lane::begin(const Resident& resident, const pipeline::Setup& first, const pipeline::Job& job, Own own, int capacity,
@@ -78,7 +80,7 @@ void Lane::begin(const Resident& resident, const pipeline::Setup& first, const p
   Packer recorded;
   if (recording != nullptr) (void)packed(recorded, first, *recording);
   // What moves may show more of itself in one frame than in another: a quarter more than the first one needs, and some.
-  reserve(room_from_ + frames * (align(measure.used()) + align(measure.used() / 4) + 1024) + align(recorded.used()), std::max<std::size_t>(frames * slab_.bytes(), 1));
+  reserve_input(room_from_ + frames * (align(measure.used()) + align(measure.used() / 4) + 1024) + align(recorded.used()));
   numbers_.clear();
   used_ = room_from_;
   has_recording_ = recording != nullptr;
@@ -95,7 +97,7 @@ bool Lane::add(const pipeline::Setup& setup, std::uint64_t index) {
     (void)scene_of(setup.scene, measure);
     if (used_ + align(measure.used()) > input_bytes_) {
       if (frames() > 0) return false;
-      reserve(2 * (used_ + align(measure.used())), 0);   // one frame that is far larger than the first one was measured
+      reserve_input(2 * (used_ + align(measure.used())));   // one frame that is far larger than the first one was measured
     }
     Packer packer(staged() + used_, input() + used_);
     auto& arguments = reinterpret_cast<FrameArguments*>(staged() + arguments_at_)[frames()];
@@ -146,6 +148,7 @@ void Lane::place(void* base) {
 void Lane::submit(void* output) {
   device_.use();
   Runtime& runtime = device_.runtime();
+  if (output == nullptr) reserve_output();
   void* const base = output != nullptr ? output : output_.get();
   place(base);
   submitted_ = timed_ = true;
@@ -159,6 +162,7 @@ void Lane::submit(void* output) {
 
 void Lane::submit_graph() {
   device_.use();
+  reserve_output();
   place(output_.get());
   submitted_ = true, timed_ = false;
   // Arguments of a frame's own are copied by the graph; common ones are part of it.

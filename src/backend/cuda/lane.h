@@ -51,7 +51,8 @@ class Lane {
   [[nodiscard]] double seconds() const;
 
  private:
-  void reserve(std::size_t input_bytes, std::size_t output_bytes);
+  void reserve_input(std::size_t bytes);
+  void reserve_output();
   scene::SceneView scene_of(const scene::SceneView& from, Packer& packer) const;
   void write_arguments(const pipeline::Setup& setup, FrameArguments& out) const;
   void place(void* base);
