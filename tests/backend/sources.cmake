@@ -17,3 +17,9 @@ foreach(architecture 75 80 90)
       -DFOLDER=${CMAKE_CURRENT_BINARY_DIR}/ptx -P ${CMAKE_CURRENT_SOURCE_DIR}/backend/ptx.cmake)
   set_tests_properties(ptx_of_sm_${architecture}_rounds_to_nearest PROPERTIES SKIP_REGULAR_EXPRESSION "SKIPPED:")
 endforeach()
+# Its object shows one name and nothing that the linker could exchange for another's.
+get_property(cuda_object GLOBAL PROPERTY tofray_object_files)
+if(cuda_object)
+  add_test(NAME cuda_object_defines_one_symbol
+    COMMAND ${CMAKE_COMMAND} -DNM=${CMAKE_NM} -DOBJECTS=${cuda_object} -DEXPECTED=tofray_cuda_runtime -P ${CMAKE_CURRENT_SOURCE_DIR}/backend/kernel_symbols.cmake)
+endif()

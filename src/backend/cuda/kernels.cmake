@@ -86,19 +86,20 @@ if(nvcc)
       set(which -gencode arch=compute_${newest},code=compute_${newest})
     endif()
     add_custom_command(OUTPUT ${objects}/${file}.o
-      COMMAND ${CMAKE_CXX_COMPILER_LAUNCHER} ${nvcc} ${tofray_nvcc_flags} ${which} -Xcompiler=-fPIC,-ffp-contract=off --threads 2
+      COMMAND ${CMAKE_CXX_COMPILER_LAUNCHER} ${nvcc} ${tofray_nvcc_flags} ${which} -Xcompiler=-fPIC,-ffp-contract=off,-fno-gnu-unique --threads 2
         -MD -MF ${objects}/${file}.d -MT ${objects}/${file}.o -c ${folder}/${file}.cu -o ${objects}/${file}.o
       DEPENDS ${folder}/${file}.cu DEPFILE ${objects}/${file}.d COMMENT "Compiling ${file}.cu for ${architectures} and PTX" COMMAND_EXPAND_LISTS VERBATIM)
     list(APPEND pieces ${objects}/${file}.o)
   endforeach()
 
-  # One object out of them and CUDA's runtime, of which nothing shows but our one function.
+  # One object out of them and CUDA's runtime, of which nothing shows but our one function. (Groups are dissolved: the linker would throw
+  # away those that other objects have, too, and with them what our local names refer to.)
   get_filename_component(toolkit ${nvcc} REALPATH)
   get_filename_component(toolkit ${toolkit}/../.. ABSOLUTE)
   find_library(TOFRAY_CUDART cudart_static HINTS ${toolkit}/lib64 ${toolkit}/targets/x86_64-linux/lib REQUIRED DOC "CUDA's runtime")
   set(object ${objects}/tofray_cuda.o)
   add_custom_command(OUTPUT ${object}
-    COMMAND ${CMAKE_LINKER} -r -o ${object}.all ${pieces} ${TOFRAY_CUDART}
+    COMMAND ${CMAKE_LINKER} -r --force-group-allocation -o ${object}.all ${pieces} ${TOFRAY_CUDART}
     COMMAND ${CMAKE_OBJCOPY} --keep-global-symbol=tofray_cuda_runtime ${object}.all ${object}
     COMMAND ${CMAKE_COMMAND} -E rm ${object}.all
     DEPENDS ${pieces} COMMENT "Joining the device code and CUDA's runtime" VERBATIM)
