@@ -80,7 +80,8 @@ BoxForm box_form(const Placed::PlacedBox& b, const Vec3& origin, int facet) {
     const bool between = low < 0 && high > 0;
     // Between the two sides the slab is entered at t = 0 (w = infinite) and left through the side that d points to.
     const double near_side = low >= 0 ? low : high, far_side = low >= 0 ? high : low;
-    form.near_scale[k] = between ? 0 : f(inverse(near_side));
+    // Seen from the very plane of a side, the slab is where the axis points away from it: the sign does not come from a zero.
+    form.near_scale[k] = between ? 0 : f(low >= 0 ? inverse(std::abs(low)) : -inverse(std::abs(high)));
     form.near_offset[k] = between ? f(huge) : 0;
     form.far_scale[k][0] = f(inverse(far_side));
     form.far_scale[k][1] = between ? f(inverse(near_side)) : form.far_scale[k][0];

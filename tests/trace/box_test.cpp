@@ -173,3 +173,24 @@ TEST(box, never_gives_nan_when_the_origin_lies_in_a_side_or_edge) {
     ASSERT_TRUE(axis >= 0 && axis < 3);
   }
 }
+
+// The origin in the very plane of a side: rays that lead away from the box miss it, on whichever side of it the box lies.
+TEST(box, seen_from_the_plane_of_its_side) {
+  for (const double side : {-1.0, 1.0}) {
+    for (std::size_t k = 0; k < 2; ++k) {
+      BoxCase box{{0, 0, 3}, {0.5, 0.5, 0.5}, {0, 0, 0}};
+      box.center[k] = 0.5 * side;
+      for (const double lean : {-0.15, -0.01, 0.01, 0.15}) {
+        Vec3 direction{0.02, 0.02, 1};
+        direction[k] = lean;
+        int axis = 0;
+        const float w = box.w(flow::make_ray(static_cast<float>(direction[0]), static_cast<float>(direction[1]), 1.0f), axis);
+        if (lean * side > 0) {
+          EXPECT_NEAR(w, 1 / 2.5, 1e-6) << side << " " << k << " " << lean;
+        } else {
+          EXPECT_LE(w, 0) << side << " " << k << " " << lean;
+        }
+      }
+    }
+  }
+}
