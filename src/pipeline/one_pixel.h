@@ -65,7 +65,7 @@ TOFRAY_FN void light_up(const Setup& s, Near& near, int slot, bool moving, const
   num::Mask<F> shade = F(1.0f) < F(0.0f);
   if (s.power.ambient_kind == 2) {
     shade = trace::blocked_parallel(s.scene.sun_still, s.power.sun_direction, p);
-    if (s.scene.slots > 1) shade = shade | trace::blocked_parallel(s.scene.sun_moving[slot], s.power.sun_direction, p);
+    if (s.scene.slots > 0) shade = shade | trace::blocked_parallel(s.scene.sun_moving[slot], s.power.sun_direction, p);
   }
   out.light.ambient_rate = s.power.ambient_kind == 0 ? F(0.0f) : power::ambient_rate<F>(s.power, p, shade, vignetting);
 }

@@ -182,7 +182,7 @@ TOFRAY_FN void one_tile(const Setup& s, const Job& job, int index, Scratch<F>& s
     const Pixels p = pack_at<F>(s.lens, tile, q);
     if (p.count > 0) scratch.still[q] = see_still(s, scratch.near, camera::ray<F>(s.lens, p));
   }
-  if (s.scene.slots > 1) {
+  if (s.scene.slots > 0) {
     moving_tile(s, job, tile, view, scratch, light);
     return;
   }

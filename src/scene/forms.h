@@ -107,7 +107,7 @@ struct SceneView {
   ParallelForms sun_still;
   const ParallelForms* sun_moving;   ///< [slot]
   const Facet* facets;               ///< still ones, then those of slot 0, 1 …
-  std::int32_t slots;                ///< 1: nothing moves; else one for each raw frame
+  std::int32_t slots;                ///< 0: nothing moves; else one for each raw frame
   std::int32_t lights;
   std::int32_t any_specular;
   std::int32_t facet_count;

@@ -13,7 +13,7 @@ FrozenScene::FrozenScene(const Scene& scene, const std::vector<Vec3>& lights, in
   }
   if (scene_.ambient.direction) toward_sun_ = camera_.rotation * normalized(-1.0 * *scene_.ambient.direction);
   for (const Material& material : scene_.materials) view_.any_specular = view_.any_specular || material.specular > 0;
-  view_.slots = moves_ ? slots : 1;
+  view_.slots = moves_ ? slots : 0;
   view_.lights = static_cast<std::int32_t>(lights_.size());
   add_still();
   update(std::vector<double>(static_cast<std::size_t>(slots), 0.0));

@@ -69,7 +69,7 @@ class ParallelView {
 class FrozenScene {
  public:
   /// @param lights     light positions, camera frame [m]
-  /// @param slots      raw frames of a frame; one slot is kept if nothing moves
+  /// @param slots      raw frames of a frame
   FrozenScene(const Scene& scene, const std::vector<Vec3>& lights, int slots);
   /// @param slot_times  time of each slot [s]
   void update(const std::vector<double>& slot_times);

@@ -171,3 +171,17 @@ TEST(motion, of_a_raw_frame_is_a_still_scene_at_its_time_shadows_included) {
     EXPECT_GT(moved, 1000);
   }
 }
+
+// One raw frame is enough to see what moves, at its own time: a grey one, since each modulation frequency needs three.
+TEST(motion, is_seen_by_a_sequence_of_a_single_raw_frame) {
+  Scene scene;
+  scene.materials.push_back({"", Material::Brdf::lambert, 0.5});
+  scene.objects.push_back({"wall", Plane{{0, 0, 1}, {0, 0, -1}}, 0, {0, 0, 0}, {}, {0, 0, 10}});
+  Camera profile = camera();
+  profile.mode.sequence = {{false, 0, 0, 600e-6}};
+  scene.ambient = {Ambient::Spectrum::sun_am15, Ambient::Quantity::level, 0.1, {}, {}, {}};
+  const Frame frame = Simulator(scene, profile, {.noise = Noise::off}).frame(2);
+  const double expected = 1 + 10 * (2.0 / 35 + 300e-6);
+  EXPECT_NEAR(static_cast<double>(frame.truth.z_m[224 * 86 + 112]), expected, 1e-5);
+  EXPECT_GT(frame.raw.tap_a[224 * 86 + 112], 100);
+}

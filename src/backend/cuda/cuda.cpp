@@ -52,7 +52,7 @@ void Cuda::load(const pipeline::Setup& setup) {
     pipeline::Setup to = setup;
     gpu::pack_camera(packer, setup, to);
     gpu::pack_still(packer, setup.scene, to.scene);
-    if (setup.scene.slots <= 1) gpu::pack_moving(packer, setup.scene, to.scene);
+    if (setup.scene.slots == 0) gpu::pack_moving(packer, setup.scene, to.scene);
     return to;
   };
   gpu::Packer measure;
@@ -74,7 +74,7 @@ gpu::Lane& Cuda::lane(std::size_t i) {
 
 gpu::Lane& Cuda::compute(const pipeline::Setup& setup, const pipeline::Job& job, const pipeline::Recording* recording) {
   gpu::Lane& first = lane(0);
-  first.begin(resident_, setup, job, setup.scene.slots > 1 ? gpu::Own::moving : gpu::Own::number, 1, recording);
+  first.begin(resident_, setup, job, setup.scene.slots > 0 ? gpu::Own::moving : gpu::Own::number, 1, recording);
   first.add(setup, job.index_low | static_cast<std::uint64_t>(job.index_high) << 32);
   first.submit_graph();
   first.wait();

@@ -26,7 +26,7 @@ Lane::Lane(const Device& device, int block_size)
 /// What is the frame's own of the scene goes to `packer`. @return the scene as the device sees it
 scene::SceneView Lane::scene_of(const scene::SceneView& from, Packer& packer) const {
   const scene::SceneView& still = resident_->setup.scene;
-  if (own_ != Own::scene && from.slots <= 1) return still;
+  if (own_ != Own::scene && from.slots == 0) return still;
   scene::SceneView to = from;
   to.camera_still = still.camera_still, to.light_still = still.light_still, to.sun_still = still.sun_still;
   if (own_ == Own::scene) pack_still(packer, from, to);

@@ -75,10 +75,9 @@ void pack_still(Packer& packer, const scene::SceneView& from, scene::SceneView& 
 
 void pack_moving(Packer& packer, const scene::SceneView& from, scene::SceneView& to) {
   to.facets = packer.put(from.facets, count_of(from.facet_count));
-  const std::int32_t slots = from.slots > 1 ? from.slots : 0;
-  to.camera_moving = packed(packer, from.camera_moving, slots);
-  to.light_moving = packed(packer, from.light_moving, slots * from.lights);
-  to.sun_moving = packed(packer, from.sun_moving, slots);
+  to.camera_moving = packed(packer, from.camera_moving, from.slots);
+  to.light_moving = packed(packer, from.light_moving, from.slots * from.lights);
+  to.sun_moving = packed(packer, from.sun_moving, from.slots);
 }
 
 }  // namespace tofray::backend::gpu

@@ -112,7 +112,7 @@ TOFRAY_FN void run_pixel(const Setup& s, const Job& job, Warp& warp, int patch, 
   const flow::Ray<float> ray = camera::ray<float>(s.lens, p);
   const flow::Hit<float> still = pipeline::see_still(s, near, ray);
   if constexpr (can_move) {
-    if (s.scene.slots > 1) {
+    if (s.scene.slots > 0) {
       pipeline::one_moving_pixel(s, job, near, p, ray, still);
       return;
     }
