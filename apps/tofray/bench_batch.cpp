@@ -37,13 +37,13 @@ double seconds_of(const Call& call) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-/// Frames whose noise differs, and, for `poses`, whose camera stands up to 3 cm aside.
-std::vector<FrameRequest> requests_of(const Inputs& in, std::uint64_t count, std::uint64_t seed, bool poses) {
+/// Frames that follow each other ("index"); first frames of other seeds; these with a camera that stands up to 3 cm aside ("poses").
+std::vector<FrameRequest> requests_of(const Inputs& in, std::uint64_t count, std::uint64_t seed, std::string_view differing) {
   std::vector<FrameRequest> requests(count);
   for (std::uint64_t i = 0; i < count; ++i) {
-    requests[i].index = 0;
-    requests[i].seed = seed + i;
-    if (!poses) continue;
+    requests[i].index = differing == "index" ? i : 0;
+    if (differing != "index") requests[i].seed = seed + i;
+    if (differing != "poses") continue;
     Pose pose = in.scene.camera.pose;
     const double x = 0.01 * (static_cast<double>(i % 7) - 3), y = 0.01 * (static_cast<double>(i / 7 % 5) - 2);
     pose.position[0] += x, pose.position[1] += y;
@@ -114,9 +114,8 @@ int run_batch_bench(const Options& options) {
   say_fallback(options, simulator.fallback_reason());
   const std::uint64_t repeats = options.frames.value_or(20);
   io::Json results = io::Json::array();
-  for (const char* differing : {"seeds", "poses"}) {
-    const bool poses = std::string_view(differing) == "poses";
-    results.push(row_of(in, simulator, wanted, differing, requests_of(in, *options.batch, wanted.seed, poses), repeats));
+  for (const char* differing : {"index", "seeds", "poses"}) {
+    results.push(row_of(in, simulator, wanted, differing, requests_of(in, *options.batch, wanted.seed, differing), repeats));
   }
   if (options.json) {
     print(io::json_text(io::Json::object().set("results", std::move(results)), 2) + "\n");

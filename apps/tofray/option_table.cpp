@@ -164,7 +164,7 @@ std::vector<OptionSpec> bench_specs() {
       {"--batch",
        0,
        "N",
-       "frames per second of batches of N frames, other seeds and poses in each (--frames: batches, 20)",
+       "frames per second of batches of N frames that follow each other, of other seeds, of other poses (--frames: batches, 20)",
        [](Options& o, const std::string& v) { o.batch = whole("--batch", v, 1, 1'000'000, "a whole number of 1 to 1000000"); },
        {}},
       {"--block-size",
