@@ -160,7 +160,7 @@ TEST_P(AnyNumbers, give_an_error_or_a_frame_of_finite_numbers) {
       ++errors;
     }
   }
-  EXPECT_GT(frames, sets / 4);
+  EXPECT_GT(frames, sets / 8);
   EXPECT_GT(errors, sets / 4);
 }
 
