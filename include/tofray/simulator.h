@@ -93,6 +93,7 @@ class Simulator {
   /// Many frames, in their order: `count` from `first` on, or one for each request. On GPUs several of them are on their way at once, in
   /// bounded memory; all GPUs take part unless SimulatorOptions::device names one.
   /// @param take  is given each frame when it is done; the arrays are good until it returns
+  /// @throws Error (bad_input) for a request whose pose is none
   void frames(std::uint64_t first, std::uint64_t count, const std::function<void(const FrameArrays&)>& take);
   void frames(std::span<const FrameRequest> requests, const std::function<void(const FrameArrays&)>& take);
   /// The same, left in the GPU's memory, which `into` holds and uses again where it is large enough.

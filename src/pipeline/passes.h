@@ -26,18 +26,16 @@ TOFRAY_FN void flag_flying_row(const Setup& s, const Job& job, int y) {
   const bool has_rows = y > 0 && y + 1 < s.lens.height;
   const float* z = job.out.z + y * width;
   std::uint16_t* flags = job.out.flags + y * width;
-  const auto mark = [&](int x, bool flying) __attribute__((always_inline)) {
-    if (flying) flags[x] = static_cast<std::uint16_t>(flags[x] | depth::flying_pixel);
-  };
-  if (width < 1) return;
-  mark(0, depth::flies<float>(s.decoder, z, width, 1, has_rows, false));
-  if (width > 1) mark(width - 1, depth::flies<float>(s.decoder, z + width - 1, width, 1, has_rows, false));
+  flag_flying_pixel(s, job, 0, y);
+  if (width > 1) flag_flying_pixel(s, job, width - 1, y);
   for (int x = 1; x < width - 1; x += num::lanes<F>) {
     const int count = width - 1 - x < num::lanes<F> ? width - 1 - x : num::lanes<F>;
     const auto flying = depth::flies<F>(s.decoder, z + x, width, count, has_rows, true);
     if (!num::any(flying)) continue;
     const num::Int<F> marks = num::select(flying, num::Int<F>(1), num::Int<F>(0));
-    for (int i = 0; i < count; ++i) mark(x + i, num::lane(marks, i) != 0);
+    for (int i = 0; i < count; ++i) {
+      if (num::lane(marks, i) != 0) flags[x + i] = static_cast<std::uint16_t>(flags[x + i] | depth::flying_pixel);
+    }
   }
 }
 

@@ -75,14 +75,13 @@ struct SeenByLights {
   TOFRAY_FN const flow::Bounds* of(int light) const { return none[light] ? nullptr : bounds + light; }
 };
 
+/// … and what can stand between each light and the tile, of what stands still.
 template <class F>
-TOFRAY_FN void find_seen(const Setup& s, const Tile& tile, const flow::Hit<F>* hits, SeenByLights& seen) {
-  for (int l = 0; l < s.scene.lights; ++l) seen.none[l] = s.culling == 0 || !seen_by_light(s, tile, hits, l, seen.bounds[l]);
-}
-
-/// What can stand between each light and the tile, of what stands still.
-TOFRAY_FN void cull_still(const Setup& s, const SeenByLights& seen, Near& near) {
-  for (int l = 0; l < s.scene.lights; ++l) trace::cull(s.scene.light_still[l], seen.of(l), near.light_still[l]);
+TOFRAY_FN void cull_lights(const Setup& s, const Tile& tile, const flow::Hit<F>* hits, SeenByLights& seen, Near& near) {
+  for (int l = 0; l < s.scene.lights; ++l) {
+    seen.none[l] = s.culling == 0 || !seen_by_light(s, tile, hits, l, seen.bounds[l]);
+    trace::cull(s.scene.light_still[l], seen.of(l), near.light_still[l]);
+  }
 }
 
 /// Scratch memory of one worker.
@@ -149,14 +148,13 @@ TOFRAY_FN void light_up_tile(const Setup& s, const Job& job, const Tile& tile, c
 /// A tile of a scene in which something moves: each raw frame sees it at its own time; where nothing of it comes near, once is enough.
 template <class F>
 TOFRAY_FN void moving_tile(const Setup& s, const Job& job, const Tile& tile, const scene::Bounds* view, Scratch<F>& scratch, flow::Light<F>* light) {
-  const flow::Hit<F>* culled_for = nullptr;
+  bool culled_for_still = false;
   for (int q = 0; q < max_packs<F>; ++q) scratch.lit[q] = false;
   for (int k = 0; k < s.sensor.raw_frames; ++k) {
     const flow::Hit<F>* hits = hits_at(s, tile, view, k, scratch);
-    if (s.last_stage >= stage_power && (hits != culled_for || hits != scratch.still)) {
-      find_seen(s, tile, hits, scratch.seen);
-      cull_still(s, scratch.seen, scratch.near);
-      culled_for = hits;
+    if (s.last_stage >= stage_power && !(culled_for_still && hits == scratch.still)) {
+      cull_lights(s, tile, hits, scratch.seen, scratch.near);
+      culled_for_still = hits == scratch.still;
     }
     for (int l = 0; l < s.scene.lights && s.last_stage >= stage_power; ++l) {
       trace::cull(s.scene.light_moving[k * s.scene.lights + l], scratch.seen.of(l), scratch.near.light_moving[l]);
@@ -186,10 +184,7 @@ TOFRAY_FN void one_tile(const Setup& s, const Job& job, int index, Scratch<F>& s
     moving_tile(s, job, tile, view, scratch, light);
     return;
   }
-  if (s.last_stage >= stage_power) {
-    find_seen(s, tile, scratch.still, scratch.seen);
-    cull_still(s, scratch.seen, scratch.near);
-  }
+  if (s.last_stage >= stage_power) cull_lights(s, tile, scratch.still, scratch.seen, scratch.near);
   for (int q = 0; q < max_packs<F>; ++q) {
     const Pixels p = pack_at<F>(s.lens, tile, q);
     if (p.count > 0) one_pixel(s, job, scratch.near, p, camera::ray<F>(s.lens, p), scratch.still[q]);

@@ -12,6 +12,7 @@ namespace tofray::simulator {
 /// @throws Error (bad_input; limit for counts) naming the member
 void check(const Camera& camera);
 void check(const Scene& scene);
+void check(const Pose& pose);
 void check(const SimulatorOptions& options);
 
 }  // namespace tofray::simulator

@@ -39,17 +39,6 @@ struct ShapeCheck {
   }
 };
 
-void check_pose(const Pose& pose) {
-  within(pose.position, range::coordinate_m, "camera.pose.position");
-  within(pose.look_at, range::coordinate_m, "camera.pose.look_at");
-  direction(pose.up, "camera.pose.up");
-  const Vec3 view = pose.look_at - pose.position;
-  if (length(view) < range::shortest_m) refuse("the camera looks at the point where it stands", "look_at has to differ from position");
-  if (length(cross(view, pose.up)) < 1e-6 * length(view) * length(pose.up)) {
-    refuse("the camera's up is its direction of view", "expected another direction, such as {0, -1, 0}");
-  }
-}
-
 void check_ambient(const Ambient& ambient) {
   const Range& range = ambient.quantity == Ambient::Quantity::level            ? range::ambient_level
                        : ambient.quantity == Ambient::Quantity::illuminance_lx ? range::illuminance_lx
@@ -73,10 +62,21 @@ void check_material(const Material& material, const std::string& path) {
 
 }  // namespace
 
+void check(const Pose& pose) {
+  within(pose.position, range::coordinate_m, "camera.pose.position");
+  within(pose.look_at, range::coordinate_m, "camera.pose.look_at");
+  direction(pose.up, "camera.pose.up");
+  const Vec3 view = pose.look_at - pose.position;
+  if (length(view) < range::shortest_m) refuse("the camera looks at the point where it stands", "look_at has to differ from position");
+  if (length(cross(view, pose.up)) < 1e-6 * length(view) * length(pose.up)) {
+    refuse("the camera's up is its direction of view", "expected another direction, such as {0, -1, 0}");
+  }
+}
+
 void check(const Scene& scene) {
   at_most(scene.objects.size(), limit::objects.value, "objects");
   at_most(scene.materials.size(), limit::materials.value + limit::objects.value, "materials");
-  check_pose(scene.camera.pose);
+  check(scene.camera.pose);
   check_ambient(scene.ambient);
   for (std::size_t i = 0; i < scene.materials.size(); ++i) check_material(scene.materials[i], "materials[" + std::to_string(i) + "]");
   for (std::size_t i = 0; i < scene.objects.size(); ++i) {

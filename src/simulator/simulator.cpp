@@ -96,6 +96,7 @@ void Simulator::Impl::set_frame(const FrameRequest& request) {
   scene::FrozenScene* frozen = &frozen_scene;
   setup.power = power;
   if (request.pose) {
+    simulator::check(*request.pose);
     Scene posed = scene;
     posed.camera.pose = *request.pose;
     frozen = &posed_scene.emplace(posed, positions(camera), static_cast<int>(camera.mode.sequence.size()));

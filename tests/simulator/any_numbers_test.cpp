@@ -238,3 +238,20 @@ TEST(any_taps, give_flags_or_finite_numbers) {
     }
   }
 }
+
+// A frame's own pose comes past the checks of the scene.
+TEST(any_pose, of_a_request_is_refused_where_it_is_none) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  Simulator simulator(wall(1), lit_camera(8, 4, 9));
+  for (const Pose& pose : {Pose{{nan, 0, 0}}, Pose{{0, 0, 1}, {0, 0, 1}}, Pose{{0, 0, 0}, {0, 0, 1}, {0, 0, 1}}}) {
+    const std::vector<FrameRequest> requests{{0, {}, {}}, {1, {}, pose}};
+    int taken = 0;
+    try {
+      simulator.frames(requests, [&](const FrameArrays&) { ++taken; });
+      ADD_FAILURE() << "a pose that is none passed";
+    } catch (const Error& error) {
+      EXPECT_EQ(error.kind(), ErrorKind::bad_input);
+    }
+    EXPECT_EQ(taken, 1);
+  }
+}

@@ -5,7 +5,7 @@
 
 #include "backend/cuda/runtime.h"
 
-/// The device code as runtime.cu starts it.
+/// The device code as cuda_runtime.cu starts it.
 namespace tofray::backend::gpu {
 
 cudaError_t launch_kernel(const Launch& what, cudaStream_t stream);
