@@ -93,14 +93,17 @@ if(nvcc)
   endforeach()
 
   # One object out of them and CUDA's runtime, of which nothing shows but our one function. (Groups are dissolved: the linker would throw
-  # away those that other objects have, too, and with them what our local names refer to.)
+  # away those that other objects have, too, and with them what our local names refer to. That takes GNU's linker, which is there with the
+  # g++ that nvcc calls; CMAKE_LINKER is LLVM's where clang compiles the rest.)
   get_filename_component(toolkit ${nvcc} REALPATH)
   get_filename_component(toolkit ${toolkit}/../.. ABSOLUTE)
   find_library(TOFRAY_CUDART cudart_static HINTS ${toolkit}/lib64 ${toolkit}/targets/x86_64-linux/lib REQUIRED DOC "CUDA's runtime")
+  find_program(TOFRAY_GNU_LINKER NAMES ld.bfd ld REQUIRED DOC "GNU's linker, to join the device code and CUDA's runtime")
+  find_program(TOFRAY_GNU_OBJCOPY NAMES objcopy REQUIRED DOC "GNU's objcopy, to hide CUDA's runtime")
   set(object ${objects}/tofray_cuda.o)
   add_custom_command(OUTPUT ${object}
-    COMMAND ${CMAKE_LINKER} -r --force-group-allocation -o ${object}.all ${pieces} ${TOFRAY_CUDART}
-    COMMAND ${CMAKE_OBJCOPY} --keep-global-symbol=tofray_cuda_runtime ${object}.all ${object}
+    COMMAND ${TOFRAY_GNU_LINKER} -r --force-group-allocation -o ${object}.all ${pieces} ${TOFRAY_CUDART}
+    COMMAND ${TOFRAY_GNU_OBJCOPY} --keep-global-symbol=tofray_cuda_runtime ${object}.all ${object}
     COMMAND ${CMAKE_COMMAND} -E rm ${object}.all
     DEPENDS ${pieces} COMMENT "Joining the device code and CUDA's runtime" VERBATIM)
   add_custom_target(tofray_cuda_object DEPENDS ${object})
