@@ -11,6 +11,7 @@
 #include "tofray/camera.h"
 #include "tofray/frame.h"
 #include "tofray/scene.h"
+#include "tofray/stages.h"
 
 namespace tofray {
 
@@ -89,6 +90,15 @@ class Simulator {
   [[nodiscard]] Frame frame(std::uint64_t index);
   /// The same into memory that the caller keeps: arrays of the right size are not allocated anew.
   void frame(std::uint64_t index, Frame& into);
+
+  /// Stages 2 to 4 of what another renderer saw. Of the scene only its ambient light counts, and the camera's pose for where the sun is.
+  /// @throws Error (bad_input) for an array of another size than camera and sequence ask for, and for a value out of its range
+  [[nodiscard]] Frame frame(std::uint64_t index, const Geometry& seen);
+  void frame(std::uint64_t index, const Geometry& seen, Frame& into);
+  /// Stages 3 and 4 of light that was computed elsewhere; nothing of the scene counts. Truth: power_w and signal_e, the rest is unknown.
+  /// @throws Error (bad_input) as above
+  [[nodiscard]] Frame frame(std::uint64_t index, const PixelLight& light);
+  void frame(std::uint64_t index, const PixelLight& light, Frame& into);
 
   /// Many frames, in their order: `count` from `first` on, or one for each request. On GPUs several of them are on their way at once, in
   /// bounded memory; all GPUs take part unless SimulatorOptions::device names one.

@@ -6,3 +6,4 @@
 #include "tofray/frame.h"
 #include "tofray/scene.h"
 #include "tofray/simulator.h"
+#include "tofray/stages.h"

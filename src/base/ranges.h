@@ -86,6 +86,12 @@ inline constexpr Range integration_time_s{1e-9, 1e3};
 inline constexpr Range frame_rate_hz{1e-4, 1e5};
 inline constexpr Range pause_s{0, 10};
 inline constexpr Range refractive_index{1, 3};
+
+// arrays that come from elsewhere
+inline constexpr Range pixel_power_w{0, 1};
+inline constexpr Range path_length_m{0, 1e6};
+inline constexpr Range pixel_ambient_e_per_s{0, 1e20};
+inline constexpr Range unit_length{0.999, 1.001};
 }  // namespace range
 
 }  // namespace tofray::base

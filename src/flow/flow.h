@@ -13,6 +13,7 @@ constexpr int max_modulation_frequencies = 8;
 
 /// Beyond what any sensor meets, and so small that sums and squares of it are far from single precision's largest number.
 constexpr float max_irradiance = 1e12f;   ///< [W/m²] on a surface
+constexpr float max_distance = 1e5f;      ///< [m] of a surface that another renderer saw
 constexpr float max_charge = 1e15f;       ///< [e⁻] of a tap
 
 /// Which pixels: the first `count` lanes, from `index` (row-major) on.

@@ -45,28 +45,42 @@ struct Lighting {
   flow::Radiometry<F> radiometry;
 };
 
-/// Stages 1 and 2: shadow rays, then power.
-/// @param moving  whether anything that moves can stand in the way
+/// Shadow rays through what stands still and, if it can come between, what moves.
 template <class F, class Near>
-TOFRAY_FN void light_up(const Setup& s, Near& near, int slot, bool moving, const flow::Ray<F>& ray, const flow::Surface<F>& p, F vignetting,
-                        Lighting<F>& out) {
-  out.light.total_rate = F(0.0f);
-  for (int l = 0; l < s.scene.lights; ++l) {
-    const flow::Ray<F> from_light = power::light_ray(s.lights[l], p);
+struct ShadowRays {
+  const Setup& s;
+  Near& near;
+  int slot;
+  bool moving;
+
+  TOFRAY_FN num::Mask<F> of_light(int l, const flow::Ray<F>& from_light, const flow::Surface<F>& p) {
     near.look(slot, l, from_light, p.found);
     auto dark = trace::blocked(s.scene.light_still[l], near.still_from(l), from_light, p.object);
     if (moving) {
       dark = dark | trace::blocked(s.scene.light_moving[slot * s.scene.lights + l], near.moving_from(l), from_light, p.object);
     }
+    return dark;
+  }
+  TOFRAY_FN num::Mask<F> of_sun(const flow::Surface<F>& p) {
+    auto dark = trace::blocked_parallel(s.scene.sun_still, s.power.sun_direction, p);
+    if (s.scene.slots > 0) dark = dark | trace::blocked_parallel(s.scene.sun_moving[slot], s.power.sun_direction, p);
+    return dark;
+  }
+};
+
+/// Stage 2: power, where no shadow is. The shadows are asked for light by light, in their order.
+template <class F, class Shadows>
+TOFRAY_FN void light_up(const Setup& s, Shadows&& shadows, const flow::Ray<F>& ray, const flow::Surface<F>& p, F vignetting, Lighting<F>& out) {
+  out.light.total_rate = F(0.0f);
+  for (int l = 0; l < s.scene.lights; ++l) {
+    const flow::Ray<F> from_light = power::light_ray(s.lights[l], p);
+    const auto dark = shadows.of_light(l, from_light, p);
     power::add_light<F>(s.power, s.lights[l], p, ray, from_light, dark, vignetting, out.light.signal_rate[l], out.light.path_length[l],
                         out.radiometry);
     out.light.total_rate = out.light.total_rate + out.light.signal_rate[l];
   }
   num::Mask<F> shade = F(1.0f) < F(0.0f);
-  if (s.power.ambient_kind == 2) {
-    shade = trace::blocked_parallel(s.scene.sun_still, s.power.sun_direction, p);
-    if (s.scene.slots > 0) shade = shade | trace::blocked_parallel(s.scene.sun_moving[slot], s.power.sun_direction, p);
-  }
+  if (s.power.ambient_kind == 2) shade = shadows.of_sun(p);
   out.light.ambient_rate = s.power.ambient_kind == 0 ? F(0.0f) : power::ambient_rate<F>(s.power, p, shade, vignetting);
 }
 
@@ -96,12 +110,13 @@ TOFRAY_FN void find_depth(const Setup& s, const Job& job, const Pixels& p, const
 }
 
 /// Stages 1 and 2 from the surface on, and what they show of the truth.
+/// @param moving  whether anything that moves can stand in the way
 template <class F, class Near>
 TOFRAY_FN void light_surface(const Setup& s, const Job& job, Near& near, int slot, bool moving, bool truth, const Pixels& p,
                              const flow::Ray<F>& ray, const flow::Hit<F>& hit, F vignetting, Lighting<F>& lighting) {
   const flow::Surface<F> surface = trace::surface(s.scene, ray, hit);
   lighting.radiometry = {F(0.0f), F(0.0f), F(0.0f)};
-  if (s.last_stage >= stage_power) light_up(s, near, slot, moving, ray, surface, vignetting, lighting);
+  if (s.last_stage >= stage_power) light_up(s, ShadowRays<F, Near>{s, near, slot, moving}, ray, surface, vignetting, lighting);
   if (truth) store_truth(job.out, p, surface, lighting.radiometry);
 }
 

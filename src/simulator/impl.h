@@ -36,7 +36,8 @@ struct Simulator::Impl {
 
   Impl(const Scene& scene, const Camera& profile, const SimulatorOptions& wanted);
 
-  void frame(std::uint64_t index, Frame& into);
+  /// @param input  null: from the scene on
+  void frame(std::uint64_t index, const pipeline::Input* input, Frame& into);
   void frames(std::uint64_t count, const Request& request, const Take& take);
   void frames_on_device(std::uint64_t count, const Request& request, DeviceFrames::Impl& into);
 
@@ -44,6 +45,8 @@ struct Simulator::Impl {
   [[nodiscard]] double start_of(std::uint64_t index) const { return static_cast<double>(index) / camera.mode.frame_rate_hz; }
   /// Puts scene and sensor of a frame into `setup` and `job`.
   void set_frame(const FrameRequest& request);
+  /// Its sensor alone.
+  void set_sensor(const FrameRequest& request);
 
  private:
   void open_gpus();

@@ -7,6 +7,7 @@
 #include "simulator/check.h"
 #include "simulator/filter.h"
 #include "simulator/frame_memory.h"
+#include "simulator/input.h"
 #include "tofray/error.h"
 #include "tofray/simulator.h"
 
@@ -60,19 +61,18 @@ Depth process(const Raw& raw, const Camera& profile, const SimulatorOptions& opt
   std::vector<float> filtered(job.filter != 0 ? depth.z_m.size() : 0);
   job.filtered = filtered.data();
   job.out = simulator::view_of(depth);
-  const pipeline::Recording recording{raw.raw.empty() ? nullptr : raw.raw.data(), raw.tap_a.empty() ? nullptr : raw.tap_a.data(),
-                                      raw.tap_b.empty() ? nullptr : raw.tap_b.data()};
+  const pipeline::Input input = simulator::input_of(raw);
   if (options.backend != Backend::cpu) {
     try {
       backend::Cuda gpu(options.device, options.block_size);
       gpu.load(setup);
-      gpu.run(setup, job, &recording);
+      gpu.run(setup, job, &input);
       return depth;
     } catch (const backend::gpu::Fault&) {
       if (options.backend == Backend::cuda) throw;
     }
   }
-  backend::Cpu(options.isa, options.threads, 0).run(setup, job, &recording);
+  backend::Cpu(options.isa, options.threads, 0).run(setup, job, &input);
   return depth;
 }
 

@@ -8,6 +8,7 @@
 #include "simulator/filter.h"
 #include "simulator/frame_memory.h"
 #include "simulator/impl.h"
+#include "simulator/input.h"
 #include "tofray/error.h"
 
 namespace tofray {
@@ -104,12 +105,16 @@ void Simulator::Impl::set_frame(const FrameRequest& request) {
   }
   if (frozen->moves()) frozen->update(middles(start));
   setup.scene = frozen->view();
-  setup.sensor = frozen_camera.sensor(start);
+  set_sensor(request);
+}
+
+void Simulator::Impl::set_sensor(const FrameRequest& request) {
+  setup.sensor = frozen_camera.sensor(start_of(request.index));
   if (request.seed) setup.sensor.keys = num::round_keys(static_cast<std::uint32_t>(*request.seed), static_cast<std::uint32_t>(*request.seed >> 32));
   job.index_low = static_cast<std::uint32_t>(request.index), job.index_high = static_cast<std::uint32_t>(request.index >> 32);
 }
 
-void Simulator::Impl::frame(std::uint64_t index, Frame& into) {
+void Simulator::Impl::frame(std::uint64_t index, const pipeline::Input* input, Frame& into) {
   into.index = index;
   simulator::prepare(into, camera, options.truth);
   const double start = start_of(index);
@@ -117,17 +122,24 @@ void Simulator::Impl::frame(std::uint64_t index, Frame& into) {
   into.raw.start_time_s.clear();
   for (const double after : frozen_camera.raw_frame_start_s()) into.raw.start_time_s.push_back(start + after);
   into.truth.time_s = middle[middle.size() / 2];
-  set_frame({index, {}, {}});
+  const FrameRequest request{index, {}, {}};
+  if (input == nullptr) {
+    set_frame(request);
+  } else {
+    setup.power = power;
+    setup.scene.slots = 0;   // nothing of what moves need go to a GPU
+    set_sensor(request);
+  }
   job.out = simulator::view_of(into);
   if (!gpus.empty()) {
     try {
-      gpus[0]->run(setup, job);
+      gpus[0]->run(setup, job, input);
       return;
     } catch (const backend::gpu::Fault& fault) {
       give_up(fault);
     }
   }
-  cpu.run(setup, job);
+  cpu.run(setup, job, input);
 }
 
 Simulator::Simulator(const Scene& scene, const Camera& camera, const SimulatorOptions& options) : impl_(std::make_unique<Impl>(scene, camera, options)) {}
@@ -137,11 +149,30 @@ Simulator& Simulator::operator=(Simulator&&) noexcept = default;
 
 Frame Simulator::frame(std::uint64_t index) {
   Frame out;
-  impl_->frame(index, out);
+  impl_->frame(index, nullptr, out);
   return out;
 }
 
-void Simulator::frame(std::uint64_t index, Frame& into) { impl_->frame(index, into); }
+void Simulator::frame(std::uint64_t index, Frame& into) { impl_->frame(index, nullptr, into); }
+
+Frame Simulator::frame(std::uint64_t index, const Geometry& seen) {
+  Frame out;
+  frame(index, seen, out);
+  return out;
+}
+void Simulator::frame(std::uint64_t index, const Geometry& seen, Frame& into) {
+  const pipeline::Input input = simulator::input_of(seen, impl_->camera);
+  impl_->frame(index, &input, into);
+}
+Frame Simulator::frame(std::uint64_t index, const PixelLight& light) {
+  Frame out;
+  frame(index, light, out);
+  return out;
+}
+void Simulator::frame(std::uint64_t index, const PixelLight& light, Frame& into) {
+  const pipeline::Input input = simulator::input_of(light, impl_->camera);
+  impl_->frame(index, &input, into);
+}
 
 void Simulator::frames(std::uint64_t first, std::uint64_t count, const std::function<void(const FrameArrays&)>& take) {
   impl_->frames(count, [first](std::uint64_t i) { return FrameRequest{first + i, {}, {}}; }, take);

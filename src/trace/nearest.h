@@ -50,6 +50,15 @@ TOFRAY_FN F facet_value(const scene::Facet* facets, Int<F> facet, bool same, int
   return num::gather(table + c, facet * Int<F>(scene::facet_floats));
 }
 
+/// Turns a surface's normal to the camera.
+template <class F>
+TOFRAY_FN void face_camera(F nx, F ny, F nz, const Ray<F>& ray, Surface<F>& out) {
+  const F along = num::fma(nx, ray.x, num::fma(ny, ray.y, nz * ray.z));
+  const F sign = num::select(along > F(0.0f), F(-1.0f), F(1.0f));
+  out.nx = nx * sign, out.ny = ny * sign, out.nz = nz * sign;
+  out.cos_view = num::abs(along) * ray.inverse_length;
+}
+
 /// Where and what the hit is: position, normal toward the camera, material.
 template <class F>
 TOFRAY_FN Surface<F> surface(const scene::SceneView& s, const Ray<F>& ray, const Hit<F>& hit) {
@@ -62,10 +71,7 @@ TOFRAY_FN Surface<F> surface(const scene::SceneView& s, const Ray<F>& ray, const
   out.range = ray.square * ray.inverse_length * t;
   const F curvature = column(3);
   const F nx = num::fma(out.x, curvature, column(0)), ny = num::fma(out.y, curvature, column(1)), nz = num::fma(out.z, curvature, column(2));
-  const F along = num::fma(nx, ray.x, num::fma(ny, ray.y, nz * ray.z));
-  const F sign = num::select(along > F(0.0f), F(-1.0f), F(1.0f));
-  out.nx = nx * sign, out.ny = ny * sign, out.nz = nz * sign;
-  out.cos_view = num::abs(along) * ray.inverse_length;
+  face_camera(nx, ny, nz, ray, out);
   out.diffuse = column(4), out.specular = F(0.0f), out.exponent = F(1.0f);
   if (s.any_specular != 0) out.specular = column(5), out.exponent = column(6);
   const std::int32_t* objects = reinterpret_cast<const std::int32_t*>(s.facets);

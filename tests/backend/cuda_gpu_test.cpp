@@ -6,6 +6,7 @@
 #include "backend/cuda/cuda.h"
 #include "support/cuda_cases.h"
 #include "support/files.h"
+#include "support/own_arrays.h"
 #include "support/random_scene.h"
 
 using namespace tofray;
@@ -72,6 +73,13 @@ TEST_P(GpuBlockSize, gives_the_bytes_of_the_processor) {
   }
 }
 INSTANTIATE_TEST_SUITE_P(all, GpuBlockSize, testing::Range(32, 1025, 32), testing::PrintToStringParamName());
+
+TEST_F(Gpu, enters_at_any_stage) {
+  for (const char* name : {"demo", "flying-ball", "sun-outdoors"}) {
+    const Scene scene = load_scene(name);
+    expect_same_own_arrays(scene, load_camera(scene));
+  }
+}
 
 TEST_F(Gpu, filters_and_stages_have_the_bytes_of_the_processor) {
   const Scene scene = load_scene("demo");

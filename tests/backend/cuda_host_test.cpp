@@ -5,6 +5,7 @@
 
 #include "support/cuda_cases.h"
 #include "support/files.h"
+#include "support/own_arrays.h"
 #include "support/random_scene.h"
 #include "support/stand_in_cuda.h"
 #include "tofray/tofray.h"
@@ -71,6 +72,16 @@ TEST(cuda_host, stops_after_any_stage) {
       expect_same(scene, camera, {.last_stage = stage});
       expect_same(scene, camera, {.truth = false, .last_stage = stage});
     }
+  }
+}
+
+// One after the other on one GPU: none may take another's arrays or graph.
+TEST(cuda_host, enters_at_any_stage) {
+  const WithStandIn here;
+  for (const char* name : {"demo", "flying-ball", "sun-outdoors"}) {
+    const Scene scene = load_scene(name);
+    expect_same_own_arrays(scene, small(load_camera(scene)));
+    expect_same_own_arrays(scene, with_everything(load_camera(scene)));
   }
 }
 

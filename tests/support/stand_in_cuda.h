@@ -190,7 +190,7 @@ class StandInCuda final : public backend::gpu::Runtime {
       const FrameArguments& a = what.batch.own != nullptr ? what.batch.own[frame] : common;
       const pipeline::Job job = job_of(a.job, number, what.batch.own != nullptr ? 0 : frame * what.batch.stride);
       if (what.kernel != Kernel::pixels) {
-        for (int i = 0; i < a.setup.lens.width * a.setup.lens.height + 7; ++i) run_pass(what.kernel, a.setup, job, what.recording, i);
+        for (int i = 0; i < a.setup.lens.width * a.setup.lens.height + 7; ++i) run_pass(what.kernel, a.setup, job, what.input, i);
         continue;
       }
       for (int patch = 0; patch < patch_count(a.setup.lens); ++patch) {

@@ -70,13 +70,13 @@ Cpu::Cpu(Isa isa, int threads, int raw_frames)
 
 Cpu::~Cpu() = default;
 
-void Cpu::run(const pipeline::Setup& setup, const pipeline::Job& job, const pipeline::Recording* recording) {
-  const Work work{&setup, &job, recording};
+void Cpu::run(const pipeline::Setup& setup, const pipeline::Job& job, const pipeline::Input* input) {
+  const Work work{&setup, &job, input};
   const int tiles = pipeline::tile_count(setup.lens), bands = (setup.lens.height + 7) / 8;
   const auto pass = [&](Pass which, int pieces) {
     pool_->runner.for_each_tile(pieces, [&](int index, void* scratch) { kernel_(&work, which, index, scratch); });
   };
-  pass(recording != nullptr ? Pass::recording : Pass::pixels, tiles);
+  pass(input != nullptr ? Pass::input : Pass::pixels, tiles);
   if (setup.last_stage < pipeline::stage_depth || job.out.z == nullptr || job.out.flags == nullptr) return;
   pass(Pass::flying, bands);
   if (job.filter != 0) pass(Pass::filter, bands);

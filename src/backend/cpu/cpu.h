@@ -26,8 +26,8 @@ class Cpu {
   Cpu(const Cpu&) = delete;
   Cpu& operator=(const Cpu&) = delete;
 
-  /// All passes of a frame. `recording`: decode this instead of simulating.
-  void run(const pipeline::Setup& setup, const pipeline::Job& job, const pipeline::Recording* recording = nullptr);
+  /// All passes of a frame. `input`: begin with this instead of the scene.
+  void run(const pipeline::Setup& setup, const pipeline::Job& job, const pipeline::Input* input = nullptr);
   [[nodiscard]] Isa isa() const { return isa_; }
   [[nodiscard]] int threads() const { return threads_; }
 

@@ -36,11 +36,11 @@ void run_tile(const Work& work, int index, void* scratch) {
   one_tile<F>(*work.setup, *work.job, index, *static_cast<Scratch<F>*>(scratch), light);
 }
 
-void run_recording(const Work& work, int index) {
+void run_input(const Work& work, int index) {
   const Tile tile = tile_at(work.setup->lens, index);
   for (int q = 0; q < max_packs<F>; ++q) {
     const Pixels p = pack_at<F>(work.setup->lens, tile, q);
-    if (p.count > 0) decode_pixels<F>(*work.setup, *work.job, *work.recording, p);
+    if (p.count > 0) enter<F>(*work.setup, *work.job, *work.input, p);
   }
 }
 
@@ -58,7 +58,7 @@ void run_rows(const Work& work, Pass pass, int band) {
 extern "C" std::size_t TOFRAY_KERNEL(const Work* work, Pass pass, int index, void* scratch) {
   if (work == nullptr) return scratch_bytes + static_cast<std::size_t>(index > 0 ? index + 1 : 0) * max_packs<F> * sizeof(flow::Light<F>);
   if (pass == Pass::pixels) run_tile(*work, index, scratch);
-  if (pass == Pass::recording) run_recording(*work, index);
+  if (pass == Pass::input) run_input(*work, index);
   if (pass == Pass::flying || pass == Pass::filter || pass == Pass::settle) run_rows(*work, pass, index);
   return 0;
 }

@@ -3,7 +3,7 @@
 #pragma once
 #include <cstddef>
 
-#include "pipeline/decode_raw.h"
+#include "pipeline/enter.h"
 #include "pipeline/setup.h"
 
 /// What one instruction set's object exports: the pipeline over a piece of a frame.
@@ -11,7 +11,7 @@ namespace tofray::backend {
 
 enum class Pass : int {
   pixels,       ///< one tile, from rays to depth
-  recording,    ///< one tile, from raw data to depth
+  input,        ///< one tile, from what came from elsewhere to depth
   flying,       ///< one band of rows
   filter,       ///< one band of rows
   settle,       ///< one band of rows
@@ -20,7 +20,7 @@ enum class Pass : int {
 struct Work {
   const pipeline::Setup* setup;
   const pipeline::Job* job;
-  const pipeline::Recording* recording;
+  const pipeline::Input* input;
 };
 
 /// Does piece number `index` of a pass. With a null `work`: returns the bytes of scratch memory that a worker needs for `index` raw frames

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The tofray authors
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-#include "pipeline/decode_raw.h"
+#include "pipeline/enter.h"
 #include "pipeline/setup.h"
 
 /// What goes from the host to the kernels.
@@ -30,7 +30,7 @@ struct Batch {
 /// What the kernels do.
 enum class Kernel : int {
   pixels,       ///< one thread for each pixel, from ray to depth
-  recording,    ///< … from raw data to depth
+  input,        ///< … from what came from elsewhere to depth
   flying, filter, settle,   ///< the passes over images
 };
 

@@ -72,17 +72,17 @@ gpu::Lane& Cuda::lane(std::size_t i) {
   return lanes_[i];
 }
 
-gpu::Lane& Cuda::compute(const pipeline::Setup& setup, const pipeline::Job& job, const pipeline::Recording* recording) {
+gpu::Lane& Cuda::compute(const pipeline::Setup& setup, const pipeline::Job& job, const pipeline::Input* input) {
   gpu::Lane& first = lane(0);
-  first.begin(resident_, setup, job, setup.scene.slots > 0 ? gpu::Own::moving : gpu::Own::number, 1, recording);
+  first.begin(resident_, setup, job, setup.scene.slots > 0 ? gpu::Own::moving : gpu::Own::number, 1, input);
   first.add(setup, job.index_low | static_cast<std::uint64_t>(job.index_high) << 32);
   first.submit_graph();
   first.wait();
   return first;
 }
 
-void Cuda::run(const pipeline::Setup& setup, const pipeline::Job& job, const pipeline::Recording* recording) {
-  const gpu::Lane& done = compute(setup, job, recording);
+void Cuda::run(const pipeline::Setup& setup, const pipeline::Job& job, const pipeline::Input* input) {
+  const gpu::Lane& done = compute(setup, job, input);
   done.slab().copy_out(done.received(0), job.out);
 }
 

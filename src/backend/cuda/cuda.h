@@ -41,9 +41,9 @@ class Cuda {
 
   /// Takes to the GPU what does not change from frame to frame.
   void load(const pipeline::Setup& setup);
-  /// All passes of a frame, with arrays in host memory. `recording`: decode this instead of simulating.
+  /// All passes of a frame, with arrays in host memory. `input`: begin with this instead of the scene.
   /// @throws gpu::Fault
-  void run(const pipeline::Setup& setup, const pipeline::Job& job, const pipeline::Recording* recording = nullptr);
+  void run(const pipeline::Setup& setup, const pipeline::Job& job, const pipeline::Input* input = nullptr);
   /// The same, left in pinned host memory until the next call.
   flow::FrameView run_in_place(const pipeline::Setup& setup, const pipeline::Job& job);
 
@@ -56,7 +56,7 @@ class Cuda {
   [[nodiscard]] double occupancy() const;
 
  private:
-  gpu::Lane& compute(const pipeline::Setup& setup, const pipeline::Job& job, const pipeline::Recording* recording);
+  gpu::Lane& compute(const pipeline::Setup& setup, const pipeline::Job& job, const pipeline::Input* input);
 
   gpu::Device device_;
   int block_size_;

@@ -81,12 +81,12 @@ __global__ void __launch_bounds__(threads) tofray_pixels_own(const Batch batch) 
 /// A pass over the images of all frames.
 template <Kernel kernel>
 __global__ void __launch_bounds__(max_block_size) tofray_pass(const __grid_constant__ FrameArguments common, const Batch batch,
-                                                              const pipeline::Recording recording) {
+                                                              const pipeline::Input input) {
   const int frame = static_cast<int>(blockIdx.y), index = static_cast<int>(blockIdx.x * blockDim.x + threadIdx.x);
   if (batch.own != nullptr) {
-    run_pass(kernel, batch.own[frame].setup, batch.own[frame].job, recording, index);
+    run_pass(kernel, batch.own[frame].setup, batch.own[frame].job, input, index);
   } else {
-    run_pass(kernel, common.setup, job_of(common.job, batch.numbers[frame], frame * batch.stride), recording, index);
+    run_pass(kernel, common.setup, job_of(common.job, batch.numbers[frame], frame * batch.stride), input, index);
   }
 }
 
@@ -109,7 +109,7 @@ template <Kernel kernel>
 cudaError_t launch_pass(const Launch& what, int pixels, cudaStream_t stream) {
   const auto block = static_cast<unsigned>(what.block_size);
   const dim3 grid((static_cast<unsigned>(pixels) + block - 1) / block, static_cast<unsigned>(what.batch.frames));
-  tofray_pass<kernel><<<grid, block, 0, stream>>>(*what.common, what.batch, what.recording);
+  tofray_pass<kernel><<<grid, block, 0, stream>>>(*what.common, what.batch, what.input);
   return cudaGetLastError();
 }
 
@@ -122,7 +122,7 @@ cudaError_t launch_kernel(const Launch& what, cudaStream_t stream) {
     case Kernel::pixels:
       return what.block_size <= few_threads ? launch_pixels<few_threads>(what, patch_count(lens), stream)
                                             : launch_pixels<max_block_size>(what, patch_count(lens), stream);
-    case Kernel::recording: return launch_pass<Kernel::recording>(what, pixels, stream);
+    case Kernel::input: return launch_pass<Kernel::input>(what, pixels, stream);
     case Kernel::flying: return launch_pass<Kernel::flying>(what, pixels, stream);
     case Kernel::filter: return launch_pass<Kernel::filter>(what, pixels, stream);
     case Kernel::settle: return launch_pass<Kernel::settle>(what, pixels, stream);
@@ -135,7 +135,7 @@ const void* kernel_function(Kernel kernel, int block_size) {
     case Kernel::pixels:
       return block_size <= few_threads ? reinterpret_cast<const void*>(&tofray_pixels<few_threads>)
                                        : reinterpret_cast<const void*>(&tofray_pixels<max_block_size>);
-    case Kernel::recording: return reinterpret_cast<const void*>(&tofray_pass<Kernel::recording>);
+    case Kernel::input: return reinterpret_cast<const void*>(&tofray_pass<Kernel::input>);
     case Kernel::flying: return reinterpret_cast<const void*>(&tofray_pass<Kernel::flying>);
     case Kernel::filter: return reinterpret_cast<const void*>(&tofray_pass<Kernel::filter>);
     case Kernel::settle: break;

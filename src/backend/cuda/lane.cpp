@@ -11,11 +11,18 @@ namespace {
 
 constexpr std::size_t align(std::size_t bytes) { return (bytes + 255) / 256 * 256; }
 
-/// The recording's arrays, packed.
-pipeline::Recording packed(Packer& packer, const pipeline::Setup& setup, const pipeline::Recording& from) {
-  const std::size_t all = static_cast<std::size_t>(setup.lens.width) * static_cast<std::size_t>(setup.lens.height) *
-                          static_cast<std::size_t>(setup.sensor.raw_frames);
-  return {packer.put(from.raw, all), packer.put(from.tap_a, all), packer.put(from.tap_b, all)};
+/// The input's arrays, packed.
+pipeline::Input packed(Packer& packer, const pipeline::Setup& setup, const pipeline::Input& from) {
+  const std::size_t pixels = static_cast<std::size_t>(setup.lens.width) * static_cast<std::size_t>(setup.lens.height);
+  const std::size_t once = pixels * static_cast<std::size_t>(from.moments), by_light = once * static_cast<std::size_t>(setup.scene.lights);
+  const std::size_t raw = pixels * static_cast<std::size_t>(setup.sensor.raw_frames);
+  pipeline::Input to = from;
+  to.surface = {packer.put(from.surface.z, once),        packer.put(from.surface.normal, 3 * once), packer.put(from.surface.diffuse, once),
+                packer.put(from.surface.specular, once), packer.put(from.surface.exponent, once),   packer.put(from.surface.object, once),
+                packer.put(from.surface.shadow, by_light), packer.put(from.surface.sun_shadow, once)};
+  to.light = {packer.put(from.light.power, by_light), packer.put(from.light.path_length, by_light), packer.put(from.light.ambient_rate, once)};
+  to.recording = {packer.put(from.recording.raw, raw), packer.put(from.recording.tap_a, raw), packer.put(from.recording.tap_b, raw)};
+  return to;
 }
 
 }  // namespace
@@ -65,7 +72,7 @@ void Lane::reserve_output() {
 }
 
 void Lane::begin(const Resident& resident, const pipeline::Setup& first, const pipeline::Job& job, Own own, int capacity,
-                 const pipeline::Recording* recording) {
+                 const pipeline::Input* input) {
   device_.use();
   wait();
   resident_ = &resident;
@@ -77,16 +84,16 @@ void Lane::begin(const Resident& resident, const pipeline::Setup& first, const p
   const auto frames = static_cast<std::size_t>(capacity);
   arguments_at_ = align(frames * sizeof(FrameNumber));
   room_from_ = arguments_at_ + (own != Own::number ? align(frames * sizeof(FrameArguments)) : 0);
-  Packer recorded;
-  if (recording != nullptr) (void)packed(recorded, first, *recording);
+  Packer given;
+  if (input != nullptr) (void)packed(given, first, *input);
   // What moves may show more of itself in one frame than in another: a quarter more than the first one needs, and some.
-  reserve_input(room_from_ + frames * (align(measure.used()) + align(measure.used() / 4) + 1024) + align(recorded.used()));
+  reserve_input(room_from_ + frames * (align(measure.used()) + align(measure.used() / 4) + 1024) + align(given.used()));
   numbers_.clear();
   used_ = room_from_;
-  has_recording_ = recording != nullptr;
-  if (!has_recording_) return;
-  Packer packer(staged() + used_, input() + used_);
-  recording_ = packed(packer, first, *recording);
+  given_ = {};
+  if (input == nullptr) return;
+  Packer packer(staged() + used_, input_memory() + used_);
+  given_ = packed(packer, first, *input);
   used_ += align(packer.used());
 }
 
@@ -99,7 +106,7 @@ bool Lane::add(const pipeline::Setup& setup, std::uint64_t index) {
       if (frames() > 0) return false;
       reserve_input(2 * (used_ + align(measure.used())));   // one frame that is far larger than the first one was measured
     }
-    Packer packer(staged() + used_, input() + used_);
+    Packer packer(staged() + used_, input_memory() + used_);
     auto& arguments = reinterpret_cast<FrameArguments*>(staged() + arguments_at_)[frames()];
     write_arguments(setup, arguments);
     arguments.setup.scene = scene_of(setup.scene, packer);
@@ -113,18 +120,18 @@ bool Lane::add(const pipeline::Setup& setup, std::uint64_t index) {
 /// Copies in, runs the kernels.
 void Lane::launch_all() {
   Runtime& runtime = device_.runtime();
-  Launch launch{Kernel::pixels, block_size_, &common_, {}, recording_};
-  launch.batch.numbers = reinterpret_cast<const FrameNumber*>(input());
-  launch.batch.own = own_ != Own::number ? reinterpret_cast<const FrameArguments*>(input() + arguments_at_) : nullptr;
+  Launch launch{Kernel::pixels, block_size_, &common_, {}, given_};
+  launch.batch.numbers = reinterpret_cast<const FrameNumber*>(input_memory());
+  launch.batch.own = own_ != Own::number ? reinterpret_cast<const FrameArguments*>(input_memory() + arguments_at_) : nullptr;
   launch.batch.stride = static_cast<std::int64_t>(slab_.bytes());
   launch.batch.frames = frames();
   const auto run = [&](Kernel kernel, const char* doing) {
     launch.kernel = kernel;
     device_.check(runtime.launch(launch, stream_.get()), doing);
   };
-  device_.check(runtime.copy(input(), staged(), used_, Way::to_device, stream_.get()), "copying a frame's settings to the GPU");
-  if (has_recording_) {
-    run(Kernel::recording, "starting the kernel recording");
+  device_.check(runtime.copy(input_memory(), staged(), used_, Way::to_device, stream_.get()), "copying a frame's settings to the GPU");
+  if (given_.entry != pipeline::stage_trace) {
+    run(Kernel::input, "starting the kernel input");
   } else {
     run(Kernel::pixels, "starting the kernel pixels");
   }
@@ -166,7 +173,7 @@ void Lane::submit_graph() {
   place(output_.get());
   submitted_ = true, timed_ = false;
   // Arguments of a frame's own are copied by the graph; common ones are part of it.
-  const bool same = graph_.get() != nullptr && captured_own_ == own_ && captured_slab_ == slab_ && captured_used_ == used_ &&
+  const bool same = graph_.get() != nullptr && captured_own_ == own_ && captured_slab_ == slab_ && captured_used_ == used_ && captured_given_ == given_ &&
                     (own_ != Own::number || std::memcmp(&captured_, &common_, sizeof common_) == 0);
   if (!same) capture();
   device_.check(device_.runtime().launch_graph(graph_.get(), stream_.get()), "launching a graph");
@@ -188,7 +195,7 @@ void Lane::capture() {
   const Status made = runtime.end_capture(stream_.get(), graph);
   graph_ = Graph(runtime, graph);
   device_.check(made, "making a graph");
-  captured_ = common_, captured_used_ = used_, captured_own_ = own_, captured_slab_ = slab_;
+  captured_ = common_, captured_used_ = used_, captured_own_ = own_, captured_slab_ = slab_, captured_given_ = given_;
 }
 
 void Lane::wait() {

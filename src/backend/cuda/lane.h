@@ -32,7 +32,7 @@ class Lane {
   /// Starts a batch of up to `capacity` frames; waits until the last one is done.
   /// @param first  the first frame's setup (host pointers): memory is measured by it
   void begin(const Resident& resident, const pipeline::Setup& first, const pipeline::Job& job, Own own, int capacity,
-             const pipeline::Recording* recording = nullptr);
+             const pipeline::Input* input = nullptr);
   /// Takes a frame on; what `setup` points to may change afterwards.
   /// @return false where there is no room: submit what there is, begin anew
   bool add(const pipeline::Setup& setup, std::uint64_t index);
@@ -59,7 +59,7 @@ class Lane {
   void launch_all();
   void capture();
   [[nodiscard]] unsigned char* staged() const { return static_cast<unsigned char*>(staged_.get()); }
-  [[nodiscard]] unsigned char* input() const { return static_cast<unsigned char*>(input_.get()); }
+  [[nodiscard]] unsigned char* input_memory() const { return static_cast<unsigned char*>(input_.get()); }
 
   const Device& device_;
   int block_size_;
@@ -72,8 +72,8 @@ class Lane {
   // the batch
   const Resident* resident_ = nullptr;
   pipeline::Job job_{};
-  pipeline::Recording recording_{};
-  bool has_recording_ = false, submitted_ = false, timed_ = false;
+  pipeline::Input given_{};        ///< in device memory; entry 0: from the scene on
+  bool submitted_ = false, timed_ = false;
   Own own_ = Own::number;
   int capacity_ = 0;
   std::size_t arguments_at_ = 0, room_from_ = 0, used_ = 0;
@@ -82,6 +82,7 @@ class Lane {
   // the graph, and what it was made for
   Graph graph_;
   FrameArguments captured_{};
+  pipeline::Input captured_given_{};
   std::size_t captured_used_ = 0;
   Own captured_own_ = Own::number;
   Slab captured_slab_;

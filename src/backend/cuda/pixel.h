@@ -120,12 +120,12 @@ TOFRAY_FN void run_pixel(const Setup& s, const Job& job, Warp& warp, int patch, 
   pipeline::one_pixel(s, job, near, p, ray, still);
 }
 
-/// Raw data to depth, and the passes over images: pixel number `index`.
-TOFRAY_FN void run_pass(Kernel kernel, const Setup& s, const Job& job, const pipeline::Recording& recording, int index) {
+/// What came from elsewhere to depth, and the passes over images: pixel number `index`.
+TOFRAY_FN void run_pass(Kernel kernel, const Setup& s, const Job& job, const pipeline::Input& input, int index) {
   if (index >= s.lens.width * s.lens.height) return;
   const Pixels p{index, 1};
   const int x = index % s.lens.width, y = index / s.lens.width;
-  if (kernel == Kernel::recording) pipeline::decode_pixels<float>(s, job, recording, p);
+  if (kernel == Kernel::input) pipeline::enter<float>(s, job, input, p);
   if (kernel == Kernel::flying) pipeline::flag_flying_pixel(s, job, x, y);
   if (kernel == Kernel::filter) pipeline::filter_pixel(s, job, x, y);
   if (kernel == Kernel::settle) pipeline::settle<float>(s, job, p, job.filter != 0 ? job.filtered : job.out.range);

@@ -30,7 +30,7 @@ struct Launch {
   int block_size;
   const FrameArguments* common;   ///< host memory: goes along as kernel argument
   Batch batch;
-  pipeline::Recording recording;  ///< device memory
+  pipeline::Input input;          ///< device memory
 };
 
 enum class Way { to_device, to_host };

@@ -1,0 +1,98 @@
+// SPDX-FileCopyrightText: 2026 The tofray authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include <gtest/gtest.h>
+
+#include "flow/flow.h"
+#include "support/cuda_cases.h"
+
+/// What a user who brings arrays of his own would have, taken from a frame's truth.
+namespace tofray::test {
+
+/// What a frame of one light saw, at the time of its truth. A pixel that got no light is one in the shadow.
+inline Geometry geometry_of(const Scene& scene, const Camera& camera, const Frame& frame) {
+  const Truth& truth = frame.truth;
+  Geometry out;
+  out.width = camera.sensor.width, out.height = camera.sensor.height;
+  out.z_m = truth.z_m, out.normal = truth.normal, out.object_id = truth.object_id;
+  for (std::size_t i = 0; i < truth.z_m.size(); ++i) {
+    const std::int32_t object = truth.object_id[i];
+    const Material material = object < 0 ? Material{} : scene.materials[static_cast<std::size_t>(scene.objects[static_cast<std::size_t>(object)].material)];
+    out.diffuse.push_back(static_cast<float>(material.diffuse));
+    out.specular.push_back(static_cast<float>(material.specular));
+    out.exponent.push_back(static_cast<float>(material.exponent));
+    out.shadow.push_back(truth.irradiance_w_m2[i] > 0 ? 0 : 1);
+  }
+  return out;
+}
+
+/// The light of a frame without ambient light: ℓ = |P − L| + |P|, as the pipeline rounds it.
+inline PixelLight light_of(const Camera& camera, const Frame& frame) {
+  const Truth& truth = frame.truth;
+  PixelLight out;
+  out.width = camera.sensor.width, out.height = camera.sensor.height;
+  out.power_w = truth.power_w;
+  const Vec3& at = camera.illumination[0].position;
+  for (std::size_t i = 0; i < truth.z_m.size(); ++i) {
+    const float* p = &truth.position_m[3 * i];
+    const flow::Ray<float> way =
+        flow::make_ray(p[0] - static_cast<float>(at[0]), p[1] - static_cast<float>(at[1]), p[2] - static_cast<float>(at[2]));
+    out.path_length_m.push_back(truth.object_id[i] < 0 ? 0 : way.square * way.inverse_length + truth.range_m[i]);
+  }
+  return out;
+}
+
+/// Every array that can be given, for each light, of one moment or of each raw frame's own.
+inline Geometry full_geometry(const Scene& scene, const Camera& camera, const Frame& frame, bool each_raw_frame) {
+  const Geometry once = geometry_of(scene, camera, frame);
+  Geometry out = once;
+  const std::size_t moments = each_raw_frame ? camera.mode.sequence.size() : 1, pixels = once.z_m.size();
+  out.moments = static_cast<int>(moments);
+  for (std::size_t k = 1; k < moments; ++k) {
+    const auto append = [](auto& to, const auto& from) { to.insert(to.end(), from.begin(), from.end()); };
+    append(out.z_m, once.z_m), append(out.normal, once.normal), append(out.object_id, once.object_id);
+    append(out.diffuse, once.diffuse), append(out.specular, once.specular), append(out.exponent, once.exponent);
+  }
+  for (std::size_t i = 0; i < out.z_m.size(); ++i) out.z_m[i] *= 1 + 0.01f * static_cast<float>(i / pixels);
+  out.shadow.resize(moments * pixels * camera.illumination.size());
+  for (std::size_t i = 0; i < out.shadow.size(); ++i) out.shadow[i] = i % 11 == 0 ? 3 : 0;
+  for (std::size_t i = 0; i < out.z_m.size(); ++i) out.sun_shadow.push_back(i % 7 == 0);
+  return out;
+}
+inline PixelLight full_light(const Camera& camera, bool each_raw_frame) {
+  const std::size_t pixels = static_cast<std::size_t>(camera.sensor.width) * static_cast<std::size_t>(camera.sensor.height);
+  const std::size_t moments = each_raw_frame ? camera.mode.sequence.size() : 1;
+  PixelLight out;
+  out.width = camera.sensor.width, out.height = camera.sensor.height, out.moments = static_cast<int>(moments);
+  for (std::size_t i = 0; i < moments * pixels * camera.illumination.size(); ++i) {
+    out.power_w.push_back(1e-14f * static_cast<float>(i % 97)), out.path_length_m.push_back(0.01f * static_cast<float>(i % 601));
+  }
+  for (std::size_t i = 0; i < moments * pixels; ++i) out.ambient_e_per_s.push_back(1e4f * static_cast<float>(i % 89));
+  return out;
+}
+
+/// Both backends, entered at each stage, again and again in turn: none may take another's arrays.
+inline void expect_same_own_arrays(const Scene& scene, const Camera& camera) {
+  Simulator cpu(scene, camera, on(Backend::cpu)), cuda(scene, camera, on(Backend::cuda));
+  const Frame frame = cpu.frame(0);
+  for (std::uint64_t index = 1; index < 3; ++index) {
+    EXPECT_EQ(first_difference(cpu.frame(index), cuda.frame(index)), "") << scene.name;
+    for (const bool each_raw_frame : {false, true}) {
+      const Geometry seen = full_geometry(scene, camera, frame, each_raw_frame);
+      EXPECT_EQ(first_difference(cpu.frame(index, seen), cuda.frame(index, seen)), "") << scene.name << ", geometry " << each_raw_frame;
+      const PixelLight light = full_light(camera, each_raw_frame);
+      EXPECT_EQ(first_difference(cpu.frame(index, light), cuda.frame(index, light)), "") << scene.name << ", light " << each_raw_frame;
+    }
+    Geometry least = geometry_of(scene, camera, frame);
+    least.specular.clear(), least.exponent.clear(), least.object_id.clear(), least.shadow.clear();
+    EXPECT_EQ(first_difference(cpu.frame(index, least), cuda.frame(index, least)), "") << scene.name << ", least geometry";
+    // as many bytes of another meaning
+    Geometry other = least;
+    least.shadow.assign(least.z_m.size() * camera.illumination.size(), 1), other.sun_shadow.assign(least.shadow.size(), 1);
+    if (camera.illumination.size() > 1) continue;
+    EXPECT_EQ(first_difference(cpu.frame(index, least), cuda.frame(index, least)), "") << scene.name << ", in the light's shadow";
+    EXPECT_EQ(first_difference(cpu.frame(index, other), cuda.frame(index, other)), "") << scene.name << ", in the sun's shadow";
+  }
+}
+
+}  // namespace tofray::test
