@@ -40,3 +40,5 @@ refuse("a function of the hardware" "[ \t](rsqrt|sin|cos|ex2|lg2|tanh|mad)\\.([a
 refuse("an operation on halves" "\\.(f16|bf16)")
 refuse("an atomic operation or reduction on floats" "[ \t](atom|red)\\..*f32")
 refuse("a call" "[ \t]call")
+# With a constant they are the processor's comparison; of two unknown numbers, one of which may be NaN, they are not.
+refuse("a minimum or maximum of two unknown numbers" "[ \t](min|max)\\.f32[ \t]+%[a-z0-9]+, %[a-z0-9]+, %[a-z0-9]+;")
