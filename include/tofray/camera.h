@@ -169,11 +169,11 @@ struct Camera {
 };
 
 struct CameraOptions {
-  std::string mode;            ///< empty: the profile's first
+  std::string mode = {};       ///< empty: the profile's first
   /// Dotted key and value as written in a profile, e.g. {"lens.f_number", "1.2"}.
-  std::vector<std::pair<std::string, std::string>> set;
+  std::vector<std::pair<std::string, std::string>> set = {};
   /// A scene's profile file has to lie in or below the scene's folder, or in or below this one where it is not empty.
-  std::string root;
+  std::string root = {};
 };
 
 /// Reads a camera profile: a built-in name such as "pico-flexx", or a YAML file.

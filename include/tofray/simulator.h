@@ -51,8 +51,8 @@ struct SimulatorOptions {
 /// One frame of a batch. What is not set is the simulator's.
 struct FrameRequest {
   std::uint64_t index = 0;              ///< starts at index / frame_rate
-  std::optional<std::uint64_t> seed;
-  std::optional<Pose> pose;             ///< of the camera
+  std::optional<std::uint64_t> seed = {};
+  std::optional<Pose> pose = {};        ///< of the camera
 };
 
 /// Frames that stay in a GPU's memory.
@@ -103,11 +103,11 @@ class Simulator {
   /// Many frames, in their order: `count` from `first` on, or one for each request. On GPUs several of them are on their way at once, in
   /// bounded memory; all GPUs take part unless SimulatorOptions::device names one.
   /// @param take  is given each frame when it is done; the arrays are good until it returns
-  /// @throws Error (bad_input) for a request whose pose is none
+  /// @throws Error (bad_input) for a request with a pose that cannot be: before the first frame
   void frames(std::uint64_t first, std::uint64_t count, const std::function<void(const FrameArrays&)>& take);
   void frames(std::span<const FrameRequest> requests, const std::function<void(const FrameArrays&)>& take);
   /// The same, left in the GPU's memory, which `into` holds and uses again where it is large enough.
-  /// @throws Error (device) where the processor computes, or where the memory is too small for them
+  /// @throws Error (device) where the processor computes, or where the memory is too small for them; (bad_input) as above
   void frames_on_device(std::uint64_t first, std::uint64_t count, DeviceFrames& into);
   void frames_on_device(std::span<const FrameRequest> requests, DeviceFrames& into);
 

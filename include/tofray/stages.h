@@ -9,32 +9,37 @@
 /// Arrays of one's own in the place of what the first stages find: plain, contiguous, row-major. (Raw data of one's own: see process().)
 ///
 /// `moment`: one for all raw frames of a frame, or one for each of them, at the middle of its exposure, where something moves.
-/// `light`: one for each of Camera::illumination. Where a light reaches a pixel over several paths, give the camera that light as often.
+/// `light`: one for each of Camera::illumination, in its order.
 namespace tofray {
 
 /// What another renderer saw, pixel for pixel along the camera's rays, for stage 2 (power). Camera frame: x right, y down, z forward.
+/// Where nothing is seen, no other value is looked at.
 struct Geometry {
   int width = 0, height = 0, moments = 1;
-  std::vector<float> z_m;                  ///< [moment][height][width] along the optical axis; nothing is seen where it is not above 0 (NaN, say) or beyond 1e5
-  std::vector<float> normal;               ///< [moment][height][width][3] of unit length, on either side of the surface
+  std::vector<float> z_m;                  ///< [moment][height][width] along the optical axis; not above 0 (or NaN), or beyond 1e5: nothing is seen
+  std::vector<float> normal;               ///< [moment][height][width][3] on either side of the surface, of unit length to 0.1 %
   std::vector<float> diffuse;              ///< [moment][height][width] k_d, 0…1: of a Lambertian surface its reflectivity
-  std::vector<float> specular, exponent;   ///< [moment][height][width] k_s and n of the Phong lobe; both empty: Lambert
+  std::vector<float> specular;             ///< [moment][height][width] k_s of the Phong lobe, 0…1 − k_d; empty: Lambert
+  std::vector<float> exponent;             ///< [moment][height][width] n of the Phong lobe, 1…1e4, also where k_s is 0; empty: Lambert
   std::vector<std::int32_t> object_id;     ///< [moment][height][width] for Truth::object_id; empty: 0 wherever something is seen
   std::vector<std::uint8_t> shadow;        ///< [moment][light][height][width] 1 where the light does not reach; empty: it reaches everywhere
   std::vector<std::uint8_t> sun_shadow;    ///< [moment][height][width] the same for ambient light that has a direction
 };
 
 /// The light that each pixel receives, for stage 3 (raw).
+///
+/// Where light comes over several paths, give the camera its light as often, 8 times at most, and each path as one of them. (With such a
+/// camera a scene or a Geometry is lit as often.) Depth takes every ℓ to begin at the first one's position.
 struct PixelLight {
   int width = 0, height = 0, moments = 1;
-  std::vector<float> power_w;              ///< [moment][light][height][width] on the pixel while the light is on, 0…1
-  std::vector<float> path_length_m;        ///< [moment][light][height][width] ℓ from the light to the surface and on to the camera, 0…1e6
+  std::vector<float> power_w;              ///< [moment][light][height][width] on the pixel, mean of a modulation period of a lit raw frame, 0…1
+  std::vector<float> path_length_m;        ///< [moment][light][height][width] ℓ from the light to the surface and on to the camera, 0…1e6 (no light: 0)
   std::vector<float> ambient_e_per_s;      ///< [moment][height][width] electrons of both taps together, 0…1e20; empty: none
 };
 
 /// Which way each pixel looks, for renderers of one's own: x/z and y/z of its ray in the camera frame, the lens undistorted (physics: 1).
 /// @return [height][width][2]; NaN where the lens model has no inverse
-/// @throws Error (bad_input) for a number that is not finite or out of its range
+/// @throws Error as a Simulator's constructor does for this camera: all of it has to be good, not the lens alone
 std::vector<float> pixel_rays(const Camera& camera);
 
 }  // namespace tofray

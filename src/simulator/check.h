@@ -1,6 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The tofray authors
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include <span>
+#include <string>
+
 #include "tofray/camera.h"
 #include "tofray/scene.h"
 #include "tofray/simulator.h"
@@ -12,7 +15,8 @@ namespace tofray::simulator {
 /// @throws Error (bad_input; limit for counts) naming the member
 void check(const Camera& camera);
 void check(const Scene& scene);
-void check(const Pose& pose);
+void check(const Pose& pose, const std::string& path = "camera.pose");
+void check(std::span<const FrameRequest> requests);
 void check(const SimulatorOptions& options);
 
 }  // namespace tofray::simulator

@@ -62,14 +62,20 @@ void check_material(const Material& material, const std::string& path) {
 
 }  // namespace
 
-void check(const Pose& pose) {
-  within(pose.position, range::coordinate_m, "camera.pose.position");
-  within(pose.look_at, range::coordinate_m, "camera.pose.look_at");
-  direction(pose.up, "camera.pose.up");
+void check(const Pose& pose, const std::string& path) {
+  within(pose.position, range::coordinate_m, path + ".position");
+  within(pose.look_at, range::coordinate_m, path + ".look_at");
+  direction(pose.up, path + ".up");
   const Vec3 view = pose.look_at - pose.position;
-  if (length(view) < range::shortest_m) refuse("the camera looks at the point where it stands", "look_at has to differ from position");
+  if (length(view) < range::shortest_m) refuse(path + " looks at the point where it stands", "look_at has to differ from position");
   if (length(cross(view, pose.up)) < 1e-6 * length(view) * length(pose.up)) {
-    refuse("the camera's up is its direction of view", "expected another direction, such as {0, -1, 0}");
+    refuse(path + ".up is the direction of view", "expected another direction, such as {0, -1, 0}");
+  }
+}
+
+void check(std::span<const FrameRequest> requests) {
+  for (std::size_t i = 0; i < requests.size(); ++i) {
+    if (requests[i].pose) check(*requests[i].pose, "requests[" + std::to_string(i) + "].pose");
   }
 }
 

@@ -46,17 +46,19 @@ class Look {
   void size_or_empty(const std::vector<T>& array, std::size_t wanted, const char* name) const {
     if (!array.empty()) size(array, wanted, name);
   }
-  void value(float value, const base::Range& range, const char* name, std::size_t i) const {
-    if (!range.contains(static_cast<double>(value))) within(static_cast<double>(value), range, place(name, i));
+  void value(float value, const base::Range& range, const char* name, std::size_t i, bool has_lights = false) const {
+    if (!range.contains(static_cast<double>(value))) within(static_cast<double>(value), range, place(name, i, has_lights));
   }
-  void values(const std::vector<float>& array, const base::Range& range, const char* name) const {
-    for (std::size_t i = 0; i < array.size(); ++i) value(array[i], range, name, i);
+  void values(const std::vector<float>& array, const base::Range& range, const char* name, bool has_lights) const {
+    for (std::size_t i = 0; i < array.size(); ++i) value(array[i], range, name, i, has_lights);
   }
-  /// "geometry.z_m, pixel (column 7, row 12)", and which image of several.
-  [[nodiscard]] std::string place(const char* name, std::size_t i) const {
-    const std::string image = pixels() > pixels_ || i >= pixels_ ? ", image " + std::to_string(i / pixels_) : "";
-    return path_ + "." + name + image + ", pixel (column " + std::to_string(i % pixels_ % width_) + ", row " +
-           std::to_string(i % pixels_ / width_) + ")";
+  /// "geometry.z_m, moment 2, pixel (column 7, row 12)"
+  [[nodiscard]] std::string place(const char* name, std::size_t i, bool has_lights = false) const {
+    const std::size_t image = i / pixels_, at = i % pixels_, lights = has_lights ? lights_ : 1;
+    std::string text = path_ + "." + name;
+    if (moments_ > 1) text += ", moment " + std::to_string(image / lights);
+    if (lights > 1) text += ", light " + std::to_string(image % lights);
+    return text + ", pixel (column " + std::to_string(at % width_) + ", row " + std::to_string(at / width_) + ")";
   }
 
  private:
@@ -99,13 +101,13 @@ pipeline::Input input_of(const Geometry& seen, const Camera& camera) {
 }
 
 pipeline::Input input_of(const PixelLight& light, const Camera& camera) {
-  const Look look("light", light.width, light.height, light.moments, camera);
+  const Look look("pixel light", light.width, light.height, light.moments, camera);
   look.size(light.power_w, look.by_light(), "power_w");
   look.size(light.path_length_m, look.by_light(), "path_length_m");
   look.size_or_empty(light.ambient_e_per_s, look.pixels(), "ambient_e_per_s");
-  look.values(light.power_w, range::pixel_power_w, "power_w");
-  look.values(light.path_length_m, range::path_length_m, "path_length_m");
-  look.values(light.ambient_e_per_s, range::pixel_ambient_e_per_s, "ambient_e_per_s");
+  look.values(light.power_w, range::pixel_power_w, "power_w", true);
+  look.values(light.path_length_m, range::path_length_m, "path_length_m", true);
+  look.values(light.ambient_e_per_s, range::pixel_ambient_e_per_s, "ambient_e_per_s", false);
   pipeline::Input input{};
   input.entry = pipeline::stage_raw, input.moments = light.moments;
   input.light = {data_of(light.power_w), data_of(light.path_length_m), data_of(light.ambient_e_per_s)};

@@ -97,7 +97,6 @@ void Simulator::Impl::set_frame(const FrameRequest& request) {
   scene::FrozenScene* frozen = &frozen_scene;
   setup.power = power;
   if (request.pose) {
-    simulator::check(*request.pose);
     Scene posed = scene;
     posed.camera.pose = *request.pose;
     frozen = &posed_scene.emplace(posed, positions(camera), static_cast<int>(camera.mode.sequence.size()));
@@ -178,12 +177,14 @@ void Simulator::frames(std::uint64_t first, std::uint64_t count, const std::func
   impl_->frames(count, [first](std::uint64_t i) { return FrameRequest{first + i, {}, {}}; }, take);
 }
 void Simulator::frames(std::span<const FrameRequest> requests, const std::function<void(const FrameArrays&)>& take) {
+  simulator::check(requests);
   impl_->frames(requests.size(), [requests](std::uint64_t i) { return requests[i]; }, take);
 }
 void Simulator::frames_on_device(std::uint64_t first, std::uint64_t count, DeviceFrames& into) {
   impl_->frames_on_device(count, [first](std::uint64_t i) { return FrameRequest{first + i, {}, {}}; }, *into.impl_);
 }
 void Simulator::frames_on_device(std::span<const FrameRequest> requests, DeviceFrames& into) {
+  simulator::check(requests);
   impl_->frames_on_device(requests.size(), [requests](std::uint64_t i) { return requests[i]; }, *into.impl_);
 }
 

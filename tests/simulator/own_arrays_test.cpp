@@ -111,7 +111,7 @@ TEST(own_arrays, have_the_same_bytes_on_every_machine) {
   for (const Isa isa : {Isa::scalar, Isa::scalar_fma, Isa::avx2, Isa::avx512}) {
     if (!backend::can_run(isa)) continue;
     for (const int threads : {1, 3}) {
-      Simulator simulator(scene, camera, {.threads = threads, .isa = isa});
+      Simulator simulator(scene, camera, {.threads = threads, .backend = Backend::cpu, .isa = isa});
       const Frame from_geometry = simulator.frame(1, seen), from_light = simulator.frame(1, light);
       if (geometry_reference.raw.raw.empty()) geometry_reference = from_geometry, light_reference = from_light;
       EXPECT_EQ(first_difference(from_geometry, geometry_reference), "") << simulator.isa() << ", " << threads;
@@ -319,6 +319,14 @@ TEST(own_arrays, stop_after_the_stage_that_is_asked_for) {
     EXPECT_EQ(part.raw.raw == whole.raw.raw, last >= Stage::raw);
     EXPECT_EQ(part.depth.flags, std::vector<std::uint16_t>(seen.z_m.size(), 0));
   }
+  const PixelLight light = even_light(camera, 2e-12f, 3);
+  const Frame lit = Simulator({}, camera).frame(0, light);
+  for (const Stage last : {Stage::trace, Stage::power, Stage::raw}) {
+    const Frame part = Simulator({}, camera, {.last_stage = last}).frame(0, light);
+    EXPECT_EQ(part.truth.power_w, lit.truth.power_w);
+    EXPECT_EQ(part.raw.raw == lit.raw.raw, last >= Stage::raw);
+    EXPECT_EQ(part.depth.flags, std::vector<std::uint16_t>(seen.z_m.size(), 0));
+  }
 }
 
 TEST(own_arrays, that_do_not_fit_are_refused_by_name) {
@@ -353,14 +361,58 @@ TEST(own_arrays, that_do_not_fit_are_refused_by_name) {
   };
   EXPECT_EQ(light([](PixelLight&) {}), "no error");
   EXPECT_EQ(light([](PixelLight& l) { l.power_w[3] = -1; }),
-            "error: light.power_w, pixel (column 3, row 0) is out of range\n  got -1, expected 0 to 1");
+            "error: pixel light.power_w, pixel (column 3, row 0) is out of range\n  got -1, expected 0 to 1");
   EXPECT_EQ(light([](PixelLight& l) { l.path_length_m[224] = nan; }),
-            "error: light.path_length_m, pixel (column 0, row 1) is out of range\n  got nan, expected 0 to 1000000");
-  EXPECT_EQ(light([](PixelLight& l) { l.ambient_e_per_s.assign(2, 0); }), "error: light.ambient_e_per_s has the wrong size\n  got 2 values, expected 38528");
+            "error: pixel light.path_length_m, pixel (column 0, row 1) is out of range\n  got nan, expected 0 to 1000000");
+  EXPECT_EQ(light([](PixelLight& l) { l.ambient_e_per_s.assign(2, 0); }), "error: pixel light.ambient_e_per_s has the wrong size\n  got 2 values, expected 38528");
   EXPECT_EQ(light([](PixelLight& l) {
               l.moments = 9;
               for (auto* array : {&l.power_w, &l.path_length_m}) array->assign(9 * 38528, 1e-12f);
               l.power_w[5 * 38528 + 3] = 2;
             }),
-            "error: light.power_w, image 5, pixel (column 3, row 0) is out of range\n  got 2, expected 0 to 1");
+            "error: pixel light.power_w, moment 5, pixel (column 3, row 0) is out of range\n  got 2, expected 0 to 1");
+  Camera two = camera;
+  two.illumination.push_back(two.illumination[0]);
+  Simulator seen_twice({}, two);
+  PixelLight given;
+  given.width = 224, given.height = 172, given.moments = 9;
+  for (auto* array : {&given.power_w, &given.path_length_m}) array->assign(9 * 2 * 38528, 1e-12f);
+  given.path_length_m[5 * 38528 + 3] = -1;
+  EXPECT_EQ(message_of(seen_twice, given),
+            "error: pixel light.path_length_m, moment 2, light 1, pixel (column 3, row 0) is out of range\n  got -1, expected 0 to 1000000");
+}
+
+TEST(own_arrays, leave_the_truth_out_where_it_is_not_wanted) {
+  const Camera camera = plain_camera();
+  const Geometry seen = wall(camera, 1.5f);
+  const PixelLight light = even_light(camera, 2e-12f, 3);
+  Simulator whole({}, camera), bare({}, camera, {.truth = false});
+  for (const bool from_light : {false, true}) {
+    Frame a = from_light ? whole.frame(1, light) : whole.frame(1, seen);
+    const Frame b = from_light ? bare.frame(1, light) : bare.frame(1, seen);
+    EXPECT_TRUE(b.truth.z_m.empty());
+    a.truth = {};
+    EXPECT_EQ(first_difference(a, b), "");
+  }
+}
+
+// Five phases, no lit raw frame, no light at all: what a scene may meet, arrays may meet.
+TEST(own_arrays, go_with_any_sequence_and_with_no_light) {
+  Camera five = load_camera("pico-flexx", {.mode = "MODE_5_35FPS_600"}), dark = plain_camera(), blind = plain_camera();
+  dark.mode.sequence.resize(1);
+  blind.illumination.clear();
+  for (const Camera& camera : {five, dark, blind}) {
+    const bool valid = camera.mode.sequence.size() == 5;
+    Simulator simulator({}, camera, {.noise = Noise::off});
+    const Frame frame = simulator.frame(0, wall(camera, 1));
+    EXPECT_EQ((frame.depth.flags[20000] & flag_no_return) == 0, valid);
+    EXPECT_EQ(frame.truth.z_m[20000], 1);
+    PixelLight light = even_light(camera, 2e-12f, 2);
+    if (camera.illumination.empty()) light.power_w.clear(), light.path_length_m.clear();
+    light.ambient_e_per_s.assign(224 * 172, 1e6f);
+    const Frame lit = simulator.frame(0, light);
+    EXPECT_EQ((lit.depth.flags[20000] & flag_no_return) == 0, valid);
+    EXPECT_NEAR(static_cast<double>(lit.raw.tap_a[20000]),
+                (1e6 + camera.pixel.dark_current_e_per_s) * camera.mode.sequence[0].integration_time_s, 1) << "the grey frame";
+  }
 }

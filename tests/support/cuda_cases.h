@@ -61,6 +61,7 @@ inline Camera with_everything(Camera camera) {
   camera.illumination.push_back(camera.illumination[0]);
   camera.illumination[1].position = {-0.02, 0.01, 0.003}, camera.illumination[1].axis = {0.1, -0.2, 1};
   camera.illumination[1].waveform.jitter_s = 3e-10;
+  camera.decoding.filter.kind = ImageFilter::Kind::median;
   camera.temperature.drift_m_per_kelvin = 1e-4, camera.temperature.celsius = 41;
   return camera;
 }
