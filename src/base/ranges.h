@@ -47,7 +47,7 @@ inline constexpr Range power_w{0, 1e4};
 inline constexpr Range half_angle_rad{1e-3, pi};
 inline constexpr Range width_rad{1e-3, 2 * pi};
 inline constexpr Range lobe_exponent{0, 1e4};
-inline constexpr Range pattern_cells{1, 4096};
+inline constexpr Range pattern_cells{2, 4096};  // along one side: between two of them it is interpolated
 inline constexpr Range pattern_sample{0, 1e12};
 inline constexpr Range duty{1e-3, 0.999};
 inline constexpr Range rise_time_s{0, 1e-3};

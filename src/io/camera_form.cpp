@@ -61,7 +61,7 @@ Form filter() {
 
 Form samples() {
   const auto most = static_cast<int>(base::limit::table_samples.value);
-  return list(list(number(none, range::pattern_sample, "1"), 1, most), 1, most);
+  return list(list(number(none, range::pattern_sample, "1"), 2, most), 2, most);   // between two of them it is interpolated
 }
 
 Form pattern() {

@@ -137,6 +137,8 @@ void CameraReader::pattern(const Value& value, Pattern& out) {
     out.samples.insert(out.samples.end(), row.begin(), row.end());
   }
   if (!(sum > 0)) faults_.add(place, "the pattern is dark", "expected a sample above 0");
+  if (rows.size() < 2 || rows[0].size() < 2)
+    faults_.add(place, "the pattern has fewer than two rows or columns", "a constant one needs the same number four times");
   if (static_cast<long long>(out.samples.size()) > base::limit::table_samples.value)
     faults_.add(place, "the pattern has too many samples", "at most " + std::to_string(base::limit::table_samples.value), ErrorKind::limit);
   out.rows = static_cast<int>(rows.size());

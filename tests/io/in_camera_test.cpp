@@ -144,9 +144,11 @@ TEST(checks, refuse_cameras_that_cannot_be) {
       {{{"decoding.flying_pixel", "{near_z: 5 m}"}}, "far_z is not beyond near_z"},
       {{{"pixel.quantum_efficiency", "{wavelength: [850 nm, 840 nm], value: [0.4, 0.4]}"}}, "wavelength does not ascend"},
       {{{"pixel.quantum_efficiency", "{wavelength: [850 nm, 860 nm], value: [0.4, 0.4, 0.4]}"}}, "value is not as long as wavelength"},
-      {{{"illumination.0.pattern", "{kind: table, samples: [[1, 2], [1]], half_range_x: 1 rad, half_range_y: 1 rad}"}},
+      {{{"illumination.0.pattern", "{kind: table, samples: [[1, 2], [1, 2, 3]], half_range_x: 1 rad, half_range_y: 1 rad}"}},
        "rows are not as long"},
-      {{{"illumination.0.pattern", "{kind: table, samples: [[0, 0]], half_range_x: 1 rad, half_range_y: 1 rad}"}}, "the pattern is dark"},
+      {{{"illumination.0.pattern", "{kind: table, samples: [[0, 0], [0, 0]], half_range_x: 1 rad, half_range_y: 1 rad}"}}, "the pattern is dark"},
+      {{{"illumination.0.pattern", "{kind: table, samples: [[1, 1]], half_range_x: 1 rad, half_range_y: 1 rad}"}}, "samples has the wrong number of elements"},
+      {{{"illumination.0.pattern", "{kind: table, samples: [[1], [1]], half_range_x: 1 rad, half_range_y: 1 rad}"}}, "samples[0] has the wrong number of elements"},
       {{{"illumination.0.waveform", "{kind: measured, correlation: [1, 0, -1, 0]}"}}, "too few samples"},
       {{{"mode", "MODE"}}, "no mode \"MODE\""},
   };
@@ -234,6 +236,7 @@ TEST(table_files, lie_beside_the_profile) {
   std::string folder = (std::filesystem::temp_directory_path() / "tofray_in_XXXXXX").string();
   ASSERT_NE(mkdtemp(folder.data()), nullptr);
   std::ofstream(folder + "/pattern.csv") << "# rows of samples\n1, 2, 3\n4;5 6\n\n";
+  std::ofstream(folder + "/row.csv") << "1, 2, 3\n";
   std::ofstream(folder + "/bad.csv") << "1, 2\n3, zebra\n";
   std::ofstream(folder + "/mine.yaml") << pico();
   const auto load = [&](const std::string& file) {
@@ -251,6 +254,7 @@ TEST(table_files, lie_beside_the_profile) {
   };
   EXPECT_EQ(load("pattern.csv"), "");
   EXPECT_TRUE(has(load("bad.csv"), "bad.csv:2:4: error: not a number")) << load("bad.csv");
+  EXPECT_TRUE(has(load("row.csv"), "the pattern has fewer than two rows or columns")) << load("row.csv");
   EXPECT_TRUE(has(load("none.csv"), "cannot open"));
   EXPECT_TRUE(has(load("../none.csv"), "leads out"));
   std::filesystem::remove_all(folder);
