@@ -39,9 +39,9 @@ struct SimulatorOptions {
   Noise noise = Noise::exact;
   int threads = 0;             ///< at most 1024; 0: as many as the machine has cores
   Backend backend = Backend::automatic;
-  int device = -1;             ///< which GPU, from 0 on; −1: the first one
+  int device = -1;             ///< which GPU, from 0 on; −1: the first one that can be used
   int block_size = 0;          ///< CUDA threads per block, a multiple of 32 up to 1024; 0: chosen
-  std::size_t batch_bytes = 64'000'000;  ///< host memory of one batch on its way from a GPU; there are three of them for each GPU
+  std::size_t batch_bytes = 64'000'000;  ///< host memory of one batch on its way from a GPU (or to it); there are three of them for each GPU
   Isa isa = Isa::best;         ///< best: the environment's TOFRAY_ISA, else what the CPU can do
   bool truth = true;           ///< fill Frame::truth
   Stage last_stage = Stage::depth;  ///< stop after this stage: arrays of later ones are left as they are (zero in a new frame)

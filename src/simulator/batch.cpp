@@ -3,6 +3,7 @@
 // Many frames: on the processor one after the other, on GPUs several on their way while the host fills and empties others.
 #include <algorithm>
 #include <deque>
+#include <utility>
 
 #include "simulator/frame_memory.h"
 #include "simulator/impl.h"
@@ -66,7 +67,10 @@ std::uint64_t Simulator::Impl::fill(Lane& lane, const backend::Cuda& gpu, std::u
   for (std::uint64_t i = 0; i < count; ++i) {
     const FrameRequest wanted = request(from + i);
     if (i == 0 || own != Own::number) set_frame(wanted);
-    if (i == 0) lane.begin(gpu.resident(), setup, job, own, static_cast<int>(count));
+    if (i == 0) {
+      const std::uint64_t room = own == Own::number ? count : std::max<std::uint64_t>(1, options.batch_bytes / Lane::input_bytes(gpu.resident(), setup, own));
+      lane.begin(gpu.resident(), setup, job, own, static_cast<int>(std::min(count, room)));
+    }
     if (!lane.add(setup, wanted.index)) return i;
   }
   return count;
@@ -118,15 +122,15 @@ void Simulator::Impl::frames(std::uint64_t count, const Request& request, const 
 }
 
 void Simulator::Impl::open_other_gpus() {
-  if (options.device >= 0) return;
+  if (options.device >= 0 || std::exchange(all_gpus, true)) return;
   set_frame({0, {}, {}});
-  for (int i = static_cast<int>(gpus.size()); i < backend::gpu::count_devices(); ++i) {
+  for (int i = gpus[0]->device().number() + 1; i < backend::gpu::count_devices(); ++i) {
     try {
       auto gpu = std::make_unique<backend::Cuda>(i, options.block_size);
       gpu->load(setup);
       gpus.push_back(std::move(gpu));
     } catch (const backend::gpu::Fault&) {
-      return;   // another one that cannot be used is no reason to do without the first
+      continue;   // another one that cannot be used is no reason to do without the first
     }
   }
 }

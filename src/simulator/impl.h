@@ -27,6 +27,7 @@ struct Simulator::Impl {
   std::optional<scene::FrozenScene> posed_scene;   ///< of a frame that has a pose of its own
   backend::Cpu cpu;
   std::vector<std::unique_ptr<backend::Cuda>> gpus;   ///< empty: the processor computes; the first one does single frames
+  bool all_gpus = false;                           ///< the other ones were looked for
   camera::PowerView power{};                       ///< of the scene's own pose
   pipeline::Setup setup{};
   pipeline::Job job{};

@@ -121,6 +121,41 @@ TEST(cuda_fault, says_which_gpus_there_are) {
   EXPECT_THROW(Simulator(scene, camera, {.backend = Backend::cuda}), Error);
 }
 
+// auto takes the first GPU that can be used, and batches all that can.
+TEST(cuda_fault, passes_over_gpus_that_cannot_be_used) {
+  WithStandIn here;
+  here.cuda.devices = 4;
+  here.cuda.unusable = {0, 2};
+  const Scene scene = load_scene("card");
+  const Camera camera = small(load_camera(scene));
+  Simulator simulator(scene, camera, {.batch_bytes = 2'000'000});
+  EXPECT_EQ(simulator.device(), "Stand-in 1");
+  for (int round = 0; round < 2; ++round) simulator.frames(0, 30, [](const FrameArrays&) {});
+  EXPECT_EQ(here.cuda.frames_by_device.size(), 2u);
+  EXPECT_EQ(here.cuda.frames_by_device.count(1) + here.cuda.frames_by_device.count(3), 2u);
+  EXPECT_EQ(backend::why_no_cuda(-1).gpu, "Stand-in 1");
+  EXPECT_EQ(Simulator(scene, camera, {.device = 2}).backend(), "cpu");
+  here.cuda.unusable = {0, 1, 2, 3};
+  EXPECT_NE(Simulator(scene, camera).fallback_reason().find("Stand-in 0"), std::string::npos) << "the first one's reason";
+}
+
+// Whatever GPU another simulator, or another library, has made the current one.
+TEST(cuda_fault, memory_is_taken_on_the_gpu_that_computes) {
+  WithStandIn here;
+  here.cuda.devices = 2;
+  const Scene scene = load_scene("card");
+  const Camera camera = small(load_camera(scene));
+  Simulator first(scene, camera, on(Backend::cuda, {.device = 0})), second(scene, camera, on(Backend::cuda, {.device = 1}));
+  DeviceFrames a, b;
+  for (int round = 0; round < 2; ++round) {
+    first.frames_on_device(0, 3, a);
+    second.frames_on_device(0, 4 + static_cast<std::uint64_t>(round), b);
+    EXPECT_EQ(first_difference(second.frame(1), first.frame(1)), "");
+    second.frames_on_device(0, 3, a);   // moves to the other GPU
+    EXPECT_EQ(a[0].device, 1);
+  }
+}
+
 // The real runtime on a machine without a driver, or without CUDA: what most users have.
 TEST(cuda_fault, a_machine_without_a_gpu_says_so) {
   const backend::CudaLack lack = backend::why_no_cuda(-1);

@@ -3,6 +3,8 @@
 // On a real GPU: the same bytes as the processor. Where there is none, each test says that it was skipped.
 #include <gtest/gtest.h>
 
+#include <cstdlib>
+
 #include "backend/cuda/cuda.h"
 #include "support/cuda_cases.h"
 #include "support/files.h"
@@ -18,7 +20,9 @@ class Gpu : public testing::Test {
  protected:
   void SetUp() override {
     const std::string reason = backend::why_no_cuda(-1).reason;
-    if (!reason.empty()) GTEST_SKIP() << "not compared with a GPU: " << reason;
+    if (reason.empty()) return;
+    if (std::getenv("TOFRAY_EXPECT_GPU") != nullptr) FAIL() << "TOFRAY_EXPECT_GPU is set: " << reason;
+    GTEST_SKIP() << "not compared with a GPU: " << reason;
   }
 };
 class GpuScene : public Gpu, public testing::WithParamInterface<std::string> {};

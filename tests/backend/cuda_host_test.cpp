@@ -141,6 +141,21 @@ TEST(cuda_host, batches_have_the_bytes_of_single_frames) {
   }
 }
 
+// What goes to the GPU is bounded as well: a pose takes the whole scene along.
+TEST(cuda_host, batches_of_poses_take_little_pinned_memory) {
+  WithStandIn here;
+  const Scene scene = load_scene("card");
+  const Camera camera = small(load_camera(scene));
+  Simulator simulator(scene, camera, on(Backend::cuda, {.batch_bytes = 1'000'000}));
+  std::vector<FrameRequest> requests(400, {0, {}, scene.camera.pose});
+  for (std::size_t i = 0; i < requests.size(); ++i) requests[i].index = i;
+  DeviceFrames frames;
+  simulator.frames_on_device(requests, frames);
+  ASSERT_EQ(frames.size(), 400u);
+  EXPECT_EQ(frames[399].index, 399u);
+  EXPECT_LT(here.cuda.pinned_bytes, 3'000'000u);
+}
+
 TEST(cuda_host, batches_take_seeds_and_poses) {
   const WithStandIn here;
   for (const char* name : {"card", "flying-ball", "sun-outdoors"}) {

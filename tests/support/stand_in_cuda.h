@@ -56,6 +56,7 @@ class StandInCuda final : public backend::gpu::Runtime {
   bool stays_broken = false;                   ///< all calls after it fail, too
   // what a test may read
   std::uint64_t calls = 0;
+  std::set<int> unusable;                      ///< devices without code
   int graphs_made = 0, graphs_launched = 0;
   std::size_t pinned_bytes = 0;                ///< all that were ever taken
   std::map<int, int> frames_by_device, launches_by_block_size;
@@ -82,31 +83,31 @@ class StandInCuda final : public backend::gpu::Runtime {
     device_ = device;
     return 0;
   }
-  Status find_code() override { return fails() ? failed : 0; }
+  Status find_code() override { return fails() || unusable.contains(device_) ? failed : 0; }
   Status occupancy(backend::gpu::Kernel, int block_size, int& blocks) override {
     if (fails()) return failed;
     blocks = 1024 / block_size;
     return 0;
   }
-  Status allocate(std::size_t bytes, void*& memory) override { return take_memory(bytes, memory); }
+  Status allocate(std::size_t bytes, void*& memory) override { return take_memory(bytes, memory, device_); }
   Status allocate_pinned(std::size_t bytes, void*& memory) override {
     pinned_bytes += bytes;
-    return take_memory(bytes, memory);
+    return take_memory(bytes, memory, host);
   }
   Status create_stream(void*& stream) override { return take_handle(stream); }
   Status create_event(void*& event) override { return take_handle(event); }
-  Status copy(void* to, const void* from, std::size_t bytes, backend::gpu::Way, void*) override {
-    if (fails() || !within(to, bytes) || !within(from, bytes)) return failed;
+  Status copy(void* to, const void* from, std::size_t bytes, backend::gpu::Way, void* stream) override {
+    if (fails() || !here(stream) || !within(to, bytes) || !within(from, bytes)) return failed;
     return later([=] { std::memcpy(to, from, bytes); });
   }
-  Status launch(const backend::gpu::Launch& what, void*) override {
-    if (fails()) return failed;
+  Status launch(const backend::gpu::Launch& what, void* stream) override {
+    if (fails() || !here(stream) || !within(what.batch.numbers, 1) || !reaches_output(what)) return failed;
     frames_by_device[device_] += what.kernel == backend::gpu::Kernel::pixels ? what.batch.frames : 0;
     ++launches_by_block_size[what.block_size];
     const backend::gpu::FrameArguments common = *what.common;
     return later([what, common] { run(what, common); });
   }
-  Status record(void*, void*) override { return fails() ? failed : 0; }
+  Status record(void* event, void* stream) override { return fails() || !here(event) || !here(stream) ? failed : 0; }
   Status synchronize(void*) override { return fails() ? failed : 0; }
   Status elapsed(void*, void*, float& milliseconds) override {
     milliseconds = 1;
@@ -141,8 +142,8 @@ class StandInCuda final : public backend::gpu::Runtime {
   }
 
   ~StandInCuda() override {
-    for (const auto& [memory, bytes] : memory_) std::free(memory);
-    for (void* handle : handles_) std::free(handle);
+    for (const auto& [memory, taken] : memory_) std::free(memory);
+    for (const auto& [handle, device] : handles_) std::free(handle);
   }
 
  private:
@@ -150,11 +151,16 @@ class StandInCuda final : public backend::gpu::Runtime {
     ++calls;
     return fail_at != 0 && (stays_broken ? calls >= fail_at : calls == fail_at);
   }
-  Status take_memory(std::size_t bytes, void*& memory) {
+  static constexpr int host = -1;
+  struct Taken {
+    std::size_t bytes;
+    int device;   ///< whose memory it is, or the host's
+  };
+  Status take_memory(std::size_t bytes, void*& memory, int device) {
     if (fails()) return failed;
     memory = std::aligned_alloc(256, (bytes + 255) / 256 * 256 + 256);
     std::memset(memory, 0xa5, bytes);
-    memory_[memory] = bytes;
+    memory_[memory] = {bytes, device};
     return 0;
   }
   void give_back_memory(void* memory) {
@@ -162,18 +168,32 @@ class StandInCuda final : public backend::gpu::Runtime {
   }
   Status take_handle(void*& handle) {
     if (fails()) return failed;
-    handles_.insert(handle = std::malloc(1));
+    handles_[handle = std::malloc(1)] = device_;
     return 0;
   }
   void give_back_handle(void* handle) {
     if (handles_.erase(handle) == 1) std::free(handle);
   }
-  /// Whether all of it lies in memory that was taken here.
+  /// Whether a stream or event is the current device's.
+  [[nodiscard]] bool here(void* handle) const {
+    const auto found = handles_.find(handle);
+    return found != handles_.end() && found->second == device_;
+  }
+  /// Whether all of it lies in memory that was taken, of the host or of the current device.
   [[nodiscard]] bool within(const void* at, std::size_t bytes) const {
     auto next = memory_.upper_bound(const_cast<void*>(at));
     if (next == memory_.begin()) return false;
     --next;
-    return static_cast<const char*>(at) + bytes <= static_cast<const char*>(next->first) + next->second;
+    const Taken& taken = next->second;
+    return (taken.device == host || taken.device == device_) && static_cast<const char*>(at) + bytes <= static_cast<const char*>(next->first) + taken.bytes;
+  }
+  /// Whether the frames' arrays are where the kernel can write. (Arguments of their own may still be on their way.)
+  [[nodiscard]] bool reaches_output(const backend::gpu::Launch& what) const {
+    const flow::FrameView& out = what.common->job.out;
+    for (const void* array : {static_cast<const void*>(out.raw), static_cast<const void*>(out.z), static_cast<const void*>(out.gt_z)}) {
+      if (array != nullptr && !within(array, 1)) return false;
+    }
+    return true;
   }
   Status later(const std::function<void()>& step) {
     if (capturing_)
@@ -208,8 +228,8 @@ class StandInCuda final : public backend::gpu::Runtime {
     }
   }
 
-  std::map<void*, std::size_t> memory_;
-  std::set<void*> handles_;
+  std::map<void*, Taken> memory_;
+  std::map<void*, int> handles_;
   std::map<void*, std::vector<std::function<void()>>> graphs_;
   std::vector<std::function<void()>> captured_;
   bool capturing_ = false;

@@ -36,15 +36,15 @@ int check_block_size(int wanted) {
 
 CudaLack why_no_cuda(int device) {
   try {
-    return {"", true, gpu::Device(device).info().name};
+    return {"", true, gpu::open_device(device).info().name};
   } catch (const gpu::Fault& fault) {
     return {fault.reason(), fault.gpu_present(), ""};
   }
 }
 
-std::string cuda_bus_id(int device) { return gpu::Device(device).info().bus_id; }
+std::string cuda_bus_id(int device) { return gpu::open_device(device).info().bus_id; }
 
-Cuda::Cuda(int device, int block_size) : device_(device), block_size_(check_block_size(block_size)) {}
+Cuda::Cuda(int device, int block_size) : device_(gpu::open_device(device)), block_size_(check_block_size(block_size)) {}
 
 void Cuda::load(const pipeline::Setup& setup) {
   device_.use();

@@ -16,7 +16,7 @@ struct CudaLack {
   bool gpu_present = false;    ///< there is a GPU, or its driver, so that its owner will want to know the reason
   std::string gpu;             ///< name of the one that can be used
 };
-/// @param device  which GPU, from 0 on; −1: the first one
+/// @param device  which GPU, from 0 on; −1: the first one that can be used
 CudaLack why_no_cuda(int device);
 
 /// "0: NVIDIA H200, compute capability 9.0, 140 GB", one line for each GPU that can be used.
@@ -34,7 +34,7 @@ int check_block_size(int wanted);
 /// One GPU with a camera and a scene.
 class Cuda {
  public:
-  /// @param device      −1: the first one
+  /// @param device      −1: the first one that can be used
   /// @param block_size  threads per block, a multiple of 32 up to 1024; 0: chosen
   /// @throws gpu::Fault where the GPU cannot be used; Error (bad_input) for a block size that cannot be
   Cuda(int device, int block_size);

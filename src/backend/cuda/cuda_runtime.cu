@@ -49,10 +49,7 @@ class CudaRuntime final : public Runtime {
     return told(status);
   }
   Status use(int device) override { return told(cudaSetDevice(device)); }
-  Status find_code() override {
-    cudaFuncAttributes attributes;
-    return told(cudaFuncGetAttributes(&attributes, kernel_function(Kernel::pixels, 32)));
-  }
+  Status find_code() override { return told(find_kernels()); }
   Status occupancy(Kernel kernel, int block_size, int& blocks) override {
     return told(cudaOccupancyMaxActiveBlocksPerMultiprocessor(&blocks, kernel_function(kernel, block_size), block_size, 0));
   }

@@ -23,7 +23,7 @@ Fault::Fault(const std::string& reason, bool gpu_present)
       reason_(reason),
       gpu_present_(gpu_present) {}
 
-Device::Device(int number) : runtime_(gpu::runtime()), number_(number < 0 ? 0 : number) {
+Device::Device(int number) : runtime_(gpu::runtime()), number_(number) {
   if (runtime_ == nullptr) throw Fault("tofray was built without CUDA", false);
   int count = 0;
   check(runtime_->count_devices(count), "looking for GPUs");
@@ -57,6 +57,7 @@ void Device::fail(Status status, const char* doing) const {
 }
 
 DeviceMemory Device::allocate(std::size_t bytes) const {
+  use();
   void* memory = nullptr;
   const std::string doing = "taking " + in_megabytes(bytes) + " of the GPU's memory";
   check(runtime_->allocate(bytes, memory), doing.c_str());
@@ -64,6 +65,7 @@ DeviceMemory Device::allocate(std::size_t bytes) const {
 }
 
 PinnedMemory Device::allocate_pinned(std::size_t bytes) const {
+  use();
   void* memory = nullptr;
   const std::string doing = "taking " + in_megabytes(bytes) + " of pinned memory";
   check(runtime_->allocate_pinned(bytes, memory), doing.c_str());
@@ -71,15 +73,33 @@ PinnedMemory Device::allocate_pinned(std::size_t bytes) const {
 }
 
 Stream Device::stream() const {
+  use();
   void* handle = nullptr;
   check(runtime_->create_stream(handle), "making a stream");
   return {*runtime_, handle};
 }
 
 Event Device::event() const {
+  use();
   void* handle = nullptr;
   check(runtime_->create_event(handle), "making an event");
   return {*runtime_, handle};
+}
+
+Device open_device(int number) {
+  if (number >= 0) return Device(number);
+  try {
+    return Device(0);
+  } catch (const Fault&) {
+    for (int i = 1; i < count_devices(); ++i) {
+      try {
+        return Device(i);
+      } catch (const Fault&) {
+        continue;   // the first one's reason is told
+      }
+    }
+    throw;
+  }
 }
 
 int count_devices() {

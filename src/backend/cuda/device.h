@@ -24,7 +24,7 @@ class Fault : public Error {
 
 class Device {
  public:
-  /// @param number  −1: the first one
+  /// @param number  from 0 on
   /// @throws Fault  with the reason where it cannot be used: no driver, driver too old, no such GPU, no code for it, busy
   explicit Device(int number);
 
@@ -36,6 +36,7 @@ class Device {
   /// Calls of this thread from here on are for this GPU.
   void use() const { check(runtime_->use(number_), "choosing the GPU"); }
 
+  // What is taken is this GPU's, which it leaves current in the calling thread.
   [[nodiscard]] DeviceMemory allocate(std::size_t bytes) const;
   [[nodiscard]] PinnedMemory allocate_pinned(std::size_t bytes) const;
   [[nodiscard]] Stream stream() const;
@@ -48,6 +49,10 @@ class Device {
   int number_;
   DeviceInfo info_;
 };
+
+/// @param number  −1: the first one that can be used
+/// @throws Fault  with the reason where there is none; of several, the first one's
+Device open_device(int number);
 
 /// How many GPUs there are; 0 where there is no way to them.
 int count_devices();

@@ -84,7 +84,7 @@ __global__ void __launch_bounds__(max_block_size) tofray_pass(const __grid_const
                                                               const pipeline::Input input) {
   const int frame = static_cast<int>(blockIdx.y), index = static_cast<int>(blockIdx.x * blockDim.x + threadIdx.x);
   if (batch.own != nullptr) {
-    run_pass(kernel, batch.own[frame].setup, batch.own[frame].job, input, index);
+    run_pass(kernel, batch.own[frame].setup, job_of(batch.own[frame].job, batch.numbers[frame], 0), input, index);
   } else {
     run_pass(kernel, common.setup, job_of(common.job, batch.numbers[frame], frame * batch.stride), input, index);
   }
@@ -128,6 +128,19 @@ cudaError_t launch_kernel(const Launch& what, cudaStream_t stream) {
     case Kernel::settle: return launch_pass<Kernel::settle>(what, pixels, stream);
   }
   return cudaErrorInvalidValue;
+}
+
+cudaError_t find_kernels() {
+  cudaError_t status = cudaSuccess;
+  const auto find = [&](auto* kernel) {
+    cudaFuncAttributes attributes;
+    if (status == cudaSuccess) status = cudaFuncGetAttributes(&attributes, reinterpret_cast<const void*>(kernel));
+  };
+  find(&tofray_pixels<few_threads>), find(&tofray_pixels<max_block_size>);
+  find(&tofray_pixels_own<few_threads>), find(&tofray_pixels_own<max_block_size>);
+  find(&tofray_pass<Kernel::input>), find(&tofray_pass<Kernel::flying>);
+  find(&tofray_pass<Kernel::filter>), find(&tofray_pass<Kernel::settle>);
+  return status;
 }
 
 const void* kernel_function(Kernel kernel, int block_size) {

@@ -25,20 +25,24 @@ pipeline::Input packed(Packer& packer, const pipeline::Setup& setup, const pipel
   return to;
 }
 
+/// What is the frame's own of the scene goes to `packer`. @return the scene as the device sees it
+scene::SceneView scene_of(const Resident& resident, Own own, const scene::SceneView& from, Packer& packer) {
+  const scene::SceneView& still = resident.setup.scene;
+  if (own != Own::scene && from.slots == 0) return still;
+  scene::SceneView to = from;
+  to.camera_still = still.camera_still, to.light_still = still.light_still, to.sun_still = still.sun_still;
+  if (own == Own::scene) pack_still(packer, from, to);
+  pack_moving(packer, from, to);
+  return to;
+}
+
 }  // namespace
 
 Lane::Lane(const Device& device, int block_size)
     : device_(device), block_size_(block_size), stream_(device.stream()), begin_(device.event()), end_(device.event()) {}
 
-/// What is the frame's own of the scene goes to `packer`. @return the scene as the device sees it
-scene::SceneView Lane::scene_of(const scene::SceneView& from, Packer& packer) const {
-  const scene::SceneView& still = resident_->setup.scene;
-  if (own_ != Own::scene && from.slots == 0) return still;
-  scene::SceneView to = from;
-  to.camera_still = still.camera_still, to.light_still = still.light_still, to.sun_still = still.sun_still;
-  if (own_ == Own::scene) pack_still(packer, from, to);
-  pack_moving(packer, from, to);
-  return to;
+Lane::~Lane() {
+  if (submitted_) (void)device_.runtime().synchronize(stream_.get());   // memory must not go while the GPU works in it
 }
 
 /// The frame's arguments as the device sees them, with the scene that stays there.
@@ -71,6 +75,14 @@ void Lane::reserve_output() {
   output_bytes_ = bytes;
 }
 
+std::size_t Lane::input_bytes(const Resident& resident, const pipeline::Setup& first, Own own) {
+  if (own == Own::number) return sizeof(FrameNumber);
+  Packer measure;
+  (void)scene_of(resident, own, first.scene, measure);
+  // What moves may show more of itself in one frame than in another: a quarter more than the first one needs, and some.
+  return sizeof(FrameNumber) + sizeof(FrameArguments) + align(measure.used()) + align(measure.used() / 4) + 1024;
+}
+
 void Lane::begin(const Resident& resident, const pipeline::Setup& first, const pipeline::Job& job, Own own, int capacity,
                  const pipeline::Input* input) {
   device_.use();
@@ -79,15 +91,12 @@ void Lane::begin(const Resident& resident, const pipeline::Setup& first, const p
   job_ = job;
   own_ = own, capacity_ = capacity;
   slab_ = Slab(first, job.out, job.filter != 0);
-  Packer measure;
-  if (own != Own::number) (void)scene_of(first.scene, measure);
   const auto frames = static_cast<std::size_t>(capacity);
   arguments_at_ = align(frames * sizeof(FrameNumber));
   room_from_ = arguments_at_ + (own != Own::number ? align(frames * sizeof(FrameArguments)) : 0);
   Packer given;
   if (input != nullptr) (void)packed(given, first, *input);
-  // What moves may show more of itself in one frame than in another: a quarter more than the first one needs, and some.
-  reserve_input(room_from_ + frames * (align(measure.used()) + align(measure.used() / 4) + 1024) + align(given.used()));
+  reserve_input(512 + frames * input_bytes(resident, first, own) + align(given.used()));   // 512: the two arrays' alignment
   numbers_.clear();
   used_ = room_from_;
   given_ = {};
@@ -101,7 +110,7 @@ bool Lane::add(const pipeline::Setup& setup, std::uint64_t index) {
   if (frames() == capacity_) return false;
   if (own_ != Own::number) {
     Packer measure;
-    (void)scene_of(setup.scene, measure);
+    (void)scene_of(*resident_, own_, setup.scene, measure);
     if (used_ + align(measure.used()) > input_bytes_) {
       if (frames() > 0) return false;
       reserve_input(2 * (used_ + align(measure.used())));   // one frame that is far larger than the first one was measured
@@ -109,7 +118,7 @@ bool Lane::add(const pipeline::Setup& setup, std::uint64_t index) {
     Packer packer(staged() + used_, input_memory() + used_);
     auto& arguments = reinterpret_cast<FrameArguments*>(staged() + arguments_at_)[frames()];
     write_arguments(setup, arguments);
-    arguments.setup.scene = scene_of(setup.scene, packer);
+    arguments.setup.scene = scene_of(*resident_, own_, setup.scene, packer);
     used_ += align(packer.used());
   }
   if (frames() == 0) write_arguments(setup, common_);   // where frames have their own, only what is the same for all is read of these
@@ -152,6 +161,11 @@ void Lane::place(void* base) {
   }
 }
 
+/// Results to where the host sees them; there may be none.
+void Lane::copy_out(const void* base, std::size_t bytes, const char* doing) {
+  if (bytes > 0) device_.check(device_.runtime().copy(received_.get(), base, bytes, Way::to_host, stream_.get()), doing);
+}
+
 void Lane::submit(void* output) {
   device_.use();
   Runtime& runtime = device_.runtime();
@@ -163,8 +177,7 @@ void Lane::submit(void* output) {
   launch_all();
   device_.check(runtime.record(end_.get(), stream_.get()), "stopping the clock");
   if (output != nullptr) return;
-  device_.check(runtime.copy(received_.get(), base, static_cast<std::size_t>(frames()) * slab_.bytes(), Way::to_host, stream_.get()),
-                "copying frames to the host");
+  copy_out(base, static_cast<std::size_t>(frames()) * slab_.bytes(), "copying frames to the host");
 }
 
 void Lane::submit_graph() {
@@ -185,7 +198,7 @@ void Lane::capture() {
   device_.check(runtime.begin_capture(stream_.get()), "beginning a graph");
   try {
     launch_all();
-    device_.check(runtime.copy(received_.get(), output_.get(), slab_.shown_bytes(), Way::to_host, stream_.get()), "copying a frame to the host");
+    copy_out(output_.get(), slab_.shown_bytes(), "copying a frame to the host");
   } catch (...) {
     // While a stream keeps what it is asked for, nothing can be given back.
     (void)runtime.end_capture(stream_.get(), graph);

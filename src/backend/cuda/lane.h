@@ -28,6 +28,12 @@ struct Resident {
 class Lane {
  public:
   Lane(const Device& device, int block_size);
+  ~Lane();
+  Lane(const Lane&) = delete;
+  Lane& operator=(const Lane&) = delete;
+
+  /// Bytes that go to the GPU for each frame of a batch, measured by the first one.
+  [[nodiscard]] static std::size_t input_bytes(const Resident& resident, const pipeline::Setup& first, Own own);
 
   /// Starts a batch of up to `capacity` frames; waits until the last one is done.
   /// @param first  the first frame's setup (host pointers): memory is measured by it
@@ -53,11 +59,11 @@ class Lane {
  private:
   void reserve_input(std::size_t bytes);
   void reserve_output();
-  scene::SceneView scene_of(const scene::SceneView& from, Packer& packer) const;
   void write_arguments(const pipeline::Setup& setup, FrameArguments& out) const;
   void place(void* base);
   void launch_all();
   void capture();
+  void copy_out(const void* base, std::size_t bytes, const char* doing);
   [[nodiscard]] unsigned char* staged() const { return static_cast<unsigned char*>(staged_.get()); }
   [[nodiscard]] unsigned char* input_memory() const { return static_cast<unsigned char*>(input_.get()); }
 
