@@ -63,9 +63,7 @@ TOFRAY_FN flow::Surface<F> given_surface(const Setup& s, const SurfaceArrays& in
   const F z = given<F>(in.z, s, p, moment, 0.0f);
   out.found = (z > F(0.0f)) & (z <= F(flow::max_distance));
   const auto value = [&](F a) __attribute__((always_inline)) { return num::select(out.found, a, F(0.0f)); };
-  const F t = num::select(out.found, z, F(1.0f));
-  out.x = ray.x * t, out.y = ray.y * t, out.z = ray.z * t;
-  out.range = ray.square * ray.inverse_length * t;
+  trace::put_at(ray, num::select(out.found, z, F(1.0f)), out);
   const auto lane = num::lane_index<F>();
   const auto first = num::Int<F>(3 * (p.index + moment * s.lens.width * s.lens.height)) +
                      num::select(lane < num::Int<F>(p.count), lane, num::Int<F>(0)) * num::Int<F>(3);
@@ -131,8 +129,7 @@ TOFRAY_FN void enter_before_raw(const Setup& s, const Job& job, const Input& in,
     if (k == (in.moments > 1 ? s.truth_slot : 0)) store_truth(job.out, p, surface, lighting.radiometry);
     if (s.last_stage >= stage_raw) difference[k] = collect(s, job, p, k, lighting.light, anew, exposure);
   }
-  if (s.last_stage < stage_depth) return;
-  find_depth<F>(s, job, p, ray, difference, raw::saturated(s.sensor, exposure), exposure.delay, vignetting);
+  end_frame(s, job, p, ray, difference, exposure, vignetting);
 }
 
 /// Stage 4.

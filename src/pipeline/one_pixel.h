@@ -109,6 +109,14 @@ TOFRAY_FN void find_depth(const Setup& s, const Job& job, const Pixels& p, const
   store(job.out.noise, p, num::select((found.flags & num::Int<F>(depth::no_return)) == num::Int<F>(0), found.noise, nan<F>()));
 }
 
+/// Stage 4 once all raw frames are collected, where it is wanted.
+template <class F>
+TOFRAY_FN void end_frame(const Setup& s, const Job& job, const Pixels& p, const flow::Ray<F>& ray, const F* difference,
+                         const raw::Exposure<F>& exposure, F vignetting) {
+  if (s.last_stage < stage_depth) return;
+  find_depth<F>(s, job, p, ray, difference, raw::saturated(s.sensor, exposure), exposure.delay, vignetting);
+}
+
 /// Stages 1 and 2 from the surface on, and what they show of the truth.
 /// @param moving  whether anything that moves can stand in the way
 template <class F, class Near>
@@ -133,8 +141,7 @@ TOFRAY_FN void measure(const Setup& s, const Job& job, const Pixels& p, const fl
     const bool changed = entry != nullptr && k > 0 && entry[k] != entry[k - 1];
     difference[k] = collect(s, job, p, k, light[now], changed, exposure);
   }
-  if (s.last_stage < stage_depth) return;
-  find_depth<F>(s, job, p, ray, difference, raw::saturated(s.sensor, exposure), exposure.delay, vignetting);
+  end_frame(s, job, p, ray, difference, exposure, vignetting);
 }
 
 /// Everything that follows once the nearest surface is known, where nothing moves.
@@ -172,8 +179,7 @@ TOFRAY_FN void one_moving_pixel(const Setup& s, const Job& job, Near& near, cons
     }
     if (s.last_stage >= stage_raw) difference[k] = collect(s, job, p, k, lighting.light, !keep, exposure);
   }
-  if (s.last_stage < stage_depth) return;
-  find_depth<F>(s, job, p, ray, difference, raw::saturated(s.sensor, exposure), exposure.delay, vignetting);
+  end_frame(s, job, p, ray, difference, exposure, vignetting);
 }
 
 }  // namespace tofray::pipeline

@@ -33,6 +33,14 @@ void set_ambient(const Scene& scene, const Camera& camera, const Vec3& toward_su
   power.ambient_rate = static_cast<float>(rate * static_cast<double>(power.watts_per_radiance) / base::pi);
 }
 
+/// A frame in memory of its own.
+template <class... From>
+Frame new_frame(Simulator& simulator, std::uint64_t index, const From&... from) {
+  Frame out;
+  simulator.frame(index, from..., out);
+  return out;
+}
+
 /// The scene, once all are seen to be good.
 const Scene& checked(const Scene& scene, const Camera& camera, const SimulatorOptions& options) {
   simulator::check(options);
@@ -146,32 +154,18 @@ Simulator::~Simulator() = default;
 Simulator::Simulator(Simulator&&) noexcept = default;
 Simulator& Simulator::operator=(Simulator&&) noexcept = default;
 
-Frame Simulator::frame(std::uint64_t index) {
-  Frame out;
-  impl_->frame(index, nullptr, out);
-  return out;
-}
-
 void Simulator::frame(std::uint64_t index, Frame& into) { impl_->frame(index, nullptr, into); }
-
-Frame Simulator::frame(std::uint64_t index, const Geometry& seen) {
-  Frame out;
-  frame(index, seen, out);
-  return out;
-}
 void Simulator::frame(std::uint64_t index, const Geometry& seen, Frame& into) {
   const pipeline::Input input = simulator::input_of(seen, impl_->camera);
   impl_->frame(index, &input, into);
-}
-Frame Simulator::frame(std::uint64_t index, const PixelLight& light) {
-  Frame out;
-  frame(index, light, out);
-  return out;
 }
 void Simulator::frame(std::uint64_t index, const PixelLight& light, Frame& into) {
   const pipeline::Input input = simulator::input_of(light, impl_->camera);
   impl_->frame(index, &input, into);
 }
+Frame Simulator::frame(std::uint64_t index) { return new_frame(*this, index); }
+Frame Simulator::frame(std::uint64_t index, const Geometry& seen) { return new_frame(*this, index, seen); }
+Frame Simulator::frame(std::uint64_t index, const PixelLight& light) { return new_frame(*this, index, light); }
 
 void Simulator::frames(std::uint64_t first, std::uint64_t count, const std::function<void(const FrameArrays&)>& take) {
   impl_->frames(count, [first](std::uint64_t i) { return FrameRequest{first + i, {}, {}}; }, take);

@@ -50,6 +50,13 @@ TOFRAY_FN F facet_value(const scene::Facet* facets, Int<F> facet, bool same, int
   return num::gather(table + c, facet * Int<F>(scene::facet_floats));
 }
 
+/// Puts a surface at P = t·d.
+template <class F>
+TOFRAY_FN void put_at(const Ray<F>& ray, F t, Surface<F>& out) {
+  out.x = ray.x * t, out.y = ray.y * t, out.z = ray.z * t;
+  out.range = ray.square * ray.inverse_length * t;
+}
+
 /// Turns a surface's normal to the camera.
 template <class F>
 TOFRAY_FN void face_camera(F nx, F ny, F nz, const Ray<F>& ray, Surface<F>& out) {
@@ -66,9 +73,7 @@ TOFRAY_FN Surface<F> surface(const scene::SceneView& s, const Ray<F>& ray, const
   const auto column = [&](int c) __attribute__((always_inline)) { return facet_value<F>(s.facets, hit.facet, same, c); };
   Surface<F> out;
   out.found = hit.w > F(0.0f);
-  const F t = F(1.0f) / num::select(out.found, hit.w, F(1.0f));
-  out.x = ray.x * t, out.y = ray.y * t, out.z = ray.z * t;
-  out.range = ray.square * ray.inverse_length * t;
+  put_at(ray, F(1.0f) / num::select(out.found, hit.w, F(1.0f)), out);
   const F curvature = column(3);
   const F nx = num::fma(out.x, curvature, column(0)), ny = num::fma(out.y, curvature, column(1)), nz = num::fma(out.z, curvature, column(2));
   face_camera(nx, ny, nz, ray, out);

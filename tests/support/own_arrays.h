@@ -42,6 +42,45 @@ inline PixelLight light_of(const Camera& camera, const Frame& frame) {
   return out;
 }
 
+/// A wall of reflectivity 0.5 that faces the camera.
+inline Geometry wall(const Camera& camera, float z, int moments = 1) {
+  const auto pixels = static_cast<std::size_t>(camera.sensor.width) * static_cast<std::size_t>(camera.sensor.height) * static_cast<std::size_t>(moments);
+  Geometry out;
+  out.width = camera.sensor.width, out.height = camera.sensor.height, out.moments = moments;
+  out.z_m.assign(pixels, z), out.diffuse.assign(pixels, 0.5f);
+  for (std::size_t i = 0; i < pixels; ++i) out.normal.insert(out.normal.end(), {0, 0, -1});
+  return out;
+}
+
+inline PixelLight even_light(const Camera& camera, float power, float path_length) {
+  const auto pixels = static_cast<std::size_t>(camera.sensor.width) * static_cast<std::size_t>(camera.sensor.height);
+  PixelLight out;
+  out.width = camera.sensor.width, out.height = camera.sensor.height;
+  out.power_w.assign(pixels, power), out.path_length_m.assign(pixels, path_length);
+  return out;
+}
+
+/// A sine, the light at the pupil, an ideal lens.
+inline Camera plain_camera() {
+  Camera camera = load_camera("pico-flexx");
+  camera.lens.k1 = camera.lens.k2 = camera.lens.p1 = camera.lens.p2 = camera.lens.k3 = 0;
+  camera.illumination[0].position = {0, 0, 0};
+  camera.illumination[0].waveform.kind = Waveform::Kind::sine;
+  camera.pixel.bandwidth_hz = 0;
+  camera.pixel.quantum_efficiency = {{850e-9}, {0.5}};
+  return camera;
+}
+
+template <class T>
+void append(std::vector<T>& to, const std::vector<T>& from) { to.insert(to.end(), from.begin(), from.end()); }
+
+/// Image k of several.
+template <class T>
+std::vector<T> image(const std::vector<T>& array, std::size_t pixels, std::size_t k) {
+  const auto at = array.begin() + static_cast<std::ptrdiff_t>(k * pixels);
+  return {at, at + static_cast<std::ptrdiff_t>(pixels)};
+}
+
 /// Every array that can be given, for each light, of one moment or of each raw frame's own.
 inline Geometry full_geometry(const Scene& scene, const Camera& camera, const Frame& frame, bool each_raw_frame) {
   const Geometry once = geometry_of(scene, camera, frame);
@@ -49,7 +88,6 @@ inline Geometry full_geometry(const Scene& scene, const Camera& camera, const Fr
   const std::size_t moments = each_raw_frame ? camera.mode.sequence.size() : 1, pixels = once.z_m.size();
   out.moments = static_cast<int>(moments);
   for (std::size_t k = 1; k < moments; ++k) {
-    const auto append = [](auto& to, const auto& from) { to.insert(to.end(), from.begin(), from.end()); };
     append(out.z_m, once.z_m), append(out.normal, once.normal), append(out.object_id, once.object_id);
     append(out.diffuse, once.diffuse), append(out.specular, once.specular), append(out.exponent, once.exponent);
   }
