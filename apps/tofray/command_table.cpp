@@ -47,7 +47,8 @@ std::vector<Command> make() {
        .examples = "tofray process out/frame.npz -o again --set camera.decoding.filter.kind=median\n"
                    "tofray process recording.npz --camera mycam.yaml -o out  # your own camera's raw frames\n",
        .more = "RAW.npz holds raw [phase, height, width] (codes), or tap_a and tap_b (electrons), and by phase modulation_frequency_hz,\n"
-               "reference_phase_rad, integration_time_s and lit. Without --camera it is the camera that the file says it was made with.\n",
+               "reference_phase_rad, integration_time_s, lit and, if it is known, start_time_s (otherwise each exposure begins when the one\n"
+               "before has been read out). Without --camera it is the camera that the file says it was made with.\n",
        .options = {"--camera", "--output", "--set", "--mode", "--emit", "--threads", "--backend", "--device", "--json", "--quiet"},
        .least_words = 1,
        .most_words = 1,

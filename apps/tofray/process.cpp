@@ -8,6 +8,7 @@
 
 #include "backend/cpu/cpu.h"
 #include "backend/cuda/cuda.h"
+#include "camera/frozen_camera.h"
 #include "commands.h"
 #include "console.h"
 #include "io/data_limits.h"
@@ -73,6 +74,8 @@ int run_process(const Options& options) {
     in.files.push_back({"profile", in.camera.source, io::read_text(in.camera.source)});
   Frame frame;
   frame.raw = io::parse_raw_npz(bytes, path);
+  if (frame.raw.start_time_s.empty())
+    frame.raw.start_time_s = camera::raw_frame_starts_s(frame.raw.integration_time_s, in.camera.readout_time_s);
   SimulatorOptions wanted = simulator_options(options);
   if (is_noise_free(meta, path)) {
     wanted.noise = Noise::off;

@@ -122,7 +122,7 @@ void FrozenCamera::freeze_sequence(std::uint64_t seed, int noise) {
     }
   }
   for (int i = 0; i < s.modulations; ++i) freeze_quadrature(i);
-  double start = 0;
+  std::vector<double> integration_time_s;
   for (std::size_t k = 0; k < camera_.mode.sequence.size(); ++k) {
     const RawFrame& frame = camera_.mode.sequence[k];
     RawFrameView& view = s.frame[k];
@@ -133,9 +133,19 @@ void FrozenCamera::freeze_sequence(std::uint64_t seed, int noise) {
     for (int h = 0; h < s.harmonics; ++h) {
       view.cosine[h] = f(setup::cos((2 * h + 1) * frame.reference_phase_rad)), view.sine[h] = f(setup::sin((2 * h + 1) * frame.reference_phase_rad));
     }
-    start_.push_back(start);
-    start += frame.integration_time_s + camera_.readout_time_s;
+    integration_time_s.push_back(frame.integration_time_s);
   }
+  start_ = raw_frame_starts_s(integration_time_s, camera_.readout_time_s);
+}
+
+std::vector<double> raw_frame_starts_s(const std::vector<double>& integration_time_s, double readout_time_s) {
+  std::vector<double> out;
+  double start = 0;
+  for (const double time : integration_time_s) {
+    out.push_back(start);
+    start += time + readout_time_s;
+  }
+  return out;
 }
 
 void FrozenCamera::freeze_quadrature(int modulation) {

@@ -29,6 +29,9 @@ struct Modulations {
 /// @throws Error (bad_input) where the frequencies have no common base with cycles up to 1000
 Modulations modulations_of(const Mode& mode);
 
+/// Start of each raw frame after the start of its frame [s]: an exposure begins when the one before has been read out.
+std::vector<double> raw_frame_starts_s(const std::vector<double>& integration_time_s, double readout_time_s);
+
 /// Camera profile → views. Owns all arrays the views point to; not copied.
 class FrozenCamera {
  public:

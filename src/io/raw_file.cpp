@@ -34,7 +34,7 @@ class RawReader {
     read_by_phase("modulation_frequency_hz", raw, raw.modulation_frequency_hz, true);
     read_by_phase("reference_phase_rad", raw, raw.reference_phase_rad, false);
     read_by_phase("integration_time_s", raw, raw.integration_time_s, true);
-    read_by_phase("start_time_s", raw, raw.start_time_s, false);
+    if (has("start_time_s")) read_by_phase("start_time_s", raw, raw.start_time_s, false);
     std::vector<double> lit;
     read_by_phase("lit", raw, lit, true);
     for (const double value : lit) raw.lit.push_back(value != 0 ? 1 : 0);

@@ -371,7 +371,10 @@ class Reader {
 Value read(const FileForm& file, const Node& root, base::Faults& faults) {
   Reader reader(file, faults);
   if (root.kind == Node::Kind::null) {
-    faults.add(root.place, "there is nothing in it", "expected a " + file.kind + "; `tofray init DIR` writes one to start from");
+    std::vector<std::string> least;
+    for (const Key& key : file.root.keys)
+      if (key.required) least.push_back(key.name);
+    faults.add(root.place, "there is nothing in it", "expected a " + file.kind + "; it has at least " + base::listed(least, "and"));
     Value value;
     value.node = &root;
     value.good = false;

@@ -80,7 +80,7 @@ Form ambient() {
                           map({required("wavelength", list(number(length, range::wavelength_m, "850 nm"), 2, count), "ascending"),
                                required("irradiance", list(number(spectral_irradiance, range::spectral_irradiance_w_per_m3, "0.9 W/(m2 nm)"), 2, count),
                                         "on the surfaces, one for each wavelength")})});
-  Form form = map({required("spectrum", std::move(spectrum), "the light's spectrum: a built-in name, or a table"),
+  Form form = map({optional("spectrum", std::move(spectrum), "sun_am15", "the light's spectrum: a built-in name, or a table"),
                    absent("level", number(fraction, range::ambient_level, "5 %"), "share of the spectrum as it is tabulated (sun_am15: of full sun)"),
                    absent("illuminance", number(illuminance, range::illuminance_lx, "5 klx"), "on the surfaces, as a light meter reads it"),
                    absent("band_irradiance", number(irradiance, range::band_irradiance_w_per_m2, "0.4 W/m2"), "on the surfaces, within the camera's filter"),

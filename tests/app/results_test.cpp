@@ -201,6 +201,25 @@ TEST(process, makes_the_same_depth_of_expected_values) {
   }
 }
 
+// A recording as the tutorial describes it: no start times. Then each exposure begins when the one before has been read out,
+// which for the pico flexx (0.2 ms, then 2 ms each; 3.5 ms to read out) is what a simulated frame says, too.
+TEST(process, takes_a_recording_without_start_times) {
+  const Folder folder;
+  const Prepare here = in_folder(folder.path());
+  ASSERT_EQ(run({"render", "card", "-o", "out"}, here).code, 0);
+  const std::vector<std::string> recorded = {"raw", "modulation_frequency_hz", "reference_phase_rad", "integration_time_s", "lit"};
+  std::vector<io::NpyView> views;
+  const std::vector<io::NamedArray> arrays = io::read_npz(folder / "out/frame.npz", recorded);
+  for (const io::NamedArray& one : arrays) views.push_back({one.name, one.array.type, one.array.shape, one.array.bytes});
+  std::ofstream(folder / "recording.npz", std::ios::binary) << io::npz_bytes(views);
+  const Result result = run({"process", "recording.npz", "--camera", "pico-flexx", "-o", "again"}, here);
+  ASSERT_EQ(result.code, 0) << result.err;
+  EXPECT_EQ(content(folder / "out/depth.png"), content(folder / "again/depth.png"));
+  const io::NpyArray start = io::read_npz(folder / "again/frame.npz", {"start_time_s"})[0].array;
+  ASSERT_EQ(start.count(), 9U);
+  for (std::size_t k = 0; k < 9; ++k) EXPECT_NEAR(start.number(k), k == 0 ? 0 : 3.7e-3 + 5.5e-3 * (static_cast<double>(k) - 1), 1e-15) << k;
+}
+
 TEST(process, takes_other_settings) {
   const Folder folder;
   const Prepare here = in_folder(folder.path());

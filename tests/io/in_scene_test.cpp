@@ -67,6 +67,8 @@ TEST(scene, may_be_empty) {
   EXPECT_EQ(io::scene_from_text("objects: []", "s.yaml").objects.size(), 0U);
   EXPECT_TRUE(has(refusal("{}"), "lacks the key \"objects\""));
   EXPECT_TRUE(has(refusal(""), "there is nothing in it"));
+  EXPECT_FALSE(has(refusal(""), "tofray init")) << "there is no such command";
+  EXPECT_TRUE(has(refusal(""), "objects")) << "a scene's least";
 }
 
 TEST(scene, reports_all_faults_at_once_in_order) {
@@ -113,6 +115,16 @@ TEST(scene, refuses_what_is_degenerate) {
   EXPECT_TRUE(has(refusal("objects: []\nambient: {spectrum: sun_am15, level: 1, illuminance: 1 lx}"), "say the same thing"));
   EXPECT_TRUE(
       has(refusal("objects: []\nambient: {spectrum: {wavelength: [800 nm, 700 nm], irradiance: [0, 0]}, level: 1}"), "does not ascend"));
+}
+
+// 5 klx and 0.4 W/m2 are said of daylight, as a rule: what else it may be, one says.
+TEST(scene, ambient_light_is_the_suns_unless_it_says_otherwise) {
+  for (const char* amount : {"level: 5 %", "illuminance: 5 klx", "band_irradiance: 0.4 W/m2"}) {
+    const Scene scene = io::scene_from_text("objects: []\nambient: {" + std::string(amount) + "}\n", "s.yaml");
+    EXPECT_EQ(scene.ambient.spectrum, Ambient::Spectrum::sun_am15) << amount;
+    EXPECT_GT(scene.ambient.amount, 0) << amount;
+  }
+  EXPECT_TRUE(has(refusal("objects: []\nambient: {}"), "how much light"));
 }
 
 TEST(scene, takes_an_edge_at_full_reflection) {

@@ -314,11 +314,24 @@ TEST(raw_file, says_everything_that_is_missing_or_misshapen_at_once) {
   for (const char* part :
        {"array \"tap_a\" has the wrong shape\n  got (2, 4, 3), expected (2, 3, 4)", "array \"tap_b\" is missing",
         "array \"lit\" has the wrong type", "array \"modulation_frequency_hz\" has the wrong shape\n  got (3,), expected (2,)",
-        "array \"reference_phase_rad\" is missing", "array \"start_time_s\" is missing"})
+        "array \"reference_phase_rad\" is missing"})
     EXPECT_NE(text.find(part), std::string::npos) << part << "\nin\n" << text;
+  EXPECT_EQ(text.find("start_time_s"), std::string::npos) << text;
   out_test::write_file(folder.file("y.npz"),
                        npz_bytes({npy_view("lit", {2}, raw.size() == 24 ? std::vector<std::uint8_t>{1, 1} : std::vector<std::uint8_t>{})}));
   EXPECT_NE(std::string(error_of([&] { (void)read_raw_npz(folder.file("y.npz")); }).what()).find("expected raw, or tap_a and tap_b"),
+            std::string::npos);
+}
+
+TEST(raw_file, start_times_may_be_missing_but_not_be_of_another_length) {
+  const std::vector<std::uint16_t> raw(2 * 3 * 4, 2048);
+  const std::vector<double> f = {80e6, 80e6}, tau = {0, 1}, time = {1e-3, 1e-3}, three = {0, 1, 2};
+  const std::vector<std::uint8_t> lit = {1, 1};
+  std::vector<NpyView> views = {npy_view("raw", {2, 3, 4}, raw), npy_view("modulation_frequency_hz", {2}, f), npy_view("reference_phase_rad", {2}, tau),
+                                npy_view("integration_time_s", {2}, time), npy_view("lit", {2}, lit)};
+  EXPECT_TRUE(parse_raw_npz(npz_bytes(views), "x.npz").start_time_s.empty());
+  views.push_back(npy_view("start_time_s", {3}, three));
+  EXPECT_NE(std::string(error_of([&] { (void)parse_raw_npz(npz_bytes(views), "x.npz"); }).what()).find("\"start_time_s\" has the wrong shape"),
             std::string::npos);
 }
 
