@@ -115,13 +115,23 @@ io::Json Contender::stage_ms() {
   for (std::size_t i = 0; i <= std::clamp<std::size_t>(ms_.size(), 1, 50); ++i) {
     for (Contender& one : upto) one.step(i > 0);
   }
+  std::vector<double> medians;
+  for (const Contender& one : upto) medians.push_back(one.median_ms());
+  const std::vector<double> spent = stage_times(medians);
   io::Json row = io::Json::object();
-  double before = 0;
-  for (std::size_t i = 0; i < upto.size(); ++i) {
-    row.set(names[i], upto[i].median_ms() - before);
-    before = upto[i].median_ms();
-  }
+  for (std::size_t i = 0; i < spent.size(); ++i) row.set(names[i], spent[i]);
   return row;
+}
+
+std::vector<double> stage_times(const std::vector<double>& upto) {
+  std::vector<double> spent;
+  double before = 0;
+  for (const double one : upto) {
+    const double here = std::max(before, one);
+    spent.push_back(here - before);
+    before = here;
+  }
+  return spent;
 }
 
 const Frame& Contender::first_frame() {

@@ -45,6 +45,10 @@ class Contender {
   std::vector<double> ms_;
 };
 
+/// Time of each stage out of the times up to the end of each [ms]. Of two runs the longer one may by chance have been the faster: a stage
+/// that is shorter than such chance counts 0, never less, and the sum stays.
+std::vector<double> stage_times(const std::vector<double>& upto);
+
 /// Most memory that this process has had so far [bytes]: VmHWM.
 std::uint64_t peak_bytes();
 

@@ -34,8 +34,17 @@ bool write_all(int file, std::string_view bytes) {
 std::atomic<bool> ending{false};
 static_assert(std::atomic<bool>::is_always_lock_free);
 
+std::atomic<bool> noting{false};  ///< a StopRequest lives
+std::atomic<int> noted{0};
+static_assert(std::atomic<int>::is_always_lock_free);
+
 // Only async-signal-safe calls.
 extern "C" void end_on_signal(int signal) {
+  int none = 0;
+  if (noting && signal != SIGPIPE && noted.compare_exchange_strong(none, signal)) {
+    if (signal == SIGINT && ::isatty(STDERR_FILENO) != 0) write_all(STDERR_FILENO, "\r\x1b[Kfinishing this frame; once more ends at once\n");
+    return;
+  }
   // Another thread is at it already.
   if (ending.exchange(true)) {
     for (;;) ::pause();
@@ -88,6 +97,7 @@ int terminal_columns() {
 void end_cleanly_on_signals() {
   struct sigaction action {};
   action.sa_handler = end_on_signal;
+  action.sa_flags = SA_RESTART;
   sigfillset(&action.sa_mask);
   // A file that grows beyond the limit of the user is an error like a full disk, not an end without a word.
   ::signal(SIGXFSZ, SIG_IGN);
@@ -97,5 +107,14 @@ void end_cleanly_on_signals() {
     if (::sigaction(signal, nullptr, &before) == 0 && before.sa_handler != SIG_IGN) ::sigaction(signal, &action, nullptr);
   }
 }
+
+StopRequest::StopRequest() {
+  noted = 0;
+  noting = true;
+}
+
+StopRequest::~StopRequest() { noting = false; }
+
+int StopRequest::signal() const { return noted; }
 
 }  // namespace tofray::app

@@ -37,4 +37,16 @@ int terminal_columns();
 /// Ctrl-C, a hang-up, a polite end and a reader that went away: unfinished files are removed, then the process ends with 128 + signal.
 void end_cleanly_on_signals();
 
+/// While one lives, the first Ctrl-C, hang-up or polite end is only noted: a run of many frames stops where its files are whole and says
+/// what it did. The next signal ends the process at once.
+class StopRequest {
+ public:
+  StopRequest();
+  ~StopRequest();
+  StopRequest(const StopRequest&) = delete;
+  StopRequest& operator=(const StopRequest&) = delete;
+  /// The signal that was noted, or 0.
+  [[nodiscard]] int signal() const;
+};
+
 }  // namespace tofray::app

@@ -6,6 +6,7 @@
 #include <CLI/CLI.hpp>
 
 #include "base/text.h"
+#include "base/units.h"
 #include "commands.h"
 #include "tofray/error.h"
 
@@ -31,6 +32,40 @@ void refuse_unknown(const Command& command, const std::string& word) {
   refuse(command, fmt::format("unexpected {}", base::in_quotes(word)), fmt::format("expected tofray {} {}", command.name, command.usage));
 }
 
+/// `-o=DIR` means what `-oDIR` and `--output=DIR` mean; CLI11 would take "=DIR" for the value. Words behind "--" stay.
+std::vector<std::string> without_equals(const Command& command, std::vector<std::string> arguments) {
+  for (std::string& word : arguments) {
+    if (word == "--") break;
+    if (word.size() < 3 || word[0] != '-' || word[1] == '-' || word[2] != '=') continue;
+    for (const OptionSpec* one : options_of(command)) {
+      if (one->letter != word[1]) continue;
+      if (one->value == nullptr) refuse(command, fmt::format("-{} takes no value", one->letter));
+      if (word.size() == 3) refuse(command, fmt::format("-{}= has no value", one->letter), fmt::format("expected -{} {}", one->letter, one->value));
+      word.erase(2, 1);
+    }
+  }
+  return arguments;
+}
+
+/// A word behind a --set that may be what a space cut off its value; empty where there is none.
+std::string cut_off_value(const std::vector<std::string>& arguments, const std::string& word) {
+  for (std::size_t i = 1; i < arguments.size(); ++i) {
+    const bool behind = arguments[i - 1].starts_with("--set=") || (i > 1 && arguments[i - 2] == "--set");
+    if (!behind || arguments[i] != word) continue;
+    const std::string& setting = arguments[i - 1];
+    return setting.starts_with("--set=") ? setting.substr(6) : setting;
+  }
+  return {};
+}
+
+/// @param only_units  whether the word has to be a unit's name
+void refuse_cut_off(const Command& command, const std::vector<std::string>& arguments, const std::string& word, bool only_units) {
+  const std::string setting = cut_off_value(arguments, word);
+  if (setting.empty() || (only_units && base::find_unit(word) == nullptr)) return;
+  refuse(command, fmt::format("{} stands alone behind --set {}", base::in_quotes(word), base::printable(setting)),
+         fmt::format("a value with a space is put in quotes: --set \"{} {}\"", base::printable(setting), base::printable(word)));
+}
+
 std::string names_of(const OptionSpec& one) {
   return one.letter != 0 ? fmt::format("-{},{}", one.letter, one.name) : std::string(one.name);
 }
@@ -53,7 +88,8 @@ void add(CLI::App& app, const OptionSpec& one, Options& options) {
 
 }  // namespace
 
-Options parse(const Command& command, const std::vector<std::string>& arguments) {
+Options parse(const Command& command, const std::vector<std::string>& typed) {
+  const std::vector<std::string> arguments = without_equals(command, typed);
   Options options;
   CLI::App app;
   app.set_help_flag();
@@ -65,16 +101,20 @@ Options parse(const Command& command, const std::vector<std::string>& arguments)
   } catch (const CLI::ParseError& error) {
     refuse(command, error.what());
   }
-  bool all_words = false;
+  bool all_words = false, too_many = false;
   for (const std::string& word : app.remaining()) {
     if (!all_words && word == "--") {
       all_words = true;
-    } else if ((!all_words && word.size() > 1 && word.starts_with('-')) || options.words.size() == command.most_words) {
+    } else if (!all_words && word.size() > 1 && word.starts_with('-')) {
       refuse_unknown(command, word);
     } else {
+      refuse_cut_off(command, arguments, word, true);
+      too_many = too_many || options.words.size() == command.most_words;
       options.words.push_back(word);
     }
   }
+  for (const std::string& word : too_many ? options.words : std::vector<std::string>()) refuse_cut_off(command, arguments, word, false);
+  if (too_many) refuse_unknown(command, options.words[command.most_words]);
   if (options.words.size() < command.least_words && options.from.empty())
     refuse(command, fmt::format("`tofray {}` needs {}", command.name, command.usage));
   return options;

@@ -3,8 +3,14 @@
 #pragma once
 #include <chrono>
 #include <cstdint>
+#include <string>
 
 namespace tofray::app {
+
+/// One line on how far a run is, for a terminal of so many columns: a bar, counts, rate and time left; what has no room is left out, the bar
+/// first. It is shorter than the terminal is wide, so that no line wraps; empty where there is no room for counts.
+/// @param seconds  since the run began
+std::string progress_line(std::uint64_t done, std::uint64_t total, const char* what, double seconds, int columns);
 
 /// How far a long run is, on stderr: a bar with rate and time left on a terminal, a plain line now and then elsewhere.
 class Progress {

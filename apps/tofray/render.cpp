@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <optional>
 
 #include "base/text.h"
 #include "commands.h"
@@ -56,18 +57,24 @@ std::string suffix_of(std::uint64_t index, std::uint64_t last) {
   return fmt::format("_{:0{}}", index, digits);
 }
 
+/// The kinds of files that a run writes: unless told, all for one frame, npz for many.
+std::vector<std::string> kinds_of(const Options& options, std::uint64_t frames) {
+  return options.emit ? *options.emit : frames > 1 ? std::vector<std::string>{"npz"} : std::vector<std::string>{"npz", "png", "ply"};
+}
+
 struct Rendered {
   Frame frame;                    ///< the last one
+  std::uint64_t frames = 0;       ///< how many are complete
   std::uint64_t all_invalid = 0;  ///< frames without any valid pixel
 };
 
+/// @param stop  asked for between two frames; none: a signal ends the process at once
 void render_frames(Simulator& simulator, const Options& options, const Inputs& in, io::OutputFolder& folder, Stopwatch& stopwatch,
-                   Rendered& out) {
+                   const StopRequest* stop, Rendered& out) {
   const std::uint64_t frames = options.frames.value_or(1), first = options.first_frame;
   // One frame has no number, unless it was asked for by number.
   const bool numbered = options.frames.has_value() || first > 0;
-  const std::vector<std::string> all = {"npz", "png", "ply"}, one = {"npz"};
-  const std::vector<std::string>& emit = options.emit ? *options.emit : frames > 1 ? one : all;
+  const std::vector<std::string> emit = kinds_of(options, frames);
   Progress progress(frames, "frames", options.quiet);
   for (std::uint64_t i = first; i < first + frames; ++i) {
     simulator.frame(i, out.frame);
@@ -75,14 +82,27 @@ void render_frames(Simulator& simulator, const Options& options, const Inputs& i
     if (validity(out.frame.depth).valid == 0) ++out.all_invalid;
     write_frame(folder, emit, numbered ? suffix_of(i, first + frames - 1) : "", out.frame, in, simulator_options(options));
     stopwatch.lap("write");
+    ++out.frames;
     progress.step();
+    if (stop != nullptr && stop->signal() != 0) break;
   }
 }
 
-void warn_of_invalid(const Rendered& out, std::uint64_t frames) {
+void warn_of_invalid(const Rendered& out) {
   if (out.all_invalid == 0) return;
-  say(fmt::format("warning: no pixel has a valid depth in {} of {} frame{}\n  in the last frame: {}\n", out.all_invalid, frames,
-                  frames == 1 ? "" : "s", validity(out.frame.depth).reasons));
+  say(fmt::format("warning: no pixel has a valid depth in {} of {} frame{}\n  in the last frame: {}\n", out.all_invalid, out.frames,
+                  out.frames == 1 ? "" : "s", validity(out.frame.depth).reasons));
+}
+
+/// What lies there after an interruption, and how to make the rest with the same names and kinds of files.
+void say_interrupted(const Options& options, const io::OutputFolder& folder, std::uint64_t done) {
+  const std::uint64_t frames = *options.frames, next = options.first_frame + done;
+  const std::string all = fmt::format("interrupted: {} of {} frames are complete", done, frames);
+  const std::string listed = fmt::format(", {} lists them\n", (folder.path() / "manifest.json").native());
+  std::string kinds;
+  for (const std::string& kind : kinds_of(options, frames)) kinds += (kinds.empty() ? " --emit " : ",") + kind;
+  say(all + listed + fmt::format("  the others: the same command with --first-frame {} --frames {}{}\n", next, frames - done,
+                                 kinds_of(options, frames - done) == kinds_of(options, frames) ? "" : kinds));
 }
 
 }  // namespace
@@ -101,15 +121,20 @@ int run_render(const Options& typed) {
 
   Rendered out;
   const std::uint64_t frames = options.frames.value_or(1);
-  render_frames(simulator, options, in, folder, stopwatch, out);
+  std::optional<StopRequest> stop;
+  if (frames > 1) stop.emplace();
+  render_frames(simulator, options, in, folder, stopwatch, stop ? &*stop : nullptr, out);
   const Machine machine = machine_of(simulator);
-  write_manifest(folder, options, in.files, machine, stopwatch);
-  warn_of_invalid(out, frames);
+  const bool interrupted = out.frames < frames;
+  write_manifest(folder, options, in.files, machine, stopwatch, interrupted ? std::optional(out.frames) : std::nullopt);
+  warn_of_invalid(out);
+  if (interrupted) say_interrupted(options, folder, out.frames);
 
   if (options.json)
-    print(io::json_text(summary_json(folder, out.frame.depth, frames, machine, stopwatch), 2) + "\n");
+    print(io::json_text(summary_json(folder, out.frame.depth, out.frames, machine, stopwatch).set("interrupted", interrupted), 2) + "\n");
   else
-    Talk(options.quiet)(summary_text(folder, out.frame.depth, frames, machine, stopwatch));
+    Talk(options.quiet)(summary_text(folder, out.frame.depth, out.frames, machine, stopwatch));
+  if (stop && stop->signal() != 0) return 128 + stop->signal();
   const std::vector<std::string> changed = typed.from.empty() ? std::vector<std::string>() : changed_files(before, folder);
   if (changed.empty()) return 0;
   say(fmt::format("error: {} of {} files are not the bytes that {} lists: {}\n  it was written by tofray {} on {} ({})\n", changed.size(),

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include <chrono>
+#include <cstdint>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -62,8 +64,9 @@ Machine machine_of(const Simulator& simulator);
 void say_fallback(const Options& options, const std::string& reason);
 
 /// Writes manifest.json, last of all: what made the other files.
+/// @param interrupted_after  how many frames are complete where the run did not come to its end
 void write_manifest(io::OutputFolder& folder, const Options& options, const std::vector<io::InputFile>& inputs, const Machine& machine,
-                    const Stopwatch& stopwatch);
+                    const Stopwatch& stopwatch, std::optional<std::uint64_t> interrupted_after = {});
 
 /// How a run went, for --json and for people.
 io::Json summary_json(const io::OutputFolder& folder, const Depth& last, std::uint64_t frames, const Machine& machine,

@@ -35,7 +35,7 @@ double stage_seconds(const Stopwatch& stopwatch, const char* stage) {
 }  // namespace
 
 void write_manifest(io::OutputFolder& folder, const Options& options, const std::vector<io::InputFile>& inputs, const Machine& machine,
-                    const Stopwatch& stopwatch) {
+                    const Stopwatch& stopwatch, std::optional<std::uint64_t> interrupted_after) {
   io::Manifest manifest;
   manifest.tofray_version = io::version();
   manifest.command = options.typed;
@@ -54,6 +54,7 @@ void write_manifest(io::OutputFolder& folder, const Options& options, const std:
   manifest.threads = machine.threads;
   manifest.timings_s = stopwatch.stages();
   manifest.files = folder.files();
+  manifest.interrupted_after_frames = interrupted_after;
   folder.write("manifest.json", io::manifest_text(manifest));
 }
 

@@ -162,6 +162,7 @@ std::string manifest_text(const Manifest& manifest) {
   Json device = Json::object().set("cpu", manifest.cpu_model).set("isa", manifest.isa);
   if (!manifest.gpu.empty()) device.set("gpu", manifest.gpu);
   json.set("backend", manifest.backend).set("device", std::move(device));
+  if (manifest.interrupted_after_frames) json.set("interrupted_after_frames", *manifest.interrupted_after_frames);
   json.set("threads", manifest.threads).set("timings_s", std::move(timings)).set("files", std::move(files));
   return json_text(json, 2) + "\n";
 }

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -34,6 +35,9 @@ struct Manifest {
   int threads = 0;
   std::vector<std::pair<std::string, double>> timings_s;  ///< by stage
   std::vector<FileRecord> files;                          ///< every other file of the folder that this run wrote
+  /// Frames that were complete when the run was interrupted, all of them in `files`; none where it came to its end. For people and
+  /// scripts: `--from` makes the whole run.
+  std::optional<std::uint64_t> interrupted_after_frames;
 };
 
 /// "model name" of /proc/cpuinfo, or "unknown".

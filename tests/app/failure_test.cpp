@@ -2,7 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
+#include "io/json.h"
 #include "io/npz.h"
+#include "io/sha256.h"
 #include "tool.h"
 
 namespace tofray::test {
@@ -249,8 +251,23 @@ TEST(memory, is_not_asked_for_where_counts_are_beyond_their_limits) {
 // Row F18: 50 of each signal; programs with sanitizers start slowly.
 constexpr int interruptions = with_sanitizers ? 10 : 50;
 
+/// An interrupted run's manifest lists what lies there, says so, and stderr says how to go on.
+void expect_complete(const Folder& folder, const std::map<std::string, std::string>& files) {
+  const io::Json manifest = io::parse_json(content(folder / "out" / "manifest.json"), "manifest.json");
+  std::map<std::string, std::string> hashes, listed;
+  for (const auto& [name, bytes] : files) hashes[name] = io::sha256_hex(bytes);
+  for (const io::Json& file : *manifest.find("files")->items()) listed[*file.find("name")->string()] = *file.find("sha256")->string();
+  EXPECT_EQ(hashes, listed);
+  ASSERT_NE(manifest.find("interrupted_after_frames"), nullptr);
+  std::uint64_t complete = 0;
+  EXPECT_TRUE(manifest.find("interrupted_after_frames")->unsigned_integer(complete));
+  EXPECT_EQ(complete, files.size());
+  EXPECT_TRUE(has(content(folder / "stderr"), "--first-frame " + std::to_string(files.size()) + " ")) << content(folder / "stderr");
+}
+
 /// Starts a long run, waits until it has written a frame, and then ends it by a signal, a little later each time.
-void interrupt(int signal, int expected) {
+/// @param at_once  whether the run ends without finishing its frame and without a word
+void interrupt(int signal, int expected, bool at_once) {
   for (int round = 0; round < interruptions; ++round) {
     const Folder folder;
     Running child(start(with_small_sensor({"render", "flying-ball", "-o", "out", "--frames", "2000"}), folder / "stdout", folder / "stderr",
@@ -262,19 +279,44 @@ void interrupt(int signal, int expected) {
     child.send(signal);
     EXPECT_EQ(child.finish(), expected);
     EXPECT_EQ(temporaries(folder.path()), std::vector<std::string>());
-    EXPECT_FALSE(fs::exists(folder / "out" / "manifest.json"));
-    for (const auto& entry : fs::directory_iterator(folder / "out")) EXPECT_NO_THROW(io::read_npz(entry.path())) << entry.path();
+    const auto files = files_of(folder / "out");
+    for (const auto& [name, bytes] : files) EXPECT_NO_THROW(io::read_npz(folder / "out" / name)) << name;
+    ASSERT_EQ(fs::exists(folder / "out" / "manifest.json"), !at_once);
+    if (!at_once) expect_complete(folder, files);
   }
 }
 
-TEST(interrupted, by_ctrl_c_ends_with_130_and_whole_files) { interrupt(SIGINT, 130); }
-TEST(interrupted, politely_ends_with_143_and_whole_files) { interrupt(SIGTERM, 143); }
-TEST(interrupted, by_hang_up_ends_with_129_and_whole_files) { interrupt(SIGHUP, 129); }
+TEST(interrupted, run_goes_on_as_it_says_and_leaves_what_an_undisturbed_one_leaves) {
+  const Folder folder;
+  const Prepare here = in_folder(folder.path());
+  const Arguments whole = with_small_sensor({"render", "flying-ball", "--frames", "100", "--first-frame", "2"});
+  const auto into = [&](const char* name, const Arguments& more) {
+    Arguments all = whole;
+    all.insert(all.end(), {"-o", name});
+    all.insert(all.end(), more.begin(), more.end());
+    return all;
+  };
+  Running child(start(into("out", {}), folder / "stdout", folder / "stderr", here));
+  for (int i = 0; i < 10'000 && !fs::exists(folder / "out" / "frame_0003.npz"); ++i) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  child.send(SIGINT);
+  ASSERT_EQ(child.finish(), 130);
+  const std::string said = content(folder / "stderr");
+  const std::size_t first = said.find("--first-frame "), count = said.find("--frames ");
+  ASSERT_TRUE(first != std::string::npos && count != std::string::npos) << said;
+  const auto number_at = [&](std::size_t at) { return std::to_string(std::stoi(said.substr(at))); };
+  ASSERT_EQ(run(into("out", {"--first-frame", number_at(first + 14), "--frames", number_at(count + 9)}), here).code, 0);
+  ASSERT_EQ(run(into("whole", {}), here).code, 0);
+  EXPECT_EQ(files_of(folder / "out"), files_of(folder / "whole"));
+}
+
+TEST(interrupted, by_ctrl_c_ends_with_130_and_whole_files) { interrupt(SIGINT, 130, false); }
+TEST(interrupted, politely_ends_with_143_and_whole_files) { interrupt(SIGTERM, 143, false); }
+TEST(interrupted, by_hang_up_ends_with_129_and_whole_files) { interrupt(SIGHUP, 129, false); }
 TEST(interrupted, by_a_reader_that_went_away_ends_with_141_and_whole_files) {
 #if defined(__SANITIZE_THREAD__)
   GTEST_SKIP() << "ThreadSanitizer takes SIGPIPE for a fault of the code under it and runs the handler within its own locks";
 #endif
-  interrupt(SIGPIPE, 141);
+  interrupt(SIGPIPE, 141, true);
 }
 
 TEST(interrupted, output_to_a_closed_pipe_says_nothing) {

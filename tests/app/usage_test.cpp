@@ -95,6 +95,11 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{{"bench", "--compare", "--stage", "all"}, 2, "--compare"}, Mistake{{"bench", "--compare", "--backend", "cuda"}, 2, "--compare"},
         Mistake{{"bench", "--batch", "0"}, 2, "1 to 1000000"}, Mistake{{"bench", "--batch", "3", "--stage", "all"}, 2, "--batch"},
         Mistake{{"bench", "--batch", "3", "--compare"}, 2, "--batch"},
+        Mistake{{"demo", "--set", "camera.lens.f_number=1.2", "foo"}, 2, "in quotes: --set \"camera.lens.f_number=1.2 foo\""},
+        Mistake{{"demo", "--set=objects.2.sphere.radius=30", "cm"}, 2, "in quotes: --set \"objects.2.sphere.radius=30 cm\""},
+        Mistake{{"render", "--set", "ambient.level=5", "%"}, 2, "in quotes: --set \"ambient.level=5 %\""},
+        Mistake{{"render", "--set", "ambient.level=5", "%", "card"}, 2, "in quotes: --set \"ambient.level=5 %\""},
+        Mistake{{"render", "card", "-o="}, 2, "-o= has no value"}, Mistake{{"render", "card", "-q=1"}, 2, "-q takes no value"},
         Mistake{{"render", "card", "--block-size", "64"}, 2, "`tofray render` has no option --block-size"}));
 
 TEST(usage, options_may_come_in_every_form) {
@@ -105,6 +110,9 @@ TEST(usage, options_may_come_in_every_form) {
   ASSERT_EQ(run(with_small_sensor({"render", "--output=c", "--seed=4", "--seed=5", "card"}), here).code, 0);
   EXPECT_EQ(files_of(folder / "a"), files_of(folder / "b"));
   EXPECT_EQ(files_of(folder / "a"), files_of(folder / "c"));
+  ASSERT_EQ(run(with_small_sensor({"render", "-o=d", "--seed=5", "card"}), here).code, 0);
+  EXPECT_EQ(files_of(folder / "a"), files_of(folder / "d"));
+  EXPECT_FALSE(fs::exists(folder / "=d"));
 }
 
 TEST(json, is_one_object_on_stdout) {
