@@ -94,7 +94,7 @@ class Packs : public testing::TestWithParam<Isa> {};
 
 TEST_P(Packs, give_the_same_bits_as_the_plain_float_in_every_function) {
   const Isa isa = GetParam();
-  if (!can_run(isa)) GTEST_SKIP() << "this processor has no " << tofray::backend::isa_name(isa);
+  if (!can_run(isa)) GTEST_SKIP() << tofray::backend::isa_name(isa) << " does not run here";
   compare(isa == Isa::avx512 ? pack_functions_avx512
           : isa == Isa::avx2 ? pack_functions_avx2
                              : pack_functions_scalar_fma,

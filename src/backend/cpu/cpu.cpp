@@ -10,7 +10,26 @@
 
 namespace tofray::backend {
 
-bool can_run(Isa isa) {
+namespace {
+
+/// Null where this build has no kernel of the instruction set (CMake: TOFRAY_KERNELS).
+Kernel kernel_of(Isa isa) {
+  switch (isa) {
+#if defined(TOFRAY_HAS_AVX512)
+    case Isa::avx512: return tofray_kernel_avx512;
+#endif
+#if defined(TOFRAY_HAS_AVX2)
+    case Isa::avx2: return tofray_kernel_avx2;
+#endif
+#if defined(TOFRAY_HAS_SCALAR_FMA)
+    case Isa::scalar_fma: return tofray_kernel_scalar_fma;
+#endif
+    case Isa::scalar: return tofray_kernel_scalar;
+    default: return nullptr;
+  }
+}
+
+bool processor_has(Isa isa) {
   __builtin_cpu_init();
   const bool fma = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
   switch (isa) {
@@ -24,6 +43,10 @@ bool can_run(Isa isa) {
   }
   return false;
 }
+
+}  // namespace
+
+bool can_run(Isa isa) { return isa == Isa::best || (kernel_of(isa) != nullptr && processor_has(isa)); }
 
 std::string isa_name(Isa isa) {
   switch (isa) {
@@ -48,7 +71,8 @@ Isa choose_isa(Isa wanted) {
   }
   if (wanted == Isa::best) wanted = can_run(Isa::avx512) ? Isa::avx512 : can_run(Isa::avx2) ? Isa::avx2 : Isa::scalar;
   if (!can_run(wanted)) {
-    throw Error(ErrorKind::device, "error: this processor has no " + isa_name(wanted) + "\n  leave TOFRAY_ISA unset, or choose a lesser instruction set");
+    const std::string who = processor_has(wanted) ? "this build of tofray" : "this processor";
+    throw Error(ErrorKind::device, "error: " + who + " has no " + isa_name(wanted) + "\n  leave TOFRAY_ISA unset, or choose a lesser instruction set");
   }
   return wanted;
 }
@@ -59,12 +83,7 @@ struct Cpu::Threads {
 
 Cpu::Cpu(Isa isa, int threads, int raw_frames)
     : isa_(choose_isa(isa)), threads_(threads > 0 ? threads : static_cast<int>(std::max(1u, std::thread::hardware_concurrency()))) {
-  switch (isa_) {
-    case Isa::avx512: kernel_ = tofray_kernel_avx512; break;
-    case Isa::avx2: kernel_ = tofray_kernel_avx2; break;
-    case Isa::scalar_fma: kernel_ = tofray_kernel_scalar_fma; break;
-    default: kernel_ = tofray_kernel_scalar; break;
-  }
+  kernel_ = kernel_of(isa_);
   pool_ = std::make_unique<Threads>(Threads{TileRunner(threads_, kernel_(nullptr, Pass::pixels, raw_frames, nullptr))});
 }
 

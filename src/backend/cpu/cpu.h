@@ -11,10 +11,11 @@
 /// Runs the pipeline on the processor: threads over tiles, lanes within.
 namespace tofray::backend {
 
-/// @throws Error (device) where the processor cannot run the instruction set; (bad_input) for an unknown TOFRAY_ISA
+/// @throws Error (device) where the processor, or this build, cannot run the instruction set; (bad_input) for an unknown TOFRAY_ISA
 Isa choose_isa(Isa wanted);
 /// "scalar", "scalar_fma", "avx2", "avx512".
 std::string isa_name(Isa isa);
+/// The processor has it, and this build has its kernel.
 bool can_run(Isa isa);
 
 class Cpu {
