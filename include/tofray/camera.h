@@ -10,7 +10,7 @@
 /// The camera profile: lens, light sources, pixel, ADC, sequence and decoding. SI units throughout.
 namespace tofray {
 
-/// A function of one variable given by samples; a not-a-knot cubic spline goes through them unless said otherwise.
+/// A function of one variable given by samples; a not-a-knot cubic spline goes through them, limited so that it turns only at samples.
 struct Curve {
   std::vector<double> x;       ///< ascending
   std::vector<double> y;

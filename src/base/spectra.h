@@ -18,9 +18,9 @@ struct Spectrum {
   [[nodiscard]] double evaluate(double wavelength) const;
 };
 
-/// Sun at sea level, air mass 1.5, on a surface tilted by 37° toward it, sky light included: 300 to 2500 nm, 994 of 1000 W/m² in all.
+/// Sun at sea level, air mass 1.5, on a surface tilted by 37° toward it, sky light included: 280 to 4000 nm, 1000.4 W/m² in all.
 ///
-/// Published values at 1 nm from 400 to 1100 nm, at every 2, 5 and 20 nm below, above, and beyond 1700 nm.
+/// The published table, sample by sample: every 0.5 nm up to 400 nm, 1 nm up to 1700, 5 nm beyond.
 /// The mean of the tabulated values over 925–955 nm is 0.373 W m⁻² nm⁻¹; the integral, which gives the end values half their weight, 0.368.
 /// [astm-g173, column "global tilt"]
 const Spectrum& sun_am15();

@@ -111,6 +111,40 @@ std::vector<double> periodic_slopes(const std::vector<double>& h, const std::vec
   return slope;
 }
 
+/// Whether the cubic with these slopes at its ends and the secant g runs from end to end without turning.
+///
+/// Over g, its slope is a parabola with the Bernstein coefficients a, 3 − a − b, b: nowhere negative if the ends are not and the middle
+/// one is not below −√(ab).                                                                                          [theory: eq. 6.6]
+bool runs_one_way(double left, double right, double g) {
+  if (g == 0) return left == 0 && right == 0;
+  const double a = left / g, b = right / g, middle = 3 - a - b;
+  return a >= 0 && b >= 0 && (middle >= 0 || middle * middle <= a * b);
+}
+
+/// Limits slopes to 0 … 3 secants on both sides of their knot, wherever a piece would turn between its ends.
+void limit_slopes(const std::vector<double>& g, std::vector<double>& slope) {
+  const auto limit = [&](std::size_t knot) {
+    double& s = slope[knot];
+    const double before = s;
+    for (const double secant : {g[knot == 0 ? 0 : knot - 1], g[std::min(knot, g.size() - 1)]})
+      s = std::clamp(s, std::min(0.0, 3 * secant), std::max(0.0, 3 * secant));
+    return s != before;
+  };
+  for (std::size_t i = 0; i < g.size();) {
+    if (runs_one_way(slope[i], slope[i + 1], g[i])) {
+      ++i;
+      continue;
+    }
+    const bool left = limit(i), right = limit(i + 1);
+    // A knot is limited once; the piece before shares it, and is looked at again.
+    if (left && i > 0) {
+      --i;
+    } else if (!left && !right) {
+      ++i;
+    }
+  }
+}
+
 }  // namespace
 
 Spline::Spline(std::vector<double> x, std::vector<double> y, Kind kind) : kind_(kind), x_(std::move(x)), y_(std::move(y)) {
@@ -126,7 +160,9 @@ Spline::Spline(std::vector<double> x, std::vector<double> y, Kind kind) : kind_(
     square_.assign(intervals, 0.0);
     cube_.assign(intervals, 0.0);
   } else {
-    pieces_from_slopes(kind_ == Kind::periodic ? periodic_slopes(h, g) : not_a_knot_slopes(h, g));
+    std::vector<double> slope = kind_ == Kind::periodic ? periodic_slopes(h, g) : not_a_knot_slopes(h, g);
+    if (kind_ == Kind::limited) limit_slopes(g, slope);
+    pieces_from_slopes(slope);
   }
   area_.assign(intervals + 1, 0.0);
   for (std::size_t i = 0; i < intervals; ++i) {

@@ -45,6 +45,7 @@ void FrozenCamera::freeze_lens() {
   ray_x_.assign(pixels, 0), ray_y_.assign(pixels, 0), inverse_length_.assign(pixels, 1), vignetting_.assign(pixels, 0);
   lens_.width = sensor.width, lens_.height = sensor.height;
   const double limit = growing_radius_squared(camera_.lens);
+  const Vignetting vignetting(camera_.lens);
   std::size_t i = 0;
   for (int v = 0; v < sensor.height; ++v) {
     for (int u = 0; u < sensor.width; ++u, ++i) {
@@ -54,7 +55,7 @@ void FrozenCamera::freeze_lens() {
       const double x = static_cast<double>(ray_x_[i]), y = static_cast<double>(ray_y_[i]);
       inverse_length_[i] = f(1 / std::sqrt(x * x + y * y + 1));
       // 0 says "outside the lens model", so that a dark corner of a vignetting table is not mistaken for one
-      vignetting_[i] = std::max(f(vignetting_factor(camera_.lens, p)), std::numeric_limits<float>::min());
+      vignetting_[i] = std::max(f(vignetting.factor(p)), std::numeric_limits<float>::min());
     }
   }
   lens_.ray_x = ray_x_.data(), lens_.ray_y = ray_y_.data(), lens_.vignetting = vignetting_.data();

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/spline.h"
 #include "num/setup_math.h"
 
 namespace tofray::camera {
@@ -93,17 +92,18 @@ bool unproject(const Lens& lens, double limit, const Point2& pixel, Point2& undi
   return undistort(lens, limit, {(pixel.x - lens.cx_px) / lens.fx_px, (pixel.y - lens.cy_px) / lens.fy_px}, undistorted);
 }
 
-double vignetting_factor(const Lens& lens, const Point2& p) {
+Vignetting::Vignetting(const Lens& lens) : kind_(lens.vignetting) {
+  if (kind_ == Lens::Vignetting::table) table_.emplace(lens.vignetting_table, "the lens' vignetting");
+}
+
+double Vignetting::factor(const Point2& p) const {
   const double square = 1 + p.x * p.x + p.y * p.y;
-  switch (lens.vignetting) {
+  switch (kind_) {
     case Lens::Vignetting::off: return 1;
     case Lens::Vignetting::cos4: return 1 / (square * square);
     case Lens::Vignetting::table: break;
   }
-  const double angle = num::setup::atan(std::sqrt(p.x * p.x + p.y * p.y));
-  const auto& table = lens.vignetting_table;
-  const base::Spline spline(table.x, table.y);
-  return std::max(0.0, spline.evaluate(std::clamp(angle, table.x.front(), table.x.back())));
+  return table_->evaluate(num::setup::atan(std::sqrt(p.x * p.x + p.y * p.y)));
 }
 
 }  // namespace tofray::camera

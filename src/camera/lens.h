@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The tofray authors
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-#include <vector>
+#include <optional>
 
+#include "base/curve.h"
 #include "tofray/camera.h"
 
 namespace tofray::camera {
@@ -25,7 +26,16 @@ bool undistort(const Lens& lens, double limit, const Point2& distorted, Point2& 
 Point2 project(const Lens& lens, const Point2& undistorted);
 bool unproject(const Lens& lens, double limit, const Point2& pixel, Point2& undistorted);
 
-/// Factor of the image irradiance at angle α to the axis, tan α = √(x² + y²): cos⁴α, 1, or the table's.
-double vignetting_factor(const Lens& lens, const Point2& undistorted);
+/// Factor of the image irradiance at angle α to the axis, tan α = √(x² + y²): cos⁴α, 1, or a table's.
+class Vignetting {
+ public:
+  /// @throws Error (bad_input) where the table is none, as base::ClampedCurve says
+  explicit Vignetting(const Lens& lens);
+  [[nodiscard]] double factor(const Point2& undistorted) const;
+
+ private:
+  Lens::Vignetting kind_;
+  std::optional<base::ClampedCurve> table_;
+};
 
 }  // namespace tofray::camera

@@ -46,8 +46,7 @@ class Transmission {
   /// ∫ E_λ·T·weight dλ; `knots`: where the weight's pieces meet.
   [[nodiscard]] double integrate(const Spectrum& spectrum, std::vector<double> knots, const std::function<double(double)>& weight) const {
     for (const double x : curve_->knots()) knots.push_back(x);
-    // A spline can swing below zero beside a steep edge; no filter does.
-    return base::integrate(spectrum, from_, to_, knots, [&](double x) { return std::max(0.0, curve_->evaluate(x)) * weight(x); });
+    return base::integrate(spectrum, from_, to_, knots, [&](double x) { return curve_->evaluate(x) * weight(x); });
   }
 
   [[nodiscard]] double integrate(const Spectrum& spectrum) const {

@@ -232,6 +232,17 @@ TEST(every_member_of_a_camera, can_be_written) {
   EXPECT_EQ(c.illumination[0].pattern.samples[4], 3);
 }
 
+TEST(tables_of_shares, are_refused_where_a_sample_is_none_and_say_where) {
+  const std::string efficiency = refusal({{"pixel.quantum_efficiency", "{wavelength: [800 nm, 900 nm], value: [0.4, 1.2]}"}});
+  EXPECT_TRUE(has(efficiency, "value[1] is out of range\n  got \"1.2\", expected a fraction such as \"0.4\", 0 to 1")) << efficiency;
+  const std::string contrast = refusal({{"pixel.contrast", "{modulation_frequency: [20 MHz, 90 MHz], value: [-0.1, 0.7]}"}});
+  EXPECT_TRUE(has(contrast, "value[0] is out of range\n  got \"-0.1\"")) << contrast;
+  const std::string filter = refusal({{"filter", "{wavelength: [800 nm, 900 nm], transmission: [40 %, 120 %]}"}});
+  EXPECT_TRUE(has(filter, "transmission[1] is out of range\n  got \"120 %\"")) << filter;
+  const std::string vignetting = refusal({{"lens.vignetting", "{angle: [0, 30 deg], factor: [1, 2.5]}"}});
+  EXPECT_TRUE(has(vignetting, "factor[1] is out of range\n  got \"2.5\", expected a number such as \"0.6\", 0 to 2")) << vignetting;
+}
+
 TEST(table_files, lie_beside_the_profile) {
   std::string folder = (std::filesystem::temp_directory_path() / "tofray_in_XXXXXX").string();
   ASSERT_NE(mkdtemp(folder.data()), nullptr);
