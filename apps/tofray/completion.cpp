@@ -128,7 +128,7 @@ _tofray() {{
   commands=(
 {}  )
   if ((CURRENT == 2)); then
-    _describe command commands
+    if [[ $PREFIX == -* ]]; then compadd -- --help --version --limits; else _describe command commands; fi
     return
   fi
   case $words[2] in
@@ -137,7 +137,11 @@ _tofray() {{
   ((CURRENT--))
   _arguments -s $arguments
 }}
-_tofray "$@"
+if [[ ${{funcstack[1]-}} == _tofray ]]; then
+  _tofray "$@"
+else
+  compdef _tofray tofray
+fi
 )",
                      commands, cases);
 }
@@ -145,7 +149,10 @@ _tofray "$@"
 std::string fish() {
   std::string text =
       "# tofray: completion for fish. To keep it: tofray completion fish > ~/.config/fish/completions/tofray.fish\n"
-      "complete -c tofray -f\n";
+      "complete -c tofray -f\n"
+      "complete -c tofray -l help -d 'examples and options'\n"
+      "complete -c tofray -n __fish_use_subcommand -l version -d 'the version of tofray'\n"
+      "complete -c tofray -n __fish_use_subcommand -l limits -d 'the largest inputs that are taken'\n";
   for (const Command& command : all_commands())
     text += fmt::format("complete -c tofray -n __fish_use_subcommand -a {} -d {}\n", command.name, quoted(command.summary));
   for (const Command& command : all_commands()) {

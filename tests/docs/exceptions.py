@@ -1,0 +1,47 @@
+# SPDX-FileCopyrightText: 2026 The tofray authors
+# SPDX-License-Identifier: Apache-2.0
+"""What the test of the documents does not run word for word, each with its reason. All the rest it does."""
+
+# What stands in a document: what runs in its place, and why.
+REPLACED = {
+    "git clone <this repository> tofray && cd tofray": ("true", "only the reader knows where his repository is"),
+    "cmake --build --preset dev --target test_power": (
+        "cmake --build --preset dev --target help | grep test_power",
+        "takes minutes; that there is such a target is asked",
+    ),
+    "build/dev/tests/test_power": ("build/release/tests/test_power --gtest_list_tests", "was not built, see above; that of this build runs"),
+    ".ci/run asan tsan": ("grep -q '^step_asan()' .ci/run && grep -q '^step_tsan()' .ci/run", "takes most of an hour"),
+    "sudo tofray bench": ("tofray bench", "a test is never root on purpose"),
+}
+
+# Stands in for ./dev: it builds and tests what this test is a part of. The real one is asked whether it knows the word.
+DEV = """#!/usr/bin/env bash
+set -euo pipefail
+"{source}/dev" help | grep -q "^./dev $1 " || exit 2
+if [[ $1 == demo ]]; then tofray demo -o out/demo; fi
+"""
+
+# C++ of a document needs more than it says: what stands outside main, what inside it, and why it is built but not run (empty: it is run).
+CPP = {
+    "gpu.md": (
+        "void use(std::uint64_t, const float*) {}\nvoid my_kernel(const float*) {}\n",
+        'auto scene = tofray::load_scene("scene.yaml");\nauto camera = tofray::load_camera(scene);\n',
+        "it needs a GPU, and a kernel of the reader's",
+    ),
+}
+
+# g++ takes no CUDA: the launch of a kernel becomes a call.
+CUDA_LAUNCH = (r"<<<.*?>>>", "")
+
+# Measuring is cut short: the words are all read, fewer frames are timed.
+FEW_FRAMES = "--frames 2"
+
+# Names in backticks that nothing in the source knows.
+UNKNOWN_NAMES = {
+    "raduis": "misspelled on purpose",
+    "lower_snake": "how names are written",
+    "UpperCamel": "how names are written",
+    "cv2.undistortPoints": "OpenCV's",
+    "compinit": "zsh's",
+    "std::*_distribution": "what the source must not call",
+}

@@ -1,0 +1,94 @@
+# SPDX-FileCopyrightText: 2026 The tofray authors
+# SPDX-License-Identifier: Apache-2.0
+"""What of a Markdown document a reader may type: fenced blocks by language, and code within lines."""
+
+import dataclasses
+import re
+
+
+@dataclasses.dataclass
+class Snippet:
+    kind: str  # a block's language, or "inline"
+    text: str
+    line: int
+    target: str = ""  # of a YAML block: the file that it changes, from <!-- test: into FILE -->
+
+
+class Fault(Exception):
+    """What is wrong with a document, and in which line."""
+
+    def __init__(self, line, what):
+        super().__init__(what)
+        self.line = line
+
+
+def snippets(text):
+    """All snippets in the order in which they stand."""
+    found, block, target, before = [], None, "", ""
+    for number, line in enumerate(text.split("\n"), start=1):
+        fence = re.match(r"```(.*)$", line)
+        if block is not None and fence:
+            found.append(block)
+            block = None
+        elif block is not None:
+            block.text += line + "\n"
+        elif fence:
+            if not fence[1]:
+                raise Fault(number, "a block without a language: say sh, yaml, python, cpp, or text for what nobody runs")
+            block, target = Snippet(fence[1], "", number, target), ""
+        elif directive := re.fullmatch(r"<!-- test: (.*) -->", line):
+            target = into(directive[1], number)
+        elif line.startswith("    ") and not before.strip():
+            raise Fault(number, "a block by indentation has no language: fence it")
+        else:
+            found += [Snippet("inline", code, number) for code in re.findall(r"`([^`]+)`", line)]
+        before = line
+    if block is not None:
+        raise Fault(block.line, "a block without an end")
+    return found
+
+
+def into(directive, line):
+    named = re.fullmatch(r"into (\S+)", directive)
+    if not named:
+        raise Fault(line, f"the test does not know what to do: {directive}")
+    return named[1]
+
+
+def put_into(text, block):
+    """YAML `text` with the keys of `block` in place of its own, or after them where it has none.
+
+    A block is either keys of the file or, indented, entries of its list: an entry takes the place of the one with the same tag.
+    """
+    lines = text.rstrip("\n").split("\n")
+    for name, part in parts(block):
+        begin = next((i for i, line in enumerate(lines) if line.startswith(name)), None)
+        if begin is not None:
+            end = next((i for i in range(begin + 1, len(lines)) if starts_afresh(lines[i], name)), len(lines))
+            lines[begin:end] = part
+        elif name.startswith("  - "):
+            last = max((i for i, line in enumerate(lines) if line.startswith("  - ")), default=None)
+            if last is None:
+                raise ValueError("there is no list to add to")
+            lines[last + 1 : last + 1] = part
+        else:
+            lines += part
+    return "\n".join(lines) + "\n"
+
+
+def parts(block):
+    """(how the first line begins, lines) of each key or entry."""
+    found = []
+    for line in block.rstrip("\n").split("\n"):
+        if start := re.match(r"(  - )?\w+:", line):
+            found.append((start[0], [line]))
+        elif found:
+            found[-1][1].append(line)
+        else:
+            raise ValueError(f"neither a key nor an entry of a list: {line}")
+    return found
+
+
+def starts_afresh(line, name):
+    """Whether a line is no longer part of what began with `name`."""
+    return line.startswith("  - ") or not line.startswith(" ") if name.startswith("  - ") else bool(line) and line[0] not in " #"
