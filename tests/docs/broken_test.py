@@ -30,9 +30,10 @@ tofray render ball.yaml -o out --set camera.lens.f_number=1.2
 
 `tofray inspect out/frame.npz`, and then:
 
+<!-- test: prints 1.75 m -->
 ```python
 import numpy as np
-assert abs(np.nanmin(np.load("out/frame.npz")["gt_range_m"]) - 1.75) < 1e-3
+print(f"{np.nanmin(np.load('out/frame.npz')['gt_range_m']):.2f} m")
 ```
 
 ```text
@@ -47,7 +48,7 @@ auto scene = tofray::load_scene("scenes/room.yaml");
 ```
 """
 
-# A word, what stands in its place, and the line at which that has to be noticed .
+# A word, what stands in its place, and the line at which that has to be noticed.
 BROKEN = [
     ("--noise off", "--nois off", 2),
     ("`noise_m`", "`noice_m`", 2),
@@ -56,13 +57,15 @@ BROKEN = [
     ("paper_literal", "paper_litteral", 2),
     ("# ball.yaml: a ball\n", "# a ball\n", 4),
     ("into ball.yaml", "onto ball.yaml", 11),
-    ("[0, 0, 2]", "[0, 0, 3]", 22),  # gt_range_m is 2.75 then: an assertion of the python below
+    ("[0, 0, 2]", "[0, 0, 3]", 23),  # gt_range_m is 2.75 then
+    ("prints 1.75 m", "prints 1.85 m", 23),
+    ("prints 1.75 m", "print 1.75 m", 22),
     ("radius: 25 cm, reflectivity: 0.5}\n```\n\n```sh", "raduis: 25 cm, reflectivity: 0.5}\n```\n\n```sh", 16),
     ("f_number", "f_numbre", 16),
     ("tofray inspect out", "tofray inspct out", 20),
-    ("gt_range_m", "gt_rang_m", 22),
-    ("```text", "```", 27),
-    ("```text", "```rust", 27),
+    ("gt_range_m", "gt_rang_m", 23),
+    ("```text", "```", 28),
+    ("```text", "```rust", 28),
 ]
 BROKEN_PROGRAM = [("find_package(tofray)", "find_package(tofrai)", 1), ("load_scene", "load_scenes", 1)]
 

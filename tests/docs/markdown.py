@@ -11,7 +11,8 @@ class Snippet:
     kind: str  # a block's language, or "inline"
     text: str
     line: int
-    target: str = ""  # of a YAML block: the file that it changes, from <!-- test: into FILE -->
+    target: str = ""  # of a YAML block: the file that it changes, from <!-- test: into FILE --> before it
+    prints: str = ""  # of a shell or Python block: what its output has to hold, from <!-- test: prints TEXT --> before it
 
 
 class Fault(Exception):
@@ -24,7 +25,7 @@ class Fault(Exception):
 
 def snippets(text):
     """All snippets in the order in which they stand."""
-    found, block, target, before = [], None, "", ""
+    found, block, directives, before = [], None, {}, ""
     for number, line in enumerate(text.split("\n"), start=1):
         fence = re.match(r"```(.*)$", line)
         if block is not None and fence:
@@ -35,9 +36,9 @@ def snippets(text):
         elif fence:
             if not fence[1]:
                 raise Fault(number, "a block without a language: say sh, yaml, python, cpp, or text for what nobody runs")
-            block, target = Snippet(fence[1], "", number, target), ""
+            block, directives = Snippet(fence[1], "", number, **directives), {}
         elif directive := re.fullmatch(r"<!-- test: (.*) -->", line):
-            target = into(directive[1], number)
+            directives |= parsed(directive[1], number)
         elif line.startswith("    ") and not before.strip():
             raise Fault(number, "a block by indentation has no language: fence it")
         else:
@@ -48,11 +49,12 @@ def snippets(text):
     return found
 
 
-def into(directive, line):
-    named = re.fullmatch(r"into (\S+)", directive)
-    if not named:
-        raise Fault(line, f"the test does not know what to do: {directive}")
-    return named[1]
+def parsed(directive, line):
+    if into := re.fullmatch(r"into (\S+)", directive):
+        return {"target": into[1]}
+    if prints := re.fullmatch(r"prints (.+)", directive):
+        return {"prints": prints[1]}
+    raise Fault(line, f"the test does not know what to do: {directive}")
 
 
 def put_into(text, block):

@@ -6,7 +6,7 @@
 Blocks: sh and zsh and fish run in that shell (where it is installed) and have to succeed; python runs after the document's python before
 it; cpp and CMake's calls make one project, built and run at the end; yaml goes into the file that its first line's comment names, or
 into the one that <!-- test: into FILE --> before it names, and tofray check has to like that file once the next command runs; text is
-for people. Code within lines: what begins with a command's name is run; `key: value` has to be good YAML of a scene or a camera
+for people. <!-- test: prints TEXT --> before a shell or python block: what a sentence beside it says of its output. Code within lines: what begins with a command's name is run; `key: value` has to be good YAML of a scene or a camera
 profile somewhere; options have to exist; all other names have to occur in the source. exceptions.py lists what is not run so, and why.
 """
 
@@ -76,10 +76,10 @@ class Document:
             self.inline(one.text)
         elif one.kind in ("sh", "zsh", "fish"):
             self.check_files()
-            self.shell(one.kind, one.text)
+            self.holds(one.prints, self.shell(one.kind, one.text))
         elif one.kind == "python":
             self.python += one.text
-            self.place.must([sys.executable, "-W", "error", "-"], self.python)
+            self.holds(one.prints, self.place.must([sys.executable, "-W", "error", "-"], self.python))
         elif one.kind == "yaml":
             self.yaml(one)
         elif one.kind == "cpp":
@@ -87,10 +87,16 @@ class Document:
         elif one.kind != "text":
             raise ValueError(f"the test does not know what to do with a block of {one.kind}")
 
+    @staticmethod
+    def holds(wanted, out):
+        if wanted not in out:
+            raise ValueError(f"expected it to print {wanted!r}, got\n{out.rstrip()}")
+
     def shell(self, shell, text):
+        """What it wrote."""
         if shutil.which("bash" if shell == "sh" else shell) is None:
             print(f"{self.name}: no {shell} here, not run: {text.strip()}")
-            return
+            return ""
         if shell == "zsh":
             text = "autoload -Uz compinit && compinit -u\n" + text  # as a user's ~/.zshrc does
         start = {"sh": ["bash", "-euo", "pipefail"], "zsh": ["zsh", "-f", "-e"], "fish": ["fish", "-N"]}[shell]
@@ -98,6 +104,7 @@ class Document:
         no_gpu = "--backend cuda" in text and code == 5 and "no GPU can be used" in out
         if code != 0 and not no_gpu:
             raise ValueError(f"exit code {code}: {text.strip()}\n{out.rstrip()}")
+        return out
 
     def runnable(self, text):
         for written, (instead, _) in exceptions.REPLACED.items():
