@@ -9,7 +9,10 @@ REPLACED = {
         "cmake --build --preset dev --target help | grep test_power",
         "takes minutes; that there is such a target is asked",
     ),
-    "build/dev/tests/test_power": ("build/release/tests/test_power --gtest_list_tests", "was not built, see above; that of this build runs"),
+    "build/dev/tests/test_power": (
+        "build/release/tests/test_power --gtest_list_tests",
+        "was not built, see above; that of this build is asked",
+    ),
     ".ci/run asan tsan": ("grep -q '^step_asan()' .ci/run && grep -q '^step_tsan()' .ci/run", "takes most of an hour"),
     "sudo tofray bench": ("tofray bench", "a test is never root on purpose"),
 }
