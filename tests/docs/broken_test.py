@@ -6,6 +6,7 @@
 import pathlib
 import sys
 
+import exceptions
 from run_document import Document, arguments
 from workplace import Workplace
 
@@ -90,10 +91,16 @@ def faults_of(first):
     return faults
 
 
+def idle_exceptions(source):
+    """Exceptions that no document needs any more."""
+    text = "".join(path.read_text(encoding="utf-8") for path in [*source.glob("*.md"), *source.glob("docs/*.md")])
+    return [f"no document says {one!r}: not an exception" for one in [*exceptions.REPLACED, *exceptions.UNKNOWN_NAMES] if one not in text]
+
+
 def main():
     options = arguments(__doc__).parse_args()
     with Workplace(pathlib.Path(options.source).resolve(), pathlib.Path(options.build).resolve(), options.compiler) as first:
-        faults = faults_of(first)
+        faults = faults_of(first) + idle_exceptions(first.source)
     print("\n".join(faults) or "every broken word was noticed")
     sys.exit(1 if faults else 0)
 
