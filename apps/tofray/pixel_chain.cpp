@@ -68,6 +68,7 @@ bool is_noise_free(const Arrays& arrays) {
 void read_raw_frames(const Arrays& arrays, std::size_t pixel, PixelChain& out) {
   const std::size_t pixels = arrays.width() * arrays.height();
   const double step = meta_number(arrays, "adc", "step_e_per_dn", std::nan("")), mid = meta_number(arrays, "adc", "mid_code", std::nan(""));
+  const double most = step * (std::exp2(meta_number(arrays, "adc", "bits", std::nan(""))) - 1 - mid);
   for (std::size_t k = 0; k < arrays.phases(); ++k) {
     const std::size_t at = k * pixels + pixel;
     ChainRawFrame one;
@@ -77,8 +78,10 @@ void read_raw_frames(const Arrays& arrays, std::size_t pixel, PixelChain& out) {
     one.signal_e = arrays.at("gt_signal_e", at);
     one.tap_a_e = arrays.at("tap_a", at), one.tap_b_e = arrays.at("tap_b", at), one.code_dn = arrays.at("raw", at);
     one.difference_e = step * (one.code_dn - mid);
-    // Without codes, or without noise, depth takes the taps as they are.
-    if (!std::isfinite(one.difference_e) || is_noise_free(arrays)) one.difference_e = one.tap_a_e - one.tap_b_e;
+    // Without codes, or without noise, depth takes the taps without rounding, as far as codes would reach. (fmin and fmax pass over NaN.)
+    if (!std::isfinite(one.difference_e) || is_noise_free(arrays)) {
+      one.difference_e = std::fmax(std::fmin(one.tap_a_e - one.tap_b_e, most), -step * mid);
+    }
     out.raw_frames.push_back(one);
   }
 }

@@ -88,8 +88,9 @@ struct Radiometry {
 template <class F>
 struct Taps {
   F a, b;                      ///< [e⁻]
+  F level;                     ///< [DN] the code before it was held to the code range, a whole number
   F code;                      ///< [DN], a whole number
-  F difference;                ///< A−B as depth takes it [e⁻]: from the code, or unrounded where noise is off
+  F difference;                ///< A−B as depth takes it [e⁻]: from the code, or unrounded within the codes' reach where noise is off
 };
 
 /// Depth of one pixel.

@@ -138,22 +138,27 @@ TOFRAY_FN void decode_pixels(const Setup& s, const Job& job, const Recording& in
   F difference[flow::max_raw_frames];
   num::Mask<F> clipped = F(1.0f) < F(0.0f);
   const camera::SensorView& sensor = s.sensor;
+  const F offset = raw::pattern<F>(sensor.offset, p, 0.0f);
   for (int k = 0; k < sensor.raw_frames; ++k) {
     const std::int32_t at = p.index + k * s.lens.width * s.lens.height;
     num::Mask<F> over = F(1.0f) < F(0.0f);
+    F level = F(sensor.max_code) + F(1.0f);     // of a code at an end of the ADC nothing tells that it was not held there, unless the taps do
+    if (in.tap_a != nullptr) {
+      const F a = num::load<F>(in.tap_a + at, p.count), b = num::load<F>(in.tap_b + at, p.count);
+      const auto charges = (num::abs(a) <= F(flow::max_charge)) & (num::abs(b) <= F(flow::max_charge));
+      const raw::Means<F> charge{num::select(charges, a, F(0.0f)), num::select(charges, b, F(0.0f))};
+      level = raw::read_out(sensor, charge, offset).level;
+      difference[k] = raw::held_to_codes(sensor, charge.a - charge.b, offset);
+      over = (!charges) | (a >= F(sensor.full_well)) | (b >= F(sensor.full_well));
+    }
     if (in.raw != nullptr) {
       std::int32_t codes[num::lanes<F>] = {};
       for (int i = 0; i < p.count; ++i) codes[i] = in.raw[at + i];
       const F code = num::to_float(num::load_int<F>(codes, p.count));
       difference[k] = (code - F(sensor.mid_code)) * F(sensor.step);
-      over = num::abs(code - F(sensor.valid_middle)) > F(sensor.valid_half);
+      level = num::select((code <= F(0.0f)) | (code >= F(sensor.max_code)), level, code);
     }
-    if (in.tap_a != nullptr) {
-      const F a = num::load<F>(in.tap_a + at, p.count), b = num::load<F>(in.tap_b + at, p.count);
-      const auto charges = (num::abs(a) <= F(flow::max_charge)) & (num::abs(b) <= F(flow::max_charge));
-      if (in.raw == nullptr) difference[k] = num::select(charges, a - b, F(0.0f));
-      over = over | !charges | (a >= F(sensor.full_well)) | (b >= F(sensor.full_well));
-    }
+    over = over | (num::abs(level - F(sensor.valid_middle)) > F(sensor.valid_half));
     if (sensor.frame[k].lit != 0) clipped = clipped | over;
   }
   find_depth(s, job, p, camera::ray<F>(s.lens, p), difference, clipped, raw::pattern<F>(s.decoder.delay, p, 0.0f), camera::vignetting<F>(s.lens, p));

@@ -129,15 +129,22 @@ TOFRAY_FN Means<F> suppress(const camera::SensorView& s, const Means<F>& charge,
   return left;
 }
 
+/// A−B without rounding, held to what the codes reach; the pixel's offset pattern is not in it.               [eq. 3.13]
+template <class F>
+TOFRAY_FN F held_to_codes(const camera::SensorView& s, F difference, F offset) {
+  const F zero = F(s.mid_code) + offset;
+  return num::min(num::max(difference, -zero * F(s.step)), (F(s.max_code) - zero) * F(s.step));
+}
+
 /// Full well per tap, then A−B through the ADC: DN = round((A−B)/s + mid + offset), held to the code range.   [eq. 3.8]
 template <class F>
 TOFRAY_FN Taps<F> read_out(const camera::SensorView& s, const Means<F>& charge, F offset) {
   Taps<F> out;
   out.a = num::min(charge.a, F(s.full_well)), out.b = num::min(charge.b, F(s.full_well));
   const F difference = out.a - out.b;
-  const F level = num::fma(difference, F(s.per_step), F(s.mid_code) + offset);
-  out.code = num::min(num::max(num::round_even(level), F(0.0f)), F(s.max_code));
-  out.difference = s.noise == 0 ? difference : (out.code - F(s.mid_code)) * F(s.step);
+  out.level = num::round_even(num::fma(difference, F(s.per_step), F(s.mid_code) + offset));
+  out.code = num::min(num::max(out.level, F(0.0f)), F(s.max_code));
+  out.difference = s.noise == 0 ? held_to_codes(s, difference, offset) : (out.code - F(s.mid_code)) * F(s.step);
   return out;
 }
 

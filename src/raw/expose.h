@@ -13,7 +13,7 @@ struct Exposure {
   F gain, offset, delay;
   Phasors<F> phasors;
   MergedWords<F> merged_words;
-  F most_charge, widest_code;   ///< of the lit raw frames: largest charge of a tap, largest distance of a code from the valid range's middle
+  F most_charge, widest_level;  ///< of the lit raw frames: largest charge of a tap, largest distance of a level from the valid codes' middle
 };
 
 template <class F>
@@ -27,7 +27,7 @@ TOFRAY_FN Exposure<F> start(const camera::SensorView& s, const flow::Pixels& p) 
   e.pixel = num::Int<F>(p.index) + num::lane_index<F>();
   e.gain = pattern<F>(s.gain, p, 1.0f), e.offset = pattern<F>(s.offset, p, 0.0f);
   e.delay = pattern<F>(s.delay, p, 0.0f);
-  e.most_charge = F(0.0f), e.widest_code = F(0.0f);
+  e.most_charge = F(0.0f), e.widest_level = F(0.0f);
   return e;
 }
 
@@ -36,13 +36,13 @@ template <class F>
 TOFRAY_FN void watch(const camera::SensorView& s, const camera::RawFrameView& frame, const Means<F>& charge, const Taps<F>& taps, Exposure<F>& e) {
   if (frame.lit == 0) return;
   e.most_charge = num::max(e.most_charge, num::max(charge.a, charge.b));
-  e.widest_code = num::max(e.widest_code, num::abs(taps.code - F(s.valid_middle)));
+  e.widest_level = num::max(e.widest_level, num::abs(taps.level - F(s.valid_middle)));
 }
 
-/// In a lit raw frame a tap clipped or a code left the valid range.
+/// In a lit raw frame a tap clipped, or a code left the valid range: before the ADC held it to its ends, which may be valid codes.
 template <class F>
 TOFRAY_FN Mask<F> saturated(const camera::SensorView& s, const Exposure<F>& e) {
-  return (e.most_charge >= F(s.full_well)) | (e.widest_code > F(s.valid_half));
+  return (e.most_charge >= F(s.full_well)) | (e.widest_level > F(s.valid_half));
 }
 
 /// Mean electrons × (1 + PRNU) → Poisson → reset and read noise → background suppression → full well → ADC.
@@ -69,7 +69,7 @@ TOFRAY_FN Taps<F> expose(const camera::SensorView& s, int k, const Light<F>& lig
   if (s.noise == 0 && frame.lit != 0) {
     // Strong ambient light leaves few places of a float to the difference of the taps; where neither clips it is known better than that.
     const auto whole = (num::max(charge.a, charge.b) < F(s.full_well)) & (num::abs(rate) <= light.total_rate + light.ambient_rate);
-    taps.difference = num::select(whole, rate * F(frame.integration_time) * e.gain, taps.difference);
+    taps.difference = num::select(whole, held_to_codes(s, rate * F(frame.integration_time) * e.gain, e.offset), taps.difference);
   }
   watch(s, frame, charge, taps, e);
   return taps;

@@ -156,6 +156,16 @@ TEST(quantiser, leaves_the_difference_alone_where_noise_is_off) {
   EXPECT_EQ(out.code, 2060.0f);
 }
 
+// … but codes cannot say more than their ends: the difference is held to what they reach, less the offset pattern that it is free of.
+TEST(quantiser, holds_the_difference_to_its_codes_where_noise_is_off) {
+  auto sensor = adc(20);
+  sensor.noise = 0;
+  EXPECT_EQ(raw::read_out(sensor, {90000.0f, 1000.0f}, 0.0f).difference, 20 * (4095.0f - 2048));
+  EXPECT_EQ(raw::read_out(sensor, {1000.0f, 90000.0f}, 0.0f).difference, 20 * (0.0f - 2048));
+  EXPECT_EQ(raw::read_out(sensor, {90000.0f, 1000.0f}, 3.0f).difference, 20 * (4095.0f - 2048 - 3));
+  EXPECT_EQ(raw::read_out(sensor, {40000.0f, 1000.0f}, 3.0f).difference, 39000.0f);
+}
+
 // The flag is set exactly where a tap reaches its well, within one electron, and only in a lit raw frame.
 TEST(saturation, is_flagged_where_a_tap_clips) {
   const auto sensor = adc(200);  // wide enough that no code leaves the valid range
@@ -184,6 +194,21 @@ TEST(saturation, is_flagged_where_a_code_leaves_the_valid_range) {
     EXPECT_EQ(out.code, static_cast<float>(code));
     EXPECT_EQ(test::flags(sensor, lit(), {50000 + difference / 2, 50000 - difference / 2}), code < 400 || code > 3750) << code;
     EXPECT_FALSE(test::flags(sensor, lit(false), {50000 + difference / 2, 50000 - difference / 2}));
+  }
+}
+
+// Where the valid codes reach the ends of the ADC, a code at an end is valid and one that was held there is not: what counts is the level
+// before the ends, rounded.
+TEST(saturation, is_flagged_where_the_adc_held_a_code_that_would_be_valid) {
+  for (const int noise : {0, 2}) {
+    auto sensor = adc(20, 2048, 4095, 0, 4095);
+    sensor.noise = noise;
+    for (const double level : {-7.0, -0.6, -0.4, 0.0, 4095.0, 4095.4, 4095.6, 4100.0}) {
+      const float difference = static_cast<float>(20 * (level - 2048));
+      const raw::Means<float> charge{50000 + difference / 2, 50000 - difference / 2};
+      EXPECT_EQ(test::flags(sensor, lit(), charge), level < -0.5 || level > 4095.5) << level;
+      EXPECT_FALSE(test::flags(sensor, lit(false), charge)) << level;
+    }
   }
 }
 

@@ -54,7 +54,7 @@ TEST_P(Process, of_silent_taps_is_the_frame_s_depth_within_their_last_place) {
   const Depth depth = process(frame.raw, camera, silent);
   int compared = 0;
   for (std::size_t i = 0; i < depth.z_m.size(); ++i) {
-    // taps alone do not tell that a code left the valid range
+    // whether a level lies among the valid codes can hang on a tap's last place
     if (((frame.depth.flags[i] | depth.flags[i]) & flags_invalid) != 0) continue;
     ++compared;
     const double last_place = static_cast<double>(frame.depth.ambient_e[i] + frame.depth.amplitude_e[i]) * 0x1p-23;
