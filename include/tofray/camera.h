@@ -65,7 +65,8 @@ struct Waveform {
   double rise_time_s = 0;      ///< linear edge, 0 to 100 %
   double bandwidth_hz = 0;     ///< the light source's own single pole; 0: none
   double jitter_s = 0;         ///< Gaussian, 1 sigma
-  int harmonics = 4;           ///< how many odd harmonics are kept (1,3,5,7); sine keeps one
+  int harmonics = 4;           ///< how many odd harmonics are kept (1,3,5,7); a sine has one
+  double modulation_depth = 1; ///< sine: d of the light 1 + d·cos; it has no duty and no edges
   /// measured: correlation D(τ)/S at equally spaced reference phases over one period, φ = 0; its Fourier transform gives a_m, ψ_m.
   std::vector<double> correlation;
 };

@@ -55,6 +55,7 @@ inline constexpr Range bandwidth_hz{0, 1e12};
 inline constexpr Range jitter_s{0, 1e-6};
 inline constexpr Range harmonics{1, 8};
 inline constexpr Range correlation{-10, 10};
+inline constexpr Range modulation_depth{1e-3, 1};
 
 // pixel and ADC
 inline constexpr Range charge_e{0, 1e12};

@@ -29,10 +29,16 @@ double pass_pole(Harmonic& harmonic, double frequency_hz, double pole_hz) {
   return setup::atan(ratio);
 }
 
-Harmonic rectangular_harmonic(int m, const Waveform& waveform, const Pixel& pixel, double frequency_hz, double contrast) {
+/// Light of amplitude 2·sinc(mδ)·sinc(m f t_rise), or d, against a square gate of amplitude 4/(πm)·sin(mπ/2).
+double ideal_amplitude(int m, const Waveform& waveform, double frequency_hz) {
+  if (waveform.kind == Waveform::Kind::sine) return 2.0 / pi * waveform.modulation_depth;
   const double sign = m % 4 == 1 ? 1.0 : -1.0;   // sin(mπ/2), m odd
-  Harmonic harmonic{m, sign * 4.0 / (pi * m) * sinc(m * waveform.duty), 0.0};
-  harmonic.amplitude *= sinc(m * frequency_hz * waveform.rise_time_s);
+  return sign * 4.0 / (pi * m) * sinc(m * waveform.duty) * sinc(m * frequency_hz * waveform.rise_time_s);
+}
+
+/// What light and gate make of it: poles, jitter, contrast.
+Harmonic real_harmonic(int m, const Waveform& waveform, const Pixel& pixel, double frequency_hz, double contrast) {
+  Harmonic harmonic{m, ideal_amplitude(m, waveform, frequency_hz), 0.0};
   // A slow gate samples later, which looks like a shorter path; slow light looks like a longer one.
   harmonic.phase_rad -= pass_pole(harmonic, frequency_hz, pixel.bandwidth_hz);
   harmonic.phase_rad += pass_pole(harmonic, frequency_hz, waveform.bandwidth_hz);
@@ -67,14 +73,17 @@ std::vector<Harmonic> correlation_harmonics(const Waveform& waveform, const Pixe
     refuse("a modulation frequency must be above zero\n  got " + std::to_string(modulation_frequency_hz) + " Hz");
   if (waveform.harmonics < 1) refuse("a waveform needs at least one harmonic\n  got " + std::to_string(waveform.harmonics));
   if (waveform.kind == Waveform::Kind::measured) return measured_harmonics(waveform.correlation, waveform.harmonics);
-  if (!(waveform.duty > 0 && waveform.duty < 1))
+  const bool sine = waveform.kind == Waveform::Kind::sine;
+  if (sine && !(waveform.modulation_depth > 0 && waveform.modulation_depth <= 1))
+    refuse("a modulation depth must lie above 0, up to 1\n  got " + std::to_string(waveform.modulation_depth));
+  if (!sine && !(waveform.duty > 0 && waveform.duty < 1))
     refuse("a duty must lie between 0 and 1\n  got " + std::to_string(waveform.duty));
 
   const double contrast = base::ClampedCurve(pixel.contrast, "the pixel's contrast").evaluate(modulation_frequency_hz);
-  const int count = waveform.kind == Waveform::Kind::sine ? 1 : waveform.harmonics;
+  const int count = sine ? 1 : waveform.harmonics;
   std::vector<Harmonic> harmonics;
   for (int i = 0; i < count; ++i)
-    harmonics.push_back(rectangular_harmonic(2 * i + 1, waveform, pixel, modulation_frequency_hz, contrast));
+    harmonics.push_back(real_harmonic(2 * i + 1, waveform, pixel, modulation_frequency_hz, contrast));
   return harmonics;
 }
 

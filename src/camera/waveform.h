@@ -25,13 +25,14 @@ struct Harmonic {
 ///     a_m = 4/(πm) · sin(mπ/2) · sinc(mδ) · sinc(m f t_rise) · g(m f/f_gate) · g(m f/f_light) · exp(−½(2πmfσ_jitter)²) · K(f)
 ///     ψ_m = −atan(m f/f_gate) + atan(m f/f_light),        sinc x = sin(πx)/(πx),   g(x) = 1/√(1 + x²)   [theory: eq. 3.3, 3.4]
 ///
-/// `sine` keeps the first harmonic of this formula alone. `measured` takes a_m·e^{iψ_m} = (2/n)·Σ_k D(τ_k)/S·e^{−imτ_k} [theory: eq. 3.12],
+/// `sine` is light 1 + d·cos of `modulation_depth` d, which has no duty and no edges: a_1 = (2d/π) · g(f/f_gate) · g(f/f_light) ·
+/// exp(−½(2πfσ_jitter)²) · K(f) with the same ψ_1, and no other harmonic [theory: eq. 3.14]. `measured` takes a_m·e^{iψ_m} = (2/n)·Σ_k D(τ_k)/S·e^{−imτ_k} [theory: eq. 3.12],
 /// odd m < n/2, from the curve, which has everything in it: no other member of the waveform but `harmonics`, and no pole or contrast of the
 /// pixel, is applied to it.
 ///
 /// @param modulation_frequency_hz f > 0
 /// @return orders 1, 3, 5, …, `waveform.harmonics` of them (fewer where a measured curve has too few samples)
-/// @throws Error (bad_input) for a frequency, duty, number of harmonics or curve that makes no sense
+/// @throws Error (bad_input) for a frequency, duty, modulation depth, number of harmonics or curve that makes no sense
 std::vector<Harmonic> correlation_harmonics(const Waveform& waveform, const Pixel& pixel, double modulation_frequency_hz);
 
 }  // namespace tofray::camera

@@ -150,6 +150,7 @@ void CameraReader::waveform(const Value& value, Waveform& out) {
   out.kind = value.text == "sine" ? sine : value.text == "measured" ? measured : rectangular;
   if (value["duty"]) out.duty = value["duty"].number;
   out.rise_time_s = value["rise_time"].number;
+  if (value["modulation_depth"]) out.modulation_depth = value["modulation_depth"].number;
   out.bandwidth_hz = value["bandwidth"].number;
   out.jitter_s = value["jitter"].number;
   out.harmonics = value["harmonics"] ? whole(value["harmonics"]) : 1;

@@ -95,6 +95,7 @@ Json waveform_json(const Waveform& waveform) {
   Json json = Json::object();
   json.set("kind", kind).set("duty", waveform.duty).set("rise_time_s", waveform.rise_time_s).set("bandwidth_hz", waveform.bandwidth_hz);
   json.set("jitter_s", waveform.jitter_s).set("harmonics", waveform.harmonics);
+  if (waveform.kind == Waveform::Kind::sine) json.set("modulation_depth", waveform.modulation_depth);
   if (waveform.kind == Waveform::Kind::measured) json.set("correlation", Json::list(waveform.correlation));
   return json;
 }

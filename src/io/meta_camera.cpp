@@ -105,7 +105,7 @@ Json waveform(const Json& from) {
   out.same("kind");
   if (kind != nullptr && *kind == "measured") return out.same("correlation").same("harmonics").take();
   out.number("bandwidth_hz", "bandwidth", "Hz").number("jitter_s", "jitter", "s");
-  if (kind != nullptr && *kind == "sine") return out.take();
+  if (kind != nullptr && *kind == "sine") return out.same("modulation_depth").take();
   return out.same("duty").number("rise_time_s", "rise_time", "s").same("harmonics").take();
 }
 

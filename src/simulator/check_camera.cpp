@@ -80,8 +80,11 @@ void check_light(const Illumination& light, const std::string& path) {
     at_most(w.correlation.size(), limit::curve_points.value, "samples of " + in + "correlation");
     return within(w.correlation, range::correlation, in + "correlation");
   }
-  if (w.kind == Waveform::Kind::rectangular) within(w.duty, range::duty, in + "duty");
-  within(w.rise_time_s, range::rise_time_s, in + "rise_time_s");
+  if (w.kind == Waveform::Kind::sine) within(w.modulation_depth, range::modulation_depth, in + "modulation_depth");
+  if (w.kind == Waveform::Kind::rectangular) {
+    within(w.duty, range::duty, in + "duty");
+    within(w.rise_time_s, range::rise_time_s, in + "rise_time_s");
+  }
   within(w.bandwidth_hz, range::bandwidth_hz, in + "bandwidth_hz");
   within(w.jitter_s, range::jitter_s, in + "jitter_s");
 }

@@ -160,14 +160,50 @@ TEST(correlation_harmonics, contrast_is_held_outside_its_samples) {
   EXPECT_NEAR(correlation_harmonics(rectangular(0.5, 1), pixel, 300e6)[0].amplitude, 0.5 * first, 1e-15);
 }
 
-TEST(correlation_harmonics, sine_keeps_the_first_with_all_its_factors) {
+/// Light 1 + d·cos against the gate q = ±1, by counting samples of one period.
+double sine_overlap(double depth, double angle) {
+  const int samples = 1 << 20;
+  double sum = 0;
+  for (int i = 0; i < samples; ++i) {
+    const double x = 2 * pi * (i + 0.5) / samples;
+    sum += (1 + depth * std::cos(x)) * (std::cos(x + angle) > 0 ? 1 : -1);
+  }
+  return sum / samples;
+}
+
+// A cosine in the angle, and nothing else: 2d/π·cos. Each of the gate's two edges can be a sample off: 2·2/2^20 at most.
+TEST(correlation_harmonics, of_a_sine_are_the_overlap_of_a_cosine_and_the_gate) {
+  for (const double depth : {1.0, 0.6}) {
+    Waveform waveform;
+    waveform.kind = Waveform::Kind::sine, waveform.modulation_depth = depth;
+    const auto harmonics = correlation_harmonics(waveform, ideal_pixel(), 60e6);
+    ASSERT_EQ(harmonics.size(), 1u);
+    EXPECT_NEAR(harmonics[0].amplitude, 2 * depth / pi, 1e-15);
+    EXPECT_EQ(harmonics[0].phase_rad, 0.0);
+    for (const double angle : {0.0, 0.4, 1.1, 2.0, 3.0, 4.4})
+      EXPECT_NEAR(harmonics[0].amplitude * std::cos(angle), sine_overlap(depth, angle), 4e-6) << depth << " " << angle;
+  }
+}
+
+// Poles, jitter and contrast act on a sine; duty and edges it has none.
+TEST(correlation_harmonics, of_a_sine_have_poles_jitter_and_contrast_but_no_duty_and_no_edges) {
+  const double f = 80.32e6;
   Waveform waveform = pico_flexx_waveform();
   waveform.kind = Waveform::Kind::sine;
-  const auto harmonics = correlation_harmonics(waveform, pico_flexx_pixel(), 80.32e6);
+  waveform.bandwidth_hz = 250e6, waveform.jitter_s = 1e-10;
+  const auto harmonics = correlation_harmonics(waveform, pico_flexx_pixel(), f);
   ASSERT_EQ(harmonics.size(), 1u);
   EXPECT_EQ(harmonics[0].order, 1);
-  EXPECT_NEAR(harmonics[0].amplitude, 0.776815, 5e-7);
-  EXPECT_NEAR(harmonics[0].phase_rad, -0.419708, 5e-7);
+  EXPECT_NEAR(harmonics[0].amplitude,
+              2 / pi / std::hypot(1.0, f / 180e6) / std::hypot(1.0, f / 250e6) * std::exp(-0.5 * std::pow(2 * pi * f * 1e-10, 2)) * 0.75, 1e-15);
+  EXPECT_NEAR(harmonics[0].phase_rad, std::atan(f / 250e6) - std::atan(f / 180e6), 1e-15);
+}
+
+// A rectangle cut off after its first harmonic is another thing: 8/π² at half duty.
+TEST(correlation_harmonics, of_a_rectangle_can_be_cut_off_after_the_first) {
+  const auto harmonics = correlation_harmonics(rectangular(0.5, 1), ideal_pixel(), 60e6);
+  ASSERT_EQ(harmonics.size(), 1u);
+  EXPECT_NEAR(harmonics[0].amplitude, 8 / (pi * pi), 1e-15);
 }
 
 TEST(correlation_harmonics, of_a_measured_curve_are_its_fourier_coefficients) {
@@ -199,6 +235,11 @@ TEST(correlation_harmonics, refuse_what_makes_no_sense) {
     EXPECT_NE(message(rectangular(0.5, 4), f).find("modulation frequency must be above zero"), std::string::npos);
   for (const double duty : {0.0, 1.0, -0.1, nan}) EXPECT_NE(message(rectangular(duty, 4), 1e6).find("duty"), std::string::npos);
   EXPECT_NE(message(rectangular(0.5, 0), 1e6).find("at least one harmonic"), std::string::npos);
+  for (const double depth : {0.0, 1.01, -0.1, nan}) {
+    Waveform sine;
+    sine.kind = Waveform::Kind::sine, sine.modulation_depth = depth;
+    EXPECT_NE(message(sine, 1e6).find("modulation depth"), std::string::npos);
+  }
   Waveform measured;
   measured.kind = Waveform::Kind::measured;
   measured.correlation = {1, -1};

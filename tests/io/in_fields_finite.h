@@ -53,7 +53,7 @@ inline bool finite(const Illumination& light) {
   const Waveform& w = light.waveform;
   return sane_all(light.position) && sane_all(light.axis) && sane({light.illumination_wavelength_m, light.power_w}) &&
          sane({p.half_angle_rad, p.exponent, p.width_rad, p.height_rad, p.half_range_x_rad, p.half_range_y_rad}) && sane_all(p.samples) &&
-         sane({w.duty, w.rise_time_s, w.bandwidth_hz, w.jitter_s}) && sane_all(w.correlation);
+         sane({w.duty, w.rise_time_s, w.bandwidth_hz, w.jitter_s, w.modulation_depth}) && sane_all(w.correlation);
 }
 
 inline bool finite(const Camera& c) {

@@ -24,7 +24,7 @@ TEST(camera_of_meta, gives_back_every_mode_of_every_builtin_profile) {
 
 TEST(camera_of_meta, gives_back_kinds_that_no_builtin_profile_has) {
   const std::vector<std::vector<std::pair<std::string, std::string>>> changes = {
-      {{"illumination.0.waveform", "{kind: sine, jitter: 10 ps}"}},
+      {{"illumination.0.waveform", "{kind: sine, jitter: 10 ps, modulation_depth: 87 %}"}},
       {{"illumination.0.waveform", "{kind: measured, correlation: [1, 0.1, -1, 0.2, 0.3, 0.05, -0.2, 0.1], harmonics: 2}"}},
       {{"illumination.0.pattern", "{kind: table, half_range_x: 30 deg, half_range_y: 20 deg, samples: [[1, 2, 3], [4, 5, 6]]}"}},
       {{"illumination.0.pattern", "{kind: cone, half_angle: 30 deg}"}},

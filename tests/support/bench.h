@@ -13,7 +13,7 @@
 /// One pixel on the bench: light goes in by hand, raw frames and depth come out. The plain float's kernels.
 namespace tofray::test {
 
-/// A camera without optics to speak of: sine, light at the pupil, no dark current, no read noise, 16 bits of 1 e⁻, wells without a bottom.
+/// A camera without optics to speak of: half duty and its first harmonic alone, light at the pupil, no dark current, no read noise, 16 bits of 1 e⁻, wells without a bottom.
 /// @param amplitude  C: first harmonic of the correlation, for any modulation frequency
 inline Camera bench_camera(const std::vector<double>& frequencies_hz = {60.24e6}, int phases = 4, double amplitude = 0.7,
                            bool grey = false) {
@@ -23,7 +23,7 @@ inline Camera bench_camera(const std::vector<double>& frequencies_hz = {60.24e6}
   camera.lens.vignetting = Lens::Vignetting::off;
   Illumination light;
   light.power_w = 0.2;
-  light.waveform.kind = Waveform::Kind::sine;
+  light.waveform.harmonics = 1;
   camera.illumination.push_back(light);
   camera.pixel.quantum_efficiency = {{850e-9}, {0.4}};
   camera.pixel.contrast = {{60e6}, {amplitude * pi * pi / 8}};  // half duty: a_1 = 8/π²·K
