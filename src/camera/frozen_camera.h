@@ -57,7 +57,7 @@ class FrozenCamera {
   void freeze_quadrature(int modulation);
   void freeze_patterns();
   void freeze_decoder(int noise);
-  void freeze_modulations(const Waveform& waveform, double grey_time);
+  void freeze_modulations(double grey_time);
   void freeze_without_modulation();
 
   Camera camera_;

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <cmath>
+#include <complex>
 #include <limits>
 
 #include "base/constants.h"
@@ -66,12 +67,41 @@ void list_raw_frames(const Group& g, DecodeModulation& m) {
   }
 }
 
-/// The light source that is decoded: the first. Where there is none, a sine at the camera's place stands for it.
-Illumination decoded_light(const Camera& camera) {
-  if (!camera.illumination.empty()) return camera.illumination[0];
-  Illumination none;
-  none.waveform.kind = Waveform::Kind::sine;
-  return none;
+/// A light source as the decoder counts it: by its share of the electrons that all of them make of one and the same surface.
+struct Share {
+  const Illumination* light;
+  double weight;
+};
+
+/// Shares of all lights, equal ones where none has any power.
+std::vector<Share> shares_of(const std::vector<Illumination>& lights, const std::vector<FrozenLight>& frozen) {
+  std::vector<Share> shares;
+  double sum = 0;
+  for (std::size_t l = 0; l < lights.size(); ++l) {
+    shares.push_back({&lights[l], lights[l].power_w * static_cast<double>(frozen[l].view.electrons_per_joule)});
+    sum += shares.back().weight;
+  }
+  for (Share& share : shares) share.weight = sum > 0 ? share.weight / sum : 1 / static_cast<double>(shares.size());
+  return shares;
+}
+
+/// Harmonics of light that comes from all sources by their shares: Σ_l w_l·a_m,l·e^{iψ_m,l}.                 [theory: eq. 4.15]
+/// Where there is no light source, a sine stands for it.
+std::vector<Harmonic> mean_harmonics(const std::vector<Share>& shares, const Pixel& pixel, double frequency) {
+  if (shares.empty()) return {{1, 1, 0}};
+  std::vector<std::complex<double>> phasors;
+  for (const Share& share : shares) {
+    for (const Harmonic& h : correlation_harmonics(share.light->waveform, pixel, frequency)) {
+      const auto at = static_cast<std::size_t>(h.order / 2);
+      if (phasors.size() <= at) phasors.resize(at + 1);
+      phasors[at] += share.weight * h.amplitude * std::complex<double>(setup::cos(h.phase_rad), setup::sin(h.phase_rad));
+    }
+  }
+  std::vector<Harmonic> out;
+  for (std::size_t i = 0; i < phasors.size(); ++i) {
+    out.push_back({static_cast<int>(2 * i + 1), setup::hypot(phasors[i].real(), phasors[i].imag()), setup::atan2(phasors[i].imag(), phasors[i].real())});
+  }
+  return out;
 }
 
 }  // namespace
@@ -79,7 +109,7 @@ Illumination decoded_light(const Camera& camera) {
 void FrozenCamera::freeze_decoder(int noise) {
   DecoderView& d = decoder_;
   const Decoding& decoding = camera_.decoding;
-  const Illumination light = decoded_light(camera_);
+  const std::vector<Share> shares = shares_of(camera_.illumination, lights_);
   d.modulations = sensor_.modulations;
   d.wiggling_nodes = wiggling_nodes;
   double grey_time = 0;
@@ -89,15 +119,24 @@ void FrozenCamera::freeze_decoder(int noise) {
     d.grey_frame[d.grey_frames++] = static_cast<std::int32_t>(k);
   }
   if (d.modulations > 0) {
-    freeze_modulations(light.waveform, grey_time);
+    freeze_modulations(grey_time);
   } else {
     freeze_without_modulation();
   }
-  for (std::size_t k = 0; k < 3; ++k) d.light[k] = f(light.position[k]);
+  // The mean of |L|², not the square of the mean: then ℓ² − 2rℓ = |L|² − 2r·u·L holds of the means, but for the paths' own spread. [eq. 4.15]
+  Vec3 mean{0, 0, 0};
+  double square = 0;
+  for (const Share& share : shares) {
+    mean = mean + share.weight * share.light->position;
+    square += share.weight * dot(share.light->position, share.light->position);
+  }
+  for (std::size_t k = 0; k < 3; ++k) d.light[k] = f(mean[k]);
   // No path is that long: without a light source nothing that is measured is a return.
-  d.light_square = camera_.illumination.empty() ? std::numeric_limits<float>::max() : f(dot(light.position, light.position));
+  d.light_square = shares.empty() ? std::numeric_limits<float>::max() : f(square);
   const double read = camera_.pixel.read_noise_e, step = camera_.adc.step_e_per_dn;
   d.noise_floor = f(2 * read * read + step * step / 12);
+  d.suppression_threshold = sensor_.suppression_threshold, d.suppression_budget = sensor_.suppression_budget;
+  d.suppression_variance = f(2 * camera_.pixel.suppression_noise_factor * camera_.pixel.suppression_noise_factor);
   d.dark_rate_both = f(2 * camera_.pixel.dark_current_e_per_s);
   d.low_signal_noise = noise == 0 ? std::numeric_limits<float>::max() : f(decoding.low_signal_noise_m);
   d.per_confidence_noise = f(1 / decoding.low_signal_noise_m);
@@ -107,18 +146,19 @@ void FrozenCamera::freeze_decoder(int noise) {
   d.delay = sensor_.delay;
 }
 
-void FrozenCamera::freeze_modulations(const Waveform& waveform, double grey_time) {
+void FrozenCamera::freeze_modulations(double grey_time) {
   DecoderView& d = decoder_;
   const double wave_speed = speed_of_light / camera_.refractive_index;
+  const std::vector<Share> shares = shares_of(camera_.illumination, lights_);
   for (int i = 0; i < d.modulations; ++i) {
     const std::size_t at = static_cast<std::size_t>(i);
     const Group group = group_of(camera_.mode, modulations_, i);
     const double count = static_cast<double>(group.tau.size()), frequency = modulations_.frequency_hz[at];
-    auto harmonics = correlation_harmonics(waveform, camera_.pixel, frequency);
+    auto harmonics = mean_harmonics(shares, camera_.pixel, frequency);
     const double contrast = harmonics.front().amplitude;
     if (!(contrast >= least_contrast)) {
       throw Error(ErrorKind::bad_input, "error: next to nothing is left of the modulation\n  got a contrast of " + number_text(contrast) + " at " +
-                                            number_text(1e-6 * frequency) + " MHz; mind the pixel's contrast, bandwidths, rise time and jitter");
+                                            number_text(1e-6 * frequency) + " MHz; mind the pixel's contrast, bandwidths, rise time, jitter and modulation depth");
     }
     if (!camera_.decoding.wiggling_correction) harmonics.resize(1);
     wiggling_.emplace_back();

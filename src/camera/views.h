@@ -119,8 +119,10 @@ struct DecoderView {
   DecodeModulation modulation[flow::max_modulation_frequencies];
   float common_range, per_common_range;   ///< R_0 [m], 1/R_0
   std::int32_t wiggling_nodes;
-  float light[3], light_square;  ///< position of the light, |L|²
+  float light[3], light_square;  ///< mean position of the lights and mean |L|², weighted by their power
   float noise_floor;             ///< 2σ_r² + s²/12 [e²]
+  float suppression_threshold, suppression_budget;   ///< [e⁻] of a tap; threshold 0: no suppression
+  float suppression_variance;    ///< 2κ²: variance of A−B for each electron off both taps
   float dark_rate_both;          ///< dark electrons per second, both taps together: noise only
   float low_signal_noise;        ///< [m]; infinite where noise is off
   float per_confidence_noise;    ///< 1/0.07 m

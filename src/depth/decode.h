@@ -16,8 +16,9 @@ enum Bits : std::int32_t {
 /// Phase and amplitude of one modulation frequency: Ẑ = (2/N)Σ D_k e^{−iτ_k}, φ̂ = arg Ẑ, Â = |Ẑ|.          [eq. 4.2]
 template <class F>
 struct Estimate {
-  F turns;          ///< φ̂/2π in [0, 1)
-  F amplitude;      ///< Â [e⁻]
+  F real, imaginary;   ///< Ẑ [e⁻]
+  F turns;             ///< φ̂/2π in [0, 1)
+  F amplitude;         ///< Â [e⁻]
 };
 
 template <class F>
@@ -30,7 +31,7 @@ TOFRAY_FN Estimate<F> estimate(const camera::DecoderView& s, const camera::Decod
   }
   const F turns = num::atan2_turns(imaginary, real);
   const F positive = num::select(turns < F(0.0f), turns + F(1.0f), turns);
-  return {num::select(positive >= F(1.0f), F(0.0f), positive), num::sqrt(num::fma(real, real, imaginary * imaginary))};
+  return {real, imaginary, num::select(positive >= F(1.0f), F(0.0f), positive), num::sqrt(num::fma(real, real, imaginary * imaginary))};
 }
 
 /// φ̂ → φ by the wiggling table; `slope` is dφ/dφ̂.                                                         [eq. 4.3]
@@ -61,11 +62,35 @@ TOFRAY_FN Mask<F> phases_disagree(const camera::DecodeModulation& m, const F* di
   return most * most > F(50.0f) * variance;
 }
 
+/// What background suppression adds to the variance, as if to each raw frame: of frame k it took about x_k = min(budget, ½(collected − |D_k|)
+/// − threshold), and its noise turns the phase by the part that stands across Ẑ.                            [eq. 4.13]
+/// @param collected  Â/C + B̂ + dark: electrons of both taps together
+template <class F>
+TOFRAY_FN F suppression_variance(const camera::DecoderView& s, const camera::DecodeModulation& m, const F* difference, const Estimate<F>& e, F collected) {
+  F across = F(0.0f);
+  for (int j = 0; j < m.count; ++j) {
+    const int k = m.raw_frame[j];
+    const F excess = F(0.5f) * (collected - num::abs(difference[k])) - F(s.suppression_threshold);
+    const F removed = num::min(num::max(excess, F(0.0f)), F(s.suppression_budget));
+    const F turn = num::fma(e.imaginary, F(s.frame[k].cosine), e.real * F(s.frame[k].sine));     // (2/N)·Â·sin(φ̂ + τ_k)
+    across = num::fma(removed, turn * turn, across);
+  }
+  const F square = num::max(e.amplitude * e.amplitude, F(1e-6f));
+  return across / square * F(s.suppression_variance * 0.5f * static_cast<float>(m.count));
+}
+
 /// Exact inverse of ℓ = |P − L| + |P| along the unit view ray u: range = (ℓ² − |L|²)/(2(ℓ − u·L)).             [eq. 2.9]
 template <class F>
-TOFRAY_FN F range_from_path(const camera::DecoderView& s, F path_length, F ux, F uy, F uz) {
+struct Inverse {
+  F range;
+  F slope;          ///< of the range over half the path: 2(ℓ − range)/(ℓ − u·L)                             [eq. 4.14]
+};
+template <class F>
+TOFRAY_FN Inverse<F> range_from_path(const camera::DecoderView& s, F path_length, F ux, F uy, F uz) {
   const F along = num::fma(ux, F(s.light[0]), num::fma(uy, F(s.light[1]), uz * F(s.light[2])));
-  return num::fma(path_length, path_length, F(-s.light_square)) / (F(2.0f) * (path_length - along));
+  const F per_length = F(1.0f) / (path_length - along);
+  const F range = F(0.5f) * num::fma(path_length, path_length, F(-s.light_square)) * per_length;
+  return {range, F(2.0f) * (path_length - range) * per_length};
 }
 
 template <class F>
@@ -87,7 +112,11 @@ TOFRAY_FN Depth<F> decode(const camera::DecoderView& s, const F* difference, Mas
     turns[i] = phi - num::floor(phi);
     // V̂ = Â/C + B̂ + dark + 2σ_r² + s²/12, σ_φ² = (2V̂/N)/Â²·(dφ/dφ̂)²                                       [eq. 4.9]
     const F light = grey * F(m.ambient_scale);
-    const F variance = num::fma(e.amplitude, F(m.per_contrast), light) + F(s.noise_floor + s.dark_rate_both * m.integration_time);
+    const F electrons = num::fma(e.amplitude, F(m.per_contrast), light);
+    F variance = electrons + F(s.noise_floor + s.dark_rate_both * m.integration_time);
+    if (s.suppression_threshold > 0) {
+      variance = variance + suppression_variance(s, m, difference, e, electrons + F(s.dark_rate_both * m.integration_time));
+    }
     const F signal = num::max(e.amplitude, F(1e-3f));
     weight[i] = signal * signal / (variance * F(m.variance_factor) * (slope * slope));
     moved = moved | phases_disagree<F>(m, difference, variance);
@@ -98,9 +127,11 @@ TOFRAY_FN Depth<F> decode(const camera::DecoderView& s, const F* difference, Mas
   const F per_count = F(1.0f / static_cast<float>(s.modulations));
   const HalfPath<F> half = unwrap(s, turns, weight);
   const F path_length = half.value + half.value;
-  const F per_length = ray.inverse_length, sigma = num::sqrt(half.variance);
+  const F per_length = ray.inverse_length;
+  const Inverse<F> inverse = range_from_path(s, path_length, ray.x * per_length, ray.y * per_length, ray.z * per_length);
+  const F sigma = num::abs(inverse.slope) * num::sqrt(half.variance);
   Depth<F> out;
-  out.range = range_from_path(s, path_length, ray.x * per_length, ray.y * per_length, ray.z * per_length);
+  out.range = inverse.range;
   out.amplitude = amplitude * per_count;
   out.ambient = ambient * per_count;
   out.noise = sigma;
