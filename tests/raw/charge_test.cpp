@@ -229,3 +229,50 @@ TEST(electrons, of_several_lights_add_up) {
     EXPECT_NEAR(static_cast<double>(taps.a + taps.b), 4000, 1e-3);
   }
 }
+
+// … at reference phases that are no quarter turns as well, where every harmonic's real and imaginary part is summed over the lights. From
+// D_k = Σ_l S_l·Σ_m a_m·cos(m(φ_l + τ_k) + ψ_m), with light poles that turn each light's harmonics by another angle.
+TEST(electrons, of_several_lights_add_up_at_any_reference_phases) {
+  const double f = 60.24e6, poles[2] = {90e6, 200e6}, duties[2] = {0.25, 0.4}, signals[2] = {30000, 10000}, paths[2] = {2.0, 3.1};
+  for (const int phases : {3, 5}) {
+    Camera camera = bench_camera({f}, phases);
+    camera.pixel.contrast = {{60e6}, {0.8}};
+    camera.illumination.push_back(camera.illumination[0]);
+    for (std::size_t l = 0; l < 2; ++l) {
+      Waveform& w = camera.illumination[l].waveform;
+      w.harmonics = 4, w.duty = duties[l], w.bandwidth_hz = poles[l];
+    }
+    const Bench bench(camera);
+    flow::Light<float> light{};
+    for (int l = 0; l < 2; ++l) light.signal_rate[l] = static_cast<float>(1e3 * signals[l]), light.path_length[l] = static_cast<float>(paths[l]);
+    light.total_rate = 4e7f;
+    auto exposure = raw::start<float>(bench.sensor(), {0, 1});
+    for (int k = 0; k < phases; ++k) {
+      const auto taps = raw::expose(bench.sensor(), k, light, 2, false, {0, 0}, exposure);
+      double expected = 0;
+      for (int l = 0; l < 2; ++l) {
+        const double phase = two_pi * (static_cast<double>(light.path_length[l]) * f / c + static_cast<double>(k) / phases);
+        for (const int m : {1, 3, 5, 7}) {
+          const double x = pi * m * duties[l], a = 4 / (pi * m) * std::sin(m * pi / 2) * std::sin(x) / x * 0.8 / std::hypot(1.0, m * f / poles[l]);
+          expected += signals[l] * a * std::cos(m * phase + std::atan(m * f / poles[l]));
+        }
+      }
+      EXPECT_NEAR(static_cast<double>(taps.difference), expected, 0.03) << phases << " phases, raw frame " << k;
+    }
+  }
+}
+
+// What a pixel starts with is its own place in each pattern; without patterns gain 1, no offset, no delay.
+TEST(fixed_pattern, is_each_pixel_s_own_from_the_start_of_its_exposure) {
+  const Bench bench(patterned(50)), plain(bench_camera());
+  for (int i = 0; i < 50; ++i) {
+    const auto exposure = raw::start<float>(bench.sensor(), {i, 1});
+    EXPECT_EQ(exposure.gain, bench.sensor().gain[i]);
+    EXPECT_EQ(exposure.offset, bench.sensor().offset[i]);
+    EXPECT_EQ(exposure.delay, bench.sensor().delay[i]);
+  }
+  const auto exposure = raw::start<float>(plain.sensor(), {0, 1});
+  EXPECT_EQ(exposure.gain, 1.0f);
+  EXPECT_EQ(exposure.offset, 0.0f);
+  EXPECT_EQ(exposure.delay, 0.0f);
+}

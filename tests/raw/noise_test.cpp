@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <vector>
@@ -183,4 +184,64 @@ TEST(draws, of_read_noise_are_independent_of_shot_noise) {
   EXPECT_LT(std::abs(between_taps.z()), 5.5);
   EXPECT_NEAR(size.deviation(), 16, 5.5 * 16 / std::sqrt(4.0 * samples));
   EXPECT_LT(std::abs(size.mean()), 5.5 * 16 / std::sqrt(2.0 * samples));
+}
+
+// What suppression draws is not what shot and read noise drew for the same pixel, raw frame and frame: neither the value nor its size.
+TEST(draws, of_suppression_are_independent_of_shot_and_read_noise) {
+  camera::SensorView shot{}, read{}, taking{};
+  read.read_noise = 16;
+  taking.suppression_threshold = 1000, taking.suppression_budget = 1e6f, taking.suppression_noise = 1, taking.noise = 2;
+  std::vector<Correlation> pairs(24, Correlation(0, 0));
+  for (int i = 0; i < samples; ++i) {
+    raw::MergedWords<float> words{};
+    const auto exact = raw::expose_exact<float>(shot, {10000.0f, 10000.0f}, i, 0, {0, 0});
+    const auto with_read = raw::expose_exact<float>(read, {10000.0f, 10000.0f}, i, 0, {0, 0});
+    const auto fast = raw::expose_fast<float>(shot, {10000.0f, 10000.0f}, i, 0, {0, 0}, words);
+    const auto left = raw::suppress<float>(taking, {10000.0f, 10000.0f}, i, 0, {0, 0});
+    const double drawn[6] = {static_cast<double>(exact.a) - 10000,           static_cast<double>(exact.b) - 10000,
+                             static_cast<double>(with_read.a - exact.a),     static_cast<double>(with_read.b - exact.b),
+                             static_cast<double>(fast.a) - 10000,            static_cast<double>(fast.b) - 10000};
+    const double added[2] = {static_cast<double>(left.a) - 1000, static_cast<double>(left.b) - 1000};
+    for (std::size_t x = 0; x < 6; ++x) {
+      for (std::size_t y = 0; y < 2; ++y) {
+        pairs[2 * x + y].add(drawn[x], added[y]), pairs[12 + 2 * x + y].add(drawn[x] * drawn[x], added[y] * added[y]);
+      }
+    }
+  }
+  for (std::size_t i = 0; i < pairs.size(); ++i) EXPECT_LT(std::abs(pairs[i].z()), 5.5) << (i < 12 ? "values " : "squares ") << i % 12;
+}
+
+// Fast noise's ninth raw frame lives on the bits that eight before it left over: its radius and angle are as evenly spread as theirs, and the
+// sizes of its normals know nothing of those whose words the bits came from. χ² over 64 cells and |r|·√n < 5.5: false alarm 4e-8 each.
+TEST(draws, of_fast_noise_from_spare_bits_are_as_good_as_any) {
+  constexpr double mean = 1e6;
+  constexpr int cells = 64;
+  camera::SensorView sensor{};
+  std::vector<double> radius(9 * cells), angle(9 * cells);
+  std::vector<Correlation> sizes(8, Correlation(2, 2)), values(32, Correlation(0, 0));
+  for (int i = 0; i < samples; ++i) {
+    raw::MergedWords<float> words{};
+    double za[9], zb[9];
+    for (int k = 0; k < 9; ++k) {
+      const auto got = raw::expose_fast<float>(sensor, {1e6f, 1e6f}, i, k, {0, 0}, words);
+      za[k] = (static_cast<double>(got.a) - mean) / std::sqrt(mean), zb[k] = (static_cast<double>(got.b) - mean) / std::sqrt(mean);
+      const auto cell = [](double share) { return static_cast<std::size_t>(std::min(cells - 1.0, std::max(0.0, share * cells))); };
+      ++radius[static_cast<std::size_t>(k * cells) + cell(std::exp(-0.5 * (za[k] * za[k] + zb[k] * zb[k])))];
+      ++angle[static_cast<std::size_t>(k * cells) + cell(std::atan2(zb[k], za[k]) / two_pi + 0.5)];
+    }
+    for (std::size_t k = 0; k < 8; ++k) {
+      sizes[k].add(za[k] * za[k] + zb[k] * zb[k], za[8] * za[8] + zb[8] * zb[8]);
+      values[4 * k].add(za[k], za[8]), values[4 * k + 1].add(za[k], zb[8]), values[4 * k + 2].add(zb[k], za[8]), values[4 * k + 3].add(zb[k], zb[8]);
+    }
+  }
+  const std::vector<double> even(cells, static_cast<double>(samples) / cells);
+  const auto of_frame = [](const std::vector<double>& counts, std::ptrdiff_t k) {
+    return std::vector<double>(counts.begin() + k * cells, counts.begin() + (k + 1) * cells);
+  };
+  for (std::ptrdiff_t k = 0; k < 9; ++k) {
+    EXPECT_LT(std::abs(chi_square_z(of_frame(radius, k), even)), 5.5) << "radius, raw frame " << k;
+    EXPECT_LT(std::abs(chi_square_z(of_frame(angle, k), even)), 5.5) << "angle, raw frame " << k;
+  }
+  for (std::size_t k = 0; k < 8; ++k) EXPECT_LT(std::abs(sizes[k].z()), 5.5) << "sizes, raw frame " << k;
+  for (std::size_t i = 0; i < values.size(); ++i) EXPECT_LT(std::abs(values[i].z()), 5.5) << "values, raw frame " << i / 4;
 }
