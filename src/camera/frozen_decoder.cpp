@@ -99,7 +99,8 @@ std::vector<Harmonic> mean_harmonics(const std::vector<Share>& shares, const Pix
   }
   std::vector<Harmonic> out;
   for (std::size_t i = 0; i < phasors.size(); ++i) {
-    out.push_back({static_cast<int>(2 * i + 1), setup::hypot(phasors[i].real(), phasors[i].imag()), setup::atan2(phasors[i].imag(), phasors[i].real())});
+    const double real = phasors[i].real(), imaginary = phasors[i].imag();
+    out.push_back({static_cast<int>(2 * i + 1), setup::hypot(real, imaginary), setup::atan2(imaginary, real)});
   }
   return out;
 }
@@ -123,7 +124,7 @@ void FrozenCamera::freeze_decoder(int noise) {
   } else {
     freeze_without_modulation();
   }
-  // The mean of |L|², not the square of the mean: then ℓ² − 2rℓ = |L|² − 2r·u·L holds of the means, but for the paths' own spread. [eq. 4.15]
+  // The mean of |L|², not the square of the mean: then ℓ² − 2rℓ = |L|² − 2r·u·L holds of the means, but for the paths' spread. [eq. 4.15]
   Vec3 mean{0, 0, 0};
   double square = 0;
   for (const Share& share : shares) {

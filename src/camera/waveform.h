@@ -26,8 +26,8 @@ struct Harmonic {
 ///     ψ_m = −atan(m f/f_gate) + atan(m f/f_light),        sinc x = sin(πx)/(πx),   g(x) = 1/√(1 + x²)   [theory: eq. 3.3, 3.4]
 ///
 /// `sine` is light 1 + d·cos of `modulation_depth` d, which has no duty and no edges: a_1 = (2d/π) · g(f/f_gate) · g(f/f_light) ·
-/// exp(−½(2πfσ_jitter)²) · K(f) with the same ψ_1, and no other harmonic [theory: eq. 3.14]. `measured` takes a_m·e^{iψ_m} = (2/n)·Σ_k D(τ_k)/S·e^{−imτ_k} [theory: eq. 3.12],
-/// odd m < n/2, from the curve, which has everything in it: no other member of the waveform but `harmonics`, and no pole or contrast of the
+/// exp(−½(2πfσ_jitter)²) · K(f) with the same ψ_1, and no other harmonic [theory: eq. 3.14].
+/// `measured` takes a_m·e^{iψ_m} = (2/n)·Σ_k D(τ_k)/S·e^{−imτ_k} [theory: eq. 3.12], odd m < n/2, from the curve, which has everything in it: no other member of the waveform but `harmonics`, and no pole or contrast of the
 /// pixel, is applied to it.
 ///
 /// @param modulation_frequency_hz f > 0

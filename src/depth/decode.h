@@ -62,11 +62,12 @@ TOFRAY_FN Mask<F> phases_disagree(const camera::DecodeModulation& m, const F* di
   return most * most > F(50.0f) * variance;
 }
 
-/// What background suppression adds to the variance, as if to each raw frame: of frame k it took about x_k = min(budget, ½(collected − |D_k|)
-/// − threshold), and its noise turns the phase by the part that stands across Ẑ.                            [eq. 4.13]
+/// What background suppression adds to the variance, as if to each raw frame: of frame k it took about
+/// x_k = min(budget, ½(collected − |D_k|) − threshold), and its noise turns the phase by the part that stands across Ẑ.   [eq. 4.13]
 /// @param collected  Â/C + B̂ + dark: electrons of both taps together
 template <class F>
-TOFRAY_FN F suppression_variance(const camera::DecoderView& s, const camera::DecodeModulation& m, const F* difference, const Estimate<F>& e, F collected) {
+TOFRAY_FN F suppression_variance(const camera::DecoderView& s, const camera::DecodeModulation& m, const F* difference, const Estimate<F>& e,
+                                 F collected) {
   F across = F(0.0f);
   for (int j = 0; j < m.count; ++j) {
     const int k = m.raw_frame[j];
@@ -77,6 +78,16 @@ TOFRAY_FN F suppression_variance(const camera::DecoderView& s, const camera::Dec
   }
   const F square = num::max(e.amplitude * e.amplitude, F(1e-6f));
   return across / square * F(s.suppression_variance * 0.5f * static_cast<float>(m.count));
+}
+
+/// V̂ = Â/C + B̂ + dark + 2σ_r² + s²/12, and what suppression adds; σ_φ² = (2V̂/N)/Â²·(dφ/dφ̂)².               [eq. 4.9]
+template <class F>
+TOFRAY_FN F variance_of(const camera::DecoderView& s, const camera::DecodeModulation& m, const F* difference, const Estimate<F>& e, F ambient) {
+  const F electrons = num::fma(e.amplitude, F(m.per_contrast), ambient);
+  const float dark = s.dark_rate_both * m.integration_time;
+  const F variance = electrons + F(s.noise_floor + dark);
+  if (!(s.suppression_threshold > 0)) return variance;
+  return variance + suppression_variance(s, m, difference, e, electrons + F(dark));
 }
 
 /// Exact inverse of ℓ = |P − L| + |P| along the unit view ray u: range = (ℓ² − |L|²)/(2(ℓ − u·L)).             [eq. 2.9]
@@ -110,13 +121,8 @@ TOFRAY_FN Depth<F> decode(const camera::DecoderView& s, const F* difference, Mas
     F slope;
     const F phi = num::fnma(delay, F(m.frequency), unwiggle(s, m, e.turns, slope));
     turns[i] = phi - num::floor(phi);
-    // V̂ = Â/C + B̂ + dark + 2σ_r² + s²/12, σ_φ² = (2V̂/N)/Â²·(dφ/dφ̂)²                                       [eq. 4.9]
     const F light = grey * F(m.ambient_scale);
-    const F electrons = num::fma(e.amplitude, F(m.per_contrast), light);
-    F variance = electrons + F(s.noise_floor + s.dark_rate_both * m.integration_time);
-    if (s.suppression_threshold > 0) {
-      variance = variance + suppression_variance(s, m, difference, e, electrons + F(s.dark_rate_both * m.integration_time));
-    }
+    const F variance = variance_of(s, m, difference, e, light);
     const F signal = num::max(e.amplitude, F(1e-3f));
     weight[i] = signal * signal / (variance * F(m.variance_factor) * (slope * slope));
     moved = moved | phases_disagree<F>(m, difference, variance);

@@ -142,7 +142,7 @@ TOFRAY_FN void decode_pixels(const Setup& s, const Job& job, const Recording& in
   for (int k = 0; k < sensor.raw_frames; ++k) {
     const std::int32_t at = p.index + k * s.lens.width * s.lens.height;
     num::Mask<F> over = F(1.0f) < F(0.0f);
-    F level = F(sensor.max_code) + F(1.0f);     // of a code at an end of the ADC nothing tells that it was not held there, unless the taps do
+    F level = F(sensor.max_code) + F(1.0f);   // of a code at an end of the ADC only the taps could tell that it was not held there
     if (in.tap_a != nullptr) {
       const F a = num::load<F>(in.tap_a + at, p.count), b = num::load<F>(in.tap_b + at, p.count);
       const auto charges = (num::abs(a) <= F(flow::max_charge)) & (num::abs(b) <= F(flow::max_charge));

@@ -13,7 +13,7 @@ struct Exposure {
   F gain, offset, delay;
   Phasors<F> phasors;
   MergedWords<F> merged_words;
-  F most_charge, widest_level;  ///< of the lit raw frames: largest charge of a tap, largest distance of a level from the valid codes' middle
+  F most_charge, widest_level;  ///< of the lit raw frames: most charge of a tap, largest distance of a level from the valid codes' middle
 };
 
 template <class F>

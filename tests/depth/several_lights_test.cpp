@@ -23,7 +23,8 @@ double range_error(const Camera& camera, double x, double range) {
   for (int l = 0; l < lights; ++l) {
     const Illumination& source = camera.illumination[static_cast<std::size_t>(l)];
     light.signal_rate[l] = static_cast<float>(2e7 * source.power_w / sum);
-    light.path_length[l] = static_cast<float>(range + std::hypot(px - source.position[0], source.position[1], pz - source.position[2]));
+    const double from_light = std::hypot(px - source.position[0], source.position[1], pz - source.position[2]);
+    light.path_length[l] = static_cast<float>(from_light + range);
     light.total_rate += light.signal_rate[l];
   }
   auto exposure = raw::start<float>(bench.sensor(), {0, 1});

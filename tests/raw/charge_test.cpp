@@ -244,7 +244,9 @@ TEST(electrons, of_several_lights_add_up_at_any_reference_phases) {
     }
     const Bench bench(camera);
     flow::Light<float> light{};
-    for (int l = 0; l < 2; ++l) light.signal_rate[l] = static_cast<float>(1e3 * signals[l]), light.path_length[l] = static_cast<float>(paths[l]);
+    for (int l = 0; l < 2; ++l) {
+      light.signal_rate[l] = static_cast<float>(1e3 * signals[l]), light.path_length[l] = static_cast<float>(paths[l]);
+    }
     light.total_rate = 4e7f;
     auto exposure = raw::start<float>(bench.sensor(), {0, 1});
     for (int k = 0; k < phases; ++k) {
@@ -253,7 +255,8 @@ TEST(electrons, of_several_lights_add_up_at_any_reference_phases) {
       for (int l = 0; l < 2; ++l) {
         const double phase = two_pi * (static_cast<double>(light.path_length[l]) * f / c + static_cast<double>(k) / phases);
         for (const int m : {1, 3, 5, 7}) {
-          const double x = pi * m * duties[l], a = 4 / (pi * m) * std::sin(m * pi / 2) * std::sin(x) / x * 0.8 / std::hypot(1.0, m * f / poles[l]);
+          const double x = pi * m * duties[l], pole = 1 / std::hypot(1.0, m * f / poles[l]);
+          const double a = 4 / (pi * m) * std::sin(m * pi / 2) * std::sin(x) / x * 0.8 * pole;
           expected += signals[l] * a * std::cos(m * phase + std::atan(m * f / poles[l]));
         }
       }

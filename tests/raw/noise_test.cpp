@@ -211,8 +211,8 @@ TEST(draws, of_suppression_are_independent_of_shot_and_read_noise) {
   for (std::size_t i = 0; i < pairs.size(); ++i) EXPECT_LT(std::abs(pairs[i].z()), 5.5) << (i < 12 ? "values " : "squares ") << i % 12;
 }
 
-// Fast noise's ninth raw frame lives on the bits that eight before it left over: its radius and angle are as evenly spread as theirs, and the
-// sizes of its normals know nothing of those whose words the bits came from. χ² over 64 cells and |r|·√n < 5.5: false alarm 4e-8 each.
+// Fast noise's ninth raw frame lives on the bits that eight before it left over: its radius and angle are as evenly spread as theirs, and
+// the sizes of its normals know nothing of those whose words the bits came from. χ² over 64 cells and |r|·√n < 5.5: false alarm 4e-8 each.
 TEST(draws, of_fast_noise_from_spare_bits_are_as_good_as_any) {
   constexpr double mean = 1e6;
   constexpr int cells = 64;
@@ -231,7 +231,8 @@ TEST(draws, of_fast_noise_from_spare_bits_are_as_good_as_any) {
     }
     for (std::size_t k = 0; k < 8; ++k) {
       sizes[k].add(za[k] * za[k] + zb[k] * zb[k], za[8] * za[8] + zb[8] * zb[8]);
-      values[4 * k].add(za[k], za[8]), values[4 * k + 1].add(za[k], zb[8]), values[4 * k + 2].add(zb[k], za[8]), values[4 * k + 3].add(zb[k], zb[8]);
+      values[4 * k].add(za[k], za[8]), values[4 * k + 1].add(za[k], zb[8]);
+      values[4 * k + 2].add(zb[k], za[8]), values[4 * k + 3].add(zb[k], zb[8]);
     }
   }
   const std::vector<double> even(cells, static_cast<double>(samples) / cells);

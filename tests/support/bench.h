@@ -13,7 +13,8 @@
 /// One pixel on the bench: light goes in by hand, raw frames and depth come out. The plain float's kernels.
 namespace tofray::test {
 
-/// A camera without optics to speak of: half duty and its first harmonic alone, light at the pupil, no dark current, no read noise, 16 bits of 1 e⁻, wells without a bottom.
+/// A camera without optics to speak of: half duty and its first harmonic alone, light at the pupil, no dark current,
+/// no read noise, 16 bits of 1 e⁻, wells without a bottom.
 /// @param amplitude  C: first harmonic of the correlation, for any modulation frequency
 inline Camera bench_camera(const std::vector<double>& frequencies_hz = {60.24e6}, int phases = 4, double amplitude = 0.7,
                            bool grey = false) {
