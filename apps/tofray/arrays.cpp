@@ -2,7 +2,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "arrays.h"
 
+#include <fmt/format.h>
+
 #include <cmath>
+
+#include "base/text.h"
+#include "tofray/error.h"
 
 namespace tofray::app {
 
@@ -11,6 +16,9 @@ Arrays::Arrays(std::vector<io::NamedArray> arrays, std::string where) : where_(s
     meta_text_ = meta->text();
     meta_ = io::parse_json(meta_text_, where_ + ": meta");
   }
+  if (const io::NpyArray* flags = find("flags"); flags != nullptr && flags->type.kind != 'u' && flags->type.kind != 'i')
+    throw Error(ErrorKind::bad_input, fmt::format("{}: error: array \"flags\" has the wrong type\n  got {}, expected uint16", base::printable(where_),
+                                                  flags->type.name()));
   for (const char* name : {"raw", "tap_a", "z_m", "range_m"}) {
     const io::NpyArray* array = find(name);
     if (array == nullptr || array->shape.size() < 2 || array->shape.size() > 3) continue;
@@ -26,6 +34,8 @@ const io::NpyArray* Arrays::find(std::string_view name) const {
   }
   return nullptr;
 }
+
+unsigned flag_bits(double number) { return number >= 0 && number <= 65535 ? static_cast<unsigned>(number) : 0u; }
 
 double Arrays::at(std::string_view name, std::size_t i) const {
   const io::NpyArray* array = find(name);

@@ -13,6 +13,7 @@
 #include <string>
 #include <system_error>
 
+#include "base/text.h"
 #include "io/atomic_file.h"
 #include "tofray/error.h"
 
@@ -69,12 +70,16 @@ void secure_standard_files() {
   }
 }
 
-void print(std::string_view text) {
+void print(std::string_view text) { print_picture(base::printable_lines(text)); }
+
+void print_picture(std::string_view text) {
   if (!write_all(STDOUT_FILENO, text))
     throw Error(ErrorKind::io, "error: cannot write to standard output: " + std::generic_category().message(errno));
 }
 
-void say(std::string_view text) { write_all(STDERR_FILENO, text); }
+void say(std::string_view text) { redraw(base::printable_lines(text)); }
+
+void redraw(std::string_view line) { write_all(STDERR_FILENO, line); }
 
 bool stdout_is_terminal() { return ::isatty(STDOUT_FILENO) != 0; }
 bool stderr_is_terminal() { return ::isatty(STDERR_FILENO) != 0; }

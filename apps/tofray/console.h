@@ -9,11 +9,16 @@ namespace tofray::app {
 /// Opens what the caller left closed, so that no file of ours becomes stdout or stderr by accident. A closed stdout stays unwritable.
 void secure_standard_files();
 
-/// Writes data to stdout, at once and completely. @throws Error (io) where that fails
+/// Writes data to stdout, at once and completely. Names of files and texts out of them steer no terminal: base::printable_lines().
+/// @throws Error (io) where that fails
 void print(std::string_view text);
+/// The same for a picture, whose colours are control characters.
+void print_picture(std::string_view text);
 
-/// Writes talk to stderr; where that fails nobody can be told.
+/// Writes talk to stderr, printable too; where that fails nobody can be told.
 void say(std::string_view text);
+/// The same for a line that is drawn anew.
+void redraw(std::string_view line);
 
 /// The same unless --quiet was given.
 class Talk {

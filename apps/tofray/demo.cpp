@@ -53,7 +53,7 @@ int run_demo(const Options& options) {
     print(io::json_text(summary_json(folder, frame.depth, 1, machine, stopwatch), 2) + "\n");
   } else {
     const auto colors = stdout_has_colors() ? io::TerminalColors::full : io::TerminalColors::none;
-    if (!options.quiet) print(io::terminal_picture(frame.depth, std::min(terminal_columns(), 100), colors) + "\n");
+    if (!options.quiet) print_picture(io::terminal_picture(frame.depth, std::min(terminal_columns(), 100), colors) + "\n");
     if (!options.quiet) print(told(frame, in, simulator, folder, stopwatch));
   }
   return 0;

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 
+#include "base/text.h"
 #include "io/builtin.h"
 #include "io/convert.h"
 #include "io/load.h"
@@ -51,10 +52,20 @@ Inputs inputs_of(const io::Manifest& manifest, const Options& options) {
   if (manifest.inputs.empty() || manifest.inputs[0].role != "scene")
     throw Error(ErrorKind::bad_input, options.from + ": error: inputs has no scene\n  expected the manifest.json of a `tofray render`");
   const io::InputFile& first = manifest.inputs[0];
+  // A stranger's manifest reads no files of ours: what is not in it has to be built in.
+  if (first.text.empty() && io::find_builtin(io::builtin_scenes(), first.name) == nullptr)
+    throw Error(ErrorKind::bad_input, fmt::format("{}: error: it does not hold the text of the scene {}\n  expected the scene's file in it, or the "
+                                                  "name of a built-in one",
+                                                  base::printable(options.from), base::in_quotes(first.name)));
   Inputs in;
   in.files = manifest.inputs;
   in.scene = first.text.empty() ? io::load_scene(first.name, options.set) : io::scene_from_text(first.text, first.name, options.set);
   const auto profile = std::find_if(in.files.begin(), in.files.end(), [](const io::InputFile& file) { return file.role == "profile"; });
+  const std::string& named = in.scene.camera.profile;
+  if (profile == in.files.end() && io::find_builtin(io::builtin_profiles(), named) == nullptr)
+    throw Error(ErrorKind::bad_input, fmt::format("{}: error: it does not hold the text of the camera profile {}\n  expected the profile's file in it, "
+                                                  "or the name of a built-in one",
+                                                  base::printable(options.from), base::in_quotes(named)));
   in.camera = profile == in.files.end() ? load_camera(in.scene, {options.mode, {}, {}})
                                         : camera_of_texts(in.scene, *profile, in.files, options.mode);
   return in;

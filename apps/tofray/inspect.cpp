@@ -4,6 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <type_traits>
 
 #include "arrays.h"
 #include "base/constants.h"
@@ -23,15 +26,15 @@ struct Statistics {
   std::size_t count = 0, invalid = 0;  ///< elements; those that are not finite
 };
 
-Statistics statistics_of(const io::NpyArray& array) {
+/// In the array's own type: numbers of a byte do not become eight.
+template <class T>
+Statistics statistics_in(const io::NpyArray& array) {
   Statistics out;
   out.count = array.count();
-  std::vector<double> values;
-  values.reserve(out.count);
-  for (std::size_t i = 0; i < out.count; ++i) {
-    const double value = array.number(i);
-    if (std::isfinite(value)) values.push_back(value);
-  }
+  std::vector<T> values(out.count);
+  if (out.count > 0) std::memcpy(values.data(), array.bytes.data(), out.count * sizeof(T));
+  if (array.type.kind == 'b') std::transform(values.begin(), values.end(), values.begin(), [](T value) { return static_cast<T>(value != 0); });
+  if constexpr (std::is_floating_point_v<T>) std::erase_if(values, [](T value) { return !std::isfinite(value); });
   out.invalid = out.count - values.size();
   if (values.empty()) {
     out.low = out.median = out.high = std::nan("");
@@ -39,10 +42,27 @@ Statistics statistics_of(const io::NpyArray& array) {
   }
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
   std::nth_element(values.begin(), middle, values.end());
-  out.median = *middle;
-  out.low = *std::min_element(values.begin(), middle + 1);
-  out.high = *std::max_element(middle, values.end());
+  out.median = static_cast<double>(*middle);
+  out.low = static_cast<double>(*std::min_element(values.begin(), middle + 1));
+  out.high = static_cast<double>(*std::max_element(middle, values.end()));
   return out;
+}
+
+Statistics statistics_of(const io::NpyArray& array) {
+  const int size = array.type.size;
+  switch (array.type.kind) {
+    case 'f': return size == 4 ? statistics_in<float>(array) : statistics_in<double>(array);
+    case 'i':
+      return size == 1   ? statistics_in<std::int8_t>(array)
+             : size == 2 ? statistics_in<std::int16_t>(array)
+             : size == 4 ? statistics_in<std::int32_t>(array)
+                         : statistics_in<std::int64_t>(array);
+    default:
+      return size == 1   ? statistics_in<std::uint8_t>(array)
+             : size == 2 ? statistics_in<std::uint16_t>(array)
+             : size == 4 ? statistics_in<std::uint32_t>(array)
+                         : statistics_in<std::uint64_t>(array);
+  }
 }
 
 std::string array_table(const Arrays& arrays) {
@@ -106,7 +126,7 @@ std::vector<std::size_t> flag_counts(const Arrays& arrays, std::size_t& valid) {
   const io::NpyArray* flags = arrays.find("flags");
   valid = 0;
   for (std::size_t i = 0; flags != nullptr && i < flags->count(); ++i) {
-    const auto bits = static_cast<unsigned>(flags->number(i));
+    const auto bits = flag_bits(flags->number(i));
     if ((bits & flags_invalid) == 0) ++valid;
     for (std::size_t bit = 0; bit < counts.size(); ++bit) counts[bit] += bits >> bit & 1u;
   }

@@ -30,7 +30,7 @@ void print_limits(bool json) {
   std::string text;
   for (const base::Limit& limit : base::all_limits) {
     all.set(limit.name, limit.value);
-    text += fmt::format("{:<16}{:>12}  {}\n", limit.name, limit.value, limit.what);
+    text += fmt::format("{:<20}{:>12}  {}\n", limit.name, limit.value, limit.what);
   }
   print(json ? io::json_text(all, 2) + "\n" : text);
 }

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "base/constants.h"
+#include "base/text.h"
 #include "camera/frozen_camera.h"
 #include "depth/decode.h"
 #include "io/meta_camera.h"
@@ -38,7 +39,7 @@ std::string name_of_object(const Arrays& arrays, long index) {
 
 void read_truth(const Arrays& arrays, std::size_t pixel, PixelChain& out) {
   const double object = arrays.at("gt_object_id", pixel);
-  out.object = std::isfinite(object) ? std::lround(object) : -1;
+  out.object = std::abs(object) < 1e9 ? std::lround(object) : -1;
   out.object_name = name_of_object(arrays, out.object);
   out.true_range_m = arrays.at("gt_range_m", pixel), out.true_z_m = arrays.at("gt_z_m", pixel);
   out.reflectivity = arrays.at("gt_reflectivity", pixel);
@@ -140,7 +141,7 @@ void read_depth(const Arrays& arrays, std::size_t pixel, PixelChain& out) {
   out.confidence = arrays.at("confidence", pixel);
   out.point_m = triple(arrays, "points_m", pixel);
   const double flags = arrays.at("flags", pixel);
-  const auto bits = static_cast<unsigned>(std::isfinite(flags) ? flags : 0);
+  const unsigned bits = flag_bits(flags);
   for (std::size_t bit = 0; bit < flag_names().size(); ++bit) {
     if ((bits >> bit & 1u) != 0) out.flags.push_back(flag_names()[bit]);
   }
@@ -165,7 +166,12 @@ PixelChain pixel_chain(const Arrays& arrays, int u, int v) {
   estimate_phases(chain);
   const io::Json* camera = arrays.meta().find("camera");
   if (camera == nullptr) return chain;
-  const camera::FrozenCamera frozen(io::camera_of_meta(arrays.meta_text(), arrays.where()), static_cast<int>(Noise::exact), 0);
+  const Camera profile = io::camera_of_meta(arrays.meta_text(), arrays.where());
+  if (static_cast<std::size_t>(profile.sensor.width) != arrays.width() || static_cast<std::size_t>(profile.sensor.height) != arrays.height())
+    throw Error(ErrorKind::bad_input, fmt::format("{}: error: the camera in meta is not the one of the arrays\n  got a sensor of {} x {} and "
+                                                  "arrays of {} x {} pixels",
+                                                  base::printable(arrays.where()), profile.sensor.width, profile.sensor.height, arrays.width(), arrays.height()));
+  const camera::FrozenCamera frozen(profile, static_cast<int>(Noise::exact), 0);
   calibrate(frozen.decoder(), pixel, chain);
   return chain;
 }

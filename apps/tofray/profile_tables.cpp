@@ -3,7 +3,10 @@
 #include "profile_tables.h"
 
 #include <algorithm>
+#include <string_view>
+#include <unordered_map>
 
+#include "base/limits.h"
 #include "base/text.h"
 #include "io/load.h"
 #include "io/text_file.h"
@@ -65,14 +68,21 @@ std::vector<io::InputFile> profile_tables(const io::InputFile& profile, const st
 
 std::string profile_with_tables(const io::InputFile& profile, const std::vector<Override>& overrides,
                                 const std::vector<io::InputFile>& tables) {
+  std::unordered_map<std::string_view, const io::InputFile*> known;
+  for (const io::InputFile& one : tables)
+    if (one.role == "table") known.emplace(one.name, &one);
+  std::size_t bytes = 0;
   Node root = changed_profile(profile, overrides);
   for_each_table(root, "", [&](Node& map, const std::string& key) {
     const std::string name = map.find("file")->text;
-    const auto table =
-        std::find_if(tables.begin(), tables.end(), [&](const io::InputFile& one) { return one.role == "table" && one.name == name; });
-    if (table == tables.end()) base::fail(map.place, "the manifest does not hold the table " + base::in_quotes(name));
+    const auto table = known.find(name);
+    if (table == known.end()) base::fail(map.place, "the manifest does not hold the table " + base::in_quotes(name));
+    // The profile with all its tables is a file, too.
+    bytes += table->second->text.size();
+    if (bytes > static_cast<std::size_t>(base::limit::file_bytes.value))
+      base::fail(map.place, "the profile's tables are too long", "at most " + std::to_string(base::limit::file_bytes.value) + " bytes", ErrorKind::limit);
     // A pattern has rows; a correlation is one list, line after line.
-    Node rows = io::parse_value(rows_text(table->text), base::whole(name));
+    Node rows = io::parse_value(rows_text(table->second->text), base::whole(name));
     Node all = rows;
     if (key == "waveform") {
       all.items.clear();

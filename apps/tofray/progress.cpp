@@ -55,7 +55,7 @@ Progress::Progress(std::uint64_t total, const char* what, bool quiet)
 Progress::~Progress() { clear(); }
 
 void Progress::clear() const {
-  if (terminal_ && shown_) say("\r\x1b[K");
+  if (terminal_ && shown_) redraw("\r\x1b[K");
 }
 
 void Progress::step() {
@@ -71,7 +71,7 @@ void Progress::show() {
   shown_ = true;
   const double seconds = std::chrono::duration<double>(last_ - start_).count();
   if (!terminal_) return say(progress_line(done_, total_, what_, seconds, no_bar) + "\n");
-  say("\r\x1b[K" + progress_line(done_, total_, what_, seconds, terminal_columns()));
+  redraw("\r\x1b[K" + progress_line(done_, total_, what_, seconds, terminal_columns()));
 }
 
 }  // namespace tofray::app

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <optional>
+#include <set>
 
 #include "base/text.h"
 #include "commands.h"
@@ -44,11 +45,11 @@ Options recalled(const Options& now, const io::Manifest& manifest) {
 
 /// The files whose bytes are not those of the manifest.
 std::vector<std::string> changed_files(const io::Manifest& before, const io::OutputFolder& folder) {
+  std::set<std::pair<std::string, std::string>> written;
+  for (const io::FileRecord& file : folder.files()) written.emplace(file.name, file.sha256);
   std::vector<std::string> changed;
-  for (const io::FileRecord& old : before.files) {
-    const auto same = [&](const io::FileRecord& file) { return file.name == old.name && file.sha256 == old.sha256; };
-    if (std::none_of(folder.files().begin(), folder.files().end(), same)) changed.push_back(old.name);
-  }
+  for (const io::FileRecord& old : before.files)
+    if (!written.contains({old.name, old.sha256})) changed.push_back(old.name);
   return changed;
 }
 

@@ -22,10 +22,11 @@ void Faults::add(const Place& place, const std::string& what, const std::string&
   std::string text = printable(to_string(place)) + ": error: " + printable(what);
   for (std::size_t from = 0; from < more.size();) {
     const std::size_t end = std::min(more.find('\n', from), more.size());
-    text += "\n  " + printable(more.substr(from, end - from));
+    text += "\n  " + more.substr(from, end - from);
     from = end + 1;
   }
-  faults_.push_back({place, std::move(text), kind});
+  faults_.push_back({place, message(text), kind});
+  if (faults_.size() >= static_cast<std::size_t>(limit::faults_counted.value)) raise();
 }
 
 std::string Faults::text() const {
@@ -40,9 +41,16 @@ std::string Faults::text() const {
   // What an alias repeats is one fault.
   sorted.erase(std::unique(sorted.begin(), sorted.end(), [](const Fault* a, const Fault* b) { return a->text == b->text; }), sorted.end());
   const auto most = static_cast<std::size_t>(limit::faults_shown.value);
+  const std::size_t room = static_cast<std::size_t>(limit::message_bytes.value) - 100;  // for the last line
   std::string out;
-  for (std::size_t i = 0; i < std::min(sorted.size(), most); ++i) out += (i > 0 ? "\n" : "") + sorted[i]->text;
-  if (sorted.size() > most) out += "\nand " + std::to_string(sorted.size() - most) + " more";
+  std::size_t shown = 0;
+  for (; shown < std::min(sorted.size(), most); ++shown) {
+    if (shown > 0 && out.size() + sorted[shown]->text.size() > room) break;
+    out += (shown > 0 ? "\n" : "") + sorted[shown]->text;
+  }
+  const bool whole = faults_.size() < static_cast<std::size_t>(limit::faults_counted.value);
+  if (shown < sorted.size() || !whole)
+    out += "\nand " + std::to_string(sorted.size() - shown) + " more" + (whole ? "" : "; it was not read to its end");
   return out;
 }
 
@@ -59,3 +67,9 @@ void fail(const Place& place, const std::string& what, const std::string& more, 
 }
 
 }  // namespace tofray::base
+
+namespace tofray {
+
+Error::Error(ErrorKind kind, const std::string& message) : std::runtime_error(base::message(message)), kind_(kind) {}
+
+}  // namespace tofray

@@ -26,6 +26,7 @@ Place whole(const std::string& source);
 
 class Faults {
  public:
+  /// Adds a fault. @throws Error as raise() does where limit::faults_counted is reached: the reading ends there
   /// @param what   the first line, complete in itself
   /// @param more   what was got, what is expected, how to mend it; may have several lines
   void add(const Place& place, const std::string& what, const std::string& more = {}, ErrorKind kind = ErrorKind::bad_input);

@@ -13,10 +13,15 @@ struct Limit {
 };
 
 namespace limit {
-inline constexpr Limit file_bytes{"file_bytes", 16 << 20, "bytes of one scene, profile or table file"};
+inline constexpr Limit file_bytes{"file_bytes", 16 << 20, "bytes of one scene, profile or table file, aliases written out"};
 inline constexpr Limit nesting_depth{"nesting_depth", 64, "lists and maps inside each other in one file"};
-inline constexpr Limit nodes{"nodes", 400'000, "values of one file, aliases (*name) written out"};
+inline constexpr Limit nodes{"nodes", 400'000, "values of one file, anchors and aliases (*name) written out"};
+inline constexpr Limit text_bytes{"text_bytes", 1000, "bytes of one name or other text in a file"};
+inline constexpr Limit overrides{"overrides", 1000, "keys that a scene's camera or --set changes"};
 inline constexpr Limit faults_shown{"faults_shown", 50, "faults printed for one file; the others are counted"};
+inline constexpr Limit faults_counted{"faults_counted", 200, "faults after which a file is not read to its end"};
+inline constexpr Limit message_line_bytes{"message_line_bytes", 1000, "bytes of one line of an error; a longer one is cut in its middle"};
+inline constexpr Limit message_bytes{"message_bytes", 16 << 10, "bytes of one error"};
 inline constexpr Limit objects{"objects", 20'000, "objects of one scene"};
 inline constexpr Limit materials{"materials", 10'000, "materials of one scene"};
 inline constexpr Limit lights{"lights", 8, "light sources of one camera"};
@@ -28,14 +33,17 @@ inline constexpr Limit raw_samples{"raw_samples", 1 << 27, "pixels times raw fra
 inline constexpr Limit curve_points{"curve_points", 10'000, "points of one curve or spectrum"};
 inline constexpr Limit threads{"threads", 1024, "threads of one run"};
 inline constexpr Limit table_samples{"table_samples", 1 << 20, "samples of one light pattern"};
+inline constexpr Limit unpacked_bytes{"unpacked_bytes", 64 << 20, "bytes that any data file may unpack to"};
+inline constexpr Limit unpacked_ratio{"unpacked_ratio", 100, "times its own size that a larger data file may unpack to"};
 }  // namespace limit
 
 /// All of them, in the order in which they are printed.
 inline constexpr Limit all_limits[] = {
-    limit::file_bytes,    limit::nesting_depth, limit::nodes,        limit::faults_shown,  limit::objects,
-    limit::materials,     limit::lights,        limit::raw_frames,   limit::modes,         limit::sensor_side,
-    limit::sensor_pixels, limit::raw_samples,   limit::curve_points, limit::table_samples,
-    limit::threads,
+    limit::file_bytes,     limit::nesting_depth,  limit::nodes,              limit::text_bytes,    limit::overrides,
+    limit::faults_shown,   limit::faults_counted, limit::message_line_bytes, limit::message_bytes, limit::objects,
+    limit::materials,      limit::lights,         limit::raw_frames,         limit::modes,         limit::sensor_side,
+    limit::sensor_pixels,  limit::raw_samples,    limit::curve_points,       limit::table_samples, limit::unpacked_bytes,
+    limit::unpacked_ratio, limit::threads,
 };
 
 }  // namespace tofray::base

@@ -8,8 +8,19 @@
 /// Small helpers for texts that people read.
 namespace tofray::base {
 
-/// The text with control characters as \xNN.
+/// Length of the UTF-8 character at i, 0 where the bytes are none (overlong forms, surrogates and more than U+10FFFF are none).
+std::size_t utf8_length(std::string_view text, std::size_t i);
+
+/// The text with the control characters of ASCII and bytes that are not UTF-8 as \xNN, and with other control characters and those that
+/// turn the direction of writing or end a line as \uNNNN: what comes from outside cannot steer a terminal, nor look like what it is not.
+/// JSON, whose strings hold neither of the former, stays JSON.
 std::string printable(std::string_view text);
+/// The same of a text that has ends of lines and tabs.
+std::string printable_lines(std::string_view text);
+
+/// A message of several lines as it may be shown: each line printable() and at most limit::message_line_bytes (the middle of a longer one
+/// is cut out), all of it at most limit::message_bytes.
+std::string message(std::string_view text);
 
 /// The text in double quotes for an error message: printable, cut after `longest` bytes.
 std::string in_quotes(std::string_view text, std::size_t longest = 60);

@@ -41,6 +41,7 @@ struct Profile {
 };
 
 Camera interpret(const Profile& profile, const std::string& mode, const base::Place& mode_place, const std::vector<Change>& changes) {
+  refuse_too_many(changes.size(), base::whole(profile.source));
   Node root = parse_tree(profile.text, profile.source);
   if (!mode.empty()) set_key(root, "mode", mode_node(mode, mode_place), mode_place);
   for (const auto& change : changes) set_key(root, change.key, parse_value(change.text, change.place), change.place);

@@ -117,6 +117,11 @@ void CameraReader::pattern(const Value& value, Pattern& out) {
   out.half_range_x_rad = value["half_range_x"] ? value["half_range_x"].number : out.width_rad;
   out.half_range_y_rad = value["half_range_y"] ? value["half_range_y"].number : out.height_rad;
   if ((out.columns > 0) != (out.rows > 0)) faults_.add(value.place(), "pattern has columns or rows alone", "expected both, or none");
+  if (static_cast<long long>(out.columns) * out.rows > base::limit::table_samples.value)
+    faults_.add(value.place(), "the pattern has too many samples",
+                "got " + std::to_string(out.columns) + " x " + std::to_string(out.rows) + ", at most " +
+                    std::to_string(base::limit::table_samples.value),
+                ErrorKind::limit);
   if (out.kind != Pattern::Kind::table) return;
   std::vector<std::vector<double>> rows;
   if (value["file"])

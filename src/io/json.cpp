@@ -6,7 +6,9 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
+#include <unordered_set>
 
+#include "base/text.h"
 #include "tofray/error.h"
 
 namespace tofray::io {
@@ -26,7 +28,9 @@ Tree tree_of(const Json& document) {
           return tree;
         } else if constexpr (std::is_same_v<T, Json::Object>) {
           Tree tree = Tree::object();
-          for (const auto& [key, item] : value) tree[key] = tree_of(item);
+          // Not by operator[], which looks through all keys for each: an object's keys differ.
+          auto& members = static_cast<std::vector<Tree::object_t::value_type>&>(tree.get_ref<Tree::object_t&>());
+          for (const auto& [key, item] : value) members.emplace_back(key, tree_of(item));
           return tree;
         } else {
           return value;
@@ -56,9 +60,10 @@ class Builder : public nlohmann::json_sax<Tree> {
   bool end_object() override { return close(); }
   bool end_array() override { return close(); }
   bool key(string_t& name) override {
-    if (open_.back().second.find(name) != nullptr)
-      throw Error(ErrorKind::bad_input, fmt::format("{}: error: key \"{}\" comes twice", where_, name));
-    open_.back().first.push_back(std::move(name));
+    Open& object = open_.back();
+    if (!object.seen.insert(name).second)
+      throw Error(ErrorKind::bad_input, fmt::format("{}: error: key {} comes twice", where_, base::in_quotes(name)));
+    object.key = std::move(name);
     return true;
   }
   bool parse_error(std::size_t position, const std::string&, const nlohmann::detail::exception&) override {
@@ -71,26 +76,30 @@ class Builder : public nlohmann::json_sax<Tree> {
   }
 
  private:
-  using Keys = std::vector<std::string>;
+  /// A container that is not complete.
+  struct Open {
+    Json container;
+    std::string key;  ///< of an object: the one that waits for its value
+    std::unordered_set<std::string> seen;
+  };
 
   bool open(Json container) {
     if (open_.size() == max_depth) throw Error(ErrorKind::limit, fmt::format("{}: error: nested deeper than {} levels", where_, max_depth));
-    open_.emplace_back(Keys(), std::move(container));
+    open_.push_back({std::move(container), {}, {}});
     return true;
   }
   bool close() {
-    Json done = std::move(open_.back().second);
+    Json done = std::move(open_.back().container);
     open_.pop_back();
     return put(std::move(done));
   }
   bool put(Json item) {
     if (open_.empty()) {
       root_ = std::move(item);
-    } else if (auto& [keys, container] = open_.back(); container.is_object()) {
-      container.set(std::move(keys.back()), std::move(item));
-      keys.pop_back();
+    } else if (Open& parent = open_.back(); parent.container.is_object()) {
+      parent.container.set(std::move(parent.key), std::move(item));
     } else {
-      container.push(std::move(item));
+      parent.container.push(std::move(item));
     }
     return true;
   }
@@ -98,7 +107,7 @@ class Builder : public nlohmann::json_sax<Tree> {
   std::string_view text_;
   const std::string& where_;
   Json root_;
-  std::vector<std::pair<Keys, Json>> open_;  ///< containers that are not complete, each with the key that waits for its value
+  std::vector<Open> open_;
 };
 
 }  // namespace

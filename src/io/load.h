@@ -36,6 +36,9 @@ std::vector<std::string> schema_kinds();
 /// @throws Error naming `place` where the path leads nowhere
 void set_key(Node& root, const std::string& path, Node value, const base::Place& place);
 
+/// @throws Error (limit) where more keys are changed than limit::overrides: each change looks for its key in a list
+void refuse_too_many(std::size_t changes, const base::Place& place);
+
 /// The keys of a map as dotted paths with values, maps inside flattened.
 std::vector<Override> flattened(const Node& map, const std::vector<std::string>& without);
 

@@ -6,6 +6,7 @@
 
 #include <cstdio>
 
+#include "base/faults.h"
 #include "io/data_limits.h"
 #include "io/json.h"
 #include "io/read_bytes.h"
@@ -39,13 +40,13 @@ class Reader {
     if (seed != nullptr && !seed->unsigned_integer(manifest.seed)) fault("seed", "a whole number of 0 or more");
     read_machine(manifest);
     read_files(manifest);
-    if (!faults_.empty()) throw Error(ErrorKind::bad_input, faults_);
+    faults_.raise();
     return manifest;
   }
 
  private:
   void fault(const std::string& what, const std::string& expected) {
-    faults_ += fmt::format("{}{}: error: {} is missing or malformed\n  expected {}", faults_.empty() ? "" : "\n", path_, what, expected);
+    faults_.add(base::whole(path_), what + " is missing or malformed", "expected " + expected);
   }
   const Json* find(const Json& object, const std::string& before, const char* key, const char* expected) {
     const Json* member = object.find(key);
@@ -128,7 +129,7 @@ class Reader {
 
   Json document_;
   const std::string& path_;
-  std::string faults_;
+  base::Faults faults_;
 };
 
 }  // namespace

@@ -11,6 +11,7 @@
 #include <new>
 #include <set>
 
+#include "base/limits.h"
 #include "io/data_limits.h"
 #include "io/npy_header.h"
 #include "io/read_bytes.h"
@@ -84,7 +85,14 @@ struct Entry {
   zip_uint64_t index = 0;
   std::string name;      ///< without ".npy"
   std::size_t size = 0;  ///< unpacked
+  std::size_t packed = 0;
 };
+
+/// What all arrays of a file together may take: nothing that a camera sees packs as well as this.
+std::size_t most_unpacked(std::size_t file_bytes) {
+  const auto least = static_cast<std::size_t>(base::limit::unpacked_bytes.value);
+  return std::clamp(static_cast<std::size_t>(base::limit::unpacked_ratio.value) * file_bytes, least, max_unpacked_bytes);
+}
 
 Entry checked_entry(zip_t* archive, zip_uint64_t index, std::size_t file_bytes, const std::string& where) {
   zip_stat_t status;
@@ -103,7 +111,8 @@ Entry checked_entry(zip_t* archive, zip_uint64_t index, std::size_t file_bytes, 
   if (status.size > max_array_bytes + max_npy_header_bytes || status.size / max_pack_ratio > status.comp_size)
     throw Error(ErrorKind::limit, fmt::format("{}: error: {} bytes unpack to {}, more than is taken", here, status.comp_size, status.size));
   const bool array = name.size() > 4 && name.ends_with(".npy");
-  return {index, array ? name.substr(0, name.size() - 4) : std::string(), static_cast<std::size_t>(status.size)};
+  return {index, array ? name.substr(0, name.size() - 4) : std::string(), static_cast<std::size_t>(status.size),
+          static_cast<std::size_t>(status.comp_size)};
 }
 
 /// Unpacks one entry; libzip compares its CRC.
@@ -169,16 +178,19 @@ std::vector<NamedArray> parse_npz(std::string_view file, const std::string& wher
     throw Error(ErrorKind::limit, fmt::format("{}: error: the zip has {} entries, more than {}", where, count, max_npz_entries));
   std::vector<NamedArray> arrays;
   std::set<std::string> names;
-  std::size_t total = 0;
+  std::size_t total = 0, packed = 0;
+  const std::size_t most = most_unpacked(file.size());
   for (zip_int64_t i = 0; i < count; ++i) {
     const Entry entry = checked_entry(archive.get(), static_cast<zip_uint64_t>(i), file.size(), where);
+    // Entries that lie upon each other would let the same bytes unpack many times over.
+    packed += entry.packed;
+    if (packed > file.size()) refuse(where, "the entries' declared sizes do not fit the file");
     if (entry.name.empty()) continue;  // no array
     const std::string here = fmt::format("{}[{}]", where, printable(entry.name));
     if (!names.insert(entry.name).second) refuse(here, "two arrays have this name");
     if (!wanted.empty() && std::find(wanted.begin(), wanted.end(), entry.name) == wanted.end()) continue;
     total += entry.size;
-    if (total > max_unpacked_bytes)
-      throw Error(ErrorKind::limit, fmt::format("{}: error: the arrays unpack to more than {} bytes", where, max_unpacked_bytes));
+    if (total > most) throw Error(ErrorKind::limit, fmt::format("{}: error: the arrays unpack to more than {} bytes (`tofray --limits`)", where, most));
     arrays.push_back({entry.name, parse_npy(unpacked(archive.get(), entry, here), here)});
   }
   return arrays;

@@ -21,6 +21,7 @@ OutputFolder::OutputFolder(std::filesystem::path path) : path_(std::move(path)) 
                                            std::generic_category().message(error.value())));
   if (!std::filesystem::is_directory(path_, error))
     throw Error(ErrorKind::io, fmt::format("{}: error: this is a file\n  expected a folder, or nothing, in its place", path_.native()));
+  remove_stale_temporaries(path_);
 }
 
 void OutputFolder::write(const std::string& name, std::string_view bytes) {

@@ -16,8 +16,8 @@ struct FileRecord {
   std::string sha256;  ///< 64 hexadecimal digits
 };
 
-/// The folder that results go to: made with its parents where it is missing. Files of the same name are replaced, others left alone, and
-/// each is complete or absent.
+/// The folder that results go to: made with its parents where it is missing. Files of the same name are replaced, others left alone (but
+/// temporaries that a killed run left are removed), and each is complete or absent.
 class OutputFolder {
  public:
   /// @throws Error (io) where the folder cannot be made, or a file is in its place

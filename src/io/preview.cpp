@@ -7,6 +7,7 @@
 #include "io/figure.h"
 #include "io/pictures.h"
 #include "io/png_file.h"
+#include "io/stroke_font.h"
 
 namespace tofray::io {
 namespace {
@@ -85,6 +86,22 @@ Panel noise_panel(const Depth& depth) {
   return panel;
 }
 
+/// The caption, cut where it is longer than the panels are wide and than an ordinary one: a picture's size is not a name's to say.
+std::string fitting(std::string_view caption, int width) {
+  constexpr std::string_view cut = "\xE2\x80\xA6";
+  constexpr double ordinary = 1500;  // pixels
+  const double room = std::max(ordinary, static_cast<double>(width));
+  std::string text;
+  double so_far = 0;
+  while (!caption.empty()) {
+    const std::string_view character = take_character(caption);
+    so_far += Canvas::text_width(figure::title_size, character) + Canvas::text_width(figure::title_size, "  ") - 2 * Canvas::text_width(figure::title_size, " ");
+    if (so_far > room) return text + std::string(cut);
+    text += character;
+  }
+  return text;
+}
+
 }  // namespace
 
 std::string preview_png(const Depth& depth, const Truth& truth, const std::string& caption) {
@@ -101,11 +118,12 @@ std::string preview_png(const Depth& depth, const Truth& truth, const std::strin
   const int title_line = caption.empty() ? figure::margin + 14 : figure::margin + 48;
   const int image_top = title_line + 12;
   const int note_line = image_top + image_height + 22;
+  const std::string title = fitting(caption, 3 * panel_width + figure::margin);
   const int width =
-      std::max(figure::margin + 3 * panel_width, static_cast<int>(Canvas::text_width(figure::title_size, caption)) + 2 * figure::margin);
+      std::max(figure::margin + 3 * panel_width, static_cast<int>(Canvas::text_width(figure::title_size, title)) + 2 * figure::margin);
   Canvas canvas(width, note_line + figure::margin, figure::background);
 
-  if (!caption.empty()) canvas.text(figure::margin, figure::margin + 14, figure::title_size, figure::ink, caption);
+  if (!caption.empty()) canvas.text(figure::margin, figure::margin + 14, figure::title_size, figure::ink, title);
   int x = figure::margin;
   for (const Panel& panel : panels) {
     canvas.text(x, title_line, 0.9 * figure::title_size, figure::ink, panel.title);

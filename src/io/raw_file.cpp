@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstring>
 
+#include "base/faults.h"
 #include "io/data_limits.h"
 #include "io/npz.h"
 #include "io/read_bytes.h"
@@ -39,7 +40,7 @@ class RawReader {
     read_by_phase("lit", raw, lit, true);
     for (const double value : lit) raw.lit.push_back(value != 0 ? 1 : 0);
     if (faults_.empty()) check_exposures(raw);
-    if (!faults_.empty()) throw Error(ErrorKind::bad_input, faults_);
+    faults_.raise();
     return raw;
   }
 
@@ -52,7 +53,7 @@ class RawReader {
   [[nodiscard]] bool has(const char* name) const { return find(name) != nullptr; }
 
   void fault(const std::string& what, const std::string& more) {
-    faults_ += fmt::format("{}{}: error: {}\n  {}", faults_.empty() ? "" : "\n", path_, what, more);
+    faults_.add(base::whole(path_), what, more);
   }
 
   /// The array, if it is there and has one of the kinds wanted.
@@ -151,7 +152,7 @@ class RawReader {
 
   std::vector<NamedArray> arrays_;
   std::string path_;
-  std::string faults_;
+  base::Faults faults_;
 };
 
 }  // namespace

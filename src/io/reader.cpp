@@ -176,7 +176,13 @@ class Reader {
 
   void read_text(const Form& form, const Node& node, const std::string& label, Value& value) {
     if (node.kind != Node::Kind::scalar || node.text.empty()) return wrong(form, node, label, label + " is not a text");
+    if (static_cast<long long>(node.text.size()) > base::limit::text_bytes.value) too_long(node.place, label, node.text.size());
     value.text = node.text;
+  }
+
+  void too_long(const base::Place& place, const std::string& label, std::size_t bytes) {
+    faults_.add(place, label + " is too long", "got " + std::to_string(bytes) + " bytes, at most " + std::to_string(base::limit::text_bytes.value),
+                ErrorKind::limit);
   }
 
   void read_choice(const Form& form, const Node& node, const std::string& label, Value& value) {
@@ -214,6 +220,8 @@ class Reader {
     for (std::size_t i = 0; i < node.items.size(); ++i) {
       if (file_.provenance && contains(provenance_keys(), node.keys[i].text)) continue;
       if (node.keys[i].text.empty()) faults_.add(node.keys[i].place, "an empty name in " + label, "expected a name such as \"first\"");
+      if (static_cast<long long>(node.keys[i].text.size()) > base::limit::text_bytes.value)
+        too_long(node.keys[i].place, "a name in " + label, node.keys[i].text.size());
       value.names.push_back(node.keys[i].text);
       value.key_places.push_back(node.keys[i].place);
       value.items.push_back(read(form.forms[0], node.items[i], label + "." + node.keys[i].text));

@@ -66,6 +66,7 @@ class SceneReader {
   void overrides(const Node& camera, CameraChoice& out) {
     std::vector<std::string> known = {"profile", "mode", "pose"};
     out.overrides = flattened(camera, known);
+    refuse_too_many(out.overrides.size(), camera.place);
     std::vector<std::string> names;
     for (const auto& key : camera_form().root.keys) names.push_back(key.name);
     known.insert(known.end(), names.begin(), names.end());
@@ -221,6 +222,7 @@ Scene interpret(const Node& root) {
 }
 
 void apply(Node& root, const Settings& settings) {
+  refuse_too_many(settings.size(), base::whole("--set"));
   for (const auto& [key, text] : settings) {
     const base::Place place = base::whole("--set " + key);
     set_key(root, key, parse_value(text, place), place);
@@ -235,7 +237,8 @@ Scene scene_from_text(const std::string& text, const std::string& source, const 
   Scene scene = interpret(root);
   scene.source = source;
   const std::string stem = std::filesystem::path(source).stem().string();
-  scene.name = stem.empty() ? "scene" : stem;
+  // The name becomes a folder's: "." and ".." are folders that have one.
+  scene.name = stem.empty() || stem == "." || stem == ".." ? "scene" : stem;
   return scene;
 }
 

@@ -3,14 +3,22 @@
 #include <algorithm>
 #include <charconv>
 
+#include "base/limits.h"
 #include "base/text.h"
 #include "io/load.h"
 
 namespace tofray::io {
 
-namespace {
-
 using base::Place;
+
+void refuse_too_many(std::size_t changes, const Place& place) {
+  if (changes > static_cast<std::size_t>(base::limit::overrides.value))
+    base::fail(place, "too many keys are changed",
+               "got " + std::to_string(changes) + ", at most " + std::to_string(base::limit::overrides.value) + " (`tofray --limits`)",
+               ErrorKind::limit);
+}
+
+namespace {
 
 // Says which kind of thing a map is: another kind has other keys, so the old ones must go.
 const char* const kind_keys[] = {"kind", "brdf"};
@@ -31,6 +39,13 @@ bool same_kind(const Node& a, const Node& b) {
   return true;
 }
 
+// Whether `key: value` makes another kind of thing of a map.
+bool says_other_kind(const Node& map, const std::string& key, const Node& value) {
+  if (std::find(std::begin(kind_keys), std::end(kind_keys), key) == std::end(kind_keys)) return false;
+  const Node* now = map.find(key);
+  return now == nullptr || now->text != value.text;
+}
+
 Node& child(Node& map, const std::string& key, const Place& place) {
   if (Node* found = map.find(key)) return *found;
   map.keys.push_back({key, place});
@@ -46,6 +61,7 @@ void merge(Node& into, Node value, const Place& place) {
     into = std::move(value);
     return;
   }
+  refuse_too_many(value.keys.size(), place);
   for (std::size_t i = 0; i < value.keys.size(); ++i) merge(child(into, value.keys[i].text, place), std::move(value.items[i]), place);
 }
 
@@ -63,6 +79,11 @@ Node& element(Node& list, const std::string& part, const std::string& before, co
 }  // namespace
 
 void set_key(Node& root, const std::string& path, Node value, const Place& place) {
+  const auto parts = std::count(path.begin(), path.end(), '.') + 1;
+  if (parts > base::limit::nesting_depth.value)
+    base::fail(place, "the key has too many parts",
+               "got " + std::to_string(parts) + ", at most " + std::to_string(base::limit::nesting_depth.value) + " (`tofray --limits`)",
+               ErrorKind::limit);
   set_place(value, place);
   Node* here = &root;
   std::string before;
@@ -81,11 +102,7 @@ void set_key(Node& root, const std::string& path, Node value, const Place& place
         here->kind = Node::Kind::map;
         here->place = place;
       }
-      Node kind;
-      kind.kind = Node::Kind::map;
-      kind.keys.push_back({part, place});
-      kind.items.push_back(value);
-      if (last && !same_kind(*here, kind)) {
+      if (last && says_other_kind(*here, part, value)) {
         here->keys.clear();
         here->items.clear();
       }

@@ -65,7 +65,7 @@ class Builder : public YAML::EventHandler {
     const auto found = anchors_.find(anchor);
     if (found == anchors_.end())
       fail(place(mark), "this alias stands inside its own anchor", "expected a value that does not contain itself");
-    count(mark, size(found->second));
+    count(mark, found->second);
     attach(mark, Node(found->second));
   }
 
@@ -114,16 +114,22 @@ class Builder : public YAML::EventHandler {
     fail(place(mark), "tags such as \"!!str\" are not used here", "got the tag " + base::in_quotes(tag) + "; take it out");
   }
 
-  static std::int64_t size(const Node& node) {
-    std::int64_t sum = 1;
-    for (const auto& item : node.items) sum += size(item);
-    return sum;
+  // What an anchor keeps and what an alias repeats takes memory, too.
+  void count(const YAML::Mark& mark, const Node& node) {
+    std::size_t bytes = node.text.size();
+    for (const auto& key : node.keys) bytes += key.text.size();
+    count(mark, 1, bytes);
+    for (const auto& item : node.items) count(mark, item);
   }
 
-  void count(const YAML::Mark& mark, std::int64_t more) {
-    nodes_ += more;
+  void count(const YAML::Mark& mark, std::int64_t nodes, std::size_t bytes) {
+    nodes_ += nodes;
+    bytes_ += static_cast<std::int64_t>(bytes);
     if (nodes_ > base::limit::nodes.value)
       fail(place(mark), "too many values", "a file may hold " + std::to_string(base::limit::nodes.value) + ", aliases written out",
+           ErrorKind::limit);
+    if (bytes_ > base::limit::file_bytes.value)
+      fail(place(mark), "too much text", "a file may hold " + std::to_string(base::limit::file_bytes.value) + " bytes, aliases written out",
            ErrorKind::limit);
   }
 
@@ -135,7 +141,7 @@ class Builder : public YAML::EventHandler {
 
   void open(const YAML::Mark& mark, YAML::anchor_t anchor, Node::Kind kind) {
     too_deep(mark, static_cast<int>(stack_.size()) + 1);
-    count(mark, 1);
+    count(mark, 1, 0);
     refuse_as_key(mark, kind);
     Node node;
     node.kind = kind;
@@ -146,12 +152,15 @@ class Builder : public YAML::EventHandler {
   void close() {
     Open done = std::move(stack_.back());
     stack_.pop_back();
-    if (done.anchor != 0) anchors_[done.anchor] = done.node;
+    if (done.anchor != 0) {
+      count(done.mark, done.node);
+      anchors_[done.anchor] = done.node;
+    }
     attach(done.mark, std::move(done.node));
   }
 
   void add(const YAML::Mark& mark, YAML::anchor_t anchor, Node node) {
-    count(mark, 1);
+    count(mark, 1, node.text.size() * (anchor != 0 ? 2 : 1));
     node.place = place(mark);
     if (anchor != 0) anchors_[anchor] = node;
     attach(mark, std::move(node));
@@ -206,24 +215,11 @@ class Builder : public YAML::EventHandler {
   };
   mutable Last last_;
   int documents_ = 0;
-  std::int64_t nodes_ = 0;
+  std::int64_t nodes_ = 0, bytes_ = 0;
   Node root_;
   std::vector<Open> stack_;
   std::unordered_map<YAML::anchor_t, Node> anchors_;
 };
-
-// Length of the UTF-8 character at i, 0 where the bytes are none (overlong forms, surrogates and more than U+10FFFF are none).
-std::size_t utf8_length(std::string_view text, std::size_t i) {
-  const auto byte = [&](std::size_t k) { return i + k < text.size() ? static_cast<unsigned char>(text[i + k]) : 0U; };
-  const auto more = [&](std::size_t k) { return (byte(k) & 0xC0U) == 0x80U; };
-  const unsigned b = byte(0);
-  if (b < 0x80) return 1;
-  if (b >= 0xC2 && b <= 0xDF) return more(1) ? 2 : 0;
-  if (b >= 0xE0 && b <= 0xEF) return more(1) && more(2) && (b != 0xE0 || byte(1) >= 0xA0) && (b != 0xED || byte(1) < 0xA0) ? 3 : 0;
-  if (b >= 0xF0 && b <= 0xF4)
-    return more(1) && more(2) && more(3) && (b != 0xF0 || byte(1) >= 0x90) && (b != 0xF4 || byte(1) < 0x90) ? 4 : 0;
-  return 0;
-}
 
 /// @return whether all of it is ASCII
 bool check_bytes(std::string_view text, const Place& start) {
@@ -232,7 +228,7 @@ bool check_bytes(std::string_view text, const Place& start) {
   bool ascii = true;
   for (std::size_t i = 0; i < text.size();) {
     const auto byte = static_cast<unsigned char>(text[i]);
-    const std::size_t length = utf8_length(text, i);
+    const std::size_t length = base::utf8_length(text, i);
     if (length == 0) fail(here, "this is not UTF-8 text", "got the byte " + std::to_string(byte) + "; save the file as UTF-8");
     if (byte == 0) fail(here, "a NUL byte stands here", "expected text; a file in UTF-16 has to be saved as UTF-8");
     if ((byte < 0x20 && byte != '\t' && byte != '\n' && byte != '\r') || byte == 0x7F)

@@ -56,11 +56,12 @@ void check_pattern(const Pattern& p, const std::string& path) {
   if (table || (flat_top && p.rows != 0)) within(p.rows, range::pattern_cells, path + ".rows");
   if (table || (flat_top && p.half_range_x_rad != 0)) within(p.half_range_x_rad, range::width_rad, path + ".half_range_x_rad");
   if (table || (flat_top && p.half_range_y_rad != 0)) within(p.half_range_y_rad, range::width_rad, path + ".half_range_y_rad");
+  if (p.columns > 0 && p.rows > 0)
+    at_most(static_cast<std::size_t>(p.columns) * static_cast<std::size_t>(p.rows), limit::table_samples.value, "samples of " + path);
   if (!table) return;
   if (p.samples.size() != static_cast<std::size_t>(p.columns) * static_cast<std::size_t>(p.rows)) {
     refuse(path + ".samples does not have rows times columns", "got " + std::to_string(p.samples.size()) + " samples");
   }
-  at_most(p.samples.size(), limit::table_samples.value, "samples of " + path);
   within(p.samples, range::pattern_sample, path + ".samples");
   double sum = 0;
   for (const double sample : p.samples) sum += sample;

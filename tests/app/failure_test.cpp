@@ -32,16 +32,6 @@ TEST(full_disk, on_stdout_ends_with_3) {
   }
 }
 
-TEST(full_disk, under_a_file_ends_with_3_and_says_how_much_was_needed) {
-  const Folder folder;
-  fs::create_directory(folder / "out");
-  fs::create_symlink("/dev/full", folder / "out" / "depth.png");
-  const Result result = run(with_small_sensor({"render", "card", "-o", "out"}), in_folder(folder.path()));
-  EXPECT_EQ(result.code, 3);
-  EXPECT_TRUE(has(result.err, "depth.png") && has(result.err, "needed ")) << result.err;
-  EXPECT_FALSE(fs::exists(folder / "out" / "manifest.json"));
-}
-
 TEST(full_disk, leaves_the_old_file_and_no_temporary) {
   const Folder folder;
   fs::create_directory(folder / "out");

@@ -32,9 +32,47 @@ TEST(edit_distance, counts_inserts_deletes_replacements_and_swaps) {
   EXPECT_EQ(edit_distance("same", "same"), 0);
 }
 
+TEST(printable, shows_what_steers_a_terminal_and_what_is_no_utf8) {
+  EXPECT_EQ(printable("m\xC2\xB2 \xE2\x82\xAC \xF0\x9F\x98\x80"), "m\xC2\xB2 \xE2\x82\xAC \xF0\x9F\x98\x80");
+  EXPECT_EQ(printable("\x1b\x7f\t"), "\\x1b\\u007f\\x09");
+  EXPECT_EQ(printable("\xff\xC3(\xE2\x82"), "\\xff\\xc3(\\xe2\\x82");
+  EXPECT_EQ(printable("\xC0\x80\xED\xA0\x80"), "\\xc0\\x80\\xed\\xa0\\x80") << "overlong forms and surrogates are no characters";
+  EXPECT_EQ(printable("\xC2\x80\xE2\x80\xAE\xE2\x80\xA8\xE2\x81\xA6"), "\\u0080\\u202e\\u2028\\u2066");
+  EXPECT_EQ(printable(printable("\x1b\xff")), printable("\x1b\xff"));
+  EXPECT_EQ(printable_lines("a\n\tb\r\n"), "a\n\tb\\x0d\n");
+}
+
+TEST(message, cuts_the_middle_of_a_long_line_and_the_end_of_a_long_text) {
+  const auto line = static_cast<std::size_t>(limit::message_line_bytes.value), all = static_cast<std::size_t>(limit::message_bytes.value);
+  EXPECT_EQ(message(std::string(line, 'a') + "\nb"), std::string(line, 'a') + "\nb");
+  const std::string cut = message("begin" + std::string(line, 'a') + "end\nb");
+  EXPECT_TRUE(cut.starts_with("begin") && cut.ends_with("end\nb")) << cut;
+  EXPECT_LE(cut.size(), line + 2);
+  std::string lines;
+  while (lines.size() < 2 * all) lines += "a line\n";
+  EXPECT_LE(message(lines).size(), all);
+  EXPECT_TRUE(message(lines).ends_with("a line\n…"));
+  EXPECT_EQ(std::string(Error(ErrorKind::io, "a\x1b\nb").what()), "a\\x1b\nb");
+}
+
+TEST(faults, end_the_reading_where_there_are_too_many) {
+  Faults faults;
+  for (int i = 1; i < limit::faults_counted.value; ++i) faults.add({nullptr, i, 1}, "x");
+  EXPECT_THROW(faults.add({nullptr, 1, 1}, "y"), Error);
+  EXPECT_TRUE(faults.text().ends_with("\nand 150 more; it was not read to its end"));
+}
+
+TEST(did_you_mean, gives_up_on_long_lists_of_long_names) {
+  std::vector<std::string> known(10'000, std::string(90, 'a'));
+  known.emplace_back(std::string(90, 'b') + "c");
+  EXPECT_EQ(nearest(std::string(91, 'b'), known), "");
+  known.insert(known.begin(), known.back());
+  EXPECT_EQ(nearest(std::string(91, 'b'), known), known.front());
+}
+
 TEST(in_quotes, shows_control_characters_and_cuts_at_a_character) {
   EXPECT_EQ(in_quotes("a\x1b[31m\n"), "\"a\\x1b[31m\\x0a\"");
-  EXPECT_EQ(in_quotes("\xC2\x9B"), "\"\\x9b\"");
+  EXPECT_EQ(in_quotes("\xC2\x9B"), "\"\\u009b\"");
   EXPECT_EQ(in_quotes("abcä", 4), "\"abc…\"");
 }
 

@@ -157,8 +157,7 @@ TEST(atomic_file, full_device_read_only_folder_long_name_and_missing_folder_say_
     EXPECT_EQ(error.kind(), ErrorKind::io);
     return std::string(error.what());
   };
-  EXPECT_NE(message("/dev/full").find("/dev/full: error: cannot write to it: No space left on device\n  needed 4 bytes"),
-            std::string::npos);
+  EXPECT_NE(message("/dev/full").find("/dev/full: error: this is a device"), std::string::npos);
   EXPECT_TRUE(std::filesystem::is_character_file("/dev/full"));
   EXPECT_NE(message(folder.file(std::string(300, 'x'))).find("File name too long\n  the name has 300 bytes; most file systems take 255"),
             std::string::npos);
@@ -273,6 +272,75 @@ TEST(atomic_file, files_written_while_temporaries_are_removed_are_whole_or_absen
     EXPECT_EQ(read_file(entry.path()).size(), 5000U) << entry.path();
   // and the table is free again
   for (int i = 0; i < 200; ++i) write_file_atomically(folder.file("after"), "data");
+}
+
+// A pipe without a reader would hang whoever opens it, and what goes into a device is lost.
+TEST(atomic_file, pipes_devices_and_links_to_them_are_refused_and_stay) {
+  TemporaryFolder folder;
+  ASSERT_EQ(mkfifo(folder.file("pipe").c_str(), 0600), 0);
+  std::filesystem::create_symlink(folder.file("pipe"), folder.file("link"));
+  std::filesystem::create_symlink("/dev/null", folder.file("null"));
+  for (const char* name : {"pipe", "link", "null"}) {
+    const Error error = error_of([&] { write_file_atomically(folder.file(name), "data"); });
+    EXPECT_EQ(error.kind(), ErrorKind::io);
+    EXPECT_NE(std::string(error.what()).find(std::string(name) == "null" ? "a device" : "a pipe"), std::string::npos) << error.what();
+  }
+  EXPECT_EQ(folder.entries(), 3U);
+  EXPECT_TRUE(std::filesystem::is_fifo(folder.file("pipe")) && std::filesystem::is_symlink(folder.file("null")));
+}
+
+/// Starts a write in a child and kills the child with its temporary half full; calls `between` before that, while it lives.
+template <class Between>
+void with_killed_write(const std::string& path, const Between& between) {
+  int here[2];
+  ASSERT_EQ(pipe(here), 0);
+  const pid_t child = fork();
+  ASSERT_GE(child, 0);
+  if (child == 0) {
+    static int ready = here[1];
+    FileCalls calls = system_file_calls();
+    calls.write = [](int file, const void* bytes, size_t) -> ssize_t {
+      (void)!::write(file, bytes, 1);
+      (void)!::write(ready, "x", 1);
+      for (;;) pause();
+    };
+    write_file_atomically(path, "data", calls);
+    _exit(1);
+  }
+  char byte = 0;
+  EXPECT_EQ(read(here[0], &byte, 1), 1);
+  between();
+  kill(child, SIGKILL);
+  int status = 0;
+  EXPECT_EQ(waitpid(child, &status, 0), child);
+  close(here[0]);
+  close(here[1]);
+}
+
+TEST(atomic_file, a_killed_write_s_temporary_goes_with_the_next_clean_up_and_a_live_one_stays) {
+  TemporaryFolder folder;
+  with_killed_write(folder.file("a"), [&] {
+    EXPECT_EQ(folder.entries(), 1U);
+    remove_stale_temporaries(folder.path());
+    EXPECT_EQ(folder.entries(), 1U) << "its maker lives";
+  });
+  EXPECT_EQ(folder.entries(), 1U);
+  remove_stale_temporaries(folder.path());
+  EXPECT_EQ(folder.entries(), 0U);
+}
+
+TEST(atomic_file, a_clean_up_takes_plain_files_of_our_names_and_nothing_else) {
+  TemporaryFolder folder;
+  for (const char* name : {".tofray-1-2.tmp", ".tofray-1-.tmp", ".tofray--2.tmp", ".tofray-1-2.tmp.txt", "tofray-1-2.tmp", ".tofray-1-2x.tmp", "a.tmp"})
+    out_test::write_file(folder.file(name), "x");
+  std::filesystem::create_directory(folder.file(".tofray-3-4.tmp"));
+  std::filesystem::create_symlink(folder.file("a.tmp"), folder.file(".tofray-5-6.tmp"));
+  ASSERT_EQ(mkfifo(folder.file(".tofray-7-8.tmp").c_str(), 0600), 0);
+  remove_stale_temporaries(folder.path());
+  EXPECT_FALSE(std::filesystem::exists(folder.file(".tofray-1-2.tmp")));
+  EXPECT_EQ(folder.entries(), 9U);
+  remove_stale_temporaries(folder.file("a.tmp"));
+  remove_stale_temporaries(folder.file("missing"));
 }
 
 TEST(sha256, agrees_with_the_standard_s_examples) {

@@ -12,6 +12,7 @@ namespace tofray::backend {
 /// oneTBB does it, or std::thread where ThreadSanitizer watches (it knows nothing of TBB's own synchronisation).
 class TileRunner {
  public:
+  /// @throws Error (limit) where the system refuses that many threads
   TileRunner(int threads, std::size_t scratch_bytes);
   ~TileRunner();
   TileRunner(TileRunner&&) noexcept;

@@ -3,10 +3,12 @@
 #include <atomic>
 #include <exception>
 #include <mutex>
+#include <system_error>
 #include <thread>
 
 #include "backend/cpu/for_each_tile.h"
 #include "backend/cpu/scratch.h"
+#include "backend/cpu/thread_check.h"
 
 namespace tofray::backend {
 
@@ -35,10 +37,12 @@ void TileRunner::for_each_tile(int count, const std::function<void(int, void*)>&
       next = count;
     }
   };
-  {
+  try {
     std::vector<std::jthread> crew;
     for (int i = 1; i < impl_->threads; ++i) crew.emplace_back(work, static_cast<std::size_t>(i));
     work(0);
+  } catch (const std::system_error& refused) {
+    refuse_threads(impl_->threads, refused.code().value());
   }
   if (failure) std::rethrow_exception(failure);
 }

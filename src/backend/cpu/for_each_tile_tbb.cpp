@@ -10,6 +10,7 @@
 
 #include "backend/cpu/for_each_tile.h"
 #include "backend/cpu/scratch.h"
+#include "backend/cpu/thread_check.h"
 
 namespace tofray::backend {
 
@@ -21,8 +22,17 @@ struct TileRunner::Impl {
   std::vector<ScratchMemory> scratch;
 };
 
+namespace {
+
+int granted(int threads) {
+  require_threads(threads, tbb::global_control::active_value(tbb::global_control::thread_stack_size));
+  return threads;
+}
+
+}  // namespace
+
 TileRunner::TileRunner(int threads, std::size_t scratch_bytes)
-    : impl_(new Impl{threads,
+    : impl_(new Impl{granted(threads),
                      tbb::global_control(tbb::global_control::max_allowed_parallelism,
                                          std::max(static_cast<std::size_t>(threads),
                                                   tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism))),
