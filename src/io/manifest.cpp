@@ -168,6 +168,8 @@ std::string manifest_text(const Manifest& manifest) {
   return json_text(json, 2) + "\n";
 }
 
-Manifest read_manifest(const std::string& path) { return Reader(parse_json(read_bytes(path, max_manifest_bytes), path), path).read(); }
+Manifest parse_manifest(std::string_view text, const std::string& path) { return Reader(parse_json(text, path), path).read(); }
+
+Manifest read_manifest(const std::string& path) { return parse_manifest(read_bytes(path, max_manifest_bytes), path); }
 
 }  // namespace tofray::io

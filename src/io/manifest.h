@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -45,8 +46,10 @@ std::string cpu_model();
 
 std::string manifest_text(const Manifest& manifest);
 
-/// Reads a manifest for `--from`.
-/// @throws Error (bad_input) that names every key that is missing or of another kind; (io) where the file cannot be read
+/// Reads the text of a manifest. @throws Error (bad_input) that names every key that is missing or of another kind
+Manifest parse_manifest(std::string_view text, const std::string& path);
+
+/// Reads a manifest for `--from`. @throws Error as parse_manifest, and (io) where the file cannot be read
 Manifest read_manifest(const std::string& path);
 
 }  // namespace tofray::io

@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <string>
 
+#include "fuzz/shown.h"
 #include "io/builtin.h"
 #include "io/in_fields_finite.h"
 #include "io/load.h"
@@ -17,6 +18,7 @@ void load(const std::string& text, const tofray::CameraOptions& options) {
     if (!tofray::test::finite(tofray::io::camera_from_text(text, "<fuzz>", "", options))) std::abort();
   } catch (const tofray::Error& e) {
     if (e.kind() == tofray::ErrorKind::bug || std::string(e.what()).find(": error: ") == std::string::npos) std::abort();
+    if (!tofray::fuzz::may_be_shown(e)) std::abort();
   }
 }
 

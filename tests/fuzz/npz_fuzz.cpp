@@ -5,7 +5,10 @@
 #include <string>
 #include <string_view>
 
+#include "fuzz/shown.h"
 #include "io/json.h"
+#include "io/manifest.h"
+#include "io/meta_camera.h"
 #include "io/npy.h"
 #include "io/npz.h"
 #include "io/raw_file.h"
@@ -20,12 +23,13 @@ void try_out(const Call& call) {
   } catch (const tofray::Error& error) {
     // an input may be bad or too large; anything else is a fault of ours
     if (error.kind() != tofray::ErrorKind::bad_input && error.kind() != tofray::ErrorKind::limit) __builtin_trap();
+    if (!tofray::fuzz::may_be_shown(error)) __builtin_trap();
   }
 }
 
 }  // namespace
 
-/// Any bytes as .npy, as .npz, as raw data and as JSON: an Error or a result, nothing else.
+/// Any bytes as .npy, as .npz, as raw data, as JSON, as a manifest and as a frame's meta: an Error or a result, nothing else.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const std::string_view file(reinterpret_cast<const char*>(data), size);
   try_out([&] {
@@ -36,5 +40,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   try_out([&] { (void)tofray::io::parse_npz(file, "fuzz"); });
   try_out([&] { (void)tofray::io::parse_raw_npz(file, "fuzz"); });
   try_out([&] { (void)tofray::io::json_text(tofray::io::parse_json(file, "fuzz")); });
+  try_out([&] { (void)tofray::io::parse_manifest(file, "fuzz"); });
+  try_out([&] { (void)tofray::io::camera_of_meta(std::string(file), "fuzz", {}); });
   return 0;
 }

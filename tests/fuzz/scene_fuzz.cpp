@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <string>
 
+#include "fuzz/shown.h"
 #include "io/in_fields_finite.h"
 #include "io/load.h"
 #include "tofray/tofray.h"
@@ -16,6 +17,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     if (!tofray::test::finite(tofray::load_camera(scene))) std::abort();
   } catch (const tofray::Error& e) {
     if (e.kind() == tofray::ErrorKind::bug || std::string(e.what()).find(": error: ") == std::string::npos) std::abort();
+    if (!tofray::fuzz::may_be_shown(e)) std::abort();
   }
   return 0;
 }
