@@ -50,10 +50,13 @@ struct Pattern {
   double exponent = 1;         ///< cosine_lobe: cos^exponent
   double width_rad = 0;        ///< flat_top: full width across θx at half its peak
   double height_rad = 0;       ///< flat_top: across θy
-  /// table: samples over θx (columns) and θy (rows), cell centres on a regular grid centred on the axis, f-theta.
+  /// table: samples over θx (columns) and θy (rows), cell centres on a regular grid centred on the axis, f-theta. Of a flat top, only
+  /// the paper's printed formula reads such a grid; 0: 172 × 168.
   int columns = 0, rows = 0;
-  double half_range_x_rad = 0; ///< the grid covers ±this across its columns (edges of the outer cells)
-  double half_range_y_rad = 0;
+  /// The grid covers ±this across its columns (edges of the outer cells); beyond, the light is dark. Of a flat top, 0 takes its width,
+  /// where the light has fallen to nothing (2⁻²⁵⁶).
+  double half_range_x_rad = 0;
+  double half_range_y_rad = 0; ///< the same across its rows; 0: the height
   std::vector<double> samples; ///< [rows][columns], any unit
 };
 

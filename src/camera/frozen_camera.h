@@ -16,9 +16,6 @@ struct FrozenLight {
 /// @param quantum_efficiency  QE at the light's wavelength
 FrozenLight freeze_light(const Illumination& light, double quantum_efficiency);
 
-/// Integral of a pattern table over its rectangle, dω = (sin θ/θ)·dθx dθy [sr · unit of the samples].
-double table_integral(const std::vector<double>& samples, int columns, int rows, double half_range_x_rad, double half_range_y_rad);
-
 /// Modulation frequencies of the lit raw frames in the order they first appear, and their place in a common base.
 struct Modulations {
   std::vector<double> frequency_hz;

@@ -1,11 +1,14 @@
 // SPDX-FileCopyrightText: 2026 The tofray authors
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <cmath>
 
 #include "base/constants.h"
 #include "base/vec.h"
 #include "camera/frozen_camera.h"
+#include "camera/pattern_integral.h"
 #include "num/setup_math.h"
+#include "tofray/error.h"
 
 namespace tofray::camera {
 
@@ -22,25 +25,21 @@ struct Table {
   std::vector<double> samples;
 };
 
-/// The stand-in for the pico flexx: î ∝ exp(−ln2·((θx/½w)⁸ + (θy/½h)⁸)), half its peak at the edges of w × h.
+/// The table that a flat top stands for: half its peak at the edges of width × height.
 Table flat_top(const Pattern& p) {
-  const double degree = pi / 180;
-  Table t{p.columns > 0 ? p.columns : 172, p.rows > 0 ? p.rows : 168, p.half_range_x_rad > 0 ? p.half_range_x_rad : 43 * degree,
-          p.half_range_y_rad > 0 ? p.half_range_y_rad : 42 * degree, {}};
-  const auto eighth = [](double a) { const double a2 = a * a, a4 = a2 * a2; return a4 * a4; };
-  const double ln2 = setup::log(2.0);
+  Table t{p.columns > 0 ? p.columns : 172, p.rows > 0 ? p.rows : 168, p.half_range_x_rad > 0 ? p.half_range_x_rad : p.width_rad,
+          p.half_range_y_rad > 0 ? p.half_range_y_rad : p.height_rad, {}};
   for (int row = 0; row < t.rows; ++row) {
-    const double y = t.half_y * ((2 * row + 1.0) / t.rows - 1);
+    const double y = flat_top_share(2 * t.half_y * ((2 * row + 1.0) / t.rows - 1) / p.height_rad);
     for (int column = 0; column < t.columns; ++column) {
-      const double x = t.half_x * ((2 * column + 1.0) / t.columns - 1);
-      t.samples.push_back(setup::exp(-ln2 * (eighth(2 * x / p.width_rad) + eighth(2 * y / p.height_rad))));
+      t.samples.push_back(y * flat_top_share(2 * t.half_x * ((2 * column + 1.0) / t.columns - 1) / p.width_rad));
     }
   }
   return t;
 }
 
-void freeze_table(const Table& t, double power, FrozenLight& out) {
-  const double scale = power / table_integral(t.samples, t.columns, t.rows, t.half_x, t.half_y);
+/// @param scale  [W/sr] of a sample of 1
+void freeze_table(const Table& t, double scale, FrozenLight& out) {
   for (const double sample : t.samples) out.table.push_back(f(scale * sample));
   PatternView& view = out.view.pattern;
   view.kind = PatternView::table;
@@ -48,6 +47,17 @@ void freeze_table(const Table& t, double power, FrozenLight& out) {
   view.columns = t.columns, view.rows = t.rows;
   view.per_rad_x = f(t.columns / (2 * t.half_x)), view.per_rad_y = f(t.rows / (2 * t.half_y));
   view.half_range_x = f(t.half_x), view.half_range_y = f(t.half_y);
+}
+
+/// Samples in any unit, as shares of the largest: however large or small they are, their integral is of the size of their solid angle.
+void freeze_measured(const Pattern& p, double power, FrozenLight& out) {
+  Table t{p.columns, p.rows, p.half_range_x_rad, p.half_range_y_rad, p.samples};
+  const double largest = *std::max_element(t.samples.begin(), t.samples.end());
+  for (double& sample : t.samples) sample /= largest;
+  const double integral = table_integral(t.samples, t.columns, t.rows, t.half_x, t.half_y);
+  if (!(integral > 0))
+    throw Error(ErrorKind::bad_input, "error: a light's pattern is dark\n  got samples above 0 only where the angle to the axis is beyond 180 deg");
+  freeze_table(t, power / integral, out);
 }
 
 void freeze_pattern(const Pattern& p, double power, FrozenLight& out) {
@@ -67,31 +77,18 @@ void freeze_pattern(const Pattern& p, double power, FrozenLight& out) {
       break;
     case Pattern::Kind::flat_top: {
       const Table t = flat_top(p);
-      freeze_table(t, power, out);      // the paper's printed formula reads the table; all else takes the formula
+      const double peak = power / flat_top_integral(p.width_rad, p.height_rad, t.half_x, t.half_y);
+      freeze_table(t, peak, out);      // the paper's printed formula reads the table; all else takes the formula
       view.kind = PatternView::flat_top;
-      view.peak = f(power / table_integral(t.samples, t.columns, t.rows, t.half_x, t.half_y));
+      view.peak = f(peak);
       view.per_half_width = f(2 / p.width_rad), view.per_half_height = f(2 / p.height_rad);
       break;
     }
-    case Pattern::Kind::table: freeze_table({p.columns, p.rows, p.half_range_x_rad, p.half_range_y_rad, p.samples}, power, out); break;
+    case Pattern::Kind::table: freeze_measured(p, power, out); break;
   }
 }
 
 }  // namespace
-
-double table_integral(const std::vector<double>& samples, int columns, int rows, double half_x, double half_y) {
-  const double cell = (2 * half_x / columns) * (2 * half_y / rows);
-  double sum = 0;
-  for (int row = 0; row < rows; ++row) {
-    const double y = half_y * ((2 * row + 1.0) / rows - 1);
-    for (int column = 0; column < columns; ++column) {
-      const double x = half_x * ((2 * column + 1.0) / columns - 1);
-      const double theta = std::sqrt(x * x + y * y);
-      sum += samples[static_cast<std::size_t>(row * columns + column)] * (theta > 0 ? setup::sin(theta) / theta : 1) * cell;
-    }
-  }
-  return sum;
-}
 
 FrozenLight freeze_light(const Illumination& light, double quantum_efficiency) {
   FrozenLight out;

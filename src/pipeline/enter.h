@@ -121,6 +121,7 @@ TOFRAY_FN void enter_before_raw(const Setup& s, const Job& job, const Input& in,
       surface.found = F(1.0f) < F(0.0f);
       if (in.entry == stage_power) {
         surface = given_surface(s, in.surface, p, k, ray);
+        hide_outside_lens(vignetting, surface);
         if (s.last_stage >= stage_power) light_up(s, GivenShadows{s, in.surface, p, k}, ray, surface, vignetting, lighting);
       } else {
         given_light(s, in.light, p, k, lighting);

@@ -117,12 +117,19 @@ TOFRAY_FN void end_frame(const Setup& s, const Job& job, const Pixels& p, const 
   find_depth<F>(s, job, p, ray, difference, raw::saturated(s.sensor, exposure), exposure.delay, vignetting);
 }
 
+/// Outside the lens model a pixel sees nothing; its ray is only a stand-in.
+template <class F>
+TOFRAY_FN void hide_outside_lens(F vignetting, flow::Surface<F>& surface) {
+  surface.found = surface.found & (vignetting > F(0.0f));
+}
+
 /// Stages 1 and 2 from the surface on, and what they show of the truth.
 /// @param moving  whether anything that moves can stand in the way
 template <class F, class Near>
 TOFRAY_FN void light_surface(const Setup& s, const Job& job, Near& near, int slot, bool moving, bool truth, const Pixels& p,
                              const flow::Ray<F>& ray, const flow::Hit<F>& hit, F vignetting, Lighting<F>& lighting) {
-  const flow::Surface<F> surface = trace::surface(s.scene, ray, hit);
+  flow::Surface<F> surface = trace::surface(s.scene, ray, hit);
+  hide_outside_lens(vignetting, surface);
   lighting.radiometry = {F(0.0f), F(0.0f), F(0.0f)};
   if (s.last_stage >= stage_power) light_up(s, ShadowRays<F, Near>{s, near, slot, moving}, ray, surface, vignetting, lighting);
   if (truth) store_truth(job.out, p, surface, lighting.radiometry);

@@ -63,7 +63,8 @@ TOFRAY_FN F intensity(const camera::LightView& light, F x, F y, F z, F inverse_l
   }
   const F cosine = w * inverse_length;
   if (p.kind == camera::PatternView::cone) return num::select(cosine >= F(p.cos_half_angle), F(p.peak), F(0.0f));
-  return F(p.peak) * num::power(num::max(cosine, F(0.0f)), F(p.exponent));
+  // an exponent of 0 shines evenly, but forward only
+  return num::select(cosine > F(0.0f), F(p.peak) * num::power(num::max(cosine, F(0.0f)), F(p.exponent)), F(0.0f));
 }
 
 }  // namespace tofray::power

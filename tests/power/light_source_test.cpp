@@ -135,25 +135,27 @@ TEST(light_source, tables_are_read_at_f_theta_angles) {
   const int columns = 7, rows = 5;
   std::vector<double> samples;
   for (int i = 0; i < columns * rows; ++i) samples.push_back(random.between(0.5, 2));
-  double integral = 0;
-  for (int r = 0; r < rows; ++r) {
-    for (int c = 0; c < columns; ++c) {
-      const double x = 0.7 * ((2 * c + 1.0) / columns - 1), y = 0.5 * ((2 * r + 1.0) / rows - 1), theta = std::hypot(x, y);
-      const double cell = (1.4 / columns) * (1.0 / rows) * (theta > 0 ? std::sin(theta) / theta : 1);
-      integral += samples[static_cast<std::size_t>(r * columns + c)] * cell;
-    }
-  }
-  const camera::FrozenLight light = camera::freeze_light(source(table(columns, rows, samples), 1), 1);
-  for (int i = 0; i < 20000; ++i) {
-    const double x = random.between(-0.6999, 0.6999), y = random.between(-0.4999, 0.4999);
+  const auto read = [&](double x, double y) {
     const double u = std::fmin(std::fmax((x + 0.7) / 1.4 * columns - 0.5, 0), columns - 1);
     const double v = std::fmin(std::fmax((y + 0.5) * rows - 0.5, 0), rows - 1);
     const int c = std::min(static_cast<int>(u), columns - 2), r = std::min(static_cast<int>(v), rows - 2);
     const auto at = [&](int row, int column) { return samples[static_cast<std::size_t>(row * columns + column)]; };
     const double right = u - c, down = v - r;
     const auto across = [&](int row) { return (1 - right) * at(row, c) + right * at(row, c + 1); };
-    const double expected = (1 - down) * across(r) + down * across(r + 1);
-    ASSERT_NEAR(intensity(light, f_theta(x, y)), expected / integral, 1e-5) << x << " " << y;
+    return (1 - down) * across(r) + down * across(r + 1);
+  };
+  double integral = 0;                                         // 100 × 100 middles in each cell: right to 1e-6
+  const int n = 100;
+  for (int k = 0; k < n * rows; ++k) {
+    for (int i = 0; i < n * columns; ++i) {
+      const double x = 0.7 * ((2 * i + 1.0) / (n * columns) - 1), y = 0.5 * ((2 * k + 1.0) / (n * rows) - 1), theta = std::hypot(x, y);
+      integral += read(x, y) * std::sin(theta) / theta * (1.4 / (n * columns)) * (1.0 / (n * rows));
+    }
+  }
+  const camera::FrozenLight light = camera::freeze_light(source(table(columns, rows, samples), 1), 1);
+  for (int i = 0; i < 20000; ++i) {
+    const double x = random.between(-0.6999, 0.6999), y = random.between(-0.4999, 0.4999);
+    ASSERT_NEAR(intensity(light, f_theta(x, y)), read(x, y) / integral, 1e-5) << x << " " << y;
   }
 }
 

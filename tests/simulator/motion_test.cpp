@@ -172,6 +172,37 @@ TEST(motion, of_a_raw_frame_is_a_still_scene_at_its_time_shadows_included) {
   }
 }
 
+// A plane and a ball that both move, before a wall that stands: each is where it is at that time, and shows its own number and material.
+TEST(motion, of_a_plane_beside_that_of_a_ball_is_a_still_scene_at_its_time) {
+  Scene moving;
+  moving.materials = {{"", Material::Brdf::lambert, 0.5}, {"", Material::Brdf::lambert, 0.9}, {"", Material::Brdf::lambert, 0.2}};
+  moving.objects.push_back({"wall", Plane{{0, 0, 1.5}, {0, 0, -1}}, 0, {0, 0, 0}, {}, {0, 0, 0}});
+  moving.objects.push_back({"door", Plane{{0.1, 0, 1}, {-1, 0, -0.2}}, 1, {0, 0, 0}, {}, {2, 0, 0}});
+  moving.objects.push_back({"ball", Sphere{{-0.15, 0.05, 0.8}, 0.1}, 2, {0, 0, 0}, {}, {-3, 1, 0}});
+  const SimulatorOptions options{.noise = Noise::off};
+  const Frame frame = Simulator(moving, camera(), options).frame(1);
+  Scene still = moving;
+  for (Object& one : still.objects) {
+    for (std::size_t k = 0; k < 3; ++k) one.position[k] = one.velocity_m_per_s[k] * frame.truth.time_s;
+    one.velocity_m_per_s = {0, 0, 0};
+  }
+  const Truth expected = Simulator(still, camera(), options).frame(1).truth;
+  int off = 0, seen[3] = {};
+  for (std::size_t i = 0; i < expected.z_m.size(); ++i) {
+    const bool same = frame.truth.object_id[i] == expected.object_id[i];
+    if (!same) {
+      ++off;
+      continue;
+    }
+    ++seen[expected.object_id[i]];
+    ASSERT_NEAR(frame.truth.z_m[i], expected.z_m[i], 2e-6f) << i;
+    ASSERT_EQ(frame.truth.reflectivity[i], expected.reflectivity[i]) << i;
+    for (std::size_t k = 0; k < 3; ++k) ASSERT_NEAR(frame.truth.normal[3 * i + k], expected.normal[3 * i + k], 1e-4f) << i;
+  }
+  EXPECT_LE(off, 8);                                            // edges: one place is rounded from a sum
+  for (const int count : seen) EXPECT_GT(count, 1000);
+}
+
 // One raw frame is enough to see what moves, at its own time: a grey one, since each modulation frequency needs three.
 TEST(motion, is_seen_by_a_sequence_of_a_single_raw_frame) {
   Scene scene;
