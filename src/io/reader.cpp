@@ -7,6 +7,7 @@
 
 #include "base/limits.h"
 #include "base/text.h"
+#include "io/near_misses.h"
 
 namespace tofray::io {
 
@@ -122,6 +123,7 @@ class Reader {
 
   void read_number(const Form& form, const Node& node, const std::string& label, Value& value) {
     if (node.kind != Node::Kind::scalar) return wrong(form, node, label);
+    if (has_decimal_comma(node, label, faults_)) return;
     using enum base::Quantity::Status;
     const auto quantity = base::parse_quantity(node.text, form.dimension);
     value.number = quantity.value;
@@ -202,7 +204,10 @@ class Reader {
     if (size >= form.min_items && size <= form.max_items) return true;
     const std::string count =
         form.min_items == form.max_items ? std::to_string(form.min_items) : "at least " + std::to_string(form.min_items);
-    faults_.add(node.place, label + " has the wrong number of " + noun, "got " + std::to_string(size) + ", expected " + count);
+    const bool numbers = form.kind == Kind::list && form.forms[0].kind == Kind::number && size > form.max_items;
+    faults_.add(
+        node.place, label + " has the wrong number of " + noun,
+        "got " + std::to_string(size) + ", expected " + count + (numbers ? "\na decimal comma makes two of one: write 1.5, not 1,5" : ""));
     return false;
   }
 
@@ -235,7 +240,8 @@ class Reader {
       const auto& key = node.keys[i];
       const bool known = std::any_of(form.keys.begin(), form.keys.end(), [&](const Key& k) { return k.name == key.text; });
       if (known || key.text == tag || (file_.provenance && contains(provenance_keys(), key.text))) continue;
-      if (!form.open) unknown_key(form, key, label, tag);
+      if (form.open) continue;
+      if (!comma_made_key(node, i, faults_)) unknown_key(form, key, label, tag);
     }
     if (file_.provenance) read_provenance(node);
     for (const auto& key : form.keys) {
@@ -265,7 +271,8 @@ class Reader {
   void unknown_key(const Form& form, const Node::Key& key, const std::string& label, const std::string& tag) {
     auto names = key_names(form);
     if (!tag.empty()) names.push_back(tag);
-    std::string hint = did_you_mean(key.text, names);
+    const auto meant = std::find_if(form.meant.begin(), form.meant.end(), [&](const auto& pair) { return pair.first == key.text; });
+    std::string hint = meant != form.meant.end() ? "; did you mean " + in_quotes(meant->second) + "?" : did_you_mean(key.text, names);
     std::string elsewhere = hint.empty() ? home_of(file_.root, key.text, "") : "";
     if (elsewhere == key.text)
       elsewhere = "at the top level";
@@ -320,6 +327,7 @@ class Reader {
 
   void read_variant(const Form& form, const Node& node, const std::string& label, Value& value) {
     if (node.kind != Node::Kind::map || node.keys.empty()) return wrong(form, node, label);
+    if (keys_stand_beside(form, node, faults_)) return;
     int found = -1;
     for (std::size_t i = 0; i < node.keys.size(); ++i) {
       const auto& key = node.keys[i];
@@ -341,9 +349,10 @@ class Reader {
         return;
       }
       std::string inner;
-      for (const auto& one : form.forms)
-        for (const auto& k : one.keys)
-          if (k.name == key.text) inner = "put " + in_quotes(key.text) + " inside, as in \"sphere: {…, " + key.text + ": …}\"\n";
+      for (std::size_t k = form.forms.size(); k-- > 0;)
+        for (const auto& known : form.forms[k].keys)
+          if (known.name == key.text && (inner.empty() || found < 0 || static_cast<std::size_t>(found) == k))
+            inner = "put " + in_quotes(key.text) + " inside, as in \"" + form.names[k] + ": {…, " + key.text + ": …}\"\n";
       faults_.add(key.place,
                   "unknown key " + in_quotes(key.text) + " in " + label + (inner.empty() ? did_you_mean(key.text, form.names) : ""),
                   inner + "known here: " + listed(form.names));

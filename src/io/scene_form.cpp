@@ -98,6 +98,24 @@ FileForm make() {
                    absent("materials", dictionary(material(), 0, static_cast<int>(base::limit::materials.value)),
                           "materials by name, at the illumination wavelength"),
                    required("objects", objects(), "what the camera looks at")});
+  file.root.meant = {{"lights", "camera.illumination"},
+                     {"light", "camera.illumination"},
+                     {"light_sources", "camera.illumination"},
+                     {"lamps", "camera.illumination"},
+                     {"sun", "ambient"},
+                     {"sunlight", "ambient"},
+                     {"ambient_light", "ambient"},
+                     {"shapes", "objects"},
+                     {"geometry", "objects"},
+                     {"spheres", "objects"},
+                     {"planes", "objects"},
+                     {"boxes", "objects"},
+                     {"triangles", "objects"},
+                     {"meshes", "objects"},
+                     {"profile", "camera.profile"},
+                     {"pose", "camera.pose"}};
+  // What a camera's profile has may be meant for the scene's camera.
+  for (const Key& key : camera_form().root.keys) file.root.meant.emplace_back(key.name, "camera." + key.name);
   return file;
 }
 

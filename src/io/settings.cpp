@@ -70,10 +70,12 @@ Node& element(Node& list, const std::string& part, const std::string& before, co
   const auto read = std::from_chars(part.data(), part.data() + part.size(), index);
   if (read.ec == std::errc() && read.ptr == part.data() + part.size() && index < list.items.size()) return list.items[index];
   const std::size_t size = list.items.size();
-  base::fail(place, "no such element: " + base::in_quotes(part) + " in " + base::in_quotes(before),
-             size == 0 ? "the list is empty"
-                       : "it is a list; expected an index, as in " + before + ".0" +
-                             (size > 1 ? " … " + before + "." + std::to_string(size - 1) : ""));
+  const bool number = !part.empty() && part.find_first_not_of("0123456789") == std::string::npos;
+  const std::string what = "no such element: " + base::in_quotes(part) + " in " + base::in_quotes(before);
+  if (size == 0) base::fail(place, what, "the list is empty");
+  base::fail(place, number ? what + ", which has " + std::to_string(size) : what,
+             (number ? "they are counted from 0: expected " : "it is a list; expected an index, as in ") + before + ".0" +
+                 (size > 1 ? " … " + before + "." + std::to_string(size - 1) : ""));
 }
 
 }  // namespace

@@ -44,6 +44,50 @@ objects:
   - triangle: {vertices: [[0.4, 0.3, 1.6], [0.8, 0.3, 1.6], [0.6, -0.2, 170 cm]], reflectivity: 30 %, name: sail}
 )";
 
+TEST(scene, decimal_commas_are_called_so) {
+  const std::string quoted = refusal("objects: [{sphere: {center: [0, 0, 1], radius: \"1,5 m\", reflectivity: 0.5}}]");
+  EXPECT_TRUE(has(quoted, "s.yaml:1:48: error: radius has a decimal comma\n  got \"1,5 m\", expected a decimal point: \"1.5 m\""))
+      << quoted;
+  const std::string in_map = refusal("objects: [{sphere: {center: [0, 0, 1], radius: 1, reflectivity: 0,5}}]");
+  EXPECT_TRUE(has(in_map, "error: reflectivity has a decimal comma")) << in_map;
+  EXPECT_TRUE(has(in_map, "expected a decimal point: \"reflectivity: 0.5\"")) << in_map;
+  const std::string in_list = refusal("objects: [{sphere: {center: [0, 0, 1,5], radius: 1, reflectivity: 0.5}}]");
+  EXPECT_TRUE(has(in_list, "write 1.5, not 1,5")) << in_list;
+  const std::string set = refusal(one_of_each, {{"objects.1.sphere.radius", "1,5 m"}});
+  EXPECT_TRUE(has(set, "has a decimal comma")) << set;
+  for (const char* other : {"1,000,5 m", "a,5 m", "1, m", ",5 m"})
+    EXPECT_FALSE(has(refusal(one_of_each, {{"objects.1.sphere.radius", other}}), "decimal comma")) << other;
+}
+
+TEST(scene, keys_beside_a_shape_s_name_are_one_fault_that_says_how_to_indent) {
+  const std::string text = refusal("objects:\n  - plane:\n    point: [0, 0, 2]\n    reflectivity: 0.5\n");
+  EXPECT_TRUE(text.starts_with("s.yaml:2:5: error: the keys of plane stand beside it, not below\n")) << text;
+  EXPECT_TRUE(has(text, "\"point\" and \"reflectivity\" stand as far to the left as \"plane:\"")) << text;
+  EXPECT_TRUE(has(text, "indent them by two spaces more")) << text;
+  EXPECT_EQ(text.find("error:"), text.rfind("error:"));
+  // One key that went astray is named with the shape that it belongs to.
+  const std::string one = refusal("objects:\n  - plane: {point: [0, 0, 2]}\n    reflectivity: 0.5\n");
+  EXPECT_TRUE(has(one, "as in \"plane: {…, reflectivity: …}\"")) << one;
+}
+
+TEST(scene, keys_that_people_try_are_led_to_the_right_ones) {
+  for (const auto& [tried, meant] : {std::pair{"lights", "camera.illumination"},
+                                     {"illumination", "camera.illumination"},
+                                     {"sun", "ambient"},
+                                     {"lens", "camera.lens"},
+                                     {"spheres", "objects"},
+                                     {"modes", "camera.modes"}}) {
+    const std::string text = refusal(std::string(tried) + ": []\nobjects: []\n");
+    EXPECT_TRUE(has(text, "in the scene; did you mean \"" + std::string(meant) + "\"?")) << text;
+  }
+}
+
+TEST(scene, index_beyond_a_list_says_how_many_there_are) {
+  const std::string text = refusal(one_of_each, {{"objects.7.sphere.radius", "1 m"}});
+  EXPECT_TRUE(has(text, "no such element: \"7\" in \"objects\", which has 4\n  they are counted from 0: expected objects.0 … objects.3"))
+      << text;
+}
+
 TEST(scene, reads_every_kind_of_object_in_si_units) {
   const Scene scene = io::scene_from_text(one_of_each, "box.yaml");
   EXPECT_EQ(scene.name, "box");
