@@ -7,14 +7,29 @@
 
 namespace tofray::io {
 
-std::vector<Rgb> colored(const std::vector<double>& values, const ValueColors& colors) {
+const Look& look_of(Theme theme) {
+  static const Look dark{figure::background,
+                         figure::ink,
+                         figure::faint_ink,
+                         invalid_color,
+                         {{{70, 225, 205}, {96, 100, 108}, {62, 175, 84}, invalid_color, {178, 181, 188}}}};
+  static const Look light{{255, 255, 255},
+                          {24, 26, 30},
+                          {84, 88, 96},
+                          {198, 201, 206},
+                          {{{0, 165, 150}, {158, 162, 170}, {62, 175, 84}, {198, 201, 206}, {228, 230, 233}}}};
+  return theme == Theme::light ? light : dark;
+}
+
+std::vector<Rgb> colored(const std::vector<double>& values, const ValueColors& colors, Rgb invalid) {
   std::vector<Rgb> image;
   image.reserve(values.size());
-  for (const double value : values) image.push_back(std::isfinite(value) ? colors.color(value) : invalid_color);
+  for (const double value : values) image.push_back(std::isfinite(value) ? colors.color(value) : invalid);
   return image;
 }
 
-void draw_scale_bar(Canvas& canvas, int x, int y, int height, const ValueColors& colors) {
+void draw_scale_bar(Canvas& canvas, int x, int y, int height, const ValueColors& colors, const Look& look) {
+  canvas.fill(x - 1, y - 1, figure::bar_width + 2, height + 2, look.faint_ink);  // so that neither end runs into the ground
   // the colour of each line: the value whose place is there, found by halving (places rise with values)
   for (int line = 0; line < height; ++line) {
     const double place = 1 - (line + 0.5) / height;
@@ -28,8 +43,8 @@ void draw_scale_bar(Canvas& canvas, int x, int y, int height, const ValueColors&
     if (last - line < 2.2 * figure::label_size) continue;  // on a curved bar ticks may crowd
     last = line;
     const int at = std::clamp(static_cast<int>(line), y, y + height - 1);
-    canvas.fill(x + figure::bar_width, at, 5, 1, figure::faint_ink);
-    canvas.text(x + figure::bar_width + 10, line + 0.5 * figure::label_size, figure::label_size, figure::ink, colors.scale.label(tick));
+    canvas.fill(x + figure::bar_width, at, 5, 1, look.faint_ink);
+    canvas.text(x + figure::bar_width + 10, line + 0.5 * figure::label_size, figure::label_size, look.ink, colors.scale.label(tick));
   }
 }
 

@@ -1,12 +1,14 @@
 // SPDX-FileCopyrightText: 2026 The tofray authors
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include <array>
 #include <functional>
 #include <string>
 #include <vector>
 
 #include "io/canvas.h"
 #include "io/picture_scale.h"
+#include "io/pictures.h"
 
 namespace tofray::io {
 
@@ -18,6 +20,14 @@ inline constexpr double title_size = 13, label_size = 9, note_size = 9.5;
 inline constexpr int bar_gap = 12, bar_width = 14, label_width = 58;
 }  // namespace figure
 
+/// Colours of a figure's writing and of its invalid pixels.
+struct Look {
+  Rgb background, ink, faint_ink;
+  Rgb invalid;                                  ///< of no particular reason
+  std::array<Rgb, invalid_flag_count> reasons;  ///< by invalid_reason(): none of them looks like a depth
+};
+const Look& look_of(Theme theme);
+
 /// How values of one quantity become colours.
 struct ValueColors {
   PictureScale scale;
@@ -25,11 +35,11 @@ struct ValueColors {
   std::function<double(double value)> place;  ///< where a value stands on the bar, 0 low, 1 high
 };
 
-/// Colours of an image's values; NaN is invalid_color.
-std::vector<Rgb> colored(const std::vector<double>& values, const ValueColors& colors);
+/// Colours of an image's values; NaN is `invalid`.
+std::vector<Rgb> colored(const std::vector<double>& values, const ValueColors& colors, Rgb invalid);
 
 /// A vertical bar with ticks and labels to its right.
-void draw_scale_bar(Canvas& canvas, int x, int y, int height, const ValueColors& colors);
+void draw_scale_bar(Canvas& canvas, int x, int y, int height, const ValueColors& colors, const Look& look);
 
 /// By how much an image of this width is enlarged to be about `wanted` pixels wide: 1…8.
 int enlargement(int width, int wanted);

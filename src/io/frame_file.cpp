@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "io/frame_file.h"
 
+#include <algorithm>
+
 #include "io/atomic_file.h"
 #include "io/npz.h"
 
@@ -73,7 +75,8 @@ void add_truth(FrameArrays& arrays, const Truth& truth, const std::vector<double
 
 }  // namespace
 
-std::string frame_npz_bytes(const Frame& frame, const Camera& camera, const PoseMatrix& camera_pose, const std::string& meta) {
+std::string frame_npz_bytes(const Frame& frame, const Camera& camera, const PoseMatrix& camera_pose, const std::string& meta,
+                            const std::vector<NamedArray>& kept) {
   FrameArrays arrays;
   add_raw(arrays, frame.raw);
   add_depth(arrays, frame.depth);
@@ -91,6 +94,11 @@ std::string frame_npz_bytes(const Frame& frame, const Camera& camera, const Pose
   // a 0-d string; numpy has no strings of length 0
   const std::string meta_bytes = utf32_of(meta.empty() ? "{}" : meta);
   std::vector<NpyView> views = arrays.views();
+  for (const NamedArray& one : kept) {
+    const bool own =
+        one.name == "meta" || std::any_of(views.begin(), views.end(), [&](const NpyView& view) { return view.name == one.name; });
+    if (!own) views.push_back({one.name, one.array.type, one.array.shape, one.array.bytes});
+  }
   views.push_back({"meta", {'U', static_cast<int>(meta_bytes.size())}, {}, meta_bytes});
   return npz_bytes(views);
 }

@@ -10,6 +10,20 @@
 
 namespace tofray::io {
 
+int invalid_reason(std::uint16_t flags) {
+  if ((flags & flags_invalid) == 0) return -1;
+  if ((flags & flag_outside_lens) != 0) return 4;
+  if ((flags & flag_saturated) != 0) return 0;
+  if ((flags & flag_no_return) != 0) return 3;
+  return (flags & flag_low_signal) != 0 ? 1 : 2;
+}
+
+const char* flag_name(int bit) {
+  constexpr const char* names[flag_count] = {
+      "saturated", "low signal", "flying pixel", "no return", "outside the lens model", "inconsistent phases", "inconsistent frequencies"};
+  return names[bit];
+}
+
 std::string depth_png(const Depth& depth) {
   std::vector<std::uint16_t> millimetres;
   millimetres.reserve(depth.z_m.size());

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The tofray authors
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include <cstdint>
 #include <string>
 
 #include "tofray/frame.h"
@@ -8,18 +9,32 @@
 /// Pictures of a frame as PNG files in memory. The same frame gives the same bytes on every machine.
 namespace tofray::io {
 
+/// Light writing on a dark ground for screens, or dark on white for papers. Colours of values are the same in both.
+enum class Theme : std::uint8_t { dark, light };
+
+/// Which bit of Depth::flags explains best why a pixel is invalid: outside the lens, saturated, no return, low signal, flying, in this
+/// order, for a pixel that got nothing back is also weak and noisy. −1: it is valid.
+int invalid_reason(std::uint16_t flags);
+/// What messages and legends call a bit of Depth::flags.
+const char* flag_name(int bit);
+constexpr int flag_count = 7, invalid_flag_count = 5;
+
 /// depth.png: uint16, z in mm, rounded. 0 where invalid, and where z does not fit (nearer than 0.5 mm, farther than 65.535 m).
 std::string depth_png(const Depth& depth);
 
 /// amplitude.png: 8-bit grey, 255 · sqrt(amplitude / its 99.5th percentile), so that the far and dark is seen beside the near and bright.
 std::string amplitude_png(const Depth& depth);
 
-/// raw.png: the raw frames as a labelled contact sheet, one row per modulation frequency, all on one scale of codes.
-/// Without `raw` it shows tap A − tap B in electrons.
-std::string raw_png(const Raw& raw);
+/// raw.png: the raw frames as a labelled contact sheet, one row per modulation frequency. One scale of codes, from the 0.5th to the 99.5th
+/// percentile of the lit raw frames; an unlit one of which more than 2 % lie beyond it, as in the sun, has a scale of its own beside
+/// its label. Without `raw` it shows tap A − tap B in electrons.
+std::string raw_png(const Raw& raw, Theme theme = Theme::dark);
 
-/// preview.png, for people: z in colours, amplitude, and the error z − gt_z (without ground truth: the noise estimate), each with its scale bar.
+/// preview.png, for people: z in colours (scale: 1st to 99th percentile), amplitude (0 to 99.5th), and the error z − gt_z (± the 98th
+/// percentile of |error|, or three times the 68th where that is less, so that wrong cycles do not set the scale; without ground truth:
+/// the noise estimate, 0 to 98th), each with its scale bar and a line on its scale. Invalid pixels of z have the colour of their
+/// invalid_reason(), which a legend names with its share.
 /// @param caption  one line above, UTF-8; may be empty
-std::string preview_png(const Depth& depth, const Truth& truth, const std::string& caption);
+std::string preview_png(const Depth& depth, const Truth& truth, const std::string& caption, Theme theme = Theme::dark);
 
 }  // namespace tofray::io

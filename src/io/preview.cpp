@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "io/figure.h"
@@ -12,9 +14,11 @@
 namespace tofray::io {
 namespace {
 
-/// One of the three images: what stands above and below it, and its values.
+constexpr int least_bar = 90;  // [px] a shorter scale bar has no room for its labels
+
+/// One of the three images: what stands above it and in two lines below, and its values.
 struct Panel {
-  std::string title, note;
+  std::string title, note, scale_note;
   std::vector<double> values;
   ValueColors colors;
 };
@@ -35,7 +39,7 @@ std::string plain_number(double value) {
 }
 
 Panel depth_panel(const Depth& depth) {
-  Panel panel{"z [m]", "no valid pixel", {depth.z_m.begin(), depth.z_m.end()}, {}};
+  Panel panel{"z [m]", "no valid pixel", "scale: 1st to 99th percentile", {depth.z_m.begin(), depth.z_m.end()}, {}};
   const std::size_t valid = finite_count(panel.values);
   const double low = percentile(panel.values, 0.01, 0), high = percentile(panel.values, 0.99, 1);
   const PictureScale scale = round_scale(low, high, 0.1);
@@ -48,26 +52,32 @@ Panel depth_panel(const Depth& depth) {
 }
 
 Panel amplitude_panel(const Depth& depth) {
-  Panel panel{"amplitude [e]", "", {depth.amplitude_e.begin(), depth.amplitude_e.end()}, {}};
+  Panel panel{
+      "amplitude [e]", "", "scale: 0 to the 99.5th percentile, square root", {depth.amplitude_e.begin(), depth.amplitude_e.end()}, {}};
   const PictureScale scale = round_scale(0, percentile(panel.values, 0.995, 1), 1e-3);
   const auto place = [scale](double a) { return a > 0 ? std::sqrt(std::min(1.0, scale.at(a))) : 0.0; };
   panel.colors = {scale, [place](double a) { return grey_color(place(a)); }, place};
-  panel.note = fmt::format("median {} e, square-root scale", plain_number(percentile(panel.values, 0.5, 0)));
+  panel.note = fmt::format("median {} e", plain_number(percentile(panel.values, 0.5, 0)));
   return panel;
 }
 
 Panel error_panel(const Depth& depth, const Truth& truth) {
-  Panel panel{"z \xE2\x88\x92 gt_z [mm]", "no pixel to compare", {}, {}};
+  Panel panel{"z \xE2\x88\x92 gt_z [mm]", "no pixel to compare", "", {}, {}};
   std::vector<double> magnitudes;
   for (std::size_t i = 0; i < depth.z_m.size(); ++i) {
     panel.values.push_back(1000.0 * (static_cast<double>(depth.z_m[i]) - static_cast<double>(truth.z_m[i])));
     magnitudes.push_back(std::abs(panel.values.back()));
   }
-  const double bound = percentile(magnitudes, 0.98, 1);
+  // One wrong cycle is metres: where more than 2 % are wrong, the 98th percentile shows them alone.
+  const double most = percentile(magnitudes, 0.98, 1), usual = 3 * percentile(magnitudes, 0.68, 1);
+  const double bound = std::min(most, usual);
   PictureScale scale = round_scale(-bound, bound, 0.2);
   scale.low = -scale.high;
   const auto place = [scale](double e) { return scale.at(e); };
   panel.colors = {scale, [place](double e) { return error_color(2 * place(e) - 1); }, place};
+  const auto beyond = static_cast<double>(std::count_if(magnitudes.begin(), magnitudes.end(), [&](double e) { return e > scale.high; }));
+  panel.scale_note = fmt::format("scale: {} percentile of |error|, {:.1f} % beyond", most <= usual ? "98th" : "3 * 68th",
+                                 100 * beyond / std::max(1.0, static_cast<double>(finite_count(magnitudes))));
   const double median = percentile(panel.values, 0.5, 0);
   for (std::size_t i = 0; i < magnitudes.size(); ++i) magnitudes[i] = std::abs(panel.values[i] - median);
   if (finite_count(panel.values) > 0)
@@ -77,7 +87,7 @@ Panel error_panel(const Depth& depth, const Truth& truth) {
 }
 
 Panel noise_panel(const Depth& depth) {
-  Panel panel{"noise [mm]", "", {}, {}};
+  Panel panel{"noise [mm]", "", "scale: 0 to the 98th percentile", {}, {}};
   for (const float noise : depth.noise_m) panel.values.push_back(1000.0 * static_cast<double>(noise));
   const PictureScale scale = round_scale(0, percentile(panel.values, 0.98, 1), 0.1);
   const auto place = [scale](double noise) { return scale.at(noise); };
@@ -102,36 +112,111 @@ std::string fitting(std::string_view caption, int width) {
   return text;
 }
 
-}  // namespace
+/// Invalid pixels of z in the colours of their reasons.
+void color_invalid(std::vector<Rgb>& image, const Depth& depth, const Look& look) {
+  for (std::size_t i = 0; i < image.size() && i < depth.flags.size(); ++i) {
+    const int reason = invalid_reason(depth.flags[i]);
+    if (!std::isfinite(depth.z_m[i]) && reason >= 0) image[i] = look.reasons[static_cast<std::size_t>(reason)];
+  }
+}
 
-std::string preview_png(const Depth& depth, const Truth& truth, const std::string& caption) {
-  const bool with_truth = truth.z_m.size() == depth.z_m.size();
-  const Panel panels[] = {depth_panel(depth), amplitude_panel(depth), with_truth ? error_panel(depth, truth) : noise_panel(depth)};
+struct LegendEntry {
+  Rgb color;
+  std::string text;
+};
 
-  const int scale = enlargement(depth.width, 450);
-  const int image_width = scale * depth.width, image_height = scale * depth.height;
+/// Why pixels are invalid, as far as it occurs.
+std::vector<LegendEntry> legend_of(const Depth& depth, const Look& look) {
+  std::array<std::size_t, invalid_flag_count> counts{};
+  for (const std::uint16_t flags : depth.flags) {
+    if (const int reason = invalid_reason(flags); reason >= 0) ++counts[static_cast<std::size_t>(reason)];
+  }
+  std::vector<LegendEntry> legend;
+  for (std::size_t i = 0; i < counts.size(); ++i) {
+    const double share = 100.0 * static_cast<double>(counts[i]) / static_cast<double>(std::max<std::size_t>(1, depth.flags.size()));
+    const std::string number = share < 0.1 ? "< 0.1" : fmt::format("{:.1f}", share);
+    if (counts[i] > 0) legend.push_back({look.reasons[i], fmt::format("{} {} %", flag_name(static_cast<int>(i)), number)});
+  }
+  return legend;
+}
+
+constexpr int legend_square = 11, legend_line = 22;
+
+/// From left to right, in as many lines as it takes. @return the lines; nothing is drawn without a canvas
+int draw_legend(Canvas* canvas, int top, int width, const std::vector<LegendEntry>& legend, const Look& look) {
+  const std::string title = "invalid in z:";
+  const int start = figure::margin + static_cast<int>(Canvas::text_width(figure::note_size, title)) + 14;
+  if (legend.empty()) return 0;
+  if (canvas != nullptr) canvas->text(figure::margin, top + legend_square - 1, figure::note_size, look.faint_ink, title);
+  int x = start, lines = 1;
+  for (const LegendEntry& entry : legend) {
+    const int needed = legend_square + 7 + static_cast<int>(Canvas::text_width(figure::note_size, entry.text)) + 22;
+    if (x > start && x + needed > width) x = start, ++lines;
+    const int y = top + (lines - 1) * legend_line;
+    if (canvas != nullptr) {
+      canvas->fill(x - 1, y - 1, legend_square + 2, legend_square + 2, look.faint_ink);
+      canvas->fill(x, y, legend_square, legend_square, entry.color);
+      canvas->text(x + legend_square + 7, y + legend_square - 1, figure::note_size, look.ink, entry.text);
+    }
+    x += needed;
+  }
+  return lines;
+}
+
+/// Where things stand [px].
+struct Layout {
+  int scale, image_width, image_height, panel_width, title_line, image_top, note_line, legend_top, width, height;
+  std::string title;
+};
+
+Layout layout_of(const Depth& depth, const std::vector<Panel>& panels, const std::string& caption, const std::vector<LegendEntry>& legend,
+                 const Look& look) {
+  Layout at{};
+  at.scale = enlargement(depth.width, 450);
+  at.image_width = at.scale * depth.width, at.image_height = at.scale * depth.height;
   // a panel has room for its texts even where the image is narrow
   double text_width = 0;
-  for (const Panel& panel : panels) text_width = std::max(text_width, Canvas::text_width(figure::note_size, panel.note));
+  for (const Panel& panel : panels) {
+    for (const std::string& note : {panel.note, panel.scale_note})
+      text_width = std::max(text_width, Canvas::text_width(figure::note_size, note));
+  }
   const int bar = figure::bar_gap + figure::bar_width + figure::label_width;
-  const int panel_width = std::max(image_width + bar, static_cast<int>(text_width) + figure::margin);
-  const int title_line = caption.empty() ? figure::margin + 14 : figure::margin + 48;
-  const int image_top = title_line + 12;
-  const int note_line = image_top + image_height + 22;
-  const std::string title = fitting(caption, 3 * panel_width + figure::margin);
-  const int width =
-      std::max(figure::margin + 3 * panel_width, static_cast<int>(Canvas::text_width(figure::title_size, title)) + 2 * figure::margin);
-  Canvas canvas(width, note_line + figure::margin, figure::background);
+  at.panel_width = std::max(at.image_width + bar, static_cast<int>(text_width) + figure::margin);
+  at.title_line = caption.empty() ? figure::margin + 14 : figure::margin + 48;
+  at.image_top = at.title_line + 12;
+  at.note_line = at.image_top + std::max(at.image_height, least_bar) + 22;
+  at.legend_top = at.note_line + 30;
+  at.title = fitting(caption, 3 * at.panel_width + figure::margin);
+  at.width =
+      std::max(figure::margin + 3 * at.panel_width, static_cast<int>(Canvas::text_width(figure::title_size, at.title)) + 2 * figure::margin);
+  at.height = at.legend_top + legend_line * draw_legend(nullptr, 0, at.width, legend, look) + figure::margin - 10;
+  return at;
+}
 
-  if (!caption.empty()) canvas.text(figure::margin, figure::margin + 14, figure::title_size, figure::ink, title);
+}  // namespace
+
+std::string preview_png(const Depth& depth, const Truth& truth, const std::string& caption, Theme theme) {
+  const bool with_truth = truth.z_m.size() == depth.z_m.size();
+  const Look& look = look_of(theme);
+  const std::vector<Panel> panels = {depth_panel(depth), amplitude_panel(depth),
+                                     with_truth ? error_panel(depth, truth) : noise_panel(depth)};
+  const std::vector<LegendEntry> legend = legend_of(depth, look);
+  const Layout at = layout_of(depth, panels, caption, legend, look);
+  Canvas canvas(at.width, at.height, look.background);
+
+  if (!caption.empty()) canvas.text(figure::margin, figure::margin + 14, figure::title_size, look.ink, at.title);
   int x = figure::margin;
   for (const Panel& panel : panels) {
-    canvas.text(x, title_line, 0.9 * figure::title_size, figure::ink, panel.title);
-    canvas.draw(x, image_top, depth.width, depth.height, scale, colored(panel.values, panel.colors));
-    draw_scale_bar(canvas, x + image_width + figure::bar_gap, image_top, image_height, panel.colors);
-    canvas.text(x, note_line, figure::note_size, figure::faint_ink, panel.note);
-    x += panel_width;
+    std::vector<Rgb> image = colored(panel.values, panel.colors, look.invalid);
+    if (&panel == &panels[0]) color_invalid(image, depth, look);
+    canvas.text(x, at.title_line, 0.9 * figure::title_size, look.ink, panel.title);
+    canvas.draw(x, at.image_top, depth.width, depth.height, at.scale, image);
+    draw_scale_bar(canvas, x + at.image_width + figure::bar_gap, at.image_top, std::max(at.image_height, least_bar), panel.colors, look);
+    canvas.text(x, at.note_line, figure::note_size, look.faint_ink, panel.note);
+    canvas.text(x, at.note_line + 16, figure::note_size, look.faint_ink, panel.scale_note);
+    x += at.panel_width;
   }
+  draw_legend(&canvas, at.legend_top, at.width, legend, look);
   return png_rgb8(canvas.width(), canvas.height(), canvas.pixels());
 }
 

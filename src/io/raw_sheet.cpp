@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "io/figure.h"
@@ -31,6 +32,8 @@ std::string short_number(double value, int decimals) {
   return text;
 }
 
+const char* unit_of(const Raw& raw) { return raw.raw.empty() ? "e" : "DN"; }
+
 /// "80.32 MHz  90°  2000 µs"
 std::string label_of(const Raw& raw, std::size_t k) {
   const std::string time = short_number(1e6 * raw.integration_time_s[k], 1) + " \xC2\xB5s";
@@ -55,44 +58,86 @@ std::vector<Place> places_of(const Raw& raw) {
   return places;
 }
 
-/// One grey scale for all raw frames.
-ValueColors common_colors(const Raw& raw) {
-  std::vector<double> all;
-  for (std::size_t k = 0; k < static_cast<std::size_t>(raw.phases); ++k) {
-    const std::vector<double> values = values_of(raw, k);
-    all.insert(all.end(), values.begin(), values.end());
-  }
-  const double low = percentile(all, 0.005, 0), high = percentile(std::move(all), 0.995, 1);
-  const PictureScale scale = round_scale(low, high, 4);
+constexpr double low_share = 0.005, high_share = 0.995;
+
+ValueColors grey_colors(const std::vector<double>& values) {
+  const PictureScale scale = round_scale(percentile(values, low_share, 0), percentile(values, high_share, 1), 4);
   const auto place = [scale](double code) { return scale.at(code); };
   return {scale, [place](double code) { return grey_color(place(code)); }, place};
 }
 
+/// One grey scale for all lit raw frames: in the sun the unlit one alone would set it. Without lit raw frames, of all.
+ValueColors common_colors(const Raw& raw) {
+  const bool any_lit = std::any_of(raw.lit.begin(), raw.lit.end(), [](auto lit) { return lit != 0; });
+  std::vector<double> all;
+  for (std::size_t k = 0; k < static_cast<std::size_t>(raw.phases); ++k) {
+    if (any_lit && raw.lit[k] == 0) continue;
+    const std::vector<double> values = values_of(raw, k);
+    all.insert(all.end(), values.begin(), values.end());
+  }
+  return grey_colors(all);
+}
+
+/// Whether more than 2 % of the values lie beyond a scale, which then shows them black or white.
+bool overflows(const std::vector<double>& values, const PictureScale& scale) {
+  const auto beyond = std::count_if(values.begin(), values.end(), [&](double value) { return value < scale.low || value > scale.high; });
+  return static_cast<double>(beyond) > 0.02 * static_cast<double>(values.size());
+}
+
+/// One image of the sheet.
+struct Cell {
+  std::string label;
+  std::vector<double> values;
+  ValueColors colors;
+  Place place;
+};
+
+std::vector<Cell> cells_of(const Raw& raw, const ValueColors& common) {
+  const std::vector<Place> places = places_of(raw);
+  std::vector<Cell> cells;
+  for (std::size_t k = 0; k < places.size(); ++k) {
+    Cell cell{label_of(raw, k), values_of(raw, k), common, places[k]};
+    if (raw.lit[k] == 0 && overflows(cell.values, common.scale)) {
+      cell.colors = grey_colors(cell.values);
+      const PictureScale& own = cell.colors.scale;
+      cell.label += fmt::format("  scale {} \xE2\x80\xA6 {} {}", own.label(own.low), own.label(own.high), unit_of(raw));
+    }
+    cells.push_back(std::move(cell));
+  }
+  return cells;
+}
+
 }  // namespace
 
-std::string raw_png(const Raw& raw) {
-  const std::vector<Place> places = places_of(raw);
+std::string raw_png(const Raw& raw, Theme theme) {
+  const Look& look = look_of(theme);
+  const ValueColors colors = common_colors(raw);
+  const std::vector<Cell> cells = cells_of(raw, colors);
   Place last;
-  for (const Place& place : places) last = {std::max(last.row, place.row), std::max(last.column, place.column)};
   double label = 0;
-  for (std::size_t k = 0; k < places.size(); ++k) label = std::max(label, Canvas::text_width(figure::label_size, label_of(raw, k)));
-
+  for (const Cell& cell : cells) {
+    last = {std::max(last.row, cell.place.row), std::max(last.column, cell.place.column)};
+    label = std::max(label, Canvas::text_width(figure::label_size, cell.label));
+  }
   const int scale = enlargement(raw.width, 300);
   const int image_width = scale * raw.width, image_height = scale * raw.height;
   const int step_x = std::max(image_width, static_cast<int>(label)) + figure::margin;
   const int step_y = image_height + 40;
-  const int bar_x = figure::margin + (last.column + 1) * step_x;
-  Canvas canvas(bar_x + figure::bar_width + figure::label_width + figure::margin, figure::margin + (last.row + 1) * step_y,
-                figure::background);
-
-  const ValueColors colors = common_colors(raw);
-  for (std::size_t k = 0; k < places.size(); ++k) {
-    const int x = figure::margin + places[k].column * step_x, y = figure::margin + places[k].row * step_y;
-    canvas.text(x, y + 6, figure::label_size, figure::ink, label_of(raw, k));
-    canvas.draw(x, y + 16, raw.width, raw.height, scale, colored(values_of(raw, k), colors));
+  const int bar_x = figure::margin + (last.column + 1) * step_x, bar_height = std::max(last.row * step_y + image_height, 90);
+  const std::string note = fmt::format("scale: {:g} to {:g} % of the lit raw frames' values", 100 * low_share, 100 * high_share);
+  const int note_line = figure::margin + 16 + bar_height + 24;
+  const int width = std::max(bar_x + figure::bar_width + figure::label_width,
+                             figure::margin + static_cast<int>(Canvas::text_width(figure::note_size, note)));
+  Canvas canvas(width + figure::margin, note_line + figure::margin - 8, look.background);
+  for (const Cell& cell : cells) {
+    const int x = figure::margin + cell.place.column * step_x, y = figure::margin + cell.place.row * step_y;
+    canvas.text(x, y + 6, figure::label_size, look.ink, cell.label);
+    canvas.draw(x, y + 16, raw.width, raw.height, scale, colored(cell.values, cell.colors, look.invalid));
   }
-  canvas.text(bar_x, figure::margin + 6, figure::label_size, figure::ink, raw.raw.empty() ? "A \xE2\x88\x92 B [e]" : "raw [DN]");
-  draw_scale_bar(canvas, bar_x, figure::margin + 16, last.row * step_y + image_height, colors);
+  canvas.text(bar_x, figure::margin + 6, figure::label_size, look.ink,
+              fmt::format("{} [{}]", raw.raw.empty() ? "A \xE2\x88\x92 B" : "raw", unit_of(raw)));
+  draw_scale_bar(canvas, bar_x, figure::margin + 16, bar_height, colors, look);
+  canvas.text(figure::margin, note_line, figure::note_size, look.faint_ink, note);
   return png_rgb8(canvas.width(), canvas.height(), canvas.pixels());
 }
 

@@ -1,0 +1,105 @@
+// SPDX-FileCopyrightText: 2026 The tofray authors
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "io/figure.h"
+#include "io/out_helpers.h"
+#include "io/out_png.h"
+#include "io/pictures.h"
+
+using namespace tofray;
+using namespace tofray::io;
+using out_test::read_back;
+using out_test::ReadBack;
+
+namespace {
+
+/// How many pixels of a picture have a colour.
+std::size_t count_of(const std::string& png, Rgb color) {
+  const ReadBack back = read_back(png);
+  std::size_t count = 0;
+  for (std::size_t i = 0; i + 2 < back.bytes.size(); i += 3)
+    count += Rgb{back.bytes[i], back.bytes[i + 1], back.bytes[i + 2]} == color ? 1 : 0;
+  return count;
+}
+
+/// A frame whose errors are +2 mm, but for this share of wrong cycles.
+Frame with_wrong_cycles(double share) {
+  Frame frame = out_test::sample_frame(100, 50);
+  for (std::size_t i = 0; i < frame.depth.z_m.size(); ++i) {
+    frame.truth.z_m[i] = 1.F;
+    frame.depth.z_m[i] = static_cast<double>(i) < share * 5000 ? 3.4F : 1.002F;
+  }
+  return frame;
+}
+
+}  // namespace
+
+TEST(preview, wrong_cycles_do_not_set_the_scale_of_errors) {
+  // 3 * 2 mm is the scale's end (round_scale: 6 mm), so that 2 mm is a third of the way to red, whatever a few pixels do.
+  // 5 is the enlargement of 100 columns, hence 25 pixels for each.
+  for (const double share : {0.01, 0.03, 0.2}) {
+    const std::size_t good = static_cast<std::size_t>((1 - share) * 5000) * 25;
+    const std::size_t expected = share < 0.02 ? 0 : good;  // of 1 % the 98th percentile tells nothing: its end is 2 mm
+    const Frame frame = with_wrong_cycles(share);
+    EXPECT_NEAR(static_cast<double>(count_of(preview_png(frame.depth, frame.truth, ""), error_color(2.0 / 6))),
+                static_cast<double>(expected), 60);
+  }
+}
+
+TEST(preview, invalid_pixels_have_the_colour_of_their_reason) {
+  Frame frame = out_test::sample_frame(100, 50);
+  std::fill(frame.depth.flags.begin(), frame.depth.flags.end(), std::uint16_t{0});
+  const std::uint16_t flags[] = {flag_saturated | flag_low_signal, flag_low_signal | flag_flying_pixel, flag_flying_pixel,
+                                 flag_no_return | flag_low_signal, flag_outside_lens | flag_saturated};
+  for (std::size_t i = 0; i < frame.depth.z_m.size(); ++i) {
+    frame.depth.z_m[i] = 1.F;
+    if (i / 100 >= 5) continue;
+    frame.depth.z_m[i] = out_test::nan_f;
+    frame.depth.flags[i] = flags[i / 100];
+  }
+  frame.truth = {};
+  frame.depth.noise_m.assign(frame.depth.noise_m.size(), 0.001F);
+  for (const Theme theme : {Theme::dark, Theme::light}) {
+    std::string legend = preview_png(frame.depth, frame.truth, "", theme);
+    const Look& look = look_of(theme);
+    // 100 pixels of each reason, 5 times enlarged, and the legend's square of 11 x 11 with what letters' edges add
+    for (const Rgb reason : look.reasons)
+      EXPECT_NEAR(static_cast<double>(count_of(legend, reason)), 100 * 25 + 121, 60) << static_cast<int>(reason.red);
+    Depth valid = frame.depth;
+    std::fill(valid.flags.begin(), valid.flags.end(), std::uint16_t{0});
+    EXPECT_LT(read_back(preview_png(valid, {}, "", theme)).height, read_back(legend).height);  // no legend where nothing is to tell
+  }
+}
+
+TEST(preview, light_theme_is_dark_on_white) {
+  const Frame frame = out_test::sample_frame(48, 32);
+  for (const std::string& png : {preview_png(frame.depth, frame.truth, "x", Theme::light), raw_png(frame.raw, Theme::light)}) {
+    const ReadBack back = read_back(png);
+    EXPECT_EQ(back.bytes[0], 255);
+    EXPECT_EQ(count_of(png, figure::background), 0U);
+    EXPECT_GT(count_of(png, {255, 255, 255}), back.bytes.size() / 3 / 4);
+  }
+}
+
+TEST(raw_sheet, sunlight_in_the_unlit_frame_does_not_blacken_the_lit_ones) {
+  Frame frame = out_test::sample_frame(60, 40);
+  const std::size_t pixels = 60 * 40;
+  for (std::size_t i = 0; i < frame.raw.raw.size(); ++i)
+    frame.raw.raw[i] = static_cast<std::uint16_t>(i < pixels ? 3400 + i % 60 : 2000 + i % 60);
+  // The lit frames' 2000 … 2059 go from dark to white: 2059 is nearly white in each of the eight, 25 pixels for one.
+  const ReadBack back = read_back(raw_png(frame.raw));
+  std::size_t bright = 0;
+  for (std::size_t i = 0; i + 2 < back.bytes.size(); i += 3) bright += back.bytes[i] > 190 && back.bytes[i] == back.bytes[i + 1] ? 1 : 0;
+  EXPECT_GT(bright, 8U * pixels * 25 / 6);
+}
+
+TEST(pictures, of_any_shape_have_room_for_their_scale_bars) {
+  for (const auto& [width, height] : {std::pair{16, 12}, {4, 4}, {512, 2}, {3, 200}}) {
+    const Frame frame = out_test::sample_frame(width, height);
+    EXPECT_GT(read_back(preview_png(frame.depth, frame.truth, "x")).height, 190U) << width;
+    EXPECT_GT(read_back(raw_png(frame.raw)).height, 130U) << width;
+  }
+}
