@@ -210,7 +210,7 @@ int run_bench(const Options& options) {
     ratios = compare(options, scene, results);
   } else {
     const Inputs in = load_inputs(scene, options);
-    say(warnings(in.scene, in.camera));
+    say(warnings(in));
     Contender one(in, bench_options(options));
     say_fallback(options, one.simulator().fallback_reason());
     Progress progress(frames + options.warmup, "frames", options.json);

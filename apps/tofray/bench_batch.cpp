@@ -107,7 +107,7 @@ std::string text_of(const io::Json& row) {
 
 int run_batch_bench(const Options& options) {
   const Inputs in = load_inputs(options.words.empty() ? "bench-primitives" : options.words[0], options);
-  say(warnings(in.scene, in.camera));
+  say(warnings(in));
   SimulatorOptions wanted = bench_options(options);
   if (wanted.device < 0) wanted.device = 0;  // one GPU, also where frames would be spread over several: its energy is measured
   Simulator simulator(in.scene, in.camera, wanted);

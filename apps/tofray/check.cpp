@@ -4,6 +4,7 @@
 
 #include "commands.h"
 #include "console.h"
+#include "input_kind.h"
 #include "inputs.h"
 #include "io/builtin.h"
 #include "io/convert.h"
@@ -16,13 +17,6 @@
 namespace tofray::app {
 
 namespace {
-
-/// A camera profile is told from a scene by what it has to have.
-bool looks_like_a_profile(const std::string& text, const std::string& name) {
-  const io::Node root = io::parse_tree(text, name);
-  return root.find("objects") == nullptr &&
-         (root.find("modes") != nullptr || root.find("sensor") != nullptr || root.find("lens") != nullptr);
-}
 
 /// Scene and camera are put together, and nothing is computed: no reason to wake a GPU.
 SimulatorOptions on_processor(const Options& options) {
@@ -46,12 +40,13 @@ Report check_profile(const std::string& text, const std::string& name, const Opt
     wanted.mode = mode;
     const Camera camera = load();
     Simulator(Scene(), camera, on_processor(options));
-    const std::string more = warnings(camera);
+    const std::string more = warnings(camera, "");
     if (report.warnings.find(more) == std::string::npos) report.warnings += more;
   }
   const std::vector<std::string> unsourced = io::unsourced_numbers(io::parse_tree(text, name));
   for (const std::string& one : unsourced)
-    report.warnings += fmt::format("{}: warning: this number does not say where it comes from\n", one.substr(0, one.rfind(": ")));
+    report.warnings += fmt::format("{}: warning: {}, and does not say where that comes from\n", one.substr(0, one.find(": ")),
+                                   one.substr(one.find(": ") + 2));
   if (!unsourced.empty()) report.warnings += "  expected source: or assumed: beside it, or for its group\n";
   report.json.set("kind", "camera")
       .set("name", first.name)
@@ -66,7 +61,7 @@ Report check_scene(const std::string& name, const Options& options) {
   const Inputs in = load_inputs(name, options);
   Simulator(in.scene, in.camera, on_processor(options));
   Report report;
-  report.warnings = warnings(in.scene, in.camera);
+  report.warnings = warnings(in);
   report.json.set("kind", "scene")
       .set("name", in.scene.name)
       .set("objects", in.scene.objects.size())
@@ -82,7 +77,9 @@ Report check(const Options& options) {
   if (io::find_builtin(io::builtin_scenes(), name) != nullptr) return check_scene(name, options);
   if (const io::Builtin* profile = io::find_builtin(io::builtin_profiles(), name))
     return check_profile(std::string(profile->text), name, options);
+  refuse_folder(name, "check");
   const std::string text = io::read_named("scene", name, io::builtin_scenes());
+  refuse_data(text, name);
   return looks_like_a_profile(text, name) ? check_profile(text, name, options) : check_scene(name, options);
 }
 

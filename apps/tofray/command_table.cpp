@@ -6,8 +6,8 @@ namespace tofray::app {
 
 namespace {
 
-const std::vector<const char*> simulation = {"--output", "--set",  "--mode",    "--seed",   "--noise",
-                                             "--emit",   "--root", "--threads", "--backend", "--device"};
+const std::vector<const char*> simulation = {"--output", "--set",  "--mode",    "--seed",    "--noise", "--emit",
+                                             "--theme",  "--root", "--threads", "--backend", "--device"};
 
 std::vector<const char*> simulation_and(std::vector<const char*> more) {
   std::vector<const char*> all = simulation;
@@ -33,6 +33,7 @@ std::vector<Command> make() {
        .examples = "tofray render scene.yaml -o out                          # one frame, all files\n"
                    "tofray render scene.yaml -o out --frames 100 --seed 7    # frame_0000.npz to frame_0099.npz\n"
                    "tofray render room --set camera.lens.f_number=1.2        # a built-in scene, another lens\n"
+                   "tofray render room --theme light                         # pictures on white, for papers\n"
                    "tofray render --from out/manifest.json -o again          # the same bytes again\n",
        .more = "SCENE is a YAML or JSON file, or a name out of `tofray list scenes`. Without -o the folder is called like the scene.\n"
                "Same version, scene, options and seed: the same bytes, for any number of threads.\n",
@@ -46,10 +47,13 @@ std::vector<Command> make() {
        .summary = "turn raw frames, simulated or measured, into depth",
        .examples = "tofray process out/frame.npz -o again --set camera.decoding.filter.kind=median\n"
                    "tofray process recording.npz --camera mycam.yaml -o out  # your own camera's raw frames\n",
-       .more = "RAW.npz holds raw [phase, height, width] (codes), or tap_a and tap_b (electrons), and by phase modulation_frequency_hz,\n"
-               "reference_phase_rad, integration_time_s, lit and, if it is known, start_time_s (otherwise each exposure begins when the one\n"
-               "before has been read out). Without --camera it is the camera that the file says it was made with.\n",
-       .options = {"--camera", "--output", "--set", "--mode", "--emit", "--threads", "--backend", "--device", "--json", "--quiet"},
+       .more =
+           "RAW.npz holds raw [phase, height, width] (codes), or tap_a and tap_b (electrons), and by phase modulation_frequency_hz,\n"
+           "reference_phase_rad, integration_time_s, lit and, if it is known, start_time_s (otherwise each exposure begins when the one\n"
+           "before has been read out). Without --camera it is the camera that the file says it was made with.\n"
+           "Its other arrays, such as gt_* and camera_pose, are written again as they are.\n",
+       .options = {"--camera", "--output", "--set", "--mode", "--emit", "--theme", "--threads", "--backend", "--device", "--json",
+                   "--quiet"},
        .least_words = 1,
        .most_words = 1,
        .run = run_process,
@@ -121,8 +125,8 @@ std::vector<Command> make() {
                "code and against vector code, all in turn, for scenes of 16 spheres, boxes, planes and triangles (or SCENE): a table,\n"
                "and in ./tofray-bench (or -o DIR) experiment.json, experiment.txt, speed-up.png and speed-up.svg.\n"
                "Exit code 1 where not all give the same bytes.\n",
-       .options = {"--frames", "--warmup", "--compare", "--batch", "--stage", "--block-size", "--output", "--set", "--mode", "--seed", "--noise", "--root",
-                   "--threads", "--backend", "--device", "--json"},
+       .options = {"--frames", "--warmup", "--compare", "--batch", "--stage", "--block-size", "--output", "--set", "--mode", "--seed",
+                   "--noise", "--root", "--threads", "--backend", "--device", "--json"},
        .least_words = 0,
        .most_words = 1,
        .run = run_bench,

@@ -37,7 +37,7 @@ std::string told(const Frame& frame, const Inputs& in, const Simulator& simulato
 int run_demo(const Options& options) {
   Stopwatch stopwatch;
   Inputs in = load_inputs("demo", options);
-  say(warnings(in.scene, in.camera));
+  say(warnings(in));
   const SimulatorOptions wanted = simulator_options(options);
   Simulator simulator(in.scene, in.camera, wanted);
   say_fallback(options, simulator.fallback_reason());
@@ -45,7 +45,7 @@ int run_demo(const Options& options) {
   stopwatch.lap("prepare");
   const Frame frame = simulator.frame(0);
   stopwatch.lap("simulate");
-  write_frame(folder, options.emit.value_or(std::vector<std::string>{"npz", "png", "ply"}), "", frame, in, wanted);
+  write_frame(folder, options.emit.value_or(std::vector<std::string>{"npz", "png", "ply"}), "", frame, in, wanted, options.theme);
   stopwatch.lap("write");
   const Machine machine = machine_of(simulator);
   write_manifest(folder, options, in.files, machine, stopwatch);

@@ -176,7 +176,7 @@ int run_experiment(const Options& typed) {
   if (options.stages.empty()) options.stages = {"all"};
   std::vector<Inputs> scenes;
   for (const std::string& name : options.words.empty() ? shape_scenes : options.words) scenes.push_back(load_inputs(name, options));
-  for (const Inputs& in : scenes) say(warnings(in.scene, in.camera));
+  for (const Inputs& in : scenes) say(warnings(in));
   const bool gpu = takes_gpu(options, scenes[0]);
 
   Experiment experiment = described(options, scenes[0], gpu);

@@ -7,6 +7,8 @@
 #include <algorithm>
 
 #include "base/text.h"
+#include "base/units.h"
+#include "input_kind.h"
 #include "io/builtin.h"
 #include "io/convert.h"
 #include "io/load.h"
@@ -27,6 +29,35 @@ Camera camera_of_texts(const Scene& scene, const io::InputFile& profile, const s
   return io::camera_from_text(profile_with_tables(profile, scene.camera.overrides, files), profile.name, "", wanted);
 }
 
+/// Reads the scene; a file that is something else is refused as that.
+Scene scene_of_text(const std::string& text, const std::string& name, const Options& options) {
+  try {
+    return io::scene_from_text(text, name, options.set);
+  } catch (const Error& error) {
+    if (error.kind() == ErrorKind::bad_input) refuse_other_document(text, name);
+    throw;
+  }
+}
+
+double longest_lit(const Camera& camera) {
+  double longest = 0;
+  for (const RawFrame& one : camera.mode.sequence) longest = one.lit ? std::max(longest, one.integration_time_s) : longest;
+  return longest;
+}
+
+/// Longest lit exposure of the mode as its camera has it, where the scene sets camera.integration_time; otherwise 0.
+/// @param load  the camera that a scene asks for
+template <class Load>
+double mode_integration_time(Scene scene, const Load& load) {
+  const auto sets_time = [](const Override& one) { return one.key == "integration_time"; };
+  if (std::erase_if(scene.camera.overrides, sets_time) == 0) return 0;
+  try {
+    return longest_lit(load(scene));
+  } catch (const Error&) {
+    return 0;  // the mode is good with the scene's time alone: there is nothing to compare with
+  }
+}
+
 }  // namespace
 
 Inputs load_inputs(const std::string& scene, const Options& options) {
@@ -36,11 +67,15 @@ Inputs load_inputs(const std::string& scene, const Options& options) {
     in.files.push_back({"scene", scene, {}});
   } else {
     // Read once, so that a pipe is good, too, and the manifest holds what was simulated.
+    refuse_folder(scene, "render");
     const std::string text = io::read_named("scene", scene, io::builtin_scenes());
-    in.scene = io::scene_from_text(text, scene, options.set);
+    refuse_data(text, scene);
+    in.scene = scene_of_text(text, scene, options);
     in.files.push_back({"scene", scene, text});
   }
-  in.camera = load_camera(in.scene, {options.mode, {}, options.root});
+  const auto load = [&](const Scene& seen) { return load_camera(seen, {options.mode, {}, options.root}); };
+  in.camera = load(in.scene);
+  in.mode_integration_time_s = mode_integration_time(in.scene, load);
   if (is_builtin_source(in.camera.source)) return in;
   in.files.push_back({"profile", in.camera.source, io::read_text(in.camera.source)});
   const auto tables = profile_tables(in.files.back(), io::folder_of(in.camera.source), in.scene.camera.overrides);
@@ -66,27 +101,43 @@ Inputs inputs_of(const io::Manifest& manifest, const Options& options) {
     throw Error(ErrorKind::bad_input, fmt::format("{}: error: it does not hold the text of the camera profile {}\n  expected the profile's file in it, "
                                                   "or the name of a built-in one",
                                                   base::printable(options.from), base::in_quotes(named)));
-  in.camera = profile == in.files.end() ? load_camera(in.scene, {options.mode, {}, {}})
-                                        : camera_of_texts(in.scene, *profile, in.files, options.mode);
+  const auto load = [&](const Scene& seen) {
+    return profile == in.files.end() ? load_camera(seen, {options.mode, {}, {}}) : camera_of_texts(seen, *profile, in.files, options.mode);
+  };
+  in.camera = load(in.scene);
+  in.mode_integration_time_s = mode_integration_time(in.scene, load);
   return in;
 }
 
-std::string warnings(const Scene& scene, const Camera& camera) {
+std::string warnings(const Inputs& in) {
   std::string text;
-  if (scene.objects.empty()) text += "warning: the scene has no objects\n  no pixel gets any light back, and every depth is invalid\n";
-  return text + warnings(camera);
+  if (in.scene.objects.empty())
+    text += "warning: the scene has no objects: objects is []\n  no pixel gets any light back, and every depth is invalid\n";
+  const double now = longest_lit(in.camera), modes = in.mode_integration_time_s;
+  if (modes > 0 && now > modes)
+    text += fmt::format(
+        "warning: camera.integration_time is {}, longer than the {} of the mode {}\n  a mode's own time is what its camera is made for: "
+        "its "
+        "light, heat and safety to eyes\n",
+        base::quantity_text(now, "1 us"), base::quantity_text(modes, "1 us"), in.camera.mode.name);
+  return text + warnings(in.camera, "camera.");
 }
 
-std::string warnings(const Camera& camera) {
+std::string warnings(const Camera& camera, const std::string& before) {
   const auto& lights = camera.illumination;
   const auto& sequence = camera.mode.sequence;
+  const char* const effect = "\n  every depth is invalid\n";
   std::string text;
-  if (lights.empty())
-    text += "warning: the camera has no light source\n  every depth is invalid\n";
-  else if (std::none_of(lights.begin(), lights.end(), [](const Illumination& one) { return one.power_w > 0; }))
-    text += "warning: the camera's light sources have no power\n  every depth is invalid\n";
+  if (lights.empty()) {
+    text += fmt::format("warning: the camera has no light source: {}illumination is []{}", before, effect);
+  } else if (std::none_of(lights.begin(), lights.end(), [](const Illumination& one) { return one.power_w > 0; })) {
+    std::vector<std::string> powers;
+    for (std::size_t i = 0; i < lights.size(); ++i) powers.push_back(fmt::format("{}illumination.{}.power is 0 W", before, i));
+    text += fmt::format("warning: the camera's light sources have no power: {}{}", base::listed(powers, "and"), effect);
+  }
   if (std::none_of(sequence.begin(), sequence.end(), [](const RawFrame& one) { return one.lit; }))
-    text += fmt::format("warning: the mode {} has no lit raw frame\n  every depth is invalid\n", camera.mode.name);
+    text += fmt::format("warning: the mode {0} has no lit raw frame: {1}modes.{0}.sequence says lit: false throughout{2}", camera.mode.name,
+                        before, effect);
   return text;
 }
 

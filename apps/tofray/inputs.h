@@ -1,10 +1,13 @@
 // SPDX-FileCopyrightText: 2026 The tofray authors
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "io/frame_file.h"
 #include "io/manifest.h"
+#include "io/npz.h"
 #include "options.h"
 #include "tofray/camera.h"
 #include "tofray/scene.h"
@@ -16,6 +19,9 @@ struct Inputs {
   Scene scene;
   Camera camera;
   std::vector<io::InputFile> files;  ///< for manifest.json: the scene, a profile of one's own and its tables
+  std::vector<io::NamedArray> kept;  ///< of a recording: arrays that are written again as they are
+  double mode_integration_time_s = 0;  ///< longest lit exposure of the mode itself where camera.integration_time sets another; else 0
+  std::optional<io::PoseMatrix> pose;  ///< of a recording; otherwise the scene says it
 };
 
 /// Reads the scene (a file or a built-in name) with --set, and the camera that it asks for with --mode and --root.
@@ -26,10 +32,12 @@ Inputs load_inputs(const std::string& scene, const Options& options);
 /// @throws Error
 Inputs inputs_of(const io::Manifest& manifest, const Options& options);
 
-/// What is wrong with a scene that can be simulated all the same: no objects, no light. One or two lines each, or nothing.
-std::string warnings(const Scene& scene, const Camera& camera);
+/// What is wrong with a scene that can be simulated all the same: no objects, no light, exposures longer than the mode's own. Two lines
+/// each, or nothing; each names the key and its value.
+std::string warnings(const Inputs& in);
 /// … and with a camera alone: no light source, no lit raw frame.
-std::string warnings(const Camera& camera);
+/// @param before  what stands before the camera's keys: "camera." or nothing
+std::string warnings(const Camera& camera, const std::string& before);
 
 SimulatorOptions simulator_options(const Options& options);
 

@@ -12,6 +12,7 @@
 #include "base/constants.h"
 #include "commands.h"
 #include "console.h"
+#include "input_kind.h"
 #include "io/meta.h"
 #include "io/npy.h"
 #include "results.h"
@@ -180,7 +181,7 @@ bool ends_in(const std::string& path, const char* ending) { return path.ends_wit
 
 /// The file's arrays; those of a scene are simulated now.
 Arrays arrays_of(const Options& options) {
-  const std::string& path = options.words[0];
+  const std::string path = frame_in(options.words[0]);
   const bool npz = ends_in(path, ".npz"), npy = ends_in(path, ".npy");
   if (npz || npy) {
     if (!options.set.empty() || options.seed || options.noise || !options.mode.empty())
@@ -194,7 +195,7 @@ Arrays arrays_of(const Options& options) {
     return Arrays(std::move(one), path);
   }
   const Inputs in = load_inputs(path, options);
-  say(warnings(in.scene, in.camera));
+  say(warnings(in));
   const SimulatorOptions wanted = simulator_options(options);
   const Frame frame = Simulator(in.scene, in.camera, wanted).frame(0);
   const std::string meta = io::frame_meta(in.scene, in.camera, wanted.seed, wanted.noise, 0);

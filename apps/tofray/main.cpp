@@ -10,6 +10,7 @@
 #include "base/text.h"
 #include "commands.h"
 #include "console.h"
+#include "fault_json.h"
 #include "io/json.h"
 #include "io/version.h"
 #include "tofray/error.h"
@@ -83,25 +84,37 @@ int run(const std::vector<std::string>& arguments) {
   return command->run(options);
 }
 
-/// What went wrong as the user reads it, and the exit code.
+bool wants_json(const std::vector<std::string>& arguments) {
+  return std::any_of(arguments.begin(), std::find(arguments.begin(), arguments.end(), "--"),
+                     [](const auto& one) { return one == "--json"; });
+}
+
+/// Says what went wrong, to people and, where JSON was asked for, to programs. @return the exit code
+int failed(const std::vector<std::string>& arguments, const std::string& text, ErrorKind kind) {
+  say(text + "\n");
+  if (kind == ErrorKind::bug) say("  this is a fault of tofray's: please report it with the output of `tofray doctor`\n");
+  try {
+    if (wants_json(arguments)) print(io::json_text(fault_json(text, kind), 2) + "\n");
+  } catch (...) {  // people know by now, and the exit code says it, too
+  }
+  return static_cast<int>(kind);
+}
+
 int guarded(const std::vector<std::string>& arguments) {
   try {
     return run(arguments);
   } catch (const Error& error) {
-    say(std::string(error.what()) + "\n");
-    if (error.kind() == ErrorKind::bug) say("  this is a fault of tofray's: please report it with the output of `tofray doctor`\n");
-    return static_cast<int>(error.kind());
+    return failed(arguments, error.what(), error.kind());
   } catch (const std::bad_alloc&) {
-    say("error: out of memory\n  a smaller sensor, fewer raw frames or fewer threads need less; `tofray --limits` lists what is allowed at "
-        "all\n");
-    return static_cast<int>(ErrorKind::limit);
+    return failed(arguments,
+                  "error: out of memory\n  a smaller sensor, fewer raw frames or fewer threads need less; `tofray --limits` lists what is "
+                  "allowed at all",
+                  ErrorKind::limit);
   } catch (const std::exception& error) {
-    say(fmt::format("error: unexpected: {}\n  this is a fault of tofray's: please report it with the output of `tofray doctor`\n",
-                    error.what()));
+    return failed(arguments, fmt::format("error: unexpected: {}", error.what()), ErrorKind::bug);
   } catch (...) {
-    say("error: unexpected\n  this is a fault of tofray's: please report it with the output of `tofray doctor`\n");
+    return failed(arguments, "error: unexpected", ErrorKind::bug);
   }
-  return static_cast<int>(ErrorKind::bug);
 }
 
 }  // namespace

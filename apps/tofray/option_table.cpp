@@ -75,6 +75,11 @@ void take_emit(Options& o, const std::string& value) {
   o.emit = kinds;
 }
 
+void take_theme(Options& o, const std::string& value) {
+  if (value != "dark" && value != "light") refuse("--theme", value, "dark or light (dark text on white, for papers)");
+  o.theme = value == "light" ? io::Theme::light : io::Theme::dark;
+}
+
 constexpr auto most_threads = static_cast<std::uint64_t>(base::limit::threads.value);
 constexpr int most_block = 1024;  // CUDA's threads per block; they go together in warps of 32
 constexpr const char* block_sizes_expected =
@@ -232,6 +237,7 @@ std::vector<OptionSpec> specs() {
        "what to write, out of npz,png,ply (all for one frame, npz for many)",
        take_emit,
        {"npz", "png", "ply", "npz,png", "npz,png,ply"}},
+      {"--theme", 0, "NAME", "look of preview.png and raw.png: dark, or light for papers (dark)", take_theme, {"dark", "light"}},
       {"--from",
        0,
        "MANIFEST",

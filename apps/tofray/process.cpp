@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <optional>
 #include <thread>
 
 #include "backend/cpu/cpu.h"
@@ -59,6 +60,58 @@ bool is_noise_free(const std::string& meta, const std::string& path) {
   return noise != nullptr && noise->is_string() && *noise->string() == io::noise_name(Noise::off);
 }
 
+/// Names that a zip of ours can hold whatever wrote the file.
+bool is_plain(const std::string& name) {
+  return std::all_of(name.begin(), name.end(), [](char c) { return c > ' ' && c < 127 && c != '/' && c != '\\'; });
+}
+
+/// All arrays of the file: those that processing does not make are written again as they are (ground truth, the camera's pose, one's own
+/// labels). Where one is of a kind that is not read, none are kept, and a warning says so.
+std::vector<io::NamedArray> arrays_to_keep(std::string_view bytes, const std::string& path) {
+  try {
+    std::vector<io::NamedArray> arrays = io::parse_npz(bytes, path);
+    std::erase_if(arrays, [](const io::NamedArray& one) { return !is_plain(one.name); });
+    return arrays;
+  } catch (const Error& error) {
+    say(fmt::format("warning: arrays besides the raw data are not kept:\n  {}\n", error.what()));
+    return {};
+  }
+}
+
+const io::NpyArray* find(const std::vector<io::NamedArray>& arrays, const char* name) {
+  for (const io::NamedArray& one : arrays) {
+    if (one.name == name) return &one.array;
+  }
+  return nullptr;
+}
+
+std::optional<io::PoseMatrix> pose_of(const std::vector<io::NamedArray>& arrays) {
+  const io::NpyArray* array = find(arrays, "camera_pose");
+  if (array == nullptr || array->shape != io::NpyShape{4, 4} || array->type.kind != 'f') return {};
+  io::PoseMatrix pose{};
+  for (std::size_t i = 0; i < pose.size(); ++i) pose[i] = array->number(i);
+  return pose;
+}
+
+/// True z, for the error map of preview.png; the whole ground truth is among the arrays that are kept.
+std::vector<float> true_z(const std::vector<io::NamedArray>& arrays, const Depth& depth) {
+  const io::NpyArray* array = find(arrays, "gt_z_m");
+  const io::NpyShape image = {static_cast<std::size_t>(depth.height), static_cast<std::size_t>(depth.width)};
+  std::vector<float> z;
+  if (array == nullptr || array->shape != image || array->type.kind != 'f') return z;
+  for (std::size_t i = 0; i < array->count(); ++i) z.push_back(static_cast<float>(array->number(i)));
+  return z;
+}
+
+/// What processing with these options runs on.
+Machine machine_for(const SimulatorOptions& wanted) {
+  const int cores = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+  const backend::CudaLack lack =
+      wanted.backend == Backend::cpu ? backend::CudaLack{"the processor was asked for", false, ""} : backend::why_no_cuda(wanted.device);
+  return {lack.reason.empty() ? "cuda" : "cpu", backend::isa_name(backend::choose_isa(wanted.isa)), lack.gpu,
+          wanted.threads > 0 ? wanted.threads : cores};
+}
+
 }  // namespace
 
 int run_process(const Options& options) {
@@ -81,18 +134,19 @@ int run_process(const Options& options) {
     wanted.noise = Noise::off;
     if (!frame.raw.tap_a.empty()) frame.raw.raw.clear();
   }
-  say(in.camera.illumination.empty() ? "warning: the camera has no light source\n  every depth is invalid\n" : "");
+  in.kept = arrays_to_keep(bytes, path);
+  in.pose = pose_of(in.kept);
+  say(in.camera.illumination.empty() ? "warning: the camera has no light source: camera.illumination is []\n  every depth is invalid\n"
+                                     : "");
   stopwatch.lap("prepare");
   frame.depth = process(frame.raw, in.camera, wanted);
+  frame.truth.z_m = true_z(in.kept, frame.depth);
   stopwatch.lap("process");
 
   io::OutputFolder folder(options.output.empty() ? in.scene.name + "-depth" : options.output);
-  write_frame(folder, options.emit.value_or(std::vector<std::string>{"npz", "png", "ply"}), "", frame, in, wanted);
+  write_frame(folder, options.emit.value_or(std::vector<std::string>{"npz", "png", "ply"}), "", frame, in, wanted, options.theme);
   stopwatch.lap("write");
-  const int cores = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
-  const backend::CudaLack lack = wanted.backend == Backend::cpu ? backend::CudaLack{"the processor was asked for", false, ""} : backend::why_no_cuda(wanted.device);
-  const Machine machine{lack.reason.empty() ? "cuda" : "cpu", backend::isa_name(backend::choose_isa(wanted.isa)), lack.gpu,
-                        wanted.threads > 0 ? wanted.threads : cores};
+  const Machine machine = machine_for(wanted);
   write_manifest(folder, options, in.files, machine, stopwatch);
   if (validity(frame.depth).valid == 0) say(fmt::format("warning: no pixel has a valid depth: {}\n", validity(frame.depth).reasons));
   if (options.json)

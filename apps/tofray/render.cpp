@@ -31,7 +31,7 @@ Options recalled(const Options& now, const io::Manifest& manifest) {
   for (const auto& [key, value] : manifest.options) {
     if (key == "mode")
       options.mode = value;
-    else if (key == "noise" || key == "emit" || key == "frames" || key == "first-frame")
+    else if (key == "noise" || key == "emit" || key == "frames" || key == "first-frame" || key == "theme")
       option("--" + key).take(options, value);
     else
       throw Error(ErrorKind::bad_input,
@@ -81,7 +81,7 @@ void render_frames(Simulator& simulator, const Options& options, const Inputs& i
     simulator.frame(i, out.frame);
     stopwatch.lap("simulate");
     if (validity(out.frame.depth).valid == 0) ++out.all_invalid;
-    write_frame(folder, emit, numbered ? suffix_of(i, first + frames - 1) : "", out.frame, in, simulator_options(options));
+    write_frame(folder, emit, numbered ? suffix_of(i, first + frames - 1) : "", out.frame, in, simulator_options(options), options.theme);
     stopwatch.lap("write");
     ++out.frames;
     progress.step();
@@ -114,7 +114,7 @@ int run_render(const Options& typed) {
   if (!typed.from.empty()) before = io::read_manifest(typed.from);
   const Options options = typed.from.empty() ? typed : recalled(typed, before);
   const Inputs in = typed.from.empty() ? load_inputs(options.words[0], options) : inputs_of(before, options);
-  say(warnings(in.scene, in.camera));
+  say(warnings(in));
   Simulator simulator(in.scene, in.camera, simulator_options(options));
   say_fallback(options, simulator.fallback_reason());
   io::OutputFolder folder(options.output.empty() ? in.scene.name : options.output);

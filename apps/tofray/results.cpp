@@ -71,28 +71,21 @@ io::PoseMatrix camera_pose(const Scene& scene) {
 }
 
 const std::vector<std::string>& flag_names() {
-  static const std::vector<std::string> names = {
-      "saturated", "low signal", "flying pixel", "no return", "outside the lens model", "inconsistent phases", "inconsistent frequencies"};
+  static const std::vector<std::string> names = [] {
+    std::vector<std::string> all;
+    for (int bit = 0; bit < io::flag_count; ++bit) all.emplace_back(io::flag_name(bit));
+    return all;
+  }();
   return names;
 }
 
 Validity validity(const Depth& depth) {
   Validity out;
   out.pixels = depth.flags.size();
-  std::vector<std::size_t> counts(5);
+  std::vector<std::size_t> counts(io::invalid_flag_count);
   for (const std::uint16_t flags : depth.flags) {
-    if ((flags & flags_invalid) == 0) ++out.valid;
-    // A pixel that got nothing back is also weak and noisy: the flag that explains most comes first.
-    else if ((flags & flag_outside_lens) != 0)
-      ++counts[4];
-    else if ((flags & flag_saturated) != 0)
-      ++counts[0];
-    else if ((flags & flag_no_return) != 0)
-      ++counts[3];
-    else if ((flags & flag_low_signal) != 0)
-      ++counts[1];
-    else
-      ++counts[2];
+    const int reason = io::invalid_reason(flags);
+    ++(reason < 0 ? out.valid : counts[static_cast<std::size_t>(reason)]);
   }
   for (std::size_t i = 0; i < counts.size(); ++i) {
     if (counts[i] > 0) out.reasons += fmt::format("{}{} {}", out.reasons.empty() ? "" : ", ", counts[i], flag_names()[i]);
@@ -101,16 +94,17 @@ Validity validity(const Depth& depth) {
 }
 
 void write_frame(io::OutputFolder& folder, const std::vector<std::string>& emit, const std::string& suffix, const Frame& frame,
-                 const Inputs& inputs, const SimulatorOptions& options) {
+                 const Inputs& inputs, const SimulatorOptions& options, io::Theme theme) {
   for (const std::string& kind : emit) {
     if (kind == "npz") {
       const std::string meta = io::frame_meta(inputs.scene, inputs.camera, options.seed, options.noise, frame.index);
-      folder.write("frame" + suffix + ".npz", io::frame_npz_bytes(frame, inputs.camera, camera_pose(inputs.scene), meta));
+      folder.write("frame" + suffix + ".npz",
+                   io::frame_npz_bytes(frame, inputs.camera, inputs.pose.value_or(camera_pose(inputs.scene)), meta, inputs.kept));
     } else if (kind == "png") {
       folder.write("depth" + suffix + ".png", io::depth_png(frame.depth));
       folder.write("amplitude" + suffix + ".png", io::amplitude_png(frame.depth));
-      folder.write("raw" + suffix + ".png", io::raw_png(frame.raw));
-      folder.write("preview" + suffix + ".png", io::preview_png(frame.depth, frame.truth, caption(frame, inputs)));
+      folder.write("raw" + suffix + ".png", io::raw_png(frame.raw, theme));
+      folder.write("preview" + suffix + ".png", io::preview_png(frame.depth, frame.truth, caption(frame, inputs), theme));
     } else {
       folder.write("cloud" + suffix + ".ply", io::cloud_ply(frame.depth));
     }

@@ -48,7 +48,7 @@ const std::vector<std::string>& flag_names();
 
 /// Writes the chosen files of one frame, each name with `suffix` before its extension. Where `truth` has no arrays, none are written.
 void write_frame(io::OutputFolder& folder, const std::vector<std::string>& emit, const std::string& suffix, const Frame& frame,
-                 const Inputs& inputs, const SimulatorOptions& options);
+                 const Inputs& inputs, const SimulatorOptions& options, io::Theme theme);
 
 /// What a run was computed on.
 struct Machine {

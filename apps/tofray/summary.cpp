@@ -44,6 +44,7 @@ void write_manifest(io::OutputFolder& folder, const Options& options, const std:
   if (!options.mode.empty()) manifest.options.emplace_back("mode", options.mode);
   if (options.noise) manifest.options.emplace_back("noise", io::noise_name(*options.noise));
   if (options.emit) manifest.options.emplace_back("emit", joined(*options.emit));
+  if (options.theme == io::Theme::light) manifest.options.emplace_back("theme", "light");
   if (options.frames) manifest.options.emplace_back("frames", std::to_string(*options.frames));
   if (options.first_frame > 0) manifest.options.emplace_back("first-frame", std::to_string(options.first_frame));
   manifest.seed = options.seed.value_or(0);

@@ -377,7 +377,7 @@ TEST(check, of_a_profile_names_numbers_without_a_source) {
   std::ofstream(folder / "mycam.yaml") << text;
   const Result result = run({"check", "mycam.yaml"}, in_folder(folder.path()));
   EXPECT_EQ(result.code, 0) << result.err;
-  EXPECT_TRUE(has(result.err, "warning: this number does not say where it comes from")) << result.err;
+  EXPECT_TRUE(has(result.err, "warning: sensor.width is 224, and does not say where that comes from")) << result.err;
 }
 
 TEST(doctor, finds_this_machine_well) {

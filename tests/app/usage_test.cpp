@@ -85,21 +85,24 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{{"demo", "--set", "camera.sensor.width=99999"}, 2, "16384"},
         Mistake{{"demo", "--set", "camera.sensor.width=16384", "--set", "camera.sensor.height=16384"}, 4, "--limits"},
         Mistake{{"bench", "--block-size", "33"}, 2, "multiples of 32"}, Mistake{{"bench", "--block-size", "0"}, 2, "multiples of 32"},
-        Mistake{{"bench", "--block-size", "32:1056:32"}, 2, "up to 1024"}, Mistake{{"bench", "--block-size", "64:32:32"}, 2, "first:last:step"},
-        Mistake{{"bench", "--block-size", "32:1024:16"}, 2, "first:last:step"}, Mistake{{"bench", "--block-size", "32:1024"}, 2, "32:1024:32"},
-        Mistake{{"bench", "--block-size", "32:64:32:32"}, 2, "32:1024:32"}, Mistake{{"bench", "--block-size", "32,,64"}, 2, "multiples of 32"},
-        Mistake{{"bench", "--block-size", "-32"}, 2, "multiples of 32"}, Mistake{{"bench", "--block-size", "32 "}, 2, "multiples of 32"},
-        Mistake{{"bench", "--block-size", ""}, 2, "multiples of 32"}, Mistake{{"bench", "--stage", "power,al"}, 2, "trace, power, raw, all"},
-        Mistake{{"bench", "--stage", ""}, 2, "trace, power"}, Mistake{{"bench", "--stage", "power,"}, 2, "trace, power"},
+        Mistake{{"bench", "--block-size", "32:1056:32"}, 2, "up to 1024"},
+        Mistake{{"bench", "--block-size", "64:32:32"}, 2, "first:last:step"},
+        Mistake{{"bench", "--block-size", "32:1024:16"}, 2, "first:last:step"},
+        Mistake{{"bench", "--block-size", "32:1024"}, 2, "32:1024:32"}, Mistake{{"bench", "--block-size", "32:64:32:32"}, 2, "32:1024:32"},
+        Mistake{{"bench", "--block-size", "32,,64"}, 2, "multiples of 32"}, Mistake{{"bench", "--block-size", "-32"}, 2, "multiples of 32"},
+        Mistake{{"bench", "--block-size", "32 "}, 2, "multiples of 32"}, Mistake{{"bench", "--block-size", ""}, 2, "multiples of 32"},
+        Mistake{{"bench", "--stage", "power,al"}, 2, "trace, power, raw, all"}, Mistake{{"bench", "--stage", ""}, 2, "trace, power"},
+        Mistake{{"bench", "--stage", "power,"}, 2, "trace, power"},
         Mistake{{"bench", "--backend", "cpu", "--block-size", "64"}, 2, "--block-size is a GPU's"},
-        Mistake{{"bench", "--compare", "--stage", "all"}, 2, "--compare"}, Mistake{{"bench", "--compare", "--backend", "cuda"}, 2, "--compare"},
-        Mistake{{"bench", "--batch", "0"}, 2, "1 to 1000000"}, Mistake{{"bench", "--batch", "3", "--stage", "all"}, 2, "--batch"},
-        Mistake{{"bench", "--batch", "3", "--compare"}, 2, "--batch"},
+        Mistake{{"bench", "--compare", "--stage", "all"}, 2, "--compare"},
+        Mistake{{"bench", "--compare", "--backend", "cuda"}, 2, "--compare"}, Mistake{{"bench", "--batch", "0"}, 2, "1 to 1000000"},
+        Mistake{{"bench", "--batch", "3", "--stage", "all"}, 2, "--batch"}, Mistake{{"bench", "--batch", "3", "--compare"}, 2, "--batch"},
         Mistake{{"demo", "--set", "camera.lens.f_number=1.2", "foo"}, 2, "in quotes: --set \"camera.lens.f_number=1.2 foo\""},
         Mistake{{"demo", "--set=objects.2.sphere.radius=30", "cm"}, 2, "in quotes: --set \"objects.2.sphere.radius=30 cm\""},
         Mistake{{"render", "--set", "ambient.level=5", "%"}, 2, "in quotes: --set \"ambient.level=5 %\""},
         Mistake{{"render", "--set", "ambient.level=5", "%", "card"}, 2, "in quotes: --set \"ambient.level=5 %\""},
-        Mistake{{"render", "card", "-o="}, 2, "-o= has no value"}, Mistake{{"render", "card", "-q=1"}, 2, "-q takes no value"},
+        Mistake{{"demo", "--theme", "white"}, 2, "dark or light"}, Mistake{{"render", "card", "-o="}, 2, "-o= has no value"},
+        Mistake{{"render", "card", "-q=1"}, 2, "-q takes no value"},
         Mistake{{"render", "card", "--block-size", "64"}, 2, "`tofray render` has no option --block-size"}));
 
 TEST(usage, options_may_come_in_every_form) {
@@ -138,6 +141,45 @@ TEST(json, is_one_object_on_stdout) {
     EXPECT_FALSE(has(result.err, "error"));
   }
   for (const char* kind : {"scene", "camera"}) EXPECT_NE(io::parse_json(run({"schema", kind}).out, kind).find("$schema"), nullptr);
+}
+
+TEST(json, of_a_fault_is_one_object_that_names_its_place) {
+  const Folder folder;
+  const Prepare here = in_folder(folder.path());
+  std::ofstream(folder / "bad.yaml") << "objects:\n  - sphere: {center: [0, 0, 1], radius: 25 kg, reflectivity: 0.5}\nlihgts: []\n";
+  const Result result = run({"check", "bad.yaml", "--json"}, here);
+  EXPECT_EQ(result.code, 2);
+  EXPECT_EQ(result.err, run({"check", "bad.yaml"}, here).err);  // people read the same
+  const io::Json json = io::parse_json(result.out, "stdout");
+  EXPECT_FALSE(*json.find("good")->boolean());
+  const io::Json::Array& faults = *json.find("faults")->items();
+  ASSERT_EQ(faults.size(), 2u);
+  double line = 0, column = 0;
+  EXPECT_TRUE(faults[0].find("line")->number(line) && faults[0].find("column")->number(column));
+  EXPECT_EQ(line, 2);
+  EXPECT_EQ(column, 41);
+  EXPECT_EQ(*faults[0].find("file")->string(), "bad.yaml");
+  EXPECT_TRUE(has(*faults[0].find("text")->string(), "radius"));
+  EXPECT_TRUE(has(*faults[0].find("more")->string(), "25 kg"));
+  EXPECT_TRUE(has(*faults[1].find("text")->string(), "lihgts"));
+}
+
+TEST(json, of_every_command_that_fails_is_one_object) {
+  const Folder folder;
+  const std::vector<Arguments> all = {
+      {"demo", "--seed", "x"}, {"render", "none.yaml"}, {"process", "none.npz"}, {"inspect", "none.npz"},   {"check", "none.yaml"},
+      {"list", "things"},      {"bench", "none.yaml"},  {"doctor", "--bogus"},   {"render", "--from", "x"}, {"demo", "--set", "a.b=1"}};
+  for (Arguments arguments : all) {
+    arguments.emplace_back("--json");
+    const Result result = run(arguments, in_folder(folder.path()));
+    EXPECT_GE(result.code, 2) << arguments[0];
+    const io::Json json = io::parse_json(result.out, arguments[0]);
+    double code = 0;
+    EXPECT_TRUE(json.find("exit_code")->number(code));
+    EXPECT_EQ(code, result.code);
+    EXPECT_EQ(json.find("faults")->items()->size(), 1u) << result.out;
+    EXPECT_TRUE(has(result.err, *(*json.find("faults")->items())[0].find("text")->string())) << result.err;
+  }
 }
 
 TEST(completion, of_bash_knows_commands_options_and_scenes) {

@@ -1,0 +1,101 @@
+// SPDX-FileCopyrightText: 2026 The tofray authors
+// SPDX-License-Identifier: Apache-2.0
+#include "input_kind.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <vector>
+
+#include "base/text.h"
+#include "io/tree.h"
+#include "tofray/error.h"
+
+namespace tofray::app {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+[[noreturn]] void refuse(const std::string& path, const std::string& what, const std::string& fitting) {
+  throw Error(ErrorKind::bad_input, fmt::format("{}: error: this is {}\n  {}", base::printable(path), what, fitting));
+}
+
+bool is_folder(const std::string& path) {
+  std::error_code ignored;
+  return fs::is_directory(path, ignored);
+}
+
+/// Names in a folder that end so, in order; at most some thousands are looked at.
+std::vector<std::string> names_in(const std::string& folder, const std::vector<std::string>& endings) {
+  std::vector<std::string> names;
+  std::error_code error;
+  int looked_at = 0;
+  for (fs::directory_iterator entry(folder, error), end; !error && entry != end && looked_at < 10'000;
+       entry.increment(error), ++looked_at) {
+    if (std::find(endings.begin(), endings.end(), entry->path().extension().native()) != endings.end())
+      names.push_back(entry->path().filename().native());
+  }
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+/// "it holds a.npz", "it holds a.npz … z.npz (26 files)", or that there is nothing.
+std::string held(const std::vector<std::string>& names, const char* none) {
+  if (names.empty()) return none;
+  if (names.size() == 1) return "it holds " + base::printable(names[0]);
+  return fmt::format("it holds {} … {} ({} files)", base::printable(names.front()), base::printable(names.back()), names.size());
+}
+
+}  // namespace
+
+void refuse_data(std::string_view bytes, const std::string& path) {
+  const std::string file = base::printable(path);
+  if (bytes.starts_with("PK\x03\x04"))
+    refuse(path, "an archive of arrays (.npz), not a scene",
+           fmt::format("`tofray inspect {0}` shows what is in it, `tofray process {0}` makes depth of its raw frames", file));
+  if (bytes.starts_with("\x93NUMPY"))
+    refuse(path, "an array (.npy), not a scene", fmt::format("`tofray inspect {}` shows what is in it", file));
+  if (bytes.starts_with("\x89PNG"))
+    refuse(path, "a picture (PNG), not a scene", "it cannot be simulated again; the manifest.json beside it can: `tofray render --from`");
+  if (bytes.starts_with("ply\n")) refuse(path, "a point cloud (PLY), not a scene", "expected a scene, a YAML or JSON file");
+}
+
+bool looks_like_a_profile(const std::string& text, const std::string& name) {
+  const io::Node root = io::parse_tree(text, name);
+  return root.find("objects") == nullptr &&
+         (root.find("modes") != nullptr || root.find("sensor") != nullptr || root.find("lens") != nullptr);
+}
+
+void refuse_other_document(const std::string& text, const std::string& path) {
+  const std::string file = base::printable(path);
+  if (looks_like_a_profile(text, path))
+    refuse(path, "a camera profile, not a scene",
+           fmt::format("a scene takes it as `camera: {{profile: {0}}}`; `tofray check {0}` reads it alone", file));
+  const io::Node root = io::parse_tree(text, path);
+  if (root.find("tofray") != nullptr && root.find("inputs") != nullptr)
+    refuse(path, "a manifest, not a scene", fmt::format("`tofray render --from {}` makes its files again", file));
+}
+
+void refuse_folder(const std::string& path, const char* command) {
+  if (!is_folder(path)) return;
+  const std::vector<std::string> scenes = names_in(path, {".yaml", ".yml"});
+  throw Error(ErrorKind::io, fmt::format("{}: error: this is a folder, not a scene\n  {}; name one, as in `tofray {} {}`",
+                                         base::printable(path), held(scenes, "it holds no .yaml file"), command,
+                                         scenes.empty() ? "room" : base::printable((fs::path(path) / scenes[0]).native())));
+}
+
+std::string frame_in(const std::string& path) {
+  if (!is_folder(path)) return path;
+  const fs::path frame = fs::path(path) / "frame.npz";
+  std::error_code ignored;
+  if (fs::exists(frame, ignored)) return frame.native();
+  const std::vector<std::string> all = names_in(path, {".npz", ".npy"});
+  refuse(
+      path, "a folder without frame.npz",
+      held(all, "it holds no .npz or .npy file") +
+          (all.empty() ? "" : fmt::format("; name one, as in `tofray inspect {}`", base::printable((fs::path(path) / all[0]).native()))));
+}
+
+}  // namespace tofray::app

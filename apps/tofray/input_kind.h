@@ -1,0 +1,28 @@
+// SPDX-FileCopyrightText: 2026 The tofray authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include <string>
+#include <string_view>
+
+/// Files given to a command that takes others: what they are, and which command fits.
+namespace tofray::app {
+
+/// Refuses what is no text: archives of arrays, pictures, point clouds.
+/// @throws Error (bad_input) that names the file's kind and the command that takes it
+void refuse_data(std::string_view bytes, const std::string& path);
+
+/// Refuses a document that is another kind than a scene: a camera profile, a manifest. To be called where reading it as a scene failed.
+/// @throws as refuse_data; nothing where the text may be meant as a scene
+void refuse_other_document(const std::string& text, const std::string& path);
+
+/// Refuses a folder, and says what lies in it. @param usage  e.g. "render"
+void refuse_folder(const std::string& path, const char* command);
+
+/// A camera profile is told from a scene by what it has to have.
+bool looks_like_a_profile(const std::string& text, const std::string& name);
+
+/// The file that `inspect` means by a folder: frame.npz in it. The path itself where it is no folder.
+/// @throws Error (bad_input) that lists what there is instead
+std::string frame_in(const std::string& path);
+
+}  // namespace tofray::app

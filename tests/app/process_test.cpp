@@ -1,0 +1,52 @@
+// SPDX-FileCopyrightText: 2026 The tofray authors
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+
+#include "io/npz.h"
+#include "tool.h"
+
+namespace tofray::test {
+namespace {
+
+TEST(process, keeps_ground_truth_pose_and_arrays_of_one_s_own) {
+  const Folder folder;
+  const Prepare here = in_folder(folder.path());
+  ASSERT_EQ(run(with_small_sensor({"render", "card", "-o", "out", "--set", "camera.pose.position=[0, 0, 0.25]"}), here).code, 0);
+  auto arrays = io::read_npz(folder / "out" / "frame.npz");
+  arrays.push_back({"labels", {{'U', 12}, {2}, io::utf32_of("abcdef")}});
+  std::vector<io::NpyView> views;
+  for (const io::NamedArray& one : arrays) views.push_back({one.name, one.array.type, one.array.shape, one.array.bytes});
+  std::ofstream(folder / "labelled.npz", std::ios::binary) << io::npz_bytes(views);
+  ASSERT_EQ(run({"process", "labelled.npz", "-o", "again", "--set", "camera.decoding.filter.kind=median"}, here).code, 0);
+  std::map<std::string, io::NpyArray> after;
+  for (io::NamedArray& one : io::read_npz(folder / "again" / "frame.npz")) after[one.name] = std::move(one.array);
+  int kept = 0;
+  for (const io::NamedArray& one : arrays) {
+    ASSERT_TRUE(after.contains(one.name)) << one.name;
+    if (!one.name.starts_with("gt_") && one.name != "labels" && one.name != "camera_pose") continue;
+    EXPECT_EQ(after[one.name].bytes, one.array.bytes) << one.name;
+    EXPECT_EQ(after[one.name].shape, one.array.shape) << one.name;
+    ++kept;
+  }
+  EXPECT_EQ(kept, 13);  // eleven arrays of ground truth
+  // The first run's depth is not kept in the place of the new one.
+  const auto before = std::find_if(arrays.begin(), arrays.end(), [](const io::NamedArray& one) { return one.name == "z_m"; });
+  EXPECT_NE(after["z_m"].bytes, before->array.bytes);
+}
+
+TEST(theme, light_changes_figures_only_and_comes_back_from_a_manifest) {
+  const Folder folder;
+  const Prepare here = in_folder(folder.path());
+  ASSERT_EQ(run(with_small_sensor({"render", "card", "-o", "dark"}), here).code, 0);
+  ASSERT_EQ(run(with_small_sensor({"render", "card", "-o", "light", "--theme", "light"}), here).code, 0);
+  const auto dark = files_of(folder / "dark"), light = files_of(folder / "light");
+  EXPECT_EQ(dark.size(), 6u);
+  for (const auto& [name, bytes] : dark) EXPECT_EQ(bytes == light.at(name), name != "preview.png" && name != "raw.png") << name;
+  ASSERT_EQ(run({"render", "--from", "light/manifest.json", "-o", "again"}, here).code, 0);
+  EXPECT_EQ(files_of(folder / "again"), light);
+  ASSERT_EQ(run({"process", "light/frame.npz", "-o", "processed", "--theme=light"}, here).code, 0);
+  EXPECT_EQ(content(folder / "processed" / "raw.png"), light.at("raw.png"));
+}
+
+}  // namespace
+}  // namespace tofray::test
