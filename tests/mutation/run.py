@@ -24,17 +24,20 @@ import equivalent
 from woven_tree import WovenTree, root, sample
 
 folders = "trace power raw depth camera scene pipeline num base simulator".split()
-programs = "base num camera scene trace power raw depth backend simulator io".split()
-golden = re.compile(r"(^|/)KnownBytes\.")
-no_claim = re.compile(r"(^|/)(KnownBytes|SameBytes)\.")
+programs = "base num camera scene depth power trace raw backend simulator io".split()
+golden = re.compile(r"(^|/)KnownBytes\.")        # SameBytes does the same and more, and takes long: neither is a claim
 batches = (0.1, 1.0, 1e9)        # seconds of a test alone: fast ones first
 
 
+def limited(program, arguments, seconds):
+    """Of the processor's time: a busy machine shall not look like an endless loop."""
+    return ["sh", "-c", f'ulimit -t {int(seconds) + 1}; ulimit -c 0; exec "$@"', "sh", program, *arguments]
+
+
 def run(program, arguments, seconds, **environment):
-    """Ends after so many seconds of the processor's time (a busy machine shall not look like an endless loop), or 20 times that of the clock's."""
-    command = ["sh", "-c", f'ulimit -t {int(seconds) + 1}; ulimit -c 0; exec "$@"', "sh", program, *arguments]
+    command = limited(program, arguments, seconds)
     try:
-        return subprocess.run(command, capture_output=True, text=True, errors="replace", timeout=20 * seconds, env={**os.environ, **environment},
+        return subprocess.run(command, capture_output=True, text=True, errors="replace", timeout=60 * seconds, env={**os.environ, **environment},
                               cwd=tempfile.gettempdir())
     except subprocess.TimeoutExpired:
         return subprocess.CompletedProcess(command, -signal.SIGXCPU, "", "")
@@ -59,22 +62,28 @@ class Round:
         self.results_file = self.folder / "results.json"
         self.results = json.loads(self.results_file.read_text()) if self.results_file.exists() else {}
         self.lock = threading.Lock()
-        self.reached = {}     # number → [(seconds, program, test)]
 
     def program(self, name):
         return str(self.tree.build / "tests" / f"test_{name}")
 
-    def look(self):
-        """Runs each test once, alone: how long it takes, and which mutants it reaches."""
-        for name in self.tree.programs:
+    def look(self, name):
+        """Runs each test of a program once, alone: how much of the processor's time it takes, and which mutants it reaches. Kept until it changes.
+        @return number of a mutant → [(seconds, test)]"""
+        file = self.folder / "look.json"
+        kept = json.loads(file.read_text()) if file.exists() else {}
+        state = [Path(self.program(name)).stat().st_mtime, self.longest]
+        if name not in kept or kept[name]["state"] != state:
             tests = self.tests_of(name)
             with concurrent.futures.ThreadPoolExecutor(self.jobs) as pool:
-                for test, (good, seconds, seen) in zip(tests, pool.map(lambda t: self.look_at(name, t), tests)):
-                    if not good:
-                        print(f"left out, red or longer than {self.longest:g} s without a mutant: {name} {test}")
-                        continue
-                    for number in seen:
-                        self.reached.setdefault(number, []).append((seconds, name, test))
+                kept[name] = {"state": state, "tests": dict(zip(tests, pool.map(lambda test: self.look_at(name, test), tests)))}
+            file.write_text(json.dumps(kept))
+        reached = {}
+        for test, (good, seconds, seen) in kept[name]["tests"].items():
+            if not good:
+                print(f"left out, red or longer than {self.longest:g} s without a mutant: {name} {test}", flush=True)
+            for number in seen if good else ():
+                reached.setdefault(number, []).append((seconds, test))
+        return reached
 
     def tests_of(self, name):
         listed = subprocess.run([self.program(name), "--gtest_list_tests"], capture_output=True, text=True, check=True).stdout
@@ -88,52 +97,54 @@ class Round:
 
     def look_at(self, name, test):
         with tempfile.NamedTemporaryFile() as seen:
-            begin = time.monotonic()
-            done = run(self.program(name), [f"--gtest_filter={test}"], self.longest, TOFRAY_MUTANTS_SEEN=seen.name)
-            return done.returncode == 0, time.monotonic() - begin, sorted({int(n) for n in Path(seen.name).read_text().split()})
-
-    def judge(self, number):
-        """killed, golden, survived or unreached, and by what."""
-        tests = sorted(self.reached.get(number, []))
-        if not tests:
-            return "unreached", ""
-        claims = [t for t in tests if not no_claim.search(t[2])]
-        least = 0.0
-        for most in batches:
-            batch = [t for t in claims if least <= t[0] < most]
-            least = most
-            by = self.run_tests(number, batch)
-            if by:
-                return "killed", by
-        by = self.run_tests(number, [t for t in tests if golden.search(t[2])])
-        return ("golden", by) if by else ("survived", "")
-
-    def run_tests(self, number, tests):
-        for name in self.tree.programs:
-            mine = [t for t in tests if t[1] == name]
-            by = mine and first_red(self.program(name), [t[2] for t in mine], number, 5 + 5 * sum(t[0] for t in mine))
-            if by:
-                return by
-        return ""
+            program = subprocess.Popen(limited(self.program(name), [f"--gtest_filter={test}"], self.longest), cwd=tempfile.gettempdir(),
+                                       stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, env={**os.environ, "TOFRAY_MUTANTS_SEEN": seen.name})
+            _, status, used = os.wait4(program.pid, 0)
+            program.returncode = os.waitstatus_to_exitcode(status)
+            return program.returncode == 0, used.ru_utime + used.ru_stime, sorted({int(n) for n in Path(seen.name).read_text().split()})
 
     def judge_all(self, again):
-        todo = [n for n, m in self.tree.numbered.items()
-                if m.place not in self.results or again and self.results[m.place]["fate"] not in ("killed", "refused")]
-        print(f"{len(todo)} of {len(self.tree.numbered)} mutants to try", flush=True)
+        """Program by program, so that the fast ones kill most. A fate is open until all programs were tried."""
         for m in self.tree.refused:
-            self.results[m.place] = {"fate": "refused", "by": "", "line": m.line}
-        with concurrent.futures.ThreadPoolExecutor(self.jobs) as pool:
-            for _ in pool.map(self.one, todo):
-                pass
+            self.results[m.place] = {"fate": "refused", "by": "", "tried": []}
+        for number, m in self.tree.numbered.items():
+            r = self.results.setdefault(m.place, {"fate": "open", "by": "", "tried": []})
+            if again and r["fate"] != "killed":
+                r.update(fate="open", tried=[])
+        for name in self.tree.programs:
+            reached = self.look(name)
+            todo = [n for n, m in self.tree.numbered.items() if self.results[m.place]["fate"] == "open" and name not in self.results[m.place]["tried"]]
+            print(f"{name}: {len(todo)} of {len(self.tree.numbered)} mutants to try", flush=True)
+            with concurrent.futures.ThreadPoolExecutor(self.jobs) as pool:
+                list(pool.map(lambda number: self.judge(number, name, sorted(reached.get(number, []))), todo))
+        for number, m in self.tree.numbered.items():
+            r = self.results[m.place]
+            if r["fate"] == "open":
+                r["fate"] = "golden" if r.get("hash") else "survived" if r.get("reached") else "unreached"
         self.save()
 
-    def one(self, number):
-        fate, by = self.judge(number)
+    def judge(self, number, name, tests):
+        claims, hashes = [t for t in tests if not golden.search(t[1])], [t for t in tests if golden.search(t[1])]
+        by, least = "", 0.0
+        for most in batches:
+            by = by or self.first_red(number, name, [t for t in claims if least <= t[0] < most])
+            least = most
+        red_hash = not by and self.first_red(number, name, hashes)
         m = self.tree.numbered[number]
         with self.lock:
-            self.results[m.place] = {"fate": fate, "by": by, "line": m.line}
+            r = self.results[m.place]
+            r["tried"].append(name)
+            if by:
+                r.update(fate="killed", by=by)
+                print(f"killed {m.file}:{m.line}  {m.before} -> {m.after}  {by}", flush=True)
+            if tests:
+                r["reached"] = True
+            if red_hash:
+                r["hash"] = red_hash
             self.save()
-        print(f"{fate:9} {m.file}:{m.line}  {m.before} -> {m.after}  {by}", flush=True)
+
+    def first_red(self, number, name, tests):
+        return first_red(self.program(name), [t for _, t in tests], number, 5 + 5 * sum(s for s, _ in tests)) if tests else ""
 
     def save(self):
         self.results_file.write_text(json.dumps(self.results, indent=1, ensure_ascii=False))
@@ -145,7 +156,7 @@ def table(chosen, results, known):
     counts, lines = {}, []
     for m in chosen:
         r = results.get(m.place)
-        if r is None:
+        if r is None or r["fate"] == "open":
             continue
         fate = "equivalent" if m.place in known and r["fate"] != "killed" else r["fate"]
         folder = m.file.split("/")[1]
@@ -174,7 +185,7 @@ def main():
     parser.add_argument("--build", default=str(root / "build" / "mutation"))
     parser.add_argument("--jobs", type=int, default=os.cpu_count())
     parser.add_argument("--nice", type=int, default=19)
-    parser.add_argument("--longest", type=float, default=10, help="seconds of a test; longer ones are left out")
+    parser.add_argument("--longest", type=float, default=5, help="seconds of a test; longer ones are left out")
     parser.add_argument("--again", action="store_true", help="try once more what was not killed")
     parser.add_argument("--list", action="store_true", help="print the mutants and end")
     parser.add_argument("--table", action="store_true", help="print the results so far and end")
@@ -190,7 +201,6 @@ def main():
         tree = WovenTree(options.build, chosen, options.programs.split(","), options.jobs)
         tree.prepare()
         this = Round(tree, options.build, options.jobs, options.longest)
-        this.look()
         this.judge_all(options.again)
     for place in equivalent.gone(known):
         print(f"no longer in the sources, to be taken out of equivalent.txt: {place}")
