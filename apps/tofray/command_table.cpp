@@ -82,16 +82,17 @@ std::vector<Command> make() {
        .run = run_check,
        .completes = "scenes"},
       {.name = "list",
-       .usage = "cameras|scenes|materials",
-       .summary = "what is built in, and the materials of a scene",
+       .usage = "cameras|scenes|materials|keys",
+       .summary = "what is built in, the materials of a scene, and every key that files and --set take",
        .examples = "tofray list scenes\n"
                    "tofray list cameras                              # with their modes\n"
-                   "tofray list materials demo                       # those of a scene; without one, of all built-in scenes\n",
+                   "tofray list materials demo                       # those of a scene; without one, of all built-in scenes\n"
+                   "tofray list keys                                 # of camera profiles and scenes, with range, default and meaning\n",
        .options = {"--json"},
        .least_words = 1,
        .most_words = 2,
        .run = run_list,
-       .completes = "cameras scenes materials"},
+       .completes = "cameras scenes materials keys"},
       {.name = "schema",
        .usage = "scene|camera",
        .summary = "JSON Schema of a file kind, for editors that complete and check",

@@ -6,6 +6,7 @@
 #include "commands.h"
 #include "console.h"
 #include "io/builtin.h"
+#include "model/lines.h"
 #include "tofray/error.h"
 
 namespace tofray::app {
@@ -42,15 +43,25 @@ std::string command_names() {
   return joined(names);
 }
 
+/// Words that can stand for an option's value: its choices; of --set the keys of scenes and, as camera.…, of profiles.
+std::vector<std::string> values_of(const OptionSpec& one) {
+  if (std::string_view(one.name) != "--set") return one.choices;
+  std::vector<std::string> keys;
+  for (const model::Line& line : model::lines_of(model::scene_form())) keys.push_back(line.key + "=");
+  for (const model::Line& line : model::lines_of(model::camera_form())) keys.push_back("camera." + line.key + "=");
+  return keys;
+}
+
 std::string bash() {
   std::string values, commands;
   for (const OptionSpec& one : all_options()) {
     if (one.value == nullptr) continue;
     std::string names = one.letter != 0 ? fmt::format("{}|-{}", one.name, one.letter) : std::string(one.name);
     const std::string reply = one.file              ? "COMPREPLY=($(compgen -f -- \"$word\"))"
-                              : one.choices.empty() ? "COMPREPLY=()"
-                                                    : fmt::format("COMPREPLY=($(compgen -W \"{}\" -- \"$word\"))", joined(one.choices));
-    values += fmt::format("    {}) {}; return ;;\n", names, reply);
+                              : values_of(one).empty() ? "COMPREPLY=()"
+                                                       : fmt::format("COMPREPLY=($(compgen -W \"{}\" -- \"$word\"))", joined(values_of(one)));
+    const bool goes_on = std::string_view(one.name) == "--set";  // the key's value follows
+    values += fmt::format("    {}) {}{}; return ;;\n", names, reply, goes_on ? "; compopt -o nospace 2> /dev/null" : "");
   }
   for (const Command& command : all_commands()) {
     std::string options = "--help";
@@ -91,7 +102,7 @@ std::string quoted(std::string_view text) {
 
 std::string zsh_value(const OptionSpec& one) {
   if (one.value == nullptr) return {};
-  const std::string action = one.file ? "_files" : one.choices.empty() ? "" : fmt::format("({})", joined(one.choices));
+  const std::string action = one.file ? "_files" : values_of(one).empty() ? "" : fmt::format("({})", joined(values_of(one)));
   return fmt::format(":{}:{}", one.value, action);
 }
 
@@ -161,7 +172,7 @@ std::string fish() {
       text += fmt::format("complete -c tofray -n {} -l {} -d {}", seen, one->name + 2, quoted(one->help));
       if (one->letter != 0) text += fmt::format(" -s {}", one->letter);
       if (one->value != nullptr)
-        text += one->file ? " -r -F" : one->choices.empty() ? " -x" : fmt::format(" -x -a '{}'", joined(one->choices));
+        text += one->file ? " -r -F" : values_of(*one).empty() ? " -x" : fmt::format(" -x -a '{}'", joined(values_of(*one)));
       text += "\n";
     }
     const std::string words = words_of(command);

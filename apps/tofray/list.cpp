@@ -8,6 +8,8 @@
 #include "io/builtin.h"
 #include "io/json.h"
 #include "io/load.h"
+#include "io/reference.h"
+#include "model/lines.h"
 #include "tofray/error.h"
 
 namespace tofray::app {
@@ -89,11 +91,27 @@ void list_materials_of(const std::string& scene_name, io::Json& json, std::strin
   }
 }
 
+io::Json list_keys(std::string& text) {
+  text = io::reference_page();
+  io::Json json = io::Json::array();
+  for (const model::FileForm* file : {&model::camera_form(), &model::scene_form()})
+    for (const model::Line& one : model::lines_of(*file))
+      json.push(io::Json::object()
+                    .set("file", file->kind)
+                    .set("key", one.key)
+                    .set("value", one.value)
+                    .set("default", one.fallback)
+                    .set("required", one.required)
+                    .set("meaning", one.doc)
+                    .set("member", one.member));
+  return json;
+}
+
 }  // namespace
 
 int run_list(const Options& options) {
   const std::string& what = options.words[0];
-  const std::vector<std::string> kinds = {"cameras", "scenes", "materials"};
+  const std::vector<std::string> kinds = {"cameras", "scenes", "materials", "keys"};
   if (options.words.size() == 2 && what != "materials")
     throw Error(ErrorKind::bad_input,
                 fmt::format("error: unexpected {}\n  expected tofray list {}", base::in_quotes(options.words[1]), what));
@@ -103,6 +121,8 @@ int run_list(const Options& options) {
     json = list_scenes(text);
   } else if (what == "cameras") {
     json = list_cameras(text);
+  } else if (what == "keys") {
+    json = list_keys(text);
   } else if (what == "materials") {
     if (options.words.size() == 2)
       list_materials_of(options.words[1], json, text);

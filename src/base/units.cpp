@@ -92,6 +92,13 @@ std::vector<std::string> unit_names(Dimension dimension) {
   return names;
 }
 
+std::string si_unit(Dimension dimension) {
+  if (dimension == fraction) return "";
+  for (const auto& unit : units)
+    if (unit.dimension == dimension && unit.exponent == 0 && unit.factor == 1) return unit.name;
+  return "";
+}
+
 const Unit* find_unit(std::string_view name) {
   for (const auto& unit : units)
     if (name == unit.name) return &unit;

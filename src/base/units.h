@@ -42,6 +42,9 @@ const char* article_and_name(Dimension dimension);
 /// The units that a dimension has, the ones to advertise first.
 std::vector<std::string> unit_names(Dimension dimension);
 
+/// The SI unit of a dimension, in which structs hold its numbers; empty where they have none.
+std::string si_unit(Dimension dimension);
+
 /// The unit of that name, or none. (No name stands for two units.)
 const Unit* find_unit(std::string_view name);
 

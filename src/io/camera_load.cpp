@@ -4,8 +4,9 @@
 
 #include "base/text.h"
 #include "io/builtin.h"
-#include "io/camera_sections.h"
+#include "io/camera_modes.h"
 #include "io/convert.h"
+#include "io/fill.h"
 #include "io/load.h"
 #include "io/text_file.h"
 
@@ -46,8 +47,12 @@ Camera interpret(const Profile& profile, const std::string& mode, const base::Pl
   if (!mode.empty()) set_key(root, "mode", mode_node(mode, mode_place), mode_place);
   for (const auto& change : changes) set_key(root, change.key, parse_value(change.text, change.place), change.place);
   base::Faults faults;
-  const Value value = read(camera_form(), root, faults);
-  Camera camera = CameraReader(profile.folder, faults).camera(value);
+  const Value value = read(model::camera_form(), root, faults);
+  Camera camera;
+  Filler filler(profile.folder, faults);
+  filler.fill(value, camera);
+  read_modes(value, camera, filler, faults);
+  filler.check(camera);
   faults.raise();
   camera.source = profile.source;
   return camera;

@@ -8,7 +8,7 @@
 #include "base/limits.h"
 #include "base/text.h"
 #include "base/units.h"
-#include "io/camera_sections.h"
+#include "io/camera_modes.h"
 
 namespace tofray::io {
 
@@ -33,38 +33,34 @@ bool equally_spaced(std::vector<double> phases) {
 
 std::string milliseconds(double seconds) { return base::number_text(std::round(seconds * 1e9) / 1e6) + " ms"; }
 
-}  // namespace
+class ModeReader {
+ public:
+  ModeReader(const Value& root, Camera& camera, Filler& filler, base::Faults& faults)
+      : root_(root), camera_(camera), filler_(filler), faults_(faults) {}
+  void read();
 
-Mode CameraReader::mode(const Value& value, const std::string& name) {
+ private:
+  std::size_t chosen();
+  Mode mode(const Value& value, const std::string& name);
+  void raw_frame(const Value& entry, const RawFrame& raw, std::vector<RawFrame>& sequence);
+  void check_phases(const Value& sequence, const Mode& mode);
+  void check_time(const Value& chosen);
+  void check_edges();
+
+  const Value& root_;
+  Camera& camera_;
+  Filler& filler_;
+  base::Faults& faults_;
+};
+
+Mode ModeReader::mode(const Value& value, const std::string& name) {
   Mode out;
   out.name = name;
   if (!value.good) return out;
-  out.frame_rate_hz = value["frame_rate"].number;
-  for (const auto& entry : value["sequence"].items) {
-    RawFrame raw;
-    raw.lit = entry["lit"].flag;
-    raw.integration_time_s = entry["integration_time"].number;
-    for (const char* key : {"modulation_frequency", "reference_phase"}) {
-      if (raw.lit && !entry[key])
-        faults_.add(entry.place(), std::string("a lit raw frame lacks ") + key, "expected " + std::string(key) + ", or lit: false");
-      if (!raw.lit && entry[key])
-        faults_.add(entry[key].place(), std::string("an unlit raw frame has no ") + key, "take it out, or lit: false");
-    }
-    raw.modulation_frequency_hz = raw.lit ? entry["modulation_frequency"].number : 0;
-    const Value& phase = entry["reference_phase"];
-    std::vector<double> phases = {0};
-    if (raw.lit && phase) {
-      phases = {phase.number};
-      if (phase.either == 1) {
-        phases.clear();
-        for (const auto& one : phase.items) phases.push_back(one.number);
-      }
-    }
-    for (const double tau : phases) {
-      raw.reference_phase_rad = tau;
-      out.sequence.push_back(raw);
-    }
-  }
+  Filler("", faults_).fill(value, out);
+  const std::vector<RawFrame> entries = std::move(out.sequence);
+  out.sequence.clear();
+  for (std::size_t i = 0; i < entries.size(); ++i) raw_frame(value["sequence"].items[i], entries[i], out.sequence);
   if (static_cast<long long>(out.sequence.size()) > base::limit::raw_frames.value)
     faults_.add(value["sequence"].place(), "the sequence has too many raw frames",
                 "got " + std::to_string(out.sequence.size()) + ", at most " + std::to_string(base::limit::raw_frames.value),
@@ -74,7 +70,23 @@ Mode CameraReader::mode(const Value& value, const std::string& name) {
   return out;
 }
 
-void CameraReader::check_phases(const Value& sequence, const Mode& mode) {
+// A list of reference phases makes one raw frame of each.
+void ModeReader::raw_frame(const Value& entry, const RawFrame& raw, std::vector<RawFrame>& sequence) {
+  for (const char* key : {"modulation_frequency", "reference_phase"}) {
+    if (raw.lit && !entry[key])
+      faults_.add(entry.place(), std::string("a lit raw frame lacks ") + key, "expected " + std::string(key) + ", or lit: false");
+    if (!raw.lit && entry[key])
+      faults_.add(entry[key].place(), std::string("an unlit raw frame has no ") + key, "take it out, or lit: false");
+  }
+  const Value& phase = entry["reference_phase"];
+  if (phase.either == 0) sequence.push_back(raw);
+  for (const auto& one : phase.items) {
+    sequence.push_back(raw);
+    sequence.back().reference_phase_rad = one.number;
+  }
+}
+
+void ModeReader::check_phases(const Value& sequence, const Mode& mode) {
   std::map<double, std::vector<const RawFrame*>> lit;
   for (const auto& raw : mode.sequence)
     if (raw.lit) lit[raw.modulation_frequency_hz].push_back(&raw);
@@ -97,76 +109,77 @@ void CameraReader::check_phases(const Value& sequence, const Mode& mode) {
   }
 }
 
-void CameraReader::modes(const Value& root, Camera& out) {
-  const Value& all = root["modes"];
+std::size_t ModeReader::chosen() {
+  const Value &all = root_["modes"], &wanted = root_["mode"];
+  if (!wanted) return 0;
+  const auto found = std::find(all.names.begin(), all.names.end(), wanted.text);
+  if (found != all.names.end()) return static_cast<std::size_t>(found - all.names.begin());
+  faults_.add(wanted.place(), "no mode " + base::in_quotes(wanted.text) + base::did_you_mean(wanted.text, all.names),
+              "modes of this camera: " + base::listed(all.names, "and"));
+  return 0;
+}
+
+void ModeReader::read() {
+  const Value& all = root_["modes"];
   if (!all || all.names.empty()) return;
-  std::size_t chosen = 0;
-  out.mode_names = all.names;
-  const Value& wanted = root["mode"];
-  if (wanted) {
-    const auto found = std::find(all.names.begin(), all.names.end(), wanted.text);
-    if (found == all.names.end())
-      faults_.add(wanted.place(), "no mode " + base::in_quotes(wanted.text) + base::did_you_mean(wanted.text, all.names),
-                  "modes of this camera: " + base::listed(all.names, "and"));
-    else
-      chosen = static_cast<std::size_t>(found - all.names.begin());
-  }
+  camera_.mode_names = all.names;
+  const std::size_t which = chosen();
   for (std::size_t i = 0; i < all.items.size(); ++i) {
     const std::size_t before = faults_.size();
     Mode one = mode(all.items[i], all.names[i]);
-    if (i != chosen) continue;
-    out.mode = std::move(one);
-    if (faults_.size() == before && all.items[i].good) check_mode(root, all.items[i], out);
+    if (i != which) continue;
+    camera_.mode = std::move(one);
+    filler_.remember(all.items[i], camera_.mode);
+    if (faults_.size() == before && all.items[i].good) check_time(all.items[i]);
   }
   // After the check's place was found: the override counts, not what the mode says.
-  if (faults_.empty()) check_edges(root, out);
+  if (faults_.empty()) check_edges();
 }
 
-void CameraReader::check_mode(const Value& root, const Value& chosen, Camera& camera) {
+void ModeReader::check_time(const Value& chosen) {
   const Value& sequence = chosen["sequence"];
-  const Value& override_time = root["integration_time"];
-  auto& raw_frames = camera.mode.sequence;
+  const Value& override_time = root_["integration_time"];
+  auto& raw_frames = camera_.mode.sequence;
   if (override_time && override_time.good)
     for (auto& raw : raw_frames)
       if (raw.lit) raw.integration_time_s = override_time.number;
   const base::Place& place = override_time ? override_time.place() : sequence.place();
   double total = 0;
-  for (const auto& raw : raw_frames) total += raw.integration_time_s + camera.readout_time_s;
-  const double frame = 1 / camera.mode.frame_rate_hz;
+  for (const auto& raw : raw_frames) total += raw.integration_time_s + camera_.readout_time_s;
+  const double frame = 1 / camera_.mode.frame_rate_hz;
   if (!(total <= frame * (1 + 1e-9)))
     faults_.add(place, "the sequence does not fit into a frame",
                 "got " + std::to_string(raw_frames.size()) + " raw frames of " + milliseconds(total) + " together, readout included; at " +
-                    base::quantity_text(camera.mode.frame_rate_hz, "1 Hz") + " a frame has " + milliseconds(frame) +
-                    "\nlower integration_time, or modes." + camera.mode.name + ".frame_rate");
+                    base::quantity_text(camera_.mode.frame_rate_hz, "1 Hz") + " a frame has " + milliseconds(frame) +
+                    "\nlower integration_time, or modes." + camera_.mode.name + ".frame_rate");
   for (const auto& raw : raw_frames)
-    if (raw.integration_time_s < camera.min_integration_time_s) {
+    if (raw.integration_time_s < camera_.min_integration_time_s) {
       faults_.add(place, "integration_time is below the camera's shortest",
                   "got " + base::quantity_text(raw.integration_time_s, "1 us") + ", expected at least " +
-                      base::quantity_text(camera.min_integration_time_s, "1 us") + " (timing.min_integration_time)");
+                      base::quantity_text(camera_.min_integration_time_s, "1 us") + " (timing.min_integration_time)");
       break;
     }
-  const long long samples = static_cast<long long>(camera.sensor.width) * camera.sensor.height * static_cast<long long>(raw_frames.size());
-  if (samples > base::limit::raw_samples.value)
-    faults_.add(sequence.place(), "a frame has too many raw samples",
-                "got " + std::to_string(camera.sensor.width) + " x " + std::to_string(camera.sensor.height) + " x " +
-                    std::to_string(raw_frames.size()) + " raw frames, at most " + std::to_string(base::limit::raw_samples.value) +
-                    " (`tofray --limits`)",
-                ErrorKind::limit);
 }
 
 // A linear edge may not be longer than the pulse or the pause that it leads to.
-void CameraReader::check_edges(const Value& root, const Camera& camera) {
+void ModeReader::check_edges() {
   double highest = 0;
-  for (const auto& raw : camera.mode.sequence) highest = std::max(highest, raw.modulation_frequency_hz);
-  for (std::size_t i = 0; i < camera.illumination.size(); ++i) {
-    const Waveform& waveform = camera.illumination[i].waveform;
+  for (const auto& raw : camera_.mode.sequence) highest = std::max(highest, raw.modulation_frequency_hz);
+  for (std::size_t i = 0; i < camera_.illumination.size(); ++i) {
+    const Waveform& waveform = camera_.illumination[i].waveform;
     if (waveform.kind != Waveform::Kind::rectangular) continue;
     const double room = std::min(waveform.duty, 1 - waveform.duty) / highest;
     if (waveform.rise_time_s > room)
-      faults_.add(root["illumination"].items[i]["waveform"].place_of("rise_time"), "the pulse's edges are longer than the pulse",
+      faults_.add(root_["illumination"].items[i]["waveform"].place_of("rise_time"), "the pulse's edges are longer than the pulse",
                   "got rise_time " + base::quantity_text(waveform.rise_time_s, "1 ns") + ", at most " + base::quantity_text(room, "1 ns") +
                       " at " + base::quantity_text(highest, "1 MHz") + " and this duty");
   }
+}
+
+}  // namespace
+
+void read_modes(const Value& root, Camera& camera, Filler& filler, base::Faults& faults) {
+  ModeReader(root, camera, filler, faults).read();
 }
 
 }  // namespace tofray::io

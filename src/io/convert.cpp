@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "base/text.h"
+#include "base/units.h"
 #include "io/text_file.h"
 
 namespace tofray::io {
@@ -20,19 +21,35 @@ std::vector<double> numbers(const Value& list) {
   return out;
 }
 
-void table(const Value& map, const char* x_key, const char* y_key, base::Faults& faults, std::vector<double>& x, std::vector<double>& y) {
-  if (!map.good) return;
-  x = numbers(map[x_key]);
-  y = numbers(map[y_key]);
-  if (x.size() != y.size())
-    faults.add(map[y_key].place(), std::string(y_key) + " is not as long as " + x_key,
-               "got " + std::to_string(y.size()) + " and " + std::to_string(x.size()) + " elements, expected one for each");
-  for (std::size_t i = 1; i < x.size(); ++i)
-    if (!(x[i] > x[i - 1])) {
-      faults.add(map[x_key].items[i].place(), std::string(x_key) + " does not ascend",
-                 "got " + describe(*map[x_key].items[i].node) + " after " + describe(*map[x_key].items[i - 1].node));
-      return;
+std::vector<std::vector<double>> rows_of_numbers(std::string_view text, const std::string& path, base::Faults& faults) {
+  std::vector<std::vector<double>> rows;
+  const auto source = std::make_shared<const std::string>(path);
+  int line_number = 0;
+  for (std::size_t from = 0; from < text.size();) {
+    const std::size_t end = std::min(text.find('\n', from), text.size());
+    const std::string_view line = text.substr(from, end - from);
+    from = end + 1;
+    ++line_number;
+    std::vector<double> row;
+    for (std::size_t i = 0; i < line.size() && line[i] != '#';) {
+      if (line[i] == ' ' || line[i] == '\t' || line[i] == ',' || line[i] == ';' || line[i] == '\r') {
+        ++i;
+        continue;
+      }
+      const std::size_t stop = std::min(line.find_first_of(" \t,;\r#", i), line.size());
+      const auto number = base::parse_quantity(line.substr(i, stop - i), base::Dimension::none);
+      if (number.status != base::Quantity::Status::good && number.status != base::Quantity::Status::bare) {
+        faults.add({source, line_number, static_cast<int>(i) + 1}, "not a number",
+                   "got " + base::in_quotes(line.substr(i, stop - i)) + ", expected numbers with \",\" or blanks between them");
+        return {};
+      }
+      row.push_back(number.value);
+      i = stop;
     }
+    if (!row.empty()) rows.push_back(std::move(row));
+  }
+  if (rows.empty()) faults.add(base::whole(path), "there are no numbers in it", "expected rows of numbers, one row a line");
+  return rows;
 }
 
 std::string read_named(const std::string& kind, const std::string& name, const std::vector<Builtin>& builtins) {

@@ -16,8 +16,9 @@ Vec3 vector(const Value& value);
 
 std::vector<double> numbers(const Value& list);
 
-/// A map of two lists as long as each other, the first ascending.
-void table(const Value& map, const char* x_key, const char* y_key, base::Faults& faults, std::vector<double>& x, std::vector<double>& y);
+/// Rows of numbers out of a text, "," or blanks between them; none where there is a fault.
+/// @param path   the file that the text is of, for messages
+std::vector<std::vector<double>> rows_of_numbers(std::string_view text, const std::string& path, base::Faults& faults);
 
 /// Reads what the user named and no built-in has; the error suggests one whose name is near.
 std::string read_named(const std::string& kind, const std::string& name, const std::vector<Builtin>& builtins);

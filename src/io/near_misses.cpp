@@ -8,6 +8,8 @@
 
 namespace tofray::io {
 
+using model::Key;
+
 namespace {
 
 using base::in_quotes;

@@ -4,10 +4,13 @@
 #include <string>
 
 #include "base/faults.h"
-#include "io/form.h"
+#include "io/tree.h"
+#include "model/form.h"
 
 /// Mistakes that people make and YAML reads as something else: each says whether it is there, and adds the fault that names it.
 namespace tofray::io {
+
+using model::Form;
 
 /// "1,5 m" where a number is wanted.
 bool has_decimal_comma(const Node& scalar, const std::string& label, base::Faults& faults);

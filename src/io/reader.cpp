@@ -29,15 +29,13 @@ using base::did_you_mean;
 using base::Dimension;
 using base::in_quotes;
 using base::listed;
+using model::is_scalar;
+using model::Key;
+using model::provenance_keys;
 using Kind = Form::Kind;
 
 bool contains(const std::vector<std::string>& words, std::string_view word) {
   return std::find(words.begin(), words.end(), word) != words.end();
-}
-
-bool is_scalar_form(const Form& form) {
-  return form.kind == Kind::number || form.kind == Kind::integer || form.kind == Kind::boolean || form.kind == Kind::text ||
-         form.kind == Kind::choice;
 }
 
 std::vector<std::string> key_names(const Form& form) {
@@ -105,7 +103,7 @@ class Reader {
 
   // {value: 12 um, assumed: why}  →  12 um
   const Node& unwrapped(const Form& form, const Node& node) {
-    const bool may = file_.provenance && (is_scalar_form(form) || form.kind == Kind::list || form.kind == Kind::either);
+    const bool may = file_.provenance && (is_scalar(form) || form.kind == Kind::list || form.kind == Kind::either);
     if (!may || node.kind != Node::Kind::map) return node;
     const Node* inner = node.find("value");
     if (inner == nullptr) return node;
@@ -116,7 +114,7 @@ class Reader {
   }
 
   void read_provenance(const Node& node) {
-    static const Form words = io::text("a text", "data sheet, page 3");
+    static const Form words = model::text("a text", "data sheet, page 3");
     for (std::size_t i = 0; i < node.keys.size(); ++i)
       if (contains(provenance_keys(), node.keys[i].text)) read(words, node.items[i], node.keys[i].text);
   }
@@ -247,7 +245,6 @@ class Reader {
     for (const auto& key : form.keys) {
       value.names.push_back(key.name);
       const Node* given = node.find(key.name);
-      if (given == nullptr) given = key.fallback_node.get();
       value.items.push_back(given != nullptr ? read(key.form, *given, key.name) : Value());
       if (given == nullptr && key.required)
         faults_.add(node.place, label + " lacks the key " + in_quotes(key.name),
@@ -307,7 +304,7 @@ class Reader {
     const Node* tag = brief ? &node : node.find(form.tag);
     std::string name = form.default_tag;
     if (tag != nullptr) {
-      const Form tags = choice(form.names);
+      const Form tags = model::choice(form.names);
       name = read(tags, *tag, brief ? label : form.tag).text;
     } else if (name.empty()) {
       faults_.add(node.place, label + " lacks the key " + in_quotes(form.tag), "expected " + form.tag + ": " + listed(form.names));
@@ -366,7 +363,7 @@ class Reader {
       const Form& one = form.forms[i];
       const bool map = one.kind == Kind::map || one.kind == Kind::tagged || one.kind == Kind::dictionary || one.kind == Kind::variant;
       const bool fits = (map && node.kind == Node::Kind::map) || (one.kind == Kind::list && node.kind == Node::Kind::list) ||
-                        (is_scalar_form(one) && node.kind == Node::Kind::scalar);
+                        (is_scalar(one) && node.kind == Node::Kind::scalar);
       if (!fits) continue;
       Value value = read(one, node, label);
       value.either = static_cast<int>(i);

@@ -6,14 +6,18 @@
 #include <vector>
 
 #include "base/faults.h"
-#include "io/form.h"
+#include "io/tree.h"
+#include "model/form.h"
 
 /// Reading a tree by its table.
 namespace tofray::io {
 
-/// A value as its form says: numbers in SI units, defaults filled in. It points into the tree, which has to stay.
+using model::FileForm;
+using model::Form;
+
+/// A value as its form says: numbers in SI units. It points into the tree, which has to stay.
 struct Value {
-  const Node* node = nullptr;           ///< none where the key is absent and has no default
+  const Node* node = nullptr;           ///< none where the key is absent
   bool good = true;                     ///< no fault was found in it or below it
   double number = 0;                    ///< number; integer, too (exact up to 2^53)
   bool flag = false;                    ///< boolean
@@ -30,6 +34,7 @@ struct Value {
   [[nodiscard]] const base::Place& place() const { return node->place; }
   /// Of a map's key, or of the map where the key was left to its default.
   [[nodiscard]] const base::Place& place_of(std::string_view key) const;
+  [[nodiscard]] bool is_map() const { return node != nullptr && node->kind == Node::Kind::map; }
   [[nodiscard]] bool is_list() const { return node != nullptr && node->kind == Node::Kind::list; }
 };
 

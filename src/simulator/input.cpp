@@ -7,12 +7,16 @@
 
 #include "base/text.h"
 #include "camera/frozen_camera.h"
+#include "model/tables.h"
 #include "simulator/check.h"
 #include "simulator/checks.h"
 
 namespace tofray::simulator {
 
 namespace {
+
+// What arrays that come from elsewhere may hold.
+constexpr base::Range pixel_power_w{0, 1}, path_length_m{0, 1e6}, ambient_e_per_s{0, 1e20}, unit_length{0.999, 1.001};
 
 template <class T>
 const T* data_of(const std::vector<T>& array) {
@@ -84,11 +88,11 @@ pipeline::Input input_of(const Geometry& seen, const Camera& camera) {
   for (std::size_t i = 0; i < look.pixels(); ++i) {
     if (!(seen.z_m[i] > 0 && seen.z_m[i] <= flow::max_distance)) continue;
     const float* n = &seen.normal[3 * i];
-    look.value(std::sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]), range::unit_length, "normal's length", i);
-    look.value(seen.diffuse[i], range::share, "diffuse", i);
+    look.value(std::sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]), unit_length, "normal's length", i);
+    look.value(seen.diffuse[i], model::share, "diffuse", i);
     if (seen.specular.empty()) continue;
-    look.value(seen.specular[i], range::share, "specular", i);
-    look.value(seen.exponent[i], range::phong_exponent, "exponent", i);
+    look.value(seen.specular[i], model::share, "specular", i);
+    look.value(seen.exponent[i], model::phong_exponent, "exponent", i);
     if (seen.diffuse[i] + seen.specular[i] > 1.000001f) {
       refuse(look.place("diffuse", i) + ": diffuse + specular is more than 1", "a surface cannot send back more light than it gets");
     }
@@ -105,9 +109,9 @@ pipeline::Input input_of(const PixelLight& light, const Camera& camera) {
   look.size(light.power_w, look.by_light(), "power_w");
   look.size(light.path_length_m, look.by_light(), "path_length_m");
   look.size_or_empty(light.ambient_e_per_s, look.pixels(), "ambient_e_per_s");
-  look.values(light.power_w, range::pixel_power_w, "power_w", true);
-  look.values(light.path_length_m, range::path_length_m, "path_length_m", true);
-  look.values(light.ambient_e_per_s, range::pixel_ambient_e_per_s, "ambient_e_per_s", false);
+  look.values(light.power_w, pixel_power_w, "power_w", true);
+  look.values(light.path_length_m, path_length_m, "path_length_m", true);
+  look.values(light.ambient_e_per_s, ambient_e_per_s, "ambient_e_per_s", false);
   pipeline::Input input{};
   input.entry = pipeline::stage_raw, input.moments = light.moments;
   input.light = {data_of(light.power_w), data_of(light.path_length_m), data_of(light.ambient_e_per_s)};

@@ -7,11 +7,14 @@
 #include <string>
 #include <vector>
 
-#include "io/form.h"
 #include "io/tree.h"
+#include "model/form.h"
 
 /// Documents and fields out of the readers' own tables, so that a new key is tested the day it is added.
 namespace tofray::io::test {
+
+using model::FileForm;
+using model::Form;
 
 /// One value of a document: how to get there, and its form.
 struct Field {
@@ -54,8 +57,8 @@ inline Node sample(const Form& form, std::size_t v, int k = 0, const std::string
     case Form::Kind::boolean:
     case Form::Kind::text: return scalar(form.example);
     case Form::Kind::choice: {
-      const bool none = form.names.back() == "none";  // an amount of no light is refused
-      return scalar(form.names[v % (form.names.size() - (none ? 1 : 0))]);
+      const std::size_t first = form.names.front() == "none" ? 1 : 0;  // an amount of no light is refused
+      return scalar(form.names[first + v % (form.names.size() - first)]);
     }
     case Form::Kind::list: {
       node.kind = Node::Kind::list;

@@ -12,7 +12,7 @@
 namespace {
 
 using namespace tofray;
-using io::Form;
+using model::Form;
 using io::Node;
 using io::test::Field;
 
@@ -37,7 +37,7 @@ std::vector<std::string> wrong_values(const Form& form) {
 
 class every_field : public testing::TestWithParam<const char*> {
  protected:
-  const io::FileForm& form() const { return std::string(GetParam()) == "scene" ? io::scene_form() : io::camera_form(); }
+  const model::FileForm& form() const { return std::string(GetParam()) == "scene" ? model::scene_form() : model::camera_form(); }
 };
 
 TEST_P(every_field, documents_made_from_the_tables_load) {

@@ -72,7 +72,7 @@ std::vector<std::string> verdicts(const std::string& kind, const Documents& docu
 
 class schema : public testing::TestWithParam<const char*> {
  protected:
-  const io::FileForm& form() const { return std::string(GetParam()) == "scene" ? io::scene_form() : io::camera_form(); }
+  const model::FileForm& form() const { return std::string(GetParam()) == "scene" ? model::scene_form() : model::camera_form(); }
 };
 
 TEST_P(schema, accepts_all_that_the_reader_accepts) {

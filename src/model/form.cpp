@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The tofray authors
 // SPDX-License-Identifier: Apache-2.0
-#include "io/form.h"
+#include "model/form.h"
 
-namespace tofray::io {
+namespace tofray::model {
 
 Form number(base::Dimension dimension, base::Range range, const std::string& example) {
   Form form;
@@ -12,12 +12,6 @@ Form number(base::Dimension dimension, base::Range range, const std::string& exa
   form.low = range.low;
   form.high = range.high;
   form.example = example;
-  return form;
-}
-
-Form bare_number(base::Dimension dimension, base::Range range, const std::string& example) {
-  Form form = number(dimension, range, example);
-  form.bare = true;
   return form;
 }
 
@@ -72,18 +66,6 @@ Form dictionary(Form item, int min_items, int max_items) {
   return form;
 }
 
-Form tagged(const std::string& tag, std::vector<std::pair<std::string, std::vector<Key>>> alternatives, const std::string& default_tag) {
-  Form form;
-  form.kind = Form::Kind::tagged;
-  form.tag = tag;
-  form.default_tag = default_tag;
-  for (auto& [name, keys] : alternatives) {
-    form.names.push_back(name);
-    form.forms.push_back(map(std::move(keys)));
-  }
-  return form;
-}
-
 Form either(std::vector<Form> forms) {
   Form form;
   form.kind = Form::Kind::either;
@@ -91,18 +73,18 @@ Form either(std::vector<Form> forms) {
   return form;
 }
 
-Key required(const std::string& name, Form form, const std::string& doc) { return {name, std::move(form), doc, true, {}, nullptr}; }
+Key required(const std::string& name, Form form, const std::string& doc) { return {name, std::move(form), doc, true, {}, {}}; }
 
-Key optional(const std::string& name, Form form, const std::string& fallback, const std::string& doc) {
-  auto node = std::make_shared<const Node>(parse_value(fallback, base::whole("default of " + name)));
-  return {name, std::move(form), doc, false, fallback, std::move(node)};
+Key absent(const std::string& name, Form form, const std::string& doc) { return {name, std::move(form), doc, false, {}, {}}; }
+
+bool is_scalar(const Form& form) {
+  using enum Form::Kind;
+  return form.kind == number || form.kind == integer || form.kind == boolean || form.kind == text || form.kind == choice;
 }
-
-Key absent(const std::string& name, Form form, const std::string& doc) { return {name, std::move(form), doc, false, {}, nullptr}; }
 
 const std::vector<std::string>& provenance_keys() {
   static const std::vector<std::string> keys = {"source", "assumed", "note"};
   return keys;
 }
 
-}  // namespace tofray::io
+}  // namespace tofray::model

@@ -1,17 +1,15 @@
 // SPDX-FileCopyrightText: 2026 The tofray authors
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include "base/ranges.h"
+#include "base/range.h"
 #include "base/units.h"
-#include "io/tree.h"
 
-/// The tables: what may stand in a file. One table per kind of thing, and from it come reading, messages, suggestions and JSON Schema.
-namespace tofray::io {
+/// What may stand in a file: the tables as a tree of forms. Reading, messages, suggestions, JSON Schema and reference page go by it.
+namespace tofray::model {
 
 struct Key;
 
@@ -49,20 +47,18 @@ struct Form {
   std::vector<std::pair<std::string, std::string>> refused;  ///< variant: names that are known and not there yet, and why
 };
 
-/// One row of a table.
+/// A key of a map.
 struct Key {
   std::string name;
   Form form;
   std::string doc;  ///< one line
   bool required = false;
-  std::string fallback;  ///< YAML text taken where the key is absent; empty: the value is then absent, too
-  std::shared_ptr<const Node> fallback_node;
+  std::string fallback;  ///< what holds where the key is absent, as one writes it; empty: the key's line says it
+  std::string member;    ///< what it is in code, e.g. "Pixel::read_noise_e"; empty: no member of its own
 };
 
-// The rows and forms below are written in this shorthand.
+// The forms are written in this shorthand.
 Form number(base::Dimension dimension, base::Range range, const std::string& example);
-/// The same, and a bare number is in SI units.
-Form bare_number(base::Dimension dimension, base::Range range, const std::string& example);
 Form integer(base::Range range, const std::string& example);
 Form boolean();
 Form text(const std::string& what, const std::string& example);
@@ -70,14 +66,13 @@ Form choice(std::vector<std::string> names);
 Form list(Form item, int min_items, int max_items);
 Form map(std::vector<Key> keys);
 Form dictionary(Form item, int min_items, int max_items);
-Form tagged(const std::string& tag, std::vector<std::pair<std::string, std::vector<Key>>> alternatives,
-            const std::string& default_tag = {});
 Form either(std::vector<Form> forms);
 
 Key required(const std::string& name, Form form, const std::string& doc);
-Key optional(const std::string& name, Form form, const std::string& fallback, const std::string& doc);
-/// May be absent, and then it is.
 Key absent(const std::string& name, Form form, const std::string& doc);
+
+/// Whether it is written as one word or number.
+bool is_scalar(const Form& form);
 
 /// A whole file kind.
 struct FileForm {
@@ -94,4 +89,4 @@ const FileForm& camera_form();
 /// Keys that every map has where FileForm::provenance is set.
 const std::vector<std::string>& provenance_keys();
 
-}  // namespace tofray::io
+}  // namespace tofray::model

@@ -1,0 +1,231 @@
+// SPDX-FileCopyrightText: 2026 The tofray authors
+// SPDX-License-Identifier: Apache-2.0
+#include "base/constants.h"
+#include "base/limits.h"
+#include "model/rules.h"
+#include "model/tables.h"
+
+/// What a camera profile may say, but its lights: light_table.cpp.
+///
+/// Ranges are wide: beyond them lies no camera, or what single precision cannot carry.
+namespace tofray::model {
+
+namespace {
+
+using enum base::Dimension;
+using enum Constant;
+using base::pi;
+
+constexpr auto raw_frames = static_cast<int>(base::limit::raw_frames.value);
+
+constexpr Number side{none, {1, static_cast<double>(base::limit::sensor_side.value)}, "224"};
+constexpr Number focal_length{pixel, {1, 1e6}, "212 px"};
+constexpr Number principal_point{pixel, {-1e5, 1e5}, "111.5 px"};
+constexpr Number distortion{none, {-10, 10}, "-0.3"};
+constexpr Number wavelength{length, {100e-9, 20e-6}, "850 nm"};
+constexpr Number efficiency{fraction, {0, 1}, "0.4"};
+constexpr Number contrast{fraction, {0, 1}, "0.75"};
+constexpr Number modulation_frequency{frequency, {1e3, 1e10}, "80.32 MHz"};
+constexpr Number electrons{charge, {0, 1e12}, "50 e"};
+constexpr Number code_number{none, {0, 65535}, "400"};
+constexpr Number flying_z{length, {0, 1e4}, "1 m"};
+constexpr Number flying_limit{length, {0, 1e3}, "18 mm"};
+constexpr Number degrees{celsius, {-100, 200}, "25 degC"};
+constexpr Number integration_time{time, {1e-9, 1e3}, "2000 us"};
+constexpr Number pause{time, {0, 10}, "3.5 ms"};
+
+}  // namespace
+
+template <>
+const Table& table_of<Sensor>() {
+  static const Table rows = table<Sensor>(  //
+      number<&Sensor::width>("width", side, "pixels").required(), number<&Sensor::height>("height", side, "pixels").required(),
+      number<&Sensor::pixel_pitch_m>("pixel_pitch", {length, {0.5e-6, 1e-3}, "12 um"}, "from pixel to pixel").required(),
+      number<&Sensor::fill_factor>("fill_factor", {fraction, {1e-3, 1}, "0.8"}, "share of the pixel's area that collects light"));
+  return rows;
+}
+
+template <>
+const Table& table_of<Lens>() {
+  static const Table rows = table<Lens>(
+      number<&Lens::fx_px>("fx", focal_length, "focal length over pixel pitch, along a row").required(),
+      number<&Lens::fy_px>("fy", focal_length, "the same along a column").required(),
+      number<&Lens::cx_px>("cx", principal_point, "principal point; the centre of pixel (0, 0) is at (0, 0)").required(),
+      number<&Lens::cy_px>("cy", {pixel, principal_point.range, "85.5 px"}, "principal point").required(),
+      group("distortion", "Brown-Conrady, as in OpenCV",  //
+            number<&Lens::k1>("k1", distortion, "radial, r^2"), number<&Lens::k2>("k2", distortion, "radial, r^4"),
+            number<&Lens::p1>("p1", distortion, "tangential"), number<&Lens::p2>("p2", distortion, "tangential"),
+            number<&Lens::k3>("k3", distortion, "radial, r^6")),
+      number<&Lens::f_number>("f_number", {none, {0.3, 100}, "1.6"}, "N").required(),
+      number<&Lens::transmission>("transmission", {fraction, {0, 1}, "0.85"}, "of lens and filter at the illumination wavelength"),
+      choice<&Lens::vignetting>("vignetting", {"cos4", "off", "table"},
+                                "fall-off toward the corners: cos4, off, or a table over the angle to the axis"),
+      curve<&Lens::vignetting_table>("vignetting", {"angle", {angle, {0, pi / 2}, "30 deg"}}, {"factor", {none, {0, 2}, "0.6"}}, "")
+          .when<&Lens::vignetting>(Lens::Vignetting::table));
+  return rows;
+}
+
+template <>
+const Table& table_of<Filter>() {
+  static const Table rows = table<Filter>(
+      number<&Filter::center_m>("center", wavelength, "the illumination wavelength of the first light unless given").absent(),
+      number<&Filter::half_width_m>("half_width", {length, {0.1e-9, 10e-6}, "15 nm"}, "passes center - half_width to center + half_width"),
+      number<&Filter::peak>("peak", {fraction, {0, 1}, "0.9"}, "transmission inside"),
+      curve<&Filter::table>("", {"wavelength", wavelength}, {"transmission", {fraction, {0, 1}, "0.9"}},
+                            "a table in place of center, half_width and peak")
+          .absent());
+  return rows;
+}
+
+template <>
+const Table& table_of<Pixel>() {
+  static const Table rows = table<Pixel>(
+      curve<&Pixel::quantum_efficiency>("quantum_efficiency", {"wavelength", wavelength}, {"value", efficiency}, "electrons per photon",
+                                        allowed)
+          .required(),
+      curve<&Pixel::contrast>("contrast", {"modulation_frequency", modulation_frequency}, {"value", contrast},
+                              "demodulation contrast of the pixel itself; 1 unless given", allowed)
+          .absent(),
+      number<&Pixel::bandwidth_hz>("bandwidth", {frequency, {0, 1e12}, "180 MHz"}, "single pole of the gate; 0: none"),
+      number<&Pixel::full_well_e>("full_well", {charge, {1, 1e30}, "100000 e"}, "per tap"),
+      number<&Pixel::read_noise_e>("read_noise", {charge, {0, 1e6}, "50 e"}, "per tap, reset and read, 1 sigma"),
+      number<&Pixel::dark_current_e_per_s>("dark_current", {charge_rate, {0, 1e12}, "1000 e/s"}, "per tap"),
+      group("patterns", "what differs from pixel to pixel",
+            number<&Pixel::prnu>("prnu", {fraction, {0, 1}, "1 %"}, "photo response non-uniformity, 1 sigma"),
+            number<&Pixel::dsnu_dn>("dsnu", {code, {0, 1e4}, "2 DN"}, "offset pattern, 1 sigma"),
+            number<&Pixel::delay_s>("delay", {time, {0, 1e-6}, "20 ps"}, "fixed delay per pixel, 1 sigma"),
+            number<&Pixel::pattern_seed>("seed", {none, {0, 9007199254740991.0}, "1"}, "which specimen of the sensor")),
+      group("suppression", "background suppression; none unless given",
+            number<&Pixel::suppression_threshold_e>("threshold", electrons, "starts when the smaller tap reaches it; 0: no suppression")
+                .required(),
+            number<&Pixel::suppression_budget_e>("budget", electrons, "largest charge taken off each tap").required(),
+            number<&Pixel::suppression_noise_factor>("noise_factor", {none, {0, 100}, "1"},
+                                                     "each tap's removed charge x adds a variance of noise_factor^2 x")))
+                                .complete_with(contrast_is_full);
+  return rows;
+}
+
+template <>
+const Table& table_of<Adc>() {
+  static const Table rows =
+      table<Adc>(
+          number<&Adc::bits>("bits", {none, {1, 16}, "12"}, "codes go from 0 to 2^bits - 1").required(),
+          number<&Adc::step_e_per_dn>("step", {charge_per_code, {1e-6, 1e9}, "20 e/DN"}, "electrons of A-B per code").required(),
+          number<&Adc::mid_code>("mid_code", {none, code_number.range, "2048"}, "code of A-B = 0; the middle unless given").absent(),
+          number<&Adc::valid_min>("valid_min", code_number, "codes below are flagged as saturated; 0 unless given").absent(),
+          number<&Adc::valid_max>("valid_max", code_number, "codes above are flagged as saturated; the largest unless given").absent())
+          .check_with(codes_are_in_order)
+          .complete_with(codes_by_bits);
+  return rows;
+}
+
+template <>
+const Table& table_of<ImageFilter>() {
+  using Kind = ImageFilter::Kind;
+  static const Table rows = table<ImageFilter>(
+      kind<&ImageFilter::kind>("kind", {"none", "gaussian", "median"}),
+      number<&ImageFilter::sigma_px>("sigma", {pixel, {0.1, 10}, "1 px"}, "width of the kernel").when<&ImageFilter::kind>(Kind::gaussian),
+      number<&ImageFilter::radius_px>("radius", {none, {1, 4}, "1"}, "window of (2 radius + 1)^2 pixels")
+          .when<&ImageFilter::kind>(Kind::median));
+  return rows;
+}
+
+template <>
+const Table& table_of<Decoding>() {
+  static const Table rows =
+      table<Decoding>(flag<&Decoding::wiggling_correction>("wiggling_correction", "take out what the harmonics do to the phase"),
+                      number<&Decoding::low_signal_noise_m>("low_signal_noise", {length, {1e-6, 1e3}, "70 mm"},
+                                                            "more noise than this: flagged as low signal; also the scale of confidence"),
+                      group("flying_pixel", "limits of the flying pixel flag",
+                            number<&Decoding::flying_near_z_m>("near_z", flying_z, "the limit on |dz| grows linearly from here"),
+                            number<&Decoding::flying_near_limit_m>("near_limit", flying_limit, "limit at near_z and before"),
+                            number<&Decoding::flying_far_z_m>("far_z", {length, flying_z.range, "4.5 m"}, "… to here"),
+                            number<&Decoding::flying_far_limit_m>("far_limit", flying_limit, "limit at far_z and beyond")),
+                      number<&Decoding::inconsistent_range_m>("inconsistent_range", {length, {0, 1e4}, "0.1 m"},
+                                                              "two modulation frequencies may differ by this"),
+                      record<&Decoding::filter>("filter", "over the range image"))
+          .check_with(far_is_beyond_near);
+  return rows;
+}
+
+template <>
+const Table& table_of<Temperature>() {
+  static const Table rows = table<Temperature>(
+      number<&Temperature::celsius>("actual", degrees, "of the camera"),
+      number<&Temperature::reference_celsius>("reference", degrees, "at which the range has no drift"),
+      number<&Temperature::drift_m_per_kelvin>("drift", {drift, {-1, 1}, "0.2 mm/K"}, "range per kelvin off the reference"),
+      number<&Temperature::warm_up_m>("warm_up", {length, {-1, 1}, "5 mm"}, "range drifts by this while the camera warms up, first order"),
+      number<&Temperature::warm_up_time_s>("warm_up_time", {time, {1e-3, 1e6}, "600 s"}, "its time constant"),
+      number<&Temperature::since_start_s>("since_start", {time, {0, 1e12}, "600 s"}, "how long the camera has run at frame 0"));
+  return rows;
+}
+
+template <>
+const Table& table_of<RawFrame>() {
+  static const Table rows =
+      table<RawFrame>(flag<&RawFrame::lit>("lit", "whether the camera's light is on"),
+                      number<&RawFrame::modulation_frequency_hz>("modulation_frequency", modulation_frequency, "of lit raw frames")
+                          .when<&RawFrame::lit>(true)
+                          .absent(),
+                      number_or_list<&RawFrame::reference_phase_rad>("reference_phase", {angle, {-100, 100}, "90 deg"}, raw_frames,
+                                                                     "of lit raw frames; a list makes one raw frame of each")
+                          .when<&RawFrame::lit>(true)
+                          .absent(),
+                      number<&RawFrame::integration_time_s>("integration_time", integration_time, "of each raw frame").required())
+          .check_with(lit_raw_frames_have_a_frequency);
+  return rows;
+}
+
+template <>
+const Table& table_of<Mode>() {
+  static const Table rows = table<Mode>(
+      words<&Mode::name>("", "", "", ""),
+      number<&Mode::frame_rate_hz>("frame_rate", {frequency, {1e-4, 1e5}, "5 Hz"}, "frame i starts at i / frame_rate").required(),
+      records<&Mode::sequence>("sequence", 1, raw_frames, "the raw frames, in order").required());
+  return rows;
+}
+
+template <>
+const Table& table_of<Camera>() {
+  static const Table rows =
+      table<Camera>(words<&Camera::name>("name", "a name", "mycam", "of the camera").required(),
+                    no_row<&Camera::source>("a file's place is no part of what it says"),
+                    record<&Camera::sensor>("sensor", "the grid of pixels").required(),
+                    record<&Camera::lens>("lens", "from directions to pixels").required(),
+                    record<&Camera::filter>("filter", "before the sensor, for ambient light"),
+                    records<&Camera::illumination>("illumination", 0, static_cast<int>(base::limit::lights.value),
+                                                   "the camera's own lights, which add up")
+                        .required(),
+                    record<&Camera::pixel>("pixel", "the two-tap pixel").required(),
+                    record<&Camera::adc>("adc", "from electrons to codes").required(),
+                    record<&Camera::decoding>("decoding", "from raw frames to depth"),
+                    record<&Camera::temperature>("temperature", "drift of the range"),
+                    number<&Camera::refractive_index>("refractive_index", {none, {1, 3}, "1.0003"}, "of the medium"),
+                    group("timing", "of the readout",
+                          number<&Camera::readout_time_s>("readout_time", pause, "from the end of one exposure to the start of the next"),
+                          number<&Camera::min_integration_time_s>("min_integration_time", {time, pause.range, "27 us"},
+                                                                  "shortest exposure the camera can do")),
+                    choice<&Camera::power_model>("power_model", {"tofray", "paper_literal"},
+                                                 "paper_literal: the printed formula of the paper, for comparison only"),
+                    record<&Camera::mode>("", ""),  // one out of the file's `modes`
+                    no_row<&Camera::mode_names>("what else the file has is no part of the camera"))
+          .check_with(sizes_are_within_the_limits)
+          .complete_with(filter_at_the_light);
+  return rows;
+}
+
+const FileForm& camera_form() {
+  static const FileForm form = [] {
+    FileForm file{"camera", "tofray camera profile: lens, light, pixel, ADC, modes and decoding", form_of(table_of<Camera>()), true};
+    const auto most = static_cast<int>(base::limit::modes.value);
+    file.root.keys.push_back(
+        required("modes", dictionary(form_of(table_of<Mode>()), 1, most), "the camera's use cases by name; the first is the default"));
+    file.root.keys.push_back(absent("mode", text("a mode", "MODE_9_5FPS_2000"), "which of the modes; the first unless given"));
+    file.root.keys.push_back(
+        absent("integration_time", form_of(integration_time), "takes the place of that of every lit raw frame of the mode"));
+    return file;
+  }();
+  return form;
+}
+
+}  // namespace tofray::model

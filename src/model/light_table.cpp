@@ -1,0 +1,100 @@
+// SPDX-FileCopyrightText: 2026 The tofray authors
+// SPDX-License-Identifier: Apache-2.0
+#include "base/constants.h"
+#include "base/limits.h"
+#include "model/rules.h"
+#include "model/tables.h"
+
+/// What a camera profile may say of the camera's lights.
+namespace tofray::model {
+
+namespace {
+
+using enum base::Dimension;
+using base::pi;
+
+constexpr Number half_angle{angle, {1e-3, pi}, "43 deg"};
+constexpr Number half_range{angle, {1e-3, 2 * pi}, "43 deg"};
+constexpr Number width{angle, {1e-3, 2 * pi}, "62 deg"};
+constexpr Number cells{none, {2, 4096}, "172"};  // between two of them it is interpolated
+constexpr auto curve_points = static_cast<int>(base::limit::curve_points.value);
+constexpr auto table_samples = static_cast<int>(base::limit::table_samples.value);
+
+}  // namespace
+
+template <>
+const Table& table_of<Pattern>() {
+  using Kind = Pattern::Kind;
+  constexpr auto kind_of = &Pattern::kind;
+  static const Table rows =
+      table<Pattern>(
+          kind<kind_of>("kind", {"cone", "lambertian", "cosine_lobe", "flat_top", "table"}),
+          number<&Pattern::half_angle_rad>("half_angle", half_angle, "uniform up to this angle to the axis")
+              .when<kind_of>(Kind::cone)
+              .required(),
+          number<&Pattern::exponent>("exponent", {none, {0, 1e4}, "4"}, "n of cos^n").when<kind_of>(Kind::cosine_lobe).required(),
+          number<&Pattern::width_rad>("width", width, "full width across x at half the peak").when<kind_of>(Kind::flat_top).required(),
+          number<&Pattern::height_rad>("height", width, "the same across y").when<kind_of>(Kind::flat_top).required(),
+          number<&Pattern::columns>("columns", cells, "cells of the table it stands for").when<kind_of>(Kind::flat_top).absent(),
+          number<&Pattern::rows>("rows", cells, "cells of the table it stands for").when<kind_of>(Kind::flat_top).absent(),
+          number<&Pattern::half_range_x_rad>("half_range_x", half_range, "zero beyond +- this; the width unless given")
+              .when<kind_of>(Kind::flat_top)
+              .absent(),
+          number<&Pattern::half_range_y_rad>("half_range_y", half_range, "zero beyond +- this; the height unless given")
+              .when<kind_of>(Kind::flat_top)
+              .absent(),
+          also(number<&Pattern::half_range_x_rad>("half_range_x", half_range, "the table covers +- this across its columns")
+                   .when<kind_of>(Kind::table)
+                   .required()),
+          also(number<&Pattern::half_range_y_rad>("half_range_y", half_range, "the table covers +- this across its rows")
+                   .when<kind_of>(Kind::table)
+                   .required()),
+          grid<&Pattern::samples, &Pattern::rows, &Pattern::columns>(
+              "samples", {none, {0, 1e12}, "1"}, 2, table_samples,
+              "rows (from -half_range_y on) of samples (from -half_range_x on), any unit")
+              .when<kind_of>(Kind::table)
+              .or_file("pattern.csv"))
+          .check_with(tables_shine);
+  return rows;
+}
+
+template <>
+const Table& table_of<Waveform>() {
+  using enum Waveform::Kind;
+  constexpr auto kind_of = &Waveform::kind;
+  static const Table rows =
+      table<Waveform>(
+          kind<kind_of>("kind", {"rectangular", "sine", "measured"}),
+          number<&Waveform::duty>("duty", {fraction, {1e-3, 0.999}, "25 %"}, "width at half height over the period")
+              .when<kind_of>(rectangular),
+          number<&Waveform::rise_time_s>("rise_time", {time, {0, 1e-3}, "1 ns"}, "linear edge, 0 to 100 %").when<kind_of>(rectangular),
+          number<&Waveform::modulation_depth>("modulation_depth", {fraction, {1e-3, 1}, "90 %"}, "d of the light 1 + d cos")
+              .when<kind_of>(sine),
+          number<&Waveform::bandwidth_hz>("bandwidth", {frequency, {0, 1e12}, "200 MHz"}, "single pole of the light source; 0: none")
+              .when<kind_of>(rectangular, sine),
+          number<&Waveform::jitter_s>("jitter", {time, {0, 1e-6}, "50 ps"}, "Gaussian, 1 sigma").when<kind_of>(rectangular, sine),
+          numbers<&Waveform::correlation>("correlation", {none, {-10, 10}, "0.5"}, 4, curve_points,
+                                          "(A-B)/(A+B) at equally spaced reference phases over one period, light and pixel at no distance")
+              .when<kind_of>(measured)
+              .or_file("correlation.csv"),
+          number<&Waveform::harmonics>("harmonics", {none, {1, 8}, "4"}, "how many odd harmonics are kept: 1, 3, 5, 7 …")
+              .when<kind_of>(rectangular, measured))
+          .check_with(correlations_carry_their_harmonics);
+  return rows;
+}
+
+template <>
+const Table& table_of<Illumination>() {
+  static const Table rows = table<Illumination>(
+      number<&Illumination::position>("position", {length, {-100, 100}, "15.47 mm"}, "in the camera's frame"),
+      number<&Illumination::axis>("axis", {none, {-1e6, 1e6}, "1"}, "in the camera's frame").direction(),
+      number<&Illumination::illumination_wavelength_m>("illumination_wavelength", {length, {300e-9, 2e-6}, "850 nm"}, "of the light source")
+          .required(),
+      number<&Illumination::power_w>("power", {power, {0, 1e4}, "0.2 W"}, "optical, of a lit raw frame, mean over the modulation period")
+          .required(),
+      record<&Illumination::pattern>("pattern", "how the light is spread over directions").required(),
+      record<&Illumination::waveform>("waveform", "how it is modulated").required());
+  return rows;
+}
+
+}  // namespace tofray::model

@@ -1,0 +1,103 @@
+// SPDX-FileCopyrightText: 2026 The tofray authors
+// SPDX-License-Identifier: Apache-2.0
+#include "model/lines.h"
+
+#include "base/text.h"
+
+namespace tofray::model {
+
+namespace {
+
+using Kind = Form::Kind;
+
+std::string code(const std::string& text) { return "`" + text + "`"; }
+
+std::string range(const Form& form) {
+  return base::quantity_text(form.low, form.example) + " to " + base::quantity_text(form.high, form.example);
+}
+
+/// What may stand there, in words.
+std::string value_text(const Form& form) {
+  switch (form.kind) {
+    case Kind::number:
+    case Kind::integer: return code(form.example) + ", " + range(form);
+    case Kind::boolean: return "`true` or `false`";
+    case Kind::text: return form.what + " such as " + code(form.example);
+    case Kind::choice: {
+      std::vector<std::string> names;
+      for (const auto& name : form.names) names.push_back(code(name));
+      return base::listed(names);
+    }
+    case Kind::list: {
+      const bool fixed = form.min_items == form.max_items;
+      return "list of " + std::to_string(form.min_items) + (fixed ? "" : " to " + std::to_string(form.max_items)) + ": " +
+             value_text(form.forms[0]);
+    }
+    case Kind::either: {
+      std::vector<std::string> all;
+      for (const Form& one : form.forms) all.push_back(value_text(one));
+      return base::listed(all, "or a");
+    }
+    case Kind::map:
+    case Kind::dictionary:
+    case Kind::tagged:
+    case Kind::variant: return "map";
+    case Kind::anything: break;
+  }
+  return "";
+}
+
+class Lines {
+ public:
+  std::vector<Line> all;
+
+  /// @param note   the kind that the keys belong to, for their lines
+  void keys(const Form& form, const std::string& path, const std::string& note) {
+    for (const Key& key : form.keys) {
+      const std::string here = path.empty() ? key.name : path + "." + key.name;
+      const bool value =
+          is_scalar(key.form) || key.form.kind == Kind::either || (key.form.kind == Kind::list && has_values(key.form.forms[0]));
+      if (value) all.push_back({here, value_text(key.form), key.fallback, key.required, note + key.doc, key.member});
+      below(key.form, here, key);
+    }
+  }
+
+ private:
+  static bool has_values(const Form& form) { return is_scalar(form) || form.kind == Kind::list; }
+
+  void below(const Form& form, const std::string& path, const Key& key) {
+    switch (form.kind) {
+      case Kind::map: return keys(form, path, "");
+      case Kind::list:
+        if (!has_values(form.forms[0])) below(form.forms[0], path + ".0", key);
+        return;
+      case Kind::dictionary: return below(form.forms[0], path + ".NAME", key);
+      case Kind::tagged:
+        all.push_back({path + "." + form.tag,
+                       value_text(choice(form.names)),
+                       key.fallback.empty() ? form.default_tag : key.fallback,
+                       false,
+                       key.doc,
+                       {}});
+        for (std::size_t i = 0; i < form.forms.size(); ++i) keys(form.forms[i], path, form.names[i] + ": ");
+        return;
+      case Kind::variant:
+        for (std::size_t i = 0; i < form.forms.size(); ++i) keys(form.forms[i], path + "." + form.names[i], "");
+        return;
+      case Kind::either:
+        for (const Form& one : form.forms) below(one, path, key);
+        return;
+      default: return;
+    }
+  }
+};
+
+}  // namespace
+
+std::vector<Line> lines_of(const FileForm& file) {
+  Lines lines;
+  lines.keys(file.root, "", "");
+  return std::move(lines.all);
+}
+
+}  // namespace tofray::model

@@ -1,0 +1,153 @@
+// SPDX-FileCopyrightText: 2026 The tofray authors
+// SPDX-License-Identifier: Apache-2.0
+#include "model/rules.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/limits.h"
+#include "base/text.h"
+#include "base/vec.h"
+
+namespace tofray::model {
+
+using base::number_text;
+using base::shortest_m;
+
+void codes_are_in_order(const Adc& adc, Complaints& complaints) {
+  const int largest = (1 << adc.bits) - 1;
+  const auto within = [&](const void* member, const char* name, double code) {
+    if (code > largest)
+      complaints.add(
+          adc, member, std::string(name) + " is above the largest code",
+          "got " + number_text(code) + ", a code of " + std::to_string(adc.bits) + " bits is at most " + std::to_string(largest));
+  };
+  within(&adc.mid_code, "mid_code", adc.mid_code);
+  within(&adc.valid_min, "valid_min", adc.valid_min);
+  within(&adc.valid_max, "valid_max", adc.valid_max);
+  if (adc.valid_min >= adc.valid_max)
+    complaints.add(adc, &adc.valid_min, "valid_min is not below valid_max",
+                   "got " + std::to_string(adc.valid_min) + " and " + std::to_string(adc.valid_max));
+}
+
+void contrast_is_full(Pixel& pixel, const Given& given) {
+  if (!given(&pixel.contrast.x)) pixel.contrast = {{0}, {1}};
+}
+
+void codes_by_bits(Adc& adc, const Given& given) {
+  if (!given(&adc.mid_code)) adc.mid_code = 1 << (adc.bits - 1);
+  if (!given(&adc.valid_min)) adc.valid_min = 0;
+  if (!given(&adc.valid_max)) adc.valid_max = (1 << adc.bits) - 1;
+}
+
+void far_is_beyond_near(const Decoding& d, Complaints& complaints) {
+  if (!(d.flying_far_z_m - d.flying_near_z_m >= 1e-6))
+    complaints.add(d, &d.flying_far_z_m, "far_z is not beyond near_z",
+                   "got " + number_text(d.flying_far_z_m) + " m and " + number_text(d.flying_near_z_m) + " m");
+}
+
+void lit_raw_frames_have_a_frequency(const RawFrame& raw, Complaints& complaints) {
+  if (raw.lit && raw.modulation_frequency_hz == 0)
+    complaints.add(raw, &raw.modulation_frequency_hz, "a lit raw frame lacks modulation_frequency",
+                   "expected modulation_frequency, or lit: false");
+}
+
+void sizes_are_within_the_limits(const Camera& camera, Complaints& complaints) {
+  const Sensor& sensor = camera.sensor;
+  const long long pixels = static_cast<long long>(sensor.width) * sensor.height;
+  const auto raw_frames = static_cast<long long>(camera.mode.sequence.size());
+  const std::string got = "got " + std::to_string(sensor.width) + " x " + std::to_string(sensor.height);
+  if (pixels > base::limit::sensor_pixels.value) {
+    complaints.add(
+        sensor, nullptr, "the sensor has too many pixels",
+        got + " = " + std::to_string(pixels) + ", at most " + std::to_string(base::limit::sensor_pixels.value) + " (`tofray --limits`)",
+        ErrorKind::limit);
+  } else if (pixels * raw_frames > base::limit::raw_samples.value) {
+    complaints.add(camera.mode, &camera.mode.sequence, "a frame has too many raw samples",
+                   got + " x " + std::to_string(raw_frames) + " raw frames, at most " + std::to_string(base::limit::raw_samples.value) +
+                       " (`tofray --limits`)",
+                   ErrorKind::limit);
+  }
+}
+
+void filter_at_the_light(Camera& camera, const Given& given) {
+  if (!given(&camera.filter.center_m) && !camera.illumination.empty())
+    camera.filter.center_m = camera.illumination[0].illumination_wavelength_m;
+}
+
+void tables_shine(const Pattern& pattern, Complaints& complaints) {
+  if (pattern.kind == Pattern::Kind::flat_top && (pattern.columns > 0) != (pattern.rows > 0))
+    complaints.add(pattern, nullptr, "pattern has columns or rows alone", "expected both, or none");
+  const long long cells = static_cast<long long>(pattern.columns) * pattern.rows;
+  if (cells > base::limit::table_samples.value)
+    complaints.add(pattern, pattern.kind == Pattern::Kind::table ? &pattern.samples : nullptr, "the pattern has too many samples",
+                   "got " + std::to_string(pattern.columns) + " x " + std::to_string(pattern.rows) + ", at most " +
+                       std::to_string(base::limit::table_samples.value),
+                   ErrorKind::limit);
+  if (pattern.kind != Pattern::Kind::table) return;
+  const std::vector<double>& samples = pattern.samples;
+  if (static_cast<long long>(samples.size()) != cells)
+    complaints.add(pattern, &samples, "the pattern does not have rows times columns samples",
+                   "got " + std::to_string(samples.size()) + " samples");
+  if (std::all_of(samples.begin(), samples.end(), [](double sample) { return sample == 0; }))
+    complaints.add(pattern, &samples, "the pattern is dark", "expected a sample above 0");
+  if (pattern.rows < 2 || pattern.columns < 2)
+    complaints.add(pattern, &samples, "the pattern has fewer than two rows or columns", "a constant one needs the same number four times");
+}
+
+void correlations_carry_their_harmonics(const Waveform& waveform, Complaints& complaints) {
+  if (waveform.kind != Waveform::Kind::measured) return;
+  double largest = 0;
+  for (const double sample : waveform.correlation) largest = std::max(largest, std::abs(sample));
+  if (!(largest > 0)) complaints.add(waveform, &waveform.correlation, "the correlation is nowhere above 0", "expected (A-B)/(A+B)");
+  const int needed = 2 * (2 * waveform.harmonics - 1);  // harmonic m needs more than 2 m samples
+  if (static_cast<long long>(waveform.correlation.size()) <= needed)
+    complaints.add(waveform, &waveform.correlation, "too few samples of the correlation for its harmonics",
+                   "got " + std::to_string(waveform.correlation.size()) + " samples, expected more than " + std::to_string(needed) +
+                       " for " + std::to_string(waveform.harmonics) + " odd harmonics");
+}
+
+void materials_send_back_no_more_than_they_get(const Material& material, Complaints& complaints) {
+  if (material.diffuse + material.specular > 1 + 1e-12)
+    complaints.add(material, nullptr, "diffuse + specular is more than 1",
+                   "got " + number_text(material.diffuse) + " + " + number_text(material.specular) +
+                       "; a surface cannot send back more light than it gets");
+}
+
+void boxes_are_thick(const Box& box, Complaints& complaints) {
+  for (std::size_t k = 0; k < 3; ++k)
+    if (!(box.max[k] - box.min[k] >= shortest_m))
+      complaints.add(box, &box.min, std::string("the box's min is not below its max in ") + "xyz"[k],
+                     "got " + number_text(box.min[k]) + " m and " + number_text(box.max[k]) + " m, expected a thickness of at least 1 um",
+                     ErrorKind::bad_input, static_cast<long long>(k));
+}
+
+void turns_have_an_axis(const Rotation& rotation, Complaints& complaints) {
+  if (rotation.angle_rad != 0 && base::length(rotation.axis) < shortest_m)
+    complaints.add(rotation, &rotation.axis, "axis has no length", "expected a direction such as [0, 0, 1]");
+}
+
+void poses_look_somewhere(const Pose& pose, Complaints& complaints) {
+  using base::operator-;
+  const Vec3 view = pose.look_at - pose.position;
+  const double view_length = base::length(view), up_length = base::length(pose.up);
+  if (view_length < shortest_m) {
+    complaints.add(pose, &pose.look_at, "the camera looks at the point where it stands", "look_at has to differ from position");
+  } else if (up_length >= shortest_m && base::length(base::cross(view, pose.up)) < 1e-6 * view_length * up_length) {
+    complaints.add(pose, &pose.up, "the camera's up is its direction of view",
+                   "expected another direction, such as up: [0, -1, 0] or, for a view along y, up: [0, 0, 1]");
+  }
+}
+
+void objects_have_a_material(const Scene& scene, Complaints& complaints) {
+  for (const Object& object : scene.objects)
+    if (static_cast<std::size_t>(object.material) >= scene.materials.size())
+      complaints.add(object, &object.material, "the object names a material that the scene has not",
+                     "got index " + std::to_string(object.material) + " of " + std::to_string(scene.materials.size()) + " materials");
+}
+
+void light_is_the_suns(Ambient& ambient, const Given& given) {
+  if (!given(&ambient.spectrum)) ambient.spectrum = Ambient::Spectrum::sun_am15;
+}
+
+}  // namespace tofray::model

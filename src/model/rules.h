@@ -1,0 +1,28 @@
+// SPDX-FileCopyrightText: 2026 The tofray authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "model/check.h"
+
+/// What has to hold between the members of a struct, of files and in code alike, and members that follow from others.
+namespace tofray::model {
+
+void codes_are_in_order(const Adc& adc, Complaints& complaints);
+void far_is_beyond_near(const Decoding& decoding, Complaints& complaints);
+void lit_raw_frames_have_a_frequency(const RawFrame& raw, Complaints& complaints);
+void sizes_are_within_the_limits(const Camera& camera, Complaints& complaints);
+void tables_shine(const Pattern& pattern, Complaints& complaints);
+void correlations_carry_their_harmonics(const Waveform& waveform, Complaints& complaints);
+
+void contrast_is_full(Pixel& pixel, const Given& given);
+void codes_by_bits(Adc& adc, const Given& given);
+void filter_at_the_light(Camera& camera, const Given& given);
+
+void materials_send_back_no_more_than_they_get(const Material& material, Complaints& complaints);
+void boxes_are_thick(const Box& box, Complaints& complaints);
+void turns_have_an_axis(const Rotation& rotation, Complaints& complaints);
+void poses_look_somewhere(const Pose& pose, Complaints& complaints);
+void objects_have_a_material(const Scene& scene, Complaints& complaints);
+
+void light_is_the_suns(Ambient& ambient, const Given& given);
+
+}  // namespace tofray::model

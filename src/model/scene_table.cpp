@@ -1,0 +1,229 @@
+// SPDX-FileCopyrightText: 2026 The tofray authors
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+
+#include "base/limits.h"
+#include "model/rules.h"
+#include "model/tables.h"
+
+/// What a scene file may say. Ranges are those of a scene that a camera of some centimetres could look at, with room to spare.
+namespace tofray::model {
+
+namespace {
+
+using enum base::Dimension;
+
+constexpr Number coordinate{length, {-1e5, 1e5}, "0.5 m", true};  // float carries 8 mm at that distance
+constexpr Number component{none, {-1e6, 1e6}, "1"};
+constexpr auto curve_points = static_cast<int>(base::limit::curve_points.value);
+constexpr auto most_objects = static_cast<int>(base::limit::objects.value);
+constexpr auto most_materials = static_cast<int>(base::limit::materials.value);
+
+}  // namespace
+
+template <>
+const Table& table_of<Material>() {
+  using enum Material::Brdf;
+  constexpr auto brdf = &Material::brdf;
+  static Table rows =
+      table<Material>(
+          words<&Material::name>("", "", "", ""),  // the key of the file's `materials`
+          kind<brdf>("brdf", {"lambert", "phong"}),
+          number<&Material::diffuse>("reflectivity", {fraction, share, "0.85"}, "share of the light that comes back, all of it diffuse")
+              .when<brdf>(lambert)
+              .required(),
+          also(number<&Material::diffuse>("diffuse", {fraction, share, "0.4"}, "k_d, the Lambertian share").when<brdf>(phong).required()),
+          number<&Material::specular>("specular", {fraction, share, "0.3"},
+                                      "k_s, the share of the lobe about the mirror direction; diffuse + specular may not exceed 1")
+              .when<brdf>(phong)
+              .required(),
+          number<&Material::exponent>("exponent", {none, phong_exponent, "20"}, "n of the lobe's cos^n: the larger, the shinier")
+              .when<brdf>(phong)
+              .required())
+          .check_with(materials_send_back_no_more_than_they_get);
+  rows.default_kind = true;
+  return rows;
+}
+
+template <>
+const Table& table_of<Plane>() {
+  static const Table rows =
+      table<Plane>(number<&Plane::point>("point", coordinate, "a point of the plane [m]").required(),
+                   number<&Plane::normal>("normal", component, "any length but zero; both sides reflect").direction());
+  return rows;
+}
+
+template <>
+const Table& table_of<Sphere>() {
+  static const Table rows =
+      table<Sphere>(number<&Sphere::center>("center", coordinate, "[m]").required(),
+                    number<&Sphere::radius>("radius", {length, {base::shortest_m, 1e5}, "25 cm", true}, "[m]").required());
+  return rows;
+}
+
+template <>
+const Table& table_of<Box>() {
+  static const Table rows =
+      table<Box>(number<&Box::min>("min", coordinate, "the corner of the smallest x, y and z, before the rotation [m]").required(),
+                 number<&Box::max>("max", coordinate, "the opposite corner [m]").required())
+          .check_with(boxes_are_thick);
+  return rows;
+}
+
+/// In code, a triangle without an area is good: no ray hits it.
+template <>
+const Table& table_of<Triangle>() {
+  static const Table rows = table<Triangle>(number<&Triangle::vertices>("vertices", coordinate, "the three corners [m]").required());
+  return rows;
+}
+
+template <>
+const Table& table_of<Rotation>() {
+  static const Table rows =
+      table<Rotation>(number<&Rotation::axis>("axis", component, "the axis, by the right-hand rule; any length but zero").required(),
+                      number<&Rotation::angle_rad>("angle", {angle, {-100, 100}, "30 deg"}, "how far").required())
+          .check_with(turns_have_an_axis);
+  return rows;
+}
+
+template <>
+const Table& table_of<Object>() {
+  static const Table rows =
+      table<Object>(words<&Object::name>("name", "a name", "ball", "how listings call the object").absent(),
+                    one_of<&Object::shape>({"plane", "sphere", "box", "triangle"}),           // the key of the file's entry
+                    number<&Object::material>("", {none, {0, 2.0 * most_objects}, "0"}, ""),  // a name, or a material of its own
+                    number<&Object::position>("position", coordinate, "a shift [m]"),
+                    record<&Object::rotation>("rotation", "a turn about the object's own centre (of a plane: about its point)"),
+                    number<&Object::velocity_m_per_s>("velocity", {speed, {-1e4, 1e4}, "1 m/s", true}, "[m/s]"));
+  return rows;
+}
+
+template <>
+const Table& table_of<Ambient>() {
+  using enum Ambient::Quantity;
+  constexpr auto quantity = &Ambient::quantity;
+  static const Table rows =
+      table<Ambient>(
+          choice<&Ambient::spectrum>("spectrum", {"none", "sun_am15", "equal_energy", "table"},
+                                     "the light's spectrum: a built-in name, or a table; sun_am15 unless given")
+              .absent(),
+          curve_of_two<&Ambient::table_wavelength_m, &Ambient::table_irradiance_w_per_m3>(
+              "spectrum", {"wavelength", {length, {100e-9, 20e-6}, "850 nm"}},
+              {"irradiance", {spectral_irradiance, {0, 1e13}, "0.9 W/(m2 nm)"}}, "on the surfaces")
+              .when<&Ambient::spectrum>(Ambient::Spectrum::table),
+          choice<quantity>("", {"level", "illuminance_lx", "band_irradiance_w_per_m2"}, ""),  // the key of the amount says it
+          number<&Ambient::amount>("level", {fraction, {0, 100}, "5 %"}, "share of the spectrum as it is tabulated (sun_am15: of full sun)")
+              .when<quantity>(level)
+              .absent(),
+          also(number<&Ambient::amount>("illuminance", {illuminance, {0, 1e7}, "5 klx"}, "on the surfaces, as a light meter reads it")
+                   .when<quantity>(illuminance_lx)
+                   .absent()),
+          also(
+              number<&Ambient::amount>("band_irradiance", {irradiance, {0, 1e5}, "0.4 W/m2"}, "on the surfaces, within the camera's filter")
+                  .when<quantity>(band_irradiance_w_per_m2)
+                  .absent()),
+          number<&Ambient::direction>("direction", component,
+                                      "in which the light travels (a sun with shadows); from everywhere unless given")
+              .direction()
+              .absent())
+          .complete_with(light_is_the_suns);
+  return rows;
+}
+
+template <>
+const Table& table_of<Pose>() {
+  static const Table rows = table<Pose>(number<&Pose::position>("position", coordinate, "of the entrance pupil [m]"),
+                                        number<&Pose::look_at>("look_at", coordinate, "a point on the optical axis [m]"),
+                                        number<&Pose::up>("up", component, "the world's direction that is up in the image").direction())
+                                .check_with(poses_look_somewhere);
+  return rows;
+}
+
+template <>
+const Table& table_of<CameraChoice>() {
+  static const Table rows = table<CameraChoice>(
+      words<&CameraChoice::profile>("profile", "a camera or a file", "pico-flexx",
+                                    "a built-in camera (`tofray list cameras`), or a profile's file beside the scene or below"),
+      words<&CameraChoice::mode>("mode", "a mode of the camera", "MODE_9_5FPS_2000", "one of the profile's modes; its first unless given")
+          .absent(),
+      record<&CameraChoice::pose>("pose", "where the camera stands; the world is the camera's frame unless given"),
+      no_row<&CameraChoice::overrides>("keys of the profile among the section's own"),
+      no_row<&CameraChoice::profile_where, &CameraChoice::mode_where>("where the file says them"));
+  return rows;
+}
+
+template <>
+const Table& table_of<Scene>() {
+  static const Table rows =
+      table<Scene>(words<&Scene::name>("", "", "", ""),  // the file's
+                   no_row<&Scene::source>("a file's place is no part of what it says"),
+                   record<&Scene::camera>("camera", "which camera, where it stands, and what to change in its profile").not_in_meta(),
+                   record<&Scene::ambient>("ambient", "light that is not the camera's own; none unless given"),
+                   records<&Scene::materials>("", 0, most_materials + most_objects, ""),  // by name, and those of objects
+                   records<&Scene::objects>("", 0, most_objects, ""))
+          .check_with(objects_have_a_material);
+  return rows;
+}
+
+namespace {
+
+/// An entry has one of the shapes' names, and under it the shape's keys and the object's.
+Form objects_form() {
+  const Table& object = table_of<Object>();
+  const Row& shape =
+      *std::find_if(object.rows.begin(), object.rows.end(), [](const Row& row) { return row.form.kind == Form::Kind::variant; });
+  Form form = shape.form;
+  const Slot shapes = slot_of(shape, object.fresh);
+  for (const auto& table : std::get<VariantSlot>(shapes).tables) {
+    Form one = form_of(table());
+    one.keys.push_back(absent("reflectivity", form_of(Number{fraction, share, "0.5"}), "of a Lambertian surface, in place of `material`"));
+    one.keys.push_back(absent("material", either({text("the name of a material", "paper"), form_of(table_of<Material>())}),
+                              "a name out of `materials`, or a material written here"));
+    for (Key& key : keys_of(object)) one.keys.push_back(std::move(key));
+    one.exactly_one = {"reflectivity", "material"};
+    form.forms.push_back(std::move(one));
+  }
+  form.refused = {{"mesh", "meshes are not supported in this version"}};
+  return list(std::move(form), 0, most_objects);
+}
+
+/// Keys that the scene has not, and what they mean.
+std::vector<std::pair<std::string, std::string>> words_that_people_try() {
+  std::vector<std::pair<std::string, std::string>> words = {{"lights", "camera.illumination"},
+                                                            {"light", "camera.illumination"},
+                                                            {"light_sources", "camera.illumination"},
+                                                            {"lamps", "camera.illumination"},
+                                                            {"sun", "ambient"},
+                                                            {"sunlight", "ambient"},
+                                                            {"ambient_light", "ambient"},
+                                                            {"shapes", "objects"},
+                                                            {"geometry", "objects"},
+                                                            {"spheres", "objects"},
+                                                            {"planes", "objects"},
+                                                            {"boxes", "objects"},
+                                                            {"triangles", "objects"},
+                                                            {"meshes", "objects"},
+                                                            {"profile", "camera.profile"},
+                                                            {"pose", "camera.pose"}};
+  // What a camera's profile has may be meant for the scene's camera.
+  for (const Key& key : camera_form().root.keys) words.emplace_back(key.name, "camera." + key.name);
+  return words;
+}
+
+}  // namespace
+
+const FileForm& scene_form() {
+  static const FileForm form = [] {
+    FileForm file{"scene", "tofray scene: objects, materials, ambient light, and where the camera stands", form_of(table_of<Scene>()),
+                  false};
+    file.root.keys[0].form.open = true;  // the profile's own keys may follow and override it
+    file.root.keys.push_back(absent("materials", dictionary(form_of(table_of<Material>()), 0, most_materials),
+                                    "materials by name, at the illumination wavelength"));
+    file.root.keys.push_back(required("objects", objects_form(), "what the camera looks at"));
+    file.root.meant = words_that_people_try();
+    return file;
+  }();
+  return form;
+}
+
+}  // namespace tofray::model

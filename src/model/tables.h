@@ -1,0 +1,70 @@
+// SPDX-FileCopyrightText: 2026 The tofray authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "model/row.h"
+
+/// The tables of all public structs: camera_table.cpp, light_table.cpp, scene_table.cpp.
+namespace tofray::model {
+
+/// Shares of light, and how shiny a surface can be.
+inline constexpr base::Range share{0, 1}, phong_exponent{1, 1e4};
+
+/// What files may say of a struct.
+Form form_of(const Table& table);
+/// Its keys: all of them, or those of one kind.
+constexpr int all_kinds = -1;
+std::vector<Key> keys_of(const Table& table, int kind = all_kinds);
+
+template <>
+const Table& table_of<Sensor>();
+template <>
+const Table& table_of<Lens>();
+template <>
+const Table& table_of<Filter>();
+template <>
+const Table& table_of<Pattern>();
+template <>
+const Table& table_of<Waveform>();
+template <>
+const Table& table_of<Illumination>();
+template <>
+const Table& table_of<Pixel>();
+template <>
+const Table& table_of<Adc>();
+template <>
+const Table& table_of<RawFrame>();
+template <>
+const Table& table_of<Mode>();
+template <>
+const Table& table_of<ImageFilter>();
+template <>
+const Table& table_of<Decoding>();
+template <>
+const Table& table_of<Temperature>();
+template <>
+const Table& table_of<Camera>();
+
+template <>
+const Table& table_of<Material>();
+template <>
+const Table& table_of<Plane>();
+template <>
+const Table& table_of<Sphere>();
+template <>
+const Table& table_of<Box>();
+template <>
+const Table& table_of<Triangle>();
+template <>
+const Table& table_of<Rotation>();
+template <>
+const Table& table_of<Object>();
+template <>
+const Table& table_of<Ambient>();
+template <>
+const Table& table_of<Pose>();
+template <>
+const Table& table_of<CameraChoice>();
+template <>
+const Table& table_of<Scene>();
+
+}  // namespace tofray::model
