@@ -14,7 +14,7 @@ namespace tofray::io {
 
 namespace {
 
-using Tree = nlohmann::ordered_json;
+using Tree = nlohmann::json;   // sorted: it finds its keys in logarithmic time, whoever wrote how many
 using model::Form;
 using model::Row;
 using model::Table;
