@@ -15,7 +15,6 @@ using enum base::Dimension;
 
 constexpr Number coordinate{length, {-1e5, 1e5}, "0.5 m", true};  // float carries 8 mm at that distance
 constexpr Number component{none, {-1e6, 1e6}, "1"};
-constexpr auto curve_points = static_cast<int>(base::limit::curve_points.value);
 constexpr auto most_objects = static_cast<int>(base::limit::objects.value);
 constexpr auto most_materials = static_cast<int>(base::limit::materials.value);
 
