@@ -92,13 +92,7 @@ void FrozenCamera::freeze_sequence(std::uint64_t seed, int noise) {
   SensorView& s = sensor_;
   s.raw_frames = static_cast<std::int32_t>(camera_.mode.sequence.size());
   s.modulations = static_cast<std::int32_t>(modulations_.frequency_hz.size());
-  s.read_noise = f(pixel.read_noise_e), s.read_variance = f(pixel.read_noise_e * pixel.read_noise_e);
-  s.full_well = std::min(f(pixel.full_well_e), flow::max_charge);
-  s.suppression_threshold = f(pixel.suppression_threshold_e), s.suppression_budget = f(pixel.suppression_budget_e);
-  s.suppression_noise = f(pixel.suppression_noise_factor);
-  s.per_step = f(1 / camera_.adc.step_e_per_dn), s.step = f(camera_.adc.step_e_per_dn), s.mid_code = f(camera_.adc.mid_code);
-  s.max_code = f(setup::pow(2.0, camera_.adc.bits) - 1);
-  s.valid_middle = f(0.5 * (camera_.adc.valid_min + camera_.adc.valid_max)), s.valid_half = f(0.5 * (camera_.adc.valid_max - camera_.adc.valid_min));
+  take_numbers(camera_, s);
   s.noise = noise;
   s.keys = num::round_keys(static_cast<std::uint32_t>(seed), static_cast<std::uint32_t>(seed >> 32));
 

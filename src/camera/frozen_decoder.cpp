@@ -134,8 +134,7 @@ void FrozenCamera::freeze_decoder(int noise) {
   for (std::size_t k = 0; k < 3; ++k) d.light[k] = f(mean[k]);
   // No path is that long: without a light source nothing that is measured is a return.
   d.light_square = shares.empty() ? std::numeric_limits<float>::max() : f(square);
-  const double read = camera_.pixel.read_noise_e, step = camera_.adc.step_e_per_dn;
-  d.noise_floor = f(2 * read * read + step * step / 12);
+  d.noise_floor = f(dark_variance(camera_));
   d.suppression_threshold = sensor_.suppression_threshold, d.suppression_budget = sensor_.suppression_budget;
   d.suppression_variance = f(2 * camera_.pixel.suppression_noise_factor * camera_.pixel.suppression_noise_factor);
   d.dark_rate_both = f(2 * camera_.pixel.dark_current_e_per_s);

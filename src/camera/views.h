@@ -74,6 +74,9 @@ struct ModulationView {
   float y_real[flow::max_lights][flow::max_harmonics], y_imaginary[flow::max_lights][flow::max_harmonics];
 };
 
+/// What a draw with the sensor's keys is for: part of the random counter, beside pixel, raw frame and frame.
+enum Purpose : std::uint32_t { shot_and_read = 0, merged = 1, suppression = 2 };
+
 /// Sequence, charge, ADC.
 struct SensorView {
   std::int32_t raw_frames, modulations, harmonics;
@@ -90,6 +93,28 @@ struct SensorView {
   num::RoundKeys keys;           ///< of the seed
   std::int32_t noise;            ///< 0 off, 1 fast, 2 exact
 };
+
+/// The numbers that kernels take from a camera as they are, beside the view that holds them. (Templates: kernel headers know no profile.)
+template <class Camera>
+void take_numbers(const Camera& camera, SensorView& s) {
+  const auto& pixel = camera.pixel;
+  const auto& adc = camera.adc;
+  const auto f = [](double a) { return static_cast<float>(a); };
+  s.read_noise = f(pixel.read_noise_e), s.read_variance = f(pixel.read_noise_e * pixel.read_noise_e);
+  s.full_well = f(pixel.full_well_e) < flow::max_charge ? f(pixel.full_well_e) : flow::max_charge;
+  s.suppression_threshold = f(pixel.suppression_threshold_e), s.suppression_budget = f(pixel.suppression_budget_e);
+  s.suppression_noise = f(pixel.suppression_noise_factor);
+  s.per_step = f(1 / adc.step_e_per_dn), s.step = f(adc.step_e_per_dn), s.mid_code = f(adc.mid_code);
+  s.max_code = f((1 << adc.bits) - 1);
+  s.valid_middle = f(0.5 * (adc.valid_min + adc.valid_max)), s.valid_half = f(0.5 * (adc.valid_max - adc.valid_min));
+}
+
+/// Variance of A−B without light: read noise of two taps, rounding [e²].                                              [theory: eq. 3.9]
+template <class Camera>
+double dark_variance(const Camera& camera) {
+  const double read = camera.pixel.read_noise_e, step = camera.adc.step_e_per_dn;
+  return 2 * read * read + step * step / 12;
+}
 
 /// One modulation frequency as the decoder sees it.
 struct DecodeModulation {

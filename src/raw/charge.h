@@ -10,8 +10,8 @@ namespace tofray::raw {
 
 using flow::Taps;
 
-/// What a draw is for: part of the random counter, beside pixel, raw frame and frame.
-enum Purpose : std::uint32_t { shot_and_read = 0, merged = 1, suppression = 2 };
+using camera::Purpose;
+using enum camera::Purpose;
 
 struct FrameIndex {
   std::uint32_t low, high;
