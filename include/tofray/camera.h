@@ -91,6 +91,7 @@ struct Pixel {
   double bandwidth_hz = 0;     ///< single pole of the gate; 0: none
   double full_well_e = 1e30;
   double read_noise_e = 0;     ///< reset + read, 1 sigma
+  double column_noise_e = 0;   ///< of A−B, the same for all pixels of a column in one raw frame, anew in each, 1 sigma
   double dark_current_e_per_s = 0;
   double prnu = 0;             ///< photo response non-uniformity, 1 sigma, relative
   double dsnu_dn = 0;          ///< offset pattern, 1 sigma [DN]

@@ -75,7 +75,7 @@ struct ModulationView {
 };
 
 /// What a draw with the sensor's keys is for: part of the random counter, beside pixel, raw frame and frame.
-enum Purpose : std::uint32_t { shot_and_read = 0, merged = 1, suppression = 2 };
+enum Purpose : std::uint32_t { shot_and_read = 0, merged = 1, suppression = 2, of_column = 3 };
 
 /// Sequence, charge, ADC.
 struct SensorView {
@@ -92,6 +92,8 @@ struct SensorView {
   const float* delay;            ///< [height][width] [s], or null
   num::RoundKeys keys;           ///< of the seed
   std::int32_t noise;            ///< 0 off, 1 fast, 2 exact
+  float column_noise;            ///< [DN]
+  std::int32_t width;            ///< pixels of a row
 };
 
 /// The numbers that kernels take from a camera as they are, beside the view that holds them. (Templates: kernel headers know no profile.)
@@ -106,14 +108,15 @@ void take_numbers(const Camera& camera, SensorView& s) {
   s.suppression_noise = f(pixel.suppression_noise_factor);
   s.per_step = f(1 / adc.step_e_per_dn), s.step = f(adc.step_e_per_dn), s.mid_code = f(adc.mid_code);
   s.max_code = f((1 << adc.bits) - 1);
+  s.column_noise = f(pixel.column_noise_e / adc.step_e_per_dn), s.width = camera.sensor.width;
   s.valid_middle = f(0.5 * (adc.valid_min + adc.valid_max)), s.valid_half = f(0.5 * (adc.valid_max - adc.valid_min));
 }
 
-/// Variance of A−B without light: read noise of two taps, rounding [e²].                                              [theory: eq. 3.9]
+/// Variance of A−B without light: read noise of two taps, rounding, column noise [e²].                          [theory: eq. 3.9, 3.15]
 template <class Camera>
 double dark_variance(const Camera& camera) {
-  const double read = camera.pixel.read_noise_e, step = camera.adc.step_e_per_dn;
-  return 2 * read * read + step * step / 12;
+  const double read = camera.pixel.read_noise_e, step = camera.adc.step_e_per_dn, column = camera.pixel.column_noise_e;
+  return 2 * read * read + step * step / 12 + column * column;
 }
 
 /// One modulation frequency as the decoder sees it.

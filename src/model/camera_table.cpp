@@ -89,6 +89,7 @@ const Table& table_of<Pixel>() {
       number<&Pixel::bandwidth_hz>("bandwidth", {frequency, {0, 1e12}, "180 MHz"}, "single pole of the gate; 0: none"),
       number<&Pixel::full_well_e>("full_well", {charge, {1, 1e30}, "100000 e"}, "per tap"),
       number<&Pixel::read_noise_e>("read_noise", {charge, {0, 1e6}, "50 e"}, "per tap, reset and read, 1 sigma"),
+      number<&Pixel::column_noise_e>("column_noise", {charge, {0, 1e6}, "10 e"}, "of A-B, shared by a column, anew in each raw frame, 1 sigma"),
       number<&Pixel::dark_current_e_per_s>("dark_current", {charge_rate, {0, 1e12}, "1000 e/s"}, "per tap"),
       group("patterns", "what differs from pixel to pixel",
             number<&Pixel::prnu>("prnu", {fraction, {0, 1}, "1 %"}, "photo response non-uniformity, 1 sigma"),

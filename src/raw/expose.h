@@ -10,6 +10,7 @@ namespace tofray::raw {
 template <class F>
 struct Exposure {
   num::Int<F> pixel;
+  num::Int<F> column;           ///< where the sensor has column noise
   F gain, offset, delay;
   Phasors<F> phasors;
   MergedWords<F> merged_words;
@@ -25,6 +26,7 @@ template <class F>
 TOFRAY_FN Exposure<F> start(const camera::SensorView& s, const flow::Pixels& p) {
   Exposure<F> e;
   e.pixel = num::Int<F>(p.index) + num::lane_index<F>();
+  if (s.column_noise > 0) e.column = num::Int<F>(p.index % s.width) + num::lane_index<F>();
   e.gain = pattern<F>(s.gain, p, 1.0f), e.offset = pattern<F>(s.offset, p, 0.0f);
   e.delay = pattern<F>(s.delay, p, 0.0f);
   e.most_charge = F(0.0f), e.widest_level = F(0.0f);
@@ -45,7 +47,17 @@ TOFRAY_FN Mask<F> saturated(const camera::SensorView& s, const Exposure<F>& e) {
   return (e.most_charge >= F(s.full_well)) | (e.widest_level > F(s.valid_half));
 }
 
-/// Mean electrons × (1 + PRNU) → Poisson → reset and read noise → background suppression → full well → ADC.
+/// The pixel's offset [DN] with that of its column in this raw frame, one draw for all pixels of the column.         [theory: eq. 3.15]
+template <class F>
+TOFRAY_FN F offset_of(const camera::SensorView& s, int k, FrameIndex index, const Exposure<F>& e) {
+  if (!(s.column_noise > 0) || s.noise == 0) return e.offset;
+  const num::Random4<F> words = draw<F>(s, e.column, k, index, of_column);
+  F z, other;
+  num::normal_pair<F>(words.w[0], words.w[1], z, other);
+  return num::fma(F(s.column_noise), z, e.offset);
+}
+
+/// Mean electrons × (1 + PRNU) → Poisson → reset and read noise → background suppression → full well → column noise, ADC.
 /// @param light_changed  false where the light is that of the raw frame before
 template <class F>
 TOFRAY_FN Taps<F> expose(const camera::SensorView& s, int k, const Light<F>& light, int lights, bool light_changed, FrameIndex index, Exposure<F>& e) {
@@ -65,7 +77,7 @@ TOFRAY_FN Taps<F> expose(const camera::SensorView& s, int k, const Light<F>& lig
     charge = expose_fast(s, charge, e.pixel, k, index, e.merged_words);
   }
   if (s.suppression_threshold > 0) charge = suppress(s, charge, e.pixel, k, index);
-  Taps<F> taps = read_out(s, charge, e.offset);
+  Taps<F> taps = read_out(s, charge, offset_of(s, k, index, e));
   if (s.noise == 0 && frame.lit != 0) {
     // Strong ambient light leaves few places of a float to the difference of the taps; where neither clips it is known better than that.
     const auto whole = (num::max(charge.a, charge.b) < F(s.full_well)) & (num::abs(rate) <= light.total_rate + light.ambient_rate);
