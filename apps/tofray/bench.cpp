@@ -175,15 +175,9 @@ std::uint64_t peak_bytes() {
 
 std::string arrays_sha256(const Frame& frame) {
   std::string bytes;
-  append(bytes, frame.raw.tap_a), append(bytes, frame.raw.tap_b), append(bytes, frame.raw.raw);
-  const Depth& d = frame.depth;
-  for (const auto* array : {&d.z_m, &d.range_m, &d.points_m, &d.amplitude_e, &d.ambient_e, &d.noise_m}) append(bytes, *array);
-  append(bytes, d.confidence), append(bytes, d.flags);
-  const Truth& t = frame.truth;
-  for (const auto* array :
-       {&t.range_m, &t.z_m, &t.reflectivity, &t.position_m, &t.normal, &t.irradiance_w_m2, &t.radiance_w_m2_sr, &t.power_w, &t.signal_e})
-    append(bytes, *array);
-  append(bytes, t.object_id);
+#define TOFRAY_APPEND(name, part, member, ...) append(bytes, frame.part.member);
+  TOFRAY_IMAGE_ARRAYS(TOFRAY_APPEND)
+#undef TOFRAY_APPEND
   return io::sha256_hex(bytes);
 }
 

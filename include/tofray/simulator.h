@@ -31,9 +31,6 @@ enum class Backend {
   cuda,       ///< a GPU, or an error that says why not
 };
 
-/// The pipeline's stages, in order.
-enum class Stage { trace, power, raw, depth };
-
 struct SimulatorOptions {
   std::uint64_t seed = 0;
   Noise noise = Noise::exact;

@@ -1,21 +1,33 @@
 // SPDX-FileCopyrightText: 2026 The tofray authors
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-#include <cstdint>
+#include "num/num.h"
+#include "tofray/frame_arrays.h"
 
 namespace tofray::flow {
 
-/// Where a frame's arrays are. A null pointer: not wanted. Shapes as in tofray/frame.h.
+/// Where the arrays are that kernels write, under their names in files. A null pointer: not wanted.
 struct FrameView {
-  float *tap_a, *tap_b;                     ///< [phase][height][width]
-  std::uint16_t* raw;                       ///< [phase][height][width]
-  float *z, *range, *points, *amplitude, *ambient, *noise;
-  std::uint8_t* confidence;
-  std::uint16_t* flags;
-  float *gt_range, *gt_z, *gt_reflectivity, *gt_position, *gt_normal;
-  std::int32_t* gt_object;
-  float *gt_irradiance, *gt_radiance, *gt_power;
-  float* gt_signal;                         ///< [phase][height][width]
+#define TOFRAY_POINTER(name, part, member, element, ...) element* name;
+  TOFRAY_IMAGE_ARRAYS(TOFRAY_POINTER)
+#undef TOFRAY_POINTER
 };
+
+#define TOFRAY_ONE_MORE(...) +1
+constexpr int array_count = 0 TOFRAY_IMAGE_ARRAYS(TOFRAY_ONE_MORE);
+#undef TOFRAY_ONE_MORE
+
+/// Calls visit(pointer, shape, stage that writes it) for each array of a view, in the table's order.
+template <class View, class Visit>
+TOFRAY_FN void each_array(View& view, const Visit& visit) {
+#define TOFRAY_VISIT(name, part, member, element, shape, stage, ...) visit(view.name, ArrayShape::shape, Stage::stage);
+  TOFRAY_IMAGE_ARRAYS(TOFRAY_VISIT)
+#undef TOFRAY_VISIT
+}
+
+/// Values of an array; `list` lies on the host alone and is none of these.
+TOFRAY_FN std::int64_t values_of(ArrayShape shape, std::int64_t pixels, std::int64_t phases) {
+  return shape == ArrayShape::stack ? phases * pixels : shape == ArrayShape::vectors ? 3 * pixels : pixels;
+}
 
 }  // namespace tofray::flow

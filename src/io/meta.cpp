@@ -4,6 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "io/array_table.h"
 #include "io/version.h"
 #include "model/tables.h"
 
@@ -14,45 +15,9 @@ using Tree = nlohmann::ordered_json;
 using model::Row;
 using model::Table;
 
-struct ArrayUnit {
-  const char* array;
-  const char* unit;
-};
-
-constexpr ArrayUnit array_units[] = {{"tap_a", "e"},
-                                     {"tap_b", "e"},
-                                     {"raw", "DN"},
-                                     {"modulation_frequency_hz", "Hz"},
-                                     {"reference_phase_rad", "rad"},
-                                     {"integration_time_s", "s"},
-                                     {"start_time_s", "s"},
-                                     {"lit", "1"},
-                                     {"z_m", "m"},
-                                     {"range_m", "m"},
-                                     {"points_m", "m"},
-                                     {"amplitude_e", "e"},
-                                     {"ambient_e", "e"},
-                                     {"noise_m", "m"},
-                                     {"confidence", "1"},
-                                     {"flags", "1"},
-                                     {"gt_time_s", "s"},
-                                     {"gt_range_m", "m"},
-                                     {"gt_z_m", "m"},
-                                     {"gt_reflectivity", "1"},
-                                     {"gt_position_m", "m"},
-                                     {"gt_normal", "1"},
-                                     {"gt_object_id", "1"},
-                                     {"gt_irradiance_w_m2", "W/m2"},
-                                     {"gt_radiance_w_m2_sr", "W/(m2 sr)"},
-                                     {"gt_power_w", "W"},
-                                     {"gt_signal_e", "e"},
-                                     {"camera_matrix", "px"},
-                                     {"distortion", "1"},
-                                     {"camera_pose", "m"}};
-
 Tree units_tree() {
   Tree units = Tree::object();
-  for (const ArrayUnit& entry : array_units) units[entry.array] = entry.unit;
+  for (const ArrayRow& row : array_table()) units[row.name] = row.unit;
   return units;
 }
 

@@ -90,9 +90,9 @@ TOFRAY_FN F collect(const Setup& s, const Job& job, const Pixels& p, int k, cons
                                 raw::Exposure<F>& exposure) {
   const flow::Taps<F> taps = raw::expose(s.sensor, k, light, s.scene.lights, light_changed, raw::FrameIndex{job.index_low, job.index_high}, exposure);
   store_taps(s.lens.width * s.lens.height, job.out, p, k, taps);
-  if (job.out.gt_signal != nullptr) {
+  if (job.out.gt_signal_e != nullptr) {
     const F signal = s.sensor.frame[k].lit != 0 ? light.total_rate * F(s.sensor.frame[k].integration_time) : F(0.0f);
-    num::store(job.out.gt_signal + p.index + k * s.lens.width * s.lens.height, signal, p.count);
+    num::store(job.out.gt_signal_e + p.index + k * s.lens.width * s.lens.height, signal, p.count);
   }
   return taps.difference;
 }
@@ -103,10 +103,10 @@ TOFRAY_FN void find_depth(const Setup& s, const Job& job, const Pixels& p, const
                           F vignetting) {
   const auto outside = !(vignetting > F(0.0f));
   const flow::Depth<F> found = depth::decode<F>(s.decoder, difference, clipped, outside, ray, delay);
-  store(job.out.amplitude, p, found.amplitude);
-  store(job.out.ambient, p, found.ambient);
+  store(job.out.amplitude_e, p, found.amplitude);
+  store(job.out.ambient_e, p, found.ambient);
   store_range(s, job.out, p, ray, found.range, found.noise, found.flags);
-  store(job.out.noise, p, num::select((found.flags & num::Int<F>(depth::no_return)) == num::Int<F>(0), found.noise, nan<F>()));
+  store(job.out.noise_m, p, num::select((found.flags & num::Int<F>(depth::no_return)) == num::Int<F>(0), found.noise, nan<F>()));
 }
 
 /// Stage 4 once all raw frames are collected, where it is wanted.

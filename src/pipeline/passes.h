@@ -15,7 +15,7 @@ constexpr int rows_per_band = 8;
 /// Pass 1: flags a flying pixel; z is only read.
 TOFRAY_FN void flag_flying_pixel(const Setup& s, const Job& job, int x, int y) {
   const int width = s.lens.width, at = y * width + x;
-  if (!depth::flies<float>(s.decoder, job.out.z + at, width, 1, y > 0 && y + 1 < s.lens.height, x > 0 && x + 1 < width)) return;
+  if (!depth::flies<float>(s.decoder, job.out.z_m + at, width, 1, y > 0 && y + 1 < s.lens.height, x > 0 && x + 1 < width)) return;
   job.out.flags[at] = static_cast<std::uint16_t>(job.out.flags[at] | depth::flying_pixel);
 }
 
@@ -24,7 +24,7 @@ template <class F>
 TOFRAY_FN void flag_flying_row(const Setup& s, const Job& job, int y) {
   const int width = s.lens.width;
   const bool has_rows = y > 0 && y + 1 < s.lens.height;
-  const float* z = job.out.z + y * width;
+  const float* z = job.out.z_m + y * width;
   std::uint16_t* flags = job.out.flags + y * width;
   flag_flying_pixel(s, job, 0, y);
   if (width > 1) flag_flying_pixel(s, job, width - 1, y);
@@ -39,9 +39,9 @@ TOFRAY_FN void flag_flying_row(const Setup& s, const Job& job, int y) {
   }
 }
 
-/// Pass 2, where a filter is on: filtered range of one pixel, from `out.range` to `filtered`. Flying pixels count as invalid already.
+/// Pass 2, where a filter is on: filtered range of one pixel, from `out.range_m` to `filtered`. Flying pixels count as invalid already.
 TOFRAY_FN void filter_pixel(const Setup& s, const Job& job, int x, int y) {
-  const depth::RangeImage image{job.out.range, job.out.flags, s.lens.width, s.lens.height};
+  const depth::RangeImage image{job.out.range_m, job.out.flags, s.lens.width, s.lens.height};
   float value = image.range[y * image.width + x];
   if (image.valid(x, y)) {
     value = job.filter == 1 ? depth::gaussian(image, x, y, job.filter_radius, job.filter_weights) : depth::median(image, x, y, job.filter_radius);
@@ -71,7 +71,7 @@ TOFRAY_FN void settle(const Setup& s, const Job& job, const Pixels& p, const flo
   if (job.filter == 0 && !any_flying(job.out.flags + p.index, p.count)) return;
   std::int32_t flags[num::lanes<F>] = {};
   for (int i = 0; i < p.count; ++i) flags[i] = job.out.flags[p.index + i];
-  const F noise = num::load<F>(job.out.noise + p.index, p.count);
+  const F noise = num::load<F>(job.out.noise_m + p.index, p.count);
   store_range(s, job.out, p, camera::ray<F>(s.lens, p), num::load<F>(range + p.index, p.count), noise, num::load_int<F>(flags, p.count));
 }
 template <class F>

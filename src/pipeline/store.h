@@ -33,15 +33,15 @@ TOFRAY_FN void store_taps(int pixels, const flow::FrameView& out, const Pixels& 
 template <class F>
 TOFRAY_FN void store_truth(const flow::FrameView& out, const Pixels& p, const flow::Surface<F>& s, const flow::Radiometry<F>& r) {
   const auto value = [&](F a) __attribute__((always_inline)) { return num::select(s.found, a, nan<F>()); };
-  store(out.gt_range, p, value(s.range));
-  store(out.gt_z, p, value(s.z));
+  store(out.gt_range_m, p, value(s.range));
+  store(out.gt_z_m, p, value(s.z));
   store(out.gt_reflectivity, p, value(s.diffuse + s.specular));
-  store3(out.gt_position, p, value(s.x), value(s.y), value(s.z));
+  store3(out.gt_position_m, p, value(s.x), value(s.y), value(s.z));
   store3(out.gt_normal, p, value(s.nx), value(s.ny), value(s.nz));
-  if (out.gt_object != nullptr) num::store(out.gt_object + p.index, num::select(s.found, s.object, num::Int<F>(-1)), p.count);
-  store(out.gt_irradiance, p, r.irradiance);
-  store(out.gt_radiance, p, r.radiance);
-  store(out.gt_power, p, r.power);
+  if (out.gt_object_id != nullptr) num::store(out.gt_object_id + p.index, num::select(s.found, s.object, num::Int<F>(-1)), p.count);
+  store(out.gt_irradiance_w_m2, p, r.irradiance);
+  store(out.gt_radiance_w_m2_sr, p, r.radiance);
+  store(out.gt_power_w, p, r.power);
 }
 
 /// Confidence 255·max(0, 1 − σ̂/0.07 m), rounded.                                                     [theory: eq. 4.10]
@@ -55,9 +55,9 @@ template <class F>
 TOFRAY_FN void store_range(const Setup& s, const flow::FrameView& out, const Pixels& p, const flow::Ray<F>& ray, F range, F noise, num::Int<F> flags) {
   const auto valid = (flags & num::Int<F>(depth::invalid)) == num::Int<F>(0);
   const F z = num::select(valid, range * ray.inverse_length, nan<F>());
-  store(out.z, p, z);
-  store(out.range, p, num::select(valid, range, nan<F>()));
-  store3(out.points, p, num::select(valid, ray.x * z, nan<F>()), num::select(valid, ray.y * z, nan<F>()), z);
+  store(out.z_m, p, z);
+  store(out.range_m, p, num::select(valid, range, nan<F>()));
+  store3(out.points_m, p, num::select(valid, ray.x * z, nan<F>()), num::select(valid, ray.y * z, nan<F>()), z);
   if (out.confidence != nullptr) {
     num::store(out.confidence + p.index, num::select(valid, confidence(s.decoder, noise), num::Int<F>(0)), p.count);
   }

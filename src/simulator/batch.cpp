@@ -23,22 +23,9 @@ constexpr std::uint64_t most_frames = 32'768;
 
 }  // namespace
 
-FrameArrays simulator::arrays_of(const flow::FrameView& v, const Camera& camera, std::uint64_t index, int device) {
-  FrameArrays a;
-  a.index = index, a.device = device;
-  a.width = camera.sensor.width, a.height = camera.sensor.height, a.phases = static_cast<int>(camera.mode.sequence.size());
-  a.tap_a = v.tap_a, a.tap_b = v.tap_b, a.raw = v.raw;
-  a.z_m = v.z, a.range_m = v.range, a.points_m = v.points, a.amplitude_e = v.amplitude, a.ambient_e = v.ambient, a.noise_m = v.noise;
-  a.confidence = v.confidence, a.flags = v.flags;
-  a.gt_range_m = v.gt_range, a.gt_z_m = v.gt_z, a.gt_reflectivity = v.gt_reflectivity, a.gt_position_m = v.gt_position, a.gt_normal = v.gt_normal;
-  a.gt_object_id = v.gt_object;
-  a.gt_irradiance_w_m2 = v.gt_irradiance, a.gt_radiance_w_m2_sr = v.gt_radiance, a.gt_power_w = v.gt_power, a.gt_signal_e = v.gt_signal;
-  return a;
-}
-
 void Simulator::Impl::frames_on_cpu(std::uint64_t from, std::uint64_t count, const Request& request, const Take& take) {
   simulator::prepare(scratch, camera, options.truth);
-  const backend::gpu::Slab shown(setup, simulator::view_of(scratch), false);   // leaves out what is not computed
+  const backend::gpu::Slab shown(setup, simulator::view_of(scratch, options.last_stage), false);   // leaves out what is not computed
   std::vector<unsigned char> memory(shown.bytes());
   for (std::uint64_t i = from; i < count; ++i) {
     const FrameRequest wanted = request(i);
@@ -82,7 +69,7 @@ void Simulator::Impl::frames_on_gpus(std::uint64_t count, const Request& request
     std::uint64_t from, frames;
   };
   simulator::prepare(scratch, camera, options.truth);
-  job.out = simulator::view_of(scratch);
+  job.out = simulator::view_of(scratch, options.last_stage);
   const std::size_t frame_bytes = std::max<std::size_t>(1, backend::gpu::Slab(setup, job.out, job.filter != 0).bytes());
   const std::uint64_t chunk = std::clamp<std::uint64_t>(options.batch_bytes / frame_bytes, 1, most_frames), lanes = lanes_per_gpu * gpus.size();
   std::deque<Flight> flights;
@@ -138,7 +125,7 @@ void Simulator::Impl::open_other_gpus() {
 void Simulator::Impl::frames_on_device(std::uint64_t count, const Request& request, DeviceFrames::Impl& into) {
   if (gpus.empty()) throw backend::gpu::Fault(fallback_reason.empty() ? "the processor computes" : fallback_reason, false);
   simulator::prepare(scratch, camera, options.truth);
-  job.out = simulator::view_of(scratch);
+  job.out = simulator::view_of(scratch, options.last_stage);
   backend::Cuda& gpu = *gpus[0];
   into.indices.clear();
   into.seconds = 0;

@@ -4,21 +4,32 @@
 
 namespace tofray::simulator {
 
-void prepare(Depth& depth, int width, int height) {
-  const std::size_t pixels = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
-  depth.width = width, depth.height = height;
-  for (auto* array : {&depth.z_m, &depth.range_m, &depth.amplitude_e, &depth.ambient_e, &depth.noise_m}) array->resize(pixels);
-  depth.points_m.resize(3 * pixels);
-  depth.confidence.resize(pixels);
-  depth.flags.resize(pixels);
+namespace {
+
+template <class T>
+void resize(std::vector<T>& array, ArrayShape shape, int width, int height, int phases) {
+  array.resize(static_cast<std::size_t>(flow::values_of(shape, std::int64_t{width} * height, phases)));
 }
 
-void prepare(Frame& frame, const Camera& camera, bool truth) {
+template <class T>
+T* place_of(std::vector<T>& array, Stage stage, Stage last) {
+  return stage <= last && !array.empty() ? array.data() : nullptr;
+}
+
+}  // namespace
+
+void prepare(Depth& depth, int width, int height) {
+  depth.width = width, depth.height = height;
+#define TOFRAY_RESIZE(name, part, member, element, shape, ...) resize(part.member, ArrayShape::shape, width, height, phases);
+  constexpr int phases = 1;
+  TOFRAY_DEPTH_ARRAYS(TOFRAY_RESIZE)
+}
+
+void prepare(Frame& frame, const Camera& camera, bool wants_truth) {
   const int width = camera.sensor.width, height = camera.sensor.height, phases = static_cast<int>(camera.mode.sequence.size());
-  const std::size_t pixels = static_cast<std::size_t>(width) * static_cast<std::size_t>(height), all = pixels * static_cast<std::size_t>(phases);
   Raw& raw = frame.raw;
   raw.width = width, raw.height = height, raw.phases = phases;
-  raw.tap_a.resize(all), raw.tap_b.resize(all), raw.raw.resize(all);
+  TOFRAY_RAW_ARRAYS(TOFRAY_RESIZE)
   raw.modulation_frequency_hz.clear(), raw.reference_phase_rad.clear(), raw.integration_time_s.clear(), raw.lit.clear();
   for (const RawFrame& k : camera.mode.sequence) {
     raw.modulation_frequency_hz.push_back(k.lit ? k.modulation_frequency_hz : 0);
@@ -27,36 +38,42 @@ void prepare(Frame& frame, const Camera& camera, bool truth) {
     raw.lit.push_back(k.lit);
   }
   prepare(frame.depth, width, height);
-  Truth& t = frame.truth;
-  if (!truth) {
-    t = {};
+  Truth& truth = frame.truth;
+  if (!wants_truth) {
+    truth = {};
     return;
   }
-  t.width = width, t.height = height, t.phases = phases;
-  for (auto* array : {&t.range_m, &t.z_m, &t.reflectivity, &t.irradiance_w_m2, &t.radiance_w_m2_sr, &t.power_w}) array->resize(pixels);
-  t.position_m.resize(3 * pixels), t.normal.resize(3 * pixels);
-  t.object_id.resize(pixels);
-  t.signal_e.resize(all);
+  truth.width = width, truth.height = height, truth.phases = phases;
+  TOFRAY_TRUTH_ARRAYS(TOFRAY_RESIZE)
+#undef TOFRAY_RESIZE
 }
+
+#define TOFRAY_PLACE(name, part, member, element, shape, stage, ...) view.name = place_of(part.member, Stage::stage, last);
 
 flow::FrameView view_of(Depth& depth) {
+  constexpr Stage last = Stage::depth;
   flow::FrameView view{};
-  view.z = depth.z_m.data(), view.range = depth.range_m.data(), view.points = depth.points_m.data();
-  view.amplitude = depth.amplitude_e.data(), view.ambient = depth.ambient_e.data(), view.noise = depth.noise_m.data();
-  view.confidence = depth.confidence.data(), view.flags = depth.flags.data();
+  TOFRAY_DEPTH_ARRAYS(TOFRAY_PLACE)
   return view;
 }
 
-flow::FrameView view_of(Frame& frame) {
-  flow::FrameView view = view_of(frame.depth);
-  view.tap_a = frame.raw.tap_a.data(), view.tap_b = frame.raw.tap_b.data(), view.raw = frame.raw.raw.data();
-  Truth& t = frame.truth;
-  if (t.range_m.empty()) return view;
-  view.gt_range = t.range_m.data(), view.gt_z = t.z_m.data(), view.gt_reflectivity = t.reflectivity.data();
-  view.gt_position = t.position_m.data(), view.gt_normal = t.normal.data(), view.gt_object = t.object_id.data();
-  view.gt_irradiance = t.irradiance_w_m2.data(), view.gt_radiance = t.radiance_w_m2_sr.data(), view.gt_power = t.power_w.data();
-  view.gt_signal = t.signal_e.data();
+flow::FrameView view_of(Frame& frame, Stage last) {
+  auto& [index, raw, depth, truth] = frame;
+  flow::FrameView view{};
+  TOFRAY_IMAGE_ARRAYS(TOFRAY_PLACE)
   return view;
+}
+
+#undef TOFRAY_PLACE
+
+FrameArrays arrays_of(const flow::FrameView& view, const Camera& camera, std::uint64_t index, int device) {
+  FrameArrays arrays;
+  arrays.index = index, arrays.device = device;
+  arrays.width = camera.sensor.width, arrays.height = camera.sensor.height, arrays.phases = static_cast<int>(camera.mode.sequence.size());
+#define TOFRAY_SHOW(name, ...) arrays.name = view.name;
+  TOFRAY_IMAGE_ARRAYS(TOFRAY_SHOW)
+#undef TOFRAY_SHOW
+  return arrays;
 }
 
 }  // namespace tofray::simulator

@@ -10,8 +10,10 @@ namespace tofray::simulator {
 /// Gives the arrays their sizes (nothing is allocated anew where they fit) and writes what is the same for all pixels.
 void prepare(Frame& frame, const Camera& camera, bool truth);
 void prepare(Depth& depth, int width, int height);
-/// Where the arrays are.
-flow::FrameView view_of(Frame& frame);
+/// Where the arrays are that have a size, of the stages up to `last`.
+flow::FrameView view_of(Frame& frame, Stage last);
 flow::FrameView view_of(Depth& depth);
+/// The same under the public names.
+FrameArrays arrays_of(const flow::FrameView& view, const Camera& camera, std::uint64_t index, int device);
 
 }  // namespace tofray::simulator

@@ -72,11 +72,4 @@ struct DeviceFrames::Impl {
   double seconds = 0;
 };
 
-namespace simulator {
-
-/// The public names of a view's arrays.
-FrameArrays arrays_of(const flow::FrameView& view, const Camera& camera, std::uint64_t index, int device);
-
-}  // namespace simulator
-
 }  // namespace tofray

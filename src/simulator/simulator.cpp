@@ -137,7 +137,7 @@ void Simulator::Impl::frame(std::uint64_t index, const pipeline::Input* input, F
     setup.scene.slots = 0;   // nothing of what moves need go to a GPU
     set_sensor(request);
   }
-  job.out = simulator::view_of(into);
+  job.out = simulator::view_of(into, options.last_stage);
   if (!gpus.empty()) {
     try {
       gpus[0]->run(setup, job, input);

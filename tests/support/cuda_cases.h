@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The tofray authors
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include "flow/frame_view.h"
 #include "support/same_frame.h"
 #include "tofray/tofray.h"
 
@@ -23,20 +24,11 @@ inline SimulatorOptions on(Backend backend, SimulatorOptions options = {}) {
 /// A frame of a batch as arrays of its own.
 inline Frame copy_of(const FrameArrays& a) {
   Frame out;
-  const auto pixels = static_cast<std::size_t>(a.width) * static_cast<std::size_t>(a.height), all = pixels * static_cast<std::size_t>(a.phases);
-  const auto copy = [](const auto* from, std::size_t count, auto& to) {
-    if (from != nullptr) to.assign(from, from + count);
-  };
   out.index = a.index;
-  copy(a.tap_a, all, out.raw.tap_a), copy(a.tap_b, all, out.raw.tap_b), copy(a.raw, all, out.raw.raw);
-  copy(a.z_m, pixels, out.depth.z_m), copy(a.range_m, pixels, out.depth.range_m), copy(a.points_m, 3 * pixels, out.depth.points_m);
-  copy(a.amplitude_e, pixels, out.depth.amplitude_e), copy(a.ambient_e, pixels, out.depth.ambient_e), copy(a.noise_m, pixels, out.depth.noise_m);
-  copy(a.confidence, pixels, out.depth.confidence), copy(a.flags, pixels, out.depth.flags);
-  copy(a.gt_range_m, pixels, out.truth.range_m), copy(a.gt_z_m, pixels, out.truth.z_m), copy(a.gt_reflectivity, pixels, out.truth.reflectivity);
-  copy(a.gt_position_m, 3 * pixels, out.truth.position_m), copy(a.gt_normal, 3 * pixels, out.truth.normal);
-  copy(a.gt_object_id, pixels, out.truth.object_id), copy(a.gt_irradiance_w_m2, pixels, out.truth.irradiance_w_m2);
-  copy(a.gt_radiance_w_m2_sr, pixels, out.truth.radiance_w_m2_sr), copy(a.gt_power_w, pixels, out.truth.power_w);
-  copy(a.gt_signal_e, all, out.truth.signal_e);
+#define TOFRAY_COPY(name, part, member, element, shape, ...) \
+  if (a.name != nullptr) out.part.member.assign(a.name, a.name + flow::values_of(ArrayShape::shape, std::int64_t{a.width} * a.height, a.phases));
+  TOFRAY_IMAGE_ARRAYS(TOFRAY_COPY)
+#undef TOFRAY_COPY
   return out;
 }
 

@@ -189,11 +189,9 @@ class StandInCuda final : public backend::gpu::Runtime {
   }
   /// Whether the frames' arrays are where the kernel can write. (Arguments of their own may still be on their way.)
   [[nodiscard]] bool reaches_output(const backend::gpu::Launch& what) const {
-    const flow::FrameView& out = what.common->job.out;
-    for (const void* array : {static_cast<const void*>(out.raw), static_cast<const void*>(out.z), static_cast<const void*>(out.gt_z)}) {
-      if (array != nullptr && !within(array, 1)) return false;
-    }
-    return true;
+    bool reached = true;
+    flow::each_array(what.common->job.out, [&](const auto* array, ArrayShape, Stage) { reached = reached && (array == nullptr || within(array, 1)); });
+    return reached;
   }
   Status later(const std::function<void()>& step) {
     if (capturing_)

@@ -96,7 +96,7 @@ void Cpu::run(const pipeline::Setup& setup, const pipeline::Job& job, const pipe
     pool_->runner.for_each_tile(pieces, [&](int index, void* scratch) { kernel_(&work, which, index, scratch); });
   };
   pass(input != nullptr ? Pass::input : Pass::pixels, tiles);
-  if (setup.last_stage < pipeline::stage_depth || job.out.z == nullptr || job.out.flags == nullptr) return;
+  if (setup.last_stage < pipeline::stage_depth || job.out.z_m == nullptr || job.out.flags == nullptr) return;
   pass(Pass::flying, bands);
   if (job.filter != 0) pass(Pass::filter, bands);
   pass(Pass::settle, bands);

@@ -49,7 +49,7 @@ void run_rows(const Work& work, Pass pass, int band) {
   for (int y = first; y < first + rows_per_band && y < height; ++y) {
     if (pass == Pass::flying) flag_flying_row<F>(*work.setup, *work.job, y);
     if (pass == Pass::filter) filter_row(*work.setup, *work.job, y);
-    if (pass == Pass::settle) settle_row<F>(*work.setup, *work.job, y, work.job->filter != 0 ? work.job->filtered : work.job->out.range);
+    if (pass == Pass::settle) settle_row<F>(*work.setup, *work.job, y, work.job->filter != 0 ? work.job->filtered : work.job->out.range_m);
   }
 }
 

@@ -144,7 +144,7 @@ void Lane::launch_all() {
   } else {
     run(Kernel::pixels, "starting the kernel pixels");
   }
-  if (common_.setup.last_stage < pipeline::stage_depth || common_.job.out.z == nullptr || common_.job.out.flags == nullptr) return;
+  if (common_.setup.last_stage < pipeline::stage_depth || common_.job.out.z_m == nullptr || common_.job.out.flags == nullptr) return;
   run(Kernel::flying, "starting the kernel flying");
   if (common_.job.filter != 0) run(Kernel::filter, "starting the kernel filter");
   run(Kernel::settle, "starting the kernel settle");

@@ -128,7 +128,7 @@ TOFRAY_FN void run_pass(Kernel kernel, const Setup& s, const Job& job, const pip
   if (kernel == Kernel::input) pipeline::enter<float>(s, job, input, p);
   if (kernel == Kernel::flying) pipeline::flag_flying_pixel(s, job, x, y);
   if (kernel == Kernel::filter) pipeline::filter_pixel(s, job, x, y);
-  if (kernel == Kernel::settle) pipeline::settle<float>(s, job, p, job.filter != 0 ? job.filtered : job.out.range);
+  if (kernel == Kernel::settle) pipeline::settle<float>(s, job, p, job.filter != 0 ? job.filtered : job.out.range_m);
 }
 
 /// The same array of a frame `bytes` further on.
@@ -141,15 +141,7 @@ TOFRAY_FN T* shifted(T* array, std::int64_t bytes) {
 TOFRAY_FN Job job_of(const Job& first, const FrameNumber& number, std::int64_t bytes) {
   Job job = first;
   job.index_low = number.low, job.index_high = number.high;
-  flow::FrameView& out = job.out;
-  out.tap_a = shifted(out.tap_a, bytes), out.tap_b = shifted(out.tap_b, bytes), out.raw = shifted(out.raw, bytes);
-  out.z = shifted(out.z, bytes), out.range = shifted(out.range, bytes), out.points = shifted(out.points, bytes);
-  out.amplitude = shifted(out.amplitude, bytes), out.ambient = shifted(out.ambient, bytes), out.noise = shifted(out.noise, bytes);
-  out.confidence = shifted(out.confidence, bytes), out.flags = shifted(out.flags, bytes);
-  out.gt_range = shifted(out.gt_range, bytes), out.gt_z = shifted(out.gt_z, bytes), out.gt_reflectivity = shifted(out.gt_reflectivity, bytes);
-  out.gt_position = shifted(out.gt_position, bytes), out.gt_normal = shifted(out.gt_normal, bytes), out.gt_object = shifted(out.gt_object, bytes);
-  out.gt_irradiance = shifted(out.gt_irradiance, bytes), out.gt_radiance = shifted(out.gt_radiance, bytes);
-  out.gt_power = shifted(out.gt_power, bytes), out.gt_signal = shifted(out.gt_signal, bytes);
+  flow::each_array(job.out, [&](auto*& array, ArrayShape, Stage) { array = shifted(array, bytes); });
   job.filtered = shifted(job.filtered, bytes);
   return job;
 }

@@ -11,7 +11,7 @@ namespace tofray::backend::gpu {
 class Slab {
  public:
   Slab() = default;
-  /// @param wanted  arrays that are null here, and those of stages that are not reached, get no place
+  /// @param wanted  arrays that are null here get no place
   Slab(const pipeline::Setup& setup, const flow::FrameView& wanted, bool filter);
 
   /// Bytes from one frame to the next; of them those that the caller wants to see come first.
@@ -25,9 +25,10 @@ class Slab {
   bool operator==(const Slab&) const = default;
 
  private:
-  static constexpr int arrays = 21;
+  [[nodiscard]] std::size_t count(ArrayShape shape) const;
+
   std::size_t pixels_ = 0, phases_ = 0, bytes_ = 0, shown_bytes_ = 0;
-  std::size_t offset_[arrays] = {};      // +1; 0: no place
+  std::size_t offset_[flow::array_count] = {};      // +1; 0: no place
   std::size_t filtered_offset_ = 0;
 };
 
