@@ -4,9 +4,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "base/text.h"
+#include "io/array_table.h"
 #include "tofray/error.h"
 
 namespace tofray::app {
@@ -19,13 +21,14 @@ Arrays::Arrays(std::vector<io::NamedArray> arrays, std::string where) : where_(s
   if (const io::NpyArray* flags = find("flags"); flags != nullptr && flags->type.kind != 'u' && flags->type.kind != 'i')
     throw Error(ErrorKind::bad_input, fmt::format("{}: error: array \"flags\" has the wrong type\n  got {}, expected uint16", base::printable(where_),
                                                   flags->type.name()));
-  for (const char* name : {"raw", "tap_a", "z_m", "range_m"}) {
-    const io::NpyArray* array = find(name);
-    if (array == nullptr || array->shape.size() < 2 || array->shape.size() > 3) continue;
-    width_ = array->shape.back();
-    height_ = array->shape[array->shape.size() - 2];
-    if (array->shape.size() == 3 && phases_ == 0) phases_ = array->shape[0];
+  for (const io::ArrayRow& row : io::array_table()) {
+    const io::NpyArray* array = row.is_image() ? find(row.name) : nullptr;
+    if (array == nullptr || array->shape.size() != static_cast<std::size_t>(1 + std::count(row.shape.begin(), row.shape.end(), ','))) continue;
+    const bool stack = row.shape.starts_with("[phase");
+    if (width_ == 0) height_ = array->shape[stack ? 1 : 0], width_ = array->shape[stack ? 2 : 1];
+    if (stack && phases_ == 0) phases_ = array->shape[0];
   }
+  if (const io::NpyArray* lit = find("lit"); phases_ == 0 && lit != nullptr && lit->shape.size() == 1) phases_ = lit->shape[0];
 }
 
 const io::NpyArray* Arrays::find(std::string_view name) const {
@@ -45,7 +48,9 @@ double Arrays::at(std::string_view name, std::size_t i) const {
 std::string Arrays::unit(const std::string& name) const {
   const io::Json* units = meta_.find("units");
   const io::Json* found = units == nullptr ? nullptr : units->find(name);
-  return found == nullptr || !found->is_string() ? "" : *found->string();
+  if (found != nullptr && found->is_string()) return *found->string();
+  const io::ArrayRow* known = io::find_array(name);
+  return known == nullptr ? "" : known->unit;
 }
 
 }  // namespace tofray::app

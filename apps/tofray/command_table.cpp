@@ -6,8 +6,8 @@ namespace tofray::app {
 
 namespace {
 
-const std::vector<const char*> simulation = {"--output", "--set",  "--mode",    "--seed",    "--noise", "--emit",
-                                             "--theme",  "--root", "--threads", "--backend", "--device"};
+const std::vector<const char*> simulation = {"--output", "--set",   "--mode", "--seed",    "--noise",   "--emit",  "--arrays",
+                                             "--compress", "--theme", "--root", "--threads", "--backend", "--device"};
 
 std::vector<const char*> simulation_and(std::vector<const char*> more) {
   std::vector<const char*> all = simulation;
@@ -34,6 +34,7 @@ std::vector<Command> make() {
                    "tofray render scene.yaml -o out --frames 100 --seed 7    # frame_0000.npz to frame_0099.npz\n"
                    "tofray render room --set camera.lens.f_number=1.2        # a built-in scene, another lens\n"
                    "tofray render room --theme light                         # pictures on white, for papers\n"
+                   "tofray render room --frames 500 --arrays raw,z_m,flags   # an eighth of the bytes\n"
                    "tofray render --from out/manifest.json -o again          # the same bytes again\n",
        .more = "SCENE is a YAML or JSON file, or a name out of `tofray list scenes`. Without -o the folder is called like the scene.\n"
                "Same version, scene, options and seed: the same bytes, for any number of threads.\n",
@@ -52,8 +53,8 @@ std::vector<Command> make() {
            "reference_phase_rad, integration_time_s, lit and, if it is known, start_time_s (otherwise each exposure begins when the one\n"
            "before has been read out). Without --camera it is the camera that the file says it was made with.\n"
            "Its other arrays, such as gt_* and camera_pose, are written again as they are.\n",
-       .options = {"--camera", "--output", "--set", "--mode", "--emit", "--theme", "--threads", "--backend", "--device", "--json",
-                   "--quiet"},
+       .options = {"--camera", "--output", "--set", "--mode", "--emit", "--arrays", "--compress", "--theme", "--threads", "--backend",
+                   "--device", "--json", "--quiet"},
        .least_words = 1,
        .most_words = 1,
        .run = run_process,
@@ -82,17 +83,18 @@ std::vector<Command> make() {
        .run = run_check,
        .completes = "scenes"},
       {.name = "list",
-       .usage = "cameras|scenes|materials|keys",
-       .summary = "what is built in, the materials of a scene, and every key that files and --set take",
+       .usage = "cameras|scenes|materials|keys|arrays",
+       .summary = "what is built in, the materials of a scene, every key that files and --set take, and every array of frame.npz",
        .examples = "tofray list scenes\n"
                    "tofray list cameras                              # with their modes\n"
                    "tofray list materials demo                       # those of a scene; without one, of all built-in scenes\n"
-                   "tofray list keys                                 # of camera profiles and scenes, with range, default and meaning\n",
+                   "tofray list keys                                 # of camera profiles and scenes, with range, default and meaning\n"
+                   "tofray list arrays                               # with type, shape, unit and meaning\n",
        .options = {"--json"},
        .least_words = 1,
        .most_words = 2,
        .run = run_list,
-       .completes = "cameras scenes materials keys"},
+       .completes = "cameras scenes materials keys arrays"},
       {.name = "schema",
        .usage = "scene|camera",
        .summary = "JSON Schema of a file kind, for editors that complete and check",

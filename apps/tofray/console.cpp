@@ -50,7 +50,7 @@ extern "C" void end_on_signal(int signal) {
   if (ending.exchange(true)) {
     for (;;) ::pause();
   }
-  io::remove_live_temporaries();
+  io::end_writing();
   if (signal == SIGINT && ::isatty(STDERR_FILENO) != 0) write_all(STDERR_FILENO, "\ninterrupted\n");
   ::_exit(128 + signal);
 }
@@ -97,6 +97,10 @@ int terminal_columns() {
   const char* columns = std::getenv("COLUMNS");
   const long wanted = columns != nullptr ? std::strtol(columns, nullptr, 10) : 0;
   return wanted > 0 && wanted < 10'000 ? static_cast<int>(wanted) : 80;
+}
+
+void yield_to_signal() {
+  while (ending) ::pause();
 }
 
 void end_cleanly_on_signals() {

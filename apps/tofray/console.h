@@ -39,6 +39,9 @@ bool stdout_has_colors();
 /// Width of the terminal, COLUMNS or 80.
 int terminal_columns();
 
+/// Where a signal is just ending the process in another thread, waits for that end: what fails because of it is no error to tell.
+void yield_to_signal();
+
 /// Ctrl-C, a hang-up, a polite end and a reader that went away: unfinished files are removed, then the process ends with 128 + signal.
 void end_cleanly_on_signals();
 

@@ -38,14 +38,16 @@ int run_demo(const Options& options) {
   Stopwatch stopwatch;
   Inputs in = load_inputs("demo", options);
   say(warnings(in));
-  const SimulatorOptions wanted = simulator_options(options);
+  SimulatorOptions wanted = simulator_options(options);
+  const FrameFiles what(options, {"npz", "png", "ply"}, in, wanted);
+  wanted.truth = what.need_truth();
   Simulator simulator(in.scene, in.camera, wanted);
   say_fallback(options, simulator.fallback_reason());
   io::OutputFolder folder(options.output.empty() ? "tofray-demo" : options.output);
   stopwatch.lap("prepare");
   const Frame frame = simulator.frame(0);
   stopwatch.lap("simulate");
-  write_frame(folder, options.emit.value_or(std::vector<std::string>{"npz", "png", "ply"}), "", frame, in, wanted, options.theme);
+  write_frame(folder, what, frame);
   stopwatch.lap("write");
   const Machine machine = machine_of(simulator);
   write_manifest(folder, options, in.files, machine, stopwatch);

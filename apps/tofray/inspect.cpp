@@ -13,6 +13,7 @@
 #include "commands.h"
 #include "console.h"
 #include "input_kind.h"
+#include "io/array_table.h"
 #include "io/meta.h"
 #include "io/npy.h"
 #include "results.h"
@@ -88,6 +89,7 @@ io::Json array_json(const Arrays& arrays) {
     const io::NpyArray& array = one.array;
     io::Json json = io::Json::object();
     json.set("name", one.name).set("dtype", array.type.name()).set("shape", io::Json::list(array.shape)).set("unit", arrays.unit(one.name));
+    if (const io::ArrayRow* known = io::find_array(one.name)) json.set("what", known->what);
     if (array.type.kind != 'U') {
       const Statistics s = statistics_of(array);
       json.set("min", s.low).set("median", s.median).set("max", s.high).set("invalid", s.invalid);

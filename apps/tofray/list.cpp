@@ -5,6 +5,7 @@
 #include "base/text.h"
 #include "commands.h"
 #include "console.h"
+#include "io/array_table.h"
 #include "io/builtin.h"
 #include "io/json.h"
 #include "io/load.h"
@@ -107,11 +108,25 @@ io::Json list_keys(std::string& text) {
   return json;
 }
 
+io::Json list_arrays(std::string& text) {
+  text = io::array_reference();
+  io::Json json = io::Json::array();
+  for (const io::ArrayRow& one : io::array_table())
+    json.push(io::Json::object()
+                  .set("name", one.name)
+                  .set("dtype", one.type.name())
+                  .set("shape", one.shape)
+                  .set("unit", one.unit)
+                  .set("from", one.from)
+                  .set("what", one.what));
+  return json;
+}
+
 }  // namespace
 
 int run_list(const Options& options) {
   const std::string& what = options.words[0];
-  const std::vector<std::string> kinds = {"cameras", "scenes", "materials", "keys"};
+  const std::vector<std::string> kinds = {"cameras", "scenes", "materials", "keys", "arrays"};
   if (options.words.size() == 2 && what != "materials")
     throw Error(ErrorKind::bad_input,
                 fmt::format("error: unexpected {}\n  expected tofray list {}", base::in_quotes(options.words[1]), what));
@@ -128,6 +143,8 @@ int run_list(const Options& options) {
       list_materials_of(options.words[1], json, text);
     else
       for (const io::Builtin& one : io::builtin_scenes()) list_materials_of(one.name, json, text);
+  } else if (what == "arrays") {
+    json = list_arrays(text);
   } else {
     throw Error(ErrorKind::bad_input, fmt::format("error: there is no list of {}{}\n  expected {}", base::in_quotes(what),
                                                   base::did_you_mean(what, kinds), base::listed(kinds)));

@@ -104,6 +104,7 @@ int guarded(const std::vector<std::string>& arguments) {
   try {
     return run(arguments);
   } catch (const Error& error) {
+    yield_to_signal();
     return failed(arguments, error.what(), error.kind());
   } catch (const std::bad_alloc&) {
     return failed(arguments,

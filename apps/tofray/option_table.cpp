@@ -8,6 +8,7 @@
 #include "base/limits.h"
 #include "base/text.h"
 #include "commands.h"
+#include "io/array_table.h"
 #include "tofray/error.h"
 
 namespace tofray::app {
@@ -238,6 +239,16 @@ std::vector<OptionSpec> specs() {
        take_emit,
        {"npz", "png", "ply", "npz,png", "npz,png,ply"}},
       {"--theme", 0, "NAME", "look of preview.png and raw.png: dark, or light for papers (dark)", take_theme, {"dark", "light"}},
+      {"--arrays",
+       0,
+       "LIST",
+       "arrays that npz files get, as in raw,z_m,gt_* (all; `tofray list arrays` names them)",
+       [](Options& o, const std::string& v) {
+         (void)io::ArrayChoice(v);
+         o.arrays = v;
+       },
+       {"raw,z_m,flags", "raw,z_m,gt_*", "gt_*"}},
+      {"--compress", 0, nullptr, "deflate npz files: smaller and slower", [](Options& o, const std::string&) { o.compress = true; }, {}},
       {"--from",
        0,
        "MANIFEST",

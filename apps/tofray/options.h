@@ -20,6 +20,8 @@ struct Options {
   std::optional<std::uint64_t> seed;
   std::optional<Noise> noise;
   std::optional<std::vector<std::string>> emit;  ///< out of npz, png, ply
+  std::string arrays;     ///< of frame.npz, as typed; empty: all
+  bool compress = false;  ///< frame.npz deflated
   std::optional<std::uint64_t> frames;
   std::optional<std::pair<int, int>> pixel;  ///< u, v
   std::optional<std::uint64_t> batch;  ///< --batch: frames at once

@@ -152,7 +152,7 @@ void read_depth(const Arrays& arrays, std::size_t pixel, PixelChain& out) {
 PixelChain pixel_chain(const Arrays& arrays, int u, int v) {
   if (arrays.width() == 0)
     throw Error(ErrorKind::bad_input,
-                arrays.where() + ": error: there is no image in this file\n  expected raw, tap_a, z_m or range_m [height, width]");
+                arrays.where() + ": error: there is no image in this file\n  expected raw, z_m or another array with pixels; `tofray list arrays` has them all");
   if (static_cast<std::size_t>(u) >= arrays.width() || static_cast<std::size_t>(v) >= arrays.height())
     throw Error(ErrorKind::bad_input,
                 fmt::format("error: pixel {},{} is outside the image\n  expected a column of 0 to {} and a row of 0 to {}", u, v,

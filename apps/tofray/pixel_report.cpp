@@ -2,9 +2,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "base/constants.h"
+#include "io/array_table.h"
 #include "pixel_chain.h"
 
 namespace tofray::app {
@@ -13,17 +15,20 @@ namespace {
 
 constexpr double degrees = 180 / base::pi;
 
-std::string surface_text(const PixelChain& p) {
-  if (p.object < 0) return "surface     nothing is seen here\n";
-  std::string text = fmt::format("surface     object {}{}, reflectivity {:.4g}\n", p.object,
-                                 p.object_name.empty() ? "" : " (" + p.object_name + ")", p.reflectivity);
-  text += fmt::format("            range {:.6f} m, z {:.6f} m, at ({:.4f}, {:.4f}, {:.4f}) m\n", p.true_range_m, p.true_z_m,
-                      p.position_m[0], p.position_m[1], p.position_m[2]);
-  text += fmt::format("            normal ({:.4f}, {:.4f}, {:.4f}), seen at {:.1f} deg to it\n", p.normal[0], p.normal[1], p.normal[2],
-                      p.incidence_rad * degrees);
-  text += fmt::format("light       irradiance on the surface {:.4g} W/m2, radiance toward the camera {:.4g} W/(m2 sr)\n", p.irradiance_w_m2,
-                      p.radiance_w_m2_sr);
-  return text + fmt::format("            power on the pixel {:.4g} W\n", p.power_w);
+/// A number, or a dash where there is none: the file does not have its array, or it is invalid.
+std::string shown(const char* format, double value) { return std::isnan(value) ? "-" : fmt::format(fmt::runtime(format), value); }
+
+std::string triple(const std::array<double, 3>& v) { return fmt::format("({}, {}, {})", shown("{:.4f}", v[0]), shown("{:.4f}", v[1]), shown("{:.4f}", v[2])); }
+
+std::string surface_text(const PixelChain& p, bool knows_object) {
+  if (knows_object && p.object < 0) return "surface     nothing is seen here\n";
+  std::string text = fmt::format("surface     object {}{}, reflectivity {}\n", knows_object ? std::to_string(p.object) : "-",
+                                 p.object_name.empty() ? "" : " (" + p.object_name + ")", shown("{:.4g}", p.reflectivity));
+  text += fmt::format("            range {} m, z {} m, at {} m\n", shown("{:.6f}", p.true_range_m), shown("{:.6f}", p.true_z_m), triple(p.position_m));
+  text += fmt::format("            normal {}, seen at {} deg to it\n", triple(p.normal), shown("{:.1f}", p.incidence_rad * degrees));
+  text += fmt::format("light       irradiance on the surface {} W/m2, radiance toward the camera {} W/(m2 sr)\n", shown("{:.4g}", p.irradiance_w_m2),
+                      shown("{:.4g}", p.radiance_w_m2_sr));
+  return text + fmt::format("            power on the pixel {} W\n", shown("{:.4g}", p.power_w));
 }
 
 std::string raw_text(const PixelChain& p) {
@@ -32,10 +37,11 @@ std::string raw_text(const PixelChain& p) {
                                  "exposure us", "signal e", "tap A e", "tap B e", "A-B e", "code DN");
   for (std::size_t k = 0; k < p.raw_frames.size(); ++k) {
     const ChainRawFrame& one = p.raw_frames[k];
-    const std::string modulation = one.lit ? fmt::format("{:.6g}", 1e-6 * one.modulation_frequency_hz) : "unlit";
-    text += fmt::format("{:>9}   {:>14} {:>13.6g} {:>11.6g} {:>11.1f} {:>10.1f} {:>10.1f} {:>10.1f} {:>8.6g}\n", k, modulation,
-                        one.reference_phase_rad * degrees, 1e6 * one.integration_time_s, one.signal_e, one.tap_a_e, one.tap_b_e,
-                        one.difference_e, one.code_dn);
+    const std::string modulation = one.lit ? shown("{:.6g}", 1e-6 * one.modulation_frequency_hz) : "unlit";
+    text += fmt::format("{:>9}   {:>14} {:>13} {:>11} {:>11} {:>10} {:>10} {:>10} {:>8}\n", k, modulation,
+                        shown("{:.6g}", one.reference_phase_rad * degrees), shown("{:.6g}", 1e6 * one.integration_time_s),
+                        shown("{:.1f}", one.signal_e), shown("{:.1f}", one.tap_a_e), shown("{:.1f}", one.tap_b_e), shown("{:.1f}", one.difference_e),
+                        shown("{:.6g}", one.code_dn));
   }
   return text;
 }
@@ -43,8 +49,8 @@ std::string raw_text(const PixelChain& p) {
 std::string phase_text(const PixelChain& p) {
   std::string text;
   for (const ChainPhase& one : p.phases) {
-    text += fmt::format("phase       {:.6g} MHz: {:.2f} deg, amplitude {:.1f} e", 1e-6 * one.modulation_frequency_hz,
-                        one.measured_turns * 360, one.amplitude_e);
+    text += fmt::format("phase       {:.6g} MHz: {} deg, amplitude {} e", 1e-6 * one.modulation_frequency_hz, shown("{:.2f}", one.measured_turns * 360),
+                        shown("{:.1f}", one.amplitude_e));
     if (std::isfinite(one.calibrated_turns)) text += fmt::format("; calibrated {:.2f} deg", one.calibrated_turns * 360);
     if (std::isfinite(one.half_path_m))
       text += fmt::format("; half path {:.4f} m x ({:.0f} + {:.4f}) = {:.4f} m", one.half_wave_m, one.cycles, one.calibrated_turns,
@@ -54,23 +60,37 @@ std::string phase_text(const PixelChain& p) {
   return text;
 }
 
-std::string depth_text(const PixelChain& p) {
+std::string depth_text(const PixelChain& p, const Arrays& arrays) {
   std::string flags;
   for (const std::string& one : p.flags) flags += (flags.empty() ? "" : ", ") + one;
-  std::string text;
-  if (std::isfinite(p.range_m)) {
-    text = fmt::format("depth       range {:.6f} m, z {:.6f} m, point ({:.4f}, {:.4f}, {:.4f}) m\n", p.range_m, p.z_m, p.point_m[0],
-                       p.point_m[1], p.point_m[2]);
+  const bool none = std::isnan(p.range_m) && arrays.find("range_m") != nullptr;
+  std::string text = fmt::format("depth       none{}{}\n", flags.empty() ? "" : ": ", flags);
+  if (!none) {
+    text = fmt::format("depth       range {} m, z {} m, point {} m\n", shown("{:.6f}", p.range_m), shown("{:.6f}", p.z_m), triple(p.point_m));
     const double error = p.range_m - p.true_range_m;
-    text += fmt::format("            noise {:.2f} mm (1 sigma)", 1e3 * p.noise_m);
-    if (std::isfinite(error)) text += fmt::format(", error {:+.2f} mm, {:+.2f} sigma", 1e3 * error, error / p.noise_m);
+    text += fmt::format("            noise {} mm (1 sigma)", shown("{:.2f}", 1e3 * p.noise_m));
+    if (std::isfinite(error)) text += fmt::format(", error {:+.2f} mm, {} sigma", 1e3 * error, shown("{:+.2f}", error / p.noise_m));
     text += "\n";
-  } else {
-    text = fmt::format("depth       none{}{}\n", flags.empty() ? "" : ": ", flags);
   }
-  text +=
-      fmt::format("            amplitude {:.1f} e, ambient {:.1f} e, confidence {:.0f} of 255\n", p.amplitude_e, p.ambient_e, p.confidence);
-  return text + fmt::format("            flags: {}\n", flags.empty() ? "none" : flags);
+  text += fmt::format("            amplitude {} e, ambient {} e, confidence {} of 255\n", shown("{:.1f}", p.amplitude_e), shown("{:.1f}", p.ambient_e),
+                      shown("{:.0f}", p.confidence));
+  return text + fmt::format("            flags: {}\n", arrays.find("flags") == nullptr ? "-" : flags.empty() ? "none" : flags);
+}
+
+/// What a dash can come from.
+std::string missing_text(const Arrays& arrays) {
+  std::string names;
+  for (const io::ArrayRow& row : io::array_table()) {
+    if (arrays.find(row.name) == nullptr) names += (names.empty() ? "" : ", ") + row.name;
+  }
+  return names.empty() ? "" : "\nnot in this file: " + names + "\n";
+}
+
+/// Whether the file has any array of these stages.
+bool has_any(const Arrays& arrays, bool truth) {
+  return std::any_of(io::array_table().begin(), io::array_table().end(), [&](const io::ArrayRow& row) {
+    return (truth ? row.is_truth() && row.is_image() : row.from == "depth") && arrays.find(row.name) != nullptr;
+  });
 }
 
 io::Json raw_json(const PixelChain& p) {
@@ -105,9 +125,10 @@ io::Json phases_json(const PixelChain& p) {
 std::string pixel_text(const Arrays& arrays, int u, int v) {
   const PixelChain p = pixel_chain(arrays, u, v);
   std::string text = fmt::format("{}: pixel {}, {} of {} x {}\n\n", arrays.where(), u, v, arrays.width(), arrays.height());
-  if (arrays.find("gt_range_m") != nullptr) text += surface_text(p) + "\n";
+  if (has_any(arrays, true)) text += surface_text(p, arrays.find("gt_object_id") != nullptr) + "\n";
   text += raw_text(p) + "\n" + phase_text(p);
-  return arrays.find("range_m") == nullptr ? text : text + "\n" + depth_text(p);
+  if (has_any(arrays, false)) text += "\n" + depth_text(p, arrays);
+  return text + missing_text(arrays);
 }
 
 io::Json pixel_json(const Arrays& arrays, int u, int v) {

@@ -9,6 +9,7 @@
 
 #include "backend/cpu/cpu.h"
 #include "backend/cuda/cuda.h"
+#include "base/text.h"
 #include "camera/frozen_camera.h"
 #include "commands.h"
 #include "console.h"
@@ -138,13 +139,17 @@ int run_process(const Options& options) {
   in.pose = pose_of(in.kept);
   say(in.camera.illumination.empty() ? "warning: the camera has no light source: camera.illumination is []\n  every depth is invalid\n"
                                      : "");
+  const FrameFiles what(options, {"npz", "png", "ply"}, in, wanted);
   stopwatch.lap("prepare");
   frame.depth = process(frame.raw, in.camera, wanted);
   frame.truth.z_m = true_z(in.kept, frame.depth);
   stopwatch.lap("process");
+  if (const std::vector<std::string> missing = io::missing_arrays(frame, what.npz); !missing.empty())
+    throw Error(ErrorKind::bad_input, fmt::format("{}: error: --arrays asks for {}, and there {}\n  depth is computed, all else has to be in the file",
+                                                  path, base::listed(missing, "and"), missing.size() == 1 ? "is none" : "are none"));
 
   io::OutputFolder folder(options.output.empty() ? in.scene.name + "-depth" : options.output);
-  write_frame(folder, options.emit.value_or(std::vector<std::string>{"npz", "png", "ply"}), "", frame, in, wanted, options.theme);
+  write_frame(folder, what, frame);
   stopwatch.lap("write");
   const Machine machine = machine_for(wanted);
   write_manifest(folder, options, in.files, machine, stopwatch);

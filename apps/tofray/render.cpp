@@ -9,6 +9,7 @@
 #include "base/text.h"
 #include "commands.h"
 #include "console.h"
+#include "frame_writer.h"
 #include "io/version.h"
 #include "progress.h"
 #include "results.h"
@@ -21,7 +22,7 @@ namespace {
 /// What a run was told, put back from its manifest. What changes no bytes (threads, folder) stays as it was typed now.
 Options recalled(const Options& now, const io::Manifest& manifest) {
   Options options = now;
-  if (!now.words.empty() || !now.set.empty() || !now.mode.empty() || now.seed || now.noise || now.emit || now.frames ||
+  if (!now.words.empty() || !now.set.empty() || !now.mode.empty() || now.seed || now.noise || now.emit || !now.arrays.empty() || now.compress || now.frames ||
       now.first_frame != 0)
     throw Error(ErrorKind::bad_input,
                 "error: --from makes the same bytes again and takes no other scene and no other settings\n"
@@ -31,7 +32,7 @@ Options recalled(const Options& now, const io::Manifest& manifest) {
   for (const auto& [key, value] : manifest.options) {
     if (key == "mode")
       options.mode = value;
-    else if (key == "noise" || key == "emit" || key == "frames" || key == "first-frame" || key == "theme")
+    else if (key == "noise" || key == "emit" || key == "arrays" || key == "compress" || key == "theme" || key == "frames" || key == "first-frame")
       option("--" + key).take(options, value);
     else
       throw Error(ErrorKind::bad_input,
@@ -64,35 +65,41 @@ std::vector<std::string> kinds_of(const Options& options, std::uint64_t frames) 
 }
 
 struct Rendered {
-  Frame frame;                    ///< the last one
+  Depth last;                     ///< of the last frame
   std::uint64_t frames = 0;       ///< how many are complete
   std::uint64_t all_invalid = 0;  ///< frames without any valid pixel
 };
 
 /// @param stop  asked for between two frames; none: a signal ends the process at once
-void render_frames(Simulator& simulator, const Options& options, const Inputs& in, io::OutputFolder& folder, Stopwatch& stopwatch,
+void render_frames(Simulator& simulator, const Options& options, const FrameFiles& what, io::OutputFolder& folder, Stopwatch& stopwatch,
                    const StopRequest* stop, Rendered& out) {
   const std::uint64_t frames = options.frames.value_or(1), first = options.first_frame;
   // One frame has no number, unless it was asked for by number.
   const bool numbered = options.frames.has_value() || first > 0;
-  const std::vector<std::string> emit = kinds_of(options, frames);
   Progress progress(frames, "frames", options.quiet);
+  FrameWriter writer(folder, what, frames);
+  const Frame* last = nullptr;
   for (std::uint64_t i = first; i < first + frames; ++i) {
-    simulator.frame(i, out.frame);
-    stopwatch.lap("simulate");
-    if (validity(out.frame.depth).valid == 0) ++out.all_invalid;
-    write_frame(folder, emit, numbered ? suffix_of(i, first + frames - 1) : "", out.frame, in, simulator_options(options), options.theme);
+    Frame& frame = writer.next();
     stopwatch.lap("write");
+    simulator.frame(i, frame);
+    stopwatch.lap("simulate");
+    if (validity(frame.depth).valid == 0) ++out.all_invalid;
+    writer.write(numbered ? suffix_of(i, first + frames - 1) : "");
+    last = &frame;
     ++out.frames;
     progress.step();
     if (stop != nullptr && stop->signal() != 0) break;
   }
+  writer.finish();
+  stopwatch.lap("write");
+  out.last = last->depth;
 }
 
 void warn_of_invalid(const Rendered& out) {
   if (out.all_invalid == 0) return;
   say(fmt::format("warning: no pixel has a valid depth in {} of {} frame{}\n  in the last frame: {}\n", out.all_invalid, out.frames,
-                  out.frames == 1 ? "" : "s", validity(out.frame.depth).reasons));
+                  out.frames == 1 ? "" : "s", validity(out.last).reasons));
 }
 
 /// What lies there after an interruption, and how to make the rest with the same names and kinds of files.
@@ -115,16 +122,19 @@ int run_render(const Options& typed) {
   const Options options = typed.from.empty() ? typed : recalled(typed, before);
   const Inputs in = typed.from.empty() ? load_inputs(options.words[0], options) : inputs_of(before, options);
   say(warnings(in));
-  Simulator simulator(in.scene, in.camera, simulator_options(options));
+  const std::uint64_t frames = options.frames.value_or(1);
+  SimulatorOptions wanted = simulator_options(options);
+  const FrameFiles what(options, kinds_of(options, frames), in, wanted);
+  wanted.truth = what.need_truth();
+  Simulator simulator(in.scene, in.camera, wanted);
   say_fallback(options, simulator.fallback_reason());
   io::OutputFolder folder(options.output.empty() ? in.scene.name : options.output);
   stopwatch.lap("prepare");
 
   Rendered out;
-  const std::uint64_t frames = options.frames.value_or(1);
   std::optional<StopRequest> stop;
   if (frames > 1) stop.emplace();
-  render_frames(simulator, options, in, folder, stopwatch, stop ? &*stop : nullptr, out);
+  render_frames(simulator, options, what, folder, stopwatch, stop ? &*stop : nullptr, out);
   const Machine machine = machine_of(simulator);
   const bool interrupted = out.frames < frames;
   write_manifest(folder, options, in.files, machine, stopwatch, interrupted ? std::optional(out.frames) : std::nullopt);
@@ -132,9 +142,9 @@ int run_render(const Options& typed) {
   if (interrupted) say_interrupted(options, folder, out.frames);
 
   if (options.json)
-    print(io::json_text(summary_json(folder, out.frame.depth, out.frames, machine, stopwatch).set("interrupted", interrupted), 2) + "\n");
+    print(io::json_text(summary_json(folder, out.last, out.frames, machine, stopwatch).set("interrupted", interrupted), 2) + "\n");
   else
-    Talk(options.quiet)(summary_text(folder, out.frame.depth, out.frames, machine, stopwatch));
+    Talk(options.quiet)(summary_text(folder, out.last, out.frames, machine, stopwatch));
   if (stop && stop->signal() != 0) return 128 + stop->signal();
   const std::vector<std::string> changed = typed.from.empty() ? std::vector<std::string>() : changed_files(before, folder);
   if (changed.empty()) return 0;

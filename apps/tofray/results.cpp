@@ -4,12 +4,15 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "backend/cuda/cuda.h"
 #include "console.h"
 #include "io/meta.h"
 #include "io/pictures.h"
 #include "io/ply.h"
 #include "scene/frozen_scene.h"
+#include "tofray/error.h"
 
 namespace tofray::app {
 
@@ -93,22 +96,46 @@ Validity validity(const Depth& depth) {
   return out;
 }
 
-void write_frame(io::OutputFolder& folder, const std::vector<std::string>& emit, const std::string& suffix, const Frame& frame,
-                 const Inputs& inputs, const SimulatorOptions& options, io::Theme theme) {
-  for (const std::string& kind : emit) {
+FrameFiles::FrameFiles(const Options& options, const std::vector<std::string>& otherwise, const Inputs& from, const SimulatorOptions& wanted)
+    : emit(options.emit.value_or(otherwise)), inputs(from), simulated(wanted), theme(options.theme) {
+  if (!options.arrays.empty()) npz.arrays = io::ArrayChoice(options.arrays);
+  npz.kept = from.kept;
+  npz.packing = options.compress ? io::Packing::deflated : io::Packing::stored;
+  if ((!options.arrays.empty() || options.compress) && std::find(emit.begin(), emit.end(), "npz") == emit.end())
+    throw Error(ErrorKind::bad_input, "error: --arrays and --compress are of npz files, and --emit leaves these out\n  expected npz in --emit");
+}
+
+bool FrameFiles::need_truth() const {
+  return std::any_of(emit.begin(), emit.end(), [&](const std::string& kind) { return kind == "png" || (kind == "npz" && npz.arrays.has_truth()); });
+}
+
+std::vector<io::FileRecord> write_frame(const io::OutputFolder& folder, const FrameFiles& what, const std::string& suffix, const Frame& frame,
+                                        std::string& memory) {
+  std::vector<io::FileRecord> files;
+  const auto put = [&](const char* stem, const char* extension, std::string_view bytes) {
+    files.push_back(folder.put(stem + suffix + extension, bytes));
+  };
+  const Inputs& in = what.inputs;
+  for (const std::string& kind : what.emit) {
     if (kind == "npz") {
-      const std::string meta = io::frame_meta(inputs.scene, inputs.camera, options.seed, options.noise, frame.index);
-      folder.write("frame" + suffix + ".npz",
-                   io::frame_npz_bytes(frame, inputs.camera, inputs.pose.value_or(camera_pose(inputs.scene)), meta, inputs.kept));
+      const std::string meta = io::frame_meta(in.scene, in.camera, what.simulated.seed, what.simulated.noise, frame.index);
+      io::frame_npz_bytes(frame, in.camera, in.pose.value_or(camera_pose(in.scene)), meta, what.npz, memory);
+      put("frame", ".npz", memory);
     } else if (kind == "png") {
-      folder.write("depth" + suffix + ".png", io::depth_png(frame.depth));
-      folder.write("amplitude" + suffix + ".png", io::amplitude_png(frame.depth));
-      folder.write("raw" + suffix + ".png", io::raw_png(frame.raw, theme));
-      folder.write("preview" + suffix + ".png", io::preview_png(frame.depth, frame.truth, caption(frame, inputs), theme));
+      put("depth", ".png", io::depth_png(frame.depth));
+      put("amplitude", ".png", io::amplitude_png(frame.depth));
+      put("raw", ".png", io::raw_png(frame.raw, what.theme));
+      put("preview", ".png", io::preview_png(frame.depth, frame.truth, caption(frame, in), what.theme));
     } else {
-      folder.write("cloud" + suffix + ".ply", io::cloud_ply(frame.depth));
+      put("cloud", ".ply", io::cloud_ply(frame.depth));
     }
   }
+  return files;
+}
+
+void write_frame(io::OutputFolder& folder, const FrameFiles& what, const Frame& frame) {
+  std::string memory;
+  for (const io::FileRecord& file : write_frame(folder, what, "", frame, memory)) folder.add(file);
 }
 
 }  // namespace tofray::app

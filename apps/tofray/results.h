@@ -46,9 +46,29 @@ Validity validity(const Depth& depth);
 /// Name of each bit of Depth::flags, from bit 0.
 const std::vector<std::string>& flag_names();
 
-/// Writes the chosen files of one frame, each name with `suffix` before its extension. Where `truth` has no arrays, none are written.
-void write_frame(io::OutputFolder& folder, const std::vector<std::string>& emit, const std::string& suffix, const Frame& frame,
-                 const Inputs& inputs, const SimulatorOptions& options, io::Theme theme);
+/// Which files each frame gets, and what they tell of where it comes from.
+struct FrameFiles {
+  /// @param emit  out of npz, png, ply, where the user has not said
+  /// @throws Error (bad_input) where --arrays or --compress is of files that --emit leaves out
+  FrameFiles(const Options& options, const std::vector<std::string>& emit, const Inputs& inputs, const SimulatorOptions& simulated);
+  /// Whether a file shows any of the ground truth.
+  [[nodiscard]] bool need_truth() const;
+
+  std::vector<std::string> emit;
+  io::FrameFileOptions npz;
+  const Inputs& inputs;
+  SimulatorOptions simulated;
+  io::Theme theme;
+};
+
+/// Writes the files of one frame, each name with `suffix` before its extension. Arrays that the frame does not have are left out.
+/// Several threads may write to a folder at once.
+/// @param memory  used again by the next frame
+/// @return what was written, to be added to the folder
+std::vector<io::FileRecord> write_frame(const io::OutputFolder& folder, const FrameFiles& what, const std::string& suffix, const Frame& frame,
+                                        std::string& memory);
+/// The same for a single frame; the folder knows its files then.
+void write_frame(io::OutputFolder& folder, const FrameFiles& what, const Frame& frame);
 
 /// What a run was computed on.
 struct Machine {

@@ -32,6 +32,16 @@ double stage_seconds(const Stopwatch& stopwatch, const char* stage) {
   return 0;
 }
 
+/// Frames per second: while they were computed, and with what the run had to wait for files besides.
+struct Rates {
+  double computed, written;
+};
+
+Rates rates_of(std::uint64_t frames, const Stopwatch& stopwatch) {
+  const double computing = stage_seconds(stopwatch, "simulate") + stage_seconds(stopwatch, "process");
+  return {static_cast<double>(frames) / computing, static_cast<double>(frames) / (computing + stage_seconds(stopwatch, "write"))};
+}
+
 }  // namespace
 
 void write_manifest(io::OutputFolder& folder, const Options& options, const std::vector<io::InputFile>& inputs, const Machine& machine,
@@ -45,6 +55,8 @@ void write_manifest(io::OutputFolder& folder, const Options& options, const std:
   if (options.noise) manifest.options.emplace_back("noise", io::noise_name(*options.noise));
   if (options.emit) manifest.options.emplace_back("emit", joined(*options.emit));
   if (options.theme == io::Theme::light) manifest.options.emplace_back("theme", "light");
+  if (!options.arrays.empty()) manifest.options.emplace_back("arrays", options.arrays);
+  if (options.compress) manifest.options.emplace_back("compress", "on");
   if (options.frames) manifest.options.emplace_back("frames", std::to_string(*options.frames));
   if (options.first_frame > 0) manifest.options.emplace_back("first-frame", std::to_string(options.first_frame));
   manifest.seed = options.seed.value_or(0);
@@ -66,7 +78,9 @@ io::Json summary_json(const io::OutputFolder& folder, const Depth& last, std::ui
     files.push(io::Json::object().set("name", file.name).set("bytes", file.bytes).set("sha256", file.sha256));
   for (const auto& [stage, seconds] : stopwatch.stages()) timings.set(stage, seconds);
   const Validity pixels = validity(last);
+  const Rates rates = rates_of(frames, stopwatch);
   io::Json json = io::Json::object();
+  json.set("computed_frames_per_s", rates.computed).set("written_frames_per_s", rates.written);
   json.set("folder", folder.path().native()).set("frames", frames).set("pixels", pixels.pixels).set("valid_pixels", pixels.valid);
   return json.set("backend", machine.backend).set("gpu", machine.gpu).set("isa", machine.isa).set("threads", machine.threads).set("timings_s", std::move(timings)).set("files", std::move(files));
 }
@@ -79,10 +93,10 @@ std::string summary_text(const io::OutputFolder& folder, const Depth& last, std:
   std::string text = fmt::format("{} files, {}, in {}\n", folder.files().size(), size_text(bytes), folder.path().native());
   text += fmt::format("{} of {} pixels {}have a depth{}{}\n", pixels.valid, pixels.pixels, frames > 1 ? "of the last frame " : "",
                       pixels.reasons.empty() ? "" : "; invalid: ", pixels.reasons);
-  const double simulating = stage_seconds(stopwatch, "simulate");
+  const Rates rates = rates_of(frames, stopwatch);
   if (frames > 1)
-    text += fmt::format("{} frames in {:.2f} s: {:.1f} frames/s simulated", frames, stopwatch.total(),
-                        static_cast<double>(frames) / simulating);
+    text += fmt::format("{} frames in {:.2f} s: {:.1f} frames/s computed, {:.1f} written", frames, stopwatch.total(),
+                        rates.computed, rates.written);
   else
     text += fmt::format("{:.2f} s", stopwatch.total());
   return text + fmt::format(" with {}\n", machine.text());

@@ -4,6 +4,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
+#include "base/text.h"
+#include "tofray/error.h"
 #include "tofray/frame_arrays.h"
 
 namespace tofray::io {
@@ -47,6 +51,17 @@ std::vector<ArrayRow> make_table() {
   return rows;
 }
 
+/// Whether a name fits a pattern in which * stands for any letters, or none.
+bool fits(std::string_view name, std::string_view pattern) {
+  const std::size_t star = pattern.find('*');
+  if (star == std::string_view::npos) return name == pattern;
+  if (!name.starts_with(pattern.substr(0, star))) return false;
+  for (std::size_t from = star; from <= name.size(); ++from) {
+    if (fits(name.substr(from), pattern.substr(star + 1))) return true;
+  }
+  return false;
+}
+
 }  // namespace
 
 const std::vector<ArrayRow>& array_table() {
@@ -61,12 +76,43 @@ const ArrayRow* find_array(std::string_view name) {
   return nullptr;
 }
 
+ArrayChoice::ArrayChoice(const std::string& words) : all_(false) {
+  std::vector<std::string> known;
+  for (const ArrayRow& row : array_table()) known.push_back(row.name);
+  for (std::size_t from = 0; from <= words.size();) {
+    const std::size_t end = std::min(words.find(',', from), words.size());
+    const std::string word = words.substr(from, end - from);
+    const std::size_t before = names_.size();
+    std::copy_if(known.begin(), known.end(), std::back_inserter(names_), [&](const std::string& name) { return fits(name, word); });
+    if (names_.size() == before)
+      throw Error(ErrorKind::bad_input,
+                  fmt::format("error: there is no array {}{}\n  expected names or patterns between commas, as in raw,z_m,gt_*; `tofray list arrays` has them all",
+                              base::in_quotes(word), base::did_you_mean(word, known)));
+    if (names_.size() == before + 1 && names_.back() == word) named_.push_back(word);
+    from = end + 1;
+  }
+}
+
+bool ArrayChoice::has(const ArrayRow& row) const {
+  if (row.name == "gt_time_s") return has_truth();
+  return all_ || !row.is_image() || std::find(names_.begin(), names_.end(), row.name) != names_.end();
+}
+
+bool ArrayChoice::has_truth() const {
+  return all_ || std::any_of(names_.begin(), names_.end(), [](const std::string& name) { return name.starts_with("gt_"); });
+}
+
 std::string array_reference() {
   std::string text =
       "<!-- SPDX-FileCopyrightText: 2026 The tofray authors -->\n"
       "<!-- SPDX-License-Identifier: Apache-2.0 -->\n"
-      "<!-- Written by tofray list arrays --markdown. -->\n"
-      "# Arrays of frame.npz\n\n";
+      "# Arrays of frame.npz\n\n"
+      "This page is made of the table that the code takes its arrays from; a test holds them together. `tofray list arrays` prints it,\n"
+      "`tofray render --arrays raw,z_m,gt_*` chooses. What has no pixels (`[phase]`, `[3, 3]` …) is small and always there, and so is `meta`,\n"
+      "a text (JSON): version, seed, noise, number of the frame, units, the camera and the scene with all their numbers.\n\n"
+      "Arrays are row-major; invalid values are NaN in floats and 0 in integers. Camera frame: x right, y down, z forward.\n"
+      "What begins with `gt_` is ground truth, at the middle of the middle raw frame. In C++ the same arrays are members of\n"
+      "`Frame::raw`, `Frame::depth` and `Frame::truth` (there without `gt_`).\n\n";
   text += "| array | type | shape | unit | from | what it is |\n|---|---|---|---|---|---|\n";
   for (const ArrayRow& row : array_table())
     text += fmt::format("| `{}` | {} | {} | {} | {} | {} |\n", row.name, row.type.name(), row.shape, row.unit, row.from, row.what);

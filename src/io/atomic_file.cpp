@@ -6,6 +6,7 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/file.h>
+#include <sched.h>
 #include <sys/stat.h>
 #include <sys/statvfs.h>
 #include <unistd.h>
@@ -27,11 +28,13 @@ namespace {
 
 // --- temporaries that a signal handler can remove -----------------------------------------------------------------------------
 
-enum class SlotState : int { free, filling, live, being_removed, removed };
+/// filling: there is no file yet. opening: there may be one, or will be. live: there is.
+enum class SlotState : int { free, filling, opening, live, being_removed, removed };
 
 /// Folder and name of a temporary; no memory is allocated, so that a signal handler may read it.
 struct Slot {
   std::atomic<SlotState> state{SlotState::free};
+  std::atomic<pid_t> thread{0};   ///< that opens it
   int folder = -1;
   char name[56] = {};
 };
@@ -39,6 +42,7 @@ struct Slot {
 constexpr int slot_count = 64;
 constinit Slot slots[slot_count];
 constinit std::atomic<unsigned> next_number{0};
+constinit std::atomic<bool> ended{false};   ///< no temporary may begin
 static_assert(std::atomic<SlotState>::is_always_lock_free);
 
 /// A place in the table, for as long as the temporary may exist.
@@ -52,8 +56,12 @@ class LiveTemporary {
       slot.folder = folder;
       const auto number = next_number.fetch_add(1);
       *fmt::format_to_n(slot.name, sizeof slot.name - 1, ".tofray-{}-{}.tmp", getpid(), number).out = '\0';
-      slot.state = SlotState::live;
-      return;
+      slot.thread = ::gettid();
+      slot.state = SlotState::opening;
+      // Either we see here that all has ended, or who ends it sees us.
+      if (!ended) return;
+      slot.state = SlotState::free;
+      throw Error(ErrorKind::io, "error: interrupted");
     }
     throw Error(ErrorKind::limit, fmt::format("error: more than {} files are being written at once", slot_count));
   }
@@ -67,6 +75,8 @@ class LiveTemporary {
     slot_->state = SlotState::free;
   }
   [[nodiscard]] const char* name() const { return slot_->name; }
+  /// The file is there, or could not be made.
+  void opened() const { slot_->state = SlotState::live; }
 
  private:
   Slot* slot_ = nullptr;
@@ -210,6 +220,7 @@ void remove_if_stale(int folder, const char* name) {
 bool write_and_rename(const std::filesystem::path& path, std::string_view bytes, int folder, const FileCalls& calls) {
   const LiveTemporary temporary(folder);
   Descriptor file(open_retrying(calls, folder, temporary.name(), O_WRONLY | O_CREAT | O_EXCL), calls);
+  temporary.opened();
   if (file.number() < 0 && errno == EEXIST) return false;
   if (file.number() < 0) fail(path, "make a temporary file in its folder", errno, bytes.size(), folder);
   RemoveUnlessKept guard(folder, temporary.name());
@@ -255,10 +266,18 @@ void remove_stale_temporaries(const std::filesystem::path& folder) {
     if (is_temporary_name(entry->d_name)) remove_if_stale(::dirfd(open.get()), entry->d_name);
 }
 
+void end_writing() noexcept {
+  ended = true;
+  remove_live_temporaries();
+}
+
 void remove_live_temporaries() noexcept {
   const int saved_errno = errno;
   for (Slot& slot : slots) {
-    SlotState expected = SlotState::live;
+    // What another thread is opening will be there soon (unless a disk hangs). What this one was opening stays as it is meanwhile.
+    const bool ours = slot.thread == ::gettid();
+    for (int i = 0; !ours && i < 1'000'000 && slot.state == SlotState::opening; ++i) ::sched_yield();
+    SlotState expected = ours && slot.state == SlotState::opening ? SlotState::opening : SlotState::live;
     if (!slot.state.compare_exchange_strong(expected, SlotState::being_removed)) continue;
     unlinkat(slot.folder, slot.name, 0);
     slot.state = SlotState::removed;

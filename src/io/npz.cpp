@@ -32,50 +32,6 @@ using Source = std::unique_ptr<zip_source_t, SourceFree>;
 using Archive = std::unique_ptr<zip_t, ArchiveDiscard>;
 using EntryFile = std::unique_ptr<zip_file_t, FileClose>;
 
-/// libzip's errors while writing to memory can only be lack of memory or our own fault.
-void require(bool good, const char* step) {
-  if (!good) throw Error(ErrorKind::bug, fmt::format("error: libzip cannot {}", step));
-}
-
-void close_archive(zip_t* archive) {
-  if (zip_close(archive) == 0) return;
-  const zip_error_t* error = zip_get_error(archive);
-  if (zip_error_code_zip(error) == ZIP_ER_MEMORY || zip_error_code_system(error) == ENOMEM) throw std::bad_alloc();
-  require(false, "write the archive");
-}
-
-zip_uint8_t* mutable_bytes(std::string_view text) {
-  // libzip's fragments are not const, though it only reads them
-  return reinterpret_cast<zip_uint8_t*>(const_cast<char*>(text.data()));
-}
-
-/// Adds header and data as one stored entry of fixed time; both must live until the archive is closed.
-void add_entry(zip_t* archive, const NpyView& view, const std::string& header) {
-  zip_buffer_fragment_t parts[2] = {{mutable_bytes(header), header.size()}, {mutable_bytes(view.bytes), view.bytes.size()}};
-  zip_source_t* source = zip_source_buffer_fragment(archive, parts, view.bytes.empty() ? 1 : 2, 0);
-  require(source != nullptr, "make an entry");
-  const zip_int64_t index = zip_file_add(archive, (view.name + ".npy").c_str(), source, ZIP_FL_ENC_UTF_8);
-  if (index < 0) zip_source_free(source);
-  require(index >= 0, "add an entry");
-  const auto entry = static_cast<zip_uint64_t>(index);
-  require(zip_set_file_compression(archive, entry, ZIP_CM_STORE, 0) == 0, "store an entry");
-  constexpr zip_uint16_t midnight = 0, first_of_january_1980 = 1 << 5 | 1;
-  require(zip_file_set_dostime(archive, entry, midnight, first_of_january_1980, 0) == 0, "set an entry's time");
-}
-
-/// What libzip has written into a memory source.
-std::string bytes_of(zip_source_t* source) {
-  zip_stat_t status;
-  zip_stat_init(&status);
-  require(zip_source_stat(source, &status) == 0 && (status.valid & ZIP_STAT_SIZE) != 0 && zip_source_open(source) == 0,
-          "read back its buffer");
-  std::string bytes(status.size, '\0');
-  const zip_int64_t got = zip_source_read(source, bytes.data(), bytes.size());
-  zip_source_close(source);
-  require(got == static_cast<zip_int64_t>(bytes.size()), "read back its buffer");
-  return bytes;
-}
-
 [[noreturn]] void refuse(const std::string& where, const std::string& what) {
   throw Error(ErrorKind::bad_input, fmt::format("{}: error: {}", where, what));
 }
@@ -153,22 +109,16 @@ Archive open_archive(std::string_view file, const std::string& where) {
 
 }  // namespace
 
-std::string npz_bytes(const std::vector<NpyView>& arrays) {
-  zip_error_t error;
-  zip_error_init(&error);
-  const Source buffer(zip_source_buffer_create(nullptr, 0, 0, &error));
-  require(buffer != nullptr, "make a buffer");
-  zip_source_keep(buffer.get());
-  Archive archive(zip_open_from_source(buffer.get(), ZIP_CREATE | ZIP_TRUNCATE, &error));
-  if (!archive) zip_source_free(buffer.get());
-  zip_error_fini(&error);
-  require(archive != nullptr, "begin an archive");
-  std::vector<std::string> headers;
-  headers.reserve(arrays.size());
-  for (const NpyView& view : arrays) add_entry(archive.get(), view, headers.emplace_back(npy_header(view.type, view.shape)));
-  close_archive(archive.get());
-  (void)archive.release();  // closed
-  return bytes_of(buffer.get());
+void npz_bytes(const std::vector<NpyView>& arrays, Packing packing, std::string& file) {
+  ZipWriter zip(file, packing);
+  for (const NpyView& view : arrays) zip.add(view.name + ".npy", npy_header(view.type, view.shape), view.bytes);
+  zip.finish();
+}
+
+std::string npz_bytes(const std::vector<NpyView>& arrays, Packing packing) {
+  std::string file;
+  npz_bytes(arrays, packing, file);
+  return file;
 }
 
 std::vector<NamedArray> parse_npz(std::string_view file, const std::string& where, const std::vector<std::string>& wanted) {

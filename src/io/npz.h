@@ -6,9 +6,10 @@
 #include <vector>
 
 #include "io/npy.h"
+#include "io/zip_writer.h"
 #include "tofray/error.h"
 
-/// Several arrays in one file (.npz): a zip of .npy entries, stored without compression, the same bytes each run.
+/// Several arrays in one file (.npz): a zip of .npy entries, stored or deflated, the same bytes each run.
 namespace tofray::io {
 
 /// An array to write; the data stay the caller's.
@@ -29,7 +30,9 @@ NpyView npy_view(const std::string& name, const NpyShape& shape, const std::vect
 }
 
 /// The bytes of a .npz file. Entries stand in the order given; their time is 1980-01-01 in every time zone.
-std::string npz_bytes(const std::vector<NpyView>& arrays);
+std::string npz_bytes(const std::vector<NpyView>& arrays, Packing packing = Packing::stored);
+/// The same into memory that is used again.
+void npz_bytes(const std::vector<NpyView>& arrays, Packing packing, std::string& file);
 
 struct NamedArray {
   std::string name;

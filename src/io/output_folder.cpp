@@ -24,10 +24,13 @@ OutputFolder::OutputFolder(std::filesystem::path path) : path_(std::move(path)) 
   remove_stale_temporaries(path_);
 }
 
-void OutputFolder::write(const std::string& name, std::string_view bytes) {
+FileRecord OutputFolder::put(const std::string& name, std::string_view bytes) const {
   write_file_atomically(path_ / name, bytes);
-  FileRecord record{name, bytes.size(), sha256_hex(bytes)};
-  const auto before = std::find_if(files_.begin(), files_.end(), [&](const FileRecord& file) { return file.name == name; });
+  return {name, bytes.size(), sha256_hex(bytes)};
+}
+
+void OutputFolder::add(FileRecord record) {
+  const auto before = std::find_if(files_.begin(), files_.end(), [&](const FileRecord& file) { return file.name == record.name; });
   if (before != files_.end()) files_.erase(before);
   files_.push_back(std::move(record));
 }

@@ -23,11 +23,15 @@ class OutputFolder {
   /// @throws Error (io) where the folder cannot be made, or a file is in its place
   explicit OutputFolder(std::filesystem::path path);
 
-  /// Writes one file and remembers its size and SHA-256. @throws Error (io)
-  void write(const std::string& name, std::string_view bytes);
+  /// Writes one file. Several threads may do so at once. @throws Error (io)
+  [[nodiscard]] FileRecord put(const std::string& name, std::string_view bytes) const;
+  /// Remembers a file that was put.
+  void add(FileRecord record);
+  /// Both. @throws Error (io)
+  void write(const std::string& name, std::string_view bytes) { add(put(name, bytes)); }
 
   [[nodiscard]] const std::filesystem::path& path() const { return path_; }
-  /// What has been written, in order; a name that was written twice stands once, as last written.
+  /// What has been added, in order; a name that was added twice stands once, as last written.
   [[nodiscard]] const std::vector<FileRecord>& files() const { return files_; }
 
  private:

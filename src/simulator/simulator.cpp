@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tofray/simulator.h"
 
+#include <algorithm>
+
 #include "base/constants.h"
 #include "scene/ambient.h"
 #include "simulator/check.h"
@@ -137,7 +139,9 @@ void Simulator::Impl::frame(std::uint64_t index, const pipeline::Input* input, F
     setup.scene.slots = 0;   // nothing of what moves need go to a GPU
     set_sensor(request);
   }
-  job.out = simulator::view_of(into, options.last_stage);
+  // What is given of the stage before the entry is known, however early the last one is.
+  const Stage given = input == nullptr ? Stage::trace : static_cast<Stage>(input->entry - 1);
+  job.out = simulator::view_of(into, std::max(options.last_stage, given));
   if (!gpus.empty()) {
     try {
       gpus[0]->run(setup, job, input);

@@ -68,7 +68,8 @@ TEST(broken_disk, at_any_call_ends_with_3_and_leaves_whole_files) {
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
   GTEST_SKIP() << "sanitizers do not run under strace";
 #endif
-  const Arguments arguments = with_small_sensor({"render", "card", "-o", "out", "--frames", "3", "--threads", "1"});
+  // strace counts the calls of each thread: of 24 frames one of the six that write has four at least.
+  const Arguments arguments = with_small_sensor({"render", "card", "-o", "out", "--frames", "24", "--threads", "1"});
   const Folder none;
   if (run({}, failing(none.path(), "fsync", "EIO", 1000, {"list", "scenes"})).code != 0) GTEST_SKIP() << "no strace here, or it may not trace";
   for (const char* call : {"write", "fsync", "renameat", "mkdir"}) {
@@ -85,7 +86,8 @@ TEST(broken_disk, at_any_call_ends_with_3_and_leaves_whole_files) {
       EXPECT_EQ(temporaries(folder.path()), std::vector<std::string>()) << call << " " << which;
       if (result.code == 3) {
         ++refused, last_refused = which;
-        EXPECT_TRUE(has(result.err, error == "EIO" ? "Input/output error" : "No space left on device")) << result.err;
+        // of `write` the message's own may be the one that fails
+        if (std::string(call) != "write" || !result.err.empty()) EXPECT_TRUE(has(result.err, error == "EIO" ? "Input/output error" : "No space left on device")) << result.err;
       }
       if (!fs::exists(folder / "out")) continue;
       for (const auto& entry : fs::directory_iterator(folder / "out")) {
@@ -93,7 +95,7 @@ TEST(broken_disk, at_any_call_ends_with_3_and_leaves_whole_files) {
         EXPECT_NO_THROW(io::read_npz(entry.path())) << call << " " << which << ": " << entry.path();
       }
     }
-    // Four files, each written, made safe and renamed; one folder.
+    // Each file is written, made safe and renamed; one folder.
     EXPECT_GE(refused, std::string(call) == "mkdir" ? 1 : 4) << call;
   }
 }
