@@ -64,6 +64,7 @@ enum class ArrayShape {
   row(gt_position_m,       truth, position_m,          float,         vectors, trace, "m",         "x, y, z of the surface point, camera frame")             \
   row(gt_normal,           truth, normal,              float,         vectors, trace, "1",         "unit normal of the surface, toward the camera")          \
   row(gt_object_id,        truth, object_id,           std::int32_t,  image,   trace, "1",         "index in Scene::objects, -1 none")                       \
+  row(gt_material_id,      truth, material_id,         std::int32_t,  image,   trace, "1",         "index in Scene::materials, -1 none (or geometry of one's own)") \
   row(gt_irradiance_w_m2,  truth, irradiance_w_m2,     float,         image,   power, "W/m2",      "of the camera's own light on the surface")               \
   row(gt_radiance_w_m2_sr, truth, radiance_w_m2_sr,    float,         image,   power, "W/(m2 sr)", "of that light toward the camera")                        \
   row(gt_power_w,          truth, power_w,             float,         image,   power, "W",         "of that light on the pixel")                             \

@@ -127,7 +127,7 @@ TOFRAY_FN void enter_before_raw(const Setup& s, const Job& job, const Input& in,
         given_light(s, in.light, p, k, lighting);
       }
     }
-    if (k == (in.moments > 1 ? s.truth_slot : 0)) store_truth(job.out, p, surface, lighting.radiometry);
+    if (k == (in.moments > 1 ? s.truth_slot : 0)) store_truth(job.out, p, surface, lighting.radiometry, [] { return num::Int<F>(-1); });
     if (s.last_stage >= stage_raw) difference[k] = collect(s, job, p, k, lighting.light, anew, exposure);
   }
   end_frame(s, job, p, ray, difference, exposure, vignetting);

@@ -30,8 +30,9 @@ TOFRAY_FN void store_taps(int pixels, const flow::FrameView& out, const Pixels& 
 }
 
 /// What the surface shows: the paper's matrices.
-template <class F>
-TOFRAY_FN void store_truth(const flow::FrameView& out, const Pixels& p, const flow::Surface<F>& s, const flow::Radiometry<F>& r) {
+/// @param material  says the number of its material, where that is wanted
+template <class F, class Material>
+TOFRAY_FN void store_truth(const flow::FrameView& out, const Pixels& p, const flow::Surface<F>& s, const flow::Radiometry<F>& r, Material material) {
   const auto value = [&](F a) __attribute__((always_inline)) { return num::select(s.found, a, nan<F>()); };
   store(out.gt_range_m, p, value(s.range));
   store(out.gt_z_m, p, value(s.z));
@@ -39,6 +40,7 @@ TOFRAY_FN void store_truth(const flow::FrameView& out, const Pixels& p, const fl
   store3(out.gt_position_m, p, value(s.x), value(s.y), value(s.z));
   store3(out.gt_normal, p, value(s.nx), value(s.ny), value(s.nz));
   if (out.gt_object_id != nullptr) num::store(out.gt_object_id + p.index, num::select(s.found, s.object, num::Int<F>(-1)), p.count);
+  if (out.gt_material_id != nullptr) num::store(out.gt_material_id + p.index, num::select(s.found, material(), num::Int<F>(-1)), p.count);
   store(out.gt_irradiance_w_m2, p, r.irradiance);
   store(out.gt_radiance_w_m2_sr, p, r.radiance);
   store(out.gt_power_w, p, r.power);

@@ -94,7 +94,7 @@ struct Facet {
   float flat[3];
   float inverse_radius;      ///< 0 for flat facets; a sphere has flat = −c/R
   float diffuse, specular, exponent;
-  std::int32_t object;
+  std::int32_t object, material;
 };
 constexpr int facet_floats = sizeof(Facet) / sizeof(float);
 

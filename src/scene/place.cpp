@@ -81,13 +81,15 @@ Placed place(const Scene& scene, const CameraFrame& camera, Group group, double 
 
 void append_facets(const Placed& placed, const Scene& scene, std::vector<Facet>& facets) {
   const auto add = [&](const Vec3& flat, double inverse_radius, int object) {
-    const Material& m = scene.materials[static_cast<std::size_t>(scene.objects[static_cast<std::size_t>(object)].material)];
+    const int material = scene.objects[static_cast<std::size_t>(object)].material;
+    const Material& m = scene.materials[static_cast<std::size_t>(material)];
     facets.push_back({{static_cast<float>(flat[0]), static_cast<float>(flat[1]), static_cast<float>(flat[2])},
                       static_cast<float>(inverse_radius),
                       static_cast<float>(m.diffuse),
                       static_cast<float>(m.specular),
                       static_cast<float>(m.exponent),
-                      object});
+                      object,
+                      material});
   };
   for (const auto& p : placed.planes) add(p.normal, 0, p.object);
   for (const auto& s : placed.spheres) add((-1 / s.radius) * s.center, 1 / s.radius, s.object);

@@ -85,4 +85,10 @@ TOFRAY_FN Surface<F> surface(const scene::SceneView& s, const Ray<F>& ray, const
   return out;
 }
 
+/// Number of its material; only truth asks.
+template <class F>
+TOFRAY_FN Int<F> material(const scene::SceneView& s, const Hit<F>& hit) {
+  return num::gather(reinterpret_cast<const std::int32_t*>(s.facets) + 8, hit.facet * Int<F>(scene::facet_floats));
+}
+
 }  // namespace tofray::trace

@@ -26,6 +26,12 @@ inline Geometry geometry_of(const Scene& scene, const Camera& camera, const Fram
   return out;
 }
 
+/// The frame as geometry of one's own shows it: of materials nothing is known.
+inline Frame without_materials(Frame frame) {
+  frame.truth.material_id.assign(frame.truth.material_id.size(), -1);
+  return frame;
+}
+
 /// The light of a frame without ambient light: ℓ = |P − L| + |P|, as the pipeline rounds it.
 inline PixelLight light_of(const Camera& camera, const Frame& frame) {
   const Truth& truth = frame.truth;
