@@ -24,12 +24,13 @@ std::size_t bytes_of(const Frame& frame) {
 
 }  // namespace
 
-FrameWriter::FrameWriter(io::OutputFolder& folder, const FrameFiles& what, std::uint64_t frames) : folder_(folder), what_(what), frames_(frames) {}
+FrameWriter::FrameWriter(io::OutputFolder& folder, const FrameFiles& what, std::uint64_t frames)
+    : folder_(folder), what_(what), frames_(frames) {}
 
 FrameWriter::~FrameWriter() { stop(); }
 
-/// The first frame says how many there is memory for: one is computed while each worker has one, and the file that it becomes. Where there is
-/// not enough for two, and where no thread can be made, whoever computes writes.
+/// The first frame says how many there is memory for: one is computed while each worker has one, and the file that it becomes. Where
+/// there is not enough for two, and where no thread can be made, whoever computes writes.
 void FrameWriter::hire(const Frame& frame) {
   const std::size_t room = most_bytes / std::max<std::size_t>(1, bytes_of(frame));
   const std::uint64_t workers = frames_ == 1 || room < 3 ? 0 : std::min<std::uint64_t>({most_writers, frames_, (room - 1) / 2});

@@ -52,14 +52,14 @@ class FrameWriter {
   std::vector<std::thread> workers_;
   std::vector<std::unique_ptr<Frame>> memory_;
   Frame* current_ = nullptr;
-  std::string file_;   ///< of whoever computes, where there are no workers
+  std::string file_;  ///< of whoever computes, where there are no workers
 
   std::mutex mutex_;
   std::condition_variable changed_;
   // guarded by it:
   std::vector<Frame*> free_;
   std::deque<Task> waiting_;
-  std::map<std::uint64_t, std::vector<io::FileRecord>> written_;   ///< by frame
+  std::map<std::uint64_t, std::vector<io::FileRecord>> written_;  ///< by frame
   std::map<std::uint64_t, std::exception_ptr> failed_;
   bool stopping_ = false;
 };

@@ -18,16 +18,19 @@ constexpr double degrees = 180 / base::pi;
 /// A number, or a dash where there is none: the file does not have its array, or it is invalid.
 std::string shown(const char* format, double value) { return std::isnan(value) ? "-" : fmt::format(fmt::runtime(format), value); }
 
-std::string triple(const std::array<double, 3>& v) { return fmt::format("({}, {}, {})", shown("{:.4f}", v[0]), shown("{:.4f}", v[1]), shown("{:.4f}", v[2])); }
+std::string triple(const std::array<double, 3>& v) {
+  return fmt::format("({}, {}, {})", shown("{:.4f}", v[0]), shown("{:.4f}", v[1]), shown("{:.4f}", v[2]));
+}
 
 std::string surface_text(const PixelChain& p, bool knows_object) {
   if (knows_object && p.object < 0) return "surface     nothing is seen here\n";
   std::string text = fmt::format("surface     object {}{}, reflectivity {}\n", knows_object ? std::to_string(p.object) : "-",
                                  p.object_name.empty() ? "" : " (" + p.object_name + ")", shown("{:.4g}", p.reflectivity));
-  text += fmt::format("            range {} m, z {} m, at {} m\n", shown("{:.6f}", p.true_range_m), shown("{:.6f}", p.true_z_m), triple(p.position_m));
+  text += fmt::format("            range {} m, z {} m, at {} m\n", shown("{:.6f}", p.true_range_m), shown("{:.6f}", p.true_z_m),
+                      triple(p.position_m));
   text += fmt::format("            normal {}, seen at {} deg to it\n", triple(p.normal), shown("{:.1f}", p.incidence_rad * degrees));
-  text += fmt::format("light       irradiance on the surface {} W/m2, radiance toward the camera {} W/(m2 sr)\n", shown("{:.4g}", p.irradiance_w_m2),
-                      shown("{:.4g}", p.radiance_w_m2_sr));
+  text += fmt::format("light       irradiance on the surface {} W/m2, radiance toward the camera {} W/(m2 sr)\n",
+                      shown("{:.4g}", p.irradiance_w_m2), shown("{:.4g}", p.radiance_w_m2_sr));
   return text + fmt::format("            power on the pixel {} W\n", shown("{:.4g}", p.power_w));
 }
 
@@ -40,8 +43,8 @@ std::string raw_text(const PixelChain& p) {
     const std::string modulation = one.lit ? shown("{:.6g}", 1e-6 * one.modulation_frequency_hz) : "unlit";
     text += fmt::format("{:>9}   {:>14} {:>13} {:>11} {:>11} {:>10} {:>10} {:>10} {:>8}\n", k, modulation,
                         shown("{:.6g}", one.reference_phase_rad * degrees), shown("{:.6g}", 1e6 * one.integration_time_s),
-                        shown("{:.1f}", one.signal_e), shown("{:.1f}", one.tap_a_e), shown("{:.1f}", one.tap_b_e), shown("{:.1f}", one.difference_e),
-                        shown("{:.6g}", one.code_dn));
+                        shown("{:.1f}", one.signal_e), shown("{:.1f}", one.tap_a_e), shown("{:.1f}", one.tap_b_e),
+                        shown("{:.1f}", one.difference_e), shown("{:.6g}", one.code_dn));
   }
   return text;
 }
@@ -49,8 +52,8 @@ std::string raw_text(const PixelChain& p) {
 std::string phase_text(const PixelChain& p) {
   std::string text;
   for (const ChainPhase& one : p.phases) {
-    text += fmt::format("phase       {:.6g} MHz: {} deg, amplitude {} e", 1e-6 * one.modulation_frequency_hz, shown("{:.2f}", one.measured_turns * 360),
-                        shown("{:.1f}", one.amplitude_e));
+    text += fmt::format("phase       {:.6g} MHz: {} deg, amplitude {} e", 1e-6 * one.modulation_frequency_hz,
+                        shown("{:.2f}", one.measured_turns * 360), shown("{:.1f}", one.amplitude_e));
     if (std::isfinite(one.calibrated_turns)) text += fmt::format("; calibrated {:.2f} deg", one.calibrated_turns * 360);
     if (std::isfinite(one.half_path_m))
       text += fmt::format("; half path {:.4f} m x ({:.0f} + {:.4f}) = {:.4f} m", one.half_wave_m, one.cycles, one.calibrated_turns,
@@ -66,14 +69,15 @@ std::string depth_text(const PixelChain& p, const Arrays& arrays) {
   const bool none = std::isnan(p.range_m) && arrays.find("range_m") != nullptr;
   std::string text = fmt::format("depth       none{}{}\n", flags.empty() ? "" : ": ", flags);
   if (!none) {
-    text = fmt::format("depth       range {} m, z {} m, point {} m\n", shown("{:.6f}", p.range_m), shown("{:.6f}", p.z_m), triple(p.point_m));
+    text =
+        fmt::format("depth       range {} m, z {} m, point {} m\n", shown("{:.6f}", p.range_m), shown("{:.6f}", p.z_m), triple(p.point_m));
     const double error = p.range_m - p.true_range_m;
     text += fmt::format("            noise {} mm (1 sigma)", shown("{:.2f}", 1e3 * p.noise_m));
     if (std::isfinite(error)) text += fmt::format(", error {:+.2f} mm, {} sigma", 1e3 * error, shown("{:+.2f}", error / p.noise_m));
     text += "\n";
   }
-  text += fmt::format("            amplitude {} e, ambient {} e, confidence {} of 255\n", shown("{:.1f}", p.amplitude_e), shown("{:.1f}", p.ambient_e),
-                      shown("{:.0f}", p.confidence));
+  text += fmt::format("            amplitude {} e, ambient {} e, confidence {} of 255\n", shown("{:.1f}", p.amplitude_e),
+                      shown("{:.1f}", p.ambient_e), shown("{:.0f}", p.confidence));
   return text + fmt::format("            flags: {}\n", arrays.find("flags") == nullptr ? "-" : flags.empty() ? "none" : flags);
 }
 

@@ -49,8 +49,8 @@ struct Frame {
   Truth truth;                  ///< empty arrays where not asked for
 };
 
-/// A frame of a batch, where it lies: arrays as in Raw, Depth and Truth, under their names in files (gt_range_m is Truth::range_m). Null where
-/// a stage was not reached or the truth not asked for.
+/// A frame of a batch, where it lies: arrays as in Raw, Depth and Truth, under their names in files (gt_range_m is Truth::range_m).
+/// Null where a stage was not reached or the truth not asked for.
 struct FrameArrays {
   std::uint64_t index = 0;
   int width = 0, height = 0, phases = 0;

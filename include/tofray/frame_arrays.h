@@ -3,8 +3,9 @@
 #pragma once
 #include <cstdint>
 
-/// The arrays of a frame: one row each, and no other list of them. The members of Raw, Depth, Truth and FrameArrays (tofray/frame.h) come from
-/// these rows, and so do memory, copies to and from a GPU, the entries of frame.npz with their units, `--arrays`, and docs/reference/arrays.md.
+/// The arrays of a frame: one row each, and no other list of them. The members of Raw, Depth, Truth and FrameArrays (tofray/frame.h) come
+/// from these rows, and so do memory, copies to and from a GPU, the entries of frame.npz with their units, `--arrays`, and
+/// docs/reference/arrays.md.
 ///
 /// A row:
 ///
@@ -31,44 +32,47 @@ enum class ArrayShape {
 // clang-format off
 
 /// Raw: what the sensor hands out.
-#define TOFRAY_RAW_ARRAYS(row)                                                                                                                              \
-  /*  name                 part   member               element        shape    stage  unit         what it is */                                            \
-  row(tap_a,               raw,   tap_a,               float,         stack,   raw,   "e",         "electrons of tap A, after the charge model")             \
-  row(tap_b,               raw,   tap_b,               float,         stack,   raw,   "e",         "electrons of tap B, after the charge model")             \
-  row(raw,                 raw,   raw,                 std::uint16_t, stack,   raw,   "DN",        "the ADC's code of A-B")
+#define TOFRAY_RAW_ARRAYS(row) \
+  /*  name   part member element        shape  stage unit  what it is */ \
+  row(tap_a, raw, tap_a, float,         stack, raw,  "e",  "electrons of tap A, after the charge model") \
+  row(tap_b, raw, tap_b, float,         stack, raw,  "e",  "electrons of tap B, after the charge model") \
+  row(raw,   raw, raw,   std::uint16_t, stack, raw,  "DN", "the ADC's code of A-B")
 
 /// Raw: when and how each raw frame was exposed. The host knows it before a frame begins: no kernel writes these.
-#define TOFRAY_EXPOSURE_ARRAYS(row)                                                                                                                         \
-  row(modulation_frequency_hz, raw, modulation_frequency_hz, double,  list,    raw,   "Hz",        "0 where unlit")                                          \
-  row(reference_phase_rad, raw,   reference_phase_rad, double,        list,    raw,   "rad",       "tau, 0 where unlit")                                     \
-  row(integration_time_s,  raw,   integration_time_s,  double,        list,    raw,   "s",         "how long light is collected")                            \
-  row(start_time_s,        raw,   start_time_s,        double,        list,    raw,   "s",         "when the exposure begins; 0: the scene as written")      \
-  row(lit,                 raw,   lit,                 std::uint8_t,  list,    raw,   "1",         "1 where the camera's own light is on, else 0")
+#define TOFRAY_EXPOSURE_ARRAYS(row) \
+  /*  name                     part member                   element       shape stage unit   what it is */ \
+  row(modulation_frequency_hz, raw, modulation_frequency_hz, double,       list, raw,  "Hz",  "0 where unlit") \
+  row(reference_phase_rad,     raw, reference_phase_rad,     double,       list, raw,  "rad", "tau, 0 where unlit") \
+  row(integration_time_s,      raw, integration_time_s,      double,       list, raw,  "s",   "how long light is collected") \
+  row(start_time_s,            raw, start_time_s,            double,       list, raw,  "s",   "0: the scene as written") \
+  row(lit,                     raw, lit,                     std::uint8_t, list, raw,  "1",   "the camera's own light is on")
 
 /// Depth, camera frame (x right, y down, z forward).
-#define TOFRAY_DEPTH_ARRAYS(row)                                                                                                                            \
-  row(z_m,                 depth, z_m,                 float,         image,   depth, "m",         "along the optical axis")                                 \
-  row(range_m,             depth, range_m,             float,         image,   depth, "m",         "along the pixel's ray")                                  \
-  row(points_m,            depth, points_m,            float,         vectors, depth, "m",         "x, y, z of the surface point")                           \
-  row(amplitude_e,         depth, amplitude_e,         float,         image,   depth, "e",         "mean amplitude of the modulation frequencies")           \
-  row(ambient_e,           depth, ambient_e,           float,         image,   depth, "e",         "ambient light, both taps, per lit exposure (none lit: of the mean exposure)") \
-  row(noise_m,             depth, noise_m,             float,         image,   depth, "m",         "estimated noise of the range, 1 sigma")                  \
-  row(confidence,          depth, confidence,          std::uint8_t,  image,   depth, "1",         "0 to 255")                                               \
-  row(flags,               depth, flags,               std::uint16_t, image,   depth, "1",         "bits of Flag: why a depth is invalid, and warnings")
+#define TOFRAY_DEPTH_ARRAYS(row) \
+  /*  name         part   member       element        shape    stage  unit what it is */ \
+  row(z_m,         depth, z_m,         float,         image,   depth, "m", "along the optical axis") \
+  row(range_m,     depth, range_m,     float,         image,   depth, "m", "along the pixel's ray") \
+  row(points_m,    depth, points_m,    float,         vectors, depth, "m", "x, y, z of the surface point") \
+  row(amplitude_e, depth, amplitude_e, float,         image,   depth, "e", "mean of the modulation frequencies' amplitudes") \
+  row(ambient_e,   depth, ambient_e,   float,         image,   depth, "e", "of both taps, per lit (if none: mean) exposure") \
+  row(noise_m,     depth, noise_m,     float,         image,   depth, "m", "estimated noise of the range, 1 sigma") \
+  row(confidence,  depth, confidence,  std::uint8_t,  image,   depth, "1", "0 to 255") \
+  row(flags,       depth, flags,       std::uint16_t, image,   depth, "1", "bits of Flag: why a depth is invalid, and warnings")
 
 /// Ground truth at the middle of the middle raw frame, and the power of the camera's own light.
-#define TOFRAY_TRUTH_ARRAYS(row)                                                                                                                            \
-  row(gt_range_m,          truth, range_m,             float,         image,   trace, "m",         "along the pixel's ray")                                  \
-  row(gt_z_m,              truth, z_m,                 float,         image,   trace, "m",         "along the optical axis")                                 \
-  row(gt_reflectivity,     truth, reflectivity,        float,         image,   trace, "1",         "of the surface; Phong: diffuse + specular")              \
-  row(gt_position_m,       truth, position_m,          float,         vectors, trace, "m",         "x, y, z of the surface point, camera frame")             \
-  row(gt_normal,           truth, normal,              float,         vectors, trace, "1",         "unit normal of the surface, toward the camera")          \
-  row(gt_object_id,        truth, object_id,           std::int32_t,  image,   trace, "1",         "index in Scene::objects, -1 none")                       \
-  row(gt_material_id,      truth, material_id,         std::int32_t,  image,   trace, "1",         "index in Scene::materials, -1 none (or geometry of one's own)") \
-  row(gt_irradiance_w_m2,  truth, irradiance_w_m2,     float,         image,   power, "W/m2",      "of the camera's own light on the surface")               \
-  row(gt_radiance_w_m2_sr, truth, radiance_w_m2_sr,    float,         image,   power, "W/(m2 sr)", "of that light toward the camera")                        \
-  row(gt_power_w,          truth, power_w,             float,         image,   power, "W",         "of that light on the pixel")                             \
-  row(gt_signal_e,         truth, signal_e,            float,         stack,   raw,   "e",         "expected electrons of that light in each raw frame, both taps, 0 where unlit")
+#define TOFRAY_TRUTH_ARRAYS(row) \
+  /*  name                 part   member            element       shape    stage  unit         what it is */ \
+  row(gt_range_m,          truth, range_m,          float,        image,   trace, "m",         "along the pixel's ray") \
+  row(gt_z_m,              truth, z_m,              float,        image,   trace, "m",         "along the optical axis") \
+  row(gt_reflectivity,     truth, reflectivity,     float,        image,   trace, "1",         "Phong: diffuse + specular") \
+  row(gt_position_m,       truth, position_m,       float,        vectors, trace, "m",         "x, y, z of the surface point") \
+  row(gt_normal,           truth, normal,           float,        vectors, trace, "1",         "unit normal, toward the camera") \
+  row(gt_object_id,        truth, object_id,        std::int32_t, image,   trace, "1",         "index in Scene::objects, -1 none") \
+  row(gt_material_id,      truth, material_id,      std::int32_t, image,   trace, "1",         "index in Scene::materials, -1 none") \
+  row(gt_irradiance_w_m2,  truth, irradiance_w_m2,  float,        image,   power, "W/m2",      "own light on the surface") \
+  row(gt_radiance_w_m2_sr, truth, radiance_w_m2_sr, float,        image,   power, "W/(m2 sr)", "own light toward the camera") \
+  row(gt_power_w,          truth, power_w,          float,        image,   power, "W",         "own light on the pixel") \
+  row(gt_signal_e,         truth, signal_e,         float,        stack,   raw,   "e",         "electrons to expect, both taps, 0 unlit")
 
 // clang-format on
 

@@ -40,9 +40,9 @@ std::vector<ArrayRow> make_table() {
   rows.push_back({#name, npy_type_of<element>(), shape_of(ArrayShape::shape), unit, name_of(Stage::stage), what});
   TOFRAY_RAW_ARRAYS(TOFRAY_ROW)
   TOFRAY_EXPOSURE_ARRAYS(TOFRAY_ROW)
-  rows.back().type = npy_type_of<bool>();   // `lit`: a byte in memory, which has no arrays of bool
+  rows.back().type = npy_type_of<bool>();  // `lit`: a byte in memory, which has no arrays of bool
   TOFRAY_DEPTH_ARRAYS(TOFRAY_ROW)
-  rows.push_back({"gt_time_s", number, "[]", "s", "trace", "when the ground truth holds: the middle of the middle raw frame"});
+  rows.push_back({"gt_time_s", number, "[]", "s", "trace", "when the ground truth holds"});
   TOFRAY_TRUTH_ARRAYS(TOFRAY_ROW)
 #undef TOFRAY_ROW
   rows.push_back({"camera_matrix", number, "[3, 3]", "px", "camera", "fx, 0, cx; 0, fy, cy; 0, 0, 1"});
@@ -86,7 +86,8 @@ ArrayChoice::ArrayChoice(const std::string& words) : all_(false) {
     std::copy_if(known.begin(), known.end(), std::back_inserter(names_), [&](const std::string& name) { return fits(name, word); });
     if (names_.size() == before)
       throw Error(ErrorKind::bad_input,
-                  fmt::format("error: there is no array {}{}\n  expected names or patterns between commas, as in raw,z_m,gt_*; `tofray list arrays` has them all",
+                  fmt::format("error: there is no array {}{}\n  expected names or patterns between commas, as in raw,z_m,gt_*; "
+                              "`tofray list arrays` has them all",
                               base::in_quotes(word), base::did_you_mean(word, known)));
     if (names_.size() == before + 1 && names_.back() == word) named_.push_back(word);
     from = end + 1;
@@ -106,14 +107,14 @@ std::string array_reference() {
   std::string text =
       "<!-- SPDX-FileCopyrightText: 2026 The tofray authors -->\n"
       "<!-- SPDX-License-Identifier: Apache-2.0 -->\n"
-      "# Arrays of frame.npz\n\n"
-      "This page is made of the table that the code takes its arrays from; a test holds them together. `tofray list arrays` prints it,\n"
-      "`tofray render --arrays raw,z_m,gt_*` chooses. What has no pixels (`[phase]`, `[3, 3]` …) is small and always there, and so is `meta`,\n"
-      "a text (JSON): version, seed, noise, number of the frame, units, the camera and the scene with all their numbers.\n\n"
-      "Arrays are row-major; invalid values are NaN in floats and 0 in integers. Camera frame: x right, y down, z forward.\n"
-      "What begins with `gt_` is ground truth, at the middle of the middle raw frame. In C++ the same arrays are members of\n"
-      "`Frame::raw`, `Frame::depth` and `Frame::truth` (there without `gt_`).\n\n";
-  text += "| array | type | shape | unit | from | what it is |\n|---|---|---|---|---|---|\n";
+      "# Every array of frame.npz\n\n"
+      "Written by `tofray list arrays` from the table that the code takes its arrays from. `tofray render --arrays raw,z_m,gt_*`\n"
+      "chooses. What has no pixels (`[phase]`, `[3, 3]` …) is small and always there, and so is `meta`, a text (JSON): version, seed,\n"
+      "noise, number of the frame, units, and the camera and the scene with all their numbers.\n\n"
+      "Arrays are row-major; invalid values are NaN in floats and 0 in integers. Camera frame: x right, y down, z forward. What begins\n"
+      "with `gt_` is ground truth at the middle of the middle raw frame; own light is the camera's. In C++ the same arrays are members of\n"
+      "`Frame::raw`, `Frame::depth` and `Frame::truth` (there without `gt_`).\n\n"
+      "| array | type | shape | unit | from | what it is |\n|---|---|---|---|---|---|\n";
   for (const ArrayRow& row : array_table())
     text += fmt::format("| `{}` | {} | {} | {} | {} | {} |\n", row.name, row.type.name(), row.shape, row.unit, row.from, row.what);
   return text;

@@ -7,16 +7,17 @@
 
 #include "io/npy.h"
 
-/// The arrays of frame.npz: those of a frame (tofray/frame_arrays.h) and what goes with them into the file. (`meta`, a text, is always there.)
+/// The arrays of frame.npz: those of a frame (tofray/frame_arrays.h) and what goes with them into the file. (`meta`, a text, is always
+/// there.)
 namespace tofray::io {
 
 struct ArrayRow {
   std::string name;
   NpyType type;
-  std::string shape;   ///< "[phase, height, width]"; "[]": one number
-  std::string unit;    ///< "W/(m2 sr)"; "1": none
-  std::string from;    ///< what it comes from: a stage of the pipeline, or "scene", "camera"
-  std::string what;    ///< one sentence
+  std::string shape;  ///< "[phase, height, width]"; "[]": one number
+  std::string unit;   ///< "W/(m2 sr)"; "1": none
+  std::string from;   ///< what it comes from: a stage of the pipeline, or "scene", "camera"
+  std::string what;   ///< one sentence
   [[nodiscard]] bool is_truth() const { return name.starts_with("gt_"); }
   /// One value or more for each pixel.
   [[nodiscard]] bool is_image() const { return shape.find("width") != std::string::npos; }

@@ -61,12 +61,13 @@ void append_deflated(std::string& file, std::string_view head, std::string_view 
   for (const bool last : {false, true}) {
     std::string_view left = last ? body : head;
     do {
-      const std::string_view now = left.substr(0, std::size_t{1} << 30);   // zlib counts in 32 bits
+      const std::string_view now = left.substr(0, std::size_t{1} << 30);  // zlib counts in 32 bits
       left.remove_prefix(now.size());
       z.next_in = const_cast<Bytef*>(bytes_of(now)), z.avail_in = static_cast<uInt>(now.size());
       do {
         z.next_out = reinterpret_cast<Bytef*>(out), z.avail_out = sizeof out;
-        if (deflate(&z, last && left.empty() ? Z_FINISH : Z_NO_FLUSH) == Z_STREAM_ERROR) throw Error(ErrorKind::bug, "error: zlib cannot deflate");
+        if (deflate(&z, last && left.empty() ? Z_FINISH : Z_NO_FLUSH) == Z_STREAM_ERROR)
+          throw Error(ErrorKind::bug, "error: zlib cannot deflate");
         file.append(out, sizeof out - z.avail_out);
       } while (z.avail_out == 0);
     } while (!left.empty());
@@ -75,7 +76,9 @@ void append_deflated(std::string& file, std::string_view head, std::string_view 
 
 }  // namespace
 
-ZipWriter::ZipWriter(std::string& file, Packing packing, std::uint64_t limit) : file_(file), packing_(packing), limit_(limit) { file_.clear(); }
+ZipWriter::ZipWriter(std::string& file, Packing packing, std::uint64_t limit) : file_(file), packing_(packing), limit_(limit) {
+  file_.clear();
+}
 
 /// Whether an entry's sizes need 64 bits; deflated bytes that cannot be packed are some more than they were.
 bool ZipWriter::is_large(const Entry& entry) const { return entry.unpacked >= limit_ - limit_ / 1000; }
@@ -118,7 +121,12 @@ void ZipWriter::put_directory_entry(const Entry& entry) {
   out.u32(directory_signature).u16(made_on_unix).u16(version_of(entry.method, numbers > 0)).u16(0).u16(entry.method).u16(0);
   out.u16(first_of_january_1980).u32(entry.crc).u32(large ? elsewhere : entry.packed).u32(large ? elsewhere : entry.unpacked);
   out.u16(entry.name.size());
-  out.u16(numbers > 0 ? 4 + 8 * numbers : 0).u16(0).u16(0).u16(0).u32(std::uint32_t{regular_file} << 16).u32(far ? elsewhere : entry.offset);
+  out.u16(numbers > 0 ? 4 + 8 * numbers : 0)
+      .u16(0)
+      .u16(0)
+      .u16(0)
+      .u32(std::uint32_t{regular_file} << 16)
+      .u32(far ? elsewhere : entry.offset);
   file_ += entry.name;
   if (numbers > 0) out.u16(extra64).u16(8 * numbers);
   if (large) out.u64(entry.unpacked).u64(entry.packed);

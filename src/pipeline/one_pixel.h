@@ -132,7 +132,8 @@ TOFRAY_FN void light_surface(const Setup& s, const Job& job, Near& near, int slo
   hide_outside_lens(vignetting, surface);
   lighting.radiometry = {F(0.0f), F(0.0f), F(0.0f)};
   if (s.last_stage >= stage_power) light_up(s, ShadowRays<F, Near>{s, near, slot, moving}, ray, surface, vignetting, lighting);
-  if (truth) store_truth(job.out, p, surface, lighting.radiometry, [&]() __attribute__((always_inline)) { return trace::material<F>(s.scene, hit); });
+  const auto material = [&]() __attribute__((always_inline)) { return trace::material<F>(s.scene, hit); };
+  if (truth) store_truth(job.out, p, surface, lighting.radiometry, material);
 }
 
 /// Stages 3 and 4: every raw frame, then depth.

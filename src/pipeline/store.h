@@ -32,7 +32,8 @@ TOFRAY_FN void store_taps(int pixels, const flow::FrameView& out, const Pixels& 
 /// What the surface shows: the paper's matrices.
 /// @param material  says the number of its material, where that is wanted
 template <class F, class Material>
-TOFRAY_FN void store_truth(const flow::FrameView& out, const Pixels& p, const flow::Surface<F>& s, const flow::Radiometry<F>& r, Material material) {
+TOFRAY_FN void store_truth(const flow::FrameView& out, const Pixels& p, const flow::Surface<F>& s, const flow::Radiometry<F>& r,
+                           Material material) {
   const auto value = [&](F a) __attribute__((always_inline)) { return num::select(s.found, a, nan<F>()); };
   store(out.gt_range_m, p, value(s.range));
   store(out.gt_z_m, p, value(s.z));

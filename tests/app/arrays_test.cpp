@@ -26,7 +26,7 @@ TEST(arrays, chosen_are_those_of_the_whole_file) {
   ASSERT_EQ(run(with_small_sensor({"render", "demo", "-o", "all", "--emit", "npz"}), here).code, 0);
   ASSERT_EQ(run(with_small_sensor({"render", "demo", "-o", "some", "--emit", "npz", "--arrays", "raw,z_m,flags"}), here).code, 0);
   const auto all = arrays_of(folder / "all/frame.npz"), some = arrays_of(folder / "some/frame.npz");
-  EXPECT_EQ(some.size(), 3u + 5u + 3u);   // by raw frame: five, of the camera: three
+  EXPECT_EQ(some.size(), 3u + 5u + 3u);  // by raw frame: five, of the camera: three
   for (const auto& [name, bytes] : some) EXPECT_EQ(bytes, all.at(name)) << name;
   for (const char* name : {"raw", "z_m", "flags"}) EXPECT_TRUE(some.count(name)) << name;
 }
@@ -133,7 +133,8 @@ TEST(sequence, says_how_fast_it_was_computed_and_how_fast_written) {
   const Prepare here = in_folder(folder.path());
   const Result text = run(with_small_sensor({"render", "card", "-o", "out", "--frames", "4"}), here);
   EXPECT_TRUE(has(text.err, " frames/s computed, ") && has(text.err, " written")) << text.err;
-  const io::Json json = io::parse_json(run(with_small_sensor({"render", "card", "-o", "out", "--frames", "4", "--json"}), here).out, "stdout");
+  const io::Json json =
+      io::parse_json(run(with_small_sensor({"render", "card", "-o", "out", "--frames", "4", "--json"}), here).out, "stdout");
   double computed = 0, written = 0;
   ASSERT_TRUE(json.find("computed_frames_per_s")->number(computed) && json.find("written_frames_per_s")->number(written));
   EXPECT_GT(written, 0);

@@ -26,7 +26,9 @@ std::string file_of(const std::string& words) {
   return frame_npz_bytes(out_test::sample_frame(6, 4), out_test::sample_camera(6, 4), {}, "{}", options);
 }
 
-bool contains(const std::vector<std::string>& names, const std::string& name) { return std::find(names.begin(), names.end(), name) != names.end(); }
+bool contains(const std::vector<std::string>& names, const std::string& name) {
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
 
 }  // namespace
 
@@ -45,13 +47,14 @@ TEST(array_table, is_what_a_frame_file_holds_in_its_order_and_types) {
 }
 
 TEST(array_table, is_the_reference_page) {
-  EXPECT_EQ(out_test::read_file(TOFRAY_SOURCE_DIR "/docs/reference/arrays.md"), array_reference()) << "tofray list arrays > docs/reference/arrays.md";
+  EXPECT_EQ(out_test::read_file(TOFRAY_SOURCE_DIR "/docs/reference/arrays.md"), array_reference())
+      << "tofray list arrays > docs/reference/arrays.md";
 }
 
 TEST(array_choice, leaves_out_what_was_not_asked_for_and_nothing_that_explains_the_rest) {
   EXPECT_EQ(names_in(file_of("raw,z_m")),
-            (std::vector<std::string>{"raw", "modulation_frequency_hz", "reference_phase_rad", "integration_time_s", "start_time_s", "lit", "z_m",
-                                      "camera_matrix", "distortion", "camera_pose", "meta"}));
+            (std::vector<std::string>{"raw", "modulation_frequency_hz", "reference_phase_rad", "integration_time_s", "start_time_s", "lit",
+                                      "z_m", "camera_matrix", "distortion", "camera_pose", "meta"}));
 }
 
 TEST(array_choice, takes_patterns) {

@@ -23,7 +23,10 @@ std::vector<Piece> pieces() {
   out_test::Random random(5);
   std::string noise(200'001, 0);
   for (char& letter : noise) letter = static_cast<char>(random.next());
-  return {{"a.npy", "head", "body"}, {"empty", "", ""}, {"zeros.npy", std::string(128, 'h'), std::string(500'000, 0)}, {"noise.npy", "x", noise}};
+  return {{"a.npy", "head", "body"},
+          {"empty", "", ""},
+          {"zeros.npy", std::string(128, 'h'), std::string(500'000, 0)},
+          {"noise.npy", "x", noise}};
 }
 
 std::string zip_of(const std::vector<Piece>& all, Packing packing, std::uint64_t limit = ZipWriter::most_in_32_bits) {
@@ -85,7 +88,7 @@ TEST(zip, of_stored_entries_is_what_libzip_writes_bit_by_bit) { EXPECT_TRUE(zip_
 
 TEST(zip, of_deflated_entries_is_smaller_and_read_by_others) {
   const std::string packed = zip_of(pieces(), Packing::deflated);
-  EXPECT_LT(packed.size(), 210'000U);   // the noise cannot be packed, 500,000 zeros can
+  EXPECT_LT(packed.size(), 210'000U);  // the noise cannot be packed, 500,000 zeros can
   expect_readable(packed, pieces());
   EXPECT_TRUE(zip_of(pieces(), Packing::deflated) == packed);
 }

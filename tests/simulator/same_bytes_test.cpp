@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The tofray authors
 // SPDX-License-Identifier: Apache-2.0
 // The same version, scene, camera, options and seed give the same bytes: whatever the instruction set, the number of threads, the compiler,
-// the level of optimisation, and the C library's choice of its own functions. golden_hashes.txt holds SHA-256 of each array of a frame; `tests/simulator/golden_hashes.sh` writes it anew when numbers change on purpose, which CHANGELOG.md then has to say.
+// the level of optimisation, and the C library's choice of its own functions. golden_hashes.txt holds SHA-256 of each array of a frame;
+// `tests/simulator/golden_hashes.sh` writes it anew when numbers change on purpose, which CHANGELOG.md then has to say.
 #include <gtest/gtest.h>
 
 #include <cstdlib>
