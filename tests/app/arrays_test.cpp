@@ -110,7 +110,7 @@ TEST(arrays, are_listed_with_their_meaning) {
   ASSERT_EQ(listed.code, 0);
   const io::Json json = io::parse_json(run({"list", "arrays", "--json"}).out, "stdout");
   ASSERT_EQ(json.find("arrays")->items()->size(), io::array_table().size());
-  for (const io::ArrayRow& row : io::array_table()) EXPECT_TRUE(has(listed.out, row.name + " ") && has(listed.out, row.what)) << row.name;
+  for (const io::ArrayRow& row : io::array_table()) EXPECT_TRUE(has(listed.out, "`" + row.name + "`") && has(listed.out, row.what)) << row.name;
 }
 
 TEST(sequence, has_the_bytes_of_single_frames_and_its_files_in_order) {
