@@ -128,7 +128,7 @@ void limit_slopes(const std::vector<double>& g, std::vector<double>& slope) {
     const double before = s;
     for (const double secant : {g[knot == 0 ? 0 : knot - 1], g[std::min(knot, g.size() - 1)]})
       s = std::clamp(s, std::min(0.0, 3 * secant), std::max(0.0, 3 * secant));
-    return s != before;
+    return s < before || s > before;   // of samples beyond measure there may be no number: nothing to limit, and an end
   };
   for (std::size_t i = 0; i < g.size();) {
     if (runs_one_way(slope[i], slope[i + 1], g[i])) {
