@@ -34,7 +34,9 @@ inline Frame copy_of(const FrameArrays& a) {
 
 /// The same without what a batch does not hand out.
 inline Frame arrays_only(Frame frame) {
-  frame.raw.start_time_s.clear();
+#define TOFRAY_CLEAR(name, part, member, ...) frame.part.member.clear();
+  TOFRAY_EXPOSURE_ARRAYS(TOFRAY_CLEAR)
+#undef TOFRAY_CLEAR
   return frame;
 }
 
