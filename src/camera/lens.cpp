@@ -57,6 +57,11 @@ Point2 distort(const Lens& l, const Point2& p) {
 bool undistort(const Lens& lens, double limit, const Point2& target, Point2& out) {
   Point2 p = target;
   const double start = p.x * p.x + p.y * p.y;
+  // Farther out than the outermost ray lands there is nothing to be searched: 60 steps, halved 50 times each, took minutes for 12
+  // megapixels. The tangential part is at most (|p1| + 3 |p2|) r² in each direction; one per cent of room is left.
+  const double edge = std::sqrt(limit) * (1 + limit * (lens.k1 + limit * (lens.k2 + limit * lens.k3))) +
+                      5 * (std::abs(lens.p1) + std::abs(lens.p2)) * limit;
+  if (start > 1.0201 * edge * edge) return false;
   if (start > 0.9 * limit) {
     const double shrink = std::sqrt(0.9 * limit / start);
     p = {p.x * shrink, p.y * shrink};
