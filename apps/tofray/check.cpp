@@ -31,31 +31,30 @@ struct Report {
 };
 
 Report check_profile(const std::string& text, const std::string& name, const Options& options) {
-  CameraOptions wanted{options.mode, options.set, {}};
-  const auto load = [&] { return io::camera_from_text(text, name, io::folder_of(name), wanted); };
-  const Camera first = load();
-  // A fault can be in any mode.
   Report report;
-  for (const std::string& mode : first.mode_names) {
-    wanted.mode = mode;
-    Camera camera = load();
+  bool tables_seen = false;
+  // A fault can be in any mode.
+  const auto check_mode = [&](const Camera& in_mode) {
+    Camera camera = in_mode;
     // Sensor and lens are the same in all modes: their tables, by pixel, are made once.
-    if (mode != first.mode_names[0]) camera.sensor.width = camera.sensor.height = 1;
+    if (tables_seen) camera.sensor.width = camera.sensor.height = 1;
+    tables_seen = true;
     Simulator(Scene(), camera, on_processor(options));
-    const std::string more = warnings(camera, "");
+    const std::string more = warnings(in_mode, "");
     if (report.warnings.find(more) == std::string::npos) report.warnings += more;
-  }
+  };
+  const Camera camera = io::camera_from_text(text, name, io::folder_of(name), {options.mode, options.set, {}}, check_mode);
   const std::vector<std::string> unsourced = io::unsourced_numbers(io::parse_tree(text, name));
   for (const std::string& one : unsourced)
     report.warnings += fmt::format("{}: warning: {}, and does not say where that comes from\n", one.substr(0, one.find(": ")),
                                    one.substr(one.find(": ") + 2));
   if (!unsourced.empty()) report.warnings += "  expected source: or assumed: beside it, or for its group\n";
   report.json.set("kind", "camera")
-      .set("name", first.name)
-      .set("modes", io::Json::list(first.mode_names))
+      .set("name", camera.name)
+      .set("modes", io::Json::list(camera.mode_names))
       .set("unsourced_numbers", io::Json::list(unsourced));
-  report.text = fmt::format("{}: good: camera {}, {} x {} pixels, {} modes\n", name, first.name, first.sensor.width, first.sensor.height,
-                            first.mode_names.size());
+  report.text = fmt::format("{}: good: camera {}, {} x {} pixels, {} modes\n", name, camera.name, camera.sensor.width, camera.sensor.height,
+                            camera.mode_names.size());
   return report;
 }
 

@@ -41,7 +41,8 @@ struct Profile {
   std::string folder;  ///< of its table files; empty: none
 };
 
-Camera interpret(const Profile& profile, const std::string& mode, const base::Place& mode_place, const std::vector<Change>& changes) {
+Camera interpret(const Profile& profile, const std::string& mode, const base::Place& mode_place, const std::vector<Change>& changes,
+                 const SeeCamera& see_each_mode = {}) {
   refuse_too_many(changes.size(), base::whole(profile.source));
   Node root = parse_tree(profile.text, profile.source);
   if (!mode.empty()) set_key(root, "mode", mode_node(mode, mode_place), mode_place);
@@ -51,10 +52,20 @@ Camera interpret(const Profile& profile, const std::string& mode, const base::Pl
   Camera camera;
   Filler filler(profile.folder, faults);
   filler.fill(value, camera);
-  read_modes(value, camera, filler, faults);
-  filler.check(camera);
-  faults.raise();
   camera.source = profile.source;
+  const Modes modes(value, faults);
+  const auto choose = [&](std::size_t which) {
+    modes.choose(which, camera, filler);
+    filler.check(camera);
+    faults.raise();
+  };
+  choose(modes.wanted());
+  if (!see_each_mode) return camera;
+  for (std::size_t i = 0; i < modes.count(); ++i) {
+    choose(i);
+    see_each_mode(camera);
+  }
+  choose(modes.wanted());
   return camera;
 }
 
@@ -86,8 +97,9 @@ Profile profile_of(const Scene& scene, const std::string& root) {
 
 }  // namespace
 
-Camera camera_from_text(const std::string& text, const std::string& source, const std::string& folder, const CameraOptions& options) {
-  return interpret({text, source, folder}, options.mode, base::whole("--mode"), changes_of(options));
+Camera camera_from_text(const std::string& text, const std::string& source, const std::string& folder, const CameraOptions& options,
+                        const SeeCamera& see_each_mode) {
+  return interpret({text, source, folder}, options.mode, base::whole("--mode"), changes_of(options), see_each_mode);
 }
 
 }  // namespace tofray::io

@@ -33,50 +33,13 @@ bool equally_spaced(std::vector<double> phases) {
 
 std::string milliseconds(double seconds) { return base::number_text(std::round(seconds * 1e9) / 1e6) + " ms"; }
 
-class ModeReader {
- public:
-  ModeReader(const Value& root, Camera& camera, Filler& filler, base::Faults& faults)
-      : root_(root), camera_(camera), filler_(filler), faults_(faults) {}
-  void read();
-
- private:
-  std::size_t chosen();
-  Mode mode(const Value& value, const std::string& name);
-  void raw_frame(const Value& entry, const RawFrame& raw, std::vector<RawFrame>& sequence);
-  void check_phases(const Value& sequence, const Mode& mode);
-  void check_time(const Value& chosen);
-  void check_edges();
-
-  const Value& root_;
-  Camera& camera_;
-  Filler& filler_;
-  base::Faults& faults_;
-};
-
-Mode ModeReader::mode(const Value& value, const std::string& name) {
-  Mode out;
-  out.name = name;
-  if (!value.good) return out;
-  Filler("", faults_).fill(value, out);
-  const std::vector<RawFrame> entries = std::move(out.sequence);
-  out.sequence.clear();
-  for (std::size_t i = 0; i < entries.size(); ++i) raw_frame(value["sequence"].items[i], entries[i], out.sequence);
-  if (static_cast<long long>(out.sequence.size()) > base::limit::raw_frames.value)
-    faults_.add(value["sequence"].place(), "the sequence has too many raw frames",
-                "got " + std::to_string(out.sequence.size()) + ", at most " + std::to_string(base::limit::raw_frames.value),
-                ErrorKind::limit);
-  else
-    check_phases(value["sequence"], out);
-  return out;
-}
-
 // A list of reference phases makes one raw frame of each.
-void ModeReader::raw_frame(const Value& entry, const RawFrame& raw, std::vector<RawFrame>& sequence) {
+void add_raw_frames(const Value& entry, const RawFrame& raw, std::vector<RawFrame>& sequence, base::Faults& faults) {
   for (const char* key : {"modulation_frequency", "reference_phase"}) {
     if (raw.lit && !entry[key])
-      faults_.add(entry.place(), std::string("a lit raw frame lacks ") + key, "expected " + std::string(key) + ", or lit: false");
+      faults.add(entry.place(), std::string("a lit raw frame lacks ") + key, "expected " + std::string(key) + ", or lit: false");
     if (!raw.lit && entry[key])
-      faults_.add(entry[key].place(), std::string("an unlit raw frame has no ") + key, "take it out, or lit: false");
+      faults.add(entry[key].place(), std::string("an unlit raw frame has no ") + key, "take it out, or lit: false");
   }
   const Value& phase = entry["reference_phase"];
   if (phase.either == 0) sequence.push_back(raw);
@@ -86,7 +49,7 @@ void ModeReader::raw_frame(const Value& entry, const RawFrame& raw, std::vector<
   }
 }
 
-void ModeReader::check_phases(const Value& sequence, const Mode& mode) {
+void check_phases(const Value& sequence, const Mode& mode, base::Faults& faults) {
   std::map<double, std::vector<const RawFrame*>> lit;
   for (const auto& raw : mode.sequence)
     if (raw.lit) lit[raw.modulation_frequency_hz].push_back(&raw);
@@ -95,23 +58,51 @@ void ModeReader::check_phases(const Value& sequence, const Mode& mode) {
     std::vector<double> phases;
     for (const auto* raw : frames) phases.push_back(raw->reference_phase_rad);
     if (phases.size() < 3)
-      faults_.add(sequence.place(), "too few reference phases" + at,
+      faults.add(sequence.place(), "too few reference phases" + at,
                   "got " + std::to_string(phases.size()) + ", expected three or more, equally spaced over 360 deg");
     else if (!equally_spaced(phases))
-      faults_.add(sequence.place(), "the reference phases" + at + " are not equally spaced",
+      faults.add(sequence.place(), "the reference phases" + at + " are not equally spaced",
                   "expected " + std::to_string(phases.size()) + " of them, 360/" + std::to_string(phases.size()) + " deg apart, each once");
     for (const auto* raw : frames)
       if (raw->integration_time_s != frames[0]->integration_time_s) {
-        faults_.add(sequence.place(), "the raw frames" + at + " differ in integration_time",
+        faults.add(sequence.place(), "the raw frames" + at + " differ in integration_time",
                     "expected one integration_time for each modulation frequency");
         break;
       }
   }
 }
 
-std::size_t ModeReader::chosen() {
+Mode read_mode(const Value& value, const std::string& name, base::Faults& faults) {
+  Mode out;
+  out.name = name;
+  if (!value.good) return out;
+  Filler("", faults).fill(value, out);
+  const std::vector<RawFrame> entries = std::move(out.sequence);
+  out.sequence.clear();
+  for (std::size_t i = 0; i < entries.size(); ++i) add_raw_frames(value["sequence"].items[i], entries[i], out.sequence, faults);
+  if (static_cast<long long>(out.sequence.size()) > base::limit::raw_frames.value)
+    faults.add(value["sequence"].place(), "the sequence has too many raw frames",
+               "got " + std::to_string(out.sequence.size()) + ", at most " + std::to_string(base::limit::raw_frames.value),
+               ErrorKind::limit);
+  else
+    check_phases(value["sequence"], out, faults);
+  return out;
+}
+
+}  // namespace
+
+Modes::Modes(const Value& root, base::Faults& faults) : root_(root), faults_(faults), wanted_(find_wanted()) {
+  const Value& all = root["modes"];
+  for (std::size_t i = 0; i < all.names.size(); ++i) {
+    const std::size_t before = faults.size();
+    Mode mode = read_mode(all.items[i], all.names[i], faults);
+    modes_.push_back({std::move(mode), faults.size() == before && all.items[i].good});
+  }
+}
+
+std::size_t Modes::find_wanted() const {
   const Value &all = root_["modes"], &wanted = root_["mode"];
-  if (!wanted) return 0;
+  if (!wanted || all.names.empty()) return 0;
   const auto found = std::find(all.names.begin(), all.names.end(), wanted.text);
   if (found != all.names.end()) return static_cast<std::size_t>(found - all.names.begin());
   faults_.add(wanted.place(), "no mode " + base::in_quotes(wanted.text) + base::did_you_mean(wanted.text, all.names),
@@ -119,54 +110,48 @@ std::size_t ModeReader::chosen() {
   return 0;
 }
 
-void ModeReader::read() {
+void Modes::choose(std::size_t which, Camera& camera, Filler& filler) const {
   const Value& all = root_["modes"];
-  if (!all || all.names.empty()) return;
-  camera_.mode_names = all.names;
-  const std::size_t which = chosen();
-  for (std::size_t i = 0; i < all.items.size(); ++i) {
-    const std::size_t before = faults_.size();
-    Mode one = mode(all.items[i], all.names[i]);
-    if (i != which) continue;
-    camera_.mode = std::move(one);
-    filler_.remember(all.items[i], camera_.mode);
-    if (faults_.size() == before && all.items[i].good) check_time(all.items[i]);
-  }
+  if (modes_.empty()) return;
+  camera.mode_names = all.names;
+  camera.mode = modes_[which].mode;
+  filler.remember(all.items[which], camera.mode);
+  if (modes_[which].good) check_time(all.items[which], camera);
   // After the check's place was found: the override counts, not what the mode says.
-  if (faults_.empty()) check_edges();
+  if (faults_.empty()) check_edges(camera);
 }
 
-void ModeReader::check_time(const Value& chosen) {
+void Modes::check_time(const Value& chosen, Camera& camera) const {
   const Value& sequence = chosen["sequence"];
   const Value& override_time = root_["integration_time"];
-  auto& raw_frames = camera_.mode.sequence;
+  auto& raw_frames = camera.mode.sequence;
   if (override_time && override_time.good)
     for (auto& raw : raw_frames)
       if (raw.lit) raw.integration_time_s = override_time.number;
   const base::Place& place = override_time ? override_time.place() : sequence.place();
   double total = 0;
-  for (const auto& raw : raw_frames) total += raw.integration_time_s + camera_.readout_time_s;
-  const double frame = 1 / camera_.mode.frame_rate_hz;
+  for (const auto& raw : raw_frames) total += raw.integration_time_s + camera.readout_time_s;
+  const double frame = 1 / camera.mode.frame_rate_hz;
   if (!(total <= frame * (1 + 1e-9)))
     faults_.add(place, "the sequence does not fit into a frame",
                 "got " + std::to_string(raw_frames.size()) + " raw frames of " + milliseconds(total) + " together, readout included; at " +
-                    base::quantity_text(camera_.mode.frame_rate_hz, "1 Hz") + " a frame has " + milliseconds(frame) +
-                    "\nlower integration_time, or modes." + camera_.mode.name + ".frame_rate");
+                    base::quantity_text(camera.mode.frame_rate_hz, "1 Hz") + " a frame has " + milliseconds(frame) +
+                    "\nlower integration_time, or modes." + camera.mode.name + ".frame_rate");
   for (const auto& raw : raw_frames)
-    if (raw.integration_time_s < camera_.min_integration_time_s) {
+    if (raw.integration_time_s < camera.min_integration_time_s) {
       faults_.add(place, "integration_time is below the camera's shortest",
                   "got " + base::quantity_text(raw.integration_time_s, "1 us") + ", expected at least " +
-                      base::quantity_text(camera_.min_integration_time_s, "1 us") + " (timing.min_integration_time)");
+                      base::quantity_text(camera.min_integration_time_s, "1 us") + " (timing.min_integration_time)");
       break;
     }
 }
 
 // A linear edge may not be longer than the pulse or the pause that it leads to.
-void ModeReader::check_edges() {
+void Modes::check_edges(const Camera& camera) const {
   double highest = 0;
-  for (const auto& raw : camera_.mode.sequence) highest = std::max(highest, raw.modulation_frequency_hz);
-  for (std::size_t i = 0; i < camera_.illumination.size(); ++i) {
-    const Waveform& waveform = camera_.illumination[i].waveform;
+  for (const auto& raw : camera.mode.sequence) highest = std::max(highest, raw.modulation_frequency_hz);
+  for (std::size_t i = 0; i < camera.illumination.size(); ++i) {
+    const Waveform& waveform = camera.illumination[i].waveform;
     if (waveform.kind != Waveform::Kind::rectangular) continue;
     const double room = std::min(waveform.duty, 1 - waveform.duty) / highest;
     if (waveform.rise_time_s > room)
@@ -174,12 +159,6 @@ void ModeReader::check_edges() {
                   "got rise_time " + base::quantity_text(waveform.rise_time_s, "1 ns") + ", at most " + base::quantity_text(room, "1 ns") +
                       " at " + base::quantity_text(highest, "1 MHz") + " and this duty");
   }
-}
-
-}  // namespace
-
-void read_modes(const Value& root, Camera& camera, Filler& filler, base::Faults& faults) {
-  ModeReader(root, camera, filler, faults).read();
 }
 
 }  // namespace tofray::io

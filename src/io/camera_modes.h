@@ -1,11 +1,37 @@
 // SPDX-FileCopyrightText: 2026 The tofray authors
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include <cstddef>
+#include <vector>
+
 #include "io/fill.h"
 
 namespace tofray::io {
 
-/// The camera's mode out of those that its profile has, with the checks that go beyond single numbers.
-void read_modes(const Value& root, Camera& camera, Filler& filler, base::Faults& faults);
+/// The modes of a profile, read once, and the checks that go beyond single numbers.
+class Modes {
+ public:
+  Modes(const Value& root, base::Faults& faults);
+
+  [[nodiscard]] std::size_t count() const { return modes_.size(); }
+  /// Which one the profile asks for; the first where it does not say.
+  [[nodiscard]] std::size_t wanted() const { return wanted_; }
+  /// Puts one of them into the camera, which stays the same otherwise.
+  void choose(std::size_t which, Camera& camera, Filler& filler) const;
+
+ private:
+  struct Entry {
+    Mode mode;
+    bool good = false;
+  };
+  [[nodiscard]] std::size_t find_wanted() const;
+  void check_time(const Value& chosen, Camera& camera) const;
+  void check_edges(const Camera& camera) const;
+
+  const Value& root_;
+  base::Faults& faults_;
+  std::size_t wanted_ = 0;
+  std::vector<Entry> modes_;
+};
 
 }  // namespace tofray::io

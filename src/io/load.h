@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The tofray authors
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include <functional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -22,8 +23,12 @@ Scene load_scene(const std::string& file_or_name, const Settings& settings);
 /// The same from a text. `source` is the file's name for messages and where profiles beside the scene are looked for.
 Scene scene_from_text(const std::string& text, const std::string& source, const Settings& settings = {});
 
+using SeeCamera = std::function<void(const Camera&)>;
+
 /// A camera from a profile's text. `folder`: where its table files lie.
-Camera camera_from_text(const std::string& text, const std::string& source, const std::string& folder, const CameraOptions& options = {});
+/// @param see_each_mode  is shown the camera in one mode after the other, whichever is asked for; text and tables are read once
+Camera camera_from_text(const std::string& text, const std::string& source, const std::string& folder, const CameraOptions& options = {},
+                        const SeeCamera& see_each_mode = {});
 
 /// JSON Schema (draft 2020-12) of a file kind, "scene" or "camera".
 /// @throws Error for any other kind

@@ -4,7 +4,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <system_error>
 
 #include "io/atomic_file.h"
@@ -30,8 +29,7 @@ FileRecord OutputFolder::put(const std::string& name, std::string_view bytes) co
 }
 
 void OutputFolder::add(FileRecord record) {
-  const auto before = std::find_if(files_.begin(), files_.end(), [&](const FileRecord& file) { return file.name == record.name; });
-  if (before != files_.end()) files_.erase(before);
+  if (!names_.insert(record.name).second) std::erase_if(files_, [&](const FileRecord& file) { return file.name == record.name; });
   files_.push_back(std::move(record));
 }
 

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <string>
 #include <string_view>
+#include <unordered_set>
 #include <vector>
 
 namespace tofray::io {
@@ -37,6 +38,7 @@ class OutputFolder {
  private:
   std::filesystem::path path_;
   std::vector<FileRecord> files_;
+  std::unordered_set<std::string> names_;  ///< of the files: a run of many frames does not search the list for each
 };
 
 }  // namespace tofray::io

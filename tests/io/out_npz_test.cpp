@@ -7,6 +7,7 @@
 #include <clocale>
 #include <cstring>
 
+#include "base/limits.h"
 #include "io/data_limits.h"
 #include "io/frame_file.h"
 #include "io/npy.h"
@@ -279,6 +280,35 @@ TEST(npz, a_bomb_is_refused_before_it_is_unpacked) {
   std::memcpy(file.data() + directory + 24, &size, 4);
   std::memcpy(file.data() + 22, &size, 4);
   const Error error = error_of([&] { (void)parse_npz(file, "bomb.npz"); });
+  EXPECT_EQ(error.kind(), ErrorKind::limit) << error.what();
+}
+
+/// A deflated archive of noise, which does not pack, and of zeros, which pack a thousandfold.
+std::string packed_archive(std::size_t noise_bytes, std::size_t zero_bytes) {
+  std::vector<std::uint8_t> noise(noise_bytes);
+  out_test::Random random(3);
+  for (std::uint8_t& byte : noise) byte = static_cast<std::uint8_t>(random.next() >> 24);
+  const std::vector<std::uint8_t> zeros(zero_bytes);
+  return npz_bytes({npy_view("noise", {noise_bytes}, noise), npy_view("zeros", {zero_bytes}, zeros)}, Packing::deflated);
+}
+
+TEST(npz, of_any_size_may_unpack_to_its_limit_and_to_no_byte_more) {
+  constexpr auto limit = static_cast<std::size_t>(base::limit::unpacked_bytes.value);
+  constexpr std::size_t header = 128;  // of each of the two arrays
+  EXPECT_EQ(parse_npz(packed_archive(1, limit - 1 - 2 * header), "full.npz").size(), 2U);
+  const Error error = error_of([&] { (void)parse_npz(packed_archive(1, limit - 2 * header), "over.npz"); });
+  EXPECT_EQ(error.kind(), ErrorKind::limit) << error.what();
+  EXPECT_NE(std::string(error.what()).find("over.npz: error: the arrays unpack to more than 67108864 bytes"), std::string::npos) << error.what();
+}
+
+TEST(npz, of_a_larger_file_may_unpack_to_a_multiple_of_its_size_and_to_little_more) {
+  constexpr auto ratio = static_cast<std::size_t>(base::limit::unpacked_ratio.value);
+  constexpr std::size_t noise = 1'000'000;
+  // Zeros add a thousandth of their size: the file is 1.1 MB, and a hundred times that is more than the limit of small ones.
+  const std::size_t size = packed_archive(noise, 100 * noise).size(), zeros = ratio * size - noise;
+  ASSERT_GT(ratio * size, static_cast<std::size_t>(base::limit::unpacked_bytes.value));
+  EXPECT_EQ(parse_npz(packed_archive(noise, zeros / 100 * 99), "full.npz").size(), 2U);
+  const Error error = error_of([&] { (void)parse_npz(packed_archive(noise, zeros / 100 * 102), "over.npz"); });
   EXPECT_EQ(error.kind(), ErrorKind::limit) << error.what();
 }
 
