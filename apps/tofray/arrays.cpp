@@ -31,6 +31,15 @@ Arrays::Arrays(std::vector<io::NamedArray> arrays, std::string where) : where_(s
   if (const io::NpyArray* lit = find("lit"); phases_ == 0 && lit != nullptr && lit->shape.size() == 1) phases_ = lit->shape[0];
 }
 
+bool holds_arrays(const std::string& path) { return path.ends_with(".npz") || path.ends_with(".npy"); }
+
+Arrays read_arrays(const std::string& path) {
+  if (!path.ends_with(".npy")) return {io::read_npz(path), path};
+  std::vector<io::NamedArray> one;
+  one.push_back({"array", io::read_npy(path)});
+  return {std::move(one), path};
+}
+
 const io::NpyArray* Arrays::find(std::string_view name) const {
   for (const io::NamedArray& one : arrays_) {
     if (one.name == name) return &one.array;

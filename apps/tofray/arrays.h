@@ -37,6 +37,11 @@ class Arrays {
   std::size_t width_ = 0, height_ = 0, phases_ = 0;
 };
 
+/// Whether a file is called like one of arrays: .npz or .npy.
+bool holds_arrays(const std::string& path);
+/// The arrays of a .npz file, or that of a .npy file as "array". @throws Error as read_npz and read_npy
+Arrays read_arrays(const std::string& path);
+
 /// A pixel's flags out of the number that a file holds; 0 where it holds none.
 unsigned flag_bits(double number);
 

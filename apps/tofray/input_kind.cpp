@@ -22,24 +22,7 @@ namespace fs = std::filesystem;
   throw Error(ErrorKind::bad_input, fmt::format("{}: error: this is {}\n  {}", base::printable(path), what, fitting));
 }
 
-bool is_folder(const std::string& path) {
-  std::error_code ignored;
-  return fs::is_directory(path, ignored);
-}
-
-/// Names in a folder that end so, in order; at most some thousands are looked at.
-std::vector<std::string> names_in(const std::string& folder, const std::vector<std::string>& endings) {
-  std::vector<std::string> names;
-  std::error_code error;
-  int looked_at = 0;
-  for (fs::directory_iterator entry(folder, error), end; !error && entry != end && looked_at < 10'000;
-       entry.increment(error), ++looked_at) {
-    if (std::find(endings.begin(), endings.end(), entry->path().extension().native()) != endings.end())
-      names.push_back(entry->path().filename().native());
-  }
-  std::sort(names.begin(), names.end());
-  return names;
-}
+constexpr std::size_t enough_names = 10'000;  // for a message
 
 /// "it holds a.npz", "it holds a.npz … z.npz (26 files)", or that there is nothing.
 std::string held(const std::vector<std::string>& names, const char* none) {
@@ -49,6 +32,23 @@ std::string held(const std::vector<std::string>& names, const char* none) {
 }
 
 }  // namespace
+
+bool is_folder(const std::string& path) {
+  std::error_code ignored;
+  return fs::is_directory(path, ignored);
+}
+
+std::vector<std::string> names_in(const std::string& folder, const std::vector<std::string>& endings, std::size_t most) {
+  std::vector<std::string> names;
+  std::error_code error;
+  std::size_t looked_at = 0;
+  for (fs::directory_iterator entry(folder, error), end; !error && entry != end && looked_at < most; entry.increment(error), ++looked_at) {
+    if (std::find(endings.begin(), endings.end(), entry->path().extension().native()) != endings.end())
+      names.push_back(entry->path().filename().native());
+  }
+  std::sort(names.begin(), names.end());
+  return names;
+}
 
 void refuse_data(std::string_view bytes, const std::string& path) {
   const std::string file = base::printable(path);
@@ -80,7 +80,7 @@ void refuse_other_document(const std::string& text, const std::string& path) {
 
 void refuse_folder(const std::string& path, const char* command) {
   if (!is_folder(path)) return;
-  const std::vector<std::string> scenes = names_in(path, {".yaml", ".yml"});
+  const std::vector<std::string> scenes = names_in(path, {".yaml", ".yml"}, enough_names);
   throw Error(ErrorKind::io, fmt::format("{}: error: this is a folder, not a scene\n  {}; name one, as in `tofray {} {}`",
                                          base::printable(path), held(scenes, "it holds no .yaml file"), command,
                                          scenes.empty() ? "room" : base::printable((fs::path(path) / scenes[0]).native())));
@@ -91,7 +91,7 @@ std::string frame_in(const std::string& path) {
   const fs::path frame = fs::path(path) / "frame.npz";
   std::error_code ignored;
   if (fs::exists(frame, ignored)) return frame.native();
-  const std::vector<std::string> all = names_in(path, {".npz", ".npy"});
+  const std::vector<std::string> all = names_in(path, {".npz", ".npy"}, enough_names);
   refuse(
       path, "a folder without frame.npz",
       held(all, "it holds no .npz or .npy file") +

@@ -1,8 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The tofray authors
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include <cstddef>
 #include <string>
 #include <string_view>
+#include <vector>
 
 /// Files given to a command that takes others: what they are, and which command fits.
 namespace tofray::app {
@@ -20,6 +22,11 @@ void refuse_folder(const std::string& path, const char* command);
 
 /// A camera profile is told from a scene by what it has to have.
 bool looks_like_a_profile(const std::string& text, const std::string& name);
+
+bool is_folder(const std::string& path);
+
+/// Names in a folder that end so, in order; no more than `most` files are looked at.
+std::vector<std::string> names_in(const std::string& folder, const std::vector<std::string>& endings, std::size_t most);
 
 /// The file that `inspect` means by a folder: frame.npz in it. The path itself where it is no folder.
 /// @throws Error (bad_input) that lists what there is instead

@@ -179,22 +179,16 @@ std::string origin(const Arrays& arrays) {
                      word(meta, "frame"), word(meta, "seed"), word(meta, "noise"));
 }
 
-bool ends_in(const std::string& path, const char* ending) { return path.ends_with(ending); }
-
 /// The file's arrays; those of a scene are simulated now.
 Arrays arrays_of(const Options& options) {
   const std::string path = frame_in(options.words[0]);
-  const bool npz = ends_in(path, ".npz"), npy = ends_in(path, ".npy");
-  if (npz || npy) {
+  if (holds_arrays(path)) {
     if (!options.set.empty() || options.seed || options.noise || !options.mode.empty())
       throw Error(
           ErrorKind::bad_input,
           path +
               ": error: this file is finished, its settings cannot be changed\n  expected a scene with --set, --mode, --seed and --noise");
-    if (npz) return Arrays(io::read_npz(path), path);
-    std::vector<io::NamedArray> one;
-    one.push_back({"array", io::read_npy(path)});
-    return Arrays(std::move(one), path);
+    return read_arrays(path);
   }
   const Inputs in = load_inputs(path, options);
   say(warnings(in));
