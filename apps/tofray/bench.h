@@ -67,6 +67,9 @@ struct Ratio {
   double value = 0;
 };
 
+/// `tofray bench`. @return the exit code
+int run_bench(const Options& options);
+
 /// Frames per second of whole batches. @return the exit code
 int run_batch_bench(const Options& options);
 

@@ -4,6 +4,19 @@
 
 namespace tofray::app {
 
+// Each in the file of its name.
+int run_demo(const Options& options);
+int run_render(const Options& options);
+int run_process(const Options& options);
+int run_inspect(const Options& options);
+int run_check(const Options& options);
+int run_list(const Options& options);
+int run_schema(const Options& options);
+int run_doctor(const Options& options);
+int run_bench(const Options& options);
+int run_completion(const Options& options);
+int run_complete(const Options& options);
+
 namespace {
 
 const std::vector<const char*> simulation = {"--output", "--set",   "--mode", "--seed",    "--noise",   "--emit",  "--arrays",
@@ -42,7 +55,7 @@ std::vector<Command> make() {
        .least_words = 1,
        .most_words = 1,
        .run = run_render,
-       .completes = "scenes"},
+       .completes = "<scenes> <files>"},
       {.name = "process",
        .usage = "RAW.npz [options]",
        .summary = "turn raw frames, simulated or measured, into depth",
@@ -58,7 +71,7 @@ std::vector<Command> make() {
        .least_words = 1,
        .most_words = 1,
        .run = run_process,
-       .completes = "files"},
+       .completes = "<files>"},
       {.name = "inspect",
        .usage = "FILE [options]",
        .summary = "what is in a file: arrays, units, phase table, statistics; one pixel's whole chain",
@@ -70,7 +83,7 @@ std::vector<Command> make() {
        .least_words = 1,
        .most_words = 1,
        .run = run_inspect,
-       .completes = "scenes"},
+       .completes = "<scenes> <files>"},
       {.name = "check",
        .usage = "FILE [options]",
        .summary = "read a scene or a camera profile and report every fault with its place",
@@ -81,7 +94,7 @@ std::vector<Command> make() {
        .least_words = 1,
        .most_words = 1,
        .run = run_check,
-       .completes = "scenes"},
+       .completes = "<scenes> <profiles> <files>"},
       {.name = "list",
        .usage = "cameras|scenes|materials|keys|arrays",
        .summary = "what is built in, the materials of a scene, every key that files and --set take, and every array of frame.npz",
@@ -133,7 +146,7 @@ std::vector<Command> make() {
        .least_words = 0,
        .most_words = 1,
        .run = run_bench,
-       .completes = "scenes"},
+       .completes = "<scenes> <files>"},
       {.name = "completion",
        .usage = "bash|zsh|fish",
        .summary = "a script that lets the shell complete tofray's commands and options",
@@ -145,6 +158,16 @@ std::vector<Command> make() {
        .most_words = 1,
        .run = run_completion,
        .completes = "bash zsh fish"},
+      {.name = "complete",
+       .usage = "-- WORDS…",
+       .summary = "what can stand at the cursor of a command line: the scripts of `tofray completion` ask it",
+       .examples = "tofray complete -- render --noise \"\"                # a word and what it is about on each line; :files for names of files\n",
+       .options = {},
+       .least_words = 0,
+       .most_words = 0,
+       .run = run_complete,
+       .hidden = true,
+       .as_typed = true},
   };
 }
 

@@ -18,8 +18,8 @@ struct OptionSpec {
   const char* help;
   /// Takes the value over. @throws Error (bad_input) where it is no good
   void (*take)(Options& options, const std::string& value);
-  std::vector<std::string> choices;  ///< for completion and suggestions; empty: anything
-  bool file = false;                 ///< completion offers files
+  const char* completes = "";  ///< what a value can be, see Command::completes
+  bool list = false;           ///< several of them with "," between
 };
 
 struct Command {
@@ -30,8 +30,11 @@ struct Command {
   const char* more = "";                  ///< further text
   std::vector<const char*> options = {};  ///< names of OptionSpecs
   std::size_t least_words = 0, most_words = 0;
-  int (*run)(const Options& options) = nullptr;
-  const char* completes = "";  ///< what a word can be: "scenes", "files", or the words themselves
+  int (*run)(const Options& options) = nullptr;  ///< returns the exit code
+  /// What a word can be, for completion: words, and <commands>, <scenes>, <profiles>, <modes>, <keys>, <arrays> or <files>.
+  const char* completes = "";
+  bool hidden = false;     ///< for scripts: no help and no completion names it
+  bool as_typed = false;   ///< all behind "--" are its words, whatever they look like
 };
 
 const std::vector<OptionSpec>& all_options();
@@ -49,17 +52,5 @@ Options parse(const Command& command, const std::vector<std::string>& arguments)
 /// `tofray --help` and `tofray COMMAND --help`.
 std::string overview_text();
 std::string help_text(const Command& command);
-
-// Each returns the exit code.
-int run_demo(const Options& options);
-int run_render(const Options& options);
-int run_process(const Options& options);
-int run_inspect(const Options& options);
-int run_check(const Options& options);
-int run_list(const Options& options);
-int run_schema(const Options& options);
-int run_doctor(const Options& options);
-int run_bench(const Options& options);
-int run_completion(const Options& options);
 
 }  // namespace tofray::app

@@ -36,7 +36,9 @@ std::string overview_text() {
       "  tofray inspect out/frame.npz               # what came out\n"
       "  tofray list scenes                         # scenes to start from\n\n"
       "Commands:\n";
-  for (const Command& command : all_commands()) text += fmt::format("  {:<12} {}\n", command.name, command.summary);
+  for (const Command& command : all_commands()) {
+    if (!command.hidden) text += fmt::format("  {:<12} {}\n", command.name, command.summary);
+  }
   text +=
       "\n"
       "  tofray COMMAND --help                      # a command's examples and options\n"

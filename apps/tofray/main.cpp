@@ -38,7 +38,9 @@ void print_limits(bool json) {
 
 [[noreturn]] void unknown_command(const std::string& word) {
   std::vector<std::string> names;
-  for (const Command& command : all_commands()) names.emplace_back(command.name);
+  for (const Command& command : all_commands()) {
+    if (!command.hidden) names.emplace_back(command.name);
+  }
   if (word.starts_with('-')) {
     std::vector<std::string> options = {"--help", "--version", "--limits"};
     for (const OptionSpec& one : all_options()) {

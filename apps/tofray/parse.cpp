@@ -89,6 +89,11 @@ void add(CLI::App& app, const OptionSpec& one, Options& options) {
 }  // namespace
 
 Options parse(const Command& command, const std::vector<std::string>& typed) {
+  if (command.as_typed && !typed.empty() && typed[0] == "--") {
+    Options words;
+    words.words.assign(typed.begin() + 1, typed.end());
+    return words;
+  }
   const std::vector<std::string> arguments = without_equals(command, typed);
   Options options;
   CLI::App app;

@@ -187,9 +187,9 @@ TEST(completion, of_bash_knows_commands_options_and_scenes) {
   ASSERT_EQ(run({"completion", "bash"}).code, 0);
   std::ofstream(folder / "tofray.bash") << run({"completion", "bash"}).out;
   const auto replies = [&](const std::string& words, int at) {
-    const std::string script = "source " + (folder / "tofray.bash").native() + "; COMP_WORDS=(" + words +
-                               "); COMP_CWORD=" + std::to_string(at) + "; _tofray; echo \"${COMPREPLY[*]}\" > " +
-                               (folder / "reply").native();
+    const std::string script = "PATH=" + fs::path(TOFRAY_TOOL).parent_path().native() + ":$PATH; source " + (folder / "tofray.bash").native() +
+                               "; COMP_WORDS=(" + words + "); COMP_CWORD=" + std::to_string(at) +
+                               "; _tofray; echo \"${COMPREPLY[*]}\" > " + (folder / "reply").native();
     EXPECT_EQ(std::system(("bash -c '" + script + "'").c_str()), 0);
     return content(folder / "reply");
   };
@@ -197,17 +197,68 @@ TEST(completion, of_bash_knows_commands_options_and_scenes) {
   EXPECT_EQ(replies("tofray render --fro", 2), "--from\n");
   EXPECT_EQ(replies("tofray render bench-pr", 2), "bench-primitives\n");
   EXPECT_EQ(replies("tofray render --noise e", 3), "exact\n");
+  EXPECT_EQ(replies("tofray render --noise = e", 4), "exact\n");
+  EXPECT_EQ(replies("tofray render --noise = --seed 1", 3), "off fast exact\n");
   EXPECT_EQ(replies("tofray render --set camera.lens.f_", 3), "camera.lens.f_number=\n");
   EXPECT_EQ(replies("tofray render --set ambient.le", 3), "ambient.level=\n");
 }
 
-TEST(completion, of_every_shell_has_every_option) {
+/// What `tofray complete` offers at the end of the words, without what it says about each.
+std::vector<std::string> offered(Arguments words) {
+  words.insert(words.begin(), {"complete", "--"});
+  const Result result = run(words);
+  EXPECT_EQ(result.code, 0);
+  EXPECT_EQ(result.err, "");
+  std::vector<std::string> out;
+  std::istringstream lines(result.out);
+  for (std::string line; std::getline(lines, line);) out.push_back(line.substr(0, line.find('\t')));
+  return out;
+}
+
+TEST(completion, offers_what_the_tables_hold) {
+  using Words = std::vector<std::string>;
+  EXPECT_EQ(offered({"re"}), Words{"render"});
+  EXPECT_EQ(offered({"--li"}), Words{"--limits"});
+  EXPECT_EQ(offered({"help", "sch"}), Words{"schema"});
+  EXPECT_EQ(offered({"check", "pico-flexx"}), (Words{"pico-flexx", ":files"}));
+  EXPECT_EQ(offered({"render", "--theme", ""}), (Words{"dark", "light"}));
+  EXPECT_EQ(offered({"render", "--theme=l"}), Words{"--theme=light"});
+  EXPECT_EQ(offered({"render", "-o", ""}), Words{":files"});
+  EXPECT_EQ(offered({"render", "--arrays", "raw,gt_mater"}), Words{"raw,gt_material_id"});
+  EXPECT_EQ(offered({"render", "--emit", "npz,p"}), (Words{"npz,png", "npz,ply"}));
+  EXPECT_EQ(offered({"render", "--mode", "MODE_9_5F"}), Words{"MODE_9_5FPS_2000"});
+  EXPECT_EQ(offered({"render", "--seed", ""}), Words{});
+  EXPECT_EQ(offered({"render", "--set", "ambient.level", "=", "5"}), Words{});
+  EXPECT_EQ(offered({"render", "--", "--noise", "car"}), (Words{"card", ":files"}));  // behind "--" all are names
+  EXPECT_EQ(offered({"nonsense", ""}), Words{});
+  EXPECT_EQ(run({"complete"}).out + run({"complete", "--"}).out, "");
+}
+
+// Whatever is added to the tables is completed in all shells: their scripts only ask.
+TEST(completion, offers_every_command_and_option_that_help_names) {
+  std::vector<std::string> known = {"help", "--help", "--version", "--limits"};
+  known.insert(known.begin(), commands.begin(), commands.end());
+  EXPECT_EQ(offered({""}), known);
+  for (const std::string& command : commands) {
+    std::vector<std::string> options;
+    std::istringstream help(run({command, "--help"}).out);
+    for (std::string line; std::getline(help, line);) {
+      if (line.starts_with("  -") || line.starts_with("      --")) options.push_back(line.substr(6, line.find(' ', 6) - 6));
+    }
+    options.emplace_back("--help");
+    EXPECT_EQ(offered({command, "--"}), options);
+  }
   for (const char* shell : {"bash", "zsh", "fish"}) {
     const std::string script = run({"completion", shell}).out;
-    for (const std::string& command : commands) EXPECT_TRUE(has(script, command)) << shell << " " << command;
-    for (const char* option : {"output", "set", "seed", "noise", "frames", "emit", "from", "root", "pixel", "threads", "json", "quiet"})
-      EXPECT_TRUE(has(script, option)) << shell << " " << option;
+    EXPECT_TRUE(has(script, "tofray complete -- ")) << shell;
+    EXPECT_FALSE(has(script, "--seed")) << shell;
   }
+}
+
+TEST(completion, has_a_command_for_its_scripts_that_help_does_not_list) {
+  EXPECT_FALSE(has(run({"--help"}).out, "\n  complete "));
+  EXPECT_FALSE(has(run({"complet"}).err, "complete\""));
+  EXPECT_TRUE(has(run({"complete", "--help"}).out, "Usage: tofray complete -- WORDS"));
 }
 
 }  // namespace

@@ -23,6 +23,9 @@ CASES = [
     ("tofray list cam", "cameras"),
     ("tofray completion fi", "fish"),
     ("tofray inspect --pix", "--pixel"),
+    ("tofray render --set camera.lens.f_", "camera.lens.f_number="),
+    ("tofray render --theme=l", "--theme=light"),
+    ("tofray render --arrays raw,z_", "raw,z_m"),
 ]
 
 # Completes the line that stands in the file `typed` and writes what became of it.
