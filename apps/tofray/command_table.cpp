@@ -9,6 +9,7 @@ int run_demo(const Options& options);
 int run_render(const Options& options);
 int run_process(const Options& options);
 int run_inspect(const Options& options);
+int run_diff(const Options& options);
 int run_check(const Options& options);
 int run_list(const Options& options);
 int run_schema(const Options& options);
@@ -84,6 +85,19 @@ std::vector<Command> make() {
        .most_words = 1,
        .run = run_inspect,
        .completes = "<scenes> <files>"},
+      {.name = "diff",
+       .usage = "A B [options]",
+       .summary = "compare the arrays of two files or of two folders: same, or how many values differ and by how much",
+       .examples = "tofray diff out/frame.npz again/frame.npz\n"
+                   "tofray diff out again                            # every .npz and .npy file of two folders, by name\n"
+                   "tofray diff out again --json                     # for scripts; the exit code says it, too\n",
+       .more = "A and B are .npz or .npy files, or folders. NaN is the same as NaN, and 0 as -0. `meta` is an array, too: it has scene,\n"
+               "camera, seed and version. Exit code 1 where anything differs. Pictures, point clouds and manifests are not looked at.\n",
+       .options = {"--json"},
+       .least_words = 2,
+       .most_words = 2,
+       .run = run_diff,
+       .completes = "<files>"},
       {.name = "check",
        .usage = "FILE [options]",
        .summary = "read a scene or a camera profile and report every fault with its place",

@@ -8,7 +8,7 @@
 namespace tofray::test {
 namespace {
 
-const std::vector<std::string> commands = {"demo", "render", "process", "inspect", "check",
+const std::vector<std::string> commands = {"demo", "render", "process", "inspect", "diff",      "check",
                                            "list", "schema", "doctor",  "bench",   "completion"};
 
 TEST(help, comes_on_stdout_with_examples_first) {
