@@ -7,6 +7,7 @@
 
 #include "camera/frozen_camera.h"
 #include "depth/decode.h"
+#include "power/phasors.h"
 #include "raw/expose.h"
 #include "scene/frozen_scene.h"
 #include "trace/nearest.h"
@@ -18,10 +19,10 @@ namespace {
 
 Camera camera() { return load_camera("pico-flexx"); }
 
-flow::Light<F> light() {
-  flow::Light<F> out{};
-  out.signal_rate[0] = out.total_rate = F(1.5e6f);
-  out.path_length[0] = F(2.4f) + num::to_float(num::lane_index<F>()) * F(0.01f);
+flow::Light<F> light(const camera::PhasorView& phasors) {
+  flow::Light<F> out;
+  const flow::Path<F> path{F(1.5e6f), F(2.4f) + num::to_float(num::lane_index<F>()) * F(0.01f)};
+  power::add_path(phasors, power::all_of(phasors), 0, path, true, out);
   out.ambient_rate = F(4e5f);
   return out;
 }
@@ -50,16 +51,26 @@ void normal_pair(benchmark::State& state) {
 }
 BENCHMARK(normal_pair);
 
+/// One path to phasors of all modulation frequencies.
+void phasors(benchmark::State& state) {
+  const camera::FrozenCamera frozen(camera(), 0, 7);
+  for (auto _ : state) {
+    auto sum = light(frozen.phasors());
+    benchmark::DoNotOptimize(sum);
+  }
+}
+BENCHMARK(phasors);
+
 /// All raw frames of a pack; argument: 0 off, 1 fast, 2 exact.
 void nine_raw_frames(benchmark::State& state) {
-  const camera::FrozenCamera frozen(camera(), static_cast<int>(state.range(0)), 7);
+  camera::FrozenCamera frozen(camera(), static_cast<int>(state.range(0)), 7);
   const camera::SensorView sensor = frozen.sensor(0);
-  const flow::Light<F> incoming = light();
+  const flow::Light<F> incoming = light(frozen.phasors());
   std::uint32_t frame = 0;
   for (auto _ : state) {
     auto exposure = raw::start<F>(sensor, {0, 8});
     for (int k = 0; k < sensor.raw_frames; ++k) {
-      auto taps = raw::expose(sensor, k, incoming, 1, false, {frame, 0}, exposure);
+      auto taps = raw::expose(sensor, k, incoming, frozen.phasors().orders, {frame, 0}, exposure);
       benchmark::DoNotOptimize(taps);
     }
     ++frame;

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The tofray authors
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include <complex>
 #include <cstdint>
 #include <vector>
 
@@ -26,14 +27,24 @@ struct Geometry {
   std::vector<std::uint8_t> sun_shadow;    ///< [moment][height][width] the same for ambient light that has a direction
 };
 
-/// The light that each pixel receives, for stage 3 (raw).
+/// The light that each pixel receives, for stage 3 (raw): path by path, or summed already by modulation frequency.
 ///
-/// Where light comes over several paths, give the camera its light as often, 8 times at most, and each path as one of them. (With such a
-/// camera a scene or a Geometry is lit as often.) Depth takes every ℓ to begin at the first one's position.
+/// Any number of paths may end at a pixel: what a surface reflects, what comes over several of them, what a transparent one lets through.
+/// Either each has a power and a length, or `phasor_w` says what all of a light's come to,
+///
+///     Σ_paths power · e^{i m 2π f n ℓ/c}          n the camera's refractive index                    [theory: eq. 1.4]
+///
+/// for each modulation frequency f, in the order in which the mode's raw frames first have them, and each odd harmonic m. What light and
+/// pixel make of a harmonic (waveform, contrast, bandwidth) is added by the camera. Depth takes every ℓ to begin where the camera's lights
+/// are on the mean.
 struct PixelLight {
   int width = 0, height = 0, moments = 1;
-  std::vector<float> power_w;              ///< [moment][light][height][width] on the pixel, mean of a modulation period of a lit raw frame, 0…1
-  std::vector<float> path_length_m;        ///< [moment][light][height][width] ℓ from the light to the surface and on to the camera, 0…1e6 (no light: 0)
+  std::vector<float> power_w;              ///< [moment][path][height][width] on the pixel, mean of a modulation period of a lit raw frame, 0…1;
+                                           ///< with phasors [moment][light][height][width]
+  std::vector<float> path_length_m;        ///< [moment][path][height][width] ℓ from the light to the surface and on to the camera, 0…1e6 (no light: 0)
+  std::vector<int> light_of_path;          ///< [path] which of the camera's lights it comes from; empty: one path of each, in their order
+  std::vector<std::complex<float>> phasor_w;   ///< [moment][light][modulation frequency][harmonic][height][width], in place of path_length_m; none
+                                           ///< is longer than its power. Harmonics 1, 3, 5 …, as many as there are: the array's size says it
   std::vector<float> ambient_e_per_s;      ///< [moment][height][width] electrons of both taps together, 0…1e20; empty: none
 };
 

@@ -34,6 +34,8 @@ FrozenCamera::FrozenCamera(const Camera& camera, int noise, std::uint64_t seed) 
                                         "  got a cone or lobe; take the pattern flat_top or table, or the power_model tofray");
     }
   }
+  for (const FrozenLight& light : lights_) light_views_.push_back(light.view);
+  freeze_phasors();
   freeze_sequence(seed, noise);
   freeze_patterns();
   freeze_decoder(noise);
@@ -87,50 +89,90 @@ void FrozenCamera::freeze_tiles() {
   lens_.tile = tiles_.data();
 }
 
-void FrozenCamera::freeze_sequence(std::uint64_t seed, int noise) {
-  const Pixel& pixel = camera_.pixel;
-  SensorView& s = sensor_;
-  s.raw_frames = static_cast<std::int32_t>(camera_.mode.sequence.size());
-  s.modulations = static_cast<std::int32_t>(modulations_.frequency_hz.size());
-  take_numbers(camera_, s);
-  s.noise = noise;
-  s.keys = num::round_keys(static_cast<std::uint32_t>(seed), static_cast<std::uint32_t>(seed >> 32));
+/// Reference phase of a modulation frequency's first raw frame.
+double FrozenCamera::first_phase(std::size_t modulation) const {
+  const auto at = std::find(modulations_.of_raw_frame.begin(), modulations_.of_raw_frame.end(), static_cast<int>(modulation));
+  return camera_.mode.sequence[static_cast<std::size_t>(at - modulations_.of_raw_frame.begin())].reference_phase_rad;
+}
 
-  std::vector<std::vector<Harmonic>> harmonics;      // [modulation · lights + light]
+void FrozenCamera::freeze_phasors() {
+  const std::size_t lights = lights_.size(), modulations = modulations_.frequency_hz.size();
+  std::vector<std::vector<Harmonic>> harmonics;      // [modulation][light]
+  std::size_t most = 0;
   for (const double frequency : modulations_.frequency_hz) {
     for (const Illumination& light : camera_.illumination) {
-      harmonics.push_back(correlation_harmonics(light.waveform, pixel, frequency));
-      s.harmonics = std::max(s.harmonics, static_cast<std::int32_t>(harmonics.back().size()));
+      harmonics.push_back(correlation_harmonics(light.waveform, camera_.pixel, frequency));
+      most = std::max(most, harmonics.back().size());
     }
   }
-  if (s.harmonics > flow::max_harmonics) throw Error(ErrorKind::limit, "error: more than 8 harmonics in a waveform");
-  for (std::size_t i = 0; i < modulations_.frequency_hz.size(); ++i) {
-    ModulationView& m = s.modulation[i];
+  if (most > flow::max_harmonics) throw Error(ErrorKind::limit, "error: more than 8 harmonics in a waveform");
+  const std::size_t orders = most <= 4 ? 4 : flow::max_harmonics;
+  sources_.assign(modulations * lights * orders * 2, 0.0f);
+  for (std::size_t i = 0; i < modulations * lights; ++i) {
+    for (const Harmonic& h : harmonics[i]) {
+      float* const source = &sources_[2 * (i * orders + static_cast<std::size_t>(h.order / 2))];
+      const double phase = h.phase_rad + h.order * first_phase(i / lights);
+      source[0] = f(h.amplitude * setup::cos(phase)), source[1] = f(h.amplitude * setup::sin(phase));
+    }
+  }
+  for (std::size_t i = 0; i < modulations; ++i) {
+    ModulationView m{};
     m.frequency = f(modulations_.frequency_hz[i]);
     const double turns_per_metre = modulations_.frequency_hz[i] * camera_.refractive_index / speed_of_light;
     m.turns_per_metre_high = f(turns_per_metre);
     m.turns_per_metre_low = f(turns_per_metre - static_cast<double>(m.turns_per_metre_high));
-    for (std::size_t l = 0; l < lights_.size(); ++l) {
-      for (const Harmonic& h : harmonics[i * lights_.size() + l]) {
-        m.real[l][h.order / 2] = f(h.amplitude * setup::cos(h.phase_rad)), m.imaginary[l][h.order / 2] = f(h.amplitude * setup::sin(h.phase_rad));
-      }
-    }
+    m.source = sources_.data() + i * lights * orders * 2;
+    phasor_modulations_.push_back(m);
   }
-  for (int i = 0; i < s.modulations; ++i) freeze_quadrature(i);
+  phasors_ = {static_cast<std::int32_t>(modulations), static_cast<std::int32_t>(orders), phasor_modulations_.data()};
+}
+
+void FrozenCamera::freeze_sequence(std::uint64_t seed, int noise) {
+  SensorView& s = sensor_;
+  s.raw_frames = static_cast<std::int32_t>(camera_.mode.sequence.size());
+  take_numbers(camera_, s);
+  s.noise = static_cast<Noise>(noise);
+  s.keys = num::round_keys(static_cast<std::uint32_t>(seed), static_cast<std::uint32_t>(seed >> 32));
+  const std::size_t values = 2 * static_cast<std::size_t>(phasors_.orders);
+  gates_.resize(camera_.mode.sequence.size() * values);
   std::vector<double> integration_time_s;
   for (std::size_t k = 0; k < camera_.mode.sequence.size(); ++k) {
     const RawFrame& frame = camera_.mode.sequence[k];
-    RawFrameView& view = s.frame[k];
-    view.lit = frame.lit;
-    view.modulation = modulations_.of_raw_frame[k];
-    view.integration_time = f(frame.integration_time_s);
-    view.dark = f(pixel.dark_current_e_per_s * frame.integration_time_s);
-    for (int h = 0; h < s.harmonics; ++h) {
-      view.cosine[h] = f(setup::cos((2 * h + 1) * frame.reference_phase_rad)), view.sine[h] = f(setup::sin((2 * h + 1) * frame.reference_phase_rad));
-    }
+    raw_frames_.push_back({frame.lit, std::max(modulations_.of_raw_frame[k], 0), f(frame.integration_time_s),
+                           f(camera_.pixel.dark_current_e_per_s * frame.integration_time_s), Gate::other, gates_.data() + k * values});
     integration_time_s.push_back(frame.integration_time_s);
   }
+  s.frame = raw_frames_.data();
+  s.drifts = camera_.temperature.warm_up_m != 0;
   start_ = raw_frame_starts_s(integration_time_s, camera_.readout_time_s);
+  freeze_gates(drift_m(0));
+}
+
+namespace {
+
+Gate gate_at(double phase) {
+  const double quarters = phase / (pi / 2), whole = std::rint(quarters);
+  if (std::abs(quarters - whole) > 1e-9) return Gate::other;
+  return static_cast<Gate>(static_cast<int>(whole - 4 * std::floor(whole / 4)));
+}
+
+}  // namespace
+
+/// cos and sin of m(τ − τ_0 + δ), where δ = 2π·f·n/c·2·(half path by which the sensor has drifted).
+void FrozenCamera::freeze_gates(double half_path_m) {
+  drifted_m_ = half_path_m;
+  std::size_t at = 0;
+  for (std::size_t k = 0; k < raw_frames_.size(); ++k, at += 2 * static_cast<std::size_t>(phasors_.orders)) {
+    if (raw_frames_[k].lit == 0) continue;
+    const auto modulation = static_cast<std::size_t>(raw_frames_[k].modulation);
+    const double drift = 4 * pi * half_path_m * modulations_.frequency_hz[modulation] * camera_.refractive_index / speed_of_light;
+    const double phase = camera_.mode.sequence[k].reference_phase_rad - first_phase(modulation) + drift;
+    raw_frames_[k].gate_kind = gate_at(phase);
+    for (int h = 0; h < phasors_.orders; ++h) {
+      float* const gate = &gates_[at + 2 * static_cast<std::size_t>(h)];
+      gate[0] = f(setup::cos((2 * h + 1) * phase)), gate[1] = f(setup::sin((2 * h + 1) * phase));
+    }
+  }
 }
 
 std::vector<double> raw_frame_starts_s(const std::vector<double>& integration_time_s, double readout_time_s) {
@@ -141,31 +183,6 @@ std::vector<double> raw_frame_starts_s(const std::vector<double>& integration_ti
     start += time + readout_time_s;
   }
   return out;
-}
-
-void FrozenCamera::freeze_quadrature(int modulation) {
-  ModulationView& m = sensor_.modulation[modulation];
-  const auto& sequence = camera_.mode.sequence;
-  double first = 0;
-  m.quadrature = -1;
-  for (std::size_t k = 0; k < sequence.size(); ++k) {
-    if (modulations_.of_raw_frame[k] != modulation) continue;
-    if (m.quadrature < 0) first = sequence[k].reference_phase_rad, m.quadrature = 1;
-    const double quarters = (sequence[k].reference_phase_rad - first) / (pi / 2), whole = std::rint(quarters);
-    if (std::abs(quarters - whole) > 1e-9) m.quadrature = 0;
-    const int quarter = static_cast<int>(whole - 4 * std::floor(whole / 4));
-    sensor_.frame[k].in_phase = quarter == 0 ? 1.0f : quarter == 2 ? -1.0f : 0.0f;
-    sensor_.frame[k].in_quadrature = quarter == 1 ? 1.0f : quarter == 3 ? -1.0f : 0.0f;
-  }
-  for (std::size_t l = 0; l < lights_.size(); ++l) {
-    for (int h = 0; h < sensor_.harmonics; ++h) {
-      const double a = static_cast<double>(m.real[l][h]), b = static_cast<double>(m.imaginary[l][h]);
-      const double tau = (2 * h + 1) * first, c = setup::cos(tau), d = setup::sin(tau);
-      const double x = a * c - b * d, y = a * d + b * c, turn = h % 2 == 0 ? 1 : -1;    // e^{imπ/2} = i, −i, i …
-      m.x_real[l][h] = f(x), m.x_imaginary[l][h] = f(y);
-      m.y_real[l][h] = f(-turn * y), m.y_imaginary[l][h] = f(turn * x);
-    }
-  }
 }
 
 void FrozenCamera::freeze_patterns() {
@@ -189,15 +206,16 @@ void FrozenCamera::freeze_patterns() {
   sensor_.delay = draw(pixel.delay_s, 0, -infinite, 0x44454c41, delay_);
 }
 
-SensorView FrozenCamera::sensor(double time_s) const {
-  SensorView s = sensor_;
+double FrozenCamera::drift_m(double time_s) const {
   const Temperature& t = camera_.temperature;
   const double warm = t.warm_up_m == 0 ? 0 : t.warm_up_m * (1 - setup::exp(-(t.since_start_s + time_s) / t.warm_up_time_s));
-  const double half_path = t.drift_m_per_kelvin * (t.celsius - t.reference_celsius) + warm;
-  for (int i = 0; i < s.modulations; ++i) {
-    s.modulation[i].delay_turns = f(2 * half_path * modulations_.frequency_hz[static_cast<std::size_t>(i)] * camera_.refractive_index / speed_of_light);
-  }
-  return s;
+  return t.drift_m_per_kelvin * (t.celsius - t.reference_celsius) + warm;
+}
+
+const SensorView& FrozenCamera::sensor(double time_s) {
+  const double drift = drift_m(time_s);
+  if (drift != drifted_m_) freeze_gates(drift);
+  return sensor_;
 }
 
 }  // namespace tofray::camera

@@ -39,11 +39,12 @@ class FrozenCamera {
   FrozenCamera& operator=(const FrozenCamera&) = delete;
 
   [[nodiscard]] const LensView& lens() const { return lens_; }
-  [[nodiscard]] const std::vector<FrozenLight>& lights() const { return lights_; }
+  [[nodiscard]] const std::vector<LightView>& lights() const { return light_views_; }
+  [[nodiscard]] const PhasorView& phasors() const { return phasors_; }
   [[nodiscard]] const PowerView& power() const { return power_; }
   [[nodiscard]] const DecoderView& decoder() const { return decoder_; }
-  /// The sensor at frame start time t [s]: only the temperature drift depends on it.
-  [[nodiscard]] SensorView sensor(double time_s) const;
+  /// The sensor at frame start time t [s]: only the temperature drift depends on it. Where it drifts, a view is good until the next call.
+  [[nodiscard]] const SensorView& sensor(double time_s);
   /// Start of each raw frame after the start of its frame [s].
   [[nodiscard]] const std::vector<double>& raw_frame_start_s() const { return start_; }
 
@@ -51,7 +52,10 @@ class FrozenCamera {
   void freeze_lens();
   void freeze_tiles();
   void freeze_sequence(std::uint64_t seed, int noise);
-  void freeze_quadrature(int modulation);
+  void freeze_phasors();
+  [[nodiscard]] double first_phase(std::size_t modulation) const;
+  void freeze_gates(double half_path_m);
+  [[nodiscard]] double drift_m(double time_s) const;
   void freeze_patterns();
   void freeze_decoder(int noise);
   void freeze_modulations(double grey_time);
@@ -63,7 +67,17 @@ class FrozenCamera {
   PowerView power_{};
   SensorView sensor_{};
   DecoderView decoder_{};
+  PhasorView phasors_{};
   std::vector<FrozenLight> lights_;
+  std::vector<LightView> light_views_;
+  std::vector<RawFrameView> raw_frames_;
+  std::vector<ModulationView> phasor_modulations_;
+  std::vector<float> sources_, gates_;
+  double drifted_m_ = 0;                           // what the gates were made for
+  std::vector<DecodeRawFrame> decode_frames_;
+  std::vector<DecodeModulation> decode_modulations_;
+  std::vector<std::int32_t> grey_frames_;
+  std::vector<std::vector<std::int32_t>> grouped_, pairs_;   // [modulation]
   std::vector<float> ray_x_, ray_y_, inverse_length_, vignetting_, gain_, offset_, delay_;
   std::vector<std::vector<float>> wiggling_;
   std::vector<flow::Bounds> tiles_;

@@ -27,7 +27,7 @@ float f(double a) { return static_cast<float>(a); }
 
 /// Reference phases and raw frames of one modulation frequency.
 struct Group {
-  std::vector<int> raw_frame;
+  std::vector<std::int32_t> raw_frame;
   std::vector<double> tau;
   double integration_time = 0;
 };
@@ -42,7 +42,7 @@ Group group_of(const Mode& mode, const Modulations& modulations, int modulation)
       throw Error(ErrorKind::bad_input, "error: raw frames of one modulation frequency have different integration times; depth needs them equal");
     }
     g.integration_time = frame.integration_time_s;
-    g.raw_frame.push_back(static_cast<int>(k));
+    g.raw_frame.push_back(static_cast<std::int32_t>(k));
     g.tau.push_back(frame.reference_phase_rad);
     for (int h = 0; h < 2; ++h) {
       sums[2 * h] += setup::cos((h + 1) * frame.reference_phase_rad), sums[2 * h + 1] += setup::sin((h + 1) * frame.reference_phase_rad);
@@ -56,15 +56,16 @@ Group group_of(const Mode& mode, const Modulations& modulations, int modulation)
   return g;
 }
 
-/// Raw frames of the group, and each pair with reference phases half a turn apart.
-void list_raw_frames(const Group& g, DecodeModulation& m) {
+/// Raw frames two and two, where their reference phases are half a turn apart.
+std::vector<std::int32_t> pairs_of(const Group& g) {
+  std::vector<std::int32_t> out;
   for (std::size_t j = 0; j < g.tau.size(); ++j) {
-    m.raw_frame[m.count++] = g.raw_frame[j];
     for (std::size_t i = j + 1; i < g.tau.size(); ++i) {
-      if (std::abs(setup::cos(g.tau[i] - g.tau[j]) + 1) > 1e-9 || m.pairs == flow::max_raw_frames / 2) continue;
-      m.pair[m.pairs][0] = g.raw_frame[j], m.pair[m.pairs++][1] = g.raw_frame[i];
+      if (std::abs(setup::cos(g.tau[i] - g.tau[j]) + 1) > 1e-9 || out.size() == flow::max_raw_frames) continue;
+      out.insert(out.end(), {g.raw_frame[j], g.raw_frame[i]});
     }
   }
+  return out;
 }
 
 /// A light source as the decoder counts it: by its share of the electrons that all of them make of one and the same surface.
@@ -111,19 +112,22 @@ void FrozenCamera::freeze_decoder(int noise) {
   DecoderView& d = decoder_;
   const Decoding& decoding = camera_.decoding;
   const std::vector<Share> shares = shares_of(camera_.illumination, lights_);
-  d.modulations = sensor_.modulations;
+  d.modulations = phasors_.modulations;
   d.wiggling_nodes = wiggling_nodes;
   double grey_time = 0;
   for (std::size_t k = 0; k < camera_.mode.sequence.size(); ++k) {
     if (camera_.mode.sequence[k].lit) continue;
     grey_time += camera_.mode.sequence[k].integration_time_s;
-    d.grey_frame[d.grey_frames++] = static_cast<std::int32_t>(k);
+    grey_frames_.push_back(static_cast<std::int32_t>(k));
   }
+  d.grey_frames = static_cast<std::int32_t>(grey_frames_.size()), d.grey_frame = grey_frames_.data();
+  decode_frames_.resize(camera_.mode.sequence.size());
   if (d.modulations > 0) {
     freeze_modulations(grey_time);
   } else {
     freeze_without_modulation();
   }
+  d.frame = decode_frames_.data(), d.modulation = decode_modulations_.data();
   // The mean of |L|², not the square of the mean: then ℓ² − 2rℓ = |L|² − 2r·u·L holds of the means, but for the paths' spread. [eq. 4.15]
   Vec3 mean{0, 0, 0};
   double square = 0;
@@ -168,17 +172,19 @@ void FrozenCamera::freeze_modulations(double grey_time) {
       wiggling_.back().push_back(f(correction[(j + 1) % correction.size()] - correction[j]));
     }
     const double half_wave = wave_speed / (2 * frequency);
-    DecodeModulation& m = d.modulation[i];
+    DecodeModulation& m = decode_modulations_.emplace_back();
     m.half_wave = f(half_wave), m.per_half_wave = f(1 / half_wave), m.cycles = f(modulations_.cycles[at]), m.frequency = f(frequency);
     m.per_contrast = f(1 / contrast), m.integration_time = f(group.integration_time);
+    m.wiggling = wiggling_.back().data();
     m.ambient_scale = f(grey_time > 0 ? group.integration_time / grey_time : 0), m.variance_factor = f(2 / (count * 4 * pi * pi) * half_wave * half_wave);
-    list_raw_frames(group, m);
+    grouped_.push_back(group.raw_frame), pairs_.push_back(pairs_of(group));
+    m.raw_frame = grouped_.back().data(), m.count = static_cast<std::int32_t>(grouped_.back().size());
+    m.pair = pairs_.back().data(), m.pairs = static_cast<std::int32_t>(pairs_.back().size() / 2);
     if (modulations_.cycles[at] < modulations_.cycles[static_cast<std::size_t>(d.reference)]) d.reference = i;
     for (std::size_t j = 0; j < group.tau.size(); ++j) {
-      d.frame[group.raw_frame[j]] = {f(2 / count * setup::cos(group.tau[j])), f(2 / count * setup::sin(group.tau[j]))};
+      decode_frames_[static_cast<std::size_t>(group.raw_frame[j])] = {f(2 / count * setup::cos(group.tau[j])), f(2 / count * setup::sin(group.tau[j]))};
     }
   }
-  for (int i = 0; i < d.modulations; ++i) d.modulation[i].wiggling = wiggling_[static_cast<std::size_t>(i)].data();
   const double common = wave_speed / (2 * modulations_.base_hz);
   d.common_range = f(common), d.per_common_range = f(1 / common);
 }
@@ -188,7 +194,7 @@ void FrozenCamera::freeze_without_modulation() {
   DecoderView& d = decoder_;
   d.modulations = 1;
   wiggling_.emplace_back(2 * wiggling_nodes, 0.0f);
-  DecodeModulation& m = d.modulation[0];
+  DecodeModulation& m = decode_modulations_.emplace_back();
   m.half_wave = m.per_half_wave = m.cycles = m.per_contrast = m.variance_factor = 1;
   m.ambient_scale = f(1.0 / d.grey_frames);
   m.wiggling = wiggling_[0].data();

@@ -41,15 +41,21 @@ struct LightView {
   float electrons_per_joule;     ///< λ·QE/(hc)
 };
 
+/// From where ambient light comes.
+enum class AmbientLight : std::int32_t { none, uniform, directional };
+
 /// Watts on the pixel for a radiance of 1: π·T·pitch²·fill_factor/(4N²), without vignetting.
 struct PowerView {
   float watts_per_radiance;
   float ambient_rate;            ///< electrons per second from a surface with ρ = 1, without vignetting
   float sun_direction[3];        ///< unit vector toward it
-  std::int32_t ambient_kind;     ///< 0 none, 1 uniform, 2 directional
+  AmbientLight ambient;
   std::int32_t paper_literal;    ///< 1: the paper's printed formula (power/paper_literal.h)
   float paper_scale;             ///< its constant factor
 };
+
+/// When the gate opens, against the first raw frame of its modulation frequency.
+enum class Gate : std::int32_t { in_phase, quarter_late, opposite, quarter_early, other };
 
 /// Correlation and exposure of one raw frame.
 struct RawFrameView {
@@ -57,31 +63,34 @@ struct RawFrameView {
   std::int32_t modulation;       ///< index of the modulation frequency
   float integration_time;        ///< [s]
   float dark;                    ///< dark electrons of a tap
-  float cosine[flow::max_harmonics], sine[flow::max_harmonics];   ///< of m·τ, for the orders kept
-  float in_phase, in_quadrature; ///< D = in_phase·X + in_quadrature·Y where the modulation has quadrature: 0, 1 or −1
+  Gate gate_kind;
+  const float* gate;             ///< [orders][2] cos and sin of m(τ − τ_0 + δ), δ the phase of temperature drift
 };
 
-/// One modulation frequency: how light becomes a phasor.
+/// One modulation frequency: how the light of a path becomes phasors.
 struct ModulationView {
   float turns_per_metre_high, turns_per_metre_low;   ///< f·n/c in two parts
-  float delay_turns;             ///< phase of temperature drift, turns
   float frequency;               ///< [Hz], for delays by pixel
-  std::int32_t quadrature;       ///< 1: all τ are quarter turns from the first, so that two sums X and Y (a quarter turn on) give every D
-  /// a_m·e^{iψ_m} of each light
-  float real[flow::max_lights][flow::max_harmonics], imaginary[flow::max_lights][flow::max_harmonics];
-  /// the same times e^{imτ} of the first raw frame, and a quarter turn on
-  float x_real[flow::max_lights][flow::max_harmonics], x_imaginary[flow::max_lights][flow::max_harmonics];
-  float y_real[flow::max_lights][flow::max_harmonics], y_imaginary[flow::max_lights][flow::max_harmonics];
+  const float* source;           ///< [light][orders][2] a_m·e^{i(ψ_m + mτ_0)} of each light, τ_0 the modulation's first reference phase
+};
+
+/// All of them. `orders` of 1, 3, 5 … are kept, 4 or 8; those that a camera does not have are zero.
+struct PhasorView {
+  std::int32_t modulations, orders;
+  const ModulationView* modulation;
 };
 
 /// What a draw with the sensor's keys is for: part of the random counter, beside pixel, raw frame and frame.
 enum Purpose : std::uint32_t { shot_and_read = 0, merged = 1, suppression = 2, of_column = 3 };
 
+/// How charge is drawn.
+enum class Noise : std::int32_t { off, fast, exact };
+
 /// Sequence, charge, ADC.
 struct SensorView {
-  std::int32_t raw_frames, modulations, harmonics;
-  RawFrameView frame[flow::max_raw_frames];
-  ModulationView modulation[flow::max_modulation_frequencies];
+  std::int32_t raw_frames;
+  std::int32_t drifts;           ///< 1: the gates are others in each frame
+  const RawFrameView* frame;     ///< [raw_frames]
   float read_noise, read_variance;
   float full_well;
   float suppression_threshold, suppression_budget, suppression_noise;
@@ -91,7 +100,7 @@ struct SensorView {
   const float* offset;           ///< [height][width] DSNU [DN], or null
   const float* delay;            ///< [height][width] [s], or null
   num::RoundKeys keys;           ///< of the seed
-  std::int32_t noise;            ///< 0 off, 1 fast, 2 exact
+  Noise noise;
   float column_noise;            ///< [DN]
   std::int32_t width;            ///< pixels of a row
 };
@@ -130,8 +139,8 @@ struct DecodeModulation {
   float ambient_scale;           ///< t_int over the grey frames' time
   float variance_factor;         ///< variance of the half path is this times V/Â²: (2/N)·(R/2π)²
   std::int32_t count, pairs;     ///< raw frames of this modulation; pairs of them with τ half a turn apart
-  std::int32_t raw_frame[flow::max_raw_frames];
-  std::int32_t pair[flow::max_raw_frames / 2][2];
+  const std::int32_t* raw_frame; ///< [count]
+  const std::int32_t* pair;      ///< [pairs][2]
   const float* wiggling;         ///< [wiggling_nodes][2] φ − φ̂ in turns at equidistant φ̂, and the step to the next node
 };
 
@@ -142,9 +151,9 @@ struct DecodeRawFrame {
 struct DecoderView {
   std::int32_t modulations, reference;   ///< reference: the modulation with the fewest cycles
   std::int32_t grey_frames;
-  std::int32_t grey_frame[flow::max_raw_frames];     ///< the unlit ones
-  DecodeRawFrame frame[flow::max_raw_frames];
-  DecodeModulation modulation[flow::max_modulation_frequencies];
+  const std::int32_t* grey_frame;        ///< [grey_frames] the unlit ones
+  const DecodeRawFrame* frame;           ///< [raw frames]
+  const DecodeModulation* modulation;    ///< [modulations]
   float common_range, per_common_range;   ///< R_0 [m], 1/R_0
   std::int32_t wiggling_nodes;
   float light[3], light_square;  ///< mean position of the lights and mean |L|², weighted by their power

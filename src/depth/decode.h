@@ -58,7 +58,7 @@ TOFRAY_FN F grey_sum(const camera::DecoderView& s, const F* difference) {
 template <class F>
 TOFRAY_FN Mask<F> phases_disagree(const camera::DecodeModulation& m, const F* difference, F variance) {
   F most = F(0.0f);
-  for (int j = 0; j < m.pairs; ++j) most = num::max(most, num::abs(difference[m.pair[j][0]] + difference[m.pair[j][1]]));
+  for (int j = 0; j < m.pairs; ++j) most = num::max(most, num::abs(difference[m.pair[2 * j]] + difference[m.pair[2 * j + 1]]));
   return most * most > F(50.0f) * variance;
 }
 

@@ -6,6 +6,7 @@
 /// What the arrows of the pipeline carry, for one pixel (or one pack of them).
 namespace tofray::flow {
 
+/// Limits of what a worker keeps at hand; no type that goes to a GPU has arrays of these sizes.
 constexpr int max_lights = 8;
 constexpr int max_raw_frames = 64;
 constexpr int max_harmonics = 8;
@@ -67,13 +68,24 @@ struct Surface {
   num::Mask<F> found;
 };
 
-/// Light that reaches the pixel, as expected photo-electrons per second of both taps together, one path for each light source.
+/// Light over one path from a source to the pixel.
+template <class F>
+struct Path {
+  F rate;                      ///< expected photo-electrons per second of both taps together [e⁻/s]
+  F length;                    ///< ℓ [m]
+};
+
+/// All light that reaches the pixel, over any number of paths: what stage 3 needs to know of it.
+///
+///     S    = Σ_paths rate
+///     Z_jm = Σ_paths a_m·e^{iψ_m}·rate·e^{imφ_j},   φ_j = 2π f_j n ℓ/c                             [theory: eq. 1.6]
+///
+/// for each modulation frequency f_j and odd harmonic m, at [j·orders + (m − 1)/2].
 template <class F>
 struct Light {
-  F signal_rate[max_lights];   ///< [e⁻/s]
-  F path_length[max_lights];   ///< ℓ [m]
-  F total_rate;                ///< sum of the signal rates [e⁻/s]
+  F signal_rate;               ///< S [e⁻/s]
   F ambient_rate;              ///< [e⁻/s]
+  F real[max_modulation_frequencies * max_harmonics], imaginary[max_modulation_frequencies * max_harmonics];
 };
 
 /// What the truth arrays show of it.

@@ -17,10 +17,14 @@ struct SurfaceArrays {
   bool operator==(const SurfaceArrays&) const = default;
 };
 
-/// Into stage 3: what light each pixel receives.
+/// Into stage 3: what light each pixel receives, path by path, or summed already.
 struct LightArrays {
-  const float *power, *path_length;   ///< [moment][light][height][width] [W], [m]
-  const float* ambient_rate;          ///< [moment][height][width] [e⁻/s]
+  const float *power, *path_length;    ///< [moment][path][height][width] [W], [m]; of phasors: power [moment][light][height][width]
+  const std::int32_t* light_of_path;   ///< [path]
+  std::int32_t paths;
+  const float* phasor;                 ///< [moment][light][modulation][order][height][width][2] [W] in place of path_length, or null
+  std::int32_t orders;                 ///< of 1, 3, 5 …, those that `phasor` has
+  const float* ambient_rate;           ///< [moment][height][width] [e⁻/s]
   bool operator==(const LightArrays&) const = default;
 };
 
@@ -32,7 +36,7 @@ struct Recording {
 };
 
 struct Input {
-  std::int32_t entry;      ///< the first stage that is computed: stage_power, stage_raw or stage_depth
+  Stage entry;             ///< the first stage that is computed: power, raw or depth
   std::int32_t moments;    ///< 1, or one for each raw frame
   SurfaceArrays surface;
   LightArrays light;
@@ -40,17 +44,20 @@ struct Input {
   bool operator==(const Input&) const = default;
 };
 
+/// Where image number `image` of a stack begins.
+TOFRAY_FN std::int64_t place_of(const Setup& s, int image) { return std::int64_t{image} * s.lens.width * s.lens.height; }
+
 /// Of a moment's image number `image`, the pixels p; a null array is `otherwise` everywhere.
 template <class F>
 TOFRAY_FN F given(const float* array, const Setup& s, const Pixels& p, int image, float otherwise) {
-  return array != nullptr ? num::load<F>(array + p.index + image * s.lens.width * s.lens.height, p.count) : F(otherwise);
+  return array != nullptr ? num::load<F>(array + place_of(s, image) + p.index, p.count) : F(otherwise);
 }
 
 template <class F>
 TOFRAY_FN num::Mask<F> given_mask(const std::uint8_t* array, const Setup& s, const Pixels& p, int image) {
   std::int32_t marks[num::lanes<F>] = {};
   if (array != nullptr) {
-    const std::uint8_t* from = array + p.index + image * s.lens.width * s.lens.height;
+    const std::uint8_t* from = array + place_of(s, image) + p.index;
     for (int i = 0; i < p.count; ++i) marks[i] = from[i];
   }
   return num::load_int<F>(marks, p.count) > num::Int<F>(0);
@@ -65,14 +72,14 @@ TOFRAY_FN flow::Surface<F> given_surface(const Setup& s, const SurfaceArrays& in
   const auto value = [&](F a) __attribute__((always_inline)) { return num::select(out.found, a, F(0.0f)); };
   trace::put_at(ray, num::select(out.found, z, F(1.0f)), out);
   const auto lane = num::lane_index<F>();
-  const auto first = num::Int<F>(3 * (p.index + moment * s.lens.width * s.lens.height)) +
-                     num::select(lane < num::Int<F>(p.count), lane, num::Int<F>(0)) * num::Int<F>(3);
-  const F nx = value(num::gather(in.normal, first)), ny = value(num::gather(in.normal + 1, first)), nz = value(num::gather(in.normal + 2, first));
+  const auto at = num::select(lane < num::Int<F>(p.count), lane, num::Int<F>(0)) * num::Int<F>(3);
+  const float* normal = in.normal + 3 * (place_of(s, moment) + p.index);
+  const F nx = value(num::gather(normal, at)), ny = value(num::gather(normal + 1, at)), nz = value(num::gather(normal + 2, at));
   trace::face_camera(nx, ny, nz, ray, out);
   out.diffuse = value(given<F>(in.diffuse, s, p, moment, 0.0f)), out.specular = value(given<F>(in.specular, s, p, moment, 0.0f));
   out.exponent = num::select(out.found, given<F>(in.exponent, s, p, moment, 1.0f), F(1.0f));
   out.object = num::Int<F>(0);
-  if (in.object != nullptr) out.object = num::load_int<F>(in.object + p.index + moment * s.lens.width * s.lens.height, p.count);
+  if (in.object != nullptr) out.object = num::load_int<F>(in.object + place_of(s, moment) + p.index, p.count);
   return out;
 }
 
@@ -90,48 +97,84 @@ struct GivenShadows {
   TOFRAY_FN num::Mask<F> of_sun(const flow::Surface<F>&) const { return given_mask<F>(in.sun_shadow, s, p, moment); }
 };
 
-/// The light that each pixel receives; of the truth, only the power is known.
+/// The light that each pixel receives over paths of their own lengths.
 template <class F>
-TOFRAY_FN void given_light(const Setup& s, const LightArrays& in, const Pixels& p, int moment, Lighting<F>& out) {
-  out.radiometry = {nan<F>(), nan<F>(), F(0.0f)};
-  out.light.total_rate = F(0.0f);
-  for (int l = 0; l < s.scene.lights; ++l) {
-    const F watts = given<F>(in.power, s, p, moment * s.scene.lights + l, 0.0f);
-    out.light.signal_rate[l] = watts * F(s.lights[l].electrons_per_joule);
-    out.light.path_length[l] = given<F>(in.path_length, s, p, moment * s.scene.lights + l, 0.0f);
-    out.light.total_rate = out.light.total_rate + out.light.signal_rate[l];
-    out.radiometry.power = out.radiometry.power + watts;
+TOFRAY_FN void given_paths(const Setup& s, const LightArrays& in, const power::Wanted& wanted, const Pixels& p, int moment, flow::Light<F>& light,
+                           F& power) {
+  for (int i = 0; i < in.paths; ++i) {
+    const int l = in.light_of_path[i];
+    const F watts = given<F>(in.power, s, p, moment * in.paths + i, 0.0f);
+    const flow::Path<F> path{watts * F(s.lights[l].electrons_per_joule), given<F>(in.path_length, s, p, moment * in.paths + i, 0.0f)};
+    power::add_path(s.phasors, wanted, l, path, false, light);
+    power = power + watts;
   }
-  out.light.ambient_rate = given<F>(in.ambient_rate, s, p, moment, 0.0f);
 }
 
-/// Stages 2 to 4, or 3 and 4.
+/// … or summed already: of each light the power, and Σ power·e^{imφ}.
 template <class F>
-TOFRAY_FN void enter_before_raw(const Setup& s, const Job& job, const Input& in, const Pixels& p) {
-  const flow::Ray<F> ray = camera::ray<F>(s.lens, p);
-  const F vignetting = camera::vignetting<F>(s.lens, p);
-  raw::Exposure<F> exposure = raw::start<F>(s.sensor, p);
-  F difference[flow::max_raw_frames];
-  Lighting<F> lighting;
-  flow::Surface<F> surface{};
-  for (int k = 0; k < s.sensor.raw_frames; ++k) {
-    const bool anew = k == 0 || in.moments > 1;
-    if (anew) {
-      lighting.radiometry = {F(0.0f), F(0.0f), F(0.0f)};
-      surface.found = F(1.0f) < F(0.0f);
-      if (in.entry == stage_power) {
-        surface = given_surface(s, in.surface, p, k, ray);
-        hide_outside_lens(vignetting, surface);
-        if (s.last_stage >= stage_power) light_up(s, GivenShadows{s, in.surface, p, k}, ray, surface, vignetting, lighting);
-      } else {
-        given_light(s, in.light, p, k, lighting);
+TOFRAY_FN void given_phasors(const Setup& s, const LightArrays& in, const power::Wanted& wanted, const Pixels& p, int moment, flow::Light<F>& light,
+                             F& power) {
+  const auto lane = num::lane_index<F>();
+  const auto at = num::select(lane < num::Int<F>(p.count), lane, num::Int<F>(0));
+  for (int l = 0; l < s.scene.lights; ++l) {
+    const F watts = given<F>(in.power, s, p, moment * s.scene.lights + l, 0.0f), electrons = F(s.lights[l].electrons_per_joule);
+    light.signal_rate = num::fma(watts, electrons, light.signal_rate);
+    power = power + watts;
+    for (int j = wanted.first; j < wanted.last; ++j) {
+      for (int h = 0; h < in.orders && h < s.phasors.orders; ++h) {
+        const int image = ((moment * s.scene.lights + l) * s.phasors.modulations + j) * in.orders + h;
+        F real, imaginary;
+        num::gather_pair(in.phasor + 2 * (place_of(s, image) + p.index), at, real, imaginary);
+        power::add_phasor(s.phasors, j, l, h, real * electrons, imaginary * electrons, light);
       }
     }
-    if (k == (in.moments > 1 ? s.truth_slot : 0)) store_truth(job.out, p, surface, lighting.radiometry, [] { return num::Int<F>(-1); });
-    if (s.last_stage >= stage_raw) difference[k] = collect(s, job, p, k, lighting.light, anew, exposure);
   }
-  end_frame(s, job, p, ray, difference, exposure, vignetting);
 }
+
+/// Pixels with arrays from elsewhere, for stages 2 to 4, or 3 and 4.
+template <class F>
+class GivenWalk {
+ public:
+  TOFRAY_FN GivenWalk(const Setup& s, const Job& job, const Input& in, const Pixels& p) : s_(s), job_(job), in_(in), pixels_(p) {}
+
+  TOFRAY_FN int moments() const { return in_.moments; }
+  TOFRAY_FN int packs() const { return 1; }
+  TOFRAY_FN Pixels pixels(int) const { return pixels_; }
+  TOFRAY_FN Pack<F>& pack(int) { return pack_; }
+  TOFRAY_FN void go_to(const Moment&) const {}
+
+  TOFRAY_FN bool find_light(const Moment& now, int, const Pixels& p, const flow::Ray<F>& ray, F vignetting, Pack<F>& pack) const {
+    const power::Wanted which = wanted(s_, now, false);
+    flow::Radiometry<F> radiometry{F(0.0f), F(0.0f), F(0.0f)};
+    flow::Surface<F> surface{};
+    surface.found = F(1.0f) < F(0.0f);
+    if (in_.entry == Stage::power) {
+      surface = given_surface(s_, in_.surface, p, now.slot, ray);
+      hide_outside_lens(vignetting, surface);
+      if (s_.last_stage >= Stage::power) {
+        light_up(s_, which, GivenShadows{s_, in_.surface, p, now.slot}, ray, surface, vignetting, pack.light, radiometry);
+      }
+    } else {
+      radiometry.irradiance = radiometry.radiance = nan<F>();
+      power::clear(s_.phasors, which, pack.light);
+      if (in_.light.phasor == nullptr) {
+        given_paths(s_, in_.light, which, p, now.slot, pack.light, radiometry.power);
+      } else {
+        given_phasors(s_, in_.light, which, p, now.slot, pack.light, radiometry.power);
+      }
+      pack.light.ambient_rate = given<F>(in_.light.ambient_rate, s_, p, now.slot, 0.0f);
+    }
+    if (now.truth) store_truth(job_.out, p, surface, radiometry, []() __attribute__((always_inline)) { return num::Int<F>(-1); });
+    return true;
+  }
+
+ private:
+  const Setup& s_;
+  const Job& job_;
+  const Input& in_;
+  Pixels pixels_;
+  Pack<F> pack_;
+};
 
 /// Stage 4.
 template <class F>
@@ -167,11 +210,12 @@ TOFRAY_FN void decode_pixels(const Setup& s, const Job& job, const Recording& in
 
 template <class F>
 TOFRAY_FN void enter(const Setup& s, const Job& job, const Input& in, const Pixels& p) {
-  if (in.entry == stage_depth) {
+  if (in.entry == Stage::depth) {
     decode_pixels<F>(s, job, in.recording, p);
-  } else {
-    enter_before_raw<F>(s, job, in, p);
+    return;
   }
+  GivenWalk<F> walk(s, job, in, p);
+  run_pipeline<F>(s, job, walk);
 }
 
 }  // namespace tofray::pipeline

@@ -10,8 +10,6 @@
 /// The passes over whole images that follow the pixels: flying pixels, filters, and the range that is left.
 namespace tofray::pipeline {
 
-constexpr int rows_per_band = 8;
-
 /// Pass 1: flags a flying pixel; z is only read.
 TOFRAY_FN void flag_flying_pixel(const Setup& s, const Job& job, int x, int y) {
   const int width = s.lens.width, at = y * width + x;
@@ -44,7 +42,7 @@ TOFRAY_FN void filter_pixel(const Setup& s, const Job& job, int x, int y) {
   const depth::RangeImage image{job.out.range_m, job.out.flags, s.lens.width, s.lens.height};
   float value = image.range[y * image.width + x];
   if (image.valid(x, y)) {
-    value = job.filter == 1 ? depth::gaussian(image, x, y, job.filter_radius, job.filter_weights) : depth::median(image, x, y, job.filter_radius);
+    value = job.filter == Filter::gaussian ? depth::gaussian(image, x, y, job.filter_radius, job.filter_weights) : depth::median(image, x, y, job.filter_radius);
   }
   job.filtered[y * image.width + x] = value;
 }
@@ -68,17 +66,18 @@ TOFRAY_FN bool any_flying(const std::uint16_t* flags, int count) {
 /// Pass 3: range (filtered or not) of one row → z, point, confidence; flying pixels become invalid.
 template <class F>
 TOFRAY_FN void settle(const Setup& s, const Job& job, const Pixels& p, const float* range) {
-  if (job.filter == 0 && !any_flying(job.out.flags + p.index, p.count)) return;
+  if (job.filter == Filter::none && !any_flying(job.out.flags + p.index, p.count)) return;
   std::int32_t flags[num::lanes<F>] = {};
   for (int i = 0; i < p.count; ++i) flags[i] = job.out.flags[p.index + i];
   const F noise = num::load<F>(job.out.noise_m + p.index, p.count);
   store_range(s, job.out, p, camera::ray<F>(s.lens, p), num::load<F>(range + p.index, p.count), noise, num::load_int<F>(flags, p.count));
 }
+TOFRAY_FN const float* range_left(const Job& job) { return job.filter != Filter::none ? job.filtered : job.out.range_m; }
 template <class F>
-TOFRAY_FN void settle_row(const Setup& s, const Job& job, int y, const float* range) {
+TOFRAY_FN void settle_row(const Setup& s, const Job& job, int y) {
   const int width = s.lens.width;
   for (int x = 0; x < width; x += num::lanes<F>) {
-    settle<F>(s, job, Pixels{y * width + x, width - x < num::lanes<F> ? width - x : num::lanes<F>}, range);
+    settle<F>(s, job, Pixels{y * width + x, width - x < num::lanes<F> ? width - x : num::lanes<F>}, range_left(job));
   }
 }
 

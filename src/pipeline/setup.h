@@ -11,21 +11,24 @@ namespace tofray::pipeline {
 struct Setup {
   camera::LensView lens;
   scene::SceneView scene;
-  camera::LightView lights[flow::max_lights];
+  const camera::LightView* lights;   ///< [scene.lights]
   camera::PowerView power;
+  camera::PhasorView phasors;
   camera::SensorView sensor;
   camera::DecoderView decoder;
   std::int32_t truth_slot;       ///< slot of the middle raw frame
-  std::int32_t last_stage;       ///< 0 trace, 1 power, 2 raw, 3 depth: nothing is done after it
+  Stage last_stage;              ///< nothing is done after it
   std::int32_t culling;          ///< 0: every pixel tests every form
 };
+
+enum class Filter : std::int32_t { none, gaussian, median };
 
 /// One frame: where its arrays are and its place in the random numbers.
 struct Job {
   flow::FrameView out;
   std::uint32_t index_low, index_high;
   float* filtered;               ///< [height][width] scratch of the image filters
-  std::int32_t filter;           ///< 0 none, 1 Gaussian, 2 median
+  Filter filter;
   std::int32_t filter_radius;
   float filter_weights[33];      ///< Gaussian, [0] the middle
 };
@@ -33,7 +36,27 @@ struct Job {
 using flow::tile_height;
 using flow::tile_width;
 
-enum Stages : std::int32_t { stage_trace, stage_power, stage_raw, stage_depth };
+constexpr int rows_per_band = 8;   ///< of an image, for one worker at a time in the passes that follow the pixels
+
+/// What is done to a frame, one after the other, each over all its pixels before the next begins.
+enum class Pass : std::int32_t {
+  pixels,       ///< rays to depth
+  input,        ///< what came from elsewhere to depth, in place of `pixels`
+  flying,       ///< flags of flying pixels
+  filter,       ///< the image filter
+  settle,       ///< the range that is left, to z, point and confidence
+};
+
+/// Calls run(pass) for each pass of a frame.
+/// @param given  it begins with what came from elsewhere
+template <class Run>
+TOFRAY_FN void each_pass(const Setup& s, const Job& job, bool given, const Run& run) {
+  run(given ? Pass::input : Pass::pixels);
+  if (s.last_stage < Stage::depth || job.out.z_m == nullptr || job.out.flags == nullptr) return;
+  run(Pass::flying);
+  if (job.filter != Filter::none) run(Pass::filter);
+  run(Pass::settle);
+}
 
 TOFRAY_FN int tiles_across(const camera::LensView& lens) { return (lens.width + tile_width - 1) / tile_width; }
 TOFRAY_FN int tile_count(const camera::LensView& lens) { return tiles_across(lens) * ((lens.height + tile_height - 1) / tile_height); }

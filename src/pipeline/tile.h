@@ -3,7 +3,7 @@
 #pragma once
 #include "pipeline/one_pixel.h"
 
-/// One tile of pixels: what it can meet, then its pixels pack by pack.
+/// One tile of pixels of the processor: what it can meet, and its pixels pack by pack.
 namespace tofray::pipeline {
 
 /// The pixels of a tile, cut into packs of at most lanes<F> in a row.
@@ -75,120 +75,105 @@ struct SeenByLights {
   TOFRAY_FN const flow::Bounds* of(int light) const { return none[light] ? nullptr : bounds + light; }
 };
 
-/// … and what can stand between each light and the tile, of what stands still.
-template <class F>
-TOFRAY_FN void cull_lights(const Setup& s, const Tile& tile, const flow::Hit<F>* hits, SeenByLights& seen, Near& near) {
-  for (int l = 0; l < s.scene.lights; ++l) {
-    seen.none[l] = s.culling == 0 || !seen_by_light(s, tile, hits, l, seen.bounds[l]);
-    trace::cull(s.scene.light_still[l], seen.of(l), near.light_still[l]);
-  }
-}
+/// Which forms the pixels of a tile can meet: seen from the camera, and from each light.
+/// \tparam can_move  false: nothing moves, and there is no code for what does
+template <bool can_move>
+struct Near {
+  trace::Culled camera_still, camera_moving;
+  trace::Culled light_still[flow::max_lights], light_moving[flow::max_lights];
 
-/// Scratch memory of one worker.
-template <class F>
-struct Scratch {
-  Near near;
-  SeenByLights seen;
-  flow::Hit<F> still[max_packs<F>];
-  flow::Hit<F> hits[max_packs<F>];
-  bool lit[max_packs<F>];                                      ///< the light of what stands still is known
-  std::int32_t entry[max_packs<F>][flow::max_raw_frames];      ///< where the light of each pack's raw frames is
+  TOFRAY_FN bool moves(const Setup&) const { return can_move; }
+  template <class Mask>
+  TOFRAY_FN bool any(Mask mask) const { return num::any(mask); }
+  TOFRAY_FN bool can_be_shaded(const Setup& s) const {
+    bool possible = s.power.ambient == camera::AmbientLight::directional;
+    for (int l = 0; l < s.scene.lights; ++l) possible = possible || !light_moving[l].empty();
+    return possible;
+  }
+  /// What `light` can see of the pixels is known before they are lit: nothing to do for the ray that goes to one of them.
+  template <class F>
+  TOFRAY_FN void look(int, int, const flow::Ray<F>&, num::Mask<F>) const {}
+  TOFRAY_FN const trace::Culled& still_from(int light) const { return light_still[light]; }
+  TOFRAY_FN const trace::Culled& moving_from(int light) const { return light_moving[light]; }
 };
 
-/// What one raw frame sees: where nothing that moves is in view, the surfaces that stand still.
-template <class F>
-TOFRAY_FN const flow::Hit<F>* hits_at(const Setup& s, const Tile& tile, const scene::Bounds* view, int slot, Scratch<F>& scratch) {
-  trace::cull(s.scene.camera_moving[slot], view, scratch.near.camera_moving);
-  if (scratch.near.camera_moving.empty()) return scratch.still;
-  for (int q = 0; q < max_packs<F>; ++q) {
-    const Pixels p = pack_at<F>(s.lens, tile, q);
-    if (p.count > 0) scratch.hits[q] = see_moving(s, scratch.near, slot, camera::ray<F>(s.lens, p), scratch.still[q]);
-  }
-  return scratch.hits;
-}
+/// Scratch memory of one worker.
+template <class F, bool can_move>
+struct Scratch {
+  Near<can_move> near;
+  SeenByLights seen;
+  flow::Hit<F> still[max_packs<F>];                  ///< of what stands still
+  flow::Hit<F> hits[can_move ? max_packs<F> : 1];    ///< of all, at one moment
+  Pack<F> pack[can_move ? max_packs<F> : 1];         ///< where there is one moment, nothing is kept of a pack once the next one begins
+};
 
-/// Whether something that moves keeps a light off any of the pixels.
-template <class F>
-TOFRAY_FN bool in_moving_shadow(const Setup& s, const Near& near, int slot, const flow::Ray<F>& ray, const flow::Hit<F>& hit) {
-  if (s.last_stage < stage_power) return false;
-  bool possible = s.power.ambient_kind == 2;
-  for (int l = 0; l < s.scene.lights; ++l) possible = possible || !near.light_moving[l].empty();
-  if (!possible) return false;
-  const flow::Surface<F> surface = trace::surface(s.scene, ray, hit);
-  num::Mask<F> dark = F(1.0f) < F(0.0f);
-  for (int l = 0; l < s.scene.lights; ++l) {
-    if (near.light_moving[l].empty()) continue;
-    const flow::Ray<F> from_light = power::light_ray(s.lights[l], surface);
-    dark = dark | trace::blocked(s.scene.light_moving[slot * s.scene.lights + l], near.light_moving[l], from_light, surface.object);
-  }
-  if (s.power.ambient_kind == 2) dark = dark | trace::blocked_parallel(s.scene.sun_moving[slot], s.power.sun_direction, surface);
-  return num::any(dark & surface.found);
-}
-
-/// Light of one raw frame. A pack that nothing moving touches shares entry 0 with all its raw frames; the others have entry k + 1.
-template <class F>
-TOFRAY_FN void light_up_tile(const Setup& s, const Job& job, const Tile& tile, const flow::Hit<F>* hits, int k, Scratch<F>& scratch,
-                             flow::Light<F>* light) {
-  const bool truth = k == s.truth_slot;
-  for (int q = 0; q < max_packs<F>; ++q) {
-    const Pixels p = pack_at<F>(s.lens, tile, q);
-    if (p.count == 0) continue;
-    const flow::Ray<F> ray = camera::ray<F>(s.lens, p);
-    const bool same = hits == scratch.still || !num::any(hits[q].facet != scratch.still[q].facet);
-    const bool still = same && !in_moving_shadow(s, scratch.near, k, ray, hits[q]);
-    scratch.entry[q][k] = still ? 0 : (k + 1) * max_packs<F>;
-    if (still && scratch.lit[q] && !truth) continue;
-    Lighting<F> lighting;
-    light_surface(s, job, scratch.near, k, !still, truth, p, ray, hits[q], camera::vignetting<F>(s.lens, p), lighting);
-    if (s.last_stage >= stage_power) light[scratch.entry[q][k] + q] = lighting.light;
-    scratch.lit[q] = scratch.lit[q] || still;
-  }
-}
-
-/// A tile of a scene in which something moves: each raw frame sees it at its own time; where nothing of it comes near, once is enough.
-template <class F>
-TOFRAY_FN void moving_tile(const Setup& s, const Job& job, const Tile& tile, const scene::Bounds* view, Scratch<F>& scratch, flow::Light<F>* light) {
-  bool culled_for_still = false;
-  for (int q = 0; q < max_packs<F>; ++q) scratch.lit[q] = false;
-  for (int k = 0; k < s.sensor.raw_frames; ++k) {
-    const flow::Hit<F>* hits = hits_at(s, tile, view, k, scratch);
-    if (s.last_stage >= stage_power && !(culled_for_still && hits == scratch.still)) {
-      cull_lights(s, tile, hits, scratch.seen, scratch.near);
-      culled_for_still = hits == scratch.still;
+template <class F, bool can_move>
+class TileWalk {
+ public:
+  TOFRAY_FN TileWalk(const Setup& s, const Job& job, int index, Scratch<F, can_move>& scratch)
+      : s_(s), job_(job), scratch_(scratch), tile_(tile_at(s.lens, index)), view_(s.culling != 0 ? s.lens.tile + index : nullptr), hits_(scratch.still) {
+    trace::cull(s.scene.camera_still, view_, scratch.near.camera_still);
+    for (int q = 0; q < max_packs<F>; ++q) {
+      const Pixels p = pixels(q);
+      if (p.count > 0) scratch.still[q] = see_still(s, scratch.near, camera::ray<F>(s.lens, p));
     }
-    for (int l = 0; l < s.scene.lights && s.last_stage >= stage_power; ++l) {
-      trace::cull(s.scene.light_moving[k * s.scene.lights + l], scratch.seen.of(l), scratch.near.light_moving[l]);
+  }
+
+  TOFRAY_FN int moments() const { return can_move ? s_.sensor.raw_frames : 1; }
+  TOFRAY_FN int packs() const { return max_packs<F>; }
+  TOFRAY_FN Pixels pixels(int q) const { return pack_at<F>(s_.lens, tile_, q); }
+  TOFRAY_FN Pack<F>& pack(int q) {
+    if constexpr (can_move) return scratch_.pack[q];
+    return here_;
+  }
+
+  TOFRAY_FN void go_to(const Moment& now) {
+    if constexpr (can_move) see_what_moves(now.slot);
+    if (s_.last_stage < Stage::power) return;
+    if (!(culled_for_still_ && hits_ == scratch_.still)) {
+      for (int l = 0; l < s_.scene.lights; ++l) {
+        scratch_.seen.none[l] = s_.culling == 0 || !seen_by_light(s_, tile_, hits_, l, scratch_.seen.bounds[l]);
+        trace::cull(s_.scene.light_still[l], scratch_.seen.of(l), scratch_.near.light_still[l]);
+      }
+      culled_for_still_ = hits_ == scratch_.still;
     }
-    if (s.last_stage >= stage_power || k == s.truth_slot) light_up_tile(s, job, tile, hits, k, scratch, light);
+    for (int l = 0; can_move && l < s_.scene.lights; ++l) {
+      trace::cull(s_.scene.light_moving[now.slot * s_.scene.lights + l], scratch_.seen.of(l), scratch_.near.light_moving[l]);
+    }
   }
-  if (s.last_stage < stage_raw) return;
-  for (int q = 0; q < max_packs<F>; ++q) {
-    const Pixels p = pack_at<F>(s.lens, tile, q);
-    if (p.count == 0) continue;
-    measure(s, job, p, camera::ray<F>(s.lens, p), camera::vignetting<F>(s.lens, p), light + q, scratch.entry[q]);
+
+  TOFRAY_FN bool find_light(const Moment& now, int q, const Pixels& p, const flow::Ray<F>& ray, F vignetting, Pack<F>& pack) {
+    return light_of_scene(s_, job_, scratch_.near, now, p, ray, scratch_.still[q], hits_[q], vignetting, pack.light, pack.undisturbed);
   }
-}
+
+ private:
+  /// Where nothing that moves is in view, the tile sees what stands still.
+  TOFRAY_FN void see_what_moves(int slot) {
+    hits_ = scratch_.still;
+    trace::cull(s_.scene.camera_moving[slot], view_, scratch_.near.camera_moving);
+    if (scratch_.near.camera_moving.empty()) return;
+    hits_ = scratch_.hits;
+    for (int q = 0; q < max_packs<F>; ++q) {
+      const Pixels p = pixels(q);
+      if (p.count > 0) scratch_.hits[q] = see_moving(s_, scratch_.near, slot, camera::ray<F>(s_.lens, p), scratch_.still[q]);
+    }
+  }
+
+  const Setup& s_;
+  const Job& job_;
+  Scratch<F, can_move>& scratch_;
+  Tile tile_;
+  const flow::Bounds* view_;
+  const flow::Hit<F>* hits_;
+  bool culled_for_still_ = false;   // near.light_still and `seen` are those of scratch.still
+  Pack<F> here_;
+};
 
 /// From rays to depth for one tile.
-/// @param light  [raw frames + 1][max_packs], needed where something moves
-template <class F>
-TOFRAY_FN void one_tile(const Setup& s, const Job& job, int index, Scratch<F>& scratch, flow::Light<F>* light) {
-  const Tile tile = tile_at(s.lens, index);
-  const flow::Bounds* view = s.culling != 0 ? s.lens.tile + index : nullptr;
-  trace::cull(s.scene.camera_still, view, scratch.near.camera_still);
-  for (int q = 0; q < max_packs<F>; ++q) {
-    const Pixels p = pack_at<F>(s.lens, tile, q);
-    if (p.count > 0) scratch.still[q] = see_still(s, scratch.near, camera::ray<F>(s.lens, p));
-  }
-  if (s.scene.slots > 0) {
-    moving_tile(s, job, tile, view, scratch, light);
-    return;
-  }
-  if (s.last_stage >= stage_power) cull_lights(s, tile, scratch.still, scratch.seen, scratch.near);
-  for (int q = 0; q < max_packs<F>; ++q) {
-    const Pixels p = pack_at<F>(s.lens, tile, q);
-    if (p.count > 0) one_pixel(s, job, scratch.near, p, camera::ray<F>(s.lens, p), scratch.still[q]);
-  }
+template <class F, bool can_move>
+TOFRAY_FN void one_tile(const Setup& s, const Job& job, int index, void* scratch) {
+  TileWalk<F, can_move> walk(s, job, index, *static_cast<Scratch<F, can_move>*>(scratch));
+  run_pipeline<F>(s, job, walk);
 }
 
 }  // namespace tofray::pipeline

@@ -3,12 +3,12 @@
 #pragma once
 #include "power/light_source.h"
 #include "power/paper_literal.h"
+#include "power/phasors.h"
 #include "power/reflection.h"
 
 /// Stage 2: how much light each pixel receives, and over which path.
 namespace tofray::power {
 
-using flow::Light;
 using flow::Radiometry;
 using flow::Ray;
 using flow::Surface;
@@ -21,10 +21,10 @@ TOFRAY_FN Ray<F> light_ray(const camera::LightView& light, const Surface<F>& p) 
 }
 
 /// One light source: E_s = I·max(0, n·l)·V/r_L²  [eq. 2.2], L = f_r·E_s, S/t = L·(π T pitch² FF/4N²)·vignetting·λQE/(hc)  [eq. 2.5–2.7],
-/// ℓ = |P − L| + |P|  [eq. 2.8].
+/// ℓ = |P − L| + |P|  [eq. 2.8]. What the truth shows of it is added to `sum`.
 template <class F>
-TOFRAY_FN void add_light(const camera::PowerView& s, const camera::LightView& light, const Surface<F>& p, const Ray<F>& ray, const Ray<F>& from_light,
-                         Mask<F> dark, F vignetting, F& rate, F& path_length, Radiometry<F>& sum) {
+TOFRAY_FN Path<F> received(const camera::PowerView& s, const camera::LightView& light, const Surface<F>& p, const Ray<F>& ray,
+                           const Ray<F>& from_light, Mask<F> dark, F vignetting, Radiometry<F>& sum) {
   const F per_distance = from_light.inverse_length, distance = from_light.square * per_distance;
   const F cos_light = -num::fma(p.nx, from_light.x, num::fma(p.ny, from_light.y, p.nz * from_light.z)) * per_distance;
   const auto lit = p.found & (!dark) & (cos_light > F(0.0f));
@@ -39,18 +39,17 @@ TOFRAY_FN void add_light(const camera::PowerView& s, const camera::LightView& li
     radiance = paper_radiance(light, p, p.found & (!dark));
     watts = radiance * F(s.paper_scale) * vignetting;
   }
-  rate = watts * F(light.electrons_per_joule);
-  path_length = num::select(p.found, distance + p.range, F(0.0f));
   sum.irradiance = sum.irradiance + irradiance;
   sum.radiance = sum.radiance + radiance;
   sum.power = sum.power + watts;
+  return {watts * F(light.electrons_per_joule), num::select(p.found, distance + p.range, F(0.0f))};
 }
 
 /// Electrons per second from ambient light, both taps together: ρ·E_B/π, ρ = k_d + k_s, through lens and pixel. [theory: eq. 2.10]
 template <class F>
 TOFRAY_FN F ambient_rate(const camera::PowerView& s, const Surface<F>& p, Mask<F> dark, F vignetting) {
   F rate = F(s.ambient_rate) * (p.diffuse + p.specular) * vignetting;
-  if (s.ambient_kind == 2) {
+  if (s.ambient == camera::AmbientLight::directional) {
     const float* sun = s.sun_direction;
     const F cosine = num::fma(p.nx, F(sun[0]), num::fma(p.ny, F(sun[1]), p.nz * F(sun[2])));
     rate = num::select(!dark, rate * num::max(cosine, F(0.0f)), F(0.0f));

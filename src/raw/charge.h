@@ -10,6 +10,7 @@ namespace tofray::raw {
 
 using flow::Taps;
 
+using camera::Noise;
 using camera::Purpose;
 using enum camera::Purpose;
 
@@ -63,7 +64,7 @@ TOFRAY_FN Means<F> expose_exact(const camera::SensorView& s, const Means<F>& mea
   num::normal_pair<F>(words.w[2], words.w[3], read_a, read_b);
   F a = poisson_by_expansion(mean.a, shot_a), b = poisson_by_expansion(mean.b, shot_b);
   const auto small_a = mean.a < F(inversion_limit), small_b = mean.b < F(inversion_limit);
-  if (num::any(small_a | small_b)) {
+  if (__builtin_expect(num::any(small_a | small_b), 1)) {
     // Uniform words: where both counts are small the normals' words are free; where one is, it takes the 28 bits that the normals left.
     const num::Uint<F> left = (words.w[0] << 24) | ((words.w[1] & num::Uint<F>(0x3fu)) << 18) | ((words.w[2] & num::Uint<F>(0xffu)) << 10) |
                               ((words.w[3] & num::Uint<F>(0x3fu)) << 4);
@@ -119,7 +120,7 @@ TOFRAY_FN Means<F> suppress(const camera::SensorView& s, const Means<F>& charge,
   const F excess = num::max(num::min(charge.a, charge.b) - F(s.suppression_threshold), F(0.0f));
   const F removed = num::min(excess, F(s.suppression_budget));
   Means<F> left{charge.a - removed, charge.b - removed};
-  if (s.noise != 0 && s.suppression_noise > 0 && num::any(removed > F(0.0f))) {
+  if (s.noise != Noise::off && s.suppression_noise > 0 && num::any(removed > F(0.0f))) {
     const num::Random4<F> words = draw<F>(s, pixel, k, frame, suppression);
     F a, b;
     num::normal_pair<F>(words.w[0], words.w[1], a, b);
@@ -144,7 +145,7 @@ TOFRAY_FN Taps<F> read_out(const camera::SensorView& s, const Means<F>& charge, 
   const F difference = out.a - out.b;
   out.level = num::round_even(num::fma(difference, F(s.per_step), F(s.mid_code) + offset));
   out.code = num::min(num::max(out.level, F(0.0f)), F(s.max_code));
-  out.difference = s.noise == 0 ? held_to_codes(s, difference, offset) : (out.code - F(s.mid_code)) * F(s.step);
+  out.difference = s.noise == Noise::off ? held_to_codes(s, difference, offset) : (out.code - F(s.mid_code)) * F(s.step);
   return out;
 }
 

@@ -6,13 +6,12 @@
 /// Stage 3: what the sensor collects in one raw frame.                                                  [theory: eq. 3.6]
 namespace tofray::raw {
 
-/// What stays the same for a pixel over all raw frames of a frame, and the two things that are computed once for several of them.
+/// What stays the same for a pixel over all raw frames of a frame, and what is computed once for several of them.
 template <class F>
 struct Exposure {
   num::Int<F> pixel;
   num::Int<F> column;           ///< where the sensor has column noise
   F gain, offset, delay;
-  Phasors<F> phasors;
   MergedWords<F> merged_words;
   F most_charge, widest_level;  ///< of the lit raw frames: most charge of a tap, largest distance of a level from the valid codes' middle
 };
@@ -50,7 +49,7 @@ TOFRAY_FN Mask<F> saturated(const camera::SensorView& s, const Exposure<F>& e) {
 /// The pixel's offset [DN] with that of its column in this raw frame, one draw for all pixels of the column.         [theory: eq. 3.15]
 template <class F>
 TOFRAY_FN F offset_of(const camera::SensorView& s, int k, FrameIndex index, const Exposure<F>& e) {
-  if (!(s.column_noise > 0) || s.noise == 0) return e.offset;
+  if (!(s.column_noise > 0) || s.noise == Noise::off) return e.offset;
   const num::Random4<F> words = draw<F>(s, e.column, k, index, of_column);
   F z, other;
   num::normal_pair<F>(words.w[0], words.w[1], z, other);
@@ -58,29 +57,24 @@ TOFRAY_FN F offset_of(const camera::SensorView& s, int k, FrameIndex index, cons
 }
 
 /// Mean electrons × (1 + PRNU) → Poisson → reset and read noise → background suppression → full well → column noise, ADC.
-/// @param light_changed  false where the light is that of the raw frame before
+/// @param light  as this pixel sees it, its own delay included
+/// @param orders of the light's phasors
 template <class F>
-TOFRAY_FN Taps<F> expose(const camera::SensorView& s, int k, const Light<F>& light, int lights, bool light_changed, FrameIndex index, Exposure<F>& e) {
+TOFRAY_FN Taps<F> expose(const camera::SensorView& s, int k, const Light<F>& light, int orders, FrameIndex index, Exposure<F>& e) {
   const camera::RawFrameView& frame = s.frame[k];
-  F rate = F(0.0f);
-  if (frame.lit != 0) {
-    const bool anew = light_changed || k == 0 || frame.modulation != s.frame[k - 1].modulation;
-    const camera::ModulationView& modulation = s.modulation[frame.modulation];
-    rate = s.harmonics <= 4 ? difference<4>(modulation, frame, light, lights, e.delay, anew, e.phasors)
-                            : difference<flow::max_harmonics>(modulation, frame, light, lights, e.delay, anew, e.phasors);
-  }
-  Means<F> charge = tap_means(frame, light.total_rate, light.ambient_rate, rate);
+  const F rate = frame.lit != 0 ? difference_rate(frame, orders, light) : F(0.0f);
+  Means<F> charge = tap_means(frame, light.signal_rate, light.ambient_rate, rate);
   charge.a = charge.a * e.gain, charge.b = charge.b * e.gain;
-  if (s.noise == 2) {
+  if (s.noise == Noise::exact) {
     charge = expose_exact(s, charge, e.pixel, k, index);
-  } else if (s.noise == 1) {
+  } else if (s.noise == Noise::fast) {
     charge = expose_fast(s, charge, e.pixel, k, index, e.merged_words);
   }
   if (s.suppression_threshold > 0) charge = suppress(s, charge, e.pixel, k, index);
   Taps<F> taps = read_out(s, charge, offset_of(s, k, index, e));
-  if (s.noise == 0 && frame.lit != 0) {
+  if (s.noise == Noise::off && frame.lit != 0) {
     // Strong ambient light leaves few places of a float to the difference of the taps; where neither clips it is known better than that.
-    const auto whole = (num::max(charge.a, charge.b) < F(s.full_well)) & (num::abs(rate) <= light.total_rate + light.ambient_rate);
+    const auto whole = (num::max(charge.a, charge.b) < F(s.full_well)) & (num::abs(rate) <= light.signal_rate + light.ambient_rate);
     taps.difference = num::select(whole, held_to_codes(s, rate * F(frame.integration_time) * e.gain, e.offset), taps.difference);
   }
   watch(s, frame, charge, taps, e);

@@ -38,7 +38,7 @@ void Simulator::Impl::frames_on_cpu(std::uint64_t from, std::uint64_t count, con
 }
 
 Own Simulator::Impl::own_of(std::uint64_t from, std::uint64_t count, const Request& request) const {
-  Own own = frozen_scene.moves() || camera.temperature.warm_up_m != 0 ? Own::moving : Own::number;
+  Own own = frozen_scene.moves() || setup.sensor.drifts != 0 ? Own::moving : Own::number;
   for (std::uint64_t i = from; i < from + count; ++i) {
     const FrameRequest wanted = request(i);
     if (wanted.pose) return Own::scene;
@@ -70,7 +70,7 @@ void Simulator::Impl::frames_on_gpus(std::uint64_t count, const Request& request
   };
   simulator::prepare(scratch, camera, options.truth);
   job.out = simulator::view_of(scratch, options.last_stage);
-  const std::size_t frame_bytes = std::max<std::size_t>(1, backend::gpu::Slab(setup, job.out, job.filter != 0).bytes());
+  const std::size_t frame_bytes = std::max<std::size_t>(1, backend::gpu::Slab(setup, job.out, job.filter != pipeline::Filter::none).bytes());
   const std::uint64_t chunk = std::clamp<std::uint64_t>(options.batch_bytes / frame_bytes, 1, most_frames), lanes = lanes_per_gpu * gpus.size();
   std::deque<Flight> flights;
   for (std::uint64_t next = 0, started = 0; taken < count;) {
@@ -129,7 +129,7 @@ void Simulator::Impl::frames_on_device(std::uint64_t count, const Request& reque
   backend::Cuda& gpu = *gpus[0];
   into.indices.clear();
   into.seconds = 0;
-  into.slab = backend::gpu::Slab(setup, job.out, job.filter != 0);
+  into.slab = backend::gpu::Slab(setup, job.out, job.filter != pipeline::Filter::none);
   into.camera = camera;
   const std::size_t bytes = into.slab.bytes() * count;
   if (into.memory_bytes < bytes || !into.device || into.device->number() != gpu.device().number()) {

@@ -9,7 +9,11 @@
 namespace tofray::simulator {
 
 void set_filter(const ImageFilter& filter, pipeline::Job& job) {
-  job.filter = filter.kind == ImageFilter::Kind::none ? 0 : filter.kind == ImageFilter::Kind::gaussian ? 1 : 2;
+  switch (filter.kind) {
+    case ImageFilter::Kind::none: job.filter = pipeline::Filter::none; break;
+    case ImageFilter::Kind::gaussian: job.filter = pipeline::Filter::gaussian; break;
+    case ImageFilter::Kind::median: job.filter = pipeline::Filter::median; break;
+  }
   job.filter_radius = filter.radius_px;
   if (filter.kind != ImageFilter::Kind::gaussian) return;
   // Beyond 3 sigma the weights are below 1.2 %.

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "simulator/input.h"
 
+#include <charconv>
 #include <cmath>
 #include <limits>
 
@@ -38,6 +39,7 @@ class Look {
     }
     moments_ = static_cast<std::size_t>(moments), lights_ = camera.illumination.size();
   }
+  [[nodiscard]] std::size_t image() const { return pixels_; }
   [[nodiscard]] std::size_t pixels() const { return moments_ * pixels_; }
   [[nodiscard]] std::size_t by_light() const { return pixels() * lights_; }
 
@@ -50,18 +52,19 @@ class Look {
   void size_or_empty(const std::vector<T>& array, std::size_t wanted, const char* name) const {
     if (!array.empty()) size(array, wanted, name);
   }
-  void value(float value, const base::Range& range, const char* name, std::size_t i, bool has_lights = false) const {
-    if (!range.contains(static_cast<double>(value))) within(static_cast<double>(value), range, place(name, i, has_lights));
+  void value(float value, const base::Range& range, const char* name, std::size_t i, const char* of = "", std::size_t each = 1) const {
+    if (!range.contains(static_cast<double>(value))) within(static_cast<double>(value), range, place(name, i, of, each));
   }
-  void values(const std::vector<float>& array, const base::Range& range, const char* name, bool has_lights) const {
-    for (std::size_t i = 0; i < array.size(); ++i) value(array[i], range, name, i, has_lights);
+  /// @param of, each  what a moment's images are of ("light", "path"), and how many there are
+  void values(const std::vector<float>& array, const base::Range& range, const char* name, const char* of, std::size_t each) const {
+    for (std::size_t i = 0; i < array.size(); ++i) value(array[i], range, name, i, of, each);
   }
   /// "geometry.z_m, moment 2, pixel (column 7, row 12)"
-  [[nodiscard]] std::string place(const char* name, std::size_t i, bool has_lights = false) const {
-    const std::size_t image = i / pixels_, at = i % pixels_, lights = has_lights ? lights_ : 1;
+  [[nodiscard]] std::string place(const char* name, std::size_t i, const char* of = "", std::size_t each = 1) const {
+    const std::size_t image = i / pixels_, at = i % pixels_;
     std::string text = path_ + "." + name;
-    if (moments_ > 1) text += ", moment " + std::to_string(image / lights);
-    if (lights > 1) text += ", light " + std::to_string(image % lights);
+    if (moments_ > 1) text += ", moment " + std::to_string(image / each);
+    if (each > 1) text += ", " + std::string(of) + " " + std::to_string(image % each);
     return text + ", pixel (column " + std::to_string(at % width_) + ", row " + std::to_string(at / width_) + ")";
   }
 
@@ -72,7 +75,7 @@ class Look {
 
 }  // namespace
 
-pipeline::Input input_of(const Geometry& seen, const Camera& camera) {
+OwnInput input_of(const Geometry& seen, const Camera& camera) {
   const Look look("geometry", seen.width, seen.height, seen.moments, camera);
   look.size(seen.z_m, look.pixels(), "z_m");
   look.size(seen.normal, 3 * look.pixels(), "normal");
@@ -97,32 +100,86 @@ pipeline::Input input_of(const Geometry& seen, const Camera& camera) {
       refuse(look.place("diffuse", i) + ": diffuse + specular is more than 1", "a surface cannot send back more light than it gets");
     }
   }
-  pipeline::Input input{};
-  input.entry = pipeline::stage_power, input.moments = seen.moments;
+  OwnInput own;
+  pipeline::Input& input = own.input;
+  input.entry = Stage::power, input.moments = seen.moments;
   input.surface = {seen.z_m.data(),         seen.normal.data(),       seen.diffuse.data(),  data_of(seen.specular),
                    data_of(seen.exponent),  data_of(seen.object_id),  data_of(seen.shadow), data_of(seen.sun_shadow)};
-  return input;
+  return own;
 }
 
-pipeline::Input input_of(const PixelLight& light, const Camera& camera) {
+namespace {
+
+std::string text_of(float value) {
+  char text[32];
+  return {text, std::to_chars(text, text + sizeof text, value).ptr};
+}
+
+/// Which light each path comes from.
+std::vector<std::int32_t> lights_of_paths(const PixelLight& light, std::size_t lights) {
+  std::vector<std::int32_t> out(light.light_of_path.begin(), light.light_of_path.end());
+  for (std::size_t i = 0; i < out.size(); ++i) {
+    if (out[i] >= 0 && static_cast<std::size_t>(out[i]) < lights) continue;
+    refuse("pixel light.light_of_path[" + std::to_string(i) + "] is " + std::to_string(out[i]),
+           "the camera has " + std::to_string(lights) + " light sources, counted from 0");
+  }
+  for (std::size_t l = 0; out.size() < lights && light.light_of_path.empty(); ++l) out.push_back(static_cast<std::int32_t>(l));
+  return out;
+}
+
+/// How many harmonics of each modulation frequency there are. No phasor is longer than the powers that it is the sum of.
+std::size_t check_phasors(const PixelLight& light, const Look& look, std::size_t lights, std::size_t modulations) {
+  if (!light.path_length_m.empty() || !light.light_of_path.empty()) {
+    refuse("pixel light has both paths and phasors", "give path_length_m (and light_of_path), or phasor_w");
+  }
+  const std::size_t one = look.by_light() * modulations;
+  if (one == 0 || light.phasor_w.size() % one != 0) {
+    refuse("pixel light.phasor_w has the wrong size",
+           "got " + std::to_string(light.phasor_w.size()) + " values, expected a multiple of " + std::to_string(one) + ": [moment][light][modulation "
+           "frequency][harmonic][height][width], the camera has " + std::to_string(lights) + " lights and " + std::to_string(modulations) + " modulation frequencies");
+  }
+  const std::size_t orders = light.phasor_w.size() / one, pixels = look.image();
+  for (std::size_t i = 0; i < light.phasor_w.size(); ++i) {
+    const float most = light.power_w[i / (pixels * orders * modulations) * pixels + i % pixels];
+    if (std::abs(light.phasor_w[i]) <= most * 1.0001f) continue;
+    refuse("pixel light.phasor_w[" + std::to_string(i) + "] is longer than its light's power",
+           "got " + text_of(std::abs(light.phasor_w[i])) + " W of " + text_of(most) + " W");
+  }
+  return orders;
+}
+
+}  // namespace
+
+OwnInput input_of(const PixelLight& light, const Camera& camera) {
   const Look look("pixel light", light.width, light.height, light.moments, camera);
-  look.size(light.power_w, look.by_light(), "power_w");
-  look.size(light.path_length_m, look.by_light(), "path_length_m");
+  OwnInput own;
+  own.light_of_path = lights_of_paths(light, camera.illumination.size());
+  const bool phasors = !light.phasor_w.empty();
+  const std::size_t paths = phasors ? camera.illumination.size() : own.light_of_path.size();
+  look.size(light.power_w, look.pixels() * paths, "power_w");
+  if (!phasors) look.size(light.path_length_m, look.pixels() * paths, "path_length_m");
   look.size_or_empty(light.ambient_e_per_s, look.pixels(), "ambient_e_per_s");
-  look.values(light.power_w, pixel_power_w, "power_w", true);
-  look.values(light.path_length_m, path_length_m, "path_length_m", true);
-  look.values(light.ambient_e_per_s, ambient_e_per_s, "ambient_e_per_s", false);
-  pipeline::Input input{};
-  input.entry = pipeline::stage_raw, input.moments = light.moments;
-  input.light = {data_of(light.power_w), data_of(light.path_length_m), data_of(light.ambient_e_per_s)};
-  return input;
+  look.values(light.power_w, pixel_power_w, "power_w", phasors ? "light" : "path", paths);
+  look.values(light.path_length_m, path_length_m, "path_length_m", "path", paths);
+  look.values(light.ambient_e_per_s, ambient_e_per_s, "ambient_e_per_s", "", 1);
+  const std::size_t orders =
+      phasors ? check_phasors(light, look, camera.illumination.size(), camera::modulations_of(camera.mode).frequency_hz.size()) : 0;
+  own.input.entry = Stage::raw, own.input.moments = light.moments;
+  own.input.light = {data_of(light.power_w),
+                     data_of(light.path_length_m),
+                     data_of(own.light_of_path),
+                     phasors ? 0 : static_cast<std::int32_t>(paths),
+                     phasors ? reinterpret_cast<const float*>(light.phasor_w.data()) : nullptr,
+                     static_cast<std::int32_t>(orders),
+                     data_of(light.ambient_e_per_s)};
+  return own;
 }
 
-pipeline::Input input_of(const Raw& raw) {
-  pipeline::Input input{};
-  input.entry = pipeline::stage_depth;
-  input.recording = {data_of(raw.raw), data_of(raw.tap_a), data_of(raw.tap_b)};
-  return input;
+OwnInput input_of(const Raw& raw) {
+  OwnInput own;
+  own.input.entry = Stage::depth;
+  own.input.recording = {data_of(raw.raw), data_of(raw.tap_a), data_of(raw.tap_b)};
+  return own;
 }
 
 }  // namespace tofray::simulator

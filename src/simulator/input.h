@@ -1,6 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The tofray authors
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include <vector>
+
 #include "pipeline/enter.h"
 #include "tofray/camera.h"
 #include "tofray/frame.h"
@@ -8,11 +10,17 @@
 
 namespace tofray::simulator {
 
+/// Where arrays of one's own are, and what was made for them.
+struct OwnInput {
+  pipeline::Input input{};
+  std::vector<std::int32_t> light_of_path;
+};
+
 /// Where the arrays of one's own are, once all of them are seen to be good.
 /// @throws Error (bad_input) naming the first array or value that is not
-pipeline::Input input_of(const Geometry& seen, const Camera& camera);
-pipeline::Input input_of(const PixelLight& light, const Camera& camera);
+OwnInput input_of(const Geometry& seen, const Camera& camera);
+OwnInput input_of(const PixelLight& light, const Camera& camera);
 /// The same of raw data; process() has looked at them.
-pipeline::Input input_of(const Raw& raw);
+OwnInput input_of(const Raw& raw);
 
 }  // namespace tofray::simulator

@@ -47,32 +47,33 @@ Depth process(const Raw& raw, const Camera& profile, const SimulatorOptions& opt
   const Camera camera = camera_of(raw, profile);
   simulator::check(options);
   simulator::check(camera);
-  const camera::FrozenCamera frozen(camera, static_cast<int>(options.noise), options.seed);
+  camera::FrozenCamera frozen(camera, static_cast<int>(options.noise), options.seed);
   pipeline::Setup setup{};
-  setup.last_stage = pipeline::stage_depth;
+  setup.last_stage = Stage::depth;
   setup.lens = frozen.lens();
   setup.power = frozen.power();
+  setup.phasors = frozen.phasors();
   setup.sensor = frozen.sensor(0);
   setup.decoder = frozen.decoder();
   pipeline::Job job{};
   simulator::set_filter(camera.decoding.filter, job);
   Depth depth;
   simulator::prepare(depth, raw.width, raw.height);
-  std::vector<float> filtered(job.filter != 0 ? depth.z_m.size() : 0);
+  std::vector<float> filtered(job.filter != pipeline::Filter::none ? depth.z_m.size() : 0);
   job.filtered = filtered.data();
   job.out = simulator::view_of(depth);
-  const pipeline::Input input = simulator::input_of(raw);
+  const simulator::OwnInput own = simulator::input_of(raw);
   if (options.backend != Backend::cpu) {
     try {
       backend::Cuda gpu(options.device, options.block_size);
       gpu.load(setup);
-      gpu.run(setup, job, &input);
+      gpu.run(setup, job, &own.input);
       return depth;
     } catch (const backend::gpu::Fault&) {
       if (options.backend == Backend::cuda) throw;
     }
   }
-  backend::Cpu(options.isa, options.threads, 0).run(setup, job, &input);
+  backend::Cpu(options.isa, options.threads, false).run(setup, job, &own.input);
   return depth;
 }
 

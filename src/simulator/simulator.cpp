@@ -25,7 +25,7 @@ std::vector<Vec3> positions(const Camera& camera) {
 
 void set_ambient(const Scene& scene, const Camera& camera, const Vec3& toward_sun, camera::PowerView& power) {
   if (scene.ambient.spectrum == Ambient::Spectrum::none || scene.ambient.amount == 0) return;
-  power.ambient_kind = scene.ambient.direction ? 2 : 1;
+  power.ambient = scene.ambient.direction ? camera::AmbientLight::directional : camera::AmbientLight::uniform;
   for (std::size_t k = 0; k < 3; ++k) power.sun_direction[k] = static_cast<float>(toward_sun[k]);
   // E/π through the lens, as electrons: the kernel multiplies by reflectivity and vignetting.                    [theory: eq. 2.10]
   const double rate = scene::band_electron_rate_factor(scene.ambient, camera.filter, camera.pixel.quantum_efficiency);
@@ -59,20 +59,21 @@ Simulator::Impl::Impl(const Scene& all, const Camera& profile, const SimulatorOp
       options(wanted),
       frozen_camera(camera, static_cast<int>(wanted.noise), wanted.seed),
       frozen_scene(scene, positions(camera), static_cast<int>(camera.mode.sequence.size())),
-      cpu(wanted.isa, wanted.threads, frozen_scene.moves() ? static_cast<int>(camera.mode.sequence.size()) : 0) {
+      cpu(wanted.isa, wanted.threads, frozen_scene.moves()) {
   setup.lens = frozen_camera.lens();
-  for (std::size_t l = 0; l < frozen_camera.lights().size(); ++l) setup.lights[l] = frozen_camera.lights()[l].view;
+  setup.lights = frozen_camera.lights().data();
+  setup.phasors = frozen_camera.phasors();
   setup.power = frozen_camera.power();
   set_ambient(scene, camera, frozen_scene.toward_sun(), setup.power);
   power = setup.power;
   setup.sensor = frozen_camera.sensor(0);
   setup.decoder = frozen_camera.decoder();
   setup.truth_slot = static_cast<std::int32_t>(camera.mode.sequence.size() / 2);
-  setup.last_stage = static_cast<std::int32_t>(options.last_stage);
+  setup.last_stage = options.last_stage;
   setup.culling = options.culling;
   setup.scene = frozen_scene.view();
   simulator::set_filter(camera.decoding.filter, job);
-  if (job.filter != 0) filtered.resize(static_cast<std::size_t>(camera.sensor.width) * static_cast<std::size_t>(camera.sensor.height));
+  if (job.filter != pipeline::Filter::none) filtered.resize(static_cast<std::size_t>(camera.sensor.width) * static_cast<std::size_t>(camera.sensor.height));
   job.filtered = filtered.data();
   backend::check_block_size(options.block_size);
   if (options.backend != Backend::cpu) open_gpus();
@@ -140,7 +141,7 @@ void Simulator::Impl::frame(std::uint64_t index, const pipeline::Input* input, F
     set_sensor(request);
   }
   // What is given of the stage before the entry is known, however early the last one is.
-  const Stage given = input == nullptr ? Stage::trace : static_cast<Stage>(input->entry - 1);
+  const Stage given = input == nullptr ? Stage::trace : static_cast<Stage>(static_cast<int>(input->entry) - 1);
   job.out = simulator::view_of(into, std::max(options.last_stage, given));
   if (!gpus.empty()) {
     try {
@@ -160,12 +161,12 @@ Simulator& Simulator::operator=(Simulator&&) noexcept = default;
 
 void Simulator::frame(std::uint64_t index, Frame& into) { impl_->frame(index, nullptr, into); }
 void Simulator::frame(std::uint64_t index, const Geometry& seen, Frame& into) {
-  const pipeline::Input input = simulator::input_of(seen, impl_->camera);
-  impl_->frame(index, &input, into);
+  const simulator::OwnInput own = simulator::input_of(seen, impl_->camera);
+  impl_->frame(index, &own.input, into);
 }
 void Simulator::frame(std::uint64_t index, const PixelLight& light, Frame& into) {
-  const pipeline::Input input = simulator::input_of(light, impl_->camera);
-  impl_->frame(index, &input, into);
+  const simulator::OwnInput own = simulator::input_of(light, impl_->camera);
+  impl_->frame(index, &own.input, into);
 }
 Frame Simulator::frame(std::uint64_t index) { return new_frame(*this, index); }
 Frame Simulator::frame(std::uint64_t index, const Geometry& seen) { return new_frame(*this, index, seen); }

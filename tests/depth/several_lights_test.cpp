@@ -16,21 +16,18 @@ namespace {
 double range_error(const Camera& camera, double x, double range) {
   const Bench bench(camera);
   const double length = std::hypot(x, 1.0), px = range * x / length, pz = range / length;
-  flow::Light<float> light{};
+  std::vector<flow::Path<float>> paths;
   double sum = 0;
   for (const Illumination& l : camera.illumination) sum += l.power_w;
-  const int lights = static_cast<int>(camera.illumination.size());
-  for (int l = 0; l < lights; ++l) {
-    const Illumination& source = camera.illumination[static_cast<std::size_t>(l)];
-    light.signal_rate[l] = static_cast<float>(2e7 * source.power_w / sum);
+  for (const Illumination& source : camera.illumination) {
     const double from_light = std::hypot(px - source.position[0], source.position[1], pz - source.position[2]);
-    light.path_length[l] = static_cast<float>(from_light + range);
-    light.total_rate += light.signal_rate[l];
+    paths.push_back({static_cast<float>(2e7 * source.power_w / sum), static_cast<float>(from_light + range)});
   }
+  const flow::Light<float> light = bench.light_of(paths);
   auto exposure = raw::start<float>(bench.sensor(), {0, 1});
   std::vector<float> difference;
   for (int k = 0; k < bench.sensor().raw_frames; ++k) {
-    difference.push_back(raw::expose(bench.sensor(), k, light, lights, false, {0, 0}, exposure).difference);
+    difference.push_back(raw::expose(bench.sensor(), k, light, bench.phasors().orders, {0, 0}, exposure).difference);
   }
   const auto ray = flow::make_ray(static_cast<float>(x), 0.0f, 1.0f);
   return static_cast<double>(depth::decode<float>(bench.decoder(), difference.data(), false, false, ray, 0.0f).range) - range;

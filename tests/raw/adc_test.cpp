@@ -20,7 +20,7 @@ camera::SensorView adc(double step, double mid = 2048, double max_code = 4095, d
   s.per_step = static_cast<float>(1 / step), s.step = static_cast<float>(step), s.mid_code = static_cast<float>(mid);
   s.max_code = static_cast<float>(max_code), s.valid_middle = static_cast<float>(0.5 * (valid_min + valid_max)),
   s.valid_half = static_cast<float>(0.5 * (valid_max - valid_min));
-  s.noise = 2;
+  s.noise = camera::Noise::exact;
   return s;
 }
 
@@ -150,7 +150,7 @@ TEST(quantiser, adds_the_offset_pattern_before_it_rounds) {
 // Without noise depth comes from the unrounded difference; code, wells and flags are as ever.
 TEST(quantiser, leaves_the_difference_alone_where_noise_is_off) {
   auto sensor = adc(20);
-  sensor.noise = 0;
+  sensor.noise = camera::Noise::off;
   const auto out = raw::read_out(sensor, {1234.5f, 1000.25f}, 0.0f);
   EXPECT_EQ(out.difference, 234.25f);
   EXPECT_EQ(out.code, 2060.0f);
@@ -159,7 +159,7 @@ TEST(quantiser, leaves_the_difference_alone_where_noise_is_off) {
 // … but codes cannot say more than their ends: the difference is held to what they reach, less the offset pattern that it is free of.
 TEST(quantiser, holds_the_difference_to_its_codes_where_noise_is_off) {
   auto sensor = adc(20);
-  sensor.noise = 0;
+  sensor.noise = camera::Noise::off;
   EXPECT_EQ(raw::read_out(sensor, {90000.0f, 1000.0f}, 0.0f).difference, 20 * (4095.0f - 2048));
   EXPECT_EQ(raw::read_out(sensor, {1000.0f, 90000.0f}, 0.0f).difference, 20 * (0.0f - 2048));
   EXPECT_EQ(raw::read_out(sensor, {90000.0f, 1000.0f}, 3.0f).difference, 20 * (4095.0f - 2048 - 3));
@@ -200,7 +200,7 @@ TEST(saturation, is_flagged_where_a_code_leaves_the_valid_range) {
 // Where the valid codes reach the ends of the ADC, a code at an end is valid and one that was held there is not: what counts is the level
 // before the ends, rounded.
 TEST(saturation, is_flagged_where_the_adc_held_a_code_that_would_be_valid) {
-  for (const int noise : {0, 2}) {
+  for (const camera::Noise noise : {camera::Noise::off, camera::Noise::exact}) {
     auto sensor = adc(20, 2048, 4095, 0, 4095);
     sensor.noise = noise;
     for (const double level : {-7.0, -0.6, -0.4, 0.0, 4095.0, 4095.4, 4095.6, 4100.0}) {

@@ -14,7 +14,7 @@ namespace {
 
 camera::SensorView suppressing(float threshold, float budget, float factor, int noise) {
   camera::SensorView s{};
-  s.suppression_threshold = threshold, s.suppression_budget = budget, s.suppression_noise = factor, s.noise = noise;
+  s.suppression_threshold = threshold, s.suppression_budget = budget, s.suppression_noise = factor, s.noise = static_cast<camera::Noise>(noise);
   return s;
 }
 
@@ -213,13 +213,10 @@ TEST(electrons, of_several_lights_add_up) {
   Camera camera = bench_camera({60.24e6}, 4, 0.6);
   camera.illumination.push_back(camera.illumination[0]);
   const Bench bench(camera);
-  flow::Light<float> light{};
-  light.signal_rate[0] = 3e6f, light.signal_rate[1] = 1e6f;
-  light.total_rate = 4e6f;
-  light.path_length[0] = 2.0f, light.path_length[1] = 3.1f;
+  const flow::Light<float> light = bench.light_of({{3e6f, 2.0f}, {1e6f, 3.1f}});
   auto exposure = raw::start<float>(bench.sensor(), {0, 1});
   for (int k = 0; k < 4; ++k) {
-    const auto taps = raw::expose(bench.sensor(), k, light, 2, false, {0, 0}, exposure);
+    const auto taps = raw::expose(bench.sensor(), k, light, bench.phasors().orders, {0, 0}, exposure);
     double expected = 0;
     for (const auto& [signal, path] : {std::pair{3000.0, 2.0}, std::pair{1000.0, 3.1}}) {
       const double length = static_cast<double>(static_cast<float>(path));
@@ -243,17 +240,15 @@ TEST(electrons, of_several_lights_add_up_at_any_reference_phases) {
       w.harmonics = 4, w.duty = duties[l], w.bandwidth_hz = poles[l];
     }
     const Bench bench(camera);
-    flow::Light<float> light{};
-    for (int l = 0; l < 2; ++l) {
-      light.signal_rate[l] = static_cast<float>(1e3 * signals[l]), light.path_length[l] = static_cast<float>(paths[l]);
-    }
-    light.total_rate = 4e7f;
+    std::vector<flow::Path<float>> way;
+    for (int l = 0; l < 2; ++l) way.push_back({static_cast<float>(1e3 * signals[l]), static_cast<float>(paths[l])});
+    const flow::Light<float> light = bench.light_of(way);
     auto exposure = raw::start<float>(bench.sensor(), {0, 1});
     for (int k = 0; k < phases; ++k) {
-      const auto taps = raw::expose(bench.sensor(), k, light, 2, false, {0, 0}, exposure);
+      const auto taps = raw::expose(bench.sensor(), k, light, bench.phasors().orders, {0, 0}, exposure);
       double expected = 0;
       for (int l = 0; l < 2; ++l) {
-        const double phase = two_pi * (static_cast<double>(light.path_length[l]) * f / c + static_cast<double>(k) / phases);
+        const double phase = two_pi * (static_cast<double>(way[static_cast<std::size_t>(l)].length) * f / c + static_cast<double>(k) / phases);
         for (const int m : {1, 3, 5, 7}) {
           const double x = pi * m * duties[l], pole = 1 / std::hypot(1.0, m * f / poles[l]);
           const double a = 4 / (pi * m) * std::sin(m * pi / 2) * std::sin(x) / x * 0.8 * pole;

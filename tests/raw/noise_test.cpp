@@ -190,7 +190,7 @@ TEST(draws, of_read_noise_are_independent_of_shot_noise) {
 TEST(draws, of_suppression_are_independent_of_shot_and_read_noise) {
   camera::SensorView shot{}, read{}, taking{};
   read.read_noise = 16;
-  taking.suppression_threshold = 1000, taking.suppression_budget = 1e6f, taking.suppression_noise = 1, taking.noise = 2;
+  taking.suppression_threshold = 1000, taking.suppression_budget = 1e6f, taking.suppression_noise = 1, taking.noise = camera::Noise::exact;
   std::vector<Correlation> pairs(24, Correlation(0, 0));
   for (int i = 0; i < samples; ++i) {
     raw::MergedWords<float> words{};

@@ -38,7 +38,7 @@ Cells cells_of(double mean) {
 
 camera::SensorView sensor(std::uint32_t seed) {
   camera::SensorView s{};
-  s.keys = num::round_keys(seed, 0), s.noise = 2;
+  s.keys = num::round_keys(seed, 0), s.noise = camera::Noise::exact;
   return s;
 }
 

@@ -25,9 +25,8 @@ double excess(double z, double beside) {
   camera::LightView lamp{};
   lamp.position[0] = static_cast<float>(beside);
   camera::PowerView power{};
-  float rate = 0, path = 0;
   flow::Radiometry<float> sum{};
-  power::add_light(power, lamp, surface, view, power::light_ray(lamp, surface), false, 1.0f, rate, path, sum);
+  const float path = power::received(power, lamp, surface, view, power::light_ray(lamp, surface), false, 1.0f, sum).length;
   return 0.5 * (static_cast<double>(path) - 2 * static_cast<double>(surface.range));
 }
 

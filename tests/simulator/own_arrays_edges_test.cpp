@@ -152,7 +152,36 @@ TEST(own_arrays, that_do_not_fit_are_refused_by_name) {
   for (auto* array : {&given.power_w, &given.path_length_m}) array->assign(9 * 2 * 38528, 1e-12f);
   given.path_length_m[5 * 38528 + 3] = -1;
   EXPECT_EQ(message_of(seen_twice, given),
-            "error: pixel light.path_length_m, moment 2, light 1, pixel (column 3, row 0) is out of range\n  got -1, expected 0 to 1000000");
+            "error: pixel light.path_length_m, moment 2, path 1, pixel (column 3, row 0) is out of range\n  got -1, expected 0 to 1000000");
+}
+
+// Paths of any light, as many as there are; or their sums.
+TEST(own_arrays, of_paths_and_phasors_must_fit_the_camera) {
+  const Camera camera = plain_camera();
+  Simulator simulator({}, camera);
+  const auto light = [&](const auto& spoil) {
+    PixelLight given = even_light(camera, 1e-12f, 2);
+    spoil(given);
+    return message_of(simulator, given);
+  };
+  const std::size_t pixels = 38528;
+  EXPECT_EQ(light([](PixelLight& l) { l.light_of_path = {0}; }), "no error");
+  EXPECT_EQ(light([](PixelLight& l) { l.light_of_path = {1}; }),
+            "error: pixel light.light_of_path[0] is 1\n  the camera has 1 light sources, counted from 0");
+  EXPECT_EQ(light([](PixelLight& l) { l.light_of_path = {-1}; }),
+            "error: pixel light.light_of_path[0] is -1\n  the camera has 1 light sources, counted from 0");
+  EXPECT_EQ(light([](PixelLight& l) { l.light_of_path = {0, 0}; }), "error: pixel light.power_w has the wrong size\n  got 38528 values, expected 77056");
+  const auto phasors = [&](PixelLight& l) { l.path_length_m.clear(), l.phasor_w.assign(2 * 3 * pixels, {0, 1e-12f}); };
+  EXPECT_EQ(light([&](PixelLight& l) { phasors(l); }), "no error");
+  EXPECT_EQ(light([&](PixelLight& l) { phasors(l), l.phasor_w.pop_back(); }),
+            "error: pixel light.phasor_w has the wrong size\n  got 231167 values, expected a multiple of 77056: [moment][light][modulation "
+            "frequency][harmonic][height][width], the camera has 1 lights and 2 modulation frequencies");
+  EXPECT_EQ(light([&](PixelLight& l) { phasors(l), l.path_length_m.assign(pixels, 2); }),
+            "error: pixel light has both paths and phasors\n  give path_length_m (and light_of_path), or phasor_w");
+  EXPECT_EQ(light([&](PixelLight& l) { phasors(l), l.phasor_w[4 * pixels + 5] = {1e-12f, 1e-13f}; }),
+            "error: pixel light.phasor_w[154117] is longer than its light's power\n  got 1.0049875e-12 W of 1e-12 W");
+  EXPECT_EQ(light([&](PixelLight& l) { phasors(l), l.phasor_w[0] = {std::numeric_limits<float>::quiet_NaN(), 0}; }),
+            "error: pixel light.phasor_w[0] is longer than its light's power\n  got nan W of 1e-12 W");
 }
 
 TEST(own_arrays, leave_the_truth_out_where_it_is_not_wanted) {

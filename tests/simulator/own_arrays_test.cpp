@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <complex>
 
 #include "backend/cpu/cpu.h"
 #include "support/files.h"
@@ -166,6 +167,70 @@ TEST(own_arrays, of_several_paths_add_up_as_phasors) {
     if (exposure.lit) shrink += std::cos(two_pi * exposure.modulation_frequency_hz * 0.2 / c), ++lit;
   }
   EXPECT_NEAR(static_cast<double>(frame.depth.amplitude_e[at] / once.depth.amplitude_e[at]), shrink / lit, 1e-4);
+}
+
+// … and no second light source is needed for that.
+TEST(own_arrays, of_several_paths_may_come_from_one_light) {
+  Camera camera = plain_camera(), doubled = camera;
+  doubled.illumination.push_back(doubled.illumination[0]);
+  PixelLight light = even_light(camera, 1e-12f, 2.3f);
+  const PixelLight longer = even_light(camera, 3e-13f, 2.7f);
+  append(light.power_w, longer.power_w), append(light.path_length_m, longer.path_length_m);
+  const Frame two_lights = Simulator({}, doubled).frame(4, light);
+  light.light_of_path = {0, 0};
+  const Frame one_light = Simulator({}, camera).frame(4, light);
+  EXPECT_EQ(first_difference(one_light, two_lights), "");
+  // 20 paths in any order
+  PixelLight many = light;
+  for (int i = 2; i < 20; ++i) append(many.power_w, longer.power_w), append(many.path_length_m, longer.path_length_m);
+  many.light_of_path.assign(20, 0);
+  PixelLight few = light;
+  for (std::size_t i = 38528; i < few.power_w.size(); ++i) few.power_w[i] *= 19;
+  const SimulatorOptions quiet{.noise = Noise::off};
+  const Frame a = Simulator({}, camera, quiet).frame(0, many), b = Simulator({}, camera, quiet).frame(0, few);
+  EXPECT_NEAR(static_cast<double>(a.depth.range_m[9000]), static_cast<double>(b.depth.range_m[9000]), 1e-6);
+  EXPECT_NEAR(static_cast<double>(a.depth.amplitude_e[9000] / b.depth.amplitude_e[9000]), 1, 1e-6);
+}
+
+// Σ P·e^{imφ} of two paths, summed here in double precision, for every modulation frequency and harmonic, moment by moment.
+TEST(own_arrays, of_phasors_are_the_light_of_their_paths) {
+  Camera camera = plain_camera();
+  camera.illumination.push_back(camera.illumination[0]);
+  camera.illumination[1].waveform.bandwidth_hz = 150e6;
+  camera.pixel.delay_s = 2e-11, camera.refractive_index = 1.0003;
+  const std::vector<double> frequencies = {80.32e6, 60.24e6};
+  for (const int moments : {1, static_cast<int>(camera.mode.sequence.size())}) {
+    PixelLight paths, sums;
+    paths.width = sums.width = 224, paths.height = sums.height = 172, paths.moments = sums.moments = moments;
+    paths.light_of_path = {0, 1, 0};
+    const float power[3] = {1e-12f, 5e-13f, 2e-12f}, length[3] = {2.3f, 2.9f, 3.4f};
+    for (int moment = 0; moment < moments; ++moment) {
+      for (std::size_t i = 0; i < 3; ++i) {
+        paths.power_w.insert(paths.power_w.end(), 38528, power[i]);
+        paths.path_length_m.insert(paths.path_length_m.end(), 38528, length[i] + 0.05f * static_cast<float>(moment));
+      }
+      for (int l = 0; l < 2; ++l) {
+        sums.power_w.insert(sums.power_w.end(), 38528, l == 0 ? power[0] + power[2] : power[1]);
+        for (const double f : frequencies) {
+          for (const int m : {1, 3, 5, 7}) {
+            std::complex<double> z = 0;
+            for (std::size_t i = 0; i < 3; ++i) {
+              if (paths.light_of_path[i] != l) continue;
+              const double metres = static_cast<double>(length[i] + 0.05f * static_cast<float>(moment));
+              z += static_cast<double>(power[i]) * std::polar(1.0, m * two_pi * f * camera.refractive_index * metres / c);
+            }
+            sums.phasor_w.insert(sums.phasor_w.end(), 38528, std::complex<float>(z));
+          }
+        }
+      }
+    }
+    const SimulatorOptions quiet{.noise = Noise::off};
+    const Frame a = Simulator({}, camera, quiet).frame(0, paths), b = Simulator({}, camera, quiet).frame(0, sums);
+    double most = 0;
+    for (std::size_t i = 0; i < a.raw.tap_a.size(); ++i) most = std::max(most, std::abs(static_cast<double>(a.raw.tap_a[i] / b.raw.tap_a[i]) - 1));
+    EXPECT_LT(most, 2e-6) << moments;
+    EXPECT_NEAR(static_cast<double>(a.depth.range_m[5000]), static_cast<double>(b.depth.range_m[5000]), 3e-6);
+  }
 }
 
 TEST(own_arrays, of_shadows_keep_light_and_sun_away) {

@@ -7,6 +7,7 @@
 
 #include "camera/frozen_camera.h"
 #include "depth/decode.h"
+#include "power/phasors.h"
 #include "raw/expose.h"
 #include "support/statistics.h"
 
@@ -57,21 +58,29 @@ class Bench {
       : camera_(std::make_unique<camera::FrozenCamera>(camera, noise, seed)), sensor_(camera_->sensor(0)) {}
 
   [[nodiscard]] const camera::SensorView& sensor() const { return sensor_; }
+  [[nodiscard]] const camera::PhasorView& phasors() const { return camera_->phasors(); }
+  /// Path i comes from light source i.
+  [[nodiscard]] flow::Light<float> light_of(const std::vector<flow::Path<float>>& paths) const {
+    flow::Light<float> light{};
+    for (std::size_t l = 0; l < paths.size(); ++l) {
+      power::add_path(phasors(), power::all_of(phasors()), static_cast<int>(l), paths[l], l == 0, light);
+    }
+    return light;
+  }
   [[nodiscard]] const camera::DecoderView& decoder() const { return camera_->decoder(); }
 
   /// All raw frames of one pixel.
   /// @param saturated  whether a lit one clipped or left the valid codes, if asked for
   [[nodiscard]] std::vector<flow::Taps<float>> expose(const Incoming& in, int pixel = 0, std::uint64_t frame = 0,
                                                       bool* saturated = nullptr) const {
-    flow::Light<float> light{};
-    light.signal_rate[0] = light.total_rate = static_cast<float>(in.signal_e * 1e3);
-    light.path_length[0] = static_cast<float>(2 * in.half_path_m);
+    flow::Light<float> light = light_of({{static_cast<float>(in.signal_e * 1e3), static_cast<float>(2 * in.half_path_m)}});
     light.ambient_rate = static_cast<float>(in.ambient_e * 1e3);
     raw::Exposure<float> exposure = raw::start<float>(sensor_, {pixel, 1});
+    if (sensor_.delay != nullptr) power::delay_by(phasors(), power::all_of(phasors()), exposure.delay, light);
     std::vector<flow::Taps<float>> taps;
     for (int k = 0; k < sensor_.raw_frames; ++k) {
       const raw::FrameIndex index{static_cast<std::uint32_t>(frame), static_cast<std::uint32_t>(frame >> 32)};
-      taps.push_back(raw::expose(sensor_, k, light, 1, false, index, exposure));
+      taps.push_back(raw::expose(sensor_, k, light, phasors().orders, index, exposure));
     }
     if (saturated != nullptr) *saturated = raw::saturated(sensor_, exposure);
     return taps;

@@ -84,7 +84,7 @@ class StandInCuda final : public backend::gpu::Runtime {
     return 0;
   }
   Status find_code() override { return fails() || unusable.contains(device_) ? failed : 0; }
-  Status occupancy(backend::gpu::Kernel, int block_size, int& blocks) override {
+  Status occupancy(pipeline::Pass, int block_size, int& blocks) override {
     if (fails()) return failed;
     blocks = 1024 / block_size;
     return 0;
@@ -102,7 +102,7 @@ class StandInCuda final : public backend::gpu::Runtime {
   }
   Status launch(const backend::gpu::Launch& what, void* stream) override {
     if (fails() || !here(stream) || !within(what.batch.numbers, 1) || !reaches_output(what)) return failed;
-    frames_by_device[device_] += what.kernel == backend::gpu::Kernel::pixels ? what.batch.frames : 0;
+    frames_by_device[device_] += what.pass == pipeline::Pass::pixels ? what.batch.frames : 0;
     ++launches_by_block_size[what.block_size];
     const backend::gpu::FrameArguments common = *what.common;
     return later([what, common] { run(what, common); });
@@ -207,8 +207,8 @@ class StandInCuda final : public backend::gpu::Runtime {
       const FrameNumber number = what.batch.numbers[frame];
       const FrameArguments& a = what.batch.own != nullptr ? what.batch.own[frame] : common;
       const pipeline::Job job = job_of(a.job, number, what.batch.own != nullptr ? 0 : frame * what.batch.stride);
-      if (what.kernel != Kernel::pixels) {
-        for (int i = 0; i < a.setup.lens.width * a.setup.lens.height + 7; ++i) run_pass(what.kernel, a.setup, job, what.input, i);
+      if (what.pass != Pass::pixels) {
+        for (int i = 0; i < a.setup.lens.width * a.setup.lens.height + 7; ++i) run_pass(what.pass, a.setup, job, what.input, i);
         continue;
       }
       for (int patch = 0; patch < patch_count(a.setup.lens); ++patch) {

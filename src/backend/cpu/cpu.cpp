@@ -81,25 +81,21 @@ struct Cpu::Threads {
   TileRunner runner;
 };
 
-Cpu::Cpu(Isa isa, int threads, int raw_frames)
+Cpu::Cpu(Isa isa, int threads, bool moves)
     : isa_(choose_isa(isa)), threads_(threads > 0 ? threads : static_cast<int>(std::max(1u, std::thread::hardware_concurrency()))) {
   kernel_ = kernel_of(isa_);
-  pool_ = std::make_unique<Threads>(Threads{TileRunner(threads_, kernel_(nullptr, Pass::pixels, raw_frames, nullptr))});
+  pool_ = std::make_unique<Threads>(Threads{TileRunner(threads_, kernel_(nullptr, Pass::pixels, moves ? 1 : 0, nullptr))});
 }
 
 Cpu::~Cpu() = default;
 
 void Cpu::run(const pipeline::Setup& setup, const pipeline::Job& job, const pipeline::Input* input) {
   const Work work{&setup, &job, input};
-  const int tiles = pipeline::tile_count(setup.lens), bands = (setup.lens.height + 7) / 8;
-  const auto pass = [&](Pass which, int pieces) {
-    pool_->runner.for_each_tile(pieces, [&](int index, void* scratch) { kernel_(&work, which, index, scratch); });
-  };
-  pass(input != nullptr ? Pass::input : Pass::pixels, tiles);
-  if (setup.last_stage < pipeline::stage_depth || job.out.z_m == nullptr || job.out.flags == nullptr) return;
-  pass(Pass::flying, bands);
-  if (job.filter != 0) pass(Pass::filter, bands);
-  pass(Pass::settle, bands);
+  const int tiles = pipeline::tile_count(setup.lens), bands = (setup.lens.height + pipeline::rows_per_band - 1) / pipeline::rows_per_band;
+  pipeline::each_pass(setup, job, input != nullptr, [&](Pass pass) {
+    pool_->runner.for_each_tile(pass == Pass::pixels || pass == Pass::input ? tiles : bands,
+                                [&](int index, void* scratch) { kernel_(&work, pass, index, scratch); });
+  });
 }
 
 }  // namespace tofray::backend

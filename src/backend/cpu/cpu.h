@@ -20,9 +20,9 @@ bool can_run(Isa isa);
 
 class Cpu {
  public:
-  /// @param threads     0: one per core
-  /// @param raw_frames  of a scene in which something moves; 0 where nothing does
-  Cpu(Isa isa, int threads, int raw_frames);
+  /// @param threads  0: one per core
+  /// @param moves    something in the scene does
+  Cpu(Isa isa, int threads, bool moves);
   ~Cpu();
   Cpu(const Cpu&) = delete;
   Cpu& operator=(const Cpu&) = delete;

@@ -29,13 +29,6 @@ namespace {
 
 using namespace pipeline;
 
-constexpr std::size_t scratch_bytes = (sizeof(Scratch<F>) + 63) / 64 * 64;
-
-void run_tile(const Work& work, int index, void* scratch) {
-  auto* light = reinterpret_cast<flow::Light<F>*>(static_cast<unsigned char*>(scratch) + scratch_bytes);
-  one_tile<F>(*work.setup, *work.job, index, *static_cast<Scratch<F>*>(scratch), light);
-}
-
 void run_input(const Work& work, int index) {
   const Tile tile = tile_at(work.setup->lens, index);
   for (int q = 0; q < max_packs<F>; ++q) {
@@ -49,17 +42,27 @@ void run_rows(const Work& work, Pass pass, int band) {
   for (int y = first; y < first + rows_per_band && y < height; ++y) {
     if (pass == Pass::flying) flag_flying_row<F>(*work.setup, *work.job, y);
     if (pass == Pass::filter) filter_row(*work.setup, *work.job, y);
-    if (pass == Pass::settle) settle_row<F>(*work.setup, *work.job, y, work.job->filter != 0 ? work.job->filtered : work.job->out.range_m);
+    if (pass == Pass::settle) settle_row<F>(*work.setup, *work.job, y);
   }
 }
 
 }  // namespace
 
 extern "C" std::size_t TOFRAY_KERNEL(const Work* work, Pass pass, int index, void* scratch) {
-  if (work == nullptr) return scratch_bytes + static_cast<std::size_t>(index > 0 ? index + 1 : 0) * max_packs<F> * sizeof(flow::Light<F>);
-  if (pass == Pass::pixels) run_tile(*work, index, scratch);
-  if (pass == Pass::input) run_input(*work, index);
-  if (pass == Pass::flying || pass == Pass::filter || pass == Pass::settle) run_rows(*work, pass, index);
+  if (work == nullptr) return index != 0 ? sizeof(Scratch<F, true>) : sizeof(Scratch<F, false>);
+  switch (pass) {
+    case Pass::pixels:
+      if (work->setup->scene.slots > 0) {
+        one_tile<F, true>(*work->setup, *work->job, index, scratch);
+      } else {
+        one_tile<F, false>(*work->setup, *work->job, index, scratch);
+      }
+      break;
+    case Pass::input: run_input(*work, index); break;
+    case Pass::flying:
+    case Pass::filter:
+    case Pass::settle: run_rows(*work, pass, index); break;
+  }
   return 0;
 }
 

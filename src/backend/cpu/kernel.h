@@ -9,13 +9,7 @@
 /// What one instruction set's object exports: the pipeline over a piece of a frame.
 namespace tofray::backend {
 
-enum class Pass : int {
-  pixels,       ///< one tile, from rays to depth
-  input,        ///< one tile, from what came from elsewhere to depth
-  flying,       ///< one band of rows
-  filter,       ///< one band of rows
-  settle,       ///< one band of rows
-};
+using pipeline::Pass;
 
 struct Work {
   const pipeline::Setup* setup;
@@ -23,8 +17,8 @@ struct Work {
   const pipeline::Input* input;
 };
 
-/// Does piece number `index` of a pass. With a null `work`: returns the bytes of scratch memory that a worker needs for `index` raw frames
-/// (0: nothing moves); otherwise 0. `scratch` is aligned to 64 bytes.
+/// Does piece number `index` of a pass: a tile of pixels, or a band of rows. With a null `work`: returns the bytes of scratch memory that a
+/// worker needs where nothing moves (index 0), or something does (1); otherwise 0. `scratch` is aligned to 64 bytes.
 using Kernel = std::size_t (*)(const Work* work, Pass pass, int index, void* scratch);
 
 extern "C" {

@@ -7,6 +7,8 @@
 /// What goes from the host to the kernels.
 namespace tofray::backend::gpu {
 
+using pipeline::Pass;
+
 /// One frame. All pointers are the device's; `setup.lens.tile` is of patches, not of tiles.
 struct alignas(16) FrameArguments {
   pipeline::Setup setup;
@@ -25,13 +27,6 @@ struct Batch {
   const FrameArguments* own;      ///< [frame] device; null: the common ones, with frame i's arrays `stride`·i bytes further on
   std::int64_t stride;
   std::int32_t frames;
-};
-
-/// What the kernels do.
-enum class Kernel : int {
-  pixels,       ///< one thread for each pixel, from ray to depth
-  input,        ///< … from what came from elsewhere to depth
-  flying, filter, settle,   ///< the passes over images
 };
 
 }  // namespace tofray::backend::gpu

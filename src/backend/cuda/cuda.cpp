@@ -74,7 +74,7 @@ gpu::Lane& Cuda::lane(std::size_t i) {
 
 gpu::Lane& Cuda::compute(const pipeline::Setup& setup, const pipeline::Job& job, const pipeline::Input* input) {
   gpu::Lane& first = lane(0);
-  first.begin(resident_, setup, job, setup.scene.slots > 0 ? gpu::Own::moving : gpu::Own::number, 1, input);
+  first.begin(resident_, setup, job, setup.scene.slots > 0 || setup.sensor.drifts != 0 ? gpu::Own::moving : gpu::Own::number, 1, input);
   first.add(setup, job.index_low | static_cast<std::uint64_t>(job.index_high) << 32);
   first.submit_graph();
   first.wait();
@@ -94,7 +94,7 @@ flow::FrameView Cuda::run_in_place(const pipeline::Setup& setup, const pipeline:
 double Cuda::occupancy() const {
   device_.use();
   int blocks = 0;
-  device_.check(device_.runtime().occupancy(gpu::Kernel::pixels, block_size_, blocks), "asking for the occupancy");
+  device_.check(device_.runtime().occupancy(pipeline::Pass::pixels, block_size_, blocks), "asking for the occupancy");
   return static_cast<double>(blocks * block_size_) / device_.info().threads_per_processor;
 }
 

@@ -50,8 +50,8 @@ class CudaRuntime final : public Runtime {
   }
   Status use(int device) override { return told(cudaSetDevice(device)); }
   Status find_code() override { return told(find_kernels()); }
-  Status occupancy(Kernel kernel, int block_size, int& blocks) override {
-    return told(cudaOccupancyMaxActiveBlocksPerMultiprocessor(&blocks, kernel_function(kernel, block_size), block_size, 0));
+  Status occupancy(Pass pass, int block_size, int& blocks) override {
+    return told(cudaOccupancyMaxActiveBlocksPerMultiprocessor(&blocks, kernel_function(pass, block_size), block_size, 0));
   }
 
   Status allocate(std::size_t bytes, void*& memory) override { return told(cudaMalloc(&memory, bytes)); }

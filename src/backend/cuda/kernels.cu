@@ -34,22 +34,9 @@ struct DeviceWarp {
 #endif
 };
 
-/// The block copies a part of a frame's arguments, from `first` up to `last` of them.
-__device__ void copy_part(FrameArguments& to, const FrameArguments& from, const void* first, const void* last) {
-  const char* base = reinterpret_cast<const char*>(&from);
-  const auto begin = static_cast<unsigned>(static_cast<const char*>(first) - base) / 16;
-  const auto end = (static_cast<unsigned>(static_cast<const char*>(last) - base) + 15) / 16;
-  for (unsigned i = begin + threadIdx.x; i < end; i += blockDim.x) reinterpret_cast<uint4*>(&to)[i] = reinterpret_cast<const uint4*>(&from)[i];
-}
-
-/// What is in use of them: of raw frames and modulation frequencies those that the camera has.
+/// The block copies a frame's arguments.
 __device__ void copy_arguments(FrameArguments& to, const FrameArguments& from) {
-  const pipeline::Setup& s = from.setup;
-  copy_part(to, from, &from, &s.sensor.frame[s.sensor.raw_frames]);
-  copy_part(to, from, &s.sensor.modulation[0], &s.sensor.modulation[s.sensor.modulations]);
-  copy_part(to, from, &s.sensor.read_noise, &s.decoder.frame[s.sensor.raw_frames]);
-  copy_part(to, from, &s.decoder.modulation[0], &s.decoder.modulation[s.decoder.modulations]);
-  copy_part(to, from, &s.decoder.common_range, &from + 1);
+  for (unsigned i = threadIdx.x; i < sizeof to / 16; i += blockDim.x) reinterpret_cast<uint4*>(&to)[i] = reinterpret_cast<const uint4*>(&from)[i];
   __syncthreads();
 }
 
@@ -79,14 +66,14 @@ __global__ void __launch_bounds__(threads) tofray_pixels_own(const Batch batch) 
 }
 
 /// A pass over the images of all frames.
-template <Kernel kernel>
+template <Pass pass>
 __global__ void __launch_bounds__(max_block_size) tofray_pass(const __grid_constant__ FrameArguments common, const Batch batch,
                                                               const pipeline::Input input) {
   const int frame = static_cast<int>(blockIdx.y), index = static_cast<int>(blockIdx.x * blockDim.x + threadIdx.x);
   if (batch.own != nullptr) {
-    run_pass(kernel, batch.own[frame].setup, job_of(batch.own[frame].job, batch.numbers[frame], 0), input, index);
+    run_pass(pass, batch.own[frame].setup, job_of(batch.own[frame].job, batch.numbers[frame], 0), input, index);
   } else {
-    run_pass(kernel, common.setup, job_of(common.job, batch.numbers[frame], frame * batch.stride), input, index);
+    run_pass(pass, common.setup, job_of(common.job, batch.numbers[frame], frame * batch.stride), input, index);
   }
 }
 
@@ -105,11 +92,11 @@ cudaError_t launch_pixels(const Launch& what, int patches, cudaStream_t stream) 
   return cudaGetLastError();
 }
 
-template <Kernel kernel>
+template <Pass pass>
 cudaError_t launch_pass(const Launch& what, int pixels, cudaStream_t stream) {
   const auto block = static_cast<unsigned>(what.block_size);
   const dim3 grid((static_cast<unsigned>(pixels) + block - 1) / block, static_cast<unsigned>(what.batch.frames));
-  tofray_pass<kernel><<<grid, block, 0, stream>>>(*what.common, what.batch, what.input);
+  tofray_pass<pass><<<grid, block, 0, stream>>>(*what.common, what.batch, what.input);
   return cudaGetLastError();
 }
 
@@ -118,14 +105,14 @@ cudaError_t launch_pass(const Launch& what, int pixels, cudaStream_t stream) {
 cudaError_t launch_kernel(const Launch& what, cudaStream_t stream) {
   const camera::LensView& lens = what.common->setup.lens;
   const int pixels = lens.width * lens.height;
-  switch (what.kernel) {
-    case Kernel::pixels:
+  switch (what.pass) {
+    case Pass::pixels:
       return what.block_size <= few_threads ? launch_pixels<few_threads>(what, patch_count(lens), stream)
                                             : launch_pixels<max_block_size>(what, patch_count(lens), stream);
-    case Kernel::input: return launch_pass<Kernel::input>(what, pixels, stream);
-    case Kernel::flying: return launch_pass<Kernel::flying>(what, pixels, stream);
-    case Kernel::filter: return launch_pass<Kernel::filter>(what, pixels, stream);
-    case Kernel::settle: return launch_pass<Kernel::settle>(what, pixels, stream);
+    case Pass::input: return launch_pass<Pass::input>(what, pixels, stream);
+    case Pass::flying: return launch_pass<Pass::flying>(what, pixels, stream);
+    case Pass::filter: return launch_pass<Pass::filter>(what, pixels, stream);
+    case Pass::settle: return launch_pass<Pass::settle>(what, pixels, stream);
   }
   return cudaErrorInvalidValue;
 }
@@ -138,22 +125,22 @@ cudaError_t find_kernels() {
   };
   find(&tofray_pixels<few_threads>), find(&tofray_pixels<max_block_size>);
   find(&tofray_pixels_own<few_threads>), find(&tofray_pixels_own<max_block_size>);
-  find(&tofray_pass<Kernel::input>), find(&tofray_pass<Kernel::flying>);
-  find(&tofray_pass<Kernel::filter>), find(&tofray_pass<Kernel::settle>);
+  find(&tofray_pass<Pass::input>), find(&tofray_pass<Pass::flying>);
+  find(&tofray_pass<Pass::filter>), find(&tofray_pass<Pass::settle>);
   return status;
 }
 
-const void* kernel_function(Kernel kernel, int block_size) {
-  switch (kernel) {
-    case Kernel::pixels:
+const void* kernel_function(Pass pass, int block_size) {
+  switch (pass) {
+    case Pass::pixels:
       return block_size <= few_threads ? reinterpret_cast<const void*>(&tofray_pixels<few_threads>)
                                        : reinterpret_cast<const void*>(&tofray_pixels<max_block_size>);
-    case Kernel::input: return reinterpret_cast<const void*>(&tofray_pass<Kernel::input>);
-    case Kernel::flying: return reinterpret_cast<const void*>(&tofray_pass<Kernel::flying>);
-    case Kernel::filter: return reinterpret_cast<const void*>(&tofray_pass<Kernel::filter>);
-    case Kernel::settle: break;
+    case Pass::input: return reinterpret_cast<const void*>(&tofray_pass<Pass::input>);
+    case Pass::flying: return reinterpret_cast<const void*>(&tofray_pass<Pass::flying>);
+    case Pass::filter: return reinterpret_cast<const void*>(&tofray_pass<Pass::filter>);
+    case Pass::settle: break;
   }
-  return reinterpret_cast<const void*>(&tofray_pass<Kernel::settle>);
+  return reinterpret_cast<const void*>(&tofray_pass<Pass::settle>);
 }
 
 }  // namespace tofray::backend::gpu

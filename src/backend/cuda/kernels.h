@@ -12,6 +12,6 @@ cudaError_t launch_kernel(const Launch& what, cudaStream_t stream);
 /// Looks for the code of all kernels on the current device, and loads it: none comes while a graph is made.
 cudaError_t find_kernels();
 /// The function that a launch of this block size runs.
-const void* kernel_function(Kernel kernel, int block_size);
+const void* kernel_function(Pass pass, int block_size);
 
 }  // namespace tofray::backend::gpu

@@ -11,29 +11,57 @@ namespace {
 
 constexpr std::size_t align(std::size_t bytes) { return (bytes + 255) / 256 * 256; }
 
+const char* starting(Pass pass) {
+  switch (pass) {
+    case Pass::pixels: return "starting the kernel pixels";
+    case Pass::input: return "starting the kernel input";
+    case Pass::flying: return "starting the kernel flying";
+    case Pass::filter: return "starting the kernel filter";
+    case Pass::settle: break;
+  }
+  return "starting the kernel settle";
+}
+
 /// The input's arrays, packed.
 pipeline::Input packed(Packer& packer, const pipeline::Setup& setup, const pipeline::Input& from) {
   const std::size_t pixels = static_cast<std::size_t>(setup.lens.width) * static_cast<std::size_t>(setup.lens.height);
-  const std::size_t once = pixels * static_cast<std::size_t>(from.moments), by_light = once * static_cast<std::size_t>(setup.scene.lights);
+  const std::size_t once = pixels * static_cast<std::size_t>(from.moments), lights = static_cast<std::size_t>(setup.scene.lights);
+  const std::size_t by_light = once * lights, paths = static_cast<std::size_t>(from.light.paths);
+  const std::size_t phasors = 2 * by_light * static_cast<std::size_t>(setup.phasors.modulations) * static_cast<std::size_t>(from.light.orders);
   const std::size_t raw = pixels * static_cast<std::size_t>(setup.sensor.raw_frames);
   pipeline::Input to = from;
   to.surface = {packer.put(from.surface.z, once),        packer.put(from.surface.normal, 3 * once), packer.put(from.surface.diffuse, once),
                 packer.put(from.surface.specular, once), packer.put(from.surface.exponent, once),   packer.put(from.surface.object, once),
                 packer.put(from.surface.shadow, by_light), packer.put(from.surface.sun_shadow, once)};
-  to.light = {packer.put(from.light.power, by_light), packer.put(from.light.path_length, by_light), packer.put(from.light.ambient_rate, once)};
+  to.light.power = packer.put(from.light.power, from.light.phasor != nullptr ? by_light : once * paths);
+  to.light.path_length = packer.put(from.light.path_length, once * paths);
+  to.light.light_of_path = packer.put(from.light.light_of_path, paths);
+  to.light.phasor = packer.put(from.light.phasor, phasors);
+  to.light.ambient_rate = packer.put(from.light.ambient_rate, once);
   to.recording = {packer.put(from.recording.raw, raw), packer.put(from.recording.tap_a, raw), packer.put(from.recording.tap_b, raw)};
   return to;
 }
 
-/// What is the frame's own of the scene goes to `packer`. @return the scene as the device sees it
-scene::SceneView scene_of(const Resident& resident, Own own, const scene::SceneView& from, Packer& packer) {
-  const scene::SceneView& still = resident.setup.scene;
-  if (own != Own::scene && from.slots == 0) return still;
-  scene::SceneView to = from;
-  to.camera_still = still.camera_still, to.light_still = still.light_still, to.sun_still = still.sun_still;
-  if (own == Own::scene) pack_still(packer, from, to);
-  pack_moving(packer, from, to);
-  return to;
+/// What is the frame's own goes to `packer`: of the sensor, which drifts, and of the scene.
+/// @param to  what is the same for all frames; it gets the frame's own pointers
+void pack_own(const Resident& resident, Own own, const pipeline::Setup& from, Packer& packer, pipeline::Setup& to) {
+  to.scene = resident.setup.scene;
+  if (own == Own::number) return;
+  pack_raw_frames(packer, from, to.sensor);
+  if (own != Own::scene && from.scene.slots == 0) return;
+  to.scene = from.scene;
+  to.scene.camera_still = resident.setup.scene.camera_still, to.scene.light_still = resident.setup.scene.light_still;
+  to.scene.sun_still = resident.setup.scene.sun_still;
+  if (own == Own::scene) pack_still(packer, from.scene, to.scene);
+  pack_moving(packer, from.scene, to.scene);
+}
+
+/// Bytes of it.
+std::size_t own_bytes(const Resident& resident, Own own, const pipeline::Setup& from) {
+  Packer measure;
+  pipeline::Setup to = from;
+  pack_own(resident, own, from, measure, to);
+  return align(measure.used());
 }
 
 }  // namespace
@@ -54,6 +82,7 @@ void Lane::write_arguments(const pipeline::Setup& setup, FrameArguments& out) co
   const camera::SensorView& maps = resident_->setup.sensor;
   out.setup.sensor = setup.sensor;
   out.setup.sensor.gain = maps.gain, out.setup.sensor.offset = maps.offset, out.setup.sensor.delay = maps.delay;
+  out.setup.sensor.frame = maps.frame;
   out.job = job_;
   out.job.index_low = out.job.index_high = 0;   // frames have their numbers beside
 }
@@ -77,10 +106,9 @@ void Lane::reserve_output() {
 
 std::size_t Lane::input_bytes(const Resident& resident, const pipeline::Setup& first, Own own) {
   if (own == Own::number) return sizeof(FrameNumber);
-  Packer measure;
-  (void)scene_of(resident, own, first.scene, measure);
+  const std::size_t bytes = own_bytes(resident, own, first);
   // What moves may show more of itself in one frame than in another: a quarter more than the first one needs, and some.
-  return sizeof(FrameNumber) + sizeof(FrameArguments) + align(measure.used()) + align(measure.used() / 4) + 1024;
+  return sizeof(FrameNumber) + sizeof(FrameArguments) + bytes + align(bytes / 4) + 1024;
 }
 
 void Lane::begin(const Resident& resident, const pipeline::Setup& first, const pipeline::Job& job, Own own, int capacity,
@@ -90,7 +118,7 @@ void Lane::begin(const Resident& resident, const pipeline::Setup& first, const p
   resident_ = &resident;
   job_ = job;
   own_ = own, capacity_ = capacity;
-  slab_ = Slab(first, job.out, job.filter != 0);
+  slab_ = Slab(first, job.out, job.filter != pipeline::Filter::none);
   const auto frames = static_cast<std::size_t>(capacity);
   arguments_at_ = align(frames * sizeof(FrameNumber));
   room_from_ = arguments_at_ + (own != Own::number ? align(frames * sizeof(FrameArguments)) : 0);
@@ -109,16 +137,15 @@ void Lane::begin(const Resident& resident, const pipeline::Setup& first, const p
 bool Lane::add(const pipeline::Setup& setup, std::uint64_t index) {
   if (frames() == capacity_) return false;
   if (own_ != Own::number) {
-    Packer measure;
-    (void)scene_of(*resident_, own_, setup.scene, measure);
-    if (used_ + align(measure.used()) > input_bytes_) {
+    const std::size_t bytes = own_bytes(*resident_, own_, setup);
+    if (used_ + bytes > input_bytes_) {
       if (frames() > 0) return false;
-      reserve_input(2 * (used_ + align(measure.used())));   // one frame that is far larger than the first one was measured
+      reserve_input(2 * (used_ + bytes));   // one frame that is far larger than the first one was measured
     }
     Packer packer(staged() + used_, input_memory() + used_);
     auto& arguments = reinterpret_cast<FrameArguments*>(staged() + arguments_at_)[frames()];
     write_arguments(setup, arguments);
-    arguments.setup.scene = scene_of(*resident_, own_, setup.scene, packer);
+    pack_own(*resident_, own_, setup, packer, arguments.setup);
     used_ += align(packer.used());
   }
   if (frames() == 0) write_arguments(setup, common_);   // where frames have their own, only what is the same for all is read of these
@@ -129,25 +156,16 @@ bool Lane::add(const pipeline::Setup& setup, std::uint64_t index) {
 /// Copies in, runs the kernels.
 void Lane::launch_all() {
   Runtime& runtime = device_.runtime();
-  Launch launch{Kernel::pixels, block_size_, &common_, {}, given_};
+  Launch launch{Pass::pixels, block_size_, &common_, {}, given_};
   launch.batch.numbers = reinterpret_cast<const FrameNumber*>(input_memory());
   launch.batch.own = own_ != Own::number ? reinterpret_cast<const FrameArguments*>(input_memory() + arguments_at_) : nullptr;
   launch.batch.stride = static_cast<std::int64_t>(slab_.bytes());
   launch.batch.frames = frames();
-  const auto run = [&](Kernel kernel, const char* doing) {
-    launch.kernel = kernel;
-    device_.check(runtime.launch(launch, stream_.get()), doing);
-  };
   device_.check(runtime.copy(input_memory(), staged(), used_, Way::to_device, stream_.get()), "copying a frame's settings to the GPU");
-  if (given_.entry != pipeline::stage_trace) {
-    run(Kernel::input, "starting the kernel input");
-  } else {
-    run(Kernel::pixels, "starting the kernel pixels");
-  }
-  if (common_.setup.last_stage < pipeline::stage_depth || common_.job.out.z_m == nullptr || common_.job.out.flags == nullptr) return;
-  run(Kernel::flying, "starting the kernel flying");
-  if (common_.job.filter != 0) run(Kernel::filter, "starting the kernel filter");
-  run(Kernel::settle, "starting the kernel settle");
+  pipeline::each_pass(common_.setup, common_.job, given_.entry != Stage::trace, [&](Pass pass) {
+    launch.pass = pass;
+    device_.check(runtime.launch(launch, stream_.get()), starting(pass));
+  });
 }
 
 /// Tells the frames where their arrays are, and copies what the host knows to where the GPU will fetch it.

@@ -33,6 +33,24 @@ const Forms* packed(Packer& packer, const Forms* from, std::int32_t count) {
   return packer.put(static_cast<const Forms*>(to.data()), to.size());
 }
 
+void pack_phasors(Packer& packer, std::int32_t lights, const camera::PhasorView& from, camera::PhasorView& to) {
+  std::vector<camera::ModulationView> modulations(from.modulation, from.modulation + from.modulations);
+  for (camera::ModulationView& m : modulations) m.source = packer.put(m.source, 2 * count_of(lights) * count_of(from.orders));
+  to.modulation = packer.put(static_cast<const camera::ModulationView*>(modulations.data()), modulations.size());
+}
+
+void pack_decoder(Packer& packer, const pipeline::Setup& setup, std::size_t pixels, camera::DecoderView& to) {
+  const camera::DecoderView& from = setup.decoder;
+  std::vector<camera::DecodeModulation> modulations(from.modulation, from.modulation + from.modulations);
+  for (camera::DecodeModulation& m : modulations) {
+    m.raw_frame = packer.put(m.raw_frame, count_of(m.count)), m.pair = packer.put(m.pair, 2 * count_of(m.pairs));
+    m.wiggling = packer.put(m.wiggling, 2 * count_of(from.wiggling_nodes));
+  }
+  to.modulation = packer.put(static_cast<const camera::DecodeModulation*>(modulations.data()), modulations.size());
+  to.frame = packer.put(from.frame, count_of(setup.sensor.raw_frames)), to.grey_frame = packer.put(from.grey_frame, count_of(from.grey_frames));
+  to.delay = packer.put(from.delay, pixels);
+}
+
 /// What each patch of pixels sees.
 std::vector<flow::Bounds> patch_bounds(const camera::LensView& lens) {
   constexpr float far = std::numeric_limits<float>::max();
@@ -56,15 +74,22 @@ void pack_camera(Packer& packer, const pipeline::Setup& from, pipeline::Setup& t
   to.lens.vignetting = packer.put(from.lens.vignetting, pixels);
   const std::vector<flow::Bounds> patches = patch_bounds(from.lens);
   to.lens.tile = packer.put(patches.data(), patches.size());
-  for (int l = 0; l < flow::max_lights; ++l) {
-    const camera::PatternView& pattern = from.lights[l].pattern;
-    to.lights[l].pattern.samples = packer.put(pattern.samples, count_of(pattern.columns) * count_of(pattern.rows));
+  std::vector<camera::LightView> lights(from.lights, from.lights + from.scene.lights);
+  for (camera::LightView& light : lights) {
+    light.pattern.samples = packer.put(light.pattern.samples, count_of(light.pattern.columns) * count_of(light.pattern.rows));
   }
+  to.lights = packer.put(static_cast<const camera::LightView*>(lights.data()), lights.size());
+  pack_phasors(packer, from.scene.lights, from.phasors, to.phasors);
+  pack_raw_frames(packer, from, to.sensor);
   to.sensor.gain = packer.put(from.sensor.gain, pixels), to.sensor.offset = packer.put(from.sensor.offset, pixels);
-  to.sensor.delay = packer.put(from.sensor.delay, pixels), to.decoder.delay = packer.put(from.decoder.delay, pixels);
-  for (int i = 0; i < from.decoder.modulations; ++i) {
-    to.decoder.modulation[i].wiggling = packer.put(from.decoder.modulation[i].wiggling, 2 * count_of(from.decoder.wiggling_nodes));
-  }
+  to.sensor.delay = packer.put(from.sensor.delay, pixels);
+  pack_decoder(packer, from, pixels, to.decoder);
+}
+
+void pack_raw_frames(Packer& packer, const pipeline::Setup& from, camera::SensorView& to) {
+  std::vector<camera::RawFrameView> frames(from.sensor.frame, from.sensor.frame + from.sensor.raw_frames);
+  for (camera::RawFrameView& frame : frames) frame.gate = packer.put(frame.gate, 2 * count_of(from.phasors.orders));
+  to.frame = packer.put(static_cast<const camera::RawFrameView*>(frames.data()), frames.size());
 }
 
 void pack_still(Packer& packer, const scene::SceneView& from, scene::SceneView& to) {

@@ -66,69 +66,80 @@ struct WarpCulled {
 };
 
 /// Which forms a patch can meet, from the camera and from the light that is looked at now.
-template <class Warp>
+/// \tparam can_move  false: nothing moves, and the kernel has no code for what does
+template <bool can_move, class Warp>
 struct WarpNear {
   Warp& warp;
   bool culling;
   WarpCulled<Warp> camera_still, camera_moving;
   flow::Bounds from_light;
   bool all_from_light;
-  flow::Bounds lit_from[flow::max_lights];   ///< of scenes in which something moves: from_light of each light …
-  bool lit_from_all[flow::max_lights];       ///< … and all_from_light
 
   TOFRAY_FN WarpNear(Warp& w, const flow::Bounds* view) : warp(w), culling(view != nullptr), camera_still{w, view}, camera_moving{w, view} {}
 
+  TOFRAY_FN bool moves(const Setup& s) const { return can_move && s.scene.slots > 0; }
+  TOFRAY_FN bool any(bool mask) const { return warp.vote([&](int) { return mask; }) != 0; }
+  TOFRAY_FN bool can_be_shaded(const Setup&) const { return true; }   // known once the rays to the lights are
   /// The rectangle that holds the rays of all lanes from a light to their surfaces.
   TOFRAY_FN void look(int slot, int light, const flow::Ray<float>& ray, bool use) {
     if (!culling) return;
     pipeline::Rectangle<float> seen;
     seen.add(ray.x, ray.y, ray.z, use);
     warp.unite(slot * flow::max_lights + light, seen);
-    all_from_light = lit_from_all[light] = seen.open;
-    from_light = lit_from[light] = seen.bounds();
-  }
-  TOFRAY_FN bool any(bool mask) const { return warp.vote([&](int) { return mask; }) != 0; }
-  TOFRAY_FN bool clear(const Setup& s, int slot) const {
-    for (int l = 0; l < s.scene.lights; ++l) {
-      const scene::Forms& forms = s.scene.light_moving[slot * s.scene.lights + l];
-      const WarpCulled<Warp> left{warp, culling && !lit_from_all[l] ? lit_from + l : nullptr};
-      if (left.walk(forms.planes, forms.plane_count).more() || left.walk(forms.spheres, forms.sphere_count).more() ||
-          left.walk(forms.boxes, forms.box_count).more() || left.walk(forms.triangles, forms.triangle_count).more()) {
-        return false;
-      }
-    }
-    return true;
+    all_from_light = seen.open;
+    from_light = seen.bounds();
   }
   TOFRAY_FN WarpCulled<Warp> still_from(int) const { return {warp, culling && !all_from_light ? &from_light : nullptr}; }
   TOFRAY_FN WarpCulled<Warp> moving_from(int light) const { return still_from(light); }
 };
 
+/// One pixel.
+template <bool can_move, class Warp>
+class PixelWalk {
+ public:
+  TOFRAY_FN PixelWalk(const Setup& s, const Job& job, Warp& warp, int patch, int lane)
+      : s_(s), job_(job), pixels_(pixel_of(s.lens, patch, lane)), near_(warp, s.culling != 0 ? s.lens.tile + patch : nullptr) {
+    still_ = pipeline::see_still(s, near_, camera::ray<float>(s.lens, pixels_));
+    hit_ = still_;
+  }
+
+  TOFRAY_FN int moments() const { return near_.moves(s_) ? s_.sensor.raw_frames : 1; }
+  TOFRAY_FN int packs() const { return 1; }
+  TOFRAY_FN Pixels pixels(int) const { return pixels_; }
+  TOFRAY_FN pipeline::Pack<float>& pack(int) { return pack_; }
+  TOFRAY_FN void go_to(const pipeline::Moment& now) {
+    if (near_.moves(s_)) hit_ = pipeline::see_moving(s_, near_, now.slot, camera::ray<float>(s_.lens, pixels_), still_);
+  }
+  TOFRAY_FN bool find_light(const pipeline::Moment& now, int, const Pixels& p, const flow::Ray<float>& ray, float vignetting,
+                            pipeline::Pack<float>& pack) {
+    return pipeline::light_of_scene(s_, job_, near_, now, p, ray, still_, hit_, vignetting, pack.light, pack.undisturbed);
+  }
+
+ private:
+  const Setup& s_;
+  const Job& job_;
+  Pixels pixels_;
+  WarpNear<can_move, Warp> near_;
+  flow::Hit<float> still_, hit_;
+  pipeline::Pack<float> pack_;
+};
+
 /// From ray to depth. All lanes of a warp must come here together.
-/// \tparam can_move  false: nothing moves, and the kernel has no code for what does
 template <bool can_move, class Warp>
 TOFRAY_FN void run_pixel(const Setup& s, const Job& job, Warp& warp, int patch, int lane) {
-  const Pixels p = pixel_of(s.lens, patch, lane);
-  WarpNear<Warp> near(warp, s.culling != 0 ? s.lens.tile + patch : nullptr);
-  const flow::Ray<float> ray = camera::ray<float>(s.lens, p);
-  const flow::Hit<float> still = pipeline::see_still(s, near, ray);
-  if constexpr (can_move) {
-    if (s.scene.slots > 0) {
-      pipeline::one_moving_pixel(s, job, near, p, ray, still);
-      return;
-    }
-  }
-  pipeline::one_pixel(s, job, near, p, ray, still);
+  PixelWalk<can_move, Warp> walk(s, job, warp, patch, lane);
+  pipeline::run_pipeline<float>(s, job, walk);
 }
 
 /// What came from elsewhere to depth, and the passes over images: pixel number `index`.
-TOFRAY_FN void run_pass(Kernel kernel, const Setup& s, const Job& job, const pipeline::Input& input, int index) {
+TOFRAY_FN void run_pass(Pass pass, const Setup& s, const Job& job, const pipeline::Input& input, int index) {
   if (index >= s.lens.width * s.lens.height) return;
   const Pixels p{index, 1};
   const int x = index % s.lens.width, y = index / s.lens.width;
-  if (kernel == Kernel::input) pipeline::enter<float>(s, job, input, p);
-  if (kernel == Kernel::flying) pipeline::flag_flying_pixel(s, job, x, y);
-  if (kernel == Kernel::filter) pipeline::filter_pixel(s, job, x, y);
-  if (kernel == Kernel::settle) pipeline::settle<float>(s, job, p, job.filter != 0 ? job.filtered : job.out.range_m);
+  if (pass == Pass::input) pipeline::enter<float>(s, job, input, p);
+  if (pass == Pass::flying) pipeline::flag_flying_pixel(s, job, x, y);
+  if (pass == Pass::filter) pipeline::filter_pixel(s, job, x, y);
+  if (pass == Pass::settle) pipeline::settle<float>(s, job, p, pipeline::range_left(job));
 }
 
 /// The same array of a frame `bytes` further on.

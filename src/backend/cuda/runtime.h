@@ -26,7 +26,7 @@ struct DeviceInfo {
 
 /// One kernel over all pixels of `batch.frames` frames.
 struct Launch {
-  Kernel kernel;
+  Pass pass;
   int block_size;
   const FrameArguments* common;   ///< host memory: goes along as kernel argument
   Batch batch;
@@ -52,7 +52,7 @@ class Runtime {
   /// Whether this build has code that the device runs.
   virtual Status find_code() = 0;
   /// How many blocks of a kernel one multiprocessor holds at once.
-  virtual Status occupancy(Kernel kernel, int block_size, int& blocks) = 0;
+  virtual Status occupancy(Pass pass, int block_size, int& blocks) = 0;
 
   virtual Status allocate(std::size_t bytes, void*& memory) = 0;
   virtual Status allocate_pinned(std::size_t bytes, void*& memory) = 0;

@@ -1,0 +1,130 @@
+// SPDX-FileCopyrightText: 2026 The tofray authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "pipeline/store.h"
+#include "power/received.h"
+#include "trace/visible.h"
+
+/// Stages 1 and 2 of a pack of pixels at one moment: what it sees, and the light it gets from there.
+namespace tofray::pipeline {
+
+/// A time at which the scene is looked at, and the raw frames that are exposed to what it shows.
+struct Moment {
+  int first, last;
+  int slot;       ///< what moves is where it is at this time
+  bool truth;     ///< ground truth is that of this moment
+};
+
+TOFRAY_FN Moment moment_of(const Setup& s, int moment, int moments) {
+  if (moments == 1) return {0, s.sensor.raw_frames, 0, true};
+  return {moment, moment + 1, moment, moment == s.truth_slot};
+}
+
+/// Light of what stands still may serve all raw frames; other light serves those of its moment.
+TOFRAY_FN power::Wanted wanted(const Setup& s, const Moment& now, bool undisturbed) {
+  if (undisturbed || now.last > now.first + 1) return power::all_of(s.phasors);
+  const camera::RawFrameView& frame = s.sensor.frame[now.first];
+  return frame.lit != 0 ? power::Wanted{frame.modulation, frame.modulation + 1} : power::Wanted{0, 0};
+}
+
+/// Stage 1: the nearest surface, of what stands still.
+template <class F, class Near>
+TOFRAY_FN flow::Hit<F> see_still(const Setup& s, const Near& near, const flow::Ray<F>& ray) {
+  return trace::nearest(s.scene.camera_still, near.camera_still, ray, flow::Hit<F>{F(0.0f), num::Int<F>(0)});
+}
+
+/// … and of what moves, at the time of one raw frame.
+template <class F, class Near>
+TOFRAY_FN flow::Hit<F> see_moving(const Setup& s, const Near& near, int slot, const flow::Ray<F>& ray, const flow::Hit<F>& still) {
+  return trace::nearest(s.scene.camera_moving[slot], near.camera_moving, ray, still);
+}
+
+/// Outside the lens model a pixel sees nothing; its ray is only a stand-in.
+template <class F>
+TOFRAY_FN void hide_outside_lens(F vignetting, flow::Surface<F>& surface) {
+  surface.found = surface.found & (vignetting > F(0.0f));
+}
+
+/// Shadow rays through what stands still and, if it can come between, what moves.
+template <class F, class Near>
+struct ShadowRays {
+  const Setup& s;
+  Near& near;
+  int slot;
+  bool still, moving;
+
+  TOFRAY_FN num::Mask<F> of_light(int l, const flow::Ray<F>& from_light, const flow::Surface<F>& p) {
+    near.look(slot, l, from_light, p.found);
+    num::Mask<F> dark = F(1.0f) < F(0.0f);
+    if (still) dark = trace::blocked(s.scene.light_still[l], near.still_from(l), from_light, p.object);
+    if (moving) {
+      dark = dark | trace::blocked(s.scene.light_moving[slot * s.scene.lights + l], near.moving_from(l), from_light, p.object);
+    }
+    return dark;
+  }
+  TOFRAY_FN num::Mask<F> of_sun(const flow::Surface<F>& p) {
+    num::Mask<F> dark = F(1.0f) < F(0.0f);
+    if (still) dark = trace::blocked_parallel(s.scene.sun_still, s.power.sun_direction, p);
+    if (moving) dark = dark | trace::blocked_parallel(s.scene.sun_moving[slot], s.power.sun_direction, p);
+    return dark;
+  }
+};
+
+/// Stage 2: light, where no shadow is. The shadows are asked for light by light, in their order.
+template <class F, class Shadows>
+TOFRAY_FN void light_up(const Setup& s, const power::Wanted& wanted, Shadows&& shadows, const flow::Ray<F>& ray, const flow::Surface<F>& p, F vignetting,
+                        flow::Light<F>& light, flow::Radiometry<F>& radiometry) {
+  if (s.scene.lights == 0) power::clear(s.phasors, wanted, light);
+  for (int l = 0; l < s.scene.lights; ++l) {
+    const flow::Ray<F> from_light = power::light_ray(s.lights[l], p);
+    const auto dark = shadows.of_light(l, from_light, p);
+    const flow::Path<F> path = power::received<F>(s.power, s.lights[l], p, ray, from_light, dark, vignetting, radiometry);
+    power::add_path(s.phasors, wanted, l, path, l == 0, light);
+  }
+  num::Mask<F> shade = F(1.0f) < F(0.0f);
+  if (s.power.ambient == camera::AmbientLight::directional) shade = shadows.of_sun(p);
+  light.ambient_rate = s.power.ambient == camera::AmbientLight::none ? F(0.0f) : power::ambient_rate<F>(s.power, p, shade, vignetting);
+}
+
+/// Whether something that moves keeps a light off any of the pixels.
+template <class F, class Near>
+TOFRAY_FN num::Mask<F> in_moving_shadow(const Setup& s, Near& near, int slot, const flow::Surface<F>& p) {
+  ShadowRays<F, Near> shadows{s, near, slot, false, true};
+  num::Mask<F> dark = F(1.0f) < F(0.0f);
+  for (int l = 0; l < s.scene.lights; ++l) {
+    dark = dark | shadows.of_light(l, power::light_ray(s.lights[l], p), p);
+  }
+  if (s.power.ambient == camera::AmbientLight::directional) dark = dark | shadows.of_sun(p);
+  return dark & p.found;
+}
+
+/// Stages 1 and 2 from what a pack of pixels hits.
+///
+/// Where it sees what stands still and nothing that moves keeps a light off that, its light is the same at all moments, and is kept.
+///
+/// @param near   what the pixels can meet. It knows moves(s); any(mask), whether it is true for any pixel that goes the same way;
+///               can_be_shaded(s), false where nothing that moves can stand before a light; and look(…), which is told of each shadow ray
+/// @param still  what they would hit if nothing moved
+/// @return false where `light` is as it was
+template <class F, class Near>
+TOFRAY_FN bool light_of_scene(const Setup& s, const Job& job, Near& near, const Moment& now, const Pixels& p, const flow::Ray<F>& ray,
+                              const flow::Hit<F>& still, const flow::Hit<F>& hit, F vignetting, flow::Light<F>& light, bool& undisturbed) {
+  const bool moves = near.moves(s);
+  const bool same = !moves || !near.any(hit.facet != still.facet);
+  const bool open = !moves || s.last_stage < Stage::power || !near.can_be_shaded(s);    // nothing that moves can come between
+  if (same && open && undisturbed && !now.truth) return false;
+  flow::Surface<F> surface = trace::surface(s.scene, ray, hit);
+  hide_outside_lens(vignetting, surface);
+  const bool calm = same && (open || !near.any(in_moving_shadow(s, near, now.slot, surface)));
+  if (calm && undisturbed && !now.truth) return false;
+  undisturbed = calm;
+  flow::Radiometry<F> radiometry{F(0.0f), F(0.0f), F(0.0f)};
+  if (s.last_stage >= Stage::power) {
+    light_up(s, wanted(s, now, calm), ShadowRays<F, Near>{s, near, now.slot, true, moves && !calm}, ray, surface, vignetting, light, radiometry);
+  }
+  const auto material = [&]() __attribute__((always_inline)) { return trace::material<F>(s.scene, hit); };
+  if (now.truth) store_truth(job.out, p, surface, radiometry, material);
+  return true;
+}
+
+}  // namespace tofray::pipeline

@@ -1,0 +1,114 @@
+// SPDX-FileCopyrightText: 2026 The tofray authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "camera/views.h"
+
+/// Light as phasors: where every path ends, whatever it came by.                                            [theory: eq. 1.6]
+namespace tofray::power {
+
+using flow::Light;
+using flow::Path;
+
+/// Modulation frequencies that are asked for: of light that serves a single raw frame, no more than that frame's.
+struct Wanted {
+  int first, last;
+};
+TOFRAY_FN Wanted all_of(const camera::PhasorView& s) { return {0, s.modulations}; }
+
+/// No light yet.
+template <class F>
+TOFRAY_FN void clear(const camera::PhasorView& s, const Wanted& wanted, Light<F>& light) {
+  light.signal_rate = F(0.0f), light.ambient_rate = F(0.0f);
+  for (int i = wanted.first * s.orders; i < wanted.last * s.orders; ++i) light.real[i] = F(0.0f), light.imaginary[i] = F(0.0f);
+}
+
+/// Phase of a path in turns, φ/2π = ℓ·f/c less whole turns. The factor comes in two parts so that long paths keep their last digits.
+template <class F>
+TOFRAY_FN F path_turns(const camera::ModulationView& modulation, F path_length) {
+  const F whole = num::round_even(path_length * F(modulation.turns_per_metre_high));
+  return num::fma(path_length, F(modulation.turns_per_metre_low), num::fma(path_length, F(modulation.turns_per_metre_high), -whole));
+}
+
+/// e^{iφ}, and e^{2iφ}, the way from one odd order to the next.
+template <class F>
+struct Turn {
+  F real, imaginary, step_real, step_imaginary;
+};
+template <class F>
+TOFRAY_FN Turn<F> turn_of(F turns) {
+  F sine, cosine;
+  num::sincos_turns(turns, sine, cosine);
+  return {cosine, sine, num::fnma(sine, sine, cosine * cosine), F(2.0f) * sine * cosine};
+}
+
+/// Z_m += a_m·e^{iψ_m}·rate·e^{imφ} of one modulation frequency.
+/// \tparam first   there was no light: Z_m is written, not read
+/// @param source  [orders][2] a_m·e^{iψ_m}
+template <int orders, bool first, class F>
+TOFRAY_FN void add_turns(const float* source, F rate, const Turn<F>& turn, F* real, F* imaginary) {
+  F x = turn.real * rate, y = turn.imaginary * rate;
+  for (int h = 0; h < orders; ++h) {
+    const F a = F(source[2 * h]), b = F(source[2 * h + 1]);
+    real[h] = num::fma(x, a, first ? -(y * b) : num::fnma(y, b, real[h]));
+    imaginary[h] = num::fma(x, b, first ? y * a : num::fma(y, a, imaginary[h]));
+    const F next = num::fnma(y, turn.step_imaginary, x * turn.step_real);
+    y = num::fma(x, turn.step_imaginary, y * turn.step_real);
+    x = next;
+  }
+}
+template <bool first, class F>
+TOFRAY_FN void add_turns(const camera::PhasorView& s, int j, int l, const Path<F>& path, Light<F>& light) {
+  const camera::ModulationView& modulation = s.modulation[j];
+  const float* source = modulation.source + 2 * l * s.orders;
+  F *real = light.real + j * s.orders, *imaginary = light.imaginary + j * s.orders;
+  const Turn<F> turn = turn_of(path_turns(modulation, path.length));
+  if (s.orders <= 4) {
+    add_turns<4, first>(source, path.rate, turn, real, imaginary);
+  } else {
+    add_turns<flow::max_harmonics, first>(source, path.rate, turn, real, imaginary);
+  }
+}
+
+/// Adds one path of light source `l`.
+/// @param first  `light` was not cleared: this path is all of it
+template <class F>
+TOFRAY_FN void add_path(const camera::PhasorView& s, const Wanted& wanted, int l, const Path<F>& path, bool first, Light<F>& light) {
+  light.signal_rate = first ? path.rate : light.signal_rate + path.rate;
+  for (int j = wanted.first; j < wanted.last; ++j) {
+    if (first) {
+      add_turns<true>(s, j, l, path, light);
+    } else {
+      add_turns<false>(s, j, l, path, light);
+    }
+  }
+}
+
+/// Adds what somebody else has summed: one order of Σ rate·e^{imφ} over paths of light source `l`. (Their rates are added beside.)
+/// @param h  which order, (m − 1)/2
+template <class F>
+TOFRAY_FN void add_phasor(const camera::PhasorView& s, int j, int l, int h, F x, F y, Light<F>& light) {
+  const float* source = s.modulation[j].source + 2 * (l * s.orders + h);
+  F &real = light.real[j * s.orders + h], &imaginary = light.imaginary[j * s.orders + h];
+  real = num::fma(x, F(source[0]), num::fnma(y, F(source[1]), real));
+  imaginary = num::fma(x, F(source[1]), num::fma(y, F(source[0]), imaginary));
+}
+
+/// Turns all phasors by m·2π·f·delay: a pixel that is late by `delay` [s] sees longer paths.
+template <class F>
+TOFRAY_FN void delay_by(const camera::PhasorView& s, const Wanted& wanted, F delay, Light<F>& light) {
+  for (int j = wanted.first; j < wanted.last; ++j) {
+    const Turn<F> turn = turn_of(delay * F(s.modulation[j].frequency));
+    F x = turn.real, y = turn.imaginary;
+    for (int h = 0; h < s.orders; ++h) {
+      F &real = light.real[j * s.orders + h], &imaginary = light.imaginary[j * s.orders + h];
+      const F turned = num::fnma(imaginary, y, real * x);
+      imaginary = num::fma(real, y, imaginary * x);
+      real = turned;
+      const F next = num::fnma(y, turn.step_imaginary, x * turn.step_real);
+      y = num::fma(x, turn.step_imaginary, y * turn.step_real);
+      x = next;
+    }
+  }
+}
+
+}  // namespace tofray::power
