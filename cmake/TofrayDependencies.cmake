@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 The tofray authors
 # SPDX-License-Identifier: Apache-2.0
-# Debian 12: libtbb-dev libyaml-cpp-dev nlohmann-json3-dev libcli11-dev libfmt-dev libpng-dev zlib1g-dev libzip-dev libssl-dev pkg-config
+# Debian 12: libtbb-dev libyaml-cpp-dev nlohmann-json3-dev libcli11-dev libfmt-dev libpng-dev libcairo2-dev zlib1g-dev libzip-dev libssl-dev pkg-config
 find_package(Threads REQUIRED)
 if(TOFRAY_THREADS STREQUAL "tbb")
   find_package(TBB REQUIRED)
@@ -14,3 +14,4 @@ find_package(ZLIB REQUIRED)
 find_package(OpenSSL REQUIRED COMPONENTS Crypto)
 find_package(PkgConfig REQUIRED)
 pkg_check_modules(libzip REQUIRED IMPORTED_TARGET libzip)
+pkg_check_modules(cairo REQUIRED IMPORTED_TARGET cairo)

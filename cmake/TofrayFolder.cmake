@@ -10,12 +10,13 @@ target_compile_options(tofray_flags INTERFACE -ffp-contract=off -Wall -Wextra -W
   -Wno-sign-conversion $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict> $<$<CXX_COMPILER_ID:GNU>:-fno-tree-slp-vectorize>
   $<$<CXX_COMPILER_ID:Clang>:-Wno-bitwise-instead-of-logical> $<$<BOOL:${TOFRAY_WARNINGS_AS_ERRORS}>:-Werror>)
 
-# tofray_folder(name [SOURCES file…] [USES folder…] [LIBRARIES target…])
+# tofray_folder(name [OUTSIDE_LIBRARY] [SOURCES file…] [USES folder…] [LIBRARIES target…])
 #
 # One folder of src/ is one target, tofray_<name>, with an include root of its own: a link in the build tree that holds the folder
-# and nothing else. An include of a folder that is not named in USES therefore does not build.
+# and nothing else. An include of a folder that is not named in USES therefore does not build. OUTSIDE_LIBRARY: the command line and tests
+# have it, libtofray and its users do without it and its libraries.
 function(tofray_folder name)
-  cmake_parse_arguments(arg "" "" "SOURCES;USES;LIBRARIES" ${ARGN})
+  cmake_parse_arguments(arg "OUTSIDE_LIBRARY" "" "SOURCES;USES;LIBRARIES" ${ARGN})
   set(root ${CMAKE_BINARY_DIR}/roots/${name})
   file(MAKE_DIRECTORY ${root})
   file(CREATE_LINK ${CMAKE_CURRENT_SOURCE_DIR} ${root}/${name} SYMBOLIC)
@@ -24,8 +25,12 @@ function(tofray_folder name)
     add_library(tofray_${name} OBJECT ${arg_SOURCES})
     target_include_directories(tofray_${name} PUBLIC ${root})
     target_link_libraries(tofray_${name} PUBLIC ${arg_USES} PRIVATE tofray_flags ${arg_LIBRARIES})
-    set_property(GLOBAL APPEND PROPERTY tofray_objects tofray_${name})
-    set_property(GLOBAL APPEND PROPERTY tofray_libraries ${arg_LIBRARIES})
+    set(where tofray)
+    if(arg_OUTSIDE_LIBRARY)
+      set(where tofray_outside)
+    endif()
+    set_property(GLOBAL APPEND PROPERTY ${where}_objects tofray_${name})
+    set_property(GLOBAL APPEND PROPERTY ${where}_libraries ${arg_LIBRARIES})
   else()
     add_library(tofray_${name} INTERFACE)
     target_include_directories(tofray_${name} INTERFACE ${root})
@@ -33,10 +38,13 @@ function(tofray_folder name)
   endif()
 endfunction()
 
-# tofray_use_all(target): the whole library, linked in as objects (command line and tests see the internals, too).
+# tofray_use_all(target): all folders, linked in as objects (command line and tests see the internals, too).
 function(tofray_use_all target)
-  get_property(objects GLOBAL PROPERTY tofray_objects)
-  get_property(libraries GLOBAL PROPERTY tofray_libraries)
+  foreach(kind objects libraries)
+    get_property(inside GLOBAL PROPERTY tofray_${kind})
+    get_property(outside GLOBAL PROPERTY tofray_outside_${kind})
+    set(${kind} ${inside} ${outside})
+  endforeach()
   list(REMOVE_DUPLICATES libraries)
   foreach(object ${objects})
     target_sources(${target} PRIVATE $<TARGET_OBJECTS:${object}>)

@@ -6,7 +6,7 @@
 
 #include "commands.h"
 #include "console.h"
-#include "io/terminal_picture.h"
+#include "pictures/terminal_picture.h"
 #include "results.h"
 
 namespace tofray::app {
@@ -54,8 +54,8 @@ int run_demo(const Options& options) {
   if (options.json) {
     print(io::json_text(summary_json(folder, frame.depth, 1, machine, stopwatch), 2) + "\n");
   } else {
-    const auto colors = stdout_has_colors() ? io::TerminalColors::full : io::TerminalColors::none;
-    if (!options.quiet) print_picture(io::terminal_picture(frame.depth, std::min(terminal_columns(), 100), colors) + "\n");
+    const auto colors = stdout_has_colors() ? pictures::TerminalColors::full : pictures::TerminalColors::none;
+    if (!options.quiet) print_picture(pictures::terminal_picture(frame.depth, std::min(terminal_columns(), 100), colors) + "\n");
     if (!options.quiet) print(told(frame, in, simulator, folder, stopwatch));
   }
   return 0;

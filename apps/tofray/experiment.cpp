@@ -154,12 +154,12 @@ Experiment described(const Options& options, const Inputs& in, bool gpu) {
 
 int report(const Experiment& experiment, const Options& options) {
   const std::string table = experiment_table(experiment), json = io::json_text(experiment_json(experiment), 2) + "\n";
-  const io::Chart chart = experiment_chart(experiment);
+  const pictures::Chart chart = experiment_chart(experiment);
   io::OutputFolder folder(options.output.empty() ? "tofray-bench" : options.output);
   folder.write("experiment.txt", table);
   folder.write("experiment.json", json);
-  folder.write("speed-up.png", io::chart_png(chart));
-  folder.write("speed-up.svg", io::chart_svg(chart));
+  folder.write("speed-up.png", pictures::chart_png(chart));
+  folder.write("speed-up.svg", pictures::chart_svg(chart));
   print(options.json ? json : table);
   if (!options.json) say(fmt::format("\n{} files in {}\n", folder.files().size(), folder.path().native()));
   const std::vector<std::string> others = other_bytes(experiment);

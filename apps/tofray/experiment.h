@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "bench_energy.h"
-#include "io/chart.h"
+#include "pictures/chart.h"
 #include "io/json.h"
 #include "options.h"
 
@@ -71,7 +71,7 @@ std::vector<std::string> other_bytes(const Experiment& experiment);
 std::string experiment_table(const Experiment& experiment);
 io::Json experiment_json(const Experiment& experiment);
 /// Speed-up over block size or threads, one curve for each scene and stage.
-io::Chart experiment_chart(const Experiment& experiment);
+pictures::Chart experiment_chart(const Experiment& experiment);
 
 /// Measures, prints table or JSON and writes both with the chart into a folder. @return the exit code
 int run_experiment(const Options& typed);

@@ -103,8 +103,8 @@ std::vector<double> ticks_of(const std::set<int>& values) {
 
 std::string short_name(const std::string& scene) { return scene.starts_with("bench-") ? scene.substr(6) : scene; }
 
-io::Curve curve_of(const Group& group) {
-  io::Curve curve;
+pictures::Curve curve_of(const Group& group) {
+  pictures::Curve curve;
   curve.name = short_name(group.scene) + ", " + group.stage;
   for (const Timing& run : group.runs) {
     curve.x.push_back(run.x());
@@ -195,8 +195,8 @@ io::Json experiment_json(const Experiment& experiment) {
   return json.set("results", std::move(results)).set("best", std::move(bests));
 }
 
-io::Chart experiment_chart(const Experiment& experiment) {
-  io::Chart chart;
+pictures::Chart experiment_chart(const Experiment& experiment) {
+  pictures::Chart chart;
   const bool gpu = experiment.backend == "cuda";
   chart.title = fmt::format("Speed-up over {}", x_name(experiment));
   chart.notes = {gpu ? fmt::format("{} against {}, one thread of sequential code", experiment.gpu, experiment.cpu)
@@ -210,10 +210,10 @@ io::Chart experiment_chart(const Experiment& experiment) {
   double low = nan, high = nan;
   for (std::size_t i = 0; i < experiment.groups.size(); ++i) {
     const Group& group = experiment.groups[i];
-    io::Curve curve = curve_of(group);
+    pictures::Curve curve = curve_of(group);
     // With two stages a scene has one colour, and the second stage is dashed; with more, each curve has its own.
     const auto stage = static_cast<std::size_t>(std::find(stages.begin(), stages.end(), group.stage) - stages.begin());
-    curve.color = io::curve_color(stages.size() <= 2 ? i / stages.size() : i);
+    curve.color = pictures::curve_color(stages.size() <= 2 ? i / stages.size() : i);
     curve.dashed = stages.size() == 2 && stage == 1;
     for (const Timing& run : group.runs) values.insert(run.x());
     for (const double y : curve.y) low = std::fmin(low, y), high = std::fmax(high, y);

@@ -78,7 +78,7 @@ void take_emit(Options& o, const std::string& value) {
 
 void take_theme(Options& o, const std::string& value) {
   if (value != "dark" && value != "light") refuse("--theme", value, "dark or light (dark text on white, for papers)");
-  o.theme = value == "light" ? io::Theme::light : io::Theme::dark;
+  o.theme = value == "light" ? pictures::Theme::light : pictures::Theme::dark;
 }
 
 constexpr auto most_threads = static_cast<std::uint64_t>(base::limit::threads.value);

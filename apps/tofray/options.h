@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "io/pictures.h"
+#include "pictures/pictures.h"
 #include "tofray/simulator.h"
 
 namespace tofray::app {
@@ -32,7 +32,7 @@ struct Options {
   int threads = 0;  ///< 0: one per core
   std::optional<Backend> backend;
   int device = -1;  ///< which GPU; -1: the first one
-  io::Theme theme = io::Theme::dark;
+  pictures::Theme theme = pictures::Theme::dark;
   std::string mode, camera, root, from, output;
   bool json = false, quiet = false, compare = false;
 };

@@ -9,7 +9,7 @@
 #include "backend/cuda/cuda.h"
 #include "console.h"
 #include "io/meta.h"
-#include "io/pictures.h"
+#include "pictures/pictures.h"
 #include "io/ply.h"
 #include "scene/frozen_scene.h"
 #include "tofray/error.h"
@@ -76,7 +76,7 @@ io::PoseMatrix camera_pose(const Scene& scene) {
 const std::vector<std::string>& flag_names() {
   static const std::vector<std::string> names = [] {
     std::vector<std::string> all;
-    for (int bit = 0; bit < io::flag_count; ++bit) all.emplace_back(io::flag_name(bit));
+    for (int bit = 0; bit < pictures::flag_count; ++bit) all.emplace_back(pictures::flag_name(bit));
     return all;
   }();
   return names;
@@ -85,9 +85,9 @@ const std::vector<std::string>& flag_names() {
 Validity validity(const Depth& depth) {
   Validity out;
   out.pixels = depth.flags.size();
-  std::vector<std::size_t> counts(io::invalid_flag_count);
+  std::vector<std::size_t> counts(pictures::invalid_flag_count);
   for (const std::uint16_t flags : depth.flags) {
-    const int reason = io::invalid_reason(flags);
+    const int reason = pictures::invalid_reason(flags);
     ++(reason < 0 ? out.valid : counts[static_cast<std::size_t>(reason)]);
   }
   for (std::size_t i = 0; i < counts.size(); ++i) {
@@ -122,10 +122,10 @@ std::vector<io::FileRecord> write_frame(const io::OutputFolder& folder, const Fr
       io::frame_npz_bytes(frame, in.camera, in.pose.value_or(camera_pose(in.scene)), meta, what.npz, memory);
       put("frame", ".npz", memory);
     } else if (kind == "png") {
-      put("depth", ".png", io::depth_png(frame.depth));
-      put("amplitude", ".png", io::amplitude_png(frame.depth));
-      put("raw", ".png", io::raw_png(frame.raw, what.theme));
-      put("preview", ".png", io::preview_png(frame.depth, frame.truth, caption(frame, in), what.theme));
+      put("depth", ".png", pictures::depth_png(frame.depth));
+      put("amplitude", ".png", pictures::amplitude_png(frame.depth));
+      put("raw", ".png", pictures::raw_png(frame.raw, what.theme));
+      put("preview", ".png", pictures::preview_png(frame.depth, frame.truth, caption(frame, in), what.theme));
     } else {
       put("cloud", ".ply", io::cloud_ply(frame.depth));
     }

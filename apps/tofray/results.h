@@ -58,7 +58,7 @@ struct FrameFiles {
   io::FrameFileOptions npz;
   const Inputs& inputs;
   SimulatorOptions simulated;
-  io::Theme theme;
+  pictures::Theme theme;
 };
 
 /// Writes the files of one frame, each name with `suffix` before its extension. Arrays that the frame does not have are left out.

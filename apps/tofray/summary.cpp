@@ -54,7 +54,7 @@ void write_manifest(io::OutputFolder& folder, const Options& options, const std:
   if (!options.mode.empty()) manifest.options.emplace_back("mode", options.mode);
   if (options.noise) manifest.options.emplace_back("noise", io::noise_name(*options.noise));
   if (options.emit) manifest.options.emplace_back("emit", joined(*options.emit));
-  if (options.theme == io::Theme::light) manifest.options.emplace_back("theme", "light");
+  if (options.theme == pictures::Theme::light) manifest.options.emplace_back("theme", "light");
   if (!options.arrays.empty()) manifest.options.emplace_back("arrays", options.arrays);
   if (options.compress) manifest.options.emplace_back("compress", "on");
   if (options.frames) manifest.options.emplace_back("frames", std::to_string(*options.frames));

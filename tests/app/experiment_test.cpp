@@ -87,7 +87,7 @@ TEST(experiment, a_block_size_that_one_scene_cannot_have_is_not_best_for_the_sta
   }
   EXPECT_NE(best_of_stages(experiment)[0].x, 128);
   EXPECT_TRUE(has(line_with(experiment_table(experiment), "cannot run"), "no registers left"));
-  const std::string svg = io::chart_svg(experiment_chart(experiment));
+  const std::string svg = pictures::chart_svg(experiment_chart(experiment));
   EXPECT_FALSE(has(svg, "nan"));
 }
 
@@ -125,7 +125,7 @@ TEST(experiment, json_says_the_same) {
 }
 
 TEST(experiment, chart_has_a_curve_for_each_scene_and_stage_with_its_best_marked) {
-  const io::Chart chart = experiment_chart(made_up_experiment());
+  const pictures::Chart chart = experiment_chart(made_up_experiment());
   ASSERT_EQ(chart.curves.size(), 4u);
   EXPECT_EQ(chart.curves[0].name, "spheres, power");
   EXPECT_EQ(chart.curves[3].name, "planes, all");
@@ -137,7 +137,7 @@ TEST(experiment, chart_has_a_curve_for_each_scene_and_stage_with_its_best_marked
   EXPECT_NEAR(chart.curves[2].y[static_cast<std::size_t>(chart.curves[2].marked)], 400, 1e-9);
   EXPECT_EQ(chart.x_ticks, (std::vector<double>{32, 128, 256, 384, 512, 640, 768, 896, 1024}));
   EXPECT_EQ(chart.x_label, "threads per block");
-  EXPECT_TRUE(io::chart_png(chart).starts_with("\x89PNG"));
+  EXPECT_TRUE(pictures::chart_png(chart).starts_with("\x89PNG"));
 }
 
 TEST(experiment, on_the_processor_really_measures_and_writes_all_files) {

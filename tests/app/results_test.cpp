@@ -161,6 +161,24 @@ TEST(render, from_a_manifest_makes_the_same_bytes_without_the_files) {
   EXPECT_EQ(files_of(folder / "out"), files_of(folder / "again"));
 }
 
+// Without any font, too: pictures have the plain letters of cairo then.
+TEST(render, from_a_manifest_of_a_machine_with_other_fonts_differs_in_figures_alone) {
+  const Folder folder;
+  const Prepare here = in_folder(folder.path());
+  ASSERT_EQ(run(with_small_sensor({"render", "card", "-o", "out"}), here).code, 0);
+  std::ofstream(folder / "no-fonts.conf") << "<?xml version=\"1.0\"?>\n<fontconfig></fontconfig>\n";
+  const Result again = run({"render", "--from", "out/manifest.json", "-o", "again"}, [&] {
+    here();
+    ::setenv("FONTCONFIG_FILE", (folder / "no-fonts.conf").c_str(), 1);
+  });
+  EXPECT_EQ(again.code, 0) << again.err;
+  const auto before = files_of(folder / "out"), after = files_of(folder / "again");
+  for (const char* name : {"frame.npz", "depth.png", "amplitude.png", "cloud.ply"}) EXPECT_EQ(before.at(name), after.at(name)) << name;
+  EXPECT_TRUE(after.at("preview.png").starts_with("\x89PNG"));
+  if (before.at("preview.png") == after.at("preview.png")) GTEST_SKIP() << "this machine has no font";
+  EXPECT_TRUE(has(again.err, " have letters of other fonts than out/manifest.json lists")) << again.err;
+}
+
 TEST(render, from_a_manifest_that_lists_other_bytes_is_a_check_not_met) {
   const Folder folder;
   const Prepare here = in_folder(folder.path());

@@ -16,14 +16,15 @@
 #include "io/npz.h"
 #include "io/out_helpers.h"
 #include "io/output_folder.h"
-#include "io/pictures.h"
+#include "pictures/pictures.h"
 #include "io/ply.h"
 #include "io/sha256.h"
-#include "io/terminal_picture.h"
+#include "pictures/terminal_picture.h"
 #include "io/version.h"
 
 using namespace tofray;
 using namespace tofray::io;
+using namespace tofray::pictures;
 using out_test::error_of;
 using out_test::Python;
 using out_test::TemporaryFolder;

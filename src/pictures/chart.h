@@ -4,10 +4,10 @@
 #include <string>
 #include <vector>
 
-#include "io/color_map.h"
+#include "pictures/color_map.h"
 
 /// Line charts: the same drawing as PNG and as SVG.
-namespace tofray::io {
+namespace tofray::pictures {
 
 /// A curve. Points whose y is NaN are left out, and the curve has a gap there.
 struct Curve {
@@ -35,4 +35,4 @@ std::string chart_png(const Chart& chart);
 /// The same as SVG 1.1 text: no script, no external reference, no font file.
 std::string chart_svg(const Chart& chart);
 
-}  // namespace tofray::io
+}  // namespace tofray::pictures

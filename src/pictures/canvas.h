@@ -2,16 +2,19 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include <cstdint>
-#include <string>
 #include <string_view>
 #include <vector>
 
-#include "io/color_map.h"
+#include "pictures/color_map.h"
 
-namespace tofray::io {
+namespace tofray::pictures {
 
-/// A picture to draw on: rectangles, enlarged images and text in a stroke font of its own. Origin top left, pixels.
-/// Only + − · / and sqrt are used: the same bytes on every machine.
+struct Point {
+  double x = 0, y = 0;
+};
+
+/// A picture to draw on: rectangles, enlarged images, and strokes and text by cairo. Origin top left, pixels; whole numbers are the corners
+/// of pixels. It may be wider than the 32,767 pixels of cairo's own pictures.
 class Canvas {
  public:
   Canvas(int width, int height, Rgb background);
@@ -20,14 +23,13 @@ class Canvas {
   [[nodiscard]] int height() const { return height_; }
   [[nodiscard]] const std::vector<std::uint8_t>& pixels() const { return pixels_; }  ///< [height][width][3]
 
-  /// Sets one pixel; outside the canvas nothing happens.
-  void set(int x, int y, Rgb color);
   void fill(int x, int y, int width, int height, Rgb color);
   /// An image whose pixels become squares of `scale` pixels. @param image [height][width]
   void draw(int x, int y, int width, int height, int scale, const std::vector<Rgb>& image);
-  /// A straight stroke with round ends. @param x0, y0, x1, y1  its ends [px]; whole numbers are the corners of pixels
-  void line(double x0, double y0, double x1, double y1, double width, Rgb color);
-  /// One line of UTF-8 text. Letters, digits and the signs of units are known; any other character is an empty box.
+  /// Straight strokes with round ends from point to point. @param dashes  lengths of strokes and gaps in turn; empty: no gaps
+  void stroke(const std::vector<Point>& points, double width, Rgb color, const std::vector<double>& dashes = {});
+  void disc(Point center, double radius, Rgb color);
+  /// One line of UTF-8 text in the machine's sans-serif font. Where there is none, cairo draws plain letters of its own.
   /// @param x, baseline  where the first letter's left edge stands
   /// @param size   height of a capital letter [px]
   void text(double x, double baseline, double size, Rgb color, std::string_view utf8);
@@ -35,10 +37,14 @@ class Canvas {
   static double text_width(double size, std::string_view utf8);
 
  private:
-  void blend(int x, int y, Rgb color, double share);
+  class Mask;
+  /// Where a pixel's red stands.
+  [[nodiscard]] std::size_t at(int x, int y) const { return 3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(x)); }
+  /// One colour where the mask covers.
+  void paint(const Mask& mask, Rgb color);
 
   int width_, height_;
   std::vector<std::uint8_t> pixels_;
 };
 
-}  // namespace tofray::io
+}  // namespace tofray::pictures

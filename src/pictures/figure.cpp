@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: 2026 The tofray authors
 // SPDX-License-Identifier: Apache-2.0
-#include "io/figure.h"
+#include "pictures/figure.h"
 
 #include <algorithm>
 #include <cmath>
 
-namespace tofray::io {
+namespace tofray::pictures {
 
 const Look& look_of(Theme theme) {
   static const Look dark{figure::background,
@@ -50,4 +50,4 @@ void draw_scale_bar(Canvas& canvas, int x, int y, int height, const ValueColors&
 
 int enlargement(int width, int wanted) { return std::clamp((wanted + width / 2) / std::max(width, 1), 1, 8); }
 
-}  // namespace tofray::io
+}  // namespace tofray::pictures

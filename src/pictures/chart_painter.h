@@ -5,14 +5,10 @@
 #include <string_view>
 #include <vector>
 
-#include "io/canvas.h"
+#include "pictures/canvas.h"
 
 /// What a chart is drawn with: pixels or SVG elements.
-namespace tofray::io {
-
-struct Point {
-  double x = 0, y = 0;
-};
+namespace tofray::pictures {
 
 /// Where a text stands relative to its point.
 enum class Align { left, middle, right };
@@ -54,4 +50,4 @@ class SvgPainter : public Painter {
   std::string text_;
 };
 
-}  // namespace tofray::io
+}  // namespace tofray::pictures

@@ -6,8 +6,9 @@
 
 #include "tofray/frame.h"
 
-/// Pictures of a frame as PNG files in memory. The same frame gives the same bytes on every machine.
-namespace tofray::io {
+/// Pictures of a frame as PNG files in memory. The same frame gives the same bytes on every machine, but for the letters of raw.png and
+/// preview.png, which are those of the machine's font.
+namespace tofray::pictures {
 
 /// Light writing on a dark ground for screens, or dark on white for papers. Colours of values are the same in both.
 enum class Theme : std::uint8_t { dark, light };
@@ -37,4 +38,4 @@ std::string raw_png(const Raw& raw, Theme theme = Theme::dark);
 /// @param caption  one line above, UTF-8; may be empty
 std::string preview_png(const Depth& depth, const Truth& truth, const std::string& caption, Theme theme = Theme::dark);
 
-}  // namespace tofray::io
+}  // namespace tofray::pictures

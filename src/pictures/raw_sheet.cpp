@@ -5,11 +5,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "io/figure.h"
-#include "io/pictures.h"
-#include "io/png_file.h"
+#include "pictures/figure.h"
+#include "pictures/pictures.h"
+#include "pictures/png_file.h"
 
-namespace tofray::io {
+namespace tofray::pictures {
 namespace {
 
 /// What one raw frame holds: codes, or the difference of the taps.
@@ -141,4 +141,4 @@ std::string raw_png(const Raw& raw, Theme theme) {
   return png_rgb8(canvas.width(), canvas.height(), canvas.pixels());
 }
 
-}  // namespace tofray::io
+}  // namespace tofray::pictures

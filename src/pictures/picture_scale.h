@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-namespace tofray::io {
+namespace tofray::pictures {
 
 /// A range of values for a picture, with round numbers at its ends and at its ticks.
 struct PictureScale {
@@ -27,4 +27,4 @@ PictureScale round_scale(double low, double high, double least_span);
 /// The share q (0…1) of the finite values lies below the result; `otherwise` where there is none.
 double percentile(std::vector<double> values, double q, double otherwise);
 
-}  // namespace tofray::io
+}  // namespace tofray::pictures

@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The tofray authors
 // SPDX-License-Identifier: Apache-2.0
-#include "io/color_map.h"
+#include "pictures/color_map.h"
 
 #include <cstddef>
 
-namespace tofray::io {
+namespace tofray::pictures {
 namespace {
 
 // Tables computed once in the OKLCh space: lightness falls evenly, hue turns one way. Between their colours sRGB is interpolated.
@@ -42,4 +42,4 @@ Rgb grey_color(double t) {
   return of_table(ends, t);
 }
 
-}  // namespace tofray::io
+}  // namespace tofray::pictures

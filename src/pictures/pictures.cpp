@@ -1,14 +1,14 @@
 // SPDX-FileCopyrightText: 2026 The tofray authors
 // SPDX-License-Identifier: Apache-2.0
-#include "io/pictures.h"
+#include "pictures/pictures.h"
 
 #include <cmath>
 #include <vector>
 
-#include "io/picture_scale.h"
-#include "io/png_file.h"
+#include "pictures/picture_scale.h"
+#include "pictures/png_file.h"
 
-namespace tofray::io {
+namespace tofray::pictures {
 
 int invalid_reason(std::uint16_t flags) {
   if ((flags & flags_invalid) == 0) return -1;
@@ -45,4 +45,4 @@ std::string amplitude_png(const Depth& depth) {
   return png_grey8(depth.width, depth.height, grey);
 }
 
-}  // namespace tofray::io
+}  // namespace tofray::pictures

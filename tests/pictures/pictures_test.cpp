@@ -6,20 +6,19 @@
 #include <cstring>
 #include <set>
 
-#include "io/canvas.h"
-#include "io/color_map.h"
+#include "pictures/canvas.h"
+#include "pictures/color_map.h"
 #include "io/out_helpers.h"
-#include "io/out_png.h"
-#include "io/picture_scale.h"
-#include "io/pictures.h"
+#include "pictures/read_png.h"
+#include "pictures/picture_scale.h"
+#include "pictures/pictures.h"
 #include "io/ply.h"
-#include "io/png_file.h"
-#include "io/sha256.h"
-#include "io/stroke_font.h"
-#include "io/terminal_picture.h"
+#include "pictures/png_file.h"
+#include "pictures/terminal_picture.h"
 
 using namespace tofray;
-using namespace tofray::io;
+using namespace tofray::pictures;
+using tofray::io::cloud_ply;
 using out_test::Python;
 using out_test::read_back;
 using out_test::ReadBack;
@@ -179,39 +178,62 @@ TEST(color_map, is_ever_darker_with_distance_and_symmetrical_in_the_error) {
   EXPECT_EQ(error_color(0), (Rgb{239, 239, 239}));
 }
 
-TEST(stroke_font, knows_what_our_labels_need_and_draws_a_box_for_the_rest) {
-  const Glyph& box = glyph_of("\xE6\x9D\xB1");
-  EXPECT_EQ(box.segments.size(), 4U);
-  for (const char c : std::string("0123456789ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz.,:;-_+=/()[]<>%#*!?'\"| "))
-    EXPECT_NE(&glyph_of(std::string(1, c)), &box) << c;
-  for (const char* sign : {"\xC2\xB0", "\xC2\xB1", "\xC2\xB5", "\xCF\x83", "\xE2\x88\x92", "\xE2\x80\xA6", "\xC2\xB7"})
-    EXPECT_NE(&glyph_of(sign), &box) << sign;
-  // different characters look different
-  std::set<std::vector<double>> shapes;
-  int count = 0;
-  for (char c = '!'; c < 127; ++c) {
-    const Glyph& glyph = glyph_of(std::string(1, c));
-    if (&glyph == &box) continue;
-    std::vector<double> shape;
-    for (const Segment& s : glyph.segments) shape.insert(shape.end(), {s.x0, s.y0, s.x1, s.y1});
-    shapes.insert(shape);
-    ++count;
+namespace {
+
+/// How many pixels of a part of a canvas are not its background, which is black.
+std::size_t drawn(const Canvas& canvas, int left, int top, int right, int bottom) {
+  std::size_t count = 0;
+  for (int v = top; v < bottom; ++v)
+    for (int u = left; u < right; ++u) {
+      const std::size_t at = 3 * (static_cast<std::size_t>(v) * static_cast<std::size_t>(canvas.width()) + static_cast<std::size_t>(u));
+      count += canvas.pixels()[at] != 0 || canvas.pixels()[at + 1] != 0 || canvas.pixels()[at + 2] != 0 ? 1 : 0;
+    }
+  return count;
+}
+
+}  // namespace
+
+TEST(canvas, writes_from_the_left_edge_on_and_above_the_baseline) {
+  const char* const text = "80 MHz";
+  const double width = Canvas::text_width(12, text);
+  EXPECT_GT(width, 6 * 12 * 0.4);
+  EXPECT_LT(width, 6 * 12 * 2.0);
+  EXPECT_GT(Canvas::text_width(24, text), 1.9 * width);
+  EXPECT_GT(Canvas::text_width(12, "80 MHz and more"), width);
+  EXPECT_EQ(Canvas::text_width(12, ""), 0);
+  Canvas canvas(200, 60, {0, 0, 0});
+  canvas.text(50, 40, 12, {255, 200, 100}, text);
+  const int end = 50 + static_cast<int>(width) + 2;
+  EXPECT_GT(drawn(canvas, 50, 26, end, 41), 60U);
+  // A pixel of room for edges; nothing elsewhere.
+  EXPECT_EQ(drawn(canvas, 0, 0, 200, 60), drawn(canvas, 49, 26, end, 41));
+}
+
+TEST(canvas, writes_any_bytes) {
+  for (const char* text : {"\xC2\xB5\xFF\xE2\x88", "a\nb\tc\x01", "\xE6\x9D\xB1", "\xF0\x9F\x98\x80"}) {
+    Canvas canvas(200, 40, {0, 0, 0});
+    canvas.text(10, 30, 12, {255, 255, 255}, text);
+    EXPECT_GT(drawn(canvas, 0, 0, 200, 40), 0U) << text;
+    EXPECT_GT(Canvas::text_width(12, text), 0) << text;
   }
-  EXPECT_EQ(shapes.size(), static_cast<std::size_t>(count));
-  std::string_view text = "a\xC2\xB5\xFF\xE2\x88";
-  EXPECT_EQ(take_character(text), "a");
-  EXPECT_EQ(take_character(text), "\xC2\xB5");
-  EXPECT_EQ(take_character(text), "?");
-  EXPECT_EQ(take_character(text), "?");
-  EXPECT_EQ(take_character(text), "?");
-  EXPECT_TRUE(text.empty());
+}
+
+TEST(canvas, may_be_wider_than_what_cairo_draws_on) {
+  Canvas canvas(40'000, 20, {0, 0, 0});
+  canvas.text(39'900, 15, 9, {255, 255, 255}, "right");
+  canvas.stroke({{39'990, 10}, {39'999, 10}}, 2, {255, 255, 255});
+  EXPECT_GT(drawn(canvas, 39'900, 0, 39'980, 20), 20U);
+  EXPECT_GT(drawn(canvas, 39'985, 0, 40'000, 20), 10U);
+  EXPECT_EQ(drawn(canvas, 0, 0, 39'890, 20), 0U);
 }
 
 TEST(canvas, draws_nothing_outside_itself) {
   Canvas canvas(20, 10, {1, 2, 3});
   canvas.fill(-5, -5, 3, 3, {255, 0, 0});
   canvas.fill(18, 8, 10, 10, {255, 0, 0});
-  canvas.text(-30, 40, 12, {255, 0, 0}, "far away");
+  canvas.text(-300, 40, 12, {255, 0, 0}, "far away");
+  canvas.disc({-9, 5}, 3, {255, 0, 0});
+  canvas.stroke({{5, 30}, {50, 40}}, 3, {255, 0, 0});
   std::size_t red = 0;
   for (std::size_t i = 0; i < canvas.pixels().size(); i += 3) red += canvas.pixels()[i] == 255 ? 1 : 0;
   EXPECT_EQ(red, 4U);

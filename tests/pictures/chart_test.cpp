@@ -6,12 +6,12 @@
 #include <limits>
 #include <sstream>
 
-#include "io/chart.h"
-#include "io/chart_painter.h"
-#include "io/figure.h"
+#include "pictures/chart.h"
+#include "pictures/chart_painter.h"
+#include "pictures/figure.h"
 #include "io/out_helpers.h"
 
-using namespace tofray::io;
+using namespace tofray::pictures;
 
 namespace {
 

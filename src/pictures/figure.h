@@ -6,11 +6,11 @@
 #include <string>
 #include <vector>
 
-#include "io/canvas.h"
-#include "io/picture_scale.h"
-#include "io/pictures.h"
+#include "pictures/canvas.h"
+#include "pictures/picture_scale.h"
+#include "pictures/pictures.h"
 
-namespace tofray::io {
+namespace tofray::pictures {
 
 /// Looks of all our figures, in pixels.
 namespace figure {
@@ -44,4 +44,4 @@ void draw_scale_bar(Canvas& canvas, int x, int y, int height, const ValueColors&
 /// By how much an image of this width is enlarged to be about `wanted` pixels wide: 1…8.
 int enlargement(int width, int wanted);
 
-}  // namespace tofray::io
+}  // namespace tofray::pictures

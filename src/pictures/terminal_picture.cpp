@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The tofray authors
 // SPDX-License-Identifier: Apache-2.0
-#include "io/terminal_picture.h"
+#include "pictures/terminal_picture.h"
 
 #include <fmt/format.h>
 
@@ -8,10 +8,10 @@
 #include <cmath>
 #include <vector>
 
-#include "io/color_map.h"
-#include "io/picture_scale.h"
+#include "pictures/color_map.h"
+#include "pictures/picture_scale.h"
 
-namespace tofray::io {
+namespace tofray::pictures {
 namespace {
 
 constexpr const char* reset = "\x1b[0m";
@@ -123,4 +123,4 @@ std::string terminal_picture(const Depth& depth, int columns, TerminalColors col
   return (full ? half_blocks(cells, scale) : letters(cells, scale)) + legend(scale, width, colors);
 }
 
-}  // namespace tofray::io
+}  // namespace tofray::pictures

@@ -3,7 +3,7 @@
 #pragma once
 #include <cstdint>
 
-namespace tofray::io {
+namespace tofray::pictures {
 
 /// A colour of a screen, sRGB.
 struct Rgb {
@@ -25,4 +25,4 @@ Rgb grey_color(double t);
 /// Between two colours, t = 0…1.
 Rgb mixed(Rgb a, Rgb b, double t);
 
-}  // namespace tofray::io
+}  // namespace tofray::pictures

@@ -4,13 +4,13 @@
 
 #include <algorithm>
 
-#include "io/figure.h"
+#include "pictures/figure.h"
 #include "io/out_helpers.h"
-#include "io/out_png.h"
-#include "io/pictures.h"
+#include "pictures/read_png.h"
+#include "pictures/pictures.h"
 
 using namespace tofray;
-using namespace tofray::io;
+using namespace tofray::pictures;
 using out_test::read_back;
 using out_test::ReadBack;
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 /// PNG files in memory. Nothing but the pixels is in them: no time, no text, no gamma.
-namespace tofray::io {
+namespace tofray::pictures {
 
 /// Grey, 8 bits. @param pixels [height][width]
 std::string png_grey8(int width, int height, const std::vector<std::uint8_t>& pixels);
@@ -17,4 +17,4 @@ std::string png_grey16(int width, int height, const std::vector<std::uint16_t>& 
 /// Colour, 8 bits per channel. @param pixels [height][width][3] red, green, blue
 std::string png_rgb8(int width, int height, const std::vector<std::uint8_t>& pixels);
 
-}  // namespace tofray::io
+}  // namespace tofray::pictures

@@ -1,18 +1,18 @@
 // SPDX-FileCopyrightText: 2026 The tofray authors
 // SPDX-License-Identifier: Apache-2.0
-#include "io/chart.h"
+#include "pictures/chart.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "io/chart_painter.h"
-#include "io/figure.h"
-#include "io/png_file.h"
+#include "pictures/chart_painter.h"
+#include "pictures/figure.h"
+#include "pictures/png_file.h"
 #include "num/setup_math.h"
 
-namespace tofray::io {
+namespace tofray::pictures {
 
 namespace {
 
@@ -83,6 +83,7 @@ class Drawing {
   void draw() {
     double y = figure::margin + figure::title_size;
     painter_.text({figure::margin, y}, figure::title_size, figure::ink, Align::left, chart_.title);
+    y += 4;
     for (const std::string& note : chart_.notes) {
       y += 16;
       painter_.text({figure::margin, y}, figure::label_size, figure::faint_ink, Align::left, note);
@@ -176,4 +177,4 @@ std::string chart_svg(const Chart& chart) {
   return painter.finished();
 }
 
-}  // namespace tofray::io
+}  // namespace tofray::pictures

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The tofray authors
 // SPDX-License-Identifier: Apache-2.0
-#include "io/png_file.h"
+#include "pictures/png_file.h"
 
 #include <png.h>
 
@@ -8,7 +8,7 @@
 
 #include "tofray/error.h"
 
-namespace tofray::io {
+namespace tofray::pictures {
 namespace {
 
 /// The image as libpng wants it: 16-bit samples with the high byte first.
@@ -83,4 +83,4 @@ std::string png_rgb8(int width, int height, const std::vector<std::uint8_t>& pix
   return encoded({width, height, 8, PNG_COLOR_TYPE_RGB, 3, pixels.data()}, pixels.size());
 }
 
-}  // namespace tofray::io
+}  // namespace tofray::pictures

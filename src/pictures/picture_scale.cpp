@@ -1,13 +1,13 @@
 // SPDX-FileCopyrightText: 2026 The tofray authors
 // SPDX-License-Identifier: Apache-2.0
-#include "io/picture_scale.h"
+#include "pictures/picture_scale.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 
-namespace tofray::io {
+namespace tofray::pictures {
 
 std::vector<double> PictureScale::ticks() const {
   std::vector<double> values;
@@ -53,4 +53,4 @@ double percentile(std::vector<double> values, double q, double otherwise) {
   return *nth;
 }
 
-}  // namespace tofray::io
+}  // namespace tofray::pictures

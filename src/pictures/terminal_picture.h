@@ -5,7 +5,7 @@
 
 #include "tofray/frame.h"
 
-namespace tofray::io {
+namespace tofray::pictures {
 
 /// What a terminal can show.
 enum class TerminalColors {
@@ -17,4 +17,4 @@ enum class TerminalColors {
 /// @param columns  width of the terminal; the picture takes no more, and no more than the image has pixels
 std::string terminal_picture(const Depth& depth, int columns, TerminalColors colors);
 
-}  // namespace tofray::io
+}  // namespace tofray::pictures

@@ -1,13 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The tofray authors
 // SPDX-License-Identifier: Apache-2.0
-#include "io/chart_painter.h"
+#include "pictures/chart_painter.h"
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
-
-namespace tofray::io {
+namespace tofray::pictures {
 
 namespace {
 
@@ -34,25 +31,10 @@ std::string escaped(std::string_view text) {
 }  // namespace
 
 void CanvasPainter::curve(const std::vector<Point>& points, double width, Rgb color, bool dashed) {
-  double walked = 0;  // along the curve, so that dashes run on around its corners
-  for (std::size_t i = 0; i + 1 < points.size(); ++i) {
-    const Point a = points[i], b = points[i + 1];
-    const double dx = b.x - a.x, dy = b.y - a.y, length = std::sqrt(dx * dx + dy * dy);
-    if (!dashed) canvas_.line(a.x, a.y, b.x, b.y, width, color);
-    if (!dashed || !(length > 0)) continue;
-    const auto first = static_cast<int>(std::floor(walked / (dash + gap)));
-    for (int k = first; k * (dash + gap) < walked + length; ++k) {
-      const double from = std::max(k * (dash + gap) - walked, 0.0) / length;
-      const double to = std::min(k * (dash + gap) + dash - walked, length) / length;
-      if (to > from) canvas_.line(a.x + from * dx, a.y + from * dy, a.x + to * dx, a.y + to * dy, width, color);
-    }
-    walked += length;
-  }
+  canvas_.stroke(points, width, color, dashed ? std::vector<double>{dash, gap} : std::vector<double>());
 }
 
-void CanvasPainter::disc(Point center, double radius, Rgb color) {
-  canvas_.line(center.x, center.y, center.x, center.y, 2 * radius, color);
-}
+void CanvasPainter::disc(Point center, double radius, Rgb color) { canvas_.disc(center, radius, color); }
 
 void CanvasPainter::text(Point at, double size, Rgb color, Align align, std::string_view utf8) {
   const double share = align == Align::left ? 0 : align == Align::middle ? 0.5 : 1;
@@ -85,4 +67,4 @@ void SvgPainter::text(Point at, double size, Rgb color, Align align, std::string
                        size / 0.72, anchor, hex(color), escaped(utf8));
 }
 
-}  // namespace tofray::io
+}  // namespace tofray::pictures

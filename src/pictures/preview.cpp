@@ -6,12 +6,12 @@
 #include <array>
 #include <cmath>
 
-#include "io/figure.h"
-#include "io/pictures.h"
-#include "io/png_file.h"
-#include "io/stroke_font.h"
+#include "base/text.h"
+#include "pictures/figure.h"
+#include "pictures/pictures.h"
+#include "pictures/png_file.h"
 
-namespace tofray::io {
+namespace tofray::pictures {
 namespace {
 
 constexpr int least_bar = 90;  // [px] a shorter scale bar has no room for its labels
@@ -97,19 +97,17 @@ Panel noise_panel(const Depth& depth) {
 }
 
 /// The caption, cut where it is longer than the panels are wide and than an ordinary one: a picture's size is not a name's to say.
-std::string fitting(std::string_view caption, int width) {
-  constexpr std::string_view cut = "\xE2\x80\xA6";
+std::string fitting(const std::string& caption, int width) {
   constexpr double ordinary = 1500;  // pixels
   const double room = std::max(ordinary, static_cast<double>(width));
-  std::string text;
-  double so_far = 0;
-  while (!caption.empty()) {
-    const std::string_view character = take_character(caption);
-    so_far += Canvas::text_width(figure::title_size, character) + Canvas::text_width(figure::title_size, "  ") - 2 * Canvas::text_width(figure::title_size, " ");
-    if (so_far > room) return text + std::string(cut);
-    text += character;
+  if (Canvas::text_width(figure::title_size, caption) <= room) return caption;
+  const std::string text = base::printable(caption);
+  std::size_t end = 0;
+  for (std::size_t next = 0; next < text.size(); end = next) {
+    next += base::utf8_length(text, next);
+    if (Canvas::text_width(figure::title_size, text.substr(0, next)) > room) break;
   }
-  return text;
+  return text.substr(0, end) + "\xE2\x80\xA6";
 }
 
 /// Invalid pixels of z in the colours of their reasons.
@@ -220,4 +218,4 @@ std::string preview_png(const Depth& depth, const Truth& truth, const std::strin
   return png_rgb8(canvas.width(), canvas.height(), canvas.pixels());
 }
 
-}  // namespace tofray::io
+}  // namespace tofray::pictures
