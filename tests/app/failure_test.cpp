@@ -63,7 +63,7 @@ Prepare failing(const fs::path& folder, const std::string& call, const std::stri
   };
 }
 
-// Row F16: the disk is full or breaks at any of the calls that write. One frame is there from an earlier run.
+// The disk is full or breaks at any of the calls that write. One frame is there from an earlier run.
 TEST(broken_disk, at_any_call_ends_with_3_and_leaves_whole_files) {
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
   GTEST_SKIP() << "sanitizers do not run under strace";
@@ -241,7 +241,7 @@ TEST(memory, is_not_asked_for_where_counts_are_beyond_their_limits) {
   }
 }
 
-// Row F18: 50 of each signal; programs with sanitizers start slowly.
+// 50 of each signal; programs with sanitizers start slowly.
 constexpr int interruptions = with_sanitizers ? 10 : 50;
 
 /// An interrupted run's manifest lists what lies there, says so, and stderr says how to go on.

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The tofray authors
 // SPDX-License-Identifier: Apache-2.0
-// Rows G9 and G10: projection and distortion, there and back; beyond the model nothing is made up.
+// Projection and distortion, there and back; beyond the model nothing is made up.
 #include "camera/lens.h"
 
 #include <gtest/gtest.h>
@@ -62,7 +62,7 @@ TEST(lens, distorts_by_the_formula) {
   }
 }
 
-// G9 (1e-10 px) and G10 (1e-9 px); |x|, |y| to 0.9: a field of 84 degrees.
+// Distorted and back to 1e-9 px, undistorted and back to 1e-10 px; |x|, |y| to 0.9: a field of 84 degrees.
 TEST(lens, takes_pixels_to_rays_and_back) {
   Random random(2);
   int tried = 0;
@@ -92,7 +92,7 @@ TEST(lens, without_distortion_is_a_pinhole) {
   EXPECT_DOUBLE_EQ(p.y, -85.5 / 210);
 }
 
-// G10: any target at all; what is called an inverse is one, and lies on the branch that starts at the axis.
+// Any target at all; what is called an inverse is one, and lies on the branch that starts at the axis.
 TEST(lens, never_makes_up_an_inverse) {
   Random random(3);
   int found = 0, refused = 0;
@@ -157,7 +157,7 @@ TEST(lens, flags_corners_without_an_inverse) {
   EXPECT_GT(outside, 10);
 }
 
-// G9 in single precision: the rays that kernels read lead back to their pixels.
+// In single precision: the rays that kernels read lead back to their pixels.
 TEST(lens, rays_in_single_precision_lead_back_to_their_pixels) {
   const Camera camera = load_camera("pico-flexx");
   const camera::FrozenCamera frozen(camera, 0, 0);

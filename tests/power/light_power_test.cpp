@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The tofray authors
 // SPDX-License-Identifier: Apache-2.0
-// Row P6 for every pattern with a rectangle: what shines, summed up direction by direction, is the source's power.
+// For every pattern with a rectangle: what shines, summed up direction by direction, is the source's power.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The tofray authors
 // SPDX-License-Identifier: Apache-2.0
-// Rows P6 and P7: how light sources spread their power. Section 2.1's numbers.
+// How light sources spread their power. Section 2.1's numbers.
 #include <gtest/gtest.h>
 
 #include "camera/frozen_camera.h"
@@ -73,7 +73,7 @@ Vec3 f_theta(double theta_x, double theta_y) {
 
 }  // namespace
 
-// P6. Lobes are the same all around and smooth in z but for the rim at 90 degrees, which lies between two rings.
+// Lobes are the same all around and smooth in z but for the rim at 90 degrees, which lies between two rings.
 TEST(light_source, lobes_give_off_their_power) {
   for (const Vec3& axis : {Vec3{0, 0, 1}, base::normalized(Vec3{1, -2, 0.5}), Vec3{0, 0, -1}, Vec3{1, 0, 0}}) {
     for (const double exponent : {1.0, 2.0, 7.5, 20.0}) {
@@ -98,7 +98,7 @@ TEST(light_source, cones_give_off_their_power) {
   }
 }
 
-// P6 for tables: bilinear between cells of half a degree.
+// Tables: bilinear between cells of half a degree.
 TEST(light_source, tables_give_off_their_power) {
   EXPECT_NEAR(total(camera::freeze_light(source(flexx(), 0.2), 1), {0, 0, 1}, 1500, 3000), 0.2, 0.2 * 1e-3);
   Random random(2);
@@ -159,7 +159,7 @@ TEST(light_source, tables_are_read_at_f_theta_angles) {
   }
 }
 
-// P7: a table with one bright cell lights the pixel that looks there: x right, y down. Light at the camera's place.
+// A table with one bright cell lights the pixel that looks there: x right, y down. Light at the camera's place.
 TEST(light_source, the_bright_cell_of_a_table_lands_in_its_own_quadrant) {
   for (int quadrant = 0; quadrant < 4; ++quadrant) {
     const int column = quadrant % 2 == 0 ? 4 : 15, row = quadrant < 2 ? 3 : 10;    // of 20 x 14

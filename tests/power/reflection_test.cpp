@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The tofray authors
 // SPDX-License-Identifier: Apache-2.0
-// Rows P13 and P14: reciprocity and energy of the surfaces.
+// Reciprocity and energy of the surfaces.
 #include "power/reflection.h"
 
 #include <gtest/gtest.h>
@@ -46,7 +46,7 @@ Vec3 upward(Random& random) {
 
 }  // namespace
 
-// P13. The mirror direction's cosine is rounded twice, to 2^-24 each: n times that where the lobe is as good as one.
+// The mirror direction's cosine is rounded twice, to 2^-24 each: n times that where the lobe is as good as one.
 TEST(reflection, is_the_same_with_light_and_camera_exchanged) {
   Random random(1);
   for (int i = 0; i < 100000; ++i) {
@@ -72,7 +72,7 @@ TEST(reflection, is_lambert_plus_the_normalised_lobe) {
   }
 }
 
-// P14: what of the light comes back.
+// What of the light comes back.
 TEST(reflection, sends_back_all_light_at_most) {
   for (const double exponent : {1.0, 10.0, 50.0}) EXPECT_NEAR(albedo(0, 1, exponent, 0), 1, 1e-4) << exponent;
   EXPECT_NEAR(albedo(0, 1, 1, turn / 6), 0.608998, 1e-4);

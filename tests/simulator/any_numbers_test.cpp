@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The tofray authors
 // SPDX-License-Identifier: Apache-2.0
-// Row F3: whatever numbers scene and camera hold, the answer is an error that says which, or a frame without a number that means nothing.
+// Whatever numbers scene and camera hold, the answer is an error that says which, or a frame without a number that means nothing.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The tofray authors
 // SPDX-License-Identifier: Apache-2.0
-// Rows G11 and G12: range against z, and the light beside the lens.
+// Range against z, and the light beside the lens.
 #include <gtest/gtest.h>
 
 #include "power/received.h"
@@ -32,7 +32,7 @@ double excess(double z, double beside) {
 
 }  // namespace
 
-// G12. The path is a float of at most 16 m: half a unit of it, halved again, and that of the distance.
+// The path is a float of at most 16 m: half a unit of it, halved again, and that of the distance.
 TEST(light_offset, makes_the_path_longer_as_the_closed_form_says) {
   const double table[][2] = {{0.1, 0.594765e-3}, {0.5, 0.119632e-3}, {1, 0.059827e-3}, {5, 0.011966e-3}};
   for (const auto& [z, expected] : table) {
@@ -57,7 +57,6 @@ TEST(light_offset, is_taken_out_again_by_the_decoder) {
   }
 }
 
-// G11
 TEST(range, is_z_over_the_cosine_and_a_wall_has_one_z) {
   Camera camera = lit_camera(31, 23, 20);
   const Truth t = truth(wall(2.5), camera);

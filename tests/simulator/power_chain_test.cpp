@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The tofray authors
 // SPDX-License-Identifier: Apache-2.0
-// Rows P1 to P5: from the light source to electrons through the whole simulator.
+// From the light source to electrons through the whole simulator.
 #include <gtest/gtest.h>
 
 #include <fstream>
@@ -17,7 +17,7 @@ double value(const std::vector<float>& array, std::size_t i = 0) { return static
 
 }  // namespace
 
-// P3. From first principles, and as literal numbers: about ten roundings on the way from the frozen constants to electrons.
+// From first principles, and as literal numbers: about ten roundings on the way from the frozen constants to electrons.
 TEST(power_chain, one_watt_per_steradian_on_a_white_wall_at_one_metre) {
   const double radiance = 1 / pi, irradiance = pi * radiance / (4 * 0.9 * 0.9), watts = irradiance * 17.5e-6 * 17.5e-6;
   const double electrons = watts * 1e-3 * 850e-9 * 0.4 / (6.62607015e-34 * 299792458.0);
@@ -30,7 +30,7 @@ TEST(power_chain, one_watt_per_steradian_on_a_white_wall_at_one_metre) {
   EXPECT_NEAR(value(t.signal_e), electrons, electrons * roundings(10));
 }
 
-// P3: irradiance on the sensor has no focal length in it, only the F-number; area, fill factor, T, time, QE and wavelength are factors.
+// Irradiance on the sensor has no focal length in it, only the F-number; area, fill factor, T, time, QE and wavelength are factors.
 TEST(power_chain, has_each_factor_once) {
   const Scene scene = wall(1, 0.5);
   const double before = value(truth(scene, lit_camera()).signal_e);
@@ -59,7 +59,6 @@ TEST(power_chain, unlit_raw_frames_get_none_of_the_cameras_own_light) {
   EXPECT_GT(t.signal_e[1], 0);
 }
 
-// P1
 TEST(power_chain, falls_with_the_square_of_the_distance_from_ten_centimetres_to_a_hundred_metres) {
   double sum_x = 0, sum_y = 0, sum_xx = 0, sum_xy = 0;
   const int steps = 61;
@@ -73,7 +72,7 @@ TEST(power_chain, falls_with_the_square_of_the_distance_from_ten_centimetres_to_
   EXPECT_NEAR((steps * sum_xy - sum_x * sum_y) / (steps * sum_xx - sum_x * sum_x), -2, 1e-6);
 }
 
-// P2: the wall turns about the point on the axis; light and camera stay.
+// The wall turns about the point on the axis; light and camera stay.
 TEST(power_chain, follows_the_cosine_law) {
   const double facing = value(truth(wall(2), lit_camera()).irradiance_w_m2);
   for (int degrees = 0; degrees < 90; ++degrees) {
@@ -84,7 +83,7 @@ TEST(power_chain, follows_the_cosine_law) {
   }
 }
 
-// P2: the light goes round the point that the camera sees; from behind the wall it gives nothing.
+// The light goes round the point that the camera sees; from behind the wall it gives nothing.
 TEST(power_chain, lights_a_surface_from_the_cameras_side_only) {
   for (int degrees = -175; degrees <= 180; degrees += 5) {
     const double angle = degrees * pi / 180;
@@ -97,7 +96,7 @@ TEST(power_chain, lights_a_surface_from_the_cameras_side_only) {
   }
 }
 
-// P4: the same scene and camera written in other units.
+// The same scene and camera written in other units.
 TEST(power_chain, does_not_depend_on_the_units_in_the_file) {
   const auto signal = [](const std::string& length, const std::string& power, const std::string& time) {
     const std::string path = std::string(TOFRAY_BINARY_DIR) + "/units_test.yaml";
@@ -114,7 +113,7 @@ TEST(power_chain, does_not_depend_on_the_units_in_the_file) {
   EXPECT_GT(value(si, si.size() / 2), 100);
 }
 
-// P5: a view of 62 x 45 degrees, seen at its corners and edges.
+// A view of 62 x 45 degrees, seen at its corners and edges.
 TEST(power_chain, vignetting_is_the_fourth_power_of_the_cosine) {
   Camera camera = lit_camera(3, 3);
   camera.lens.fx_px = 1 / std::tan(31 * pi / 180), camera.lens.fy_px = 1 / std::tan(22.5 * pi / 180);

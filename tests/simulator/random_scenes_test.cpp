@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The tofray authors
 // SPDX-License-Identifier: Apache-2.0
-// Rows G7 (culling), S24 and F11: the same bytes from every instruction set, with and without culling, on scenes of all sorts.
+// The same bytes from every instruction set, with and without culling, on scenes of all sorts.
 #include <gtest/gtest.h>
 
 #include <cstring>

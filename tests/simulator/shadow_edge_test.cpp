@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The tofray authors
 // SPDX-License-Identifier: Apache-2.0
-// Row G13: where shadows end.
+// Where shadows end.
 #include <gtest/gtest.h>
 
 #include "support/pixels.h"

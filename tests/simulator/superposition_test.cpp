@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The tofray authors
 // SPDX-License-Identifier: Apache-2.0
-// Rows P13 and P16: lights add up; light and camera may change places.
+// Lights add up; light and camera may change places.
 #include <gtest/gtest.h>
 
 #include "support/pixels.h"
@@ -31,7 +31,7 @@ Illumination some_light(Random& random) {
 
 }  // namespace
 
-// P16: sums of eight floats, against sums in double.
+// Sums of eight floats, against sums in double.
 TEST(superposition, of_eight_lights_is_the_sum_of_each_alone) {
   Random random(1);
   const Scene scene = some_things();
@@ -57,7 +57,7 @@ TEST(superposition, of_eight_lights_is_the_sum_of_each_alone) {
   for (std::size_t i = 0; i < signal.size(); ++i) ASSERT_NEAR(static_cast<double>(together.signal_e[i]), signal[i], 1e-5 * signal[i]);
 }
 
-// P16 in the raw frames: A − B is linear in the lights, each with a path of its own.
+// In the raw frames A − B is linear in the lights, each with a path of its own.
 TEST(superposition, holds_for_raw_frames) {
   Random random(2);
   const Scene scene = some_things();
@@ -77,7 +77,7 @@ TEST(superposition, holds_for_raw_frames) {
   }
 }
 
-// P13: a small patch seen from C and lit from L sends as much through a small hole at C as the other way round:
+// A small patch seen from C and lit from L sends as much through a small hole at C as the other way round:
 // L·cos_C/r_C² is the same with both exchanged.
 TEST(reciprocity, light_and_camera_may_change_places) {
   Random random(3);

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The tofray authors
 // SPDX-License-Identifier: Apache-2.0
-// Row F5: nothing to see, no light source, no lit raw frame: frames of full size in which every depth is invalid.
+// Nothing to see, no light source, no lit raw frame: frames of full size in which every depth is invalid.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The tofray authors
 // SPDX-License-Identifier: Apache-2.0
-// Row G3: ray and box, also from inside, with zero components and either sign of zero.
+// Ray and box, also from inside, with zero components and either sign of zero.
 #include <gtest/gtest.h>
 
 #include <limits>

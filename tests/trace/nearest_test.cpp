@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The tofray authors
 // SPDX-License-Identifier: Apache-2.0
-// Rows G8 (primitives) and the nearest of many: which surface a camera ray meets, and its normal.
+// Which surface a camera ray meets, and its normal.
 #include <gtest/gtest.h>
 
 #include "support/brute_force.h"
@@ -64,7 +64,7 @@ TEST(nearest, is_the_first_that_brute_force_finds) {
   EXPECT_GT(objects_seen, 20000);
 }
 
-// G8: unit length, toward the camera, and the closed form's direction: the gradient of each shape.
+// Unit length, toward the camera, and the closed form's direction: the gradient of each shape.
 TEST(nearest, normals_face_the_camera_and_are_those_of_the_shapes) {
   Random random(2);
   int seen[4] = {};

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The tofray authors
 // SPDX-License-Identifier: Apache-2.0
-// Row G1: t = n·(p − o) / n·d.
+// Ray and plane: t = n·(p − o) / n·d.
 #include <gtest/gtest.h>
 
 #include "support/random.h"

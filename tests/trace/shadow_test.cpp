@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The tofray authors
 // SPDX-License-Identifier: Apache-2.0
-// Rows G6 and G13: shadow rays of lamps and of the sun against brute force; nothing shades itself; lamps in and out of closed bodies.
+// Shadow rays of lamps and of the sun against brute force; nothing shades itself; lamps in and out of closed bodies.
 #include <gtest/gtest.h>
 
 #include "power/received.h"
@@ -116,7 +116,7 @@ TEST(shadow, of_the_sun_is_where_brute_force_finds_something_between) {
   EXPECT_GT(shaded, 20000);
 }
 
-// G6, on bodies and on a mesh of objects of its own: what faces the light is lit, at any distance from zero.
+// On bodies and on a mesh of objects of its own: what faces the light is lit, at any distance from zero.
 TEST(shadow, is_never_cast_by_a_convex_thing_upon_itself) {
   Random random(3);
   int points = 0;

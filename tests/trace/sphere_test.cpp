@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The tofray authors
 // SPDX-License-Identifier: Apache-2.0
-// Row G2: ray and sphere, near and far, from outside and inside.
+// Ray and sphere, near and far, from outside and inside.
 #include <gtest/gtest.h>
 
 #include <string>

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The tofray authors
 // SPDX-License-Identifier: Apache-2.0
-// Row G4: ray and triangle, against Möller and Trumbore's form in double precision.
+// Ray and triangle, against Möller and Trumbore's form in double precision.
 #include <gtest/gtest.h>
 
 #include <string>

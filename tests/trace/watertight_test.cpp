@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The tofray authors
 // SPDX-License-Identifier: Apache-2.0
-// Row G5: from inside a closed mesh every ray hits, however close to a vertex or an edge, and however far the mesh is from zero.
+// From inside a closed mesh every ray hits, however close to a vertex or an edge, and however far the mesh is from zero.
 #include <gtest/gtest.h>
 
 #include <memory>
