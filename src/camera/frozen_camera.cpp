@@ -8,6 +8,7 @@
 
 #include "base/constants.h"
 #include "base/curve.h"
+#include "camera/emitters.h"
 #include "camera/lens.h"
 #include "camera/waveform.h"
 #include "num/philox.h"
@@ -22,12 +23,12 @@ namespace {
 float f(double a) { return static_cast<float>(a); }
 }  // namespace
 
-FrozenCamera::FrozenCamera(const Camera& camera, int noise, std::uint64_t seed) : camera_(camera), modulations_(modulations_of(camera.mode)) {
-  if (camera.illumination.size() > flow::max_lights) throw Error(ErrorKind::limit, "error: more than 8 light sources");
+FrozenCamera::FrozenCamera(const Camera& camera, int noise, std::uint64_t seed) : camera_(with_emitters(camera)), modulations_(modulations_of(camera.mode)) {
+  if (camera_.illumination.size() > flow::max_lights) throw Error(ErrorKind::limit, "error: more than 8 light sources");
   if (camera.mode.sequence.size() > flow::max_raw_frames) throw Error(ErrorKind::limit, "error: more than 64 raw frames in one sequence");
   freeze_lens();
   const ClampedCurve efficiency(camera.pixel.quantum_efficiency, "quantum_efficiency");
-  for (const Illumination& light : camera.illumination) {
+  for (const Illumination& light : camera_.illumination) {
     lights_.push_back(freeze_light(light, efficiency.evaluate(light.illumination_wavelength_m)));
     if (camera.power_model == PowerModel::paper_literal && lights_.back().table.empty()) {
       throw Error(ErrorKind::bad_input, "error: power_model paper_literal needs light sources with a table\n"

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "base/constants.h"
+#include "camera/emitters.h"
 #include "scene/ambient.h"
 #include "simulator/check.h"
 #include "simulator/filter.h"
@@ -55,7 +56,7 @@ const Scene& checked(const Scene& scene, const Camera& camera, const SimulatorOp
 
 Simulator::Impl::Impl(const Scene& all, const Camera& profile, const SimulatorOptions& wanted)
     : scene(checked(all, profile, wanted)),
-      camera(profile),
+      camera(camera::with_emitters(profile)),
       options(wanted),
       frozen_camera(camera, static_cast<int>(wanted.noise), wanted.seed),
       frozen_scene(scene, positions(camera), static_cast<int>(camera.mode.sequence.size())),
