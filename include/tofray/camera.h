@@ -80,7 +80,9 @@ struct Illumination {
   Vec3 axis{0, 0, 1};
   double illumination_wavelength_m = 850e-9;
   double power_w = 0;          ///< optical, of a lit raw frame, mean over the modulation period
-  Pattern pattern;
+  int ring_leds = 1;           ///< so many sources, evenly on a circle about `position`, across `axis`; they share the power
+  double ring_radius_m = 0;    ///< of that circle; the first stands toward the camera's x (of an axis along x: its y)
+  Pattern pattern;             ///< of each
   Waveform waveform;
 };
 

@@ -2,11 +2,32 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "camera/emitters.h"
 
+#include <cmath>
+
+#include "base/constants.h"
+#include "base/vec.h"
+#include "num/setup_math.h"
+
 namespace tofray::camera {
+
+using namespace base;
 
 namespace {
 
-void append_emitters(const Illumination& light, std::vector<Illumination>& out) { out.push_back(light); }
+/// The LEDs of a ring, or the one source that there is.                                                      [theory: eq. 2.15]
+void append_emitters(const Illumination& light, std::vector<Illumination>& out) {
+  const Vec3 axis = normalized(light.axis);
+  const Vec3 aside = std::abs(axis[0]) < 0.9 ? Vec3{1, 0, 0} : Vec3{0, 1, 0};
+  const Vec3 x = normalized(aside - dot(aside, axis) * axis), y = cross(axis, x);
+  for (int i = 0; i < light.ring_leds; ++i) {
+    const double turn = 2 * pi * i / light.ring_leds;
+    Illumination one = light;
+    one.position = light.position + (light.ring_radius_m * num::setup::cos(turn)) * x + (light.ring_radius_m * num::setup::sin(turn)) * y;
+    one.power_w = light.power_w / light.ring_leds;
+    one.ring_leds = 1, one.ring_radius_m = 0;
+    out.push_back(one);
+  }
+}
 
 }  // namespace
 

@@ -24,7 +24,9 @@ float f(double a) { return static_cast<float>(a); }
 }  // namespace
 
 FrozenCamera::FrozenCamera(const Camera& camera, int noise, std::uint64_t seed) : camera_(with_emitters(camera)), modulations_(modulations_of(camera.mode)) {
-  if (camera_.illumination.size() > flow::max_lights) throw Error(ErrorKind::limit, "error: more than 8 light sources");
+  if (camera_.illumination.size() > flow::max_lights) {
+    throw Error(ErrorKind::limit, "error: more than 8 light sources\n  got " + std::to_string(camera_.illumination.size()) + "; each LED of a ring counts as one");
+  }
   if (camera.mode.sequence.size() > flow::max_raw_frames) throw Error(ErrorKind::limit, "error: more than 64 raw frames in one sequence");
   freeze_lens();
   const ClampedCurve efficiency(camera.pixel.quantum_efficiency, "quantum_efficiency");

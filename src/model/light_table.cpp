@@ -92,6 +92,8 @@ const Table& table_of<Illumination>() {
           .required(),
       number<&Illumination::power_w>("power", {power, {0, 1e4}, "0.2 W"}, "optical, of a lit raw frame, mean over the modulation period")
           .required(),
+      number<&Illumination::ring_leds>("ring_leds", {none, {1, 8}, "6"}, "so many sources on a circle about the position, across the axis"),
+      number<&Illumination::ring_radius_m>("ring_radius", {length, {0, 10}, "20 mm"}, "of that circle"),
       record<&Illumination::pattern>("pattern", "how the light is spread over directions").required(),
       record<&Illumination::waveform>("waveform", "how it is modulated").required());
   return rows;
