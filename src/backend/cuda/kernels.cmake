@@ -5,7 +5,11 @@
 # runtime that they need, so that nobody who uses tofray has to have CUDA, and the program starts where there is no driver.
 set(TOFRAY_CUDA AUTO CACHE STRING "AUTO: with CUDA where nvcc is found; ON: fail where it is not; OFF: without")
 set_property(CACHE TOFRAY_CUDA PROPERTY STRINGS AUTO ON OFF)
-set(TOFRAY_CUDA_ARCHITECTURES major CACHE STRING
+set(default_architectures major)
+if(DEFINED ENV{CUDAARCHS})   # as CMake's own CUDA language takes it
+  set(default_architectures $ENV{CUDAARCHS})
+endif()
+set(TOFRAY_CUDA_ARCHITECTURES ${default_architectures} CACHE STRING
   "GPUs with code of their own: a list as 75;80;90, all (that nvcc knows from 70 on), or major (the first of each generation, which the others run)")
 set(TOFRAY_HAS_CUDA FALSE)
 
