@@ -42,7 +42,7 @@ struct Filter {
   Curve table;                 ///< wavelength [m] → transmission; takes the place of the above where not empty
 };
 
-/// How light of one source is spread over directions; integral over the sphere is 1 (physics: 2.1).
+/// How light of one source is spread over directions; integral over the sphere is 1 (theory 2.1).
 struct Pattern {
   enum class Kind { cone, lambertian, cosine_lobe, flat_top, table };
   Kind kind = Kind::lambertian;
@@ -60,7 +60,7 @@ struct Pattern {
   std::vector<double> samples; ///< [rows][columns], any unit
 };
 
-/// Light modulation over one period (physics: 3).
+/// Light modulation over one period (theory 3).
 struct Waveform {
   enum class Kind { rectangular, sine, measured };
   Kind kind = Kind::rectangular;
@@ -86,7 +86,7 @@ struct Illumination {
   Waveform waveform;
 };
 
-/// The two-tap pixel (physics: 3). Electrons per tap where nothing else is said.
+/// The two-tap pixel (theory 3). Electrons per tap where nothing else is said.
 struct Pixel {
   Curve quantum_efficiency;    ///< wavelength [m] → QE; one sample: a constant
   Curve contrast;              ///< modulation frequency [Hz] → K; one sample: a constant
@@ -136,7 +136,7 @@ struct ImageFilter {
   int radius_px = 1;           ///< median: window (2 radius + 1)²
 };
 
-/// How raw frames become depth (physics: 4).
+/// How raw frames become depth (theory 4).
 struct Decoding {
   bool wiggling_correction = true;
   double low_signal_noise_m = 0.07;         ///< σ̂ above this: low signal; also the scale of confidence

@@ -129,7 +129,7 @@ class Simulator {
   std::unique_ptr<Impl> impl_;
 };
 
-/// Decodes raw data, simulated or measured, into depth (physics: 4). Needs `raw`, or `tap_a` and `tap_b`, and the arrays by
+/// Decodes raw data, simulated or measured, into depth (theory 4). Needs `raw`, or `tap_a` and `tap_b`, and the arrays by
 /// phase; the camera says the rest. Taps, where present, are taken unrounded only if `raw` is empty; a tap that holds no
 /// number flags its pixel as saturated.
 Depth process(const Raw& raw, const Camera& camera, const SimulatorOptions& options = {});

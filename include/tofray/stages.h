@@ -48,7 +48,7 @@ struct PixelLight {
   std::vector<float> ambient_e_per_s;      ///< [moment][height][width] electrons of both taps together, 0…1e20; empty: none
 };
 
-/// Which way each pixel looks, for renderers of one's own: x/z and y/z of its ray in the camera frame, the lens undistorted (physics: 1).
+/// Which way each pixel looks, for renderers of one's own: x/z and y/z of its ray in the camera frame, the lens undistorted (theory 4.3).
 /// @return [height][width][2]; NaN where the lens model has no inverse
 /// @throws Error as a Simulator's constructor does for this camera: all of it has to be good, not the lens alone
 std::vector<float> pixel_rays(const Camera& camera);
