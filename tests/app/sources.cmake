@@ -8,5 +8,4 @@ foreach(name bench bench_batch bench_compare bench_energy console experiment exp
   target_sources(test_app PRIVATE ${CMAKE_SOURCE_DIR}/apps/tofray/${name}.cpp)
 endforeach()
 target_include_directories(test_app PRIVATE ${CMAKE_SOURCE_DIR}/apps/tofray)
-# The stand-in compiles the pipeline on plain floats (tests/backend/sources.cmake).
-set_source_files_properties(app/bench_gpu_test.cpp PROPERTIES COMPILE_OPTIONS "-O2;$<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>")
+target_sources(test_app PRIVATE $<TARGET_OBJECTS:stand_in>)

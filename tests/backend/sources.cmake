@@ -6,8 +6,7 @@ foreach(set ${TOFRAY_KERNELS})
     COMMAND ${CMAKE_COMMAND} -DNM=${CMAKE_NM} "-DOBJECTS=$<JOIN:$<TARGET_OBJECTS:tofray_kernel_${set}>,|>" -DEXPECTED=tofray_kernel_${set}
       -P ${CMAKE_CURRENT_SOURCE_DIR}/backend/kernel_symbols.cmake)
 endforeach()
-# The pipeline on plain floats is compiled here, too (support/stand_in_cuda.h): worth optimising in every preset, and like the kernels.
-target_compile_options(test_backend PRIVATE -O2 $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>)
+target_sources(test_backend PRIVATE $<TARGET_OBJECTS:stand_in>)
 # The device code, as PTX: read, since it cannot be run here. Without nvcc the tests say that they were skipped.
 get_property(nvcc GLOBAL PROPERTY tofray_nvcc)
 get_property(nvcc_flags GLOBAL PROPERTY tofray_nvcc_flags)

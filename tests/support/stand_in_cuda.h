@@ -9,7 +9,6 @@
 #include <string>
 #include <vector>
 
-#include "backend/cuda/pixel.h"
 #include "backend/cuda/runtime.h"
 
 /// A CUDA runtime for machines without a GPU: the device's memory is the host's, and a kernel runs the same functions that nvcc compiles,
@@ -17,31 +16,8 @@
 /// filled with rubbish first, each call can be made to fail, and what is not given back is counted.
 namespace tofray::test {
 
-/// The 32 lanes of a warp, one after the other. The rectangle that all lanes span is known only when all have been there, so each warp
-/// runs twice: first to collect rectangles (with none, every form is tested), then with them.
-struct HostWarp {
-  std::map<int, pipeline::Rectangle<float>>& seen;
-  bool collecting;
-
-  template <class Test>
-  [[nodiscard]] std::uint32_t vote(const Test& test) const {
-    std::uint32_t word = 0;
-    for (int lane = 0; lane < backend::gpu::warp_size; ++lane) word |= static_cast<std::uint32_t>(test(lane)) << lane;
-    return word;
-  }
-  void unite(int key, pipeline::Rectangle<float>& own) const {
-    if (!collecting) {
-      own = seen.at(key);
-      return;
-    }
-    pipeline::Rectangle<float>& all = seen[key];
-    all.open = all.open || own.open;
-    all.x_min = num::min(all.x_min, own.x_min), all.x_max = num::max(all.x_max, own.x_max);
-    all.y_min = num::min(all.y_min, own.y_min), all.y_max = num::max(all.y_max, own.y_max);
-    own.open = true;
-  }
-  static int lowest_bit(std::uint32_t word) { return __builtin_ctz(word); }
-};
+/// What a launch does on a GPU (support/stand_in_kernels.cpp).
+void run_on_host(const backend::gpu::Launch& what, const backend::gpu::FrameArguments& common);
 
 class StandInCuda final : public backend::gpu::Runtime {
  public:
@@ -105,7 +81,7 @@ class StandInCuda final : public backend::gpu::Runtime {
     frames_by_device[device_] += what.pass == pipeline::Pass::pixels ? what.batch.frames : 0;
     ++launches_by_block_size[what.block_size];
     const backend::gpu::FrameArguments common = *what.common;
-    return later([what, common] { run(what, common); });
+    return later([what, common] { run_on_host(what, common); });
   }
   Status record(void* event, void* stream) override { return fails() || !here(event) || !here(stream) ? failed : 0; }
   Status synchronize(void*) override { return fails() ? failed : 0; }
@@ -199,31 +175,6 @@ class StandInCuda final : public backend::gpu::Runtime {
     else
       step();
     return 0;
-  }
-
-  static void run(const backend::gpu::Launch& what, const backend::gpu::FrameArguments& common) {
-    using namespace backend::gpu;
-    for (int frame = 0; frame < what.batch.frames; ++frame) {
-      const FrameNumber number = what.batch.numbers[frame];
-      const FrameArguments& a = what.batch.own != nullptr ? what.batch.own[frame] : common;
-      const pipeline::Job job = job_of(a.job, number, what.batch.own != nullptr ? 0 : frame * what.batch.stride);
-      if (what.pass != Pass::pixels) {
-        for (int i = 0; i < a.setup.lens.width * a.setup.lens.height + 7; ++i) run_pass(what.pass, a.setup, job, what.input, i);
-        continue;
-      }
-      for (int patch = 0; patch < patch_count(a.setup.lens); ++patch) {
-        std::map<int, pipeline::Rectangle<float>> seen;
-        for (const bool collecting : {true, false}) {
-          HostWarp warp{seen, collecting};
-          for (int lane = 0; lane < warp_size; ++lane) {
-            if (what.batch.own != nullptr)
-              run_pixel<true>(a.setup, job, warp, patch, lane);
-            else
-              run_pixel<false>(a.setup, job, warp, patch, lane);
-          }
-        }
-      }
-    }
   }
 
   std::map<void*, Taken> memory_;

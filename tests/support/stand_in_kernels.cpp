@@ -1,0 +1,64 @@
+// SPDX-FileCopyrightText: 2026 The tofray authors
+// SPDX-License-Identifier: Apache-2.0
+// The pipeline on plain floats, as nvcc compiles it: for the host, and once for all programs of tests, since it takes long.
+#include "backend/cuda/pixel.h"
+#include "support/stand_in_cuda.h"
+
+namespace tofray::test {
+
+namespace {
+
+/// The 32 lanes of a warp, one after the other. The rectangle that all lanes span is known only when all have been there, so each warp
+/// runs twice: first to collect rectangles (with none, every form is tested), then with them.
+struct HostWarp {
+  std::map<int, pipeline::Rectangle<float>>& seen;
+  bool collecting;
+
+  template <class Test>
+  [[nodiscard]] std::uint32_t vote(const Test& test) const {
+    std::uint32_t word = 0;
+    for (int lane = 0; lane < backend::gpu::warp_size; ++lane) word |= static_cast<std::uint32_t>(test(lane)) << lane;
+    return word;
+  }
+  void unite(int key, pipeline::Rectangle<float>& own) const {
+    if (!collecting) {
+      own = seen.at(key);
+      return;
+    }
+    pipeline::Rectangle<float>& all = seen[key];
+    all.open = all.open || own.open;
+    all.x_min = num::min(all.x_min, own.x_min), all.x_max = num::max(all.x_max, own.x_max);
+    all.y_min = num::min(all.y_min, own.y_min), all.y_max = num::max(all.y_max, own.y_max);
+    own.open = true;
+  }
+  static int lowest_bit(std::uint32_t word) { return __builtin_ctz(word); }
+};
+
+}  // namespace
+
+void run_on_host(const backend::gpu::Launch& what, const backend::gpu::FrameArguments& common) {
+  using namespace backend::gpu;
+  for (int frame = 0; frame < what.batch.frames; ++frame) {
+    const FrameNumber number = what.batch.numbers[frame];
+    const FrameArguments& a = what.batch.own != nullptr ? what.batch.own[frame] : common;
+    const pipeline::Job job = job_of(a.job, number, what.batch.own != nullptr ? 0 : frame * what.batch.stride);
+    if (what.pass != Pass::pixels) {
+      for (int i = 0; i < a.setup.lens.width * a.setup.lens.height + 7; ++i) run_pass(what.pass, a.setup, job, what.input, i);
+      continue;
+    }
+    for (int patch = 0; patch < patch_count(a.setup.lens); ++patch) {
+      std::map<int, pipeline::Rectangle<float>> seen;
+      for (const bool collecting : {true, false}) {
+        HostWarp warp{seen, collecting};
+        for (int lane = 0; lane < warp_size; ++lane) {
+          if (what.batch.own != nullptr)
+            run_pixel<true>(a.setup, job, warp, patch, lane);
+          else
+            run_pixel<false>(a.setup, job, warp, patch, lane);
+        }
+      }
+    }
+  }
+}
+
+}  // namespace tofray::test
