@@ -153,3 +153,13 @@ double Canvas::text_width(double size, std::string_view utf8) {
 }
 
 }  // namespace tofray::pictures
+
+// What fontconfig, which finds the fonts, keeps to the end.
+#if defined(__clang__)
+#if __has_feature(address_sanitizer)
+extern "C" const char* __lsan_default_options();
+extern "C" const char* __lsan_default_options() { return "print_suppressions=0"; }
+extern "C" const char* __lsan_default_suppressions();
+extern "C" const char* __lsan_default_suppressions() { return "leak:libfontconfig\n"; }
+#endif
+#endif

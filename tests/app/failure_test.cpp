@@ -5,6 +5,7 @@
 #include "io/json.h"
 #include "io/npz.h"
 #include "io/sha256.h"
+#include "support/sanitizers.h"
 #include "tool.h"
 
 namespace tofray::test {

@@ -9,6 +9,7 @@
 #include "base/limits.h"
 #include "base/text.h"
 #include "io/npz.h"
+#include "support/sanitizers.h"
 #include "tool.h"
 
 namespace tofray::test {

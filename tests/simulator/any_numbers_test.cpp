@@ -9,6 +9,7 @@
 
 #include "backend/cpu/cpu.h"
 #include "support/numbers.h"
+#include "support/sanitizers.h"
 #include "support/random_scene.h"
 
 using namespace tofray;
