@@ -5,24 +5,28 @@
 #include <cmath>
 
 #include "base/constants.h"
-#include "base/vec.h"
 #include "num/setup_math.h"
 
 namespace tofray::camera {
 
 using namespace base;
 
+Mat3 source_axes(const Vec3& direction) {
+  const Vec3 axis = normalized(direction);
+  const Vec3 aside = std::abs(axis[0]) < 0.9 ? Vec3{1, 0, 0} : Vec3{0, 1, 0};
+  const Vec3 x = normalized(aside - dot(aside, axis) * axis);
+  return {{x, cross(axis, x), axis}};
+}
+
 namespace {
 
 /// The LEDs of a ring, or the one source that there is.                                                      [theory: eq. 2.15]
 void append_emitters(const Illumination& light, std::vector<Illumination>& out) {
-  const Vec3 axis = normalized(light.axis);
-  const Vec3 aside = std::abs(axis[0]) < 0.9 ? Vec3{1, 0, 0} : Vec3{0, 1, 0};
-  const Vec3 x = normalized(aside - dot(aside, axis) * axis), y = cross(axis, x);
+  const Mat3 axes = source_axes(light.axis);
   for (int i = 0; i < light.ring_leds; ++i) {
     const double turn = 2 * pi * i / light.ring_leds;
     Illumination one = light;
-    one.position = light.position + (light.ring_radius_m * num::setup::cos(turn)) * x + (light.ring_radius_m * num::setup::sin(turn)) * y;
+    one.position = light.position + (light.ring_radius_m * num::setup::cos(turn)) * axes[0] + (light.ring_radius_m * num::setup::sin(turn)) * axes[1];
     one.power_w = light.power_w / light.ring_leds;
     one.ring_leds = 1, one.ring_radius_m = 0;
     out.push_back(one);

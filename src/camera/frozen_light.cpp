@@ -5,6 +5,7 @@
 
 #include "base/constants.h"
 #include "base/vec.h"
+#include "camera/emitters.h"
 #include "camera/frozen_camera.h"
 #include "camera/pattern_integral.h"
 #include "num/setup_math.h"
@@ -92,11 +93,8 @@ void freeze_pattern(const Pattern& p, double power, FrozenLight& out) {
 
 FrozenLight freeze_light(const Illumination& light, double quantum_efficiency) {
   FrozenLight out;
-  const Vec3 axis = normalized(light.axis);
-  // The source's x axis is the camera's, as far as that goes.
-  const Vec3 aside = std::abs(axis[0]) < 0.9 ? Vec3{1, 0, 0} : Vec3{0, 1, 0};
-  const Vec3 x = normalized(aside - dot(aside, axis) * axis);
-  const Mat3 rows{{x, cross(axis, x), axis}};
+  const Mat3 rows = source_axes(light.axis);
+  const Vec3& axis = rows[2];
   for (std::size_t i = 0; i < 3; ++i) {
     out.view.position[i] = f(light.position[i]);
     for (std::size_t k = 0; k < 3; ++k) out.view.rotation[i][k] = f(rows[i][k]);

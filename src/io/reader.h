@@ -35,7 +35,6 @@ struct Value {
   /// Of a map's key, or of the map where the key was left to its default.
   [[nodiscard]] const base::Place& place_of(std::string_view key) const;
   [[nodiscard]] bool is_map() const { return node != nullptr && node->kind == Node::Kind::map; }
-  [[nodiscard]] bool is_list() const { return node != nullptr && node->kind == Node::Kind::list; }
 };
 
 /// Reads all of the tree, adding every fault to `faults`.
