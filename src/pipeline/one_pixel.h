@@ -60,6 +60,7 @@ TOFRAY_FN void run_pipeline(const Setup& s, const Job& job, Walk& walk) {
   for (int moment = 0; moment < moments; ++moment) {
     const Moment now = moment_of(s, moment, moments);
     if (s.last_stage < Stage::power && !now.truth) continue;
+    const bool first = moment == 0 || s.last_stage < Stage::power;   // that of the truth is the only one then
     walk.go_to(now);
     for (int q = 0; q < walk.packs(); ++q) {
       const Pixels p = walk.pixels(q);
@@ -67,7 +68,7 @@ TOFRAY_FN void run_pipeline(const Setup& s, const Job& job, Walk& walk) {
       Pack<F>& pack = walk.pack(q);
       const flow::Ray<F> ray = camera::ray<F>(s.lens, p);
       const F vignetting = camera::vignetting<F>(s.lens, p);
-      if (moment == 0) pack.exposure = raw::start<F>(s.sensor, p), pack.undisturbed = false;
+      if (first) pack.exposure = raw::start<F>(s.sensor, p), pack.undisturbed = false;
       const bool anew = walk.find_light(now, q, p, ray, vignetting, pack);                                       // stages 1 and 2
       if (s.last_stage < Stage::raw) continue;
       if (anew && s.sensor.delay != nullptr) power::delay_by(s.phasors, wanted(s, now, pack.undisturbed), pack.exposure.delay, pack.light);
