@@ -84,6 +84,10 @@ struct Table {
   Table& check_with(void (*rule)(const T&, Complaints&));
   template <class T>
   Table& complete_with(void (*complete)(T&, const Given&));
+  Table& kind_may_be_missing() {
+    default_kind = true;
+    return *this;
+  }
 };
 
 template <class T>

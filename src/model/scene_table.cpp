@@ -24,7 +24,7 @@ template <>
 const Table& table_of<Material>() {
   using enum Material::Brdf;
   constexpr auto brdf = &Material::brdf;
-  static Table rows =
+  static const Table rows =
       table<Material>(
           words<&Material::name>("", "", "", ""),  // the key of the file's `materials`
           kind<brdf>("brdf", {"lambert", "phong"}),
@@ -39,8 +39,8 @@ const Table& table_of<Material>() {
           number<&Material::exponent>("exponent", {none, phong_exponent, "20"}, "n of the lobe's cos^n: the larger, the shinier")
               .when<brdf>(phong)
               .required())
-          .check_with(materials_send_back_no_more_than_they_get);
-  rows.default_kind = true;
+          .check_with(materials_send_back_no_more_than_they_get)
+          .kind_may_be_missing();
   return rows;
 }
 

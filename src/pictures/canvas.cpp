@@ -163,3 +163,9 @@ extern "C" const char* __lsan_default_suppressions();
 extern "C" const char* __lsan_default_suppressions() { return "leak:libfontconfig\n"; }
 #endif
 #endif
+
+// ThreadSanitizer takes the orders of cairo's locks, which are for two kinds of its surfaces, for one.
+#if defined(__SANITIZE_THREAD__)
+extern "C" const char* __tsan_default_suppressions();
+extern "C" const char* __tsan_default_suppressions() { return "deadlock:libcairo\n"; }
+#endif
