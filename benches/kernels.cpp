@@ -93,12 +93,13 @@ BENCHMARK(decode);
 
 /// Every form of bench-primitives, without culling.
 void nearest(benchmark::State& state) {
-  scene::FrozenScene frozen(load_scene("bench-primitives"), {{0.01547, 0, 0}}, 9);
+  const scene::FrozenScene frozen(load_scene("bench-primitives"), {{0.01547, 0, 0}}, 9);
+  const scene::Forms forms = frozen.view().camera_still();
   trace::Culled everything;
-  trace::cull(frozen.view().camera_still, nullptr, everything);
+  trace::cull(forms, nullptr, everything);
   F x = num::to_float(num::lane_index<F>()) * F(0.01f);
   for (auto _ : state) {
-    auto hit = trace::nearest(frozen.view().camera_still, everything, flow::make_ray(x, F(0.05f), F(1.0f)), flow::Hit<F>{F(0.0f), num::Int<F>(0)});
+    auto hit = trace::nearest(forms, everything, flow::make_ray(x, F(0.05f), F(1.0f)), flow::Hit<F>{F(0.0f), num::Int<F>(0)});
     benchmark::DoNotOptimize(hit);
     benchmark::DoNotOptimize(x);
   }

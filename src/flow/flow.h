@@ -56,6 +56,15 @@ struct Hit {
   num::Int<F> facet;
 };
 
+/// What a surface is made of, for its BRDF (brdf/list.h).
+constexpr int brdf_numbers = 3;
+template <class F>
+struct Finish {
+  F reflectivity;
+  F number[brdf_numbers];
+  num::Int<F> brdf;        ///< its place in the list; 0, Lambert, needs no numbers
+};
+
 /// Where the light lands: position and normal in the camera frame, lengths, material.
 template <class F>
 struct Surface {
@@ -63,7 +72,7 @@ struct Surface {
   F nx, ny, nz;            ///< unit normal, toward the camera
   F range;                 ///< [m]
   F cos_view;              ///< of the angle between normal and the way back to the camera
-  F diffuse, specular, exponent;
+  Finish<F> finish;
   num::Int<F> object;
   num::Mask<F> found;
 };

@@ -76,8 +76,8 @@ TOFRAY_FN flow::Surface<F> given_surface(const Setup& s, const SurfaceArrays& in
   const float* normal = in.normal + 3 * (place_of(s, moment) + p.index);
   const F nx = value(num::gather(normal, at)), ny = value(num::gather(normal + 1, at)), nz = value(num::gather(normal + 2, at));
   trace::face_camera(nx, ny, nz, ray, out);
-  out.diffuse = value(given<F>(in.diffuse, s, p, moment, 0.0f)), out.specular = value(given<F>(in.specular, s, p, moment, 0.0f));
-  out.exponent = num::select(out.found, given<F>(in.exponent, s, p, moment, 1.0f), F(1.0f));
+  const F diffuse = value(given<F>(in.diffuse, s, p, moment, 0.0f)), specular = value(given<F>(in.specular, s, p, moment, 0.0f));
+  out.finish = brdf::lambert_and_lobe(diffuse, specular, num::select(out.found, given<F>(in.exponent, s, p, moment, 1.0f), F(1.0f)));
   out.object = num::Int<F>(0);
   if (in.object != nullptr) out.object = num::load_int<F>(in.object + place_of(s, moment) + p.index, p.count);
   return out;

@@ -30,13 +30,13 @@ TOFRAY_FN power::Wanted wanted(const Setup& s, const Moment& now, bool undisturb
 /// Stage 1: the nearest surface, of what stands still.
 template <class F, class Near>
 TOFRAY_FN flow::Hit<F> see_still(const Setup& s, const Near& near, const flow::Ray<F>& ray) {
-  return trace::nearest(s.scene.camera_still, near.camera_still, ray, flow::Hit<F>{F(0.0f), num::Int<F>(0)});
+  return trace::nearest(s.scene.camera_still(), near.camera_still, ray, flow::Hit<F>{F(0.0f), num::Int<F>(0)});
 }
 
 /// … and of what moves, at the time of one raw frame.
 template <class F, class Near>
 TOFRAY_FN flow::Hit<F> see_moving(const Setup& s, const Near& near, int slot, const flow::Ray<F>& ray, const flow::Hit<F>& still) {
-  return trace::nearest(s.scene.camera_moving[slot], near.camera_moving, ray, still);
+  return trace::nearest(s.scene.camera_moving(slot), near.camera_moving, ray, still);
 }
 
 /// Outside the lens model a pixel sees nothing; its ray is only a stand-in.
@@ -56,16 +56,16 @@ struct ShadowRays {
   TOFRAY_FN num::Mask<F> of_light(int l, const flow::Ray<F>& from_light, const flow::Surface<F>& p) {
     near.look(slot, l, from_light, p.found);
     num::Mask<F> dark = F(1.0f) < F(0.0f);
-    if (still) dark = trace::blocked(s.scene.light_still[l], near.still_from(l), from_light, p.object);
+    if (still) dark = trace::blocked(s.scene.light_still(l), near.still_from(l), from_light, p.object);
     if (moving) {
-      dark = dark | trace::blocked(s.scene.light_moving[slot * s.scene.lights + l], near.moving_from(l), from_light, p.object);
+      dark = dark | trace::blocked(s.scene.light_moving(slot, l), near.moving_from(l), from_light, p.object);
     }
     return dark;
   }
   TOFRAY_FN num::Mask<F> of_sun(const flow::Surface<F>& p) {
     num::Mask<F> dark = F(1.0f) < F(0.0f);
-    if (still) dark = trace::blocked_parallel(s.scene.sun_still, s.power.sun_direction, p);
-    if (moving) dark = dark | trace::blocked_parallel(s.scene.sun_moving[slot], s.power.sun_direction, p);
+    if (still) dark = trace::blocked_parallel(s.scene.sun_still(), s.power.sun_direction, p);
+    if (moving) dark = dark | trace::blocked_parallel(s.scene.sun_moving(slot), s.power.sun_direction, p);
     return dark;
   }
 };

@@ -3,7 +3,7 @@
 #pragma once
 #include "camera/views.h"
 #include "flow/frame_view.h"
-#include "scene/forms.h"
+#include "scene/view.h"
 
 namespace tofray::pipeline {
 
@@ -40,6 +40,7 @@ constexpr int rows_per_band = 8;   ///< of an image, for one worker at a time in
 
 /// What is done to a frame, one after the other, each over all its pixels before the next begins.
 enum class Pass : std::int32_t {
+  derive,       ///< forms and facets out of the scene's shapes, where the backend does that itself, before all else
   pixels,       ///< rays to depth
   input,        ///< what came from elsewhere to depth, in place of `pixels`
   flying,       ///< flags of flying pixels

@@ -37,7 +37,7 @@ TOFRAY_FN void store_truth(const flow::FrameView& out, const Pixels& p, const fl
   const auto value = [&](F a) __attribute__((always_inline)) { return num::select(s.found, a, nan<F>()); };
   store(out.gt_range_m, p, value(s.range));
   store(out.gt_z_m, p, value(s.z));
-  store(out.gt_reflectivity, p, value(s.diffuse + s.specular));
+  store(out.gt_reflectivity, p, value(s.finish.reflectivity));
   store3(out.gt_position_m, p, value(s.x), value(s.y), value(s.z));
   store3(out.gt_normal, p, value(s.nx), value(s.ny), value(s.nz));
   if (out.gt_object_id != nullptr) num::store(out.gt_object_id + p.index, num::select(s.found, s.object, num::Int<F>(-1)), p.count);

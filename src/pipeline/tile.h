@@ -112,7 +112,7 @@ class TileWalk {
  public:
   TOFRAY_FN TileWalk(const Setup& s, const Job& job, int index, Scratch<F, can_move>& scratch)
       : s_(s), job_(job), scratch_(scratch), tile_(tile_at(s.lens, index)), view_(s.culling != 0 ? s.lens.tile + index : nullptr), hits_(scratch.still) {
-    trace::cull(s.scene.camera_still, view_, scratch.near.camera_still);
+    trace::cull(s.scene.camera_still(), view_, scratch.near.camera_still);
     for (int q = 0; q < max_packs<F>; ++q) {
       const Pixels p = pixels(q);
       if (p.count > 0) scratch.still[q] = see_still(s, scratch.near, camera::ray<F>(s.lens, p));
@@ -133,12 +133,12 @@ class TileWalk {
     if (!(culled_for_still_ && hits_ == scratch_.still)) {
       for (int l = 0; l < s_.scene.lights; ++l) {
         scratch_.seen.none[l] = s_.culling == 0 || !seen_by_light(s_, tile_, hits_, l, scratch_.seen.bounds[l]);
-        trace::cull(s_.scene.light_still[l], scratch_.seen.of(l), scratch_.near.light_still[l]);
+        trace::cull(s_.scene.light_still(l), scratch_.seen.of(l), scratch_.near.light_still[l]);
       }
       culled_for_still_ = hits_ == scratch_.still;
     }
     for (int l = 0; can_move && l < s_.scene.lights; ++l) {
-      trace::cull(s_.scene.light_moving[now.slot * s_.scene.lights + l], scratch_.seen.of(l), scratch_.near.light_moving[l]);
+      trace::cull(s_.scene.light_moving(now.slot, l), scratch_.seen.of(l), scratch_.near.light_moving[l]);
     }
   }
 
@@ -150,7 +150,7 @@ class TileWalk {
   /// Where nothing that moves is in view, the tile sees what stands still.
   TOFRAY_FN void see_what_moves(int slot) {
     hits_ = scratch_.still;
-    trace::cull(s_.scene.camera_moving[slot], view_, scratch_.near.camera_moving);
+    trace::cull(s_.scene.camera_moving(slot), view_, scratch_.near.camera_moving);
     if (scratch_.near.camera_moving.empty()) return;
     hits_ = scratch_.hits;
     for (int q = 0; q < max_packs<F>; ++q) {

@@ -29,7 +29,7 @@ TOFRAY_FN F paper_radiance(const camera::LightView& light, const flow::Surface<F
   const num::Int<F> r = num::to_int(num::min(num::max(row, F(0.0f)), last_row));
   const num::Int<F> c = num::to_int(num::min(num::max(column, F(0.0f)), last_column));
   const F radiant = num::gather(table.samples, r * num::Int<F>(table.columns) + c);
-  const F radiance = (p.diffuse + p.specular) * F(0.318309886f) * radiant * num::max(cosine, F(0.0f)) * (per_length * per_length);
+  const F radiance = p.finish.reflectivity * F(0.318309886f) * radiant * num::max(cosine, F(0.0f)) * (per_length * per_length);
   return num::select(lit & within, num::min(radiance, F(flow::max_irradiance)), F(0.0f));
 }
 

@@ -3,8 +3,8 @@
 #pragma once
 #include "power/light_source.h"
 #include "power/paper_literal.h"
+#include "brdf/list.h"
 #include "power/phasors.h"
-#include "power/reflection.h"
 
 /// Stage 2: how much light each pixel receives, and over which path.
 namespace tofray::power {
@@ -33,7 +33,7 @@ TOFRAY_FN Path<F> received(const camera::PowerView& s, const camera::LightView& 
   // both directions point from the surface: to the light −from_light/r_L, to the camera −ray/|ray|
   const F towards = num::fma(ray.x, from_light.x, num::fma(ray.y, from_light.y, ray.z * from_light.z));
   const F cos_between = towards * per_distance * ray.inverse_length;
-  F radiance = irradiance * reflection(p.diffuse, p.specular, p.exponent, cos_light, p.cos_view, cos_between);
+  F radiance = irradiance * brdf::reflection(p.finish, {cos_light, p.cos_view, cos_between});
   F watts = radiance * F(s.watts_per_radiance) * vignetting;
   if (s.paper_literal != 0) {
     radiance = paper_radiance(light, p, p.found & (!dark));
@@ -45,10 +45,10 @@ TOFRAY_FN Path<F> received(const camera::PowerView& s, const camera::LightView& 
   return {watts * F(light.electrons_per_joule), num::select(p.found, distance + p.range, F(0.0f))};
 }
 
-/// Electrons per second from ambient light, both taps together: ρ·E_B/π, ρ = k_d + k_s, through lens and pixel. [theory: eq. 2.10]
+/// Electrons per second from ambient light, both taps together: ρ·E_B/π, through lens and pixel. [theory: eq. 2.10]
 template <class F>
 TOFRAY_FN F ambient_rate(const camera::PowerView& s, const Surface<F>& p, Mask<F> dark, F vignetting) {
-  F rate = F(s.ambient_rate) * (p.diffuse + p.specular) * vignetting;
+  F rate = F(s.ambient_rate) * p.finish.reflectivity * vignetting;
   if (s.ambient == camera::AmbientLight::directional) {
     const float* sun = s.sun_direction;
     const F cosine = num::fma(p.nx, F(sun[0]), num::fma(p.ny, F(sun[1]), p.nz * F(sun[2])));

@@ -2,62 +2,120 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scene/frozen_scene.h"
 
+#include "num/setup_math.h"
+#include "scene/derive.h"
+
 namespace tofray::scene {
 
 using namespace base;
+namespace setup = num::setup;
 
-FrozenScene::FrozenScene(const Scene& scene, const std::vector<Vec3>& lights, int slots)
-    : scene_(scene), lights_(lights), camera_(camera_frame(scene.camera.pose)) {
-  for (const Object& object : scene_.objects) {
-    moves_ = moves_ || dot(object.velocity_m_per_s, object.velocity_m_per_s) > 0;
+namespace {
+
+shape::Vec vec(const Vec3& a) { return {a[0], a[1], a[2]}; }
+
+/// Rodrigues' formula, as rows.
+shape::Mat rotation_matrix(const Rotation& r) {
+  if (r.angle_rad == 0) return {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
+  const Vec3 k = normalized(r.axis);
+  const double c = setup::cos(r.angle_rad), s = setup::sin(r.angle_rad), v = 1 - c;
+  return {{{c + k[0] * k[0] * v, k[0] * k[1] * v - k[2] * s, k[0] * k[2] * v + k[1] * s},
+           {k[1] * k[0] * v + k[2] * s, c + k[1] * k[1] * v, k[1] * k[2] * v - k[0] * s},
+           {k[2] * k[0] * v - k[1] * s, k[2] * k[1] * v + k[0] * s, c + k[2] * k[2] * v}}};
+}
+
+/// Puts an object's shape into the list of its kind, which is the one in the same place as in the public variant.
+template <class... T, class... Said>
+void add_body(shape::List<T...>, const std::variant<Said...>& shape, const Object& object, int index, BodyLists& to) {
+  static_assert(sizeof...(T) == sizeof...(Said), "each shape of the public variant has its place in shape::Shapes");
+  const shape::Placement placement{rotation_matrix(object.rotation), vec(object.position)};
+  const auto add = [&]<class One, class From>(const From* said, shape::List<One>) {
+    if (said != nullptr) to.of<One>().bodies.push_back({One::placed(*said, placement), vec(object.velocity_m_per_s), 0, index, object.material});
+  };
+  (add(std::get_if<Said>(&shape), shape::List<T>{}), ...);
+}
+
+/// Numbers the facets of a group.
+template <class... T>
+void number(shape::List<T...>, BodyLists& from, Group& to) {
+  const auto one = [&]<class One>(shape::List<One>) {
+    auto& bodies = from.of<One>().bodies;
+    for (Body<One>& body : bodies) body.facet = to.facet_count, to.facet_count += One::facets;
+    to.bodies.of<One>() = {bodies.data(), static_cast<std::int32_t>(bodies.size())};
+    to.body_count += to.bodies.of<One>().count;
+  };
+  (one(shape::List<T>{}), ...);
+}
+
+}  // namespace
+
+CameraFrame camera_frame(const Pose& pose) {
+  const Vec3 forward = normalized(pose.look_at - pose.position);
+  const Vec3 down = normalized(dot(pose.up, forward) * forward - pose.up);
+  return {{{cross(down, forward), down, forward}}, pose.position};
+}
+
+FrozenScene::FrozenScene(const Scene& scene, const std::vector<Vec3>& lights, int slots) : sun_(scene.ambient.direction) {
+  for (const Vec3& light : lights) lights_.push_back(vec(light));
+  add_bodies(scene);
+  for (const Material& material : scene.materials) {
+    materials_.push_back(brdf::view_of(material));
+    if (materials_.back().brdf != 0) view_.any_other_brdf = 1;
   }
-  if (scene_.ambient.direction) toward_sun_ = camera_.rotation * normalized(-1.0 * *scene_.ambient.direction);
-  for (const Material& material : scene_.materials) view_.any_specular = view_.any_specular || material.specular > 0;
+  // Facet 0 has a material even where there is nothing to be seen.
+  if (materials_.empty()) materials_.emplace_back();
+  view_.materials = materials_.data(), view_.material_count = static_cast<std::int32_t>(materials_.size());
   view_.slots = moves_ ? slots : 0;
   view_.lights = static_cast<std::int32_t>(lights_.size());
-  add_still();
-  update(std::vector<double>(static_cast<std::size_t>(slots), 0.0));
+  view_.has_sun = sun_.has_value();
+  view_.light_positions = lights_.data();
+  lay_out();
+  look(scene.camera.pose, std::vector<double>(static_cast<std::size_t>(slots), 0.0));
+  derive();
 }
 
-void FrozenScene::add_still() {
-  const Placed still = place(scene_, camera_, Group::still, 0);
-  append_facets(still, scene_, facets_);
-  still_facets_ = facets_.size();
-  still_views_.emplace_back(still, Vec3{0, 0, 0}, 0);
-  for (const Vec3& light : lights_) still_views_.emplace_back(still, light, 0);
-  for (std::size_t i = 1; i < still_views_.size(); ++i) light_still_.push_back(still_views_[i].forms());
-  if (scene_.ambient.direction) sun_views_.emplace_back(still, toward_sun_);
-}
-
-void FrozenScene::update(const std::vector<double>& slot_times) {
-  facets_.resize(still_facets_);
-  moving_views_.clear(), camera_moving_.clear(), light_moving_.clear(), sun_moving_.clear();
-  sun_views_.resize(scene_.ambient.direction ? 1 : 0);
-  for (std::size_t slot = 0; moves_ && slot < slot_times.size(); ++slot) {
-    const Placed moving = place(scene_, camera_, Group::moving, slot_times[slot]);
-    const int base = static_cast<int>(facets_.size());
-    append_facets(moving, scene_, facets_);
-    moving_views_.emplace_back(moving, Vec3{0, 0, 0}, base);
-    camera_moving_.push_back(moving_views_.back().forms());
-    for (const Vec3& light : lights_) {
-      moving_views_.emplace_back(moving, light, base);
-      light_moving_.push_back(moving_views_.back().forms());
-    }
-    if (scene_.ambient.direction) {
-      sun_views_.emplace_back(moving, toward_sun_);
-      sun_moving_.push_back(sun_views_.back().forms());
-    }
+void FrozenScene::add_bodies(const Scene& scene) {
+  for (std::size_t i = 0; i < scene.objects.size(); ++i) {
+    const Object& object = scene.objects[i];
+    const bool moving = dot(object.velocity_m_per_s, object.velocity_m_per_s) > 0;
+    moves_ = moves_ || moving;
+    add_body(shape::Shapes{}, object.shape, object, static_cast<int>(i), moving ? moving_ : still_);
   }
-  view_.camera_still = still_views_[0].forms();
-  view_.light_still = light_still_.data();
-  view_.camera_moving = camera_moving_.data();
-  view_.light_moving = light_moving_.data();
-  view_.sun_still = sun_views_.empty() ? ParallelForms{} : sun_views_[0].forms();
-  view_.sun_moving = sun_moving_.data();
-  // Where nothing is hit, facet 0 is read all the same, and what it says is thrown away.
-  if (facets_.empty()) facets_.emplace_back();
-  view_.facets = facets_.data();
-  view_.facet_count = static_cast<std::int32_t>(facets_.size());
+  number(shape::Shapes{}, still_, view_.still);
+  number(shape::Shapes{}, moving_, view_.moving);
+}
+
+void FrozenScene::lay_out() {
+  std::size_t used = 0;
+  const auto place = [&](auto*& array, std::size_t count) {
+    if (memory_ != nullptr) array = reinterpret_cast<std::remove_reference_t<decltype(array)>>(memory_.get() + used);
+    used += (count * sizeof *array + 63) / 64 * 64;
+  };
+  each_derived(view_, Derive::all, place);
+  memory_ = std::make_unique<unsigned char[]>(used);
+  used = 0;
+  each_derived(view_, Derive::all, place);
+}
+
+void FrozenScene::look(const Pose& pose, const std::vector<double>& slot_times) {
+  const CameraFrame now = camera_frame(pose);
+  const bool moved = now.rotation != camera_.rotation || now.position != camera_.position;
+  still_known_ = still_known_ && !moved;
+  moving_known_ = moving_known_ && !moved && slot_times == slot_times_;
+  camera_ = now;
+  slot_times_ = slot_times;
+  if (sun_) toward_sun_ = camera_.rotation * normalized(-1.0 * *sun_);
+  view_.camera = {{{vec(camera_.rotation[0]), vec(camera_.rotation[1]), vec(camera_.rotation[2])}}, vec(camera_.position)};
+  view_.toward_sun = vec(toward_sun_);
+  view_.slot_times = slot_times_.data();
+}
+
+void FrozenScene::derive() {
+  if (still_known_ && (moving_known_ || !moves_)) return;
+  const Derive what = still_known_ ? Derive::moving : Derive::all;
+  const int units = unit_count(view_, what);
+  for (int i = 0; i < units; ++i) scene::derive(view_, what, i);
+  still_known_ = moving_known_ = true;
 }
 
 }  // namespace tofray::scene

@@ -1,13 +1,14 @@
 // SPDX-FileCopyrightText: 2026 The tofray authors
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include <cstddef>
 #include <memory>
 #include <vector>
 
 #include "base/vec.h"
-#include "scene/forms.h"
+#include "scene/view.h"
 
-/// The scene, frozen for rendering: everything in the camera frame, as seen from the camera and from each light.
+/// The scene, frozen for rendering: its shapes in the world, and everything in the camera frame as seen from the camera and from each light.
 namespace tofray::scene {
 
 /// Rows: camera x, y, z axes in the world. camera = rotation · (world − position).
@@ -17,62 +18,26 @@ struct CameraFrame {
 };
 CameraFrame camera_frame(const Pose& pose);
 
-/// Objects of one group (still, or moving at one time) in the camera frame, by kind, as plain numbers in double precision.
-struct Placed {
-  struct PlacedPlane { Vec3 normal; double offset; int object; };                    ///< n·P = offset
-  struct PlacedSphere { Vec3 center; double radius; int object; };
-  struct PlacedBox { Vec3 center; base::Mat3 axes; Vec3 half; int object; };         ///< axes: rows, in the camera frame
-  struct PlacedTriangle { std::array<Vec3, 3> vertices; int object; };
-  std::vector<PlacedPlane> planes;
-  std::vector<PlacedSphere> spheres;
-  std::vector<PlacedBox> boxes;
-  std::vector<PlacedTriangle> triangles;
-  [[nodiscard]] int facet_count() const;
+template <class T>
+struct BodyList {
+  std::vector<Body<T>> bodies;
 };
+using BodyLists = shape::ByShape<BodyList>;
 
-/// Which objects to place.
-enum class Group { still, moving };
-Placed place(const Scene& scene, const CameraFrame& camera, Group group, double time_s);
-
-/// Facets of the placed objects in the order planes, spheres, boxes (three each), triangles.
-void append_facets(const Placed& placed, const Scene& scene, std::vector<Facet>& facets);
-
-/// Forms of one group seen from one point; owns the arrays. `facet_base`: where the group's facets begin.
-/// `camera_origin`: the camera is at the origin of the frame, `origin` is where the rays leave.
-class View {
- public:
-  View(const Placed& placed, const Vec3& origin, int facet_base);
-  [[nodiscard]] Forms forms() const;
-
- private:
-  std::vector<PlaneForm> planes_;
-  std::vector<SphereForm> spheres_;
-  std::vector<BoxForm> boxes_;
-  std::vector<TriangleForm> triangles_;
-};
-
-/// Forms of one group for parallel light from the unit direction `toward_light` (camera frame); owns the arrays.
-class ParallelView {
- public:
-  ParallelView() = default;
-  ParallelView(const Placed& placed, const Vec3& toward_light);
-  [[nodiscard]] ParallelForms forms() const;
-
- private:
-  std::vector<ParallelPlane> planes_;
-  std::vector<ParallelSphere> spheres_;
-  std::vector<ParallelBox> boxes_;
-  std::vector<ParallelTriangle> triangles_;
-};
-
-/// All of a scene's views; update() moves what moves. view() stays valid until the next update().
+/// A scene's bodies and, in memory of its own, all that is derived from them. It stands in one place: views point into it.
 class FrozenScene {
  public:
   /// @param lights     light positions, camera frame [m]
   /// @param slots      raw frames of a frame
   FrozenScene(const Scene& scene, const std::vector<Vec3>& lights, int slots);
+  FrozenScene(const FrozenScene&) = delete;
+  FrozenScene& operator=(const FrozenScene&) = delete;
+
+  /// Where the camera stands and when its raw frames are. Derives nothing.
   /// @param slot_times  time of each slot [s]
-  void update(const std::vector<double>& slot_times);
+  void look(const Pose& pose, const std::vector<double>& slot_times);
+  /// Forms and facets for the last look(), as far as they are not known.
+  void derive();
   [[nodiscard]] const SceneView& view() const { return view_; }
   [[nodiscard]] bool moves() const { return moves_; }
   [[nodiscard]] const CameraFrame& camera() const { return camera_; }
@@ -80,20 +45,20 @@ class FrozenScene {
   [[nodiscard]] const Vec3& toward_sun() const { return toward_sun_; }
 
  private:
-  void add_still();
+  void add_bodies(const Scene& scene);
+  void lay_out();
 
-  Scene scene_;
-  std::vector<Vec3> lights_;
-  CameraFrame camera_;
+  std::optional<Vec3> sun_;                      ///< in which its light travels, world
+  CameraFrame camera_{};
   Vec3 toward_sun_{0, 0, 0};
   bool moves_ = false;
-  std::vector<View> still_views_, moving_views_;       // [camera, light 0, …] and [slot][camera, light 0, …]
-  std::vector<ParallelView> sun_views_;                // still, then [slot]
-  std::vector<Forms> light_still_, camera_moving_, light_moving_;
-  std::vector<ParallelForms> sun_moving_;
-  std::vector<Facet> facets_;
-  std::size_t still_facets_ = 0;
+  BodyLists still_, moving_;
+  std::vector<shape::Vec> lights_;
+  std::vector<double> slot_times_;
+  std::vector<brdf::MaterialView> materials_;
+  std::unique_ptr<unsigned char[]> memory_;      ///< what is derived
   SceneView view_{};
+  bool still_known_ = false, moving_known_ = false;
 };
 
 }  // namespace tofray::scene

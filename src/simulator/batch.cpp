@@ -32,6 +32,7 @@ void Simulator::Impl::frames_on_cpu(std::uint64_t from, std::uint64_t count, con
     set_frame(wanted);
     const flow::FrameView view = shown.view(memory.data());
     job.out = view;
+    frozen_scene.derive();
     cpu.run(setup, job);
     take(simulator::arrays_of(view, camera, wanted.index, -1));
   }
@@ -111,6 +112,7 @@ void Simulator::Impl::frames(std::uint64_t count, const Request& request, const 
 void Simulator::Impl::open_other_gpus() {
   if (options.device >= 0 || std::exchange(all_gpus, true)) return;
   set_frame({0, {}, {}});
+  frozen_scene.derive();
   for (int i = gpus[0]->device().number() + 1; i < backend::gpu::count_devices(); ++i) {
     try {
       auto gpu = std::make_unique<backend::Cuda>(i, options.block_size);

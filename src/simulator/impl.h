@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include <memory>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -24,11 +23,9 @@ struct Simulator::Impl {
   SimulatorOptions options;
   camera::FrozenCamera frozen_camera;
   scene::FrozenScene frozen_scene;
-  std::optional<scene::FrozenScene> posed_scene;   ///< of a frame that has a pose of its own
   backend::Cpu cpu;
   std::vector<std::unique_ptr<backend::Cuda>> gpus;   ///< empty: the processor computes; the first one does single frames
   bool all_gpus = false;                           ///< the other ones were looked for
-  camera::PowerView power{};                       ///< of the scene's own pose
   pipeline::Setup setup{};
   pipeline::Job job{};
   std::vector<float> filtered;
@@ -44,6 +41,8 @@ struct Simulator::Impl {
 
   /// Times of a frame's raw frames: start of each, and the middle of its exposure [s].
   [[nodiscard]] double start_of(std::uint64_t index) const { return static_cast<double>(index) / camera.mode.frame_rate_hz; }
+  /// Puts the scene as it was looked at last into `setup`.
+  void set_scene();
   /// Puts scene and sensor of a frame into `setup` and `job`.
   void set_frame(const FrameRequest& request);
   /// Its sensor alone.

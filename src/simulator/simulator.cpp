@@ -24,10 +24,9 @@ std::vector<Vec3> positions(const Camera& camera) {
   return out;
 }
 
-void set_ambient(const Scene& scene, const Camera& camera, const Vec3& toward_sun, camera::PowerView& power) {
+void set_ambient(const Scene& scene, const Camera& camera, camera::PowerView& power) {
   if (scene.ambient.spectrum == Ambient::Spectrum::none || scene.ambient.amount == 0) return;
   power.ambient = scene.ambient.direction ? camera::AmbientLight::directional : camera::AmbientLight::uniform;
-  for (std::size_t k = 0; k < 3; ++k) power.sun_direction[k] = static_cast<float>(toward_sun[k]);
   // E/π through the lens, as electrons: the kernel multiplies by reflectivity and vignetting.                    [theory: eq. 2.10]
   const double rate = scene::band_electron_rate_factor(scene.ambient, camera.filter, camera.pixel.quantum_efficiency);
   if (!(rate <= 1e30)) {
@@ -65,14 +64,13 @@ Simulator::Impl::Impl(const Scene& all, const Camera& profile, const SimulatorOp
   setup.lights = frozen_camera.lights().data();
   setup.phasors = frozen_camera.phasors();
   setup.power = frozen_camera.power();
-  set_ambient(scene, camera, frozen_scene.toward_sun(), setup.power);
-  power = setup.power;
+  set_ambient(scene, camera, setup.power);
   setup.sensor = frozen_camera.sensor(0);
   setup.decoder = frozen_camera.decoder();
   setup.truth_slot = static_cast<std::int32_t>(camera.mode.sequence.size() / 2);
   setup.last_stage = options.last_stage;
   setup.culling = options.culling;
-  setup.scene = frozen_scene.view();
+  set_scene();
   simulator::set_filter(camera.decoding.filter, job);
   if (job.filter != pipeline::Filter::none) filtered.resize(static_cast<std::size_t>(camera.sensor.width) * static_cast<std::size_t>(camera.sensor.height));
   job.filtered = filtered.data();
@@ -103,19 +101,14 @@ std::vector<double> Simulator::Impl::middles(double start) const {
   return out;
 }
 
+void Simulator::Impl::set_scene() {
+  setup.scene = frozen_scene.view();
+  for (std::size_t k = 0; k < 3; ++k) setup.power.sun_direction[k] = static_cast<float>(frozen_scene.toward_sun()[k]);
+}
+
 void Simulator::Impl::set_frame(const FrameRequest& request) {
-  const double start = start_of(request.index);
-  posed_scene.reset();
-  scene::FrozenScene* frozen = &frozen_scene;
-  setup.power = power;
-  if (request.pose) {
-    Scene posed = scene;
-    posed.camera.pose = *request.pose;
-    frozen = &posed_scene.emplace(posed, positions(camera), static_cast<int>(camera.mode.sequence.size()));
-    set_ambient(scene, camera, frozen->toward_sun(), setup.power);
-  }
-  if (frozen->moves()) frozen->update(middles(start));
-  setup.scene = frozen->view();
+  frozen_scene.look(request.pose ? *request.pose : scene.camera.pose, middles(start_of(request.index)));
+  set_scene();
   set_sensor(request);
 }
 
@@ -137,7 +130,6 @@ void Simulator::Impl::frame(std::uint64_t index, const pipeline::Input* input, F
   if (input == nullptr) {
     set_frame(request);
   } else {
-    setup.power = power;
     setup.scene.slots = 0;   // nothing of what moves need go to a GPU
     set_sensor(request);
   }
@@ -152,6 +144,7 @@ void Simulator::Impl::frame(std::uint64_t index, const pipeline::Input* input, F
       give_up(fault);
     }
   }
+  frozen_scene.derive();
   cpu.run(setup, job, input);
 }
 

@@ -2,52 +2,51 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include "trace/cull.h"
-#include "trace/shapes.h"
 
 /// Stage 1: the nearest surface along a camera ray, and whether a light reaches it.
 namespace tofray::trace {
 
 using flow::Hit;
+using flow::Ray;
 using flow::Surface;
 using num::Int;
+using num::Mask;
 
-template <class F>
-TOFRAY_FN void keep_nearer(Hit<F>& hit, F w, Int<F> facet) {
-  const auto nearer = w > hit.w;
-  hit.facet = num::select(nearer, facet, hit.facet);
-  hit.w = num::select(nearer, w, hit.w);
+/// The inverse range of the hit, 0 or less for none, and the facet that it names.
+template <class T, class F>
+TOFRAY_FN F hit_of(const typename T::Form& form, const Ray<F>& ray, Int<F>& facet) {
+  if constexpr (T::facets == 1) {
+    facet = Int<F>(form.facet);
+    return inverse_range(form, ray);
+  } else {
+    Int<F> side;
+    const F w = inverse_range(form, ray, side);
+    facet = Int<F>(form.facet) + side;
+    return w;
+  }
+}
+
+template <class T, class F, class Culled>
+TOFRAY_FN void nearest_of(const scene::FormsOf<T>& forms, const Culled& culled, const Ray<F>& ray, Hit<F>& hit) {
+  for (auto i = culled.walk(forms); i.more(); i.next()) {
+    Int<F> facet;
+    const F w = hit_of<T>(forms.at[i.index()], ray, facet);
+    const auto nearer = w > hit.w;
+    hit.facet = num::select(nearer, facet, hit.facet);
+    hit.w = num::select(nearer, w, hit.w);
+  }
+}
+
+template <class... T, class F, class Culled>
+TOFRAY_FN void nearest_of_each(shape::List<T...>, const scene::Forms& forms, const Culled& culled, const Ray<F>& ray, Hit<F>& hit) {
+  (nearest_of(forms.of<T>(), culled, ray, hit), ...);
 }
 
 /// The nearer of `hit` and the forms in `culled`; of two at the same place the first one stays.
 template <class F, class Culled>
 TOFRAY_FN Hit<F> nearest(const scene::Forms& forms, const Culled& culled, const Ray<F>& ray, Hit<F> hit) {
-  for (auto i = culled.walk(forms.planes, forms.plane_count); i.more(); i.next()) {
-    const scene::PlaneForm& plane = forms.planes[i.index()];
-    keep_nearer(hit, inverse_range(plane, ray), Int<F>(plane.facet));
-  }
-  for (auto i = culled.walk(forms.spheres, forms.sphere_count); i.more(); i.next()) {
-    const scene::SphereForm& sphere = forms.spheres[i.index()];
-    keep_nearer(hit, inverse_range(sphere, ray), Int<F>(sphere.facet));
-  }
-  for (auto i = culled.walk(forms.boxes, forms.box_count); i.more(); i.next()) {
-    const scene::BoxForm& box = forms.boxes[i.index()];
-    Int<F> axis;
-    const F w = inverse_range(box, ray, axis);
-    keep_nearer(hit, w, Int<F>(box.facet) + axis);
-  }
-  for (auto i = culled.walk(forms.triangles, forms.triangle_count); i.more(); i.next()) {
-    const scene::TriangleForm& triangle = forms.triangles[i.index()];
-    keep_nearer(hit, inverse_range(triangle, ray), Int<F>(triangle.facet));
-  }
+  nearest_of_each(shape::Shapes{}, forms, culled, ray, hit);
   return hit;
-}
-
-/// Column `c` of each lane's facet. A pack that sees a single facet reads it once.
-template <class F>
-TOFRAY_FN F facet_value(const scene::Facet* facets, Int<F> facet, bool same, int c) {
-  const float* table = reinterpret_cast<const float*>(facets);
-  if (same) return F(table[num::first(facet) * scene::facet_floats + c]);
-  return num::gather(table + c, facet * Int<F>(scene::facet_floats));
 }
 
 /// Puts a surface at P = t·d.
@@ -66,29 +65,61 @@ TOFRAY_FN void face_camera(F nx, F ny, F nz, const Ray<F>& ray, Surface<F>& out)
   out.cos_view = num::abs(along) * ray.inverse_length;
 }
 
+/// The lanes that see a curved facet of the shape T ask the shape for its normal.
+template <class T, class F>
+TOFRAY_FN void curved_normal(const shape::FacetColumns<F>& facet, Int<F> curved, const Surface<F>& at, shape::Direction<F>& n) {
+  if constexpr (T::curved) {
+    const auto its = curved == Int<F>(1 + shape::place_in<T>(shape::Shapes{}));
+    if (!num::any(its)) return;
+    const shape::Direction<F> own = T::normal(facet, at.x, at.y, at.z);
+    n = {num::select(its, own.x, n.x), num::select(its, own.y, n.y), num::select(its, own.z, n.z)};
+  }
+}
+
+template <class... T, class F>
+TOFRAY_FN shape::Direction<F> normal_of(shape::List<T...>, const shape::FacetColumns<F>& facet, const Surface<F>& at) {
+  shape::Direction<F> n{facet.number(0), facet.number(1), facet.number(2)};
+  if (facet.same && facet.first().curved == 0) return n;
+  const Int<F> curved = facet.curved();
+  (curved_normal<T>(facet, curved, at, n), ...);
+  return n;
+}
+
+/// What the facets' materials say.
+template <class F>
+TOFRAY_FN void finish(const scene::SceneView& s, const shape::FacetColumns<F>& facet, flow::Finish<F>& out) {
+  const Int<F> material = facet.material() * Int<F>(brdf::material_words);
+  const float* table = reinterpret_cast<const float*>(s.materials);
+  const auto number = [&](int c) __attribute__((always_inline)) {
+    return facet.same ? F(table[num::first(material) + c]) : num::gather(table + c, material);
+  };
+  out.reflectivity = number(0);
+  out.brdf = Int<F>(0);
+  for (int i = 0; i < flow::brdf_numbers; ++i) out.number[i] = F(0.0f);
+  if (s.any_other_brdf == 0) return;
+  for (int i = 0; i < flow::brdf_numbers; ++i) out.number[i] = number(1 + i);
+  const std::int32_t* brdfs = reinterpret_cast<const std::int32_t*>(s.materials) + 1 + flow::brdf_numbers;
+  out.brdf = facet.same ? Int<F>(brdfs[num::first(material)]) : num::gather(brdfs, material);
+}
+
 /// Where and what the hit is: position, normal toward the camera, material.
 template <class F>
 TOFRAY_FN Surface<F> surface(const scene::SceneView& s, const Ray<F>& ray, const Hit<F>& hit) {
-  const bool same = num::all(hit.facet == Int<F>(num::first(hit.facet)));
-  const auto column = [&](int c) __attribute__((always_inline)) { return facet_value<F>(s.facets, hit.facet, same, c); };
+  const shape::FacetColumns<F> facet(s.facets, hit.facet);
   Surface<F> out;
   out.found = hit.w > F(0.0f);
   put_at(ray, F(1.0f) / num::select(out.found, hit.w, F(1.0f)), out);
-  const F curvature = column(3);
-  const F nx = num::fma(out.x, curvature, column(0)), ny = num::fma(out.y, curvature, column(1)), nz = num::fma(out.z, curvature, column(2));
-  face_camera(nx, ny, nz, ray, out);
-  out.diffuse = column(4), out.specular = F(0.0f), out.exponent = F(1.0f);
-  if (s.any_specular != 0) out.specular = column(5), out.exponent = column(6);
-  const std::int32_t* objects = reinterpret_cast<const std::int32_t*>(s.facets);
-  out.object = same ? Int<F>(objects[num::first(hit.facet) * scene::facet_floats + 7])
-                    : num::gather(objects + 7, hit.facet * Int<F>(scene::facet_floats));
+  const shape::Direction<F> n = normal_of(shape::Shapes{}, facet, out);
+  face_camera(n.x, n.y, n.z, ray, out);
+  finish(s, facet, out.finish);
+  out.object = facet.object();
   return out;
 }
 
 /// Number of its material; only truth asks.
 template <class F>
 TOFRAY_FN Int<F> material(const scene::SceneView& s, const Hit<F>& hit) {
-  return num::gather(reinterpret_cast<const std::int32_t*>(s.facets) + 8, hit.facet * Int<F>(scene::facet_floats));
+  return shape::FacetColumns<F>(s.facets, hit.facet).material();
 }
 
 }  // namespace tofray::trace

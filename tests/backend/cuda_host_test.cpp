@@ -141,7 +141,7 @@ TEST(cuda_host, batches_have_the_bytes_of_single_frames) {
   }
 }
 
-// What goes to the GPU is bounded as well: a pose takes the whole scene along.
+// What goes to the GPU is bounded as well.
 TEST(cuda_host, batches_of_poses_take_little_pinned_memory) {
   WithStandIn here;
   const Scene scene = load_scene("card");
@@ -154,6 +154,28 @@ TEST(cuda_host, batches_of_poses_take_little_pinned_memory) {
   ASSERT_EQ(frames.size(), 400u);
   EXPECT_EQ(frames[399].index, 399u);
   EXPECT_LT(here.cuda.pinned_bytes, 3'000'000u);
+}
+
+// Only poses and times go to the GPU: a frame of a large scene takes as much along as one of a small scene.
+TEST(cuda_host, poses_and_motion_take_no_shapes_along) {
+  for (const bool moving : {false, true}) {
+    std::size_t taken[2] = {};
+    for (const int large : {0, 1}) {
+      WithStandIn here;
+      Random random(3);
+      Scene scene = random_scene(random, large != 0 ? 200 : 5, false);
+      if (moving) scene.objects.back().velocity_m_per_s = {0.1, 0, 0};
+      const Camera camera = small(load_camera("pico-flexx"));
+      Simulator simulator(scene, camera, on(Backend::cuda, {.batch_bytes = 100'000'000, .last_stage = Stage::trace}));
+      const std::size_t before = here.cuda.pinned_bytes;
+      std::vector<FrameRequest> requests(3, {0, {}, scene.camera.pose});
+      DeviceFrames frames;
+      simulator.frames_on_device(requests, frames);
+      taken[large] = here.cuda.pinned_bytes - before;
+    }
+    EXPECT_EQ(taken[0], taken[1]) << moving;
+    EXPECT_GT(taken[0], 0u);
+  }
 }
 
 TEST(cuda_host, batches_take_seeds_and_poses) {

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The tofray authors
 // SPDX-License-Identifier: Apache-2.0
 // Reciprocity and energy of the surfaces.
-#include "power/reflection.h"
+#include "brdf/list.h"
 
 #include <gtest/gtest.h>
 
@@ -18,7 +18,8 @@ const double turn = 2 * std::acos(-1.0);
 double f_r(double diffuse, double specular, double exponent, const Vec3& to_light, const Vec3& to_camera) {
   const auto f = [](double a) { return static_cast<float>(a); };
   const float between = f(dot(to_light, to_camera));
-  return static_cast<double>(power::reflection(f(diffuse), f(specular), f(exponent), f(to_light[2]), f(to_camera[2]), between));
+  const flow::Finish<float> finish = brdf::lambert_and_lobe(f(diffuse), f(specular), f(exponent));
+  return static_cast<double>(brdf::reflection(finish, {f(to_light[2]), f(to_camera[2]), between}));
 }
 
 /// ∫ f_r cosθ dω over the hemisphere, light at this angle; midpoint rule over 500 × 400 cells.

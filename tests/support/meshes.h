@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "base/vec.h"
-#include "scene/frozen_scene.h"
+#include "support/rays.h"
 
 namespace tofray::test {
 
@@ -16,13 +16,10 @@ struct Mesh {
   std::vector<Vec3> vertices;
   std::vector<std::array<int, 3>> triangles;
 
-  /// @param own_objects  each triangle is an object of its own
-  [[nodiscard]] scene::Placed placed(bool own_objects = false) const {
-    scene::Placed out;
-    for (std::size_t i = 0; i < triangles.size(); ++i) {
-      const auto& t = triangles[i];
-      out.triangles.push_back({{at(t[0]), at(t[1]), at(t[2])}, own_objects ? static_cast<int>(i) : 0});
-    }
+  /// As seen from one point.
+  [[nodiscard]] Seen seen(const Vec3& origin) const {
+    Seen out;
+    for (const auto& t : triangles) out.add(shape::Triangle{{vec(at(t[0])), vec(at(t[1])), vec(at(t[2]))}}, origin);
     return out;
   }
   [[nodiscard]] const Vec3& at(int i) const { return vertices[static_cast<std::size_t>(i)]; }

@@ -41,6 +41,10 @@ void run_on_host(const backend::gpu::Launch& what, const backend::gpu::FrameArgu
   for (int frame = 0; frame < what.batch.frames; ++frame) {
     const FrameNumber number = what.batch.numbers[frame];
     const FrameArguments& a = what.batch.own != nullptr ? what.batch.own[frame] : common;
+    if (what.pass == Pass::derive) {
+      for (int i = 0; i < scene::unit_count(common.setup.scene, what.batch.derive) + 7; ++i) run_derive(a.setup, what.batch.derive, i);
+      continue;
+    }
     const pipeline::Job job = job_of(a.job, number, what.batch.own != nullptr ? 0 : frame * what.batch.stride);
     if (what.pass != Pass::pixels) {
       for (int i = 0; i < a.setup.lens.width * a.setup.lens.height + 7; ++i) run_pass(what.pass, a.setup, job, what.input, i);

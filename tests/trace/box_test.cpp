@@ -19,10 +19,7 @@ struct BoxCase {
   Mat3 axes{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
 
   [[nodiscard]] float w(const test::Ray& ray, int& axis) const {
-    scene::Placed placed;
-    placed.boxes.push_back({center, axes, half, 0});
-    const scene::View view(placed, origin, 0);
-    return trace::inverse_range(view.forms().boxes[0], ray, axis);
+    return inverse_range(seen_from(shape::Box{test::vec(center), test::mat(axes), test::vec(half)}, test::vec(origin)), ray, axis);
   }
 };
 

@@ -37,13 +37,13 @@ TEST(culling, changes_no_hit_of_any_ray_in_the_rectangle) {
     Scene scene = random_scene(random, 30, false);
     scene.camera.pose = random_pose(random);
     const scene::FrozenScene frozen(scene, {Vec3{0, 0, 1} + random.point(1.5)}, 1);
-    for (const scene::Forms& forms : {frozen.view().camera_still, frozen.view().light_still[0]}) {
+    for (const scene::Forms& forms : {frozen.view().camera_still(), frozen.view().light_still(0)}) {
       const scene::Bounds rectangle = random_rectangle(random);
       trace::Culled some;
       trace::cull(forms, &rectangle, some);
       const trace::Culled full = everything(forms);
-      kept += some.planes.count + some.spheres.count + some.boxes.count + some.triangles.count;
-      all += full.planes.count + full.spheres.count + full.boxes.count + full.triangles.count;
+      kept += some.count();
+      all += full.count();
       for (int i = 0; i < 60; ++i) {
         const Ray ray = ray_within(rectangle, random);
         const auto without = trace::nearest(forms, full, ray, flow::Hit<float>{0, 0});
@@ -64,26 +64,27 @@ TEST(culling, keeps_what_a_ray_grazes) {
   int grazed = 0;
   for (int trial = 0; trial < 100000; ++trial) {
     const Vec3 middle = Vec3{0, 0, 2} + random.point(1);
-    scene::Placed placed;
+    Seen view;
+    const Vec3 origin{0, 0, 0};
     std::vector<Vec3> outline;
     if (trial % 3 == 0) {
-      placed.triangles.push_back({{middle + 0.3 * random.direction(), middle + 0.3 * random.direction(), middle + 0.3 * random.direction()}, 0});
-      outline.assign(placed.triangles[0].vertices.begin(), placed.triangles[0].vertices.end());
+      for (int i = 0; i < 3; ++i) outline.push_back(middle + 0.3 * random.direction());
+      view.add(shape::Triangle{{vec(outline[0]), vec(outline[1]), vec(outline[2])}}, origin);
     } else if (trial % 3 == 1) {
       const double radius = random.between(0.05, 0.5);
-      placed.spheres.push_back({middle, radius, 0});
+      view.add(shape::Sphere{vec(middle), radius}, origin);
       const double far = base::length(middle), half = std::asin(radius / far);   // the cone that touches it
       const Vec3 axis = base::normalized(middle);
       for (int i = 0; i < 4; ++i) outline.push_back(std::cos(half * (1 - 1e-6)) * axis + std::sin(half * (1 - 1e-6)) * random.across(axis));
     } else {
       const Vec3 half{random.between(0.05, 0.4), random.between(0.05, 0.4), random.between(0.05, 0.4)};
-      placed.boxes.push_back({middle, random.rotation(), half, 0});
+      const base::Mat3 axes = random.rotation();
+      view.add(shape::Box{vec(middle), mat(axes), vec(half)}, origin);
       for (int i = 0; i < 8; ++i) {
         const Vec3 corner{(i & 1 ? 1 : -1) * half[0], (i & 2 ? 1 : -1) * half[1], (i & 4 ? 1 : -1) * half[2]};
-        outline.push_back(middle + (1 - 1e-6) * (base::transposed(placed.boxes[0].axes) * corner));
+        outline.push_back(middle + (1 - 1e-6) * (base::transposed(axes) * corner));
       }
     }
-    const scene::View view(placed, {0, 0, 0}, 0);
     for (const Vec3& at : outline) {
       const Ray ray = test::ray({at[0] / at[2], at[1] / at[2], 1});
       const auto hit = trace::nearest(view.forms(), everything(view.forms()), ray, flow::Hit<float>{0, 0});
@@ -92,7 +93,7 @@ TEST(culling, keeps_what_a_ray_grazes) {
       const scene::Bounds alone{ray.x, ray.x, ray.y, ray.y};
       trace::Culled culled;
       trace::cull(view.forms(), &alone, culled);
-      ASSERT_EQ(culled.triangles.count + culled.spheres.count + culled.boxes.count, 1) << trial;
+      ASSERT_EQ(culled.count(), 1) << trial;
     }
   }
   EXPECT_GT(grazed, 200000);
@@ -101,14 +102,13 @@ TEST(culling, keeps_what_a_ray_grazes) {
 // Just beyond the capacity of the list everything is kept instead.
 TEST(culling, keeps_everything_where_its_list_would_overflow) {
   for (const int count : {trace::Picked::capacity - 1, trace::Picked::capacity, trace::Picked::capacity + 1, 3000}) {
-    scene::Placed placed;
-    for (int i = 0; i < count; ++i) placed.spheres.push_back({{0.001 * i / count, 0, 2 - 1e-4 * i}, 0.1, i});
-    const scene::View view(placed, {0, 0, 0}, 0);
+    Seen view;
+    for (int i = 0; i < count; ++i) view.add(shape::Sphere{{0.001 * i / count, 0, 2 - 1e-4 * i}, 0.1}, {0, 0, 0}, i);
     const scene::Bounds middle{-0.01f, 0.01f, -0.01f, 0.01f};
     trace::Culled culled;
     trace::cull(view.forms(), &middle, culled);
-    ASSERT_EQ(culled.spheres.count, count);
-    EXPECT_EQ(culled.spheres.everything, count > trace::Picked::capacity);
+    ASSERT_EQ(culled.count(), count);
+    EXPECT_EQ(culled.of<shape::Sphere>().picked.everything, count > trace::Picked::capacity);
     const auto hit = trace::nearest(view.forms(), culled, ray({0, 0, 1}), flow::Hit<float>{0, 0});
     EXPECT_EQ(hit.facet, count - 1);
   }

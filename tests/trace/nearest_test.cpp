@@ -19,7 +19,7 @@ struct Found {
 
 Found look(const scene::FrozenScene& frozen, const Ray& ray) {
   const scene::SceneView& view = frozen.view();
-  const auto hit = trace::nearest(view.camera_still, everything(view.camera_still), ray, flow::Hit<float>{0, 0});
+  const auto hit = trace::nearest(view.camera_still(), everything(view.camera_still()), ray, flow::Hit<float>{0, 0});
   return {hit, trace::surface(view, ray, hit)};
 }
 
@@ -36,14 +36,13 @@ TEST(nearest, is_the_first_that_brute_force_finds) {
     Scene scene = random_scene(random, 25, false);
     scene.camera.pose = random_pose(random);
     const scene::FrozenScene frozen(scene, {}, 1);
-    const scene::Placed placed = scene::place(scene, frozen.camera(), scene::Group::still, 0);
     for (int i = 0; i < 2000; ++i) {
       const Vec3 aside = random.point(0.6);
       const Ray ray = test::ray({aside[0], aside[1], 1});
       double best = 1e300, second = 1e300;
       int object = -1;
       bool unsure = false;
-      for (const Span& s : spans(placed, {0, 0, 0}, direction(ray))) {
+      for (const Span& s : spans(frozen, {0, 0, 0}, direction(ray))) {
         unsure = unsure || s.clearance < 1e-4;
         const double t = first(s);
         if (t <= 0) continue;

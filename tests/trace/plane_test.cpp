@@ -18,11 +18,7 @@ struct Case {
   Vec3 normal, point, origin;
   /// w of the first and only plane as the kernel finds it.
   [[nodiscard]] double w(const test::Ray& ray) const {
-    scene::Placed placed;
-    placed.planes.push_back({normal, dot(normal, point), 0});
-    const scene::View view(placed, origin, 0);
-    const scene::Forms forms = view.forms();
-    return static_cast<double>(trace::inverse_range(forms.planes[0], ray));
+    return static_cast<double>(inverse_range(seen_from(shape::Plane{test::vec(point), test::vec(normal)}, test::vec(origin)), ray));
   }
 };
 
@@ -79,9 +75,8 @@ TEST(plane, through_the_origin_is_never_seen) {
   Random random(3);
   for (int i = 0; i < 1000; ++i) {
     const Vec3 n = random.direction();
-    scene::Placed placed;
-    placed.planes.push_back({n, 0, 0});
-    const scene::View view(placed, {0, 0, 0}, 0);
-    EXPECT_EQ(view.forms().plane_count, 0);
+    const shape::PlaneForm form = seen_from(shape::Plane{{0, 0, 0}, test::vec(n)}, {0, 0, 0});
+    EXPECT_EQ(inverse_range(form, test::ray(random.direction())), 0);
+    EXPECT_EQ(inverse_range(form, test::ray(random.across(n))), 0);
   }
 }

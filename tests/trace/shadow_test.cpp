@@ -17,14 +17,14 @@ namespace {
 
 flow::Surface<float> look(const scene::FrozenScene& frozen, const Ray& ray) {
   const scene::SceneView& view = frozen.view();
-  return trace::surface(view, ray, trace::nearest(view.camera_still, everything(view.camera_still), ray, flow::Hit<float>{0, 0}));
+  return trace::surface(view, ray, trace::nearest(view.camera_still(), everything(view.camera_still()), ray, flow::Hit<float>{0, 0}));
 }
 
 Vec3 place_of(const flow::Surface<float>& s) { return {static_cast<double>(s.x), static_cast<double>(s.y), static_cast<double>(s.z)}; }
 Vec3 normal_of(const flow::Surface<float>& s) { return {static_cast<double>(s.nx), static_cast<double>(s.ny), static_cast<double>(s.nz)}; }
 
 bool dark(const scene::FrozenScene& frozen, std::size_t light, const Vec3& at, const flow::Surface<float>& s) {
-  const scene::Forms& forms = frozen.view().light_still[light];
+  const scene::Forms forms = frozen.view().light_still(static_cast<int>(light));
   const Vec3 p = place_of(s);
   return trace::blocked(forms, everything(forms), ray(p - at), s.object);
 }
@@ -32,16 +32,16 @@ bool dark(const scene::FrozenScene& frozen, std::size_t light, const Vec3& at, c
 bool dark_of_sun(const scene::FrozenScene& frozen, const flow::Surface<float>& s) {
   const Vec3& toward = frozen.toward_sun();
   const float sun[3] = {static_cast<float>(toward[0]), static_cast<float>(toward[1]), static_cast<float>(toward[2])};
-  return trace::blocked_parallel(frozen.view().sun_still, sun, s);
+  return trace::blocked_parallel(frozen.view().sun_still(), sun, s);
 }
 
 enum class Answer { lit, dark, unsure };
 
 /// Does anything cross p + t·d for t in (low, high)? Unsure within the margin at either end and near outlines. p lies in the surface of
 /// `own`: it counts where the ray goes on through its inside, as it does for a camera within.
-Answer crossed(const scene::Placed& placed, const Vec3& p, const Vec3& d, double high, int own) {
+Answer crossed(const scene::FrozenScene& frozen, const Vec3& p, const Vec3& d, double high, int own) {
   bool unsure = false;
-  for (const Span& s : spans(placed, p, d)) {
+  for (const Span& s : spans(frozen, p, d)) {
     const double low = 1e-3;
     if (s.clearance < 1e-4) {
       unsure = true;
@@ -72,7 +72,6 @@ TEST(shadow, of_a_lamp_is_where_brute_force_finds_something_between) {
     scene.camera.pose = random_pose(random);
     const std::vector<Vec3> lamps{{0.01547, 0, 0}, random.point(0.5), Vec3{0, 0, 2} + random.point(2)};
     const scene::FrozenScene frozen(scene, lamps, 1);
-    const scene::Placed placed = scene::place(scene, frozen.camera(), scene::Group::still, 0);
     for (int i = 0; i < 2000; ++i) {
       const Vec3 aside = random.point(0.6);
       const flow::Surface<float> s = look(frozen, ray({aside[0], aside[1], 1}));
@@ -80,7 +79,7 @@ TEST(shadow, of_a_lamp_is_where_brute_force_finds_something_between) {
       for (std::size_t l = 0; l < lamps.size(); ++l) {
         const Vec3 p = place_of(s), to_lamp = lamps[l] - p;
         if (base::dot(normal_of(s), to_lamp) <= 0) continue;   // turned away: dark without a shadow ray
-        const Answer answer = crossed(placed, p, to_lamp, 1, s.object);
+        const Answer answer = crossed(frozen, p, to_lamp, 1, s.object);
         if (answer == Answer::unsure) continue;
         ++(answer == Answer::dark ? shaded : lit);
         // own closed bodies are a case of their own, below
@@ -100,13 +99,12 @@ TEST(shadow, of_the_sun_is_where_brute_force_finds_something_between) {
     scene.camera.pose = random_pose(random);
     scene.ambient.direction = random.direction();
     const scene::FrozenScene frozen(scene, {}, 1);
-    const scene::Placed placed = scene::place(scene, frozen.camera(), scene::Group::still, 0);
     const Vec3 toward = frozen.toward_sun();
     for (int i = 0; i < 2000; ++i) {
       const Vec3 aside = random.point(0.6);
       const flow::Surface<float> s = look(frozen, ray({aside[0], aside[1], 1}));
       if (!s.found || base::dot(normal_of(s), toward) <= 0) continue;
-      const Answer answer = crossed(placed, place_of(s), toward, no_end, s.object);
+      const Answer answer = crossed(frozen, place_of(s), toward, no_end, s.object);
       if (answer == Answer::unsure) continue;
       ++(answer == Answer::dark ? shaded : lit);
       ASSERT_EQ(dark_of_sun(frozen, s), answer == Answer::dark) << trial << " " << i << " object " << s.object;

@@ -15,10 +15,7 @@ using tofray::test::Random;
 namespace {
 
 double kernel_w(const Vec3& center, double radius, const Vec3& origin, const test::Ray& ray) {
-  scene::Placed placed;
-  placed.spheres.push_back({center, radius, 0});
-  const scene::View view(placed, origin, 0);
-  return static_cast<double>(trace::inverse_range(view.forms().spheres[0], ray));
+  return static_cast<double>(inverse_range(seen_from(shape::Sphere{test::vec(center), radius}, test::vec(origin)), ray));
 }
 
 /// Closed form.

@@ -3,7 +3,6 @@
 // From inside a closed mesh every ray hits, however close to a vertex or an edge, and however far the mesh is from zero.
 #include <gtest/gtest.h>
 
-#include <memory>
 
 #include "support/meshes.h"
 #include "support/random.h"
@@ -20,8 +19,8 @@ namespace {
 struct Inside {
   Mesh mesh;
   Vec3 origin;
-  std::unique_ptr<scene::View> view;
-  scene::Forms forms{};
+  test::Seen seen;
+  scene::FormsOf<shape::Triangle> forms{};
 
   Inside(int cuts, double offset, std::uint64_t seed) : mesh(test::icosphere(cuts)) {
     Random random(seed);
@@ -29,10 +28,10 @@ struct Inside {
     for (Vec3& v : mesh.vertices) v = random.between(0.8, 1.25) * v + shift;
     const Vec3 aside = random.point(0.15);
     origin = aside + shift;
-    view = std::make_unique<scene::View>(mesh.placed(), origin, 0);
-    forms = view->forms();
+    seen = mesh.seen(origin);
+    forms = seen.forms().of<shape::Triangle>();
   }
-  [[nodiscard]] bool hits(const test::Ray& ray, std::size_t i) const { return trace::inverse_range(forms.triangles[i], ray) > 0; }
+  [[nodiscard]] bool hits(const test::Ray& ray, std::size_t i) const { return inverse_range(forms.at[i], ray) > 0; }
   /// Those that should be hit are tried first, all others only where these fail.
   [[nodiscard]] bool missed(const test::Ray& ray, const std::vector<std::size_t>& likely) const {
     for (const std::size_t i : likely) {
@@ -51,7 +50,7 @@ class Watertight : public testing::TestWithParam<double> {};
 
 TEST_P(Watertight, no_ray_of_ten_million_leaves) {
   const Inside scene(0, GetParam(), 1);
-  ASSERT_EQ(scene.forms.triangle_count, 20);
+  ASSERT_EQ(scene.forms.count, 20);
   Random random(2);
   int missed = 0;
   for (int i = 0; i < 10000000; ++i) {
@@ -114,17 +113,16 @@ TEST(watertight, no_ray_leaves_through_a_vertex_that_it_meets_exactly) {
     const auto single = [](const Vec3& v) { return test::direction(test::ray(v)); };
     const Vec3 axis = random.direction(), x = random.across(axis), y = cross(axis, x);
     const Vec3 tip = single(random.scale(0.1, 10) * axis);
-    scene::Placed fan;
+    test::Seen fan;
     std::vector<Vec3> rim;
     for (int k = 0; k < sides; ++k) {
       const double angle = 2 * std::acos(-1.0) * (k + random.between(-0.3, 0.3)) / sides;
       rim.push_back(single(tip + random.between(0.1, 0.3) * (std::cos(angle) * x + std::sin(angle) * y)));
     }
-    for (std::size_t k = 0; k < rim.size(); ++k) fan.triangles.push_back({{tip, rim[k], rim[(k + 1) % rim.size()]}, 0});
-    const scene::View view(fan, {0, 0, 0}, 0);
-    const scene::Forms forms = view.forms();
+    for (std::size_t k = 0; k < rim.size(); ++k) fan.add(shape::Triangle{{test::vec(tip), test::vec(rim[k]), test::vec(rim[(k + 1) % rim.size()])}}, {0, 0, 0});
+    const auto forms = fan.forms().of<shape::Triangle>();
     bool hit = false;
-    for (int k = 0; k < forms.triangle_count; ++k) hit = hit || trace::inverse_range(forms.triangles[k], test::ray(tip)) > 0;
+    for (int k = 0; k < forms.count; ++k) hit = hit || inverse_range(forms.at[k], test::ray(tip)) > 0;
     missed += !hit;
   }
   EXPECT_EQ(missed, 0);

@@ -3,6 +3,7 @@
 #pragma once
 #include "pipeline/enter.h"
 #include "pipeline/setup.h"
+#include "scene/derive.h"
 
 /// What goes from the host to the kernels.
 namespace tofray::backend::gpu {
@@ -27,6 +28,7 @@ struct Batch {
   const FrameArguments* own;      ///< [frame] device; null: the common ones, with frame i's arrays `stride`·i bytes further on
   std::int64_t stride;
   std::int32_t frames;
+  scene::Derive derive;           ///< what of the scene is derived anew for each frame
 };
 
 }  // namespace tofray::backend::gpu

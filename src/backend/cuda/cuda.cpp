@@ -51,8 +51,7 @@ void Cuda::load(const pipeline::Setup& setup) {
   const auto pack = [&](gpu::Packer& packer) {
     pipeline::Setup to = setup;
     gpu::pack_camera(packer, setup, to);
-    gpu::pack_still(packer, setup.scene, to.scene);
-    if (setup.scene.slots == 0) gpu::pack_moving(packer, setup.scene, to.scene);
+    gpu::pack_scene(packer, setup.scene, to.scene);
     return to;
   };
   gpu::Packer measure;

@@ -77,6 +77,11 @@ __global__ void __launch_bounds__(max_block_size) tofray_pass(const __grid_const
   }
 }
 
+/// Forms and facets of each frame.
+__global__ void __launch_bounds__(max_block_size) tofray_derive(const Batch batch) {
+  run_derive(batch.own[blockIdx.y].setup, batch.derive, static_cast<int>(blockIdx.x * blockDim.x + threadIdx.x));
+}
+
 /// Registers for all threads of a block: a kernel that may take more of them serves the smaller blocks.
 constexpr int few_threads = 256;
 
@@ -89,6 +94,12 @@ cudaError_t launch_pixels(const Launch& what, int patches, cudaStream_t stream) 
   } else {
     tofray_pixels<threads><<<grid, what.block_size, 0, stream>>>(*what.common, what.batch);
   }
+  return cudaGetLastError();
+}
+
+cudaError_t launch_derive(const Launch& what, cudaStream_t stream) {
+  const auto block = static_cast<unsigned>(what.block_size), units = static_cast<unsigned>(scene::unit_count(what.common->setup.scene, what.batch.derive));
+  tofray_derive<<<dim3((units + block - 1) / block, static_cast<unsigned>(what.batch.frames)), block, 0, stream>>>(what.batch);
   return cudaGetLastError();
 }
 
@@ -106,6 +117,7 @@ cudaError_t launch_kernel(const Launch& what, cudaStream_t stream) {
   const camera::LensView& lens = what.common->setup.lens;
   const int pixels = lens.width * lens.height;
   switch (what.pass) {
+    case Pass::derive: return launch_derive(what, stream);
     case Pass::pixels:
       return what.block_size <= few_threads ? launch_pixels<few_threads>(what, patch_count(lens), stream)
                                             : launch_pixels<max_block_size>(what, patch_count(lens), stream);
@@ -125,6 +137,7 @@ cudaError_t find_kernels() {
   };
   find(&tofray_pixels<few_threads>), find(&tofray_pixels<max_block_size>);
   find(&tofray_pixels_own<few_threads>), find(&tofray_pixels_own<max_block_size>);
+  find(&tofray_derive);
   find(&tofray_pass<Pass::input>), find(&tofray_pass<Pass::flying>);
   find(&tofray_pass<Pass::filter>), find(&tofray_pass<Pass::settle>);
   return status;
@@ -132,6 +145,7 @@ cudaError_t find_kernels() {
 
 const void* kernel_function(Pass pass, int block_size) {
   switch (pass) {
+    case Pass::derive: return reinterpret_cast<const void*>(&tofray_derive);
     case Pass::pixels:
       return block_size <= few_threads ? reinterpret_cast<const void*>(&tofray_pixels<few_threads>)
                                        : reinterpret_cast<const void*>(&tofray_pixels<max_block_size>);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <type_traits>
 
 namespace tofray::backend::gpu {
 
@@ -13,6 +14,7 @@ constexpr std::size_t align(std::size_t bytes) { return (bytes + 255) / 256 * 25
 
 const char* starting(Pass pass) {
   switch (pass) {
+    case Pass::derive: return "starting the kernel derive";
     case Pass::pixels: return "starting the kernel pixels";
     case Pass::input: return "starting the kernel input";
     case Pass::flying: return "starting the kernel flying";
@@ -42,25 +44,40 @@ pipeline::Input packed(Packer& packer, const pipeline::Setup& setup, const pipel
   return to;
 }
 
-/// What is the frame's own goes to `packer`: of the sensor, which drifts, and of the scene.
-/// @param to  what is the same for all frames; it gets the frame's own pointers
-void pack_own(const Resident& resident, Own own, const pipeline::Setup& from, Packer& packer, pipeline::Setup& to) {
+/// What of the scene has to be derived for each frame.
+scene::Derive derive_for(Own own) { return own == Own::scene ? scene::Derive::all : scene::Derive::moving; }
+bool derives(Own own, const scene::SceneView& scene) { return own == Own::scene || (own == Own::moving && scene.slots > 0); }
+
+/// Gives what is derived for a frame its places from `base` on. @return bytes
+std::size_t place_derived(scene::SceneView& scene, Own own, unsigned char* base) {
+  std::size_t used = 0;
+  if (!derives(own, scene)) return used;
+  scene::each_derived(scene, derive_for(own), [&](auto*& array, std::size_t count) {
+    array = base == nullptr ? nullptr : reinterpret_cast<std::remove_reference_t<decltype(array)>>(base + used);
+    used += align(count * sizeof *array);
+  });
+  return used;
+}
+std::size_t derived_bytes(scene::SceneView scene, Own own) { return place_derived(scene, own, nullptr); }
+
+/// What is the frame's own goes to `packer`: of the sensor, which drifts, and the times at which what moves is seen. The scene's shapes stay.
+/// @param derived  where what is derived of the scene will be
+/// @param to       what is the same for all frames; it gets the frame's own pointers
+void pack_own(const Resident& resident, Own own, const pipeline::Setup& from, Packer& packer, unsigned char* derived, pipeline::Setup& to) {
   to.scene = resident.setup.scene;
   if (own == Own::number) return;
   pack_raw_frames(packer, from, to.sensor);
-  if (own != Own::scene && from.scene.slots == 0) return;
-  to.scene = from.scene;
-  to.scene.camera_still = resident.setup.scene.camera_still, to.scene.light_still = resident.setup.scene.light_still;
-  to.scene.sun_still = resident.setup.scene.sun_still;
-  if (own == Own::scene) pack_still(packer, from.scene, to.scene);
-  pack_moving(packer, from.scene, to.scene);
+  if (!derives(own, from.scene)) return;
+  to.scene.camera = from.scene.camera, to.scene.toward_sun = from.scene.toward_sun;
+  to.scene.slot_times = packer.put(from.scene.slot_times, static_cast<std::size_t>(from.scene.slots));
+  (void)place_derived(to.scene, own, derived);
 }
 
-/// Bytes of it.
+/// Bytes that go to the GPU for it.
 std::size_t own_bytes(const Resident& resident, Own own, const pipeline::Setup& from) {
   Packer measure;
   pipeline::Setup to = from;
-  pack_own(resident, own, from, measure, to);
+  pack_own(resident, own, from, measure, nullptr, to);
   return align(measure.used());
 }
 
@@ -104,11 +121,16 @@ void Lane::reserve_output() {
   output_bytes_ = bytes;
 }
 
+void Lane::reserve_derived(std::size_t bytes) {
+  if (bytes <= derived_bytes_) return;
+  derived_bytes_ = 0, derived_ = {};
+  derived_ = device_.allocate(bytes);
+  derived_bytes_ = bytes;
+}
+
 std::size_t Lane::input_bytes(const Resident& resident, const pipeline::Setup& first, Own own) {
   if (own == Own::number) return sizeof(FrameNumber);
-  const std::size_t bytes = own_bytes(resident, own, first);
-  // What moves may show more of itself in one frame than in another: a quarter more than the first one needs, and some.
-  return sizeof(FrameNumber) + sizeof(FrameArguments) + bytes + align(bytes / 4) + 1024;
+  return sizeof(FrameNumber) + sizeof(FrameArguments) + own_bytes(resident, own, first) + derived_bytes(first.scene, own);
 }
 
 void Lane::begin(const Resident& resident, const pipeline::Setup& first, const pipeline::Job& job, Own own, int capacity,
@@ -117,14 +139,16 @@ void Lane::begin(const Resident& resident, const pipeline::Setup& first, const p
   wait();
   resident_ = &resident;
   job_ = job;
-  own_ = own, capacity_ = capacity;
+  own_ = own, capacity_ = capacity, derives_ = derives(own, first.scene);
   slab_ = Slab(first, job.out, job.filter != pipeline::Filter::none);
   const auto frames = static_cast<std::size_t>(capacity);
   arguments_at_ = align(frames * sizeof(FrameNumber));
   room_from_ = arguments_at_ + (own != Own::number ? align(frames * sizeof(FrameArguments)) : 0);
+  const std::size_t owned = own != Own::number ? frames * own_bytes(resident, own, first) : 0;
   Packer given;
   if (input != nullptr) (void)packed(given, first, *input);
-  reserve_input(512 + frames * input_bytes(resident, first, own) + align(given.used()));   // 512: the two arrays' alignment
+  reserve_input(room_from_ + owned + align(given.used()));
+  reserve_derived(frames * derived_bytes(first.scene, own));
   numbers_.clear();
   used_ = room_from_;
   given_ = {};
@@ -137,15 +161,11 @@ void Lane::begin(const Resident& resident, const pipeline::Setup& first, const p
 bool Lane::add(const pipeline::Setup& setup, std::uint64_t index) {
   if (frames() == capacity_) return false;
   if (own_ != Own::number) {
-    const std::size_t bytes = own_bytes(*resident_, own_, setup);
-    if (used_ + bytes > input_bytes_) {
-      if (frames() > 0) return false;
-      reserve_input(2 * (used_ + bytes));   // one frame that is far larger than the first one was measured
-    }
     Packer packer(staged() + used_, input_memory() + used_);
     auto& arguments = reinterpret_cast<FrameArguments*>(staged() + arguments_at_)[frames()];
     write_arguments(setup, arguments);
-    pack_own(*resident_, own_, setup, packer, arguments.setup);
+    auto* const derived = static_cast<unsigned char*>(derived_.get()) + static_cast<std::size_t>(frames()) * derived_bytes(setup.scene, own_);
+    pack_own(*resident_, own_, setup, packer, derived, arguments.setup);
     used_ += align(packer.used());
   }
   if (frames() == 0) write_arguments(setup, common_);   // where frames have their own, only what is the same for all is read of these
@@ -161,7 +181,12 @@ void Lane::launch_all() {
   launch.batch.own = own_ != Own::number ? reinterpret_cast<const FrameArguments*>(input_memory() + arguments_at_) : nullptr;
   launch.batch.stride = static_cast<std::int64_t>(slab_.bytes());
   launch.batch.frames = frames();
+  launch.batch.derive = derive_for(own_);
   device_.check(runtime.copy(input_memory(), staged(), used_, Way::to_device, stream_.get()), "copying a frame's settings to the GPU");
+  if (derives_ && given_.entry == Stage::trace) {
+    launch.pass = Pass::derive;
+    device_.check(runtime.launch(launch, stream_.get()), starting(Pass::derive));
+  }
   pipeline::each_pass(common_.setup, common_.job, given_.entry != Stage::trace, [&](Pass pass) {
     launch.pass = pass;
     device_.check(runtime.launch(launch, stream_.get()), starting(pass));

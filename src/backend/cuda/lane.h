@@ -14,8 +14,8 @@ namespace tofray::backend::gpu {
 /// What the frames of a batch have for themselves.
 enum class Own {
   number,   ///< their place in the random numbers
-  moving,   ///< and what moves, the sensor's state and seed
-  scene,    ///< and all of the scene: the camera has another pose in each
+  moving,   ///< and the times at which what moves is seen, the sensor's state and seed
+  scene,    ///< and the camera's pose
 };
 
 /// What does not change from frame to frame, on the device.
@@ -32,11 +32,11 @@ class Lane {
   Lane(const Lane&) = delete;
   Lane& operator=(const Lane&) = delete;
 
-  /// Bytes that go to the GPU for each frame of a batch, measured by the first one.
+  /// Bytes that each frame of a batch takes on the GPU beside its arrays.
   [[nodiscard]] static std::size_t input_bytes(const Resident& resident, const pipeline::Setup& first, Own own);
 
   /// Starts a batch of up to `capacity` frames; waits until the last one is done.
-  /// @param first  the first frame's setup (host pointers): memory is measured by it
+  /// @param first  the first frame's setup (host pointers)
   void begin(const Resident& resident, const pipeline::Setup& first, const pipeline::Job& job, Own own, int capacity,
              const pipeline::Input* input = nullptr);
   /// Takes a frame on; what `setup` points to may change afterwards.
@@ -58,6 +58,7 @@ class Lane {
 
  private:
   void reserve_input(std::size_t bytes);
+  void reserve_derived(std::size_t bytes);
   void reserve_output();
   void write_arguments(const pipeline::Setup& setup, FrameArguments& out) const;
   void place(void* base);
@@ -71,9 +72,9 @@ class Lane {
   int block_size_;
   Stream stream_;
   Event begin_, end_;
-  DeviceMemory input_, output_;
+  DeviceMemory input_, output_, derived_;
   PinnedMemory staged_, received_;
-  std::size_t input_bytes_ = 0, output_bytes_ = 0;
+  std::size_t input_bytes_ = 0, output_bytes_ = 0, derived_bytes_ = 0;
   Slab slab_;
   // the batch
   const Resident* resident_ = nullptr;
@@ -82,6 +83,7 @@ class Lane {
   bool submitted_ = false, timed_ = false;
   Own own_ = Own::number;
   int capacity_ = 0;
+  bool derives_ = false;
   std::size_t arguments_at_ = 0, room_from_ = 0, used_ = 0;
   std::vector<FrameNumber> numbers_;
   FrameArguments common_{};

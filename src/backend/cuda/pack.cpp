@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <type_traits>
 #include <vector>
 
 #include "backend/cuda/pixel.h"
@@ -14,23 +15,9 @@ namespace {
 
 std::size_t count_of(std::int32_t number) { return static_cast<std::size_t>(number); }
 
-template <class Forms>
-Forms packed(Packer& packer, const Forms& from) {
-  Forms to = from;
-  to.planes = packer.put(from.planes, count_of(from.plane_count));
-  to.spheres = packer.put(from.spheres, count_of(from.sphere_count));
-  to.boxes = packer.put(from.boxes, count_of(from.box_count));
-  to.triangles = packer.put(from.triangles, count_of(from.triangle_count));
-  return to;
-}
-
-/// An array of forms, and what each points to.
-template <class Forms>
-const Forms* packed(Packer& packer, const Forms* from, std::int32_t count) {
-  if (from == nullptr) return nullptr;
-  std::vector<Forms> to;
-  for (std::int32_t i = 0; i < count; ++i) to.push_back(packed(packer, from[i]));
-  return packer.put(static_cast<const Forms*>(to.data()), to.size());
+template <class... T>
+void pack_bodies(shape::List<T...>, Packer& packer, const scene::Group& from, scene::Group& to) {
+  ((to.bodies.of<T>().at = packer.put(from.bodies.of<T>().at, count_of(from.bodies.of<T>().count))), ...);
 }
 
 void pack_phasors(Packer& packer, std::int32_t lights, const camera::PhasorView& from, camera::PhasorView& to) {
@@ -92,17 +79,20 @@ void pack_raw_frames(Packer& packer, const pipeline::Setup& from, camera::Sensor
   to.frame = packer.put(static_cast<const camera::RawFrameView*>(frames.data()), frames.size());
 }
 
-void pack_still(Packer& packer, const scene::SceneView& from, scene::SceneView& to) {
-  to.camera_still = packed(packer, from.camera_still);
-  to.light_still = packed(packer, from.light_still, from.lights);
-  to.sun_still = packed(packer, from.sun_still);
-}
-
-void pack_moving(Packer& packer, const scene::SceneView& from, scene::SceneView& to) {
-  to.facets = packer.put(from.facets, count_of(from.facet_count));
-  to.camera_moving = packed(packer, from.camera_moving, from.slots);
-  to.light_moving = packed(packer, from.light_moving, from.slots * from.lights);
-  to.sun_moving = packed(packer, from.sun_moving, from.slots);
+void pack_scene(Packer& packer, const scene::SceneView& from, scene::SceneView& to) {
+  pack_bodies(shape::Shapes{}, packer, from.still, to.still);
+  pack_bodies(shape::Shapes{}, packer, from.moving, to.moving);
+  to.materials = packer.put(from.materials, count_of(from.material_count));
+  to.light_positions = packer.put(from.light_positions, count_of(from.lights));
+  scene::SceneView still = from;
+  still.slots = 0;   // what moves is derived there for each frame, and with it the facets of all
+  scene::each_derived(still, scene::Derive::all, [&](auto*& array, std::size_t count) {
+    array = const_cast<std::remove_reference_t<decltype(array)>>(packer.put(array, count));
+  });
+  to.still.derived = still.still.derived;
+  to.facets = still.facets;
+  to.moving.derived = {};
+  to.slot_times = nullptr;
 }
 
 }  // namespace tofray::backend::gpu

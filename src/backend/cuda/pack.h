@@ -39,8 +39,7 @@ class Packer {
 void pack_camera(Packer& packer, const pipeline::Setup& from, pipeline::Setup& to);
 /// The sequence alone: its gates turn where the sensor drifts.
 void pack_raw_frames(Packer& packer, const pipeline::Setup& from, camera::SensorView& to);
-/// What stands still, and what moves with all facets. `to` is a copy of `from` and gets other pointers.
-void pack_still(Packer& packer, const scene::SceneView& from, scene::SceneView& to);
-void pack_moving(Packer& packer, const scene::SceneView& from, scene::SceneView& to);
+/// The scene's shapes and materials, and what is derived of those that stand still. `to` is a copy of `from` and gets other pointers.
+void pack_scene(Packer& packer, const scene::SceneView& from, scene::SceneView& to);
 
 }  // namespace tofray::backend::gpu

@@ -52,7 +52,7 @@ struct WarpWalk {
 
  private:
   TOFRAY_FN std::uint32_t vote() const {
-    return warp.vote([&](int lane) { return base + lane < count && trace::can_meet(forms[base + lane], *within); });
+    return warp.vote([&](int lane) { return base + lane < count && can_meet(forms[base + lane], *within); });
   }
 };
 
@@ -61,8 +61,17 @@ template <class Warp>
 struct WarpCulled {
   Warp& warp;
   const flow::Bounds* within;
-  template <class Form>
-  TOFRAY_FN WarpWalk<Warp, Form> walk(const Form* forms, int count) const { return {warp, forms, count, -warp_size, within, 0}; }
+  template <class T>
+  TOFRAY_FN WarpWalk<Warp, typename T::Form> walk(const scene::FormsOf<T>& forms) const {
+    return {warp, forms.at, forms.count, -warp_size, within, 0};
+  }
+  TOFRAY_FN bool any(const scene::Forms& forms) const { return any(shape::Shapes{}, forms); }
+
+ private:
+  template <class... T>
+  TOFRAY_FN bool any(shape::List<T...>, const scene::Forms& forms) const {
+    return (walk(forms.of<T>()).more() || ...);
+  }
 };
 
 /// Which forms a patch can meet, from the camera and from the light that is looked at now.
@@ -129,6 +138,11 @@ template <bool can_move, class Warp>
 TOFRAY_FN void run_pixel(const Setup& s, const Job& job, Warp& warp, int patch, int lane) {
   PixelWalk<can_move, Warp> walk(s, job, warp, patch, lane);
   pipeline::run_pipeline<float>(s, job, walk);
+}
+
+/// Unit number `unit` of what is derived of a frame's scene.
+TOFRAY_FN void run_derive(const Setup& s, scene::Derive what, int unit) {
+  if (unit < scene::unit_count(s.scene, what)) scene::derive(s.scene, what, unit);
 }
 
 /// What came from elsewhere to depth, and the passes over images: pixel number `index`.

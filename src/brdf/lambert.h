@@ -1,0 +1,20 @@
+// SPDX-FileCopyrightText: 2026 The tofray authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "brdf/common.h"
+
+namespace tofray::brdf {
+
+/// Lambert: f_r = ρ/π in every direction.                                                                  [theory: eq. 2.3]
+struct Lambert {
+  template <class Said>
+  static MaterialView view(const Said& material) {
+    return {static_cast<float>(material.diffuse), {}, 0};
+  }
+  template <class F>
+  TOFRAY_FN static F f_r(const Finish<F>& of, const Cosines<F>&) {
+    return of.reflectivity * F(per_pi);
+  }
+};
+
+}  // namespace tofray::brdf

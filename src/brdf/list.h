@@ -1,0 +1,58 @@
+// SPDX-FileCopyrightText: 2026 The tofray authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "brdf/lambert.h"
+#include "brdf/phong.h"
+#include "num/list.h"
+
+/// All BRDFs, and where they are evaluated. No other file but a BRDF's own names it.
+namespace tofray::brdf {
+
+/// In the order of Material::Brdf. The first one needs no numbers but the reflectivity.
+using Brdfs = num::List<Lambert, Phong>;
+
+template <class... T, class Said>
+MaterialView view_of(num::List<T...>, const Said& material) {
+  MaterialView out{};
+  const int which = static_cast<int>(material.brdf);
+  ((num::place_in<T>(Brdfs{}) == which ? void(out = T::view(material)) : void()), ...);
+  out.brdf = which;
+  return out;
+}
+/// Of a material of the public structs.
+template <class Said>
+MaterialView view_of(const Said& material) {
+  return view_of(Brdfs{}, material);
+}
+
+/// Diffuse and specular shares as other renderers give them: Phong where there is a lobe.
+template <class F>
+TOFRAY_FN Finish<F> lambert_and_lobe(F diffuse, F specular, F exponent) {
+  const num::Int<F> phong(num::place_in<Phong>(Brdfs{}));
+  return {diffuse + specular, {diffuse, specular, exponent}, num::select(specular > F(0.0f), phong, num::Int<F>(0))};
+}
+
+/// The lanes whose surfaces have the BRDF T.
+template <class T, class F>
+TOFRAY_FN void evaluate(const Finish<F>& of, const Cosines<F>& cosine, F& f_r) {
+  constexpr int place = num::place_in<T>(Brdfs{});
+  if constexpr (place > 0) {
+    const auto its = of.brdf == num::Int<F>(place);
+    if (num::any(its)) f_r = num::select(its, T::f_r(of, cosine), f_r);
+  }
+}
+
+template <class... T, class F>
+TOFRAY_FN void evaluate_each(num::List<T...>, const Finish<F>& of, const Cosines<F>& cosine, F& f_r) {
+  (evaluate<T>(of, cosine, f_r), ...);
+}
+
+/// f_r [1/sr]: how a surface sends light on.                                                       [theory: eq. 2.3, 2.4]
+template <class F>
+TOFRAY_FN F reflection(const Finish<F>& of, const Cosines<F>& cosine) {
+  F f_r = Lambert::f_r(of, cosine);
+  if (num::any(of.brdf > num::Int<F>(0))) evaluate_each(Brdfs{}, of, cosine, f_r);
+  return f_r;
+}
+
+}  // namespace tofray::brdf

@@ -1,0 +1,98 @@
+// SPDX-FileCopyrightText: 2026 The tofray authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "brdf/list.h"
+#include "shape/list.h"
+
+/// The scene as kernels see it: shapes once, in the world's frame, and what is derived from them for each point that rays leave.
+namespace tofray::scene {
+
+using shape::Bounds;
+using shape::Facet;
+
+/// A shape in the world at time 0, and what its hits name.
+template <class T>
+struct Body {
+  T shape;
+  shape::Vec velocity;                ///< [m/s]
+  std::int32_t facet;                 ///< the first of its facets, counted within its group
+  std::int32_t object, material;
+};
+
+template <class T>
+struct BodiesOf {
+  const Body<T>* at;
+  std::int32_t count;
+};
+template <class T>
+struct FormsOf {
+  const typename T::Form* at;
+  std::int32_t count;
+};
+template <class T>
+struct AlongsOf {
+  const typename T::Along* at;
+  std::int32_t count;
+};
+
+using Bodies = shape::ByShape<BodiesOf>;
+/// One group seen from one point: the camera or a light.
+using Forms = shape::ByShape<FormsOf>;
+/// … and for parallel light.
+using Alongs = shape::ByShape<AlongsOf>;
+
+/// Where a group's forms are.
+template <class T>
+struct DerivedOf {
+  typename T::Form* forms;            ///< [slot][eye][body] eye 0: the camera; then the lights
+  typename T::Along* along;           ///< [slot][body]
+};
+
+/// Objects that stand still (one slot), or that move (a slot for each raw frame).
+struct Group {
+  Bodies bodies;
+  shape::ByShape<DerivedOf> derived;
+  std::int32_t body_count, facet_count;
+
+  TOFRAY_FN Forms seen_from(int slot, int eye, int eyes) const { return seen_from(shape::Shapes{}, slot * eyes + eye); }
+  TOFRAY_FN Alongs seen_along(int slot) const { return seen_along(shape::Shapes{}, slot); }
+
+ private:
+  template <class... T>
+  TOFRAY_FN Forms seen_from(shape::List<T...>, int row) const {
+    Forms out;
+    ((out.of<T>() = {derived.of<T>().forms + row * bodies.of<T>().count, bodies.of<T>().count}), ...);
+    return out;
+  }
+  template <class... T>
+  TOFRAY_FN Alongs seen_along(shape::List<T...>, int row) const {
+    Alongs out;
+    ((out.of<T>() = {derived.of<T>().along + row * bodies.of<T>().count, bodies.of<T>().count}), ...);
+    return out;
+  }
+};
+
+/// The frozen scene of one frame.
+struct SceneView {
+  Group still, moving;
+  Facet* facets;                     ///< still ones, then those of slot 0, 1 …
+  const brdf::MaterialView* materials;
+  const shape::Vec* light_positions; ///< [light] camera frame [m]
+  const double* slot_times;          ///< [slot] [s]
+  shape::Frame camera;               ///< where the camera stands
+  shape::Vec toward_sun;             ///< unit vector, camera frame
+  std::int32_t slots;                ///< 0: nothing moves; else one for each raw frame
+  std::int32_t lights;
+  std::int32_t has_sun;              ///< light comes from one direction, too
+  std::int32_t material_count;
+  std::int32_t any_other_brdf;       ///< than Lambert's;
+
+  TOFRAY_FN Forms camera_still() const { return still.seen_from(0, 0, 1 + lights); }
+  TOFRAY_FN Forms camera_moving(int slot) const { return moving.seen_from(slot, 0, 1 + lights); }
+  TOFRAY_FN Forms light_still(int light) const { return still.seen_from(0, 1 + light, 1 + lights); }
+  TOFRAY_FN Forms light_moving(int slot, int light) const { return moving.seen_from(slot, 1 + light, 1 + lights); }
+  TOFRAY_FN Alongs sun_still() const { return still.seen_along(0); }
+  TOFRAY_FN Alongs sun_moving(int slot) const { return moving.seen_along(slot); }
+};
+
+}  // namespace tofray::scene

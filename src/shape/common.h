@@ -1,0 +1,113 @@
+// SPDX-FileCopyrightText: 2026 The tofray authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "flow/flow.h"
+#include "shape/vector.h"
+
+/// What the shapes share.
+///
+/// For rays P = o + t·d of one common origin o the inverse range w = 1/t along d is linear in d for planes and triangles, and so
+/// are the edges of a triangle and the sides of a box: no division is left in the test, and the nearest surface is the largest w.
+/// A shape's Form holds what such rays need to know of it, in single precision; seen_from() makes it in double. Coordinates are the
+/// camera frame's; a form's are relative to o. Each form knows the facet that its hit names, and the object it belongs to.
+namespace tofray::shape {
+
+/// Rectangle that holds every direction in which a shape can be hit; infinite where it reaches z <= 0.
+using flow::Bounds;
+using flow::Ray;
+using flow::Surface;
+using num::Int;
+using num::Mask;
+
+/// Stands for an infinite inverse length: d·huge is finite for every direction, and 0·huge is 0.
+TOFRAY_CONSTANT double huge = 1e30;
+
+TOFRAY_FN float single(double a) { return static_cast<float>(a); }
+TOFRAY_FN void copy(const Vec& from, float to[3]) { to[0] = single(from.x), to[1] = single(from.y), to[2] = single(from.z); }
+TOFRAY_FN double inverse(double a) { return ::fabs(a) < 1 / huge ? ::copysign(huge, a) : 1 / a; }
+
+TOFRAY_FN Bounds unbounded() { return {-3.402823466e38f, 3.402823466e38f, -3.402823466e38f, 3.402823466e38f}; }
+/// Of what no ray hits.
+TOFRAY_FN Bounds nowhere() { return {1, -1, 1, -1}; }
+
+/// A little wider than computed, so that rounding in single precision never cuts a hit off.
+TOFRAY_FN float beyond(double a, double sign) { return single(a + sign * (1e-5 + 1e-5 * ::fabs(a))); }
+
+TOFRAY_FN Bounds bounds_of_points(const Vec* points, int count) {
+  double low[2] = {1e300, 1e300}, high[2] = {-1e300, -1e300};
+  for (int i = 0; i < count; ++i) {
+    if (points[i].z < 1e-6 * length(points[i])) return unbounded();
+    for (int k = 0; k < 2; ++k) {
+      const double q = points[i][k] / points[i].z;
+      low[k] = q < low[k] ? q : low[k], high[k] = q > high[k] ? q : high[k];
+    }
+  }
+  return {beyond(low[0], -1), beyond(high[0], 1), beyond(low[1], -1), beyond(high[1], 1)};
+}
+
+TOFRAY_FN bool overlap(const Bounds& a, const Bounds& b) {
+  return (a.x_min <= b.x_max) & (a.x_max >= b.x_min) & (a.y_min <= b.y_max) & (a.y_max >= b.y_min);
+}
+
+/// False where no ray of the rectangle has d·m >= 0: the largest value of x·m0 + y·m1 + m2 over it, and room for rounding.
+TOFRAY_FN bool reaches(const float* m, const Bounds& r) {
+  const float largest = (m[0] > 0 ? r.x_max : r.x_min) * m[0] + (m[1] > 0 ? r.y_max : r.y_min) * m[1] + m[2];
+  const float x = num::max(num::abs(r.x_min), num::abs(r.x_max)), y = num::max(num::abs(r.y_min), num::abs(r.y_max));
+  return largest + 1e-5f * (x * num::abs(m[0]) + y * num::abs(m[1]) + num::abs(m[2])) >= 0;
+}
+
+template <class F>
+TOFRAY_FN F dot(const Ray<F>& ray, const float* m) {
+  return num::fma(ray.x, F(m[0]), num::fma(ray.y, F(m[1]), ray.z * F(m[2])));
+}
+
+/// P·m + offset in the camera frame.
+template <class F>
+TOFRAY_FN F affine(const Surface<F>& p, const float* m, float offset) {
+  return num::fma(p.x, F(m[0]), num::fma(p.y, F(m[1]), num::fma(p.z, F(m[2]), F(offset))));
+}
+
+/// Where light lands: which way the surface faces there, what it belongs to, what it is made of. (All of a camera frame.)
+struct Facet {
+  float number[7];              ///< flat: the unit normal; else what its shape's normal() reads
+  std::int32_t curved;          ///< 0: flat; else 1 + the shape's place in the list
+  std::int32_t object, material;
+};
+constexpr int facet_words = sizeof(Facet) / sizeof(float);
+
+/// A flat facet's numbers. (Adding 0 leaves one kind of zero.)
+TOFRAY_FN void face(const Vec& normal, Facet& out) {
+  copy(normal, out.number);
+  for (int k = 0; k < 3; ++k) out.number[k] += 0.0f;
+  out.curved = 0;
+}
+
+/// The columns of each lane's facet. A pack that sees a single one reads it once.
+template <class F>
+struct FacetColumns {
+  const Facet* table;
+  Int<F> facet;
+  bool same;
+
+  TOFRAY_FN FacetColumns(const Facet* facets, Int<F> which)
+      : table(facets), facet(which * Int<F>(facet_words)), same(num::all(which == Int<F>(num::first(which)))) {}
+  TOFRAY_FN const Facet& first() const { return *reinterpret_cast<const Facet*>(words() + num::first(facet)); }
+  TOFRAY_FN F number(int c) const {
+    const float* column = reinterpret_cast<const float*>(table) + c;
+    return same ? F(column[num::first(facet)]) : num::gather(column, facet);
+  }
+  TOFRAY_FN Int<F> curved() const { return whole(7); }
+  TOFRAY_FN Int<F> object() const { return whole(8); }
+  TOFRAY_FN Int<F> material() const { return whole(9); }
+
+ private:
+  TOFRAY_FN const std::int32_t* words() const { return reinterpret_cast<const std::int32_t*>(table); }
+  TOFRAY_FN Int<F> whole(int c) const { return same ? Int<F>(words()[num::first(facet) + c]) : num::gather(words() + c, facet); }
+};
+
+template <class F>
+struct Direction {
+  F x, y, z;
+};
+
+}  // namespace tofray::shape

@@ -1,0 +1,42 @@
+// SPDX-FileCopyrightText: 2026 The tofray authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "num/list.h"
+#include "shape/box.h"
+#include "shape/plane.h"
+#include "shape/sphere.h"
+#include "shape/triangle.h"
+
+/// All shapes, and what everything else asks of one. No other file but a shape's own names it.
+///
+///     a shape T        its numbers in double precision: in the world, or in the camera's frame
+///     T::placed        … out of the public struct
+///     in_frame(T, …)   … as seen in another frame
+///     T::Form          what rays of a common origin need; seen_from(T, origin) makes it, the camera being at 0
+///     T::Along         what light from one direction needs; seen_along(T, direction) makes it
+///     T::facets        how many a hit may name; facet_of(T, side, …) says which way they face
+///     T::closed        it has an inside: its forms say where its own surface is in the dark (own_blocks)
+///     T::curved        T::normal(facet, P) finds the normal of those that face_of does not make flat
+///     can_meet(Form, rectangle), inverse_range(Form, ray[, side]), blocks(Along, P, …)
+namespace tofray::shape {
+
+using num::List;
+using num::place_in;
+
+/// In the order of the public Object's variant. Of two surfaces at one place the first shape's is seen.
+using Shapes = List<Plane, Sphere, Box, Triangle>;
+
+/// One Each<T> for every shape T.
+template <template <class> class Each, class List>
+struct OneForEach;
+template <template <class> class Each, class... T>
+struct OneForEach<Each, List<T...>> : Each<T>... {};
+template <template <class> class Each>
+struct ByShape : OneForEach<Each, Shapes> {
+  template <class T>
+  TOFRAY_FN Each<T>& of() { return *this; }
+  template <class T>
+  TOFRAY_FN const Each<T>& of() const { return *this; }
+};
+
+}  // namespace tofray::shape

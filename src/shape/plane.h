@@ -1,0 +1,75 @@
+// SPDX-FileCopyrightText: 2026 The tofray authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "shape/common.h"
+
+/// Plane: n·(P − p) = 0, both sides reflect.
+namespace tofray::shape {
+
+/// w = d·m; hit where w > horizon (|n·d| >= 1e-6).
+struct PlaneForm {
+  float m[3];
+  float horizon;
+  std::int32_t facet, object;
+};
+
+/// For light from the unit direction s: a point P is in shadow where the ray P + t·s hits, at t = P·m + c.
+struct PlaneAlong {
+  float m[3], c;
+  std::int32_t object;
+};
+
+struct Plane {
+  using Form = PlaneForm;
+  using Along = PlaneAlong;
+  static constexpr int facets = 1;
+  static constexpr bool closed = false, curved = false;
+
+  Vec point, normal;
+
+  template <class Said>
+  static Plane placed(const Said& said, const Placement& at) {
+    const Vec point = Placement::vec(said.point);
+    return {at.point(point, point), at.direction(Placement::vec(said.normal))};
+  }
+};
+
+/// Its normal is of unit length from here on.
+TOFRAY_FN Plane in_frame(const Plane& p, const Frame& frame) { return {frame.point(p.point), normalized(frame.direction(p.normal))}; }
+
+TOFRAY_FN void facet_of(const Plane& p, int, Facet& out) { face(p.normal, out); }
+
+/// m = n/(n·p). A plane through the origin is never seen.
+TOFRAY_FN PlaneForm seen_from(const Plane& p, const Vec& origin) {
+  const double distance = dot(p.normal, p.point) - dot(p.normal, origin);
+  PlaneForm form{};
+  if (!(::fabs(distance) > 1 / huge)) return form;
+  copy(inverse(distance) * p.normal, form.m);
+  form.horizon = single(1e-6 * ::fabs(inverse(distance)));
+  return form;
+}
+
+TOFRAY_FN bool can_meet(const PlaneForm& plane, const Bounds& r) { return reaches(plane.m, r); }
+
+template <class F>
+TOFRAY_FN F inverse_range(const PlaneForm& plane, const Ray<F>& ray) {
+  const F w = dot(ray, plane.m);
+  return num::select(w > F(plane.horizon), w, F(0.0f));
+}
+
+/// Light that travels along the plane is not stopped: t = 0.
+TOFRAY_FN PlaneAlong seen_along(const Plane& p, const Vec& s) {
+  const double along = dot(p.normal, s);
+  PlaneAlong form{};
+  if (::fabs(along) < 1e-6) return form;
+  copy((-1 / along) * p.normal, form.m);
+  form.c = single(dot(p.normal, p.point) / along);
+  return form;
+}
+
+template <class F>
+TOFRAY_FN Mask<F> blocks(const PlaneAlong& plane, const Surface<F>& p, const float*, F margin) {
+  return affine(p, plane.m, plane.c) > margin;
+}
+
+}  // namespace tofray::shape

@@ -1,0 +1,117 @@
+// SPDX-FileCopyrightText: 2026 The tofray authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "shape/common.h"
+
+/// Sphere: |P − c| = R.
+namespace tofray::shape {
+
+/// |t·d − c| = R, in the stable form: the chord's distance from the centre comes from l = c − (d·c/d·d)·d.
+struct SphereForm {
+  float c[3];
+  float radius_squared;
+  float inverse_power;        ///< 1 / (|c|² − R²); negative inside
+  std::int32_t facet, object;
+  std::int32_t inside;        ///< 1: the origin is inside the sphere
+  std::int32_t own_blocks;    ///< light's view: 1 where light and camera are on different sides of its surface
+  Bounds bounds;
+};
+
+struct SphereAlong {
+  float c[3], radius_squared;
+  std::int32_t object;
+  std::int32_t own_blocks;    ///< 1: the camera is inside
+};
+
+struct Sphere {
+  using Form = SphereForm;
+  using Along = SphereAlong;
+  static constexpr int facets = 1;
+  static constexpr bool closed = true, curved = true;
+
+  Vec center;
+  double radius;
+
+  template <class Said>
+  static Sphere placed(const Said& said, const Placement& at) {
+    const Vec center = Placement::vec(said.center);
+    return {at.point(center, center), said.radius};
+  }
+
+  /// n = (P − c)/R.
+  template <class F>
+  TOFRAY_FN static Direction<F> normal(const FacetColumns<F>& of, F x, F y, F z) {
+    const F curvature = of.number(3);
+    return {num::fma(x, curvature, of.number(0)), num::fma(y, curvature, of.number(1)), num::fma(z, curvature, of.number(2))};
+  }
+};
+
+TOFRAY_FN Sphere in_frame(const Sphere& s, const Frame& frame) { return {frame.point(s.center), s.radius}; }
+TOFRAY_FN bool inside(const Sphere& s, const Vec& p) { return dot(s.center - p, s.center - p) < s.radius * s.radius; }
+
+TOFRAY_FN void facet_of(const Sphere& s, int, Facet& out) {
+  copy((-1 / s.radius) * s.center, out.number);
+  out.number[3] = single(1 / s.radius);
+}
+
+/// Tangent planes through the origin: q = x/z on them solves (c_x − q·c_z)² = R²(1 + q²).
+TOFRAY_FN Bounds bounds_of_sphere(const Vec& c, double radius) {
+  if (c.z <= radius * 1.0001) return unbounded();
+  double low[2] = {}, high[2] = {};
+  for (int k = 0; k < 2; ++k) {
+    const double square = c.z * c.z - radius * radius;
+    const double root = radius * ::sqrt(c[k] * c[k] + square);
+    low[k] = (c[k] * c.z - root) / square, high[k] = (c[k] * c.z + root) / square;
+  }
+  return {beyond(low[0], -1), beyond(high[0], 1), beyond(low[1], -1), beyond(high[1], 1)};
+}
+
+TOFRAY_FN SphereForm seen_from(const Sphere& s, const Vec& origin) {
+  const Vec c = s.center - origin;
+  const bool within = inside(s, origin);
+  SphereForm form{};
+  copy(c, form.c);
+  form.radius_squared = single(s.radius * s.radius);
+  form.inverse_power = single(inverse(dot(c, c) - s.radius * s.radius));
+  form.inside = within;
+  form.own_blocks = within != inside(s, {0, 0, 0});
+  form.bounds = within ? unbounded() : bounds_of_sphere(c, s.radius);
+  return form;
+}
+
+TOFRAY_FN bool can_meet(const SphereForm& sphere, const Bounds& r) { return overlap(sphere.bounds, r); }
+
+/// The stable form (Hearn and Baker; Haines et al. 2019): with b = d·c and l = c − (b/a)d, a = d·d, the discriminant is
+/// a(R² − |l|²) without cancellation; q = b ± √disc with the sign of b; roots t = C/q and q/a, C = |c|² − R².
+template <class F>
+TOFRAY_FN F inverse_range(const SphereForm& sphere, const Ray<F>& ray) {
+  const F b = dot(ray, sphere.c);
+  const F k = b * (ray.inverse_length * ray.inverse_length);
+  const F lx = num::fnma(k, ray.x, F(sphere.c[0])), ly = num::fnma(k, ray.y, F(sphere.c[1])), lz = num::fnma(k, ray.z, F(sphere.c[2]));
+  const F rest = F(sphere.radius_squared) - num::fma(lx, lx, num::fma(ly, ly, lz * lz));
+  const F root = num::sqrt(ray.square * num::max(rest, F(0.0f)));
+  const F q = b + num::copy_sign(root, b);
+  const F near_w = q * F(sphere.inverse_power);
+  if (sphere.inside == 0) return num::select((rest >= F(0.0f)) & (b > F(0.0f)), near_w, F(0.0f));
+  // From inside: the far side, t = q/a where d points to the centre, C/q where it points away (q, not b: b is 0 seen from the centre).
+  return num::select(q > F(0.0f), ray.square / q, near_w);
+}
+
+TOFRAY_FN SphereAlong seen_along(const Sphere& sphere, const Vec&) {
+  SphereAlong form{};
+  copy(sphere.center, form.c);
+  form.radius_squared = single(sphere.radius * sphere.radius);
+  form.own_blocks = inside(sphere, {0, 0, 0});
+  return form;
+}
+
+template <class F>
+TOFRAY_FN Mask<F> blocks(const SphereAlong& sphere, const Surface<F>& p, const float* s, F margin) {
+  const F x = F(sphere.c[0]) - p.x, y = F(sphere.c[1]) - p.y, z = F(sphere.c[2]) - p.z;
+  const F b = num::fma(x, F(s[0]), num::fma(y, F(s[1]), z * F(s[2])));
+  const F lx = num::fnma(b, F(s[0]), x), ly = num::fnma(b, F(s[1]), y), lz = num::fnma(b, F(s[2]), z);
+  const F rest = F(sphere.radius_squared) - num::fma(lx, lx, num::fma(ly, ly, lz * lz));
+  return (rest > F(0.0f)) & (b + num::sqrt(num::max(rest, F(0.0f))) > margin);
+}
+
+}  // namespace tofray::shape
