@@ -76,6 +76,15 @@ const Table& table_of<Triangle>() {
   return rows;
 }
 
+namespace {
+template <class... T>
+std::vector<const Table& (*)()> tables_in(const std::variant<T...>*) {
+  return {&table_of<T>...};
+}
+}  // namespace
+
+std::vector<const Table& (*)()> tables_of_shapes() { return tables_in(static_cast<const decltype(Object::shape)*>(nullptr)); }
+
 template <>
 const Table& table_of<Rotation>() {
   static const Table rows =

@@ -21,6 +21,9 @@ struct Table;
 template <class T>
 const Table& table_of();
 
+/// The tables of all shapes, in the order of the variant Object::shape.
+std::vector<const Table& (*)()> tables_of_shapes();
+
 /// An enumeration, by the place of its name in the table.
 struct ChoiceSlot {
   void* at;
@@ -77,8 +80,9 @@ Slot list_slot(std::vector<T>& list) {
 template <class... T>
 Slot variant_slot(std::variant<T...>& one) {
   using One = std::variant<T...>;
+  static_assert(std::is_same_v<One, decltype(Object::shape)>, "there is one variant, and tables_of_shapes() knows its tables");
   return VariantSlot{&one,
-                     {&table_of<T>...},
+                     tables_of_shapes(),
                      [](const void* at) { return static_cast<const One*>(at)->index(); },
                      [](void* at) { return std::visit([](auto& held) -> void* { return &held; }, *static_cast<One*>(at)); },
                      [](void* at, std::size_t index) {

@@ -47,13 +47,7 @@ const Table& table_of<Camera>();
 template <>
 const Table& table_of<Material>();
 template <>
-const Table& table_of<Plane>();
-template <>
-const Table& table_of<Sphere>();
-template <>
-const Table& table_of<Box>();
-template <>
-const Table& table_of<Triangle>();
+const Table& table_of<Box>();  // the one shape with a rule; those of the others are in tables_of_shapes()
 template <>
 const Table& table_of<Rotation>();
 template <>
