@@ -33,14 +33,15 @@ struct Sphere { Vec3 center{}; double radius = 1; };
 struct Box { Vec3 min{}; Vec3 max{}; };                             ///< along the axes before its rotation
 struct Triangle { std::array<Vec3, 3> vertices{}; };
 
+struct Cylinder { Vec3 center{}; Vec3 axis{0, 1, 0}; double radius = 1; double height = 1; };   ///< with caps; the axis need not be of unit length
 /// A turn by the right-hand rule about `axis` (any length but zero).
 struct Rotation { Vec3 axis{0, 0, 1}; double angle_rad = 0; };
 
-/// One thing in the scene. Order of operations: rotation about its own centre (sphere and box: the centre; triangle: the
+/// One thing in the scene. Order of operations: rotation about its own centre (sphere, box, cylinder: the centre; triangle: the
 /// centroid; plane: its point), then the shift `position`, then velocity · t.
 struct Object {
   std::string name;
-  std::variant<Plane, Sphere, Box, Triangle> shape;
+  std::variant<Plane, Sphere, Box, Triangle, Cylinder> shape;
   int material = 0;            ///< index in Scene::materials
   Vec3 position{0, 0, 0};      ///< shift [m]
   Rotation rotation{};

@@ -81,6 +81,16 @@ template <class... T>
 std::vector<const Table& (*)()> tables_in(const std::variant<T...>*) {
   return {&table_of<T>...};
 }
+template <>
+const Table& table_of<Cylinder>() {
+  static const Table rows =
+      table<Cylinder>(number<&Cylinder::center>("center", coordinate, "halfway between its caps [m]").required(),
+                      number<&Cylinder::axis>("axis", component, "from cap to cap; any length but zero").required().direction(),
+                      number<&Cylinder::radius>("radius", {length, {base::shortest_m, 1e5}, "5 cm", true}, "[m]").required(),
+                      number<&Cylinder::height>("height", {length, {base::shortest_m, 1e5}, "20 cm", true}, "from cap to cap [m]").required());
+  return rows;
+}
+
 }  // namespace
 
 std::vector<const Table& (*)()> tables_of_shapes() { return tables_in(static_cast<const decltype(Object::shape)*>(nullptr)); }
@@ -98,7 +108,7 @@ template <>
 const Table& table_of<Object>() {
   static const Table rows =
       table<Object>(words<&Object::name>("name", "a name", "ball", "how listings call the object").absent(),
-                    one_of<&Object::shape>({"plane", "sphere", "box", "triangle"}),           // the key of the file's entry
+                    one_of<&Object::shape>({"plane", "sphere", "box", "triangle", "cylinder"}),  // the key of the file's entry
                     number<&Object::material>("", {none, {0, 2.0 * most_objects}, "0"}, ""),  // a name, or a material of its own
                     number<&Object::position>("position", coordinate, "a shift [m]"),
                     record<&Object::rotation>("rotation", "a turn about the object's own centre (of a plane: about its point)"),
@@ -215,6 +225,7 @@ std::vector<std::pair<std::string, std::string>> words_that_people_try() {
                                                             {"pose", "camera.pose"}};
   // What a camera's profile has may be meant for the scene's camera.
   for (const Key& key : camera_form().root.keys) words.emplace_back(key.name, "camera." + key.name);
+                                                            {"cylinders", "objects"},
   return words;
 }
 

@@ -3,6 +3,7 @@
 #pragma once
 #include "num/list.h"
 #include "shape/box.h"
+#include "shape/cylinder.h"
 #include "shape/plane.h"
 #include "shape/sphere.h"
 #include "shape/triangle.h"
@@ -24,7 +25,7 @@ using num::List;
 using num::place_in;
 
 /// In the order of the public Object's variant. Of two surfaces at one place the first shape's is seen.
-using Shapes = List<Plane, Sphere, Box, Triangle>;
+using Shapes = List<Plane, Sphere, Box, Triangle, Cylinder>;
 
 /// One Each<T> for every shape T.
 template <template <class> class Each, class List>

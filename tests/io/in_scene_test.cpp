@@ -107,6 +107,17 @@ TEST(scene, reads_every_kind_of_object_in_si_units) {
   EXPECT_EQ(scene.objects[3].name, "sail");
 }
 
+TEST(scene, reads_cylinders) {
+  const Scene scene = io::scene_from_text("objects: [cylinder: {center: [0, 0, 1], axis: [0, 2, 0], radius: 5 cm, height: 20 cm, reflectivity: 0.5}]", "s.yaml");
+  const auto& cylinder = std::get<Cylinder>(scene.objects[0].shape);
+  EXPECT_EQ(cylinder.center, (Vec3{0, 0, 1}));
+  EXPECT_EQ(cylinder.axis, (Vec3{0, 2, 0}));
+  EXPECT_EQ(cylinder.radius, 0.05);
+  EXPECT_EQ(cylinder.height, 0.2);
+  EXPECT_TRUE(has(refusal("objects: [cylinder: {center: [0, 0, 1], axis: [0, 0, 0], radius: 1, height: 1, reflectivity: 0.5}]"), "axis has no length"));
+  EXPECT_TRUE(has(refusal("objects: [cylinder: {center: [0, 0, 1], axis: [0, 1, 0], radius: 1, reflectivity: 0.5}]"), "height"));
+}
+
 TEST(scene, may_be_empty) {
   EXPECT_EQ(io::scene_from_text("objects: []", "s.yaml").objects.size(), 0U);
   EXPECT_TRUE(has(refusal("{}"), "lacks the key \"objects\""));

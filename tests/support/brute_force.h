@@ -70,6 +70,25 @@ inline Span span(const shape::Triangle& t, const Vec3& o, const Vec3& d) {
   return out;
 }
 
+inline Span span(const shape::Cylinder& c, const Vec3& o, const Vec3& d) {
+  const Vec3 axis = vec3(c.axis), s = o - vec3(c.center), across = s - base::dot(s, axis) * axis, e = d - base::dot(d, axis) * axis;
+  const double infinite = std::numeric_limits<double>::infinity(), a = base::dot(e, e), along = base::dot(d, axis), at = base::dot(s, axis);
+  const double distance = a > 0 ? base::length(across - (base::dot(across, e) / a) * e) : base::length(across);
+  Span out{-infinite, infinite, std::abs(1 - distance / c.radius)};
+  if (distance > c.radius || (along == 0 && std::abs(at) > c.half)) return {1, 0, out.clearance};
+  if (a > 0) {
+    const double b = base::dot(across, e) / a, chord = std::sqrt((c.radius - distance) * (c.radius + distance) / a);
+    out.enter = -b - chord, out.leave = -b + chord;
+  }
+  if (along != 0) {
+    const double one = (-c.half - at) / along, other = (c.half - at) / along;
+    out.enter = std::fmax(out.enter, std::fmin(one, other)), out.leave = std::fmin(out.leave, std::fmax(one, other));
+  }
+  const double size = std::fmin(c.radius, c.half), slant = std::fmax(std::abs(along), std::sqrt(a)) / base::length(d);
+  out.clearance = std::fmin(out.clearance, slant * std::abs(out.leave - out.enter) * base::length(d) / size);
+  return out;
+}
+
 template <class... T>
 std::vector<Span> spans(shape::List<T...>, const scene::FrozenScene& frozen, const Vec3& o, const Vec3& d) {
   std::vector<Span> out;

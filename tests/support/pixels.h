@@ -48,7 +48,7 @@ inline Camera lit_camera(int width = 1, int height = 1, double focal_px = 200) {
   return camera;
 }
 
-inline Object object(const std::variant<Plane, Sphere, Box, Triangle>& shape, int material = 0) {
+inline Object object(const decltype(Object::shape)& shape, int material = 0) {
   Object out;
   out.shape = shape;
   out.material = material;

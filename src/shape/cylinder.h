@@ -1,0 +1,160 @@
+// SPDX-FileCopyrightText: 2026 The tofray authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "shape/common.h"
+
+/// Cylinder with caps: within R of the line through c along the unit vector a, and within half of c along a.
+namespace tofray::shape {
+
+/// In axes u, v across the cylinder, u toward its line, and a along it: the line is at (line, 0), its side where
+/// (t·d_u − line)² + (t·d_v)² = R². The caps are a slab as a box has.
+struct CylinderForm {
+  float u[3], v[3], a[3];
+  float line, radius_squared;
+  float power, inverse_power;   ///< C = line² − R², and 1/C; negative within the side, however long
+  float near_scale, near_offset, far_scale[2];
+  std::int32_t facet, object;   ///< facet of the side; that of the caps follows
+  std::int32_t within_side;     ///< 1: the origin is nearer to the line than R
+  std::int32_t inside;          ///< 1: the origin is inside the cylinder: it sees the far side
+  std::int32_t own_blocks;      ///< light's view: 1 where light and camera are on different sides of its surface
+  Bounds bounds;
+};
+
+/// In axes u, v across the cylinder, u the way of the light, and a along it, from the centre: p_u = P·u + offset[0] and so on.
+struct CylinderAlong {
+  float u[3], v[3], a[3], offset[3];
+  float radius_squared, half;
+  float inverse_u, inverse_a;
+  std::int32_t object;
+  std::int32_t own_blocks;      ///< 1: the camera is inside
+};
+
+struct Cylinder {
+  using Form = CylinderForm;
+  using Along = CylinderAlong;
+  static constexpr int facets = 2;
+  static constexpr bool closed = true, curved = true;
+
+  Vec center, axis;
+  double radius, half;
+
+  template <class Said>
+  static Cylinder placed(const Said& said, const Placement& at) {
+    const Vec center = Placement::vec(said.center);
+    return {at.point(center, center), normalized(at.direction(Placement::vec(said.axis))), said.radius, 0.5 * said.height};
+  }
+
+  /// Of its side: n = ((P − c) − a·((P − c)·a))/R.
+  template <class F>
+  TOFRAY_FN static Direction<F> normal(const FacetColumns<F>& of, F x, F y, F z) {
+    const F curvature = of.number(3), ax = of.number(4), ay = of.number(5), az = of.number(6);
+    const F along = num::fma(x, ax, num::fma(y, ay, z * az));
+    return {num::fma(num::fnma(along, ax, x), curvature, of.number(0)), num::fma(num::fnma(along, ay, y), curvature, of.number(1)),
+            num::fma(num::fnma(along, az, z), curvature, of.number(2))};
+  }
+};
+
+TOFRAY_FN Cylinder in_frame(const Cylinder& c, const Frame& frame) {
+  return {frame.point(c.center), frame.direction(c.axis), c.radius, c.half};
+}
+
+/// What of p is across the cylinder.
+TOFRAY_FN Vec across(const Cylinder& c, const Vec& p) { return p - dot(p, c.axis) * c.axis; }
+TOFRAY_FN bool inside(const Cylinder& c, const Vec& p) {
+  const Vec q = p - c.center, side = across(c, q);
+  return dot(side, side) < c.radius * c.radius && ::fabs(dot(q, c.axis)) < c.half;
+}
+/// The direction of p across the cylinder; any one where p has none.
+TOFRAY_FN Vec way_across(const Cylinder& c, const Vec& p) {
+  const Vec side = across(c, p);
+  if (length(side) > 1e-12 * length(p)) return normalized(side - dot(side, c.axis) * c.axis);
+  const double x = ::fabs(c.axis.x), y = ::fabs(c.axis.y), z = ::fabs(c.axis.z);
+  return normalized(cross(c.axis, x <= y && x <= z ? Vec{1, 0, 0} : y <= z ? Vec{0, 1, 0} : Vec{0, 0, 1}));
+}
+
+TOFRAY_FN void facet_of(const Cylinder& c, int side, Facet& out) {
+  if (side == 1) {
+    face(c.axis, out);
+    return;
+  }
+  copy((-1 / c.radius) * across(c, c.center), out.number);
+  out.number[3] = single(1 / c.radius);
+  copy(c.axis, out.number + 4);
+}
+
+TOFRAY_FN CylinderForm seen_from(const Cylinder& c, const Vec& origin) {
+  CylinderForm form{};
+  const Vec center = c.center - origin, u = way_across(c, center), v = cross(c.axis, u);
+  const double line = dot(center, u), at = dot(center, c.axis), power = (line - c.radius) * (line + c.radius);
+  copy(u, form.u), copy(v, form.v), copy(c.axis, form.a);
+  form.line = single(line), form.radius_squared = single(c.radius * c.radius);
+  form.power = single(power), form.inverse_power = single(inverse(power));
+  form.within_side = power < 0;
+  const double low = at - c.half, high = at + c.half;
+  const bool between = low < 0 && high > 0;
+  const double near_side = low >= 0 ? low : high, far_side = low >= 0 ? high : low;
+  // Seen from the very plane of a cap, the slab is where the axis points away from it: the sign does not come from a zero.
+  form.near_scale = between ? 0 : single(low >= 0 ? inverse(::fabs(low)) : -inverse(::fabs(high)));
+  form.near_offset = between ? single(huge) : 0;
+  form.far_scale[0] = single(inverse(far_side));
+  form.far_scale[1] = between ? single(inverse(near_side)) : form.far_scale[0];
+  form.inside = inside(c, origin);
+  form.own_blocks = (form.inside != 0) != inside(c, {0, 0, 0});
+  Vec corners[8] = {};   // of a box round it
+  for (int i = 0; i < 8; ++i) {
+    corners[i] = center + ((i & 1 ? 1 : -1) * c.radius) * u + ((i & 2 ? 1 : -1) * c.radius) * v + ((i & 4 ? 1 : -1) * c.half) * c.axis;
+  }
+  form.bounds = form.inside != 0 ? unbounded() : bounds_of_points(corners, 8);
+  return form;
+}
+
+TOFRAY_FN bool can_meet(const CylinderForm& cylinder, const Bounds& r) { return overlap(cylinder.bounds, r); }
+
+/// With A = d_u² + d_v², b = d_u·line, C = line² − R² the discriminant b² − A·C is R²·d_u² − C·d_v² without cancellation of large terms;
+/// q = b ± √disc with the sign of b; roots t = C/q and q/A. `side` is 0 for the side, 1 for the caps.
+template <class F>
+TOFRAY_FN F inverse_range(const CylinderForm& c, const Ray<F>& ray, Int<F>& side) {
+  const F u = dot(ray, c.u), v = dot(ray, c.v), a = dot(ray, c.a);
+  const F rest = num::fnma(F(c.power) * v, v, F(c.radius_squared) * u * u);
+  const F b = u * F(c.line);
+  const F q = b + num::copy_sign(num::sqrt(num::max(rest, F(0.0f))), b);
+  const F first = q * F(c.inverse_power), second = num::fma(u, u, v * v) / q;
+  const F cap_in = num::fma(a, F(c.near_scale), F(c.near_offset)), cap_out = num::max(a * F(c.far_scale[0]), a * F(c.far_scale[1]));
+  F side_in = F(2e30f), side_out = num::select(q > F(0.0f), second, first);
+  if (c.within_side == 0) {
+    const auto met = (rest >= F(0.0f)) & (b > F(0.0f));
+    side_in = num::select(met, first, F(0.0f)), side_out = num::select(met, second, F(2e30f));
+  }
+  const F leave = num::max(side_out, cap_out);
+  if (c.inside != 0) {
+    side = num::select(cap_out > side_out, Int<F>(1), Int<F>(0));
+    return leave;
+  }
+  const F enter = num::min(side_in, cap_in);
+  side = num::select(cap_in < side_in, Int<F>(1), Int<F>(0));
+  return num::select(enter >= leave, enter, F(0.0f));
+}
+
+TOFRAY_FN CylinderAlong seen_along(const Cylinder& c, const Vec& s) {
+  CylinderAlong form{};
+  const Vec u = way_across(c, s), v = cross(c.axis, u);
+  copy(u, form.u), copy(v, form.v), copy(c.axis, form.a);
+  form.offset[0] = single(-dot(c.center, u)), form.offset[1] = single(-dot(c.center, v)), form.offset[2] = single(-dot(c.center, c.axis));
+  form.radius_squared = single(c.radius * c.radius), form.half = single(c.half);
+  form.inverse_u = single(inverse(dot(s, u))), form.inverse_a = single(inverse(dot(s, c.axis)));
+  form.own_blocks = inside(c, {0, 0, 0});
+  return form;
+}
+
+template <class F>
+TOFRAY_FN Mask<F> blocks(const CylinderAlong& c, const Surface<F>& p, const float*, F margin) {
+  const F u = affine(p, c.u, c.offset[0]), v = affine(p, c.v, c.offset[1]), a = affine(p, c.a, c.offset[2]);
+  const F rest = num::fnma(v, v, F(c.radius_squared)), chord = num::sqrt(num::max(rest, F(0.0f)));
+  const F one = (-chord - u) * F(c.inverse_u), other = (chord - u) * F(c.inverse_u);
+  const F low = (F(-c.half) - a) * F(c.inverse_a), high = (F(c.half) - a) * F(c.inverse_a);
+  const F enter = num::max(num::max(F(0.0f), num::min(one, other)), num::min(low, high));
+  const F leave = num::min(num::max(one, other), num::max(low, high));
+  return (rest > F(0.0f)) & (leave > enter + margin);
+}
+
+}  // namespace tofray::shape
