@@ -17,12 +17,13 @@ using Vec3 = std::array<double, 3>;
 
 /// How a surface sends light back, at the illumination wavelength.
 struct Material {
-  enum class Brdf { lambert, phong };
+  enum class Brdf { lambert, phong, oren_nayar };
   std::string name;            ///< empty for a material written inside an object
   Brdf brdf = Brdf::lambert;
-  double diffuse = 0.0;        ///< k_d, 0…1: Lambertian reflectivity (Lambert: the reflectivity rho)
+  double diffuse = 0.0;        ///< k_d, 0…1: Lambertian reflectivity (Lambert, Oren–Nayar: the reflectivity rho)
   double specular = 0.0;       ///< k_s, 0…1 with k_d + k_s <= 1: the Phong lobe's share (0 for Lambert)
   double exponent = 1.0;       ///< n >= 1: the Phong lobe's exponent
+  double roughness_rad = 0.0;  ///< σ, 0…π/2: Oren–Nayar's spread of the slopes of a matt surface's facets
 
   /// Share of the light that comes back at normal incidence: k_d + k_s.
   [[nodiscard]] double reflectivity() const { return diffuse + specular; }
@@ -32,8 +33,8 @@ struct Plane { Vec3 point{}; Vec3 normal{0, 0, -1}; };              ///< infinit
 struct Sphere { Vec3 center{}; double radius = 1; };
 struct Box { Vec3 min{}; Vec3 max{}; };                             ///< along the axes before its rotation
 struct Triangle { std::array<Vec3, 3> vertices{}; };
-
 struct Cylinder { Vec3 center{}; Vec3 axis{0, 1, 0}; double radius = 1; double height = 1; };   ///< with caps; the axis need not be of unit length
+
 /// A turn by the right-hand rule about `axis` (any length but zero).
 struct Rotation { Vec3 axis{0, 0, 1}; double angle_rad = 0; };
 

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include "brdf/lambert.h"
+#include "brdf/oren_nayar.h"
 #include "brdf/phong.h"
 #include "num/list.h"
 
@@ -9,7 +10,7 @@
 namespace tofray::brdf {
 
 /// In the order of Material::Brdf. The first one needs no numbers but the reflectivity.
-using Brdfs = num::List<Lambert, Phong>;
+using Brdfs = num::List<Lambert, Phong, OrenNayar>;
 
 template <class... T, class Said>
 MaterialView view_of(num::List<T...>, const Said& material) {
@@ -47,7 +48,7 @@ TOFRAY_FN void evaluate_each(num::List<T...>, const Finish<F>& of, const Cosines
   (evaluate<T>(of, cosine, f_r), ...);
 }
 
-/// f_r [1/sr]: how a surface sends light on.                                                       [theory: eq. 2.3, 2.4]
+/// f_r [1/sr]: how a surface sends light on.                                                       [theory: eq. 2.3, 2.4, 2.14]
 template <class F>
 TOFRAY_FN F reflection(const Finish<F>& of, const Cosines<F>& cosine) {
   F f_r = Lambert::f_r(of, cosine);

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 
+#include "base/constants.h"
 #include "base/limits.h"
 #include "model/rules.h"
 #include "model/tables.h"
@@ -27,9 +28,9 @@ const Table& table_of<Material>() {
   static const Table rows =
       table<Material>(
           words<&Material::name>("", "", "", ""),  // the key of the file's `materials`
-          kind<brdf>("brdf", {"lambert", "phong"}),
+          kind<brdf>("brdf", {"lambert", "phong", "oren_nayar"}),
           number<&Material::diffuse>("reflectivity", {fraction, share, "0.85"}, "share of the light that comes back, all of it diffuse")
-              .when<brdf>(lambert)
+              .when<brdf>(lambert, oren_nayar)
               .required(),
           also(number<&Material::diffuse>("diffuse", {fraction, share, "0.4"}, "k_d, the Lambertian share").when<brdf>(phong).required()),
           number<&Material::specular>("specular", {fraction, share, "0.3"},
@@ -38,6 +39,10 @@ const Table& table_of<Material>() {
               .required(),
           number<&Material::exponent>("exponent", {none, phong_exponent, "20"}, "n of the lobe's cos^n: the larger, the shinier")
               .when<brdf>(phong)
+              .required(),
+          number<&Material::roughness_rad>("roughness", {angle, {0, 0.5 * base::pi}, "20 deg"},
+                                           "spread (1 sigma) of the slopes of the surface's facets; 0: Lambert")
+              .when<brdf>(oren_nayar)
               .required())
           .check_with(materials_send_back_no_more_than_they_get)
           .kind_may_be_missing();
@@ -76,11 +81,6 @@ const Table& table_of<Triangle>() {
   return rows;
 }
 
-namespace {
-template <class... T>
-std::vector<const Table& (*)()> tables_in(const std::variant<T...>*) {
-  return {&table_of<T>...};
-}
 template <>
 const Table& table_of<Cylinder>() {
   static const Table rows =
@@ -91,6 +91,11 @@ const Table& table_of<Cylinder>() {
   return rows;
 }
 
+namespace {
+template <class... T>
+std::vector<const Table& (*)()> tables_in(const std::variant<T...>*) {
+  return {&table_of<T>...};
+}
 }  // namespace
 
 std::vector<const Table& (*)()> tables_of_shapes() { return tables_in(static_cast<const decltype(Object::shape)*>(nullptr)); }
@@ -220,12 +225,12 @@ std::vector<std::pair<std::string, std::string>> words_that_people_try() {
                                                             {"planes", "objects"},
                                                             {"boxes", "objects"},
                                                             {"triangles", "objects"},
+                                                            {"cylinders", "objects"},
                                                             {"meshes", "objects"},
                                                             {"profile", "camera.profile"},
                                                             {"pose", "camera.pose"}};
   // What a camera's profile has may be meant for the scene's camera.
   for (const Key& key : camera_form().root.keys) words.emplace_back(key.name, "camera." + key.name);
-                                                            {"cylinders", "objects"},
   return words;
 }
 

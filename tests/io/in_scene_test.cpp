@@ -118,6 +118,16 @@ TEST(scene, reads_cylinders) {
   EXPECT_TRUE(has(refusal("objects: [cylinder: {center: [0, 0, 1], axis: [0, 1, 0], radius: 1, reflectivity: 0.5}]"), "height"));
 }
 
+TEST(scene, reads_rough_materials) {
+  const std::string around = "objects: [sphere: {center: [0, 0, 1], radius: 1, material: {brdf: oren_nayar, reflectivity: 0.5";
+  const Material one = io::scene_from_text(around + ", roughness: 30 deg}}]", "s.yaml").materials[0];
+  EXPECT_EQ(one.brdf, Material::Brdf::oren_nayar);
+  EXPECT_EQ(one.diffuse, 0.5);
+  EXPECT_NEAR(one.roughness_rad, 0.5235987756, 1e-9);
+  EXPECT_TRUE(has(refusal(around + "}}]"), "roughness"));
+  EXPECT_TRUE(has(refusal(around + ", roughness: 100 deg}}]"), "roughness is out of range"));
+}
+
 TEST(scene, may_be_empty) {
   EXPECT_EQ(io::scene_from_text("objects: []", "s.yaml").objects.size(), 0U);
   EXPECT_TRUE(has(refusal("{}"), "lacks the key \"objects\""));

@@ -1,0 +1,31 @@
+// SPDX-FileCopyrightText: 2026 The tofray authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "brdf/common.h"
+
+namespace tofray::brdf {
+
+/// Oren–Nayar, the qualitative model of 1994: a matt surface of small facets whose slopes spread by σ.              [theory: eq. 2.14]
+///
+///     f_r = ρ/π·(A + B·max(0, cos(φ_i − φ_r))·sin α·tan β),   A = 1 − σ²/(2(σ² + 0.33)),   B = 0.45·σ²/(σ² + 0.09)
+///
+/// α is the larger, β the smaller of the angles to light and camera. Without an angle: cos(φ_i − φ_r)·sin θ_i·sin θ_r is l·v − cos θ_i·cos θ_r, so
+/// that the second term is B·max(0, l·v − cos θ_i·cos θ_r)/max(cos θ_i, cos θ_r).
+struct OrenNayar {
+  template <class Said>
+  static MaterialView view(const Said& material) {
+    const double square = material.roughness_rad * material.roughness_rad;
+    const double a = 1 - 0.5 * square / (square + 0.33), b = 0.45 * square / (square + 0.09);
+    // The model sends back ρ·(A + B/2) of light that grazes, up to 1.015·ρ: beyond all of it, ρ is held.
+    const double most = 1 / (a + 0.5 * b), rho = material.diffuse < most ? material.diffuse : most;
+    return {static_cast<float>(rho), {static_cast<float>(rho * a), static_cast<float>(rho * b), 0}, 0};
+  }
+  template <class F>
+  TOFRAY_FN static F f_r(const Finish<F>& of, const Cosines<F>& cosine) {
+    const F across = num::max(num::fnma(cosine.light, cosine.view, cosine.between), F(0.0f));
+    const F larger = num::max(num::max(cosine.light, cosine.view), F(1e-6f));
+    return num::fma(of.number[1], across / larger, of.number[0]) * F(per_pi);
+  }
+};
+
+}  // namespace tofray::brdf

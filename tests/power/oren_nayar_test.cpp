@@ -1,0 +1,95 @@
+// SPDX-FileCopyrightText: 2026 The tofray authors
+// SPDX-License-Identifier: Apache-2.0
+// Oren and Nayar's qualitative model: the printed form with its angles, its limits, reciprocity and energy.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "base/vec.h"
+#include "brdf/list.h"
+#include "support/random.h"
+
+using namespace tofray;
+using namespace tofray::base;
+using tofray::test::Random;
+
+namespace {
+
+const double pi = std::acos(-1.0);
+
+double f_r(double rho, double sigma, const Vec3& to_light, const Vec3& to_camera) {
+  Material material{"rough", Material::Brdf::oren_nayar, rho, 0, 1, sigma};
+  const brdf::MaterialView m = brdf::view_of(material);
+  const flow::Finish<float> finish{m.reflectivity, {m.number[0], m.number[1], m.number[2]}, m.brdf};
+  const auto f = [](double a) { return static_cast<float>(a); };
+  return static_cast<double>(brdf::reflection(finish, {f(to_light[2]), f(to_camera[2]), f(dot(to_light, to_camera))}));
+}
+
+Vec3 at_angle(double theta, double phi) { return {std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi), std::cos(theta)}; }
+
+/// ∫ f_r cosθ dω over the hemisphere; midpoint rule over 300 × 300 cells.
+double albedo(double rho, double sigma, double light_angle) {
+  const Vec3 light = at_angle(light_angle, 0);
+  const int cells = 300;
+  double sum = 0;
+  for (int i = 0; i < cells; ++i) {
+    const double theta = (i + 0.5) / cells * pi / 2;
+    double ring = 0;
+    for (int k = 0; k < cells; ++k) ring += f_r(rho, sigma, light, at_angle(theta, (k + 0.5) / cells * 2 * pi));
+    sum += ring * std::sin(theta) * std::cos(theta);
+  }
+  return sum * (pi / 2 / cells) * (2 * pi / cells);
+}
+
+}  // namespace
+
+// The printed form. l·v and the product of the cosines are rounded to 2^-24 each; their difference is divided by the larger cosine.
+TEST(oren_nayar, is_the_printed_form_with_its_angles) {
+  Random random(1);
+  for (int i = 0; i < 100000; ++i) {
+    const double rho = random.between(0, 0.95), sigma = random.between(0, pi / 2), square = sigma * sigma;
+    const double theta_i = random.between(0, 1.5), theta_r = random.between(0, 1.5), phi = random.between(0, 2 * pi);
+    const double a = 1 - 0.5 * square / (square + 0.33), b = 0.45 * square / (square + 0.09);
+    const double alpha = std::max(theta_i, theta_r), beta = std::min(theta_i, theta_r);
+    const double expected = rho / pi * (a + b * std::max(0.0, std::cos(phi)) * std::sin(alpha) * std::tan(beta));
+    const double got = f_r(rho, sigma, at_angle(theta_i, 0), at_angle(theta_r, phi));
+    ASSERT_NEAR(got, expected, 3e-7 * (1 + 1 / std::cos(beta))) << i;
+  }
+}
+
+TEST(oren_nayar, without_roughness_is_lambert) {
+  Random random(2);
+  for (int i = 0; i < 10000; ++i) {
+    const double rho = random.uniform();
+    ASSERT_NEAR(f_r(rho, 0, at_angle(random.between(0, 1.5), 0), at_angle(random.between(0, 1.5), 1)), rho / pi, 1e-7 * rho) << i;
+  }
+}
+
+TEST(oren_nayar, is_the_same_with_light_and_camera_exchanged) {
+  Random random(3);
+  for (int i = 0; i < 10000; ++i) {
+    const Vec3 light = at_angle(random.between(0, 1.57), 0), camera = at_angle(random.between(0, 1.57), random.between(0, 6));
+    const double sigma = random.between(0, 1.5);
+    ASSERT_EQ(f_r(0.7, sigma, light, camera), f_r(0.7, sigma, camera, light)) << i;
+  }
+}
+
+// At grazing incidence the model itself sends back ρ·(A + B/2), up to 1.015·ρ at σ = 0.2; tofray holds ρ there.
+TEST(oren_nayar, sends_back_all_light_at_most) {
+  double most = 0;
+  for (const double sigma : {0.05, 0.1, 0.2, 0.3, 0.6, 1.2}) {
+    for (const double angle : {0.0, 0.7, 1.2, 1.45, 1.53, 1.56}) {
+      const double back = albedo(1, sigma, angle);
+      EXPECT_LE(back, 1 + 1e-4) << sigma << " " << angle;
+      most = std::fmax(most, back);
+    }
+    EXPECT_LT(albedo(0.5, sigma, 0), 0.5) << sigma;
+  }
+  EXPECT_GT(most, 0.98);
+}
+
+// A rough surface is brighter toward the light than away from it, and flatter than a matt one toward the rim of a full moon.
+TEST(oren_nayar, is_brighter_toward_the_light) {
+  EXPECT_GT(f_r(0.8, 0.5, at_angle(1.2, 0), at_angle(1.2, 0)), 1.5 * f_r(0.8, 0.5, at_angle(1.2, 0), at_angle(1.2, pi)));
+  EXPECT_NEAR(f_r(0.8, 0.5, at_angle(1.2, 0), at_angle(1.2, pi)), f_r(0.8, 0.5, {0, 0, 1}, {0, 0, 1}), 1e-7);
+}
