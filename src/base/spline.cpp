@@ -162,6 +162,8 @@ Spline::Spline(std::vector<double> x, std::vector<double> y, Kind kind) : kind_(
   } else {
     std::vector<double> slope = kind_ == Kind::periodic ? periodic_slopes(h, g) : not_a_knot_slopes(h, g);
     if (kind_ == Kind::limited) limit_slopes(g, slope);
+    for (double& one : slope)
+      if (!std::isfinite(one)) one = 0;
     pieces_from_slopes(slope);
   }
   area_.assign(intervals + 1, 0.0);
@@ -182,6 +184,8 @@ void Spline::pieces_from_slopes(const std::vector<double>& slope) {
     const double g = (y_[i + 1] - y_[i]) / h;
     square_[i] = (3 * g - 2 * slope[i] - slope[i + 1]) / h;
     cube_[i] = (slope[i] + slope[i + 1] - 2 * g) / (h * h);
+    // Of samples so close to each other that there is no number for what lies between them, the first one holds.
+    if (!std::isfinite(square_[i]) || !std::isfinite(cube_[i])) slope_[i] = square_[i] = cube_[i] = 0;
   }
 }
 

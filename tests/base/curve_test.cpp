@@ -108,6 +108,15 @@ TEST(curve, keeps_a_cubic_that_rises_however_its_slopes_differ) {
   for (int i = 0; i <= 350; ++i) EXPECT_NEAR(f.evaluate(-0.5 + 0.01 * i), cubic(-0.5 + 0.01 * i), 1e-13 * 27) << i;
 }
 
+// 1e-310 from sample to sample: slopes that no number holds. What is left runs between the samples all the same.
+TEST(curve, of_samples_closer_than_numbers_can_tell_has_a_value_everywhere) {
+  const ClampedCurve curve(Curve{{0, 1e-310, 1}, {1, 0.8, 0.3}}, "it");
+  for (const double x : {0.0, 5e-311, 1e-310, 1e-300, 0.1, 0.5, 0.999, 1.0}) {
+    const double y = curve.evaluate(x);
+    EXPECT_TRUE(y >= 0.3 && y <= 1) << x << " " << y;
+  }
+}
+
 TEST(curve, of_one_sample_is_a_constant_and_of_two_a_line_held_at_its_ends) {
   const ClampedCurve one({{850}, {.4}}, "a test"), two({{800, 900}, {.2, .6}}, "a test");
   for (const double x : {0.0, 850.0, 1e9}) EXPECT_EQ(one.evaluate(x), .4);
