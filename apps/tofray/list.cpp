@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "base/text.h"
+#include "base/units.h"
 #include "commands.h"
 #include "console.h"
 #include "io/array_table.h"
@@ -11,6 +12,7 @@
 #include "io/load.h"
 #include "io/reference.h"
 #include "model/lines.h"
+#include "model/tables.h"
 #include "tofray/error.h"
 
 namespace tofray::app {
@@ -74,21 +76,30 @@ io::Json list_cameras(std::string& text) {
   return json;
 }
 
+/// What a material's BRDF reads of it: numbers in SI units by the name of their member, and as files say them.
+std::string list_material(const Material& material, io::Json& json) {
+  std::string brdf, numbers;
+  for (const model::Row& row : model::table_of<Material>().rows) {
+    if (!model::applies(row, &material)) continue;
+    const model::Slot slot = model::slot_of(row, &material);
+    if (const auto* choice = std::get_if<model::ChoiceSlot>(&slot)) {
+      brdf = row.form.names.at(static_cast<std::size_t>(choice->get(choice->at)));
+      json.set(row.name(), brdf);
+    } else if (double* const* number = std::get_if<double*>(&slot)) {
+      json.set(row.name(), **number);
+      numbers += fmt::format("{}{} {}", numbers.empty() ? "" : ", ", row.key, base::quantity_text(**number, row.form.example));
+    }
+  }
+  return fmt::format("{:<11} {}\n", brdf, numbers);
+}
+
 void list_materials_of(const std::string& scene_name, io::Json& json, std::string& text) {
   const Scene scene = load_scene(scene_name);
   for (const Material& one : scene.materials) {
     if (one.name.empty()) continue;
-    const bool phong = one.brdf == Material::Brdf::phong;
-    json.push(io::Json::object()
-                  .set("name", one.name)
-                  .set("scene", scene.name)
-                  .set("brdf", phong ? "phong" : "lambert")
-                  .set("diffuse", one.diffuse)
-                  .set("specular", one.specular)
-                  .set("exponent", one.exponent));
-    text += fmt::format("{:<14} {:<18} {}", one.name, scene.name, phong ? "phong  " : "lambert");
-    text += phong ? fmt::format("  diffuse {:g}, specular {:g}, exponent {:g}\n", one.diffuse, one.specular, one.exponent)
-                  : fmt::format("  reflectivity {:g}\n", one.diffuse);
+    io::Json line = io::Json::object().set("name", one.name).set("scene", scene.name);
+    text += fmt::format("{:<14} {:<18} {}", one.name, scene.name, list_material(one, line));
+    json.push(std::move(line));
   }
 }
 

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "io/json.h"
 #include "tool.h"
 
@@ -116,6 +118,19 @@ TEST(usage, options_may_come_in_every_form) {
   ASSERT_EQ(run(with_small_sensor({"render", "-o=d", "--seed=5", "card"}), here).code, 0);
   EXPECT_EQ(files_of(folder / "a"), files_of(folder / "d"));
   EXPECT_FALSE(fs::exists(folder / "=d"));
+}
+
+TEST(list, of_materials_has_what_the_brdf_of_each_reads) {
+  const std::string text = run({"list", "materials"}).out;
+  EXPECT_TRUE(has(text, "coal           demo               lambert     reflectivity 0.08\n")) << text;
+  EXPECT_TRUE(has(text, "carrot         demo               phong       diffuse 0.5, specular 0.1, exponent 10\n")) << text;
+  const io::Json json = io::parse_json(run({"list", "materials", "--json"}).out, "list");
+  const auto named = [&](const char* name) {
+    const auto& all = *json.find("materials")->items();
+    return std::find_if(all.begin(), all.end(), [&](const io::Json& one) { return *one.find("name")->string() == name; });
+  };
+  EXPECT_NE(named("carrot")->find("exponent"), nullptr);
+  EXPECT_EQ(named("coal")->find("exponent"), nullptr);
 }
 
 TEST(json, is_one_object_on_stdout) {
