@@ -140,7 +140,7 @@ const Frame& Contender::first_frame() {
 }
 
 std::string gpu_bus_id(const Simulator& simulator, const SimulatorOptions& options) {
-  return simulator.backend() == "cuda" ? backend::cuda_bus_id(options.device) : std::string();
+  return simulator.ran_on().backend == "cuda" ? backend::cuda_bus_id(options.device) : std::string();
 }
 
 Energy Contender::energy() {
@@ -150,8 +150,9 @@ Energy Contender::energy() {
 io::Json Contender::result() {
   const std::string hash = arrays_sha256(first_frame());
   io::Json row = io::Json::object();
-  row.set("scene", scene_).set("backend", simulator_.backend()).set("device", simulator_.device()).set("isa", simulator_.isa());
-  row.set("threads", simulator_.threads()).set("noise", io::noise_name(options_.noise));
+  const RanOn machine = simulator_.ran_on();
+  row.set("scene", scene_).set("backend", machine.backend).set("device", machine.device).set("isa", machine.isa);
+  row.set("threads", machine.threads).set("noise", io::noise_name(options_.noise));
   row.set("frames_per_s", 1000 / median_ms())
       .set("ms_median", median_ms())
       .set("ms_p10", percentile_ms(0.1))
@@ -206,7 +207,7 @@ int run_bench(const Options& options) {
     const Inputs in = load_inputs(scene, options);
     say(warnings(in));
     Contender one(in, bench_options(options));
-    say_fallback(options, one.simulator().fallback_reason());
+    say_fallback(options, one.simulator().ran_on());
     Progress progress(frames + options.warmup, "frames", options.json);
     for (std::uint64_t i = 0; i < frames + options.warmup; ++i) {
       one.step(i >= options.warmup);

@@ -57,7 +57,7 @@ Times measure(Simulator& simulator, const std::vector<FrameRequest>& requests, s
   Times times;
   const auto ignore = [](const FrameArrays&) {};
   DeviceFrames frames;
-  const bool gpu = simulator.backend() == "cuda";
+  const bool gpu = simulator.ran_on().backend == "cuda";
   for (std::uint64_t i = 0; i <= repeats; ++i) {  // the first one is not counted: memory is taken, the GPU's clock goes up
     const double resident = gpu ? seconds_of([&] { simulator.frames_on_device(requests, frames); }) : 0;
     const double host = seconds_of([&] { simulator.frames(requests, ignore); });
@@ -75,7 +75,7 @@ io::Json row_of(const Inputs& in, Simulator& simulator, const SimulatorOptions& 
   const Times times = measure(simulator, requests, repeats);
   const auto count = static_cast<double>(requests.size());
   const auto rate = [&](const std::vector<double>& seconds) { return io::Json(count / median(seconds)); };
-  const bool gpu = simulator.backend() == "cuda";
+  const bool gpu = simulator.ran_on().backend == "cuda";
   DeviceFrames frames;
   const Energy energy = energy_per_frame(gpu_bus_id(simulator, options), requests.size(), [&] {
     if (gpu)
@@ -84,8 +84,9 @@ io::Json row_of(const Inputs& in, Simulator& simulator, const SimulatorOptions& 
       simulator.frames(requests, [](const FrameArrays&) {});
   });
   io::Json row = io::Json::object();
-  row.set("scene", in.scene.name).set("backend", simulator.backend()).set("device", simulator.device()).set("isa", simulator.isa());
-  row.set("threads", simulator.threads()).set("noise", io::noise_name(options.noise)).set("differing", differing);
+  const RanOn machine = simulator.ran_on();
+  row.set("scene", in.scene.name).set("backend", machine.backend).set("device", machine.device).set("isa", machine.isa);
+  row.set("threads", machine.threads).set("noise", io::noise_name(options.noise)).set("differing", differing);
   row.set("batch", requests.size()).set("repeats", repeats);
   row.set("frames_per_s_device", rate(times.device)).set("frames_per_s_resident", rate(times.resident));
   return row.set("frames_per_s_host", rate(times.host)).set("energy", energy_json(energy));
@@ -111,7 +112,7 @@ int run_batch_bench(const Options& options) {
   SimulatorOptions wanted = bench_options(options);
   if (wanted.device < 0) wanted.device = 0;  // one GPU, also where frames would be spread over several: its energy is measured
   Simulator simulator(in.scene, in.camera, wanted);
-  say_fallback(options, simulator.fallback_reason());
+  say_fallback(options, simulator.ran_on());
   const std::uint64_t repeats = options.frames.value_or(20);
   io::Json results = io::Json::array();
   for (const char* differing : {"index", "seeds", "poses"}) {

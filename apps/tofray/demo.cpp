@@ -22,7 +22,7 @@ std::string told(const Frame& frame, const Inputs& in, const Simulator& simulato
   text += fmt::format("{} of {} pixels have a depth{}{}\n", pixels.valid, pixels.pixels,
                       pixels.reasons.empty() ? "" : "; invalid: ", pixels.reasons);
   text += fmt::format("{} files in {}, {:.2f} s with {}\n", folder.files().size(), folder.path().native(), stopwatch.total(),
-                      machine_of(simulator).text());
+                      machine_text(simulator.ran_on()));
   const std::string npz = (folder.path() / "frame.npz").native();
   text += "\nNext:\n";
   if (std::any_of(folder.files().begin(), folder.files().end(), [](const io::FileRecord& file) { return file.name == "frame.npz"; }))
@@ -42,14 +42,14 @@ int run_demo(const Options& options) {
   const FrameFiles what(options, {"npz", "png", "ply"}, in, wanted);
   wanted.truth = what.need_truth();
   Simulator simulator(in.scene, in.camera, wanted);
-  say_fallback(options, simulator.fallback_reason());
+  say_fallback(options, simulator.ran_on());
   io::OutputFolder folder(options.output.empty() ? "tofray-demo" : options.output);
   stopwatch.lap("prepare");
   const Frame frame = simulator.frame(0);
   stopwatch.lap("simulate");
   write_frame(folder, what, frame);
   stopwatch.lap("write");
-  const Machine machine = machine_of(simulator);
+  const RanOn machine = simulator.ran_on();
   write_manifest(folder, options, in.files, machine, stopwatch);
   if (options.json) {
     print(io::json_text(summary_json(folder, frame.depth, 1, machine, stopwatch), 2) + "\n");

@@ -72,8 +72,8 @@ Entry enter(const Inputs& in, const SimulatorOptions& options) {
   try {
     entry.contender = std::make_unique<Contender>(in, options);
     const Simulator& simulator = entry.contender->simulator();
-    if (!gpu) entry.run.code = simulator.isa(), entry.run.threads = simulator.threads();
-    if (gpu) entry.run.occupancy = simulator.occupancy();
+    if (!gpu) entry.run.code = simulator.ran_on().isa, entry.run.threads = simulator.ran_on().threads;
+    if (gpu) entry.run.occupancy = simulator.ran_on().occupancy;
     entry.run.sha256 = arrays_sha256(entry.contender->first_frame());
   } catch (const Error& error) {
     // A block size that this GPU, or the kernel's registers, do not allow; without any GPU the run ended before.
@@ -133,7 +133,7 @@ bool takes_gpu(Options& options, const Inputs& in) {
   SimulatorOptions wanted = bench_options(options);
   if (sizes) wanted.backend = Backend::cuda;
   const Simulator probe(in.scene, in.camera, wanted);
-  if (probe.backend() != "cuda") return say_fallback(options, probe.fallback_reason()), false;
+  if (probe.ran_on().backend != "cuda") return say_fallback(options, probe.ran_on()), false;
   for (int size = 32; !sizes && size <= 1024; size += 32) options.block_sizes.push_back(size);
   return true;
 }
@@ -144,7 +144,7 @@ Experiment described(const Options& options, const Inputs& in, bool gpu) {
   out.cpu = io::cpu_model();
   SimulatorOptions wanted = bench_options(options);
   wanted.backend = Backend::cuda;
-  if (gpu) out.gpu = Simulator(in.scene, in.camera, wanted).device();
+  if (gpu) out.gpu = Simulator(in.scene, in.camera, wanted).ran_on().device;
   out.noise = io::noise_name(wanted.noise);
   out.frames = options.frames.value_or(30);
   out.width = in.camera.sensor.width, out.height = in.camera.sensor.height;

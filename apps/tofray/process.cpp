@@ -5,10 +5,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <optional>
-#include <thread>
 
-#include "backend/cpu/cpu.h"
-#include "backend/cuda/cuda.h"
 #include "base/text.h"
 #include "camera/frozen_camera.h"
 #include "commands.h"
@@ -104,15 +101,6 @@ std::vector<float> true_z(const std::vector<io::NamedArray>& arrays, const Depth
   return z;
 }
 
-/// What processing with these options runs on.
-Machine machine_for(const SimulatorOptions& wanted) {
-  const int cores = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
-  const backend::CudaLack lack =
-      wanted.backend == Backend::cpu ? backend::CudaLack{"the processor was asked for", false, ""} : backend::why_no_cuda(wanted.device);
-  return {lack.reason.empty() ? "cuda" : "cpu", backend::isa_name(backend::choose_isa(wanted.isa)), lack.gpu,
-          wanted.threads > 0 ? wanted.threads : cores};
-}
-
 }  // namespace
 
 int run_process(const Options& options) {
@@ -141,7 +129,9 @@ int run_process(const Options& options) {
                                      : "");
   const FrameFiles what(options, {"npz", "png", "ply"}, in, wanted);
   stopwatch.lap("prepare");
-  frame.depth = process(frame.raw, in.camera, wanted);
+  RanOn machine;
+  frame.depth = process(frame.raw, in.camera, wanted, &machine);
+  say_fallback(options, machine);
   frame.truth.z_m = true_z(in.kept, frame.depth);
   stopwatch.lap("process");
   if (const std::vector<std::string> missing = io::missing_arrays(frame, what.npz); !missing.empty())
@@ -151,7 +141,6 @@ int run_process(const Options& options) {
   io::OutputFolder folder(options.output.empty() ? in.scene.name + "-depth" : options.output);
   write_frame(folder, what, frame);
   stopwatch.lap("write");
-  const Machine machine = machine_for(wanted);
   write_manifest(folder, options, in.files, machine, stopwatch);
   if (validity(frame.depth).valid == 0) say(fmt::format("warning: no pixel has a valid depth: {}\n", validity(frame.depth).reasons));
   if (options.json)

@@ -145,7 +145,7 @@ int run_render(const Options& typed) {
   const FrameFiles what(options, kinds_of(options, frames), in, wanted);
   wanted.truth = what.need_truth();
   Simulator simulator(in.scene, in.camera, wanted);
-  say_fallback(options, simulator.fallback_reason());
+  say_fallback(options, simulator.ran_on());
   io::OutputFolder folder(options.output.empty() ? in.scene.name : options.output);
   stopwatch.lap("prepare");
 
@@ -153,7 +153,7 @@ int run_render(const Options& typed) {
   std::optional<StopRequest> stop;
   if (frames > 1) stop.emplace();
   render_frames(simulator, options, what, folder, stopwatch, stop ? &*stop : nullptr, out);
-  const Machine machine = machine_of(simulator);
+  const RanOn machine = simulator.ran_on();
   const bool interrupted = out.frames < frames;
   write_manifest(folder, options, in.files, machine, stopwatch, interrupted ? std::optional(out.frames) : std::nullopt);
   warn_of_invalid(out);

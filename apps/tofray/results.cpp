@@ -30,14 +30,15 @@ std::string caption(const Frame& frame, const Inputs& inputs) {
 
 }  // namespace
 
-std::string Machine::text() const { return backend == "cuda" ? gpu : fmt::format("{} on {} thread{}", isa, threads, threads == 1 ? "" : "s"); }
+std::string gpu_of(const RanOn& machine) { return machine.backend == "cuda" ? machine.device : ""; }
 
-Machine machine_of(const Simulator& simulator) {
-  const std::string backend = simulator.backend();
-  return {backend, simulator.isa(), backend == "cuda" ? simulator.device() : "", simulator.threads()};
+std::string machine_text(const RanOn& machine) {
+  if (machine.backend == "cuda") return machine.device;
+  return fmt::format("{} on {} thread{}", machine.isa, machine.threads, machine.threads == 1 ? "" : "s");
 }
 
-void say_fallback(const Options& options, const std::string& reason) {
+void say_fallback(const Options& options, const RanOn& machine) {
+  const std::string& reason = machine.fallback_reason;
   if (reason.empty() || (!options.backend && !backend::why_no_cuda(options.device).gpu_present)) return;
   say(fmt::format("note: the processor computes, not a GPU: {}\n", reason));
 }

@@ -70,28 +70,23 @@ std::vector<io::FileRecord> write_frame(const io::OutputFolder& folder, const Fr
 /// The same for a single frame; the folder knows its files then.
 void write_frame(io::OutputFolder& folder, const FrameFiles& what, const Frame& frame);
 
-/// What a run was computed on.
-struct Machine {
-  std::string backend;  ///< "cpu" or "cuda"
-  std::string isa;
-  std::string gpu;  ///< its name; empty where the processor computed
-  int threads = 0;
-  [[nodiscard]] std::string text() const;  ///< "avx512 on 2 threads", "NVIDIA H200"
-};
-Machine machine_of(const Simulator& simulator);
+/// The GPU's name; empty where the processor computed.
+std::string gpu_of(const RanOn& machine);
+/// "avx512 on 2 threads", "NVIDIA H200".
+std::string machine_text(const RanOn& machine);
 
 /// One line on stderr where the backend was left to choose and no GPU is used: if `auto` was typed, or if there is a GPU all the same.
-void say_fallback(const Options& options, const std::string& reason);
+void say_fallback(const Options& options, const RanOn& machine);
 
 /// Writes manifest.json, last of all: what made the other files.
 /// @param interrupted_after  how many frames are complete where the run did not come to its end
-void write_manifest(io::OutputFolder& folder, const Options& options, const std::vector<io::InputFile>& inputs, const Machine& machine,
+void write_manifest(io::OutputFolder& folder, const Options& options, const std::vector<io::InputFile>& inputs, const RanOn& machine,
                     const Stopwatch& stopwatch, std::optional<std::uint64_t> interrupted_after = {});
 
 /// How a run went, for --json and for people.
-io::Json summary_json(const io::OutputFolder& folder, const Depth& last, std::uint64_t frames, const Machine& machine,
+io::Json summary_json(const io::OutputFolder& folder, const Depth& last, std::uint64_t frames, const RanOn& machine,
                       const Stopwatch& stopwatch);
-std::string summary_text(const io::OutputFolder& folder, const Depth& last, std::uint64_t frames, const Machine& machine,
+std::string summary_text(const io::OutputFolder& folder, const Depth& last, std::uint64_t frames, const RanOn& machine,
                          const Stopwatch& stopwatch);
 
 }  // namespace tofray::app

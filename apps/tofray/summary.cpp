@@ -44,7 +44,7 @@ Rates rates_of(std::uint64_t frames, const Stopwatch& stopwatch) {
 
 }  // namespace
 
-void write_manifest(io::OutputFolder& folder, const Options& options, const std::vector<io::InputFile>& inputs, const Machine& machine,
+void write_manifest(io::OutputFolder& folder, const Options& options, const std::vector<io::InputFile>& inputs, const RanOn& machine,
                     const Stopwatch& stopwatch, std::optional<std::uint64_t> interrupted_after) {
   io::Manifest manifest;
   manifest.tofray_version = io::version();
@@ -61,7 +61,7 @@ void write_manifest(io::OutputFolder& folder, const Options& options, const std:
   if (options.first_frame > 0) manifest.options.emplace_back("first-frame", std::to_string(options.first_frame));
   manifest.seed = options.seed.value_or(0);
   manifest.backend = machine.backend;
-  manifest.gpu = machine.gpu;
+  manifest.gpu = gpu_of(machine);
   manifest.cpu_model = io::cpu_model();
   manifest.isa = machine.isa;
   manifest.threads = machine.threads;
@@ -71,7 +71,7 @@ void write_manifest(io::OutputFolder& folder, const Options& options, const std:
   folder.write("manifest.json", io::manifest_text(manifest));
 }
 
-io::Json summary_json(const io::OutputFolder& folder, const Depth& last, std::uint64_t frames, const Machine& machine,
+io::Json summary_json(const io::OutputFolder& folder, const Depth& last, std::uint64_t frames, const RanOn& machine,
                       const Stopwatch& stopwatch) {
   io::Json files = io::Json::array(), timings = io::Json::object();
   for (const io::FileRecord& file : folder.files())
@@ -82,10 +82,10 @@ io::Json summary_json(const io::OutputFolder& folder, const Depth& last, std::ui
   io::Json json = io::Json::object();
   json.set("computed_frames_per_s", rates.computed).set("written_frames_per_s", rates.written);
   json.set("folder", folder.path().native()).set("frames", frames).set("pixels", pixels.pixels).set("valid_pixels", pixels.valid);
-  return json.set("backend", machine.backend).set("gpu", machine.gpu).set("isa", machine.isa).set("threads", machine.threads).set("timings_s", std::move(timings)).set("files", std::move(files));
+  return json.set("backend", machine.backend).set("gpu", gpu_of(machine)).set("isa", machine.isa).set("threads", machine.threads).set("timings_s", std::move(timings)).set("files", std::move(files));
 }
 
-std::string summary_text(const io::OutputFolder& folder, const Depth& last, std::uint64_t frames, const Machine& machine,
+std::string summary_text(const io::OutputFolder& folder, const Depth& last, std::uint64_t frames, const RanOn& machine,
                          const Stopwatch& stopwatch) {
   double bytes = 0;
   for (const io::FileRecord& file : folder.files()) bytes += static_cast<double>(file.bytes);
@@ -99,7 +99,7 @@ std::string summary_text(const io::OutputFolder& folder, const Depth& last, std:
                         rates.computed, rates.written);
   else
     text += fmt::format("{:.2f} s", stopwatch.total());
-  return text + fmt::format(" with {}\n", machine.text());
+  return text + fmt::format(" with {}\n", machine_text(machine));
 }
 
 }  // namespace tofray::app

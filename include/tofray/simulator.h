@@ -45,6 +45,17 @@ struct SimulatorOptions {
   bool culling = true;         ///< off: every pixel tests every object (slower, same bytes; for tests)
 };
 
+/// What frames or depth were computed on.
+struct RanOn {
+  std::string backend;          ///< "cpu" or "cuda"
+  std::string device;           ///< its name: of the GPU, or of the processor's instruction set
+  std::string isa;              ///< of the processor, which is there in any case: "scalar", "scalar_fma", "avx2" or "avx512"
+  int threads = 0;              ///< of the processor
+  int block_size = 0;           ///< threads per block of the kernel from ray to depth; 0 where the processor computed
+  double occupancy = 0;         ///< how full that kernel makes the GPU, 0 … 1
+  std::string fallback_reason;  ///< why Backend::automatic took no GPU; empty where it did, or where the processor was asked for
+};
+
 /// One frame of a batch. What is not set is the simulator's.
 struct FrameRequest {
   std::uint64_t index = 0;              ///< starts at index / frame_rate
@@ -108,20 +119,8 @@ class Simulator {
   void frames_on_device(std::uint64_t first, std::uint64_t count, DeviceFrames& into);
   void frames_on_device(std::span<const FrameRequest> requests, DeviceFrames& into);
 
-  /// What computes the frames: "cpu" or "cuda".
-  [[nodiscard]] std::string backend() const;
-  /// Its name: of the GPU, or of the processor's instruction set.
-  [[nodiscard]] std::string device() const;
-  /// Why Backend::automatic took no GPU; empty where it did, or where the processor was asked for.
-  [[nodiscard]] std::string fallback_reason() const;
-
-  /// Threads per block of the kernel from ray to depth, and how full it makes the GPU, 0 … 1. 0 where the processor computes.
-  [[nodiscard]] int block_size() const;
-  [[nodiscard]] double occupancy() const;
-
-  /// The processor's instruction set: "scalar", "scalar_fma", "avx2" or "avx512".
-  [[nodiscard]] std::string isa() const;
-  [[nodiscard]] int threads() const;
+  /// What computes the frames.
+  [[nodiscard]] RanOn ran_on() const;
 
   struct Impl;
 
@@ -132,6 +131,7 @@ class Simulator {
 /// Decodes raw data, simulated or measured, into depth (theory 4). Needs `raw`, or `tap_a` and `tap_b`, and the arrays by
 /// phase; the camera says the rest. Taps, where present, are taken unrounded only if `raw` is empty; a tap that holds no
 /// number flags its pixel as saturated.
-Depth process(const Raw& raw, const Camera& camera, const SimulatorOptions& options = {});
+/// @param ran_on  where not null: gets to know what computed
+Depth process(const Raw& raw, const Camera& camera, const SimulatorOptions& options = {}, RanOn* ran_on = nullptr);
 
 }  // namespace tofray

@@ -32,7 +32,7 @@ struct Manifest {
   std::string backend;  ///< "cpu" or "cuda"
   std::string gpu;      ///< its name; empty where the processor computed
   std::string cpu_model;
-  std::string isa;  ///< Simulator::isa()
+  std::string isa;  ///< RanOn::isa
   int threads = 0;
   std::vector<std::pair<std::string, double>> timings_s;  ///< by stage
   std::vector<FileRecord> files;                          ///< every other file of the folder that this run wrote

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The tofray authors
 // SPDX-License-Identifier: Apache-2.0
-// Many frames: on the processor one after the other, on GPUs several on their way while the host fills and empties others.
+// Many frames: on the processor one by one, on GPUs several on their way while the host fills and empties others.
 #include <algorithm>
 #include <deque>
 #include <utility>
@@ -23,7 +23,7 @@ constexpr std::uint64_t most_frames = 32'768;
 
 }  // namespace
 
-void Simulator::Impl::frames_on_cpu(std::uint64_t from, std::uint64_t count, const Request& request, const Take& take) {
+void Simulator::Impl::frames_one_by_one(backend::Engine& engine, std::uint64_t from, std::uint64_t count, const Request& request, const Take& take) {
   simulator::prepare(scratch, camera, options.truth);
   const backend::gpu::Slab shown(setup, simulator::view_of(scratch, options.last_stage), false);   // leaves out what is not computed
   std::vector<unsigned char> memory(shown.bytes());
@@ -32,8 +32,8 @@ void Simulator::Impl::frames_on_cpu(std::uint64_t from, std::uint64_t count, con
     set_frame(wanted);
     const flow::FrameView view = shown.view(memory.data());
     job.out = view;
-    frozen_scene.derive();
-    cpu.run(setup, job);
+    if (!engine.derives()) frozen_scene.derive();
+    engine.run(setup, job);
     take(simulator::arrays_of(view, camera, wanted.index, -1));
   }
 }
@@ -69,6 +69,7 @@ void Simulator::Impl::frames_on_gpus(std::uint64_t count, const Request& request
     Lane* lane;
     std::uint64_t from, frames;
   };
+  const auto& gpus = engines.gpus();
   simulator::prepare(scratch, camera, options.truth);
   job.out = simulator::view_of(scratch, options.last_stage);
   const std::size_t frame_bytes = std::max<std::size_t>(1, backend::gpu::Slab(setup, job.out, job.filter != pipeline::Filter::none).bytes());
@@ -97,35 +98,24 @@ void Simulator::Impl::frames_on_gpus(std::uint64_t count, const Request& request
 
 void Simulator::Impl::frames(std::uint64_t count, const Request& request, const Take& take) {
   std::uint64_t taken = 0;
-  if (!gpus.empty()) {
-    try {
-      open_other_gpus();
+  engines.run([&](backend::Engine& engine) {
+    if (engines.gpus().empty()) {
+      frames_one_by_one(engine, taken, count, request, take);
+    } else {
+      engines.open_other_gpus([&]() -> const pipeline::Setup& {
+        set_frame({0, {}, {}});
+        frozen_scene.derive();
+        return setup;
+      });
       frames_on_gpus(count, request, take, taken);
-      return;
-    } catch (const backend::gpu::Fault& fault) {
-      give_up(fault);
     }
-  }
-  frames_on_cpu(taken, count, request, take);
-}
-
-void Simulator::Impl::open_other_gpus() {
-  if (options.device >= 0 || std::exchange(all_gpus, true)) return;
-  set_frame({0, {}, {}});
-  frozen_scene.derive();
-  for (int i = gpus[0]->device().number() + 1; i < backend::gpu::count_devices(); ++i) {
-    try {
-      auto gpu = std::make_unique<backend::Cuda>(i, options.block_size);
-      gpu->load(setup);
-      gpus.push_back(std::move(gpu));
-    } catch (const backend::gpu::Fault&) {
-      continue;   // another one that cannot be used is no reason to do without the first
-    }
-  }
+  });
 }
 
 void Simulator::Impl::frames_on_device(std::uint64_t count, const Request& request, DeviceFrames::Impl& into) {
-  if (gpus.empty()) throw backend::gpu::Fault(fallback_reason.empty() ? "the processor computes" : fallback_reason, false);
+  const auto& gpus = engines.gpus();
+  const std::string reason = engines.ran_on().fallback_reason;
+  if (gpus.empty()) throw backend::gpu::Fault(reason.empty() ? "the processor computes" : reason, false);
   simulator::prepare(scratch, camera, options.truth);
   job.out = simulator::view_of(scratch, options.last_stage);
   backend::Cuda& gpu = *gpus[0];

@@ -5,15 +5,14 @@
 #include <string>
 #include <vector>
 
-#include "backend/cpu/cpu.h"
-#include "backend/cuda/cuda.h"
 #include "camera/frozen_camera.h"
 #include "scene/frozen_scene.h"
+#include "simulator/engines.h"
 #include "tofray/simulator.h"
 
 namespace tofray {
 
-/// What a simulator holds: scene and camera, frozen, and the backends.
+/// What a simulator holds: scene and camera, frozen, and what computes.
 struct Simulator::Impl {
   using Request = std::function<FrameRequest(std::uint64_t)>;
   using Take = std::function<void(const FrameArrays&)>;
@@ -23,14 +22,11 @@ struct Simulator::Impl {
   SimulatorOptions options;
   camera::FrozenCamera frozen_camera;
   scene::FrozenScene frozen_scene;
-  backend::Cpu cpu;
-  std::vector<std::unique_ptr<backend::Cuda>> gpus;   ///< empty: the processor computes; the first one does single frames
-  bool all_gpus = false;                           ///< the other ones were looked for
   pipeline::Setup setup{};
   pipeline::Job job{};
   std::vector<float> filtered;
-  std::string fallback_reason;
   Frame scratch;                                   ///< of a batch on the processor, and the model of one on a GPU
+  simulator::Engines engines;
 
   Impl(const Scene& scene, const Camera& profile, const SimulatorOptions& wanted);
 
@@ -41,20 +37,18 @@ struct Simulator::Impl {
 
   /// Times of a frame's raw frames: start of each, and the middle of its exposure [s].
   [[nodiscard]] double start_of(std::uint64_t index) const { return static_cast<double>(index) / camera.mode.frame_rate_hz; }
-  /// Puts the scene as it was looked at last into `setup`.
-  void set_scene();
+  /// Puts the scene as it was looked at last into a setup.
+  void set_scene(pipeline::Setup& to) const;
   /// Puts scene and sensor of a frame into `setup` and `job`.
   void set_frame(const FrameRequest& request);
   /// Its sensor alone.
   void set_sensor(const FrameRequest& request);
 
  private:
-  void open_gpus();
-  void open_other_gpus();
-  /// Where a GPU failed: throws it on, or goes on with the processor.
-  void give_up(const backend::gpu::Fault& fault);
+  /// What does not change from frame to frame.
+  [[nodiscard]] pipeline::Setup fixed_setup();
   [[nodiscard]] std::vector<double> middles(double start) const;
-  void frames_on_cpu(std::uint64_t from, std::uint64_t count, const Request& request, const Take& take);
+  void frames_one_by_one(backend::Engine& engine, std::uint64_t from, std::uint64_t count, const Request& request, const Take& take);
   void frames_on_gpus(std::uint64_t count, const Request& request, const Take& take, std::uint64_t& taken);
   [[nodiscard]] backend::gpu::Own own_of(std::uint64_t from, std::uint64_t count, const Request& request) const;
   std::uint64_t fill(backend::gpu::Lane& lane, const backend::Cuda& gpu, std::uint64_t from, std::uint64_t count, const Request& request);

@@ -1,10 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The tofray authors
 // SPDX-License-Identifier: Apache-2.0
-#include "backend/cpu/cpu.h"
-#include "backend/cuda/cuda.h"
 #include "camera/frozen_camera.h"
 #include "num/setup_math.h"
 #include "simulator/check.h"
+#include "simulator/engines.h"
 #include "simulator/filter.h"
 #include "simulator/frame_memory.h"
 #include "simulator/input.h"
@@ -43,7 +42,7 @@ Camera camera_of(const Raw& raw, const Camera& profile) {
 
 }  // namespace
 
-Depth process(const Raw& raw, const Camera& profile, const SimulatorOptions& options) {
+Depth process(const Raw& raw, const Camera& profile, const SimulatorOptions& options, RanOn* ran_on) {
   const Camera camera = camera_of(raw, profile);
   simulator::check(options);
   simulator::check(camera);
@@ -63,17 +62,9 @@ Depth process(const Raw& raw, const Camera& profile, const SimulatorOptions& opt
   job.filtered = filtered.data();
   job.out = simulator::view_of(depth);
   const simulator::OwnInput own = simulator::input_of(raw);
-  if (options.backend != Backend::cpu) {
-    try {
-      backend::Cuda gpu(options.device, options.block_size);
-      gpu.load(setup);
-      gpu.run(setup, job, &own.input);
-      return depth;
-    } catch (const backend::gpu::Fault&) {
-      if (options.backend == Backend::cuda) throw;
-    }
-  }
-  backend::Cpu(options.isa, options.threads, false).run(setup, job, &own.input);
+  simulator::Engines engines(options, setup, false);
+  engines.run([&](backend::Engine& engine) { engine.run(setup, job, &own.input); });
+  if (ran_on != nullptr) *ran_on = engines.ran_on();
   return depth;
 }
 

@@ -59,38 +59,27 @@ Simulator::Impl::Impl(const Scene& all, const Camera& profile, const SimulatorOp
       options(wanted),
       frozen_camera(camera, static_cast<int>(wanted.noise), wanted.seed),
       frozen_scene(scene, positions(camera), static_cast<int>(camera.mode.sequence.size())),
-      cpu(wanted.isa, wanted.threads, frozen_scene.moves()) {
-  setup.lens = frozen_camera.lens();
-  setup.lights = frozen_camera.lights().data();
-  setup.phasors = frozen_camera.phasors();
-  setup.power = frozen_camera.power();
-  set_ambient(scene, camera, setup.power);
-  setup.sensor = frozen_camera.sensor(0);
-  setup.decoder = frozen_camera.decoder();
-  setup.truth_slot = static_cast<std::int32_t>(camera.mode.sequence.size() / 2);
-  setup.last_stage = options.last_stage;
-  setup.culling = options.culling;
-  set_scene();
+      setup(fixed_setup()),
+      engines(options, setup, frozen_scene.moves()) {
   simulator::set_filter(camera.decoding.filter, job);
   if (job.filter != pipeline::Filter::none) filtered.resize(static_cast<std::size_t>(camera.sensor.width) * static_cast<std::size_t>(camera.sensor.height));
   job.filtered = filtered.data();
-  backend::check_block_size(options.block_size);
-  if (options.backend != Backend::cpu) open_gpus();
 }
 
-void Simulator::Impl::open_gpus() {
-  try {
-    gpus.push_back(std::make_unique<backend::Cuda>(options.device, options.block_size));
-    gpus[0]->load(setup);
-  } catch (const backend::gpu::Fault& fault) {
-    give_up(fault);
-  }
-}
-
-void Simulator::Impl::give_up(const backend::gpu::Fault& fault) {
-  if (options.backend == Backend::cuda) throw fault;
-  gpus.clear();
-  fallback_reason = fault.reason();
+pipeline::Setup Simulator::Impl::fixed_setup() {
+  pipeline::Setup out{};
+  out.lens = frozen_camera.lens();
+  out.lights = frozen_camera.lights().data();
+  out.phasors = frozen_camera.phasors();
+  out.power = frozen_camera.power();
+  set_ambient(scene, camera, out.power);
+  out.sensor = frozen_camera.sensor(0);
+  out.decoder = frozen_camera.decoder();
+  out.truth_slot = static_cast<std::int32_t>(camera.mode.sequence.size() / 2);
+  out.last_stage = options.last_stage;
+  out.culling = options.culling;
+  set_scene(out);
+  return out;
 }
 
 std::vector<double> Simulator::Impl::middles(double start) const {
@@ -101,14 +90,14 @@ std::vector<double> Simulator::Impl::middles(double start) const {
   return out;
 }
 
-void Simulator::Impl::set_scene() {
-  setup.scene = frozen_scene.view();
-  for (std::size_t k = 0; k < 3; ++k) setup.power.sun_direction[k] = static_cast<float>(frozen_scene.toward_sun()[k]);
+void Simulator::Impl::set_scene(pipeline::Setup& to) const {
+  to.scene = frozen_scene.view();
+  for (std::size_t k = 0; k < 3; ++k) to.power.sun_direction[k] = static_cast<float>(frozen_scene.toward_sun()[k]);
 }
 
 void Simulator::Impl::set_frame(const FrameRequest& request) {
   frozen_scene.look(request.pose ? *request.pose : scene.camera.pose, middles(start_of(request.index)));
-  set_scene();
+  set_scene(setup);
   set_sensor(request);
 }
 
@@ -136,16 +125,10 @@ void Simulator::Impl::frame(std::uint64_t index, const pipeline::Input* input, F
   // What is given of the stage before the entry is known, however early the last one is.
   const Stage given = input == nullptr ? Stage::trace : static_cast<Stage>(static_cast<int>(input->entry) - 1);
   job.out = simulator::view_of(into, std::max(options.last_stage, given));
-  if (!gpus.empty()) {
-    try {
-      gpus[0]->run(setup, job, input);
-      return;
-    } catch (const backend::gpu::Fault& fault) {
-      give_up(fault);
-    }
-  }
-  frozen_scene.derive();
-  cpu.run(setup, job, input);
+  engines.run([&](backend::Engine& engine) {
+    if (!engine.derives()) frozen_scene.derive();
+    engine.run(setup, job, input);
+  });
 }
 
 Simulator::Simulator(const Scene& scene, const Camera& camera, const SimulatorOptions& options) : impl_(std::make_unique<Impl>(scene, camera, options)) {}
@@ -181,12 +164,6 @@ void Simulator::frames_on_device(std::span<const FrameRequest> requests, DeviceF
   impl_->frames_on_device(requests.size(), [requests](std::uint64_t i) { return requests[i]; }, *into.impl_);
 }
 
-std::string Simulator::backend() const { return impl_->gpus.empty() ? "cpu" : "cuda"; }
-std::string Simulator::device() const { return impl_->gpus.empty() ? isa() : impl_->gpus[0]->device().info().name; }
-int Simulator::block_size() const { return impl_->gpus.empty() ? 0 : impl_->gpus[0]->block_size(); }
-double Simulator::occupancy() const { return impl_->gpus.empty() ? 0 : impl_->gpus[0]->occupancy(); }
-std::string Simulator::fallback_reason() const { return impl_->fallback_reason; }
-std::string Simulator::isa() const { return backend::isa_name(impl_->cpu.isa()); }
-int Simulator::threads() const { return impl_->cpu.threads(); }
+RanOn Simulator::ran_on() const { return impl_->engines.ran_on(); }
 
 }  // namespace tofray

@@ -40,9 +40,9 @@ void run_with_failure(const Ailment& ailment, std::uint64_t n, Backend backend, 
   try {
     Simulator simulator(scene, camera, on(backend, few_bytes));
     const std::vector<Frame> frames = some_frames(simulator);
-    said = simulator.fallback_reason();
+    said = simulator.ran_on().fallback_reason;
     for (std::size_t i = 0; i < frames.size(); ++i) ASSERT_EQ(first_difference(frames[i], reference[i]), "") << "frame " << i;
-    EXPECT_EQ(simulator.backend(), said.empty() ? "cuda" : "cpu");
+    EXPECT_EQ(simulator.ran_on().backend, said.empty() ? "cuda" : "cpu");
   } catch (const Error& error) {
     EXPECT_EQ(error.kind(), ErrorKind::device);
     EXPECT_EQ(backend, Backend::cuda) << "auto must not fail: " << error.what();
@@ -97,8 +97,12 @@ TEST(cuda_fault, while_decoding_recorded_data) {
   for (std::uint64_t n = 1; n <= 25; ++n) {
     WithStandIn here;
     here.cuda.fail_at = n;
-    again.depth = process(frame.raw, camera, on(Backend::automatic));
+    RanOn machine;
+    again.depth = process(frame.raw, camera, on(Backend::automatic), &machine);
     EXPECT_EQ(first_difference(frame, again), "") << n;
+    const bool failed = here.cuda.calls >= n;
+    EXPECT_EQ(machine.backend, failed ? "cpu" : "cuda") << n;
+    EXPECT_EQ(machine.fallback_reason.empty(), !failed) << n;
     here.cuda.fail_at = here.cuda.calls + n;
     EXPECT_THROW((void)process(frame.raw, camera, on(Backend::cuda)), Error) << n;
     EXPECT_EQ(here.cuda.held(), 0u);
@@ -110,14 +114,14 @@ TEST(cuda_fault, says_which_gpus_there_are) {
   here.cuda.devices = 2;
   const Scene scene = load_scene("card");
   const Camera camera = small(load_camera(scene));
-  EXPECT_EQ(Simulator(scene, camera, {.device = 1}).device(), "Stand-in 1");
-  EXPECT_EQ(Simulator(scene, camera, {}).device(), "Stand-in 0");
-  EXPECT_EQ(Simulator(scene, camera, {.backend = Backend::cpu}).backend(), "cpu");
+  EXPECT_EQ(Simulator(scene, camera, {.device = 1}).ran_on().device, "Stand-in 1");
+  EXPECT_EQ(Simulator(scene, camera, {}).ran_on().device, "Stand-in 0");
+  EXPECT_EQ(Simulator(scene, camera, {.backend = Backend::cpu}).ran_on().backend, "cpu");
   const Simulator none(scene, camera, {.device = 2});
-  EXPECT_EQ(none.backend(), "cpu");
-  EXPECT_EQ(none.fallback_reason(), "there is no GPU number 2; the machine has 2, counted from 0");
+  EXPECT_EQ(none.ran_on().backend, "cpu");
+  EXPECT_EQ(none.ran_on().fallback_reason, "there is no GPU number 2; the machine has 2, counted from 0");
   here.cuda.devices = 0;
-  EXPECT_EQ(Simulator(scene, camera, {}).fallback_reason(), "there is no GPU");
+  EXPECT_EQ(Simulator(scene, camera, {}).ran_on().fallback_reason, "there is no GPU");
   EXPECT_THROW(Simulator(scene, camera, {.backend = Backend::cuda}), Error);
 }
 
@@ -129,14 +133,14 @@ TEST(cuda_fault, passes_over_gpus_that_cannot_be_used) {
   const Scene scene = load_scene("card");
   const Camera camera = small(load_camera(scene));
   Simulator simulator(scene, camera, {.batch_bytes = 2'000'000});
-  EXPECT_EQ(simulator.device(), "Stand-in 1");
+  EXPECT_EQ(simulator.ran_on().device, "Stand-in 1");
   for (int round = 0; round < 2; ++round) simulator.frames(0, 30, [](const FrameArrays&) {});
   EXPECT_EQ(here.cuda.frames_by_device.size(), 2u);
   EXPECT_EQ(here.cuda.frames_by_device.count(1) + here.cuda.frames_by_device.count(3), 2u);
   EXPECT_EQ(backend::why_no_cuda(-1).gpu, "Stand-in 1");
-  EXPECT_EQ(Simulator(scene, camera, {.device = 2}).backend(), "cpu");
+  EXPECT_EQ(Simulator(scene, camera, {.device = 2}).ran_on().backend, "cpu");
   here.cuda.unusable = {0, 1, 2, 3};
-  EXPECT_NE(Simulator(scene, camera).fallback_reason().find("Stand-in 0"), std::string::npos) << "the first one's reason";
+  EXPECT_NE(Simulator(scene, camera).ran_on().fallback_reason.find("Stand-in 0"), std::string::npos) << "the first one's reason";
 }
 
 // Whatever GPU another simulator, or another library, has made the current one.
@@ -162,8 +166,8 @@ TEST(cuda_fault, a_machine_without_a_gpu_says_so) {
   if (lack.reason.empty()) GTEST_SKIP() << "this machine has a GPU";
   const Scene scene = load_scene("card");
   const Camera camera = small(load_camera(scene));
-  EXPECT_EQ(Simulator(scene, camera).fallback_reason(), lack.reason);
-  EXPECT_EQ(Simulator(scene, camera).backend(), "cpu");
+  EXPECT_EQ(Simulator(scene, camera).ran_on().fallback_reason, lack.reason);
+  EXPECT_EQ(Simulator(scene, camera).ran_on().backend, "cpu");
   EXPECT_EQ(lack.reason.find('\n'), std::string::npos) << "one line";
   try {
     Simulator simulator(scene, camera, {.backend = Backend::cuda});

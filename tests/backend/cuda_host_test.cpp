@@ -18,7 +18,7 @@ namespace {
 /// Frames 0, 1 and 5 on both backends.
 void expect_same(const Scene& scene, const Camera& camera, const SimulatorOptions& options) {
   Simulator cpu(scene, camera, on(Backend::cpu, options)), cuda(scene, camera, on(Backend::cuda, options));
-  ASSERT_EQ(cuda.backend(), "cuda");
+  ASSERT_EQ(cuda.ran_on().backend, "cuda");
   for (const std::uint64_t index : {0ull, 1ull, 5ull, (3ull << 32) + 1}) {
     EXPECT_EQ(first_difference(cpu.frame(index), cuda.frame(index)), "") << scene.name << ", frame " << index;
   }
@@ -92,10 +92,10 @@ TEST(cuda_host, any_block_size_gives_the_same_bytes) {
   const Frame reference = Simulator(scene, camera, on(Backend::cpu)).frame(3);
   for (int size = 32; size <= 1024; size += 32) {
     Simulator cuda(scene, camera, on(Backend::cuda, {.block_size = size}));
-    EXPECT_EQ(cuda.block_size(), size);
+    EXPECT_EQ(cuda.ran_on().block_size, size);
     EXPECT_EQ(first_difference(cuda.frame(3), reference), "") << size;
     EXPECT_GT(here.cuda.launches_by_block_size[size], 0);
-    EXPECT_GT(cuda.occupancy(), 0);
+    EXPECT_GT(cuda.ran_on().occupancy, 0);
   }
   for (const int wrong : {-32, 1, 31, 48, 1056}) {
     EXPECT_THROW(Simulator(scene, camera, on(Backend::automatic, {.block_size = wrong})), Error) << wrong;

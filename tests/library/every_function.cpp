@@ -55,9 +55,8 @@ void all() {
   simulator.frames(requests, take);
   expect(taken == 3, "frames");
   expect(tofray::process(frame.raw, camera).z_m.size() == frame.depth.z_m.size(), "process");
-  expect(!simulator.backend().empty() && !simulator.device().empty() && !simulator.isa().empty() && simulator.threads() > 0, "names");
-  expect(simulator.block_size() >= 0 && simulator.occupancy() >= 0, "block size");
-  (void)simulator.fallback_reason();
+  const tofray::RanOn machine = simulator.ran_on();
+  expect(!machine.backend.empty() && !machine.device.empty() && !machine.isa.empty() && machine.threads > 0, "ran_on");
   on_device(simulator);
   own_arrays(simulator, camera, frame);
 }

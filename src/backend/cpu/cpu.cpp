@@ -89,6 +89,8 @@ Cpu::Cpu(Isa isa, int threads, bool moves)
 
 Cpu::~Cpu() = default;
 
+void Cpu::describe(RanOn& out) const { out.backend = "cpu", out.device = out.isa = isa_name(isa_), out.threads = threads_; }
+
 void Cpu::run(const pipeline::Setup& setup, const pipeline::Job& job, const pipeline::Input* input) {
   const Work work{&setup, &job, input};
   const int tiles = pipeline::tile_count(setup.lens), bands = (setup.lens.height + pipeline::rows_per_band - 1) / pipeline::rows_per_band;

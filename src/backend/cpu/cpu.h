@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "backend/cpu/kernel.h"
-#include "tofray/simulator.h"
+#include "backend/engine.h"
 
 /// Runs the pipeline on the processor: threads over tiles, lanes within.
 namespace tofray::backend {
@@ -18,19 +18,17 @@ std::string isa_name(Isa isa);
 /// The processor has it, and this build has its kernel.
 bool can_run(Isa isa);
 
-class Cpu {
+class Cpu final : public Engine {
  public:
   /// @param threads  0: one per core
   /// @param moves    something in the scene does
   Cpu(Isa isa, int threads, bool moves);
-  ~Cpu();
-  Cpu(const Cpu&) = delete;
-  Cpu& operator=(const Cpu&) = delete;
+  ~Cpu() override;
 
-  /// All passes of a frame. `input`: begin with this instead of the scene.
-  void run(const pipeline::Setup& setup, const pipeline::Job& job, const pipeline::Input* input = nullptr);
-  [[nodiscard]] Isa isa() const { return isa_; }
-  [[nodiscard]] int threads() const { return threads_; }
+  void load(const pipeline::Setup&) override {}
+  void run(const pipeline::Setup& setup, const pipeline::Job& job, const pipeline::Input* input = nullptr) override;
+  [[nodiscard]] bool derives() const override { return false; }
+  void describe(RanOn& out) const override;
 
  private:
   struct Threads;

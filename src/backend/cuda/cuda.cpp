@@ -63,6 +63,9 @@ void Cuda::load(const pipeline::Setup& setup) {
   const gpu::Stream stream = device_.stream();
   device_.check(device_.runtime().copy(resident_.memory.get(), staged.get(), packer.used(), gpu::Way::to_device, stream.get()), "copying the scene to the GPU");
   device_.check(device_.runtime().synchronize(stream.get()), "copying the scene to the GPU");
+  int blocks = 0;
+  device_.check(device_.runtime().occupancy(pipeline::Pass::pixels, block_size_, blocks), "asking for the occupancy");
+  occupancy_ = static_cast<double>(blocks * block_size_) / device_.info().threads_per_processor;
 }
 
 gpu::Lane& Cuda::lane(std::size_t i) {
@@ -71,30 +74,17 @@ gpu::Lane& Cuda::lane(std::size_t i) {
   return lanes_[i];
 }
 
-gpu::Lane& Cuda::compute(const pipeline::Setup& setup, const pipeline::Job& job, const pipeline::Input* input) {
+void Cuda::run(const pipeline::Setup& setup, const pipeline::Job& job, const pipeline::Input* input) {
   gpu::Lane& first = lane(0);
   first.begin(resident_, setup, job, setup.scene.slots > 0 || setup.sensor.drifts != 0 ? gpu::Own::moving : gpu::Own::number, 1, input);
   first.add(setup, job.index_low | static_cast<std::uint64_t>(job.index_high) << 32);
   first.submit_graph();
   first.wait();
-  return first;
+  first.slab().copy_out(first.received(0), job.out);
 }
 
-void Cuda::run(const pipeline::Setup& setup, const pipeline::Job& job, const pipeline::Input* input) {
-  const gpu::Lane& done = compute(setup, job, input);
-  done.slab().copy_out(done.received(0), job.out);
-}
-
-flow::FrameView Cuda::run_in_place(const pipeline::Setup& setup, const pipeline::Job& job) {
-  const gpu::Lane& done = compute(setup, job, nullptr);
-  return done.slab().view(done.received(0));
-}
-
-double Cuda::occupancy() const {
-  device_.use();
-  int blocks = 0;
-  device_.check(device_.runtime().occupancy(pipeline::Pass::pixels, block_size_, blocks), "asking for the occupancy");
-  return static_cast<double>(blocks * block_size_) / device_.info().threads_per_processor;
+void Cuda::describe(RanOn& out) const {
+  out.backend = "cuda", out.device = device_.info().name, out.block_size = block_size_, out.occupancy = occupancy_;
 }
 
 }  // namespace tofray::backend

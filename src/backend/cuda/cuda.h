@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "backend/cuda/lane.h"
+#include "backend/engine.h"
 
 /// Runs the pipeline on a GPU: one thread for each pixel. No type of CUDA's is in this header.
 namespace tofray::backend {
@@ -32,34 +33,30 @@ std::string cuda_bus_id(int device);
 int check_block_size(int wanted);
 
 /// One GPU with a camera and a scene.
-class Cuda {
+class Cuda final : public Engine {
  public:
   /// @param device      −1: the first one that can be used
   /// @param block_size  threads per block, a multiple of 32 up to 1024; 0: chosen
   /// @throws gpu::Fault where the GPU cannot be used; Error (bad_input) for a block size that cannot be
   Cuda(int device, int block_size);
 
-  /// Takes to the GPU what does not change from frame to frame.
-  void load(const pipeline::Setup& setup);
-  /// All passes of a frame, with arrays in host memory. `input`: begin with this instead of the scene.
   /// @throws gpu::Fault
-  void run(const pipeline::Setup& setup, const pipeline::Job& job, const pipeline::Input* input = nullptr);
-  /// The same, left in pinned host memory until the next call.
-  flow::FrameView run_in_place(const pipeline::Setup& setup, const pipeline::Job& job);
+  void load(const pipeline::Setup& setup) override;
+  /// @throws gpu::Fault
+  void run(const pipeline::Setup& setup, const pipeline::Job& job, const pipeline::Input* input = nullptr) override;
+  [[nodiscard]] bool derives() const override { return true; }
+  /// All but the processor's isa and threads.
+  void describe(RanOn& out) const override;
 
   /// Lane i; made where there is none yet.
   gpu::Lane& lane(std::size_t i);
   [[nodiscard]] const gpu::Resident& resident() const { return resident_; }
   [[nodiscard]] const gpu::Device& device() const { return device_; }
-  [[nodiscard]] int block_size() const { return block_size_; }
-  /// How full one multiprocessor is of the kernel that takes the time, 0 … 1.
-  [[nodiscard]] double occupancy() const;
 
  private:
-  gpu::Lane& compute(const pipeline::Setup& setup, const pipeline::Job& job, const pipeline::Input* input);
-
   gpu::Device device_;
   int block_size_;
+  double occupancy_ = 0;   ///< how full one multiprocessor is of the kernel that takes the time
   gpu::Resident resident_;
   std::deque<gpu::Lane> lanes_;
 };
