@@ -75,6 +75,7 @@ inline pid_t start(const Arguments& arguments, const fs::path& out, const fs::pa
   ::dup2(::open(out.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600), 1);
   ::dup2(::open(err.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600), 2);
   for (int file = 3; file < 64; ++file) ::close(file);
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGPIPE}) ::signal(signal, SIG_DFL);  // a shell ignores some for what it starts with &
   if (prepare) prepare();
   ::execv(TOFRAY_TOOL, words.data());
   ::_exit(127);
