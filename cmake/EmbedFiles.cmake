@@ -13,14 +13,14 @@ foreach(file ${files})
   math(EXPR count "${count} + 1")
 endforeach()
 file(WRITE "${OUTPUT}.new" "// Written by the build from profiles/ and scenes/.
-#include \"io/builtin.h\"
+#include \"load/builtin.h\"
 
-namespace tofray::io {
+namespace tofray::load {
 
 extern const EmbeddedFile embedded_files[] = {
 ${entries}};
 extern const std::size_t embedded_count = ${count};
 
-}  // namespace tofray::io
+}  // namespace tofray::load
 ")
 file(RENAME "${OUTPUT}.new" "${OUTPUT}")

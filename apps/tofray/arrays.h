@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "io/json.h"
-#include "io/npz.h"
+#include "files/json.h"
+#include "files/npz.h"
 
 namespace tofray::app {
 
@@ -13,15 +13,15 @@ namespace tofray::app {
 class Arrays {
  public:
   /// @param where  the file, for messages
-  Arrays(std::vector<io::NamedArray> arrays, std::string where);
+  Arrays(std::vector<files::NamedArray> arrays, std::string where);
 
   [[nodiscard]] const std::string& where() const { return where_; }
-  [[nodiscard]] const std::vector<io::NamedArray>& all() const { return arrays_; }
-  [[nodiscard]] const io::NpyArray* find(std::string_view name) const;
+  [[nodiscard]] const std::vector<files::NamedArray>& all() const { return arrays_; }
+  [[nodiscard]] const files::NpyArray* find(std::string_view name) const;
   /// Element i of an array as a number; NaN where there is no such array or element.
   [[nodiscard]] double at(std::string_view name, std::size_t i) const;
   /// `meta` as a document; null where there is none.
-  [[nodiscard]] const io::Json& meta() const { return meta_; }
+  [[nodiscard]] const files::Json& meta() const { return meta_; }
   [[nodiscard]] const std::string& meta_text() const { return meta_text_; }
   [[nodiscard]] std::string unit(const std::string& name) const;
   /// Columns and rows of the image and how many raw frames; 0 where no array says.
@@ -31,9 +31,9 @@ class Arrays {
 
  private:
   std::string where_;
-  std::vector<io::NamedArray> arrays_;
+  std::vector<files::NamedArray> arrays_;
   std::string meta_text_;
-  io::Json meta_;
+  files::Json meta_;
   std::size_t width_ = 0, height_ = 0, phases_ = 0;
 };
 
@@ -48,6 +48,6 @@ unsigned flag_bits(double number);
 /// A report on one pixel, for people or as JSON: surface, light, every raw frame, phases, depth.
 /// @throws Error (bad_input) where the pixel is outside the image
 std::string pixel_text(const Arrays& arrays, int u, int v);
-io::Json pixel_json(const Arrays& arrays, int u, int v);
+files::Json pixel_json(const Arrays& arrays, int u, int v);
 
 }  // namespace tofray::app

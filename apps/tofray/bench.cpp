@@ -16,10 +16,10 @@
 #include "commands.h"
 #include "console.h"
 #include "experiment.h"
-#include "io/meta.h"
-#include "io/sha256.h"
+#include "files/sha256.h"
 #include "progress.h"
 #include "results.h"
+#include "results/meta.h"
 #include "tofray/error.h"
 
 namespace tofray::app {
@@ -31,24 +31,24 @@ void append(std::string& bytes, const std::vector<T>& array) {
   bytes.append(reinterpret_cast<const char*>(array.data()), array.size() * sizeof(T));
 }
 
-double number(const io::Json& row, const char* key) {
+double number(const files::Json& row, const char* key) {
   double value = 0;
   row.find(key)->number(value);
   return value;
 }
 
 /// What a row is of, as its lines of the table begin.
-std::string name_of(const io::Json& row) {
+std::string name_of(const files::Json& row) {
   const bool gpu = *row.find("backend")->string() != "cpu";
   return fmt::format("{:<24} {:<11} {:>7.0f} {:<6}", *row.find("scene")->string(), *row.find(gpu ? "backend" : "isa")->string(),
                      number(row, "threads"), *row.find("noise")->string());
 }
 
 /// A line for each run, or a single one where all say the same: that nothing can be read.
-std::string energy_lines(const io::Json& results) {
+std::string energy_lines(const files::Json& results) {
   std::set<std::string> texts;
   std::string lines;
-  for (const io::Json& row : *results.items()) {
+  for (const files::Json& row : *results.items()) {
     const std::string text = energy_text(*row.find("energy"));
     texts.insert(text);
     lines += fmt::format("{} energy per frame: {}\n", name_of(row), text);
@@ -56,16 +56,16 @@ std::string energy_lines(const io::Json& results) {
   return texts.size() == 1 && results.items()->size() > 1 ? "energy per frame: " + *texts.begin() + "\n" : lines;
 }
 
-std::string table_of(const io::Json& results, const std::vector<Ratio>& ratios) {
+std::string table_of(const files::Json& results, const std::vector<Ratio>& ratios) {
   std::string text = fmt::format("{:<24} {:<11} {:>7} {:<6} {:>10} {:>10} {:>9} {:>9} {:>8}  {}\n", "scene", "code", "threads", "noise",
                                  "frames/s", "median ms", "p10 ms", "p99 ms", "peak MB", "SHA-256 of frame 0");
-  for (const io::Json& row : *results.items()) {
+  for (const files::Json& row : *results.items()) {
     text += fmt::format("{} {:>10.2f} {:>10.3f} {:>9.3f} {:>9.3f} {:>8.1f}  {}\n", name_of(row), number(row, "frames_per_s"),
                         number(row, "ms_median"), number(row, "ms_p10"), number(row, "ms_p99"), 1e-6 * number(row, "peak_bytes"),
                         row.find("sha256")->string()->substr(0, 16));
   }
-  for (const io::Json& row : *results.items()) {
-    const io::Json& stages = *row.find("stage_ms");
+  for (const files::Json& row : *results.items()) {
+    const files::Json& stages = *row.find("stage_ms");
     text += fmt::format("{} stages, ms: trace {:.3f}, power {:.3f}, raw {:.3f}, depth {:.3f}\n", name_of(row), number(stages, "trace"),
                         number(stages, "power"), number(stages, "raw"), number(stages, "depth"));
   }
@@ -102,7 +102,7 @@ double Contender::percentile_ms(double share) const {
 
 double Contender::pixel_rate() const { return pixels_ / (1e-3 * median_ms()); }
 
-io::Json Contender::stage_ms() {
+files::Json Contender::stage_ms() {
   // A run that stops after a stage takes as long as this and all before it: each stage is the difference to the one before.
   constexpr Stage stages[] = {Stage::trace, Stage::power, Stage::raw, Stage::depth};
   constexpr const char* names[] = {"trace", "power", "raw", "depth"};
@@ -118,7 +118,7 @@ io::Json Contender::stage_ms() {
   std::vector<double> medians;
   for (const Contender& one : upto) medians.push_back(one.median_ms());
   const std::vector<double> spent = stage_times(medians);
-  io::Json row = io::Json::object();
+  files::Json row = files::Json::object();
   for (std::size_t i = 0; i < spent.size(); ++i) row.set(names[i], spent[i]);
   return row;
 }
@@ -147,12 +147,12 @@ Energy Contender::energy() {
   return energy_per_frame(gpu_bus_id(simulator_, options_), 1, [this] { step(false); });
 }
 
-io::Json Contender::result() {
+files::Json Contender::result() {
   const std::string hash = arrays_sha256(first_frame());
-  io::Json row = io::Json::object();
+  files::Json row = files::Json::object();
   const RanOn machine = simulator_.ran_on();
   row.set("scene", scene_).set("backend", machine.backend).set("device", machine.device).set("isa", machine.isa);
-  row.set("threads", machine.threads).set("noise", io::noise_name(options_.noise));
+  row.set("threads", machine.threads).set("noise", results::noise_name(options_.noise));
   row.set("frames_per_s", 1000 / median_ms())
       .set("ms_median", median_ms())
       .set("ms_p10", percentile_ms(0.1))
@@ -179,7 +179,7 @@ std::string arrays_sha256(const Frame& frame) {
 #define TOFRAY_APPEND(name, part, member, ...) append(bytes, frame.part.member);
   TOFRAY_IMAGE_ARRAYS(TOFRAY_APPEND)
 #undef TOFRAY_APPEND
-  return io::sha256_hex(bytes);
+  return files::sha256_hex(bytes);
 }
 
 SimulatorOptions bench_options(const Options& options) {
@@ -199,7 +199,7 @@ int run_bench(const Options& options) {
   if (experiment) return run_experiment(options);
   const std::string scene = options.words.empty() ? "bench-primitives" : options.words[0];
   const std::uint64_t frames = options.frames.value_or(100);
-  io::Json results = io::Json::array(), ratios_json = io::Json::array();
+  files::Json results = files::Json::array(), ratios_json = files::Json::array();
   std::vector<Ratio> ratios;
   if (options.compare) {
     ratios = compare(options, scene, results);
@@ -215,9 +215,9 @@ int run_bench(const Options& options) {
     }
     results.push(one.result());
   }
-  for (const Ratio& one : ratios) ratios_json.push(io::Json::object().set("name", one.name).set("value", one.value));
+  for (const Ratio& one : ratios) ratios_json.push(files::Json::object().set("name", one.name).set("value", one.value));
   if (options.json)
-    print(io::json_text(io::Json::object().set("results", std::move(results)).set("ratios", std::move(ratios_json)), 2) + "\n");
+    print(files::json_text(files::Json::object().set("results", std::move(results)).set("ratios", std::move(ratios_json)), 2) + "\n");
   else
     print(table_of(results, ratios));
   return 0;

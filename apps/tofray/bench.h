@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "bench_energy.h"
+#include "files/json.h"
 #include "inputs.h"
-#include "io/json.h"
 #include "tofray/frame.h"
 
 namespace tofray::app {
@@ -29,11 +29,11 @@ class Contender {
   /// Joules of further frames.
   [[nodiscard]] Energy energy();
   /// Row of `results`; its hash is that of frame 0's arrays, whatever was timed.
-  [[nodiscard]] io::Json result();
+  [[nodiscard]] files::Json result();
 
  private:
   /// Median time of each stage [ms], from runs of their own.
-  [[nodiscard]] io::Json stage_ms();
+  [[nodiscard]] files::Json stage_ms();
 
   Inputs in_;
   std::string scene_;
@@ -75,6 +75,6 @@ int run_batch_bench(const Options& options);
 
 /// Runs pairs in turn, frame by frame (A B A B …), so that the machine's moods meet both alike.
 /// @param results  a row for each contender
-std::vector<Ratio> compare(const Options& options, const std::string& scene, io::Json& results);
+std::vector<Ratio> compare(const Options& options, const std::string& scene, files::Json& results);
 
 }  // namespace tofray::app

@@ -8,9 +8,9 @@
 
 #include "bench.h"
 #include "console.h"
-#include "io/meta.h"
 #include "progress.h"
 #include "results.h"
+#include "results/meta.h"
 
 namespace tofray::app {
 
@@ -70,11 +70,11 @@ Times measure(Simulator& simulator, const std::vector<FrameRequest>& requests, s
   return times;
 }
 
-io::Json row_of(const Inputs& in, Simulator& simulator, const SimulatorOptions& options, const char* differing,
-                const std::vector<FrameRequest>& requests, std::uint64_t repeats) {
+files::Json row_of(const Inputs& in, Simulator& simulator, const SimulatorOptions& options, const char* differing,
+                   const std::vector<FrameRequest>& requests, std::uint64_t repeats) {
   const Times times = measure(simulator, requests, repeats);
   const auto count = static_cast<double>(requests.size());
-  const auto rate = [&](const std::vector<double>& seconds) { return io::Json(count / median(seconds)); };
+  const auto rate = [&](const std::vector<double>& seconds) { return files::Json(count / median(seconds)); };
   const bool gpu = simulator.ran_on().backend == "cuda";
   DeviceFrames frames;
   const Energy energy = energy_per_frame(gpu_bus_id(simulator, options), requests.size(), [&] {
@@ -83,16 +83,16 @@ io::Json row_of(const Inputs& in, Simulator& simulator, const SimulatorOptions& 
     else
       simulator.frames(requests, [](const FrameArrays&) {});
   });
-  io::Json row = io::Json::object();
+  files::Json row = files::Json::object();
   const RanOn machine = simulator.ran_on();
   row.set("scene", in.scene.name).set("backend", machine.backend).set("device", machine.device).set("isa", machine.isa);
-  row.set("threads", machine.threads).set("noise", io::noise_name(options.noise)).set("differing", differing);
+  row.set("threads", machine.threads).set("noise", results::noise_name(options.noise)).set("differing", differing);
   row.set("batch", requests.size()).set("repeats", repeats);
   row.set("frames_per_s_device", rate(times.device)).set("frames_per_s_resident", rate(times.resident));
   return row.set("frames_per_s_host", rate(times.host)).set("energy", energy_json(energy));
 }
 
-std::string text_of(const io::Json& row) {
+std::string text_of(const files::Json& row) {
   const auto rate = [&](const char* key) {
     double value = 0;
     return row.find(key)->number(value) && std::isfinite(value) ? fmt::format("{:.0f}", value) : std::string("-");
@@ -114,18 +114,18 @@ int run_batch_bench(const Options& options) {
   Simulator simulator(in.scene, in.camera, wanted);
   say_fallback(options, simulator.ran_on());
   const std::uint64_t repeats = options.frames.value_or(20);
-  io::Json results = io::Json::array();
+  files::Json results = files::Json::array();
   for (const char* differing : {"index", "seeds", "poses"}) {
     results.push(row_of(in, simulator, wanted, differing, requests_of(in, *options.batch, wanted.seed, differing), repeats));
   }
   if (options.json) {
-    print(io::json_text(io::Json::object().set("results", std::move(results)), 2) + "\n");
+    print(files::json_text(files::Json::object().set("results", std::move(results)), 2) + "\n");
     return 0;
   }
   std::string text = fmt::format("frames per second, medians of {} batches\n{:<24} {:<20} {:<6} {:<6} {:>7} {:>13} {:>13} {:>13}\n",
                                  repeats, "scene", "device", "noise", "differ", "batch", "device clock", "left there", "to the host");
   std::vector<std::string> energy;
-  for (const io::Json& row : *results.items()) {
+  for (const files::Json& row : *results.items()) {
     text += text_of(row);
     const std::string one = fmt::format("energy per frame: {}\n", energy_text(*row.find("energy")));
     if (energy.empty() || energy.back() != one) energy.push_back(one);  // what cannot be read is said once

@@ -72,7 +72,7 @@ std::vector<Pair> pairs_of(const Options& options, const Inputs& in) {
 
 }  // namespace
 
-std::vector<Ratio> compare(const Options& options, const std::string& scene, io::Json& results) {
+std::vector<Ratio> compare(const Options& options, const std::string& scene, files::Json& results) {
   const Inputs in = load_inputs(scene, options);
   const std::uint64_t frames = options.frames.value_or(30);
   const std::vector<Pair> pairs = pairs_of(options, in);

@@ -23,14 +23,14 @@ FrameEnergy share_of(energy::Meter& meter, double frames) {
   return {joules / frames, meter.what(), meter.reason()};
 }
 
-void set_json(io::Json& json, const std::string& who, const FrameEnergy& one) {
+void set_json(files::Json& json, const std::string& who, const FrameEnergy& one) {
   const bool known = one.reason.empty();
-  json.set(who + "_j_per_frame", known ? io::Json(one.joules) : io::Json());
-  json.set(who + "_counter", known ? io::Json(one.what) : io::Json());
-  json.set(who + "_not_readable", known ? io::Json() : io::Json(one.reason));
+  json.set(who + "_j_per_frame", known ? files::Json(one.joules) : files::Json());
+  json.set(who + "_counter", known ? files::Json(one.what) : files::Json());
+  json.set(who + "_not_readable", known ? files::Json() : files::Json(one.reason));
 }
 
-std::string text_of(const io::Json& json, const std::string& who, const char* name) {
+std::string text_of(const files::Json& json, const std::string& who, const char* name) {
   double joules = 0;
   if (!json.find(who + "_j_per_frame")->number(joules))
     return fmt::format("{} not readable here: {}", name, *json.find(who + "_not_readable")->string());
@@ -72,14 +72,14 @@ Energy energy_per_frame(const std::string& gpu_bus_id, std::uint64_t frames, con
   return energy_per_frame(cpu, gpu.get(), gpu != nullptr && gpu->readable() ? nvml_seconds : rapl_seconds, frames, simulate);
 }
 
-io::Json energy_json(const Energy& energy) {
-  io::Json json = io::Json::object();
+files::Json energy_json(const Energy& energy) {
+  files::Json json = files::Json::object();
   set_json(json, "cpu", energy.cpu);
   if (energy.with_gpu) set_json(json, "gpu", energy.gpu);
   return json;
 }
 
-std::string energy_text(const io::Json& energy) {
+std::string energy_text(const files::Json& energy) {
   return text_of(energy, "cpu", "CPU") + (energy.find("gpu_j_per_frame") != nullptr ? "; " + text_of(energy, "gpu", "GPU") : "");
 }
 

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "energy/meter.h"
-#include "io/json.h"
+#include "files/json.h"
 
 namespace tofray::app {
 
@@ -37,9 +37,9 @@ Energy energy_per_frame(energy::Meter& cpu, energy::Meter* gpu, double seconds, 
 Energy energy_per_frame(const std::string& gpu_bus_id, std::uint64_t frames, const std::function<void()>& simulate);
 
 /// {"cpu_j_per_frame", "cpu_counter", "cpu_not_readable"} and the same for the GPU where one takes part; what is not there is null.
-io::Json energy_json(const Energy& energy);
+files::Json energy_json(const Energy& energy);
 
 /// What energy_json gave, for people: "CPU 0.0123 J (package-0); GPU not readable here: …".
-std::string energy_text(const io::Json& energy);
+std::string energy_text(const files::Json& energy);
 
 }  // namespace tofray::app

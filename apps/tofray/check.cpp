@@ -4,15 +4,16 @@
 
 #include "commands.h"
 #include "console.h"
+#include "files/json.h"
+#include "files/text_file.h"
 #include "input_kind.h"
 #include "inputs.h"
-#include "io/builtin.h"
-#include "io/convert.h"
-#include "io/json.h"
-#include "io/load.h"
-#include "io/provenance.h"
-#include "io/text_file.h"
+#include "load/builtin.h"
+#include "load/convert.h"
+#include "load/load.h"
+#include "load/provenance.h"
 #include "tofray/error.h"
+#include "yaml/tree.h"
 
 namespace tofray::app {
 
@@ -26,7 +27,7 @@ SimulatorOptions on_processor(const Options& options) {
 }
 
 struct Report {
-  io::Json json = io::Json::object();
+  files::Json json = files::Json::object();
   std::string text, warnings;
 };
 
@@ -43,16 +44,16 @@ Report check_profile(const std::string& text, const std::string& name, const Opt
     const std::string more = warnings(in_mode, "");
     if (report.warnings.find(more) == std::string::npos) report.warnings += more;
   };
-  const Camera camera = io::camera_from_text(text, name, io::folder_of(name), {options.mode, options.set, {}}, check_mode);
-  const std::vector<std::string> unsourced = io::unsourced_numbers(io::parse_tree(text, name));
+  const Camera camera = load::camera_from_text(text, name, files::folder_of(name), {options.mode, options.set, {}}, check_mode);
+  const std::vector<std::string> unsourced = load::unsourced_numbers(yaml::parse_tree(text, name));
   for (const std::string& one : unsourced)
     report.warnings += fmt::format("{}: warning: {}, and does not say where that comes from\n", one.substr(0, one.find(": ")),
                                    one.substr(one.find(": ") + 2));
   if (!unsourced.empty()) report.warnings += "  expected source: or assumed: beside it, or for its group\n";
   report.json.set("kind", "camera")
       .set("name", camera.name)
-      .set("modes", io::Json::list(camera.mode_names))
-      .set("unsourced_numbers", io::Json::list(unsourced));
+      .set("modes", files::Json::list(camera.mode_names))
+      .set("unsourced_numbers", files::Json::list(unsourced));
   report.text = fmt::format("{}: good: camera {}, {} x {} pixels, {} modes\n", name, camera.name, camera.sensor.width, camera.sensor.height,
                             camera.mode_names.size());
   return report;
@@ -75,11 +76,11 @@ Report check_scene(const std::string& name, const Options& options) {
 
 Report check(const Options& options) {
   const std::string& name = options.words[0];
-  if (io::find_builtin(io::builtin_scenes(), name) != nullptr) return check_scene(name, options);
-  if (const io::Builtin* profile = io::find_builtin(io::builtin_profiles(), name))
+  if (load::find_builtin(load::builtin_scenes(), name) != nullptr) return check_scene(name, options);
+  if (const load::Builtin* profile = load::find_builtin(load::builtin_profiles(), name))
     return check_profile(std::string(profile->text), name, options);
   refuse_folder(name, "check");
-  const std::string text = io::read_named("scene", name, io::builtin_scenes());
+  const std::string text = load::read_named("scene", name, load::builtin_scenes());
   refuse_data(text, name);
   return looks_like_a_profile(text, name) ? check_profile(text, name, options) : check_scene(name, options);
 }
@@ -90,7 +91,7 @@ int run_check(const Options& options) {
   Report report = check(options);
   say(report.warnings);
   if (options.json)
-    print(io::json_text(report.json.set("good", true), 2) + "\n");
+    print(files::json_text(report.json.set("good", true), 2) + "\n");
   else if (!options.quiet)
     print(report.text);
   return 0;

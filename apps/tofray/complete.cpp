@@ -5,9 +5,9 @@
 
 #include "commands.h"
 #include "console.h"
-#include "io/array_table.h"
-#include "io/builtin.h"
+#include "load/builtin.h"
 #include "model/lines.h"
+#include "results/array_table.h"
 #include "tofray/camera.h"
 
 /// What can stand at the cursor of a command line: the scripts of `tofray completion` ask here. All of it comes from the tables of commands,
@@ -38,9 +38,9 @@ Offers options_as_offers(const Command& command) {
   return out;
 }
 
-Offers builtins(const std::vector<io::Builtin>& all) {
+Offers builtins(const std::vector<load::Builtin>& all) {
   Offers out;
-  for (const io::Builtin& one : all) out.push_back({one.name, one.description});
+  for (const load::Builtin& one : all) out.push_back({one.name, one.description});
   return out;
 }
 
@@ -53,13 +53,13 @@ Offers keys() {
 
 Offers arrays() {
   Offers out = {{"gt_*", "all of the ground truth"}};
-  for (const io::ArrayRow& one : io::array_table()) out.push_back({one.name, one.what});
+  for (const results::ArrayRow& one : results::array_table()) out.push_back({one.name, one.what});
   return out;
 }
 
 Offers modes() {
   Offers out;
-  for (const io::Builtin& one : io::builtin_profiles()) {
+  for (const load::Builtin& one : load::builtin_profiles()) {
     for (const std::string& mode : load_camera(one.name).mode_names) out.push_back({mode, "of " + one.name});
   }
   return out;
@@ -68,8 +68,8 @@ Offers modes() {
 /// What one word of a table's `completes` stands for.
 Offers offers_of(const std::string& word) {
   if (word == "<commands>") return commands();
-  if (word == "<scenes>") return builtins(io::builtin_scenes());
-  if (word == "<profiles>") return builtins(io::builtin_profiles());
+  if (word == "<scenes>") return builtins(load::builtin_scenes());
+  if (word == "<profiles>") return builtins(load::builtin_profiles());
   if (word == "<keys>") return keys();
   if (word == "<arrays>") return arrays();
   if (word == "<modes>") return modes();

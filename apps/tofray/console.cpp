@@ -14,7 +14,7 @@
 #include <system_error>
 
 #include "base/text.h"
-#include "io/atomic_file.h"
+#include "files/atomic_file.h"
 #include "tofray/error.h"
 
 namespace tofray::app {
@@ -52,7 +52,7 @@ extern "C" void end_on_signal(int signal) {
   if (ending.exchange(true)) {
     for (;;) ::pause();
   }
-  io::end_writing();
+  files::end_writing();
   if (signal == SIGINT && ::isatty(STDERR_FILENO) != 0) write_all(STDERR_FILENO, "\ninterrupted\n");
   ::_exit(128 + signal);
 }

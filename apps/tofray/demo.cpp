@@ -13,7 +13,7 @@ namespace tofray::app {
 
 namespace {
 
-std::string told(const Frame& frame, const Inputs& in, const Simulator& simulator, const io::OutputFolder& folder,
+std::string told(const Frame& frame, const Inputs& in, const Simulator& simulator, const files::OutputFolder& folder,
                  const Stopwatch& stopwatch) {
   const Validity pixels = validity(frame.depth);
   const Sensor& sensor = in.camera.sensor;
@@ -25,7 +25,7 @@ std::string told(const Frame& frame, const Inputs& in, const Simulator& simulato
                       machine_text(simulator.ran_on()));
   const std::string npz = (folder.path() / "frame.npz").native();
   text += "\nNext:\n";
-  if (std::any_of(folder.files().begin(), folder.files().end(), [](const io::FileRecord& file) { return file.name == "frame.npz"; }))
+  if (std::any_of(folder.files().begin(), folder.files().end(), [](const files::FileRecord& file) { return file.name == "frame.npz"; }))
     text += fmt::format("  tofray inspect {} --pixel 112,86      # how one pixel gets its depth\n", npz);
   text += "  tofray demo --set camera.illumination.0.power=\"0.02 W\"   # a tenth of the light\n";
   text += "  tofray list scenes                                       # more scenes; `tofray render` takes your own\n";
@@ -43,7 +43,7 @@ int run_demo(const Options& options) {
   wanted.truth = what.need_truth();
   Simulator simulator(in.scene, in.camera, wanted);
   say_fallback(options, simulator.ran_on());
-  io::OutputFolder folder(options.output.empty() ? "tofray-demo" : options.output);
+  files::OutputFolder folder(options.output.empty() ? "tofray-demo" : options.output);
   stopwatch.lap("prepare");
   const Frame frame = simulator.frame(0);
   stopwatch.lap("simulate");
@@ -52,7 +52,7 @@ int run_demo(const Options& options) {
   const RanOn machine = simulator.ran_on();
   write_manifest(folder, options, in.files, machine, stopwatch);
   if (options.json) {
-    print(io::json_text(summary_json(folder, frame.depth, 1, machine, stopwatch), 2) + "\n");
+    print(files::json_text(summary_json(folder, frame.depth, 1, machine, stopwatch), 2) + "\n");
   } else {
     const auto colors = stdout_has_colors() ? pictures::TerminalColors::full : pictures::TerminalColors::none;
     if (!options.quiet) print_picture(pictures::terminal_picture(frame.depth, std::min(terminal_columns(), 100), colors) + "\n");

@@ -46,7 +46,7 @@ struct Diff {
 };
 
 /// NaN is the same as NaN, and 0 as −0.
-void compare_values(const io::NpyArray& a, const io::NpyArray& b, ArrayDiff& diff) {
+void compare_values(const files::NpyArray& a, const files::NpyArray& b, ArrayDiff& diff) {
   const auto size = static_cast<std::size_t>(a.type.size);
   for (std::size_t i = 0; i < diff.values; ++i) {
     if (a.bytes.compare(i * size, size, b.bytes, i * size, size) == 0) continue;
@@ -60,7 +60,7 @@ void compare_values(const io::NpyArray& a, const io::NpyArray& b, ArrayDiff& dif
   }
 }
 
-ArrayDiff diff_of(const std::string& name, const io::NpyArray& a, const io::NpyArray& b) {
+ArrayDiff diff_of(const std::string& name, const files::NpyArray& a, const files::NpyArray& b) {
   ArrayDiff diff{name, {}, {}, a.count(), 0, 0, 0};
   const bool texts = a.type.kind == 'U' && b.type.kind == 'U';
   if (texts && a.bytes != b.bytes)
@@ -68,7 +68,7 @@ ArrayDiff diff_of(const std::string& name, const io::NpyArray& a, const io::NpyA
   else if (a.type != b.type && !texts)
     diff.other = fmt::format("{}, then {}", a.type.name(), b.type.name());
   else if (a.shape != b.shape)
-    diff.other = fmt::format("{}, then {}", io::shape_text(a.shape), io::shape_text(b.shape));
+    diff.other = fmt::format("{}, then {}", files::shape_text(a.shape), files::shape_text(b.shape));
   else if (!texts)
     compare_values(a, b, diff);
   return diff;
@@ -77,12 +77,12 @@ ArrayDiff diff_of(const std::string& name, const io::NpyArray& a, const io::NpyA
 FileDiff diff_of_files(const std::string& a, const std::string& b) {
   const Arrays before = read_arrays(a), after = read_arrays(b);
   FileDiff diff{a, b, {}};
-  for (const io::NamedArray& one : before.all()) {
-    const io::NpyArray* there = after.find(one.name);
+  for (const files::NamedArray& one : before.all()) {
+    const files::NpyArray* there = after.find(one.name);
     diff.arrays.push_back(there != nullptr ? diff_of(one.name, one.array, *there) : ArrayDiff{one.name, {}, "only in the first", 0, 0, 0, 0});
     diff.arrays.back().unit = before.unit(one.name);
   }
-  for (const io::NamedArray& one : after.all()) {
+  for (const files::NamedArray& one : after.all()) {
     if (before.find(one.name) == nullptr) diff.arrays.push_back({one.name, after.unit(one.name), "only in the second", 0, 0, 0, 0});
   }
   return diff;
@@ -130,34 +130,34 @@ std::string text_of(const Diff& diff) {
   return text;
 }
 
-io::Json json_of(const FileDiff& file) {
-  io::Json arrays = io::Json::array();
+files::Json json_of(const FileDiff& file) {
+  files::Json arrays = files::Json::array();
   for (const ArrayDiff& one : file.arrays) {
-    io::Json json = io::Json::object().set("name", one.name).set("same", one.same());
+    files::Json json = files::Json::object().set("name", one.name).set("same", one.same());
     if (!one.other.empty())
       json.set("other", one.other);
     else
       json.set("values", one.values).set("differ", one.differ).set("largest_difference", one.largest).set("not_finite", one.not_numbers).set("unit", one.unit);
     arrays.push(std::move(json));
   }
-  return io::Json::object().set("a", file.a).set("b", file.b).set("same", file.same()).set("arrays", std::move(arrays));
+  return files::Json::object().set("a", file.a).set("b", file.b).set("same", file.same()).set("arrays", std::move(arrays));
 }
 
-io::Json json_of(const Diff& diff) {
-  io::Json files = io::Json::array();
+files::Json json_of(const Diff& diff) {
+  files::Json files = files::Json::array();
   for (const FileDiff& file : diff.files) files.push(json_of(file));
-  return io::Json::object()
+  return files::Json::object()
       .set("same", diff.same())
       .set("files", std::move(files))
-      .set("only_in_a", io::Json::list(diff.only_in_a))
-      .set("only_in_b", io::Json::list(diff.only_in_b));
+      .set("only_in_a", files::Json::list(diff.only_in_a))
+      .set("only_in_b", files::Json::list(diff.only_in_b));
 }
 
 }  // namespace
 
 int run_diff(const Options& options) {
   const Diff diff = diff_of(options.words[0], options.words[1]);
-  print(options.json ? io::json_text(json_of(diff), 2) + "\n" : text_of(diff));
+  print(options.json ? files::json_text(json_of(diff), 2) + "\n" : text_of(diff));
   return diff.same() ? 0 : 1;
 }
 

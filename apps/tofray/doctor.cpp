@@ -12,13 +12,13 @@
 
 #include "backend/cpu/cpu.h"
 #include "backend/cuda/cuda.h"
+#include "base/version.h"
 #include "commands.h"
 #include "console.h"
+#include "files/json.h"
 #include "inputs.h"
-#include "io/json.h"
-#include "io/load.h"
-#include "io/manifest.h"
-#include "io/version.h"
+#include "load/load.h"
+#include "results/manifest.h"
 #include "tofray/error.h"
 
 namespace tofray::app {
@@ -47,7 +47,7 @@ SelfTest test_wall(Backend backend, Isa isa, const Options& wanted, std::vector<
   SelfTest out;
   out.isa = backend == Backend::cuda ? "cuda" : backend::isa_name(isa);
   try {
-    const Scene scene = io::load_scene("card", {{"camera.illumination.0.waveform", "{kind: sine}"}});
+    const Scene scene = load::load_scene("card", {{"camera.illumination.0.waveform", "{kind: sine}"}});
     SimulatorOptions options;
     options.noise = Noise::off;
     options.threads = wanted.threads;
@@ -138,8 +138,8 @@ Diagnosis diagnose(const Options& options) {
 std::string text_of(const Diagnosis& d) {
   std::string sets, text;
   for (const std::string& one : d.sets) sets += (sets.empty() ? "" : ", ") + one;
-  text += fmt::format("tofray      {}, built with {}\n", io::version(), compiler);
-  text += fmt::format("processor   {}\n", io::cpu_model());
+  text += fmt::format("tofray      {}, built with {}\n", base::version(), compiler);
+  text += fmt::format("processor   {}\n", results::cpu_model());
   text += fmt::format("code        {}; in use: {}{}\n", sets, d.isa, d.forced.empty() ? "" : " (TOFRAY_ISA)");
   text += fmt::format("threads     {} cores, {} of them for this process\n", std::thread::hardware_concurrency(), cores_allowed());
   text += fmt::format("memory      {:.1f} GB, {:.1f} GB available\n", 1e-9 * memory_bytes("MemTotal"), 1e-9 * memory_bytes("MemAvailable"));
@@ -152,10 +152,10 @@ std::string text_of(const Diagnosis& d) {
          (d.good ? "all good\n" : "the self-test FAILED: results on this machine cannot be trusted; please report it with this output\n");
 }
 
-io::Json json_of(const Diagnosis& d) {
-  io::Json tests = io::Json::array();
+files::Json json_of(const Diagnosis& d) {
+  files::Json tests = files::Json::array();
   for (const SelfTest& one : d.tests)
-    tests.push(io::Json::object()
+    tests.push(files::Json::object()
                    .set("isa", one.isa)
                    .set("good", one.good())
                    .set("worst_m", one.worst_m)
@@ -163,23 +163,23 @@ io::Json json_of(const Diagnosis& d) {
                    .set("pixels", one.pixels)
                    .set("same_bits", one.same)
                    .set("fault", one.fault));
-  io::Json json = io::Json::object();
-  json.set("tofray", io::version())
+  files::Json json = files::Json::object();
+  json.set("tofray", base::version())
       .set("compiler", compiler)
-      .set("cpu", io::cpu_model())
-      .set("instruction_sets", io::Json::list(d.sets))
+      .set("cpu", results::cpu_model())
+      .set("instruction_sets", files::Json::list(d.sets))
       .set("isa", d.isa)
-      .set("gpus", io::Json::list(d.gpus));
+      .set("gpus", files::Json::list(d.gpus));
   json.set("cores", std::thread::hardware_concurrency()).set("cores_allowed", cores_allowed());
   json.set("memory_bytes", memory_bytes("MemTotal")).set("memory_available_bytes", memory_bytes("MemAvailable"));
-  return json.set("self_test", std::move(tests)).set("missing", io::Json::list(d.missing)).set("good", d.good);
+  return json.set("self_test", std::move(tests)).set("missing", files::Json::list(d.missing)).set("good", d.good);
 }
 
 }  // namespace
 
 int run_doctor(const Options& options) {
   const Diagnosis found = diagnose(options);
-  print(options.json ? io::json_text(json_of(found), 2) + "\n" : text_of(found));
+  print(options.json ? files::json_text(json_of(found), 2) + "\n" : text_of(found));
   return found.good ? 0 : 1;
 }
 

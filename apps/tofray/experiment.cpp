@@ -12,11 +12,11 @@
 #include "base/text.h"
 #include "bench.h"
 #include "console.h"
-#include "io/manifest.h"
-#include "io/meta.h"
-#include "io/output_folder.h"
+#include "files/output_folder.h"
 #include "progress.h"
 #include "results.h"
+#include "results/manifest.h"
+#include "results/meta.h"
 #include "tofray/error.h"
 
 namespace tofray::app {
@@ -141,11 +141,11 @@ bool takes_gpu(Options& options, const Inputs& in) {
 Experiment described(const Options& options, const Inputs& in, bool gpu) {
   Experiment out;
   out.backend = gpu ? "cuda" : "cpu";
-  out.cpu = io::cpu_model();
+  out.cpu = results::cpu_model();
   SimulatorOptions wanted = bench_options(options);
   wanted.backend = Backend::cuda;
   if (gpu) out.gpu = Simulator(in.scene, in.camera, wanted).ran_on().device;
-  out.noise = io::noise_name(wanted.noise);
+  out.noise = results::noise_name(wanted.noise);
   out.frames = options.frames.value_or(30);
   out.width = in.camera.sensor.width, out.height = in.camera.sensor.height;
   out.raw_frames = static_cast<int>(in.camera.mode.sequence.size());
@@ -153,9 +153,9 @@ Experiment described(const Options& options, const Inputs& in, bool gpu) {
 }
 
 int report(const Experiment& experiment, const Options& options) {
-  const std::string table = experiment_table(experiment), json = io::json_text(experiment_json(experiment), 2) + "\n";
+  const std::string table = experiment_table(experiment), json = files::json_text(experiment_json(experiment), 2) + "\n";
   const pictures::Chart chart = experiment_chart(experiment);
-  io::OutputFolder folder(options.output.empty() ? "tofray-bench" : options.output);
+  files::OutputFolder folder(options.output.empty() ? "tofray-bench" : options.output);
   folder.write("experiment.txt", table);
   folder.write("experiment.json", json);
   folder.write("speed-up.png", pictures::chart_png(chart));

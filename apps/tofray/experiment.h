@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "bench_energy.h"
-#include "pictures/chart.h"
-#include "io/json.h"
+#include "files/json.h"
 #include "options.h"
+#include "pictures/chart.h"
 
 /// The block-size experiment: how much faster than one thread of sequential code a GPU is, over its threads per block; without a GPU the
 /// same for vector code over the number of threads. This is what was measured; experiment.cpp measures.
@@ -69,7 +69,7 @@ std::vector<Best> best_of_stages(const Experiment& experiment);
 std::vector<std::string> other_bytes(const Experiment& experiment);
 
 std::string experiment_table(const Experiment& experiment);
-io::Json experiment_json(const Experiment& experiment);
+files::Json experiment_json(const Experiment& experiment);
 /// Speed-up over block size or threads, one curve for each scene and stage.
 pictures::Chart experiment_chart(const Experiment& experiment);
 

@@ -77,17 +77,17 @@ std::string energy_lines(const Experiment& experiment) {
   return texts.size() == 1 ? "energy per frame: " + *texts.begin() + "\n" : lines;
 }
 
-io::Json json_of(const Group& group, const Timing& run, const char* role) {
-  io::Json row = io::Json::object();
+files::Json json_of(const Group& group, const Timing& run, const char* role) {
+  files::Json row = files::Json::object();
   row.set("scene", group.scene).set("objects", group.objects).set("stage", group.stage).set("role", role).set("code", run.code);
-  row.set("threads", run.threads > 0 ? io::Json(run.threads) : io::Json());
-  row.set("block_size", run.block_size > 0 ? io::Json(run.block_size) : io::Json());
-  row.set("occupancy", run.occupancy ? io::Json(*run.occupancy) : io::Json());
+  row.set("threads", run.threads > 0 ? files::Json(run.threads) : files::Json());
+  row.set("block_size", run.block_size > 0 ? files::Json(run.block_size) : files::Json());
+  row.set("occupancy", run.occupancy ? files::Json(*run.occupancy) : files::Json());
   row.set("ms_median", run.ms_median).set("ms_p10", run.ms_p10);
   row.set("speed_up_scalar", speed_up(group.scalar, run)).set("speed_up_vector", speed_up(group.vector, run));
   row.set("less_time", 1 - 1 / speed_up(group.scalar, run));
-  row.set("energy", run.energy ? energy_json(*run.energy) : io::Json());
-  return row.set("sha256", run.sha256).set("fault", run.ran() ? io::Json() : io::Json(run.fault));
+  row.set("energy", run.energy ? energy_json(*run.energy) : files::Json());
+  return row.set("sha256", run.sha256).set("fault", run.ran() ? files::Json() : files::Json(run.fault));
 }
 
 /// First, last and round values between: labels of an axis.
@@ -172,8 +172,8 @@ std::string experiment_table(const Experiment& experiment) {
   return text;
 }
 
-io::Json experiment_json(const Experiment& experiment) {
-  io::Json results = io::Json::array(), bests = io::Json::array();
+files::Json experiment_json(const Experiment& experiment) {
+  files::Json results = files::Json::array(), bests = files::Json::array();
   for (const Group& group : experiment.groups) {
     results.push(json_of(group, group.scalar, "scalar"));
     results.push(json_of(group, group.vector, "vector"));
@@ -182,14 +182,14 @@ io::Json experiment_json(const Experiment& experiment) {
       results.push(json_of(group, group.runs[i], static_cast<int>(i) == best ? "best" : "run"));
   }
   for (const Best& best : best_of_stages(experiment))
-    bests.push(io::Json::object()
+    bests.push(files::Json::object()
                    .set("stage", best.stage)
                    .set(experiment.backend == "cuda" ? "block_size" : "threads", best.x)
                    .set("speed_up_scalar", best.speed_up));
-  io::Json json = io::Json::object();
+  files::Json json = files::Json::object();
   json.set("backend", experiment.backend)
       .set("cpu", experiment.cpu)
-      .set("gpu", experiment.gpu.empty() ? io::Json() : io::Json(experiment.gpu));
+      .set("gpu", experiment.gpu.empty() ? files::Json() : files::Json(experiment.gpu));
   json.set("width", experiment.width).set("height", experiment.height).set("raw_frames", experiment.raw_frames);
   json.set("noise", experiment.noise).set("frames", experiment.frames);
   return json.set("results", std::move(results)).set("best", std::move(bests));

@@ -60,21 +60,21 @@ std::vector<Fault> faults_of(const std::string& text) {
   return faults;
 }
 
-io::Json text_or_null(const std::string& text) { return text.empty() ? io::Json() : io::Json(text); }
-io::Json number_or_null(int number) { return number > 0 ? io::Json(number) : io::Json(); }
+files::Json text_or_null(const std::string& text) { return text.empty() ? files::Json() : files::Json(text); }
+files::Json number_or_null(int number) { return number > 0 ? files::Json(number) : files::Json(); }
 
 }  // namespace
 
-io::Json fault_json(const std::string& text, ErrorKind kind) {
-  io::Json faults = io::Json::array();
+files::Json fault_json(const std::string& text, ErrorKind kind) {
+  files::Json faults = files::Json::array();
   for (const Fault& one : faults_of(text))
-    faults.push(io::Json::object()
+    faults.push(files::Json::object()
                     .set("file", text_or_null(one.file))
                     .set("line", number_or_null(one.line))
                     .set("column", number_or_null(one.column))
                     .set("text", one.text)
                     .set("more", text_or_null(one.more)));
-  return io::Json::object().set("good", false).set("exit_code", static_cast<int>(kind)).set("faults", std::move(faults));
+  return files::Json::object().set("good", false).set("exit_code", static_cast<int>(kind)).set("faults", std::move(faults));
 }
 
 }  // namespace tofray::app

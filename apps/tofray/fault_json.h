@@ -3,7 +3,7 @@
 #pragma once
 #include <string>
 
-#include "io/json.h"
+#include "files/json.h"
 #include "tofray/error.h"
 
 namespace tofray::app {
@@ -11,6 +11,6 @@ namespace tofray::app {
 /// What a command with --json prints where it fails: {"good": false, "exit_code", "faults": [{"file", "line", "column", "text", "more"}]}.
 /// It takes an Error's text apart, whose form error.h says: a line "file:line:column: error: what" for each fault, indented lines that
 /// belong to it. Where a fault has no file, no line or nothing more to say, these are null.
-io::Json fault_json(const std::string& text, ErrorKind kind);
+files::Json fault_json(const std::string& text, ErrorKind kind);
 
 }  // namespace tofray::app

@@ -24,7 +24,7 @@ std::size_t bytes_of(const Frame& frame) {
 
 }  // namespace
 
-FrameWriter::FrameWriter(io::OutputFolder& folder, const FrameFiles& what, std::uint64_t frames)
+FrameWriter::FrameWriter(files::OutputFolder& folder, const FrameFiles& what, std::uint64_t frames)
     : folder_(folder), what_(what), frames_(frames) {}
 
 FrameWriter::~FrameWriter() { stop(); }
@@ -70,7 +70,7 @@ void FrameWriter::write(const std::string& suffix) {
 
 /// Writes a frame and gives its memory back.
 void FrameWriter::done(const Task& task, std::string& file) {
-  std::vector<io::FileRecord> records;
+  std::vector<files::FileRecord> records;
   std::exception_ptr failure;
   try {
     records = write_frame(folder_, what_, task.suffix, *task.frame, file);
@@ -113,7 +113,7 @@ void FrameWriter::stop() {
 void FrameWriter::finish() {
   stop();
   for (const auto& [frame, records] : written_) {
-    for (const io::FileRecord& record : records) folder_.add(record);
+    for (const files::FileRecord& record : records) folder_.add(record);
   }
   written_.clear();
   if (!failed_.empty()) std::rethrow_exception(failed_.begin()->second);

@@ -22,7 +22,7 @@ class FrameWriter {
  public:
   /// @param what  which files, and of whom; all of it must live as long as the writer
   /// @param frames  how many there will be
-  FrameWriter(io::OutputFolder& folder, const FrameFiles& what, std::uint64_t frames);
+  FrameWriter(files::OutputFolder& folder, const FrameFiles& what, std::uint64_t frames);
   /// What was handed over is written, unless some of it could not be.
   ~FrameWriter();
   FrameWriter(const FrameWriter&) = delete;
@@ -46,7 +46,7 @@ class FrameWriter {
   void hire(const Frame& frame);
   void stop();
 
-  io::OutputFolder& folder_;
+  files::OutputFolder& folder_;
   const FrameFiles& what_;
   std::uint64_t frames_, given_ = 0;
   std::vector<std::thread> workers_;
@@ -59,7 +59,7 @@ class FrameWriter {
   // guarded by it:
   std::vector<Frame*> free_;
   std::deque<Task> waiting_;
-  std::map<std::uint64_t, std::vector<io::FileRecord>> written_;  ///< by frame
+  std::map<std::uint64_t, std::vector<files::FileRecord>> written_;  ///< by frame
   std::map<std::uint64_t, std::exception_ptr> failed_;
   bool stopping_ = false;
 };

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
+#include "base/version.h"
 #include "commands.h"
-#include "io/version.h"
 
 namespace tofray::app {
 
@@ -43,7 +43,7 @@ std::string overview_text() {
       "\n"
       "  tofray COMMAND --help                      # a command's examples and options\n"
       "  tofray --version                           # tofray " +
-      std::string(io::version()) +
+      std::string(base::version()) +
       "\n"
       "  tofray --limits                            # the largest inputs that are taken\n\n"
       "Exit codes: 0 good, 1 a check was not met, 2 bad usage or input, 3 cannot read or write, 4 out of memory or over a limit,\n"

@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "base/text.h"
-#include "io/tree.h"
 #include "tofray/error.h"
+#include "yaml/tree.h"
 
 namespace tofray::app {
 
@@ -63,7 +63,7 @@ void refuse_data(std::string_view bytes, const std::string& path) {
 }
 
 bool looks_like_a_profile(const std::string& text, const std::string& name) {
-  const io::Node root = io::parse_tree(text, name);
+  const yaml::Node root = yaml::parse_tree(text, name);
   return root.find("objects") == nullptr &&
          (root.find("modes") != nullptr || root.find("sensor") != nullptr || root.find("lens") != nullptr);
 }
@@ -73,7 +73,7 @@ void refuse_other_document(const std::string& text, const std::string& path) {
   if (looks_like_a_profile(text, path))
     refuse(path, "a camera profile, not a scene",
            fmt::format("a scene takes it as `camera: {{profile: {0}}}`; `tofray check {0}` reads it alone", file));
-  const io::Node root = io::parse_tree(text, path);
+  const yaml::Node root = yaml::parse_tree(text, path);
   if (root.find("tofray") != nullptr && root.find("inputs") != nullptr)
     refuse(path, "a manifest, not a scene", fmt::format("`tofray render --from {}` makes its files again", file));
 }

@@ -8,11 +8,11 @@
 
 #include "base/text.h"
 #include "base/units.h"
+#include "files/text_file.h"
 #include "input_kind.h"
-#include "io/builtin.h"
-#include "io/convert.h"
-#include "io/load.h"
-#include "io/text_file.h"
+#include "load/builtin.h"
+#include "load/convert.h"
+#include "load/load.h"
 #include "profile_tables.h"
 #include "tofray/error.h"
 
@@ -23,16 +23,17 @@ namespace {
 bool is_builtin_source(const std::string& source) { return source.starts_with("<"); }
 
 /// The camera that the scene asks for, out of the texts of its profile and of the profile's tables.
-Camera camera_of_texts(const Scene& scene, const io::InputFile& profile, const std::vector<io::InputFile>& files, const std::string& mode) {
+Camera camera_of_texts(const Scene& scene, const results::InputFile& profile, const std::vector<results::InputFile>& files,
+                       const std::string& mode) {
   CameraOptions wanted;
   wanted.mode = mode.empty() ? scene.camera.mode : mode;
-  return io::camera_from_text(profile_with_tables(profile, scene.camera.overrides, files), profile.name, "", wanted);
+  return load::camera_from_text(profile_with_tables(profile, scene.camera.overrides, files), profile.name, "", wanted);
 }
 
 /// Reads the scene; a file that is something else is refused as that.
 Scene scene_of_text(const std::string& text, const std::string& name, const Options& options) {
   try {
-    return io::scene_from_text(text, name, options.set);
+    return load::scene_from_text(text, name, options.set);
   } catch (const Error& error) {
     if (error.kind() == ErrorKind::bad_input) refuse_other_document(text, name);
     throw;
@@ -62,13 +63,13 @@ double mode_integration_time(Scene scene, const Load& load) {
 
 Inputs load_inputs(const std::string& scene, const Options& options) {
   Inputs in;
-  if (io::find_builtin(io::builtin_scenes(), scene) != nullptr) {
-    in.scene = io::load_scene(scene, options.set);
+  if (load::find_builtin(load::builtin_scenes(), scene) != nullptr) {
+    in.scene = load::load_scene(scene, options.set);
     in.files.push_back({"scene", scene, {}});
   } else {
     // Read once, so that a pipe is good, too, and the manifest holds what was simulated.
     refuse_folder(scene, "render");
-    const std::string text = io::read_named("scene", scene, io::builtin_scenes());
+    const std::string text = load::read_named("scene", scene, load::builtin_scenes());
     refuse_data(text, scene);
     in.scene = scene_of_text(text, scene, options);
     in.files.push_back({"scene", scene, text});
@@ -77,27 +78,28 @@ Inputs load_inputs(const std::string& scene, const Options& options) {
   in.camera = load(in.scene);
   in.mode_integration_time_s = mode_integration_time(in.scene, load);
   if (is_builtin_source(in.camera.source)) return in;
-  in.files.push_back({"profile", in.camera.source, io::read_text(in.camera.source)});
-  const auto tables = profile_tables(in.files.back(), io::folder_of(in.camera.source), in.scene.camera.overrides);
+  in.files.push_back({"profile", in.camera.source, files::read_text(in.camera.source)});
+  const auto tables = profile_tables(in.files.back(), files::folder_of(in.camera.source), in.scene.camera.overrides);
   in.files.insert(in.files.end(), tables.begin(), tables.end());
   return in;
 }
 
-Inputs inputs_of(const io::Manifest& manifest, const Options& options) {
+Inputs inputs_of(const results::Manifest& manifest, const Options& options) {
   if (manifest.inputs.empty() || manifest.inputs[0].role != "scene")
     throw Error(ErrorKind::bad_input, options.from + ": error: inputs has no scene\n  expected the manifest.json of a `tofray render`");
-  const io::InputFile& first = manifest.inputs[0];
+  const results::InputFile& first = manifest.inputs[0];
   // A stranger's manifest reads no files of ours: what is not in it has to be built in.
-  if (first.text.empty() && io::find_builtin(io::builtin_scenes(), first.name) == nullptr)
+  if (first.text.empty() && load::find_builtin(load::builtin_scenes(), first.name) == nullptr)
     throw Error(ErrorKind::bad_input, fmt::format("{}: error: it does not hold the text of the scene {}\n  expected the scene's file in it, or the "
                                                   "name of a built-in one",
                                                   base::printable(options.from), base::in_quotes(first.name)));
   Inputs in;
   in.files = manifest.inputs;
-  in.scene = first.text.empty() ? io::load_scene(first.name, options.set) : io::scene_from_text(first.text, first.name, options.set);
-  const auto profile = std::find_if(in.files.begin(), in.files.end(), [](const io::InputFile& file) { return file.role == "profile"; });
+  in.scene = first.text.empty() ? load::load_scene(first.name, options.set) : load::scene_from_text(first.text, first.name, options.set);
+  const auto profile =
+      std::find_if(in.files.begin(), in.files.end(), [](const results::InputFile& file) { return file.role == "profile"; });
   const std::string& named = in.scene.camera.profile;
-  if (profile == in.files.end() && io::find_builtin(io::builtin_profiles(), named) == nullptr)
+  if (profile == in.files.end() && load::find_builtin(load::builtin_profiles(), named) == nullptr)
     throw Error(ErrorKind::bad_input, fmt::format("{}: error: it does not hold the text of the camera profile {}\n  expected the profile's file in it, "
                                                   "or the name of a built-in one",
                                                   base::printable(options.from), base::in_quotes(named)));

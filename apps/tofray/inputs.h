@@ -5,10 +5,10 @@
 #include <string>
 #include <vector>
 
-#include "io/frame_file.h"
-#include "io/manifest.h"
-#include "io/npz.h"
+#include "files/npz.h"
 #include "options.h"
+#include "results/frame_file.h"
+#include "results/manifest.h"
 #include "tofray/camera.h"
 #include "tofray/scene.h"
 
@@ -18,10 +18,10 @@ namespace tofray::app {
 struct Inputs {
   Scene scene;
   Camera camera;
-  std::vector<io::InputFile> files;  ///< for manifest.json: the scene, a profile of one's own and its tables
-  std::vector<io::NamedArray> kept;  ///< of a recording: arrays that are written again as they are
+  std::vector<results::InputFile> files;  ///< for manifest.json: the scene, a profile of one's own and its tables
+  std::vector<files::NamedArray> kept;  ///< of a recording: arrays that are written again as they are
   double mode_integration_time_s = 0;  ///< longest lit exposure of the mode itself where camera.integration_time sets another; else 0
-  std::optional<io::PoseMatrix> pose;  ///< of a recording; otherwise the scene says it
+  std::optional<results::PoseMatrix> pose;  ///< of a recording; otherwise the scene says it
 };
 
 /// Reads the scene (a file or a built-in name) with --set, and the camera that it asks for with --mode and --root.
@@ -30,7 +30,7 @@ Inputs load_inputs(const std::string& scene, const Options& options);
 
 /// The same from the texts that a manifest keeps; no file is read.
 /// @throws Error
-Inputs inputs_of(const io::Manifest& manifest, const Options& options);
+Inputs inputs_of(const results::Manifest& manifest, const Options& options);
 
 /// What is wrong with a scene that can be simulated all the same: no objects, no light, exposures longer than the mode's own. Two lines
 /// each, or nothing; each names the key and its value.

@@ -12,11 +12,11 @@
 #include "base/constants.h"
 #include "commands.h"
 #include "console.h"
+#include "files/npy.h"
 #include "input_kind.h"
-#include "io/array_table.h"
-#include "io/meta.h"
-#include "io/npy.h"
 #include "results.h"
+#include "results/array_table.h"
+#include "results/meta.h"
 #include "tofray/error.h"
 
 namespace tofray::app {
@@ -30,7 +30,7 @@ struct Statistics {
 
 /// In the array's own type: numbers of a byte do not become eight.
 template <class T>
-Statistics statistics_in(const io::NpyArray& array) {
+Statistics statistics_in(const files::NpyArray& array) {
   Statistics out;
   out.count = array.count();
   std::vector<T> values(out.count);
@@ -50,7 +50,7 @@ Statistics statistics_in(const io::NpyArray& array) {
   return out;
 }
 
-Statistics statistics_of(const io::NpyArray& array) {
+Statistics statistics_of(const files::NpyArray& array) {
   const int size = array.type.size;
   switch (array.type.kind) {
     case 'f': return size == 4 ? statistics_in<float>(array) : statistics_in<double>(array);
@@ -70,26 +70,29 @@ Statistics statistics_of(const io::NpyArray& array) {
 std::string array_table(const Arrays& arrays) {
   std::string text = fmt::format("{:<24} {:<8} {:<16} {:<10} {:>11} {:>11} {:>11} {:>9}\n", "array", "type", "shape", "unit", "min",
                                  "median", "max", "invalid");
-  for (const io::NamedArray& one : arrays.all()) {
-    const io::NpyArray& array = one.array;
+  for (const files::NamedArray& one : arrays.all()) {
+    const files::NpyArray& array = one.array;
     if (array.type.kind == 'U') {
-      text += fmt::format("{:<24} {:<8} {:<16} {}\n", one.name, array.type.name(), io::shape_text(array.shape), "text");
+      text += fmt::format("{:<24} {:<8} {:<16} {}\n", one.name, array.type.name(), files::shape_text(array.shape), "text");
       continue;
     }
     const Statistics s = statistics_of(array);
     text += fmt::format("{:<24} {:<8} {:<16} {:<10} {:>11.5g} {:>11.5g} {:>11.5g} {:>9}\n", one.name, array.type.name(),
-                        io::shape_text(array.shape), arrays.unit(one.name), s.low, s.median, s.high, s.invalid);
+                        files::shape_text(array.shape), arrays.unit(one.name), s.low, s.median, s.high, s.invalid);
   }
   return text;
 }
 
-io::Json array_json(const Arrays& arrays) {
-  io::Json list = io::Json::array();
-  for (const io::NamedArray& one : arrays.all()) {
-    const io::NpyArray& array = one.array;
-    io::Json json = io::Json::object();
-    json.set("name", one.name).set("dtype", array.type.name()).set("shape", io::Json::list(array.shape)).set("unit", arrays.unit(one.name));
-    if (const io::ArrayRow* known = io::find_array(one.name)) json.set("what", known->what);
+files::Json array_json(const Arrays& arrays) {
+  files::Json list = files::Json::array();
+  for (const files::NamedArray& one : arrays.all()) {
+    const files::NpyArray& array = one.array;
+    files::Json json = files::Json::object();
+    json.set("name", one.name)
+        .set("dtype", array.type.name())
+        .set("shape", files::Json::list(array.shape))
+        .set("unit", arrays.unit(one.name));
+    if (const results::ArrayRow* known = results::find_array(one.name)) json.set("what", known->what);
     if (array.type.kind != 'U') {
       const Statistics s = statistics_of(array);
       json.set("min", s.low).set("median", s.median).set("max", s.high).set("invalid", s.invalid);
@@ -111,10 +114,10 @@ std::string phase_table(const Arrays& arrays) {
   return text;
 }
 
-io::Json phase_json(const Arrays& arrays) {
-  io::Json list = io::Json::array();
+files::Json phase_json(const Arrays& arrays) {
+  files::Json list = files::Json::array();
   for (std::size_t k = 0; k < arrays.phases(); ++k) {
-    io::Json json = io::Json::object();
+    files::Json json = files::Json::object();
     json.set("lit", arrays.at("lit", k) != 0);
     for (const char* name : {"modulation_frequency_hz", "reference_phase_rad", "integration_time_s", "start_time_s"})
       json.set(name, arrays.at(name, k));
@@ -126,7 +129,7 @@ io::Json phase_json(const Arrays& arrays) {
 /// How many pixels have each flag; a pixel can have several.
 std::vector<std::size_t> flag_counts(const Arrays& arrays, std::size_t& valid) {
   std::vector<std::size_t> counts(flag_names().size());
-  const io::NpyArray* flags = arrays.find("flags");
+  const files::NpyArray* flags = arrays.find("flags");
   valid = 0;
   for (std::size_t i = 0; flags != nullptr && i < flags->count(); ++i) {
     const auto bits = flag_bits(flags->number(i));
@@ -137,7 +140,7 @@ std::vector<std::size_t> flag_counts(const Arrays& arrays, std::size_t& valid) {
 }
 
 std::string flag_table(const Arrays& arrays) {
-  const io::NpyArray* flags = arrays.find("flags");
+  const files::NpyArray* flags = arrays.find("flags");
   if (flags == nullptr) return {};
   std::size_t valid = 0;
   const std::vector<std::size_t> counts = flag_counts(arrays, valid);
@@ -151,10 +154,10 @@ std::string flag_table(const Arrays& arrays) {
   return text;
 }
 
-io::Json flag_json(const Arrays& arrays) {
+files::Json flag_json(const Arrays& arrays) {
   std::size_t valid = 0;
   const std::vector<std::size_t> counts = flag_counts(arrays, valid);
-  io::Json json = io::Json::object().set("valid", valid);
+  files::Json json = files::Json::object().set("valid", valid);
   for (std::size_t bit = 0; bit < counts.size(); ++bit) {
     std::string key = flag_names()[bit];
     std::replace(key.begin(), key.end(), ' ', '_');
@@ -163,17 +166,17 @@ io::Json flag_json(const Arrays& arrays) {
   return json;
 }
 
-std::string word(const io::Json& from, const char* key, const char* inner = nullptr) {
-  const io::Json* found = from.find(key);
+std::string word(const files::Json& from, const char* key, const char* inner = nullptr) {
+  const files::Json* found = from.find(key);
   if (found != nullptr && inner != nullptr) found = found->find(inner);
-  return found == nullptr ? "" : found->is_string() ? *found->string() : io::json_text(*found);
+  return found == nullptr ? "" : found->is_string() ? *found->string() : files::json_text(*found);
 }
 
 /// One line out of `meta`: what made the file.
 std::string origin(const Arrays& arrays) {
-  const io::Json& meta = arrays.meta();
+  const files::Json& meta = arrays.meta();
   if (!meta.is_object()) return arrays.where() + "\n\n";
-  const io::Json* camera = meta.find("camera");
+  const files::Json* camera = meta.find("camera");
   return fmt::format("{}: tofray {}, scene {}, camera {} in mode {}, frame {}, seed {}, noise {}\n\n", arrays.where(), word(meta, "tofray"),
                      word(meta, "scene", "name"), word(meta, "camera", "name"), camera == nullptr ? "" : word(*camera, "mode", "name"),
                      word(meta, "frame"), word(meta, "seed"), word(meta, "noise"));
@@ -194,8 +197,8 @@ Arrays arrays_of(const Options& options) {
   say(warnings(in));
   const SimulatorOptions wanted = simulator_options(options);
   const Frame frame = Simulator(in.scene, in.camera, wanted).frame(0);
-  const std::string meta = io::frame_meta(in.scene, in.camera, wanted.seed, wanted.noise, 0);
-  return Arrays(io::parse_npz(io::frame_npz_bytes(frame, in.camera, camera_pose(in.scene), meta), path), path);
+  const std::string meta = results::frame_meta(in.scene, in.camera, wanted.seed, wanted.noise, 0);
+  return Arrays(files::parse_npz(results::frame_npz_bytes(frame, in.camera, camera_pose(in.scene), meta), path), path);
 }
 
 }  // namespace
@@ -204,16 +207,16 @@ int run_inspect(const Options& options) {
   const Arrays arrays = arrays_of(options);
   if (options.pixel) {
     const auto [u, v] = *options.pixel;
-    print(options.json ? io::json_text(pixel_json(arrays, u, v), 2) + "\n" : pixel_text(arrays, u, v));
+    print(options.json ? files::json_text(pixel_json(arrays, u, v), 2) + "\n" : pixel_text(arrays, u, v));
     return 0;
   }
   if (options.json) {
-    io::Json json = io::Json::object();
+    files::Json json = files::Json::object();
     json.set("file", arrays.where())
         .set("arrays", array_json(arrays))
         .set("raw_frames", phase_json(arrays))
         .set("flags", flag_json(arrays));
-    print(io::json_text(json.set("meta", arrays.meta()), 2) + "\n");
+    print(files::json_text(json.set("meta", arrays.meta()), 2) + "\n");
   } else {
     print(origin(arrays) + array_table(arrays) + phase_table(arrays) + flag_table(arrays));
   }

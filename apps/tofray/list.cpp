@@ -6,37 +6,37 @@
 #include "base/units.h"
 #include "commands.h"
 #include "console.h"
-#include "io/array_table.h"
-#include "io/builtin.h"
-#include "io/json.h"
-#include "io/load.h"
-#include "io/reference.h"
+#include "files/json.h"
+#include "load/builtin.h"
+#include "load/load.h"
+#include "load/reference.h"
 #include "model/lines.h"
 #include "model/tables.h"
+#include "results/array_table.h"
 #include "tofray/error.h"
 
 namespace tofray::app {
 
 namespace {
 
-io::Json list_scenes(std::string& text) {
-  io::Json json = io::Json::array();
-  for (const io::Builtin& one : io::builtin_scenes()) {
+files::Json list_scenes(std::string& text) {
+  files::Json json = files::Json::array();
+  for (const load::Builtin& one : load::builtin_scenes()) {
     const Scene scene = load_scene(one.name);
-    json.push(io::Json::object().set("name", one.name).set("description", one.description).set("objects", scene.objects.size()));
+    json.push(files::Json::object().set("name", one.name).set("description", one.description).set("objects", scene.objects.size()));
     text += fmt::format("{:<18} {}\n", one.name, one.description);
   }
   return json;
 }
 
-io::Json mode_json(const Camera& camera) {
+files::Json mode_json(const Camera& camera) {
   std::vector<std::string> frequencies;
-  io::Json unlike = io::Json::array();
+  files::Json unlike = files::Json::array();
   double before = 0;
   for (const RawFrame& k : camera.mode.sequence) {
     if (k.lit && k.modulation_frequency_hz != before) unlike.push(before = k.modulation_frequency_hz);
   }
-  io::Json json = io::Json::object();
+  files::Json json = files::Json::object();
   json.set("name", camera.mode.name).set("frame_rate_hz", camera.mode.frame_rate_hz).set("raw_frames", camera.mode.sequence.size());
   return json.set("modulation_frequency_hz", std::move(unlike));
 }
@@ -55,18 +55,18 @@ std::string mode_line(const Camera& camera) {
                      camera.mode.sequence.size(), 1e6 * longest, frequencies);
 }
 
-io::Json list_cameras(std::string& text) {
-  io::Json json = io::Json::array();
-  for (const io::Builtin& one : io::builtin_profiles()) {
+files::Json list_cameras(std::string& text) {
+  files::Json json = files::Json::array();
+  for (const load::Builtin& one : load::builtin_profiles()) {
     const Camera camera = load_camera(one.name);
-    io::Json modes = io::Json::array();
+    files::Json modes = files::Json::array();
     text += fmt::format("{:<18} {}\n", one.name, one.description);
     for (const std::string& name : camera.mode_names) {
       const Camera in_mode = load_camera(one.name, {name, {}, {}});
       modes.push(mode_json(in_mode));
       text += mode_line(in_mode);
     }
-    json.push(io::Json::object()
+    json.push(files::Json::object()
                   .set("name", one.name)
                   .set("description", one.description)
                   .set("width", camera.sensor.width)
@@ -77,7 +77,7 @@ io::Json list_cameras(std::string& text) {
 }
 
 /// What a material's BRDF reads of it: numbers in SI units by the name of their member, and as files say them.
-std::string list_material(const Material& material, io::Json& json) {
+std::string list_material(const Material& material, files::Json& json) {
   std::string brdf, numbers;
   for (const model::Row& row : model::table_of<Material>().rows) {
     if (!model::applies(row, &material)) continue;
@@ -93,22 +93,22 @@ std::string list_material(const Material& material, io::Json& json) {
   return fmt::format("{:<11} {}\n", brdf, numbers);
 }
 
-void list_materials_of(const std::string& scene_name, io::Json& json, std::string& text) {
+void list_materials_of(const std::string& scene_name, files::Json& json, std::string& text) {
   const Scene scene = load_scene(scene_name);
   for (const Material& one : scene.materials) {
     if (one.name.empty()) continue;
-    io::Json line = io::Json::object().set("name", one.name).set("scene", scene.name);
+    files::Json line = files::Json::object().set("name", one.name).set("scene", scene.name);
     text += fmt::format("{:<14} {:<18} {}", one.name, scene.name, list_material(one, line));
     json.push(std::move(line));
   }
 }
 
-io::Json list_keys(std::string& text) {
-  text = io::reference_page();
-  io::Json json = io::Json::array();
+files::Json list_keys(std::string& text) {
+  text = load::reference_page();
+  files::Json json = files::Json::array();
   for (const model::FileForm* file : {&model::camera_form(), &model::scene_form()})
     for (const model::Line& one : model::lines_of(*file))
-      json.push(io::Json::object()
+      json.push(files::Json::object()
                     .set("file", file->kind)
                     .set("key", one.key)
                     .set("value", one.value)
@@ -119,11 +119,11 @@ io::Json list_keys(std::string& text) {
   return json;
 }
 
-io::Json list_arrays(std::string& text) {
-  text = io::array_reference();
-  io::Json json = io::Json::array();
-  for (const io::ArrayRow& one : io::array_table())
-    json.push(io::Json::object()
+files::Json list_arrays(std::string& text) {
+  text = results::array_reference();
+  files::Json json = files::Json::array();
+  for (const results::ArrayRow& one : results::array_table())
+    json.push(files::Json::object()
                   .set("name", one.name)
                   .set("dtype", one.type.name())
                   .set("shape", one.shape)
@@ -142,7 +142,7 @@ int run_list(const Options& options) {
     throw Error(ErrorKind::bad_input,
                 fmt::format("error: unexpected {}\n  expected tofray list {}", base::in_quotes(options.words[1]), what));
   std::string text;
-  io::Json json = io::Json::array();
+  files::Json json = files::Json::array();
   if (what == "scenes") {
     json = list_scenes(text);
   } else if (what == "cameras") {
@@ -153,14 +153,14 @@ int run_list(const Options& options) {
     if (options.words.size() == 2)
       list_materials_of(options.words[1], json, text);
     else
-      for (const io::Builtin& one : io::builtin_scenes()) list_materials_of(one.name, json, text);
+      for (const load::Builtin& one : load::builtin_scenes()) list_materials_of(one.name, json, text);
   } else if (what == "arrays") {
     json = list_arrays(text);
   } else {
     throw Error(ErrorKind::bad_input, fmt::format("error: there is no list of {}{}\n  expected {}", base::in_quotes(what),
                                                   base::did_you_mean(what, kinds), base::listed(kinds)));
   }
-  print(options.json ? io::json_text(io::Json::object().set(what, std::move(json)), 2) + "\n" : text);
+  print(options.json ? files::json_text(files::Json::object().set(what, std::move(json)), 2) + "\n" : text);
   return 0;
 }
 

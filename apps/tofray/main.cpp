@@ -8,11 +8,11 @@
 
 #include "base/limits.h"
 #include "base/text.h"
+#include "base/version.h"
 #include "commands.h"
 #include "console.h"
 #include "fault_json.h"
-#include "io/json.h"
-#include "io/version.h"
+#include "files/json.h"
 #include "tofray/error.h"
 
 namespace tofray::app {
@@ -22,18 +22,18 @@ namespace {
 bool has(const std::vector<std::string>& words, const char* word) { return std::find(words.begin(), words.end(), word) != words.end(); }
 
 void print_version(bool json) {
-  if (json) return print(io::json_text(io::Json::object().set("tofray", io::version())) + "\n");
-  print(fmt::format("tofray {}\n", io::version()));
+  if (json) return print(files::json_text(files::Json::object().set("tofray", base::version())) + "\n");
+  print(fmt::format("tofray {}\n", base::version()));
 }
 
 void print_limits(bool json) {
-  io::Json all = io::Json::object();
+  files::Json all = files::Json::object();
   std::string text;
   for (const base::Limit& limit : base::all_limits) {
     all.set(limit.name, limit.value);
     text += fmt::format("{:<20}{:>12}  {}\n", limit.name, limit.value, limit.what);
   }
-  print(json ? io::json_text(all, 2) + "\n" : text);
+  print(json ? files::json_text(all, 2) + "\n" : text);
 }
 
 [[noreturn]] void unknown_command(const std::string& word) {
@@ -96,7 +96,7 @@ int failed(const std::vector<std::string>& arguments, const std::string& text, E
   say(text + "\n");
   if (kind == ErrorKind::bug) say("  this is a fault of tofray's: please report it with the output of `tofray doctor`\n");
   try {
-    if (wants_json(arguments)) print(io::json_text(fault_json(text, kind), 2) + "\n");
+    if (wants_json(arguments)) print(files::json_text(fault_json(text, kind), 2) + "\n");
   } catch (...) {  // people know by now, and the exit code says it, too
   }
   return static_cast<int>(kind);

@@ -8,7 +8,7 @@
 #include "base/limits.h"
 #include "base/text.h"
 #include "commands.h"
-#include "io/array_table.h"
+#include "results/array_table.h"
 #include "tofray/error.h"
 
 namespace tofray::app {
@@ -239,7 +239,7 @@ std::vector<OptionSpec> specs() {
        "LIST",
        "arrays that npz files get, as in raw,z_m,gt_* (all; `tofray list arrays` names them)",
        [](Options& o, const std::string& v) {
-         (void)io::ArrayChoice(v);
+         (void)results::ArrayChoice(v);
          o.arrays = v;
        },
        "<arrays>",

@@ -10,9 +10,9 @@
 #include "base/text.h"
 #include "camera/frozen_camera.h"
 #include "depth/decode.h"
-#include "io/meta_camera.h"
 #include "num/setup_math.h"
 #include "results.h"
+#include "results/meta_camera.h"
 #include "tofray/error.h"
 
 namespace tofray::app {
@@ -27,11 +27,11 @@ std::array<double, 3> triple(const Arrays& arrays, const char* name, std::size_t
 
 /// What the scene in `meta` calls object number `index`.
 std::string name_of_object(const Arrays& arrays, long index) {
-  const io::Json* scene = arrays.meta().find("scene");
-  const io::Json* objects = scene == nullptr ? nullptr : scene->find("objects");
+  const files::Json* scene = arrays.meta().find("scene");
+  const files::Json* objects = scene == nullptr ? nullptr : scene->find("objects");
   if (objects == nullptr || !objects->is_array() || index < 0 || static_cast<std::size_t>(index) >= objects->items()->size()) return {};
   for (const char* key : {"name", "shape"}) {
-    const io::Json* found = (*objects->items())[static_cast<std::size_t>(index)].find(key);
+    const files::Json* found = (*objects->items())[static_cast<std::size_t>(index)].find(key);
     if (found != nullptr && found->is_string() && !found->string()->empty()) return *found->string();
   }
   return {};
@@ -53,16 +53,16 @@ void read_truth(const Arrays& arrays, std::size_t pixel, PixelChain& out) {
 }
 
 double meta_number(const Arrays& arrays, const char* section, const char* key, double otherwise) {
-  const io::Json* camera = arrays.meta().find("camera");
-  const io::Json* group = camera == nullptr ? nullptr : camera->find(section);
-  const io::Json* found = group == nullptr ? nullptr : group->find(key);
+  const files::Json* camera = arrays.meta().find("camera");
+  const files::Json* group = camera == nullptr ? nullptr : camera->find(section);
+  const files::Json* found = group == nullptr ? nullptr : group->find(key);
   double value = otherwise;
   if (found != nullptr) found->number(value);
   return value;
 }
 
 bool is_noise_free(const Arrays& arrays) {
-  const io::Json* noise = arrays.meta().find("noise");
+  const files::Json* noise = arrays.meta().find("noise");
   return noise != nullptr && noise->is_string() && *noise->string() == "off";
 }
 
@@ -164,9 +164,9 @@ PixelChain pixel_chain(const Arrays& arrays, int u, int v) {
   read_raw_frames(arrays, pixel, chain);
   read_depth(arrays, pixel, chain);
   estimate_phases(chain);
-  const io::Json* camera = arrays.meta().find("camera");
+  const files::Json* camera = arrays.meta().find("camera");
   if (camera == nullptr) return chain;
-  const Camera profile = io::camera_of_meta(arrays.meta_text(), arrays.where());
+  const Camera profile = results::camera_of_meta(arrays.meta_text(), arrays.where());
   if (static_cast<std::size_t>(profile.sensor.width) != arrays.width() || static_cast<std::size_t>(profile.sensor.height) != arrays.height())
     throw Error(ErrorKind::bad_input, fmt::format("{}: error: the camera in meta is not the one of the arrays\n  got a sensor of {} x {} and "
                                                   "arrays of {} x {} pixels",

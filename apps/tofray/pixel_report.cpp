@@ -6,8 +6,8 @@
 #include <cmath>
 
 #include "base/constants.h"
-#include "io/array_table.h"
 #include "pixel_chain.h"
+#include "results/array_table.h"
 
 namespace tofray::app {
 
@@ -84,7 +84,7 @@ std::string depth_text(const PixelChain& p, const Arrays& arrays) {
 /// What a dash can come from.
 std::string missing_text(const Arrays& arrays) {
   std::string names;
-  for (const io::ArrayRow& row : io::array_table()) {
+  for (const results::ArrayRow& row : results::array_table()) {
     if (arrays.find(row.name) == nullptr) names += (names.empty() ? "" : ", ") + row.name;
   }
   return names.empty() ? "" : "\nnot in this file: " + names + "\n";
@@ -92,15 +92,15 @@ std::string missing_text(const Arrays& arrays) {
 
 /// Whether the file has any array of these stages.
 bool has_any(const Arrays& arrays, bool truth) {
-  return std::any_of(io::array_table().begin(), io::array_table().end(), [&](const io::ArrayRow& row) {
+  return std::any_of(results::array_table().begin(), results::array_table().end(), [&](const results::ArrayRow& row) {
     return (truth ? row.is_truth() && row.is_image() : row.from == "depth") && arrays.find(row.name) != nullptr;
   });
 }
 
-io::Json raw_json(const PixelChain& p) {
-  io::Json list = io::Json::array();
+files::Json raw_json(const PixelChain& p) {
+  files::Json list = files::Json::array();
   for (const ChainRawFrame& one : p.raw_frames) {
-    io::Json json = io::Json::object();
+    files::Json json = files::Json::object();
     json.set("lit", one.lit)
         .set("modulation_frequency_hz", one.modulation_frequency_hz)
         .set("reference_phase_rad", one.reference_phase_rad);
@@ -113,10 +113,10 @@ io::Json raw_json(const PixelChain& p) {
   return list;
 }
 
-io::Json phases_json(const PixelChain& p) {
-  io::Json list = io::Json::array();
+files::Json phases_json(const PixelChain& p) {
+  files::Json list = files::Json::array();
   for (const ChainPhase& one : p.phases) {
-    io::Json json = io::Json::object();
+    files::Json json = files::Json::object();
     json.set("modulation_frequency_hz", one.modulation_frequency_hz).set("amplitude_e", one.amplitude_e);
     json.set("measured_phase_rad", one.measured_turns * base::two_pi).set("calibrated_phase_rad", one.calibrated_turns * base::two_pi);
     list.push(std::move(json.set("half_wave_m", one.half_wave_m).set("cycles", one.cycles).set("half_path_m", one.half_path_m)));
@@ -135,23 +135,23 @@ std::string pixel_text(const Arrays& arrays, int u, int v) {
   return text + missing_text(arrays);
 }
 
-io::Json pixel_json(const Arrays& arrays, int u, int v) {
+files::Json pixel_json(const Arrays& arrays, int u, int v) {
   const PixelChain p = pixel_chain(arrays, u, v);
-  io::Json truth = io::Json::object(), depth = io::Json::object();
+  files::Json truth = files::Json::object(), depth = files::Json::object();
   truth.set("object_id", p.object)
       .set("object", p.object_name)
       .set("reflectivity", p.reflectivity)
       .set("range_m", p.true_range_m)
       .set("z_m", p.true_z_m);
-  truth.set("position_m", io::Json::list(p.position_m)).set("normal", io::Json::list(p.normal)).set("incidence_rad", p.incidence_rad);
+  truth.set("position_m", files::Json::list(p.position_m)).set("normal", files::Json::list(p.normal)).set("incidence_rad", p.incidence_rad);
   truth.set("irradiance_w_m2", p.irradiance_w_m2).set("radiance_w_m2_sr", p.radiance_w_m2_sr).set("power_w", p.power_w);
-  depth.set("range_m", p.range_m).set("z_m", p.z_m).set("point_m", io::Json::list(p.point_m)).set("noise_m", p.noise_m);
+  depth.set("range_m", p.range_m).set("z_m", p.z_m).set("point_m", files::Json::list(p.point_m)).set("noise_m", p.noise_m);
   depth.set("amplitude_e", p.amplitude_e)
       .set("ambient_e", p.ambient_e)
       .set("confidence", p.confidence)
-      .set("flags", io::Json::list(p.flags));
-  io::Json json = io::Json::object();
-  json.set("file", arrays.where()).set("pixel", io::Json::list(std::array{u, v})).set("truth", std::move(truth));
+      .set("flags", files::Json::list(p.flags));
+  files::Json json = files::Json::object();
+  json.set("file", arrays.where()).set("pixel", files::Json::list(std::array{u, v})).set("truth", std::move(truth));
   return json.set("raw_frames", raw_json(p)).set("phases", phases_json(p)).set("depth", std::move(depth));
 }
 

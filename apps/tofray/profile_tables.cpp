@@ -8,21 +8,23 @@
 
 #include "base/limits.h"
 #include "base/text.h"
-#include "io/load.h"
-#include "io/text_file.h"
+#include "files/text_file.h"
+#include "load/load.h"
 #include "tofray/error.h"
+#include "yaml/settings.h"
+#include "yaml/tree.h"
 
 namespace tofray::app {
 
 namespace {
 
-using io::Node;
+using yaml::Node;
 
-Node changed_profile(const io::InputFile& profile, const std::vector<Override>& overrides) {
-  Node root = io::parse_tree(profile.text, profile.name);
+Node changed_profile(const results::InputFile& profile, const std::vector<Override>& overrides) {
+  Node root = yaml::parse_tree(profile.text, profile.name);
   for (const Override& one : overrides) {
     const base::Place place = base::whole(one.where.empty() ? "camera." + one.key : one.where);
-    io::set_key(root, one.key, io::parse_value(one.value, place), place);
+    yaml::set_key(root, one.key, yaml::parse_value(one.value, place), place);
   }
   return root;
 }
@@ -55,21 +57,22 @@ std::string rows_text(const std::string& text) {
 
 }  // namespace
 
-std::vector<io::InputFile> profile_tables(const io::InputFile& profile, const std::string& folder, const std::vector<Override>& overrides) {
-  std::vector<io::InputFile> tables;
+std::vector<results::InputFile> profile_tables(const results::InputFile& profile, const std::string& folder,
+                                               const std::vector<Override>& overrides) {
+  std::vector<results::InputFile> tables;
   Node root = changed_profile(profile, overrides);
   for_each_table(root, "", [&](const Node& map, const std::string&) {
     const std::string& name = map.find("file")->text;
     std::string path;
-    tables.push_back({"table", name, io::read_reference(name, folder, {}, map.place, path)});
+    tables.push_back({"table", name, files::read_reference(name, folder, {}, map.place, path)});
   });
   return tables;
 }
 
-std::string profile_with_tables(const io::InputFile& profile, const std::vector<Override>& overrides,
-                                const std::vector<io::InputFile>& tables) {
-  std::unordered_map<std::string_view, const io::InputFile*> known;
-  for (const io::InputFile& one : tables)
+std::string profile_with_tables(const results::InputFile& profile, const std::vector<Override>& overrides,
+                                const std::vector<results::InputFile>& tables) {
+  std::unordered_map<std::string_view, const results::InputFile*> known;
+  for (const results::InputFile& one : tables)
     if (one.role == "table") known.emplace(one.name, &one);
   std::size_t bytes = 0;
   Node root = changed_profile(profile, overrides);
@@ -82,7 +85,7 @@ std::string profile_with_tables(const io::InputFile& profile, const std::vector<
     if (bytes > static_cast<std::size_t>(base::limit::file_bytes.value))
       base::fail(map.place, "the profile's tables are too long", "at most " + std::to_string(base::limit::file_bytes.value) + " bytes", ErrorKind::limit);
     // A pattern has rows; a correlation is one list, line after line.
-    Node rows = io::parse_value(rows_text(table->second->text), base::whole(name));
+    Node rows = yaml::parse_value(rows_text(table->second->text), base::whole(name));
     Node all = rows;
     if (key == "waveform") {
       all.items.clear();
@@ -92,7 +95,7 @@ std::string profile_with_tables(const io::InputFile& profile, const std::vector<
     map.keys[at].text = key == "waveform" ? "correlation" : "samples";
     map.items[at] = std::move(all);
   });
-  return io::flow_text(root);
+  return yaml::flow_text(root);
 }
 
 }  // namespace tofray::app

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "io/manifest.h"
+#include "results/manifest.h"
 #include "tofray/scene.h"
 
 /// Tables that a camera profile keeps in files of their own: a manifest holds their texts, too.
@@ -12,11 +12,12 @@ namespace tofray::app {
 
 /// The files that the profile's text, or the scene's changes of it, name under `file:`, as inputs of the role "table".
 /// @param folder  where the profile lies
-std::vector<io::InputFile> profile_tables(const io::InputFile& profile, const std::string& folder, const std::vector<Override>& overrides);
+std::vector<results::InputFile> profile_tables(const results::InputFile& profile, const std::string& folder,
+                                               const std::vector<Override>& overrides);
 
 /// The profile with the overrides made and every table's numbers in the place of its name.
 /// @throws Error (bad_input) where `tables` lacks one
-std::string profile_with_tables(const io::InputFile& profile, const std::vector<Override>& overrides,
-                                const std::vector<io::InputFile>& tables);
+std::string profile_with_tables(const results::InputFile& profile, const std::vector<Override>& overrides,
+                                const std::vector<results::InputFile>& tables);
 
 }  // namespace tofray::app

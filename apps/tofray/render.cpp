@@ -7,10 +7,10 @@
 #include <set>
 
 #include "base/text.h"
+#include "base/version.h"
 #include "commands.h"
 #include "console.h"
 #include "frame_writer.h"
-#include "io/version.h"
 #include "progress.h"
 #include "results.h"
 #include "tofray/error.h"
@@ -20,7 +20,7 @@ namespace tofray::app {
 namespace {
 
 /// What a run was told, put back from its manifest. What changes no bytes (threads, folder) stays as it was typed now.
-Options recalled(const Options& now, const io::Manifest& manifest) {
+Options recalled(const Options& now, const results::Manifest& manifest) {
   Options options = now;
   if (!now.words.empty() || !now.set.empty() || !now.mode.empty() || now.seed || now.noise || now.emit ||
       !now.arrays.empty() || now.compress || now.frames || now.first_frame != 0)
@@ -39,18 +39,18 @@ Options recalled(const Options& now, const io::Manifest& manifest) {
       throw Error(ErrorKind::bad_input,
                   fmt::format("{}: error: unknown option {}\n  a newer tofray wrote this", now.from, base::in_quotes(key)));
   }
-  if (manifest.tofray_version != io::version())
+  if (manifest.tofray_version != base::version())
     say(fmt::format("warning: tofray {} wrote this manifest, this is {}\n  the bytes may differ\n", manifest.tofray_version,
-                    io::version()));
+                    base::version()));
   return options;
 }
 
 /// The files whose bytes are not those of the manifest.
-std::vector<std::string> changed_files(const io::Manifest& before, const io::OutputFolder& folder) {
+std::vector<std::string> changed_files(const results::Manifest& before, const files::OutputFolder& folder) {
   std::set<std::pair<std::string, std::string>> written;
-  for (const io::FileRecord& file : folder.files()) written.emplace(file.name, file.sha256);
+  for (const files::FileRecord& file : folder.files()) written.emplace(file.name, file.sha256);
   std::vector<std::string> changed;
-  for (const io::FileRecord& old : before.files)
+  for (const files::FileRecord& old : before.files)
     if (!written.contains({old.name, old.sha256})) changed.push_back(old.name);
   return changed;
 }
@@ -59,7 +59,7 @@ std::vector<std::string> changed_files(const io::Manifest& before, const io::Out
 bool is_figure(const std::string& name) { return name.ends_with(".png") && (name.starts_with("preview") || name.starts_with("raw")); }
 
 /// Whether a run made the files that its manifest lists; says what it did not make.
-bool made_again(const Options& options, const io::Manifest& before, const io::OutputFolder& folder) {
+bool made_again(const Options& options, const results::Manifest& before, const files::OutputFolder& folder) {
   const std::vector<std::string> changed = changed_files(before, folder);
   if (changed.empty()) return true;
   if (std::all_of(changed.begin(), changed.end(), is_figure)) {
@@ -89,7 +89,7 @@ struct Rendered {
 };
 
 /// @param stop  asked for between two frames; none: a signal ends the process at once
-void render_frames(Simulator& simulator, const Options& options, const FrameFiles& what, io::OutputFolder& folder, Stopwatch& stopwatch,
+void render_frames(Simulator& simulator, const Options& options, const FrameFiles& what, files::OutputFolder& folder, Stopwatch& stopwatch,
                    const StopRequest* stop, Rendered& out) {
   const std::uint64_t frames = options.frames.value_or(1), first = options.first_frame;
   // One frame has no number, unless it was asked for by number.
@@ -121,7 +121,7 @@ void warn_of_invalid(const Rendered& out) {
 }
 
 /// What lies there after an interruption, and how to make the rest with the same names and kinds of files.
-void say_interrupted(const Options& options, const io::OutputFolder& folder, std::uint64_t done) {
+void say_interrupted(const Options& options, const files::OutputFolder& folder, std::uint64_t done) {
   const std::uint64_t frames = *options.frames, next = options.first_frame + done;
   const std::string all = fmt::format("interrupted: {} of {} frames are complete", done, frames);
   const std::string listed = fmt::format(", {} lists them\n", (folder.path() / "manifest.json").native());
@@ -135,8 +135,8 @@ void say_interrupted(const Options& options, const io::OutputFolder& folder, std
 
 int run_render(const Options& typed) {
   Stopwatch stopwatch;
-  io::Manifest before;
-  if (!typed.from.empty()) before = io::read_manifest(typed.from);
+  results::Manifest before;
+  if (!typed.from.empty()) before = results::read_manifest(typed.from);
   const Options options = typed.from.empty() ? typed : recalled(typed, before);
   const Inputs in = typed.from.empty() ? load_inputs(options.words[0], options) : inputs_of(before, options);
   say(warnings(in));
@@ -146,7 +146,7 @@ int run_render(const Options& typed) {
   wanted.truth = what.need_truth();
   Simulator simulator(in.scene, in.camera, wanted);
   say_fallback(options, simulator.ran_on());
-  io::OutputFolder folder(options.output.empty() ? in.scene.name : options.output);
+  files::OutputFolder folder(options.output.empty() ? in.scene.name : options.output);
   stopwatch.lap("prepare");
 
   Rendered out;
@@ -160,7 +160,7 @@ int run_render(const Options& typed) {
   if (interrupted) say_interrupted(options, folder, out.frames);
 
   if (options.json)
-    print(io::json_text(summary_json(folder, out.last, out.frames, machine, stopwatch).set("interrupted", interrupted), 2) + "\n");
+    print(files::json_text(summary_json(folder, out.last, out.frames, machine, stopwatch).set("interrupted", interrupted), 2) + "\n");
   else
     Talk(options.quiet)(summary_text(folder, out.last, out.frames, machine, stopwatch));
   if (stop && stop->signal() != 0) return 128 + stop->signal();

@@ -8,9 +8,9 @@
 
 #include "backend/cuda/cuda.h"
 #include "console.h"
-#include "io/meta.h"
 #include "pictures/pictures.h"
-#include "io/ply.h"
+#include "results/meta.h"
+#include "results/ply.h"
 #include "scene/frozen_scene.h"
 #include "tofray/error.h"
 
@@ -19,7 +19,7 @@ namespace tofray::app {
 namespace {
 
 /// Bytes that are not UTF-8 replaced as JSON replaces them: a scene that comes from a manifest has the same caption.
-std::string as_utf8(const std::string& name) { return *io::parse_json(io::json_text(io::Json(name)), "name").string(); }
+std::string as_utf8(const std::string& name) { return *files::parse_json(files::json_text(files::Json(name)), "name").string(); }
 
 std::string caption(const Frame& frame, const Inputs& inputs) {
   std::string text = fmt::format("{} seen by {}", as_utf8(inputs.scene.name), inputs.camera.name);
@@ -62,9 +62,9 @@ double Stopwatch::total() const {
   return sum;
 }
 
-io::PoseMatrix camera_pose(const Scene& scene) {
+results::PoseMatrix camera_pose(const Scene& scene) {
   const scene::CameraFrame frame = scene::camera_frame(scene.camera.pose);
-  io::PoseMatrix pose{};
+  results::PoseMatrix pose{};
   for (std::size_t i = 0; i < 3; ++i) {
     // The frame's rotation takes world to camera: its transpose goes back.
     for (std::size_t j = 0; j < 3; ++j) pose[4 * i + j] = frame.rotation[j][i] + 0.0;
@@ -99,9 +99,9 @@ Validity validity(const Depth& depth) {
 
 FrameFiles::FrameFiles(const Options& options, const std::vector<std::string>& otherwise, const Inputs& from, const SimulatorOptions& wanted)
     : emit(options.emit.value_or(otherwise)), inputs(from), simulated(wanted), theme(options.theme) {
-  if (!options.arrays.empty()) npz.arrays = io::ArrayChoice(options.arrays);
+  if (!options.arrays.empty()) npz.arrays = results::ArrayChoice(options.arrays);
   npz.kept = from.kept;
-  npz.packing = options.compress ? io::Packing::deflated : io::Packing::stored;
+  npz.packing = options.compress ? files::Packing::deflated : files::Packing::stored;
   if ((!options.arrays.empty() || options.compress) && std::find(emit.begin(), emit.end(), "npz") == emit.end())
     throw Error(ErrorKind::bad_input, "error: --arrays and --compress are of npz files, and --emit leaves these out\n  expected npz in --emit");
 }
@@ -110,17 +110,17 @@ bool FrameFiles::need_truth() const {
   return std::any_of(emit.begin(), emit.end(), [&](const std::string& kind) { return kind == "png" || (kind == "npz" && npz.arrays.has_truth()); });
 }
 
-std::vector<io::FileRecord> write_frame(const io::OutputFolder& folder, const FrameFiles& what, const std::string& suffix, const Frame& frame,
-                                        std::string& memory) {
-  std::vector<io::FileRecord> files;
+std::vector<files::FileRecord> write_frame(const files::OutputFolder& folder, const FrameFiles& what, const std::string& suffix,
+                                           const Frame& frame, std::string& memory) {
+  std::vector<files::FileRecord> files;
   const auto put = [&](const char* stem, const char* extension, std::string_view bytes) {
     files.push_back(folder.put(stem + suffix + extension, bytes));
   };
   const Inputs& in = what.inputs;
   for (const std::string& kind : what.emit) {
     if (kind == "npz") {
-      const std::string meta = io::frame_meta(in.scene, in.camera, what.simulated.seed, what.simulated.noise, frame.index);
-      io::frame_npz_bytes(frame, in.camera, in.pose.value_or(camera_pose(in.scene)), meta, what.npz, memory);
+      const std::string meta = results::frame_meta(in.scene, in.camera, what.simulated.seed, what.simulated.noise, frame.index);
+      results::frame_npz_bytes(frame, in.camera, in.pose.value_or(camera_pose(in.scene)), meta, what.npz, memory);
       put("frame", ".npz", memory);
     } else if (kind == "png") {
       put("depth", ".png", pictures::depth_png(frame.depth));
@@ -128,15 +128,15 @@ std::vector<io::FileRecord> write_frame(const io::OutputFolder& folder, const Fr
       put("raw", ".png", pictures::raw_png(frame.raw, what.theme));
       put("preview", ".png", pictures::preview_png(frame.depth, frame.truth, caption(frame, in), what.theme));
     } else {
-      put("cloud", ".ply", io::cloud_ply(frame.depth));
+      put("cloud", ".ply", results::cloud_ply(frame.depth));
     }
   }
   return files;
 }
 
-void write_frame(io::OutputFolder& folder, const FrameFiles& what, const Frame& frame) {
+void write_frame(files::OutputFolder& folder, const FrameFiles& what, const Frame& frame) {
   std::string memory;
-  for (const io::FileRecord& file : write_frame(folder, what, "", frame, memory)) folder.add(file);
+  for (const files::FileRecord& file : write_frame(folder, what, "", frame, memory)) folder.add(file);
 }
 
 }  // namespace tofray::app

@@ -8,12 +8,12 @@
 #include <utility>
 #include <vector>
 
+#include "files/json.h"
+#include "files/output_folder.h"
 #include "inputs.h"
-#include "io/frame_file.h"
-#include "io/json.h"
-#include "io/manifest.h"
-#include "io/output_folder.h"
 #include "options.h"
+#include "results/frame_file.h"
+#include "results/manifest.h"
 #include "tofray/frame.h"
 
 /// What demo, render and process leave behind.
@@ -34,7 +34,7 @@ class Stopwatch {
 };
 
 /// Camera to world of the scene's pose.
-io::PoseMatrix camera_pose(const Scene& scene);
+results::PoseMatrix camera_pose(const Scene& scene);
 
 /// How many pixels are invalid, and the first reason of each.
 struct Validity {
@@ -55,7 +55,7 @@ struct FrameFiles {
   [[nodiscard]] bool need_truth() const;
 
   std::vector<std::string> emit;
-  io::FrameFileOptions npz;
+  results::FrameFileOptions npz;
   const Inputs& inputs;
   SimulatorOptions simulated;
   pictures::Theme theme;
@@ -65,10 +65,10 @@ struct FrameFiles {
 /// Several threads may write to a folder at once.
 /// @param memory  used again by the next frame
 /// @return what was written, to be added to the folder
-std::vector<io::FileRecord> write_frame(const io::OutputFolder& folder, const FrameFiles& what, const std::string& suffix, const Frame& frame,
-                                        std::string& memory);
+std::vector<files::FileRecord> write_frame(const files::OutputFolder& folder, const FrameFiles& what, const std::string& suffix,
+                                           const Frame& frame, std::string& memory);
 /// The same for a single frame; the folder knows its files then.
-void write_frame(io::OutputFolder& folder, const FrameFiles& what, const Frame& frame);
+void write_frame(files::OutputFolder& folder, const FrameFiles& what, const Frame& frame);
 
 /// The GPU's name; empty where the processor computed.
 std::string gpu_of(const RanOn& machine);
@@ -80,13 +80,13 @@ void say_fallback(const Options& options, const RanOn& machine);
 
 /// Writes manifest.json, last of all: what made the other files.
 /// @param interrupted_after  how many frames are complete where the run did not come to its end
-void write_manifest(io::OutputFolder& folder, const Options& options, const std::vector<io::InputFile>& inputs, const RanOn& machine,
-                    const Stopwatch& stopwatch, std::optional<std::uint64_t> interrupted_after = {});
+void write_manifest(files::OutputFolder& folder, const Options& options, const std::vector<results::InputFile>& inputs,
+                    const RanOn& machine, const Stopwatch& stopwatch, std::optional<std::uint64_t> interrupted_after = {});
 
 /// How a run went, for --json and for people.
-io::Json summary_json(const io::OutputFolder& folder, const Depth& last, std::uint64_t frames, const RanOn& machine,
+files::Json summary_json(const files::OutputFolder& folder, const Depth& last, std::uint64_t frames, const RanOn& machine,
                       const Stopwatch& stopwatch);
-std::string summary_text(const io::OutputFolder& folder, const Depth& last, std::uint64_t frames, const RanOn& machine,
+std::string summary_text(const files::OutputFolder& folder, const Depth& last, std::uint64_t frames, const RanOn& machine,
                          const Stopwatch& stopwatch);
 
 }  // namespace tofray::app

@@ -2,12 +2,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "commands.h"
 #include "console.h"
-#include "io/load.h"
+#include "load/load.h"
 
 namespace tofray::app {
 
 int run_schema(const Options& options) {
-  const std::string text = io::schema_json(options.words[0]);
+  const std::string text = load::schema_json(options.words[0]);
   print(text.ends_with('\n') ? text : text + "\n");
   return 0;
 }

@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
-#include "io/json.h"
-#include "io/meta.h"
-#include "io/version.h"
+#include "base/version.h"
+#include "files/json.h"
 #include "results.h"
+#include "results/meta.h"
 
 namespace tofray::app {
 
@@ -44,15 +44,15 @@ Rates rates_of(std::uint64_t frames, const Stopwatch& stopwatch) {
 
 }  // namespace
 
-void write_manifest(io::OutputFolder& folder, const Options& options, const std::vector<io::InputFile>& inputs, const RanOn& machine,
-                    const Stopwatch& stopwatch, std::optional<std::uint64_t> interrupted_after) {
-  io::Manifest manifest;
-  manifest.tofray_version = io::version();
+void write_manifest(files::OutputFolder& folder, const Options& options, const std::vector<results::InputFile>& inputs,
+                    const RanOn& machine, const Stopwatch& stopwatch, std::optional<std::uint64_t> interrupted_after) {
+  results::Manifest manifest;
+  manifest.tofray_version = base::version();
   manifest.command = options.typed;
   manifest.inputs = inputs;
   manifest.set = options.set;
   if (!options.mode.empty()) manifest.options.emplace_back("mode", options.mode);
-  if (options.noise) manifest.options.emplace_back("noise", io::noise_name(*options.noise));
+  if (options.noise) manifest.options.emplace_back("noise", results::noise_name(*options.noise));
   if (options.emit) manifest.options.emplace_back("emit", joined(*options.emit));
   if (options.theme == pictures::Theme::light) manifest.options.emplace_back("theme", "light");
   if (!options.arrays.empty()) manifest.options.emplace_back("arrays", options.arrays);
@@ -62,33 +62,33 @@ void write_manifest(io::OutputFolder& folder, const Options& options, const std:
   manifest.seed = options.seed.value_or(0);
   manifest.backend = machine.backend;
   manifest.gpu = gpu_of(machine);
-  manifest.cpu_model = io::cpu_model();
+  manifest.cpu_model = results::cpu_model();
   manifest.isa = machine.isa;
   manifest.threads = machine.threads;
   manifest.timings_s = stopwatch.stages();
   manifest.files = folder.files();
   manifest.interrupted_after_frames = interrupted_after;
-  folder.write("manifest.json", io::manifest_text(manifest));
+  folder.write("manifest.json", results::manifest_text(manifest));
 }
 
-io::Json summary_json(const io::OutputFolder& folder, const Depth& last, std::uint64_t frames, const RanOn& machine,
+files::Json summary_json(const files::OutputFolder& folder, const Depth& last, std::uint64_t frames, const RanOn& machine,
                       const Stopwatch& stopwatch) {
-  io::Json files = io::Json::array(), timings = io::Json::object();
-  for (const io::FileRecord& file : folder.files())
-    files.push(io::Json::object().set("name", file.name).set("bytes", file.bytes).set("sha256", file.sha256));
+  files::Json files = files::Json::array(), timings = files::Json::object();
+  for (const files::FileRecord& file : folder.files())
+    files.push(files::Json::object().set("name", file.name).set("bytes", file.bytes).set("sha256", file.sha256));
   for (const auto& [stage, seconds] : stopwatch.stages()) timings.set(stage, seconds);
   const Validity pixels = validity(last);
   const Rates rates = rates_of(frames, stopwatch);
-  io::Json json = io::Json::object();
+  files::Json json = files::Json::object();
   json.set("computed_frames_per_s", rates.computed).set("written_frames_per_s", rates.written);
   json.set("folder", folder.path().native()).set("frames", frames).set("pixels", pixels.pixels).set("valid_pixels", pixels.valid);
   return json.set("backend", machine.backend).set("gpu", gpu_of(machine)).set("isa", machine.isa).set("threads", machine.threads).set("timings_s", std::move(timings)).set("files", std::move(files));
 }
 
-std::string summary_text(const io::OutputFolder& folder, const Depth& last, std::uint64_t frames, const RanOn& machine,
+std::string summary_text(const files::OutputFolder& folder, const Depth& last, std::uint64_t frames, const RanOn& machine,
                          const Stopwatch& stopwatch) {
   double bytes = 0;
-  for (const io::FileRecord& file : folder.files()) bytes += static_cast<double>(file.bytes);
+  for (const files::FileRecord& file : folder.files()) bytes += static_cast<double>(file.bytes);
   const Validity pixels = validity(last);
   std::string text = fmt::format("{} files, {}, in {}\n", folder.files().size(), size_text(bytes), folder.path().native());
   text += fmt::format("{} of {} pixels {}have a depth{}{}\n", pixels.valid, pixels.pixels, frames > 1 ? "of the last frame " : "",

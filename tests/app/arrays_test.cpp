@@ -4,9 +4,9 @@
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 
-#include "io/array_table.h"
-#include "io/json.h"
-#include "io/npz.h"
+#include "files/json.h"
+#include "files/npz.h"
+#include "results/array_table.h"
 #include "tool.h"
 
 namespace tofray::test {
@@ -14,7 +14,7 @@ namespace {
 
 std::map<std::string, std::string> arrays_of(const fs::path& file) {
   std::map<std::string, std::string> arrays;
-  for (io::NamedArray& one : io::read_npz(file)) {
+  for (files::NamedArray& one : files::read_npz(file)) {
     if (one.name != "meta") arrays[one.name] = one.array.bytes;
   }
   return arrays;
@@ -108,9 +108,10 @@ TEST(arrays, asked_for_without_npz_files_are_an_error) {
 TEST(arrays, are_listed_with_their_meaning) {
   const Result listed = run({"list", "arrays"});
   ASSERT_EQ(listed.code, 0);
-  const io::Json json = io::parse_json(run({"list", "arrays", "--json"}).out, "stdout");
-  ASSERT_EQ(json.find("arrays")->items()->size(), io::array_table().size());
-  for (const io::ArrayRow& row : io::array_table()) EXPECT_TRUE(has(listed.out, "`" + row.name + "`") && has(listed.out, row.what)) << row.name;
+  const files::Json json = files::parse_json(run({"list", "arrays", "--json"}).out, "stdout");
+  ASSERT_EQ(json.find("arrays")->items()->size(), results::array_table().size());
+  for (const results::ArrayRow& row : results::array_table())
+    EXPECT_TRUE(has(listed.out, "`" + row.name + "`") && has(listed.out, row.what)) << row.name;
 }
 
 TEST(sequence, has_the_bytes_of_single_frames_and_its_files_in_order) {
@@ -121,9 +122,9 @@ TEST(sequence, has_the_bytes_of_single_frames_and_its_files_in_order) {
   EXPECT_EQ(files_of(folder / "all"), files_of(folder / "more"));
   ASSERT_EQ(run(with_small_sensor({"render", "flying-ball", "-o", "one", "--first-frame", "23", "--emit", "npz"}), here).code, 0);
   EXPECT_EQ(content(folder / "one/frame_0023.npz"), content(folder / "all/frame_0023.npz"));
-  const io::Json manifest = io::parse_json(content(folder / "all/manifest.json"), "manifest.json");
+  const files::Json manifest = files::parse_json(content(folder / "all/manifest.json"), "manifest.json");
   std::vector<std::string> names;
-  for (const io::Json& file : *manifest.find("files")->items()) names.push_back(*file.find("name")->string());
+  for (const files::Json& file : *manifest.find("files")->items()) names.push_back(*file.find("name")->string());
   EXPECT_EQ(names.size(), 40u);
   EXPECT_TRUE(std::is_sorted(names.begin(), names.end()));
 }
@@ -133,8 +134,8 @@ TEST(sequence, says_how_fast_it_was_computed_and_how_fast_written) {
   const Prepare here = in_folder(folder.path());
   const Result text = run(with_small_sensor({"render", "card", "-o", "out", "--frames", "4"}), here);
   EXPECT_TRUE(has(text.err, " frames/s computed, ") && has(text.err, " written")) << text.err;
-  const io::Json json =
-      io::parse_json(run(with_small_sensor({"render", "card", "-o", "out", "--frames", "4", "--json"}), here).out, "stdout");
+  const files::Json json =
+      files::parse_json(run(with_small_sensor({"render", "card", "-o", "out", "--frames", "4", "--json"}), here).out, "stdout");
   double computed = 0, written = 0;
   ASSERT_TRUE(json.find("computed_frames_per_s")->number(computed) && json.find("written_frames_per_s")->number(written));
   EXPECT_GT(written, 0);

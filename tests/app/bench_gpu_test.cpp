@@ -8,7 +8,7 @@
 #include "bench.h"
 #include "commands.h"
 #include "experiment.h"
-#include "io/json.h"
+#include "files/json.h"
 #include "support/stand_in_cuda.h"
 #include "tool.h"
 
@@ -17,7 +17,7 @@ namespace {
 
 using namespace tofray::app;
 
-double number(const io::Json& row, const char* key) {
+double number(const files::Json& row, const char* key) {
   double value = std::nan("");
   row.find(key)->number(value);
   return value;
@@ -36,10 +36,10 @@ Options on_stand_in(const fs::path& folder) {
 }
 
 /// What a command prints, run within this program.
-io::Json printed(int (*command)(const Options&), const Options& options) {
+files::Json printed(int (*command)(const Options&), const Options& options) {
   testing::internal::CaptureStdout();
   EXPECT_EQ(command(options), 0);
-  return io::parse_json(testing::internal::GetCapturedStdout(), "stdout");
+  return files::parse_json(testing::internal::GetCapturedStdout(), "stdout");
 }
 
 TEST(experiment, on_a_stand_in_for_a_gpu_every_block_size_gives_the_processors_bytes) {
@@ -48,9 +48,9 @@ TEST(experiment, on_a_stand_in_for_a_gpu_every_block_size_gives_the_processors_b
   Options options = on_stand_in(folder.path());
   options.block_sizes = {32, 96, 1024};
   options.stages = {"power", "all"};
-  const io::Json json = printed(run_experiment, options);
+  const files::Json json = printed(run_experiment, options);
   EXPECT_EQ(*json.find("gpu")->string(), "Stand-in 0");
-  const io::Json::Array& rows = *json.find("results")->items();
+  const files::Json::Array& rows = *json.find("results")->items();
   ASSERT_EQ(rows.size(), 2u * 5);
   for (std::size_t i = 0; i < 5; ++i) EXPECT_EQ(*rows[i].find("sha256")->string(), *rows[0].find("sha256")->string());
   EXPECT_EQ(*rows[2].find("code")->string(), "cuda");
@@ -58,7 +58,7 @@ TEST(experiment, on_a_stand_in_for_a_gpu_every_block_size_gives_the_processors_b
   EXPECT_GT(number(rows[4], "occupancy"), 0);
   // The stand-in is no GPU that NVML knows.
   int with_gpu = 0;
-  for (const io::Json& row : rows) {
+  for (const files::Json& row : rows) {
     if (!row.find("energy")->is_null() && row.find("energy")->find("gpu_not_readable") != nullptr) ++with_gpu;
   }
   EXPECT_EQ(with_gpu, 2);  // the best block size of each stage; the yardsticks are the processor's
@@ -69,10 +69,10 @@ TEST(bench_batch, measures_batches_that_stay_and_batches_that_go_to_the_host) {
   const Folder folder;
   Options options = on_stand_in(folder.path());
   options.batch = 5;
-  const io::Json json = printed(run_bench, options);
-  const io::Json::Array& rows = *json.find("results")->items();
+  const files::Json json = printed(run_bench, options);
+  const files::Json::Array& rows = *json.find("results")->items();
   ASSERT_EQ(rows.size(), 3u);
-  for (const io::Json& row : rows) {
+  for (const files::Json& row : rows) {
     EXPECT_EQ(number(row, "batch"), 5);
     for (const char* rate : {"frames_per_s_device", "frames_per_s_resident", "frames_per_s_host"}) EXPECT_GT(number(row, rate), 0) << rate;
   }

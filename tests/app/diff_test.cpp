@@ -5,8 +5,8 @@
 #include <cmath>
 #include <limits>
 
-#include "io/json.h"
-#include "io/npz.h"
+#include "files/json.h"
+#include "files/npz.h"
 #include "tool.h"
 
 namespace tofray::test {
@@ -15,7 +15,7 @@ namespace {
 void write(const fs::path& path, const std::string& bytes) { std::ofstream(path, std::ios::binary) << bytes; }
 
 std::string file_of(const std::vector<float>& z, const std::vector<std::uint16_t>& raw) {
-  return io::npz_bytes({io::npy_view("z_m", {z.size()}, z), io::npy_view("raw", {raw.size()}, raw)});
+  return files::npz_bytes({files::npy_view("z_m", {z.size()}, z), files::npy_view("raw", {raw.size()}, raw)});
 }
 
 constexpr float nan = std::numeric_limits<float>::quiet_NaN();
@@ -42,17 +42,17 @@ TEST(diff, counts_values_that_differ_and_names_the_largest_difference) {
   EXPECT_TRUE(has(result.out, "raw                      1 of 2 differ, by up to 65535 DN\n")) << result.out;
   const Result asked = run({"diff", "a.npz", "b.npz", "--json"}, in_folder(folder.path()));
   EXPECT_EQ(asked.code, 1);
-  const io::Json json = io::parse_json(asked.out, "stdout");
-  EXPECT_EQ(io::json_text(*json.find("same")), "false");
-  const io::Json z = (*(*json.find("files")->items())[0].find("arrays")->items())[0];
-  EXPECT_EQ(io::json_text(z), R"({"name":"z_m","same":false,"values":4,"differ":3,"largest_difference":1.0,"not_finite":1,"unit":"m"})");
+  const files::Json json = files::parse_json(asked.out, "stdout");
+  EXPECT_EQ(files::json_text(*json.find("same")), "false");
+  const files::Json z = (*(*json.find("files")->items())[0].find("arrays")->items())[0];
+  EXPECT_EQ(files::json_text(z), R"({"name":"z_m","same":false,"values":4,"differ":3,"largest_difference":1.0,"not_finite":1,"unit":"m"})");
 }
 
 TEST(diff, tells_whole_numbers_apart_that_a_double_does_not) {
   const Folder folder;
   const std::vector<std::uint64_t> a = {(1ULL << 53) + 1}, b = {1ULL << 53};
-  write(folder / "a.npz", io::npz_bytes({io::npy_view("n", {1}, a)}));
-  write(folder / "b.npz", io::npz_bytes({io::npy_view("n", {1}, b)}));
+  write(folder / "a.npz", files::npz_bytes({files::npy_view("n", {1}, a)}));
+  write(folder / "b.npz", files::npz_bytes({files::npy_view("n", {1}, b)}));
   EXPECT_TRUE(has(run({"diff", "a.npz", "b.npz"}, in_folder(folder.path())).out, "1 of 1 differ"));
 }
 
@@ -60,8 +60,10 @@ TEST(diff, names_arrays_that_cannot_be_compared_or_are_missing) {
   const Folder folder;
   const std::vector<float> four(4), six(6);
   const std::vector<std::uint16_t> codes(4);
-  write(folder / "a.npz", io::npz_bytes({io::npy_view("x", {4}, four), io::npy_view("y", {6}, six), io::npy_view("only_a", {4}, four)}));
-  write(folder / "b.npz", io::npz_bytes({io::npy_view("x", {4}, codes), io::npy_view("y", {2, 3}, six), io::npy_view("only_b", {4}, four)}));
+  write(folder / "a.npz",
+        files::npz_bytes({files::npy_view("x", {4}, four), files::npy_view("y", {6}, six), files::npy_view("only_a", {4}, four)}));
+  write(folder / "b.npz",
+        files::npz_bytes({files::npy_view("x", {4}, codes), files::npy_view("y", {2, 3}, six), files::npy_view("only_b", {4}, four)}));
   const Result result = run({"diff", "a.npz", "b.npz"}, in_folder(folder.path()));
   EXPECT_EQ(result.code, 1);
   for (const char* part : {"float32, then uint16", "(6,), then (2, 3)", "only_a                   only in the first",

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <sstream>
 
-#include "io/json.h"
+#include "files/json.h"
 #include "tool.h"
 
 namespace tofray::test {
@@ -53,7 +53,7 @@ std::string line_with(const std::string& text, const std::string& part) {
   return {};
 }
 
-double number(const io::Json& row, const char* key) {
+double number(const files::Json& row, const char* key) {
   double value = std::nan("");
   row.find(key)->number(value);
   return value;
@@ -107,8 +107,8 @@ TEST(experiment, table_has_a_line_for_each_run_with_its_gain) {
 TEST(experiment, json_says_the_same) {
   Experiment experiment = made_up_experiment();
   experiment.groups[0].runs[31].fault = "no registers left";
-  const io::Json json = io::parse_json(io::json_text(experiment_json(experiment)), "experiment");
-  const io::Json::Array& rows = *json.find("results")->items();
+  const files::Json json = files::parse_json(files::json_text(experiment_json(experiment)), "experiment");
+  const files::Json::Array& rows = *json.find("results")->items();
   ASSERT_EQ(rows.size(), 4u * 34);
   EXPECT_EQ(*rows[0].find("role")->string(), "scalar");
   EXPECT_EQ(*rows[1].find("role")->string(), "vector");
@@ -146,10 +146,10 @@ TEST(experiment, on_the_processor_really_measures_and_writes_all_files) {
       run(with_small_sensor({"bench", "--backend", "cpu", "--stage", "power,all", "--frames", "7", "--threads", "3", "--json"}),
           in_folder(folder.path()));
   ASSERT_EQ(result.code, 0) << result.err;
-  const io::Json json = io::parse_json(result.out, "stdout");
+  const files::Json json = files::parse_json(result.out, "stdout");
   EXPECT_EQ(content(folder / "tofray-bench" / "experiment.json"), result.out);
   std::map<std::string, int> rows_of;
-  for (const io::Json& row : *json.find("results")->items()) {
+  for (const files::Json& row : *json.find("results")->items()) {
     ++rows_of[*row.find("scene")->string() + " " + *row.find("stage")->string()];
     EXPECT_EQ(number(row, "objects"), 16);
     EXPECT_GT(number(row, "ms_median"), 0);
@@ -170,10 +170,10 @@ TEST(experiment, each_stage_goes_further_than_the_one_before) {
       run({"bench", "room", "--backend", "cpu", "--stage", "trace,power,raw,all", "--frames", "5", "--threads", "1", "--json", "-o", "out"},
           in_folder(folder.path()));
   ASSERT_EQ(result.code, 0) << result.err;
-  const io::Json json = io::parse_json(result.out, "stdout");
+  const files::Json json = files::parse_json(result.out, "stdout");
   std::map<std::string, std::string> hash_of;
   std::map<std::string, double> scalar_ms;
-  for (const io::Json& row : *json.find("results")->items()) {
+  for (const files::Json& row : *json.find("results")->items()) {
     if (*row.find("role")->string() != "scalar") continue;
     hash_of[*row.find("sha256")->string()] = *row.find("stage")->string();  // what a stage gives, no other one does
     scalar_ms[*row.find("stage")->string()] = number(row, "ms_p10");
@@ -190,19 +190,19 @@ TEST(experiment, with_a_gpu_each_block_size_is_measured) {
                             in_folder(folder.path()));
   if (result.code == 5) {
     EXPECT_TRUE(has(result.err, "error: no GPU can be used: ")) << result.err;
-    EXPECT_FALSE(*io::parse_json(result.out, "stdout").find("good")->boolean());
+    EXPECT_FALSE(*files::parse_json(result.out, "stdout").find("good")->boolean());
     EXPECT_TRUE(fs::is_empty(folder.path()));
     GTEST_SKIP() << result.err;
   }
   ASSERT_EQ(result.code, 0) << result.err;
-  EXPECT_EQ(io::parse_json(result.out, "stdout").find("results")->items()->size(), 2u * 34);
+  EXPECT_EQ(files::parse_json(result.out, "stdout").find("results")->items()->size(), 2u * 34);
 }
 
 TEST(bench_batch, on_the_processor_frames_go_to_the_host_only) {
   const Result result = run(with_small_sensor({"bench", "--backend", "cpu", "--batch", "3", "--frames", "2", "--json"}));
   ASSERT_EQ(result.code, 0) << result.err;
-  const io::Json json = io::parse_json(result.out, "stdout");
-  const io::Json& row = (*json.find("results")->items())[0];
+  const files::Json json = files::parse_json(result.out, "stdout");
+  const files::Json& row = (*json.find("results")->items())[0];
   EXPECT_GT(number(row, "frames_per_s_host"), 0);
   EXPECT_TRUE(row.find("frames_per_s_device")->is_null());
   const Result table = run(with_small_sensor({"bench", "--backend", "cpu", "--batch", "3", "--frames", "2"}));
@@ -235,7 +235,7 @@ TEST(bench_energy, runs_no_frame_where_nothing_can_be_read_and_says_why) {
   int frames = 0;
   const Energy energy = energy_per_frame(cpu, &gpu, 100, 1, [&] { ++frames; });
   EXPECT_EQ(frames, 0);
-  const io::Json json = energy_json(energy);
+  const files::Json json = energy_json(energy);
   EXPECT_TRUE(json.find("cpu_j_per_frame")->is_null());
   EXPECT_EQ(*json.find("gpu_not_readable")->string(), "no driver");
   EXPECT_EQ(energy_text(json), "CPU not readable here: no counter; GPU not readable here: no driver");
@@ -254,8 +254,9 @@ TEST(bench_energy, a_counter_that_goes_half_way_is_not_readable) {
 TEST(bench_energy, is_in_the_table_and_in_json) {
   const Result table = run(with_small_sensor({"bench", "--frames", "2", "--backend", "cpu"}));
   EXPECT_TRUE(has(line_with(table.out, "energy per frame: "), "bench-primitives")) << table.out;
-  const io::Json json = io::parse_json(run(with_small_sensor({"bench", "--frames", "2", "--backend", "cpu", "--json"})).out, "stdout");
-  const io::Json& energy = *(*json.find("results")->items())[0].find("energy");
+  const files::Json json =
+      files::parse_json(run(with_small_sensor({"bench", "--frames", "2", "--backend", "cpu", "--json"})).out, "stdout");
+  const files::Json& energy = *(*json.find("results")->items())[0].find("energy");
   EXPECT_NE(energy.find("cpu_j_per_frame")->is_null(), energy.find("cpu_not_readable")->is_null());
   EXPECT_EQ(energy.find("gpu_j_per_frame"), nullptr);  // no GPU takes part
 }

@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
-#include "io/json.h"
-#include "io/npz.h"
-#include "io/sha256.h"
+#include "files/json.h"
+#include "files/npz.h"
+#include "files/sha256.h"
 #include "support/sanitizers.h"
 #include "tool.h"
 
@@ -94,7 +94,7 @@ TEST(broken_disk, at_any_call_ends_with_3_and_leaves_whole_files) {
       if (!fs::exists(folder / "out")) continue;
       for (const auto& entry : fs::directory_iterator(folder / "out")) {
         if (entry.path().extension() != ".npz" || content(entry.path()) == "old") continue;
-        EXPECT_NO_THROW(io::read_npz(entry.path())) << call << " " << which << ": " << entry.path();
+        EXPECT_NO_THROW(files::read_npz(entry.path())) << call << " " << which << ": " << entry.path();
       }
     }
     // Each file is written, made safe and renamed; one folder.
@@ -247,10 +247,10 @@ constexpr int interruptions = with_sanitizers ? 10 : 50;
 
 /// An interrupted run's manifest lists what lies there, says so, and stderr says how to go on.
 void expect_complete(const Folder& folder, const std::map<std::string, std::string>& files) {
-  const io::Json manifest = io::parse_json(content(folder / "out" / "manifest.json"), "manifest.json");
+  const files::Json manifest = files::parse_json(content(folder / "out" / "manifest.json"), "manifest.json");
   std::map<std::string, std::string> hashes, listed;
-  for (const auto& [name, bytes] : files) hashes[name] = io::sha256_hex(bytes);
-  for (const io::Json& file : *manifest.find("files")->items()) listed[*file.find("name")->string()] = *file.find("sha256")->string();
+  for (const auto& [name, bytes] : files) hashes[name] = files::sha256_hex(bytes);
+  for (const files::Json& file : *manifest.find("files")->items()) listed[*file.find("name")->string()] = *file.find("sha256")->string();
   EXPECT_EQ(hashes, listed);
   ASSERT_NE(manifest.find("interrupted_after_frames"), nullptr);
   std::uint64_t complete = 0;
@@ -274,7 +274,7 @@ void interrupt(int signal, int expected, bool at_once) {
     EXPECT_EQ(child.finish(), expected);
     EXPECT_EQ(temporaries(folder.path()), std::vector<std::string>());
     const auto files = files_of(folder / "out");
-    for (const auto& [name, bytes] : files) EXPECT_NO_THROW(io::read_npz(folder / "out" / name)) << name;
+    for (const auto& [name, bytes] : files) EXPECT_NO_THROW(files::read_npz(folder / "out" / name)) << name;
     ASSERT_EQ(fs::exists(folder / "out" / "manifest.json"), !at_once);
     if (!at_once) expect_complete(folder, files);
   }

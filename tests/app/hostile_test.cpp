@@ -8,7 +8,7 @@
 
 #include "base/limits.h"
 #include "base/text.h"
-#include "io/npz.h"
+#include "files/npz.h"
 #include "support/sanitizers.h"
 #include "tool.h"
 
@@ -217,29 +217,29 @@ TEST(hostile_message, what_is_quoted_is_cut) {
 // --- data files ---------------------------------------------------------------------------------------------------------------
 
 /// A frame of 4 by 3 pixels whose `meta` says what it is told.
-std::vector<io::NpyView> small_frame(const std::string& meta_bytes, const std::vector<std::uint16_t>& codes) {
-  return {io::npy_view("raw", {1, 3, 4}, codes), {"meta", {'U', static_cast<int>(meta_bytes.size())}, {}, meta_bytes}};
+std::vector<files::NpyView> small_frame(const std::string& meta_bytes, const std::vector<std::uint16_t>& codes) {
+  return {files::npy_view("raw", {1, 3, 4}, codes), {"meta", {'U', static_cast<int>(meta_bytes.size())}, {}, meta_bytes}};
 }
 
 TEST(hostile_npz, the_camera_of_meta_has_to_be_that_of_the_arrays) {
   const Folder folder;
   ASSERT_EQ(attack(folder, with_small_sensor({"render", "card", "-o", "out", "--emit", "npz"})).code, 0);
-  auto arrays = io::read_npz((folder / "out" / "frame.npz").native());
-  const auto meta = std::find_if(arrays.begin(), arrays.end(), [](const io::NamedArray& one) { return one.name == "meta"; });
+  auto arrays = files::read_npz((folder / "out" / "frame.npz").native());
+  const auto meta = std::find_if(arrays.begin(), arrays.end(), [](const files::NamedArray& one) { return one.name == "meta"; });
   ASSERT_NE(meta, arrays.end());
   std::string text = meta->array.text();
   for (const char* key : {"\"width\":28", "\"height\":22"}) {
     ASSERT_TRUE(has(text, key));
     text = changed(text, key, has(key, "width") ? "\"width\":2" : "\"height\":2");
   }
-  meta->array.bytes = io::utf32_of(text);
-  std::vector<io::NpyView> views;
+  meta->array.bytes = files::utf32_of(text);
+  std::vector<files::NpyView> views;
   for (const auto& one : arrays) {
-    io::NpyType type = one.array.type;
+    files::NpyType type = one.array.type;
     if (one.name == "meta") type.size = static_cast<int>(one.array.bytes.size());
     views.push_back({one.name, type, one.array.shape, one.array.bytes});
   }
-  write(folder / "small.npz", io::npz_bytes(views));
+  write(folder / "small.npz", files::npz_bytes(views));
   expect_refused(attack(folder, {"inspect", "small.npz", "--pixel", "27,21"}), 2, "got a sensor of 2 x 2 and arrays of 28 x 22");
   EXPECT_EQ(attack(folder, {"inspect", "out/frame.npz", "--pixel", "27,21"}).code, 0);
 }
@@ -247,12 +247,12 @@ TEST(hostile_npz, the_camera_of_meta_has_to_be_that_of_the_arrays) {
 TEST(hostile_npz, flags_of_another_kind_are_bad_input) {
   const Folder folder;
   const std::vector<std::uint16_t> codes(12, 7);
-  const std::string words = io::utf32_of("abc");
+  const std::string words = files::utf32_of("abc");
   const std::vector<double> numbers(12, -1e300);
   const std::vector<std::int64_t> negative(12, -5);
-  write(folder / "text.npz", io::npz_bytes({io::npy_view("raw", {1, 3, 4}, codes), {"flags", {'U', 12}, {}, words}}));
-  write(folder / "float.npz", io::npz_bytes({io::npy_view("raw", {1, 3, 4}, codes), io::npy_view("flags", {3, 4}, numbers)}));
-  write(folder / "negative.npz", io::npz_bytes({io::npy_view("raw", {1, 3, 4}, codes), io::npy_view("flags", {3, 4}, negative)}));
+  write(folder / "text.npz", files::npz_bytes({files::npy_view("raw", {1, 3, 4}, codes), {"flags", {'U', 12}, {}, words}}));
+  write(folder / "float.npz", files::npz_bytes({files::npy_view("raw", {1, 3, 4}, codes), files::npy_view("flags", {3, 4}, numbers)}));
+  write(folder / "negative.npz", files::npz_bytes({files::npy_view("raw", {1, 3, 4}, codes), files::npy_view("flags", {3, 4}, negative)}));
   for (const char* name : {"text.npz", "float.npz"}) {
     expect_refused(attack(folder, {"inspect", name}), 2, "array \"flags\" has the wrong type");
     expect_refused(attack(folder, {"inspect", name, "--json"}), 2, "array \"flags\" has the wrong type");
@@ -265,7 +265,7 @@ TEST(hostile_npz, flags_of_another_kind_are_bad_input) {
 TEST(hostile_npz, statistics_take_no_eight_bytes_for_each) {
   const Folder folder;
   const std::vector<std::uint8_t> grey(64 << 20, 3);
-  write(folder / "grey.npz", io::npz_bytes({io::npy_view("grey", {8192, 8192}, grey)}));
+  write(folder / "grey.npz", files::npz_bytes({files::npy_view("grey", {8192, 8192}, grey)}));
   const Attack result = attack(folder, {"inspect", "grey.npz"});
   EXPECT_EQ(result.code, 0) << result.err;
   EXPECT_TRUE(has(result.out, "uint8"));
@@ -276,7 +276,7 @@ TEST(hostile_npz, statistics_take_no_eight_bytes_for_each) {
 TEST(hostile_npz, many_keys_in_meta_end_soon) {
   const Folder folder;
   const std::string meta = "{" + repeated(100'000, [](int i) { return "\"key" + std::to_string(i) + "\":1,"; }) + "\"end\":1}";
-  write(folder / "meta.npz", io::npz_bytes(small_frame(io::utf32_of(meta), std::vector<std::uint16_t>(12, 7))));
+  write(folder / "meta.npz", files::npz_bytes(small_frame(files::utf32_of(meta), std::vector<std::uint16_t>(12, 7))));
   for (const Arguments& arguments : {Arguments{"inspect", "meta.npz"}, Arguments{"inspect", "meta.npz", "--json"}})
     EXPECT_EQ(attack(folder, arguments).code, 0);
   expect_refused(attack(folder, {"process", "meta.npz"}), 2, "meta does not say which camera made it");
@@ -288,13 +288,13 @@ TEST(hostile_npz, text_of_meta_steers_no_terminal) {
       "scene": {"name": "a\nb\u202e", "objects": [{"name": "\u009b31m"}]}, "camera": {"name": "\u001b[1m", "mode": {"name": "\r"}}})";
   const std::vector<std::int32_t> ids(12, 0);
   const std::vector<double> ranges(12, 1);
-  const std::string bytes = io::utf32_of(meta);
+  const std::string bytes = files::utf32_of(meta);
   const std::vector<std::uint16_t> codes(12, 7);
-  std::vector<io::NpyView> views = small_frame(bytes, codes);
-  views.push_back(io::npy_view("gt_object_id", {3, 4}, ids));
-  views.push_back(io::npy_view("gt_range_m", {3, 4}, ranges));
-  views.push_back(io::npy_view("naXme", {3, 4}, ids));
-  std::string archive = io::npz_bytes(views);
+  std::vector<files::NpyView> views = small_frame(bytes, codes);
+  views.push_back(files::npy_view("gt_object_id", {3, 4}, ids));
+  views.push_back(files::npy_view("gt_range_m", {3, 4}, ranges));
+  views.push_back(files::npy_view("naXme", {3, 4}, ids));
+  std::string archive = files::npz_bytes(views);
   for (std::size_t at = archive.find("naXme"); at != std::string::npos; at = archive.find("naXme", at)) archive[at + 2] = '\x1b';
   write(folder / "m\x1b[5meta.npz", archive);
   for (const Arguments& arguments : {Arguments{"inspect", "m\x1b[5meta.npz"}, Arguments{"inspect", "m\x1b[5meta.npz", "--pixel", "1,1"},

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
-#include "io/builtin.h"
+#include "load/builtin.h"
 #include "tool.h"
 
 namespace tofray::test {
@@ -12,7 +12,7 @@ namespace {
 const Folder& files() {
   static const Folder folder;
   static const bool made = [] {
-    std::ofstream(folder / "mycam.yaml") << io::find_builtin(io::builtin_profiles(), "pico-flexx")->text;
+    std::ofstream(folder / "mycam.yaml") << load::find_builtin(load::builtin_profiles(), "pico-flexx")->text;
     fs::create_directory(folder / "empty");
     const Prepare here = in_folder(folder.path());
     return run(with_small_sensor({"render", "card", "-o", "out"}), here).code == 0 &&
@@ -81,7 +81,7 @@ TEST(warning, of_an_integration_time_above_the_modes_names_both) {
 TEST(warning, names_the_key_and_its_value) {
   const Folder folder;
   std::ofstream(folder / "empty.yaml") << "objects: []\n";
-  std::string profile(io::find_builtin(io::builtin_profiles(), "pico-flexx")->text);
+  std::string profile(load::find_builtin(load::builtin_profiles(), "pico-flexx")->text);
   std::ofstream(folder / "mycam.yaml") << profile << "\nrefractive_index: 1.0003\n";
   const std::vector<std::pair<Arguments, std::string>> cases = {
       {{"check", "empty.yaml"}, "objects is []"},

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
-#include "io/npz.h"
+#include "files/npz.h"
 #include "tool.h"
 
 namespace tofray::test {
@@ -12,16 +12,16 @@ TEST(process, keeps_ground_truth_pose_and_arrays_of_one_s_own) {
   const Folder folder;
   const Prepare here = in_folder(folder.path());
   ASSERT_EQ(run(with_small_sensor({"render", "card", "-o", "out", "--set", "camera.pose.position=[0, 0, 0.25]"}), here).code, 0);
-  auto arrays = io::read_npz(folder / "out" / "frame.npz");
-  arrays.push_back({"labels", {{'U', 12}, {2}, io::utf32_of("abcdef")}});
-  std::vector<io::NpyView> views;
-  for (const io::NamedArray& one : arrays) views.push_back({one.name, one.array.type, one.array.shape, one.array.bytes});
-  std::ofstream(folder / "labelled.npz", std::ios::binary) << io::npz_bytes(views);
+  auto arrays = files::read_npz(folder / "out" / "frame.npz");
+  arrays.push_back({"labels", {{'U', 12}, {2}, files::utf32_of("abcdef")}});
+  std::vector<files::NpyView> views;
+  for (const files::NamedArray& one : arrays) views.push_back({one.name, one.array.type, one.array.shape, one.array.bytes});
+  std::ofstream(folder / "labelled.npz", std::ios::binary) << files::npz_bytes(views);
   ASSERT_EQ(run({"process", "labelled.npz", "-o", "again", "--set", "camera.decoding.filter.kind=median"}, here).code, 0);
-  std::map<std::string, io::NpyArray> after;
-  for (io::NamedArray& one : io::read_npz(folder / "again" / "frame.npz")) after[one.name] = std::move(one.array);
+  std::map<std::string, files::NpyArray> after;
+  for (files::NamedArray& one : files::read_npz(folder / "again" / "frame.npz")) after[one.name] = std::move(one.array);
   int kept = 0;
-  for (const io::NamedArray& one : arrays) {
+  for (const files::NamedArray& one : arrays) {
     ASSERT_TRUE(after.contains(one.name)) << one.name;
     if (!one.name.starts_with("gt_") && one.name != "labels" && one.name != "camera_pose") continue;
     EXPECT_EQ(after[one.name].bytes, one.array.bytes) << one.name;
@@ -30,7 +30,7 @@ TEST(process, keeps_ground_truth_pose_and_arrays_of_one_s_own) {
   }
   EXPECT_EQ(kept, 14);  // twelve arrays of ground truth
   // The first run's depth is not kept in the place of the new one.
-  const auto before = std::find_if(arrays.begin(), arrays.end(), [](const io::NamedArray& one) { return one.name == "z_m"; });
+  const auto before = std::find_if(arrays.begin(), arrays.end(), [](const files::NamedArray& one) { return one.name == "z_m"; });
   EXPECT_NE(after["z_m"].bytes, before->array.bytes);
 }
 

@@ -4,10 +4,10 @@
 
 #include <cmath>
 
-#include "io/builtin.h"
-#include "io/json.h"
-#include "io/npz.h"
-#include "io/sha256.h"
+#include "files/json.h"
+#include "files/npz.h"
+#include "files/sha256.h"
+#include "load/builtin.h"
 #include "tool.h"
 
 namespace tofray::test {
@@ -35,10 +35,10 @@ TEST(demo, writes_all_files_and_draws_a_picture) {
 TEST(demo, manifest_lists_every_file_with_its_hash) {
   const Folder folder;
   ASSERT_EQ(run(with_small_sensor({"demo", "-o", "out", "--quiet"}), in_folder(folder.path())).code, 0);
-  const io::Json manifest = io::parse_json(content(folder / "out" / "manifest.json"), "manifest.json");
+  const files::Json manifest = files::parse_json(content(folder / "out" / "manifest.json"), "manifest.json");
   std::map<std::string, std::string> hashes, listed;
-  for (const auto& [name, bytes] : files_of(folder / "out")) hashes[name] = io::sha256_hex(bytes);
-  for (const io::Json& file : *manifest.find("files")->items()) listed[*file.find("name")->string()] = *file.find("sha256")->string();
+  for (const auto& [name, bytes] : files_of(folder / "out")) hashes[name] = files::sha256_hex(bytes);
+  for (const files::Json& file : *manifest.find("files")->items()) listed[*file.find("name")->string()] = *file.find("sha256")->string();
   EXPECT_EQ(hashes, listed);
 }
 
@@ -49,7 +49,7 @@ TEST_P(render_of, a_builtin_scene_works) {
   const Result result = run({"render", GetParam(), "--emit", "npz"}, in_folder(folder.path()));
   EXPECT_EQ(result.code, 0) << result.err;
   EXPECT_FALSE(has(result.err, "warning")) << result.err;
-  const auto arrays = io::read_npz(folder / GetParam() / "frame.npz", {"flags"});
+  const auto arrays = files::read_npz(folder / GetParam() / "frame.npz", {"flags"});
   ASSERT_EQ(arrays.size(), 1u);
   std::size_t valid = 0;
   for (std::size_t i = 0; i < arrays[0].array.count(); ++i) valid += (static_cast<unsigned>(arrays[0].array.number(i)) & 31u) == 0 ? 1 : 0;
@@ -58,7 +58,7 @@ TEST_P(render_of, a_builtin_scene_works) {
 
 std::vector<std::string> scene_names() {
   std::vector<std::string> names;
-  for (const io::Builtin& one : io::builtin_scenes()) names.push_back(one.name);
+  for (const load::Builtin& one : load::builtin_scenes()) names.push_back(one.name);
   return names;
 }
 
@@ -117,7 +117,7 @@ TEST(render, replaces_files_of_the_same_name_and_leaves_others_alone) {
 /// Writes a profile of one's own with a measured light pattern and correlation in files beside it, and a scene that takes it.
 void write_own_camera(const fs::path& folder) {
   fs::create_directories(folder / "tables");
-  std::string profile(io::find_builtin(io::builtin_profiles(), "pico-flexx")->text);
+  std::string profile(load::find_builtin(load::builtin_profiles(), "pico-flexx")->text);
   std::ofstream(folder / "mycam.yaml") << profile;
   std::ofstream(folder / "tables" / "pattern.csv") << "# measured\n1, 2.5, 1 # rim\n2, 4, 2\n\n1; 2.25; 1\n";
   std::ofstream(folder / "correlation.txt") << "0.7 0.5 0\n-0.5\n-0.7 -0.5 0 0.5\n";
@@ -208,8 +208,8 @@ TEST(process, makes_the_same_depth_of_expected_values) {
   const Prepare here = in_folder(folder.path());
   ASSERT_EQ(run({"render", "step-and-rod", "-o", "out", "--noise", "off"}, here).code, 0);
   ASSERT_EQ(run({"process", "out/frame.npz", "-o", "again"}, here).code, 0);
-  const io::NpyArray before = io::read_npz(folder / "out" / "frame.npz", {"range_m"})[0].array;
-  const io::NpyArray after = io::read_npz(folder / "again" / "frame.npz", {"range_m"})[0].array;
+  const files::NpyArray before = files::read_npz(folder / "out" / "frame.npz", {"range_m"})[0].array;
+  const files::NpyArray after = files::read_npz(folder / "again" / "frame.npz", {"range_m"})[0].array;
   ASSERT_EQ(before.count(), after.count());
   for (std::size_t i = 0; i < before.count(); ++i) {
     ASSERT_EQ(std::isnan(before.number(i)), std::isnan(after.number(i)));
@@ -226,14 +226,14 @@ TEST(process, takes_a_recording_without_start_times) {
   const Prepare here = in_folder(folder.path());
   ASSERT_EQ(run({"render", "card", "-o", "out"}, here).code, 0);
   const std::vector<std::string> recorded = {"raw", "modulation_frequency_hz", "reference_phase_rad", "integration_time_s", "lit"};
-  std::vector<io::NpyView> views;
-  const std::vector<io::NamedArray> arrays = io::read_npz(folder / "out/frame.npz", recorded);
-  for (const io::NamedArray& one : arrays) views.push_back({one.name, one.array.type, one.array.shape, one.array.bytes});
-  std::ofstream(folder / "recording.npz", std::ios::binary) << io::npz_bytes(views);
+  std::vector<files::NpyView> views;
+  const std::vector<files::NamedArray> arrays = files::read_npz(folder / "out/frame.npz", recorded);
+  for (const files::NamedArray& one : arrays) views.push_back({one.name, one.array.type, one.array.shape, one.array.bytes});
+  std::ofstream(folder / "recording.npz", std::ios::binary) << files::npz_bytes(views);
   const Result result = run({"process", "recording.npz", "--camera", "pico-flexx", "-o", "again"}, here);
   ASSERT_EQ(result.code, 0) << result.err;
   EXPECT_EQ(content(folder / "out/depth.png"), content(folder / "again/depth.png"));
-  const io::NpyArray start = io::read_npz(folder / "again/frame.npz", {"start_time_s"})[0].array;
+  const files::NpyArray start = files::read_npz(folder / "again/frame.npz", {"start_time_s"})[0].array;
   ASSERT_EQ(start.count(), 9U);
   for (std::size_t k = 0; k < 9; ++k) EXPECT_NEAR(start.number(k), k == 0 ? 0 : 3.7e-3 + 5.5e-3 * (static_cast<double>(k) - 1), 1e-15) << k;
 }
@@ -261,14 +261,14 @@ TEST(inspect, shows_one_pixel_from_light_to_depth) {
   ASSERT_EQ(from_file.code, 0) << from_file.err;
   const auto after_name = [](const std::string& text) { return text.substr(text.find("\"pixel\"")); };
   EXPECT_EQ(after_name(from_file.out), after_name(simulated.out));
-  const io::Json json = io::parse_json(from_file.out, "stdout");
+  const files::Json json = files::parse_json(from_file.out, "stdout");
   EXPECT_EQ(*json.find("truth")->find("object")->string(), "card");
   EXPECT_EQ(json.find("raw_frames")->items()->size(), 9u);
   // Noise-free, both modulation frequencies agree with half the true path to float precision: some 1e-5 m.
   double range = 0;
   ASSERT_TRUE(json.find("truth")->find("range_m")->number(range));
   ASSERT_EQ(json.find("phases")->items()->size(), 2u);
-  for (const io::Json& phase : *json.find("phases")->items()) {
+  for (const files::Json& phase : *json.find("phases")->items()) {
     double half_path = 0;
     ASSERT_TRUE(phase.find("half_path_m")->number(half_path));
     EXPECT_NEAR(half_path, range, 2e-4);  // the light stands 15 mm beside the lens: half the path is 0.12 mm longer at 1 m
@@ -282,7 +282,7 @@ TEST(inspect, lists_every_array_with_its_unit) {
   ASSERT_EQ(run(with_small_sensor({"render", "card", "-o", "out"}), here).code, 0);
   const Result result = run({"inspect", "out/frame.npz"}, here);
   EXPECT_EQ(result.code, 0);
-  for (const io::NamedArray& one : io::read_npz(folder / "out" / "frame.npz"))
+  for (const files::NamedArray& one : files::read_npz(folder / "out" / "frame.npz"))
     EXPECT_TRUE(has(result.out, "\n" + one.name + " ")) << one.name;
   EXPECT_TRUE(has(result.out, "W/(m2 sr)"));
   EXPECT_TRUE(has(result.out, "pixels with a depth"));
@@ -295,8 +295,8 @@ struct Dark {
 };
 
 void expect_all_invalid(const fs::path& file) {
-  std::map<std::string, io::NpyArray> arrays;
-  for (io::NamedArray& one : io::read_npz(file)) arrays[one.name] = std::move(one.array);
+  std::map<std::string, files::NpyArray> arrays;
+  for (files::NamedArray& one : files::read_npz(file)) arrays[one.name] = std::move(one.array);
   for (std::size_t i = 0; i < arrays.at("flags").count(); ++i) {
     ASSERT_NE(static_cast<unsigned>(arrays.at("flags").number(i)) & 31u, 0u) << "pixel " << i;
     ASSERT_EQ(arrays.at("confidence").number(i), 0);
@@ -407,9 +407,9 @@ TEST(doctor, finds_this_machine_well) {
 TEST(bench, measures_what_it_says) {
   const Result result = run(with_small_sensor({"bench", "card", "--frames", "3", "--noise", "fast", "--threads", "1", "--json"}));
   ASSERT_EQ(result.code, 0) << result.err;
-  const io::Json json = io::parse_json(result.out, "stdout");
+  const files::Json json = files::parse_json(result.out, "stdout");
   ASSERT_EQ(json.find("results")->items()->size(), 1u);
-  const io::Json& row = json.find("results")->items()->front();
+  const files::Json& row = json.find("results")->items()->front();
   double median = 0, rate = 0, peak = 0, fast = 0, slow = 0;
   ASSERT_TRUE(row.find("ms_median")->number(median) && row.find("frames_per_s")->number(rate) && row.find("peak_bytes")->number(peak));
   ASSERT_TRUE(row.find("ms_p10")->number(fast) && row.find("ms_p99")->number(slow));
@@ -424,7 +424,7 @@ TEST(bench, measures_what_it_says) {
 TEST(bench, compares_variants_that_give_the_same_bytes) {
   const Result result = run(with_small_sensor({"bench", "--compare", "--frames", "2", "--warmup", "0", "--json"}));
   ASSERT_EQ(result.code, 0) << result.err;
-  const io::Json json = io::parse_json(result.out, "stdout");
+  const files::Json json = files::parse_json(result.out, "stdout");
   EXPECT_EQ(json.find("ratios")->items()->size(), 6u);
   const auto hash = [&](std::size_t i) { return *(*json.find("results")->items())[i].find("sha256")->string(); };
   EXPECT_EQ(hash(0), hash(1));  // scalar and vector code

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "io/json.h"
+#include "files/json.h"
 #include "tool.h"
 
 namespace tofray::test {
@@ -40,8 +40,8 @@ TEST(usage, nothing_said_is_bad_usage) {
 TEST(usage, version_and_limits) {
   EXPECT_EQ(run({"--version"}).out, "tofray 0.1.0\n");
   EXPECT_TRUE(has(run({"--limits"}).out, "\nsensor_pixels"));
-  EXPECT_EQ(io::parse_json(run({"--version", "--json"}).out, "stdout").find("tofray")->string()->substr(0, 4), "0.1.");
-  EXPECT_NE(io::parse_json(run({"--limits", "--json"}).out, "stdout").find("raw_samples"), nullptr);
+  EXPECT_EQ(files::parse_json(run({"--version", "--json"}).out, "stdout").find("tofray")->string()->substr(0, 4), "0.1.");
+  EXPECT_NE(files::parse_json(run({"--limits", "--json"}).out, "stdout").find("raw_samples"), nullptr);
 }
 
 struct Mistake {
@@ -124,10 +124,10 @@ TEST(list, of_materials_has_what_the_brdf_of_each_reads) {
   const std::string text = run({"list", "materials"}).out;
   EXPECT_TRUE(has(text, "coal           demo               lambert     reflectivity 0.08\n")) << text;
   EXPECT_TRUE(has(text, "carrot         demo               phong       diffuse 0.5, specular 0.1, exponent 10\n")) << text;
-  const io::Json json = io::parse_json(run({"list", "materials", "--json"}).out, "list");
+  const files::Json json = files::parse_json(run({"list", "materials", "--json"}).out, "list");
   const auto named = [&](const char* name) {
     const auto& all = *json.find("materials")->items();
-    return std::find_if(all.begin(), all.end(), [&](const io::Json& one) { return *one.find("name")->string() == name; });
+    return std::find_if(all.begin(), all.end(), [&](const files::Json& one) { return *one.find("name")->string() == name; });
   };
   EXPECT_NE(named("carrot")->find("exponent"), nullptr);
   EXPECT_EQ(named("coal")->find("exponent"), nullptr);
@@ -152,10 +152,10 @@ TEST(json, is_one_object_on_stdout) {
     arguments.emplace_back("--json");
     const Result result = run(arguments, here);
     EXPECT_EQ(result.code, 0) << arguments[0] << result.err;
-    EXPECT_TRUE(io::parse_json(result.out, arguments[0]).is_object());
+    EXPECT_TRUE(files::parse_json(result.out, arguments[0]).is_object());
     EXPECT_FALSE(has(result.err, "error"));
   }
-  for (const char* kind : {"scene", "camera"}) EXPECT_NE(io::parse_json(run({"schema", kind}).out, kind).find("$schema"), nullptr);
+  for (const char* kind : {"scene", "camera"}) EXPECT_NE(files::parse_json(run({"schema", kind}).out, kind).find("$schema"), nullptr);
 }
 
 TEST(json, of_a_fault_is_one_object_that_names_its_place) {
@@ -165,9 +165,9 @@ TEST(json, of_a_fault_is_one_object_that_names_its_place) {
   const Result result = run({"check", "bad.yaml", "--json"}, here);
   EXPECT_EQ(result.code, 2);
   EXPECT_EQ(result.err, run({"check", "bad.yaml"}, here).err);  // people read the same
-  const io::Json json = io::parse_json(result.out, "stdout");
+  const files::Json json = files::parse_json(result.out, "stdout");
   EXPECT_FALSE(*json.find("good")->boolean());
-  const io::Json::Array& faults = *json.find("faults")->items();
+  const files::Json::Array& faults = *json.find("faults")->items();
   ASSERT_EQ(faults.size(), 2u);
   double line = 0, column = 0;
   EXPECT_TRUE(faults[0].find("line")->number(line) && faults[0].find("column")->number(column));
@@ -188,7 +188,7 @@ TEST(json, of_every_command_that_fails_is_one_object) {
     arguments.emplace_back("--json");
     const Result result = run(arguments, in_folder(folder.path()));
     EXPECT_GE(result.code, 2) << arguments[0];
-    const io::Json json = io::parse_json(result.out, arguments[0]);
+    const files::Json json = files::parse_json(result.out, arguments[0]);
     double code = 0;
     EXPECT_TRUE(json.find("exit_code")->number(code));
     EXPECT_EQ(code, result.code);

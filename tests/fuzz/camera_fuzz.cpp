@@ -6,16 +6,16 @@
 #include <string>
 
 #include "fuzz/shown.h"
-#include "io/builtin.h"
-#include "io/in_fields_finite.h"
-#include "io/load.h"
+#include "load/builtin.h"
+#include "load/fields_finite.h"
+#include "load/load.h"
 #include "tofray/tofray.h"
 
 namespace {
 
 void load(const std::string& text, const tofray::CameraOptions& options) {
   try {
-    if (!tofray::test::finite(tofray::io::camera_from_text(text, "<fuzz>", "", options))) std::abort();
+    if (!tofray::test::finite(tofray::load::camera_from_text(text, "<fuzz>", "", options))) std::abort();
   } catch (const tofray::Error& e) {
     if (e.kind() == tofray::ErrorKind::bug || std::string(e.what()).find(": error: ") == std::string::npos) std::abort();
     if (!tofray::fuzz::may_be_shown(e)) std::abort();
@@ -31,7 +31,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   if (equals == std::string::npos || equals > 100) return 0;
   tofray::CameraOptions options;
   options.set.emplace_back(text.substr(0, equals), text.substr(equals + 1));
-  static const std::string profile(tofray::io::find_builtin(tofray::io::builtin_profiles(), "pico-flexx")->text);
+  static const std::string profile(tofray::load::find_builtin(tofray::load::builtin_profiles(), "pico-flexx")->text);
   load(profile, options);
   return 0;
 }

@@ -5,13 +5,13 @@
 #include <string>
 #include <string_view>
 
+#include "files/json.h"
+#include "files/npy.h"
+#include "files/npz.h"
 #include "fuzz/shown.h"
-#include "io/json.h"
-#include "io/manifest.h"
-#include "io/meta_camera.h"
-#include "io/npy.h"
-#include "io/npz.h"
-#include "io/raw_file.h"
+#include "results/manifest.h"
+#include "results/meta_camera.h"
+#include "results/raw_file.h"
 #include "tofray/error.h"
 
 namespace {
@@ -33,14 +33,14 @@ void try_out(const Call& call) {
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const std::string_view file(reinterpret_cast<const char*>(data), size);
   try_out([&] {
-    const tofray::io::NpyArray array = tofray::io::parse_npy(file, "fuzz");
+    const tofray::files::NpyArray array = tofray::files::parse_npy(file, "fuzz");
     for (std::size_t i = 0; array.type.kind != 'U' && i < array.count(); ++i) (void)array.number(i);
     (void)array.text();
   });
-  try_out([&] { (void)tofray::io::parse_npz(file, "fuzz"); });
-  try_out([&] { (void)tofray::io::parse_raw_npz(file, "fuzz"); });
-  try_out([&] { (void)tofray::io::json_text(tofray::io::parse_json(file, "fuzz")); });
-  try_out([&] { (void)tofray::io::parse_manifest(file, "fuzz"); });
-  try_out([&] { (void)tofray::io::camera_of_meta(std::string(file), "fuzz", {}); });
+  try_out([&] { (void)tofray::files::parse_npz(file, "fuzz"); });
+  try_out([&] { (void)tofray::results::parse_raw_npz(file, "fuzz"); });
+  try_out([&] { (void)tofray::files::json_text(tofray::files::parse_json(file, "fuzz")); });
+  try_out([&] { (void)tofray::results::parse_manifest(file, "fuzz"); });
+  try_out([&] { (void)tofray::results::camera_of_meta(std::string(file), "fuzz", {}); });
   return 0;
 }

@@ -6,13 +6,13 @@
 #include <string>
 
 #include "fuzz/shown.h"
-#include "io/in_fields_finite.h"
-#include "io/load.h"
+#include "load/fields_finite.h"
+#include "load/load.h"
 #include "tofray/tofray.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   try {
-    const tofray::Scene scene = tofray::io::scene_from_text(std::string(reinterpret_cast<const char*>(data), size), "<fuzz>");
+    const tofray::Scene scene = tofray::load::scene_from_text(std::string(reinterpret_cast<const char*>(data), size), "<fuzz>");
     if (!tofray::test::finite(scene)) std::abort();
     if (!tofray::test::finite(tofray::load_camera(scene))) std::abort();
   } catch (const tofray::Error& e) {

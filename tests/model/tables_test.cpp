@@ -9,9 +9,9 @@
 #include <set>
 #include <sstream>
 
-#include "io/meta.h"
-#include "io/reference.h"
+#include "load/reference.h"
 #include "model/lines.h"
+#include "results/meta.h"
 #include "support/members.h"
 #include "tofray/tofray.h"
 
@@ -44,7 +44,7 @@ Scene full_scene() {
   return scene;
 }
 
-std::string meta(const Scene& scene, const Camera& camera) { return io::frame_meta(scene, camera, 1, Noise::exact, 0); }
+std::string meta(const Scene& scene, const Camera& camera) { return results::frame_meta(scene, camera, 1, Noise::exact, 0); }
 
 /// Another value for a member; false where it holds none of its own.
 bool change(const Row& row, const Slot& slot) {
@@ -190,7 +190,7 @@ TEST(checks_in_code, keep_every_number_within_the_range_of_its_row) {
 TEST(reference_page, is_what_the_tables_say) {
   std::stringstream committed;
   committed << std::ifstream(TOFRAY_SOURCE_DIR "/docs/reference/keys.md").rdbuf();
-  EXPECT_EQ(committed.str(), io::reference_page()) << "write it anew: tofray list keys > docs/reference/keys.md";
+  EXPECT_EQ(committed.str(), load::reference_page()) << "write it anew: tofray list keys > docs/reference/keys.md";
 }
 
 TEST(every_row, has_a_line_an_example_and_a_member) {

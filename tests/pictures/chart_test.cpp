@@ -9,7 +9,7 @@
 #include "pictures/chart.h"
 #include "pictures/chart_painter.h"
 #include "pictures/figure.h"
-#include "io/out_helpers.h"
+#include "support/samples.h"
 
 using namespace tofray::pictures;
 

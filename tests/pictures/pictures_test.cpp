@@ -8,17 +8,17 @@
 
 #include "pictures/canvas.h"
 #include "pictures/color_map.h"
-#include "io/out_helpers.h"
-#include "pictures/read_png.h"
 #include "pictures/picture_scale.h"
 #include "pictures/pictures.h"
-#include "io/ply.h"
 #include "pictures/png_file.h"
+#include "pictures/read_png.h"
 #include "pictures/terminal_picture.h"
+#include "results/ply.h"
+#include "support/samples.h"
 
 using namespace tofray;
 using namespace tofray::pictures;
-using tofray::io::cloud_ply;
+using tofray::results::cloud_ply;
 using out_test::Python;
 using out_test::read_back;
 using out_test::ReadBack;

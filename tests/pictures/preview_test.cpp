@@ -5,9 +5,9 @@
 #include <algorithm>
 
 #include "pictures/figure.h"
-#include "io/out_helpers.h"
-#include "pictures/read_png.h"
 #include "pictures/pictures.h"
+#include "pictures/read_png.h"
+#include "support/samples.h"
 
 using namespace tofray;
 using namespace tofray::pictures;

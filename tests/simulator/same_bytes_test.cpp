@@ -11,8 +11,8 @@
 #include <string>
 
 #include "backend/cpu/cpu.h"
-#include "io/frame_file.h"
-#include "io/sha256.h"
+#include "files/sha256.h"
+#include "results/frame_file.h"
 #include "support/files.h"
 #include "tofray/tofray.h"
 
@@ -35,15 +35,15 @@ std::map<std::string, Hashes> golden() {
 
 Hashes hashes_of(const std::string& npz) {
   Hashes out;
-  for (const io::NamedArray& one : io::parse_npz(npz, "memory")) {
-    if (one.name != "meta") out[one.name] = io::sha256_hex(one.array.bytes).substr(0, 16);
+  for (const files::NamedArray& one : files::parse_npz(npz, "memory")) {
+    if (one.name != "meta") out[one.name] = files::sha256_hex(one.array.bytes).substr(0, 16);
   }
   return out;
 }
 
 std::string bytes_of(const Scene& scene, const Camera& camera, const SimulatorOptions& options) {
-  constexpr io::PoseMatrix pose{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
-  return io::frame_npz_bytes(Simulator(scene, camera, options).frame(1), camera, pose, "{}");
+  constexpr results::PoseMatrix pose{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
+  return results::frame_npz_bytes(Simulator(scene, camera, options).frame(1), camera, pose, "{}");
 }
 
 constexpr std::pair<Noise, const char*> every_noise[] = {{Noise::off, "off"}, {Noise::fast, "fast"}, {Noise::exact, "exact"}};

@@ -1,0 +1,127 @@
+// SPDX-FileCopyrightText: 2026 The tofray authors
+// SPDX-License-Identifier: Apache-2.0
+#include "files/text_file.h"
+
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+
+#include <fcntl.h>
+#include <linux/openat2.h>
+#include <sys/stat.h>
+#include <sys/syscall.h>
+#include <unistd.h>
+
+#include "base/limits.h"
+#include "base/text.h"
+
+namespace tofray::files {
+
+namespace {
+
+namespace fs = std::filesystem;
+using base::in_quotes;
+using base::Place;
+
+class Descriptor {
+ public:
+  explicit Descriptor(int number) : number_(number) {}
+  ~Descriptor() {
+    if (number_ >= 0) ::close(number_);
+  }
+  Descriptor(const Descriptor&) = delete;
+  Descriptor& operator=(const Descriptor&) = delete;
+  [[nodiscard]] int get() const { return number_; }
+
+ private:
+  int number_;
+};
+
+std::string read_all(int descriptor, const Place& place, const std::string& path) {
+  const auto most = static_cast<std::size_t>(base::limit::file_bytes.value);
+  std::string text;
+  for (;;) {
+    char buffer[65536];
+    const ssize_t got = ::read(descriptor, buffer, sizeof buffer);
+    if (got < 0 && errno == EINTR) continue;
+    if (got < 0) base::fail(place, "cannot read " + in_quotes(path, 200) + ": " + std::strerror(errno), {}, ErrorKind::io);
+    if (got == 0) return text;
+    text.append(buffer, static_cast<std::size_t>(got));
+    if (text.size() > most)
+      base::fail(place, in_quotes(path, 200) + " is too long", "at most " + std::to_string(most) + " bytes (`tofray --limits`)",
+                 ErrorKind::limit);
+  }
+}
+
+bool leads_out(const fs::path& path) {
+  if (path.is_absolute()) return true;
+  for (const auto& part : path)
+    if (part == "..") return true;
+  return false;
+}
+
+// Opens a path in or below a folder; the kernel checks that no link leads out. −1 and errno where it cannot.
+int open_beneath(const std::string& folder, const std::string& relative) {
+  const Descriptor base(::open(folder.c_str(), O_PATH | O_DIRECTORY | O_CLOEXEC));
+  if (base.get() < 0) return -1;
+  open_how how{};
+  how.flags = O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY;
+  how.resolve = RESOLVE_BENEATH | RESOLVE_NO_MAGICLINKS;
+  const long opened = ::syscall(SYS_openat2, base.get(), relative.c_str(), &how, sizeof how);
+  if (opened >= 0 || (errno != ENOSYS && errno != EPERM)) return static_cast<int>(opened);
+  // An old kernel, or a sandbox that does not know the call: no links at all.
+  std::error_code ignored;
+  const fs::path real = fs::canonical(fs::path(folder) / relative, ignored);
+  const fs::path expected = fs::canonical(folder, ignored) / fs::path(relative).lexically_normal();
+  if (ignored || real != expected) {
+    errno = ignored ? ENOENT : EXDEV;
+    return -1;
+  }
+  return ::open(real.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY | O_NOFOLLOW);
+}
+
+[[noreturn]] void refuse(const Place& place, const std::string& reference) {
+  base::fail(place, in_quotes(reference) + " leads out of the folder of this file",
+             "expected a path in or below that folder, without \"..\"; a scene's profile may lie elsewhere below DIR with --root DIR");
+}
+
+}  // namespace
+
+std::string folder_of(const std::string& path) {
+  const std::string folder = fs::path(path).parent_path().string();
+  return folder.empty() ? "." : folder;
+}
+
+std::string read_text(const std::string& path) {
+  const Place place = base::whole(path);
+  const Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NOCTTY));
+  if (path.find('\0') != std::string::npos) base::fail(place, "a file's name holds no NUL", {}, ErrorKind::io);
+  if (file.get() < 0) base::fail(place, std::string("cannot open the file: ") + std::strerror(errno), {}, ErrorKind::io);
+  return read_all(file.get(), place, path);
+}
+
+std::string read_reference(const std::string& reference, const std::string& folder, const std::string& root, const Place& place,
+                           std::string& found) {
+  if (reference.find('\0') != std::string::npos) base::fail(place, "a file's name holds no NUL", "got " + in_quotes(reference));
+  std::string from = folder.empty() ? "." : folder;
+  fs::path relative(reference);
+  if (leads_out(relative)) {
+    if (root.empty()) refuse(place, reference);
+    std::error_code ignored;
+    relative = fs::weakly_canonical(fs::path(from) / reference, ignored).lexically_relative(fs::weakly_canonical(root, ignored));
+    from = root;
+    if (relative.empty() || leads_out(relative)) refuse(place, reference);
+  }
+  const Descriptor file(open_beneath(from, relative.string()));
+  found = (fs::path(from) / relative).lexically_normal().string();
+  if (file.get() < 0) {
+    if (errno == EXDEV || errno == ELOOP) refuse(place, reference);
+    base::fail(place, "cannot open " + in_quotes(found, 200) + ": " + std::strerror(errno), {}, ErrorKind::io);
+  }
+  struct stat status {};
+  if (::fstat(file.get(), &status) != 0 || !S_ISREG(status.st_mode))
+    base::fail(place, in_quotes(found, 200) + " is not a plain file", {}, ErrorKind::io);
+  return read_all(file.get(), place, found);
+}
+
+}  // namespace tofray::files

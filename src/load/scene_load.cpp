@@ -1,0 +1,192 @@
+// SPDX-FileCopyrightText: 2026 The tofray authors
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <filesystem>
+#include <map>
+
+#include "base/text.h"
+#include "base/vec.h"
+#include "files/text_file.h"
+#include "load/builtin.h"
+#include "load/convert.h"
+#include "load/fill.h"
+#include "load/load.h"
+#include "yaml/settings.h"
+
+namespace tofray::load {
+
+using yaml::flattened;
+using yaml::Node;
+using yaml::parse_tree;
+using yaml::parse_value;
+using yaml::read;
+using yaml::refuse_too_many;
+using yaml::set_key;
+using yaml::Value;
+
+namespace {
+
+using base::Faults;
+using base::in_quotes;
+
+class SceneReader {
+ public:
+  explicit SceneReader(Faults& faults) : faults_(faults), filler_("", faults) {}
+
+  Scene scene(const Value& root) {
+    Scene out;
+    filler_.fill(root, out);
+    camera(root["camera"], out.camera);
+    ambient(root["ambient"], out.ambient);
+    const Value &materials = root["materials"], &objects = root["objects"];
+    // Where they are filled they stay: faults are told by their addresses.
+    out.materials.reserve(materials.items.size() + objects.items.size());
+    out.objects.reserve(objects.items.size());
+    for (std::size_t i = 0; i < materials.items.size(); ++i) {
+      filler_.fill(materials.items[i], out.materials.emplace_back());
+      out.materials.back().name = materials.names[i];
+    }
+    for (const auto& entry : objects.items)
+      if (entry.good && !entry.items.empty()) object(entry, out);
+    filler_.check(out);
+    return out;
+  }
+
+ private:
+  void camera(const Value& value, CameraChoice& out) {
+    if (!value.is_map()) return;
+    if (value["profile"]) out.profile_where = base::to_string(value["profile"].place());
+    if (value["mode"]) out.mode_where = base::to_string(value["mode"].place());
+    overrides(*value.node, out);
+  }
+
+  void overrides(const Node& camera, CameraChoice& out) {
+    std::vector<std::string> known = {"profile", "mode", "pose"};
+    out.overrides = flattened(camera, known);
+    refuse_too_many(out.overrides.size(), camera.place);
+    std::vector<std::string> names;
+    for (const auto& key : model::camera_form().root.keys) names.push_back(key.name);
+    known.insert(known.end(), names.begin(), names.end());
+    for (const auto& key : camera.keys) {
+      const std::string first = key.text.substr(0, key.text.find('.'));
+      if (std::find(known.begin(), known.end(), first) == known.end())
+        faults_.add(key.place, "unknown key " + in_quotes(key.text) + " in camera" + base::did_you_mean(first, known),
+                    "expected profile, mode, pose, or a key of a camera profile that overrides its value: " + base::listed(names, "and"));
+    }
+  }
+
+  void ambient(const Value& value, const Ambient& out) {
+    const Value& spectrum = value["spectrum"];
+    if (!value || !spectrum.good) return;
+    const bool amount = value["level"] || value["illuminance"] || value["band_irradiance"];
+    if (!amount && out.spectrum != Ambient::Spectrum::none)
+      faults_.add(value.place(), "ambient does not say how much light",
+                  "expected level: 5 %, illuminance: 5 klx, or band_irradiance: 0.4 W/m2");
+    if (out.amount > 0 && out.spectrum == Ambient::Spectrum::none)
+      faults_.add(spectrum ? spectrum.place() : value.place(), "ambient has an amount, but its spectrum is none",
+                  "expected a spectrum such as sun_am15, or no amount");
+  }
+
+  int material_of(const Value& object, Scene& scene) {
+    const Value& chosen = object["material"];
+    if (chosen && chosen.either == 0) return named_material(chosen, scene);
+    Material& one = scene.materials.emplace_back();
+    if (chosen)
+      filler_.fill(chosen, one);
+    else
+      one.diffuse = object["reflectivity"].number;
+    return static_cast<int>(scene.materials.size()) - 1;
+  }
+
+  int named_material(const Value& chosen, Scene& scene) {
+    if (index_.empty())
+      for (std::size_t i = 0; i < scene.materials.size(); ++i)
+        if (!scene.materials[i].name.empty()) index_.emplace(scene.materials[i].name, static_cast<int>(i));
+    const auto found = index_.find(chosen.text);
+    if (found != index_.end()) return found->second;
+    std::vector<std::string> names;
+    for (const auto& [name, i] : index_) names.push_back(name);
+    const bool many = names.size() > 20;
+    faults_.add(chosen.place(), "no material " + in_quotes(chosen.text) + base::did_you_mean(chosen.text, names),
+                names.empty()
+                    ? "expected a name out of the scene's materials: section, which is missing; or write reflectivity: 0.5 instead"
+                : many ? "expected one out of the scene's materials: section"
+                       : "materials of this scene: " + base::listed(names, "and"));
+    scene.materials.emplace_back();
+    return static_cast<int>(scene.materials.size()) - 1;
+  }
+
+  void object(const Value& entry, Scene& scene) {
+    const Value& value = entry.items[0];
+    Object& out = scene.objects.emplace_back();
+    out.material = material_of(value, scene);
+    filler_.fill(value, out);
+    const model::Slot shape = model::slot_of(out.shape);
+    const auto& one = std::get<model::VariantSlot>(shape);
+    const auto which = static_cast<std::size_t>(entry.alternative);
+    one.emplace(one.at, which);
+    filler_.fill(value, one.tables[which](), one.held(one.at));
+    if (const auto* triangle = std::get_if<Triangle>(&out.shape)) area(value, *triangle);
+  }
+
+  void area(const Value& value, const Triangle& triangle) {
+    using base::operator-;
+    const Vec3 a = triangle.vertices[1] - triangle.vertices[0], b = triangle.vertices[2] - triangle.vertices[0];
+    const double longest = std::max({base::length(a), base::length(b), base::length(a - b)});
+    // Height over the longest side; the second bound is what rounding of the coordinates leaves of three points on a line.
+    const double height = longest > 0 ? base::length(base::cross(a, b)) / longest : 0;
+    if (!(height >= base::shortest_m && height >= 1e-9 * longest))
+      faults_.add(value["vertices"].place(), "the triangle has no area",
+                  "its three corners lie on a line or in one point; expected a height of at least 1 um");
+  }
+
+  Faults& faults_;
+  Filler filler_;
+  std::map<std::string, int> index_;
+};
+
+Scene interpret(const Node& root) {
+  Faults faults;
+  const Value value = read(model::scene_form(), root, faults);
+  Scene out = SceneReader(faults).scene(value);
+  faults.raise();
+  return out;
+}
+
+void apply(Node& root, const Settings& settings) {
+  refuse_too_many(settings.size(), base::whole("--set"));
+  for (const auto& [key, text] : settings) {
+    const base::Place place = base::whole("--set " + key);
+    set_key(root, key, parse_value(text, place), place);
+  }
+}
+
+}  // namespace
+
+Scene scene_from_text(const std::string& text, const std::string& source, const Settings& settings) {
+  Node root = parse_tree(text, source);
+  apply(root, settings);
+  Scene scene = interpret(root);
+  scene.source = source;
+  const std::string stem = std::filesystem::path(source).stem().string();
+  // The name becomes a folder's: "." and ".." are folders that have one.
+  scene.name = stem.empty() || stem == "." || stem == ".." ? "scene" : stem;
+  return scene;
+}
+
+Scene load_scene(const std::string& file_or_name, const Settings& settings) {
+  if (const Builtin* builtin = find_builtin(builtin_scenes(), file_or_name)) {
+    Scene scene = scene_from_text(std::string(builtin->text), "<" + builtin->name + ">", settings);
+    scene.name = builtin->name;
+    return scene;
+  }
+  return scene_from_text(read_named("scene", file_or_name, builtin_scenes()), file_or_name, settings);
+}
+
+}  // namespace tofray::load
+
+namespace tofray {
+
+Scene load_scene(const std::string& file_or_name) { return load::load_scene(file_or_name, {}); }
+
+}  // namespace tofray

@@ -1,0 +1,111 @@
+// SPDX-FileCopyrightText: 2026 The tofray authors
+// SPDX-License-Identifier: Apache-2.0
+#include "results/frame_file.h"
+
+#include <algorithm>
+
+#include "files/atomic_file.h"
+#include "results/array_table.h"
+
+namespace tofray::results {
+
+using files::NamedArray;
+using files::npy_view;
+using files::NpyShape;
+using files::NpyView;
+using files::npz_bytes;
+using files::utf32_of;
+using files::write_file_atomically;
+
+namespace {
+
+NpyShape extents(ArrayShape shape, int phases, int height, int width) {
+  const auto k = static_cast<std::size_t>(phases), v = static_cast<std::size_t>(height), u = static_cast<std::size_t>(width);
+  switch (shape) {
+    case ArrayShape::image: return {v, u};
+    case ArrayShape::vectors: return {v, u, 3};
+    case ArrayShape::stack: return {k, v, u};
+    case ArrayShape::list: return {k};
+  }
+  return {};
+}
+
+/// What a file has beside the frame's own arrays; it must live as long as the views.
+struct Beside {
+  std::vector<double> time, matrix, distortion, pose;
+
+  Beside(const Frame& frame, const Lens& lens, const PoseMatrix& camera_pose)
+      : time{frame.truth.time_s},
+        matrix{lens.fx_px, 0, lens.cx_px, 0, lens.fy_px, lens.cy_px, 0, 0, 1},
+        distortion{lens.k1, lens.k2, lens.p1, lens.p2, lens.k3},
+        pose(camera_pose.begin(), camera_pose.end()) {}
+};
+
+/// Views of the arrays that are there and wanted, in the table's order. Empty ones (ground truth that was not asked for) are left out.
+std::vector<NpyView> views_of(const Frame& frame, const Beside& beside, const ArrayChoice& choice) {
+  std::vector<NpyView> views;
+  const auto add = [&]<class T>(const char* name, const NpyShape& shape, const std::vector<T>& data, bool there = true) {
+    const ArrayRow& row = *find_array(name);
+    if (there && !data.empty() && choice.has(row)) views.push_back(npy_view(name, shape, data, row.type));
+  };
+#define TOFRAY_ADD(name, part, member, element, shape, ...) \
+  add(#name, extents(ArrayShape::shape, frame.raw.phases, frame.part.height, frame.part.width), frame.part.member, frame.part.width > 0);
+  TOFRAY_RAW_ARRAYS(TOFRAY_ADD)
+  TOFRAY_EXPOSURE_ARRAYS(TOFRAY_ADD)
+  TOFRAY_DEPTH_ARRAYS(TOFRAY_ADD)
+  add("gt_time_s", {}, beside.time, frame.truth.width > 0);
+  TOFRAY_TRUTH_ARRAYS(TOFRAY_ADD)
+#undef TOFRAY_ADD
+  add("camera_matrix", {3, 3}, beside.matrix);
+  add("distortion", {5}, beside.distortion);
+  add("camera_pose", {4, 4}, beside.pose);
+  return views;
+}
+
+}  // namespace
+
+void frame_npz_bytes(const Frame& frame, const Camera& camera, const PoseMatrix& camera_pose, const std::string& meta,
+                     const FrameFileOptions& options, std::string& file) {
+  const Beside beside(frame, camera.lens, camera_pose);
+  std::vector<NpyView> views = views_of(frame, beside, options.arrays);
+  // a 0-d string; numpy has no strings of length 0
+  const std::string meta_bytes = utf32_of(meta.empty() ? "{}" : meta);
+  for (const NamedArray& one : options.kept) {
+    const ArrayRow* row = find_array(one.name);
+    const bool wanted = row != nullptr ? options.arrays.has(*row) : options.arrays.is_all();
+    const bool own =
+        one.name == "meta" || std::any_of(views.begin(), views.end(), [&](const NpyView& view) { return view.name == one.name; });
+    if (wanted && !own) views.push_back({one.name, one.array.type, one.array.shape, one.array.bytes});
+  }
+  views.push_back({"meta", {'U', static_cast<int>(meta_bytes.size())}, {}, meta_bytes});
+  npz_bytes(views, options.packing, file);
+}
+
+std::string frame_npz_bytes(const Frame& frame, const Camera& camera, const PoseMatrix& camera_pose, const std::string& meta,
+                            const FrameFileOptions& options) {
+  std::string file;
+  frame_npz_bytes(frame, camera, camera_pose, meta, options, file);
+  return file;
+}
+
+std::vector<std::string> missing_arrays(const Frame& frame, const FrameFileOptions& options) {
+  std::vector<std::string> missing = options.arrays.named();
+  const auto there = [&](const std::string& wanted) {
+#define TOFRAY_IS_THERE(name, part, member, ...) \
+  if (wanted == #name && !frame.part.member.empty()) return true;
+    TOFRAY_FRAME_ARRAYS(TOFRAY_IS_THERE)
+#undef TOFRAY_IS_THERE
+    const ArrayRow* row = find_array(wanted);
+    return (row != nullptr && !row->is_image()) ||
+           std::any_of(options.kept.begin(), options.kept.end(), [&](const NamedArray& one) { return one.name == wanted; });
+  };
+  std::erase_if(missing, there);
+  return missing;
+}
+
+void write_frame_npz(const std::filesystem::path& path, const Frame& frame, const Camera& camera, const PoseMatrix& camera_pose,
+                     const std::string& meta) {
+  write_file_atomically(path, frame_npz_bytes(frame, camera, camera_pose, meta));
+}
+
+}  // namespace tofray::results

@@ -1,0 +1,21 @@
+// SPDX-FileCopyrightText: 2026 The tofray authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include <cstdint>
+#include <string>
+
+#include "tofray/camera.h"
+#include "tofray/scene.h"
+#include "tofray/simulator.h"
+
+namespace tofray::results {
+
+/// "off", "fast" or "exact".
+const char* noise_name(Noise noise);
+
+/// The `meta` string of frame.npz: one JSON object on one line with
+/// `tofray` (version), `seed`, `noise`, `frame` (index), `units` (one per array), `camera` and `scene`, both resolved, in SI units with the names
+/// of tofray/camera.h and scene.h. Neither time nor machine nor a file's place is in it: the same arguments give the same bytes.
+std::string frame_meta(const Scene& scene, const Camera& camera, std::uint64_t seed, Noise noise, std::uint64_t frame_index);
+
+}  // namespace tofray::results

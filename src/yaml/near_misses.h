@@ -1,0 +1,24 @@
+// SPDX-FileCopyrightText: 2026 The tofray authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include <string>
+
+#include "base/faults.h"
+#include "model/form.h"
+#include "yaml/tree.h"
+
+/// Mistakes that people make and YAML reads as something else: each says whether it is there, and adds the fault that names it.
+namespace tofray::yaml {
+
+using model::Form;
+
+/// "1,5 m" where a number is wanted.
+bool has_decimal_comma(const Node& scalar, const std::string& label, base::Faults& faults);
+
+/// {reflectivity: 0,5}, which is a map with the key "5". @param i  the key that the form does not know
+bool comma_made_key(const Node& map, std::size_t i, base::Faults& faults);
+
+/// "- plane:" with its keys beside it in place of below: one fault for all of them. @param form  the variant
+bool keys_stand_beside(const Form& form, const Node& map, base::Faults& faults);
+
+}  // namespace tofray::yaml

@@ -1,0 +1,285 @@
+// SPDX-FileCopyrightText: 2026 The tofray authors
+// SPDX-License-Identifier: Apache-2.0
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+
+#include <unistd.h>
+
+#include <gtest/gtest.h>
+
+#include "base/constants.h"
+#include "base/limits.h"
+#include "load/builtin.h"
+#include "load/load.h"
+#include "tofray/tofray.h"
+
+namespace {
+
+using namespace tofray;
+
+std::string pico() { return std::string(load::find_builtin(load::builtin_profiles(), "pico-flexx")->text); }
+bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
+Camera with(const std::vector<std::pair<std::string, std::string>>& set) {
+  CameraOptions options;
+  options.set = set;
+  return load_camera("pico-flexx", options);
+}
+
+std::string refusal(const std::vector<std::pair<std::string, std::string>>& set, ErrorKind kind = ErrorKind::bad_input) {
+  try {
+    with(set);
+  } catch (const Error& e) {
+    EXPECT_EQ(e.kind(), kind) << e.what();
+    return e.what();
+  }
+  return {};
+}
+
+TEST(pico_flexx, has_the_numbers_of_its_table) {
+  const Camera camera = load_camera("pico-flexx");
+  EXPECT_EQ(camera.name, "pico-flexx");
+  EXPECT_EQ(camera.sensor.width * camera.sensor.height, 38'528);
+  EXPECT_EQ(camera.sensor.pixel_pitch_m, 12e-6);
+  EXPECT_NEAR(camera.lens.fx_px * camera.sensor.pixel_pitch_m, 2.544e-3, 1e-15);  // focal length
+  EXPECT_EQ(camera.lens.k1, -0.3);
+  EXPECT_EQ(camera.lens.cx_px, 111.5);
+  EXPECT_EQ(camera.lens.cy_px, 85.5);
+  ASSERT_EQ(camera.illumination.size(), 1U);
+  const Illumination& light = camera.illumination[0];
+  EXPECT_EQ(light.position, (Vec3{0.01547, 0, 0}));
+  EXPECT_EQ(light.power_w, 0.2);
+  EXPECT_EQ(light.pattern.kind, Pattern::Kind::flat_top);
+  EXPECT_EQ(light.pattern.columns, 172);
+  EXPECT_EQ(light.pattern.rows, 168);
+  EXPECT_NEAR(light.pattern.width_rad, 62 * base::pi / 180, 1e-15);
+  EXPECT_NEAR(light.pattern.half_range_x_rad, 43 * base::pi / 180, 1e-15);
+  EXPECT_NEAR(light.pattern.half_range_y_rad, 42 * base::pi / 180, 1e-15);
+  EXPECT_EQ(light.waveform.duty, 0.25);
+  EXPECT_EQ(light.waveform.rise_time_s, 1e-9);
+  EXPECT_EQ(light.waveform.harmonics, 4);
+  EXPECT_EQ(camera.pixel.quantum_efficiency.y, std::vector<double>{0.4});
+  EXPECT_EQ(camera.pixel.contrast.y, std::vector<double>{0.75});
+  EXPECT_EQ(camera.pixel.bandwidth_hz, 180e6);
+  EXPECT_EQ(camera.pixel.full_well_e, 1e5);
+  EXPECT_EQ(camera.pixel.read_noise_e, 50);
+  EXPECT_EQ(camera.pixel.dark_current_e_per_s, 1000);
+  EXPECT_EQ(camera.adc.step_e_per_dn, 20);
+  EXPECT_EQ(camera.adc.valid_min, 400);
+  EXPECT_EQ(camera.adc.valid_max, 3750);
+  EXPECT_EQ(camera.readout_time_s, 3.5e-3);
+  EXPECT_EQ(camera.min_integration_time_s, 27e-6);
+  EXPECT_EQ(camera.decoding.low_signal_noise_m, 0.07);
+  EXPECT_EQ(camera.decoding.flying_far_limit_m, 0.14);
+}
+
+TEST(pico_flexx, has_the_six_modes_of_the_camera) {
+  const char* names[] = {"MODE_9_5FPS_2000", "MODE_9_10FPS_1000", "MODE_9_15FPS_700",
+                         "MODE_9_25FPS_450", "MODE_5_35FPS_600",  "MODE_5_45FPS_500"};
+  EXPECT_EQ(load_camera("pico-flexx").mode.name, names[0]);
+  for (const char* name : names) {
+    const Camera camera = load_camera("pico-flexx", {.mode = name, .set = {}, .root = {}});
+    int phases = 0, fps = 0, us = 0;
+    ASSERT_EQ(std::sscanf(name, "MODE_%d_%dFPS_%d", &phases, &fps, &us), 3);
+    EXPECT_EQ(camera.mode.sequence.size(), static_cast<std::size_t>(phases));
+    EXPECT_EQ(camera.mode.frame_rate_hz, fps);
+    EXPECT_FALSE(camera.mode.sequence[0].lit);
+    EXPECT_EQ(camera.mode.sequence[0].integration_time_s, 200e-6);
+    for (std::size_t k = 1; k < camera.mode.sequence.size(); ++k) {
+      const RawFrame& raw = camera.mode.sequence[k];
+      EXPECT_NEAR(raw.integration_time_s, us * 1e-6, 1e-18);
+      EXPECT_EQ(raw.modulation_frequency_hz, phases == 9 && k < 5 ? 80.32e6 : 60.24e6);
+      EXPECT_NEAR(raw.reference_phase_rad, static_cast<double>((k - 1) % 4) * base::pi / 2, 1e-15);
+    }
+  }
+}
+
+TEST(settings, change_any_key_and_names_them_where_they_are_wrong) {
+  EXPECT_EQ(with({{"lens.f_number", "1.2"}}).lens.f_number, 1.2);
+  EXPECT_EQ(with({{"illumination.0.power", "400 mW"}}).illumination[0].power_w, 0.4);
+  EXPECT_EQ(with({{"mode", "MODE_5_45FPS_500"}}).mode.name, "MODE_5_45FPS_500");
+  EXPECT_EQ(with({{"sensor.pixel_pitch", "{value: 10 um, assumed: a test}"}}).sensor.pixel_pitch_m, 10e-6);
+  const Camera cone = with({{"illumination.0.pattern.kind", "cone"}, {"illumination.0.pattern.half_angle", "30 deg"}});
+  EXPECT_EQ(cone.illumination[0].pattern.kind, Pattern::Kind::cone);
+  const Camera lobe = with({{"illumination.0.pattern", "{kind: cosine_lobe, exponent: 3}"}});
+  EXPECT_EQ(lobe.illumination[0].pattern.exponent, 3);
+  for (const auto& raw : with({{"integration_time", "300 us"}}).mode.sequence) EXPECT_EQ(raw.integration_time_s, raw.lit ? 300e-6 : 200e-6);
+  EXPECT_TRUE(
+      has(refusal({{"lens.f_nmber", "1.2"}}), "--set lens.f_nmber: error: unknown key \"f_nmber\" in lens; did you mean \"f_number\"?"));
+  EXPECT_TRUE(has(refusal({{"integration_time", "300"}}), "--set integration_time: error: integration_time has no unit"));
+  EXPECT_TRUE(has(refusal({{"illumination.1.power", "1 W"}}), "no such element: \"1\""));
+  EXPECT_TRUE(has(refusal({{"f_number", "2"}}), "\"f_number\" stands elsewhere: as lens.f_number"));
+}
+
+TEST(no_light, is_a_camera_too) { EXPECT_TRUE(with({{"illumination", "[]"}}).illumination.empty()); }
+
+TEST(no_lit_raw_frame, is_a_camera_too) {
+  const Camera camera = with({{"modes.MODE_9_5FPS_2000.sequence", "[{lit: false, integration_time: 1 ms}]"}});
+  ASSERT_EQ(camera.mode.sequence.size(), 1u);
+  EXPECT_FALSE(camera.mode.sequence[0].lit);
+}
+
+TEST(checks, refuse_cameras_that_cannot_be) {
+  const std::string mode = "modes.MODE_9_5FPS_2000.";
+  const std::string phases = ", integration_time: 1 ms}]";
+  const std::pair<std::vector<std::pair<std::string, std::string>>, const char*> cases[] = {
+      {{{"integration_time", "30 ms"}}, "does not fit into a frame"},
+      {{{mode + "frame_rate", "25 Hz"}}, "does not fit into a frame"},
+      {{{"integration_time", "20 us"}}, "below the camera's shortest"},
+      {{{mode + "sequence", "[{modulation_frequency: 1 MHz, reference_phase: [0, 180 deg]" + phases}}, "too few reference phases at 1 MHz"},
+      {{{mode + "sequence", "[{modulation_frequency: 1 MHz, reference_phase: [0, 90 deg, 180 deg]" + phases}}, "not equally spaced"},
+      {{{mode + "sequence", "[{modulation_frequency: 1 MHz, reference_phase: [0, 0, 180 deg, 270 deg]" + phases}}, "not equally spaced"},
+      {{{mode + "sequence", "[{lit: false, reference_phase: 0, integration_time: 1 ms}]"}}, "an unlit raw frame has no reference_phase"},
+      {{{mode + "sequence", "[{reference_phase: 0, integration_time: 1 ms}]"}}, "a lit raw frame lacks modulation_frequency"},
+      {{{mode + "sequence.1.integration_time", "1 ms"},
+        {mode + "sequence",
+         "[{modulation_frequency: 1 MHz, reference_phase: [0, 120 deg], integration_time: 1 ms}, {modulation_frequency: 1 MHz, "
+         "reference_phase: 240 deg, integration_time: 2 ms}]"}},
+       "differ in integration_time"},
+      {{{"adc.valid_min", "4000"}}, "valid_min is not below valid_max"},
+      {{{"adc.bits", "10"}}, "above the largest code"},
+      {{{"illumination.0.axis", "[0, 0, 0]"}}, "axis has no length"},
+      {{{"illumination.0.waveform.rise_time", "4 ns"}}, "edges are longer than the pulse"},
+      {{{"decoding.flying_pixel", "{near_z: 5 m}"}}, "far_z is not beyond near_z"},
+      {{{"pixel.quantum_efficiency", "{wavelength: [850 nm, 840 nm], value: [0.4, 0.4]}"}}, "wavelength does not ascend"},
+      {{{"pixel.quantum_efficiency", "{wavelength: [850 nm, 860 nm], value: [0.4, 0.4, 0.4]}"}}, "value is not as long as wavelength"},
+      {{{"illumination.0.pattern", "{kind: table, samples: [[1, 2], [1, 2, 3]], half_range_x: 1 rad, half_range_y: 1 rad}"}},
+       "rows are not as long"},
+      {{{"illumination.0.pattern", "{kind: table, samples: [[0, 0], [0, 0]], half_range_x: 1 rad, half_range_y: 1 rad}"}}, "the pattern is dark"},
+      {{{"illumination.0.pattern", "{kind: table, samples: [[1, 1]], half_range_x: 1 rad, half_range_y: 1 rad}"}}, "samples has the wrong number of elements"},
+      {{{"illumination.0.pattern", "{kind: table, samples: [[1], [1]], half_range_x: 1 rad, half_range_y: 1 rad}"}}, "samples[0] has the wrong number of elements"},
+      {{{"illumination.0.waveform", "{kind: measured, correlation: [1, 0, -1, 0]}"}}, "too few samples"},
+      {{{"mode", "MODE"}}, "no mode \"MODE\""},
+  };
+  for (const auto& [set, expected] : cases) EXPECT_TRUE(has(refusal(set), expected)) << expected << "\n" << refusal(set);
+}
+
+TEST(three_phases, from_any_start_in_any_order_are_good) {
+  const Camera camera = with({{"modes.MODE_9_5FPS_2000.sequence",
+                               "[{modulation_frequency: 20 MHz, reference_phase: [250 deg, 10 deg, 130 deg], integration_time: 1 ms}]"}});
+  EXPECT_EQ(camera.mode.sequence.size(), 3U);
+}
+
+TEST(counts, are_refused_before_anything_is_allocated) {
+  for (const char* huge : {"1000000000", "2147483648", "4294967296", "9223372036854775808", "99999999999999999999"})
+    for (const char* key : {"sensor.width", "sensor.height"}) EXPECT_TRUE(has(refusal({{key, huge}}), "is out of range")) << huge;
+  EXPECT_TRUE(has(refusal({{"sensor.width", "16384"}, {"sensor.height", "16384"}}, ErrorKind::limit), "too many pixels"));
+  EXPECT_TRUE(has(refusal({{"sensor.width", "4096"}, {"sensor.height", "4096"}}, ErrorKind::limit), "too many raw samples"));
+  EXPECT_EQ(refusal({{"sensor.width", "4096"}, {"sensor.height", "2048"}}), "");
+  std::string phases, lights;
+  const auto sequence = [](int count) {
+    std::string list;
+    for (int k = 0; k < count; ++k) list += (k > 0 ? ", " : "") + std::to_string(360.0 * k / count) + " deg";
+    return "[{modulation_frequency: 20 MHz, reference_phase: [" + list + "], integration_time: 30 us}]";
+  };
+  const auto most = static_cast<int>(base::limit::raw_frames.value);
+  const std::pair<std::string, std::string> slow{"modes.MODE_9_5FPS_2000.frame_rate", "1 Hz"};
+  EXPECT_EQ(refusal({slow, {"modes.MODE_9_5FPS_2000.sequence", sequence(most)}}), "");
+  EXPECT_TRUE(has(refusal({slow, {"modes.MODE_9_5FPS_2000.sequence", sequence(most + 1)}}, ErrorKind::limit), "too many elements"));
+  const std::string two = sequence(40);
+  EXPECT_TRUE(
+      has(refusal({slow, {"modes.MODE_9_5FPS_2000.sequence", two.substr(0, two.size() - 1) + ", " + two.substr(1)}}, ErrorKind::limit),
+          "too many raw frames"));
+  for (const int count : {8, 9}) {
+    lights.clear();
+    for (int i = 0; i < count; ++i)
+      lights += std::string(i > 0 ? ", " : "") + "{illumination_wavelength: 850 nm, power: 1 W, pattern: lambertian, waveform: sine}";
+    if (count == 8) {
+      EXPECT_EQ(with({{"illumination", "[" + lights + "]"}}).illumination.size(), 8U);
+    } else {
+      EXPECT_TRUE(has(refusal({{"illumination", "[" + lights + "]"}}, ErrorKind::limit), "illumination has too many elements"));
+    }
+  }
+}
+
+TEST(every_member_of_a_camera, can_be_written) {
+  const Camera c =
+      with({{"pixel.suppression", "{threshold: 50000 e, budget: 200000 e, noise_factor: 1.5}"},
+            {"pixel.patterns", "{prnu: 1 %, dsnu: 2 DN, delay: 20 ps, seed: 9}"},
+            {"decoding.filter", "{kind: gaussian, sigma: 1.5 px}"},
+            {"decoding.wiggling_correction", "false"},
+            {"lens.vignetting", "{angle: [0, 30 deg], factor: [1, 0.5]}"},
+            {"filter", "{wavelength: [840 nm, 860 nm], transmission: [0.9, 80 %]}"},
+            {"temperature", "{actual: 40 degC, drift: 0.2 mm/K, warm_up: 5 mm, since_start: 10 s}"},
+            {"refractive_index", "1.33"},
+            {"power_model", "paper_literal"},
+            {"pixel.contrast", "{modulation_frequency: [20 MHz, 100 MHz], value: [0.9, 0.7]}"},
+            {"illumination.0.waveform", "{kind: measured, harmonics: 2, correlation: [1, 0.7, 0, -0.7, -1, -0.7, 0, 0.7]}"},
+            {"illumination.0.pattern", "{kind: table, samples: [[1, 2, 1], [2, 3, 2]], half_range_x: 30 deg, half_range_y: 20 deg}"}});
+  EXPECT_EQ(c.pixel.suppression_threshold_e, 5e4);
+  EXPECT_EQ(c.pixel.suppression_budget_e, 2e5);
+  EXPECT_EQ(c.pixel.suppression_noise_factor, 1.5);
+  EXPECT_EQ(c.pixel.prnu, 0.01);
+  EXPECT_EQ(c.pixel.dsnu_dn, 2);
+  EXPECT_EQ(c.pixel.delay_s, 20e-12);
+  EXPECT_EQ(c.pixel.pattern_seed, 9U);
+  EXPECT_EQ(c.decoding.filter.kind, ImageFilter::Kind::gaussian);
+  EXPECT_EQ(c.decoding.filter.sigma_px, 1.5);
+  EXPECT_FALSE(c.decoding.wiggling_correction);
+  EXPECT_EQ(c.lens.vignetting, Lens::Vignetting::table);
+  EXPECT_EQ(c.lens.vignetting_table.y, (std::vector<double>{1, 0.5}));
+  EXPECT_EQ(c.filter.table.y, (std::vector<double>{0.9, 0.8}));
+  EXPECT_EQ(c.temperature.celsius, 40);
+  EXPECT_EQ(c.temperature.drift_m_per_kelvin, 0.2e-3);
+  EXPECT_EQ(c.temperature.since_start_s, 10);
+  EXPECT_EQ(c.refractive_index, 1.33);
+  EXPECT_EQ(c.power_model, PowerModel::paper_literal);
+  EXPECT_EQ(c.pixel.contrast.x, (std::vector<double>{20e6, 100e6}));
+  EXPECT_EQ(c.illumination[0].waveform.correlation.size(), 8U);
+  EXPECT_EQ(c.illumination[0].pattern.rows, 2);
+  EXPECT_EQ(c.illumination[0].pattern.columns, 3);
+  EXPECT_EQ(c.illumination[0].pattern.samples[4], 3);
+}
+
+TEST(tables_of_shares, are_refused_where_a_sample_is_none_and_say_where) {
+  const std::string efficiency = refusal({{"pixel.quantum_efficiency", "{wavelength: [800 nm, 900 nm], value: [0.4, 1.2]}"}});
+  EXPECT_TRUE(has(efficiency, "value[1] is out of range\n  got \"1.2\", expected a fraction such as \"0.4\", 0 to 1")) << efficiency;
+  const std::string contrast = refusal({{"pixel.contrast", "{modulation_frequency: [20 MHz, 90 MHz], value: [-0.1, 0.7]}"}});
+  EXPECT_TRUE(has(contrast, "value[0] is out of range\n  got \"-0.1\"")) << contrast;
+  const std::string filter = refusal({{"filter", "{wavelength: [800 nm, 900 nm], transmission: [40 %, 120 %]}"}});
+  EXPECT_TRUE(has(filter, "transmission[1] is out of range\n  got \"120 %\"")) << filter;
+  const std::string vignetting = refusal({{"lens.vignetting", "{angle: [0, 30 deg], factor: [1, 2.5]}"}});
+  EXPECT_TRUE(has(vignetting, "factor[1] is out of range\n  got \"2.5\", expected a number such as \"0.6\", 0 to 2")) << vignetting;
+}
+
+TEST(table_files, lie_beside_the_profile) {
+  std::string folder = (std::filesystem::temp_directory_path() / "tofray_in_XXXXXX").string();
+  ASSERT_NE(mkdtemp(folder.data()), nullptr);
+  std::ofstream(folder + "/pattern.csv") << "# rows of samples\n1, 2, 3\n4;5 6\n\n";
+  std::ofstream(folder + "/row.csv") << "1, 2, 3\n";
+  std::ofstream(folder + "/bad.csv") << "1, 2\n3, zebra\n";
+  std::ofstream(folder + "/mine.yaml") << pico();
+  const auto load = [&](const std::string& file) {
+    try {
+      const Camera camera =
+          load_camera(folder + "/mine.yaml",
+                      {.mode = {},
+                       .set = {{"illumination.0.pattern", "{kind: table, file: " + file + ", half_range_x: 30 deg, half_range_y: 20 deg}"}},
+                       .root = {}});
+      EXPECT_EQ(camera.illumination[0].pattern.samples, (std::vector<double>{1, 2, 3, 4, 5, 6}));
+      return std::string();
+    } catch (const Error& e) {
+      return std::string(e.what());
+    }
+  };
+  EXPECT_EQ(load("pattern.csv"), "");
+  EXPECT_TRUE(has(load("bad.csv"), "bad.csv:2:4: error: not a number")) << load("bad.csv");
+  EXPECT_TRUE(has(load("row.csv"), "the pattern has fewer than two rows or columns")) << load("row.csv");
+  EXPECT_TRUE(has(load("none.csv"), "cannot open"));
+  EXPECT_TRUE(has(load("../none.csv"), "leads out"));
+  std::filesystem::remove_all(folder);
+}
+
+TEST(unreadable_files, are_of_kind_io) {
+  for (const char* path : {"/nowhere/at/all.yaml", "no-such-camera", "/tmp"}) {
+    try {
+      load_camera(path);
+      ADD_FAILURE() << path;
+    } catch (const Error& e) {
+      EXPECT_EQ(e.kind(), ErrorKind::io) << e.what();
+    }
+  }
+}
+
+}  // namespace

@@ -1,0 +1,70 @@
+// SPDX-FileCopyrightText: 2026 The tofray authors
+// SPDX-License-Identifier: Apache-2.0
+#include "results/meta_camera.h"
+
+#include <gtest/gtest.h>
+
+#include "load/builtin.h"
+#include "results/meta.h"
+#include "tofray/error.h"
+
+namespace tofray {
+namespace {
+
+/// What meta says of a camera that was read back from meta is what it said before.
+void expect_to_come_back(const std::string& profile, const CameraOptions& options) {
+  const std::string meta = results::frame_meta(Scene(), load_camera(profile, options), 3, Noise::exact, 0);
+  EXPECT_EQ(meta, results::frame_meta(Scene(), results::camera_of_meta(meta, "frame.npz"), 3, Noise::exact, 0));
+}
+
+TEST(camera_of_meta, gives_back_every_mode_of_every_builtin_profile) {
+  for (const load::Builtin& profile : load::builtin_profiles())
+    for (const std::string& mode : load_camera(profile.name).mode_names) expect_to_come_back(profile.name, {mode, {}, {}});
+}
+
+TEST(camera_of_meta, gives_back_kinds_that_no_builtin_profile_has) {
+  const std::vector<std::vector<std::pair<std::string, std::string>>> changes = {
+      {{"illumination.0.waveform", "{kind: sine, jitter: 10 ps, modulation_depth: 87 %}"}},
+      {{"illumination.0.waveform", "{kind: measured, correlation: [1, 0.1, -1, 0.2, 0.3, 0.05, -0.2, 0.1], harmonics: 2}"}},
+      {{"illumination.0.pattern", "{kind: table, half_range_x: 30 deg, half_range_y: 20 deg, samples: [[1, 2, 3], [4, 5, 6]]}"}},
+      {{"illumination.0.pattern", "{kind: cone, half_angle: 30 deg}"}},
+      {{"illumination.0.pattern", "{kind: cosine_lobe, exponent: 4}"}},
+      {{"illumination.0.pattern", "{kind: lambertian}"}},
+      {{"lens.vignetting", "{angle: [0 deg, 20 deg, 40 deg], factor: [1, 0.8, 0.5]}"}},
+      {{"filter", "{wavelength: [840 nm, 850 nm, 861 nm], transmission: [0.1, 0.9, 0.2]}"}},
+      {{"pixel.quantum_efficiency", "{wavelength: [700 nm, 850 nm, 950 nm], value: [0.5, 0.4, 0.1]}"}},
+      {{"pixel.suppression", "{threshold: 30 ke, budget: 100 ke, noise_factor: 1.5}"}},
+      {{"pixel.patterns", "{prnu: 1 %, dsnu: 2 DN, delay: 20 ps, seed: 77}"}},
+      {{"decoding.filter", "{kind: gaussian, sigma: 1.3 px}"}, {"decoding.flying_pixel.near_limit", "17 mm"}},
+      {{"decoding.filter", "{kind: median, radius: 2}"}, {"decoding.wiggling_correction", "false"}},
+      {{"temperature", "{actual: 41.3 degC, drift: 0.2 mm/K, warm_up: 3 mm, warm_up_time: 100 s, since_start: 7 s}"}},
+      {{"power_model", "paper_literal"}, {"refractive_index", "1.0003"}, {"timing.readout_time", "3.3 ms"}}};
+  for (const auto& set : changes) {
+    SCOPED_TRACE(set[0].first + " " + set[0].second);
+    expect_to_come_back("pico-flexx", {{}, set, {}});
+  }
+}
+
+TEST(camera_of_meta, takes_changes) {
+  const std::string meta = results::frame_meta(Scene(), load_camera("pico-flexx"), 0, Noise::exact, 0);
+  EXPECT_EQ(results::camera_of_meta(meta, "frame.npz", {{"decoding.filter.kind", "median"}}).decoding.filter.kind,
+            ImageFilter::Kind::median);
+  EXPECT_THROW(results::camera_of_meta(meta, "frame.npz", {{"decoding.filtre", "median"}}), Error);
+}
+
+TEST(camera_of_meta, names_what_is_missing) {
+  for (const char* meta : {"{}", "[]", "3", R"({"camera": 3})"}) {
+    try {
+      results::camera_of_meta(meta, "frame.npz");
+      ADD_FAILURE() << meta;
+    } catch (const Error& error) {
+      EXPECT_EQ(error.kind(), ErrorKind::bad_input);
+      EXPECT_NE(std::string(error.what()).find("--camera"), std::string::npos) << error.what();
+    }
+  }
+  EXPECT_THROW(results::camera_of_meta(R"({"camera": {}})", "frame.npz"), Error);
+  EXPECT_THROW(results::camera_of_meta("", "frame.npz"), Error);
+}
+
+}  // namespace
+}  // namespace tofray

@@ -1,0 +1,93 @@
+// SPDX-FileCopyrightText: 2026 The tofray authors
+// SPDX-License-Identifier: Apache-2.0
+#include "results/raw_file.h"
+
+#include <gtest/gtest.h>
+
+#include "files/npz.h"
+#include "results/frame_file.h"
+#include "support/samples.h"
+
+using namespace tofray;
+using namespace tofray::files;
+using namespace tofray::results;
+using out_test::error_of;
+using out_test::TemporaryFolder;
+
+namespace {
+
+constexpr PoseMatrix identity = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
+
+}  // namespace
+
+TEST(raw_file, round_trip_keeps_every_array) {
+  TemporaryFolder folder;
+  const Frame frame = out_test::sample_frame(12, 9);
+  write_frame_npz(folder.file("frame.npz"), frame, out_test::sample_camera(12, 9), identity, "{}");
+  const Raw back = read_raw_npz(folder.file("frame.npz"));
+  EXPECT_EQ(back.width, 12);
+  EXPECT_EQ(back.height, 9);
+  EXPECT_EQ(back.phases, 9);
+  EXPECT_EQ(back.raw, frame.raw.raw);
+  EXPECT_EQ(back.tap_a, frame.raw.tap_a);
+  EXPECT_EQ(back.tap_b, frame.raw.tap_b);
+  EXPECT_EQ(back.modulation_frequency_hz, frame.raw.modulation_frequency_hz);
+  EXPECT_EQ(back.reference_phase_rad, frame.raw.reference_phase_rad);
+  EXPECT_EQ(back.integration_time_s, frame.raw.integration_time_s);
+  EXPECT_EQ(back.start_time_s, frame.raw.start_time_s);
+  EXPECT_EQ(back.lit, frame.raw.lit);
+}
+
+TEST(raw_file, says_everything_that_is_missing_or_misshapen_at_once) {
+  TemporaryFolder folder;
+  const std::vector<std::uint16_t> raw(2 * 3 * 4, 2048);
+  const std::vector<double> two = {80e6, 80e6}, three = {1, 2, 3};
+  const std::vector<float> tap(24, 1.F);
+  out_test::write_file(folder.file("x.npz"),
+                       npz_bytes({npy_view("raw", {2, 3, 4}, raw), npy_view("tap_a", {2, 4, 3}, tap), npy_view("lit", {2}, two),
+                                  npy_view("modulation_frequency_hz", {3}, three), npy_view("integration_time_s", {2}, two)}));
+  const Error error = error_of([&] { (void)read_raw_npz(folder.file("x.npz")); });
+  EXPECT_EQ(error.kind(), ErrorKind::bad_input);
+  const std::string text = error.what();
+  for (const char* part :
+       {"array \"tap_a\" has the wrong shape\n  got (2, 4, 3), expected (2, 3, 4)", "array \"tap_b\" is missing",
+        "array \"lit\" has the wrong type", "array \"modulation_frequency_hz\" has the wrong shape\n  got (3,), expected (2,)",
+        "array \"reference_phase_rad\" is missing"})
+    EXPECT_NE(text.find(part), std::string::npos) << part << "\nin\n" << text;
+  EXPECT_EQ(text.find("start_time_s"), std::string::npos) << text;
+  out_test::write_file(folder.file("y.npz"),
+                       npz_bytes({npy_view("lit", {2}, raw.size() == 24 ? std::vector<std::uint8_t>{1, 1} : std::vector<std::uint8_t>{})}));
+  EXPECT_NE(std::string(error_of([&] { (void)read_raw_npz(folder.file("y.npz")); }).what()).find("expected raw, or tap_a and tap_b"),
+            std::string::npos);
+}
+
+TEST(raw_file, start_times_may_be_missing_but_not_be_of_another_length) {
+  const std::vector<std::uint16_t> raw(2 * 3 * 4, 2048);
+  const std::vector<double> f = {80e6, 80e6}, tau = {0, 1}, time = {1e-3, 1e-3}, three = {0, 1, 2};
+  const std::vector<std::uint8_t> lit = {1, 1};
+  std::vector<NpyView> views = {npy_view("raw", {2, 3, 4}, raw), npy_view("modulation_frequency_hz", {2}, f),
+                                npy_view("reference_phase_rad", {2}, tau), npy_view("integration_time_s", {2}, time),
+                                npy_view("lit", {2}, lit)};
+  EXPECT_TRUE(parse_raw_npz(npz_bytes(views), "x.npz").start_time_s.empty());
+  views.push_back(npy_view("start_time_s", {3}, three));
+  EXPECT_NE(
+      std::string(error_of([&] { (void)parse_raw_npz(npz_bytes(views), "x.npz"); }).what()).find("\"start_time_s\" has the wrong shape"),
+      std::string::npos);
+}
+
+TEST(raw_file, wider_integers_are_taken_where_they_fit) {
+  TemporaryFolder folder;
+  const std::vector<double> f = {80e6}, tau = {0}, time = {1e-3};
+  const std::vector<std::uint8_t> lit = {1};
+  for (const std::int32_t code : {65535, 65536, -1}) {
+    const std::vector<std::int32_t> raw = {1, 2, 3, code};
+    out_test::write_file(
+        folder.file("x.npz"),
+        npz_bytes({npy_view("raw", {1, 2, 2}, raw), npy_view("modulation_frequency_hz", {1}, f), npy_view("reference_phase_rad", {1}, tau),
+                   npy_view("integration_time_s", {1}, time), npy_view("start_time_s", {1}, tau), npy_view("lit", {1}, lit)}));
+    if (code == 65535)
+      EXPECT_EQ(read_raw_npz(folder.file("x.npz")).raw, (std::vector<std::uint16_t>{1, 2, 3, 65535}));
+    else
+      EXPECT_NE(std::string(error_of([&] { (void)read_raw_npz(folder.file("x.npz")); }).what()).find("no uint16"), std::string::npos);
+  }
+}
