@@ -10,13 +10,16 @@ target_compile_options(tofray_flags INTERFACE -ffp-contract=off -Wall -Wextra -W
   -Wno-sign-conversion $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict> $<$<CXX_COMPILER_ID:GNU>:-fno-tree-slp-vectorize>
   $<$<CXX_COMPILER_ID:Clang>:-Wno-bitwise-instead-of-logical> $<$<BOOL:${TOFRAY_WARNINGS_AS_ERRORS}>:-Werror>)
 
-# tofray_folder(name [OUTSIDE_LIBRARY] [SOURCES file…] [USES folder…] [LIBRARIES target…])
+# tofray_folder(name [PART_OF core|files|none] [SOURCES file…] [USES folder…] [LIBRARIES target…] [HEADERS target…])
 #
 # One folder of src/ is one target, tofray_<name>, with an include root of its own: a link in the build tree that holds the folder
-# and nothing else. An include of a folder that is not named in USES therefore does not build. OUTSIDE_LIBRARY: the command line and tests
-# have it, libtofray and its users do without it and its libraries.
+# and nothing else. An include of a folder that is not named in USES therefore does not build.
+#
+# PART_OF says which library has it: core is libtofray (unless another is named), files is libtofray_files; of none are the folders that
+# the command line and tests alone have. LIBRARIES are linked, and who links the library statically needs them, too; HEADERS are packages
+# of which nothing is linked.
 function(tofray_folder name)
-  cmake_parse_arguments(arg "OUTSIDE_LIBRARY" "" "SOURCES;USES;LIBRARIES" ${ARGN})
+  cmake_parse_arguments(arg "" "PART_OF" "SOURCES;USES;LIBRARIES;HEADERS" ${ARGN})
   set(root ${CMAKE_BINARY_DIR}/roots/${name})
   file(MAKE_DIRECTORY ${root})
   file(CREATE_LINK ${CMAKE_CURRENT_SOURCE_DIR} ${root}/${name} SYMBOLIC)
@@ -24,13 +27,14 @@ function(tofray_folder name)
   if(arg_SOURCES)
     add_library(tofray_${name} OBJECT ${arg_SOURCES})
     target_include_directories(tofray_${name} PUBLIC ${root})
-    target_link_libraries(tofray_${name} PUBLIC ${arg_USES} PRIVATE tofray_flags ${arg_LIBRARIES})
-    set(where tofray)
-    if(arg_OUTSIDE_LIBRARY)
-      set(where tofray_outside)
+    target_link_libraries(tofray_${name} PUBLIC ${arg_USES} PRIVATE tofray_flags ${arg_LIBRARIES} ${arg_HEADERS})
+    if(NOT arg_PART_OF)
+      set(arg_PART_OF core)
+    elseif(NOT arg_PART_OF MATCHES "^(core|files|none)$")
+      message(FATAL_ERROR "tofray_folder(${name}): PART_OF is ${arg_PART_OF}, expected core, files or none")
     endif()
-    set_property(GLOBAL APPEND PROPERTY ${where}_objects tofray_${name})
-    set_property(GLOBAL APPEND PROPERTY ${where}_libraries ${arg_LIBRARIES})
+    set_property(GLOBAL APPEND PROPERTY tofray_${arg_PART_OF}_objects tofray_${name})
+    set_property(GLOBAL APPEND PROPERTY tofray_${arg_PART_OF}_libraries ${arg_LIBRARIES})
   else()
     add_library(tofray_${name} INTERFACE)
     target_include_directories(tofray_${name} INTERFACE ${root})
@@ -41,9 +45,11 @@ endfunction()
 # tofray_use_all(target): all folders, linked in as objects (command line and tests see the internals, too).
 function(tofray_use_all target)
   foreach(kind objects libraries)
-    get_property(inside GLOBAL PROPERTY tofray_${kind})
-    get_property(outside GLOBAL PROPERTY tofray_outside_${kind})
-    set(${kind} ${inside} ${outside})
+    set(${kind} "")
+    foreach(part core files none)
+      get_property(these GLOBAL PROPERTY tofray_${part}_${kind})
+      list(APPEND ${kind} ${these})
+    endforeach()
   endforeach()
   list(REMOVE_DUPLICATES libraries)
   foreach(object ${objects})

@@ -1,33 +1,54 @@
 # SPDX-FileCopyrightText: 2026 The tofray authors
 # SPDX-License-Identifier: Apache-2.0
 
-# The library as others use it: libtofray with its headers, the command, the data, and a CMake package for find_package(tofray).
+# The libraries as others use them, with their headers: libtofray computes, libtofray_files reads what people write. The command, the
+# data, and a CMake package for find_package(tofray), which gives tofray::tofray and tofray::files.
 include(CMakePackageConfigHelpers)
-option(BUILD_SHARED_LIBS "Build libtofray as a shared library" ON)
+option(BUILD_SHARED_LIBS "Build libtofray and libtofray_files as shared libraries" ON)
 
-get_property(tofray_objects GLOBAL PROPERTY tofray_objects)
-list(TRANSFORM tofray_objects REPLACE "(.+)" "$<TARGET_OBJECTS:\\1>" OUTPUT_VARIABLE tofray_object_files)
-get_property(tofray_private_libraries GLOBAL PROPERTY tofray_libraries)
-list(REMOVE_DUPLICATES tofray_private_libraries)
+# tofray_make_library(target name part [folder…]): the folders that are part of it, and further ones. All that is behind the API (YAML,
+# zip, …) is linked privately: who links the shared library needs none of it.
+function(tofray_make_library target name part)
+  get_property(folders GLOBAL PROPERTY tofray_${part}_objects)
+  get_property(libraries GLOBAL PROPERTY tofray_${part}_libraries)
+  list(REMOVE_DUPLICATES libraries)
+  list(APPEND folders ${ARGN})
+  list(TRANSFORM folders REPLACE "(.+)" "$<TARGET_OBJECTS:\\1>" OUTPUT_VARIABLE objects)
+  add_library(${target} ${objects})
+  add_library(tofray::${name} ALIAS ${target})
+  set_target_properties(${target} PROPERTIES
+    EXPORT_NAME ${name} LINKER_LANGUAGE CXX VERSION ${PROJECT_VERSION} SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR})
+  target_compile_features(${target} PUBLIC cxx_std_20)
+  target_include_directories(${target} PUBLIC
+    $<BUILD_INTERFACE:${CMAKE_SOURCE_DIR}/include> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
+  target_link_libraries(${target} PRIVATE ${libraries})
+  install(TARGETS ${target} EXPORT tofray-targets
+    LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+endfunction()
 
-# All that is behind the API (YAML, PNG, …) is linked privately: who links the shared library needs none of it.
-add_library(tofray_library ${tofray_object_files})
-add_library(tofray::tofray ALIAS tofray_library)
-set_target_properties(tofray_library PROPERTIES
-  OUTPUT_NAME tofray EXPORT_NAME tofray LINKER_LANGUAGE CXX
-  VERSION ${PROJECT_VERSION} SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR})
-target_compile_features(tofray_library PUBLIC cxx_std_20)
-target_include_directories(tofray_library PUBLIC $<BUILD_INTERFACE:${CMAKE_SOURCE_DIR}/include> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
-target_link_libraries(tofray_library PRIVATE ${tofray_private_libraries})
+# Only the API is visible from outside, so that what we link cannot clash with another version of it in the user's program.
+function(tofray_show_only target map)
+  if(BUILD_SHARED_LIBS)
+    target_link_options(${target} PRIVATE LINKER:--version-script=${map})
+    set_property(TARGET ${target} APPEND PROPERTY LINK_DEPENDS ${map})
+  endif()
+endfunction()
+
+tofray_make_library(tofray_library tofray core)
+set_target_properties(tofray_library PROPERTIES OUTPUT_NAME tofray)
 tofray_add_object_files(tofray_library)
-if(BUILD_SHARED_LIBS)
-  # Only the API is visible from outside, so that what we link cannot clash with another version of it in the user's program.
-  target_link_options(tofray_library PRIVATE LINKER:--version-script=${CMAKE_SOURCE_DIR}/cmake/tofray.map)
-  set_property(TARGET tofray_library APPEND PROPERTY LINK_DEPENDS ${CMAKE_SOURCE_DIR}/cmake/tofray.map)
-endif()
+tofray_show_only(tofray_library ${CMAKE_SOURCE_DIR}/cmake/tofray.map)
 
-install(TARGETS tofray_library EXPORT tofray-targets
-  LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+# The shared libtofray shows no internals, so the other one has what it needs of them once more; archives share them.
+set(shared_by_both "")
+if(BUILD_SHARED_LIBS)
+  set(shared_by_both tofray_base tofray_model)
+endif()
+tofray_make_library(tofray_files_library files files ${shared_by_both})
+set_target_properties(tofray_files_library PROPERTIES OUTPUT_NAME tofray_files)
+target_link_libraries(tofray_files_library PUBLIC tofray_library)
+tofray_show_only(tofray_files_library ${CMAKE_SOURCE_DIR}/cmake/tofray_files.map)
+
 install(DIRECTORY include/tofray DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} FILES_MATCHING PATTERN "*.h")
 install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})
 foreach(data profiles scenes)

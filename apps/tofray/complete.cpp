@@ -8,7 +8,7 @@
 #include "load/builtin.h"
 #include "model/lines.h"
 #include "results/array_table.h"
-#include "tofray/camera.h"
+#include "tofray/load.h"
 
 /// What can stand at the cursor of a command line: the scripts of `tofray completion` ask here. All of it comes from the tables of commands,
 /// options, keys, arrays, scenes and profiles.

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The tofray authors
 // SPDX-License-Identifier: Apache-2.0
 // What another renderer sees becomes raw frames and depth. Here that renderer is a formula: ripples on water, seen from above.
+// The camera is made here, too, so that nothing but libtofray is needed; load_camera("pico-flexx") would be a line of libtofray_files.
 #include <tofray/tofray.h>
 
 #include <algorithm>
@@ -21,10 +22,31 @@ double meet(double x, double y) {
   return z;
 }
 
+// 224 × 172 pixels, an LED beside the lens, two modulation frequencies with four reference phases each.
+tofray::Camera small_camera() {
+  tofray::Camera camera;
+  camera.sensor = {.width = 224, .height = 172, .pixel_pitch_m = 12e-6};
+  camera.lens.fx_px = camera.lens.fy_px = 212;
+  camera.lens.cx_px = 111.5, camera.lens.cy_px = 85.5;
+  tofray::Illumination led;
+  led.position = {0.015, 0, 0};
+  led.power_w = 0.2;
+  camera.illumination.push_back(led);
+  camera.pixel.quantum_efficiency = {{led.illumination_wavelength_m}, {0.3}};   // one sample: a constant
+  camera.pixel.contrast = {{0}, {0.8}};
+  camera.pixel.full_well_e = 100e3;
+  camera.adc.step_e_per_dn = 50;
+  camera.mode.frame_rate_hz = 5;
+  for (const double frequency_hz : {80.32e6, 60.24e6}) {
+    for (int k = 0; k < 4; ++k) camera.mode.sequence.push_back({true, frequency_hz, k * 1.5707963267948966, 1e-3});
+  }
+  return camera;
+}
+
 }  // namespace
 
 int main() try {
-  const tofray::Camera camera = tofray::load_camera("pico-flexx");
+  const tofray::Camera camera = small_camera();
   const std::vector<float> rays = tofray::pixel_rays(camera);
 
   tofray::Geometry seen;

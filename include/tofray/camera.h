@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "tofray/scene.h"
@@ -174,20 +173,5 @@ struct Camera {
   Mode mode;                   ///< the chosen one
   std::vector<std::string> mode_names;   ///< all that the profile has
 };
-
-struct CameraOptions {
-  std::string mode = {};       ///< empty: the profile's first
-  /// Dotted key and value as written in a profile, e.g. {"lens.f_number", "1.2"}.
-  std::vector<std::pair<std::string, std::string>> set = {};
-  /// A scene's profile file has to lie in or below the scene's folder, or in or below this one where it is not empty.
-  std::string root = {};
-};
-
-/// Reads a camera profile: a built-in name such as "pico-flexx", or a YAML file.
-/// @throws Error with every fault of the file at once.
-Camera load_camera(const std::string& file_or_name, const CameraOptions& options = {});
-
-/// The camera that a scene asks for: its profile, mode and overrides; `options` come on top.
-Camera load_camera(const Scene& scene, const CameraOptions& options = {});
 
 }  // namespace tofray

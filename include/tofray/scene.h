@@ -98,8 +98,4 @@ struct Scene {
   std::vector<Object> objects;
 };
 
-/// Reads a scene file (YAML 1.2 or JSON), or a built-in scene by name.
-/// @throws Error with every fault of the file at once.
-Scene load_scene(const std::string& file_or_name);
-
 }  // namespace tofray

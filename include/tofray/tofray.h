@@ -4,6 +4,7 @@
 #include "tofray/camera.h"
 #include "tofray/error.h"
 #include "tofray/frame.h"
+#include "tofray/load.h"
 #include "tofray/scene.h"
 #include "tofray/simulator.h"
 #include "tofray/stages.h"

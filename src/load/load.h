@@ -6,8 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "tofray/camera.h"
-#include "tofray/scene.h"
+#include "tofray/load.h"
 
 /// Scenes and camera profiles from files, from texts, and with keys changed from the command line.
 namespace tofray::load {

@@ -179,7 +179,7 @@ class Document:
         project.mkdir()
         (project / "main.cpp").write_text(f"{includes}\n#include <cstdint>\n{outside}\nint main() {{\n{inside}{body}}}\n")
         find = "".join(re.findall(r"find_package.*\n", self.cmake)) or "find_package(tofray)\n"
-        link = "".join(re.findall(r"target_link.*\n", self.cmake)) or "target_link_libraries(mine PRIVATE tofray::tofray)\n"
+        link = "".join(re.findall(r"target_link.*\n", self.cmake)) or "target_link_libraries(mine PRIVATE tofray::files)\n"
         begin = "cmake_minimum_required(VERSION 3.22)\nproject(mine LANGUAGES CXX)\n"
         (project / "CMakeLists.txt").write_text(f"{begin}{find}add_executable(mine main.cpp)\n{link}")
         self.place.must(["cmake", "-S", "program", "-B", "program/build"])

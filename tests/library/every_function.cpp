@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The tofray authors
 // SPDX-License-Identifier: Apache-2.0
-// Linked to libtofray alone, as a user's program is: every function of the public headers must be there (cmake/tofray.map shows them).
+// Linked to libtofray alone, as a user's program is that reads no files: every function of the public headers but load.h must be there
+// (cmake/tofray.map shows them).
 #include <tofray/tofray.h>
 
 #include <cstdio>
@@ -40,10 +41,42 @@ void own_arrays(tofray::Simulator& simulator, const tofray::Camera& camera, cons
   expect(tofray::pixel_rays(camera).size() == 2 * light.power_w.size(), "pixel_rays");
 }
 
+tofray::Scene wall() {
+  tofray::Scene scene;
+  tofray::Material paper;
+  paper.diffuse = 0.8;
+  scene.materials.push_back(paper);
+  tofray::Object object;
+  object.shape = tofray::Plane{{0, 0, 1}, {0, 0, -1}};
+  scene.objects.push_back(object);
+  return scene;
+}
+
+tofray::Camera small_camera() {
+  tofray::Camera camera;
+  camera.sensor = {32, 24, 12e-6, 1};
+  camera.lens.fx_px = camera.lens.fy_px = 30;
+  camera.lens.cx_px = 15.5, camera.lens.cy_px = 11.5;
+  camera.illumination.emplace_back().power_w = 0.2;
+  camera.pixel.quantum_efficiency = {{850e-9}, {0.3}};
+  camera.pixel.contrast = {{0}, {0.8}};
+  camera.mode.frame_rate_hz = 5;
+  for (int k = 0; k < 4; ++k) camera.mode.sequence.push_back({true, 60e6, k * 1.5707963267948966, 1e-3});
+  return camera;
+}
+
+void refusal() {
+  try {
+    const tofray::Simulator simulator({}, tofray::Camera());
+  } catch (const tofray::Error& error) {
+    return expect(error.kind() == tofray::ErrorKind::bad_input && error.what()[0] != 0, "kind of an Error");
+  }
+  expect(false, "a camera without pixels is refused");
+}
+
 void all() {
-  const tofray::Scene scene = tofray::load_scene("card");
-  const tofray::Camera camera = tofray::load_camera(scene);
-  expect(tofray::load_camera("pico-flexx").sensor.width == 224, "load_camera");
+  const tofray::Scene scene = wall();
+  const tofray::Camera camera = small_camera();
   tofray::Simulator first(scene, camera), simulator(std::move(first));
   first = tofray::Simulator(scene, camera);
   tofray::Frame frame = simulator.frame(0);
@@ -59,6 +92,7 @@ void all() {
   expect(!machine.backend.empty() && !machine.device.empty() && !machine.isa.empty() && machine.threads > 0, "ran_on");
   on_device(simulator);
   own_arrays(simulator, camera, frame);
+  refusal();
 }
 
 }  // namespace

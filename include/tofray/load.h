@@ -1,0 +1,35 @@
+// SPDX-FileCopyrightText: 2026 The tofray authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "tofray/camera.h"
+#include "tofray/error.h"
+#include "tofray/scene.h"
+
+/// Scenes and cameras from files. These functions are in a library of their own, libtofray_files: link to tofray::files, which brings
+/// tofray::tofray along. All other headers need tofray::tofray alone.
+namespace tofray {
+
+/// Reads a scene file (YAML 1.2 or JSON), or a built-in scene by name.
+/// @throws Error with every fault of the file at once.
+Scene load_scene(const std::string& file_or_name);
+
+struct CameraOptions {
+  std::string mode = {};       ///< empty: the profile's first
+  /// Dotted key and value as written in a profile, e.g. {"lens.f_number", "1.2"}.
+  std::vector<std::pair<std::string, std::string>> set = {};
+  /// A scene's profile file has to lie in or below the scene's folder, or in or below this one where it is not empty.
+  std::string root = {};
+};
+
+/// Reads a camera profile: a built-in name such as "pico-flexx", or a YAML file.
+/// @throws Error with every fault of the file at once.
+Camera load_camera(const std::string& file_or_name, const CameraOptions& options = {});
+
+/// The camera that a scene asks for: its profile, mode and overrides; `options` come on top.
+Camera load_camera(const Scene& scene, const CameraOptions& options = {});
+
+}  // namespace tofray

@@ -1,0 +1,49 @@
+// SPDX-FileCopyrightText: 2026 The tofray authors
+// SPDX-License-Identifier: Apache-2.0
+// Linked to libtofray_files, as a user's program is: the functions of load.h must be there (cmake/tofray_files.map shows them), those of
+// libtofray come along, and what either of them throws is one type.
+#include <tofray/tofray.h>
+
+#include <cstdio>
+#include <stdexcept>
+#include <string>
+
+namespace {
+
+void expect(bool held, const char* what) {
+  if (!held) throw std::runtime_error(what);
+}
+
+/// What kind of Error a call ends with; bug: with none.
+template <class Call>
+tofray::ErrorKind kind_of(const Call& call) {
+  try {
+    call();
+  } catch (const tofray::Error& error) {
+    expect(!std::string(error.what()).empty(), "an Error says what is wrong");
+    return error.kind();
+  }
+  return tofray::ErrorKind::bug;
+}
+
+void all() {
+  const tofray::Scene scene = tofray::load_scene("card");
+  const tofray::Camera camera = tofray::load_camera(scene);
+  expect(tofray::load_camera("pico-flexx").sensor.width == 224, "load_camera");
+  expect(!tofray::Simulator(scene, camera).frame(0).depth.z_m.empty(), "frame");
+  using tofray::ErrorKind;
+  expect(kind_of([] { (void)tofray::load_scene("no such scene"); }) == ErrorKind::io, "a scene that is not there");
+  const tofray::CameraOptions wrong{.set = {{"lens.f_number", "far"}}};
+  expect(kind_of([&] { (void)tofray::load_camera("pico-flexx", wrong); }) == ErrorKind::bad_input, "a wrong value");
+  expect(kind_of([&] { const tofray::Simulator simulator(scene, {}); }) == ErrorKind::bad_input, "a camera without pixels");
+}
+
+}  // namespace
+
+int main() try {
+  all();
+  return 0;
+} catch (const std::exception& fault) {
+  std::fprintf(stderr, "%s\n", fault.what());
+  return 1;
+}

@@ -1,0 +1,25 @@
+# SPDX-FileCopyrightText: 2026 The tofray authors
+# SPDX-License-Identifier: Apache-2.0
+# Whoever only computes needs no YAML, zip, pictures or OpenSSL:
+#   cmake -DREADELF=… -DLIBRARY=libtofray.so -DTYPE=SHARED_LIBRARY -P needed.cmake
+if(NOT TYPE STREQUAL "SHARED_LIBRARY")
+  message("SKIPPED: libtofray is static: it names no library that it needs")
+  return()
+endif()
+if(NOT READELF)
+  message("SKIPPED: there is no readelf")
+  return()
+endif()
+execute_process(COMMAND ${READELF} -d ${LIBRARY} OUTPUT_VARIABLE dynamic RESULT_VARIABLE status)
+if(NOT status EQUAL 0)
+  message(FATAL_ERROR "${READELF} -d ${LIBRARY} failed")
+endif()
+string(REGEX MATCHALL "\\(NEEDED\\)[^\n]*" needed "${dynamic}")
+if(NOT needed MATCHES "libc\\.")
+  message(FATAL_ERROR "not even the C library is needed: the list was not understood\n${dynamic}")
+endif()
+foreach(line ${needed})
+  if(line MATCHES "\\[lib(yaml-cpp|zip|png[0-9]*|cairo|crypto|ssl|z|fmt)\\.")
+    message(SEND_ERROR "libtofray needs lib${CMAKE_MATCH_1}: it belongs to libtofray_files, or to the command line")
+  endif()
+endforeach()
