@@ -66,6 +66,8 @@ void fail(const Place& place, const std::string& what, const std::string& more, 
   throw Error(kind, one.text());
 }
 
+void refuse(const std::string& message) { throw Error(ErrorKind::bad_input, "error: " + message); }
+
 }  // namespace tofray::base
 
 namespace tofray {

@@ -46,6 +46,9 @@ class Faults {
   std::vector<Fault> faults_;
 };
 
+/// A value given in code that cannot be taken. @throws Error (bad input): "error: " and the message
+[[noreturn]] void refuse(const std::string& message);
+
 /// One fault that ends the reading at once.
 [[noreturn]] void fail(const Place& place, const std::string& what, const std::string& more = {}, ErrorKind kind = ErrorKind::bad_input);
 

@@ -8,6 +8,7 @@
 
 #include "base/constants.h"
 #include "base/curve.h"
+#include "base/faults.h"
 #include "camera/emitters.h"
 #include "camera/lens.h"
 #include "camera/waveform.h"
@@ -18,9 +19,9 @@ namespace tofray::camera {
 
 using namespace base;
 namespace setup = num::setup;
+using num::single;
 
 namespace {
-float f(double a) { return static_cast<float>(a); }
 }  // namespace
 
 FrozenCamera::FrozenCamera(const Camera& camera, int noise, std::uint64_t seed) : camera_(with_emitters(camera)), modulations_(modulations_of(camera.mode)) {
@@ -33,7 +34,7 @@ FrozenCamera::FrozenCamera(const Camera& camera, int noise, std::uint64_t seed) 
   for (const Illumination& light : camera_.illumination) {
     lights_.push_back(freeze_light(light, efficiency.evaluate(light.illumination_wavelength_m)));
     if (camera.power_model == PowerModel::paper_literal && lights_.back().table.empty()) {
-      throw Error(ErrorKind::bad_input, "error: power_model paper_literal needs light sources with a table\n"
+      refuse("power_model paper_literal needs light sources with a table\n"
                                         "  got a cone or lobe; take the pattern flat_top or table, or the power_model tofray");
     }
   }
@@ -56,11 +57,11 @@ void FrozenCamera::freeze_lens() {
     for (int u = 0; u < sensor.width; ++u, ++i) {
       Point2 p{};
       if (!unproject(camera_.lens, limit, {static_cast<double>(u), static_cast<double>(v)}, p)) continue;
-      ray_x_[i] = f(p.x), ray_y_[i] = f(p.y);
+      ray_x_[i] = single(p.x), ray_y_[i] = single(p.y);
       const double x = static_cast<double>(ray_x_[i]), y = static_cast<double>(ray_y_[i]);
-      inverse_length_[i] = f(1 / std::sqrt(x * x + y * y + 1));
+      inverse_length_[i] = single(1 / std::sqrt(x * x + y * y + 1));
       // 0 says "outside the lens model", so that a dark corner of a vignetting table is not mistaken for one
-      vignetting_[i] = std::max(f(vignetting.factor(p)), std::numeric_limits<float>::min());
+      vignetting_[i] = std::max(single(vignetting.factor(p)), std::numeric_limits<float>::min());
     }
   }
   lens_.ray_x = ray_x_.data(), lens_.ray_y = ray_y_.data(), lens_.vignetting = vignetting_.data();
@@ -69,10 +70,10 @@ void FrozenCamera::freeze_lens() {
 
   const double area = sensor.pixel_pitch_m * sensor.pixel_pitch_m * sensor.fill_factor;
   const double number = camera_.lens.f_number;
-  power_.watts_per_radiance = f(pi * camera_.lens.transmission * area / (4 * number * number));       // [theory: eq. 2.5, 2.6]
+  power_.watts_per_radiance = single(pi * camera_.lens.transmission * area / (4 * number * number));       // [theory: eq. 2.5, 2.6]
   power_.paper_literal = camera_.power_model == PowerModel::paper_literal;
   const double focal_mm = 1e3 * camera_.lens.fx_px * sensor.pixel_pitch_m;
-  power_.paper_scale = f(pi * area / (4 * number * number * focal_mm * focal_mm));                     // [theory: eq. 2.11]
+  power_.paper_scale = single(pi * area / (4 * number * number * focal_mm * focal_mm));                     // [theory: eq. 2.11]
 }
 
 void FrozenCamera::freeze_tiles() {
@@ -115,15 +116,15 @@ void FrozenCamera::freeze_phasors() {
     for (const Harmonic& h : harmonics[i]) {
       float* const source = &sources_[2 * (i * orders + static_cast<std::size_t>(h.order / 2))];
       const double phase = h.phase_rad + h.order * first_phase(i / lights);
-      source[0] = f(h.amplitude * setup::cos(phase)), source[1] = f(h.amplitude * setup::sin(phase));
+      source[0] = single(h.amplitude * setup::cos(phase)), source[1] = single(h.amplitude * setup::sin(phase));
     }
   }
   for (std::size_t i = 0; i < modulations; ++i) {
     ModulationView m{};
-    m.frequency = f(modulations_.frequency_hz[i]);
+    m.frequency = single(modulations_.frequency_hz[i]);
     const double turns_per_metre = modulations_.frequency_hz[i] * camera_.refractive_index / speed_of_light;
-    m.turns_per_metre_high = f(turns_per_metre);
-    m.turns_per_metre_low = f(turns_per_metre - static_cast<double>(m.turns_per_metre_high));
+    m.turns_per_metre_high = single(turns_per_metre);
+    m.turns_per_metre_low = single(turns_per_metre - static_cast<double>(m.turns_per_metre_high));
     m.source = sources_.data() + i * lights * orders * 2;
     phasor_modulations_.push_back(m);
   }
@@ -141,8 +142,8 @@ void FrozenCamera::freeze_sequence(std::uint64_t seed, int noise) {
   std::vector<double> integration_time_s;
   for (std::size_t k = 0; k < camera_.mode.sequence.size(); ++k) {
     const RawFrame& frame = camera_.mode.sequence[k];
-    raw_frames_.push_back({frame.lit, std::max(modulations_.of_raw_frame[k], 0), f(frame.integration_time_s),
-                           f(camera_.pixel.dark_current_e_per_s * frame.integration_time_s), Gate::other, gates_.data() + k * values});
+    raw_frames_.push_back({frame.lit, std::max(modulations_.of_raw_frame[k], 0), single(frame.integration_time_s),
+                           single(camera_.pixel.dark_current_e_per_s * frame.integration_time_s), Gate::other, gates_.data() + k * values});
     integration_time_s.push_back(frame.integration_time_s);
   }
   s.frame = raw_frames_.data();
@@ -173,7 +174,7 @@ void FrozenCamera::freeze_gates(double half_path_m) {
     raw_frames_[k].gate_kind = gate_at(phase);
     for (int h = 0; h < phasors_.orders; ++h) {
       float* const gate = &gates_[at + 2 * static_cast<std::size_t>(h)];
-      gate[0] = f(setup::cos((2 * h + 1) * phase)), gate[1] = f(setup::sin((2 * h + 1) * phase));
+      gate[0] = single(setup::cos((2 * h + 1) * phase)), gate[1] = single(setup::sin((2 * h + 1) * phase));
     }
   }
 }
@@ -200,7 +201,7 @@ void FrozenCamera::freeze_patterns() {
       const auto words = num::philox<float>(static_cast<std::uint32_t>(i), stream, 0, 0, keys);
       float z, other;
       num::normal_pair<float>(words.w[0], words.w[1], z, other);
-      map.push_back(f(std::max(mean + sigma * static_cast<double>(z), least)));
+      map.push_back(single(std::max(mean + sigma * static_cast<double>(z), least)));
     }
     return map.data();
   };

@@ -6,24 +6,23 @@
 #include <limits>
 
 #include "base/constants.h"
+#include "base/faults.h"
 #include "base/text.h"
 #include "base/vec.h"
 #include "camera/frozen_camera.h"
 #include "camera/wiggling.h"
 #include "num/setup_math.h"
-#include "tofray/error.h"
 
 namespace tofray::camera {
 
 using namespace base;
 namespace setup = num::setup;
+using num::single;
 
 namespace {
 
 constexpr int wiggling_nodes = 1024;
 constexpr double least_contrast = 1e-6;   // of a light with which a distance could still be measured
-
-float f(double a) { return static_cast<float>(a); }
 
 /// Reference phases and raw frames of one modulation frequency.
 struct Group {
@@ -39,7 +38,7 @@ Group group_of(const Mode& mode, const Modulations& modulations, int modulation)
     if (modulations.of_raw_frame[k] != modulation) continue;
     const RawFrame& frame = mode.sequence[k];
     if (!g.tau.empty() && frame.integration_time_s != g.integration_time) {
-      throw Error(ErrorKind::bad_input, "error: raw frames of one modulation frequency have different integration times; depth needs them equal");
+      refuse("raw frames of one modulation frequency have different integration times; depth needs them equal");
     }
     g.integration_time = frame.integration_time_s;
     g.raw_frame.push_back(static_cast<std::int32_t>(k));
@@ -51,7 +50,7 @@ Group group_of(const Mode& mode, const Modulations& modulations, int modulation)
   // Σ e^{iτ} = Σ e^{2iτ} = 0 is what (2/N)Σ D e^{−iτ} needs to see neither a constant nor the mirror image.
   const double most = std::max({std::abs(sums[0]), std::abs(sums[1]), std::abs(sums[2]), std::abs(sums[3])});
   if (g.tau.size() < 3 || most > 1e-6 * static_cast<double>(g.tau.size())) {
-    throw Error(ErrorKind::bad_input, "error: each modulation frequency needs at least three equally spaced reference phases, such as 0, 90, 180 and 270 deg");
+    refuse("each modulation frequency needs at least three equally spaced reference phases, such as 0, 90, 180 and 270 deg");
   }
   return g;
 }
@@ -135,18 +134,18 @@ void FrozenCamera::freeze_decoder(int noise) {
     mean = mean + share.weight * share.light->position;
     square += share.weight * dot(share.light->position, share.light->position);
   }
-  for (std::size_t k = 0; k < 3; ++k) d.light[k] = f(mean[k]);
+  for (std::size_t k = 0; k < 3; ++k) d.light[k] = single(mean[k]);
   // No path is that long: without a light source nothing that is measured is a return.
-  d.light_square = shares.empty() ? std::numeric_limits<float>::max() : f(square);
-  d.noise_floor = f(dark_variance(camera_));
+  d.light_square = shares.empty() ? std::numeric_limits<float>::max() : single(square);
+  d.noise_floor = single(dark_variance(camera_));
   d.suppression_threshold = sensor_.suppression_threshold, d.suppression_budget = sensor_.suppression_budget;
-  d.suppression_variance = f(2 * camera_.pixel.suppression_noise_factor * camera_.pixel.suppression_noise_factor);
-  d.dark_rate_both = f(2 * camera_.pixel.dark_current_e_per_s);
-  d.low_signal_noise = noise == 0 ? std::numeric_limits<float>::max() : f(decoding.low_signal_noise_m);
-  d.per_confidence_noise = f(1 / decoding.low_signal_noise_m);
-  d.inconsistent_range = f(decoding.inconsistent_range_m);
-  d.flying_near_z = f(decoding.flying_near_z_m), d.flying_near_limit = f(decoding.flying_near_limit_m);
-  d.flying_far_z = f(decoding.flying_far_z_m), d.flying_far_limit = f(decoding.flying_far_limit_m);
+  d.suppression_variance = single(2 * camera_.pixel.suppression_noise_factor * camera_.pixel.suppression_noise_factor);
+  d.dark_rate_both = single(2 * camera_.pixel.dark_current_e_per_s);
+  d.low_signal_noise = noise == 0 ? std::numeric_limits<float>::max() : single(decoding.low_signal_noise_m);
+  d.per_confidence_noise = single(1 / decoding.low_signal_noise_m);
+  d.inconsistent_range = single(decoding.inconsistent_range_m);
+  d.flying_near_z = single(decoding.flying_near_z_m), d.flying_near_limit = single(decoding.flying_near_limit_m);
+  d.flying_far_z = single(decoding.flying_far_z_m), d.flying_far_limit = single(decoding.flying_far_limit_m);
   d.delay = sensor_.delay;
 }
 
@@ -161,32 +160,32 @@ void FrozenCamera::freeze_modulations(double grey_time) {
     auto harmonics = mean_harmonics(shares, camera_.pixel, frequency);
     const double contrast = harmonics.front().amplitude;
     if (!(contrast >= least_contrast)) {
-      throw Error(ErrorKind::bad_input, "error: next to nothing is left of the modulation\n  got a contrast of " + number_text(contrast) + " at " +
+      refuse("next to nothing is left of the modulation\n  got a contrast of " + number_text(contrast) + " at " +
                                             number_text(1e-6 * frequency) + " MHz; mind the pixel's contrast, bandwidths, rise time, jitter and modulation depth");
     }
     if (!camera_.decoding.wiggling_correction) harmonics.resize(1);
     wiggling_.emplace_back();
     const std::vector<double> correction = wiggling_correction(harmonics, group.tau, wiggling_nodes);
     for (std::size_t j = 0; j < correction.size(); ++j) {
-      wiggling_.back().push_back(f(correction[j]));
-      wiggling_.back().push_back(f(correction[(j + 1) % correction.size()] - correction[j]));
+      wiggling_.back().push_back(single(correction[j]));
+      wiggling_.back().push_back(single(correction[(j + 1) % correction.size()] - correction[j]));
     }
     const double half_wave = wave_speed / (2 * frequency);
     DecodeModulation& m = decode_modulations_.emplace_back();
-    m.half_wave = f(half_wave), m.per_half_wave = f(1 / half_wave), m.cycles = f(modulations_.cycles[at]), m.frequency = f(frequency);
-    m.per_contrast = f(1 / contrast), m.integration_time = f(group.integration_time);
+    m.half_wave = single(half_wave), m.per_half_wave = single(1 / half_wave), m.cycles = single(modulations_.cycles[at]), m.frequency = single(frequency);
+    m.per_contrast = single(1 / contrast), m.integration_time = single(group.integration_time);
     m.wiggling = wiggling_.back().data();
-    m.ambient_scale = f(grey_time > 0 ? group.integration_time / grey_time : 0), m.variance_factor = f(2 / (count * 4 * pi * pi) * half_wave * half_wave);
+    m.ambient_scale = single(grey_time > 0 ? group.integration_time / grey_time : 0), m.variance_factor = single(2 / (count * 4 * pi * pi) * half_wave * half_wave);
     grouped_.push_back(group.raw_frame), pairs_.push_back(pairs_of(group));
     m.raw_frame = grouped_.back().data(), m.count = static_cast<std::int32_t>(grouped_.back().size());
     m.pair = pairs_.back().data(), m.pairs = static_cast<std::int32_t>(pairs_.back().size() / 2);
     if (modulations_.cycles[at] < modulations_.cycles[static_cast<std::size_t>(d.reference)]) d.reference = i;
     for (std::size_t j = 0; j < group.tau.size(); ++j) {
-      decode_frames_[static_cast<std::size_t>(group.raw_frame[j])] = {f(2 / count * setup::cos(group.tau[j])), f(2 / count * setup::sin(group.tau[j]))};
+      decode_frames_[static_cast<std::size_t>(group.raw_frame[j])] = {single(2 / count * setup::cos(group.tau[j])), single(2 / count * setup::sin(group.tau[j]))};
     }
   }
   const double common = wave_speed / (2 * modulations_.base_hz);
-  d.common_range = f(common), d.per_common_range = f(1 / common);
+  d.common_range = single(common), d.per_common_range = single(1 / common);
 }
 
 // One modulation without raw frames: its amplitude is 0, which says "no return" of every pixel; ambient light is that of the mean exposure.
@@ -196,7 +195,7 @@ void FrozenCamera::freeze_without_modulation() {
   wiggling_.emplace_back(2 * wiggling_nodes, 0.0f);
   DecodeModulation& m = decode_modulations_.emplace_back();
   m.half_wave = m.per_half_wave = m.cycles = m.per_contrast = m.variance_factor = 1;
-  m.ambient_scale = f(1.0 / d.grey_frames);
+  m.ambient_scale = single(1.0 / d.grey_frames);
   m.wiggling = wiggling_[0].data();
   d.common_range = d.per_common_range = 1;
 }

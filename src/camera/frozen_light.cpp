@@ -4,21 +4,20 @@
 #include <cmath>
 
 #include "base/constants.h"
+#include "base/faults.h"
 #include "base/vec.h"
 #include "camera/emitters.h"
 #include "camera/frozen_camera.h"
 #include "camera/pattern_integral.h"
 #include "num/setup_math.h"
-#include "tofray/error.h"
 
 namespace tofray::camera {
 
 using namespace base;
 namespace setup = num::setup;
+using num::single;
 
 namespace {
-
-float f(double a) { return static_cast<float>(a); }
 
 struct Table {
   int columns, rows;
@@ -41,13 +40,13 @@ Table flat_top(const Pattern& p) {
 
 /// @param scale  [W/sr] of a sample of 1
 void freeze_table(const Table& t, double scale, FrozenLight& out) {
-  for (const double sample : t.samples) out.table.push_back(f(scale * sample));
+  for (const double sample : t.samples) out.table.push_back(single(scale * sample));
   PatternView& view = out.view.pattern;
   view.kind = PatternView::table;
   view.samples = out.table.data();
   view.columns = t.columns, view.rows = t.rows;
-  view.per_rad_x = f(t.columns / (2 * t.half_x)), view.per_rad_y = f(t.rows / (2 * t.half_y));
-  view.half_range_x = f(t.half_x), view.half_range_y = f(t.half_y);
+  view.per_rad_x = single(t.columns / (2 * t.half_x)), view.per_rad_y = single(t.rows / (2 * t.half_y));
+  view.half_range_x = single(t.half_x), view.half_range_y = single(t.half_y);
 }
 
 /// Samples in any unit, as shares of the largest: however large or small they are, their integral is of the size of their solid angle.
@@ -57,7 +56,7 @@ void freeze_measured(const Pattern& p, double power, FrozenLight& out) {
   for (double& sample : t.samples) sample /= largest;
   const double integral = table_integral(t.samples, t.columns, t.rows, t.half_x, t.half_y);
   if (!(integral > 0))
-    throw Error(ErrorKind::bad_input, "error: a light's pattern is dark\n  got samples above 0 only where the angle to the axis is beyond 180 deg");
+    refuse("a light's pattern is dark\n  got samples above 0 only where the angle to the axis is beyond 180 deg");
   freeze_table(t, power / integral, out);
 }
 
@@ -67,22 +66,22 @@ void freeze_pattern(const Pattern& p, double power, FrozenLight& out) {
   switch (p.kind) {
     case Pattern::Kind::cone:
       view.kind = PatternView::cone;
-      view.cos_half_angle = f(setup::cos(p.half_angle_rad));
-      view.peak = f(power / (2 * pi * (1 - setup::cos(p.half_angle_rad))));
+      view.cos_half_angle = single(setup::cos(p.half_angle_rad));
+      view.peak = single(power / (2 * pi * (1 - setup::cos(p.half_angle_rad))));
       break;
     case Pattern::Kind::lambertian:
     case Pattern::Kind::cosine_lobe:
       view.kind = PatternView::cosine_lobe;
-      view.exponent = p.kind == Pattern::Kind::lambertian ? 1.0f : f(p.exponent);
-      view.peak = f(power * (static_cast<double>(view.exponent) + 1) / (2 * pi));
+      view.exponent = p.kind == Pattern::Kind::lambertian ? 1.0f : single(p.exponent);
+      view.peak = single(power * (static_cast<double>(view.exponent) + 1) / (2 * pi));
       break;
     case Pattern::Kind::flat_top: {
       const Table t = flat_top(p);
       const double peak = power / flat_top_integral(p.width_rad, p.height_rad, t.half_x, t.half_y);
       freeze_table(t, peak, out);      // the paper's printed formula reads the table; all else takes the formula
       view.kind = PatternView::flat_top;
-      view.peak = f(peak);
-      view.per_half_width = f(2 / p.width_rad), view.per_half_height = f(2 / p.height_rad);
+      view.peak = single(peak);
+      view.per_half_width = single(2 / p.width_rad), view.per_half_height = single(2 / p.height_rad);
       break;
     }
     case Pattern::Kind::table: freeze_measured(p, power, out); break;
@@ -96,11 +95,11 @@ FrozenLight freeze_light(const Illumination& light, double quantum_efficiency) {
   const Mat3 rows = source_axes(light.axis);
   const Vec3& axis = rows[2];
   for (std::size_t i = 0; i < 3; ++i) {
-    out.view.position[i] = f(light.position[i]);
-    for (std::size_t k = 0; k < 3; ++k) out.view.rotation[i][k] = f(rows[i][k]);
+    out.view.position[i] = single(light.position[i]);
+    for (std::size_t k = 0; k < 3; ++k) out.view.rotation[i][k] = single(rows[i][k]);
   }
   out.view.turned = !(axis[0] == 0 && axis[1] == 0 && axis[2] > 0);
-  out.view.electrons_per_joule = f(light.illumination_wavelength_m * quantum_efficiency / photon_energy_length);
+  out.view.electrons_per_joule = single(light.illumination_wavelength_m * quantum_efficiency / photon_energy_length);
   freeze_pattern(light.pattern, light.power_w, out);
   return out;
 }

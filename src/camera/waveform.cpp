@@ -7,6 +7,7 @@
 
 #include "base/constants.h"
 #include "base/curve.h"
+#include "base/faults.h"
 #include "num/setup_math.h"
 #include "tofray/error.h"
 
@@ -16,8 +17,6 @@ namespace {
 
 namespace setup = num::setup;
 using base::pi;
-
-void refuse(const std::string& message) { throw Error(ErrorKind::bad_input, "error: " + message); }
 
 double sinc(double x) { return x == 0 ? 1.0 : setup::sin(pi * x) / (pi * x); }
 

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "base/constants.h"
+#include "base/faults.h"
 #include "num/setup_math.h"
 #include "tofray/error.h"
 
@@ -16,8 +17,6 @@ namespace {
 
 namespace setup = num::setup;
 using base::two_pi;
-
-void refuse(const std::string& message) { throw Error(ErrorKind::bad_input, "error: " + message); }
 
 std::complex<double> unit(double angle_rad) { return {setup::cos(angle_rad), setup::sin(angle_rad)}; }
 

@@ -10,7 +10,7 @@ namespace {
 
 using Kind = Form::Kind;
 
-std::string code(const std::string& text) { return "`" + text + "`"; }
+std::string as_code(const std::string& text) { return "`" + text + "`"; }
 
 std::string range(const Form& form) {
   return base::quantity_text(form.low, form.example) + " to " + base::quantity_text(form.high, form.example);
@@ -20,12 +20,12 @@ std::string range(const Form& form) {
 std::string value_text(const Form& form) {
   switch (form.kind) {
     case Kind::number:
-    case Kind::integer: return code(form.example) + ", " + range(form);
+    case Kind::integer: return as_code(form.example) + ", " + range(form);
     case Kind::boolean: return "`true` or `false`";
-    case Kind::text: return form.what + " such as " + code(form.example);
+    case Kind::text: return form.what + " such as " + as_code(form.example);
     case Kind::choice: {
       std::vector<std::string> names;
-      for (const auto& name : form.names) names.push_back(code(name));
+      for (const auto& name : form.names) names.push_back(as_code(name));
       return base::listed(names);
     }
     case Kind::list: {

@@ -41,6 +41,7 @@ using Mask = typename Traits<F>::Mask;
 template <class F>
 constexpr int lanes = Traits<F>::lanes;
 
+TOFRAY_FN float single(double a) { return static_cast<float>(a); }
 /// a·b + c, rounded once.
 TOFRAY_FN float fma(float a, float b, float c) {
 #if defined(__CUDA_ARCH__)

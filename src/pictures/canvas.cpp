@@ -15,13 +15,6 @@
 namespace tofray::pictures {
 namespace {
 
-struct SurfaceDestroy {
-  void operator()(cairo_surface_t* surface) const { cairo_surface_destroy(surface); }
-};
-struct ContextDestroy {
-  void operator()(cairo_t* context) const { cairo_destroy(context); }
-};
-
 void check(cairo_t* context) {
   if (const cairo_status_t status = cairo_status(context); status != CAIRO_STATUS_SUCCESS)
     throw Error(ErrorKind::limit, std::string("error: a picture could not be drawn: ") + cairo_status_to_string(status));
@@ -72,8 +65,12 @@ class Canvas::Mask {
  private:
   static int inside(double at, int most) { return static_cast<int>(std::clamp(at, 0.0, static_cast<double>(most))); }
 
-  std::unique_ptr<cairo_surface_t, SurfaceDestroy> surface_;
-  std::unique_ptr<cairo_t, ContextDestroy> context_;
+  struct Destroy {
+    void operator()(cairo_surface_t* surface) const { cairo_surface_destroy(surface); }
+    void operator()(cairo_t* context) const { cairo_destroy(context); }
+  };
+  std::unique_ptr<cairo_surface_t, Destroy> surface_;
+  std::unique_ptr<cairo_t, Destroy> context_;
 };
 
 Canvas::Canvas(int width, int height, Rgb background) : width_(width), height_(height) {

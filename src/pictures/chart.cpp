@@ -16,8 +16,8 @@ namespace tofray::pictures {
 
 namespace {
 
-constexpr int width = 900, height = 540;
-constexpr double left = 84, right = 650, bottom = 486;  // of the plotting area [px]
+constexpr int chart_width = 900, chart_height = 540;
+constexpr double left_edge = 84, right_edge = 650, bottom_edge = 486;  // of the plotting area [px]
 constexpr Rgb grid{46, 48, 54};
 
 /// Where values stand on the y axis, and its labelled places.
@@ -98,28 +98,28 @@ class Drawing {
  private:
   [[nodiscard]] double x_of(double x) const {
     const double low = chart_.x_ticks.front(), high = chart_.x_ticks.back();
-    return high > low ? left + (x - low) / (high - low) * (right - left) : 0.5 * (left + right);
+    return high > low ? left_edge + (x - low) / (high - low) * (right_edge - left_edge) : 0.5 * (left_edge + right_edge);
   }
-  [[nodiscard]] double y_of(double y) const { return bottom - axis_.place(y) * (bottom - top_); }
+  [[nodiscard]] double y_of(double y) const { return bottom_edge - axis_.place(y) * (bottom_edge - top_); }
 
   void draw_axes() {
     for (std::size_t i = 0; i < axis_.ticks.size(); ++i) {
       const double y = y_of(axis_.ticks[i]);
-      painter_.curve({{left, y}, {right, y}}, 1, grid, false);
-      painter_.text({left - 10, y + 0.5 * figure::label_size}, figure::label_size, figure::ink, Align::right, axis_.labels[i]);
+      painter_.curve({{left_edge, y}, {right_edge, y}}, 1, grid, false);
+      painter_.text({left_edge - 10, y + 0.5 * figure::label_size}, figure::label_size, figure::ink, Align::right, axis_.labels[i]);
     }
     double last = -1e9;
     for (const double tick : chart_.x_ticks) {
       const double x = x_of(tick);
-      painter_.curve({{x, bottom}, {x, bottom + 5}}, 1, figure::faint_ink, false);
+      painter_.curve({{x, bottom_edge}, {x, bottom_edge + 5}}, 1, figure::faint_ink, false);
       const std::string label = fmt::format("{:g}", tick);
       const double half = 0.5 * Canvas::text_width(figure::label_size, label);
       if (x - half < last + 6) continue;  // labels must not run into each other
-      painter_.text({x, bottom + 20}, figure::label_size, figure::ink, Align::middle, label);
+      painter_.text({x, bottom_edge + 20}, figure::label_size, figure::ink, Align::middle, label);
       last = x + half;
     }
-    painter_.curve({{left, top_}, {left, bottom}, {right, bottom}}, 1, figure::faint_ink, false);
-    painter_.text({0.5 * (left + right), bottom + 42}, figure::label_size, figure::ink, Align::middle, chart_.x_label);
+    painter_.curve({{left_edge, top_}, {left_edge, bottom_edge}, {right_edge, bottom_edge}}, 1, figure::faint_ink, false);
+    painter_.text({0.5 * (left_edge + right_edge), bottom_edge + 42}, figure::label_size, figure::ink, Align::middle, chart_.x_label);
     painter_.text({figure::margin, top_ - 16}, figure::label_size, figure::ink, Align::left, chart_.y_label);
   }
 
@@ -146,7 +146,7 @@ class Drawing {
   }
 
   void draw_legend(const Curve& curve, double row) {
-    const double x = right + 24, y = top_ + 6 + 22 * row;
+    const double x = right_edge + 24, y = top_ + 6 + 22 * row;
     painter_.curve({{x, y}, {x + 30, y}}, 2.4, curve.color, curve.dashed);
     painter_.text({x + 40, y + 0.5 * figure::label_size}, figure::label_size, figure::ink, Align::left, curve.name);
   }
@@ -166,13 +166,13 @@ Rgb curve_color(std::size_t number) {
 }
 
 std::string chart_png(const Chart& chart) {
-  CanvasPainter painter(width, height, figure::background);
+  CanvasPainter painter(chart_width, chart_height, figure::background);
   Drawing(chart, painter).draw();
-  return png_rgb8(width, height, painter.canvas().pixels());
+  return png_rgb8(chart_width, chart_height, painter.canvas().pixels());
 }
 
 std::string chart_svg(const Chart& chart) {
-  SvgPainter painter(width, height, figure::background);
+  SvgPainter painter(chart_width, chart_height, figure::background);
   Drawing(chart, painter).draw();
   return painter.finished();
 }

@@ -11,6 +11,7 @@
 
 #include "base/constants.h"
 #include "base/curve.h"
+#include "base/faults.h"
 #include "tofray/error.h"
 
 namespace tofray::scene {
@@ -23,14 +24,12 @@ using base::Spectrum;
 constexpr double first_wavelength_m = 280e-9, last_wavelength_m = 4000e-9;   // range of `equal_energy`
 constexpr double watt_per_m2_nm = 1e9;                                       // in W m⁻³
 
-void refuse(const std::string& message) { throw Error(ErrorKind::bad_input, "error: " + message); }
-
 /// The filter as a function of wavelength, and the band outside which it passes nothing.
 class Transmission {
  public:
   explicit Transmission(const Filter& filter) {
     if (filter.table.y.empty()) {
-      if (!(filter.half_width_m > 0 && filter.center_m > 0)) refuse("a filter's centre and half width must be above zero");
+      if (!(filter.half_width_m > 0 && filter.center_m > 0)) base::refuse("a filter's centre and half width must be above zero");
       from_ = filter.center_m - filter.half_width_m;
       to_ = filter.center_m + filter.half_width_m;
       curve_.emplace(Curve{{filter.center_m}, {filter.peak}}, "the filter");
@@ -74,13 +73,13 @@ Spectrum tabulated(const Ambient& ambient) {
 
 double scale(const Ambient& ambient, const Spectrum& spectrum, const Filter& filter) {
   if (!(ambient.amount >= 0) || std::isinf(ambient.amount))
-    refuse("the amount of ambient light must be a number that is not below zero\n  got " + std::to_string(ambient.amount));
+    base::refuse("the amount of ambient light must be a number that is not below zero\n  got " + std::to_string(ambient.amount));
   if (ambient.amount == 0 || ambient.spectrum == Ambient::Spectrum::none) return 0.0;
   if (ambient.quantity == Ambient::Quantity::level) return ambient.amount;
   const bool photometric = ambient.quantity == Ambient::Quantity::illuminance_lx;
   const double unscaled = photometric ? base::illuminance_lx(spectrum) : Transmission(filter).integrate(spectrum);
   if (!(unscaled > 0))
-    refuse(photometric ? "ambient light without any visible part cannot have an illuminance\n  give its level or band irradiance"
+    base::refuse(photometric ? "ambient light without any visible part cannot have an illuminance\n  give its level or band irradiance"
                        : "the filter passes nothing of the ambient light, which cannot have a band irradiance then\n  give its level");
   return ambient.amount / unscaled;
 }

@@ -18,11 +18,11 @@ using flow::Ray;
 using flow::Surface;
 using num::Int;
 using num::Mask;
+using num::single;
 
 /// Stands for an infinite inverse length: d·huge is finite for every direction, and 0·huge is 0.
 TOFRAY_CONSTANT double huge = 1e30;
 
-TOFRAY_FN float single(double a) { return static_cast<float>(a); }
 TOFRAY_FN void copy(const Vec& from, float to[3]) { to[0] = single(from.x), to[1] = single(from.y), to[2] = single(from.z); }
 TOFRAY_FN double inverse(double a) { return ::fabs(a) < 1 / huge ? ::copysign(huge, a) : 1 / a; }
 
