@@ -8,11 +8,14 @@
 #include "tofray/error.h"
 
 namespace tofray::files {
-namespace {
 
-[[noreturn]] void refuse(const std::string& where, const std::string& what) {
+void refuse(const std::string& where, const std::string& what) {
   throw Error(ErrorKind::bad_input, fmt::format("{}: error: {}", where, what));
 }
+
+namespace {
+
+namespace {
 
 /// The header's dictionary, a literal of Python: {'descr': '<f4', 'fortran_order': False, 'shape': (3, 4), }.
 class DictionaryReader {

@@ -23,6 +23,9 @@ struct NpyHeader {
 /// (limit) beyond the limits of data_limits.h
 NpyHeader parse_npy_header(std::string_view file, const std::string& where);
 
+/// What a file holds cannot be taken. @throws Error (bad_input) "where: error: what"
+[[noreturn]] void refuse(const std::string& where, const std::string& what);
+
 /// Text for a message: control characters and bytes beyond ASCII as \xNN, at most 80 characters.
 std::string printable(std::string_view text);
 

@@ -32,10 +32,6 @@ using Source = std::unique_ptr<zip_source_t, SourceFree>;
 using Archive = std::unique_ptr<zip_t, ArchiveDiscard>;
 using EntryFile = std::unique_ptr<zip_file_t, FileClose>;
 
-[[noreturn]] void refuse(const std::string& where, const std::string& what) {
-  throw Error(ErrorKind::bad_input, fmt::format("{}: error: {}", where, what));
-}
-
 /// What the directory of the zip says about one entry, checked before anything is unpacked.
 struct Entry {
   zip_uint64_t index = 0;

@@ -19,34 +19,34 @@ using load::camera_from_text;
 
 namespace {
 
-using Tree = nlohmann::json;   // sorted: it finds its keys in logarithmic time, whoever wrote how many
+using SortedTree = nlohmann::json;   // sorted: it finds its keys in logarithmic time, whoever wrote how many
 using model::Form;
 using model::Row;
 using model::Table;
 
-const Tree nothing;
+const SortedTree nothing;
 
-const Tree& member(const Tree& from, const std::string& name) {
+const SortedTree& member(const SortedTree& from, const std::string& name) {
   if (!from.is_object()) return nothing;
   const auto found = from.find(name);
   return found == from.end() ? nothing : *found;
 }
 
 /// A number with its SI unit, as people write it; a list of such; what is no number as it is, for the reader to complain.
-Tree quantity(const Tree& value, const Form& form) {
+SortedTree quantity(const SortedTree& value, const Form& form) {
   if (value.is_array()) {
-    Tree list = Tree::array();
-    for (const Tree& one : value) list.push_back(quantity(one, form));
+    SortedTree list = SortedTree::array();
+    for (const SortedTree& one : value) list.push_back(quantity(one, form));
     return list;
   }
   const std::string unit = base::si_unit(form.dimension);
-  return value.is_number() && !unit.empty() ? Tree(base::number_text(value.get<double>()) + " " + unit) : value;
+  return value.is_number() && !unit.empty() ? SortedTree(base::number_text(value.get<double>()) + " " + unit) : value;
 }
 
 const Form& number_form(const Form& form) { return form.forms.empty() ? form : number_form(form.forms[0]); }
 
 /// Whether a member that may be missing in files is at a value that no file can say.
-bool left_out(const Row& row, const Tree& value) {
+bool left_out(const Row& row, const SortedTree& value) {
   if (row.presence != model::Presence::absent || !value.is_number()) return false;
   const Form& form = number_form(row.form);
   return !(value.get<double>() >= form.low && value.get<double>() <= form.high);
@@ -55,11 +55,11 @@ bool left_out(const Row& row, const Tree& value) {
 /// From what `meta` says of a struct to what a file says of it.
 class Writer {
  public:
-  Writer(const Tree& meta, const Table& table) : meta_(meta), table_(table) {}
+  Writer(const SortedTree& meta, const Table& table) : meta_(meta), table_(table) {}
 
-  Tree file() {
+  SortedTree file() {
     for (const Row& row : table_.rows) {
-      const Tree& value = member(meta_, row.name());
+      const SortedTree& value = member(meta_, row.name());
       if (value.is_null() || !applies(row) || left_out(row, value)) continue;
       if (!row.key.empty())
         out_[pointer(row.key)] = written(row, value);
@@ -71,29 +71,29 @@ class Writer {
 
  private:
   /// "patterns.prnu" as a place in JSON.
-  static Tree::json_pointer pointer(std::string key) {
+  static SortedTree::json_pointer pointer(std::string key) {
     for (char& c : key)
       if (c == '.') c = '/';
-    return Tree::json_pointer("/" + key);
+    return SortedTree::json_pointer("/" + key);
   }
 
   [[nodiscard]] bool applies(const Row& row) const {
     if (row.tag == nullptr) return true;
     const void* tag = model::address(row.tag(const_cast<void*>(table_.fresh)));
     const Row* kind = model::Complaints::row_of(table_, table_.fresh, tag);
-    const Tree& said = member(meta_, kind->name());
+    const SortedTree& said = member(meta_, kind->name());
     const auto is = [&](int index) {
       return said.is_boolean() ? said == (index != 0) : said == kind->form.names[static_cast<std::size_t>(index)];
     };
     return std::any_of(row.kinds.begin(), row.kinds.end(), is);
   }
 
-  [[nodiscard]] Tree written(const Row& row, const Tree& value) const {
+  [[nodiscard]] SortedTree written(const Row& row, const SortedTree& value) const {
     const model::Slot slot = slot_of(row, table_.fresh);
     if (const auto* record = std::get_if<model::RecordSlot>(&slot)) return Writer(value, record->table()).file();
     if (const auto* records = std::get_if<model::ListSlot>(&slot)) {
-      Tree list = Tree::array();
-      for (const Tree& one : value) list.push_back(Writer(one, records->table()).file());
+      SortedTree list = SortedTree::array();
+      for (const SortedTree& one : value) list.push_back(Writer(one, records->table()).file());
       return list;
     }
     if (std::holds_alternative<model::CurveSlot>(slot)) return curve(row, value);
@@ -102,42 +102,42 @@ class Writer {
   }
 
   /// One sample is a constant.
-  static Tree curve(const Row& row, const Tree& value) {
-    const Tree &x = member(value, "x"), &y = member(value, "y");
+  static SortedTree curve(const Row& row, const SortedTree& value) {
+    const SortedTree &x = member(value, "x"), &y = member(value, "y");
     if (row.form.kind == Form::Kind::either && y.is_array() && y.size() == 1) return y[0];
     return {{row.x_key, quantity(x, row.x)}, {row.y_key, quantity(y, row.y)}};
   }
 
-  [[nodiscard]] Tree grid(const Tree& samples) const {
-    const Tree& columns = member(meta_, "columns");
-    Tree rows = Tree::array();
+  [[nodiscard]] SortedTree grid(const SortedTree& samples) const {
+    const SortedTree& columns = member(meta_, "columns");
+    SortedTree rows = SortedTree::array();
     if (!samples.is_array() || !columns.is_number_unsigned() || columns == 0U) return rows;
     for (std::size_t i = 0; i < samples.size(); ++i) {
-      if (i % columns.get<std::size_t>() == 0) rows.push_back(Tree::array());
+      if (i % columns.get<std::size_t>() == 0) rows.push_back(SortedTree::array());
       rows.back().push_back(samples[i]);
     }
     return rows;
   }
 
-  const Tree& meta_;
+  const SortedTree& meta_;
   const Table& table_;
-  Tree out_ = Tree::object();
+  SortedTree out_ = SortedTree::object();
 };
 
 /// The camera that `meta` tells of, as a profile with one mode.
-std::string profile_text(const Tree& camera) {
-  Tree profile = Writer(camera, model::table_of<Camera>()).file();
-  const Tree& mode = member(camera, "mode");
-  const Tree& name = member(mode, "name");
+std::string profile_text(const SortedTree& camera) {
+  SortedTree profile = Writer(camera, model::table_of<Camera>()).file();
+  const SortedTree& mode = member(camera, "mode");
+  const SortedTree& name = member(mode, "name");
   profile["modes"][name.is_string() && name != "" ? name.get<std::string>() : "mode"] = Writer(mode, model::table_of<Mode>()).file();
-  return profile.dump(-1, ' ', false, Tree::error_handler_t::replace);
+  return profile.dump(-1, ' ', false, SortedTree::error_handler_t::replace);
 }
 
 }  // namespace
 
 Camera camera_of_meta(const std::string& meta, const std::string& where, const Settings& settings) {
-  const Tree document = Tree::parse(json_text(parse_json(meta, where + ": meta")));
-  const Tree& camera = member(document, "camera");
+  const SortedTree document = SortedTree::parse(json_text(parse_json(meta, where + ": meta")));
+  const SortedTree& camera = member(document, "camera");
   if (!camera.is_object())
     throw Error(ErrorKind::bad_input, where + ": error: meta does not say which camera made it\n  name its profile with --camera");
   CameraOptions options;

@@ -9,6 +9,7 @@
 #include "commands.h"
 #include "experiment.h"
 #include "files/json.h"
+#include "rows.h"
 #include "support/stand_in_cuda.h"
 #include "tool.h"
 
@@ -16,12 +17,6 @@ namespace tofray::test {
 namespace {
 
 using namespace tofray::app;
-
-double number(const files::Json& row, const char* key) {
-  double value = std::nan("");
-  row.find(key)->number(value);
-  return value;
-}
 
 /// What `tofray bench card …` would read, on a small sensor.
 Options on_stand_in(const fs::path& folder) {

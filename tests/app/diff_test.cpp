@@ -12,8 +12,6 @@
 namespace tofray::test {
 namespace {
 
-void write(const fs::path& path, const std::string& bytes) { std::ofstream(path, std::ios::binary) << bytes; }
-
 std::string file_of(const std::vector<float>& z, const std::vector<std::uint16_t>& raw) {
   return files::npz_bytes({files::npy_view("z_m", {z.size()}, z), files::npy_view("raw", {raw.size()}, raw)});
 }

@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "files/json.h"
+#include "rows.h"
 #include "tool.h"
 
 namespace tofray::test {
@@ -51,12 +52,6 @@ std::string line_with(const std::string& text, const std::string& part) {
     if (has(line, part)) return line;
   }
   return {};
-}
-
-double number(const files::Json& row, const char* key) {
-  double value = std::nan("");
-  row.find(key)->number(value);
-  return value;
 }
 
 TEST(experiment, speed_up_is_the_ratio_of_medians) {

@@ -146,11 +146,6 @@ Prepare with_address_space(const fs::path& folder, rlim_t most) {
   };
 }
 
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-constexpr bool with_sanitizers = true;
-#else
-constexpr bool with_sanitizers = false;
-#endif
 #define SKIP_WHERE_SANITIZERS_NEED_THE_ADDRESS_SPACE() \
   if (with_sanitizers) GTEST_SKIP() << "sanitizers need all the address space for themselves"
 

@@ -15,11 +15,6 @@
 namespace tofray::test {
 namespace {
 
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-constexpr bool with_sanitizers = true;
-#else
-constexpr bool with_sanitizers = false;
-#endif
 
 struct Attack : Result {
   long peak_bytes = 0;
@@ -55,8 +50,6 @@ Attack attack(const Folder& folder, const Arguments& arguments, const Prepare& m
   result.processor_seconds = seconds(usage.ru_utime) + seconds(usage.ru_stime);
   return result;
 }
-
-void write(const fs::path& path, const std::string& text) { std::ofstream(path, std::ios::binary) << text; }
 
 std::string repeated(int count, const std::function<std::string(int)>& piece) {
   std::string text;

@@ -21,6 +21,8 @@
 #include <utility>
 #include <vector>
 
+#include "support/text.h"
+
 /// Drives the real program, TOFRAY_TOOL, as a shell would.
 namespace tofray::test {
 
@@ -62,6 +64,8 @@ inline std::string content(const fs::path& path) {
   text << file.rdbuf();
   return text.str();
 }
+
+inline void write(const fs::path& path, const std::string& bytes) { std::ofstream(path, std::ios::binary) << bytes; }
 
 /// Starts the program; stdout and stderr go to files of these names.
 inline pid_t start(const Arguments& arguments, const fs::path& out, const fs::path& err, const Prepare& prepare = {}) {
@@ -139,7 +143,5 @@ inline std::map<std::string, std::string> files_of(const fs::path& folder) {
   }
   return files;
 }
-
-inline bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
 }  // namespace tofray::test

@@ -28,16 +28,6 @@ class Gpu : public testing::Test {
 class GpuScene : public Gpu, public testing::WithParamInterface<std::string> {};
 class GpuBlockSize : public Gpu, public testing::WithParamInterface<int> {};
 
-void expect_same(const Scene& scene, const Camera& camera, SimulatorOptions options) {
-  options.backend = Backend::cpu;
-  Simulator cpu(scene, camera, options);
-  options.backend = Backend::cuda;
-  Simulator cuda(scene, camera, options);
-  for (const std::uint64_t index : {0ull, 1ull, (3ull << 32) + 1}) {
-    EXPECT_EQ(first_difference(cpu.frame(index), cuda.frame(index)), "") << scene.name << ", frame " << index;
-  }
-}
-
 /// Arrays in the GPU's memory, one by one, in host memory.
 FrameArrays fetched(const FrameArrays& there, std::vector<std::vector<unsigned char>>& memory) {
   backend::gpu::Device device(there.device);

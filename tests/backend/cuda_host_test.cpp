@@ -15,15 +15,6 @@ using namespace tofray::test;
 
 namespace {
 
-/// Frames 0, 1 and 5 on both backends.
-void expect_same(const Scene& scene, const Camera& camera, const SimulatorOptions& options) {
-  Simulator cpu(scene, camera, on(Backend::cpu, options)), cuda(scene, camera, on(Backend::cuda, options));
-  ASSERT_EQ(cuda.ran_on().backend, "cuda");
-  for (const std::uint64_t index : {0ull, 1ull, 5ull, (3ull << 32) + 1}) {
-    EXPECT_EQ(first_difference(cpu.frame(index), cuda.frame(index)), "") << scene.name << ", frame " << index;
-  }
-}
-
 class EveryScene : public testing::TestWithParam<std::string> {};
 
 }  // namespace

@@ -9,15 +9,15 @@
 #include <limits>
 #include <string>
 
+#include "support/statistics.h"
 #include "tofray/error.h"
 
 using tofray::Pixel;
 using tofray::Waveform;
 using tofray::camera::correlation_harmonics;
+using tofray::test::pi;
 
 namespace {
-
-const double pi = std::acos(-1.0);
 
 Pixel ideal_pixel() {
   Pixel pixel;

@@ -9,15 +9,15 @@
 #include <string>
 #include <vector>
 
+#include "support/statistics.h"
 #include "tofray/error.h"
 
 using tofray::camera::Harmonic;
 using tofray::camera::PhaseResponse;
 using tofray::camera::wiggling_correction;
+using tofray::test::pi;
 
 namespace {
-
-const double pi = std::acos(-1.0);
 
 std::vector<double> equal_phases(int n, double first = 0) {
   std::vector<double> tau;

@@ -12,14 +12,15 @@
 #include "base/limits.h"
 #include "load/builtin.h"
 #include "load/load.h"
+#include "support/text.h"
 #include "tofray/tofray.h"
 
 namespace {
 
 using namespace tofray;
+using test::has;
 
 std::string pico() { return std::string(load::find_builtin(load::builtin_profiles(), "pico-flexx")->text); }
-bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
 Camera with(const std::vector<std::pair<std::string, std::string>>& set) {
   CameraOptions options;

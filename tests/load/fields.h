@@ -11,7 +11,7 @@
 #include "yaml/tree.h"
 
 /// Documents and fields out of the readers' own tables, so that a new key is tested the day it is added.
-namespace tofray::load::test {
+namespace tofray::test {
 
 using model::FileForm;
 using model::Form;
@@ -172,4 +172,4 @@ void for_each_field(const FileForm& file, const Check& check) {
   }
 }
 
-}  // namespace tofray::load::test
+}  // namespace tofray::test

@@ -15,7 +15,7 @@ namespace {
 using namespace tofray;
 using model::Form;
 using yaml::Node;
-using load::test::Field;
+using test::Field;
 
 void load(const std::string& kind, const std::string& text) {
   if (kind == "scene") {
@@ -42,8 +42,8 @@ class every_field : public testing::TestWithParam<const char*> {
 };
 
 TEST_P(every_field, documents_made_from_the_tables_load) {
-  for (std::size_t v = 0; v < load::test::sample_variants; ++v) {
-    const std::string text = yaml::flow_text(load::test::sample(form().root, v));
+  for (std::size_t v = 0; v < test::sample_variants; ++v) {
+    const std::string text = yaml::flow_text(test::sample(form().root, v));
     EXPECT_NO_THROW(load(GetParam(), text)) << text;
   }
 }
@@ -51,10 +51,10 @@ TEST_P(every_field, documents_made_from_the_tables_load) {
 TEST_P(every_field, refuses_six_wrong_types_and_names_the_field) {
   int cases = 0;
   std::set<std::string> names;
-  load::test::for_each_field(form(), [&](const Node& document, const Field& field) {
+  test::for_each_field(form(), [&](const Node& document, const Field& field) {
     names.insert(field.name);
     for (const auto& value : wrong_values(*field.form)) {
-      const std::string text = load::test::with(document, field, value);
+      const std::string text = test::with(document, field, value);
       ++cases;
       try {
         load(GetParam(), text);
@@ -75,9 +75,9 @@ TEST_P(every_field, refuses_six_wrong_types_and_names_the_field) {
 }
 
 TEST_P(every_field, takes_no_unknown_neighbour_and_suggests_the_key) {
-  const Node document = load::test::sample(form().root, 0);
+  const Node document = test::sample(form().root, 0);
   int suggested = 0;
-  for (const Field& field : load::test::fields(form(), document)) {
+  for (const Field& field : test::fields(form(), document)) {
     Node changed = document;
     Node* parent = &changed;
     for (std::size_t i = 0; i + 1 < field.steps.size(); ++i) parent = &parent->items[field.steps[i]];
@@ -103,13 +103,13 @@ TEST_P(every_field, numbers_are_refused_or_stay_finite) {
   const std::vector<std::string> values = {
       ".nan", ".inf", "-1", "0", "1e308", "1e-308", "-0", "-1e308", "99999999999999999999", "9223372036854775808", "4294967296", "1e-400"};
   int cases = 0, refused = 0;
-  load::test::for_each_field(form(), [&](const Node& document, const Field& field) {
+  test::for_each_field(form(), [&](const Node& document, const Field& field) {
     if (field.form->kind != Form::Kind::number && field.form->kind != Form::Kind::integer) return;
     const std::string unit = base::parse_quantity(field.form->example, field.form->dimension).unit;
     for (const auto& value : values) {
       ++cases;
       try {
-        load(GetParam(), load::test::with(document, field, value + (unit.empty() ? "" : " " + unit)));
+        load(GetParam(), test::with(document, field, value + (unit.empty() ? "" : " " + unit)));
       } catch (const Error& e) {
         ++refused;
         EXPECT_TRUE(e.kind() == ErrorKind::bad_input || e.kind() == ErrorKind::limit) << e.what();

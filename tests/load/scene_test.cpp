@@ -13,12 +13,14 @@
 #include "load/fields_finite.h"
 #include "load/load.h"
 #include "load/provenance.h"
+#include "support/text.h"
 #include "tofray/tofray.h"
 #include "yaml/tree.h"
 
 namespace {
 
 using namespace tofray;
+using test::has;
 namespace fs = std::filesystem;
 
 std::string refusal(const std::string& text, const load::Settings& settings = {}) {
@@ -30,7 +32,6 @@ std::string refusal(const std::string& text, const load::Settings& settings = {}
   return {};
 }
 
-bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
 const std::string one_of_each = R"(
 camera: {profile: pico-flexx, mode: MODE_9_5FPS_2000, pose: {position: [0, 0, 0], look_at: [0, 0, 1]}}

@@ -80,8 +80,8 @@ TEST_P(schema, accepts_all_that_the_reader_accepts) {
   Documents documents;
   for (const auto& builtin : std::string(GetParam()) == "scene" ? load::builtin_scenes() : load::builtin_profiles())
     documents.add(builtin.name, yaml::parse_tree(builtin.text, builtin.name));
-  for (std::size_t v = 0; v < load::test::sample_variants; ++v)
-    documents.add("sample " + std::to_string(v), load::test::sample(form().root, v));
+  for (std::size_t v = 0; v < test::sample_variants; ++v)
+    documents.add("sample " + std::to_string(v), test::sample(form().root, v));
   const auto lines = verdicts(GetParam(), documents);
   if (lines.empty() && !testing::Test::HasFailure())
     GTEST_SKIP() << "needs /usr/bin/python3 with the package jsonschema (python3-jsonschema)";
@@ -91,12 +91,12 @@ TEST_P(schema, accepts_all_that_the_reader_accepts) {
 
 TEST_P(schema, refuses_wrong_types_of_every_field) {
   Documents documents;
-  load::test::for_each_field(form(), [&](const Node& document, const load::test::Field& field) {
+  test::for_each_field(form(), [&](const Node& document, const test::Field& field) {
     for (const char* wrong : {"[[[]]]", "{zebra: 1}", "null"}) {
       Node changed = document;
       Node* here = &changed;
       for (const std::size_t step : field.steps) here = &here->items[step];
-      *here = load::test::scalar(wrong);
+      *here = test::scalar(wrong);
       documents.add(field.name + " " + wrong, changed);
     }
   });

@@ -29,7 +29,7 @@ void sweep(double low, double high, Check check) {
 double wide(float a) { return static_cast<double>(a); }
 
 /// Distance in units in the last place of the exact value.
-double ulps(float got, double exact) {
+double error_in_ulps(float got, double exact) {
   int exponent;
   std::frexp(exact, &exponent);
   return std::abs(wide(got) - exact) / std::ldexp(1.0, std::max(exponent, -125) - 24);
@@ -64,7 +64,7 @@ TEST(sincos_turns, keeps_the_last_places_of_a_small_sine) {
   sweep(1e-30, 0.01, [](float t) {
     float s, c;
     num::sincos_turns(t, s, c);
-    ASSERT_LT(ulps(s, std::sin(two_pi * wide(t))), 2) << t;
+    ASSERT_LT(error_in_ulps(s, std::sin(two_pi * wide(t))), 2) << t;
   });
 }
 
@@ -122,7 +122,7 @@ TEST(log, is_within_two_ulps_and_3e_8) {
 
 TEST(exp2, is_within_two_ulps_and_cuts_off_where_it_says) {
   double worst = 0;
-  sweep(-126, 127, [&](float a) { worst = std::max(worst, ulps(num::exp2(a), std::exp2(wide(a)))); });
+  sweep(-126, 127, [&](float a) { worst = std::max(worst, error_in_ulps(num::exp2(a), std::exp2(wide(a)))); });
   EXPECT_LT(worst, 2);
   for (int k = -126; k <= 127; ++k) EXPECT_EQ(num::exp2(static_cast<float>(k)), std::ldexp(1.0f, k)) << k;
   EXPECT_EQ(num::exp2(std::nextafter(-126.0f, -200.0f)), 0.0f);

@@ -8,14 +8,14 @@
 #include "base/vec.h"
 #include "brdf/list.h"
 #include "support/random.h"
+#include "support/statistics.h"
 
 using namespace tofray;
 using namespace tofray::base;
+using tofray::test::pi;
 using tofray::test::Random;
 
 namespace {
-
-const double pi = std::acos(-1.0);
 
 double f_r(double rho, double sigma, const Vec3& to_light, const Vec3& to_camera) {
   Material material{"rough", Material::Brdf::oren_nayar, rho, 0, 1, sigma};

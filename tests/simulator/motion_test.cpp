@@ -17,7 +17,7 @@ namespace {
 constexpr double f = 60.24e6, exposure = 600e-6, readout = 3.5e-3, grey = 200e-6;
 
 /// The profile's five-phase mode with a sine, an undistorted lens and the light at the pupil.
-Camera camera() {
+Camera sine_camera() {
   CameraOptions options;
   options.mode = "MODE_5_35FPS_600";
   Camera camera = load_camera("pico-flexx", options);
@@ -54,7 +54,7 @@ void compare(const Object& object, const Surface& surface, int least) {
   Scene scene;
   scene.materials.push_back({"", Material::Brdf::lambert, 0.5});
   scene.objects.push_back(object);
-  Simulator simulator(scene, camera(), {.noise = Noise::off});
+  Simulator simulator(scene, sine_camera(), {.noise = Noise::off});
   double worst = 0, largest_bias = 0;
   int compared = 0;
   for (const std::uint64_t n : {0u, 7u}) {
@@ -128,7 +128,7 @@ TEST(motion, raises_the_warning_of_inconsistent_phases) {
   scene.objects.push_back({"wall", Plane{{0, 0, 0.7}, {0, 0, -1}}, 0, {0, 0, 0}, {}, {0, 0, -15}});
   for (const bool moving : {true, false}) {
     if (!moving) scene.objects[0].velocity_m_per_s = {0, 0, 0};
-    const Frame frame = Simulator(scene, camera()).frame(0);
+    const Frame frame = Simulator(scene, sine_camera()).frame(0);
     int warned = 0;
     for (const std::uint16_t flags : frame.depth.flags) warned += (flags & flag_inconsistent_phases) != 0;
     if (moving) {
@@ -147,7 +147,7 @@ TEST(motion, of_a_raw_frame_is_a_still_scene_at_its_time_shadows_included) {
     moving.objects.push_back({"wall", Plane{{0, 0, 1.2}, {0, 0, -1}}, 0, {0, 0, 0}, {}, {0, 0, 0}});
     moving.objects.push_back({"ball", Sphere{{-0.15, 0.05, 0.8}, 0.07}, 0, {0, 0, 0}, {}, {4, 1, 0}});
     if (sun) moving.ambient = {Ambient::Spectrum::sun_am15, Ambient::Quantity::level, 0.3, {}, {}, Vec3{0.5, 0.1, 1}};
-    Camera profile = camera();
+    Camera profile = sine_camera();
     profile.illumination[0].position = {-0.12, 0, 0};
     const SimulatorOptions options{.noise = Noise::off};
     const Raw raw = Simulator(moving, profile, options).frame(0).raw;
@@ -180,13 +180,13 @@ TEST(motion, of_a_plane_beside_that_of_a_ball_is_a_still_scene_at_its_time) {
   moving.objects.push_back({"door", Plane{{0.1, 0, 1}, {-1, 0, -0.2}}, 1, {0, 0, 0}, {}, {2, 0, 0}});
   moving.objects.push_back({"ball", Sphere{{-0.15, 0.05, 0.8}, 0.1}, 2, {0, 0, 0}, {}, {-3, 1, 0}});
   const SimulatorOptions options{.noise = Noise::off};
-  const Frame frame = Simulator(moving, camera(), options).frame(1);
+  const Frame frame = Simulator(moving, sine_camera(), options).frame(1);
   Scene still = moving;
   for (Object& one : still.objects) {
     for (std::size_t k = 0; k < 3; ++k) one.position[k] = one.velocity_m_per_s[k] * frame.truth.time_s;
     one.velocity_m_per_s = {0, 0, 0};
   }
-  const Truth expected = Simulator(still, camera(), options).frame(1).truth;
+  const Truth expected = Simulator(still, sine_camera(), options).frame(1).truth;
   int off = 0, seen[3] = {};
   for (std::size_t i = 0; i < expected.z_m.size(); ++i) {
     const bool same = frame.truth.object_id[i] == expected.object_id[i];
@@ -208,7 +208,7 @@ TEST(motion, is_seen_by_a_sequence_of_a_single_raw_frame) {
   Scene scene;
   scene.materials.push_back({"", Material::Brdf::lambert, 0.5});
   scene.objects.push_back({"wall", Plane{{0, 0, 1}, {0, 0, -1}}, 0, {0, 0, 0}, {}, {0, 0, 10}});
-  Camera profile = camera();
+  Camera profile = sine_camera();
   profile.mode.sequence = {{false, 0, 0, 600e-6}};
   scene.ambient = {Ambient::Spectrum::sun_am15, Ambient::Quantity::level, 0.1, {}, {}, {}};
   const Frame frame = Simulator(scene, profile, {.noise = Noise::off}).frame(2);

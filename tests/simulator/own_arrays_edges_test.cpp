@@ -28,7 +28,7 @@ std::string message_of(Simulator& simulator, const auto& input) {
 }  // namespace
 
 TEST(own_arrays, show_nothing_where_z_says_so_and_mind_no_value_there) {
-  const Camera camera = plain_camera();
+  const Camera camera = pico();
   Simulator simulator({}, camera, {.noise = Noise::off});
   constexpr float nan = std::numeric_limits<float>::quiet_NaN(), infinite = std::numeric_limits<float>::infinity();
   Geometry seen = wall(camera, 2);
@@ -50,7 +50,7 @@ TEST(own_arrays, show_nothing_where_z_says_so_and_mind_no_value_there) {
 
 // From behind, a surface is seen as from the front.
 TEST(own_arrays, may_have_normals_on_either_side) {
-  const Camera camera = plain_camera();
+  const Camera camera = pico();
   Simulator simulator({}, camera);
   const Geometry front = wall(camera, 1.5f);
   Geometry back = front;
@@ -82,7 +82,7 @@ TEST(own_arrays, lie_along_the_pixels_rays) {
 }
 
 TEST(own_arrays, stop_after_the_stage_that_is_asked_for) {
-  const Camera camera = plain_camera();
+  const Camera camera = pico();
   const Geometry seen = wall(camera, 1.5f);
   const Frame whole = Simulator({}, camera).frame(0, seen);
   for (const Stage last : {Stage::trace, Stage::power, Stage::raw}) {
@@ -103,7 +103,7 @@ TEST(own_arrays, stop_after_the_stage_that_is_asked_for) {
 }
 
 TEST(own_arrays, that_do_not_fit_are_refused_by_name) {
-  const Camera camera = plain_camera();
+  const Camera camera = pico();
   Simulator simulator({}, camera);
   const auto geometry = [&](const auto& spoil) {
     Geometry seen = wall(camera, 2);
@@ -157,7 +157,7 @@ TEST(own_arrays, that_do_not_fit_are_refused_by_name) {
 
 // Paths of any light, as many as there are; or their sums.
 TEST(own_arrays, of_paths_and_phasors_must_fit_the_camera) {
-  const Camera camera = plain_camera();
+  const Camera camera = pico();
   Simulator simulator({}, camera);
   const auto light = [&](const auto& spoil) {
     PixelLight given = even_light(camera, 1e-12f, 2);
@@ -185,7 +185,7 @@ TEST(own_arrays, of_paths_and_phasors_must_fit_the_camera) {
 }
 
 TEST(own_arrays, leave_the_truth_out_where_it_is_not_wanted) {
-  const Camera camera = plain_camera();
+  const Camera camera = pico();
   const Geometry seen = wall(camera, 1.5f);
   const PixelLight light = even_light(camera, 2e-12f, 3);
   Simulator whole({}, camera), bare({}, camera, {.truth = false});
@@ -200,7 +200,7 @@ TEST(own_arrays, leave_the_truth_out_where_it_is_not_wanted) {
 
 // Five phases, no lit raw frame, no light at all: what a scene may meet, arrays may meet.
 TEST(own_arrays, go_with_any_sequence_and_with_no_light) {
-  Camera five = load_camera("pico-flexx", {.mode = "MODE_5_35FPS_600"}), dark = plain_camera(), blind = plain_camera();
+  Camera five = load_camera("pico-flexx", {.mode = "MODE_5_35FPS_600"}), dark = pico(), blind = pico();
   dark.mode.sequence.resize(1);
   blind.illumination.clear();
   for (const Camera& camera : {five, dark, blind}) {

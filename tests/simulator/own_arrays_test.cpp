@@ -83,7 +83,7 @@ TEST(own_arrays, have_the_same_bytes_on_every_machine) {
 
 // Each raw frame takes its own moment, and nothing of another's.
 TEST(own_arrays, of_each_raw_frame_are_taken_at_its_own_moment) {
-  const Camera camera = plain_camera();
+  const Camera camera = pico();
   const auto phases = camera.mode.sequence.size();
   for (const Noise noise : {Noise::off, Noise::fast, Noise::exact}) {
     Simulator simulator({}, camera, {.noise = noise});
@@ -103,7 +103,7 @@ TEST(own_arrays, of_each_raw_frame_are_taken_at_its_own_moment) {
 }
 
 TEST(own_arrays, of_each_raw_frame_have_all_lights_at_its_own_moment) {
-  Camera camera = plain_camera();
+  Camera camera = pico();
   camera.illumination.push_back(camera.illumination[0]);
   const auto phases = camera.mode.sequence.size();
   Simulator simulator({}, camera);
@@ -130,7 +130,7 @@ TEST(own_arrays, of_each_raw_frame_have_all_lights_at_its_own_moment) {
 
 // S = P·t·λQE/(hc), ambient electrons as they are given, and depth is half the path: by hand.
 TEST(own_arrays, of_light_become_the_electrons_of_the_closed_form) {
-  const Camera camera = plain_camera();
+  const Camera camera = pico();
   Simulator simulator({}, camera, {.noise = Noise::off});
   PixelLight light = even_light(camera, 2e-12f, 3.0f);
   light.ambient_e_per_s.assign(light.power_w.size(), 4e6f);
@@ -150,10 +150,10 @@ TEST(own_arrays, of_light_become_the_electrons_of_the_closed_form) {
 
 // Two paths of one light: two phasors of the same length have the direction of their middle, and the cosine of half their angle as length.
 TEST(own_arrays, of_several_paths_add_up_as_phasors) {
-  Camera camera = plain_camera();
+  Camera camera = pico();
   camera.decoding.inconsistent_range_m = 100;
   camera.illumination.push_back(camera.illumination[0]);
-  const Frame once = Simulator({}, plain_camera(), {.noise = Noise::off}).frame(0, even_light(plain_camera(), 2e-12f, 2.5f));
+  const Frame once = Simulator({}, pico(), {.noise = Noise::off}).frame(0, even_light(pico(), 2e-12f, 2.5f));
   PixelLight light = even_light(camera, 1e-12f, 2.3f);
   const PixelLight longer = even_light(camera, 1e-12f, 2.7f);
   light.power_w.insert(light.power_w.end(), longer.power_w.begin(), longer.power_w.end());
@@ -171,7 +171,7 @@ TEST(own_arrays, of_several_paths_add_up_as_phasors) {
 
 // … and no second light source is needed for that.
 TEST(own_arrays, of_several_paths_may_come_from_one_light) {
-  Camera camera = plain_camera(), doubled = camera;
+  Camera camera = pico(), doubled = camera;
   doubled.illumination.push_back(doubled.illumination[0]);
   PixelLight light = even_light(camera, 1e-12f, 2.3f);
   const PixelLight longer = even_light(camera, 3e-13f, 2.7f);
@@ -194,7 +194,7 @@ TEST(own_arrays, of_several_paths_may_come_from_one_light) {
 
 // Σ P·e^{imφ} of two paths, summed here in double precision, for every modulation frequency and harmonic, moment by moment.
 TEST(own_arrays, of_phasors_are_the_light_of_their_paths) {
-  Camera camera = plain_camera();
+  Camera camera = pico();
   camera.illumination.push_back(camera.illumination[0]);
   camera.illumination[1].waveform.bandwidth_hz = 150e6;
   camera.pixel.delay_s = 2e-11, camera.refractive_index = 1.0003;
@@ -236,7 +236,7 @@ TEST(own_arrays, of_phasors_are_the_light_of_their_paths) {
 TEST(own_arrays, of_shadows_keep_light_and_sun_away) {
   Scene scene;
   scene.ambient.spectrum = Ambient::Spectrum::sun_am15, scene.ambient.amount = 0.1, scene.ambient.direction = Vec3{0, 0.3, 1};
-  const Camera camera = plain_camera();
+  const Camera camera = pico();
   Simulator simulator(scene, camera, {.noise = Noise::off});
   Geometry seen = wall(camera, 1.2f);
   const Depth open = simulator.frame(0, seen).depth;
@@ -258,7 +258,7 @@ TEST(own_arrays, of_shadows_keep_light_and_sun_away) {
 
 // Each light has shadows of its own: what is left is the frame of the other one.
 TEST(own_arrays, of_shadows_know_which_light_is_kept_away) {
-  const Camera left = plain_camera();
+  const Camera left = pico();
   Camera right = left, both = left;
   right.illumination[0].position = {0.05, 0, 0}, right.illumination[0].power_w *= 0.5;
   both.illumination.push_back(right.illumination[0]);

@@ -46,7 +46,7 @@ std::string bytes_of(const Scene& scene, const Camera& camera, const SimulatorOp
   return results::frame_npz_bytes(Simulator(scene, camera, options).frame(1), camera, pose, "{}");
 }
 
-constexpr std::pair<Noise, const char*> every_noise[] = {{Noise::off, "off"}, {Noise::fast, "fast"}, {Noise::exact, "exact"}};
+constexpr std::pair<Noise, const char*> named_noises[] = {{Noise::off, "off"}, {Noise::fast, "fast"}, {Noise::exact, "exact"}};
 
 /// More of them for the fastest instruction set: which thread takes which tile does not depend on the instruction set.
 std::vector<int> thread_numbers(Isa isa) {
@@ -57,6 +57,17 @@ std::vector<int> thread_numbers(Isa isa) {
 class SameBytes : public testing::TestWithParam<std::string> {};
 class KnownBytes : public testing::TestWithParam<std::string> {};
 
+void expect_known(const std::string& scene_name, Isa isa) {
+  const Scene scene = load_scene(scene_name);
+  const Camera camera = load_camera(scene);
+  const std::map<std::string, Hashes> known = golden();
+  for (const auto& [noise, noise_name] : named_noises) {
+    const std::string key = scene_name + " " + noise_name;
+    ASSERT_TRUE(known.count(key)) << key;
+    EXPECT_EQ(hashes_of(bytes_of(scene, camera, {.seed = 7, .noise = noise, .threads = 2, .isa = isa})), known.at(key)) << key;
+  }
+}
+
 }  // namespace
 
 TEST_P(SameBytes, on_every_machine_and_with_any_number_of_threads) {
@@ -64,7 +75,7 @@ TEST_P(SameBytes, on_every_machine_and_with_any_number_of_threads) {
   Camera camera = load_camera(scene);
   const std::map<std::string, Hashes> known = golden();
   const char* write_to = std::getenv("TOFRAY_WRITE_GOLDEN");
-  for (const auto& [noise, noise_name] : every_noise) {
+  for (const auto& [noise, noise_name] : named_noises) {
     const std::string reference = bytes_of(scene, camera, {.seed = 7, .noise = noise, .threads = 1, .isa = Isa::scalar});
     for (const Isa isa : {Isa::scalar, Isa::scalar_fma, Isa::avx2, Isa::avx512}) {
       if (!backend::can_run(isa)) continue;  // named by skipped_on_this_machine
@@ -87,17 +98,9 @@ TEST_P(SameBytes, on_every_machine_and_with_any_number_of_threads) {
 
 INSTANTIATE_TEST_SUITE_P(all, SameBytes, testing::ValuesIn(scene_names()), [](const auto& which) { return test_name(which.param); });
 
-// In a test of its own, so that it can be run for each scene under whatever surroundings.
-TEST_P(KnownBytes, come_from_the_fastest_machine_code) {
-  const Scene scene = load_scene(GetParam());
-  const Camera camera = load_camera(scene);
-  const std::map<std::string, Hashes> known = golden();
-  for (const auto& [noise, noise_name] : every_noise) {
-    const std::string key = GetParam() + " " + noise_name;
-    ASSERT_TRUE(known.count(key)) << key;
-    EXPECT_EQ(hashes_of(bytes_of(scene, camera, {.seed = 7, .noise = noise, .threads = 2})), known.at(key)) << key;
-  }
-}
+// In tests of their own, so that they can be run for each scene under whatever surroundings.
+TEST_P(KnownBytes, come_from_the_fastest_machine_code) { expect_known(GetParam(), Isa::best); }
+TEST_P(KnownBytes, come_from_the_scalar_reference) { expect_known(GetParam(), Isa::scalar); }
 
 INSTANTIATE_TEST_SUITE_P(all, KnownBytes, testing::ValuesIn(scene_names()), [](const auto& which) { return test_name(which.param); });
 

@@ -1,6 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The tofray authors
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include <gtest/gtest.h>
+
 #include "flow/frame_view.h"
 #include "support/same_frame.h"
 #include "tofray/tofray.h"
@@ -19,6 +21,15 @@ inline SimulatorOptions on(Backend backend, SimulatorOptions options = {}) {
   options.backend = backend;
   options.threads = 1;
   return options;
+}
+
+/// The first frames and a late one have the same bytes on both backends.
+inline void expect_same(const Scene& scene, const Camera& camera, const SimulatorOptions& options) {
+  Simulator cpu(scene, camera, on(Backend::cpu, options)), cuda(scene, camera, on(Backend::cuda, options));
+  ASSERT_EQ(cuda.ran_on().backend, "cuda");
+  for (const std::uint64_t index : {0ull, 1ull, 5ull, (3ull << 32) + 1}) {
+    EXPECT_EQ(first_difference(cpu.frame(index), cuda.frame(index)), "") << scene.name << ", frame " << index;
+  }
 }
 
 /// A frame of a batch as arrays of its own.

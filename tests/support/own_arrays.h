@@ -67,7 +67,7 @@ inline PixelLight even_light(const Camera& camera, float power, float path_lengt
 }
 
 /// A sine, the light at the pupil, an ideal lens.
-inline Camera plain_camera() {
+inline Camera pico() {
   Camera camera = load_camera("pico-flexx");
   camera.lens.k1 = camera.lens.k2 = camera.lens.p1 = camera.lens.p2 = camera.lens.k3 = 0;
   camera.illumination[0].position = {0, 0, 0};

@@ -5,6 +5,7 @@
 #include <cstddef>
 
 #include "base/vec.h"
+#include "support/statistics.h"
 #include "tofray/tofray.h"
 
 /// Small cameras and scenes, built in code, for closed forms.
@@ -13,8 +14,6 @@ namespace tofray::test {
 using base::operator+;
 using base::operator-;
 using base::operator*;
-
-inline const double pi = std::acos(-1.0);
 
 /// A pinhole without distortion, 17.5 µm pixels, N = 0.9, T = 1, FF = 1, QE 0.4 at 850 nm; one lit raw frame of 1 ms; no light source.
 inline Camera plain_camera(int width = 1, int height = 1, double focal_px = 200) {

@@ -11,3 +11,14 @@
 #define __SANITIZE_THREAD__ 1
 #endif
 #endif
+
+namespace tofray::test {
+
+/// Built for a sanitizer that needs the address space for itself, much memory and time.
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+constexpr bool with_sanitizers = true;
+#else
+constexpr bool with_sanitizers = false;
+#endif
+
+}  // namespace tofray::test

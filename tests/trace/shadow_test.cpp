@@ -15,7 +15,7 @@ using namespace tofray::test;
 
 namespace {
 
-flow::Surface<float> look(const scene::FrozenScene& frozen, const Ray& ray) {
+flow::Surface<float> surface_seen(const scene::FrozenScene& frozen, const Ray& ray) {
   const scene::SceneView& view = frozen.view();
   return trace::surface(view, ray, trace::nearest(view.camera_still(), everything(view.camera_still()), ray, flow::Hit<float>{0, 0}));
 }
@@ -74,7 +74,7 @@ TEST(shadow, of_a_lamp_is_where_brute_force_finds_something_between) {
     const scene::FrozenScene frozen(scene, lamps, 1);
     for (int i = 0; i < 2000; ++i) {
       const Vec3 aside = random.point(0.6);
-      const flow::Surface<float> s = look(frozen, ray({aside[0], aside[1], 1}));
+      const flow::Surface<float> s = surface_seen(frozen, ray({aside[0], aside[1], 1}));
       if (!s.found) continue;
       for (std::size_t l = 0; l < lamps.size(); ++l) {
         const Vec3 p = place_of(s), to_lamp = lamps[l] - p;
@@ -102,7 +102,7 @@ TEST(shadow, of_the_sun_is_where_brute_force_finds_something_between) {
     const Vec3 toward = frozen.toward_sun();
     for (int i = 0; i < 2000; ++i) {
       const Vec3 aside = random.point(0.6);
-      const flow::Surface<float> s = look(frozen, ray({aside[0], aside[1], 1}));
+      const flow::Surface<float> s = surface_seen(frozen, ray({aside[0], aside[1], 1}));
       if (!s.found || base::dot(normal_of(s), toward) <= 0) continue;
       const Answer answer = crossed(frozen, place_of(s), toward, no_end, s.object);
       if (answer == Answer::unsure) continue;
@@ -136,7 +136,7 @@ TEST(shadow, is_never_cast_by_a_convex_thing_upon_itself) {
     const scene::FrozenScene frozen(scene, lamps, 1);
     for (int i = 0; i < (trial % 3 == 0 ? 20000 : 100000); ++i) {
       const Vec3 d{random.between(-0.35, 0.35), random.between(-0.3, 0.3), 1};
-      const flow::Surface<float> s = look(frozen, ray(d));
+      const flow::Surface<float> s = surface_seen(frozen, ray(d));
       if (!s.found) continue;
       for (std::size_t l = 0; l < lamps.size(); ++l) {
         const Vec3 to_lamp = lamps[l] - place_of(s);
@@ -165,7 +165,7 @@ TEST(shadow, is_not_cast_by_a_flat_thing_upon_itself_however_flat_the_light_fall
     const scene::FrozenScene frozen(scene, {lamp}, 1);
     for (int i = 0; i < 50; ++i) {
       const Vec3 aside = random.point(0.1);
-      const flow::Surface<float> s = look(frozen, ray({aside[0], aside[1], 1}));
+      const flow::Surface<float> s = surface_seen(frozen, ray({aside[0], aside[1], 1}));
       ASSERT_TRUE(s.found);
       ASSERT_FALSE(dark(frozen, 0, lamp, s)) << trial << " " << rise;
     }
@@ -185,7 +185,7 @@ TEST(shadow, is_not_cast_by_a_card_upon_the_wall_that_it_lies_in) {
     const scene::FrozenScene frozen(scene, {lamp}, 1);
     for (int i = 0; i < 200; ++i) {
       const Vec3 aside = random.point(0.4);
-      const flow::Surface<float> s = look(frozen, ray({aside[0], aside[1], 1}));
+      const flow::Surface<float> s = surface_seen(frozen, ray({aside[0], aside[1], 1}));
       ASSERT_TRUE(s.found);
       ASSERT_FALSE(dark(frozen, 0, lamp, s)) << trial;
     }
@@ -228,7 +228,7 @@ TEST(shadow, of_a_closed_body_knows_inside_from_outside) {
       const scene::FrozenScene frozen(scene, {c.lamp}, 1);
       int body = 0, walls = 0;
       for (double x = -0.6; x <= 0.6; x += 0.05) {
-        const flow::Surface<float> s = look(frozen, ray({x, 0.01, 1}));
+        const flow::Surface<float> s = surface_seen(frozen, ray({x, 0.01, 1}));
         ASSERT_TRUE(s.found);
         const Vec3 to_lamp = c.lamp - place_of(s);
         if (base::dot(normal_of(s), to_lamp) <= 0 && !(s.object == 1 && c.body_dark)) continue;
@@ -252,7 +252,7 @@ TEST(shadow, inside_a_closed_body_no_sun_shines) {
     scene.ambient.direction = Vec3{0.2, 0.1, 1};
     const scene::FrozenScene frozen(scene, {}, 1);
     for (const double x : {-0.5, 0.0, 0.05, 0.4}) {
-      const flow::Surface<float> s = look(frozen, ray({x, 0.02, 1}));
+      const flow::Surface<float> s = surface_seen(frozen, ray({x, 0.02, 1}));
       ASSERT_TRUE(s.found);
       EXPECT_TRUE(dark_of_sun(frozen, s)) << x;
     }
