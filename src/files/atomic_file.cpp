@@ -21,6 +21,7 @@
 #include <system_error>
 #include <thread>
 
+#include "files/descriptor.h"
 #include "tofray/error.h"
 
 namespace tofray::files {
@@ -104,28 +105,6 @@ class LiveTemporary {
   }
   throw Error(ErrorKind::io, text);
 }
-
-/// A file descriptor that closes itself.
-class Descriptor {
- public:
-  Descriptor(int number, const FileCalls& calls) : number_(number), calls_(calls) {}
-  Descriptor(const Descriptor&) = delete;
-  Descriptor& operator=(const Descriptor&) = delete;
-  ~Descriptor() {
-    if (number_ >= 0) calls_.close(number_);
-  }
-  [[nodiscard]] int number() const { return number_; }
-  /// Closes now and says whether that went well. Linux closes on EINTR, too.
-  bool close() {
-    const int result = calls_.close(number_);
-    number_ = -1;
-    return result == 0 || errno == EINTR;
-  }
-
- private:
-  int number_;
-  const FileCalls& calls_;
-};
 
 int open_retrying(const FileCalls& calls, int folder, const char* name, int flags) {
   int file = -1;

@@ -15,8 +15,6 @@ void refuse(const std::string& where, const std::string& what) {
 
 namespace {
 
-namespace {
-
 /// The header's dictionary, a literal of Python: {'descr': '<f4', 'fortran_order': False, 'shape': (3, 4), }.
 class DictionaryReader {
  public:

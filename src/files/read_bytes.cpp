@@ -10,6 +10,7 @@
 #include <cerrno>
 #include <system_error>
 
+#include "files/descriptor.h"
 #include "tofray/error.h"
 
 namespace tofray::files {
@@ -38,20 +39,16 @@ std::string read_all(int file, std::size_t size, const std::string& path) {
 
 std::string read_bytes(const std::string& path, std::size_t most) {
   // O_NONBLOCK: a pipe that nobody writes to must not hold us up
-  const int number = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
-  if (number < 0) fail(path, errno);
-  const struct Closer {
-    int file;
-    ~Closer() { ::close(file); }
-  } closer{number};
+  const Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
+  if (file.number() < 0) fail(path, errno);
   struct stat status {};
-  if (fstat(number, &status) != 0) fail(path, errno);
+  if (fstat(file.number(), &status) != 0) fail(path, errno);
   if (!S_ISREG(status.st_mode))
     throw Error(ErrorKind::io,
                 fmt::format("{}: error: this is {}\n  expected a file", path, S_ISDIR(status.st_mode) ? "a folder" : "not a regular file"));
   const auto size = static_cast<std::size_t>(status.st_size);
   if (size > most) throw Error(ErrorKind::limit, fmt::format("{}: error: the file has {} bytes, more than {}", path, size, most));
-  return read_all(number, size, path);
+  return read_all(file.number(), size, path);
 }
 
 }  // namespace tofray::files

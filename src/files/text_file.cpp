@@ -14,6 +14,7 @@
 
 #include "base/limits.h"
 #include "base/text.h"
+#include "files/descriptor.h"
 
 namespace tofray::files {
 
@@ -22,20 +23,6 @@ namespace {
 namespace fs = std::filesystem;
 using base::in_quotes;
 using base::Place;
-
-class Descriptor {
- public:
-  explicit Descriptor(int number) : number_(number) {}
-  ~Descriptor() {
-    if (number_ >= 0) ::close(number_);
-  }
-  Descriptor(const Descriptor&) = delete;
-  Descriptor& operator=(const Descriptor&) = delete;
-  [[nodiscard]] int get() const { return number_; }
-
- private:
-  int number_;
-};
 
 std::string read_all(int descriptor, const Place& place, const std::string& path) {
   const auto most = static_cast<std::size_t>(base::limit::file_bytes.value);
@@ -63,11 +50,11 @@ bool leads_out(const fs::path& path) {
 // Opens a path in or below a folder; the kernel checks that no link leads out. −1 and errno where it cannot.
 int open_beneath(const std::string& folder, const std::string& relative) {
   const Descriptor base(::open(folder.c_str(), O_PATH | O_DIRECTORY | O_CLOEXEC));
-  if (base.get() < 0) return -1;
+  if (base.number() < 0) return -1;
   open_how how{};
   how.flags = O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY;
   how.resolve = RESOLVE_BENEATH | RESOLVE_NO_MAGICLINKS;
-  const long opened = ::syscall(SYS_openat2, base.get(), relative.c_str(), &how, sizeof how);
+  const long opened = ::syscall(SYS_openat2, base.number(), relative.c_str(), &how, sizeof how);
   if (opened >= 0 || (errno != ENOSYS && errno != EPERM)) return static_cast<int>(opened);
   // An old kernel, or a sandbox that does not know the call: no links at all.
   std::error_code ignored;
@@ -96,8 +83,8 @@ std::string read_text(const std::string& path) {
   const Place place = base::whole(path);
   const Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NOCTTY));
   if (path.find('\0') != std::string::npos) base::fail(place, "a file's name holds no NUL", {}, ErrorKind::io);
-  if (file.get() < 0) base::fail(place, std::string("cannot open the file: ") + std::strerror(errno), {}, ErrorKind::io);
-  return read_all(file.get(), place, path);
+  if (file.number() < 0) base::fail(place, std::string("cannot open the file: ") + std::strerror(errno), {}, ErrorKind::io);
+  return read_all(file.number(), place, path);
 }
 
 std::string read_reference(const std::string& reference, const std::string& folder, const std::string& root, const Place& place,
@@ -114,14 +101,14 @@ std::string read_reference(const std::string& reference, const std::string& fold
   }
   const Descriptor file(open_beneath(from, relative.string()));
   found = (fs::path(from) / relative).lexically_normal().string();
-  if (file.get() < 0) {
+  if (file.number() < 0) {
     if (errno == EXDEV || errno == ELOOP) refuse(place, reference);
     base::fail(place, "cannot open " + in_quotes(found, 200) + ": " + std::strerror(errno), {}, ErrorKind::io);
   }
   struct stat status {};
-  if (::fstat(file.get(), &status) != 0 || !S_ISREG(status.st_mode))
+  if (::fstat(file.number(), &status) != 0 || !S_ISREG(status.st_mode))
     base::fail(place, in_quotes(found, 200) + " is not a plain file", {}, ErrorKind::io);
-  return read_all(file.get(), place, found);
+  return read_all(file.number(), place, found);
 }
 
 }  // namespace tofray::files
