@@ -5,9 +5,9 @@
 
 #include <cmath>
 
-#include "bench.h"
+#include "bench/bench.h"
 #include "commands.h"
-#include "experiment.h"
+#include "bench/experiment.h"
 #include "files/json.h"
 #include "rows.h"
 #include "support/stand_in_cuda.h"

@@ -4,7 +4,7 @@
 
 #include <numeric>
 
-#include "bench.h"
+#include "bench/bench.h"
 #include "progress.h"
 
 namespace tofray::app {

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The tofray authors
 // SPDX-License-Identifier: Apache-2.0
-#include "experiment.h"
+#include "bench/experiment.h"
 
 #include <fmt/format.h>
 
@@ -10,7 +10,7 @@
 
 #include "backend/cpu/cpu.h"
 #include "base/text.h"
-#include "bench.h"
+#include "bench/bench.h"
 #include "console.h"
 #include "files/output_folder.h"
 #include "progress.h"

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "bench_energy.h"
+#include "bench/bench_energy.h"
 #include "files/json.h"
 #include "inputs.h"
 #include "tofray/frame.h"

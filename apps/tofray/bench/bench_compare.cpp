@@ -6,7 +6,7 @@
 #include <memory>
 
 #include "backend/cpu/cpu.h"
-#include "bench.h"
+#include "bench/bench.h"
 #include "progress.h"
 
 namespace tofray::app {

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The tofray authors
 // SPDX-License-Identifier: Apache-2.0
-#include "bench.h"
+#include "bench/bench.h"
 
 #include <fmt/format.h>
 
@@ -15,7 +15,7 @@
 #include "backend/cuda/cuda.h"
 #include "commands.h"
 #include "console.h"
-#include "experiment.h"
+#include "bench/experiment.h"
 #include "files/sha256.h"
 #include "progress.h"
 #include "results.h"

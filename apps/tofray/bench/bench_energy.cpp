@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The tofray authors
 // SPDX-License-Identifier: Apache-2.0
-#include "bench_energy.h"
+#include "bench/bench_energy.h"
 
 #include <fmt/format.h>
 

@@ -6,7 +6,7 @@
 #include <chrono>
 #include <cmath>
 
-#include "bench.h"
+#include "bench/bench.h"
 #include "console.h"
 #include "progress.h"
 #include "results.h"

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "bench_energy.h"
+#include "bench/bench_energy.h"
 #include "files/json.h"
 #include "options.h"
 #include "pictures/chart.h"

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <set>
 
-#include "experiment.h"
+#include "bench/experiment.h"
 #include "num/setup_math.h"
 
 namespace tofray::app {
