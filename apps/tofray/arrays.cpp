@@ -19,11 +19,12 @@ Arrays::Arrays(std::vector<files::NamedArray> arrays, std::string where) : where
     meta_ = files::parse_json(meta_text_, where_ + ": meta");
   }
   if (const files::NpyArray* flags = find("flags"); flags != nullptr && flags->type.kind != 'u' && flags->type.kind != 'i')
-    throw Error(ErrorKind::bad_input, fmt::format("{}: error: array \"flags\" has the wrong type\n  got {}, expected uint16", base::printable(where_),
-                                                  flags->type.name()));
+    throw Error(ErrorKind::bad_input, fmt::format("{}: error: array \"flags\" has the wrong type\n  got {}, expected uint16",
+                                                  base::printable(where_), flags->type.name()));
   for (const results::ArrayRow& row : results::array_table()) {
     const files::NpyArray* array = row.is_image() ? find(row.name) : nullptr;
-    if (array == nullptr || array->shape.size() != static_cast<std::size_t>(1 + std::count(row.shape.begin(), row.shape.end(), ','))) continue;
+    if (array == nullptr || array->shape.size() != static_cast<std::size_t>(1 + std::count(row.shape.begin(), row.shape.end(), ',')))
+      continue;
     const bool stack = row.shape.starts_with("[phase");
     if (width_ == 0) height_ = array->shape[stack ? 1 : 0], width_ = array->shape[stack ? 2 : 1];
     if (stack && phases_ == 0) phases_ = array->shape[0];

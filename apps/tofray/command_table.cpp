@@ -20,7 +20,7 @@ int run_complete(const Options& options);
 
 namespace {
 
-const std::vector<const char*> simulation = {"--output", "--set",   "--mode", "--seed",    "--noise",   "--emit",  "--arrays",
+const std::vector<const char*> simulation = {"--output",   "--set",   "--mode", "--seed",    "--noise",   "--emit",  "--arrays",
                                              "--compress", "--theme", "--root", "--threads", "--backend", "--device"};
 
 std::vector<const char*> simulation_and(std::vector<const char*> more) {
@@ -175,7 +175,8 @@ std::vector<Command> make() {
       {.name = "complete",
        .usage = "-- WORDS…",
        .summary = "what can stand at the cursor of a command line: the scripts of `tofray completion` ask it",
-       .examples = "tofray complete -- render --noise \"\"                # a word and what it is about on each line; :files for names of files\n",
+       .examples =
+           "tofray complete -- render --noise \"\"                # a word and what it is about on each line; :files for names of files\n",
        .options = {},
        .least_words = 0,
        .most_words = 0,

@@ -33,8 +33,8 @@ struct Command {
   int (*run)(const Options& options) = nullptr;  ///< returns the exit code
   /// What a word can be, for completion: words, and <commands>, <scenes>, <profiles>, <modes>, <keys>, <arrays> or <files>.
   const char* completes = "";
-  bool hidden = false;     ///< for scripts: no help and no completion names it
-  bool as_typed = false;   ///< all behind "--" are its words, whatever they look like
+  bool hidden = false;    ///< for scripts: no help and no completion names it
+  bool as_typed = false;  ///< all behind "--" are its words, whatever they look like
 };
 
 const std::vector<OptionSpec>& all_options();

@@ -43,8 +43,9 @@ static_assert(std::atomic<int>::is_always_lock_free);
 extern "C" void end_on_signal(int signal) {
   int none = 0;
   if (noting && signal != SIGPIPE && noted.compare_exchange_strong(none, signal)) {
-    const int error = errno;   // of a call that the signal came into
-    if (signal == SIGINT && ::isatty(STDERR_FILENO) != 0) write_all(STDERR_FILENO, "\r\x1b[Kfinishing this frame; once more ends at once\n");
+    const int error = errno;  // of a call that the signal came into
+    if (signal == SIGINT && ::isatty(STDERR_FILENO) != 0)
+      write_all(STDERR_FILENO, "\r\x1b[Kfinishing this frame; once more ends at once\n");
     errno = error;
     return;
   }

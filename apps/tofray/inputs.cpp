@@ -90,9 +90,10 @@ Inputs inputs_of(const results::Manifest& manifest, const Options& options) {
   const results::InputFile& first = manifest.inputs[0];
   // A stranger's manifest reads no files of ours: what is not in it has to be built in.
   if (first.text.empty() && load::find_builtin(load::builtin_scenes(), first.name) == nullptr)
-    throw Error(ErrorKind::bad_input, fmt::format("{}: error: it does not hold the text of the scene {}\n  expected the scene's file in it, or the "
-                                                  "name of a built-in one",
-                                                  base::printable(options.from), base::in_quotes(first.name)));
+    throw Error(ErrorKind::bad_input,
+                fmt::format("{}: error: it does not hold the text of the scene {}\n  expected the scene's file in it, or the "
+                            "name of a built-in one",
+                            base::printable(options.from), base::in_quotes(first.name)));
   Inputs in;
   in.files = manifest.inputs;
   in.scene = first.text.empty() ? load::load_scene(first.name, options.set) : load::scene_from_text(first.text, first.name, options.set);
@@ -100,9 +101,10 @@ Inputs inputs_of(const results::Manifest& manifest, const Options& options) {
       std::find_if(in.files.begin(), in.files.end(), [](const results::InputFile& file) { return file.role == "profile"; });
   const std::string& named = in.scene.camera.profile;
   if (profile == in.files.end() && load::find_builtin(load::builtin_profiles(), named) == nullptr)
-    throw Error(ErrorKind::bad_input, fmt::format("{}: error: it does not hold the text of the camera profile {}\n  expected the profile's file in it, "
-                                                  "or the name of a built-in one",
-                                                  base::printable(options.from), base::in_quotes(named)));
+    throw Error(ErrorKind::bad_input,
+                fmt::format("{}: error: it does not hold the text of the camera profile {}\n  expected the profile's file in it, "
+                            "or the name of a built-in one",
+                            base::printable(options.from), base::in_quotes(named)));
   const auto load = [&](const Scene& seen) {
     return profile == in.files.end() ? load_camera(seen, {options.mode, {}, {}}) : camera_of_texts(seen, *profile, in.files, options.mode);
   };

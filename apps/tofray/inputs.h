@@ -18,9 +18,9 @@ namespace tofray::app {
 struct Inputs {
   Scene scene;
   Camera camera;
-  std::vector<results::InputFile> files;  ///< for manifest.json: the scene, a profile of one's own and its tables
-  std::vector<files::NamedArray> kept;  ///< of a recording: arrays that are written again as they are
-  double mode_integration_time_s = 0;  ///< longest lit exposure of the mode itself where camera.integration_time sets another; else 0
+  std::vector<results::InputFile> files;    ///< for manifest.json: the scene, a profile of one's own and its tables
+  std::vector<files::NamedArray> kept;      ///< of a recording: arrays that are written again as they are
+  double mode_integration_time_s = 0;       ///< longest lit exposure of the mode itself where camera.integration_time sets another; else 0
   std::optional<results::PoseMatrix> pose;  ///< of a recording; otherwise the scene says it
 };
 

@@ -20,13 +20,13 @@ struct Options {
   std::optional<std::uint64_t> seed;
   std::optional<Noise> noise;
   std::optional<std::vector<std::string>> emit;  ///< out of npz, png, ply
-  std::string arrays;     ///< of frame.npz, as typed; empty: all
-  bool compress = false;  ///< frame.npz deflated
+  std::string arrays;                            ///< of frame.npz, as typed; empty: all
+  bool compress = false;                         ///< frame.npz deflated
   std::optional<std::uint64_t> frames;
   std::optional<std::pair<int, int>> pixel;  ///< u, v
-  std::optional<std::uint64_t> batch;  ///< --batch: frames at once
-  std::vector<int> block_sizes;      ///< --block-size: CUDA threads per block
-  std::vector<std::string> stages;   ///< --stage, out of trace, power, raw, all
+  std::optional<std::uint64_t> batch;        ///< --batch: frames at once
+  std::vector<int> block_sizes;              ///< --block-size: CUDA threads per block
+  std::vector<std::string> stages;           ///< --stage, out of trace, power, raw, all
   std::uint64_t first_frame = 0;
   std::uint64_t warmup = 3;
   int threads = 0;  ///< 0: one per core

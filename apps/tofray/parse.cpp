@@ -40,7 +40,8 @@ std::vector<std::string> without_equals(const Command& command, std::vector<std:
     for (const OptionSpec* one : options_of(command)) {
       if (one->letter != word[1]) continue;
       if (one->value == nullptr) refuse(command, fmt::format("-{} takes no value", one->letter));
-      if (word.size() == 3) refuse(command, fmt::format("-{}= has no value", one->letter), fmt::format("expected -{} {}", one->letter, one->value));
+      if (word.size() == 3)
+        refuse(command, fmt::format("-{}= has no value", one->letter), fmt::format("expected -{} {}", one->letter, one->value));
       word.erase(2, 1);
     }
   }

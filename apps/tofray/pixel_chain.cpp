@@ -151,8 +151,10 @@ void read_depth(const Arrays& arrays, std::size_t pixel, PixelChain& out) {
 
 PixelChain pixel_chain(const Arrays& arrays, int u, int v) {
   if (arrays.width() == 0)
-    throw Error(ErrorKind::bad_input,
-                arrays.where() + ": error: there is no image in this file\n  expected raw, z_m or another array with pixels; `tofray list arrays` has them all");
+    throw Error(
+        ErrorKind::bad_input,
+        arrays.where() +
+            ": error: there is no image in this file\n  expected raw, z_m or another array with pixels; `tofray list arrays` has them all");
   if (static_cast<std::size_t>(u) >= arrays.width() || static_cast<std::size_t>(v) >= arrays.height())
     throw Error(ErrorKind::bad_input,
                 fmt::format("error: pixel {},{} is outside the image\n  expected a column of 0 to {} and a row of 0 to {}", u, v,
@@ -167,10 +169,12 @@ PixelChain pixel_chain(const Arrays& arrays, int u, int v) {
   const files::Json* camera = arrays.meta().find("camera");
   if (camera == nullptr) return chain;
   const Camera profile = results::camera_of_meta(arrays.meta_text(), arrays.where());
-  if (static_cast<std::size_t>(profile.sensor.width) != arrays.width() || static_cast<std::size_t>(profile.sensor.height) != arrays.height())
-    throw Error(ErrorKind::bad_input, fmt::format("{}: error: the camera in meta is not the one of the arrays\n  got a sensor of {} x {} and "
-                                                  "arrays of {} x {} pixels",
-                                                  base::printable(arrays.where()), profile.sensor.width, profile.sensor.height, arrays.width(), arrays.height()));
+  if (static_cast<std::size_t>(profile.sensor.width) != arrays.width() ||
+      static_cast<std::size_t>(profile.sensor.height) != arrays.height())
+    throw Error(ErrorKind::bad_input,
+                fmt::format("{}: error: the camera in meta is not the one of the arrays\n  got a sensor of {} x {} and "
+                            "arrays of {} x {} pixels",
+                            base::printable(arrays.where()), profile.sensor.width, profile.sensor.height, arrays.width(), arrays.height()));
   const camera::FrozenCamera frozen(profile, static_cast<int>(Noise::exact), 0);
   calibrate(frozen.decoder(), pixel, chain);
   return chain;

@@ -83,7 +83,8 @@ std::string profile_with_tables(const results::InputFile& profile, const std::ve
     // The profile with all its tables is a file, too.
     bytes += table->second->text.size();
     if (bytes > static_cast<std::size_t>(base::limit::file_bytes.value))
-      base::fail(map.place, "the profile's tables are too long", "at most " + std::to_string(base::limit::file_bytes.value) + " bytes", ErrorKind::limit);
+      base::fail(map.place, "the profile's tables are too long", "at most " + std::to_string(base::limit::file_bytes.value) + " bytes",
+                 ErrorKind::limit);
     // A pattern has rows; a correlation is one list, line after line.
     Node rows = yaml::parse_value(rows_text(table->second->text), base::whole(name));
     Node all = rows;

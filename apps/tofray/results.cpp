@@ -97,17 +97,20 @@ Validity validity(const Depth& depth) {
   return out;
 }
 
-FrameFiles::FrameFiles(const Options& options, const std::vector<std::string>& otherwise, const Inputs& from, const SimulatorOptions& wanted)
+FrameFiles::FrameFiles(const Options& options, const std::vector<std::string>& otherwise, const Inputs& from,
+                       const SimulatorOptions& wanted)
     : emit(options.emit.value_or(otherwise)), inputs(from), simulated(wanted), theme(options.theme) {
   if (!options.arrays.empty()) npz.arrays = results::ArrayChoice(options.arrays);
   npz.kept = from.kept;
   npz.packing = options.compress ? files::Packing::deflated : files::Packing::stored;
   if ((!options.arrays.empty() || options.compress) && std::find(emit.begin(), emit.end(), "npz") == emit.end())
-    throw Error(ErrorKind::bad_input, "error: --arrays and --compress are of npz files, and --emit leaves these out\n  expected npz in --emit");
+    throw Error(ErrorKind::bad_input,
+                "error: --arrays and --compress are of npz files, and --emit leaves these out\n  expected npz in --emit");
 }
 
 bool FrameFiles::need_truth() const {
-  return std::any_of(emit.begin(), emit.end(), [&](const std::string& kind) { return kind == "png" || (kind == "npz" && npz.arrays.has_truth()); });
+  return std::any_of(emit.begin(), emit.end(),
+                     [&](const std::string& kind) { return kind == "png" || (kind == "npz" && npz.arrays.has_truth()); });
 }
 
 std::vector<files::FileRecord> write_frame(const files::OutputFolder& folder, const FrameFiles& what, const std::string& suffix,

@@ -85,7 +85,7 @@ void write_manifest(files::OutputFolder& folder, const Options& options, const s
 
 /// How a run went, for --json and for people.
 files::Json summary_json(const files::OutputFolder& folder, const Depth& last, std::uint64_t frames, const RanOn& machine,
-                      const Stopwatch& stopwatch);
+                         const Stopwatch& stopwatch);
 std::string summary_text(const files::OutputFolder& folder, const Depth& last, std::uint64_t frames, const RanOn& machine,
                          const Stopwatch& stopwatch);
 

@@ -72,7 +72,7 @@ void write_manifest(files::OutputFolder& folder, const Options& options, const s
 }
 
 files::Json summary_json(const files::OutputFolder& folder, const Depth& last, std::uint64_t frames, const RanOn& machine,
-                      const Stopwatch& stopwatch) {
+                         const Stopwatch& stopwatch) {
   files::Json files = files::Json::array(), timings = files::Json::object();
   for (const files::FileRecord& file : folder.files())
     files.push(files::Json::object().set("name", file.name).set("bytes", file.bytes).set("sha256", file.sha256));
@@ -82,7 +82,12 @@ files::Json summary_json(const files::OutputFolder& folder, const Depth& last, s
   files::Json json = files::Json::object();
   json.set("computed_frames_per_s", rates.computed).set("written_frames_per_s", rates.written);
   json.set("folder", folder.path().native()).set("frames", frames).set("pixels", pixels.pixels).set("valid_pixels", pixels.valid);
-  return json.set("backend", machine.backend).set("gpu", gpu_of(machine)).set("isa", machine.isa).set("threads", machine.threads).set("timings_s", std::move(timings)).set("files", std::move(files));
+  return json.set("backend", machine.backend)
+      .set("gpu", gpu_of(machine))
+      .set("isa", machine.isa)
+      .set("threads", machine.threads)
+      .set("timings_s", std::move(timings))
+      .set("files", std::move(files));
 }
 
 std::string summary_text(const files::OutputFolder& folder, const Depth& last, std::uint64_t frames, const RanOn& machine,
@@ -95,8 +100,8 @@ std::string summary_text(const files::OutputFolder& folder, const Depth& last, s
                       pixels.reasons.empty() ? "" : "; invalid: ", pixels.reasons);
   const Rates rates = rates_of(frames, stopwatch);
   if (frames > 1)
-    text += fmt::format("{} frames in {:.2f} s: {:.1f} frames/s computed, {:.1f} written", frames, stopwatch.total(),
-                        rates.computed, rates.written);
+    text += fmt::format("{} frames in {:.2f} s: {:.1f} frames/s computed, {:.1f} written", frames, stopwatch.total(), rates.computed,
+                        rates.written);
   else
     text += fmt::format("{:.2f} s", stopwatch.total());
   return text + fmt::format(" with {}\n", machine_text(machine));

@@ -32,7 +32,7 @@ tofray::Camera small_camera() {
   led.position = {0.015, 0, 0};
   led.power_w = 0.2;
   camera.illumination.push_back(led);
-  camera.pixel.quantum_efficiency = {{led.illumination_wavelength_m}, {0.3}};   // one sample: a constant
+  camera.pixel.quantum_efficiency = {{led.illumination_wavelength_m}, {0.3}};  // one sample: a constant
   camera.pixel.contrast = {{0}, {0.8}};
   camera.pixel.full_well_e = 100e3;
   camera.adc.step_e_per_dn = 50;
@@ -53,7 +53,7 @@ int main() try {
   seen.width = camera.sensor.width, seen.height = camera.sensor.height;
   for (std::size_t i = 0; i < rays.size() / 2; ++i) {
     const double x = static_cast<double>(rays[2 * i]), y = static_cast<double>(rays[2 * i + 1]);
-    const double z = std::isnan(x) ? 0 : meet(x, y);   // 0: nothing is seen
+    const double z = std::isnan(x) ? 0 : meet(x, y);  // 0: nothing is seen
     const double step = 1e-5, slope_x = (water(x * z + step, y * z) - water(x * z - step, y * z)) / (2 * step);
     const double slope_y = (water(x * z, y * z + step) - water(x * z, y * z - step)) / (2 * step);
     const double length = std::sqrt(slope_x * slope_x + slope_y * slope_y + 1);
@@ -71,7 +71,8 @@ int main() try {
     if ((frame.depth.flags[i] & tofray::flags_invalid) == 0) errors.push_back(std::abs(frame.depth.range_m[i] - frame.truth.range_m[i]));
   }
   std::nth_element(errors.begin(), errors.begin() + static_cast<std::ptrdiff_t>(errors.size() / 2), errors.end());
-  std::printf("%zu valid pixels, half of them within %.1f mm of the truth\n", errors.size(), 1e3 * static_cast<double>(errors[errors.size() / 2]));
+  std::printf("%zu valid pixels, half of them within %.1f mm of the truth\n", errors.size(),
+              1e3 * static_cast<double>(errors[errors.size() / 2]));
   return 0;
 } catch (const tofray::Error& error) {
   std::fprintf(stderr, "%s\n", error.what());

@@ -11,15 +11,15 @@ namespace tofray {
 
 /// A function of one variable given by samples; a not-a-knot cubic spline goes through them, limited so that it turns only at samples.
 struct Curve {
-  std::vector<double> x;       ///< ascending
+  std::vector<double> x;  ///< ascending
   std::vector<double> y;
 };
 
 struct Sensor {
-  int width = 0;               ///< pixels
-  int height = 0;              ///< pixels
+  int width = 0;   ///< pixels
+  int height = 0;  ///< pixels
   double pixel_pitch_m = 0;
-  double fill_factor = 1;      ///< 0…1
+  double fill_factor = 1;  ///< 0…1
 };
 
 /// Pinhole with Brown–Conrady distortion, OpenCV's convention; pixel (0,0)'s centre is at (0.0, 0.0).
@@ -27,48 +27,48 @@ struct Lens {
   double fx_px = 0, fy_px = 0, cx_px = 0, cy_px = 0;
   double k1 = 0, k2 = 0, p1 = 0, p2 = 0, k3 = 0;
   double f_number = 1;
-  double transmission = 1;     ///< T, 0…1, lens and filter at the illumination wavelength
+  double transmission = 1;  ///< T, 0…1, lens and filter at the illumination wavelength
   enum class Vignetting { cos4, off, table };
   Vignetting vignetting = Vignetting::cos4;
-  Curve vignetting_table;      ///< angle to the optical axis [rad] → factor
+  Curve vignetting_table;  ///< angle to the optical axis [rad] → factor
 };
 
 /// Optical filter before the sensor, seen by ambient light only (the camera's own light has Lens::transmission).
 struct Filter {
   double center_m = 850e-9;
-  double half_width_m = 15e-9; ///< passes centre ± half width, transmission `peak`
+  double half_width_m = 15e-9;  ///< passes centre ± half width, transmission `peak`
   double peak = 1;
-  Curve table;                 ///< wavelength [m] → transmission; takes the place of the above where not empty
+  Curve table;  ///< wavelength [m] → transmission; takes the place of the above where not empty
 };
 
 /// How light of one source is spread over directions; integral over the sphere is 1 (theory 2.1).
 struct Pattern {
   enum class Kind { cone, lambertian, cosine_lobe, flat_top, table };
   Kind kind = Kind::lambertian;
-  double half_angle_rad = 0;   ///< cone
-  double exponent = 1;         ///< cosine_lobe: cos^exponent
-  double width_rad = 0;        ///< flat_top: full width across θx at half its peak
-  double height_rad = 0;       ///< flat_top: across θy
+  double half_angle_rad = 0;  ///< cone
+  double exponent = 1;        ///< cosine_lobe: cos^exponent
+  double width_rad = 0;       ///< flat_top: full width across θx at half its peak
+  double height_rad = 0;      ///< flat_top: across θy
   /// table: samples over θx (columns) and θy (rows), cell centres on a regular grid centred on the axis, f-theta. Of a flat top, only
   /// the paper's printed formula reads such a grid; 0: 172 × 168.
   int columns = 0, rows = 0;
   /// The grid covers ±this across its columns (edges of the outer cells); beyond, the light is dark. Of a flat top, 0 takes its width,
   /// where the light has fallen to nothing (2⁻²⁵⁶).
   double half_range_x_rad = 0;
-  double half_range_y_rad = 0; ///< the same across its rows; 0: the height
-  std::vector<double> samples; ///< [rows][columns], any unit
+  double half_range_y_rad = 0;  ///< the same across its rows; 0: the height
+  std::vector<double> samples;  ///< [rows][columns], any unit
 };
 
 /// Light modulation over one period (theory 3).
 struct Waveform {
   enum class Kind { rectangular, sine, measured };
   Kind kind = Kind::rectangular;
-  double duty = 0.5;           ///< width at half height over the period
-  double rise_time_s = 0;      ///< linear edge, 0 to 100 %
-  double bandwidth_hz = 0;     ///< the light source's own single pole; 0: none
-  double jitter_s = 0;         ///< Gaussian, 1 sigma
-  int harmonics = 4;           ///< how many odd harmonics are kept (1,3,5,7); a sine has one
-  double modulation_depth = 1; ///< sine: d of the light 1 + d·cos; it has no duty and no edges
+  double duty = 0.5;            ///< width at half height over the period
+  double rise_time_s = 0;       ///< linear edge, 0 to 100 %
+  double bandwidth_hz = 0;      ///< the light source's own single pole; 0: none
+  double jitter_s = 0;          ///< Gaussian, 1 sigma
+  int harmonics = 4;            ///< how many odd harmonics are kept (1,3,5,7); a sine has one
+  double modulation_depth = 1;  ///< sine: d of the light 1 + d·cos; it has no duty and no edges
   /// measured: correlation D(τ)/S at equally spaced reference phases over one period, φ = 0; its Fourier transform gives a_m, ψ_m.
   std::vector<double> correlation;
 };
@@ -78,25 +78,25 @@ struct Illumination {
   Vec3 position{0, 0, 0};
   Vec3 axis{0, 0, 1};
   double illumination_wavelength_m = 850e-9;
-  double power_w = 0;          ///< optical, of a lit raw frame, mean over the modulation period
-  int ring_leds = 1;           ///< so many sources, evenly on a circle about `position`, across `axis`; they share the power
-  double ring_radius_m = 0;    ///< of that circle; the first stands toward the camera's x (of an axis along x: its y)
-  Pattern pattern;             ///< of each
+  double power_w = 0;        ///< optical, of a lit raw frame, mean over the modulation period
+  int ring_leds = 1;         ///< so many sources, evenly on a circle about `position`, across `axis`; they share the power
+  double ring_radius_m = 0;  ///< of that circle; the first stands toward the camera's x (of an axis along x: its y)
+  Pattern pattern;           ///< of each
   Waveform waveform;
 };
 
 /// The two-tap pixel (theory 3). Electrons per tap where nothing else is said.
 struct Pixel {
-  Curve quantum_efficiency;    ///< wavelength [m] → QE; one sample: a constant
-  Curve contrast;              ///< modulation frequency [Hz] → K; one sample: a constant
-  double bandwidth_hz = 0;     ///< single pole of the gate; 0: none
+  Curve quantum_efficiency;  ///< wavelength [m] → QE; one sample: a constant
+  Curve contrast;            ///< modulation frequency [Hz] → K; one sample: a constant
+  double bandwidth_hz = 0;   ///< single pole of the gate; 0: none
   double full_well_e = 1e30;
-  double read_noise_e = 0;     ///< reset + read, 1 sigma
-  double column_noise_e = 0;   ///< of A−B, the same for all pixels of a column in one raw frame, anew in each, 1 sigma
+  double read_noise_e = 0;    ///< reset + read, 1 sigma
+  double column_noise_e = 0;  ///< of A−B, the same for all pixels of a column in one raw frame, anew in each, 1 sigma
   double dark_current_e_per_s = 0;
-  double prnu = 0;             ///< photo response non-uniformity, 1 sigma, relative
-  double dsnu_dn = 0;          ///< offset pattern, 1 sigma [DN]
-  double delay_s = 0;          ///< fixed-pattern delay per pixel, 1 sigma
+  double prnu = 0;                      ///< photo response non-uniformity, 1 sigma, relative
+  double dsnu_dn = 0;                   ///< offset pattern, 1 sigma [DN]
+  double delay_s = 0;                   ///< fixed-pattern delay per pixel, 1 sigma
   unsigned long long pattern_seed = 1;  ///< which specimen of the sensor: seed of the three patterns above
   /// Background suppression: when the smaller tap reaches the threshold, the excess is taken off both taps, at most `budget`.
   /// Each tap's removed charge x adds a variance of noise_factor² · x. Threshold 0: no suppression.
@@ -107,9 +107,9 @@ struct Pixel {
 
 struct Adc {
   int bits = 12;
-  double step_e_per_dn = 1;    ///< s
+  double step_e_per_dn = 1;  ///< s
   double mid_code = 2048;
-  int valid_min = 0;           ///< codes outside valid_min…valid_max flag the pixel as saturated
+  int valid_min = 0;  ///< codes outside valid_min…valid_max flag the pixel as saturated
   int valid_max = 4095;
 };
 
@@ -131,14 +131,14 @@ struct Mode {
 struct ImageFilter {
   enum class Kind { none, gaussian, median };
   Kind kind = Kind::none;
-  double sigma_px = 1;         ///< gaussian
-  int radius_px = 1;           ///< median: window (2 radius + 1)²
+  double sigma_px = 1;  ///< gaussian
+  int radius_px = 1;    ///< median: window (2 radius + 1)²
 };
 
 /// How raw frames become depth (theory 4).
 struct Decoding {
   bool wiggling_correction = true;
-  double low_signal_noise_m = 0.07;         ///< σ̂ above this: low signal; also the scale of confidence
+  double low_signal_noise_m = 0.07;                           ///< σ̂ above this: low signal; also the scale of confidence
   double flying_near_z_m = 1.0, flying_near_limit_m = 0.018;  ///< limit on |Δz| grows linearly from here …
   double flying_far_z_m = 4.5, flying_far_limit_m = 0.14;     ///< … to here, constant outside
   double inconsistent_range_m = 0.1;
@@ -147,17 +147,17 @@ struct Decoding {
 
 struct Temperature {
   double celsius = 25, reference_celsius = 25;
-  double drift_m_per_kelvin = 0;   ///< d_off = drift · (T − reference), added to half the path
-  double warm_up_m = 0;            ///< first-order warm-up: warm_up · (1 − exp(−t/time constant))
+  double drift_m_per_kelvin = 0;  ///< d_off = drift · (T − reference), added to half the path
+  double warm_up_m = 0;           ///< first-order warm-up: warm_up · (1 − exp(−t/time constant))
   double warm_up_time_s = 600;
-  double since_start_s = 1e9;      ///< how long the camera has run at frame 0
+  double since_start_s = 1e9;  ///< how long the camera has run at frame 0
 };
 
 enum class PowerModel { tofray, paper_literal };
 
 struct Camera {
   std::string name;
-  std::string source;          ///< the file it came from
+  std::string source;  ///< the file it came from
   Sensor sensor;
   Lens lens;
   Filter filter;
@@ -167,11 +167,11 @@ struct Camera {
   Decoding decoding;
   Temperature temperature;
   double refractive_index = 1.0;
-  double readout_time_s = 0;   ///< between the end of one exposure and the start of the next
+  double readout_time_s = 0;  ///< between the end of one exposure and the start of the next
   double min_integration_time_s = 0;
   PowerModel power_model = PowerModel::tofray;
-  Mode mode;                   ///< the chosen one
-  std::vector<std::string> mode_names;   ///< all that the profile has
+  Mode mode;                            ///< the chosen one
+  std::vector<std::string> mode_names;  ///< all that the profile has
 };
 
 }  // namespace tofray

@@ -8,11 +8,11 @@ namespace tofray {
 
 /// What went wrong, as a process exit code says it (the command line returns the value unchanged).
 enum class ErrorKind {
-  bad_input = 2,   ///< bad usage, or a fault in what the user wrote
-  io = 3,          ///< cannot read or write
-  limit = 4,       ///< out of memory, or over a limit printed by `tofray --limits`
-  device = 5,      ///< no such device, or it failed
-  bug = 70,        ///< a fault of ours
+  bad_input = 2,  ///< bad usage, or a fault in what the user wrote
+  io = 3,         ///< cannot read or write
+  limit = 4,      ///< out of memory, or over a limit printed by `tofray --limits`
+  device = 5,     ///< no such device, or it failed
+  bug = 70,       ///< a fault of ours
 };
 
 /// The one exception type at the API border.

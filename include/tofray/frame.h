@@ -16,28 +16,33 @@ namespace tofray {
 /// Raw frames of one frame, as the sensor hands them out, and when and how each was exposed.
 struct Raw {
   int width = 0, height = 0, phases = 0;
-  TOFRAY_RAW_ARRAYS(TOFRAY_VECTOR)        // std::vector<float> tap_a; …
-  TOFRAY_EXPOSURE_ARRAYS(TOFRAY_VECTOR)   // std::vector<double> modulation_frequency_hz; …
+  TOFRAY_RAW_ARRAYS(TOFRAY_VECTOR)       // std::vector<float> tap_a; …
+  TOFRAY_EXPOSURE_ARRAYS(TOFRAY_VECTOR)  // std::vector<double> modulation_frequency_hz; …
 };
 
 /// Bits of Depth::flags. The first five make the depth invalid, the last two warn.
 enum Flag : std::uint16_t {
-  flag_saturated = 1, flag_low_signal = 2, flag_flying_pixel = 4, flag_no_return = 8, flag_outside_lens = 16,
-  flag_inconsistent_phases = 32, flag_inconsistent_frequencies = 64,
+  flag_saturated = 1,
+  flag_low_signal = 2,
+  flag_flying_pixel = 4,
+  flag_no_return = 8,
+  flag_outside_lens = 16,
+  flag_inconsistent_phases = 32,
+  flag_inconsistent_frequencies = 64,
 };
 inline constexpr std::uint16_t flags_invalid = 31;
 
 /// Depth frame, camera frame (x right, y down, z forward).
 struct Depth {
   int width = 0, height = 0;
-  TOFRAY_DEPTH_ARRAYS(TOFRAY_VECTOR)      // std::vector<float> z_m; …
+  TOFRAY_DEPTH_ARRAYS(TOFRAY_VECTOR)  // std::vector<float> z_m; …
 };
 
 /// Ground truth at the middle of the middle raw frame, and the power of the camera's own light.
 struct Truth {
   int width = 0, height = 0, phases = 0;
   double time_s = 0;
-  TOFRAY_TRUTH_ARRAYS(TOFRAY_VECTOR)      // std::vector<float> range_m; …
+  TOFRAY_TRUTH_ARRAYS(TOFRAY_VECTOR)  // std::vector<float> range_m; …
 };
 
 #undef TOFRAY_VECTOR
@@ -46,7 +51,7 @@ struct Frame {
   std::uint64_t index = 0;
   Raw raw;
   Depth depth;
-  Truth truth;                  ///< empty arrays where not asked for
+  Truth truth;  ///< empty arrays where not asked for
 };
 
 /// A frame of a batch, where it lies: arrays as in Raw, Depth and Truth, under their names in files (gt_range_m is Truth::range_m).
@@ -54,9 +59,9 @@ struct Frame {
 struct FrameArrays {
   std::uint64_t index = 0;
   int width = 0, height = 0, phases = 0;
-  int device = -1;                       ///< −1: host memory; else the pointers are for this GPU
+  int device = -1;  ///< −1: host memory; else the pointers are for this GPU
 #define TOFRAY_POINTER(name, part, member, element, ...) const element* name = nullptr;
-  TOFRAY_IMAGE_ARRAYS(TOFRAY_POINTER)   // const float* tap_a = nullptr; …
+  TOFRAY_IMAGE_ARRAYS(TOFRAY_POINTER)  // const float* tap_a = nullptr; …
 #undef TOFRAY_POINTER
 };
 

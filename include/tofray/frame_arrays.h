@@ -79,7 +79,6 @@ enum class ArrayShape {
 /// Those that kernels write.
 #define TOFRAY_IMAGE_ARRAYS(row) TOFRAY_RAW_ARRAYS(row) TOFRAY_DEPTH_ARRAYS(row) TOFRAY_TRUTH_ARRAYS(row)
 /// All, in the order of frame.npz.
-#define TOFRAY_FRAME_ARRAYS(row) \
-  TOFRAY_RAW_ARRAYS(row) TOFRAY_EXPOSURE_ARRAYS(row) TOFRAY_DEPTH_ARRAYS(row) TOFRAY_TRUTH_ARRAYS(row)
+#define TOFRAY_FRAME_ARRAYS(row) TOFRAY_RAW_ARRAYS(row) TOFRAY_EXPOSURE_ARRAYS(row) TOFRAY_DEPTH_ARRAYS(row) TOFRAY_TRUTH_ARRAYS(row)
 
 }  // namespace tofray

@@ -18,7 +18,7 @@ namespace tofray {
 Scene load_scene(const std::string& file_or_name);
 
 struct CameraOptions {
-  std::string mode = {};       ///< empty: the profile's first
+  std::string mode = {};  ///< empty: the profile's first
   /// Dotted key and value as written in a profile, e.g. {"lens.f_number", "1.2"}.
   std::vector<std::pair<std::string, std::string>> set = {};
   /// A scene's profile file has to lie in or below the scene's folder, or in or below this one where it is not empty.

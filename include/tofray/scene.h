@@ -18,7 +18,7 @@ using Vec3 = std::array<double, 3>;
 /// How a surface sends light back, at the illumination wavelength.
 struct Material {
   enum class Brdf { lambert, phong, oren_nayar };
-  std::string name;            ///< empty for a material written inside an object
+  std::string name;  ///< empty for a material written inside an object
   Brdf brdf = Brdf::lambert;
   double diffuse = 0.0;        ///< k_d, 0…1: Lambertian reflectivity (Lambert, Oren–Nayar: the reflectivity rho)
   double specular = 0.0;       ///< k_s, 0…1 with k_d + k_s <= 1: the Phong lobe's share (0 for Lambert)
@@ -29,22 +29,41 @@ struct Material {
   [[nodiscard]] double reflectivity() const { return diffuse + specular; }
 };
 
-struct Plane { Vec3 point{}; Vec3 normal{0, 0, -1}; };              ///< infinite; the normal need not be of unit length
-struct Sphere { Vec3 center{}; double radius = 1; };
-struct Box { Vec3 min{}; Vec3 max{}; };                             ///< along the axes before its rotation
-struct Triangle { std::array<Vec3, 3> vertices{}; };
-struct Cylinder { Vec3 center{}; Vec3 axis{0, 1, 0}; double radius = 1; double height = 1; };   ///< with caps; the axis need not be of unit length
+struct Plane {
+  Vec3 point{};
+  Vec3 normal{0, 0, -1};
+};  ///< infinite; the normal need not be of unit length
+struct Sphere {
+  Vec3 center{};
+  double radius = 1;
+};
+struct Box {
+  Vec3 min{};
+  Vec3 max{};
+};  ///< along the axes before its rotation
+struct Triangle {
+  std::array<Vec3, 3> vertices{};
+};
+struct Cylinder {
+  Vec3 center{};
+  Vec3 axis{0, 1, 0};
+  double radius = 1;
+  double height = 1;
+};  ///< with caps; the axis need not be of unit length
 
 /// A turn by the right-hand rule about `axis` (any length but zero).
-struct Rotation { Vec3 axis{0, 0, 1}; double angle_rad = 0; };
+struct Rotation {
+  Vec3 axis{0, 0, 1};
+  double angle_rad = 0;
+};
 
 /// One thing in the scene. Order of operations: rotation about its own centre (sphere, box, cylinder: the centre; triangle: the
 /// centroid; plane: its point), then the shift `position`, then velocity · t.
 struct Object {
   std::string name;
   std::variant<Plane, Sphere, Box, Triangle, Cylinder> shape;
-  int material = 0;            ///< index in Scene::materials
-  Vec3 position{0, 0, 0};      ///< shift [m]
+  int material = 0;        ///< index in Scene::materials
+  Vec3 position{0, 0, 0};  ///< shift [m]
   Rotation rotation{};
   Vec3 velocity_m_per_s{0, 0, 0};
 };
@@ -53,22 +72,22 @@ struct Object {
 struct Ambient {
   enum class Spectrum { none, sun_am15, equal_energy, table };
   enum class Quantity {
-    level,             ///< 1 = the spectrum as it is tabulated (sun_am15: the global standard sun, 1000 W/m2 in all)
-    illuminance_lx,    ///< photometric, through the CIE photopic curve
+    level,                     ///< 1 = the spectrum as it is tabulated (sun_am15: the global standard sun, 1000 W/m2 in all)
+    illuminance_lx,            ///< photometric, through the CIE photopic curve
     band_irradiance_w_per_m2,  ///< E_B itself: the irradiance within the camera's filter
   };
   Spectrum spectrum = Spectrum::none;
   Quantity quantity = Quantity::level;
-  double amount = 0;                    ///< in the quantity's unit
-  std::vector<double> table_wavelength_m;       ///< spectrum `table`: ascending
+  double amount = 0;                              ///< in the quantity's unit
+  std::vector<double> table_wavelength_m;         ///< spectrum `table`: ascending
   std::vector<double> table_irradiance_w_per_m3;  ///< spectral irradiance per metre of wavelength (1 W m-2 nm-1 = 1e9 W m-3)
-  std::optional<Vec3> direction;        ///< direction in which the light travels (a sun); none: uniform from everywhere
+  std::optional<Vec3> direction;                  ///< direction in which the light travels (a sun); none: uniform from everywhere
 };
 
 /// Where the camera stands. Camera frame: x right, y down, z forward.
 struct Pose {
   Vec3 position{0, 0, 0};
-  Vec3 look_at{0, 0, 1};       ///< a point on the optical axis
+  Vec3 look_at{0, 0, 1};  ///< a point on the optical axis
   Vec3 up{0, -1, 0};
 };
 
@@ -77,21 +96,21 @@ struct Pose {
 struct Override {
   std::string key;
   std::string value;
-  std::string where = {};      ///< file:line:col for messages; empty if built in code
+  std::string where = {};  ///< file:line:col for messages; empty if built in code
 };
 
 /// The scene's `camera` section: which profile and mode to take, and what to change in it.
 struct CameraChoice {
-  std::string profile = "pico-flexx";   ///< a built-in name or a file
-  std::string mode;                     ///< empty: the profile's first
+  std::string profile = "pico-flexx";  ///< a built-in name or a file
+  std::string mode;                    ///< empty: the profile's first
   Pose pose;
   std::vector<Override> overrides;
-  std::string profile_where, mode_where;   ///< file:line:col for messages; empty if built in code
+  std::string profile_where, mode_where;  ///< file:line:col for messages; empty if built in code
 };
 
 struct Scene {
-  std::string name;            ///< the file's stem, or a built-in name
-  std::string source;          ///< the file it came from, empty if built in code
+  std::string name;    ///< the file's stem, or a built-in name
+  std::string source;  ///< the file it came from, empty if built in code
   CameraChoice camera;
   Ambient ambient;
   std::vector<Material> materials;

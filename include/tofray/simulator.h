@@ -16,9 +16,9 @@
 namespace tofray {
 
 enum class Noise {
-  off,     ///< expected values: no draw; wells and codes still clip, depth comes from the unrounded A−B
-  fast,    ///< one merged normal per tap and raw frame
-  exact,   ///< true Poisson, then read noise (the default)
+  off,    ///< expected values: no draw; wells and codes still clip, depth comes from the unrounded A−B
+  fast,   ///< one merged normal per tap and raw frame
+  exact,  ///< true Poisson, then read noise (the default)
 };
 
 /// Which machine code runs. All give the same bytes.
@@ -28,21 +28,22 @@ enum class Isa { best, scalar, scalar_fma, avx2, avx512 };
 enum class Backend {
   automatic,  ///< a GPU if there is one that can be used, else the processor
   cpu,
-  cuda,       ///< a GPU, or an error that says why not
+  cuda,  ///< a GPU, or an error that says why not
 };
 
 struct SimulatorOptions {
   std::uint64_t seed = 0;
   Noise noise = Noise::exact;
-  int threads = 0;             ///< at most 1024; 0: as many as the machine has cores
+  int threads = 0;  ///< at most 1024; 0: as many as the machine has cores
   Backend backend = Backend::automatic;
-  int device = -1;             ///< which GPU, from 0 on; −1: the first one that can be used
-  int block_size = 0;          ///< CUDA threads per block, a multiple of 32 up to 1024; 0: chosen
-  std::size_t batch_bytes = 64'000'000;  ///< host memory of one batch on its way from a GPU (or to it); there are three of them for each GPU
-  Isa isa = Isa::best;         ///< best: the environment's TOFRAY_ISA, else what the CPU can do
-  bool truth = true;           ///< fill Frame::truth
+  int device = -1;     ///< which GPU, from 0 on; −1: the first one that can be used
+  int block_size = 0;  ///< CUDA threads per block, a multiple of 32 up to 1024; 0: chosen
+  std::size_t batch_bytes =
+      64'000'000;                   ///< host memory of one batch on its way from a GPU (or to it); there are three of them for each GPU
+  Isa isa = Isa::best;              ///< best: the environment's TOFRAY_ISA, else what the CPU can do
+  bool truth = true;                ///< fill Frame::truth
   Stage last_stage = Stage::depth;  ///< stop after this stage: arrays of later ones are left as they are (zero in a new frame)
-  bool culling = true;         ///< off: every pixel tests every object (slower, same bytes; for tests)
+  bool culling = true;              ///< off: every pixel tests every object (slower, same bytes; for tests)
 };
 
 /// What frames or depth were computed on.
@@ -58,9 +59,9 @@ struct RanOn {
 
 /// One frame of a batch. What is not set is the simulator's.
 struct FrameRequest {
-  std::uint64_t index = 0;              ///< starts at index / frame_rate
+  std::uint64_t index = 0;  ///< starts at index / frame_rate
   std::optional<std::uint64_t> seed = {};
-  std::optional<Pose> pose = {};        ///< of the camera
+  std::optional<Pose> pose = {};  ///< of the camera
 };
 
 /// Frames that stay in a GPU's memory.

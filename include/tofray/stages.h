@@ -17,14 +17,14 @@ namespace tofray {
 /// Where nothing is seen, no other value is looked at.
 struct Geometry {
   int width = 0, height = 0, moments = 1;
-  std::vector<float> z_m;                  ///< [moment][height][width] along the optical axis; not above 0 (or NaN), or beyond 1e5: nothing is seen
-  std::vector<float> normal;               ///< [moment][height][width][3] on either side of the surface, of unit length to 0.1 %
-  std::vector<float> diffuse;              ///< [moment][height][width] k_d, 0…1: of a Lambertian surface its reflectivity
-  std::vector<float> specular;             ///< [moment][height][width] k_s of the Phong lobe, 0…1 − k_d; empty: Lambert
-  std::vector<float> exponent;             ///< [moment][height][width] n of the Phong lobe, 1…1e4, also where k_s is 0; empty: Lambert
-  std::vector<std::int32_t> object_id;     ///< [moment][height][width] for Truth::object_id; empty: 0 wherever something is seen
-  std::vector<std::uint8_t> shadow;        ///< [moment][light][height][width] 1 where the light does not reach; empty: it reaches everywhere
-  std::vector<std::uint8_t> sun_shadow;    ///< [moment][height][width] the same for ambient light that has a direction
+  std::vector<float> z_m;       ///< [moment][height][width] along the optical axis; not above 0 (or NaN), or beyond 1e5: nothing is seen
+  std::vector<float> normal;    ///< [moment][height][width][3] on either side of the surface, of unit length to 0.1 %
+  std::vector<float> diffuse;   ///< [moment][height][width] k_d, 0…1: of a Lambertian surface its reflectivity
+  std::vector<float> specular;  ///< [moment][height][width] k_s of the Phong lobe, 0…1 − k_d; empty: Lambert
+  std::vector<float> exponent;  ///< [moment][height][width] n of the Phong lobe, 1…1e4, also where k_s is 0; empty: Lambert
+  std::vector<std::int32_t> object_id;   ///< [moment][height][width] for Truth::object_id; empty: 0 wherever something is seen
+  std::vector<std::uint8_t> shadow;      ///< [moment][light][height][width] 1 where the light does not reach; empty: it reaches everywhere
+  std::vector<std::uint8_t> sun_shadow;  ///< [moment][height][width] the same for ambient light that has a direction
 };
 
 /// The light that each pixel receives, for stage 3 (raw): path by path, or summed already by modulation frequency.
@@ -39,13 +39,15 @@ struct Geometry {
 /// are on the mean.
 struct PixelLight {
   int width = 0, height = 0, moments = 1;
-  std::vector<float> power_w;              ///< [moment][path][height][width] on the pixel, mean of a modulation period of a lit raw frame, 0…1;
-                                           ///< with phasors [moment][light][height][width]
-  std::vector<float> path_length_m;        ///< [moment][path][height][width] ℓ from the light to the surface and on to the camera, 0…1e6 (no light: 0)
-  std::vector<int> light_of_path;          ///< [path] which of the camera's lights it comes from; empty: one path of each, in their order
-  std::vector<std::complex<float>> phasor_w;   ///< [moment][light][modulation frequency][harmonic][height][width], in place of path_length_m; none
-                                           ///< is longer than its power. Harmonics 1, 3, 5 …, as many as there are: the array's size says it
-  std::vector<float> ambient_e_per_s;      ///< [moment][height][width] electrons of both taps together, 0…1e20; empty: none
+  std::vector<float> power_w;  ///< [moment][path][height][width] on the pixel, mean of a modulation period of a lit raw frame, 0…1;
+                               ///< with phasors [moment][light][height][width]
+  std::vector<float>
+      path_length_m;  ///< [moment][path][height][width] ℓ from the light to the surface and on to the camera, 0…1e6 (no light: 0)
+  std::vector<int> light_of_path;  ///< [path] which of the camera's lights it comes from; empty: one path of each, in their order
+  std::vector<std::complex<float>>
+      phasor_w;                        ///< [moment][light][modulation frequency][harmonic][height][width], in place of path_length_m; none
+                                       ///< is longer than its power. Harmonics 1, 3, 5 …, as many as there are: the array's size says it
+  std::vector<float> ambient_e_per_s;  ///< [moment][height][width] electrons of both taps together, 0…1e20; empty: none
 };
 
 /// Which way each pixel looks, for renderers of one's own: x/z and y/z of its ray in the camera frame, the lens undistorted (theory 4.3).

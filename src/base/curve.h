@@ -30,7 +30,7 @@ class ClampedCurve {
 
   [[nodiscard]] double evaluate(double x) const {
     if (!spline_ || x <= positions_.front()) return first_;
-    return x >= positions_.back() ? last_ : std::clamp(spline_->evaluate(x), lowest_, highest_);   // rounding can push it beyond
+    return x >= positions_.back() ? last_ : std::clamp(spline_->evaluate(x), lowest_, highest_);  // rounding can push it beyond
   }
 
   /// Where one cubic ends and the next begins; empty for a constant.

@@ -39,10 +39,11 @@ inline constexpr Limit unpacked_ratio{"unpacked_ratio", 100, "times its own size
 
 /// All of them, in the order in which they are printed.
 inline constexpr Limit all_limits[] = {
-    limit::file_bytes,     limit::nesting_depth,  limit::nodes,              limit::text_bytes,    limit::overrides,
-    limit::faults_shown,   limit::faults_counted, limit::message_line_bytes, limit::message_bytes, limit::objects,
-    limit::materials,      limit::lights,         limit::raw_frames,         limit::modes,         limit::sensor_side,
-    limit::sensor_pixels,  limit::raw_samples,    limit::curve_points,       limit::table_samples, limit::unpacked_bytes,
+    limit::file_bytes,     limit::nesting_depth, limit::nodes,          limit::text_bytes,
+    limit::overrides,      limit::faults_shown,  limit::faults_counted, limit::message_line_bytes,
+    limit::message_bytes,  limit::objects,       limit::materials,      limit::lights,
+    limit::raw_frames,     limit::modes,         limit::sensor_side,    limit::sensor_pixels,
+    limit::raw_samples,    limit::curve_points,  limit::table_samples,  limit::unpacked_bytes,
     limit::unpacked_ratio, limit::threads,
 };
 

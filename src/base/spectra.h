@@ -10,8 +10,8 @@ namespace tofray::base {
 ///
 /// Lines and not a cubic spline: the spectrum behind the atmosphere is a comb of absorption lines, not smooth on any grid.
 struct Spectrum {
-  std::vector<double> wavelength_m;   ///< ascending, at least 2
-  std::vector<double> value;          ///< spectral irradiance [W m⁻³] (1 W m⁻² nm⁻¹ is 1e9 W m⁻³), or no unit
+  std::vector<double> wavelength_m;  ///< ascending, at least 2
+  std::vector<double> value;         ///< spectral irradiance [W m⁻³] (1 W m⁻² nm⁻¹ is 1e9 W m⁻³), or no unit
 
   /// @throws Error (bad_input) where the samples make no spectrum: fewer than 2, not ascending, not finite, negative
   void check() const;

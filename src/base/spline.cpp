@@ -96,7 +96,7 @@ std::vector<double> periodic_slopes(const std::vector<double>& h, const std::vec
     upper[i] = h[before];
     solution[i] = 3 * (h[i] * g[before] + h[before] * g[i]);
   }
-  const double corner_first = lower[0], corner_last = upper[n - 1];   // of b_{n−1} in row 0, of b_0 in row n−1
+  const double corner_first = lower[0], corner_last = upper[n - 1];  // of b_{n−1} in row 0, of b_0 in row n−1
   const double gamma = -middle[0];
   middle[0] -= gamma;
   middle[n - 1] -= corner_first * corner_last / gamma;
@@ -128,7 +128,7 @@ void limit_slopes(const std::vector<double>& g, std::vector<double>& slope) {
     const double before = s;
     for (const double secant : {g[knot == 0 ? 0 : knot - 1], g[std::min(knot, g.size() - 1)]})
       s = std::clamp(s, std::min(0.0, 3 * secant), std::max(0.0, 3 * secant));
-    return s < before || s > before;   // of samples beyond measure there may be no number: nothing to limit, and an end
+    return s < before || s > before;  // of samples beyond measure there may be no number: nothing to limit, and an end
   };
   for (std::size_t i = 0; i < g.size();) {
     if (runs_one_way(slope[i], slope[i + 1], g[i])) {
@@ -192,7 +192,7 @@ void Spline::pieces_from_slopes(const std::vector<double>& slope) {
 double Spline::wrapped(double x) const {
   const double period = x_.back() - x_.front();
   const double rest = x - period * std::floor((x - x_.front()) / period);
-  return std::clamp(rest, x_.front(), x_.back());   // rounding can push it over an end
+  return std::clamp(rest, x_.front(), x_.back());  // rounding can push it over an end
 }
 
 Spline::Place Spline::place(double x) const {

@@ -54,8 +54,8 @@ class Spline {
 
   Kind kind_;
   std::vector<double> x_, y_;
-  std::vector<double> slope_, square_, cube_;   // per interval: b, c, d
-  std::vector<double> area_;                    // per knot: ∫ from the first knot to it
+  std::vector<double> slope_, square_, cube_;  // per interval: b, c, d
+  std::vector<double> area_;                   // per knot: ∫ from the first knot to it
 };
 
 }  // namespace tofray::base

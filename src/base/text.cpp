@@ -53,7 +53,7 @@ std::string printable(std::string_view text) {
     const auto byte = [&](std::size_t k) { return static_cast<std::uint32_t>(static_cast<unsigned char>(text[i + k])); };
     const std::size_t length = utf8_length(text, i);
     const std::uint32_t b = byte(0);
-    const std::uint32_t code = length == 2 ? (b & 31) << 6 | (byte(1) & 63)
+    const std::uint32_t code = length == 2   ? (b & 31) << 6 | (byte(1) & 63)
                                : length == 3 ? (b & 15) << 12 | (byte(1) & 63) << 6 | (byte(2) & 63)
                                              : b;
     if (length == 0 || code < 0x20)
@@ -88,9 +88,8 @@ std::string message(std::string_view text) {
     const std::string line = printable(text.substr(from, stop - from));
     const bool cut = line.size() > longest_line;
     // The beginning says where, the end what.
-    const std::string shown = cut ? std::string(front(line, longest_line / 2)) + std::string(gap) +
-                                        std::string(back(line, longest_line / 2 - gap.size()))
-                                  : line;
+    const std::string shown =
+        cut ? std::string(front(line, longest_line / 2)) + std::string(gap) + std::string(back(line, longest_line / 2 - gap.size())) : line;
     if (out.size() + 1 + shown.size() + end.size() > longest) return out + std::string(end);
     out += (from > 0 ? "\n" : "") + shown;
     from = stop + 1;

@@ -22,8 +22,6 @@ inline Vec3 normalized(const Vec3& a) { return (1 / length(a)) * a; }
 /// Rows of a rotation matrix.
 using Mat3 = std::array<Vec3, 3>;
 inline Vec3 operator*(const Mat3& m, const Vec3& a) { return {dot(m[0], a), dot(m[1], a), dot(m[2], a)}; }
-inline Mat3 transposed(const Mat3& m) {
-  return {{{m[0][0], m[1][0], m[2][0]}, {m[0][1], m[1][1], m[2][1]}, {m[0][2], m[1][2], m[2][2]}}};
-}
+inline Mat3 transposed(const Mat3& m) { return {{{m[0][0], m[1][0], m[2][0]}, {m[0][1], m[1][1], m[2][1]}, {m[0][2], m[1][2], m[2][2]}}}; }
 
 }  // namespace tofray::base

@@ -10,9 +10,9 @@ using flow::Finish;
 
 /// A material as kernels read it: out of the public struct by its BRDF's view().
 struct MaterialView {
-  float reflectivity;                  ///< what truth shows, and how much ambient light comes back
-  float number[flow::brdf_numbers];    ///< what its BRDF's f_r() reads
-  std::int32_t brdf;                   ///< its place in the list
+  float reflectivity;                ///< what truth shows, and how much ambient light comes back
+  float number[flow::brdf_numbers];  ///< what its BRDF's f_r() reads
+  std::int32_t brdf;                 ///< its place in the list
 };
 constexpr int material_words = sizeof(MaterialView) / sizeof(float);
 
@@ -20,7 +20,7 @@ constexpr int material_words = sizeof(MaterialView) / sizeof(float);
 template <class F>
 struct Cosines {
   F light, view;
-  F between;                           ///< of the angle between light and camera
+  F between;  ///< of the angle between light and camera
 };
 
 constexpr float per_pi = 0.318309886f;

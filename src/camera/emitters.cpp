@@ -26,7 +26,8 @@ void append_emitters(const Illumination& light, std::vector<Illumination>& out) 
   for (int i = 0; i < light.ring_leds; ++i) {
     const double turn = 2 * pi * i / light.ring_leds;
     Illumination one = light;
-    one.position = light.position + (light.ring_radius_m * num::setup::cos(turn)) * axes[0] + (light.ring_radius_m * num::setup::sin(turn)) * axes[1];
+    one.position =
+        light.position + (light.ring_radius_m * num::setup::cos(turn)) * axes[0] + (light.ring_radius_m * num::setup::sin(turn)) * axes[1];
     one.power_w = light.power_w / light.ring_leds;
     one.ring_leds = 1, one.ring_radius_m = 0;
     out.push_back(one);

@@ -21,12 +21,13 @@ using namespace base;
 namespace setup = num::setup;
 using num::single;
 
-namespace {
-}  // namespace
+namespace {}  // namespace
 
-FrozenCamera::FrozenCamera(const Camera& camera, int noise, std::uint64_t seed) : camera_(with_emitters(camera)), modulations_(modulations_of(camera.mode)) {
+FrozenCamera::FrozenCamera(const Camera& camera, int noise, std::uint64_t seed)
+    : camera_(with_emitters(camera)), modulations_(modulations_of(camera.mode)) {
   if (camera_.illumination.size() > flow::max_lights) {
-    throw Error(ErrorKind::limit, "error: more than 8 light sources\n  got " + std::to_string(camera_.illumination.size()) + "; each LED of a ring counts as one");
+    throw Error(ErrorKind::limit, "error: more than 8 light sources\n  got " + std::to_string(camera_.illumination.size()) +
+                                      "; each LED of a ring counts as one");
   }
   if (camera.mode.sequence.size() > flow::max_raw_frames) throw Error(ErrorKind::limit, "error: more than 64 raw frames in one sequence");
   freeze_lens();
@@ -34,8 +35,9 @@ FrozenCamera::FrozenCamera(const Camera& camera, int noise, std::uint64_t seed) 
   for (const Illumination& light : camera_.illumination) {
     lights_.push_back(freeze_light(light, efficiency.evaluate(light.illumination_wavelength_m)));
     if (camera.power_model == PowerModel::paper_literal && lights_.back().table.empty()) {
-      refuse("power_model paper_literal needs light sources with a table\n"
-                                        "  got a cone or lobe; take the pattern flat_top or table, or the power_model tofray");
+      refuse(
+          "power_model paper_literal needs light sources with a table\n"
+          "  got a cone or lobe; take the pattern flat_top or table, or the power_model tofray");
     }
   }
   for (const FrozenLight& light : lights_) light_views_.push_back(light.view);
@@ -70,10 +72,10 @@ void FrozenCamera::freeze_lens() {
 
   const double area = sensor.pixel_pitch_m * sensor.pixel_pitch_m * sensor.fill_factor;
   const double number = camera_.lens.f_number;
-  power_.watts_per_radiance = single(pi * camera_.lens.transmission * area / (4 * number * number));       // [theory: eq. 2.5, 2.6]
+  power_.watts_per_radiance = single(pi * camera_.lens.transmission * area / (4 * number * number));  // [theory: eq. 2.5, 2.6]
   power_.paper_literal = camera_.power_model == PowerModel::paper_literal;
   const double focal_mm = 1e3 * camera_.lens.fx_px * sensor.pixel_pitch_m;
-  power_.paper_scale = single(pi * area / (4 * number * number * focal_mm * focal_mm));                     // [theory: eq. 2.11]
+  power_.paper_scale = single(pi * area / (4 * number * number * focal_mm * focal_mm));  // [theory: eq. 2.11]
 }
 
 void FrozenCamera::freeze_tiles() {
@@ -101,7 +103,7 @@ double FrozenCamera::first_phase(std::size_t modulation) const {
 
 void FrozenCamera::freeze_phasors() {
   const std::size_t lights = lights_.size(), modulations = modulations_.frequency_hz.size();
-  std::vector<std::vector<Harmonic>> harmonics;      // [modulation][light]
+  std::vector<std::vector<Harmonic>> harmonics;  // [modulation][light]
   std::size_t most = 0;
   for (const double frequency : modulations_.frequency_hz) {
     for (const Illumination& light : camera_.illumination) {
@@ -196,7 +198,8 @@ void FrozenCamera::freeze_patterns() {
   // Each pattern is a stream of its own in the random numbers of the sensor's seed.
   const auto draw = [&](double sigma, double mean, double least, std::uint32_t stream, std::vector<float>& map) -> const float* {
     if (sigma == 0) return nullptr;
-    const num::RoundKeys keys = num::round_keys(static_cast<std::uint32_t>(pixel.pattern_seed), static_cast<std::uint32_t>(pixel.pattern_seed >> 32));
+    const num::RoundKeys keys =
+        num::round_keys(static_cast<std::uint32_t>(pixel.pattern_seed), static_cast<std::uint32_t>(pixel.pattern_seed >> 32));
     for (std::size_t i = 0; i < pixels; ++i) {
       const auto words = num::philox<float>(static_cast<std::uint32_t>(i), stream, 0, 0, keys);
       float z, other;

@@ -19,9 +19,9 @@ FrozenLight freeze_light(const Illumination& light, double quantum_efficiency);
 /// Modulation frequencies of the lit raw frames in the order they first appear, and their place in a common base.
 struct Modulations {
   std::vector<double> frequency_hz;
-  std::vector<int> of_raw_frame;      ///< −1: unlit
-  std::vector<int> cycles;            ///< M_i: f_i = M_i·f_0
-  double base_hz = 0;                 ///< f_0
+  std::vector<int> of_raw_frame;  ///< −1: unlit
+  std::vector<int> cycles;        ///< M_i: f_i = M_i·f_0
+  double base_hz = 0;             ///< f_0
 };
 /// @throws Error (bad_input) where the frequencies have no common base with cycles up to 1000
 Modulations modulations_of(const Mode& mode);
@@ -73,11 +73,11 @@ class FrozenCamera {
   std::vector<RawFrameView> raw_frames_;
   std::vector<ModulationView> phasor_modulations_;
   std::vector<float> sources_, gates_;
-  double drifted_m_ = 0;                           // what the gates were made for
+  double drifted_m_ = 0;  // what the gates were made for
   std::vector<DecodeRawFrame> decode_frames_;
   std::vector<DecodeModulation> decode_modulations_;
   std::vector<std::int32_t> grey_frames_;
-  std::vector<std::vector<std::int32_t>> grouped_, pairs_;   // [modulation]
+  std::vector<std::vector<std::int32_t>> grouped_, pairs_;  // [modulation]
   std::vector<float> ray_x_, ray_y_, inverse_length_, vignetting_, gain_, offset_, delay_;
   std::vector<std::vector<float>> wiggling_;
   std::vector<flow::Bounds> tiles_;

@@ -22,7 +22,7 @@ using num::single;
 namespace {
 
 constexpr int wiggling_nodes = 1024;
-constexpr double least_contrast = 1e-6;   // of a light with which a distance could still be measured
+constexpr double least_contrast = 1e-6;  // of a light with which a distance could still be measured
 
 /// Reference phases and raw frames of one modulation frequency.
 struct Group {
@@ -161,7 +161,7 @@ void FrozenCamera::freeze_modulations(double grey_time) {
     const double contrast = harmonics.front().amplitude;
     if (!(contrast >= least_contrast)) {
       refuse("next to nothing is left of the modulation\n  got a contrast of " + number_text(contrast) + " at " +
-                                            number_text(1e-6 * frequency) + " MHz; mind the pixel's contrast, bandwidths, rise time, jitter and modulation depth");
+             number_text(1e-6 * frequency) + " MHz; mind the pixel's contrast, bandwidths, rise time, jitter and modulation depth");
     }
     if (!camera_.decoding.wiggling_correction) harmonics.resize(1);
     wiggling_.emplace_back();
@@ -172,16 +172,19 @@ void FrozenCamera::freeze_modulations(double grey_time) {
     }
     const double half_wave = wave_speed / (2 * frequency);
     DecodeModulation& m = decode_modulations_.emplace_back();
-    m.half_wave = single(half_wave), m.per_half_wave = single(1 / half_wave), m.cycles = single(modulations_.cycles[at]), m.frequency = single(frequency);
+    m.half_wave = single(half_wave), m.per_half_wave = single(1 / half_wave), m.cycles = single(modulations_.cycles[at]),
+    m.frequency = single(frequency);
     m.per_contrast = single(1 / contrast), m.integration_time = single(group.integration_time);
     m.wiggling = wiggling_.back().data();
-    m.ambient_scale = single(grey_time > 0 ? group.integration_time / grey_time : 0), m.variance_factor = single(2 / (count * 4 * pi * pi) * half_wave * half_wave);
+    m.ambient_scale = single(grey_time > 0 ? group.integration_time / grey_time : 0),
+    m.variance_factor = single(2 / (count * 4 * pi * pi) * half_wave * half_wave);
     grouped_.push_back(group.raw_frame), pairs_.push_back(pairs_of(group));
     m.raw_frame = grouped_.back().data(), m.count = static_cast<std::int32_t>(grouped_.back().size());
     m.pair = pairs_.back().data(), m.pairs = static_cast<std::int32_t>(pairs_.back().size() / 2);
     if (modulations_.cycles[at] < modulations_.cycles[static_cast<std::size_t>(d.reference)]) d.reference = i;
     for (std::size_t j = 0; j < group.tau.size(); ++j) {
-      decode_frames_[static_cast<std::size_t>(group.raw_frame[j])] = {single(2 / count * setup::cos(group.tau[j])), single(2 / count * setup::sin(group.tau[j]))};
+      decode_frames_[static_cast<std::size_t>(group.raw_frame[j])] = {single(2 / count * setup::cos(group.tau[j])),
+                                                                      single(2 / count * setup::sin(group.tau[j]))};
     }
   }
   const double common = wave_speed / (2 * modulations_.base_hz);

@@ -27,8 +27,11 @@ struct Table {
 
 /// The table that a flat top stands for: half its peak at the edges of width × height.
 Table flat_top(const Pattern& p) {
-  Table t{p.columns > 0 ? p.columns : 172, p.rows > 0 ? p.rows : 168, p.half_range_x_rad > 0 ? p.half_range_x_rad : p.width_rad,
-          p.half_range_y_rad > 0 ? p.half_range_y_rad : p.height_rad, {}};
+  Table t{p.columns > 0 ? p.columns : 172,
+          p.rows > 0 ? p.rows : 168,
+          p.half_range_x_rad > 0 ? p.half_range_x_rad : p.width_rad,
+          p.half_range_y_rad > 0 ? p.half_range_y_rad : p.height_rad,
+          {}};
   for (int row = 0; row < t.rows; ++row) {
     const double y = flat_top_share(2 * t.half_y * ((2 * row + 1.0) / t.rows - 1) / p.height_rad);
     for (int column = 0; column < t.columns; ++column) {
@@ -55,8 +58,7 @@ void freeze_measured(const Pattern& p, double power, FrozenLight& out) {
   const double largest = *std::max_element(t.samples.begin(), t.samples.end());
   for (double& sample : t.samples) sample /= largest;
   const double integral = table_integral(t.samples, t.columns, t.rows, t.half_x, t.half_y);
-  if (!(integral > 0))
-    refuse("a light's pattern is dark\n  got samples above 0 only where the angle to the axis is beyond 180 deg");
+  if (!(integral > 0)) refuse("a light's pattern is dark\n  got samples above 0 only where the angle to the axis is beyond 180 deg");
   freeze_table(t, power / integral, out);
 }
 
@@ -78,7 +80,7 @@ void freeze_pattern(const Pattern& p, double power, FrozenLight& out) {
     case Pattern::Kind::flat_top: {
       const Table t = flat_top(p);
       const double peak = power / flat_top_integral(p.width_rad, p.height_rad, t.half_x, t.half_y);
-      freeze_table(t, peak, out);      // the paper's printed formula reads the table; all else takes the formula
+      freeze_table(t, peak, out);  // the paper's printed formula reads the table; all else takes the formula
       view.kind = PatternView::flat_top;
       view.peak = single(peak);
       view.per_half_width = single(2 / p.width_rad), view.per_half_height = single(2 / p.height_rad);

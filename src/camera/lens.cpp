@@ -12,9 +12,7 @@ namespace tofray::camera {
 namespace {
 
 /// d/dr of r(1 + k1r² + k2r⁴ + k3r⁶)
-double radial_slope(const Lens& lens, double square) {
-  return 1 + square * (3 * lens.k1 + square * (5 * lens.k2 + square * 7 * lens.k3));
-}
+double radial_slope(const Lens& lens, double square) { return 1 + square * (3 * lens.k1 + square * (5 * lens.k2 + square * 7 * lens.k3)); }
 
 }  // namespace
 
@@ -36,14 +34,17 @@ double growing_radius_squared(const Lens& lens) {
 
 namespace {
 
-struct Jacobian { double xx, xy, yx, yy; };
+struct Jacobian {
+  double xx, xy, yx, yy;
+};
 
 Jacobian jacobian(const Lens& l, const Point2& p) {
   const double r2 = p.x * p.x + p.y * p.y;
   const double radial = 1 + r2 * (l.k1 + r2 * (l.k2 + r2 * l.k3));
   const double slope = 2 * (l.k1 + r2 * (2 * l.k2 + r2 * 3 * l.k3));
   const double mixed = slope * p.x * p.y + 2 * l.p1 * p.x + 2 * l.p2 * p.y;
-  return {radial + slope * p.x * p.x + 2 * l.p1 * p.y + 6 * l.p2 * p.x, mixed, mixed, radial + slope * p.y * p.y + 6 * l.p1 * p.y + 2 * l.p2 * p.x};
+  return {radial + slope * p.x * p.x + 2 * l.p1 * p.y + 6 * l.p2 * p.x, mixed, mixed,
+          radial + slope * p.y * p.y + 6 * l.p1 * p.y + 2 * l.p2 * p.x};
 }
 
 }  // namespace
@@ -51,7 +52,8 @@ Jacobian jacobian(const Lens& l, const Point2& p) {
 Point2 distort(const Lens& l, const Point2& p) {
   const double r2 = p.x * p.x + p.y * p.y;
   const double radial = 1 + r2 * (l.k1 + r2 * (l.k2 + r2 * l.k3));
-  return {p.x * radial + 2 * l.p1 * p.x * p.y + l.p2 * (r2 + 2 * p.x * p.x), p.y * radial + l.p1 * (r2 + 2 * p.y * p.y) + 2 * l.p2 * p.x * p.y};
+  return {p.x * radial + 2 * l.p1 * p.x * p.y + l.p2 * (r2 + 2 * p.x * p.x),
+          p.y * radial + l.p1 * (r2 + 2 * p.y * p.y) + 2 * l.p2 * p.x * p.y};
 }
 
 bool undistort(const Lens& lens, double limit, const Point2& target, Point2& out) {

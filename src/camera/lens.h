@@ -8,7 +8,9 @@
 
 namespace tofray::camera {
 
-struct Point2 { double x, y; };
+struct Point2 {
+  double x, y;
+};
 
 /// Brown–Conrady: undistorted (x, y) = (X/Z, Y/Z) → distorted.
 ///     x' = x(1 + k1r² + k2r⁴ + k3r⁶) + 2p1xy + p2(r² + 2x²),  y' = y(…) + p1(r² + 2y²) + 2p2xy

@@ -42,12 +42,14 @@ Modulations modulations_of(const Mode& mode) {
   }
   if (out.frequency_hz.empty()) return out;
   if (out.frequency_hz.size() > flow::max_modulation_frequencies) {
-    throw Error(ErrorKind::limit, "error: more than " + std::to_string(flow::max_modulation_frequencies) + " modulation frequencies in one sequence");
+    throw Error(ErrorKind::limit,
+                "error: more than " + std::to_string(flow::max_modulation_frequencies) + " modulation frequencies in one sequence");
   }
   if (!whole_ratio(out.frequency_hz, out.cycles)) {
-    throw Error(ErrorKind::bad_input,
-                "error: the modulation frequencies have no common base frequency\n"
-                "  unwrapping needs whole cycles of each in a common range; choose frequencies in a ratio of small whole numbers, such as 4 : 3");
+    throw Error(
+        ErrorKind::bad_input,
+        "error: the modulation frequencies have no common base frequency\n"
+        "  unwrapping needs whole cycles of each in a common range; choose frequencies in a ratio of small whole numbers, such as 4 : 3");
   }
   out.base_hz = out.frequency_hz[0] / out.cycles[0];
   return out;

@@ -83,7 +83,7 @@ std::vector<TableNode> table_quadrature(int cells, double half_range) {
 
 /// Quadrature over one axis of a flat top from 0 on, its shape in the weights. Beyond the full width it is 2⁻²⁵⁶ of the peak: nothing.
 std::vector<Node> flat_top_quadrature(double width, double half_range) {
-  std::vector<Node> out = quadrature({0, std::min(half_range, width)}, std::min(widest_panel, width / 32), 3);   // 1/32: 1e-8 of its shape
+  std::vector<Node> out = quadrature({0, std::min(half_range, width)}, std::min(widest_panel, width / 32), 3);  // 1/32: 1e-8 of its shape
   for (Node& node : out) node.weight *= flat_top_share(2 * node.at / width);
   return out;
 }

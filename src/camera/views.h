@@ -12,33 +12,33 @@ namespace tofray::camera {
 /// Rays and lens by pixel.
 struct LensView {
   std::int32_t width, height;
-  const float *ray_x, *ray_y;    ///< [height][width] undistorted: d = (x, y, 1)
-  const float* inverse_length;   ///< [height][width] 1/|d|
-  const float* vignetting;       ///< [height][width] cos⁴α or a table's factor; 0 outside the lens model
-  const flow::Bounds* tile;      ///< what each tile of pixels sees
+  const float *ray_x, *ray_y;   ///< [height][width] undistorted: d = (x, y, 1)
+  const float* inverse_length;  ///< [height][width] 1/|d|
+  const float* vignetting;      ///< [height][width] cos⁴α or a table's factor; 0 outside the lens model
+  const flow::Bounds* tile;     ///< what each tile of pixels sees
 };
 
 /// How one light spreads its power over directions: I(θx, θy) [W/sr].
 struct PatternView {
   enum Kind : std::int32_t { cone, cosine_lobe, flat_top, table };
   Kind kind;
-  float peak;                    ///< [W/sr] cone: inside; lobe and flat top: on the axis
-  float cos_half_angle;          ///< cone
-  float exponent;                ///< lobe
-  float per_half_width, per_half_height;   ///< flat top: 1/(half width at half peak) [1/rad]
-  const float* samples;          ///< table [rows][columns], W/sr
+  float peak;                             ///< [W/sr] cone: inside; lobe and flat top: on the axis
+  float cos_half_angle;                   ///< cone
+  float exponent;                         ///< lobe
+  float per_half_width, per_half_height;  ///< flat top: 1/(half width at half peak) [1/rad]
+  const float* samples;                   ///< table [rows][columns], W/sr
   std::int32_t columns, rows;
-  float per_rad_x, per_rad_y;    ///< cells per radian
+  float per_rad_x, per_rad_y;        ///< cells per radian
   float half_range_x, half_range_y;  ///< [rad]
 };
 
 /// One light source in the camera frame.
 struct LightView {
   float position[3];
-  float rotation[3][3];          ///< rows: the source's own axes
-  std::int32_t turned;           ///< 0: its axis is the camera's, rotation is the identity
+  float rotation[3][3];  ///< rows: the source's own axes
+  std::int32_t turned;   ///< 0: its axis is the camera's, rotation is the identity
   PatternView pattern;
-  float electrons_per_joule;     ///< λ·QE/(hc)
+  float electrons_per_joule;  ///< λ·QE/(hc)
 };
 
 /// From where ambient light comes.
@@ -47,11 +47,11 @@ enum class AmbientLight : std::int32_t { none, uniform, directional };
 /// Watts on the pixel for a radiance of 1: π·T·pitch²·fill_factor/(4N²), without vignetting.
 struct PowerView {
   float watts_per_radiance;
-  float ambient_rate;            ///< electrons per second from a surface with ρ = 1, without vignetting
-  float sun_direction[3];        ///< unit vector toward it
+  float ambient_rate;      ///< electrons per second from a surface with ρ = 1, without vignetting
+  float sun_direction[3];  ///< unit vector toward it
   AmbientLight ambient;
-  std::int32_t paper_literal;    ///< 1: the paper's printed formula (power/paper_literal.h)
-  float paper_scale;             ///< its constant factor
+  std::int32_t paper_literal;  ///< 1: the paper's printed formula (power/paper_literal.h)
+  float paper_scale;           ///< its constant factor
 };
 
 /// When the gate opens, against the first raw frame of its modulation frequency.
@@ -60,18 +60,18 @@ enum class Gate : std::int32_t { in_phase, quarter_late, opposite, quarter_early
 /// Correlation and exposure of one raw frame.
 struct RawFrameView {
   std::int32_t lit;
-  std::int32_t modulation;       ///< index of the modulation frequency
-  float integration_time;        ///< [s]
-  float dark;                    ///< dark electrons of a tap
+  std::int32_t modulation;  ///< index of the modulation frequency
+  float integration_time;   ///< [s]
+  float dark;               ///< dark electrons of a tap
   Gate gate_kind;
-  const float* gate;             ///< [orders][2] cos and sin of m(τ − τ_0 + δ), δ the phase of temperature drift
+  const float* gate;  ///< [orders][2] cos and sin of m(τ − τ_0 + δ), δ the phase of temperature drift
 };
 
 /// One modulation frequency: how the light of a path becomes phasors.
 struct ModulationView {
-  float turns_per_metre_high, turns_per_metre_low;   ///< f·n/c in two parts
-  float frequency;               ///< [Hz], for delays by pixel
-  const float* source;           ///< [light][orders][2] a_m·e^{i(ψ_m + mτ_0)} of each light, τ_0 the modulation's first reference phase
+  float turns_per_metre_high, turns_per_metre_low;  ///< f·n/c in two parts
+  float frequency;                                  ///< [Hz], for delays by pixel
+  const float* source;  ///< [light][orders][2] a_m·e^{i(ψ_m + mτ_0)} of each light, τ_0 the modulation's first reference phase
 };
 
 /// All of them. `orders` of 1, 3, 5 … are kept, 4 or 8; those that a camera does not have are zero.
@@ -89,20 +89,20 @@ enum class Noise : std::int32_t { off, fast, exact };
 /// Sequence, charge, ADC.
 struct SensorView {
   std::int32_t raw_frames;
-  std::int32_t drifts;           ///< 1: the gates are others in each frame
-  const RawFrameView* frame;     ///< [raw_frames]
+  std::int32_t drifts;        ///< 1: the gates are others in each frame
+  const RawFrameView* frame;  ///< [raw_frames]
   float read_noise, read_variance;
   float full_well;
   float suppression_threshold, suppression_budget, suppression_noise;
-  float per_step;                ///< 1/s [DN/e⁻]
-  float step, mid_code, max_code, valid_middle, valid_half;   ///< codes, the valid range as middle and half width
-  const float* gain;             ///< [height][width] 1 + PRNU, both taps alike, or null
-  const float* offset;           ///< [height][width] DSNU [DN], or null
-  const float* delay;            ///< [height][width] [s], or null
-  num::RoundKeys keys;           ///< of the seed
+  float per_step;                                            ///< 1/s [DN/e⁻]
+  float step, mid_code, max_code, valid_middle, valid_half;  ///< codes, the valid range as middle and half width
+  const float* gain;                                         ///< [height][width] 1 + PRNU, both taps alike, or null
+  const float* offset;                                       ///< [height][width] DSNU [DN], or null
+  const float* delay;                                        ///< [height][width] [s], or null
+  num::RoundKeys keys;                                       ///< of the seed
   Noise noise;
-  float column_noise;            ///< [DN]
-  std::int32_t width;            ///< pixels of a row
+  float column_noise;  ///< [DN]
+  std::int32_t width;  ///< pixels of a row
 };
 
 /// The numbers that kernels take from a camera as they are, beside the view that holds them. (Templates: kernel headers know no profile.)
@@ -130,42 +130,42 @@ double dark_variance(const Camera& camera) {
 
 /// One modulation frequency as the decoder sees it.
 struct DecodeModulation {
-  float half_wave;               ///< R = c/(2f) [m], unambiguous half path
-  float per_half_wave;           ///< 1/R
-  float cycles;                  ///< M: periods in the common range
-  float frequency;               ///< [Hz]
-  float per_contrast;            ///< 1/C, C the first harmonic's amplitude
+  float half_wave;      ///< R = c/(2f) [m], unambiguous half path
+  float per_half_wave;  ///< 1/R
+  float cycles;         ///< M: periods in the common range
+  float frequency;      ///< [Hz]
+  float per_contrast;   ///< 1/C, C the first harmonic's amplitude
   float integration_time;
-  float ambient_scale;           ///< t_int over the grey frames' time
-  float variance_factor;         ///< variance of the half path is this times V/Â²: (2/N)·(R/2π)²
-  std::int32_t count, pairs;     ///< raw frames of this modulation; pairs of them with τ half a turn apart
-  const std::int32_t* raw_frame; ///< [count]
-  const std::int32_t* pair;      ///< [pairs][2]
-  const float* wiggling;         ///< [wiggling_nodes][2] φ − φ̂ in turns at equidistant φ̂, and the step to the next node
+  float ambient_scale;            ///< t_int over the grey frames' time
+  float variance_factor;          ///< variance of the half path is this times V/Â²: (2/N)·(R/2π)²
+  std::int32_t count, pairs;      ///< raw frames of this modulation; pairs of them with τ half a turn apart
+  const std::int32_t* raw_frame;  ///< [count]
+  const std::int32_t* pair;       ///< [pairs][2]
+  const float* wiggling;          ///< [wiggling_nodes][2] φ − φ̂ in turns at equidistant φ̂, and the step to the next node
 };
 
 struct DecodeRawFrame {
-  float cosine, sine;            ///< (2/N)·cos τ, (2/N)·sin τ
+  float cosine, sine;  ///< (2/N)·cos τ, (2/N)·sin τ
 };
 
 struct DecoderView {
-  std::int32_t modulations, reference;   ///< reference: the modulation with the fewest cycles
+  std::int32_t modulations, reference;  ///< reference: the modulation with the fewest cycles
   std::int32_t grey_frames;
   const std::int32_t* grey_frame;        ///< [grey_frames] the unlit ones
   const DecodeRawFrame* frame;           ///< [raw frames]
   const DecodeModulation* modulation;    ///< [modulations]
-  float common_range, per_common_range;   ///< R_0 [m], 1/R_0
+  float common_range, per_common_range;  ///< R_0 [m], 1/R_0
   std::int32_t wiggling_nodes;
-  float light[3], light_square;  ///< mean position of the lights and mean |L|², weighted by their power
-  float noise_floor;             ///< 2σ_r² + s²/12 [e²]
-  float suppression_threshold, suppression_budget;   ///< [e⁻] of a tap; threshold 0: no suppression
-  float suppression_variance;    ///< 2κ²: variance of A−B for each electron off both taps
-  float dark_rate_both;          ///< dark electrons per second, both taps together: noise only
-  float low_signal_noise;        ///< [m]; infinite where noise is off
-  float per_confidence_noise;    ///< 1/0.07 m
+  float light[3], light_square;                     ///< mean position of the lights and mean |L|², weighted by their power
+  float noise_floor;                                ///< 2σ_r² + s²/12 [e²]
+  float suppression_threshold, suppression_budget;  ///< [e⁻] of a tap; threshold 0: no suppression
+  float suppression_variance;                       ///< 2κ²: variance of A−B for each electron off both taps
+  float dark_rate_both;                             ///< dark electrons per second, both taps together: noise only
+  float low_signal_noise;                           ///< [m]; infinite where noise is off
+  float per_confidence_noise;                       ///< 1/0.07 m
   float inconsistent_range;
   float flying_near_z, flying_near_limit, flying_far_z, flying_far_limit;
-  const float* delay;            ///< [height][width] [s], or null
+  const float* delay;  ///< [height][width] [s], or null
 };
 
 }  // namespace tofray::camera

@@ -31,7 +31,7 @@ double pass_pole(Harmonic& harmonic, double frequency_hz, double pole_hz) {
 /// Light of amplitude 2·sinc(mδ)·sinc(m f t_rise), or d, against a square gate of amplitude 4/(πm)·sin(mπ/2).
 double ideal_amplitude(int m, const Waveform& waveform, double frequency_hz) {
   if (waveform.kind == Waveform::Kind::sine) return 2.0 / pi * waveform.modulation_depth;
-  const double sign = m % 4 == 1 ? 1.0 : -1.0;   // sin(mπ/2), m odd
+  const double sign = m % 4 == 1 ? 1.0 : -1.0;  // sin(mπ/2), m odd
   return sign * 4.0 / (pi * m) * sinc(m * waveform.duty) * sinc(m * frequency_hz * waveform.rise_time_s);
 }
 
@@ -55,7 +55,7 @@ std::vector<Harmonic> measured_harmonics(const std::vector<double>& correlation,
     for (int k = 0; k < n; ++k) {
       const double value = correlation[static_cast<std::size_t>(k)];
       if (!std::isfinite(value)) refuse("sample " + std::to_string(k) + " of a measured correlation is not a finite number");
-      const auto turn = static_cast<int>(static_cast<long long>(m) * k % n);   // reduced exactly, so that long curves lose nothing
+      const auto turn = static_cast<int>(static_cast<long long>(m) * k % n);  // reduced exactly, so that long curves lose nothing
       const double angle = 2.0 * pi * turn / n;
       real += value * setup::cos(angle);
       imaginary -= value * setup::sin(angle);
@@ -75,14 +75,12 @@ std::vector<Harmonic> correlation_harmonics(const Waveform& waveform, const Pixe
   const bool sine = waveform.kind == Waveform::Kind::sine;
   if (sine && !(waveform.modulation_depth > 0 && waveform.modulation_depth <= 1))
     refuse("a modulation depth must lie above 0, up to 1\n  got " + std::to_string(waveform.modulation_depth));
-  if (!sine && !(waveform.duty > 0 && waveform.duty < 1))
-    refuse("a duty must lie between 0 and 1\n  got " + std::to_string(waveform.duty));
+  if (!sine && !(waveform.duty > 0 && waveform.duty < 1)) refuse("a duty must lie between 0 and 1\n  got " + std::to_string(waveform.duty));
 
   const double contrast = base::ClampedCurve(pixel.contrast, "the pixel's contrast").evaluate(modulation_frequency_hz);
   const int count = sine ? 1 : waveform.harmonics;
   std::vector<Harmonic> harmonics;
-  for (int i = 0; i < count; ++i)
-    harmonics.push_back(real_harmonic(2 * i + 1, waveform, pixel, modulation_frequency_hz, contrast));
+  for (int i = 0; i < count; ++i) harmonics.push_back(real_harmonic(2 * i + 1, waveform, pixel, modulation_frequency_hz, contrast));
   return harmonics;
 }
 

@@ -9,9 +9,9 @@ namespace tofray::camera {
 
 /// One harmonic m of the correlation between the modulated light and a pixel's gate.
 struct Harmonic {
-  int order = 1;          ///< m
-  double amplitude = 0;   ///< a_m, may be negative
-  double phase_rad = 0;   ///< ψ_m
+  int order = 1;         ///< m
+  double amplitude = 0;  ///< a_m, may be negative
+  double phase_rad = 0;  ///< ψ_m
 };
 
 /// The correlation's harmonics at one modulation frequency.

@@ -22,7 +22,7 @@ std::complex<double> unit(double angle_rad) { return {setup::cos(angle_rad), set
 
 /// The forward curve φ̂(φ) = φ + ε(φ) on a grid over one period, proved to grow.
 struct Forward {
-  std::vector<double> phase, measured;   // [rad], both ascending; measured spans exactly one period
+  std::vector<double> phase, measured;  // [rad], both ascending; measured spans exactly one period
 };
 
 Forward sample(const PhaseResponse& response, int highest_order, int nodes) {
@@ -79,7 +79,7 @@ PhaseResponse::PhaseResponse(const std::vector<Harmonic>& harmonics, const std::
 }
 
 PhaseResponse::Value PhaseResponse::at(double phase_rad) const {
-  std::complex<double> z{0, 0}, derivative{0, 0};   // derivative: (1/i)·dẐ/dφ
+  std::complex<double> z{0, 0}, derivative{0, 0};  // derivative: (1/i)·dẐ/dφ
   for (const Leak& leak : leaks_) {
     const std::complex<double> turn = unit(leak.order * phase_rad);
     const std::complex<double> forward = leak.forward * turn;

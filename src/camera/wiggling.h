@@ -24,20 +24,20 @@ class PhaseResponse {
   PhaseResponse(const std::vector<Harmonic>& harmonics, const std::vector<double>& reference_phases_rad);
 
   struct Value {
-    double error_rad = 0;   ///< ε = φ̂ − φ, continuous in φ, period 2π; ψ_1 included
-    double slope = 1;       ///< dφ̂/dφ
-    double amplitude = 0;   ///< |Ẑ| per electron of light
+    double error_rad = 0;  ///< ε = φ̂ − φ, continuous in φ, period 2π; ψ_1 included
+    double slope = 1;      ///< dφ̂/dφ
+    double amplitude = 0;  ///< |Ẑ| per electron of light
   };
   [[nodiscard]] Value at(double phase_rad) const;
 
  private:
   struct Leak {
     int order;
-    std::complex<double> forward, backward;   ///< P_m·a_m·e^{iψ_m}, Q_m·a_m·e^{−iψ_m}
+    std::complex<double> forward, backward;  ///< P_m·a_m·e^{iψ_m}, Q_m·a_m·e^{−iψ_m}
   };
   std::vector<Leak> leaks_;
-  std::complex<double> turn_back_;   ///< e^{−i·offset_}
-  double offset_ = 0;                ///< [rad] phase of the first harmonic: what the error swings about
+  std::complex<double> turn_back_;  ///< e^{−i·offset_}
+  double offset_ = 0;               ///< [rad] phase of the first harmonic: what the error swings about
 };
 
 /// Table that takes a measured phase back to the true one: φ = φ̂ + correction(φ̂), in turns, ψ_1 taken out as well. [theory: eq. 4.3]

@@ -9,16 +9,22 @@ namespace tofray::depth {
 using flow::Depth;
 
 enum Bits : std::int32_t {
-  saturated = 1, low_signal = 2, flying_pixel = 4, no_return = 8, outside_lens = 16, inconsistent_phases = 32, inconsistent_frequencies = 64,
+  saturated = 1,
+  low_signal = 2,
+  flying_pixel = 4,
+  no_return = 8,
+  outside_lens = 16,
+  inconsistent_phases = 32,
+  inconsistent_frequencies = 64,
   invalid = 31,
 };
 
 /// Phase and amplitude of one modulation frequency: Ẑ = (2/N)Σ D_k e^{−iτ_k}, φ̂ = arg Ẑ, Â = |Ẑ|.          [eq. 4.2]
 template <class F>
 struct Estimate {
-  F real, imaginary;   ///< Ẑ [e⁻]
-  F turns;             ///< φ̂/2π in [0, 1)
-  F amplitude;         ///< Â [e⁻]
+  F real, imaginary;  ///< Ẑ [e⁻]
+  F turns;            ///< φ̂/2π in [0, 1)
+  F amplitude;        ///< Â [e⁻]
 };
 
 template <class F>
@@ -73,7 +79,7 @@ TOFRAY_FN F suppression_variance(const camera::DecoderView& s, const camera::Dec
     const int k = m.raw_frame[j];
     const F excess = F(0.5f) * (collected - num::abs(difference[k])) - F(s.suppression_threshold);
     const F removed = num::min(num::max(excess, F(0.0f)), F(s.suppression_budget));
-    const F turn = num::fma(e.imaginary, F(s.frame[k].cosine), e.real * F(s.frame[k].sine));     // (2/N)·Â·sin(φ̂ + τ_k)
+    const F turn = num::fma(e.imaginary, F(s.frame[k].cosine), e.real * F(s.frame[k].sine));  // (2/N)·Â·sin(φ̂ + τ_k)
     across = num::fma(removed, turn * turn, across);
   }
   const F square = num::max(e.amplitude * e.amplitude, F(1e-6f));
@@ -82,7 +88,8 @@ TOFRAY_FN F suppression_variance(const camera::DecoderView& s, const camera::Dec
 
 /// V̂ = Â/C + B̂ + dark + 2σ_r² + s²/12, and what suppression adds; σ_φ² = (2V̂/N)/Â²·(dφ/dφ̂)².               [eq. 4.9]
 template <class F>
-TOFRAY_FN F variance_of(const camera::DecoderView& s, const camera::DecodeModulation& m, const F* difference, const Estimate<F>& e, F ambient) {
+TOFRAY_FN F variance_of(const camera::DecoderView& s, const camera::DecodeModulation& m, const F* difference, const Estimate<F>& e,
+                        F ambient) {
   const F electrons = num::fma(e.amplitude, F(m.per_contrast), ambient);
   const float dark = s.dark_rate_both * m.integration_time;
   const F variance = electrons + F(s.noise_floor + dark);
@@ -94,7 +101,7 @@ TOFRAY_FN F variance_of(const camera::DecoderView& s, const camera::DecodeModula
 template <class F>
 struct Inverse {
   F range;
-  F slope;          ///< of the range over half the path: 2(ℓ − range)/(ℓ − u·L)                             [eq. 4.14]
+  F slope;  ///< of the range over half the path: 2(ℓ − range)/(ℓ − u·L)                             [eq. 4.14]
 };
 template <class F>
 TOFRAY_FN Inverse<F> range_from_path(const camera::DecoderView& s, F path_length, F ux, F uy, F uz) {
@@ -105,12 +112,15 @@ TOFRAY_FN Inverse<F> range_from_path(const camera::DecoderView& s, F path_length
 }
 
 template <class F>
-TOFRAY_FN num::Int<F> bit(Mask<F> m, Bits value) { return num::select(m, num::Int<F>(value), num::Int<F>(0)); }
+TOFRAY_FN num::Int<F> bit(Mask<F> m, Bits value) {
+  return num::select(m, num::Int<F>(value), num::Int<F>(0));
+}
 
 /// @param difference  A−B of each raw frame [e⁻]
 /// @param delay       the pixel's fixed delay [s]
 template <class F>
-TOFRAY_FN Depth<F> decode(const camera::DecoderView& s, const F* difference, Mask<F> clipped, Mask<F> outside, const flow::Ray<F>& ray, F delay) {
+TOFRAY_FN Depth<F> decode(const camera::DecoderView& s, const F* difference, Mask<F> clipped, Mask<F> outside, const flow::Ray<F>& ray,
+                          F delay) {
   F turns[flow::max_modulation_frequencies], weight[flow::max_modulation_frequencies];
   F amplitude = F(0.0f), ambient = F(0.0f), weakest = F(3e38f);
   Mask<F> moved = F(1.0f) < F(0.0f);

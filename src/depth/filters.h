@@ -11,9 +11,7 @@ struct RangeImage {
   const float* range;
   const std::uint16_t* flags;
   std::int32_t width, height;
-  TOFRAY_FN bool valid(int x, int y) const {
-    return x >= 0 && y >= 0 && x < width && y < height && (flags[y * width + x] & invalid) == 0;
-  }
+  TOFRAY_FN bool valid(int x, int y) const { return x >= 0 && y >= 0 && x < width && y < height && (flags[y * width + x] & invalid) == 0; }
 };
 
 /// Gaussian with the weights of the valid pixels in the window, normalised to their sum.

@@ -10,7 +10,8 @@ namespace tofray::depth {
 /// Largest step in z that one surface may show between neighbours: grows linearly between two distances. [eq. 4.11]
 template <class F>
 TOFRAY_FN F flying_limit(const camera::DecoderView& s, F z) {
-  const F share = (num::min(num::max(z, F(s.flying_near_z)), F(s.flying_far_z)) - F(s.flying_near_z)) * F(1.0f / (s.flying_far_z - s.flying_near_z));
+  const F share =
+      (num::min(num::max(z, F(s.flying_near_z)), F(s.flying_far_z)) - F(s.flying_near_z)) * F(1.0f / (s.flying_far_z - s.flying_near_z));
   return num::fma(share, F(s.flying_far_limit - s.flying_near_limit), F(s.flying_near_limit));
 }
 

@@ -10,8 +10,8 @@ using num::Mask;
 
 template <class F>
 struct HalfPath {
-  F value;         ///< [m], in [0, R_0)
-  F variance;      ///< [m²] 1/Σ(1/σ_i²)
+  F value;     ///< [m], in [0, R_0)
+  F variance;  ///< [m²] 1/Σ(1/σ_i²)
   Mask<F> inconsistent;
 };
 

@@ -5,8 +5,8 @@
 #include <dirent.h>
 #include <fcntl.h>
 #include <fmt/format.h>
-#include <sys/file.h>
 #include <sched.h>
+#include <sys/file.h>
 #include <sys/stat.h>
 #include <sys/statvfs.h>
 #include <unistd.h>
@@ -35,7 +35,7 @@ enum class SlotState : int { free, filling, opening, live, being_removed, remove
 /// Folder and name of a temporary; no memory is allocated, so that a signal handler may read it.
 struct Slot {
   std::atomic<SlotState> state{SlotState::free};
-  std::atomic<pid_t> thread{0};   ///< that opens it
+  std::atomic<pid_t> thread{0};  ///< that opens it
   int folder = -1;
   char name[56] = {};
 };
@@ -43,7 +43,7 @@ struct Slot {
 constexpr int slot_count = 64;
 constinit Slot slots[slot_count];
 constinit std::atomic<unsigned> next_number{0};
-constinit std::atomic<bool> ended{false};   ///< no temporary may begin
+constinit std::atomic<bool> ended{false};  ///< no temporary may begin
 static_assert(std::atomic<SlotState>::is_always_lock_free);
 
 /// A place in the table, for as long as the temporary may exist.
@@ -141,8 +141,8 @@ bool sync(const FileCalls& calls, int file) {
 /// A name that a pipe, a device or a socket has cannot be replaced by a file; opening it could hang, and what is written is lost.
 void refuse_special(const std::filesystem::path& path, mode_t mode) {
   const char* what = S_ISFIFO(mode) ? "a pipe" : S_ISSOCK(mode) ? "a socket" : "a device";
-  throw Error(ErrorKind::io, fmt::format("{}: error: this is {}, or a link to one\n  expected a file, or nothing, in its place",
-                                         path.native(), what));
+  throw Error(ErrorKind::io,
+              fmt::format("{}: error: this is {}, or a link to one\n  expected a file, or nothing, in its place", path.native(), what));
 }
 
 /// Removes the temporary unless it has got its name.
@@ -188,10 +188,12 @@ bool is_temporary_name(std::string_view name) {
 /// Removes one temporary if it is a file of this user's that nobody holds a lock on.
 void remove_if_stale(int folder, const char* name) {
   const Descriptor file(::openat(folder, name, O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC), system_file_calls());
-  struct stat opened {}, named {};
+  struct stat opened {
+  }, named{};
   if (file.number() < 0 || ::fstat(file.number(), &opened) != 0 || !S_ISREG(opened.st_mode) || opened.st_uid != ::geteuid()) return;
   if (::flock(file.number(), LOCK_EX | LOCK_NB) != 0) return;
-  const bool same = ::fstatat(folder, name, &named, AT_SYMLINK_NOFOLLOW) == 0 && named.st_ino == opened.st_ino && named.st_dev == opened.st_dev;
+  const bool same =
+      ::fstatat(folder, name, &named, AT_SYMLINK_NOFOLLOW) == 0 && named.st_ino == opened.st_ino && named.st_dev == opened.st_dev;
   if (same) ::unlinkat(folder, name, 0);
 }
 

@@ -136,7 +136,8 @@ std::vector<NamedArray> parse_npz(std::string_view file, const std::string& wher
     if (!names.insert(entry.name).second) refuse(here, "two arrays have this name");
     if (!wanted.empty() && std::find(wanted.begin(), wanted.end(), entry.name) == wanted.end()) continue;
     total += entry.size;
-    if (total > most) throw Error(ErrorKind::limit, fmt::format("{}: error: the arrays unpack to more than {} bytes (`tofray --limits`)", where, most));
+    if (total > most)
+      throw Error(ErrorKind::limit, fmt::format("{}: error: the arrays unpack to more than {} bytes (`tofray --limits`)", where, most));
     arrays.push_back({entry.name, parse_npy(unpacked(archive.get(), entry, here), here)});
   }
   return arrays;

@@ -13,9 +13,9 @@ constexpr int max_harmonics = 8;
 constexpr int max_modulation_frequencies = 8;
 
 /// Beyond what any sensor meets, and so small that sums and squares of it are far from single precision's largest number.
-constexpr float max_irradiance = 1e12f;   ///< [W/m²] on a surface
-constexpr float max_distance = 1e5f;      ///< [m] of a surface that another renderer saw
-constexpr float max_charge = 1e15f;       ///< [e⁻] of a tap
+constexpr float max_irradiance = 1e12f;  ///< [W/m²] on a surface
+constexpr float max_distance = 1e5f;     ///< [m] of a surface that another renderer saw
+constexpr float max_charge = 1e15f;      ///< [e⁻] of a tap
 
 /// Which pixels: the first `count` lanes, from `index` (row-major) on.
 struct Pixels {
@@ -40,7 +40,9 @@ struct Ray {
 };
 
 template <class F>
-TOFRAY_FN F square_of(F x, F y, F z) { return num::fma(x, x, num::fma(y, y, z * z)); }
+TOFRAY_FN F square_of(F x, F y, F z) {
+  return num::fma(x, x, num::fma(y, y, z * z));
+}
 
 /// A ray of any direction but zero.
 template <class F>
@@ -62,16 +64,16 @@ template <class F>
 struct Finish {
   F reflectivity;
   F number[brdf_numbers];
-  num::Int<F> brdf;        ///< its place in the list; 0, Lambert, needs no numbers
+  num::Int<F> brdf;  ///< its place in the list; 0, Lambert, needs no numbers
 };
 
 /// Where the light lands: position and normal in the camera frame, lengths, material.
 template <class F>
 struct Surface {
-  F x, y, z;               ///< position [m]
-  F nx, ny, nz;            ///< unit normal, toward the camera
-  F range;                 ///< [m]
-  F cos_view;              ///< of the angle between normal and the way back to the camera
+  F x, y, z;     ///< position [m]
+  F nx, ny, nz;  ///< unit normal, toward the camera
+  F range;       ///< [m]
+  F cos_view;    ///< of the angle between normal and the way back to the camera
   Finish<F> finish;
   num::Int<F> object;
   num::Mask<F> found;
@@ -80,8 +82,8 @@ struct Surface {
 /// Light over one path from a source to the pixel.
 template <class F>
 struct Path {
-  F rate;                      ///< expected photo-electrons per second of both taps together [e⁻/s]
-  F length;                    ///< ℓ [m]
+  F rate;    ///< expected photo-electrons per second of both taps together [e⁻/s]
+  F length;  ///< ℓ [m]
 };
 
 /// All light that reaches the pixel, over any number of paths: what stage 3 needs to know of it.
@@ -92,26 +94,26 @@ struct Path {
 /// for each modulation frequency f_j and odd harmonic m, at [j·orders + (m − 1)/2].
 template <class F>
 struct Light {
-  F signal_rate;               ///< S [e⁻/s]
-  F ambient_rate;              ///< [e⁻/s]
+  F signal_rate;   ///< S [e⁻/s]
+  F ambient_rate;  ///< [e⁻/s]
   F real[max_modulation_frequencies * max_harmonics], imaginary[max_modulation_frequencies * max_harmonics];
 };
 
 /// What the truth arrays show of it.
 template <class F>
 struct Radiometry {
-  F irradiance;                ///< [W/m²] on the surface, of the camera's own light
-  F radiance;                  ///< [W/(m² sr)] toward the camera
-  F power;                     ///< [W] on the pixel
+  F irradiance;  ///< [W/m²] on the surface, of the camera's own light
+  F radiance;    ///< [W/(m² sr)] toward the camera
+  F power;       ///< [W] on the pixel
 };
 
 /// What one raw frame reads out.
 template <class F>
 struct Taps {
-  F a, b;                      ///< [e⁻]
-  F level;                     ///< [DN] the code before it was held to the code range, a whole number
-  F code;                      ///< [DN], a whole number
-  F difference;                ///< A−B as depth takes it [e⁻]: from the code, or unrounded within the codes' reach where noise is off
+  F a, b;        ///< [e⁻]
+  F level;       ///< [DN] the code before it was held to the code range, a whole number
+  F code;        ///< [DN], a whole number
+  F difference;  ///< A−B as depth takes it [e⁻]: from the code, or unrounded within the codes' reach where noise is off
 };
 
 /// Depth of one pixel.

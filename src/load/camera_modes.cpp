@@ -61,14 +61,14 @@ void check_phases(const Value& sequence, const Mode& mode, base::Faults& faults)
     for (const auto* raw : frames) phases.push_back(raw->reference_phase_rad);
     if (phases.size() < 3)
       faults.add(sequence.place(), "too few reference phases" + at,
-                  "got " + std::to_string(phases.size()) + ", expected three or more, equally spaced over 360 deg");
+                 "got " + std::to_string(phases.size()) + ", expected three or more, equally spaced over 360 deg");
     else if (!equally_spaced(phases))
       faults.add(sequence.place(), "the reference phases" + at + " are not equally spaced",
-                  "expected " + std::to_string(phases.size()) + " of them, 360/" + std::to_string(phases.size()) + " deg apart, each once");
+                 "expected " + std::to_string(phases.size()) + " of them, 360/" + std::to_string(phases.size()) + " deg apart, each once");
     for (const auto* raw : frames)
       if (raw->integration_time_s != frames[0]->integration_time_s) {
         faults.add(sequence.place(), "the raw frames" + at + " differ in integration_time",
-                    "expected one integration_time for each modulation frequency");
+                   "expected one integration_time for each modulation frequency");
         break;
       }
   }

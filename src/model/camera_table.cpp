@@ -79,30 +79,32 @@ const Table& table_of<Filter>() {
 
 template <>
 const Table& table_of<Pixel>() {
-  static const Table rows = table<Pixel>(
-      curve<&Pixel::quantum_efficiency>("quantum_efficiency", {"wavelength", wavelength}, {"value", efficiency}, "electrons per photon",
-                                        allowed)
-          .required(),
-      curve<&Pixel::contrast>("contrast", {"modulation_frequency", modulation_frequency}, {"value", contrast},
-                              "demodulation contrast of the pixel itself; 1 unless given", allowed)
-          .absent(),
-      number<&Pixel::bandwidth_hz>("bandwidth", {frequency, {0, 1e12}, "180 MHz"}, "single pole of the gate; 0: none"),
-      number<&Pixel::full_well_e>("full_well", {charge, {1, 1e30}, "100000 e"}, "per tap"),
-      number<&Pixel::read_noise_e>("read_noise", {charge, {0, 1e6}, "50 e"}, "per tap, reset and read, 1 sigma"),
-      number<&Pixel::column_noise_e>("column_noise", {charge, {0, 1e6}, "10 e"}, "of A-B, shared by a column, anew in each raw frame, 1 sigma"),
-      number<&Pixel::dark_current_e_per_s>("dark_current", {charge_rate, {0, 1e12}, "1000 e/s"}, "per tap"),
-      group("patterns", "what differs from pixel to pixel",
-            number<&Pixel::prnu>("prnu", {fraction, {0, 1}, "1 %"}, "photo response non-uniformity, 1 sigma"),
-            number<&Pixel::dsnu_dn>("dsnu", {code, {0, 1e4}, "2 DN"}, "offset pattern, 1 sigma"),
-            number<&Pixel::delay_s>("delay", {time, {0, 1e-6}, "20 ps"}, "fixed delay per pixel, 1 sigma"),
-            number<&Pixel::pattern_seed>("seed", {none, {0, 9007199254740991.0}, "1"}, "which specimen of the sensor")),
-      group("suppression", "background suppression; none unless given",
-            number<&Pixel::suppression_threshold_e>("threshold", electrons, "starts when the smaller tap reaches it; 0: no suppression")
-                .required(),
-            number<&Pixel::suppression_budget_e>("budget", electrons, "largest charge taken off each tap").required(),
-            number<&Pixel::suppression_noise_factor>("noise_factor", {none, {0, 100}, "1"},
-                                                     "each tap's removed charge x adds a variance of noise_factor^2 x")))
-                                .complete_with(contrast_is_full);
+  static const Table rows =
+      table<Pixel>(
+          curve<&Pixel::quantum_efficiency>("quantum_efficiency", {"wavelength", wavelength}, {"value", efficiency}, "electrons per photon",
+                                            allowed)
+              .required(),
+          curve<&Pixel::contrast>("contrast", {"modulation_frequency", modulation_frequency}, {"value", contrast},
+                                  "demodulation contrast of the pixel itself; 1 unless given", allowed)
+              .absent(),
+          number<&Pixel::bandwidth_hz>("bandwidth", {frequency, {0, 1e12}, "180 MHz"}, "single pole of the gate; 0: none"),
+          number<&Pixel::full_well_e>("full_well", {charge, {1, 1e30}, "100000 e"}, "per tap"),
+          number<&Pixel::read_noise_e>("read_noise", {charge, {0, 1e6}, "50 e"}, "per tap, reset and read, 1 sigma"),
+          number<&Pixel::column_noise_e>("column_noise", {charge, {0, 1e6}, "10 e"},
+                                         "of A-B, shared by a column, anew in each raw frame, 1 sigma"),
+          number<&Pixel::dark_current_e_per_s>("dark_current", {charge_rate, {0, 1e12}, "1000 e/s"}, "per tap"),
+          group("patterns", "what differs from pixel to pixel",
+                number<&Pixel::prnu>("prnu", {fraction, {0, 1}, "1 %"}, "photo response non-uniformity, 1 sigma"),
+                number<&Pixel::dsnu_dn>("dsnu", {code, {0, 1e4}, "2 DN"}, "offset pattern, 1 sigma"),
+                number<&Pixel::delay_s>("delay", {time, {0, 1e-6}, "20 ps"}, "fixed delay per pixel, 1 sigma"),
+                number<&Pixel::pattern_seed>("seed", {none, {0, 9007199254740991.0}, "1"}, "which specimen of the sensor")),
+          group("suppression", "background suppression; none unless given",
+                number<&Pixel::suppression_threshold_e>("threshold", electrons, "starts when the smaller tap reaches it; 0: no suppression")
+                    .required(),
+                number<&Pixel::suppression_budget_e>("budget", electrons, "largest charge taken off each tap").required(),
+                number<&Pixel::suppression_noise_factor>("noise_factor", {none, {0, 100}, "1"},
+                                                         "each tap's removed charge x adds a variance of noise_factor^2 x")))
+          .complete_with(contrast_is_full);
   return rows;
 }
 

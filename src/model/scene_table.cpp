@@ -83,11 +83,11 @@ const Table& table_of<Triangle>() {
 
 template <>
 const Table& table_of<Cylinder>() {
-  static const Table rows =
-      table<Cylinder>(number<&Cylinder::center>("center", coordinate, "halfway between its caps [m]").required(),
-                      number<&Cylinder::axis>("axis", component, "from cap to cap; any length but zero").required().direction(),
-                      number<&Cylinder::radius>("radius", {length, {base::shortest_m, 1e5}, "5 cm", true}, "[m]").required(),
-                      number<&Cylinder::height>("height", {length, {base::shortest_m, 1e5}, "20 cm", true}, "from cap to cap [m]").required());
+  static const Table rows = table<Cylinder>(
+      number<&Cylinder::center>("center", coordinate, "halfway between its caps [m]").required(),
+      number<&Cylinder::axis>("axis", component, "from cap to cap; any length but zero").required().direction(),
+      number<&Cylinder::radius>("radius", {length, {base::shortest_m, 1e5}, "5 cm", true}, "[m]").required(),
+      number<&Cylinder::height>("height", {length, {base::shortest_m, 1e5}, "20 cm", true}, "from cap to cap [m]").required());
   return rows;
 }
 
@@ -114,7 +114,7 @@ const Table& table_of<Object>() {
   static const Table rows =
       table<Object>(words<&Object::name>("name", "a name", "ball", "how listings call the object").absent(),
                     one_of<&Object::shape>({"plane", "sphere", "box", "triangle", "cylinder"}),  // the key of the file's entry
-                    number<&Object::material>("", {none, {0, 2.0 * most_objects}, "0"}, ""),  // a name, or a material of its own
+                    number<&Object::material>("", {none, {0, 2.0 * most_objects}, "0"}, ""),     // a name, or a material of its own
                     number<&Object::position>("position", coordinate, "a shift [m]"),
                     record<&Object::rotation>("rotation", "a turn about the object's own centre (of a plane: about its point)"),
                     number<&Object::velocity_m_per_s>("velocity", {speed, {-1e4, 1e4}, "1 m/s", true}, "[m/s]"));

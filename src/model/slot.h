@@ -81,9 +81,7 @@ template <class... T>
 Slot variant_slot(std::variant<T...>& one) {
   using One = std::variant<T...>;
   static_assert(std::is_same_v<One, decltype(Object::shape)>, "there is one variant, and tables_of_shapes() knows its tables");
-  return VariantSlot{&one,
-                     tables_of_shapes(),
-                     [](const void* at) { return static_cast<const One*>(at)->index(); },
+  return VariantSlot{&one, tables_of_shapes(), [](const void* at) { return static_cast<const One*>(at)->index(); },
                      [](void* at) { return std::visit([](auto& held) -> void* { return &held; }, *static_cast<One*>(at)); },
                      [](void* at, std::size_t index) {
                        static constexpr void (*make[])(One&) = {[](One& into) { into.template emplace<T>(); }...};

@@ -106,7 +106,8 @@ TOFRAY_FN void gather_pair(const float* table, I32x8 index, F32x8& first, F32x8&
   const double* pairs = reinterpret_cast<const double*>(table);
   const __m256 low = _mm256_castpd_ps(_mm256_i32gather_pd(pairs, _mm256_castsi256_si128(index.v), 8));
   const __m256 high = _mm256_castpd_ps(_mm256_i32gather_pd(pairs, _mm256_extracti128_si256(index.v, 1), 8));
-  const __m256d firsts = _mm256_castps_pd(_mm256_shuffle_ps(low, high, 0x88)), seconds = _mm256_castps_pd(_mm256_shuffle_ps(low, high, 0xDD));
+  const __m256d firsts = _mm256_castps_pd(_mm256_shuffle_ps(low, high, 0x88)),
+                seconds = _mm256_castps_pd(_mm256_shuffle_ps(low, high, 0xDD));
   first = _mm256_castpd_ps(_mm256_permute4x64_pd(firsts, 0xD8));
   second = _mm256_castpd_ps(_mm256_permute4x64_pd(seconds, 0xD8));
 }
@@ -138,7 +139,9 @@ TOFRAY_FN __m256i first_lanes8(int n) { return _mm256_cmpgt_epi32(_mm256_set1_ep
 template <>
 struct Memory<F32x8> {
   TOFRAY_FN static I32x8 lane_index() { return _mm256_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7); }
-  TOFRAY_FN static F32x8 load(const float* from, int n) { return n >= 8 ? _mm256_loadu_ps(from) : _mm256_maskload_ps(from, first_lanes8(n)); }
+  TOFRAY_FN static F32x8 load(const float* from, int n) {
+    return n >= 8 ? _mm256_loadu_ps(from) : _mm256_maskload_ps(from, first_lanes8(n));
+  }
   TOFRAY_FN static I32x8 load_int(const std::int32_t* from, int n) { return _mm256_maskload_epi32(from, first_lanes8(n)); }
 };
 TOFRAY_FN void store(float* to, F32x8 a, int n) {

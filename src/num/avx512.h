@@ -184,5 +184,4 @@ TOFRAY_FN void store3(float* to, F32x16 x, F32x16 y, F32x16 z, int n) {
   if (3 * n > 32) store(to + 32, F32x16(third), 3 * n - 32);
 }
 
-
 }  // namespace tofray::num

@@ -9,7 +9,9 @@ namespace tofray::num {
 
 /// Whole turns taken off: t − round(t), in [−½, ½].
 template <class F>
-TOFRAY_FN F wrap_turns(F t) { return t - round_even(t); }
+TOFRAY_FN F wrap_turns(F t) {
+  return t - round_even(t);
+}
 
 /// sin and cos of 2πt for an angle t in turns, |t| < 2^21. Fits on |t| <= 1/8: 3.2e-9 and 5.4e-11.
 template <class F>
@@ -83,7 +85,9 @@ TOFRAY_FN F exp2(F a) {
 }
 
 template <class F>
-TOFRAY_FN F exp(F a) { return exp2(a * F(1.44269502f)); }
+TOFRAY_FN F exp(F a) {
+  return exp2(a * F(1.44269502f));
+}
 
 /// base^exponent for base in [0, 1] and exponent >= 0 (0^0 = 1).
 template <class F>

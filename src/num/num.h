@@ -124,7 +124,9 @@ TOFRAY_FN float gather(const float* table, std::int32_t index) { return table[in
 TOFRAY_FN std::int32_t gather(const std::int32_t* table, std::int32_t index) { return table[index]; }
 
 /// table[2·index] and table[2·index + 1]; the table is aligned to 8 bytes.
-TOFRAY_FN void gather_pair(const float* table, std::int32_t index, float& first, float& second) { first = table[2 * index], second = table[2 * index + 1]; }
+TOFRAY_FN void gather_pair(const float* table, std::int32_t index, float& first, float& second) {
+  first = table[2 * index], second = table[2 * index + 1];
+}
 
 /// The value of lane 0.
 TOFRAY_FN std::int32_t first(std::int32_t a) { return a; }
@@ -147,12 +149,18 @@ struct Memory<float> {
 
 /// The first n lanes to or from memory; the others read as 0 and are not written.
 template <class F>
-TOFRAY_FN F load(const float* from, int n) { return Memory<F>::load(from, n); }
+TOFRAY_FN F load(const float* from, int n) {
+  return Memory<F>::load(from, n);
+}
 template <class F>
-TOFRAY_FN Int<F> load_int(const std::int32_t* from, int n) { return Memory<F>::load_int(from, n); }
+TOFRAY_FN Int<F> load_int(const std::int32_t* from, int n) {
+  return Memory<F>::load_int(from, n);
+}
 /// 0, 1, 2 … lanes−1.
 template <class F>
-TOFRAY_FN Int<F> lane_index() { return Memory<F>::lane_index(); }
+TOFRAY_FN Int<F> lane_index() {
+  return Memory<F>::lane_index();
+}
 TOFRAY_FN void store(float* to, float a, int) { *to = a; }
 TOFRAY_FN void store(std::int32_t* to, std::int32_t a, int) { *to = a; }
 TOFRAY_FN void store(std::uint16_t* to, std::int32_t a, int) { *to = static_cast<std::uint16_t>(a); }

@@ -72,7 +72,7 @@ TOFRAY_FN void normal_pair(Uint<F> radius_word, Uint<F> angle_word, F& first, F&
   const F r = to_float(to_signed(angle_word << 2)) * F(0x1p-34f);
   const F v = r * r;
   const F s = r * fma(v, fma(v, fma(v, F(-75.3935623f), F(81.5923538f)), F(-41.3416634f)), F(6.28318548f));
-  const F c = fma(v, fma(v, fma(v, F(-83.665924f), F(64.923225f)), F(-19.739168f)), F(1.0f));   // a fit of its own: 4.7e-8
+  const F c = fma(v, fma(v, fma(v, F(-83.665924f), F(64.923225f)), F(-19.739168f)), F(1.0f));  // a fit of its own: 4.7e-8
   const auto swap = to_signed(angle_word) < Int<F>(0);
   const F turned = from_bits(bits(radius) ^ ((angle_word << 1) & Uint<F>(0x80000000u)));
   first = turned * select(swap, s, c);

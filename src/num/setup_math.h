@@ -76,15 +76,24 @@ inline double power_of_two(int n) {
 
 /// x · 2^n, |n| <= 2100, with one rounding where the result is subnormal and comes from a value of at least 2^−1022.
 inline double scale(double x, int n) {
-  while (n > 1023) { x *= power_of_two(1023); n -= 1023; }
-  while (n < -1022) { x *= power_of_two(-960); n += 960; }   // not −1022: only the last step may go below the normal range
+  while (n > 1023) {
+    x *= power_of_two(1023);
+    n -= 1023;
+  }
+  while (n < -1022) {
+    x *= power_of_two(-960);
+    n += 960;
+  }  // not −1022: only the last step may go below the normal range
   return x * power_of_two(n);
 }
 
 /// Exponent e and mantissa m in [1, 2) of a finite x > 0 = m · 2^e.
 inline int split(double x, double& mantissa) {
   int shift = 0;
-  if (x < std::numeric_limits<double>::min()) { x *= power_of_two(54); shift = -54; }
+  if (x < std::numeric_limits<double>::min()) {
+    x *= power_of_two(54);
+    shift = -54;
+  }
   std::uint64_t bits;
   std::memcpy(&bits, &x, sizeof bits);
   const int exponent = static_cast<int>(bits >> 52) - 1023;
@@ -95,7 +104,7 @@ inline int split(double x, double& mantissa) {
 
 /// x = quadrant · π/2 + rest, |rest| <= π/4 (a little more where the rounding of x · 2/π decides the other way).
 struct Reduced {
-  int quadrant = 0;   ///< 0…3
+  int quadrant = 0;  ///< 0…3
   Pair rest;
 };
 
@@ -115,8 +124,8 @@ inline Reduced reduce(double x) {
 
 /// sin(r), |r| <= 0.8.
 inline Pair sin_series(Pair r) {
-  constexpr double c[] = {-1.0 / 6, 1.0 / 120, -1.0 / 5040, 1.0 / 362880, -1.0 / 39916800, 1.0 / 6227020800.0,
-                          -1.0 / 1307674368000.0, 1.0 / 355687428096000.0};
+  constexpr double c[] = {
+      -1.0 / 6, 1.0 / 120, -1.0 / 5040, 1.0 / 362880, -1.0 / 39916800, 1.0 / 6227020800.0, -1.0 / 1307674368000.0, 1.0 / 355687428096000.0};
   const double z = r.hi * r.hi;
   double sum = c[7];
   for (int k = 6; k >= 0; --k) sum = sum * z + c[k];
@@ -125,8 +134,14 @@ inline Pair sin_series(Pair r) {
 
 /// cos(r), |r| <= 0.8.
 inline Pair cos_series(Pair r) {
-  constexpr double c[] = {1.0 / 24, -1.0 / 720, 1.0 / 40320, -1.0 / 3628800, 1.0 / 479001600.0, -1.0 / 87178291200.0,
-                          1.0 / 20922789888000.0, -1.0 / 6402373705728000.0};
+  constexpr double c[] = {1.0 / 24,
+                          -1.0 / 720,
+                          1.0 / 40320,
+                          -1.0 / 3628800,
+                          1.0 / 479001600.0,
+                          -1.0 / 87178291200.0,
+                          1.0 / 20922789888000.0,
+                          -1.0 / 6402373705728000.0};
   const Pair z = two_product(r.hi, r.hi);
   double sum = c[7];
   for (int k = 6; k >= 0; --k) sum = sum * z.hi + c[k];
@@ -194,7 +209,7 @@ inline double exp_of(Pair x) {
   const double n = std::floor(x.hi * 0x1.71547652b82fep+0 + 0.5);
   const Pair a = two_sum(x.hi - n * ln2[0], -n * ln2[1]);
   const Pair r = fast_two_sum(a.hi, a.lo + (x.lo - n * ln2[2]));
-  double factorial = 87178291200.0;   // 14!
+  double factorial = 87178291200.0;  // 14!
   double sum = 1.0 / factorial;
   for (int k = 14; k >= 3; --k) {
     factorial /= k;
@@ -210,7 +225,10 @@ inline Pair log_of(double x) {
   constexpr Pair ln2{0x1.62e42fefa39efp-1, 0x1.abc9e3b39803fp-56};
   double m;
   int exponent = split(x, m);
-  if (m > 0x1.6a09e667f3bcdp+0) { m *= 0.5; ++exponent; }
+  if (m > 0x1.6a09e667f3bcdp+0) {
+    m *= 0.5;
+    ++exponent;
+  }
   const Pair s = divide({m - 1.0, 0.0}, two_sum(m, 1.0));
   const Pair z = multiply(s, s);
   Pair sum{0.0, 0.0};
@@ -245,7 +263,10 @@ inline double tan(double x) {
 inline double atan2(double y, double x) {
   if (std::isnan(x) || std::isnan(y)) return detail::nan;
   double ay = std::fabs(y), ax = std::fabs(x);
-  if (std::isinf(ay) || std::isinf(ax)) { ay = std::isinf(ay) ? 1 : 0; ax = std::isinf(ax) ? 1 : 0; }
+  if (std::isinf(ay) || std::isinf(ax)) {
+    ay = std::isinf(ay) ? 1 : 0;
+    ax = std::isinf(ax) ? 1 : 0;
+  }
   detail::Pair angle{0.0, 0.0};
   if (ay > 0) angle = detail::first_quadrant({ay, 0.0}, {ax, 0.0});
   if (std::signbit(x)) angle = detail::add(detail::pi, {-angle.hi, -angle.lo});
@@ -298,13 +319,16 @@ inline double pow(double x, double y) {
   if (y == 0 || x == 1) return 1.0;
   if (std::isnan(x) || std::isnan(y)) return detail::nan;
   const double a = std::fabs(x);
-  const bool whole = std::floor(y) == y;   // infinities, too
+  const bool whole = std::floor(y) == y;  // infinities, too
   const bool odd = whole && std::fabs(y) < 0x1p53 && std::floor(0.5 * y) != 0.5 * y;
   if (x < 0 && !whole) return std::isinf(x) ? (y > 0 ? detail::infinity : 0.0) : detail::nan;
   double value;
-  if (a == 1) value = 1.0;
-  else if (std::isinf(y)) value = (a > 1) == (y > 0) ? detail::infinity : 0.0;
-  else if (a == 0 || std::isinf(a)) value = (a == 0) == (y < 0) ? detail::infinity : 0.0;
+  if (a == 1)
+    value = 1.0;
+  else if (std::isinf(y))
+    value = (a > 1) == (y > 0) ? detail::infinity : 0.0;
+  else if (a == 0 || std::isinf(a))
+    value = (a == 0) == (y < 0) ? detail::infinity : 0.0;
   else {
     // |y ln a| > 800 over- or underflows whatever its last bits; it must not overflow itself on the way.
     const detail::Pair l = detail::log_of(a);
@@ -319,7 +343,11 @@ inline double hypot(double x, double y) {
   double a = std::fabs(x), b = std::fabs(y);
   if (std::isinf(a) || std::isinf(b)) return detail::infinity;
   if (std::isnan(a) || std::isnan(b)) return detail::nan;
-  if (a < b) { const double c = a; a = b; b = c; }
+  if (a < b) {
+    const double c = a;
+    a = b;
+    b = c;
+  }
   if (b == 0) return a;
   double mantissa;
   const int exponent = detail::split(a, mantissa);
@@ -338,7 +366,7 @@ inline double erfc(double x) {
   if (x < 0) return 2.0 - erfc(-x);
   if (x > 27) return 0.0;
   if (x < 0.5) {
-    double sum = 0, term = 1;   // term: (−x²)^n/n!
+    double sum = 0, term = 1;  // term: (−x²)^n/n!
     const double z = -x * x;
     for (int n = 0; n < 16; ++n) {
       sum += term / (2 * n + 1);

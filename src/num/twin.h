@@ -41,9 +41,11 @@ struct Traits<Twin<Half>> {
   static constexpr int lanes = 2 * num::lanes<Half>;
 };
 
-#define TOFRAY_TWIN_BINARY(type, result, op) \
-  template <class H>                         \
-  TOFRAY_FN result<H> operator op(type<H> x, type<H> y) { return {x.a op y.a, x.b op y.b}; }
+#define TOFRAY_TWIN_BINARY(type, result, op)              \
+  template <class H>                                      \
+  TOFRAY_FN result<H> operator op(type<H> x, type<H> y) { \
+    return {x.a op y.a, x.b op y.b};                      \
+  }
 TOFRAY_TWIN_BINARY(Twin, Twin, +)
 TOFRAY_TWIN_BINARY(Twin, Twin, -)
 TOFRAY_TWIN_BINARY(Twin, Twin, *)
@@ -72,17 +74,27 @@ TOFRAY_TWIN_BINARY(TwinUint, TwinUint, ^)
 #undef TOFRAY_TWIN_BINARY
 
 template <class H>
-TOFRAY_FN Twin<H> operator-(Twin<H> x) { return {-x.a, -x.b}; }
+TOFRAY_FN Twin<H> operator-(Twin<H> x) {
+  return {-x.a, -x.b};
+}
 template <class H>
-TOFRAY_FN TwinMask<H> operator!(TwinMask<H> x) { return {!x.a, !x.b}; }
+TOFRAY_FN TwinMask<H> operator!(TwinMask<H> x) {
+  return {!x.a, !x.b};
+}
 template <class H>
-TOFRAY_FN TwinUint<H> operator<<(TwinUint<H> x, int n) { return {x.a << n, x.b << n}; }
+TOFRAY_FN TwinUint<H> operator<<(TwinUint<H> x, int n) {
+  return {x.a << n, x.b << n};
+}
 template <class H>
-TOFRAY_FN TwinUint<H> operator>>(TwinUint<H> x, int n) { return {x.a >> n, x.b >> n}; }
+TOFRAY_FN TwinUint<H> operator>>(TwinUint<H> x, int n) {
+  return {x.a >> n, x.b >> n};
+}
 
 #define TOFRAY_TWIN_UNARY(type, result, name) \
   template <class H>                          \
-  TOFRAY_FN result<H> name(type<H> x) { return {name(x.a), name(x.b)}; }
+  TOFRAY_FN result<H> name(type<H> x) {       \
+    return {name(x.a), name(x.b)};            \
+  }
 TOFRAY_TWIN_UNARY(Twin, Twin, sqrt)
 TOFRAY_TWIN_UNARY(Twin, Twin, floor)
 TOFRAY_TWIN_UNARY(Twin, Twin, round_even)
@@ -96,25 +108,45 @@ TOFRAY_TWIN_UNARY(TwinUint, TwinInt, to_signed)
 #undef TOFRAY_TWIN_UNARY
 
 template <class H>
-TOFRAY_FN Twin<H> fma(Twin<H> x, Twin<H> y, Twin<H> z) { return {fma(x.a, y.a, z.a), fma(x.b, y.b, z.b)}; }
+TOFRAY_FN Twin<H> fma(Twin<H> x, Twin<H> y, Twin<H> z) {
+  return {fma(x.a, y.a, z.a), fma(x.b, y.b, z.b)};
+}
 template <class H>
-TOFRAY_FN Twin<H> fnma(Twin<H> x, Twin<H> y, Twin<H> z) { return {fnma(x.a, y.a, z.a), fnma(x.b, y.b, z.b)}; }
+TOFRAY_FN Twin<H> fnma(Twin<H> x, Twin<H> y, Twin<H> z) {
+  return {fnma(x.a, y.a, z.a), fnma(x.b, y.b, z.b)};
+}
 template <class H>
-TOFRAY_FN Twin<H> min(Twin<H> x, Twin<H> y) { return {min(x.a, y.a), min(x.b, y.b)}; }
+TOFRAY_FN Twin<H> min(Twin<H> x, Twin<H> y) {
+  return {min(x.a, y.a), min(x.b, y.b)};
+}
 template <class H>
-TOFRAY_FN Twin<H> max(Twin<H> x, Twin<H> y) { return {max(x.a, y.a), max(x.b, y.b)}; }
+TOFRAY_FN Twin<H> max(Twin<H> x, Twin<H> y) {
+  return {max(x.a, y.a), max(x.b, y.b)};
+}
 template <class H>
-TOFRAY_FN Twin<H> copy_sign(Twin<H> x, Twin<H> y) { return {copy_sign(x.a, y.a), copy_sign(x.b, y.b)}; }
+TOFRAY_FN Twin<H> copy_sign(Twin<H> x, Twin<H> y) {
+  return {copy_sign(x.a, y.a), copy_sign(x.b, y.b)};
+}
 template <class H>
-TOFRAY_FN Twin<H> select(TwinMask<H> m, Twin<H> x, Twin<H> y) { return {select(m.a, x.a, y.a), select(m.b, x.b, y.b)}; }
+TOFRAY_FN Twin<H> select(TwinMask<H> m, Twin<H> x, Twin<H> y) {
+  return {select(m.a, x.a, y.a), select(m.b, x.b, y.b)};
+}
 template <class H>
-TOFRAY_FN TwinInt<H> select(TwinMask<H> m, TwinInt<H> x, TwinInt<H> y) { return {select(m.a, x.a, y.a), select(m.b, x.b, y.b)}; }
+TOFRAY_FN TwinInt<H> select(TwinMask<H> m, TwinInt<H> x, TwinInt<H> y) {
+  return {select(m.a, x.a, y.a), select(m.b, x.b, y.b)};
+}
 template <class H>
-TOFRAY_FN TwinUint<H> select(TwinMask<H> m, TwinUint<H> x, TwinUint<H> y) { return {select(m.a, x.a, y.a), select(m.b, x.b, y.b)}; }
+TOFRAY_FN TwinUint<H> select(TwinMask<H> m, TwinUint<H> x, TwinUint<H> y) {
+  return {select(m.a, x.a, y.a), select(m.b, x.b, y.b)};
+}
 template <class H>
-TOFRAY_FN bool any(TwinMask<H> m) { return any(m.a | m.b); }
+TOFRAY_FN bool any(TwinMask<H> m) {
+  return any(m.a | m.b);
+}
 template <class H>
-TOFRAY_FN bool all(TwinMask<H> m) { return all(m.a & m.b); }
+TOFRAY_FN bool all(TwinMask<H> m) {
+  return all(m.a & m.b);
+}
 
 template <class H>
 TOFRAY_FN void multiply_wide(TwinUint<H> x, TwinUint<H> y, TwinUint<H>& high, TwinUint<H>& low) {
@@ -122,28 +154,44 @@ TOFRAY_FN void multiply_wide(TwinUint<H> x, TwinUint<H> y, TwinUint<H>& high, Tw
   multiply_wide(x.b, y.b, high.b, low.b);
 }
 template <class H>
-TOFRAY_FN Twin<H> gather(const float* table, TwinInt<H> index) { return {gather(table, index.a), gather(table, index.b)}; }
+TOFRAY_FN Twin<H> gather(const float* table, TwinInt<H> index) {
+  return {gather(table, index.a), gather(table, index.b)};
+}
 template <class H>
-TOFRAY_FN TwinInt<H> gather(const std::int32_t* table, TwinInt<H> index) { return {gather(table, index.a), gather(table, index.b)}; }
+TOFRAY_FN TwinInt<H> gather(const std::int32_t* table, TwinInt<H> index) {
+  return {gather(table, index.a), gather(table, index.b)};
+}
 template <class H>
 TOFRAY_FN void gather_pair(const float* table, TwinInt<H> index, Twin<H>& first, Twin<H>& second) {
   gather_pair(table, index.a, first.a, second.a);
   gather_pair(table, index.b, first.b, second.b);
 }
 template <class H>
-TOFRAY_FN std::int32_t first(TwinInt<H> x) { return first(x.a); }
+TOFRAY_FN std::int32_t first(TwinInt<H> x) {
+  return first(x.a);
+}
 template <class H>
-TOFRAY_FN float lane(Twin<H> x, int i) { return i < lanes<H> ? lane(x.a, i) : lane(x.b, i - lanes<H>); }
+TOFRAY_FN float lane(Twin<H> x, int i) {
+  return i < lanes<H> ? lane(x.a, i) : lane(x.b, i - lanes<H>);
+}
 template <class H>
-TOFRAY_FN std::int32_t lane(TwinInt<H> x, int i) { return i < lanes<H> ? lane(x.a, i) : lane(x.b, i - lanes<H>); }
+TOFRAY_FN std::int32_t lane(TwinInt<H> x, int i) {
+  return i < lanes<H> ? lane(x.a, i) : lane(x.b, i - lanes<H>);
+}
 template <class H>
-TOFRAY_FN float lowest(Twin<H> x) { return lowest(min(x.a, x.b)); }
+TOFRAY_FN float lowest(Twin<H> x) {
+  return lowest(min(x.a, x.b));
+}
 template <class H>
-TOFRAY_FN float highest(Twin<H> x) { return highest(max(x.a, x.b)); }
+TOFRAY_FN float highest(Twin<H> x) {
+  return highest(max(x.a, x.b));
+}
 
 /// How many lanes of the second half a count of both reaches.
 template <class H>
-TOFRAY_FN int beyond(int n) { return n > lanes<H> ? n - lanes<H> : 0; }
+TOFRAY_FN int beyond(int n) {
+  return n > lanes<H> ? n - lanes<H> : 0;
+}
 
 template <class H>
 struct Memory<Twin<H>> {
@@ -154,9 +202,13 @@ struct Memory<Twin<H>> {
   TOFRAY_FN static TwinInt<H> lane_index() { return {num::lane_index<H>(), num::lane_index<H>() + Int<H>(lanes<H>)}; }
 };
 template <class H>
-TOFRAY_FN void store(float* to, Twin<H> x, int n) { store(to, x.a, n), store(to + lanes<H>, x.b, beyond<H>(n)); }
+TOFRAY_FN void store(float* to, Twin<H> x, int n) {
+  store(to, x.a, n), store(to + lanes<H>, x.b, beyond<H>(n));
+}
 template <class H, class Element>
-TOFRAY_FN void store(Element* to, TwinInt<H> x, int n) { store(to, x.a, n), store(to + lanes<H>, x.b, beyond<H>(n)); }
+TOFRAY_FN void store(Element* to, TwinInt<H> x, int n) {
+  store(to, x.a, n), store(to + lanes<H>, x.b, beyond<H>(n));
+}
 template <class H>
 TOFRAY_FN void store3(float* to, Twin<H> x, Twin<H> y, Twin<H> z, int n) {
   store3(to, x.a, y.a, z.a, n), store3(to + 3 * lanes<H>, x.b, y.b, z.b, beyond<H>(n));

@@ -39,7 +39,9 @@ class Canvas {
  private:
   class Mask;
   /// Where a pixel's red stands.
-  [[nodiscard]] std::size_t at(int x, int y) const { return 3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(x)); }
+  [[nodiscard]] std::size_t at(int x, int y) const {
+    return 3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(x));
+  }
   /// One colour where the mask covers.
   void paint(const Mask& mask, Rgb color);
 

@@ -7,10 +7,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "num/setup_math.h"
 #include "pictures/chart_painter.h"
 #include "pictures/figure.h"
 #include "pictures/png_file.h"
-#include "num/setup_math.h"
 
 namespace tofray::pictures {
 

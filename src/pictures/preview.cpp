@@ -185,8 +185,8 @@ Layout layout_of(const Depth& depth, const std::vector<Panel>& panels, const std
   at.note_line = at.image_top + std::max(at.image_height, least_bar) + 22;
   at.legend_top = at.note_line + 30;
   at.title = fitting(caption, 3 * at.panel_width + figure::margin);
-  at.width =
-      std::max(figure::margin + 3 * at.panel_width, static_cast<int>(Canvas::text_width(figure::title_size, at.title)) + 2 * figure::margin);
+  at.width = std::max(figure::margin + 3 * at.panel_width,
+                      static_cast<int>(Canvas::text_width(figure::title_size, at.title)) + 2 * figure::margin);
   at.height = at.legend_top + legend_line * draw_legend(nullptr, 0, at.width, legend, look) + figure::margin - 10;
   return at;
 }

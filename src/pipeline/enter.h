@@ -8,23 +8,23 @@ namespace tofray::pipeline {
 
 /// Into stage 2: what another renderer saw. [moment][height][width]; a null pointer where nothing is said of it.
 struct SurfaceArrays {
-  const float* z;                 ///< nothing is seen where it is not above 0, or beyond flow::max_distance
-  const float* normal;            ///< [moment][height][width][3] of unit length, on either side
+  const float* z;       ///< nothing is seen where it is not above 0, or beyond flow::max_distance
+  const float* normal;  ///< [moment][height][width][3] of unit length, on either side
   const float *diffuse, *specular, *exponent;
   const std::int32_t* object;
-  const std::uint8_t* shadow;     ///< [moment][light][height][width] not 0: the light does not reach it
+  const std::uint8_t* shadow;  ///< [moment][light][height][width] not 0: the light does not reach it
   const std::uint8_t* sun_shadow;
   bool operator==(const SurfaceArrays&) const = default;
 };
 
 /// Into stage 3: what light each pixel receives, path by path, or summed already.
 struct LightArrays {
-  const float *power, *path_length;    ///< [moment][path][height][width] [W], [m]; of phasors: power [moment][light][height][width]
-  const std::int32_t* light_of_path;   ///< [path]
+  const float *power, *path_length;   ///< [moment][path][height][width] [W], [m]; of phasors: power [moment][light][height][width]
+  const std::int32_t* light_of_path;  ///< [path]
   std::int32_t paths;
-  const float* phasor;                 ///< [moment][light][modulation][order][height][width][2] [W] in place of path_length, or null
-  std::int32_t orders;                 ///< of 1, 3, 5 …, those that `phasor` has
-  const float* ambient_rate;           ///< [moment][height][width] [e⁻/s]
+  const float* phasor;        ///< [moment][light][modulation][order][height][width][2] [W] in place of path_length, or null
+  std::int32_t orders;        ///< of 1, 3, 5 …, those that `phasor` has
+  const float* ambient_rate;  ///< [moment][height][width] [e⁻/s]
   bool operator==(const LightArrays&) const = default;
 };
 
@@ -36,8 +36,8 @@ struct Recording {
 };
 
 struct Input {
-  Stage entry;             ///< the first stage that is computed: power, raw or depth
-  std::int32_t moments;    ///< 1, or one for each raw frame
+  Stage entry;           ///< the first stage that is computed: power, raw or depth
+  std::int32_t moments;  ///< 1, or one for each raw frame
   SurfaceArrays surface;
   LightArrays light;
   Recording recording;
@@ -94,13 +94,15 @@ struct GivenShadows {
     return given_mask<F>(in.shadow, s, p, moment * s.scene.lights + l);
   }
   template <class F>
-  TOFRAY_FN num::Mask<F> of_sun(const flow::Surface<F>&) const { return given_mask<F>(in.sun_shadow, s, p, moment); }
+  TOFRAY_FN num::Mask<F> of_sun(const flow::Surface<F>&) const {
+    return given_mask<F>(in.sun_shadow, s, p, moment);
+  }
 };
 
 /// The light that each pixel receives over paths of their own lengths.
 template <class F>
-TOFRAY_FN void given_paths(const Setup& s, const LightArrays& in, const power::Wanted& wanted, const Pixels& p, int moment, flow::Light<F>& light,
-                           F& power) {
+TOFRAY_FN void given_paths(const Setup& s, const LightArrays& in, const power::Wanted& wanted, const Pixels& p, int moment,
+                           flow::Light<F>& light, F& power) {
   for (int i = 0; i < in.paths; ++i) {
     const int l = in.light_of_path[i];
     const F watts = given<F>(in.power, s, p, moment * in.paths + i, 0.0f);
@@ -112,8 +114,8 @@ TOFRAY_FN void given_paths(const Setup& s, const LightArrays& in, const power::W
 
 /// … or summed already: of each light the power, and Σ power·e^{imφ}.
 template <class F>
-TOFRAY_FN void given_phasors(const Setup& s, const LightArrays& in, const power::Wanted& wanted, const Pixels& p, int moment, flow::Light<F>& light,
-                             F& power) {
+TOFRAY_FN void given_phasors(const Setup& s, const LightArrays& in, const power::Wanted& wanted, const Pixels& p, int moment,
+                             flow::Light<F>& light, F& power) {
   const auto lane = num::lane_index<F>();
   const auto at = num::select(lane < num::Int<F>(p.count), lane, num::Int<F>(0));
   for (int l = 0; l < s.scene.lights; ++l) {
@@ -164,7 +166,9 @@ class GivenWalk {
       }
       pack.light.ambient_rate = given<F>(in_.light.ambient_rate, s_, p, now.slot, 0.0f);
     }
-    if (now.truth) store_truth(job_.out, p, surface, radiometry, []() __attribute__((always_inline)) { return num::Int<F>(-1); });
+    if (now.truth)
+      store_truth(
+          job_.out, p, surface, radiometry, []() __attribute__((always_inline)) { return num::Int<F>(-1); });
     return true;
   }
 
@@ -186,7 +190,7 @@ TOFRAY_FN void decode_pixels(const Setup& s, const Job& job, const Recording& in
   for (int k = 0; k < sensor.raw_frames; ++k) {
     const std::int32_t at = p.index + k * s.lens.width * s.lens.height;
     num::Mask<F> over = F(1.0f) < F(0.0f);
-    F level = F(sensor.max_code) + F(1.0f);   // of a code at an end of the ADC only the taps could tell that it was not held there
+    F level = F(sensor.max_code) + F(1.0f);  // of a code at an end of the ADC only the taps could tell that it was not held there
     if (in.tap_a != nullptr) {
       const F a = num::load<F>(in.tap_a + at, p.count), b = num::load<F>(in.tap_b + at, p.count);
       const auto charges = (num::abs(a) <= F(flow::max_charge)) & (num::abs(b) <= F(flow::max_charge));
@@ -205,7 +209,8 @@ TOFRAY_FN void decode_pixels(const Setup& s, const Job& job, const Recording& in
     over = over | (num::abs(level - F(sensor.valid_middle)) > F(sensor.valid_half));
     if (sensor.frame[k].lit != 0) clipped = clipped | over;
   }
-  find_depth(s, job, p, camera::ray<F>(s.lens, p), difference, clipped, raw::pattern<F>(s.decoder.delay, p, 0.0f), camera::vignetting<F>(s.lens, p));
+  find_depth(s, job, p, camera::ray<F>(s.lens, p), difference, clipped, raw::pattern<F>(s.decoder.delay, p, 0.0f),
+             camera::vignetting<F>(s.lens, p));
 }
 
 template <class F>

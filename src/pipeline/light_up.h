@@ -11,8 +11,8 @@ namespace tofray::pipeline {
 /// A time at which the scene is looked at, and the raw frames that are exposed to what it shows.
 struct Moment {
   int first, last;
-  int slot;       ///< what moves is where it is at this time
-  bool truth;     ///< ground truth is that of this moment
+  int slot;    ///< what moves is where it is at this time
+  bool truth;  ///< ground truth is that of this moment
 };
 
 TOFRAY_FN Moment moment_of(const Setup& s, int moment, int moments) {
@@ -72,8 +72,8 @@ struct ShadowRays {
 
 /// Stage 2: light, where no shadow is. The shadows are asked for light by light, in their order.
 template <class F, class Shadows>
-TOFRAY_FN void light_up(const Setup& s, const power::Wanted& wanted, Shadows&& shadows, const flow::Ray<F>& ray, const flow::Surface<F>& p, F vignetting,
-                        flow::Light<F>& light, flow::Radiometry<F>& radiometry) {
+TOFRAY_FN void light_up(const Setup& s, const power::Wanted& wanted, Shadows&& shadows, const flow::Ray<F>& ray, const flow::Surface<F>& p,
+                        F vignetting, flow::Light<F>& light, flow::Radiometry<F>& radiometry) {
   if (s.scene.lights == 0) power::clear(s.phasors, wanted, light);
   for (int l = 0; l < s.scene.lights; ++l) {
     const flow::Ray<F> from_light = power::light_ray(s.lights[l], p);
@@ -111,7 +111,7 @@ TOFRAY_FN bool light_of_scene(const Setup& s, const Job& job, Near& near, const 
                               const flow::Hit<F>& still, const flow::Hit<F>& hit, F vignetting, flow::Light<F>& light, bool& undisturbed) {
   const bool moves = near.moves(s);
   const bool same = !moves || !near.any(hit.facet != still.facet);
-  const bool open = !moves || s.last_stage < Stage::power || !near.can_be_shaded(s);    // nothing that moves can come between
+  const bool open = !moves || s.last_stage < Stage::power || !near.can_be_shaded(s);  // nothing that moves can come between
   if (same && open && undisturbed && !now.truth) return false;
   flow::Surface<F> surface = trace::surface(s.scene, ray, hit);
   hide_outside_lens(vignetting, surface);
@@ -120,7 +120,8 @@ TOFRAY_FN bool light_of_scene(const Setup& s, const Job& job, Near& near, const 
   undisturbed = calm;
   flow::Radiometry<F> radiometry{F(0.0f), F(0.0f), F(0.0f)};
   if (s.last_stage >= Stage::power) {
-    light_up(s, wanted(s, now, calm), ShadowRays<F, Near>{s, near, now.slot, true, moves && !calm}, ray, surface, vignetting, light, radiometry);
+    light_up(s, wanted(s, now, calm), ShadowRays<F, Near>{s, near, now.slot, true, moves && !calm}, ray, surface, vignetting, light,
+             radiometry);
   }
   const auto material = [&]() __attribute__((always_inline)) { return trace::material<F>(s.scene, hit); };
   if (now.truth) store_truth(job.out, p, surface, radiometry, material);

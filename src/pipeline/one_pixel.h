@@ -24,9 +24,9 @@ namespace tofray::pipeline {
 template <class F>
 struct Pack {
   flow::Light<F> light;
-  bool undisturbed;                          ///< `light` is that of what stands still, nothing that moves came between
+  bool undisturbed;  ///< `light` is that of what stands still, nothing that moves came between
   raw::Exposure<F> exposure;
-  F difference[flow::max_raw_frames];        ///< A−B of each raw frame [e⁻]
+  F difference[flow::max_raw_frames];  ///< A−B of each raw frame [e⁻]
 };
 
 /// Stage 3 for one raw frame: A−B as depth takes it.
@@ -43,8 +43,8 @@ TOFRAY_FN F collect(const Setup& s, const Job& job, const Pixels& p, int k, cons
 
 /// Stage 4.
 template <class F>
-TOFRAY_FN void find_depth(const Setup& s, const Job& job, const Pixels& p, const flow::Ray<F>& ray, const F* difference, num::Mask<F> clipped, F delay,
-                          F vignetting) {
+TOFRAY_FN void find_depth(const Setup& s, const Job& job, const Pixels& p, const flow::Ray<F>& ray, const F* difference,
+                          num::Mask<F> clipped, F delay, F vignetting) {
   const auto outside = !(vignetting > F(0.0f));
   const flow::Depth<F> found = depth::decode<F>(s.decoder, difference, clipped, outside, ray, delay);
   store(job.out.amplitude_e, p, found.amplitude);
@@ -60,7 +60,7 @@ TOFRAY_FN void run_pipeline(const Setup& s, const Job& job, Walk& walk) {
   for (int moment = 0; moment < moments; ++moment) {
     const Moment now = moment_of(s, moment, moments);
     if (s.last_stage < Stage::power && !now.truth) continue;
-    const bool first = moment == 0 || s.last_stage < Stage::power;   // that of the truth is the only one then
+    const bool first = moment == 0 || s.last_stage < Stage::power;  // that of the truth is the only one then
     walk.go_to(now);
     for (int q = 0; q < walk.packs(); ++q) {
       const Pixels p = walk.pixels(q);
@@ -69,12 +69,12 @@ TOFRAY_FN void run_pipeline(const Setup& s, const Job& job, Walk& walk) {
       const flow::Ray<F> ray = camera::ray<F>(s.lens, p);
       const F vignetting = camera::vignetting<F>(s.lens, p);
       if (first) pack.exposure = raw::start<F>(s.sensor, p), pack.undisturbed = false;
-      const bool anew = walk.find_light(now, q, p, ray, vignetting, pack);                                       // stages 1 and 2
+      const bool anew = walk.find_light(now, q, p, ray, vignetting, pack);  // stages 1 and 2
       if (s.last_stage < Stage::raw) continue;
       if (anew && s.sensor.delay != nullptr) power::delay_by(s.phasors, wanted(s, now, pack.undisturbed), pack.exposure.delay, pack.light);
-      for (int k = now.first; k < now.last; ++k) pack.difference[k] = collect(s, job, p, k, pack.light, pack.exposure);     // stage 3
+      for (int k = now.first; k < now.last; ++k) pack.difference[k] = collect(s, job, p, k, pack.light, pack.exposure);  // stage 3
       if (now.last < s.sensor.raw_frames || s.last_stage < Stage::depth) continue;
-      find_depth<F>(s, job, p, ray, pack.difference, raw::saturated(s.sensor, pack.exposure), pack.exposure.delay, vignetting);   // stage 4
+      find_depth<F>(s, job, p, ray, pack.difference, raw::saturated(s.sensor, pack.exposure), pack.exposure.delay, vignetting);  // stage 4
     }
   }
 }

@@ -42,7 +42,8 @@ TOFRAY_FN void filter_pixel(const Setup& s, const Job& job, int x, int y) {
   const depth::RangeImage image{job.out.range_m, job.out.flags, s.lens.width, s.lens.height};
   float value = image.range[y * image.width + x];
   if (image.valid(x, y)) {
-    value = job.filter == Filter::gaussian ? depth::gaussian(image, x, y, job.filter_radius, job.filter_weights) : depth::median(image, x, y, job.filter_radius);
+    value = job.filter == Filter::gaussian ? depth::gaussian(image, x, y, job.filter_radius, job.filter_weights)
+                                           : depth::median(image, x, y, job.filter_radius);
   }
   job.filtered[y * image.width + x] = value;
 }

@@ -11,14 +11,14 @@ namespace tofray::pipeline {
 struct Setup {
   camera::LensView lens;
   scene::SceneView scene;
-  const camera::LightView* lights;   ///< [scene.lights]
+  const camera::LightView* lights;  ///< [scene.lights]
   camera::PowerView power;
   camera::PhasorView phasors;
   camera::SensorView sensor;
   camera::DecoderView decoder;
-  std::int32_t truth_slot;       ///< slot of the middle raw frame
-  Stage last_stage;              ///< nothing is done after it
-  std::int32_t culling;          ///< 0: every pixel tests every form
+  std::int32_t truth_slot;  ///< slot of the middle raw frame
+  Stage last_stage;         ///< nothing is done after it
+  std::int32_t culling;     ///< 0: every pixel tests every form
 };
 
 enum class Filter : std::int32_t { none, gaussian, median };
@@ -27,25 +27,25 @@ enum class Filter : std::int32_t { none, gaussian, median };
 struct Job {
   flow::FrameView out;
   std::uint32_t index_low, index_high;
-  float* filtered;               ///< [height][width] scratch of the image filters
+  float* filtered;  ///< [height][width] scratch of the image filters
   Filter filter;
   std::int32_t filter_radius;
-  float filter_weights[33];      ///< Gaussian, [0] the middle
+  float filter_weights[33];  ///< Gaussian, [0] the middle
 };
 
 using flow::tile_height;
 using flow::tile_width;
 
-constexpr int rows_per_band = 8;   ///< of an image, for one worker at a time in the passes that follow the pixels
+constexpr int rows_per_band = 8;  ///< of an image, for one worker at a time in the passes that follow the pixels
 
 /// What is done to a frame, one after the other, each over all its pixels before the next begins.
 enum class Pass : std::int32_t {
-  derive,       ///< forms and facets out of the scene's shapes, where the backend does that itself, before all else
-  pixels,       ///< rays to depth
-  input,        ///< what came from elsewhere to depth, in place of `pixels`
-  flying,       ///< flags of flying pixels
-  filter,       ///< the image filter
-  settle,       ///< the range that is left, to z, point and confidence
+  derive,  ///< forms and facets out of the scene's shapes, where the backend does that itself, before all else
+  pixels,  ///< rays to depth
+  input,   ///< what came from elsewhere to depth, in place of `pixels`
+  flying,  ///< flags of flying pixels
+  filter,  ///< the image filter
+  settle,  ///< the range that is left, to z, point and confidence
 };
 
 /// Calls run(pass) for each pass of a frame.

@@ -10,7 +10,9 @@ namespace tofray::pipeline {
 using flow::Pixels;
 
 template <class F>
-TOFRAY_FN F nan() { return num::from_bits(num::Uint<F>(0x7fc00000u)); }
+TOFRAY_FN F nan() {
+  return num::from_bits(num::Uint<F>(0x7fc00000u));
+}
 
 template <class F>
 TOFRAY_FN void store(float* to, const Pixels& p, F value) {
@@ -55,7 +57,8 @@ TOFRAY_FN num::Int<F> confidence(const camera::DecoderView& s, F noise) {
 
 /// Point, z and confidence of a valid range; NaN and 0 elsewhere.
 template <class F>
-TOFRAY_FN void store_range(const Setup& s, const flow::FrameView& out, const Pixels& p, const flow::Ray<F>& ray, F range, F noise, num::Int<F> flags) {
+TOFRAY_FN void store_range(const Setup& s, const flow::FrameView& out, const Pixels& p, const flow::Ray<F>& ray, F range, F noise,
+                           num::Int<F> flags) {
   const auto valid = (flags & num::Int<F>(depth::invalid)) == num::Int<F>(0);
   const F z = num::select(valid, range * ray.inverse_length, nan<F>());
   store(out.z_m, p, z);

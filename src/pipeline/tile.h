@@ -20,12 +20,12 @@ TOFRAY_FN Tile tile_at(const camera::LensView& lens, int index) {
 template <class F>
 constexpr int packs_per_row = tile_width / num::lanes<F>;
 template <class F>
-constexpr int max_packs = packs_per_row<F> * tile_height;
+constexpr int max_packs = packs_per_row<F>* tile_height;
 
 /// Pack q of the tile; count 0 where it lies outside the image.
 template <class F>
 TOFRAY_FN Pixels pack_at(const camera::LensView& lens, const Tile& tile, int q) {
-  const int dx = (q % packs_per_row<F>) * num::lanes<F>, dy = q / packs_per_row<F>;
+  const int dx = (q % packs_per_row<F>)*num::lanes<F>, dy = q / packs_per_row<F>;
   const int left = tile.width - dx;
   const int count = dy >= tile.height || left <= 0 ? 0 : (left < num::lanes<F> ? left : num::lanes<F>);
   return {(tile.y + dy) * lens.width + tile.x + dx, count};
@@ -49,7 +49,9 @@ struct Rectangle {
 };
 
 template <class F>
-TOFRAY_FN num::Mask<F> in_use(const Pixels& p) { return num::lane_index<F>() < num::Int<F>(p.count); }
+TOFRAY_FN num::Mask<F> in_use(const Pixels& p) {
+  return num::lane_index<F>() < num::Int<F>(p.count);
+}
 
 /// What one light sees of the tile: the way from the light to a surface point is (d − w·L)/w for the ray d that hits it.
 /// @return false where that is no rectangle ahead of the light
@@ -84,7 +86,9 @@ struct Near {
 
   TOFRAY_FN bool moves(const Setup&) const { return can_move; }
   template <class Mask>
-  TOFRAY_FN bool any(Mask mask) const { return num::any(mask); }
+  TOFRAY_FN bool any(Mask mask) const {
+    return num::any(mask);
+  }
   TOFRAY_FN bool can_be_shaded(const Setup& s) const {
     bool possible = s.power.ambient == camera::AmbientLight::directional;
     for (int l = 0; l < s.scene.lights; ++l) possible = possible || !light_moving[l].empty();
@@ -102,16 +106,21 @@ template <class F, bool can_move>
 struct Scratch {
   Near<can_move> near;
   SeenByLights seen;
-  flow::Hit<F> still[max_packs<F>];                  ///< of what stands still
-  flow::Hit<F> hits[can_move ? max_packs<F> : 1];    ///< of all, at one moment
-  Pack<F> pack[can_move ? max_packs<F> : 1];         ///< where there is one moment, nothing is kept of a pack once the next one begins
+  flow::Hit<F> still[max_packs<F>];                ///< of what stands still
+  flow::Hit<F> hits[can_move ? max_packs<F> : 1];  ///< of all, at one moment
+  Pack<F> pack[can_move ? max_packs<F> : 1];       ///< where there is one moment, nothing is kept of a pack once the next one begins
 };
 
 template <class F, bool can_move>
 class TileWalk {
  public:
   TOFRAY_FN TileWalk(const Setup& s, const Job& job, int index, Scratch<F, can_move>& scratch)
-      : s_(s), job_(job), scratch_(scratch), tile_(tile_at(s.lens, index)), view_(s.culling != 0 ? s.lens.tile + index : nullptr), hits_(scratch.still) {
+      : s_(s),
+        job_(job),
+        scratch_(scratch),
+        tile_(tile_at(s.lens, index)),
+        view_(s.culling != 0 ? s.lens.tile + index : nullptr),
+        hits_(scratch.still) {
     trace::cull(s.scene.camera_still(), view_, scratch.near.camera_still);
     for (int q = 0; q < max_packs<F>; ++q) {
       const Pixels p = pixels(q);
@@ -165,7 +174,7 @@ class TileWalk {
   Tile tile_;
   const flow::Bounds* view_;
   const flow::Hit<F>* hits_;
-  bool culled_for_still_ = false;   // near.light_still and `seen` are those of scratch.still
+  bool culled_for_still_ = false;  // near.light_still and `seen` are those of scratch.still
   Pack<F> here_;
 };
 

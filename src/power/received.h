@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The tofray authors
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include "brdf/list.h"
 #include "power/light_source.h"
 #include "power/paper_literal.h"
-#include "brdf/list.h"
 #include "power/phasors.h"
 
 /// Stage 2: how much light each pixel receives, and over which path.

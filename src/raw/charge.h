@@ -99,7 +99,8 @@ struct MergedWords {
 };
 
 template <class F>
-TOFRAY_FN Means<F> expose_fast(const camera::SensorView& s, const Means<F>& mean, num::Int<F> pixel, int k, FrameIndex frame, MergedWords<F>& words) {
+TOFRAY_FN Means<F> expose_fast(const camera::SensorView& s, const Means<F>& mean, num::Int<F> pixel, int k, FrameIndex frame,
+                               MergedWords<F>& words) {
   const int place = k % 9;
   num::Uint<F> radius = words.spare[0], angle = words.spare[1];
   if (place < 8) {

@@ -47,7 +47,8 @@ TOFRAY_FN Means<F> tap_means(const camera::RawFrameView& frame, F signal_rate, F
   const F dark = F(frame.dark);
   if (frame.lit == 0) return {num::fma(ambient_rate, F(frame.integration_time), dark), dark};
   const F common = signal_rate + ambient_rate, half_time = F(0.5f * frame.integration_time);
-  return {num::fma(num::max(common + difference, F(0.0f)), half_time, dark), num::fma(num::max(common - difference, F(0.0f)), half_time, dark)};
+  return {num::fma(num::max(common + difference, F(0.0f)), half_time, dark),
+          num::fma(num::max(common - difference, F(0.0f)), half_time, dark)};
 }
 
 }  // namespace tofray::raw

@@ -10,7 +10,7 @@ namespace tofray::raw {
 template <class F>
 struct Exposure {
   num::Int<F> pixel;
-  num::Int<F> column;           ///< where the sensor has column noise
+  num::Int<F> column;  ///< where the sensor has column noise
   F gain, offset, delay;
   MergedWords<F> merged_words;
   F most_charge, widest_level;  ///< of the lit raw frames: most charge of a tap, largest distance of a level from the valid codes' middle
@@ -34,7 +34,8 @@ TOFRAY_FN Exposure<F> start(const camera::SensorView& s, const flow::Pixels& p) 
 
 /// Notes how far a lit raw frame went.
 template <class F>
-TOFRAY_FN void watch(const camera::SensorView& s, const camera::RawFrameView& frame, const Means<F>& charge, const Taps<F>& taps, Exposure<F>& e) {
+TOFRAY_FN void watch(const camera::SensorView& s, const camera::RawFrameView& frame, const Means<F>& charge, const Taps<F>& taps,
+                     Exposure<F>& e) {
   if (frame.lit == 0) return;
   e.most_charge = num::max(e.most_charge, num::max(charge.a, charge.b));
   e.widest_level = num::max(e.widest_level, num::abs(taps.level - F(s.valid_middle)));

@@ -14,12 +14,12 @@ namespace tofray::results {
 
 using files::json_text;
 using files::parse_json;
-using load::Settings;
 using load::camera_from_text;
+using load::Settings;
 
 namespace {
 
-using SortedTree = nlohmann::json;   // sorted: it finds its keys in logarithmic time, whoever wrote how many
+using SortedTree = nlohmann::json;  // sorted: it finds its keys in logarithmic time, whoever wrote how many
 using model::Form;
 using model::Row;
 using model::Table;

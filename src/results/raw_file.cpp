@@ -15,13 +15,13 @@
 
 namespace tofray::results {
 
-using files::NamedArray;
-using files::NpyArray;
-using files::NpyShape;
 using files::max_data_file_bytes;
 using files::max_image_side;
 using files::max_phases;
+using files::NamedArray;
 using files::npy_type_of;
+using files::NpyArray;
+using files::NpyShape;
 using files::parse_npz;
 using files::read_bytes;
 using files::shape_text;
@@ -64,9 +64,7 @@ class RawReader {
   }
   [[nodiscard]] bool has(const char* name) const { return find(name) != nullptr; }
 
-  void fault(const std::string& what, const std::string& more) {
-    faults_.add(base::whole(path_), what, more);
-  }
+  void fault(const std::string& what, const std::string& more) { faults_.add(base::whole(path_), what, more); }
 
   /// The array, if it is there and has one of the kinds wanted.
   const NpyArray* wanted(const char* name, const char* kinds, const char* expected) {

@@ -21,8 +21,8 @@ namespace {
 using base::ClampedCurve;
 using base::Spectrum;
 
-constexpr double first_wavelength_m = 280e-9, last_wavelength_m = 4000e-9;   // range of `equal_energy`
-constexpr double watt_per_m2_nm = 1e9;                                       // in W m⁻³
+constexpr double first_wavelength_m = 280e-9, last_wavelength_m = 4000e-9;  // range of `equal_energy`
+constexpr double watt_per_m2_nm = 1e9;                                      // in W m⁻³
 
 /// The filter as a function of wavelength, and the band outside which it passes nothing.
 class Transmission {
@@ -54,7 +54,7 @@ class Transmission {
 
  private:
   std::optional<ClampedCurve> curve_;
-  double from_ = 0, to_ = 1;   // a table of one sample: every wavelength
+  double from_ = 0, to_ = 1;  // a table of one sample: every wavelength
 };
 
 Spectrum tabulated(const Ambient& ambient) {
@@ -79,8 +79,9 @@ double scale(const Ambient& ambient, const Spectrum& spectrum, const Filter& fil
   const bool photometric = ambient.quantity == Ambient::Quantity::illuminance_lx;
   const double unscaled = photometric ? base::illuminance_lx(spectrum) : Transmission(filter).integrate(spectrum);
   if (!(unscaled > 0))
-    base::refuse(photometric ? "ambient light without any visible part cannot have an illuminance\n  give its level or band irradiance"
-                       : "the filter passes nothing of the ambient light, which cannot have a band irradiance then\n  give its level");
+    base::refuse(photometric
+                     ? "ambient light without any visible part cannot have an illuminance\n  give its level or band irradiance"
+                     : "the filter passes nothing of the ambient light, which cannot have a band irradiance then\n  give its level");
   return ambient.amount / unscaled;
 }
 

@@ -29,7 +29,8 @@ TOFRAY_FN void derive_facets(const Body<T>& body, const T& seen, Facet* facets) 
 /// @param facets  of the group in this slot; null: they are not wanted
 /// @param first   number of the group's first facet in this slot
 template <class T>
-TOFRAY_FN void derive_body(const SceneView& s, const Group& group, int slot, double time, int i, int eye, bool forms, Facet* facets, int first) {
+TOFRAY_FN void derive_body(const SceneView& s, const Group& group, int slot, double time, int i, int eye, bool forms, Facet* facets,
+                           int first) {
   const int count = group.bodies.of<T>().count;
   const Body<T>& body = group.bodies.of<T>().at[i];
   const T seen = in_frame(body.shape, frame_at(s, body.velocity, time));

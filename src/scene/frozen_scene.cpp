@@ -30,7 +30,8 @@ void add_body(shape::List<T...>, const std::variant<Said...>& shape, const Objec
   static_assert(sizeof...(T) == sizeof...(Said), "each shape of the public variant has its place in shape::Shapes");
   const shape::Placement placement{rotation_matrix(object.rotation), vec(object.position)};
   const auto add = [&]<class One, class From>(const From* said, shape::List<One>) {
-    if (said != nullptr) to.of<One>().bodies.push_back({One::placed(*said, placement), vec(object.velocity_m_per_s), 0, index, object.material});
+    if (said != nullptr)
+      to.of<One>().bodies.push_back({One::placed(*said, placement), vec(object.velocity_m_per_s), 0, index, object.material});
   };
   (add(std::get_if<Said>(&shape), shape::List<T>{}), ...);
 }

@@ -48,7 +48,7 @@ class FrozenScene {
   void add_bodies(const Scene& scene);
   void lay_out();
 
-  std::optional<Vec3> sun_;                      ///< in which its light travels, world
+  std::optional<Vec3> sun_;  ///< in which its light travels, world
   CameraFrame camera_{};
   Vec3 toward_sun_{0, 0, 0};
   bool moves_ = false;
@@ -56,7 +56,7 @@ class FrozenScene {
   std::vector<shape::Vec> lights_;
   std::vector<double> slot_times_;
   std::vector<brdf::MaterialView> materials_;
-  std::unique_ptr<unsigned char[]> memory_;      ///< what is derived
+  std::unique_ptr<unsigned char[]> memory_;  ///< what is derived
   SceneView view_{};
   bool still_known_ = false, moving_known_ = false;
 };

@@ -14,8 +14,8 @@ using shape::Facet;
 template <class T>
 struct Body {
   T shape;
-  shape::Vec velocity;                ///< [m/s]
-  std::int32_t facet;                 ///< the first of its facets, counted within its group
+  shape::Vec velocity;  ///< [m/s]
+  std::int32_t facet;   ///< the first of its facets, counted within its group
   std::int32_t object, material;
 };
 
@@ -44,8 +44,8 @@ using Alongs = shape::ByShape<AlongsOf>;
 /// Where a group's forms are.
 template <class T>
 struct DerivedOf {
-  typename T::Form* forms;            ///< [slot][eye][body] eye 0: the camera; then the lights
-  typename T::Along* along;           ///< [slot][body]
+  typename T::Form* forms;   ///< [slot][eye][body] eye 0: the camera; then the lights
+  typename T::Along* along;  ///< [slot][body]
 };
 
 /// Objects that stand still (one slot), or that move (a slot for each raw frame).
@@ -75,17 +75,17 @@ struct Group {
 /// The frozen scene of one frame.
 struct SceneView {
   Group still, moving;
-  Facet* facets;                     ///< still ones, then those of slot 0, 1 …
+  Facet* facets;  ///< still ones, then those of slot 0, 1 …
   const brdf::MaterialView* materials;
-  const shape::Vec* light_positions; ///< [light] camera frame [m]
-  const double* slot_times;          ///< [slot] [s]
-  shape::Frame camera;               ///< where the camera stands
-  shape::Vec toward_sun;             ///< unit vector, camera frame
-  std::int32_t slots;                ///< 0: nothing moves; else one for each raw frame
+  const shape::Vec* light_positions;  ///< [light] camera frame [m]
+  const double* slot_times;           ///< [slot] [s]
+  shape::Frame camera;                ///< where the camera stands
+  shape::Vec toward_sun;              ///< unit vector, camera frame
+  std::int32_t slots;                 ///< 0: nothing moves; else one for each raw frame
   std::int32_t lights;
-  std::int32_t has_sun;              ///< light comes from one direction, too
+  std::int32_t has_sun;  ///< light comes from one direction, too
   std::int32_t material_count;
-  std::int32_t any_other_brdf;       ///< than Lambert's;
+  std::int32_t any_other_brdf;  ///< than Lambert's;
 
   TOFRAY_FN Forms camera_still() const { return still.seen_from(0, 0, 1 + lights); }
   TOFRAY_FN Forms camera_moving(int slot) const { return moving.seen_from(slot, 0, 1 + lights); }

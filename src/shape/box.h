@@ -12,9 +12,9 @@ struct BoxForm {
   float axis[3][3];
   float near_scale[3], near_offset[3];
   float far_scale[3][2];
-  std::int32_t facet, object; ///< facet of axis 0; those of axes 1 and 2 follow
-  std::int32_t inside;        ///< 1: the origin is inside the box: it sees the far side
-  std::int32_t own_blocks;    ///< light's view: 1 where light and camera are on different sides of its surface
+  std::int32_t facet, object;  ///< facet of axis 0; those of axes 1 and 2 follow
+  std::int32_t inside;         ///< 1: the origin is inside the box: it sees the far side
+  std::int32_t own_blocks;     ///< light's view: 1 where light and camera are on different sides of its surface
   Bounds bounds;
 };
 
@@ -22,7 +22,7 @@ struct BoxForm {
 struct BoxAlong {
   float axis[3][3], offset[3], half[3], inverse[3];
   std::int32_t object;
-  std::int32_t own_blocks;    ///< 1: the camera is inside
+  std::int32_t own_blocks;  ///< 1: the camera is inside
 };
 
 struct Box {
@@ -43,7 +43,8 @@ struct Box {
 };
 
 TOFRAY_FN Box in_frame(const Box& b, const Frame& frame) {
-  return {frame.point(b.center), {{frame.direction(b.axes.row[0]), frame.direction(b.axes.row[1]), frame.direction(b.axes.row[2])}}, b.half};
+  return {
+      frame.point(b.center), {{frame.direction(b.axes.row[0]), frame.direction(b.axes.row[1]), frame.direction(b.axes.row[2])}}, b.half};
 }
 TOFRAY_FN bool inside(const Box& b, const Vec& p) {
   const Vec q = b.axes * (p - b.center);

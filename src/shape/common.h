@@ -69,8 +69,8 @@ TOFRAY_FN F affine(const Surface<F>& p, const float* m, float offset) {
 
 /// Where light lands: which way the surface faces there, what it belongs to, what it is made of. (All of a camera frame.)
 struct Facet {
-  float number[7];              ///< flat: the unit normal; else what its shape's normal() reads
-  std::int32_t curved;          ///< 0: flat; else 1 + the shape's place in the list
+  float number[7];      ///< flat: the unit normal; else what its shape's normal() reads
+  std::int32_t curved;  ///< 0: flat; else 1 + the shape's place in the list
   std::int32_t object, material;
 };
 constexpr int facet_words = sizeof(Facet) / sizeof(float);

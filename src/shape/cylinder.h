@@ -11,12 +11,12 @@ namespace tofray::shape {
 struct CylinderForm {
   float u[3], v[3], a[3];
   float line, radius_squared;
-  float power, inverse_power;   ///< C = line² − R², and 1/C; negative within the side, however long
+  float power, inverse_power;  ///< C = line² − R², and 1/C; negative within the side, however long
   float near_scale, near_offset, far_scale[2];
-  std::int32_t facet, object;   ///< facet of the side; that of the caps follows
-  std::int32_t within_side;     ///< 1: the origin is nearer to the line than R
-  std::int32_t inside;          ///< 1: the origin is inside the cylinder: it sees the far side
-  std::int32_t own_blocks;      ///< light's view: 1 where light and camera are on different sides of its surface
+  std::int32_t facet, object;  ///< facet of the side; that of the caps follows
+  std::int32_t within_side;    ///< 1: the origin is nearer to the line than R
+  std::int32_t inside;         ///< 1: the origin is inside the cylinder: it sees the far side
+  std::int32_t own_blocks;     ///< light's view: 1 where light and camera are on different sides of its surface
   Bounds bounds;
 };
 
@@ -26,7 +26,7 @@ struct CylinderAlong {
   float radius_squared, half;
   float inverse_u, inverse_a;
   std::int32_t object;
-  std::int32_t own_blocks;      ///< 1: the camera is inside
+  std::int32_t own_blocks;  ///< 1: the camera is inside
 };
 
 struct Cylinder {
@@ -100,7 +100,7 @@ TOFRAY_FN CylinderForm seen_from(const Cylinder& c, const Vec& origin) {
   form.far_scale[1] = between ? single(inverse(near_side)) : form.far_scale[0];
   form.inside = inside(c, origin);
   form.own_blocks = (form.inside != 0) != inside(c, {0, 0, 0});
-  Vec corners[8] = {};   // of a box round it
+  Vec corners[8] = {};  // of a box round it
   for (int i = 0; i < 8; ++i) {
     corners[i] = center + ((i & 1 ? 1 : -1) * c.radius) * u + ((i & 2 ? 1 : -1) * c.radius) * v + ((i & 4 ? 1 : -1) * c.half) * c.axis;
   }

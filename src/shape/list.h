@@ -35,9 +35,13 @@ struct OneForEach<Each, List<T...>> : Each<T>... {};
 template <template <class> class Each>
 struct ByShape : OneForEach<Each, Shapes> {
   template <class T>
-  TOFRAY_FN Each<T>& of() { return *this; }
+  TOFRAY_FN Each<T>& of() {
+    return *this;
+  }
   template <class T>
-  TOFRAY_FN const Each<T>& of() const { return *this; }
+  TOFRAY_FN const Each<T>& of() const {
+    return *this;
+  }
 };
 
 }  // namespace tofray::shape

@@ -10,17 +10,17 @@ namespace tofray::shape {
 struct SphereForm {
   float c[3];
   float radius_squared;
-  float inverse_power;        ///< 1 / (|c|² − R²); negative inside
+  float inverse_power;  ///< 1 / (|c|² − R²); negative inside
   std::int32_t facet, object;
-  std::int32_t inside;        ///< 1: the origin is inside the sphere
-  std::int32_t own_blocks;    ///< light's view: 1 where light and camera are on different sides of its surface
+  std::int32_t inside;      ///< 1: the origin is inside the sphere
+  std::int32_t own_blocks;  ///< light's view: 1 where light and camera are on different sides of its surface
   Bounds bounds;
 };
 
 struct SphereAlong {
   float c[3], radius_squared;
   std::int32_t object;
-  std::int32_t own_blocks;    ///< 1: the camera is inside
+  std::int32_t own_blocks;  ///< 1: the camera is inside
 };
 
 struct Sphere {

@@ -23,9 +23,10 @@ constexpr std::uint64_t most_frames = 32'768;
 
 }  // namespace
 
-void Simulator::Impl::frames_one_by_one(backend::Engine& engine, std::uint64_t from, std::uint64_t count, const Request& request, const Take& take) {
+void Simulator::Impl::frames_one_by_one(backend::Engine& engine, std::uint64_t from, std::uint64_t count, const Request& request,
+                                        const Take& take) {
   simulator::prepare(scratch, camera, options.truth);
-  const backend::gpu::Slab shown(setup, simulator::view_of(scratch, options.last_stage), false);   // leaves out what is not computed
+  const backend::gpu::Slab shown(setup, simulator::view_of(scratch, options.last_stage), false);  // leaves out what is not computed
   std::vector<unsigned char> memory(shown.bytes());
   for (std::uint64_t i = from; i < count; ++i) {
     const FrameRequest wanted = request(i);
@@ -56,7 +57,8 @@ std::uint64_t Simulator::Impl::fill(Lane& lane, const backend::Cuda& gpu, std::u
     const FrameRequest wanted = request(from + i);
     if (i == 0 || own != Own::number) set_frame(wanted);
     if (i == 0) {
-      const std::uint64_t room = own == Own::number ? count : std::max<std::uint64_t>(1, options.batch_bytes / Lane::input_bytes(gpu.resident(), setup, own));
+      const std::uint64_t room =
+          own == Own::number ? count : std::max<std::uint64_t>(1, options.batch_bytes / Lane::input_bytes(gpu.resident(), setup, own));
       lane.begin(gpu.resident(), setup, job, own, static_cast<int>(std::min(count, room)));
     }
     if (!lane.add(setup, wanted.index)) return i;
@@ -72,8 +74,10 @@ void Simulator::Impl::frames_on_gpus(std::uint64_t count, const Request& request
   const auto& gpus = engines.gpus();
   simulator::prepare(scratch, camera, options.truth);
   job.out = simulator::view_of(scratch, options.last_stage);
-  const std::size_t frame_bytes = std::max<std::size_t>(1, backend::gpu::Slab(setup, job.out, job.filter != pipeline::Filter::none).bytes());
-  const std::uint64_t chunk = std::clamp<std::uint64_t>(options.batch_bytes / frame_bytes, 1, most_frames), lanes = lanes_per_gpu * gpus.size();
+  const std::size_t frame_bytes =
+      std::max<std::size_t>(1, backend::gpu::Slab(setup, job.out, job.filter != pipeline::Filter::none).bytes());
+  const std::uint64_t chunk = std::clamp<std::uint64_t>(options.batch_bytes / frame_bytes, 1, most_frames),
+                      lanes = lanes_per_gpu * gpus.size();
   std::deque<Flight> flights;
   for (std::uint64_t next = 0, started = 0; taken < count;) {
     if (next < count && flights.size() < lanes) {

@@ -34,7 +34,7 @@ void Engines::open_other_gpus(const std::function<const pipeline::Setup&()>& set
       gpu->load(setup);
       gpus_.push_back(std::move(gpu));
     } catch (const backend::gpu::Fault&) {
-      continue;   // another one that cannot be used is no reason to do without the first
+      continue;  // another one that cannot be used is no reason to do without the first
     }
   }
 }

@@ -48,7 +48,7 @@ class Engines {
   SimulatorOptions options_;
   backend::Cpu cpu_;
   std::vector<std::unique_ptr<backend::Cuda>> gpus_;
-  bool all_gpus_ = false;   ///< the other ones were looked for
+  bool all_gpus_ = false;  ///< the other ones were looked for
   std::string fallback_reason_;
 };
 

@@ -25,7 +25,7 @@ struct Simulator::Impl {
   pipeline::Setup setup{};
   pipeline::Job job{};
   std::vector<float> filtered;
-  Frame scratch;                                   ///< of a batch on the processor, and the model of one on a GPU
+  Frame scratch;  ///< of a batch on the processor, and the model of one on a GPU
   simulator::Engines engines;
 
   Impl(const Scene& scene, const Camera& profile, const SimulatorOptions& wanted);

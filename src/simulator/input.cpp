@@ -28,7 +28,9 @@ const T* data_of(const std::vector<T>& array) {
 class Look {
  public:
   Look(const std::string& path, int width, int height, int moments, const Camera& camera)
-      : path_(path), width_(static_cast<std::size_t>(camera.sensor.width)), pixels_(width_ * static_cast<std::size_t>(camera.sensor.height)) {
+      : path_(path),
+        width_(static_cast<std::size_t>(camera.sensor.width)),
+        pixels_(width_ * static_cast<std::size_t>(camera.sensor.height)) {
     if (width != camera.sensor.width || height != camera.sensor.height) {
       refuse(path + " has the wrong size", "got " + std::to_string(width) + " × " + std::to_string(height) + " pixels, the camera has " +
                                                std::to_string(camera.sensor.width) + " × " + std::to_string(camera.sensor.height));
@@ -46,7 +48,8 @@ class Look {
   template <class T>
   void size(const std::vector<T>& array, std::size_t wanted, const char* name) const {
     if (array.size() == wanted) return;
-    refuse(path_ + "." + name + " has the wrong size", "got " + std::to_string(array.size()) + " values, expected " + std::to_string(wanted));
+    refuse(path_ + "." + name + " has the wrong size",
+           "got " + std::to_string(array.size()) + " values, expected " + std::to_string(wanted));
   }
   template <class T>
   void size_or_empty(const std::vector<T>& array, std::size_t wanted, const char* name) const {
@@ -103,8 +106,8 @@ OwnInput input_of(const Geometry& seen, const Camera& camera) {
   OwnInput own;
   pipeline::Input& input = own.input;
   input.entry = Stage::power, input.moments = seen.moments;
-  input.surface = {seen.z_m.data(),         seen.normal.data(),       seen.diffuse.data(),  data_of(seen.specular),
-                   data_of(seen.exponent),  data_of(seen.object_id),  data_of(seen.shadow), data_of(seen.sun_shadow)};
+  input.surface = {seen.z_m.data(),        seen.normal.data(),      seen.diffuse.data(),  data_of(seen.specular),
+                   data_of(seen.exponent), data_of(seen.object_id), data_of(seen.shadow), data_of(seen.sun_shadow)};
   return own;
 }
 
@@ -135,8 +138,10 @@ std::size_t check_phasors(const PixelLight& light, const Look& look, std::size_t
   const std::size_t one = look.by_light() * modulations;
   if (one == 0 || light.phasor_w.size() % one != 0) {
     refuse("pixel light.phasor_w has the wrong size",
-           "got " + std::to_string(light.phasor_w.size()) + " values, expected a multiple of " + std::to_string(one) + ": [moment][light][modulation "
-           "frequency][harmonic][height][width], the camera has " + std::to_string(lights) + " lights and " + std::to_string(modulations) + " modulation frequencies");
+           "got " + std::to_string(light.phasor_w.size()) + " values, expected a multiple of " + std::to_string(one) +
+               ": [moment][light][modulation "
+               "frequency][harmonic][height][width], the camera has " +
+               std::to_string(lights) + " lights and " + std::to_string(modulations) + " modulation frequencies");
   }
   const std::size_t orders = light.phasor_w.size() / one, pixels = look.image();
   for (std::size_t i = 0; i < light.phasor_w.size(); ++i) {

@@ -27,7 +27,8 @@ Camera camera_of(const Raw& raw, const Camera& profile) {
   if (raw.raw.empty() ? raw.tap_a.size() != all || raw.tap_b.size() != all : raw.raw.size() != all) {
     complain("raw data needs raw, or tap_a and tap_b, of shape [phase][height][width]");
   }
-  if (raw.tap_a.size() != raw.tap_b.size() || (!raw.tap_a.empty() && raw.tap_a.size() != all)) complain("tap_a and tap_b must have the shape of raw");
+  if (raw.tap_a.size() != raw.tap_b.size() || (!raw.tap_a.empty() && raw.tap_a.size() != all))
+    complain("tap_a and tap_b must have the shape of raw");
   if (raw.modulation_frequency_hz.size() != phases || raw.reference_phase_rad.size() != phases || raw.integration_time_s.size() != phases ||
       raw.lit.size() != phases) {
     complain("raw data needs modulation_frequency_hz, reference_phase_rad, integration_time_s and lit, one value for each raw frame");
@@ -35,7 +36,8 @@ Camera camera_of(const Raw& raw, const Camera& profile) {
   Camera camera = profile;
   camera.mode.sequence.clear();
   for (std::size_t k = 0; k < phases; ++k) {
-    camera.mode.sequence.push_back({raw.lit[k] != 0, raw.modulation_frequency_hz[k], raw.reference_phase_rad[k], raw.integration_time_s[k]});
+    camera.mode.sequence.push_back(
+        {raw.lit[k] != 0, raw.modulation_frequency_hz[k], raw.reference_phase_rad[k], raw.integration_time_s[k]});
   }
   return camera;
 }

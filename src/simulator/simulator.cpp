@@ -62,7 +62,8 @@ Simulator::Impl::Impl(const Scene& all, const Camera& profile, const SimulatorOp
       setup(fixed_setup()),
       engines(options, setup, frozen_scene.moves()) {
   simulator::set_filter(camera.decoding.filter, job);
-  if (job.filter != pipeline::Filter::none) filtered.resize(static_cast<std::size_t>(camera.sensor.width) * static_cast<std::size_t>(camera.sensor.height));
+  if (job.filter != pipeline::Filter::none)
+    filtered.resize(static_cast<std::size_t>(camera.sensor.width) * static_cast<std::size_t>(camera.sensor.height));
   job.filtered = filtered.data();
 }
 
@@ -103,7 +104,8 @@ void Simulator::Impl::set_frame(const FrameRequest& request) {
 
 void Simulator::Impl::set_sensor(const FrameRequest& request) {
   setup.sensor = frozen_camera.sensor(start_of(request.index));
-  if (request.seed) setup.sensor.keys = num::round_keys(static_cast<std::uint32_t>(*request.seed), static_cast<std::uint32_t>(*request.seed >> 32));
+  if (request.seed)
+    setup.sensor.keys = num::round_keys(static_cast<std::uint32_t>(*request.seed), static_cast<std::uint32_t>(*request.seed >> 32));
   job.index_low = static_cast<std::uint32_t>(request.index), job.index_high = static_cast<std::uint32_t>(request.index >> 32);
 }
 
@@ -119,7 +121,7 @@ void Simulator::Impl::frame(std::uint64_t index, const pipeline::Input* input, F
   if (input == nullptr) {
     set_frame(request);
   } else {
-    setup.scene.slots = 0;   // nothing of what moves need go to a GPU
+    setup.scene.slots = 0;  // nothing of what moves need go to a GPU
     set_sensor(request);
   }
   // What is given of the stage before the entry is known, however early the last one is.
@@ -131,7 +133,8 @@ void Simulator::Impl::frame(std::uint64_t index, const pipeline::Input* input, F
   });
 }
 
-Simulator::Simulator(const Scene& scene, const Camera& camera, const SimulatorOptions& options) : impl_(std::make_unique<Impl>(scene, camera, options)) {}
+Simulator::Simulator(const Scene& scene, const Camera& camera, const SimulatorOptions& options)
+    : impl_(std::make_unique<Impl>(scene, camera, options)) {}
 Simulator::~Simulator() = default;
 Simulator::Simulator(Simulator&&) noexcept = default;
 Simulator& Simulator::operator=(Simulator&&) noexcept = default;
@@ -150,18 +153,30 @@ Frame Simulator::frame(std::uint64_t index, const Geometry& seen) { return new_f
 Frame Simulator::frame(std::uint64_t index, const PixelLight& light) { return new_frame(*this, index, light); }
 
 void Simulator::frames(std::uint64_t first, std::uint64_t count, const std::function<void(const FrameArrays&)>& take) {
-  impl_->frames(count, [first](std::uint64_t i) { return FrameRequest{first + i, {}, {}}; }, take);
+  impl_->frames(
+      count,
+      [first](std::uint64_t i) {
+        return FrameRequest{first + i, {}, {}};
+      },
+      take);
 }
 void Simulator::frames(std::span<const FrameRequest> requests, const std::function<void(const FrameArrays&)>& take) {
   simulator::check(requests);
-  impl_->frames(requests.size(), [requests](std::uint64_t i) { return requests[i]; }, take);
+  impl_->frames(
+      requests.size(), [requests](std::uint64_t i) { return requests[i]; }, take);
 }
 void Simulator::frames_on_device(std::uint64_t first, std::uint64_t count, DeviceFrames& into) {
-  impl_->frames_on_device(count, [first](std::uint64_t i) { return FrameRequest{first + i, {}, {}}; }, *into.impl_);
+  impl_->frames_on_device(
+      count,
+      [first](std::uint64_t i) {
+        return FrameRequest{first + i, {}, {}};
+      },
+      *into.impl_);
 }
 void Simulator::frames_on_device(std::span<const FrameRequest> requests, DeviceFrames& into) {
   simulator::check(requests);
-  impl_->frames_on_device(requests.size(), [requests](std::uint64_t i) { return requests[i]; }, *into.impl_);
+  impl_->frames_on_device(
+      requests.size(), [requests](std::uint64_t i) { return requests[i]; }, *into.impl_);
 }
 
 RanOn Simulator::ran_on() const { return impl_->engines.ran_on(); }

@@ -34,11 +34,15 @@ struct Culled : shape::ByShape<PickedOf> {
   TOFRAY_FN bool empty() const { return count(shape::Shapes{}) == 0; }
   TOFRAY_FN int count() const { return count(shape::Shapes{}); }
   template <class T>
-  TOFRAY_FN Walk walk(const scene::FormsOf<T>&) const { return {of<T>().picked, 0}; }
+  TOFRAY_FN Walk walk(const scene::FormsOf<T>&) const {
+    return {of<T>().picked, 0};
+  }
 
  private:
   template <class... T>
-  TOFRAY_FN int count(shape::List<T...>) const { return (of<T>().picked.count + ...); }
+  TOFRAY_FN int count(shape::List<T...>) const {
+    return (of<T>().picked.count + ...);
+  }
 };
 
 template <class T>

@@ -181,8 +181,8 @@ class Reader {
   }
 
   void too_long(const base::Place& place, const std::string& label, std::size_t bytes) {
-    faults_.add(place, label + " is too long", "got " + std::to_string(bytes) + " bytes, at most " + std::to_string(base::limit::text_bytes.value),
-                ErrorKind::limit);
+    faults_.add(place, label + " is too long",
+                "got " + std::to_string(bytes) + " bytes, at most " + std::to_string(base::limit::text_bytes.value), ErrorKind::limit);
   }
 
   void read_choice(const Form& form, const Node& node, const std::string& label, Value& value) {

@@ -6,8 +6,8 @@
 #include <cmath>
 
 #include "bench/bench.h"
-#include "commands.h"
 #include "bench/experiment.h"
+#include "commands.h"
 #include "files/json.h"
 #include "rows.h"
 #include "support/stand_in_cuda.h"

@@ -36,7 +36,8 @@ TEST(diff, counts_values_that_differ_and_names_the_largest_difference) {
   const Result result = run({"diff", "a.npz", "b.npz"}, in_folder(folder.path()));
   EXPECT_EQ(result.code, 1);
   EXPECT_TRUE(has(result.out, "a.npz, b.npz: different\n")) << result.out;
-  EXPECT_TRUE(has(result.out, "z_m                      3 of 4 differ, by up to 1 m, 1 of them NaN or infinite in one of the two\n")) << result.out;
+  EXPECT_TRUE(has(result.out, "z_m                      3 of 4 differ, by up to 1 m, 1 of them NaN or infinite in one of the two\n"))
+      << result.out;
   EXPECT_TRUE(has(result.out, "raw                      1 of 2 differ, by up to 65535 DN\n")) << result.out;
   const Result asked = run({"diff", "a.npz", "b.npz", "--json"}, in_folder(folder.path()));
   EXPECT_EQ(asked.code, 1);
@@ -104,7 +105,8 @@ TEST(diff, of_what_holds_no_arrays_is_refused) {
     int code;
     const char* says;
   };
-  for (const Case& one : {Case{{"diff", "a", "b"}, 2, "a: error: there are no arrays in this folder"}, Case{{"diff", "a.npz", "scene.yaml"}, 2, "scene.yaml: error: "},
+  for (const Case& one : {Case{{"diff", "a", "b"}, 2, "a: error: there are no arrays in this folder"},
+                          Case{{"diff", "a.npz", "scene.yaml"}, 2, "scene.yaml: error: "},
                           Case{{"diff", "a.npz", "none.npz"}, 3, "none.npz: error: "}, Case{{"diff", "a.npz"}, 2, "needs A B"}}) {
     const Result result = run(one.words, in_folder(folder.path()));
     EXPECT_EQ(result.code, one.code) << result.err;

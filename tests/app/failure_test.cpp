@@ -72,7 +72,8 @@ TEST(broken_disk, at_any_call_ends_with_3_and_leaves_whole_files) {
   // strace counts the calls of each thread: of 24 frames one of the six that write has four at least.
   const Arguments arguments = with_small_sensor({"render", "card", "-o", "out", "--frames", "24", "--threads", "1"});
   const Folder none;
-  if (run({}, failing(none.path(), "fsync", "EIO", 1000, {"list", "scenes"})).code != 0) GTEST_SKIP() << "no strace here, or it may not trace";
+  if (run({}, failing(none.path(), "fsync", "EIO", 1000, {"list", "scenes"})).code != 0)
+    GTEST_SKIP() << "no strace here, or it may not trace";
   for (const char* call : {"write", "fsync", "renameat", "mkdir"}) {
     int refused = 0, last_refused = 0;
     for (int which = 1; which <= last_refused + 3; ++which) {
@@ -107,7 +108,7 @@ TEST(unwritable, places_end_with_3_and_name_the_place) {
   std::ofstream(folder / "file") << "x";
   const std::string long_name(300, 'n');
   std::vector<std::string> places = {"/proc/tofray", "file", "file/below", long_name};
-  if (fs::exists("/sys/kernel")) places.emplace_back("/sys/tofray");   // a bare chroot has an empty folder there
+  if (fs::exists("/sys/kernel")) places.emplace_back("/sys/tofray");  // a bare chroot has an empty folder there
   for (const std::string& place : places) {
     const Result result = run(with_small_sensor({"render", "card", "-o", place}), in_folder(folder.path()));
     EXPECT_EQ(result.code, 3) << place;
@@ -166,8 +167,12 @@ TEST(memory, that_does_not_suffice_ends_with_4) {
 TEST(memory, that_does_not_suffice_leaves_whole_files) {
   SKIP_WHERE_SANITIZERS_NEED_THE_ADDRESS_SPACE();
   const Folder folder;
-  const Arguments arguments = {"render", "card", "--set", "camera.sensor.width=400", "--set", "camera.sensor.height=300",
-                               "--set", "camera.lens.distortion={k1: 0}", "--threads", "1", "-o", "out"};
+  const Arguments arguments = {"render",    "card",
+                               "--set",     "camera.sensor.width=400",
+                               "--set",     "camera.sensor.height=300",
+                               "--set",     "camera.lens.distortion={k1: 0}",
+                               "--threads", "1",
+                               "-o",        "out"};
   ASSERT_EQ(run(arguments, in_folder(folder.path())).code, 0);
   const auto whole = files_of(folder / "out");
   int failed = 0, good = 0;
@@ -184,7 +189,7 @@ TEST(memory, that_does_not_suffice_leaves_whole_files) {
     EXPECT_FALSE(fs::exists(folder / "out" / "manifest.json"));
     EXPECT_EQ(temporaries(folder.path()), std::vector<std::string>());
     for (const auto& [name, bytes] : files_of(folder / "out")) EXPECT_TRUE(bytes == whole.at(name) || bytes == "old") << name;
-    if (result.code == 127 && has(result.err, "shared librar")) continue;   // the loader's word: the program never began
+    if (result.code == 127 && has(result.err, "shared librar")) continue;  // the loader's word: the program never began
     EXPECT_EQ(result.code, 4) << result.err;
     EXPECT_TRUE(has(result.err, "error: out of memory\n")) << result.err;
     ++failed;
@@ -211,8 +216,10 @@ TEST(memory, is_not_asked_for_where_counts_are_beyond_their_limits) {
     return list;
   }() << "]\n";
   std::ofstream(folder / "long.yaml") << std::string((16 << 20) + 1, '#');
-  std::vector<std::pair<Arguments, int>> cases = {{{"render", "objects.yaml"}, 4}, {{"render", "long.yaml"}, 4}, {{"check", "long.yaml"}, 4}};
-  for (const char* shape : {"(1000000000,)", "(2147483648, 2147483648)", "(4294967296, 4294967296)", "(9223372036854775807, 2)", "(2000, 2000, 200)"}) {
+  std::vector<std::pair<Arguments, int>> cases = {
+      {{"render", "objects.yaml"}, 4}, {{"render", "long.yaml"}, 4}, {{"check", "long.yaml"}, 4}};
+  for (const char* shape :
+       {"(1000000000,)", "(2147483648, 2147483648)", "(4294967296, 4294967296)", "(9223372036854775807, 2)", "(2000, 2000, 200)"}) {
     const std::string name = "array" + std::to_string(cases.size()) + ".npy";
     std::ofstream(folder / name) << promising(shape);
     cases.push_back({{"inspect", name}, 2});
@@ -286,7 +293,8 @@ TEST(interrupted, run_goes_on_as_it_says_and_leaves_what_an_undisturbed_one_leav
     return all;
   };
   Running child(start(into("out", {}), folder / "stdout", folder / "stderr", here));
-  for (int i = 0; i < 10'000 && !fs::exists(folder / "out" / "frame_0003.npz"); ++i) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  for (int i = 0; i < 10'000 && !fs::exists(folder / "out" / "frame_0003.npz"); ++i)
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
   child.send(SIGINT);
   ASSERT_EQ(child.finish(), 130);
   const std::string said = content(folder / "stderr");

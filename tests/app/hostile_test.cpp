@@ -15,7 +15,6 @@
 namespace tofray::test {
 namespace {
 
-
 struct Attack : Result {
   long peak_bytes = 0;
   double processor_seconds = 0;
@@ -197,8 +196,12 @@ TEST(hostile_yaml, megapixels_in_many_modes_cost_those_of_one) {
 
 TEST(hostile_message, what_is_quoted_is_cut) {
   const Folder folder;
-  write(folder / "names.yaml", "materials:\n" + repeated(20, [](int i) { return "  m" + std::to_string(i) + std::string(900, 'x') + ": {brdf: lambert, reflectivity: 0.5}\n"; }) +
-                                   "objects:\n" + repeated(60, [](int i) { return "  - sphere: {center: [0, 0, 1], radius: 0.1, material: q" + std::to_string(i) + "}\n"; }));
+  write(
+      folder / "names.yaml",
+      "materials:\n" +
+          repeated(20, [](int i) { return "  m" + std::to_string(i) + std::string(900, 'x') + ": {brdf: lambert, reflectivity: 0.5}\n"; }) +
+          "objects:\n" +
+          repeated(60, [](int i) { return "  - sphere: {center: [0, 0, 1], radius: 0.1, material: q" + std::to_string(i) + "}\n"; }));
   write(folder / "duplicates.yaml", std::string(50'000, 'k') + ": 1\n" + std::string(50'000, 'k') + ": 1\n");
   for (const char* name : {"names.yaml", "duplicates.yaml"}) expect_refused(attack(folder, {"check", name}), 2, "error: ");
   expect_refused(attack(folder, {"render", std::string(50'000, 'f')}), 3, "error: ");
@@ -277,7 +280,8 @@ TEST(hostile_npz, many_keys_in_meta_end_soon) {
 
 TEST(hostile_npz, text_of_meta_steers_no_terminal) {
   const Folder folder;
-  const std::string meta = R"({"tofray": "\u001b[2J", "seed": 1, "noise": "\u001b]0;owned\u0007", "frame": 0, "units": {"raw": "\u001b[31m"},
+  const std::string meta =
+      R"({"tofray": "\u001b[2J", "seed": 1, "noise": "\u001b]0;owned\u0007", "frame": 0, "units": {"raw": "\u001b[31m"},
       "scene": {"name": "a\nb\u202e", "objects": [{"name": "\u009b31m"}]}, "camera": {"name": "\u001b[1m", "mode": {"name": "\r"}}})";
   const std::vector<std::int32_t> ids(12, 0);
   const std::vector<double> ranges(12, 1);
@@ -308,11 +312,27 @@ TEST(hostile_names, of_files_and_of_the_environment_steer_no_terminal) {
   write(folder / "bytes.npz", "no zip");
   fs::copy_file(folder / "bytes.npz", folder / (name + ".npz"));
   fs::create_directory(folder / (name + ".d.npz"));
-  const std::vector<Arguments> all = {
-      with_small_sensor({"render", name}), {"check", name}, {"check", "bad" + name}, {"inspect", name + ".npz"}, {"inspect", name + ".d.npz"},
-      {"process", name + ".npz"}, {"render", "missing" + name}, {"render", "--from", name}, {"render", "card", "-o", name}, {"render", "card", "-o", name + "/below"},
-      {"render", "card", "--set", name + "=1"}, {"render", "card", "--mode", name}, {name}, {"render", "card", "--" + name}, {"process", "bytes.npz", "--camera", name},
-      {"render", "card", "--threads", name}, {"schema", name}, {"completion", name}, {"list", name}, {"help", name}, {"inspect", "bytes.npz", "--pixel", name}};
+  const std::vector<Arguments> all = {with_small_sensor({"render", name}),
+                                      {"check", name},
+                                      {"check", "bad" + name},
+                                      {"inspect", name + ".npz"},
+                                      {"inspect", name + ".d.npz"},
+                                      {"process", name + ".npz"},
+                                      {"render", "missing" + name},
+                                      {"render", "--from", name},
+                                      {"render", "card", "-o", name},
+                                      {"render", "card", "-o", name + "/below"},
+                                      {"render", "card", "--set", name + "=1"},
+                                      {"render", "card", "--mode", name},
+                                      {name},
+                                      {"render", "card", "--" + name},
+                                      {"process", "bytes.npz", "--camera", name},
+                                      {"render", "card", "--threads", name},
+                                      {"schema", name},
+                                      {"completion", name},
+                                      {"list", name},
+                                      {"help", name},
+                                      {"inspect", "bytes.npz", "--pixel", name}};
   for (const Arguments& arguments : all) {
     const Attack result = attack(folder, arguments);
     EXPECT_TRUE(is_printable(result.out)) << arguments[0] << " " << arguments.back() << "\n" << result.out;
@@ -335,8 +355,10 @@ std::string in_json(const std::string& text) {
 }
 
 std::string manifest(const std::string& inputs, const std::string& more = {}) {
-  return "{\"tofray\": \"1\", \"command\": [], \"inputs\": [" + inputs + "], \"set\": [], \"options\": [[\"emit\", \"npz\"]], \"seed\": 0, \"backend\": \"cpu\", "
-         "\"device\": {\"cpu\": \"x\", \"isa\": \"x\"}, \"threads\": 1, \"timings_s\": {}, \"files\": []" + more + "}";
+  return "{\"tofray\": \"1\", \"command\": [], \"inputs\": [" + inputs +
+         "], \"set\": [], \"options\": [[\"emit\", \"npz\"]], \"seed\": 0, \"backend\": \"cpu\", "
+         "\"device\": {\"cpu\": \"x\", \"isa\": \"x\"}, \"threads\": 1, \"timings_s\": {}, \"files\": []" +
+         more + "}";
 }
 
 std::string input(const std::string& role, const std::string& name, const std::string& text) {
@@ -360,8 +382,9 @@ TEST(hostile_manifest, reads_no_files_and_waits_for_no_pipe) {
   write(folder / "secret.yaml", "password: hunter2\n");
   ASSERT_EQ(::mkfifo((folder / "pipe").c_str(), 0600), 0);
   const std::string borrowed = "camera: {profile: secret.yaml}\n" + wall;
-  for (const std::string& inputs : {input("scene", "secret.yaml", ""), input("scene", (folder / "secret.yaml").native(), ""), input("scene", "pipe", ""),
-                                    input("scene", "here.yaml", borrowed), input("scene", (folder / "x.yaml").native(), borrowed)}) {
+  for (const std::string& inputs :
+       {input("scene", "secret.yaml", ""), input("scene", (folder / "secret.yaml").native(), ""), input("scene", "pipe", ""),
+        input("scene", "here.yaml", borrowed), input("scene", (folder / "x.yaml").native(), borrowed)}) {
     write(folder / "manifest.json", manifest(inputs));
     const Attack result = attack(folder, {"render", "--from", "manifest.json"});
     expect_refused(result, 2, "does not hold the text of the");
@@ -371,12 +394,15 @@ TEST(hostile_manifest, reads_no_files_and_waits_for_no_pipe) {
 
 TEST(hostile_manifest, many_keys_and_inputs_end_soon_and_are_counted) {
   const Folder folder;
-  write(folder / "keys.json", manifest(input("scene", "card", ""), repeated(100'000, [](int i) { return ", \"key" + std::to_string(i) + "\": 1"; })));
+  write(folder / "keys.json",
+        manifest(input("scene", "card", ""), repeated(100'000, [](int i) { return ", \"key" + std::to_string(i) + "\": 1"; })));
   write(folder / "inputs.json", manifest(repeated(100'000, [](int) { return "{}, "; }) + "{}"));
   write(folder / "files.json", changed(manifest(input("scene", "card", "")), "\"files\": []",
                                        "\"files\": [" + repeated(100'000, [](int) { return "{}, "; }) + "{}]"));
-  write(folder / "sets.json", changed(manifest(input("scene", "card", "")), "\"set\": []",
-                                      "\"set\": [" + repeated(100'000, [](int i) { return "[\"camera.lens.k" + std::to_string(i) + "\", \"1\"], "; }) + "[\"a\", \"1\"]]"));
+  write(folder / "sets.json", changed(manifest(input("scene", "card", "")), "\"set\": []", "\"set\": [" + repeated(100'000, [](int i) {
+                                                                                             return "[\"camera.lens.k" + std::to_string(i) +
+                                                                                                    "\", \"1\"], ";
+                                                                                           }) + "[\"a\", \"1\"]]"));
   EXPECT_EQ(attack(folder, {"render", "--from", "keys.json", "-o", "out", "--threads", "1"}).code, 0);
   expect_refused(attack(folder, {"render", "--from", "inputs.json"}), 2, "it was not read to its end");
   expect_refused(attack(folder, {"render", "--from", "files.json"}), 2, "it was not read to its end");
@@ -398,7 +424,8 @@ TEST(hostile_output, a_pipe_a_device_and_links_to_them_are_refused) {
     fs::remove(folder / "out" / "frame.npz");
   }
   fs::create_symlink("pipe", folder / "link");
-  for (const char* place : {"pipe", "link", "/dev/null"}) expect_refused(attack(folder, with_small_sensor({"render", "card", "-o", place})), 3, "error: ");
+  for (const char* place : {"pipe", "link", "/dev/null"})
+    expect_refused(attack(folder, with_small_sensor({"render", "card", "-o", place})), 3, "error: ");
 }
 
 TEST(hostile_output, what_a_killed_run_left_goes_with_the_next_run) {
@@ -420,7 +447,8 @@ TEST(hostile_system, threads_that_cannot_be_made_end_with_4_and_say_so) {
     ::setrlimit(RLIMIT_AS, &limit);
   };
   for (int round = 0; round < 5; ++round)
-    expect_refused(attack(folder, with_small_sensor({"render", "card", "-o", "out", "--threads", "512"}), limited), 4, "the system refuses 512 threads");
+    expect_refused(attack(folder, with_small_sensor({"render", "card", "-o", "out", "--threads", "512"}), limited), 4,
+                   "the system refuses 512 threads");
   EXPECT_FALSE(fs::exists(folder / "out"));
   EXPECT_EQ(attack(folder, with_small_sensor({"render", "card", "-o", "out", "--threads", "16"}), limited).code, 0);
 }

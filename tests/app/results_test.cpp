@@ -301,7 +301,8 @@ void expect_all_invalid(const fs::path& file) {
     ASSERT_NE(static_cast<unsigned>(arrays.at("flags").number(i)) & 31u, 0u) << "pixel " << i;
     ASSERT_EQ(arrays.at("confidence").number(i), 0);
     for (const char* name : {"z_m", "range_m"}) ASSERT_TRUE(std::isnan(arrays.at(name).number(i))) << name << " of pixel " << i;
-    for (const char* name : {"amplitude_e", "ambient_e"}) ASSERT_TRUE(std::isfinite(arrays.at(name).number(i))) << name << " of pixel " << i;
+    for (const char* name : {"amplitude_e", "ambient_e"})
+      ASSERT_TRUE(std::isfinite(arrays.at(name).number(i))) << name << " of pixel " << i;
   }
 }
 
@@ -339,9 +340,7 @@ INSTANTIATE_TEST_SUITE_P(
              {"render", "card", "--noise", "off", "--set", "camera.illumination.0.power=0 W"},
              "the camera's light sources have no power"},
         Dark{"no_light", {"render", "card", "--set", "camera.illumination=[]"}, "the camera has no light source"},
-        Dark{"no_light_in_the_sun",
-             {"render", "sun-outdoors", "--set", "camera.illumination=[]"},
-             "the camera has no light source"},
+        Dark{"no_light_in_the_sun", {"render", "sun-outdoors", "--set", "camera.illumination=[]"}, "the camera has no light source"},
         Dark{"no_lit_raw_frame", {"render", "card", "--set", grey_mode, "--mode", "GREY"}, "the mode GREY has no lit raw frame"},
         Dark{"no_lit_raw_frame_in_the_sun",
              {"render", "sun-outdoors", "--noise", "off", "--set", grey_mode, "--mode", "GREY"},

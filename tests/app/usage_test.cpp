@@ -202,8 +202,8 @@ TEST(completion, of_bash_knows_commands_options_and_scenes) {
   ASSERT_EQ(run({"completion", "bash"}).code, 0);
   std::ofstream(folder / "tofray.bash") << run({"completion", "bash"}).out;
   const auto replies = [&](const std::string& words, int at) {
-    const std::string script = "PATH=" + fs::path(TOFRAY_TOOL).parent_path().native() + ":$PATH; source " + (folder / "tofray.bash").native() +
-                               "; COMP_WORDS=(" + words + "); COMP_CWORD=" + std::to_string(at) +
+    const std::string script = "PATH=" + fs::path(TOFRAY_TOOL).parent_path().native() + ":$PATH; source " +
+                               (folder / "tofray.bash").native() + "; COMP_WORDS=(" + words + "); COMP_CWORD=" + std::to_string(at) +
                                "; _tofray; echo \"${COMPREPLY[*]}\" > " + (folder / "reply").native();
     EXPECT_EQ(std::system(("bash -c '" + script + "'").c_str()), 0);
     return content(folder / "reply");

@@ -155,7 +155,7 @@ TEST(cuda_fault, memory_is_taken_on_the_gpu_that_computes) {
     first.frames_on_device(0, 3, a);
     second.frames_on_device(0, 4 + static_cast<std::uint64_t>(round), b);
     EXPECT_EQ(first_difference(second.frame(1), first.frame(1)), "");
-    second.frames_on_device(0, 3, a);   // moves to the other GPU
+    second.frames_on_device(0, 3, a);  // moves to the other GPU
     EXPECT_EQ(a[0].device, 1);
   }
 }

@@ -33,12 +33,14 @@ FrameArrays fetched(const FrameArrays& there, std::vector<std::vector<unsigned c
   backend::gpu::Device device(there.device);
   const backend::gpu::Stream stream = device.stream();
   FrameArrays here = there;
-  const auto pixels = static_cast<std::size_t>(there.width) * static_cast<std::size_t>(there.height), all = pixels * static_cast<std::size_t>(there.phases);
+  const auto pixels = static_cast<std::size_t>(there.width) * static_cast<std::size_t>(there.height),
+             all = pixels * static_cast<std::size_t>(there.phases);
   const auto fetch = [&]<class T>(const T*& array, std::size_t count) {
     if (array == nullptr) return;
     memory.emplace_back(count * sizeof(T));
     const backend::gpu::PinnedMemory pinned = device.allocate_pinned(count * sizeof(T));
-    device.check(device.runtime().copy(pinned.get(), array, count * sizeof(T), backend::gpu::Way::to_host, stream.get()), "fetching an array");
+    device.check(device.runtime().copy(pinned.get(), array, count * sizeof(T), backend::gpu::Way::to_host, stream.get()),
+                 "fetching an array");
     device.check(device.runtime().synchronize(stream.get()), "fetching an array");
     std::memcpy(memory.back().data(), pinned.get(), count * sizeof(T));
     array = reinterpret_cast<const T*>(memory.back().data());
@@ -105,7 +107,8 @@ TEST_F(Gpu, batches_have_the_bytes_of_the_processor) {
     cuda.frames(0, 100, [&](const FrameArrays& arrays) {
       ASSERT_EQ(arrays.index, next++);
       if (arrays.index % 9 != 0) return;
-      EXPECT_EQ(first_difference(copy_of(arrays), alone(scene, camera, {}, {arrays.index, {}, {}})), "") << name << ", frame " << arrays.index;
+      EXPECT_EQ(first_difference(copy_of(arrays), alone(scene, camera, {}, {arrays.index, {}, {}})), "")
+          << name << ", frame " << arrays.index;
     });
     EXPECT_EQ(next, 100u);
   }
@@ -121,7 +124,8 @@ TEST_F(Gpu, frames_left_there_have_the_bytes_of_the_processor) {
     cuda.frames_on_device(requests, frames);
     for (std::size_t i = 0; i < requests.size(); ++i) {
       std::vector<std::vector<unsigned char>> memory;
-      EXPECT_EQ(first_difference(copy_of(fetched(frames[i], memory)), alone(scene, camera, {.truth = false}, requests[i])), "") << name << ", request " << i;
+      EXPECT_EQ(first_difference(copy_of(fetched(frames[i], memory)), alone(scene, camera, {.truth = false}, requests[i])), "")
+          << name << ", request " << i;
     }
   }
 }

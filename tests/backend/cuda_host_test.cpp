@@ -105,7 +105,7 @@ TEST(cuda_host, makes_the_graph_of_a_frame_once) {
   Simulator moved(moving, camera, on(Backend::cuda));
   for (std::uint64_t i = 0; i < 4; ++i) (void)moved.frame(i);
   EXPECT_EQ(here.cuda.graphs_made, 2) << "what moves is copied by the graph";
-  camera.temperature.warm_up_m = 0.01, camera.temperature.warm_up_time_s = 1;   // the sensor is another one in each frame
+  camera.temperature.warm_up_m = 0.01, camera.temperature.warm_up_time_s = 1;  // the sensor is another one in each frame
   expect_same(scene, camera, {});
 }
 
@@ -184,7 +184,8 @@ TEST(cuda_host, batches_take_seeds_and_poses) {
         ++i;
       });
       EXPECT_EQ(i, requests.size());
-      EXPECT_EQ(first_difference(arrays_only(simulator.frame(4)), alone(scene, camera, {}, {4, {}, {}})), "") << "afterwards all is as before";
+      EXPECT_EQ(first_difference(arrays_only(simulator.frame(4)), alone(scene, camera, {}, {4, {}, {}})), "")
+          << "afterwards all is as before";
     }
   }
 }

@@ -40,7 +40,7 @@ void expect_no_turns(const Curve& curve) {
     double before = curve.y[i - 1];
     for (int k = 1; k <= 200; ++k) {
       const double now = f.evaluate(curve.x[i - 1] + (curve.x[i] - curve.x[i - 1]) * k / 200);
-      ASSERT_GE(up * (now - before), -1e-14) << "after sample " << i - 1 << ", " << k;   // rounding of numbers up to 1
+      ASSERT_GE(up * (now - before), -1e-14) << "after sample " << i - 1 << ", " << k;  // rounding of numbers up to 1
       before = now;
     }
     ASSERT_NEAR(before, curve.y[i], 1e-14);
@@ -78,7 +78,8 @@ TEST(curve, never_leaves_the_range_of_its_samples_by_a_single_bit) {
 TEST(curve, that_is_smooth_is_the_not_a_knot_spline) {
   const Curve efficiency{{850, 855, 860, 865, 870, 880, 900}, {.41, .405, .397, .39, .381, .36, .31}};
   const ClampedCurve f(efficiency, "a test");
-  for (const auto& [x, value] : {std::pair{852.5, .408259692513369}, {862.5, .3935290775401069}, {875.0, .37083556149732616}, {890.0, .3363262032085561}})
+  for (const auto& [x, value] :
+       {std::pair{852.5, .408259692513369}, {862.5, .3935290775401069}, {875.0, .37083556149732616}, {890.0, .3363262032085561}})
     EXPECT_NEAR(f.evaluate(x), value, 1e-13) << x;
 }
 

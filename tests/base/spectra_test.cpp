@@ -52,17 +52,25 @@ TEST(sun_am15, adds_up_to_the_standard_sun) {
 // Samples of the published table, two from each of its grids. In the bands of water a coarser grid finds other lines.
 TEST(sun_am15, holds_the_published_values) {
   const auto at = [](double nm) { return sun_am15().evaluate(nm / 1e9) / 1e9; };
-  for (const auto& [nm, published] : {std::pair{299.5, 0.00086068}, {391.5, 0.86344}, {550.0, 1.5399}, {1113.0, 0.26850}, {1416.0, 0.035565},
-                                      {1702.0, 0.20396}, {1775.0, 0.11484}, {2245.0, 0.070838}, {3535.0, 0.0094556}, {4000.0, 0.0071043}})
-    EXPECT_NEAR(at(nm), published, 1e-9 * published) << nm;   // 1e-9: nm / 1e9 is rounded
-  EXPECT_NEAR(power(1380, 1420), 0.10975, 1e-5);               // the trapezoidal rule by hand; thinned to 5 nm: 0.0266
+  for (const auto& [nm, published] : {std::pair{299.5, 0.00086068},
+                                      {391.5, 0.86344},
+                                      {550.0, 1.5399},
+                                      {1113.0, 0.26850},
+                                      {1416.0, 0.035565},
+                                      {1702.0, 0.20396},
+                                      {1775.0, 0.11484},
+                                      {2245.0, 0.070838},
+                                      {3535.0, 0.0094556},
+                                      {4000.0, 0.0071043}})
+    EXPECT_NEAR(at(nm), published, 1e-9 * published) << nm;  // 1e-9: nm / 1e9 is rounded
+  EXPECT_NEAR(power(1380, 1420), 0.10975, 1e-5);             // the trapezoidal rule by hand; thinned to 5 nm: 0.0266
 }
 
 // An ideal silicon cell (every photon up to 1107 nm makes one electron) delivers 43.8 mA/cm² under this spectrum.
 TEST(sun_am15, drives_the_known_current_through_an_ideal_cell) {
   using namespace tofray::base;
   const double current = integrate(sun_am15(), 280e-9, 1107e-9, {}, [](double x) { return x / photon_energy_length * elementary_charge; });
-  EXPECT_NEAR(current / 10, 43.8, 0.1);   // A/m² to mA/cm²
+  EXPECT_NEAR(current / 10, 43.8, 0.1);  // A/m² to mA/cm²
 }
 
 TEST(sun_am15, ascends_and_is_nowhere_negative) {
@@ -74,19 +82,17 @@ TEST(sun_am15, ascends_and_is_nowhere_negative) {
 
 TEST(photopic, has_the_known_sum_and_peak) {
   const auto& value = photopic().value;
-  EXPECT_NEAR(std::accumulate(value.begin(), value.end(), 0.0), 21.3713, 1e-4);   // CIE's sum at every 5 nm
+  EXPECT_NEAR(std::accumulate(value.begin(), value.end(), 0.0), 21.3713, 1e-4);  // CIE's sum at every 5 nm
   EXPECT_EQ(photopic().evaluate(555e-9), 1.0);
-  EXPECT_NEAR(photopic().evaluate(507.5e-9), (0.4073 + 0.5030) / 2, 1e-9);   // the middle of a line
+  EXPECT_NEAR(photopic().evaluate(507.5e-9), (0.4073 + 0.5030) / 2, 1e-9);  // the middle of a line
 }
 
 TEST(illuminance, of_equal_energy_is_that_of_the_curve_s_sum) {
   const Spectrum flat{{280e-9, 4000e-9}, {1e9, 1e9}};
-  EXPECT_NEAR(tofray::base::illuminance_lx(flat), 683 * 5 * 21.371327, 0.1);   // the trapezoid's half ends: 683·5·2.7e-5 lx
+  EXPECT_NEAR(tofray::base::illuminance_lx(flat), 683 * 5 * 21.371327, 0.1);  // the trapezoid's half ends: 683·5·2.7e-5 lx
 }
 
-TEST(illuminance, of_the_standard_sun_is_that_of_a_clear_day) {
-  EXPECT_NEAR(tofray::base::illuminance_lx(sun_am15()), 109.5e3, 0.5e3);
-}
+TEST(illuminance, of_the_standard_sun_is_that_of_a_clear_day) { EXPECT_NEAR(tofray::base::illuminance_lx(sun_am15()), 109.5e3, 0.5e3); }
 
 TEST(integrate, is_exact_for_polynomials_up_to_degree_eight_times_a_line) {
   const Spectrum line{{1, 2, 5}, {1, 3, 0}};

@@ -33,9 +33,7 @@ Spline sine_spline() {
   return {sine_knots, y};
 }
 
-Spline ring() {
-  return {{0, .3, .7, 1.1, 1.9, 2.5, 3.0}, {1.0, 2.0, -1.0, .5, .25, 3.0, 1.0}, Spline::Kind::periodic};
-}
+Spline ring() { return {{0, .3, .7, 1.1, 1.9, 2.5, 3.0}, {1.0, 2.0, -1.0, .5, .25, 3.0, 1.0}, Spline::Kind::periodic}; }
 
 std::string refusal(std::vector<double> x, std::vector<double> y, Spline::Kind kind = Spline::Kind::not_a_knot) {
   try {
@@ -85,7 +83,7 @@ TEST(spline_not_a_knot, goes_through_its_knots_with_continuous_second_derivative
     EXPECT_DOUBLE_EQ(spline.evaluate(x), spline.y()[i]);
     const double left = (spline.derivative(x - step) - spline.derivative(x - 2 * step)) / step;
     const double right = (spline.derivative(x + 2 * step) - spline.derivative(x + step)) / step;
-    EXPECT_NEAR(left, right, 1e-3) << x;   // 3 steps of a third derivative below 10, and 1e-16 over the step
+    EXPECT_NEAR(left, right, 1e-3) << x;  // 3 steps of a third derivative below 10, and 1e-16 over the step
   }
 }
 
@@ -126,9 +124,9 @@ TEST(spline_not_a_knot, reproduces_every_cubic_everywhere) {
     const Spline spline(x, y);
     for (double at = x.front() - 1; at < x.back() + 1; at += 0.0371) {
       const bool inside = at >= x.front() && at <= x.back();
-      const double error = inside ? tolerance : 10 * tolerance;   // beyond the ends rounding grows with the cube of the distance
+      const double error = inside ? tolerance : 10 * tolerance;  // beyond the ends rounding grows with the cube of the distance
       EXPECT_NEAR(spline.evaluate(at), cubic(at), error);
-      EXPECT_NEAR(spline.derivative(at), slope(at), 10 * error);   // a division by knot distances of 0.2
+      EXPECT_NEAR(spline.derivative(at), slope(at), 10 * error);  // a division by knot distances of 0.2
       EXPECT_NEAR(spline.integral(-0.5, at), area(at) - area(-0.5), error);
     }
   }

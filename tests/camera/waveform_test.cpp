@@ -53,7 +53,7 @@ double overlap(double duty, double angle) {
     const double x = (i + 0.5) / samples - 0.5;
     if (std::fabs(x) >= duty / 2) continue;
     const double at = x + angle / (2 * pi);
-    sum += std::cos(2 * pi * at) > 0 ? 1 : -1;   // square gate centred on zero
+    sum += std::cos(2 * pi * at) > 0 ? 1 : -1;  // square gate centred on zero
   }
   return sum / (duty * samples);
 }
@@ -73,7 +73,7 @@ std::string refusal(const std::function<void()>& act) {
 TEST(correlation_harmonics, of_a_half_duty_square_are_those_of_a_triangle) {
   const auto harmonics = correlation_harmonics(rectangular(0.5, 1000), ideal_pixel(), 60e6);
   ASSERT_EQ(harmonics.size(), 1000u);
-  for (const auto& h : harmonics)   // error: that of sin at π·order/2, over order
+  for (const auto& h : harmonics)  // error: that of sin at π·order/2, over order
     EXPECT_NEAR(h.amplitude, 8 / (pi * pi * h.order * h.order), 2e-15 / h.order) << h.order;
   EXPECT_NEAR(harmonics[0].amplitude, 0.810569, 5e-7);
   EXPECT_EQ(harmonics[999].order, 1999);
@@ -131,11 +131,13 @@ TEST(correlation_harmonics, every_factor_acts_on_its_own) {
 
   Waveform waveform = rectangular(0.4, 4);
   waveform.rise_time_s = 1.5e-9;
-  compare(waveform, ideal_pixel(), [&](int m) { return std::sin(pi * m * f * 1.5e-9) / (pi * m * f * 1.5e-9); }, none);
+  compare(
+      waveform, ideal_pixel(), [&](int m) { return std::sin(pi * m * f * 1.5e-9) / (pi * m * f * 1.5e-9); }, none);
 
   waveform = rectangular(0.4, 4);
   waveform.jitter_s = 2e-10;
-  compare(waveform, ideal_pixel(), [&](int m) { return std::exp(-0.5 * std::pow(2 * pi * m * f * 2e-10, 2)); }, none);
+  compare(
+      waveform, ideal_pixel(), [&](int m) { return std::exp(-0.5 * std::pow(2 * pi * m * f * 2e-10, 2)); }, none);
 
   // Slow light: every harmonic comes later, as from a longer path (φ + atan).
   waveform = rectangular(0.4, 4);
@@ -149,7 +151,8 @@ TEST(correlation_harmonics, every_factor_acts_on_its_own) {
 
   pixel = ideal_pixel();
   pixel.contrast = {{20e6, 100e6}, {0.9, 0.5}};
-  compare(rectangular(0.4, 4), pixel, [](int) { return 0.75; }, none);   // a line, at 50 MHz
+  compare(
+      rectangular(0.4, 4), pixel, [](int) { return 0.75; }, none);  // a line, at 50 MHz
 }
 
 TEST(correlation_harmonics, contrast_is_held_outside_its_samples) {
@@ -212,7 +215,7 @@ TEST(correlation_harmonics, of_a_measured_curve_are_its_fourier_coefficients) {
   waveform.kind = Waveform::Kind::measured;
   for (int k = 0; k < 32; ++k) {
     const double tau = 2 * pi * k / 32;
-    double sum = 0.05 + 0.3 * std::cos(2 * tau + 1);   // an offset and an even harmonic are none of ours
+    double sum = 0.05 + 0.3 * std::cos(2 * tau + 1);  // an offset and an even harmonic are none of ours
     for (int i = 0; i < 4; ++i) sum += amplitude[i] * std::cos((2 * i + 1) * tau + phase[i]);
     waveform.correlation.push_back(sum);
   }
@@ -220,16 +223,14 @@ TEST(correlation_harmonics, of_a_measured_curve_are_its_fourier_coefficients) {
   ASSERT_EQ(harmonics.size(), 4u);
   for (std::size_t i = 0; i < 4; ++i) {
     EXPECT_NEAR(harmonics[i].amplitude, amplitude[i], 1e-15);
-    EXPECT_NEAR(harmonics[i].phase_rad, phase[i], 2e-14);   // 1e-16 over an amplitude of 0.02
+    EXPECT_NEAR(harmonics[i].phase_rad, phase[i], 2e-14);  // 1e-16 over an amplitude of 0.02
   }
   waveform.correlation.resize(8);
-  EXPECT_EQ(correlation_harmonics(waveform, pico_flexx_pixel(), 80.32e6).size(), 2u);   // 1 and 3 lie below 8/2
+  EXPECT_EQ(correlation_harmonics(waveform, pico_flexx_pixel(), 80.32e6).size(), 2u);  // 1 and 3 lie below 8/2
 }
 
 TEST(correlation_harmonics, refuse_what_makes_no_sense) {
-  const auto message = [](Waveform waveform, double f) {
-    return refusal([&] { correlation_harmonics(waveform, ideal_pixel(), f); });
-  };
+  const auto message = [](Waveform waveform, double f) { return refusal([&] { correlation_harmonics(waveform, ideal_pixel(), f); }); };
   const double nan = std::numeric_limits<double>::quiet_NaN();
   for (const double f : {0.0, -1.0, nan, std::numeric_limits<double>::infinity()})
     EXPECT_NE(message(rectangular(0.5, 4), f).find("modulation frequency must be above zero"), std::string::npos);

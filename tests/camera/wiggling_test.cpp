@@ -51,7 +51,7 @@ double wrapped(double angle) { return std::remainder(angle, 2 * pi); }
 struct SquareBySquare {
   double worst_error = 0, ripple = 0;
   explicit SquareBySquare(int n) {
-    const int samples = 20 * 9 * 7 * 8 * 3;   // the extremes lie at fractions of a turn with small denominators
+    const int samples = 20 * 9 * 7 * 8 * 3;  // the extremes lie at fractions of a turn with small denominators
     double low = 1e9, high = 0, mean = 0;
     for (int i = 0; i < samples; ++i) {
       const double phi = 2 * pi * i / samples;
@@ -78,10 +78,10 @@ TEST(phase_response, is_that_of_the_sum_over_raw_frames) {
         const auto value = response.at(phi);
         EXPECT_NEAR(wrapped(value.error_rad - (std::arg(z) - phi)), 0.0, 1e-14);
         EXPECT_NEAR(value.amplitude, std::abs(z), 1e-14);
-        EXPECT_LT(std::fabs(value.error_rad + 0.42), 0.2);   // about ψ_1, no jump of 2π
+        EXPECT_LT(std::fabs(value.error_rad + 0.42), 0.2);  // about ψ_1, no jump of 2π
         const double step = 1e-5;
         const double secant = 1 + (response.at(phi + step).error_rad - response.at(phi - step).error_rad) / (2 * step);
-        EXPECT_NEAR(value.slope, secant, 1e-8);   // second-order difference: step² times a third derivative below 20
+        EXPECT_NEAR(value.slope, secant, 1e-8);  // second-order difference: step² times a third derivative below 20
       }
     }
 }
@@ -109,7 +109,7 @@ TEST(phase_response, third_harmonic_wiggles_four_times_per_period) {
     worst = std::fmax(worst, std::fabs(error));
   }
   EXPECT_NEAR(worst, std::asin(a3), 1e-9);
-  EXPECT_NEAR(worst * 299792458.0 / (4 * pi * 60e6) * 1e3, 19.8889, 5e-5);   // mm
+  EXPECT_NEAR(worst * 299792458.0 / (4 * pi * 60e6) * 1e3, 19.8889, 5e-5);  // mm
 }
 
 // Four phases, third and fifth harmonic: ε = atan2((r_5 − r_3) sin 4φ, 1 + (r_3 + r_5) cos 4φ).
@@ -134,7 +134,10 @@ TEST(phase_response, only_harmonics_next_to_a_multiple_of_the_phases_leak) {
 
 // Known values of square light against a square gate: largest phase error [rad] and (largest − smallest)/mean amplitude.
 TEST(phase_response, square_by_square_has_the_known_errors) {
-  struct Known { int n; double error, ripple; };
+  struct Known {
+    int n;
+    double error, ripple;
+  };
   for (const Known& known : {Known{3, .019495, .14691}, Known{4, .071115, .36088}, Known{5, .004058, .05059}, Known{6, .019495, .14691},
                              Known{8, .008018, .08016}}) {
     const SquareBySquare oracle(known.n);
@@ -152,7 +155,7 @@ TEST(phase_response, square_by_square_has_the_known_errors) {
       mean += value.amplitude / samples;
     }
     EXPECT_NEAR(worst, known.error, 1e-5) << known.n;
-    EXPECT_NEAR((high - low) / mean, known.ripple, 1e-4) << known.n;   // the triangle's tip, rounded off by 2/(π²·8000) per side
+    EXPECT_NEAR((high - low) / mean, known.ripple, 1e-4) << known.n;  // the triangle's tip, rounded off by 2/(π²·8000) per side
   }
 }
 
@@ -216,7 +219,7 @@ TEST(wiggling_correction, of_a_sine_is_its_phase_alone) {
 TEST(wiggling_correction, has_no_jumps) {
   for (const double psi : {0.0, 1.5, 3.14, -3.14}) {
     auto harmonics = skewed();
-    for (Harmonic& h : harmonics) h.phase_rad += psi * h.order;   // a delay
+    for (Harmonic& h : harmonics) h.phase_rad += psi * h.order;  // a delay
     const auto table = wiggling_correction(harmonics, equal_phases(4));
     for (std::size_t j = 0; j < table.size(); ++j) EXPECT_LT(std::fabs(table[j] - table[(j + 1) % table.size()]), 0.3 / 1024) << psi;
   }

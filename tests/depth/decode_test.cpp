@@ -48,7 +48,8 @@ TEST(range, is_the_exact_inverse_of_the_path) {
         const double path = std::hypot(x * z - 0.01547, y * z + 0.003, z - 0.002) + range;
         const double length = std::sqrt(x * x + y * y + 1);
         const float got = depth::range_from_path<float>(bench.decoder(), static_cast<float>(path), static_cast<float>(x / length),
-                                                        static_cast<float>(y / length), static_cast<float>(1 / length)).range;
+                                                        static_cast<float>(y / length), static_cast<float>(1 / length))
+                              .range;
         EXPECT_NEAR(static_cast<double>(got), range, 1e-6);
       }
     }

@@ -202,7 +202,7 @@ TEST(wiggling, is_interpolated_to_a_few_micrometres) {
       const float got = depth::unwiggle<float>(bench.decoder(), bench.decoder().modulation[0], turns, slope);
       worst = std::max(worst, std::abs(static_cast<double>(got) - j / 2048.0 - exact[static_cast<std::size_t>(j)]));
     }
-    EXPECT_NEAR(worst * c / (2 * f), known, 0.15e-6) << f;   // of that 0.1 µm for single precision: 2^-25 turns
+    EXPECT_NEAR(worst * c / (2 * f), known, 0.15e-6) << f;  // of that 0.1 µm for single precision: 2^-25 turns
   }
 }
 

@@ -16,7 +16,7 @@ namespace {
 
 struct Pair {
   double f1, f2, base;
-  double sigma;            ///< σ_φ of both, by the closed form 3.9
+  double sigma;  ///< σ_φ of both, by the closed form 3.9
   [[nodiscard]] double m() const { return f1 / base; }
   [[nodiscard]] double n() const { return f2 / base; }
 };
@@ -54,7 +54,7 @@ constexpr int draws = 200'000;
 
 /// Raw frames with shot noise of strong ambient light, through the decoder: the share of wrong cycles.
 double simulated(const Pair& p) {
-  const double signal = 2000, contrast = 0.7, ambient = 2 * std::pow(p.sigma * signal * contrast, 2) - signal;   // σ_φ = √V/(√2·S·C)
+  const double signal = 2000, contrast = 0.7, ambient = 2 * std::pow(p.sigma * signal * contrast, 2) - signal;  // σ_φ = √V/(√2·S·C)
   Camera camera = bench_camera({p.f1, p.f2}, 4, contrast);
   camera.adc.step_e_per_dn = 1;
   const Bench bench(camera, 2);

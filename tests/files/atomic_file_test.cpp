@@ -331,7 +331,8 @@ TEST(atomic_file, a_killed_write_s_temporary_goes_with_the_next_clean_up_and_a_l
 
 TEST(atomic_file, a_clean_up_takes_plain_files_of_our_names_and_nothing_else) {
   TemporaryFolder folder;
-  for (const char* name : {".tofray-1-2.tmp", ".tofray-1-.tmp", ".tofray--2.tmp", ".tofray-1-2.tmp.txt", "tofray-1-2.tmp", ".tofray-1-2x.tmp", "a.tmp"})
+  for (const char* name :
+       {".tofray-1-2.tmp", ".tofray-1-.tmp", ".tofray--2.tmp", ".tofray-1-2.tmp.txt", "tofray-1-2.tmp", ".tofray-1-2x.tmp", "a.tmp"})
     out_test::write_file(folder.file(name), "x");
   std::filesystem::create_directory(folder.file(".tofray-3-4.tmp"));
   std::filesystem::create_symlink(folder.file("a.tmp"), folder.file(".tofray-5-6.tmp"));

@@ -298,7 +298,8 @@ TEST(npz, of_any_size_may_unpack_to_its_limit_and_to_no_byte_more) {
   EXPECT_EQ(parse_npz(packed_archive(1, limit - 1 - 2 * header), "full.npz").size(), 2U);
   const Error error = error_of([&] { (void)parse_npz(packed_archive(1, limit - 2 * header), "over.npz"); });
   EXPECT_EQ(error.kind(), ErrorKind::limit) << error.what();
-  EXPECT_NE(std::string(error.what()).find("over.npz: error: the arrays unpack to more than 67108864 bytes"), std::string::npos) << error.what();
+  EXPECT_NE(std::string(error.what()).find("over.npz: error: the arrays unpack to more than 67108864 bytes"), std::string::npos)
+      << error.what();
 }
 
 TEST(npz, of_a_larger_file_may_unpack_to_a_multiple_of_its_size_and_to_little_more) {

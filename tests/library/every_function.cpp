@@ -22,7 +22,7 @@ void on_device(tofray::Simulator& simulator) {
     simulator.frames_on_device(requests, frames);
     expect(frames.size() == 1 && frames[0].z_m != nullptr && frames.seconds() > 0, "frames_on_device");
   } catch (const tofray::Error& error) {
-    expect(error.kind() == tofray::ErrorKind::device, error.what());   // no GPU here
+    expect(error.kind() == tofray::ErrorKind::device, error.what());  // no GPU here
   }
 }
 

@@ -14,8 +14,8 @@ namespace {
 
 using namespace tofray;
 using model::Form;
-using yaml::Node;
 using test::Field;
+using yaml::Node;
 
 void load(const std::string& kind, const std::string& text) {
   if (kind == "scene") {

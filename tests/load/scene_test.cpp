@@ -32,7 +32,6 @@ std::string refusal(const std::string& text, const load::Settings& settings = {}
   return {};
 }
 
-
 const std::string one_of_each = R"(
 camera: {profile: pico-flexx, mode: MODE_9_5FPS_2000, pose: {position: [0, 0, 0], look_at: [0, 0, 1]}}
 ambient: {spectrum: sun_am15, level: 5 %}
@@ -117,7 +116,8 @@ TEST(scene, reads_cylinders) {
   EXPECT_EQ(cylinder.axis, (Vec3{0, 2, 0}));
   EXPECT_EQ(cylinder.radius, 0.05);
   EXPECT_EQ(cylinder.height, 0.2);
-  EXPECT_TRUE(has(refusal("objects: [cylinder: {center: [0, 0, 1], axis: [0, 0, 0], radius: 1, height: 1, reflectivity: 0.5}]"), "axis has no length"));
+  EXPECT_TRUE(has(refusal("objects: [cylinder: {center: [0, 0, 1], axis: [0, 0, 0], radius: 1, height: 1, reflectivity: 0.5}]"),
+                  "axis has no length"));
   EXPECT_TRUE(has(refusal("objects: [cylinder: {center: [0, 0, 1], axis: [0, 1, 0], radius: 1, reflectivity: 0.5}]"), "height"));
 }
 
@@ -202,11 +202,11 @@ TEST(scene, takes_an_edge_at_full_reflection) {
 
 TEST(scene, settings_change_any_key_before_it_is_read) {
   const Scene scene = load::scene_from_text(one_of_each, "s.yaml",
-                                          {{"ambient.level", "20 %"},
-                                           {"objects.1.sphere.radius", "20 cm"},
-                                           {"objects.0.plane.point", "[0, 0, 3]"},
-                                           {"materials.paper.reflectivity", "0.1"},
-                                           {"camera.lens.f_number", "1.2"}});
+                                            {{"ambient.level", "20 %"},
+                                             {"objects.1.sphere.radius", "20 cm"},
+                                             {"objects.0.plane.point", "[0, 0, 3]"},
+                                             {"materials.paper.reflectivity", "0.1"},
+                                             {"camera.lens.f_number", "1.2"}});
   EXPECT_EQ(scene.ambient.amount, 0.2);
   EXPECT_EQ(std::get<Sphere>(scene.objects[1].shape).radius, 0.2);
   EXPECT_EQ(std::get<Plane>(scene.objects[0].shape).point[2], 3);

@@ -80,8 +80,7 @@ TEST_P(schema, accepts_all_that_the_reader_accepts) {
   Documents documents;
   for (const auto& builtin : std::string(GetParam()) == "scene" ? load::builtin_scenes() : load::builtin_profiles())
     documents.add(builtin.name, yaml::parse_tree(builtin.text, builtin.name));
-  for (std::size_t v = 0; v < test::sample_variants; ++v)
-    documents.add("sample " + std::to_string(v), test::sample(form().root, v));
+  for (std::size_t v = 0; v < test::sample_variants; ++v) documents.add("sample " + std::to_string(v), test::sample(form().root, v));
   const auto lines = verdicts(GetParam(), documents);
   if (lines.empty() && !testing::Test::HasFailure())
     GTEST_SKIP() << "needs /usr/bin/python3 with the package jsonschema (python3-jsonschema)";

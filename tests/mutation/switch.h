@@ -6,8 +6,8 @@
 /// Woven into a copy of the sources by weave.py, and included in front of every file there: each mutant has a number, and the environment
 /// variable TOFRAY_MUTANT says which of them is switched on. One build holds hundreds of mutants.
 extern "C" {
-extern int tofray_mutant;                     ///< the one that is on; 0 for none
-extern unsigned char tofray_mutant_seen[];    ///< 1 for each whose place was reached
+extern int tofray_mutant;                   ///< the one that is on; 0 for none
+extern unsigned char tofray_mutant_seen[];  ///< 1 for each whose place was reached
 }
 
 namespace tofray_mutation {
@@ -23,13 +23,21 @@ TOFRAY_MUTATION_FN bool on() {
 }
 
 template <class A>
-struct PlainOf { using Type = A; };
+struct PlainOf {
+  using Type = A;
+};
 template <class A>
-struct PlainOf<A&> { using Type = A; };
+struct PlainOf<A&> {
+  using Type = A;
+};
 template <class A>
-struct PlainOf<const A&> { using Type = A; };
+struct PlainOf<const A&> {
+  using Type = A;
+};
 template <class A>
-struct PlainOf<const A> { using Type = A; };
+struct PlainOf<const A> {
+  using Type = A;
+};
 template <class A>
 using Plain = typename PlainOf<A>::Type;
 
@@ -57,31 +65,91 @@ struct Left {
   A&& a;
 };
 
-struct Plus { template <class A, class B> TOFRAY_MUTATION_FN static auto of(A&& a, B&& b) -> decltype(a + b) { return a + b; } };
-struct Minus { template <class A, class B> TOFRAY_MUTATION_FN static auto of(A&& a, B&& b) -> decltype(a - b) { return a - b; } };
-struct Times { template <class A, class B> TOFRAY_MUTATION_FN static auto of(A&& a, B&& b) -> decltype(a * b) { return a * b; } };
-struct Over { template <class A, class B> TOFRAY_MUTATION_FN static auto of(A&& a, B&& b) -> decltype(a / b) { return a / b; } };
-struct Less { template <class A, class B> TOFRAY_MUTATION_FN static auto of(A&& a, B&& b) -> decltype(a < b) { return a < b; } };
-struct LessEqual { template <class A, class B> TOFRAY_MUTATION_FN static auto of(A&& a, B&& b) -> decltype(a <= b) { return a <= b; } };
-struct Greater { template <class A, class B> TOFRAY_MUTATION_FN static auto of(A&& a, B&& b) -> decltype(a > b) { return a > b; } };
-struct GreaterEqual { template <class A, class B> TOFRAY_MUTATION_FN static auto of(A&& a, B&& b) -> decltype(a >= b) { return a >= b; } };
-struct Equal { template <class A, class B> TOFRAY_MUTATION_FN static auto of(A&& a, B&& b) -> decltype(a == b) { return a == b; } };
-struct Unequal { template <class A, class B> TOFRAY_MUTATION_FN static auto of(A&& a, B&& b) -> decltype(a != b) { return a != b; } };
-struct BitAnd { template <class A, class B> TOFRAY_MUTATION_FN static auto of(A&& a, B&& b) -> decltype(a & b) { return a & b; } };
-struct BitOr { template <class A, class B> TOFRAY_MUTATION_FN static auto of(A&& a, B&& b) -> decltype(a | b) { return a | b; } };
+struct Plus {
+  template <class A, class B>
+  TOFRAY_MUTATION_FN static auto of(A&& a, B&& b) -> decltype(a + b) {
+    return a + b;
+  }
+};
+struct Minus {
+  template <class A, class B>
+  TOFRAY_MUTATION_FN static auto of(A&& a, B&& b) -> decltype(a - b) {
+    return a - b;
+  }
+};
+struct Times {
+  template <class A, class B>
+  TOFRAY_MUTATION_FN static auto of(A&& a, B&& b) -> decltype(a * b) {
+    return a * b;
+  }
+};
+struct Over {
+  template <class A, class B>
+  TOFRAY_MUTATION_FN static auto of(A&& a, B&& b) -> decltype(a / b) {
+    return a / b;
+  }
+};
+struct Less {
+  template <class A, class B>
+  TOFRAY_MUTATION_FN static auto of(A&& a, B&& b) -> decltype(a < b) {
+    return a < b;
+  }
+};
+struct LessEqual {
+  template <class A, class B>
+  TOFRAY_MUTATION_FN static auto of(A&& a, B&& b) -> decltype(a <= b) {
+    return a <= b;
+  }
+};
+struct Greater {
+  template <class A, class B>
+  TOFRAY_MUTATION_FN static auto of(A&& a, B&& b) -> decltype(a > b) {
+    return a > b;
+  }
+};
+struct GreaterEqual {
+  template <class A, class B>
+  TOFRAY_MUTATION_FN static auto of(A&& a, B&& b) -> decltype(a >= b) {
+    return a >= b;
+  }
+};
+struct Equal {
+  template <class A, class B>
+  TOFRAY_MUTATION_FN static auto of(A&& a, B&& b) -> decltype(a == b) {
+    return a == b;
+  }
+};
+struct Unequal {
+  template <class A, class B>
+  TOFRAY_MUTATION_FN static auto of(A&& a, B&& b) -> decltype(a != b) {
+    return a != b;
+  }
+};
+struct BitAnd {
+  template <class A, class B>
+  TOFRAY_MUTATION_FN static auto of(A&& a, B&& b) -> decltype(a & b) {
+    return a & b;
+  }
+};
+struct BitOr {
+  template <class A, class B>
+  TOFRAY_MUTATION_FN static auto of(A&& a, B&& b) -> decltype(a | b) {
+    return a | b;
+  }
+};
 
-#define TOFRAY_MUTATION_OPERATOR(op)                                                                              \
-  template <int N, class Other, class A>                                                                          \
-  TOFRAY_MUTATION_FN Left<N, Other, A> operator op(A&& a, At<N, Other>) {                                         \
-    return {static_cast<A&&>(a)};                                                                                 \
-  }                                                                                                               \
-  template <int N, class Other, class A, class B>                                                                 \
+#define TOFRAY_MUTATION_OPERATOR(op)                                                                                          \
+  template <int N, class Other, class A>                                                                                      \
+  TOFRAY_MUTATION_FN Left<N, Other, A> operator op(A&& a, At<N, Other>) {                                                     \
+    return {static_cast<A&&>(a)};                                                                                             \
+  }                                                                                                                           \
+  template <int N, class Other, class A, class B>                                                                             \
   TOFRAY_MUTATION_FN auto operator op(Left<N, Other, A>&& l, B&& b)->decltype(static_cast<A&&>(l.a) op static_cast<B&&>(b)) { \
-    using R = decltype(static_cast<A&&>(l.a) op static_cast<B&&>(b));                                             \
-    if constexpr (requires { static_cast<R>(Other::of(l.a, b)); }) {                                              \
-      if (on<N>()) return static_cast<R>(Other::of(l.a, b));                                                      \
-    }                                                                                                             \
-    return static_cast<A&&>(l.a) op static_cast<B&&>(b);                                                          \
+    using R = decltype(static_cast<A&&>(l.a) op static_cast<B&&>(b));                                                         \
+    if constexpr (requires { static_cast<R>(Other::of(l.a, b)); }) {                                                          \
+      if (on<N>()) return static_cast<R>(Other::of(l.a, b));                                                                  \
+    }                                                                                                                         \
+    return static_cast<A&&>(l.a) op static_cast<B&&>(b);                                                                      \
   }
 TOFRAY_MUTATION_OPERATOR(+)
 TOFRAY_MUTATION_OPERATOR(-)
@@ -98,7 +166,9 @@ TOFRAY_MUTATION_OPERATOR(|)
 
 /// A literal.
 template <int N, class T>
-TOFRAY_MUTATION_FN T number(T original, T other) { return on<N>() ? other : original; }
+TOFRAY_MUTATION_FN T number(T original, T other) {
+  return on<N>() ? other : original;
+}
 
 /// −a, and a in its place.
 template <int N, class A>
@@ -125,7 +195,10 @@ TOFRAY_MUTATION_FN bool condition(A&& a) {
 /// An index, and the next one.
 template <int N, class A>
 TOFRAY_MUTATION_FN decltype(auto) index(A&& a) {
-  if constexpr (requires { static_cast<Plain<A>>(a + 1); static_cast<unsigned>(a); }) {
+  if constexpr (requires {
+                  static_cast<Plain<A>>(a + 1);
+                  static_cast<unsigned>(a);
+                }) {
     return static_cast<Plain<A>>(on<N>() ? a + 1 : a);
   } else {
     return static_cast<A&&>(a);
@@ -133,28 +206,32 @@ TOFRAY_MUTATION_FN decltype(auto) index(A&& a) {
 }
 /// a && b, and a || b in its place; b is asked only where it counts.
 template <int N, class A, class B>
-TOFRAY_MUTATION_FN bool both(A&& a, B&& b) { return on<N>() ? static_cast<bool>(a) || b() : static_cast<bool>(a) && b(); }
+TOFRAY_MUTATION_FN bool both(A&& a, B&& b) {
+  return on<N>() ? static_cast<bool>(a) || b() : static_cast<bool>(a) && b();
+}
 template <int N, class A, class B>
-TOFRAY_MUTATION_FN bool either(A&& a, B&& b) { return on<N>() ? static_cast<bool>(a) && b() : static_cast<bool>(a) || b(); }
+TOFRAY_MUTATION_FN bool either(A&& a, B&& b) {
+  return on<N>() ? static_cast<bool>(a) && b() : static_cast<bool>(a) || b();
+}
 
 }  // namespace tofray_mutation
 
 /// A function's name, and another's. `f` and `g` are looked up where the name stands.
-#define TOFRAY_MUTATION_CALL(N, f, g)                                                \
-  [](const auto&... v) __attribute__((always_inline)) {                              \
-    if constexpr (requires { static_cast<decltype(f(v...))>(g(v...)); }) {           \
+#define TOFRAY_MUTATION_CALL(N, f, g)                                                 \
+  [](const auto&... v) __attribute__((always_inline)) {                               \
+    if constexpr (requires { static_cast<decltype(f(v...))>(g(v...)); }) {            \
       if (::tofray_mutation::on<N>()) return static_cast<decltype(f(v...))>(g(v...)); \
-    }                                                                                \
-    return f(v...);                                                                  \
+    }                                                                                 \
+    return f(v...);                                                                   \
   }
 /// The same with the last two arguments changed about, or with the first one alone.
-#define TOFRAY_MUTATION_SELECT(N, f)                                                 \
-  [](const auto& m, const auto& a, const auto& b) __attribute__((always_inline)) {   \
-    if (::tofray_mutation::on<N>()) return f(m, b, a);                               \
-    return f(m, a, b);                                                               \
+#define TOFRAY_MUTATION_SELECT(N, f)                                               \
+  [](const auto& m, const auto& a, const auto& b) __attribute__((always_inline)) { \
+    if (::tofray_mutation::on<N>()) return f(m, b, a);                             \
+    return f(m, a, b);                                                             \
   }
-#define TOFRAY_MUTATION_NONE(N, f)                                                   \
-  [](const auto& a) __attribute__((always_inline)) {                                 \
-    if (::tofray_mutation::on<N>()) return static_cast<decltype(f(a))>(a);           \
-    return f(a);                                                                     \
+#define TOFRAY_MUTATION_NONE(N, f)                                         \
+  [](const auto& a) __attribute__((always_inline)) {                       \
+    if (::tofray_mutation::on<N>()) return static_cast<decltype(f(a))>(a); \
+    return f(a);                                                           \
   }

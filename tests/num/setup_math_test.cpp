@@ -32,9 +32,7 @@ double worst_ulp(double from, double to, Ours ours, Oracle oracle) {
   return worst;
 }
 
-bool same_bits(double a, double b) {
-  return std::memcmp(&a, &b, sizeof a) == 0;
-}
+bool same_bits(double a, double b) { return std::memcmp(&a, &b, sizeof a) == 0; }
 
 }  // namespace
 
@@ -134,7 +132,7 @@ TEST(setup_math, identities_hold) {
     EXPECT_NEAR(setup::sin(x) * setup::sin(x) + setup::cos(x) * setup::cos(x), 1.0, 4e-16);
     EXPECT_EQ(setup::sin(-x), -setup::sin(x));
     EXPECT_EQ(setup::cos(-x), setup::cos(x));
-    EXPECT_DOUBLE_EQ(setup::pow(x, 2.0), x * x);   // to 4 ulp; each side is rounded
+    EXPECT_DOUBLE_EQ(setup::pow(x, 2.0), x * x);  // to 4 ulp; each side is rounded
     EXPECT_DOUBLE_EQ(setup::pow(x, 0.5), std::sqrt(x));
     EXPECT_EQ(setup::pow(-x, 3.0), -setup::pow(x, 3.0));
     EXPECT_NEAR(setup::log(setup::exp(x)), x < 700 ? x : infinity, 2.3e-16 * std::fmax(1.0, x));
@@ -189,7 +187,7 @@ TEST(setup_math, powers_of_special_values_are_those_of_iso_c) {
 
 // 240,000 results from arguments that are exact everywhere: another compiler or CPU that differs in a single bit is caught.
 TEST(setup_math, bits_are_the_same_on_every_machine) {
-  std::uint64_t hash = 14695981039346656037ULL;   // FNV-1a over 64-bit words
+  std::uint64_t hash = 14695981039346656037ULL;  // FNV-1a over 64-bit words
   const auto take = [&hash](double value) {
     std::uint64_t bits;
     std::memcpy(&bits, &value, sizeof bits);

@@ -18,11 +18,11 @@
 
 using namespace tofray;
 using namespace tofray::pictures;
-using tofray::results::cloud_ply;
 using out_test::Python;
 using out_test::read_back;
 using out_test::ReadBack;
 using out_test::TemporaryFolder;
+using tofray::results::cloud_ply;
 
 TEST(png_file, all_codes_come_back_exactly) {
   std::vector<std::uint8_t> eight;

@@ -89,7 +89,7 @@ TEST(light_power, of_a_flat_top_does_not_depend_on_the_table_that_it_stands_for)
       EXPECT_NEAR(power_within(light, std::min(width, 43 * degree), 42 * degree, 600), 0.2, 0.2 * tolerance) << cells << " " << width;
     }
   }
-  const camera::FrozenLight cut = frozen(flat_top(2, 2, 0.5, 0.1), 0.2);     // cut off where it is bright
+  const camera::FrozenLight cut = frozen(flat_top(2, 2, 0.5, 0.1), 0.2);  // cut off where it is bright
   EXPECT_NEAR(power_within(cut, 0.5, 0.1, 600), 0.2, 0.2 * tolerance);
 }
 
@@ -109,7 +109,7 @@ TEST(light_power, of_a_fine_table_is_its_own_also_beyond_half_a_turn) {
     std::vector<double> samples(90 * 70);
     for (std::size_t i = 0; i < samples.size(); ++i) samples[i] = 1 + std::sin(0.1 * static_cast<double>(i % 90)) + 0.2 * random.uniform();
     const camera::FrozenLight light = frozen(table(90, 70, half_range, half_range / 2, samples), 3);
-    EXPECT_NEAR(power_within(light, half_range, half_range / 2, 630), 3, 3 * tolerance) << half_range;   // 7 or 9 in each of their cells
+    EXPECT_NEAR(power_within(light, half_range, half_range / 2, 630), 3, 3 * tolerance) << half_range;  // 7 or 9 in each of their cells
   }
 }
 
@@ -122,7 +122,7 @@ TEST(light_power, of_a_table_does_not_depend_on_its_unit) {
 
 TEST(light_power, of_a_table_that_shines_nowhere_is_refused) {
   std::vector<double> samples(64 * 64);
-  samples[0] = 1;                                       // at θ = √2·63/64·π
+  samples[0] = 1;  // at θ = √2·63/64·π
   EXPECT_THROW(frozen(table(64, 64, pi, pi, samples), 1), Error);
 }
 

@@ -144,7 +144,7 @@ TEST(light_source, tables_are_read_at_f_theta_angles) {
     const auto across = [&](int row) { return (1 - right) * at(row, c) + right * at(row, c + 1); };
     return (1 - down) * across(r) + down * across(r + 1);
   };
-  double integral = 0;                                         // 100 × 100 middles in each cell: right to 1e-6
+  double integral = 0;  // 100 × 100 middles in each cell: right to 1e-6
   const int n = 100;
   for (int k = 0; k < n * rows; ++k) {
     for (int i = 0; i < n * columns; ++i) {
@@ -162,7 +162,7 @@ TEST(light_source, tables_are_read_at_f_theta_angles) {
 // A table with one bright cell lights the pixel that looks there: x right, y down. Light at the camera's place.
 TEST(light_source, the_bright_cell_of_a_table_lands_in_its_own_quadrant) {
   for (int quadrant = 0; quadrant < 4; ++quadrant) {
-    const int column = quadrant % 2 == 0 ? 4 : 15, row = quadrant < 2 ? 3 : 10;    // of 20 x 14
+    const int column = quadrant % 2 == 0 ? 4 : 15, row = quadrant < 2 ? 3 : 10;  // of 20 x 14
     std::vector<double> samples(20 * 14);
     samples[static_cast<std::size_t>(row * 20 + column)] = 1;
     Camera camera = lit_camera(101, 81, 60);
@@ -185,9 +185,9 @@ TEST(light_source, the_bright_cell_of_a_table_lands_in_its_own_quadrant) {
 // A source that is turned keeps its x axis as near to the camera's as it goes: the table turns with it, unmirrored.
 TEST(light_source, a_turned_table_is_not_mirrored) {
   std::vector<double> samples(20 * 14);
-  samples[3 * 20 + 15] = 1;                                    // to the right and up
+  samples[3 * 20 + 15] = 1;  // to the right and up
   const double c = std::cos(0.3), s = std::sin(0.3);
-  const camera::FrozenLight light = camera::freeze_light(source(table(20, 14, samples), 1, {0, s, c}), 1);   // tipped downward
+  const camera::FrozenLight light = camera::freeze_light(source(table(20, 14, samples), 1, {0, s, c}), 1);  // tipped downward
   const Vec3 own = f_theta(0.7 * (31 / 20.0 - 1), 0.5 * (7 / 14.0 - 1));
   // own axes: x stays, y is turned about x with the axis
   const Vec3 d{own[0], c * own[1] + s * own[2], -s * own[1] + c * own[2]};

@@ -14,7 +14,8 @@ namespace {
 
 camera::SensorView suppressing(float threshold, float budget, float factor, int noise) {
   camera::SensorView s{};
-  s.suppression_threshold = threshold, s.suppression_budget = budget, s.suppression_noise = factor, s.noise = static_cast<camera::Noise>(noise);
+  s.suppression_threshold = threshold, s.suppression_budget = budget, s.suppression_noise = factor,
+  s.noise = static_cast<camera::Noise>(noise);
   return s;
 }
 
@@ -248,7 +249,8 @@ TEST(electrons, of_several_lights_add_up_at_any_reference_phases) {
       const auto taps = raw::expose(bench.sensor(), k, light, bench.phasors().orders, {0, 0}, exposure);
       double expected = 0;
       for (int l = 0; l < 2; ++l) {
-        const double phase = two_pi * (static_cast<double>(way[static_cast<std::size_t>(l)].length) * f / c + static_cast<double>(k) / phases);
+        const double phase =
+            two_pi * (static_cast<double>(way[static_cast<std::size_t>(l)].length) * f / c + static_cast<double>(k) / phases);
         for (const int m : {1, 3, 5, 7}) {
           const double x = pi * m * duties[l], pole = 1 / std::hypot(1.0, m * f / poles[l]);
           const double a = 4 / (pi * m) * std::sin(m * pi / 2) * std::sin(x) / x * 0.8 * pole;

@@ -198,9 +198,9 @@ TEST(draws, of_suppression_are_independent_of_shot_and_read_noise) {
     const auto with_read = raw::expose_exact<float>(read, {10000.0f, 10000.0f}, i, 0, {0, 0});
     const auto fast = raw::expose_fast<float>(shot, {10000.0f, 10000.0f}, i, 0, {0, 0}, words);
     const auto left = raw::suppress<float>(taking, {10000.0f, 10000.0f}, i, 0, {0, 0});
-    const double drawn[6] = {static_cast<double>(exact.a) - 10000,           static_cast<double>(exact.b) - 10000,
-                             static_cast<double>(with_read.a - exact.a),     static_cast<double>(with_read.b - exact.b),
-                             static_cast<double>(fast.a) - 10000,            static_cast<double>(fast.b) - 10000};
+    const double drawn[6] = {static_cast<double>(exact.a) - 10000,       static_cast<double>(exact.b) - 10000,
+                             static_cast<double>(with_read.a - exact.a), static_cast<double>(with_read.b - exact.b),
+                             static_cast<double>(fast.a) - 10000,        static_cast<double>(fast.b) - 10000};
     const double added[2] = {static_cast<double>(left.a) - 1000, static_cast<double>(left.b) - 1000};
     for (std::size_t x = 0; x < 6; ++x) {
       for (std::size_t y = 0; y < 2; ++y) {

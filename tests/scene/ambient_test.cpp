@@ -18,7 +18,7 @@ using tofray::scene::band_irradiance;
 
 namespace {
 
-constexpr double hc = 1.98644586e-25;   // J m
+constexpr double hc = 1.98644586e-25;  // J m
 
 Ambient light(Ambient::Spectrum spectrum, Ambient::Quantity quantity, double amount) {
   Ambient ambient;
@@ -83,17 +83,17 @@ TEST(band_irradiance, of_a_table_is_the_integral_of_its_lines) {
   ambient.table_irradiance_w_per_m3 = {0, 1e9, 4e8};
   // From 820 to 880 nm: a trapezoid of 0.5…1 over 20 nm and one of 1…0.6 over 40 nm, twice.
   EXPECT_NEAR(band_irradiance(ambient, box(850, 30)), 2 * (15 + 32), 1e-12);
-  EXPECT_NEAR(band_irradiance(ambient, box(790, 20)), 2 * 10 * 0.125, 1e-12);   // beyond its samples there is nothing
+  EXPECT_NEAR(band_irradiance(ambient, box(790, 20)), 2 * 10 * 0.125, 1e-12);  // beyond its samples there is nothing
 }
 
 TEST(band_irradiance, of_a_filter_table_is_the_integral_of_its_spline) {
   Filter filter;
-  filter.table = {{830e-9, 850e-9, 870e-9}, {0, 0.9, 0}};   // three samples: a parabola, 2/3 of its box
+  filter.table = {{830e-9, 850e-9, 870e-9}, {0, 0.9, 0}};  // three samples: a parabola, 2/3 of its box
   EXPECT_NEAR(band_irradiance(flat(1), filter), 2.0 / 3 * 40 * 0.9, 1e-12);
-  filter.table = {{840e-9, 860e-9}, {0.5, 0.7}};   // a line; nothing passes beside it
+  filter.table = {{840e-9, 860e-9}, {0.5, 0.7}};  // a line; nothing passes beside it
   EXPECT_NEAR(band_irradiance(flat(1), filter), 20 * 0.6, 1e-12);
   filter.table = {{850e-9}, {0.5}};
-  EXPECT_NEAR(band_irradiance(flat(1), filter), 0.5 * 3720, 1e-9);   // one sample passes everything
+  EXPECT_NEAR(band_irradiance(flat(1), filter), 0.5 * 3720, 1e-9);  // one sample passes everything
 }
 
 // Flat light E, box T of half width w about λ_0, QE = q_0 + q_1(λ − λ_0): E·T/(hc)·(2w·q_0·λ_0 + q_1·2w³/3).
@@ -101,7 +101,7 @@ TEST(band_electron_rate_factor, has_its_closed_form_for_a_linear_quantum_efficie
   const double center = 850e-9, w = 15e-9, q0 = 0.4, q1 = -3e6;
   const Curve efficiency{{center - 50e-9, center + 50e-9}, {q0 - q1 * 50e-9, q0 + q1 * 50e-9}};
   const double right = 0.7e9 * 0.9 / hc * (2 * w * q0 * center + q1 * 2 * w * w * w / 3);
-  EXPECT_NEAR(band_electron_rate_factor(flat(0.7), box(850, 15, 0.9), efficiency) / right, 1.0, 1e-8);   // hc has 9 digits here
+  EXPECT_NEAR(band_electron_rate_factor(flat(0.7), box(850, 15, 0.9), efficiency) / right, 1.0, 1e-8);  // hc has 9 digits here
 }
 
 TEST(band_electron_rate_factor, takes_a_single_sample_as_a_constant) {
@@ -112,9 +112,9 @@ TEST(band_electron_rate_factor, takes_a_single_sample_as_a_constant) {
 TEST(band_electron_rate_factor, holds_the_efficiency_outside_its_samples) {
   // 0.4 up to 850 nm, then a line to 0.3 at 855 nm, then 0.3.
   const double rate = band_electron_rate_factor(flat(1), box(850, 15), {{850e-9, 855e-9}, {0.4, 0.3}});
-  const auto power = [](double a, double b) { return (b * b - a * a) / 2; };             // ∫ λ
-  const auto cube = [](double a, double b) { return (b * b * b - a * a * a) / 3; };      // ∫ λ²
-  const double line = (0.4 + 0.02 * 850) * power(850, 855) - 0.02 * cube(850, 855);      // nm
+  const auto power = [](double a, double b) { return (b * b - a * a) / 2; };         // ∫ λ
+  const auto cube = [](double a, double b) { return (b * b * b - a * a * a) / 3; };  // ∫ λ²
+  const double line = (0.4 + 0.02 * 850) * power(850, 855) - 0.02 * cube(850, 855);  // nm
   const double right = 1e9 / hc * 1e-18 * (0.4 * power(835, 850) + line + 0.3 * power(855, 865));
   EXPECT_NEAR(rate / right, 1.0, 1e-8);
 }
@@ -122,7 +122,7 @@ TEST(band_electron_rate_factor, holds_the_efficiency_outside_its_samples) {
 TEST(band_electron_rate_factor, of_narrow_light_is_the_photon_rate_times_efficiency) {
   const Ambient ambient = light(Ambient::Spectrum::sun_am15, Ambient::Quantity::band_irradiance_w_per_m2, 1);
   const double rate = band_electron_rate_factor(ambient, box(850, 0.01), {{850e-9}, {0.4}});
-  EXPECT_NEAR(rate / (0.4 * 850e-9 / hc), 1.0, 1e-5);   // 0.01 nm of 850 nm
+  EXPECT_NEAR(rate / (0.4 * 850e-9 / hc), 1.0, 1e-5);  // 0.01 nm of 850 nm
 }
 
 TEST(ambient, none_or_nothing_gives_no_light) {

@@ -9,8 +9,8 @@
 
 #include "backend/cpu/cpu.h"
 #include "support/numbers.h"
-#include "support/sanitizers.h"
 #include "support/random_scene.h"
+#include "support/sanitizers.h"
 
 using namespace tofray;
 using namespace tofray::test;

@@ -81,7 +81,7 @@ TEST(light_from_everywhere, is_the_same_on_every_surface) {
       const Vec3 way = way_of(i);
       const double cos4 = 1 / (dot(way, way) * dot(way, way));
       const double expected = frame.truth.object_id[i] < 0 ? 0 : 0.7 * 0.3 / pi * per_radiance * cos4 * 1e-3 * per_joule;
-      EXPECT_NEAR(at(frame.raw.tap_a, i), expected, 2e-4 * expected) << lean << " " << i;   // an unlit raw frame rests on tap A
+      EXPECT_NEAR(at(frame.raw.tap_a, i), expected, 2e-4 * expected) << lean << " " << i;  // an unlit raw frame rests on tap A
     }
   }
 }
@@ -123,7 +123,7 @@ TEST(shadow_margin, of_a_lamp_is_a_ten_thousandth_of_the_way) {
 TEST(shadow_margin, of_the_sun_is_a_ten_thousandth_of_the_range) {
   for (const double x : {1.6e-4, 2.0e-4}) {
     for (const Object& upright : uprights(x)) {
-      if (upright.shape.index() == 2) continue;   // of a body, the way through it counts
+      if (upright.shape.index() == 2) continue;  // of a body, the way through it counts
       EXPECT_EQ(on_wall(upright, true) > 0, x < 0.2e-3 * 2 / std::sqrt(5.0)) << upright.shape.index() << " " << x;
     }
   }

@@ -47,11 +47,11 @@ TEST(light_offset, makes_the_path_longer_as_the_closed_form_says) {
 TEST(light_offset, is_taken_out_again_by_the_decoder) {
   Camera camera = lit_camera(9, 9, 8);
   camera.illumination[0].position = {15.47e-3, 0, 0};
-  camera.adc.step_e_per_dn = 1e4;   // nothing clips, as near as that
+  camera.adc.step_e_per_dn = 1e4;  // nothing clips, as near as that
   for (const double z : {0.1, 0.2, 0.5, 1.0, 2.0}) {
     const Frame frame = expected_frame(wall(z), camera);
     for (std::size_t i = 0; i < 81; ++i) {
-      if (frame.truth.signal_e[i] <= 0) continue;      // beyond the cone of light
+      if (frame.truth.signal_e[i] <= 0) continue;  // beyond the cone of light
       EXPECT_NEAR(static_cast<double>(frame.depth.range_m[i]), static_cast<double>(frame.truth.range_m[i]), 2e-5) << z << " " << i;
     }
   }

@@ -167,7 +167,8 @@ TEST(motion, of_a_raw_frame_is_a_still_scene_at_its_time_shadows_included) {
     }
     // The test can fail: between the second and the last raw frame the shadow moves over many pixels.
     int moved = 0;
-    for (std::size_t i = 0; i < pixels; ++i) moved += std::abs(raw.tap_a[pixels + i] + raw.tap_b[pixels + i] - raw.tap_a[4 * pixels + i] - raw.tap_b[4 * pixels + i]) > 50;
+    for (std::size_t i = 0; i < pixels; ++i)
+      moved += std::abs(raw.tap_a[pixels + i] + raw.tap_b[pixels + i] - raw.tap_a[4 * pixels + i] - raw.tap_b[4 * pixels + i]) > 50;
     EXPECT_GT(moved, 1000);
   }
 }
@@ -199,7 +200,7 @@ TEST(motion, of_a_plane_beside_that_of_a_ball_is_a_still_scene_at_its_time) {
     ASSERT_EQ(frame.truth.reflectivity[i], expected.reflectivity[i]) << i;
     for (std::size_t k = 0; k < 3; ++k) ASSERT_NEAR(frame.truth.normal[3 * i + k], expected.normal[3 * i + k], 1e-4f) << i;
   }
-  EXPECT_LE(off, 8);                                            // edges: one place is rounded from a sum
+  EXPECT_LE(off, 8);  // edges: one place is rounded from a sum
   for (const int count : seen) EXPECT_GT(count, 1000);
 }
 

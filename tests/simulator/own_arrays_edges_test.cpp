@@ -112,21 +112,22 @@ TEST(own_arrays, that_do_not_fit_are_refused_by_name) {
   };
   constexpr float nan = std::numeric_limits<float>::quiet_NaN();
   EXPECT_EQ(geometry([](Geometry&) {}), "no error");
-  EXPECT_EQ(geometry([](Geometry& g) { g.width = 223; }), "error: geometry has the wrong size\n  got 223 × 172 pixels, the camera has 224 × 172");
+  EXPECT_EQ(geometry([](Geometry& g) { g.width = 223; }),
+            "error: geometry has the wrong size\n  got 223 × 172 pixels, the camera has 224 × 172");
   EXPECT_EQ(geometry([](Geometry& g) { g.moments = 4; }), "error: geometry.moments is 4\n  expected 1, or 9: one for each raw frame");
   EXPECT_EQ(geometry([](Geometry& g) { g.z_m.pop_back(); }), "error: geometry.z_m has the wrong size\n  got 38527 values, expected 38528");
   EXPECT_EQ(geometry([](Geometry& g) { g.normal.clear(); }), "error: geometry.normal has the wrong size\n  got 0 values, expected 115584");
-  EXPECT_EQ(geometry([](Geometry& g) { g.shadow.assign(7, 0); }), "error: geometry.shadow has the wrong size\n  got 7 values, expected 38528");
+  EXPECT_EQ(geometry([](Geometry& g) { g.shadow.assign(7, 0); }),
+            "error: geometry.shadow has the wrong size\n  got 7 values, expected 38528");
   EXPECT_EQ(geometry([](Geometry& g) { g.specular.assign(g.z_m.size(), 0); }),
             "error: geometry has specular or exponent without the other\n  expected both, or neither for Lambertian surfaces");
   EXPECT_EQ(geometry([](Geometry& g) { g.normal[3 * 225 + 2] = 0.5f; }),
             "error: geometry.normal's length, pixel (column 1, row 1) is out of range\n  got 0.5, expected 0.999 to 1.001");
   EXPECT_EQ(geometry([](Geometry& g) { g.diffuse[0] = nan; }),
             "error: geometry.diffuse, pixel (column 0, row 0) is out of range\n  got nan, expected 0 to 1");
-  EXPECT_EQ(geometry([](Geometry& g) {
-              g.specular.assign(g.z_m.size(), 0.6f), g.exponent.assign(g.z_m.size(), 20);
-            }),
-            "error: geometry.diffuse, pixel (column 0, row 0): diffuse + specular is more than 1\n  a surface cannot send back more light than it gets");
+  EXPECT_EQ(geometry([](Geometry& g) { g.specular.assign(g.z_m.size(), 0.6f), g.exponent.assign(g.z_m.size(), 20); }),
+            "error: geometry.diffuse, pixel (column 0, row 0): diffuse + specular is more than 1\n  a surface cannot send back more light "
+            "than it gets");
   const auto light = [&](const auto& spoil) {
     PixelLight given = even_light(camera, 1e-12f, 2);
     spoil(given);
@@ -137,7 +138,8 @@ TEST(own_arrays, that_do_not_fit_are_refused_by_name) {
             "error: pixel light.power_w, pixel (column 3, row 0) is out of range\n  got -1, expected 0 to 1");
   EXPECT_EQ(light([](PixelLight& l) { l.path_length_m[224] = nan; }),
             "error: pixel light.path_length_m, pixel (column 0, row 1) is out of range\n  got nan, expected 0 to 1000000");
-  EXPECT_EQ(light([](PixelLight& l) { l.ambient_e_per_s.assign(2, 0); }), "error: pixel light.ambient_e_per_s has the wrong size\n  got 2 values, expected 38528");
+  EXPECT_EQ(light([](PixelLight& l) { l.ambient_e_per_s.assign(2, 0); }),
+            "error: pixel light.ambient_e_per_s has the wrong size\n  got 2 values, expected 38528");
   EXPECT_EQ(light([](PixelLight& l) {
               l.moments = 9;
               for (auto* array : {&l.power_w, &l.path_length_m}) array->assign(9 * 38528, 1e-12f);
@@ -170,7 +172,10 @@ TEST(own_arrays, of_paths_and_phasors_must_fit_the_camera) {
             "error: pixel light.light_of_path[0] is 1\n  the camera has 1 light sources, counted from 0");
   EXPECT_EQ(light([](PixelLight& l) { l.light_of_path = {-1}; }),
             "error: pixel light.light_of_path[0] is -1\n  the camera has 1 light sources, counted from 0");
-  EXPECT_EQ(light([](PixelLight& l) { l.light_of_path = {0, 0}; }), "error: pixel light.power_w has the wrong size\n  got 38528 values, expected 77056");
+  EXPECT_EQ(light([](PixelLight& l) {
+              l.light_of_path = {0, 0};
+            }),
+            "error: pixel light.power_w has the wrong size\n  got 38528 values, expected 77056");
   const auto phasors = [&](PixelLight& l) { l.path_length_m.clear(), l.phasor_w.assign(2 * 3 * pixels, {0, 1e-12f}); };
   EXPECT_EQ(light([&](PixelLight& l) { phasors(l); }), "no error");
   EXPECT_EQ(light([&](PixelLight& l) { phasors(l), l.phasor_w.pop_back(); }),
@@ -178,9 +183,13 @@ TEST(own_arrays, of_paths_and_phasors_must_fit_the_camera) {
             "frequency][harmonic][height][width], the camera has 1 lights and 2 modulation frequencies");
   EXPECT_EQ(light([&](PixelLight& l) { phasors(l), l.path_length_m.assign(pixels, 2); }),
             "error: pixel light has both paths and phasors\n  give path_length_m (and light_of_path), or phasor_w");
-  EXPECT_EQ(light([&](PixelLight& l) { phasors(l), l.phasor_w[4 * pixels + 5] = {1e-12f, 1e-13f}; }),
+  EXPECT_EQ(light([&](PixelLight& l) {
+              phasors(l), l.phasor_w[4 * pixels + 5] = {1e-12f, 1e-13f};
+            }),
             "error: pixel light.phasor_w[154117] is longer than its light's power\n  got 1.0049875e-12 W of 1e-12 W");
-  EXPECT_EQ(light([&](PixelLight& l) { phasors(l), l.phasor_w[0] = {std::numeric_limits<float>::quiet_NaN(), 0}; }),
+  EXPECT_EQ(light([&](PixelLight& l) {
+              phasors(l), l.phasor_w[0] = {std::numeric_limits<float>::quiet_NaN(), 0};
+            }),
             "error: pixel light.phasor_w[0] is longer than its light's power\n  got nan W of 1e-12 W");
 }
 
@@ -215,6 +224,7 @@ TEST(own_arrays, go_with_any_sequence_and_with_no_light) {
     const Frame lit = simulator.frame(0, light);
     EXPECT_EQ((lit.depth.flags[20000] & flag_no_return) == 0, valid);
     EXPECT_NEAR(static_cast<double>(lit.raw.tap_a[20000]),
-                (1e6 + camera.pixel.dark_current_e_per_s) * camera.mode.sequence[0].integration_time_s, 1) << "the grey frame";
+                (1e6 + camera.pixel.dark_current_e_per_s) * camera.mode.sequence[0].integration_time_s, 1)
+        << "the grey frame";
   }
 }

@@ -32,7 +32,7 @@ Scene still(Scene scene) {
 // What a scene's own first stage found goes in again: the same frame comes out, to the last bit of every array.
 TEST_P(OwnArrays, of_what_a_scene_showed_give_its_frame) {
   Scene scene = still(load_scene(GetParam()));
-  scene.ambient.spectrum = Ambient::Spectrum::sun_am15, scene.ambient.amount = 0.05;   // uniform
+  scene.ambient.spectrum = Ambient::Spectrum::sun_am15, scene.ambient.amount = 0.05;  // uniform
   const Camera camera = load_camera(scene);
   for (const Noise noise : {Noise::off, Noise::fast, Noise::exact}) {
     Simulator simulator(scene, camera, {.seed = 7, .noise = noise});
@@ -143,7 +143,8 @@ TEST(own_arrays, of_light_become_the_electrons_of_the_closed_form) {
     const double dark = 2 * camera.pixel.dark_current_e_per_s * exposure.integration_time_s;
     const double expected = (exposure.lit ? rate : 0) * exposure.integration_time_s + 4e6 * exposure.integration_time_s + dark;
     EXPECT_NEAR(both / expected, 1, 1e-5) << k;
-    EXPECT_NEAR(static_cast<double>(frame.truth.signal_e[k * pixels + at]), exposure.lit ? rate * exposure.integration_time_s : 0, 1e-5 * expected);
+    EXPECT_NEAR(static_cast<double>(frame.truth.signal_e[k * pixels + at]), exposure.lit ? rate * exposure.integration_time_s : 0,
+                1e-5 * expected);
   }
   EXPECT_NEAR(static_cast<double>(frame.depth.range_m[at]), 1.5, 2e-5);
 }
@@ -227,7 +228,8 @@ TEST(own_arrays, of_phasors_are_the_light_of_their_paths) {
     const SimulatorOptions quiet{.noise = Noise::off};
     const Frame a = Simulator({}, camera, quiet).frame(0, paths), b = Simulator({}, camera, quiet).frame(0, sums);
     double most = 0;
-    for (std::size_t i = 0; i < a.raw.tap_a.size(); ++i) most = std::max(most, std::abs(static_cast<double>(a.raw.tap_a[i] / b.raw.tap_a[i]) - 1));
+    for (std::size_t i = 0; i < a.raw.tap_a.size(); ++i)
+      most = std::max(most, std::abs(static_cast<double>(a.raw.tap_a[i] / b.raw.tap_a[i]) - 1));
     EXPECT_LT(most, 2e-6) << moments;
     EXPECT_NEAR(static_cast<double>(a.depth.range_m[5000]), static_cast<double>(b.depth.range_m[5000]), 3e-6);
   }

@@ -45,7 +45,10 @@ TEST(power_chain, has_each_factor_once) {
   EXPECT_NEAR(ratio([](Camera& c) { c.lens.transmission = 0.7; }), 0.7, tolerance);
   EXPECT_NEAR(ratio([](Camera& c) { c.sensor.pixel_pitch_m *= 2; }), 4, 4 * tolerance);
   EXPECT_NEAR(ratio([](Camera& c) { c.sensor.fill_factor = 0.3; }), 0.3, tolerance);
-  EXPECT_NEAR(ratio([](Camera& c) { for (RawFrame& f : c.mode.sequence) f.integration_time_s *= 3; }), 3, 3 * tolerance);
+  EXPECT_NEAR(ratio([](Camera& c) {
+                for (RawFrame& f : c.mode.sequence) f.integration_time_s *= 3;
+              }),
+              3, 3 * tolerance);
   EXPECT_NEAR(ratio([](Camera& c) { c.pixel.quantum_efficiency.y[0] = 0.1; }), 0.25, tolerance);
   EXPECT_NEAR(ratio([](Camera& c) { c.illumination[0].illumination_wavelength_m = 940e-9; }), 940.0 / 850, tolerance * 2);
   EXPECT_NEAR(ratio([](Camera& c) { c.illumination[0].power_w *= 5; }), 5, 5 * tolerance);
@@ -131,7 +134,7 @@ TEST(power_chain, vignetting_can_be_switched_off_or_given_by_a_table) {
   camera.lens.vignetting = Lens::Vignetting::off;
   const Truth off = truth(wall(1), camera);
   camera.lens.vignetting = Lens::Vignetting::table;
-  camera.lens.vignetting_table = {{0, pi / 4, 1.2}, {0.9, 0.6, 0.1}};   // the pixels beside the middle one look 45 degrees aside
+  camera.lens.vignetting_table = {{0, pi / 4, 1.2}, {0.9, 0.6, 0.1}};  // the pixels beside the middle one look 45 degrees aside
   const Truth table = truth(wall(1), camera);
   const double full = (17.5e-6 * 17.5e-6) * pi / (4 * 0.9 * 0.9);
   const auto factor = [&](const Truth& t, std::size_t i) { return value(t.power_w, i) / (value(t.radiance_w_m2_sr, i) * full); };
@@ -145,7 +148,7 @@ TEST(power_chain, each_pixel_gets_what_the_closed_form_says) {
   Camera camera = lit_camera(21, 15, 12);
   camera.illumination[0].position = {0.3, -0.2, 0.1};
   camera.illumination[0].axis = {-0.1, 0.2, 1};
-  camera.illumination[0].pattern = {};                      // Lambertian: I = P·cos/π
+  camera.illumination[0].pattern = {};  // Lambertian: I = P·cos/π
   camera.illumination[0].power_w = 2;
   Scene scene = wall(1.5, 0.7);
   const Vec3 n = base::normalized({0.2, -0.3, -1});
@@ -161,7 +164,7 @@ TEST(power_chain, each_pixel_gets_what_the_closed_form_says) {
     const double irradiance = 2 * lobe / pi * cosine / (r * r);
     ASSERT_GT(lobe, 0.1);
     ASSERT_GT(cosine, 0.1);
-    EXPECT_NEAR(value(t.irradiance_w_m2, i), irradiance, 1e-5 * irradiance) << i;   // the lobe goes through log2 and exp2
+    EXPECT_NEAR(value(t.irradiance_w_m2, i), irradiance, 1e-5 * irradiance) << i;  // the lobe goes through log2 and exp2
     EXPECT_NEAR(value(t.radiance_w_m2_sr, i), 0.7 / pi * irradiance, 1e-5 * irradiance) << i;
   }
 }

@@ -30,7 +30,7 @@ Case random_case(int number) {
   Lens& lens = c.camera.lens;
   lens.cx_px = 0.5 * (c.camera.sensor.width - 1), lens.cy_px = 0.5 * (c.camera.sensor.height - 1);
   lens.fx_px = lens.fy_px = c.camera.sensor.width * 0.9 + 3;
-  if (number % 4 == 1) lens.k1 = -0.5;                            // corners without an inverse
+  if (number % 4 == 1) lens.k1 = -0.5;  // corners without an inverse
   for (int i = 0; i < number % 4; ++i) {
     Illumination light = c.camera.illumination[0];
     light.position = random.point(0.6);

@@ -50,7 +50,7 @@ TEST(ring, is_its_leds) {
       const double one_tap = static_cast<double>(a.raw.tap_a[i]), other = static_cast<double>(b.raw.tap_a[i]);
       most = std::max(most, std::abs(one_tap - other) / (1 + other));
     }
-    EXPECT_LT(most, 1e-5) << scene;   // the turns of the circle are rounded
+    EXPECT_LT(most, 1e-5) << scene;  // the turns of the circle are rounded
   }
 }
 
@@ -59,7 +59,7 @@ TEST(ring, around_the_lens_is_even_on_the_axis) {
   const double radius = 0.04, z = 0.5;
   const auto frame_of = [&](int leds) {
     Camera camera = lit_camera(9, 9);
-    camera.adc.step_e_per_dn = 1e4;   // nothing clips
+    camera.adc.step_e_per_dn = 1e4;  // nothing clips
     camera.illumination[0].ring_leds = leds, camera.illumination[0].ring_radius_m = radius;
     return Simulator(wall(z), camera, {.noise = Noise::off}).frame(0);
   };

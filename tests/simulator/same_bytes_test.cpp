@@ -145,9 +145,9 @@ TEST(same_bytes, change_with_the_seed_and_the_frame) {
 class SkippedOnThisMachine : public testing::TestWithParam<Isa> {};
 
 TEST_P(SkippedOnThisMachine, is_what_it_cannot_run) {
-  if (!backend::can_run(GetParam()))
-    GTEST_SKIP() << backend::isa_name(GetParam()) << " does not run here: its bytes were not compared";
-  EXPECT_EQ(Simulator(load_scene("card"), load_camera(load_scene("card")), {.isa = GetParam()}).ran_on().isa, backend::isa_name(GetParam()));
+  if (!backend::can_run(GetParam())) GTEST_SKIP() << backend::isa_name(GetParam()) << " does not run here: its bytes were not compared";
+  EXPECT_EQ(Simulator(load_scene("card"), load_camera(load_scene("card")), {.isa = GetParam()}).ran_on().isa,
+            backend::isa_name(GetParam()));
 }
 
 INSTANTIATE_TEST_SUITE_P(same_bytes, SkippedOnThisMachine, testing::Values(Isa::scalar, Isa::scalar_fma, Isa::avx2, Isa::avx512),

@@ -85,7 +85,7 @@ TEST(reciprocity, light_and_camera_may_change_places) {
     Scene seen = scene;
     seen.camera.pose = {camera_at, {0, 0, 0}, up};
     Camera camera = lit_camera();
-    camera.illumination[0].pattern.half_angle_rad = pi;      // 1 W/sr in all directions
+    camera.illumination[0].pattern.half_angle_rad = pi;  // 1 W/sr in all directions
     camera.illumination[0].power_w = 4 * pi;
     // camera frame: the light relative to the camera
     const Vec3 forward = base::normalized(-1.0 * camera_at), down = base::normalized(base::dot(up, forward) * forward - up);

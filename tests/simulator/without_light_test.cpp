@@ -94,7 +94,7 @@ TEST(no_lit_raw_frame, makes_every_depth_invalid) {
 TEST(no_lit_raw_frame, gives_ambient_light_of_the_mean_exposure) {
   Camera camera = without_lit_raw_frames(grey_camera());
   camera.pixel.dark_current_e_per_s = 0;
-  camera.adc.step_e_per_dn = 1000;   // the longer exposure collects a million electrons
+  camera.adc.step_e_per_dn = 1000;  // the longer exposure collects a million electrons
   const Frame frame = expected_frame(sunny_wall(), camera);
   for (std::size_t i = 0; i < frame.depth.flags.size(); ++i) {
     const double mean = 0.5 * (static_cast<double>(frame.raw.tap_a[i]) + static_cast<double>(frame.raw.tap_a[33 * 9 + i]));

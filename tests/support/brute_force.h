@@ -103,7 +103,9 @@ std::vector<Span> spans(shape::List<T...>, const scene::FrozenScene& frozen, con
 }
 
 /// Spans of all objects that stand still; the ray is in the camera's frame.
-inline std::vector<Span> spans(const scene::FrozenScene& frozen, const Vec3& o, const Vec3& d) { return spans(shape::Shapes{}, frozen, o, d); }
+inline std::vector<Span> spans(const scene::FrozenScene& frozen, const Vec3& o, const Vec3& d) {
+  return spans(shape::Shapes{}, frozen, o, d);
+}
 
 /// First crossing in front of o; 0 for none.
 inline double first(const Span& s) {

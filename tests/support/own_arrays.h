@@ -17,7 +17,8 @@ inline Geometry geometry_of(const Scene& scene, const Camera& camera, const Fram
   out.z_m = truth.z_m, out.normal = truth.normal, out.object_id = truth.object_id;
   for (std::size_t i = 0; i < truth.z_m.size(); ++i) {
     const std::int32_t object = truth.object_id[i];
-    const Material material = object < 0 ? Material{} : scene.materials[static_cast<std::size_t>(scene.objects[static_cast<std::size_t>(object)].material)];
+    const Material material =
+        object < 0 ? Material{} : scene.materials[static_cast<std::size_t>(scene.objects[static_cast<std::size_t>(object)].material)];
     out.diffuse.push_back(static_cast<float>(material.diffuse));
     out.specular.push_back(static_cast<float>(material.specular));
     out.exponent.push_back(static_cast<float>(material.exponent));
@@ -50,7 +51,8 @@ inline PixelLight light_of(const Camera& camera, const Frame& frame) {
 
 /// A wall of reflectivity 0.5 that faces the camera.
 inline Geometry wall(const Camera& camera, float z, int moments = 1) {
-  const auto pixels = static_cast<std::size_t>(camera.sensor.width) * static_cast<std::size_t>(camera.sensor.height) * static_cast<std::size_t>(moments);
+  const auto pixels =
+      static_cast<std::size_t>(camera.sensor.width) * static_cast<std::size_t>(camera.sensor.height) * static_cast<std::size_t>(moments);
   Geometry out;
   out.width = camera.sensor.width, out.height = camera.sensor.height, out.moments = moments;
   out.z_m.assign(pixels, z), out.diffuse.assign(pixels, 0.5f);
@@ -78,7 +80,9 @@ inline Camera pico() {
 }
 
 template <class T>
-void append(std::vector<T>& to, const std::vector<T>& from) { to.insert(to.end(), from.begin(), from.end()); }
+void append(std::vector<T>& to, const std::vector<T>& from) {
+  to.insert(to.end(), from.begin(), from.end());
+}
 
 /// Image k of several.
 template <class T>

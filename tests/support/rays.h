@@ -3,10 +3,10 @@
 #pragma once
 #include <vector>
 
-#include "num/num.h"
-#include "trace/nearest.h"
 #include "base/vec.h"
+#include "num/num.h"
 #include "scene/frozen_scene.h"
+#include "trace/nearest.h"
 
 /// What tests of single rays share. Closed forms are computed in double from the direction as single precision holds it.
 namespace tofray::test {
@@ -35,7 +35,9 @@ class Seen {
   }
   [[nodiscard]] const scene::Forms& forms() const { return view_; }
   template <class T>
-  [[nodiscard]] const typename T::Form& first() const { return *view_.of<T>().at; }
+  [[nodiscard]] const typename T::Form& first() const {
+    return *view_.of<T>().at;
+  }
 
  private:
   template <class T>

@@ -27,14 +27,14 @@ class StandInCuda final : public backend::gpu::Runtime {
 
   // what a test may change
   int devices = 1;
-  Cause failure = Cause::other;                ///< what a failing call means
-  std::uint64_t fail_at = 0;                   ///< number of the call that fails, from 1 on; 0: none
-  bool stays_broken = false;                   ///< all calls after it fail, too
+  Cause failure = Cause::other;  ///< what a failing call means
+  std::uint64_t fail_at = 0;     ///< number of the call that fails, from 1 on; 0: none
+  bool stays_broken = false;     ///< all calls after it fail, too
   // what a test may read
   std::uint64_t calls = 0;
-  std::set<int> unusable;                      ///< devices without code
+  std::set<int> unusable;  ///< devices without code
   int graphs_made = 0, graphs_launched = 0;
-  std::size_t pinned_bytes = 0;                ///< all that were ever taken
+  std::size_t pinned_bytes = 0;  ///< all that were ever taken
   std::map<int, int> frames_by_device, launches_by_block_size;
 
   /// What was taken and not given back.
@@ -130,7 +130,7 @@ class StandInCuda final : public backend::gpu::Runtime {
   static constexpr int host = -1;
   struct Taken {
     std::size_t bytes;
-    int device;   ///< whose memory it is, or the host's
+    int device;  ///< whose memory it is, or the host's
   };
   Status take_memory(std::size_t bytes, void*& memory, int device) {
     if (fails()) return failed;
@@ -161,12 +161,14 @@ class StandInCuda final : public backend::gpu::Runtime {
     if (next == memory_.begin()) return false;
     --next;
     const Taken& taken = next->second;
-    return (taken.device == host || taken.device == device_) && static_cast<const char*>(at) + bytes <= static_cast<const char*>(next->first) + taken.bytes;
+    return (taken.device == host || taken.device == device_) &&
+           static_cast<const char*>(at) + bytes <= static_cast<const char*>(next->first) + taken.bytes;
   }
   /// Whether the frames' arrays are where the kernel can write. (Arguments of their own may still be on their way.)
   [[nodiscard]] bool reaches_output(const backend::gpu::Launch& what) const {
     bool reached = true;
-    flow::each_array(what.common->job.out, [&](const auto* array, ArrayShape, Stage) { reached = reached && (array == nullptr || within(array, 1)); });
+    flow::each_array(what.common->job.out,
+                     [&](const auto* array, ArrayShape, Stage) { reached = reached && (array == nullptr || within(array, 1)); });
     return reached;
   }
   Status later(const std::function<void()>& step) {

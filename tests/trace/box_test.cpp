@@ -24,8 +24,8 @@ struct BoxCase {
 };
 
 struct Slabs {
-  double t = 0;            ///< 0: missed
-  double axis_gap = 0;     ///< how much later the second axis is entered (earlier left): which side is hit is sure where this is large
+  double t = 0;         ///< 0: missed
+  double axis_gap = 0;  ///< how much later the second axis is entered (earlier left): which side is hit is sure where this is large
   int axis = 0;
 };
 
@@ -139,7 +139,7 @@ TEST(box, takes_rays_along_its_axes_with_either_zero) {
   for (int i = 0; i < 200000; ++i) {
     const BoxCase c = random_box(random, i % 4 == 0);
     Vec3 d = aim(c, random);
-    const int zeros = 1 + random.below(6);   // which components are zero: at least one, not all
+    const int zeros = 1 + random.below(6);  // which components are zero: at least one, not all
     for (std::size_t k = 0; k < 3; ++k) {
       if ((zeros >> k) & 1) d[k] = random.uniform() < 0.5 ? 0.0 : -0.0;
     }

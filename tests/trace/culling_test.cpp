@@ -55,7 +55,7 @@ TEST(culling, changes_no_hit_of_any_ray_in_the_rectangle) {
     }
   }
   EXPECT_GT(hits, 200000);
-  EXPECT_LT(kept, all / 2);    // and it does leave something out
+  EXPECT_LT(kept, all / 2);  // and it does leave something out
 }
 
 // Rays that graze an outline, each in a rectangle of its own: the bounds may not be a hair too small.
@@ -73,7 +73,7 @@ TEST(culling, keeps_what_a_ray_grazes) {
     } else if (trial % 3 == 1) {
       const double radius = random.between(0.05, 0.5);
       view.add(shape::Sphere{vec(middle), radius}, origin);
-      const double far = base::length(middle), half = std::asin(radius / far);   // the cone that touches it
+      const double far = base::length(middle), half = std::asin(radius / far);  // the cone that touches it
       const Vec3 axis = base::normalized(middle);
       for (int i = 0; i < 4; ++i) outline.push_back(std::cos(half * (1 - 1e-6)) * axis + std::sin(half * (1 - 1e-6)) * random.across(axis));
     } else {

@@ -61,7 +61,7 @@ TEST(cylinder, is_hit_and_missed_like_the_closed_form_from_outside) {
     const double t = test::first(s);
     const Vec3 d = test::direction(ray), at = c.origin + t * d - c.center, out = at - dot(at, c.axis) * c.axis;
     const double to_cap = std::abs(std::abs(dot(at, c.axis)) - c.half), to_side = std::abs(length(out) - c.radius);
-    if (std::abs(to_cap - to_side) < 1e-4) continue;   // the rim is both
+    if (std::abs(to_cap - to_side) < 1e-4) continue;  // the rim is both
     caps += to_cap < to_side;
     ASSERT_EQ(side, to_cap < to_side ? 1 : 0) << i;
     const double cosine = std::abs(dot(to_cap < to_side ? c.axis : normalized(out), d)) / length(d);

@@ -46,10 +46,12 @@ TEST(nearest, is_the_first_that_brute_force_finds) {
         unsure = unsure || s.clearance < 1e-4;
         const double t = first(s);
         if (t <= 0) continue;
-        if (t < best) second = best, best = t, object = s.object;
-        else second = std::fmin(second, t);
+        if (t < best)
+          second = best, best = t, object = s.object;
+        else
+          second = std::fmin(second, t);
       }
-      if (unsure || second - best < 1e-4 * best) continue;   // outlines and touching things: rounding may decide
+      if (unsure || second - best < 1e-4 * best) continue;  // outlines and touching things: rounding may decide
       ++compared;
       objects_seen += object > 0;
       const Found f = look(frozen, ray);

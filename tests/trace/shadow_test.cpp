@@ -78,7 +78,7 @@ TEST(shadow, of_a_lamp_is_where_brute_force_finds_something_between) {
       if (!s.found) continue;
       for (std::size_t l = 0; l < lamps.size(); ++l) {
         const Vec3 p = place_of(s), to_lamp = lamps[l] - p;
-        if (base::dot(normal_of(s), to_lamp) <= 0) continue;   // turned away: dark without a shadow ray
+        if (base::dot(normal_of(s), to_lamp) <= 0) continue;  // turned away: dark without a shadow ray
         const Answer answer = crossed(frozen, p, to_lamp, 1, s.object);
         if (answer == Answer::unsure) continue;
         ++(answer == Answer::dark ? shaded : lit);
@@ -158,8 +158,10 @@ TEST(shadow, is_not_cast_by_a_flat_thing_upon_itself_however_flat_the_light_fall
     const Vec3 n = base::normalized(Vec3{0, 0, -1} + random.point(0.8)), middle{0, 0, 2};
     const Vec3 x = random.across(n), y = base::cross(n, x);
     const bool plane = trial % 2 == 0;
-    if (plane) scene.objects.push_back(object(Plane{middle, n}));
-    else scene.objects.push_back(object(Triangle{{{middle + 9.0 * x, middle - 5.0 * x + 8.0 * y, middle - 5.0 * x - 8.0 * y}}}));
+    if (plane)
+      scene.objects.push_back(object(Plane{middle, n}));
+    else
+      scene.objects.push_back(object(Triangle{{{middle + 9.0 * x, middle - 5.0 * x + 8.0 * y, middle - 5.0 * x - 8.0 * y}}}));
     const double angle = random.between(0, 2 * pi), rise = random.scale(1e-5, 1e-2);
     const Vec3 lamp = middle + 2.0 * std::cos(angle) * x + 2.0 * std::sin(angle) * y + rise * n;
     const scene::FrozenScene frozen(scene, {lamp}, 1);
@@ -201,15 +203,17 @@ struct Closed {
   Vec3 center;
   double size;
   Vec3 lamp;
-  bool body_dark;          ///< what the camera sees of the body
-  bool wall_dark;          ///< the wall, where the camera sees it
+  bool body_dark;  ///< what the camera sees of the body
+  bool wall_dark;  ///< the wall, where the camera sees it
 };
 
 Scene closed_scene(const Closed& c) {
   Scene scene = wall(4);
   const Vec3 half{c.size, c.size, c.size};
-  if (c.box) scene.objects.push_back(object(Box{c.center - half, c.center + half}));
-  else scene.objects.push_back(object(Sphere{c.center, c.size}));
+  if (c.box)
+    scene.objects.push_back(object(Box{c.center - half, c.center + half}));
+  else
+    scene.objects.push_back(object(Sphere{c.center, c.size}));
   return scene;
 }
 
@@ -248,7 +252,7 @@ TEST(shadow, of_a_closed_body_knows_inside_from_outside) {
 TEST(shadow, inside_a_closed_body_no_sun_shines) {
   for (const bool box : {false, true}) {
     Scene scene = closed_scene({"", box, {0, 0, 0}, 1, {}, true, true});
-    scene.objects.push_back(object(Sphere{{0, 0, 0.6}, 0.1}));   // something else inside
+    scene.objects.push_back(object(Sphere{{0, 0, 0.6}, 0.1}));  // something else inside
     scene.ambient.direction = Vec3{0.2, 0.1, 1};
     const scene::FrozenScene frozen(scene, {}, 1);
     for (const double x : {-0.5, 0.0, 0.05, 0.4}) {

@@ -20,10 +20,10 @@ double kernel_w(const Vec3& center, double radius, const Vec3& origin, const tes
 
 /// Closed form.
 struct Exact {
-  double impact = 0;       ///< distance of the line from the centre
-  double along = 0;        ///< of the centre, along the unit direction
-  double cosine = 0;       ///< of the angle between ray and normal, where it hits
-  double range = 0;        ///< 0: no hit
+  double impact = 0;  ///< distance of the line from the centre
+  double along = 0;   ///< of the centre, along the unit direction
+  double cosine = 0;  ///< of the angle between ray and normal, where it hits
+  double range = 0;   ///< 0: no hit
   Exact(const Vec3& center, double radius, const Vec3& origin, const Vec3& direction) {
     const Vec3 u = normalized(direction), c = center - origin;
     along = dot(u, c);

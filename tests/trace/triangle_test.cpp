@@ -26,8 +26,8 @@ struct TriangleCase {
 };
 
 struct Reference {
-  double t, least;         ///< along d; smallest barycentric coordinate
-  double cosine;           ///< between ray and normal
+  double t, least;  ///< along d; smallest barycentric coordinate
+  double cosine;    ///< between ray and normal
 };
 
 Reference reference(const TriangleCase& c, const Vec3& d) {
@@ -109,7 +109,7 @@ TEST(triangle, of_no_area_is_left_out_or_harmless) {
   Random random(4);
   for (int i = 0; i < 10000; ++i) {
     TriangleCase c = random_triangle(random, 5);
-    const bool doubled = i % 2 == 0;   // else three vertices on one line, as far as rounding lets them
+    const bool doubled = i % 2 == 0;  // else three vertices on one line, as far as rounding lets them
     c.v[2] = doubled ? c.v[1] : 0.5 * (c.v[0] + c.v[1]);
     double w = 0;
     const bool kept = c.w(test::ray(c.v[1] - c.origin), w);

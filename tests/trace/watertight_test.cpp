@@ -3,7 +3,6 @@
 // From inside a closed mesh every ray hits, however close to a vertex or an edge, and however far the mesh is from zero.
 #include <gtest/gtest.h>
 
-
 #include "support/meshes.h"
 #include "support/random.h"
 #include "support/rays.h"
@@ -79,7 +78,10 @@ TEST_P(Watertight, no_ray_leaves_through_a_vertex) {
 
 TEST_P(Watertight, no_ray_leaves_through_an_edge) {
   const Inside scene(3, GetParam(), 5);
-  struct Edge { int a, b; std::vector<std::size_t> triangles; };
+  struct Edge {
+    int a, b;
+    std::vector<std::size_t> triangles;
+  };
   std::map<std::pair<int, int>, Edge> edges;
   for (std::size_t i = 0; i < scene.mesh.triangles.size(); ++i) {
     const auto& t = scene.mesh.triangles[i];
@@ -109,7 +111,7 @@ TEST(watertight, no_ray_leaves_through_a_vertex_that_it_meets_exactly) {
   Random random(7);
   int missed = 0;
   for (int i = 0; i < 200000; ++i) {
-    const int sides = 4 + random.below(5);   // the tip lies within: no gap reaches half a turn
+    const int sides = 4 + random.below(5);  // the tip lies within: no gap reaches half a turn
     const auto single = [](const Vec3& v) { return test::direction(test::ray(v)); };
     const Vec3 axis = random.direction(), x = random.across(axis), y = cross(axis, x);
     const Vec3 tip = single(random.scale(0.1, 10) * axis);
@@ -119,7 +121,8 @@ TEST(watertight, no_ray_leaves_through_a_vertex_that_it_meets_exactly) {
       const double angle = 2 * std::acos(-1.0) * (k + random.between(-0.3, 0.3)) / sides;
       rim.push_back(single(tip + random.between(0.1, 0.3) * (std::cos(angle) * x + std::sin(angle) * y)));
     }
-    for (std::size_t k = 0; k < rim.size(); ++k) fan.add(shape::Triangle{{test::vec(tip), test::vec(rim[k]), test::vec(rim[(k + 1) % rim.size()])}}, {0, 0, 0});
+    for (std::size_t k = 0; k < rim.size(); ++k)
+      fan.add(shape::Triangle{{test::vec(tip), test::vec(rim[k]), test::vec(rim[(k + 1) % rim.size()])}}, {0, 0, 0});
     const auto forms = fan.forms().of<shape::Triangle>();
     bool hit = false;
     for (int k = 0; k < forms.count; ++k) hit = hit || inverse_range(forms.at[k], test::ray(tip)) > 0;

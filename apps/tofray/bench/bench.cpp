@@ -13,9 +13,9 @@
 #include <set>
 
 #include "backend/cuda/cuda.h"
+#include "bench/experiment.h"
 #include "commands.h"
 #include "console.h"
-#include "bench/experiment.h"
 #include "files/sha256.h"
 #include "progress.h"
 #include "results.h"

@@ -24,7 +24,7 @@ namespace fs = std::filesystem;
 /// What became of one array from A to B.
 struct ArrayDiff {
   std::string name, unit;
-  std::string other;            ///< where values cannot be compared: why
+  std::string other;  ///< where values cannot be compared: why
   std::size_t values = 0, differ = 0;
   double largest = 0;           ///< difference of two finite values
   std::size_t not_numbers = 0;  ///< of those that differ: NaN or infinite in A or B
@@ -34,14 +34,17 @@ struct ArrayDiff {
 struct FileDiff {
   std::string a, b;
   std::vector<ArrayDiff> arrays;
-  [[nodiscard]] bool same() const { return std::all_of(arrays.begin(), arrays.end(), [](const ArrayDiff& one) { return one.same(); }); }
+  [[nodiscard]] bool same() const {
+    return std::all_of(arrays.begin(), arrays.end(), [](const ArrayDiff& one) { return one.same(); });
+  }
 };
 
 struct Diff {
   std::vector<FileDiff> files;
   std::vector<std::string> only_in_a, only_in_b;  ///< names of files
   [[nodiscard]] bool same() const {
-    return only_in_a.empty() && only_in_b.empty() && std::all_of(files.begin(), files.end(), [](const FileDiff& one) { return one.same(); });
+    return only_in_a.empty() && only_in_b.empty() &&
+           std::all_of(files.begin(), files.end(), [](const FileDiff& one) { return one.same(); });
   }
 };
 
@@ -79,7 +82,8 @@ FileDiff diff_of_files(const std::string& a, const std::string& b) {
   FileDiff diff{a, b, {}};
   for (const files::NamedArray& one : before.all()) {
     const files::NpyArray* there = after.find(one.name);
-    diff.arrays.push_back(there != nullptr ? diff_of(one.name, one.array, *there) : ArrayDiff{one.name, {}, "only in the first", 0, 0, 0, 0});
+    diff.arrays.push_back(there != nullptr ? diff_of(one.name, one.array, *there)
+                                           : ArrayDiff{one.name, {}, "only in the first", 0, 0, 0, 0});
     diff.arrays.back().unit = before.unit(one.name);
   }
   for (const files::NamedArray& one : after.all()) {
@@ -93,8 +97,9 @@ Diff diff_of_folders(const std::string& a, const std::string& b) {
   constexpr std::size_t all = std::numeric_limits<std::size_t>::max();
   const std::vector<std::string> here = names_in(a, {".npz", ".npy"}, all), there = names_in(b, {".npz", ".npy"}, all);
   if (here.empty() && there.empty())
-    throw Error(ErrorKind::bad_input, fmt::format("{}: error: there are no arrays in this folder, and none in {}\n  expected .npz or .npy files",
-                                                  base::printable(a), base::printable(b)));
+    throw Error(ErrorKind::bad_input,
+                fmt::format("{}: error: there are no arrays in this folder, and none in {}\n  expected .npz or .npy files",
+                            base::printable(a), base::printable(b)));
   Diff diff;
   std::set_difference(here.begin(), here.end(), there.begin(), there.end(), std::back_inserter(diff.only_in_a));
   std::set_difference(there.begin(), there.end(), here.begin(), here.end(), std::back_inserter(diff.only_in_b));
@@ -114,7 +119,8 @@ std::string text_of(const ArrayDiff& one) {
   if (!one.other.empty()) return one.other;
   if (one.differ == 0) return "same";
   std::string text = fmt::format("{} of {} differ", one.differ, one.values);
-  if (one.differ > one.not_numbers) text += fmt::format(", by up to {:.6g}{}", one.largest, one.unit.empty() || one.unit == "1" ? "" : " " + one.unit);
+  if (one.differ > one.not_numbers)
+    text += fmt::format(", by up to {:.6g}{}", one.largest, one.unit.empty() || one.unit == "1" ? "" : " " + one.unit);
   if (one.not_numbers > 0) text += fmt::format(", {} of them NaN or infinite in one of the two", one.not_numbers);
   return text;
 }
@@ -137,7 +143,11 @@ files::Json json_of(const FileDiff& file) {
     if (!one.other.empty())
       json.set("other", one.other);
     else
-      json.set("values", one.values).set("differ", one.differ).set("largest_difference", one.largest).set("not_finite", one.not_numbers).set("unit", one.unit);
+      json.set("values", one.values)
+          .set("differ", one.differ)
+          .set("largest_difference", one.largest)
+          .set("not_finite", one.not_numbers)
+          .set("unit", one.unit);
     arrays.push(std::move(json));
   }
   return files::Json::object().set("a", file.a).set("b", file.b).set("same", file.same()).set("arrays", std::move(arrays));

@@ -35,7 +35,7 @@ constexpr const char* compiler = "g++ " __VERSION__;
 
 /// A wall at 1 m, without noise and harmonics, on one instruction set or on the GPU.
 struct SelfTest {
-  std::string isa;  ///< or "cuda"
+  std::string isa;     ///< or "cuda"
   double worst_m = 0;  ///< largest |z - 1 m|
   std::size_t pixels = 0, valid = 0;
   bool same = true;   ///< the same z in every bit as scalar code

@@ -35,7 +35,8 @@ Statistics statistics_in(const files::NpyArray& array) {
   out.count = array.count();
   std::vector<T> values(out.count);
   if (out.count > 0) std::memcpy(values.data(), array.bytes.data(), out.count * sizeof(T));
-  if (array.type.kind == 'b') std::transform(values.begin(), values.end(), values.begin(), [](T value) { return static_cast<T>(value != 0); });
+  if (array.type.kind == 'b')
+    std::transform(values.begin(), values.end(), values.begin(), [](T value) { return static_cast<T>(value != 0); });
   if constexpr (std::is_floating_point_v<T>) std::erase_if(values, [](T value) { return !std::isfinite(value); });
   out.invalid = out.count - values.size();
   if (values.empty()) {

@@ -135,8 +135,9 @@ int run_process(const Options& options) {
   frame.truth.z_m = true_z(in.kept, frame.depth);
   stopwatch.lap("process");
   if (const std::vector<std::string> missing = results::missing_arrays(frame, what.npz); !missing.empty())
-    throw Error(ErrorKind::bad_input, fmt::format("{}: error: --arrays asks for {}, and there {}\n  depth is computed, all else has to be in the file",
-                                                  path, base::listed(missing, "and"), missing.size() == 1 ? "is none" : "are none"));
+    throw Error(ErrorKind::bad_input,
+                fmt::format("{}: error: --arrays asks for {}, and there {}\n  depth is computed, all else has to be in the file", path,
+                            base::listed(missing, "and"), missing.size() == 1 ? "is none" : "are none"));
 
   files::OutputFolder folder(options.output.empty() ? in.scene.name + "-depth" : options.output);
   write_frame(folder, what, frame);

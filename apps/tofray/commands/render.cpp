@@ -22,8 +22,8 @@ namespace {
 /// What a run was told, put back from its manifest. What changes no bytes (threads, folder) stays as it was typed now.
 Options recalled(const Options& now, const results::Manifest& manifest) {
   Options options = now;
-  if (!now.words.empty() || !now.set.empty() || !now.mode.empty() || now.seed || now.noise || now.emit ||
-      !now.arrays.empty() || now.compress || now.frames || now.first_frame != 0)
+  if (!now.words.empty() || !now.set.empty() || !now.mode.empty() || now.seed || now.noise || now.emit || !now.arrays.empty() ||
+      now.compress || now.frames || now.first_frame != 0)
     throw Error(ErrorKind::bad_input,
                 "error: --from makes the same bytes again and takes no other scene and no other settings\n"
                 "  with it there may be -o, --threads, --backend, --device, --json and --quiet");
@@ -127,8 +127,9 @@ void say_interrupted(const Options& options, const files::OutputFolder& folder, 
   const std::string listed = fmt::format(", {} lists them\n", (folder.path() / "manifest.json").native());
   std::string kinds;
   for (const std::string& kind : kinds_of(options, frames)) kinds += (kinds.empty() ? " --emit " : ",") + kind;
-  say(all + listed + fmt::format("  the others: the same command with --first-frame {} --frames {}{}\n", next, frames - done,
-                                 kinds_of(options, frames - done) == kinds_of(options, frames) ? "" : kinds));
+  say(all + listed +
+      fmt::format("  the others: the same command with --first-frame {} --frames {}{}\n", next, frames - done,
+                  kinds_of(options, frames - done) == kinds_of(options, frames) ? "" : kinds));
 }
 
 }  // namespace

@@ -66,13 +66,15 @@ Isa choose_isa(Isa wanted) {
       if (named == isa_name(isa)) wanted = isa;
     }
     if (wanted == Isa::best) {
-      throw Error(ErrorKind::bad_input, "error: TOFRAY_ISA=" + std::string(named) + " is unknown\n  expected scalar, scalar_fma, avx2 or avx512");
+      throw Error(ErrorKind::bad_input,
+                  "error: TOFRAY_ISA=" + std::string(named) + " is unknown\n  expected scalar, scalar_fma, avx2 or avx512");
     }
   }
   if (wanted == Isa::best) wanted = can_run(Isa::avx512) ? Isa::avx512 : can_run(Isa::avx2) ? Isa::avx2 : Isa::scalar;
   if (!can_run(wanted)) {
     const std::string who = processor_has(wanted) ? "this build of tofray" : "this processor";
-    throw Error(ErrorKind::device, "error: " + who + " has no " + isa_name(wanted) + "\n  leave TOFRAY_ISA unset, or choose a lesser instruction set");
+    throw Error(ErrorKind::device,
+                "error: " + who + " has no " + isa_name(wanted) + "\n  leave TOFRAY_ISA unset, or choose a lesser instruction set");
   }
   return wanted;
 }

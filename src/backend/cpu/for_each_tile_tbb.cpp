@@ -36,7 +36,8 @@ TileRunner::TileRunner(int threads, std::size_t scratch_bytes)
                      tbb::global_control(tbb::global_control::max_allowed_parallelism,
                                          std::max(static_cast<std::size_t>(threads),
                                                   tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism))),
-                     tbb::task_arena(threads), {}}) {
+                     tbb::task_arena(threads),
+                     {}}) {
   for (int i = 0; i < threads; ++i) impl_->scratch.emplace_back(scratch_bytes);
 }
 

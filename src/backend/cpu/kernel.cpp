@@ -58,7 +58,7 @@ extern "C" std::size_t TOFRAY_KERNEL(const Work* work, Pass pass, int index, voi
         one_tile<F, false>(*work->setup, *work->job, index, scratch);
       }
       break;
-    case Pass::derive: break;   // the host has done it
+    case Pass::derive: break;  // the host has done it
     case Pass::input: run_input(*work, index); break;
     case Pass::flying:
     case Pass::filter:

@@ -16,7 +16,8 @@
 namespace tofray::backend {
 
 void refuse_threads(int threads, int code) {
-  throw Error(ErrorKind::limit, "error: the system refuses " + std::to_string(threads) + " threads: " + std::generic_category().message(code) +
+  throw Error(ErrorKind::limit, "error: the system refuses " + std::to_string(threads) +
+                                    " threads: " + std::generic_category().message(code) +
                                     "\n  fewer need less: --threads 1 needs none beside the one that is there");
 }
 

@@ -24,11 +24,11 @@ struct FrameNumber {
 
 /// Many frames at once. Either all have the same arguments but for their number and place, or each has arguments of its own.
 struct Batch {
-  const FrameNumber* numbers;     ///< [frame] device
-  const FrameArguments* own;      ///< [frame] device; null: the common ones, with frame i's arrays `stride`·i bytes further on
+  const FrameNumber* numbers;  ///< [frame] device
+  const FrameArguments* own;   ///< [frame] device; null: the common ones, with frame i's arrays `stride`·i bytes further on
   std::int64_t stride;
   std::int32_t frames;
-  scene::Derive derive;           ///< what of the scene is derived anew for each frame
+  scene::Derive derive;  ///< what of the scene is derived anew for each frame
 };
 
 }  // namespace tofray::backend::gpu

@@ -17,10 +17,10 @@ std::vector<std::string> usable_gpus() {
   for (int i = 0; i < gpu::count_devices(); ++i) {
     try {
       const gpu::DeviceInfo info = gpu::Device(i).info();
-      out.push_back(std::to_string(i) + ": " + info.name + ", compute capability " + std::to_string(info.major) + "." + std::to_string(info.minor) + ", " +
-                    std::to_string(info.memory_bytes / 1'000'000'000) + " GB");
+      out.push_back(std::to_string(i) + ": " + info.name + ", compute capability " + std::to_string(info.major) + "." +
+                    std::to_string(info.minor) + ", " + std::to_string(info.memory_bytes / 1'000'000'000) + " GB");
     } catch (const gpu::Fault&) {
-      continue;   // the first one's reason is told elsewhere
+      continue;  // the first one's reason is told elsewhere
     }
   }
   return out;
@@ -29,7 +29,8 @@ std::vector<std::string> usable_gpus() {
 int check_block_size(int wanted) {
   if (wanted == 0) return usual_block_size;
   if (wanted < gpu::warp_size || wanted > gpu::max_block_size || wanted % gpu::warp_size != 0) {
-    throw Error(ErrorKind::bad_input, "error: the block size is " + std::to_string(wanted) + "\n  expected a multiple of 32 from 32 to 1024, or 0");
+    throw Error(ErrorKind::bad_input,
+                "error: the block size is " + std::to_string(wanted) + "\n  expected a multiple of 32 from 32 to 1024, or 0");
   }
   return wanted;
 }
@@ -61,7 +62,8 @@ void Cuda::load(const pipeline::Setup& setup) {
   gpu::Packer packer(staged.get(), resident_.memory.get());
   resident_.setup = pack(packer);
   const gpu::Stream stream = device_.stream();
-  device_.check(device_.runtime().copy(resident_.memory.get(), staged.get(), packer.used(), gpu::Way::to_device, stream.get()), "copying the scene to the GPU");
+  device_.check(device_.runtime().copy(resident_.memory.get(), staged.get(), packer.used(), gpu::Way::to_device, stream.get()),
+                "copying the scene to the GPU");
   device_.check(device_.runtime().synchronize(stream.get()), "copying the scene to the GPU");
   int blocks = 0;
   device_.check(device_.runtime().occupancy(pipeline::Pass::pixels, block_size_, blocks), "asking for the occupancy");

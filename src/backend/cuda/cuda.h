@@ -13,9 +13,9 @@ namespace tofray::backend {
 
 /// What stands in the way of computing frames on a GPU.
 struct CudaLack {
-  std::string reason;          ///< one line; empty: nothing does
-  bool gpu_present = false;    ///< there is a GPU, or its driver, so that its owner will want to know the reason
-  std::string gpu;             ///< name of the one that can be used
+  std::string reason;        ///< one line; empty: nothing does
+  bool gpu_present = false;  ///< there is a GPU, or its driver, so that its owner will want to know the reason
+  std::string gpu;           ///< name of the one that can be used
 };
 /// @param device  which GPU, from 0 on; −1: the first one that can be used
 CudaLack why_no_cuda(int device);
@@ -56,7 +56,7 @@ class Cuda final : public Engine {
  private:
   gpu::Device device_;
   int block_size_;
-  double occupancy_ = 0;   ///< how full one multiprocessor is of the kernel that takes the time
+  double occupancy_ = 0;  ///< how full one multiprocessor is of the kernel that takes the time
   gpu::Resident resident_;
   std::deque<gpu::Lane> lanes_;
 };

@@ -45,7 +45,8 @@ class CudaRuntime final : public Runtime {
     char bus_id[32] = "";
     cudaError_t status = cudaGetDeviceProperties(&p, device);
     if (status == cudaSuccess) status = cudaDeviceGetPCIBusId(bus_id, sizeof bus_id, device);
-    if (status == cudaSuccess) info = {p.name, p.major, p.minor, p.multiProcessorCount, p.maxThreadsPerMultiProcessor, p.totalGlobalMem, bus_id};
+    if (status == cudaSuccess)
+      info = {p.name, p.major, p.minor, p.multiProcessorCount, p.maxThreadsPerMultiProcessor, p.totalGlobalMem, bus_id};
     return told(status);
   }
   Status use(int device) override { return told(cudaSetDevice(device)); }
@@ -56,11 +57,14 @@ class CudaRuntime final : public Runtime {
 
   Status allocate(std::size_t bytes, void*& memory) override { return told(cudaMalloc(&memory, bytes)); }
   Status allocate_pinned(std::size_t bytes, void*& memory) override { return told(cudaHostAlloc(&memory, bytes, cudaHostAllocPortable)); }
-  Status create_stream(void*& stream) override { return told(cudaStreamCreateWithFlags(reinterpret_cast<cudaStream_t*>(&stream), cudaStreamNonBlocking)); }
+  Status create_stream(void*& stream) override {
+    return told(cudaStreamCreateWithFlags(reinterpret_cast<cudaStream_t*>(&stream), cudaStreamNonBlocking));
+  }
   Status create_event(void*& event) override { return told(cudaEventCreate(reinterpret_cast<cudaEvent_t*>(&event))); }
 
   Status copy(void* to, const void* from, std::size_t bytes, Way way, void* stream) override {
-    return told(cudaMemcpyAsync(to, from, bytes, way == Way::to_device ? cudaMemcpyHostToDevice : cudaMemcpyDeviceToHost, stream_of(stream)));
+    return told(
+        cudaMemcpyAsync(to, from, bytes, way == Way::to_device ? cudaMemcpyHostToDevice : cudaMemcpyDeviceToHost, stream_of(stream)));
   }
   Status launch(const Launch& what, void* stream) override { return told(launch_kernel(what, stream_of(stream))); }
   Status record(void* event, void* stream) override { return told(cudaEventRecord(static_cast<cudaEvent_t>(event), stream_of(stream))); }
@@ -79,7 +83,9 @@ class CudaRuntime final : public Runtime {
     graph = executable;
     return told(status);
   }
-  Status launch_graph(void* graph, void* stream) override { return told(cudaGraphLaunch(static_cast<cudaGraphExec_t>(graph), stream_of(stream))); }
+  Status launch_graph(void* graph, void* stream) override {
+    return told(cudaGraphLaunch(static_cast<cudaGraphExec_t>(graph), stream_of(stream)));
+  }
 
   void release(void* memory) override { (void)cudaFree(memory); }
   void release_pinned(void* memory) override { (void)cudaFreeHost(memory); }

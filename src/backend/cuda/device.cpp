@@ -19,7 +19,8 @@ Runtime* runtime() { return current_runtime(); }
 Runtime* replace_runtime(Runtime* stand_in) { return std::exchange(current_runtime(), stand_in); }
 
 Fault::Fault(const std::string& reason, bool gpu_present)
-    : Error(ErrorKind::device, "error: no GPU can be used: " + reason + "\n  take the backend cpu, or auto: the results are what they would be"),
+    : Error(ErrorKind::device,
+            "error: no GPU can be used: " + reason + "\n  take the backend cpu, or auto: the results are what they would be"),
       reason_(reason),
       gpu_present_(gpu_present) {}
 
@@ -29,7 +30,8 @@ Device::Device(int number) : runtime_(gpu::runtime()), number_(number) {
   check(runtime_->count_devices(count), "looking for GPUs");
   if (count < 1) throw Fault("there is no GPU", false);
   if (number_ >= count) {
-    throw Fault("there is no GPU number " + std::to_string(number_) + "; the machine has " + std::to_string(count) + ", counted from 0", true);
+    throw Fault("there is no GPU number " + std::to_string(number_) + "; the machine has " + std::to_string(count) + ", counted from 0",
+                true);
   }
   check(runtime_->describe(number_, info_), "asking for its properties");
   use();
@@ -45,12 +47,16 @@ void Device::fail(Status status, const char* doing) const {
   switch (runtime_->cause(status)) {
     case Cause::no_driver: throw Fault("no NVIDIA driver is installed", false);
     case Cause::old_driver:
-      throw Fault("the NVIDIA driver is too old: it knows CUDA " + runtime_->driver_version() + ", this build needs " + runtime_->runtime_version(), true);
+      throw Fault(
+          "the NVIDIA driver is too old: it knows CUDA " + runtime_->driver_version() + ", this build needs " + runtime_->runtime_version(),
+          true);
     case Cause::no_device: throw Fault("there is no GPU", false);
     case Cause::busy: throw Fault(which + " is taken by another program", true);
     case Cause::no_memory: throw Fault(which + " or its host has too little memory (" + doing + ")", true);
     case Cause::no_code:
-      throw Fault("this build has no code for " + which + ", compute capability " + std::to_string(info_.major) + "." + std::to_string(info_.minor), true);
+      throw Fault(
+          "this build has no code for " + which + ", compute capability " + std::to_string(info_.major) + "." + std::to_string(info_.minor),
+          true);
     case Cause::other: break;
   }
   throw Fault(which + " failed while " + doing + ": " + runtime_->text(status), true);
@@ -95,7 +101,7 @@ Device open_device(int number) {
       try {
         return Device(i);
       } catch (const Fault&) {
-        continue;   // the first one's reason is told
+        continue;  // the first one's reason is told
       }
     }
     throw;

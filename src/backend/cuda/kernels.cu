@@ -15,7 +15,9 @@ struct DeviceWarp {
   int lane;
 #if defined(__CUDA_ARCH__)
   template <class Test>
-  TOFRAY_FN std::uint32_t vote(Test test) const { return __ballot_sync(~0u, test(lane)); }
+  TOFRAY_FN std::uint32_t vote(Test test) const {
+    return __ballot_sync(~0u, test(lane));
+  }
   TOFRAY_FN void unite(int, pipeline::Rectangle<float>& seen) const {
     seen.open = __any_sync(~0u, seen.open) != 0;
     for (int apart = warp_size / 2; apart > 0; apart /= 2) {
@@ -28,7 +30,9 @@ struct DeviceWarp {
   TOFRAY_FN static int lowest_bit(std::uint32_t word) { return __ffs(static_cast<int>(word)) - 1; }
 #else
   template <class Test>
-  TOFRAY_FN std::uint32_t vote(Test) const { return 0; }
+  TOFRAY_FN std::uint32_t vote(Test) const {
+    return 0;
+  }
   TOFRAY_FN void unite(int, pipeline::Rectangle<float>&) const {}
   TOFRAY_FN static int lowest_bit(std::uint32_t) { return 0; }
 #endif
@@ -36,7 +40,8 @@ struct DeviceWarp {
 
 /// The block copies a frame's arguments.
 __device__ void copy_arguments(FrameArguments& to, const FrameArguments& from) {
-  for (unsigned i = threadIdx.x; i < sizeof to / 16; i += blockDim.x) reinterpret_cast<uint4*>(&to)[i] = reinterpret_cast<const uint4*>(&from)[i];
+  for (unsigned i = threadIdx.x; i < sizeof to / 16; i += blockDim.x)
+    reinterpret_cast<uint4*>(&to)[i] = reinterpret_cast<const uint4*>(&from)[i];
   __syncthreads();
 }
 
@@ -67,8 +72,8 @@ __global__ void __launch_bounds__(threads) tofray_pixels_own(const Batch batch) 
 
 /// A pass over the images of all frames.
 template <Pass pass>
-__global__ void __launch_bounds__(max_block_size) tofray_pass(const __grid_constant__ FrameArguments common, const Batch batch,
-                                                              const pipeline::Input input) {
+__global__ void __launch_bounds__(max_block_size)
+    tofray_pass(const __grid_constant__ FrameArguments common, const Batch batch, const pipeline::Input input) {
   const int frame = static_cast<int>(blockIdx.y), index = static_cast<int>(blockIdx.x * blockDim.x + threadIdx.x);
   if (batch.own != nullptr) {
     run_pass(pass, batch.own[frame].setup, job_of(batch.own[frame].job, batch.numbers[frame], 0), input, index);
@@ -98,7 +103,8 @@ cudaError_t launch_pixels(const Launch& what, int patches, cudaStream_t stream) 
 }
 
 cudaError_t launch_derive(const Launch& what, cudaStream_t stream) {
-  const auto block = static_cast<unsigned>(what.block_size), units = static_cast<unsigned>(scene::unit_count(what.common->setup.scene, what.batch.derive));
+  const auto block = static_cast<unsigned>(what.block_size),
+             units = static_cast<unsigned>(scene::unit_count(what.common->setup.scene, what.batch.derive));
   tofray_derive<<<dim3((units + block - 1) / block, static_cast<unsigned>(what.batch.frames)), block, 0, stream>>>(what.batch);
   return cudaGetLastError();
 }

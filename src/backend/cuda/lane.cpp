@@ -29,11 +29,13 @@ pipeline::Input packed(Packer& packer, const pipeline::Setup& setup, const pipel
   const std::size_t pixels = static_cast<std::size_t>(setup.lens.width) * static_cast<std::size_t>(setup.lens.height);
   const std::size_t once = pixels * static_cast<std::size_t>(from.moments), lights = static_cast<std::size_t>(setup.scene.lights);
   const std::size_t by_light = once * lights, paths = static_cast<std::size_t>(from.light.paths);
-  const std::size_t phasors = 2 * by_light * static_cast<std::size_t>(setup.phasors.modulations) * static_cast<std::size_t>(from.light.orders);
+  const std::size_t phasors =
+      2 * by_light * static_cast<std::size_t>(setup.phasors.modulations) * static_cast<std::size_t>(from.light.orders);
   const std::size_t raw = pixels * static_cast<std::size_t>(setup.sensor.raw_frames);
   pipeline::Input to = from;
-  to.surface = {packer.put(from.surface.z, once),        packer.put(from.surface.normal, 3 * once), packer.put(from.surface.diffuse, once),
-                packer.put(from.surface.specular, once), packer.put(from.surface.exponent, once),   packer.put(from.surface.object, once),
+  to.surface = {packer.put(from.surface.z, once),          packer.put(from.surface.normal, 3 * once),
+                packer.put(from.surface.diffuse, once),    packer.put(from.surface.specular, once),
+                packer.put(from.surface.exponent, once),   packer.put(from.surface.object, once),
                 packer.put(from.surface.shadow, by_light), packer.put(from.surface.sun_shadow, once)};
   to.light.power = packer.put(from.light.power, from.light.phasor != nullptr ? by_light : once * paths);
   to.light.path_length = packer.put(from.light.path_length, once * paths);
@@ -87,12 +89,12 @@ Lane::Lane(const Device& device, int block_size)
     : device_(device), block_size_(block_size), stream_(device.stream()), begin_(device.event()), end_(device.event()) {}
 
 Lane::~Lane() {
-  if (submitted_) (void)device_.runtime().synchronize(stream_.get());   // memory must not go while the GPU works in it
+  if (submitted_) (void)device_.runtime().synchronize(stream_.get());  // memory must not go while the GPU works in it
 }
 
 /// The frame's arguments as the device sees them, with the scene that stays there.
 void Lane::write_arguments(const pipeline::Setup& setup, FrameArguments& out) const {
-  std::memset(&out, 0, sizeof out);   // so that two of them can be compared byte by byte
+  std::memset(&out, 0, sizeof out);  // so that two of them can be compared byte by byte
   out.setup = resident_->setup;
   out.setup.last_stage = setup.last_stage, out.setup.culling = setup.culling, out.setup.truth_slot = setup.truth_slot;
   out.setup.power = setup.power;
@@ -101,7 +103,7 @@ void Lane::write_arguments(const pipeline::Setup& setup, FrameArguments& out) co
   out.setup.sensor.gain = maps.gain, out.setup.sensor.offset = maps.offset, out.setup.sensor.delay = maps.delay;
   out.setup.sensor.frame = maps.frame;
   out.job = job_;
-  out.job.index_low = out.job.index_high = 0;   // frames have their numbers beside
+  out.job.index_low = out.job.index_high = 0;  // frames have their numbers beside
 }
 
 void Lane::reserve_input(std::size_t bytes) {
@@ -164,11 +166,12 @@ bool Lane::add(const pipeline::Setup& setup, std::uint64_t index) {
     Packer packer(staged() + used_, input_memory() + used_);
     auto& arguments = reinterpret_cast<FrameArguments*>(staged() + arguments_at_)[frames()];
     write_arguments(setup, arguments);
-    auto* const derived = static_cast<unsigned char*>(derived_.get()) + static_cast<std::size_t>(frames()) * derived_bytes(setup.scene, own_);
+    auto* const derived =
+        static_cast<unsigned char*>(derived_.get()) + static_cast<std::size_t>(frames()) * derived_bytes(setup.scene, own_);
     pack_own(*resident_, own_, setup, packer, derived, arguments.setup);
     used_ += align(packer.used());
   }
-  if (frames() == 0) write_arguments(setup, common_);   // where frames have their own, only what is the same for all is read of these
+  if (frames() == 0) write_arguments(setup, common_);  // where frames have their own, only what is the same for all is read of these
   numbers_.push_back({static_cast<std::uint32_t>(index), static_cast<std::uint32_t>(index >> 32)});
   return true;
 }
@@ -229,8 +232,8 @@ void Lane::submit_graph() {
   place(output_.get());
   submitted_ = true, timed_ = false;
   // Arguments of a frame's own are copied by the graph; common ones are part of it.
-  const bool same = graph_.get() != nullptr && captured_own_ == own_ && captured_slab_ == slab_ && captured_used_ == used_ && captured_given_ == given_ &&
-                    (own_ != Own::number || std::memcmp(&captured_, &common_, sizeof common_) == 0);
+  const bool same = graph_.get() != nullptr && captured_own_ == own_ && captured_slab_ == slab_ && captured_used_ == used_ &&
+                    captured_given_ == given_ && (own_ != Own::number || std::memcmp(&captured_, &common_, sizeof common_) == 0);
   if (!same) capture();
   device_.check(device_.runtime().launch_graph(graph_.get(), stream_.get()), "launching a graph");
 }

@@ -13,14 +13,14 @@ namespace tofray::backend::gpu {
 
 /// What the frames of a batch have for themselves.
 enum class Own {
-  number,   ///< their place in the random numbers
-  moving,   ///< and the times at which what moves is seen, the sensor's state and seed
-  scene,    ///< and the camera's pose
+  number,  ///< their place in the random numbers
+  moving,  ///< and the times at which what moves is seen, the sensor's state and seed
+  scene,   ///< and the camera's pose
 };
 
 /// What does not change from frame to frame, on the device.
 struct Resident {
-  pipeline::Setup setup{};   ///< pointers are the device's
+  pipeline::Setup setup{};  ///< pointers are the device's
   DeviceMemory memory;
 };
 
@@ -52,7 +52,9 @@ class Lane {
   [[nodiscard]] int frames() const { return static_cast<int>(numbers_.size()); }
   [[nodiscard]] const Slab& slab() const { return slab_; }
   /// Where frame i is in host memory, after wait().
-  [[nodiscard]] void* received(int i) const { return static_cast<unsigned char*>(received_.get()) + static_cast<std::size_t>(i) * slab_.bytes(); }
+  [[nodiscard]] void* received(int i) const {
+    return static_cast<unsigned char*>(received_.get()) + static_cast<std::size_t>(i) * slab_.bytes();
+  }
   /// Time that the device took from the first kernel to the last, after wait() [s].
   [[nodiscard]] double seconds() const;
 
@@ -79,7 +81,7 @@ class Lane {
   // the batch
   const Resident* resident_ = nullptr;
   pipeline::Job job_{};
-  pipeline::Input given_{};        ///< in device memory; entry 0: from the scene on
+  pipeline::Input given_{};  ///< in device memory; entry 0: from the scene on
   bool submitted_ = false, timed_ = false;
   Own own_ = Own::number;
   int capacity_ = 0;

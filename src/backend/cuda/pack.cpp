@@ -34,7 +34,8 @@ void pack_decoder(Packer& packer, const pipeline::Setup& setup, std::size_t pixe
     m.wiggling = packer.put(m.wiggling, 2 * count_of(from.wiggling_nodes));
   }
   to.modulation = packer.put(static_cast<const camera::DecodeModulation*>(modulations.data()), modulations.size());
-  to.frame = packer.put(from.frame, count_of(setup.sensor.raw_frames)), to.grey_frame = packer.put(from.grey_frame, count_of(from.grey_frames));
+  to.frame = packer.put(from.frame, count_of(setup.sensor.raw_frames)),
+  to.grey_frame = packer.put(from.grey_frame, count_of(from.grey_frames));
   to.delay = packer.put(from.delay, pixels);
 }
 
@@ -46,7 +47,8 @@ std::vector<flow::Bounds> patch_bounds(const camera::LensView& lens) {
     for (int x = 0; x < lens.width; ++x) {
       flow::Bounds& b = out[count_of(y / patch_height * patches_across(lens) + x / patch_width)];
       const std::size_t i = count_of(y) * count_of(lens.width) + count_of(x);
-      b = {std::min(b.x_min, lens.ray_x[i]), std::max(b.x_max, lens.ray_x[i]), std::min(b.y_min, lens.ray_y[i]), std::max(b.y_max, lens.ray_y[i])};
+      b = {std::min(b.x_min, lens.ray_x[i]), std::max(b.x_max, lens.ray_x[i]), std::min(b.y_min, lens.ray_y[i]),
+           std::max(b.y_max, lens.ray_y[i])};
     }
   }
   return out;
@@ -85,7 +87,7 @@ void pack_scene(Packer& packer, const scene::SceneView& from, scene::SceneView& 
   to.materials = packer.put(from.materials, count_of(from.material_count));
   to.light_positions = packer.put(from.light_positions, count_of(from.lights));
   scene::SceneView still = from;
-  still.slots = 0;   // what moves is derived there for each frame, and with it the facets of all
+  still.slots = 0;  // what moves is derived there for each frame, and with it the facets of all
   scene::each_derived(still, scene::Derive::all, [&](auto*& array, std::size_t count) {
     array = const_cast<std::remove_reference_t<decltype(array)>>(packer.put(array, count));
   });

@@ -36,8 +36,8 @@ struct WarpWalk {
   Warp& warp;
   const Form* forms;
   int count, base;
-  const flow::Bounds* within;   ///< null: all of them
-  std::uint32_t left;           ///< those of the 32 from `base` on that are still to come
+  const flow::Bounds* within;  ///< null: all of them
+  std::uint32_t left;          ///< those of the 32 from `base` on that are still to come
 
   TOFRAY_FN bool more() {
     while (left == 0) {
@@ -84,11 +84,14 @@ struct WarpNear {
   flow::Bounds from_light;
   bool all_from_light;
 
-  TOFRAY_FN WarpNear(Warp& w, const flow::Bounds* view) : warp(w), culling(view != nullptr), camera_still{w, view}, camera_moving{w, view} {}
+  TOFRAY_FN WarpNear(Warp& w, const flow::Bounds* view)
+      : warp(w), culling(view != nullptr), camera_still{w, view}, camera_moving{w, view} {}
 
   TOFRAY_FN bool moves(const Setup& s) const { return can_move && s.scene.slots > 0; }
-  TOFRAY_FN bool any(bool mask) const { return warp.vote([&](int) { return mask; }) != 0; }
-  TOFRAY_FN bool can_be_shaded(const Setup&) const { return true; }   // known once the rays to the lights are
+  TOFRAY_FN bool any(bool mask) const {
+    return warp.vote([&](int) { return mask; }) != 0;
+  }
+  TOFRAY_FN bool can_be_shaded(const Setup&) const { return true; }  // known once the rays to the lights are
   /// The rectangle that holds the rays of all lanes from a light to their surfaces.
   TOFRAY_FN void look(int slot, int light, const flow::Ray<float>& ray, bool use) {
     if (!culling) return;

@@ -21,16 +21,16 @@ struct DeviceInfo {
   int processors = 0;             ///< streaming multiprocessors
   int threads_per_processor = 0;  ///< that one of them can hold
   std::size_t memory_bytes = 0;
-  std::string bus_id;             ///< "0000:3b:00.0": its place, the same in every library that counts GPUs in an order of its own
+  std::string bus_id;  ///< "0000:3b:00.0": its place, the same in every library that counts GPUs in an order of its own
 };
 
 /// One kernel over all pixels of `batch.frames` frames.
 struct Launch {
   Pass pass;
   int block_size;
-  const FrameArguments* common;   ///< host memory: goes along as kernel argument
+  const FrameArguments* common;  ///< host memory: goes along as kernel argument
   Batch batch;
-  pipeline::Input input;          ///< device memory
+  pipeline::Input input;  ///< device memory
 };
 
 enum class Way { to_device, to_host };

@@ -28,7 +28,7 @@ class Slab {
   [[nodiscard]] std::size_t count(ArrayShape shape) const;
 
   std::size_t pixels_ = 0, phases_ = 0, bytes_ = 0, shown_bytes_ = 0;
-  std::size_t offset_[flow::array_count] = {};      // +1; 0: no place
+  std::size_t offset_[flow::array_count] = {};  // +1; 0: no place
   std::size_t filtered_offset_ = 0;
 };
 
