@@ -48,13 +48,13 @@ Harmonic real_harmonic(int m, const Waveform& waveform, const Pixel& pixel, doub
 
 std::vector<Harmonic> measured_harmonics(const std::vector<double>& correlation, int count) {
   const auto n = static_cast<int>(correlation.size());
-  if (n < 3) refuse("a measured correlation needs at least 3 samples over its period\n  got " + std::to_string(n));
+  if (n < 3) base::refuse("a measured correlation needs at least 3 samples over its period\n  got " + std::to_string(n));
   std::vector<Harmonic> harmonics;
   for (int m = 1; m < 2 * count && 2 * m < n; m += 2) {
     double real = 0, imaginary = 0;
     for (int k = 0; k < n; ++k) {
       const double value = correlation[static_cast<std::size_t>(k)];
-      if (!std::isfinite(value)) refuse("sample " + std::to_string(k) + " of a measured correlation is not a finite number");
+      if (!std::isfinite(value)) base::refuse("sample " + std::to_string(k) + " of a measured correlation is not a finite number");
       const auto turn = static_cast<int>(static_cast<long long>(m) * k % n);  // reduced exactly, so that long curves lose nothing
       const double angle = 2.0 * pi * turn / n;
       real += value * setup::cos(angle);
@@ -69,13 +69,14 @@ std::vector<Harmonic> measured_harmonics(const std::vector<double>& correlation,
 
 std::vector<Harmonic> correlation_harmonics(const Waveform& waveform, const Pixel& pixel, double modulation_frequency_hz) {
   if (!(modulation_frequency_hz > 0) || std::isinf(modulation_frequency_hz))
-    refuse("a modulation frequency must be above zero\n  got " + std::to_string(modulation_frequency_hz) + " Hz");
-  if (waveform.harmonics < 1) refuse("a waveform needs at least one harmonic\n  got " + std::to_string(waveform.harmonics));
+    base::refuse("a modulation frequency must be above zero\n  got " + std::to_string(modulation_frequency_hz) + " Hz");
+  if (waveform.harmonics < 1) base::refuse("a waveform needs at least one harmonic\n  got " + std::to_string(waveform.harmonics));
   if (waveform.kind == Waveform::Kind::measured) return measured_harmonics(waveform.correlation, waveform.harmonics);
   const bool sine = waveform.kind == Waveform::Kind::sine;
   if (sine && !(waveform.modulation_depth > 0 && waveform.modulation_depth <= 1))
-    refuse("a modulation depth must lie above 0, up to 1\n  got " + std::to_string(waveform.modulation_depth));
-  if (!sine && !(waveform.duty > 0 && waveform.duty < 1)) refuse("a duty must lie between 0 and 1\n  got " + std::to_string(waveform.duty));
+    base::refuse("a modulation depth must lie above 0, up to 1\n  got " + std::to_string(waveform.modulation_depth));
+  if (!sine && !(waveform.duty > 0 && waveform.duty < 1))
+    base::refuse("a duty must lie between 0 and 1\n  got " + std::to_string(waveform.duty));
 
   const double contrast = base::ClampedCurve(pixel.contrast, "the pixel's contrast").evaluate(modulation_frequency_hz);
   const int count = sine ? 1 : waveform.harmonics;

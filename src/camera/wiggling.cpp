@@ -35,8 +35,8 @@ Forward sample(const PhaseResponse& response, int highest_order, int nodes) {
     forward.measured.push_back(phase + value.error_rad);
     const bool grows = i == 0 || forward.measured[static_cast<std::size_t>(i)] > forward.measured[static_cast<std::size_t>(i) - 1];
     if (!(value.slope > 0) || !grows)
-      refuse("the measured phase does not grow with distance throughout, so that no wiggling table can be made\n  near a phase of " +
-             std::to_string(phase) + " rad; the higher harmonics are too strong for these reference phases");
+      base::refuse("the measured phase does not grow with distance throughout, so that no wiggling table can be made\n  near a phase of " +
+                   std::to_string(phase) + " rad; the higher harmonics are too strong for these reference phases");
   }
   return forward;
 }
@@ -61,7 +61,7 @@ double solve(const PhaseResponse& response, double target, double low, double hi
 
 PhaseResponse::PhaseResponse(const std::vector<Harmonic>& harmonics, const std::vector<double>& reference_phases_rad) {
   const auto n = static_cast<double>(reference_phases_rad.size());
-  if (n < 3) refuse("a phase needs at least 3 reference phases\n  got " + std::to_string(reference_phases_rad.size()));
+  if (n < 3) base::refuse("a phase needs at least 3 reference phases\n  got " + std::to_string(reference_phases_rad.size()));
   std::complex<double> first{0, 0};
   for (const Harmonic& h : harmonics) {
     std::complex<double> forward{0, 0}, backward{0, 0};
@@ -73,7 +73,7 @@ PhaseResponse::PhaseResponse(const std::vector<Harmonic>& harmonics, const std::
     leaks_.push_back({h.order, wave * forward / n, std::conj(wave) * backward / n});
     if (h.order == 1) first = wave;
   }
-  if (first == std::complex<double>{0, 0}) refuse("a waveform without its first harmonic measures no phase");
+  if (first == std::complex<double>{0, 0}) base::refuse("a waveform without its first harmonic measures no phase");
   offset_ = setup::atan2(first.imag(), first.real());
   turn_back_ = unit(-offset_);
 }
@@ -95,7 +95,7 @@ PhaseResponse::Value PhaseResponse::at(double phase_rad) const {
 
 std::vector<double> wiggling_correction(const std::vector<Harmonic>& harmonics, const std::vector<double>& reference_phases_rad,
                                         int nodes) {
-  if (nodes < 2) refuse("a wiggling table needs at least 2 nodes\n  got " + std::to_string(nodes));
+  if (nodes < 2) base::refuse("a wiggling table needs at least 2 nodes\n  got " + std::to_string(nodes));
   const PhaseResponse response(harmonics, reference_phases_rad);
   int highest_order = 1;
   for (const Harmonic& h : harmonics) highest_order = std::max(highest_order, h.order);

@@ -10,7 +10,7 @@ target_sources(test_backend PRIVATE $<TARGET_OBJECTS:stand_in>)
 # The device code, as PTX: read, since it cannot be run here. Without nvcc the tests say that they were skipped.
 get_property(nvcc GLOBAL PROPERTY tofray_nvcc)
 get_property(nvcc_flags GLOBAL PROPERTY tofray_nvcc_flags)
-foreach(architecture 75 80 90)
+foreach(architecture 75 90)   # the oldest and the newest that we name
   add_test(NAME ptx_of_sm_${architecture}_rounds_to_nearest
     COMMAND ${CMAKE_COMMAND} -DNVCC=${nvcc} "-DFLAGS=$<JOIN:${nvcc_flags},|>" -DARCHITECTURE=${architecture} -DSOURCE=${CMAKE_SOURCE_DIR}/src/backend/cuda/kernels.cu
       -DFOLDER=${CMAKE_CURRENT_BINARY_DIR}/ptx -P ${CMAKE_CURRENT_SOURCE_DIR}/backend/ptx.cmake)

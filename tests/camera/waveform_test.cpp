@@ -9,7 +9,7 @@
 #include <limits>
 #include <string>
 
-#include "support/statistics.h"
+#include "support/pi.h"
 #include "tofray/error.h"
 
 using tofray::Pixel;

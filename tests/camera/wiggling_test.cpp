@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "support/statistics.h"
+#include "support/pi.h"
 #include "tofray/error.h"
 
 using tofray::camera::Harmonic;

@@ -7,8 +7,8 @@
 
 #include "base/vec.h"
 #include "brdf/list.h"
+#include "support/pi.h"
 #include "support/random.h"
-#include "support/statistics.h"
 
 using namespace tofray;
 using namespace tofray::base;

@@ -5,7 +5,7 @@
 #include <cstddef>
 
 #include "base/vec.h"
-#include "support/statistics.h"
+#include "support/pi.h"
 #include "tofray/tofray.h"
 
 /// Small cameras and scenes, built in code, for closed forms.

@@ -5,11 +5,11 @@
 #include <cstddef>
 #include <vector>
 
+#include "support/pi.h"
+
 /// What tests of random numbers need, in double and without the code under test.
 namespace tofray::test {
 
-constexpr double pi = 3.14159265358979323846;
-constexpr double two_pi = 2 * pi;
 constexpr double c = 299792458.0;  ///< [m/s]
 
 /// Mean and central moments of a stream of numbers, about a guess of the mean so that nothing cancels.
