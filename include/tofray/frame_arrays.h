@@ -72,6 +72,7 @@ enum class ArrayShape {
   row(gt_irradiance_w_m2,  truth, irradiance_w_m2,  float,        image,   power, "W/m2",      "own light on the surface") \
   row(gt_radiance_w_m2_sr, truth, radiance_w_m2_sr, float,        image,   power, "W/(m2 sr)", "own light toward the camera") \
   row(gt_power_w,          truth, power_w,          float,        image,   power, "W",         "own light on the pixel") \
+  row(gt_ambient_e_per_s,  truth, ambient_e_per_s,  float,        image,   power, "e/s",       "ambient light on the pixel, both taps") \
   row(gt_signal_e,         truth, signal_e,         float,        stack,   raw,   "e",         "electrons to expect, both taps, 0 unlit")
 
 // clang-format on

@@ -39,14 +39,15 @@ struct Geometry {
 /// are on the mean.
 struct PixelLight {
   int width = 0, height = 0, moments = 1;
-  std::vector<float> power_w;  ///< [moment][path][height][width] on the pixel, mean of a modulation period of a lit raw frame, 0…1;
-                               ///< with phasors [moment][light][height][width]
-  std::vector<float>
-      path_length_m;  ///< [moment][path][height][width] ℓ from the light to the surface and on to the camera, 0…1e6 (no light: 0)
+  /// [moment][path][height][width] on the pixel, mean of a modulation period of a lit raw frame, 0…1; with phasors
+  /// [moment][light][height][width]
+  std::vector<float> power_w;
+  /// [moment][path][height][width] ℓ from the light to the surface and on to the camera, 0…1e6 (no light: 0)
+  std::vector<float> path_length_m;
   std::vector<int> light_of_path;  ///< [path] which of the camera's lights it comes from; empty: one path of each, in their order
-  std::vector<std::complex<float>>
-      phasor_w;                        ///< [moment][light][modulation frequency][harmonic][height][width], in place of path_length_m; none
-                                       ///< is longer than its power. Harmonics 1, 3, 5 …, as many as there are: the array's size says it
+  /// [moment][light][modulation frequency][harmonic][height][width], in place of path_length_m; none is longer than its power.
+  /// Harmonics 1, 3, 5 …, as many as there are: the array's size says it
+  std::vector<std::complex<float>> phasor_w;
   std::vector<float> ambient_e_per_s;  ///< [moment][height][width] electrons of both taps together, 0…1e20; empty: none
 };
 

@@ -70,6 +70,7 @@ TOFRAY_FN void run_pipeline(const Setup& s, const Job& job, Walk& walk) {
       const F vignetting = camera::vignetting<F>(s.lens, p);
       if (first) pack.exposure = raw::start<F>(s.sensor, p), pack.undisturbed = false;
       const bool anew = walk.find_light(now, q, p, ray, vignetting, pack);  // stages 1 and 2
+      if (now.truth && s.last_stage >= Stage::power) store(job.out.gt_ambient_e_per_s, p, pack.light.ambient_rate);
       if (s.last_stage < Stage::raw) continue;
       if (anew && s.sensor.delay != nullptr) power::delay_by(s.phasors, wanted(s, now, pack.undisturbed), pack.exposure.delay, pack.light);
       for (int k = now.first; k < now.last; ++k) pack.difference[k] = collect(s, job, p, k, pack.light, pack.exposure);  // stage 3

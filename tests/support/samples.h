@@ -185,6 +185,7 @@ inline tofray::Frame sample_frame(int width, int height) {
     truth.irradiance_w_m2.push_back(true_value(0.05 / (z * z)));
     truth.radiance_w_m2_sr.push_back(true_value(0.01 / (z * z)));
     truth.power_w.push_back(true_value(1e-12 / (z * z)));
+    truth.ambient_e_per_s.push_back(none ? 0.F : 6e4F);
   }
   for (std::size_t k = 0; k < phases; ++k) {
     const double f = raw.modulation_frequency_hz[k];
