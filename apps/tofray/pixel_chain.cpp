@@ -10,16 +10,14 @@
 #include "base/text.h"
 #include "camera/frozen_camera.h"
 #include "depth/decode.h"
-#include "num/setup_math.h"
 #include "results.h"
 #include "results/meta_camera.h"
 #include "tofray/error.h"
+#include "tofray/load.h"
 
 namespace tofray::app {
 
 namespace {
-
-namespace setup = num::setup;
 
 std::array<double, 3> triple(const Arrays& arrays, const char* name, std::size_t pixel) {
   return {arrays.at(name, 3 * pixel), arrays.at(name, 3 * pixel + 1), arrays.at(name, 3 * pixel + 2)};
@@ -87,23 +85,28 @@ void read_raw_frames(const Arrays& arrays, std::size_t pixel, PixelChain& out) {
   }
 }
 
-/// Phase and amplitude of each modulation frequency by equation 4.2, in the order in which they first appear.
-void estimate_phases(PixelChain& out) {
-  for (const ChainRawFrame& first : out.raw_frames) {
-    bool known = !first.lit;
-    for (const ChainPhase& before : out.phases) known = known || before.modulation_frequency_hz == first.modulation_frequency_hz;
-    if (known) continue;
-    double real = 0, imaginary = 0, count = 0;
-    for (const ChainRawFrame& k : out.raw_frames) {
-      if (!k.lit || k.modulation_frequency_hz != first.modulation_frequency_hz) continue;
-      real += k.difference_e * setup::cos(k.reference_phase_rad), imaginary -= k.difference_e * setup::sin(k.reference_phase_rad);
-      ++count;
-    }
+/// What decodes the arrays: the camera in `meta`; where there is none, any with their raw frames, whose phases it can estimate, too.
+Camera camera_of(const Arrays& arrays, const PixelChain& chain) {
+  if (arrays.meta().find("camera") != nullptr) return results::camera_of_meta(arrays.meta_text(), arrays.where());
+  Camera any = load_camera("pico-flexx");
+  any.sensor.width = static_cast<int>(arrays.width()), any.sensor.height = static_cast<int>(arrays.height());
+  any.mode.sequence.clear();
+  for (const ChainRawFrame& k : chain.raw_frames)
+    any.mode.sequence.push_back({k.lit, k.modulation_frequency_hz, k.reference_phase_rad, k.integration_time_s});
+  return any;
+}
+
+/// Phase and amplitude of each modulation frequency, as stage 4 estimates them.
+void estimate_phases(const camera::DecoderView& d, PixelChain& out) {
+  std::vector<float> difference;
+  for (const ChainRawFrame& k : out.raw_frames) difference.push_back(static_cast<float>(k.difference_e));
+  for (int i = 0; i < d.modulations; ++i) {
+    const camera::DecodeModulation& m = d.modulation[i];
+    const depth::Estimate<float> e = depth::estimate(d, m, difference.data());
     ChainPhase phase;
-    phase.modulation_frequency_hz = first.modulation_frequency_hz;
-    phase.amplitude_e = 2 / count * std::sqrt(real * real + imaginary * imaginary);
-    phase.measured_turns = std::atan2(imaginary, real) / base::two_pi;
-    phase.measured_turns -= std::floor(phase.measured_turns);
+    phase.modulation_frequency_hz = out.raw_frames[static_cast<std::size_t>(m.raw_frame[0])].modulation_frequency_hz;
+    phase.amplitude_e = static_cast<double>(e.amplitude);
+    phase.measured_turns = std::isfinite(e.amplitude) ? static_cast<double>(e.turns) : std::nan("");
     phase.calibrated_turns = phase.half_wave_m = phase.cycles = phase.half_path_m = std::nan("");
     out.phases.push_back(phase);
   }
@@ -165,18 +168,24 @@ PixelChain pixel_chain(const Arrays& arrays, int u, int v) {
   read_truth(arrays, pixel, chain);
   read_raw_frames(arrays, pixel, chain);
   read_depth(arrays, pixel, chain);
-  estimate_phases(chain);
-  const files::Json* camera = arrays.meta().find("camera");
-  if (camera == nullptr) return chain;
-  const Camera profile = results::camera_of_meta(arrays.meta_text(), arrays.where());
+  if (chain.raw_frames.empty()) return chain;
+  const bool known = arrays.meta().find("camera") != nullptr;
+  const Camera profile = camera_of(arrays, chain);
   if (static_cast<std::size_t>(profile.sensor.width) != arrays.width() ||
-      static_cast<std::size_t>(profile.sensor.height) != arrays.height())
-    throw Error(ErrorKind::bad_input,
-                fmt::format("{}: error: the camera in meta is not the one of the arrays\n  got a sensor of {} x {} and "
-                            "arrays of {} x {} pixels",
-                            base::printable(arrays.where()), profile.sensor.width, profile.sensor.height, arrays.width(), arrays.height()));
-  const camera::FrozenCamera frozen(profile, static_cast<int>(Noise::exact), 0);
-  calibrate(frozen.decoder(), pixel, chain);
+      static_cast<std::size_t>(profile.sensor.height) != arrays.height() || profile.mode.sequence.size() != chain.raw_frames.size())
+    throw Error(
+        ErrorKind::bad_input,
+        fmt::format("{}: error: the camera in meta is not the one of the arrays\n  got a sensor of {} x {} pixels with {} raw frames, "
+                    "and arrays of {} x {} pixels with {}",
+                    base::printable(arrays.where()), profile.sensor.width, profile.sensor.height, profile.mode.sequence.size(),
+                    arrays.width(), arrays.height(), chain.raw_frames.size()));
+  try {
+    const camera::FrozenCamera frozen(profile, static_cast<int>(Noise::exact), 0);
+    estimate_phases(frozen.decoder(), chain);
+    if (known) calibrate(frozen.decoder(), pixel, chain);
+  } catch (const Error&) {
+    if (known) throw;  // without a camera: raw frames of which nobody can tell phases
+  }
   return chain;
 }
 

@@ -151,20 +151,20 @@ class GivenWalk {
     flow::Surface<F> surface{};
     surface.found = F(1.0f) < F(0.0f);
     if (in_.entry == Stage::power) {
-      surface = given_surface(s_, in_.surface, p, now.slot, ray);
+      surface = given_surface(s_, in_.surface, p, now.index, ray);
       hide_outside_lens(vignetting, surface);
       if (s_.last_stage >= Stage::power) {
-        light_up(s_, which, GivenShadows{s_, in_.surface, p, now.slot}, ray, surface, vignetting, pack.light, radiometry);
+        light_up(s_, which, GivenShadows{s_, in_.surface, p, now.index}, ray, surface, vignetting, pack.light, radiometry);
       }
     } else {
       radiometry.irradiance = radiometry.radiance = nan<F>();
       power::clear(s_.phasors, which, pack.light);
       if (in_.light.phasor == nullptr) {
-        given_paths(s_, in_.light, which, p, now.slot, pack.light, radiometry.power);
+        given_paths(s_, in_.light, which, p, now.index, pack.light, radiometry.power);
       } else {
-        given_phasors(s_, in_.light, which, p, now.slot, pack.light, radiometry.power);
+        given_phasors(s_, in_.light, which, p, now.index, pack.light, radiometry.power);
       }
-      pack.light.ambient_rate = given<F>(in_.light.ambient_rate, s_, p, now.slot, 0.0f);
+      pack.light.ambient_rate = given<F>(in_.light.ambient_rate, s_, p, now.index, 0.0f);
     }
     if (now.truth)
       store_truth(

@@ -8,16 +8,16 @@
 /// Stages 1 and 2 of a pack of pixels at one moment: what it sees, and the light it gets from there.
 namespace tofray::pipeline {
 
-/// A time at which the scene is looked at, and the raw frames that are exposed to what it shows.
+/// A time at which the scene is looked at, and the raw frames that are exposed to what it shows: one, or all where nothing moves.
 struct Moment {
-  int first, last;
-  int slot;    ///< what moves is where it is at this time
-  bool truth;  ///< ground truth is that of this moment
+  int first, last;  ///< raw frames, without the last
+  int index;        ///< what moves is where it is at this time
+  bool truth;       ///< ground truth is that of this moment
 };
 
 TOFRAY_FN Moment moment_of(const Setup& s, int moment, int moments) {
   if (moments == 1) return {0, s.sensor.raw_frames, 0, true};
-  return {moment, moment + 1, moment, moment == s.truth_slot};
+  return {moment, moment + 1, moment, moment == s.truth_moment};
 }
 
 /// Light of what stands still may serve all raw frames; other light serves those of its moment.
@@ -35,8 +35,8 @@ TOFRAY_FN flow::Hit<F> see_still(const Setup& s, const Near& near, const flow::R
 
 /// … and of what moves, at the time of one raw frame.
 template <class F, class Near>
-TOFRAY_FN flow::Hit<F> see_moving(const Setup& s, const Near& near, int slot, const flow::Ray<F>& ray, const flow::Hit<F>& still) {
-  return trace::nearest(s.scene.camera_moving(slot), near.camera_moving, ray, still);
+TOFRAY_FN flow::Hit<F> see_moving(const Setup& s, const Near& near, int moment, const flow::Ray<F>& ray, const flow::Hit<F>& still) {
+  return trace::nearest(s.scene.camera_moving(moment), near.camera_moving, ray, still);
 }
 
 /// Outside the lens model a pixel sees nothing; its ray is only a stand-in.
@@ -50,22 +50,22 @@ template <class F, class Near>
 struct ShadowRays {
   const Setup& s;
   Near& near;
-  int slot;
+  int moment;
   bool still, moving;
 
   TOFRAY_FN num::Mask<F> of_light(int l, const flow::Ray<F>& from_light, const flow::Surface<F>& p) {
-    near.look(slot, l, from_light, p.found);
+    near.look(moment, l, from_light, p.found);
     num::Mask<F> dark = F(1.0f) < F(0.0f);
     if (still) dark = trace::blocked(s.scene.light_still(l), near.still_from(l), from_light, p.object);
     if (moving) {
-      dark = dark | trace::blocked(s.scene.light_moving(slot, l), near.moving_from(l), from_light, p.object);
+      dark = dark | trace::blocked(s.scene.light_moving(moment, l), near.moving_from(l), from_light, p.object);
     }
     return dark;
   }
   TOFRAY_FN num::Mask<F> of_sun(const flow::Surface<F>& p) {
     num::Mask<F> dark = F(1.0f) < F(0.0f);
     if (still) dark = trace::blocked_parallel(s.scene.sun_still(), s.power.sun_direction, p);
-    if (moving) dark = dark | trace::blocked_parallel(s.scene.sun_moving(slot), s.power.sun_direction, p);
+    if (moving) dark = dark | trace::blocked_parallel(s.scene.sun_moving(moment), s.power.sun_direction, p);
     return dark;
   }
 };
@@ -88,8 +88,8 @@ TOFRAY_FN void light_up(const Setup& s, const power::Wanted& wanted, Shadows&& s
 
 /// Whether something that moves keeps a light off any of the pixels.
 template <class F, class Near>
-TOFRAY_FN num::Mask<F> in_moving_shadow(const Setup& s, Near& near, int slot, const flow::Surface<F>& p) {
-  ShadowRays<F, Near> shadows{s, near, slot, false, true};
+TOFRAY_FN num::Mask<F> in_moving_shadow(const Setup& s, Near& near, int moment, const flow::Surface<F>& p) {
+  ShadowRays<F, Near> shadows{s, near, moment, false, true};
   num::Mask<F> dark = F(1.0f) < F(0.0f);
   for (int l = 0; l < s.scene.lights; ++l) {
     dark = dark | shadows.of_light(l, power::light_ray(s.lights[l], p), p);
@@ -115,12 +115,12 @@ TOFRAY_FN bool light_of_scene(const Setup& s, const Job& job, Near& near, const 
   if (same && open && undisturbed && !now.truth) return false;
   flow::Surface<F> surface = trace::surface(s.scene, ray, hit);
   hide_outside_lens(vignetting, surface);
-  const bool calm = same && (open || !near.any(in_moving_shadow(s, near, now.slot, surface)));
+  const bool calm = same && (open || !near.any(in_moving_shadow(s, near, now.index, surface)));
   if (calm && undisturbed && !now.truth) return false;
   undisturbed = calm;
   flow::Radiometry<F> radiometry{F(0.0f), F(0.0f), F(0.0f)};
   if (s.last_stage >= Stage::power) {
-    light_up(s, wanted(s, now, calm), ShadowRays<F, Near>{s, near, now.slot, true, moves && !calm}, ray, surface, vignetting, light,
+    light_up(s, wanted(s, now, calm), ShadowRays<F, Near>{s, near, now.index, true, moves && !calm}, ray, surface, vignetting, light,
              radiometry);
   }
   const auto material = [&]() __attribute__((always_inline)) { return trace::material<F>(s.scene, hit); };

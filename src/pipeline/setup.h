@@ -16,9 +16,9 @@ struct Setup {
   camera::PhasorView phasors;
   camera::SensorView sensor;
   camera::DecoderView decoder;
-  std::int32_t truth_slot;  ///< slot of the middle raw frame
-  Stage last_stage;         ///< nothing is done after it
-  std::int32_t culling;     ///< 0: every pixel tests every form
+  std::int32_t truth_moment;  ///< moment of the middle raw frame
+  Stage last_stage;           ///< nothing is done after it
+  std::int32_t culling;       ///< 0: every pixel tests every form
 };
 
 enum class Filter : std::int32_t { none, gaussian, median };

@@ -137,7 +137,7 @@ class TileWalk {
   }
 
   TOFRAY_FN void go_to(const Moment& now) {
-    if constexpr (can_move) see_what_moves(now.slot);
+    if constexpr (can_move) see_what_moves(now.index);
     if (s_.last_stage < Stage::power) return;
     if (!(culled_for_still_ && hits_ == scratch_.still)) {
       for (int l = 0; l < s_.scene.lights; ++l) {
@@ -147,7 +147,7 @@ class TileWalk {
       culled_for_still_ = hits_ == scratch_.still;
     }
     for (int l = 0; can_move && l < s_.scene.lights; ++l) {
-      trace::cull(s_.scene.light_moving(now.slot, l), scratch_.seen.of(l), scratch_.near.light_moving[l]);
+      trace::cull(s_.scene.light_moving(now.index, l), scratch_.seen.of(l), scratch_.near.light_moving[l]);
     }
   }
 
@@ -157,14 +157,14 @@ class TileWalk {
 
  private:
   /// Where nothing that moves is in view, the tile sees what stands still.
-  TOFRAY_FN void see_what_moves(int slot) {
+  TOFRAY_FN void see_what_moves(int moment) {
     hits_ = scratch_.still;
-    trace::cull(s_.scene.camera_moving(slot), view_, scratch_.near.camera_moving);
+    trace::cull(s_.scene.camera_moving(moment), view_, scratch_.near.camera_moving);
     if (scratch_.near.camera_moving.empty()) return;
     hits_ = scratch_.hits;
     for (int q = 0; q < max_packs<F>; ++q) {
       const Pixels p = pixels(q);
-      if (p.count > 0) scratch_.hits[q] = see_moving(s_, scratch_.near, slot, camera::ray<F>(s_.lens, p), scratch_.still[q]);
+      if (p.count > 0) scratch_.hits[q] = see_moving(s_, scratch_.near, moment, camera::ray<F>(s_.lens, p), scratch_.still[q]);
     }
   }
 

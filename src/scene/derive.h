@@ -26,10 +26,10 @@ TOFRAY_FN void derive_facets(const Body<T>& body, const T& seen, Facet* facets) 
 }
 
 /// @param eye     0: the camera; then the lights; then the sun
-/// @param facets  of the group in this slot; null: they are not wanted
-/// @param first   number of the group's first facet in this slot
+/// @param facets  of the group in this moment; null: they are not wanted
+/// @param first   number of the group's first facet in this moment
 template <class T>
-TOFRAY_FN void derive_body(const SceneView& s, const Group& group, int slot, double time, int i, int eye, bool forms, Facet* facets,
+TOFRAY_FN void derive_body(const SceneView& s, const Group& group, int moment, double time, int i, int eye, bool forms, Facet* facets,
                            int first) {
   const int count = group.bodies.of<T>().count;
   const Body<T>& body = group.bodies.of<T>().at[i];
@@ -39,19 +39,19 @@ TOFRAY_FN void derive_body(const SceneView& s, const Group& group, int slot, dou
   if (eye > s.lights) {
     typename T::Along along = seen_along(seen, s.toward_sun);
     along.object = body.object;
-    group.derived.of<T>().along[slot * count + i] = along;
+    group.derived.of<T>().along[moment * count + i] = along;
     return;
   }
   typename T::Form form = seen_from(seen, eye == 0 ? shape::Vec{0, 0, 0} : s.light_positions[eye - 1]);
   form.facet = first + body.facet, form.object = body.object;
-  group.derived.of<T>().forms[(slot * (1 + s.lights) + eye) * count + i] = form;
+  group.derived.of<T>().forms[(moment * (1 + s.lights) + eye) * count + i] = form;
 }
 
 /// Body number `i` of all shapes.
 template <class... T>
-TOFRAY_FN void derive_any(shape::List<T...>, const SceneView& s, const Group& group, int slot, double time, int i, int eye, bool forms,
+TOFRAY_FN void derive_any(shape::List<T...>, const SceneView& s, const Group& group, int moment, double time, int i, int eye, bool forms,
                           Facet* facets, int first) {
-  ((i >= 0 && i < group.bodies.of<T>().count ? derive_body<T>(s, group, slot, time, i, eye, forms, facets, first) : void(),
+  ((i >= 0 && i < group.bodies.of<T>().count ? derive_body<T>(s, group, moment, time, i, eye, forms, facets, first) : void(),
     i -= group.bodies.of<T>().count),
    ...);
 }
@@ -60,7 +60,7 @@ TOFRAY_FN void derive_any(shape::List<T...>, const SceneView& s, const Group& gr
 enum class Derive : std::int32_t { moving, all };
 
 TOFRAY_FN int eyes_of(const SceneView& s) { return 1 + s.lights + (s.has_sun != 0 ? 1 : 0); }
-TOFRAY_FN int moving_units(const SceneView& s) { return s.slots * eyes_of(s) * s.moving.body_count; }
+TOFRAY_FN int moving_units(const SceneView& s) { return s.moments * eyes_of(s) * s.moving.body_count; }
 TOFRAY_FN int unit_count(const SceneView& s, Derive what) {
   return moving_units(s) + (what == Derive::all ? eyes_of(s) : 1) * s.still.body_count;
 }
@@ -69,9 +69,9 @@ TOFRAY_FN int unit_count(const SceneView& s, Derive what) {
 TOFRAY_FN void derive(const SceneView& s, Derive what, int unit) {
   const int eyes = eyes_of(s), moving = moving_units(s);
   if (unit < moving) {
-    const int i = unit % s.moving.body_count, row = unit / s.moving.body_count, eye = row % eyes, slot = row / eyes;
-    const int first = s.still.facet_count + slot * s.moving.facet_count;
-    derive_any(shape::Shapes{}, s, s.moving, slot, s.slot_times[slot], i, eye, true, eye == 0 ? s.facets + first : nullptr, first);
+    const int i = unit % s.moving.body_count, row = unit / s.moving.body_count, eye = row % eyes, moment = row / eyes;
+    const int first = s.still.facet_count + moment * s.moving.facet_count;
+    derive_any(shape::Shapes{}, s, s.moving, moment, s.moment_times[moment], i, eye, true, eye == 0 ? s.facets + first : nullptr, first);
   } else {
     const int i = (unit - moving) % s.still.body_count, eye = (unit - moving) / s.still.body_count;
     derive_any(shape::Shapes{}, s, s.still, 0, 0.0, i, eye, what == Derive::all, eye == 0 ? s.facets : nullptr, 0);
@@ -80,22 +80,22 @@ TOFRAY_FN void derive(const SceneView& s, Derive what, int unit) {
 
 /// Facets of a frame, one at least: where nothing is hit, facet 0 is read all the same, and what it says is thrown away.
 TOFRAY_FN int facet_count(const SceneView& s) {
-  const int count = s.still.facet_count + s.slots * s.moving.facet_count;
+  const int count = s.still.facet_count + s.moments * s.moving.facet_count;
   return count > 0 ? count : 1;
 }
 
 /// Tells place(pointer, count) of the arrays of one group.
 template <class... T, class Place>
-void each_derived(shape::List<T...>, const SceneView& s, Group& group, int slots, Place& place) {
-  ((place(group.derived.of<T>().forms, static_cast<std::size_t>(group.bodies.of<T>().count * (1 + s.lights) * slots)),
-    place(group.derived.of<T>().along, static_cast<std::size_t>(s.has_sun != 0 ? group.bodies.of<T>().count * slots : 0))),
+void each_derived(shape::List<T...>, const SceneView& s, Group& group, int moments, Place& place) {
+  ((place(group.derived.of<T>().forms, static_cast<std::size_t>(group.bodies.of<T>().count * (1 + s.lights) * moments)),
+    place(group.derived.of<T>().along, static_cast<std::size_t>(s.has_sun != 0 ? group.bodies.of<T>().count * moments : 0))),
    ...);
 }
 /// … and of all arrays that derive() fills, in an order that is always the same.
 template <class Place>
 void each_derived(SceneView& s, Derive what, Place&& place) {
   if (what == Derive::all) each_derived(shape::Shapes{}, s, s.still, 1, place);
-  each_derived(shape::Shapes{}, s, s.moving, s.slots, place);
+  each_derived(shape::Shapes{}, s, s.moving, s.moments, place);
   place(s.facets, static_cast<std::size_t>(facet_count(s)));
 }
 

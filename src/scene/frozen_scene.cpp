@@ -56,7 +56,7 @@ CameraFrame camera_frame(const Pose& pose) {
   return {{{cross(down, forward), down, forward}}, pose.position};
 }
 
-FrozenScene::FrozenScene(const Scene& scene, const std::vector<Vec3>& lights, int slots) : sun_(scene.ambient.direction) {
+FrozenScene::FrozenScene(const Scene& scene, const std::vector<Vec3>& lights, int moments) : sun_(scene.ambient.direction) {
   for (const Vec3& light : lights) lights_.push_back(vec(light));
   add_bodies(scene);
   for (const Material& material : scene.materials) {
@@ -66,12 +66,12 @@ FrozenScene::FrozenScene(const Scene& scene, const std::vector<Vec3>& lights, in
   // Facet 0 has a material even where there is nothing to be seen.
   if (materials_.empty()) materials_.emplace_back();
   view_.materials = materials_.data(), view_.material_count = static_cast<std::int32_t>(materials_.size());
-  view_.slots = moves_ ? slots : 0;
+  view_.moments = moves_ ? moments : 0;
   view_.lights = static_cast<std::int32_t>(lights_.size());
   view_.has_sun = sun_.has_value();
   view_.light_positions = lights_.data();
   lay_out();
-  look(scene.camera.pose, std::vector<double>(static_cast<std::size_t>(slots), 0.0));
+  look(scene.camera.pose, std::vector<double>(static_cast<std::size_t>(moments), 0.0));
   derive();
 }
 
@@ -98,17 +98,17 @@ void FrozenScene::lay_out() {
   each_derived(view_, Derive::all, place);
 }
 
-void FrozenScene::look(const Pose& pose, const std::vector<double>& slot_times) {
+void FrozenScene::look(const Pose& pose, const std::vector<double>& moment_times) {
   const CameraFrame now = camera_frame(pose);
   const bool moved = now.rotation != camera_.rotation || now.position != camera_.position;
   still_known_ = still_known_ && !moved;
-  moving_known_ = moving_known_ && !moved && slot_times == slot_times_;
+  moving_known_ = moving_known_ && !moved && moment_times == moment_times_;
   camera_ = now;
-  slot_times_ = slot_times;
+  moment_times_ = moment_times;
   if (sun_) toward_sun_ = camera_.rotation * normalized(-1.0 * *sun_);
   view_.camera = {{{vec(camera_.rotation[0]), vec(camera_.rotation[1]), vec(camera_.rotation[2])}}, vec(camera_.position)};
   view_.toward_sun = vec(toward_sun_);
-  view_.slot_times = slot_times_.data();
+  view_.moment_times = moment_times_.data();
 }
 
 void FrozenScene::derive() {

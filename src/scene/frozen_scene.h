@@ -28,14 +28,14 @@ using BodyLists = shape::ByShape<BodyList>;
 class FrozenScene {
  public:
   /// @param lights     light positions, camera frame [m]
-  /// @param slots      raw frames of a frame
-  FrozenScene(const Scene& scene, const std::vector<Vec3>& lights, int slots);
+  /// @param moments      raw frames of a frame
+  FrozenScene(const Scene& scene, const std::vector<Vec3>& lights, int moments);
   FrozenScene(const FrozenScene&) = delete;
   FrozenScene& operator=(const FrozenScene&) = delete;
 
   /// Where the camera stands and when its raw frames are. Derives nothing.
-  /// @param slot_times  time of each slot [s]
-  void look(const Pose& pose, const std::vector<double>& slot_times);
+  /// @param moment_times  time of each moment [s]
+  void look(const Pose& pose, const std::vector<double>& moment_times);
   /// Forms and facets for the last look(), as far as they are not known.
   void derive();
   [[nodiscard]] const SceneView& view() const { return view_; }
@@ -54,7 +54,7 @@ class FrozenScene {
   bool moves_ = false;
   BodyLists still_, moving_;
   std::vector<shape::Vec> lights_;
-  std::vector<double> slot_times_;
+  std::vector<double> moment_times_;
   std::vector<brdf::MaterialView> materials_;
   std::unique_ptr<unsigned char[]> memory_;  ///< what is derived
   SceneView view_{};

@@ -44,18 +44,18 @@ using Alongs = shape::ByShape<AlongsOf>;
 /// Where a group's forms are.
 template <class T>
 struct DerivedOf {
-  typename T::Form* forms;   ///< [slot][eye][body] eye 0: the camera; then the lights
-  typename T::Along* along;  ///< [slot][body]
+  typename T::Form* forms;   ///< [moment][eye][body] eye 0: the camera; then the lights
+  typename T::Along* along;  ///< [moment][body]
 };
 
-/// Objects that stand still (one slot), or that move (a slot for each raw frame).
+/// Objects that stand still (one moment), or that move (a moment for each raw frame).
 struct Group {
   Bodies bodies;
   shape::ByShape<DerivedOf> derived;
   std::int32_t body_count, facet_count;
 
-  TOFRAY_FN Forms seen_from(int slot, int eye, int eyes) const { return seen_from(shape::Shapes{}, slot * eyes + eye); }
-  TOFRAY_FN Alongs seen_along(int slot) const { return seen_along(shape::Shapes{}, slot); }
+  TOFRAY_FN Forms seen_from(int moment, int eye, int eyes) const { return seen_from(shape::Shapes{}, moment * eyes + eye); }
+  TOFRAY_FN Alongs seen_along(int moment) const { return seen_along(shape::Shapes{}, moment); }
 
  private:
   template <class... T>
@@ -75,24 +75,24 @@ struct Group {
 /// The frozen scene of one frame.
 struct SceneView {
   Group still, moving;
-  Facet* facets;  ///< still ones, then those of slot 0, 1 …
+  Facet* facets;  ///< still ones, then those of moment 0, 1 …
   const brdf::MaterialView* materials;
   const shape::Vec* light_positions;  ///< [light] camera frame [m]
-  const double* slot_times;           ///< [slot] [s]
+  const double* moment_times;         ///< [moment] [s]
   shape::Frame camera;                ///< where the camera stands
   shape::Vec toward_sun;              ///< unit vector, camera frame
-  std::int32_t slots;                 ///< 0: nothing moves; else one for each raw frame
+  std::int32_t moments;               ///< 0: nothing moves; else one for each raw frame
   std::int32_t lights;
   std::int32_t has_sun;  ///< light comes from one direction, too
   std::int32_t material_count;
   std::int32_t any_other_brdf;  ///< than Lambert's;
 
   TOFRAY_FN Forms camera_still() const { return still.seen_from(0, 0, 1 + lights); }
-  TOFRAY_FN Forms camera_moving(int slot) const { return moving.seen_from(slot, 0, 1 + lights); }
+  TOFRAY_FN Forms camera_moving(int moment) const { return moving.seen_from(moment, 0, 1 + lights); }
   TOFRAY_FN Forms light_still(int light) const { return still.seen_from(0, 1 + light, 1 + lights); }
-  TOFRAY_FN Forms light_moving(int slot, int light) const { return moving.seen_from(slot, 1 + light, 1 + lights); }
+  TOFRAY_FN Forms light_moving(int moment, int light) const { return moving.seen_from(moment, 1 + light, 1 + lights); }
   TOFRAY_FN Alongs sun_still() const { return still.seen_along(0); }
-  TOFRAY_FN Alongs sun_moving(int slot) const { return moving.seen_along(slot); }
+  TOFRAY_FN Alongs sun_moving(int moment) const { return moving.seen_along(moment); }
 };
 
 }  // namespace tofray::scene

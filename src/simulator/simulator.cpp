@@ -76,7 +76,7 @@ pipeline::Setup Simulator::Impl::fixed_setup() {
   set_ambient(scene, camera, out.power);
   out.sensor = frozen_camera.sensor(0);
   out.decoder = frozen_camera.decoder();
-  out.truth_slot = static_cast<std::int32_t>(camera.mode.sequence.size() / 2);
+  out.truth_moment = static_cast<std::int32_t>(camera.mode.sequence.size() / 2);
   out.last_stage = options.last_stage;
   out.culling = options.culling;
   set_scene(out);
@@ -121,7 +121,7 @@ void Simulator::Impl::frame(std::uint64_t index, const pipeline::Input* input, F
   if (input == nullptr) {
     set_frame(request);
   } else {
-    setup.scene.slots = 0;  // nothing of what moves need go to a GPU
+    setup.scene.moments = 0;  // nothing of what moves need go to a GPU
     set_sensor(request);
   }
   // What is given of the stage before the entry is known, however early the last one is.

@@ -236,8 +236,24 @@ TEST(hostile_npz, the_camera_of_meta_has_to_be_that_of_the_arrays) {
     views.push_back({one.name, type, one.array.shape, one.array.bytes});
   }
   write(folder / "small.npz", files::npz_bytes(views));
-  expect_refused(attack(folder, {"inspect", "small.npz", "--pixel", "27,21"}), 2, "got a sensor of 2 x 2 and arrays of 28 x 22");
+  expect_refused(attack(folder, {"inspect", "small.npz", "--pixel", "27,21"}), 2, "got a sensor of 2 x 2 pixels with");
   EXPECT_EQ(attack(folder, {"inspect", "out/frame.npz", "--pixel", "27,21"}).code, 0);
+}
+
+TEST(hostile_npz, raw_frames_that_are_fewer_than_the_camera_s_are_bad_input_for_inspect) {
+  const Folder folder;
+  ASSERT_EQ(attack(folder, with_small_sensor({"demo", "-o", "out"})).code, 0);
+  std::vector<files::NamedArray> arrays = files::parse_npz(content(folder / "out" / "frame.npz"), "frame.npz");
+  std::vector<files::NpyView> views;
+  for (auto& one : arrays) {
+    if (!one.array.shape.empty() && one.array.shape[0] == 9) {
+      one.array.bytes.resize(one.array.bytes.size() / 9 * 8);
+      one.array.shape[0] = 8;
+    }
+    views.push_back({one.name, one.array.type, one.array.shape, one.array.bytes});
+  }
+  write(folder / "eight.npz", files::npz_bytes(views));
+  expect_refused(attack(folder, {"inspect", "eight.npz", "--pixel", "7,5"}), 2, "with 9 raw frames, and arrays of 28 x 22 pixels with 8");
 }
 
 TEST(hostile_npz, flags_of_another_kind_are_bad_input) {

@@ -52,7 +52,7 @@ extern "C" std::size_t TOFRAY_KERNEL(const Work* work, Pass pass, int index, voi
   if (work == nullptr) return index != 0 ? sizeof(Scratch<F, true>) : sizeof(Scratch<F, false>);
   switch (pass) {
     case Pass::pixels:
-      if (work->setup->scene.slots > 0) {
+      if (work->setup->scene.moments > 0) {
         one_tile<F, true>(*work->setup, *work->job, index, scratch);
       } else {
         one_tile<F, false>(*work->setup, *work->job, index, scratch);

@@ -78,7 +78,7 @@ gpu::Lane& Cuda::lane(std::size_t i) {
 
 void Cuda::run(const pipeline::Setup& setup, const pipeline::Job& job, const pipeline::Input* input) {
   gpu::Lane& first = lane(0);
-  first.begin(resident_, setup, job, setup.scene.slots > 0 || setup.sensor.drifts != 0 ? gpu::Own::moving : gpu::Own::number, 1, input);
+  first.begin(resident_, setup, job, setup.scene.moments > 0 || setup.sensor.drifts != 0 ? gpu::Own::moving : gpu::Own::number, 1, input);
   first.add(setup, job.index_low | static_cast<std::uint64_t>(job.index_high) << 32);
   first.submit_graph();
   first.wait();

@@ -48,7 +48,7 @@ pipeline::Input packed(Packer& packer, const pipeline::Setup& setup, const pipel
 
 /// What of the scene has to be derived for each frame.
 scene::Derive derive_for(Own own) { return own == Own::scene ? scene::Derive::all : scene::Derive::moving; }
-bool derives(Own own, const scene::SceneView& scene) { return own == Own::scene || (own == Own::moving && scene.slots > 0); }
+bool derives(Own own, const scene::SceneView& scene) { return own == Own::scene || (own == Own::moving && scene.moments > 0); }
 
 /// Gives what is derived for a frame its places from `base` on. @return bytes
 std::size_t place_derived(scene::SceneView& scene, Own own, unsigned char* base) {
@@ -71,7 +71,7 @@ void pack_own(const Resident& resident, Own own, const pipeline::Setup& from, Pa
   pack_raw_frames(packer, from, to.sensor);
   if (!derives(own, from.scene)) return;
   to.scene.camera = from.scene.camera, to.scene.toward_sun = from.scene.toward_sun;
-  to.scene.slot_times = packer.put(from.scene.slot_times, static_cast<std::size_t>(from.scene.slots));
+  to.scene.moment_times = packer.put(from.scene.moment_times, static_cast<std::size_t>(from.scene.moments));
   (void)place_derived(to.scene, own, derived);
 }
 
@@ -96,7 +96,7 @@ Lane::~Lane() {
 void Lane::write_arguments(const pipeline::Setup& setup, FrameArguments& out) const {
   std::memset(&out, 0, sizeof out);  // so that two of them can be compared byte by byte
   out.setup = resident_->setup;
-  out.setup.last_stage = setup.last_stage, out.setup.culling = setup.culling, out.setup.truth_slot = setup.truth_slot;
+  out.setup.last_stage = setup.last_stage, out.setup.culling = setup.culling, out.setup.truth_moment = setup.truth_moment;
   out.setup.power = setup.power;
   const camera::SensorView& maps = resident_->setup.sensor;
   out.setup.sensor = setup.sensor;

@@ -87,14 +87,14 @@ void pack_scene(Packer& packer, const scene::SceneView& from, scene::SceneView& 
   to.materials = packer.put(from.materials, count_of(from.material_count));
   to.light_positions = packer.put(from.light_positions, count_of(from.lights));
   scene::SceneView still = from;
-  still.slots = 0;  // what moves is derived there for each frame, and with it the facets of all
+  still.moments = 0;  // what moves is derived there for each frame, and with it the facets of all
   scene::each_derived(still, scene::Derive::all, [&](auto*& array, std::size_t count) {
     array = const_cast<std::remove_reference_t<decltype(array)>>(packer.put(array, count));
   });
   to.still.derived = still.still.derived;
   to.facets = still.facets;
   to.moving.derived = {};
-  to.slot_times = nullptr;
+  to.moment_times = nullptr;
 }
 
 }  // namespace tofray::backend::gpu

@@ -87,17 +87,17 @@ struct WarpNear {
   TOFRAY_FN WarpNear(Warp& w, const flow::Bounds* view)
       : warp(w), culling(view != nullptr), camera_still{w, view}, camera_moving{w, view} {}
 
-  TOFRAY_FN bool moves(const Setup& s) const { return can_move && s.scene.slots > 0; }
+  TOFRAY_FN bool moves(const Setup& s) const { return can_move && s.scene.moments > 0; }
   TOFRAY_FN bool any(bool mask) const {
     return warp.vote([&](int) { return mask; }) != 0;
   }
   TOFRAY_FN bool can_be_shaded(const Setup&) const { return true; }  // known once the rays to the lights are
   /// The rectangle that holds the rays of all lanes from a light to their surfaces.
-  TOFRAY_FN void look(int slot, int light, const flow::Ray<float>& ray, bool use) {
+  TOFRAY_FN void look(int moment, int light, const flow::Ray<float>& ray, bool use) {
     if (!culling) return;
     pipeline::Rectangle<float> seen;
     seen.add(ray.x, ray.y, ray.z, use);
-    warp.unite(slot * flow::max_lights + light, seen);
+    warp.unite(moment * flow::max_lights + light, seen);
     all_from_light = seen.open;
     from_light = seen.bounds();
   }
@@ -120,7 +120,7 @@ class PixelWalk {
   TOFRAY_FN Pixels pixels(int) const { return pixels_; }
   TOFRAY_FN pipeline::Pack<float>& pack(int) { return pack_; }
   TOFRAY_FN void go_to(const pipeline::Moment& now) {
-    if (near_.moves(s_)) hit_ = pipeline::see_moving(s_, near_, now.slot, camera::ray<float>(s_.lens, pixels_), still_);
+    if (near_.moves(s_)) hit_ = pipeline::see_moving(s_, near_, now.index, camera::ray<float>(s_.lens, pixels_), still_);
   }
   TOFRAY_FN bool find_light(const pipeline::Moment& now, int, const Pixels& p, const flow::Ray<float>& ray, float vignetting,
                             pipeline::Pack<float>& pack) {
