@@ -96,11 +96,11 @@ Camera camera_of(const Arrays& arrays, const PixelChain& chain) {
   return any;
 }
 
-/// Phase and amplitude of each modulation frequency, as stage 4 estimates them.
+/// Phase and amplitude of each modulation frequency, as stage 4 estimates them. (Its decoder has one without raw frames where none is lit.)
 void estimate_phases(const camera::DecoderView& d, PixelChain& out) {
   std::vector<float> difference;
   for (const ChainRawFrame& k : out.raw_frames) difference.push_back(static_cast<float>(k.difference_e));
-  for (int i = 0; i < d.modulations; ++i) {
+  for (int i = 0; i < d.modulations && d.modulation[i].count > 0; ++i) {
     const camera::DecodeModulation& m = d.modulation[i];
     const depth::Estimate<float> e = depth::estimate(d, m, difference.data());
     ChainPhase phase;
