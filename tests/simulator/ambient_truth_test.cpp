@@ -10,12 +10,6 @@ using namespace tofray::test;
 
 namespace {
 
-Scene sunny_wall(double reflectivity) {
-  Scene scene = wall(1, reflectivity);
-  scene.ambient.spectrum = Ambient::Spectrum::sun_am15, scene.ambient.amount = 0.2;
-  return scene;
-}
-
 /// An unlit raw frame of 3 ms before the lit ones; wells that nothing fills.
 Camera camera_with_grey_frame() {
   Camera camera = lit_camera(33, 9, 40);

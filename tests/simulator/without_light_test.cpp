@@ -16,12 +16,7 @@ namespace {
 constexpr Isa every_isa[] = {Isa::scalar, Isa::scalar_fma, Isa::avx2, Isa::avx512};
 constexpr Noise every_noise[] = {Noise::off, Noise::fast, Noise::exact};
 
-/// A matt wall at 1 m in even sunlight, 33 × 9 pixels, a grey raw frame of 1 ms and one of 3 ms before the lit ones, noisy and offset.
-Scene sunny_wall() {
-  Scene scene = wall(1, 0.5);
-  scene.ambient.spectrum = Ambient::Spectrum::sun_am15, scene.ambient.amount = 0.2;
-  return scene;
-}
+/// 33 × 9 pixels, a grey raw frame of 1 ms and one of 3 ms before the lit ones, noisy and offset.
 Camera grey_camera() {
   Camera camera = lit_camera(33, 9, 40);
   camera.mode.sequence.insert(camera.mode.sequence.begin(), {{false, 0, 0, 1e-3}, {false, 0, 0, 3e-3}});

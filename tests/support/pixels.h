@@ -62,6 +62,13 @@ inline Scene wall(double z, double reflectivity = 1) {
   return scene;
 }
 
+/// A matt wall at 1 m in even sunlight.
+inline Scene sunny_wall(double reflectivity = 0.5) {
+  Scene scene = wall(1, reflectivity);
+  scene.ambient.spectrum = Ambient::Spectrum::sun_am15, scene.ambient.amount = 0.2;
+  return scene;
+}
+
 /// Frame 0 without noise, on one thread.
 inline Frame expected_frame(const Scene& scene, const Camera& camera) {
   SimulatorOptions options;
