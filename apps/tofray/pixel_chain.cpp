@@ -12,6 +12,7 @@
 #include "depth/decode.h"
 #include "results.h"
 #include "results/meta_camera.h"
+#include "simulator/check.h"
 #include "tofray/error.h"
 #include "tofray/load.h"
 
@@ -180,6 +181,7 @@ PixelChain pixel_chain(const Arrays& arrays, int u, int v) {
                     base::printable(arrays.where()), profile.sensor.width, profile.sensor.height, profile.mode.sequence.size(),
                     arrays.width(), arrays.height(), chain.raw_frames.size()));
   try {
+    if (!known) simulator::check(profile);  // its raw frames come from arrays that anybody can write
     const camera::FrozenCamera frozen(profile, static_cast<int>(Noise::exact), 0);
     estimate_phases(frozen.decoder(), chain);
     if (known) calibrate(frozen.decoder(), pixel, chain);

@@ -5,6 +5,7 @@
 #include <sys/wait.h>
 
 #include <cctype>
+#include <cmath>
 
 #include "base/limits.h"
 #include "base/text.h"
@@ -272,6 +273,25 @@ TEST(hostile_npz, flags_of_another_kind_are_bad_input) {
   }
   EXPECT_EQ(attack(folder, {"inspect", "negative.npz"}).code, 0);
   EXPECT_EQ(attack(folder, {"inspect", "negative.npz", "--pixel", "1,1"}).code, 0);
+}
+
+TEST(hostile_npz, raw_frames_that_no_camera_has_get_no_phases) {
+  const Folder folder;
+  const std::vector<std::uint16_t> codes(4 * 12, 7);
+  const double nan = std::nan("");
+  for (const double hz : {0.0, -80e6, 5e-324, 1e300, nan, static_cast<double>(INFINITY)}) {
+    for (const double reference : {0.0, 1e300, nan}) {
+      const std::vector<double> modulation(4, hz), phase(4, reference), time(4, hz);
+      const std::vector<std::uint8_t> yes(4, 1);
+      write(folder / "odd.npz",
+            files::npz_bytes({files::npy_view("raw", {4, 3, 4}, codes), files::npy_view("lit", {4}, yes),
+                              files::npy_view("modulation_frequency_hz", {4}, modulation),
+                              files::npy_view("reference_phase_rad", {4}, phase), files::npy_view("integration_time_s", {4}, time)}));
+      const Attack result = attack(folder, {"inspect", "odd.npz", "--pixel", "1,1"});
+      EXPECT_EQ(result.code, 0) << hz << " Hz, reference phase " << reference << ": " << result.err;
+      EXPECT_FALSE(has(result.out, "phase  ")) << result.out;
+    }
+  }
 }
 
 TEST(hostile_npz, statistics_take_no_eight_bytes_for_each) {
