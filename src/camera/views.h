@@ -16,6 +16,7 @@ struct LensView {
   const float* inverse_length;  ///< [height][width] 1/|d|
   const float* vignetting;      ///< [height][width] cos⁴α or a table's factor; 0 outside the lens model
   const flow::Bounds* tile;     ///< what each tile of pixels sees
+  bool operator==(const LensView&) const = default;
 };
 
 /// How one light spreads its power over directions: I(θx, θy) [W/sr].
@@ -52,6 +53,7 @@ struct PowerView {
   AmbientLight ambient;
   std::int32_t paper_literal;  ///< 1: the paper's printed formula (power/paper_literal.h)
   float paper_scale;           ///< its constant factor
+  bool operator==(const PowerView&) const = default;
 };
 
 /// When the gate opens, against the first raw frame of its modulation frequency.
@@ -78,6 +80,7 @@ struct ModulationView {
 struct PhasorView {
   std::int32_t modulations, orders;
   const ModulationView* modulation;
+  bool operator==(const PhasorView&) const = default;
 };
 
 /// What a draw with the sensor's keys is for: part of the random counter, beside pixel, raw frame and frame.
@@ -103,6 +106,7 @@ struct SensorView {
   Noise noise;
   float column_noise;  ///< [DN]
   std::int32_t width;  ///< pixels of a row
+  bool operator==(const SensorView&) const = default;
 };
 
 /// The numbers that kernels take from a camera as they are, beside the view that holds them. (Templates: kernel headers know no profile.)
@@ -166,6 +170,7 @@ struct DecoderView {
   float inconsistent_range;
   float flying_near_z, flying_near_limit, flying_far_z, flying_far_limit;
   const float* delay;  ///< [height][width] [s], or null
+  bool operator==(const DecoderView&) const = default;
 };
 
 }  // namespace tofray::camera

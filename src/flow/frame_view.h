@@ -11,6 +11,7 @@ struct FrameView {
 #define TOFRAY_POINTER(name, part, member, element, ...) element* name;
   TOFRAY_IMAGE_ARRAYS(TOFRAY_POINTER)
 #undef TOFRAY_POINTER
+  bool operator==(const FrameView&) const = default;
 };
 
 #define TOFRAY_ONE_MORE(...) +1

@@ -15,6 +15,7 @@ struct Random4 {
 /// A key's ten round keys: both halves grow by Weyl's constants.
 struct RoundKeys {
   std::uint32_t k0[10], k1[10];
+  bool operator==(const RoundKeys&) const = default;
 };
 TOFRAY_FN RoundKeys round_keys(std::uint32_t k0, std::uint32_t k1) {
   RoundKeys keys{};

@@ -19,6 +19,7 @@ struct Setup {
   std::int32_t truth_moment;  ///< moment of the middle raw frame
   Stage last_stage;           ///< nothing is done after it
   std::int32_t culling;       ///< 0: every pixel tests every form
+  bool operator==(const Setup&) const = default;
 };
 
 enum class Filter : std::int32_t { none, gaussian, median };
@@ -31,6 +32,7 @@ struct Job {
   Filter filter;
   std::int32_t filter_radius;
   float filter_weights[33];  ///< Gaussian, [0] the middle
+  bool operator==(const Job&) const = default;
 };
 
 using flow::tile_height;

@@ -23,6 +23,7 @@ template <class T>
 struct BodiesOf {
   const Body<T>* at;
   std::int32_t count;
+  bool operator==(const BodiesOf&) const = default;
 };
 template <class T>
 struct FormsOf {
@@ -46,6 +47,7 @@ template <class T>
 struct DerivedOf {
   typename T::Form* forms;   ///< [moment][eye][body] eye 0: the camera; then the lights
   typename T::Along* along;  ///< [moment][body]
+  bool operator==(const DerivedOf&) const = default;
 };
 
 /// Objects that stand still (one moment), or that move (a moment for each raw frame).
@@ -56,6 +58,7 @@ struct Group {
 
   TOFRAY_FN Forms seen_from(int moment, int eye, int eyes) const { return seen_from(shape::Shapes{}, moment * eyes + eye); }
   TOFRAY_FN Alongs seen_along(int moment) const { return seen_along(shape::Shapes{}, moment); }
+  bool operator==(const Group&) const = default;
 
  private:
   template <class... T>
@@ -93,6 +96,7 @@ struct SceneView {
   TOFRAY_FN Forms light_moving(int moment, int light) const { return moving.seen_from(moment, 1 + light, 1 + lights); }
   TOFRAY_FN Alongs sun_still() const { return still.seen_along(0); }
   TOFRAY_FN Alongs sun_moving(int moment) const { return moving.seen_along(moment); }
+  bool operator==(const SceneView&) const = default;
 };
 
 }  // namespace tofray::scene

@@ -31,7 +31,9 @@ using Shapes = List<Plane, Sphere, Box, Triangle, Cylinder>;
 template <template <class> class Each, class List>
 struct OneForEach;
 template <template <class> class Each, class... T>
-struct OneForEach<Each, List<T...>> : Each<T>... {};
+struct OneForEach<Each, List<T...>> : Each<T>... {
+  bool operator==(const OneForEach&) const = default;
+};
 template <template <class> class Each>
 struct ByShape : OneForEach<Each, Shapes> {
   template <class T>
@@ -42,6 +44,7 @@ struct ByShape : OneForEach<Each, Shapes> {
   TOFRAY_FN const Each<T>& of() const {
     return *this;
   }
+  bool operator==(const ByShape&) const = default;
 };
 
 }  // namespace tofray::shape

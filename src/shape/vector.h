@@ -10,6 +10,7 @@ struct Vec {
   double x, y, z;
   TOFRAY_FN double& operator[](int k) { return k == 0 ? x : k == 1 ? y : z; }
   TOFRAY_FN double operator[](int k) const { return k == 0 ? x : k == 1 ? y : z; }
+  bool operator==(const Vec&) const = default;
 };
 
 TOFRAY_FN Vec operator+(const Vec& a, const Vec& b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
@@ -24,6 +25,7 @@ TOFRAY_FN Vec normalized(const Vec& a) { return (1 / length(a)) * a; }
 /// Rows of a rotation matrix.
 struct Mat {
   Vec row[3];
+  bool operator==(const Mat&) const = default;
 };
 TOFRAY_FN Vec operator*(const Mat& m, const Vec& a) { return {dot(m.row[0], a), dot(m.row[1], a), dot(m.row[2], a)}; }
 /// The transposed matrix times a.
@@ -38,6 +40,7 @@ struct Frame {
   Vec origin;
   TOFRAY_FN Vec point(const Vec& p) const { return axes * (p - origin); }
   TOFRAY_FN Vec direction(const Vec& d) const { return axes * d; }
+  bool operator==(const Frame&) const = default;
 };
 
 /// Where the user puts a thing: turned about its own centre, then shifted. `said` is a vector of the public structs.

@@ -128,11 +128,7 @@ void expect_sane(const Frame& frame) {
 
 class AnyNumbers : public testing::TestWithParam<int> {};
 
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-constexpr int sets = 1250;
-#else
-constexpr int sets = 12500;  // times 8: 100,000 in all
-#endif
+constexpr int sets = often(12500);  // times 8: 100,000 in all
 
 }  // namespace
 
@@ -228,7 +224,7 @@ TEST(any_taps, give_flags_or_finite_numbers) {
     const SimulatorOptions options{.threads = 1, .isa = isa};
     Raw raw = Simulator(scene, camera, options).frame(0).raw;
     raw.raw.clear();
-    for (int round = 0; round < 500; ++round) {
+    for (int round = 0; round < often(500); ++round) {
       Raw any = raw;
       for (int i = 0; i < 20; ++i) {
         std::vector<float>& tap = random.below(2) == 0 ? any.tap_a : any.tap_b;

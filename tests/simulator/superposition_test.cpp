@@ -5,6 +5,7 @@
 
 #include "support/pixels.h"
 #include "support/random.h"
+#include "support/sanitizers.h"
 
 using namespace tofray;
 using namespace tofray::test;
@@ -95,7 +96,7 @@ TEST(reciprocity, light_and_camera_may_change_places) {
     const Vec3 n{static_cast<double>(t.normal[0]), static_cast<double>(t.normal[1]), static_cast<double>(t.normal[2])};
     return static_cast<double>(t.radiance_w_m2_sr[0]) * -n[2] / base::dot(camera_at, camera_at);
   };
-  for (int i = 0; i < 1000; ++i) {
+  for (int i = 0; i < often(1000); ++i) {
     Scene scene;
     const double diffuse = random.between(0, 0.6), specular = random.between(0, 0.4), exponent = random.scale(1, 50);
     scene.materials.push_back({"paint", Material::Brdf::phong, diffuse, specular, exponent});

@@ -21,4 +21,7 @@ constexpr bool with_sanitizers = true;
 constexpr bool with_sanitizers = false;
 #endif
 
+/// How often a test that repeats itself does so: a sanitizer sees in a tenth of it what it would see in all.
+constexpr int often(int times) { return with_sanitizers ? times / 10 : times; }
+
 }  // namespace tofray::test

@@ -14,6 +14,7 @@ using pipeline::Pass;
 struct alignas(16) FrameArguments {
   pipeline::Setup setup;
   pipeline::Job job;
+  bool operator==(const FrameArguments&) const = default;
 };
 static_assert(sizeof(FrameArguments) % 16 == 0, "kernels copy it in words of 16 bytes");
 

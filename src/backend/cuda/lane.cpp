@@ -94,7 +94,7 @@ Lane::~Lane() {
 
 /// The frame's arguments as the device sees them, with the scene that stays there.
 void Lane::write_arguments(const pipeline::Setup& setup, FrameArguments& out) const {
-  std::memset(&out, 0, sizeof out);  // so that two of them can be compared byte by byte
+  out = {};
   out.setup = resident_->setup;
   out.setup.last_stage = setup.last_stage, out.setup.culling = setup.culling, out.setup.truth_moment = setup.truth_moment;
   out.setup.power = setup.power;
@@ -233,7 +233,7 @@ void Lane::submit_graph() {
   submitted_ = true, timed_ = false;
   // Arguments of a frame's own are copied by the graph; common ones are part of it.
   const bool same = graph_.get() != nullptr && captured_own_ == own_ && captured_slab_ == slab_ && captured_used_ == used_ &&
-                    captured_given_ == given_ && (own_ != Own::number || std::memcmp(&captured_, &common_, sizeof common_) == 0);
+                    captured_given_ == given_ && (own_ != Own::number || captured_ == common_);
   if (!same) capture();
   device_.check(device_.runtime().launch_graph(graph_.get(), stream_.get()), "launching a graph");
 }
