@@ -21,8 +21,6 @@ using namespace base;
 namespace setup = num::setup;
 using num::single;
 
-namespace {}  // namespace
-
 FrozenCamera::FrozenCamera(const Camera& camera, int noise, std::uint64_t seed)
     : camera_(with_emitters(camera)), modulations_(modulations_of(camera.mode)) {
   if (camera_.illumination.size() > flow::max_lights) {
@@ -44,6 +42,9 @@ FrozenCamera::FrozenCamera(const Camera& camera, int noise, std::uint64_t seed)
   freeze_phasors();
   freeze_sequence(seed, noise);
   freeze_patterns();
+  const bool quarters =
+      std::none_of(raw_frames_.begin(), raw_frames_.end(), [](const RawFrameView& k) { return k.lit != 0 && k.gate_kind == Gate::other; });
+  phasors_.sums_alone = quarters && lights_.size() == 1 && sensor_.drifts == 0 && sensor_.delay == nullptr;
   freeze_decoder(noise);
 }
 
@@ -130,7 +131,7 @@ void FrozenCamera::freeze_phasors() {
     m.source = sources_.data() + i * lights * orders * 2;
     phasor_modulations_.push_back(m);
   }
-  phasors_ = {static_cast<std::int32_t>(modulations), static_cast<std::int32_t>(orders), phasor_modulations_.data()};
+  phasors_ = {static_cast<std::int32_t>(modulations), static_cast<std::int32_t>(orders), phasor_modulations_.data(), 0};
 }
 
 void FrozenCamera::freeze_sequence(std::uint64_t seed, int noise) {

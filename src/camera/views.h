@@ -80,6 +80,7 @@ struct ModulationView {
 struct PhasorView {
   std::int32_t modulations, orders;
   const ModulationView* modulation;
+  std::int32_t sums_alone;  ///< 1: there is one light, all gates stay at quarter turns and no pixel is late: no order is needed by itself
   bool operator==(const PhasorView&) const = default;
 };
 

@@ -97,6 +97,8 @@ struct Light {
   F signal_rate;   ///< S [e⁻/s]
   F ambient_rate;  ///< [e⁻/s]
   F real[max_modulation_frequencies * max_harmonics], imaginary[max_modulation_frequencies * max_harmonics];
+  /// [j] Re Σ_m Z_jm and Re Σ_m Z_jm·e^{−imπ/2}: what gates at quarter turns correlate with.
+  F in_phase[max_modulation_frequencies], quarter[max_modulation_frequencies];
 };
 
 /// What the truth arrays show of it.

@@ -164,6 +164,7 @@ class GivenWalk {
       } else {
         given_phasors(s_, in_.light, which, p, now.index, pack.light, radiometry.power);
       }
+      power::add_up(s_.phasors, which, pack.light);
       pack.light.ambient_rate = given<F>(in_.light.ambient_rate, s_, p, now.index, 0.0f);
     }
     if (now.truth)

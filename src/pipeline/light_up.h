@@ -79,8 +79,13 @@ TOFRAY_FN void light_up(const Setup& s, const power::Wanted& wanted, Shadows&& s
     const flow::Ray<F> from_light = power::light_ray(s.lights[l], p);
     const auto dark = shadows.of_light(l, from_light, p);
     const flow::Path<F> path = power::received<F>(s.power, s.lights[l], p, ray, from_light, dark, vignetting, radiometry);
-    power::add_path(s.phasors, wanted, l, path, l == 0, light);
+    if (s.phasors.sums_alone != 0) {
+      power::sums_of_path(s.phasors, wanted, l, path, light);
+    } else {
+      power::add_path(s.phasors, wanted, l, path, l == 0, light);
+    }
   }
+  if (s.phasors.sums_alone == 0) power::add_up(s.phasors, wanted, light);
   num::Mask<F> shade = F(1.0f) < F(0.0f);
   if (s.power.ambient == camera::AmbientLight::directional) shade = shadows.of_sun(p);
   light.ambient_rate = s.power.ambient == camera::AmbientLight::none ? F(0.0f) : power::ambient_rate<F>(s.power, p, shade, vignetting);

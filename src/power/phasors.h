@@ -56,6 +56,25 @@ TOFRAY_FN void add_turns(const float* source, F rate, const Turn<F>& turn, F* re
     x = next;
   }
 }
+/// What gates at quarter turns correlate with: sums over the orders, once for all raw frames, as soon as all paths are in. e^{imπ/2} is ±i.
+template <int orders, class F>
+TOFRAY_FN void add_up(const F* real, const F* imaginary, F& in_phase, F& quarter) {
+  in_phase = quarter = F(0.0f);
+  for (int h = 0; h < orders; ++h) in_phase = in_phase + real[h];
+  for (int h = 0; h < orders; h += 2) quarter = quarter + (imaginary[h] - imaginary[h + 1]);
+}
+template <class F>
+TOFRAY_FN void add_up(const camera::PhasorView& s, const Wanted& wanted, Light<F>& light) {
+  for (int j = wanted.first; j < wanted.last; ++j) {
+    const F *real = light.real + j * s.orders, *imaginary = light.imaginary + j * s.orders;
+    if (s.orders <= 4) {
+      add_up<4>(real, imaginary, light.in_phase[j], light.quarter[j]);
+    } else {
+      add_up<flow::max_harmonics>(real, imaginary, light.in_phase[j], light.quarter[j]);
+    }
+  }
+}
+
 template <bool first, class F>
 TOFRAY_FN void add_turns(const camera::PhasorView& s, int j, int l, const Path<F>& path, Light<F>& light) {
   const camera::ModulationView& modulation = s.modulation[j];
@@ -83,6 +102,38 @@ TOFRAY_FN void add_path(const camera::PhasorView& s, const Wanted& wanted, int l
   }
 }
 
+/// The light of a single path, as no more than its sums.
+template <int orders, class F>
+TOFRAY_FN void sums_of_turns(const float* source, F rate, const Turn<F>& turn, F& in_phase, F& quarter) {
+  F x = turn.real * rate, y = turn.imaginary * rate, other = F(0.0f), re = F(0.0f), im = F(0.0f);
+  for (int h = 0; h < orders; ++h) {
+    const F a = F(source[2 * h]), b = F(source[2 * h + 1]);
+    re = re + num::fma(x, a, -(y * b));
+    const F z = num::fma(x, b, y * a);
+    if (h % 2 == 0)
+      other = z;
+    else
+      im = im + (other - z);
+    const F next = num::fnma(y, turn.step_imaginary, x * turn.step_real);
+    y = num::fma(x, turn.step_imaginary, y * turn.step_real);
+    x = next;
+  }
+  in_phase = re, quarter = im;
+}
+template <class F>
+TOFRAY_FN void sums_of_path(const camera::PhasorView& s, const Wanted& wanted, int l, const Path<F>& path, Light<F>& light) {
+  light.signal_rate = path.rate;
+  for (int j = wanted.first; j < wanted.last; ++j) {
+    const float* source = s.modulation[j].source + 2 * l * s.orders;
+    const Turn<F> turn = turn_of(path_turns(s.modulation[j], path.length));
+    if (s.orders <= 4) {
+      sums_of_turns<4>(source, path.rate, turn, light.in_phase[j], light.quarter[j]);
+    } else {
+      sums_of_turns<flow::max_harmonics>(source, path.rate, turn, light.in_phase[j], light.quarter[j]);
+    }
+  }
+}
+
 /// Adds what somebody else has summed: one order of Σ rate·e^{imφ} over paths of light source `l`. (Their rates are added beside.)
 /// @param h  which order, (m − 1)/2
 template <class F>
@@ -93,7 +144,7 @@ TOFRAY_FN void add_phasor(const camera::PhasorView& s, int j, int l, int h, F x,
   imaginary = num::fma(x, F(source[1]), num::fma(y, F(source[0]), imaginary));
 }
 
-/// Turns all phasors by m·2π·f·delay: a pixel that is late by `delay` [s] sees longer paths.
+/// Turns all phasors by m·2π·f·delay, and adds them up again: a pixel that is late by `delay` [s] sees longer paths.
 template <class F>
 TOFRAY_FN void delay_by(const camera::PhasorView& s, const Wanted& wanted, F delay, Light<F>& light) {
   for (int j = wanted.first; j < wanted.last; ++j) {
@@ -109,6 +160,7 @@ TOFRAY_FN void delay_by(const camera::PhasorView& s, const Wanted& wanted, F del
       x = next;
     }
   }
+  add_up(s, wanted, light);
 }
 
 }  // namespace tofray::power

@@ -9,30 +9,28 @@ namespace tofray::raw {
 using flow::Light;
 using num::Mask;
 
-/// D/t_int = Re Σ_m Z_m·e^{imτ} of one raw frame; τ from where the modulation's sources begin. At quarter turns e^{imτ} is ±1 or ±i.  [eq. 3.2]
+/// Re Σ_m Z_m·e^{imτ} at any τ.
 template <int orders, class F>
-TOFRAY_FN F difference_rate(const camera::RawFrameView& frame, const F* real, const F* imaginary) {
+TOFRAY_FN F correlated(const float* gate, const F* real, const F* imaginary) {
   F sum = F(0.0f);
-  switch (frame.gate_kind) {
-    case camera::Gate::in_phase:
-    case camera::Gate::opposite:
-      for (int h = 0; h < orders; ++h) sum = sum + real[h];
-      return frame.gate_kind == camera::Gate::in_phase ? sum : -sum;
-    case camera::Gate::quarter_late:
-    case camera::Gate::quarter_early:
-      for (int h = 0; h < orders; h += 2) sum = sum + (imaginary[h] - imaginary[h + 1]);
-      return frame.gate_kind == camera::Gate::quarter_early ? sum : -sum;
-    case camera::Gate::other: break;
-  }
-  for (int h = 0; h < orders; ++h) {
-    sum = num::fma(real[h], F(frame.gate[2 * h]), num::fnma(imaginary[h], F(frame.gate[2 * h + 1]), sum));
-  }
+  for (int h = 0; h < orders; ++h) sum = num::fma(real[h], F(gate[2 * h]), num::fnma(imaginary[h], F(gate[2 * h + 1]), sum));
   return sum;
 }
+
+/// D/t_int = Re Σ_m Z_m·e^{imτ} of one raw frame; τ from where the modulation's sources begin. At quarter turns e^{imτ} is ±1 or ±i, and the
+/// sums are there already.                                                                                                        [eq. 3.2]
 template <class F>
 TOFRAY_FN F difference_rate(const camera::RawFrameView& frame, int orders, const Light<F>& light) {
-  const F *real = light.real + frame.modulation * orders, *imaginary = light.imaginary + frame.modulation * orders;
-  return orders <= 4 ? difference_rate<4>(frame, real, imaginary) : difference_rate<flow::max_harmonics>(frame, real, imaginary);
+  const int j = frame.modulation;
+  switch (frame.gate_kind) {
+    case camera::Gate::in_phase: return light.in_phase[j];
+    case camera::Gate::opposite: return -light.in_phase[j];
+    case camera::Gate::quarter_early: return light.quarter[j];
+    case camera::Gate::quarter_late: return -light.quarter[j];
+    case camera::Gate::other: break;
+  }
+  const F *real = light.real + j * orders, *imaginary = light.imaginary + j * orders;
+  return orders <= 4 ? correlated<4>(frame.gate, real, imaginary) : correlated<flow::max_harmonics>(frame.gate, real, imaginary);
 }
 
 /// Expected electrons of the two taps.

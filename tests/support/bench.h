@@ -65,6 +65,7 @@ class Bench {
     for (std::size_t l = 0; l < paths.size(); ++l) {
       power::add_path(phasors(), power::all_of(phasors()), static_cast<int>(l), paths[l], l == 0, light);
     }
+    power::add_up(phasors(), power::all_of(phasors()), light);
     return light;
   }
   [[nodiscard]] const camera::DecoderView& decoder() const { return camera_->decoder(); }
