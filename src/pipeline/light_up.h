@@ -80,7 +80,7 @@ TOFRAY_FN void light_up(const Setup& s, const power::Wanted& wanted, Shadows&& s
     const auto dark = shadows.of_light(l, from_light, p);
     const flow::Path<F> path = power::received<F>(s.power, s.lights[l], p, ray, from_light, dark, vignetting, radiometry);
     if (s.phasors.sums_alone != 0) {
-      power::sums_of_path(s.phasors, wanted, l, path, light);
+      power::sums_of_path(s.phasors, wanted, path, light);
     } else {
       power::add_path(s.phasors, wanted, l, path, l == 0, light);
     }

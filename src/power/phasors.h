@@ -102,7 +102,7 @@ TOFRAY_FN void add_path(const camera::PhasorView& s, const Wanted& wanted, int l
   }
 }
 
-/// The light of a single path, as no more than its sums.
+/// The light of a single path from the only source, as no more than its sums.
 template <int orders, class F>
 TOFRAY_FN void sums_of_turns(const float* source, F rate, const Turn<F>& turn, F& in_phase, F& quarter) {
   F x = turn.real * rate, y = turn.imaginary * rate, other = F(0.0f), re = F(0.0f), im = F(0.0f);
@@ -120,17 +120,21 @@ TOFRAY_FN void sums_of_turns(const float* source, F rate, const Turn<F>& turn, F
   }
   in_phase = re, quarter = im;
 }
-template <class F>
-TOFRAY_FN void sums_of_path(const camera::PhasorView& s, const Wanted& wanted, int l, const Path<F>& path, Light<F>& light) {
-  light.signal_rate = path.rate;
+template <int orders, class F>
+TOFRAY_FN void sums_of_orders(const camera::PhasorView& s, const Wanted& wanted, const Path<F>& path, Light<F>& light) {
   for (int j = wanted.first; j < wanted.last; ++j) {
-    const float* source = s.modulation[j].source + 2 * l * s.orders;
-    const Turn<F> turn = turn_of(path_turns(s.modulation[j], path.length));
-    if (s.orders <= 4) {
-      sums_of_turns<4>(source, path.rate, turn, light.in_phase[j], light.quarter[j]);
-    } else {
-      sums_of_turns<flow::max_harmonics>(source, path.rate, turn, light.in_phase[j], light.quarter[j]);
-    }
+    const camera::ModulationView& modulation = s.modulation[j];
+    const Turn<F> turn = turn_of(path_turns(modulation, path.length));
+    sums_of_turns<orders>(modulation.source, path.rate, turn, light.in_phase[j], light.quarter[j]);
+  }
+}
+template <class F>
+TOFRAY_FN void sums_of_path(const camera::PhasorView& s, const Wanted& wanted, const Path<F>& path, Light<F>& light) {
+  light.signal_rate = path.rate;
+  if (s.orders <= 4) {
+    sums_of_orders<4>(s, wanted, path, light);
+  } else {
+    sums_of_orders<flow::max_harmonics>(s, wanted, path, light);
   }
 }
 

@@ -40,7 +40,7 @@ TEST(sums_of_path, have_the_bits_of_the_sums_over_its_orders) {
       flow::Light<float> all{}, sums{};
       power::add_path(s, wanted, 0, path, true, all);
       power::add_up(s, wanted, all);
-      power::sums_of_path(s, wanted, 0, path, sums);
+      power::sums_of_path(s, wanted, path, sums);
       ASSERT_EQ(bits(sums.signal_rate), bits(all.signal_rate));
       for (int j = 0; j < s.modulations; ++j) {
         double in_phase = 0, quarter = 0, size = 0;
