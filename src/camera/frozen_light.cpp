@@ -32,11 +32,15 @@ Table flat_top(const Pattern& p) {
           p.half_range_x_rad > 0 ? p.half_range_x_rad : p.width_rad,
           p.half_range_y_rad > 0 ? p.half_range_y_rad : p.height_rad,
           {}};
-  for (int row = 0; row < t.rows; ++row) {
-    const double y = flat_top_share(2 * t.half_y * ((2 * row + 1.0) / t.rows - 1) / p.height_rad);
-    for (int column = 0; column < t.columns; ++column) {
-      t.samples.push_back(y * flat_top_share(2 * t.half_x * ((2 * column + 1.0) / t.columns - 1) / p.width_rad));
-    }
+  // by axis: a table of all cells takes the product of two shares
+  const auto shares = [](int cells, double half_range, double width) {
+    std::vector<double> out;
+    for (int i = 0; i < cells; ++i) out.push_back(flat_top_share(2 * half_range * ((2 * i + 1.0) / cells - 1) / width));
+    return out;
+  };
+  const std::vector<double> across = shares(t.columns, t.half_x, p.width_rad), down = shares(t.rows, t.half_y, p.height_rad);
+  for (const double y : down) {
+    for (const double x : across) t.samples.push_back(y * x);
   }
   return t;
 }
