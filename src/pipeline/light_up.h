@@ -30,13 +30,13 @@ TOFRAY_FN power::Wanted wanted(const Setup& s, const Moment& now, bool undisturb
 /// Stage 1: the nearest surface, of what stands still.
 template <class F, class Near>
 TOFRAY_FN flow::Hit<F> see_still(const Setup& s, const Near& near, const flow::Ray<F>& ray) {
-  return trace::nearest(s.scene.camera_still(), near.camera_still, ray, flow::Hit<F>{F(0.0f), num::Int<F>(0)});
+  return trace::nearest(near.still_from_camera(s), ray, flow::Hit<F>{F(0.0f), num::Int<F>(0)});
 }
 
 /// … and of what moves, at the time of one raw frame.
 template <class F, class Near>
 TOFRAY_FN flow::Hit<F> see_moving(const Setup& s, const Near& near, int moment, const flow::Ray<F>& ray, const flow::Hit<F>& still) {
-  return trace::nearest(s.scene.camera_moving(moment), near.camera_moving, ray, still);
+  return trace::nearest(near.moving_from_camera(s, moment), ray, still);
 }
 
 /// Outside the lens model a pixel sees nothing; its ray is only a stand-in.
@@ -56,9 +56,9 @@ struct ShadowRays {
   TOFRAY_FN num::Mask<F> of_light(int l, const flow::Ray<F>& from_light, const flow::Surface<F>& p) {
     near.look(moment, l, from_light, p.found);
     num::Mask<F> dark = F(1.0f) < F(0.0f);
-    if (still) dark = trace::blocked(s.scene.light_still(l), near.still_from(l), from_light, p.object);
+    if (still) dark = trace::blocked(near.still_from(s, l), from_light, p.object);
     if (moving) {
-      dark = dark | trace::blocked(s.scene.light_moving(moment, l), near.moving_from(l), from_light, p.object);
+      dark = dark | trace::blocked(near.moving_from(s, moment, l), from_light, p.object);
     }
     return dark;
   }
@@ -107,8 +107,9 @@ TOFRAY_FN num::Mask<F> in_moving_shadow(const Setup& s, Near& near, int moment, 
 ///
 /// Where it sees what stands still and nothing that moves keeps a light off that, its light is the same at all moments, and is kept.
 ///
-/// @param near   what the pixels can meet. It knows moves(s); any(mask), whether it is true for any pixel that goes the same way;
-///               can_be_shaded(s), false where nothing that moves can stand before a light; and look(…), which is told of each shadow ray
+/// @param near   what the pixels can meet: still_from_camera(s), moving_from_camera(s, moment), and from each light. It knows moves(s);
+///               any(mask), whether it is true for any pixel that goes the same way; can_be_shaded(s), false where nothing that moves can
+///               stand before a light; and look(…), which is told of each shadow ray
 /// @param still  what they would hit if nothing moved
 /// @return false where `light` is as it was
 template <class F, class Near>

@@ -97,8 +97,10 @@ struct Near {
   /// What `light` can see of the pixels is known before they are lit: nothing to do for the ray that goes to one of them.
   template <class F>
   TOFRAY_FN void look(int, int, const flow::Ray<F>&, num::Mask<F>) const {}
-  TOFRAY_FN const trace::Culled& still_from(int light) const { return light_still[light]; }
-  TOFRAY_FN const trace::Culled& moving_from(int light) const { return light_moving[light]; }
+  TOFRAY_FN const trace::Culled& still_from_camera(const Setup&) const { return camera_still; }
+  TOFRAY_FN const trace::Culled& moving_from_camera(const Setup&, int) const { return camera_moving; }
+  TOFRAY_FN const trace::Culled& still_from(const Setup&, int light) const { return light_still[light]; }
+  TOFRAY_FN const trace::Culled& moving_from(const Setup&, int, int light) const { return light_moving[light]; }
 };
 
 /// Scratch memory of one worker.

@@ -16,17 +16,20 @@ struct Picked {
 };
 
 /// A way through the forms that are left, in their order.
+template <class Form>
 struct Walk {
   const Picked& picked;
+  const Form* forms;
   int i;
   TOFRAY_FN bool more() const { return i < picked.count; }
-  TOFRAY_FN int index() const { return picked.at(i); }
+  TOFRAY_FN const Form& form() const { return forms[picked.at(i)]; }
   TOFRAY_FN void next() { ++i; }
 };
 
 template <class T>
 struct PickedOf {
   Picked picked;
+  const typename T::Form* forms;
 };
 
 /// What is left of all shapes. (Another type with these walks can stand in its place.)
@@ -34,8 +37,8 @@ struct Culled : shape::ByShape<PickedOf> {
   TOFRAY_FN bool empty() const { return count(shape::Shapes{}) == 0; }
   TOFRAY_FN int count() const { return count(shape::Shapes{}); }
   template <class T>
-  TOFRAY_FN Walk walk(const scene::FormsOf<T>&) const {
-    return {of<T>().picked, 0};
+  TOFRAY_FN Walk<typename T::Form> walk() const {
+    return {of<T>().picked, of<T>().forms, 0};
   }
 
  private:
@@ -46,7 +49,9 @@ struct Culled : shape::ByShape<PickedOf> {
 };
 
 template <class T>
-TOFRAY_FN void pick(const scene::FormsOf<T>& forms, const scene::Bounds* r, Picked& out) {
+TOFRAY_FN void pick(const scene::FormsOf<T>& forms, const scene::Bounds* r, PickedOf<T>& picked) {
+  Picked& out = picked.picked;
+  picked.forms = forms.at;
   out.everything = r == nullptr;
   out.count = r == nullptr ? forms.count : 0;
   for (int i = 0; i < forms.count && !out.everything; ++i) {
@@ -62,7 +67,7 @@ TOFRAY_FN void pick(const scene::FormsOf<T>& forms, const scene::Bounds* r, Pick
 
 template <class... T>
 TOFRAY_FN void cull_each(shape::List<T...>, const scene::Forms& forms, const scene::Bounds* rectangle, Culled& out) {
-  (pick(forms.of<T>(), rectangle, out.of<T>().picked), ...);
+  (pick<T>(forms.of<T>(), rectangle, out.of<T>()), ...);
 }
 
 /// For rays d = (x, y, 1) with (x, y) in `rectangle`; a null pointer keeps everything.

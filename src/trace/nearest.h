@@ -27,10 +27,10 @@ TOFRAY_FN F hit_of(const typename T::Form& form, const Ray<F>& ray, Int<F>& face
 }
 
 template <class T, class F, class Culled>
-TOFRAY_FN void nearest_of(const scene::FormsOf<T>& forms, const Culled& culled, const Ray<F>& ray, Hit<F>& hit) {
-  for (auto i = culled.walk(forms); i.more(); i.next()) {
+TOFRAY_FN void nearest_of(const Culled& culled, const Ray<F>& ray, Hit<F>& hit) {
+  for (auto i = culled.template walk<T>(); i.more(); i.next()) {
     Int<F> facet;
-    const F w = hit_of<T>(forms.at[i.index()], ray, facet);
+    const F w = hit_of<T>(i.form(), ray, facet);
     const auto nearer = w > hit.w;
     hit.facet = num::select(nearer, facet, hit.facet);
     hit.w = num::select(nearer, w, hit.w);
@@ -38,14 +38,14 @@ TOFRAY_FN void nearest_of(const scene::FormsOf<T>& forms, const Culled& culled, 
 }
 
 template <class... T, class F, class Culled>
-TOFRAY_FN void nearest_of_each(shape::List<T...>, const scene::Forms& forms, const Culled& culled, const Ray<F>& ray, Hit<F>& hit) {
-  (nearest_of(forms.of<T>(), culled, ray, hit), ...);
+TOFRAY_FN void nearest_of_each(shape::List<T...>, const Culled& culled, const Ray<F>& ray, Hit<F>& hit) {
+  (nearest_of<T>(culled, ray, hit), ...);
 }
 
 /// The nearer of `hit` and the forms in `culled`; of two at the same place the first one stays.
 template <class F, class Culled>
-TOFRAY_FN Hit<F> nearest(const scene::Forms& forms, const Culled& culled, const Ray<F>& ray, Hit<F> hit) {
-  nearest_of_each(shape::Shapes{}, forms, culled, ray, hit);
+TOFRAY_FN Hit<F> nearest(const Culled& culled, const Ray<F>& ray, Hit<F> hit) {
+  nearest_of_each(shape::Shapes{}, culled, ray, hit);
   return hit;
 }
 

@@ -23,10 +23,10 @@ TOFRAY_FN Mask<F> shaded(const Form& form, Mask<F> hits, Int<F> own) {
 }
 
 template <class T, class F, class Culled>
-TOFRAY_FN Mask<F> blocked_by(const scene::FormsOf<T>& forms, const Culled& culled, const Ray<F>& ray, Int<F> own, Mask<F> dark) {
+TOFRAY_FN Mask<F> blocked_by(const Culled& culled, const Ray<F>& ray, Int<F> own, Mask<F> dark) {
   const F limit = F(1.0f + shadow_margin);
-  for (auto i = culled.walk(forms); i.more(); i.next()) {
-    const typename T::Form& form = forms.at[i.index()];
+  for (auto i = culled.template walk<T>(); i.more(); i.next()) {
+    const typename T::Form& form = i.form();
     Int<F> facet;
     dark = dark | shaded<T, F>(form, hit_of<T>(form, ray, facet) > limit, own);
   }
@@ -34,16 +34,16 @@ TOFRAY_FN Mask<F> blocked_by(const scene::FormsOf<T>& forms, const Culled& culle
 }
 
 template <class... T, class F, class Culled>
-TOFRAY_FN Mask<F> blocked_by_each(shape::List<T...>, const scene::Forms& forms, const Culled& culled, const Ray<F>& ray, Int<F> own) {
+TOFRAY_FN Mask<F> blocked_by_each(shape::List<T...>, const Culled& culled, const Ray<F>& ray, Int<F> own) {
   Mask<F> dark = F(1.0f) < F(0.0f);
-  ((dark = blocked_by(forms.of<T>(), culled, ray, own, dark)), ...);
+  ((dark = blocked_by<T>(culled, ray, own, dark)), ...);
   return dark;
 }
 
 /// True where a form stands between the light and the surface.
 template <class F, class Culled>
-TOFRAY_FN Mask<F> blocked(const scene::Forms& forms, const Culled& culled, const Ray<F>& ray, Int<F> own) {
-  return blocked_by_each(shape::Shapes{}, forms, culled, ray, own);
+TOFRAY_FN Mask<F> blocked(const Culled& culled, const Ray<F>& ray, Int<F> own) {
+  return blocked_by_each(shape::Shapes{}, culled, ray, own);
 }
 
 template <class T, class F>

@@ -19,7 +19,7 @@ struct Found {
 
 Found look(const scene::FrozenScene& frozen, const Ray& ray) {
   const scene::SceneView& view = frozen.view();
-  const auto hit = trace::nearest(view.camera_still(), everything(view.camera_still()), ray, flow::Hit<float>{0, 0});
+  const auto hit = trace::nearest(everything(view.camera_still()), ray, flow::Hit<float>{0, 0});
   return {hit, trace::surface(view, ray, hit)};
 }
 

@@ -17,7 +17,7 @@ namespace {
 
 flow::Surface<float> surface_seen(const scene::FrozenScene& frozen, const Ray& ray) {
   const scene::SceneView& view = frozen.view();
-  return trace::surface(view, ray, trace::nearest(view.camera_still(), everything(view.camera_still()), ray, flow::Hit<float>{0, 0}));
+  return trace::surface(view, ray, trace::nearest(everything(view.camera_still()), ray, flow::Hit<float>{0, 0}));
 }
 
 Vec3 place_of(const flow::Surface<float>& s) { return {static_cast<double>(s.x), static_cast<double>(s.y), static_cast<double>(s.z)}; }
@@ -26,7 +26,7 @@ Vec3 normal_of(const flow::Surface<float>& s) { return {static_cast<double>(s.nx
 bool dark(const scene::FrozenScene& frozen, std::size_t light, const Vec3& at, const flow::Surface<float>& s) {
   const scene::Forms forms = frozen.view().light_still(static_cast<int>(light));
   const Vec3 p = place_of(s);
-  return trace::blocked(forms, everything(forms), ray(p - at), s.object);
+  return trace::blocked(everything(forms), ray(p - at), s.object);
 }
 
 bool dark_of_sun(const scene::FrozenScene& frozen, const flow::Surface<float>& s) {

@@ -47,7 +47,7 @@ struct WarpWalk {
     }
     return true;
   }
-  TOFRAY_FN int index() const { return base + Warp::lowest_bit(left); }
+  TOFRAY_FN const Form& form() const { return forms[base + Warp::lowest_bit(left)]; }
   TOFRAY_FN void next() { left &= left - 1; }
 
  private:
@@ -61,16 +61,10 @@ template <class Warp>
 struct WarpCulled {
   Warp& warp;
   const flow::Bounds* within;
+  scene::Forms forms;
   template <class T>
-  TOFRAY_FN WarpWalk<Warp, typename T::Form> walk(const scene::FormsOf<T>& forms) const {
-    return {warp, forms.at, forms.count, -warp_size, within, 0};
-  }
-  TOFRAY_FN bool any(const scene::Forms& forms) const { return any(shape::Shapes{}, forms); }
-
- private:
-  template <class... T>
-  TOFRAY_FN bool any(shape::List<T...>, const scene::Forms& forms) const {
-    return (walk(forms.of<T>()).more() || ...);
+  TOFRAY_FN WarpWalk<Warp, typename T::Form> walk() const {
+    return {warp, forms.of<T>().at, forms.of<T>().count, -warp_size, within, 0};
   }
 };
 
@@ -80,12 +74,11 @@ template <bool can_move, class Warp>
 struct WarpNear {
   Warp& warp;
   bool culling;
-  WarpCulled<Warp> camera_still, camera_moving;
+  const flow::Bounds* from_camera;  ///< null: all of them
   flow::Bounds from_light;
   bool all_from_light;
 
-  TOFRAY_FN WarpNear(Warp& w, const flow::Bounds* view)
-      : warp(w), culling(view != nullptr), camera_still{w, view}, camera_moving{w, view} {}
+  TOFRAY_FN WarpNear(Warp& w, const flow::Bounds* view) : warp(w), culling(view != nullptr), from_camera(view) {}
 
   TOFRAY_FN bool moves(const Setup& s) const { return can_move && s.scene.moments > 0; }
   TOFRAY_FN bool any(bool mask) const {
@@ -101,8 +94,17 @@ struct WarpNear {
     all_from_light = seen.open;
     from_light = seen.bounds();
   }
-  TOFRAY_FN WarpCulled<Warp> still_from(int) const { return {warp, culling && !all_from_light ? &from_light : nullptr}; }
-  TOFRAY_FN WarpCulled<Warp> moving_from(int light) const { return still_from(light); }
+  TOFRAY_FN WarpCulled<Warp> still_from_camera(const Setup& s) const { return {warp, from_camera, s.scene.camera_still()}; }
+  TOFRAY_FN WarpCulled<Warp> moving_from_camera(const Setup& s, int moment) const {
+    return {warp, from_camera, s.scene.camera_moving(moment)};
+  }
+  TOFRAY_FN WarpCulled<Warp> still_from(const Setup& s, int light) const { return {warp, seen_by_light(), s.scene.light_still(light)}; }
+  TOFRAY_FN WarpCulled<Warp> moving_from(const Setup& s, int moment, int light) const {
+    return {warp, seen_by_light(), s.scene.light_moving(moment, light)};
+  }
+
+ private:
+  TOFRAY_FN const flow::Bounds* seen_by_light() const { return culling && !all_from_light ? &from_light : nullptr; }
 };
 
 /// One pixel.
