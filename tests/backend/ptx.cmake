@@ -1,19 +1,15 @@
 # SPDX-FileCopyrightText: 2026 The tofray authors
 # SPDX-License-Identifier: Apache-2.0
-# Compiles the device code to PTX for ARCHITECTURE with the build's own flags (joined by "|") and reads it: the same bits as the processor
-# need every float operation rounded to nearest, nothing approximate, no flushed subnormals, and no double where the source has none.
-if(NOT NVCC)
+# Reads device code, the file PTX: the same bits as the processor need every operation rounded to nearest, nothing approximate, no flushed
+# subnormals, no fused double.
+if(NOT PTX)
   message("SKIPPED: tofray was configured without nvcc, so there is no device code to look at")
   return()
 endif()
-string(REPLACE "|" ";" flags "${FLAGS}")
-set(ptx ${FOLDER}/kernels_${ARCHITECTURE}.ptx)
-file(MAKE_DIRECTORY ${FOLDER})
-execute_process(COMMAND ${NVCC} ${flags} -ptx -arch=compute_${ARCHITECTURE} ${SOURCE} -o ${ptx} COMMAND_ERROR_IS_FATAL ANY)
 
 set(float "\\.f32[ \t]")
 function(refuse what pattern)
-  file(STRINGS ${ptx} found REGEX "${pattern}")
+  file(STRINGS ${PTX} found REGEX "${pattern}")
   list(LENGTH found count)
   if(count GREATER 0)
     list(GET found 0 first)
@@ -24,8 +20,8 @@ endfunction()
 
 # So that the test cannot pass on a file with nothing in it.
 foreach(operation add sub mul div rcp sqrt fma)
-  file(STRINGS ${ptx} rounded REGEX "[ \t]${operation}\\.rn\\.f32[ \t]")
-  file(STRINGS ${ptx} all REGEX "[ \t]${operation}\\.([a-z0-9]+\\.)*f32[ \t]")
+  file(STRINGS ${PTX} rounded REGEX "[ \t]${operation}\\.rn\\.f32[ \t]")
+  file(STRINGS ${PTX} all REGEX "[ \t]${operation}\\.([a-z0-9]+\\.)*f32[ \t]")
   list(LENGTH rounded rounded_count)
   list(LENGTH all all_count)
   if(rounded_count EQUAL 0 OR NOT rounded_count EQUAL all_count)

@@ -7,13 +7,17 @@ foreach(set ${TOFRAY_KERNELS})
       -P ${CMAKE_CURRENT_SOURCE_DIR}/backend/kernel_symbols.cmake)
 endforeach()
 target_sources(test_backend PRIVATE $<TARGET_OBJECTS:stand_in>)
-# The device code, as PTX: read, since it cannot be run here. Without nvcc the tests say that they were skipped.
-get_property(nvcc GLOBAL PROPERTY tofray_nvcc)
-get_property(nvcc_flags GLOBAL PROPERTY tofray_nvcc_flags)
-foreach(architecture 75 90)   # the oldest and the newest that we name
+# The device code, as the PTX that the build made of it: read, since it cannot be run here. Without nvcc the test says that it was skipped.
+get_property(ptx_of_each GLOBAL PROPERTY tofray_ptx)
+foreach(one ${ptx_of_each} none=)
+  string(REGEX MATCH "^([^=]*)=(.*)$" one ${one})
+  set(architecture ${CMAKE_MATCH_1})
+  set(ptx ${CMAKE_MATCH_2})
+  if(architecture STREQUAL "none" AND ptx_of_each)
+    continue()
+  endif()
   add_test(NAME ptx_of_sm_${architecture}_rounds_to_nearest
-    COMMAND ${CMAKE_COMMAND} -DNVCC=${nvcc} "-DFLAGS=$<JOIN:${nvcc_flags},|>" -DARCHITECTURE=${architecture} -DSOURCE=${CMAKE_SOURCE_DIR}/src/backend/cuda/kernels.cu
-      -DFOLDER=${CMAKE_CURRENT_BINARY_DIR}/ptx -P ${CMAKE_CURRENT_SOURCE_DIR}/backend/ptx.cmake)
+    COMMAND ${CMAKE_COMMAND} -DPTX=${ptx} -P ${CMAKE_CURRENT_SOURCE_DIR}/backend/ptx.cmake)
   set_tests_properties(ptx_of_sm_${architecture}_rounds_to_nearest PROPERTIES SKIP_REGULAR_EXPRESSION "SKIPPED:")
 endforeach()
 # Its object shows one name and nothing that the linker could exchange for another's.
