@@ -24,12 +24,12 @@ for build; do
   if [[ -e $build/libtofray_files.so ]]; then libraries=(-ltofray_files -ltofray); fi
   g++ -std=c++20 -O1 -I"$build/../../include" "$here/instructions.cpp" -o "$work/$number" -L"$build" "${libraries[@]}" -Wl,-rpath,"$build"
   echo "$build, $scene: thousands of instructions of a frame"
-  for noise in 0 2; do
+  for noise in 0 1; do
     for stage in 0 1 2 3; do
       if ((noise > 0 && stage < 2)); then continue; fi
       few=$(instructions "$work/$number" "$stage" "$noise" 2)
       more=$(instructions "$work/$number" "$stage" "$noise" 6)
-      stages=(trace power raw depth) noises=(off fast exact)
+      stages=(trace power raw depth) noises=(off exact)
       printf '  up to %-5s  noise %-5s  %7d\n' "${stages[stage]}" "${noises[noise]}" $(((more - few) / 4000))
     done
   done

@@ -10,6 +10,7 @@
 #include "power/phasors.h"
 #include "raw/expose.h"
 #include "scene/frozen_scene.h"
+#include "tofray/tofray.h"
 #include "trace/nearest.h"
 
 using namespace tofray;
@@ -22,7 +23,12 @@ Camera camera() { return load_camera("pico-flexx"); }
 flow::Light<F> light(const camera::PhasorView& phasors) {
   flow::Light<F> out;
   const flow::Path<F> path{F(1.5e6f), F(2.4f) + num::to_float(num::lane_index<F>()) * F(0.01f)};
-  power::add_path(phasors, power::all_of(phasors), 0, path, true, out);
+  if (phasors.sums_alone != 0) {
+    power::sums_of_path(phasors, power::all_of(phasors), path, out);
+  } else {
+    power::add_path(phasors, power::all_of(phasors), 0, path, true, out);
+    power::add_up(phasors, power::all_of(phasors), out);
+  }
   out.ambient_rate = F(4e5f);
   return out;
 }
@@ -53,7 +59,7 @@ BENCHMARK(normal_pair);
 
 /// One path to phasors of all modulation frequencies.
 void phasors(benchmark::State& state) {
-  const camera::FrozenCamera frozen(camera(), 0, 7);
+  const camera::FrozenCamera frozen(camera(), false, 7);
   for (auto _ : state) {
     auto sum = light(frozen.phasors());
     benchmark::DoNotOptimize(sum);
@@ -61,10 +67,11 @@ void phasors(benchmark::State& state) {
 }
 BENCHMARK(phasors);
 
-/// All raw frames of a pack; argument: 0 off, 1 fast, 2 exact.
+/// All raw frames of a pack; argument: as in camera::Noise.
 void nine_raw_frames(benchmark::State& state) {
-  camera::FrozenCamera frozen(camera(), static_cast<int>(state.range(0)), 7);
-  const camera::SensorView sensor = frozen.sensor(0);
+  camera::FrozenCamera frozen(camera(), true, 7);
+  camera::SensorView sensor = frozen.sensor(0);
+  sensor.noise = static_cast<camera::Noise>(state.range(0));
   const flow::Light<F> incoming = light(frozen.phasors());
   std::uint32_t frame = 0;
   for (auto _ : state) {
@@ -79,7 +86,7 @@ void nine_raw_frames(benchmark::State& state) {
 BENCHMARK(nine_raw_frames)->Arg(0)->Arg(1)->Arg(2);
 
 void decode(benchmark::State& state) {
-  const camera::FrozenCamera frozen(camera(), 2, 7);
+  const camera::FrozenCamera frozen(camera(), true, 7);
   F difference[flow::max_raw_frames];
   for (int k = 0; k < 9; ++k) difference[k] = F(static_cast<float>(k % 4 < 2 ? 900 - 100 * k : 100 * k - 900));
   const auto ray = flow::make_ray(num::to_float(num::lane_index<F>()) * F(0.01f), F(0.1f), F(1.0f));
@@ -99,7 +106,7 @@ void nearest(benchmark::State& state) {
   trace::cull(forms, nullptr, everything);
   F x = num::to_float(num::lane_index<F>()) * F(0.01f);
   for (auto _ : state) {
-    auto hit = trace::nearest(forms, everything, flow::make_ray(x, F(0.05f), F(1.0f)), flow::Hit<F>{F(0.0f), num::Int<F>(0)});
+    auto hit = trace::nearest(everything, flow::make_ray(x, F(0.05f), F(1.0f)), flow::Hit<F>{F(0.0f), num::Int<F>(0)});
     benchmark::DoNotOptimize(hit);
     benchmark::DoNotOptimize(x);
   }

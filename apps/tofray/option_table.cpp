@@ -38,12 +38,10 @@ void take_set(Options& o, const std::string& value) {
 void take_noise(Options& o, const std::string& value) {
   if (value == "off")
     o.noise = Noise::off;
-  else if (value == "fast")
-    o.noise = Noise::fast;
   else if (value == "exact")
     o.noise = Noise::exact;
   else
-    refuse("--noise", value, "off (expected values), fast (one normal per tap) or exact (true Poisson)");
+    refuse("--noise", value, "off (expected values) or exact (shot and read noise)");
 }
 
 void take_backend(Options& o, const std::string& value) {
@@ -171,7 +169,7 @@ std::vector<OptionSpec> specs() {
        "<profiles> <files>"},
       {"--seed", 0, "N", "seed of the noise: another one, other noise (0)",
        [](Options& o, const std::string& v) { o.seed = whole("--seed", v, 0, UINT64_MAX, "a whole number of 0 to 18446744073709551615"); }},
-      {"--noise", 0, "KIND", "off: expected values; fast: one normal per tap; exact: true Poisson (exact)", take_noise, "off fast exact"},
+      {"--noise", 0, "KIND", "off: expected values; exact: shot and read noise (exact)", take_noise, "off exact"},
       {"--frames", 0, "N", "how many frames",
        [](Options& o, const std::string& v) { o.frames = whole("--frames", v, 1, most_frames, "a whole number of 1 to 1000000000"); }},
       {"--first-frame", 0, "I", "number of the first frame: a part of a longer run (0)",

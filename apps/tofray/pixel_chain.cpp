@@ -182,7 +182,7 @@ PixelChain pixel_chain(const Arrays& arrays, int u, int v) {
                     arrays.width(), arrays.height(), chain.raw_frames.size()));
   try {
     if (!known) simulator::check(profile);  // its raw frames come from arrays that anybody can write
-    const camera::FrozenCamera frozen(profile, static_cast<int>(Noise::exact), 0);
+    const camera::FrozenCamera frozen(profile, true, 0);
     estimate_phases(frozen.decoder(), chain);
     if (known) calibrate(frozen.decoder(), pixel, chain);
   } catch (const Error&) {

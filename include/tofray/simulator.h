@@ -17,8 +17,7 @@ namespace tofray {
 
 enum class Noise {
   off,    ///< expected values: no draw; wells and codes still clip, depth comes from the unrounded A−B
-  fast,   ///< one merged normal per tap and raw frame
-  exact,  ///< true Poisson, then read noise (the default)
+  exact,  ///< Poisson counts with read noise, each tap its own (the default)
 };
 
 /// Which machine code runs. All give the same bytes.

@@ -21,7 +21,7 @@ using namespace base;
 namespace setup = num::setup;
 using num::single;
 
-FrozenCamera::FrozenCamera(const Camera& camera, int noise, std::uint64_t seed)
+FrozenCamera::FrozenCamera(const Camera& camera, bool noise, std::uint64_t seed)
     : camera_(with_emitters(camera)), modulations_(modulations_of(camera.mode)) {
   if (camera_.illumination.size() > flow::max_lights) {
     throw Error(ErrorKind::limit, "error: more than 8 light sources\n  got " + std::to_string(camera_.illumination.size()) +
@@ -134,11 +134,11 @@ void FrozenCamera::freeze_phasors() {
   phasors_ = {static_cast<std::int32_t>(modulations), static_cast<std::int32_t>(orders), phasor_modulations_.data(), 0};
 }
 
-void FrozenCamera::freeze_sequence(std::uint64_t seed, int noise) {
+void FrozenCamera::freeze_sequence(std::uint64_t seed, bool noise) {
   SensorView& s = sensor_;
   s.raw_frames = static_cast<std::int32_t>(camera_.mode.sequence.size());
   take_numbers(camera_, s);
-  s.noise = static_cast<Noise>(noise);
+  s.noise = !noise ? Noise::off : camera_.pixel.read_noise_e < least_merged_read_noise ? Noise::apart : Noise::merged;
   s.keys = num::round_keys(static_cast<std::uint32_t>(seed), static_cast<std::uint32_t>(seed >> 32));
   const std::size_t values = 2 * static_cast<std::size_t>(phasors_.orders);
   gates_.resize(camera_.mode.sequence.size() * values);

@@ -32,9 +32,9 @@ std::vector<double> raw_frame_starts_s(const std::vector<double>& integration_ti
 /// Camera profile → views. Owns all arrays the views point to; not copied.
 class FrozenCamera {
  public:
-  /// @param noise  0 off, 1 fast, 2 exact
+  /// @param noise  false: expected values
   /// @throws Error (bad_input) where the profile makes no sense as a whole
-  FrozenCamera(const Camera& camera, int noise, std::uint64_t seed);
+  FrozenCamera(const Camera& camera, bool noise, std::uint64_t seed);
   FrozenCamera(const FrozenCamera&) = delete;
   FrozenCamera& operator=(const FrozenCamera&) = delete;
 
@@ -51,13 +51,13 @@ class FrozenCamera {
  private:
   void freeze_lens();
   void freeze_tiles();
-  void freeze_sequence(std::uint64_t seed, int noise);
+  void freeze_sequence(std::uint64_t seed, bool noise);
   void freeze_phasors();
   [[nodiscard]] double first_phase(std::size_t modulation) const;
   void freeze_gates(double half_path_m);
   [[nodiscard]] double drift_m(double time_s) const;
   void freeze_patterns();
-  void freeze_decoder(int noise);
+  void freeze_decoder(bool noise);
   void freeze_modulations(double grey_time);
   void freeze_without_modulation();
 

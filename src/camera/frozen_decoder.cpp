@@ -107,7 +107,7 @@ std::vector<Harmonic> mean_harmonics(const std::vector<Share>& shares, const Pix
 
 }  // namespace
 
-void FrozenCamera::freeze_decoder(int noise) {
+void FrozenCamera::freeze_decoder(bool noise) {
   DecoderView& d = decoder_;
   const Decoding& decoding = camera_.decoding;
   const std::vector<Share> shares = shares_of(camera_.illumination, lights_);
@@ -141,7 +141,7 @@ void FrozenCamera::freeze_decoder(int noise) {
   d.suppression_threshold = sensor_.suppression_threshold, d.suppression_budget = sensor_.suppression_budget;
   d.suppression_variance = single(2 * camera_.pixel.suppression_noise_factor * camera_.pixel.suppression_noise_factor);
   d.dark_rate_both = single(2 * camera_.pixel.dark_current_e_per_s);
-  d.low_signal_noise = noise == 0 ? std::numeric_limits<float>::max() : single(decoding.low_signal_noise_m);
+  d.low_signal_noise = noise ? single(decoding.low_signal_noise_m) : std::numeric_limits<float>::max();
   d.per_confidence_noise = single(1 / decoding.low_signal_noise_m);
   d.inconsistent_range = single(decoding.inconsistent_range_m);
   d.flying_near_z = single(decoding.flying_near_z_m), d.flying_near_limit = single(decoding.flying_near_limit_m);

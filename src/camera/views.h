@@ -87,8 +87,9 @@ struct PhasorView {
 /// What a draw with the sensor's keys is for: part of the random counter, beside pixel, raw frame and frame.
 enum Purpose : std::uint32_t { shot_and_read = 0, merged = 1, suppression = 2, of_column = 3 };
 
-/// How charge is drawn.
-enum class Noise : std::int32_t { off, fast, exact };
+/// How charge is drawn: shot and read noise apart, or merged into one draw, whose law is as good as theirs from this read noise on.
+enum class Noise : std::int32_t { off, apart, merged };
+constexpr double least_merged_read_noise = 4;  ///< [e⁻]                                                      [theory: eq. 3.11]
 
 /// Sequence, charge, ADC.
 struct SensorView {

@@ -57,7 +57,7 @@ TOFRAY_FN F poisson_by_expansion(F mean, F z) {
 }
 
 template <class F>
-TOFRAY_FN Means<F> expose_exact(const camera::SensorView& s, const Means<F>& mean, num::Int<F> pixel, int k, FrameIndex frame) {
+TOFRAY_FN Means<F> expose_apart(const camera::SensorView& s, const Means<F>& mean, num::Int<F> pixel, int k, FrameIndex frame) {
   const num::Random4<F> words = draw<F>(s, pixel, k, frame, shot_and_read);
   F shot_a, shot_b, read_a, read_b;
   num::normal_pair<F>(words.w[0], words.w[1], shot_a, shot_b);
@@ -81,13 +81,18 @@ TOFRAY_FN Means<F> expose_exact(const camera::SensorView& s, const Means<F>& mea
   return {num::fma(F(s.read_noise), read_a, a), num::fma(F(s.read_noise), read_b, b)};
 }
 
-/// Shot and read noise in one normal z, with the share of the skew that Poisson has in the sum:
-/// λ + √(λ + σ²)·z + (z² − 1)/6·λ/(λ + σ²).                                                               [eq. 3.11]
+/// Shot and read noise of a tap in one normal z: Cornish and Fisher's expansion of the quantile of Poisson(λ) + Normal(0, σ²), whose third and
+/// fourth cumulants are λ. With V = λ + σ² and r = λ/V,
+/// N = λ + √V·z + r·((z² − 1)/6 + (z/√V)·((z² − 3)/24 − r·(2z² − 5)/36)).                                 [eq. 3.11]
 template <class F>
 TOFRAY_FN F merged_normal(const camera::SensorView& s, F mean, F z) {
-  const F variance = mean + F(s.read_variance);
-  const F skew = num::fma(z, z, F(-1.0f)) * F(1.0f / 6.0f) * mean / num::max(variance, F(1e-20f));
-  return num::fma(num::sqrt(variance), z, mean) + skew;
+  const F variance = mean + F(s.read_variance), per_variance = F(1.0f) / variance;
+  const F root = num::sqrt(variance), share = mean * per_variance, square = z * z;
+  const F skew = num::fma(square, F(1.0f / 6.0f), F(-1.0f / 6.0f));
+  const F skew_squared = num::fma(square, F(1.0f / 18.0f), F(-5.0f / 36.0f));
+  const F excess = num::fma(square, F(1.0f / 24.0f), F(-1.0f / 8.0f));
+  const F shape = num::fma(z * (root * per_variance), num::fnma(share, skew_squared, excess), skew);
+  return num::fma(root, z, num::fma(share, shape, mean));
 }
 
 /// Words of a pixel's merged normals. Four blocks serve nine raw frames: each block two, and the ninth lives on the byte that each of the eight
@@ -99,8 +104,8 @@ struct MergedWords {
 };
 
 template <class F>
-TOFRAY_FN Means<F> expose_fast(const camera::SensorView& s, const Means<F>& mean, num::Int<F> pixel, int k, FrameIndex frame,
-                               MergedWords<F>& words) {
+TOFRAY_FN Means<F> expose_merged(const camera::SensorView& s, const Means<F>& mean, num::Int<F> pixel, int k, FrameIndex frame,
+                                 MergedWords<F>& words) {
   const int place = k % 9;
   num::Uint<F> radius = words.spare[0], angle = words.spare[1];
   if (place < 8) {

@@ -66,10 +66,10 @@ TOFRAY_FN Taps<F> expose(const camera::SensorView& s, int k, const Light<F>& lig
   const F rate = frame.lit != 0 ? difference_rate(frame, orders, light) : F(0.0f);
   Means<F> charge = tap_means(frame, light.signal_rate, light.ambient_rate, rate);
   charge.a = charge.a * e.gain, charge.b = charge.b * e.gain;
-  if (s.noise == Noise::exact) {
-    charge = expose_exact(s, charge, e.pixel, k, index);
-  } else if (s.noise == Noise::fast) {
-    charge = expose_fast(s, charge, e.pixel, k, index, e.merged_words);
+  if (s.noise == Noise::merged) {
+    charge = expose_merged(s, charge, e.pixel, k, index, e.merged_words);
+  } else if (s.noise == Noise::apart) {
+    charge = expose_apart(s, charge, e.pixel, k, index);
   }
   if (s.suppression_threshold > 0) charge = suppress(s, charge, e.pixel, k, index);
   Taps<F> taps = read_out(s, charge, offset_of(s, k, index, e));

@@ -68,7 +68,7 @@ Tree tree_of(const Table& table, const void* record) {
 
 }  // namespace
 
-const char* noise_name(Noise noise) { return noise == Noise::off ? "off" : noise == Noise::fast ? "fast" : "exact"; }
+const char* noise_name(Noise noise) { return noise == Noise::off ? "off" : "exact"; }
 
 std::string frame_meta(const Scene& scene, const Camera& camera, std::uint64_t seed, Noise noise, std::uint64_t frame_index) {
   Tree what = tree_of(model::table_of<Scene>(), &scene);

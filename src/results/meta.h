@@ -10,7 +10,7 @@
 
 namespace tofray::results {
 
-/// "off", "fast" or "exact".
+/// "off" or "exact".
 const char* noise_name(Noise noise);
 
 /// The `meta` string of frame.npz: one JSON object on one line with

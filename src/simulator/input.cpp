@@ -191,7 +191,7 @@ OwnInput input_of(const Raw& raw) {
 
 std::vector<float> tofray::pixel_rays(const Camera& camera) {
   simulator::check(camera);
-  const camera::FrozenCamera frozen(camera, 0, 0);
+  const camera::FrozenCamera frozen(camera, false, 0);
   const camera::LensView& lens = frozen.lens();
   constexpr float none = std::numeric_limits<float>::quiet_NaN();
   std::vector<float> out;

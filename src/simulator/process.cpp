@@ -48,7 +48,7 @@ Depth process(const Raw& raw, const Camera& profile, const SimulatorOptions& opt
   const Camera camera = camera_of(raw, profile);
   simulator::check(options);
   simulator::check(camera);
-  camera::FrozenCamera frozen(camera, static_cast<int>(options.noise), options.seed);
+  camera::FrozenCamera frozen(camera, options.noise != Noise::off, options.seed);
   pipeline::Setup setup{};
   setup.last_stage = Stage::depth;
   setup.lens = frozen.lens();

@@ -57,7 +57,7 @@ Simulator::Impl::Impl(const Scene& all, const Camera& profile, const SimulatorOp
     : scene(checked(all, profile, wanted)),
       camera(camera::with_emitters(profile)),
       options(wanted),
-      frozen_camera(camera, static_cast<int>(wanted.noise), wanted.seed),
+      frozen_camera(camera, wanted.noise != Noise::off, wanted.seed),
       frozen_scene(scene, positions(camera), static_cast<int>(camera.mode.sequence.size())),
       setup(fixed_setup()),
       engines(options, setup, frozen_scene.moves()) {

@@ -213,7 +213,7 @@ TEST(completion, of_bash_knows_commands_options_and_scenes) {
   EXPECT_EQ(replies("tofray render bench-pr", 2), "bench-primitives\n");
   EXPECT_EQ(replies("tofray render --noise e", 3), "exact\n");
   EXPECT_EQ(replies("tofray render --noise = e", 4), "exact\n");
-  EXPECT_EQ(replies("tofray render --noise = --seed 1", 3), "off fast exact\n");
+  EXPECT_EQ(replies("tofray render --noise = --seed 1", 3), "off exact\n");
   EXPECT_EQ(replies("tofray render --set camera.lens.f_", 3), "camera.lens.f_number=\n");
   EXPECT_EQ(replies("tofray render --set ambient.le", 3), "ambient.level=\n");
 }

@@ -160,7 +160,7 @@ TEST(lens, flags_corners_without_an_inverse) {
 // In single precision: the rays that kernels read lead back to their pixels.
 TEST(lens, rays_in_single_precision_lead_back_to_their_pixels) {
   const Camera camera = load_camera("pico-flexx");
-  const camera::FrozenCamera frozen(camera, 0, 0);
+  const camera::FrozenCamera frozen(camera, false, 0);
   for (int i = 0; i < 224 * 172; ++i) {
     const Point2 ray{static_cast<double>(frozen.lens().ray_x[i]), static_cast<double>(frozen.lens().ray_y[i])};
     const Point2 p = camera::project(camera.lens, ray);

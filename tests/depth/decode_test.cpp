@@ -85,7 +85,7 @@ TEST(noise_estimate, is_the_spread_of_the_range) {
       camera.illumination[0].waveform.harmonics = 4, camera.illumination[0].waveform.duty = 0.25;
       camera.pixel.contrast = {{60e6}, {0.6}};
     }
-    const Bench bench(camera, 2);
+    const Bench bench(camera, true);
     Moments range(at.half_path), estimate;
     int warned = 0;
     for (int i = 0; i < 50'000; ++i) {
@@ -146,7 +146,7 @@ TEST(noise_estimate, counts_what_background_suppression_adds) {
     camera.pixel.dark_current_e_per_s = 2e6;
     camera.pixel.suppression_threshold_e = 20000, camera.pixel.suppression_budget_e = at.budget;
     camera.pixel.suppression_noise_factor = at.factor;
-    const Bench bench(camera, 2);
+    const Bench bench(camera, true);
     Moments range(at.half_path), estimate;
     int warned = 0;
     for (int i = 0; i < 40'000; ++i) {
@@ -162,7 +162,7 @@ TEST(noise_estimate, counts_what_background_suppression_adds) {
   }
 }
 
-TEST(flags, are_none_for_a_good_pixel) { EXPECT_EQ(flags_of(Bench(two_frequencies(), 2), {20000, 1.2, 3000}), 0); }
+TEST(flags, are_none_for_a_good_pixel) { EXPECT_EQ(flags_of(Bench(two_frequencies(), true), {20000, 1.2, 3000}), 0); }
 
 // σ̂ of 0.07 m: from either side. Never where noise is off.
 TEST(flags, say_low_signal_where_the_noise_is_above_its_limit) {
@@ -176,7 +176,7 @@ TEST(flags, say_low_signal_where_the_noise_is_above_its_limit) {
     return low;
   };
   // expectations decoded as if with noise, so that the edge is sharp
-  const Bench bench(camera, 2), silent(camera, 0);
+  const Bench bench(camera, true), silent(camera);
   for (const double noise : {0.069, 0.071}) {
     std::vector<float> difference;
     for (const auto& taps : silent.expose({signal_for(noise), 1.2, 0})) difference.push_back(taps.difference);

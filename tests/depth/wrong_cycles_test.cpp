@@ -57,7 +57,7 @@ double simulated(const Pair& p) {
   const double signal = 2000, contrast = 0.7, ambient = 2 * std::pow(p.sigma * signal * contrast, 2) - signal;  // σ_φ = √V/(√2·S·C)
   Camera camera = bench_camera({p.f1, p.f2}, 4, contrast);
   camera.adc.step_e_per_dn = 1;
-  const Bench bench(camera, 2);
+  const Bench bench(camera, true);
   std::mt19937_64 random(31);
   const double common = c / (2 * p.base);
   int wrong = 0;

@@ -20,7 +20,7 @@ camera::SensorView adc(double step, double mid = 2048, double max_code = 4095, d
   s.per_step = static_cast<float>(1 / step), s.step = static_cast<float>(step), s.mid_code = static_cast<float>(mid);
   s.max_code = static_cast<float>(max_code), s.valid_middle = static_cast<float>(0.5 * (valid_min + valid_max)),
   s.valid_half = static_cast<float>(0.5 * (valid_max - valid_min));
-  s.noise = camera::Noise::exact;
+  s.noise = camera::Noise::merged;
   return s;
 }
 
@@ -43,27 +43,32 @@ double quantile(double share) {
 }  // namespace
 
 // The photon transfer curve of A−B in an unlit raw frame (the light is all in A): var_DN = K²(m + σ²) + 1/12 with σ² = 2σ_r².
-// 2e6 samples: the variance's standard error is 0.1 %, so that 0.5 % is five of it.
-TEST(photon_transfer, is_the_line_of_the_closed_form) {
+// 2e6 samples: the variance's standard error is 0.1 %, so that 0.5 % is five of it. Shot and read noise apart, just below the read noise from
+// which they are merged, there, and far from it.
+class PhotonTransfer : public testing::TestWithParam<double> {};
+
+TEST_P(PhotonTransfer, is_the_line_of_the_closed_form) {
   constexpr int samples = 2'000'000;
-  const double gain = 0.1, read = 15;
+  const double gain = 0.1, read_of_tap = GetParam();
   Camera camera = bench_camera({60e6}, 4, 0.7, true);
   camera.mode.sequence[0].integration_time_s = 1e-3;
-  camera.pixel.read_noise_e = read / std::sqrt(2.0);
+  camera.pixel.read_noise_e = read_of_tap;
   camera.adc = {16, 1 / gain, 1000, 0, 65535};
-  const Bench bench(camera, 2);
-  const double means[4] = {100, 1e3, 1e4, 5e4}, known[4] = {3.3333, 12.3333, 102.3333, 502.3333};
+  const Bench bench(camera, true);
+  const double means[4] = {100, 1e3, 1e4, 5e4};
   double variance[4];
   for (int at = 0; at < 4; ++at) {
     Moments code(1000 + gain * means[at]);
     const auto& frame = bench.sensor().frame[0];
     for (int i = 0; i < samples; ++i) {
-      const auto charge =
-          raw::expose_exact<float>(bench.sensor(), raw::tap_means(frame, 0.0f, static_cast<float>(means[at] * 1e3), 0.0f), i, 0, {0, 0});
+      const auto mean = raw::tap_means(frame, 0.0f, static_cast<float>(means[at] * 1e3), 0.0f);
+      raw::MergedWords<float> words{};
+      const auto charge = bench.sensor().noise == camera::Noise::merged
+                              ? raw::expose_merged<float>(bench.sensor(), mean, i, 0, {0, 0}, words)
+                              : raw::expose_apart<float>(bench.sensor(), mean, i, 0, {0, 0});
       code.add(static_cast<double>(raw::read_out(bench.sensor(), charge, 0.0f).code));
     }
-    const double expected = gain * gain * (means[at] + read * read) + 1.0 / 12;
-    EXPECT_NEAR(expected, known[at], 1e-4);
+    const double expected = gain * gain * (means[at] + 2 * read_of_tap * read_of_tap) + 1.0 / 12;
     EXPECT_NEAR(code.variance() / expected, 1, 0.005) << means[at];
     EXPECT_NEAR(code.mean(), 1000 + gain * means[at], 5.5 * std::sqrt(expected / samples) + 1e-4);
     variance[at] = code.variance();
@@ -71,6 +76,10 @@ TEST(photon_transfer, is_the_line_of_the_closed_form) {
   // slope of the variance over the mean in DN: K
   EXPECT_NEAR((variance[3] - variance[0]) / (gain * (means[3] - means[0])) / gain, 1, 0.005);
 }
+
+INSTANTIATE_TEST_SUITE_P(read_noise, PhotonTransfer, testing::Values(0, 3.999, 4, 8, 50), [](const auto& which) {
+  return "of_" + std::to_string(static_cast<int>(std::ceil(which.param))) + (which.param == 4 ? "_merged" : "");
+});
 
 // Rounding a signal with noise of s LSB is off by at most (1/π)·exp(−2π²s²) on average, and adds 1/12 to the variance for s >= ½.
 // The noise comes as 1e5 equal shares of a normal, so that nothing is left to chance; the grid's own error is below 1e-4.
@@ -106,12 +115,12 @@ TEST(quantiser, has_the_bias_and_variance_of_the_closed_form) {
 TEST(quantiser, rounds_what_the_noise_has_moved) {
   constexpr int samples = 200'000;
   Camera camera = bench_camera({60e6}, 4, 0.7, true);
-  camera.pixel.read_noise_e = 0.25 * 20 / std::sqrt(2.0);
+  camera.pixel.read_noise_e = 0.25 * 20 / std::sqrt(2.0);  // 3.5: apart
   camera.adc = {12, 20, 2048, 0, 4095};
-  const Bench bench(camera, 2);
+  const Bench bench(camera, true);
   Moments code(2048);
   for (int i = 0; i < samples; ++i) {
-    const auto charge = raw::expose_exact<float>(bench.sensor(), {0.0f, 0.0f}, i, 0, {0, 0});
+    const auto charge = raw::expose_apart<float>(bench.sensor(), {0.0f, 0.0f}, i, 0, {0, 0});
     const float got = raw::read_out(bench.sensor(), charge, 0.25f).code;
     ASSERT_EQ(got, std::floor(got));
     code.add(static_cast<double>(got));
@@ -200,7 +209,7 @@ TEST(saturation, is_flagged_where_a_code_leaves_the_valid_range) {
 // Where the valid codes reach the ends of the ADC, a code at an end is valid and one that was held there is not: what counts is the level
 // before the ends, rounded.
 TEST(saturation, is_flagged_where_the_adc_held_a_code_that_would_be_valid) {
-  for (const camera::Noise noise : {camera::Noise::off, camera::Noise::exact}) {
+  for (const camera::Noise noise : {camera::Noise::off, camera::Noise::apart, camera::Noise::merged}) {
     auto sensor = adc(20, 2048, 4095, 0, 4095);
     sensor.noise = noise;
     for (const double level : {-7.0, -0.6, -0.4, 0.0, 4095.0, 4095.4, 4095.6, 4100.0}) {

@@ -12,10 +12,9 @@ using namespace tofray::test;
 
 namespace {
 
-camera::SensorView suppressing(float threshold, float budget, float factor, int noise) {
+camera::SensorView suppressing(float threshold, float budget, float factor, camera::Noise noise) {
   camera::SensorView s{};
-  s.suppression_threshold = threshold, s.suppression_budget = budget, s.suppression_noise = factor,
-  s.noise = static_cast<camera::Noise>(noise);
+  s.suppression_threshold = threshold, s.suppression_budget = budget, s.suppression_noise = factor, s.noise = noise;
   return s;
 }
 
@@ -23,7 +22,7 @@ camera::SensorView suppressing(float threshold, float budget, float factor, int 
 
 // Whole electrons, so that floats subtract exactly: the difference does not change by a bit, until the well is full.
 TEST(suppression, takes_the_same_off_both_taps) {
-  const auto s = suppressing(20000, 50000, 1, 0);
+  const auto s = suppressing(20000, 50000, 1, camera::Noise::off);
   for (int a = 0; a <= 120000; a += 997) {
     for (int b = 0; b <= 120000; b += 1009) {
       const auto left = raw::suppress<float>(s, {static_cast<float>(a), static_cast<float>(b)}, 0, 0, {0, 0});
@@ -36,7 +35,7 @@ TEST(suppression, takes_the_same_off_both_taps) {
 
 // Each tap that loses x gains a variance of factor²·x of its own. 2e5 draws: standard error of a variance 0.32 %.
 TEST(suppression, adds_the_variance_of_what_it_takes) {
-  const auto s = suppressing(1000, 1e6, 1.5f, 2);
+  const auto s = suppressing(1000, 1e6, 1.5f, camera::Noise::apart);
   Moments a(1000), b(5000), untouched(500);
   Correlation taps(1000, 5000);
   for (int i = 0; i < 200'000; ++i) {
@@ -101,9 +100,9 @@ TEST(fixed_pattern, has_the_deviations_asked_for_and_no_correlation) {
 
 TEST(fixed_pattern, belongs_to_the_specimen_not_to_the_run) {
   Camera camera = patterned(100);
-  const Bench one(camera, 2, 1), again(camera, 2, 99);
+  const Bench one(camera, true, 1), again(camera, true, 99);
   camera.pixel.pattern_seed = 2;
-  const Bench other(camera, 2, 1);
+  const Bench other(camera, true, 1);
   int equal = 0;
   for (int i = 0; i < 100; ++i) {
     EXPECT_EQ(one.sensor().gain[i], again.sensor().gain[i]);
@@ -118,7 +117,7 @@ TEST(fixed_pattern, belongs_to_the_specimen_not_to_the_run) {
 TEST(fixed_pattern, stays_where_the_noise_averages_out) {
   constexpr int width = 4000;
   const Camera camera = patterned(width);
-  const Bench silent(camera, 0), noisy(camera, 2);
+  const Bench silent(camera), noisy(camera, true);
   const Incoming in{20000, 1.0, 2000};
   std::vector<double> sum(width), truth(width);
   for (int i = 0; i < width; ++i) {

@@ -55,18 +55,19 @@ struct Key {
   std::uint64_t frame = 0, seed = 1;
 };
 
-Stream shot(double mean, const Key& key, int noise = 2) {
+Stream shot(double mean, const Key& key, camera::Noise noise = camera::Noise::apart) {
   return {mean, [=](int pixel) {
             camera::SensorView s{};
+            if (noise == camera::Noise::merged) s.read_noise = 50, s.read_variance = 2500;
             s.keys = num::round_keys(static_cast<std::uint32_t>(key.seed), static_cast<std::uint32_t>(key.seed >> 32));
             const raw::FrameIndex frame{static_cast<std::uint32_t>(key.frame), static_cast<std::uint32_t>(key.frame >> 32)};
             const raw::Means<float> means{static_cast<float>(mean), static_cast<float>(mean)};
             raw::Means<float> got;
-            if (noise == 1) {
+            if (noise == camera::Noise::merged) {
               raw::MergedWords<float> words{};
-              for (int k = 0; k <= key.k; ++k) got = raw::expose_fast<float>(s, means, pixel + key.shift, k, frame, words);
+              for (int k = 0; k <= key.k; ++k) got = raw::expose_merged<float>(s, means, pixel + key.shift, k, frame, words);
             } else {
-              got = raw::expose_exact<float>(s, means, pixel + key.shift, key.k, frame);
+              got = raw::expose_apart<float>(s, means, pixel + key.shift, key.k, frame);
             }
             return static_cast<double>(key.tap == 0 ? got.a : got.b);
           }};
@@ -79,7 +80,7 @@ TEST_P(TwoTapNoise, of_the_phase_is_that_of_the_closed_form) {
   const Setting setting = GetParam();
   const double expected = phase_deviation(setting);
   ASSERT_LT(expected, 0.1);  // first order
-  const Bench bench(camera_of(setting), 2);
+  const Bench bench(camera_of(setting), true);
   const double phase = 0.37, half_path = phase * c / (2 * 60.24e6);
   Moments moments, amplitude(setting.signal * setting.amplitude);
   for (int i = 0; i < samples; ++i) {
@@ -98,14 +99,15 @@ INSTANTIATE_TEST_SUITE_P(settings, TwoTapNoise,
                          testing::Values(Setting{5000, 2000, 30, 0.7, 4, 1}, Setting{50000, 0, 0, 0.8, 4, 1},
                                          Setting{2000, 20000, 10, 0.9, 4, 1}, Setting{10000, 1000, 50, 0.5, 3, 1},
                                          Setting{1200, 100, 5, 0.75, 8, 1}, Setting{8000, 3000, 50, 0.81, 5, 20},
-                                         Setting{1500, 0, 50, 0.8, 4, 20}),
+                                         Setting{1500, 0, 50, 0.8, 4, 20}, Setting{5000, 2000, 3.999, 0.7, 4, 1},
+                                         Setting{5000, 2000, 4, 0.7, 4, 1}, Setting{3000, 0, 8, 0.9, 4, 1}),
                          [](const auto& which) { return "setting_" + std::to_string(which.index); });
 
 // The bias is there to be seen: at σ_φ = 0.09 it is 0.4 %, eighteen standard errors.
 TEST(amplitude, of_a_noisy_phasor_is_longer_by_rice_s_share) {
   const Setting setting{1500, 0, 50, 0.7, 4, 1};
   const double expected = phase_deviation(setting);
-  const Bench bench(camera_of(setting), 2);
+  const Bench bench(camera_of(setting), true);
   Moments amplitude(1050);
   for (int i = 0; i < samples; ++i) amplitude.add(static_cast<double>(bench.estimate(bench.expose({1500, 0.3, 0}, i)).amplitude));
   const double error = expected / std::sqrt(samples), longer = amplitude.mean() / 1050 - 1;
@@ -130,23 +132,27 @@ TEST(draws, are_independent_of_each_other) {
   EXPECT_LT(std::abs(correlation(shot(8, {}), shot(1000, {}))), 5.5) << "inversion and expansion";
 }
 
-TEST(draws, of_fast_noise_are_independent_of_each_other) {
-  const auto base = shot(1000, {}, 1);
-  EXPECT_LT(std::abs(correlation(base, shot(1000, {.tap = 1}, 1))), 5.5) << "taps";
-  EXPECT_LT(std::abs(correlation(base, shot(1000, {.k = 1}, 1))), 5.5) << "raw frames of one block";
-  EXPECT_LT(std::abs(correlation(shot(1000, {.k = 1}, 1), shot(1000, {.k = 2}, 1))), 5.5) << "raw frames of two blocks";
-  EXPECT_LT(std::abs(correlation(base, shot(1000, {.tap = 1, .k = 1}, 1))), 5.5);
-  EXPECT_LT(std::abs(correlation(base, shot(1000, {.shift = 1}, 1))), 5.5) << "neighbours";
-  EXPECT_LT(std::abs(correlation(base, shot(1000, {.frame = 1}, 1))), 5.5) << "frames";
-  EXPECT_LT(std::abs(correlation(base, shot(1000, {.seed = 2}, 1))), 5.5) << "seeds";
+TEST(draws, of_merged_noise_are_independent_of_each_other) {
+  constexpr auto merged = camera::Noise::merged;
+  const auto base = shot(1000, {}, merged);
+  EXPECT_LT(std::abs(correlation(base, shot(1000, {.tap = 1}, merged))), 5.5) << "taps";
+  EXPECT_LT(std::abs(correlation(base, shot(1000, {.k = 1}, merged))), 5.5) << "raw frames of one block";
+  EXPECT_LT(std::abs(correlation(shot(1000, {.k = 1}, merged), shot(1000, {.k = 2}, merged))), 5.5) << "raw frames of two blocks";
+  EXPECT_LT(std::abs(correlation(base, shot(1000, {.tap = 1, .k = 1}, merged))), 5.5);
+  EXPECT_LT(std::abs(correlation(base, shot(1000, {.shift = 1}, merged))), 5.5) << "neighbours";
+  EXPECT_LT(std::abs(correlation(base, shot(1000, {.shift = 224}, merged))), 5.5) << "rows";
+  EXPECT_LT(std::abs(correlation(base, shot(1000, {.frame = 1}, merged))), 5.5) << "frames";
+  EXPECT_LT(std::abs(correlation(base, shot(1000, {.frame = 1ull << 32}, merged))), 5.5) << "frames 2^32 apart";
+  EXPECT_LT(std::abs(correlation(base, shot(1000, {.seed = 2}, merged))), 5.5) << "seeds";
+  EXPECT_LT(std::abs(correlation(base, shot(1000, {.seed = 1 + (1ull << 32)}, merged))), 5.5) << "seeds 2^32 apart";
 }
 
-// Whole sequences, as frames take them: no raw frame's A or B is like another's, in exact and fast mode.
+// Whole sequences, as frames take them: no raw frame's A or B is like another's, with shot and read noise apart and merged.
 TEST(draws, of_a_whole_sequence_are_independent_of_each_other) {
-  for (const int noise : {1, 2}) {
+  for (const double read : {3.0, 50.0}) {
     Camera camera = bench_camera({80.32e6, 60.24e6}, 4, 0.0001, true);
-    camera.pixel.read_noise_e = 20;
-    const Bench bench(camera, noise);
+    camera.pixel.read_noise_e = read;
+    const Bench bench(camera, true);
     constexpr std::size_t raw_frames = 9, taps = 2 * raw_frames;
     std::vector<Correlation> pairs(taps * taps, Correlation(500, 500));
     for (int i = 0; i < samples; ++i) {
@@ -159,7 +165,8 @@ TEST(draws, of_a_whole_sequence_are_independent_of_each_other) {
       }
     }
     for (std::size_t x = 0; x < taps; ++x) {
-      for (std::size_t y = 0; y < x; ++y) EXPECT_LT(std::abs(pairs[x * taps + y].z()), 6) << "noise " << noise << ": " << x << " and " << y;
+      for (std::size_t y = 0; y < x; ++y)
+        EXPECT_LT(std::abs(pairs[x * taps + y].z()), 6) << "read noise " << read << ": " << x << " and " << y;
     }
   }
 }
@@ -171,8 +178,8 @@ TEST(draws, of_read_noise_are_independent_of_shot_noise) {
   Correlation with_shot(0, 1000), between_taps(0, 0), with_other_shot(0, 1000);
   Moments size;
   for (int i = 0; i < samples; ++i) {
-    const auto a = raw::expose_exact<float>(silent, {1000.0f, 1000.0f}, i, 0, {0, 0}),
-               b = raw::expose_exact<float>(noisy, {1000.0f, 1000.0f}, i, 0, {0, 0});
+    const auto a = raw::expose_apart<float>(silent, {1000.0f, 1000.0f}, i, 0, {0, 0}),
+               b = raw::expose_apart<float>(noisy, {1000.0f, 1000.0f}, i, 0, {0, 0});
     const double read_a = static_cast<double>(b.a - a.a), read_b = static_cast<double>(b.b - a.b);
     with_shot.add(read_a, static_cast<double>(a.a));
     with_other_shot.add(read_a, static_cast<double>(a.b));
@@ -190,17 +197,17 @@ TEST(draws, of_read_noise_are_independent_of_shot_noise) {
 TEST(draws, of_suppression_are_independent_of_shot_and_read_noise) {
   camera::SensorView shot{}, read{}, taking{};
   read.read_noise = 16;
-  taking.suppression_threshold = 1000, taking.suppression_budget = 1e6f, taking.suppression_noise = 1, taking.noise = camera::Noise::exact;
+  taking.suppression_threshold = 1000, taking.suppression_budget = 1e6f, taking.suppression_noise = 1, taking.noise = camera::Noise::merged;
   std::vector<Correlation> pairs(24, Correlation(0, 0));
   for (int i = 0; i < samples; ++i) {
     raw::MergedWords<float> words{};
-    const auto exact = raw::expose_exact<float>(shot, {10000.0f, 10000.0f}, i, 0, {0, 0});
-    const auto with_read = raw::expose_exact<float>(read, {10000.0f, 10000.0f}, i, 0, {0, 0});
-    const auto fast = raw::expose_fast<float>(shot, {10000.0f, 10000.0f}, i, 0, {0, 0}, words);
+    const auto without_read = raw::expose_apart<float>(shot, {10000.0f, 10000.0f}, i, 0, {0, 0});
+    const auto with_read = raw::expose_apart<float>(read, {10000.0f, 10000.0f}, i, 0, {0, 0});
+    const auto together = raw::expose_merged<float>(shot, {10000.0f, 10000.0f}, i, 0, {0, 0}, words);
     const auto left = raw::suppress<float>(taking, {10000.0f, 10000.0f}, i, 0, {0, 0});
-    const double drawn[6] = {static_cast<double>(exact.a) - 10000,       static_cast<double>(exact.b) - 10000,
-                             static_cast<double>(with_read.a - exact.a), static_cast<double>(with_read.b - exact.b),
-                             static_cast<double>(fast.a) - 10000,        static_cast<double>(fast.b) - 10000};
+    const double drawn[6] = {static_cast<double>(without_read.a) - 10000,       static_cast<double>(without_read.b) - 10000,
+                             static_cast<double>(with_read.a - without_read.a), static_cast<double>(with_read.b - without_read.b),
+                             static_cast<double>(together.a) - 10000,           static_cast<double>(together.b) - 10000};
     const double added[2] = {static_cast<double>(left.a) - 1000, static_cast<double>(left.b) - 1000};
     for (std::size_t x = 0; x < 6; ++x) {
       for (std::size_t y = 0; y < 2; ++y) {
@@ -211,9 +218,9 @@ TEST(draws, of_suppression_are_independent_of_shot_and_read_noise) {
   for (std::size_t i = 0; i < pairs.size(); ++i) EXPECT_LT(std::abs(pairs[i].z()), 5.5) << (i < 12 ? "values " : "squares ") << i % 12;
 }
 
-// Fast noise's ninth raw frame lives on the bits that eight before it left over: its radius and angle are as evenly spread as theirs, and
+// Merged noise's ninth raw frame lives on the bits that eight before it left over: its radius and angle are as evenly spread as theirs, and
 // the sizes of its normals know nothing of those whose words the bits came from. χ² over 64 cells and |r|·√n < 5.5: false alarm 4e-8 each.
-TEST(draws, of_fast_noise_from_spare_bits_are_as_good_as_any) {
+TEST(draws, of_merged_noise_from_spare_bits_are_as_good_as_any) {
   constexpr double mean = 1e6;
   constexpr int cells = 64;
   camera::SensorView sensor{};
@@ -223,7 +230,7 @@ TEST(draws, of_fast_noise_from_spare_bits_are_as_good_as_any) {
     raw::MergedWords<float> words{};
     double za[9], zb[9];
     for (int k = 0; k < 9; ++k) {
-      const auto got = raw::expose_fast<float>(sensor, {1e6f, 1e6f}, i, k, {0, 0}, words);
+      const auto got = raw::expose_merged<float>(sensor, {1e6f, 1e6f}, i, k, {0, 0}, words);
       za[k] = (static_cast<double>(got.a) - mean) / std::sqrt(mean), zb[k] = (static_cast<double>(got.b) - mean) / std::sqrt(mean);
       const auto cell = [](double share) { return static_cast<std::size_t>(std::min(cells - 1.0, std::max(0.0, share * cells))); };
       ++radius[static_cast<std::size_t>(k * cells) + cell(std::exp(-0.5 * (za[k] * za[k] + zb[k] * zb[k])))];

@@ -69,16 +69,16 @@ Manifest sample_manifest() {
 TEST(meta, says_what_made_the_frame_and_nothing_of_where) {
   const Scene scene = sample_scene();
   const Camera camera = out_test::sample_camera(24, 16);
-  const std::string text = frame_meta(scene, camera, 18446744073709551615ULL, Noise::fast, 3);
-  EXPECT_EQ(text, frame_meta(scene, camera, 18446744073709551615ULL, Noise::fast, 3));
+  const std::string text = frame_meta(scene, camera, 18446744073709551615ULL, Noise::off, 3);
+  EXPECT_EQ(text, frame_meta(scene, camera, 18446744073709551615ULL, Noise::off, 3));
   Scene elsewhere = scene;
   elsewhere.source = "C:/other/box.yaml";
-  EXPECT_EQ(text, frame_meta(elsewhere, camera, 18446744073709551615ULL, Noise::fast, 3));
+  EXPECT_EQ(text, frame_meta(elsewhere, camera, 18446744073709551615ULL, Noise::off, 3));
   const Json meta = parse_json(text, "meta");
   std::uint64_t seed = 0;
   EXPECT_TRUE(meta.find("seed")->unsigned_integer(seed));
   EXPECT_EQ(seed, 18446744073709551615ULL);
-  EXPECT_EQ(*meta.find("noise")->string(), "fast");
+  EXPECT_EQ(*meta.find("noise")->string(), "off");
   EXPECT_EQ(*meta.find("tofray")->string(), base::version());
   EXPECT_EQ(meta.find("scene")->find("objects")->items()->size(), 4U);
   EXPECT_EQ(meta.find("camera")->find("mode")->find("sequence")->items()->size(), 9U);

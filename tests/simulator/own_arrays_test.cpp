@@ -34,7 +34,7 @@ TEST_P(OwnArrays, of_what_a_scene_showed_give_its_frame) {
   Scene scene = still(load_scene(GetParam()));
   scene.ambient.spectrum = Ambient::Spectrum::sun_am15, scene.ambient.amount = 0.05;  // uniform
   const Camera camera = load_camera(scene);
-  for (const Noise noise : {Noise::off, Noise::fast, Noise::exact}) {
+  for (const Noise noise : {Noise::off, Noise::exact}) {
     Simulator simulator(scene, camera, {.seed = 7, .noise = noise});
     const Frame frame = simulator.frame(3);
     EXPECT_EQ(first_difference(simulator.frame(3, geometry_of(scene, camera, frame)), without_materials(frame)), "");
@@ -45,7 +45,7 @@ TEST_P(OwnArrays, of_what_a_scene_showed_give_its_frame) {
 TEST_P(OwnArrays, of_the_light_that_a_scene_sent_give_its_raw_data_and_depth) {
   const Scene scene = still(load_scene(GetParam()));
   const Camera camera = load_camera(scene);
-  for (const Noise noise : {Noise::off, Noise::fast, Noise::exact}) {
+  for (const Noise noise : {Noise::off, Noise::exact}) {
     Simulator simulator(scene, camera, {.seed = 7, .noise = noise});
     Frame frame = simulator.frame(3);
     Frame again = simulator.frame(3, light_of(camera, frame));
@@ -85,7 +85,7 @@ TEST(own_arrays, have_the_same_bytes_on_every_machine) {
 TEST(own_arrays, of_each_raw_frame_are_taken_at_its_own_moment) {
   const Camera camera = pico();
   const auto phases = camera.mode.sequence.size();
-  for (const Noise noise : {Noise::off, Noise::fast, Noise::exact}) {
+  for (const Noise noise : {Noise::off, Noise::exact}) {
     Simulator simulator({}, camera, {.noise = noise});
     Geometry moving = wall(camera, 1, static_cast<int>(phases));
     const std::size_t pixels = moving.z_m.size() / phases;

@@ -14,7 +14,7 @@ using namespace tofray::test;
 namespace {
 
 constexpr Isa every_isa[] = {Isa::scalar, Isa::scalar_fma, Isa::avx2, Isa::avx512};
-constexpr Noise every_noise[] = {Noise::off, Noise::fast, Noise::exact};
+constexpr Noise every_noise[] = {Noise::off, Noise::exact};
 
 /// 33 × 9 pixels, a grey raw frame of 1 ms and one of 3 ms before the lit ones, noisy and offset.
 Camera grey_camera() {

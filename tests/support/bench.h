@@ -53,8 +53,7 @@ struct Measured {
 
 class Bench {
  public:
-  /// @param noise  0 off, 1 fast, 2 exact
-  explicit Bench(const Camera& camera, int noise = 0, std::uint64_t seed = 1)
+  explicit Bench(const Camera& camera, bool noise = false, std::uint64_t seed = 1)
       : camera_(std::make_unique<camera::FrozenCamera>(camera, noise, seed)), sensor_(camera_->sensor(0)) {}
 
   [[nodiscard]] const camera::SensorView& sensor() const { return sensor_; }

@@ -63,7 +63,6 @@ std::vector<Pair> pairs_of(const Options& options, const Inputs& in) {
       {fmt::format("time: {} / {}, 1 thread", backend::isa_name(plain), vector), in, in, with(base, plain, 1, base.noise), standard});
   pairs.push_back({"time: 1 thread / 2 threads", in, in, standard, with(base, best, 2, base.noise)});
   pairs.push_back({"time: noise exact / off", in, in, one(Noise::exact), one(Noise::off)});
-  pairs.push_back({"time: noise exact / fast", in, in, one(Noise::exact), one(Noise::fast)});
   pairs.push_back({"time: one object moves / nothing moves", moving(in), in, standard, standard});
   pairs.push_back({fmt::format("pixels per second: 640 x 480 / {} x {}", in.camera.sensor.width, in.camera.sensor.height), enlarged(in), in,
                    standard, standard, true});

@@ -9,8 +9,9 @@
 using F = tofray::num::Twin<tofray::num::F32x16>;
 #elif defined(TOFRAY_KERNEL_AVX2)
 #include "num/avx2.h"
+#include "num/twin.h"
 #define TOFRAY_KERNEL tofray_kernel_avx2
-using F = tofray::num::F32x8;
+using F = tofray::num::Twin<tofray::num::F32x8>;
 #elif defined(TOFRAY_KERNEL_SCALAR_FMA)
 #define TOFRAY_KERNEL tofray_kernel_scalar_fma
 using F = float;
