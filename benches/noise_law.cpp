@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // Draws what docs/theory/03-pixel.md shows of merged noise: the law of a tap's charge, and how far equation 3.11 is from it.
 //     noise_law FOLDER      writes noise-law.png and noise-distance.png
-#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <string>
 
 #include "pictures/chart.h"
 #include "support/noise_law.h"
@@ -18,25 +18,10 @@ using pictures::Chart;
 using pictures::Curve;
 using pictures::curve_color;
 
-enum class Order { normal = 1, skew = 2, full = 3 };
-
-/// Equation 3.11 up to an order: λ + √V·z, with the skew's term, with all.
-double up_to(Order order, double mean, double read, double z) {
-  if (order == Order::full) return expansion(mean, read, z);
+/// Equation 3.11 without its last term.
+double second_order(double mean, double read, double z) {
   const double variance = mean + read * read;
-  return mean + std::sqrt(variance) * z + (order == Order::skew ? mean / variance * (z * z - 1) / 6 : 0);
-}
-
-double slope(Order order, double mean, double read, double z) {
-  return (up_to(order, mean, read, z + 1e-4) - up_to(order, mean, read, z - 1e-4)) / 2e-4;
-}
-
-double total_variation(Order order, double mean, double read) {
-  const NoiseLaw law(mean, read);
-  double sum = 0;
-  for (double z = -7; z < 7; z += 0.02)
-    sum += std::abs(law.density(up_to(order, mean, read, z)) * slope(order, mean, read, z) - normal_density(z)) * 0.02;
-  return sum / 2;
+  return mean + std::sqrt(variance) * z + mean / variance * (z * z - 1) / 6;
 }
 
 Curve curve(const std::string& name, std::size_t color, bool dashed = false) { return {name, curve_color(color), dashed, {}, {}}; }
@@ -45,6 +30,7 @@ Curve curve(const std::string& name, std::size_t color, bool dashed = false) { r
 Chart law_chart() {
   constexpr double mean = 2.4, read = 4;
   const NoiseLaw law(mean, read);
+  const auto charge = [&](double z) { return expansion(mean, read, z); };
   Chart chart;
   chart.title = "Charge of one tap: shot noise of 2.4 e\u207b and read noise of 4 e\u207b";
   chart.notes = {"where equation 3.11 is furthest from the true law: half of the area between both is 0.00002"};
@@ -53,7 +39,7 @@ Chart law_chart() {
   Curve exact = curve("true law", 0), ours = curve("eq. 3.11", 1, true);
   Curve of_ours = curve("(eq. 3.11 \u2212 true) \u00d7 100", 2), of_normal = curve("(normal \u2212 true) \u00d7 100", 3);
   for (double z = -4; z <= 4.3; z += 0.1) {
-    const double x = up_to(Order::full, mean, read, z), density = normal_density(z) / slope(Order::full, mean, read, z);
+    const double x = charge(z), density = normal_density(z) / slope_of(charge, z);
     if (x < -15 || x > 20) continue;
     const double of_a_normal = normal_density((x - mean) / std::sqrt(mean + read * read)) / std::sqrt(mean + read * read);
     for (Curve* one : {&exact, &ours, &of_ours, &of_normal}) one->x.push_back(x);
@@ -73,16 +59,17 @@ Chart distance_chart() {
   chart.x_ticks = {-1, 0, 1, 2, 3, 4};
   chart.log_y = true;
   for (const double read : {4.0, 8.0, 50.0}) {
-    for (const Order order : {Order::full, Order::skew}) {
-      const std::string name =
-          "\u03c3 = " + std::to_string(static_cast<int>(read)) + " e\u207b" + (order == Order::full ? "" : ", no last term");
-      Curve one = curve(name, read < 5 ? 0 : read < 10 ? 1 : 2, order == Order::skew);
-      for (double power = -1; power < 4.01; power += 0.1) {
-        one.x.push_back(std::min(4.0, power));
-        one.y.push_back(total_variation(order, std::pow(10, power), read));
-      }
-      chart.curves.push_back(one);
+    const std::string name = "\u03c3 = " + std::to_string(static_cast<int>(read)) + " e\u207b";
+    const std::size_t color = read < 5 ? 0 : read < 10 ? 1 : 2;
+    Curve full = curve(name, color), shorter = curve(name + ", no last term", color, true);
+    for (int tenths = -10; tenths <= 40; ++tenths) {
+      const double power = tenths / 10.0, mean = std::pow(10, power);
+      const NoiseLaw law(mean, read);
+      full.x.push_back(power), shorter.x.push_back(power);
+      full.y.push_back(total_variation(law, [&](double z) { return expansion(mean, read, z); }));
+      shorter.y.push_back(total_variation(law, [&](double z) { return second_order(mean, read, z); }));
     }
+    chart.curves.insert(chart.curves.end(), {full, shorter});
   }
   return chart;
 }

@@ -11,6 +11,7 @@
 #include "camera/frozen_camera.h"
 #include "depth/decode.h"
 #include "results.h"
+#include "results/meta.h"
 #include "results/meta_camera.h"
 #include "simulator/check.h"
 #include "tofray/error.h"
@@ -60,11 +61,6 @@ double meta_number(const Arrays& arrays, const char* section, const char* key, d
   return value;
 }
 
-bool is_noise_free(const Arrays& arrays) {
-  const files::Json* noise = arrays.meta().find("noise");
-  return noise != nullptr && noise->is_string() && *noise->string() == "off";
-}
-
 void read_raw_frames(const Arrays& arrays, std::size_t pixel, PixelChain& out) {
   const std::size_t pixels = arrays.width() * arrays.height();
   const double step = meta_number(arrays, "adc", "step_e_per_dn", std::nan("")), mid = meta_number(arrays, "adc", "mid_code", std::nan(""));
@@ -79,7 +75,7 @@ void read_raw_frames(const Arrays& arrays, std::size_t pixel, PixelChain& out) {
     one.tap_a_e = arrays.at("tap_a", at), one.tap_b_e = arrays.at("tap_b", at), one.code_dn = arrays.at("raw", at);
     one.difference_e = step * (one.code_dn - mid);
     // Without codes, or without noise, depth takes the taps without rounding, as far as codes would reach. (fmin and fmax pass over NaN.)
-    if (!std::isfinite(one.difference_e) || is_noise_free(arrays)) {
+    if (!std::isfinite(one.difference_e) || results::is_noise_free(arrays.meta())) {
       one.difference_e = std::fmax(std::fmin(one.tap_a_e - one.tap_b_e, most), -step * mid);
     }
     out.raw_frames.push_back(one);

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/version.h"
+#include "files/json.h"
 #include "model/tables.h"
 #include "results/array_table.h"
 
@@ -69,6 +70,11 @@ Tree tree_of(const Table& table, const void* record) {
 }  // namespace
 
 const char* noise_name(Noise noise) { return noise == Noise::off ? "off" : "exact"; }
+
+bool is_noise_free(const files::Json& meta) {
+  const files::Json* noise = meta.find("noise");
+  return noise != nullptr && noise->is_string() && *noise->string() == noise_name(Noise::off);
+}
 
 std::string frame_meta(const Scene& scene, const Camera& camera, std::uint64_t seed, Noise noise, std::uint64_t frame_index) {
   Tree what = tree_of(model::table_of<Scene>(), &scene);

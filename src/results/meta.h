@@ -8,10 +8,17 @@
 #include "tofray/scene.h"
 #include "tofray/simulator.h"
 
+namespace tofray::files {
+class Json;
+}
+
 namespace tofray::results {
 
 /// "off" or "exact".
 const char* noise_name(Noise noise);
+
+/// Whether this `meta` is that of expected values. Depth came from the unrounded taps then, and no pixel was called low signal.
+bool is_noise_free(const files::Json& meta);
 
 /// The `meta` string of frame.npz: one JSON object on one line with
 /// `tofray` (version), `seed`, `noise`, `frame` (index), `units` (one per array), `camera` and `scene`, both resolved, in SI units with the names

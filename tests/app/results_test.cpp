@@ -252,42 +252,6 @@ TEST(process, takes_other_settings) {
   EXPECT_EQ(run({"process", "out/frame.npz", "--set", "camera.decoding.filtre.kind=median"}, here).code, 2);
 }
 
-TEST(inspect, shows_one_pixel_from_light_to_depth) {
-  const Folder folder;
-  const Prepare here = in_folder(folder.path());
-  ASSERT_EQ(run({"render", "card", "-o", "out", "--noise", "off"}, here).code, 0);
-  const Result from_file = run({"inspect", "out/frame.npz", "--pixel", "112,86", "--json"}, here);
-  const Result simulated = run({"inspect", "card", "--pixel", "112,86", "--noise", "off", "--json"}, here);
-  ASSERT_EQ(from_file.code, 0) << from_file.err;
-  const auto after_name = [](const std::string& text) { return text.substr(text.find("\"pixel\"")); };
-  EXPECT_EQ(after_name(from_file.out), after_name(simulated.out));
-  const files::Json json = files::parse_json(from_file.out, "stdout");
-  EXPECT_EQ(*json.find("truth")->find("object")->string(), "card");
-  EXPECT_EQ(json.find("raw_frames")->items()->size(), 9u);
-  // Noise-free, both modulation frequencies agree with half the true path to float precision: some 1e-5 m.
-  double range = 0;
-  ASSERT_TRUE(json.find("truth")->find("range_m")->number(range));
-  ASSERT_EQ(json.find("phases")->items()->size(), 2u);
-  for (const files::Json& phase : *json.find("phases")->items()) {
-    double half_path = 0;
-    ASSERT_TRUE(phase.find("half_path_m")->number(half_path));
-    EXPECT_NEAR(half_path, range, 2e-4);  // the light stands 15 mm beside the lens: half the path is 0.12 mm longer at 1 m
-    EXPECT_GT(half_path, range);
-  }
-}
-
-TEST(inspect, lists_every_array_with_its_unit) {
-  const Folder folder;
-  const Prepare here = in_folder(folder.path());
-  ASSERT_EQ(run(with_small_sensor({"render", "card", "-o", "out"}), here).code, 0);
-  const Result result = run({"inspect", "out/frame.npz"}, here);
-  EXPECT_EQ(result.code, 0);
-  for (const files::NamedArray& one : files::read_npz(folder / "out" / "frame.npz"))
-    EXPECT_TRUE(has(result.out, "\n" + one.name + " ")) << one.name;
-  EXPECT_TRUE(has(result.out, "W/(m2 sr)"));
-  EXPECT_TRUE(has(result.out, "pixels with a depth"));
-}
-
 struct Dark {
   std::string name;
   Arguments arguments;
@@ -395,40 +359,6 @@ TEST(check, of_a_profile_names_numbers_without_a_source) {
   const Result result = run({"check", "mycam.yaml"}, in_folder(folder.path()));
   EXPECT_EQ(result.code, 0) << result.err;
   EXPECT_TRUE(has(result.err, "warning: sensor.width is 224, and does not say where that comes from")) << result.err;
-}
-
-TEST(doctor, finds_this_machine_well) {
-  const Result result = run({"doctor"});
-  EXPECT_EQ(result.code, 0) << result.out;
-  EXPECT_TRUE(has(result.out, "all good"));
-}
-
-TEST(bench, measures_what_it_says) {
-  const Result result = run(with_small_sensor({"bench", "card", "--frames", "3", "--noise", "off", "--threads", "1", "--json"}));
-  ASSERT_EQ(result.code, 0) << result.err;
-  const files::Json json = files::parse_json(result.out, "stdout");
-  ASSERT_EQ(json.find("results")->items()->size(), 1u);
-  const files::Json& row = json.find("results")->items()->front();
-  double median = 0, rate = 0, peak = 0, fast = 0, slow = 0;
-  ASSERT_TRUE(row.find("ms_median")->number(median) && row.find("frames_per_s")->number(rate) && row.find("peak_bytes")->number(peak));
-  ASSERT_TRUE(row.find("ms_p10")->number(fast) && row.find("ms_p99")->number(slow));
-  EXPECT_GT(fast, 0);
-  EXPECT_LE(fast, median);
-  EXPECT_LE(median, slow);
-  EXPECT_NEAR(rate * median, 1000, 1e-6);
-  EXPECT_GT(peak, 1e6);
-  EXPECT_EQ(row.find("sha256")->string()->size(), 64u);
-}
-
-TEST(bench, compares_variants_that_give_the_same_bytes) {
-  const Result result = run(with_small_sensor({"bench", "--compare", "--frames", "2", "--warmup", "0", "--json"}));
-  ASSERT_EQ(result.code, 0) << result.err;
-  const files::Json json = files::parse_json(result.out, "stdout");
-  EXPECT_EQ(json.find("ratios")->items()->size(), 5u);
-  const auto hash = [&](std::size_t i) { return *(*json.find("results")->items())[i].find("sha256")->string(); };
-  EXPECT_EQ(hash(0), hash(1));  // scalar and vector code
-  EXPECT_EQ(hash(2), hash(3));  // one thread and two
-  EXPECT_NE(hash(4), hash(5));  // with noise and without
 }
 
 }  // namespace

@@ -113,10 +113,10 @@ class Round:
                 r.update(fate="open", tried=[])
         for name in self.tree.programs:
             reached = self.look(name)
-            todo = [n for n, m in self.tree.numbered.items() if self.results[m.place]["fate"] == "open" and name not in self.results[m.place]["tried"]]
-            print(f"{name}: {len(todo)} of {len(self.tree.numbered)} mutants to try", flush=True)
+            waiting = [n for n, m in self.tree.numbered.items() if self.results[m.place]["fate"] == "open" and name not in self.results[m.place]["tried"]]
+            print(f"{name}: {len(waiting)} of {len(self.tree.numbered)} mutants to try", flush=True)
             with concurrent.futures.ThreadPoolExecutor(self.jobs) as pool:
-                list(pool.map(lambda number: self.judge(number, name, sorted(reached.get(number, []))), todo))
+                list(pool.map(lambda number: self.judge(number, name, sorted(reached.get(number, []))), waiting))
         for number, m in self.tree.numbered.items():
             r = self.results[m.place]
             if r["fate"] == "open":

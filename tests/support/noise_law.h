@@ -1,7 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The tofray authors
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <numbers>
 #include <vector>
 
@@ -44,6 +46,21 @@ inline double expansion(double mean, double read, double z) {
   const double variance = mean + read * read, share = mean / variance;
   return mean + std::sqrt(variance) * z +
          share * ((z * z - 1) / 6 + z / std::sqrt(variance) * ((z * z - 3) / 24 - share * (2 * z * z - 5) / 36));
+}
+
+/// Slope of a charge over the normal number that it comes from.
+template <class Charge>
+double slope_of(const Charge& charge, double z) {
+  return (charge(z + 1e-4) - charge(z - 1e-4)) / 2e-4;
+}
+
+/// Total variation between a law and that of a charge N(z) of a normal z: half of ∫|f − g| over x = N(z), where g·dx = φ(z)·dz.
+template <class Charge>
+double total_variation(const NoiseLaw& law, const Charge& charge) {
+  constexpr double step = 0.01;
+  double sum = 0;
+  for (double z = -8; z < 8; z += step) sum += std::abs(law.density(charge(z)) * slope_of(charge, z) - normal_density(z)) * step;
+  return sum / 2;
 }
 
 }  // namespace tofray::test

@@ -50,14 +50,6 @@ Camera camera_for(const Options& options, const std::string& meta, const std::st
   return results::camera_of_meta(meta, path, camera_settings(options));
 }
 
-/// Whether the file holds expected values. Its depth came from the unrounded taps then, and no pixel was called low signal.
-bool is_noise_free(const std::string& meta, const std::string& path) {
-  if (meta.empty()) return false;
-  const files::Json document = files::parse_json(meta, path + ": meta");
-  const files::Json* noise = document.find("noise");
-  return noise != nullptr && noise->is_string() && *noise->string() == results::noise_name(Noise::off);
-}
-
 /// Names that a zip of ours can hold whatever wrote the file.
 bool is_plain(const std::string& name) {
   return std::all_of(name.begin(), name.end(), [](char c) { return c > ' ' && c < 127 && c != '/' && c != '\\'; });
@@ -119,7 +111,7 @@ int run_process(const Options& options) {
   if (frame.raw.start_time_s.empty())
     frame.raw.start_time_s = camera::raw_frame_starts_s(frame.raw.integration_time_s, in.camera.readout_time_s);
   SimulatorOptions wanted = simulator_options(options);
-  if (is_noise_free(meta, path)) {
+  if (!meta.empty() && results::is_noise_free(files::parse_json(meta, path + ": meta"))) {
     wanted.noise = Noise::off;
     if (!frame.raw.tap_a.empty()) frame.raw.raw.clear();
   }

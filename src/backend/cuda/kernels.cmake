@@ -83,7 +83,7 @@ if(nvcc)
   endforeach()
   list(APPEND code -gencode arch=compute_${newest},code=compute_${newest})
 
-  # The PTX that the machine code is made of stays, for the tests to read.
+  # The PTX that the machine code is made of stays, for the tests to read. (No compiler cache: it would bring back the object alone.)
   list(LENGTH architectures count)
   foreach(number ${architectures})
     set(ptx ${objects}/kernels.compute_${number}.ptx)
@@ -100,7 +100,7 @@ if(nvcc)
       set(which -gencode arch=compute_${newest},code=compute_${newest})
     endif()
     add_custom_command(OUTPUT ${objects}/${file}.o
-      COMMAND ${CMAKE_CXX_COMPILER_LAUNCHER} ${nvcc} ${tofray_nvcc_flags} ${which} -Xcompiler=-fPIC,-ffp-contract=off,-fno-gnu-unique --threads 2
+      COMMAND ${nvcc} ${tofray_nvcc_flags} ${which} -Xcompiler=-fPIC,-ffp-contract=off,-fno-gnu-unique --threads 2
         -MD -MF ${objects}/${file}.d -MT ${objects}/${file}.o -c ${folder}/${file}.cu -o ${objects}/${file}.o
       DEPENDS ${folder}/${file}.cu DEPFILE ${objects}/${file}.d COMMENT "Compiling ${file}.cu for ${architectures} and PTX" COMMAND_EXPAND_LISTS VERBATIM)
     list(APPEND pieces ${objects}/${file}.o)
