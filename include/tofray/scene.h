@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include <array>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <utility>
@@ -50,6 +51,12 @@ struct Cylinder {
   double radius = 1;
   double height = 1;
 };  ///< with caps; the axis need not be of unit length
+
+/// Triangles that share vertices, both sides of which reflect.
+struct TriangleMesh {
+  std::vector<std::array<float, 3>> vertices;          ///< [m], in the mesh's own frame
+  std::vector<std::array<std::int32_t, 3>> triangles;  ///< three indices of `vertices` each
+};
 
 /// A turn by the right-hand rule about `axis` (any length but zero).
 struct Rotation {
