@@ -35,6 +35,9 @@ inline constexpr Limit threads{"threads", 1024, "threads of one run"};
 inline constexpr Limit table_samples{"table_samples", 1 << 20, "samples of one light pattern"};
 inline constexpr Limit unpacked_bytes{"unpacked_bytes", 64 << 20, "bytes that any data file may unpack to"};
 inline constexpr Limit unpacked_ratio{"unpacked_ratio", 100, "times its own size that a larger data file may unpack to"};
+inline constexpr Limit mesh_bytes{"mesh_bytes", 1 << 30, "bytes of one file of a triangle mesh"};
+inline constexpr Limit mesh_vertices{"mesh_vertices", 20'000'000, "vertices of one triangle mesh"};
+inline constexpr Limit mesh_triangles{"mesh_triangles", 20'000'000, "triangles of one mesh, polygons taken apart"};
 }  // namespace limit
 
 /// All of them, in the order in which they are printed.
@@ -44,7 +47,8 @@ inline constexpr Limit all_limits[] = {
     limit::message_bytes,  limit::objects,       limit::materials,      limit::lights,
     limit::raw_frames,     limit::modes,         limit::sensor_side,    limit::sensor_pixels,
     limit::raw_samples,    limit::curve_points,  limit::table_samples,  limit::unpacked_bytes,
-    limit::unpacked_ratio, limit::threads,
+    limit::unpacked_ratio, limit::mesh_bytes,    limit::mesh_vertices,  limit::mesh_triangles,
+    limit::threads,
 };
 
 }  // namespace tofray::base

@@ -1,0 +1,203 @@
+// SPDX-FileCopyrightText: 2026 The tofray authors
+// SPDX-License-Identifier: Apache-2.0
+// PLY: x, y, z of the element vertex, and lists of vertices: polygons in the element face, strips in tristrips. All else is read past.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+#include "base/faults.h"
+#include "base/text.h"
+#include "mesh/formats.h"
+#include "mesh/mesh_builder.h"
+#include "mesh/numbers.h"
+#include "mesh/ply_body.h"
+#include "mesh/ply_header.h"
+
+namespace tofray::mesh {
+namespace {
+
+using base::in_quotes;
+
+std::string property_names(const PlyElement& element) {
+  std::vector<std::string> names;
+  for (const PlyProperty& property : element.properties) names.push_back((property.list ? "list " : "") + in_quotes(property.name));
+  return names.empty() ? std::string("none") : base::listed(names, "and");
+}
+
+template <class Body>
+class PlyReader {
+ public:
+  PlyReader(std::string_view bytes, const PlyHeader& header, const std::string& name)
+      : header_(header), name_(name), body_(bytes, header, name), mesh_(name) {}
+
+  ReadMesh read() {
+    const PlyElement* vertex = header_.find("vertex");
+    if (vertex == nullptr) base::fail(base::whole(name_), "the header has no element \"vertex\"", "expected one with x, y and z");
+    vertices_ = vertex->count;
+    for (const PlyElement& element : header_.elements) {
+      if (element.properties.empty()) continue;
+      if (element.name == "vertex")
+        read_vertices(element);
+      else if (element.name == "face")
+        read_faces(element);
+      else if (element.name == "tristrips")
+        read_strips(element);
+      else
+        read_past(element);
+    }
+    body_.finish();
+    return mesh_.finish();
+  }
+
+ private:
+  [[noreturn]] void fail_at(const PlyElement& element, const std::string& what, const std::string& more) const {
+    base::fail({std::make_shared<const std::string>(name_), static_cast<int>(element.mark.line), static_cast<int>(element.mark.column)},
+               what, more);
+  }
+
+  void check_room(const PlyElement& element, const PlyProperty* polygons = nullptr) const {
+    if (!body_.could_hold(element, polygons))
+      fail_at(element, "the file is too short for element " + in_quotes(element.name),
+              fmt::format("got {} as the number of rows", element.count));
+  }
+
+  void pass(const PlyProperty& property) {
+    std::uint64_t count = property.list ? body_.length(property.count, property.type) : 1;
+    for (; count > 0; --count) body_.pass(property.type);
+  }
+
+  void read_past(const PlyElement& element) {
+    check_room(element);
+    for (std::uint64_t row = 0; row < element.count; ++row) {
+      body_.row(element.name, row);
+      for (const PlyProperty& property : element.properties) pass(property);
+    }
+  }
+
+  /// For each property which of x, y, z it is, or -1.
+  std::vector<int> axes_of(const PlyElement& element) const {
+    constexpr std::string_view axes[] = {"x", "y", "z"};
+    std::vector<int> found(element.properties.size(), -1);
+    for (int axis = 0; axis < 3; ++axis) {
+      const auto at = std::find_if(element.properties.begin(), element.properties.end(),
+                                   [&](const PlyProperty& property) { return property.name == axes[axis] && !property.list; });
+      if (at == element.properties.end())
+        fail_at(element, fmt::format("the vertices have no {}", axes[axis]),
+                "got " + property_names(element) + ", expected x, y and z, each a number");
+      found[static_cast<std::size_t>(at - element.properties.begin())] = axis;
+    }
+    return found;
+  }
+
+  void read_vertices(const PlyElement& element) {
+    const std::vector<int> axes = axes_of(element);
+    check_room(element);
+    mesh_.expect_vertices(element.count);
+    for (std::uint64_t row = 0; row < element.count; ++row) {
+      body_.row(element.name, row);
+      std::array<float, 3> position{};
+      for (std::size_t i = 0; i < axes.size(); ++i) {
+        if (axes[i] < 0)
+          pass(element.properties[i]);
+        else
+          position[static_cast<std::size_t>(axes[i])] = to_float(body_.number(element.properties[i].type));
+      }
+      mesh_.vertex(position);
+    }
+  }
+
+  const PlyProperty& indices_of(const PlyElement& element) const {
+    const PlyProperty* found = nullptr;
+    for (const PlyProperty& property : element.properties) {
+      if (property.name != "vertex_indices" && property.name != "vertex_index") continue;
+      if (!property.list || !is_integer(property.type))
+        fail_at(element, fmt::format("{} of {} is no list of whole numbers", property.name, in_quotes(element.name)),
+                "expected property list uchar int vertex_indices");
+      if (found != nullptr) fail_at(element, in_quotes(element.name) + " has both vertex_indices and vertex_index", "expected one of them");
+      found = &property;
+    }
+    if (found == nullptr)
+      fail_at(element, in_quotes(element.name) + " has no list vertex_indices",
+              "got " + property_names(element) + ", expected property list uchar int vertex_indices");
+    return *found;
+  }
+
+  std::int32_t checked(std::int64_t index) const {
+    if (index < 0 || static_cast<std::uint64_t>(index) >= vertices_)
+      body_.fail("an index is none of a vertex",
+                 fmt::format("got {}, and there are {} vertices, of which the first is 0", index, vertices_));
+    return static_cast<std::int32_t>(index);
+  }
+
+  /// A row whose lists of vertices `read_list` takes.
+  template <class ReadList>
+  void read_rows(const PlyElement& element, const PlyProperty& indices, const ReadList& read_list) {
+    for (std::uint64_t row = 0; row < element.count; ++row) {
+      body_.row(element.name, row);
+      for (const PlyProperty& property : element.properties) {
+        if (&property == &indices)
+          read_list(body_.length(property.count, property.type), property.type);
+        else
+          pass(property);
+      }
+    }
+  }
+
+  void read_faces(const PlyElement& element) {
+    const PlyProperty& indices = indices_of(element);
+    check_room(element, &indices);
+    mesh_.expect_triangles(element.count);
+    read_rows(element, indices, [this](std::uint64_t length, PlyType type) { read_polygon(length, type); });
+  }
+
+  void read_polygon(std::uint64_t length, PlyType type) {
+    if (length < 3) body_.fail("a face has fewer than 3 corners", fmt::format("got {}, expected 3 or more", length));
+    const std::int32_t first = checked(body_.integer(type));
+    std::int32_t before = checked(body_.integer(type));
+    for (std::uint64_t i = 2; i < length; ++i) {
+      const std::int32_t corner = checked(body_.integer(type));
+      mesh_.triangle(first, before, corner);
+      before = corner;
+    }
+  }
+
+  void read_strips(const PlyElement& element) {
+    const PlyProperty& indices = indices_of(element);
+    check_room(element);
+    read_rows(element, indices, [this](std::uint64_t length, PlyType type) { read_strip(length, type); });
+  }
+
+  /// Each three that follow each other are a triangle, every other one turned round; -1 begins anew. Where two of the three are the same
+  /// vertex the strip only goes on elsewhere.
+  void read_strip(std::uint64_t length, PlyType type) {
+    std::int32_t a = 0, b = 0;
+    for (std::uint64_t i = 0, have = 0; i < length; ++i) {
+      const std::int64_t index = body_.integer(type);
+      if (index == -1) {
+        have = 0;
+        continue;
+      }
+      const std::int32_t c = checked(index);
+      if (have >= 2 && a != b && b != c && a != c) have % 2 == 0 ? mesh_.triangle(a, b, c) : mesh_.triangle(b, a, c);
+      a = b, b = c;
+      ++have;
+    }
+  }
+
+  const PlyHeader& header_;
+  const std::string& name_;
+  Body body_;
+  MeshBuilder mesh_;
+  std::uint64_t vertices_ = 0;
+};
+
+}  // namespace
+
+ReadMesh parse_ply(std::string_view bytes, const std::string& name) {
+  const PlyHeader header = parse_ply_header(bytes, name);
+  if (header.encoding == PlyHeader::Encoding::ascii) return PlyReader<PlyText>(bytes, header, name).read();
+  return PlyReader<PlyBinary>(bytes, header, name).read();
+}
+
+}  // namespace tofray::mesh

@@ -1,0 +1,36 @@
+// SPDX-FileCopyrightText: 2026 The tofray authors
+// SPDX-License-Identifier: Apache-2.0
+#include "mesh/read_mesh.h"
+
+#include "base/faults.h"
+#include "base/text.h"
+#include "mesh/formats.h"
+
+namespace tofray::mesh {
+
+Format format_of(const std::string& path) {
+  const std::string file = path.substr(path.rfind('/') + 1);  // npos + 1 is 0
+  const std::size_t dot = file.rfind('.');
+  std::string suffix = dot == std::string::npos ? std::string() : file.substr(dot);
+  for (char& c : suffix)
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  if (suffix == ".obj") return Format::obj;
+  if (suffix == ".ply") return Format::ply;
+  if (suffix == ".stl") return Format::stl;
+  if (suffix == ".gltf" || suffix == ".glb")
+    base::fail(base::whole(path), "glTF cannot be read yet", "expected .obj, .ply or .stl: save the mesh as one of them");
+  base::fail(
+      base::whole(path), "this is no mesh that can be read",
+      "got " + (suffix.empty() ? "a name without suffix" : "the suffix " + base::in_quotes(suffix)) + ", expected .obj, .ply or .stl");
+}
+
+ReadMesh parse(Format format, std::string_view bytes, const std::string& name) {
+  switch (format) {
+    case Format::obj: return parse_obj(bytes, name);
+    case Format::ply: return parse_ply(bytes, name);
+    case Format::stl: break;
+  }
+  return parse_stl(bytes, name);
+}
+
+}  // namespace tofray::mesh

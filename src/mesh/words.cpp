@@ -1,0 +1,86 @@
+// SPDX-FileCopyrightText: 2026 The tofray authors
+// SPDX-License-Identifier: Apache-2.0
+#include "mesh/words.h"
+
+#include <algorithm>
+#include <limits>
+#include <memory>
+
+#include "base/faults.h"
+
+namespace tofray::mesh {
+namespace {
+
+bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\v' || c == '\f'; }
+bool is_line_end(char c) { return c == '\n' || c == '\r'; }
+
+int to_place(std::size_t number) { return static_cast<int>(std::min<std::size_t>(number, std::numeric_limits<int>::max())); }
+
+}  // namespace
+
+Words::Words(std::string_view text, const std::string& name, Style style, std::size_t from, std::size_t line)
+    : text_(text), name_(name), obj_(style == Style::obj), at_(from), line_(line), line_start_(from) {
+  if (from == 0 && text.starts_with("\xEF\xBB\xBF")) at_ = line_start_ = 3;
+  word_start_ = line_start_of_word_ = at_;
+  word_line_ = line_;
+}
+
+bool Words::line_goes_on() const { return obj_ && text_[at_] == '\\' && at_ + 1 < text_.size() && is_line_end(text_[at_ + 1]); }
+
+void Words::pass_line_end() {
+  at_ += text_.substr(at_).starts_with("\r\n") ? 2 : 1;
+  ++line_;
+  line_start_ = at_;
+}
+
+void Words::pass_blanks() {
+  while (at_ < text_.size()) {
+    const bool goes_on = line_goes_on();
+    if (!goes_on && !is_blank(text_[at_])) break;
+    ++at_;
+    if (goes_on) pass_line_end();
+  }
+}
+
+bool Words::in_line(std::string_view& word) {
+  pass_blanks();
+  word_start_ = at_;
+  word_line_ = line_;
+  line_start_of_word_ = line_start_;
+  for (; at_ < text_.size(); ++at_) {
+    const char c = text_[at_];
+    if (is_blank(c) || is_line_end(c) || (obj_ && c == '#') || line_goes_on()) break;
+  }
+  word = text_.substr(word_start_, at_ - word_start_);
+  return !word.empty();
+}
+
+bool Words::next_line() {
+  bool comment = false;
+  for (; at_ < text_.size(); ++at_) {
+    if (is_line_end(text_[at_])) {
+      pass_line_end();
+      return true;
+    }
+    comment = comment || (obj_ && text_[at_] == '#');
+    if (comment || !line_goes_on()) continue;
+    ++at_;
+    pass_line_end();
+    --at_;  // the loop goes on with the next line's first byte
+  }
+  return false;
+}
+
+bool Words::next(std::string_view& word) {
+  while (!in_line(word))
+    if (!next_line()) return false;
+  return true;
+}
+
+void Words::fail(const Mark& mark, const std::string& what, const std::string& more, ErrorKind kind) const {
+  base::fail({std::make_shared<const std::string>(name_), to_place(mark.line), to_place(mark.column)}, what, more, kind);
+}
+
+void Words::fail(const std::string& what, const std::string& more, ErrorKind kind) const { fail(mark(), what, more, kind); }
+
+}  // namespace tofray::mesh
