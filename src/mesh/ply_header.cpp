@@ -21,8 +21,7 @@ constexpr std::string_view type_names[][2] = {{"char", "int8"}, {"uchar", "uint8
 
 class PlyHeaderReader {
  public:
-  PlyHeaderReader(std::string_view bytes, const std::string& name)
-      : bytes_(bytes), name_(name), words_(bytes.substr(0, max_ply_header_bytes), name) {}
+  PlyHeaderReader(std::string_view bytes, const std::string& name) : bytes_(bytes), name_(name), words_(bytes, name) {}
 
   PlyHeader read() {
     check_first_line();
@@ -47,12 +46,10 @@ class PlyHeaderReader {
 
   /// @return false behind end_header
   bool read_line() {
-    if (!words_.next_line()) {
-      if (bytes_.size() > max_ply_header_bytes)
-        words_.fail(fmt::format("the header is longer than {} bytes", max_ply_header_bytes), "expected end_header before",
-                    ErrorKind::limit);
-      words_.fail("the header has no end", "expected end_header");
-    }
+    const bool more = words_.next_line();
+    if (words_.position() > max_ply_header_bytes)
+      words_.fail(fmt::format("the header is longer than {} bytes", max_ply_header_bytes), "expected end_header before", ErrorKind::limit);
+    if (!more) words_.fail("the header has no end", "expected end_header");
     std::string_view keyword;
     if (!words_.in_line(keyword) || keyword == "comment" || keyword == "obj_info") return true;
     if (keyword == "end_header") {

@@ -27,6 +27,9 @@ Words::Words(std::string_view text, const std::string& name, Style style, std::s
 
 bool Words::line_goes_on() const { return obj_ && text_[at_] == '\\' && at_ + 1 < text_.size() && is_line_end(text_[at_ + 1]); }
 
+// Not within a word: 1.#INF is a number, m#1 a name.
+bool Words::comment_begins() const { return obj_ && text_[at_] == '#' && (at_ == line_start_ || is_blank(text_[at_ - 1])); }
+
 void Words::pass_line_end() {
   at_ += text_.substr(at_).starts_with("\r\n") ? 2 : 1;
   ++line_;
@@ -49,7 +52,7 @@ bool Words::in_line(std::string_view& word) {
   line_start_of_word_ = line_start_;
   for (; at_ < text_.size(); ++at_) {
     const char c = text_[at_];
-    if (is_blank(c) || is_line_end(c) || (obj_ && c == '#') || line_goes_on()) break;
+    if (is_blank(c) || is_line_end(c) || comment_begins() || line_goes_on()) break;
   }
   word = text_.substr(word_start_, at_ - word_start_);
   return !word.empty();
@@ -62,7 +65,7 @@ bool Words::next_line() {
       pass_line_end();
       return true;
     }
-    comment = comment || (obj_ && text_[at_] == '#');
+    comment = comment || comment_begins();
     if (comment || !line_goes_on()) continue;
     ++at_;
     pass_line_end();

@@ -17,7 +17,7 @@ struct Mark {
 /// The words of a text and where they stand. Lines end with LF, CR LF or CR; a byte order mark at the beginning is read past.
 class Words {
  public:
-  /// Of OBJ: '#' begins a comment that lasts to the line's end, and a backslash at its end joins the next line to it.
+  /// Of OBJ: a word that begins with '#' begins a comment, which lasts to the line's end, and a backslash at its end joins the next line to it.
   enum class Style { plain, obj };
 
   /// @param from  where in the text to begin
@@ -43,6 +43,7 @@ class Words {
 
  private:
   [[nodiscard]] bool line_goes_on() const;
+  [[nodiscard]] bool comment_begins() const;
   void pass_line_end();
   void pass_blanks();
 
