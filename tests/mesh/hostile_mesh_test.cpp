@@ -143,7 +143,8 @@ TEST(mesh_file, that_announces_more_than_the_limits_is_refused_before_it_is_read
 }
 
 TEST(mesh_file, that_announces_more_than_it_has_is_refused_before_memory_is_taken) {
-  for (const char* count : {"1000000", "20000000", "2147483648", "4294967295", "9223372036854775807", "18446744073709551615"})
+  for (const char* count :
+       {"1000000", "20000000", "2147483648", "4294967295", "9223372036854775807", "9223372036854775808", "18446744073709551615"})
     for (const char* encoding : {"ascii", "binary_little_endian", "binary_big_endian"}) {
       const std::string begin = std::string("ply\nformat ") + encoding + " 1.0\nelement vertex ",
                         xyz = "\nproperty double x\nproperty double y\nproperty double z\n";

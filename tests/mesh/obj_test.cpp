@@ -75,6 +75,13 @@ TEST(obj, reads_numbers_of_all_forms) {
   expect_mesh(read, {{1, -2.5F, 0.5F}, {1, 100, 0.01F}, {0, 0, 0.1F}, {3.4028234e38F, 1, 0}}, {{0, 1, 2}, {0, 2, 3}});
 }
 
+TEST(obj, tells_numbers_too_small_for_double_from_those_too_large) {
+  const std::string zeros(400, '0');
+  expect_mesh(obj("v 0." + zeros + "1 -1e-400 1" + zeros + "e-401\nv 1 0 0\nv 0 1 0\nv 1" + zeros + " 0 0\nv 0." + zeros +
+                  "1e800 0 0\nf 1 2 3\nf 1 2 4\nf 1 2 5\n"),
+              {{0, 0, 0.1F}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}}, 2);
+}
+
 TEST(obj, drops_triangles_whose_corners_are_not_finite_and_counts_them) {
   for (const char* number : {"nan", "NaN", "-nan(ind)", "inf", "-Infinity", "+inf", "1e39", "-1e39", "1e999", "-1e99999999999999999999",
                              "0x1p3", "-0X1F", "1.#QNAN", "-1.#IND", "1.#INF", "3.5e38"}) {
