@@ -22,7 +22,8 @@ enum class Format { obj, ply, stl };
 /// @throws Error (bad_input) where it is none of the three
 Format format_of(const std::string& path);
 
-/// Reads a mesh in time and memory linear in the file's size. Polygons become fans; corners of an STL file at the very same place one vertex.
+/// Reads a mesh in time and memory linear in the file's size. Polygons become fans; corners of an STL file at the very same place one
+/// vertex.
 /// Vertices that are not finite are left out, and so are the triangles at them.
 /// @param bytes  the whole file; who reads it sees that it has at most limit::mesh_bytes
 /// @param name   the file's name for messages

@@ -17,7 +17,8 @@ struct Mark {
 /// The words of a text and where they stand. Lines end with LF, CR LF or CR; a byte order mark at the beginning is read past.
 class Words {
  public:
-  /// Of OBJ: a word that begins with '#' begins a comment, which lasts to the line's end, and a backslash at its end joins the next line to it.
+  /// Of OBJ: a word that begins with '#' begins a comment, which lasts to the line's end; a backslash at a line's end joins the next line
+  /// to it.
   enum class Style { plain, obj };
 
   /// @param from  where in the text to begin
