@@ -106,7 +106,7 @@ void nearest(benchmark::State& state) {
   trace::cull(forms, nullptr, everything);
   F x = num::to_float(num::lane_index<F>()) * F(0.01f);
   for (auto _ : state) {
-    auto hit = trace::nearest(everything, flow::make_ray(x, F(0.05f), F(1.0f)), flow::Hit<F>{F(0.0f), num::Int<F>(0)});
+    auto hit = trace::nearest(everything, flow::make_ray(x, F(0.05f), F(1.0f)), flow::no_hit<F>());
     benchmark::DoNotOptimize(hit);
     benchmark::DoNotOptimize(x);
   }

@@ -3,6 +3,7 @@
 #pragma once
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
@@ -58,6 +59,17 @@ struct TriangleMesh {
   std::vector<std::array<std::int32_t, 3>> triangles;  ///< three indices of `vertices` each
 };
 
+/// Many triangles, about the zero of their own frame. In files: those of an OBJ, PLY or STL file, turned and scaled when it is read.
+struct Mesh {
+  enum class Up { automatic, y, z, minus_y };
+  std::string file;                               ///< empty if built in code
+  double scale = 1;                               ///< of the file's numbers, to metres
+  Up up = Up::automatic;                          ///< the file's axis that is up (−y in the world); automatic: y in OBJ, z in PLY and STL
+  std::string sha256;                             ///< of the file's bytes, as hexadecimal digits; empty if built in code
+  int left_out = 0;                               ///< triangles of the file with a corner that is no finite number, or beyond 1e5 m
+  std::shared_ptr<const TriangleMesh> triangles;  ///< what is seen: already turned and scaled; objects may share it
+};
+
 /// A turn by the right-hand rule about `axis` (any length but zero).
 struct Rotation {
   Vec3 axis{0, 0, 1};
@@ -65,10 +77,10 @@ struct Rotation {
 };
 
 /// One thing in the scene. Order of operations: rotation about its own centre (sphere, box, cylinder: the centre; triangle: the
-/// centroid; plane: its point), then the shift `position`, then velocity · t.
+/// centroid; plane: its point; mesh: its zero), then the shift `position`, then velocity · t.
 struct Object {
   std::string name;
-  std::variant<Plane, Sphere, Box, Triangle, Cylinder> shape;
+  std::variant<Plane, Sphere, Box, Triangle, Cylinder, Mesh> shape;
   int material = 0;        ///< index in Scene::materials
   Vec3 position{0, 0, 0};  ///< shift [m]
   Rotation rotation{};

@@ -12,5 +12,7 @@ struct Range {
 
 /// Of a direction, a radius or a thickness: below, float could not tell it from zero.
 inline constexpr double shortest_m = 1e-6;
+/// Coordinates of a scene are at most this: float carries 8 mm there.
+inline constexpr double farthest_m = 1e5;
 
 }  // namespace tofray::base

@@ -56,7 +56,12 @@ template <class F>
 struct Hit {
   F w;
   num::Int<F> facet;
+  num::Int<F> triangle;  ///< where the facet is a mesh: which of its triangles
 };
+template <class F>
+TOFRAY_FN Hit<F> no_hit() {
+  return {F(0.0f), num::Int<F>(0), num::Int<F>(0)};
+}
 
 /// What a surface is made of, for its BRDF (brdf/list.h).
 constexpr int brdf_numbers = 3;

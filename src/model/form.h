@@ -43,8 +43,7 @@ struct Form {
   std::string tag, default_tag;
   std::string what;  ///< text: what it is, e.g. "the name of a material"
   int min_items = 0, max_items = 0;
-  std::vector<std::pair<std::string, std::string>> meant;    ///< map: unknown keys that people try, and the dotted path that they mean
-  std::vector<std::pair<std::string, std::string>> refused;  ///< variant: names that are known and not there yet, and why
+  std::vector<std::pair<std::string, std::string>> meant;  ///< map: unknown keys that people try, and the dotted path that they mean
 };
 
 /// A key of a map.

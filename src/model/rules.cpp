@@ -122,6 +122,29 @@ void boxes_are_thick(const Box& box, Complaints& complaints) {
                      ErrorKind::bad_input, static_cast<long long>(k));
 }
 
+void meshes_have_triangles(const Mesh& mesh, Complaints& complaints) {
+  const auto complain = [&](const std::string& what, const std::string& more) { complaints.add(mesh, &mesh.file, what, more); };
+  if (mesh.triangles == nullptr) return complain("the mesh has no triangles", "expected Mesh::triangles to point to some");
+  const auto& [vertices, triangles] = *mesh.triangles;
+  if (vertices.size() > static_cast<std::size_t>(base::limit::mesh_vertices.value) ||
+      triangles.size() > static_cast<std::size_t>(base::limit::mesh_triangles.value))
+    return complaints.add(mesh, &mesh.file, "the mesh is too large",
+                          "got " + std::to_string(vertices.size()) + " vertices and " + std::to_string(triangles.size()) +
+                              " triangles, at most " + std::to_string(base::limit::mesh_vertices.value) + " and " +
+                              std::to_string(base::limit::mesh_triangles.value) + " (`tofray --limits`)",
+                          ErrorKind::limit);
+  for (std::size_t i = 0; i < vertices.size(); ++i)
+    for (const float x : vertices[i])
+      if (!(std::abs(x) <= base::farthest_m))
+        return complain("vertex " + std::to_string(i) + " of the mesh is beyond the world",
+                        "got " + number_text(static_cast<double>(x)) + " m, expected at most " + number_text(base::farthest_m) + " m");
+  for (std::size_t i = 0; i < triangles.size(); ++i)
+    for (const std::int32_t corner : triangles[i])
+      if (corner < 0 || static_cast<std::size_t>(corner) >= vertices.size())
+        return complain("triangle " + std::to_string(i) + " of the mesh has a corner that there is not",
+                        "got vertex " + std::to_string(corner) + " of " + std::to_string(vertices.size()) + ", which count from 0");
+}
+
 void turns_have_an_axis(const Rotation& rotation, Complaints& complaints) {
   if (rotation.angle_rad != 0 && base::length(rotation.axis) < shortest_m)
     complaints.add(rotation, &rotation.axis, "axis has no length", "expected a direction such as [0, 0, 1]");

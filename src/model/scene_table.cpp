@@ -14,7 +14,7 @@ namespace {
 
 using enum base::Dimension;
 
-constexpr Number coordinate{length, {-1e5, 1e5}, "0.5 m", true};  // float carries 8 mm at that distance
+constexpr Number coordinate{length, {-base::farthest_m, base::farthest_m}, "0.5 m", true};
 constexpr Number component{none, {-1e6, 1e6}, "1"};
 constexpr auto most_objects = static_cast<int>(base::limit::objects.value);
 constexpr auto most_materials = static_cast<int>(base::limit::materials.value);
@@ -91,6 +91,21 @@ const Table& table_of<Cylinder>() {
   return rows;
 }
 
+/// Of a mesh set in code, the triangles alone count.
+template <>
+const Table& table_of<Mesh>() {
+  static const Table rows =
+      table<Mesh>(words<&Mesh::file>("file", "a file", "chair.obj", "OBJ, PLY or STL, beside the scene or below").required(),
+                  number<&Mesh::scale>("scale", {none, {1e-9, 1e9}, "0.001"}, "of the file's numbers, to metres: 0.001 where they are mm"),
+                  choice<&Mesh::up>(
+                      "up", {"automatic", "y", "z", "-y"},
+                      "the file's axis that is up; automatic: y of an OBJ, z of a PLY or STL file; -y: the file has the world's axes"),
+                  words<&Mesh::sha256>("", "", "", ""),  // the reader's
+                  no_row<&Mesh::left_out, &Mesh::triangles>("what the file holds"))
+          .check_with(meshes_have_triangles);
+  return rows;
+}
+
 namespace {
 template <class... T>
 std::vector<const Table& (*)()> tables_in(const std::variant<T...>*) {
@@ -113,8 +128,8 @@ template <>
 const Table& table_of<Object>() {
   static const Table rows =
       table<Object>(words<&Object::name>("name", "a name", "ball", "how listings call the object").absent(),
-                    one_of<&Object::shape>({"plane", "sphere", "box", "triangle", "cylinder"}),  // the key of the file's entry
-                    number<&Object::material>("", {none, {0, 2.0 * most_objects}, "0"}, ""),     // a name, or a material of its own
+                    one_of<&Object::shape>({"plane", "sphere", "box", "triangle", "cylinder", "mesh"}),  // the key of the file's entry
+                    number<&Object::material>("", {none, {0, 2.0 * most_objects}, "0"}, ""),             // a name, or a material of its own
                     number<&Object::position>("position", coordinate, "a shift [m]"),
                     record<&Object::rotation>("rotation", "a turn about the object's own centre (of a plane: about its point)"),
                     number<&Object::velocity_m_per_s>("velocity", {speed, {-1e4, 1e4}, "1 m/s", true}, "[m/s]"));
@@ -206,7 +221,6 @@ Form objects_form() {
     one.exactly_one = {"reflectivity", "material"};
     form.forms.push_back(std::move(one));
   }
-  form.refused = {{"mesh", "meshes are not supported in this version"}};
   return list(std::move(form), 0, most_objects);
 }
 

@@ -13,9 +13,11 @@
 /// rounded to nearest, subnormals kept; min and max are comparisons (the second argument where one is NaN).
 #if defined(__CUDACC__)
 #define TOFRAY_FN __host__ __device__ __forceinline__
+#define TOFRAY_APART __host__ __device__ __noinline__ static
 #define TOFRAY_CONSTANT __device__ constexpr
 #else
 #define TOFRAY_FN __attribute__((always_inline)) inline
+#define TOFRAY_APART __attribute__((noinline)) static
 #define TOFRAY_CONSTANT inline constexpr
 #endif
 

@@ -30,7 +30,7 @@ TOFRAY_FN power::Wanted wanted(const Setup& s, const Moment& now, bool undisturb
 /// Stage 1: the nearest surface, of what stands still.
 template <class F, class Near>
 TOFRAY_FN flow::Hit<F> see_still(const Setup& s, const Near& near, const flow::Ray<F>& ray) {
-  return trace::nearest(near.still_from_camera(s), ray, flow::Hit<F>{F(0.0f), num::Int<F>(0)});
+  return trace::nearest(near.still_from_camera(s), ray, flow::no_hit<F>());
 }
 
 /// … and of what moves, at the time of one raw frame.
@@ -56,9 +56,9 @@ struct ShadowRays {
   TOFRAY_FN num::Mask<F> of_light(int l, const flow::Ray<F>& from_light, const flow::Surface<F>& p) {
     near.look(moment, l, from_light, p.found);
     num::Mask<F> dark = F(1.0f) < F(0.0f);
-    if (still) dark = trace::blocked(near.still_from(s, l), from_light, p.object);
+    if (still) dark = trace::blocked(near.still_from(s, l), from_light, p);
     if (moving) {
-      dark = dark | trace::blocked(near.moving_from(s, moment, l), from_light, p.object);
+      dark = dark | trace::blocked(near.moving_from(s, moment, l), from_light, p);
     }
     return dark;
   }

@@ -25,13 +25,11 @@ shape::Mat rotation_matrix(const Rotation& r) {
 }
 
 /// Puts an object's shape into the list of its kind, which is the one in the same place as in the public variant.
-template <class... T, class... Said>
-void add_body(shape::List<T...>, const std::variant<Said...>& shape, const Object& object, int index, BodyLists& to) {
+template <class... T, class... Said, class Placed>
+void add_body(shape::List<T...>, const std::variant<Said...>& shape, const Object& object, int index, BodyLists& to, const Placed& placed) {
   static_assert(sizeof...(T) == sizeof...(Said), "each shape of the public variant has its place in shape::Shapes");
-  const shape::Placement placement{rotation_matrix(object.rotation), vec(object.position)};
-  const auto add = [&]<class One, class From>(const From* said, shape::List<One>) {
-    if (said != nullptr)
-      to.of<One>().bodies.push_back({One::placed(*said, placement), vec(object.velocity_m_per_s), 0, index, object.material});
+  const auto add = [&]<class One, class From>(const From* said, shape::List<One> which) {
+    if (said != nullptr) to.of<One>().bodies.push_back({placed(which, *said), vec(object.velocity_m_per_s), 0, index, object.material});
   };
   (add(std::get_if<Said>(&shape), shape::List<T>{}), ...);
 }
@@ -75,12 +73,25 @@ FrozenScene::FrozenScene(const Scene& scene, const std::vector<Vec3>& lights, in
   derive();
 }
 
+template <class T, class Said>
+T FrozenScene::placed(const Said& said, const shape::Placement& at) {
+  if constexpr (shape::many_of<T>) {
+    const auto [known, fresh] = hierarchies_.try_emplace(said.triangles);
+    if (fresh) known->second = build_hierarchy(*said.triangles);
+    return T::placed(known->second, at);
+  } else {
+    return T::placed(said, at);
+  }
+}
+
 void FrozenScene::add_bodies(const Scene& scene) {
   for (std::size_t i = 0; i < scene.objects.size(); ++i) {
     const Object& object = scene.objects[i];
     const bool moving = dot(object.velocity_m_per_s, object.velocity_m_per_s) > 0;
     moves_ = moves_ || moving;
-    add_body(shape::Shapes{}, object.shape, object, static_cast<int>(i), moving ? moving_ : still_);
+    const shape::Placement at{rotation_matrix(object.rotation), vec(object.position)};
+    add_body(shape::Shapes{}, object.shape, object, static_cast<int>(i), moving ? moving_ : still_,
+             [&]<class T, class Said>(shape::List<T>, const Said& said) { return placed<T>(said, at); });
   }
   number(shape::Shapes{}, still_, view_.still);
   number(shape::Shapes{}, moving_, view_.moving);

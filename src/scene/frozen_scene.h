@@ -2,10 +2,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include <cstddef>
+#include <map>
 #include <memory>
 #include <vector>
 
 #include "base/vec.h"
+#include "scene/hierarchy.h"
 #include "scene/view.h"
 
 /// The scene, frozen for rendering: its shapes in the world, and everything in the camera frame as seen from the camera and from each light.
@@ -46,6 +48,9 @@ class FrozenScene {
 
  private:
   void add_bodies(const Scene& scene);
+  /// The shape in the world.
+  template <class T, class Said>
+  T placed(const Said& said, const shape::Placement& at);
   void lay_out();
 
   std::optional<Vec3> sun_;  ///< in which its light travels, world
@@ -53,6 +58,7 @@ class FrozenScene {
   Vec3 toward_sun_{0, 0, 0};
   bool moves_ = false;
   BodyLists still_, moving_;
+  std::map<std::shared_ptr<const TriangleMesh>, Hierarchy> hierarchies_;  ///< one for all objects that share the triangles
   std::vector<shape::Vec> lights_;
   std::vector<double> moment_times_;
   std::vector<brdf::MaterialView> materials_;

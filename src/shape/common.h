@@ -67,11 +67,14 @@ TOFRAY_FN F affine(const Surface<F>& p, const float* m, float offset) {
   return num::fma(p.x, F(m[0]), num::fma(p.y, F(m[1]), num::fma(p.z, F(m[2]), F(offset))));
 }
 
+struct MeshTriangle;
+
 /// Where light lands: which way the surface faces there, what it belongs to, what it is made of. (All of a camera frame.)
 struct Facet {
-  float number[7];      ///< flat: the unit normal; else what its shape's normal() reads
+  float number[9];      ///< flat: the unit normal; else what its shape's normal() reads
   std::int32_t curved;  ///< 0: flat; else 1 + the shape's place in the list
   std::int32_t object, material;
+  const MeshTriangle* triangles;  ///< of a mesh, one of which the hit names
 };
 constexpr int facet_words = sizeof(Facet) / sizeof(float);
 
@@ -91,14 +94,16 @@ struct FacetColumns {
 
   TOFRAY_FN FacetColumns(const Facet* facets, Int<F> which)
       : table(facets), facet(which * Int<F>(facet_words)), same(num::all(which == Int<F>(num::first(which)))) {}
-  TOFRAY_FN const Facet& first() const { return *reinterpret_cast<const Facet*>(words() + num::first(facet)); }
+  /// The one that begins at a word.
+  TOFRAY_FN const Facet& at(std::int32_t word) const { return *reinterpret_cast<const Facet*>(words() + word); }
+  TOFRAY_FN const Facet& first() const { return at(num::first(facet)); }
   TOFRAY_FN F number(int c) const {
     const float* column = reinterpret_cast<const float*>(table) + c;
     return same ? F(column[num::first(facet)]) : num::gather(column, facet);
   }
-  TOFRAY_FN Int<F> curved() const { return whole(7); }
-  TOFRAY_FN Int<F> object() const { return whole(8); }
-  TOFRAY_FN Int<F> material() const { return whole(9); }
+  TOFRAY_FN Int<F> curved() const { return whole(9); }
+  TOFRAY_FN Int<F> object() const { return whole(10); }
+  TOFRAY_FN Int<F> material() const { return whole(11); }
 
  private:
   TOFRAY_FN const std::int32_t* words() const { return reinterpret_cast<const std::int32_t*>(table); }

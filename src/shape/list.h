@@ -4,6 +4,7 @@
 #include "num/list.h"
 #include "shape/box.h"
 #include "shape/cylinder.h"
+#include "shape/mesh.h"
 #include "shape/plane.h"
 #include "shape/sphere.h"
 #include "shape/triangle.h"
@@ -19,13 +20,21 @@
 ///     T::closed        it has an inside: its forms say where its own surface is in the dark (own_blocks)
 ///     T::curved        T::normal(facet, P) finds the normal of those that face_of does not make flat
 ///     can_meet(Form, rectangle), inverse_range(Form, ray[, side]), blocks(Along, P, …)
+///     many_of<T>       it is made of many triangles: nearest_in(Form, ray, hit) and stands_before(Form, ray, …) in place of
+///                      inverse_range, and T::normal(facet, triangle, …)
 namespace tofray::shape {
 
 using num::List;
 using num::place_in;
 
+/// Made of many triangles, which may shade each other.
+template <class T>
+constexpr bool many_of = requires {
+  T::many;
+};
+
 /// In the order of the public Object's variant. Of two surfaces at one place the first shape's is seen.
-using Shapes = List<Plane, Sphere, Box, Triangle, Cylinder>;
+using Shapes = List<Plane, Sphere, Box, Triangle, Cylinder, Mesh>;
 
 /// One Each<T> for every shape T.
 template <template <class> class Each, class List>

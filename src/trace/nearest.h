@@ -29,11 +29,15 @@ TOFRAY_FN F hit_of(const typename T::Form& form, const Ray<F>& ray, Int<F>& face
 template <class T, class F, class Culled>
 TOFRAY_FN void nearest_of(const Culled& culled, const Ray<F>& ray, Hit<F>& hit) {
   for (auto i = culled.template walk<T>(); i.more(); i.next()) {
-    Int<F> facet;
-    const F w = hit_of<T>(i.form(), ray, facet);
-    const auto nearer = w > hit.w;
-    hit.facet = num::select(nearer, facet, hit.facet);
-    hit.w = num::select(nearer, w, hit.w);
+    if constexpr (shape::many_of<T>) {
+      nearest_in(i.form(), ray, hit);
+    } else {
+      Int<F> facet;
+      const F w = hit_of<T>(i.form(), ray, facet);
+      const auto nearer = w > hit.w;
+      hit.facet = num::select(nearer, facet, hit.facet);
+      hit.w = num::select(nearer, w, hit.w);
+    }
   }
 }
 
@@ -67,21 +71,27 @@ TOFRAY_FN void face_camera(F nx, F ny, F nz, const Ray<F>& ray, Surface<F>& out)
 
 /// The lanes that see a curved facet of the shape T ask the shape for its normal.
 template <class T, class F>
-TOFRAY_FN void curved_normal(const shape::FacetColumns<F>& facet, Int<F> curved, const Surface<F>& at, shape::Direction<F>& n) {
+TOFRAY_FN void curved_normal(const shape::FacetColumns<F>& facet, Int<F> curved, Int<F> triangle, const Surface<F>& at,
+                             shape::Direction<F>& n) {
   if constexpr (T::curved) {
     const auto its = curved == Int<F>(1 + shape::place_in<T>(shape::Shapes{}));
     if (!num::any(its)) return;
-    const shape::Direction<F> own = T::normal(facet, at.x, at.y, at.z);
+    shape::Direction<F> own;
+    if constexpr (shape::many_of<T>) {
+      own = T::normal(facet, triangle, its & at.found);
+    } else {
+      own = T::normal(facet, at.x, at.y, at.z);
+    }
     n = {num::select(its, own.x, n.x), num::select(its, own.y, n.y), num::select(its, own.z, n.z)};
   }
 }
 
 template <class... T, class F>
-TOFRAY_FN shape::Direction<F> normal_of(shape::List<T...>, const shape::FacetColumns<F>& facet, const Surface<F>& at) {
+TOFRAY_FN shape::Direction<F> normal_of(shape::List<T...>, const shape::FacetColumns<F>& facet, Int<F> triangle, const Surface<F>& at) {
   shape::Direction<F> n{facet.number(0), facet.number(1), facet.number(2)};
   if (facet.same && facet.first().curved == 0) return n;
   const Int<F> curved = facet.curved();
-  (curved_normal<T>(facet, curved, at, n), ...);
+  (curved_normal<T>(facet, curved, triangle, at, n), ...);
   return n;
 }
 
@@ -109,7 +119,7 @@ TOFRAY_FN Surface<F> surface(const scene::SceneView& s, const Ray<F>& ray, const
   Surface<F> out;
   out.found = hit.w > F(0.0f);
   put_at(ray, F(1.0f) / num::select(out.found, hit.w, F(1.0f)), out);
-  const shape::Direction<F> n = normal_of(shape::Shapes{}, facet, out);
+  const shape::Direction<F> n = normal_of(shape::Shapes{}, facet, hit.triangle, out);
   face_camera(n.x, n.y, n.z, ray, out);
   finish(s, facet, out.finish);
   out.object = facet.object();

@@ -9,7 +9,7 @@ namespace tofray::trace {
 /// An occluder must be nearer to the light than the surface by this share of the distance: more than rounding, less than is seen.
 constexpr float shadow_margin = 1e-4f;
 
-/// No object shadows itself, since all are flat or convex; but where light and camera are on different sides of a closed one, its surface
+/// No object but a mesh shadows itself, since all others are flat or convex; but where light and camera are on different sides of a closed one, its surface
 /// is in the dark (`own_blocks`).
 /// @param hits  the lanes whose way to the light the form is in
 template <class T, class F, class Form>
@@ -23,33 +23,44 @@ TOFRAY_FN Mask<F> shaded(const Form& form, Mask<F> hits, Int<F> own) {
 }
 
 template <class T, class F, class Culled>
-TOFRAY_FN Mask<F> blocked_by(const Culled& culled, const Ray<F>& ray, Int<F> own, Mask<F> dark) {
+TOFRAY_FN Mask<F> blocked_by(const Culled& culled, const Ray<F>& ray, const Surface<F>& p, Mask<F> dark) {
   const F limit = F(1.0f + shadow_margin);
   for (auto i = culled.template walk<T>(); i.more(); i.next()) {
     const typename T::Form& form = i.form();
-    Int<F> facet;
-    dark = dark | shaded<T, F>(form, hit_of<T>(form, ray, facet) > limit, own);
+    if constexpr (shape::many_of<T>) {
+      dark = dark | stands_before(form, ray, F(1.0f / (1.0f + shadow_margin)), p.found & (!dark));
+    } else {
+      Int<F> facet;
+      dark = dark | shaded<T, F>(form, hit_of<T>(form, ray, facet) > limit, p.object);
+    }
   }
   return dark;
 }
 
 template <class... T, class F, class Culled>
-TOFRAY_FN Mask<F> blocked_by_each(shape::List<T...>, const Culled& culled, const Ray<F>& ray, Int<F> own) {
+TOFRAY_FN Mask<F> blocked_by_each(shape::List<T...>, const Culled& culled, const Ray<F>& ray, const Surface<F>& p) {
   Mask<F> dark = F(1.0f) < F(0.0f);
-  ((dark = blocked_by<T>(culled, ray, own, dark)), ...);
+  ((dark = blocked_by<T>(culled, ray, p, dark)), ...);
   return dark;
 }
 
 /// True where a form stands between the light and the surface.
 template <class F, class Culled>
-TOFRAY_FN Mask<F> blocked(const Culled& culled, const Ray<F>& ray, Int<F> own) {
-  return blocked_by_each(shape::Shapes{}, culled, ray, own);
+TOFRAY_FN Mask<F> blocked(const Culled& culled, const Ray<F>& ray, const Surface<F>& p) {
+  return blocked_by_each(shape::Shapes{}, culled, ray, p);
 }
 
 template <class T, class F>
 TOFRAY_FN Mask<F> blocked_along(const scene::AlongsOf<T>& forms, const float* s, const Surface<F>& p, Mask<F> dark) {
   const F margin = F(shadow_margin) * p.range;
-  for (int i = 0; i < forms.count; ++i) dark = dark | shaded<T, F>(forms.at[i], blocks(forms.at[i], p, s, margin), p.object);
+  for (int i = 0; i < forms.count; ++i) {
+    const Mask<F> hits = blocks(forms.at[i], p, s, margin);
+    if constexpr (shape::many_of<T>) {
+      dark = dark | hits;
+    } else {
+      dark = dark | shaded<T, F>(forms.at[i], hits, p.object);
+    }
+  }
   return dark;
 }
 

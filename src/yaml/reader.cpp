@@ -340,11 +340,6 @@ class Reader {
         value.items.push_back(read(form.forms[static_cast<std::size_t>(found)], node.items[i], key.text));
         continue;
       }
-      const auto refused = std::find_if(form.refused.begin(), form.refused.end(), [&](const auto& pair) { return pair.first == key.text; });
-      if (refused != form.refused.end()) {
-        faults_.add(key.place, refused->second, "expected one of " + listed(form.names));
-        return;
-      }
       std::string inner;
       for (std::size_t k = form.forms.size(); k-- > 0;)
         for (const auto& known : form.forms[k].keys)

@@ -20,7 +20,7 @@ double excess(double z, double beside) {
   const Vec3 light{beside, 0, 0};
   scene::FrozenScene frozen(scene, {light}, 1);
   const Ray view = ray({0, 0, 1});
-  const auto hit = trace::nearest(everything(frozen.view().camera_still()), view, flow::Hit<float>{0, 0});
+  const auto hit = trace::nearest(everything(frozen.view().camera_still()), view, flow::no_hit<float>());
   const auto surface = trace::surface(frozen.view(), view, hit);
   camera::LightView lamp{};
   lamp.position[0] = static_cast<float>(beside);

@@ -89,13 +89,31 @@ inline Span span(const shape::Cylinder& c, const Vec3& o, const Vec3& d) {
   return out;
 }
 
+template <class T>
+void add_spans(const T& shape, const Vec3& o, const Vec3& d, std::vector<Span>& to) {
+  to.push_back(span(shape, o, d));
+}
+/// One for each triangle.
+inline void add_spans(const shape::Mesh& mesh, const Vec3& o, const Vec3& d, std::vector<Span>& to) {
+  for (int i = 0; i < mesh.triangle_count; ++i) {
+    shape::Triangle one;
+    for (int c = 0; c < 3; ++c) {
+      const float* corner = mesh.triangles[i].corner[c];
+      const shape::Vec at{static_cast<double>(corner[0]), static_cast<double>(corner[1]), static_cast<double>(corner[2])};
+      one.vertex[c] = back(mesh.axes, at) + mesh.origin;
+    }
+    to.push_back(span(one, o, d));
+  }
+}
+
 template <class... T>
 std::vector<Span> spans(shape::List<T...>, const scene::FrozenScene& frozen, const Vec3& o, const Vec3& d) {
   std::vector<Span> out;
   const auto add = [&]<class One>(const scene::BodiesOf<One>& bodies) {
     for (int i = 0; i < bodies.count; ++i) {
-      out.push_back(span(in_frame(bodies.at[i].shape, frozen.view().camera), o, d));
-      out.back().object = bodies.at[i].object;
+      const std::size_t first = out.size();
+      add_spans(in_frame(bodies.at[i].shape, frozen.view().camera), o, d, out);
+      for (std::size_t k = first; k < out.size(); ++k) out[k].object = bodies.at[i].object;
     }
   };
   (add(frozen.view().still.bodies.of<T>()), ...);

@@ -3,6 +3,7 @@
 #pragma once
 #include <cmath>
 #include <map>
+#include <memory>
 #include <utility>
 #include <vector>
 
@@ -12,7 +13,7 @@
 namespace tofray::test {
 
 /// A closed mesh; triangles turn to the left seen from outside.
-struct Mesh {
+struct ClosedMesh {
   std::vector<Vec3> vertices;
   std::vector<std::array<int, 3>> triangles;
 
@@ -26,23 +27,23 @@ struct Mesh {
 };
 
 /// The unit icosahedron, each triangle cut into four `cuts` times, vertices on the unit sphere: 20·4^cuts triangles.
-inline Mesh icosphere(int cuts) {
+inline ClosedMesh icosphere(int cuts) {
   using namespace base;
   const double g = 0.5 * (1 + std::sqrt(5.0));
-  Mesh mesh{{{-1, g, 0},
-             {1, g, 0},
-             {-1, -g, 0},
-             {1, -g, 0},
-             {0, -1, g},
-             {0, 1, g},
-             {0, -1, -g},
-             {0, 1, -g},
-             {g, 0, -1},
-             {g, 0, 1},
-             {-g, 0, -1},
-             {-g, 0, 1}},
-            {{0, 11, 5}, {0, 5, 1}, {0, 1, 7}, {0, 7, 10}, {0, 10, 11}, {1, 5, 9}, {5, 11, 4}, {11, 10, 2}, {10, 7, 6}, {7, 1, 8},
-             {3, 9, 4},  {3, 4, 2}, {3, 2, 6}, {3, 6, 8},  {3, 8, 9},   {4, 9, 5}, {2, 4, 11}, {6, 2, 10},  {8, 6, 7},  {9, 8, 1}}};
+  ClosedMesh mesh{{{-1, g, 0},
+                   {1, g, 0},
+                   {-1, -g, 0},
+                   {1, -g, 0},
+                   {0, -1, g},
+                   {0, 1, g},
+                   {0, -1, -g},
+                   {0, 1, -g},
+                   {g, 0, -1},
+                   {g, 0, 1},
+                   {-g, 0, -1},
+                   {-g, 0, 1}},
+                  {{0, 11, 5}, {0, 5, 1}, {0, 1, 7}, {0, 7, 10}, {0, 10, 11}, {1, 5, 9}, {5, 11, 4}, {11, 10, 2}, {10, 7, 6}, {7, 1, 8},
+                   {3, 9, 4},  {3, 4, 2}, {3, 2, 6}, {3, 6, 8},  {3, 8, 9},   {4, 9, 5}, {2, 4, 11}, {6, 2, 10},  {8, 6, 7},  {9, 8, 1}}};
   for (Vec3& v : mesh.vertices) v = normalized(v);
   for (int cut = 0; cut < cuts; ++cut) {
     std::map<std::pair<int, int>, int> middles;
@@ -59,6 +60,21 @@ inline Mesh icosphere(int cuts) {
     mesh.triangles = finer;
   }
   return mesh;
+}
+
+/// The same as users have it, in single precision.
+inline TriangleMesh single(const ClosedMesh& mesh) {
+  TriangleMesh out;
+  for (const Vec3& v : mesh.vertices)
+    out.vertices.push_back({static_cast<float>(v[0]), static_cast<float>(v[1]), static_cast<float>(v[2])});
+  for (const auto& t : mesh.triangles) out.triangles.push_back({t[0], t[1], t[2]});
+  return out;
+}
+
+inline Mesh shared(TriangleMesh triangles) {
+  Mesh out;
+  out.triangles = std::make_shared<const TriangleMesh>(std::move(triangles));
+  return out;
 }
 
 }  // namespace tofray::test

@@ -1,10 +1,18 @@
 // SPDX-FileCopyrightText: 2026 The tofray authors
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include "support/meshes.h"
 #include "support/pixels.h"
 #include "support/random.h"
 
 namespace tofray::test {
+
+/// A closed mesh that is not convex.
+inline ClosedMesh stone(Random& random, int cuts, double size, const Vec3& middle) {
+  ClosedMesh out = icosphere(cuts);
+  for (Vec3& v : out.vertices) v = size * random.between(0.5, 1) * v + middle;
+  return out;
+}
 
 /// Some of everything before a slanted wall; half of it turned, and moving if asked for.
 inline Scene random_scene(Random& random, int objects, bool moving) {
@@ -19,7 +27,7 @@ inline Scene random_scene(Random& random, int objects, bool moving) {
     const double away = random.between(0.6, 4), size = random.scale(0.03, 0.6);
     const Vec3 aside = random.point(0.7 * away), middle{aside[0], aside[1], away};
     Object one;
-    const int kind = random.below(9);
+    const int kind = random.below(10);
     if (kind < 2) one.shape = Sphere{middle, size};
     if (kind >= 2 && kind < 4) {
       const Vec3 half = 0.5 * size * (Vec3{1.2, 1.2, 1.2} + random.point(1));
@@ -32,6 +40,7 @@ inline Scene random_scene(Random& random, int objects, bool moving) {
     }
     if (kind == 7) one.shape = Plane{middle + Vec3{0, 0, 2}, random.direction()};
     if (kind == 8) one.shape = Cylinder{middle, random.direction(), 0.5 * size, random.between(0.3, 2) * size};
+    if (kind == 9) one.shape = shared(single(stone(random, random.below(3), size, middle)));
     one.material = random.below(3);
     if (random.uniform() < 0.5) {
       one.rotation.axis = random.direction();

@@ -46,8 +46,8 @@ TEST(culling, changes_no_hit_of_any_ray_in_the_rectangle) {
       all += full.count();
       for (int i = 0; i < 60; ++i) {
         const Ray ray = ray_within(rectangle, random);
-        const auto without = trace::nearest(full, ray, flow::Hit<float>{0, 0});
-        const auto with = trace::nearest(some, ray, flow::Hit<float>{0, 0});
+        const auto without = trace::nearest(full, ray, flow::no_hit<float>());
+        const auto with = trace::nearest(some, ray, flow::no_hit<float>());
         ASSERT_EQ(num::bits(with.w), num::bits(without.w)) << trial;
         ASSERT_EQ(with.facet, without.facet) << trial;
         hits += with.w > 0;
@@ -87,7 +87,7 @@ TEST(culling, keeps_what_a_ray_grazes) {
     }
     for (const Vec3& at : outline) {
       const Ray ray = test::ray({at[0] / at[2], at[1] / at[2], 1});
-      const auto hit = trace::nearest(everything(view.forms()), ray, flow::Hit<float>{0, 0});
+      const auto hit = trace::nearest(everything(view.forms()), ray, flow::no_hit<float>());
       if (!(hit.w > 0)) continue;
       ++grazed;
       const scene::Bounds alone{ray.x, ray.x, ray.y, ray.y};
@@ -109,7 +109,7 @@ TEST(culling, keeps_everything_where_its_list_would_overflow) {
     trace::cull(view.forms(), &middle, culled);
     ASSERT_EQ(culled.count(), count);
     EXPECT_EQ(culled.of<shape::Sphere>().picked.everything, count > trace::Picked::capacity);
-    const auto hit = trace::nearest(culled, ray({0, 0, 1}), flow::Hit<float>{0, 0});
+    const auto hit = trace::nearest(culled, ray({0, 0, 1}), flow::no_hit<float>());
     EXPECT_EQ(hit.facet, count - 1);
   }
 }

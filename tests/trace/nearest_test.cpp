@@ -19,7 +19,7 @@ struct Found {
 
 Found look(const scene::FrozenScene& frozen, const Ray& ray) {
   const scene::SceneView& view = frozen.view();
-  const auto hit = trace::nearest(everything(view.camera_still()), ray, flow::Hit<float>{0, 0});
+  const auto hit = trace::nearest(everything(view.camera_still()), ray, flow::no_hit<float>());
   return {hit, trace::surface(view, ray, hit)};
 }
 
@@ -68,13 +68,13 @@ TEST(nearest, is_the_first_that_brute_force_finds) {
 // Unit length, toward the camera, and the closed form's direction: the gradient of each shape.
 TEST(nearest, normals_face_the_camera_and_are_those_of_the_shapes) {
   Random random(2);
-  int seen[4] = {};
+  int seen[5] = {};
   for (int trial = 0; trial < 20000; ++trial) {
     Scene scene = wall(5);
     scene.objects.clear();
     Object one;
     const Vec3 middle = Vec3{0, 0, 2} + random.point(0.3);
-    const int kind = trial % 4;
+    const int kind = trial % 5;
     const Vec3 n = random.direction();
     std::array<Vec3, 3> v;
     for (Vec3& vertex : v) vertex = middle + 0.8 * random.direction();
@@ -82,9 +82,13 @@ TEST(nearest, normals_face_the_camera_and_are_those_of_the_shapes) {
     if (kind == 1) one.shape = Sphere{middle, 0.4};
     if (kind == 2) one.shape = Box{middle - Vec3{0.4, 0.3, 0.2}, middle + Vec3{0.4, 0.3, 0.2}};
     if (kind == 3) one.shape = Triangle{v};
+    if (kind == 4) {  // turned about zero, not about its middle
+      for (Vec3& vertex : v) vertex = vertex - middle;
+      one.shape = shared(single({{v.begin(), v.end()}, {{0, 1, 2}}}));
+    }
     one.rotation.axis = random.direction();
     one.rotation.angle_rad = random.between(-3, 3);
-    one.position = random.point(0.1);
+    one.position = random.point(0.1) + (kind == 4 ? middle : Vec3{0, 0, 0});
     scene.objects.push_back(one);
     scene.camera.pose = random_pose(random);
     const scene::FrozenScene frozen(scene, {}, 1);
@@ -111,7 +115,7 @@ TEST(nearest, normals_face_the_camera_and_are_those_of_the_shapes) {
         best = std::fmax(best, std::abs(base::dot(got, to_camera(turn(axis)))));
       }
     }
-    if (kind == 3) best = std::abs(base::dot(got, to_camera(turn(base::normalized(base::cross(v[1] - v[0], v[2] - v[0]))))));
+    if (kind >= 3) best = std::abs(base::dot(got, to_camera(turn(base::normalized(base::cross(v[1] - v[0], v[2] - v[0]))))));
     ASSERT_NEAR(best, 1, 2e-6) << kind;
   }
   for (const int count : seen) EXPECT_GT(count, 300);

@@ -17,7 +17,7 @@ namespace {
 
 flow::Surface<float> surface_seen(const scene::FrozenScene& frozen, const Ray& ray) {
   const scene::SceneView& view = frozen.view();
-  return trace::surface(view, ray, trace::nearest(everything(view.camera_still()), ray, flow::Hit<float>{0, 0}));
+  return trace::surface(view, ray, trace::nearest(everything(view.camera_still()), ray, flow::no_hit<float>()));
 }
 
 Vec3 place_of(const flow::Surface<float>& s) { return {static_cast<double>(s.x), static_cast<double>(s.y), static_cast<double>(s.z)}; }
@@ -26,7 +26,7 @@ Vec3 normal_of(const flow::Surface<float>& s) { return {static_cast<double>(s.nx
 bool dark(const scene::FrozenScene& frozen, std::size_t light, const Vec3& at, const flow::Surface<float>& s) {
   const scene::Forms forms = frozen.view().light_still(static_cast<int>(light));
   const Vec3 p = place_of(s);
-  return trace::blocked(everything(forms), ray(p - at), s.object);
+  return trace::blocked(everything(forms), ray(p - at), s);
 }
 
 bool dark_of_sun(const scene::FrozenScene& frozen, const flow::Surface<float>& s) {
@@ -123,7 +123,7 @@ TEST(shadow, is_never_cast_by_a_convex_thing_upon_itself) {
     Scene scene = wall(1);
     scene.objects.clear();
     if (trial % 3 == 0) {
-      const Mesh mesh = icosphere(2);
+      const ClosedMesh mesh = icosphere(2);
       for (const auto& t : mesh.triangles) {
         Triangle triangle;
         for (std::size_t k = 0; k < 3; ++k) triangle.vertices[k] = 0.3 * far * mesh.at(t[k]) + Vec3{0, 0, far};

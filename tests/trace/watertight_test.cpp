@@ -9,14 +9,14 @@
 
 using namespace tofray;
 using namespace tofray::base;
-using tofray::test::Mesh;
+using tofray::test::ClosedMesh;
 using tofray::test::Random;
 
 namespace {
 
 /// A mesh somewhere in space, seen from inside.
 struct Inside {
-  Mesh mesh;
+  ClosedMesh mesh;
   Vec3 origin;
   test::Seen seen;
   scene::FormsOf<shape::Triangle> forms{};

@@ -15,9 +15,64 @@ namespace {
 
 std::size_t count_of(std::int32_t number) { return static_cast<std::size_t>(number); }
 
+/// Hierarchies of meshes: each is put there once, and all that points to it is told where.
+class Meshes {
+ public:
+  Meshes(Packer& packer, const scene::SceneView& scene) : packer_(packer) { put(scene.still), put(scene.moving); }
+
+  template <class T>
+  void move(T& one) const {
+    if constexpr (requires { one.nodes; }) one.nodes = there(&Place::nodes, one.nodes);
+    if constexpr (requires { one.triangles; }) one.triangles = there(&Place::triangles, one.triangles);
+    if constexpr (requires { one.shape; }) move(one.shape);
+  }
+  /// Puts an array that may point to them.
+  template <class T>
+  const T* put(const T* array, std::size_t count) const {
+    if constexpr (
+        requires(T one) { one.triangles; } || requires(T one) { one.shape.triangles; }) {
+      if (array == nullptr) return nullptr;
+      std::vector<T> moved(array, array + count);
+      for (T& one : moved) move(one);
+      return packer_.put(static_cast<const T*>(moved.data()), count);
+    } else {
+      return packer_.put(array, count);
+    }
+  }
+
+ private:
+  template <class T>
+  struct Pair {
+    const T *here = nullptr, *there = nullptr;
+  };
+  struct Place {
+    Pair<shape::MeshNode> nodes;
+    Pair<shape::MeshTriangle> triangles;
+  };
+
+  void put(const scene::Group& group) {
+    const auto& bodies = group.bodies.of<shape::Mesh>();
+    for (int i = 0; i < bodies.count; ++i) {
+      const shape::Mesh& mesh = bodies.at[i].shape;
+      if (there(&Place::nodes, mesh.nodes) != nullptr) continue;
+      places_.push_back({{mesh.nodes, packer_.put(mesh.nodes, count_of(mesh.node_count))},
+                         {mesh.triangles, packer_.put(mesh.triangles, count_of(mesh.triangle_count))}});
+    }
+  }
+  template <class T>
+  const T* there(Pair<T> Place::*pair, const T* here) const {
+    for (const Place& place : places_)
+      if ((place.*pair).here == here) return (place.*pair).there;
+    return nullptr;
+  }
+
+  Packer& packer_;
+  std::vector<Place> places_;
+};
+
 template <class... T>
-void pack_bodies(shape::List<T...>, Packer& packer, const scene::Group& from, scene::Group& to) {
-  ((to.bodies.of<T>().at = packer.put(from.bodies.of<T>().at, count_of(from.bodies.of<T>().count))), ...);
+void pack_bodies(shape::List<T...>, const Meshes& meshes, const scene::Group& from, scene::Group& to) {
+  ((to.bodies.of<T>().at = meshes.put(from.bodies.of<T>().at, count_of(from.bodies.of<T>().count))), ...);
 }
 
 void pack_phasors(Packer& packer, std::int32_t lights, const camera::PhasorView& from, camera::PhasorView& to) {
@@ -82,14 +137,15 @@ void pack_raw_frames(Packer& packer, const pipeline::Setup& from, camera::Sensor
 }
 
 void pack_scene(Packer& packer, const scene::SceneView& from, scene::SceneView& to) {
-  pack_bodies(shape::Shapes{}, packer, from.still, to.still);
-  pack_bodies(shape::Shapes{}, packer, from.moving, to.moving);
+  const Meshes meshes(packer, from);
+  pack_bodies(shape::Shapes{}, meshes, from.still, to.still);
+  pack_bodies(shape::Shapes{}, meshes, from.moving, to.moving);
   to.materials = packer.put(from.materials, count_of(from.material_count));
   to.light_positions = packer.put(from.light_positions, count_of(from.lights));
   scene::SceneView still = from;
   still.moments = 0;  // what moves is derived there for each frame, and with it the facets of all
   scene::each_derived(still, scene::Derive::all, [&](auto*& array, std::size_t count) {
-    array = const_cast<std::remove_reference_t<decltype(array)>>(packer.put(array, count));
+    array = const_cast<std::remove_reference_t<decltype(array)>>(meshes.put(array, count));
   });
   to.still.derived = still.still.derived;
   to.facets = still.facets;

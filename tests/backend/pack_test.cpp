@@ -1,0 +1,68 @@
+// SPDX-FileCopyrightText: 2026 The tofray authors
+// SPDX-License-Identifier: Apache-2.0
+// What goes to a GPU points to nothing of the host's: meshes are pointed to by bodies, by forms and by facets.
+#include "backend/cuda/pack.h"
+
+#include <gtest/gtest.h>
+
+#include "support/meshes.h"
+#include "support/pixels.h"
+
+using namespace tofray;
+using namespace tofray::test;
+
+namespace {
+
+struct Piece {
+  std::vector<unsigned char> bytes;
+  template <class T>
+  [[nodiscard]] bool holds(const T* array) const {
+    const auto* at = reinterpret_cast<const unsigned char*>(array);
+    return at >= bytes.data() && at < bytes.data() + bytes.size();
+  }
+};
+
+}  // namespace
+
+TEST(packed_scene, points_into_its_own_memory) {
+  Scene scene = wall(2);
+  const Mesh ball = shared(single(icosphere(2)));
+  scene.objects.push_back(object(ball));
+  scene.objects.push_back(object(ball));
+  scene.objects.push_back(object(shared(single(icosphere(1)))));
+  scene.objects.push_back(object(ball));
+  scene.objects.back().velocity_m_per_s = {1, 0, 0};
+  scene.ambient.direction = Vec3{0, 1, 1};
+  const scene::FrozenScene frozen(scene, {{0.1, 0, 0}, {-0.1, 0, 0}}, 3);
+  scene::SceneView packed = frozen.view();
+  backend::gpu::Packer measure;
+  backend::gpu::pack_scene(measure, frozen.view(), packed);
+  Piece device{std::vector<unsigned char>(measure.used())};
+  backend::gpu::Packer packer(device.bytes.data(), device.bytes.data());
+  packed = frozen.view();
+  backend::gpu::pack_scene(packer, frozen.view(), packed);
+  EXPECT_EQ(packer.used(), measure.used());
+
+  const scene::BodiesOf<shape::Mesh>&still = packed.still.bodies.of<shape::Mesh>(), &moving = packed.moving.bodies.of<shape::Mesh>();
+  ASSERT_EQ(still.count, 3);
+  for (const auto* bodies : {&still, &moving}) {
+    ASSERT_TRUE(device.holds(bodies->at));
+    for (int i = 0; i < bodies->count; ++i) {
+      EXPECT_TRUE(device.holds(bodies->at[i].shape.nodes));
+      EXPECT_TRUE(device.holds(bodies->at[i].shape.triangles));
+    }
+  }
+  EXPECT_EQ(still.at[0].shape.nodes, still.at[1].shape.nodes);
+  EXPECT_NE(still.at[0].shape.nodes, still.at[2].shape.nodes);
+  EXPECT_EQ(still.at[0].shape.nodes, moving.at[0].shape.nodes);
+  for (int eye = 0; eye < 3; ++eye) {
+    const auto forms = packed.still.seen_from(0, eye, 3).of<shape::Mesh>();
+    for (int i = 0; i < forms.count; ++i) {
+      EXPECT_EQ(forms.at[i].nodes, still.at[i].shape.nodes);
+      EXPECT_EQ(forms.at[i].triangles, still.at[i].shape.triangles);
+    }
+  }
+  const auto along = packed.still.seen_along(0).of<shape::Mesh>();
+  for (int i = 0; i < along.count; ++i) EXPECT_EQ(along.at[i].nodes, still.at[i].shape.nodes);
+  for (int i = 0; i < still.count; ++i) EXPECT_EQ(packed.facets[still.at[i].facet].triangles, still.at[i].shape.triangles);
+}

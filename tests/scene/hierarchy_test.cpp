@@ -1,0 +1,118 @@
+// SPDX-FileCopyrightText: 2026 The tofray authors
+// SPDX-License-Identifier: Apache-2.0
+// Boxes within boxes: every triangle in one leaf, every box round what it holds, never too deep.
+#include "scene/hierarchy.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <set>
+
+#include "support/meshes.h"
+#include "support/random.h"
+
+using namespace tofray;
+using namespace tofray::test;
+using namespace tofray::base;
+
+namespace {
+
+struct Walk {
+  const scene::Hierarchy& built;
+  std::multiset<std::int32_t> numbers = {};
+  int deepest = 0;
+
+  void node(std::int32_t index, int level, const float* low, const float* high) {
+    deepest = std::max(deepest, level);
+    const shape::MeshNode& node = built.nodes.at(static_cast<std::size_t>(index));
+    ASSERT_LE(node.children, shape::MeshNode::width);
+    for (int i = 0; i < node.children; ++i) {
+      float its_low[3], its_high[3];
+      for (int k = 0; k < 3; ++k) {
+        its_low[k] = node.low[k][i], its_high[k] = node.high[k][i];
+        ASSERT_GE(its_low[k], low[k]);
+        ASSERT_LE(its_high[k], high[k]);
+      }
+      if (node.child[i] >= 0)
+        this->node(node.child[i], level + 1, its_low, its_high);
+      else
+        leaf(~node.child[i], its_low, its_high);
+    }
+  }
+
+  void leaf(std::int32_t code, const float* low, const float* high) {
+    ASSERT_GT(code % 16, 0);
+    for (int i = code / 16; i < code / 16 + code % 16; ++i) {
+      const shape::MeshTriangle& triangle = built.triangles.at(static_cast<std::size_t>(i));
+      numbers.insert(triangle.number);
+      for (const auto& corner : triangle.corner)
+        for (int k = 0; k < 3; ++k) ASSERT_TRUE(corner[k] >= low[k] && corner[k] <= high[k]);
+    }
+  }
+};
+
+void check(const TriangleMesh& mesh) {
+  const scene::Hierarchy built = scene::build_hierarchy(mesh);
+  ASSERT_FALSE(built.nodes.empty());
+  ASSERT_EQ(built.triangles.size(), mesh.triangles.size());
+  constexpr float all = std::numeric_limits<float>::infinity();
+  const float low[3] = {-all, -all, -all}, high[3] = {all, all, all};
+  Walk walk{built};
+  walk.node(0, 1, low, high);
+  ASSERT_EQ(walk.numbers.size(), mesh.triangles.size());
+  std::int32_t next = 0;
+  for (const std::int32_t number : walk.numbers) ASSERT_EQ(number, next++);
+  EXPECT_LE(walk.deepest, shape::most_mesh_levels);
+  for (const shape::MeshTriangle& triangle : built.triangles)
+    for (std::size_t c = 0; c < 3; ++c)
+      for (std::size_t k = 0; k < 3; ++k)
+        ASSERT_EQ(triangle.corner[c][k],
+                  mesh.vertices[static_cast<std::size_t>(mesh.triangles[static_cast<std::size_t>(triangle.number)][c])][k]);
+}
+
+/// Small triangles, each with corners of its own about a place.
+template <class Place>
+TriangleMesh crumbs(int count, const Place& place) {
+  TriangleMesh out;
+  for (int i = 0; i < count; ++i) {
+    const auto [at, size] = place(i);
+    for (int c = 0; c < 3; ++c) {
+      out.vertices.push_back(at);
+      if (c > 0) out.vertices.back()[static_cast<std::size_t>(c)] += size;
+    }
+    out.triangles.push_back({3 * i, 3 * i + 1, 3 * i + 2});
+  }
+  return out;
+}
+using Crumb = std::pair<std::array<float, 3>, float>;
+
+}  // namespace
+
+TEST(hierarchy, holds_every_triangle_once_in_boxes_that_are_round_it) {
+  for (int cuts = 0; cuts < 6; ++cuts) check(single(icosphere(cuts)));
+}
+
+TEST(hierarchy, is_good_for_few_triangles) {
+  for (int count = 0; count < 40; ++count)
+    check(crumbs(count, [](int i) { return Crumb{{static_cast<float>(i * i % 7), static_cast<float>(i % 3), 1}, 0.5f}; }));
+}
+
+// Where the cheapest cut always takes one triangle off a heap, boxes would lie in each other a thousand deep.
+TEST(hierarchy, is_never_too_deep) {
+  check(crumbs(20000, [](int) { return Crumb{{1, 2, 3}, 1e-3f}; }));
+  check(crumbs(20000, [](int i) { return Crumb{{std::exp2(static_cast<float>(-i % 149)), 0, 0}, 1e-30f}; }));
+  check(crumbs(5000, [](int i) { return Crumb{{std::pow(1.017f, static_cast<float>(i)) * 1e-30f, 0, 0}, 0}; }));
+  check(crumbs(3000, [](int i) { return Crumb{{0, 0, 0}, std::pow(1.03f, static_cast<float>(i)) * 1e-30f}; }));
+}
+
+TEST(hierarchy, is_good_for_triangles_of_any_size_and_place) {
+  Random random(1);
+  for (int trial = 0; trial < 100; ++trial) {
+    check(crumbs(random.below(300), [&](int) {
+      const Vec3 at = random.scale(1e-6, 1e5) * random.direction();
+      return Crumb{{static_cast<float>(at[0]), static_cast<float>(at[1]), static_cast<float>(at[2])},
+                   static_cast<float>(random.scale(1e-30, 1e5))};
+    }));
+  }
+}
