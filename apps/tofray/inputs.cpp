@@ -13,6 +13,7 @@
 #include "load/builtin.h"
 #include "load/convert.h"
 #include "load/load.h"
+#include "mesh_scene.h"
 #include "profile_tables.h"
 #include "tofray/error.h"
 
@@ -33,11 +34,28 @@ Camera camera_of_texts(const Scene& scene, const results::InputFile& profile, co
 /// Reads the scene; a file that is something else is refused as that.
 Scene scene_of_text(const std::string& text, const std::string& name, const Options& options) {
   try {
-    return load::scene_from_text(text, name, options.set);
+    return load::scene_from_text(text, name, options.set, {options.root, {}});
   } catch (const Error& error) {
     if (error.kind() == ErrorKind::bad_input) refuse_other_document(text, name);
     throw;
   }
+}
+
+/// Its meshes by name and SHA-256; each once.
+void add_meshes(const Scene& scene, std::vector<results::InputFile>& files) {
+  for (const Object& object : scene.objects) {
+    const auto* mesh = std::get_if<Mesh>(&object.shape);
+    const auto is_it = [mesh](const results::InputFile& file) { return file.role == "mesh" && file.name == mesh->file; };
+    if (mesh != nullptr && std::none_of(files.begin(), files.end(), is_it)) files.push_back({"mesh", mesh->file, "", mesh->sha256});
+  }
+}
+
+/// The files that --from takes for meshes: those of the manifest, unchanged.
+load::MeshFiles meshes_of(const results::Manifest& manifest, const Options& options) {
+  load::MeshFiles out{options.root, std::map<std::string, std::string>{}};
+  for (const results::InputFile& file : manifest.inputs)
+    if (file.role == "mesh") (*out.expected)[file.name] = file.sha256;
+  return out;
 }
 
 double longest_lit(const Camera& camera) {
@@ -66,6 +84,10 @@ Inputs load_inputs(const std::string& scene, const Options& options) {
   if (load::find_builtin(load::builtin_scenes(), scene) != nullptr) {
     in.scene = load::load_scene(scene, options.set);
     in.files.push_back({"scene", scene, {}});
+  } else if (is_called_like_a_mesh(scene)) {
+    const std::string name = scene_name_of_mesh(scene), text = scene_of_mesh(scene, name, options);
+    in.scene = load::scene_from_text(text, name, options.set, {options.root, {}});
+    in.files.push_back({"scene", name, text});
   } else {
     // Read once, so that a pipe is good, too, and the manifest holds what was simulated.
     refuse_folder(scene, "render");
@@ -74,6 +96,7 @@ Inputs load_inputs(const std::string& scene, const Options& options) {
     in.scene = scene_of_text(text, scene, options);
     in.files.push_back({"scene", scene, text});
   }
+  add_meshes(in.scene, in.files);
   const auto load = [&](const Scene& seen) { return load_camera(seen, {options.mode, {}, options.root}); };
   in.camera = load(in.scene);
   in.mode_integration_time_s = mode_integration_time(in.scene, load);
@@ -96,7 +119,8 @@ Inputs inputs_of(const results::Manifest& manifest, const Options& options) {
                             base::printable(options.from), base::in_quotes(first.name)));
   Inputs in;
   in.files = manifest.inputs;
-  in.scene = first.text.empty() ? load::load_scene(first.name, options.set) : load::scene_from_text(first.text, first.name, options.set);
+  in.scene = first.text.empty() ? load::load_scene(first.name, options.set)
+                                : load::scene_from_text(first.text, first.name, options.set, meshes_of(manifest, options));
   const auto profile =
       std::find_if(in.files.begin(), in.files.end(), [](const results::InputFile& file) { return file.role == "profile"; });
   const std::string& named = in.scene.camera.profile;
@@ -117,6 +141,11 @@ std::string warnings(const Inputs& in) {
   std::string text;
   if (in.scene.objects.empty())
     text += "warning: the scene has no objects: objects is []\n  no pixel gets any light back, and every depth is invalid\n";
+  for (const Object& object : in.scene.objects)
+    if (const auto* mesh = std::get_if<Mesh>(&object.shape); mesh != nullptr && mesh->left_out > 0)
+      text += fmt::format(
+          "warning: {} of the {} triangles of {} are left out\n  they have a corner that is no finite number, or beyond 1e5 m\n",
+          mesh->left_out, static_cast<std::size_t>(mesh->left_out) + mesh->triangles->triangles.size(), base::in_quotes(mesh->file));
   const double now = longest_lit(in.camera), modes = in.mode_integration_time_s;
   if (modes > 0 && now > modes)
     text += fmt::format(

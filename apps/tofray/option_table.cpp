@@ -187,7 +187,7 @@ std::vector<OptionSpec> specs() {
       {"--compress", 0, nullptr, "deflate npz files: smaller and slower", [](Options& o, const std::string&) { o.compress = true; }},
       {"--from", 0, "MANIFEST", "make again what a manifest.json describes, byte for byte",
        [](Options& o, const std::string& v) { o.from = v; }, "<files>"},
-      {"--root", 0, "DIR", "where a scene's profile may lie besides the scene's own folder",
+      {"--root", 0, "DIR", "where a scene's profile and meshes may lie besides the scene's own folder",
        [](Options& o, const std::string& v) { o.root = v; }, "<files>"},
       {"--pixel", 0, "U,V", "show one pixel's whole chain, from light to depth", take_pixel},
       {"--json", 0, nullptr, "one JSON object on stdout", [](Options& o, const std::string&) { o.json = true; }},

@@ -12,7 +12,6 @@
 #include <sys/syscall.h>
 #include <unistd.h>
 
-#include "base/limits.h"
 #include "base/text.h"
 #include "files/descriptor.h"
 
@@ -24,8 +23,8 @@ namespace fs = std::filesystem;
 using base::in_quotes;
 using base::Place;
 
-std::string read_all(int descriptor, const Place& place, const std::string& path) {
-  const auto most = static_cast<std::size_t>(base::limit::file_bytes.value);
+std::string read_all(int descriptor, const Place& place, const std::string& path, const base::Limit& limit) {
+  const auto most = static_cast<std::size_t>(limit.value);
   std::string text;
   for (;;) {
     char buffer[65536];
@@ -69,7 +68,7 @@ int open_beneath(const std::string& folder, const std::string& relative) {
 
 [[noreturn]] void refuse(const Place& place, const std::string& reference) {
   base::fail(place, in_quotes(reference) + " leads out of the folder of this file",
-             "expected a path in or below that folder, without \"..\"; a scene's profile may lie elsewhere below DIR with --root DIR");
+             "expected a path in or below that folder, without \"..\"; what a scene names may lie elsewhere below DIR with --root DIR");
 }
 
 }  // namespace
@@ -84,11 +83,11 @@ std::string read_text(const std::string& path) {
   const Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NOCTTY));
   if (path.find('\0') != std::string::npos) base::fail(place, "a file's name holds no NUL", {}, ErrorKind::io);
   if (file.number() < 0) base::fail(place, std::string("cannot open the file: ") + std::strerror(errno), {}, ErrorKind::io);
-  return read_all(file.number(), place, path);
+  return read_all(file.number(), place, path, base::limit::file_bytes);
 }
 
 std::string read_reference(const std::string& reference, const std::string& folder, const std::string& root, const Place& place,
-                           std::string& found) {
+                           std::string& found, const base::Limit& most) {
   if (reference.find('\0') != std::string::npos) base::fail(place, "a file's name holds no NUL", "got " + in_quotes(reference));
   std::string from = folder.empty() ? "." : folder;
   fs::path relative(reference);
@@ -108,7 +107,7 @@ std::string read_reference(const std::string& reference, const std::string& fold
   struct stat status {};
   if (::fstat(file.number(), &status) != 0 || !S_ISREG(status.st_mode))
     base::fail(place, in_quotes(found, 200) + " is not a plain file", {}, ErrorKind::io);
-  return read_all(file.number(), place, found);
+  return read_all(file.number(), place, found, most);
 }
 
 }  // namespace tofray::files

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "base/faults.h"
+#include "base/limits.h"
 
 /// Reading files that people write: whole, as text, and only where they may lie.
 namespace tofray::files {
@@ -17,8 +18,9 @@ std::string read_text(const std::string& path);
 /// @param place    who points there, for messages
 /// @param folder   "" means "."
 /// @param found    set to the path that was opened
+/// @param most     of its bytes
 std::string read_reference(const std::string& reference, const std::string& folder, const std::string& root, const base::Place& place,
-                           std::string& found);
+                           std::string& found, const base::Limit& most = base::limit::file_bytes);
 
 /// The folder that a path lies in, "." where it names none.
 std::string folder_of(const std::string& path);

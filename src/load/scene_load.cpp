@@ -11,6 +11,7 @@
 #include "load/convert.h"
 #include "load/fill.h"
 #include "load/load.h"
+#include "load/mesh_load.h"
 #include "yaml/settings.h"
 
 namespace tofray::load {
@@ -31,7 +32,8 @@ using base::in_quotes;
 
 class SceneReader {
  public:
-  explicit SceneReader(Faults& faults) : faults_(faults), filler_("", faults) {}
+  SceneReader(const std::string& source, const MeshFiles& meshes, Faults& faults)
+      : faults_(faults), filler_("", faults), meshes_(source, meshes) {}
 
   Scene scene(const Value& root) {
     Scene out;
@@ -48,6 +50,7 @@ class SceneReader {
     }
     for (const auto& entry : objects.items)
       if (entry.good && !entry.items.empty()) object(entry, out);
+    read_meshes(out);
     filler_.check(out);
     return out;
   }
@@ -127,6 +130,18 @@ class SceneReader {
     one.emplace(one.at, which);
     filler_.fill(value, one.tables[which](), one.held(one.at));
     if (const auto* triangle = std::get_if<Triangle>(&out.shape)) area(value, *triangle);
+    if (std::holds_alternative<Mesh>(out.shape)) mesh_places_.emplace_back(scene.objects.size() - 1, &value);
+  }
+
+  /// Once all else that was read is good: a file may be long.
+  void read_meshes(Scene& scene) {
+    for (const auto& [index, value] : mesh_places_) {
+      Mesh& mesh = std::get<Mesh>(scene.objects[index].shape);
+      if (faults_.empty())
+        meshes_.read((*value)["file"].place(), mesh);
+      else
+        mesh.triangles = std::make_shared<const TriangleMesh>();  // what is wrong is told already
+    }
   }
 
   void area(const Value& value, const Triangle& triangle) {
@@ -143,12 +158,14 @@ class SceneReader {
   Faults& faults_;
   Filler filler_;
   std::map<std::string, int> index_;
+  MeshReader meshes_;
+  std::vector<std::pair<std::size_t, const Value*>> mesh_places_;
 };
 
-Scene interpret(const Node& root) {
+Scene interpret(const Node& root, const std::string& source, const MeshFiles& meshes) {
   Faults faults;
   const Value value = read(model::scene_form(), root, faults);
-  Scene out = SceneReader(faults).scene(value);
+  Scene out = SceneReader(source, meshes, faults).scene(value);
   faults.raise();
   return out;
 }
@@ -163,10 +180,10 @@ void apply(Node& root, const Settings& settings) {
 
 }  // namespace
 
-Scene scene_from_text(const std::string& text, const std::string& source, const Settings& settings) {
+Scene scene_from_text(const std::string& text, const std::string& source, const Settings& settings, const MeshFiles& meshes) {
   Node root = parse_tree(text, source);
   apply(root, settings);
-  Scene scene = interpret(root);
+  Scene scene = interpret(root, source, meshes);
   scene.source = source;
   const std::string stem = std::filesystem::path(source).stem().string();
   // The name becomes a folder's: "." and ".." are folders that have one.
@@ -174,13 +191,13 @@ Scene scene_from_text(const std::string& text, const std::string& source, const 
   return scene;
 }
 
-Scene load_scene(const std::string& file_or_name, const Settings& settings) {
+Scene load_scene(const std::string& file_or_name, const Settings& settings, const MeshFiles& meshes) {
   if (const Builtin* builtin = find_builtin(builtin_scenes(), file_or_name)) {
-    Scene scene = scene_from_text(std::string(builtin->text), "<" + builtin->name + ">", settings);
+    Scene scene = scene_from_text(std::string(builtin->text), "<" + builtin->name + ">", settings, meshes);
     scene.name = builtin->name;
     return scene;
   }
-  return scene_from_text(read_named("scene", file_or_name, builtin_scenes()), file_or_name, settings);
+  return scene_from_text(read_named("scene", file_or_name, builtin_scenes()), file_or_name, settings, meshes);
 }
 
 }  // namespace tofray::load

@@ -2,13 +2,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "mesh/read_mesh.h"
 
-#include "base/faults.h"
 #include "base/text.h"
 #include "mesh/formats.h"
 
 namespace tofray::mesh {
 
-Format format_of(const std::string& path) {
+Format format_of(const std::string& path, const base::Place& place) {
   const std::string file = path.substr(path.rfind('/') + 1);  // npos + 1 is 0
   const std::size_t dot = file.rfind('.');
   std::string suffix = dot == std::string::npos ? std::string() : file.substr(dot);
@@ -18,9 +17,10 @@ Format format_of(const std::string& path) {
   if (suffix == ".ply") return Format::ply;
   if (suffix == ".stl") return Format::stl;
   if (suffix == ".gltf" || suffix == ".glb")
-    base::fail(base::whole(path), "glTF cannot be read yet", "expected .obj, .ply or .stl: save the mesh as one of them");
+    base::fail(place, base::in_quotes(file) + " cannot be read: glTF is not supported yet",
+               "expected .obj, .ply or .stl: save the mesh as one of them");
   base::fail(
-      base::whole(path), "this is no mesh that can be read",
+      place, base::in_quotes(file) + " is no mesh that can be read",
       "got " + (suffix.empty() ? "a name without suffix" : "the suffix " + base::in_quotes(suffix)) + ", expected .obj, .ply or .stl");
 }
 

@@ -5,6 +5,7 @@
 #include <string>
 #include <string_view>
 
+#include "base/faults.h"
 #include "tofray/scene.h"
 
 /// Triangle meshes out of files: Wavefront OBJ, Stanford PLY, STL.
@@ -19,8 +20,9 @@ struct ReadMesh {
 enum class Format { obj, ply, stl };
 
 /// By the file name's suffix, in any case.
+/// @param place  who names the file, for messages
 /// @throws Error (bad_input) where it is none of the three
-Format format_of(const std::string& path);
+Format format_of(const std::string& path, const base::Place& place);
 
 /// Reads a mesh in time and memory linear in the file's size. Polygons become fans; corners of an STL file at the very same place one
 /// vertex.

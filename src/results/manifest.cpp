@@ -92,6 +92,7 @@ class Reader {
       string(inputs[i], before, "role", input.role);
       string(inputs[i], before, "name", input.name);
       string(inputs[i], before, "text", input.text);
+      if (inputs[i].find("sha256") != nullptr) string(inputs[i], before, "sha256", input.sha256);
     }
   }
   void read_pairs(const char* key, Pairs& pairs) {
@@ -140,6 +141,13 @@ class Reader {
   base::Faults faults_;
 };
 
+Json json_of(const InputFile& input) {
+  Json out = Json::object();
+  out.set("role", input.role).set("name", input.name).set("text", input.text);
+  if (!input.sha256.empty()) out.set("sha256", input.sha256);
+  return out;
+}
+
 }  // namespace
 
 std::string cpu_model() {
@@ -160,8 +168,7 @@ std::string cpu_model() {
 
 std::string manifest_text(const Manifest& manifest) {
   Json inputs = Json::array(), files = Json::array(), timings = Json::object();
-  for (const InputFile& input : manifest.inputs)
-    inputs.push(Json::object().set("role", input.role).set("name", input.name).set("text", input.text));
+  for (const InputFile& input : manifest.inputs) inputs.push(json_of(input));
   for (const FileRecord& file : manifest.files)
     files.push(Json::object().set("name", file.name).set("bytes", file.bytes).set("sha256", file.sha256));
   for (const auto& [stage, seconds] : manifest.timings_s) timings.set(stage, seconds);

@@ -13,11 +13,12 @@
 /// manifest.json: what made the files of a folder, and all it takes to make the same bytes again.
 namespace tofray::results {
 
-/// A file that went in: the scene, a camera profile of one's own.
+/// A file that went in: the scene, a camera profile of one's own, a mesh.
 struct InputFile {
-  std::string role;  ///< "scene", "profile"
-  std::string name;  ///< as the command line or the scene names it; a built-in name where `text` is empty
-  std::string text;  ///< the whole file, UTF-8; empty for what is built in
+  std::string role;         ///< "scene", "profile", "mesh"
+  std::string name;         ///< as the command line or the scene names it; a built-in name where `text` is empty
+  std::string text;         ///< the whole file, UTF-8; empty for what is built in, and for meshes
+  std::string sha256 = {};  ///< of a mesh, which may be too long to be here
 };
 
 struct Manifest {

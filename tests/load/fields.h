@@ -38,7 +38,7 @@ inline Node sample(const Form& form, std::size_t v, int k = 0, const std::string
   const auto map_of = [&](const Form& map, Node& into) {
     into.kind = Node::Kind::map;
     for (const auto& row : map.keys) {
-      if (row.name == "file") continue;
+      if (row.name == "file" && !row.required) continue;  // one of two ways to say numbers
       const auto one_of = [&](const std::vector<std::string>& group) {
         const auto at = std::find(group.begin(), group.end(), row.name);
         const std::size_t count = group.size() - (std::count(group.begin(), group.end(), "file") > 0 ? 1 : 0);

@@ -8,6 +8,7 @@
 
 #include "load/fields.h"
 #include "load/load.h"
+#include "support/samples.h"
 #include "yaml/tree.h"
 
 namespace {
@@ -38,7 +39,17 @@ std::vector<std::string> wrong_values(const Form& form) {
 
 class every_field : public testing::TestWithParam<const char*> {
  protected:
+  // The files that the tables' examples name lie in the working folder.
+  void SetUp() override {
+    out_test::write_file(folder_.path() / "chair.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+    std::filesystem::current_path(folder_.path());
+  }
+  void TearDown() override { std::filesystem::current_path(before_); }
   const model::FileForm& form() const { return std::string(GetParam()) == "scene" ? model::scene_form() : model::camera_form(); }
+
+ private:
+  out_test::TemporaryFolder folder_;
+  std::filesystem::path before_ = std::filesystem::current_path();
 };
 
 TEST_P(every_field, documents_made_from_the_tables_load) {

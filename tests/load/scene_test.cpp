@@ -169,7 +169,6 @@ TEST(scene, refuses_what_is_degenerate) {
       {"sphere: {center: [0,0,1], radius: 1, material: nope}", "no material \"nope\""},
       {"sphere: {center: [0,0,1], radius: 1}", "lacks a key"},
       {"sphere: {center: [0,0,1], radius: 1, material: a, reflectivity: 0.5}", "say the same thing"},
-      {"mesh: {file: chair.glb}", "meshes are not supported in this version"},
       {"sphere: {center: [0,0,1 s], radius: 1, reflectivity: 0.5}", "is a time"},
   };
   for (const auto& [object, expected] : cases)

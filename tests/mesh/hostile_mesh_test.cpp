@@ -170,19 +170,22 @@ TEST(mesh_file, with_a_header_beyond_measure_is_refused) {
 }
 
 TEST(mesh_file, is_of_the_format_that_its_suffix_says) {
-  EXPECT_EQ(mesh::format_of("a.obj"), Format::obj);
-  EXPECT_EQ(mesh::format_of("folder.stl/b.c.PLY"), Format::ply);
-  EXPECT_EQ(mesh::format_of("/x/.Stl"), Format::stl);
+  EXPECT_EQ(mesh::format_of("a.obj", base::whole("a.obj")), Format::obj);
+  EXPECT_EQ(mesh::format_of("folder.stl/b.c.PLY", base::whole("folder.stl/b.c.PLY")), Format::ply);
+  EXPECT_EQ(mesh::format_of("/x/.Stl", base::whole("/x/.Stl")), Format::stl);
   const auto message = [](const std::string& path) {
-    const Error error = out_test::error_of([&] { (void)mesh::format_of(path); });
+    const Error error = out_test::error_of([&] { (void)mesh::format_of(path, base::whole(path)); });
     EXPECT_EQ(error.kind(), ErrorKind::bad_input);
     return std::string(error.what());
   };
-  EXPECT_EQ(message("a.glb"), "a.glb: error: glTF cannot be read yet\n  expected .obj, .ply or .stl: save the mesh as one of them");
-  EXPECT_EQ(message("a.GLTF").rfind("a.GLTF: error: glTF cannot be read yet", 0), 0U);
-  EXPECT_EQ(message("a.fbx"), "a.fbx: error: this is no mesh that can be read\n  got the suffix \".fbx\", expected .obj, .ply or .stl");
+  EXPECT_EQ(
+      message("a.glb"),
+      "a.glb: error: \"a.glb\" cannot be read: glTF is not supported yet\n  expected .obj, .ply or .stl: save the mesh as one of them");
+  EXPECT_EQ(message("a.GLTF").rfind("a.GLTF: error: \"a.GLTF\" cannot be read: glTF is not", 0), 0U);
+  EXPECT_EQ(message("a.fbx"),
+            "a.fbx: error: \"a.fbx\" is no mesh that can be read\n  got the suffix \".fbx\", expected .obj, .ply or .stl");
   EXPECT_EQ(message("a.ply/mesh"),
-            "a.ply/mesh: error: this is no mesh that can be read\n  got a name without suffix, expected .obj, .ply or .stl");
+            "a.ply/mesh: error: \"mesh\" is no mesh that can be read\n  got a name without suffix, expected .obj, .ply or .stl");
   for (const char* path : {"", ".", "/", "obj", "a.obj ", "a.objx", "a.\x1b[1m"})
     EXPECT_TRUE(test::has(message(path), "expected .obj, .ply or .stl"));
 }
