@@ -30,6 +30,7 @@ SCENES = [
     "objects: []\n{}\n",
     "objects: []\nambient: {{{}}}\n",
     "objects: []\nambient: {{level: 5 %, {}}}\n",
+    "objects: [mesh: {{file: a-chair.obj, reflectivity: 0.5, {}}}]\n",
     "objects: [box: {{min: [-1, -1, 2], max: [1, 1, 3], reflectivity: 0.5, {}}}]\n",
 ]
 PROFILE_KEYS = ["{}={}", "illumination.0.{}={}"]
@@ -148,6 +149,7 @@ class Document:
 
     def yaml_of_a_line(self, code):
         said = []
+        shutil.copy(self.place.path / "examples/chair/chair.obj", self.place.path / "a-chair.obj")
         for scene in SCENES:
             (self.place.path / "a-line.yaml").write_text(scene.format(code))
             said.append(self.place.run(["tofray", "check", "a-line.yaml"]))
