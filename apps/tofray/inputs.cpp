@@ -111,7 +111,7 @@ Inputs inputs_of(const results::Manifest& manifest, const Options& options) {
   if (manifest.inputs.empty() || manifest.inputs[0].role != "scene")
     throw Error(ErrorKind::bad_input, options.from + ": error: inputs has no scene\n  expected the manifest.json of a `tofray render`");
   const results::InputFile& first = manifest.inputs[0];
-  // A stranger's manifest reads no files of ours: what is not in it has to be built in.
+  // A stranger's manifest reads no files of ours: what is not in it has to be built in. (Meshes are read if their SHA-256 is the one in it.)
   if (first.text.empty() && load::find_builtin(load::builtin_scenes(), first.name) == nullptr)
     throw Error(ErrorKind::bad_input,
                 fmt::format("{}: error: it does not hold the text of the scene {}\n  expected the scene's file in it, or the "

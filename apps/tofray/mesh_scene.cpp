@@ -12,6 +12,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/vec.h"
+#include "mesh/read_mesh.h"
 
 namespace tofray::app {
 
@@ -50,8 +51,7 @@ std::string text_of(const std::string& path, const std::string& more) {
 }  // namespace
 
 bool is_called_like_a_mesh(const std::string& path) {
-  std::string suffix = std::filesystem::path(path).extension().string();
-  std::transform(suffix.begin(), suffix.end(), suffix.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  const std::string suffix = mesh::suffix_of(path);
   return suffix == ".obj" || suffix == ".ply" || suffix == ".stl" || suffix == ".glb" || suffix == ".gltf";
 }
 

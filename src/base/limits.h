@@ -36,8 +36,8 @@ inline constexpr Limit table_samples{"table_samples", 1 << 20, "samples of one l
 inline constexpr Limit unpacked_bytes{"unpacked_bytes", 64 << 20, "bytes that any data file may unpack to"};
 inline constexpr Limit unpacked_ratio{"unpacked_ratio", 100, "times its own size that a larger data file may unpack to"};
 inline constexpr Limit mesh_bytes{"mesh_bytes", 1 << 30, "bytes of one file of a triangle mesh"};
-inline constexpr Limit mesh_vertices{"mesh_vertices", 20'000'000, "vertices of one triangle mesh"};
-inline constexpr Limit mesh_triangles{"mesh_triangles", 20'000'000, "triangles of one mesh, polygons taken apart"};
+inline constexpr Limit mesh_vertices{"mesh_vertices", 20'000'000, "vertices of one triangle mesh, and of all that a scene's files hold"};
+inline constexpr Limit mesh_triangles{"mesh_triangles", 20'000'000, "triangles likewise, polygons taken apart"};
 }  // namespace limit
 
 /// All of them, in the order in which they are printed.

@@ -67,6 +67,7 @@ MeshReader::Known MeshReader::from_file(const base::Place& place, const Mesh& wa
                  "its SHA-256 is not the one that the manifest has; expected the same file in the same place");
   }
   auto [mesh, left_out] = mesh::parse(format, bytes, path);
+  count(place, mesh);
   const Mesh::Up automatic = format == mesh::Format::obj ? Mesh::Up::y : Mesh::Up::z;
   for (Corner& p : mesh.vertices) p = in_world(p, wanted.scale, wanted.up == Mesh::Up::automatic ? automatic : wanted.up);
   left_out += keep_in_world(mesh);
@@ -74,6 +75,19 @@ MeshReader::Known MeshReader::from_file(const base::Place& place, const Mesh& wa
     base::fail(place, "no triangle of " + base::in_quotes(path, 200) + " is in the world",
                "all have a corner beyond " + base::number_text(base::farthest_m) + " m; is its scale right?");
   return {std::make_shared<const TriangleMesh>(std::move(mesh)), sha256, static_cast<int>(left_out)};
+}
+
+void MeshReader::count(const base::Place& place, const TriangleMesh& mesh) {
+  vertices_ += mesh.vertices.size(), triangles_ += mesh.triangles.size();
+  const auto check = [&](std::size_t got, const base::Limit& limit, const char* what) {
+    if (got > static_cast<std::size_t>(limit.value))
+      base::fail(
+          place, std::string("the scene's meshes have too many ") + what,
+          "got more than " + std::to_string(limit.value) + " in all (`tofray --limits`); objects of one file, scale and up share theirs",
+          ErrorKind::limit);
+  };
+  check(vertices_, base::limit::mesh_vertices, "vertices");
+  check(triangles_, base::limit::mesh_triangles, "triangles");
 }
 
 }  // namespace tofray::load

@@ -33,9 +33,12 @@ class MeshReader {
     int left_out;
   };
   Known from_file(const base::Place& place, const Mesh& wanted);
+  /// The limits of one mesh are those of all meshes of a scene: of many it may take no more memory.
+  void count(const base::Place& place, const TriangleMesh& mesh);
 
   std::string folder_;
   const MeshFiles& files_;
+  std::size_t vertices_ = 0, triangles_ = 0;
   std::map<std::tuple<std::string, double, Mesh::Up>, Known> known_;
 };
 

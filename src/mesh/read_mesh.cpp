@@ -7,12 +7,17 @@
 
 namespace tofray::mesh {
 
-Format format_of(const std::string& path, const base::Place& place) {
+std::string suffix_of(const std::string& path) {
   const std::string file = path.substr(path.rfind('/') + 1);  // npos + 1 is 0
   const std::size_t dot = file.rfind('.');
   std::string suffix = dot == std::string::npos ? std::string() : file.substr(dot);
   for (char& c : suffix)
     if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  return suffix;
+}
+
+Format format_of(const std::string& path, const base::Place& place) {
+  const std::string file = path.substr(path.rfind('/') + 1), suffix = suffix_of(path);
   if (suffix == ".obj") return Format::obj;
   if (suffix == ".ply") return Format::ply;
   if (suffix == ".stl") return Format::stl;

@@ -19,6 +19,9 @@ struct ReadMesh {
 
 enum class Format { obj, ply, stl };
 
+/// ".obj" of "Chair.OBJ"; empty where the name has none.
+std::string suffix_of(const std::string& path);
+
 /// By the file name's suffix, in any case.
 /// @param place  who names the file, for messages
 /// @throws Error (bad_input) where it is none of the three

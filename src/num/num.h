@@ -11,6 +11,8 @@
 /// Int<F>, Uint<F> (32 bits) and Mask<F>. All of them have the operators + - * / < <= > >= == != & | ! and the free functions of this
 /// file; nothing else is needed to add a machine. Every function gives the same bits on every machine: IEEE single precision,
 /// rounded to nearest, subnormals kept; min and max are comparisons (the second argument where one is NaN).
+///
+/// TOFRAY_FN is written out where it is called; TOFRAY_APART, for what is long and called in several places, is not.
 #if defined(__CUDACC__)
 #define TOFRAY_FN __host__ __device__ __forceinline__
 #define TOFRAY_APART __host__ __device__ __noinline__ static

@@ -117,10 +117,10 @@ TOFRAY_FN double reach(const Mesh& mesh, const Vec& from) {
 }
 
 /// By how much boxes are widened: some 16 roundings of the largest coordinate along the way, and what is rounded when it is added to
-/// the origin.
+/// the origin, or taken times the inverse direction with it.
 template <class F>
 TOFRAY_FN F mesh_slack(F reach, F origin) {
-  return reach * F(0x1p-19f) + origin * F(0x1p-23f);
+  return reach * F(0x1p-19f) + origin * F(0x1p-22f);
 }
 /// Nothing of a mesh is nearer to the camera [m].
 constexpr float nearest_mesh = 1e-6f;
@@ -213,8 +213,8 @@ class MeshSearch {
                        MeshHit<F>& hit)
       : nodes_(nodes), triangles_(triangles), along_(sheared(ray, z)), shortest_(shortest), open_(wanted), hit_(hit) {
     for (int k = 0; k < 3; ++k) {
-      from_low_[k] = ray.origin[k] + ray.slack, from_high_[k] = ray.origin[k] - ray.slack;
       inverse_[k] = F(1.0f) / num::copy_sign(num::max(num::abs(ray.direction[k]), F(1e-30f)), ray.direction[k]);
+      from_low_[k] = (ray.origin[k] + ray.slack) * inverse_[k], from_high_[k] = (ray.origin[k] - ray.slack) * inverse_[k];
     }
   }
 
@@ -239,7 +239,7 @@ class MeshSearch {
     for (int i = 0; i < node.children; ++i) {
       F enter = shortest_, leave = hit_.t;
       for (int k = 0; k < 3; ++k) {
-        const F a = (F(node.low[k][i]) - from_low_[k]) * inverse_[k], b = (F(node.high[k][i]) - from_high_[k]) * inverse_[k];
+        const F a = num::fma(F(node.low[k][i]), inverse_[k], -from_low_[k]), b = num::fma(F(node.high[k][i]), inverse_[k], -from_high_[k]);
         enter = num::max(enter, num::min(a, b)), leave = num::min(leave, num::max(a, b));
       }
       const auto met = open_ & (enter <= leave);
