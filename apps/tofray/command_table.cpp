@@ -50,7 +50,8 @@ std::vector<Command> make() {
                    "tofray render room --theme light                         # pictures on white, for papers\n"
                    "tofray render room --frames 500 --arrays raw,z_m,flags   # an eighth of the bytes\n"
                    "tofray render --from out/manifest.json -o again          # the same bytes again\n",
-       .more = "SCENE is a YAML or JSON file, or a name out of `tofray list scenes`. Without -o the folder is called like the scene.\n"
+       .more = "SCENE is a YAML or JSON file, a name out of `tofray list scenes`, or a mesh (OBJ, PLY, STL), which is put on a floor.\n"
+               "Without -o the folder is called like the scene.\n"
                "Same version, scene, options and seed: the same bytes, for any number of threads.\n",
        .options = simulation_and({"--frames", "--first-frame", "--from", "--json", "--quiet"}),
        .least_words = 1,

@@ -59,7 +59,8 @@ void refuse_data(std::string_view bytes, const std::string& path) {
     refuse(path, "an array (.npy), not a scene", fmt::format("`tofray inspect {}` shows what is in it", file));
   if (bytes.starts_with("\x89PNG"))
     refuse(path, "a picture (PNG), not a scene", "it cannot be simulated again; the manifest.json beside it can: `tofray render --from`");
-  if (bytes.starts_with("ply\n")) refuse(path, "a point cloud (PLY), not a scene", "expected a scene, a YAML or JSON file");
+  if (bytes.starts_with("ply\n"))
+    refuse(path, "a PLY file, not a scene", "expected a scene, a YAML or JSON file; a mesh is read where its name ends in .ply");
 }
 
 bool looks_like_a_profile(const std::string& text, const std::string& name) {

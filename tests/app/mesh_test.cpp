@@ -59,6 +59,18 @@ TEST_F(mesh_file, of_a_manifest_is_not_any_file) {
   EXPECT_TRUE(has(made.err, "is not the mesh that it was")) << made.err;
 }
 
+TEST_F(mesh_file, is_checked_like_a_scene) {
+  write("two.yaml", "objects:\n  - mesh: {file: tent.obj, reflectivity: 0.5}\n  - mesh: {file: tent.obj, reflectivity: 0.2}\n");
+  for (const std::string& name : {std::string("tent.obj"), std::string("two.yaml")}) {
+    const Result checked = as_typed({"check", name});
+    EXPECT_EQ(checked.code, 0) << checked.err;
+    EXPECT_TRUE(has(checked.out, "good: scene with 2 objects (8 triangles in meshes)")) << checked.out;
+    EXPECT_TRUE(has(as_typed({"check", name, "--json"}).out, "\"mesh_triangles\": 8"));
+  }
+  fs::rename(folder_ / "tent.obj", folder_ / "tent");
+  EXPECT_EQ(as_typed({"check", "tent"}).code, 2);
+}
+
 TEST_F(mesh_file, that_lost_triangles_says_so) {
   write("holes.obj", std::string(tent) + "v nan 0 0\nf 1 2 7\nf 2 3 7\n");
   const Result made = tool({"render", "holes.obj"});

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The tofray authors
 // SPDX-License-Identifier: Apache-2.0
-// Any bytes as a mesh; the first says which format: an Error, or triangles of vertices that are there and finite.
+// Any bytes as a mesh; the first says which format: an Error, or triangles of vertices that are there and finite, and a hierarchy of them in
+// which rays find something finite or nothing.
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -10,6 +11,38 @@
 
 #include "fuzz/shown.h"
 #include "mesh/read_mesh.h"
+#include "scene/hierarchy.h"
+
+namespace {
+
+constexpr std::size_t most_built = 2000;  // triangles: more would be slow, not different
+
+/// As the loader does before anything is built: what is beyond the world is not there.
+bool is_in_world(const tofray::TriangleMesh& mesh) {
+  for (const auto& vertex : mesh.vertices)
+    for (const float coordinate : vertex)
+      if (std::abs(coordinate) > 1e5f) return false;
+  return true;
+}
+
+void look_at(const tofray::TriangleMesh& mesh) {
+  using namespace tofray;
+  const scene::Hierarchy built = scene::build_hierarchy(mesh);
+  if (built.triangles.size() != mesh.triangles.size()) std::abort();
+  const shape::Mesh lying = shape::Mesh::placed(built, {{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}}, {0, 0, 0}});
+  const shape::MeshForm form = seen_from(lying, {0.1, -0.2, -1});
+  for (std::size_t i = 0; i < 16; ++i) {
+    const auto& at = mesh.vertices[i * 7919 % mesh.vertices.size()];
+    const flow::Ray<float> ray = flow::make_ray(at[0] - 0.1f, at[1] + 0.2f, at[2] + 1);
+    if (!(ray.square > 1e-12f)) continue;
+    flow::Hit<float> hit = flow::no_hit<float>();
+    nearest_in(form, ray, hit);
+    if (!std::isfinite(hit.w) || hit.w < 0 || hit.triangle < 0 || static_cast<std::size_t>(hit.triangle) >= mesh.triangles.size())
+      std::abort();
+  }
+}
+
+}  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   if (size == 0) return 0;
@@ -24,6 +57,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     for (const auto& triangle : read.mesh.triangles)
       for (const std::int32_t index : triangle)
         if (index < 0 || static_cast<std::size_t>(index) >= read.mesh.vertices.size()) std::abort();
+    if (read.mesh.triangles.size() <= most_built && is_in_world(read.mesh)) look_at(read.mesh);
   } catch (const tofray::Error& e) {
     if (e.kind() == tofray::ErrorKind::bug || std::string(e.what()).find(": error: ") == std::string::npos) std::abort();
     if (!tofray::fuzz::may_be_shown(e)) std::abort();

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
+#include <set>
+
 #include "commands.h"
 #include "console.h"
 #include "files/json.h"
@@ -12,6 +14,7 @@
 #include "load/convert.h"
 #include "load/load.h"
 #include "load/provenance.h"
+#include "mesh_scene.h"
 #include "tofray/error.h"
 #include "yaml/tree.h"
 
@@ -59,6 +62,16 @@ Report check_profile(const std::string& text, const std::string& name, const Opt
   return report;
 }
 
+/// Of all meshes; those that objects share count once.
+std::size_t mesh_triangles(const Scene& scene) {
+  std::set<const TriangleMesh*> seen;
+  std::size_t count = 0;
+  for (const Object& object : scene.objects)
+    if (const auto* mesh = std::get_if<Mesh>(&object.shape); mesh != nullptr && seen.insert(mesh->triangles.get()).second)
+      count += mesh->triangles->triangles.size();
+  return count;
+}
+
 Report check_scene(const std::string& name, const Options& options) {
   const Inputs in = load_inputs(name, options);
   Simulator(in.scene, in.camera, on_processor(options));
@@ -67,10 +80,14 @@ Report check_scene(const std::string& name, const Options& options) {
   report.json.set("kind", "scene")
       .set("name", in.scene.name)
       .set("objects", in.scene.objects.size())
-      .set("materials", in.scene.materials.size());
+      .set("materials", in.scene.materials.size())
+      .set("mesh_triangles", mesh_triangles(in.scene));
   report.json.set("camera", in.camera.name).set("mode", in.camera.mode.name).set("raw_frames", in.camera.mode.sequence.size());
-  report.text = fmt::format("{}: good: scene with {} object{}, camera {} in mode {}, {} raw frames\n", name, in.scene.objects.size(),
-                            in.scene.objects.size() == 1 ? "" : "s", in.camera.name, in.camera.mode.name, in.camera.mode.sequence.size());
+  const std::size_t triangles = mesh_triangles(in.scene);
+  const std::string meshes = triangles == 0 ? "" : fmt::format(" ({} triangle{} in meshes)", triangles, triangles == 1 ? "" : "s");
+  report.text =
+      fmt::format("{}: good: scene with {} object{}{}, camera {} in mode {}, {} raw frames\n", name, in.scene.objects.size(),
+                  in.scene.objects.size() == 1 ? "" : "s", meshes, in.camera.name, in.camera.mode.name, in.camera.mode.sequence.size());
   return report;
 }
 
@@ -80,6 +97,7 @@ Report check(const Options& options) {
   if (const load::Builtin* profile = load::find_builtin(load::builtin_profiles(), name))
     return check_profile(std::string(profile->text), name, options);
   refuse_folder(name, "check");
+  if (is_called_like_a_mesh(name)) return check_scene(name, options);
   const std::string text = load::read_named("scene", name, load::builtin_scenes());
   refuse_data(text, name);
   return looks_like_a_profile(text, name) ? check_profile(text, name, options) : check_scene(name, options);
