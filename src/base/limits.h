@@ -38,16 +38,55 @@ inline constexpr Limit unpacked_ratio{"unpacked_ratio", 100, "times its own size
 inline constexpr Limit mesh_bytes{"mesh_bytes", 1 << 30, "bytes of one file of a triangle mesh"};
 inline constexpr Limit mesh_vertices{"mesh_vertices", 20'000'000, "vertices of one triangle mesh, and of all that a scene's files hold"};
 inline constexpr Limit mesh_triangles{"mesh_triangles", 20'000'000, "triangles likewise, polygons taken apart"};
+inline constexpr Limit gltf_json_bytes{"gltf_json_bytes", 256 << 20, "bytes of a glTF file's JSON, data URIs in it counted"};
+inline constexpr Limit gltf_json_values{"gltf_json_values", 4'000'000, "values of a glTF file's JSON"};
+inline constexpr Limit gltf_nodes{"gltf_nodes", 100'000, "nodes of one glTF file"};
+inline constexpr Limit gltf_depth{"gltf_depth", 256, "nodes below each other in one glTF file"};
+inline constexpr Limit gltf_parts{"gltf_parts", 200'000, "primitives of all nodes of one glTF file"};
+inline constexpr Limit gltf_morphs{"gltf_morphs", 50'000'000, "morph targets times vertices of all nodes of one glTF file"};
+inline constexpr Limit gltf_keyframes{"gltf_keyframes", 10'000'000, "keyframes of all samplers of one glTF file"};
+inline constexpr Limit gltf_image_bytes{"gltf_image_bytes", 256 << 20, "bytes of all images of one glTF file, as they are encoded"};
+inline constexpr Limit gltf_number_bytes{"gltf_number_bytes", 256 << 20, "bytes that the numbers of any glTF file may take"};
+inline constexpr Limit gltf_number_ratio{"gltf_number_ratio", 8,
+                                         "times the bytes of its buffers that the numbers of a larger one may take"};
 }  // namespace limit
 
 /// All of them, in the order in which they are printed.
 inline constexpr Limit all_limits[] = {
-    limit::file_bytes,     limit::nesting_depth, limit::nodes,          limit::text_bytes,
-    limit::overrides,      limit::faults_shown,  limit::faults_counted, limit::message_line_bytes,
-    limit::message_bytes,  limit::objects,       limit::materials,      limit::lights,
-    limit::raw_frames,     limit::modes,         limit::sensor_side,    limit::sensor_pixels,
-    limit::raw_samples,    limit::curve_points,  limit::table_samples,  limit::unpacked_bytes,
-    limit::unpacked_ratio, limit::mesh_bytes,    limit::mesh_vertices,  limit::mesh_triangles,
+    limit::file_bytes,
+    limit::nesting_depth,
+    limit::nodes,
+    limit::text_bytes,
+    limit::overrides,
+    limit::faults_shown,
+    limit::faults_counted,
+    limit::message_line_bytes,
+    limit::message_bytes,
+    limit::objects,
+    limit::materials,
+    limit::lights,
+    limit::raw_frames,
+    limit::modes,
+    limit::sensor_side,
+    limit::sensor_pixels,
+    limit::raw_samples,
+    limit::curve_points,
+    limit::table_samples,
+    limit::unpacked_bytes,
+    limit::unpacked_ratio,
+    limit::mesh_bytes,
+    limit::mesh_vertices,
+    limit::mesh_triangles,
+    limit::gltf_json_bytes,
+    limit::gltf_json_values,
+    limit::gltf_nodes,
+    limit::gltf_depth,
+    limit::gltf_parts,
+    limit::gltf_morphs,
+    limit::gltf_keyframes,
+    limit::gltf_image_bytes,
+    limit::gltf_number_bytes,
+    limit::gltf_number_ratio,
     limit::threads,
 };
 

@@ -6,7 +6,7 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
-#include <unordered_set>
+#include <set>
 
 #include "base/text.h"
 #include "tofray/error.h"
@@ -44,7 +44,8 @@ constexpr std::size_t max_depth = 64;
 /// Takes nlohmann's events and builds a Json, so that depth and double keys can be refused on the way.
 class Builder : public nlohmann::json_sax<Tree> {
  public:
-  Builder(std::string_view text, const std::string& where) : text_(text), where_(where) {}
+  Builder(std::string_view text, const std::string& where, std::size_t most_values)
+      : text_(text), where_(where), most_values_(most_values) {}
 
   Json take() { return std::move(root_); }
 
@@ -66,21 +67,23 @@ class Builder : public nlohmann::json_sax<Tree> {
     object.key = std::move(name);
     return true;
   }
-  bool parse_error(std::size_t position, const std::string&, const nlohmann::detail::exception&) override {
+  bool parse_error(std::size_t position, const std::string&, const nlohmann::detail::exception& exception) override {
     const std::string_view before = text_.substr(0, position > 0 ? position - 1 : 0);
     const auto line = std::count(before.begin(), before.end(), '\n') + 1;
     const std::size_t start = before.rfind('\n') + 1;  // npos + 1 is 0
+    constexpr int beyond_double = 406;                 // nlohmann's number of that fault
     throw Error(ErrorKind::bad_input,
-                fmt::format("{}:{}:{}: error: this is not JSON\n  expected a document that is complete and well formed", where_, line,
-                            before.size() - start + 1));
+                fmt::format("{}:{}:{}: error: {}", where_, line, before.size() - start + 1,
+                            exception.id == beyond_double ? "a number is beyond the range of double\n  expected one below 1.8e308"
+                                                          : "this is not JSON\n  expected a document that is complete and well formed"));
   }
 
  private:
   /// A container that is not complete.
   struct Open {
     Json container;
-    std::string key;  ///< of an object: the one that waits for its value
-    std::unordered_set<std::string> seen;
+    std::string key;             ///< of an object: the one that waits for its value
+    std::set<std::string> seen;  ///< a tree: no file can be made whose keys share a slot
   };
 
   bool open(Json container) {
@@ -94,6 +97,7 @@ class Builder : public nlohmann::json_sax<Tree> {
     return put(std::move(done));
   }
   bool put(Json item) {
+    if (++values_ > most_values_) throw Error(ErrorKind::limit, fmt::format("{}: error: more than {} values", where_, most_values_));
     if (open_.empty()) {
       root_ = std::move(item);
     } else if (Open& parent = open_.back(); parent.container.is_object()) {
@@ -106,6 +110,7 @@ class Builder : public nlohmann::json_sax<Tree> {
 
   std::string_view text_;
   const std::string& where_;
+  std::size_t most_values_, values_ = 0;
   Json root_;
   std::vector<Open> open_;
 };
@@ -157,8 +162,8 @@ std::string json_text(const Json& document, int indent) {
   return tree_of(document).dump(indent, ' ', false, Tree::error_handler_t::replace);
 }
 
-Json parse_json(std::string_view text, const std::string& where) {
-  Builder builder(text, where);
+Json parse_json(std::string_view text, const std::string& where, std::size_t most_values) {
+  Builder builder(text, where, most_values);
   Tree::sax_parse(text.begin(), text.end(), &builder);
   return builder.take();
 }

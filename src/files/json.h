@@ -3,6 +3,7 @@
 #pragma once
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <string>
 #include <string_view>
 #include <type_traits>
@@ -80,7 +81,8 @@ class Json {
 std::string json_text(const Json& document, int indent = -1);
 
 /// Reads a document.
-/// @throws Error (bad_input) with `where`, line and column of the fault, also for keys that come twice; (limit) nested deeper than 64 levels
-Json parse_json(std::string_view text, const std::string& where);
+/// @throws Error (bad_input) with `where`, line and column of the fault, also for keys that come twice; (limit) nested deeper than 64 levels,
+/// or of more than `most_values` values
+Json parse_json(std::string_view text, const std::string& where, std::size_t most_values = std::numeric_limits<std::size_t>::max());
 
 }  // namespace tofray::files

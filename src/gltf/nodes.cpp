@@ -1,0 +1,138 @@
+// SPDX-FileCopyrightText: 2026 The tofray authors
+// SPDX-License-Identifier: Apache-2.0
+// Nodes: a tree for each that has no parent, and the scenes that show some of them.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/limits.h"
+#include "base/text.h"
+#include "gltf/reading.h"
+
+namespace tofray::gltf {
+namespace {
+
+/// Column-major in files.
+std::optional<Matrix> read_matrix(const Item& item) {
+  std::array<double, 16> columns{};
+  if (!item.numbers("matrix", columns)) return {};
+  constexpr double rounding = 1e-4;
+  Matrix out{};
+  for (std::size_t column = 0; column < 4; ++column) {
+    for (std::size_t row = 0; row < 3; ++row) out[row][column] = columns[4 * column + row];
+    if (!(std::abs(columns[4 * column + 3] - (column == 3 ? 1 : 0)) <= rounding))
+      item.fail_at("matrix", "has a last row that is not 0 0 0 1", "got " + base::number_text(columns[4 * column + 3]));
+  }
+  return out;
+}
+
+void read_rotation(Reading& reading, const Item& item, Node& node) {
+  if (!item.numbers("rotation", node.rotation)) return;
+  const double size = length(node.rotation);
+  if (!(size > 1e-6 && size < 1e6)) item.fail_at("rotation", "is no rotation", "got a quaternion of length " + base::number_text(size));
+  if (std::abs(size - 1) > 1e-3) reading.notices.add("rotations that are not of unit length are scaled");
+  node.rotation = normalized(node.rotation);
+}
+
+/// Whether each primitive says which joints move its vertices, and all of them are the skin's.
+void check_skin(const Reading& reading, const Item& item, const Node& node) {
+  const std::size_t joints = reading.model.skins[static_cast<std::size_t>(node.skin)].joints.size();
+  if (node.mesh == none) item.fail_at("skin", "is that of a node without a mesh", fmt::format("got skin {}", node.skin));
+  const Mesh& mesh = reading.model.meshes[static_cast<std::size_t>(node.mesh)];
+  if (!mesh.has_joints)
+    item.fail_at("skin", "moves a mesh without joints", fmt::format("meshes[{}] has a primitive without JOINTS_0", node.mesh));
+  if (mesh.most_joint >= joints)
+    item.fail_at("skin", "has fewer joints than its mesh names",
+                 fmt::format("meshes[{}] names joint {}, and there are {}, of which the first is 0", node.mesh, mesh.most_joint, joints));
+}
+
+Node read_node(Reading& reading, const Item& item, std::size_t nodes) {
+  Node node;
+  const Model& model = reading.model;
+  node.name = item.name();
+  node.children = item.indices("children", nodes, "nodes");
+  node.mesh = item.index("mesh", model.meshes.size(), "meshes");
+  node.skin = item.index("skin", model.skins.size(), "skins");
+  node.camera = item.index("camera", model.cameras.size(), "cameras");
+  if (node.skin != none) check_skin(reading, item, node);
+  node.matrix = read_matrix(item);
+  const bool parts = item.numbers("translation", node.translation) | item.numbers("scale", node.scale);
+  read_rotation(reading, item, node);
+  if (node.matrix && (parts || item.has("rotation")))
+    item.fail("has a matrix and a translation, rotation or scale", "expected one of the two");
+  if (item.has("weights")) {
+    const std::size_t targets = node.mesh == none ? 0 : model.meshes[static_cast<std::size_t>(node.mesh)].weights.size();
+    node.weights = item.all_numbers("weights");
+    if (node.weights.size() != targets)
+      item.fail_at("weights", "are not one for each morph target", fmt::format("got {}, and there are {}", node.weights.size(), targets));
+  }
+  return node;
+}
+
+void find_parents(Reading& reading, const std::vector<Item>& items) {
+  auto& nodes = reading.model.nodes;
+  for (std::size_t i = 0; i < nodes.size(); ++i)
+    for (const int child : nodes[i].children) {
+      int& parent = nodes[static_cast<std::size_t>(child)].parent;
+      if (parent != none)
+        items[static_cast<std::size_t>(child)].fail("has two parents", fmt::format("they are nodes[{}] and nodes[{}]", parent, i));
+      parent = static_cast<int>(i);
+    }
+}
+
+/// Fills parents_first. Each node has one parent at most, so that what no walk from a root meets lies on a cycle, or below one.
+void put_in_order(Reading& reading, const std::vector<Item>& items) {
+  Model& model = reading.model;
+  std::vector<int> depth(model.nodes.size(), 0);
+  const auto meet = [&](int node, int at_depth) {
+    if (at_depth > base::limit::gltf_depth.value)
+      items[static_cast<std::size_t>(node)].fail(
+          "is too deep", fmt::format("nodes may stand {} deep below each other (`tofray --limits`)", base::limit::gltf_depth.value),
+          ErrorKind::limit);
+    depth[static_cast<std::size_t>(node)] = at_depth;
+    model.parents_first.push_back(node);
+  };
+  for (std::size_t i = 0; i < model.nodes.size(); ++i)
+    if (model.nodes[i].parent == none) meet(static_cast<int>(i), 1);
+  for (std::size_t next = 0; next < model.parents_first.size(); ++next) {
+    const auto node = static_cast<std::size_t>(model.parents_first[next]);
+    for (const int child : model.nodes[node].children) meet(child, depth[node] + 1);
+  }
+  const auto lost = std::find(depth.begin(), depth.end(), 0);
+  if (lost != depth.end()) items[static_cast<std::size_t>(lost - depth.begin())].fail("is below itself", "expected a tree of nodes");
+}
+
+void read_scenes(Reading& reading) {
+  Model& model = reading.model;
+  for (const Item& item : reading.root.objects("scenes")) {
+    Scene& scene = model.scenes.emplace_back(Scene{item.name(), item.indices("nodes", model.nodes.size(), "nodes")});
+    for (const int node : scene.nodes)
+      if (const int parent = model.nodes[static_cast<std::size_t>(node)].parent; parent != none)
+        item.fail_at("nodes", "has a node with a parent", fmt::format("nodes[{}] is a child of nodes[{}]", node, parent));
+  }
+  const int chosen = reading.root.index("scene", model.scenes.size(), "scenes");
+  model.scene = chosen == none ? 0 : chosen;
+  if (chosen == none && model.scenes.size() > 1)
+    reading.notices.add("the file has several scenes and names none of them: the first is taken");
+  if (!model.scenes.empty()) return;
+  Scene& all = model.scenes.emplace_back();
+  for (std::size_t i = 0; i < model.nodes.size(); ++i)
+    if (model.nodes[i].parent == none) all.nodes.push_back(static_cast<int>(i));
+}
+
+}  // namespace
+
+void read_nodes(Reading& reading) {
+  const std::vector<Item> items = reading.root.objects("nodes");
+  if (items.size() > static_cast<std::size_t>(base::limit::gltf_nodes.value))
+    reading.root.fail_at("nodes", "are too many",
+                         fmt::format("got {}, at most {} (`tofray --limits`)", items.size(), base::limit::gltf_nodes.value),
+                         ErrorKind::limit);
+  for (const Item& item : items) reading.model.nodes.push_back(read_node(reading, item, items.size()));
+  find_parents(reading, items);
+  put_in_order(reading, items);
+  read_scenes(reading);
+}
+
+}  // namespace tofray::gltf

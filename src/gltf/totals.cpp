@@ -1,0 +1,48 @@
+// SPDX-FileCopyrightText: 2026 The tofray authors
+// SPDX-License-Identifier: Apache-2.0
+// What all nodes of a file show: one mesh may stand in many places.
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "base/limits.h"
+#include "gltf/reading.h"
+
+namespace tofray::gltf {
+namespace {
+
+struct Total {
+  const base::Limit& limit;
+  const char* what;
+  std::uint64_t sum = 0;
+
+  /// Sums stay below 2^33 · 2^31.
+  void add(const Item& root, std::uint64_t more) {
+    sum += more;
+    if (sum > static_cast<std::uint64_t>(limit.value))
+      root.fail(fmt::format("the nodes show too many {}", what),
+                fmt::format("got more than {} in all (`tofray --limits`); a mesh counts as often as nodes show it", limit.value),
+                ErrorKind::limit);
+  }
+};
+
+}  // namespace
+
+void check_totals(const Reading& reading) {
+  Total parts{base::limit::gltf_parts, "primitives"}, triangles{base::limit::mesh_triangles, "triangles"},
+      vertices{base::limit::mesh_vertices, "vertices"}, morphs{base::limit::gltf_morphs, "vertices times morph targets"};
+  for (const Node& node : reading.model.nodes) {
+    if (node.mesh == none) continue;
+    const Mesh& mesh = reading.model.meshes[static_cast<std::size_t>(node.mesh)];
+    morphs.add(reading.root, mesh.weights.size());
+    for (const Primitive& primitive : mesh.primitives) {
+      const std::uint64_t used = std::min(primitive.vertices(), 3 * primitive.triangles());
+      parts.add(reading.root, 1);
+      triangles.add(reading.root, primitive.triangles());
+      vertices.add(reading.root, used);
+      morphs.add(reading.root, used * primitive.targets.size());
+    }
+  }
+}
+
+}  // namespace tofray::gltf
