@@ -75,7 +75,7 @@ Accessor::Sparse read_sparse(const Item& item, const Accessor& accessor, const B
 }  // namespace
 
 Accessor read_accessor(const Item& item, const Buffers& buffers) {
-  Accessor out{item, {}};
+  Accessor out{item};
   read_type(item, out);
   out.component = component_of(item);
   out.normalized = item.flag_or("normalized", false);

@@ -37,7 +37,7 @@ struct Accessor {
     Component indices = Component::uint32;
   };
   Item item;
-  std::string_view type;
+  std::string_view type{};
   Component component = Component::float32;
   std::size_t width = 1;   ///< numbers of an element
   std::size_t column = 1;  ///< numbers of a column, each of which begins at a multiple of 4 bytes in matrices
@@ -45,7 +45,7 @@ struct Accessor {
   std::uint64_t count = 0;
   int view = none;
   std::uint64_t offset = 0;
-  std::optional<Sparse> sparse;
+  std::optional<Sparse> sparse{};
 };
 
 /// The accessors of a file. Each one's numbers are taken out of the buffers once.

@@ -57,9 +57,10 @@ Node read_node(Reading& reading, const Item& item, std::size_t nodes) {
   node.camera = item.index("camera", model.cameras.size(), "cameras");
   if (node.skin != none) check_skin(reading, item, node);
   node.matrix = read_matrix(item);
-  const bool parts = item.numbers("translation", node.translation) | item.numbers("scale", node.scale);
+  item.numbers("translation", node.translation);
+  item.numbers("scale", node.scale);
   read_rotation(reading, item, node);
-  if (node.matrix && (parts || item.has("rotation")))
+  if (node.matrix && (item.has("translation") || item.has("scale") || item.has("rotation")))
     item.fail("has a matrix and a translation, rotation or scale", "expected one of the two");
   if (item.has("weights")) {
     const std::size_t targets = node.mesh == none ? 0 : model.meshes[static_cast<std::size_t>(node.mesh)].weights.size();
