@@ -140,8 +140,8 @@ TEST(primitive, with_quantized_positions_needs_its_node_s_scale) {
   // 16 bits over [−1, 1], spread to metres by the node: KHR_mesh_quantization's own way.
   File file;
   file.json["extensionsUsed"] = file.json["extensionsRequired"] = {"KHR_mesh_quantization"};
-  const std::vector<std::int16_t> positions = {-32767, 0,     32767, 0, 32767, 0,
-                                               16384,  -8192, 1,     0, 0,     0};  // four for each vertex, one unused
+  const std::vector<std::int16_t> positions = {-32767, 0, 32767, 0,     0, 32767,
+                                               0,      0, 16384, -8192, 1, 0};  // four for each vertex, one unused
   const int view = file.view(bytes_of(positions));
   file.json["bufferViews"][0]["byteStride"] = 8;
   file.mesh({{"POSITION", file.accessor(view, 5122, "VEC3", 3)}});

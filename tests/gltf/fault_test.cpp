@@ -1,231 +1,13 @@
 // SPDX-FileCopyrightText: 2026 The tofray authors
 // SPDX-License-Identifier: Apache-2.0
 // One fault each in a file that has all that is read, and what the error says of it.
-#include "everything.h"
+#include "faults.h"
 
 using namespace tofray;
 using namespace tofray::gltf_test;
 
-namespace {
-
-/// What is changed where (nothing: it is taken out), and the error's first line behind "m: error: ".
-struct Fault {
-  const char* at;
-  const char* value;
-  const char* message;
-};
-
-std::string with(const std::string& at, const std::string& value) {
-  Document json = everything_file().with_buffer("");
-  const Document::json_pointer pointer(at);
-  if (value.empty())
-    json[pointer.parent_pointer()].erase(pointer.back());
-  else
-    json[pointer] = Document::parse(value);
-  File file = everything_file();
-  file.json = json;
-  return file.glb();
-}
-
-/// "accessors[0].count" of "/accessors/0/count".
-std::string place_of(const std::string& pointer) {
-  std::string out;
-  for (std::size_t from = 1; from < pointer.size();) {
-    const std::size_t end = std::min(pointer.find('/', from), pointer.size());
-    const std::string part = pointer.substr(from, end - from);
-    const bool index = part.find_first_not_of("0123456789") == std::string::npos;
-    out += index ? "[" + part + "]" : (out.empty() ? "" : ".") + part;
-    from = end + 1;
-  }
-  return out;
-}
-
-std::size_t expect_each(const std::vector<Fault>& faults) {
-  for (const Fault& fault : faults) {
-    SCOPED_TRACE(std::string(fault.at) + " = " + fault.value);
-    const std::string message = message_of(with(fault.at, fault.value));
-    EXPECT_EQ(message.rfind("m: error: " + std::string(fault.message), 0), 0U) << message << "\nexpected: " << fault.message;
-  }
-  return faults.size();
-}
-
-/// Each of these values at each of these places, refused as not being `kind`.
-std::size_t expect_kind(const std::vector<const char*>& places, const std::vector<const char*>& values, const std::string& kind) {
-  for (const char* at : places)
-    for (const char* value : values) {
-      const std::string expected = "m: error: " + place_of(at) + " is not " + kind, message = message_of(with(at, value));
-      EXPECT_EQ(message.rfind(expected, 0), 0U) << at << " = " << value << "\n" << message << "\nexpected: " << expected;
-    }
-  return places.size() * values.size();
-}
-
-std::size_t faults_seen = 0;
-
-}  // namespace
-
-TEST(gltf_fault, there_is_none_in_the_file_that_all_faults_are_put_into) {
-  const Model model = model_of(everything_file());
-  EXPECT_EQ(model.notices, std::vector<std::string>{"light that materials emit is left out"});
-  // The target lifts the corners by 0.25, the last by 3 · 0.25 in each direction; the skin is at rest.
-  EXPECT_EQ(parts_at_rest(model).at(0).mesh.vertices, (Vertices{{0, 0, 0.25F}, {1, 0, 0.25F}, {0.75F, 1.75F, 0.75F}}));
-  EXPECT_NE(parts_at(model, 0.5).at(0).mesh.vertices[0], parts_at_rest(model).at(0).mesh.vertices[0]);
-}
-
-TEST(gltf_fault, of_a_kind_is_told_with_its_place) {
-  const std::vector<const char*> no_whole = {"-1", "1.5", "\"1\"", "null", "true", "[]", "{}", "1e308", "-1e308", "9007199254740994",
-                                             "[1]"};
-  faults_seen += expect_kind({"/accessors/0/count",
-                              "/accessors/0/byteOffset",
-                              "/accessors/0/bufferView",
-                              "/accessors/0/componentType",
-                              "/buffers/0/byteLength",
-                              "/bufferViews/0/buffer",
-                              "/bufferViews/0/byteOffset",
-                              "/bufferViews/0/byteLength",
-                              "/bufferViews/0/byteStride",
-                              "/scene",
-                              "/meshes/0/primitives/0/mode",
-                              "/meshes/0/primitives/0/indices",
-                              "/meshes/0/primitives/0/material",
-                              "/meshes/0/primitives/0/attributes/POSITION",
-                              "/meshes/0/primitives/0/attributes/JOINTS_0",
-                              "/meshes/0/primitives/0/targets/0/POSITION",
-                              "/nodes/0/mesh",
-                              "/nodes/0/skin",
-                              "/nodes/3/camera",
-                              "/nodes/1/children/0",
-                              "/skins/0/joints/0",
-                              "/skins/0/skeleton",
-                              "/skins/0/inverseBindMatrices",
-                              "/scenes/0/nodes/2",
-                              "/animations/0/channels/0/sampler",
-                              "/animations/0/channels/0/target/node",
-                              "/animations/0/samplers/0/input",
-                              "/animations/0/samplers/0/output",
-                              "/accessors/7/sparse/count",
-                              "/accessors/7/sparse/indices/bufferView",
-                              "/accessors/7/sparse/values/byteOffset",
-                              "/materials/0/normalTexture/index",
-                              "/materials/0/pbrMetallicRoughness/baseColorTexture/texCoord",
-                              "/textures/0/source",
-                              "/textures/0/sampler",
-                              "/samplers/0/wrapS",
-                              "/images/0/bufferView"},
-                             no_whole, "a whole number from 0 to 2^53");
-  faults_seen +=
-      expect_kind({"/materials/0/alphaCutoff", "/materials/0/pbrMetallicRoughness/metallicFactor", "/materials/0/normalTexture/scale",
-                   "/cameras/0/perspective/yfov", "/cameras/0/perspective/zfar", "/cameras/1/orthographic/xmag",
-                   "/materials/0/extras/nir_reflectivity", "/nodes/1/scale/0", "/nodes/3/matrix/15", "/meshes/0/weights/0"},
-                  {"\"1\"", "null", "true", "[]", "{}"}, "a number");
-  faults_seen += expect_kind({"/nodes",
-                              "/meshes",
-                              "/accessors",
-                              "/bufferViews",
-                              "/buffers",
-                              "/scenes",
-                              "/nodes/1/children",
-                              "/skins/0/joints",
-                              "/nodes/1/translation",
-                              "/nodes/3/matrix",
-                              "/animations",
-                              "/animations/0/channels",
-                              "/meshes/0/primitives",
-                              "/extensionsUsed",
-                              "/extensionsRequired",
-                              "/materials",
-                              "/textures",
-                              "/images",
-                              "/samplers",
-                              "/cameras"},
-                             {"{}", "1", "\"a\"", "null"}, "a list");
-  faults_seen +=
-      expect_kind({"/asset", "/nodes/0", "/meshes/0", "/meshes/0/primitives/0", "/meshes/0/primitives/0/attributes", "/accessors/0",
-                   "/accessors/7/sparse", "/accessors/7/sparse/indices", "/accessors/7/sparse/values", "/animations/0",
-                   "/animations/0/channels/0/target", "/materials/0/pbrMetallicRoughness", "/cameras/0/perspective",
-                   "/materials/0/normalTexture/extensions/KHR_texture_transform", "/scenes/0", "/skins/0"},
-                  {"[]", "1", "\"a\"", "null"}, "an object");
-  faults_seen += expect_kind({"/asset/version", "/nodes/0/name", "/accessors/0/type", "/cameras/0/type", "/materials/0/alphaMode",
-                              "/animations/0/samplers/0/interpolation", "/animations/0/channels/0/target/path", "/images/0/mimeType",
-                              "/extensionsUsed/0", "/buffers/0/uri"},
-                             {"[]", "1", "{}", "null"}, "a string");
-  faults_seen += expect_kind({"/accessors/0/normalized", "/materials/0/doubleSided"}, {"[]", "1", "\"true\"", "null"}, "true or false");
-}
-
-TEST(gltf_fault, of_what_is_missing_is_told_with_its_place) {
-  const std::vector<const char*> needed = {"/asset",
-                                           "/asset/version",
-                                           "/buffers/0/byteLength",
-                                           "/bufferViews/0/buffer",
-                                           "/bufferViews/0/byteLength",
-                                           "/accessors/0/componentType",
-                                           "/accessors/0/type",
-                                           "/accessors/0/count",
-                                           "/accessors/7/sparse/count",
-                                           "/accessors/7/sparse/indices",
-                                           "/accessors/7/sparse/values",
-                                           "/accessors/7/sparse/indices/bufferView",
-                                           "/accessors/7/sparse/indices/componentType",
-                                           "/accessors/7/sparse/values/bufferView",
-                                           "/meshes/0/primitives/0/attributes",
-                                           "/cameras/0/type",
-                                           "/cameras/0/perspective",
-                                           "/cameras/0/perspective/yfov",
-                                           "/cameras/0/perspective/znear",
-                                           "/cameras/1/orthographic",
-                                           "/cameras/1/orthographic/xmag",
-                                           "/cameras/1/orthographic/ymag",
-                                           "/cameras/1/orthographic/znear",
-                                           "/cameras/1/orthographic/zfar",
-                                           "/animations/0/channels/0/sampler",
-                                           "/animations/0/channels/0/target",
-                                           "/animations/0/channels/0/target/path",
-                                           "/animations/0/samplers/0/input",
-                                           "/animations/0/samplers/0/output",
-                                           "/materials/0/normalTexture/index"};
-  for (const char* at : needed) {
-    const std::string message = message_of(with(at, ""));
-    EXPECT_EQ(message.rfind("m: error: " + place_of(at) + " is missing\n  expected ", 0), 0U) << message;
-  }
-  faults_seen += needed.size();
-}
-
-TEST(gltf_fault, of_an_index_is_told_with_its_place) {
-  const std::vector<std::pair<const char*, const char*>> indices = {{"/scene", "scenes"},
-                                                                    {"/scenes/0/nodes/0", "nodes"},
-                                                                    {"/nodes/0/mesh", "meshes"},
-                                                                    {"/nodes/0/skin", "skins"},
-                                                                    {"/nodes/3/camera", "cameras"},
-                                                                    {"/nodes/1/children/0", "nodes"},
-                                                                    {"/skins/0/joints/1", "nodes"},
-                                                                    {"/skins/0/skeleton", "nodes"},
-                                                                    {"/skins/0/inverseBindMatrices", "accessors"},
-                                                                    {"/meshes/0/primitives/0/material", "materials"},
-                                                                    {"/meshes/0/primitives/0/indices", "accessors"},
-                                                                    {"/meshes/0/primitives/0/attributes/POSITION", "accessors"},
-                                                                    {"/meshes/0/primitives/0/attributes/NORMAL", "accessors"},
-                                                                    {"/meshes/0/primitives/0/targets/0/POSITION", "accessors"},
-                                                                    {"/accessors/0/bufferView", "bufferViews"},
-                                                                    {"/accessors/7/sparse/indices/bufferView", "bufferViews"},
-                                                                    {"/accessors/7/sparse/values/bufferView", "bufferViews"},
-                                                                    {"/bufferViews/0/buffer", "buffers"},
-                                                                    {"/textures/0/source", "images"},
-                                                                    {"/textures/0/sampler", "samplers"},
-                                                                    {"/images/0/bufferView", "bufferViews"},
-                                                                    {"/materials/0/normalTexture/index", "textures"},
-                                                                    {"/animations/0/channels/0/sampler", "samplers"},
-                                                                    {"/animations/0/channels/0/target/node", "nodes"},
-                                                                    {"/animations/0/samplers/0/input", "accessors"},
-                                                                    {"/animations/0/samplers/0/output", "accessors"}};
-  for (const auto& [at, things] : indices)
-    for (const char* value : {"99", "4294967296", "9007199254740992"}) {
-      const std::string message = message_of(with(at, value));
-      EXPECT_EQ(message.rfind("m: error: " + place_of(at) + " is none of the " + things, 0), 0U) << message;
-    }
-  faults_seen += 3 * indices.size();
-}
-
 TEST(gltf_fault, of_a_version_view_or_accessor_is_told) {
-  faults_seen += expect_each({
+  expect_each({
       {"/asset/version", "\"1.0\"", "asset.version is not 2.0\n  got \"1.0\": export it as glTF 2.0"},
       {"/asset/version", "\"3.0\"", "asset.version is not 2.0"},
       {"/asset/version", "\"20\"", "asset.version is not 2.0"},
@@ -265,7 +47,7 @@ TEST(gltf_fault, of_a_version_view_or_accessor_is_told) {
 }
 
 TEST(gltf_fault, of_a_mesh_is_told) {
-  faults_seen += expect_each({
+  expect_each({
       {"/meshes/0/primitives", "[]", "meshes[0].primitives are missing"},
       {"/meshes/0/primitives", "[1]", "meshes[0].primitives[0] is not an object\n  got 1"},
       {"/meshes/0/primitives/0/mode", "7", "meshes[0].primitives[0].mode is none of a primitive\n  got 7, expected 0 to 6"},
@@ -294,13 +76,13 @@ TEST(gltf_fault, of_a_mesh_is_told) {
       {"/accessors/5/normalized", "false", "accessors[5] is not what"},
       {"/meshes/0/primitives/0/attributes/JOINTS_0", "", "meshes[0].primitives[0].attributes has only one of JOINTS_0 and WEIGHTS_0"},
       {"/meshes/0/primitives/0/attributes/WEIGHTS_0", "", "meshes[0].primitives[0].attributes has only one of JOINTS_0 and WEIGHTS_0"},
-      {"/bufferViews/6/byteOffset", "0",
+      {"/bufferViews/6/byteOffset", "13",
        "accessors[6] has an index that is none of the vertices of meshes[0].primitives[0]\n  got 128, and there are 3"},
   });
 }
 
 TEST(gltf_fault, of_a_node_scene_skin_or_camera_is_told) {
-  faults_seen += expect_each({
+  expect_each({
       {"/nodes/1/translation", "[1, 2]", "nodes[1].translation is not a list of 3 numbers\n  got 2"},
       {"/nodes/1/scale", "[1, 2, 3, 4]", "nodes[1].scale is not a list of 3 numbers"},
       {"/nodes/1/rotation", "[0, 0, 1]", "nodes[1].rotation is not a list of 4 numbers"},
@@ -340,7 +122,7 @@ TEST(gltf_fault, of_a_node_scene_skin_or_camera_is_told) {
 }
 
 TEST(gltf_fault, of_a_material_or_image_is_told) {
-  faults_seen += expect_each({
+  expect_each({
       {"/materials/0/pbrMetallicRoughness/baseColorFactor", "[1, 1, 1]",
        "materials[0].pbrMetallicRoughness.baseColorFactor is not a list of 4 numbers"},
       {"/materials/0/pbrMetallicRoughness/baseColorFactor/2", "1.5", "materials[0].pbrMetallicRoughness.baseColorFactor is out of range"},
@@ -368,7 +150,7 @@ TEST(gltf_fault, of_a_material_or_image_is_told) {
 }
 
 TEST(gltf_fault, of_an_animation_is_told) {
-  faults_seen += expect_each({
+  expect_each({
       {"/animations/0/samplers/0/interpolation", "\"linear\"", "animations[0].samplers[0].interpolation is none\n  got \"linear\""},
       {"/animations/0/samplers/0/input", "0", "animations[0].samplers[0].output has not the values that its keyframes need"},
       {"/animations/0/samplers/0/output", "0",
@@ -410,7 +192,6 @@ TEST(gltf_fault, of_numbers_in_buffers_is_told) {
   expect_fault(with_floats(Everything::matrices, matrices), "skins[0].inverseBindMatrices has a matrix whose last row is not 0 0 0 1");
   matrices[15] = nan;
   expect_fault(with_floats(Everything::matrices, matrices), "accessors[8] has numbers that are not finite");
-  faults_seen += 12;
 }
 
 TEST(gltf_fault, of_its_text_is_told_with_line_and_column) {
@@ -434,9 +215,4 @@ TEST(gltf_fault, of_its_text_is_told_with_line_and_column) {
   expect_fault(R"({"asset": {"version": "2.0"}, "nodes": [{"name": ")" + std::string(1001, 'n') + "\"}]}", "nodes[0].name is too long",
                ErrorKind::limit);
   expect_fault("{\"asset\": {\"version\": \"\\u001b[2J\"}}", "got \"\\x1b[2J\": export it as glTF 2.0");
-  faults_seen += 14;
-}
-
-TEST(gltf_fault, many_were_seen) {
-  if (testing::GTEST_FLAG(filter) == "*") EXPECT_GE(faults_seen, 300U);
 }
