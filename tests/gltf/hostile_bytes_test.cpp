@@ -96,20 +96,18 @@ TEST(hostile_gltf, with_other_values_is_an_error_or_sound) {
   const Document flat = file.with_buffer("").flatten();
   std::vector<std::string> places;
   for (const auto& [place, value] : flat.items()) places.push_back(place);
-  const std::vector<Document> values = {
-      0, 1, 2, 3, 5, 7, 12, 5121, 5123, 5125, 5126, -1, 0.5, 1e9, 1e308, -1e308, "", "VEC4", Document::array(), true};
+  const std::vector<Document> values = {0, 1, 2, 3, 5, 7, 12, 5121, 5123, 5125, 5126, -1, 0.5, 1e9, 1e308, -1e308, "", "VEC4", true};
   std::size_t taken = 0;
-  for (int trial = 0; trial < 20'000; ++trial) {
-    File changed = file;
-    changed.json = file.with_buffer("");
+  for (int trial = 0; trial < 4000; ++trial) {
+    Document flattened = flat;
     for (std::size_t changes = 1 + random.below(3); changes > 0; --changes) {
       const std::string& place = places[random.below(places.size())];
-      Document flattened = changed.json.flatten();
-      flattened[place] = random.below(3) == 0 ? flat.at(places[random.below(places.size())]) : values[random.below(values.size() - 2)];
-      changed.json = flattened.unflatten();
+      flattened[place] = random.below(3) == 0 ? flat.at(places[random.below(places.size())]) : values[random.below(values.size())];
     }
+    File changed = file;
+    changed.json = flattened.unflatten();
     SCOPED_TRACE(trial);
     if (is_taken(changed.glb())) ++taken;
   }
-  EXPECT_GT(taken, 1000U);
+  EXPECT_GT(taken, 200U);
 }
