@@ -94,7 +94,7 @@ void read_cameras(Reading& reading) {
 }
 
 void read_skins(Reading& reading) {
-  const std::size_t nodes = reading.root.objects("nodes").size();
+  const std::size_t nodes = reading.root.size("nodes");
   for (const Item& item : reading.root.objects("skins")) reading.model.skins.push_back(read_skin(reading, item, nodes));
 }
 

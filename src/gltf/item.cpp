@@ -92,6 +92,11 @@ std::vector<Item> Item::objects(std::string_view key) const {
   return out;
 }
 
+std::size_t Item::size(std::string_view key) const {
+  const Json::Array* items = list(key);
+  return items == nullptr ? 0 : items->size();
+}
+
 std::vector<std::string> Item::texts(std::string_view key) const {
   std::vector<std::string> out;
   const Json::Array* items = list(key);

@@ -30,6 +30,8 @@ class Item {
   [[nodiscard]] Item required_object(std::string_view key) const;
   /// A list of objects; empty where there is none.
   [[nodiscard]] std::vector<Item> objects(std::string_view key) const;
+  /// How long a list is; 0 where there is none.
+  [[nodiscard]] std::size_t size(std::string_view key) const;
   /// A list of strings; empty where there is none.
   [[nodiscard]] std::vector<std::string> texts(std::string_view key) const;
 

@@ -28,7 +28,7 @@ Texture::Wrap wrap_of(const Item& sampler, std::string_view key) {
 
 void read_textures(Reading& reading) {
   const std::vector<Item> samplers = reading.root.objects("samplers");
-  const std::size_t images = reading.root.objects("images").size();
+  const std::size_t images = reading.root.size("images");
   for (const Item& item : reading.root.objects("textures")) {
     Texture texture;
     texture.image = item.index("source", images, "images");

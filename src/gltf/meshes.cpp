@@ -168,7 +168,7 @@ void read_mesh(Reading& reading, const Item& item, std::vector<bool>& checked) {
   mesh.has_joints = true;
   for (const Item& one : primitives) {
     Primitive primitive;
-    const std::size_t here = one.objects("targets").size();
+    const std::size_t here = one.size("targets");
     if (&one == &primitives.front()) targets = here;
     if (here != targets)
       one.fail_at("targets", "are not as many as those of the first primitive", fmt::format("got {}, expected {}", here, targets));

@@ -125,12 +125,12 @@ void read_scenes(Reading& reading) {
 }  // namespace
 
 void read_nodes(Reading& reading) {
-  const std::vector<Item> items = reading.root.objects("nodes");
-  if (items.size() > static_cast<std::size_t>(base::limit::gltf_nodes.value))
+  const std::size_t count = reading.root.size("nodes");
+  if (count > static_cast<std::size_t>(base::limit::gltf_nodes.value))
     reading.root.fail_at("nodes", "are too many",
-                         fmt::format("got {}, at most {} (`tofray --limits`)", items.size(), base::limit::gltf_nodes.value),
-                         ErrorKind::limit);
-  for (const Item& item : items) reading.model.nodes.push_back(read_node(reading, item, items.size()));
+                         fmt::format("got {}, at most {} (`tofray --limits`)", count, base::limit::gltf_nodes.value), ErrorKind::limit);
+  const std::vector<Item> items = reading.root.objects("nodes");
+  for (const Item& item : items) reading.model.nodes.push_back(read_node(reading, item, count));
   find_parents(reading, items);
   put_in_order(reading, items);
   read_scenes(reading);

@@ -56,7 +56,7 @@ class Placer {
   [[nodiscard]] std::array<float, 3> normal(std::size_t i) const {
     const Matrix m = skin_ != nullptr ? blended(i) : world_;
     const Vec3 n = cofactors_of_unit(m) * morphed(i, primitive_.normals, &MorphTarget::normals);
-    const double size = base::length(n) * (mirrors(i) ? -1 : 1);
+    const double size = base::length(n) * (determinant(m) < 0 ? -1 : 1);
     if (!(std::abs(size) > 0) || !std::isfinite(size)) return {0, 0, 0};
     return {static_cast<float>(n[0] / size), static_cast<float>(n[1] / size), static_cast<float>(n[2] / size)};
   }
