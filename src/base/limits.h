@@ -41,6 +41,7 @@ inline constexpr Limit mesh_triangles{"mesh_triangles", 20'000'000, "triangles l
 inline constexpr Limit gltf_json_bytes{"gltf_json_bytes", 256 << 20, "bytes of a glTF file's JSON, data URIs in it counted"};
 inline constexpr Limit gltf_json_values{"gltf_json_values", 4'000'000, "values of a glTF file's JSON"};
 inline constexpr Limit gltf_nodes{"gltf_nodes", 100'000, "nodes of one glTF file"};
+inline constexpr Limit gltf_items{"gltf_items", 500'000, "meshes of one glTF file, and as many accessors, textures, animations, …"};
 inline constexpr Limit gltf_depth{"gltf_depth", 256, "nodes below each other in one glTF file"};
 inline constexpr Limit gltf_parts{"gltf_parts", 200'000, "primitives of all nodes of one glTF file"};
 inline constexpr Limit gltf_morphs{"gltf_morphs", 50'000'000, "morph targets times vertices of all nodes of one glTF file"};
@@ -80,6 +81,7 @@ inline constexpr Limit all_limits[] = {
     limit::gltf_json_bytes,
     limit::gltf_json_values,
     limit::gltf_nodes,
+    limit::gltf_items,
     limit::gltf_depth,
     limit::gltf_parts,
     limit::gltf_morphs,

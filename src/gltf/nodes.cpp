@@ -125,12 +125,8 @@ void read_scenes(Reading& reading) {
 }  // namespace
 
 void read_nodes(Reading& reading) {
-  const std::size_t count = reading.root.size("nodes");
-  if (count > static_cast<std::size_t>(base::limit::gltf_nodes.value))
-    reading.root.fail_at("nodes", "are too many",
-                         fmt::format("got {}, at most {} (`tofray --limits`)", count, base::limit::gltf_nodes.value), ErrorKind::limit);
   const std::vector<Item> items = reading.root.objects("nodes");
-  for (const Item& item : items) reading.model.nodes.push_back(read_node(reading, item, count));
+  for (const Item& item : items) reading.model.nodes.push_back(read_node(reading, item, items.size()));
   find_parents(reading, items);
   put_in_order(reading, items);
   read_scenes(reading);

@@ -22,6 +22,7 @@ Model read(const std::string& name, std::string_view bytes, const Resources& oth
   const Item root(json, name);
   Notices notices;
   check_version_and_extensions(root, notices);
+  check_lists(root);
   const Buffers buffers(root, container.binary, other_files);
   Accessors accessors(root, buffers);
   Reading reading{root, buffers, accessors, other_files, std::move(notices), {}};

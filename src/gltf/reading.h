@@ -20,6 +20,8 @@ struct Reading {
   Model model;
 };
 
+/// @throws Error (limit) where there are too many things of a kind
+void check_lists(const Item& root);
 /// @throws Error where the version is another, or an extension is required that is not read
 void check_version_and_extensions(const Item& root, Notices& notices);
 /// Materials, textures and images.

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The tofray authors
 // SPDX-License-Identifier: Apache-2.0
-// What all nodes of a file show: one mesh may stand in many places.
+// How much there is: of each list, and of what all nodes show, since one mesh may stand in many places.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -26,7 +26,23 @@ struct Total {
   }
 };
 
+struct List {
+  std::string_view name;
+  const base::Limit& limit = base::limit::gltf_items;
+};
+constexpr List lists[] = {{"accessors"}, {"animations"}, {"buffers"},  {"bufferViews"},
+                          {"cameras"},   {"images"},     {"samplers"}, {"materials", base::limit::materials},
+                          {"meshes"},    {"scenes"},     {"skins"},    {"nodes", base::limit::gltf_nodes},
+                          {"textures"}};
+
 }  // namespace
+
+void check_lists(const Item& root) {
+  for (const List& list : lists)
+    if (const std::size_t size = root.size(list.name); size > static_cast<std::size_t>(list.limit.value))
+      root.fail_at(list.name, "are too many", fmt::format("got {}, at most {} (`tofray --limits`)", size, list.limit.value),
+                   ErrorKind::limit);
+}
 
 void check_totals(const Reading& reading) {
   Total parts{base::limit::gltf_parts, "primitives"}, triangles{base::limit::mesh_triangles, "triangles"},

@@ -43,5 +43,13 @@ TEST(json, faults_have_a_place) {
   EXPECT_NE(message("[1] 2").find("not JSON"), std::string::npos);
   EXPECT_NE(message("{\"a\": 1, \"a\": 2}").find("key \"a\" comes twice"), std::string::npos);
   EXPECT_NE(message("\"\xFF\"").find("not JSON"), std::string::npos);
+  EXPECT_NE(message("[1e400]").find("m.json:1:6: error: a number is beyond the range of double"), std::string::npos) << message("[1e400]");
   EXPECT_EQ(error_of([] { (void)parse_json(std::string(100000, '['), "m.json"); }).kind(), ErrorKind::limit);
+}
+
+TEST(json, has_as_many_values_as_it_may_and_no_more) {
+  EXPECT_EQ(parse_json("[1, {\"a\": []}]", "m.json", 4).items()->size(), 2U);
+  const auto error = error_of([] { (void)parse_json("[1, {\"a\": []}]", "m.json", 3); });
+  EXPECT_EQ(error.kind(), ErrorKind::limit);
+  EXPECT_EQ(std::string(error.what()), "m.json: error: more than 3 values");
 }

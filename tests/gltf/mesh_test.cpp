@@ -244,7 +244,13 @@ TEST(totals, of_vertices_and_morphs_are_limited) {
 TEST(totals, of_nodes_and_values_are_limited) {
   File file = triangle_file();
   file.json["nodes"] = std::vector<Document>(100'001, Document::object());
-  expect_fault(file.glb(), "m: error: nodes are too many", ErrorKind::limit);
+  expect_fault(file.glb(), "m: error: nodes are too many\n  got 100001, at most 100000", ErrorKind::limit);
+  file = triangle_file();
+  file.json["materials"] = std::vector<Document>(10'001, Document::object());
+  expect_fault(file.glb(), "m: error: materials are too many", ErrorKind::limit);
+  file = triangle_file();
+  file.json["cameras"] = std::vector<Document>(500'001, nullptr);
+  expect_fault(file.glb(), "m: error: cameras are too many", ErrorKind::limit);
   std::string many = R"({"asset": {"version": "2.0"}, "extras": [0)";
   for (int i = 0; i < 4'000'000; ++i) many += ",0";
   expect_fault(many + "]}", "m: error: more than 4000000 values", ErrorKind::limit);
