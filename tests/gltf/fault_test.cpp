@@ -171,6 +171,26 @@ TEST(gltf_fault, of_an_animation_is_told) {
   });
 }
 
+TEST(gltf_fault, of_an_index_just_behind_the_last_is_told) {
+  const auto with_bytes = [](int accessor, const std::vector<std::uint8_t>& values) {
+    File file = everything_file();
+    file.json["accessors"][static_cast<std::size_t>(accessor)]["bufferView"] = file.view(bytes_of(values));
+    return file.glb();
+  };
+  expect_fault(with_bytes(Everything::indices, {0, 1, 3}),
+               "accessors[6] has an index that is none of the vertices of meshes[0].primitives[0]\n  got 3, and there are 3");
+  expect_fault(with_bytes(Everything::joints, {0, 0, 0, 0, 0, 2, 0, 0, 0, 0, 0, 0}),
+               "nodes[0].skin has fewer joints than its mesh names\n  meshes[0] names joint 2, and there are 2");
+  for (const char* list : {"accessors", "bufferViews", "nodes"}) {
+    File file = everything_file();
+    const std::size_t size = file.json[list].size();
+    file.json["skins"][0]["inverseBindMatrices"] = std::string(list) == "accessors" ? size : 8;
+    file.json["accessors"][0]["bufferView"] = std::string(list) == "bufferViews" ? size : 0;
+    file.json["nodes"][1]["children"] = {std::string(list) == "nodes" ? size : 2};
+    expect_fault(file.glb(), std::string("is none of the ") + list + "\n  got " + std::to_string(size));
+  }
+}
+
 TEST(gltf_fault, of_numbers_in_buffers_is_told) {
   const auto with_floats = [](int accessor, const std::vector<float>& values) {
     File file = everything_file();
