@@ -104,7 +104,7 @@ class AnimationReader {
     const std::size_t targets = targets_of(reading_.model.nodes[static_cast<std::size_t>(channel.node)]);
     const std::uint64_t each = (cubic ? 3 : 1) * (channel.path == Channel::Path::weights ? targets : 1),
                         got = reading_.accessors[output].count;
-    if (got % each != 0 || got / each != keys)
+    if (got != each * keys)  // below 2^48
       item.fail_at("output", "has not the values that its keyframes need",
                    fmt::format("got {} elements, expected {} for each of {} keyframes", got, each, keys));
     channel.times_s = times(item, input);

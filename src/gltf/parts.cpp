@@ -12,8 +12,6 @@
 namespace tofray::gltf {
 namespace {
 
-using base::operator*;
-using base::operator+;
 using Triangle = std::array<std::int32_t, 3>;
 
 /// Calls `take` with the three vertices of each triangle, turned as the first: strips turn every other one round.
@@ -55,6 +53,7 @@ class Placer {
   /// 0 where there is no direction.
   [[nodiscard]] std::array<float, 3> normal(std::size_t i) const {
     const Matrix m = skin_ != nullptr ? blended(i) : world_;
+    using base::operator*;
     const Vec3 n = cofactors_of_unit(m) * morphed(i, primitive_.normals, &MorphTarget::normals);
     const double size = base::length(n) * (determinant(m) < 0 ? -1 : 1);
     if (!(std::abs(size) > 0) || !std::isfinite(size)) return {0, 0, 0};
@@ -66,6 +65,7 @@ class Placer {
 
  private:
   [[nodiscard]] Vec3 morphed(std::size_t i, const Floats& all, Floats MorphTarget::*of) const {
+    using base::operator*, base::operator+;
     Vec3 sum = vector_at(all, i);
     for (std::size_t k = 0; k < primitive_.targets.size(); ++k)
       if (const Floats& more = primitive_.targets[k].*of; more && weights_[k] != 0) sum = sum + weights_[k] * vector_at(more, i);
