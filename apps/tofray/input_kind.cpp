@@ -59,6 +59,8 @@ void refuse_data(std::string_view bytes, const std::string& path) {
     refuse(path, "an array (.npy), not a scene", fmt::format("`tofray inspect {}` shows what is in it", file));
   if (bytes.starts_with("\x89PNG"))
     refuse(path, "a picture (PNG), not a scene", "it cannot be simulated again; the manifest.json beside it can: `tofray render --from`");
+  if (bytes.starts_with("glTF"))
+    refuse(path, "a binary glTF file, not a scene", "expected a scene, a YAML or JSON file; a mesh is read where its name ends in .glb");
   if (bytes.starts_with("ply\n"))
     refuse(path, "a PLY file, not a scene", "expected a scene, a YAML or JSON file; a mesh is read where its name ends in .ply");
 }

@@ -5,6 +5,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
+#include <set>
+#include <tuple>
 
 #include "base/text.h"
 #include "base/units.h"
@@ -77,6 +80,60 @@ double mode_integration_time(Scene scene, const Load& load) {
   }
 }
 
+/// What a file had to lose: all objects that show a part of it counted, each part once.
+std::string left_out_of(const Scene& scene) {
+  struct File {
+    std::size_t left_out = 0, all = 0;
+    std::set<const TriangleMesh*> counted;
+  };
+  std::map<std::tuple<std::string, double, Mesh::Up, std::optional<double>>, File> files;
+  for (const Object& object : scene.objects) {
+    const auto* mesh = std::get_if<Mesh>(&object.shape);
+    if (mesh == nullptr) continue;
+    File& file = files[{mesh->file, mesh->scale, mesh->up, mesh->time_s}];
+    if (!file.counted.insert(mesh->triangles.get()).second) continue;
+    const auto left_out = static_cast<std::size_t>(mesh->left_out);
+    file.left_out += left_out, file.all += left_out + mesh->triangles->triangles.size();
+  }
+  std::string text;
+  for (const auto& [key, file] : files)
+    if (file.left_out > 0)
+      text += fmt::format(
+          "warning: {} of the {} triangles of {} are left out\n  they have a corner that is no finite number, or beyond 1e5 m\n",
+          file.left_out, file.all, base::in_quotes(std::get<0>(key)));
+  return text;
+}
+
+constexpr std::size_t most_notices = 5;  // of one file
+
+std::string notices_of(const Mesh& mesh) {
+  const std::string file = base::in_quotes(mesh.file);
+  std::string text;
+  for (std::size_t i = 0; i < std::min(mesh.notices.size(), most_notices); ++i)
+    text += fmt::format("warning: {}: {}\n", file, base::printable(mesh.notices[i]));
+  if (mesh.notices.size() > most_notices) text += fmt::format("warning: {}: and {} more\n", file, mesh.notices.size() - most_notices);
+  return text;
+}
+
+std::string guesses_of(const Mesh& mesh) {
+  if (mesh.guessed == 0) return {};
+  return fmt::format(
+      "warning: {} of {} reflect{} as much infrared as visible light: a guess from the base colour\n  nir_reflectivity in a material's "
+      "extras says it, or reflectivity at the object\n",
+      mesh.guessed == 1 ? "1 material" : fmt::format("{} materials", mesh.guessed), base::in_quotes(mesh.file), mesh.guessed == 1 ? "s" : "");
+}
+
+/// Each warning once, though several objects may show a file.
+std::string mesh_warnings(const Scene& scene) {
+  std::string text = left_out_of(scene);
+  std::set<std::string> said;
+  for (const Object& object : scene.objects)
+    if (const auto* mesh = std::get_if<Mesh>(&object.shape))
+      for (const std::string& one : {guesses_of(*mesh), notices_of(*mesh)})
+        if (said.insert(one).second) text += one;
+  return text;
+}
+
 }  // namespace
 
 Inputs load_inputs(const std::string& scene, const Options& options) {
@@ -141,11 +198,7 @@ std::string warnings(const Inputs& in) {
   std::string text;
   if (in.scene.objects.empty())
     text += "warning: the scene has no objects: objects is []\n  no pixel gets any light back, and every depth is invalid\n";
-  for (const Object& object : in.scene.objects)
-    if (const auto* mesh = std::get_if<Mesh>(&object.shape); mesh != nullptr && mesh->left_out > 0)
-      text += fmt::format(
-          "warning: {} of the {} triangles of {} are left out\n  they have a corner that is no finite number, or beyond 1e5 m\n",
-          mesh->left_out, static_cast<std::size_t>(mesh->left_out) + mesh->triangles->triangles.size(), base::in_quotes(mesh->file));
+  text += mesh_warnings(in.scene);
   const double now = longest_lit(in.camera), modes = in.mode_integration_time_s;
   if (modes > 0 && now > modes)
     text += fmt::format(

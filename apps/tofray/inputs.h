@@ -32,8 +32,8 @@ Inputs load_inputs(const std::string& scene, const Options& options);
 /// @throws Error
 Inputs inputs_of(const results::Manifest& manifest, const Options& options);
 
-/// What is wrong with a scene that can be simulated all the same: no objects, no light, exposures longer than the mode's own. Two lines
-/// each, or nothing; each names the key and its value.
+/// What is wrong with a scene that can be simulated all the same: no objects, no light, exposures longer than the mode's own, what a mesh's
+/// file has and is not used. One or two lines each, or nothing; each names the key and its value, or the file.
 std::string warnings(const Inputs& in);
 /// … and with a camera alone: no light source, no lit raw frame.
 /// @param before  what stands before the camera's keys: "camera." or nothing

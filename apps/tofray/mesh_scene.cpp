@@ -8,10 +8,13 @@
 #include <cmath>
 #include <filesystem>
 #include <limits>
+#include <optional>
 
 #include <nlohmann/json.hpp>
 
 #include "base/vec.h"
+#include "load/gltf_load.h"
+#include "load/mesh_load.h"
 #include "mesh/read_mesh.h"
 
 namespace tofray::app {
@@ -26,33 +29,46 @@ struct Box {
   Vec3 low{}, high{};
 };
 
-Box box_round(const Mesh& mesh) {
-  Box out;
-  out.low.fill(std::numeric_limits<double>::infinity()), out.high.fill(-std::numeric_limits<double>::infinity());
-  for (const auto& triangle : mesh.triangles->triangles)
+void widen(Box& box, const TriangleMesh& mesh) {
+  for (const auto& triangle : mesh.triangles)
     for (const std::int32_t corner : triangle)
       for (std::size_t k = 0; k < 3; ++k) {
-        const auto x = static_cast<double>(mesh.triangles->vertices[static_cast<std::size_t>(corner)][k]);
-        out.low[k] = std::min(out.low[k], x), out.high[k] = std::max(out.high[k], x);
+        const auto x = static_cast<double>(mesh.vertices[static_cast<std::size_t>(corner)][k]);
+        box.low[k] = std::min(box.low[k], x), box.high[k] = std::max(box.high[k], x);
       }
+}
+
+Box box_round(const Scene& scene) {
+  Box out;
+  out.low.fill(std::numeric_limits<double>::infinity()), out.high.fill(-std::numeric_limits<double>::infinity());
+  for (const Object& object : scene.objects) widen(out, *std::get<Mesh>(object.shape).triangles);
   return out;
 }
 
 std::string point(const Vec3& p) { return fmt::format("[{:.6g}, {:.6g}, {:.6g}]", p[0], p[1], p[2]); }
 
 /// The mesh alone; `more` are lines below it.
+/// A glTF file has materials of its own.
 std::string text_of(const std::string& path, const std::string& more) {
   // A name in quotation marks as JSON writes it is a name in YAML, too.
   const std::string file =
       nlohmann::json(std::filesystem::path(path).filename().string()).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
-  return fmt::format("objects:\n  - mesh: {{file: {}, reflectivity: 0.5}}\n{}", file, more);
+  return fmt::format("objects:\n  - mesh: {{file: {}{}}}\n{}", file, load::is_gltf(path) ? "" : ", reflectivity: 0.5", more);
+}
+
+/// All of it from before, above and aside.
+Pose pose_before(const Box& box) {
+  const Vec3 middle = 0.5 * (box.low + box.high);
+  const double radius = std::max(0.5 * base::length(box.high - box.low), 1e-3);
+  // So far away the ball round it fits into the 45 degrees that most such cameras see from top to bottom.
+  return {middle + 2.7 * radius * base::normalized(Vec3{0.5, -0.4, -1}), middle};
 }
 
 }  // namespace
 
 bool is_called_like_a_mesh(const std::string& path) {
   const std::string suffix = mesh::suffix_of(path);
-  return suffix == ".obj" || suffix == ".ply" || suffix == ".stl" || suffix == ".glb" || suffix == ".gltf";
+  return suffix == ".obj" || suffix == ".ply" || suffix == ".stl" || load::is_gltf(path);
 }
 
 std::string scene_name_of_mesh(const std::string& path) { return std::filesystem::path(path).replace_extension(".yaml").string(); }
@@ -63,14 +79,14 @@ std::string scene_of_mesh(const std::string& path, const std::string& source, co
   for (const auto& one : options.set)
     if (one.first.starts_with("objects.0.mesh.")) of_mesh.push_back(one);
   const Scene alone = load::scene_from_text(text_of(path, ""), source, of_mesh, {options.root});
-  const Box box = box_round(std::get<Mesh>(alone.objects[0].shape));
-  const Vec3 middle = 0.5 * (box.low + box.high);
-  const double radius = std::max(0.5 * base::length(box.high - box.low), 1e-3);
-  // So far away the ball round it fits into the 45 degrees that most such cameras see from top to bottom.
-  const Vec3 from = middle + 2.7 * radius * base::normalized(Vec3{0.5, -0.4, -1});
+  const Box box = box_round(alone);
+  const std::optional<Pose> own = load::camera_in(std::get<Mesh>(alone.objects[0].shape), source, options.root);
+  const Pose pose = own.value_or(pose_before(box));
+  const std::string up = own ? ", up: " + point(pose.up) : "";
   return text_of(path, fmt::format("  - plane: {{point: {}, normal: [0, -1, 0], reflectivity: 0.3}}  # a floor\n"
-                                   "camera: {{pose: {{position: {}, look_at: {}}}}}\n",
-                                   point({middle[0], box.high[1], middle[2]}), point(from), point(middle)));
+                                   "camera: {{pose: {{position: {}, look_at: {}{}}}}}\n",
+                                   point({0.5 * (box.low[0] + box.high[0]), box.high[1], 0.5 * (box.low[2] + box.high[2])}),
+                                   point(pose.position), point(pose.look_at), up));
 }
 
 }  // namespace tofray::app

@@ -8,10 +8,11 @@
 
 namespace tofray::app {
 
-/// Whether a file is called like a mesh, also one of a kind that is not read.
+/// Whether a file is called like a mesh.
 bool is_called_like_a_mesh(const std::string& path);
 
-/// A scene file's text for a mesh alone: it stands on a floor, and the camera sees all of it from before, above and aside.
+/// A scene file's text for a mesh alone: it stands on a floor, and the camera sees all of it from before, above and aside, or stands where
+/// a glTF file has its first perspective camera.
 /// @param source  what the text is called: a scene file in the mesh's folder
 /// @throws Error where the mesh cannot be read, or --set changes what there is not
 std::string scene_of_mesh(const std::string& path, const std::string& source, const Options& options);

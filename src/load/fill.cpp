@@ -58,6 +58,7 @@ struct Plain {
   void operator()(bool* member) const { *member = value.flag; }
   void operator()(std::string* member) const { *member = value.text; }
   void operator()(Vec3* member) const { *member = vector(value); }
+  void operator()(std::optional<double>* member) const { *member = value.number; }
   void operator()(std::optional<Vec3>* member) const { *member = vector(value); }
   void operator()(std::array<Vec3, 3>* member) const {
     for (std::size_t k = 0; k < 3; ++k) (*member)[k] = vector(value.items[k]);

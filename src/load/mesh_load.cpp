@@ -8,8 +8,10 @@
 #include "base/limits.h"
 #include "base/range.h"
 #include "base/text.h"
+#include "base/vec.h"
 #include "files/sha256.h"
 #include "files/text_file.h"
+#include "load/gltf_load.h"
 #include "mesh/read_mesh.h"
 
 namespace tofray::load {
@@ -18,13 +20,26 @@ namespace {
 
 using Corner = std::array<float, 3>;
 
+template <class T>
+std::array<T, 3> turned(const std::array<T, 3>& p, Mesh::Up up) {
+  if (up == Mesh::Up::y) return {p[0], -p[1], -p[2]};
+  if (up == Mesh::Up::z) return {p[0], -p[2], p[1]};
+  return p;
+}
+
 /// In double, rounded once.
 Corner in_world(const Corner& p, double scale, Mesh::Up up) {
-  const auto scaled = [&](float a) { return static_cast<float>(scale * static_cast<double>(a)); };
-  if (up == Mesh::Up::y) return {scaled(p[0]), scaled(-p[1]), scaled(-p[2])};
-  if (up == Mesh::Up::z) return {scaled(p[0]), scaled(-p[2]), scaled(p[1])};
-  return {scaled(p[0]), scaled(p[1]), scaled(p[2])};
+  Corner out = turned(p, up);
+  for (float& a : out) a = static_cast<float>(scale * static_cast<double>(a));
+  return out;
 }
+
+Mesh::Up up_of(const Mesh& mesh) {
+  if (mesh.up != Mesh::Up::automatic) return mesh.up;
+  return is_gltf(mesh.file) || mesh::suffix_of(mesh.file) == ".obj" ? Mesh::Up::y : Mesh::Up::z;
+}
+
+std::string folder_beside(const std::string& source) { return source.starts_with("<") ? "." : files::folder_of(source); }
 
 bool is_in_world(const Corner& p) {
   return std::all_of(p.begin(), p.end(), [](float a) { return std::abs(a) <= base::farthest_m; });  // NaN: no
@@ -45,36 +60,72 @@ std::size_t keep_in_world(TriangleMesh& mesh) {
 
 }  // namespace
 
-MeshReader::MeshReader(const std::string& source, const MeshFiles& files)
-    : folder_(source.starts_with("<") ? "." : files::folder_of(source)), files_(files) {}
-
-void MeshReader::read(const base::Place& place, Mesh& mesh) {
-  const std::tuple key{mesh.file, mesh.scale, mesh.up};
-  auto known = known_.find(key);
-  if (known == known_.end()) known = known_.emplace(key, from_file(place, mesh)).first;
-  mesh.triangles = known->second.triangles, mesh.sha256 = known->second.sha256, mesh.left_out = known->second.left_out;
+void MeshReader::Known::show(std::size_t piece, Mesh& mesh) const {
+  mesh.triangles = pieces[piece].triangles, mesh.sha256 = sha256, mesh.left_out = pieces[piece].left_out;
+  if (piece == 0) mesh.guessed = guessed, mesh.notices = notices;
 }
 
-MeshReader::Known MeshReader::from_file(const base::Place& place, const Mesh& wanted) {
-  const mesh::Format format = mesh::format_of(wanted.file, place);
+MeshReader::MeshReader(const std::string& source, const MeshFiles& files) : folder_(folder_beside(source)), files_(files) {}
+
+const MeshReader::Known& MeshReader::read(const Places& places, const Mesh& mesh, bool by_material) {
+  const std::tuple key{mesh.file, mesh.scale, mesh.up, mesh.time_s, by_material};
+  auto known = known_.find(key);
+  if (known == known_.end()) known = known_.emplace(key, from_file(places, mesh, by_material)).first;
+  return known->second;
+}
+
+MeshReader::Known MeshReader::from_file(const Places& places, const Mesh& wanted, bool by_material) {
+  const bool gltf = is_gltf(wanted.file);
+  const mesh::Format format = gltf ? mesh::Format::obj : mesh::format_of(wanted.file, places.file);
   std::string path;
-  const std::string bytes = files::read_reference(wanted.file, folder_, files_.root, place, path, base::limit::mesh_bytes);
-  const std::string sha256 = files::sha256_hex(bytes);
-  if (files_.expected) {
-    const auto expected = files_.expected->find(wanted.file);
-    if (expected == files_.expected->end() || expected->second != sha256)
-      base::fail(place, base::in_quotes(path, 200) + " is not the mesh that it was",
-                 "its SHA-256 is not the one that the manifest has; expected the same file in the same place");
+  const std::string bytes = files::read_reference(wanted.file, folder_, files_.root, places.file, path, base::limit::mesh_bytes);
+  Known known;
+  std::vector<MeshPiece> pieces;
+  if (gltf) {
+    pieces = from_gltf(places, wanted, path, bytes, by_material, known);
+  } else {
+    known.sha256 = files::sha256_hex(bytes);
+    check_expected(places.file, wanted.file, path, known.sha256);
+    auto [mesh, left_out] = mesh::parse(format, bytes, path);
+    pieces.push_back({std::move(mesh), left_out, {}});
   }
-  auto [mesh, left_out] = mesh::parse(format, bytes, path);
-  count(place, mesh);
-  const Mesh::Up automatic = format == mesh::Format::obj ? Mesh::Up::y : Mesh::Up::z;
-  for (Corner& p : mesh.vertices) p = in_world(p, wanted.scale, wanted.up == Mesh::Up::automatic ? automatic : wanted.up);
-  left_out += keep_in_world(mesh);
-  if (mesh.triangles.empty())
-    base::fail(place, "no triangle of " + base::in_quotes(path, 200) + " is in the world",
-               "all have a corner beyond " + base::number_text(base::farthest_m) + " m; is its scale right?");
-  return {std::make_shared<const TriangleMesh>(std::move(mesh)), sha256, static_cast<int>(left_out)};
+  const Mesh::Up up = up_of(wanted);
+  for (MeshPiece& piece : pieces) {
+    count(places.file, piece.mesh);
+    for (Corner& p : piece.mesh.vertices) p = in_world(p, wanted.scale, up);
+    piece.left_out += keep_in_world(piece.mesh);
+    if (piece.mesh.triangles.empty()) continue;
+    known.guessed += piece.from == MeshPiece::From::visible_colour ? 1 : 0;
+    known.pieces.push_back({std::make_shared<const TriangleMesh>(std::move(piece.mesh)), static_cast<int>(piece.left_out),
+                            std::move(piece.material), piece.reflectivity});
+  }
+  if (known.pieces.empty())
+    base::fail(places.file, "no triangle of " + base::in_quotes(path, 200) + " is in the world",
+               pieces.empty() ? "the file's scene shows none"
+                              : "all have a corner beyond " + base::number_text(base::farthest_m) + " m; is its scale right?");
+  return known;
+}
+
+std::vector<MeshPiece> MeshReader::from_gltf(const Places& places, const Mesh& wanted, const std::string& path, const std::string& bytes,
+                                             bool by_material, Known& known) const {
+  GltfFile file = read_gltf(bytes, path, files_.root);
+  check_expected(places.file, wanted.file, path, file.sha256);
+  if (wanted.time_s && file.model.animations.empty())
+    base::fail(places.time, base::in_quotes(path, 200) + " has no animation", "time is one of its first animation; leave it away");
+  known.sha256 = std::move(file.sha256), known.notices = std::move(file.model.notices);
+  std::vector<MeshPiece> pieces = pieces_of(file.model, pose_at(file.model, wanted.time_s), by_material);
+  if (by_material && !pieces.empty() && pieces[0].from == MeshPiece::From::nothing)
+    known.notices.insert(known.notices.begin(), "triangles without a material get a reflectivity of 0.5");
+  return pieces;
+}
+
+void MeshReader::check_expected(const base::Place& place, const std::string& file, const std::string& path,
+                                const std::string& sha256) const {
+  if (!files_.expected) return;
+  const auto expected = files_.expected->find(file);
+  if (expected == files_.expected->end() || expected->second != sha256)
+    base::fail(place, base::in_quotes(path, 200) + " is not the mesh that it was",
+               "its SHA-256 is not the one that the manifest has; expected the same file in the same place");
 }
 
 void MeshReader::count(const base::Place& place, const TriangleMesh& mesh) {
@@ -88,6 +139,21 @@ void MeshReader::count(const base::Place& place, const TriangleMesh& mesh) {
   };
   check(vertices_, base::limit::mesh_vertices, "vertices");
   check(triangles_, base::limit::mesh_triangles, "triangles");
+}
+
+std::optional<Pose> camera_in(const Mesh& mesh, const std::string& source, const std::string& root) {
+  using base::operator*;
+  if (!is_gltf(mesh.file)) return std::nullopt;
+  std::string path;
+  const std::string bytes =
+      files::read_reference(mesh.file, folder_beside(source), root, base::whole(source), path, base::limit::mesh_bytes);
+  const GltfFile file = read_gltf(bytes, path, root);
+  std::optional<Pose> pose = camera_of(file.model, pose_at(file.model, mesh.time_s));
+  if (!pose) return pose;
+  const Mesh::Up up = up_of(mesh);
+  pose->position = mesh.scale * turned(pose->position, up), pose->look_at = mesh.scale * turned(pose->look_at, up);
+  pose->up = turned(pose->up, up);
+  return pose;
 }
 
 }  // namespace tofray::load

@@ -3,12 +3,14 @@
 #pragma once
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <tuple>
 #include <vector>
 
 #include "base/faults.h"
 #include "load/load.h"
+#include "load/mesh_piece.h"
 
 namespace tofray::load {
 
@@ -19,27 +21,52 @@ namespace tofray::load {
 ///     up −y:  (x, y, z)
 class MeshReader {
  public:
+  /// Where the scene names what a mesh is made of.
+  struct Places {
+    base::Place file, time;
+  };
+  /// What the file shows; of a glTF file one for each material, where that is asked for.
+  struct Piece {
+    std::shared_ptr<const TriangleMesh> triangles;
+    int left_out;
+    std::string material;
+    double reflectivity;
+  };
+  struct Known {
+    std::vector<Piece> pieces;  ///< at least one; each has triangles
+    std::string sha256;
+    int guessed = 0;
+    std::vector<std::string> notices;
+
+    /// Fills `mesh` by one piece; what is told of the file goes with the first.
+    void show(std::size_t piece, Mesh& mesh) const;
+  };
+
   /// @param source  the scene's file: meshes lie beside it or below
   MeshReader(const std::string& source, const MeshFiles& files);
-  /// Fills `mesh` by its file, scale and up.
-  /// @throws Error as files::read_reference and mesh::parse, and (bad_input) where the file is not the one that is expected, or where no
-  /// triangle is in the world
-  void read(const base::Place& place, Mesh& mesh);
+  /// What `mesh` shows by its file, scale, up and time.
+  /// @param by_material  whether a glTF file's materials are wanted apart
+  /// @throws Error as files::read_reference, mesh::parse and gltf::read, and (bad_input) where the file is not the one that is expected,
+  /// has no animation though there is a time, or where no triangle is in the world
+  const Known& read(const Places& places, const Mesh& mesh, bool by_material);
 
  private:
-  struct Known {
-    std::shared_ptr<const TriangleMesh> triangles;
-    std::string sha256;
-    int left_out;
-  };
-  Known from_file(const base::Place& place, const Mesh& wanted);
+  Known from_file(const Places& places, const Mesh& wanted, bool by_material);
+  std::vector<MeshPiece> from_gltf(const Places& places, const Mesh& wanted, const std::string& path, const std::string& bytes,
+                                   bool by_material, Known& known) const;
+  void check_expected(const base::Place& place, const std::string& file, const std::string& path, const std::string& sha256) const;
   /// The limits of one mesh are those of all meshes of a scene: of many it may take no more memory.
   void count(const base::Place& place, const TriangleMesh& mesh);
 
   std::string folder_;
   const MeshFiles& files_;
   std::size_t vertices_ = 0, triangles_ = 0;
-  std::map<std::tuple<std::string, double, Mesh::Up>, Known> known_;
+  std::map<std::tuple<std::string, double, Mesh::Up, std::optional<double>, bool>, Known> known_;
 };
+
+/// Where the first perspective camera of a glTF file stands in the world; nothing where there is none, or the file is of another kind.
+/// @param mesh    its file, scale, up and time: a mesh that was read
+/// @param source  the scene's file, beside which the mesh lies
+std::optional<Pose> camera_in(const Mesh& mesh, const std::string& source, const std::string& root);
 
 }  // namespace tofray::load

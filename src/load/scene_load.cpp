@@ -4,12 +4,14 @@
 #include <filesystem>
 #include <map>
 
+#include "base/limits.h"
 #include "base/text.h"
 #include "base/vec.h"
 #include "files/text_file.h"
 #include "load/builtin.h"
 #include "load/convert.h"
 #include "load/fill.h"
+#include "load/gltf_load.h"
 #include "load/load.h"
 #include "load/mesh_load.h"
 #include "yaml/settings.h"
@@ -29,6 +31,14 @@ namespace {
 
 using base::Faults;
 using base::in_quotes;
+
+/// An object that is a mesh, and what its file holds.
+struct MeshOfScene {
+  std::size_t object;
+  const Value* value;
+  bool by_material;
+  const MeshReader::Known* known;
+};
 
 class SceneReader {
  public:
@@ -52,6 +62,7 @@ class SceneReader {
       if (entry.good && !entry.items.empty()) object(entry, out);
     read_meshes(out);
     filler_.check(out);
+    if (faults_.empty()) apart_by_material(out);
     return out;
   }
 
@@ -130,17 +141,65 @@ class SceneReader {
     one.emplace(one.at, which);
     filler_.fill(value, one.tables[which](), one.held(one.at));
     if (const auto* triangle = std::get_if<Triangle>(&out.shape)) area(value, *triangle);
-    if (std::holds_alternative<Mesh>(out.shape)) mesh_places_.emplace_back(scene.objects.size() - 1, &value);
+    if (std::holds_alternative<Mesh>(out.shape)) mesh(value, std::get<Mesh>(out.shape), static_cast<int>(scene.objects.size()) - 1);
+  }
+
+  void mesh(const Value& value, const Mesh& out, int object) {
+    const bool has_material = value["material"] || value["reflectivity"];
+    meshes_of_scene_.push_back({static_cast<std::size_t>(object), &value, !has_material, nullptr});
+    if (!value["file"].good || is_gltf(out.file)) return;
+    if (!has_material)
+      faults_.add(value.place(), "mesh lacks a key", "expected one of \"reflectivity\" or \"material\"; glTF files alone have their own");
+    if (out.time_s) faults_.add(value["time"].place(), "time is for glTF files", "an OBJ, PLY or STL file stands still");
   }
 
   /// Once all else that was read is good: a file may be long.
   void read_meshes(Scene& scene) {
-    for (const auto& [index, value] : mesh_places_) {
-      Mesh& mesh = std::get<Mesh>(scene.objects[index].shape);
-      if (faults_.empty())
-        meshes_.read((*value)["file"].place(), mesh);
-      else
+    for (MeshOfScene& one : meshes_of_scene_) {
+      Mesh& mesh = std::get<Mesh>(scene.objects[one.object].shape);
+      if (faults_.empty()) {
+        const Value& time = (*one.value)["time"];
+        one.known = &meshes_.read({(*one.value)["file"].place(), (time ? time : *one.value).place()}, mesh, one.by_material);
+        one.known->show(0, mesh);
+      } else {
         mesh.triangles = std::make_shared<const TriangleMesh>();  // what is wrong is told already
+      }
+    }
+  }
+
+  /// An object that has no material becomes one for each of its glTF file's.
+  void apart_by_material(Scene& scene) {
+    std::vector<Object> objects;
+    auto next = meshes_of_scene_.begin();
+    for (std::size_t i = 0; i < scene.objects.size(); ++i) {
+      const bool is_mesh = next != meshes_of_scene_.end() && next->object == i;
+      if (is_mesh && next->by_material)
+        add_pieces(*next, scene.objects[i], scene.objects.size() - i - 1, scene.materials, objects);
+      else
+        objects.push_back(std::move(scene.objects[i]));
+      if (is_mesh) ++next;
+    }
+    scene.objects = std::move(objects);
+  }
+
+  /// @param behind  objects that are still to come
+  static void add_pieces(const MeshOfScene& of, const Object& whole, std::size_t behind, std::vector<Material>& materials,
+                         std::vector<Object>& objects) {
+    constexpr auto most = static_cast<std::size_t>(base::limit::objects.value);
+    const std::vector<MeshReader::Piece>& pieces = of.known->pieces;
+    if (objects.size() + pieces.size() + behind > most)
+      base::fail((*of.value)["file"].place(), "the scene has too many objects",
+                 "at most " + std::to_string(most) + " (`tofray --limits`); a glTF file without a reflectivity is one for each of its materials",
+                 ErrorKind::limit);
+    const std::string& file = std::get<Mesh>(whole.shape).file;
+    const std::string name = whole.name.empty() ? std::filesystem::path(file).stem().string() : whole.name;
+    for (std::size_t k = 0; k < pieces.size(); ++k) {
+      Object& one = objects.emplace_back(whole);
+      one.name = name + "/" + pieces[k].material;
+      of.known->show(k, std::get<Mesh>(one.shape));
+      if (k > 0) std::get<Mesh>(one.shape).guessed = 0, std::get<Mesh>(one.shape).notices.clear();
+      if (k > 0) one.material = static_cast<int>(materials.size()), materials.emplace_back();
+      materials[static_cast<std::size_t>(one.material)].diffuse = pieces[k].reflectivity;
     }
   }
 
@@ -159,7 +218,7 @@ class SceneReader {
   Filler filler_;
   std::map<std::string, int> index_;
   MeshReader meshes_;
-  std::vector<std::pair<std::size_t, const Value*>> mesh_places_;
+  std::vector<MeshOfScene> meshes_of_scene_;
 };
 
 Scene interpret(const Node& root, const std::string& source, const MeshFiles& meshes) {

@@ -34,6 +34,8 @@ void each_number(const Slot& slot, const Visit& visit) {
             visit(static_cast<double>(*one), Spot::whole, -1LL);
           else if constexpr (std::is_same_v<Member, Vec3> || std::is_same_v<Member, std::vector<double>>)
             list(*one, Spot::whole);
+          else if constexpr (std::is_same_v<Member, std::optional<double>>)
+            one->has_value() ? void(visit(**one, Spot::whole, -1LL)) : void();
           else if constexpr (std::is_same_v<Member, std::optional<Vec3>>)
             one->has_value() ? list(**one, Spot::whole) : void();
           else if constexpr (std::is_same_v<Member, std::array<Vec3, 3>>)

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include <functional>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -187,7 +188,7 @@ Rows<1> number(const char* key, const Number& number, const char* doc) {
   const Form one = form_of(number);
   if constexpr (std::is_integral_v<Member>) {
     return detail::row<M>(key, whole_number(number), doc);
-  } else if constexpr (std::is_same_v<Member, double>) {
+  } else if constexpr (std::is_same_v<Member, double> || std::is_same_v<Member, std::optional<double>>) {
     return detail::row<M>(key, one, doc);
   } else if constexpr (std::is_same_v<Member, std::array<Vec3, 3>>) {
     return detail::row<M>(key, list(list(one, 3, 3), 3, 3), doc);

@@ -95,13 +95,16 @@ const Table& table_of<Cylinder>() {
 template <>
 const Table& table_of<Mesh>() {
   static const Table rows =
-      table<Mesh>(words<&Mesh::file>("file", "a file", "chair.obj", "OBJ, PLY or STL, beside the scene or below").required(),
+      table<Mesh>(words<&Mesh::file>("file", "a file", "chair.glb", "OBJ, PLY, STL or glTF, beside the scene or below").required(),
                   number<&Mesh::scale>("scale", {none, {1e-9, 1e9}, "0.001"}, "of the file's numbers, to metres: 0.001 where they are mm"),
                   choice<&Mesh::up>(
                       "up", {"automatic", "y", "z", "-y"},
-                      "the file's axis that is up; automatic: y of an OBJ, z of a PLY or STL file; -y: the file has the world's axes"),
+                      "the file's axis that is up; automatic: y of an OBJ or glTF, z of a PLY or STL file; -y: the file has the world's axes"),
+                  number<&Mesh::time_s>("time", {time, {0, 1e6}, "1.5 s"},
+                                        "of a glTF file's first animation; as the file stands still unless given")
+                      .absent(),
                   words<&Mesh::sha256>("", "", "", ""),  // the reader's
-                  no_row<&Mesh::left_out, &Mesh::triangles>("what the file holds"))
+                  no_row<&Mesh::left_out, &Mesh::guessed, &Mesh::notices, &Mesh::triangles>("what the file holds"))
           .check_with(meshes_have_triangles);
   return rows;
 }
@@ -218,7 +221,8 @@ Form objects_form() {
     one.keys.push_back(absent("material", either({text("the name of a material", "paper"), form_of(table_of<Material>())}),
                               "a name out of `materials`, or a material written here"));
     for (Key& key : keys_of(object)) one.keys.push_back(std::move(key));
-    one.exactly_one = {"reflectivity", "material"};
+    // A glTF file has materials of its own; the reader asks for one where a file has none.
+    (table == &table_of<Mesh> ? one.at_most_one : one.exactly_one) = {"reflectivity", "material"};
     form.forms.push_back(std::move(one));
   }
   return list(std::move(form), 0, most_objects);

@@ -33,6 +33,7 @@ struct MemberTree {
     return *member;
   }
   Tree operator()(std::string* member) const { return *member; }
+  Tree operator()(std::optional<double>* member) const { return member->has_value() ? Tree(**member) : Tree(); }
   Tree operator()(std::optional<Vec3>* member) const { return member->has_value() ? Tree(**member) : Tree(); }
   Tree operator()(std::vector<double>* member) const { return member->empty() ? Tree() : Tree(*member); }
   Tree operator()(const model::CurveSlot& curve) const { return curve.y->empty() ? Tree() : Tree{{"x", *curve.x}, {"y", *curve.y}}; }

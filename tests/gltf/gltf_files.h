@@ -142,6 +142,15 @@ inline File triangle_file() {
   return file;
 }
 
+/// A triangle that goes 3 m to the right in 2 s.
+inline File animated_file() {
+  File file = triangle_file();
+  const int times = file.floats({0, 2}, "SCALAR"), places = file.floats({0, 0, 0, 3, 0, 0}, "VEC3");
+  file.add("animations", {{"samplers", {{{"input", times}, {"output", places}}}},
+                          {"channels", {{{"sampler", 0}, {"target", {{"node", 0}, {"path", "translation"}}}}}}});
+  return file;
+}
+
 inline std::string message_of(const std::string& bytes, ErrorKind kind = ErrorKind::bad_input, const gltf::Resources& files = {}) {
   const Error error = out_test::error_of([&] { (void)read("m", bytes, files); });
   EXPECT_EQ(error.kind(), kind) << error.what();

@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include "gltf/gltf_files.h"
 #include "load/fields.h"
 #include "load/load.h"
 #include "support/samples.h"
@@ -41,7 +42,7 @@ class every_field : public testing::TestWithParam<const char*> {
  protected:
   // The files that the tables' examples name lie in the working folder.
   void SetUp() override {
-    out_test::write_file(folder_.path() / "chair.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+    out_test::write_file(folder_.path() / "chair.glb", gltf_test::animated_file().glb());
     std::filesystem::current_path(folder_.path());
   }
   void TearDown() override { std::filesystem::current_path(before_); }

@@ -1,0 +1,107 @@
+// SPDX-FileCopyrightText: 2026 The tofray authors
+// SPDX-License-Identifier: Apache-2.0
+#include "load/gltf_load.h"
+
+#include <algorithm>
+#include <map>
+
+#include "base/limits.h"
+#include "base/text.h"
+#include "base/vec.h"
+#include "files/sha256.h"
+#include "files/text_file.h"
+#include "gltf/parts.h"
+#include "gltf/read.h"
+#include "mesh/read_mesh.h"
+
+namespace tofray::load {
+
+namespace {
+
+constexpr std::size_t longest_material_name = 200;
+
+/// What a listing may show of a stranger's name.
+std::string shown_name(const std::string& name) {
+  std::size_t end = 0;
+  while (end < name.size() && end < longest_material_name) end += std::max<std::size_t>(base::utf8_length(name, end), 1);
+  return base::printable(std::string_view(name).substr(0, end));
+}
+
+/// Relative luminance (ITU-R BT.709) of the base colour; half of it behind a picture, which is not looked at.
+double visible_reflectivity(const gltf::Material& material) {
+  const auto [red, green, blue, alpha] = material.base_color;
+  const double luminance = std::min(0.2126 * red + 0.7152 * green + 0.0722 * blue, 1.0);
+  return material.base_color_texture.texture == gltf::none ? luminance : 0.5 * luminance;
+}
+
+void name_material(const gltf::Model& model, int index, MeshPiece& piece) {
+  piece.material = "no material";
+  if (index == gltf::none) return;
+  const gltf::Material& material = model.materials[static_cast<std::size_t>(index)];
+  piece.material = material.name.empty() ? "material " + std::to_string(index) : shown_name(material.name);
+  piece.from = material.nir_reflectivity ? MeshPiece::From::file : MeshPiece::From::visible_colour;
+  piece.reflectivity = material.nir_reflectivity.value_or(visible_reflectivity(material));
+}
+
+void append(const TriangleMesh& more, TriangleMesh& mesh) {
+  const auto first = static_cast<std::int32_t>(mesh.vertices.size());
+  mesh.vertices.insert(mesh.vertices.end(), more.vertices.begin(), more.vertices.end());
+  for (const auto& [a, b, c] : more.triangles) mesh.triangles.push_back({first + a, first + b, first + c});
+}
+
+}  // namespace
+
+bool is_gltf(const std::string& path) {
+  const std::string suffix = mesh::suffix_of(path);
+  return suffix == ".gltf" || suffix == ".glb";
+}
+
+GltfFile read_gltf(std::string_view bytes, const std::string& path, const std::string& root) {
+  std::string all;  // with those of other files, where there are any
+  const auto other = [&](const std::string& name, std::size_t most) {
+    const base::Limit limit{base::limit::mesh_bytes.name, static_cast<std::int64_t>(most), ""};
+    std::string found;
+    std::string more = files::read_reference(name, files::folder_of(path), root, base::whole(path), found, limit);
+    if (all.empty()) all = bytes;
+    all += more;
+    return more;
+  };
+  GltfFile out{gltf::read(path, bytes, other), {}};
+  out.sha256 = files::sha256_hex(all.empty() ? bytes : all);
+  return out;
+}
+
+gltf::Pose pose_at(const gltf::Model& model, const std::optional<double>& time_s) {
+  return gltf::at(model, time_s ? 0 : gltf::none, time_s.value_or(0));
+}
+
+std::vector<MeshPiece> pieces_of(const gltf::Model& model, const gltf::Pose& pose, bool by_material) {
+  std::map<int, MeshPiece> found;
+  for (const gltf::Part& part : gltf::parts(model, pose)) {
+    MeshPiece& piece = found[by_material ? part.material : gltf::none];
+    append(part.mesh, piece.mesh);
+    piece.left_out += part.not_finite;
+  }
+  std::vector<MeshPiece> out;
+  for (auto& [material, piece] : found) {
+    if (by_material) name_material(model, material, piece);
+    out.push_back(std::move(piece));
+  }
+  return out;
+}
+
+std::optional<Pose> camera_of(const gltf::Model& model, const gltf::Pose& pose) {
+  using base::operator-;
+  for (std::size_t i = 0; i < model.nodes.size(); ++i) {
+    const int camera = model.nodes[i].camera;
+    if (camera == gltf::none || pose.in_scene[i] == 0 || !model.cameras[static_cast<std::size_t>(camera)].perspective) continue;
+    const gltf::Matrix& world = pose.world[i];
+    const auto column = [&](std::size_t k) { return Vec3{world[0][k], world[1][k], world[2][k]}; };
+    const Vec3 position = column(3), up = column(1), back = column(2);
+    if (!(base::length(up) > 0 && base::length(back) > 0)) continue;
+    return Pose{position, position - base::normalized(back), base::normalized(up)};
+  }
+  return std::nullopt;
+}
+
+}  // namespace tofray::load

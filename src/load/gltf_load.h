@@ -1,0 +1,37 @@
+// SPDX-FileCopyrightText: 2026 The tofray authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "gltf/model.h"
+#include "gltf/pose.h"
+#include "load/mesh_piece.h"
+
+/// glTF files of a scene: with the files that they name, taken apart by material.
+namespace tofray::load {
+
+/// By the file name's suffix, in any case.
+bool is_gltf(const std::string& path);
+
+struct GltfFile {
+  gltf::Model model;
+  std::string sha256;  ///< of the file's bytes, followed by those of each file that it names, in the order in which they are read
+};
+
+/// @param path  where the file lies: the files that it names lie beside it or below
+/// @throws Error as gltf::read and files::read_reference
+GltfFile read_gltf(std::string_view bytes, const std::string& path, const std::string& root);
+
+/// As the nodes stand, or at a time of the first animation, which there is then.
+gltf::Pose pose_at(const gltf::Model& model, const std::optional<double>& time_s);
+
+/// What the pose's scene shows, y up, in metres: a piece for each material, those without one first; or all of it as one piece.
+std::vector<MeshPiece> pieces_of(const gltf::Model& model, const gltf::Pose& pose, bool by_material);
+
+/// The first perspective camera of the scene, in the file's axes; up is of unit length, look_at 1 m before it.
+std::optional<Pose> camera_of(const gltf::Model& model, const gltf::Pose& pose);
+
+}  // namespace tofray::load

@@ -1,0 +1,21 @@
+// SPDX-FileCopyrightText: 2026 The tofray authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include <cstddef>
+#include <string>
+
+#include "tofray/scene.h"
+
+namespace tofray::load {
+
+/// What one object shows of a mesh's file: all of it, or the triangles of one material.
+struct MeshPiece {
+  enum class From { nothing, file, visible_colour };
+  TriangleMesh mesh;
+  std::size_t left_out = 0;
+  std::string material;       ///< its name, or its place among the file's
+  double reflectivity = 0.5;  ///< of the material
+  From from = From::nothing;  ///< how that is known
+};
+
+}  // namespace tofray::load

@@ -1,0 +1,237 @@
+// SPDX-FileCopyrightText: 2026 The tofray authors
+// SPDX-License-Identifier: Apache-2.0
+// glTF files that a scene names: materials, animations, cameras, the files that they name in turn.
+#include <gtest/gtest.h>
+
+#include "files/sha256.h"
+#include "gltf/gltf_files.h"
+#include "load/load.h"
+#include "load/mesh_load.h"
+#include "support/samples.h"
+#include "support/text.h"
+
+using namespace tofray;
+using gltf_test::File;
+using gltf_test::triangle_file;
+using out_test::write_file;
+using test::has;
+
+namespace {
+
+namespace fs = std::filesystem;
+using V = std::array<float, 3>;
+
+/// A triangle of red and one of a material with a reflectivity, beside each other.
+File two_materials() {
+  File file;
+  const int corners = file.floats(gltf_test::corner_positions, "VEC3");
+  file.add("materials", {{"name", "paint"}, {"pbrMetallicRoughness", {{"baseColorFactor", {0.5, 0.25, 0.125, 1}}}}});
+  file.add("materials",
+           {{"pbrMetallicRoughness", {{"baseColorFactor", {0.5, 0.5, 0.5, 1}}}}, {"extras", {{"nir_reflectivity", 0.9}}}});
+  for (int i = 0; i < 2; ++i) {
+    file.primitive(file.mesh({{"POSITION", corners}}))["material"] = i;
+    file.node({{"mesh", i}, {"translation", {2 * i, 0, 0}}});
+  }
+  return file;
+}
+
+class gltf_in_scene : public testing::Test {
+ protected:
+  void SetUp() override {
+    fs::create_directories(folder_.path() / "in/side");
+    file("in/two.glb", two_materials().glb());
+    file("in/corner.gltf", triangle_file().text());
+    file("in/corner.obj", "v 1 2 3\nv 4 2 3\nv 1 7 3\nf 1 2 3\n");
+  }
+  void file(const std::string& name, const std::string& bytes) const { write_file(folder_.path() / name, bytes); }
+  [[nodiscard]] std::string source() const { return (folder_.path() / "in/scene.yaml").string(); }
+  [[nodiscard]] Scene scene(const std::string& keys, const load::MeshFiles& files = {}) const {
+    return load::scene_from_text("objects:\n  - mesh: {" + keys + "}\n", source(), {}, files);
+  }
+  [[nodiscard]] Mesh mesh(const std::string& keys, const load::MeshFiles& files = {}) const {
+    return std::get<Mesh>(scene(keys, files).objects.at(0).shape);
+  }
+  [[nodiscard]] V first(const std::string& keys) const { return mesh(keys).triangles->vertices.at(0); }
+  [[nodiscard]] std::string refusal(const std::string& keys, ErrorKind kind = ErrorKind::bad_input,
+                                    const load::MeshFiles& files = {}) const {
+    const Error error = out_test::error_of([&] { (void)scene(keys, files); });
+    EXPECT_EQ(error.kind(), kind) << error.what();
+    return error.what();
+  }
+
+  out_test::TemporaryFolder folder_;
+};
+
+double reflectivity(const Scene& scene, std::size_t object) {
+  return scene.materials.at(static_cast<std::size_t>(scene.objects.at(object).material)).diffuse;
+}
+
+}  // namespace
+
+TEST_F(gltf_in_scene, is_an_object_for_each_material) {
+  const Scene got = load::scene_from_text(
+      "materials: {paper: {reflectivity: 0.7}}\n"
+      "objects:\n  - sphere: {center: [0, 0, 1], radius: 0.1, material: paper}\n"
+      "  - mesh: {file: two.glb, name: toy, position: [1, 2, 3], velocity: [0, 1, 0]}\n  - mesh: {file: two.glb}\n"
+      "  - sphere: {center: [0, 0, 1], radius: 0.1, reflectivity: 0.2}\n",
+      source());
+  ASSERT_EQ(got.objects.size(), 6U);
+  std::vector<std::string> names;
+  for (const Object& one : got.objects) names.push_back(one.name);
+  EXPECT_EQ(names, (std::vector<std::string>{"", "toy/paint", "toy/material 1", "two/paint", "two/material 1", ""}));
+  for (const std::size_t i : {1U, 2U}) {
+    EXPECT_EQ(got.objects[i].position, (Vec3{1, 2, 3}));
+    EXPECT_EQ(got.objects[i].velocity_m_per_s, (Vec3{0, 1, 0}));
+    EXPECT_EQ(std::get<Mesh>(got.objects[i].shape).triangles, std::get<Mesh>(got.objects[i + 2].shape).triangles);
+  }
+  EXPECT_EQ(std::get<Mesh>(got.objects[2].shape).triangles->vertices.at(0), (V{2, 0, 0}));
+  // 0.2126 · 0.5 + 0.7152 · 0.25 + 0.0722 · 0.125; rounding of three terms
+  EXPECT_NEAR(reflectivity(got, 1), 0.294125, 1e-12);
+  EXPECT_EQ(reflectivity(got, 2), 0.9);
+  EXPECT_EQ(reflectivity(got, 0), 0.7);
+  EXPECT_EQ(reflectivity(got, 5), 0.2);
+}
+
+TEST_F(gltf_in_scene, tells_how_many_reflectivities_are_a_guess) {
+  const Scene got = scene("file: two.glb");
+  EXPECT_EQ(std::get<Mesh>(got.objects.at(0).shape).guessed, 1);
+  EXPECT_EQ(std::get<Mesh>(got.objects.at(1).shape).guessed, 0);
+  EXPECT_EQ(mesh("file: two.glb, reflectivity: 0.3").guessed, 0);
+}
+
+TEST_F(gltf_in_scene, with_a_texture_has_half_its_colours_luminance) {
+  File textured = two_materials();
+  textured.json["materials"][0]["pbrMetallicRoughness"] = {{"baseColorTexture", {{"index", 0}}}};
+  textured.add("textures", {{"source", 0}});
+  textured.add("images", {{"uri", "data:image/png;base64,"}});
+  file("in/textured.glb", textured.glb());
+  EXPECT_EQ(reflectivity(scene("file: textured.glb"), 0), 0.5);
+}
+
+TEST_F(gltf_in_scene, without_material_reflects_one_half_and_says_so) {
+  const Scene got = scene("file: corner.gltf");
+  ASSERT_EQ(got.objects.size(), 1U);
+  EXPECT_EQ(got.objects[0].name, "corner/no material");
+  EXPECT_EQ(reflectivity(got, 0), 0.5);
+  const Mesh& mesh = std::get<Mesh>(got.objects[0].shape);
+  EXPECT_EQ(mesh.guessed, 0);
+  ASSERT_EQ(mesh.notices.size(), 1U);
+  EXPECT_TRUE(has(mesh.notices[0], "reflectivity of 0.5"));
+}
+
+TEST_F(gltf_in_scene, is_one_object_where_that_has_a_material) {
+  for (const char* const own : {"reflectivity: 0.3", "material: {reflectivity: 0.3}"}) {
+    const Scene got = scene("file: two.glb, name: toy, " + std::string(own));
+    ASSERT_EQ(got.objects.size(), 1U);
+    EXPECT_EQ(got.objects[0].name, "toy");
+    EXPECT_EQ(reflectivity(got, 0), 0.3);
+    const TriangleMesh& all = *std::get<Mesh>(got.objects[0].shape).triangles;
+    EXPECT_EQ(all.triangles, (std::vector<std::array<std::int32_t, 3>>{{0, 1, 2}, {3, 4, 5}}));
+    EXPECT_EQ(all.vertices.at(4), (V{3, 0, 0}));
+  }
+}
+
+TEST_F(gltf_in_scene, has_y_up_and_a_scale) {
+  EXPECT_EQ(mesh("file: corner.gltf").triangles->vertices.at(2), (V{0, -1, 0}));
+  EXPECT_EQ(mesh("file: corner.gltf, scale: 0.5").triangles->vertices.at(2), (V{0, -0.5F, 0}));
+  EXPECT_EQ(mesh("file: corner.gltf, up: z").triangles->vertices.at(2), (V{0, 0, 1}));
+  fs::rename(folder_.path() / "in/corner.gltf", folder_.path() / "in/corner.GLTF");
+  EXPECT_EQ(mesh("file: corner.GLTF").triangles->vertices.at(2), (V{0, -1, 0}));
+}
+
+TEST_F(gltf_in_scene, moves_by_its_first_animation) {
+  file("in/moves.glb", gltf_test::animated_file().glb());
+  EXPECT_EQ(first("file: moves.glb"), (V{0, 0, 0}));
+  EXPECT_EQ(first("file: moves.glb, time: 1 s"), (V{1.5F, 0, 0}));
+  EXPECT_EQ(first("file: moves.glb, time: 500 ms"), (V{0.75F, 0, 0}));
+  EXPECT_EQ(first("file: moves.glb, time: 9 s"), (V{3, 0, 0}));
+}
+
+TEST_F(gltf_in_scene, refuses_a_time_of_what_does_not_move) {
+  EXPECT_TRUE(has(refusal("file: two.glb, time: 1 s"), "scene.yaml:2:33: error: ")) << refusal("file: two.glb, time: 1 s");
+  EXPECT_TRUE(has(refusal("file: two.glb, time: 1 s"), "two.glb\" has no animation"));
+  EXPECT_TRUE(has(refusal("file: corner.obj, reflectivity: 0.5, time: 1 s"), "time is for glTF files"));
+  EXPECT_TRUE(has(refusal("file: two.glb, time: -1 s"), "time is out of range"));
+}
+
+TEST_F(gltf_in_scene, alone_may_lack_a_material) {
+  EXPECT_TRUE(has(refusal("file: corner.obj"), "scene.yaml:2:11: error: mesh lacks a key")) << refusal("file: corner.obj");
+  EXPECT_TRUE(has(refusal("file: two.glb, reflectivity: 0.5, material: paper"), "has \"reflectivity\" and \"material\""));
+}
+
+TEST_F(gltf_in_scene, may_name_files_beside_it_or_below) {
+  const File inside = triangle_file();
+  file("in/side/corner.gltf", inside.text_beside("corner.bin")), file("in/side/corner.bin", inside.binary);
+  EXPECT_EQ(mesh("file: side/corner.gltf").triangles->triangles.size(), 1U);
+  file("out.bin", inside.binary), file("in/out.gltf", inside.text_beside("../out.bin"));
+  EXPECT_TRUE(has(refusal("file: out.gltf"), "leads out of its folder")) << refusal("file: out.gltf");
+  fs::create_symlink(folder_.path() / "out.bin", folder_.path() / "in/link.bin");
+  file("in/link.gltf", inside.text_beside("link.bin"));
+  EXPECT_TRUE(has(refusal("file: link.gltf"), "link.gltf: error: \"link.bin\" leads out of the folder")) << refusal("file: link.gltf");
+  file("in/none.gltf", inside.text_beside("none.bin"));
+  EXPECT_TRUE(has(refusal("file: none.gltf", ErrorKind::io), "cannot open")) << refusal("file: none.gltf", ErrorKind::io);
+}
+
+TEST_F(gltf_in_scene, is_known_by_the_sha256_of_all_its_files) {
+  const File inside = triangle_file();
+  file("in/corner.gltf", inside.text_beside("corner.bin")), file("in/corner.bin", inside.binary);
+  const std::string known = mesh("file: corner.gltf").sha256;
+  EXPECT_EQ(known, files::sha256_hex(inside.text_beside("corner.bin") + inside.binary));
+  EXPECT_EQ(mesh("file: two.glb").sha256, files::sha256_hex(two_materials().glb()));
+  const load::MeshFiles same{{}, {{{"corner.gltf", known}}}};
+  EXPECT_EQ(mesh("file: corner.gltf", same).triangles->triangles.size(), 1U);
+  std::string changed = inside.binary;
+  changed[3] = '\x40';  // the sign and exponent of the first coordinate: 2 in place of 0
+  file("in/corner.bin", changed);
+  EXPECT_NE(mesh("file: corner.gltf").sha256, known);
+  EXPECT_TRUE(has(refusal("file: corner.gltf", ErrorKind::bad_input, same), "is not the mesh that it was"));
+}
+
+TEST_F(gltf_in_scene, is_told_with_its_place_where_it_is_wrong) {
+  const std::string whole = two_materials().glb();
+  for (std::size_t size = 0; size < whole.size(); size += 97) {
+    file("in/cut.glb", whole.substr(0, size));
+    const std::string message = refusal("file: cut.glb");
+    EXPECT_TRUE(has(message, "cut.glb:")) << message;
+  }
+  File empty;
+  empty.node({{"name", "alone"}});
+  file("in/empty.glb", empty.glb());
+  EXPECT_TRUE(has(refusal("file: empty.glb"), "the file's scene shows none")) << refusal("file: empty.glb");
+  EXPECT_TRUE(has(refusal("file: two.glb, scale: 1e9"), "no triangle of")) << refusal("file: two.glb, scale: 1e9");
+}
+
+TEST_F(gltf_in_scene, may_not_make_more_objects_than_a_scene_has) {
+  File many = triangle_file();
+  many.json["meshes"] = gltf_test::Document::array();
+  many.json["nodes"] = gltf_test::Document::array();
+  for (int i = 0; i < 9000; ++i) {
+    many.add("materials", gltf_test::Document::object());
+    many.primitive(many.mesh({{"POSITION", 0}}))["material"] = i;
+    many.node({{"mesh", i}});
+  }
+  file("in/many.glb", many.glb());
+  const std::string one = "  - mesh: {file: many.glb}\n";
+  EXPECT_EQ(load::scene_from_text("objects:\n" + one + one, source()).objects.size(), 18000U);
+  const Error error = out_test::error_of([&] { (void)load::scene_from_text("objects:\n" + one + one + one, source()); });
+  EXPECT_EQ(error.kind(), ErrorKind::limit);
+  EXPECT_TRUE(has(error.what(), "scene.yaml:4:18: error: the scene has too many objects")) << error.what();
+}
+
+TEST_F(gltf_in_scene, says_where_its_first_perspective_camera_stands) {
+  File seen = triangle_file();
+  seen.add("cameras", {{"type", "orthographic"}, {"orthographic", {{"xmag", 1}, {"ymag", 1}, {"znear", 0.1}, {"zfar", 9}}}});
+  seen.add("cameras", {{"type", "perspective"}, {"perspective", {{"yfov", 1}, {"znear", 0.1}}}});
+  seen.node({{"camera", 0}});
+  // Turned to the left about y by 90 degrees it looks along −x.
+  seen.node({{"camera", 1}, {"translation", {1, 2, 3}}, {"rotation", {0, gltf_test::half_root, 0, gltf_test::half_root}}});
+  file("in/seen.glb", seen.glb());
+  const auto pose = load::camera_in(mesh("file: seen.glb, scale: 2"), source(), {});
+  ASSERT_TRUE(pose);
+  // The world is (x, −y, −z) of the file; rounding of a quaternion and its product
+  const Vec3 expected[] = {{2, -4, -6}, {0, -4, -6}, {0, -1, 0}}, got[] = {pose->position, pose->look_at, pose->up};
+  for (std::size_t i = 0; i < 3; ++i)
+    for (std::size_t k = 0; k < 3; ++k) EXPECT_NEAR(got[i][k], expected[i][k], 1e-12);
+  EXPECT_FALSE(load::camera_in(mesh("file: two.glb"), source(), {}));
+  EXPECT_FALSE(load::camera_in(mesh("file: corner.obj, reflectivity: 0.5"), source(), {}));
+}
