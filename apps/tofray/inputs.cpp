@@ -120,7 +120,8 @@ std::string guesses_of(const Mesh& mesh) {
   return fmt::format(
       "warning: {} of {} reflect{} as much infrared as visible light: a guess from the base colour\n  nir_reflectivity in a material's "
       "extras says it, or reflectivity at the object\n",
-      mesh.guessed == 1 ? "1 material" : fmt::format("{} materials", mesh.guessed), base::in_quotes(mesh.file), mesh.guessed == 1 ? "s" : "");
+      mesh.guessed == 1 ? "1 material" : fmt::format("{} materials", mesh.guessed), base::in_quotes(mesh.file),
+      mesh.guessed == 1 ? "s" : "");
 }
 
 /// Each warning once, though several objects may show a file.

@@ -45,7 +45,8 @@ Box box_round(const Scene& scene) {
   return out;
 }
 
-std::string point(const Vec3& p) { return fmt::format("[{:.6g}, {:.6g}, {:.6g}]", p[0], p[1], p[2]); }
+/// −0 becomes 0.
+std::string point(const Vec3& p) { return fmt::format("[{:.6g}, {:.6g}, {:.6g}]", p[0] + 0.0, p[1] + 0.0, p[2] + 0.0); }
 
 /// The mesh alone; `more` are lines below it.
 /// A glTF file has materials of its own.

@@ -63,13 +63,13 @@ struct TriangleMesh {
 /// of a glTF file those of one material, unless the object has a material of its own.
 struct Mesh {
   enum class Up { automatic, y, z, minus_y };
-  std::string file;                               ///< empty if built in code
-  double scale = 1;                               ///< of the file's numbers, to metres
+  std::string file;              ///< empty if built in code
+  double scale = 1;              ///< of the file's numbers, to metres
   Up up = Up::automatic;         ///< the file's axis that is up (−y in the world); automatic: y in OBJ and glTF, z in PLY and STL
   std::optional<double> time_s;  ///< of a glTF file's first animation; none: as its nodes stand
-  std::string sha256;            ///< of the file's bytes and those of the files that it names, as hexadecimal digits; empty if built in code
-  int left_out = 0;                               ///< triangles of the file with a corner that is no finite number, or beyond 1e5 m
-  int guessed = 0;                                ///< materials of the file whose visible colour stands for their reflectivity
+  std::string sha256;  ///< of the file's bytes and those of the files that it names, as hexadecimal digits; empty if built in code
+  int left_out = 0;    ///< triangles of the file with a corner that is no finite number, or beyond 1e5 m
+  int guessed = 0;     ///< materials of the file whose visible colour stands for their reflectivity
   std::vector<std::string> notices;               ///< sentences: what else of the file is left out, or mended
   std::shared_ptr<const TriangleMesh> triangles;  ///< what is seen: already turned and scaled; objects may share it
 };

@@ -188,9 +188,10 @@ class SceneReader {
     constexpr auto most = static_cast<std::size_t>(base::limit::objects.value);
     const std::vector<MeshReader::Piece>& pieces = of.known->pieces;
     if (objects.size() + pieces.size() + behind > most)
-      base::fail((*of.value)["file"].place(), "the scene has too many objects",
-                 "at most " + std::to_string(most) + " (`tofray --limits`); a glTF file without a reflectivity is one for each of its materials",
-                 ErrorKind::limit);
+      base::fail(
+          (*of.value)["file"].place(), "the scene has too many objects",
+          "at most " + std::to_string(most) + " (`tofray --limits`); a glTF file without a reflectivity is one for each of its materials",
+          ErrorKind::limit);
     const std::string& file = std::get<Mesh>(whole.shape).file;
     const std::string name = whole.name.empty() ? std::filesystem::path(file).stem().string() : whole.name;
     for (std::size_t k = 0; k < pieces.size(); ++k) {

@@ -21,9 +21,9 @@ Format format_of(const std::string& path, const base::Place& place) {
   if (suffix == ".obj") return Format::obj;
   if (suffix == ".ply") return Format::ply;
   if (suffix == ".stl") return Format::stl;
-  base::fail(
-      place, base::in_quotes(file) + " is no mesh that can be read",
-      "got " + (suffix.empty() ? "a name without suffix" : "the suffix " + base::in_quotes(suffix)) + ", expected .obj, .ply, .stl, .glb or .gltf");
+  base::fail(place, base::in_quotes(file) + " is no mesh that can be read",
+             "got " + (suffix.empty() ? "a name without suffix" : "the suffix " + base::in_quotes(suffix)) +
+                 ", expected .obj, .ply, .stl, .glb or .gltf");
 }
 
 ReadMesh parse(Format format, std::string_view bytes, const std::string& name) {

@@ -95,16 +95,17 @@ const Table& table_of<Cylinder>() {
 template <>
 const Table& table_of<Mesh>() {
   static const Table rows =
-      table<Mesh>(words<&Mesh::file>("file", "a file", "chair.glb", "OBJ, PLY, STL or glTF, beside the scene or below").required(),
-                  number<&Mesh::scale>("scale", {none, {1e-9, 1e9}, "0.001"}, "of the file's numbers, to metres: 0.001 where they are mm"),
-                  choice<&Mesh::up>(
-                      "up", {"automatic", "y", "z", "-y"},
-                      "the file's axis that is up; automatic: y of an OBJ or glTF, z of a PLY or STL file; -y: the file has the world's axes"),
-                  number<&Mesh::time_s>("time", {time, {0, 1e6}, "1.5 s"},
-                                        "of a glTF file's first animation; as the file stands still unless given")
-                      .absent(),
-                  words<&Mesh::sha256>("", "", "", ""),  // the reader's
-                  no_row<&Mesh::left_out, &Mesh::guessed, &Mesh::notices, &Mesh::triangles>("what the file holds"))
+      table<Mesh>(
+          words<&Mesh::file>("file", "a file", "chair.glb", "OBJ, PLY, STL or glTF, beside the scene or below").required(),
+          number<&Mesh::scale>("scale", {none, {1e-9, 1e9}, "0.001"}, "of the file's numbers, to metres: 0.001 where they are mm"),
+          choice<&Mesh::up>(
+              "up", {"automatic", "y", "z", "-y"},
+              "the file's axis that is up; automatic: y of an OBJ or glTF, z of a PLY or STL file; -y: the file has the world's axes"),
+          number<&Mesh::time_s>("time", {time, {0, 1e6}, "1.5 s"},
+                                "of a glTF file's first animation; as the file stands still unless given")
+              .absent(),
+          words<&Mesh::sha256>("", "", "", ""),  // the reader's
+          no_row<&Mesh::left_out, &Mesh::guessed, &Mesh::notices, &Mesh::triangles>("what the file holds"))
           .check_with(meshes_have_triangles);
   return rows;
 }

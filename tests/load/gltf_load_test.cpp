@@ -26,8 +26,7 @@ File two_materials() {
   File file;
   const int corners = file.floats(gltf_test::corner_positions, "VEC3");
   file.add("materials", {{"name", "paint"}, {"pbrMetallicRoughness", {{"baseColorFactor", {0.5, 0.25, 0.125, 1}}}}});
-  file.add("materials",
-           {{"pbrMetallicRoughness", {{"baseColorFactor", {0.5, 0.5, 0.5, 1}}}}, {"extras", {{"nir_reflectivity", 0.9}}}});
+  file.add("materials", {{"pbrMetallicRoughness", {{"baseColorFactor", {0.5, 0.5, 0.5, 1}}}}, {"extras", {{"nir_reflectivity", 0.9}}}});
   for (int i = 0; i < 2; ++i) {
     file.primitive(file.mesh({{"POSITION", corners}}))["material"] = i;
     file.node({{"mesh", i}, {"translation", {2 * i, 0, 0}}});

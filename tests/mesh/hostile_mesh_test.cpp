@@ -180,8 +180,9 @@ TEST(mesh_file, is_of_the_format_that_its_suffix_says) {
   };
   EXPECT_EQ(message("a.fbx"),
             "a.fbx: error: \"a.fbx\" is no mesh that can be read\n  got the suffix \".fbx\", expected .obj, .ply, .stl, .glb or .gltf");
-  EXPECT_EQ(message("a.ply/mesh"),
-            "a.ply/mesh: error: \"mesh\" is no mesh that can be read\n  got a name without suffix, expected .obj, .ply, .stl, .glb or .gltf");
+  EXPECT_EQ(
+      message("a.ply/mesh"),
+      "a.ply/mesh: error: \"mesh\" is no mesh that can be read\n  got a name without suffix, expected .obj, .ply, .stl, .glb or .gltf");
   for (const char* path : {"", ".", "/", "obj", "a.obj ", "a.objx", "a.\x1b[1m"})
     EXPECT_TRUE(test::has(message(path), "expected .obj, .ply, .stl, .glb or .gltf"));
 }
