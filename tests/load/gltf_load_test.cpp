@@ -212,9 +212,15 @@ TEST_F(gltf_in_scene, may_not_make_more_objects_than_a_scene_has) {
   file("in/many.glb", many.glb());
   const std::string one = "  - mesh: {file: many.glb}\n";
   EXPECT_EQ(load::scene_from_text("objects:\n" + one + one, source()).objects.size(), 18000U);
-  const Error error = out_test::error_of([&] { (void)load::scene_from_text("objects:\n" + one + one + one, source()); });
-  EXPECT_EQ(error.kind(), ErrorKind::limit);
-  EXPECT_TRUE(has(error.what(), "scene.yaml:4:18: error: the scene has too many objects")) << error.what();
+  const auto refused = [&](const std::string& objects, const std::string& place) {
+    const Error error = out_test::error_of([&] { (void)load::scene_from_text("objects:\n" + objects, source()); });
+    EXPECT_EQ(error.kind(), ErrorKind::limit);
+    EXPECT_TRUE(has(error.what(), place + ": error: the scene has too many objects")) << error.what();
+  };
+  refused(one + one + one, "scene.yaml:4:18");
+  std::string spheres;
+  for (int i = 0; i < 2001; ++i) spheres += "  - sphere: {center: [0, 0, 1], radius: 0.1, reflectivity: 0.2}\n";
+  refused(one + one + spheres, "scene.yaml:3:18");
 }
 
 TEST_F(gltf_in_scene, says_where_its_first_perspective_camera_stands) {
