@@ -147,6 +147,7 @@ std::vector<Command> make() {
        .usage = "[SCENE] [options]",
        .summary = "measure speed: frames per second, time per frame, memory",
        .examples = "tofray bench                                     # the scene bench-primitives\n"
+                   "tofray bench bench-mesh                          # 101,920 triangles\n"
                    "tofray bench room --frames 200 --noise off --threads 1\n"
                    "tofray bench --compare                           # variants in turn, ratios of their medians\n"
                    "tofray bench --backend cuda --block-size 32:1024:32 --stage power,all    # speed-up over block size\n"

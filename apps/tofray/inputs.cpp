@@ -44,12 +44,13 @@ Scene scene_of_text(const std::string& text, const std::string& name, const Opti
   }
 }
 
-/// Its meshes by name and SHA-256; each once.
+/// Its meshes by name and SHA-256, each once; not those that tofray has itself.
 void add_meshes(const Scene& scene, std::vector<results::InputFile>& files) {
   for (const Object& object : scene.objects) {
     const auto* mesh = std::get_if<Mesh>(&object.shape);
     const auto is_it = [mesh](const results::InputFile& file) { return file.role == "mesh" && file.name == mesh->file; };
-    if (mesh != nullptr && std::none_of(files.begin(), files.end(), is_it)) files.push_back({"mesh", mesh->file, "", mesh->sha256});
+    if (mesh != nullptr && !mesh->sha256.empty() && std::none_of(files.begin(), files.end(), is_it))
+      files.push_back({"mesh", mesh->file, "", mesh->sha256});
   }
 }
 

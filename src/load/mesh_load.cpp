@@ -11,6 +11,7 @@
 #include "base/vec.h"
 #include "files/sha256.h"
 #include "files/text_file.h"
+#include "load/builtin_mesh.h"
 #include "load/gltf_load.h"
 #include "mesh/read_mesh.h"
 
@@ -36,6 +37,7 @@ Corner in_world(const Corner& p, double scale, Mesh::Up up) {
 
 Mesh::Up up_of(const Mesh& mesh) {
   if (mesh.up != Mesh::Up::automatic) return mesh.up;
+  if (is_builtin_mesh(mesh.file)) return Mesh::Up::minus_y;
   return is_gltf(mesh.file) || mesh::suffix_of(mesh.file) == ".obj" ? Mesh::Up::y : Mesh::Up::z;
 }
 
@@ -74,21 +76,28 @@ const MeshReader::Known& MeshReader::read(const Places& places, const Mesh& mesh
   return known->second;
 }
 
-MeshReader::Known MeshReader::from_file(const Places& places, const Mesh& wanted, bool by_material) {
+std::vector<MeshPiece> MeshReader::pieces(const Places& places, const Mesh& wanted, bool by_material, std::string& path,
+                                          Known& known) const {
+  if (is_builtin_mesh(wanted.file)) {
+    path = wanted.file;
+    return from_code(places.file, wanted.file);
+  }
   const bool gltf = is_gltf(wanted.file);
   const mesh::Format format = gltf ? mesh::Format::obj : mesh::format_of(wanted.file, places.file);
-  std::string path;
   const std::string bytes = files::read_reference(wanted.file, folder_, files_.root, places.file, path, base::limit::mesh_bytes);
+  if (gltf) return from_gltf(places, wanted, path, bytes, by_material, known);
+  known.sha256 = files::sha256_hex(bytes);
+  check_expected(places.file, wanted.file, path, known.sha256);
+  auto [mesh, left_out] = mesh::parse(format, bytes, path);
+  std::vector<MeshPiece> out;
+  out.push_back({std::move(mesh), left_out, {}});
+  return out;
+}
+
+MeshReader::Known MeshReader::from_file(const Places& places, const Mesh& wanted, bool by_material) {
+  std::string path;
   Known known;
-  std::vector<MeshPiece> pieces;
-  if (gltf) {
-    pieces = from_gltf(places, wanted, path, bytes, by_material, known);
-  } else {
-    known.sha256 = files::sha256_hex(bytes);
-    check_expected(places.file, wanted.file, path, known.sha256);
-    auto [mesh, left_out] = mesh::parse(format, bytes, path);
-    pieces.push_back({std::move(mesh), left_out, {}});
-  }
+  std::vector<MeshPiece> pieces = this->pieces(places, wanted, by_material, path, known);
   const Mesh::Up up = up_of(wanted);
   for (MeshPiece& piece : pieces) {
     count(places.file, piece.mesh);
@@ -104,6 +113,18 @@ MeshReader::Known MeshReader::from_file(const Places& places, const Mesh& wanted
                pieces.empty() ? "the file's scene shows none"
                               : "all have a corner beyond " + base::number_text(base::farthest_m) + " m; is its scale right?");
   return known;
+}
+
+std::vector<MeshPiece> MeshReader::from_code(const base::Place& place, const std::string& file) {
+  auto mesh = builtin_mesh(std::string_view(file).substr(builtin_mesh_prefix.size()));
+  if (!mesh) {
+    std::string names;
+    for (const std::string& name : builtin_mesh_names()) names += (names.empty() ? "" : ", ") + std::string(builtin_mesh_prefix) + name;
+    base::fail(place, "there is no mesh " + base::in_quotes(file, 200) + " in tofray itself", "expected a file, or one of " + names);
+  }
+  std::vector<MeshPiece> out;
+  out.push_back({std::move(*mesh), 0, {}});
+  return out;
 }
 
 std::vector<MeshPiece> MeshReader::from_gltf(const Places& places, const Mesh& wanted, const std::string& path, const std::string& bytes,

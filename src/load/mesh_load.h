@@ -52,6 +52,9 @@ class MeshReader {
 
  private:
   Known from_file(const Places& places, const Mesh& wanted, bool by_material);
+  /// As they are in the file. @param path  out: for messages
+  std::vector<MeshPiece> pieces(const Places& places, const Mesh& wanted, bool by_material, std::string& path, Known& known) const;
+  static std::vector<MeshPiece> from_code(const base::Place& place, const std::string& file);
   std::vector<MeshPiece> from_gltf(const Places& places, const Mesh& wanted, const std::string& path, const std::string& bytes,
                                    bool by_material, Known& known) const;
   void check_expected(const base::Place& place, const std::string& file, const std::string& path, const std::string& sha256) const;

@@ -96,7 +96,9 @@ template <>
 const Table& table_of<Mesh>() {
   static const Table rows =
       table<Mesh>(
-          words<&Mesh::file>("file", "a file", "chair.glb", "OBJ, PLY, STL or glTF, beside the scene or below").required(),
+          words<&Mesh::file>("file", "a file", "chair.glb",
+                             "OBJ, PLY, STL or glTF, beside the scene or below; or tofray:bumpy-ball, tofray:wavy-floor")
+              .required(),
           number<&Mesh::scale>("scale", {none, {1e-9, 1e9}, "0.001"}, "of the file's numbers, to metres: 0.001 where they are mm"),
           choice<&Mesh::up>(
               "up", {"automatic", "y", "z", "-y"},

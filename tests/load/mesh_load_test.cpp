@@ -4,6 +4,9 @@
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 
+#include <cmath>
+#include <map>
+
 #include "load/load.h"
 #include "support/samples.h"
 
@@ -124,4 +127,33 @@ TEST_F(mesh_files, lose_triangles_that_are_nowhere) {
   for (const auto& v : one.triangles->vertices)
     for (const float x : v) EXPECT_TRUE(std::isfinite(x) && std::abs(x) <= 1e5f);
   EXPECT_TRUE(tells(refusal("file: corner.obj, scale: 1e9"), "no triangle of")) << refusal("file: corner.obj, scale: 1e9");
+}
+
+// Closed: each edge is that of two triangles, once each way. Radii as their header says.
+TEST_F(mesh_files, need_not_be_where_tofray_has_the_mesh_itself) {
+  const Mesh ball = mesh("file: \"tofray:bumpy-ball\""), floor = mesh("file: \"tofray:wavy-floor\", scale: 0.5");
+  EXPECT_EQ(ball.triangles->triangles.size(), 81920U);
+  EXPECT_EQ(floor.triangles->triangles.size(), 20000U);
+  EXPECT_TRUE(ball.sha256.empty());
+  float least = 1, most = 0;
+  for (const V& v : ball.triangles->vertices) {
+    const float r = std::hypot(v[0], v[1], v[2]);
+    least = std::min(least, r), most = std::max(most, r);
+  }
+  EXPECT_TRUE(least >= 0.46f && least < 0.475f) << least;
+  EXPECT_TRUE(most > 0.525f && most <= 0.54f) << most;
+  std::map<std::pair<int, int>, int> edges;
+  for (const auto& t : ball.triangles->triangles)
+    for (std::size_t i = 0; i < 3; ++i) ++edges[{t[i], t[(i + 1) % 3]}];
+  for (const auto& [edge, times] : edges) {
+    ASSERT_EQ(times, 1);
+    ASSERT_EQ(edges.count({edge.second, edge.first}), 1U);
+  }
+  for (const V& v : floor.triangles->vertices) {
+    ASSERT_TRUE(std::abs(v[0]) <= 1.0f && std::abs(v[1]) <= 0.01f && std::abs(v[2]) <= 1.0f);
+  }
+  EXPECT_TRUE(
+      tells(refusal("file: \"tofray:bunny\""),
+            "there is no mesh \"tofray:bunny\" in tofray itself\n  expected a file, or one of tofray:bumpy-ball, tofray:wavy-floor"))
+      << refusal("file: \"tofray:bunny\"");
 }
