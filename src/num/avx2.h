@@ -35,6 +35,8 @@ struct Traits<F32x8> {
   using Int = I32x8;
   using Uint = U32x8;
   using Mask = Mask8;
+  using Eight = F32x8;
+  using Square = Twin<F32x8>;
   static constexpr int lanes = 8;
 };
 
@@ -55,6 +57,7 @@ TOFRAY_FN Mask8 operator|(Mask8 a, Mask8 b) { return {_mm256_or_ps(a.v, b.v)}; }
 TOFRAY_FN Mask8 operator!(Mask8 a) { return {_mm256_xor_ps(a.v, _mm256_castsi256_ps(_mm256_set1_epi32(-1)))}; }
 TOFRAY_FN bool any(Mask8 a) { return _mm256_movemask_ps(a.v) != 0; }
 TOFRAY_FN bool all(Mask8 a) { return _mm256_movemask_ps(a.v) == 0xff; }
+TOFRAY_FN std::uint32_t lanes_of(Mask8 a) { return static_cast<std::uint32_t>(_mm256_movemask_ps(a.v)); }
 
 TOFRAY_FN I32x8 operator+(I32x8 a, I32x8 b) { return _mm256_add_epi32(a.v, b.v); }
 TOFRAY_FN I32x8 operator-(I32x8 a, I32x8 b) { return _mm256_sub_epi32(a.v, b.v); }
@@ -74,6 +77,7 @@ TOFRAY_FN U32x8 operator<<(U32x8 a, int n) { return _mm256_slli_epi32(a.v, n); }
 TOFRAY_FN U32x8 operator>>(U32x8 a, int n) { return _mm256_srli_epi32(a.v, n); }
 
 TOFRAY_FN F32x8 fma(F32x8 a, F32x8 b, F32x8 c) { return _mm256_fmadd_ps(a.v, b.v, c.v); }
+TOFRAY_FN F32x8 fms(F32x8 a, F32x8 b, F32x8 c) { return _mm256_fmsub_ps(a.v, b.v, c.v); }
 TOFRAY_FN F32x8 fnma(F32x8 a, F32x8 b, F32x8 c) { return _mm256_fnmadd_ps(a.v, b.v, c.v); }
 TOFRAY_FN F32x8 sqrt(F32x8 a) { return _mm256_sqrt_ps(a.v); }
 TOFRAY_FN F32x8 min(F32x8 a, F32x8 b) { return _mm256_min_ps(a.v, b.v); }
@@ -142,8 +146,14 @@ struct Memory<F32x8> {
   TOFRAY_FN static F32x8 load(const float* from, int n) {
     return n >= 8 ? _mm256_loadu_ps(from) : _mm256_maskload_ps(from, first_lanes8(n));
   }
+  TOFRAY_FN static F32x8 load_square(const float* from, int row) {
+    return _mm256_insertf128_ps(_mm256_castps128_ps256(_mm_loadu_ps(from)), _mm_loadu_ps(from + row), 1);
+  }
   TOFRAY_FN static I32x8 load_int(const std::int32_t* from, int n) { return _mm256_maskload_epi32(from, first_lanes8(n)); }
 };
+TOFRAY_FN void store_square(float* to, int row, F32x8 a) {
+  _mm_storeu_ps(to, _mm256_castps256_ps128(a.v)), _mm_storeu_ps(to + row, _mm256_extractf128_ps(a.v, 1));
+}
 TOFRAY_FN void store(float* to, F32x8 a, int n) {
   if (n >= 8) {
     _mm256_storeu_ps(to, a.v);

@@ -3,7 +3,7 @@
 #pragma once
 #include <immintrin.h>
 
-#include "num/num.h"
+#include "num/avx2.h"
 
 /// Sixteen lanes with AVX-512 (F, BW, DQ, VL).
 namespace tofray::num {
@@ -35,6 +35,8 @@ struct Traits<F32x16> {
   using Int = I32x16;
   using Uint = U32x16;
   using Mask = Mask16;
+  using Eight = F32x8;
+  using Square = F32x16;
   static constexpr int lanes = 16;
 };
 
@@ -55,6 +57,7 @@ TOFRAY_FN Mask16 operator|(Mask16 a, Mask16 b) { return {_kor_mask16(a.v, b.v)};
 TOFRAY_FN Mask16 operator!(Mask16 a) { return {_knot_mask16(a.v)}; }
 TOFRAY_FN bool any(Mask16 a) { return a.v != 0; }
 TOFRAY_FN bool all(Mask16 a) { return a.v == 0xffff; }
+TOFRAY_FN std::uint32_t lanes_of(Mask16 a) { return a.v; }
 
 TOFRAY_FN I32x16 operator+(I32x16 a, I32x16 b) { return _mm512_add_epi32(a.v, b.v); }
 TOFRAY_FN I32x16 operator-(I32x16 a, I32x16 b) { return _mm512_sub_epi32(a.v, b.v); }
@@ -74,6 +77,7 @@ TOFRAY_FN U32x16 operator<<(U32x16 a, int n) { return _mm512_slli_epi32(a.v, sta
 TOFRAY_FN U32x16 operator>>(U32x16 a, int n) { return _mm512_srli_epi32(a.v, static_cast<unsigned>(n)); }
 
 TOFRAY_FN F32x16 fma(F32x16 a, F32x16 b, F32x16 c) { return _mm512_fmadd_ps(a.v, b.v, c.v); }
+TOFRAY_FN F32x16 fms(F32x16 a, F32x16 b, F32x16 c) { return _mm512_fmsub_ps(a.v, b.v, c.v); }
 TOFRAY_FN F32x16 fnma(F32x16 a, F32x16 b, F32x16 c) { return _mm512_fnmadd_ps(a.v, b.v, c.v); }
 TOFRAY_FN F32x16 sqrt(F32x16 a) { return _mm512_sqrt_ps(a.v); }
 TOFRAY_FN F32x16 min(F32x16 a, F32x16 b) { return _mm512_min_ps(a.v, b.v); }
@@ -122,8 +126,10 @@ TOFRAY_FN std::int32_t lane(I32x16 a, int i) {
   return all_lanes[i];
 }
 
-TOFRAY_FN float lowest(F32x16 a) { return _mm512_reduce_min_ps(a.v); }
-TOFRAY_FN float highest(F32x16 a) { return _mm512_reduce_max_ps(a.v); }
+TOFRAY_FN F32x8 low_half(F32x16 a) { return _mm512_extractf32x8_ps(a.v, 0); }
+TOFRAY_FN F32x8 high_half(F32x16 a) { return _mm512_extractf32x8_ps(a.v, 1); }
+TOFRAY_FN float lowest(F32x16 a) { return lowest(min(low_half(a), high_half(a))); }
+TOFRAY_FN float highest(F32x16 a) { return highest(max(low_half(a), high_half(a))); }
 
 TOFRAY_FN __mmask16 first_lanes16(int n) { return static_cast<__mmask16>(n >= 16 ? 0xffffu : (1u << n) - 1u); }
 template <>
@@ -132,10 +138,17 @@ struct Memory<F32x16> {
   TOFRAY_FN static F32x16 load(const float* from, int n) {
     return n >= 16 ? _mm512_loadu_ps(from) : _mm512_maskz_loadu_ps(first_lanes16(n), from);
   }
+  TOFRAY_FN static F32x16 load_square(const float* from, int row) {
+    return _mm512_insertf32x8(_mm512_castps256_ps512(Memory<F32x8>::load_square(from, row).v),
+                              Memory<F32x8>::load_square(from + 2 * row, row).v, 1);
+  }
   TOFRAY_FN static I32x16 load_int(const std::int32_t* from, int n) {
     return n >= 16 ? _mm512_loadu_si512(from) : _mm512_maskz_loadu_epi32(first_lanes16(n), from);
   }
 };
+TOFRAY_FN void store_square(float* to, int row, F32x16 a) {
+  store_square(to, row, low_half(a)), store_square(to + 2 * row, row, high_half(a));
+}
 // Whole packs go without a mask: masked stores are slower on some machines, and conversion within a masked store much slower.
 TOFRAY_FN void store(float* to, F32x16 a, int n) {
   if (n >= 16) {

@@ -27,6 +27,8 @@ namespace tofray::num {
 
 template <class F>
 struct Traits;
+template <class Half>
+struct Twin;
 
 template <>
 struct Traits<float> {
@@ -45,6 +47,12 @@ using Mask = typename Traits<F>::Mask;
 template <class F>
 constexpr int lanes = Traits<F>::lanes;
 
+/// Eight lanes, and 4 × 4, on a machine that has F.
+template <class F>
+using Eight = typename Traits<F>::Eight;
+template <class F>
+using Square = typename Traits<F>::Square;
+
 TOFRAY_FN float single(double a) { return static_cast<float>(a); }
 /// a·b + c, rounded once.
 TOFRAY_FN float fma(float a, float b, float c) {
@@ -55,7 +63,8 @@ TOFRAY_FN float fma(float a, float b, float c) {
 #endif
 }
 /// c − a·b, rounded once.
-TOFRAY_FN float fnma(float a, float b, float c) { return fma(-a, b, c); }
+TOFRAY_FN float fms(float a, float b, float c) { return fma(a, b, -c); }   ///< a·b − c
+TOFRAY_FN float fnma(float a, float b, float c) { return fma(-a, b, c); }  ///< c − a·b
 TOFRAY_FN float sqrt(float a) {
 #if defined(__CUDA_ARCH__)
   return __fsqrt_rn(a);
@@ -104,6 +113,7 @@ TOFRAY_FN std::int32_t select(bool m, std::int32_t a, std::int32_t b) { return m
 TOFRAY_FN std::uint32_t select(bool m, std::uint32_t a, std::uint32_t b) { return m ? a : b; }
 TOFRAY_FN bool any(bool m) { return m; }
 TOFRAY_FN bool all(bool m) { return m; }
+TOFRAY_FN std::uint32_t lanes_of(bool m) { return m ? 1u : 0u; }  ///< a bit for each lane
 
 /// Toward zero. The argument must fit: machines differ beyond.
 TOFRAY_FN std::int32_t to_int(float a) { return static_cast<std::int32_t>(a); }
@@ -165,6 +175,12 @@ template <class F>
 TOFRAY_FN Int<F> lane_index() {
   return Memory<F>::lane_index();
 }
+/// Lanes in rows of four, one row of memory below the other.
+template <class F>
+TOFRAY_FN F load_square(const float* from, int row) {
+  return Memory<F>::load_square(from, row);
+}
+TOFRAY_FN void store_square(float* to, int, float a) { *to = a; }
 TOFRAY_FN void store(float* to, float a, int) { *to = a; }
 TOFRAY_FN void store(std::int32_t* to, std::int32_t a, int) { *to = a; }
 TOFRAY_FN void store(std::uint16_t* to, std::int32_t a, int) { *to = static_cast<std::uint16_t>(a); }

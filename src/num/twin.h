@@ -38,6 +38,8 @@ struct Traits<Twin<Half>> {
   using Int = TwinInt<Half>;
   using Uint = TwinUint<Half>;
   using Mask = TwinMask<Half>;
+  using Eight = typename Traits<Half>::Eight;
+  using Square = typename Traits<Half>::Square;
   static constexpr int lanes = 2 * num::lanes<Half>;
 };
 
@@ -112,6 +114,10 @@ TOFRAY_FN Twin<H> fma(Twin<H> x, Twin<H> y, Twin<H> z) {
   return {fma(x.a, y.a, z.a), fma(x.b, y.b, z.b)};
 }
 template <class H>
+TOFRAY_FN Twin<H> fms(Twin<H> x, Twin<H> y, Twin<H> z) {
+  return {fms(x.a, y.a, z.a), fms(x.b, y.b, z.b)};
+}
+template <class H>
 TOFRAY_FN Twin<H> fnma(Twin<H> x, Twin<H> y, Twin<H> z) {
   return {fnma(x.a, y.a, z.a), fnma(x.b, y.b, z.b)};
 }
@@ -146,6 +152,11 @@ TOFRAY_FN bool any(TwinMask<H> m) {
 template <class H>
 TOFRAY_FN bool all(TwinMask<H> m) {
   return all(m.a & m.b);
+}
+
+template <class H>
+TOFRAY_FN std::uint32_t lanes_of(TwinMask<H> m) {
+  return lanes_of(m.a) | lanes_of(m.b) << lanes<H>;
 }
 
 template <class H>
@@ -199,11 +210,18 @@ struct Memory<Twin<H>> {
   TOFRAY_FN static TwinInt<H> load_int(const std::int32_t* from, int n) {
     return {num::load_int<H>(from, n), num::load_int<H>(from + lanes<H>, beyond<H>(n))};
   }
+  TOFRAY_FN static Twin<H> load_square(const float* from, int row) {
+    return {num::load_square<H>(from, row), num::load_square<H>(from + lanes<H> / 4 * row, row)};
+  }
   TOFRAY_FN static TwinInt<H> lane_index() { return {num::lane_index<H>(), num::lane_index<H>() + Int<H>(lanes<H>)}; }
 };
 template <class H>
 TOFRAY_FN void store(float* to, Twin<H> x, int n) {
   store(to, x.a, n), store(to + lanes<H>, x.b, beyond<H>(n));
+}
+template <class H>
+TOFRAY_FN void store_square(float* to, int row, Twin<H> x) {
+  store_square(to, row, x.a), store_square(to + lanes<H> / 4 * row, row, x.b);
 }
 template <class H, class Element>
 TOFRAY_FN void store(Element* to, TwinInt<H> x, int n) {

@@ -56,16 +56,20 @@ struct ShadowRays {
   TOFRAY_FN num::Mask<F> of_light(int l, const flow::Ray<F>& from_light, const flow::Surface<F>& p) {
     near.look(moment, l, from_light, p.found);
     num::Mask<F> dark = F(1.0f) < F(0.0f);
-    if (still) dark = trace::blocked(near.still_from(s, l), from_light, p);
+    if (still) dark = trace::blocked(near.still_from(s, l), from_light, p) | near.template behind_still_meshes<F>(l);
     if (moving) {
-      dark = dark | trace::blocked(near.moving_from(s, moment, l), from_light, p);
+      dark = dark | trace::blocked(near.moving_from(s, moment, l), from_light, p) | near.template behind_moving_meshes<F>(l);
     }
     return dark;
   }
   TOFRAY_FN num::Mask<F> of_sun(const flow::Surface<F>& p) {
     num::Mask<F> dark = F(1.0f) < F(0.0f);
-    if (still) dark = trace::blocked_parallel(s.scene.sun_still(), s.power.sun_direction, p);
-    if (moving) dark = dark | trace::blocked_parallel(s.scene.sun_moving(moment), s.power.sun_direction, p);
+    if (still)
+      dark = trace::blocked_parallel(s.scene.sun_still(), s.power.sun_direction, p) | near.template behind_still_meshes<F>(near.sun);
+    if (moving) {
+      dark = dark | trace::blocked_parallel(s.scene.sun_moving(moment), s.power.sun_direction, p) |
+             near.template behind_moving_meshes<F>(near.sun);
+    }
     return dark;
   }
 };
@@ -109,7 +113,8 @@ TOFRAY_FN num::Mask<F> in_moving_shadow(const Setup& s, Near& near, int moment, 
 ///
 /// @param near   what the pixels can meet: still_from_camera(s), moving_from_camera(s, moment), and from each light. It knows moves(s);
 ///               any(mask), whether it is true for any pixel that goes the same way; can_be_shaded(s), false where nothing that moves can
-///               stand before a light; and look(…), which is told of each shadow ray
+///               stand before a light; look(…), which is told of each shadow ray; and, where meshes are looked at by all pixels of a
+///               tile at once, what that found: behind_still_meshes(light), behind_moving_meshes(light), the sun being one, too
 /// @param still  what they would hit if nothing moved
 /// @return false where `light` is as it was
 template <class F, class Near>

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The tofray authors
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-#include "pipeline/one_pixel.h"
+#include "pipeline/tile_meshes.h"
 
 /// One tile of pixels of the processor: what it can meet, and its pixels pack by pack.
 namespace tofray::pipeline {
@@ -47,11 +47,6 @@ struct Rectangle {
   }
   TOFRAY_FN flow::Bounds bounds() const { return {num::lowest(x_min), num::highest(x_max), num::lowest(y_min), num::highest(y_max)}; }
 };
-
-template <class F>
-TOFRAY_FN num::Mask<F> in_use(const Pixels& p) {
-  return num::lane_index<F>() < num::Int<F>(p.count);
-}
 
 /// What one light sees of the tile: the way from the light to a surface point is (d − w·L)/w for the ray d that hits it.
 /// @return false where that is no rectangle ahead of the light
@@ -101,6 +96,31 @@ struct Near {
   TOFRAY_FN const trace::Culled& moving_from_camera(const Setup&, int) const { return camera_moving; }
   TOFRAY_FN const trace::Culled& still_from(const Setup&, int light) const { return light_still[light]; }
   TOFRAY_FN const trace::Culled& moving_from(const Setup&, int, int light) const { return light_moving[light]; }
+
+  /// What meshes keep from the lights and the sun, where all pixels of the tile look at them at once.
+  static constexpr int sun = flow::max_lights;
+  bool has_shades;
+  int pack;                                                                               ///< that is asked for
+  MeshShade still_shade[sun + 1];                                                         ///< on what stands still
+  MeshShade current_shade[can_move ? sun + 1 : 1], moving_shade[can_move ? sun + 1 : 1];  ///< on what is seen at one moment
+  const MeshShade* shade_now;                                                             ///< of meshes that stand still
+  template <class F>
+  TOFRAY_FN num::Mask<F> behind_still_meshes(int light) const {
+    return in<F>(shade_now, light);
+  }
+  template <class F>
+  TOFRAY_FN num::Mask<F> behind_moving_meshes(int light) const {
+    return in<F>(moving_shade, light);
+  }
+
+ private:
+  template <class F>
+  TOFRAY_FN num::Mask<F> in(const MeshShade* shades, int light) const {
+    if constexpr (shape::has_beams<F>) {
+      if (has_shades && shades[light].any) return shape::load_all<F>(shades[light].dark + pack * num::lanes<F>) > F(0.0f);
+    }
+    return F(1.0f) < F(0.0f);
+  }
 };
 
 /// Scratch memory of one worker.
@@ -108,6 +128,9 @@ template <class F, bool can_move>
 struct Scratch {
   Near<can_move> near;
   SeenByLights seen;
+  trace::TileRays rays;
+  TilePoints points;
+  alignas(64) trace::TileRays::Array changed;      ///< pixels that do not see what stands still
   flow::Hit<F> still[max_packs<F>];                ///< of what stands still
   flow::Hit<F> hits[can_move ? max_packs<F> : 1];  ///< of all, at one moment
   Pack<F> pack[can_move ? max_packs<F> : 1];       ///< where there is one moment, nothing is kept of a pack once the next one begins
@@ -128,6 +151,8 @@ class TileWalk {
       const Pixels p = pixels(q);
       if (p.count > 0) scratch.still[q] = see_still(s, scratch.near, camera::ray<F>(s.lens, p));
     }
+    see_meshes<F>(s, *this, scratch.near.camera_still, scratch.rays, scratch.still);
+    scratch.near.has_shades = trace::any_mesh(s.scene);
   }
 
   TOFRAY_FN int moments() const { return can_move ? s_.sensor.raw_frames : 1; }
@@ -141,19 +166,17 @@ class TileWalk {
   TOFRAY_FN void go_to(const Moment& now) {
     if constexpr (can_move) see_what_moves(now.index);
     if (s_.last_stage < Stage::power) return;
-    if (!(culled_for_still_ && hits_ == scratch_.still)) {
-      for (int l = 0; l < s_.scene.lights; ++l) {
-        scratch_.seen.none[l] = s_.culling == 0 || !seen_by_light(s_, tile_, hits_, l, scratch_.seen.bounds[l]);
-        trace::cull(s_.scene.light_still(l), scratch_.seen.of(l), scratch_.near.light_still[l]);
-      }
-      culled_for_still_ = hits_ == scratch_.still;
-    }
+    look_from_lights(hits_);
     for (int l = 0; can_move && l < s_.scene.lights; ++l) {
       trace::cull(s_.scene.light_moving(now.index, l), scratch_.seen.of(l), scratch_.near.light_moving[l]);
+    }
+    if constexpr (shape::has_beams<F>) {
+      if (scratch_.near.has_shades) shade(now.index);
     }
   }
 
   TOFRAY_FN bool find_light(const Moment& now, int q, const Pixels& p, const flow::Ray<F>& ray, F vignetting, Pack<F>& pack) {
+    scratch_.near.pack = q;
     return light_of_scene(s_, job_, scratch_.near, now, p, ray, scratch_.still[q], hits_[q], vignetting, pack.light, pack.undisturbed);
   }
 
@@ -168,6 +191,47 @@ class TileWalk {
       const Pixels p = pixels(q);
       if (p.count > 0) scratch_.hits[q] = see_moving(s_, scratch_.near, moment, camera::ray<F>(s_.lens, p), scratch_.still[q]);
     }
+    see_meshes<F>(s_, *this, scratch_.near.camera_moving, scratch_.rays, scratch_.hits);
+  }
+
+  /// What of the scene can come between a light and what the pixels see.
+  TOFRAY_FN void look_from_lights(const flow::Hit<F>* hits) {
+    if (seen_from_lights_ == scratch_.still && hits == scratch_.still) return;
+    for (int l = 0; l < s_.scene.lights; ++l) {
+      scratch_.seen.none[l] = s_.culling == 0 || !seen_by_light(s_, tile_, hits, l, scratch_.seen.bounds[l]);
+      trace::cull(s_.scene.light_still(l), scratch_.seen.of(l), scratch_.near.light_still[l]);
+    }
+    seen_from_lights_ = hits;
+  }
+
+  /// What meshes keep from the lights. What stands still is in the shade of what stands still at all moments.
+  TOFRAY_FN void shade(int moment) {
+    Near<can_move>& near = scratch_.near;
+    const bool sees_still = hits_ == scratch_.still;
+    near.shade_now = near.still_shade;
+    if (!still_is_shaded_) {
+      look_from_lights(scratch_.still);
+      shade_by_still(scratch_.still, nullptr, near.still_shade);
+      look_from_lights(hits_);
+      still_is_shaded_ = true;
+    }
+    if constexpr (can_move) {
+      if (!sees_still) {
+        put_changed(scratch_.still, hits_, scratch_.changed);
+        const KnownShades known{near.still_shade, scratch_.changed};
+        shade_by_still(hits_, &known, near.current_shade);
+        near.shade_now = near.current_shade;
+      } else if (points_of_ != hits_) {
+        put_points(s_, *this, hits_, scratch_.points);
+        points_of_ = hits_;
+      }
+      find_shades<F>(s_, near.light_moving, s_.scene.sun_moving(moment), scratch_.points, nullptr, scratch_.rays, near.moving_shade);
+    }
+  }
+  TOFRAY_FN void shade_by_still(const flow::Hit<F>* hits, const KnownShades* known, MeshShade* shades) {
+    put_points(s_, *this, hits, scratch_.points);
+    points_of_ = hits;
+    find_shades<F>(s_, scratch_.near.light_still, s_.scene.sun_still(), scratch_.points, known, scratch_.rays, shades);
   }
 
   const Setup& s_;
@@ -176,7 +240,9 @@ class TileWalk {
   Tile tile_;
   const flow::Bounds* view_;
   const flow::Hit<F>* hits_;
-  bool culled_for_still_ = false;  // near.light_still and `seen` are those of scratch.still
+  const flow::Hit<F>* seen_from_lights_ = nullptr;  // near.light_still and `seen` are those of these hits
+  const flow::Hit<F>* points_of_ = nullptr;
+  bool still_is_shaded_ = false;
   Pack<F> here_;
 };
 

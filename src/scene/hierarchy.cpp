@@ -13,8 +13,8 @@ namespace {
 using shape::MeshNode;
 
 constexpr int bins = 16;
-constexpr std::int32_t usual_leaf = 8;  ///< triangles that are not worth a cut
-constexpr int greedy_levels = 18;       ///< below them a node is cut in halves: eight of them reach any number of triangles
+constexpr std::size_t leaf_size = shape::block_width;  ///< triangles that are not worth a cut
+constexpr int greedy_levels = 18;                      ///< below them a node is cut in halves: eight of them reach any number of triangles
 
 /// Boxes by their corners. An empty one is the wrong way round.
 struct Bounds3 {
@@ -58,7 +58,7 @@ class Builder {
 
   void build() {
     const Range all = range(0, items_.size());
-    out_.triangles.reserve(items_.size());
+    out_.triangles.reserve(items_.size() / 4);
     out_.nodes.emplace_back();
     struct Job {
       std::int32_t node;
@@ -75,7 +75,7 @@ class Builder {
       for (const Range& part : parts) {
         const auto i = static_cast<std::size_t>(node.children++);
         for (std::size_t k = 0; k < 3; ++k) node.low[k][i] = part.bounds.low[k], node.high[k][i] = part.bounds.high[k];
-        if (part.count() <= static_cast<std::size_t>(usual_leaf)) {
+        if (part.count() <= leaf_size) {
           node.child[i] = leaf(part);
         } else {
           node.child[i] = static_cast<std::int32_t>(out_.nodes.size());
@@ -98,11 +98,11 @@ class Builder {
   /// Up to eight parts: the one with the largest box is cut again and again; far down, the one with the most triangles.
   std::vector<Range> divided(const Range& whole, int level) {
     std::vector<Range> parts = {whole};
-    while (parts.size() < MeshNode::width) {
+    while (parts.size() < shape::mesh_width) {
       std::size_t best = parts.size();
       float most = -1;
       for (std::size_t i = 0; i < parts.size(); ++i) {
-        if (parts[i].count() <= static_cast<std::size_t>(usual_leaf)) continue;
+        if (parts[i].count() <= leaf_size) continue;
         const float size = level < greedy_levels ? parts[i].bounds.half_area() : static_cast<float>(parts[i].count());
         if (size > most) most = size, best = i;
       }
@@ -149,19 +149,21 @@ class Builder {
     return static_cast<std::size_t>(middle - items_.begin());
   }
 
+  /// A leaf costs as much whether it is full or not.
+  static float blocks(std::size_t count) { return static_cast<float>((count + leaf_size - 1) / leaf_size); }
+
   static void cheapest(const std::array<Bin, bins>& table, std::size_t axis, Cut& best) {
     std::array<float, bins> after{};
     Bounds3 bounds;
     std::size_t count = 0;
     for (std::size_t i = bins - 1; i > 0; --i) {
       bounds.add(table[i].bounds), count += table[i].count;
-      after[i] = count == 0 ? std::numeric_limits<float>::infinity() : bounds.half_area() * static_cast<float>(count);
+      after[i] = count == 0 ? std::numeric_limits<float>::infinity() : bounds.half_area() * blocks(count);
     }
     bounds = {}, count = 0;
     for (std::size_t i = 0; i + 1 < bins; ++i) {
       bounds.add(table[i].bounds), count += table[i].count;
-      const float cost =
-          count == 0 ? std::numeric_limits<float>::infinity() : bounds.half_area() * static_cast<float>(count) + after[i + 1];
+      const float cost = count == 0 ? std::numeric_limits<float>::infinity() : bounds.half_area() * blocks(count) + after[i + 1];
       if (cost < best.cost) best = {cost, axis, i};
     }
   }
@@ -181,15 +183,16 @@ class Builder {
   }
 
   std::int32_t leaf(const Range& part) {
-    const auto first = static_cast<std::int32_t>(out_.triangles.size());
-    for (std::size_t i = part.first; i < part.last; ++i) {
-      shape::MeshTriangle triangle{{}, items_[i].number};
-      const auto& corners = mesh_.triangles[static_cast<std::size_t>(items_[i].number)];
+    const auto block = static_cast<std::int32_t>(out_.triangles.size());
+    shape::MeshTriangles& triangles = out_.triangles.emplace_back();
+    for (std::size_t i = 0; i < shape::block_width; ++i) {
+      const std::int32_t number = items_[std::min(part.first + i, part.last - 1)].number;
+      triangles.number[i] = number;
+      const auto& corners = mesh_.triangles[static_cast<std::size_t>(number)];
       for (std::size_t c = 0; c < 3; ++c)
-        for (std::size_t k = 0; k < 3; ++k) triangle.corner[c][k] = mesh_.vertices[static_cast<std::size_t>(corners[c])][k];
-      out_.triangles.push_back(triangle);
+        for (std::size_t k = 0; k < 3; ++k) triangles.corner[c][k][i] = mesh_.vertices[static_cast<std::size_t>(corners[c])][k];
     }
-    return shape::leaf_of(first, static_cast<std::int32_t>(part.count()));
+    return shape::leaf_of(block, static_cast<std::int32_t>(part.count()));
   }
 
   void box(const Range& all) {

@@ -11,7 +11,7 @@ namespace tofray::scene {
 /// A mesh as rays want it: its triangles in boxes within boxes (shape/mesh.h walks them).
 struct Hierarchy {
   std::vector<shape::MeshNode> nodes;  ///< [0] holds all; never empty
-  std::vector<shape::MeshTriangle> triangles;
+  std::vector<shape::MeshTriangles> triangles;
   shape::Vec center{}, half{};  ///< of the box round all of them
 };
 

@@ -67,14 +67,14 @@ TOFRAY_FN F affine(const Surface<F>& p, const float* m, float offset) {
   return num::fma(p.x, F(m[0]), num::fma(p.y, F(m[1]), num::fma(p.z, F(m[2]), F(offset))));
 }
 
-struct MeshTriangle;
+struct MeshTriangles;
 
 /// Where light lands: which way the surface faces there, what it belongs to, what it is made of. (All of a camera frame.)
 struct Facet {
   float number[9];      ///< flat: the unit normal; else what its shape's normal() reads
   std::int32_t curved;  ///< 0: flat; else 1 + the shape's place in the list
   std::int32_t object, material;
-  const MeshTriangle* triangles;  ///< of a mesh, one of which the hit names
+  const MeshTriangles* triangles;  ///< of a mesh, one of which the hit names
 };
 constexpr int facet_words = sizeof(Facet) / sizeof(float);
 

@@ -4,7 +4,7 @@
 #include "num/list.h"
 #include "shape/box.h"
 #include "shape/cylinder.h"
-#include "shape/mesh.h"
+#include "shape/mesh_search.h"
 #include "shape/plane.h"
 #include "shape/sphere.h"
 #include "shape/triangle.h"

@@ -12,6 +12,10 @@ using flow::Surface;
 using num::Int;
 using num::Mask;
 
+/// Whether forms of the shape T are searched for all pixels of a tile at once (mesh_tile.h), and left out here.
+template <class T, class F>
+constexpr bool by_tile = shape::many_of<T>&& num::lanes<F> > 1;
+
 /// The inverse range of the hit, 0 or less for none, and the facet that it names.
 template <class T, class F>
 TOFRAY_FN F hit_of(const typename T::Form& form, const Ray<F>& ray, Int<F>& facet) {
@@ -29,7 +33,9 @@ TOFRAY_FN F hit_of(const typename T::Form& form, const Ray<F>& ray, Int<F>& face
 template <class T, class F, class Culled>
 TOFRAY_FN void nearest_of(const Culled& culled, const Ray<F>& ray, Hit<F>& hit) {
   for (auto i = culled.template walk<T>(); i.more(); i.next()) {
-    if constexpr (shape::many_of<T>) {
+    if constexpr (by_tile<T, F>) {
+      return;
+    } else if constexpr (shape::many_of<T>) {
       nearest_in(i.form(), ray, hit);
     } else {
       Int<F> facet;
@@ -58,6 +64,14 @@ template <class F>
 TOFRAY_FN void put_at(const Ray<F>& ray, F t, Surface<F>& out) {
   out.x = ray.x * t, out.y = ray.y * t, out.z = ray.z * t;
   out.range = ray.square * ray.inverse_length * t;
+}
+
+/// Puts a surface where the ray hits. @return the lanes that hit something
+template <class F>
+TOFRAY_FN Mask<F> place(const Ray<F>& ray, const Hit<F>& hit, Surface<F>& out) {
+  const auto found = hit.w > F(0.0f);
+  put_at(ray, F(1.0f) / num::select(found, hit.w, F(1.0f)), out);
+  return found;
 }
 
 /// Turns a surface's normal to the camera.
@@ -117,8 +131,7 @@ template <class F>
 TOFRAY_FN Surface<F> surface(const scene::SceneView& s, const Ray<F>& ray, const Hit<F>& hit) {
   const shape::FacetColumns<F> facet(s.facets, hit.facet);
   Surface<F> out;
-  out.found = hit.w > F(0.0f);
-  put_at(ray, F(1.0f) / num::select(out.found, hit.w, F(1.0f)), out);
+  out.found = place(ray, hit, out);
   const shape::Direction<F> n = normal_of(shape::Shapes{}, facet, hit.triangle, out);
   face_camera(n.x, n.y, n.z, ray, out);
   finish(s, facet, out.finish);

@@ -8,6 +8,7 @@ namespace tofray::trace {
 
 /// An occluder must be nearer to the light than the surface by this share of the distance: more than rounding, less than is seen.
 constexpr float shadow_margin = 1e-4f;
+constexpr float before_surface = 1.0f / (1.0f + shadow_margin);
 
 /// No object but a mesh shadows itself, since all others are flat or convex; but where light and camera are on different sides of a closed one, its surface
 /// is in the dark (`own_blocks`).
@@ -27,8 +28,10 @@ TOFRAY_FN Mask<F> blocked_by(const Culled& culled, const Ray<F>& ray, const Surf
   const F limit = F(1.0f + shadow_margin);
   for (auto i = culled.template walk<T>(); i.more(); i.next()) {
     const typename T::Form& form = i.form();
-    if constexpr (shape::many_of<T>) {
-      dark = dark | stands_before(form, ray, F(1.0f / (1.0f + shadow_margin)), p.found & (!dark));
+    if constexpr (by_tile<T, F>) {
+      return dark;
+    } else if constexpr (shape::many_of<T>) {
+      dark = dark | stands_before(form, ray, F(before_surface), p.found & (!dark));
     } else {
       Int<F> facet;
       dark = dark | shaded<T, F>(form, hit_of<T>(form, ray, facet) > limit, p.object);
@@ -52,6 +55,7 @@ TOFRAY_FN Mask<F> blocked(const Culled& culled, const Ray<F>& ray, const Surface
 
 template <class T, class F>
 TOFRAY_FN Mask<F> blocked_along(const scene::AlongsOf<T>& forms, const float* s, const Surface<F>& p, Mask<F> dark) {
+  if constexpr (by_tile<T, F>) return dark;
   const F margin = F(shadow_margin) * p.range;
   for (int i = 0; i < forms.count; ++i) {
     const Mask<F> hits = blocks(forms.at[i], p, s, margin);

@@ -20,13 +20,14 @@ namespace {
 
 struct Walk {
   const scene::Hierarchy& built;
+  const TriangleMesh& mesh;
   std::multiset<std::int32_t> numbers = {};
-  int deepest = 0;
+  int deepest = 0, triangles = 0;
 
   void node(std::int32_t index, int level, const float* low, const float* high) {
     deepest = std::max(deepest, level);
     const shape::MeshNode& node = built.nodes.at(static_cast<std::size_t>(index));
-    ASSERT_LE(node.children, shape::MeshNode::width);
+    ASSERT_LE(node.children, shape::mesh_width);
     for (int i = 0; i < node.children; ++i) {
       float its_low[3], its_high[3];
       for (int k = 0; k < 3; ++k) {
@@ -37,17 +38,25 @@ struct Walk {
       if (node.child[i] >= 0)
         this->node(node.child[i], level + 1, its_low, its_high);
       else
-        leaf(~node.child[i], its_low, its_high);
+        leaf(node.child[i], its_low, its_high);
     }
   }
 
   void leaf(std::int32_t code, const float* low, const float* high) {
-    ASSERT_GT(code % 16, 0);
-    for (int i = code / 16; i < code / 16 + code % 16; ++i) {
-      const shape::MeshTriangle& triangle = built.triangles.at(static_cast<std::size_t>(i));
-      numbers.insert(triangle.number);
-      for (const auto& corner : triangle.corner)
-        for (int k = 0; k < 3; ++k) ASSERT_TRUE(corner[k] >= low[k] && corner[k] <= high[k]);
+    const int count = shape::count_of(code);
+    ASSERT_GT(count, 0);
+    ASSERT_LE(count, shape::block_width);
+    const shape::MeshTriangles& block = built.triangles.at(static_cast<std::size_t>(shape::block_of(code)));
+    triangles += count;
+    for (int i = 0; i < shape::block_width; ++i) {
+      if (i < count) numbers.insert(block.number[i]);
+      ASSERT_EQ(numbers.count(block.number[i]), 1U);
+      for (std::size_t c = 0; c < 3; ++c)
+        for (std::size_t k = 0; k < 3; ++k) {
+          ASSERT_TRUE(block.corner[c][k][i] >= low[k] && block.corner[c][k][i] <= high[k]);
+          const auto& corners = mesh.triangles[static_cast<std::size_t>(block.number[i])];
+          ASSERT_EQ(block.corner[c][k][i], mesh.vertices[static_cast<std::size_t>(corners[c])][k]);
+        }
     }
   }
 };
@@ -55,20 +64,15 @@ struct Walk {
 void check(const TriangleMesh& mesh) {
   const scene::Hierarchy built = scene::build_hierarchy(mesh);
   ASSERT_FALSE(built.nodes.empty());
-  ASSERT_EQ(built.triangles.size(), mesh.triangles.size());
   constexpr float all = std::numeric_limits<float>::infinity();
   const float low[3] = {-all, -all, -all}, high[3] = {all, all, all};
-  Walk walk{built};
+  Walk walk{built, mesh};
   walk.node(0, 1, low, high);
+  ASSERT_EQ(walk.triangles, static_cast<int>(mesh.triangles.size()));
   ASSERT_EQ(walk.numbers.size(), mesh.triangles.size());
   std::int32_t next = 0;
   for (const std::int32_t number : walk.numbers) ASSERT_EQ(number, next++);
   EXPECT_LE(walk.deepest, shape::most_mesh_levels);
-  for (const shape::MeshTriangle& triangle : built.triangles)
-    for (std::size_t c = 0; c < 3; ++c)
-      for (std::size_t k = 0; k < 3; ++k)
-        ASSERT_EQ(triangle.corner[c][k],
-                  mesh.vertices[static_cast<std::size_t>(mesh.triangles[static_cast<std::size_t>(triangle.number)][c])][k]);
 }
 
 /// Small triangles, each with corners of its own about a place.

@@ -51,6 +51,35 @@ Case random_case(int number) {
   return c;
 }
 
+/// Meshes that stand still and meshes that cross the view within a few raw frames, so that what is seen, and what is in whose shade,
+/// changes from one to the next; two lights aside and the sun.
+Case swift_case(int number) {
+  Random random(static_cast<std::uint64_t>(number) + 1000);
+  Case c{Scene{}, load_camera("pico-flexx")};
+  c.scene.materials = {{"matt", Material::Brdf::lambert, 0.7, 0, 1}};
+  c.scene.objects.push_back(object(Plane{{0, 0, 2.5}, Vec3{0.1, 0, -1}}));
+  for (int i = 0; i < 7; ++i) {
+    const Vec3 at = random.point(0.6) + Vec3{0, 0, 1.4};
+    Object one = object(shared(single(stone(random, 1 + i % 3, random.between(0.1, 0.3), {0, 0, 0}))));
+    one.position = at;
+    if (i >= 3) one.velocity_m_per_s = random.between(5, 60) * base::normalized(Vec3{random.between(-1, 1), random.between(-1, 1), 0.1});
+    c.scene.objects.push_back(one);
+  }
+  c.camera.sensor.width = 100, c.camera.sensor.height = 41;
+  Lens& lens = c.camera.lens;
+  lens.cx_px = 49.5, lens.cy_px = 20, lens.fx_px = lens.fy_px = 70;
+  c.camera.illumination[0].position = random.point(0.4);
+  if (number % 2 == 0) {
+    c.camera.illumination.push_back(c.camera.illumination[0]);
+    c.camera.illumination[1].position = random.point(0.4);
+  }
+  if (number % 3 != 0) {
+    c.scene.ambient.spectrum = Ambient::Spectrum::sun_am15;
+    c.scene.ambient.amount = 0.5, c.scene.ambient.direction = Vec3{0.1, 0.2, 1} + random.point(0.3);
+  }
+  return c;
+}
+
 template <class T>
 void same(const std::vector<T>& a, const std::vector<T>& b, const char* name) {
   ASSERT_EQ(a.size(), b.size()) << name;
@@ -85,10 +114,10 @@ void same(const Frame& a, const Frame& b) {
   same(a.depth.flags, b.depth.flags, "flags");
 }
 
-Frame render(const Case& c, Isa isa, bool culling, int threads = 1) {
+Frame render(const Case& c, Isa isa, bool culling, int threads = 1, std::uint64_t frame = 3) {
   SimulatorOptions options;
   options.seed = 7, options.isa = isa, options.culling = culling, options.threads = threads;
-  return Simulator(c.scene, c.camera, options).frame(3);
+  return Simulator(c.scene, c.camera, options).frame(frame);
 }
 
 /// Computed once for all instruction sets.
@@ -120,3 +149,25 @@ TEST_P(EveryIsa, renders_random_scenes_as_the_scalar_reference_without_culling) 
   EXPECT_GT(hits, with_sanitizers ? 40000 : 300000);
 }
 INSTANTIATE_TEST_SUITE_P(isa, EveryIsa, testing::Values(Isa::scalar, Isa::scalar_fma, Isa::avx2, Isa::avx512), isa_of);
+
+// Tiles look at meshes as a whole where the machine has packs; each ray by itself where it has none.
+TEST(swift_meshes, are_seen_and_shaded_alike_by_tiles_and_by_single_rays) {
+  int moving = 0, changing = 0;
+  for (int i = 0; i < (with_sanitizers ? 2 : 6); ++i) {
+    const Case c = swift_case(i);
+    const Frame reference = render(c, Isa::scalar, false, 1, 0);
+    SCOPED_TRACE("scene " + std::to_string(i));
+    const std::size_t pixels = reference.truth.object_id.size();
+    for (std::size_t p = 0; p < pixels; ++p) {
+      moving += reference.truth.object_id[p] > 3;
+      changing += reference.truth.signal_e[pixels + p] != reference.truth.signal_e[2 * pixels + p];
+    }
+    for (const Isa isa : {Isa::avx2, Isa::avx512}) {
+      if (!backend::can_run(isa)) continue;
+      same(render(c, isa, true, 1, 0), reference);
+      same(render(c, isa, false, 2, 0), reference);
+    }
+  }
+  EXPECT_GT(moving, 200);
+  EXPECT_GT(changing, 1000);
+}

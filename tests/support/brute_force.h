@@ -93,13 +93,14 @@ template <class T>
 void add_spans(const T& shape, const Vec3& o, const Vec3& d, std::vector<Span>& to) {
   to.push_back(span(shape, o, d));
 }
-/// One for each triangle.
+/// One for each triangle. (Where a block is not full its last one comes again.)
 inline void add_spans(const shape::Mesh& mesh, const Vec3& o, const Vec3& d, std::vector<Span>& to) {
-  for (int i = 0; i < mesh.triangle_count; ++i) {
+  for (int i = 0; i < mesh.block_count * shape::block_width; ++i) {
     shape::Triangle one;
     for (int c = 0; c < 3; ++c) {
-      const float* corner = mesh.triangles[i].corner[c];
-      const shape::Vec at{static_cast<double>(corner[0]), static_cast<double>(corner[1]), static_cast<double>(corner[2])};
+      const auto& corner = mesh.triangles[i / shape::block_width].corner[c];
+      const auto coordinate = [&](int k) { return static_cast<double>(corner[k][i % shape::block_width]); };
+      const shape::Vec at{coordinate(0), coordinate(1), coordinate(2)};
       one.vertex[c] = back(mesh.axes, at) + mesh.origin;
     }
     to.push_back(span(one, o, d));

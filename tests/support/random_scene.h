@@ -14,6 +14,30 @@ inline ClosedMesh stone(Random& random, int cuts, double size, const Vec3& middl
   return out;
 }
 
+/// What comes out of broken programs: no area, needles, corners as far away as the world goes, the same triangle twice.
+inline TriangleMesh garbage(Random& random, int count) {
+  TriangleMesh out;
+  for (int i = 0; i < 3 * count; ++i) {
+    const Vec3 at = random.below(4) == 0 ? random.scale(1e-35, 1e5) * random.direction() : random.point(1);
+    out.vertices.push_back({static_cast<float>(at[0]), static_cast<float>(at[1]), static_cast<float>(random.below(3) == 0 ? 0 : at[2])});
+  }
+  for (int i = 0; i < 3 * count; i += 3 * (1 + random.below(4))) {  // needles
+    const auto at = static_cast<std::size_t>(i);
+    const double share = random.uniform(), thick = random.scale(1e-9, 1e-3);
+    for (std::size_t k = 0; k < 3; ++k) {
+      const double a = static_cast<double>(out.vertices[at][k]), b = static_cast<double>(out.vertices[at + 1][k]);
+      out.vertices[at + 2][k] = static_cast<float>(a + share * (b - a) + thick * random.between(-1, 1));
+    }
+    out.triangles.push_back({i, i + 1, i + 2});
+  }
+  for (int i = 0; i < count; ++i) {
+    const auto corner = [&] { return random.below(3 * count); };
+    out.triangles.push_back(random.below(5) == 0 ? std::array{0, corner(), 0} : std::array{corner(), corner(), corner()});
+    if (random.below(5) == 0) out.triangles.push_back(out.triangles.back());
+  }
+  return out;
+}
+
 /// Some of everything before a slanted wall; half of it turned, and moving if asked for.
 inline Scene random_scene(Random& random, int objects, bool moving) {
   Scene scene;

@@ -27,6 +27,13 @@ struct Lying {
   explicit Lying(const TriangleMesh& triangles)
       : built(scene::build_hierarchy(triangles)), mesh(shape::Mesh::placed(built, {{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}}, {0, 0, 0}})) {}
   [[nodiscard]] shape::MeshForm seen_from(const Vec3& origin) const { return shape::seen_from(mesh, vec(origin)); }
+  /// Triangles as they lie in memory, some of them more than once.
+  [[nodiscard]] int places() const { return shape::block_width * static_cast<int>(built.triangles.size()); }
+  [[nodiscard]] const shape::MeshTriangles& block(int place) const {
+    return built.triangles[static_cast<std::size_t>(place / shape::block_width)];
+  }
+  [[nodiscard]] float corner(int place, int c, int k) const { return block(place).corner[c][k][place % shape::block_width]; }
+  [[nodiscard]] std::int32_t number(int place) const { return block(place).number[place % shape::block_width]; }
 };
 
 flow::Hit<float> look(const shape::MeshForm& form, const Ray& ray) {
@@ -37,15 +44,15 @@ flow::Hit<float> look(const shape::MeshForm& form, const Ray& ray) {
 
 /// The same, triangle by triangle.
 shape::MeshHit<float> look_at_all(const Lying& lying, const shape::MeshForm& form, const Ray& ray, float shortest) {
-  const shape::MeshRay<float> in = in_mesh(form, ray);
-  const float x = std::abs(in.direction[0]), y = std::abs(in.direction[1]), z = std::abs(in.direction[2]);
-  const shape::Sheared<float> along = sheared(in, x > y && x > z ? 0 : y > z ? 1 : 2);
+  const shape::MeshRay<float> in = in_mesh(form, {ray.x, ray.y, ray.z});
+  const shape::Sheared<float> along = shape::sheared(in.direction, shape::longest_of(in.direction));
   shape::MeshHit<float> best{std::numeric_limits<float>::max(), 0x7fffffff, -1};
-  for (std::size_t i = 0; i < lying.built.triangles.size(); ++i) {
+  for (int i = 0; i < lying.places(); ++i) {
     float t = 0;
-    const shape::MeshTriangle& triangle = lying.built.triangles[i];
-    if (!meet(triangle, along, t) || !(t > shortest)) continue;
-    if (t < best.t || (t == best.t && triangle.number < best.number)) best = {t, triangle.number, static_cast<std::int32_t>(i)};
+    const auto corner = [&](int c, int k) { return lying.corner(i, c, k) - in.origin[k]; };
+    if (!shape::meet<true>(corner, along, t) || !(t > shortest)) continue;
+    const std::int32_t number = lying.number(i);
+    if (t < best.t || (t == best.t && number < best.number)) best = {t, number, i};
   }
   return best;
 }
@@ -126,11 +133,10 @@ TEST(mesh, hierarchy_finds_what_a_look_at_every_triangle_finds) {
     for (int view = 0; view < 10; ++view) {
       const Vec3 origin = random.scale(1e-3, 1e3) * random.direction();
       const shape::MeshForm form = lying.seen_from(origin);
-      const auto& corners = lying.built.triangles;
       for (int i = 0; i < 200; ++i) {
-        const shape::MeshTriangle& triangle = corners[static_cast<std::size_t>(random.below(static_cast<int>(corners.size())))];
+        const int place = random.below(lying.places());
         Vec3 at{};
-        for (std::size_t k = 0; k < 3; ++k) at[k] = static_cast<double>(triangle.corner[random.below(3)][k]);
+        for (int k = 0; k < 3; ++k) at[static_cast<std::size_t>(k)] = static_cast<double>(lying.corner(place, random.below(3), k));
         const Vec3 aim = i % 2 == 0 ? at : at + 0.1 * lying.mesh.half.x * random.direction();
         same_as_all(lying, form, ray(aim - origin), met);
         if (HasFatalFailure()) return;
@@ -140,32 +146,12 @@ TEST(mesh, hierarchy_finds_what_a_look_at_every_triangle_finds) {
   EXPECT_GT(met, 20000);
 }
 
-// What comes out of broken programs: no area, needles, corners as far away as the world goes, the same triangle twice.
 TEST(mesh, garbage_is_found_as_by_a_look_at_every_triangle) {
   Random random(6);
   int met = 0;
   for (int trial = 0; trial < 1000; ++trial) {
-    TriangleMesh garbage;
-    const int count = random.below(60);
-    for (int i = 0; i < 3 * count; ++i) {
-      const Vec3 at = random.below(4) == 0 ? random.scale(1e-35, 1e5) * random.direction() : random.point(1);
-      garbage.vertices.push_back(
-          {static_cast<float>(at[0]), static_cast<float>(at[1]), static_cast<float>(random.below(3) == 0 ? 0 : at[2])});
-    }
-    for (int i = 0; i < 3 * count; i += 3 * (1 + random.below(4))) {  // needles
-      const auto at = static_cast<std::size_t>(i);
-      const double share = random.uniform(), thick = random.scale(1e-9, 1e-3);
-      for (std::size_t k = 0; k < 3; ++k) {
-        const double a = static_cast<double>(garbage.vertices[at][k]), b = static_cast<double>(garbage.vertices[at + 1][k]);
-        garbage.vertices[at + 2][k] = static_cast<float>(a + share * (b - a) + thick * random.between(-1, 1));
-      }
-      garbage.triangles.push_back({i, i + 1, i + 2});
-    }
-    for (int i = 0; i < count; ++i) {
-      const auto corner = [&] { return random.below(3 * count); };
-      garbage.triangles.push_back(random.below(5) == 0 ? std::array{0, corner(), 0} : std::array{corner(), corner(), corner()});
-      if (random.below(5) == 0) garbage.triangles.push_back(garbage.triangles.back());
-    }
+    const TriangleMesh garbage = test::garbage(random, random.below(60));
+    const int count = static_cast<int>(garbage.vertices.size()) / 3;
     const Lying lying(garbage);
     const Vec3 origin = trial % 2 == 0 ? Vec3{0, 0, 0} : random.scale(1e-3, 1e5) * random.direction();
     const shape::MeshForm form = lying.seen_from(origin);

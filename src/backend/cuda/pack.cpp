@@ -47,7 +47,7 @@ class Meshes {
   };
   struct Place {
     Pair<shape::MeshNode> nodes;
-    Pair<shape::MeshTriangle> triangles;
+    Pair<shape::MeshTriangles> triangles;
   };
 
   void put(const scene::Group& group) {
@@ -56,7 +56,7 @@ class Meshes {
       const shape::Mesh& mesh = bodies.at[i].shape;
       if (there(&Place::nodes, mesh.nodes) != nullptr) continue;
       places_.push_back({{mesh.nodes, packer_.put(mesh.nodes, count_of(mesh.node_count))},
-                         {mesh.triangles, packer_.put(mesh.triangles, count_of(mesh.triangle_count))}});
+                         {mesh.triangles, packer_.put(mesh.triangles, count_of(mesh.block_count))}});
     }
   }
   template <class T>

@@ -102,6 +102,16 @@ struct WarpNear {
   TOFRAY_FN WarpCulled<Warp> moving_from(const Setup& s, int moment, int light) const {
     return {warp, seen_by_light(), s.scene.light_moving(moment, light)};
   }
+  /// Each ray looks at meshes by itself.
+  static constexpr int sun = 0;
+  template <class F>
+  TOFRAY_FN bool behind_still_meshes(int) const {
+    return false;
+  }
+  template <class F>
+  TOFRAY_FN bool behind_moving_meshes(int) const {
+    return false;
+  }
 
  private:
   TOFRAY_FN const flow::Bounds* seen_by_light() const { return culling && !all_from_light ? &from_light : nullptr; }

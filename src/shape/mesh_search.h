@@ -1,0 +1,167 @@
+// SPDX-FileCopyrightText: 2026 The tofray authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "num/twin.h"
+#include "shape/mesh.h"
+
+/// Which triangle of a mesh a ray from anywhere meets, on any machine.
+namespace tofray::shape {
+
+/// A child that is still to be opened, and how near it begins for the nearest ray.
+struct MeshEntry {
+  std::int32_t child;
+  float near;
+};
+constexpr int most_mesh_stack = most_mesh_levels * (mesh_width - 1) + mesh_width;
+
+/// What of a mesh some rays meet that have the same longest coordinate.
+/// \tparam any  the first triangle that is met will do, and closes the ray
+template <bool any, class F>
+class MeshSearch {
+ public:
+  /// @param shortest  t must be above it
+  /// @param wanted    the rays of which z is the longest coordinate
+  TOFRAY_FN MeshSearch(const MeshNode* nodes, const MeshTriangles* triangles, const MeshRay<F>& ray, int z, F shortest, Mask<F> wanted,
+                       MeshHit<F>& hit)
+      : nodes_(nodes),
+        triangles_(triangles),
+        along_(sheared(ray.direction, z)),
+        origin_{ray.origin[0], ray.origin[1], ray.origin[2]},
+        shortest_(shortest),
+        open_(wanted),
+        hit_(hit) {
+    for (int k = 0; k < 3; ++k) {
+      inverse_[k] = F(1.0f) / num::copy_sign(num::max(num::abs(ray.direction[k]), F(1e-30f)), ray.direction[k]);
+      from_low_[k] = (ray.origin[k] + ray.slack) * inverse_[k], from_high_[k] = (ray.origin[k] - ray.slack) * inverse_[k];
+    }
+  }
+
+  TOFRAY_FN void run() {
+    open_node(nodes_[0]);
+    while (waiting_ > 0) {
+      const MeshEntry next = stack_[--waiting_];
+      if (!num::any(open_ & (hit_.t >= F(next.near)))) continue;
+      if (next.child >= 0) {
+        open_node(nodes_[next.child]);
+      } else {
+        test(next.child);
+        if (any && !num::any(open_)) return;
+      }
+    }
+  }
+
+ private:
+  /// Puts the children that a ray enters on the stack, the nearest on top.
+  TOFRAY_FN void open_node(const MeshNode& node) {
+    const int before = waiting_;
+    for (int i = 0; i < node.children; ++i) {
+      F enter = shortest_, leave = hit_.t;
+      for (int k = 0; k < 3; ++k) {
+        const F a = num::fma(F(node.low[k][i]), inverse_[k], -from_low_[k]), b = num::fma(F(node.high[k][i]), inverse_[k], -from_high_[k]);
+        enter = num::max(enter, num::min(a, b)), leave = num::min(leave, num::max(a, b));
+      }
+      const auto met = open_ & (enter <= leave);
+      if (!num::any(met)) continue;
+      const float near = num::lowest(num::select(met, enter, F(3e38f)));
+      int at = waiting_++;
+      for (; at > before && stack_[at - 1].near < near; --at) stack_[at] = stack_[at - 1];
+      stack_[at] = {node.child[i], near};
+    }
+  }
+
+  TOFRAY_FN void test(std::int32_t leaf) {
+    const MeshTriangles& block = triangles_[block_of(leaf)];
+    for (int i = 0, count = count_of(leaf); i < count; ++i) {
+      F t = F(0.0f);
+      const auto corner = [&](int c, int k) __attribute__((always_inline)) { return F(block.corner[c][k][i]) - origin_[k]; };
+      const auto inside = open_ & meet<true>(corner, along_, t);
+      if (!num::any(inside)) continue;
+      const auto nearer = take_nearer(inside, t, block.number[i], block_of(leaf) * block_width + i, shortest_, hit_);
+      if (any) open_ = open_ & (!nearer);
+    }
+  }
+
+  const MeshNode* nodes_;
+  const MeshTriangles* triangles_;
+  Sheared<F> along_;
+  F origin_[3];
+  F from_low_[3], from_high_[3], inverse_[3];
+  F shortest_;
+  Mask<F> open_;
+  MeshHit<F>& hit_;
+  int waiting_ = 0;
+  MeshEntry stack_[most_mesh_stack];
+};
+
+/// Looks for a triangle nearer than hit.t, which stays as it is where there is none.
+template <bool any, class F>
+TOFRAY_APART void search_mesh(const MeshNode* nodes, const MeshTriangles* triangles, const MeshRay<F>& ray, F shortest, Mask<F> wanted,
+                              MeshHit<F>& hit) {
+  const Int<F> longest = longest_of(ray.direction);
+  for (int k = 0; k < 3; ++k) {
+    const auto these = wanted & (longest == Int<F>(k));
+    if (!num::any(these)) continue;
+    MeshSearch<any, F>(nodes, triangles, ray, k, shortest, these, hit).run();
+  }
+}
+
+/// Two packs one after the other: the fewer rays go together, the fewer of them look at a triangle in vain.
+template <bool any, class H>
+TOFRAY_FN void search_mesh(const MeshNode* nodes, const MeshTriangles* triangles, const MeshRay<num::Twin<H>>& ray, num::Twin<H> shortest,
+                           num::TwinMask<H> wanted, MeshHit<num::Twin<H>>& hit) {
+  MeshRay<H> a, b;
+  for (int k = 0; k < 3; ++k) {
+    a.origin[k] = ray.origin[k].a, a.direction[k] = ray.direction[k].a;
+    b.origin[k] = ray.origin[k].b, b.direction[k] = ray.direction[k].b;
+  }
+  a.slack = ray.slack.a, b.slack = ray.slack.b;
+  MeshHit<H> of_a{hit.t.a, hit.number.a, hit.triangle.a}, of_b{hit.t.b, hit.number.b, hit.triangle.b};
+  search_mesh<any, H>(nodes, triangles, a, shortest.a, wanted.a, of_a);
+  search_mesh<any, H>(nodes, triangles, b, shortest.b, wanted.b, of_b);
+  hit = {{of_a.t, of_b.t}, {of_a.number, of_b.number}, {of_a.triangle, of_b.triangle}};
+}
+
+/// Beyond it nothing is nearer than the hit so far, however t and 1/w are rounded.
+template <class F>
+TOFRAY_FN F far_of(const flow::Hit<F>& hit) {
+  const auto before = hit.w > F(0.0f);
+  return num::select(before, F(1.0f + 0x1p-20f) / num::select(before, hit.w, F(1.0f)), F(3e38f));
+}
+
+/// The triangle that was found at t (−1: none), where it is nearer than the hit so far.
+template <class F>
+TOFRAY_FN void take(const MeshForm& form, F t, Int<F> triangle, flow::Hit<F>& hit) {
+  const auto met = triangle > Int<F>(-1);
+  const F w = F(1.0f) / num::select(met, t, F(1.0f));
+  const auto nearer = met & (w > hit.w);
+  hit.w = num::select(nearer, w, hit.w);
+  hit.facet = num::select(nearer, Int<F>(form.facet), hit.facet);
+  hit.triangle = num::select(nearer, triangle, hit.triangle);
+}
+
+/// The nearest triangle, where it is nearer than the hit so far.
+template <class F>
+TOFRAY_FN void nearest_in(const MeshForm& form, const Ray<F>& ray, flow::Hit<F>& hit) {
+  MeshHit<F> found{far_of(hit), Int<F>(0x7fffffff), Int<F>(-1)};
+  search_mesh<false>(form.nodes, form.triangles, in_mesh(form, {ray.x, ray.y, ray.z}), F(nearest_mesh), F(0.0f) <= F(0.0f), found);
+  take(form, found.t, found.triangle, hit);
+}
+
+/// Whether a triangle stands before t = `far`.
+template <class F>
+TOFRAY_FN Mask<F> stands_before(const MeshForm& form, const Ray<F>& ray, F far, Mask<F> wanted) {
+  MeshHit<F> found{far, Int<F>(0), Int<F>(-1)};
+  search_mesh<true>(form.nodes, form.triangles, in_mesh(form, {ray.x, ray.y, ray.z}), F(0.0f), wanted, found);
+  return found.triangle > Int<F>(-1);
+}
+
+/// Whether a triangle stands beyond the margin on the way to the light.
+template <class F>
+TOFRAY_FN Mask<F> blocks(const MeshAlong& form, const Surface<F>& p, const float*, F margin) {
+  const MeshRay<F> ray = in_mesh(form, {p.x, p.y, p.z});
+  MeshHit<F> found{F(3e38f), Int<F>(0), Int<F>(-1)};
+  search_mesh<true>(form.nodes, form.triangles, ray, margin, p.found, found);
+  return found.triangle > Int<F>(-1);
+}
+
+}  // namespace tofray::shape

@@ -1,0 +1,220 @@
+// SPDX-FileCopyrightText: 2026 The tofray authors
+// SPDX-License-Identifier: Apache-2.0
+// Beams of rays find what each ray finds by itself, bit by bit, with each instruction set; and so does a look at every triangle.
+#include <gtest/gtest.h>
+
+#include <cstring>
+
+#include "backend/cpu/cpu.h"
+#include "scene/hierarchy.h"
+#include "support/meshes.h"
+#include "support/random.h"
+#include "support/random_scene.h"
+#include "support/rays.h"
+#include "trace/tile_search.h"
+
+using namespace tofray;
+using namespace tofray::test;
+using shape::TileRays;
+
+namespace {
+
+struct Set {
+  const char* name;
+  Isa isa;
+  TileSearchFunction search;
+};
+/// The first one is what the others are held against: each ray by itself.
+const Set all_sets[] = {{"scalar_fma", Isa::scalar_fma, tile_search_scalar_fma},
+                        {"avx2", Isa::avx2, tile_search_avx2},
+                        {"avx512", Isa::avx512, tile_search_avx512},
+                        {"scalar", Isa::scalar, tile_search_scalar}};
+
+/// A mesh somewhere, turned somehow.
+struct Placed {
+  scene::Hierarchy built;
+  shape::Mesh mesh;
+
+  Placed(const TriangleMesh& triangles, const base::Mat3& turn, const Vec3& shift) : built(scene::build_hierarchy(triangles)) {
+    const shape::Placement at{{{vec(turn[0]), vec(turn[1]), vec(turn[2])}}, vec(shift)};
+    mesh = shape::Mesh::placed(built, at);
+  }
+};
+
+/// Ground that goes up and down, seen along it: beams end nowhere, boxes are flat.
+TriangleMesh ground(Random& random, int cells) {
+  TriangleMesh out;
+  for (int j = 0; j <= cells; ++j)
+    for (int i = 0; i <= cells; ++i)
+      out.vertices.push_back({static_cast<float>(4.0 * i / cells - 2), static_cast<float>(random.between(0.2, 0.25)),
+                              static_cast<float>(4.0 * j / cells - 2)});
+  for (std::int32_t j = 0; j < cells; ++j)
+    for (std::int32_t i = 0; i < cells; ++i) {
+      const std::int32_t a = j * (cells + 1) + i, below = a + cells + 1;
+      out.triangles.push_back({a, below, a + 1}), out.triangles.push_back({a + 1, below, below + 1});
+    }
+  return out;
+}
+
+TriangleMesh some_mesh(Random& random, int kind) {
+  switch (kind % 5) {
+    case 0: return single(stone(random, 1 + kind % 4, 1, {0, 0, 0}));
+    case 1: return single(icosphere(kind % 6));
+    case 2: return garbage(random, 10 + random.below(50));
+    case 3: return ground(random, 4 + random.below(60));
+    default: return single(stone(random, 5, random.scale(1e-3, 1e3), random.point(1)));
+  }
+}
+
+/// A rectangle of directions, as a lens sees them, about d.
+void look_along(Random& random, const Vec3& d, double pitch, TileRays& rays) {
+  const Vec3 axis = base::normalized(d), right = random.across(axis), down = base::cross(axis, right);
+  const bool wild = random.below(20) == 0;  // no beam at all
+  const int count = random.below(4) == 0 ? 1 + random.below(TileRays::count) : TileRays::count;
+  const bool near_limit = random.below(4) == 0;
+  for (int i = 0; i < TileRays::count; ++i) {
+    const double x = pitch * (i % TileRays::row - 15.5 + random.between(-0.3, 0.3)), y = pitch * (i / TileRays::row - 3.5);
+    const Vec3 to = wild ? random.direction() : base::length(d) * (axis + x * right + y * down);
+    for (std::size_t k = 0; k < 3; ++k) rays.given[k][i] = static_cast<float>(to[k]);
+    rays.shortest[i] = random.below(8) == 0 ? 0.5f : shape::nearest_mesh;
+    rays.far[i] = i >= count ? -1.0f : near_limit ? static_cast<float>(random.between(0.5, 1.5)) : 3e38f;
+  }
+}
+
+/// Towards a corner of a block of the mesh; in the frame in which it is placed.
+Vec3 toward_block(Random& random, const Placed& placed, int number, const Vec3& from) {
+  const auto& blocks = placed.built.triangles;
+  const shape::MeshTriangles& block = blocks[static_cast<std::size_t>(number) % blocks.size()];
+  const int place = random.below(shape::block_width), c = random.below(3);
+  Vec3 corner{};
+  for (std::size_t k = 0; k < 3; ++k) corner[k] = static_cast<double>(block.corner[c][k][place]);
+  const shape::Vec at = shape::back(placed.mesh.axes, vec(corner)) + placed.mesh.origin;
+  const Vec3 to = Vec3{at.x, at.y, at.z} - from;
+  return base::length(to) > 1e-6 ? to : random.direction();
+}
+
+Vec3 toward_mesh(Random& random, const Placed& placed, const Vec3& from) {
+  return toward_block(random, placed, random.below(static_cast<int>(placed.built.triangles.size())), from);
+}
+
+/// Each ray at a corner, those of a square at corners that are close together: the outermost rays of its beam go through the outermost
+/// corners of boxes, where rounding decides what is inside.
+void look_at_corners(Random& random, const Placed& placed, const Vec3& from, TileRays& rays) {
+  const int first = random.below(static_cast<int>(placed.built.triangles.size()));
+  for (int i = 0; i < TileRays::count; ++i) {
+    const Vec3 to = random.scale(0.1, 10) * toward_block(random, placed, first + i % TileRays::row / 4, from);
+    for (std::size_t k = 0; k < 3; ++k) rays.given[k][i] = static_cast<float>(to[k]);
+    rays.shortest[i] = shape::nearest_mesh, rays.far[i] = 3e38f;
+  }
+}
+
+void search(const Set& set, const TileSearch& what, TileRays& found) {
+  TileSearch here = what;
+  found = *what.rays;
+  here.rays = &found;
+  set.search(&here);
+}
+
+std::int32_t triangle(const TileRays& rays, int i) {
+  std::int32_t out = 0;
+  std::memcpy(&out, rays.triangle + i, sizeof out);
+  return out;
+}
+
+/// All sets agree about a tile. @return rays that met something
+int same_in_all_sets(const TileSearch& what, bool scalar_too) {
+  static TileRays one, other;
+  search(all_sets[0], what, one);
+  int met = 0;
+  for (int i = 0; i < TileRays::count; ++i) met += what.rays->far[i] > 0 && triangle(one, i) >= 0;
+  for (const Set& set : all_sets) {
+    if (&set == all_sets || !backend::can_run(set.isa) || (set.isa == Isa::scalar && !scalar_too)) continue;
+    search(set, what, other);
+    for (int i = 0; i < TileRays::count; ++i) {
+      if (!(what.rays->far[i] > 0)) continue;
+      const bool same = what.any || what.parallel != nullptr
+                            ? (triangle(one, i) >= 0) == (triangle(other, i) >= 0)
+                            : triangle(one, i) == triangle(other, i) && std::memcmp(one.t + i, other.t + i, 4) == 0;
+      if (!same) ADD_FAILURE() << set.name << " ray " << i;
+      if (!same) return met;
+    }
+  }
+  return met;
+}
+
+class Beams : public testing::TestWithParam<int> {};
+
+}  // namespace
+
+// 20 scenes, a million rays in each: from near and far, along and across, narrow and wide, at what is seen and through it.
+TEST_P(Beams, meet_what_each_ray_meets) {
+  if (!backend::can_run(Isa::scalar_fma)) GTEST_SKIP() << "this machine has no FMA";
+  Random random(static_cast<std::uint64_t>(100 + GetParam()));
+  const double away = GetParam() % 7 == 6 ? 1.5e5 : GetParam() % 7 == 5 ? 1e3 : 0;
+  const Vec3 shift = away * Vec3{1, -0.7, 0.4};
+  const Placed placed(some_mesh(random, GetParam()),
+                      GetParam() % 2 == 0 ? random.rotation() : base::Mat3{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}}, shift);
+  static TileRays rays;
+  int met = 0, tiles = 0;
+  const double size = 2 * std::fmax(placed.mesh.half.x, std::fmax(placed.mesh.half.y, placed.mesh.half.z));
+  for (; tiles * TileRays::count < 1'000'000 && !HasFailure(); ++tiles) {
+    const Vec3 from = shift + (random.below(4) == 0 ? 0.1 * size * random.direction() : random.scale(0.3, 30) * size * random.direction());
+    const shape::MeshForm form = shape::seen_from(placed.mesh, vec(from));
+    if (tiles % 4 == 1) {
+      look_at_corners(random, placed, from, rays);
+    } else {
+      look_along(random, toward_mesh(random, placed, from), random.scale(1e-5, 0.3), rays);
+    }
+    met += same_in_all_sets({&form, nullptr, tiles % 3 == 2, &rays}, tiles % 40 == 0);
+    if (tiles % 8 != 0) continue;
+    const shape::MeshAlong along = shape::seen_along(placed.mesh, vec(random.direction()));
+    for (int i = 0; i < TileRays::count; ++i) {
+      const Vec3 p = from + random.between(0.8, 1.2) * Vec3{static_cast<double>(rays.given[0][i]), static_cast<double>(rays.given[1][i]),
+                                                            static_cast<double>(rays.given[2][i])};
+      for (std::size_t k = 0; k < 3; ++k) rays.given[k][i] = static_cast<float>(p[k]);
+    }
+    met += same_in_all_sets({nullptr, &along, true, &rays}, tiles % 40 == 0);
+  }
+  EXPECT_GT(met, 10000) << tiles;
+}
+INSTANTIATE_TEST_SUITE_P(scene, Beams, testing::Range(0, 20));
+
+// The hierarchy leaves no triangle out: small meshes, and every triangle looked at.
+TEST(beams, meet_what_a_look_at_every_triangle_meets) {
+  if (!backend::can_run(Isa::avx2)) GTEST_SKIP() << "this machine has no AVX2";
+  Random random(7);
+  static TileRays rays;
+  int met = 0;
+  for (int scene = 0; scene < 20; ++scene) {
+    const Placed placed(some_mesh(random, scene % 4 == 2 ? 2 : scene % 2), random.rotation(), random.point(1));
+    for (int tile = 0; tile < 40; ++tile) {
+      const Vec3 from = random.scale(0.5, 5) * random.direction();
+      const shape::MeshForm form = shape::seen_from(placed.mesh, vec(from));
+      look_along(random, toward_mesh(random, placed, from), random.scale(1e-4, 0.1), rays);
+      const TileSearch what{&form, nullptr, false, &rays};
+      static TileRays found;
+      search(all_sets[backend::can_run(Isa::avx512) ? 2 : 1], what, found);
+      for (int i = tile % 5; i < TileRays::count; i += 5) {
+        if (!(rays.far[i] > 0)) continue;
+        const float given[3] = {rays.given[0][i], rays.given[1][i], rays.given[2][i]};
+        const shape::MeshRay<float> ray = shape::in_mesh(form, given);
+        const shape::Sheared<float> along = shape::sheared(ray.direction, shape::longest_of(ray.direction));
+        shape::MeshHit<float> best{rays.far[i], 0x7fffffff, -1};
+        for (std::size_t b = 0; b < placed.built.triangles.size(); ++b) {
+          const shape::MeshTriangles& block = placed.built.triangles[b];
+          for (int p = 0; p < shape::block_width; ++p) {
+            float t = 0;
+            const auto corner = [&](int c, int k) { return block.corner[c][k][p] - ray.origin[k]; };
+            if (!shape::meet<true>(corner, along, t)) continue;
+            take_nearer(true, t, block.number[p], static_cast<std::int32_t>(b) * shape::block_width + p, rays.shortest[i], best);
+          }
+        }
+        ASSERT_EQ(triangle(found, i), best.triangle) << scene << " " << tile << " " << i;
+        if (best.triangle < 0) continue;
+        ++met;
+        ASSERT_EQ(found.t[i], best.t);
+      }
+    }
+  }
+  EXPECT_GT(met, 5000);
+}

@@ -1,0 +1,17 @@
+# SPDX-FileCopyrightText: 2026 The tofray authors
+# SPDX-License-Identifier: Apache-2.0
+# The search of meshes by tiles, compiled like the kernels.
+function(tofray_beams set)
+  string(TOUPPER ${set} upper)
+  add_library(test_beams_${set} OBJECT ${CMAKE_CURRENT_SOURCE_DIR}/trace/tile_search.cpp)
+  target_compile_definitions(test_beams_${set} PRIVATE TILE_SEARCH_${upper})
+  target_compile_options(test_beams_${set} PRIVATE -O2 -fno-math-errno -fno-trapping-math
+    $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized> $<$<CXX_COMPILER_ID:GNU>:-Wno-uninitialized> ${ARGN})
+  target_include_directories(test_beams_${set} PRIVATE ${CMAKE_CURRENT_SOURCE_DIR})
+  target_link_libraries(test_beams_${set} PRIVATE tofray_flags tofray_trace)
+  target_sources(test_trace PRIVATE $<TARGET_OBJECTS:test_beams_${set}>)
+endfunction()
+tofray_beams(scalar)
+tofray_beams(scalar_fma -mavx2 -mfma)
+tofray_beams(avx2 -mavx2 -mfma)
+tofray_beams(avx512 -mavx512f -mavx512bw -mavx512dq -mavx512vl -mavx2 -mfma -mprefer-vector-width=512)
