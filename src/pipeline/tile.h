@@ -100,17 +100,15 @@ struct Near {
   /// What meshes keep from the lights and the sun, where all pixels of the tile look at them at once.
   static constexpr int sun = flow::max_lights;
   bool has_shades;
-  int pack;                                                                               ///< that is asked for
-  MeshShade still_shade[sun + 1];                                                         ///< on what stands still
-  MeshShade current_shade[can_move ? sun + 1 : 1], moving_shade[can_move ? sun + 1 : 1];  ///< on what is seen at one moment
-  const MeshShade* shade_now;                                                             ///< of meshes that stand still
+  int pack;                               ///< that is asked for
+  const MeshShade *of_still, *of_moving;  ///< [light] by what stands still, and by what moves; the sun comes last
   template <class F>
   TOFRAY_FN num::Mask<F> behind_still_meshes(int light) const {
-    return in<F>(shade_now, light);
+    return in<F>(of_still, light);
   }
   template <class F>
   TOFRAY_FN num::Mask<F> behind_moving_meshes(int light) const {
-    return in<F>(moving_shade, light);
+    return in<F>(of_moving, light);
   }
 
  private:
@@ -123,17 +121,26 @@ struct Near {
   }
 };
 
+/// Which pixels are in the shade of meshes.
+template <bool can_move>
+struct Shades {
+  static constexpr int lights = flow::max_lights + 1;
+  MeshShade still[lights];                                                  ///< on what stands still
+  MeshShade current[can_move ? lights : 1], moving[can_move ? lights : 1];  ///< on what is seen at one moment
+};
+
 /// Scratch memory of one worker.
 template <class F, bool can_move>
 struct Scratch {
   Near<can_move> near;
   SeenByLights seen;
-  trace::TileRays rays;
-  TilePoints points;
-  alignas(64) trace::TileRays::Array changed;      ///< pixels that do not see what stands still
   flow::Hit<F> still[max_packs<F>];                ///< of what stands still
   flow::Hit<F> hits[can_move ? max_packs<F> : 1];  ///< of all, at one moment
   Pack<F> pack[can_move ? max_packs<F> : 1];       ///< where there is one moment, nothing is kept of a pack once the next one begins
+  Shades<can_move> shades;
+  trace::TileRays rays;
+  TilePoints points;
+  alignas(64) trace::TileRays::Array changed;  ///< pixels that do not see what stands still
 };
 
 template <class F, bool can_move>
@@ -151,7 +158,7 @@ class TileWalk {
       const Pixels p = pixels(q);
       if (p.count > 0) scratch.still[q] = see_still(s, scratch.near, camera::ray<F>(s.lens, p));
     }
-    see_meshes<F>(s, *this, scratch.near.camera_still, scratch.rays, scratch.still);
+    see_meshes(scratch.near.camera_still, scratch.still);
     scratch.near.has_shades = trace::any_mesh(s.scene);
   }
 
@@ -191,7 +198,13 @@ class TileWalk {
       const Pixels p = pixels(q);
       if (p.count > 0) scratch_.hits[q] = see_moving(s_, scratch_.near, moment, camera::ray<F>(s_.lens, p), scratch_.still[q]);
     }
-    see_meshes<F>(s_, *this, scratch_.near.camera_moving, scratch_.rays, scratch_.hits);
+    see_meshes(scratch_.near.camera_moving, scratch_.hits);
+  }
+
+  TOFRAY_FN void see_meshes(const trace::Culled& culled, flow::Hit<F>* hits) {
+    if constexpr (shape::has_beams<F>) {
+      if (trace::any_mesh(culled)) pipeline::see_meshes<F>(s_, *this, culled, scratch_.rays, hits);
+    }
   }
 
   /// What of the scene can come between a light and what the pixels see.
@@ -207,25 +220,26 @@ class TileWalk {
   /// What meshes keep from the lights. What stands still is in the shade of what stands still at all moments.
   TOFRAY_FN void shade(int moment) {
     Near<can_move>& near = scratch_.near;
+    Shades<can_move>& shades = scratch_.shades;
     const bool sees_still = hits_ == scratch_.still;
-    near.shade_now = near.still_shade;
+    near.of_still = shades.still, near.of_moving = shades.moving;
     if (!still_is_shaded_) {
       look_from_lights(scratch_.still);
-      shade_by_still(scratch_.still, nullptr, near.still_shade);
+      shade_by_still(scratch_.still, nullptr, shades.still);
       look_from_lights(hits_);
       still_is_shaded_ = true;
     }
     if constexpr (can_move) {
       if (!sees_still) {
         put_changed(scratch_.still, hits_, scratch_.changed);
-        const KnownShades known{near.still_shade, scratch_.changed};
-        shade_by_still(hits_, &known, near.current_shade);
-        near.shade_now = near.current_shade;
+        const KnownShades known{shades.still, scratch_.changed};
+        shade_by_still(hits_, &known, shades.current);
+        near.of_still = shades.current;
       } else if (points_of_ != hits_) {
         put_points(s_, *this, hits_, scratch_.points);
         points_of_ = hits_;
       }
-      find_shades<F>(s_, near.light_moving, s_.scene.sun_moving(moment), scratch_.points, nullptr, scratch_.rays, near.moving_shade);
+      find_shades<F>(s_, near.light_moving, s_.scene.sun_moving(moment), scratch_.points, nullptr, scratch_.rays, shades.moving);
     }
   }
   TOFRAY_FN void shade_by_still(const flow::Hit<F>* hits, const KnownShades* known, MeshShade* shades) {

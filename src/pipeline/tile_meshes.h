@@ -4,7 +4,8 @@
 #include "pipeline/one_pixel.h"
 #include "trace/mesh_tile.h"
 
-/// Meshes, which all pixels of a tile look at at once: what they see of them, and in whose shade they are.
+/// Meshes, which all pixels of a tile look at at once: what they see of them, and in whose shade they are. Functions apart: what has
+/// no meshes should not pay for them with registers.
 namespace tofray::pipeline {
 
 /// Where the pixels of a tile see something.
@@ -21,7 +22,7 @@ struct MeshShade {
 
 /// Pixels whose hit is another.
 template <class F>
-TOFRAY_FN void put_changed(const flow::Hit<F>* before, const flow::Hit<F>* now, float* changed) {
+TOFRAY_APART void put_changed(const flow::Hit<F>* before, const flow::Hit<F>* now, float* changed) {
   for (int at = 0, q = 0; at < trace::TileRays::count; at += num::lanes<F>, ++q) {
     const auto other = (before[q].w != now[q].w) | (before[q].facet != now[q].facet);
     shape::store_all(changed + at, num::select(other, F(1.0f), F(0.0f)));
@@ -35,7 +36,7 @@ TOFRAY_FN num::Mask<F> in_use(const Pixels& p) {
 
 /// @param tile  pixels(q) are those of its pack number q
 template <class F, class Tile>
-TOFRAY_FN void put_points(const Setup& s, const Tile& tile, const flow::Hit<F>* hits, TilePoints& points) {
+TOFRAY_APART void put_points(const Setup& s, const Tile& tile, const flow::Hit<F>* hits, TilePoints& points) {
   for (int at = 0, q = 0; at < trace::TileRays::count; at += num::lanes<F>, ++q) {
     const Pixels p = tile.pixels(q);
     flow::Surface<F> surface{};
@@ -49,18 +50,15 @@ TOFRAY_FN void put_points(const Setup& s, const Tile& tile, const flow::Hit<F>* 
 
 /// The nearer of the hits and the meshes.
 template <class F, class Tile>
-TOFRAY_FN void see_meshes(const Setup& s, const Tile& tile, const trace::Culled& culled, trace::TileRays& rays, flow::Hit<F>* hits) {
-  if constexpr (shape::has_beams<F>) {
-    if (!trace::any_mesh(culled)) return;
-    for (int at = 0, q = 0; at < trace::TileRays::count; at += num::lanes<F>, ++q) {
-      const Pixels p = tile.pixels(q);
-      if (p.count == 0) continue;
-      const flow::Ray<F> ray = camera::ray<F>(s.lens, p);
-      trace::put(ray.x, ray.y, ray.z, at, rays);
-    }
-    trace::nearest_meshes(
-        culled, rays, [&](int q) __attribute__((always_inline)) { return in_use<F>(tile.pixels(q)); }, hits);
+TOFRAY_APART void see_meshes(const Setup& s, const Tile& tile, const trace::Culled& culled, trace::TileRays& rays, flow::Hit<F>* hits) {
+  for (int at = 0, q = 0; at < trace::TileRays::count; at += num::lanes<F>, ++q) {
+    const Pixels p = tile.pixels(q);
+    if (p.count == 0) continue;
+    const flow::Ray<F> ray = camera::ray<F>(s.lens, p);
+    trace::put(ray.x, ray.y, ray.z, at, rays);
   }
+  trace::nearest_meshes(
+      culled, rays, [&](int q) __attribute__((always_inline)) { return in_use<F>(tile.pixels(q)); }, hits);
 }
 
 /// What was found before, of pixels that have not changed since.
@@ -91,8 +89,8 @@ TOFRAY_FN void find_shade(const Forms& forms, const TilePoints& points, const Me
 /// @param known       or null
 /// @param shades      out: [light] the sun comes last
 template <class F>
-TOFRAY_FN void find_shades(const Setup& s, const trace::Culled* from_light, const scene::Alongs& sun, const TilePoints& points,
-                           const KnownShades* known, trace::TileRays& rays, MeshShade* shades) {
+TOFRAY_APART void find_shades(const Setup& s, const trace::Culled* from_light, const scene::Alongs& sun, const TilePoints& points,
+                              const KnownShades* known, trace::TileRays& rays, MeshShade* shades) {
   const auto before = [&](int l) __attribute__((always_inline)) { return known != nullptr ? known->of + l : nullptr; };
   const float* changed = known != nullptr ? known->changed : nullptr;
   for (int l = 0; l < s.scene.lights; ++l) {
