@@ -5,18 +5,18 @@
 #include "num/avx512.h"
 #include "num/twin.h"
 #define TILE_SEARCH tile_search_avx512
-using F = tofray::num::Twin<tofray::num::F32x16>;
+using Number = tofray::num::Twin<tofray::num::F32x16>;
 #elif defined(TILE_SEARCH_AVX2)
 #include "num/avx2.h"
 #include "num/twin.h"
 #define TILE_SEARCH tile_search_avx2
-using F = tofray::num::Twin<tofray::num::F32x8>;
+using Number = tofray::num::Twin<tofray::num::F32x8>;
 #elif defined(TILE_SEARCH_SCALAR_FMA)
 #define TILE_SEARCH tile_search_scalar_fma
-using F = float;
+using Number = float;
 #else
 #define TILE_SEARCH tile_search_scalar
-using F = float;
+using Number = float;
 #endif
 
 #include "trace/tile_search.h"
@@ -26,7 +26,7 @@ namespace {
 using namespace tofray;
 using shape::TileRays;
 
-template <bool any, class Form>
+template <bool any, class F, class Form>
 void search(const Form& form, TileRays& rays) {
   if constexpr (shape::has_beams<F>) {
     shape::search_tile<any, F>(form, rays);
@@ -44,10 +44,10 @@ void search(const Form& form, TileRays& rays) {
 
 extern "C" void TILE_SEARCH(const TileSearch* what) {
   if (what->parallel != nullptr) {
-    search<true>(*what->parallel, *what->rays);
+    search<true, Number>(*what->parallel, *what->rays);
   } else if (what->any) {
-    search<true>(*what->from_point, *what->rays);
+    search<true, Number>(*what->from_point, *what->rays);
   } else {
-    search<false>(*what->from_point, *what->rays);
+    search<false, Number>(*what->from_point, *what->rays);
   }
 }
