@@ -12,6 +12,7 @@
 #include "fuzz/shown.h"
 #include "mesh/read_mesh.h"
 #include "scene/hierarchy.h"
+#include "shape/mesh_search.h"
 
 namespace {
 
