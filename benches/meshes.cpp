@@ -29,8 +29,10 @@ using namespace tofray;
 namespace {
 
 #if defined(__AVX512F__)
+constexpr const char* set = "AVX-512";
 using F = num::Twin<num::F32x16>;
 #else
+constexpr const char* set = "AVX2";
 using F = num::Twin<num::F32x8>;
 #endif
 using shape::TileRays;
@@ -218,7 +220,7 @@ void measure(double wanted) {
   embree = rate(rays.camera_count, median_of([&] { peer.trace<false>(rays.camera, zero, other); }));
   embree_shadow = rate(rays.shadow_count, median_of([&] { peer.trace<true>(rays.shadow, light, other); }));
 #endif
-  const double filled = triangles / (8.0 * static_cast<double>(built.triangles.size()));
+  const double filled = triangles / static_cast<double>(shape::block_width * built.triangles.size());
   fmt::print("{:>10} {:>9.2f} {:>6.1f} {:>5.2f}  {} {} {}  {} {} {}\n", mesh.triangles.size(), triangles / build * 1e-6, bytes / triangles,
              filled, own, single, embree, own_shadow, single_shadow, embree_shadow);
 }
@@ -226,8 +228,7 @@ void measure(double wanted) {
 }  // namespace
 
 int main(int count, char** words) {
-  fmt::print("one thread, {}; millions of rays per second (medians of {})\n",
-             sizeof(num::Square<F>) == 64 && num::lanes<F> == 32 ? "AVX-512" : "AVX2", rounds);
+  fmt::print("one thread, {}; millions of rays per second (medians of {})\n", set, rounds);
   fmt::print("            hierarchy                  camera rays              shadow rays\n");
   fmt::print(" triangles  M/s build B each  full  squares  single  Embree  squares  single  Embree\n");
   if (count > 1) {

@@ -9,10 +9,10 @@
 #include <limits>
 #include <string>
 
+#include "base/bytes.h"
 #include "base/limits.h"
 #include "base/text.h"
 #include "gltf/accessor_form.h"
-#include "gltf/little_endian.h"
 
 namespace tofray::gltf {
 namespace {
@@ -37,7 +37,7 @@ void copy(const Accessor& accessor, const char* bytes, std::uint64_t count, std:
     Out* to = out.data() + place(i) * accessor.width;
     for (std::size_t k = 0; k < accessor.width; ++k) {
       const char* at = bytes + i * stride + k / accessor.column * column + k % accessor.column * sizeof(In);
-      to[k] = meant<Out>(little_endian<In>(at), accessor.normalized);
+      to[k] = meant<Out>(base::read_bytes_as<In>(at), accessor.normalized);
     }
   }
 }
@@ -57,9 +57,9 @@ void copy_as_written(const Accessor& accessor, const char* bytes, std::uint64_t 
 }
 
 std::uint32_t index_at(const char* bytes, Component component, std::uint64_t i) {
-  if (component == Component::uint8) return little_endian<std::uint8_t>(bytes + i);
-  if (component == Component::uint16) return little_endian<std::uint16_t>(bytes + 2 * i);
-  return little_endian<std::uint32_t>(bytes + 4 * i);
+  if (component == Component::uint8) return base::read_bytes_as<std::uint8_t>(bytes + i);
+  if (component == Component::uint16) return base::read_bytes_as<std::uint16_t>(bytes + 2 * i);
+  return base::read_bytes_as<std::uint32_t>(bytes + 4 * i);
 }
 
 /// Which elements a sparse accessor has values for: rising, and within the accessor.

@@ -6,8 +6,8 @@
 
 #include <cstdint>
 
+#include "base/bytes.h"
 #include "base/faults.h"
-#include "gltf/little_endian.h"
 
 namespace tofray::gltf {
 namespace {
@@ -20,7 +20,8 @@ class Chunks {
  public:
   Chunks(std::string_view bytes, const std::string& name) : bytes_(bytes), name_(name) {
     if (bytes.size() < header_bytes) cut_short(fmt::format("it has {} bytes, a header alone has {}", bytes.size(), header_bytes));
-    const auto version = little_endian<std::uint32_t>(bytes.data() + 4), length = little_endian<std::uint32_t>(bytes.data() + 8);
+    const auto version = base::read_bytes_as<std::uint32_t>(bytes.data() + 4),
+               length = base::read_bytes_as<std::uint32_t>(bytes.data() + 8);
     if (version != 2)
       base::fail(base::whole(name), fmt::format("this is binary glTF of version {}", version), "expected version 2: export it as glTF 2.0");
     if (length > bytes.size()) cut_short(fmt::format("its header says {} bytes, it has {}", length, bytes.size()));
@@ -32,8 +33,8 @@ class Chunks {
   bool next(std::uint32_t& type, std::string_view& data) {
     if (at_ == bytes_.size()) return false;
     if (bytes_.size() - at_ < chunk_header_bytes) cut_short(fmt::format("the header of chunk {} is not whole", number_));
-    const auto length = little_endian<std::uint32_t>(bytes_.data() + at_);
-    type = little_endian<std::uint32_t>(bytes_.data() + at_ + 4);
+    const auto length = base::read_bytes_as<std::uint32_t>(bytes_.data() + at_);
+    type = base::read_bytes_as<std::uint32_t>(bytes_.data() + at_ + 4);
     at_ += chunk_header_bytes;
     if (length > bytes_.size() - at_)
       cut_short(fmt::format("chunk {} has {} bytes, and {} are left of the file", number_, length, bytes_.size() - at_));

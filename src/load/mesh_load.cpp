@@ -82,10 +82,10 @@ std::vector<MeshPiece> MeshReader::pieces(const Places& places, const Mesh& want
     path = wanted.file;
     return from_code(places.file, wanted.file);
   }
-  const bool gltf = is_gltf(wanted.file);
-  const mesh::Format format = gltf ? mesh::Format::obj : mesh::format_of(wanted.file, places.file);
-  const std::string bytes = files::read_reference(wanted.file, folder_, files_.root, places.file, path, base::limit::mesh_bytes);
-  if (gltf) return from_gltf(places, wanted, path, bytes, by_material, known);
+  const auto read = [&] { return files::read_reference(wanted.file, folder_, files_.root, places.file, path, base::limit::mesh_bytes); };
+  if (is_gltf(wanted.file)) return from_gltf(places, wanted, path, read(), by_material, known);
+  const mesh::Format format = mesh::format_of(wanted.file, places.file);
+  const std::string bytes = read();
   known.sha256 = files::sha256_hex(bytes);
   check_expected(places.file, wanted.file, path, known.sha256);
   auto [mesh, left_out] = mesh::parse(format, bytes, path);

@@ -4,9 +4,9 @@
 
 #include <fmt/format.h>
 
+#include "base/bytes.h"
 #include "base/faults.h"
 #include "base/text.h"
-#include "mesh/bytes.h"
 #include "mesh/numbers.h"
 
 namespace tofray::mesh {
@@ -15,12 +15,12 @@ namespace {
 /// A whole number of binary data as 64 bits; -1 where the type is none.
 std::int64_t integer_at(const char* at, PlyType type, bool big_endian) {
   switch (type) {
-    case PlyType::int8: return read_bytes_as<std::int8_t>(at, big_endian);
-    case PlyType::uint8: return read_bytes_as<std::uint8_t>(at, big_endian);
-    case PlyType::int16: return read_bytes_as<std::int16_t>(at, big_endian);
-    case PlyType::uint16: return read_bytes_as<std::uint16_t>(at, big_endian);
-    case PlyType::int32: return read_bytes_as<std::int32_t>(at, big_endian);
-    case PlyType::uint32: return read_bytes_as<std::uint32_t>(at, big_endian);
+    case PlyType::int8: return base::read_bytes_as<std::int8_t>(at, big_endian);
+    case PlyType::uint8: return base::read_bytes_as<std::uint8_t>(at, big_endian);
+    case PlyType::int16: return base::read_bytes_as<std::int16_t>(at, big_endian);
+    case PlyType::uint16: return base::read_bytes_as<std::uint16_t>(at, big_endian);
+    case PlyType::int32: return base::read_bytes_as<std::int32_t>(at, big_endian);
+    case PlyType::uint32: return base::read_bytes_as<std::uint32_t>(at, big_endian);
     case PlyType::float32:
     case PlyType::float64: break;
   }
@@ -82,8 +82,8 @@ const char* PlyBinary::take(std::size_t size) {
 
 double PlyBinary::number(PlyType type) {
   const char* const at = take(size_of(type));
-  if (type == PlyType::float32) return read_bytes_as<float>(at, big_endian_);
-  if (type == PlyType::float64) return read_bytes_as<double>(at, big_endian_);
+  if (type == PlyType::float32) return base::read_bytes_as<float>(at, big_endian_);
+  if (type == PlyType::float64) return base::read_bytes_as<double>(at, big_endian_);
   return static_cast<double>(integer_at(at, type, big_endian_));
 }
 

@@ -6,9 +6,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/bytes.h"
 #include "base/faults.h"
 #include "base/text.h"
-#include "mesh/bytes.h"
 #include "mesh/formats.h"
 #include "mesh/mesh_builder.h"
 #include "mesh/numbers.h"
@@ -30,7 +30,7 @@ void add_facet(const std::array<Corner, 3>& corners, SharedCorners& shared, Mesh
   mesh.triangle(indices[0], indices[1], indices[2]);
 }
 
-std::uint64_t facets_of_header(std::string_view bytes) { return read_bytes_as<std::uint32_t>(bytes.data() + stl_header, false); }
+std::uint64_t facets_of_header(std::string_view bytes) { return base::read_bytes_as<std::uint32_t>(bytes.data() + stl_header); }
 
 ReadMesh read_binary_stl(std::string_view bytes, const std::string& name) {
   MeshBuilder mesh(name);
@@ -40,7 +40,7 @@ ReadMesh read_binary_stl(std::string_view bytes, const std::string& name) {
   for (std::uint64_t i = 0; i < count; ++i) {
     const char* record = bytes.data() + stl_start + stl_record * i;
     std::array<Corner, 3> corners{};
-    for (std::size_t k = 0; k < 9; ++k) corners[k / 3][k % 3] = read_bytes_as<float>(record + 12 + 4 * k, false);  // behind the normal
+    for (std::size_t k = 0; k < 9; ++k) corners[k / 3][k % 3] = base::read_bytes_as<float>(record + 12 + 4 * k);  // behind the normal
     add_facet(corners, shared, mesh);
   }
   return mesh.finish();

@@ -173,13 +173,12 @@ class TileWalk {
   TOFRAY_FN void go_to(const Moment& now) {
     if constexpr (can_move) see_what_moves(now.index);
     if (s_.last_stage < Stage::power) return;
+    shade_what_stands_still();
     look_from_lights(hits_);
     for (int l = 0; can_move && l < s_.scene.lights; ++l) {
       trace::cull(s_.scene.light_moving(now.index, l), scratch_.seen.of(l), scratch_.near.light_moving[l]);
     }
-    if constexpr (shape::has_beams<F>) {
-      if (scratch_.near.has_shades) shade(now.index);
-    }
+    if constexpr (can_move) shade_what_is_seen(now.index);
   }
 
   TOFRAY_FN bool find_light(const Moment& now, int q, const Pixels& p, const flow::Ray<F>& ray, F vignetting, Pack<F>& pack) {
@@ -217,24 +216,27 @@ class TileWalk {
     seen_from_lights_ = hits;
   }
 
-  /// What meshes keep from the lights. What stands still is in the shade of what stands still at all moments.
-  TOFRAY_FN void shade(int moment) {
-    Near<can_move>& near = scratch_.near;
-    Shades<can_move>& shades = scratch_.shades;
-    const bool sees_still = hits_ == scratch_.still;
-    near.of_still = shades.still, near.of_moving = shades.moving;
-    if (!still_is_shaded_) {
+  /// What meshes that stand still keep from the lights, of what stands still: it is so at all moments.
+  TOFRAY_FN void shade_what_stands_still() {
+    if constexpr (shape::has_beams<F>) {
+      if (!scratch_.near.has_shades || still_is_shaded_) return;
       look_from_lights(scratch_.still);
-      shade_by_still(scratch_.still, nullptr, shades.still);
-      look_from_lights(hits_);
+      shade_by_still(scratch_.still, nullptr, scratch_.shades.still);
+      scratch_.near.of_still = scratch_.shades.still, scratch_.near.of_moving = scratch_.shades.moving;
       still_is_shaded_ = true;
     }
-    if constexpr (can_move) {
-      if (!sees_still) {
+  }
+  /// … and of what is seen at a moment; and what meshes keep from it that move.
+  TOFRAY_FN void shade_what_is_seen(int moment) {
+    if constexpr (shape::has_beams<F>) {
+      Near<can_move>& near = scratch_.near;
+      Shades<can_move>& shades = scratch_.shades;
+      if (!near.has_shades) return;
+      near.of_still = hits_ == scratch_.still ? shades.still : shades.current;
+      if (hits_ != scratch_.still) {
         put_changed(scratch_.still, hits_, scratch_.changed);
         const KnownShades known{shades.still, scratch_.changed};
         shade_by_still(hits_, &known, shades.current);
-        near.of_still = shades.current;
       } else if (points_of_ != hits_) {
         put_points(s_, *this, hits_, scratch_.points);
         points_of_ = hits_;

@@ -21,7 +21,8 @@
 ///     T::curved        T::normal(facet, P) finds the normal of those that face_of does not make flat
 ///     can_meet(Form, rectangle), inverse_range(Form, ray[, side]), blocks(Along, P, …)
 ///     many_of<T>       it is made of many triangles: nearest_in(Form, ray, hit) and stands_before(Form, ray, …) in place of
-///                      inverse_range, and T::normal(facet, triangle, …)
+///                      inverse_range, and T::normal(facet, triangle, …); search_tile(Form, rays), search_tile(Along, rays) in place of
+///                      all three where has_beams
 namespace tofray::shape {
 
 using num::List;

@@ -14,9 +14,8 @@
 ///     `slack` than it, more than rounding); and of two triangles at one t the one of the lower number is seen.
 namespace tofray::shape {
 
-/// Boxes of up to eight children, and triangles eight at a time, lie side by side: a processor looks at all of them at once.
-constexpr int mesh_width = 8;
-constexpr int block_width = 16;
+/// Boxes of a node's children, and triangles of a leaf, lie side by side: a processor looks at all of them at once.
+constexpr int mesh_width = 8, block_width = 16;
 
 /// A box for each of up to eight children.
 struct alignas(64) MeshNode {
@@ -24,7 +23,7 @@ struct alignas(64) MeshNode {
   std::int32_t child[mesh_width];  ///< a node, or leaf_of(…)
   std::int32_t children;
 };
-/// Up to eight triangles; after them the last one is repeated.
+/// Up to sixteen triangles; after them the last one is repeated.
 struct alignas(64) MeshTriangles {
   float corner[3][3][block_width];   ///< [corner][coordinate]
   std::int32_t number[block_width];  ///< in the user's list
@@ -66,7 +65,7 @@ struct MeshRay {
 template <class F>
 struct MeshHit {
   F t;
-  Int<F> number, triangle;  ///< in the user's list, and 8·block + place in the hierarchy's; −1: none
+  Int<F> number, triangle;  ///< in the user's list, and block_width·block + place in the hierarchy's; −1: none
 };
 
 struct Mesh {
@@ -120,6 +119,10 @@ TOFRAY_FN double reach(const Mesh& mesh, const Vec& from) {
   for (int k = 0; k < 3; ++k) most = ::fmax(most, ::fabs(mesh.center[k] - from[k]) + mesh.half[k]);
   return most;
 }
+
+/// A number type of many lanes lets the rays of a tile go together (mesh_beam.h).
+template <class F>
+constexpr bool has_beams = num::lanes<F> > 1;
 
 /// By how much boxes are widened: some 16 roundings of the largest coordinate along the way, and what is rounded when it is added to
 /// the origin, or taken times the inverse direction with it.

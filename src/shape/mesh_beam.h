@@ -11,10 +11,6 @@
 /// Planes are as far outside the rays as boxes are wider than triangles in mesh_search.h. So the hits are those of search_mesh, bit by bit.
 namespace tofray::shape {
 
-/// A number type of many lanes has beams.
-template <class F>
-constexpr bool has_beams = num::lanes<F> > 1;
-
 /// Rays of a tile, row by row, and what they meet.
 struct TileRays {
   static constexpr int row = flow::tile_width, count = flow::tile_width * flow::tile_height;

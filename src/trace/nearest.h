@@ -14,7 +14,7 @@ using num::Mask;
 
 /// Whether forms of the shape T are searched for all pixels of a tile at once (mesh_tile.h), and left out here.
 template <class T, class F>
-constexpr bool by_tile = shape::many_of<T>&& num::lanes<F> > 1;
+constexpr bool by_tile = shape::many_of<T>&& shape::has_beams<F>;
 
 /// The inverse range of the hit, 0 or less for none, and the facet that it names.
 template <class T, class F>

@@ -13,7 +13,6 @@
 #include <string_view>
 #include <vector>
 
-#include "base/text.h"
 #include "gltf/parts.h"
 #include "gltf/pose.h"
 #include "gltf/read.h"

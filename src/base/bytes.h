@@ -5,17 +5,17 @@
 #include <bit>
 #include <cstring>
 
-namespace tofray::gltf {
+namespace tofray::base {
 
-/// A number at any alignment, as glTF writes it: little-endian.
+/// A number of binary data, of any alignment.
 template <class T>
-T little_endian(const char* at) {
+T read_bytes_as(const char* at, bool big_endian = false) {
   char bytes[sizeof(T)];
   std::memcpy(bytes, at, sizeof(T));
-  if constexpr (std::endian::native == std::endian::big) std::reverse(bytes, bytes + sizeof(T));
+  if (big_endian != (std::endian::native == std::endian::big)) std::reverse(bytes, bytes + sizeof(T));
   T value;
   std::memcpy(&value, bytes, sizeof(T));
   return value;
 }
 
-}  // namespace tofray::gltf
+}  // namespace tofray::base
