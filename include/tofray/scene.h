@@ -19,16 +19,16 @@ using Vec3 = std::array<double, 3>;
 
 /// How a surface sends light back, at the illumination wavelength.
 struct Material {
-  enum class Brdf { lambert, phong, oren_nayar };
+  enum class Brdf { lambert, phong, oren_nayar, ggx, retro };
   std::string name;  ///< empty for a material written inside an object
   Brdf brdf = Brdf::lambert;
-  double diffuse = 0.0;        ///< k_d, 0…1: Lambertian reflectivity (Lambert, Oren–Nayar: the reflectivity rho)
-  double specular = 0.0;       ///< k_s, 0…1 with k_d + k_s <= 1: the Phong lobe's share (0 for Lambert)
+  double diffuse = 0.0;        ///< k_d, 0…1: Lambertian reflectivity (Lambert, Oren–Nayar: the reflectivity rho; GGX: its ground's)
+  double specular = 0.0;       ///< Phong: k_s, the lobe's share, k_d + k_s <= 1; GGX: F_0, of one of its mirrors at normal incidence
   double exponent = 1.0;       ///< n >= 1: the Phong lobe's exponent
   double roughness_rad = 0.0;  ///< σ, 0…π/2: Oren–Nayar's spread of the slopes of a matt surface's facets
-
-  /// Share of the light that comes back at normal incidence: k_d + k_s.
-  [[nodiscard]] double reflectivity() const { return diffuse + specular; }
+  double alpha = 0.5;          ///< α, 0.001…1: GGX's spread of the slopes of small mirrors (glTF's roughness squared)
+  double retro = 0.0;          ///< k_r, 0…1 with k_d + k_r <= 1: the share that a retro-reflector sends back toward the light
+  double spread_rad = 0.01;    ///< σ, 1e-3…π/4: angle between light and camera at which half of the retro-reflector's peak is left
 };
 
 struct Plane {

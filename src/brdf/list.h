@@ -1,16 +1,18 @@
 // SPDX-FileCopyrightText: 2026 The tofray authors
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include "brdf/ggx.h"
 #include "brdf/lambert.h"
 #include "brdf/oren_nayar.h"
 #include "brdf/phong.h"
+#include "brdf/retro.h"
 #include "num/list.h"
 
 /// All BRDFs, and where they are evaluated. No other file but a BRDF's own names it.
 namespace tofray::brdf {
 
 /// In the order of Material::Brdf. The first one needs no numbers but the reflectivity.
-using Brdfs = num::List<Lambert, Phong, OrenNayar>;
+using Brdfs = num::List<Lambert, Phong, OrenNayar, Ggx, Retro>;
 
 template <class... T, class Said>
 MaterialView view_of(num::List<T...>, const Said& material) {
@@ -48,7 +50,7 @@ TOFRAY_FN void evaluate_each(num::List<T...>, const Finish<F>& of, const Cosines
   (evaluate<T>(of, cosine, f_r), ...);
 }
 
-/// f_r [1/sr]: how a surface sends light on.                                                       [theory: eq. 2.3, 2.4, 2.14]
+/// f_r [1/sr]: how a surface sends light on.                                                       [theory: eq. 2.3, 2.4, 2.14, 2.16–2.18]
 template <class F>
 TOFRAY_FN F reflection(const Finish<F>& of, const Cosines<F>& cosine) {
   F f_r = Lambert::f_r(of, cosine);

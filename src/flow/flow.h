@@ -31,6 +31,11 @@ struct Bounds {
   float x_min, x_max, y_min, y_max;
 };
 
+template <class F>
+struct Direction {
+  F x, y, z;
+};
+
 /// A ray from a common origin: P = t·d. Camera rays have z = 1, so that t is z; d is not of unit length.
 template <class F>
 struct Ray {

@@ -108,10 +108,14 @@ void correlations_carry_their_harmonics(const Waveform& waveform, Complaints& co
 }
 
 void materials_send_back_no_more_than_they_get(const Material& material, Complaints& complaints) {
-  if (material.diffuse + material.specular > 1 + 1e-12)
-    complaints.add(material, nullptr, "diffuse + specular is more than 1",
-                   "got " + number_text(material.diffuse) + " + " + number_text(material.specular) +
-                       "; a surface cannot send back more light than it gets");
+  const auto together = [&](const char* which, double lobe) {
+    if (material.diffuse + lobe > 1 + 1e-12)
+      complaints.add(
+          material, nullptr, std::string("diffuse + ") + which + " is more than 1",
+          "got " + number_text(material.diffuse) + " + " + number_text(lobe) + "; a surface cannot send back more light than it gets");
+  };
+  if (material.brdf == Material::Brdf::retro) return together("retro", material.retro);
+  if (material.brdf != Material::Brdf::ggx) together("specular", material.specular);
 }
 
 void boxes_are_thick(const Box& box, Complaints& complaints) {

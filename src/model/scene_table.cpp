@@ -28,21 +28,39 @@ const Table& table_of<Material>() {
   static const Table rows =
       table<Material>(
           words<&Material::name>("", "", "", ""),  // the key of the file's `materials`
-          kind<brdf>("brdf", {"lambert", "phong", "oren_nayar"}),
+          kind<brdf>("brdf", {"lambert", "phong", "oren_nayar", "ggx", "retro"}),
           number<&Material::diffuse>("reflectivity", {fraction, share, "0.85"}, "share of the light that comes back, all of it diffuse")
               .when<brdf>(lambert, oren_nayar)
               .required(),
           also(number<&Material::diffuse>("diffuse", {fraction, share, "0.4"}, "k_d, the Lambertian share").when<brdf>(phong).required()),
+          also(number<&Material::diffuse>("diffuse", {fraction, share, "0.4"}, "k_d of the matt ground below the small mirrors; 0: a metal")
+                   .when<brdf>(ggx)),
+          also(number<&Material::diffuse>("diffuse", {fraction, share, "0.05"}, "k_d, the Lambertian share").when<brdf>(retro)),
           number<&Material::specular>("specular", {fraction, share, "0.3"},
                                       "k_s, the share of the lobe about the mirror direction; diffuse + specular may not exceed 1")
               .when<brdf>(phong)
               .required(),
+          also(number<&Material::specular>("specular", {fraction, share, "0.04"},
+                                           "F_0, what each small mirror reflects at normal incidence: 0.04 of plastic, 0.9 of aluminium")
+                   .when<brdf>(ggx)
+                   .required()),
           number<&Material::exponent>("exponent", {none, phong_exponent, "20"}, "n of the lobe's cos^n: the larger, the shinier")
               .when<brdf>(phong)
               .required(),
           number<&Material::roughness_rad>("roughness", {angle, {0, 0.5 * base::pi}, "20 deg"},
                                            "spread (1 sigma) of the slopes of the surface's facets; 0: Lambert")
               .when<brdf>(oren_nayar)
+              .required(),
+          number<&Material::alpha>("alpha", {none, {1e-3, 1}, "0.3"}, "spread of the small mirrors' slopes: glTF's roughness, squared")
+              .when<brdf>(ggx)
+              .required(),
+          number<&Material::retro>("retro", {fraction, share, "0.2"},
+                                   "k_r, the share that goes back toward the light; diffuse + retro may not exceed 1")
+              .when<brdf>(retro)
+              .required(),
+          number<&Material::spread_rad>("spread", {angle, {1e-3, 0.25 * base::pi}, "0.5 deg"},
+                                        "angle between light and camera at which half of the peak is left")
+              .when<brdf>(retro)
               .required())
           .check_with(materials_send_back_no_more_than_they_get)
           .kind_may_be_missing();

@@ -14,6 +14,7 @@ namespace tofray::shape {
 
 /// Rectangle that holds every direction in which a shape can be hit; infinite where it reaches z <= 0.
 using flow::Bounds;
+using flow::Direction;
 using flow::Ray;
 using flow::Surface;
 using num::Int;
@@ -108,11 +109,6 @@ struct FacetColumns {
  private:
   TOFRAY_FN const std::int32_t* words() const { return reinterpret_cast<const std::int32_t*>(table); }
   TOFRAY_FN Int<F> whole(int c) const { return same ? Int<F>(words()[num::first(facet) + c]) : num::gather(words() + c, facet); }
-};
-
-template <class F>
-struct Direction {
-  F x, y, z;
 };
 
 }  // namespace tofray::shape

@@ -103,7 +103,7 @@ TEST(scene, reads_every_kind_of_object_in_si_units) {
   EXPECT_EQ(scene.materials[static_cast<std::size_t>(scene.objects[1].material)].exponent, 20);
   EXPECT_EQ(std::get<Plane>(scene.objects[0].shape).normal, (Vec3{0, 0, -1}));
   EXPECT_NEAR(scene.objects[2].rotation.angle_rad, base::pi / 6, 1e-15);
-  EXPECT_EQ(scene.materials[static_cast<std::size_t>(scene.objects[2].material)].reflectivity(), 0.5);
+  EXPECT_EQ(scene.materials[static_cast<std::size_t>(scene.objects[2].material)].diffuse, 0.5);
   EXPECT_EQ(std::get<Triangle>(scene.objects[3].shape).vertices[2], (Vec3{0.6, -0.2, 1.7}));
   EXPECT_EQ(scene.objects[3].name, "sail");
 }

@@ -5,41 +5,21 @@
 
 #include <algorithm>
 
-#include "base/vec.h"
-#include "brdf/list.h"
-#include "support/pi.h"
+#include "brdf_of.h"
 #include "support/random.h"
 
 using namespace tofray;
-using namespace tofray::base;
+using brdf_test::at_angle;
 using tofray::test::pi;
 using tofray::test::Random;
 
 namespace {
 
+Material rough(double rho, double sigma) { return {"rough", Material::Brdf::oren_nayar, rho, 0, 1, sigma}; }
 double f_r(double rho, double sigma, const Vec3& to_light, const Vec3& to_camera) {
-  Material material{"rough", Material::Brdf::oren_nayar, rho, 0, 1, sigma};
-  const brdf::MaterialView m = brdf::view_of(material);
-  const flow::Finish<float> finish{m.reflectivity, {m.number[0], m.number[1], m.number[2]}, m.brdf};
-  const auto f = [](double a) { return static_cast<float>(a); };
-  return static_cast<double>(brdf::reflection(finish, {f(to_light[2]), f(to_camera[2]), f(dot(to_light, to_camera))}));
+  return brdf_test::f_r(rough(rho, sigma), to_light, to_camera);
 }
-
-Vec3 at_angle(double theta, double phi) { return {std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi), std::cos(theta)}; }
-
-/// ∫ f_r cosθ dω over the hemisphere; midpoint rule over 300 × 300 cells.
-double albedo(double rho, double sigma, double light_angle) {
-  const Vec3 light = at_angle(light_angle, 0);
-  const int cells = 300;
-  double sum = 0;
-  for (int i = 0; i < cells; ++i) {
-    const double theta = (i + 0.5) / cells * pi / 2;
-    double ring = 0;
-    for (int k = 0; k < cells; ++k) ring += f_r(rho, sigma, light, at_angle(theta, (k + 0.5) / cells * 2 * pi));
-    sum += ring * std::sin(theta) * std::cos(theta);
-  }
-  return sum * (pi / 2 / cells) * (2 * pi / cells);
-}
+double albedo(double rho, double sigma, double light_angle) { return brdf_test::albedo(rough(rho, sigma), light_angle); }
 
 }  // namespace
 

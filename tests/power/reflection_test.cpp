@@ -1,42 +1,27 @@
 // SPDX-FileCopyrightText: 2026 The tofray authors
 // SPDX-License-Identifier: Apache-2.0
-// Reciprocity and energy of the surfaces.
-#include "brdf/list.h"
-
+// Lambert and Phong: the closed form, reciprocity and energy.
 #include <gtest/gtest.h>
 
+#include "brdf_of.h"
 #include "support/random.h"
 
 using namespace tofray;
-using namespace tofray::base;
+using tofray::base::dot;
 using tofray::test::Random;
 
 namespace {
 
 const double turn = 2 * std::acos(-1.0);
 
-double f_r(double diffuse, double specular, double exponent, const Vec3& to_light, const Vec3& to_camera) {
-  const auto f = [](double a) { return static_cast<float>(a); };
-  const float between = f(dot(to_light, to_camera));
-  const flow::Finish<float> finish = brdf::lambert_and_lobe(f(diffuse), f(specular), f(exponent));
-  return static_cast<double>(brdf::reflection(finish, {f(to_light[2]), f(to_camera[2]), between}));
+flow::Finish<float> glossy(double diffuse, double specular, double exponent) {
+  return brdf::lambert_and_lobe(static_cast<float>(diffuse), static_cast<float>(specular), static_cast<float>(exponent));
 }
-
-/// ∫ f_r cosθ dω over the hemisphere, light at this angle; midpoint rule over 500 × 400 cells.
+double f_r(double diffuse, double specular, double exponent, const Vec3& to_light, const Vec3& to_camera) {
+  return brdf_test::f_r(glossy(diffuse, specular, exponent), to_light, to_camera);
+}
 double albedo(double diffuse, double specular, double exponent, double light_angle) {
-  const Vec3 light{std::sin(light_angle), 0, std::cos(light_angle)};
-  const int rings = 500, sectors = 400;
-  double sum = 0;
-  for (int i = 0; i < rings; ++i) {
-    const double theta = (i + 0.5) / rings * turn / 4;
-    double ring = 0;
-    for (int k = 0; k < sectors; ++k) {
-      const double psi = (k + 0.5) / sectors * turn;
-      ring += f_r(diffuse, specular, exponent, light, {std::sin(theta) * std::cos(psi), std::sin(theta) * std::sin(psi), std::cos(theta)});
-    }
-    sum += ring * std::sin(theta) * std::cos(theta);
-  }
-  return sum * (turn / 4 / rings) * (turn / sectors);
+  return brdf_test::albedo(glossy(diffuse, specular, exponent), light_angle, 500, 400);
 }
 
 Vec3 upward(Random& random) {

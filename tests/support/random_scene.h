@@ -43,7 +43,11 @@ inline Scene random_scene(Random& random, int objects, bool moving) {
   Scene scene;
   scene.materials = {{"matt", Material::Brdf::lambert, 0.7, 0, 1},
                      {"paint", Material::Brdf::phong, 0.4, 0.3, 12},
-                     {"dark", Material::Brdf::lambert, 0.05, 0, 1}};
+                     {"dark", Material::Brdf::lambert, 0.05, 0, 1},
+                     {"metal", Material::Brdf::ggx, 0, 0.8},
+                     {"sheet", Material::Brdf::retro, 0.1}};
+  scene.materials[3].alpha = 0.2;
+  scene.materials[4].retro = 0.3, scene.materials[4].spread_rad = 0.03;
   const double back = random.between(3, 6);
   const Vec3 slant = random.point(0.4);
   scene.objects.push_back(object(Plane{{0, 0, back}, Vec3{slant[0], slant[1], -1}}));
@@ -65,7 +69,7 @@ inline Scene random_scene(Random& random, int objects, bool moving) {
     if (kind == 7) one.shape = Plane{middle + Vec3{0, 0, 2}, random.direction()};
     if (kind == 8) one.shape = Cylinder{middle, random.direction(), 0.5 * size, random.between(0.3, 2) * size};
     if (kind == 9) one.shape = shared(single(stone(random, random.below(3), size, middle)));
-    one.material = random.below(3);
+    one.material = random.below(5);
     if (random.uniform() < 0.5) {
       one.rotation.axis = random.direction();
       one.rotation.angle_rad = random.between(-3, 3);

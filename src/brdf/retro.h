@@ -1,0 +1,30 @@
+// SPDX-FileCopyrightText: 2026 The tofray authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include <cmath>
+
+#include "brdf/common.h"
+
+namespace tofray::brdf {
+
+/// A retro-reflector, such as a road sign's sheet: Lambert k_d/π, and a lobe of the share k_r back toward the light.   [theory: eq. 2.18]
+///
+///     f_r = k_d/π + k_r/(π·w²·(1 + |l − v|²/w²)²·max(n·l, n·v)),   w² = 4·sin²(σ/2)/(√2 − 1)
+///
+/// σ, the spread, is the angle between light and camera at which half of the peak is left. ∫ dω/(π·w²·(1 + |l − v|²/w²)²) over all
+/// directions is 1/(1 + w²/4), so that k_d + k_r of the light comes back at most.
+struct Retro {
+  template <class Said>
+  static MaterialView view(const Said& material) {
+    const double half = ::sin(0.5 * material.spread_rad), width = 4 * half * half / 0.41421356237309503;
+    const auto diffuse = static_cast<float>(material.diffuse), peak = static_cast<float>(0.31830988618379067 * material.retro / width);
+    return {static_cast<float>(material.diffuse + material.retro), {diffuse, peak, static_cast<float>(1 / width)}, 0};
+  }
+  template <class F>
+  TOFRAY_FN static F f_r(const Finish<F>& of, const Cosines<F>& cosine) {
+    const F fall = num::fma(cosine.apart, of.number[2], F(1.0f)), larger = num::max(num::max(cosine.light, cosine.view), F(1e-6f));
+    return num::fma(of.number[0], F(per_pi), of.number[1] / (fall * fall * larger));
+  }
+};
+
+}  // namespace tofray::brdf
