@@ -112,10 +112,12 @@ std::vector<Command> make() {
        .completes = "<scenes> <profiles> <files>"},
       {.name = "list",
        .usage = "cameras|scenes|materials|keys|arrays",
-       .summary = "what is built in, the materials of a scene, every key that files and --set take, and every array of frame.npz",
+       .summary = "what is built in: scenes, cameras, materials; those of a scene; every key that files and --set take, and every array of "
+                  "frame.npz",
        .examples = "tofray list scenes\n"
                    "tofray list cameras                              # with their modes\n"
-                   "tofray list materials demo                       # those of a scene; without one, of all built-in scenes\n"
+                   "tofray list materials                            # measured ones that every scene may name, with their sources\n"
+                   "tofray list materials demo                       # those of a scene\n"
                    "tofray list keys                                 # of camera profiles and scenes, with range, default and meaning\n"
                    "tofray list arrays                               # with type, shape, unit and meaning\n",
        .options = {"--json"},

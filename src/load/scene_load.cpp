@@ -13,6 +13,7 @@
 #include "load/fill.h"
 #include "load/gltf_load.h"
 #include "load/load.h"
+#include "load/material_library.h"
 #include "load/mesh_load.h"
 #include "yaml/settings.h"
 
@@ -118,16 +119,27 @@ class SceneReader {
         if (!scene.materials[i].name.empty()) index_.emplace(scene.materials[i].name, static_cast<int>(i));
     const auto found = index_.find(chosen.text);
     if (found != index_.end()) return found->second;
+    if (const LibraryMaterial* known = find_library_material(chosen.text)) {
+      index_.emplace(chosen.text, static_cast<int>(scene.materials.size()));
+      scene.materials.push_back(known->material);
+    } else {
+      no_material(chosen);
+      scene.materials.emplace_back();
+    }
+    return static_cast<int>(scene.materials.size()) - 1;
+  }
+
+  void no_material(const Value& chosen) {
     std::vector<std::string> names;
     for (const auto& [name, i] : index_) names.push_back(name);
-    const bool many = names.size() > 20;
-    faults_.add(chosen.place(), "no material " + in_quotes(chosen.text) + base::did_you_mean(chosen.text, names),
-                names.empty()
-                    ? "expected a name out of the scene's materials: section, which is missing; or write reflectivity: 0.5 instead"
-                : many ? "expected one out of the scene's materials: section"
-                       : "materials of this scene: " + base::listed(names, "and"));
-    scene.materials.emplace_back();
-    return static_cast<int>(scene.materials.size()) - 1;
+    const bool none = names.empty(), many = names.size() > 20;
+    std::vector<std::string> near = names;
+    for (const LibraryMaterial& one : material_library()) near.push_back(one.material.name);
+    faults_.add(chosen.place(), "no material " + in_quotes(chosen.text) + base::did_you_mean(chosen.text, near),
+                (none   ? "the scene has no materials: section"
+                 : many ? "expected one out of the scene's materials: section"
+                        : "materials of this scene: " + base::listed(names, "and")) +
+                    std::string("; `tofray list materials` names those that are built in; or write reflectivity: 0.5 instead"));
   }
 
   void object(const Value& entry, Scene& scene) {

@@ -240,7 +240,7 @@ Form objects_form() {
     Form one = form_of(table());
     one.keys.push_back(absent("reflectivity", form_of(Number{fraction, share, "0.5"}), "of a Lambertian surface, in place of `material`"));
     one.keys.push_back(absent("material", either({text("the name of a material", "paper"), form_of(table_of<Material>())}),
-                              "a name out of `materials`, or a material written here"));
+                              "a name out of `materials` or of `tofray list materials`, or a material written here"));
     for (Key& key : keys_of(object)) one.keys.push_back(std::move(key));
     // A glTF file has materials of its own; the reader asks for one where a file has none.
     (table == &table_of<Mesh> ? one.at_most_one : one.exactly_one) = {"reflectivity", "material"};

@@ -121,16 +121,22 @@ TEST(usage, options_may_come_in_every_form) {
 }
 
 TEST(list, of_materials_has_what_the_brdf_of_each_reads) {
-  const std::string text = run({"list", "materials"}).out;
-  EXPECT_TRUE(has(text, "coal           demo               lambert     reflectivity 0.08\n")) << text;
-  EXPECT_TRUE(has(text, "carrot         demo               phong       diffuse 0.5, specular 0.1, exponent 10\n")) << text;
-  const files::Json json = files::parse_json(run({"list", "materials", "--json"}).out, "list");
-  const auto named = [&](const char* name) {
-    const auto& all = *json.find("materials")->items();
-    return std::find_if(all.begin(), all.end(), [&](const files::Json& one) { return *one.find("name")->string() == name; });
+  const std::string text = run({"list", "materials", "demo"}).out;
+  EXPECT_TRUE(has(text, "coal           lambert, reflectivity 0.08\n")) << text;
+  EXPECT_TRUE(has(text, "carrot         phong, diffuse 0.5, specular 0.1, exponent 10\n")) << text;
+  const files::Json json = files::parse_json(run({"list", "materials", "demo", "--json"}).out, "list");
+  const auto named = [](const files::Json& all, const char* name) {
+    const auto& items = *all.find("materials")->items();
+    return *std::find_if(items.begin(), items.end(), [&](const files::Json& one) { return *one.find("name")->string() == name; });
   };
-  EXPECT_NE(named("carrot")->find("exponent"), nullptr);
-  EXPECT_EQ(named("coal")->find("exponent"), nullptr);
+  EXPECT_NE(named(json, "carrot").find("exponent"), nullptr);
+  EXPECT_EQ(named(json, "coal").find("exponent"), nullptr);
+  const files::Json library = files::parse_json(run({"list", "materials", "--json"}).out, "list");
+  double diffuse = 0;
+  EXPECT_TRUE(named(library, "skin").find("diffuse")->number(diffuse));
+  EXPECT_EQ(diffuse, 0.603);
+  EXPECT_TRUE(has(*named(library, "skin").find("source")->string(), "human skin reflectance"));
+  EXPECT_TRUE(has(run({"list", "materials"}).out, "| `skin` | lambert, reflectivity 0.603 |"));
 }
 
 TEST(json, is_one_object_on_stdout) {

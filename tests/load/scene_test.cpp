@@ -1,7 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The tofray authors
 // SPDX-License-Identifier: Apache-2.0
+#include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <sstream>
 
 #include <sys/stat.h>
 #include <unistd.h>
@@ -12,6 +14,7 @@
 #include "load/builtin.h"
 #include "load/fields_finite.h"
 #include "load/load.h"
+#include "load/material_library.h"
 #include "load/provenance.h"
 #include "support/text.h"
 #include "tofray/tofray.h"
@@ -129,6 +132,74 @@ TEST(scene, reads_rough_materials) {
   EXPECT_NEAR(one.roughness_rad, 0.5235987756, 1e-9);
   EXPECT_TRUE(has(refusal(around + "}}]"), "roughness"));
   EXPECT_TRUE(has(refusal(around + ", roughness: 100 deg}}]"), "roughness is out of range"));
+}
+
+TEST(scene, reads_small_mirrors_and_retro_reflectors) {
+  const std::string around = "objects: [sphere: {center: [0, 0, 1], radius: 1, material: {brdf: ";
+  const Material metal = load::scene_from_text(around + "ggx, specular: 0.9, alpha: 0.1}}]", "s.yaml").materials[0];
+  EXPECT_EQ(metal.brdf, Material::Brdf::ggx);
+  EXPECT_EQ(metal.diffuse, 0);
+  EXPECT_EQ(metal.specular, 0.9);
+  EXPECT_EQ(metal.alpha, 0.1);
+  // Light that the mirrors reflect does not reach the ground: both may be white.
+  EXPECT_EQ(load::scene_from_text(around + "ggx, specular: 1, diffuse: 1, alpha: 1}}]", "s.yaml").materials[0].diffuse, 1);
+  const Material sheet = load::scene_from_text(around + "retro, diffuse: 0.1, retro: 0.3, spread: 0.5 deg}}]", "s.yaml").materials[0];
+  EXPECT_EQ(sheet.brdf, Material::Brdf::retro);
+  EXPECT_EQ(sheet.diffuse, 0.1);
+  EXPECT_EQ(sheet.retro, 0.3);
+  EXPECT_NEAR(sheet.spread_rad, 0.0087266463, 1e-9);
+  EXPECT_TRUE(has(refusal(around + "ggx, specular: 0.9}}]"), "alpha"));
+  EXPECT_TRUE(has(refusal(around + "ggx, specular: 0.9, alpha: 0.0009}}]"), "alpha is out of range"));
+  EXPECT_TRUE(has(refusal(around + "ggx, specular: 0.9, alpha: 0.5, exponent: 3}}]"), "exponent"));
+  EXPECT_TRUE(has(refusal(around + "retro, diffuse: 0.8, retro: 0.3, spread: 1 deg}}]"), "diffuse + retro is more than 1"));
+  EXPECT_TRUE(has(refusal(around + "retro, retro: 0.3, spread: 50 deg}}]"), "spread is out of range"));
+}
+
+TEST(scene, names_materials_of_the_library) {
+  const Scene scene = load::scene_from_text(
+      "materials: {skin: {reflectivity: 0.1}}\nobjects: [sphere: {center: [0, 0, 1], radius: 1, material: wood}, sphere: {center: [0, 0, 3], "
+      "radius: 1, material: skin}, sphere: {center: [0, 0, 5], radius: 1, material: wood}]",
+      "s.yaml");
+  ASSERT_EQ(scene.materials.size(), 2U);  // once, however often it is named
+  EXPECT_EQ(scene.materials[1].name, "wood");
+  EXPECT_EQ(scene.materials[1].diffuse, 0.634);
+  EXPECT_EQ(scene.objects[0].material, 1);
+  EXPECT_EQ(scene.objects[1].material, 0);  // the scene's own comes first
+  EXPECT_EQ(scene.objects[2].material, 1);
+  const std::string said = refusal("objects: [sphere: {center: [0, 0, 1], radius: 1, material: skim}]");
+  EXPECT_TRUE(has(said, "did you mean \"skin\"?")) << said;
+  EXPECT_TRUE(has(said, "`tofray list materials`")) << said;
+}
+
+TEST(material_library, is_in_order_and_sound) {
+  const auto& library = load::material_library();
+  ASSERT_GT(library.size(), 20U);
+  for (std::size_t i = 0; i < library.size(); ++i) {
+    const load::LibraryMaterial& one = library[i];
+    if (i > 0) {
+      EXPECT_LT(library[i - 1].material.name, one.material.name);
+    }
+    EXPECT_FALSE(one.what.empty() || one.source.empty()) << one.material.name;
+    const std::string object = "objects: [sphere: {center: [0, 0, 1], radius: 1, material: " + one.material.name + "}]";
+    EXPECT_EQ(load::scene_from_text(object, "s.yaml").materials[0].name, one.material.name);
+  }
+  std::ostringstream committed;
+  committed << std::ifstream(TOFRAY_SOURCE_DIR "/docs/reference/materials.md").rdbuf();
+  EXPECT_EQ(committed.str(), load::material_page()) << "write it anew: tofray list materials > docs/reference/materials.md";
+}
+
+// The sheets send back what the standard asks for at both angles: R_A = f_r·cosθ_l·cosθ_v, perpendicularly.
+TEST(material_library, sheets_have_their_coefficients) {
+  const auto coefficient = [](const char* name, double degrees) {
+    const Material& one = load::find_library_material(name)->material;
+    const auto squared = [](double angle) { return 4 * std::pow(std::sin(angle / 2), 2); };
+    const double width = squared(one.spread_rad) / (std::sqrt(2.0) - 1), fall = 1 + squared(degrees * base::pi / 180) / width;
+    return one.retro / (base::pi * width * fall * fall);
+  };
+  EXPECT_NEAR(coefficient("retro-sheet", 0.2), 250, 2);
+  EXPECT_NEAR(coefficient("retro-sheet", 0.5), 95, 1);
+  EXPECT_NEAR(coefficient("retro-sheet-simple", 0.2), 70, 1);
+  EXPECT_NEAR(coefficient("retro-sheet-simple", 0.5), 30, 0.5);
 }
 
 TEST(scene, may_be_empty) {

@@ -3,12 +3,12 @@
 #include <fmt/format.h>
 
 #include "base/text.h"
-#include "base/units.h"
 #include "commands.h"
 #include "console.h"
 #include "files/json.h"
 #include "load/builtin.h"
 #include "load/load.h"
+#include "load/material_library.h"
 #include "load/reference.h"
 #include "model/lines.h"
 #include "model/tables.h"
@@ -76,31 +76,36 @@ files::Json list_cameras(std::string& text) {
   return json;
 }
 
-/// What a material's BRDF reads of it: numbers in SI units by the name of their member, and as files say them.
-std::string list_material(const Material& material, files::Json& json) {
-  std::string brdf, numbers;
+/// What a material's BRDF reads of it, in SI units by the name of its member.
+files::Json material_json(const Material& material) {
+  files::Json json = files::Json::object().set("name", material.name);
   for (const model::Row& row : model::table_of<Material>().rows) {
     if (!model::applies(row, &material)) continue;
     const model::Slot slot = model::slot_of(row, &material);
-    if (const auto* choice = std::get_if<model::ChoiceSlot>(&slot)) {
-      brdf = row.form.names.at(static_cast<std::size_t>(choice->get(choice->at)));
-      json.set(row.name(), brdf);
-    } else if (double* const* number = std::get_if<double*>(&slot)) {
+    if (const auto* choice = std::get_if<model::ChoiceSlot>(&slot))
+      json.set(row.name(), row.form.names.at(static_cast<std::size_t>(choice->get(choice->at))));
+    else if (double* const* number = std::get_if<double*>(&slot))
       json.set(row.name(), **number);
-      numbers += fmt::format("{}{} {}", numbers.empty() ? "" : ", ", row.key, base::quantity_text(**number, row.form.example));
-    }
   }
-  return fmt::format("{:<11} {}\n", brdf, numbers);
+  return json;
 }
 
-void list_materials_of(const std::string& scene_name, files::Json& json, std::string& text) {
-  const Scene scene = load_scene(scene_name);
-  for (const Material& one : scene.materials) {
+files::Json list_library(std::string& text) {
+  text = load::material_page();
+  files::Json json = files::Json::array();
+  for (const load::LibraryMaterial& one : load::material_library())
+    json.push(material_json(one.material).set("what", one.what).set("source", one.source));
+  return json;
+}
+
+files::Json list_materials_of(const std::string& scene_name, std::string& text) {
+  files::Json json = files::Json::array();
+  for (const Material& one : load_scene(scene_name).materials) {
     if (one.name.empty()) continue;
-    files::Json line = files::Json::object().set("name", one.name).set("scene", scene.name);
-    text += fmt::format("{:<14} {:<18} {}", one.name, scene.name, list_material(one, line));
-    json.push(std::move(line));
+    text += fmt::format("{:<14} {}\n", one.name, load::numbers_of(one));
+    json.push(material_json(one));
   }
+  return json;
 }
 
 files::Json list_keys(std::string& text) {
@@ -150,10 +155,7 @@ int run_list(const Options& options) {
   } else if (what == "keys") {
     json = list_keys(text);
   } else if (what == "materials") {
-    if (options.words.size() == 2)
-      list_materials_of(options.words[1], json, text);
-    else
-      for (const load::Builtin& one : load::builtin_scenes()) list_materials_of(one.name, json, text);
+    json = options.words.size() == 2 ? list_materials_of(options.words[1], text) : list_library(text);
   } else if (what == "arrays") {
     json = list_arrays(text);
   } else {
