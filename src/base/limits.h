@@ -50,6 +50,12 @@ inline constexpr Limit gltf_image_bytes{"gltf_image_bytes", 256 << 20, "bytes of
 inline constexpr Limit gltf_number_bytes{"gltf_number_bytes", 256 << 20, "bytes that the numbers of any glTF file may take"};
 inline constexpr Limit gltf_number_ratio{"gltf_number_ratio", 8,
                                          "times the bytes of its buffers that the numbers of a larger one may take"};
+// Images: what graphics cards take as textures (a side), the largest that tools write (8192 by 8192) in any shape; 16-bit RGBA of it is
+// 512 MiB in memory.
+inline constexpr Limit image_bytes{"image_bytes", 256 << 20, "bytes of one image file (PNG, JPEG)"};
+inline constexpr Limit image_side{"image_side", 16'384, "pixels along one side of an image file"};
+inline constexpr Limit image_pixels{"image_pixels", 1 << 26, "pixels of an image file"};
+inline constexpr Limit image_scans{"image_scans", 100, "scans of one JPEG file, each of which may go through all pixels"};
 }  // namespace limit
 
 /// All of them, in the order in which they are printed.
@@ -89,6 +95,10 @@ inline constexpr Limit all_limits[] = {
     limit::gltf_image_bytes,
     limit::gltf_number_bytes,
     limit::gltf_number_ratio,
+    limit::image_bytes,
+    limit::image_side,
+    limit::image_pixels,
+    limit::image_scans,
     limit::threads,
 };
 
