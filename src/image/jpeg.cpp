@@ -24,6 +24,7 @@ struct JpegReading {
   unsigned long size = 0;
   JpegHeader header;
   std::uint16_t* samples = nullptr;
+  bool complete = false;  ///< there are all bits of all coefficients
 };
 
 [[noreturn]] void leave_jpeg(j_common_ptr jpeg) {
@@ -40,6 +41,16 @@ void take_jpeg_message(j_common_ptr jpeg, int level) {
 
 void print_nothing(j_common_ptr) {}
 
+/// Whether the scans of a progressive file have all bits of all coefficients of each block: libjpeg takes zeros for others, as a file has
+/// that somebody cut and ended.
+bool has_all_bits(const jpeg_decompress_struct& jpeg) {
+  if (jpeg.coef_bits == nullptr) return true;
+  for (int component = 0; component < jpeg.num_components; ++component)
+    for (const int missing : jpeg.coef_bits[component])
+      if (missing != 0) return false;
+  return true;
+}
+
 void begin_jpeg(JpegReading& reading) {
   jpeg_decompress_struct& jpeg = reading.jpeg;
   jpeg.err = jpeg_std_error(&reading.errors);
@@ -54,6 +65,7 @@ void begin_jpeg(JpegReading& reading) {
   jpeg.dct_method = JDCT_ISLOW;     // the exact one
   jpeg.do_block_smoothing = FALSE;  // nothing that is not in the file
   jpeg_start_decompress(&jpeg);
+  reading.complete = has_all_bits(jpeg);
 }
 
 void read_jpeg_rows(JpegReading& reading) {
@@ -92,6 +104,7 @@ class JpegFile {
 
   Image read() {
     run(begin_jpeg);
+    if (!reading_.complete) broken_image(file_, "the JPEG file is not complete", "there are scans that it should have and has not");
     const JpegHeader& header = reading_.header;
     Image image{static_cast<int>(header.width), static_cast<int>(header.height), header.components, 8, {}};
     if (reading_.jpeg.output_width != header.width || reading_.jpeg.output_height != header.height ||

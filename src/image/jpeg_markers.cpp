@@ -145,10 +145,9 @@ class JpegMarkers {
     const std::size_t count = segment.empty() ? 0 : static_cast<std::size_t>(byte_of(segment, 0));
     if (count < 1 || count > 4 || segment.size() != 4 + 2 * count)
       broken_image(file_, "the JPEG file's scan header has not the length that its components need");
-    const bool has_mean = byte_of(segment, 1 + 2 * count) == 0;  // the coefficient 0 of each block
     for (std::size_t i = 0; i < count; ++i)
       for (Component& component : components_)
-        if (component.id == byte_of(segment, 1 + 2 * i) && component.across > 0 && has_mean) component.has_scan = true;
+        if (component.id == byte_of(segment, 1 + 2 * i) && component.across > 0) component.has_scan = true;
     pass_over_data();
   }
 

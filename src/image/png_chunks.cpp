@@ -79,7 +79,7 @@ class PngChunks {
   /// Goes through all chunks. @return the bytes of pixels, packed as they are
   std::uint64_t bytes_of_pixels() const {
     std::uint64_t packed = 0;
-    bool has_pixels = false;
+    bool has_pixels = false, last_has_pixels = false;
     for (std::size_t at = png_signature.size();;) {
       if (bytes_.size() - at < chunk_frame) cut_short(fmt::format("it ends without IEND in the chunk that begins at byte {}", at));
       const std::string_view name = bytes_.substr(at + 4, 4);
@@ -87,10 +87,12 @@ class PngChunks {
       if (bytes_.size() - at - chunk_frame < length)
         cut_short(fmt::format("its chunk {} at byte {} says that it has {} bytes, and {} are left", base::in_quotes(name), at, length,
                               bytes_.size() - at - chunk_frame));
-      if (name == "IDAT") {
-        packed += length;
-        has_pixels = true;
-      }
+      const bool pixels = name == "IDAT";
+      if (pixels && has_pixels && !last_has_pixels)
+        broken_image(file_, "the PNG file has pixels in two places", fmt::format("there is another chunk before that at byte {}", at));
+      if (pixels) packed += length;
+      has_pixels |= pixels;
+      last_has_pixels = pixels;
       if (name == "IEND") break;
       at += chunk_frame + length;
     }
