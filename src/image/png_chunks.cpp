@@ -43,7 +43,8 @@ class PngChunks {
   PngHeader check() {
     const PngHeader header = read_header();
     const std::uint64_t packed = bytes_of_pixels();
-    const auto bits_of_pixel = static_cast<std::uint64_t>(header.bits * channels_of_color_type(header.color_type));
+    const auto bits_of_pixel =
+        static_cast<std::uint64_t>(header.bits) * static_cast<std::uint64_t>(channels_of_color_type(header.color_type));
     const std::uint64_t needed = (std::uint64_t{header.width} * header.height * bits_of_pixel + 7) / 8;
     if (needed > best_deflate_ratio * packed)
       broken_image(file_, "the PNG file is too short for its pixels",

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The tofray authors
 // SPDX-License-Identifier: Apache-2.0
-// Any bytes as an image, and the same once more with a PNG's checksums made right, without which chance finds nothing behind them: an Error,
-// or as many samples as the size says.
+// Any bytes as an image, and the same once more with the checksums of PNG made right, without which chance finds nothing behind them: an
+// Error, or as many samples as the size says.
 #include <zlib.h>
 
 #include <cstddef>

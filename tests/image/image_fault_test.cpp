@@ -29,13 +29,16 @@ Error error_of_image(std::string_view bytes) {
   return {ErrorKind::bug, "it was taken"};
 }
 
+/// Each is told as an error, and in no other way.
 void expect_faults(const std::vector<ImageFault>& faults) {
+  testing::internal::CaptureStderr();
   for (const ImageFault& fault : faults) {
     SCOPED_TRACE(testing::Message() << "the fault " << &fault - faults.data());
     const Error error = error_of_image(fault.bytes);
     EXPECT_EQ(std::string(error.what()).rfind("m: error: " + fault.message, 0), 0U) << error.what() << "\nexpected: " << fault.message;
     EXPECT_EQ(error.kind(), fault.kind) << error.what();
   }
+  EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
 }
 
 const std::string row_of_2 = bytes_of({0, 100, 200});
@@ -272,6 +275,7 @@ TEST(image_fault, of_a_jpeg_s_segments_is_told) {
       {start + bytes_of({0xFF, 0xE0, 0, 1}) + j.end, "the JPEG file has a segment of 1 bytes at byte 4\n  expected 2 and more"},
       {start + bytes_of({0xFF, 0xE0, 0xFF, 0xFF}) + j.end, "the JPEG file is cut short"},
       {jpeg_with([](HandJpeg& jpeg) { jpeg.end = ""; }), "the JPEG file is cut short"},
+      {j.beginning() + j.frame_header() + j.huffman + j.scan_header().substr(0, 6), "the JPEG file is cut short"},
       {j.beginning() + j.frame_header() + j.huffman + j.end, "the JPEG file is not complete\n  there are no data for its component 1"},
       {three.beginning() + three.frame_header() + three.huffman + three.scan_header(2) + hand_data({5, 5}) + j.end,
        "the JPEG file is not complete\n  there are no data for its component 3"},
