@@ -82,12 +82,15 @@ std::string scene_of_mesh(const std::string& path, const std::string& source, co
   const Scene alone = load::scene_from_text(text_of(path, ""), source, of_mesh, {options.root});
   const Box box = box_round(alone);
   const std::optional<Pose> own = load::camera_in(std::get<Mesh>(alone.objects[0].shape), source, options.root);
-  const Pose pose = own.value_or(pose_before(box));
-  const std::string up = own ? ", up: " + point(pose.up) : "";
+  // A file with a camera is a scene of its own: a second floor would lie in the first.
+  if (own)
+    return text_of(path, fmt::format("camera: {{pose: {{position: {}, look_at: {}, up: {}}}}}\n", point(own->position), point(own->look_at),
+                                     point(own->up)));
+  const Pose pose = pose_before(box);
   return text_of(path, fmt::format("  - plane: {{point: {}, normal: [0, -1, 0], reflectivity: 0.3}}  # a floor\n"
-                                   "camera: {{pose: {{position: {}, look_at: {}{}}}}}\n",
+                                   "camera: {{pose: {{position: {}, look_at: {}}}}}\n",
                                    point({0.5 * (box.low[0] + box.high[0]), box.high[1], 0.5 * (box.low[2] + box.high[2])}),
-                                   point(pose.position), point(pose.look_at), up));
+                                   point(pose.position), point(pose.look_at)));
 }
 
 }  // namespace tofray::app

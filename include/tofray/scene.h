@@ -17,6 +17,15 @@ namespace tofray {
 
 using Vec3 = std::array<double, 3>;
 
+/// A picture of how much a surface sends back: 1 where it is its material's `diffuse`, 0 where it is black. Meshes show it where their
+/// vertices have texture coordinates.
+struct ReflectivityMap {
+  enum class Wrap { repeat, mirror, clamp };
+  int width = 0, height = 0;
+  std::vector<float> values;  ///< [height][width], 0…1; (u, v) = (0, 0) is the corner of the first, v grows with the rows
+  Wrap wrap_u = Wrap::repeat, wrap_v = Wrap::repeat;  ///< beyond 0…1
+};
+
 /// How a surface sends light back, at the illumination wavelength.
 struct Material {
   enum class Brdf { lambert, phong, oren_nayar, ggx, retro };
@@ -29,6 +38,7 @@ struct Material {
   double alpha = 0.5;          ///< α, 0.001…1: GGX's spread of the slopes of small mirrors (glTF's roughness squared)
   double retro = 0.0;          ///< k_r, 0…1 with k_d + k_r <= 1: the share that a retro-reflector sends back toward the light
   double spread_rad = 0.01;    ///< σ, 1e-3…π/4: angle between light and camera at which half of the retro-reflector's peak is left
+  std::shared_ptr<const ReflectivityMap> map = {};  ///< scales `diffuse` from place to place; none: it is the same everywhere
 };
 
 struct Plane {
@@ -57,6 +67,10 @@ struct Cylinder {
 struct TriangleMesh {
   std::vector<std::array<float, 3>> vertices;          ///< [m], in the mesh's own frame
   std::vector<std::array<std::int32_t, 3>> triangles;  ///< three indices of `vertices` each
+  /// Of unit length, outward or inward, 0 where there is none: light and camera see the mean of a triangle's three. Empty, or one for each
+  /// vertex.
+  std::vector<std::array<float, 3>> normals = {};
+  std::vector<std::array<float, 2>> texcoords = {};  ///< (u, v) in the material's map. Empty, or one for each vertex
 };
 
 /// Many triangles, about the zero of their own frame. In files: those of an OBJ, PLY, STL or glTF file, turned and scaled when it is read;

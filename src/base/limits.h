@@ -55,6 +55,7 @@ inline constexpr Limit gltf_number_ratio{"gltf_number_ratio", 8,
 inline constexpr Limit image_bytes{"image_bytes", 256 << 20, "bytes of one image file (PNG, JPEG)"};
 inline constexpr Limit image_side{"image_side", 16'384, "pixels along one side of an image file"};
 inline constexpr Limit image_pixels{"image_pixels", 1 << 26, "pixels of an image file"};
+inline constexpr Limit map_pixels{"map_pixels", 1 << 26, "pixels of all pictures that a scene's meshes wear, once for each material"};
 inline constexpr Limit image_scans{"image_scans", 100, "scans of one JPEG file, each of which may go through all pixels"};
 }  // namespace limit
 
@@ -98,6 +99,7 @@ inline constexpr Limit all_limits[] = {
     limit::image_bytes,
     limit::image_side,
     limit::image_pixels,
+    limit::map_pixels,
     limit::image_scans,
     limit::threads,
 };

@@ -13,24 +13,36 @@ struct MaterialView {
   float reflectivity;                ///< what truth shows, and how much ambient light comes back
   float number[flow::brdf_numbers];  ///< what its BRDF's f_r() reads
   std::int32_t brdf;                 ///< its place in the list
+  float matt;                        ///< what of the reflectivity a map scales
+  std::int32_t matt_numbers;         ///< how many of the numbers, the first ones, it scales
+  std::int32_t map;                  ///< number of its map; −1: none
 };
 constexpr int material_words = sizeof(MaterialView) / sizeof(float);
 
-/// Between a surface's normal n and the directions l and v from it to light and camera.
+/// Between a surface's normal and the directions from it to light and camera.
 template <class F>
 struct Cosines {
-  F light, view;  ///< n·l, n·v
-  F between;      ///< l·v
-  F apart;        ///< |l − v|²: of a narrow lobe about l, where l·v hardly differs from 1
-  F aslant;       ///< |s − n·(n·s)|² of the sum s = l + v: of a narrow lobe of half vectors about n
+  F light, view;
+  F between;  ///< of the angle between light and camera
 };
 
+/// Unit vectors: the normal, to the light, to the camera.
 template <class F>
-TOFRAY_FN Cosines<F> cosines(const flow::Direction<F>& n, const flow::Direction<F>& l, const flow::Direction<F>& v, F light, F view,
-                             F between) {
-  const F along = light + view;
-  const F x = num::fnma(n.x, along, l.x + v.x), y = num::fnma(n.y, along, l.y + v.y), z = num::fnma(n.z, along, l.z + v.z);
-  return {light, view, between, flow::square_of(l.x - v.x, l.y - v.y, l.z - v.z), flow::square_of(x, y, z)};
+struct Directions {
+  flow::Direction<F> normal, light, view;
+};
+
+/// |l − v|²: of a narrow lobe about l, where l·v hardly differs from 1.
+template <class F>
+TOFRAY_FN F squared_gap(const Directions<F>& d) {
+  return flow::square_of(d.light.x - d.view.x, d.light.y - d.view.y, d.light.z - d.view.z);
+}
+/// |s − n·(n·s)|² of the sum s = l + v: of a narrow lobe of half vectors about n.
+template <class F>
+TOFRAY_FN F squared_slant(const Directions<F>& d, F normal_part) {
+  const auto slant = [&](F n, F l, F v) __attribute__((always_inline)) { return num::fnma(n, normal_part, l + v); };
+  return flow::square_of(slant(d.normal.x, d.light.x, d.view.x), slant(d.normal.y, d.light.y, d.view.y),
+                         slant(d.normal.z, d.light.z, d.view.z));
 }
 
 constexpr float per_pi = 0.318309886f;

@@ -19,13 +19,19 @@ struct Ggx {
   static MaterialView view(const Said& material) {
     const double alpha = material.alpha, f0 = material.specular, ground = 28.0 / 23.0 * (1 - f0) * material.diffuse;
     // At normal incidence the ground sends back 23/28·(1 − 1/32) of its factor.
-    const double all = ground * 23 / 28 * 31 / 32 + lobe_reflectivity(alpha, f0);
-    return {static_cast<float>(all), {static_cast<float>(ground), static_cast<float>(f0), static_cast<float>(alpha * alpha)}, 0};
+    const double matt = ground * 23 / 28 * 31 / 32, all = matt + lobe_reflectivity(alpha, f0);
+    return {static_cast<float>(all),
+            {static_cast<float>(ground), static_cast<float>(f0), static_cast<float>(alpha * alpha)},
+            0,
+            static_cast<float>(matt),
+            1,
+            -1};
   }
   template <class F>
-  TOFRAY_FN static F f_r(const Finish<F>& of, const Cosines<F>& cosine) {
+  TOFRAY_FN static F f_r(const Finish<F>& of, const Cosines<F>& cosine, const Directions<F>& directions) {
     const F ground = of.number[0], f0 = of.number[1], square = of.number[2], along = cosine.light + cosine.view;
-    const F c = along * along, sum = c + cosine.aslant, spread = sum / num::max(num::fma(square, c, cosine.aslant), F(1e-18f));
+    const F c = along * along, slant = squared_slant(directions, along), sum = c + slant;
+    const F spread = sum / num::max(num::fma(square, c, slant), F(1e-18f));
     const F masks = num::fma(cosine.light, masked(square, cosine.view), cosine.view * masked(square, cosine.light));
     const F d_v = F(0.5f * per_pi) * square * (spread * spread) / num::max(masks, F(1e-18f));
     const F fresnel = num::fma(F(1.0f) - f0, fifth_power(num::max(num::fnma(F(0.5f), num::sqrt(sum), F(1.0f)), F(0.0f))), f0);

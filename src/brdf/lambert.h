@@ -9,7 +9,8 @@ namespace tofray::brdf {
 struct Lambert {
   template <class Said>
   static MaterialView view(const Said& material) {
-    return {static_cast<float>(material.diffuse), {}, 0};
+    const auto rho = static_cast<float>(material.diffuse);
+    return {rho, {}, 0, rho, 0, -1};
   }
   template <class F>
   TOFRAY_FN static F f_r(const Finish<F>& of, const Cosines<F>&) {

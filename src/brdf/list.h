@@ -35,26 +35,45 @@ TOFRAY_FN Finish<F> lambert_and_lobe(F diffuse, F specular, F exponent) {
   return {diffuse + specular, {diffuse, specular, exponent}, num::select(specular > F(0.0f), phong, num::Int<F>(0))};
 }
 
-/// The lanes whose surfaces have the BRDF T.
+/// f_r of those whose lobes are narrow takes directions, too. Apart: these are few surfaces, and long functions.
 template <class T, class F>
-TOFRAY_FN void evaluate(const Finish<F>& of, const Cosines<F>& cosine, F& f_r) {
+concept Narrow = requires(Finish<F> of, Cosines<F> cosine, Directions<F> directions) {
+  T::f_r(of, cosine, directions);
+};
+template <class T, class F>
+TOFRAY_APART F narrow(const Finish<F>& of, const Cosines<F>& cosine, const Directions<F>& directions) {
+  return T::f_r(of, cosine, directions);
+}
+
+/// The lanes whose surfaces have the BRDF T.
+/// @param directions  a function, called where they are needed
+template <class T, class F, class Toward>
+TOFRAY_FN void evaluate(const Finish<F>& of, const Cosines<F>& cosine, const Toward& directions, F& f_r) {
   constexpr int place = num::place_in<T>(Brdfs{});
   if constexpr (place > 0) {
     const auto its = of.brdf == num::Int<F>(place);
-    if (num::any(its)) f_r = num::select(its, T::f_r(of, cosine), f_r);
+    if (!num::any(its)) return;
+    if constexpr (Narrow<T, F>) {
+      const Finish<F> copy = of;  // what is handed to a function lies in memory; `of` need not
+      const Cosines<F> cosines = cosine;
+      f_r = num::select(its, narrow<T>(copy, cosines, directions()), f_r);
+    } else {
+      f_r = num::select(its, T::f_r(of, cosine), f_r);
+    }
   }
 }
 
-template <class... T, class F>
-TOFRAY_FN void evaluate_each(num::List<T...>, const Finish<F>& of, const Cosines<F>& cosine, F& f_r) {
-  (evaluate<T>(of, cosine, f_r), ...);
+template <class... T, class F, class Toward>
+TOFRAY_FN void evaluate_each(num::List<T...>, const Finish<F>& of, const Cosines<F>& cosine, const Toward& directions, F& f_r) {
+  (evaluate<T>(of, cosine, directions, f_r), ...);
 }
 
-/// f_r [1/sr]: how a surface sends light on.                                                       [theory: eq. 2.3, 2.4, 2.14, 2.16–2.18]
-template <class F>
-TOFRAY_FN F reflection(const Finish<F>& of, const Cosines<F>& cosine) {
+/// f_r [1/sr]: how a surface sends light on.                                                [theory: eq. 2.3, 2.4, 2.14, 2.16–2.18]
+/// @param directions  a function that gives Directions<F>: called where they are needed
+template <class F, class Toward>
+TOFRAY_FN F reflection(const Finish<F>& of, const Cosines<F>& cosine, const Toward& directions) {
   F f_r = Lambert::f_r(of, cosine);
-  if (num::any(of.brdf > num::Int<F>(0))) evaluate_each(Brdfs{}, of, cosine, f_r);
+  if (num::any(of.brdf > num::Int<F>(0))) evaluate_each(Brdfs{}, of, cosine, directions, f_r);
   return f_r;
 }
 

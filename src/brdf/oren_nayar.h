@@ -18,7 +18,8 @@ struct OrenNayar {
     const double a = 1 - 0.5 * square / (square + 0.33), b = 0.45 * square / (square + 0.09);
     // The model sends back ρ·(A + B/2) of light that grazes, up to 1.015·ρ: beyond all of it, ρ is held.
     const double most = 1 / (a + 0.5 * b), rho = material.diffuse < most ? material.diffuse : most;
-    return {static_cast<float>(rho), {static_cast<float>(rho * a), static_cast<float>(rho * b), 0}, 0};
+    const auto all = static_cast<float>(rho);
+    return {all, {static_cast<float>(rho * a), static_cast<float>(rho * b), 0}, 0, all, 2, -1};
   }
   template <class F>
   TOFRAY_FN static F f_r(const Finish<F>& of, const Cosines<F>& cosine) {

@@ -10,7 +10,7 @@ struct Phong {
   template <class Said>
   static MaterialView view(const Said& material) {
     const auto diffuse = static_cast<float>(material.diffuse), specular = static_cast<float>(material.specular);
-    return {diffuse + specular, {diffuse, specular, static_cast<float>(material.exponent)}, 0};
+    return {diffuse + specular, {diffuse, specular, static_cast<float>(material.exponent)}, 0, diffuse, 1, -1};
   }
   template <class F>
   TOFRAY_FN static F f_r(const Finish<F>& of, const Cosines<F>& cosine) {

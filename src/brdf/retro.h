@@ -18,11 +18,12 @@ struct Retro {
   static MaterialView view(const Said& material) {
     const double half = ::sin(0.5 * material.spread_rad), width = 4 * half * half / 0.41421356237309503;
     const auto diffuse = static_cast<float>(material.diffuse), peak = static_cast<float>(0.31830988618379067 * material.retro / width);
-    return {static_cast<float>(material.diffuse + material.retro), {diffuse, peak, static_cast<float>(1 / width)}, 0};
+    return {static_cast<float>(material.diffuse + material.retro), {diffuse, peak, static_cast<float>(1 / width)}, 0, diffuse, 1, -1};
   }
   template <class F>
-  TOFRAY_FN static F f_r(const Finish<F>& of, const Cosines<F>& cosine) {
-    const F fall = num::fma(cosine.apart, of.number[2], F(1.0f)), larger = num::max(num::max(cosine.light, cosine.view), F(1e-6f));
+  TOFRAY_FN static F f_r(const Finish<F>& of, const Cosines<F>& cosine, const Directions<F>& directions) {
+    const F fall = num::fma(squared_gap(directions), of.number[2], F(1.0f)),
+            larger = num::max(num::max(cosine.light, cosine.view), F(1e-6f));
     return num::fma(of.number[0], F(per_pi), of.number[1] / (fall * fall * larger));
   }
 };

@@ -53,6 +53,7 @@ void FrozenCamera::freeze_lens() {
   const std::size_t pixels = static_cast<std::size_t>(sensor.width) * static_cast<std::size_t>(sensor.height);
   ray_x_.assign(pixels, 0), ray_y_.assign(pixels, 0), inverse_length_.assign(pixels, 1), vignetting_.assign(pixels, 0);
   lens_.width = sensor.width, lens_.height = sensor.height;
+  lens_.pixel_area = single(1 / (camera_.lens.fx_px * camera_.lens.fy_px));
   const double limit = growing_radius_squared(camera_.lens);
   const Vignetting vignetting(camera_.lens);
   std::size_t i = 0;

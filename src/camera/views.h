@@ -12,6 +12,7 @@ namespace tofray::camera {
 /// Rays and lens by pixel.
 struct LensView {
   std::int32_t width, height;
+  float pixel_area;             ///< that a pixel sees of a plane 1 m before the camera, on the axis [m²]
   const float *ray_x, *ray_y;   ///< [height][width] undistorted: d = (x, y, 1)
   const float* inverse_length;  ///< [height][width] 1/|d|
   const float* vignetting;      ///< [height][width] cos⁴α or a table's factor; 0 outside the lens model

@@ -170,7 +170,8 @@ class PartMaker {
 
   /// Vertices keep their numbers: one that is not finite is at 0, and no triangle has it.
   static void drop_not_finite(Part& part) {
-    auto& [vertices, triangles] = part.mesh;
+    std::vector<std::array<float, 3>>& vertices = part.mesh.vertices;
+    auto& triangles = part.mesh.triangles;
     std::vector<bool> finite;
     for (auto& v : vertices) {
       finite.push_back(std::isfinite(v[0]) && std::isfinite(v[1]) && std::isfinite(v[2]));

@@ -12,6 +12,7 @@
 #include "files/text_file.h"
 #include "gltf/parts.h"
 #include "gltf/read.h"
+#include "load/gltf_map.h"
 #include "mesh/read_mesh.h"
 
 namespace tofray::load {
@@ -27,26 +28,50 @@ std::string shown_name(const std::string& name) {
   return base::printable(std::string_view(name).substr(0, end));
 }
 
-/// Relative luminance (ITU-R BT.709) of the base colour; half of it behind a picture, which is not looked at.
-double visible_reflectivity(const gltf::Material& material) {
-  const auto [red, green, blue, alpha] = material.base_color;
-  const double luminance = std::min(0.2126 * red + 0.7152 * green + 0.0722 * blue, 1.0);
-  return material.base_color_texture.texture == gltf::none ? luminance : 0.5 * luminance;
-}
-
-void name_material(const gltf::Model& model, int index, MeshPiece& piece) {
+/// Reflectivity and map of a material of the file.
+void take_material(const gltf::Model& model, int index, const std::string& path, MeshPiece& piece) {
   piece.material = "no material";
   if (index == gltf::none) return;
   const gltf::Material& material = model.materials[static_cast<std::size_t>(index)];
   piece.material = material.name.empty() ? "material " + std::to_string(index) : shown_name(material.name);
   piece.from = material.nir_reflectivity ? MeshPiece::From::file : MeshPiece::From::visible_colour;
-  piece.reflectivity = material.nir_reflectivity.value_or(visible_reflectivity(material));
+  piece.reflectivity = material.nir_reflectivity.value_or(luminance(material.base_color));
+  if (material.nir_reflectivity || material.base_color_texture.texture == gltf::none) return;
+  if (piece.mesh.texcoords.empty()) {
+    piece.reflectivity *= 0.5;  // nobody knows where on the picture its triangles are
+    return;
+  }
+  GltfMap of = map_of(model, material, path);
+  piece.map = std::move(of.map), piece.reflectivity = of.brightest;
 }
 
-void append(const TriangleMesh& more, TriangleMesh& mesh) {
-  const auto first = static_cast<std::int32_t>(mesh.vertices.size());
-  mesh.vertices.insert(mesh.vertices.end(), more.vertices.begin(), more.vertices.end());
-  for (const auto& [a, b, c] : more.triangles) mesh.triangles.push_back({first + a, first + b, first + c});
+/// What one more part of a piece has, zeros where it lacks what others have.
+template <class Row>
+void append_details(const std::vector<Row>& more, std::size_t before, std::size_t after, std::vector<Row>& rows) {
+  if (more.empty() && rows.empty()) return;
+  rows.resize(before);
+  rows.insert(rows.end(), more.begin(), more.end());
+  rows.resize(after);
+}
+
+/// @param use  how the material takes texture coordinates; null where it takes none
+void append(const gltf::Part& part, const gltf::TextureUse* use, TriangleMesh& mesh) {
+  const std::size_t before = mesh.vertices.size(), after = before + part.mesh.vertices.size();
+  mesh.vertices.insert(mesh.vertices.end(), part.mesh.vertices.begin(), part.mesh.vertices.end());
+  const auto first = static_cast<std::int32_t>(before);
+  for (const auto& [a, b, c] : part.mesh.triangles) mesh.triangles.push_back({first + a, first + b, first + c});
+  append_details(part.normals, before, after, mesh.normals);
+  if (use == nullptr) return;
+  std::vector<std::array<float, 2>> texcoords = part.texcoords[static_cast<std::size_t>(use->texcoord)];
+  for (auto& one : texcoords) one = placed(*use, one);
+  append_details(texcoords, before, after, mesh.texcoords);
+}
+
+/// The picture that a part's material shows, if any.
+const gltf::TextureUse* picture_of(const gltf::Model& model, int material) {
+  if (material == gltf::none) return nullptr;
+  const gltf::TextureUse& use = model.materials[static_cast<std::size_t>(material)].base_color_texture;
+  return use.texture == gltf::none ? nullptr : &use;
 }
 
 }  // namespace
@@ -75,16 +100,16 @@ gltf::Pose pose_at(const gltf::Model& model, const std::optional<double>& time_s
   return gltf::at(model, time_s ? 0 : gltf::none, time_s.value_or(0));
 }
 
-std::vector<MeshPiece> pieces_of(const gltf::Model& model, const gltf::Pose& pose, bool by_material) {
+std::vector<MeshPiece> pieces_of(const gltf::Model& model, const gltf::Pose& pose, bool by_material, const std::string& path) {
   std::map<int, MeshPiece> found;
   for (const gltf::Part& part : gltf::parts(model, pose)) {
     MeshPiece& piece = found[by_material ? part.material : gltf::none];
-    append(part.mesh, piece.mesh);
+    append(part, by_material ? picture_of(model, part.material) : nullptr, piece.mesh);
     piece.left_out += part.not_finite;
   }
   std::vector<MeshPiece> out;
   for (auto& [material, piece] : found) {
-    if (by_material) name_material(model, material, piece);
+    if (by_material) take_material(model, material, path, piece);
     out.push_back(std::move(piece));
   }
   return out;

@@ -31,6 +31,7 @@ class MeshReader {
     int left_out;
     std::string material;
     double reflectivity;
+    std::shared_ptr<const ReflectivityMap> map;
   };
   struct Known {
     std::vector<Piece> pieces;  ///< at least one; each has triangles
@@ -60,10 +61,11 @@ class MeshReader {
   void check_expected(const base::Place& place, const std::string& file, const std::string& path, const std::string& sha256) const;
   /// The limits of one mesh are those of all meshes of a scene: of many it may take no more memory.
   void count(const base::Place& place, const TriangleMesh& mesh);
+  void count_texels(const base::Place& place, const ReflectivityMap& map);
 
   std::string folder_;
   const MeshFiles& files_;
-  std::size_t vertices_ = 0, triangles_ = 0;
+  std::size_t vertices_ = 0, triangles_ = 0, texels_ = 0;
   std::map<std::tuple<std::string, double, Mesh::Up, std::optional<double>, bool>, Known> known_;
 };
 

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include <cstddef>
+#include <memory>
 #include <string>
 
 #include "tofray/scene.h"
@@ -11,11 +12,12 @@ namespace tofray::load {
 /// What one object shows of a mesh's file: all of it, or the triangles of one material.
 struct MeshPiece {
   enum class From { nothing, file, visible_colour };
-  TriangleMesh mesh;
+  TriangleMesh mesh;  ///< vertices, and normals and texture coordinates where the file has any
   std::size_t left_out = 0;
-  std::string material;       ///< its name, or its place among the file's
-  double reflectivity = 0.5;  ///< of the material
-  From from = From::nothing;  ///< how that is known
+  std::string material;                             ///< its name, or its place among the file's
+  double reflectivity = 0.5;                        ///< of the material
+  From from = From::nothing;                        ///< how that is known
+  std::shared_ptr<const ReflectivityMap> map = {};  ///< of the material, or none
 };
 
 }  // namespace tofray::load

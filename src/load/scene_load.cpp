@@ -212,7 +212,8 @@ class SceneReader {
       of.known->show(k, std::get<Mesh>(one.shape));
       if (k > 0) std::get<Mesh>(one.shape).guessed = 0, std::get<Mesh>(one.shape).notices.clear();
       if (k > 0) one.material = static_cast<int>(materials.size()), materials.emplace_back();
-      materials[static_cast<std::size_t>(one.material)].diffuse = pieces[k].reflectivity;
+      Material& material = materials[static_cast<std::size_t>(one.material)];
+      material.diffuse = pieces[k].reflectivity, material.map = pieces[k].map;
     }
   }
 

@@ -107,7 +107,26 @@ void correlations_carry_their_harmonics(const Waveform& waveform, Complaints& co
                        " for " + std::to_string(waveform.harmonics) + " odd harmonics");
 }
 
+namespace {
+void check_map(const Material& material, Complaints& complaints) {
+  const ReflectivityMap& map = *material.map;
+  const auto complain = [&](const std::string& what, const std::string& more) { complaints.add(material, nullptr, what, more); };
+  if (map.width < 1 || map.height < 1 || map.width > 32767 || map.height > 32767)
+    return complain("the reflectivity map has no size that it may have",
+                    "got " + std::to_string(map.width) + " x " + std::to_string(map.height) + ", expected 1 to 32767 each");
+  const auto pixels = static_cast<std::size_t>(map.width) * static_cast<std::size_t>(map.height);
+  if (map.values.size() != pixels)
+    return complain("the reflectivity map has not as many values as pixels",
+                    "got " + std::to_string(map.values.size()) + ", expected " + std::to_string(pixels));
+  const auto bad = std::find_if(map.values.begin(), map.values.end(), [](float a) { return !(a >= 0 && a <= 1); });
+  if (bad != map.values.end())
+    complain("value " + std::to_string(bad - map.values.begin()) + " of the reflectivity map is out of range",
+             "got " + number_text(static_cast<double>(*bad)) + ", expected 0 to 1");
+}
+}  // namespace
+
 void materials_send_back_no_more_than_they_get(const Material& material, Complaints& complaints) {
+  if (material.map != nullptr) check_map(material, complaints);
   const auto together = [&](const char* which, double lobe) {
     if (material.diffuse + lobe > 1 + 1e-12)
       complaints.add(
@@ -129,7 +148,7 @@ void boxes_are_thick(const Box& box, Complaints& complaints) {
 void meshes_have_triangles(const Mesh& mesh, Complaints& complaints) {
   const auto complain = [&](const std::string& what, const std::string& more) { complaints.add(mesh, &mesh.file, what, more); };
   if (mesh.triangles == nullptr) return complain("the mesh has no triangles", "expected Mesh::triangles to point to some");
-  const auto& [vertices, triangles] = *mesh.triangles;
+  const auto& [vertices, triangles, normals, texcoords] = *mesh.triangles;
   if (vertices.size() > static_cast<std::size_t>(base::limit::mesh_vertices.value) ||
       triangles.size() > static_cast<std::size_t>(base::limit::mesh_triangles.value))
     return complaints.add(mesh, &mesh.file, "the mesh is too large",
@@ -147,6 +166,20 @@ void meshes_have_triangles(const Mesh& mesh, Complaints& complaints) {
       if (corner < 0 || static_cast<std::size_t>(corner) >= vertices.size())
         return complain("triangle " + std::to_string(i) + " of the mesh has a corner that there is not",
                         "got vertex " + std::to_string(corner) + " of " + std::to_string(vertices.size()) + ", which count from 0");
+  const auto check_details = [&](const auto& rows, const char* what, float most) {
+    if (!rows.empty() && rows.size() != vertices.size())
+      return complain(
+          std::string("the mesh has not as many ") + what + " as vertices",
+          "got " + std::to_string(rows.size()) + " for " + std::to_string(vertices.size()) + " vertices; expected none, or one for each");
+    for (std::size_t i = 0; i < rows.size(); ++i)
+      for (const float x : rows[i])
+        if (!(std::abs(x) <= most))
+          return complain(
+              std::string(what) + " of vertex " + std::to_string(i) + " of the mesh are out of range",
+              "got " + number_text(static_cast<double>(x)) + ", expected numbers up to " + number_text(static_cast<double>(most)));
+  };
+  check_details(normals, "normals", 2.0F);
+  check_details(texcoords, "texture coordinates", 1e6F);
 }
 
 void turns_have_an_axis(const Rotation& rotation, Complaints& complaints) {

@@ -61,7 +61,8 @@ const Table& table_of<Material>() {
           number<&Material::spread_rad>("spread", {angle, {1e-3, 0.25 * base::pi}, "0.5 deg"},
                                         "angle between light and camera at which half of the peak is left")
               .when<brdf>(retro)
-              .required())
+              .required(),
+          no_row<&Material::map>("a picture out of a mesh's file"))
           .check_with(materials_send_back_no_more_than_they_get)
           .kind_may_be_missing();
   return rows;

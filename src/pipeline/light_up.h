@@ -3,6 +3,7 @@
 #pragma once
 #include "pipeline/store.h"
 #include "power/received.h"
+#include "trace/detail.h"
 #include "trace/visible.h"
 
 /// Stages 1 and 2 of a pack of pixels at one moment: what it sees, and the light it gets from there.
@@ -125,6 +126,14 @@ TOFRAY_FN bool light_of_scene(const Setup& s, const Job& job, Near& near, const 
   const bool open = !moves || s.last_stage < Stage::power || !near.can_be_shaded(s);  // nothing that moves can come between
   if (same && open && undisturbed && !now.truth) return false;
   flow::Surface<F> surface = trace::surface(s.scene, ray, hit);
+  if (s.scene.any_details != 0) {
+    // What is handed to a function lies in memory; the originals need not.
+    const flow::Ray<F> ray_copy = ray;
+    const flow::Hit<F> hit_copy = hit;
+    flow::Surface<F> copy = surface;
+    trace::add_details(s.scene, s.lens.pixel_area, ray_copy, hit_copy, copy);
+    surface = copy;
+  }
   hide_outside_lens(vignetting, surface);
   const bool calm = same && (open || !near.any(in_moving_shadow(s, near, now.index, surface)));
   if (calm && undisturbed && !now.truth) return false;

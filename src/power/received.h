@@ -33,11 +33,13 @@ TOFRAY_FN Path<F> received(const camera::PowerView& s, const camera::LightView& 
   // both directions point from the surface: to the light −from_light/r_L, to the camera −ray/|ray|
   const F towards = num::fma(ray.x, from_light.x, num::fma(ray.y, from_light.y, ray.z * from_light.z));
   const F cos_between = towards * per_distance * ray.inverse_length;
-  const F per_range = ray.inverse_length;
-  const brdf::Cosines<F> cosines =
-      brdf::cosines<F>({p.nx, p.ny, p.nz}, {-from_light.x * per_distance, -from_light.y * per_distance, -from_light.z * per_distance},
-                       {-ray.x * per_range, -ray.y * per_range, -ray.z * per_range}, cos_light, p.cos_view, cos_between);
-  F radiance = irradiance * brdf::reflection(p.finish, cosines);
+  const auto directions = [&]() __attribute__((always_inline)) {
+    const F per_range = ray.inverse_length;
+    return brdf::Directions<F>{{p.nx, p.ny, p.nz},
+                               {-from_light.x * per_distance, -from_light.y * per_distance, -from_light.z * per_distance},
+                               {-ray.x * per_range, -ray.y * per_range, -ray.z * per_range}};
+  };
+  F radiance = irradiance * brdf::reflection(p.finish, {cos_light, p.cos_view, cos_between}, directions);
   F watts = radiance * F(s.watts_per_radiance) * vignetting;
   if (s.paper_literal != 0) {
     radiance = paper_radiance(light, p, p.found & (!dark));

@@ -57,13 +57,7 @@ CameraFrame camera_frame(const Pose& pose) {
 FrozenScene::FrozenScene(const Scene& scene, const std::vector<Vec3>& lights, int moments) : sun_(scene.ambient.direction) {
   for (const Vec3& light : lights) lights_.push_back(vec(light));
   add_bodies(scene);
-  for (const Material& material : scene.materials) {
-    materials_.push_back(brdf::view_of(material));
-    if (materials_.back().brdf != 0) view_.any_other_brdf = 1;
-  }
-  // Facet 0 has a material even where there is nothing to be seen.
-  if (materials_.empty()) materials_.emplace_back();
-  view_.materials = materials_.data(), view_.material_count = static_cast<std::int32_t>(materials_.size());
+  add_materials(scene.materials);
   view_.moments = moves_ ? moments : 0;
   view_.lights = static_cast<std::int32_t>(lights_.size());
   view_.has_sun = sun_.has_value();
@@ -73,11 +67,27 @@ FrozenScene::FrozenScene(const Scene& scene, const std::vector<Vec3>& lights, in
   derive();
 }
 
+void FrozenScene::add_materials(const std::vector<Material>& materials) {
+  for (const Material& material : materials) {
+    brdf::MaterialView& view = materials_.emplace_back(brdf::view_of(material));
+    if (view.brdf != 0) view_.any_other_brdf = 1;
+    if (material.map == nullptr) continue;
+    const auto [known, fresh] = map_numbers_.try_emplace(material.map, static_cast<int>(maps_.size()));
+    if (fresh) maps_.push_back(map_levels_.emplace_back(std::make_unique<MapLevels>(*material.map))->view);
+    view.map = known->second;
+  }
+  // Facet 0 has a material even where there is nothing to be seen.
+  if (materials_.empty()) materials_.emplace_back();
+  view_.materials = materials_.data(), view_.material_count = static_cast<std::int32_t>(materials_.size());
+  view_.maps = maps_.data(), view_.map_count = static_cast<std::int32_t>(maps_.size());
+}
+
 template <class T, class Said>
 T FrozenScene::placed(const Said& said, const shape::Placement& at) {
   if constexpr (shape::many_of<T>) {
     const auto [known, fresh] = hierarchies_.try_emplace(said.triangles);
     if (fresh) known->second = build_hierarchy(*said.triangles);
+    if (!known->second.details.empty()) view_.any_details = 1;
     return T::placed(known->second, at);
   } else {
     return T::placed(said, at);

@@ -8,6 +8,7 @@
 
 #include "base/vec.h"
 #include "scene/hierarchy.h"
+#include "scene/map_levels.h"
 #include "scene/view.h"
 
 /// The scene, frozen for rendering: its shapes in the world, and everything in the camera frame as seen from the camera and from each light.
@@ -48,6 +49,7 @@ class FrozenScene {
 
  private:
   void add_bodies(const Scene& scene);
+  void add_materials(const std::vector<Material>& materials);
   /// The shape in the world.
   template <class T, class Said>
   T placed(const Said& said, const shape::Placement& at);
@@ -59,6 +61,9 @@ class FrozenScene {
   bool moves_ = false;
   BodyLists still_, moving_;
   std::map<std::shared_ptr<const TriangleMesh>, Hierarchy> hierarchies_;  ///< one for all objects that share the triangles
+  std::map<std::shared_ptr<const ReflectivityMap>, int> map_numbers_;     ///< one for all materials that share it
+  std::vector<std::unique_ptr<const MapLevels>> map_levels_;
+  std::vector<brdf::MapView> maps_;
   std::vector<shape::Vec> lights_;
   std::vector<double> moment_times_;
   std::vector<brdf::MaterialView> materials_;

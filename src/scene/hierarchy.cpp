@@ -192,7 +192,20 @@ class Builder {
       for (std::size_t c = 0; c < 3; ++c)
         for (std::size_t k = 0; k < 3; ++k) triangles.corner[c][k][i] = mesh_.vertices[static_cast<std::size_t>(corners[c])][k];
     }
+    if (!mesh_.normals.empty() || !mesh_.texcoords.empty()) add_details(triangles);
     return shape::leaf_of(block, static_cast<std::int32_t>(part.count()));
+  }
+
+  void add_details(const shape::MeshTriangles& triangles) {
+    shape::MeshDetails& details = out_.details.emplace_back();
+    for (std::size_t i = 0; i < shape::block_width; ++i) {
+      const auto& corners = mesh_.triangles[static_cast<std::size_t>(triangles.number[i])];
+      for (std::size_t c = 0; c < 3; ++c) {
+        const auto vertex = static_cast<std::size_t>(corners[c]);
+        for (std::size_t k = 0; k < 3; ++k) details.normal[c][k][i] = mesh_.normals.empty() ? 0 : mesh_.normals[vertex][k];
+        for (std::size_t k = 0; k < 2; ++k) details.texcoord[c][k][i] = mesh_.texcoords.empty() ? 0 : mesh_.texcoords[vertex][k];
+      }
+    }
   }
 
   void box(const Range& all) {

@@ -12,7 +12,8 @@ namespace tofray::scene {
 struct Hierarchy {
   std::vector<shape::MeshNode> nodes;  ///< [0] holds all; never empty
   std::vector<shape::MeshTriangles> triangles;
-  shape::Vec center{}, half{};  ///< of the box round all of them
+  std::vector<shape::MeshDetails> details;  ///< one for each block of triangles, or none
+  shape::Vec center{}, half{};              ///< of the box round all of them
 };
 
 /// Boxes of up to eight children each, cut where the surface area heuristic says (Wald 2007, in 16 bins): the larger a box, the more rays

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include "brdf/list.h"
+#include "brdf/reflectivity_map.h"
 #include "shape/list.h"
 
 /// The scene as kernels see it: shapes once, in the world's frame, and what is derived from them for each point that rays leave.
@@ -80,6 +81,7 @@ struct SceneView {
   Group still, moving;
   Facet* facets;  ///< still ones, then those of moment 0, 1 …
   const brdf::MaterialView* materials;
+  const brdf::MapView* maps;
   const shape::Vec* light_positions;  ///< [light] camera frame [m]
   const double* moment_times;         ///< [moment] [s]
   shape::Frame camera;                ///< where the camera stands
@@ -88,7 +90,9 @@ struct SceneView {
   std::int32_t lights;
   std::int32_t has_sun;  ///< light comes from one direction, too
   std::int32_t material_count;
-  std::int32_t any_other_brdf;  ///< than Lambert's;
+  std::int32_t map_count;
+  std::int32_t any_other_brdf;  ///< than Lambert's
+  std::int32_t any_details;     ///< of meshes
 
   TOFRAY_FN Forms camera_still() const { return still.seen_from(0, 0, 1 + lights); }
   TOFRAY_FN Forms camera_moving(int moment) const { return moving.seen_from(moment, 0, 1 + lights); }

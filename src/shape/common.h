@@ -69,6 +69,7 @@ TOFRAY_FN F affine(const Surface<F>& p, const float* m, float offset) {
 }
 
 struct MeshTriangles;
+struct MeshDetails;
 
 /// Where light lands: which way the surface faces there, what it belongs to, what it is made of. (All of a camera frame.)
 struct Facet {
@@ -76,6 +77,7 @@ struct Facet {
   std::int32_t curved;  ///< 0: flat; else 1 + the shape's place in the list
   std::int32_t object, material;
   const MeshTriangles* triangles;  ///< of a mesh, one of which the hit names
+  const MeshDetails* details;      ///< of a mesh, or null: what its corners say besides their place
 };
 constexpr int facet_words = sizeof(Facet) / sizeof(float);
 

@@ -28,7 +28,12 @@ struct alignas(64) MeshTriangles {
   float corner[3][3][block_width];   ///< [corner][coordinate]
   std::int32_t number[block_width];  ///< in the user's list
 };
-constexpr int mesh_triangles_words = sizeof(MeshTriangles) / sizeof(float);
+/// What the corners of the triangles of one block say besides: zeros where they do not.
+struct alignas(64) MeshDetails {
+  float normal[3][3][block_width];    ///< [corner][coordinate], in the mesh's frame
+  float texcoord[3][2][block_width];  ///< [corner][u, v]
+};
+constexpr int mesh_triangles_words = sizeof(MeshTriangles) / sizeof(float), mesh_details_words = sizeof(MeshDetails) / sizeof(float);
 constexpr int most_mesh_levels = 28;
 
 /// The first `count` triangles of block number `block`.
@@ -71,7 +76,7 @@ struct MeshHit {
 struct Mesh {
   using Form = MeshForm;
   using Along = MeshAlong;
-  static constexpr int facets = 1;
+  static constexpr int facets = 2;  ///< hits name the first; the second says where the camera's zero is in the mesh's frame
   static constexpr bool closed = false, curved = true, many = true;
 
   Mat axes;          ///< rows: those of the mesh's frame
@@ -79,6 +84,7 @@ struct Mesh {
   Vec center, half;  ///< of its box, in its own frame
   const MeshNode* nodes;
   const MeshTriangles* triangles;
+  const MeshDetails* details;  ///< null: no corner has any
   std::int32_t node_count, block_count;
 
   /// @param built  the hierarchy of its triangles (scene/hierarchy.h)
@@ -92,6 +98,7 @@ struct Mesh {
             built.half,
             built.nodes.data(),
             built.triangles.data(),
+            built.details.empty() ? nullptr : built.details.data(),
             static_cast<std::int32_t>(built.nodes.size()),
             static_cast<std::int32_t>(built.triangles.size())};
   }
@@ -108,9 +115,10 @@ TOFRAY_FN Mesh in_frame(const Mesh& mesh, const Frame& frame) {
   return out;
 }
 
-TOFRAY_FN void facet_of(const Mesh& mesh, int, Facet& out) {
+TOFRAY_FN void facet_of(const Mesh& mesh, int side, Facet& out) {
+  if (side == 1) return copy(mesh.axes * (-1.0 * mesh.origin), out.number);
   for (int k = 0; k < 3; ++k) copy(mesh.axes.row[k], out.number + 3 * k);
-  out.triangles = mesh.triangles;
+  out.triangles = mesh.triangles, out.details = mesh.details;
 }
 
 /// The largest coordinate of the mesh's box as seen from a point of its frame.

@@ -73,6 +73,7 @@ TEST_F(gltf_tool, looks_from_the_files_own_camera) {
   ASSERT_EQ(tool({"render", "seen.glb", "-o", "out", "--noise", "off"}).code, 0);
   const std::string manifest = content(folder_ / "out/manifest.json");
   EXPECT_TRUE(has(manifest, "position: [1, -0.5, -2], look_at: [1, -0.5, -1], up: [0, -1, 0]")) << manifest;
+  EXPECT_FALSE(has(manifest, "plane")) << manifest;  // its own floor, if it has one, is the only one
 }
 
 TEST_F(gltf_tool, is_made_again_from_a_manifest_only_if_all_its_files_are_the_same) {

@@ -26,7 +26,10 @@ struct Piece {
 
 TEST(packed_scene, points_into_its_own_memory) {
   Scene scene = wall(2);
-  const Mesh ball = shared(single(icosphere(2)));
+  TriangleMesh detailed = single(icosphere(2));
+  detailed.normals = detailed.vertices;
+  const Mesh ball = shared(std::move(detailed));
+  scene.materials[0].map = std::make_shared<ReflectivityMap>(ReflectivityMap{1, 2, {0.5F, 1}});
   scene.objects.push_back(object(ball));
   scene.objects.push_back(object(ball));
   scene.objects.push_back(object(shared(single(icosphere(1)))));
@@ -50,6 +53,11 @@ TEST(packed_scene, points_into_its_own_memory) {
     for (int i = 0; i < bodies->count; ++i) {
       EXPECT_TRUE(device.holds(bodies->at[i].shape.nodes));
       EXPECT_TRUE(device.holds(bodies->at[i].shape.triangles));
+      if (bodies == &moving || i < 2) {
+        EXPECT_TRUE(device.holds(bodies->at[i].shape.details));
+      } else {
+        EXPECT_EQ(bodies->at[i].shape.details, nullptr);
+      }
     }
   }
   EXPECT_EQ(still.at[0].shape.nodes, still.at[1].shape.nodes);
@@ -64,5 +72,12 @@ TEST(packed_scene, points_into_its_own_memory) {
   }
   const auto along = packed.still.seen_along(0).of<shape::Mesh>();
   for (int i = 0; i < along.count; ++i) EXPECT_EQ(along.at[i].nodes, still.at[i].shape.nodes);
-  for (int i = 0; i < still.count; ++i) EXPECT_EQ(packed.facets[still.at[i].facet].triangles, still.at[i].shape.triangles);
+  for (int i = 0; i < still.count; ++i) {
+    EXPECT_EQ(packed.facets[still.at[i].facet].triangles, still.at[i].shape.triangles);
+    EXPECT_EQ(packed.facets[still.at[i].facet].details, still.at[i].shape.details);
+  }
+  ASSERT_EQ(packed.map_count, 1);
+  ASSERT_TRUE(device.holds(packed.maps));
+  EXPECT_TRUE(device.holds(packed.maps[0].texels));
+  EXPECT_EQ(packed.maps[0].texel_count, 3);
 }

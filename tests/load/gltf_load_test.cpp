@@ -5,12 +5,14 @@
 
 #include "files/sha256.h"
 #include "gltf/gltf_files.h"
+#include "image/image_files.h"
 #include "load/load.h"
 #include "load/mesh_load.h"
 #include "support/samples.h"
 #include "support/text.h"
 
 using namespace tofray;
+using Document = gltf_test::Document;
 using gltf_test::File;
 using gltf_test::triangle_file;
 using out_test::write_file;
@@ -31,6 +33,25 @@ File two_materials() {
     file.primitive(file.mesh({{"POSITION", corners}}))["material"] = i;
     file.node({{"mesh", i}, {"translation", {2 * i, 0, 0}}});
   }
+  return file;
+}
+
+/// Three vertices with normals and texture coordinates, and a picture of 2 × 2: white, grey, red, black.
+File card(const Document& texture) {
+  File file;
+  const int mesh = file.mesh({{"POSITION", file.floats(gltf_test::corner_positions, "VEC3")},
+                              {"NORMAL", file.floats({0, 1, 0, 0, 1, 0, 0, 1, 0}, "VEC3")},
+                              {"TEXCOORD_0", file.floats({0, 0, 1, 0, 0, 1}, "VEC2")}});
+  file.primitive(mesh)["material"] = 0;
+  file.node({{"mesh", mesh}});
+  file.add("materials", {{"pbrMetallicRoughness", {{"baseColorFactor", {0.8, 0.5, 1, 1}}, {"baseColorTexture", texture}}}});
+  file.add("textures", {{"source", 0}, {"sampler", 0}});
+  file.add("samplers", {{"wrapS", 33071}, {"wrapT", 33648}});
+  const std::string pixels(
+      "\0\xFF\xFF\xFF\xBC\xBC\xBC"
+      "\0\xFF\0\0\0\0\0",
+      14);
+  file.add("images", {{"bufferView", file.view(image_test::hand_png(2, 2, 8, image_test::rgb, pixels))}, {"mimeType", "image/png"}});
   return file;
 }
 
@@ -98,13 +119,88 @@ TEST_F(gltf_in_scene, tells_how_many_reflectivities_are_a_guess) {
   EXPECT_EQ(mesh("file: two.glb, reflectivity: 0.3").guessed, 0);
 }
 
-TEST_F(gltf_in_scene, with_a_texture_has_half_its_colours_luminance) {
+TEST_F(gltf_in_scene, wears_the_picture_of_its_base_colour) {
+  file("in/card.glb", card({{"index", 0}}).glb());
+  const Scene got = scene("file: card.glb, scale: 2");
+  ASSERT_EQ(got.objects.size(), 1U);
+  const Material& material = got.materials.at(static_cast<std::size_t>(got.objects[0].material));
+  ASSERT_NE(material.map, nullptr);
+  EXPECT_EQ(material.map->width, 2);
+  EXPECT_EQ(material.map->height, 2);
+  EXPECT_EQ(material.map->wrap_u, ReflectivityMap::Wrap::clamp);
+  EXPECT_EQ(material.map->wrap_v, ReflectivityMap::Wrap::mirror);
+  // sRGB 255 is 1, 188 is 0.50289, 0 is 0; the factor is 0.8 of red, 0.5 of green, 1 of blue.
+  const double white = 0.2126 * 0.8 + 0.7152 * 0.5 + 0.0722, grey = 0.50289 * white, red = 0.2126 * 0.8;
+  EXPECT_NEAR(material.diffuse, white, 1e-6);
+  const std::vector<float>& values = material.map->values;
+  ASSERT_EQ(values.size(), 4U);
+  EXPECT_EQ(values[0], 1);
+  EXPECT_NEAR(static_cast<double>(values[1]), grey / white, 1e-5);
+  EXPECT_NEAR(static_cast<double>(values[2]), red / white, 1e-6);
+  EXPECT_EQ(values[3], 0);
+  const TriangleMesh& mesh = *std::get<Mesh>(got.objects[0].shape).triangles;
+  EXPECT_EQ(mesh.texcoords, (std::vector<std::array<float, 2>>{{0, 0}, {1, 0}, {0, 1}}));
+  EXPECT_EQ(mesh.normals, (std::vector<V>{{0, -1, 0}, {0, -1, 0}, {0, -1, 0}}));  // y is down in the world, lengths stay
+  EXPECT_EQ(mesh.vertices.at(1), (V{2, 0, 0}));
+  EXPECT_EQ(std::get<Mesh>(got.objects[0].shape).guessed, 1);
+}
+
+// offset + turn·(scale·(u, v)): counterclockwise as one looks at the picture, whose v grows downward.
+TEST_F(gltf_in_scene, takes_a_part_of_the_picture) {
+  const Document transform = {{"offset", {0.5, 0.25}}, {"scale", {2, 3}}, {"rotation", 0.5235987755982988}};
+  file("in/card.glb", card({{"index", 0}, {"extensions", {{"KHR_texture_transform", transform}}}}).glb());
+  const Scene got = scene("file: card.glb");
+  const TriangleMesh& mesh = *std::get<Mesh>(got.objects.at(0).shape).triangles;
+  ASSERT_EQ(mesh.texcoords.size(), 3U);
+  const double c = std::sqrt(0.75), s = 0.5;
+  const double expected[3][2] = {{0.5, 0.25}, {0.5 + 2 * c, 0.25 - 2 * s}, {0.5 + 3 * s, 0.25 + 3 * c}};
+  for (std::size_t i = 0; i < 3; ++i)
+    for (std::size_t k = 0; k < 2; ++k) EXPECT_NEAR(static_cast<double>(mesh.texcoords[i][k]), expected[i][k], 1e-6) << i << k;
+}
+
+TEST_F(gltf_in_scene, wears_no_picture_where_its_reflectivity_is_known) {
+  File known = card({{"index", 0}});
+  known.json["materials"][0]["extras"] = {{"nir_reflectivity", 0.6}};
+  file("in/known.glb", known.glb()), file("in/card.glb", card({{"index", 0}}).glb());
+  EXPECT_EQ(scene("file: known.glb").materials.at(0).map, nullptr);
+  EXPECT_EQ(reflectivity(scene("file: known.glb"), 0), 0.6);
+  const Scene own = scene("file: card.glb, reflectivity: 0.3");
+  EXPECT_EQ(own.materials.at(0).map, nullptr);
+  EXPECT_TRUE(std::get<Mesh>(own.objects[0].shape).triangles->texcoords.empty());
+  EXPECT_EQ(std::get<Mesh>(own.objects[0].shape).triangles->normals.size(), 3U);
+}
+
+TEST_F(gltf_in_scene, without_texture_coordinates_has_half_its_colours_luminance) {
   File textured = two_materials();
   textured.json["materials"][0]["pbrMetallicRoughness"] = {{"baseColorTexture", {{"index", 0}}}};
   textured.add("textures", {{"source", 0}});
   textured.add("images", {{"uri", "data:image/png;base64,"}});
   file("in/textured.glb", textured.glb());
   EXPECT_EQ(reflectivity(scene("file: textured.glb"), 0), 0.5);
+}
+
+// Normals and coordinates of the parts that have some; zeros for the others of the same material.
+TEST_F(gltf_in_scene, parts_without_normals_stay_flat) {
+  File both = card({{"index", 0}});
+  const int corners = both.floats(gltf_test::corner_positions, "VEC3");
+  both.primitive(both.mesh({{"POSITION", corners}}))["material"] = 0;
+  both.node({{"mesh", 1}});
+  file("in/both.glb", both.glb());
+  const Scene got = scene("file: both.glb");
+  const TriangleMesh& mesh = *std::get<Mesh>(got.objects.at(0).shape).triangles;
+  ASSERT_EQ(mesh.normals.size(), 6U);
+  EXPECT_EQ(mesh.normals[2], (V{0, -1, 0}));
+  EXPECT_EQ(mesh.normals[3], (V{0, 0, 0}));
+  ASSERT_EQ(mesh.texcoords.size(), 6U);
+  EXPECT_EQ(mesh.texcoords[2], (std::array<float, 2>{0, 1}));
+  EXPECT_EQ(mesh.texcoords[5], (std::array<float, 2>{0, 0}));
+}
+
+TEST_F(gltf_in_scene, with_a_broken_picture_is_refused_by_the_pictures_number) {
+  File broken = card({{"index", 0}});
+  broken.json["images"][0] = {{"uri", "data:image/png;base64,iVBORw0KGgo="}};
+  file("in/broken.glb", broken.glb());
+  EXPECT_TRUE(has(refusal("file: broken.glb"), "broken.glb: image 0: error: ")) << refusal("file: broken.glb");
 }
 
 TEST_F(gltf_in_scene, without_material_reflects_one_half_and_says_so) {

@@ -157,7 +157,8 @@ TEST(scene, reads_small_mirrors_and_retro_reflectors) {
 
 TEST(scene, names_materials_of_the_library) {
   const Scene scene = load::scene_from_text(
-      "materials: {skin: {reflectivity: 0.1}}\nobjects: [sphere: {center: [0, 0, 1], radius: 1, material: wood}, sphere: {center: [0, 0, 3], "
+      "materials: {skin: {reflectivity: 0.1}}\nobjects: [sphere: {center: [0, 0, 1], radius: 1, material: wood}, sphere: {center: [0, 0, "
+      "3], "
       "radius: 1, material: skin}, sphere: {center: [0, 0, 5], radius: 1, material: wood}]",
       "s.yaml");
   ASSERT_EQ(scene.materials.size(), 2U);  // once, however often it is named

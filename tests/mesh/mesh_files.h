@@ -45,7 +45,8 @@ inline bool is_sound(const ReadMesh& read) {
     return std::all_of(triangle.begin(), triangle.end(),
                        [&](std::int32_t i) { return i >= 0 && static_cast<std::size_t>(i) < read.mesh.vertices.size(); });
   };
-  const auto& [vertices, triangles] = read.mesh;
+  const auto& vertices = read.mesh.vertices;
+  const auto& triangles = read.mesh.triangles;
   return !triangles.empty() && std::all_of(vertices.begin(), vertices.end(), finite) &&
          std::all_of(triangles.begin(), triangles.end(), within);
 }

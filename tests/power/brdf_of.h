@@ -23,7 +23,8 @@ inline double f_r(const flow::Finish<float>& finish, const Vec3& to_light, const
   };
   const flow::Direction<float> light = single(to_light), camera = single(to_camera);
   const float between = light.x * camera.x + light.y * camera.y + light.z * camera.z;
-  return static_cast<double>(brdf::reflection(finish, brdf::cosines<float>({0, 0, 1}, light, camera, light.z, camera.z, between)));
+  const auto directions = [&] { return brdf::Directions<float>{{0, 0, 1}, light, camera}; };
+  return static_cast<double>(brdf::reflection<float>(finish, {light.z, camera.z, between}, directions));
 }
 
 inline flow::Finish<float> finish_of(const Material& material) {

@@ -12,7 +12,9 @@ namespace {
 
 /// The triangles as objects of their own, turned about the mesh's zero.
 void add_triangles(const Object& whole, Scene& scene) {
-  const auto& [vertices, triangles] = *std::get<Mesh>(whole.shape).triangles;
+  const TriangleMesh& mesh = *std::get<Mesh>(whole.shape).triangles;
+  const auto& vertices = mesh.vertices;
+  const auto& triangles = mesh.triangles;
   const double a = whole.rotation.angle_rad, c = std::cos(a), s = std::sin(a);
   const Vec3 k = base::normalized(whole.rotation.axis);
   for (const auto& triangle : triangles) {

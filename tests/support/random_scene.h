@@ -38,6 +38,23 @@ inline TriangleMesh garbage(Random& random, int count) {
   return out;
 }
 
+/// Normals that are not the triangles', and texture coordinates.
+inline void add_details(Random& random, TriangleMesh& mesh) {
+  for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
+    const Vec3 n = random.direction();
+    mesh.normals.push_back({static_cast<float>(n[0]), static_cast<float>(n[1]), static_cast<float>(n[2])});
+    mesh.texcoords.push_back({static_cast<float>(random.between(-2, 3)), static_cast<float>(random.between(-2, 3))});
+  }
+}
+
+inline std::shared_ptr<const ReflectivityMap> random_map(Random& random) {
+  auto map = std::make_shared<ReflectivityMap>();
+  map->width = 1 + random.below(40), map->height = 1 + random.below(40);
+  map->wrap_u = static_cast<ReflectivityMap::Wrap>(random.below(3)), map->wrap_v = static_cast<ReflectivityMap::Wrap>(random.below(3));
+  for (int i = 0; i < map->width * map->height; ++i) map->values.push_back(static_cast<float>(random.uniform()));
+  return map;
+}
+
 /// Some of everything before a slanted wall; half of it turned, and moving if asked for.
 inline Scene random_scene(Random& random, int objects, bool moving) {
   Scene scene;
@@ -46,6 +63,7 @@ inline Scene random_scene(Random& random, int objects, bool moving) {
                      {"dark", Material::Brdf::lambert, 0.05, 0, 1},
                      {"metal", Material::Brdf::ggx, 0, 0.8},
                      {"sheet", Material::Brdf::retro, 0.1}};
+  for (Material& one : scene.materials) one.map = random_map(random);
   scene.materials[3].alpha = 0.2;
   scene.materials[4].retro = 0.3, scene.materials[4].spread_rad = 0.03;
   const double back = random.between(3, 6);
@@ -68,7 +86,11 @@ inline Scene random_scene(Random& random, int objects, bool moving) {
     }
     if (kind == 7) one.shape = Plane{middle + Vec3{0, 0, 2}, random.direction()};
     if (kind == 8) one.shape = Cylinder{middle, random.direction(), 0.5 * size, random.between(0.3, 2) * size};
-    if (kind == 9) one.shape = shared(single(stone(random, random.below(3), size, middle)));
+    if (kind == 9) {
+      TriangleMesh triangles = single(stone(random, random.below(3), size, middle));
+      if (random.below(2) == 0) add_details(random, triangles);
+      one.shape = shared(std::move(triangles));
+    }
     one.material = random.below(5);
     if (random.uniform() < 0.5) {
       one.rotation.axis = random.direction();

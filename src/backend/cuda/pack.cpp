@@ -24,6 +24,7 @@ class Meshes {
   void move(T& one) const {
     if constexpr (requires { one.nodes; }) one.nodes = there(&Place::nodes, one.nodes);
     if constexpr (requires { one.triangles; }) one.triangles = there(&Place::triangles, one.triangles);
+    if constexpr (requires { one.details; }) one.details = there(&Place::details, one.details);
     if constexpr (requires { one.shape; }) move(one.shape);
   }
   /// Puts an array that may point to them.
@@ -48,6 +49,7 @@ class Meshes {
   struct Place {
     Pair<shape::MeshNode> nodes;
     Pair<shape::MeshTriangles> triangles;
+    Pair<shape::MeshDetails> details;
   };
 
   void put(const scene::Group& group) {
@@ -56,7 +58,8 @@ class Meshes {
       const shape::Mesh& mesh = bodies.at[i].shape;
       if (there(&Place::nodes, mesh.nodes) != nullptr) continue;
       places_.push_back({{mesh.nodes, packer_.put(mesh.nodes, count_of(mesh.node_count))},
-                         {mesh.triangles, packer_.put(mesh.triangles, count_of(mesh.block_count))}});
+                         {mesh.triangles, packer_.put(mesh.triangles, count_of(mesh.block_count))},
+                         {mesh.details, packer_.put(mesh.details, count_of(mesh.details == nullptr ? 0 : mesh.block_count))}});
     }
   }
   template <class T>
@@ -141,6 +144,9 @@ void pack_scene(Packer& packer, const scene::SceneView& from, scene::SceneView& 
   pack_bodies(shape::Shapes{}, meshes, from.still, to.still);
   pack_bodies(shape::Shapes{}, meshes, from.moving, to.moving);
   to.materials = packer.put(from.materials, count_of(from.material_count));
+  std::vector<brdf::MapView> maps(from.maps, from.maps + from.map_count);
+  for (brdf::MapView& map : maps) map.texels = packer.put(map.texels, count_of(map.texel_count));
+  to.maps = packer.put(static_cast<const brdf::MapView*>(maps.data()), maps.size());
   to.light_positions = packer.put(from.light_positions, count_of(from.lights));
   scene::SceneView still = from;
   still.moments = 0;  // what moves is derived there for each frame, and with it the facets of all
