@@ -62,6 +62,15 @@ struct Cylinder {
   double radius = 1;
   double height = 1;
 };  ///< with caps; the axis need not be of unit length
+struct Rectangle {
+  Vec3 center{};
+  std::array<double, 2> size{1, 1};  ///< along x and y before its rotation
+};                                   ///< flat, in the x-y plane before its rotation
+struct Disk {
+  Vec3 center{};
+  Vec3 normal{0, 0, -1};
+  double radius = 1;
+};  ///< flat; the normal need not be of unit length
 
 /// Triangles that share vertices, both sides of which reflect.
 struct TriangleMesh {
@@ -94,11 +103,11 @@ struct Rotation {
   double angle_rad = 0;
 };
 
-/// One thing in the scene. Order of operations: rotation about its own centre (sphere, box, cylinder: the centre; triangle: the
-/// centroid; plane: its point; mesh: its zero), then the shift `position`, then velocity · t.
+/// One thing in the scene. Order of operations: rotation about its own centre (sphere, box, cylinder, rectangle, disk: the centre;
+/// triangle: the centroid; plane: its point; mesh: its zero), then the shift `position`, then velocity · t.
 struct Object {
   std::string name;
-  std::variant<Plane, Sphere, Box, Triangle, Cylinder, Mesh> shape;
+  std::variant<Plane, Sphere, Box, Triangle, Cylinder, Rectangle, Disk, Mesh> shape;
   int material = 0;        ///< index in Scene::materials
   Vec3 position{0, 0, 0};  ///< shift [m]
   Rotation rotation{};

@@ -58,6 +58,7 @@ struct Plain {
   void operator()(bool* member) const { *member = value.flag; }
   void operator()(std::string* member) const { *member = value.text; }
   void operator()(Vec3* member) const { *member = vector(value); }
+  void operator()(std::array<double, 2>* member) const { *member = {value.items[0].number, value.items[1].number}; }
   void operator()(std::optional<double>* member) const { *member = value.number; }
   void operator()(std::optional<Vec3>* member) const { *member = vector(value); }
   void operator()(std::array<Vec3, 3>* member) const {

@@ -32,7 +32,8 @@ void each_number(const Slot& slot, const Visit& visit) {
           using Member = std::remove_pointer_t<One>;
           if constexpr (is_number<Member>)
             visit(static_cast<double>(*one), Spot::whole, -1LL);
-          else if constexpr (std::is_same_v<Member, Vec3> || std::is_same_v<Member, std::vector<double>>)
+          else if constexpr (std::is_same_v<Member, Vec3> || std::is_same_v<Member, std::array<double, 2>> ||
+                             std::is_same_v<Member, std::vector<double>>)
             list(*one, Spot::whole);
           else if constexpr (std::is_same_v<Member, std::optional<double>>)
             one->has_value() ? void(visit(**one, Spot::whole, -1LL)) : void();

@@ -181,7 +181,7 @@ Rows<1> row(const char* key, Form form, const char* doc) {
 }
 }  // namespace detail
 
-/// A number, a whole number, three coordinates, three points: what the member is.
+/// A number, a whole number, two lengths, three coordinates, three points: what the member is.
 template <auto M>
 Rows<1> number(const char* key, const Number& number, const char* doc) {
   using Member = typename detail::Of<decltype(M)>::Member;
@@ -192,6 +192,8 @@ Rows<1> number(const char* key, const Number& number, const char* doc) {
     return detail::row<M>(key, one, doc);
   } else if constexpr (std::is_same_v<Member, std::array<Vec3, 3>>) {
     return detail::row<M>(key, list(list(one, 3, 3), 3, 3), doc);
+  } else if constexpr (std::is_same_v<Member, std::array<double, 2>>) {
+    return detail::row<M>(key, list(one, 2, 2), doc);
   } else {
     return detail::row<M>(key, list(one, 3, 3), doc);
   }

@@ -110,6 +110,25 @@ const Table& table_of<Cylinder>() {
   return rows;
 }
 
+template <>
+const Table& table_of<Rectangle>() {
+  static const Table rows =
+      table<Rectangle>(number<&Rectangle::center>("center", coordinate, "[m]").required(),
+                       number<&Rectangle::size>("size", {length, {base::shortest_m, 1e5}, "40 cm", true},
+                                                "its width and height, along x and y before the rotation; both sides reflect [m]")
+                           .required());
+  return rows;
+}
+
+template <>
+const Table& table_of<Disk>() {
+  static const Table rows =
+      table<Disk>(number<&Disk::center>("center", coordinate, "[m]").required(),
+                  number<&Disk::normal>("normal", component, "any length but zero; both sides reflect").required().direction(),
+                  number<&Disk::radius>("radius", {length, {base::shortest_m, 1e5}, "15 cm", true}, "[m]").required());
+  return rows;
+}
+
 /// Of a mesh set in code, the triangles alone count.
 template <>
 const Table& table_of<Mesh>() {
@@ -153,8 +172,9 @@ template <>
 const Table& table_of<Object>() {
   static const Table rows =
       table<Object>(words<&Object::name>("name", "a name", "ball", "how listings call the object").absent(),
-                    one_of<&Object::shape>({"plane", "sphere", "box", "triangle", "cylinder", "mesh"}),  // the key of the file's entry
-                    number<&Object::material>("", {none, {0, 2.0 * most_objects}, "0"}, ""),             // a name, or a material of its own
+                    // the key of the file's entry
+                    one_of<&Object::shape>({"plane", "sphere", "box", "triangle", "cylinder", "rectangle", "disk", "mesh"}),
+                    number<&Object::material>("", {none, {0, 2.0 * most_objects}, "0"}, ""),  // a name, or a material of its own
                     number<&Object::position>("position", coordinate, "a shift [m]"),
                     record<&Object::rotation>("rotation", "a turn about the object's own centre (of a plane: about its point)"),
                     number<&Object::velocity_m_per_s>("velocity", {speed, {-1e4, 1e4}, "1 m/s", true}, "[m/s]"));
@@ -266,6 +286,8 @@ std::vector<std::pair<std::string, std::string>> words_that_people_try() {
                                                             {"boxes", "objects"},
                                                             {"triangles", "objects"},
                                                             {"cylinders", "objects"},
+                                                            {"rectangles", "objects"},
+                                                            {"disks", "objects"},
                                                             {"meshes", "objects"},
                                                             {"profile", "camera.profile"},
                                                             {"pose", "camera.pose"}};

@@ -58,18 +58,9 @@ TOFRAY_FN Cylinder in_frame(const Cylinder& c, const Frame& frame) {
   return {frame.point(c.center), frame.direction(c.axis), c.radius, c.half};
 }
 
-/// What of p is across the cylinder.
-TOFRAY_FN Vec across(const Cylinder& c, const Vec& p) { return p - dot(p, c.axis) * c.axis; }
 TOFRAY_FN bool inside(const Cylinder& c, const Vec& p) {
-  const Vec q = p - c.center, side = across(c, q);
+  const Vec q = p - c.center, side = across(q, c.axis);
   return dot(side, side) < c.radius * c.radius && ::fabs(dot(q, c.axis)) < c.half;
-}
-/// The direction of p across the cylinder; any one where p has none.
-TOFRAY_FN Vec way_across(const Cylinder& c, const Vec& p) {
-  const Vec side = across(c, p);
-  if (length(side) > 1e-12 * length(p)) return normalized(side - dot(side, c.axis) * c.axis);
-  const double x = ::fabs(c.axis.x), y = ::fabs(c.axis.y), z = ::fabs(c.axis.z);
-  return normalized(cross(c.axis, x <= y && x <= z ? Vec{1, 0, 0} : y <= z ? Vec{0, 1, 0} : Vec{0, 0, 1}));
 }
 
 TOFRAY_FN void facet_of(const Cylinder& c, int side, Facet& out) {
@@ -77,14 +68,14 @@ TOFRAY_FN void facet_of(const Cylinder& c, int side, Facet& out) {
     face(c.axis, out);
     return;
   }
-  copy((-1 / c.radius) * across(c, c.center), out.number);
+  copy((-1 / c.radius) * across(c.center, c.axis), out.number);
   out.number[3] = single(1 / c.radius);
   copy(c.axis, out.number + 4);
 }
 
 TOFRAY_FN CylinderForm seen_from(const Cylinder& c, const Vec& origin) {
   CylinderForm form{};
-  const Vec center = c.center - origin, u = way_across(c, center), v = cross(c.axis, u);
+  const Vec center = c.center - origin, u = way_across(center, c.axis), v = cross(c.axis, u);
   const double line = dot(center, u), at = dot(center, c.axis), power = (line - c.radius) * (line + c.radius);
   copy(u, form.u), copy(v, form.v), copy(c.axis, form.a);
   form.line = single(line), form.radius_squared = single(c.radius * c.radius);
@@ -137,7 +128,7 @@ TOFRAY_FN F inverse_range(const CylinderForm& c, const Ray<F>& ray, Int<F>& side
 
 TOFRAY_FN CylinderAlong seen_along(const Cylinder& c, const Vec& s) {
   CylinderAlong form{};
-  const Vec u = way_across(c, s), v = cross(c.axis, u);
+  const Vec u = way_across(s, c.axis), v = cross(c.axis, u);
   copy(u, form.u), copy(v, form.v), copy(c.axis, form.a);
   form.offset[0] = single(-dot(c.center, u)), form.offset[1] = single(-dot(c.center, v)), form.offset[2] = single(-dot(c.center, c.axis));
   form.radius_squared = single(c.radius * c.radius), form.half = single(c.half);

@@ -4,8 +4,10 @@
 #include "num/list.h"
 #include "shape/box.h"
 #include "shape/cylinder.h"
+#include "shape/disk.h"
 #include "shape/mesh_search.h"
 #include "shape/plane.h"
+#include "shape/rectangle.h"
 #include "shape/sphere.h"
 #include "shape/triangle.h"
 
@@ -35,7 +37,7 @@ constexpr bool many_of = requires {
 };
 
 /// In the order of the public Object's variant. Of two surfaces at one place the first shape's is seen.
-using Shapes = List<Plane, Sphere, Box, Triangle, Cylinder, Mesh>;
+using Shapes = List<Plane, Sphere, Box, Triangle, Cylinder, Rectangle, Disk, Mesh>;
 
 /// One Each<T> for every shape T.
 template <template <class> class Each, class List>

@@ -22,6 +22,16 @@ TOFRAY_FN Vec cross(const Vec& a, const Vec& b) { return {a.y * b.z - a.z * b.y,
 TOFRAY_FN double length(const Vec& a) { return ::sqrt(dot(a, a)); }
 TOFRAY_FN Vec normalized(const Vec& a) { return (1 / length(a)) * a; }
 
+/// What of p is across the unit vector `axis`.
+TOFRAY_FN Vec across(const Vec& p, const Vec& axis) { return p - dot(p, axis) * axis; }
+/// Its direction; any one across the axis where p has none.
+TOFRAY_FN Vec way_across(const Vec& p, const Vec& axis) {
+  const Vec side = across(p, axis);
+  if (length(side) > 1e-12 * length(p)) return normalized(across(side, axis));
+  const double x = ::fabs(axis.x), y = ::fabs(axis.y), z = ::fabs(axis.z);
+  return normalized(cross(axis, x <= y && x <= z ? Vec{1, 0, 0} : y <= z ? Vec{0, 1, 0} : Vec{0, 0, 1}));
+}
+
 /// Rows of a rotation matrix.
 struct Mat {
   Vec row[3];

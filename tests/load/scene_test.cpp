@@ -124,6 +124,28 @@ TEST(scene, reads_cylinders) {
   EXPECT_TRUE(has(refusal("objects: [cylinder: {center: [0, 0, 1], axis: [0, 1, 0], radius: 1, reflectivity: 0.5}]"), "height"));
 }
 
+TEST(scene, reads_rectangles_and_disks) {
+  const Scene scene = load::scene_from_text(
+      "objects: [rectangle: {center: [0, 10 cm, 1], size: [40 cm, 0.2], rotation: {axis: [0, 1, 0], angle: 30 deg}, reflectivity: 0.5},"
+      " disk: {center: [0, 0, 2], normal: [0, 3, 0], radius: 15 cm, reflectivity: 0.5}]",
+      "s.yaml");
+  const auto& rectangle = std::get<Rectangle>(scene.objects[0].shape);
+  EXPECT_EQ(rectangle.center, (Vec3{0, 0.1, 1}));
+  EXPECT_EQ(rectangle.size, (std::array<double, 2>{0.4, 0.2}));
+  EXPECT_NEAR(scene.objects[0].rotation.angle_rad, base::pi / 6, 1e-15);
+  const auto& disk = std::get<Disk>(scene.objects[1].shape);
+  EXPECT_EQ(disk.center, (Vec3{0, 0, 2}));
+  EXPECT_EQ(disk.normal, (Vec3{0, 3, 0}));
+  EXPECT_EQ(disk.radius, 0.15);
+  const auto refused = [](const std::string& shape) { return refusal("objects: [" + shape + ", reflectivity: 0.5}]"); };
+  EXPECT_TRUE(has(refused("rectangle: {center: [0, 0, 1], size: [1, 2, 3]"), "size"));
+  EXPECT_TRUE(has(refused("rectangle: {center: [0, 0, 1], size: 1"), "size"));
+  EXPECT_TRUE(has(refused("rectangle: {center: [0, 0, 1], size: [1, 0]"), "size"));
+  EXPECT_TRUE(has(refused("rectangle: {center: [0, 0, 1]"), "size"));
+  EXPECT_TRUE(has(refused("disk: {center: [0, 0, 1], normal: [0, 0, 0], radius: 1"), "normal has no length"));
+  EXPECT_TRUE(has(refused("disk: {center: [0, 0, 1], normal: [0, 0, 1]"), "radius"));
+}
+
 TEST(scene, reads_rough_materials) {
   const std::string around = "objects: [sphere: {center: [0, 0, 1], radius: 1, material: {brdf: oren_nayar, reflectivity: 0.5";
   const Material one = load::scene_from_text(around + ", roughness: 30 deg}}]", "s.yaml").materials[0];

@@ -89,6 +89,27 @@ inline Span span(const shape::Cylinder& c, const Vec3& o, const Vec3& d) {
   return out;
 }
 
+inline Span span(const shape::Rectangle& r, const Vec3& o, const Vec3& d) {
+  const Vec3 corner = vec3(r.corner[0]), x = vec3(r.corner[1]) - corner, y = vec3(r.corner[3]) - corner;
+  const Vec3 n = base::normalized(base::cross(x, y));
+  const double along = base::dot(n, d), slant = std::abs(along) / base::length(d), t = base::dot(n, corner - o) / along;
+  const Vec3 at = o + t * d - corner;
+  const double u = base::dot(at, x) / base::dot(x, x), v = base::dot(at, y) / base::dot(y, y);
+  const double least = std::fmin(std::fmin(u, 1 - u), std::fmin(v, 1 - v));
+  Span out{1, 0, std::fmin(std::abs(least), slant)};
+  if (along != 0 && least >= 0) out.enter = out.leave = t;
+  return out;
+}
+
+inline Span span(const shape::Disk& disk, const Vec3& o, const Vec3& d) {
+  const Vec3 n = vec3(disk.normal);
+  const double along = base::dot(n, d), slant = std::abs(along) / base::length(d), t = base::dot(n, vec3(disk.center) - o) / along;
+  const double distance = base::length(o + t * d - vec3(disk.center));
+  Span out{1, 0, std::fmin(std::abs(1 - distance / disk.radius), 1.0) * slant};
+  if (along != 0 && distance <= disk.radius) out.enter = out.leave = t;
+  return out;
+}
+
 template <class T>
 void add_spans(const T& shape, const Vec3& o, const Vec3& d, std::vector<Span>& to) {
   to.push_back(span(shape, o, d));

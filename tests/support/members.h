@@ -40,6 +40,7 @@ void each_real(const model::Slot& slot, const Visit& visit) {
   };
   if (auto* const* one = std::get_if<double*>(&slot)) visit(**one);
   if (auto* const* one = std::get_if<Vec3*>(&slot)) all(**one);
+  if (auto* const* one = std::get_if<std::array<double, 2>*>(&slot)) all(**one);
   if (auto* const* one = std::get_if<std::optional<double>*>(&slot); one != nullptr && (*one)->has_value()) visit(***one);
   if (auto* const* one = std::get_if<std::optional<Vec3>*>(&slot); one != nullptr && (*one)->has_value()) all(***one);
   if (auto* const* one = std::get_if<std::vector<double>*>(&slot)) all(**one);

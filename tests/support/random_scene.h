@@ -73,7 +73,7 @@ inline Scene random_scene(Random& random, int objects, bool moving) {
     const double away = random.between(0.6, 4), size = random.scale(0.03, 0.6);
     const Vec3 aside = random.point(0.7 * away), middle{aside[0], aside[1], away};
     Object one;
-    const int kind = random.below(10);
+    const int kind = random.below(12);
     if (kind < 2) one.shape = Sphere{middle, size};
     if (kind >= 2 && kind < 4) {
       const Vec3 half = 0.5 * size * (Vec3{1.2, 1.2, 1.2} + random.point(1));
@@ -86,6 +86,8 @@ inline Scene random_scene(Random& random, int objects, bool moving) {
     }
     if (kind == 7) one.shape = Plane{middle + Vec3{0, 0, 2}, random.direction()};
     if (kind == 8) one.shape = Cylinder{middle, random.direction(), 0.5 * size, random.between(0.3, 2) * size};
+    if (kind == 10) one.shape = Rectangle{middle, {random.between(0.3, 2) * size, random.between(0.3, 2) * size}};
+    if (kind == 11) one.shape = Disk{middle, random.direction(), size};
     if (kind == 9) {
       TriangleMesh triangles = single(stone(random, random.below(3), size, middle));
       if (random.below(2) == 0) add_details(random, triangles);

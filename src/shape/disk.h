@@ -1,0 +1,91 @@
+// SPDX-FileCopyrightText: 2026 The tofray authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "shape/common.h"
+
+/// Disk: n·(P − c) = 0 and |P − c| <= R, both sides reflect.
+namespace tofray::shape {
+
+/// In axes x, y of its plane, x the way to c across n, and n away from the origin, a ray meets the plane at t = (n·c)/(d·n), which is
+/// t·(d·x) − c·x, t·(d·y) from the centre. Times (d·n)/R: the disk is hit where (d·X)² + (d·Y)² <= (d·n)², d·n > 0, with
+/// X = ((n·c)·x − (c·x)·n)/R, at right angles to c, and Y = (n·c)·y/R. No difference of large terms is left, and no division.
+struct DiskForm {
+  float x[3], y[3], n[3];
+  float inverse_distance;  ///< 1/(n·c)
+  std::int32_t facet, object;
+  Bounds bounds;
+};
+
+/// P + t·s meets the plane at t = P·m + c, and there it is P·x + offset[0], P·y + offset[1] from the centre; all times n·s.
+struct DiskAlong {
+  float m[3], c, x[3], y[3], offset[2], radius_squared;
+  std::int32_t object;
+};
+
+struct Disk {
+  using Form = DiskForm;
+  using Along = DiskAlong;
+  static constexpr int facets = 1;
+  static constexpr bool closed = false, curved = false;
+
+  Vec center, normal;
+  double radius;
+
+  template <class Said>
+  static Disk placed(const Said& said, const Placement& at) {
+    const Vec center = Placement::vec(said.center);
+    return {at.point(center, center), normalized(at.direction(Placement::vec(said.normal))), said.radius};
+  }
+};
+
+TOFRAY_FN Disk in_frame(const Disk& d, const Frame& frame) { return {frame.point(d.center), frame.direction(d.normal), d.radius}; }
+
+TOFRAY_FN void facet_of(const Disk& d, int, Facet& out) { face(d.normal, out); }
+
+/// A disk that is seen edge-on is hit by no ray.
+TOFRAY_FN DiskForm seen_from(const Disk& d, const Vec& origin) {
+  DiskForm form{};
+  form.bounds = nowhere();
+  const Vec center = d.center - origin, x = way_across(center, d.normal), y = cross(d.normal, x);
+  const double offset = dot(d.normal, center), distance = ::fabs(offset);
+  if (distance <= 1e-9 * length(center)) return form;
+  const Vec n = (offset < 0 ? -1.0 : 1.0) * d.normal;
+  copy((1 / d.radius) * (distance * x - dot(center, x) * n), form.x);
+  copy((distance / d.radius) * y, form.y);
+  copy(n, form.n);
+  form.inverse_distance = single(inverse(distance));
+  const Vec along = d.radius * x, across = d.radius * y;
+  const Vec corners[4] = {center - along - across, center + along - across, center - along + across, center + along + across};
+  form.bounds = bounds_of_points(corners, 4);
+  return form;
+}
+
+TOFRAY_FN bool can_meet(const DiskForm& disk, const Bounds& r) { return overlap(disk.bounds, r); }
+
+template <class F>
+TOFRAY_FN F inverse_range(const DiskForm& disk, const Ray<F>& ray) {
+  const F x = dot(ray, disk.x), y = dot(ray, disk.y), n = dot(ray, disk.n);
+  return num::select((n > F(0.0f)) & (num::fma(x, x, y * y) <= n * n), n * F(disk.inverse_distance), F(0.0f));
+}
+
+/// Light that travels along it is not stopped: t = 0.
+TOFRAY_FN DiskAlong seen_along(const Disk& d, const Vec& s) {
+  DiskAlong form{};
+  const double along = dot(d.normal, s);
+  if (::fabs(along) <= 1e-6) return form;
+  const Vec way = way_across(s, d.normal), x = along * way - dot(s, way) * d.normal, y = along * cross(d.normal, way);
+  copy((-1 / along) * d.normal, form.m);
+  form.c = single(dot(d.normal, d.center) / along);
+  copy(x, form.x), copy(y, form.y);
+  form.offset[0] = single(-dot(d.center, x)), form.offset[1] = single(-dot(d.center, y));
+  form.radius_squared = single(along * along * d.radius * d.radius);
+  return form;
+}
+
+template <class F>
+TOFRAY_FN Mask<F> blocks(const DiskAlong& disk, const Surface<F>& p, const float*, F margin) {
+  const F x = affine(p, disk.x, disk.offset[0]), y = affine(p, disk.y, disk.offset[1]);
+  return (num::fma(x, x, y * y) <= F(disk.radius_squared)) & (affine(p, disk.m, disk.c) > margin);
+}
+
+}  // namespace tofray::shape

@@ -1,0 +1,33 @@
+// SPDX-FileCopyrightText: 2026 The tofray authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "shape/polygon.h"
+
+/// Rectangle, both sides reflect: |x·(P − c)| <= width/2 and |y·(P − c)| <= height/2 in the plane of its axes x and y.
+namespace tofray::shape {
+
+struct Rectangle {
+  using Form = PolygonForm<4>;
+  using Along = PolygonAlong<4>;
+  static constexpr int facets = 1;
+  static constexpr bool closed = false, curved = false;
+
+  Vec corner[4];
+
+  template <class Said>
+  static Rectangle placed(const Said& said, const Placement& at) {
+    const Vec given = Placement::vec(said.center), center = at.point(given, given);
+    const Vec x = at.direction({0.5 * said.size[0], 0, 0}), y = at.direction({0, 0.5 * said.size[1], 0});
+    return {{center - x - y, center + x - y, center + x + y, center - x + y}};
+  }
+};
+
+TOFRAY_FN Rectangle in_frame(const Rectangle& r, const Frame& frame) {
+  return {{frame.point(r.corner[0]), frame.point(r.corner[1]), frame.point(r.corner[2]), frame.point(r.corner[3])}};
+}
+
+TOFRAY_FN void facet_of(const Rectangle& r, int, Facet& out) { face(normalized(normal_of_corners(r.corner)), out); }
+TOFRAY_FN PolygonForm<4> seen_from(const Rectangle& r, const Vec& origin) { return polygon_seen_from(r.corner, origin); }
+TOFRAY_FN PolygonAlong<4> seen_along(const Rectangle& r, const Vec& s) { return polygon_seen_along(r.corner, s); }
+
+}  // namespace tofray::shape
