@@ -71,6 +71,17 @@ struct Disk {
   Vec3 normal{0, 0, -1};
   double radius = 1;
 };  ///< flat; the normal need not be of unit length
+struct Capsule {
+  Vec3 start{};
+  Vec3 end{0, 1, 0};
+  double radius = 1;
+};  ///< all points within `radius` of the line between its two points, which differ
+struct Cone {
+  Vec3 base{};
+  Vec3 axis{0, -1, 0};
+  double radius = 1;
+  double height = 1;
+};  ///< with a base, whose middle is `base`; the axis, which need not be of unit length, goes from there to the tip
 
 /// Triangles that share vertices, both sides of which reflect.
 struct TriangleMesh {
@@ -104,10 +115,10 @@ struct Rotation {
 };
 
 /// One thing in the scene. Order of operations: rotation about its own centre (sphere, box, cylinder, rectangle, disk: the centre;
-/// triangle: the centroid; plane: its point; mesh: its zero), then the shift `position`, then velocity · t.
+/// triangle: the centroid; capsule: halfway between its points; plane: its point; cone: the middle of its base; mesh: its zero), then the shift `position`, then velocity · t.
 struct Object {
   std::string name;
-  std::variant<Plane, Sphere, Box, Triangle, Cylinder, Rectangle, Disk, Mesh> shape;
+  std::variant<Plane, Sphere, Box, Triangle, Cylinder, Rectangle, Disk, Capsule, Cone, Mesh> shape;
   int material = 0;        ///< index in Scene::materials
   Vec3 position{0, 0, 0};  ///< shift [m]
   Rotation rotation{};

@@ -145,6 +145,13 @@ void boxes_are_thick(const Box& box, Complaints& complaints) {
                      ErrorKind::bad_input, static_cast<long long>(k));
 }
 
+void capsules_have_a_length(const Capsule& capsule, Complaints& complaints) {
+  using base::operator-;
+  if (base::length(capsule.end - capsule.start) < shortest_m)
+    complaints.add(capsule, &capsule.end, "the capsule ends where it starts",
+                   "expected points at least 1 um apart; a sphere has the same shape without them");
+}
+
 void meshes_have_triangles(const Mesh& mesh, Complaints& complaints) {
   const auto complain = [&](const std::string& what, const std::string& more) { complaints.add(mesh, &mesh.file, what, more); };
   if (mesh.triangles == nullptr) return complain("the mesh has no triangles", "expected Mesh::triangles to point to some");

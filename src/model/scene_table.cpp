@@ -129,6 +129,26 @@ const Table& table_of<Disk>() {
   return rows;
 }
 
+template <>
+const Table& table_of<Capsule>() {
+  static const Table rows =
+      table<Capsule>(number<&Capsule::start>("start", coordinate, "the middle of one of its round ends [m]").required(),
+                     number<&Capsule::end>("end", coordinate, "that of the other one, which is another point [m]").required(),
+                     number<&Capsule::radius>("radius", {length, {base::shortest_m, 1e5}, "5 cm", true}, "[m]").required())
+          .check_with(capsules_have_a_length);
+  return rows;
+}
+
+template <>
+const Table& table_of<Cone>() {
+  static const Table rows =
+      table<Cone>(number<&Cone::base>("base", coordinate, "the middle of its base [m]").required(),
+                  number<&Cone::axis>("axis", component, "from the base to the tip; any length but zero").required().direction(),
+                  number<&Cone::radius>("radius", {length, {base::shortest_m, 1e5}, "10 cm", true}, "of the base [m]").required(),
+                  number<&Cone::height>("height", {length, {base::shortest_m, 1e5}, "30 cm", true}, "from base to tip [m]").required());
+  return rows;
+}
+
 /// Of a mesh set in code, the triangles alone count.
 template <>
 const Table& table_of<Mesh>() {
@@ -170,14 +190,14 @@ const Table& table_of<Rotation>() {
 
 template <>
 const Table& table_of<Object>() {
-  static const Table rows =
-      table<Object>(words<&Object::name>("name", "a name", "ball", "how listings call the object").absent(),
-                    // the key of the file's entry
-                    one_of<&Object::shape>({"plane", "sphere", "box", "triangle", "cylinder", "rectangle", "disk", "mesh"}),
-                    number<&Object::material>("", {none, {0, 2.0 * most_objects}, "0"}, ""),  // a name, or a material of its own
-                    number<&Object::position>("position", coordinate, "a shift [m]"),
-                    record<&Object::rotation>("rotation", "a turn about the object's own centre (of a plane: about its point)"),
-                    number<&Object::velocity_m_per_s>("velocity", {speed, {-1e4, 1e4}, "1 m/s", true}, "[m/s]"));
+  static const Table rows = table<Object>(
+      words<&Object::name>("name", "a name", "ball", "how listings call the object").absent(),
+      // the key of the file's entry
+      one_of<&Object::shape>({"plane", "sphere", "box", "triangle", "cylinder", "rectangle", "disk", "capsule", "cone", "mesh"}),
+      number<&Object::material>("", {none, {0, 2.0 * most_objects}, "0"}, ""),  // a name, or a material of its own
+      number<&Object::position>("position", coordinate, "a shift [m]"),
+      record<&Object::rotation>("rotation", "a turn about the object's own centre (of a plane: about its point)"),
+      number<&Object::velocity_m_per_s>("velocity", {speed, {-1e4, 1e4}, "1 m/s", true}, "[m/s]"));
   return rows;
 }
 
@@ -288,6 +308,8 @@ std::vector<std::pair<std::string, std::string>> words_that_people_try() {
                                                             {"cylinders", "objects"},
                                                             {"rectangles", "objects"},
                                                             {"disks", "objects"},
+                                                            {"capsules", "objects"},
+                                                            {"cones", "objects"},
                                                             {"meshes", "objects"},
                                                             {"profile", "camera.profile"},
                                                             {"pose", "camera.pose"}};

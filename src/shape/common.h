@@ -68,6 +68,26 @@ TOFRAY_FN F affine(const Surface<F>& p, const float* m, float offset) {
   return num::fma(p.x, F(m[0]), num::fma(p.y, F(m[1]), num::fma(p.z, F(m[2]), F(offset))));
 }
 
+/// Where a ray comes into a body that is convex, as inverse ranges: 2e30 where it begins within, 0 where it never comes to the border.
+template <class F>
+struct Crossing {
+  F in, out;
+};
+
+/// What is within a round side (facet 0) and between flat ends (facet 1): the later way in and the earlier way out.
+/// @param inside  the origin is inside: it sees where the ray goes out
+template <class F>
+TOFRAY_FN F meet(const Crossing<F>& side, const Crossing<F>& ends, bool inside, Int<F>& facet) {
+  const F leave = num::max(side.out, ends.out);
+  if (inside) {
+    facet = num::select(ends.out > side.out, Int<F>(1), Int<F>(0));
+    return leave;
+  }
+  const F enter = num::min(side.in, ends.in);
+  facet = num::select(ends.in < side.in, Int<F>(1), Int<F>(0));
+  return num::select(enter >= leave, enter, F(0.0f));
+}
+
 struct MeshTriangles;
 struct MeshDetails;
 

@@ -6,15 +6,20 @@
 /// Cylinder with caps: within R of the line through c along the unit vector a, and within half of c along a.
 namespace tofray::shape {
 
-/// In axes u, v across the cylinder, u toward its line, and a along it: the line is at (line, 0), its side where
-/// (t·d_u − line)² + (t·d_v)² = R². The caps are a slab as a box has.
-struct CylinderForm {
+/// A cylinder without ends. In axes u, v across it, u toward its line, and a along it: the line is at (line, 0), its side where
+/// (t·d_u − line)² + (t·d_v)² = R².
+struct Tube {
   float u[3], v[3], a[3];
   float line, radius_squared;
-  float power, inverse_power;  ///< C = line² − R², and 1/C; negative within the side, however long
+  float power, inverse_power;  ///< C = line² − R², and 1/C; negative within the side
+  std::int32_t within;         ///< 1: the origin is nearer to the line than R
+};
+
+/// The caps are a slab as a box has.
+struct CylinderForm {
+  Tube tube;
   float near_scale, near_offset, far_scale[2];
   std::int32_t facet, object;  ///< facet of the side; that of the caps follows
-  std::int32_t within_side;    ///< 1: the origin is nearer to the line than R
   std::int32_t inside;         ///< 1: the origin is inside the cylinder: it sees the far side
   std::int32_t own_blocks;     ///< light's view: 1 where light and camera are on different sides of its surface
   Bounds bounds;
@@ -63,25 +68,38 @@ TOFRAY_FN bool inside(const Cylinder& c, const Vec& p) {
   return dot(side, side) < c.radius * c.radius && ::fabs(dot(q, c.axis)) < c.half;
 }
 
+/// The numbers of normal() for the side about a line through c; of a sphere about c where the axis is 0.
+TOFRAY_FN void face_round(const Vec& c, const Vec& axis, double radius, Facet& out) {
+  copy((-1 / radius) * across(c, axis), out.number);
+  out.number[3] = single(1 / radius);
+  copy(axis, out.number + 4);
+}
+
 TOFRAY_FN void facet_of(const Cylinder& c, int side, Facet& out) {
   if (side == 1) {
     face(c.axis, out);
     return;
   }
-  copy((-1 / c.radius) * across(c.center, c.axis), out.number);
-  out.number[3] = single(1 / c.radius);
-  copy(c.axis, out.number + 4);
+  face_round(c.center, c.axis, c.radius, out);
+}
+
+/// @param center  of what the tube is round, from the origin
+TOFRAY_FN Tube tube_round(const Vec& center, const Vec& axis, double radius) {
+  Tube tube{};
+  const Vec u = way_across(center, axis), v = cross(axis, u);
+  const double line = dot(center, u), power = (line - radius) * (line + radius);
+  copy(u, tube.u), copy(v, tube.v), copy(axis, tube.a);
+  tube.line = single(line), tube.radius_squared = single(radius * radius);
+  tube.power = single(power), tube.inverse_power = single(inverse(power));
+  tube.within = power < 0;
+  return tube;
 }
 
 TOFRAY_FN CylinderForm seen_from(const Cylinder& c, const Vec& origin) {
   CylinderForm form{};
   const Vec center = c.center - origin, u = way_across(center, c.axis), v = cross(c.axis, u);
-  const double line = dot(center, u), at = dot(center, c.axis), power = (line - c.radius) * (line + c.radius);
-  copy(u, form.u), copy(v, form.v), copy(c.axis, form.a);
-  form.line = single(line), form.radius_squared = single(c.radius * c.radius);
-  form.power = single(power), form.inverse_power = single(inverse(power));
-  form.within_side = power < 0;
-  const double low = at - c.half, high = at + c.half;
+  form.tube = tube_round(center, c.axis, c.radius);
+  const double at = dot(center, c.axis), low = at - c.half, high = at + c.half;
   const bool between = low < 0 && high > 0;
   const double near_side = low >= 0 ? low : high, far_side = low >= 0 ? high : low;
   // Seen from the very plane of a cap, the slab is where the axis points away from it: the sign does not come from a zero.
@@ -102,28 +120,25 @@ TOFRAY_FN CylinderForm seen_from(const Cylinder& c, const Vec& origin) {
 TOFRAY_FN bool can_meet(const CylinderForm& cylinder, const Bounds& r) { return overlap(cylinder.bounds, r); }
 
 /// With A = d_u² + d_v², b = d_u·line, C = line² − R² the discriminant b² − A·C is R²·d_u² − C·d_v² without cancellation of large terms;
-/// q = b ± √disc with the sign of b; roots t = C/q and q/A. `side` is 0 for the side, 1 for the caps.
+/// q = b ± √disc with the sign of b; roots t = C/q and q/A.
+template <class F>
+TOFRAY_FN Crossing<F> crossing(const Tube& tube, const Ray<F>& ray) {
+  const F u = dot(ray, tube.u), v = dot(ray, tube.v);
+  const F rest = num::fnma(F(tube.power) * v, v, F(tube.radius_squared) * u * u);
+  const F b = u * F(tube.line);
+  const F q = b + num::copy_sign(num::sqrt(num::max(rest, F(0.0f))), b);
+  const F first = q * F(tube.inverse_power), second = num::fma(u, u, v * v) / q;
+  if (tube.within != 0) return {F(2e30f), num::select(q > F(0.0f), second, first)};
+  const auto met = (rest >= F(0.0f)) & (b > F(0.0f));
+  return {num::select(met, first, F(0.0f)), num::select(met, second, F(2e30f))};
+}
+
+/// `side` is 0 for the side, 1 for the caps.
 template <class F>
 TOFRAY_FN F inverse_range(const CylinderForm& c, const Ray<F>& ray, Int<F>& side) {
-  const F u = dot(ray, c.u), v = dot(ray, c.v), a = dot(ray, c.a);
-  const F rest = num::fnma(F(c.power) * v, v, F(c.radius_squared) * u * u);
-  const F b = u * F(c.line);
-  const F q = b + num::copy_sign(num::sqrt(num::max(rest, F(0.0f))), b);
-  const F first = q * F(c.inverse_power), second = num::fma(u, u, v * v) / q;
-  const F cap_in = num::fma(a, F(c.near_scale), F(c.near_offset)), cap_out = num::max(a * F(c.far_scale[0]), a * F(c.far_scale[1]));
-  F side_in = F(2e30f), side_out = num::select(q > F(0.0f), second, first);
-  if (c.within_side == 0) {
-    const auto met = (rest >= F(0.0f)) & (b > F(0.0f));
-    side_in = num::select(met, first, F(0.0f)), side_out = num::select(met, second, F(2e30f));
-  }
-  const F leave = num::max(side_out, cap_out);
-  if (c.inside != 0) {
-    side = num::select(cap_out > side_out, Int<F>(1), Int<F>(0));
-    return leave;
-  }
-  const F enter = num::min(side_in, cap_in);
-  side = num::select(cap_in < side_in, Int<F>(1), Int<F>(0));
-  return num::select(enter >= leave, enter, F(0.0f));
+  const F a = dot(ray, c.tube.a);
+  const Crossing<F> caps{num::fma(a, F(c.near_scale), F(c.near_offset)), num::max(a * F(c.far_scale[0]), a * F(c.far_scale[1]))};
+  return meet(crossing(c.tube, ray), caps, c.inside != 0, side);
 }
 
 TOFRAY_FN CylinderAlong seen_along(const Cylinder& c, const Vec& s) {

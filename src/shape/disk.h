@@ -7,7 +7,7 @@
 namespace tofray::shape {
 
 /// In axes x, y of its plane, x the way to c across n, and n away from the origin, a ray meets the plane at t = (n·c)/(d·n), which is
-/// t·(d·x) − c·x, t·(d·y) from the centre. Times (d·n)/R: the disk is hit where (d·X)² + (d·Y)² <= (d·n)², d·n > 0, with
+/// t·(d·x) − c·x, t·(d·y) from the centre. Times (d·n)/R: the disk is hit where (d·X)² + (d·Y)² <= (d·n)², t > 0, with
 /// X = ((n·c)·x − (c·x)·n)/R, at right angles to c, and Y = (n·c)·y/R. No difference of large terms is left, and no division.
 struct DiskForm {
   float x[3], y[3], n[3];
@@ -65,7 +65,7 @@ TOFRAY_FN bool can_meet(const DiskForm& disk, const Bounds& r) { return overlap(
 template <class F>
 TOFRAY_FN F inverse_range(const DiskForm& disk, const Ray<F>& ray) {
   const F x = dot(ray, disk.x), y = dot(ray, disk.y), n = dot(ray, disk.n);
-  return num::select((n > F(0.0f)) & (num::fma(x, x, y * y) <= n * n), n * F(disk.inverse_distance), F(0.0f));
+  return num::select(num::fma(x, x, y * y) <= n * n, n * F(disk.inverse_distance), F(0.0f));
 }
 
 /// Light that travels along it is not stopped: t = 0.

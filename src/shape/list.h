@@ -3,6 +3,8 @@
 #pragma once
 #include "num/list.h"
 #include "shape/box.h"
+#include "shape/capsule.h"
+#include "shape/cone.h"
 #include "shape/cylinder.h"
 #include "shape/disk.h"
 #include "shape/mesh_search.h"
@@ -37,7 +39,7 @@ constexpr bool many_of = requires {
 };
 
 /// In the order of the public Object's variant. Of two surfaces at one place the first shape's is seen.
-using Shapes = List<Plane, Sphere, Box, Triangle, Cylinder, Rectangle, Disk, Mesh>;
+using Shapes = List<Plane, Sphere, Box, Triangle, Cylinder, Rectangle, Disk, Capsule, Cone, Mesh>;
 
 /// One Each<T> for every shape T.
 template <template <class> class Each, class List>

@@ -83,18 +83,25 @@ TOFRAY_FN bool can_meet(const SphereForm& sphere, const Bounds& r) { return over
 
 /// The stable form (Hearn and Baker; Haines et al. 2019): with b = d·c and l = c − (b/a)d, a = d·d, the discriminant is
 /// a(R² − |l|²) without cancellation; q = b ± √disc with the sign of b; roots t = C/q and q/a, C = |c|² − R².
+/// @param b       d·c
+/// @param inside  it is the far side that is seen
 template <class F>
-TOFRAY_FN F inverse_range(const SphereForm& sphere, const Ray<F>& ray) {
-  const F b = dot(ray, sphere.c);
+TOFRAY_FN F sphere_inverse_range(F cx, F cy, F cz, F b, F radius_squared, F inverse_power, bool inside, const Ray<F>& ray) {
   const F k = b * (ray.inverse_length * ray.inverse_length);
-  const F lx = num::fnma(k, ray.x, F(sphere.c[0])), ly = num::fnma(k, ray.y, F(sphere.c[1])), lz = num::fnma(k, ray.z, F(sphere.c[2]));
-  const F rest = F(sphere.radius_squared) - num::fma(lx, lx, num::fma(ly, ly, lz * lz));
+  const F lx = num::fnma(k, ray.x, cx), ly = num::fnma(k, ray.y, cy), lz = num::fnma(k, ray.z, cz);
+  const F rest = radius_squared - num::fma(lx, lx, num::fma(ly, ly, lz * lz));
   const F root = num::sqrt(ray.square * num::max(rest, F(0.0f)));
   const F q = b + num::copy_sign(root, b);
-  const F near_w = q * F(sphere.inverse_power);
-  if (sphere.inside == 0) return num::select((rest >= F(0.0f)) & (b > F(0.0f)), near_w, F(0.0f));
+  const F near_w = q * inverse_power;
+  if (!inside) return num::select((rest >= F(0.0f)) & (b > F(0.0f)), near_w, F(0.0f));
   // From inside: the far side, t = q/a where d points to the centre, C/q where it points away (q, not b: b is 0 seen from the centre).
   return num::select(q > F(0.0f), ray.square / q, near_w);
+}
+
+template <class F>
+TOFRAY_FN F inverse_range(const SphereForm& sphere, const Ray<F>& ray) {
+  return sphere_inverse_range(F(sphere.c[0]), F(sphere.c[1]), F(sphere.c[2]), dot(ray, sphere.c), F(sphere.radius_squared),
+                              F(sphere.inverse_power), sphere.inside != 0, ray);
 }
 
 TOFRAY_FN SphereAlong seen_along(const Sphere& sphere, const Vec&) {

@@ -46,7 +46,7 @@ inline Node sample(const Form& form, std::size_t v, int k = 0, const std::string
       };
       if (!one_of(map.exactly_one) || !one_of(map.at_most_one)) continue;
       into.keys.push_back({row.name, {}});
-      into.items.push_back(sample(row.form, v, k + (row.name == "max" || row.name == "look_at" ? 5 : 0), row.name));
+      into.items.push_back(sample(row.form, v, k + (row.name == "max" || row.name == "end" || row.name == "look_at" ? 5 : 0), row.name));
     }
   };
   switch (form.kind) {

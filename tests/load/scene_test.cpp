@@ -146,6 +146,27 @@ TEST(scene, reads_rectangles_and_disks) {
   EXPECT_TRUE(has(refused("disk: {center: [0, 0, 1], normal: [0, 0, 1]"), "radius"));
 }
 
+TEST(scene, reads_capsules_and_cones) {
+  const Scene scene = load::scene_from_text(
+      "objects: [capsule: {start: [0, 0, 1], end: [0, 20 cm, 1], radius: 5 cm, reflectivity: 0.5},"
+      " cone: {base: [0, 0, 2], axis: [0, -2, 0], radius: 10 cm, height: 0.3, reflectivity: 0.5}]",
+      "s.yaml");
+  const auto& capsule = std::get<Capsule>(scene.objects[0].shape);
+  EXPECT_EQ(capsule.start, (Vec3{0, 0, 1}));
+  EXPECT_EQ(capsule.end, (Vec3{0, 0.2, 1}));
+  EXPECT_EQ(capsule.radius, 0.05);
+  const auto& cone = std::get<Cone>(scene.objects[1].shape);
+  EXPECT_EQ(cone.base, (Vec3{0, 0, 2}));
+  EXPECT_EQ(cone.axis, (Vec3{0, -2, 0}));
+  EXPECT_EQ(cone.radius, 0.1);
+  EXPECT_EQ(cone.height, 0.3);
+  const auto refused = [](const std::string& shape) { return refusal("objects: [" + shape + ", reflectivity: 0.5}]"); };
+  EXPECT_TRUE(has(refused("capsule: {start: [0, 0, 1], end: [0, 0, 1], radius: 1"), "the capsule ends where it starts"));
+  EXPECT_TRUE(has(refused("capsule: {start: [0, 0, 1], end: [0, 0, 2]"), "radius"));
+  EXPECT_TRUE(has(refused("cone: {base: [0, 0, 1], axis: [0, 0, 0], radius: 1, height: 1"), "axis has no length"));
+  EXPECT_TRUE(has(refused("cone: {base: [0, 0, 1], axis: [0, 1, 0], radius: 1"), "height"));
+}
+
 TEST(scene, reads_rough_materials) {
   const std::string around = "objects: [sphere: {center: [0, 0, 1], radius: 1, material: {brdf: oren_nayar, reflectivity: 0.5";
   const Material one = load::scene_from_text(around + ", roughness: 30 deg}}]", "s.yaml").materials[0];

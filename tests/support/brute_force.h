@@ -110,6 +110,70 @@ inline Span span(const shape::Disk& disk, const Vec3& o, const Vec3& d) {
   return out;
 }
 
+/// The side within the slab of its ends, and of each end's sphere what is beyond.
+inline Span span(const shape::Capsule& c, const Vec3& o, const Vec3& d) {
+  const Vec3 axis = vec3(c.axis), s = o - vec3(c.center), e = d - base::dot(d, axis) * axis, across = s - base::dot(s, axis) * axis;
+  const double dd = base::dot(d, d), infinite = std::numeric_limits<double>::infinity();
+  Span out{infinite, -infinite, 1};
+  const auto crossed = [&](double t, int piece) {
+    const double z = base::dot(s + t * d, axis);
+    if (piece == 0 ? std::abs(z) > c.half : piece * z < c.half) return;
+    out.enter = std::fmin(out.enter, t), out.leave = std::fmax(out.leave, t);
+  };
+  const auto roots = [&](double a, double b, double rest, int piece) {
+    if (rest < 0 || !(a > 0)) return;
+    crossed((-b - std::sqrt(rest)) / a, piece), crossed((-b + std::sqrt(rest)) / a, piece);
+  };
+  const double a = base::dot(e, e), b = base::dot(across, e);
+  const Vec3 off = across - (a > 0 ? b / a : 0) * e;
+  roots(a, b, a * (c.radius * c.radius - base::dot(off, off)), 0);
+  for (const int end : {1, -1}) {
+    const Vec3 from = s - end * c.half * axis;
+    const double along = base::dot(from, d);
+    const Vec3 side = from - (along / dd) * d;
+    roots(dd, along, dd * (c.radius * c.radius - base::dot(side, side)), end);
+  }
+  // The line's distance from the segment: where along it the two are nearest, held to the ends.
+  const double z = base::dot(s, axis), da = base::dot(d, axis);
+  const double nearest = a > 1e-20 * dd ? z - da * b / a : 0, held = std::fmin(std::fmax(nearest, -c.half), c.half);
+  const Vec3 to = s - held * axis;
+  out.clearance = std::abs(1 - base::length(to - (base::dot(to, d) / dd) * d) / c.radius);
+  return out;
+}
+
+/// By all points where the line crosses the side or the base. They say nothing of how near the outline is: for that, cones a hundredth
+/// smaller and larger about the same centroid have to be hit or missed alike, and what is hit not to be grazed.
+inline Span span_of_cone(const Vec3& tip, const Vec3& axis, double radius, double height, const Vec3& o, const Vec3& d) {
+  const double infinite = std::numeric_limits<double>::infinity(), steep = radius / height;
+  const Vec3 s = o - tip, across = s - base::dot(s, axis) * axis, e = d - base::dot(d, axis) * axis;
+  const double z = -base::dot(s, axis), dz = -base::dot(d, axis);  // below the tip
+  const double a = base::dot(e, e) - steep * steep * dz * dz, b = base::dot(across, e) - steep * steep * z * dz;
+  const double c = base::dot(across, across) - steep * steep * z * z, rest = a < 0 ? std::fmax(b * b - a * c, 0) : b * b - a * c;
+  Span out{infinite, -infinite, infinite};
+  const auto crossed = [&](double t, bool base) {
+    const Vec3 side = across + t * e;
+    const double below = z + t * dz, from_axis = base::length(side);
+    if (base ? from_axis > radius : below < -1e-12 * height || below > height) return;
+    const Vec3 n = base ? axis : base::normalized((1 / (steep * from_axis)) * side + axis);
+    out.enter = std::fmin(out.enter, t), out.leave = std::fmax(out.leave, t);
+    out.clearance = std::fmin(out.clearance, 5e-3 * std::abs(base::dot(n, d)) / base::length(d));
+  };
+  if (rest >= 0) crossed((-b - std::sqrt(rest)) / a, false), crossed((-b + std::sqrt(rest)) / a, false);
+  crossed((height - z) / dz, true);
+  return out;
+}
+inline Span span(const shape::Cone& c, const Vec3& o, const Vec3& d) {
+  const Vec3 tip = vec3(c.tip), axis = vec3(c.axis);
+  const auto scaled = [&](double scale) {
+    return span_of_cone(tip + (scale - 1) * 0.75 * c.height * axis, axis, scale * c.radius, scale * c.height, o, d);
+  };
+  const Span smaller = scaled(0.99), larger = scaled(1.01);
+  Span out = scaled(1);
+  out.clearance = std::fmin(out.clearance, 1);
+  if ((smaller.enter > smaller.leave) != (larger.enter > larger.leave)) out.clearance = 0;
+  return out;
+}
+
 template <class T>
 void add_spans(const T& shape, const Vec3& o, const Vec3& d, std::vector<Span>& to) {
   to.push_back(span(shape, o, d));

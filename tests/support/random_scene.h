@@ -73,7 +73,7 @@ inline Scene random_scene(Random& random, int objects, bool moving) {
     const double away = random.between(0.6, 4), size = random.scale(0.03, 0.6);
     const Vec3 aside = random.point(0.7 * away), middle{aside[0], aside[1], away};
     Object one;
-    const int kind = random.below(12);
+    const int kind = random.below(14);
     if (kind < 2) one.shape = Sphere{middle, size};
     if (kind >= 2 && kind < 4) {
       const Vec3 half = 0.5 * size * (Vec3{1.2, 1.2, 1.2} + random.point(1));
@@ -88,6 +88,8 @@ inline Scene random_scene(Random& random, int objects, bool moving) {
     if (kind == 8) one.shape = Cylinder{middle, random.direction(), 0.5 * size, random.between(0.3, 2) * size};
     if (kind == 10) one.shape = Rectangle{middle, {random.between(0.3, 2) * size, random.between(0.3, 2) * size}};
     if (kind == 11) one.shape = Disk{middle, random.direction(), size};
+    if (kind == 12) one.shape = Capsule{middle, middle + random.between(0.2, 2) * size * random.direction(), 0.5 * size};
+    if (kind == 13) one.shape = Cone{middle, random.direction(), size, random.between(0.3, 3) * size};
     if (kind == 9) {
       TriangleMesh triangles = single(stone(random, random.below(3), size, middle));
       if (random.below(2) == 0) add_details(random, triangles);

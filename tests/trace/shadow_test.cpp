@@ -48,6 +48,10 @@ Answer crossed(const scene::FrozenScene& frozen, const Vec3& p, const Vec3& d, d
       continue;
     }
     if (s.object == own && s.leave < low) continue;
+    if (s.leave > s.enter && s.leave - s.enter < 2 * low) {  // of the sun's light a corner as thin as the shadow's margin keeps off nothing
+      unsure = true;
+      continue;
+    }
     if (s.enter > s.leave || s.leave < 0 || s.enter > high) continue;
     if (s.leave < low || s.enter > high * (1 - 1e-3)) {
       unsure = true;

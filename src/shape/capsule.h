@@ -1,0 +1,122 @@
+// SPDX-FileCopyrightText: 2026 The tofray authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "shape/cylinder.h"
+#include "shape/sphere.h"
+
+/// Capsule: within R of the points that are within half of c along the unit vector a. A cylinder's side and two half spheres.
+namespace tofray::shape {
+
+/// A ray comes in through the tube's side where that is between the ends' centres, else through the sphere of the end that it is
+/// beyond; it goes out likewise. With w = 1/t the place along a is z = (d_a − at·w)/w from the middle.
+struct CapsuleForm {
+  Tube tube;
+  float at, half;                     ///< of the middle along a; half is 0 where an end is seen from within the tube: the side never is
+  float end[2][3], inverse_power[2];  ///< of the ends' spheres, as a sphere's
+  std::int32_t facet, object;         ///< facet of the side; those of the end along a and of the other one follow
+  std::int32_t inside;                ///< 1: the origin is inside the capsule: it sees the far side
+  std::int32_t own_blocks;            ///< light's view: 1 where light and camera are on different sides of its surface
+  Bounds bounds;
+};
+
+struct CapsuleAlong {
+  CylinderAlong side;
+  SphereAlong end[2];
+  std::int32_t object;
+  std::int32_t own_blocks;  ///< 1: the camera is inside
+};
+
+struct Capsule {
+  using Form = CapsuleForm;
+  using Along = CapsuleAlong;
+  static constexpr int facets = 3;
+  static constexpr bool closed = true, curved = true;
+
+  Vec center, axis;
+  double radius, half;
+
+  template <class Said>
+  static Capsule placed(const Said& said, const Placement& at) {
+    const Vec start = Placement::vec(said.start), end = Placement::vec(said.end), center = 0.5 * (start + end), along = end - start;
+    return {at.point(center, center), normalized(at.direction(along)), said.radius, 0.5 * length(along)};
+  }
+
+  template <class F>
+  TOFRAY_FN static Direction<F> normal(const FacetColumns<F>& of, F x, F y, F z) {
+    return Cylinder::normal(of, x, y, z);
+  }
+};
+
+TOFRAY_FN Capsule in_frame(const Capsule& c, const Frame& frame) {
+  return {frame.point(c.center), frame.direction(c.axis), c.radius, c.half};
+}
+
+TOFRAY_FN bool inside(const Capsule& c, const Vec& p) {
+  const Vec q = p - c.center;
+  const double along = dot(q, c.axis), beyond = ::fabs(along) > c.half ? ::fabs(along) - c.half : 0;
+  const Vec side = across(q, c.axis);
+  return dot(side, side) + beyond * beyond < c.radius * c.radius;
+}
+
+/// Of the end along its axis (0), and of the other one.
+TOFRAY_FN Vec end_of(const Capsule& c, int end) { return c.center + (end == 0 ? c.half : -c.half) * c.axis; }
+
+TOFRAY_FN void facet_of(const Capsule& c, int side, Facet& out) {
+  if (side == 0) {
+    face_round(c.center, c.axis, c.radius, out);
+  } else {
+    face_round(end_of(c, side - 1), {0, 0, 0}, c.radius, out);
+  }
+}
+
+TOFRAY_FN CapsuleForm seen_from(const Capsule& c, const Vec& origin) {
+  CapsuleForm form{};
+  const Vec center = c.center - origin;
+  form.tube = tube_round(center, c.axis, c.radius);
+  form.inside = inside(c, origin);
+  form.own_blocks = (form.inside != 0) != inside(c, {0, 0, 0});
+  form.at = single(dot(center, c.axis));
+  form.half = form.tube.within != 0 && form.inside == 0 ? 0 : single(c.half);
+  Bounds bounds[2] = {};
+  for (int i = 0; i < 2; ++i) {
+    const Vec end = end_of(c, i) - origin;
+    copy(end, form.end[i]);
+    form.inverse_power[i] = single(inverse(dot(end, end) - c.radius * c.radius));
+    bounds[i] = bounds_of_sphere(end, c.radius);
+  }
+  form.bounds = {num::min(bounds[0].x_min, bounds[1].x_min), num::max(bounds[0].x_max, bounds[1].x_max),
+                 num::min(bounds[0].y_min, bounds[1].y_min), num::max(bounds[0].y_max, bounds[1].y_max)};
+  return form;
+}
+
+TOFRAY_FN bool can_meet(const CapsuleForm& capsule, const Bounds& r) { return overlap(capsule.bounds, r); }
+
+/// `side` is 0 for the side, 1 and 2 for the ends. (What misses the tube, w = 0, misses its ends.)
+template <class F>
+TOFRAY_FN F inverse_range(const CapsuleForm& c, const Ray<F>& ray, Int<F>& side) {
+  const Crossing<F> tube = crossing(c.tube, ray);
+  const F w = c.inside != 0 ? tube.out : tube.in;
+  const F along = num::fnma(F(c.at), w, dot(ray, c.tube.a));
+  const auto ahead = along > F(0.0f), beyond = num::abs(along) > F(c.half) * w;
+  const auto of_end = [&](float one, float other) __attribute__((always_inline)) { return num::select(ahead, F(one), F(other)); };
+  const F b = num::select(ahead, dot(ray, c.end[0]), dot(ray, c.end[1]));
+  const F end = sphere_inverse_range(of_end(c.end[0][0], c.end[1][0]), of_end(c.end[0][1], c.end[1][1]), of_end(c.end[0][2], c.end[1][2]),
+                                     b, F(c.tube.radius_squared), of_end(c.inverse_power[0], c.inverse_power[1]), c.inside != 0, ray);
+  side = num::select(beyond, num::select(ahead, Int<F>(1), Int<F>(2)), Int<F>(0));
+  return num::select(beyond, end, w);
+}
+
+TOFRAY_FN CapsuleAlong seen_along(const Capsule& c, const Vec& s) {
+  CapsuleAlong form{};
+  form.side = seen_along(Cylinder{c.center, c.axis, c.radius, c.half}, s);
+  for (int i = 0; i < 2; ++i) form.end[i] = seen_along(Sphere{end_of(c, i), c.radius}, s);
+  form.own_blocks = inside(c, {0, 0, 0});
+  return form;
+}
+
+template <class F>
+TOFRAY_FN Mask<F> blocks(const CapsuleAlong& c, const Surface<F>& p, const float* s, F margin) {
+  return blocks(c.side, p, s, margin) | blocks(c.end[0], p, s, margin) | blocks(c.end[1], p, s, margin);
+}
+
+}  // namespace tofray::shape
