@@ -30,6 +30,12 @@ namespace {
 
 using namespace pipeline;
 
+/// Apart, so that the compiler has one of them at a time to find registers for.
+template <bool can_move>
+TOFRAY_APART void run_tile(const Work& work, int index, void* scratch) {
+  one_tile<F, can_move>(*work.setup, *work.job, index, scratch);
+}
+
 void run_input(const Work& work, int index) {
   const Tile tile = tile_at(work.setup->lens, index);
   for (int q = 0; q < max_packs<F>; ++q) {
@@ -54,9 +60,9 @@ extern "C" std::size_t TOFRAY_KERNEL(const Work* work, Pass pass, int index, voi
   switch (pass) {
     case Pass::pixels:
       if (work->setup->scene.moments > 0) {
-        one_tile<F, true>(*work->setup, *work->job, index, scratch);
+        run_tile<true>(*work, index, scratch);
       } else {
-        one_tile<F, false>(*work->setup, *work->job, index, scratch);
+        run_tile<false>(*work, index, scratch);
       }
       break;
     case Pass::derive: break;  // the host has done it
