@@ -38,6 +38,10 @@ inline constexpr Limit unpacked_ratio{"unpacked_ratio", 100, "times its own size
 inline constexpr Limit mesh_bytes{"mesh_bytes", 1 << 30, "bytes of one file of a triangle mesh"};
 inline constexpr Limit mesh_vertices{"mesh_vertices", 20'000'000, "vertices of one triangle mesh, and of all that a scene's files hold"};
 inline constexpr Limit mesh_triangles{"mesh_triangles", 20'000'000, "triangles likewise, polygons taken apart"};
+inline constexpr Limit mtl_files{"mtl_files", 100, "files of materials (MTL) that one OBJ file names"};
+inline constexpr Limit mtl_bytes{"mtl_bytes", 16 << 20, "bytes of all MTL files of one OBJ file"};
+inline constexpr Limit mtl_materials{"mtl_materials", 100'000, "materials in them, and as many names that the OBJ file uses"};
+inline constexpr Limit mtl_image_bytes{"mtl_image_bytes", 256 << 20, "bytes of all images of one OBJ file, as they are encoded"};
 inline constexpr Limit gltf_json_bytes{"gltf_json_bytes", 256 << 20, "bytes of a glTF file's JSON, data URIs in it counted"};
 inline constexpr Limit gltf_json_values{"gltf_json_values", 4'000'000, "values of a glTF file's JSON"};
 inline constexpr Limit gltf_nodes{"gltf_nodes", 100'000, "nodes of one glTF file"};
@@ -85,6 +89,10 @@ inline constexpr Limit all_limits[] = {
     limit::mesh_bytes,
     limit::mesh_vertices,
     limit::mesh_triangles,
+    limit::mtl_files,
+    limit::mtl_bytes,
+    limit::mtl_materials,
+    limit::mtl_image_bytes,
     limit::gltf_json_bytes,
     limit::gltf_json_values,
     limit::gltf_nodes,

@@ -88,9 +88,10 @@ std::vector<MeshPiece> MeshReader::pieces(const Places& places, const Mesh& want
   const std::string bytes = read();
   known.sha256 = files::sha256_hex(bytes);
   check_expected(places.file, wanted.file, path, known.sha256);
-  auto [mesh, left_out] = mesh::parse(format, bytes, path);
+  mesh::ReadMesh read_mesh = mesh::parse(format, bytes, path);
+  known.notices = std::move(read_mesh.notices);
   std::vector<MeshPiece> out;
-  out.push_back({std::move(mesh), left_out, {}});
+  out.push_back({std::move(read_mesh.mesh), read_mesh.not_finite, {}});
   return out;
 }
 

@@ -28,16 +28,30 @@ class MeshBuilder {
   void triangle(std::int32_t a, std::int32_t b, std::int32_t c) {
     if (read_.mesh.triangles.size() == most_triangles) too_many_triangles();
     read_.mesh.triangles.push_back({a, b, c});
+    if (material_ >= 0 || !read_.material_of.empty()) note_material();
   }
+  /// Of the triangles that follow: an index of ReadMesh::materials, -1: none.
+  void wear(std::int32_t material) { material_ = material; }
+  /// Of the vertex that came last, in the file's own form; each vertex has some, or none has.
+  void normal(const std::array<float, 3>& direction) { read_.mesh.normals.push_back(unit_normal(direction)); }
+  void texcoord(float u, float v) { read_.mesh.texcoords.push_back(place_in_picture(u, v)); }
+
+  /// The direction in unit length; 0 where there is none, and counted where it is not finite.
+  std::array<float, 3> unit_normal(const std::array<float, 3>& direction);
+  /// (u, v) with v downward; 0 and counted where they are not finite, or beyond what a mesh may have.
+  std::array<float, 2> place_in_picture(float u, float v);
+
   /// A triangle that the reader drops: a corner is not finite.
   void drop_triangle() { ++read_.not_finite; }
 
+  /// What there is so far; who changes it keeps to the limits.
+  [[nodiscard]] ReadMesh& so_far() { return read_; }
   [[nodiscard]] std::size_t vertices() const { return read_.mesh.vertices.size(); }
   [[nodiscard]] const std::array<float, 3>& position(std::int32_t vertex) const {
     return read_.mesh.vertices[static_cast<std::size_t>(vertex)];
   }
 
-  /// Without the vertices that are not finite and the triangles at them. @throws Error (bad_input) where no triangle is left
+  /// Without the vertices that are not finite and the triangles at them, nor normals that are all 0. @throws Error (bad_input) where no triangle is left
   ReadMesh finish();
 
   static constexpr auto most_vertices = static_cast<std::size_t>(base::limit::mesh_vertices.value);
@@ -46,10 +60,14 @@ class MeshBuilder {
  private:
   [[noreturn]] void too_many_vertices() const;
   [[noreturn]] void too_many_triangles() const;
+  void note_material();
   void drop_not_finite();
+  void tell_of_mended();
 
   const std::string& name_;
   ReadMesh read_;
+  std::int32_t material_ = -1;
+  std::size_t mended_normals_ = 0, mended_texcoords_ = 0;
 };
 
 }  // namespace tofray::mesh

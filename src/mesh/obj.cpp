@@ -1,13 +1,19 @@
 // SPDX-FileCopyrightText: 2026 The tofray authors
 // SPDX-License-Identifier: Apache-2.0
-// Wavefront OBJ: vertices (v) and polygons (f). Normals, textures, groups and materials are read past: a scene's material is the object's.
+// Wavefront OBJ: vertices (v), their normals (vn) and texture coordinates (vt), polygons (f), and which material they wear (mtllib, usemtl).
+// Groups, lines and points are read past.
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
 #include <iterator>
+#include <limits>
+#include <map>
+#include <memory>
 
+#include "base/limits.h"
 #include "base/text.h"
+#include "mesh/corner_list.h"
 #include "mesh/formats.h"
 #include "mesh/mesh_builder.h"
 #include "mesh/numbers.h"
@@ -18,8 +24,8 @@ namespace {
 
 using base::in_quotes;
 
-constexpr std::string_view read_past[] = {"vt",     "vn",     "o",      "g",   "s",     "mg",       "l",        "p",          "usemtl",
-                                          "usemap", "mtllib", "maplib", "lod", "bevel", "c_interp", "d_interp", "shadow_obj", "trace_obj"};
+constexpr std::string_view read_past[] = {"o",      "g",   "s",     "mg",       "l",        "p",          "usemap",
+                                          "maplib", "lod", "bevel", "c_interp", "d_interp", "shadow_obj", "trace_obj"};
 /// Curves and surfaces, and how they are to be divided.
 constexpr std::string_view free_form[] = {"vp",   "cstype", "deg", "bmat", "step", "curv", "curv2", "surf", "parm", "trim",  "hole",
                                           "scrv", "sp",     "end", "con",  "bsp",  "bzp",  "cdc",   "cdp",  "res",  "stech", "ctech"};
@@ -30,9 +36,45 @@ bool is_one_of(const std::string_view (&words)[n], std::string_view word) {
   return std::find(std::begin(words), std::end(words), word) != std::end(words);
 }
 
+/// The files that lines "mtllib" name. A name may have blanks: it goes on until it ends in .mtl, or the line ends.
+class Libraries {
+ public:
+  explicit Libraries(const std::string& name) : name_(std::make_shared<const std::string>(name)) {}
+
+  /// Behind the keyword.
+  void read_line(Words& words) {
+    Mark mark;
+    std::string file;
+    for (std::string_view word; words.in_line(word);) {
+      if (file.empty()) mark = words.mark();
+      file += (file.empty() ? "" : " ") + std::string(word);
+      if (suffix_of(file) != ".mtl") continue;
+      add(file, mark, words);
+      file.clear();
+    }
+    if (!file.empty()) add(file, mark, words);
+  }
+  std::vector<Reference> all;
+
+ private:
+  void add(const std::string& file, const Mark& mark, const Words& words) {
+    if (std::any_of(all.begin(), all.end(), [&](const Reference& one) { return one.file == file; })) return;
+    constexpr auto most = static_cast<std::size_t>(base::limit::mtl_files.value);
+    if (all.size() == most)
+      words.fail(mark, fmt::format("the file names more than {} files of materials", most), "(`tofray --limits`)", ErrorKind::limit);
+    all.push_back({file, words.place(mark, name_)});
+  }
+  std::shared_ptr<const std::string> name_;
+};
+
+/// A corner of a face: places among the file's vertices, texture coordinates and normals, -1 where it names none.
+struct Corner {
+  std::int32_t vertex = 0, texcoord = -1, normal = -1;
+};
+
 class ObjReader {
  public:
-  ObjReader(std::string_view bytes, const std::string& name) : words_(bytes, name, Words::Style::obj), mesh_(name) {}
+  ObjReader(std::string_view bytes, const std::string& name) : words_(bytes, name, Words::Style::obj), mesh_(name), libraries_(name) {}
 
   ReadMesh read() {
     do {
@@ -42,11 +84,23 @@ class ObjReader {
         read_vertex();
       else if (keyword == "f" || keyword == "fo")
         read_face();
+      else if (keyword == "vn")
+        read_normal();
+      else if (keyword == "vt")
+        read_texcoord();
+      else if (keyword == "mtllib")
+        libraries_.read_line(words_);
+      else if (keyword == "usemtl")
+        read_material();
       else if (!is_one_of(read_past, keyword))
         refuse_keyword(keyword);
     } while (words_.next_line());
     if (largest_ > static_cast<std::int64_t>(mesh_.vertices()))
       beyond(largest_mark_, fmt::format("got {}, the file has {} vertices", largest_, mesh_.vertices()));
+    of_normals_.check(normals_.size(), words_);
+    of_texcoords_.check(texcoords_.size(), words_);
+    give_details(normals_, of_normals_, texcoords_, of_texcoords_, mesh_);
+    mesh_.so_far().libraries = std::move(libraries_.all);
     return mesh_.finish();
   }
 
@@ -58,7 +112,7 @@ class ObjReader {
     if (is_one_of(from_elsewhere, keyword))
       words_.fail("what other files or programs give is not read: " + in_quotes(keyword), "expected one file that holds the whole mesh");
     std::vector<std::string> known(std::begin(read_past), std::end(read_past));
-    known.insert(known.begin(), {"v", "f"});
+    known.insert(known.begin(), {"v", "f", "vn", "vt", "mtllib", "usemtl"});
     words_.fail("unknown keyword " + in_quotes(keyword) + base::did_you_mean(keyword, known),
                 "expected an OBJ file, whose lines begin with v, f, vt, vn, g, usemtl, …");
   }
@@ -81,34 +135,90 @@ class ObjReader {
     mesh_.vertex(position);
   }
 
+  /// The numbers of a line, NaN where one is none.
+  std::array<float, 3> numbers_of_line(std::size_t& count) {
+    std::array<float, 3> out{};
+    count = 0;
+    for (std::string_view word; words_.in_line(word); ++count) {
+      double value = std::numeric_limits<double>::quiet_NaN();
+      (void)read_number(word, value);
+      if (count < 3) out[count] = to_float(value);
+    }
+    return out;
+  }
+
+  template <class Row>
+  void check_room(const std::vector<Row>& rows, const char* what) const {
+    if (rows.size() == MeshBuilder::most_vertices)
+      words_.fail(fmt::format("the file has more than {} {}", rows.size(), what), "(`tofray --limits`)", ErrorKind::limit);
+  }
+
+  void read_normal() {
+    check_room(normals_, "normals");
+    std::size_t count = 0;
+    std::array<float, 3> direction = numbers_of_line(count);
+    if (count < 3) direction[2] = std::numeric_limits<float>::quiet_NaN();
+    normals_.push_back(mesh_.unit_normal(direction));
+  }
+
+  void read_texcoord() {
+    check_room(texcoords_, "texture coordinates");
+    std::size_t count = 0;
+    const auto [u, v, w] = numbers_of_line(count);
+    texcoords_.push_back(mesh_.place_in_picture(count == 0 ? std::numeric_limits<float>::quiet_NaN() : u, v));
+  }
+
+  void read_material() {
+    const Mark start = words_.mark();
+    const std::string name = words_.rest_of_line();
+    if (name.empty()) return mesh_.wear(-1);
+    std::vector<std::string>& names = mesh_.so_far().materials;
+    const auto [place, is_new] = materials_.try_emplace(name, static_cast<std::int32_t>(names.size()));
+    constexpr auto most = static_cast<std::size_t>(base::limit::mtl_materials.value);
+    if (is_new && names.size() == most)
+      words_.fail(start, fmt::format("the file uses more than {} materials", most), "(`tofray --limits`)", ErrorKind::limit);
+    if (is_new) names.push_back(name);
+    mesh_.wear(place->second);
+  }
+
   void read_face() {
     const Mark start = words_.mark();
-    std::int32_t first = 0, before = 0;
+    Corner first, before;
     std::size_t count = 0;
     for (std::string_view word; words_.in_line(word); ++count) {
-      const std::int32_t corner = read_corner(word);
+      const Corner corner = read_corner(word);
       if (count == 0) first = corner;
-      if (count >= 2) mesh_.triangle(first, before, corner);
+      if (count >= 2) add_triangle(first, before, corner);
       before = corner;
     }
     if (count < 3) words_.fail(start, "a face has fewer than 3 corners", fmt::format("got {}, expected 3 or more", count));
   }
 
-  /// 7, 7/1, 7//1 or 7/1/1, of which the first counts; below 0 from the last vertex so far, which is -1.
-  std::int32_t read_corner(std::string_view word) {
-    std::int64_t index = 0, unused = 0;
+  void add_triangle(const Corner& a, const Corner& b, const Corner& c) {
+    mesh_.triangle(a.vertex, b.vertex, c.vertex);
+    const std::size_t triangles = mesh_.so_far().mesh.triangles.size();
+    of_normals_.add({a.normal, b.normal, c.normal}, triangles);
+    of_texcoords_.add({a.texcoord, b.texcoord, c.texcoord}, triangles);
+  }
+
+  /// 7, 7/1, 7//1 or 7/1/1: vertex, texture coordinates, normal; below 0 from the last one so far, which is -1.
+  Corner read_corner(std::string_view word) {
+    std::array<std::int64_t, 3> index{};
+    std::array<bool, 3> is_given{};
     std::size_t parts = 0;
     bool good = true;
     for (std::size_t from = 0; from <= word.size() && good; ++parts) {
       const std::size_t end = std::min(word.find('/', from), word.size());
       const std::string_view part = word.substr(from, end - from);
-      good = parts < 3 && ((parts > 0 && part.empty()) || read_integer(part, parts == 0 ? index : unused));
+      if (parts < 3) is_given[parts] = parts == 0 || !part.empty();
+      good = parts < 3 && (!is_given[parts] || read_integer(part, index[parts]));
       from = end + 1;
     }
     if (!good)
       words_.fail("the corner of a face is no index",
                   "got " + in_quotes(word) + ", expected a whole number such as 7, or with others behind it: 7/1, 7//1, 7/1/1");
-    return checked(index);
+    return {checked(index[0]), is_given[1] ? of_texcoords_.place_of(index[1], texcoords_.size(), words_) : -1,
+            is_given[2] ? of_normals_.place_of(index[2], normals_.size(), words_) : -1};
   }
 
   std::int32_t checked(std::int64_t index) {
@@ -131,6 +241,11 @@ class ObjReader {
 
   Words words_;
   MeshBuilder mesh_;
+  Libraries libraries_;
+  std::map<std::string, std::int32_t> materials_;
+  std::vector<std::array<float, 3>> normals_;
+  std::vector<std::array<float, 2>> texcoords_;
+  CornerList of_normals_{"a normal"}, of_texcoords_{"a texture coordinate"};
   std::int64_t largest_ = 0;
   Mark largest_mark_;
 };
@@ -138,5 +253,15 @@ class ObjReader {
 }  // namespace
 
 ReadMesh parse_obj(std::string_view bytes, const std::string& name) { return ObjReader(bytes, name).read(); }
+
+std::vector<Reference> libraries_of_obj(std::string_view bytes, const std::string& name) {
+  Words words(bytes, name, Words::Style::obj);
+  Libraries libraries(name);
+  do {
+    std::string_view keyword;
+    if (words.in_line(keyword) && keyword == "mtllib") libraries.read_line(words);
+  } while (words.next_line());
+  return std::move(libraries.all);
+}
 
 }  // namespace tofray::mesh

@@ -1,10 +1,12 @@
 // SPDX-FileCopyrightText: 2026 The tofray authors
 // SPDX-License-Identifier: Apache-2.0
-// PLY: x, y, z of the element vertex, and lists of vertices: polygons in the element face, strips in tristrips. All else is read past.
+// PLY: x, y, z of the element vertex, its normal (nx, ny, nz) and texture coordinates (s, t; u, v; texture_u, texture_v), and lists of
+// vertices: polygons in the element face, strips in tristrips. All else is read past, colours too.
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
+#include <initializer_list>
 
 #include "base/faults.h"
 #include "base/text.h"
@@ -75,35 +77,53 @@ class PlyReader {
     }
   }
 
-  /// For each property which of x, y, z it is, or -1.
-  std::vector<int> axes_of(const PlyElement& element) const {
-    constexpr std::string_view axes[] = {"x", "y", "z"};
-    std::vector<int> found(element.properties.size(), -1);
-    for (int axis = 0; axis < 3; ++axis) {
-      const auto at = std::find_if(element.properties.begin(), element.properties.end(),
-                                   [&](const PlyProperty& property) { return property.name == axes[axis] && !property.list; });
-      if (at == element.properties.end())
-        fail_at(element, fmt::format("the vertices have no {}", axes[axis]),
+  /// For each property which number of a vertex it is: 0 to 2 of its place, 3 to 5 of its normal, 6 and 7 of its texture coordinates; else
+  /// -1.
+  using Columns = std::vector<int>;
+
+  static std::size_t find(const PlyElement& element, std::string_view name) {
+    const auto at = std::find_if(element.properties.begin(), element.properties.end(),
+                                 [&](const PlyProperty& property) { return property.name == name && !property.list; });
+    return static_cast<std::size_t>(at - element.properties.begin());
+  }
+
+  /// Takes the columns of these names, if all are there.
+  static bool take(const PlyElement& element, std::initializer_list<std::string_view> names, int first, Columns& columns) {
+    const auto is_there = [&](std::string_view name) { return find(element, name) < element.properties.size(); };
+    if (!std::all_of(names.begin(), names.end(), is_there)) return false;
+    for (const std::string_view name : names) columns[find(element, name)] = first++;
+    return true;
+  }
+
+  Columns columns_of(const PlyElement& element) {
+    Columns columns(element.properties.size(), -1);
+    for (const char* const axis : {"x", "y", "z"})
+      if (find(element, axis) == element.properties.size())
+        fail_at(element, fmt::format("the vertices have no {}", axis),
                 "got " + property_names(element) + ", expected x, y and z, each a number");
-      found[static_cast<std::size_t>(at - element.properties.begin())] = axis;
-    }
-    return found;
+    take(element, {"x", "y", "z"}, 0, columns);
+    has_normals_ = take(element, {"nx", "ny", "nz"}, 3, columns);
+    has_texcoords_ = take(element, {"s", "t"}, 6, columns) || take(element, {"u", "v"}, 6, columns) ||
+                     take(element, {"texture_u", "texture_v"}, 6, columns);
+    return columns;
   }
 
   void read_vertices(const PlyElement& element) {
-    const std::vector<int> axes = axes_of(element);
+    const Columns columns = columns_of(element);
     check_room(element);
     mesh_.expect_vertices(element.count);
     for (std::uint64_t row = 0; row < element.count; ++row) {
       body_.row(element.name, row);
-      std::array<float, 3> position{};
-      for (std::size_t i = 0; i < axes.size(); ++i) {
-        if (axes[i] < 0)
+      std::array<float, 8> number{};
+      for (std::size_t i = 0; i < columns.size(); ++i) {
+        if (columns[i] < 0)
           pass(element.properties[i]);
         else
-          position[static_cast<std::size_t>(axes[i])] = to_float(body_.number(element.properties[i].type));
+          number[static_cast<std::size_t>(columns[i])] = to_float(body_.number(element.properties[i].type));
       }
-      mesh_.vertex(position);
+      mesh_.vertex({number[0], number[1], number[2]});
+      if (has_normals_) mesh_.normal({number[3], number[4], number[5]});
+      if (has_texcoords_) mesh_.texcoord(number[6], number[7]);
     }
   }
 
@@ -190,6 +210,7 @@ class PlyReader {
   Body body_;
   MeshBuilder mesh_;
   std::uint64_t vertices_ = 0;
+  bool has_normals_ = false, has_texcoords_ = false;
 };
 
 }  // namespace

@@ -2,8 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include <cstddef>
+#include <cstdint>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "base/faults.h"
 #include "tofray/scene.h"
@@ -11,10 +13,22 @@
 /// Triangle meshes out of files: Wavefront OBJ, Stanford PLY, STL.
 namespace tofray::mesh {
 
+/// A file that another one names, and where it does.
+struct Reference {
+  std::string file;
+  base::Place place;
+};
+
 /// A mesh as its file has it: the file's own unit and axes.
 struct ReadMesh {
-  TriangleMesh mesh;           ///< indices within the vertices, coordinates finite
-  std::size_t not_finite = 0;  ///< triangles dropped because a corner is not a finite number (NaN, inf, or beyond float)
+  /// Indices within the vertices, coordinates finite; normals of unit length or 0, texture coordinates within ±1e6, their v downward. No
+  /// normals where all are 0.
+  TriangleMesh mesh;
+  std::size_t not_finite = 0;             ///< triangles dropped because a corner is not a finite number (NaN, inf, or beyond float)
+  std::vector<std::string> notices;       ///< sentences: what was mended
+  std::vector<Reference> libraries;       ///< OBJ: the files of materials (mtllib), each once, in their order
+  std::vector<std::string> materials;     ///< OBJ: the names that usemtl says, each once, in their order
+  std::vector<std::int32_t> material_of;  ///< index in `materials` of each triangle's, -1: it has none. Empty: none has any
 };
 
 enum class Format { obj, ply, stl };
@@ -28,11 +42,17 @@ std::string suffix_of(const std::string& path);
 Format format_of(const std::string& path, const base::Place& place);
 
 /// Reads a mesh in time and memory linear in the file's size. Polygons become fans; corners of an STL file at the very same place one
-/// vertex.
-/// Vertices that are not finite are left out, and so are the triangles at them.
+/// vertex. A vertex of an OBJ file whose corners have several normals or texture coordinates becomes several: itself with the first ones,
+/// and others behind the file's.
+/// Vertices that are not finite are left out, and so are the triangles at them. Normals and texture coordinates that are not finite, or
+/// beyond 1e6, become 0.
 /// @param bytes  the whole file; who reads it sees that it has at most limit::mesh_bytes
 /// @param name   the file's name for messages
-/// @throws Error (bad_input) for the first fault, or where there is no triangle; (limit) beyond limit::mesh_vertices or mesh_triangles
+/// @throws Error (bad_input) for the first fault, or where there is no triangle; (limit) beyond limit::mesh_vertices,
+///         mesh_triangles, mtl_files or mtl_materials
 ReadMesh parse(Format format, std::string_view bytes, const std::string& name);
+
+/// The files of materials that an OBJ file names: ReadMesh::libraries alone. @throws Error (limit) beyond limit::mtl_files
+std::vector<Reference> libraries_of_obj(std::string_view bytes, const std::string& name);
 
 }  // namespace tofray::mesh

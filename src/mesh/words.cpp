@@ -4,9 +4,7 @@
 
 #include <algorithm>
 #include <limits>
-#include <memory>
-
-#include "base/faults.h"
+#include <utility>
 
 namespace tofray::mesh {
 namespace {
@@ -19,7 +17,7 @@ int to_place(std::size_t number) { return static_cast<int>(std::min<std::size_t>
 }  // namespace
 
 Words::Words(std::string_view text, const std::string& name, Style style, std::size_t from, std::size_t line)
-    : text_(text), name_(name), obj_(style == Style::obj), at_(from), line_(line), line_start_(from) {
+    : text_(text), name_(name), obj_(style != Style::plain), mtl_(style == Style::mtl), at_(from), line_(line), line_start_(from) {
   if (from == 0 && text.starts_with("\xEF\xBB\xBF")) at_ = line_start_ = 3;
   word_start_ = line_start_of_word_ = at_;
   word_line_ = line_;
@@ -28,7 +26,11 @@ Words::Words(std::string_view text, const std::string& name, Style style, std::s
 bool Words::line_goes_on() const { return obj_ && text_[at_] == '\\' && at_ + 1 < text_.size() && is_line_end(text_[at_ + 1]); }
 
 // Not within a word: 1.#INF is a number, m#1 a name.
-bool Words::comment_begins() const { return obj_ && text_[at_] == '#' && (at_ == line_start_ || is_blank(text_[at_ - 1])); }
+bool Words::comment_begins() const {
+  if (!obj_ || text_[at_] != '#' || !(at_ == line_start_ || is_blank(text_[at_ - 1]))) return false;
+  const std::string_view before = text_.substr(line_start_, at_ - line_start_);
+  return !(mtl_ && text_.substr(at_).starts_with("#!") && std::all_of(before.begin(), before.end(), is_blank));
+}
 
 void Words::pass_line_end() {
   at_ += text_.substr(at_).starts_with("\r\n") ? 2 : 1;
@@ -58,6 +60,15 @@ bool Words::in_line(std::string_view& word) {
   return !word.empty();
 }
 
+std::string Words::rest_of_line() {
+  std::string out;
+  for (std::string_view word; in_line(word);) {
+    if (!out.empty()) out += ' ';
+    out += word;
+  }
+  return out;
+}
+
 bool Words::next_line() {
   bool comment = false;
   for (; at_ < text_.size(); ++at_) {
@@ -80,8 +91,12 @@ bool Words::next(std::string_view& word) {
   return true;
 }
 
+base::Place Words::place(const Mark& mark, std::shared_ptr<const std::string> file) {
+  return {std::move(file), to_place(mark.line), to_place(mark.column)};
+}
+
 void Words::fail(const Mark& mark, const std::string& what, const std::string& more, ErrorKind kind) const {
-  base::fail({std::make_shared<const std::string>(name_), to_place(mark.line), to_place(mark.column)}, what, more, kind);
+  base::fail(place(mark, std::make_shared<const std::string>(name_)), what, more, kind);
 }
 
 void Words::fail(const std::string& what, const std::string& more, ErrorKind kind) const { fail(mark(), what, more, kind); }

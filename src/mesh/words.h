@@ -2,10 +2,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include <cstddef>
+#include <memory>
 #include <string>
 #include <string_view>
 
-#include "tofray/error.h"
+#include "base/faults.h"
 
 namespace tofray::mesh {
 
@@ -18,8 +19,8 @@ struct Mark {
 class Words {
  public:
   /// Of OBJ: a word that begins with '#' begins a comment, which lasts to the line's end; a backslash at a line's end joins the next line
-  /// to it.
-  enum class Style { plain, obj };
+  /// to it. Of MTL: likewise, but that "#!" at a line's beginning begins no comment.
+  enum class Style { plain, obj, mtl };
 
   /// @param from  where in the text to begin
   /// @param line  which line that is
@@ -27,6 +28,8 @@ class Words {
 
   /// The next word of this line. @return false at its end
   bool in_line(std::string_view& word);
+  /// The words that are left of this line, a blank between two.
+  std::string rest_of_line();
   /// Goes behind this line's end. @return false where the text ends
   bool next_line();
   /// The next word of this line or of a later one. @return false where there is none
@@ -34,6 +37,8 @@ class Words {
 
   /// Of the word that was read last; where there was none, of the place where it would have been.
   [[nodiscard]] Mark mark() const { return {word_line_, word_start_ - line_start_of_word_ + 1}; }
+  /// @param file  the text's name
+  static base::Place place(const Mark& mark, std::shared_ptr<const std::string> file);
   /// Bytes of the text that are read.
   [[nodiscard]] std::size_t position() const { return at_; }
   [[nodiscard]] std::size_t left() const { return text_.size() - at_; }
@@ -50,7 +55,7 @@ class Words {
 
   std::string_view text_;
   const std::string& name_;
-  bool obj_;
+  bool obj_, mtl_;
   std::size_t at_, line_, line_start_;
   std::size_t word_start_, word_line_, line_start_of_word_;
 };

@@ -23,12 +23,11 @@ std::vector<Sample> samples() {
   std::vector<Sample> all;
   const auto add = [&](Format format, const std::string& bytes, std::size_t needed) { all.push_back({format, bytes, needed}); };
   add(Format::obj, corner_obj, corner_obj.find("f 1 3 2") + 7);
+  add(Format::obj, full_obj, full_obj.find("f 1/1/1") + 15);
   const std::string text = plain_ply(PlyWriter::Encoding::text), text_of_stl = text_stl();
   add(Format::ply, text, text.size() - 1);
-  for (const auto encoding : {PlyWriter::Encoding::little, PlyWriter::Encoding::big}) {
-    const std::string file = plain_ply(encoding);
-    add(Format::ply, file, file.size());
-  }
+  for (const auto encoding : {PlyWriter::Encoding::little, PlyWriter::Encoding::big})
+    for (const std::string& file : {plain_ply(encoding), full_ply(encoding)}) add(Format::ply, file, file.size());
   add(Format::stl, text_of_stl, text_of_stl.find("endsolid") + 8);
   add(Format::stl, binary_stl(), binary_stl().size());
   add(Format::stl, binary_stl("solid"), binary_stl().size());

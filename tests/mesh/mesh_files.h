@@ -36,6 +36,21 @@ inline void expect_mesh(const ReadMesh& read, const Vertices& vertices, const Tr
 
 inline void expect_corner(const ReadMesh& read) { expect_mesh(read, corner_vertices, corner_triangles); }
 
+inline bool has_sound_details(const ReadMesh& read) {
+  const auto& normals = read.mesh.normals;
+  const auto& texcoords = read.mesh.texcoords;
+  const auto unit_or_zero = [](const auto& n) {
+    const double square = static_cast<double>(n[0]) * n[0] + static_cast<double>(n[1]) * n[1] + static_cast<double>(n[2]) * n[2];
+    return square == 0 || std::abs(square - 1) < 1e-6;
+  };
+  const auto in_reach = [](const auto& t) { return std::abs(t[0]) <= 1e6F && std::abs(t[1]) <= 1e6F; };
+  const auto is_one = [&](std::int32_t i) { return i >= -1 && i < static_cast<std::int32_t>(read.materials.size()); };
+  const auto fits = [](const auto& rows, std::size_t count) { return rows.empty() || rows.size() == count; };
+  return fits(normals, read.mesh.vertices.size()) && fits(texcoords, read.mesh.vertices.size()) &&
+         fits(read.material_of, read.mesh.triangles.size()) && std::all_of(normals.begin(), normals.end(), unit_or_zero) &&
+         std::all_of(texcoords.begin(), texcoords.end(), in_reach) && std::all_of(read.material_of.begin(), read.material_of.end(), is_one);
+}
+
 /// Whether a mesh may be handed on: finite vertices, indices within them, at least one triangle.
 inline bool is_sound(const ReadMesh& read) {
   const auto finite = [](const auto& vertex) {
@@ -48,7 +63,7 @@ inline bool is_sound(const ReadMesh& read) {
   const auto& vertices = read.mesh.vertices;
   const auto& triangles = read.mesh.triangles;
   return !triangles.empty() && std::all_of(vertices.begin(), vertices.end(), finite) &&
-         std::all_of(triangles.begin(), triangles.end(), within);
+         std::all_of(triangles.begin(), triangles.end(), within) && has_sound_details(read);
 }
 
 /// Whether bytes give a mesh, which then is sound; else an error that may be shown and names the file.
@@ -145,8 +160,26 @@ inline std::string plain_ply(PlyWriter::Encoding encoding) {
   return corner_ply<float, std::uint8_t, std::int32_t>(encoding, "float", "uchar", "int");
 }
 
+/// A triangle whose vertices have normals and texture coordinates.
+inline std::string full_ply(PlyWriter::Encoding encoding) {
+  PlyWriter file(encoding,
+                 "element vertex 3\nproperty float x\nproperty float y\nproperty float z\nproperty float nx\nproperty float ny\n"
+                 "property float nz\nproperty double s\nproperty uchar t\nelement face 1\nproperty list uchar uchar vertex_index\n");
+  for (std::size_t i = 0; i < 3; ++i) {
+    for (const float number : corner_vertices[i]) file.put<float>(static_cast<double>(number));
+    file.put<float>(0).put<float>(0.6).put<float>(0.8).put<double>(0.5).put<std::uint8_t>(static_cast<double>(i)).end_row();
+  }
+  file.put<std::uint8_t>(3).put<std::uint8_t>(0).put<std::uint8_t>(1).put<std::uint8_t>(2).end_row();
+  return file.bytes;
+}
+
 inline const std::string corner_obj =
     "# the corner\nv 0 0 0\nv 1 0 0\nv 0 2 0\nv 0 0 0.5\nf 1 3 2\nf 1/1 2/2 4/1\nf 1//1 4//1 3//2\nf 2/1/1 3/1/1 4/2/2\n";
+
+/// A square with all that OBJ files say besides.
+inline const std::string full_obj =
+    "mtllib a.mtl b c.mtl\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 1 1\nvn 0 0 1\nvn 0.6 0 0.8\nusemtl red\n"
+    "f 1/1/1 2/2/1 3/3/2\nusemtl blue\nf -4/-3/-2 3/3/1 4//2\n";
 
 /// The corner; STL gives each triangle its corners, whose first order of coming is that of these vertices.
 inline const Vertices stl_vertices = {{0, 0, 0}, {0, 2, 0}, {1, 0, 0}, {0, 0, 0.5F}};
