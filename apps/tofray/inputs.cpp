@@ -16,6 +16,7 @@
 #include "load/builtin.h"
 #include "load/convert.h"
 #include "load/load.h"
+#include "load/obj_load.h"
 #include "mesh_scene.h"
 #include "profile_tables.h"
 #include "tofray/error.h"
@@ -119,10 +120,11 @@ std::string notices_of(const Mesh& mesh) {
 std::string guesses_of(const Mesh& mesh) {
   if (mesh.guessed == 0) return {};
   return fmt::format(
-      "warning: {} of {} reflect{} as much infrared as visible light: a guess from the base colour\n  nir_reflectivity in a material's "
-      "extras says it, or reflectivity at the object\n",
+      "warning: {} of {} reflect{} as much infrared as visible light: a guess from the base colour\n  {} says it, or reflectivity at the "
+      "object\n",
       mesh.guessed == 1 ? "1 material" : fmt::format("{} materials", mesh.guessed), base::in_quotes(mesh.file),
-      mesh.guessed == 1 ? "s" : "");
+      mesh.guessed == 1 ? "s" : "",
+      load::is_obj(mesh.file) ? "a line #!nir_reflectivity 0.6 below newmtl" : "nir_reflectivity in a material's extras");
 }
 
 /// Each warning once, though several objects may show a file.

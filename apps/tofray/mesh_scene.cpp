@@ -49,12 +49,11 @@ Box box_round(const Scene& scene) {
 std::string point(const Vec3& p) { return fmt::format("[{:.6g}, {:.6g}, {:.6g}]", p[0] + 0.0, p[1] + 0.0, p[2] + 0.0); }
 
 /// The mesh alone; `more` are lines below it.
-/// A glTF file has materials of its own.
-std::string text_of(const std::string& path, const std::string& more) {
+std::string text_of(const std::string& path, bool own_materials, const std::string& more) {
   // A name in quotation marks as JSON writes it is a name in YAML, too.
   const std::string file =
       nlohmann::json(std::filesystem::path(path).filename().string()).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
-  return fmt::format("objects:\n  - mesh: {{file: {}{}}}\n{}", file, load::is_gltf(path) ? "" : ", reflectivity: 0.5", more);
+  return fmt::format("objects:\n  - mesh: {{file: {}{}}}\n{}", file, own_materials ? "" : ", reflectivity: 0.5", more);
 }
 
 /// All of it from before, above and aside.
@@ -79,18 +78,21 @@ std::string scene_of_mesh(const std::string& path, const std::string& source, co
   load::Settings of_mesh;
   for (const auto& one : options.set)
     if (one.first.starts_with("objects.0.mesh.")) of_mesh.push_back(one);
-  const Scene alone = load::scene_from_text(text_of(path, ""), source, of_mesh, {options.root});
+  const bool own_materials = load::has_own_materials(std::filesystem::path(path).filename().string(), source, options.root);
+  const Scene alone = load::scene_from_text(text_of(path, own_materials, ""), source, of_mesh, {options.root});
   const Box box = box_round(alone);
   const std::optional<Pose> own = load::camera_in(std::get<Mesh>(alone.objects[0].shape), source, options.root);
   // A file with a camera is a scene of its own: a second floor would lie in the first.
   if (own)
-    return text_of(path, fmt::format("camera: {{pose: {{position: {}, look_at: {}, up: {}}}}}\n", point(own->position), point(own->look_at),
-                                     point(own->up)));
+    return text_of(path, own_materials,
+                   fmt::format("camera: {{pose: {{position: {}, look_at: {}, up: {}}}}}\n", point(own->position), point(own->look_at),
+                               point(own->up)));
   const Pose pose = pose_before(box);
-  return text_of(path, fmt::format("  - plane: {{point: {}, normal: [0, -1, 0], reflectivity: 0.3}}  # a floor\n"
-                                   "camera: {{pose: {{position: {}, look_at: {}}}}}\n",
-                                   point({0.5 * (box.low[0] + box.high[0]), box.high[1], 0.5 * (box.low[2] + box.high[2])}),
-                                   point(pose.position), point(pose.look_at)));
+  return text_of(path, own_materials,
+                 fmt::format("  - plane: {{point: {}, normal: [0, -1, 0], reflectivity: 0.3}}  # a floor\n"
+                             "camera: {{pose: {{position: {}, look_at: {}}}}}\n",
+                             point({0.5 * (box.low[0] + box.high[0]), box.high[1], 0.5 * (box.low[2] + box.high[2])}), point(pose.position),
+                             point(pose.look_at)));
 }
 
 }  // namespace tofray::app

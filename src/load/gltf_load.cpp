@@ -19,29 +19,21 @@ namespace tofray::load {
 
 namespace {
 
-constexpr std::size_t longest_material_name = 200;
-
-/// What a listing may show of a stranger's name.
-std::string shown_name(const std::string& name) {
-  std::size_t end = 0;
-  while (end < name.size() && end < longest_material_name) end += std::max<std::size_t>(base::utf8_length(name, end), 1);
-  return base::printable(std::string_view(name).substr(0, end));
-}
-
 /// Reflectivity and map of a material of the file.
 void take_material(const gltf::Model& model, int index, const std::string& path, MeshPiece& piece) {
   piece.material = "no material";
   if (index == gltf::none) return;
   const gltf::Material& material = model.materials[static_cast<std::size_t>(index)];
   piece.material = material.name.empty() ? "material " + std::to_string(index) : shown_name(material.name);
+  const auto& color = material.base_color;
   piece.from = material.nir_reflectivity ? MeshPiece::From::file : MeshPiece::From::visible_colour;
-  piece.reflectivity = material.nir_reflectivity.value_or(luminance(material.base_color));
+  piece.reflectivity = material.nir_reflectivity.value_or(luminance(color[0], color[1], color[2]));
   if (material.nir_reflectivity || material.base_color_texture.texture == gltf::none) return;
   if (piece.mesh.texcoords.empty()) {
     piece.reflectivity *= 0.5;  // nobody knows where on the picture its triangles are
     return;
   }
-  GltfMap of = map_of(model, material, path);
+  PictureMap of = map_of(model, material, path);
   piece.map = std::move(of.map), piece.reflectivity = of.brightest;
 }
 

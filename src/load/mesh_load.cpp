@@ -13,6 +13,7 @@
 #include "files/text_file.h"
 #include "load/builtin_mesh.h"
 #include "load/gltf_load.h"
+#include "load/obj_load.h"
 #include "mesh/read_mesh.h"
 
 namespace tofray::load {
@@ -38,10 +39,18 @@ Corner in_world(const Corner& p, double scale, Mesh::Up up) {
 Mesh::Up up_of(const Mesh& mesh) {
   if (mesh.up != Mesh::Up::automatic) return mesh.up;
   if (is_builtin_mesh(mesh.file)) return Mesh::Up::minus_y;
-  return is_gltf(mesh.file) || mesh::suffix_of(mesh.file) == ".obj" ? Mesh::Up::y : Mesh::Up::z;
+  return is_gltf(mesh.file) || is_obj(mesh.file) ? Mesh::Up::y : Mesh::Up::z;
 }
 
 std::string folder_beside(const std::string& source) { return source.starts_with("<") ? "." : files::folder_of(source); }
+
+/// All of a file as one piece.
+std::vector<MeshPiece> whole(mesh::ReadMesh read, MeshReader::Known& known) {
+  known.notices = std::move(read.notices);
+  std::vector<MeshPiece> out;
+  out.push_back({std::move(read.mesh), read.not_finite, {}});
+  return out;
+}
 
 bool is_in_world(const Corner& p) {
   return std::all_of(p.begin(), p.end(), [](float a) { return std::abs(a) <= base::farthest_m; });  // NaN: no
@@ -85,14 +94,11 @@ std::vector<MeshPiece> MeshReader::pieces(const Places& places, const Mesh& want
   const auto read = [&] { return files::read_reference(wanted.file, folder_, files_.root, places.file, path, base::limit::mesh_bytes); };
   if (is_gltf(wanted.file)) return from_gltf(places, wanted, path, read(), by_material, known);
   const mesh::Format format = mesh::format_of(wanted.file, places.file);
-  const std::string bytes = read();
+  std::string bytes = read();
+  if (with_materials_.contains(wanted.file)) return from_obj(places, wanted, path, std::move(bytes), by_material, known);
   known.sha256 = files::sha256_hex(bytes);
   check_expected(places.file, wanted.file, path, known.sha256);
-  mesh::ReadMesh read_mesh = mesh::parse(format, bytes, path);
-  known.notices = std::move(read_mesh.notices);
-  std::vector<MeshPiece> out;
-  out.push_back({std::move(read_mesh.mesh), read_mesh.not_finite, {}});
-  return out;
+  return whole(mesh::parse(format, bytes, path), known);
 }
 
 MeshReader::Known MeshReader::from_file(const Places& places, const Mesh& wanted, bool by_material) {
@@ -143,6 +149,20 @@ std::vector<MeshPiece> MeshReader::from_gltf(const Places& places, const Mesh& w
   return pieces;
 }
 
+std::vector<MeshPiece> MeshReader::from_obj(const Places& places, const Mesh& wanted, const std::string& path, std::string bytes,
+                                            bool by_material, Known& known) const {
+  mesh::ReadMesh mesh = mesh::parse(mesh::Format::obj, bytes, path);
+  if (by_material && mesh.libraries.empty())
+    base::fail(places.object, "mesh lacks a key", std::string(lacks_material) + "; " + base::in_quotes(path, 200) + " names no mtllib");
+  const ObjMaterials materials(mesh, path, files_.root);
+  bytes += materials.bytes();
+  known.sha256 = files::sha256_hex(bytes);
+  check_expected(places.file, wanted.file, path, known.sha256);
+  if (!by_material) return whole(std::move(mesh), known);
+  known.notices = mesh.notices;
+  return materials.pieces(std::move(mesh), places.file, known.notices);
+}
+
 void MeshReader::check_expected(const base::Place& place, const std::string& file, const std::string& path,
                                 const std::string& sha256) const {
   if (!files_.expected) return;
@@ -167,10 +187,18 @@ void MeshReader::count(const base::Place& place, const TriangleMesh& mesh) {
 
 void MeshReader::count_texels(const base::Place& place, const ReflectivityMap& map) {
   texels_ += map.values.size();
-  if (texels_ > static_cast<std::size_t>(base::limit::map_pixels.value))
-    base::fail(place, "the scene's meshes wear too many pixels of pictures",
-               "at most " + std::to_string(base::limit::map_pixels.value) + " in all (`tofray --limits`), once for each material",
-               ErrorKind::limit);
+  if (texels_ > static_cast<std::size_t>(base::limit::map_pixels.value)) refuse_texels(place);
+}
+
+bool has_own_materials(const std::string& file, const std::string& source, const std::string& root) {
+  if (is_gltf(file) || !is_obj(file)) return is_gltf(file);
+  std::string path, bytes;
+  try {
+    bytes = files::read_reference(file, folder_beside(source), root, base::whole(source), path, base::limit::mesh_bytes);
+  } catch (const Error&) {
+    return false;  // whoever reads the mesh tells
+  }
+  return has_materials(bytes, path, root);
 }
 
 std::optional<Pose> camera_in(const Mesh& mesh, const std::string& source, const std::string& root) {

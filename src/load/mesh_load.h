@@ -4,6 +4,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <tuple>
 #include <vector>
@@ -14,6 +15,10 @@
 
 namespace tofray::load {
 
+/// Of an object that has no material, and whose file has none.
+inline constexpr const char* lacks_material =
+    "expected one of \"reflectivity\" or \"material\"; glTF files, and OBJ files that name an mtllib, have their own";
+
 /// Reads the meshes that a scene names: each file once, turned so that its up is the world's −y, and scaled to metres.
 ///
 ///     up y:   (x, −y, −z)     its front, +z, looks at a camera at zero that looks along +z
@@ -23,9 +28,9 @@ class MeshReader {
  public:
   /// Where the scene names what a mesh is made of.
   struct Places {
-    base::Place file, time;
+    base::Place object, file, time;
   };
-  /// What the file shows; of a glTF file one for each material, where that is asked for.
+  /// What the file shows; of a glTF or OBJ file one for each material, where that is asked for.
   struct Piece {
     std::shared_ptr<const TriangleMesh> triangles;
     int left_out;
@@ -45,10 +50,12 @@ class MeshReader {
 
   /// @param source  the scene's file: meshes lie beside it or below
   MeshReader(const std::string& source, const MeshFiles& files);
+  /// Says that read() will want this file's materials: its SHA-256 then is that of all that it names, for all objects.
+  void want_materials(const std::string& file) { with_materials_.insert(file); }
   /// What `mesh` shows by its file, scale, up and time.
-  /// @param by_material  whether a glTF file's materials are wanted apart
+  /// @param by_material  whether a glTF or OBJ file's materials are wanted apart
   /// @throws Error as files::read_reference, mesh::parse and gltf::read, and (bad_input) where the file is not the one that is expected,
-  /// has no animation though there is a time, or where no triangle is in the world
+  /// has no animation though there is a time, names no file of materials though they are wanted, or where no triangle is in the world
   const Known& read(const Places& places, const Mesh& mesh, bool by_material);
 
  private:
@@ -58,6 +65,8 @@ class MeshReader {
   static std::vector<MeshPiece> from_code(const base::Place& place, const std::string& file);
   std::vector<MeshPiece> from_gltf(const Places& places, const Mesh& wanted, const std::string& path, const std::string& bytes,
                                    bool by_material, Known& known) const;
+  std::vector<MeshPiece> from_obj(const Places& places, const Mesh& wanted, const std::string& path, std::string bytes, bool by_material,
+                                  Known& known) const;
   void check_expected(const base::Place& place, const std::string& file, const std::string& path, const std::string& sha256) const;
   /// The limits of one mesh are those of all meshes of a scene: of many it may take no more memory.
   void count(const base::Place& place, const TriangleMesh& mesh);
@@ -65,6 +74,7 @@ class MeshReader {
 
   std::string folder_;
   const MeshFiles& files_;
+  std::set<std::string> with_materials_;
   std::size_t vertices_ = 0, triangles_ = 0, texels_ = 0;
   std::map<std::tuple<std::string, double, Mesh::Up, std::optional<double>, bool>, Known> known_;
 };
@@ -73,5 +83,10 @@ class MeshReader {
 /// @param mesh    its file, scale, up and time: a mesh that was read
 /// @param source  the scene's file, beside which the mesh lies
 std::optional<Pose> camera_in(const Mesh& mesh, const std::string& source, const std::string& root);
+
+/// Whether a mesh's file has materials of its own: glTF, and OBJ where the files of materials that it names can be read.
+/// @param file    as a scene has it
+/// @param source  the scene's file, beside which it lies
+bool has_own_materials(const std::string& file, const std::string& source, const std::string& root);
 
 }  // namespace tofray::load

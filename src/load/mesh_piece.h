@@ -5,6 +5,7 @@
 #include <memory>
 #include <string>
 
+#include "base/faults.h"
 #include "tofray/scene.h"
 
 namespace tofray::load {
@@ -19,5 +20,11 @@ struct MeshPiece {
   From from = From::nothing;                        ///< how that is known
   std::shared_ptr<const ReflectivityMap> map = {};  ///< of the material, or none
 };
+
+/// More texels than the meshes of a scene may wear. @throws Error (limit)
+[[noreturn]] void refuse_texels(const base::Place& place);
+
+/// What a listing may show of a material's name, which a stranger gave.
+std::string shown_name(const std::string& name);
 
 }  // namespace tofray::load

@@ -15,6 +15,7 @@
 #include "load/load.h"
 #include "load/material_library.h"
 #include "load/mesh_load.h"
+#include "load/obj_load.h"
 #include "yaml/settings.h"
 
 namespace tofray::load {
@@ -160,8 +161,10 @@ class SceneReader {
     const bool has_material = value["material"] || value["reflectivity"];
     meshes_of_scene_.push_back({static_cast<std::size_t>(object), &value, !has_material, nullptr});
     if (!value["file"].good || is_gltf(out.file)) return;
-    if (!has_material)
-      faults_.add(value.place(), "mesh lacks a key", "expected one of \"reflectivity\" or \"material\"; glTF files alone have their own");
+    if (!has_material && is_obj(out.file))
+      meshes_.want_materials(out.file);
+    else if (!has_material)
+      faults_.add(value.place(), "mesh lacks a key", lacks_material);
     if (out.time_s) faults_.add(value["time"].place(), "time is for glTF files", "an OBJ, PLY or STL file stands still");
   }
 
@@ -171,7 +174,8 @@ class SceneReader {
       Mesh& mesh = std::get<Mesh>(scene.objects[one.object].shape);
       if (faults_.empty()) {
         const Value& time = (*one.value)["time"];
-        one.known = &meshes_.read({(*one.value)["file"].place(), (time ? time : *one.value).place()}, mesh, one.by_material);
+        one.known =
+            &meshes_.read({one.value->place(), (*one.value)["file"].place(), (time ? time : *one.value).place()}, mesh, one.by_material);
         one.known->show(0, mesh);
       } else {
         mesh.triangles = std::make_shared<const TriangleMesh>();  // what is wrong is told already
@@ -179,7 +183,7 @@ class SceneReader {
     }
   }
 
-  /// An object that has no material becomes one for each of its glTF file's.
+  /// An object that has no material becomes one for each of its file's.
   void apart_by_material(Scene& scene) {
     std::vector<Object> objects;
     auto next = meshes_of_scene_.begin();
@@ -200,10 +204,10 @@ class SceneReader {
     constexpr auto most = static_cast<std::size_t>(base::limit::objects.value);
     const std::vector<MeshReader::Piece>& pieces = of.known->pieces;
     if (objects.size() + pieces.size() + behind > most)
-      base::fail(
-          (*of.value)["file"].place(), "the scene has too many objects",
-          "at most " + std::to_string(most) + " (`tofray --limits`); a glTF file without a reflectivity is one for each of its materials",
-          ErrorKind::limit);
+      base::fail((*of.value)["file"].place(), "the scene has too many objects",
+                 "at most " + std::to_string(most) +
+                     " (`tofray --limits`); a file's materials without a reflectivity of the object's are one each",
+                 ErrorKind::limit);
     const std::string& file = std::get<Mesh>(whole.shape).file;
     const std::string name = whole.name.empty() ? std::filesystem::path(file).stem().string() : whole.name;
     for (std::size_t k = 0; k < pieces.size(); ++k) {

@@ -1,0 +1,65 @@
+// SPDX-FileCopyrightText: 2026 The tofray authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include <cstddef>
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "load/mesh_piece.h"
+#include "mesh/mtl.h"
+#include "mesh/read_mesh.h"
+
+/// OBJ files of a scene: with the files of materials and pictures that they name, taken apart by material.
+namespace tofray::load {
+
+/// By the file name's suffix, in any case.
+bool is_obj(const std::string& path);
+
+/// Whether an OBJ file names files of materials, all of which can be read. @param path  where it lies
+bool has_materials(std::string_view bytes, const std::string& path, const std::string& root);
+
+/// The materials of one OBJ file.
+class ObjMaterials {
+ public:
+  /// Reads the MTL files that the mesh names and the pictures that its triangles wear. They lie beside the file that names them or below.
+  /// @param path  where the OBJ file lies
+  /// @throws Error as files::read_reference and mesh::parse_mtl; it says that a material of the object's own is a way out
+  ObjMaterials(const mesh::ReadMesh& mesh, const std::string& path, const std::string& root);
+
+  /// Those of the MTL files, as mtllib names them, and of the pictures, as usemtl first names their materials; each once.
+  [[nodiscard]] const std::string& bytes() const { return bytes_; }
+
+  /// A piece for each material that has triangles: those without one first, then as usemtl first names them.
+  /// @param mesh     the one of the constructor
+  /// @param place    who names the OBJ file, for messages
+  /// @param notices  sentences are added: what is guessed or left out
+  /// @throws Error as image::read; (limit) beyond limit::mesh_vertices or map_pixels
+  std::vector<MeshPiece> pieces(mesh::ReadMesh mesh, const base::Place& place, std::vector<std::string>& notices) const;
+
+ private:
+  struct Picture {
+    std::string path;        ///< where it was found
+    std::size_t from, size;  ///< in bytes_
+  };
+  void read_libraries(const mesh::ReadMesh& mesh, const std::string& path, const std::string& root);
+  // A material that is used: its place among the names that the mesh uses, -1: none.
+  void read_picture(std::size_t used, const std::string& root);
+  void wear(std::vector<MeshPiece>& pieces, const std::vector<int>& used, std::vector<std::string>& notices) const;
+  void wear_pictures(std::vector<MeshPiece>& pieces, const std::vector<int>& used, const base::Place& place) const;
+  [[nodiscard]] const mesh::MtlMaterial* material(int used) const;
+
+  std::string bytes_;
+  std::vector<mesh::MtlMaterial> all_;
+  std::vector<std::string> folder_of_;  ///< of each: its MTL file's
+  std::vector<int> known_;              ///< of each name that the mesh uses: in all_, or -1
+  std::vector<int> picture_of_;         ///< likewise: in pictures_, or -1
+  std::vector<Picture> pictures_;
+  std::map<std::string, int> picture_at_;  ///< by name
+  std::size_t picture_bytes_ = 0;
+  std::vector<std::string> left_out_;
+  std::size_t twice_ = 0;
+};
+
+}  // namespace tofray::load
