@@ -209,7 +209,8 @@ void ObjMaterials::wear(std::vector<MeshPiece>& pieces, const std::vector<int>& 
   }
   if (used[0] < 0) notices.emplace_back("triangles without a material get a reflectivity of 0.5");
   if (!colourless.empty()) notices.push_back("no MTL file says a colour of material " + and_more(colourless) + ": a reflectivity of 0.5");
-  if (twice_ > 0) notices.push_back(std::to_string(twice_) + " materials of its MTL files have the name of one before and are left out");
+  if (twice_ > 0)
+    notices.push_back("materials that come twice in its MTL files (" + std::to_string(twice_) + "): the first of each counts");
   if (!left_out_.empty()) notices.push_back("of its materials is left out: " + joined(left_out_));
 }
 

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The tofray authors
 // SPDX-License-Identifier: Apache-2.0
-// Any bytes as a mesh; the first says which format: an Error, or triangles of vertices that are there and finite, and a hierarchy of them in
-// which rays find something finite or nothing.
+// Any bytes as a mesh, or as the materials of one; the first says which format: an Error, or triangles of vertices that are there and
+// finite with normals and texture coordinates that fit, and a hierarchy of them in which rays find something finite or nothing; or
+// reflectivities of 0 to 1.
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -10,6 +11,7 @@
 #include <string_view>
 
 #include "fuzz/shown.h"
+#include "mesh/mtl.h"
 #include "mesh/read_mesh.h"
 #include "scene/hierarchy.h"
 #include "shape/mesh_search.h"
@@ -43,21 +45,54 @@ void look_at(const tofray::TriangleMesh& mesh) {
   }
 }
 
+void check(const tofray::mesh::ReadMesh& read) {
+  const auto& [vertices, triangles, normals, texcoords] = read.mesh;
+  if (triangles.empty()) std::abort();
+  for (const auto& vertex : vertices)
+    for (const float coordinate : vertex)
+      if (!std::isfinite(coordinate)) std::abort();
+  for (const auto& triangle : triangles)
+    for (const std::int32_t index : triangle)
+      if (index < 0 || static_cast<std::size_t>(index) >= vertices.size()) std::abort();
+  if (!normals.empty() && normals.size() != vertices.size()) std::abort();
+  if (!texcoords.empty() && texcoords.size() != vertices.size()) std::abort();
+  if (!read.material_of.empty() && read.material_of.size() != triangles.size()) std::abort();
+  for (const auto& normal : normals) {
+    const double square = static_cast<double>(normal[0]) * normal[0] + static_cast<double>(normal[1]) * normal[1] +
+                          static_cast<double>(normal[2]) * normal[2];
+    if (!(square == 0 || std::abs(square - 1) < 1e-6)) std::abort();
+  }
+  for (const auto& texcoord : texcoords)
+    if (!(std::abs(texcoord[0]) <= 1e6F && std::abs(texcoord[1]) <= 1e6F)) std::abort();
+  for (const std::int32_t material : read.material_of)
+    if (material < -1 || material >= static_cast<std::int32_t>(read.materials.size())) std::abort();
+}
+
+void check(const tofray::mesh::Mtl& read) {
+  const auto is_share = [](double a) { return a >= 0 && a <= 1; };
+  for (const tofray::mesh::MtlMaterial& one : read.materials) {
+    if (one.name.empty() || !is_share(one.nir_reflectivity.value_or(0))) std::abort();
+    for (const double a : one.color.value_or(std::array<double, 3>{}))
+      if (!is_share(a)) std::abort();
+    if (one.picture && (one.picture->reference.file.empty() || !std::isfinite(one.picture->scale[0] + one.picture->offset[1])))
+      std::abort();
+  }
+}
+
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   if (size == 0) return 0;
   constexpr tofray::mesh::Format formats[] = {tofray::mesh::Format::obj, tofray::mesh::Format::ply, tofray::mesh::Format::stl};
   const std::string_view bytes(reinterpret_cast<const char*>(data) + 1, size - 1);
+  const std::size_t format = data[0] % 4;
   try {
-    const tofray::mesh::ReadMesh read = tofray::mesh::parse(formats[data[0] % 3], bytes, "<fuzz>");
-    if (read.mesh.triangles.empty()) std::abort();
-    for (const auto& vertex : read.mesh.vertices)
-      for (const float coordinate : vertex)
-        if (!std::isfinite(coordinate)) std::abort();
-    for (const auto& triangle : read.mesh.triangles)
-      for (const std::int32_t index : triangle)
-        if (index < 0 || static_cast<std::size_t>(index) >= read.mesh.vertices.size()) std::abort();
+    if (format == 3) {
+      check(tofray::mesh::parse_mtl(bytes, "<fuzz>", 1000));
+      return 0;
+    }
+    const tofray::mesh::ReadMesh read = tofray::mesh::parse(formats[format], bytes, "<fuzz>");
+    check(read);
     if (read.mesh.triangles.size() <= most_built && is_in_world(read.mesh)) look_at(read.mesh);
   } catch (const tofray::Error& e) {
     if (e.kind() == tofray::ErrorKind::bug || std::string(e.what()).find(": error: ") == std::string::npos) std::abort();
