@@ -94,7 +94,7 @@ struct TriangleMesh {
 };
 
 /// Many triangles, about the zero of their own frame. In files: those of an OBJ, PLY, STL or glTF file, turned and scaled when it is read;
-/// of a glTF file those of one material, unless the object has a material of its own.
+/// of a glTF or OBJ file those of one material, unless the object has a material of its own.
 struct Mesh {
   enum class Up { automatic, y, z, minus_y };
   std::string file;              ///< empty if built in code

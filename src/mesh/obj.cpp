@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The tofray authors
 // SPDX-License-Identifier: Apache-2.0
-// Wavefront OBJ: vertices (v), their normals (vn) and texture coordinates (vt), polygons (f), and which material they wear (mtllib, usemtl).
+// Wavefront OBJ: vertices (v), their normals (vn) and texture coordinates (vt), polygons (f), and the materials they wear (mtllib, usemtl).
 // Groups, lines and points are read past.
 #include <fmt/format.h>
 
@@ -48,7 +48,7 @@ class Libraries {
     for (std::string_view word; words.in_line(word);) {
       if (file.empty()) mark = words.mark();
       file += (file.empty() ? "" : " ") + std::string(word);
-      if (suffix_of(file) != ".mtl") continue;
+      if (suffix_of(std::string(word)) != ".mtl") continue;
       add(file, mark, words);
       file.clear();
     }

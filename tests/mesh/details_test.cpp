@@ -65,6 +65,18 @@ TEST(obj_details, of_one_vertex_that_differ_make_it_several) {
   EXPECT_EQ(read.mesh.normals, (Vertices{z, z, z, z, x, x, no, x, x}));
 }
 
+// Any one of the five numbers that differs makes a vertex of its own.
+TEST(obj_details, that_differ_in_one_number_are_told_apart) {
+  std::string text = three + "vt 0 0\nvt 0.5 0\nvt 0 0.5\nvn 0.6 0.8 0\nvn 0.6 -0.8 0\nvn -0.6 0.8 0\nvn 0.6 0 0.8\n";
+  for (const char* const corner : {"1/1/1", "1/1/1", "1/2/1", "1/3/1", "1/1/2", "1/1/3", "1/1/4", "1/3/1"})
+    text += std::string("f ") + corner + " 2 3\n";
+  const ReadMesh read = read_obj(text);
+  std::vector<std::int32_t> first;
+  for (const auto& triangle : read.mesh.triangles) first.push_back(triangle[0]);
+  EXPECT_EQ(first, (Places{0, 0, 3, 4, 5, 6, 7, 4}));
+  EXPECT_EQ(read.mesh.texcoords[4], (std::array<float, 2>{0, 0.5F}));
+}
+
 TEST(obj_details, that_say_the_same_make_no_vertex) {
   // The same numbers at other indices, and -0 for 0.
   const ReadMesh read = read_obj(three + "v 1 1 1\nvn 0 0 2\nvn -0 0 1\nvt 0 1\nvt -0 1\nf 1/1/1 2/1/1 3/1/1\nf 1/2/2 4/2/2 3/2/2\n");
@@ -177,6 +189,15 @@ TEST(obj_materials, lie_in_files_with_blanks_in_their_names_or_several_in_a_line
   EXPECT_EQ(files_of(read_obj(text).libraries), expected);
   EXPECT_EQ(files_of(mesh::libraries_of_obj(text, "m.obj")), expected);
   EXPECT_TRUE(mesh::libraries_of_obj(three, "m.obj").empty());
+}
+
+// A name of a million words: looking at all of it again behind each word would take hours.
+TEST(obj_materials, have_names_of_any_length_in_linear_time) {
+  std::string words;
+  for (int i = 0; i < 1'000'000; ++i) words += " a";
+  const ReadMesh read = read_obj("mtllib" + words + "\n" + three + "usemtl" + words + "\nf 1 2 3\n");
+  EXPECT_EQ(read.libraries.at(0).file.size(), 1'999'999U);
+  EXPECT_EQ(read.materials.at(0).size(), 1'999'999U);
 }
 
 TEST(obj_materials, beyond_the_limits_are_refused) {
