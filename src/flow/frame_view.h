@@ -28,7 +28,12 @@ TOFRAY_FN void each_array(View& view, const Visit& visit) {
 
 /// Values of an array; `list` lies on the host alone and is none of these.
 TOFRAY_FN std::int64_t values_of(ArrayShape shape, std::int64_t pixels, std::int64_t phases) {
-  return shape == ArrayShape::stack ? phases * pixels : shape == ArrayShape::vectors ? 3 * pixels : pixels;
+  switch (shape) {
+    case ArrayShape::stack: return phases * pixels;
+    case ArrayShape::vectors: return 3 * pixels;
+    case ArrayShape::pairs: return 2 * pixels;
+    default: return pixels;
+  }
 }
 
 }  // namespace tofray::flow

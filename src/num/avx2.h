@@ -183,6 +183,11 @@ TOFRAY_FN void store(std::uint8_t* to, I32x8 a, int n) {
     for (int i = 0; i < n; ++i) to[i] = packed[i];
   }
 }
+TOFRAY_FN void store2(float* to, F32x8 x, F32x8 y, int n) {
+  const __m256 low = _mm256_unpacklo_ps(x.v, y.v), high = _mm256_unpackhi_ps(x.v, y.v);
+  store(to, F32x8(_mm256_permute2f128_ps(low, high, 0x20)), 2 * n);
+  if (2 * n > 8) store(to + 8, F32x8(_mm256_permute2f128_ps(low, high, 0x31)), 2 * n - 8);
+}
 /// Elements of x0 y0 z0 x1 y1 z1 …: all three packs in the same new order, taken in turn.
 template <int x_lanes, int y_lanes>
 TOFRAY_FN __m256 interleaved(__m256 x, __m256 y, __m256 z, __m256i order) {

@@ -185,6 +185,12 @@ TOFRAY_FN void store(std::uint8_t* to, I32x16 a, int n) {
 TOFRAY_FN __m512 interleaved(__m512 x, __m512 y, __m512 z, __m512i from_xy, __m512i from_z) {
   return _mm512_permutex2var_ps(_mm512_permutex2var_ps(x, from_xy, y), from_z, z);
 }
+TOFRAY_FN void store2(float* to, F32x16 x, F32x16 y, int n) {
+  const __m512i low = _mm512_setr_epi32(0, 16, 1, 17, 2, 18, 3, 19, 4, 20, 5, 21, 6, 22, 7, 23),
+                high = _mm512_add_epi32(low, _mm512_set1_epi32(8));
+  store(to, F32x16(_mm512_permutex2var_ps(x.v, low, y.v)), 2 * n);
+  if (2 * n > 16) store(to + 16, F32x16(_mm512_permutex2var_ps(x.v, high, y.v)), 2 * n - 16);
+}
 TOFRAY_FN void store3(float* to, F32x16 x, F32x16 y, F32x16 z, int n) {
   const __m512 first = interleaved(x.v, y.v, z.v, _mm512_setr_epi32(0, 16, 0, 1, 17, 0, 2, 18, 0, 3, 19, 0, 4, 20, 0, 5),
                                    _mm512_setr_epi32(0, 1, 16, 3, 4, 17, 6, 7, 18, 9, 10, 19, 12, 13, 20, 15));

@@ -185,6 +185,8 @@ TOFRAY_FN void store(float* to, float a, int) { *to = a; }
 TOFRAY_FN void store(std::int32_t* to, std::int32_t a, int) { *to = a; }
 TOFRAY_FN void store(std::uint16_t* to, std::int32_t a, int) { *to = static_cast<std::uint16_t>(a); }
 TOFRAY_FN void store(std::uint8_t* to, std::int32_t a, int) { *to = static_cast<std::uint8_t>(a); }
+/// x0 y0 x1 y1 …
+TOFRAY_FN void store2(float* to, float x, float y, int) { to[0] = x, to[1] = y; }
 /// x0 y0 z0 x1 y1 z1 …
 TOFRAY_FN void store3(float* to, float x, float y, float z, int) { to[0] = x, to[1] = y, to[2] = z; }
 

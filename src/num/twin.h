@@ -228,6 +228,10 @@ TOFRAY_FN void store(Element* to, TwinInt<H> x, int n) {
   store(to, x.a, n), store(to + lanes<H>, x.b, beyond<H>(n));
 }
 template <class H>
+TOFRAY_FN void store2(float* to, Twin<H> x, Twin<H> y, int n) {
+  store2(to, x.a, y.a, n), store2(to + 2 * lanes<H>, x.b, y.b, beyond<H>(n));
+}
+template <class H>
 TOFRAY_FN void store3(float* to, Twin<H> x, Twin<H> y, Twin<H> z, int n) {
   store3(to, x.a, y.a, z.a, n), store3(to + 3 * lanes<H>, x.b, y.b, z.b, beyond<H>(n));
 }

@@ -167,9 +167,11 @@ class GivenWalk {
       power::add_up(s_.phasors, which, pack.light);
       pack.light.ambient_rate = given<F>(in_.light.ambient_rate, s_, p, now.index, 0.0f);
     }
-    if (now.truth)
+    if (now.truth) {
       store_truth(
           job_.out, p, surface, radiometry, []() __attribute__((always_inline)) { return num::Int<F>(-1); });
+      store_seen(job_.out, p, nothing_known<F>());
+    }
     return true;
   }
 

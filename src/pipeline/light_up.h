@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The tofray authors
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-#include "pipeline/store.h"
+#include "pipeline/seen.h"
 #include "power/received.h"
 #include "trace/detail.h"
 #include "trace/visible.h"
@@ -145,6 +145,11 @@ TOFRAY_FN bool light_of_scene(const Setup& s, const Job& job, Near& near, const 
   }
   const auto material = [&]() __attribute__((always_inline)) { return trace::material<F>(s.scene, hit); };
   if (now.truth) store_truth(job.out, p, surface, radiometry, material);
+  if (now.truth && wants_seen(job.out)) {
+    const flow::Hit<F> hit_copy = hit;
+    const flow::Surface<F> copy = surface;
+    look_closer(s, job.out, p, hit_copy, copy);
+  }
   return true;
 }
 

@@ -19,6 +19,10 @@ TOFRAY_FN void store(float* to, const Pixels& p, F value) {
   if (to != nullptr) num::store(to + p.index, value, p.count);
 }
 template <class F>
+TOFRAY_FN void store2(float* to, const Pixels& p, F x, F y) {
+  if (to != nullptr) num::store2(to + 2 * p.index, x, y, p.count);
+}
+template <class F>
 TOFRAY_FN void store3(float* to, const Pixels& p, F x, F y, F z) {
   if (to != nullptr) num::store3(to + 3 * p.index, x, y, z, p.count);
 }

@@ -20,6 +20,7 @@ namespace {
 const char* shape_of(ArrayShape shape) {
   switch (shape) {
     case ArrayShape::image: return "[height, width]";
+    case ArrayShape::pairs: return "[height, width, 2]";
     case ArrayShape::vectors: return "[height, width, 3]";
     case ArrayShape::stack: return "[phase, height, width]";
     case ArrayShape::list: return "[phase]";

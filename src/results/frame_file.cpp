@@ -23,6 +23,7 @@ NpyShape extents(ArrayShape shape, int phases, int height, int width) {
   const auto k = static_cast<std::size_t>(phases), v = static_cast<std::size_t>(height), u = static_cast<std::size_t>(width);
   switch (shape) {
     case ArrayShape::image: return {v, u};
+    case ArrayShape::pairs: return {v, u, 2};
     case ArrayShape::vectors: return {v, u, 3};
     case ArrayShape::stack: return {k, v, u};
     case ArrayShape::list: return {k};

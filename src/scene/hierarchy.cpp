@@ -229,6 +229,7 @@ class Builder {
 Hierarchy build_hierarchy(const TriangleMesh& mesh) {
   Hierarchy out;
   Builder(mesh, out).build();
+  out.has_texcoords = !mesh.texcoords.empty();
   return out;
 }
 

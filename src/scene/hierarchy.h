@@ -13,6 +13,7 @@ struct Hierarchy {
   std::vector<shape::MeshNode> nodes;  ///< [0] holds all; never empty
   std::vector<shape::MeshTriangles> triangles;
   std::vector<shape::MeshDetails> details;  ///< one for each block of triangles, or none
+  bool has_texcoords = false;               ///< in `details`
   shape::Vec center{}, half{};              ///< of the box round all of them
 };
 

@@ -76,7 +76,7 @@ struct MeshHit {
 struct Mesh {
   using Form = MeshForm;
   using Along = MeshAlong;
-  static constexpr int facets = 2;  ///< hits name the first; the second says where the camera's zero is in the mesh's frame
+  static constexpr int facets = 2;  ///< hits name the first; the second has what is left (facet_of)
   static constexpr bool closed = false, curved = true, many = true;
 
   Mat axes;          ///< rows: those of the mesh's frame
@@ -86,6 +86,7 @@ struct Mesh {
   const MeshTriangles* triangles;
   const MeshDetails* details;  ///< null: no corner has any
   std::int32_t node_count, block_count;
+  std::int32_t has_texcoords;
 
   /// @param built  the hierarchy of its triangles (scene/hierarchy.h)
   template <class Built>
@@ -100,7 +101,8 @@ struct Mesh {
             built.triangles.data(),
             built.details.empty() ? nullptr : built.details.data(),
             static_cast<std::int32_t>(built.nodes.size()),
-            static_cast<std::int32_t>(built.triangles.size())};
+            static_cast<std::int32_t>(built.triangles.size()),
+            built.has_texcoords ? 1 : 0};
   }
 
   /// Of the triangles that these lanes see, not turned to the camera.
@@ -115,8 +117,13 @@ TOFRAY_FN Mesh in_frame(const Mesh& mesh, const Frame& frame) {
   return out;
 }
 
+/// The second: where the camera's zero is in the mesh's frame, and whether corners have texture coordinates.
 TOFRAY_FN void facet_of(const Mesh& mesh, int side, Facet& out) {
-  if (side == 1) return copy(mesh.axes * (-1.0 * mesh.origin), out.number);
+  if (side == 1) {
+    copy(mesh.axes * (-1.0 * mesh.origin), out.number);
+    out.number[3] = mesh.has_texcoords != 0 ? 1.0f : 0.0f;
+    return;
+  }
   for (int k = 0; k < 3; ++k) copy(mesh.axes.row[k], out.number + 3 * k);
   out.triangles = mesh.triangles, out.details = mesh.details;
 }

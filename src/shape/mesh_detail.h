@@ -67,4 +67,13 @@ TOFRAY_FN MeshDetail<F> mesh_detail(const Facet& facet, Int<F> triangle, F x, F 
   return out;
 }
 
+/// The triangles' numbers in the user's list.
+template <class F>
+TOFRAY_FN Int<F> mesh_number(const Facet& facet, Int<F> triangle) {
+  const Int<F> place = triangle & Int<F>(block_width - 1);
+  return num::gather(facet.triangles->number, (triangle - place) * Int<F>(mesh_triangles_words / block_width) + place);
+}
+/// Whether mesh_detail() knows texture coordinates.
+TOFRAY_FN bool has_texcoords(const Facet& facet) { return facet.details != nullptr && (&facet + 1)->number[3] != 0.0f; }
+
 }  // namespace tofray::shape

@@ -189,6 +189,17 @@ TOFRAY_FN bool memory(int which, const PackBlock& block) {
               block.out[2 * pack_block + at.i + k] = static_cast<std::uint32_t>(num::lane(at.ia(), k));
             }
           });
+    case 4:
+      return each(
+          block, [&](const At& at) __attribute__((always_inline)) {
+            float pairs[2 * lanes];
+            for (int k = 0; k < 2 * lanes; ++k) pairs[k] = 7.0f;
+            for (int n = 1; n <= lanes; ++n) {
+              num::store2(pairs, at.a(), at.b(), n);
+              for (int k = 2 * n; k < 2 * lanes; ++k) block.out[3 * pack_block + at.i] |= num::bits(pairs[k]) ^ num::bits(7.0f);
+            }
+            for (int k = 0; k < 2 * lanes; ++k) block.out[2 * at.i + k] = num::bits(pairs[k]);
+          });
     default: return false;
   }
 }

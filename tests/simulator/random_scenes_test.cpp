@@ -7,6 +7,7 @@
 
 #include "backend/cpu/cpu.h"
 #include "support/random_scene.h"
+#include "support/same_frame.h"
 #include "support/sanitizers.h"
 
 using namespace tofray;
@@ -112,6 +113,7 @@ void same(const Frame& a, const Frame& b) {
   same(a.depth.noise_m, b.depth.noise_m, "noise");
   same(a.depth.confidence, b.depth.confidence, "confidence");
   same(a.depth.flags, b.depth.flags, "flags");
+  EXPECT_EQ(first_difference(a, b), "") << "in an array that has no line above";
 }
 
 Frame render(const Case& c, Isa isa, bool culling, int threads = 1, std::uint64_t frame = 3) {

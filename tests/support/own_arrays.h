@@ -3,6 +3,8 @@
 #pragma once
 #include <gtest/gtest.h>
 
+#include <limits>
+
 #include "flow/flow.h"
 #include "support/cuda_cases.h"
 
@@ -27,9 +29,11 @@ inline Geometry geometry_of(const Scene& scene, const Camera& camera, const Fram
   return out;
 }
 
-/// The frame as geometry of one's own shows it: of materials nothing is known.
-inline Frame without_materials(Frame frame) {
-  frame.truth.material_id.assign(frame.truth.material_id.size(), -1);
+/// The frame as geometry of one's own shows it: of materials and triangles nothing is known.
+inline Frame without_what_geometry_lacks(Frame frame) {
+  Truth& truth = frame.truth;
+  for (auto* ids : {&truth.material_id, &truth.triangle_id}) ids->assign(ids->size(), -1);
+  for (auto* numbers : {&truth.texcoord}) numbers->assign(numbers->size(), std::numeric_limits<float>::quiet_NaN());
   return frame;
 }
 
