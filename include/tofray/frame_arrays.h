@@ -65,13 +65,15 @@ enum class ArrayShape {
   /*  name                 part   member            element       shape    stage  unit         what it is */ \
   row(gt_range_m,          truth, range_m,          float,        image,   trace, "m",         "along the pixel's ray") \
   row(gt_z_m,              truth, z_m,              float,        image,   trace, "m",         "along the optical axis") \
-  row(gt_reflectivity,     truth, reflectivity,     float,        image,   trace, "1",         "albedo, near infrared; Phong: diffuse + specular") \
+  row(gt_reflectivity,     truth, reflectivity,     float,        image,   trace, "1",         "albedo (Phong: diffuse + specular)") \
   row(gt_position_m,       truth, position_m,       float,        vectors, trace, "m",         "x, y, z of the surface point") \
   row(gt_normal,           truth, normal,           float,        vectors, trace, "1",         "unit normal, toward the camera") \
-  row(gt_object_id,        truth, object_id,        std::int32_t, image,   trace, "1",         "instance: index in Scene::objects, -1 none") \
-  row(gt_material_id,      truth, material_id,      std::int32_t, image,   trace, "1",         "semantic class: index in Scene::materials, -1 none") \
-  row(gt_triangle_id,      truth, triangle_id,      std::int32_t, image,   trace, "1",         "face: index in TriangleMesh::triangles, -1 none") \
-  row(gt_texcoord,         truth, texcoord,         float,        pairs,   trace, "1",         "u, v of TriangleMesh::texcoords, NaN without them") \
+  row(gt_object_id,        truth, object_id,        std::int32_t, image,   trace, "1",         "instance: index in Scene::objects, or -1") \
+  row(gt_material_id,      truth, material_id,      std::int32_t, image,   trace, "1",         "class: index in Scene::materials, or -1") \
+  row(gt_triangle_id,      truth, triangle_id,      std::int32_t, image,   trace, "1",         "face: index in mesh triangles, or -1") \
+  row(gt_texcoord,         truth, texcoord,         float,        pairs,   trace, "1",         "u, v of TriangleMesh::texcoords, or NaN") \
+  row(gt_velocity_m_per_s, truth, velocity_m_per_s, float,        vectors, trace, "m/s",       "scene flow: of the point, camera frame") \
+  row(gt_flow_px,          truth, flow_px,          float,        pairs,   trace, "px",        "u, v: optical flow to one frame later") \
   row(gt_irradiance_w_m2,  truth, irradiance_w_m2,  float,        image,   power, "W/m2",      "own light on the surface") \
   row(gt_radiance_w_m2_sr, truth, radiance_w_m2_sr, float,        image,   power, "W/(m2 sr)", "own light toward the camera") \
   row(gt_power_w,          truth, power_w,          float,        image,   power, "W",         "own light on the pixel") \

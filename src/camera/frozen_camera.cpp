@@ -55,6 +55,9 @@ void FrozenCamera::freeze_lens() {
   lens_.width = sensor.width, lens_.height = sensor.height;
   lens_.pixel_area = single(1 / (camera_.lens.fx_px * camera_.lens.fy_px));
   const double limit = growing_radius_squared(camera_.lens);
+  const Lens& said = camera_.lens;
+  lens_.projection = {single(said.fx_px), single(said.fy_px), single(said.k1), single(said.k2),
+                      single(said.p1),    single(said.p2),    single(said.k3), single(limit)};
   const Vignetting vignetting(camera_.lens);
   std::size_t i = 0;
   for (int v = 0; v < sensor.height; ++v) {

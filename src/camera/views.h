@@ -9,10 +9,19 @@
 /// The camera, frozen for rendering: plain numbers in single precision that kernels read. Built by FrozenCamera.
 namespace tofray::camera {
 
+/// The lens, for what moves to where no pixel looks: from directions to pixels.
+struct ProjectionView {
+  float fx, fy;  ///< [px]
+  float k1, k2, p1, p2, k3;
+  float limit;  ///< r² (undistorted) up to which the radial part grows
+  bool operator==(const ProjectionView&) const = default;
+};
+
 /// Rays and lens by pixel.
 struct LensView {
   std::int32_t width, height;
-  float pixel_area;             ///< that a pixel sees of a plane 1 m before the camera, on the axis [m²]
+  float pixel_area;  ///< that a pixel sees of a plane 1 m before the camera, on the axis [m²]
+  ProjectionView projection;
   const float *ray_x, *ray_y;   ///< [height][width] undistorted: d = (x, y, 1)
   const float* inverse_length;  ///< [height][width] 1/|d|
   const float* vignetting;      ///< [height][width] cos⁴α or a table's factor; 0 outside the lens model

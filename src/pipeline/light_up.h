@@ -146,9 +146,10 @@ TOFRAY_FN bool light_of_scene(const Setup& s, const Job& job, Near& near, const 
   const auto material = [&]() __attribute__((always_inline)) { return trace::material<F>(s.scene, hit); };
   if (now.truth) store_truth(job.out, p, surface, radiometry, material);
   if (now.truth && wants_seen(job.out)) {
+    const flow::Ray<F> ray_copy = ray;
     const flow::Hit<F> hit_copy = hit;
     const flow::Surface<F> copy = surface;
-    look_closer(s, job.out, p, hit_copy, copy);
+    look_closer(s, job.out, p, ray_copy, hit_copy, copy);
   }
   return true;
 }

@@ -1,23 +1,27 @@
 // SPDX-FileCopyrightText: 2026 The tofray authors
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include "camera/image_motion.h"
 #include "pipeline/store.h"
 #include "shape/mesh_detail.h"
 #include "trace/nearest.h"
 
-/// Ground truth that nothing else of the pipeline asks for: of the triangle that a pixel sees.
+/// Ground truth that nothing else of the pipeline asks for: of the triangle that a pixel sees, and of how the point there moves.
 namespace tofray::pipeline {
 
 template <class F>
 struct Seen {
-  num::Int<F> triangle;  ///< in the user's list, -1: no mesh
-  F u, v;                ///< texture coordinates
+  num::Int<F> triangle;         ///< in the user's list, -1: no mesh
+  F u, v;                       ///< texture coordinates
+  flow::Direction<F> velocity;  ///< in the camera's frame [m/s]
+  F flow_u, flow_v;             ///< of its image, until one frame later [px]
 };
 
 /// Of a surface that is no object's, or none.
 template <class F>
 TOFRAY_FN Seen<F> nothing_known() {
-  return {num::Int<F>(-1), nan<F>(), nan<F>()};
+  const F none = nan<F>();
+  return {num::Int<F>(-1), none, none, {none, none, none}, none, none};
 }
 
 /// The lanes that see meshes, one mesh after the other.
@@ -41,21 +45,46 @@ TOFRAY_FN void look_at_triangle(const scene::SceneView& s, const flow::Hit<F>& h
   }
 }
 
+/// Objects move, the camera stands still. (Adding 0 leaves one kind of zero.)
+template <class F>
+TOFRAY_FN void look_at_motion(const Setup& s, const flow::Ray<F>& ray, const flow::Surface<F>& p, Seen<F>& out) {
+  using Int = num::Int<F>;
+  const Int at = num::select(p.found, p.object, Int(0)) * Int(3);
+  const float* table = s.scene.velocities;
+  const F x = num::gather(table, at), y = num::gather(table + 1, at), z = num::gather(table + 2, at), zero = F(0.0f);
+  const auto along = [&](const shape::Vec& axis) __attribute__((always_inline)) {
+    return num::fma(x, F(num::single(axis.x)), num::fma(y, F(num::single(axis.y)), z * F(num::single(axis.z)))) + zero;
+  };
+  const shape::Mat& axes = s.scene.camera.axes;
+  const flow::Direction<F> v{along(axes.row[0]), along(axes.row[1]), along(axes.row[2])};
+  out.velocity = {num::select(p.found, v.x, out.velocity.x), num::select(p.found, v.y, out.velocity.y),
+                  num::select(p.found, v.z, out.velocity.z)};
+  const F time = F(s.frame_period);
+  F du, dv;
+  const auto seen = p.found & camera::image_motion(s.lens.projection, ray, p.z, {v.x * time, v.y * time, v.z * time}, du, dv);
+  out.flow_u = num::select(seen, du + zero, out.flow_u), out.flow_v = num::select(seen, dv + zero, out.flow_v);
+}
+
 template <class F>
 TOFRAY_FN void store_seen(const flow::FrameView& out, const Pixels& p, const Seen<F>& seen) {
   if (out.gt_triangle_id != nullptr) num::store(out.gt_triangle_id + p.index, seen.triangle, p.count);
   store2(out.gt_texcoord, p, seen.u, seen.v);
+  store3(out.gt_velocity_m_per_s, p, seen.velocity.x, seen.velocity.y, seen.velocity.z);
+  store2(out.gt_flow_px, p, seen.flow_u, seen.flow_v);
 }
 
 /// Whether anybody wants any of it.
-TOFRAY_FN bool wants_seen(const flow::FrameView& out) { return out.gt_triangle_id != nullptr || out.gt_texcoord != nullptr; }
+TOFRAY_FN bool wants_seen(const flow::FrameView& out) {
+  return out.gt_triangle_id != nullptr || out.gt_texcoord != nullptr || out.gt_velocity_m_per_s != nullptr || out.gt_flow_px != nullptr;
+}
 
 /// Finds and stores it.
 template <class F>
-TOFRAY_APART void look_closer(const Setup& s, const flow::FrameView& out, const Pixels& p, const flow::Hit<F>& hit,
+TOFRAY_APART void look_closer(const Setup& s, const flow::FrameView& out, const Pixels& p, const flow::Ray<F>& ray, const flow::Hit<F>& hit,
                               const flow::Surface<F>& surface) {
   Seen<F> seen = nothing_known<F>();
   look_at_triangle(s.scene, hit, surface, seen);
+  look_at_motion(s, ray, surface, seen);
   store_seen(out, p, seen);
 }
 

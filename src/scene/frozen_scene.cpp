@@ -99,10 +99,13 @@ void FrozenScene::add_bodies(const Scene& scene) {
     const Object& object = scene.objects[i];
     const bool moving = dot(object.velocity_m_per_s, object.velocity_m_per_s) > 0;
     moves_ = moves_ || moving;
+    for (const double v : object.velocity_m_per_s) velocities_.push_back(num::single(v));
     const shape::Placement at{rotation_matrix(object.rotation), vec(object.position)};
     add_body(shape::Shapes{}, object.shape, object, static_cast<int>(i), moving ? moving_ : still_,
              [&]<class T, class Said>(shape::List<T>, const Said& said) { return placed<T>(said, at); });
   }
+  if (velocities_.empty()) velocities_.assign(3, 0.0f);
+  view_.velocities = velocities_.data(), view_.object_count = static_cast<std::int32_t>(velocities_.size() / 3);
   number(shape::Shapes{}, still_, view_.still);
   number(shape::Shapes{}, moving_, view_.moving);
 }

@@ -65,6 +65,7 @@ class FrozenScene {
   std::vector<std::unique_ptr<const MapLevels>> map_levels_;
   std::vector<brdf::MapView> maps_;
   std::vector<shape::Vec> lights_;
+  std::vector<float> velocities_;
   std::vector<double> moment_times_;
   std::vector<brdf::MaterialView> materials_;
   std::unique_ptr<unsigned char[]> memory_;  ///< what is derived

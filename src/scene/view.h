@@ -83,6 +83,7 @@ struct SceneView {
   const brdf::MaterialView* materials;
   const brdf::MapView* maps;
   const shape::Vec* light_positions;  ///< [light] camera frame [m]
+  const float* velocities;            ///< [object][3] world [m/s]
   const double* moment_times;         ///< [moment] [s]
   shape::Frame camera;                ///< where the camera stands
   shape::Vec toward_sun;              ///< unit vector, camera frame
@@ -91,6 +92,7 @@ struct SceneView {
   std::int32_t has_sun;  ///< light comes from one direction, too
   std::int32_t material_count;
   std::int32_t map_count;
+  std::int32_t object_count;    ///< of `velocities`; one at least
   std::int32_t any_other_brdf;  ///< than Lambert's
   std::int32_t any_details;     ///< of meshes
 

@@ -76,6 +76,7 @@ pipeline::Setup Simulator::Impl::fixed_setup() {
   set_ambient(scene, camera, out.power);
   out.sensor = frozen_camera.sensor(0);
   out.decoder = frozen_camera.decoder();
+  out.frame_period = static_cast<float>(1 / camera.mode.frame_rate_hz);
   out.truth_moment = static_cast<std::int32_t>(camera.mode.sequence.size() / 2);
   out.last_stage = options.last_stage;
   out.culling = options.culling;

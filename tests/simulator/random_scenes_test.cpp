@@ -33,6 +33,7 @@ Case random_case(int number) {
   lens.cx_px = 0.5 * (c.camera.sensor.width - 1), lens.cy_px = 0.5 * (c.camera.sensor.height - 1);
   lens.fx_px = lens.fy_px = c.camera.sensor.width * 0.9 + 3;
   if (number % 4 == 1) lens.k1 = -0.5;  // corners without an inverse
+  if (number % 5 == 2) lens.k2 = 0.05, lens.p1 = 2e-3, lens.p2 = -1e-3, lens.k3 = -0.01;
   for (int i = 0; i < number % 4; ++i) {
     Illumination light = c.camera.illumination[0];
     light.position = random.point(0.6);

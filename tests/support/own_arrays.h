@@ -29,11 +29,12 @@ inline Geometry geometry_of(const Scene& scene, const Camera& camera, const Fram
   return out;
 }
 
-/// The frame as geometry of one's own shows it: of materials and triangles nothing is known.
+/// The frame as geometry of one's own shows it: of materials, triangles and motion nothing is known.
 inline Frame without_what_geometry_lacks(Frame frame) {
   Truth& truth = frame.truth;
   for (auto* ids : {&truth.material_id, &truth.triangle_id}) ids->assign(ids->size(), -1);
-  for (auto* numbers : {&truth.texcoord}) numbers->assign(numbers->size(), std::numeric_limits<float>::quiet_NaN());
+  for (auto* numbers : {&truth.texcoord, &truth.velocity_m_per_s, &truth.flow_px})
+    numbers->assign(numbers->size(), std::numeric_limits<float>::quiet_NaN());
   return frame;
 }
 

@@ -147,6 +147,7 @@ void pack_scene(Packer& packer, const scene::SceneView& from, scene::SceneView& 
   std::vector<brdf::MapView> maps(from.maps, from.maps + from.map_count);
   for (brdf::MapView& map : maps) map.texels = packer.put(map.texels, count_of(map.texel_count));
   to.maps = packer.put(static_cast<const brdf::MapView*>(maps.data()), maps.size());
+  to.velocities = packer.put(from.velocities, 3 * count_of(from.object_count));
   to.light_positions = packer.put(from.light_positions, count_of(from.lights));
   scene::SceneView still = from;
   still.moments = 0;  // what moves is derived there for each frame, and with it the facets of all
