@@ -155,7 +155,9 @@ void capsules_have_a_length(const Capsule& capsule, Complaints& complaints) {
 void meshes_have_triangles(const Mesh& mesh, Complaints& complaints) {
   const auto complain = [&](const std::string& what, const std::string& more) { complaints.add(mesh, &mesh.file, what, more); };
   if (mesh.triangles == nullptr) return complain("the mesh has no triangles", "expected Mesh::triangles to point to some");
-  const auto& [vertices, triangles, normals, texcoords] = *mesh.triangles;
+  const TriangleMesh& all = *mesh.triangles;
+  const auto& vertices = all.vertices;
+  const auto& triangles = all.triangles;
   if (vertices.size() > static_cast<std::size_t>(base::limit::mesh_vertices.value) ||
       triangles.size() > static_cast<std::size_t>(base::limit::mesh_triangles.value))
     return complaints.add(mesh, &mesh.file, "the mesh is too large",
@@ -185,8 +187,8 @@ void meshes_have_triangles(const Mesh& mesh, Complaints& complaints) {
               std::string(what) + " of vertex " + std::to_string(i) + " of the mesh are out of range",
               "got " + number_text(static_cast<double>(x)) + ", expected numbers up to " + number_text(static_cast<double>(most)));
   };
-  check_details(normals, "normals", 2.0F);
-  check_details(texcoords, "texture coordinates", 1e6F);
+  check_details(all.normals, "normals", 2.0F);
+  check_details(all.texcoords, "texture coordinates", 1e6F);
 }
 
 void turns_have_an_axis(const Rotation& rotation, Complaints& complaints) {
