@@ -20,7 +20,8 @@ namespace tofray::load {
 namespace {
 
 /// Reflectivity and map of a material of the file.
-void take_material(const gltf::Model& model, int index, const std::string& path, MeshPiece& piece) {
+void take_material(const gltf::Model& model, int index, const std::string& path, const base::Place& place, std::size_t& texels,
+                   MeshPiece& piece) {
   piece.material = "no material";
   if (index == gltf::none) return;
   const gltf::Material& material = model.materials[static_cast<std::size_t>(index)];
@@ -34,6 +35,7 @@ void take_material(const gltf::Model& model, int index, const std::string& path,
     return;
   }
   PictureMap of = map_of(model, material, path);
+  count_texels(of.map->width, of.map->height, place, texels);
   piece.map = std::move(of.map), piece.reflectivity = of.brightest;
 }
 
@@ -92,7 +94,8 @@ gltf::Pose pose_at(const gltf::Model& model, const std::optional<double>& time_s
   return gltf::at(model, time_s ? 0 : gltf::none, time_s.value_or(0));
 }
 
-std::vector<MeshPiece> pieces_of(const gltf::Model& model, const gltf::Pose& pose, bool by_material, const std::string& path) {
+std::vector<MeshPiece> pieces_of(const gltf::Model& model, const gltf::Pose& pose, bool by_material, const std::string& path,
+                                 const base::Place& place) {
   std::map<int, MeshPiece> found;
   for (const gltf::Part& part : gltf::parts(model, pose)) {
     MeshPiece& piece = found[by_material ? part.material : gltf::none];
@@ -100,8 +103,9 @@ std::vector<MeshPiece> pieces_of(const gltf::Model& model, const gltf::Pose& pos
     piece.left_out += part.not_finite;
   }
   std::vector<MeshPiece> out;
+  std::size_t texels = 0;
   for (auto& [material, piece] : found) {
-    if (by_material) take_material(model, material, path, piece);
+    if (by_material) take_material(model, material, path, place, texels, piece);
     out.push_back(std::move(piece));
   }
   return out;

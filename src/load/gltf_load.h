@@ -31,7 +31,9 @@ gltf::Pose pose_at(const gltf::Model& model, const std::optional<double>& time_s
 /// What the pose's scene shows, y up, in metres: a piece for each material, those without one first; or all of it as one piece.
 /// @param by_material  whether materials are wanted apart, and their maps
 /// @param path         the file's, for messages about images
-std::vector<MeshPiece> pieces_of(const gltf::Model& model, const gltf::Pose& pose, bool by_material, const std::string& path);
+/// @param place        who names the file, where its pictures are too large together
+std::vector<MeshPiece> pieces_of(const gltf::Model& model, const gltf::Pose& pose, bool by_material, const std::string& path,
+                                 const base::Place& place);
 
 /// The first perspective camera of the scene, in the file's axes; up is of unit length, look_at 1 m before it.
 std::optional<Pose> camera_of(const gltf::Model& model, const gltf::Pose& pose);

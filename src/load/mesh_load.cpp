@@ -110,7 +110,7 @@ MeshReader::Known MeshReader::from_file(const Places& places, const Mesh& wanted
     count(places.file, piece.mesh);
     for (Corner& p : piece.mesh.vertices) p = in_world(p, wanted.scale, up);
     for (Corner& n : piece.mesh.normals) n = turned(n, up);
-    if (piece.map) count_texels(places.file, *piece.map);
+    if (piece.map) count_texels(piece.map->width, piece.map->height, places.file, texels_);
     piece.left_out += keep_in_world(piece.mesh);
     if (piece.mesh.triangles.empty()) continue;
     known.guessed += piece.from == MeshPiece::From::visible_colour ? 1 : 0;
@@ -143,7 +143,7 @@ std::vector<MeshPiece> MeshReader::from_gltf(const Places& places, const Mesh& w
   if (wanted.time_s && file.model.animations.empty())
     base::fail(places.time, base::in_quotes(path, 200) + " has no animation", "time is one of its first animation; leave it away");
   known.sha256 = std::move(file.sha256), known.notices = std::move(file.model.notices);
-  std::vector<MeshPiece> pieces = pieces_of(file.model, pose_at(file.model, wanted.time_s), by_material, path);
+  std::vector<MeshPiece> pieces = pieces_of(file.model, pose_at(file.model, wanted.time_s), by_material, path, places.file);
   if (by_material && !pieces.empty() && pieces[0].from == MeshPiece::From::nothing)
     known.notices.insert(known.notices.begin(), "triangles without a material get a reflectivity of 0.5");
   return pieces;
@@ -183,11 +183,6 @@ void MeshReader::count(const base::Place& place, const TriangleMesh& mesh) {
   };
   check(vertices_, base::limit::mesh_vertices, "vertices");
   check(triangles_, base::limit::mesh_triangles, "triangles");
-}
-
-void MeshReader::count_texels(const base::Place& place, const ReflectivityMap& map) {
-  texels_ += map.values.size();
-  if (texels_ > static_cast<std::size_t>(base::limit::map_pixels.value)) refuse_texels(place);
 }
 
 bool has_own_materials(const std::string& file, const std::string& source, const std::string& root) {

@@ -70,7 +70,6 @@ class MeshReader {
   void check_expected(const base::Place& place, const std::string& file, const std::string& path, const std::string& sha256) const;
   /// The limits of one mesh are those of all meshes of a scene: of many it may take no more memory.
   void count(const base::Place& place, const TriangleMesh& mesh);
-  void count_texels(const base::Place& place, const ReflectivityMap& map);
 
   std::string folder_;
   const MeshFiles& files_;

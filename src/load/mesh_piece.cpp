@@ -14,7 +14,9 @@ namespace {
 constexpr std::size_t longest_material_name = 200;
 }
 
-void refuse_texels(const base::Place& place) {
+void count_texels(int width, int height, const base::Place& place, std::size_t& texels) {
+  texels += static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
+  if (texels <= static_cast<std::size_t>(base::limit::map_pixels.value)) return;
   base::fail(place, "the scene's meshes wear too many pixels of pictures",
              "at most " + std::to_string(base::limit::map_pixels.value) + " in all (`tofray --limits`), once for each material",
              ErrorKind::limit);

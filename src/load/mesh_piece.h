@@ -21,8 +21,8 @@ struct MeshPiece {
   std::shared_ptr<const ReflectivityMap> map = {};  ///< of the material, or none
 };
 
-/// More texels than the meshes of a scene may wear. @throws Error (limit)
-[[noreturn]] void refuse_texels(const base::Place& place);
+/// Adds a picture's pixels to those that the meshes of a scene wear. @throws Error (limit) beyond limit::map_pixels
+void count_texels(int width, int height, const base::Place& place, std::size_t& texels);
 
 /// What a listing may show of a material's name, which a stranger gave.
 std::string shown_name(const std::string& name);

@@ -225,8 +225,7 @@ void ObjMaterials::wear_pictures(std::vector<MeshPiece>& pieces, const std::vect
     const Picture& of = pictures_[k];
     const image::Image picture = image::read(std::string_view(bytes_).substr(of.from, of.size), of.path);
     for (const std::size_t i : wearers[k]) {
-      texels += static_cast<std::size_t>(picture.width) * static_cast<std::size_t>(picture.height);
-      if (texels > static_cast<std::size_t>(base::limit::map_pixels.value)) refuse_texels(place);
+      count_texels(picture.width, picture.height, place, texels);
       const mesh::MtlMaterial& material = *this->material(used[i]);
       PictureMap map = map_of_picture(picture, material.color.value_or(white));
       if (material.picture->clamp) map.map->wrap_u = map.map->wrap_v = ReflectivityMap::Wrap::clamp;

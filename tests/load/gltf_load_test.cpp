@@ -196,6 +196,23 @@ TEST_F(gltf_in_scene, parts_without_normals_stay_flat) {
   EXPECT_EQ(mesh.texcoords[5], (std::array<float, 2>{0, 0}));
 }
 
+// A small file may ask for much: each material has a picture of its own factor. Those beyond the limit are not made.
+TEST_F(gltf_in_scene, wears_no_more_pixels_than_the_limit) {
+  File many = card({{"index", 0}});
+  const std::string rows(4096 * (1 + 4096 / 8), '\0');
+  many.json["images"][0] = {{"bufferView", many.view(image_test::hand_png(4096, 4096, 1, image_test::grey, rows))},
+                            {"mimeType", "image/png"}};
+  const Document corners = many.json["meshes"][0]["primitives"][0];
+  for (int i = 1; i < 200; ++i) {
+    many.add("materials", many.json["materials"][0]);
+    many.json["meshes"][0]["primitives"].push_back(corners);
+    many.json["meshes"][0]["primitives"][static_cast<std::size_t>(i)]["material"] = i;
+  }
+  file("in/many.glb", many.glb());
+  const std::string said = refusal("file: many.glb", ErrorKind::limit);
+  EXPECT_TRUE(has(said, "scene.yaml:2:18: error: the scene's meshes wear too many pixels of pictures")) << said;
+}
+
 TEST_F(gltf_in_scene, with_a_broken_picture_is_refused_by_the_pictures_number) {
   File broken = card({{"index", 0}});
   broken.json["images"][0] = {{"uri", "data:image/png;base64,iVBORw0KGgo="}};
