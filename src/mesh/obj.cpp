@@ -68,7 +68,7 @@ class Libraries {
 };
 
 /// A corner of a face: places among the file's vertices, texture coordinates and normals, -1 where it names none.
-struct Corner {
+struct ObjCorner {
   std::int32_t vertex = 0, texcoord = -1, normal = -1;
 };
 
@@ -183,10 +183,10 @@ class ObjReader {
 
   void read_face() {
     const Mark start = words_.mark();
-    Corner first, before;
+    ObjCorner first, before;
     std::size_t count = 0;
     for (std::string_view word; words_.in_line(word); ++count) {
-      const Corner corner = read_corner(word);
+      const ObjCorner corner = read_corner(word);
       if (count == 0) first = corner;
       if (count >= 2) add_triangle(first, before, corner);
       before = corner;
@@ -194,7 +194,7 @@ class ObjReader {
     if (count < 3) words_.fail(start, "a face has fewer than 3 corners", fmt::format("got {}, expected 3 or more", count));
   }
 
-  void add_triangle(const Corner& a, const Corner& b, const Corner& c) {
+  void add_triangle(const ObjCorner& a, const ObjCorner& b, const ObjCorner& c) {
     mesh_.triangle(a.vertex, b.vertex, c.vertex);
     const std::size_t triangles = mesh_.so_far().mesh.triangles.size();
     of_normals_.add({a.normal, b.normal, c.normal}, triangles);
@@ -202,7 +202,7 @@ class ObjReader {
   }
 
   /// 7, 7/1, 7//1 or 7/1/1: vertex, texture coordinates, normal; below 0 from the last one so far, which is -1.
-  Corner read_corner(std::string_view word) {
+  ObjCorner read_corner(std::string_view word) {
     std::array<std::int64_t, 3> index{};
     std::array<bool, 3> is_given{};
     std::size_t parts = 0;
