@@ -3,12 +3,14 @@
 // Any bytes as a mesh, or as the materials of one; the first says which format: an Error, or triangles of vertices that are there and
 // finite with normals and texture coordinates that fit, and a hierarchy of them in which rays find something finite or nothing; or
 // reflectivities of 0 to 1.
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "fuzz/shown.h"
 #include "mesh/mtl.h"
@@ -31,7 +33,13 @@ bool is_in_world(const tofray::TriangleMesh& mesh) {
 void look_at(const tofray::TriangleMesh& mesh) {
   using namespace tofray;
   const scene::Hierarchy built = scene::build_hierarchy(mesh);
-  if (built.triangles.size() != mesh.triangles.size()) std::abort();
+  std::vector<bool> seen(mesh.triangles.size());
+  for (const shape::MeshTriangles& block : built.triangles)
+    for (const std::int32_t number : block.number) {
+      if (number < 0 || static_cast<std::size_t>(number) >= seen.size()) std::abort();
+      seen[static_cast<std::size_t>(number)] = true;
+    }
+  if (std::find(seen.begin(), seen.end(), false) != seen.end()) std::abort();
   const shape::Mesh lying = shape::Mesh::placed(built, {{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}}, {0, 0, 0}});
   const shape::MeshForm form = seen_from(lying, {0.1, -0.2, -1});
   for (std::size_t i = 0; i < 16; ++i) {
@@ -40,7 +48,8 @@ void look_at(const tofray::TriangleMesh& mesh) {
     if (!(ray.square > 1e-12f)) continue;
     flow::Hit<float> hit = flow::no_hit<float>();
     nearest_in(form, ray, hit);
-    if (!std::isfinite(hit.w) || hit.w < 0 || hit.triangle < 0 || static_cast<std::size_t>(hit.triangle) >= mesh.triangles.size())
+    if (!std::isfinite(hit.w) || hit.w < 0 || hit.triangle < 0 ||
+        static_cast<std::size_t>(hit.triangle) >= shape::block_width * built.triangles.size())
       std::abort();
   }
 }
