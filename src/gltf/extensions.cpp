@@ -12,7 +12,8 @@
 namespace tofray::gltf {
 namespace {
 
-constexpr std::string_view supported[] = {"KHR_texture_transform", "KHR_mesh_quantization", "KHR_materials_unlit"};
+constexpr std::string_view supported[] = {"KHR_texture_transform", "KHR_mesh_quantization", "KHR_materials_unlit", "KHR_materials_ior",
+                                          "KHR_materials_specular"};
 
 /// Extensions whose absence changes no surface: what a sentence says of them.
 struct LeftOut {

@@ -77,6 +77,7 @@ TextureUse texture_use(Reading& reading, const Item& parent, std::string_view ke
 void read_metallic_roughness(Reading& reading, const Item& item, Material& material) {
   const auto pbr = item.object("pbrMetallicRoughness");
   if (!pbr) return;
+  material.has_metallic_roughness = true;
   pbr->numbers("baseColorFactor", material.base_color);
   for (const double part : material.base_color)
     if (!(part >= 0 && part <= 1))
@@ -108,6 +109,29 @@ void read_extras(const Item& item, Material& material) {
   if (value == nullptr || !value->is_object()) return;
   const Item extras = item.required_object("extras");
   if (extras.has("nir_reflectivity")) material.nir_reflectivity = extras.number_within("nir_reflectivity", 0, 1, 0);
+  if (extras.has("nir_material")) material.nir_material = extras.required_text("nir_material");
+  if (material.nir_reflectivity && material.nir_material)
+    extras.fail("has nir_reflectivity and nir_material", "these keys say the same thing; keep one of them");
+}
+
+void read_specular(Reading& reading, const Item& item, Material& material) {
+  material.specular = item.number_within("specularFactor", 0, 1, 1);
+  std::array<double, 3> color{1, 1, 1};
+  item.numbers("specularColorFactor", color);
+  if (color != std::array<double, 3>{1, 1, 1} || item.has("specularTexture") || item.has("specularColorTexture"))
+    reading.notices.add("colours and textures of KHR_materials_specular are left out");
+}
+
+void read_extensions(Reading& reading, const Item& item, Material& material) {
+  const auto extensions = item.object("extensions");
+  if (!extensions) return;
+  material.unlit = extensions->has("KHR_materials_unlit");
+  if (const auto specular = extensions->object("KHR_materials_specular")) read_specular(reading, *specular, material);
+  const auto refraction = extensions->object("KHR_materials_ior");
+  if (!refraction) return;
+  material.ior = refraction->number_or("ior", 1.5);
+  if (material.ior != 0 && !(material.ior >= 1))
+    refraction->fail_at("ior", "is out of range", "got " + base::number_text(material.ior) + ", expected 1 or more, or 0");
 }
 
 Material read_material(Reading& reading, const Item& item) {
@@ -120,8 +144,7 @@ Material read_material(Reading& reading, const Item& item) {
   material.alpha = alpha_of(item);
   material.alpha_cutoff = item.number_within("alphaCutoff", 0, infinity, 0.5);
   material.double_sided = item.flag_or("doubleSided", false);
-  const auto extensions = item.object("extensions");
-  material.unlit = extensions && extensions->has("KHR_materials_unlit");
+  read_extensions(reading, item, material);
   read_extras(item, material);
   return material;
 }

@@ -33,14 +33,18 @@ struct Material {
   enum class Alpha { opaque, mask, blend };
   std::string name;
   std::array<double, 4> base_color{1, 1, 1, 1};
+  bool has_metallic_roughness = false;  ///< whether it says pbrMetallicRoughness at all
   double metallic = 1, roughness = 1;
   TextureUse base_color_texture, metallic_roughness_texture, normal_texture;
   double normal_scale = 1;
   Alpha alpha = Alpha::opaque;
   double alpha_cutoff = 0.5;
   bool double_sided = false;
-  bool unlit = false;                      ///< KHR_materials_unlit
-  std::optional<double> nir_reflectivity;  ///< of the material's extras
+  bool unlit = false;                       ///< KHR_materials_unlit
+  double ior = 1.5;                         ///< KHR_materials_ior: at least 1, or 0: a mirror
+  double specular = 1;                      ///< KHR_materials_specular: the factor
+  std::optional<double> nir_reflectivity;   ///< of the material's extras
+  std::optional<std::string> nir_material;  ///< likewise: the name of a material that is built in
 };
 
 struct Texture {

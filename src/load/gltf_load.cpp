@@ -2,42 +2,21 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "load/gltf_load.h"
 
-#include <algorithm>
 #include <map>
 
 #include "base/limits.h"
-#include "base/text.h"
 #include "base/vec.h"
 #include "files/sha256.h"
 #include "files/text_file.h"
 #include "gltf/parts.h"
 #include "gltf/read.h"
 #include "load/gltf_map.h"
+#include "load/gltf_material.h"
 #include "mesh/read_mesh.h"
 
 namespace tofray::load {
 
 namespace {
-
-/// Reflectivity and map of a material of the file.
-void take_material(const gltf::Model& model, int index, const std::string& path, const base::Place& place, std::size_t& texels,
-                   MeshPiece& piece) {
-  piece.material = "no material";
-  if (index == gltf::none) return;
-  const gltf::Material& material = model.materials[static_cast<std::size_t>(index)];
-  piece.material = material.name.empty() ? "material " + std::to_string(index) : shown_name(material.name);
-  const auto& color = material.base_color;
-  piece.from = material.nir_reflectivity ? MeshPiece::From::file : MeshPiece::From::visible_colour;
-  piece.reflectivity = material.nir_reflectivity.value_or(luminance(color[0], color[1], color[2]));
-  if (material.nir_reflectivity || material.base_color_texture.texture == gltf::none) return;
-  if (piece.mesh.texcoords.empty()) {
-    piece.reflectivity *= 0.5;  // nobody knows where on the picture its triangles are
-    return;
-  }
-  PictureMap of = map_of(model, material, path);
-  count_texels(of.map->width, of.map->height, place, texels);
-  piece.map = std::move(of.map), piece.reflectivity = of.brightest;
-}
 
 /// What one more part of a piece has, zeros where it lacks what others have.
 template <class Row>
@@ -97,17 +76,19 @@ gltf::Pose pose_at(const gltf::Model& model, const std::optional<double>& time_s
 std::vector<MeshPiece> pieces_of(const gltf::Model& model, const gltf::Pose& pose, bool by_material, const std::string& path,
                                  const base::Place& place) {
   std::map<int, MeshPiece> found;
+  std::map<int, VertexColors> colors;
   for (const gltf::Part& part : gltf::parts(model, pose)) {
     MeshPiece& piece = found[by_material ? part.material : gltf::none];
     append(part, by_material ? picture_of(model, part.material) : nullptr, piece.mesh);
     piece.left_out += part.not_finite;
+    if (by_material) colors[part.material].add(part);
   }
   std::vector<MeshPiece> out;
-  std::size_t texels = 0;
-  for (auto& [material, piece] : found) {
-    if (by_material) take_material(model, material, path, place, texels, piece);
-    out.push_back(std::move(piece));
+  if (by_material) {
+    GltfMaterials materials(model, path, place);
+    for (auto& [material, piece] : found) piece.of = materials.worn(material, colors[material], !piece.mesh.texcoords.empty());
   }
+  for (auto& [material, piece] : found) out.push_back(std::move(piece));
   return out;
 }
 

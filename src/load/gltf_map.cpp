@@ -17,12 +17,10 @@ ReflectivityMap::Wrap wrap_of(gltf::Texture::Wrap wrap) {
 
 }  // namespace
 
-PictureMap map_of(const gltf::Model& model, const gltf::Material& material, const std::string& path) {
+PictureMap map_of(const gltf::Model& model, const gltf::Material& material, const std::array<double, 3>& color, const std::string& path) {
   const gltf::Texture& texture = model.textures[static_cast<std::size_t>(material.base_color_texture.texture)];
   const gltf::Image& file = model.images[static_cast<std::size_t>(texture.image)];
-  const auto& color = material.base_color;
-  PictureMap out =
-      map_of_picture(image::read(file.bytes, path + ": image " + std::to_string(texture.image)), {color[0], color[1], color[2]});
+  PictureMap out = map_of_picture(image::read(file.bytes, path + ": image " + std::to_string(texture.image)), color);
   out.map->wrap_u = wrap_of(texture.wrap_s), out.map->wrap_v = wrap_of(texture.wrap_t);
   return out;
 }

@@ -9,10 +9,10 @@
 
 namespace tofray::load {
 
-/// A material's picture of its base colour, times the colour's factor.
+/// A material's picture of its base colour, times a colour.
 /// @param path  the glTF file's, for messages
 /// @throws Error as image::read
-PictureMap map_of(const gltf::Model& model, const gltf::Material& material, const std::string& path);
+PictureMap map_of(const gltf::Model& model, const gltf::Material& material, const std::array<double, 3>& color, const std::string& path);
 
 /// Texture coordinates as the material's picture takes them (KHR_texture_transform).
 std::array<float, 2> placed(const gltf::TextureUse& use, const std::array<float, 2>& texcoord);

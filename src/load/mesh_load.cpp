@@ -13,6 +13,7 @@
 #include "files/text_file.h"
 #include "load/builtin_mesh.h"
 #include "load/gltf_load.h"
+#include "load/gltf_material.h"
 #include "load/obj_load.h"
 #include "mesh/read_mesh.h"
 
@@ -73,7 +74,6 @@ std::size_t keep_in_world(TriangleMesh& mesh) {
 
 void MeshReader::Known::show(std::size_t piece, Mesh& mesh) const {
   mesh.triangles = pieces[piece].triangles, mesh.sha256 = sha256, mesh.left_out = pieces[piece].left_out;
-  if (piece == 0) mesh.guessed = guessed, mesh.notices = notices;
 }
 
 MeshReader::MeshReader(const std::string& source, const MeshFiles& files) : folder_(folder_beside(source)), files_(files) {}
@@ -110,12 +110,12 @@ MeshReader::Known MeshReader::from_file(const Places& places, const Mesh& wanted
     count(places.file, piece.mesh);
     for (Corner& p : piece.mesh.vertices) p = in_world(p, wanted.scale, up);
     for (Corner& n : piece.mesh.normals) n = turned(n, up);
-    if (piece.map) count_texels(piece.map->width, piece.map->height, places.file, texels_);
+    if (const auto& map = piece.of.material.map) count_texels(map->width, map->height, places.file, texels_);
     piece.left_out += keep_in_world(piece.mesh);
     if (piece.mesh.triangles.empty()) continue;
-    known.guessed += piece.from == MeshPiece::From::visible_colour ? 1 : 0;
-    known.pieces.push_back({std::make_shared<const TriangleMesh>(std::move(piece.mesh)), static_cast<int>(piece.left_out),
-                            std::move(piece.material), piece.reflectivity, std::move(piece.map)});
+    if (by_material && piece.of.name == no_material) known.materials.emplace_back(no_material);
+    known.pieces.push_back(
+        {std::make_shared<const TriangleMesh>(std::move(piece.mesh)), static_cast<int>(piece.left_out), std::move(piece.of)});
   }
   if (known.pieces.empty())
     base::fail(places.file, "no triangle of " + base::in_quotes(path, 200) + " is in the world",
@@ -143,23 +143,20 @@ std::vector<MeshPiece> MeshReader::from_gltf(const Places& places, const Mesh& w
   if (wanted.time_s && file.model.animations.empty())
     base::fail(places.time, base::in_quotes(path, 200) + " has no animation", "time is one of its first animation; leave it away");
   known.sha256 = std::move(file.sha256), known.notices = std::move(file.model.notices);
-  std::vector<MeshPiece> pieces = pieces_of(file.model, pose_at(file.model, wanted.time_s), by_material, path, places.file);
-  if (by_material && !pieces.empty() && pieces[0].from == MeshPiece::From::nothing)
-    known.notices.insert(known.notices.begin(), "triangles without a material get a reflectivity of 0.5");
-  return pieces;
+  for (std::size_t i = 0; i < file.model.materials.size(); ++i) known.materials.push_back(name_of(file.model, static_cast<int>(i)));
+  return pieces_of(file.model, pose_at(file.model, wanted.time_s), by_material, path, places.file);
 }
 
 std::vector<MeshPiece> MeshReader::from_obj(const Places& places, const Mesh& wanted, const std::string& path, std::string bytes,
                                             bool by_material, Known& known) const {
   mesh::ReadMesh mesh = mesh::parse(mesh::Format::obj, bytes, path);
-  if (by_material && mesh.libraries.empty())
-    base::fail(places.object, "mesh lacks a key", std::string(lacks_material) + "; " + base::in_quotes(path, 200) + " names no mtllib");
   const ObjMaterials materials(mesh, path, files_.root);
   bytes += materials.bytes();
   known.sha256 = files::sha256_hex(bytes);
   check_expected(places.file, wanted.file, path, known.sha256);
   if (!by_material) return whole(std::move(mesh), known);
-  known.notices = mesh.notices;
+  known.notices = mesh.notices, known.names_library = !mesh.libraries.empty();
+  for (const std::string& name : mesh.materials) known.materials.push_back(shown_name(name));
   return materials.pieces(std::move(mesh), places.file, known.notices);
 }
 

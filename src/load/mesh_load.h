@@ -28,23 +28,22 @@ class MeshReader {
  public:
   /// Where the scene names what a mesh is made of.
   struct Places {
-    base::Place object, file, time;
+    base::Place file, time;
   };
   /// What the file shows; of a glTF or OBJ file one for each material, where that is asked for.
   struct Piece {
     std::shared_ptr<const TriangleMesh> triangles;
     int left_out;
-    std::string material;
-    double reflectivity;
-    std::shared_ptr<const ReflectivityMap> map;
+    FileMaterial of;
   };
   struct Known {
     std::vector<Piece> pieces;  ///< at least one; each has triangles
     std::string sha256;
-    int guessed = 0;
-    std::vector<std::string> notices;
+    std::vector<std::string> notices;    ///< of all of the file
+    std::vector<std::string> materials;  ///< names of all that the file has, where they were asked for
+    bool names_library = true;           ///< false of an OBJ file without mtllib
 
-    /// Fills `mesh` by one piece; what is told of the file goes with the first.
+    /// Fills `mesh` by one piece.
     void show(std::size_t piece, Mesh& mesh) const;
   };
 
@@ -55,7 +54,7 @@ class MeshReader {
   /// What `mesh` shows by its file, scale, up and time.
   /// @param by_material  whether a glTF or OBJ file's materials are wanted apart
   /// @throws Error as files::read_reference, mesh::parse and gltf::read, and (bad_input) where the file is not the one that is expected,
-  /// has no animation though there is a time, names no file of materials though they are wanted, or where no triangle is in the world
+  /// has no animation though there is a time, or where no triangle is in the world
   const Known& read(const Places& places, const Mesh& mesh, bool by_material);
 
  private:

@@ -12,7 +12,11 @@ namespace tofray::load {
 
 namespace {
 constexpr std::size_t longest_material_name = 200;
+
+std::string and_more(const std::vector<std::string>& names) {
+  return base::in_quotes(names[0]) + (names.size() > 1 ? " and " + std::to_string(names.size() - 1) + " more" : std::string());
 }
+}  // namespace
 
 void count_texels(int width, int height, const base::Place& place, std::size_t& texels) {
   texels += static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
@@ -20,6 +24,23 @@ void count_texels(int width, int height, const base::Place& place, std::size_t& 
   base::fail(place, "the scene's meshes wear too many pixels of pictures",
              "at most " + std::to_string(base::limit::map_pixels.value) + " in all (`tofray --limits`), once for each material",
              ErrorKind::limit);
+}
+
+std::vector<std::string> notices_of(const std::vector<const FileMaterial*>& materials) {
+  using From = FileMaterial::From;
+  std::vector<std::string> out, colourless, finishes, colors;
+  bool without = false;
+  for (const FileMaterial* one : materials) {
+    without = without || one->from == From::nothing;
+    if (one->from == From::colourless) colourless.push_back(one->name);
+    if (one->mean_finish) finishes.push_back(one->name);
+    if (one->mean_color) colors.push_back(one->name);
+  }
+  if (without) out.emplace_back("triangles without a material get a reflectivity of 0.5");
+  if (!colourless.empty()) out.push_back("no MTL file says a colour of material " + and_more(colourless) + ": a reflectivity of 0.5");
+  if (!finishes.empty()) out.push_back("metal and roughness of material " + and_more(finishes) + " are the means of a picture");
+  if (!colors.empty()) out.push_back("colours of vertices vary at material " + and_more(colors) + ": their mean is used");
+  return out;
 }
 
 std::string shown_name(const std::string& name) {

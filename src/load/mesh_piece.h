@@ -2,23 +2,40 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include <cstddef>
-#include <memory>
 #include <string>
+#include <vector>
 
 #include "base/faults.h"
 #include "tofray/scene.h"
 
 namespace tofray::load {
 
+/// What triangles without a material are called.
+inline constexpr const char* no_material = "no material";
+
+/// A material of a mesh's file, as a scene has them.
+struct FileMaterial {
+  enum class From {
+    nothing,         ///< the triangles have none
+    colourless,      ///< they name one of which nothing is known
+    file,            ///< the file says it of near-infrared light
+    visible_colour,  ///< a guess
+  };
+  std::string name;  ///< or its place among the file's
+  Material material{"", Material::Brdf::lambert, 0.5};
+  From from = From::nothing;
+  bool mean_finish = false;  ///< its metal and roughness are means of a picture
+  bool mean_color = false;   ///< its vertices have several colours, and their mean is used
+};
+
+/// Sentences: what is guessed of these materials, each once.
+std::vector<std::string> notices_of(const std::vector<const FileMaterial*>& materials);
+
 /// What one object shows of a mesh's file: all of it, or the triangles of one material.
 struct MeshPiece {
-  enum class From { nothing, file, visible_colour };
   TriangleMesh mesh;  ///< vertices, and normals and texture coordinates where the file has any
   std::size_t left_out = 0;
-  std::string material;                             ///< its name, or its place among the file's
-  double reflectivity = 0.5;                        ///< of the material
-  From from = From::nothing;                        ///< how that is known
-  std::shared_ptr<const ReflectivityMap> map = {};  ///< of the material, or none
+  FileMaterial of = {};
 };
 
 /// Adds a picture's pixels to those that the meshes of a scene wear. @throws Error (limit) beyond limit::map_pixels

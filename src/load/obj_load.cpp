@@ -41,10 +41,6 @@ std::string read_beside(const mesh::Reference& reference, const std::string& fol
   return files::read_reference(reference.file, folder, root, reference.place, found, rest);
 }
 
-std::string and_more(const std::vector<std::string>& names) {
-  return base::in_quotes(names[0]) + (names.size() > 1 ? " and " + std::to_string(names.size() - 1) + " more" : std::string());
-}
-
 std::string joined(const std::vector<std::string>& words) {
   std::string out;
   for (const std::string& word : words) out += (out.empty() ? "" : ", ") + word;
@@ -179,7 +175,7 @@ std::vector<MeshPiece> ObjMaterials::pieces(mesh::ReadMesh mesh, const base::Pla
     if (triangles[i].empty()) continue;
     MeshPiece& piece = out.emplace_back();
     piece.mesh = divider.piece(triangles[i]);
-    piece.material = i == 0 ? "no material" : shown_name(mesh.materials[i - 1]);
+    piece.of.name = i == 0 ? no_material : shown_name(mesh.materials[i - 1]);
     used.push_back(static_cast<int>(i) - 1);
     vertices += piece.mesh.vertices.size();
     if (vertices > static_cast<std::size_t>(base::limit::mesh_vertices.value))
@@ -194,21 +190,19 @@ std::vector<MeshPiece> ObjMaterials::pieces(mesh::ReadMesh mesh, const base::Pla
 }
 
 void ObjMaterials::wear(std::vector<MeshPiece>& pieces, const std::vector<int>& used, std::vector<std::string>& notices) const {
-  std::vector<std::string> colourless;
+  using From = FileMaterial::From;
   for (std::size_t i = 0; i < pieces.size(); ++i) {
     const mesh::MtlMaterial* const of = material(used[i]);
-    MeshPiece& piece = pieces[i];
+    FileMaterial& piece = pieces[i].of;
     if (of == nullptr || (!of->nir_reflectivity && !of->color && !of->picture)) {
-      if (used[i] >= 0) colourless.push_back(piece.material);
+      piece.from = used[i] < 0 ? From::nothing : From::colourless;
       continue;
     }
     const std::array<double, 3> color = of->color.value_or(white);
-    piece.from = of->nir_reflectivity ? MeshPiece::From::file : MeshPiece::From::visible_colour;
-    piece.reflectivity = of->nir_reflectivity.value_or(luminance(color[0], color[1], color[2]));
-    if (!of->nir_reflectivity && of->picture) piece.reflectivity *= 0.5;  // until the picture is read
+    piece.from = of->nir_reflectivity ? From::file : From::visible_colour;
+    piece.material.diffuse = of->nir_reflectivity.value_or(luminance(color[0], color[1], color[2]));
+    if (!of->nir_reflectivity && of->picture) piece.material.diffuse *= 0.5;  // until the picture is read
   }
-  if (used[0] < 0) notices.emplace_back("triangles without a material get a reflectivity of 0.5");
-  if (!colourless.empty()) notices.push_back("no MTL file says a colour of material " + and_more(colourless) + ": a reflectivity of 0.5");
   if (twice_ > 0)
     notices.push_back("materials that come twice in its MTL files (" + std::to_string(twice_) + "): the first of each counts");
   if (!left_out_.empty()) notices.push_back("of its materials is left out: " + joined(left_out_));
@@ -229,7 +223,7 @@ void ObjMaterials::wear_pictures(std::vector<MeshPiece>& pieces, const std::vect
       const mesh::MtlMaterial& material = *this->material(used[i]);
       PictureMap map = map_of_picture(picture, material.color.value_or(white));
       if (material.picture->clamp) map.map->wrap_u = map.map->wrap_v = ReflectivityMap::Wrap::clamp;
-      pieces[i].map = std::move(map.map), pieces[i].reflectivity = map.brightest;
+      pieces[i].of.material.map = std::move(map.map), pieces[i].of.material.diffuse = map.brightest;
       for (auto& texcoord : pieces[i].mesh.texcoords) texcoord = placed(*material.picture, texcoord);
     }
   }

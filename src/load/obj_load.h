@@ -34,7 +34,7 @@ class ObjMaterials {
   /// A piece for each material that has triangles: those without one first, then as usemtl first names them.
   /// @param mesh     the one of the constructor
   /// @param place    who names the OBJ file, for messages
-  /// @param notices  sentences are added: what is guessed or left out
+  /// @param notices  sentences are added: what is left out
   /// @throws Error as image::read; (limit) beyond limit::mesh_vertices or map_pixels
   std::vector<MeshPiece> pieces(mesh::ReadMesh mesh, const base::Place& place, std::vector<std::string>& notices) const;
 

@@ -33,16 +33,17 @@ PictureMap map_of_picture(const image::Image& picture, const std::array<double, 
   map->values.reserve(static_cast<std::size_t>(picture.width) * static_cast<std::size_t>(picture.height));
   const std::vector<float>& linear = linear_of_srgb();
   float brightest = 0;
+  double sum = 0;
   for (int y = 0; y < picture.height; ++y)
     for (int x = 0; x < picture.width; ++x) {
       const auto sample = [&](int channel) { return static_cast<double>(linear[picture.at(x, y, picture.channels < 3 ? 0 : channel)]); };
       const auto value = static_cast<float>(luminance(color[0] * sample(0), color[1] * sample(1), color[2] * sample(2)));
-      brightest = std::max(brightest, value);
+      brightest = std::max(brightest, value), sum += static_cast<double>(value);
       map->values.push_back(value);
     }
   if (brightest > 0)
     for (float& value : map->values) value = std::min(value / brightest, 1.0F);
-  return {map, static_cast<double>(brightest)};
+  return {map, static_cast<double>(brightest), sum / static_cast<double>(map->values.size())};
 }
 
 }  // namespace tofray::load

@@ -17,7 +17,7 @@ double luminance(double red, double green, double blue);
 /// one.
 struct PictureMap {
   std::shared_ptr<ReflectivityMap> map;
-  double brightest = 0;
+  double brightest = 0, mean = 0;  ///< of the texels
 };
 PictureMap map_of_picture(const image::Image& picture, const std::array<double, 3>& color);
 

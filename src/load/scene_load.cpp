@@ -1,8 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The tofray authors
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <deque>
 #include <filesystem>
 #include <map>
+#include <set>
 
 #include "base/limits.h"
 #include "base/text.h"
@@ -40,6 +42,7 @@ struct MeshOfScene {
   const Value* value;
   bool by_material;
   const MeshReader::Known* known;
+  std::map<std::string, const Material*> own = {};  ///< what the scene says of the file's materials, by their names
 };
 
 class SceneReader {
@@ -64,6 +67,8 @@ class SceneReader {
       if (entry.good && !entry.items.empty()) object(entry, out);
     read_meshes(out);
     filler_.check(out);
+    for (const Material& one : of_files_) filler_.check(one);
+    if (faults_.empty()) name_own_materials();
     if (faults_.empty()) apart_by_material(out);
     return out;
   }
@@ -114,23 +119,43 @@ class SceneReader {
     return static_cast<int>(scene.materials.size()) - 1;
   }
 
-  int named_material(const Value& chosen, Scene& scene) {
+  /// −1 where the scene has none of that name.
+  int index_of(const std::string& name, const Scene& scene) {
     if (index_.empty())
       for (std::size_t i = 0; i < scene.materials.size(); ++i)
         if (!scene.materials[i].name.empty()) index_.emplace(scene.materials[i].name, static_cast<int>(i));
-    const auto found = index_.find(chosen.text);
-    if (found != index_.end()) return found->second;
+    const auto found = index_.find(name);
+    return found == index_.end() ? -1 : found->second;
+  }
+
+  int named_material(const Value& chosen, Scene& scene) {
+    if (const int known = index_of(chosen.text, scene); known >= 0) return known;
     if (const LibraryMaterial* known = find_library_material(chosen.text)) {
       index_.emplace(chosen.text, static_cast<int>(scene.materials.size()));
       scene.materials.push_back(known->material);
     } else {
-      no_material(chosen);
+      refuse_name(chosen);
       scene.materials.emplace_back();
     }
     return static_cast<int>(scene.materials.size()) - 1;
   }
 
-  void no_material(const Value& chosen) {
+  /// What the scene says in place of a material of a mesh's file.
+  const Material& material_in_place(const Value& chosen, const Scene& scene) {
+    Material& out = of_files_.emplace_back();
+    if (chosen.either != 0) {
+      filler_.fill(chosen, out);
+    } else if (const int index = index_of(chosen.text, scene); index >= 0) {
+      out = scene.materials[static_cast<std::size_t>(index)];
+    } else if (const LibraryMaterial* known = find_library_material(chosen.text)) {
+      out = known->material;
+    } else {
+      refuse_name(chosen);
+    }
+    return out;
+  }
+
+  void refuse_name(const Value& chosen) {
     std::vector<std::string> names;
     for (const auto& [name, i] : index_) names.push_back(name);
     const bool none = names.empty(), many = names.size() > 20;
@@ -154,15 +179,21 @@ class SceneReader {
     one.emplace(one.at, which);
     filler_.fill(value, one.tables[which](), one.held(one.at));
     if (const auto* triangle = std::get_if<Triangle>(&out.shape)) area(value, *triangle);
-    if (std::holds_alternative<Mesh>(out.shape)) mesh(value, std::get<Mesh>(out.shape), static_cast<int>(scene.objects.size()) - 1);
+    if (std::holds_alternative<Mesh>(out.shape)) mesh(value, std::get<Mesh>(out.shape), scene);
   }
 
-  void mesh(const Value& value, const Mesh& out, int object) {
+  void mesh(const Value& value, const Mesh& out, const Scene& scene) {
     const bool has_material = value["material"] || value["reflectivity"];
-    meshes_of_scene_.push_back({static_cast<std::size_t>(object), &value, !has_material, nullptr});
+    MeshOfScene& one = meshes_of_scene_.emplace_back(MeshOfScene{scene.objects.size() - 1, &value, !has_material, nullptr});
+    const Value& own = value["materials"];
+    for (std::size_t i = 0; i < own.items.size(); ++i)
+      if (own.items[i].good) one.own[own.names[i]] = &material_in_place(own.items[i], scene);
     if (!value["file"].good || is_gltf(out.file)) return;
     if (!has_material && is_obj(out.file))
       meshes_.want_materials(out.file);
+    else if (own)
+      faults_.add(own.place(), "materials are those of glTF and OBJ files",
+                  "PLY and STL files have none; expected reflectivity or material");
     else if (!has_material)
       faults_.add(value.place(), "mesh lacks a key", lacks_material);
     if (out.time_s) faults_.add(value["time"].place(), "time is for glTF files", "an OBJ, PLY or STL file stands still");
@@ -174,12 +205,34 @@ class SceneReader {
       Mesh& mesh = std::get<Mesh>(scene.objects[one.object].shape);
       if (faults_.empty()) {
         const Value& time = (*one.value)["time"];
-        one.known =
-            &meshes_.read({one.value->place(), (*one.value)["file"].place(), (time ? time : *one.value).place()}, mesh, one.by_material);
+        one.known = &meshes_.read({(*one.value)["file"].place(), (time ? time : *one.value).place()}, mesh, one.by_material);
         one.known->show(0, mesh);
+        mesh.notices = one.known->notices;
+        if (one.by_material && one.own.empty() && !one.known->names_library)
+          base::fail(one.value->place(), "mesh lacks a key",
+                     std::string(lacks_material) + "; " + in_quotes(mesh.file, 200) + " names no mtllib");
       } else {
         mesh.triangles = std::make_shared<const TriangleMesh>();  // what is wrong is told already
       }
+    }
+  }
+
+  /// Each name that the scene says of a file's materials has to be one of them.
+  void name_own_materials() {
+    constexpr std::size_t most_names = 20;
+    for (const MeshOfScene& one : meshes_of_scene_) {
+      if (one.own.empty()) continue;
+      const Value& own = (*one.value)["materials"];
+      const std::vector<std::string>& all = one.known->materials;
+      const std::set<std::string> known(all.begin(), all.end());
+      std::vector<std::string> told(known.begin(), std::next(known.begin(), std::min(known.size(), most_names)));
+      if (known.size() > most_names) told.push_back(std::to_string(known.size() - most_names) + " more");
+      for (std::size_t i = 0; i < own.names.size(); ++i)
+        if (!known.contains(own.names[i]))
+          faults_.add(
+              own.key_places[i],
+              in_quotes((*one.value)["file"].text) + " has no material " + in_quotes(own.names[i]) + base::did_you_mean(own.names[i], all),
+              "its materials: " + base::listed(told, "and"));
     }
   }
 
@@ -210,15 +263,25 @@ class SceneReader {
                  ErrorKind::limit);
     const std::string& file = std::get<Mesh>(whole.shape).file;
     const std::string name = whole.name.empty() ? std::filesystem::path(file).stem().string() : whole.name;
+    const std::size_t first = objects.size();
+    std::vector<const FileMaterial*> taken;  // out of the file
+    int guessed = 0;
     for (std::size_t k = 0; k < pieces.size(); ++k) {
       Object& one = objects.emplace_back(whole);
-      one.name = name + "/" + pieces[k].material;
+      const FileMaterial& in_file = pieces[k].of;
+      const auto own = of.own.find(in_file.name);
+      one.name = name + "/" + in_file.name;
       of.known->show(k, std::get<Mesh>(one.shape));
-      if (k > 0) std::get<Mesh>(one.shape).guessed = 0, std::get<Mesh>(one.shape).notices.clear();
+      std::get<Mesh>(one.shape).notices.clear();
       if (k > 0) one.material = static_cast<int>(materials.size()), materials.emplace_back();
-      Material& material = materials[static_cast<std::size_t>(one.material)];
-      material.diffuse = pieces[k].reflectivity, material.map = pieces[k].map;
+      materials[static_cast<std::size_t>(one.material)] = own != of.own.end() ? *own->second : in_file.material;
+      if (own != of.own.end()) continue;
+      taken.push_back(&in_file);
+      guessed += in_file.from == FileMaterial::From::visible_colour ? 1 : 0;
     }
+    Mesh& told = std::get<Mesh>(objects[first].shape);
+    told.guessed = guessed, told.notices = notices_of(taken);
+    told.notices.insert(told.notices.end(), of.known->notices.begin(), of.known->notices.end());
   }
 
   void area(const Value& value, const Triangle& triangle) {
@@ -235,6 +298,7 @@ class SceneReader {
   Faults& faults_;
   Filler filler_;
   std::map<std::string, int> index_;
+  std::deque<Material> of_files_;  ///< what objects say in place of their files' materials
   MeshReader meshes_;
   std::vector<MeshOfScene> meshes_of_scene_;
 };

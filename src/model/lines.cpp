@@ -71,7 +71,9 @@ class Lines {
       case Kind::list:
         if (!has_values(form.forms[0])) below(form.forms[0], path + ".0", key);
         return;
-      case Kind::dictionary: return below(form.forms[0], path + ".NAME", key);
+      case Kind::dictionary:
+        if (form.forms[0].kind == Kind::either) all.push_back({path + ".NAME", value_text(form.forms[0]), {}, false, key.doc, key.member});
+        return below(form.forms[0], path + ".NAME", key);
       case Kind::tagged:
         all.push_back({path + "." + form.tag,
                        value_text(choice(form.names)),

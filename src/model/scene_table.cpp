@@ -282,9 +282,15 @@ Form objects_form() {
     one.keys.push_back(absent("reflectivity", form_of(Number{fraction, share, "0.5"}), "of a Lambertian surface, in place of `material`"));
     one.keys.push_back(absent("material", either({text("the name of a material", "paper"), form_of(table_of<Material>())}),
                               "a name out of `materials` or of `tofray list materials`, or a material written here"));
+    if (table == &table_of<Mesh>)
+      one.keys.push_back(absent("materials", dictionary(one.keys.back().form, 1, most_materials),
+                                "in place of a material of the glTF or OBJ file: by its name there, as `material` says one"));
     for (Key& key : keys_of(object)) one.keys.push_back(std::move(key));
     // A glTF file has materials of its own; the reader asks for one where a file has none.
-    (table == &table_of<Mesh> ? one.at_most_one : one.exactly_one) = {"reflectivity", "material"};
+    if (table == &table_of<Mesh>)
+      one.at_most_one = {"reflectivity", "material", "materials"};
+    else
+      one.exactly_one = {"reflectivity", "material"};
     form.forms.push_back(std::move(one));
   }
   return list(std::move(form), 0, most_objects);

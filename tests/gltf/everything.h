@@ -52,6 +52,7 @@ inline void add_material(File& file) {
                          {"alphaMode", "MASK"},
                          {"alphaCutoff", 0.75},
                          {"doubleSided", true},
+                         {"extensions", {{"KHR_materials_ior", {{"ior", 1.4}}}, {"KHR_materials_specular", {{"specularFactor", 0.5}}}}},
                          {"extras", {{"nir_reflectivity", 0.8}}}});
 }
 

@@ -55,10 +55,12 @@ TEST(gltf_fault, of_a_kind_is_told_with_its_place) {
                "/samplers/0/wrapS",
                "/images/0/bufferView"},
               no_whole, "a whole number from 0 to 2^53");
-  expect_kind({"/materials/0/alphaCutoff", "/materials/0/pbrMetallicRoughness/metallicFactor", "/materials/0/normalTexture/scale",
-               "/cameras/0/perspective/yfov", "/cameras/0/perspective/zfar", "/cameras/1/orthographic/xmag",
-               "/materials/0/extras/nir_reflectivity", "/nodes/1/scale/0", "/nodes/3/matrix/15", "/meshes/0/weights/0"},
-              {"\"1\"", "null", "true", "[]", "{}"}, "a number");
+  expect_kind(
+      {"/materials/0/alphaCutoff", "/materials/0/pbrMetallicRoughness/metallicFactor", "/materials/0/normalTexture/scale",
+       "/cameras/0/perspective/yfov", "/cameras/0/perspective/zfar", "/cameras/1/orthographic/xmag", "/materials/0/extras/nir_reflectivity",
+       "/materials/0/pbrMetallicRoughness/roughnessFactor", "/materials/0/extensions/KHR_materials_ior/ior",
+       "/materials/0/extensions/KHR_materials_specular/specularFactor", "/nodes/1/scale/0", "/nodes/3/matrix/15", "/meshes/0/weights/0"},
+      {"\"1\"", "null", "true", "[]", "{}"}, "a number");
   expect_kind({"/nodes",
                "/meshes",
                "/accessors",

@@ -39,6 +39,10 @@ TEST(material, that_says_nothing_is_a_white_metal) {
   EXPECT_FALSE(m.double_sided);
   EXPECT_FALSE(m.unlit);
   EXPECT_FALSE(m.nir_reflectivity);
+  EXPECT_FALSE(m.nir_material);
+  EXPECT_FALSE(m.has_metallic_roughness);
+  EXPECT_EQ(m.ior, 1.5);
+  EXPECT_EQ(m.specular, 1);
 }
 
 TEST(material, says_what_it_is) {
@@ -53,7 +57,10 @@ TEST(material, says_what_it_is) {
                                         {"alphaMode", "MASK"},
                                         {"alphaCutoff", 0.75},
                                         {"doubleSided", true},
-                                        {"extensions", {{"KHR_materials_unlit", Document::object()}}},
+                                        {"extensions",
+                                         {{"KHR_materials_unlit", Document::object()},
+                                          {"KHR_materials_ior", {{"ior", 1.25}}},
+                                          {"KHR_materials_specular", {{"specularFactor", 0.5}}}}},
                                         {"extras", {{"nir_reflectivity", 0.8}, {"other", "thing"}}}});
   EXPECT_EQ(m.name, "wood");
   EXPECT_EQ(m.base_color, (std::array<double, 4>{0.1, 0.2, 0.3, 0.4}));
@@ -68,6 +75,9 @@ TEST(material, says_what_it_is) {
   EXPECT_EQ(m.alpha_cutoff, 0.75);
   EXPECT_TRUE(m.double_sided);
   EXPECT_TRUE(m.unlit);
+  EXPECT_TRUE(m.has_metallic_roughness);
+  EXPECT_EQ(m.ior, 1.25);
+  EXPECT_EQ(m.specular, 0.5);
   EXPECT_EQ(m.nir_reflectivity, 0.8);
   EXPECT_EQ(material_of({{"alphaMode", "BLEND"}}).alpha, gltf::Material::Alpha::blend);
 }
@@ -84,6 +94,27 @@ TEST(material, takes_its_reflectivity_from_its_extras_within_0_and_1) {
   }
   file.json["materials"][0]["extras"] = {{"nir_reflectivity", "0.5"}};
   expect_fault(file.glb(), "m: error: materials[0].extras.nir_reflectivity is not a number\n  got \"0.5\"");
+}
+
+TEST(material, may_name_one_that_tofray_has) {
+  EXPECT_EQ(material_of({{"extras", {{"nir_material", "skin"}}}}).nir_material, "skin");
+  File file = textured_file();
+  file.json["materials"][0]["extras"] = {{"nir_material", 5}};
+  expect_fault(file.glb(), "m: error: materials[0].extras.nir_material is not a string\n  got 5");
+  file.json["materials"][0]["extras"] = {{"nir_material", "skin"}, {"nir_reflectivity", 0.5}};
+  expect_fault(file.glb(), "m: error: materials[0].extras has nir_reflectivity and nir_material");
+}
+
+TEST(material, says_what_is_left_out_of_its_mirror) {
+  File file = textured_file();
+  for (const Document& said : {Document{{"specularTexture", {{"index", 0}}}},
+                               {{"specularColorTexture", {{"index", 0}}}},
+                               {{"specularColorFactor", {1, 0.5, 1}}}}) {
+    file.json["materials"][0]["extensions"]["KHR_materials_specular"] = said;
+    EXPECT_TRUE(has_notice(model_of(file), "colours and textures of KHR_materials_specular are left out"));
+  }
+  file.json["materials"][0]["extensions"]["KHR_materials_specular"] = {{"specularColorFactor", {1, 1, 1}}};
+  EXPECT_TRUE(model_of(file).notices.empty());
 }
 
 TEST(material, has_textures_that_are_turned_and_scaled) {
@@ -179,7 +210,8 @@ TEST(extension, that_is_required_and_not_read_is_refused_with_the_way_out) {
 }
 
 TEST(extension, that_is_read_may_be_required) {
-  for (const char* name : {"KHR_texture_transform", "KHR_mesh_quantization", "KHR_materials_unlit"}) {
+  for (const char* name :
+       {"KHR_texture_transform", "KHR_mesh_quantization", "KHR_materials_unlit", "KHR_materials_ior", "KHR_materials_specular"}) {
     File file = triangle_file();
     file.json["extensionsRequired"] = file.json["extensionsUsed"] = {name};
     EXPECT_TRUE(model_of(file).notices.empty());

@@ -27,7 +27,7 @@ using V = std::array<float, 3>;
 File two_materials() {
   File file;
   const int corners = file.floats(gltf_test::corner_positions, "VEC3");
-  file.add("materials", {{"name", "paint"}, {"pbrMetallicRoughness", {{"baseColorFactor", {0.5, 0.25, 0.125, 1}}}}});
+  file.add("materials", {{"name", "paint"}, {"pbrMetallicRoughness", {{"baseColorFactor", {0.5, 0.25, 0.125, 1}}, {"metallicFactor", 0}}}});
   file.add("materials", {{"pbrMetallicRoughness", {{"baseColorFactor", {0.5, 0.5, 0.5, 1}}}}, {"extras", {{"nir_reflectivity", 0.9}}}});
   for (int i = 0; i < 2; ++i) {
     file.primitive(file.mesh({{"POSITION", corners}}))["material"] = i;
@@ -44,7 +44,8 @@ File card(const Document& texture) {
                               {"TEXCOORD_0", file.floats({0, 0, 1, 0, 0, 1}, "VEC2")}});
   file.primitive(mesh)["material"] = 0;
   file.node({{"mesh", mesh}});
-  file.add("materials", {{"pbrMetallicRoughness", {{"baseColorFactor", {0.8, 0.5, 1, 1}}, {"baseColorTexture", texture}}}});
+  file.add("materials",
+           {{"pbrMetallicRoughness", {{"baseColorFactor", {0.8, 0.5, 1, 1}}, {"baseColorTexture", texture}, {"metallicFactor", 0}}}});
   file.add("textures", {{"source", 0}, {"sampler", 0}});
   file.add("samplers", {{"wrapS", 33071}, {"wrapT", 33648}});
   const std::string pixels(
@@ -172,7 +173,7 @@ TEST_F(gltf_in_scene, wears_no_picture_where_its_reflectivity_is_known) {
 
 TEST_F(gltf_in_scene, without_texture_coordinates_has_half_its_colours_luminance) {
   File textured = two_materials();
-  textured.json["materials"][0]["pbrMetallicRoughness"] = {{"baseColorTexture", {{"index", 0}}}};
+  textured.json["materials"][0]["pbrMetallicRoughness"] = {{"baseColorTexture", {{"index", 0}}}, {"metallicFactor", 0}};
   textured.add("textures", {{"source", 0}});
   textured.add("images", {{"uri", "data:image/png;base64,"}});
   file("in/textured.glb", textured.glb());

@@ -176,7 +176,8 @@ TEST_F(obj_in_scene, wears_the_same_as_a_gltf_file) {
   same.primitive(
       same.mesh({{"POSITION", corners}, {"TEXCOORD_0", uv}}, same.accessor<std::uint16_t>({0, 1, 2, 0, 2, 3}, "SCALAR")))["material"] = 0;
   same.node({{"mesh", 0}});
-  same.add("materials", {{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 0}}}}}});
+  same.add("materials", {{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 0}}}}},
+                         {"extensions", {{"KHR_materials_unlit", gltf_test::Document::object()}}}});
   same.add("textures", {{"source", 0}});
   same.add("images", {{"bufferView", same.view(four_colours)}, {"mimeType", "image/png"}});
   file("in/same.glb", same.glb());
@@ -307,6 +308,31 @@ TEST_F(obj_in_scene, wears_no_more_texels_than_the_limit) {
   }
   file("in/card.mtl", mtl), file("in/card.obj", obj);
   EXPECT_TRUE(has(refusal("file: card.obj", ErrorKind::limit), "the scene's meshes wear too many pixels of pictures"));
+}
+
+TEST_F(obj_in_scene, takes_materials_in_place_of_its_own_by_their_usemtl_names) {
+  const Scene got = scene("file: two.obj, materials: {paint: cotton-white, cloth: {brdf: ggx, specular: 0.9, alpha: 0.25}}");
+  ASSERT_EQ(got.objects.size(), 3U);
+  EXPECT_EQ(material(got, 0).diffuse, 0.5);
+  EXPECT_EQ(material(got, 1).name, "cotton-white");
+  EXPECT_EQ(material(got, 2).brdf, Material::Brdf::ggx);
+  EXPECT_EQ(material(got, 2).alpha, 0.25);
+  EXPECT_EQ(std::get<Mesh>(got.objects[0].shape).guessed, 0);
+  const Notices all = {"of its materials is left out: Ns, Ks"};
+  EXPECT_EQ(notices(scene("file: two.obj, materials: {no material: wood, paint: wood, cloth: wood}")), all);
+  EXPECT_TRUE(has(refusal("file: two.obj, materials: {pain: wood}"),
+                  "two.obj\" has no material \"pain\"; did you mean \"paint\"?\n  its materials: cloth, no material and paint"))
+      << refusal("file: two.obj, materials: {pain: wood}");
+}
+
+// Its triangles name materials; where the scene says them, nobody needs an MTL file.
+TEST_F(obj_in_scene, needs_no_mtllib_where_the_scene_says_its_materials) {
+  file("in/bare.obj", "usemtl paint\n" + square + "usemtl cloth\nf 1/1 2/2 3/3\n");
+  const Scene got = scene("file: bare.obj, materials: {paint: {reflectivity: 0.3}}");
+  ASSERT_EQ(got.objects.size(), 2U);
+  EXPECT_EQ(material(got, 0).diffuse, 0.3);
+  EXPECT_EQ(notices(got), Notices{"no MTL file says a colour of material \"cloth\": a reflectivity of 0.5"});
+  EXPECT_TRUE(has(refusal("file: bare.obj"), "names no mtllib"));
 }
 
 TEST_F(obj_in_scene, has_names_that_may_be_shown) {

@@ -1,0 +1,153 @@
+// SPDX-FileCopyrightText: 2026 The tofray authors
+// SPDX-License-Identifier: Apache-2.0
+#include "load/gltf_material.h"
+
+#include <algorithm>
+
+#include "base/text.h"
+#include "base/vec.h"
+#include "image/read_image.h"
+#include "load/gltf_map.h"
+#include "load/material_library.h"
+
+namespace tofray::load {
+
+namespace {
+
+constexpr double least_alpha = 1e-3;
+
+std::array<double, 3> product(const std::array<double, 4>& base, const std::array<double, 3>& color) {
+  return {base[0] * color[0], base[1] * color[1], base[2] * color[2]};
+}
+
+/// What a surface that is no metal reflects at normal incidence.
+double dielectric(const gltf::Material& of) {
+  const double root = (of.ior - 1) / (of.ior + 1);
+  return of.specular * root * root;
+}
+
+/// @param brightest, mean  luminance of the base colour: where its picture is brightest, and on the whole
+Material finish(const gltf::Material& of, double metal, double roughness, double brightest, double mean) {
+  Material out{"", Material::Brdf::lambert, brightest};
+  if (!of.has_metallic_roughness || of.unlit) return out;
+  out.brdf = Material::Brdf::ggx;
+  out.diffuse = (1 - metal) * brightest;
+  out.specular = dielectric(of) * (1 - metal) + metal * mean;
+  out.alpha = std::max(least_alpha, roughness * roughness);
+  return out;
+}
+
+}  // namespace
+
+void VertexColors::add(const Color& color, double area) {
+  if (!first_) first_ = color;
+  vary_ = vary_ || color != *first_;
+  area_ += area;
+  for (std::size_t k = 0; k < 3; ++k) sum_[k] += area * color[k];
+}
+
+void VertexColors::add(const gltf::Part& part) {
+  using base::operator-;
+  any_ = any_ || !part.colors.empty();
+  const auto corner = [&](std::int32_t vertex) {
+    const auto& p = part.mesh.vertices[static_cast<std::size_t>(vertex)];
+    return Vec3{static_cast<double>(p[0]), static_cast<double>(p[1]), static_cast<double>(p[2])};
+  };
+  for (const auto& [a, b, c] : part.mesh.triangles) {
+    const double area = base::length(base::cross(corner(b) - corner(a), corner(c) - corner(a))) / 2;
+    for (const std::int32_t vertex : {a, b, c}) {
+      Color color{1, 1, 1};
+      if (!part.colors.empty())
+        for (std::size_t k = 0; k < 3; ++k)
+          color[k] = std::clamp(static_cast<double>(part.colors[static_cast<std::size_t>(vertex)][k]), 0.0, 1.0);
+      add(color, area / 3);
+    }
+  }
+}
+
+std::array<double, 3> VertexColors::mean() const {
+  if (!first_) return {1, 1, 1};
+  return vary_ && area_ > 0 ? Color{sum_[0] / area_, sum_[1] / area_, sum_[2] / area_} : *first_;
+}
+
+GltfMaterials::GltfMaterials(const gltf::Model& model, const std::string& path, const base::Place& place)
+    : model_(model), path_(path), place_(place) {
+  for (std::size_t i = 0; i < model.materials.size(); ++i)
+    if (model.materials[i].nir_material) (void)named(i);
+}
+
+const Material& GltfMaterials::named(std::size_t index) const {
+  const std::string& name = *model_.materials[index].nir_material;
+  if (const LibraryMaterial* known = find_library_material(name)) return known->material;
+  std::vector<std::string> names;
+  for (const LibraryMaterial& one : material_library()) names.push_back(one.material.name);
+  base::fail(base::whole(path_),
+             "materials[" + std::to_string(index) + "].extras.nir_material names no material of tofray" + base::did_you_mean(name, names),
+             "got " + base::in_quotes(name) + ", of the material " + base::in_quotes(name_of(model_, static_cast<int>(index)), 200) +
+                 "; `tofray list materials` names those that there are");
+}
+
+GltfMaterials::Means GltfMaterials::means(const gltf::TextureUse& use) {
+  const int index = model_.textures[static_cast<std::size_t>(use.texture)].image;
+  const auto [known, is_new] = means_.try_emplace(index);
+  if (!is_new) return known->second;
+  const gltf::Image& file = model_.images[static_cast<std::size_t>(index)];
+  const image::Image picture = image::read(file.bytes, path_ + ": image " + std::to_string(index));
+  count_texels(picture.width, picture.height, place_, texels_);
+  std::uint64_t blue = 0, green = 0;
+  for (int y = 0; y < picture.height; ++y)
+    for (int x = 0; x < picture.width; ++x)
+      blue += picture.at(x, y, picture.channels < 3 ? 0 : 2), green += picture.at(x, y, picture.channels < 3 ? 0 : 1);
+  const double full = 65535.0 * picture.width * picture.height;
+  known->second = {static_cast<double>(blue) / full, static_cast<double>(green) / full};
+  return known->second;
+}
+
+void GltfMaterials::guess(const gltf::Material& of, const std::array<double, 3>& color, bool has_texcoords, FileMaterial& out) {
+  double metal = of.metallic, roughness = of.roughness, brightest = luminance(color[0], color[1], color[2]), mean = brightest;
+  if (const gltf::TextureUse& use = of.metallic_roughness_texture; use.texture != gltf::none && !of.unlit) {
+    const Means of_picture = means(use);
+    metal *= of_picture.metal, roughness *= of_picture.roughness, out.mean_finish = true;
+  }
+  PictureMap picture;
+  if (of.base_color_texture.texture != gltf::none && !has_texcoords) {
+    brightest *= 0.5, mean = brightest;  // nobody knows where on the picture its triangles are
+  } else if (of.base_color_texture.texture != gltf::none) {
+    picture = map_of(model_, of, color, path_);
+    count_texels(picture.map->width, picture.map->height, place_, texels_);
+    brightest = picture.brightest, mean = picture.mean;
+  }
+  out.material = finish(of, metal, roughness, brightest, mean);
+  if (out.material.diffuse > 0 || out.material.brdf == Material::Brdf::lambert) out.material.map = std::move(picture.map);
+}
+
+FileMaterial GltfMaterials::worn(int index, const VertexColors& colors, bool has_texcoords) {
+  FileMaterial out;
+  out.name = name_of(model_, index);
+  const std::array<double, 3> color = colors.mean();
+  if (index == gltf::none) {
+    if (!colors.any()) return out;
+    out.from = FileMaterial::From::visible_colour, out.mean_color = colors.vary();
+    out.material.diffuse = luminance(color[0], color[1], color[2]);
+    return out;
+  }
+  const gltf::Material& of = model_.materials[static_cast<std::size_t>(index)];
+  out.from = FileMaterial::From::file;
+  if (of.nir_material) {
+    out.material = named(static_cast<std::size_t>(index));
+  } else if (of.nir_reflectivity) {
+    out.material.diffuse = *of.nir_reflectivity;
+  } else {
+    out.from = FileMaterial::From::visible_colour, out.mean_color = colors.vary();
+    guess(of, product(of.base_color, color), has_texcoords, out);
+  }
+  return out;
+}
+
+std::string name_of(const gltf::Model& model, int index) {
+  if (index == gltf::none) return no_material;
+  const std::string& name = model.materials[static_cast<std::size_t>(index)].name;
+  return name.empty() ? "material " + std::to_string(index) : shown_name(name);
+}
+
+}  // namespace tofray::load
