@@ -28,8 +28,8 @@ def accessor(rows, kind):
     return len(accessors) - 1
 
 
-def material(name, size, color):
-    """A PNG of size × size, color(u, v) → red, green, blue in 0…1 as screens show them."""
+def material(name, size, roughness, color):
+    """A PNG of size × size, color(u, v) → red, green, blue in 0…1 as screens show them; no metal, roughness as glTF has it."""
     rows = b""
     for y in range(size):
         rows += b"\0"
@@ -39,7 +39,9 @@ def material(name, size, color):
     png = b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">IIBBBBB", size, size, 8, 2, 0, 0, 0))
     png += chunk(b"IDAT", zlib.compress(rows, 9)) + chunk(b"IEND", b"")
     images.append({"bufferView": view(png), "mimeType": "image/png"})
-    materials.append({"name": name, "pbrMetallicRoughness": {"baseColorTexture": {"index": len(images) - 1}, "metallicFactor": 0}})
+    materials.append({"name": name,
+                      "pbrMetallicRoughness": {"baseColorTexture": {"index": len(images) - 1}, "metallicFactor": 0,
+                                               "roughnessFactor": roughness}})
     return len(materials) - 1
 
 
@@ -105,12 +107,12 @@ def plain(r, g, b):
     return lambda u, v: tuple(c * (0.97 + 0.03 * chance.random()) for c in (r, g, b))
 
 
-add("floor", material("planks", 256, planks), *quads([((-2, 0, 2), (4, 0, 0), (0, 0, -4), 2, 2)]))
-add("back", material("bricks", 128, bricks), *quads([((-2, 0, -2), (4, 0, 0), (0, 2.6, 0), 4, 2.6)]))
-plaster = material("plaster", 64, plain(0.9, 0.9, 0.87))
+add("floor", material("planks", 256, 0.6, planks), *quads([((-2, 0, 2), (4, 0, 0), (0, 0, -4), 2, 2)]))
+add("back", material("bricks", 128, 1, bricks), *quads([((-2, 0, -2), (4, 0, 0), (0, 2.6, 0), 4, 2.6)]))
+plaster = material("plaster", 64, 1, plain(0.9, 0.9, 0.87))
 add("side", plaster, *quads([((-2, 0, 2), (0, 0, -4), (0, 2.6, 0), 1, 1)]))
-add("poster", material("poster", 128, poster), *quads([((-1.99, 0.9, -0.1), (0, 0, -1.3), (0, 1, 0), 1, 1)]))
-wood = material("wood", 128, lambda u, v: tuple(c * (0.85 + 0.15 * math.sin(60 * v + 4 * math.sin(7 * u))) for c in (0.8, 0.62, 0.42)))
+add("poster", material("poster", 128, 0.5, poster), *quads([((-1.99, 0.9, -0.1), (0, 0, -1.3), (0, 1, 0), 1, 1)]))
+wood = material("wood", 128, 0.7, lambda u, v: tuple(c * (0.85 + 0.15 * math.sin(60 * v + 4 * math.sin(7 * u))) for c in (0.8, 0.62, 0.42)))
 add("top", wood, *box(-0.2, 0.68, -1.3, 1.3, 0.05, 0.8))
 for leg, (x, z) in enumerate(((-0.15, -1.25), (0.99, -1.25), (-0.15, -0.61), (0.99, -0.61))):
     add(f"leg {leg}", wood, *box(x, 0, z, 0.06, 0.68, 0.06))
@@ -131,7 +133,7 @@ for j in range(levels):
     for i in range(ring):
         a, b = j * (ring + 1) + i, (j + 1) * (ring + 1) + i
         triangles += [a, a + 1, b + 1, a, b + 1, b]
-add("vase", material("vase", 128, stripes), corners, normals, texcoords, triangles, (0.45, 0.73, -0.95))
+add("vase", material("vase", 128, 0.3, stripes), corners, normals, texcoords, triangles, (0.45, 0.73, -0.95))
 
 # A camera beside the door: its axis is −z, up is y.
 tilt, turn = math.radians(-9), math.radians(27)
