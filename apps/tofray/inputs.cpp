@@ -120,8 +120,8 @@ std::string notices_of(const Mesh& mesh) {
 std::string guesses_of(const Mesh& mesh) {
   if (mesh.guessed == 0) return {};
   return fmt::format(
-      "warning: {} of {} reflect{} as much infrared as visible light: a guess from the base colour\n  {} says it, or reflectivity at the "
-      "object\n",
+      "warning: {} of {} reflect{} as much infrared as visible light: a guess from the base colour\n  {} says it, or materials or "
+      "reflectivity at the object\n",
       mesh.guessed == 1 ? "1 material" : fmt::format("{} materials", mesh.guessed), base::in_quotes(mesh.file),
       mesh.guessed == 1 ? "s" : "",
       load::is_obj(mesh.file) ? "a line #!nir_reflectivity 0.6 below newmtl" : "nir_reflectivity in a material's extras");

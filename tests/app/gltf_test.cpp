@@ -18,7 +18,9 @@ File screens() {
   File file;
   const int corners = file.floats({0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0}, "VEC3");
   const int indices = file.accessor<std::uint16_t>({0, 1, 2, 0, 2, 3}, "SCALAR");
-  file.add("materials", {{"name", "paint"}, {"pbrMetallicRoughness", {{"baseColorFactor", {0.5, 0.5, 0.5, 1}}}}});
+  file.add("materials", {{"name", "paint"},
+                         {"pbrMetallicRoughness", {{"baseColorFactor", {0.5, 0.5, 0.5, 1}}}},
+                         {"extensions", {{"KHR_materials_unlit", gltf_test::Document::object()}}}});
   file.add("materials", {{"name", "cloth"}, {"extras", {{"nir_reflectivity", 0.25}}}});
   for (int i = 0; i < 2; ++i) {
     file.primitive(file.mesh({{"POSITION", corners}}, indices))["material"] = i;
@@ -63,6 +65,21 @@ TEST_F(gltf_tool, names_the_material_that_a_pixel_sees) {
   ASSERT_EQ(tool({"render", "scene.yaml", "-o", "out", "--noise", "off"}).code, 0);
   const Result left = as_typed({"inspect", "out/frame.npz", "--pixel", "8,8"});
   EXPECT_TRUE(has(left.out, "(wall/paint), reflectivity 0.5")) << left.out << left.err;
+}
+
+TEST_F(gltf_tool, takes_a_scene_s_material_by_its_name_without_a_warning) {
+  write("scene.yaml", "objects:\n  - mesh: {file: screens.glb, name: wall, position: [-1, 0.5, 2], scale: 2, materials: {paint: wood}}\n");
+  const Result made = tool({"render", "scene.yaml", "-o", "out", "--noise", "off"});
+  ASSERT_EQ(made.code, 0) << made.err;
+  EXPECT_EQ(count(made.err, "warning:"), 0U) << made.err;
+  const Result seen = as_typed({"inspect", "out/frame.npz", "--pixel", "8,8"});
+  EXPECT_TRUE(has(seen.out, "(wall/paint), reflectivity 0.634")) << seen.out << seen.err;
+  const Result again = as_typed({"render", "--from", "out/manifest.json", "-o", "two"});
+  ASSERT_EQ(again.code, 0) << again.err;
+  EXPECT_EQ(content(folder_ / "out/frame.npz"), content(folder_ / "two/frame.npz"));
+  const Result set = as_typed({"check", "screens.glb", "--set", "objects.0.mesh.materials.paint=skin"});
+  EXPECT_EQ(count(set.err, "warning:"), 0U) << set.err;
+  EXPECT_TRUE(has(set.out, "good: scene with 3 objects")) << set.out << set.err;
 }
 
 TEST_F(gltf_tool, looks_from_the_files_own_camera) {

@@ -29,7 +29,7 @@ TEST_F(obj_tool, renders_a_file_alone_with_its_own_materials) {
   ASSERT_EQ(made.code, 0) << made.err;
   EXPECT_TRUE(has(made.err,
                   "warning: 1 material of \"crate.obj\" reflects as much infrared as visible light: a guess from the base colour\n"
-                  "  a line #!nir_reflectivity 0.6 below newmtl says it, or reflectivity at the object\n"))
+                  "  a line #!nir_reflectivity 0.6 below newmtl says it, or materials or reflectivity at the object\n"))
       << made.err;
   EXPECT_TRUE(has(made.err, "warning: \"crate.obj\": of its materials is left out: Ks, Ns\n")) << made.err;
   const Result checked = as_typed({"check", "crate.obj"});
