@@ -209,6 +209,10 @@ TEST_F(gltf_material, gives_way_to_what_the_scene_says) {
   EXPECT_EQ(mesh(both, 0).guessed, 3);
   EXPECT_EQ(mesh(both, 4).guessed, 4);
   EXPECT_EQ(mesh(both, 0).triangles, mesh(both, 4).triangles);
+  // The file's picture goes with its material.
+  save(sheet(pbr({{"baseColorTexture", {{"index", 0}}}, {"metallicFactor", 0}})));
+  EXPECT_NE(scene().materials.at(0).map, nullptr);
+  EXPECT_EQ(scene(", materials: {material 0: wood}").materials.at(0).map, nullptr);
 }
 
 TEST_F(gltf_material, of_a_scene_has_a_name_of_the_files) {
