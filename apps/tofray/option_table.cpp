@@ -170,6 +170,12 @@ std::vector<OptionSpec> specs() {
       {"--seed", 0, "N", "seed of the noise: another one, other noise (0)",
        [](Options& o, const std::string& v) { o.seed = whole("--seed", v, 0, UINT64_MAX, "a whole number of 0 to 18446744073709551615"); }},
       {"--noise", 0, "KIND", "off: expected values; exact: shot and read noise (exact)", take_noise, "off exact"},
+      {"--exposure-samples", 0, "N", "times within each exposure at which what moves is seen: motion blur (1)",
+       [](Options& o, const std::string& v) {
+         o.exposure_samples = static_cast<int>(whole("--exposure-samples", v, 1, 1000, "a whole number of 1 to 1000"));
+       }},
+      {"--fps", 0, "F", "frames per second, in place of the mode's: as --set camera.frame_rate=F",
+       [](Options& o, const std::string& v) { o.set.emplace_back("camera.frame_rate", v); }},
       {"--frames", 0, "N", "how many frames",
        [](Options& o, const std::string& v) { o.frames = whole("--frames", v, 1, most_frames, "a whole number of 1 to 1000000000"); }},
       {"--first-frame", 0, "I", "number of the first frame: a part of a longer run (0)",

@@ -62,8 +62,8 @@ double Stopwatch::total() const {
   return sum;
 }
 
-results::PoseMatrix camera_pose(const Scene& scene) {
-  const scene::CameraFrame frame = scene::camera_frame(scene.camera.pose);
+results::PoseMatrix camera_pose(const Scene& scene, double time_s) {
+  const scene::CameraFrame frame = scene::camera_frame(scene::pose_at(scene.camera, time_s));
   results::PoseMatrix pose{};
   for (std::size_t i = 0; i < 3; ++i) {
     // The frame's rotation takes world to camera: its transpose goes back.
@@ -122,8 +122,8 @@ std::vector<files::FileRecord> write_frame(const files::OutputFolder& folder, co
   const Inputs& in = what.inputs;
   for (const std::string& kind : what.emit) {
     if (kind == "npz") {
-      const std::string meta = results::frame_meta(in.scene, in.camera, what.simulated.seed, what.simulated.noise, frame.index);
-      results::frame_npz_bytes(frame, in.camera, in.pose.value_or(camera_pose(in.scene)), meta, what.npz, memory);
+      const std::string meta = results::frame_meta(in.scene, in.camera, what.simulated, frame.index);
+      results::frame_npz_bytes(frame, in.camera, in.pose.value_or(camera_pose(in.scene, frame.truth.time_s)), meta, what.npz, memory);
       put("frame", ".npz", memory);
     } else if (kind == "png") {
       put("depth", ".png", pictures::depth_png(frame.depth));

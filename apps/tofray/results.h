@@ -34,7 +34,7 @@ class Stopwatch {
 };
 
 /// Camera to world of the scene's pose.
-results::PoseMatrix camera_pose(const Scene& scene);
+results::PoseMatrix camera_pose(const Scene& scene, double time_s);
 
 /// How many pixels are invalid, and the first reason of each.
 struct Validity {

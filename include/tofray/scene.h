@@ -114,8 +114,17 @@ struct Rotation {
   double angle_rad = 0;
 };
 
+/// Where an object is at a time. Between two of them its shift changes evenly, and it turns evenly: where both rotations are about the same
+/// axis from the one angle to the other, however far that is, else the shortest way. Before the first and after the last it stands still.
+struct Keyframe {
+  double time_s = 0;
+  Vec3 position{0, 0, 0};  ///< shift [m], as Object::position
+  Rotation rotation{};
+};
+
 /// One thing in the scene. Order of operations: rotation about its own centre (sphere, box, cylinder, rectangle, disk: the centre;
-/// triangle: the centroid; capsule: halfway between its points; plane: its point; cone: the middle of its base; mesh: its zero), then the shift `position`, then velocity · t.
+/// triangle: the centroid; capsule: halfway between its points; plane: its point; cone: the middle of its base; mesh: its zero), then the
+/// shift `position`; then, both with time, a turn about the centre and a shift: by angular velocity · t and velocity · t.
 struct Object {
   std::string name;
   std::variant<Plane, Sphere, Box, Triangle, Cylinder, Rectangle, Disk, Capsule, Cone, Mesh> shape;
@@ -123,6 +132,8 @@ struct Object {
   Vec3 position{0, 0, 0};  ///< shift [m]
   Rotation rotation{};
   Vec3 velocity_m_per_s{0, 0, 0};
+  Vec3 angular_velocity_rad_per_s{0, 0, 0};  ///< its axis, in the world, times how fast it turns by the right-hand rule
+  std::vector<Keyframe> keyframes = {};      ///< in place of position, rotation and both velocities; ascending in time
 };
 
 /// Light that is not the camera's own. One of level, illuminance and band irradiance says how much.
@@ -148,6 +159,13 @@ struct Pose {
   Vec3 up{0, -1, 0};
 };
 
+/// Where the camera stands at a time. Between two of them position, look_at and up change evenly: a camera that looks at one point goes on
+/// doing so. Before the first and after the last it stands still.
+struct CameraKeyframe {
+  double time_s = 0;
+  Pose pose;
+};
+
 /// A key of the profile that the scene changes: dotted path and the text of the value, e.g. {"lens.f_number", "1.2"} or
 /// {"integration_time", "500 us"}.
 struct Override {
@@ -161,7 +179,8 @@ struct CameraChoice {
   std::string profile = "pico-flexx";  ///< a built-in name or a file
   std::string mode;                    ///< empty: the profile's first
   Pose pose;
-  std::vector<Override> overrides;
+  std::vector<CameraKeyframe> keyframes = {};  ///< in place of the pose; ascending in time
+  std::vector<Override> overrides = {};
   std::string profile_where, mode_where;  ///< file:line:col for messages; empty if built in code
 };
 

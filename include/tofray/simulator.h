@@ -42,6 +42,7 @@ struct SimulatorOptions {
   Isa isa = Isa::best;              ///< best: the environment's TOFRAY_ISA, else what the CPU can do
   bool truth = true;                ///< fill Frame::truth
   Stage last_stage = Stage::depth;  ///< stop after this stage: arrays of later ones are left as they are (zero in a new frame)
+  int exposure_samples = 1;         ///< 1…1000: times within each exposure at which what moves is seen, evenly spread: motion blur
   bool culling = true;              ///< off: every pixel tests every object (slower, same bytes; for tests)
 };
 

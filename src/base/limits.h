@@ -22,6 +22,7 @@ inline constexpr Limit faults_shown{"faults_shown", 50, "faults printed for one 
 inline constexpr Limit faults_counted{"faults_counted", 200, "faults after which a file is not read to its end"};
 inline constexpr Limit message_line_bytes{"message_line_bytes", 1000, "bytes of one line of an error; a longer one is cut in its middle"};
 inline constexpr Limit message_bytes{"message_bytes", 16 << 10, "bytes of one error"};
+inline constexpr Limit keyframes{"keyframes", 100'000, "keyframes of one object, or of the camera"};
 inline constexpr Limit objects{"objects", 20'000, "objects of one scene"};
 inline constexpr Limit materials{"materials", 10'000, "materials of one scene"};
 inline constexpr Limit lights{"lights", 8, "light sources of one camera"};
@@ -74,6 +75,7 @@ inline constexpr Limit all_limits[] = {
     limit::faults_counted,
     limit::message_line_bytes,
     limit::message_bytes,
+    limit::keyframes,
     limit::objects,
     limit::materials,
     limit::lights,

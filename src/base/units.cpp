@@ -48,6 +48,10 @@ constexpr Unit units[] = {
     {"cm/s", speed, -2},
     {"mm/s", speed, -3},
     {"km/h", speed, 0, 1 / 3.6},
+    {"deg/s", angular_speed, 0, pi / 180},
+    {"rad/s", angular_speed, 0},
+    {"rpm", angular_speed, 0, pi / 30},
+    {"°/s", angular_speed, 0, pi / 180},
     {"W", power, 0},
     {"mW", power, -3},
     {"uW", power, -6},
@@ -111,6 +115,7 @@ const char* article_and_name(Dimension dimension) {
     case frequency: return "a frequency";
     case angle: return "an angle";
     case speed: return "a speed";
+    case angular_speed: return "an angular speed";
     case power: return "a power";
     case charge: return "a charge in electrons";
     case charge_rate: return "a current in electrons";

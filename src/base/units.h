@@ -16,6 +16,7 @@ enum class Dimension {
   frequency,
   angle,
   speed,
+  angular_speed,
   power,
   charge,
   charge_rate,

@@ -59,7 +59,7 @@ enum class AmbientLight : std::int32_t { none, uniform, directional };
 struct PowerView {
   float watts_per_radiance;
   float ambient_rate;      ///< electrons per second from a surface with ρ = 1, without vignetting
-  float sun_direction[3];  ///< unit vector toward it
+  float sun_direction[3];  ///< unit vector toward it at the time of the truth
   AmbientLight ambient;
   std::int32_t paper_literal;  ///< 1: the paper's printed formula (power/paper_literal.h)
   float paper_scale;           ///< its constant factor

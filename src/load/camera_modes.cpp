@@ -130,7 +130,9 @@ void Modes::check_time(const Value& chosen, Camera& camera) const {
   if (override_time && override_time.good)
     for (auto& raw : raw_frames)
       if (raw.lit) raw.integration_time_s = override_time.number;
-  const base::Place& place = override_time ? override_time.place() : sequence.place();
+  const Value& override_rate = root_["frame_rate"];
+  if (override_rate && override_rate.good) camera.mode.frame_rate_hz = override_rate.number;
+  const base::Place& place = override_rate ? override_rate.place() : override_time ? override_time.place() : sequence.place();
   double total = 0;
   for (const auto& raw : raw_frames) total += raw.integration_time_s + camera.readout_time_s;
   const double frame = 1 / camera.mode.frame_rate_hz;
@@ -138,7 +140,7 @@ void Modes::check_time(const Value& chosen, Camera& camera) const {
     faults_.add(place, "the sequence does not fit into a frame",
                 "got " + std::to_string(raw_frames.size()) + " raw frames of " + milliseconds(total) + " together, readout included; at " +
                     base::quantity_text(camera.mode.frame_rate_hz, "1 Hz") + " a frame has " + milliseconds(frame) +
-                    "\nlower integration_time, or modes." + camera.mode.name + ".frame_rate");
+                    "\nlower integration_time or frame_rate");
   for (const auto& raw : raw_frames)
     if (raw.integration_time_s < camera.min_integration_time_s) {
       faults_.add(place, "integration_time is below the camera's shortest",

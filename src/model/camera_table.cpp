@@ -32,6 +32,7 @@ constexpr Number flying_z{length, {0, 1e4}, "1 m"};
 constexpr Number flying_limit{length, {0, 1e3}, "18 mm"};
 constexpr Number degrees{celsius, {-100, 200}, "25 degC"};
 constexpr Number integration_time{time, {1e-9, 1e3}, "2000 us"};
+constexpr Number frame_rate{frequency, {1e-4, 1e5}, "5 Hz"};
 constexpr Number pause{time, {0, 10}, "3.5 ms"};
 
 }  // namespace
@@ -183,7 +184,7 @@ template <>
 const Table& table_of<Mode>() {
   static const Table rows = table<Mode>(
       words<&Mode::name>("", "", "", ""),
-      number<&Mode::frame_rate_hz>("frame_rate", {frequency, {1e-4, 1e5}, "5 Hz"}, "frame i starts at i / frame_rate").required(),
+      number<&Mode::frame_rate_hz>("frame_rate", frame_rate, "frame i starts at i / frame_rate").required(),
       records<&Mode::sequence>("sequence", 1, raw_frames, "the raw frames, in order").required());
   return rows;
 }
@@ -226,6 +227,7 @@ const FileForm& camera_form() {
     file.root.keys.push_back(absent("mode", text("a mode", "MODE_9_5FPS_2000"), "which of the modes; the first unless given"));
     file.root.keys.push_back(
         absent("integration_time", form_of(integration_time), "takes the place of that of every lit raw frame of the mode"));
+    file.root.keys.push_back(absent("frame_rate", form_of(frame_rate), "takes the place of the mode's"));
     return file;
   }();
   return form;

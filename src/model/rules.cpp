@@ -208,6 +208,52 @@ void poses_look_somewhere(const Pose& pose, Complaints& complaints) {
   }
 }
 
+namespace {
+/// @return whether there are keyframes
+template <class Key>
+bool follow_each_other(const std::vector<Key>& keys, Complaints& complaints) {
+  for (std::size_t i = 1; i < keys.size(); ++i)
+    if (!(keys[i].time_s > keys[i - 1].time_s))
+      complaints.add(keys[i], &keys[i].time_s, "a keyframe is not later than the one before",
+                     "got " + number_text(keys[i].time_s) + " s after " + number_text(keys[i - 1].time_s) + " s");
+  return !keys.empty();
+}
+}  // namespace
+
+void objects_move_one_way(const Object& object, Complaints& complaints) {
+  if (!follow_each_other(object.keyframes, complaints)) return;
+  const auto only = [&](const void* member, const char* name, bool is_set) {
+    if (is_set)
+      complaints.add(object, member, std::string("the object has keyframes and ") + name,
+                     "its keyframes say where it is; take " + std::string(name) + " out, or the keyframes");
+  };
+  const Vec3 zero{0, 0, 0};
+  only(&object.position, "a position", object.position != zero);
+  only(&object.rotation, "a rotation", object.rotation.angle_rad != 0);
+  only(&object.velocity_m_per_s, "a velocity", object.velocity_m_per_s != zero);
+  only(&object.angular_velocity_rad_per_s, "an angular velocity", object.angular_velocity_rad_per_s != zero);
+}
+
+void cameras_move_one_way(const CameraChoice& camera, Complaints& complaints) {
+  using base::cross, base::dot, base::operator-, base::operator+;
+  const std::vector<CameraKeyframe>& keys = camera.keyframes;
+  if (!follow_each_other(keys, complaints)) return;
+  const Pose fresh;
+  if (camera.pose.position != fresh.position || camera.pose.look_at != fresh.look_at || camera.pose.up != fresh.up)
+    complaints.add(camera, &camera.pose, "the camera has keyframes and a pose", "its keyframes say where it stands; take the pose out");
+  // View f and up u change evenly; f × u, to the image's left, never vanishes where its three Bernstein coefficients are ahead of the first.
+  for (std::size_t i = 1; i < keys.size(); ++i) {
+    const Pose &a = keys[i - 1].pose, &b = keys[i].pose;
+    const Vec3 from = a.look_at - a.position, to = b.look_at - b.position, left = cross(from, a.up);
+    const Vec3 last = cross(to, b.up);
+    const double halfway = dot(cross(from, b.up) + cross(to, a.up), left);
+    if (dot(left, left) == 0 || dot(last, last) == 0) continue;  // the pose itself is no good, and is told
+    if (!(dot(from, to) > 0 && halfway > 0 && dot(last, left) > 0))
+      complaints.add(keys[i], &keys[i].pose, "the camera turns too far between two keyframes",
+                     "expected less than a quarter turn; put another keyframe between them");
+  }
+}
+
 void objects_have_a_material(const Scene& scene, Complaints& complaints) {
   for (const Object& object : scene.objects)
     if (static_cast<std::size_t>(object.material) >= scene.materials.size())

@@ -188,6 +188,20 @@ const Table& table_of<Rotation>() {
   return rows;
 }
 
+namespace {
+constexpr Number moment{time, {-1e6, 1e6}, "0.5 s"};
+constexpr auto most_keyframes = static_cast<int>(base::limit::keyframes.value);
+}  // namespace
+
+template <>
+const Table& table_of<Keyframe>() {
+  static const Table rows =
+      table<Keyframe>(number<&Keyframe::time_s>("time", moment, "when; frame i starts at i / frame rate").required(),
+                      number<&Keyframe::position>("position", coordinate, "a shift [m]"),
+                      record<&Keyframe::rotation>("rotation", "a turn about the object's own centre"));
+  return rows;
+}
+
 template <>
 const Table& table_of<Object>() {
   static const Table rows = table<Object>(
@@ -197,7 +211,12 @@ const Table& table_of<Object>() {
       number<&Object::material>("", {none, {0, 2.0 * most_objects}, "0"}, ""),  // a name, or a material of its own
       number<&Object::position>("position", coordinate, "a shift [m]"),
       record<&Object::rotation>("rotation", "a turn about the object's own centre (of a plane: about its point)"),
-      number<&Object::velocity_m_per_s>("velocity", {speed, {-1e4, 1e4}, "1 m/s", true}, "[m/s]"));
+      number<&Object::velocity_m_per_s>("velocity", {speed, {-1e4, 1e4}, "1 m/s", true}, "[m/s]"),
+      number<&Object::angular_velocity_rad_per_s>("angular_velocity", {angular_speed, {-1e4, 1e4}, "90 deg/s"},
+                                                  "the axis of a steady turn about the object's own centre, times how fast it turns"),
+      records<&Object::keyframes>("keyframes", 0, most_keyframes,
+                                  "where it is when, in place of `position`, `rotation` and both velocities; it moves evenly between two"))
+      .check_with(objects_move_one_way);
   return rows;
 }
 
@@ -243,6 +262,14 @@ const Table& table_of<Pose>() {
 }
 
 template <>
+const Table& table_of<CameraKeyframe>() {
+  static const Table rows =
+      table<CameraKeyframe>(number<&CameraKeyframe::time_s>("time", moment, "when; frame i starts at i / frame rate").required(),
+                            record<&CameraKeyframe::pose>("pose", "where the camera stands then"));
+  return rows;
+}
+
+template <>
 const Table& table_of<CameraChoice>() {
   static const Table rows = table<CameraChoice>(
       words<&CameraChoice::profile>("profile", "a camera or a file", "pico-flexx",
@@ -250,8 +277,11 @@ const Table& table_of<CameraChoice>() {
       words<&CameraChoice::mode>("mode", "a mode of the camera", "MODE_9_5FPS_2000", "one of the profile's modes; its first unless given")
           .absent(),
       record<&CameraChoice::pose>("pose", "where the camera stands; the world is the camera's frame unless given"),
+      records<&CameraChoice::keyframes>("keyframes", 0, most_keyframes,
+                                        "where it stands when, in place of `pose`; it moves evenly between two"),
       no_row<&CameraChoice::overrides>("keys of the profile among the section's own"),
-      no_row<&CameraChoice::profile_where, &CameraChoice::mode_where>("where the file says them"));
+      no_row<&CameraChoice::profile_where, &CameraChoice::mode_where>("where the file says them"))
+      .check_with(cameras_move_one_way);
   return rows;
 }
 
@@ -318,7 +348,8 @@ std::vector<std::pair<std::string, std::string>> words_that_people_try() {
                                                             {"cones", "objects"},
                                                             {"meshes", "objects"},
                                                             {"profile", "camera.profile"},
-                                                            {"pose", "camera.pose"}};
+                                                            {"pose", "camera.pose"},
+                                                            {"keyframes", "camera.keyframes"}};
   // What a camera's profile has may be meant for the scene's camera.
   for (const Key& key : camera_form().root.keys) words.emplace_back(key.name, "camera." + key.name);
   return words;

@@ -57,6 +57,10 @@ const Table& table_of<Ambient>();
 template <>
 const Table& table_of<Pose>();
 template <>
+const Table& table_of<Keyframe>();
+template <>
+const Table& table_of<CameraKeyframe>();
+template <>
 const Table& table_of<CameraChoice>();
 template <>
 const Table& table_of<Scene>();

@@ -89,6 +89,8 @@ struct GivenShadows {
   const Pixels& p;
   int moment;
 
+  TOFRAY_FN const float* sun_direction() const { return s.power.sun_direction; }
+
   template <class F>
   TOFRAY_FN num::Mask<F> of_light(int l, const flow::Ray<F>&, const flow::Surface<F>&) const {
     return given_mask<F>(in.shadow, s, p, moment * s.scene.lights + l);
@@ -143,6 +145,8 @@ class GivenWalk {
   TOFRAY_FN int packs() const { return 1; }
   TOFRAY_FN Pixels pixels(int) const { return pixels_; }
   TOFRAY_FN Pack<F>& pack(int) { return pack_; }
+  static constexpr bool blurs = false;
+  TOFRAY_FN flow::Light<F>& mean(int) { return pack_.light; }
   TOFRAY_FN void go_to(const Moment&) const {}
 
   TOFRAY_FN bool find_light(const Moment& now, int, const Pixels& p, const flow::Ray<F>& ray, F vignetting, Pack<F>& pack) const {

@@ -11,14 +11,17 @@ namespace tofray::pipeline {
 
 /// A time at which the scene is looked at, and the raw frames that are exposed to what it shows: one, or all where nothing moves.
 struct Moment {
-  int first, last;  ///< raw frames, without the last
-  int index;        ///< what moves is where it is at this time
-  bool truth;       ///< ground truth is that of this moment
+  int first, last;      ///< raw frames, without the last
+  int index;            ///< what moves is where it is at this time
+  int sample, samples;  ///< which one of so many times within each exposure
+  bool truth;           ///< ground truth is that of this moment
 };
 
+/// @param moments  1, or as many for each raw frame. The truth is that of the middle of the middle one.
 TOFRAY_FN Moment moment_of(const Setup& s, int moment, int moments) {
-  if (moments == 1) return {0, s.sensor.raw_frames, 0, true};
-  return {moment, moment + 1, moment, moment == s.truth_moment};
+  if (moments == 1) return {0, s.sensor.raw_frames, 0, 0, 1, true};
+  const int samples = moments / s.sensor.raw_frames, frame = moment / samples, sample = moment % samples;
+  return {frame, frame + 1, moment, sample, samples, frame == s.sensor.raw_frames / 2 && sample == samples / 2};
 }
 
 /// Light of what stands still may serve all raw frames; other light serves those of its moment.
@@ -54,6 +57,7 @@ struct ShadowRays {
   int moment;
   bool still, moving;
 
+  TOFRAY_FN const float* sun_direction() const { return s.scene.sun(moment); }
   TOFRAY_FN num::Mask<F> of_light(int l, const flow::Ray<F>& from_light, const flow::Surface<F>& p) {
     near.look(moment, l, from_light, p.found);
     num::Mask<F> dark = F(1.0f) < F(0.0f);
@@ -66,9 +70,9 @@ struct ShadowRays {
   TOFRAY_FN num::Mask<F> of_sun(const flow::Surface<F>& p) {
     num::Mask<F> dark = F(1.0f) < F(0.0f);
     if (still)
-      dark = trace::blocked_parallel(s.scene.sun_still(), s.power.sun_direction, p) | near.template behind_still_meshes<F>(near.sun);
+      dark = trace::blocked_parallel(s.scene.sun_still(), sun_direction(), p) | near.template behind_still_meshes<F>(near.sun);
     if (moving) {
-      dark = dark | trace::blocked_parallel(s.scene.sun_moving(moment), s.power.sun_direction, p) |
+      dark = dark | trace::blocked_parallel(s.scene.sun_moving(moment), sun_direction(), p) |
              near.template behind_moving_meshes<F>(near.sun);
     }
     return dark;
@@ -93,7 +97,7 @@ TOFRAY_FN void light_up(const Setup& s, const power::Wanted& wanted, Shadows&& s
   if (s.phasors.sums_alone == 0) power::add_up(s.phasors, wanted, light);
   num::Mask<F> shade = F(1.0f) < F(0.0f);
   if (s.power.ambient == camera::AmbientLight::directional) shade = shadows.of_sun(p);
-  light.ambient_rate = s.power.ambient == camera::AmbientLight::none ? F(0.0f) : power::ambient_rate<F>(s.power, p, shade, vignetting);
+  light.ambient_rate = s.power.ambient == camera::AmbientLight::none ? F(0.0f) : power::ambient_rate<F>(s.power, shadows.sun_direction(), p, shade, vignetting);
 }
 
 /// Whether something that moves keeps a light off any of the pixels.

@@ -13,10 +13,11 @@
 /// It is the same for scenes that stand still and scenes that move, for a tile of pixels and for one, on every machine, and for who enters
 /// later with arrays of their own. What differs is a `Walk`, which knows which pixels there are and finds their light:
 ///
-///     moments()                     times at which the scene is looked at: 1, or one for each raw frame
+///     moments()                     times at which the scene is looked at: 1, or as many for each raw frame
 ///     go_to(now)                    what can be seen, and what can throw a shadow, at one of them
 ///     packs(), pixels(q)            the pixels, in packs that are computed at once
 ///     pack(q)                       what a pack keeps from one moment to the next
+///     blurs, mean(q)                whether an exposure may see the scene at several times, and where the mean of their light is kept
 ///     find_light(now, q, …)         stages 1 and 2 for one pack; false: the light of the moment before is still good
 namespace tofray::pipeline {
 
@@ -73,7 +74,11 @@ TOFRAY_FN void run_pipeline(const Setup& s, const Job& job, Walk& walk) {
       if (now.truth && s.last_stage >= Stage::power) store(job.out.gt_ambient_e_per_s, p, pack.light.ambient_rate);
       if (s.last_stage < Stage::raw) continue;
       if (anew && s.sensor.delay != nullptr) power::delay_by(s.phasors, wanted(s, now, pack.undisturbed), pack.exposure.delay, pack.light);
-      for (int k = now.first; k < now.last; ++k) pack.difference[k] = collect(s, job, p, k, pack.light, pack.exposure);  // stage 3
+      const bool several = Walk::blurs && now.samples > 1;
+      if (several) power::blend(s.phasors, wanted(s, now, false), pack.light, now.sample, now.samples, walk.mean(q));
+      if (several && now.sample + 1 < now.samples) continue;
+      const flow::Light<F>& light = several ? walk.mean(q) : pack.light;
+      for (int k = now.first; k < now.last; ++k) pack.difference[k] = collect(s, job, p, k, light, pack.exposure);  // stage 3
       if (now.last < s.sensor.raw_frames || s.last_stage < Stage::depth) continue;
       find_depth<F>(s, job, p, ray, pack.difference, raw::saturated(s.sensor, pack.exposure), pack.exposure.delay, vignetting);  // stage 4
     }

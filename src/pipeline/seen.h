@@ -45,23 +45,30 @@ TOFRAY_FN void look_at_triangle(const scene::SceneView& s, const flow::Hit<F>& h
   }
 }
 
-/// Objects move, the camera stands still. (Adding 0 leaves one kind of zero.)
+/// As the camera sees it. (Adding 0 leaves one kind of zero.)
 template <class F>
 TOFRAY_FN void look_at_motion(const Setup& s, const flow::Ray<F>& ray, const flow::Surface<F>& p, Seen<F>& out) {
   using Int = num::Int<F>;
-  const Int at = num::select(p.found, p.object, Int(0)) * Int(3);
-  const float* table = s.scene.velocities;
-  const F x = num::gather(table, at), y = num::gather(table + 1, at), z = num::gather(table + 2, at), zero = F(0.0f);
-  const auto along = [&](const shape::Vec& axis) __attribute__((always_inline)) {
-    return num::fma(x, F(num::single(axis.x)), num::fma(y, F(num::single(axis.y)), z * F(num::single(axis.z)))) + zero;
+  const Int at = num::select(p.found, p.object, Int(0)) * Int(scene::motion_numbers);
+  const F zero = F(0.0f);
+  const auto column = [&](const float* first) __attribute__((always_inline)) { return num::gather(first, at); };
+  const auto vector = [&](const float* first) __attribute__((always_inline)) {
+    return flow::Direction<F>{column(first), column(first + 1), column(first + 2)};
   };
-  const shape::Mat& axes = s.scene.camera.axes;
-  const flow::Direction<F> v{along(axes.row[0]), along(axes.row[1]), along(axes.row[2])};
-  out.velocity = {num::select(p.found, v.x, out.velocity.x), num::select(p.found, v.y, out.velocity.y),
-                  num::select(p.found, v.z, out.velocity.z)};
-  const F time = F(s.frame_period);
+  const auto along = [&](const flow::Direction<F>& row) __attribute__((always_inline)) {
+    return num::fma(row.x, p.x, num::fma(row.y, p.y, row.z * p.z));
+  };
+  const scene::MotionView& first = *s.scene.motions;
+  const flow::Direction<F> v = vector(first.velocity), spin = vector(first.spin), step = vector(first.step);
+  const flow::Direction<F> velocity{v.x + num::fma(spin.y, p.z, num::fnma(spin.z, p.y, zero)),
+                                    v.y + num::fma(spin.z, p.x, num::fnma(spin.x, p.z, zero)),
+                                    v.z + num::fma(spin.x, p.y, num::fnma(spin.y, p.x, zero))};
+  out.velocity = {num::select(p.found, velocity.x + zero, out.velocity.x), num::select(p.found, velocity.y + zero, out.velocity.y),
+                  num::select(p.found, velocity.z + zero, out.velocity.z)};
+  const flow::Direction<F> moved{step.x + along(vector(first.turn)), step.y + along(vector(first.turn + 3)),
+                                 step.z + along(vector(first.turn + 6))};
   F du, dv;
-  const auto seen = p.found & camera::image_motion(s.lens.projection, ray, p.z, {v.x * time, v.y * time, v.z * time}, du, dv);
+  const auto seen = p.found & camera::image_motion(s.lens.projection, ray, p.z, moved, du, dv);
   out.flow_u = num::select(seen, du + zero, out.flow_u), out.flow_v = num::select(seen, dv + zero, out.flow_v);
 }
 

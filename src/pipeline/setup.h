@@ -16,8 +16,6 @@ struct Setup {
   camera::PhasorView phasors;
   camera::SensorView sensor;
   camera::DecoderView decoder;
-  float frame_period;         ///< from the start of a frame to that of the next [s]
-  std::int32_t truth_moment;  ///< moment of the middle raw frame
   Stage last_stage;           ///< nothing is done after it
   std::int32_t culling;       ///< 0: every pixel tests every form
   bool operator==(const Setup&) const = default;

@@ -136,6 +136,7 @@ struct Scratch {
   SeenByLights seen;
   flow::Hit<F> still[max_packs<F>];                ///< of what stands still
   flow::Hit<F> hits[can_move ? max_packs<F> : 1];  ///< of all, at one moment
+  flow::Light<F> mean[can_move ? max_packs<F> : 1];  ///< over an exposure
   Pack<F> pack[can_move ? max_packs<F> : 1];       ///< where there is one moment, nothing is kept of a pack once the next one begins
   Shades<can_move> shades;
   trace::TileRays rays;
@@ -162,13 +163,15 @@ class TileWalk {
     scratch.near.has_shades = trace::any_mesh(s.scene);
   }
 
-  TOFRAY_FN int moments() const { return can_move ? s_.sensor.raw_frames : 1; }
+  TOFRAY_FN int moments() const { return can_move ? s_.scene.moments : 1; }
   TOFRAY_FN int packs() const { return max_packs<F>; }
   TOFRAY_FN Pixels pixels(int q) const { return pack_at<F>(s_.lens, tile_, q); }
   TOFRAY_FN Pack<F>& pack(int q) {
     if constexpr (can_move) return scratch_.pack[q];
     return here_;
   }
+  static constexpr bool blurs = can_move;
+  TOFRAY_FN flow::Light<F>& mean(int q) { return scratch_.mean[can_move ? q : 0]; }
 
   TOFRAY_FN void go_to(const Moment& now) {
     if constexpr (can_move) see_what_moves(now.index);

@@ -22,6 +22,23 @@ TOFRAY_FN void clear(const camera::PhasorView& s, const Wanted& wanted, Light<F>
   for (int i = wanted.first * s.orders; i < wanted.last * s.orders; ++i) light.real[i] = F(0.0f), light.imaginary[i] = F(0.0f);
 }
 
+/// The mean of the light at several times within one exposure: what is seen at one of them, from the first on, is added.
+template <class F>
+TOFRAY_APART void blend(const camera::PhasorView& s, const Wanted& wanted, const Light<F>& light, int sample, int samples,
+                        Light<F>& mean) {
+  const F share = F(1.0f / static_cast<float>(samples));
+  const auto add = [&](F& sum, F value) __attribute__((always_inline)) {
+    sum = sample == 0 ? value * share : num::fma(value, share, sum);
+  };
+  add(mean.signal_rate, light.signal_rate), add(mean.ambient_rate, light.ambient_rate);
+  for (int j = wanted.first; j < wanted.last; ++j) {
+    for (int i = j * s.orders; i < (j + 1) * s.orders && s.sums_alone == 0; ++i) {
+      add(mean.real[i], light.real[i]), add(mean.imaginary[i], light.imaginary[i]);
+    }
+    add(mean.in_phase[j], light.in_phase[j]), add(mean.quarter[j], light.quarter[j]);
+  }
+}
+
 /// Phase of a path in turns, φ/2π = ℓ·f/c less whole turns. The factor comes in two parts so that long paths keep their last digits.
 template <class F>
 TOFRAY_FN F path_turns(const camera::ModulationView& modulation, F path_length) {

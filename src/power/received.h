@@ -52,11 +52,11 @@ TOFRAY_FN Path<F> received(const camera::PowerView& s, const camera::LightView& 
 }
 
 /// Electrons per second from ambient light, both taps together: ρ·E_B/π, through lens and pixel. [theory: eq. 2.10]
+/// @param sun  unit vector toward it
 template <class F>
-TOFRAY_FN F ambient_rate(const camera::PowerView& s, const Surface<F>& p, Mask<F> dark, F vignetting) {
+TOFRAY_FN F ambient_rate(const camera::PowerView& s, const float* sun, const Surface<F>& p, Mask<F> dark, F vignetting) {
   F rate = F(s.ambient_rate) * p.finish.reflectivity * vignetting;
   if (s.ambient == camera::AmbientLight::directional) {
-    const float* sun = s.sun_direction;
     const F cosine = num::fma(p.nx, F(sun[0]), num::fma(p.ny, F(sun[1]), p.nz * F(sun[2])));
     rate = num::select(!dark, rate * num::max(cosine, F(0.0f)), F(0.0f));
   }

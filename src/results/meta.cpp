@@ -77,11 +77,21 @@ bool is_noise_free(const files::Json& meta) {
   return noise != nullptr && noise->is_string() && *noise->string() == noise_name(Noise::off);
 }
 
-std::string frame_meta(const Scene& scene, const Camera& camera, std::uint64_t seed, Noise noise, std::uint64_t frame_index) {
+std::string frame_meta(const Scene& scene, const Camera& camera, const SimulatorOptions& options, std::uint64_t frame_index) {
   Tree what = tree_of(model::table_of<Scene>(), &scene);
-  what["camera_pose"] = tree_of(model::table_of<Pose>(), &scene.camera.pose);
-  const Tree meta{{"tofray", base::version()}, {"seed", seed},          {"noise", noise_name(noise)},
-                  {"frame", frame_index},      {"units", units_tree()}, {"camera", tree_of(model::table_of<Camera>(), &camera)},
+  if (scene.camera.keyframes.empty()) {
+    what["camera_pose"] = tree_of(model::table_of<Pose>(), &scene.camera.pose);
+  } else {
+    Tree& keyframes = what["camera_keyframes"] = Tree::array();
+    for (const CameraKeyframe& key : scene.camera.keyframes) keyframes.push_back(tree_of(model::table_of<CameraKeyframe>(), &key));
+  }
+  const Tree meta{{"tofray", base::version()},
+                  {"seed", options.seed},
+                  {"noise", noise_name(options.noise)},
+                  {"exposure_samples", options.exposure_samples},
+                  {"frame", frame_index},
+                  {"units", units_tree()},
+                  {"camera", tree_of(model::table_of<Camera>(), &camera)},
                   {"scene", std::move(what)}};
   return meta.dump(-1, ' ', false, Tree::error_handler_t::replace);
 }

@@ -9,11 +9,6 @@
 /// time; none depends on another, so that a thread of a GPU can do each. The same text, and the same bits, on every machine.
 namespace tofray::scene {
 
-/// The camera's frame at a time as seen by what moves: it is as if the camera moved the other way.
-TOFRAY_FN shape::Frame frame_at(const SceneView& s, const shape::Vec& velocity, double time) {
-  return {s.camera.axes, s.camera.origin - time * velocity};
-}
-
 template <class T>
 TOFRAY_FN void derive_facets(const Body<T>& body, const T& seen, Facet* facets) {
   for (int side = 0; side < T::facets; ++side) {
@@ -29,15 +24,15 @@ TOFRAY_FN void derive_facets(const Body<T>& body, const T& seen, Facet* facets) 
 /// @param facets  of the group in this moment; null: they are not wanted
 /// @param first   number of the group's first facet in this moment
 template <class T>
-TOFRAY_FN void derive_body(const SceneView& s, const Group& group, int moment, double time, int i, int eye, bool forms, Facet* facets,
+TOFRAY_FN void derive_body(const SceneView& s, const Group& group, int moment, int i, int eye, bool forms, Facet* facets,
                            int first) {
   const int count = group.bodies.of<T>().count;
   const Body<T>& body = group.bodies.of<T>().at[i];
-  const T seen = in_frame(body.shape, frame_at(s, body.velocity, time));
+  const T seen = in_frame(body.shape, body.mover < 0 ? s.camera : s.frames[moment * s.movers + body.mover]);
   if (facets != nullptr) derive_facets(body, seen, facets);
   if (!forms) return;
   if (eye > s.lights) {
-    typename T::Along along = seen_along(seen, s.toward_sun);
+    typename T::Along along = seen_along(seen, s.toward_sun[moment]);
     along.object = body.object;
     group.derived.of<T>().along[moment * count + i] = along;
     return;
@@ -49,9 +44,9 @@ TOFRAY_FN void derive_body(const SceneView& s, const Group& group, int moment, d
 
 /// Body number `i` of all shapes.
 template <class... T>
-TOFRAY_FN void derive_any(shape::List<T...>, const SceneView& s, const Group& group, int moment, double time, int i, int eye, bool forms,
+TOFRAY_FN void derive_any(shape::List<T...>, const SceneView& s, const Group& group, int moment, int i, int eye, bool forms,
                           Facet* facets, int first) {
-  ((i >= 0 && i < group.bodies.of<T>().count ? derive_body<T>(s, group, moment, time, i, eye, forms, facets, first) : void(),
+  ((i >= 0 && i < group.bodies.of<T>().count ? derive_body<T>(s, group, moment, i, eye, forms, facets, first) : void(),
     i -= group.bodies.of<T>().count),
    ...);
 }
@@ -71,10 +66,10 @@ TOFRAY_FN void derive(const SceneView& s, Derive what, int unit) {
   if (unit < moving) {
     const int i = unit % s.moving.body_count, row = unit / s.moving.body_count, eye = row % eyes, moment = row / eyes;
     const int first = s.still.facet_count + moment * s.moving.facet_count;
-    derive_any(shape::Shapes{}, s, s.moving, moment, s.moment_times[moment], i, eye, true, eye == 0 ? s.facets + first : nullptr, first);
+    derive_any(shape::Shapes{}, s, s.moving, moment, i, eye, true, eye == 0 ? s.facets + first : nullptr, first);
   } else {
     const int i = (unit - moving) % s.still.body_count, eye = (unit - moving) / s.still.body_count;
-    derive_any(shape::Shapes{}, s, s.still, 0, 0.0, i, eye, what == Derive::all, eye == 0 ? s.facets : nullptr, 0);
+    derive_any(shape::Shapes{}, s, s.still, 0, i, eye, what == Derive::all, eye == 0 ? s.facets : nullptr, 0);
   }
 }
 

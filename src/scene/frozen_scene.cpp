@@ -2,34 +2,21 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scene/frozen_scene.h"
 
-#include "num/setup_math.h"
 #include "scene/derive.h"
 
 namespace tofray::scene {
 
 using namespace base;
-namespace setup = num::setup;
 
 namespace {
 
-shape::Vec vec(const Vec3& a) { return {a[0], a[1], a[2]}; }
-
-/// Rodrigues' formula, as rows.
-shape::Mat rotation_matrix(const Rotation& r) {
-  if (r.angle_rad == 0) return {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
-  const Vec3 k = normalized(r.axis);
-  const double c = setup::cos(r.angle_rad), s = setup::sin(r.angle_rad), v = 1 - c;
-  return {{{c + k[0] * k[0] * v, k[0] * k[1] * v - k[2] * s, k[0] * k[2] * v + k[1] * s},
-           {k[1] * k[0] * v + k[2] * s, c + k[1] * k[1] * v, k[1] * k[2] * v - k[0] * s},
-           {k[2] * k[0] * v - k[1] * s, k[2] * k[1] * v + k[0] * s, c + k[2] * k[2] * v}}};
-}
-
 /// Puts an object's shape into the list of its kind, which is the one in the same place as in the public variant.
-template <class... T, class... Said, class Placed>
-void add_body(shape::List<T...>, const std::variant<Said...>& shape, const Object& object, int index, BodyLists& to, const Placed& placed) {
+/// @param body  makes it: body(shape::List<kind>, what the object says of it)
+template <class... T, class... Said, class Make>
+void add_body(shape::List<T...>, const std::variant<Said...>& shape, BodyLists& to, const Make& body) {
   static_assert(sizeof...(T) == sizeof...(Said), "each shape of the public variant has its place in shape::Shapes");
   const auto add = [&]<class One, class From>(const From* said, shape::List<One> which) {
-    if (said != nullptr) to.of<One>().bodies.push_back({placed(which, *said), vec(object.velocity_m_per_s), 0, index, object.material});
+    if (said != nullptr) to.of<One>().bodies.push_back(body(which, *said));
   };
   (add(std::get_if<Said>(&shape), shape::List<T>{}), ...);
 }
@@ -46,24 +33,30 @@ void number(shape::List<T...>, BodyLists& from, Group& to) {
   (one(shape::List<T>{}), ...);
 }
 
-}  // namespace
-
-CameraFrame camera_frame(const Pose& pose) {
-  const Vec3 forward = normalized(pose.look_at - pose.position);
-  const Vec3 down = normalized(dot(pose.up, forward) * forward - pose.up);
-  return {{{cross(down, forward), down, forward}}, pose.position};
+/// The frame in which what a motion moves is seen: x → axes·(turn·x + shift − position) = axes·turn·(x − turnᵀ·(position − shift)).
+shape::Frame frame_of(const CameraFrame& camera, const Motion& motion, bool turns) {
+  const shape::Mat axes{{vec(camera.rotation[0]), vec(camera.rotation[1]), vec(camera.rotation[2])}};
+  const Vec from = vec(camera.position) - motion.shift;
+  if (!turns) return {axes, from};
+  return {product(axes, motion.turn), back(motion.turn, from)};
 }
 
-FrozenScene::FrozenScene(const Scene& scene, const std::vector<Vec3>& lights, int moments) : sun_(scene.ambient.direction) {
+bool turns(const Object& object) {
+  return !object.keyframes.empty() || length(object.angular_velocity_rad_per_s) > 0;
+}
+
+}  // namespace
+
+FrozenScene::FrozenScene(const Scene& scene, const std::vector<Vec3>& lights, int moments) : scene_(scene) {
   for (const Vec3& light : lights) lights_.push_back(vec(light));
-  add_bodies(scene);
+  add_bodies();
   add_materials(scene.materials);
   view_.moments = moves_ ? moments : 0;
   view_.lights = static_cast<std::int32_t>(lights_.size());
-  view_.has_sun = sun_.has_value();
+  view_.has_sun = scene.ambient.direction.has_value();
   view_.light_positions = lights_.data();
   lay_out();
-  look(scene.camera.pose, std::vector<double>(static_cast<std::size_t>(moments), 0.0));
+  look({}, {std::vector<double>(static_cast<std::size_t>(moments), 0.0)});
   derive();
 }
 
@@ -94,18 +87,23 @@ T FrozenScene::placed(const Said& said, const shape::Placement& at) {
   }
 }
 
-void FrozenScene::add_bodies(const Scene& scene) {
-  for (std::size_t i = 0; i < scene.objects.size(); ++i) {
-    const Object& object = scene.objects[i];
-    const bool moving = dot(object.velocity_m_per_s, object.velocity_m_per_s) > 0;
+void FrozenScene::add_bodies() {
+  const bool camera_moves = !scene_.camera.keyframes.empty();
+  moves_ = camera_moves;
+  for (std::size_t i = 0; i < scene_.objects.size(); ++i) {
+    const Object& object = scene_.objects[i];
+    const bool moving = camera_moves || scene::moves(object);
     moves_ = moves_ || moving;
-    for (const double v : object.velocity_m_per_s) velocities_.push_back(num::single(v));
-    const shape::Placement at{rotation_matrix(object.rotation), vec(object.position)};
-    add_body(shape::Shapes{}, object.shape, object, static_cast<int>(i), moving ? moving_ : still_,
-             [&]<class T, class Said>(shape::List<T>, const Said& said) { return placed<T>(said, at); });
+    const shape::Placement at = placement_of(object);
+    add_body(shape::Shapes{}, object.shape, moving ? moving_ : still_, [&]<class T, class Said>(shape::List<T>, const Said& said) {
+      if (moving) movers_.push_back({i, T::center_of(said) + at.shift});
+      const auto mover = static_cast<std::int32_t>(moving ? movers_.size() - 1 : 0) - (moving ? 0 : 1);
+      return Body<T>{placed<T>(said, at), mover, 0, static_cast<std::int32_t>(i), object.material};
+    });
   }
-  if (velocities_.empty()) velocities_.assign(3, 0.0f);
-  view_.velocities = velocities_.data(), view_.object_count = static_cast<std::int32_t>(velocities_.size() / 3);
+  motions_.resize(std::max<std::size_t>(scene_.objects.size(), 1));
+  view_.motions = motions_.data(), view_.object_count = static_cast<std::int32_t>(motions_.size());
+  view_.movers = static_cast<std::int32_t>(movers_.size());
   number(shape::Shapes{}, still_, view_.still);
   number(shape::Shapes{}, moving_, view_.moving);
 }
@@ -122,17 +120,66 @@ void FrozenScene::lay_out() {
   each_derived(view_, Derive::all, place);
 }
 
-void FrozenScene::look(const Pose& pose, const std::vector<double>& moment_times) {
-  const CameraFrame now = camera_frame(pose);
-  const bool moved = now.rotation != camera_.rotation || now.position != camera_.position;
+void FrozenScene::look(const std::optional<Pose>& pose, const Times& times) {
+  const auto camera = [&](double time) { return camera_frame(pose ? *pose : pose_at(scene_.camera, time)); };
+  std::vector<CameraFrame> cameras;
+  for (const double time : times.moments) cameras.push_back(camera(time));
+  const bool moved = cameras != cameras_;
   still_known_ = still_known_ && !moved;
-  moving_known_ = moving_known_ && !moved && moment_times == moment_times_;
-  camera_ = now;
-  moment_times_ = moment_times;
-  if (sun_) toward_sun_ = camera_.rotation * normalized(-1.0 * *sun_);
-  view_.camera = {{{vec(camera_.rotation[0]), vec(camera_.rotation[1]), vec(camera_.rotation[2])}}, vec(camera_.position)};
-  view_.toward_sun = vec(toward_sun_);
-  view_.moment_times = moment_times_.data();
+  moving_known_ = moving_known_ && !moved && times == times_;
+  cameras_ = std::move(cameras), times_ = times;
+  const auto& [rotation, position] = cameras_.front();
+  view_.camera = {{{vec(rotation[0]), vec(rotation[1]), vec(rotation[2])}}, vec(position)};
+  if (moved) look_for_sun(camera(times.truth_s));
+  if (!moving_known_) place_movers();
+  if (!moving_known_ && !movers_.empty()) look_at_motion(pose);
+}
+
+void FrozenScene::look_for_sun(const CameraFrame& at_truth) {
+  toward_suns_.clear(), sun_directions_.clear();
+  const Vec3 sun = scene_.ambient.direction ? normalized(-1.0 * *scene_.ambient.direction) : Vec3{0, 0, 0};
+  for (const CameraFrame& camera : cameras_) {
+    const Vec3 toward = camera.rotation * sun;
+    toward_suns_.push_back(vec(toward));
+    for (const double x : toward) sun_directions_.push_back(num::single(x));
+  }
+  toward_sun_ = at_truth.rotation * sun;
+  view_.toward_sun = toward_suns_.data(), view_.sun_directions = sun_directions_.data();
+}
+
+void FrozenScene::place_movers() {
+  frames_.clear();
+  for (std::size_t k = 0; k < cameras_.size(); ++k) {
+    for (const Mover& mover : movers_) {
+      const Object& object = scene_.objects[mover.object];
+      frames_.push_back(frame_of(cameras_[k], motion_at(object, mover.center, times_.moments[k]), turns(object)));
+    }
+  }
+  view_.frames = frames_.data();
+}
+
+/// P is seen at axes·(X − position); both X and the camera move.
+void FrozenScene::look_at_motion(const std::optional<Pose>& pose) {
+  const double now = times_.truth_s, later = now + times_.period_s;
+  const MovingCamera camera = pose ? MovingCamera{camera_frame(*pose)} : camera_at(scene_.camera, now);
+  const CameraFrame after = pose ? camera.frame : camera_frame(pose_at(scene_.camera, later));
+  for (const Mover& mover : movers_) {
+    const Object& object = scene_.objects[mover.object];
+    const Motion motion = motion_at(object, mover.center, now);
+    const shape::Frame here = frame_of(camera.frame, motion, turns(object)),
+                       there = frame_of(after, motion_at(object, mover.center, later), turns(object));
+    const shape::Mat axes{{vec(camera.frame.rotation[0]), vec(camera.frame.rotation[1]), vec(camera.frame.rotation[2])}};
+    MotionView& out = motions_[mover.object];
+    shape::copy(axes * (motion.drift + cross(motion.spin, vec(camera.frame.position)) - camera.velocity), out.velocity);
+    shape::copy(axes * (motion.spin - camera.spin), out.spin);
+    // What is at X before it moves is at A·(X − o) now and at B·(X − q) then: B·Aᵀ·P + B·(o − q).
+    shape::copy(there.axes * (here.origin - there.origin), out.step);
+    for (int k = 0; k < 3; ++k) {
+      Vec row = here.axes * there.axes.row[k];
+      row[k] = row[k] - 1;
+      shape::copy(here.axes == there.axes ? Vec{0, 0, 0} : row, out.turn + 3 * k);  // else rounding would be left
+    }
+  }
 }
 
 void FrozenScene::derive() {

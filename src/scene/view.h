@@ -11,12 +11,12 @@ namespace tofray::scene {
 using shape::Bounds;
 using shape::Facet;
 
-/// A shape in the world at time 0, and what its hits name.
+/// A shape in the world, where it stands or before it moves, and what its hits name.
 template <class T>
 struct Body {
   T shape;
-  shape::Vec velocity;  ///< [m/s]
-  std::int32_t facet;   ///< the first of its facets, counted within its group
+  std::int32_t mover;  ///< its row of SceneView::frames; −1: it stands still
+  std::int32_t facet;  ///< the first of its facets, counted within its group
   std::int32_t object, material;
 };
 
@@ -76,6 +76,14 @@ struct Group {
   }
 };
 
+/// How the points of an object move in the camera's frame at the time of the truth: with velocity + spin × P; one frame later they are at
+/// P + step + turn·P.
+struct MotionView {
+  float velocity[3], spin[3];  ///< [m/s], [rad/s]
+  float step[3], turn[9];      ///< [m]; rows, of the rotation without the identity
+};
+constexpr int motion_numbers = sizeof(MotionView) / sizeof(float);
+
 /// The frozen scene of one frame.
 struct SceneView {
   Group still, moving;
@@ -83,16 +91,18 @@ struct SceneView {
   const brdf::MaterialView* materials;
   const brdf::MapView* maps;
   const shape::Vec* light_positions;  ///< [light] camera frame [m]
-  const float* velocities;            ///< [object][3] world [m/s]
-  const double* moment_times;         ///< [moment] [s]
-  shape::Frame camera;                ///< where the camera stands
-  shape::Vec toward_sun;              ///< unit vector, camera frame
-  std::int32_t moments;               ///< 0: nothing moves; else one for each raw frame
+  const MotionView* motions;          ///< [object]
+  const shape::Frame* frames;         ///< [moment][mover] the camera's, as what moves sees it: as if the camera moved the other way
+  const shape::Vec* toward_sun;       ///< [moment] unit vector, camera frame; one at least
+  const float* sun_directions;        ///< [moment][3] the same
+  shape::Frame camera;                ///< where the camera stands, if it does
+  std::int32_t moments;               ///< 0: nothing moves; else those of all raw frames, as many for each
+  std::int32_t movers;
   std::int32_t lights;
   std::int32_t has_sun;  ///< light comes from one direction, too
   std::int32_t material_count;
   std::int32_t map_count;
-  std::int32_t object_count;    ///< of `velocities`; one at least
+  std::int32_t object_count;    ///< of `motions`; one at least
   std::int32_t any_other_brdf;  ///< than Lambert's
   std::int32_t any_details;     ///< of meshes
 
@@ -102,6 +112,7 @@ struct SceneView {
   TOFRAY_FN Forms light_moving(int moment, int light) const { return moving.seen_from(moment, 1 + light, 1 + lights); }
   TOFRAY_FN Alongs sun_still() const { return still.seen_along(0); }
   TOFRAY_FN Alongs sun_moving(int moment) const { return moving.seen_along(moment); }
+  TOFRAY_FN const float* sun(int moment) const { return sun_directions + 3 * moment; }
   bool operator==(const SceneView&) const = default;
 };
 

@@ -35,9 +35,14 @@ struct Box {
   Mat axes;
   Vec half;
 
+  /// What it turns about.
+  template <class Said>
+  static Vec center_of(const Said& said) {
+    return 0.5 * (Placement::vec(said.min) + Placement::vec(said.max));
+  }
   template <class Said>
   static Box placed(const Said& said, const Placement& at) {
-    const Vec low = Placement::vec(said.min), high = Placement::vec(said.max), center = 0.5 * (low + high);
+    const Vec low = Placement::vec(said.min), high = Placement::vec(said.max), center = center_of(said);
     return {at.point(center, center), {{at.direction({1, 0, 0}), at.direction({0, 1, 0}), at.direction({0, 0, 1})}}, 0.5 * (high - low)};
   }
 };

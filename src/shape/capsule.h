@@ -35,9 +35,14 @@ struct Capsule {
   Vec center, axis;
   double radius, half;
 
+  /// What it turns about.
+  template <class Said>
+  static Vec center_of(const Said& said) {
+    return 0.5 * (Placement::vec(said.start) + Placement::vec(said.end));
+  }
   template <class Said>
   static Capsule placed(const Said& said, const Placement& at) {
-    const Vec start = Placement::vec(said.start), end = Placement::vec(said.end), center = 0.5 * (start + end), along = end - start;
+    const Vec start = Placement::vec(said.start), end = Placement::vec(said.end), center = center_of(said), along = end - start;
     return {at.point(center, center), normalized(at.direction(along)), said.radius, 0.5 * length(along)};
   }
 

@@ -41,9 +41,14 @@ struct Cone {
   Vec tip, axis;
   double radius, height;
 
+  /// What it turns about.
+  template <class Said>
+  static Vec center_of(const Said& said) {
+    return Placement::vec(said.base);
+  }
   template <class Said>
   static Cone placed(const Said& said, const Placement& at) {
-    const Vec base = Placement::vec(said.base), axis = normalized(at.direction(Placement::vec(said.axis)));
+    const Vec base = center_of(said), axis = normalized(at.direction(Placement::vec(said.axis)));
     return {at.point(base, base) + said.height * axis, axis, said.radius, said.height};
   }
 

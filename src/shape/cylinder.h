@@ -43,9 +43,14 @@ struct Cylinder {
   Vec center, axis;
   double radius, half;
 
+  /// What it turns about.
+  template <class Said>
+  static Vec center_of(const Said& said) {
+    return Placement::vec(said.center);
+  }
   template <class Said>
   static Cylinder placed(const Said& said, const Placement& at) {
-    const Vec center = Placement::vec(said.center);
+    const Vec center = center_of(said);
     return {at.point(center, center), normalized(at.direction(Placement::vec(said.axis))), said.radius, 0.5 * said.height};
   }
 

@@ -31,9 +31,14 @@ struct Disk {
   Vec center, normal;
   double radius;
 
+  /// What it turns about.
+  template <class Said>
+  static Vec center_of(const Said& said) {
+    return Placement::vec(said.center);
+  }
   template <class Said>
   static Disk placed(const Said& said, const Placement& at) {
-    const Vec center = Placement::vec(said.center);
+    const Vec center = center_of(said);
     return {at.point(center, center), normalized(at.direction(Placement::vec(said.normal))), said.radius};
   }
 };

@@ -88,6 +88,11 @@ struct Mesh {
   std::int32_t node_count, block_count;
   std::int32_t has_texcoords;
 
+  /// What it turns about.
+  template <class Said>
+  static Vec center_of(const Said&) {
+    return {0, 0, 0};
+  }
   /// @param built  the hierarchy of its triangles (scene/hierarchy.h)
   template <class Built>
   static Mesh placed(const Built& built, const Placement& at) {

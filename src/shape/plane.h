@@ -27,9 +27,14 @@ struct Plane {
 
   Vec point, normal;
 
+  /// What it turns about.
+  template <class Said>
+  static Vec center_of(const Said& said) {
+    return Placement::vec(said.point);
+  }
   template <class Said>
   static Plane placed(const Said& said, const Placement& at) {
-    const Vec point = Placement::vec(said.point);
+    const Vec point = center_of(said);
     return {at.point(point, point), at.direction(Placement::vec(said.normal))};
   }
 };

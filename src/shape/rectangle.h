@@ -14,9 +14,14 @@ struct Rectangle {
 
   Vec corner[4];
 
+  /// What it turns about.
+  template <class Said>
+  static Vec center_of(const Said& said) {
+    return Placement::vec(said.center);
+  }
   template <class Said>
   static Rectangle placed(const Said& said, const Placement& at) {
-    const Vec given = Placement::vec(said.center), center = at.point(given, given);
+    const Vec given = center_of(said), center = at.point(given, given);
     const Vec x = at.direction({0.5 * said.size[0], 0, 0}), y = at.direction({0, 0.5 * said.size[1], 0});
     return {{center - x - y, center + x - y, center + x + y, center - x + y}};
   }

@@ -32,9 +32,14 @@ struct Sphere {
   Vec center;
   double radius;
 
+  /// What it turns about.
+  template <class Said>
+  static Vec center_of(const Said& said) {
+    return Placement::vec(said.center);
+  }
   template <class Said>
   static Sphere placed(const Said& said, const Placement& at) {
-    const Vec center = Placement::vec(said.center);
+    const Vec center = center_of(said);
     return {at.point(center, center), said.radius};
   }
 

@@ -17,11 +17,16 @@ struct Triangle {
 
   Vec vertex[3];
 
+  /// What it turns about.
+  template <class Said>
+  static Vec center_of(const Said& said) {
+    return (1.0 / 3) * (Placement::vec(said.vertices[0]) + Placement::vec(said.vertices[1]) + Placement::vec(said.vertices[2]));
+  }
   template <class Said>
   static Triangle placed(const Said& said, const Placement& at) {
     const Vec v[3] = {Placement::vec(said.vertices[0]), Placement::vec(said.vertices[1]), Placement::vec(said.vertices[2])};
     // Without a rotation the vertices keep their exact differences: meshes stay closed.
-    const Vec about = at.turns() ? (1.0 / 3) * (v[0] + v[1] + v[2]) : Vec{0, 0, 0};
+    const Vec about = at.turns() ? center_of(said) : Vec{0, 0, 0};
     return {{at.point(v[0], about), at.point(v[1], about), at.point(v[2], about)}};
   }
 };

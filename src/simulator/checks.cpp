@@ -31,6 +31,7 @@ void check(const SimulatorOptions& options) {
   const std::int64_t most = base::limit::threads.value;
   if (options.threads > most)
     refuse("too many threads", "got " + std::to_string(options.threads) + ", at most " + std::to_string(most), ErrorKind::limit);
+  within(options.exposure_samples, {1, 1000}, "exposure_samples");
 }
 
 }  // namespace tofray::simulator

@@ -47,7 +47,7 @@ struct Simulator::Impl {
  private:
   /// What does not change from frame to frame.
   [[nodiscard]] pipeline::Setup fixed_setup();
-  [[nodiscard]] std::vector<double> middles(double start) const;
+  [[nodiscard]] scene::Times times_from(double start) const;
   void frames_one_by_one(backend::Engine& engine, std::uint64_t from, std::uint64_t count, const Request& request, const Take& take);
   void frames_on_gpus(std::uint64_t count, const Request& request, const Take& take, std::uint64_t& taken);
   [[nodiscard]] backend::gpu::Own own_of(std::uint64_t from, std::uint64_t count, const Request& request) const;

@@ -58,7 +58,7 @@ Simulator::Impl::Impl(const Scene& all, const Camera& profile, const SimulatorOp
       camera(camera::with_emitters(profile)),
       options(wanted),
       frozen_camera(camera, wanted.noise != Noise::off, wanted.seed),
-      frozen_scene(scene, positions(camera), static_cast<int>(camera.mode.sequence.size())),
+      frozen_scene(scene, positions(camera), static_cast<int>(camera.mode.sequence.size()) * options.exposure_samples),
       setup(fixed_setup()),
       engines(options, setup, frozen_scene.moves()) {
   simulator::set_filter(camera.decoding.filter, job);
@@ -76,19 +76,22 @@ pipeline::Setup Simulator::Impl::fixed_setup() {
   set_ambient(scene, camera, out.power);
   out.sensor = frozen_camera.sensor(0);
   out.decoder = frozen_camera.decoder();
-  out.frame_period = static_cast<float>(1 / camera.mode.frame_rate_hz);
-  out.truth_moment = static_cast<std::int32_t>(camera.mode.sequence.size() / 2);
   out.last_stage = options.last_stage;
   out.culling = options.culling;
   set_scene(out);
   return out;
 }
 
-std::vector<double> Simulator::Impl::middles(double start) const {
-  std::vector<double> out;
+scene::Times Simulator::Impl::times_from(double start) const {
+  scene::Times out;
+  const int samples = options.exposure_samples;
   for (std::size_t k = 0; k < camera.mode.sequence.size(); ++k) {
-    out.push_back(start + frozen_camera.raw_frame_start_s()[k] + 0.5 * camera.mode.sequence[k].integration_time_s);
+    const double begin = start + frozen_camera.raw_frame_start_s()[k], exposure = camera.mode.sequence[k].integration_time_s;
+    for (int i = 0; i < samples; ++i) out.moments.push_back(begin + (i + 0.5) / samples * exposure);
   }
+  // That of the middle of the middle raw frame, as pipeline::moment_of has it.
+  const auto middle = camera.mode.sequence.size() / 2 * static_cast<std::size_t>(samples) + static_cast<std::size_t>(samples / 2);
+  out.truth_s = out.moments[middle], out.period_s = 1 / camera.mode.frame_rate_hz;
   return out;
 }
 
@@ -98,7 +101,7 @@ void Simulator::Impl::set_scene(pipeline::Setup& to) const {
 }
 
 void Simulator::Impl::set_frame(const FrameRequest& request) {
-  frozen_scene.look(request.pose ? *request.pose : scene.camera.pose, middles(start_of(request.index)));
+  frozen_scene.look(request.pose, times_from(start_of(request.index)));
   set_scene(setup);
   set_sensor(request);
 }
@@ -114,16 +117,15 @@ void Simulator::Impl::frame(std::uint64_t index, const pipeline::Input* input, F
   into.index = index;
   simulator::prepare(into, camera, options.truth);
   const double start = start_of(index);
-  const std::vector<double> middle = middles(start);
   into.raw.start_time_s.clear();
   for (const double after : frozen_camera.raw_frame_start_s()) into.raw.start_time_s.push_back(start + after);
-  into.truth.time_s = middle[middle.size() / 2];
+  into.truth.time_s = times_from(start).truth_s;
   const FrameRequest request{index, {}, {}};
   if (input == nullptr) {
     set_frame(request);
   } else {
+    set_frame(request);
     setup.scene.moments = 0;  // nothing of what moves need go to a GPU
-    set_sensor(request);
   }
   // What is given of the stage before the entry is known, however early the last one is.
   const Stage given = input == nullptr ? Stage::trace : static_cast<Stage>(static_cast<int>(input->entry) - 1);

@@ -47,7 +47,7 @@ Scene full_scene() {
   return scene;
 }
 
-std::string meta(const Scene& scene, const Camera& camera) { return results::frame_meta(scene, camera, 1, Noise::exact, 0); }
+std::string meta(const Scene& scene, const Camera& camera) { return results::frame_meta(scene, camera, {.seed = 1}, 0); }
 
 /// Another value for a member; false where it holds none of its own.
 bool change(const Row& row, const Slot& slot) {

@@ -13,8 +13,8 @@ namespace {
 
 /// What meta says of a camera that was read back from meta is what it said before.
 void expect_to_come_back(const std::string& profile, const CameraOptions& options) {
-  const std::string meta = results::frame_meta(Scene(), load_camera(profile, options), 3, Noise::exact, 0);
-  EXPECT_EQ(meta, results::frame_meta(Scene(), results::camera_of_meta(meta, "frame.npz"), 3, Noise::exact, 0));
+  const std::string meta = results::frame_meta(Scene(), load_camera(profile, options), {.seed = 3}, 0);
+  EXPECT_EQ(meta, results::frame_meta(Scene(), results::camera_of_meta(meta, "frame.npz"), {.seed = 3}, 0));
 }
 
 TEST(camera_of_meta, gives_back_every_mode_of_every_builtin_profile) {
@@ -46,7 +46,7 @@ TEST(camera_of_meta, gives_back_kinds_that_no_builtin_profile_has) {
 }
 
 TEST(camera_of_meta, takes_changes) {
-  const std::string meta = results::frame_meta(Scene(), load_camera("pico-flexx"), 0, Noise::exact, 0);
+  const std::string meta = results::frame_meta(Scene(), load_camera("pico-flexx"), {.seed = 0}, 0);
   EXPECT_EQ(results::camera_of_meta(meta, "frame.npz", {{"decoding.filter.kind", "median"}}).decoding.filter.kind,
             ImageFilter::Kind::median);
   EXPECT_THROW(results::camera_of_meta(meta, "frame.npz", {{"decoding.filtre", "median"}}), Error);

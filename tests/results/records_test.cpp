@@ -69,11 +69,11 @@ Manifest sample_manifest() {
 TEST(meta, says_what_made_the_frame_and_nothing_of_where) {
   const Scene scene = sample_scene();
   const Camera camera = out_test::sample_camera(24, 16);
-  const std::string text = frame_meta(scene, camera, 18446744073709551615ULL, Noise::off, 3);
-  EXPECT_EQ(text, frame_meta(scene, camera, 18446744073709551615ULL, Noise::off, 3));
+  const std::string text = frame_meta(scene, camera, {.seed = 18446744073709551615ULL, .noise = Noise::off}, 3);
+  EXPECT_EQ(text, frame_meta(scene, camera, {.seed = 18446744073709551615ULL, .noise = Noise::off}, 3));
   Scene elsewhere = scene;
   elsewhere.source = "C:/other/box.yaml";
-  EXPECT_EQ(text, frame_meta(elsewhere, camera, 18446744073709551615ULL, Noise::off, 3));
+  EXPECT_EQ(text, frame_meta(elsewhere, camera, {.seed = 18446744073709551615ULL, .noise = Noise::off}, 3));
   const Json meta = parse_json(text, "meta");
   std::uint64_t seed = 0;
   EXPECT_TRUE(meta.find("seed")->unsigned_integer(seed));
@@ -86,7 +86,7 @@ TEST(meta, says_what_made_the_frame_and_nothing_of_where) {
 
 TEST(meta, has_a_unit_for_every_array_of_the_file) {
   const Camera camera = out_test::sample_camera(6, 4);
-  const std::string text = frame_meta(sample_scene(), camera, 1, Noise::exact, 0);
+  const std::string text = frame_meta(sample_scene(), camera, {.seed = 1}, 0);
   const Json units = *parse_json(text, "meta").find("units");
   const auto arrays = parse_npz(frame_npz_bytes(out_test::sample_frame(6, 4), camera, {}, text), "memory");
   for (const NamedArray& entry : arrays) {
@@ -159,7 +159,7 @@ TEST(output, has_the_same_bytes_under_any_locale_and_umask) {
   const Frame frame = out_test::sample_frame(24, 16);
   const Camera camera = out_test::sample_camera(24, 16);
   const auto everything = [&] {
-    const std::string meta = frame_meta(sample_scene(), camera, 7, Noise::exact, 0);
+    const std::string meta = frame_meta(sample_scene(), camera, {.seed = 7}, 0);
     return frame_npz_bytes(frame, camera, {}, meta) + preview_png(frame.depth, frame.truth, "x") + raw_png(frame.raw) +
            cloud_ply(frame.depth) + terminal_picture(frame.depth, 24, TerminalColors::full) + manifest_text(sample_manifest());
   };

@@ -198,8 +198,8 @@ Arrays arrays_of(const Options& options) {
   say(warnings(in));
   const SimulatorOptions wanted = simulator_options(options);
   const Frame frame = Simulator(in.scene, in.camera, wanted).frame(0);
-  const std::string meta = results::frame_meta(in.scene, in.camera, wanted.seed, wanted.noise, 0);
-  return Arrays(files::parse_npz(results::frame_npz_bytes(frame, in.camera, camera_pose(in.scene), meta), path), path);
+  const std::string meta = results::frame_meta(in.scene, in.camera, wanted, 0);
+  return Arrays(files::parse_npz(results::frame_npz_bytes(frame, in.camera, camera_pose(in.scene, frame.truth.time_s), meta), path), path);
 }
 
 }  // namespace

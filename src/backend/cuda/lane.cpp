@@ -70,8 +70,8 @@ void pack_own(const Resident& resident, Own own, const pipeline::Setup& from, Pa
   if (own == Own::number) return;
   pack_raw_frames(packer, from, to.sensor);
   if (!derives(own, from.scene)) return;
-  to.scene.camera = from.scene.camera, to.scene.toward_sun = from.scene.toward_sun;
-  to.scene.moment_times = packer.put(from.scene.moment_times, static_cast<std::size_t>(from.scene.moments));
+  to.scene.camera = from.scene.camera;
+  pack_motion(packer, from.scene, to.scene);
   (void)place_derived(to.scene, own, derived);
 }
 
@@ -96,7 +96,7 @@ Lane::~Lane() {
 void Lane::write_arguments(const pipeline::Setup& setup, FrameArguments& out) const {
   out = {};
   out.setup = resident_->setup;
-  out.setup.last_stage = setup.last_stage, out.setup.culling = setup.culling, out.setup.truth_moment = setup.truth_moment;
+  out.setup.last_stage = setup.last_stage, out.setup.culling = setup.culling;
   out.setup.power = setup.power;
   const camera::SensorView& maps = resident_->setup.sensor;
   out.setup.sensor = setup.sensor;

@@ -139,6 +139,13 @@ void pack_raw_frames(Packer& packer, const pipeline::Setup& from, camera::Sensor
   to.frame = packer.put(static_cast<const camera::RawFrameView*>(frames.data()), frames.size());
 }
 
+void pack_motion(Packer& packer, const scene::SceneView& from, scene::SceneView& to) {
+  const std::size_t moments = std::max<std::size_t>(count_of(from.moments), 1);
+  to.motions = packer.put(from.motions, count_of(from.object_count));
+  to.frames = packer.put(from.frames, moments * count_of(from.movers));
+  to.toward_sun = packer.put(from.toward_sun, moments), to.sun_directions = packer.put(from.sun_directions, 3 * moments);
+}
+
 void pack_scene(Packer& packer, const scene::SceneView& from, scene::SceneView& to) {
   const Meshes meshes(packer, from);
   pack_bodies(shape::Shapes{}, meshes, from.still, to.still);
@@ -147,7 +154,7 @@ void pack_scene(Packer& packer, const scene::SceneView& from, scene::SceneView& 
   std::vector<brdf::MapView> maps(from.maps, from.maps + from.map_count);
   for (brdf::MapView& map : maps) map.texels = packer.put(map.texels, count_of(map.texel_count));
   to.maps = packer.put(static_cast<const brdf::MapView*>(maps.data()), maps.size());
-  to.velocities = packer.put(from.velocities, 3 * count_of(from.object_count));
+  pack_motion(packer, from, to);
   to.light_positions = packer.put(from.light_positions, count_of(from.lights));
   scene::SceneView still = from;
   still.moments = 0;  // what moves is derived there for each frame, and with it the facets of all
@@ -157,7 +164,6 @@ void pack_scene(Packer& packer, const scene::SceneView& from, scene::SceneView& 
   to.still.derived = still.still.derived;
   to.facets = still.facets;
   to.moving.derived = {};
-  to.moment_times = nullptr;
 }
 
 }  // namespace tofray::backend::gpu

@@ -40,6 +40,8 @@ void pack_camera(Packer& packer, const pipeline::Setup& from, pipeline::Setup& t
 /// The sequence alone: its gates turn where the sensor drifts.
 void pack_raw_frames(Packer& packer, const pipeline::Setup& from, camera::SensorView& to);
 /// The scene's shapes and materials, and what is derived of those that stand still. `to` is a copy of `from` and gets other pointers.
+/// Where its things are at the times of a frame, and how they move.
+void pack_motion(Packer& packer, const scene::SceneView& from, scene::SceneView& to);
 void pack_scene(Packer& packer, const scene::SceneView& from, scene::SceneView& to);
 
 }  // namespace tofray::backend::gpu

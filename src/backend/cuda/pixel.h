@@ -127,10 +127,15 @@ class PixelWalk {
     hit_ = still_;
   }
 
-  TOFRAY_FN int moments() const { return near_.moves(s_) ? s_.sensor.raw_frames : 1; }
+  TOFRAY_FN int moments() const { return near_.moves(s_) ? s_.scene.moments : 1; }
   TOFRAY_FN int packs() const { return 1; }
   TOFRAY_FN Pixels pixels(int) const { return pixels_; }
   TOFRAY_FN pipeline::Pack<float>& pack(int) { return pack_; }
+  static constexpr bool blurs = can_move;
+  TOFRAY_FN flow::Light<float>& mean(int) {
+    if constexpr (can_move) return *mean_;
+    return pack_.light;
+  }
   TOFRAY_FN void go_to(const pipeline::Moment& now) {
     if (near_.moves(s_)) hit_ = pipeline::see_moving(s_, near_, now.index, camera::ray<float>(s_.lens, pixels_), still_);
   }
@@ -146,6 +151,7 @@ class PixelWalk {
   WarpNear<can_move, Warp> near_;
   flow::Hit<float> still_, hit_;
   pipeline::Pack<float> pack_;
+  flow::Light<float> mean_[can_move ? 1 : 0];
 };
 
 /// From ray to depth. All lanes of a warp must come here together.

@@ -1,0 +1,143 @@
+// SPDX-FileCopyrightText: 2026 The tofray authors
+// SPDX-License-Identifier: Apache-2.0
+#include "scene/motion.h"
+
+#include <algorithm>
+
+#include "num/setup_math.h"
+
+namespace tofray::scene {
+
+using namespace base;
+namespace setup = num::setup;
+
+namespace {
+
+using shape::Mat;
+
+/// The keyframes that a time lies between, and how far it is from the one to the other, 0…1. Beyond the ends both are the same one.
+template <class Key>
+struct Between {
+  const Key *from, *to;
+  double share = 0, duration_s = 1;
+};
+
+template <class Key>
+Between<Key> between(const std::vector<Key>& keys, double time_s) {
+  const auto after = std::upper_bound(keys.begin(), keys.end(), time_s, [](double t, const Key& key) { return t < key.time_s; });
+  if (after == keys.begin()) return {&keys.front(), &keys.front()};
+  if (after == keys.end()) return {&keys.back(), &keys.back()};
+  const Key &from = *(after - 1), &to = *after;
+  return {&from, &to, (time_s - from.time_s) / (to.time_s - from.time_s), to.time_s - from.time_s};
+}
+
+Vec3 mixed(const Vec3& a, const Vec3& b, double share) { return a + share * (b - a); }
+
+/// An axis of unit length and an angle.
+struct Turn {
+  Vec3 axis{0, 0, 1};
+  double angle = 0;
+};
+Turn turn_of(const Rotation& rotation) {
+  return rotation.angle_rad == 0 ? Turn{} : Turn{normalized(rotation.axis), rotation.angle_rad};
+}
+
+/// From one rotation to another, by a turn that follows the first. Rotations about one axis, or its opposite, keep all their angle; others go
+/// the shortest way, by the quaternion b·a⁻¹.
+Turn turn_between(const Rotation& from, const Rotation& to) {
+  const Turn a = turn_of(from), b = turn_of(to);
+  if (a.angle == 0) return b;
+  if (b.angle == 0) return {a.axis, -a.angle};
+  const double cosine = dot(a.axis, b.axis);
+  if (cosine > 1 - 1e-12) return {a.axis, b.angle - a.angle};
+  if (cosine < -1 + 1e-12) return {a.axis, -b.angle - a.angle};
+  const double wa = setup::cos(0.5 * a.angle), wb = setup::cos(0.5 * b.angle);
+  const Vec3 va = -setup::sin(0.5 * a.angle) * a.axis, vb = setup::sin(0.5 * b.angle) * b.axis;
+  const double w = wa * wb - dot(vb, va);
+  const Vec3 v = wb * va + wa * vb + cross(vb, va);
+  const double sine = length(v);
+  if (sine == 0) return {};
+  return {(w < 0 ? -1 / sine : 1 / sine) * v, 2 * setup::atan2(sine, std::abs(w))};
+}
+
+/// How v/|v| changes where v changes by `change`.
+Vec3 change_of_direction(const Vec3& v, const Vec3& change) {
+  const Vec3 n = normalized(v);
+  return (1 / length(v)) * (change - dot(n, change) * n);
+}
+
+}  // namespace
+
+Mat product(const Mat& a, const Mat& b) { return {{back(b, a.row[0]), back(b, a.row[1]), back(b, a.row[2])}}; }
+
+Mat rotation_matrix(const Rotation& r) {
+  if (r.angle_rad == 0) return {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
+  const Vec3 k = normalized(r.axis);
+  const double c = setup::cos(r.angle_rad), s = setup::sin(r.angle_rad), v = 1 - c;
+  return {{{c + k[0] * k[0] * v, k[0] * k[1] * v - k[2] * s, k[0] * k[2] * v + k[1] * s},
+           {k[1] * k[0] * v + k[2] * s, c + k[1] * k[1] * v, k[1] * k[2] * v - k[0] * s},
+           {k[2] * k[0] * v - k[1] * s, k[2] * k[1] * v + k[0] * s, c + k[2] * k[2] * v}}};
+}
+
+bool moves(const Object& object) {
+  const Vec3 &v = object.velocity_m_per_s, &w = object.angular_velocity_rad_per_s;
+  return dot(v, v) > 0 || dot(w, w) > 0 || !object.keyframes.empty();
+}
+
+Motion motion_at(const Object& object, const Vec& center, double time_s) {
+  Motion out;
+  Vec shift = time_s * vec(object.velocity_m_per_s), velocity = vec(object.velocity_m_per_s);
+  const double rate = length(object.angular_velocity_rad_per_s);
+  bool turns = rate > 0;
+  if (turns) {
+    out.turn = rotation_matrix({object.angular_velocity_rad_per_s, rate * time_s});
+    out.spin = vec(object.angular_velocity_rad_per_s);
+  }
+  if (!object.keyframes.empty()) {
+    const auto keys = between(object.keyframes, time_s);
+    const Keyframe &from = *keys.from, &to = *keys.to;
+    const Turn turn = turn_between(from.rotation, to.rotation);
+    shift = vec(mixed(from.position, to.position, keys.share));
+    velocity = (1 / keys.duration_s) * (vec(to.position) - vec(from.position));
+    out.turn = product(rotation_matrix({turn.axis, keys.share * turn.angle}), rotation_matrix(from.rotation));
+    out.spin = (turn.angle / keys.duration_s) * vec(turn.axis);
+    turns = from.rotation.angle_rad != 0 || turn.angle != 0;
+  }
+  out.shift = turns ? center + shift - out.turn * center : shift;
+  out.drift = velocity - cross(out.spin, center + shift);
+  return out;
+}
+
+CameraFrame camera_frame(const Pose& pose) {
+  const Vec3 forward = normalized(pose.look_at - pose.position);
+  const Vec3 down = normalized(dot(pose.up, forward) * forward - pose.up);
+  return {{{cross(down, forward), down, forward}}, pose.position};
+}
+
+Pose pose_at(const CameraChoice& camera, double time_s) {
+  if (camera.keyframes.empty()) return camera.pose;
+  const auto keys = between(camera.keyframes, time_s);
+  const Pose &a = keys.from->pose, &b = keys.to->pose;
+  return {mixed(a.position, b.position, keys.share), mixed(a.look_at, b.look_at, keys.share), mixed(a.up, b.up, keys.share)};
+}
+
+MovingCamera camera_at(const CameraChoice& camera, double time_s) {
+  const Pose now = pose_at(camera, time_s);
+  MovingCamera out{camera_frame(now)};
+  if (camera.keyframes.empty()) return out;
+  const auto keys = between(camera.keyframes, time_s);
+  if (keys.from == keys.to) return out;
+  // The axes turn as their derivatives say: spin = ½·Σ axis × its change.
+  const auto change = [&](const Vec3 Pose::*of) { return (1 / keys.duration_s) * (keys.to->pose.*of - keys.from->pose.*of); };
+  const Vec3 view = now.look_at - now.position, forward = out.frame.rotation[2];
+  const Vec3 turn = change_of_direction(view, change(&Pose::look_at) - change(&Pose::position)), rise = change(&Pose::up);
+  const Vec3 down = dot(now.up, forward) * forward - now.up;
+  const Vec3 sink = change_of_direction(
+      down, (dot(rise, forward) + dot(now.up, turn)) * forward + dot(now.up, forward) * turn - rise);
+  const Vec3 left = cross(sink, forward) + cross(out.frame.rotation[1], turn);
+  const Vec3 spin = 0.5 * (cross(out.frame.rotation[0], left) + cross(out.frame.rotation[1], sink) + cross(forward, turn));
+  out.velocity = vec(change(&Pose::position)), out.spin = vec(spin);
+  return out;
+}
+
+}  // namespace tofray::scene
