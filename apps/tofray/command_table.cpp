@@ -20,8 +20,9 @@ int run_complete(const Options& options);
 
 namespace {
 
-const std::vector<const char*> simulation = {"--output",   "--set",   "--mode", "--seed",    "--noise",   "--exposure-samples", "--fps", "--emit",  "--arrays",
-                                             "--compress", "--theme", "--root", "--threads", "--backend", "--device"};
+const std::vector<const char*> simulation = {"--output",  "--set",     "--mode",   "--seed",     "--noise", "--exposure-samples",
+                                             "--fps",     "--emit",    "--arrays", "--compress", "--theme", "--root",
+                                             "--threads", "--backend", "--device"};
 
 std::vector<const char*> simulation_and(std::vector<const char*> more) {
   std::vector<const char*> all = simulation;
@@ -82,7 +83,8 @@ std::vector<Command> make() {
                    "tofray inspect out/frame.npz --pixel 112,86      # surface, power, electrons, every raw frame, phase, depth\n"
                    "tofray inspect scene.yaml --pixel 112,86         # the same, simulated now\n",
        .more = "FILE is a .npz file, a scene file or the name of a built-in scene.\n",
-       .options = {"--pixel", "--set", "--mode", "--seed", "--noise", "--exposure-samples", "--fps", "--root", "--threads", "--backend", "--device", "--json"},
+       .options = {"--pixel", "--set", "--mode", "--seed", "--noise", "--exposure-samples", "--fps", "--root", "--threads", "--backend",
+                   "--device", "--json"},
        .least_words = 1,
        .most_words = 1,
        .run = run_inspect,

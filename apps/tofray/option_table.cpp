@@ -35,6 +35,15 @@ void take_set(Options& o, const std::string& value) {
   o.set.emplace_back(value.substr(0, equals), value.substr(equals + 1));
 }
 
+void take_frame_rate(Options& o, const std::string& value) {
+  double number = 0;
+  const char* const end = value.data() + value.size();
+  const auto read = std::from_chars(value.data(), end, number);
+  if (read.ec != std::errc() || read.ptr != end || !(number >= 1e-4 && number <= 1e5))
+    refuse("--fps", value, "frames per second, a number of 0.0001 to 100000");
+  o.set.emplace_back("camera.frame_rate", value + " Hz");
+}
+
 void take_noise(Options& o, const std::string& value) {
   if (value == "off")
     o.noise = Noise::off;
@@ -174,8 +183,7 @@ std::vector<OptionSpec> specs() {
        [](Options& o, const std::string& v) {
          o.exposure_samples = static_cast<int>(whole("--exposure-samples", v, 1, 1000, "a whole number of 1 to 1000"));
        }},
-      {"--fps", 0, "F", "frames per second, in place of the mode's: as --set camera.frame_rate=F",
-       [](Options& o, const std::string& v) { o.set.emplace_back("camera.frame_rate", v); }},
+      {"--fps", 0, "F", "frames per second, in place of the mode's: as --set camera.frame_rate='F Hz'", take_frame_rate},
       {"--frames", 0, "N", "how many frames",
        [](Options& o, const std::string& v) { o.frames = whole("--frames", v, 1, most_frames, "a whole number of 1 to 1000000000"); }},
       {"--first-frame", 0, "I", "number of the first frame: a part of a longer run (0)",

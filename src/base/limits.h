@@ -24,6 +24,9 @@ inline constexpr Limit message_line_bytes{"message_line_bytes", 1000, "bytes of 
 inline constexpr Limit message_bytes{"message_bytes", 16 << 10, "bytes of one error"};
 inline constexpr Limit keyframes{"keyframes", 100'000, "keyframes of one object, or of the camera"};
 inline constexpr Limit objects{"objects", 20'000, "objects of one scene"};
+inline constexpr Limit moving_views{
+    "moving_views", 1 << 24,
+    "times of a frame at which something that moves (all, where the camera does) is seen, by camera, lights and sun"};
 inline constexpr Limit materials{"materials", 10'000, "materials of one scene"};
 inline constexpr Limit lights{"lights", 8, "light sources of one camera"};
 inline constexpr Limit raw_frames{"raw_frames", 64, "raw frames of one mode's sequence"};
@@ -77,6 +80,7 @@ inline constexpr Limit all_limits[] = {
     limit::message_bytes,
     limit::keyframes,
     limit::objects,
+    limit::moving_views,
     limit::materials,
     limit::lights,
     limit::raw_frames,

@@ -140,7 +140,7 @@ void Modes::check_time(const Value& chosen, Camera& camera) const {
     faults_.add(place, "the sequence does not fit into a frame",
                 "got " + std::to_string(raw_frames.size()) + " raw frames of " + milliseconds(total) + " together, readout included; at " +
                     base::quantity_text(camera.mode.frame_rate_hz, "1 Hz") + " a frame has " + milliseconds(frame) +
-                    "\nlower integration_time or frame_rate");
+                    "\nlower integration_time or frame_rate (--fps)");
   for (const auto& raw : raw_frames)
     if (raw.integration_time_s < camera.min_integration_time_s) {
       faults_.add(place, "integration_time is below the camera's shortest",

@@ -82,7 +82,7 @@ class SceneReader {
   }
 
   void overrides(const Node& camera, CameraChoice& out) {
-    std::vector<std::string> known = {"profile", "mode", "pose"};
+    std::vector<std::string> known = {"profile", "mode", "pose", "keyframes"};
     out.overrides = flattened(camera, known);
     refuse_too_many(out.overrides.size(), camera.place);
     std::vector<std::string> names;
@@ -92,7 +92,8 @@ class SceneReader {
       const std::string first = key.text.substr(0, key.text.find('.'));
       if (std::find(known.begin(), known.end(), first) == known.end())
         faults_.add(key.place, "unknown key " + in_quotes(key.text) + " in camera" + base::did_you_mean(first, known),
-                    "expected profile, mode, pose, or a key of a camera profile that overrides its value: " + base::listed(names, "and"));
+                    "expected profile, mode, pose, keyframes, or a key of a camera profile that overrides its value: " +
+                        base::listed(names, "and"));
     }
   }
 

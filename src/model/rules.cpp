@@ -225,7 +225,7 @@ void objects_move_one_way(const Object& object, Complaints& complaints) {
   const auto only = [&](const void* member, const char* name, bool is_set) {
     if (is_set)
       complaints.add(object, member, std::string("the object has keyframes and ") + name,
-                     "its keyframes say where it is; take " + std::string(name) + " out, or the keyframes");
+                     "its keyframes say where it is; take the one out or the other");
   };
   const Vec3 zero{0, 0, 0};
   only(&object.position, "a position", object.position != zero);

@@ -49,7 +49,7 @@ TOFRAY_FN void look_at_triangle(const scene::SceneView& s, const flow::Hit<F>& h
 template <class F>
 TOFRAY_FN void look_at_motion(const Setup& s, const flow::Ray<F>& ray, const flow::Surface<F>& p, Seen<F>& out) {
   using Int = num::Int<F>;
-  const Int at = num::select(p.found, p.object, Int(0)) * Int(scene::motion_numbers);
+  const Int at = num::gather(s.scene.motion_of, num::select(p.found, p.object, Int(0))) * Int(scene::motion_numbers);
   const F zero = F(0.0f);
   const auto column = [&](const float* first) __attribute__((always_inline)) { return num::gather(first, at); };
   const auto vector = [&](const float* first) __attribute__((always_inline)) {

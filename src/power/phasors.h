@@ -22,12 +22,11 @@ TOFRAY_FN void clear(const camera::PhasorView& s, const Wanted& wanted, Light<F>
   for (int i = wanted.first * s.orders; i < wanted.last * s.orders; ++i) light.real[i] = F(0.0f), light.imaginary[i] = F(0.0f);
 }
 
-/// The mean of the light at several times within one exposure: what is seen at one of them, from the first on, is added.
+/// The mean of the light at several times within one exposure: what is seen at one of them, from the first on, is added.  [theory: eq. 6.12]
 template <class F>
-TOFRAY_APART void blend(const camera::PhasorView& s, const Wanted& wanted, const Light<F>& light, int sample, int samples,
-                        Light<F>& mean) {
+TOFRAY_APART void blend(const camera::PhasorView& s, const Wanted& wanted, const Light<F>& light, int sample, int samples, Light<F>& mean) {
   const F share = F(1.0f / static_cast<float>(samples));
-  const auto add = [&](F& sum, F value) __attribute__((always_inline)) {
+  const auto add = [&](F & sum, F value) __attribute__((always_inline)) {
     sum = sample == 0 ? value * share : num::fma(value, share, sum);
   };
   add(mean.signal_rate, light.signal_rate), add(mean.ambient_rate, light.ambient_rate);

@@ -41,9 +41,7 @@ shape::Frame frame_of(const CameraFrame& camera, const Motion& motion, bool turn
   return {product(axes, motion.turn), back(motion.turn, from)};
 }
 
-bool turns(const Object& object) {
-  return !object.keyframes.empty() || length(object.angular_velocity_rad_per_s) > 0;
-}
+bool turns(const Object& object) { return !object.keyframes.empty() || length(object.angular_velocity_rad_per_s) > 0; }
 
 }  // namespace
 
@@ -101,8 +99,11 @@ void FrozenScene::add_bodies() {
       return Body<T>{placed<T>(said, at), mover, 0, static_cast<std::int32_t>(i), object.material};
     });
   }
-  motions_.resize(std::max<std::size_t>(scene_.objects.size(), 1));
-  view_.motions = motions_.data(), view_.object_count = static_cast<std::int32_t>(motions_.size());
+  motions_.resize(1 + movers_.size());
+  motion_of_.resize(std::max<std::size_t>(scene_.objects.size(), 1));
+  for (std::size_t m = 0; m < movers_.size(); ++m) motion_of_[movers_[m].object] = static_cast<std::int32_t>(1 + m);
+  view_.motions = motions_.data(), view_.motion_of = motion_of_.data();
+  view_.object_count = static_cast<std::int32_t>(motion_of_.size());
   view_.movers = static_cast<std::int32_t>(movers_.size());
   number(shape::Shapes{}, still_, view_.still);
   number(shape::Shapes{}, moving_, view_.moving);
@@ -123,11 +124,15 @@ void FrozenScene::lay_out() {
 void FrozenScene::look(const std::optional<Pose>& pose, const Times& times) {
   const auto camera = [&](double time) { return camera_frame(pose ? *pose : pose_at(scene_.camera, time)); };
   std::vector<CameraFrame> cameras;
-  for (const double time : times.moments) cameras.push_back(camera(time));
-  const bool moved = cameras != cameras_;
+  for (const double time : times.moments) {
+    cameras.push_back(camera(time));
+    if (!moves_) break;  // one is as good as all
+  }
+  // A pose that is asked for stands still, also where the scene's camera only passes through it.
+  const bool moved = cameras != cameras_ || pose.has_value() != posed_;
   still_known_ = still_known_ && !moved;
   moving_known_ = moving_known_ && !moved && times == times_;
-  cameras_ = std::move(cameras), times_ = times;
+  cameras_ = std::move(cameras), times_ = times, posed_ = pose.has_value();
   const auto& [rotation, position] = cameras_.front();
   view_.camera = {{{vec(rotation[0]), vec(rotation[1]), vec(rotation[2])}}, vec(position)};
   if (moved) look_for_sun(camera(times.truth_s));
@@ -158,18 +163,19 @@ void FrozenScene::place_movers() {
   view_.frames = frames_.data();
 }
 
-/// P is seen at axes·(X − position); both X and the camera move.
+/// P is seen at axes·(X − position); both X and the camera move.                                              [theory: eq. 6.11]
 void FrozenScene::look_at_motion(const std::optional<Pose>& pose) {
   const double now = times_.truth_s, later = now + times_.period_s;
   const MovingCamera camera = pose ? MovingCamera{camera_frame(*pose)} : camera_at(scene_.camera, now);
   const CameraFrame after = pose ? camera.frame : camera_frame(pose_at(scene_.camera, later));
-  for (const Mover& mover : movers_) {
+  for (std::size_t m = 0; m < movers_.size(); ++m) {
+    const Mover& mover = movers_[m];
     const Object& object = scene_.objects[mover.object];
     const Motion motion = motion_at(object, mover.center, now);
     const shape::Frame here = frame_of(camera.frame, motion, turns(object)),
                        there = frame_of(after, motion_at(object, mover.center, later), turns(object));
     const shape::Mat axes{{vec(camera.frame.rotation[0]), vec(camera.frame.rotation[1]), vec(camera.frame.rotation[2])}};
-    MotionView& out = motions_[mover.object];
+    MotionView& out = motions_[1 + m];
     shape::copy(axes * (motion.drift + cross(motion.spin, vec(camera.frame.position)) - camera.velocity), out.velocity);
     shape::copy(axes * (motion.spin - camera.spin), out.spin);
     // What is at X before it moves is at A·(X − o) now and at B·(X − q) then: B·Aᵀ·P + B·(o − q).

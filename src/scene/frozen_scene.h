@@ -67,6 +67,7 @@ class FrozenScene {
   const Scene& scene_;
   std::vector<CameraFrame> cameras_;  ///< [moment]
   Times times_;
+  bool posed_ = false;  ///< they stand where somebody asked for
   Vec3 toward_sun_{0, 0, 0};
   bool moves_ = false;
   std::vector<Mover> movers_;
@@ -77,6 +78,7 @@ class FrozenScene {
   std::vector<brdf::MapView> maps_;
   std::vector<shape::Vec> lights_;
   std::vector<MotionView> motions_;
+  std::vector<std::int32_t> motion_of_;
   std::vector<shape::Frame> frames_;
   std::vector<Vec> toward_suns_;
   std::vector<float> sun_directions_;

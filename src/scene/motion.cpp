@@ -3,7 +3,9 @@
 #include "scene/motion.h"
 
 #include <algorithm>
+#include <cmath>
 
+#include "base/constants.h"
 #include "num/setup_math.h"
 
 namespace tofray::scene {
@@ -38,9 +40,7 @@ struct Turn {
   Vec3 axis{0, 0, 1};
   double angle = 0;
 };
-Turn turn_of(const Rotation& rotation) {
-  return rotation.angle_rad == 0 ? Turn{} : Turn{normalized(rotation.axis), rotation.angle_rad};
-}
+Turn turn_of(const Rotation& rotation) { return rotation.angle_rad == 0 ? Turn{} : Turn{normalized(rotation.axis), rotation.angle_rad}; }
 
 /// From one rotation to another, by a turn that follows the first. Rotations about one axis, or its opposite, keep all their angle; others go
 /// the shortest way, by the quaternion b·a⁻¹.
@@ -48,9 +48,8 @@ Turn turn_between(const Rotation& from, const Rotation& to) {
   const Turn a = turn_of(from), b = turn_of(to);
   if (a.angle == 0) return b;
   if (b.angle == 0) return {a.axis, -a.angle};
-  const double cosine = dot(a.axis, b.axis);
-  if (cosine > 1 - 1e-12) return {a.axis, b.angle - a.angle};
-  if (cosine < -1 + 1e-12) return {a.axis, -b.angle - a.angle};
+  // Axes are the same where no more than rounding is between them.
+  if (length(cross(a.axis, b.axis)) < 1e-14) return {a.axis, (dot(a.axis, b.axis) > 0 ? b.angle : -b.angle) - a.angle};
   const double wa = setup::cos(0.5 * a.angle), wb = setup::cos(0.5 * b.angle);
   const Vec3 va = -setup::sin(0.5 * a.angle) * a.axis, vb = setup::sin(0.5 * b.angle) * b.axis;
   const double w = wa * wb - dot(vb, va);
@@ -58,6 +57,12 @@ Turn turn_between(const Rotation& from, const Rotation& to) {
   const double sine = length(v);
   if (sine == 0) return {};
   return {(w < 0 ? -1 / sine : 1 / sine) * v, 2 * setup::atan2(sine, std::abs(w))};
+}
+
+/// A steady turn's angle at a time. What is beyond `largest_angle`'s reach loses its whole turns first.
+double angle_at(double rate, double time_s) {
+  const double angle = rate * time_s;
+  return std::abs(angle) < 1e8 ? angle : std::fmod(angle, two_pi);  // fmod is exact on every machine
 }
 
 /// How v/|v| changes where v changes by `change`.
@@ -90,7 +95,7 @@ Motion motion_at(const Object& object, const Vec& center, double time_s) {
   const double rate = length(object.angular_velocity_rad_per_s);
   bool turns = rate > 0;
   if (turns) {
-    out.turn = rotation_matrix({object.angular_velocity_rad_per_s, rate * time_s});
+    out.turn = rotation_matrix({object.angular_velocity_rad_per_s, angle_at(rate, time_s)});
     out.spin = vec(object.angular_velocity_rad_per_s);
   }
   if (!object.keyframes.empty()) {
@@ -132,8 +137,7 @@ MovingCamera camera_at(const CameraChoice& camera, double time_s) {
   const Vec3 view = now.look_at - now.position, forward = out.frame.rotation[2];
   const Vec3 turn = change_of_direction(view, change(&Pose::look_at) - change(&Pose::position)), rise = change(&Pose::up);
   const Vec3 down = dot(now.up, forward) * forward - now.up;
-  const Vec3 sink = change_of_direction(
-      down, (dot(rise, forward) + dot(now.up, turn)) * forward + dot(now.up, forward) * turn - rise);
+  const Vec3 sink = change_of_direction(down, (dot(rise, forward) + dot(now.up, turn)) * forward + dot(now.up, forward) * turn - rise);
   const Vec3 left = cross(sink, forward) + cross(out.frame.rotation[1], turn);
   const Vec3 spin = 0.5 * (cross(out.frame.rotation[0], left) + cross(out.frame.rotation[1], sink) + cross(forward, turn));
   out.velocity = vec(change(&Pose::position)), out.spin = vec(spin);

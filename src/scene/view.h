@@ -91,7 +91,8 @@ struct SceneView {
   const brdf::MaterialView* materials;
   const brdf::MapView* maps;
   const shape::Vec* light_positions;  ///< [light] camera frame [m]
-  const MotionView* motions;          ///< [object]
+  const MotionView* motions;          ///< [0] of what stands still, then [1 + mover]
+  const std::int32_t* motion_of;      ///< [object] its row of `motions`
   const shape::Frame* frames;         ///< [moment][mover] the camera's, as what moves sees it: as if the camera moved the other way
   const shape::Vec* toward_sun;       ///< [moment] unit vector, camera frame; one at least
   const float* sun_directions;        ///< [moment][3] the same
@@ -102,7 +103,7 @@ struct SceneView {
   std::int32_t has_sun;  ///< light comes from one direction, too
   std::int32_t material_count;
   std::int32_t map_count;
-  std::int32_t object_count;    ///< of `motions`; one at least
+  std::int32_t object_count;    ///< of `motion_of`; one at least
   std::int32_t any_other_brdf;  ///< than Lambert's
   std::int32_t any_details;     ///< of meshes
 

@@ -15,5 +15,8 @@ void check(const Camera& camera);
 void check(const Scene& scene);
 void check(std::span<const FrameRequest> requests);
 void check(const SimulatorOptions& options);
+/// … and for all of them together: what is derived of things that move has to fit into memory.
+/// @param camera  rings of light taken apart
+void check_moving_views(const Scene& scene, const Camera& camera, const SimulatorOptions& options);
 
 }  // namespace tofray::simulator

@@ -5,6 +5,7 @@
 #include "base/limits.h"
 #include "base/text.h"
 #include "model/check.h"
+#include "scene/motion.h"
 #include "simulator/check.h"
 
 namespace tofray::simulator {
@@ -32,6 +33,20 @@ void check(const SimulatorOptions& options) {
   if (options.threads > most)
     refuse("too many threads", "got " + std::to_string(options.threads) + ", at most " + std::to_string(most), ErrorKind::limit);
   within(options.exposure_samples, {1, 1000}, "exposure_samples");
+}
+
+void check_moving_views(const Scene& scene, const Camera& camera, const SimulatorOptions& options) {
+  std::int64_t movers = 0;
+  for (const Object& object : scene.objects) movers += !scene.camera.keyframes.empty() || scene::moves(object);
+  const auto raw_frames = static_cast<std::int64_t>(camera.mode.sequence.size()),
+             eyes = static_cast<std::int64_t>(camera.illumination.size()) + 2;
+  const std::int64_t views = movers * eyes * raw_frames * options.exposure_samples, most = base::limit::moving_views.value;
+  if (views > most)
+    refuse("too many things are seen at too many times",
+           "got " + std::to_string(movers) + " that move, seen by " + std::to_string(eyes - 2) + " lights, camera and sun " +
+               std::to_string(options.exposure_samples) + " times in each of " + std::to_string(raw_frames) + " raw frames, " +
+               std::to_string(views) + " in all, at most " + std::to_string(most) + "\n  lower exposure_samples (--exposure-samples)",
+           ErrorKind::limit);
 }
 
 }  // namespace tofray::simulator

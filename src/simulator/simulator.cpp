@@ -48,6 +48,7 @@ const Scene& checked(const Scene& scene, const Camera& camera, const SimulatorOp
   simulator::check(options);
   simulator::check(scene);
   simulator::check(camera);
+  simulator::check_moving_views(scene, camera::with_emitters(camera), options);
   return scene;
 }
 
@@ -84,7 +85,7 @@ pipeline::Setup Simulator::Impl::fixed_setup() {
 
 scene::Times Simulator::Impl::times_from(double start) const {
   scene::Times out;
-  const int samples = options.exposure_samples;
+  const int samples = frozen_scene.moves() ? options.exposure_samples : 1;
   for (std::size_t k = 0; k < camera.mode.sequence.size(); ++k) {
     const double begin = start + frozen_camera.raw_frame_start_s()[k], exposure = camera.mode.sequence[k].integration_time_s;
     for (int i = 0; i < samples; ++i) out.moments.push_back(begin + (i + 0.5) / samples * exposure);
@@ -121,12 +122,8 @@ void Simulator::Impl::frame(std::uint64_t index, const pipeline::Input* input, F
   for (const double after : frozen_camera.raw_frame_start_s()) into.raw.start_time_s.push_back(start + after);
   into.truth.time_s = times_from(start).truth_s;
   const FrameRequest request{index, {}, {}};
-  if (input == nullptr) {
-    set_frame(request);
-  } else {
-    set_frame(request);
-    setup.scene.moments = 0;  // nothing of what moves need go to a GPU
-  }
+  set_frame(request);
+  if (input != nullptr) setup.scene.moments = 0;  // nothing of what moves need go to a GPU
   // What is given of the stage before the entry is known, however early the last one is.
   const Stage given = input == nullptr ? Stage::trace : static_cast<Stage>(static_cast<int>(input->entry) - 1);
   job.out = simulator::view_of(into, std::max(options.last_stage, given));

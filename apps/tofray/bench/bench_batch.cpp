@@ -11,6 +11,7 @@
 #include "progress.h"
 #include "results.h"
 #include "results/meta.h"
+#include "scene/motion.h"
 
 namespace tofray::app {
 
@@ -44,7 +45,7 @@ std::vector<FrameRequest> requests_of(const Inputs& in, std::uint64_t count, std
     requests[i].index = differing == "index" ? i : 0;
     if (differing != "index") requests[i].seed = seed + i;
     if (differing != "poses") continue;
-    Pose pose = in.scene.camera.pose;
+    Pose pose = scene::pose_at(in.scene.camera, 0);
     const double x = 0.01 * (static_cast<double>(i % 7) - 3), y = 0.01 * (static_cast<double>(i / 7 % 5) - 2);
     pose.position[0] += x, pose.position[1] += y;
     pose.look_at[0] += x, pose.look_at[1] += y;

@@ -141,7 +141,7 @@ void pack_raw_frames(Packer& packer, const pipeline::Setup& from, camera::Sensor
 
 void pack_motion(Packer& packer, const scene::SceneView& from, scene::SceneView& to) {
   const std::size_t moments = std::max<std::size_t>(count_of(from.moments), 1);
-  to.motions = packer.put(from.motions, count_of(from.object_count));
+  to.motions = packer.put(from.motions, 1 + count_of(from.movers));
   to.frames = packer.put(from.frames, moments * count_of(from.movers));
   to.toward_sun = packer.put(from.toward_sun, moments), to.sun_directions = packer.put(from.sun_directions, 3 * moments);
 }
@@ -155,6 +155,7 @@ void pack_scene(Packer& packer, const scene::SceneView& from, scene::SceneView& 
   for (brdf::MapView& map : maps) map.texels = packer.put(map.texels, count_of(map.texel_count));
   to.maps = packer.put(static_cast<const brdf::MapView*>(maps.data()), maps.size());
   pack_motion(packer, from, to);
+  to.motion_of = packer.put(from.motion_of, count_of(from.object_count));
   to.light_positions = packer.put(from.light_positions, count_of(from.lights));
   scene::SceneView still = from;
   still.moments = 0;  // what moves is derived there for each frame, and with it the facets of all

@@ -117,6 +117,17 @@ struct WarpNear {
   TOFRAY_FN const flow::Bounds* seen_by_light() const { return culling && !all_from_light ? &from_light : nullptr; }
 };
 
+/// The mean of the light over an exposure; where nothing moves it needs no memory of its own.
+template <bool can_move>
+struct MeanLight {
+  flow::Light<float> light;
+  TOFRAY_FN flow::Light<float>& in(flow::Light<float>&) { return light; }
+};
+template <>
+struct MeanLight<false> {
+  TOFRAY_FN flow::Light<float>& in(flow::Light<float>& only) { return only; }
+};
+
 /// One pixel.
 template <bool can_move, class Warp>
 class PixelWalk {
@@ -132,10 +143,7 @@ class PixelWalk {
   TOFRAY_FN Pixels pixels(int) const { return pixels_; }
   TOFRAY_FN pipeline::Pack<float>& pack(int) { return pack_; }
   static constexpr bool blurs = can_move;
-  TOFRAY_FN flow::Light<float>& mean(int) {
-    if constexpr (can_move) return *mean_;
-    return pack_.light;
-  }
+  TOFRAY_FN flow::Light<float>& mean(int) { return mean_.in(pack_.light); }
   TOFRAY_FN void go_to(const pipeline::Moment& now) {
     if (near_.moves(s_)) hit_ = pipeline::see_moving(s_, near_, now.index, camera::ray<float>(s_.lens, pixels_), still_);
   }
@@ -151,7 +159,7 @@ class PixelWalk {
   WarpNear<can_move, Warp> near_;
   flow::Hit<float> still_, hit_;
   pipeline::Pack<float> pack_;
-  flow::Light<float> mean_[can_move ? 1 : 0];
+  MeanLight<can_move> mean_;
 };
 
 /// From ray to depth. All lanes of a warp must come here together.
