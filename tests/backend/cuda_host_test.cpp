@@ -17,6 +17,18 @@ namespace {
 
 class EveryScene : public testing::TestWithParam<std::string> {};
 
+/// Turning things, keyframes, a camera that moves, and a sun.
+Scene scene_in_motion(int number) {
+  Random random(static_cast<std::uint64_t>(number) + 90);
+  Scene scene = random_scene(random, 4 + 4 * number, number % 2 == 1);
+  scene.name = "in motion " + std::to_string(number);
+  scene.camera.pose = random_pose(random);
+  set_in_motion(random, scene, number % 2 == 0);
+  scene.ambient.spectrum = Ambient::Spectrum::sun_am15, scene.ambient.amount = 0.1;
+  if (number % 3 != 0) scene.ambient.direction = Vec3{0.1, 0.2, 1} + random.point(0.3);
+  return scene;
+}
+
 }  // namespace
 
 TEST_P(EveryScene, has_the_same_bytes_by_the_functions_of_the_gpu) {
@@ -54,6 +66,35 @@ TEST(cuda_host, has_the_same_bytes_of_random_scenes_still_and_moving) {
     scene.name = "random " + std::to_string(i);
     scene.camera.pose = random_pose(random);
     expect_same(scene, camera, {});
+  }
+}
+
+TEST(cuda_host, has_the_same_bytes_of_scenes_in_motion_and_of_several_times_within_an_exposure) {
+  const WithStandIn here;
+  for (int i = 0; i < 5; ++i) {
+    const Scene scene = scene_in_motion(i);
+    const Camera camera = i == 3 ? with_everything(load_camera("pico-flexx")) : small(load_camera("pico-flexx"));
+    expect_same(scene, camera, {.exposure_samples = 1 + i});
+    expect_same(scene, camera, {.last_stage = Stage::trace, .exposure_samples = 1 + i});
+  }
+}
+
+TEST(cuda_host, batches_of_scenes_in_motion_take_seeds_and_poses) {
+  const WithStandIn here;
+  for (int i = 0; i < 2; ++i) {
+    const Scene scene = scene_in_motion(i);
+    const Camera camera = small(load_camera("pico-flexx"));
+    const SimulatorOptions options{.batch_bytes = 3'000'000, .exposure_samples = 2};
+    const std::vector<FrameRequest> requests = mixed_requests(scene, 8);
+    for (const Backend backend : {Backend::cpu, Backend::cuda}) {
+      Simulator simulator(scene, camera, on(backend, options));
+      std::size_t next = 0;
+      simulator.frames(requests, [&](const FrameArrays& arrays) {
+        const FrameRequest& request = requests[next++];
+        EXPECT_EQ(first_difference(copy_of(arrays), alone(scene, camera, options, request)), "") << scene.name << ", request " << next - 1;
+      });
+      EXPECT_EQ(next, requests.size());
+    }
   }
 }
 

@@ -37,7 +37,11 @@ inline Node sample(const Form& form, std::size_t v, int k = 0, const std::string
   Node node;
   const auto map_of = [&](const Form& map, Node& into) {
     into.kind = Node::Kind::map;
+    const bool has_keyframes = std::any_of(map.keys.begin(), map.keys.end(), [](const auto& row) { return row.name == "keyframes"; });
+    static const std::set<std::string> placed = {"pose", "position", "rotation", "velocity", "angular_velocity"};
     for (const auto& row : map.keys) {
+      // Keyframes stand in the place of all these.
+      if (has_keyframes && (v % 2 == 0 ? row.name == "keyframes" : placed.count(row.name) > 0)) continue;
       if (row.name == "file" && !row.required) continue;  // one of two ways to say numbers
       const auto one_of = [&](const std::vector<std::string>& group) {
         const auto at = std::find(group.begin(), group.end(), row.name);

@@ -9,7 +9,7 @@
 #include "camera/lens.h"
 #include "support/random.h"
 #include "support/random_scene.h"
-#include "support/seen.h"
+#include "support/turning.h"
 
 using namespace tofray;
 using namespace tofray::test;
@@ -287,4 +287,115 @@ TEST(flow, is_that_of_one_frame_of_the_mode) {
   const Truth fast = truth_of(scene, camera);
   EXPECT_NEAR(flow_at(fast, 100).x, 100 * 0.5 / 20 / 2, 1e-6);
   EXPECT_EQ(fast.velocity_m_per_s[300], 0.5F);
+}
+
+namespace {
+
+/// What an object turns about before it is shifted, by the words of tofray/scene.h.
+Vec3 center_of(const Object& object) {
+  if (const auto* ball = std::get_if<Sphere>(&object.shape)) return ball->center;
+  if (const auto* box = std::get_if<Box>(&object.shape)) return 0.5 * (box->min + box->max);
+  if (const auto* capsule = std::get_if<Capsule>(&object.shape)) return 0.5 * (capsule->start + capsule->end);
+  if (const auto* plane = std::get_if<Plane>(&object.shape)) return plane->point;
+  return {0, 0, 0};  // a mesh
+}
+
+/// Where the camera sees at a time what it sees at P at another.
+class Followed {
+ public:
+  Followed(const Scene& scene, const Object& object, double now, const Vec3& p)
+      : scene_(scene), object_(object), center_(center_of(object)) {
+    const Object there = test::standing(object, now);
+    const Vec3 in_place = in_world(test::standing(scene, now).camera.pose, p) - center_ - there.position;
+    own_ = turned({there.rotation.axis, -there.rotation.angle_rad}, in_place);
+  }
+  [[nodiscard]] Vec3 at(double time) const {
+    const Object there = test::standing(object_, time);
+    const scene::CameraFrame camera = scene::camera_frame(test::standing(scene_, time).camera.pose);
+    return camera.rotation * (turned(there.rotation, own_) + center_ + there.position - camera.position);
+  }
+
+ private:
+  Scene scene_;
+  Object object_;
+  Vec3 center_, own_;
+};
+
+/// Spinning and keyframed things before a wall, and a mesh; the camera moves if asked for.
+Scene spinning_scene(Random& random, bool camera_moves) {
+  Scene scene = wall(3, 0.5);
+  const Object kinds[] = {object(Box{{-0.7, -0.3, 1.2}, {-0.2, 0.2, 1.5}}), object(Capsule{{0.1, -0.3, 1.1}, {0.5, 0.1, 1.6}, 0.12}),
+                          object(shared(single(stone(random, 1, 0.3, {0.1, 0, 0})))), object(Sphere{{0.5, 0.4, 1.4}, 0.25})};
+  for (const Object& kind : kinds) scene.objects.push_back(kind);
+  scene.objects[1].angular_velocity_rad_per_s = random.point(6), scene.objects[1].rotation = {random.direction(), 0.4};
+  scene.objects[2].angular_velocity_rad_per_s = random.point(6), scene.objects[2].velocity_m_per_s = random.point(1);
+  scene.objects[3].keyframes = {{-0.2, {-0.2, 0.4, 1.3}, {random.direction(), 1.1}}, {0.4, {0, 0.3, 1.5}, {random.direction(), -0.8}}};
+  scene.objects[4].angular_velocity_rad_per_s = random.point(6);
+  if (camera_moves) {
+    for (const double time : {-0.1, 0.3})
+      scene.camera.keyframes.push_back({time, {random.point(0.2), Vec3{0, 0, 2} + random.point(0.4), Vec3{0, -1, 0} + random.point(0.2)}});
+  } else {
+    scene.camera.pose = random_pose(random);
+  }
+  return scene;
+}
+
+}  // namespace
+
+// Both against the exact motion of the point that a pixel sees, the lens model in double.
+TEST(motion_truth, of_turning_things_and_a_turning_camera_is_that_of_the_exact_motion) {
+  int seen[5] = {}, large = 0, passed_by = 0;
+  for (int trial = 0; trial < 6; ++trial) {
+    Random random(static_cast<std::uint64_t>(trial) + 700);
+    const Scene scene = spinning_scene(random, trial % 2 == 1);
+    const Camera camera = camera_with(trial < 3 ? std::array<double, 5>{} : std::array<double, 5>{-0.2, 0.03, 1e-3, 2e-3, 0});
+    const Truth truth = truth_of(scene, camera);
+    for (std::size_t i = 0; i < truth.object_id.size(); ++i) {
+      if (truth.object_id[i] < 0) continue;
+      const auto id = static_cast<std::size_t>(truth.object_id[i]);
+      const Vec3 p = vector_at(truth.position_m, i);
+      const Followed point(scene, scene.objects[id], truth.time_s, p);
+      ASSERT_LT(base::length(point.at(truth.time_s) - p), 1e-12);
+      constexpr double step = 1e-5;
+      const Vec3 velocity = (0.5 / step) * (point.at(truth.time_s + step) - point.at(truth.time_s - step));
+      // Up to 10 rad/s at 3 m: 30 m/s, in single precision; the difference is off by (10 rad/s·step)²/6 of it, and 1e-15 m/step.
+      ASSERT_LT(base::length(vector_at(truth.velocity_m_per_s, i) - velocity), 1e-5) << "trial " << trial << " at " << i << " of " << id;
+      const Vec3 to = point.at(truth.time_s + period);
+      if (!is_seen(camera.lens, to) || to[2] < 0.3 || to[0] * to[0] + to[1] * to[1] > to[2] * to[2]) continue;
+      const Point2 one = pixel_of(camera.lens, p), other = pixel_of(camera.lens, to), got = flow_at(truth, i);
+      // Step and turn are rounded at the size of the point, 3 m: 1e-6 m at 0.3 m and more, of 110 px.
+      const double bound = 110 * 1.2e-6 / to[2] * (1 + p[2] / to[2]);
+      ASSERT_NEAR(got.x, other.x - one.x, bound) << "trial " << trial << " at " << i << " of " << id;
+      ASSERT_NEAR(got.y, other.y - one.y, bound) << "trial " << trial << " at " << i << " of " << id;
+      ++seen[id];
+      large += std::abs(got.x) + std::abs(got.y) > 5;
+      passed_by += trial % 2 == 1 && id == 0 && got.x != 0;
+    }
+  }
+  for (const int count : seen) EXPECT_GT(count, 1000);
+  EXPECT_GT(large, 3000);
+  EXPECT_GT(passed_by, 3000) << "what stands moves in the camera's frame";
+}
+
+// What turns or follows keyframes leaves what stands still at exact zeros; so does a camera whose keyframes are all the same.
+TEST(motion_truth, of_what_stands_still_beside_it_is_exactly_zero) {
+  for (const bool keyframes : {false, true}) {
+    Random random(8);
+    Scene scene = spinning_scene(random, false);
+    if (keyframes) {
+      scene.camera.keyframes = {{-1, scene.camera.pose}, {1, scene.camera.pose}};
+      scene.camera.pose = {};
+      scene.objects[3].keyframes.clear();
+      scene.objects[3].position = {0, 0, 1.5};
+    }
+    const Truth truth = truth_of(scene, camera_with({-0.2, 0, 0, 0, 0}));
+    int still = 0;
+    for (std::size_t i = 0; i < truth.object_id.size(); ++i) {
+      if (truth.object_id[i] != 0 && !(keyframes && truth.object_id[i] == 3)) continue;
+      for (std::size_t k = 0; k < 3; ++k) ASSERT_EQ(std::bit_cast<std::uint32_t>(truth.velocity_m_per_s[3 * i + k]), 0U) << i;
+      for (std::size_t k = 0; k < 2; ++k) ASSERT_EQ(std::bit_cast<std::uint32_t>(truth.flow_px[2 * i + k]), 0U) << i;
+      ++still;
+    }
+    EXPECT_GT(still, 3000);
+  }
 }

@@ -3,6 +3,7 @@
 // The same bytes from every instruction set, with and without culling, on scenes of all sorts.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstring>
 
 #include "backend/cpu/cpu.h"
@@ -117,9 +118,9 @@ void same(const Frame& a, const Frame& b) {
   EXPECT_EQ(first_difference(a, b), "") << "in an array that has no line above";
 }
 
-Frame render(const Case& c, Isa isa, bool culling, int threads = 1, std::uint64_t frame = 3) {
+Frame render(const Case& c, Isa isa, bool culling, int threads = 1, std::uint64_t frame = 3, int samples = 1) {
   SimulatorOptions options;
-  options.seed = 7, options.isa = isa, options.culling = culling, options.threads = threads;
+  options.seed = 7, options.isa = isa, options.culling = culling, options.threads = threads, options.exposure_samples = samples;
   return Simulator(c.scene, c.camera, options).frame(frame);
 }
 
@@ -174,4 +175,34 @@ TEST(swift_meshes, are_seen_and_shaded_alike_by_tiles_and_by_single_rays) {
   }
   EXPECT_GT(moving, 200);
   EXPECT_GT(changing, 1000);
+}
+
+// Things that turn and follow keyframes, meshes among them, seen by a camera that may move, once or several times in each exposure.
+TEST(scenes_in_motion, have_the_same_bytes_on_all_kinds_of_code) {
+  int moving = 0, turning = 0;
+  for (int i = 0; i < (with_sanitizers ? 4 : 10); ++i) {
+    Case c = i % 2 == 0 ? random_case(i) : swift_case(i);
+    Random random(static_cast<std::uint64_t>(i) + 2000);
+    set_in_motion(random, c.scene, i % 3 != 0);
+    c.camera.sensor.width = std::min(c.camera.sensor.width, 100), c.camera.sensor.height = std::min(c.camera.sensor.height, 60);
+    if (i % 4 == 1) c.camera.pixel.delay_s = 1e-10;
+    const int samples = 1 + i % 5;
+    const std::uint64_t frame = i % 2 == 0 ? 1 : 0;
+    SCOPED_TRACE("scene " + std::to_string(i));
+    const Frame reference = render(c, Isa::scalar, false, 1, frame, samples);
+    const std::size_t pixels = reference.truth.object_id.size();
+    for (std::size_t p = 0; p < pixels; ++p) {
+      moving += reference.truth.flow_px[2 * p] != 0;
+      turning +=
+          reference.truth.object_id[p] >= 0 && !c.scene.objects[static_cast<std::size_t>(reference.truth.object_id[p])].keyframes.empty();
+    }
+    same(render(c, Isa::scalar, true, 2, frame, samples), reference);
+    for (const Isa isa : {Isa::scalar_fma, Isa::avx2, Isa::avx512}) {
+      if (!backend::can_run(isa)) continue;
+      same(render(c, isa, true, 1, frame, samples), reference);
+      same(render(c, isa, false, 2, frame, samples), reference);
+    }
+  }
+  EXPECT_GT(moving, with_sanitizers ? 1000 : 5000);
+  EXPECT_GT(turning, with_sanitizers ? 200 : 1000);
 }

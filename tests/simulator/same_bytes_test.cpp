@@ -14,6 +14,7 @@
 #include "files/sha256.h"
 #include "results/frame_file.h"
 #include "support/files.h"
+#include "support/random_scene.h"
 #include "tofray/tofray.h"
 
 using namespace tofray;
@@ -46,6 +47,33 @@ std::string bytes_of(const Scene& scene, const Camera& camera, const SimulatorOp
   return results::frame_npz_bytes(Simulator(scene, camera, options).frame(1), camera, pose, "{}");
 }
 
+/// What no scene of tofray's has: things that turn and follow keyframes, a mesh, a camera that moves and a sun, three times in each exposure.
+constexpr const char* in_motion = "in-motion";
+Scene scene_in_motion() {
+  Random random(4);
+  Scene scene = wall(2, 0.5);
+  scene.camera.mode = "MODE_5_35FPS_600";
+  scene.camera.keyframes = {{0, {{-0.1, 0, 0}, {0, 0, 1.5}, {0, -1, 0}}}, {0.05, {{0.2, 0.05, 0.1}, {0.1, 0, 1.5}, {0.1, -1, 0}}}};
+  scene.ambient = {Ambient::Spectrum::sun_am15, Ambient::Quantity::level, 0.1, {}, {}, Vec3{0.3, 0.4, 1}};
+  scene.objects.push_back(object(Box{{-0.5, -0.2, 1}, {-0.2, 0.1, 1.3}}));
+  scene.objects[1].angular_velocity_rad_per_s = {3, 20, -5};
+  scene.objects.push_back(object(shared(single(stone(random, 2, 0.25, {0, 0, 0})))));
+  scene.objects[2].keyframes = {{0, {0.2, -0.1, 1.2}, {{1, 0, 0}, 0.3}}, {0.06, {0.3, 0.1, 1.3}, {{0, 1, 0.2}, 1.7}}};
+  scene.objects.push_back(object(Cone{{0, 0.35, 1.2}, {0, -1, 0}, 0.1, 0.3}));
+  scene.objects[3].velocity_m_per_s = {-2, 0, 0.5}, scene.objects[3].angular_velocity_rad_per_s = {0, 0, 12};
+  return scene;
+}
+
+Scene scene_of(const std::string& name) { return name == in_motion ? scene_in_motion() : load_scene(name); }
+std::vector<std::string> all_scenes() {
+  std::vector<std::string> names = scene_names();
+  names.emplace_back(in_motion);
+  return names;
+}
+SimulatorOptions options_of(const std::string& scene, Noise noise, int threads, Isa isa) {
+  return {.seed = 7, .noise = noise, .threads = threads, .isa = isa, .exposure_samples = scene == in_motion ? 3 : 1};
+}
+
 /// Without noise, with it, and with so little read noise that it is drawn apart from shot noise.
 struct Kind {
   const char* name;
@@ -64,31 +92,31 @@ class SameBytes : public testing::TestWithParam<std::string> {};
 class KnownBytes : public testing::TestWithParam<std::string> {};
 
 void expect_known(const std::string& scene_name, Isa isa) {
-  const Scene scene = load_scene(scene_name);
+  const Scene scene = scene_of(scene_name);
   Camera camera = load_camera(scene);
   const std::map<std::string, Hashes> known = golden();
   for (const auto& [name, noise, quiet] : kinds) {
     if (quiet) camera.pixel.read_noise_e = 3;
     const std::string key = scene_name + " " + name;
     ASSERT_TRUE(known.count(key)) << key;
-    EXPECT_EQ(hashes_of(bytes_of(scene, camera, {.seed = 7, .noise = noise, .threads = 2, .isa = isa})), known.at(key)) << key;
+    EXPECT_EQ(hashes_of(bytes_of(scene, camera, options_of(scene_name, noise, 2, isa))), known.at(key)) << key;
   }
 }
 
 }  // namespace
 
 TEST_P(SameBytes, on_every_machine_and_with_any_number_of_threads) {
-  const Scene scene = load_scene(GetParam());
+  const Scene scene = scene_of(GetParam());
   Camera camera = load_camera(scene);
   const std::map<std::string, Hashes> known = golden();
   const char* write_to = std::getenv("TOFRAY_WRITE_GOLDEN");
   for (const auto& [name, noise, quiet] : kinds) {
     if (quiet) camera.pixel.read_noise_e = 3;
-    const std::string reference = bytes_of(scene, camera, {.seed = 7, .noise = noise, .threads = 1, .isa = Isa::scalar});
+    const std::string reference = bytes_of(scene, camera, options_of(GetParam(), noise, 1, Isa::scalar));
     for (const Isa isa : {Isa::scalar, Isa::scalar_fma, Isa::avx2, Isa::avx512}) {
       if (!backend::can_run(isa)) continue;  // named by skipped_on_this_machine
       for (const int threads : thread_numbers(isa)) {
-        const std::string bytes = bytes_of(scene, camera, {.seed = 7, .noise = noise, .threads = threads, .isa = isa});
+        const std::string bytes = bytes_of(scene, camera, options_of(GetParam(), noise, threads, isa));
         EXPECT_TRUE(bytes == reference) << name << ", " << backend::isa_name(isa) << " with " << threads << " threads";
       }
     }
@@ -104,13 +132,13 @@ TEST_P(SameBytes, on_every_machine_and_with_any_number_of_threads) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(all, SameBytes, testing::ValuesIn(scene_names()), [](const auto& which) { return test_name(which.param); });
+INSTANTIATE_TEST_SUITE_P(all, SameBytes, testing::ValuesIn(all_scenes()), [](const auto& which) { return test_name(which.param); });
 
 // In tests of their own, so that they can be run for each scene under whatever surroundings.
 TEST_P(KnownBytes, come_from_the_fastest_machine_code) { expect_known(GetParam(), Isa::best); }
 TEST_P(KnownBytes, come_from_the_scalar_reference) { expect_known(GetParam(), Isa::scalar); }
 
-INSTANTIATE_TEST_SUITE_P(all, KnownBytes, testing::ValuesIn(scene_names()), [](const auto& which) { return test_name(which.param); });
+INSTANTIATE_TEST_SUITE_P(all, KnownBytes, testing::ValuesIn(all_scenes()), [](const auto& which) { return test_name(which.param); });
 
 // Filters, fixed patterns, suppression and a second light, which no scene has.
 TEST(same_bytes, with_everything_switched_on) {

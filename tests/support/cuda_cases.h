@@ -54,7 +54,7 @@ inline Frame arrays_only(Frame frame) {
 
 inline Frame alone(const Scene& scene, const Camera& camera, SimulatorOptions options, const FrameRequest& request) {
   Scene posed = scene;
-  if (request.pose) posed.camera.pose = *request.pose;
+  if (request.pose) posed.camera.pose = *request.pose, posed.camera.keyframes.clear();
   if (request.seed) options.seed = *request.seed;
   return arrays_only(Simulator(posed, camera, on(Backend::cpu, options)).frame(request.index));
 }

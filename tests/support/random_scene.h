@@ -106,6 +106,31 @@ inline Scene random_scene(Random& random, int objects, bool moving) {
   return scene;
 }
 
+/// Sets some of a scene's things in motion while the first frames of a camera are taken: they turn, or follow keyframes; its camera does,
+/// if asked for, about where it stands.
+inline void set_in_motion(Random& random, Scene& scene, bool camera) {
+  for (Object& one : scene.objects) {
+    const int kind = random.below(4);
+    if (kind == 0) one.angular_velocity_rad_per_s = random.point(30);
+    if (kind != 1) continue;
+    one.keyframes = {{random.between(-1, 0), one.position, one.rotation}};
+    for (int i = random.below(4); i > 0; --i) {
+      const Rotation turn{random.below(2) == 0 ? one.rotation.axis : random.direction(), random.between(-4, 4)};
+      one.keyframes.push_back({one.keyframes.back().time_s + random.scale(1e-3, 1), one.position + random.point(0.3), turn});
+    }
+    one.position = one.velocity_m_per_s = {0, 0, 0}, one.rotation = {};
+  }
+  if (!camera) return;
+  scene.camera.keyframes = {{-0.01, scene.camera.pose}};
+  for (int i = 1 + random.below(3); i > 0; --i) {
+    Pose pose = scene.camera.pose;
+    pose.position = pose.position + random.point(0.15), pose.look_at = pose.look_at + random.point(0.3),
+    pose.up = pose.up + random.point(0.1);
+    scene.camera.keyframes.push_back({scene.camera.keyframes.back().time_s + random.scale(3e-3, 1), pose});
+  }
+  scene.camera.pose = {};
+}
+
 /// A camera that looks about from somewhere near zero.
 inline Pose random_pose(Random& random) {
   const Vec3 at = random.point(0.3);
