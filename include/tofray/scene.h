@@ -93,19 +93,34 @@ struct TriangleMesh {
   std::vector<std::array<float, 2>> texcoords = {};  ///< (u, v) in the material's map. Empty, or one for each vertex
 };
 
+/// How a mesh changes its shape with time, in its own frame.
+class MeshMotion {
+ public:
+  MeshMotion() = default;
+  MeshMotion(const MeshMotion&) = delete;
+  MeshMotion& operator=(const MeshMotion&) = delete;
+  virtual ~MeshMotion() = default;
+  /// The mesh's vertices at a time, and its normals where it has any, in place of what the vectors hold: as many as Mesh::triangles has, in
+  /// the same order. The triangles stay, and their texture coordinates. One thread at a time calls it, of each simulator.
+  virtual void at(double time_s, std::vector<std::array<float, 3>>& vertices, std::vector<std::array<float, 3>>& normals) const = 0;
+};
+
 /// Many triangles, about the zero of their own frame. In files: those of an OBJ, PLY, STL or glTF file, turned and scaled when it is read;
 /// of a glTF or OBJ file those of one material, unless the object has a material of its own.
 struct Mesh {
   enum class Up { automatic, y, z, minus_y };
+  enum class Play { still, once, loop };
   std::string file;              ///< empty if built in code
   double scale = 1;              ///< of the file's numbers, to metres
   Up up = Up::automatic;         ///< the file's axis that is up (−y in the world); automatic: y in OBJ and glTF, z in PLY and STL
   std::optional<double> time_s;  ///< of a glTF file's first animation; none: as its nodes stand
+  Play play = Play::still;       ///< whether that animation goes on, from `time_s` (or its start) at t = 0
   std::string sha256;  ///< of the file's bytes and those of the files that it names, as hexadecimal digits; empty if built in code
   int left_out = 0;    ///< triangles of the file with a corner that is no finite number, or beyond 1e5 m
   int guessed = 0;     ///< materials of the file whose visible colour stands for their reflectivity
   std::vector<std::string> notices;               ///< sentences: what else of the file is left out, or mended
   std::shared_ptr<const TriangleMesh> triangles;  ///< what is seen: already turned and scaled; objects may share it
+  std::shared_ptr<const MeshMotion> motion;       ///< how it changes its shape; none: it does not
 };
 
 /// A turn by the right-hand rule about `axis` (any length but zero).

@@ -84,6 +84,7 @@ std::vector<MeshPiece> pieces_of(const gltf::Model& model, const gltf::Pose& pos
     if (by_material) colors[part.material].add(part);
   }
   std::vector<MeshPiece> out;
+  for (auto& [material, piece] : found) piece.by_material = by_material, piece.number = material;
   if (by_material) {
     GltfMaterials materials(model, path, place);
     for (auto& [material, piece] : found) piece.of = materials.worn(material, colors[material], !piece.mesh.texcoords.empty());

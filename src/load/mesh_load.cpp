@@ -14,6 +14,7 @@
 #include "load/builtin_mesh.h"
 #include "load/gltf_load.h"
 #include "load/gltf_material.h"
+#include "load/gltf_motion.h"
 #include "load/obj_load.h"
 #include "mesh/read_mesh.h"
 
@@ -53,6 +54,23 @@ std::vector<MeshPiece> whole(mesh::ReadMesh read, MeshReader::Known& known) {
   return out;
 }
 
+/// What a file says of a mesh's motion, turned and scaled as the mesh is.
+class PlacedMotion : public MeshMotion {
+ public:
+  PlacedMotion(std::shared_ptr<const MeshMotion> of_file, double scale, Mesh::Up up)
+      : of_file_(std::move(of_file)), scale_(scale), up_(up) {}
+  void at(double time_s, std::vector<Corner>& vertices, std::vector<Corner>& normals) const override {
+    of_file_->at(time_s, vertices, normals);
+    for (Corner& p : vertices) p = in_world(p, scale_, up_);
+    for (Corner& n : normals) n = turned(n, up_);
+  }
+
+ private:
+  std::shared_ptr<const MeshMotion> of_file_;
+  double scale_;
+  Mesh::Up up_;
+};
+
 bool is_in_world(const Corner& p) {
   return std::all_of(p.begin(), p.end(), [](float a) { return std::abs(a) <= base::farthest_m; });  // NaN: no
 }
@@ -73,13 +91,14 @@ std::size_t keep_in_world(TriangleMesh& mesh) {
 }  // namespace
 
 void MeshReader::Known::show(std::size_t piece, Mesh& mesh) const {
-  mesh.triangles = pieces[piece].triangles, mesh.sha256 = sha256, mesh.left_out = pieces[piece].left_out;
+  mesh.triangles = pieces[piece].triangles, mesh.motion = pieces[piece].motion;
+  mesh.sha256 = sha256, mesh.left_out = pieces[piece].left_out;
 }
 
 MeshReader::MeshReader(const std::string& source, const MeshFiles& files) : folder_(folder_beside(source)), files_(files) {}
 
 const MeshReader::Known& MeshReader::read(const Places& places, const Mesh& mesh, bool by_material) {
-  const std::tuple key{mesh.file, mesh.scale, mesh.up, mesh.time_s, by_material};
+  const std::tuple key{mesh.file, mesh.scale, mesh.up, mesh.time_s, mesh.play, by_material};
   auto known = known_.find(key);
   if (known == known_.end()) known = known_.emplace(key, from_file(places, mesh, by_material)).first;
   return known->second;
@@ -114,8 +133,10 @@ MeshReader::Known MeshReader::from_file(const Places& places, const Mesh& wanted
     piece.left_out += keep_in_world(piece.mesh);
     if (piece.mesh.triangles.empty()) continue;
     if (by_material && piece.of.name == no_material) known.materials.emplace_back(no_material);
-    known.pieces.push_back(
-        {std::make_shared<const TriangleMesh>(std::move(piece.mesh)), static_cast<int>(piece.left_out), std::move(piece.of)});
+    std::shared_ptr<const MeshMotion> motion;
+    if (piece.motion != nullptr) motion = std::make_shared<PlacedMotion>(std::move(piece.motion), wanted.scale, up);
+    known.pieces.push_back({std::make_shared<const TriangleMesh>(std::move(piece.mesh)), std::move(motion),
+                            static_cast<int>(piece.left_out), std::move(piece.of)});
   }
   if (known.pieces.empty())
     base::fail(places.file, "no triangle of " + base::in_quotes(path, 200) + " is in the world",
@@ -142,9 +163,14 @@ std::vector<MeshPiece> MeshReader::from_gltf(const Places& places, const Mesh& w
   check_expected(places.file, wanted.file, path, file.sha256);
   if (wanted.time_s && file.model.animations.empty())
     base::fail(places.time, base::in_quotes(path, 200) + " has no animation", "time is one of its first animation; leave it away");
+  if (wanted.play != Mesh::Play::still && file.model.animations.empty())
+    base::fail(places.play, base::in_quotes(path, 200) + " has no animation", "there is nothing to play; leave it away");
   known.sha256 = std::move(file.sha256), known.notices = std::move(file.model.notices);
   for (std::size_t i = 0; i < file.model.materials.size(); ++i) known.materials.push_back(name_of(file.model, static_cast<int>(i)));
-  return pieces_of(file.model, pose_at(file.model, wanted.time_s), by_material, path, places.file);
+  const std::optional<double> start_s = wanted.play == Mesh::Play::still ? wanted.time_s : wanted.time_s.value_or(0);
+  std::vector<MeshPiece> pieces = pieces_of(file.model, pose_at(file.model, start_s), by_material, path, places.file);
+  if (wanted.play != Mesh::Play::still) play(std::move(file.model), *start_s, wanted.play == Mesh::Play::loop, pieces);
+  return pieces;
 }
 
 std::vector<MeshPiece> MeshReader::from_obj(const Places& places, const Mesh& wanted, const std::string& path, std::string bytes,

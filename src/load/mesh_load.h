@@ -28,11 +28,12 @@ class MeshReader {
  public:
   /// Where the scene names what a mesh is made of.
   struct Places {
-    base::Place file, time;
+    base::Place file, time, play;
   };
   /// What the file shows; of a glTF or OBJ file one for each material, where that is asked for.
   struct Piece {
     std::shared_ptr<const TriangleMesh> triangles;
+    std::shared_ptr<const MeshMotion> motion;
     int left_out;
     FileMaterial of;
   };
@@ -51,7 +52,7 @@ class MeshReader {
   MeshReader(const std::string& source, const MeshFiles& files);
   /// Says that read() will want this file's materials: its SHA-256 then is that of all that it names, for all objects.
   void want_materials(const std::string& file) { with_materials_.insert(file); }
-  /// What `mesh` shows by its file, scale, up and time.
+  /// What `mesh` shows by its file, scale, up, time and play.
   /// @param by_material  whether a glTF or OBJ file's materials are wanted apart
   /// @throws Error as files::read_reference, mesh::parse and gltf::read, and (bad_input) where the file is not the one that is expected,
   /// has no animation though there is a time, or where no triangle is in the world
@@ -74,7 +75,7 @@ class MeshReader {
   const MeshFiles& files_;
   std::set<std::string> with_materials_;
   std::size_t vertices_ = 0, triangles_ = 0, texels_ = 0;
-  std::map<std::tuple<std::string, double, Mesh::Up, std::optional<double>, bool>, Known> known_;
+  std::map<std::tuple<std::string, double, Mesh::Up, std::optional<double>, Mesh::Play, bool>, Known> known_;
 };
 
 /// Where the first perspective camera of a glTF file stands in the world; nothing where there is none, or the file is of another kind.

@@ -36,6 +36,9 @@ struct MeshPiece {
   TriangleMesh mesh;  ///< vertices, and normals and texture coordinates where the file has any
   std::size_t left_out = 0;
   FileMaterial of = {};
+  bool by_material = false;                       ///< the triangles of one material of a glTF file
+  int number = -1;                                ///< … this one; −1: those that have none
+  std::shared_ptr<const MeshMotion> motion = {};  ///< in the file's own axes and unit
 };
 
 /// Adds a picture's pixels to those that the meshes of a scene wear. @throws Error (limit) beyond limit::map_pixels

@@ -198,6 +198,8 @@ class SceneReader {
     else if (!has_material)
       faults_.add(value.place(), "mesh lacks a key", lacks_material);
     if (out.time_s) faults_.add(value["time"].place(), "time is for glTF files", "an OBJ, PLY or STL file stands still");
+    if (out.play != Mesh::Play::still)
+      faults_.add(value["play"].place(), "play is for glTF files", "an OBJ, PLY or STL file has no animation");
   }
 
   /// Once all else that was read is good: a file may be long.
@@ -205,8 +207,11 @@ class SceneReader {
     for (MeshOfScene& one : meshes_of_scene_) {
       Mesh& mesh = std::get<Mesh>(scene.objects[one.object].shape);
       if (faults_.empty()) {
-        const Value& time = (*one.value)["time"];
-        one.known = &meshes_.read({(*one.value)["file"].place(), (time ? time : *one.value).place()}, mesh, one.by_material);
+        const auto place = [&](const char* key) {
+          const Value& said = (*one.value)[key];
+          return (said ? said : *one.value).place();
+        };
+        one.known = &meshes_.read({place("file"), place("time"), place("play")}, mesh, one.by_material);
         one.known->show(0, mesh);
         mesh.notices = one.known->notices;
         if (one.by_material && one.own.empty() && !one.known->names_library)

@@ -182,10 +182,10 @@ const Table& table_of<RawFrame>() {
 
 template <>
 const Table& table_of<Mode>() {
-  static const Table rows = table<Mode>(
-      words<&Mode::name>("", "", "", ""),
-      number<&Mode::frame_rate_hz>("frame_rate", frame_rate, "frame i starts at i / frame_rate").required(),
-      records<&Mode::sequence>("sequence", 1, raw_frames, "the raw frames, in order").required());
+  static const Table rows =
+      table<Mode>(words<&Mode::name>("", "", "", ""),
+                  number<&Mode::frame_rate_hz>("frame_rate", frame_rate, "frame i starts at i / frame_rate").required(),
+                  records<&Mode::sequence>("sequence", 1, raw_frames, "the raw frames, in order").required());
   return rows;
 }
 

@@ -164,8 +164,10 @@ const Table& table_of<Mesh>() {
           number<&Mesh::time_s>("time", {time, {0, 1e6}, "1.5 s"},
                                 "of a glTF file's first animation; as the file stands still unless given")
               .absent(),
+          choice<&Mesh::play>("play", {"still", "once", "loop"},
+                              "whether a glTF file's first animation goes on, from `time` (or its start) on: once, or again and again"),
           words<&Mesh::sha256>("", "", "", ""),  // the reader's
-          no_row<&Mesh::left_out, &Mesh::guessed, &Mesh::notices, &Mesh::triangles>("what the file holds"))
+          no_row<&Mesh::left_out, &Mesh::guessed, &Mesh::notices, &Mesh::triangles, &Mesh::motion>("what the file holds"))
           .check_with(meshes_have_triangles);
   return rows;
 }
@@ -195,28 +197,29 @@ constexpr auto most_keyframes = static_cast<int>(base::limit::keyframes.value);
 
 template <>
 const Table& table_of<Keyframe>() {
-  static const Table rows =
-      table<Keyframe>(number<&Keyframe::time_s>("time", moment, "when; frame i starts at i / frame rate").required(),
-                      number<&Keyframe::position>("position", coordinate, "a shift [m]"),
-                      record<&Keyframe::rotation>("rotation", "a turn about the object's own centre"));
+  static const Table rows = table<Keyframe>(number<&Keyframe::time_s>("time", moment, "when; frame i starts at i / frame rate").required(),
+                                            number<&Keyframe::position>("position", coordinate, "a shift [m]"),
+                                            record<&Keyframe::rotation>("rotation", "a turn about the object's own centre"));
   return rows;
 }
 
 template <>
 const Table& table_of<Object>() {
-  static const Table rows = table<Object>(
-      words<&Object::name>("name", "a name", "ball", "how listings call the object").absent(),
-      // the key of the file's entry
-      one_of<&Object::shape>({"plane", "sphere", "box", "triangle", "cylinder", "rectangle", "disk", "capsule", "cone", "mesh"}),
-      number<&Object::material>("", {none, {0, 2.0 * most_objects}, "0"}, ""),  // a name, or a material of its own
-      number<&Object::position>("position", coordinate, "a shift [m]"),
-      record<&Object::rotation>("rotation", "a turn about the object's own centre (of a plane: about its point)"),
-      number<&Object::velocity_m_per_s>("velocity", {speed, {-1e4, 1e4}, "1 m/s", true}, "[m/s]"),
-      number<&Object::angular_velocity_rad_per_s>("angular_velocity", {angular_speed, {-1e4, 1e4}, "90 deg/s"},
-                                                  "the axis of a steady turn about the object's own centre, times how fast it turns"),
-      records<&Object::keyframes>("keyframes", 0, most_keyframes,
-                                  "where it is when, in place of `position`, `rotation` and both velocities; it moves evenly between two"))
-      .check_with(objects_move_one_way);
+  static const Table rows =
+      table<Object>(
+          words<&Object::name>("name", "a name", "ball", "how listings call the object").absent(),
+          // the key of the file's entry
+          one_of<&Object::shape>({"plane", "sphere", "box", "triangle", "cylinder", "rectangle", "disk", "capsule", "cone", "mesh"}),
+          number<&Object::material>("", {none, {0, 2.0 * most_objects}, "0"}, ""),  // a name, or a material of its own
+          number<&Object::position>("position", coordinate, "a shift [m]"),
+          record<&Object::rotation>("rotation", "a turn about the object's own centre (of a plane: about its point)"),
+          number<&Object::velocity_m_per_s>("velocity", {speed, {-1e4, 1e4}, "1 m/s", true}, "[m/s]"),
+          number<&Object::angular_velocity_rad_per_s>("angular_velocity", {angular_speed, {-1e4, 1e4}, "90 deg/s"},
+                                                      "the axis of a steady turn about the object's own centre, times how fast it turns"),
+          records<&Object::keyframes>(
+              "keyframes", 0, most_keyframes,
+              "where it is when, in place of `position`, `rotation` and both velocities; it moves evenly between two"))
+          .check_with(objects_move_one_way);
   return rows;
 }
 
@@ -271,17 +274,19 @@ const Table& table_of<CameraKeyframe>() {
 
 template <>
 const Table& table_of<CameraChoice>() {
-  static const Table rows = table<CameraChoice>(
-      words<&CameraChoice::profile>("profile", "a camera or a file", "pico-flexx",
-                                    "a built-in camera (`tofray list cameras`), or a profile's file beside the scene or below"),
-      words<&CameraChoice::mode>("mode", "a mode of the camera", "MODE_9_5FPS_2000", "one of the profile's modes; its first unless given")
-          .absent(),
-      record<&CameraChoice::pose>("pose", "where the camera stands; the world is the camera's frame unless given"),
-      records<&CameraChoice::keyframes>("keyframes", 0, most_keyframes,
-                                        "where it stands when, in place of `pose`; it moves evenly between two"),
-      no_row<&CameraChoice::overrides>("keys of the profile among the section's own"),
-      no_row<&CameraChoice::profile_where, &CameraChoice::mode_where>("where the file says them"))
-      .check_with(cameras_move_one_way);
+  static const Table rows =
+      table<CameraChoice>(
+          words<&CameraChoice::profile>("profile", "a camera or a file", "pico-flexx",
+                                        "a built-in camera (`tofray list cameras`), or a profile's file beside the scene or below"),
+          words<&CameraChoice::mode>("mode", "a mode of the camera", "MODE_9_5FPS_2000",
+                                     "one of the profile's modes; its first unless given")
+              .absent(),
+          record<&CameraChoice::pose>("pose", "where the camera stands; the world is the camera's frame unless given"),
+          records<&CameraChoice::keyframes>("keyframes", 0, most_keyframes,
+                                            "where it stands when, in place of `pose`; it moves evenly between two"),
+          no_row<&CameraChoice::overrides>("keys of the profile among the section's own"),
+          no_row<&CameraChoice::profile_where, &CameraChoice::mode_where>("where the file says them"))
+          .check_with(cameras_move_one_way);
   return rows;
 }
 

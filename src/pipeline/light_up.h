@@ -69,11 +69,10 @@ struct ShadowRays {
   }
   TOFRAY_FN num::Mask<F> of_sun(const flow::Surface<F>& p) {
     num::Mask<F> dark = F(1.0f) < F(0.0f);
-    if (still)
-      dark = trace::blocked_parallel(s.scene.sun_still(), sun_direction(), p) | near.template behind_still_meshes<F>(near.sun);
+    if (still) dark = trace::blocked_parallel(s.scene.sun_still(), sun_direction(), p) | near.template behind_still_meshes<F>(near.sun);
     if (moving) {
-      dark = dark | trace::blocked_parallel(s.scene.sun_moving(moment), sun_direction(), p) |
-             near.template behind_moving_meshes<F>(near.sun);
+      dark =
+          dark | trace::blocked_parallel(s.scene.sun_moving(moment), sun_direction(), p) | near.template behind_moving_meshes<F>(near.sun);
     }
     return dark;
   }
@@ -97,7 +96,9 @@ TOFRAY_FN void light_up(const Setup& s, const power::Wanted& wanted, Shadows&& s
   if (s.phasors.sums_alone == 0) power::add_up(s.phasors, wanted, light);
   num::Mask<F> shade = F(1.0f) < F(0.0f);
   if (s.power.ambient == camera::AmbientLight::directional) shade = shadows.of_sun(p);
-  light.ambient_rate = s.power.ambient == camera::AmbientLight::none ? F(0.0f) : power::ambient_rate<F>(s.power, shadows.sun_direction(), p, shade, vignetting);
+  light.ambient_rate = s.power.ambient == camera::AmbientLight::none
+                           ? F(0.0f)
+                           : power::ambient_rate<F>(s.power, shadows.sun_direction(), p, shade, vignetting);
 }
 
 /// Whether something that moves keeps a light off any of the pixels.

@@ -11,17 +11,24 @@ namespace tofray::pipeline {
 
 template <class F>
 struct Seen {
-  num::Int<F> triangle;         ///< in the user's list, -1: no mesh
-  F u, v;                       ///< texture coordinates
-  flow::Direction<F> velocity;  ///< in the camera's frame [m/s]
-  F flow_u, flow_v;             ///< of its image, until one frame later [px]
+  num::Int<F> triangle;                       ///< in the user's list, -1: no mesh
+  F u, v;                                     ///< texture coordinates
+  flow::Direction<F> velocity;                ///< in the camera's frame [m/s]
+  F flow_u, flow_v;                           ///< of its image, until one frame later [px]
+  flow::Direction<F> own_velocity, own_step;  ///< of a mesh that changes its shape, in the camera's frame
 };
+
+template <class F>
+TOFRAY_FN flow::Direction<F> chosen(num::Mask<F> which, const flow::Direction<F>& a, const flow::Direction<F>& b) {
+  return {num::select(which, a.x, b.x), num::select(which, a.y, b.y), num::select(which, a.z, b.z)};
+}
 
 /// Of a surface that is no object's, or none.
 template <class F>
 TOFRAY_FN Seen<F> nothing_known() {
   const F none = nan<F>();
-  return {num::Int<F>(-1), none, none, {none, none, none}, none, none};
+  const F zero = F(0.0f);
+  return {num::Int<F>(-1), none, none, {none, none, none}, none, none, {zero, zero, zero}, {zero, zero, zero}};
 }
 
 /// The lanes that see meshes, one mesh after the other.
@@ -39,6 +46,10 @@ TOFRAY_FN void look_at_triangle(const scene::SceneView& s, const flow::Hit<F>& h
     if (one.triangles == nullptr) continue;
     const Int triangle = num::select(its, hit.triangle, Int(0));
     out.triangle = num::select(its, shape::mesh_number<F>(one, triangle), out.triangle);
+    if (shape::has_steps(one)) {
+      const shape::MeshStep<F> step = shape::mesh_step(one, triangle, p.x, p.y, p.z);
+      out.own_velocity = chosen(its, step.velocity, out.own_velocity), out.own_step = chosen(its, step.step, out.own_step);
+    }
     if (!shape::has_texcoords(one)) continue;
     const shape::MeshDetail<F> detail = shape::mesh_detail(one, triangle, p.x, p.y, p.z);
     out.u = num::select(its, detail.u, out.u), out.v = num::select(its, detail.v, out.v);
@@ -55,18 +66,19 @@ TOFRAY_FN void look_at_motion(const Setup& s, const flow::Ray<F>& ray, const flo
   const auto vector = [&](const float* first) __attribute__((always_inline)) {
     return flow::Direction<F>{column(first), column(first + 1), column(first + 2)};
   };
-  const auto along = [&](const flow::Direction<F>& row) __attribute__((always_inline)) {
-    return num::fma(row.x, p.x, num::fma(row.y, p.y, row.z * p.z));
-  };
   const scene::MotionView& first = *s.scene.motions;
   const flow::Direction<F> v = vector(first.velocity), spin = vector(first.spin), step = vector(first.step);
-  const flow::Direction<F> velocity{v.x + num::fma(spin.y, p.z, num::fnma(spin.z, p.y, zero)),
-                                    v.y + num::fma(spin.z, p.x, num::fnma(spin.x, p.z, zero)),
-                                    v.z + num::fma(spin.x, p.y, num::fnma(spin.y, p.x, zero))};
-  out.velocity = {num::select(p.found, velocity.x + zero, out.velocity.x), num::select(p.found, velocity.y + zero, out.velocity.y),
-                  num::select(p.found, velocity.z + zero, out.velocity.z)};
-  const flow::Direction<F> moved{step.x + along(vector(first.turn)), step.y + along(vector(first.turn + 3)),
-                                 step.z + along(vector(first.turn + 6))};
+  const flow::Direction<F>&own = out.own_velocity, &change = out.own_step;
+  const flow::Direction<F> velocity{v.x + num::fma(spin.y, p.z, num::fnma(spin.z, p.y, own.x)) + zero,
+                                    v.y + num::fma(spin.z, p.x, num::fnma(spin.x, p.z, own.y)) + zero,
+                                    v.z + num::fma(spin.x, p.y, num::fnma(spin.y, p.x, own.z)) + zero};
+  out.velocity = chosen(p.found, velocity, out.velocity);
+  const flow::Direction<F> to{p.x + change.x, p.y + change.y, p.z + change.z};
+  const auto along = [&](const flow::Direction<F>& row, F start) __attribute__((always_inline)) {
+    return num::fma(row.x, to.x, num::fma(row.y, to.y, num::fma(row.z, to.z, start)));
+  };
+  const flow::Direction<F> moved{along(vector(first.turn), step.x + change.x), along(vector(first.turn + 3), step.y + change.y),
+                                 along(vector(first.turn + 6), step.z + change.z)};
   F du, dv;
   const auto seen = p.found & camera::image_motion(s.lens.projection, ray, p.z, moved, du, dv);
   out.flow_u = num::select(seen, du + zero, out.flow_u), out.flow_v = num::select(seen, dv + zero, out.flow_v);

@@ -16,8 +16,8 @@ struct Setup {
   camera::PhasorView phasors;
   camera::SensorView sensor;
   camera::DecoderView decoder;
-  Stage last_stage;           ///< nothing is done after it
-  std::int32_t culling;       ///< 0: every pixel tests every form
+  Stage last_stage;      ///< nothing is done after it
+  std::int32_t culling;  ///< 0: every pixel tests every form
   bool operator==(const Setup&) const = default;
 };
 

@@ -134,10 +134,10 @@ template <class F, bool can_move>
 struct Scratch {
   Near<can_move> near;
   SeenByLights seen;
-  flow::Hit<F> still[max_packs<F>];                ///< of what stands still
-  flow::Hit<F> hits[can_move ? max_packs<F> : 1];  ///< of all, at one moment
+  flow::Hit<F> still[max_packs<F>];                  ///< of what stands still
+  flow::Hit<F> hits[can_move ? max_packs<F> : 1];    ///< of all, at one moment
   flow::Light<F> mean[can_move ? max_packs<F> : 1];  ///< over an exposure
-  Pack<F> pack[can_move ? max_packs<F> : 1];       ///< where there is one moment, nothing is kept of a pack once the next one begins
+  Pack<F> pack[can_move ? max_packs<F> : 1];         ///< where there is one moment, nothing is kept of a pack once the next one begins
   Shades<can_move> shades;
   trace::TileRays rays;
   TilePoints points;

@@ -24,10 +24,9 @@ TOFRAY_FN void derive_facets(const Body<T>& body, const T& seen, Facet* facets) 
 /// @param facets  of the group in this moment; null: they are not wanted
 /// @param first   number of the group's first facet in this moment
 template <class T>
-TOFRAY_FN void derive_body(const SceneView& s, const Group& group, int moment, int i, int eye, bool forms, Facet* facets,
-                           int first) {
+TOFRAY_FN void derive_body(const SceneView& s, const Group& group, int moment, int i, int eye, bool forms, Facet* facets, int first) {
   const int count = group.bodies.of<T>().count;
-  const Body<T>& body = group.bodies.of<T>().at[i];
+  const Body<T>& body = group.bodies.of<T>().at(moment, i);
   const T seen = in_frame(body.shape, body.mover < 0 ? s.camera : s.frames[moment * s.movers + body.mover]);
   if (facets != nullptr) derive_facets(body, seen, facets);
   if (!forms) return;
@@ -44,8 +43,8 @@ TOFRAY_FN void derive_body(const SceneView& s, const Group& group, int moment, i
 
 /// Body number `i` of all shapes.
 template <class... T>
-TOFRAY_FN void derive_any(shape::List<T...>, const SceneView& s, const Group& group, int moment, int i, int eye, bool forms,
-                          Facet* facets, int first) {
+TOFRAY_FN void derive_any(shape::List<T...>, const SceneView& s, const Group& group, int moment, int i, int eye, bool forms, Facet* facets,
+                          int first) {
   ((i >= 0 && i < group.bodies.of<T>().count ? derive_body<T>(s, group, moment, i, eye, forms, facets, first) : void(),
     i -= group.bodies.of<T>().count),
    ...);

@@ -2,7 +2,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scene/frozen_scene.h"
 
+#include <cmath>
+#include <string>
+
+#include "base/range.h"
+#include "base/text.h"
 #include "scene/derive.h"
+#include "tofray/error.h"
 
 namespace tofray::scene {
 
@@ -27,7 +33,7 @@ void number(shape::List<T...>, BodyLists& from, Group& to) {
   const auto one = [&]<class One>(shape::List<One>) {
     auto& bodies = from.of<One>().bodies;
     for (Body<One>& body : bodies) body.facet = to.facet_count, to.facet_count += One::facets;
-    to.bodies.of<One>() = {bodies.data(), static_cast<std::int32_t>(bodies.size())};
+    to.bodies.of<One>() = {bodies.data(), static_cast<std::int32_t>(bodies.size()), 0};
     to.body_count += to.bodies.of<One>().count;
   };
   (one(shape::List<T>{}), ...);
@@ -41,13 +47,35 @@ shape::Frame frame_of(const CameraFrame& camera, const Motion& motion, bool turn
   return {product(axes, motion.turn), back(motion.turn, from)};
 }
 
+/// The mesh with the vertices and normals that it has at a time.
+TriangleMesh shape_at(const TriangleMesh& mesh, const MeshMotion& motion, double time_s) {
+  TriangleMesh out;
+  out.triangles = mesh.triangles;
+  motion.at(time_s, out.vertices, out.normals);
+  const auto refuse = [&](const std::string& what) {
+    throw Error(ErrorKind::bad_input,
+                "error: at " + number_text(time_s) + " s " + what + "\n  its MeshMotion has to give what the mesh has");
+  };
+  if (out.vertices.size() != mesh.vertices.size() || out.normals.size() != mesh.normals.size())
+    refuse("a mesh has " + std::to_string(out.vertices.size()) + " vertices and " + std::to_string(out.normals.size()) +
+           " normals in place of " + std::to_string(mesh.vertices.size()) + " and " + std::to_string(mesh.normals.size()));
+  for (const auto& triangle : out.triangles)
+    for (const std::int32_t corner : triangle)
+      for (const float x : out.vertices[static_cast<std::size_t>(corner)])
+        if (!(std::abs(x) <= farthest_m)) refuse("a mesh has a corner beyond the world");
+  for (const auto& normal : out.normals)
+    for (const float x : normal)
+      if (!(std::abs(x) <= 2.0F)) refuse("a mesh has a normal that is none");
+  return out;
+}
+
 bool turns(const Object& object) { return !object.keyframes.empty() || length(object.angular_velocity_rad_per_s) > 0; }
 
 }  // namespace
 
 FrozenScene::FrozenScene(const Scene& scene, const std::vector<Vec3>& lights, int moments) : scene_(scene) {
   for (const Vec3& light : lights) lights_.push_back(vec(light));
-  add_bodies();
+  add_bodies(moments);
   add_materials(scene.materials);
   view_.moments = moves_ ? moments : 0;
   view_.lights = static_cast<std::int32_t>(lights_.size());
@@ -85,7 +113,7 @@ T FrozenScene::placed(const Said& said, const shape::Placement& at) {
   }
 }
 
-void FrozenScene::add_bodies() {
+void FrozenScene::add_bodies(int moments) {
   const bool camera_moves = !scene_.camera.keyframes.empty();
   moves_ = camera_moves;
   for (std::size_t i = 0; i < scene_.objects.size(); ++i) {
@@ -98,6 +126,7 @@ void FrozenScene::add_bodies() {
       const auto mover = static_cast<std::int32_t>(moving ? movers_.size() - 1 : 0) - (moving ? 0 : 1);
       return Body<T>{placed<T>(said, at), mover, 0, static_cast<std::int32_t>(i), object.material};
     });
+    add_changing(i);
   }
   motions_.resize(1 + movers_.size());
   motion_of_.resize(std::max<std::size_t>(scene_.objects.size(), 1));
@@ -107,6 +136,23 @@ void FrozenScene::add_bodies() {
   view_.movers = static_cast<std::int32_t>(movers_.size());
   number(shape::Shapes{}, still_, view_.still);
   number(shape::Shapes{}, moving_, view_.moving);
+  if (changing_.empty()) return;
+  auto& meshes = moving_.of<shape::Mesh>().bodies;
+  const std::size_t count = meshes.size();
+  for (std::size_t i = count; i < count * static_cast<std::size_t>(moments); ++i) meshes.push_back(Body<shape::Mesh>(meshes[i - count]));
+  view_.moving.bodies.of<shape::Mesh>() = {meshes.data(), static_cast<std::int32_t>(count), static_cast<std::int32_t>(count)};
+  for (Changing& one : changing_) one.at.resize(static_cast<std::size_t>(moments));
+}
+
+void FrozenScene::add_changing(std::size_t object) {
+  const auto* mesh = std::get_if<Mesh>(&scene_.objects[object].shape);
+  if (mesh == nullptr || mesh->motion == nullptr) return;
+  std::size_t which = 0;
+  while (which < changing_.size() && (changing_[which].motion != mesh->motion.get() || changing_[which].mesh != mesh->triangles.get()))
+    ++which;
+  if (which == changing_.size())
+    changing_.push_back({mesh->triangles.get(), mesh->motion.get(), &hierarchies_.at(mesh->triangles), {}, {}});
+  changing_bodies_.push_back({moving_.of<shape::Mesh>().bodies.size() - 1, object, which});
 }
 
 void FrozenScene::lay_out() {
@@ -135,8 +181,8 @@ void FrozenScene::look(const std::optional<Pose>& pose, const Times& times) {
   cameras_ = std::move(cameras), times_ = times, posed_ = pose.has_value();
   const auto& [rotation, position] = cameras_.front();
   view_.camera = {{{vec(rotation[0]), vec(rotation[1]), vec(rotation[2])}}, vec(position)};
-  if (moved) look_for_sun(camera(times.truth_s));
-  if (!moving_known_) place_movers();
+  if (moved) look_for_sun(camera(times.truth_s()));
+  if (!moving_known_) place_movers(), change_shapes();
   if (!moving_known_ && !movers_.empty()) look_at_motion(pose);
 }
 
@@ -163,9 +209,31 @@ void FrozenScene::place_movers() {
   view_.frames = frames_.data();
 }
 
+void FrozenScene::change_shapes() {
+  // Where a truth is wanted, at the times that its steps need, too.
+  constexpr double apart_s = 1e-3;
+  for (std::size_t k = 0; k < times_.moments.size(); ++k) {
+    for (Changing& one : changing_) {
+      TriangleMesh now = shape_at(*one.mesh, *one.motion, times_.moments[k]);
+      refit(*one.built, now, one.at[k]);
+      if (k != times_.truth) continue;
+      const auto at = [&](double time) { return shape_at(*one.mesh, *one.motion, time).vertices; };
+      one.steps = steps_of(*one.built, now, at(times_.truth_s() - apart_s), at(times_.truth_s() + apart_s), apart_s, now.vertices,
+                           at(times_.truth_s() + times_.period_s));
+    }
+    auto& meshes = moving_.of<shape::Mesh>().bodies;
+    for (const ChangingBody& one : changing_bodies_) {
+      const Changing& changing = changing_[one.which];
+      shape::Mesh& mesh = meshes[k * static_cast<std::size_t>(view_.moving.bodies.of<shape::Mesh>().count) + one.body].shape;
+      mesh = shape::Mesh::placed(changing.at[k], placement_of(scene_.objects[one.object]));
+      mesh.steps = k == times_.truth ? changing.steps.data() : nullptr;
+    }
+  }
+}
+
 /// P is seen at axes·(X − position); both X and the camera move.                                              [theory: eq. 6.11]
 void FrozenScene::look_at_motion(const std::optional<Pose>& pose) {
-  const double now = times_.truth_s, later = now + times_.period_s;
+  const double now = times_.truth_s(), later = now + times_.period_s;
   const MovingCamera camera = pose ? MovingCamera{camera_frame(*pose)} : camera_at(scene_.camera, now);
   const CameraFrame after = pose ? camera.frame : camera_frame(pose_at(scene_.camera, later));
   for (std::size_t m = 0; m < movers_.size(); ++m) {

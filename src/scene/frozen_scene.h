@@ -23,8 +23,9 @@ using BodyLists = shape::ByShape<BodyList>;
 /// When a frame looks at the scene.
 struct Times {
   std::vector<double> moments;  ///< [s]
-  double truth_s = 0;           ///< that of the ground truth
+  std::size_t truth = 0;        ///< that of the ground truth
   double period_s = 0;          ///< from a frame to the next
+  [[nodiscard]] double truth_s() const { return moments[truth]; }
   bool operator==(const Times&) const = default;
 };
 
@@ -54,7 +55,19 @@ class FrozenScene {
     std::size_t object;
     Vec center;  ///< what it turns about, before it moves
   };
-  void add_bodies();
+  /// A mesh that changes its shape.
+  struct Changing {
+    const TriangleMesh* mesh;
+    const MeshMotion* motion;
+    const Hierarchy* built;
+    std::vector<Hierarchy> at;            ///< [moment]
+    std::vector<shape::MeshSteps> steps;  ///< at the time of the truth
+  };
+  struct ChangingBody {
+    std::size_t body, object, which;  ///< among the moving meshes, the scene's objects, and `changing_`
+  };
+  void add_bodies(int moments);
+  void add_changing(std::size_t object);
   void add_materials(const std::vector<Material>& materials);
   /// The shape in the world.
   template <class T, class Said>
@@ -63,6 +76,7 @@ class FrozenScene {
   void look_for_sun(const CameraFrame& at_truth);
   void place_movers();
   void look_at_motion(const std::optional<Pose>& pose);
+  void change_shapes();
 
   const Scene& scene_;
   std::vector<CameraFrame> cameras_;  ///< [moment]
@@ -77,6 +91,8 @@ class FrozenScene {
   std::vector<std::unique_ptr<const MapLevels>> map_levels_;
   std::vector<brdf::MapView> maps_;
   std::vector<shape::Vec> lights_;
+  std::vector<Changing> changing_;
+  std::vector<ChangingBody> changing_bodies_;
   std::vector<MotionView> motions_;
   std::vector<std::int32_t> motion_of_;
   std::vector<shape::Frame> frames_;

@@ -30,6 +30,34 @@ struct Bounds3 {
   }
 };
 
+void put_box(const Bounds3& bounds, Hierarchy& out) {
+  for (int k = 0; k < 3; ++k) {
+    const double low = static_cast<double>(bounds.low[static_cast<std::size_t>(k)]),
+                 high = static_cast<double>(bounds.high[static_cast<std::size_t>(k)]);
+    out.center[k] = 0.5 * (low + high), out.half[k] = 0.5 * (high - low);
+  }
+}
+
+/// Calls take(corner, its vertex's number, place) for the corners of a block's triangles.
+template <class Take>
+void each_corner(const TriangleMesh& mesh, const shape::MeshTriangles& block, const Take& take) {
+  for (std::size_t i = 0; i < shape::block_width; ++i) {
+    const auto& corners = mesh.triangles[static_cast<std::size_t>(block.number[i])];
+    for (std::size_t c = 0; c < 3; ++c) take(c, static_cast<std::size_t>(corners[c]), i);
+  }
+}
+
+void put_corners(const TriangleMesh& mesh, shape::MeshTriangles& block) {
+  each_corner(mesh, block, [&](std::size_t c, std::size_t vertex, std::size_t i) {
+    for (std::size_t k = 0; k < 3; ++k) block.corner[c][k][i] = mesh.vertices[vertex][k];
+  });
+}
+void put_normals(const TriangleMesh& mesh, const shape::MeshTriangles& block, shape::MeshDetails& details) {
+  each_corner(mesh, block, [&](std::size_t c, std::size_t vertex, std::size_t i) {
+    for (std::size_t k = 0; k < 3; ++k) details.normal[c][k][i] = mesh.normals.empty() ? 0 : mesh.normals[vertex][k];
+  });
+}
+
 struct Item {
   Bounds3 bounds;
   std::array<float, 3> middle;
@@ -85,7 +113,7 @@ class Builder {
       }
       out_.nodes[static_cast<std::size_t>(job.node)] = node;
     }
-    box(all);
+    if (all.count() > 0) put_box(all.bounds, out_);
   }
 
  private:
@@ -185,36 +213,18 @@ class Builder {
   std::int32_t leaf(const Range& part) {
     const auto block = static_cast<std::int32_t>(out_.triangles.size());
     shape::MeshTriangles& triangles = out_.triangles.emplace_back();
-    for (std::size_t i = 0; i < shape::block_width; ++i) {
-      const std::int32_t number = items_[std::min(part.first + i, part.last - 1)].number;
-      triangles.number[i] = number;
-      const auto& corners = mesh_.triangles[static_cast<std::size_t>(number)];
-      for (std::size_t c = 0; c < 3; ++c)
-        for (std::size_t k = 0; k < 3; ++k) triangles.corner[c][k][i] = mesh_.vertices[static_cast<std::size_t>(corners[c])][k];
-    }
+    for (std::size_t i = 0; i < shape::block_width; ++i) triangles.number[i] = items_[std::min(part.first + i, part.last - 1)].number;
+    put_corners(mesh_, triangles);
     if (!mesh_.normals.empty() || !mesh_.texcoords.empty()) add_details(triangles);
     return shape::leaf_of(block, static_cast<std::int32_t>(part.count()));
   }
 
   void add_details(const shape::MeshTriangles& triangles) {
     shape::MeshDetails& details = out_.details.emplace_back();
-    for (std::size_t i = 0; i < shape::block_width; ++i) {
-      const auto& corners = mesh_.triangles[static_cast<std::size_t>(triangles.number[i])];
-      for (std::size_t c = 0; c < 3; ++c) {
-        const auto vertex = static_cast<std::size_t>(corners[c]);
-        for (std::size_t k = 0; k < 3; ++k) details.normal[c][k][i] = mesh_.normals.empty() ? 0 : mesh_.normals[vertex][k];
-        for (std::size_t k = 0; k < 2; ++k) details.texcoord[c][k][i] = mesh_.texcoords.empty() ? 0 : mesh_.texcoords[vertex][k];
-      }
-    }
-  }
-
-  void box(const Range& all) {
-    if (all.count() == 0) return;
-    for (int k = 0; k < 3; ++k) {
-      const double low = static_cast<double>(all.bounds.low[static_cast<std::size_t>(k)]),
-                   high = static_cast<double>(all.bounds.high[static_cast<std::size_t>(k)]);
-      out_.center[k] = 0.5 * (low + high), out_.half[k] = 0.5 * (high - low);
-    }
+    put_normals(mesh_, triangles, details);
+    each_corner(mesh_, triangles, [&](std::size_t c, std::size_t vertex, std::size_t i) {
+      for (std::size_t k = 0; k < 2; ++k) details.texcoord[c][k][i] = mesh_.texcoords.empty() ? 0 : mesh_.texcoords[vertex][k];
+    });
   }
 
   std::vector<Item>::iterator begin(std::size_t at) { return items_.begin() + static_cast<std::ptrdiff_t>(at); }
@@ -230,6 +240,47 @@ Hierarchy build_hierarchy(const TriangleMesh& mesh) {
   Hierarchy out;
   Builder(mesh, out).build();
   out.has_texcoords = !mesh.texcoords.empty();
+  return out;
+}
+
+void refit(const Hierarchy& from, const TriangleMesh& mesh, Hierarchy& out) {
+  out = from;
+  for (std::size_t i = 0; i < out.triangles.size(); ++i) {
+    put_corners(mesh, out.triangles[i]);
+    if (!out.details.empty()) put_normals(mesh, out.triangles[i], out.details[i]);
+  }
+  // A node's children come behind it.
+  std::vector<Bounds3> boxes(out.nodes.size());
+  for (std::size_t n = out.nodes.size(); n-- > 0;) {
+    MeshNode& node = out.nodes[n];
+    for (std::size_t i = 0; i < static_cast<std::size_t>(node.children); ++i) {
+      Bounds3 box;
+      if (node.child[i] >= 0) {
+        box = boxes[static_cast<std::size_t>(node.child[i])];
+      } else {
+        each_corner(mesh, out.triangles[static_cast<std::size_t>(shape::block_of(node.child[i]))],
+                    [&](std::size_t, std::size_t vertex, std::size_t) { box.add(mesh.vertices[vertex]); });
+      }
+      for (std::size_t k = 0; k < 3; ++k) node.low[k][i] = box.low[k], node.high[k][i] = box.high[k];
+      boxes[n].add(box);
+    }
+  }
+  if (!out.triangles.empty()) put_box(boxes[0], out);
+}
+
+std::vector<shape::MeshSteps> steps_of(const Hierarchy& of, const TriangleMesh& mesh, const Vertices& before, const Vertices& after,
+                                       double apart_s, const Vertices& now, const Vertices& later) {
+  std::vector<shape::MeshSteps> out(of.triangles.size());
+  for (std::size_t b = 0; b < out.size(); ++b)
+    each_corner(mesh, of.triangles[b], [&](std::size_t c, std::size_t vertex, std::size_t i) {
+      for (std::size_t k = 0; k < 3; ++k) {
+        const auto change = [&](const Vertices& from, const Vertices& to) {
+          return static_cast<double>(to[vertex][k]) - static_cast<double>(from[vertex][k]);
+        };
+        out[b].velocity[c][k][i] = static_cast<float>(change(before, after) / (2 * apart_s));
+        out[b].step[c][k][i] = static_cast<float>(change(now, later));
+      }
+    });
   return out;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The tofray authors
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include <array>
 #include <vector>
 
 #include "shape/mesh.h"
@@ -23,5 +24,16 @@ struct Hierarchy {
 ///
 /// Time grows as n·log n, the depth is below shape::most_mesh_levels whatever the triangles.
 Hierarchy build_hierarchy(const TriangleMesh& mesh);
+
+/// The same boxes round the same triangles, whose vertices are elsewhere now.
+/// @param from  was built of the same triangles
+/// @param mesh  the vertices, and normals where it has any; the rest does not count
+void refit(const Hierarchy& from, const TriangleMesh& mesh, Hierarchy& out);
+
+/// How the corners of its triangles move: by `before`, `after` and `later`, the vertices `apart_s` seconds before and after the time, and
+/// one frame later than `now`.
+using Vertices = std::vector<std::array<float, 3>>;
+std::vector<shape::MeshSteps> steps_of(const Hierarchy& of, const TriangleMesh& mesh, const Vertices& before, const Vertices& after,
+                                       double apart_s, const Vertices& now, const Vertices& later);
 
 }  // namespace tofray::scene

@@ -86,7 +86,8 @@ Mat rotation_matrix(const Rotation& r) {
 
 bool moves(const Object& object) {
   const Vec3 &v = object.velocity_m_per_s, &w = object.angular_velocity_rad_per_s;
-  return dot(v, v) > 0 || dot(w, w) > 0 || !object.keyframes.empty();
+  const auto* mesh = std::get_if<Mesh>(&object.shape);
+  return dot(v, v) > 0 || dot(w, w) > 0 || !object.keyframes.empty() || (mesh != nullptr && mesh->motion != nullptr);
 }
 
 Motion motion_at(const Object& object, const Vec& center, double time_s) {

@@ -27,7 +27,7 @@ inline shape::Placement placement_of(const Object& object) { return {rotation_ma
 
 shape::Mat product(const shape::Mat& a, const shape::Mat& b);
 
-/// Whether it is not always where `placement_of` puts it.
+/// Whether it is not always as `placement_of` puts it.
 bool moves(const Object& object);
 /// By both velocities, or between two keyframes [theory: eq. 6.9].
 /// @param center  what the object turns about, where the scene puts it before it moves

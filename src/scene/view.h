@@ -20,10 +20,12 @@ struct Body {
   std::int32_t object, material;
 };
 
+/// Bodies of a shape; where some change theirs, as they are at each moment.
 template <class T>
 struct BodiesOf {
-  const Body<T>* at;
-  std::int32_t count;
+  const Body<T>* first;
+  std::int32_t count, per_moment;  ///< per_moment: `count`, or 0 where they are the same at all of them
+  TOFRAY_FN const Body<T>& at(int moment, int i) const { return first[moment * per_moment + i]; }
   bool operator==(const BodiesOf&) const = default;
 };
 template <class T>

@@ -90,6 +90,7 @@ TOFRAY_FN F meet(const Crossing<F>& side, const Crossing<F>& ends, bool inside, 
 
 struct MeshTriangles;
 struct MeshDetails;
+struct MeshSteps;
 
 /// Where light lands: which way the surface faces there, what it belongs to, what it is made of. (All of a camera frame.)
 struct Facet {
@@ -97,7 +98,10 @@ struct Facet {
   std::int32_t curved;  ///< 0: flat; else 1 + the shape's place in the list
   std::int32_t object, material;
   const MeshTriangles* triangles;  ///< of a mesh, one of which the hit names
-  const MeshDetails* details;      ///< of a mesh, or null: what its corners say besides their place
+  union {
+    const MeshDetails* details;  ///< of a mesh's first, or null: what its corners say besides their place
+    const MeshSteps* steps;      ///< of its second, or null: how they move
+  };
 };
 constexpr int facet_words = sizeof(Facet) / sizeof(float);
 

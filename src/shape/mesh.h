@@ -73,6 +73,13 @@ struct MeshHit {
   Int<F> number, triangle;  ///< in the user's list, and block_width·block + place in the hierarchy's; −1: none
 };
 
+/// How the corners of a block's triangles move at the time of the truth, in the mesh's frame, where the mesh changes its shape.
+struct MeshSteps {
+  float velocity[3][3][block_width];  ///< [corner][coordinate] [m/s]
+  float step[3][3][block_width];      ///< until one frame later [m]
+};
+constexpr int mesh_steps_words = sizeof(MeshSteps) / sizeof(float);
+
 struct Mesh {
   using Form = MeshForm;
   using Along = MeshAlong;
@@ -85,6 +92,7 @@ struct Mesh {
   const MeshNode* nodes;
   const MeshTriangles* triangles;
   const MeshDetails* details;  ///< null: no corner has any
+  const MeshSteps* steps;      ///< null: it keeps its shape, or nobody asks
   std::int32_t node_count, block_count;
   std::int32_t has_texcoords;
 
@@ -105,6 +113,7 @@ struct Mesh {
             built.nodes.data(),
             built.triangles.data(),
             built.details.empty() ? nullptr : built.details.data(),
+            nullptr,
             static_cast<std::int32_t>(built.nodes.size()),
             static_cast<std::int32_t>(built.triangles.size()),
             built.has_texcoords ? 1 : 0};
@@ -122,11 +131,12 @@ TOFRAY_FN Mesh in_frame(const Mesh& mesh, const Frame& frame) {
   return out;
 }
 
-/// The second: where the camera's zero is in the mesh's frame, and whether corners have texture coordinates.
+/// The second: where the camera's zero is in the mesh's frame, whether corners have texture coordinates, and how they move.
 TOFRAY_FN void facet_of(const Mesh& mesh, int side, Facet& out) {
   if (side == 1) {
     copy(mesh.axes * (-1.0 * mesh.origin), out.number);
     out.number[3] = mesh.has_texcoords != 0 ? 1.0f : 0.0f;
+    out.steps = mesh.steps;
     return;
   }
   for (int k = 0; k < 3; ++k) copy(mesh.axes.row[k], out.number + 3 * k);

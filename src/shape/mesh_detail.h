@@ -5,7 +5,14 @@
 
 namespace tofray::shape {
 
-/// Where on its triangle a point is, and what the triangle's corners say of it.
+/// Where on its triangle a point is.
+template <class F>
+struct MeshPlace {
+  F first, second, third;  ///< the corners' weights
+  F per_square;            ///< 1/n² (theory: eq. 2.20)
+};
+
+/// What the triangle's corners say of a point.
 template <class F>
 struct MeshDetail {
   Direction<F> normal;  ///< the mean of the corners', in the camera's frame, of unit length; zero where they have none
@@ -18,12 +25,10 @@ struct MeshDetail {
 /// @param facet  the mesh's first
 /// @param x,y,z  the point, in the camera's frame
 template <class F>
-TOFRAY_FN MeshDetail<F> mesh_detail(const Facet& facet, Int<F> triangle, F x, F y, F z) {
+TOFRAY_FN MeshPlace<F> mesh_place(const Facet& facet, Int<F> triangle, F x, F y, F z) {
   const Int<F> place = triangle & Int<F>(block_width - 1), block = triangle - place;
   const Int<F> at = block * Int<F>(mesh_triangles_words / block_width) + place;
-  const Int<F> detail = block * Int<F>(mesh_details_words / block_width) + place;
   const float *turn = facet.number, *origin = (&facet + 1)->number, *corners = facet.triangles->corner[0][0];
-  const float *normals = facet.details->normal[0][0], *texcoords = facet.details->texcoord[0][0];
   F one[3], two[3], p[3], n[3];
   for (int k = 0; k < 3; ++k) {
     const F first = num::gather(corners + k * block_width, at);
@@ -44,26 +49,52 @@ TOFRAY_FN MeshDetail<F> mesh_detail(const Facet& facet, Int<F> triangle, F x, F 
   const auto held = [](F a) __attribute__((always_inline)) { return num::min(num::max(a, F(0.0f)), F(1.0f)); };
   const F second = held(num::fma(q[0], n[0], num::fma(q[1], n[1], q[2] * n[2])) * per_square);
   const F third = num::min(held(num::fma(r[0], n[0], num::fma(r[1], n[1], r[2] * n[2])) * per_square), F(1.0f) - second);
-  const F first = F(1.0f) - second - third;
-  const auto mean = [&](const float* table, int width, int k) __attribute__((always_inline)) {
-    const F a = num::gather(table + k * block_width, detail), b = num::gather(table + (width + k) * block_width, detail);
-    const F c = num::gather(table + (2 * width + k) * block_width, detail);
-    return num::fma(first, a, num::fma(second, b, third * c));
+  return {F(1.0f) - second - third, second, third, per_square};
+}
+
+/// Where in tables of [block][corner][width coordinates][block_width] the triangles' first numbers are.
+template <class F>
+TOFRAY_FN Int<F> mesh_column(Int<F> triangle, int words_of_block) {
+  const Int<F> place = triangle & Int<F>(block_width - 1);
+  return (triangle - place) * Int<F>(words_of_block / block_width) + place;
+}
+/// The mean of a number that each corner has.
+/// @param table   its first block's
+/// @param width   so many numbers each corner has there
+template <class F>
+TOFRAY_FN F mesh_mean(const MeshPlace<F>& at, Int<F> column, const float* table, int width) {
+  const F a = num::gather(table, column), b = num::gather(table + width * block_width, column);
+  return num::fma(at.first, a, num::fma(at.second, b, at.third * num::gather(table + 2 * width * block_width, column)));
+}
+/// From the mesh's frame into the camera's.
+/// @param facet  the mesh's first
+template <class F>
+TOFRAY_FN Direction<F> mesh_turned(const Facet& facet, F x, F y, F z) {
+  const float* turn = facet.number;
+  const auto row = [&](int c) __attribute__((always_inline)) {
+    return num::fma(x, F(turn[c]), num::fma(y, F(turn[3 + c]), z * F(turn[6 + c])));
   };
+  return {row(0), row(1), row(2)};
+}
+
+template <class F>
+TOFRAY_FN MeshDetail<F> mesh_detail(const Facet& facet, Int<F> triangle, F x, F y, F z) {
+  const MeshPlace<F> at = mesh_place(facet, triangle, x, y, z);
+  const Int<F> detail = mesh_column<F>(triangle, mesh_details_words);
+  const float *normals = facet.details->normal[0][0], *texcoords = facet.details->texcoord[0][0];
   MeshDetail<F> out;
-  const F s[3] = {mean(normals, 3, 0), mean(normals, 3, 1), mean(normals, 3, 2)};
+  const auto mean = [&](const float* table, int width) __attribute__((always_inline)) { return mesh_mean(at, detail, table, width); };
+  const F s[3] = {mean(normals, 3), mean(normals + block_width, 3), mean(normals + 2 * block_width, 3)};
   const F size = num::sqrt(flow::square_of(s[0], s[1], s[2])), unit = num::select(size > F(1e-3f), F(1.0f) / size, F(0.0f));
-  const auto turned = [&](int c) __attribute__((always_inline)) {
-    return num::fma(s[0], F(turn[c]), num::fma(s[1], F(turn[3 + c]), s[2] * F(turn[6 + c]))) * unit;
-  };
-  out.normal = {turned(0), turned(1), turned(2)};
-  out.u = mean(texcoords, 2, 0), out.v = mean(texcoords, 2, 1);
+  const Direction<F> normal = mesh_turned(facet, s[0], s[1], s[2]);
+  out.normal = {normal.x * unit, normal.y * unit, normal.z * unit};
+  out.u = mean(texcoords, 2), out.v = mean(texcoords + block_width, 2);
   F du[2], dv[2];
   for (int c = 0; c < 2; ++c) {
     du[c] = num::gather(texcoords + (2 + 2 * c) * block_width, detail) - num::gather(texcoords, detail);
     dv[c] = num::gather(texcoords + (3 + 2 * c) * block_width, detail) - num::gather(texcoords + block_width, detail);
   }
-  out.uv_per_area = num::abs(difference_of_products(du[0], dv[1], du[1], dv[0])) * num::sqrt(per_square);
+  out.uv_per_area = num::abs(difference_of_products(du[0], dv[1], du[1], dv[0])) * num::sqrt(at.per_square);
   return out;
 }
 
@@ -72,6 +103,23 @@ template <class F>
 TOFRAY_FN Int<F> mesh_number(const Facet& facet, Int<F> triangle) {
   const Int<F> place = triangle & Int<F>(block_width - 1);
   return num::gather(facet.triangles->number, (triangle - place) * Int<F>(mesh_triangles_words / block_width) + place);
+}
+/// How the points of a mesh that changes its shape move at the time of the truth, in the camera's frame but for what moves all of it.
+template <class F>
+struct MeshStep {
+  Direction<F> velocity, step;
+};
+TOFRAY_FN bool has_steps(const Facet& facet) { return (&facet + 1)->steps != nullptr; }
+template <class F>
+TOFRAY_FN MeshStep<F> mesh_step(const Facet& facet, Int<F> triangle, F x, F y, F z) {
+  const MeshPlace<F> at = mesh_place(facet, triangle, x, y, z);
+  const Int<F> column = mesh_column<F>(triangle, mesh_steps_words);
+  const auto mean = [&](const float* table) __attribute__((always_inline)) {
+    return mesh_turned(facet, mesh_mean(at, column, table, 3), mesh_mean(at, column, table + block_width, 3),
+                       mesh_mean(at, column, table + 2 * block_width, 3));
+  };
+  const MeshSteps& steps = *(&facet + 1)->steps;
+  return {mean(steps.velocity[0][0]), mean(steps.step[0][0])};
 }
 /// Whether mesh_detail() knows texture coordinates.
 TOFRAY_FN bool has_texcoords(const Facet& facet) { return facet.details != nullptr && (&facet + 1)->number[3] != 0.0f; }

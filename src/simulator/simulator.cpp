@@ -92,7 +92,7 @@ scene::Times Simulator::Impl::times_from(double start) const {
   }
   // That of the middle of the middle raw frame, as pipeline::moment_of has it.
   const auto middle = camera.mode.sequence.size() / 2 * static_cast<std::size_t>(samples) + static_cast<std::size_t>(samples / 2);
-  out.truth_s = out.moments[middle], out.period_s = 1 / camera.mode.frame_rate_hz;
+  out.truth = middle, out.period_s = 1 / camera.mode.frame_rate_hz;
   return out;
 }
 
@@ -120,7 +120,7 @@ void Simulator::Impl::frame(std::uint64_t index, const pipeline::Input* input, F
   const double start = start_of(index);
   into.raw.start_time_s.clear();
   for (const double after : frozen_camera.raw_frame_start_s()) into.raw.start_time_s.push_back(start + after);
-  into.truth.time_s = times_from(start).truth_s;
+  into.truth.time_s = times_from(start).truth_s();
   const FrameRequest request{index, {}, {}};
   set_frame(request);
   if (input != nullptr) setup.scene.moments = 0;  // nothing of what moves need go to a GPU

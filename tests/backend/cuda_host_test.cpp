@@ -8,6 +8,7 @@
 #include "support/own_arrays.h"
 #include "support/random_scene.h"
 #include "support/stand_in_cuda.h"
+#include "support/wobble.h"
 #include "tofray/tofray.h"
 
 using namespace tofray;
@@ -95,6 +96,23 @@ TEST(cuda_host, batches_of_scenes_in_motion_take_seeds_and_poses) {
       });
       EXPECT_EQ(next, requests.size());
     }
+  }
+}
+
+TEST(cuda_host, has_the_same_bytes_of_meshes_that_change_their_shape) {
+  const WithStandIn here;
+  const Camera camera = small(load_camera("pico-flexx"));
+  for (int i = 0; i < 3; ++i) {
+    Random random(static_cast<std::uint64_t>(i) + 90);
+    Scene scene = random_scene(random, 5, i == 1);
+    scene.name = "wobbling " + std::to_string(i);
+    for (int k = 0; k < 2; ++k) {
+      TriangleMesh triangles = single(stone(random, 2, 0.4, {0, 0, 1.2}));
+      if (k == 0) add_details(random, triangles);
+      scene.objects.push_back(object(wobbling(shared(std::move(triangles)), 0.1, 6)));
+      scene.objects.back().angular_velocity_rad_per_s = random.point(3 * k);
+    }
+    expect_same(scene, camera, {.exposure_samples = 1 + i});
   }
 }
 

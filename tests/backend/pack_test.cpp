@@ -49,32 +49,32 @@ TEST(packed_scene, points_into_its_own_memory) {
   const scene::BodiesOf<shape::Mesh>&still = packed.still.bodies.of<shape::Mesh>(), &moving = packed.moving.bodies.of<shape::Mesh>();
   ASSERT_EQ(still.count, 3);
   for (const auto* bodies : {&still, &moving}) {
-    ASSERT_TRUE(device.holds(bodies->at));
+    ASSERT_TRUE(device.holds(bodies->first));
     for (int i = 0; i < bodies->count; ++i) {
-      EXPECT_TRUE(device.holds(bodies->at[i].shape.nodes));
-      EXPECT_TRUE(device.holds(bodies->at[i].shape.triangles));
+      EXPECT_TRUE(device.holds(bodies->first[i].shape.nodes));
+      EXPECT_TRUE(device.holds(bodies->first[i].shape.triangles));
       if (bodies == &moving || i < 2) {
-        EXPECT_TRUE(device.holds(bodies->at[i].shape.details));
+        EXPECT_TRUE(device.holds(bodies->first[i].shape.details));
       } else {
-        EXPECT_EQ(bodies->at[i].shape.details, nullptr);
+        EXPECT_EQ(bodies->first[i].shape.details, nullptr);
       }
     }
   }
-  EXPECT_EQ(still.at[0].shape.nodes, still.at[1].shape.nodes);
-  EXPECT_NE(still.at[0].shape.nodes, still.at[2].shape.nodes);
-  EXPECT_EQ(still.at[0].shape.nodes, moving.at[0].shape.nodes);
+  EXPECT_EQ(still.first[0].shape.nodes, still.first[1].shape.nodes);
+  EXPECT_NE(still.first[0].shape.nodes, still.first[2].shape.nodes);
+  EXPECT_EQ(still.first[0].shape.nodes, moving.first[0].shape.nodes);
   for (int eye = 0; eye < 3; ++eye) {
     const auto forms = packed.still.seen_from(0, eye, 3).of<shape::Mesh>();
     for (int i = 0; i < forms.count; ++i) {
-      EXPECT_EQ(forms.at[i].nodes, still.at[i].shape.nodes);
-      EXPECT_EQ(forms.at[i].triangles, still.at[i].shape.triangles);
+      EXPECT_EQ(forms.at[i].nodes, still.first[i].shape.nodes);
+      EXPECT_EQ(forms.at[i].triangles, still.first[i].shape.triangles);
     }
   }
   const auto along = packed.still.seen_along(0).of<shape::Mesh>();
-  for (int i = 0; i < along.count; ++i) EXPECT_EQ(along.at[i].nodes, still.at[i].shape.nodes);
+  for (int i = 0; i < along.count; ++i) EXPECT_EQ(along.at[i].nodes, still.first[i].shape.nodes);
   for (int i = 0; i < still.count; ++i) {
-    EXPECT_EQ(packed.facets[still.at[i].facet].triangles, still.at[i].shape.triangles);
-    EXPECT_EQ(packed.facets[still.at[i].facet].details, still.at[i].shape.details);
+    EXPECT_EQ(packed.facets[still.first[i].facet].triangles, still.first[i].shape.triangles);
+    EXPECT_EQ(packed.facets[still.first[i].facet].details, still.first[i].shape.details);
   }
   ASSERT_EQ(packed.map_count, 1);
   ASSERT_TRUE(device.holds(packed.maps));

@@ -260,6 +260,61 @@ TEST_F(gltf_in_scene, moves_by_its_first_animation) {
   EXPECT_EQ(first("file: moves.glb, time: 9 s"), (V{3, 0, 0}));
 }
 
+// From the file's (x, y, z) to the world's 2·(x, −y, −z); two seconds long.
+TEST_F(gltf_in_scene, plays_its_first_animation) {
+  file("in/moves.glb", gltf_test::animated_file().glb());
+  const auto at = [&](const std::string& keys, double time_s) {
+    const Mesh one = mesh("file: moves.glb, scale: 2, " + keys);
+    std::vector<V> vertices, normals;
+    one.motion->at(time_s, vertices, normals);
+    EXPECT_EQ(vertices.size(), one.triangles->vertices.size());
+    EXPECT_EQ(normals.size(), one.triangles->normals.size());
+    return vertices.at(0);
+  };
+  EXPECT_EQ(mesh("file: moves.glb").motion, nullptr);
+  EXPECT_EQ(mesh("file: moves.glb, time: 1 s, play: still").motion, nullptr);
+  EXPECT_EQ(first("file: moves.glb, scale: 2, play: once, time: 500 ms"), (V{1.5F, 0, 0}));
+  EXPECT_EQ(at("play: once", 0), (V{0, 0, 0}));
+  EXPECT_EQ(at("play: once", 1), (V{3, 0, 0}));
+  EXPECT_EQ(at("play: once", -1), (V{0, 0, 0}));
+  EXPECT_EQ(at("play: once", 2), (V{6, 0, 0}));
+  EXPECT_EQ(at("play: once", 7), (V{6, 0, 0}));
+  EXPECT_EQ(at("play: once, time: 500 ms", 0.5), (V{3, 0, 0}));
+  EXPECT_EQ(at("play: loop", 1), (V{3, 0, 0}));
+  EXPECT_EQ(at("play: loop", 2), (V{0, 0, 0}));
+  EXPECT_EQ(at("play: loop", 7), (V{3, 0, 0}));
+  EXPECT_EQ(at("play: loop", -1.5), (V{1.5F, 0, 0}));
+  EXPECT_EQ(at("play: loop, time: 1500 ms", 1), (V{1.5F, 0, 0}));
+}
+
+TEST_F(gltf_in_scene, plays_all_its_materials_at_one_time) {
+  File two = two_materials();
+  const int clock = two.floats({0, 1}, "SCALAR"), to = two.floats({0, 0, 0, 0, 0, 4}, "VEC3");
+  two.add("animations", {{"samplers", {{{"input", clock}, {"output", to}}}},
+                         {"channels", {{{"sampler", 0}, {"target", {{"node", 1}, {"path", "translation"}}}}}}});
+  file("in/moves.glb", two.glb());
+  const Scene got = scene("file: moves.glb, play: once");
+  ASSERT_EQ(got.objects.size(), 2U);
+  std::vector<V> vertices, normals;
+  for (const double time_s : {1.0, 0.25, 1.0}) {
+    std::get<Mesh>(got.objects[1].shape).motion->at(time_s, vertices, normals);
+    EXPECT_EQ(vertices.at(0)[2], static_cast<float>(-4 * time_s));
+    std::get<Mesh>(got.objects[0].shape).motion->at(time_s, vertices, normals);
+    EXPECT_EQ(vertices.at(0)[2], 0.0F);
+  }
+  const Scene whole = scene("file: moves.glb, play: once, reflectivity: 0.5");
+  std::get<Mesh>(whole.objects.at(0).shape).motion->at(0.5, vertices, normals);
+  EXPECT_EQ(vertices.at(0)[2], 0.0F);
+  EXPECT_EQ(vertices.at(3)[2], -2.0F);
+}
+
+TEST_F(gltf_in_scene, refuses_to_play_what_does_not_move) {
+  EXPECT_TRUE(has(refusal("file: two.glb, play: loop"), "scene.yaml:2:33: error: ")) << refusal("file: two.glb, play: loop");
+  EXPECT_TRUE(has(refusal("file: two.glb, play: loop"), "two.glb\" has no animation\n  there is nothing to play"));
+  EXPECT_TRUE(has(refusal("file: corner.obj, reflectivity: 0.5, play: once"), "play is for glTF files"));
+  EXPECT_TRUE(has(refusal("file: two.glb, play: twice"), "still, once or loop"));
+}
+
 TEST_F(gltf_in_scene, refuses_a_time_of_what_does_not_move) {
   EXPECT_TRUE(has(refusal("file: two.glb, time: 1 s"), "scene.yaml:2:33: error: ")) << refusal("file: two.glb, time: 1 s");
   EXPECT_TRUE(has(refusal("file: two.glb, time: 1 s"), "two.glb\" has no animation"));

@@ -61,8 +61,7 @@ struct Walk {
   }
 };
 
-void check(const TriangleMesh& mesh) {
-  const scene::Hierarchy built = scene::build_hierarchy(mesh);
+void check(const TriangleMesh& mesh, const scene::Hierarchy& built) {
   ASSERT_FALSE(built.nodes.empty());
   constexpr float all = std::numeric_limits<float>::infinity();
   const float low[3] = {-all, -all, -all}, high[3] = {all, all, all};
@@ -74,6 +73,8 @@ void check(const TriangleMesh& mesh) {
   for (const std::int32_t number : walk.numbers) ASSERT_EQ(number, next++);
   EXPECT_LE(walk.deepest, shape::most_mesh_levels);
 }
+
+void check(const TriangleMesh& mesh) { check(mesh, scene::build_hierarchy(mesh)); }
 
 /// Small triangles, each with corners of its own about a place.
 template <class Place>
@@ -90,6 +91,7 @@ TriangleMesh crumbs(int count, const Place& place) {
   return out;
 }
 using Crumb = std::pair<std::array<float, 3>, float>;
+float float_of(Random& random) { return static_cast<float>(random.between(-3, 3)); }
 
 }  // namespace
 
@@ -119,4 +121,53 @@ TEST(hierarchy, is_good_for_triangles_of_any_size_and_place) {
                    static_cast<float>(random.scale(1e-30, 1e5))};
     }));
   }
+}
+
+TEST(hierarchy, that_is_refitted_holds_its_triangles_where_they_went) {
+  for (const int count : {0, 1, 16, 17, 300, 20000}) {
+    Random random(static_cast<std::uint64_t>(count) + 3);
+    const TriangleMesh mesh = crumbs(count, [&](int) { return Crumb{{float_of(random), float_of(random), float_of(random)}, 0.1F}; });
+    const scene::Hierarchy built = scene::build_hierarchy(mesh);
+    TriangleMesh moved = mesh;
+    for (auto& v : moved.vertices)
+      for (float& x : v) x = -2.0F * x + static_cast<float>(random.between(-0.5, 0.5));
+    scene::Hierarchy out;
+    scene::refit(built, moved, out);
+    check(moved, out);
+    for (int k = 0; k < 3 && count > 0; ++k) {
+      float low = std::numeric_limits<float>::infinity(), high = -low;
+      for (const auto& triangle : moved.triangles)
+        for (const std::int32_t corner : triangle) {
+          const float x = moved.vertices[static_cast<std::size_t>(corner)][static_cast<std::size_t>(k)];
+          low = std::min(low, x), high = std::max(high, x);
+        }
+      EXPECT_NEAR(out.center[k] + out.half[k], static_cast<double>(high), 1e-12);
+      EXPECT_NEAR(out.center[k] - out.half[k], static_cast<double>(low), 1e-12);
+    }
+    scene::refit(built, mesh, out);  // and back, into memory that is in use
+    check(mesh, out);
+  }
+}
+
+TEST(hierarchy, steps_are_those_of_its_triangles_corners) {
+  Random random(9);
+  TriangleMesh mesh = crumbs(100, [&](int) { return Crumb{{float_of(random), float_of(random), float_of(random)}, 0.1F}; });
+  const scene::Hierarchy built = scene::build_hierarchy(mesh);
+  const auto shifted = [&](double by) {
+    scene::Vertices out = mesh.vertices;
+    for (std::size_t i = 0; i < out.size(); ++i) out[i][i % 3] += static_cast<float>(by * static_cast<double>(i));
+    return out;
+  };
+  const auto steps = scene::steps_of(built, mesh, shifted(-0.25), shifted(0.5), 0.125, mesh.vertices, shifted(2));
+  ASSERT_EQ(steps.size(), built.triangles.size());
+  for (std::size_t b = 0; b < steps.size(); ++b)
+    for (std::size_t i = 0; i < shape::block_width; ++i)
+      for (std::size_t c = 0; c < 3; ++c) {
+        const auto vertex = static_cast<std::size_t>(mesh.triangles[static_cast<std::size_t>(built.triangles[b].number[i])][c]);
+        for (std::size_t k = 0; k < 3; ++k) {
+          const double moves = vertex % 3 == k ? static_cast<double>(vertex) : 0;
+          ASSERT_NEAR(steps[b].velocity[c][k][i], 3 * moves, 1e-3);
+          ASSERT_NEAR(steps[b].step[c][k][i], 2 * moves, 1e-3);
+        }
+      }
 }

@@ -198,8 +198,8 @@ std::vector<Span> spans(shape::List<T...>, const scene::FrozenScene& frozen, con
   const auto add = [&]<class One>(const scene::BodiesOf<One>& bodies) {
     for (int i = 0; i < bodies.count; ++i) {
       const std::size_t first = out.size();
-      add_spans(in_frame(bodies.at[i].shape, frozen.view().camera), o, d, out);
-      for (std::size_t k = first; k < out.size(); ++k) out[k].object = bodies.at[i].object;
+      add_spans(in_frame(bodies.first[i].shape, frozen.view().camera), o, d, out);
+      for (std::size_t k = first; k < out.size(); ++k) out[k].object = bodies.first[i].object;
     }
   };
   (add(frozen.view().still.bodies.of<T>()), ...);

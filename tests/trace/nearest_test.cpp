@@ -102,7 +102,7 @@ TEST(nearest, normals_face_the_camera_and_are_those_of_the_shapes) {
     ASSERT_LE(base::dot(got, d), 0) << kind;
     ASSERT_NEAR(static_cast<double>(f.surface.cos_view), -base::dot(got, d) / base::length(d), 1e-6);
     // in the object's own axes
-    const scene::CameraFrame camera = frozen.camera();
+    const scene::CameraFrame camera = scene::camera_frame(scene.camera.pose);
     const double a = one.rotation.angle_rad, c = std::cos(a), s = std::sin(a);
     const Vec3 k = base::normalized(one.rotation.axis);
     const auto turn = [&](const Vec3& p) { return c * p + s * base::cross(k, p) + ((1 - c) * base::dot(k, p)) * k; };
@@ -136,8 +136,8 @@ TEST(nearest, names_the_side_of_a_box_that_the_ray_goes_through) {
     const Ray ray = test::ray({aside[0], aside[1], 1});
     const Found f = look(frozen, ray);
     if (!f.surface.found) continue;
-    const base::Mat3 back = base::transposed(frozen.camera().rotation);
-    const Vec3 n = back * normal(f), at = back * place(f) + frozen.camera().position - middle;
+    const base::Mat3 back = base::transposed(scene::camera_frame(scene.camera.pose).rotation);
+    const Vec3 n = back * normal(f), at = back * place(f) + scene::camera_frame(scene.camera.pose).position - middle;
     for (std::size_t k = 0; k < 3; ++k) {
       if (std::abs(n[k]) < 0.5) continue;
       ++sides[k];

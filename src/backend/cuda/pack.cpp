@@ -18,13 +18,29 @@ std::size_t count_of(std::int32_t number) { return static_cast<std::size_t>(numb
 /// Hierarchies of meshes: each is put there once, and all that points to it is told where.
 class Meshes {
  public:
-  Meshes(Packer& packer, const scene::SceneView& scene) : packer_(packer) { put(scene.still), put(scene.moving); }
+  explicit Meshes(Packer& packer) : packer_(packer) {}
 
+  /// Puts the hierarchies of these meshes.
+  void put(const scene::BodiesOf<shape::Mesh>& bodies, std::int32_t rows) {
+    for (int i = 0; i < rows; ++i) {
+      const shape::Mesh& mesh = bodies.first[i].shape;
+      if (there(&Place::nodes, mesh.nodes) != nullptr) continue;
+      places_.push_back({{mesh.nodes, packer_.put(mesh.nodes, count_of(mesh.node_count))},
+                         {mesh.triangles, packer_.put(mesh.triangles, count_of(mesh.block_count))},
+                         {mesh.details, packer_.put(mesh.details, count_of(mesh.details == nullptr ? 0 : mesh.block_count))},
+                         {mesh.steps, packer_.put(mesh.steps, count_of(mesh.steps == nullptr ? 0 : mesh.block_count))}});
+    }
+  }
   template <class T>
   void move(T& one) const {
     if constexpr (requires { one.nodes; }) one.nodes = there(&Place::nodes, one.nodes);
     if constexpr (requires { one.triangles; }) one.triangles = there(&Place::triangles, one.triangles);
     if constexpr (requires { one.details; }) one.details = there(&Place::details, one.details);
+    if constexpr (requires {
+                    one.steps;
+                    one.nodes;
+                  })
+      one.steps = there(&Place::steps, one.steps);
     if constexpr (requires { one.shape; }) move(one.shape);
   }
   /// Puts an array that may point to them.
@@ -50,18 +66,9 @@ class Meshes {
     Pair<shape::MeshNode> nodes;
     Pair<shape::MeshTriangles> triangles;
     Pair<shape::MeshDetails> details;
+    Pair<shape::MeshSteps> steps;
   };
 
-  void put(const scene::Group& group) {
-    const auto& bodies = group.bodies.of<shape::Mesh>();
-    for (int i = 0; i < bodies.count; ++i) {
-      const shape::Mesh& mesh = bodies.at[i].shape;
-      if (there(&Place::nodes, mesh.nodes) != nullptr) continue;
-      places_.push_back({{mesh.nodes, packer_.put(mesh.nodes, count_of(mesh.node_count))},
-                         {mesh.triangles, packer_.put(mesh.triangles, count_of(mesh.block_count))},
-                         {mesh.details, packer_.put(mesh.details, count_of(mesh.details == nullptr ? 0 : mesh.block_count))}});
-    }
-  }
   template <class T>
   const T* there(Pair<T> Place::*pair, const T* here) const {
     for (const Place& place : places_)
@@ -75,7 +82,9 @@ class Meshes {
 
 template <class... T>
 void pack_bodies(shape::List<T...>, const Meshes& meshes, const scene::Group& from, scene::Group& to) {
-  ((to.bodies.of<T>().at = meshes.put(from.bodies.of<T>().at, count_of(from.bodies.of<T>().count))), ...);
+  // Those that change are packed with each frame.
+  const auto rows = [](const auto& bodies) { return count_of(bodies.per_moment > 0 ? 0 : bodies.count); };
+  ((to.bodies.of<T>().first = meshes.put(from.bodies.of<T>().first, rows(from.bodies.of<T>()))), ...);
 }
 
 void pack_phasors(Packer& packer, std::int32_t lights, const camera::PhasorView& from, camera::PhasorView& to) {
@@ -143,11 +152,19 @@ void pack_motion(Packer& packer, const scene::SceneView& from, scene::SceneView&
   const std::size_t moments = std::max<std::size_t>(count_of(from.moments), 1);
   to.motions = packer.put(from.motions, 1 + count_of(from.movers));
   to.frames = packer.put(from.frames, moments * count_of(from.movers));
+  if (const auto& changing = from.moving.bodies.of<shape::Mesh>(); changing.per_moment > 0) {
+    Meshes meshes(packer);
+    const std::int32_t rows = changing.per_moment * from.moments;
+    meshes.put(changing, rows);
+    to.moving.bodies.of<shape::Mesh>().first = meshes.put(changing.first, count_of(rows));
+  }
   to.toward_sun = packer.put(from.toward_sun, moments), to.sun_directions = packer.put(from.sun_directions, 3 * moments);
 }
 
 void pack_scene(Packer& packer, const scene::SceneView& from, scene::SceneView& to) {
-  const Meshes meshes(packer, from);
+  Meshes meshes(packer);
+  for (const scene::Group* group : {&from.still, &from.moving})
+    if (const auto& bodies = group->bodies.of<shape::Mesh>(); bodies.per_moment == 0) meshes.put(bodies, bodies.count);
   pack_bodies(shape::Shapes{}, meshes, from.still, to.still);
   pack_bodies(shape::Shapes{}, meshes, from.moving, to.moving);
   to.materials = packer.put(from.materials, count_of(from.material_count));
