@@ -27,6 +27,8 @@ inline constexpr Limit objects{"objects", 20'000, "objects of one scene"};
 inline constexpr Limit moving_views{
     "moving_views", 1 << 24,
     "times of a frame at which something that moves (all, where the camera does) is seen, by camera, lights and sun"};
+inline constexpr Limit changing_triangles{"changing_triangles", 20'000'000,
+                                          "triangles of meshes that change their shape, at all times of a frame together"};
 inline constexpr Limit materials{"materials", 10'000, "materials of one scene"};
 inline constexpr Limit lights{"lights", 8, "light sources of one camera"};
 inline constexpr Limit raw_frames{"raw_frames", 64, "raw frames of one mode's sequence"};
@@ -81,6 +83,7 @@ inline constexpr Limit all_limits[] = {
     limit::keyframes,
     limit::objects,
     limit::moving_views,
+    limit::changing_triangles,
     limit::materials,
     limit::lights,
     limit::raw_frames,

@@ -210,21 +210,27 @@ void FrozenScene::place_movers() {
 }
 
 void FrozenScene::change_shapes() {
-  // Where a truth is wanted, at the times that its steps need, too.
+  if (changing_.empty()) return;
+  for (std::size_t k = 0; k < times_.moments.size(); ++k)
+    for (Changing& one : changing_) refit(*one.built, shape_at(*one.mesh, *one.motion, times_.moments[k]), one.at[k]);
+  // One time after the other for all of them: several may come out of one film.
+  const auto all_at = [&](double time) {
+    std::vector<Vertices> out;
+    for (const Changing& one : changing_) out.push_back(shape_at(*one.mesh, *one.motion, time).vertices);
+    return out;
+  };
   constexpr double apart_s = 1e-3;
+  const double truth = times_.truth_s();
+  const auto now = all_at(truth), before = all_at(truth - apart_s), after = all_at(truth + apart_s),
+             later = all_at(truth + times_.period_s);
+  for (std::size_t i = 0; i < changing_.size(); ++i)
+    changing_[i].steps = steps_of(*changing_[i].built, *changing_[i].mesh, before[i], after[i], apart_s, now[i], later[i]);
+  auto& meshes = moving_.of<shape::Mesh>().bodies;
+  const auto count = static_cast<std::size_t>(view_.moving.bodies.of<shape::Mesh>().count);
   for (std::size_t k = 0; k < times_.moments.size(); ++k) {
-    for (Changing& one : changing_) {
-      TriangleMesh now = shape_at(*one.mesh, *one.motion, times_.moments[k]);
-      refit(*one.built, now, one.at[k]);
-      if (k != times_.truth) continue;
-      const auto at = [&](double time) { return shape_at(*one.mesh, *one.motion, time).vertices; };
-      one.steps = steps_of(*one.built, now, at(times_.truth_s() - apart_s), at(times_.truth_s() + apart_s), apart_s, now.vertices,
-                           at(times_.truth_s() + times_.period_s));
-    }
-    auto& meshes = moving_.of<shape::Mesh>().bodies;
     for (const ChangingBody& one : changing_bodies_) {
       const Changing& changing = changing_[one.which];
-      shape::Mesh& mesh = meshes[k * static_cast<std::size_t>(view_.moving.bodies.of<shape::Mesh>().count) + one.body].shape;
+      shape::Mesh& mesh = meshes[k * count + one.body].shape;
       mesh = shape::Mesh::placed(changing.at[k], placement_of(scene_.objects[one.object]));
       mesh.steps = k == times_.truth ? changing.steps.data() : nullptr;
     }

@@ -2,6 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "simulator/checks.h"
 
+#include <set>
+#include <utility>
+
 #include "base/limits.h"
 #include "base/text.h"
 #include "model/check.h"
@@ -46,6 +49,22 @@ void check_moving_views(const Scene& scene, const Camera& camera, const Simulato
            "got " + std::to_string(movers) + " that move, seen by " + std::to_string(eyes - 2) + " lights, camera and sun " +
                std::to_string(options.exposure_samples) + " times in each of " + std::to_string(raw_frames) + " raw frames, " +
                std::to_string(views) + " in all, at most " + std::to_string(most) + "\n  lower exposure_samples (--exposure-samples)",
+           ErrorKind::limit);
+}
+
+void check_changing_triangles(const Scene& scene, const Camera& camera, const SimulatorOptions& options) {
+  std::set<std::pair<const void*, const void*>> shared;
+  std::int64_t triangles = 0;
+  for (const Object& object : scene.objects)
+    if (const auto* mesh = std::get_if<Mesh>(&object.shape); mesh != nullptr && mesh->motion != nullptr)
+      if (shared.emplace(mesh->triangles.get(), mesh->motion.get()).second)
+        triangles += static_cast<std::int64_t>(mesh->triangles->triangles.size());
+  const std::int64_t times = static_cast<std::int64_t>(camera.mode.sequence.size()) * options.exposure_samples;
+  const std::int64_t most = base::limit::changing_triangles.value;
+  if (triangles * times > most)
+    refuse("meshes that change their shape have too many triangles",
+           "got " + std::to_string(triangles) + " at " + std::to_string(times) + " times of a frame, " + std::to_string(triangles * times) +
+               " in all, at most " + std::to_string(most) + "\n  lower exposure_samples (--exposure-samples), or let less of them play",
            ErrorKind::limit);
 }
 

@@ -49,6 +49,7 @@ const Scene& checked(const Scene& scene, const Camera& camera, const SimulatorOp
   simulator::check(scene);
   simulator::check(camera);
   simulator::check_moving_views(scene, camera::with_emitters(camera), options);
+  simulator::check_changing_triangles(scene, camera, options);
   return scene;
 }
 

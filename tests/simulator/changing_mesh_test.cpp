@@ -201,3 +201,25 @@ TEST(changing_mesh, that_gives_what_it_may_not_is_refused) {
   refused([](double, Corners& v, Corners&) { v[3][0] = 2e5F; }, "beyond the world");
   refused([](double, Corners&, Corners& n) { n[7][0] = std::numeric_limits<float>::infinity(); }, "a normal that is none");
 }
+
+TEST(changing_mesh, is_refused_where_its_triangles_at_all_times_are_too_many) {
+  const Scene scene = ball_scene(wobbling(ball(), 0.05, 3));
+  Camera camera = lit_camera(12, 9, 9);
+  const auto triangles = static_cast<double>(std::get<Mesh>(scene.objects[1].shape).triangles->triangles.size());
+  const auto times = static_cast<double>(camera.mode.sequence.size());
+  // As many samples as 20 million triangles allow; the mesh is counted once for two objects that share it.
+  Scene two = scene;
+  two.objects.push_back(scene.objects[1]);
+  while (camera.mode.sequence.size() < 64) camera.mode.sequence.push_back(camera.mode.sequence.back());
+  const int most = static_cast<int>(20e6 / (triangles * 64));
+  ASSERT_GT(times, 0);
+  ASSERT_LT(most, 1000);
+  EXPECT_THROW(Simulator(two, camera, {.exposure_samples = most + 1}), Error);
+  try {
+    (void)Simulator(scene, camera, {.exposure_samples = most + 1});
+    ADD_FAILURE();
+  } catch (const Error& e) {
+    EXPECT_EQ(e.kind(), ErrorKind::limit);
+    EXPECT_NE(std::string(e.what()).find("lower exposure_samples (--exposure-samples)"), std::string::npos) << e.what();
+  }
+}
