@@ -15,7 +15,7 @@ using namespace tofray::test;
 namespace {
 
 constexpr int across = 96, high = 64;
-constexpr std::size_t image = std::size_t{across} * high;
+constexpr std::size_t image_pixels = std::size_t{across} * high;
 
 /// A grey raw frame and four lit ones, apart; a light aside.
 Camera turning_camera(double focal_px = 80) {
@@ -65,7 +65,7 @@ double middle_of_raw_frame(const Raw& raw, int k) {
 /// How many values of one raw frame differ by more than a share of them.
 int differing(const std::vector<float>& a, const std::vector<float>& b, int raw_frame, double share) {
   int off = 0;
-  for (std::size_t i = image * static_cast<std::size_t>(raw_frame); i < image * static_cast<std::size_t>(raw_frame + 1); ++i)
+  for (std::size_t i = image_pixels * static_cast<std::size_t>(raw_frame); i < image_pixels * static_cast<std::size_t>(raw_frame + 1); ++i)
     off += std::abs(static_cast<double>(a[i]) - static_cast<double>(b[i])) > share * std::abs(static_cast<double>(b[i])) + 1e-3;
   return off;
 }
@@ -87,7 +87,7 @@ void expect_still_scenes(const Scene& scene, const Camera& camera, const char* w
   const Truth expected = noiseless(test::standing(scene, got.truth.time_s), camera, 2).truth;
   EXPECT_NEAR(got.truth.time_s, middle_of_raw_frame(got.raw, 2), 1e-15);
   int off = 0;
-  for (std::size_t i = 0; i < image; ++i) {
+  for (std::size_t i = 0; i < image_pixels; ++i) {
     if (got.truth.object_id[i] != expected.object_id[i]) {
       ++off;
       continue;
@@ -99,9 +99,9 @@ void expect_still_scenes(const Scene& scene, const Camera& camera, const char* w
   EXPECT_LE(off, 12) << what;
   // It would be no test: from the second to the last raw frame much of the image changes.
   int moved = 0;
-  for (std::size_t i = 0; i < image; ++i)
-    moved +=
-        std::abs(got.raw.tap_a[image + i] + got.raw.tap_b[image + i] - got.raw.tap_a[4 * image + i] - got.raw.tap_b[4 * image + i]) > 20;
+  for (std::size_t i = 0; i < image_pixels; ++i)
+    moved += std::abs(got.raw.tap_a[image_pixels + i] + got.raw.tap_b[image_pixels + i] - got.raw.tap_a[4 * image_pixels + i] -
+                      got.raw.tap_b[4 * image_pixels + i]) > 20;
   EXPECT_GT(moved, 700) << what;
 }
 
@@ -145,7 +145,7 @@ TEST(moving_camera, is_a_scene_that_is_shifted_the_other_way) {
   const Camera camera = turning_camera();
   const Frame one = noiseless(things, camera, 2), other = noiseless(passing, camera, 2);
   for (int k = 0; k < 5; ++k) EXPECT_LE(differing(one.raw.tap_a, other.raw.tap_a, k, 2e-4), 12) << k;
-  for (std::size_t i = 0; i < image; ++i) {
+  for (std::size_t i = 0; i < image_pixels; ++i) {
     if (one.truth.object_id[i] != other.truth.object_id[i] || one.truth.object_id[i] < 0) continue;
     ASSERT_LT(base::length(vector_at(one.truth.velocity_m_per_s, i) - vector_at(other.truth.velocity_m_per_s, i)), 1e-5) << i;
     for (std::size_t k = 0; k < 2; ++k)
@@ -177,7 +177,7 @@ TEST(moving_camera, that_turns_is_a_scene_that_turns_the_other_way) {
     EXPECT_LE(differing(one.raw.tap_b, other.raw.tap_b, k, 3e-4), 20) << k;
   }
   int same = 0;
-  for (std::size_t i = 0; i < image; ++i) {
+  for (std::size_t i = 0; i < image_pixels; ++i) {
     if (one.truth.triangle_id[i] != other.truth.triangle_id[i]) continue;
     ASSERT_LT(base::length(vector_at(one.truth.velocity_m_per_s, i) - vector_at(other.truth.velocity_m_per_s, i)), 2e-2) << i;
     ++same;
@@ -201,7 +201,7 @@ TEST(moving_camera, gives_way_to_a_pose_that_is_asked_for) {
   int i = 0;
   simulator.frames(requests, [&](const FrameArrays& got) {
     const Frame& wanted = i++ == 1 ? expected : own;
-    const std::vector<float> velocity(got.gt_velocity_m_per_s, got.gt_velocity_m_per_s + 3 * image);
+    const std::vector<float> velocity(got.gt_velocity_m_per_s, got.gt_velocity_m_per_s + 3 * image_pixels);
     EXPECT_EQ(std::memcmp(velocity.data(), wanted.truth.velocity_m_per_s.data(), velocity.size() * sizeof(float)), 0) << i;
   });
   EXPECT_EQ(i, 3);
@@ -217,13 +217,13 @@ TEST(exposure_samples, give_the_mean_of_still_scenes_at_their_times) {
     for (const int samples : delayed ? std::vector<int>{2, 3} : std::vector<int>{1, 2, 3, 16}) {
       const Frame got = noiseless(scene, camera, 2, samples);
       for (const int k : {0, 3}) {  // a grey one and a lit one
-        std::vector<double> a(image), b(image), signal(image);
-        const std::size_t first = image * static_cast<std::size_t>(k);
+        std::vector<double> a(image_pixels), b(image_pixels), signal(image_pixels);
+        const std::size_t first = image_pixels * static_cast<std::size_t>(k);
         for (int i = 0; i < samples; ++i) {
           const double time = got.raw.start_time_s[static_cast<std::size_t>(k)] +
                               (i + 0.5) / samples * got.raw.integration_time_s[static_cast<std::size_t>(k)];
           const Frame still = noiseless(test::standing(scene, time), camera, 2);
-          for (std::size_t p = 0; p < image; ++p) {
+          for (std::size_t p = 0; p < image_pixels; ++p) {
             a[p] += static_cast<double>(still.raw.tap_a[first + p]) / samples,
                 b[p] += static_cast<double>(still.raw.tap_b[first + p]) / samples;
             signal[p] += static_cast<double>(still.truth.signal_e[first + p]) / samples;
@@ -232,7 +232,7 @@ TEST(exposure_samples, give_the_mean_of_still_scenes_at_their_times) {
         int off = 0, blurred = 0;
         double worst = 0;
         const Raw once = noiseless(scene, camera, 2).raw;
-        for (std::size_t p = 0; p < image; ++p) {
+        for (std::size_t p = 0; p < image_pixels; ++p) {
           const double error = std::abs(static_cast<double>(got.raw.tap_a[first + p]) - a[p]) +
                                std::abs(static_cast<double>(got.raw.tap_b[first + p]) - b[p]);
           const double relative = error / (a[p] + b[p]);
@@ -266,7 +266,7 @@ TEST(exposure_samples, of_an_edge_give_each_raw_frame_its_own_share) {
   const Raw far = noiseless(without, camera, 0).raw, near = noiseless(before, camera, 0).raw;
   int mixed = 0;
   for (int k = 0; k < 5; ++k) {
-    for (std::size_t i = 0; i < image; ++i) {
+    for (std::size_t i = 0; i < image_pixels; ++i) {
       const double x = (static_cast<double>(i % across) - 47.5) / 80;
       int covered = 0;
       for (int s = 0; s < samples; ++s) {
@@ -274,7 +274,7 @@ TEST(exposure_samples, of_an_edge_give_each_raw_frame_its_own_share) {
                             (s + 0.5) / samples * got.raw.integration_time_s[static_cast<std::size_t>(k)];
         covered += x < -0.0013 + 20 * time;
       }
-      const std::size_t at = image * static_cast<std::size_t>(k) + i;
+      const std::size_t at = image_pixels * static_cast<std::size_t>(k) + i;
       const double share = static_cast<double>(covered) / samples;
       for (const auto tap : {&Raw::tap_a, &Raw::tap_b}) {
         const double expected = share * static_cast<double>((near.*tap)[at]) + (1 - share) * static_cast<double>((far.*tap)[at]);
@@ -308,7 +308,8 @@ TEST(exposure_samples, leave_the_truth_sharp) {
     EXPECT_NEAR(got.truth.time_s, expected, 1e-12);
     const Frame still = noiseless(test::standing(scene, expected), turning_camera(), 2);
     int off = 0;
-    for (std::size_t i = 0; i < image; ++i) off += std::abs(got.truth.power_w[i] - still.truth.power_w[i]) > 1e-4F * still.truth.power_w[i];
+    for (std::size_t i = 0; i < image_pixels; ++i)
+      off += std::abs(got.truth.power_w[i] - still.truth.power_w[i]) > 1e-4F * still.truth.power_w[i];
     EXPECT_LE(off, 12) << samples;
   }
 }
@@ -353,7 +354,7 @@ TEST(turning, has_numbers_however_fast_and_far) {
     }
     const Frame got = noiseless(scene, turning_camera(), frame, 2);
     for (const float tap : got.raw.tap_a) ASSERT_TRUE(std::isfinite(tap)) << which;
-    for (std::size_t i = 0; i < image; ++i) {
+    for (std::size_t i = 0; i < image_pixels; ++i) {
       if (got.truth.object_id[i] < 0) continue;
       ASSERT_TRUE(std::isfinite(got.truth.velocity_m_per_s[3 * i])) << which;
       ASSERT_FALSE(std::isinf(got.truth.flow_px[2 * i])) << which;
