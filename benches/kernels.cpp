@@ -102,8 +102,8 @@ BENCHMARK(decode);
 void nearest(benchmark::State& state) {
   const scene::FrozenScene frozen(load_scene("bench-primitives"), {{0.01547, 0, 0}}, 9);
   const scene::Forms forms = frozen.view().camera_still();
-  trace::Culled everything;
-  trace::cull(forms, nullptr, everything);
+  trace::Culled everything{};
+  trace::cull<F>(forms, nullptr, {}, everything);
   F x = num::to_float(num::lane_index<F>()) * F(0.01f);
   for (auto _ : state) {
     auto hit = trace::nearest(everything, flow::make_ray(x, F(0.05f), F(1.0f)), flow::no_hit<F>());

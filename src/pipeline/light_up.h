@@ -68,11 +68,14 @@ struct ShadowRays {
     return dark;
   }
   TOFRAY_FN num::Mask<F> of_sun(const flow::Surface<F>& p) {
+    near.look_along(s, moment, p);
     num::Mask<F> dark = F(1.0f) < F(0.0f);
-    if (still) dark = trace::blocked_parallel(s.scene.sun_still(), sun_direction(), p) | near.template behind_still_meshes<F>(near.sun);
+    if (still) {
+      dark = trace::blocked_parallel(near.still_along(s), sun_direction(), p) | near.template behind_still_meshes<F>(near.sun);
+    }
     if (moving) {
-      dark =
-          dark | trace::blocked_parallel(s.scene.sun_moving(moment), sun_direction(), p) | near.template behind_moving_meshes<F>(near.sun);
+      dark = dark | trace::blocked_parallel(near.moving_along(s, moment), sun_direction(), p) |
+             near.template behind_moving_meshes<F>(near.sun);
     }
     return dark;
   }
@@ -119,8 +122,8 @@ TOFRAY_FN num::Mask<F> in_moving_shadow(const Setup& s, Near& near, int moment, 
 ///
 /// @param near   what the pixels can meet: still_from_camera(s), moving_from_camera(s, moment), and from each light. It knows moves(s);
 ///               any(mask), whether it is true for any pixel that goes the same way; can_be_shaded(s), false where nothing that moves can
-///               stand before a light; look(…), which is told of each shadow ray; and, where meshes are looked at by all pixels of a
-///               tile at once, what that found: behind_still_meshes(light), behind_moving_meshes(light), the sun being one, too
+///               stand before a light; look(…) and look_along(…), which are told of each shadow ray; and, where meshes are looked at by all
+///               pixels of a tile at once, what that found: behind_still_meshes(light), behind_moving_meshes(light), the sun being one, too
 /// @param still  what they would hit if nothing moved
 /// @return false where `light` is as it was
 template <class F, class Near>

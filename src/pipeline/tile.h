@@ -1,75 +1,41 @@
 // SPDX-FileCopyrightText: 2026 The tofray authors
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-#include "pipeline/tile_meshes.h"
+#include "pipeline/tile_view.h"
 
 /// One tile of pixels of the processor: what it can meet, and its pixels pack by pack.
 namespace tofray::pipeline {
 
-/// The pixels of a tile, cut into packs of at most lanes<F> in a row.
-struct Tile {
-  int x, y, width, height;
-};
-
-TOFRAY_FN Tile tile_at(const camera::LensView& lens, int index) {
-  const int across = tiles_across(lens);
-  const int x = (index % across) * tile_width, y = (index / across) * tile_height;
-  return {x, y, lens.width - x < tile_width ? lens.width - x : tile_width, lens.height - y < tile_height ? lens.height - y : tile_height};
-}
-
+/// What of a tile's forms the rays of one of its packs can meet: all of them where no rectangle holds the rays.
 template <class F>
-constexpr int packs_per_row = tile_width / num::lanes<F>;
-template <class F>
-constexpr int max_packs = packs_per_row<F>* tile_height;
-
-/// Pack q of the tile; count 0 where it lies outside the image.
-template <class F>
-TOFRAY_FN Pixels pack_at(const camera::LensView& lens, const Tile& tile, int q) {
-  const int dx = (q % packs_per_row<F>)*num::lanes<F>, dy = q / packs_per_row<F>;
-  const int left = tile.width - dx;
-  const int count = dy >= tile.height || left <= 0 ? 0 : (left < num::lanes<F> ? left : num::lanes<F>);
-  return {(tile.y + dy) * lens.width + tile.x + dx, count};
-}
-
-/// The rectangle of directions that a light sees of a tile, gathered lane by lane; a direction with z <= 0 leaves it `open`.
-template <class F>
-struct Rectangle {
-  F x_min = F(3e38f), x_max = F(-3e38f), y_min = F(3e38f), y_max = F(-3e38f);
-  bool open = false;
-
-  TOFRAY_FN void add(F x, F y, F z, num::Mask<F> use) {
-    const auto ahead = z > F(1e-6f);
-    if (num::any(use & (!ahead))) open = true;
-    const F per_z = F(1.0f) / num::select(ahead, z, F(1.0f));
-    const F u = x * per_z, v = y * per_z;
-    x_min = num::min(x_min, num::select(use, u, F(3e38f))), x_max = num::max(x_max, num::select(use, u, F(-3e38f)));
-    y_min = num::min(y_min, num::select(use, v, F(3e38f))), y_max = num::max(y_max, num::select(use, v, F(-3e38f)));
-  }
-  TOFRAY_FN flow::Bounds bounds() const { return {num::lowest(x_min), num::highest(x_max), num::lowest(y_min), num::highest(y_max)}; }
-};
-
-/// What one light sees of the tile: the way from the light to a surface point is (d − w·L)/w for the ray d that hits it.
-/// @return false where that is no rectangle ahead of the light
-template <class F>
-TOFRAY_FN bool seen_by_light(const Setup& s, const Tile& tile, const flow::Hit<F>* hits, int light, flow::Bounds& bounds) {
-  const float* at = s.lights[light].position;
+TOFRAY_APART const trace::Culled& narrow_to(const flow::Ray<F>& ray, const num::Mask<F>& use, const trace::Culled& all,
+                                            trace::Culled& out) {
   Rectangle<F> seen;
-  for (int q = 0; q < max_packs<F>; ++q) {
-    const Pixels p = pack_at<F>(s.lens, tile, q);
-    if (p.count == 0) continue;
-    const flow::Ray<F> ray = camera::ray<F>(s.lens, p);
-    const F w = hits[q].w;
-    seen.add(num::fnma(w, F(at[0]), ray.x), num::fnma(w, F(at[1]), ray.y), num::fnma(w, F(at[2]), ray.z), in_use<F>(p) & (w > F(0.0f)));
-  }
-  bounds = seen.bounds();
-  return !seen.open;
+  seen.add(ray.x, ray.y, ray.z, use);
+  if (seen.open) return all;
+  trace::narrow<F>(all, seen.bounds(), out);
+  return out;
 }
 
-/// The rectangles in which each light sees the tile; `none` where it is no rectangle ahead of the light, or culling is off.
-struct SeenByLights {
-  flow::Bounds bounds[flow::max_lights];
-  bool none[flow::max_lights];
-  TOFRAY_FN const flow::Bounds* of(int light) const { return none[light] ? nullptr : bounds + light; }
+template <class F>
+TOFRAY_APART void narrow_to(const shape::Vec& toward_sun, const flow::Surface<F>& p, const scene::Alongs& alongs,
+                            const trace::CulledAlong& from, trace::CulledAlong& to) {
+  trace::narrow<F>(alongs, from, OnScreen<F>(toward_sun).at(p.x, p.y, p.z, p.found), to);
+}
+
+/// What of a tile's forms comes into question for the pack that is looked at now.
+template <template <class> class From>
+struct OfPack {
+  trace::CulledOf<From> narrowed;
+  const trace::CulledOf<From>* now;
+  template <class F>
+  TOFRAY_FN void look(const trace::CulledOf<From>& all, const flow::Ray<F>& ray, num::Mask<F> use) {
+    now = &all;
+    if (!all.many) return;
+    const flow::Ray<F> ray_copy = ray;
+    const num::Mask<F> use_copy = use;
+    now = &narrow_to<F>(ray_copy, use_copy, all, narrowed);
+  }
 };
 
 /// Which forms the pixels of a tile can meet: seen from the camera, and from each light.
@@ -78,6 +44,25 @@ template <bool can_move>
 struct Near {
   trace::Culled camera_still, camera_moving;
   trace::Culled light_still[flow::max_lights], light_moving[flow::max_lights];
+  trace::CulledAlong sun_still, sun_moving;
+  OfPack<trace::PickedForms> still, moving;
+  OfPack<trace::PickedAlongs> along_still, along_moving;
+  trace::Marks marks;
+
+  /// Bytes that all of it writes to.
+  TOFRAY_FN static std::size_t room_of(const scene::SceneView& s) {
+    const auto views = static_cast<std::size_t>(2 + s.lights + (s.has_sun != 0 ? 2 : 0));  // the last one is a pack's
+    const std::size_t moving = can_move ? views * trace::room_of(s.moving.bodies) + trace::marks_bytes(s.moving.bodies) : 0;
+    return views * trace::room_of(s.still.bodies) + trace::marks_bytes(s.still.bodies) + moving;
+  }
+  /// @param room  aligned to 64 bytes
+  TOFRAY_FN void take_room(const scene::SceneView& s, unsigned char* room) {
+    take_room(s, s.still.bodies, room, camera_still, light_still, sun_still, still, along_still);
+    if (can_move) take_room(s, s.moving.bodies, room, camera_moving, light_moving, sun_moving, moving, along_moving);
+    const int most = trace::most_bodies(shape::Shapes{}, s.still.bodies), others = trace::most_bodies(shape::Shapes{}, s.moving.bodies);
+    marks.sums = reinterpret_cast<std::uint64_t*>(room);
+    marks.words = marks.sums + trace::Marks::sums_of(can_move && others > most ? others : most);
+  }
 
   TOFRAY_FN bool moves(const Setup&) const { return can_move; }
   template <class Mask>
@@ -85,17 +70,27 @@ struct Near {
     return num::any(mask);
   }
   TOFRAY_FN bool can_be_shaded(const Setup& s) const {
-    bool possible = s.power.ambient == camera::AmbientLight::directional;
+    bool possible = s.power.ambient == camera::AmbientLight::directional && !sun_moving.empty();
     for (int l = 0; l < s.scene.lights; ++l) possible = possible || !light_moving[l].empty();
     return possible;
   }
-  /// What `light` can see of the pixels is known before they are lit: nothing to do for the ray that goes to one of them.
+  /// What comes into question for a pack's rays, where many forms do for the tile's.
   template <class F>
-  TOFRAY_FN void look(int, int, const flow::Ray<F>&, num::Mask<F>) const {}
-  TOFRAY_FN const trace::Culled& still_from_camera(const Setup&) const { return camera_still; }
-  TOFRAY_FN const trace::Culled& moving_from_camera(const Setup&, int) const { return camera_moving; }
-  TOFRAY_FN const trace::Culled& still_from(const Setup&, int light) const { return light_still[light]; }
-  TOFRAY_FN const trace::Culled& moving_from(const Setup&, int, int light) const { return light_moving[light]; }
+  TOFRAY_FN void look(int, int light, const flow::Ray<F>& ray, num::Mask<F> use) {
+    still.look(light_still[light], ray, use);
+    if constexpr (can_move) moving.look(light_moving[light], ray, use);
+  }
+  template <class F>
+  TOFRAY_FN void look_along(const Setup& s, int moment, const flow::Surface<F>& p) {
+    look_along(s.scene.toward_sun[moment], sun_still, s.scene.sun_still(), p, along_still);
+    if constexpr (can_move) look_along(s.scene.toward_sun[moment], sun_moving, s.scene.sun_moving(moment), p, along_moving);
+  }
+  TOFRAY_FN const trace::Culled& still_from_camera(const Setup&) const { return *still.now; }
+  TOFRAY_FN const trace::Culled& moving_from_camera(const Setup&, int) const { return *moving.now; }
+  TOFRAY_FN const trace::Culled& still_from(const Setup&, int) const { return *still.now; }
+  TOFRAY_FN const trace::Culled& moving_from(const Setup&, int, int) const { return *moving.now; }
+  TOFRAY_FN const trace::CulledAlong& still_along(const Setup&) const { return *along_still.now; }
+  TOFRAY_FN const trace::CulledAlong& moving_along(const Setup&, int) const { return *along_moving.now; }
 
   /// What meshes keep from the lights and the sun, where all pixels of the tile look at them at once.
   static constexpr int sun = flow::max_lights;
@@ -113,6 +108,24 @@ struct Near {
 
  private:
   template <class F>
+  TOFRAY_FN static void look_along(const shape::Vec& toward_sun, const trace::CulledAlong& all, const scene::Alongs& alongs,
+                                   const flow::Surface<F>& p, OfPack<trace::PickedAlongs>& out) {
+    out.now = &all;
+    if (!all.many) return;
+    const flow::Surface<F> copy = p;
+    narrow_to<F>(toward_sun, copy, alongs, all, out.narrowed);
+    out.now = &out.narrowed;
+  }
+  TOFRAY_FN static void take_room(const scene::SceneView& s, const scene::Bodies& bodies, unsigned char*& room, trace::Culled& of_camera,
+                                  trace::Culled* of_lights, trace::CulledAlong& of_sun, OfPack<trace::PickedForms>& of_pack,
+                                  OfPack<trace::PickedAlongs>& along_pack) {
+    const std::size_t each = trace::room_of(bodies);
+    const auto take = [&](auto& culled) __attribute__((always_inline)) { culled.room = room, room += each; };
+    take(of_camera), take(of_pack.narrowed);
+    for (int l = 0; l < s.lights; ++l) take(of_lights[l]);
+    if (s.has_sun != 0) take(of_sun), take(along_pack.narrowed);
+  }
+  template <class F>
   TOFRAY_FN num::Mask<F> in(const MeshShade* shades, int light) const {
     if constexpr (shape::has_beams<F>) {
       if (has_shades && shades[light].any) return shape::load_all<F>(shades[light].dark + pack * num::lanes<F>) > F(0.0f);
@@ -129,9 +142,9 @@ struct Shades {
   MeshShade current[can_move ? lights : 1], moving[can_move ? lights : 1];  ///< on what is seen at one moment
 };
 
-/// Scratch memory of one worker.
+/// Scratch memory of one worker. After it comes room for `near`.
 template <class F, bool can_move>
-struct Scratch {
+struct alignas(64) Scratch {
   Near<can_move> near;
   SeenByLights seen;
   flow::Hit<F> still[max_packs<F>];                  ///< of what stands still
@@ -154,10 +167,14 @@ class TileWalk {
         tile_(tile_at(s.lens, index)),
         view_(s.culling != 0 ? s.lens.tile + index : nullptr),
         hits_(scratch.still) {
-    trace::cull(s.scene.camera_still(), view_, scratch.near.camera_still);
+    scratch.near.take_room(s.scene, reinterpret_cast<unsigned char*>(&scratch + 1));
+    trace::cull<F>(s.scene.camera_still(), view_, scratch.near.marks, scratch.near.camera_still);
     for (int q = 0; q < max_packs<F>; ++q) {
       const Pixels p = pixels(q);
-      if (p.count > 0) scratch.still[q] = see_still(s, scratch.near, camera::ray<F>(s.lens, p));
+      if (p.count == 0) continue;
+      const flow::Ray<F> ray = camera::ray<F>(s.lens, p);
+      scratch.near.still.look(scratch.near.camera_still, ray, in_use<F>(p));
+      scratch.still[q] = see_still(s, scratch.near, ray);
     }
     see_meshes(scratch.near.camera_still, scratch.still);
     scratch.near.has_shades = trace::any_mesh(s.scene);
@@ -176,12 +193,16 @@ class TileWalk {
   TOFRAY_FN void go_to(const Moment& now) {
     if constexpr (can_move) see_what_moves(now.index);
     if (s_.last_stage < Stage::power) return;
-    shade_what_stands_still();
-    look_from_lights(hits_);
+    shade_what_stands_still(now.index);
+    look_from_lights(now.index, hits_);
     for (int l = 0; can_move && l < s_.scene.lights; ++l) {
-      trace::cull(s_.scene.light_moving(now.index, l), scratch_.seen.of(l), scratch_.near.light_moving[l]);
+      trace::cull<F>(s_.scene.light_moving(now.index, l), scratch_.seen.of(l), scratch_.near.marks, scratch_.near.light_moving[l]);
     }
-    if constexpr (can_move) shade_what_is_seen(now.index);
+    if (can_move && has_sun()) {
+      trace::cull<F>(s_.scene.sun_moving(now.index), s_.culling != 0 ? &scratch_.seen.sun : nullptr, scratch_.near.marks,
+                     scratch_.near.sun_moving);
+    }
+    if constexpr (can_move) shade_what_is_seen();
   }
 
   TOFRAY_FN bool find_light(const Moment& now, int q, const Pixels& p, const flow::Ray<F>& ray, F vignetting, Pack<F>& pack) {
@@ -190,15 +211,19 @@ class TileWalk {
   }
 
  private:
+  TOFRAY_FN bool has_sun() const { return s_.power.ambient == camera::AmbientLight::directional; }
   /// Where nothing that moves is in view, the tile sees what stands still.
   TOFRAY_FN void see_what_moves(int moment) {
     hits_ = scratch_.still;
-    trace::cull(s_.scene.camera_moving(moment), view_, scratch_.near.camera_moving);
+    trace::cull<F>(s_.scene.camera_moving(moment), view_, scratch_.near.marks, scratch_.near.camera_moving);
     if (scratch_.near.camera_moving.empty()) return;
     hits_ = scratch_.hits;
     for (int q = 0; q < max_packs<F>; ++q) {
       const Pixels p = pixels(q);
-      if (p.count > 0) scratch_.hits[q] = see_moving(s_, scratch_.near, moment, camera::ray<F>(s_.lens, p), scratch_.still[q]);
+      if (p.count == 0) continue;
+      const flow::Ray<F> ray = camera::ray<F>(s_.lens, p);
+      scratch_.near.moving.look(scratch_.near.camera_moving, ray, in_use<F>(p));
+      scratch_.hits[q] = see_moving(s_, scratch_.near, moment, ray, scratch_.still[q]);
     }
     see_meshes(scratch_.near.camera_moving, scratch_.hits);
   }
@@ -209,28 +234,32 @@ class TileWalk {
     }
   }
 
-  /// What of the scene can come between a light and what the pixels see.
-  TOFRAY_FN void look_from_lights(const flow::Hit<F>* hits) {
+  /// What of the scene can come between a light and what the pixels see. Where something stands still, so does the sun.
+  TOFRAY_FN void look_from_lights(int moment, const flow::Hit<F>* hits) {
     if (seen_from_lights_ == scratch_.still && hits == scratch_.still) return;
     for (int l = 0; l < s_.scene.lights; ++l) {
       scratch_.seen.none[l] = s_.culling == 0 || !seen_by_light(s_, tile_, hits, l, scratch_.seen.bounds[l]);
-      trace::cull(s_.scene.light_still(l), scratch_.seen.of(l), scratch_.near.light_still[l]);
+      trace::cull<F>(s_.scene.light_still(l), scratch_.seen.of(l), scratch_.near.marks, scratch_.near.light_still[l]);
+    }
+    if (has_sun()) {
+      if (s_.culling != 0) scratch_.seen.sun = seen_by_sun(s_, moment, tile_, hits);
+      trace::cull<F>(s_.scene.sun_still(), s_.culling != 0 ? &scratch_.seen.sun : nullptr, scratch_.near.marks, scratch_.near.sun_still);
     }
     seen_from_lights_ = hits;
   }
 
   /// What meshes that stand still keep from the lights, of what stands still: it is so at all moments.
-  TOFRAY_FN void shade_what_stands_still() {
+  TOFRAY_FN void shade_what_stands_still(int moment) {
     if constexpr (shape::has_beams<F>) {
       if (!scratch_.near.has_shades || still_is_shaded_) return;
-      look_from_lights(scratch_.still);
+      look_from_lights(moment, scratch_.still);
       shade_by_still(scratch_.still, nullptr, scratch_.shades.still);
       scratch_.near.of_still = scratch_.shades.still, scratch_.near.of_moving = scratch_.shades.moving;
       still_is_shaded_ = true;
     }
   }
   /// … and of what is seen at a moment; and what meshes keep from it that move.
-  TOFRAY_FN void shade_what_is_seen(int moment) {
+  TOFRAY_FN void shade_what_is_seen() {
     if constexpr (shape::has_beams<F>) {
       Near<can_move>& near = scratch_.near;
       Shades<can_move>& shades = scratch_.shades;
@@ -244,13 +273,13 @@ class TileWalk {
         put_points(s_, *this, hits_, scratch_.points);
         points_of_ = hits_;
       }
-      find_shades<F>(s_, near.light_moving, s_.scene.sun_moving(moment), scratch_.points, nullptr, scratch_.rays, shades.moving);
+      find_shades<F>(s_, near.light_moving, near.sun_moving, scratch_.points, nullptr, scratch_.rays, shades.moving);
     }
   }
   TOFRAY_FN void shade_by_still(const flow::Hit<F>* hits, const KnownShades* known, MeshShade* shades) {
     put_points(s_, *this, hits, scratch_.points);
     points_of_ = hits;
-    find_shades<F>(s_, scratch_.near.light_still, s_.scene.sun_still(), scratch_.points, known, scratch_.rays, shades);
+    find_shades<F>(s_, scratch_.near.light_still, scratch_.near.sun_still, scratch_.points, known, scratch_.rays, shades);
   }
 
   const Setup& s_;

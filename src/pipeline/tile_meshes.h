@@ -86,10 +86,11 @@ TOFRAY_FN void find_shade(const Forms& forms, const TilePoints& points, const Me
 
 /// What meshes keep from the lights and the sun.
 /// @param from_light  [light] what each of them can see
+/// @param sun         what the sun can
 /// @param known       or null
 /// @param shades      out: [light] the sun comes last
 template <class F>
-TOFRAY_APART void find_shades(const Setup& s, const trace::Culled* from_light, const scene::Alongs& sun, const TilePoints& points,
+TOFRAY_APART void find_shades(const Setup& s, const trace::Culled* from_light, const trace::CulledAlong& sun, const TilePoints& points,
                               const KnownShades* known, trace::TileRays& rays, MeshShade* shades) {
   const auto before = [&](int l) __attribute__((always_inline)) { return known != nullptr ? known->of + l : nullptr; };
   const float* changed = known != nullptr ? known->changed : nullptr;

@@ -20,6 +20,12 @@ TOFRAY_FN void derive_facets(const Body<T>& body, const T& seen, Facet* facets) 
   }
 }
 
+/// The body in the camera's frame.
+template <class T>
+TOFRAY_FN T body_at(const SceneView& s, const Body<T>& body, int moment) {
+  return in_frame(body.shape, body.mover < 0 ? s.camera : s.frames[moment * s.movers + body.mover]);
+}
+
 /// @param eye     0: the camera; then the lights; then the sun
 /// @param facets  of the group in this moment; null: they are not wanted
 /// @param first   number of the group's first facet in this moment
@@ -27,12 +33,13 @@ template <class T>
 TOFRAY_FN void derive_body(const SceneView& s, const Group& group, int moment, int i, int eye, bool forms, Facet* facets, int first) {
   const int count = group.bodies.of<T>().count;
   const Body<T>& body = group.bodies.of<T>().at(moment, i);
-  const T seen = in_frame(body.shape, body.mover < 0 ? s.camera : s.frames[moment * s.movers + body.mover]);
+  const T seen = body_at(s, body, moment);
   if (facets != nullptr) derive_facets(body, seen, facets);
   if (!forms) return;
   if (eye > s.lights) {
     typename T::Along along = seen_along(seen, s.toward_sun[moment]);
     along.object = body.object;
+    if constexpr (shape::bounded<T>) along.bounds = bounds_along(seen, s.toward_sun[moment]);
     group.derived.of<T>().along[moment * count + i] = along;
     return;
   }

@@ -83,6 +83,8 @@ FrozenScene::FrozenScene(const Scene& scene, const std::vector<Vec3>& lights, in
   view_.light_positions = lights_.data();
   lay_out();
   look({}, {std::vector<double>(static_cast<std::size_t>(moments), 0.0)});
+  still_clusters_.build(view_, view_.still, 1);
+  moving_clusters_.build(view_, view_.moving, view_.moments);
   derive();
 }
 
@@ -267,6 +269,8 @@ void FrozenScene::derive() {
   const Derive what = still_known_ ? Derive::moving : Derive::all;
   const int units = unit_count(view_, what);
   for (int i = 0; i < units; ++i) scene::derive(view_, what, i);
+  if (!still_known_) still_clusters_.update(view_.still);
+  moving_clusters_.update(view_.moving);
   still_known_ = moving_known_ = true;
 }
 

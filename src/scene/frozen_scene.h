@@ -6,6 +6,7 @@
 #include <memory>
 #include <vector>
 
+#include "scene/clustering.h"
 #include "scene/hierarchy.h"
 #include "scene/map_levels.h"
 #include "scene/motion.h"
@@ -100,6 +101,7 @@ class FrozenScene {
   std::vector<float> sun_directions_;
   std::vector<brdf::MaterialView> materials_;
   std::unique_ptr<unsigned char[]> memory_;  ///< what is derived
+  Clustering still_clusters_, moving_clusters_;
   SceneView view_{};
   bool still_known_ = false, moving_known_ = false;
 };

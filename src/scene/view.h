@@ -3,6 +3,7 @@
 #pragma once
 #include "brdf/list.h"
 #include "brdf/reflectivity_map.h"
+#include "scene/clusters.h"
 #include "shape/list.h"
 
 /// The scene as kernels see it: shapes once, in the world's frame, and what is derived from them for each point that rays leave.
@@ -32,11 +33,13 @@ template <class T>
 struct FormsOf {
   const typename T::Form* at;
   std::int32_t count;
+  Clusters clusters = {};
 };
 template <class T>
 struct AlongsOf {
   const typename T::Along* at;
   std::int32_t count;
+  Clusters clusters = {};
 };
 
 using Bodies = shape::ByShape<BodiesOf>;
@@ -57,6 +60,7 @@ struct DerivedOf {
 struct Group {
   Bodies bodies;
   shape::ByShape<DerivedOf> derived;
+  shape::ByShape<ClustersOf> clusters;
   std::int32_t body_count, facet_count;
 
   TOFRAY_FN Forms seen_from(int moment, int eye, int eyes) const { return seen_from(shape::Shapes{}, moment * eyes + eye); }
@@ -67,13 +71,13 @@ struct Group {
   template <class... T>
   TOFRAY_FN Forms seen_from(shape::List<T...>, int row) const {
     Forms out;
-    ((out.of<T>() = {derived.of<T>().forms + row * bodies.of<T>().count, bodies.of<T>().count}), ...);
+    ((out.of<T>() = {derived.of<T>().forms + row * bodies.of<T>().count, bodies.of<T>().count, clusters.of<T>().seen_from(row)}), ...);
     return out;
   }
   template <class... T>
   TOFRAY_FN Alongs seen_along(shape::List<T...>, int row) const {
     Alongs out;
-    ((out.of<T>() = {derived.of<T>().along + row * bodies.of<T>().count, bodies.of<T>().count}), ...);
+    ((out.of<T>() = {derived.of<T>().along + row * bodies.of<T>().count, bodies.of<T>().count, clusters.of<T>().seen_along(row)}), ...);
     return out;
   }
 };

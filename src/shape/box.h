@@ -23,6 +23,7 @@ struct BoxAlong {
   float axis[3][3], offset[3], half[3], inverse[3];
   std::int32_t object;
   std::int32_t own_blocks;  ///< 1: the camera is inside
+  Bounds bounds;            ///< on the light's screen
 };
 
 struct Box {
@@ -51,6 +52,12 @@ TOFRAY_FN Box in_frame(const Box& b, const Frame& frame) {
   return {
       frame.point(b.center), {{frame.direction(b.axes.row[0]), frame.direction(b.axes.row[1]), frame.direction(b.axes.row[2])}}, b.half};
 }
+/// How far a box about zero reaches along a.
+TOFRAY_FN double reach_of_box(const Mat& axes, const Vec& half, const Vec& a) {
+  const Vec along = axes * a;
+  return half.x * ::fabs(along.x) + half.y * ::fabs(along.y) + half.z * ::fabs(along.z);
+}
+TOFRAY_FN Span span_along(const Box& b, const Vec& a) { return span_about(dot(b.center, a), reach_of_box(b.axes, b.half, a)); }
 TOFRAY_FN bool inside(const Box& b, const Vec& p) {
   const Vec q = b.axes * (p - b.center);
   return ::fabs(q.x) < b.half.x && ::fabs(q.y) < b.half.y && ::fabs(q.z) < b.half.z;

@@ -24,6 +24,7 @@ struct CapsuleAlong {
   SphereAlong end[2];
   std::int32_t object;
   std::int32_t own_blocks;  ///< 1: the camera is inside
+  Bounds bounds;            ///< on the light's screen
 };
 
 struct Capsule {
@@ -56,6 +57,9 @@ TOFRAY_FN Capsule in_frame(const Capsule& c, const Frame& frame) {
   return {frame.point(c.center), frame.direction(c.axis), c.radius, c.half};
 }
 
+TOFRAY_FN Span span_along(const Capsule& c, const Vec& a) {
+  return span_about(dot(c.center, a), c.half * ::fabs(dot(c.axis, a)) + c.radius);
+}
 TOFRAY_FN bool inside(const Capsule& c, const Vec& p) {
   const Vec q = p - c.center;
   const double along = dot(q, c.axis), beyond = ::fabs(along) > c.half ? ::fabs(along) - c.half : 0;

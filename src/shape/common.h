@@ -62,6 +62,62 @@ TOFRAY_FN F dot(const Ray<F>& ray, const float* m) {
   return num::fma(ray.x, F(m[0]), num::fma(ray.y, F(m[1]), ray.z * F(m[2])));
 }
 
+/// From where to where a shape reaches along a unit vector.
+struct Span {
+  double low, high;
+};
+TOFRAY_FN double farthest(const Span& span) { return ::fmax(::fabs(span.low), ::fabs(span.high)); }
+TOFRAY_FN Span span_about(double middle, double half) { return {middle - half, middle + half}; }
+TOFRAY_FN Span span_of_points(const Vec* points, int count, const Vec& a) {
+  Span out{1e300, -1e300};
+  for (int i = 0; i < count; ++i) {
+    const double q = dot(points[i], a);
+    out = {q < out.low ? q : out.low, q > out.high ? q : out.high};
+  }
+  return out;
+}
+/// How far a circle of radius 1 across the axis reaches along a.
+TOFRAY_FN double reach_across(const Vec& axis, const Vec& a) {
+  const double along = dot(axis, a), square = 1 - along * along;
+  return square > 0 ? ::sqrt(square) : 0;
+}
+
+/// Two unit vectors across parallel light and each other: the coordinates of a screen that it falls on.
+struct Screen {
+  Vec u, v;
+};
+TOFRAY_FN Screen screen_of(const Vec& s) {
+  const Vec u = way_across(s.x * s.x < 0.5 ? Vec{1, 0, 0} : Vec{0, 1, 0}, s);
+  return {u, cross(s, u)};
+}
+
+/// Share of a distance by which rectangles on a screen are wider.
+TOFRAY_CONSTANT double screen_room = 1e-5;
+
+/// How much farther than rounding goes a shadow that has suffered from it.
+template <class T>
+TOFRAY_FN double spread(const T&, const Vec&) {
+  return 1;
+}
+/// Rectangle on the screen that holds a shape's shadow: wider than computed by more than rounding in single precision takes off its way
+/// there, which goes as the distances do.
+template <class T>
+TOFRAY_FN Bounds bounds_along(const T& shape, const Vec& s) {
+  const Screen screen = screen_of(s);
+  const Span u = span_along(shape, screen.u), v = span_along(shape, screen.v), w = span_along(shape, s);
+  const double room = screen_room * spread(shape, s) * (1 + ::fmax(farthest(u), ::fmax(farthest(v), farthest(w))));
+  return {single(u.low - room), single(u.high + room), single(v.low - room), single(v.high + room)};
+}
+/// False where the form keeps parallel light off no point of the rectangle on its screen. What has no end has no bounds.
+template <class Along>
+TOFRAY_FN bool can_shade(const Along& form, const Bounds& r) {
+  if constexpr (requires { form.bounds; }) {
+    return overlap(form.bounds, r);
+  } else {
+    return true;
+  }
+}
+
 /// P·m + offset in the camera frame.
 template <class F>
 TOFRAY_FN F affine(const Surface<F>& p, const float* m, float offset) {

@@ -30,6 +30,7 @@ struct ConeAlong {
   float base, inverse_a;
   std::int32_t object;
   std::int32_t own_blocks;  ///< 1: the camera is inside
+  Bounds bounds;            ///< on the light's screen
 };
 
 struct Cone {
@@ -66,6 +67,11 @@ struct Cone {
 
 TOFRAY_FN Cone in_frame(const Cone& c, const Frame& frame) { return {frame.point(c.tip), frame.direction(c.axis), c.radius, c.height}; }
 
+TOFRAY_FN Span span_along(const Cone& c, const Vec& a) {
+  const double tip = dot(c.tip, a);
+  const Span base = span_about(dot(c.tip - c.height * c.axis, a), c.radius * reach_across(c.axis, a));
+  return {::fmin(tip, base.low), ::fmax(tip, base.high)};
+}
 TOFRAY_FN bool inside(const Cone& c, const Vec& p) {
   const Vec q = c.tip - p;
   const double below = dot(q, c.axis);

@@ -32,6 +32,7 @@ struct CylinderAlong {
   float inverse_u, inverse_a;
   std::int32_t object;
   std::int32_t own_blocks;  ///< 1: the camera is inside
+  Bounds bounds;            ///< on the light's screen
 };
 
 struct Cylinder {
@@ -68,6 +69,9 @@ TOFRAY_FN Cylinder in_frame(const Cylinder& c, const Frame& frame) {
   return {frame.point(c.center), frame.direction(c.axis), c.radius, c.half};
 }
 
+TOFRAY_FN Span span_along(const Cylinder& c, const Vec& a) {
+  return span_about(dot(c.center, a), c.half * ::fabs(dot(c.axis, a)) + c.radius * reach_across(c.axis, a));
+}
 TOFRAY_FN bool inside(const Cylinder& c, const Vec& p) {
   const Vec q = p - c.center, side = across(q, c.axis);
   return dot(side, side) < c.radius * c.radius && ::fabs(dot(q, c.axis)) < c.half;

@@ -20,6 +20,7 @@ struct DiskForm {
 struct DiskAlong {
   float m[3], c, x[3], y[3], offset[2], radius_squared;
   std::int32_t object;
+  Bounds bounds;  ///< on the light's screen
 };
 
 struct Disk {
@@ -45,6 +46,7 @@ struct Disk {
 
 TOFRAY_FN Disk in_frame(const Disk& d, const Frame& frame) { return {frame.point(d.center), frame.direction(d.normal), d.radius}; }
 
+TOFRAY_FN Span span_along(const Disk& d, const Vec& a) { return span_about(dot(d.center, a), d.radius * reach_across(d.normal, a)); }
 TOFRAY_FN void facet_of(const Disk& d, int, Facet& out) { face(d.normal, out); }
 
 /// A disk that is seen edge-on is hit by no ray.

@@ -20,10 +20,12 @@
 ///     in_frame(T, …)   … as seen in another frame
 ///     T::Form          what rays of a common origin need; seen_from(T, origin) makes it, the camera being at 0
 ///     T::Along         what light from one direction needs; seen_along(T, direction) makes it
+///     span_along(T, a) from where to where it reaches along a unit vector, unless it has no end
 ///     T::facets        how many a hit may name; facet_of(T, side, …) says which way they face
 ///     T::closed        it has an inside: its forms say where its own surface is in the dark (own_blocks)
 ///     T::curved        T::normal(facet, P) finds the normal of those that face_of does not make flat
 ///     can_meet(Form, rectangle), inverse_range(Form, ray[, side]), blocks(Along, P, …)
+///     Form::bounds, Along::bounds    rectangles of directions, and on the light's screen, that hold it, unless it has no end
 ///     many_of<T>       it is made of many triangles: nearest_in(Form, ray, hit) and stands_before(Form, ray, …) in place of
 ///                      inverse_range, and T::normal(facet, triangle, …); search_tile(Form, rays), search_tile(Along, rays) in place of
 ///                      all three where has_beams
@@ -36,6 +38,12 @@ using num::place_in;
 template <class T>
 constexpr bool many_of = requires {
   T::many;
+};
+
+/// It ends somewhere, so that its forms have bounds.
+template <class T>
+constexpr bool bounded = requires(typename T::Form form) {
+  form.bounds;
 };
 
 /// In the order of the public Object's variant. Of two surfaces at one place the first shape's is seen.

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The tofray authors
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-#include "shape/common.h"
+#include "shape/box.h"
 
 /// Many triangles, found through boxes within boxes. Both sides reflect.
 ///
@@ -58,6 +58,7 @@ struct MeshAlong {
   const MeshNode* nodes;
   const MeshTriangles* triangles;
   std::int32_t object;
+  Bounds bounds;  ///< on the light's screen
 };
 
 /// Rays in the mesh's frame, each from an origin of its own.
@@ -129,6 +130,10 @@ TOFRAY_FN Mesh in_frame(const Mesh& mesh, const Frame& frame) {
   for (int k = 0; k < 3; ++k) out.axes.row[k] = frame.direction(mesh.axes.row[k]);
   out.origin = frame.point(mesh.origin);
   return out;
+}
+
+TOFRAY_FN Span span_along(const Mesh& mesh, const Vec& a) {
+  return span_about(dot(mesh.origin, a) + dot(mesh.center, mesh.axes * a), reach_of_box(mesh.axes, mesh.half, a));
 }
 
 /// The second: where the camera's zero is in the mesh's frame, whether corners have texture coordinates, and how they move.

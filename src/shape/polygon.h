@@ -21,6 +21,7 @@ template <int N>
 struct PolygonAlong {
   float m[3], c, edge[N][3], edge_offset[N];
   std::int32_t object;
+  Bounds bounds;  ///< on the light's screen
 };
 
 /// The least of what `of` says of each edge.
@@ -98,13 +99,30 @@ TOFRAY_FN F inverse_range(const PolygonForm<N>& polygon, const Ray<F>& ray) {
   return num::select(least >= doubt * F(-0x1p-23f), dot(ray, polygon.m), F(0.0f));
 }
 
-/// Light that travels along it is not stopped: t = 0.
+/// Light from s travels along it, and is not stopped.
+TOFRAY_FN bool is_along(const Vec& normal, const Vec& s) { return ::fabs(dot(normal, s)) <= 1e-6 * length(normal); }
+
+/// Two edges that rounding has moved outward meet farther out, by one over the sine of their angle: along/(|s × edge|·|s × next|), as the
+/// light sees them.
+template <int N>
+TOFRAY_FN double spread_of_corners(const Vec (&v)[N], const Vec& s) {
+  const Vec normal = normal_of_corners(v);
+  if (is_along(normal, s)) return 1;
+  double most = 0;
+  for (int i = 0; i < N; ++i) {
+    const Vec edge = v[(i + 1) % N] - v[i], next = v[(i + 2) % N] - v[(i + 1) % N];
+    most = ::fmax(most, length(cross(s, edge)) * length(cross(s, next)));
+  }
+  return most / ::fabs(dot(normal, s));
+}
+
+/// Where light travels along it, t = 0.
 template <int N>
 TOFRAY_FN PolygonAlong<N> polygon_seen_along(const Vec (&v)[N], const Vec& s) {
   PolygonAlong<N> form{};
   const Vec normal = normal_of_corners(v);
   const double along = dot(normal, s);
-  if (::fabs(along) <= 1e-6 * length(normal)) return form;
+  if (is_along(normal, s)) return form;
   copy((-1 / along) * normal, form.m);
   form.c = single(dot(normal, v[0]) / along);
   for (int i = 0; i < N; ++i) {

@@ -21,6 +21,7 @@ struct SphereAlong {
   float c[3], radius_squared;
   std::int32_t object;
   std::int32_t own_blocks;  ///< 1: the camera is inside
+  Bounds bounds;            ///< on the light's screen
 };
 
 struct Sphere {
@@ -52,6 +53,7 @@ struct Sphere {
 };
 
 TOFRAY_FN Sphere in_frame(const Sphere& s, const Frame& frame) { return {frame.point(s.center), s.radius}; }
+TOFRAY_FN Span span_along(const Sphere& s, const Vec& a) { return span_about(dot(s.center, a), s.radius); }
 TOFRAY_FN bool inside(const Sphere& s, const Vec& p) { return dot(s.center - p, s.center - p) < s.radius * s.radius; }
 
 TOFRAY_FN void facet_of(const Sphere& s, int, Facet& out) {

@@ -6,8 +6,7 @@
 
 namespace tofray::simulator {
 
-Engines::Engines(const SimulatorOptions& options, const pipeline::Setup& setup, bool moves)
-    : options_(options), cpu_(options.isa, options.threads, moves) {
+Engines::Engines(const SimulatorOptions& options, const pipeline::Setup& setup) : options_(options), cpu_(options.isa, options.threads) {
   backend::check_block_size(options.block_size);
   cpu_.load(setup);
   if (options.backend == Backend::cpu) return;

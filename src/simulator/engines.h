@@ -15,9 +15,8 @@ namespace tofray::simulator {
 class Engines {
  public:
   /// @param setup  what does not change from frame to frame
-  /// @param moves  something in the scene does
   /// @throws Error (device) where a GPU has to be used and cannot
-  Engines(const SimulatorOptions& options, const pipeline::Setup& setup, bool moves);
+  Engines(const SimulatorOptions& options, const pipeline::Setup& setup);
 
   /// Calls work(engine), and again with the processor where a GPU failed.
   /// @throws Error (device) as above

@@ -64,7 +64,7 @@ Depth process(const Raw& raw, const Camera& profile, const SimulatorOptions& opt
   job.filtered = filtered.data();
   job.out = simulator::view_of(depth);
   const simulator::OwnInput own = simulator::input_of(raw);
-  simulator::Engines engines(options, setup, false);
+  simulator::Engines engines(options, setup);
   engines.run([&](backend::Engine& engine) { engine.run(setup, job, &own.input); });
   if (ran_on != nullptr) *ran_on = engines.ran_on();
   return depth;

@@ -62,7 +62,7 @@ Simulator::Impl::Impl(const Scene& all, const Camera& profile, const SimulatorOp
       frozen_camera(camera, wanted.noise != Noise::off, wanted.seed),
       frozen_scene(scene, positions(camera), static_cast<int>(camera.mode.sequence.size()) * options.exposure_samples),
       setup(fixed_setup()),
-      engines(options, setup, frozen_scene.moves()) {
+      engines(options, setup) {
   simulator::set_filter(camera.decoding.filter, job);
   if (job.filter != pipeline::Filter::none)
     filtered.resize(static_cast<std::size_t>(camera.sensor.width) * static_cast<std::size_t>(camera.sensor.height));

@@ -3,15 +3,22 @@
 #pragma once
 #include "scene/view.h"
 
-/// Which forms a bundle of rays can meet at all. Culling never changes a result: it only leaves out what no ray of the bundle hits.
+/// Which forms a bundle of rays can meet at all. Culling never changes a result: it only leaves out what no ray of the bundle hits, and
+/// what is left stays in its order, on which it depends which of two surfaces at one place is seen.
+///
+/// The rays of a tile look at clusters of bodies (scene/clusters.h), then at the bodies of those that they can meet. Where many are left,
+/// each pack of the tile looks once more at these alone (narrow).
 namespace tofray::trace {
 
-/// Indices of the forms that are left; all of them where the list would overflow.
+using scene::cluster_size;
+using scene::ManyBounds;
+
+/// Indices of the forms that are left, and their rectangles.
 struct Picked {
-  static constexpr int capacity = 1024;
   std::int32_t count;
-  bool everything;
-  std::uint16_t index[capacity];
+  bool everything;      ///< all forms are left; nothing is written down
+  std::int32_t* index;  ///< [count]
+  ManyBounds* bounds;   ///< [count/32]
   TOFRAY_FN int at(int i) const { return everything ? i : index[i]; }
 };
 
@@ -26,53 +33,284 @@ struct Walk {
   TOFRAY_FN void next() { ++i; }
 };
 
+/// Forms as a point sees them.
 template <class T>
-struct PickedOf {
+struct PickedForms {
+  using Form = typename T::Form;
   Picked picked;
-  const typename T::Form* forms;
+  const Form* forms;
+  TOFRAY_FN static bool meets(const Form& form, const scene::Bounds& r) { return can_meet(form, r); }
+};
+/// … and as parallel light does.
+template <class T>
+struct PickedAlongs {
+  using Form = typename T::Along;
+  Picked picked;
+  const Form* forms;
+  TOFRAY_FN static bool meets(const Form& form, const scene::Bounds& r) { return shape::can_shade(form, r); }
 };
 
 /// What is left of all shapes. (Another type with these walks can stand in its place.)
-struct Culled : shape::ByShape<PickedOf> {
-  TOFRAY_FN bool empty() const { return count(shape::Shapes{}) == 0; }
+template <template <class> class From>
+struct CulledOf : shape::ByShape<From> {
+  unsigned char* room;  ///< for room_of(bodies) bytes, aligned to 64; what is picked is written there
+  bool many;            ///< so many that it pays to narrow them
+
+  TOFRAY_FN bool empty() const { return count() == 0; }
   TOFRAY_FN int count() const { return count(shape::Shapes{}); }
   template <class T>
-  TOFRAY_FN Walk<typename T::Form> walk() const {
-    return {of<T>().picked, of<T>().forms, 0};
+  TOFRAY_FN Walk<typename From<T>::Form> walk() const {
+    return {this->template of<T>().picked, this->template of<T>().forms, 0};
   }
 
  private:
   template <class... T>
   TOFRAY_FN int count(shape::List<T...>) const {
-    return (of<T>().picked.count + ...);
+    return (this->template of<T>().picked.count + ...);
+  }
+};
+using Culled = CulledOf<PickedForms>;
+using CulledAlong = CulledOf<PickedAlongs>;
+
+/// Everything, without a list.
+struct Uncut {
+  template <class Form>
+  struct Way {
+    const Form* at;
+    int left;
+    TOFRAY_FN bool more() const { return left > 0; }
+    TOFRAY_FN const Form& form() const { return *at; }
+    TOFRAY_FN void next() { ++at, --left; }
+  };
+  scene::Alongs forms;
+  template <class T>
+  TOFRAY_FN Way<typename T::Along> walk() const {
+    return {forms.of<T>().at, forms.of<T>().count};
   }
 };
 
-template <class T>
-TOFRAY_FN void pick(const scene::FormsOf<T>& forms, const scene::Bounds* r, PickedOf<T>& picked) {
-  Picked& out = picked.picked;
-  picked.forms = forms.at;
-  out.everything = r == nullptr;
-  out.count = r == nullptr ? forms.count : 0;
-  for (int i = 0; i < forms.count && !out.everything; ++i) {
-    if (!can_meet(forms.at[i], *r)) continue;
-    if (out.count == Picked::capacity || i > 0xffff) {
-      out.everything = true;
-      out.count = forms.count;
-    } else {
-      out.index[out.count++] = static_cast<std::uint16_t>(i);
+/// Bytes of one shape's list.
+TOFRAY_FN std::size_t list_bytes(int forms) {
+  return static_cast<std::size_t>((forms + cluster_size - 1) / cluster_size) * (4 * cluster_size + sizeof(ManyBounds));
+}
+template <class... T>
+TOFRAY_FN std::size_t room_of(shape::List<T...>, const scene::Bodies& bodies) {
+  return (list_bytes(bodies.of<T>().count) + ...);
+}
+/// Bytes that a Culled writes to.
+TOFRAY_FN std::size_t room_of(const scene::Bodies& bodies) { return room_of(shape::Shapes{}, bodies); }
+
+/// Numbers of bodies, marked in any order and read in theirs: a bit for each, and a bit for each word of 64 in which there is one.
+struct Marks {
+  std::uint64_t *words, *sums;
+
+  static constexpr int per_word = 64, per_sum = per_word * per_word;
+  TOFRAY_FN static int sums_of(int bodies) { return (bodies + per_sum - 1) / per_sum; }
+  /// Words that `words` and `sums` have together.
+  TOFRAY_FN static int words_of(int bodies) { return sums_of(bodies) * (per_word + 1); }
+
+  TOFRAY_FN void clear(int bodies) const {
+    for (int i = 0; i < sums_of(bodies); ++i) sums[i] = 0;
+  }
+  TOFRAY_FN void mark(std::int32_t body) const {
+    const std::int32_t word = body / per_word;
+    const std::uint64_t bit = std::uint64_t{1} << (body % per_word), its = std::uint64_t{1} << (word % per_word);
+    words[word] = (sums[word / per_word] & its) != 0 ? words[word] | bit : bit;
+    sums[word / per_word] |= its;
+  }
+  template <class Each>
+  TOFRAY_FN void each(int bodies, const Each& run) const {
+    for (int s = 0; s < sums_of(bodies); ++s) {
+      for (std::uint64_t full = sums[s]; full != 0; full &= full - 1) {
+        const int word = s * per_word + __builtin_ctzll(full);
+        for (std::uint64_t left = words[word]; left != 0; left &= left - 1) run(word * per_word + __builtin_ctzll(left));
+      }
     }
+  }
+};
+
+template <class... T>
+TOFRAY_FN int most_bodies(shape::List<T...>, const scene::Bodies& bodies) {
+  int most = 0;
+  ((most = bodies.of<T>().count > most ? bodies.of<T>().count : most), ...);
+  return most;
+}
+/// Marks for any one shape of a group.
+TOFRAY_FN std::size_t marks_bytes(const scene::Bodies& bodies) {
+  return static_cast<std::size_t>(Marks::words_of(most_bodies(shape::Shapes{}, bodies))) * sizeof(std::uint64_t);
+}
+
+/// A bit for each of 32 that overlap the rectangle.
+template <class F>
+TOFRAY_FN std::uint32_t overlaps(const ManyBounds& many, const scene::Bounds& r) {
+  std::uint32_t out = 0;
+  for (int i = 0; i < cluster_size; i += num::lanes<F>) {
+    const auto load = [&](const float* from) __attribute__((always_inline)) { return num::load<F>(from + i, num::lanes<F>); };
+    const F x_min = load(many.x_min), x_max = load(many.x_max), y_min = load(many.y_min), y_max = load(many.y_max);
+    const auto met = (x_min <= F(r.x_max)) & (x_max >= F(r.x_min)) & (y_min <= F(r.y_max)) & (y_max >= F(r.y_min));
+    out |= num::lanes_of(met) << i;
+  }
+  return out;
+}
+
+template <class Form>
+TOFRAY_FN void write_down(int i, const Form& form, Picked& out) {
+  out.index[out.count] = i;
+  if constexpr (requires { form.bounds; }) {
+    ManyBounds& many = out.bounds[out.count / cluster_size];
+    const int at = out.count % cluster_size;
+    many.x_min[at] = form.bounds.x_min, many.x_max[at] = form.bounds.x_max;
+    many.y_min[at] = form.bounds.y_min, many.y_max[at] = form.bounds.y_max;
+  }
+  ++out.count;
+}
+
+/// Calls run(cluster) for those that overlap the rectangle.
+template <class F, class Run>
+TOFRAY_FN void each_cluster(const scene::Clusters& clusters, const scene::Bounds& r, const Run& run) {
+  for (int first = 0; first < clusters.count; first += cluster_size) {
+    for (std::uint32_t near = overlaps<F>(clusters.of_clusters[first / cluster_size], r); near != 0; near &= near - 1)
+      run(first + __builtin_ctz(near));
   }
 }
 
-template <class... T>
-TOFRAY_FN void cull_each(shape::List<T...>, const scene::Forms& forms, const scene::Bounds* rectangle, Culled& out) {
-  (pick<T>(forms.of<T>(), rectangle, out.of<T>()), ...);
+/// Marks the bodies of the clusters.
+template <class F>
+TOFRAY_FN void mark_all(const scene::Clusters& clusters, const scene::Bounds& r, const Marks& marks) {
+  each_cluster<F>(
+      clusters, r, [&](int cluster) __attribute__((always_inline)) {
+        const std::int32_t* bodies = clusters.bodies + cluster * cluster_size;
+        for (std::uint32_t left = overlaps<F>(clusters.of_bodies[cluster], r); left != 0; left &= left - 1)
+          marks.mark(bodies[__builtin_ctz(left)]);
+      });
 }
 
-/// For rays d = (x, y, 1) with (x, y) in `rectangle`; a null pointer keeps everything.
-TOFRAY_FN void cull(const scene::Forms& forms, const scene::Bounds* rectangle, Culled& out) {
-  cull_each(shape::Shapes{}, forms, rectangle, out);
+/// To narrow a list takes a pack about as long as to test as many forms.
+constexpr int few_forms = 12;
+
+template <class F, class From, class FormsOf>
+TOFRAY_FN bool pick(const FormsOf& forms, const scene::Bounds* r, unsigned char*& room, Marks marks, From& picked) {
+  picked.forms = forms.at, picked.picked = {};
+  if (forms.count == 0) return false;
+  Picked out{r == nullptr ? forms.count : 0, r == nullptr, reinterpret_cast<std::int32_t*>(room), nullptr};
+  if (r != nullptr) {
+    const int padded = (forms.count + cluster_size - 1) / cluster_size * cluster_size;
+    out.bounds = reinterpret_cast<ManyBounds*>(out.index + padded);
+    room += list_bytes(forms.count);
+    const auto look = [&](int i) __attribute__((always_inline)) {
+      if (From::meets(forms.at[i], *r)) write_down(i, forms.at[i], out);
+    };
+    if (forms.clusters.count == 0) {
+      for (int i = 0; i < forms.count; ++i) look(i);
+    } else {
+      marks.clear(forms.count);
+      mark_all<F>(forms.clusters, *r, marks);
+      marks.each(forms.count, look);
+    }
+  }
+  picked.picked = out;
+  return !out.everything && out.count > few_forms;
+}
+
+template <class F, template <class> class From, class... T, class Forms>
+TOFRAY_FN void cull_each(shape::List<T...>, const Forms& forms, const scene::Bounds* rectangle, const Marks& marks, CulledOf<From>& out) {
+  unsigned char* room = out.room;
+  out.many = false;
+  ((out.many = pick<F>(forms.template of<T>(), rectangle, room, marks, out.template of<T>()) || out.many), ...);
+}
+
+/// For rays d = (x, y, 1) with (x, y) in `rectangle`, or on the screen of parallel light; a null pointer keeps everything.
+/// @param marks  for the most bodies of any shape
+template <class F, template <class> class From, class Forms>
+TOFRAY_APART void cull(const Forms& forms, const scene::Bounds* rectangle, const Marks& marks, CulledOf<From>& out) {
+  cull_each<F>(shape::Shapes{}, forms, rectangle, marks, out);
+}
+
+template <class F, class T, template <class> class From>
+TOFRAY_FN void narrow_one(const CulledOf<From>& from, const scene::Bounds& r, unsigned char*& room, CulledOf<From>& to) {
+  const Picked& all = from.template of<T>().picked;
+  Picked out = all;
+  if constexpr (shape::bounded<T> && !(shape::many_of<T> && shape::has_beams<F>)) {
+    if (!all.everything && all.count > few_forms) {
+      out.count = 0, out.index = reinterpret_cast<std::int32_t*>(room);
+      room += list_bytes(all.count);
+      for (int first = 0; first < all.count; first += cluster_size) {
+        std::uint32_t left = overlaps<F>(all.bounds[first / cluster_size], r);
+        if (all.count - first < cluster_size) left &= (1u << (all.count - first)) - 1;
+        for (; left != 0; left &= left - 1) out.index[out.count++] = all.index[first + __builtin_ctz(left)];
+      }
+    }
+  }
+  to.template of<T>().picked = out, to.template of<T>().forms = from.template of<T>().forms;
+}
+
+template <class F, template <class> class From, class... T>
+TOFRAY_FN void narrow_each(shape::List<T...>, const CulledOf<From>& from, const scene::Bounds& r, CulledOf<From>& to) {
+  unsigned char* room = to.room;
+  to.many = false;
+  (narrow_one<F, T>(from, r, room, to), ...);
+}
+
+/// Points of a pack on the screen of parallel light, each a small rectangle.
+template <class F>
+struct OnScreenPack {
+  F u_low, u_high, v_low, v_high;
+  num::Mask<F> use;
+  TOFRAY_FN bool meets(const ManyBounds& many, int i) const {
+    return num::any(use & (u_high >= F(many.x_min[i])) & (u_low <= F(many.x_max[i])) & (v_high >= F(many.y_min[i])) &
+                    (v_low <= F(many.y_max[i])));
+  }
+  TOFRAY_FN scene::Bounds bounds() const {
+    const F far = F(3e38f);
+    return {num::lowest(num::select(use, u_low, far)), num::highest(num::select(use, u_high, -far)),
+            num::lowest(num::select(use, v_low, far)), num::highest(num::select(use, v_high, -far))};
+  }
+};
+
+template <class F, class T>
+TOFRAY_FN void narrow_one(const scene::Alongs& alongs, const CulledAlong& from, const OnScreenPack<F>& at, const scene::Bounds& r,
+                          unsigned char*& room, CulledAlong& to) {
+  Picked out = from.of<T>().picked;
+  to.of<T>().forms = from.of<T>().forms;
+  if constexpr (shape::bounded<T> && !(shape::many_of<T> && shape::has_beams<F>)) {
+    const scene::Clusters& clusters = alongs.of<T>().clusters;
+    if (clusters.count > 0 && out.count > few_forms) {
+      out.count = 0, out.index = reinterpret_cast<std::int32_t*>(room);
+      room += list_bytes(alongs.of<T>().count);
+      each_cluster<F>(
+          clusters, r, [&](int cluster) __attribute__((always_inline)) {
+            if (!at.meets(clusters.of_clusters[cluster / cluster_size], cluster % cluster_size)) return;
+            const ManyBounds& bodies = clusters.of_bodies[cluster];
+            for (std::uint32_t left = overlaps<F>(bodies, r); left != 0; left &= left - 1) {
+              const int i = __builtin_ctz(left);
+              if (at.meets(bodies, i)) out.index[out.count++] = clusters.bodies[cluster * cluster_size + i];
+            }
+          });
+    }
+  }
+  to.of<T>().picked = out;
+}
+template <class F, class... T>
+TOFRAY_FN void narrow_each(shape::List<T...>, const scene::Alongs& alongs, const CulledAlong& from, const OnScreenPack<F>& at,
+                           CulledAlong& to) {
+  unsigned char* room = to.room;
+  const scene::Bounds r = at.bounds();
+  to.many = false;
+  (narrow_one<F, T>(alongs, from, at, r, room, to), ...);
+}
+
+/// What can keep the sun off the points of a pack. Where they are at many depths, the rectangle that holds them on the screen is long and
+/// holds much that is behind none of them: each cluster, and each form, is asked whether it is before any point. In no order: a shadow
+/// has none.
+template <class F>
+TOFRAY_FN void narrow(const scene::Alongs& alongs, const CulledAlong& from, const OnScreenPack<F>& at, CulledAlong& to) {
+  narrow_each<F>(shape::Shapes{}, alongs, from, at, to);
+}
+
+/// What of it a smaller rectangle holds. Shapes of which there are few, and meshes that tiles look at as a whole, stay as they are.
+template <class F, template <class> class From>
+TOFRAY_FN void narrow(const CulledOf<From>& from, const scene::Bounds& rectangle, CulledOf<From>& to) {
+  narrow_each<F>(shape::Shapes{}, from, rectangle, to);
 }
 
 }  // namespace tofray::trace

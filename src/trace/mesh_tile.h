@@ -25,13 +25,9 @@ TOFRAY_FN Int<F> triangle_at(const TileRays& rays, int at) {
   return num::to_signed(num::bits(shape::load_all<F>(rays.triangle + at)));
 }
 
-template <class... T>
-TOFRAY_FN bool any_mesh(shape::List<T...>, const Culled& culled) {
-  return ((shape::many_of<T> && culled.of<T>().picked.count > 0) || ...);
-}
-template <class... T>
-TOFRAY_FN bool any_mesh(shape::List<T...>, const scene::Alongs& forms) {
-  return ((shape::many_of<T> && forms.of<T>().count > 0) || ...);
+template <template <class> class From, class... T>
+TOFRAY_FN bool any_mesh(shape::List<T...>, const CulledOf<From>& culled) {
+  return ((shape::many_of<T> && culled.template of<T>().picked.count > 0) || ...);
 }
 template <class... T>
 TOFRAY_FN bool any_mesh(shape::List<T...>, const scene::SceneView& s) {
@@ -43,18 +39,12 @@ TOFRAY_FN bool any_mesh(const Forms& forms) {
   return any_mesh(shape::Shapes{}, forms);
 }
 
-template <class T, class Each>
-TOFRAY_FN void each_of(shape::List<T>, const Culled& culled, const Each& each) {
-  for (auto i = culled.walk<T>(); i.more(); i.next()) each(i.form());
-}
-template <class T, class Each>
-TOFRAY_FN void each_of(shape::List<T>, const scene::Alongs& forms, const Each& each) {
-  for (int i = 0; i < forms.of<T>().count; ++i) each(forms.of<T>().at[i]);
-}
-template <class... T, class Forms, class Each>
-TOFRAY_FN void each_mesh(shape::List<T...>, const Forms& forms, const Each& each) {
-  const auto one = [&]<class One>(shape::List<One> list) __attribute__((always_inline)) {
-    if constexpr (shape::many_of<One>) each_of(list, forms, each);
+template <class... T, class Culled, class Each>
+TOFRAY_FN void each_mesh(shape::List<T...>, const Culled& culled, const Each& each) {
+  const auto one = [&]<class One>(shape::List<One>) __attribute__((always_inline)) {
+    if constexpr (shape::many_of<One>) {
+      for (auto i = culled.template walk<One>(); i.more(); i.next()) each(i.form());
+    }
   };
   (one(shape::List<T>{}), ...);
 }

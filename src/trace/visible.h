@@ -53,32 +53,32 @@ TOFRAY_FN Mask<F> blocked(const Culled& culled, const Ray<F>& ray, const Surface
   return blocked_by_each(shape::Shapes{}, culled, ray, p);
 }
 
-template <class T, class F>
-TOFRAY_FN Mask<F> blocked_along(const scene::AlongsOf<T>& forms, const float* s, const Surface<F>& p, Mask<F> dark) {
+template <class T, class F, class Culled>
+TOFRAY_FN Mask<F> blocked_along(const Culled& culled, const float* s, const Surface<F>& p, Mask<F> dark) {
   if constexpr (by_tile<T, F>) return dark;
   const F margin = F(shadow_margin) * p.range;
-  for (int i = 0; i < forms.count; ++i) {
-    const Mask<F> hits = blocks(forms.at[i], p, s, margin);
+  for (auto i = culled.template walk<T>(); i.more(); i.next()) {
+    const Mask<F> hits = blocks(i.form(), p, s, margin);
     if constexpr (shape::many_of<T>) {
       dark = dark | hits;
     } else {
-      dark = dark | shaded<T, F>(forms.at[i], hits, p.object);
+      dark = dark | shaded<T, F>(i.form(), hits, p.object);
     }
   }
   return dark;
 }
 
-template <class... T, class F>
-TOFRAY_FN Mask<F> blocked_along_each(shape::List<T...>, const scene::Alongs& forms, const float* s, const Surface<F>& p) {
+template <class... T, class F, class Culled>
+TOFRAY_FN Mask<F> blocked_along_each(shape::List<T...>, const Culled& culled, const float* s, const Surface<F>& p) {
   Mask<F> dark = F(1.0f) < F(0.0f);
-  ((dark = blocked_along(forms.of<T>(), s, p, dark)), ...);
+  ((dark = blocked_along<T>(culled, s, p, dark)), ...);
   return dark;
 }
 
 /// The same for parallel light that comes from the unit direction s.
-template <class F>
-TOFRAY_FN Mask<F> blocked_parallel(const scene::Alongs& forms, const float* s, const Surface<F>& p) {
-  return blocked_along_each(shape::Shapes{}, forms, s, p);
+template <class F, class Culled>
+TOFRAY_FN Mask<F> blocked_parallel(const Culled& culled, const float* s, const Surface<F>& p) {
+  return blocked_along_each(shape::Shapes{}, culled, s, p);
 }
 
 }  // namespace tofray::trace

@@ -50,8 +50,8 @@ class Seen {
 
 /// All forms, none culled.
 inline trace::Culled everything(const scene::Forms& forms) {
-  trace::Culled all;
-  trace::cull(forms, nullptr, all);
+  trace::Culled all{};
+  trace::cull<float>(forms, nullptr, {}, all);
   return all;
 }
 

@@ -3,6 +3,7 @@
 // Culling leaves out only what no ray of the bundle meets.
 #include <gtest/gtest.h>
 
+#include "support/culler.h"
 #include "support/random_scene.h"
 #include "support/rays.h"
 
@@ -39,8 +40,8 @@ TEST(culling, changes_no_hit_of_any_ray_in_the_rectangle) {
     const scene::FrozenScene frozen(scene, {Vec3{0, 0, 1} + random.point(1.5)}, 1);
     for (const scene::Forms& forms : {frozen.view().camera_still(), frozen.view().light_still(0)}) {
       const scene::Bounds rectangle = random_rectangle(random);
-      trace::Culled some;
-      trace::cull(forms, &rectangle, some);
+      Culler culler(forms);
+      const auto some = culler.cull<trace::Culled>(forms, rectangle);
       const trace::Culled full = everything(forms);
       kept += some.count();
       all += full.count();
@@ -91,25 +92,9 @@ TEST(culling, keeps_what_a_ray_grazes) {
       if (!(hit.w > 0)) continue;
       ++grazed;
       const scene::Bounds alone{ray.x, ray.x, ray.y, ray.y};
-      trace::Culled culled;
-      trace::cull(view.forms(), &alone, culled);
-      ASSERT_EQ(culled.count(), 1) << trial;
+      Culler culler(view.forms());
+      ASSERT_EQ(culler.cull<trace::Culled>(view.forms(), alone).count(), 1) << trial;
     }
   }
   EXPECT_GT(grazed, 200000);
-}
-
-// Just beyond the capacity of the list everything is kept instead.
-TEST(culling, keeps_everything_where_its_list_would_overflow) {
-  for (const int count : {trace::Picked::capacity - 1, trace::Picked::capacity, trace::Picked::capacity + 1, 3000}) {
-    Seen view;
-    for (int i = 0; i < count; ++i) view.add(shape::Sphere{{0.001 * i / count, 0, 2 - 1e-4 * i}, 0.1}, {0, 0, 0}, i);
-    const scene::Bounds middle{-0.01f, 0.01f, -0.01f, 0.01f};
-    trace::Culled culled;
-    trace::cull(view.forms(), &middle, culled);
-    ASSERT_EQ(culled.count(), count);
-    EXPECT_EQ(culled.of<shape::Sphere>().picked.everything, count > trace::Picked::capacity);
-    const auto hit = trace::nearest(culled, ray({0, 0, 1}), flow::no_hit<float>());
-    EXPECT_EQ(hit.facet, count - 1);
-  }
 }

@@ -83,13 +83,17 @@ struct Cpu::Threads {
   TileRunner runner;
 };
 
-Cpu::Cpu(Isa isa, int threads, bool moves)
+Cpu::Cpu(Isa isa, int threads)
     : isa_(choose_isa(isa)), threads_(threads > 0 ? threads : static_cast<int>(std::max(1u, std::thread::hardware_concurrency()))) {
   kernel_ = kernel_of(isa_);
-  pool_ = std::make_unique<Threads>(Threads{TileRunner(threads_, kernel_(nullptr, Pass::pixels, moves ? 1 : 0, nullptr))});
 }
 
 Cpu::~Cpu() = default;
+
+void Cpu::load(const pipeline::Setup& setup) {
+  const Work work{&setup, nullptr, nullptr};
+  pool_ = std::make_unique<Threads>(Threads{TileRunner(threads_, kernel_(&work, Pass::pixels, 0, nullptr))});
+}
 
 void Cpu::describe(RanOn& out) const { out.backend = "cpu", out.device = out.isa = isa_name(isa_), out.threads = threads_; }
 

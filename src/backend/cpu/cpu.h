@@ -21,11 +21,11 @@ bool can_run(Isa isa);
 class Cpu final : public Engine {
  public:
   /// @param threads  0: one per core
-  /// @param moves    something in the scene does
-  Cpu(Isa isa, int threads, bool moves);
+  Cpu(Isa isa, int threads);
   ~Cpu() override;
 
-  void load(const pipeline::Setup&) override {}
+  /// @throws Error (limit) where the system refuses that many threads
+  void load(const pipeline::Setup& setup) override;
   void run(const pipeline::Setup& setup, const pipeline::Job& job, const pipeline::Input* input = nullptr) override;
   [[nodiscard]] bool derives() const override { return false; }
   void describe(RanOn& out) const override;

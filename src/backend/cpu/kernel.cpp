@@ -56,10 +56,14 @@ void run_rows(const Work& work, Pass pass, int band) {
 }  // namespace
 
 extern "C" std::size_t TOFRAY_KERNEL(const Work* work, Pass pass, int index, void* scratch) {
-  if (work == nullptr) return index != 0 ? sizeof(Scratch<F, true>) : sizeof(Scratch<F, false>);
+  const scene::SceneView& scene = work->setup->scene;
+  if (scratch == nullptr) {
+    return scene.moments > 0 ? sizeof(Scratch<F, true>) + Near<true>::room_of(scene)
+                             : sizeof(Scratch<F, false>) + Near<false>::room_of(scene);
+  }
   switch (pass) {
     case Pass::pixels:
-      if (work->setup->scene.moments > 0) {
+      if (scene.moments > 0) {
         run_tile<true>(*work, index, scratch);
       } else {
         run_tile<false>(*work, index, scratch);

@@ -17,8 +17,8 @@ struct Work {
   const pipeline::Input* input;
 };
 
-/// Does piece number `index` of a pass: a tile of pixels, or a band of rows. With a null `work`: returns the bytes of scratch memory that a
-/// worker needs where nothing moves (index 0), or something does (1); otherwise 0. `scratch` is aligned to 64 bytes.
+/// Does piece number `index` of a pass: a tile of pixels, or a band of rows; `scratch` is aligned to 64 bytes. @return 0;
+/// where `scratch` is null, the bytes of it that a worker needs for the work's scene, and nothing is done.
 using Kernel = std::size_t (*)(const Work* work, Pass pass, int index, void* scratch);
 
 extern "C" {

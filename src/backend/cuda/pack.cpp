@@ -182,6 +182,7 @@ void pack_scene(Packer& packer, const scene::SceneView& from, scene::SceneView& 
   to.still.derived = still.still.derived;
   to.facets = still.facets;
   to.moving.derived = {};
+  to.still.clusters = {}, to.moving.clusters = {};  // a warp looks at 32 forms at once as it is
 }
 
 }  // namespace tofray::backend::gpu

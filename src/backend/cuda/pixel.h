@@ -102,6 +102,10 @@ struct WarpNear {
   TOFRAY_FN WarpCulled<Warp> moving_from(const Setup& s, int moment, int light) const {
     return {warp, seen_by_light(), s.scene.light_moving(moment, light)};
   }
+  /// The sun's rays have no common origin: each looks at everything.
+  TOFRAY_FN void look_along(const Setup&, int, const flow::Surface<float>&) const {}
+  TOFRAY_FN trace::Uncut still_along(const Setup& s) const { return {s.scene.sun_still()}; }
+  TOFRAY_FN trace::Uncut moving_along(const Setup& s, int moment) const { return {s.scene.sun_moving(moment)}; }
   /// Each ray looks at meshes by itself.
   static constexpr int sun = 0;
   template <class F>

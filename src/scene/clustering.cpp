@@ -1,0 +1,133 @@
+// SPDX-FileCopyrightText: 2026 The tofray authors
+// SPDX-License-Identifier: Apache-2.0
+#include "scene/clustering.h"
+
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <numeric>
+
+namespace tofray::scene {
+
+namespace {
+
+using Point = std::array<double, 3>;
+
+constexpr float infinite = std::numeric_limits<float>::infinity();
+
+/// The middle of the shape's box.
+template <class T>
+Point middle_of(const T& shape) {
+  Point out{};
+  for (std::size_t k = 0; k < 3; ++k) {
+    const shape::Span span = span_along(shape, {k == 0 ? 1.0 : 0.0, k == 1 ? 1.0 : 0.0, k == 2 ? 1.0 : 0.0});
+    out[k] = 0.5 * (span.low + span.high);
+  }
+  return out;
+}
+
+/// The coordinate in which the points are farthest apart.
+std::size_t widest(const std::vector<Point>& points, const std::int32_t* from, const std::int32_t* to) {
+  Point low{}, high{};
+  low.fill(1e300), high.fill(-1e300);
+  for (; from != to; ++from) {
+    const Point& point = points[static_cast<std::size_t>(*from)];
+    for (std::size_t k = 0; k < 3; ++k) low[k] = std::min(low[k], point[k]), high[k] = std::max(high[k], point[k]);
+  }
+  const Point size{high[0] - low[0], high[1] - low[1], high[2] - low[2]};
+  return static_cast<std::size_t>(std::max_element(size.begin(), size.end()) - size.begin());
+}
+
+/// Halves them, at a multiple of 32, until 32 are left.
+void sort(const std::vector<Point>& points, std::int32_t* from, std::int32_t* to) {
+  if (to - from <= cluster_size) return std::sort(from, to);
+  const std::size_t k = widest(points, from, to);
+  std::int32_t* const half = from + ((to - from) / 2 + cluster_size - 1) / cluster_size * cluster_size;
+  std::nth_element(from, half, to, [&](std::int32_t a, std::int32_t b) {
+    return points[static_cast<std::size_t>(a)][k] < points[static_cast<std::size_t>(b)][k];
+  });
+  sort(points, from, half), sort(points, half, to);
+}
+
+void put(ManyBounds& many, int i, const Bounds& one) {
+  many.x_min[i] = one.x_min, many.x_max[i] = one.x_max, many.y_min[i] = one.y_min, many.y_max[i] = one.y_max;
+}
+
+constexpr Bounds none{infinite, -infinite, infinite, -infinite};
+
+/// What holds all of them.
+Bounds around(const ManyBounds& many) {
+  Bounds out = none;
+  for (int i = 0; i < cluster_size; ++i) {
+    out = {std::min(out.x_min, many.x_min[i]), std::max(out.x_max, many.x_max[i]), std::min(out.y_min, many.y_min[i]),
+           std::max(out.y_max, many.y_max[i])};
+  }
+  return out;
+}
+
+/// One row.
+template <class Form>
+void fill(const std::vector<std::int32_t>& bodies, const Form* forms, ManyBounds* of_bodies, ManyBounds* of_clusters) {
+  const int clusters = static_cast<int>(bodies.size()) / cluster_size;
+  for (int c = 0; c < clusters; ++c) {
+    for (int i = 0; i < cluster_size; ++i) {
+      const std::int32_t body = bodies[static_cast<std::size_t>(c * cluster_size + i)];
+      put(of_bodies[c], i, body < 0 ? none : forms[body].bounds);
+    }
+    put(of_clusters[c / cluster_size], c % cluster_size, around(of_bodies[c]));
+  }
+  for (int c = clusters; c % cluster_size != 0; ++c) put(of_clusters[c / cluster_size], c % cluster_size, none);
+}
+
+std::size_t in_rows(int each, int rows) { return static_cast<std::size_t>(each) * static_cast<std::size_t>(rows); }
+
+template <class T>
+void build_one(const SceneView& scene, const BodiesOf<T>& of, int moments, ClusterMemory<T>& memory, ClustersOf<T>& out) {
+  if (of.count <= cluster_size) return;
+  std::vector<Point> middles;
+  for (int i = 0; i < of.count; ++i) middles.push_back(middle_of(body_at(scene, of.at(0, i), 0)));
+  memory.bodies.resize(static_cast<std::size_t>(of.count));
+  std::iota(memory.bodies.begin(), memory.bodies.end(), 0);
+  sort(middles, memory.bodies.data(), memory.bodies.data() + of.count);
+  out.count = (of.count + cluster_size - 1) / cluster_size;
+  memory.bodies.resize(in_rows(cluster_size, out.count), -1);
+  const int rows = moments * (1 + scene.lights), light_rows = scene.has_sun != 0 ? moments : 0;
+  memory.bodies_seen.resize(in_rows(out.count, rows)), memory.clusters_seen.resize(in_rows(out.groups(), rows));
+  memory.bodies_along.resize(in_rows(out.count, light_rows)), memory.clusters_along.resize(in_rows(out.groups(), light_rows));
+  out.bodies = memory.bodies.data();
+  out.bodies_seen = memory.bodies_seen.data(), out.clusters_seen = memory.clusters_seen.data();
+  out.bodies_along = memory.bodies_along.data(), out.clusters_along = memory.clusters_along.data();
+}
+
+template <class T>
+void update_one(const Group& group, ClusterMemory<T>& memory) {
+  const std::size_t clusters = memory.bodies.size() / cluster_size, groups = (clusters + cluster_size - 1) / cluster_size;
+  if (clusters == 0) return;
+  const auto bodies = static_cast<std::size_t>(group.bodies.of<T>().count);
+  const DerivedOf<T>& derived = group.derived.of<T>();
+  for (std::size_t row = 0; row < memory.bodies_seen.size() / clusters; ++row)
+    fill(memory.bodies, derived.forms + row * bodies, &memory.bodies_seen[row * clusters], &memory.clusters_seen[row * groups]);
+  for (std::size_t row = 0; row < memory.bodies_along.size() / clusters; ++row)
+    fill(memory.bodies, derived.along + row * bodies, &memory.bodies_along[row * clusters], &memory.clusters_along[row * groups]);
+}
+
+template <class... T, class Each>
+void each_bounded(shape::List<T...>, const Each& each) {
+  const auto one = [&]<class One>(shape::List<One> which) {
+    if constexpr (shape::bounded<One>) each(which);
+  };
+  (one(shape::List<T>{}), ...);
+}
+
+}  // namespace
+
+void Clustering::build(const SceneView& scene, Group& group, int moments) {
+  each_bounded(shape::Shapes{},
+               [&]<class T>(shape::List<T>) { build_one(scene, group.bodies.of<T>(), moments, memory_.of<T>(), group.clusters.of<T>()); });
+}
+
+void Clustering::update(const Group& group) {
+  each_bounded(shape::Shapes{}, [&]<class T>(shape::List<T>) { update_one<T>(group, memory_.of<T>()); });
+}
+
+}  // namespace tofray::scene

@@ -1,0 +1,40 @@
+// SPDX-FileCopyrightText: 2026 The tofray authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "flow/flow.h"
+
+/// Bodies that are near each other, 32 to a cluster, and the rectangles in which they are seen: whoever asks which of many bodies a bundle
+/// of rays can meet looks at 32 clusters at once, and then at the 32 bodies of those that are left.
+namespace tofray::scene {
+
+constexpr int cluster_size = 32;
+
+/// Rectangles side by side. One that overlaps nothing begins at infinity.
+struct alignas(64) ManyBounds {
+  float x_min[cluster_size], x_max[cluster_size], y_min[cluster_size], y_max[cluster_size];
+};
+
+/// One shape's clusters as seen from one point, or along parallel light.
+struct Clusters {
+  const std::int32_t* bodies;     ///< [cluster][32] numbers; −1: none
+  const ManyBounds* of_bodies;    ///< [cluster]
+  const ManyBounds* of_clusters;  ///< [cluster/32]
+  std::int32_t count;             ///< of clusters; 0: there are so few bodies that each is looked at
+};
+
+/// All of them.
+template <class T>
+struct ClustersOf {
+  const std::int32_t* bodies;
+  const ManyBounds *bodies_seen, *clusters_seen;    ///< [moment][eye][…] as forms are
+  const ManyBounds *bodies_along, *clusters_along;  ///< [moment][…]
+  std::int32_t count;
+
+  TOFRAY_FN Clusters seen_from(int row) const { return {bodies, bodies_seen + row * count, clusters_seen + row * groups(), count}; }
+  TOFRAY_FN Clusters seen_along(int row) const { return {bodies, bodies_along + row * count, clusters_along + row * groups(), count}; }
+  /// How often 32 clusters are looked at.
+  TOFRAY_FN int groups() const { return (count + cluster_size - 1) / cluster_size; }
+  bool operator==(const ClustersOf&) const = default;
+};
+
+}  // namespace tofray::scene

@@ -1,0 +1,118 @@
+// SPDX-FileCopyrightText: 2026 The tofray authors
+// SPDX-License-Identifier: Apache-2.0
+// Thousands of objects give the same bytes whether tiles look for them in clusters or every pixel tests each of them.
+#include <gtest/gtest.h>
+
+#include "backend/cpu/cpu.h"
+#include "support/crowd.h"
+#include "support/same_frame.h"
+#include "support/sanitizers.h"
+
+using namespace tofray;
+using namespace tofray::test;
+
+namespace {
+
+Camera small_camera(int lights, Random& random) {
+  Camera camera = load_camera("pico-flexx");
+  camera.sensor.width = 45, camera.sensor.height = 19;
+  Lens& lens = camera.lens;
+  lens.cx_px = 22, lens.cy_px = 9, lens.fx_px = lens.fy_px = 40;
+  for (int i = 1; i < lights; ++i) {
+    camera.illumination.push_back(camera.illumination[0]);
+    camera.illumination.back().position = random.point(0.7);
+  }
+  return camera;
+}
+
+/// The second frame that the simulator makes.
+Frame frame_of(const Scene& scene, const Camera& camera, Isa isa, bool culling, int threads = 1, int samples = 1) {
+  SimulatorOptions options;
+  options.seed = 7, options.isa = isa, options.culling = culling, options.threads = threads, options.exposure_samples = samples;
+  Simulator simulator(scene, camera, options);
+  const Frame before = simulator.frame(0);
+  return simulator.frame(before.index + 5);
+}
+
+/// On all kinds of code, against one object after the other. @return pixels that see an object but the wall
+int expect_same_without_culling(const Scene& scene, const Camera& camera, int samples = 1) {
+  const Frame reference = frame_of(scene, camera, Isa::best, false, 1, samples);
+  for (const Isa isa : {Isa::scalar, Isa::scalar_fma, Isa::avx2, Isa::avx512})
+    if (backend::can_run(isa)) {
+      EXPECT_EQ(first_difference(frame_of(scene, camera, isa, true, 1, samples), reference), "") << backend::isa_name(isa);
+    }
+  EXPECT_EQ(first_difference(frame_of(scene, camera, Isa::best, true, 3, samples), reference), "") << "three threads";
+  int seen = 0;
+  for (const std::int32_t id : reference.truth.object_id) seen += id > 0;
+  return seen;
+}
+
+constexpr int crowd_size = with_sanitizers ? 700 : 3000;
+
+}  // namespace
+
+TEST(many_objects, still_with_three_lights) {
+  Random random(81);
+  const Camera camera = small_camera(3, random);
+  EXPECT_GT(expect_same_without_culling(crowd(random, crowd_size, false), camera), 50);
+}
+
+TEST(many_objects, moving_in_the_sun) {
+  Random random(82);
+  for (int trial = 0; trial < 2; ++trial) {
+    Scene scene = crowd(random, crowd_size / 2, true);
+    scene.camera.pose = random_pose(random);
+    scene.ambient.spectrum = Ambient::Spectrum::sun_am15;
+    scene.ambient.amount = 0.5, scene.ambient.direction = Vec3{0.3, 0.5, 1} + random.point(0.2);
+    EXPECT_GT(expect_same_without_culling(scene, small_camera(2, random)), 50);
+  }
+}
+
+// They turn, follow keyframes and change their shape, before a camera that stands or moves.
+TEST(many_objects, turning_changing_and_passed_by) {
+  Random random(85);
+  for (int trial = 0; trial < 2; ++trial) {
+    Scene scene = crowd(random, crowd_size / 2, true);
+    scene.camera.pose = random_pose(random);
+    scene.ambient.spectrum = Ambient::Spectrum::sun_am15;
+    scene.ambient.amount = 0.5, scene.ambient.direction = Vec3{0.3, 0.5, 1} + random.point(0.2);
+    let_meshes_change(scene);
+    set_in_motion(random, scene, trial == 1);
+    EXPECT_GT(expect_same_without_culling(scene, small_camera(2, random), 1 + trial), 50);
+  }
+}
+
+// Of two at one place the first one is seen, wherever the others of its cluster stand.
+TEST(many_objects, twins_show_the_first_of_them) {
+  Random random(83);
+  Scene scene;
+  scene.materials = {{"matt", Material::Brdf::lambert, 0.7, 0, 1}, {"dark", Material::Brdf::lambert, 0.2, 0, 1}};
+  std::vector<Sphere> balls;
+  for (int i = 0; i < 600; ++i) balls.push_back({random.point(0.8) + Vec3{0, 0, 2}, 0.05});
+  for (int round = 0; round < 3; ++round)
+    for (const Sphere& ball : balls) {
+      scene.objects.push_back(object(ball));
+      scene.objects.back().material = round == 0 ? 0 : 1;
+    }
+  const Camera camera = small_camera(1, random);
+  EXPECT_GT(expect_same_without_culling(scene, camera), 200);
+  int seen = 0;
+  for (const std::int32_t id : frame_of(scene, camera, Isa::best, true).truth.object_id) {
+    EXPECT_LT(id, 600);
+    seen += id >= 0;
+  }
+  EXPECT_GT(seen, 200);
+}
+
+// As many as a scene may have, of which one tile holds more than any list had room for.
+TEST(many_objects, in_one_tile_as_many_as_there_may_be) {
+  Random random(84);
+  Scene scene;
+  scene.materials = {{"matt", Material::Brdf::lambert, 0.7, 0, 1}};
+  const int count = with_sanitizers ? 5000 : 20000;
+  for (int i = 0; i < count; ++i) {
+    const double wide = i % 3 == 0 ? 0.02 : 1;
+    scene.objects.push_back(object(Sphere{Vec3{random.between(-wide, wide), random.between(-wide, wide), random.between(1, 3)}, 0.004}));
+  }
+  EXPECT_GT(expect_same_without_culling(scene, small_camera(1, random)), 100);
+}
