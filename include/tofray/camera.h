@@ -73,6 +73,17 @@ struct Waveform {
   std::vector<double> correlation;
 };
 
+/// Where the light of a source comes out: at a point, or evenly all over a disk or rectangle across its axis. So many points at fixed
+/// places stand for that, in equal shares (theory 2.1).
+struct Area {
+  enum class Kind { none, disk, rectangle };
+  Kind kind = Kind::none;
+  double radius_m = 0;  ///< disk
+  double width_m = 0;   ///< rectangle: toward the camera's x (of an axis along x: its y)
+  double height_m = 0;  ///< across that
+  int points = 16;
+};
+
 /// One of the camera's light sources, in the camera frame.
 struct Illumination {
   Vec3 position{0, 0, 0};
@@ -81,7 +92,8 @@ struct Illumination {
   double power_w = 0;        ///< optical, of a lit raw frame, mean over the modulation period
   int ring_leds = 1;         ///< so many sources, evenly on a circle about `position`, across `axis`; they share the power
   double ring_radius_m = 0;  ///< of that circle; the first stands toward the camera's x (of an axis along x: its y)
-  Pattern pattern;           ///< of each
+  Area area;                 ///< of each; its middle is where a point would be
+  Pattern pattern;           ///< of each point
   Waveform waveform;
 };
 

@@ -10,7 +10,8 @@
 /// Arrays of one's own in the place of what the first stages find: plain, contiguous, row-major. (Raw data of one's own: see process().)
 ///
 /// `moment`: one for all raw frames of a frame, or one for each of them, at the middle of its exposure, where something moves.
-/// `light`: one for each of Camera::illumination, in its order; a ring has one for each of its LEDs.
+/// `light`: one for each of Camera::illumination, in its order; a ring has one for each of its LEDs, an area one for each of its points
+/// (LED by LED).
 namespace tofray {
 
 /// What another renderer saw, pixel for pixel along the camera's rays, for stage 2 (power). Camera frame: x right, y down, z forward.

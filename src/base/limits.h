@@ -30,7 +30,8 @@ inline constexpr Limit moving_views{
 inline constexpr Limit changing_triangles{"changing_triangles", 20'000'000,
                                           "triangles of meshes that change their shape, at all times of a frame together"};
 inline constexpr Limit materials{"materials", 10'000, "materials of one scene"};
-inline constexpr Limit lights{"lights", 8, "light sources of one camera"};
+inline constexpr Limit lights{"lights", 64, "light sources of one camera; each LED of a ring and each point of an area is one"};
+inline constexpr Limit light_samples{"light_samples", 8 << 20, "samples of their patterns, all together"};
 inline constexpr Limit raw_frames{"raw_frames", 64, "raw frames of one mode's sequence"};
 inline constexpr Limit modes{"modes", 256, "modes of one camera profile"};
 inline constexpr Limit sensor_side{"sensor_side", 16'384, "pixels along one side of the sensor"};
@@ -86,6 +87,7 @@ inline constexpr Limit all_limits[] = {
     limit::changing_triangles,
     limit::materials,
     limit::lights,
+    limit::light_samples,
     limit::raw_frames,
     limit::modes,
     limit::sensor_side,

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "base/constants.h"
+#include "camera/area_points.h"
 #include "num/setup_math.h"
 
 namespace tofray::camera {
@@ -20,17 +21,21 @@ Mat3 source_axes(const Vec3& direction) {
 
 namespace {
 
-/// The LEDs of a ring, or the one source that there is.                                                      [theory: eq. 2.15]
+/// The points of an area at each LED of a ring, or the one source that there is.                       [theory: eq. 2.15, 2.21, 2.22]
 void append_emitters(const Illumination& light, std::vector<Illumination>& out) {
   const Mat3 axes = source_axes(light.axis);
+  const std::vector<Vec3> points = points_of(light.area);
   for (int i = 0; i < light.ring_leds; ++i) {
     const double turn = 2 * pi * i / light.ring_leds;
-    Illumination one = light;
-    one.position =
+    const Vec3 middle =
         light.position + (light.ring_radius_m * num::setup::cos(turn)) * axes[0] + (light.ring_radius_m * num::setup::sin(turn)) * axes[1];
-    one.power_w = light.power_w / light.ring_leds;
-    one.ring_leds = 1, one.ring_radius_m = 0;
-    out.push_back(one);
+    for (const Vec3& point : points) {
+      Illumination one = light;
+      one.position = middle + transposed(axes) * point;
+      one.power_w = light.power_w / (light.ring_leds * static_cast<double>(points.size()));
+      one.ring_leds = 1, one.ring_radius_m = 0, one.area = {};
+      out.push_back(one);
+    }
   }
 }
 

@@ -9,6 +9,7 @@
 #include "base/constants.h"
 #include "base/curve.h"
 #include "base/faults.h"
+#include "base/limits.h"
 #include "camera/emitters.h"
 #include "camera/lens.h"
 #include "camera/waveform.h"
@@ -21,12 +22,10 @@ using namespace base;
 namespace setup = num::setup;
 using num::single;
 
+static_assert(flow::max_lights == limit::lights.value);
+
 FrozenCamera::FrozenCamera(const Camera& camera, bool noise, std::uint64_t seed)
     : camera_(with_emitters(camera)), modulations_(modulations_of(camera.mode)) {
-  if (camera_.illumination.size() > flow::max_lights) {
-    throw Error(ErrorKind::limit, "error: more than 8 light sources\n  got " + std::to_string(camera_.illumination.size()) +
-                                      "; each LED of a ring counts as one");
-  }
   if (camera.mode.sequence.size() > flow::max_raw_frames) throw Error(ErrorKind::limit, "error: more than 64 raw frames in one sequence");
   freeze_lens();
   const ClampedCurve efficiency(camera.pixel.quantum_efficiency, "quantum_efficiency");

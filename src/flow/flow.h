@@ -7,7 +7,7 @@
 namespace tofray::flow {
 
 /// Limits of what a worker keeps at hand; no type that goes to a GPU has arrays of these sizes.
-constexpr int max_lights = 8;
+constexpr int max_lights = 64;
 constexpr int max_raw_frames = 64;
 constexpr int max_harmonics = 8;
 constexpr int max_modulation_frequencies = 8;

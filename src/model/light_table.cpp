@@ -17,6 +17,8 @@ constexpr Number half_angle{angle, {1e-3, pi}, "43 deg"};
 constexpr Number half_range{angle, {1e-3, 2 * pi}, "43 deg"};
 constexpr Number width{angle, {1e-3, 2 * pi}, "62 deg"};
 constexpr Number cells{none, {2, 4096}, "172"};  // between two of them it is interpolated
+constexpr Number extent{length, {base::shortest_m, 10}, "10 mm"};
+constexpr auto most_lights = static_cast<double>(base::limit::lights.value);
 constexpr auto curve_points = static_cast<int>(base::limit::curve_points.value);
 constexpr auto table_samples = static_cast<int>(base::limit::table_samples.value);
 
@@ -84,6 +86,20 @@ const Table& table_of<Waveform>() {
 }
 
 template <>
+const Table& table_of<Area>() {
+  using Kind = Area::Kind;
+  constexpr auto kind_of = &Area::kind;
+  static const Table rows = table<Area>(
+      kind<kind_of>("kind", {"none", "disk", "rectangle"}),
+      number<&Area::radius_m>("radius", extent, "of the disk, across the axis").when<kind_of>(Kind::disk).required(),
+      number<&Area::width_m>("width", extent, "toward the camera's x; of an axis along x: its y").when<kind_of>(Kind::rectangle).required(),
+      number<&Area::height_m>("height", extent, "across that and the axis").when<kind_of>(Kind::rectangle).required(),
+      number<&Area::points>("points", {none, {1, most_lights}, "16"}, "that stand for it; each costs as much as a light source")
+          .when<kind_of>(Kind::disk, Kind::rectangle));
+  return rows;
+}
+
+template <>
 const Table& table_of<Illumination>() {
   static const Table rows = table<Illumination>(
       number<&Illumination::position>("position", {length, {-100, 100}, "15.47 mm"}, "in the camera's frame"),
@@ -92,8 +108,10 @@ const Table& table_of<Illumination>() {
           .required(),
       number<&Illumination::power_w>("power", {power, {0, 1e4}, "0.2 W"}, "optical, of a lit raw frame, mean over the modulation period")
           .required(),
-      number<&Illumination::ring_leds>("ring_leds", {none, {1, 8}, "6"}, "so many sources on a circle about the position, across the axis"),
+      number<&Illumination::ring_leds>("ring_leds", {none, {1, most_lights}, "4"},
+                                       "so many sources on a circle about the position, across the axis"),
       number<&Illumination::ring_radius_m>("ring_radius", {length, {0, 10}, "20 mm"}, "of that circle"),
+      record<&Illumination::area>("area", "a disk or rectangle across the axis, which shines evenly, in place of a point"),
       record<&Illumination::pattern>("pattern", "how the light is spread over directions").required(),
       record<&Illumination::waveform>("waveform", "how it is modulated").required());
   return rows;

@@ -26,6 +26,8 @@ const Table& table_of<Pattern>();
 template <>
 const Table& table_of<Waveform>();
 template <>
+const Table& table_of<Area>();
+template <>
 const Table& table_of<Illumination>();
 template <>
 const Table& table_of<Pixel>();

@@ -16,7 +16,7 @@ void check(const Scene& scene);
 void check(std::span<const FrameRequest> requests);
 void check(const SimulatorOptions& options);
 /// … and for all of them together: what is derived of things that move has to fit into memory.
-/// @param camera  rings of light taken apart
+/// @param camera  rings and areas of light taken apart
 void check_moving_views(const Scene& scene, const Camera& camera, const SimulatorOptions& options);
 /// … and the shapes of meshes that change theirs.
 void check_changing_triangles(const Scene& scene, const Camera& camera, const SimulatorOptions& options);

@@ -44,6 +44,19 @@ TEST_P(EveryScene, has_the_same_bytes_by_the_functions_of_the_gpu) {
 
 INSTANTIATE_TEST_SUITE_P(cuda_host, EveryScene, testing::ValuesIn(scene_names()), [](const auto& which) { return test_name(which.param); });
 
+// As many lights as there may be: four LEDs, each a disk of sixteen points.
+TEST(cuda_host, has_the_same_bytes_with_64_lights) {
+  const WithStandIn here;
+  for (const char* name : {"flying-ball", "step-and-rod", "bench-mesh"}) {
+    const Scene scene = load_scene(name);
+    Camera camera = small(load_camera(scene));
+    camera.illumination[0].ring_leds = 4, camera.illumination[0].ring_radius_m = 0.08;
+    camera.illumination[0].area = {Area::Kind::disk, 0.03, 0, 0, 16};
+    expect_same(scene, camera, {.seed = 7});
+    expect_same(scene, camera, {.noise = Noise::off, .culling = false});
+  }
+}
+
 TEST(cuda_host, has_the_same_bytes_with_everything_switched_on) {
   const WithStandIn here;
   const Scene scene = load_scene("demo");

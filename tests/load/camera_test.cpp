@@ -185,16 +185,61 @@ TEST(counts, are_refused_before_anything_is_allocated) {
   EXPECT_TRUE(
       has(refusal({slow, {"modes.MODE_9_5FPS_2000.sequence", two.substr(0, two.size() - 1) + ", " + two.substr(1)}}, ErrorKind::limit),
           "too many raw frames"));
-  for (const int count : {8, 9}) {
+  for (const int count : {64, 65}) {
     lights.clear();
     for (int i = 0; i < count; ++i)
       lights += std::string(i > 0 ? ", " : "") + "{illumination_wavelength: 850 nm, power: 1 W, pattern: lambertian, waveform: sine}";
-    if (count == 8) {
-      EXPECT_EQ(with({{"illumination", "[" + lights + "]"}}).illumination.size(), 8U);
+    if (count == 64) {
+      EXPECT_EQ(with({{"illumination", "[" + lights + "]"}}).illumination.size(), 64U);
     } else {
       EXPECT_TRUE(has(refusal({{"illumination", "[" + lights + "]"}}, ErrorKind::limit), "illumination has too many elements"));
     }
   }
+}
+
+TEST(area_of_light, is_read_and_refused_by_its_kind) {
+  const auto area = [](const std::string& text) { return std::vector<std::pair<std::string, std::string>>{{"illumination.0.area", text}}; };
+  EXPECT_EQ(with({}).illumination[0].area.kind, Area::Kind::none);
+  const Area disk = with(area("{kind: disk, radius: 8 cm}")).illumination[0].area;
+  EXPECT_EQ(disk.kind, Area::Kind::disk);
+  EXPECT_EQ(disk.radius_m, 0.08);
+  EXPECT_EQ(disk.points, 16);
+  const Area card = with(area("{kind: rectangle, width: 4 cm, height: 5 mm, points: 37}")).illumination[0].area;
+  EXPECT_EQ(card.kind, Area::Kind::rectangle);
+  EXPECT_EQ(card.width_m, 0.04);
+  EXPECT_EQ(card.height_m, 0.005);
+  EXPECT_EQ(card.points, 37);
+  for (const char* bad : {"0 mm", "-1 mm", "1e-9 m", "1 km", "1e300 m"}) {
+    EXPECT_TRUE(has(refusal(area(std::string("{kind: disk, radius: ") + bad + "}")),
+                    "--set illumination.0.area: error: radius is out of range\n  got \"" + std::string(bad) +
+                        "\", expected a length such as \"10 mm\", 0.001 mm to 10000 mm"))
+        << bad;
+    EXPECT_TRUE(has(refusal(area(std::string("{kind: rectangle, height: 1 cm, width: ") + bad + "}")), "width is out of range")) << bad;
+  }
+  EXPECT_TRUE(has(refusal(area("{kind: disk, radius: .nan}")), "radius is not finite"));
+  EXPECT_TRUE(has(refusal(area("{kind: disk, radius: 8}")), "radius has no unit"));
+  EXPECT_TRUE(has(refusal(area("{kind: rectangle, width: 8 cm}")), "area lacks the key \"height\""));
+  EXPECT_TRUE(has(refusal(area("{kind: disk, radius: 8 cm, height: 1 cm}")), "unknown key \"height\""));
+  EXPECT_TRUE(has(refusal(area("{kind: square, width: 8 cm}")), "expected one of none, disk or rectangle"));
+  for (const char* points : {"0", "-1", "65", "1.5", "1e9"})
+    EXPECT_TRUE(has(refusal(area(std::string("{kind: disk, radius: 8 cm, points: ") + points + "}")), "points")) << points;
+}
+
+// Each number by itself is good, but not all together: the message stands at the light that has most of them.
+TEST(area_of_light, makes_no_more_lights_than_the_limit) {
+  std::string text = pico();
+  const auto put = [&](const std::string& before, const std::string& added) { text.insert(text.find(before), added); };
+  put("    power: {value: 0.2 W", "    ring_leds: 4\n    area: {kind: disk, radius: 1 cm, points: 17}\n");
+  std::string said;
+  try {
+    (void)load::camera_from_text(text, "my.yaml", "");
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), ErrorKind::limit);
+    said = error.what();
+  }
+  EXPECT_EQ(said,
+            "my.yaml:40:46: error: the camera has too many light sources\n  got 68, at most 64 (`tofray --limits`); each LED of a ring and "
+            "each point of an area is a source; take fewer points or LEDs");
 }
 
 TEST(every_member_of_a_camera, can_be_written) {

@@ -36,6 +36,7 @@ Camera random_camera(Random& random) {
     light.waveform.kind = random.below(20) == 0 ? static_cast<Waveform::Kind>(random.below(3)) : Waveform::Kind::sine;
     light.waveform.harmonics = 2, light.waveform.correlation = {1, 0.7, 0, -0.7, -1, -0.7, 0, 0.7};
     light.position = random.point(0.1);
+    light.area = {static_cast<Area::Kind>(random.below(3)), 0.02, 0.03, 0.01, 1 + random.below(4)};
   }
   c.lens.vignetting = static_cast<Lens::Vignetting>(random.below(3));
   c.lens.vignetting_table = {{0, 0.5, 1}, {1, 0.8, 0.3}};

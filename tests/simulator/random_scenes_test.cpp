@@ -42,6 +42,7 @@ Case random_case(int number) {
     const Pattern::Kind kinds[] = {Pattern::Kind::cone, Pattern::Kind::lambertian, Pattern::Kind::cosine_lobe};
     light.pattern.kind = kinds[random.below(3)];
     light.pattern.half_angle_rad = 0.6, light.pattern.exponent = 6;
+    if (i == 1) light.area = {Area::Kind::disk, 0.08, 0, 0, 5}, light.ring_leds = 2, light.ring_radius_m = 0.2;
     c.camera.illumination.push_back(light);
   }
   if (number % 4 == 0) c.camera.power_model = PowerModel::paper_literal;

@@ -91,13 +91,15 @@ TEST(ring, stands_across_its_axis) {
 }
 
 TEST(ring, of_more_leds_than_there_may_be_lights_is_refused) {
-  Camera camera = ringed(5, 0.1);
+  Camera camera = ringed(33, 0.1);
   camera.illumination.push_back(camera.illumination[0]);
   try {
     (void)Simulator({}, camera);
     FAIL();
   } catch (const Error& error) {
     EXPECT_EQ(error.kind(), ErrorKind::limit);
-    EXPECT_STREQ(error.what(), "error: more than 8 light sources\n  got 10; each LED of a ring counts as one");
+    EXPECT_STREQ(error.what(),
+                 "error: illumination[0].ring_leds: the camera has too many light sources\n  got 66, at most 64 (`tofray --limits`); each "
+                 "LED of a ring and each point of an area is a source; take fewer points or LEDs");
   }
 }
