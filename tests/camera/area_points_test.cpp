@@ -142,6 +142,29 @@ TEST(area_points, have_the_second_moments_of_their_area) {
   }
 }
 
+// Cells are squares as far as that goes: no two points are close together, and none stand along a diagonal.
+TEST(area_points, keep_apart) {
+  const auto nearest = [](const std::vector<Vec3>& points) {
+    double least = 1e30;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      for (std::size_t k = 0; k < i; ++k) least = std::min(least, base::length(points[i] - points[k]));
+    }
+    return least;
+  };
+  for (int n = 2; n <= 64; ++n) {
+    EXPECT_GT(nearest(camera::points_of(disk_of(1, n))) / std::sqrt(pi / n), 0.5) << n;
+    for (const auto& [width, height] : {std::pair{1.0, 1.0}, std::pair{4.0, 1.0}, std::pair{1.0, 6.0}}) {
+      const auto points = camera::points_of(rectangle_of(width, height, n));
+      EXPECT_GT(nearest(points) / std::sqrt(width * height / n), 0.42) << n << " " << width;
+      double both = 0;
+      for (const Vec3& p : points) both += 12 * p[0] * p[1] / (width * height * n);
+      if (width == height) {
+        EXPECT_LT(std::abs(both), 1.8 / n) << n;
+      }
+    }
+  }
+}
+
 // Across any axis: width along the source's own x, height along its y, even power, all of it.
 TEST(area_points, stand_across_the_axis) {
   const Vec3 middle{0.1, -0.2, 0.05};

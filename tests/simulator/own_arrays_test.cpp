@@ -11,6 +11,7 @@
 #include "backend/cpu/cpu.h"
 #include "support/files.h"
 #include "support/same_frame.h"
+#include "support/scenes.h"
 #include "support/statistics.h"
 
 using namespace tofray;
@@ -58,7 +59,8 @@ TEST_P(OwnArrays, of_the_light_that_a_scene_sent_give_its_raw_data_and_depth) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(all, OwnArrays, testing::ValuesIn(scene_names()), [](const auto& which) { return test_name(which.param); });
+INSTANTIATE_TEST_SUITE_P(all, OwnArrays, testing::ValuesIn(scenes_of_one_point_light()),
+                         [](const auto& which) { return test_name(which.param); });
 
 TEST(own_arrays, have_the_same_bytes_on_every_machine) {
   const Scene scene = load_scene("demo");
