@@ -34,7 +34,7 @@ double rectangle_share(double width, double height, double angle, double t) {
 
 /// How far the share of points on one side of a line is from that of the area, at worst of all lines across one direction.
 template <class Share>
-double worst(const std::vector<Vec3>& points, double angle, const Share& share) {
+double worst_along(const std::vector<Vec3>& points, double angle, const Share& share) {
   std::vector<double> at;
   for (const Vec3& p : points) at.push_back(p[0] * std::cos(angle) + p[1] * std::sin(angle));
   std::sort(at.begin(), at.end());
@@ -53,7 +53,7 @@ double worst_of_all(const std::vector<Vec3>& points, const Share& share) {
   double most = 0;
   for (int i = 0; i < 180; ++i) {
     const double angle = pi * (i + 0.5) / 180;
-    most = std::max(most, worst(points, angle, [&](double t) { return share(angle, t); }));
+    most = std::max(most, worst_along(points, angle, [&](double t) { return share(angle, t); }));
   }
   return most;
 }
@@ -96,13 +96,13 @@ TEST(area_points, stand_in_columns_and_rows_of_their_own) {
   for (int n = 1; n <= 64; ++n) {
     const double least = 0.5 / n + 1e-12;
     for (const double angle : {0.0, pi / 2}) {
-      EXPECT_LE(worst(camera::points_of(disk_of(1, n)), angle, disk_share), n == 57 ? 1.1 * least : least) << n;
+      EXPECT_LE(worst_along(camera::points_of(disk_of(1, n)), angle, disk_share), n == 57 ? 1.1 * least : least) << n;
     }
     for (const auto& [width, height] : shapes) {
       const auto points = camera::points_of(rectangle_of(width, height, n));
       const double w = width, h = height;
-      EXPECT_LE(worst(points, 0, [&](double t) { return t / w + 0.5; }), least) << n << " " << width;
-      EXPECT_LE(worst(points, pi / 2, [&](double t) { return t / h + 0.5; }), least) << n << " " << width;
+      EXPECT_LE(worst_along(points, 0, [&](double t) { return t / w + 0.5; }), least) << n << " " << width;
+      EXPECT_LE(worst_along(points, pi / 2, [&](double t) { return t / h + 0.5; }), least) << n << " " << width;
     }
   }
 }
