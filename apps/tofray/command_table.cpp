@@ -20,9 +20,9 @@ int run_complete(const Options& options);
 
 namespace {
 
-const std::vector<const char*> simulation = {"--output",  "--set",     "--mode",   "--seed",     "--noise", "--exposure-samples",
-                                             "--fps",     "--emit",    "--arrays", "--compress", "--theme", "--root",
-                                             "--threads", "--backend", "--device"};
+const std::vector<const char*> simulation = {"--output",   "--set",     "--mode",    "--seed",   "--noise",    "--exposure-samples",
+                                             "--subpixel", "--fps",     "--emit",    "--arrays", "--compress", "--theme",
+                                             "--root",     "--threads", "--backend", "--device"};
 
 std::vector<const char*> simulation_and(std::vector<const char*> more) {
   std::vector<const char*> all = simulation;
@@ -51,6 +51,7 @@ std::vector<Command> make() {
                    "tofray render room --theme light                         # pictures on white, for papers\n"
                    "tofray render room --frames 500 --arrays raw,z_m,flags   # an eighth of the bytes\n"
                    "tofray render scene.yaml --frames 60 --fps 15 --exposure-samples 4  # a film, with motion blur\n"
+                   "tofray render room --subpixel 3                          # edges mix near and far, as in a real pixel\n"
                    "tofray render --from out/manifest.json -o again          # the same bytes again\n",
        .more = "SCENE is a YAML or JSON file, a name out of `tofray list scenes`, or a mesh (OBJ, PLY, STL), which is put on a floor.\n"
                "Without -o the folder is called like the scene.\n"
@@ -83,8 +84,8 @@ std::vector<Command> make() {
                    "tofray inspect out/frame.npz --pixel 112,86      # surface, power, electrons, every raw frame, phase, depth\n"
                    "tofray inspect scene.yaml --pixel 112,86         # the same, simulated now\n",
        .more = "FILE is a .npz file, a scene file or the name of a built-in scene.\n",
-       .options = {"--pixel", "--set", "--mode", "--seed", "--noise", "--exposure-samples", "--fps", "--root", "--threads", "--backend",
-                   "--device", "--json"},
+       .options = {"--pixel", "--set", "--mode", "--seed", "--noise", "--exposure-samples", "--subpixel", "--fps", "--root", "--threads",
+                   "--backend", "--device", "--json"},
        .least_words = 1,
        .most_words = 1,
        .run = run_inspect,
@@ -163,7 +164,7 @@ std::vector<Command> make() {
                "and in ./tofray-bench (or -o DIR) experiment.json, experiment.txt, speed-up.png and speed-up.svg.\n"
                "Exit code 1 where not all give the same bytes.\n",
        .options = {"--frames", "--warmup", "--compare", "--batch", "--stage", "--block-size", "--output", "--set", "--mode", "--seed",
-                   "--noise", "--exposure-samples", "--root", "--threads", "--backend", "--device", "--json"},
+                   "--noise", "--exposure-samples", "--subpixel", "--root", "--threads", "--backend", "--device", "--json"},
        .least_words = 0,
        .most_words = 1,
        .run = run_bench,

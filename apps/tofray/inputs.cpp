@@ -236,6 +236,7 @@ SimulatorOptions simulator_options(const Options& options) {
   out.seed = options.seed.value_or(0);
   out.noise = options.noise.value_or(Noise::exact);
   out.exposure_samples = options.exposure_samples.value_or(1);
+  out.subpixel = options.subpixel.value_or(1);
   out.threads = options.threads;
   out.backend = options.backend.value_or(Backend::automatic);
   out.device = options.device;

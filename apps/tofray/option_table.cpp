@@ -183,6 +183,8 @@ std::vector<OptionSpec> specs() {
        [](Options& o, const std::string& v) {
          o.exposure_samples = static_cast<int>(whole("--exposure-samples", v, 1, 1000, "a whole number of 1 to 1000"));
        }},
+      {"--subpixel", 0, "N", "N x N samples within each pixel, whose edges then mix what they see (1)",
+       [](Options& o, const std::string& v) { o.subpixel = static_cast<int>(whole("--subpixel", v, 1, 16, "a whole number of 1 to 16")); }},
       {"--fps", 0, "F", "frames per second, in place of the mode's: as --set camera.frame_rate='F Hz'", take_frame_rate},
       {"--frames", 0, "N", "how many frames",
        [](Options& o, const std::string& v) { o.frames = whole("--frames", v, 1, most_frames, "a whole number of 1 to 1000000000"); }},

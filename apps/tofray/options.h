@@ -27,7 +27,7 @@ struct Options {
   std::optional<std::uint64_t> batch;        ///< --batch: frames at once
   std::vector<int> block_sizes;              ///< --block-size: CUDA threads per block
   std::vector<std::string> stages;           ///< --stage, out of trace, power, raw, all
-  std::optional<int> exposure_samples;
+  std::optional<int> exposure_samples, subpixel;
   std::uint64_t first_frame = 0;
   std::uint64_t warmup = 3;
   int threads = 0;  ///< 0: one per core

@@ -43,6 +43,7 @@ void read_truth(const Arrays& arrays, std::size_t pixel, PixelChain& out) {
   out.object_name = name_of_object(arrays, out.object);
   out.true_range_m = arrays.at("gt_range_m", pixel), out.true_z_m = arrays.at("gt_z_m", pixel);
   out.reflectivity = arrays.at("gt_reflectivity", pixel);
+  out.object_share = arrays.at("gt_object_share", pixel), out.mixed = arrays.at("gt_mixed", pixel);
   out.position_m = triple(arrays, "gt_position_m", pixel), out.normal = triple(arrays, "gt_normal", pixel);
   double cosine = 0;
   for (std::size_t i = 0; i < 3; ++i) cosine -= out.normal[i] * out.position_m[i] / out.true_range_m;

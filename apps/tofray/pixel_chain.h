@@ -35,6 +35,7 @@ struct PixelChain {
   long object = -1;
   std::string object_name;  ///< its name, or its shape
   double true_range_m = 0, true_z_m = 0, reflectivity = 0, incidence_rad = 0;
+  double object_share = 0, mixed = 0;  ///< of samples within the pixel
   std::array<double, 3> position_m{}, normal{};
   double irradiance_w_m2 = 0, radiance_w_m2_sr = 0, power_w = 0;
   // measured

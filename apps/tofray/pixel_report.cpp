@@ -22,13 +22,21 @@ std::string triple(const std::array<double, 3>& v) {
   return fmt::format("({}, {}, {})", shown("{:.4f}", v[0]), shown("{:.4f}", v[1]), shown("{:.4f}", v[2]));
 }
 
+/// Only frames with samples within the pixels know of it.
+std::string share_text(const PixelChain& p) {
+  if (std::isnan(p.object_share)) return {};
+  return fmt::format("            {} % of the pixel's samples see {}{}\n", shown("{:.4g}", 100 * p.object_share),
+                     p.object < 0 ? "nothing" : "it", p.mixed > 0 ? ": a mixed pixel" : "");
+}
+
 std::string surface_text(const PixelChain& p, bool knows_object) {
-  if (knows_object && p.object < 0) return "surface     nothing is seen here\n";
+  if (knows_object && p.object < 0) return "surface     nothing is seen here\n" + share_text(p);
   std::string text = fmt::format("surface     object {}{}, reflectivity {}\n", knows_object ? std::to_string(p.object) : "-",
                                  p.object_name.empty() ? "" : " (" + p.object_name + ")", shown("{:.4g}", p.reflectivity));
   text += fmt::format("            range {} m, z {} m, at {} m\n", shown("{:.6f}", p.true_range_m), shown("{:.6f}", p.true_z_m),
                       triple(p.position_m));
   text += fmt::format("            normal {}, seen at {} deg to it\n", triple(p.normal), shown("{:.1f}", p.incidence_rad * degrees));
+  text += share_text(p);
   text += fmt::format("light       irradiance on the surface {} W/m2, radiance toward the camera {} W/(m2 sr)\n",
                       shown("{:.4g}", p.irradiance_w_m2), shown("{:.4g}", p.radiance_w_m2_sr));
   return text + fmt::format("            power on the pixel {} W\n", shown("{:.4g}", p.power_w));
@@ -85,6 +93,7 @@ std::string depth_text(const PixelChain& p, const Arrays& arrays) {
 std::string missing_text(const Arrays& arrays) {
   std::string names;
   for (const results::ArrayRow& row : results::array_table()) {
+    if (row.name == "gt_mixed" || row.name == "gt_object_share") continue;  // no dash comes of these
     if (arrays.find(row.name) == nullptr) names += (names.empty() ? "" : ", ") + row.name;
   }
   return names.empty() ? "" : "\nnot in this file: " + names + "\n";
@@ -145,6 +154,7 @@ files::Json pixel_json(const Arrays& arrays, int u, int v) {
       .set("z_m", p.true_z_m);
   truth.set("position_m", files::Json::list(p.position_m)).set("normal", files::Json::list(p.normal)).set("incidence_rad", p.incidence_rad);
   truth.set("irradiance_w_m2", p.irradiance_w_m2).set("radiance_w_m2_sr", p.radiance_w_m2_sr).set("power_w", p.power_w);
+  truth.set("object_share", p.object_share).set("mixed", p.mixed);
   depth.set("range_m", p.range_m).set("z_m", p.z_m).set("point_m", files::Json::list(p.point_m)).set("noise_m", p.noise_m);
   depth.set("amplitude_e", p.amplitude_e)
       .set("ambient_e", p.ambient_e)

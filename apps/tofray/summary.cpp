@@ -54,6 +54,7 @@ void write_manifest(files::OutputFolder& folder, const Options& options, const s
   if (!options.mode.empty()) manifest.options.emplace_back("mode", options.mode);
   if (options.noise) manifest.options.emplace_back("noise", results::noise_name(*options.noise));
   if (options.exposure_samples) manifest.options.emplace_back("exposure-samples", std::to_string(*options.exposure_samples));
+  if (options.subpixel) manifest.options.emplace_back("subpixel", std::to_string(*options.subpixel));
   if (options.emit) manifest.options.emplace_back("emit", joined(*options.emit));
   if (options.theme == pictures::Theme::light) manifest.options.emplace_back("theme", "light");
   if (!options.arrays.empty()) manifest.options.emplace_back("arrays", options.arrays);

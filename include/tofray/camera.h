@@ -15,11 +15,32 @@ struct Curve {
   std::vector<double> y;
 };
 
+/// Where within a pixel light is collected, for samples within it (SimulatorOptions::subpixel).
+struct PixelMask {
+  enum class Kind { square, table };
+  Kind kind = Kind::square;          ///< square: evenly in a square of area fill_factor·pitch² in its middle
+  std::vector<double> samples = {};  ///< table: of the whole pixel, rows from its top on, columns from its left on, any unit
+  int columns = 0, rows = 0;
+};
+
 struct Sensor {
   int width = 0;   ///< pixels
   int height = 0;  ///< pixels
   double pixel_pitch_m = 0;
   double fill_factor = 1;  ///< 0…1
+  PixelMask mask = {};
+};
+
+/// Light that lens and filter scatter over the sensor before it is collected: (1 − share)·δ + share·K, ΣK = 1.
+struct Scatter {
+  enum class Kind { none, gaussians, kernel };
+  Kind kind = Kind::none;
+  double share = 0;                   ///< 0…1 of the light that is scattered
+  std::vector<double> sigma_px = {};  ///< gaussians: width of each
+  std::vector<double> weights = {};   ///< gaussians: how much of it each takes, any unit; empty: all alike
+  /// kernel: how much goes where, rows from above on, columns from the left on; odd numbers of both, any unit. The middle is the pixel itself.
+  std::vector<double> kernel = {};
+  int columns = 0, rows = 0;
 };
 
 /// Pinhole with Brown–Conrady distortion, OpenCV's convention; pixel (0,0)'s centre is at (0.0, 0.0).
@@ -31,6 +52,7 @@ struct Lens {
   enum class Vignetting { cos4, off, table };
   Vignetting vignetting = Vignetting::cos4;
   Curve vignetting_table;  ///< angle to the optical axis [rad] → factor
+  Scatter scatter = {};
 };
 
 /// Optical filter before the sensor, seen by ambient light only (the camera's own light has Lens::transmission).

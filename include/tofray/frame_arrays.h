@@ -74,6 +74,8 @@ enum class ArrayShape {
   row(gt_texcoord,         truth, texcoord,         float,        pairs,   trace, "1",         "u, v of TriangleMesh::texcoords, or NaN") \
   row(gt_velocity_m_per_s, truth, velocity_m_per_s, float,        vectors, trace, "m/s",       "scene flow: of the point, camera frame") \
   row(gt_flow_px,          truth, flow_px,          float,        pairs,   trace, "px",        "u, v: optical flow to one frame later") \
+  row(gt_mixed,            truth, mixed,            std::uint8_t, image,   trace, "1",         "several objects or > 5 cm of range; sub-pixel samples") \
+  row(gt_object_share,     truth, object_share,     float,        image,   trace, "1",         "of the pixel, what sees gt_object_id; likewise") \
   row(gt_irradiance_w_m2,  truth, irradiance_w_m2,  float,        image,   power, "W/m2",      "own light on the surface") \
   row(gt_radiance_w_m2_sr, truth, radiance_w_m2_sr, float,        image,   power, "W/(m2 sr)", "own light toward the camera") \
   row(gt_power_w,          truth, power_w,          float,        image,   power, "W",         "own light on the pixel") \

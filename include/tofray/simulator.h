@@ -43,6 +43,7 @@ struct SimulatorOptions {
   bool truth = true;                ///< fill Frame::truth
   Stage last_stage = Stage::depth;  ///< stop after this stage: arrays of later ones are left as they are (zero in a new frame)
   int exposure_samples = 1;         ///< 1…1000: times within each exposure at which what moves is seen, evenly spread: motion blur
+  int subpixel = 1;                 ///< 1…16: samples of each pixel along its rows and columns; 1: its middle alone sees the scene
   bool culling = true;              ///< off: every pixel tests every object (slower, same bytes; for tests)
 };
 

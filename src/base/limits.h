@@ -36,6 +36,11 @@ inline constexpr Limit raw_frames{"raw_frames", 64, "raw frames of one mode's se
 inline constexpr Limit modes{"modes", 256, "modes of one camera profile"};
 inline constexpr Limit sensor_side{"sensor_side", 16'384, "pixels along one side of the sensor"};
 inline constexpr Limit sensor_pixels{"sensor_pixels", 1 << 24, "pixels of the sensor"};
+inline constexpr Limit subpixel_rays{"subpixel_rays", 1 << 26, "pixels times samples within each"};
+inline constexpr Limit light_values{"light_values", 1 << 29,
+                                    "values of the light image: pixels times what is kept of the light of each, at all times of a frame"};
+inline constexpr Limit mask_side{"mask_side", 1024, "rows, or columns, of a pixel's mask"};
+inline constexpr Limit kernel_side{"kernel_side", 255, "rows, or columns, of the kernel of a lens that scatters light"};
 inline constexpr Limit raw_samples{"raw_samples", 1 << 27, "pixels times raw frames of one frame"};
 inline constexpr Limit curve_points{"curve_points", 10'000, "points of one curve or spectrum"};
 inline constexpr Limit threads{"threads", 1024, "threads of one run"};
@@ -92,6 +97,10 @@ inline constexpr Limit all_limits[] = {
     limit::modes,
     limit::sensor_side,
     limit::sensor_pixels,
+    limit::subpixel_rays,
+    limit::light_values,
+    limit::mask_side,
+    limit::kernel_side,
     limit::raw_samples,
     limit::curve_points,
     limit::table_samples,

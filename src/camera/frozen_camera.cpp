@@ -11,7 +11,7 @@
 #include "base/faults.h"
 #include "base/limits.h"
 #include "camera/emitters.h"
-#include "camera/lens.h"
+#include "camera/subpixel.h"
 #include "camera/waveform.h"
 #include "num/philox.h"
 #include "num/setup_math.h"
@@ -24,10 +24,10 @@ using num::single;
 
 static_assert(flow::max_lights == limit::lights.value);
 
-FrozenCamera::FrozenCamera(const Camera& camera, bool noise, std::uint64_t seed)
-    : camera_(with_emitters(camera)), modulations_(modulations_of(camera.mode)) {
+FrozenCamera::FrozenCamera(const Camera& camera, bool noise, std::uint64_t seed, int subpixel)
+    : camera_(with_emitters(camera)), modulations_(modulations_of(camera.mode)), scatter_(camera.lens.scatter, camera.sensor) {
   if (camera.mode.sequence.size() > flow::max_raw_frames) throw Error(ErrorKind::limit, "error: more than 64 raw frames in one sequence");
-  freeze_lens();
+  freeze_lens(subpixel);
   const ClampedCurve efficiency(camera.pixel.quantum_efficiency, "quantum_efficiency");
   for (const Illumination& light : camera_.illumination) {
     lights_.push_back(freeze_light(light, efficiency.evaluate(light.illumination_wavelength_m)));
@@ -47,56 +47,25 @@ FrozenCamera::FrozenCamera(const Camera& camera, bool noise, std::uint64_t seed)
   freeze_decoder(noise);
 }
 
-void FrozenCamera::freeze_lens() {
+void FrozenCamera::freeze_lens(int subpixel) {
   const Sensor& sensor = camera_.sensor;
-  const std::size_t pixels = static_cast<std::size_t>(sensor.width) * static_cast<std::size_t>(sensor.height);
-  ray_x_.assign(pixels, 0), ray_y_.assign(pixels, 0), inverse_length_.assign(pixels, 1), vignetting_.assign(pixels, 0);
-  lens_.width = sensor.width, lens_.height = sensor.height;
-  lens_.pixel_area = single(1 / (camera_.lens.fx_px * camera_.lens.fy_px));
-  const double limit = growing_radius_squared(camera_.lens);
-  const Lens& said = camera_.lens;
-  lens_.projection = {single(said.fx_px), single(said.fy_px), single(said.k1), single(said.k2),
-                      single(said.p1),    single(said.p2),    single(said.k3), single(limit)};
-  const Vignetting vignetting(camera_.lens);
-  std::size_t i = 0;
-  for (int v = 0; v < sensor.height; ++v) {
-    for (int u = 0; u < sensor.width; ++u, ++i) {
-      Point2 p{};
-      if (!unproject(camera_.lens, limit, {static_cast<double>(u), static_cast<double>(v)}, p)) continue;
-      ray_x_[i] = single(p.x), ray_y_[i] = single(p.y);
-      const double x = static_cast<double>(ray_x_[i]), y = static_cast<double>(ray_y_[i]);
-      inverse_length_[i] = single(1 / std::sqrt(x * x + y * y + 1));
-      // 0 says "outside the lens model", so that a dark corner of a vignetting table is not mistaken for one
-      vignetting_[i] = std::max(single(vignetting.factor(p)), std::numeric_limits<float>::min());
+  middle_ = FrozenLens(camera_.lens, sensor, {0, 0}, 1);
+  lens_ = middle_.view();
+  subpixel_.count = 1;
+  if (subpixel > 1) {
+    for (const SubpixelSample& sample : subpixel_samples(sensor, subpixel)) {
+      samples_.emplace_back(camera_.lens, sensor, sample.offset_px, 1.0 / (subpixel * subpixel));
+      sample_views_.push_back(samples_.back().view());
+      shares_.push_back(single(sample.share));
     }
+    subpixel_ = {static_cast<std::int32_t>(samples_.size()), sample_views_.data(), shares_.data()};
   }
-  lens_.ray_x = ray_x_.data(), lens_.ray_y = ray_y_.data(), lens_.vignetting = vignetting_.data();
-  lens_.inverse_length = inverse_length_.data();
-  freeze_tiles();
-
   const double area = sensor.pixel_pitch_m * sensor.pixel_pitch_m * sensor.fill_factor;
   const double number = camera_.lens.f_number;
   power_.watts_per_radiance = single(pi * camera_.lens.transmission * area / (4 * number * number));  // [theory: eq. 2.5, 2.6]
   power_.paper_literal = camera_.power_model == PowerModel::paper_literal;
   const double focal_mm = 1e3 * camera_.lens.fx_px * sensor.pixel_pitch_m;
   power_.paper_scale = single(pi * area / (4 * number * number * focal_mm * focal_mm));  // [theory: eq. 2.11]
-}
-
-void FrozenCamera::freeze_tiles() {
-  for (int top = 0; top < lens_.height; top += flow::tile_height) {
-    for (int left = 0; left < lens_.width; left += flow::tile_width) {
-      const float far = std::numeric_limits<float>::max();
-      flow::Bounds b{far, -far, far, -far};
-      for (int v = top; v < std::min(top + flow::tile_height, lens_.height); ++v) {
-        for (int u = left; u < std::min(left + flow::tile_width, lens_.width); ++u) {
-          const std::size_t i = static_cast<std::size_t>(v) * static_cast<std::size_t>(lens_.width) + static_cast<std::size_t>(u);
-          b = {std::min(b.x_min, ray_x_[i]), std::max(b.x_max, ray_x_[i]), std::min(b.y_min, ray_y_[i]), std::max(b.y_max, ray_y_[i])};
-        }
-      }
-      tiles_.push_back(b);
-    }
-  }
-  lens_.tile = tiles_.data();
 }
 
 /// Reference phase of a modulation frequency's first raw frame.
@@ -197,7 +166,7 @@ std::vector<double> raw_frame_starts_s(const std::vector<double>& integration_ti
 
 void FrozenCamera::freeze_patterns() {
   const Pixel& pixel = camera_.pixel;
-  const std::size_t pixels = ray_x_.size();
+  const std::size_t pixels = static_cast<std::size_t>(lens_.width) * static_cast<std::size_t>(lens_.height);
   constexpr double infinite = std::numeric_limits<double>::infinity();
   // Each pattern is a stream of its own in the random numbers of the sensor's seed.
   const auto draw = [&](double sigma, double mean, double least, std::uint32_t stream, std::vector<float>& map) -> const float* {

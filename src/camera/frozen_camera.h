@@ -3,6 +3,8 @@
 #pragma once
 #include <vector>
 
+#include "camera/frozen_lens.h"
+#include "camera/frozen_scatter.h"
 #include "camera/views.h"
 #include "tofray/camera.h"
 
@@ -32,13 +34,16 @@ std::vector<double> raw_frame_starts_s(const std::vector<double>& integration_ti
 /// Camera profile → views. Owns all arrays the views point to; not copied.
 class FrozenCamera {
  public:
-  /// @param noise  false: expected values
+  /// @param noise     false: expected values
+  /// @param subpixel  samples of each pixel along a row and along a column
   /// @throws Error (bad_input) where the profile makes no sense as a whole
-  FrozenCamera(const Camera& camera, bool noise, std::uint64_t seed);
+  FrozenCamera(const Camera& camera, bool noise, std::uint64_t seed, int subpixel = 1);
   FrozenCamera(const FrozenCamera&) = delete;
   FrozenCamera& operator=(const FrozenCamera&) = delete;
 
   [[nodiscard]] const LensView& lens() const { return lens_; }
+  [[nodiscard]] const SubpixelView& subpixel() const { return subpixel_; }
+  [[nodiscard]] const ScatterView& scatter() const { return scatter_.view(); }
   [[nodiscard]] const std::vector<LightView>& lights() const { return light_views_; }
   [[nodiscard]] const PhasorView& phasors() const { return phasors_; }
   [[nodiscard]] const PowerView& power() const { return power_; }
@@ -49,8 +54,7 @@ class FrozenCamera {
   [[nodiscard]] const std::vector<double>& raw_frame_start_s() const { return start_; }
 
  private:
-  void freeze_lens();
-  void freeze_tiles();
+  void freeze_lens(int subpixel);
   void freeze_sequence(std::uint64_t seed, bool noise);
   void freeze_phasors();
   [[nodiscard]] double first_phase(std::size_t modulation) const;
@@ -63,7 +67,13 @@ class FrozenCamera {
 
   Camera camera_;
   Modulations modulations_;
+  FrozenLens middle_;
+  std::vector<FrozenLens> samples_;  // within the pixel
+  std::vector<LensView> sample_views_;
+  std::vector<float> shares_;
+  FrozenScatter scatter_;
   LensView lens_{};
+  SubpixelView subpixel_{};
   PowerView power_{};
   SensorView sensor_{};
   DecoderView decoder_{};
@@ -78,9 +88,8 @@ class FrozenCamera {
   std::vector<DecodeModulation> decode_modulations_;
   std::vector<std::int32_t> grey_frames_;
   std::vector<std::vector<std::int32_t>> grouped_, pairs_;  // [modulation]
-  std::vector<float> ray_x_, ray_y_, inverse_length_, vignetting_, gain_, offset_, delay_;
+  std::vector<float> gain_, offset_, delay_;
   std::vector<std::vector<float>> wiggling_;
-  std::vector<flow::Bounds> tiles_;
   std::vector<double> start_;
 };
 

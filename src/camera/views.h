@@ -29,6 +29,31 @@ struct LensView {
   bool operator==(const LensView&) const = default;
 };
 
+/// Places within a pixel at which it sees the scene, one lens for each, and how much of the pixel's light each brings.
+struct SubpixelView {
+  std::int32_t count;    ///< 1 at least
+  const LensView* lens;  ///< [count]; null: the pixel's middle alone sees the scene
+  const float* share;    ///< [count] their sum is 1
+  bool operator==(const SubpixelView&) const = default;
+};
+
+/// A part of the light that the lens scatters, as a kernel over the sensor: K(dx, dy), zero beyond ±radius.
+struct ScatterTerm {
+  static constexpr int pad = 32;  ///< zeros before and behind each row of weights
+  std::int32_t radius;
+  const float* weights;  ///< [dy][dx] rows of pad + 2·radius + 1 + pad; of a separable kernel one: K = weights(dx)·column(dy)
+  const float* column;   ///< [2·radius + 1]
+};
+
+/// Light that lens and filter scatter over the sensor: (1 − share)·δ + Σ_terms K.                           [theory: eq. 7.4]
+struct ScatterView {
+  float kept;  ///< 1 − share
+  std::int32_t terms;
+  std::int32_t separable;  ///< all of them are
+  const ScatterTerm* term;
+  bool operator==(const ScatterView&) const = default;
+};
+
 /// How one light spreads its power over directions: I(θx, θy) [W/sr].
 struct PatternView {
   enum Kind : std::int32_t { cone, cosine_lobe, flat_top, table };

@@ -16,6 +16,9 @@ using enum base::Dimension;
 using enum Constant;
 using base::pi;
 
+constexpr auto mask_side = static_cast<int>(base::limit::mask_side.value);
+constexpr auto kernel_side = static_cast<int>(base::limit::kernel_side.value);
+constexpr int scatter_gaussians = 4;
 constexpr auto raw_frames = static_cast<int>(base::limit::raw_frames.value);
 
 constexpr Number side{none, {1, static_cast<double>(base::limit::sensor_side.value)}, "224"};
@@ -38,11 +41,53 @@ constexpr Number pause{time, {0, 10}, "3.5 ms"};
 }  // namespace
 
 template <>
+const Table& table_of<PixelMask>() {
+  using Kind = PixelMask::Kind;
+  static const Table rows =
+      table<PixelMask>(kind<&PixelMask::kind>("kind", {"square", "table"}),
+                       grid<&PixelMask::samples, &PixelMask::rows, &PixelMask::columns>(
+                           "samples", {none, {0, 1e12}, "1"}, 1, mask_side, "of the whole pixel, rows from its top on, any unit")
+                           .when<&PixelMask::kind>(Kind::table)
+                           .or_file("mask.csv"),
+                       no_row<&PixelMask::columns, &PixelMask::rows>("the samples' own size"))
+          .check_with(masks_let_light_through);
+  return rows;
+}
+
+template <>
 const Table& table_of<Sensor>() {
-  static const Table rows = table<Sensor>(  //
+  static const Table rows = table<Sensor>(
       number<&Sensor::width>("width", side, "pixels").required(), number<&Sensor::height>("height", side, "pixels").required(),
       number<&Sensor::pixel_pitch_m>("pixel_pitch", {length, {0.5e-6, 1e-3}, "12 um"}, "from pixel to pixel").required(),
-      number<&Sensor::fill_factor>("fill_factor", {fraction, {1e-3, 1}, "0.8"}, "share of the pixel's area that collects light"));
+      number<&Sensor::fill_factor>("fill_factor", {fraction, {1e-3, 1}, "0.8"}, "share of the pixel's area that collects light"),
+      record<&Sensor::mask>("mask", "where within a pixel it is collected, for samples within it"));
+  return rows;
+}
+
+template <>
+const Table& table_of<Scatter>() {
+  using Kind = Scatter::Kind;
+  constexpr auto kind_of = &Scatter::kind;
+  static const Table rows =
+      table<Scatter>(
+          kind<kind_of>("kind", {"none", "gaussians", "kernel"}),
+          number<&Scatter::share>("share", {fraction, {0, 1}, "2 %"}, "of the light")
+              .when<kind_of>(Kind::gaussians, Kind::kernel)
+              .required(),
+          numbers<&Scatter::sigma_px>("sigma", {pixel, {0.1, 1e4}, "8 px"}, 1, scatter_gaussians, "width of each Gaussian")
+              .when<kind_of>(Kind::gaussians)
+              .required(),
+          numbers<&Scatter::weights>("weights", {none, {0, 1e12}, "1"}, 1, scatter_gaussians,
+                                     "how much of it each Gaussian takes, any unit; all alike unless given")
+              .when<kind_of>(Kind::gaussians)
+              .absent(),
+          grid<&Scatter::kernel, &Scatter::rows, &Scatter::columns>(
+              "kernel", {none, {0, 1e12}, "1"}, 1, kernel_side,
+              "how much of it goes where, any unit: rows from above on, odd in number as the columns; the middle is the pixel itself")
+              .when<kind_of>(Kind::kernel)
+              .or_file("kernel.csv"),
+          no_row<&Scatter::columns, &Scatter::rows>("the kernel's own size"))
+          .check_with(scatter_goes_somewhere);
   return rows;
 }
 
@@ -62,7 +107,8 @@ const Table& table_of<Lens>() {
       choice<&Lens::vignetting>("vignetting", {"cos4", "off", "table"},
                                 "fall-off toward the corners: cos4, off, or a table over the angle to the axis"),
       curve<&Lens::vignetting_table>("vignetting", {"angle", {angle, {0, pi / 2}, "30 deg"}}, {"factor", {none, {0, 2}, "0.6"}}, "")
-          .when<&Lens::vignetting>(Lens::Vignetting::table));
+          .when<&Lens::vignetting>(Lens::Vignetting::table),
+      record<&Lens::scatter>("scatter", "light that lens and filter scatter over the sensor"));
   return rows;
 }
 

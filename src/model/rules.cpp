@@ -108,6 +108,44 @@ void filter_at_the_light(Camera& camera, const Given& given) {
     camera.filter.center_m = camera.illumination[0].illumination_wavelength_m;
 }
 
+namespace {
+
+/// Rows times columns of numbers, not all of them 0.
+template <class T>
+void check_grid(const T& record, const std::vector<double>& values, int rows, int columns, const std::string& what,
+                Complaints& complaints) {
+  if (rows < 0 || columns < 0 || static_cast<long long>(values.size()) != static_cast<long long>(rows) * columns)
+    return complaints.add(
+        record, &values, what + " does not have rows times columns numbers",
+        "got " + std::to_string(values.size()) + " numbers for " + std::to_string(rows) + " x " + std::to_string(columns));
+  if (std::all_of(values.begin(), values.end(), [](double value) { return value == 0; }))
+    complaints.add(record, &values, what + " is 0 everywhere", "expected a number above 0");
+}
+
+}  // namespace
+
+void masks_let_light_through(const PixelMask& mask, Complaints& complaints) {
+  if (mask.kind == PixelMask::Kind::table) check_grid(mask, mask.samples, mask.rows, mask.columns, "the mask", complaints);
+}
+
+void scatter_goes_somewhere(const Scatter& scatter, Complaints& complaints) {
+  if (scatter.kind == Scatter::Kind::gaussians) {
+    const std::vector<double>& weights = scatter.weights;
+    if (!weights.empty() && weights.size() != scatter.sigma_px.size())
+      complaints.add(scatter, &weights, "the scatter has not as many weights as Gaussians",
+                     "got " + std::to_string(weights.size()) + " weights for " + std::to_string(scatter.sigma_px.size()));
+    if (!weights.empty() && std::all_of(weights.begin(), weights.end(), [](double weight) { return weight == 0; }))
+      complaints.add(scatter, &weights, "the weights of the scatter are all 0", "expected one above 0");
+  }
+  if (scatter.kind == Scatter::Kind::kernel) {
+    check_grid(scatter, scatter.kernel, scatter.rows, scatter.columns, "the kernel", complaints);
+    if (scatter.rows % 2 == 0 || scatter.columns % 2 == 0)
+      complaints.add(
+          scatter, &scatter.kernel, "the kernel has no middle",
+          "got " + std::to_string(scatter.rows) + " rows of " + std::to_string(scatter.columns) + "; expected odd numbers of both");
+  }
+}
+
 void tables_shine(const Pattern& pattern, Complaints& complaints) {
   if (pattern.kind == Pattern::Kind::flat_top && (pattern.columns > 0) != (pattern.rows > 0))
     complaints.add(pattern, nullptr, "pattern has columns or rows alone", "expected both, or none");

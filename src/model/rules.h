@@ -11,6 +11,8 @@ void far_is_beyond_near(const Decoding& decoding, Complaints& complaints);
 void lit_raw_frames_have_a_frequency(const RawFrame& raw, Complaints& complaints);
 /// … of lights and of pixels.
 void sizes_are_within_the_limits(const Camera& camera, Complaints& complaints);
+void masks_let_light_through(const PixelMask& mask, Complaints& complaints);
+void scatter_goes_somewhere(const Scatter& scatter, Complaints& complaints);
 void tables_shine(const Pattern& pattern, Complaints& complaints);
 void correlations_carry_their_harmonics(const Waveform& waveform, Complaints& complaints);
 

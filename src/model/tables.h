@@ -38,6 +38,10 @@ const Table& table_of<RawFrame>();
 template <>
 const Table& table_of<Mode>();
 template <>
+const Table& table_of<PixelMask>();
+template <>
+const Table& table_of<Scatter>();
+template <>
 const Table& table_of<ImageFilter>();
 template <>
 const Table& table_of<Decoding>();

@@ -36,8 +36,9 @@ struct Recording {
 };
 
 struct Input {
-  Stage entry;           ///< the first stage that is computed: power, raw or depth
-  std::int32_t moments;  ///< 1, or one for each raw frame
+  Stage entry;              ///< the first stage that is computed: power, raw or depth
+  std::int32_t moments;     ///< 1, or one for each raw frame
+  std::int32_t from_image;  ///< 1: the light of stage 3 is that of Job::light
   SurfaceArrays surface;
   LightArrays light;
   Recording recording;
@@ -150,6 +151,11 @@ class GivenWalk {
   TOFRAY_FN void go_to(const Moment&) const {}
 
   TOFRAY_FN bool find_light(const Moment& now, int, const Pixels& p, const flow::Ray<F>& ray, F vignetting, Pack<F>& pack) const {
+    if (in_.from_image != 0) {
+      if (s_.last_stage >= Stage::raw) load_light(s_, job_.light, p, now.index, pack.light);
+      if (now.truth) store_mixed<F>(s_, job_.out, job_.light, p);
+      return true;
+    }
     const power::Wanted which = wanted(s_, now, false);
     flow::Radiometry<F> radiometry{F(0.0f), F(0.0f), F(0.0f)};
     flow::Surface<F> surface{};
@@ -175,6 +181,7 @@ class GivenWalk {
       store_truth(
           job_.out, p, surface, radiometry, []() __attribute__((always_inline)) { return num::Int<F>(-1); });
       store_seen(job_.out, p, nothing_known<F>());
+      if (s_.last_stage >= Stage::power) store(job_.out.gt_ambient_e_per_s, p, pack.light.ambient_rate);
     }
     return true;
   }

@@ -152,7 +152,10 @@ TOFRAY_FN bool light_of_scene(const Setup& s, const Job& job, Near& near, const 
              radiometry);
   }
   const auto material = [&]() __attribute__((always_inline)) { return trace::material<F>(s.scene, hit); };
-  if (now.truth) store_truth(job.out, p, surface, radiometry, material);
+  if (now.truth) {
+    store_truth(job.out, p, surface, radiometry, material);
+    if (s.last_stage >= Stage::power) store(job.out.gt_ambient_e_per_s, p, light.ambient_rate);
+  }
   if (now.truth && wants_seen(job.out)) {
     const flow::Ray<F> ray_copy = ray;
     const flow::Hit<F> hit_copy = hit;

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include "camera/ray.h"
+#include "pipeline/gather.h"
 #include "pipeline/light_up.h"
 #include "pipeline/store.h"
 #include "raw/expose.h"
@@ -9,6 +10,8 @@
 /// The pipeline, and the only place that knows its order:
 ///
 ///     ray → nearest surface → light that reaches it → raw frames → depth
+///
+/// or, where a pixel's light is a sum, up to the light image and on from there (steps.h).
 ///
 /// It is the same for scenes that stand still and scenes that move, for a tile of pixels and for one, on every machine, and for who enters
 /// later with arrays of their own. What differs is a `Walk`, which knows which pixels there are and finds their light:
@@ -54,14 +57,21 @@ TOFRAY_FN void find_depth(const Setup& s, const Job& job, const Pixels& p, const
   store(job.out.noise_m, p, num::select((found.flags & num::Int<F>(depth::no_return)) == num::Int<F>(0), found.noise, nan<F>()));
 }
 
+/// What a sample within the pixels adds to the light image, or all of them at once.
+template <class F>
+TOFRAY_FN void gather(const Setup& s, const Job& job, int time, const Pixels& p, const flow::Light<F>& light) {
+  const flow::Light<F> copy = light;  // what is handed to a function lies in memory; the original need not
+  gather_light<F>(s, job.light, p, time, copy, job.gather.share, job.gather.first != 0);
+}
+
 /// From rays to depth.
 template <class F, class Walk>
 TOFRAY_FN void run_pipeline(const Setup& s, const Job& job, Walk& walk) {
   const int moments = walk.moments();
   for (int moment = 0; moment < moments; ++moment) {
     const Moment now = moment_of(s, moment, moments);
-    if (s.last_stage < Stage::power && !now.truth) continue;
-    const bool first = moment == 0 || s.last_stage < Stage::power;  // that of the truth is the only one then
+    if (s.last_stage < Stage::raw && !now.truth) continue;
+    const bool first = moment == 0 || s.last_stage < Stage::raw;  // that of the truth is the only one then
     walk.go_to(now);
     for (int q = 0; q < walk.packs(); ++q) {
       const Pixels p = walk.pixels(q);
@@ -71,13 +81,19 @@ TOFRAY_FN void run_pipeline(const Setup& s, const Job& job, Walk& walk) {
       const F vignetting = camera::vignetting<F>(s.lens, p);
       if (first) pack.exposure = raw::start<F>(s.sensor, p), pack.undisturbed = false;
       const bool anew = walk.find_light(now, q, p, ray, vignetting, pack);  // stages 1 and 2
-      if (now.truth && s.last_stage >= Stage::power) store(job.out.gt_ambient_e_per_s, p, pack.light.ambient_rate);
+      if (now.truth && job.gather.middle != nullptr)
+        compare_sample<F>(s, job.light, job.gather.middle, p, job.gather.share, job.gather.first != 0);
       if (s.last_stage < Stage::raw) continue;
-      if (anew && s.sensor.delay != nullptr) power::delay_by(s.phasors, wanted(s, now, pack.undisturbed), pack.exposure.delay, pack.light);
+      if (anew && s.sensor.delay != nullptr && job.gather.on == 0)
+        power::delay_by(s.phasors, wanted(s, now, pack.undisturbed), pack.exposure.delay, pack.light);
       const bool several = Walk::blurs && now.samples > 1;
       if (several) power::blend(s.phasors, wanted(s, now, false), pack.light, now.sample, now.samples, walk.mean(q));
       if (several && now.sample + 1 < now.samples) continue;
       const flow::Light<F>& light = several ? walk.mean(q) : pack.light;
+      if (job.gather.on != 0) {
+        gather<F>(s, job, moments == 1 ? 0 : now.first, p, light);
+        continue;
+      }
       for (int k = now.first; k < now.last; ++k) pack.difference[k] = collect(s, job, p, k, light, pack.exposure);  // stage 3
       if (now.last < s.sensor.raw_frames || s.last_stage < Stage::depth) continue;
       find_depth<F>(s, job, p, ray, pack.difference, raw::saturated(s.sensor, pack.exposure), pack.exposure.delay, vignetting);  // stage 4

@@ -3,6 +3,7 @@
 #pragma once
 #include "camera/views.h"
 #include "flow/frame_view.h"
+#include "flow/light_image.h"
 #include "scene/view.h"
 
 namespace tofray::pipeline {
@@ -10,6 +11,8 @@ namespace tofray::pipeline {
 /// Everything that a frame needs, frozen: plain numbers and pointers that any machine can read.
 struct Setup {
   camera::LensView lens;
+  camera::SubpixelView subpixel;
+  camera::ScatterView scatter;
   scene::SceneView scene;
   const camera::LightView* lights;  ///< [scene.lights]
   camera::PowerView power;
@@ -23,9 +26,20 @@ struct Setup {
 
 enum class Filter : std::int32_t { none, gaussian, median };
 
+/// Whether stages 1 and 2 end in the light image, and what they add to it.
+struct Gather {
+  std::int32_t on;
+  std::int32_t first;          ///< nothing was added before
+  float share;                 ///< of the light that is found
+  const std::int32_t* middle;  ///< [height][width] object that the middle of each pixel sees, or null: nobody asks
+  bool operator==(const Gather&) const = default;
+};
+
 /// One frame: where its arrays are and its place in the random numbers.
 struct Job {
   flow::FrameView out;
+  flow::LightImage light;
+  Gather gather;
   std::uint32_t index_low, index_high;
   float* filtered;  ///< [height][width] scratch of the image filters
   Filter filter;
@@ -41,24 +55,15 @@ constexpr int rows_per_band = 8;  ///< of an image, for one worker at a time in 
 
 /// What is done to a frame, one after the other, each over all its pixels before the next begins.
 enum class Pass : std::int32_t {
-  derive,  ///< forms and facets out of the scene's shapes, where the backend does that itself, before all else
-  pixels,  ///< rays to depth
-  input,   ///< what came from elsewhere to depth, in place of `pixels`
-  flying,  ///< flags of flying pixels
-  filter,  ///< the image filter
-  settle,  ///< the range that is left, to z, point and confidence
+  derive,           ///< forms and facets out of the scene's shapes, where the backend does that itself, before all else
+  pixels,           ///< rays to depth
+  input,            ///< what came from elsewhere, or is in the light image, to depth
+  scatter_rows,     ///< the light image along rows
+  scatter_columns,  ///< … and along columns; a kernel that is not separable: both at once
+  flying,           ///< flags of flying pixels
+  filter,           ///< the image filter
+  settle,           ///< the range that is left, to z, point and confidence
 };
-
-/// Calls run(pass) for each pass of a frame.
-/// @param given  it begins with what came from elsewhere
-template <class Run>
-TOFRAY_FN void each_pass(const Setup& s, const Job& job, bool given, const Run& run) {
-  run(given ? Pass::input : Pass::pixels);
-  if (s.last_stage < Stage::depth || job.out.z_m == nullptr || job.out.flags == nullptr) return;
-  run(Pass::flying);
-  if (job.filter != Filter::none) run(Pass::filter);
-  run(Pass::settle);
-}
 
 TOFRAY_FN int tiles_across(const camera::LensView& lens) { return (lens.width + tile_width - 1) / tile_width; }
 TOFRAY_FN int tile_count(const camera::LensView& lens) { return tiles_across(lens) * ((lens.height + tile_height - 1) / tile_height); }

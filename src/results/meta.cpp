@@ -89,6 +89,7 @@ std::string frame_meta(const Scene& scene, const Camera& camera, const Simulator
                   {"seed", options.seed},
                   {"noise", noise_name(options.noise)},
                   {"exposure_samples", options.exposure_samples},
+                  {"subpixel", options.subpixel},
                   {"frame", frame_index},
                   {"units", units_tree()},
                   {"camera", tree_of(model::table_of<Camera>(), &camera)},

@@ -21,7 +21,7 @@ const char* noise_name(Noise noise);
 bool is_noise_free(const files::Json& meta);
 
 /// The `meta` string of frame.npz: one JSON object on one line with
-/// `tofray` (version), `seed`, `noise`, `exposure_samples`, `frame` (index), `units` (one per array), `camera` and `scene`, both resolved, in SI units with the names
+/// `tofray` (version), `seed`, `noise`, `exposure_samples`, `subpixel`, `frame` (index), `units` (one per array), `camera` and `scene`, both resolved, in SI units with the names
 /// of tofray/camera.h and scene.h. Neither time nor machine nor a file's place is in it: the same arguments give the same bytes.
 std::string frame_meta(const Scene& scene, const Camera& camera, const SimulatorOptions& options, std::uint64_t frame_index);
 

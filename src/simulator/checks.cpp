@@ -7,6 +7,7 @@
 
 #include "base/limits.h"
 #include "base/text.h"
+#include "flow/flow.h"
 #include "model/check.h"
 #include "scene/motion.h"
 #include "simulator/check.h"
@@ -36,6 +37,7 @@ void check(const SimulatorOptions& options) {
   if (options.threads > most)
     refuse("too many threads", "got " + std::to_string(options.threads) + ", at most " + std::to_string(most), ErrorKind::limit);
   within(options.exposure_samples, {1, 1000}, "exposure_samples");
+  within(options.subpixel, {1, 16}, "subpixel");
 }
 
 void check_moving_views(const Scene& scene, const Camera& camera, const SimulatorOptions& options) {
@@ -65,6 +67,25 @@ void check_changing_triangles(const Scene& scene, const Camera& camera, const Si
     refuse("meshes that change their shape have too many triangles",
            "got " + std::to_string(triangles) + " at " + std::to_string(times) + " times of a frame, " + std::to_string(triangles * times) +
                " in all, at most " + std::to_string(most) + "\n  lower exposure_samples (--exposure-samples), or let less of them play",
+           ErrorKind::limit);
+}
+
+void check_light_image(const Camera& camera, const SimulatorOptions& options) {
+  const std::int64_t pixels = std::int64_t{camera.sensor.width} * camera.sensor.height, n = options.subpixel;
+  const std::int64_t most_rays = base::limit::subpixel_rays.value;
+  if (n > 1 && pixels * n * n > most_rays)
+    refuse("too many samples within the pixels",
+           "got " + std::to_string(n) + " x " + std::to_string(n) + " in each of " + std::to_string(pixels) + " pixels, " +
+               std::to_string(pixels * n * n) + " in all, at most " + std::to_string(most_rays) + "\n  lower subpixel (--subpixel)",
+           ErrorKind::limit);
+  if (n == 1 && camera.lens.scatter.kind == Scatter::Kind::none) return;
+  // At most: a plane for each part of each harmonic of each modulation frequency, or of one at the time of each raw frame.
+  const auto raw_frames = static_cast<std::int64_t>(camera.mode.sequence.size());
+  const std::int64_t values = pixels * (2 + 2 * flow::max_harmonics) * raw_frames, most = base::limit::light_values.value;
+  if (values > most)
+    refuse("the light image is too large",
+           "got " + std::to_string(pixels) + " pixels and " + std::to_string(raw_frames) + " raw frames, up to " + std::to_string(values) +
+               " values, at most " + std::to_string(most) + "\n  sub-pixel samples and a lens that scatters need it",
            ErrorKind::limit);
 }
 

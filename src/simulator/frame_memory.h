@@ -4,11 +4,12 @@
 #include "flow/frame_view.h"
 #include "tofray/camera.h"
 #include "tofray/frame.h"
+#include "tofray/simulator.h"
 
 namespace tofray::simulator {
 
 /// Gives the arrays their sizes (nothing is allocated anew where they fit) and writes what is the same for all pixels.
-void prepare(Frame& frame, const Camera& camera, bool truth);
+void prepare(Frame& frame, const Camera& camera, const SimulatorOptions& options);
 void prepare(Depth& depth, int width, int height);
 /// Where the arrays are that have a size, of the stages up to `last`.
 flow::FrameView view_of(Frame& frame, Stage last);

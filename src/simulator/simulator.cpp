@@ -50,6 +50,7 @@ const Scene& checked(const Scene& scene, const Camera& camera, const SimulatorOp
   simulator::check(camera);
   simulator::check_moving_views(scene, camera::with_emitters(camera), options);
   simulator::check_changing_triangles(scene, camera, options);
+  simulator::check_light_image(camera, options);
   return scene;
 }
 
@@ -59,7 +60,7 @@ Simulator::Impl::Impl(const Scene& all, const Camera& profile, const SimulatorOp
     : scene(checked(all, profile, wanted)),
       camera(camera::with_emitters(profile)),
       options(wanted),
-      frozen_camera(camera, wanted.noise != Noise::off, wanted.seed),
+      frozen_camera(camera, wanted.noise != Noise::off, wanted.seed, wanted.subpixel),
       frozen_scene(scene, positions(camera), static_cast<int>(camera.mode.sequence.size()) * options.exposure_samples),
       setup(fixed_setup()),
       engines(options, setup) {
@@ -72,6 +73,7 @@ Simulator::Impl::Impl(const Scene& all, const Camera& profile, const SimulatorOp
 pipeline::Setup Simulator::Impl::fixed_setup() {
   pipeline::Setup out{};
   out.lens = frozen_camera.lens();
+  out.subpixel = frozen_camera.subpixel(), out.scatter = frozen_camera.scatter();
   out.lights = frozen_camera.lights().data();
   out.phasors = frozen_camera.phasors();
   out.power = frozen_camera.power();
@@ -117,7 +119,7 @@ void Simulator::Impl::set_sensor(const FrameRequest& request) {
 
 void Simulator::Impl::frame(std::uint64_t index, const pipeline::Input* input, Frame& into) {
   into.index = index;
-  simulator::prepare(into, camera, options.truth);
+  simulator::prepare(into, camera, options);
   const double start = start_of(index);
   into.raw.start_time_s.clear();
   for (const double after : frozen_camera.raw_frame_start_s()) into.raw.start_time_s.push_back(start + after);

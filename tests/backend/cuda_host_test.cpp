@@ -129,6 +129,55 @@ TEST(cuda_host, has_the_same_bytes_of_meshes_that_change_their_shape) {
   }
 }
 
+// The light image: of still scenes shared by all frames of a batch and kept for the next one, of all others each frame's own.
+TEST(cuda_host, has_the_same_bytes_of_samples_within_pixels_and_of_scattered_light) {
+  const WithStandIn here;
+  Scatter kernel{Scatter::Kind::kernel, 0.5};
+  kernel.rows = 3, kernel.columns = 1, kernel.kernel = {1, 2, 3};
+  const Scatter scatters[] = {{}, {Scatter::Kind::gaussians, 0.1, {1, 9}}, kernel};
+  for (int i = 0; i < 6; ++i) {
+    Random random(static_cast<std::uint64_t>(i) + 70);
+    Scene scene = random_scene(random, 9, i % 2 == 1);
+    scene.name = "sampled " + std::to_string(i);
+    Camera camera = i < 4 ? small(load_camera("pico-flexx")) : with_everything(load_camera("pico-flexx"));
+    camera.lens.scatter = scatters[i % 3];
+    expect_same(scene, camera, {.exposure_samples = 2, .subpixel = 1 + i % 4});
+    expect_same(scene, camera, {.last_stage = Stage::trace, .subpixel = 2});
+    expect_same(scene, camera, {.truth = false, .subpixel = 3});
+    expect_same_own_arrays(load_scene("demo"), camera);
+    const SimulatorOptions options{.batch_bytes = 3'000'000, .exposure_samples = 2, .subpixel = 2};
+    for (const bool alike : {true, false}) {
+      std::vector<FrameRequest> requests = mixed_requests(scene, 8);
+      for (FrameRequest& request : requests)
+        if (alike) request.pose = {}, request.seed = {};
+      Simulator simulator(scene, camera, on(Backend::cuda, options));
+      for (int round = 0; round < 2; ++round) {
+        std::size_t next = 0;
+        simulator.frames(requests, [&](const FrameArrays& arrays) {
+          const FrameRequest& request = requests[next++];
+          EXPECT_EQ(first_difference(copy_of(arrays), alone(scene, camera, options, request)), "") << scene.name << ", " << next - 1;
+        });
+        EXPECT_EQ(next, requests.size());
+      }
+    }
+  }
+}
+
+TEST(cuda_host, keeps_the_light_of_what_stands_still) {
+  WithStandIn here;
+  const Scene scene = load_scene("card");
+  Simulator simulator(scene, small(load_camera(scene)), on(Backend::cuda, {.truth = false, .subpixel = 3}));
+  const auto launched = [&] {
+    const int before = here.cuda.frames_by_device[0];
+    (void)simulator.frame(1);
+    return here.cuda.frames_by_device[0] - before;
+  };
+  EXPECT_EQ(launched(), 9) << "a pass over the pixels for each sample";
+  EXPECT_EQ(launched(), 0);
+  EXPECT_EQ(launched(), 0);
+  EXPECT_EQ(here.cuda.graphs_made, 2) << "with them, and without";
+}
+
 TEST(cuda_host, stops_after_any_stage) {
   const WithStandIn here;
   for (const char* name : {"demo", "flying-ball"}) {

@@ -71,7 +71,12 @@ std::vector<std::string> all_scenes() {
   return names;
 }
 SimulatorOptions options_of(const std::string& scene, Noise noise, int threads, Isa isa) {
-  return {.seed = 7, .noise = noise, .threads = threads, .isa = isa, .exposure_samples = scene == in_motion ? 3 : 1};
+  return {.seed = 7,
+          .noise = noise,
+          .threads = threads,
+          .isa = isa,
+          .exposure_samples = scene == in_motion ? 3 : 1,
+          .subpixel = scene == "thin-rods" ? 3 : 1};
 }
 
 /// Without noise, with it, and with so little read noise that it is drawn apart from shot noise.

@@ -78,6 +78,18 @@ inline Frame expected_frame(const Scene& scene, const Camera& camera) {
 }
 inline Truth truth(const Scene& scene, const Camera& camera) { return expected_frame(scene, camera).truth; }
 
+/// Range [m] that the four phases of plain_camera() make of a pixel's electrons, in double precision and whatever the ADC does.
+inline double range_of_taps(const Raw& raw, std::size_t pixel) {
+  double real = 0, imaginary = 0;
+  for (std::size_t k = 0; k < 4; ++k) {
+    const std::size_t at = k * raw.raw.size() / 4 + pixel;
+    const double difference = static_cast<double>(raw.tap_a[at]) - static_cast<double>(raw.tap_b[at]);
+    real += difference * std::cos(raw.reference_phase_rad[k]), imaginary -= difference * std::sin(raw.reference_phase_rad[k]);
+  }
+  const double turns = std::atan2(imaginary, real) / two_pi;
+  return (turns - std::floor(turns)) * 299792458.0 / (2 * raw.modulation_frequency_hz[0]);
+}
+
 /// The nearest float's relative distance, times a few: how far a chain of so many roundings in single precision may be off.
 constexpr double roundings(int count) { return count * 0x1p-24; }
 

@@ -186,6 +186,7 @@ inline tofray::Frame sample_frame(int width, int height) {
     for (const double v : {x, y}) truth.texcoord.push_back(none || ball ? nan_f : static_cast<float>(v));
     for (const double v : {ball ? 0.5 : 0.0, 0.0, 0.0}) truth.velocity_m_per_s.push_back(true_value(v));
     for (const double v : {ball ? 3.5 : 0.0, 0.0}) truth.flow_px.push_back(true_value(v));
+    truth.mixed.push_back(flying ? 1 : 0), truth.object_share.push_back(flying ? 0.6F : 1.F);
     truth.irradiance_w_m2.push_back(true_value(0.05 / (z * z)));
     truth.radiance_w_m2_sr.push_back(true_value(0.01 / (z * z)));
     truth.power_w.push_back(true_value(1e-12 / (z * z)));

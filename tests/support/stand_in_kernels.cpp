@@ -40,22 +40,27 @@ void run_on_host(const backend::gpu::Launch& what, const backend::gpu::FrameArgu
   using namespace backend::gpu;
   for (int frame = 0; frame < what.batch.frames; ++frame) {
     const FrameNumber number = what.batch.numbers[frame];
-    const FrameArguments& a = what.batch.own != nullptr ? what.batch.own[frame] : common;
+    const bool owns = what.batch.own != nullptr;
+    FrameArguments a = owns ? what.batch.own[frame] : common;
     if (what.pass == Pass::derive) {
       for (int i = 0; i < scene::unit_count(common.setup.scene, what.batch.derive) + 7; ++i) run_derive(a.setup, what.batch.derive, i);
       continue;
     }
-    const pipeline::Job job = job_of(a.job, number, what.batch.own != nullptr ? 0 : frame * what.batch.stride);
     if (what.pass != Pass::pixels) {
-      for (int i = 0; i < a.setup.lens.width * a.setup.lens.height + 7; ++i) run_pass(what.pass, a.setup, job, what.input, i);
+      pipeline::Job job = job_of(a.job, number, owns ? 0 : frame * what.batch.stride);
+      if (owns) pipeline::take_image_step(what.batch.step, job);
+      const int pixels = a.setup.lens.width * a.setup.lens.height;
+      for (int i = 0; i < pixels + 7; ++i) run_pass(what.pass, what.batch.step.item, a.setup, job, what.input, i);
       continue;
     }
+    if (owns) pipeline::take_step(what.batch.step, a.setup, a.job);
+    const pipeline::Job job = job_of(a.job, number, owns ? 0 : frame * what.batch.stride);
     for (int patch = 0; patch < patch_count(a.setup.lens); ++patch) {
       std::map<int, pipeline::Rectangle<float>> seen;
       for (const bool collecting : {true, false}) {
         HostWarp warp{seen, collecting};
         for (int lane = 0; lane < warp_size; ++lane) {
-          if (what.batch.own != nullptr)
+          if (owns)
             run_pixel<true>(a.setup, job, warp, patch, lane);
           else
             run_pixel<false>(a.setup, job, warp, patch, lane);

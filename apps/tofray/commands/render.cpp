@@ -22,8 +22,8 @@ namespace {
 /// What a run was told, put back from its manifest. What changes no bytes (threads, folder) stays as it was typed now.
 Options recalled(const Options& now, const results::Manifest& manifest) {
   Options options = now;
-  if (!now.words.empty() || !now.set.empty() || !now.mode.empty() || now.seed || now.noise || now.exposure_samples || now.emit ||
-      !now.arrays.empty() || now.compress || now.frames || now.first_frame != 0)
+  if (!now.words.empty() || !now.set.empty() || !now.mode.empty() || now.seed || now.noise || now.exposure_samples || now.subpixel ||
+      now.emit || !now.arrays.empty() || now.compress || now.frames || now.first_frame != 0)
     throw Error(ErrorKind::bad_input,
                 "error: --from makes the same bytes again and takes no other scene and no other settings\n"
                 "  with it there may be -o, --threads, --backend, --device, --json and --quiet");
@@ -33,7 +33,7 @@ Options recalled(const Options& now, const results::Manifest& manifest) {
     if (key == "mode")
       options.mode = value;
     else if (key == "noise" || key == "emit" || key == "arrays" || key == "compress" || key == "theme" || key == "frames" ||
-             key == "first-frame" || key == "exposure-samples")
+             key == "first-frame" || key == "exposure-samples" || key == "subpixel")
       option("--" + key).take(options, value);
     else
       throw Error(ErrorKind::bad_input,

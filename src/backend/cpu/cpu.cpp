@@ -91,19 +91,40 @@ Cpu::Cpu(Isa isa, int threads)
 Cpu::~Cpu() = default;
 
 void Cpu::load(const pipeline::Setup& setup) {
-  const Work work{&setup, nullptr, nullptr};
+  light_of_ = {};
+  const Work work{&setup, nullptr, nullptr, 0};
   pool_ = std::make_unique<Threads>(Threads{TileRunner(threads_, kernel_(&work, Pass::pixels, 0, nullptr))});
 }
 
 void Cpu::describe(RanOn& out) const { out.backend = "cpu", out.device = out.isa = isa_name(isa_), out.threads = threads_; }
 
+void Cpu::run_step(const pipeline::Step& step, const Work& work) {
+  const camera::LensView& lens = work.setup->lens;
+  const bool tiles = step.pass == Pass::pixels || step.pass == Pass::input;
+  const int pieces = tiles ? pipeline::tile_count(lens) : (lens.height + pipeline::rows_per_band - 1) / pipeline::rows_per_band;
+  pool_->runner.for_each_tile(pieces, [&](int index, void* scratch) { kernel_(&work, step.pass, index, scratch); });
+}
+
 void Cpu::run(const pipeline::Setup& setup, const pipeline::Job& job, const pipeline::Input* input) {
-  const Work work{&setup, &job, input};
-  const int tiles = pipeline::tile_count(setup.lens), bands = (setup.lens.height + pipeline::rows_per_band - 1) / pipeline::rows_per_band;
-  pipeline::each_pass(setup, job, input != nullptr, [&](Pass pass) {
-    pool_->runner.for_each_tile(pass == Pass::pixels || pass == Pass::input ? tiles : bands,
-                                [&](int index, void* scratch) { kernel_(&work, pass, index, scratch); });
+  flow::LightImage image;
+  const std::size_t bytes = place_light(setup, job.out, input, nullptr, image);
+  const LightOrigin origin = light_origin(setup, job.out, input);
+  const bool known = bytes > 0 && origin.known && origin == light_of_;
+  if (bytes > 0) {
+    if (!known) light_of_ = {};
+    if (light_.size() < bytes) light_.resize(bytes);
+    place_light(setup, job.out, input, light_.data(), image);
+  }
+  const pipeline::Input collected = pipeline::from_light_image(image);
+  pipeline::each_step(setup, job, input == nullptr ? Stage::trace : input->entry, known, [&](const pipeline::Step& step) {
+    if (step.part == pipeline::Part::all) return run_step(step, {&setup, &job, input, step.item});
+    pipeline::Setup own_setup = setup;
+    pipeline::Job own_job = job;
+    own_job.light = image;
+    pipeline::take_step(step, own_setup, own_job);
+    run_step(step, {&own_setup, &own_job, step.part == pipeline::Part::collect ? &collected : input, step.item});
   });
+  if (bytes > 0) light_of_ = origin;
 }
 
 }  // namespace tofray::backend

@@ -7,6 +7,7 @@
 
 #include "backend/cpu/kernel.h"
 #include "backend/engine.h"
+#include "backend/light_memory.h"
 
 /// Runs the pipeline on the processor: threads over tiles, lanes within.
 namespace tofray::backend {
@@ -32,10 +33,14 @@ class Cpu final : public Engine {
 
  private:
   struct Threads;
+  void run_step(const pipeline::Step& step, const Work& work);
+
   Isa isa_;
   int threads_;
   Kernel kernel_;
   std::unique_ptr<Threads> pool_;
+  std::vector<unsigned char> light_;  ///< memory of the light image
+  LightOrigin light_of_;              ///< what it shows
 };
 
 }  // namespace tofray::backend

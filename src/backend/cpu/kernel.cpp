@@ -22,6 +22,7 @@ using F = float;
 
 #include "backend/cpu/kernel.h"
 #include "pipeline/passes.h"
+#include "pipeline/scatter.h"
 #include "pipeline/tile.h"
 
 namespace tofray::backend {
@@ -50,6 +51,7 @@ void run_rows(const Work& work, Pass pass, int band) {
     if (pass == Pass::flying) flag_flying_row<F>(*work.setup, *work.job, y);
     if (pass == Pass::filter) filter_row(*work.setup, *work.job, y);
     if (pass == Pass::settle) settle_row<F>(*work.setup, *work.job, y);
+    if (pass == Pass::scatter_rows || pass == Pass::scatter_columns) scatter_rows<F>(*work.setup, *work.job, pass, work.item, y);
   }
 }
 
@@ -73,7 +75,9 @@ extern "C" std::size_t TOFRAY_KERNEL(const Work* work, Pass pass, int index, voi
     case Pass::input: run_input(*work, index); break;
     case Pass::flying:
     case Pass::filter:
-    case Pass::settle: run_rows(*work, pass, index); break;
+    case Pass::settle:
+    case Pass::scatter_rows:
+    case Pass::scatter_columns: run_rows(*work, pass, index); break;
   }
   return 0;
 }

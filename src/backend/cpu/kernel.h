@@ -15,6 +15,7 @@ struct Work {
   const pipeline::Setup* setup;
   const pipeline::Job* job;
   const pipeline::Input* input;
+  std::int32_t item;  ///< which kernel of the lens
 };
 
 /// Does piece number `index` of a pass: a tile of pixels, or a band of rows; `scratch` is aligned to 64 bytes. @return 0;

@@ -1,8 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The tofray authors
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-#include "pipeline/enter.h"
-#include "pipeline/setup.h"
+#include "pipeline/steps.h"
 #include "scene/derive.h"
 
 /// What goes from the host to the kernels.
@@ -30,6 +29,7 @@ struct Batch {
   std::int64_t stride;
   std::int32_t frames;
   scene::Derive derive;  ///< what of the scene is derived anew for each frame
+  pipeline::Step step;   ///< what is done to them
 };
 
 }  // namespace tofray::backend::gpu

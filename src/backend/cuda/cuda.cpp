@@ -51,10 +51,12 @@ void Cuda::load(const pipeline::Setup& setup) {
   device_.use();
   const auto pack = [&](gpu::Packer& packer) {
     pipeline::Setup to = setup;
+    resident_.sample_lenses = gpu::pack_lenses(packer, setup, to);
     gpu::pack_camera(packer, setup, to);
     gpu::pack_scene(packer, setup.scene, to.scene);
     return to;
   };
+  resident_.shares.assign(setup.subpixel.share, setup.subpixel.share + (setup.subpixel.lens != nullptr ? setup.subpixel.count : 0));
   gpu::Packer measure;
   (void)pack(measure);
   const gpu::PinnedMemory staged = device_.allocate_pinned(measure.used());

@@ -58,12 +58,16 @@ __global__ void __launch_bounds__(threads) tofray_pixels(const __grid_constant__
   run_pixel<false>(common.setup, job_of(common.job, batch.numbers[frame], frame * batch.stride), warp, patch, warp.lane);
 }
 
-/// The same where each frame has arguments of its own: each block takes its frame's into shared memory.
+/// The same where each frame has arguments of its own: each block takes its frame's into shared memory, with what the step has of its own.
 template <int threads>
 __global__ void __launch_bounds__(threads) tofray_pixels_own(const Batch batch) {
   __shared__ FrameArguments mine;
   const int frame = static_cast<int>(blockIdx.y);
   copy_arguments(mine, batch.own[frame]);
+  if (batch.step.part != pipeline::Part::all) {
+    if (threadIdx.x == 0) pipeline::take_step(batch.step, mine.setup, mine.job);
+    __syncthreads();
+  }
   const int patch = patch_of_warp();
   if (patch >= patch_count(mine.setup.lens)) return;
   DeviceWarp warp{static_cast<int>(threadIdx.x % warp_size)};
@@ -76,9 +80,11 @@ __global__ void __launch_bounds__(max_block_size)
     tofray_pass(const __grid_constant__ FrameArguments common, const Batch batch, const pipeline::Input input) {
   const int frame = static_cast<int>(blockIdx.y), index = static_cast<int>(blockIdx.x * blockDim.x + threadIdx.x);
   if (batch.own != nullptr) {
-    run_pass(pass, batch.own[frame].setup, job_of(batch.own[frame].job, batch.numbers[frame], 0), input, index);
+    Job job = job_of(batch.own[frame].job, batch.numbers[frame], 0);
+    pipeline::take_image_step(batch.step, job);
+    run_pass(pass, batch.step.item, batch.own[frame].setup, job, input, index);
   } else {
-    run_pass(pass, common.setup, job_of(common.job, batch.numbers[frame], frame * batch.stride), input, index);
+    run_pass(pass, batch.step.item, common.setup, job_of(common.job, batch.numbers[frame], frame * batch.stride), input, index);
   }
 }
 
@@ -131,6 +137,8 @@ cudaError_t launch_kernel(const Launch& what, cudaStream_t stream) {
     case Pass::flying: return launch_pass<Pass::flying>(what, pixels, stream);
     case Pass::filter: return launch_pass<Pass::filter>(what, pixels, stream);
     case Pass::settle: return launch_pass<Pass::settle>(what, pixels, stream);
+    case Pass::scatter_rows: return launch_pass<Pass::scatter_rows>(what, pixels, stream);
+    case Pass::scatter_columns: return launch_pass<Pass::scatter_columns>(what, pixels, stream);
   }
   return cudaErrorInvalidValue;
 }
@@ -158,6 +166,8 @@ const void* kernel_function(Pass pass, int block_size) {
     case Pass::input: return reinterpret_cast<const void*>(&tofray_pass<Pass::input>);
     case Pass::flying: return reinterpret_cast<const void*>(&tofray_pass<Pass::flying>);
     case Pass::filter: return reinterpret_cast<const void*>(&tofray_pass<Pass::filter>);
+    case Pass::scatter_rows: return reinterpret_cast<const void*>(&tofray_pass<Pass::scatter_rows>);
+    case Pass::scatter_columns: return reinterpret_cast<const void*>(&tofray_pass<Pass::scatter_columns>);
     case Pass::settle: break;
   }
   return reinterpret_cast<const void*>(&tofray_pass<Pass::settle>);

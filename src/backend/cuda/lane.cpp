@@ -19,6 +19,8 @@ const char* starting(Pass pass) {
     case Pass::input: return "starting the kernel input";
     case Pass::flying: return "starting the kernel flying";
     case Pass::filter: return "starting the kernel filter";
+    case Pass::scatter_rows: return "starting the kernel scatter_rows";
+    case Pass::scatter_columns: return "starting the kernel scatter_columns";
     case Pass::settle: break;
   }
   return "starting the kernel settle";
@@ -123,6 +125,13 @@ void Lane::reserve_output() {
   output_bytes_ = bytes;
 }
 
+void Lane::reserve_light(std::size_t bytes) {
+  if (bytes <= light_bytes_) return;
+  light_bytes_ = 0, light_ = {}, light_of_ = {};
+  light_ = device_.allocate(bytes);
+  light_bytes_ = bytes;
+}
+
 void Lane::reserve_derived(std::size_t bytes) {
   if (bytes <= derived_bytes_) return;
   derived_bytes_ = 0, derived_ = {};
@@ -130,9 +139,11 @@ void Lane::reserve_derived(std::size_t bytes) {
   derived_bytes_ = bytes;
 }
 
-std::size_t Lane::input_bytes(const Resident& resident, const pipeline::Setup& first, Own own) {
+std::size_t Lane::input_bytes(const Resident& resident, const pipeline::Setup& first, const pipeline::Job& job, Own own) {
   if (own == Own::number) return sizeof(FrameNumber);
-  return sizeof(FrameNumber) + sizeof(FrameArguments) + own_bytes(resident, own, first) + derived_bytes(first.scene, own);
+  flow::LightImage image;
+  return sizeof(FrameNumber) + sizeof(FrameArguments) + own_bytes(resident, own, first) + derived_bytes(first.scene, own) +
+         place_light(first, job.out, nullptr, nullptr, image);
 }
 
 void Lane::begin(const Resident& resident, const pipeline::Setup& first, const pipeline::Job& job, Own own, int capacity,
@@ -151,6 +162,14 @@ void Lane::begin(const Resident& resident, const pipeline::Setup& first, const p
   if (input != nullptr) (void)packed(given, first, *input);
   reserve_input(room_from_ + owned + align(given.used()));
   reserve_derived(frames * derived_bytes(first.scene, own));
+  flow::LightImage image;
+  light_stride_ = place_light(first, job.out, input, nullptr, image);
+  reserve_light(light_stride_ * (own == Own::number ? 1 : frames));
+  light_origin_ = own == Own::number && light_stride_ > 0 ? light_origin(first, job.out, input) : LightOrigin{};
+  place_light(first, job.out, input, light_memory(), common_light_);
+  own_lights_.assign(own == Own::number ? 0 : frames, {});
+  for (std::size_t i = 0; i < own_lights_.size(); ++i)
+    place_light(first, job.out, input, light_memory() + i * light_stride_, own_lights_[i]);
   numbers_.clear();
   used_ = room_from_;
   given_ = {};
@@ -190,20 +209,36 @@ void Lane::launch_all() {
     launch.pass = Pass::derive;
     device_.check(runtime.launch(launch, stream_.get()), starting(Pass::derive));
   }
-  pipeline::each_pass(common_.setup, common_.job, given_.entry != Stage::trace, [&](Pass pass) {
-    launch.pass = pass;
-    device_.check(runtime.launch(launch, stream_.get()), starting(pass));
+  const bool known = light_of_.known && light_of_ == light_origin_;
+  const pipeline::Input collected = pipeline::from_light_image(common_.job.light);
+  pipeline::each_step(common_.setup, common_.job, given_.entry, known, [&](const pipeline::Step& step) {
+    FrameArguments common = common_;
+    take_step(step, common);
+    launch.pass = step.pass, launch.batch.step = step, launch.common = &common;
+    launch.input = step.part == pipeline::Part::collect ? collected : given_;
+    // Frames that differ by their number alone share their light.
+    launch.batch.frames = step.part == pipeline::Part::light && own_ == Own::number ? 1 : frames();
+    device_.check(runtime.launch(launch, stream_.get()), starting(step.pass));
   });
+}
+
+/// The same on the host as kernels do it on the device, whose lenses the host cannot read.
+void Lane::take_step(const pipeline::Step& step, FrameArguments& arguments) const {
+  if (own_ != Own::number) return;
+  const camera::SubpixelView there = arguments.setup.subpixel;
+  arguments.setup.subpixel.lens = resident_->sample_lenses.data(), arguments.setup.subpixel.share = resident_->shares.data();
+  pipeline::take_step(step, arguments.setup, arguments.job);
+  arguments.setup.subpixel = there;
 }
 
 /// Tells the frames where their arrays are, and copies what the host knows to where the GPU will fetch it.
 void Lane::place(void* base) {
   std::memcpy(staged(), numbers_.data(), numbers_.size() * sizeof(FrameNumber));
-  common_.job.out = slab_.view(base), common_.job.filtered = slab_.filtered(base);
+  common_.job.out = slab_.view(base), common_.job.filtered = slab_.filtered(base), common_.job.light = common_light_;
   for (int i = 0; i < frames() && own_ != Own::number; ++i) {
     void* const at = static_cast<unsigned char*>(base) + static_cast<std::size_t>(i) * slab_.bytes();
     auto* own = reinterpret_cast<FrameArguments*>(staged() + arguments_at_) + i;
-    own->job.out = slab_.view(at), own->job.filtered = slab_.filtered(at);
+    own->job.out = slab_.view(at), own->job.filtered = slab_.filtered(at), own->job.light = own_lights_[static_cast<std::size_t>(i)];
   }
 }
 
@@ -221,6 +256,7 @@ void Lane::submit(void* output) {
   submitted_ = timed_ = true;
   device_.check(runtime.record(begin_.get(), stream_.get()), "starting the clock");
   launch_all();
+  light_of_ = light_origin_;
   device_.check(runtime.record(end_.get(), stream_.get()), "stopping the clock");
   if (output != nullptr) return;
   copy_out(base, static_cast<std::size_t>(frames()) * slab_.bytes(), "copying frames to the host");
@@ -233,9 +269,11 @@ void Lane::submit_graph() {
   submitted_ = true, timed_ = false;
   // Arguments of a frame's own are copied by the graph; common ones are part of it.
   const bool same = graph_.get() != nullptr && captured_own_ == own_ && captured_slab_ == slab_ && captured_used_ == used_ &&
-                    captured_given_ == given_ && (own_ != Own::number || captured_ == common_);
+                    captured_given_ == given_ && captured_known_ == (light_of_.known && light_of_ == light_origin_) &&
+                    (own_ != Own::number || captured_ == common_);
   if (!same) capture();
   device_.check(device_.runtime().launch_graph(graph_.get(), stream_.get()), "launching a graph");
+  light_of_ = light_origin_;
 }
 
 void Lane::capture() {
@@ -255,6 +293,7 @@ void Lane::capture() {
   graph_ = Graph(runtime, graph);
   device_.check(made, "making a graph");
   captured_ = common_, captured_used_ = used_, captured_own_ = own_, captured_slab_ = slab_, captured_given_ = given_;
+  captured_known_ = light_of_.known && light_of_ == light_origin_;
 }
 
 void Lane::wait() {

@@ -8,6 +8,7 @@
 #include "backend/cuda/device.h"
 #include "backend/cuda/pack.h"
 #include "backend/cuda/slab.h"
+#include "backend/light_memory.h"
 
 namespace tofray::backend::gpu {
 
@@ -20,7 +21,9 @@ enum class Own {
 
 /// What does not change from frame to frame, on the device.
 struct Resident {
-  pipeline::Setup setup{};  ///< pointers are the device's
+  pipeline::Setup setup{};                      ///< pointers are the device's
+  std::vector<camera::LensView> sample_lenses;  ///< of samples within pixels, for the host; their pointers are the device's
+  std::vector<float> shares;
   DeviceMemory memory;
 };
 
@@ -33,7 +36,7 @@ class Lane {
   Lane& operator=(const Lane&) = delete;
 
   /// Bytes that each frame of a batch takes on the GPU beside its arrays.
-  [[nodiscard]] static std::size_t input_bytes(const Resident& resident, const pipeline::Setup& first, Own own);
+  [[nodiscard]] static std::size_t input_bytes(const Resident& resident, const pipeline::Setup& first, const pipeline::Job& job, Own own);
 
   /// Starts a batch of up to `capacity` frames; waits until the last one is done.
   /// @param first  the first frame's setup (host pointers)
@@ -61,22 +64,26 @@ class Lane {
  private:
   void reserve_input(std::size_t bytes);
   void reserve_derived(std::size_t bytes);
+  void reserve_light(std::size_t bytes);
   void reserve_output();
+  void take_step(const pipeline::Step& step, FrameArguments& arguments) const;
   void write_arguments(const pipeline::Setup& setup, FrameArguments& out) const;
   void place(void* base);
   void launch_all();
   void capture();
   void copy_out(const void* base, std::size_t bytes, const char* doing);
   [[nodiscard]] unsigned char* staged() const { return static_cast<unsigned char*>(staged_.get()); }
+  [[nodiscard]] unsigned char* light_memory() const { return static_cast<unsigned char*>(light_.get()); }
   [[nodiscard]] unsigned char* input_memory() const { return static_cast<unsigned char*>(input_.get()); }
 
   const Device& device_;
   int block_size_;
   Stream stream_;
   Event begin_, end_;
-  DeviceMemory input_, output_, derived_;
+  DeviceMemory input_, output_, derived_, light_;
   PinnedMemory staged_, received_;
-  std::size_t input_bytes_ = 0, output_bytes_ = 0, derived_bytes_ = 0;
+  std::size_t input_bytes_ = 0, output_bytes_ = 0, derived_bytes_ = 0, light_bytes_ = 0;
+  LightOrigin light_of_;  ///< what the light image there shows
   Slab slab_;
   // the batch
   const Resident* resident_ = nullptr;
@@ -89,10 +96,15 @@ class Lane {
   std::size_t arguments_at_ = 0, room_from_ = 0, used_ = 0;
   std::vector<FrameNumber> numbers_;
   FrameArguments common_{};
+  std::size_t light_stride_ = 0;  ///< bytes of a light image; 0: there is none
+  flow::LightImage common_light_{};
+  std::vector<flow::LightImage> own_lights_;  ///< [frame] where frames have arguments of their own
+  LightOrigin light_origin_;                  ///< what the light image of this batch will show
   // the graph, and what it was made for
   Graph graph_;
   FrameArguments captured_{};
   pipeline::Input captured_given_{};
+  bool captured_known_ = false;
   std::size_t captured_used_ = 0;
   Own captured_own_ = Own::number;
   Slab captured_slab_;

@@ -87,6 +87,16 @@ void pack_bodies(shape::List<T...>, const Meshes& meshes, const scene::Group& fr
   ((to.bodies.of<T>().first = meshes.put(from.bodies.of<T>().first, rows(from.bodies.of<T>()))), ...);
 }
 
+void pack_scatter(Packer& packer, const camera::ScatterView& from, camera::ScatterView& to) {
+  std::vector<camera::ScatterTerm> terms(from.term, from.term + from.terms);
+  for (camera::ScatterTerm& term : terms) {
+    const std::size_t side = 2 * count_of(term.radius) + 1, stride = side + 2 * camera::ScatterTerm::pad;
+    term.weights = packer.put(term.weights, from.separable != 0 ? stride : stride * side);
+    term.column = packer.put(term.column, side);
+  }
+  to.term = packer.put(static_cast<const camera::ScatterTerm*>(terms.data()), terms.size());
+}
+
 void pack_phasors(Packer& packer, std::int32_t lights, const camera::PhasorView& from, camera::PhasorView& to) {
   std::vector<camera::ModulationView> modulations(from.modulation, from.modulation + from.modulations);
   for (camera::ModulationView& m : modulations) m.source = packer.put(m.source, 2 * count_of(lights) * count_of(from.orders));
@@ -121,15 +131,32 @@ std::vector<flow::Bounds> patch_bounds(const camera::LensView& lens) {
   return out;
 }
 
+void pack_lens(Packer& packer, const camera::LensView& from, camera::LensView& to) {
+  const std::size_t pixels = count_of(from.width) * count_of(from.height);
+  to.ray_x = packer.put(from.ray_x, pixels), to.ray_y = packer.put(from.ray_y, pixels);
+  to.inverse_length = packer.put(from.inverse_length, pixels);
+  to.vignetting = packer.put(from.vignetting, pixels);
+  const std::vector<flow::Bounds> patches = patch_bounds(from);
+  to.tile = packer.put(patches.data(), patches.size());
+}
+
 }  // namespace
+
+std::vector<camera::LensView> pack_lenses(Packer& packer, const pipeline::Setup& from, pipeline::Setup& to) {
+  std::vector<camera::LensView> samples;
+  for (int i = 0; i < from.subpixel.count && from.subpixel.lens != nullptr; ++i) {
+    samples.push_back(from.subpixel.lens[i]);
+    pack_lens(packer, from.subpixel.lens[i], samples.back());
+  }
+  to.subpixel.lens = packer.put(static_cast<const camera::LensView*>(samples.data()), samples.size());
+  to.subpixel.share = packer.put(from.subpixel.share, samples.size());
+  pack_lens(packer, from.lens, to.lens);
+  return samples;
+}
 
 void pack_camera(Packer& packer, const pipeline::Setup& from, pipeline::Setup& to) {
   const std::size_t pixels = count_of(from.lens.width) * count_of(from.lens.height);
-  to.lens.ray_x = packer.put(from.lens.ray_x, pixels), to.lens.ray_y = packer.put(from.lens.ray_y, pixels);
-  to.lens.inverse_length = packer.put(from.lens.inverse_length, pixels);
-  to.lens.vignetting = packer.put(from.lens.vignetting, pixels);
-  const std::vector<flow::Bounds> patches = patch_bounds(from.lens);
-  to.lens.tile = packer.put(patches.data(), patches.size());
+  pack_scatter(packer, from.scatter, to.scatter);
   std::vector<camera::LightView> lights(from.lights, from.lights + from.scene.lights);
   for (camera::LightView& light : lights) {
     light.pattern.samples = packer.put(light.pattern.samples, count_of(light.pattern.columns) * count_of(light.pattern.rows));

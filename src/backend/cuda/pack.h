@@ -3,6 +3,7 @@
 #pragma once
 #include <cstddef>
 #include <cstring>
+#include <vector>
 
 #include "backend/cuda/arguments.h"
 
@@ -35,7 +36,10 @@ class Packer {
   std::size_t used_ = 0;
 };
 
-/// Lens, lights, sequence and tables. `to` is a copy of `from` and gets other pointers.
+/// The lens, of the middle of each pixel and of the samples within.
+/// @return those of the samples, as the device sees them
+std::vector<camera::LensView> pack_lenses(Packer& packer, const pipeline::Setup& from, pipeline::Setup& to);
+/// Lights, scatter, sequence and tables. `to` is a copy of `from` and gets other pointers.
 void pack_camera(Packer& packer, const pipeline::Setup& from, pipeline::Setup& to);
 /// The sequence alone: its gates turn where the sensor drifts.
 void pack_raw_frames(Packer& packer, const pipeline::Setup& from, camera::SensorView& to);

@@ -3,6 +3,8 @@
 #pragma once
 #include "backend/cuda/arguments.h"
 #include "pipeline/passes.h"
+#include "pipeline/scatter.h"
+#include "pipeline/steps.h"
 #include "pipeline/tile.h"
 
 /// What one thread of the GPU does: the pipeline's own functions for one pixel, on plain floats. Compiled for the host, too, where a
@@ -179,7 +181,8 @@ TOFRAY_FN void run_derive(const Setup& s, scene::Derive what, int unit) {
 }
 
 /// What came from elsewhere to depth, and the passes over images: pixel number `index`.
-TOFRAY_FN void run_pass(Pass pass, const Setup& s, const Job& job, const pipeline::Input& input, int index) {
+/// @param item  which kernel of the lens
+TOFRAY_FN void run_pass(Pass pass, int item, const Setup& s, const Job& job, const pipeline::Input& input, int index) {
   if (index >= s.lens.width * s.lens.height) return;
   const Pixels p{index, 1};
   const int x = index % s.lens.width, y = index / s.lens.width;
@@ -187,6 +190,7 @@ TOFRAY_FN void run_pass(Pass pass, const Setup& s, const Job& job, const pipelin
   if (pass == Pass::flying) pipeline::flag_flying_pixel(s, job, x, y);
   if (pass == Pass::filter) pipeline::filter_pixel(s, job, x, y);
   if (pass == Pass::settle) pipeline::settle<float>(s, job, p, pipeline::range_left(job));
+  if (pass == Pass::scatter_rows || pass == Pass::scatter_columns) pipeline::scatter<float>(s, job, pass, item, {x, y, 1});
 }
 
 /// The same array of a frame `bytes` further on.

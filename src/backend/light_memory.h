@@ -1,0 +1,31 @@
+// SPDX-FileCopyrightText: 2026 The tofray authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "pipeline/steps.h"
+
+namespace tofray::backend {
+
+/// Values of the light image's planes, of all its times together.
+std::size_t light_values(const pipeline::Setup& setup, int times);
+
+/// Times of which the light image of a frame keeps the light.
+/// @param input  null: from the scene on
+int light_times(const pipeline::Setup& setup, const pipeline::Input* input);
+
+/// Gives the light image that a frame needs its places from `base` on (of any machine; null: they are only counted).
+/// @return bytes; 0: it needs none
+std::size_t place_light(const pipeline::Setup& setup, const flow::FrameView& wanted, const pipeline::Input* input, unsigned char* base,
+                        flow::LightImage& image);
+
+/// What a light image was made of. Where the scene stands still, the next frame that is made of the same has the same.
+struct LightOrigin {
+  bool known = false;
+  shape::Frame camera{};
+  Stage last_stage = Stage::trace;
+  bool mixed = false;
+  bool operator==(const LightOrigin&) const = default;
+};
+/// Of a frame; what moves, or comes from elsewhere, is not known twice.
+LightOrigin light_origin(const pipeline::Setup& setup, const flow::FrameView& wanted, const pipeline::Input* input);
+
+}  // namespace tofray::backend

@@ -1,0 +1,106 @@
+// SPDX-FileCopyrightText: 2026 The tofray authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "pipeline/store.h"
+#include "power/phasors.h"
+
+/// The light image: what stages 1 and 2 add to it, and what stage 3 reads from it.                          [theory: eq. 7.1]
+namespace tofray::pipeline {
+
+/// Modulation frequencies of which the image keeps something at each of its times, and planes of a time.
+TOFRAY_FN int kept_modulations(const Setup& s, int times) { return times == 1 ? s.phasors.modulations : 1; }
+TOFRAY_FN int planes_of_modulation(const camera::PhasorView& s) { return s.sums_alone != 0 ? 2 : 2 * s.orders; }
+TOFRAY_FN int light_planes(const Setup& s, int times) { return 2 + kept_modulations(s, times) * planes_of_modulation(s.phasors); }
+
+TOFRAY_FN std::int64_t light_place(const Setup& s, const Pixels& p, int times, int time, int plane) {
+  const std::int64_t pixels = std::int64_t{s.lens.width} * s.lens.height;
+  return (std::int64_t{time} * light_planes(s, times) + plane) * pixels + p.index;
+}
+
+/// Calls visit(plane, value) for all that the image keeps of a light at a time: of raw frame number `time`, or of all.
+template <class F, class L, class Visit>
+TOFRAY_FN void each_plane(const Setup& s, int times, int time, L& light, const Visit& visit) {
+  visit(0, light.signal_rate), visit(1, light.ambient_rate);
+  const int kept = kept_modulations(s, times), planes = planes_of_modulation(s.phasors), orders = s.phasors.orders;
+  if (times > 1 && s.sensor.frame[time].lit == 0) return;
+  for (int i = 0; i < kept; ++i) {
+    const int j = times > 1 ? s.sensor.frame[time].modulation : i, first = 2 + i * planes;
+    if (s.phasors.sums_alone != 0) {
+      visit(first, light.in_phase[j]), visit(first + 1, light.quarter[j]);
+      continue;
+    }
+    for (int h = 0; h < orders; ++h) {
+      visit(first + h, light.real[j * orders + h]), visit(first + orders + h, light.imaginary[j * orders + h]);
+    }
+  }
+}
+
+/// Adds a share of a light to the image.
+/// @param first  nothing was added before: the share is all there is
+template <class F>
+TOFRAY_APART void gather_light(const Setup& s, const flow::LightImage& image, const Pixels& p, int time, const flow::Light<F>& light,
+                               float share, bool first) {
+  each_plane<F>(
+      s, image.times, time, light, [&](int plane, F value) __attribute__((always_inline)) {
+        const std::int64_t at = light_place(s, p, image.times, time, plane);
+        const F sum = first ? value * F(share) : num::fma(value, F(share), num::load<F>(image.before + at, p.count));
+        num::store(image.values + at, sum, p.count);
+      });
+}
+
+/// Reads the light that reaches the pixels at a time.
+template <class F>
+TOFRAY_FN void load_light(const Setup& s, const flow::LightImage& image, const Pixels& p, int time, flow::Light<F>& light) {
+  const float* const values = image.scattered != nullptr ? image.scattered : image.values;
+  each_plane<F>(
+      s, image.times, time, light, [&](int plane, F& value) __attribute__((always_inline)) {
+        value = num::load<F>(values + light_place(s, p, image.times, time, plane), p.count);
+      });
+  if (s.phasors.sums_alone != 0 || (image.times > 1 && s.sensor.frame[time].lit == 0)) return;
+  const int j = image.times > 1 ? s.sensor.frame[time].modulation : 0;
+  power::add_up(s.phasors, power::Wanted{j, j + kept_modulations(s, image.times)}, light);
+}
+
+/// Place of what comparing the samples gives, behind the light.
+TOFRAY_FN std::int64_t compared_place(const Setup& s, const flow::LightImage& image, const Pixels& p, int plane) {
+  return light_place(s, p, image.times, image.times, plane);
+}
+
+/// Notes what a sample within the pixels sees beside what their middle sees.
+/// @param middle  [height][width] object that the middle sees, −1: none
+template <class F>
+TOFRAY_APART void compare_sample(const Setup& s, const flow::LightImage& image, const std::int32_t* middle, const Pixels& p, float share,
+                                 bool first) {
+  using Int = num::Int<F>;
+  const Int object = num::load_int<F>(image.object + p.index, p.count);
+  const F range = num::load<F>(image.range + p.index, p.count);
+  const auto found = object > Int(-1);
+  const auto before = [&](int plane, float otherwise) __attribute__((always_inline)) {
+    return first ? F(otherwise) : num::load<F>(image.before + compared_place(s, image, p, plane), p.count);
+  };
+  const auto put = [&](int plane, F value) __attribute__((always_inline)) {
+    num::store(image.values + compared_place(s, image, p, plane), value, p.count);
+  };
+  const F same = before(0, 0.0f), nearest = before(1, 3e38f), farthest = before(2, 0.0f);
+  put(0, same + num::select(object == num::load_int<F>(middle + p.index, p.count), F(share), F(0.0f)));
+  put(1, num::select(found, num::min(nearest, range), nearest));
+  put(2, num::select(found, num::max(farthest, range), farthest));
+}
+
+constexpr float mixed_range = 0.05f;  ///< [m] of ranges within a pixel that make it a mixed one
+
+/// The ground truth that comes of it: samples see more than one object, or ranges further apart than mixed_range.
+template <class F>
+TOFRAY_FN void store_mixed(const Setup& s, const flow::FrameView& out, const flow::LightImage& image, const Pixels& p) {
+  if (out.gt_mixed == nullptr || image.object == nullptr) return;
+  const auto load = [&](int plane) __attribute__((always_inline)) {
+    return num::load<F>(image.values + compared_place(s, image, p, plane), p.count);
+  };
+  const F sum = load(0), spread = load(2) - load(1);
+  const F same = num::select(sum > F(0.99999f), F(1.0f), sum);  // shares add up to 1 but for rounding
+  const auto mixed = (same < F(1.0f)) | (spread > F(mixed_range));
+  num::store(out.gt_mixed + p.index, num::select(mixed, num::Int<F>(1), num::Int<F>(0)), p.count);
+  store(out.gt_object_share, p, same);
+}
+
+}  // namespace tofray::pipeline

@@ -1,0 +1,83 @@
+// SPDX-FileCopyrightText: 2026 The tofray authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "pipeline/gather.h"
+
+/// Light that lens and filter scatter over the sensor, as a pass over the light image.                      [theory: eq. 7.4]
+///
+/// Each value is a sum in the order of its sources' rows and columns, whatever the machine. Nothing comes in from beyond the edges, and what
+/// goes there is lost.
+namespace tofray::pipeline {
+
+/// A value of each pixel of a row, x to x + count − 1.
+struct RowPart {
+  int x, y, count;
+};
+
+/// Σ_x' from(x', y)·K(x − x'), x' ascending.
+/// @param weights  K(0)
+template <class F>
+TOFRAY_FN F along_row(const float* row, int width, int x, int radius, const float* weights, F sum) {
+  const int first = x - radius > 0 ? x - radius : 0, end = x + radius + num::lanes<F>;
+  const int last = (end < width ? end : width) - 1;
+  for (int at = first; at <= last; ++at) sum = num::fma(F(row[at]), num::load<F>(weights + (x - at), num::lanes<F>), sum);
+  return sum;
+}
+
+/// Of one plane of the image: a separable kernel's first half.
+template <class F>
+TOFRAY_FN void scatter_row(const camera::ScatterTerm& term, int width, const RowPart& p, const float* from, float* to) {
+  const float* middle = term.weights + camera::ScatterTerm::pad + term.radius;
+  const int row = p.y * width;
+  num::store(to + row + p.x, along_row<F>(from + row, width, p.x, term.radius, middle, F(0.0f)), p.count);
+}
+
+/// Its second half, or a whole kernel that is not separable. What is scattered is added to what the terms before have brought.
+template <class F>
+TOFRAY_FN void scatter_column(const camera::ScatterView& s, int item, int width, int height, const RowPart& p, const float* from,
+                              const float* rows, float* to) {
+  const camera::ScatterTerm& term = s.term[item];
+  const int at = p.y * width + p.x, radius = term.radius;
+  const int first = p.y - radius > 0 ? p.y - radius : 0, last = p.y + radius < height ? p.y + radius : height - 1;
+  F sum = item == 0 ? num::load<F>(from + at, p.count) * F(s.kept) : num::load<F>(to + at, p.count);
+  if (s.separable != 0) {
+    for (int y = first; y <= last; ++y)
+      sum = num::fma(num::load<F>(rows + y * width + p.x, p.count), F(term.column[radius + p.y - y]), sum);
+  } else {
+    constexpr int pad = camera::ScatterTerm::pad;
+    const int stride = 2 * (radius + pad) + 1;
+    for (int y = first; y <= last; ++y) {
+      const float* middle = term.weights + (radius + p.y - y) * stride + pad + radius;
+      sum = along_row<F>(from + y * width, width, p.x, radius, middle, sum);
+    }
+  }
+  num::store(to + at, sum, p.count);
+}
+
+/// Part of a row, of all planes of the image.
+/// @param item  which of the lens's kernels
+template <class F>
+TOFRAY_FN void scatter(const Setup& s, const Job& job, Pass pass, int item, const RowPart& p) {
+  const int width = s.lens.width, height = s.lens.height;
+  const std::int64_t pixels = std::int64_t{width} * height;
+  const int planes = job.light.times * light_planes(s, job.light.times);
+  for (int i = 0; i < planes; ++i) {
+    const float* const from = job.light.values + i * pixels;
+    float *const rows = job.light.rows + i * pixels, *const to = job.light.scattered + i * pixels;
+    if (pass == Pass::scatter_rows) {
+      scatter_row<F>(s.scatter.term[item], width, p, from, rows);
+    } else {
+      scatter_column<F>(s.scatter, item, width, height, p, from, rows, to);
+    }
+  }
+}
+
+/// … and of a band of rows.
+template <class F>
+TOFRAY_FN void scatter_rows(const Setup& s, const Job& job, Pass pass, int item, int y) {
+  for (int x = 0; x < s.lens.width; x += num::lanes<F>) {
+    scatter<F>(s, job, pass, item, {x, y, s.lens.width - x < num::lanes<F> ? s.lens.width - x : num::lanes<F>});
+  }
+}
+
+}  // namespace tofray::pipeline

@@ -1,0 +1,97 @@
+// SPDX-FileCopyrightText: 2026 The tofray authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "pipeline/enter.h"
+#include "pipeline/setup.h"
+
+/// What is done to a frame, step by step, each over all its pixels before the next begins.
+///
+/// Where one look at the scene gives a pixel's light, a frame goes from rays to depth in one pass. Where a pixel's light is a sum (samples
+/// within the pixel, what the lens scatters), it is gathered in the light image first: its ground truth, which is that of the pixel's middle;
+/// its light, sample by sample; what is scattered; then raw frames and depth out of the image. Of a scene that stands still the image is good
+/// for the next frame, too.
+namespace tofray::pipeline {
+
+enum class Part : std::int32_t {
+  all,      ///< from rays (or what came from elsewhere) to depth
+  truth,    ///< ground truth alone
+  light,    ///< stages 1 and 2 into the light image
+  collect,  ///< stages 3 and 4 out of it
+};
+
+struct Step {
+  Pass pass;
+  Part part;
+  std::int32_t item;     ///< which sample of the pixel, which kernel of the lens
+  std::int32_t swapped;  ///< 1: the light image's `values` are where `before` is said to be
+};
+
+/// Whether frames go through the light image.
+TOFRAY_FN bool has_light_image(const Setup& s, Stage entry) {
+  if (entry == Stage::depth) return false;
+  return s.scatter.terms > 0 || (s.subpixel.lens != nullptr && entry == Stage::trace);
+}
+/// … and whether anybody wants to know what samples see that the middle of a pixel does not.
+TOFRAY_FN bool wants_mixed(const Setup& s, const flow::FrameView& out) {
+  return s.subpixel.lens != nullptr && out.gt_object_id != nullptr && (out.gt_mixed != nullptr || out.gt_object_share != nullptr);
+}
+TOFRAY_FN bool wants_truth(const flow::FrameView& out) {
+#define TOFRAY_OR(name, ...) || out.name != nullptr
+  return false TOFRAY_TRUTH_ARRAYS(TOFRAY_OR);
+#undef TOFRAY_OR
+}
+
+/// Input that stands for what is in the light image.
+TOFRAY_FN Input from_light_image(const flow::LightImage& image) {
+  Input out{};
+  out.entry = Stage::raw, out.moments = image.times, out.from_image = 1;
+  return out;
+}
+
+/// Puts what a step has of its own into the settings of its frame: of passes over images …
+TOFRAY_FN void take_image_step(const Step& step, Job& job) {
+  if (step.swapped != 0) {
+    float* const values = job.light.before;
+    job.light.before = job.light.values, job.light.values = values;
+  }
+  if (step.part == Part::light) job.gather = {1, step.item == 0, 1.0f, nullptr};
+}
+/// … and of the pass that begins with rays.
+TOFRAY_FN void take_step(const Step& step, Setup& s, Job& job) {
+  take_image_step(step, job);
+  if (step.part == Part::truth && s.last_stage > Stage::power) s.last_stage = Stage::power;
+  if (step.part != Part::light || step.pass != Pass::pixels) return;
+  if (wants_mixed(s, job.out)) job.gather.middle = job.out.gt_object_id;
+  if (s.subpixel.lens != nullptr) job.gather.share = s.subpixel.share[step.item], s.lens = s.subpixel.lens[step.item];
+  job.out = flow::FrameView{};
+  if (job.gather.middle != nullptr) job.out.gt_object_id = job.light.object, job.out.gt_range_m = job.light.range;
+}
+
+/// Calls run(step) for each step of a frame.
+/// @param entry  the first stage that is computed
+/// @param known  the light image is that of this frame already
+template <class Run>
+void each_step(const Setup& s, const Job& job, Stage entry, bool known, const Run& run) {
+  const Pass begin = entry == Stage::trace ? Pass::pixels : Pass::input;
+  if (!has_light_image(s, entry)) {
+    run(Step{begin, Part::all, 0, 0});
+  } else {
+    if (entry == Stage::trace && wants_truth(job.out)) run(Step{begin, Part::truth, 0, 0});
+    const bool collects = s.last_stage >= Stage::raw;
+    const int samples = entry == Stage::trace ? s.subpixel.count : 1, swapped = (samples - 1) % 2;
+    if (!known && (collects || entry != Stage::trace || wants_mixed(s, job.out))) {
+      for (int i = 0; i < samples; ++i) run(Step{begin, Part::light, i, i % 2});
+      for (int i = 0; i < s.scatter.terms && collects; ++i) {
+        if (s.scatter.separable != 0) run(Step{Pass::scatter_rows, Part::light, i, swapped});
+        run(Step{Pass::scatter_columns, Part::light, i, swapped});
+      }
+    }
+    if (collects || wants_mixed(s, job.out)) run(Step{Pass::input, Part::collect, 0, swapped});
+  }
+  if (s.last_stage < Stage::depth || job.out.z_m == nullptr || job.out.flags == nullptr) return;
+  run(Step{Pass::flying, Part::all, 0, 0});
+  if (job.filter != Filter::none) run(Step{Pass::filter, Part::all, 0, 0});
+  run(Step{Pass::settle, Part::all, 0, 0});
+}
+
+}  // namespace tofray::pipeline
