@@ -45,9 +45,9 @@ std::size_t place_light(const pipeline::Setup& setup, const flow::FrameView& wan
   return used;
 }
 
-LightOrigin light_origin(const pipeline::Setup& setup, const flow::FrameView& wanted, const pipeline::Input* input) {
+LightOrigin light_origin(const pipeline::Setup& setup, const pipeline::Input* input) {
   if (input != nullptr || setup.scene.moments > 0) return {};
-  return {true, setup.scene.camera, setup.last_stage, pipeline::wants_mixed(setup, wanted)};
+  return {true, setup.scene.camera};
 }
 
 }  // namespace tofray::backend

@@ -17,15 +17,13 @@ int light_times(const pipeline::Setup& setup, const pipeline::Input* input);
 std::size_t place_light(const pipeline::Setup& setup, const flow::FrameView& wanted, const pipeline::Input* input, unsigned char* base,
                         flow::LightImage& image);
 
-/// What a light image was made of. Where the scene stands still, the next frame that is made of the same has the same.
+/// Where the camera stood for a light image. Of a scene that stands still, the next frame from there has the same.
 struct LightOrigin {
   bool known = false;
   shape::Frame camera{};
-  Stage last_stage = Stage::trace;
-  bool mixed = false;
   bool operator==(const LightOrigin&) const = default;
 };
 /// Of a frame; what moves, or comes from elsewhere, is not known twice.
-LightOrigin light_origin(const pipeline::Setup& setup, const flow::FrameView& wanted, const pipeline::Input* input);
+LightOrigin light_origin(const pipeline::Setup& setup, const pipeline::Input* input);
 
 }  // namespace tofray::backend

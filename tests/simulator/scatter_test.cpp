@@ -84,15 +84,27 @@ TEST(scatter, one_bright_pixel_shows_the_kernel) {
   }
 }
 
-// All of a kernel in its middle: nothing changes, to the bit; all of a Gaussian far wider than the sensor: nearly all is lost.
+// Through the light image and straight on: delays, drift, suppression, fixed patterns and exposures are applied once either way.
+TEST(scatter, of_nothing_has_the_bytes_of_a_lens_that_scatters_nothing) {
+  Scatter point{Scatter::Kind::kernel, 1};
+  point.kernel = {4}, point.rows = point.columns = 1;
+  for (const char* name : {"demo", "flying-ball", "sun-outdoors"}) {
+    const Scene scene = load_scene(name);
+    for (Camera camera : {small(load_camera(scene)), with_everything(load_camera(scene))}) {
+      // The mean of an exposure is taken before a pixel's delay turns it, or after: bytes may differ there.
+      const SimulatorOptions options{.exposure_samples = camera.pixel.delay_s == 0 ? 3 : 1};
+      const Frame straight = Simulator(scene, camera, options).frame(1);
+      camera.lens.scatter = point;
+      EXPECT_EQ(first_difference(Simulator(scene, camera, options).frame(1), straight), "") << name;
+    }
+  }
+}
+
+// All of a Gaussian far wider than the sensor: nearly all is lost.
 TEST(scatter, the_ends_of_what_a_lens_can_do) {
   const Scene scene = load_scene("demo");
   const Camera camera = small(load_camera(scene));
   Camera none = camera;
-  Scatter point{Scatter::Kind::kernel, 1};
-  point.kernel = {4}, point.rows = point.columns = 1;
-  none.lens.scatter = point;
-  EXPECT_EQ(first_difference(Simulator(scene, none).frame(1), Simulator(scene, camera).frame(1)), "");
   none.lens.scatter = {Scatter::Kind::gaussians, 0, {5}};
   EXPECT_EQ(first_difference(Simulator(scene, none).frame(1), Simulator(scene, camera).frame(1)), "");
   const std::vector<double> wide = spread(scattering({Scatter::Kind::gaussians, 1, {1e4}}), 30, 20);
@@ -147,6 +159,16 @@ TEST(scatter, mixes_depth_as_phasors) {
   const double y = share * 1e-12 * std::sin(2 * k) + own * 2e-14 * std::sin(3.2 * k);
   const double turns = std::atan2(y, x) / two_pi;
   EXPECT_NEAR(range_of_taps(frame.raw, dark), (turns - std::floor(turns)) * pi / k, 2e-6);
+}
+
+// Light from elsewhere goes through the same image as the scene's: neither is taken for the other.
+TEST(scatter, of_light_from_elsewhere_is_not_kept) {
+  Camera camera = scattering({Scatter::Kind::gaussians, 0.2, {2}});
+  Simulator simulator(wall(1.5), camera, {.threads = 1});
+  const Frame scene = simulator.frame(3), light = simulator.frame(3, bright_pixel(30, 20));
+  EXPECT_EQ(first_difference(simulator.frame(3), scene), "");
+  EXPECT_EQ(first_difference(simulator.frame(3, bright_pixel(30, 20)), light), "");
+  EXPECT_NE(first_difference(simulator.frame(3, bright_pixel(3, 2)), light), "");
 }
 
 TEST(scatter, gives_the_same_bytes_on_every_machine) {

@@ -131,6 +131,39 @@ TEST(subpixel, samples_are_finer_pixels_taken_together) {
   }
 }
 
+// … also where they see pictures: a sample stands for a share of what a pixel sees of one.
+TEST(subpixel, samples_see_pictures_as_finer_pixels_do) {
+  auto map = std::make_shared<ReflectivityMap>();
+  map->width = map->height = 256;
+  for (int i = 0; i < 256 * 256; ++i) map->values.push_back((i ^ i >> 8) & 1 ? 1.0f : 0.0f);
+  TriangleMesh card;
+  card.vertices = {{-1, -1, 1}, {1, -1, 1}, {1, 1, 1}, {-1, 1, 1}};
+  card.triangles = {{0, 1, 2}, {0, 2, 3}};
+  card.texcoords = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
+  Scene scene = wall(2);
+  scene.materials[0].map = map;
+  Mesh mesh;
+  mesh.triangles = std::make_shared<const TriangleMesh>(card);
+  scene.objects.push_back(object(mesh));
+  const Camera camera = edge_camera(), fine = finer(camera, 2);
+  const Frame whole = Simulator(scene, camera, {.noise = Noise::off, .subpixel = 2}).frame(0);
+  const Frame parts = Simulator(scene, fine, {.noise = Noise::off}).frame(0);
+  const auto width = static_cast<std::size_t>(fine.sensor.width);
+  for (int y = 10; y < 20; ++y) {
+    for (int x = 10; x < 30; ++x) {
+      const std::size_t at = static_cast<std::size_t>(2 * y) * width + static_cast<std::size_t>(2 * x);
+      const auto pixels = static_cast<std::size_t>(camera.sensor.width * camera.sensor.height);
+      const std::size_t lit = pixels + static_cast<std::size_t>(y * camera.sensor.width + x);  // the second raw frame
+      const std::size_t fine_lit = 4 * pixels + at;
+      double electrons = 0;
+      for (const std::size_t i : {fine_lit, fine_lit + 1, fine_lit + width, fine_lit + width + 1})
+        electrons += static_cast<double>(parts.truth.signal_e[i]);
+      ASSERT_NEAR(static_cast<double>(whole.truth.signal_e[lit]), electrons, 1e-5 * electrons) << x << ", " << y;
+      ASSERT_GT(electrons, 0);
+    }
+  }
+}
+
 // A mask in which a quarter alone is open is a pixel that looks there; one that is open everywhere is the whole pixel.
 TEST(subpixel, masks_say_where_a_pixel_looks) {
   Scene scene = edges();

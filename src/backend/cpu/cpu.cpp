@@ -108,7 +108,7 @@ void Cpu::run_step(const pipeline::Step& step, const Work& work) {
 void Cpu::run(const pipeline::Setup& setup, const pipeline::Job& job, const pipeline::Input* input) {
   flow::LightImage image;
   const std::size_t bytes = place_light(setup, job.out, input, nullptr, image);
-  const LightOrigin origin = light_origin(setup, job.out, input);
+  const LightOrigin origin = light_origin(setup, input);
   const bool known = bytes > 0 && origin.known && origin == light_of_;
   if (bytes > 0) {
     if (!known) light_of_ = {};

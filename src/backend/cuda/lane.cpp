@@ -165,7 +165,7 @@ void Lane::begin(const Resident& resident, const pipeline::Setup& first, const p
   flow::LightImage image;
   light_stride_ = place_light(first, job.out, input, nullptr, image);
   reserve_light(light_stride_ * (own == Own::number ? 1 : frames));
-  light_origin_ = own == Own::number && light_stride_ > 0 ? light_origin(first, job.out, input) : LightOrigin{};
+  light_origin_ = own == Own::number && light_stride_ > 0 ? light_origin(first, input) : LightOrigin{};
   place_light(first, job.out, input, light_memory(), common_light_);
   own_lights_.assign(own == Own::number ? 0 : frames, {});
   for (std::size_t i = 0; i < own_lights_.size(); ++i)
