@@ -14,16 +14,13 @@ std::size_t pixels_of(const pipeline::Setup& setup) {
 
 Stage entry_of(const pipeline::Input* input) { return input == nullptr ? Stage::trace : input->entry; }
 
-}  // namespace
-
-std::size_t light_values(const pipeline::Setup& setup, int times) {
-  return static_cast<std::size_t>(times) * static_cast<std::size_t>(pipeline::light_planes(setup, times)) * pixels_of(setup);
-}
-
-int light_times(const pipeline::Setup& setup, const pipeline::Input* input) {
+/// Of which the image keeps the light.
+int times_of(const pipeline::Setup& setup, const pipeline::Input* input) {
   if (input != nullptr) return input->moments;
   return setup.scene.moments > 0 ? setup.sensor.raw_frames : 1;
 }
+
+}  // namespace
 
 std::size_t place_light(const pipeline::Setup& setup, const flow::FrameView& wanted, const pipeline::Input* input, unsigned char* base,
                         flow::LightImage& image) {
@@ -34,8 +31,10 @@ std::size_t place_light(const pipeline::Setup& setup, const flow::FrameView& wan
     if (base != nullptr) array = reinterpret_cast<T*>(base + used);
     used += (count * sizeof(T) + 255) / 256 * 256;
   };
-  image.times = light_times(setup, input);
-  const std::size_t values = light_values(setup, image.times), pixels = pixels_of(setup);
+  image.times = times_of(setup, input);
+  const std::size_t pixels = pixels_of(setup);
+  const std::size_t values =
+      static_cast<std::size_t>(image.times) * static_cast<std::size_t>(pipeline::light_planes(setup, image.times)) * pixels;
   const bool compared = input == nullptr && pipeline::wants_mixed(setup, wanted);
   const std::size_t all = values + (compared ? flow::compared_planes * pixels : 0);
   put(image.values, all);

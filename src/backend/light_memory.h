@@ -5,14 +5,8 @@
 
 namespace tofray::backend {
 
-/// Values of the light image's planes, of all its times together.
-std::size_t light_values(const pipeline::Setup& setup, int times);
-
-/// Times of which the light image of a frame keeps the light.
-/// @param input  null: from the scene on
-int light_times(const pipeline::Setup& setup, const pipeline::Input* input);
-
 /// Gives the light image that a frame needs its places from `base` on (of any machine; null: they are only counted).
+/// @param input  null: from the scene on
 /// @return bytes; 0: it needs none
 std::size_t place_light(const pipeline::Setup& setup, const flow::FrameView& wanted, const pipeline::Input* input, unsigned char* base,
                         flow::LightImage& image);

@@ -50,7 +50,6 @@ FrozenCamera::FrozenCamera(const Camera& camera, bool noise, std::uint64_t seed,
 void FrozenCamera::freeze_lens(int subpixel) {
   const Sensor& sensor = camera_.sensor;
   middle_ = FrozenLens(camera_.lens, sensor, {0, 0}, 1);
-  lens_ = middle_.view();
   subpixel_.count = 1;
   if (subpixel > 1) {
     for (const SubpixelSample& sample : subpixel_samples(sensor, subpixel)) {
@@ -166,7 +165,7 @@ std::vector<double> raw_frame_starts_s(const std::vector<double>& integration_ti
 
 void FrozenCamera::freeze_patterns() {
   const Pixel& pixel = camera_.pixel;
-  const std::size_t pixels = static_cast<std::size_t>(lens_.width) * static_cast<std::size_t>(lens_.height);
+  const std::size_t pixels = static_cast<std::size_t>(camera_.sensor.width) * static_cast<std::size_t>(camera_.sensor.height);
   constexpr double infinite = std::numeric_limits<double>::infinity();
   // Each pattern is a stream of its own in the random numbers of the sensor's seed.
   const auto draw = [&](double sigma, double mean, double least, std::uint32_t stream, std::vector<float>& map) -> const float* {

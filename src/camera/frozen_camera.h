@@ -41,7 +41,7 @@ class FrozenCamera {
   FrozenCamera(const FrozenCamera&) = delete;
   FrozenCamera& operator=(const FrozenCamera&) = delete;
 
-  [[nodiscard]] const LensView& lens() const { return lens_; }
+  [[nodiscard]] const LensView& lens() const { return middle_.view(); }
   [[nodiscard]] const SubpixelView& subpixel() const { return subpixel_; }
   [[nodiscard]] const ScatterView& scatter() const { return scatter_.view(); }
   [[nodiscard]] const std::vector<LightView>& lights() const { return light_views_; }
@@ -72,7 +72,6 @@ class FrozenCamera {
   std::vector<LensView> sample_views_;
   std::vector<float> shares_;
   FrozenScatter scatter_;
-  LensView lens_{};
   SubpixelView subpixel_{};
   PowerView power_{};
   SensorView sensor_{};

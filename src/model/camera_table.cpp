@@ -19,6 +19,9 @@ using base::pi;
 constexpr auto mask_side = static_cast<int>(base::limit::mask_side.value);
 constexpr auto kernel_side = static_cast<int>(base::limit::kernel_side.value);
 constexpr int scatter_gaussians = 4;
+// Files say them by the rows themselves; `meta` has the numbers in one list.
+constexpr Number mask_size{none, {1, mask_side}, "2"};
+constexpr Number kernel_size{none, {1, kernel_side}, "3"};
 constexpr auto raw_frames = static_cast<int>(base::limit::raw_frames.value);
 
 constexpr Number side{none, {1, static_cast<double>(base::limit::sensor_side.value)}, "224"};
@@ -49,7 +52,8 @@ const Table& table_of<PixelMask>() {
                            "samples", {none, {0, 1e12}, "1"}, 1, mask_side, "of the whole pixel, rows from its top on, any unit")
                            .when<&PixelMask::kind>(Kind::table)
                            .or_file("mask.csv"),
-                       no_row<&PixelMask::columns, &PixelMask::rows>("the samples' own size"))
+                       number<&PixelMask::columns>("", mask_size, "").when<&PixelMask::kind>(Kind::table),
+                       number<&PixelMask::rows>("", mask_size, "").when<&PixelMask::kind>(Kind::table))
           .check_with(masks_let_light_through);
   return rows;
 }
@@ -86,7 +90,8 @@ const Table& table_of<Scatter>() {
               "how much of it goes where, any unit: rows from above on, odd in number as the columns; the middle is the pixel itself")
               .when<kind_of>(Kind::kernel)
               .or_file("kernel.csv"),
-          no_row<&Scatter::columns, &Scatter::rows>("the kernel's own size"))
+          number<&Scatter::columns>("", kernel_size, "").when<kind_of>(Kind::kernel),
+          number<&Scatter::rows>("", kernel_size, "").when<kind_of>(Kind::kernel))
           .check_with(scatter_goes_somewhere);
   return rows;
 }

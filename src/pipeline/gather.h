@@ -92,14 +92,14 @@ constexpr float mixed_range = 0.05f;  ///< [m] of ranges within a pixel that mak
 /// The ground truth that comes of it: samples see more than one object, or ranges further apart than mixed_range.
 template <class F>
 TOFRAY_FN void store_mixed(const Setup& s, const flow::FrameView& out, const flow::LightImage& image, const Pixels& p) {
-  if (out.gt_mixed == nullptr || image.object == nullptr) return;
+  if (image.object == nullptr) return;
   const auto load = [&](int plane) __attribute__((always_inline)) {
     return num::load<F>(image.values + compared_place(s, image, p, plane), p.count);
   };
   const F sum = load(0), spread = load(2) - load(1);
   const F same = num::select(sum > F(0.99999f), F(1.0f), sum);  // shares add up to 1 but for rounding
   const auto mixed = (same < F(1.0f)) | (spread > F(mixed_range));
-  num::store(out.gt_mixed + p.index, num::select(mixed, num::Int<F>(1), num::Int<F>(0)), p.count);
+  if (out.gt_mixed != nullptr) num::store(out.gt_mixed + p.index, num::select(mixed, num::Int<F>(1), num::Int<F>(0)), p.count);
   store(out.gt_object_share, p, same);
 }
 

@@ -313,6 +313,14 @@ TEST(table_files, lie_beside_the_profile) {
     }
   };
   EXPECT_EQ(load("pattern.csv"), "");
+  std::ofstream(folder + "/kernel.csv") << "1 2 3\n4 5 6\n7 8 9\n";
+  const Camera other = load_camera(folder + "/mine.yaml", {.mode = {},
+                                                           .set = {{"sensor.mask", "{kind: table, file: pattern.csv}"},
+                                                                   {"lens.scatter", "{kind: kernel, share: 5 %, file: kernel.csv}"}},
+                                                           .root = {}});
+  EXPECT_EQ(other.sensor.mask.samples, (std::vector<double>{1, 2, 3, 4, 5, 6}));
+  EXPECT_EQ(other.sensor.mask.columns, 3);
+  EXPECT_EQ(other.lens.scatter.kernel, (std::vector<double>{1, 2, 3, 4, 5, 6, 7, 8, 9}));
   EXPECT_TRUE(has(load("bad.csv"), "bad.csv:2:4: error: not a number")) << load("bad.csv");
   EXPECT_TRUE(has(load("row.csv"), "the pattern has fewer than two rows or columns")) << load("row.csv");
   EXPECT_TRUE(has(load("none.csv"), "cannot open"));

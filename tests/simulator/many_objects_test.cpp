@@ -49,6 +49,14 @@ int expect_same_without_culling(const Scene& scene, const Camera& camera, int sa
 
 constexpr int crowd_size = with_sanitizers ? 700 : 3000;
 
+Scene moving_crowd_in_the_sun(Random& random) {
+  Scene scene = crowd(random, crowd_size / 2, true);
+  scene.camera.pose = random_pose(random);
+  scene.ambient.spectrum = Ambient::Spectrum::sun_am15;
+  scene.ambient.amount = 0.5, scene.ambient.direction = Vec3{0.3, 0.5, 1} + random.point(0.2);
+  return scene;
+}
+
 }  // namespace
 
 TEST(many_objects, still_with_three_lights) {
@@ -60,10 +68,7 @@ TEST(many_objects, still_with_three_lights) {
 TEST(many_objects, moving_in_the_sun) {
   Random random(82);
   for (int trial = 0; trial < 2; ++trial) {
-    Scene scene = crowd(random, crowd_size / 2, true);
-    scene.camera.pose = random_pose(random);
-    scene.ambient.spectrum = Ambient::Spectrum::sun_am15;
-    scene.ambient.amount = 0.5, scene.ambient.direction = Vec3{0.3, 0.5, 1} + random.point(0.2);
+    Scene scene = moving_crowd_in_the_sun(random);
     EXPECT_GT(expect_same_without_culling(scene, small_camera(2, random)), with_sanitizers ? 5 : 50);
   }
 }
@@ -72,10 +77,7 @@ TEST(many_objects, moving_in_the_sun) {
 TEST(many_objects, turning_changing_and_passed_by) {
   Random random(85);
   for (int trial = 0; trial < 2; ++trial) {
-    Scene scene = crowd(random, crowd_size / 2, true);
-    scene.camera.pose = random_pose(random);
-    scene.ambient.spectrum = Ambient::Spectrum::sun_am15;
-    scene.ambient.amount = 0.5, scene.ambient.direction = Vec3{0.3, 0.5, 1} + random.point(0.2);
+    Scene scene = moving_crowd_in_the_sun(random);
     let_meshes_change(scene);
     set_in_motion(random, scene, trial == 1);
     EXPECT_GT(expect_same_without_culling(scene, small_camera(2, random), 1 + trial), with_sanitizers ? 5 : 50);

@@ -154,6 +154,7 @@ cudaError_t find_kernels() {
   find(&tofray_derive);
   find(&tofray_pass<Pass::input>), find(&tofray_pass<Pass::flying>);
   find(&tofray_pass<Pass::filter>), find(&tofray_pass<Pass::settle>);
+  find(&tofray_pass<Pass::scatter_rows>), find(&tofray_pass<Pass::scatter_columns>);
   return status;
 }
 

@@ -209,7 +209,8 @@ void Lane::launch_all() {
     launch.pass = Pass::derive;
     device_.check(runtime.launch(launch, stream_.get()), starting(Pass::derive));
   }
-  const bool known = light_of_.known && light_of_ == light_origin_;
+  const bool known = light_is_known();
+  if (!known) light_of_ = {};  // until all of it is there
   const pipeline::Input collected = pipeline::from_light_image(common_.job.light);
   pipeline::each_step(common_.setup, common_.job, given_.entry, known, [&](const pipeline::Step& step) {
     FrameArguments common = common_;
@@ -269,8 +270,7 @@ void Lane::submit_graph() {
   submitted_ = true, timed_ = false;
   // Arguments of a frame's own are copied by the graph; common ones are part of it.
   const bool same = graph_.get() != nullptr && captured_own_ == own_ && captured_slab_ == slab_ && captured_used_ == used_ &&
-                    captured_given_ == given_ && captured_known_ == (light_of_.known && light_of_ == light_origin_) &&
-                    (own_ != Own::number || captured_ == common_);
+                    captured_given_ == given_ && captured_known_ == light_is_known() && (own_ != Own::number || captured_ == common_);
   if (!same) capture();
   device_.check(device_.runtime().launch_graph(graph_.get(), stream_.get()), "launching a graph");
   light_of_ = light_origin_;
@@ -278,6 +278,7 @@ void Lane::submit_graph() {
 
 void Lane::capture() {
   Runtime& runtime = device_.runtime();
+  const bool known = light_is_known();
   void* graph = nullptr;
   device_.check(runtime.begin_capture(stream_.get()), "beginning a graph");
   try {
@@ -293,7 +294,7 @@ void Lane::capture() {
   graph_ = Graph(runtime, graph);
   device_.check(made, "making a graph");
   captured_ = common_, captured_used_ = used_, captured_own_ = own_, captured_slab_ = slab_, captured_given_ = given_;
-  captured_known_ = light_of_.known && light_of_ == light_origin_;
+  captured_known_ = known;
 }
 
 void Lane::wait() {
