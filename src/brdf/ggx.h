@@ -3,7 +3,7 @@
 #pragma once
 #include <cmath>
 
-#include "brdf/common.h"
+#include "brdf/around.h"
 
 namespace tofray::brdf {
 
@@ -29,16 +29,59 @@ struct Ggx {
   }
   template <class F>
   TOFRAY_FN static F f_r(const Finish<F>& of, const Cosines<F>& cosine, const Directions<F>& directions) {
-    const F ground = of.number[0], f0 = of.number[1], square = of.number[2], along = cosine.light + cosine.view;
-    const F c = along * along, slant = squared_slant(directions, along), sum = c + slant;
-    const F spread = sum / num::max(num::fma(square, c, slant), F(1e-18f));
+    const F ground = of.number[0], square = of.number[2];
+    const Half<F> half = half_of(square, cosine, directions);
     const F masks = num::fma(cosine.light, masked(square, cosine.view), cosine.view * masked(square, cosine.light));
-    const F d_v = F(0.5f * per_pi) * square * (spread * spread) / num::max(masks, F(1e-18f));
-    const F fresnel = num::fma(F(1.0f) - f0, fifth_power(num::max(num::fnma(F(0.5f), num::sqrt(sum), F(1.0f)), F(0.0f))), f0);
-    return num::fma(d_v, fresnel, ground * F(per_pi) * (passed(cosine.light) * passed(cosine.view)));
+    const F d_v = half.density / num::max(masks, F(1e-18f));
+    return num::fma(d_v, reflected(of.number[1], F(0.5f) * num::sqrt(half.square)),
+                    ground * F(per_pi) * (passed(cosine.light) * passed(cosine.view)));
+  }
+  /// Ways by the mirrors that the view sees, not masked by others [dupuy2023]: where α is 1, their normals are h ∝ v + c, c even over a
+  /// cap of the sphere of directions. Their density is D/(2·(n·v + m(n·v))).
+  ///
+  /// The share is that of F at the view's own cosine, held to a tenth of the ground's, in what both send back about. [theory: eq. 2.26]
+  template <class F>
+  TOFRAY_FN static F lobe_share(const Finish<F>& of, F cos_view) {
+    const F ground = of.number[0] * F(23.0f / 28) * passed(cos_view);
+    const F mirrors = num::max(num::max(reflected(of.number[1], cos_view), F(0.1f) * ground), F(1e-6f));
+    return mirrors / (mirrors + ground);
+  }
+  template <class F>
+  TOFRAY_FN static Direction<F> lobe_way(const Finish<F>& of, const Directions<F>& d, F u, F v) {
+    const Frame<F> frame = frame_about(d.normal);
+    const F alpha = num::sqrt(of.number[2]);
+    // The view where α is 1. What follows of it are sums of what is not negative: no digits are lost.
+    const Direction<F> seen = unit(Direction<F>{alpha * inner(d.view, frame.x), alpha * inner(d.view, frame.y), inner(d.view, d.normal)});
+    const F aside = num::fma(seen.x, seen.x, seen.y * seen.y), up = F(1.0f) + seen.z, z = (F(1.0f) - u) * up;
+    const F ring = num::sqrt(u * num::fma(up, z, aside));
+    F sine, cosine;
+    num::sincos_turns(v, sine, cosine);
+    const F x = alpha * num::fma(ring, cosine, seen.x), y = alpha * num::fma(ring, sine, seen.y);
+    return mirrored(d.view, sum_of(z, d.normal, sum_of(x, frame.x, y, frame.y)));
+  }
+  template <class F>
+  TOFRAY_FN static F lobe_pdf(const Finish<F>& of, const Cosines<F>& cosine, const Directions<F>& directions) {
+    const F square = of.number[2];
+    return half_of(square, cosine, directions).density / (cosine.view + masked(square, cosine.view));
   }
 
  private:
+  template <class F>
+  struct Half {
+    F square;   ///< |s|²
+    F density;  ///< D/2
+  };
+  template <class F>
+  TOFRAY_FN static Half<F> half_of(F square, const Cosines<F>& cosine, const Directions<F>& directions) {
+    const F along = cosine.light + cosine.view, c = along * along, slant = squared_slant(directions, along), sum = c + slant;
+    const F spread = sum / num::max(num::fma(square, c, slant), F(1e-18f));
+    return {sum, F(0.5f * per_pi) * square * (spread * spread)};
+  }
+  /// F_0 + (1 − F_0)·(1 − μ)⁵
+  template <class F>
+  TOFRAY_FN static F reflected(F f0, F cosine) {
+    return num::fma(F(1.0f) - f0, fifth_power(num::max(F(1.0f) - cosine, F(0.0f))), f0);
+  }
   template <class F>
   TOFRAY_FN static F masked(F square, F cosine) {
     return num::sqrt(num::fma(F(1.0f) - square, cosine * cosine, square));

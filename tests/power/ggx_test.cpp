@@ -6,10 +6,12 @@
 #include <algorithm>
 
 #include "brdf_of.h"
+#include "printed_brdf.h"
 #include "support/random.h"
 
 using namespace tofray;
 using brdf_test::at_angle;
+using brdf_test::printed_ggx;
 using tofray::base::dot;
 using tofray::test::pi;
 using tofray::test::Random;
@@ -20,19 +22,6 @@ Material ggx(double diffuse, double f0, double alpha) {
   Material out{"ggx", Material::Brdf::ggx, diffuse, f0};
   out.alpha = alpha;
   return out;
-}
-
-/// As it is printed: D, G2, F and the ground of Ashikhmin and Shirley, in double.
-double printed_ggx(const Material& m, const Vec3& l, const Vec3& v) {
-  const double a2 = m.alpha * m.alpha, nl = l[2], nv = v[2];
-  const Vec3 s{l[0] + v[0], l[1] + v[1], l[2] + v[2]};
-  const double size = std::sqrt(dot(s, s)), lh = size / 2;
-  const double tan2 = (s[0] * s[0] + s[1] * s[1]) / (s[2] * s[2]), cos2 = 1 / (1 + tan2);
-  const double d = 1 / (pi * a2 * cos2 * cos2 * (1 + tan2 / a2) * (1 + tan2 / a2));
-  const auto lambda = [&](double mu) { return (std::sqrt(1 + a2 * (1 - mu * mu) / (mu * mu)) - 1) / 2; };
-  const double masking = 1 / (1 + lambda(nl) + lambda(nv)), fresnel = m.specular + (1 - m.specular) * std::pow(1 - lh, 5);
-  const double ground = 28 * m.diffuse / (23 * pi) * (1 - m.specular) * (1 - std::pow(1 - nl / 2, 5)) * (1 - std::pow(1 - nv / 2, 5));
-  return d * masking * fresnel / (4 * nl * nv) + ground;
 }
 
 /// What of the light comes back, by directions of the camera drawn about the lobe: good however narrow it is. tan²θ_h = α²u/(1 − u).

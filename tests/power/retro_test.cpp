@@ -6,10 +6,13 @@
 #include <algorithm>
 
 #include "brdf_of.h"
+#include "printed_brdf.h"
 #include "support/random.h"
 
 using namespace tofray;
+using brdf_test::apart;
 using brdf_test::at_angle;
+using brdf_test::printed_f_r;
 using tofray::base::dot;
 using tofray::test::pi;
 using tofray::test::Random;
@@ -22,19 +25,9 @@ Material sheet(double diffuse, double retro, double spread) {
   return out;
 }
 
-/// Squared distance of two directions at this angle.
-double apart(double angle) { return 4 * std::pow(std::sin(angle / 2), 2); }
-
-double printed_sheet(const Material& m, const Vec3& l, const Vec3& v) {
-  const double width = apart(m.spread_rad) / (std::sqrt(2.0) - 1);
-  const Vec3 gap{l[0] - v[0], l[1] - v[1], l[2] - v[2]};
-  const double fall = 1 + dot(gap, gap) / width;
-  return m.diffuse / pi + m.retro / (pi * width * fall * fall * std::max(l[2], v[2]));
-}
-
 /// What of the light comes back, by directions drawn about it: a ring holds the lobe's share u, |l − v|² = w²·u/(1 − u).
 double sheet_lobe_albedo(const Material& m, double light_angle) {
-  const double width = apart(m.spread_rad) / (std::sqrt(2.0) - 1);
+  const double width = brdf_test::retro_width(m);
   const Vec3 l = at_angle(light_angle, 0);
   const int steps = 500;
   double sum = 0;
@@ -60,8 +53,8 @@ TEST(retro, is_the_printed_form) {
     const Material m = sheet(random.between(0, 0.5), random.between(0, 0.5), random.scale(0.001, 0.7));
     const double angle = random.between(0, 1.5), off = random.scale(1e-4, 1);
     const Vec3 light = at_angle(angle, 0), camera = at_angle(std::min(angle + off, 1.5), random.between(-off, off));
-    ASSERT_NEAR(brdf_test::f_r(m, light, camera), printed_sheet(m, light, camera),
-                printed_sheet(m, light, camera) * (2e-6 + 1e-6 / m.spread_rad))
+    ASSERT_NEAR(brdf_test::f_r(m, light, camera), printed_f_r(m, light, camera),
+                printed_f_r(m, light, camera) * (2e-6 + 1e-6 / m.spread_rad))
         << i;
   }
 }
