@@ -70,6 +70,7 @@ TOFRAY_FN Mask8 operator>(I32x8 a, I32x8 b) { return {_mm256_castsi256_ps(_mm256
 TOFRAY_FN Mask8 operator<(I32x8 a, I32x8 b) { return b > a; }
 
 TOFRAY_FN U32x8 operator+(U32x8 a, U32x8 b) { return _mm256_add_epi32(a.v, b.v); }
+TOFRAY_FN U32x8 operator*(U32x8 a, U32x8 b) { return _mm256_mullo_epi32(a.v, b.v); }
 TOFRAY_FN U32x8 operator&(U32x8 a, U32x8 b) { return _mm256_and_si256(a.v, b.v); }
 TOFRAY_FN U32x8 operator|(U32x8 a, U32x8 b) { return _mm256_or_si256(a.v, b.v); }
 TOFRAY_FN U32x8 operator^(U32x8 a, U32x8 b) { return _mm256_xor_si256(a.v, b.v); }

@@ -70,6 +70,7 @@ TOFRAY_FN Mask16 operator<(I32x16 a, I32x16 b) { return {_mm512_cmplt_epi32_mask
 TOFRAY_FN Mask16 operator>(I32x16 a, I32x16 b) { return {_mm512_cmpgt_epi32_mask(a.v, b.v)}; }
 
 TOFRAY_FN U32x16 operator+(U32x16 a, U32x16 b) { return _mm512_add_epi32(a.v, b.v); }
+TOFRAY_FN U32x16 operator*(U32x16 a, U32x16 b) { return _mm512_mullo_epi32(a.v, b.v); }
 TOFRAY_FN U32x16 operator&(U32x16 a, U32x16 b) { return _mm512_and_si512(a.v, b.v); }
 TOFRAY_FN U32x16 operator|(U32x16 a, U32x16 b) { return _mm512_or_si512(a.v, b.v); }
 TOFRAY_FN U32x16 operator^(U32x16 a, U32x16 b) { return _mm512_xor_si512(a.v, b.v); }

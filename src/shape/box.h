@@ -26,9 +26,16 @@ struct BoxAlong {
   Bounds bounds;            ///< on the light's screen
 };
 
+/// For rays from anywhere: p_k = P·axis_k + offset_k, from the centre.
+struct BoxFree {
+  float axis[3][3], offset[3], half[3];
+  std::int32_t facet, object, inside;  ///< inside: the camera is
+};
+
 struct Box {
   using Form = BoxForm;
   using Along = BoxAlong;
+  using Free = BoxFree;
   static constexpr int facets = 3;
   static constexpr bool closed = true, curved = false;
 
@@ -136,6 +143,24 @@ TOFRAY_FN Mask<F> blocks(const BoxAlong& box, const Surface<F>& p, const float*,
     leave = num::min(leave, num::max(one, other));
   }
   return leave > enter + margin;
+}
+
+TOFRAY_FN BoxFree free_of(const Box& b) {
+  BoxFree form{};
+  const Vec center = b.axes * b.center;
+  for (int k = 0; k < 3; ++k) {
+    copy(b.axes.row[k], form.axis[k]);
+    form.offset[k] = single(-center[k]), form.half[k] = single(b.half[k]);
+  }
+  return form;
+}
+
+template <class F>
+TOFRAY_FN Passage<F> passage(const BoxFree& b, const FreeRay<F>& ray) {
+  const auto slab = [&](int k) __attribute__((always_inline)) {
+    return between_planes(placed(ray, b.axis[k], b.offset[k]), turned(ray, b.axis[k]), F(b.half[k]), Int<F>(k));
+  };
+  return common_passage(common_passage(slab(0), slab(1)), slab(2));
 }
 
 }  // namespace tofray::shape

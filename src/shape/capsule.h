@@ -27,9 +27,17 @@ struct CapsuleAlong {
   Bounds bounds;            ///< on the light's screen
 };
 
+/// For rays from anywhere.
+struct CapsuleFree {
+  CylinderFree side;
+  float end[2][3];
+  std::int32_t facet, object, inside;  ///< inside: the camera is
+};
+
 struct Capsule {
   using Form = CapsuleForm;
   using Along = CapsuleAlong;
+  using Free = CapsuleFree;
   static constexpr int facets = 3;
   static constexpr bool closed = true, curved = true;
 
@@ -126,6 +134,28 @@ TOFRAY_FN CapsuleAlong seen_along(const Capsule& c, const Vec& s) {
 template <class F>
 TOFRAY_FN Mask<F> blocks(const CapsuleAlong& c, const Surface<F>& p, const float* s, F margin) {
   return blocks(c.side, p, s, margin) | blocks(c.end[0], p, s, margin) | blocks(c.end[1], p, s, margin);
+}
+
+TOFRAY_FN CapsuleFree free_of(const Capsule& c) {
+  CapsuleFree form{};
+  form.side = free_of(Cylinder{c.center, c.axis, c.radius, c.half});
+  for (int i = 0; i < 2; ++i) copy(end_of(c, i), form.end[i]);
+  return form;
+}
+
+/// It is convex and made of three parts: a line comes in where it comes into the first of them, and goes out of the last.
+template <class F>
+TOFRAY_FN Passage<F> passage(const CapsuleFree& c, const FreeRay<F>& ray) {
+  Passage<F> all = passage(c.side, ray);
+  const auto met = all.in <= all.out;
+  all = {num::select(met, all.in, F(never)), num::select(met, all.out, F(-never)), Int<F>(0), Int<F>(0)};
+  for (int i = 0; i < 2; ++i) {
+    const Passage<F> end = passage(F(c.end[i][0]), F(c.end[i][1]), F(c.end[i][2]), F(c.side.radius_squared), ray, Int<F>(1 + i));
+    const auto sooner = end.in<all.in, later = end.out> all.out;
+    all = {num::select(sooner, end.in, all.in), num::select(later, end.out, all.out), num::select(sooner, end.in_facet, all.in_facet),
+           num::select(later, end.out_facet, all.out_facet)};
+  }
+  return all;
 }
 
 }  // namespace tofray::shape

@@ -193,4 +193,62 @@ struct FacetColumns {
   TOFRAY_FN Int<F> whole(int c) const { return same ? Int<F>(words()[num::first(facet) + c]) : num::gather(words() + c, facet); }
 };
 
+/// A ray from anywhere: P = o + t·d, d of unit length; t is the distance.
+template <class F>
+struct FreeRay {
+  F x, y, z, dx, dy, dz;
+};
+/// The distance to what is never met.
+TOFRAY_CONSTANT float never = 3e38f;
+
+/// d·m, and o·m + offset.
+template <class F>
+TOFRAY_FN F turned(const FreeRay<F>& ray, const float* m) {
+  return num::fma(ray.dx, F(m[0]), num::fma(ray.dy, F(m[1]), ray.dz * F(m[2])));
+}
+template <class F>
+TOFRAY_FN F placed(const FreeRay<F>& ray, const float* m, float offset) {
+  return num::fma(ray.x, F(m[0]), num::fma(ray.y, F(m[1]), num::fma(ray.z, F(m[2]), F(offset))));
+}
+/// 1/a with a's sign; huge where a is next to nothing.
+template <class F>
+TOFRAY_FN F inverse_of(F a) {
+  return F(1.0f) / num::copy_sign(num::max(num::abs(a), F(1e-30f)), a);
+}
+
+/// Where a line is within a convex body: from `in` to `out`, through these facets of it; nowhere where in > out.
+template <class F>
+struct Passage {
+  F in, out;
+  Int<F> in_facet, out_facet;
+};
+template <class F>
+TOFRAY_FN Passage<F> common_passage(const Passage<F>& a, const Passage<F>& b) {
+  const auto later = b.in > a.in, earlier = b.out < a.out;
+  return {num::select(later, b.in, a.in), num::select(earlier, b.out, a.out), num::select(later, b.in_facet, a.in_facet),
+          num::select(earlier, b.out_facet, a.out_facet)};
+}
+/// Where a line is between two parallel planes, ±half from `place` along a coordinate that it goes along by `step`.
+template <class F>
+TOFRAY_FN Passage<F> between_planes(F place, F step, F half, Int<F> facet) {
+  const F inverse = inverse_of(step);
+  const F one = (-half - place) * inverse, other = (half - place) * inverse;
+  return {num::min(one, other), num::max(one, other), facet, facet};
+}
+
+/// a·b − c·d to 1.5 units in the last place, its sign as without any rounding (Kahan; Jeannerod, Louvet and Muller 2013).
+template <class F>
+TOFRAY_FN F difference_of_products(F a, F b, F c, F d) {
+  const F product = c * d;
+  const F rounding = num::fnma(c, d, product);
+  return num::fms(a, b, product) + rounding;
+}
+
+/// Which coordinate of the direction is the longest.
+template <class F>
+TOFRAY_FN Int<F> longest_of(const F (&direction)[3]) {
+  const F x = num::abs(direction[0]), y = num::abs(direction[1]), z = num::abs(direction[2]);
+  return num::select((x > y) & (x > z), Int<F>(0), num::select(y > z, Int<F>(1), Int<F>(2)));
+}
+
 }  // namespace tofray::shape

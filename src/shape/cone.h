@@ -33,9 +33,17 @@ struct ConeAlong {
   Bounds bounds;            ///< on the light's screen
 };
 
+/// For rays from anywhere: axes K·u, K·v and S·a, as above.
+struct ConeFree {
+  float u[3], v[3], a[3], tip[3];
+  float base;                          ///< −S·H
+  std::int32_t facet, object, inside;  ///< inside: the camera is
+};
+
 struct Cone {
   using Form = ConeForm;
   using Along = ConeAlong;
+  using Free = ConeFree;
   static constexpr int facets = 2;
   static constexpr bool closed = true, curved = true;
 
@@ -187,6 +195,36 @@ TOFRAY_FN Mask<F> blocks(const ConeAlong& c, const Surface<F>& p, const float*, 
     leave = num::min(leave, base);
   }
   return leave > enter + margin;
+}
+
+TOFRAY_FN ConeFree free_of(const Cone& c) {
+  ConeFree form{};
+  const Vec u = way_across({0, 0, 0}, c.axis), v = cross(c.axis, u);
+  copy(cosine_of(c) * u, form.u), copy(cosine_of(c) * v, form.v), copy(sine_of(c) * c.axis, form.a), copy(c.tip, form.tip);
+  form.base = single(-sine_of(c) * c.height);
+  return form;
+}
+
+/// From the line's point that is nearest to the tip, so that no number is larger than what it passes.
+template <class F>
+TOFRAY_FN Passage<F> passage(const ConeFree& c, const FreeRay<F>& ray) {
+  const F x = F(c.tip[0]) - ray.x, y = F(c.tip[1]) - ray.y, z = F(c.tip[2]) - ray.z;
+  const F k = num::fma(x, ray.dx, num::fma(y, ray.dy, z * ray.dz));
+  const F lx = num::fnma(k, ray.dx, x), ly = num::fnma(k, ray.dy, y), lz = num::fnma(k, ray.dz, z);  // to the tip, from there
+  const auto across = [&](const float* m) __attribute__((always_inline)) {
+    return num::fma(lx, F(m[0]), num::fma(ly, F(m[1]), lz * F(m[2])));
+  };
+  const F lu = across(c.u), lv = across(c.v), la = across(c.a), u = turned(ray, c.u), v = turned(ray, c.v), a = turned(ray, c.a);
+  const F e = num::fnma(lu, a, la * u), f = num::fnma(lv, a, la * v), g = num::fnma(lu, v, lv * u);
+  const F rest = num::fnma(g, g, num::fma(e, e, f * f));
+  const Between<F> side = within_side(lu, lv, la, u, v, a, rest);
+  // The base is where τ·a = base + la: what is above it is on the tip's side.
+  const F base = (F(c.base) + la) * inverse_of(a);
+  const auto up = a > F(0.0f);
+  const Passage<F> flat{num::select(up, base, F(-never)), num::select(up, F(never), base), Int<F>(1), Int<F>(1)};
+  Passage<F> all = common_passage(Passage<F>{side.low, side.high, Int<F>(0), Int<F>(0)}, flat);
+  all.in = all.in + k, all.out = all.out + k;
+  return all;
 }
 
 }  // namespace tofray::shape

@@ -35,9 +35,17 @@ struct CylinderAlong {
   Bounds bounds;            ///< on the light's screen
 };
 
+/// For rays from anywhere.
+struct CylinderFree {
+  float c[3], a[3];
+  float at, half, radius_squared;      ///< at: −c·a
+  std::int32_t facet, object, inside;  ///< inside: the camera is
+};
+
 struct Cylinder {
   using Form = CylinderForm;
   using Along = CylinderAlong;
+  using Free = CylinderFree;
   static constexpr int facets = 2;
   static constexpr bool closed = true, curved = true;
 
@@ -170,6 +178,34 @@ TOFRAY_FN Mask<F> blocks(const CylinderAlong& c, const Surface<F>& p, const floa
   const F enter = num::max(num::max(F(0.0f), num::min(one, other)), num::min(low, high));
   const F leave = num::min(num::max(one, other), num::max(low, high));
   return (rest > F(0.0f)) & (leave > enter + margin);
+}
+
+TOFRAY_FN CylinderFree free_of(const Cylinder& c) {
+  CylinderFree form{};
+  copy(c.center, form.c), copy(c.axis, form.a);
+  form.at = single(-dot(c.center, c.axis)), form.half = single(c.half), form.radius_squared = single(c.radius * c.radius);
+  return form;
+}
+
+/// Where a line is within R of another line: from its point that is nearest to it, R² less the square of their distance says how far. A line
+/// along the other is within it everywhere, or nowhere.
+template <class F>
+TOFRAY_FN Passage<F> within_side(const CylinderFree& c, const FreeRay<F>& ray, F place, F step, Int<F> facet) {
+  const F px = num::fnma(place, F(c.a[0]), ray.x - F(c.c[0])), py = num::fnma(place, F(c.a[1]), ray.y - F(c.c[1])),
+          pz = num::fnma(place, F(c.a[2]), ray.z - F(c.c[2]));
+  const F ex = num::fnma(step, F(c.a[0]), ray.dx), ey = num::fnma(step, F(c.a[1]), ray.dy), ez = num::fnma(step, F(c.a[2]), ray.dz);
+  const F square = num::max(flow::square_of(ex, ey, ez), F(1e-20f));
+  const F middle = -num::fma(px, ex, num::fma(py, ey, pz * ez)) / square;
+  const F lx = num::fma(middle, ex, px), ly = num::fma(middle, ey, py), lz = num::fma(middle, ez, pz);
+  const F rest = F(c.radius_squared) - flow::square_of(lx, ly, lz), half = num::sqrt(num::max(rest, F(0.0f)) / square);
+  const auto met = rest >= F(0.0f);
+  return {num::select(met, middle - half, F(never)), num::select(met, middle + half, F(-never)), facet, facet};
+}
+
+template <class F>
+TOFRAY_FN Passage<F> passage(const CylinderFree& c, const FreeRay<F>& ray) {
+  const F place = placed(ray, c.a, c.at), step = turned(ray, c.a);
+  return common_passage(within_side(c, ray, place, step, Int<F>(0)), between_planes(place, step, F(c.half), Int<F>(1)));
 }
 
 }  // namespace tofray::shape

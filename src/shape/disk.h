@@ -23,9 +23,16 @@ struct DiskAlong {
   Bounds bounds;  ///< on the light's screen
 };
 
+/// For rays from anywhere.
+struct DiskFree {
+  float c[3], n[3], offset, radius_squared;  ///< n·P + offset = 0
+  std::int32_t facet, object;
+};
+
 struct Disk {
   using Form = DiskForm;
   using Along = DiskAlong;
+  using Free = DiskFree;
   static constexpr int facets = 1;
   static constexpr bool closed = false, curved = false;
 
@@ -93,6 +100,23 @@ template <class F>
 TOFRAY_FN Mask<F> blocks(const DiskAlong& disk, const Surface<F>& p, const float*, F margin) {
   const F x = affine(p, disk.x, disk.offset[0]), y = affine(p, disk.y, disk.offset[1]);
   return (num::fma(x, x, y * y) <= F(disk.radius_squared)) & (affine(p, disk.m, disk.c) > margin);
+}
+
+TOFRAY_FN DiskFree free_of(const Disk& d) {
+  DiskFree form{};
+  copy(d.center, form.c), copy(d.normal, form.n);
+  form.offset = single(-dot(d.normal, d.center)), form.radius_squared = single(d.radius * d.radius);
+  return form;
+}
+
+template <class F>
+TOFRAY_FN F distance_to(const DiskFree& disk, const FreeRay<F>& ray, F least, Int<F>& facet) {
+  facet = Int<F>(0);
+  const F along = turned(ray, disk.n), t = -placed(ray, disk.n, disk.offset) * inverse_of(along);
+  const F x = num::fma(t, ray.dx, ray.x - F(disk.c[0])), y = num::fma(t, ray.dy, ray.y - F(disk.c[1])),
+          z = num::fma(t, ray.dz, ray.z - F(disk.c[2]));
+  const auto met = (num::abs(along) > F(1e-6f)) & (t > least) & (flow::square_of(x, y, z) <= F(disk.radius_squared));
+  return num::select(met, t, F(never));
 }
 
 }  // namespace tofray::shape

@@ -20,6 +20,8 @@
 ///     in_frame(T, …)   … as seen in another frame
 ///     T::Form          what rays of a common origin need; seen_from(T, origin) makes it, the camera being at 0
 ///     T::Along         what light from one direction needs; seen_along(T, direction) makes it
+///     T::Free          what rays from anywhere need; free_of(T) makes it; passage(Free, ray) says where they are within what is closed,
+///                      distance_to(Free, ray, …) where they meet anything else
 ///     span_along(T, a) from where to where it reaches along a unit vector, unless it has no end
 ///     T::facets        how many a hit may name; facet_of(T, side, …) says which way they face
 ///     T::closed        it has an inside: its forms say where its own surface is in the dark (own_blocks)

@@ -81,9 +81,19 @@ struct MeshSteps {
 };
 constexpr int mesh_steps_words = sizeof(MeshSteps) / sizeof(float);
 
+/// For rays from anywhere: mesh frame turn·P + offset.
+struct MeshFree {
+  float turn[3][3], offset[3];
+  float extent;  ///< largest coordinate of the mesh
+  const MeshNode* nodes;
+  const MeshTriangles* triangles;
+  std::int32_t facet, object;
+};
+
 struct Mesh {
   using Form = MeshForm;
   using Along = MeshAlong;
+  using Free = MeshFree;
   static constexpr int facets = 2;  ///< hits name the first; the second has what is left (facet_of)
   static constexpr bool closed = false, curved = true, many = true;
 
@@ -196,14 +206,6 @@ TOFRAY_FN MeshAlong seen_along(const Mesh& mesh, const Vec& s) {
   return form;
 }
 
-/// a·b − c·d to 1.5 units in the last place, its sign as without any rounding (Kahan; Jeannerod, Louvet and Muller 2013).
-template <class F>
-TOFRAY_FN F difference_of_products(F a, F b, F c, F d) {
-  const F product = c * d;
-  const F rounding = num::fnma(c, d, product);
-  return num::fms(a, b, product) + rounding;
-}
-
 /// Rays by their longest coordinate z: at depth z they are at (x·z, y·z) from their origin.
 template <class F>
 struct Sheared {
@@ -220,13 +222,6 @@ TOFRAY_FN Sheared<F> sheared(const F (&direction)[3], int z) {
   // (Lanes of another longest coordinate are computed along with these, and thrown away.)
   const F length = num::select(direction[z] == F(0.0f), F(1.0f), direction[z]);
   return {x, y, z, direction[x] / length, direction[y] / length, length};
-}
-
-/// Which coordinate of the direction is the longest.
-template <class F>
-TOFRAY_FN Int<F> longest_of(const F (&direction)[3]) {
-  const F x = num::abs(direction[0]), y = num::abs(direction[1]), z = num::abs(direction[2]);
-  return num::select((x > y) & (x > z), Int<F>(0), num::select(y > z, Int<F>(1), Int<F>(2)));
 }
 
 /// Where the rays meet the triangle's plane; a mask of those that meet the triangle.
@@ -326,6 +321,27 @@ TOFRAY_FN Direction<F> Mesh::normal(const FacetColumns<F>& of, Int<F> triangle, 
     out = {num::select(these, n.x, out.x), num::select(these, n.y, out.y), num::select(these, n.z, out.z)};
     left = num::select(these, Int<F>(0), left);
   }
+  return out;
+}
+
+TOFRAY_FN MeshFree free_of(const Mesh& mesh) {
+  MeshFree form{};
+  for (int k = 0; k < 3; ++k) copy(mesh.axes.row[k], form.turn[k]);
+  copy(mesh.axes * (-1.0 * mesh.origin), form.offset);
+  form.extent = single(reach(mesh, {0, 0, 0}));
+  form.nodes = mesh.nodes, form.triangles = mesh.triangles;
+  return form;
+}
+
+template <class F>
+TOFRAY_FN MeshRay<F> in_mesh(const MeshFree& form, const FreeRay<F>& ray) {
+  MeshRay<F> out;
+  F away = F(0.0f);
+  for (int k = 0; k < 3; ++k) {
+    out.origin[k] = placed(ray, form.turn[k], form.offset[k]), out.direction[k] = turned(ray, form.turn[k]);
+    away = num::max(away, num::abs(out.origin[k]));
+  }
+  out.slack = mesh_slack(F(form.extent) + away, away);
   return out;
 }
 

@@ -164,4 +164,14 @@ TOFRAY_FN Mask<F> blocks(const MeshAlong& form, const Surface<F>& p, const float
   return found.triangle > Int<F>(-1);
 }
 
+/// The distance at which a ray first meets a triangle, further on than `least` and nearer than `far`.
+/// @param triangle  which one; −1: none
+template <class F>
+TOFRAY_FN F distance_to(const MeshFree& form, const FreeRay<F>& ray, F least, F far, Mask<F> wanted, Int<F>& triangle) {
+  MeshHit<F> found{far, Int<F>(0x7fffffff), Int<F>(-1)};
+  search_mesh<false>(form.nodes, form.triangles, in_mesh(form, ray), least, wanted, found);
+  triangle = found.triangle;
+  return num::select(triangle > Int<F>(-1), found.t, F(never));
+}
+
 }  // namespace tofray::shape

@@ -19,9 +19,16 @@ struct PlaneAlong {
   std::int32_t object;
 };
 
+/// For rays from anywhere.
+struct PlaneFree {
+  float n[3], offset;  ///< n·P + offset = 0
+  std::int32_t facet, object;
+};
+
 struct Plane {
   using Form = PlaneForm;
   using Along = PlaneAlong;
+  using Free = PlaneFree;
   static constexpr int facets = 1;
   static constexpr bool closed = false, curved = false;
 
@@ -75,6 +82,21 @@ TOFRAY_FN PlaneAlong seen_along(const Plane& p, const Vec& s) {
 template <class F>
 TOFRAY_FN Mask<F> blocks(const PlaneAlong& plane, const Surface<F>& p, const float*, F margin) {
   return affine(p, plane.m, plane.c) > margin;
+}
+
+TOFRAY_FN PlaneFree free_of(const Plane& p) {
+  PlaneFree form{};
+  copy(p.normal, form.n);
+  form.offset = single(-dot(p.normal, p.point));
+  return form;
+}
+
+/// Rays along it never meet it.
+template <class F>
+TOFRAY_FN F distance_to(const PlaneFree& plane, const FreeRay<F>& ray, F least, Int<F>& facet) {
+  facet = Int<F>(0);
+  const F along = turned(ray, plane.n), t = -placed(ray, plane.n, plane.offset) * inverse_of(along);
+  return num::select((num::abs(along) > F(1e-6f)) & (t > least), t, F(never));
 }
 
 }  // namespace tofray::shape

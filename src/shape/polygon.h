@@ -24,6 +24,13 @@ struct PolygonAlong {
   Bounds bounds;  ///< on the light's screen
 };
 
+/// For rays from anywhere: the corners.
+template <int N>
+struct PolygonFree {
+  float corner[N][3];
+  std::int32_t facet, object;
+};
+
 /// The least of what `of` says of each edge.
 template <int N, class Of>
 TOFRAY_FN auto least_of(const Of& of) {
@@ -139,6 +146,50 @@ template <int N, class F>
 TOFRAY_FN Mask<F> blocks(const PolygonAlong<N>& polygon, const Surface<F>& p, const float*, F margin) {
   const F least = least_of<N>([&](int i) __attribute__((always_inline)) { return affine(p, polygon.edge[i], polygon.edge_offset[i]); });
   return (least >= F(0.0f)) & (affine(p, polygon.m, polygon.c) > margin);
+}
+
+template <int N>
+TOFRAY_FN PolygonFree<N> polygon_free(const Vec (&v)[N]) {
+  PolygonFree<N> form{};
+  for (int i = 0; i < N; ++i) copy(v[i], form.corner[i]);
+  return form;
+}
+
+/// What of three coordinates comes first, second and last when `last` says which one is last.
+template <class F>
+TOFRAY_FN Direction<F> cycled(F x, F y, F z, Int<F> last) {
+  const auto of_x = last == Int<F>(0), of_y = last == Int<F>(1);
+  const auto pick = [&](F a, F b, F c) __attribute__((always_inline)) { return num::select(of_x, a, num::select(of_y, b, c)); };
+  return {pick(y, z, x), pick(z, x, y), pick(x, y, z)};
+}
+
+/// As triangles of meshes are met: sheared along each ray's longest coordinate, the edges' signs are exact, so that polygons which share
+/// corners have no gap between them (Woop, Benthin and Wald 2013).
+template <int N, class F>
+TOFRAY_FN F distance_to(const PolygonFree<N>& polygon, const FreeRay<F>& ray, F least, Int<F>& facet) {
+  facet = Int<F>(0);
+  const F direction[3] = {ray.dx, ray.dy, ray.dz};
+  const Int<F> longest = longest_of(direction);
+  const Direction<F> d = cycled(ray.dx, ray.dy, ray.dz, longest);
+  const F slope_x = d.x / d.z, slope_y = d.y / d.z;
+  F x[N], y[N], z[N];
+  for (int i = 0; i < N; ++i) {
+    const float* c = polygon.corner[i];
+    const Direction<F> p = cycled(F(c[0]) - ray.x, F(c[1]) - ray.y, F(c[2]) - ray.z, longest);
+    x[i] = num::fnma(slope_x, p.z, p.x), y[i] = num::fnma(slope_y, p.z, p.y), z[i] = p.z;
+  }
+  F low = F(never), high = F(-never);
+  for (int i = 0; i < N; ++i) {
+    const int next = (i + 1) % N;
+    const F edge = difference_of_products(x[i], y[next], y[i], x[next]);
+    low = num::min(low, edge), high = num::max(high, edge);
+  }
+  // The plane's distance by the first three corners.
+  const F u = difference_of_products(x[1], y[2], y[1], x[2]), v = difference_of_products(x[2], y[0], y[2], x[0]),
+          w = difference_of_products(x[0], y[1], y[0], x[1]), area = u + v + w;
+  const auto inside = ((low >= F(0.0f)) | (high <= F(0.0f))) & (num::abs(area) > F(1e-30f));
+  const F t = num::fma(u, z[0], num::fma(v, z[1], w * z[2])) / (num::select(inside, area, F(1.0f)) * d.z);
+  return num::select(inside & (t > least), t, F(never));
 }
 
 }  // namespace tofray::shape

@@ -9,6 +9,7 @@ namespace tofray::shape {
 struct Rectangle {
   using Form = PolygonForm<4>;
   using Along = PolygonAlong<4>;
+  using Free = PolygonFree<4>;
   static constexpr int facets = 1;
   static constexpr bool closed = false, curved = false;
 
@@ -36,5 +37,7 @@ TOFRAY_FN double spread(const Rectangle& r, const Vec& s) { return spread_of_cor
 TOFRAY_FN void facet_of(const Rectangle& r, int, Facet& out) { face(normalized(normal_of_corners(r.corner)), out); }
 TOFRAY_FN PolygonForm<4> seen_from(const Rectangle& r, const Vec& origin) { return polygon_seen_from(r.corner, origin); }
 TOFRAY_FN PolygonAlong<4> seen_along(const Rectangle& r, const Vec& s) { return polygon_seen_along(r.corner, s); }
+
+TOFRAY_FN PolygonFree<4> free_of(const Rectangle& r) { return polygon_free(r.corner); }
 
 }  // namespace tofray::shape

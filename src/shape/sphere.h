@@ -24,9 +24,16 @@ struct SphereAlong {
   Bounds bounds;            ///< on the light's screen
 };
 
+/// For rays from anywhere.
+struct SphereFree {
+  float c[3], radius_squared;
+  std::int32_t facet, object, inside;  ///< inside: the camera is
+};
+
 struct Sphere {
   using Form = SphereForm;
   using Along = SphereAlong;
+  using Free = SphereFree;
   static constexpr int facets = 1;
   static constexpr bool closed = true, curved = true;
 
@@ -126,6 +133,31 @@ TOFRAY_FN Mask<F> blocks(const SphereAlong& sphere, const Surface<F>& p, const f
   const F lx = num::fnma(b, F(s[0]), x), ly = num::fnma(b, F(s[1]), y), lz = num::fnma(b, F(s[2]), z);
   const F rest = F(sphere.radius_squared) - num::fma(lx, lx, num::fma(ly, ly, lz * lz));
   return (rest > F(0.0f)) & (b + num::sqrt(num::max(rest, F(0.0f))) > margin);
+}
+
+TOFRAY_FN SphereFree free_of(const Sphere& s) {
+  SphereFree form{};
+  copy(s.center, form.c);
+  form.radius_squared = single(s.radius * s.radius);
+  return form;
+}
+
+/// In the stable form, from the line's point that is nearest to the centre.
+/// @param facet  that its hits name
+template <class F>
+TOFRAY_FN Passage<F> passage(F cx, F cy, F cz, F radius_squared, const FreeRay<F>& ray, Int<F> facet) {
+  const F x = cx - ray.x, y = cy - ray.y, z = cz - ray.z;
+  const F b = num::fma(x, ray.dx, num::fma(y, ray.dy, z * ray.dz));
+  const F lx = num::fnma(b, ray.dx, x), ly = num::fnma(b, ray.dy, y), lz = num::fnma(b, ray.dz, z);
+  const F rest = radius_squared - num::fma(lx, lx, num::fma(ly, ly, lz * lz));
+  const F half = num::sqrt(num::max(rest, F(0.0f)));
+  const auto met = rest >= F(0.0f);
+  return {num::select(met, b - half, F(never)), num::select(met, b + half, F(-never)), facet, facet};
+}
+
+template <class F>
+TOFRAY_FN Passage<F> passage(const SphereFree& s, const FreeRay<F>& ray) {
+  return passage(F(s.c[0]), F(s.c[1]), F(s.c[2]), F(s.radius_squared), ray, Int<F>(0));
 }
 
 }  // namespace tofray::shape

@@ -12,6 +12,7 @@ using TriangleAlong = PolygonAlong<3>;
 struct Triangle {
   using Form = TriangleForm;
   using Along = TriangleAlong;
+  using Free = PolygonFree<3>;
   static constexpr int facets = 1;
   static constexpr bool closed = false, curved = false;
 
@@ -41,5 +42,7 @@ TOFRAY_FN void facet_of(const Triangle& t, int, Facet& out) { face(normalized(no
 
 TOFRAY_FN TriangleForm seen_from(const Triangle& t, const Vec& origin) { return polygon_seen_from(t.vertex, origin); }
 TOFRAY_FN TriangleAlong seen_along(const Triangle& t, const Vec& s) { return polygon_seen_along(t.vertex, s); }
+
+TOFRAY_FN PolygonFree<3> free_of(const Triangle& t) { return polygon_free(t.vertex); }
 
 }  // namespace tofray::shape
