@@ -20,9 +20,9 @@ int run_complete(const Options& options);
 
 namespace {
 
-const std::vector<const char*> simulation = {"--output",   "--set",     "--mode",    "--seed",   "--noise",    "--exposure-samples",
-                                             "--subpixel", "--fps",     "--emit",    "--arrays", "--compress", "--theme",
-                                             "--root",     "--threads", "--backend", "--device"};
+const std::vector<const char*> simulation = {"--output",   "--set",     "--mode",    "--seed",    "--noise",   "--exposure-samples",
+                                             "--subpixel", "--bounces", "--samples", "--fps",     "--emit",    "--arrays",
+                                             "--compress", "--theme",   "--root",    "--threads", "--backend", "--device"};
 
 std::vector<const char*> simulation_and(std::vector<const char*> more) {
   std::vector<const char*> all = simulation;
@@ -84,8 +84,8 @@ std::vector<Command> make() {
                    "tofray inspect out/frame.npz --pixel 112,86      # surface, power, electrons, every raw frame, phase, depth\n"
                    "tofray inspect scene.yaml --pixel 112,86         # the same, simulated now\n",
        .more = "FILE is a .npz file, a scene file or the name of a built-in scene.\n",
-       .options = {"--pixel", "--set", "--mode", "--seed", "--noise", "--exposure-samples", "--subpixel", "--fps", "--root", "--threads",
-                   "--backend", "--device", "--json"},
+       .options = {"--pixel", "--set", "--mode", "--seed", "--noise", "--exposure-samples", "--subpixel", "--bounces", "--samples", "--fps",
+                   "--root", "--threads", "--backend", "--device", "--json"},
        .least_words = 1,
        .most_words = 1,
        .run = run_inspect,
@@ -163,8 +163,10 @@ std::vector<Command> make() {
                "code and against vector code, all in turn, for scenes of 16 spheres, boxes, planes and triangles (or SCENE): a table,\n"
                "and in ./tofray-bench (or -o DIR) experiment.json, experiment.txt, speed-up.png and speed-up.svg.\n"
                "Exit code 1 where not all give the same bytes.\n",
-       .options = {"--frames", "--warmup", "--compare", "--batch", "--stage", "--block-size", "--output", "--set", "--mode", "--seed",
-                   "--noise", "--exposure-samples", "--subpixel", "--root", "--threads", "--backend", "--device", "--json"},
+       .options = {"--frames",     "--warmup",           "--compare",  "--batch",   "--stage",
+                   "--block-size", "--output",           "--set",      "--mode",    "--seed",
+                   "--noise",      "--exposure-samples", "--subpixel", "--bounces", "--samples",
+                   "--root",       "--threads",          "--backend",  "--device",  "--json"},
        .least_words = 0,
        .most_words = 1,
        .run = run_bench,

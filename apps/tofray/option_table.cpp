@@ -185,6 +185,14 @@ std::vector<OptionSpec> specs() {
        }},
       {"--subpixel", 0, "N", "N x N samples within each pixel, whose edges then mix what they see (1)",
        [](Options& o, const std::string& v) { o.subpixel = static_cast<int>(whole("--subpixel", v, 1, 16, "a whole number of 1 to 16")); }},
+      {"--bounces", 0, "N", "light goes on to N more surfaces before it comes back: multipath (as --set transport.bounces=N)",
+       [](Options& o, const std::string& v) {
+         o.set.emplace_back("transport.bounces", std::to_string(whole("--bounces", v, 0, 64, "a whole number of 0 to 64")));
+       }},
+      {"--samples", 0, "N", "ways of light that are followed for each pixel, with bounces (as --set transport.samples=N)",
+       [](Options& o, const std::string& v) {
+         o.set.emplace_back("transport.samples", std::to_string(whole("--samples", v, 1, 65536, "a whole number of 1 to 65536")));
+       }},
       {"--fps", 0, "F", "frames per second, in place of the mode's: as --set camera.frame_rate='F Hz'", take_frame_rate},
       {"--frames", 0, "N", "how many frames",
        [](Options& o, const std::string& v) { o.frames = whole("--frames", v, 1, most_frames, "a whole number of 1 to 1000000000"); }},

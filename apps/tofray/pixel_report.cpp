@@ -57,6 +57,20 @@ std::string raw_text(const PixelChain& p) {
   return text;
 }
 
+/// Only frames whose light bounced know of it: for each modulation frequency once.
+std::string multipath_text(const PixelChain& p) {
+  std::string text;
+  std::vector<double> told;
+  for (const ChainRawFrame& one : p.raw_frames) {
+    if (!one.lit || std::isnan(one.indirect_e) || std::find(told.begin(), told.end(), one.modulation_frequency_hz) != told.end()) continue;
+    told.push_back(one.modulation_frequency_hz);
+    text += fmt::format("multipath   {:.6g} MHz: {} % of the signal came by several surfaces, half path {} mm\n",
+                        1e-6 * one.modulation_frequency_hz, shown("{:.4g}", 100 * one.indirect_e / one.signal_e),
+                        shown("{:+.2f}", 1e3 * one.multipath_m));
+  }
+  return text;
+}
+
 std::string phase_text(const PixelChain& p) {
   std::string text;
   for (const ChainPhase& one : p.phases) {
@@ -93,7 +107,10 @@ std::string depth_text(const PixelChain& p, const Arrays& arrays) {
 std::string missing_text(const Arrays& arrays) {
   std::string names;
   for (const results::ArrayRow& row : results::array_table()) {
-    if (row.name == "gt_mixed" || row.name == "gt_object_share") continue;  // no dash comes of these
+    // Of these no dash comes: where they are not known nothing is said.
+    if (row.name == "gt_mixed" || row.name == "gt_object_share" || row.name == "gt_direct_e" || row.name == "gt_indirect_e" ||
+        row.name == "gt_multipath_m")
+      continue;
     if (arrays.find(row.name) == nullptr) names += (names.empty() ? "" : ", ") + row.name;
   }
   return names.empty() ? "" : "\nnot in this file: " + names + "\n";
@@ -115,6 +132,8 @@ files::Json raw_json(const PixelChain& p) {
         .set("reference_phase_rad", one.reference_phase_rad);
     json.set("integration_time_s", one.integration_time_s)
         .set("signal_e", one.signal_e)
+        .set("indirect_e", one.indirect_e)
+        .set("multipath_m", one.multipath_m)
         .set("tap_a_e", one.tap_a_e)
         .set("tap_b_e", one.tap_b_e);
     list.push(std::move(json.set("difference_e", one.difference_e).set("raw_dn", one.code_dn)));
@@ -139,7 +158,7 @@ std::string pixel_text(const Arrays& arrays, int u, int v) {
   const PixelChain p = pixel_chain(arrays, u, v);
   std::string text = fmt::format("{}: pixel {}, {} of {} x {}\n\n", arrays.where(), u, v, arrays.width(), arrays.height());
   if (has_any(arrays, true)) text += surface_text(p, arrays.find("gt_object_id") != nullptr) + "\n";
-  text += raw_text(p) + "\n" + phase_text(p);
+  text += raw_text(p) + "\n" + multipath_text(p) + phase_text(p);
   if (has_any(arrays, false)) text += "\n" + depth_text(p, arrays);
   return text + missing_text(arrays);
 }

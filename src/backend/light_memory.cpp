@@ -38,7 +38,10 @@ std::size_t place_light(const pipeline::Setup& setup, const flow::FrameView& wan
   const bool compared = input == nullptr && pipeline::wants_mixed(setup, wanted);
   const std::size_t all = values + (compared ? flow::compared_planes * pixels : 0);
   put(image.values, all);
-  if (input == nullptr && setup.subpixel.lens != nullptr) put(image.before, all);
+  const bool several = input == nullptr && setup.subpixel.lens != nullptr, bounces = pipeline::bounces(setup, entry_of(input));
+  if (several || bounces) put(image.before, all);
+  if (bounces) put(image.indirect, values);
+  if (bounces && several) put(image.indirect_before, values);
   if (setup.scatter.terms > 0) put(image.rows, values), put(image.scattered, values);
   if (compared) put(image.object, pixels), put(image.range, pixels);
   return used;

@@ -37,6 +37,8 @@ inline constexpr Limit modes{"modes", 256, "modes of one camera profile"};
 inline constexpr Limit sensor_side{"sensor_side", 16'384, "pixels along one side of the sensor"};
 inline constexpr Limit sensor_pixels{"sensor_pixels", 1 << 24, "pixels of the sensor"};
 inline constexpr Limit subpixel_rays{"subpixel_rays", 1 << 26, "pixels times samples within each"};
+inline constexpr Limit path_surfaces{"path_surfaces", std::int64_t{1} << 34,
+                                     "pixels times ways of light for each times surfaces that each may meet beyond the first"};
 inline constexpr Limit light_values{"light_values", 1 << 29,
                                     "values of the light image: pixels times what is kept of the light of each, at all times of a frame"};
 inline constexpr Limit mask_side{"mask_side", 1024, "rows, or columns, of a pixel's mask"};
@@ -98,6 +100,7 @@ inline constexpr Limit all_limits[] = {
     limit::sensor_side,
     limit::sensor_pixels,
     limit::subpixel_rays,
+    limit::path_surfaces,
     limit::light_values,
     limit::mask_side,
     limit::kernel_side,

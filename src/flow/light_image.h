@@ -10,16 +10,18 @@ namespace tofray::flow {
 ///
 /// Planes: S, the ambient rate, then of each modulation frequency what flow::Light has of it: in_phase and quarter where those are enough
 /// (PhasorView::sums_alone), else all orders' real parts, then all imaginary ones. Where something moves there is a time for each raw frame,
-/// which has but its own modulation frequency. Where samples within the pixels are compared, three planes follow: the share of samples that
+/// which has but its own modulation frequency. Where light bounces, `values` is all of it in the end, and `before` the direct light. Where samples within the pixels are compared, three planes follow: the share of samples that
 /// see what the pixel's middle sees, and the nearest and farthest range [m] that they see (3e38 and 0: they see nothing).
 struct LightImage {
-  float* values;         ///< [time][plane][height][width]; null: there is none
-  float* before;         ///< the same before the last sample was added: what is written is never read, so that it may be written twice
-  float* rows;           ///< the same, scattered along rows alone; null where the lens scatters nothing
-  float* scattered;      ///< … and along columns: what reaches the pixels; null likewise
-  std::int32_t times;    ///< 1, or one for each raw frame
-  std::int32_t* object;  ///< [height][width] that the sample which is looked at now sees, or null: they are not compared
-  float* range;          ///< [height][width] likewise
+  float* values;           ///< [time][plane][height][width]; null: there is none
+  float* before;           ///< the same before the last sample was added: what is written is never read, so that it may be written twice
+  float* rows;             ///< the same, scattered along rows alone; null where the lens scatters nothing
+  float* scattered;        ///< … and along columns: what reaches the pixels; null likewise
+  float* indirect;         ///< what has met more than one surface, likewise; null where light does not bounce
+  float* indirect_before;  ///< … before the last sample's was added
+  std::int32_t times;      ///< 1, or one for each raw frame
+  std::int32_t* object;    ///< [height][width] that the sample which is looked at now sees, or null: they are not compared
+  float* range;            ///< [height][width] likewise
   bool operator==(const LightImage&) const = default;
 };
 constexpr int compared_planes = 3;

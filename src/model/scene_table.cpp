@@ -291,12 +291,22 @@ const Table& table_of<CameraChoice>() {
 }
 
 template <>
+const Table& table_of<Transport>() {
+  static const Table rows = table<Transport>(
+      number<&Transport::bounces>("bounces", {none, {0, 64}, "4"}, "surfaces that light meets beyond the first one, at most"),
+      number<&Transport::samples>("samples", {none, {1, 65536}, "16"}, "ways of light that are followed for each pixel"),
+      number<&Transport::seed>("seed", {none, {0, 9007199254740991.0}, "0"}, "another one: other ways, the same light"));
+  return rows;
+}
+
+template <>
 const Table& table_of<Scene>() {
   static const Table rows =
       table<Scene>(words<&Scene::name>("", "", "", ""),  // the file's
                    no_row<&Scene::source>("a file's place is no part of what it says"),
                    record<&Scene::camera>("camera", "which camera, where it stands, and what to change in its profile").not_in_meta(),
                    record<&Scene::ambient>("ambient", "light that is not the camera's own; none unless given"),
+                   record<&Scene::transport>("transport", "light that goes on from surface to surface; straight back unless given"),
                    records<&Scene::materials>("", 0, most_materials + most_objects, ""),  // by name, and those of objects
                    records<&Scene::objects>("", 0, most_objects, ""))
           .check_with(objects_have_a_material);

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The tofray authors
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include "pipeline/multipath.h"
 #include "pipeline/one_pixel.h"
 
 /// Entering the pipeline at a later stage, with arrays from elsewhere in the place of what the earlier stages find.
@@ -153,7 +154,10 @@ class GivenWalk {
   TOFRAY_FN bool find_light(const Moment& now, int, const Pixels& p, const flow::Ray<F>& ray, F vignetting, Pack<F>& pack) const {
     if (in_.from_image != 0) {
       if (s_.last_stage >= Stage::raw) load_light(s_, job_.light, p, now.index, pack.light);
-      if (now.truth) store_mixed<F>(s_, job_.out, job_.light, p);
+      if (now.truth) {
+        store_mixed<F>(s_, job_.out, job_.light, p);
+        store_bounced<F>(s_, job_.out, job_.light, p, job_.light.times > 1 ? now.first : 0);
+      }
       return true;
     }
     const power::Wanted which = wanted(s_, now, false);

@@ -35,30 +35,53 @@ TOFRAY_FN void each_plane(const Setup& s, int times, int time, L& light, const V
   }
 }
 
+/// Where light was, and where it will be once more is added.
+struct Growing {
+  const float* before;
+  float* values;
+};
 /// Adds a share of a light to the image.
 /// @param first  nothing was added before: the share is all there is
 template <class F>
-TOFRAY_APART void gather_light(const Setup& s, const flow::LightImage& image, const Pixels& p, int time, const flow::Light<F>& light,
+TOFRAY_APART void gather_light(const Setup& s, const Growing& image, const Pixels& p, int times, int time, const flow::Light<F>& light,
                                float share, bool first) {
   each_plane<F>(
-      s, image.times, time, light, [&](int plane, F value) __attribute__((always_inline)) {
-        const std::int64_t at = light_place(s, p, image.times, time, plane);
+      s, times, time, light, [&](int plane, F value) __attribute__((always_inline)) {
+        const std::int64_t at = light_place(s, p, times, time, plane);
         const F sum = first ? value * F(share) : num::fma(value, F(share), num::load<F>(image.before + at, p.count));
         num::store(image.values + at, sum, p.count);
       });
 }
 
-/// Reads the light that reaches the pixels at a time.
+/// Reads the light of the pixels at a time.
+/// @param values  the whole image's
+template <class F>
+TOFRAY_FN void load_light(const Setup& s, const float* values, const Pixels& p, int times, int time, flow::Light<F>& light) {
+  each_plane<F>(
+      s, times, time, light, [&](int plane, F& value) __attribute__((always_inline)) {
+        value = num::load<F>(values + light_place(s, p, times, time, plane), p.count);
+      });
+  if (s.phasors.sums_alone != 0 || (times > 1 && s.sensor.frame[time].lit == 0)) return;
+  const int j = times > 1 ? s.sensor.frame[time].modulation : 0;
+  power::add_up(s.phasors, power::Wanted{j, j + kept_modulations(s, times)}, light);
+}
+/// … that reaches the pixels.
 template <class F>
 TOFRAY_FN void load_light(const Setup& s, const flow::LightImage& image, const Pixels& p, int time, flow::Light<F>& light) {
-  const float* const values = image.scattered != nullptr ? image.scattered : image.values;
-  each_plane<F>(
-      s, image.times, time, light, [&](int plane, F& value) __attribute__((always_inline)) {
-        value = num::load<F>(values + light_place(s, p, image.times, time, plane), p.count);
-      });
-  if (s.phasors.sums_alone != 0 || (image.times > 1 && s.sensor.frame[time].lit == 0)) return;
-  const int j = image.times > 1 ? s.sensor.frame[time].modulation : 0;
-  power::add_up(s.phasors, power::Wanted{j, j + kept_modulations(s, image.times)}, light);
+  load_light(s, image.scattered != nullptr ? image.scattered : image.values, p, image.times, time, light);
+}
+
+/// The light of all ways, once the direct and the indirect part of it are there.
+template <class F>
+TOFRAY_FN void sum_light(const Setup& s, const flow::LightImage& image, const Pixels& p) {
+  const std::int64_t pixels = std::int64_t{s.lens.width} * s.lens.height;
+  const int planes = image.times * light_planes(s, image.times), compared = image.object != nullptr ? flow::compared_planes : 0;
+  for (int i = 0; i < planes + compared; ++i) {
+    const std::int64_t at = i * pixels + p.index;
+    F sum = num::load<F>(image.before + at, p.count);
+    if (i < planes) sum = sum + num::load<F>(image.indirect + at, p.count);
+    num::store(image.values + at, sum, p.count);
+  }
 }
 
 /// Place of what comparing the samples gives, behind the light.

@@ -139,7 +139,7 @@ TOFRAY_FN bool light_of_scene(const Setup& s, const Job& job, Near& near, const 
     const flow::Ray<F> ray_copy = ray;
     const flow::Hit<F> hit_copy = hit;
     flow::Surface<F> copy = surface;
-    trace::add_details(s.scene, s.lens.pixel_area, ray_copy, hit_copy, copy);
+    trace::add_details(s.scene, F(s.lens.pixel_area) * surface.z * surface.z * ray.inverse_length, ray_copy, hit_copy, copy);
     surface = copy;
   }
   hide_outside_lens(vignetting, surface);
@@ -150,6 +150,8 @@ TOFRAY_FN bool light_of_scene(const Setup& s, const Job& job, Near& near, const 
   if (s.last_stage >= Stage::power) {
     light_up(s, wanted(s, now, calm), ShadowRays<F, Near>{s, near, now.index, true, moves && !calm}, ray, surface, vignetting, light,
              radiometry);
+    // Where rays say how much of the sky a surface sees, it does not see all of it.
+    if (bounces(s, Stage::trace) && s.power.ambient == camera::AmbientLight::uniform) light.ambient_rate = F(0.0f);
   }
   const auto material = [&]() __attribute__((always_inline)) { return trace::material<F>(s.scene, hit); };
   if (now.truth) {

@@ -8,6 +8,14 @@
 
 namespace tofray::pipeline {
 
+/// Light that goes from surface to surface before it comes back.                                       [theory: eq. 7.6]
+struct BounceView {
+  std::int32_t most;     ///< surfaces that a path meets beyond the first one; 0: light comes straight back
+  std::int32_t samples;  ///< paths of each pixel
+  num::RoundKeys keys;   ///< of the random numbers that choose them
+  bool operator==(const BounceView&) const = default;
+};
+
 /// Everything that a frame needs, frozen: plain numbers and pointers that any machine can read.
 struct Setup {
   camera::LensView lens;
@@ -19,6 +27,7 @@ struct Setup {
   camera::PhasorView phasors;
   camera::SensorView sensor;
   camera::DecoderView decoder;
+  BounceView bounces;
   Stage last_stage;      ///< nothing is done after it
   std::int32_t culling;  ///< 0: every pixel tests every form
   bool operator==(const Setup&) const = default;
@@ -58,12 +67,18 @@ enum class Pass : std::int32_t {
   derive,           ///< forms and facets out of the scene's shapes, where the backend does that itself, before all else
   pixels,           ///< rays to depth
   input,            ///< what came from elsewhere, or is in the light image, to depth
+  bounces,          ///< light from surface to surface, into the light image
+  sum,              ///< all light of the image
   scatter_rows,     ///< the light image along rows
   scatter_columns,  ///< … and along columns; a kernel that is not separable: both at once
   flying,           ///< flags of flying pixels
   filter,           ///< the image filter
   settle,           ///< the range that is left, to z, point and confidence
 };
+
+/// Whether light is followed from surface to surface.
+/// @param entry  the first stage that is computed
+TOFRAY_FN bool bounces(const Setup& s, Stage entry) { return s.bounces.most > 0 && entry == Stage::trace && s.last_stage >= Stage::raw; }
 
 TOFRAY_FN int tiles_across(const camera::LensView& lens) { return (lens.width + tile_width - 1) / tile_width; }
 TOFRAY_FN int tile_count(const camera::LensView& lens) { return tiles_across(lens) * ((lens.height + tile_height - 1) / tile_height); }

@@ -8,7 +8,7 @@
 ///
 /// Where one look at the scene gives a pixel's light, a frame goes from rays to depth in one pass. Where a pixel's light is a sum (samples
 /// within the pixel, what the lens scatters), it is gathered in the light image first: its ground truth, which is that of the pixel's middle;
-/// its light, sample by sample; what is scattered; then raw frames and depth out of the image. Of a scene that stands still the image is good
+/// its light, sample by sample; likewise what comes by several surfaces; what is scattered; then raw frames and depth out of the image. Of a scene that stands still the image is good
 /// for the next frame, too.
 namespace tofray::pipeline {
 
@@ -16,6 +16,8 @@ enum class Part : std::int32_t {
   all,      ///< from rays (or what came from elsewhere) to depth
   truth,    ///< ground truth alone
   light,    ///< stages 1 and 2 into the light image
+  bounce,   ///< light that has met several surfaces, into a part of the image of its own
+  sum,      ///< both, for the light that reaches the sensor
   collect,  ///< stages 3 and 4 out of it
 };
 
@@ -29,7 +31,7 @@ struct Step {
 /// Whether frames go through the light image.
 TOFRAY_FN bool has_light_image(const Setup& s, Stage entry) {
   if (entry == Stage::depth) return false;
-  return s.scatter.terms > 0 || (s.subpixel.lens != nullptr && entry == Stage::trace);
+  return s.scatter.terms > 0 || ((s.subpixel.lens != nullptr || bounces(s, entry)) && entry == Stage::trace);
 }
 /// … and whether anybody wants to know what samples see that the middle of a pixel does not.
 TOFRAY_FN bool wants_mixed(const Setup& s, const flow::FrameView& out) {
@@ -41,6 +43,9 @@ TOFRAY_FN bool wants_truth(const flow::FrameView& out) {
 #undef TOFRAY_OR
 }
 
+/// Whether a part makes the light image.
+TOFRAY_FN bool gathers(Part part) { return part == Part::light || part == Part::bounce || part == Part::sum; }
+
 /// Input that stands for what is in the light image.
 TOFRAY_FN Input from_light_image(const flow::LightImage& image) {
   Input out{};
@@ -50,10 +55,14 @@ TOFRAY_FN Input from_light_image(const flow::LightImage& image) {
 
 /// Puts what a step has of its own into the settings of its frame: of passes over images …
 TOFRAY_FN void take_image_step(const Step& step, Job& job) {
-  if (step.swapped != 0) {
-    float* const values = job.light.before;
-    job.light.before = job.light.values, job.light.values = values;
-  }
+  const auto swap = [](float*& a, float*& b) __attribute__((always_inline)) {
+    float* const first = a;
+    a = b, b = first;
+  };
+  // Once all is added, the direct light is where `before` is, and the indirect light is where the last sample has left it.
+  const bool others = step.part == Part::sum || step.part == Part::collect;
+  if (step.swapped != 0 && step.part != Part::bounce) swap(job.light.before, job.light.values);
+  if (step.part == Part::bounce ? step.swapped != 0 : others && step.swapped == 0) swap(job.light.indirect_before, job.light.indirect);
   if (step.part == Part::light) job.gather = {1, step.item == 0, 1.0f, nullptr};
 }
 /// … and of the pass that begins with rays.
@@ -78,9 +87,12 @@ void each_step(const Setup& s, const Job& job, Stage entry, bool known, const Ru
   } else {
     if (entry == Stage::trace && wants_truth(job.out)) run(Step{begin, Part::truth, 0, 0});
     const bool collects = s.last_stage >= Stage::raw;
-    const int samples = entry == Stage::trace ? s.subpixel.count : 1, swapped = (samples - 1) % 2;
+    const int samples = entry == Stage::trace ? s.subpixel.count : 1;
+    const int swapped = bounces(s, entry) ? samples % 2 : (samples - 1) % 2;
     if (!known && (collects || entry != Stage::trace || wants_mixed(s, job.out))) {
       for (int i = 0; i < samples; ++i) run(Step{begin, Part::light, i, i % 2});
+      for (int i = 0; i < samples && bounces(s, entry); ++i) run(Step{Pass::bounces, Part::bounce, i, i % 2});
+      if (bounces(s, entry)) run(Step{Pass::sum, Part::sum, 0, swapped});
       for (int i = 0; i < s.scatter.terms && collects; ++i) {
         if (s.scatter.separable != 0) run(Step{Pass::scatter_rows, Part::light, i, swapped});
         run(Step{Pass::scatter_columns, Part::light, i, swapped});

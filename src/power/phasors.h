@@ -15,11 +15,23 @@ struct Wanted {
 };
 TOFRAY_FN Wanted all_of(const camera::PhasorView& s) { return {0, s.modulations}; }
 
-/// No light yet.
+/// No light yet. (Where sums alone are asked for, they are it.)
 template <class F>
 TOFRAY_FN void clear(const camera::PhasorView& s, const Wanted& wanted, Light<F>& light) {
   light.signal_rate = F(0.0f), light.ambient_rate = F(0.0f);
   for (int i = wanted.first * s.orders; i < wanted.last * s.orders; ++i) light.real[i] = F(0.0f), light.imaginary[i] = F(0.0f);
+  for (int j = wanted.first; j < wanted.last; ++j) light.in_phase[j] = F(0.0f), light.quarter[j] = F(0.0f);
+}
+
+/// Adds up light that was gathered apart, as far as anybody asks for it.
+template <class F>
+TOFRAY_FN void add_light(const camera::PhasorView& s, const Wanted& wanted, const Light<F>& part, Light<F>& light) {
+  light.signal_rate = light.signal_rate + part.signal_rate, light.ambient_rate = light.ambient_rate + part.ambient_rate;
+  for (int j = wanted.first; j < wanted.last; ++j) {
+    light.in_phase[j] = light.in_phase[j] + part.in_phase[j], light.quarter[j] = light.quarter[j] + part.quarter[j];
+    for (int i = j * s.orders; i < (j + 1) * s.orders && s.sums_alone == 0; ++i)
+      light.real[i] = light.real[i] + part.real[i], light.imaginary[i] = light.imaginary[i] + part.imaginary[i];
+  }
 }
 
 /// The mean of the light at several times within one exposure: what is seen at one of them, from the first on, is added.  [theory: eq. 6.12]
@@ -136,22 +148,45 @@ TOFRAY_FN void sums_of_turns(const float* source, F rate, const Turn<F>& turn, F
   }
   in_phase = re, quarter = im;
 }
-template <int orders, class F>
-TOFRAY_FN void sums_of_orders(const camera::PhasorView& s, const Wanted& wanted, const Path<F>& path, Light<F>& light) {
+/// Calls take(j, in_phase, quarter) for each modulation frequency.
+template <int orders, class F, class Take>
+TOFRAY_FN void sums_of_orders(const camera::PhasorView& s, const Wanted& wanted, const Path<F>& path, const Take& take) {
   for (int j = wanted.first; j < wanted.last; ++j) {
     const camera::ModulationView& modulation = s.modulation[j];
     const Turn<F> turn = turn_of(path_turns(modulation, path.length));
-    sums_of_turns<orders>(modulation.source, path.rate, turn, light.in_phase[j], light.quarter[j]);
+    F in_phase, quarter;
+    sums_of_turns<orders>(modulation.source, path.rate, turn, in_phase, quarter);
+    take(j, in_phase, quarter);
+  }
+}
+template <class F, class Take>
+TOFRAY_FN void sums_of_path(const camera::PhasorView& s, const Wanted& wanted, const Path<F>& path, const Take& take) {
+  if (s.orders <= 4) {
+    sums_of_orders<4>(s, wanted, path, take);
+  } else {
+    sums_of_orders<flow::max_harmonics>(s, wanted, path, take);
   }
 }
 template <class F>
 TOFRAY_FN void sums_of_path(const camera::PhasorView& s, const Wanted& wanted, const Path<F>& path, Light<F>& light) {
   light.signal_rate = path.rate;
-  if (s.orders <= 4) {
-    sums_of_orders<4>(s, wanted, path, light);
-  } else {
-    sums_of_orders<flow::max_harmonics>(s, wanted, path, light);
+  sums_of_path(
+      s, wanted,
+      path, [&](int j, F in_phase, F quarter) __attribute__((always_inline)) { light.in_phase[j] = in_phase, light.quarter[j] = quarter; });
+}
+
+/// Adds a path to light that other paths have brought, as far as anybody asks for it: to the sums alone, or to all orders.
+template <class F>
+TOFRAY_FN void add_one_of_many(const camera::PhasorView& s, const Wanted& wanted, int l, const Path<F>& path, Light<F>& light) {
+  if (s.sums_alone == 0) {
+    add_path(s, wanted, l, path, false, light);
+    return;
   }
+  light.signal_rate = light.signal_rate + path.rate;
+  sums_of_path(
+      s, wanted, path, [&](int j, F in_phase, F quarter) __attribute__((always_inline)) {
+        light.in_phase[j] = light.in_phase[j] + in_phase, light.quarter[j] = light.quarter[j] + quarter;
+      });
 }
 
 /// Adds what somebody else has summed: one order of Σ rate·e^{imφ} over paths of light source `l`. (Their rates are added beside.)

@@ -43,6 +43,12 @@ TOFRAY_FN void derive_body(const SceneView& s, const Group& group, int moment, i
     group.derived.of<T>().along[moment * count + i] = along;
     return;
   }
+  if (eye == 0 && s.bounces != 0) {
+    typename T::Free free = free_of(seen);
+    free.facet = first + body.facet, free.object = body.object;
+    if constexpr (T::closed) free.inside = inside(seen, {0, 0, 0});
+    group.derived.of<T>().free[moment * count + i] = free;
+  }
   typename T::Form form = seen_from(seen, eye == 0 ? shape::Vec{0, 0, 0} : s.light_positions[eye - 1]);
   form.facet = first + body.facet, form.object = body.object;
   group.derived.of<T>().forms[(moment * (1 + s.lights) + eye) * count + i] = form;
@@ -89,7 +95,8 @@ TOFRAY_FN int facet_count(const SceneView& s) {
 template <class... T, class Place>
 void each_derived(shape::List<T...>, const SceneView& s, Group& group, int moments, Place& place) {
   ((place(group.derived.of<T>().forms, static_cast<std::size_t>(group.bodies.of<T>().count * (1 + s.lights) * moments)),
-    place(group.derived.of<T>().along, static_cast<std::size_t>(s.has_sun != 0 ? group.bodies.of<T>().count * moments : 0))),
+    place(group.derived.of<T>().along, static_cast<std::size_t>(s.has_sun != 0 ? group.bodies.of<T>().count * moments : 0)),
+    place(group.derived.of<T>().free, static_cast<std::size_t>(s.bounces != 0 ? group.bodies.of<T>().count * moments : 0))),
    ...);
 }
 /// … and of all arrays that derive() fills, in an order that is always the same.

@@ -73,7 +73,7 @@ bool turns(const Object& object) { return !object.keyframes.empty() || length(ob
 
 }  // namespace
 
-FrozenScene::FrozenScene(const Scene& scene, const std::vector<Vec3>& lights, int moments) : scene_(scene) {
+FrozenScene::FrozenScene(const Scene& scene, const std::vector<Vec3>& lights, int moments, bool bounces) : scene_(scene) {
   for (const Vec3& light : lights) lights_.push_back(vec(light));
   add_bodies(moments);
   add_materials(scene.materials);
@@ -81,6 +81,7 @@ FrozenScene::FrozenScene(const Scene& scene, const std::vector<Vec3>& lights, in
   view_.lights = static_cast<std::int32_t>(lights_.size());
   view_.has_sun = scene.ambient.direction.has_value();
   view_.light_positions = lights_.data();
+  view_.bounces = bounces;
   lay_out();
   look({}, {std::vector<double>(static_cast<std::size_t>(moments), 0.0)});
   still_clusters_.build(view_, view_.still, 1);

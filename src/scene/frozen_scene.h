@@ -36,7 +36,8 @@ class FrozenScene {
   /// @param lights     light positions, camera frame [m]
   /// @param moments    at which a frame looks at what moves
   /// @param scene      stays where it is
-  FrozenScene(const Scene& scene, const std::vector<Vec3>& lights, int moments);
+  /// @param bounces    rays leave from anywhere, too
+  FrozenScene(const Scene& scene, const std::vector<Vec3>& lights, int moments, bool bounces = false);
   FrozenScene(const FrozenScene&) = delete;
   FrozenScene& operator=(const FrozenScene&) = delete;
 

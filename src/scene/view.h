@@ -53,6 +53,7 @@ template <class T>
 struct DerivedOf {
   typename T::Form* forms;   ///< [moment][eye][body] eye 0: the camera; then the lights
   typename T::Along* along;  ///< [moment][body]
+  typename T::Free* free;    ///< [moment][body] where light bounces
   bool operator==(const DerivedOf&) const = default;
 };
 
@@ -112,6 +113,7 @@ struct SceneView {
   std::int32_t object_count;    ///< of `motion_of`; one at least
   std::int32_t any_other_brdf;  ///< than Lambert's
   std::int32_t any_details;     ///< of meshes
+  std::int32_t bounces;         ///< light goes from surface to surface, too: rays leave from anywhere
 
   TOFRAY_FN Forms camera_still() const { return still.seen_from(0, 0, 1 + lights); }
   TOFRAY_FN Forms camera_moving(int moment) const { return moving.seen_from(moment, 0, 1 + lights); }

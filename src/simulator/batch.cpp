@@ -25,7 +25,7 @@ constexpr std::uint64_t most_frames = 32'768;
 
 void Simulator::Impl::frames_one_by_one(backend::Engine& engine, std::uint64_t from, std::uint64_t count, const Request& request,
                                         const Take& take) {
-  simulator::prepare(scratch, camera, options);
+  simulator::prepare(scratch, camera, options, scene.transport.bounces > 0);
   const backend::gpu::Slab shown(setup, simulator::view_of(scratch, options.last_stage), false);  // leaves out what is not computed
   std::vector<unsigned char> memory(shown.bytes());
   for (std::uint64_t i = from; i < count; ++i) {
@@ -72,7 +72,7 @@ void Simulator::Impl::frames_on_gpus(std::uint64_t count, const Request& request
     std::uint64_t from, frames;
   };
   const auto& gpus = engines.gpus();
-  simulator::prepare(scratch, camera, options);
+  simulator::prepare(scratch, camera, options, scene.transport.bounces > 0);
   job.out = simulator::view_of(scratch, options.last_stage);
   const std::size_t frame_bytes =
       std::max<std::size_t>(1, backend::gpu::Slab(setup, job.out, job.filter != pipeline::Filter::none).bytes());
@@ -120,7 +120,7 @@ void Simulator::Impl::frames_on_device(std::uint64_t count, const Request& reque
   const auto& gpus = engines.gpus();
   const std::string reason = engines.ran_on().fallback_reason;
   if (gpus.empty()) throw backend::gpu::Fault(reason.empty() ? "the processor computes" : reason, false);
-  simulator::prepare(scratch, camera, options);
+  simulator::prepare(scratch, camera, options, scene.transport.bounces > 0);
   job.out = simulator::view_of(scratch, options.last_stage);
   backend::Cuda& gpu = *gpus[0];
   into.indices.clear();

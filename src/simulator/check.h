@@ -21,6 +21,6 @@ void check_moving_views(const Scene& scene, const Camera& camera, const Simulato
 /// … and the shapes of meshes that change theirs.
 void check_changing_triangles(const Scene& scene, const Camera& camera, const SimulatorOptions& options);
 /// … and whether the light image, and the rays of samples within pixels, are within their limits.
-void check_light_image(const Camera& camera, const SimulatorOptions& options);
+void check_light_image(const Scene& scene, const Camera& camera, const SimulatorOptions& options);
 
 }  // namespace tofray::simulator

@@ -70,7 +70,7 @@ void check_changing_triangles(const Scene& scene, const Camera& camera, const Si
            ErrorKind::limit);
 }
 
-void check_light_image(const Camera& camera, const SimulatorOptions& options) {
+void check_light_image(const Scene& scene, const Camera& camera, const SimulatorOptions& options) {
   const std::int64_t pixels = std::int64_t{camera.sensor.width} * camera.sensor.height, n = options.subpixel;
   const std::int64_t most_rays = base::limit::subpixel_rays.value;
   if (n > 1 && pixels * n * n > most_rays)
@@ -78,14 +78,25 @@ void check_light_image(const Camera& camera, const SimulatorOptions& options) {
            "got " + std::to_string(n) + " x " + std::to_string(n) + " in each of " + std::to_string(pixels) + " pixels, " +
                std::to_string(pixels * n * n) + " in all, at most " + std::to_string(most_rays) + "\n  lower subpixel (--subpixel)",
            ErrorKind::limit);
-  if (n == 1 && camera.lens.scatter.kind == Scatter::Kind::none) return;
+  const Transport& transport = scene.transport;
+  const std::int64_t surfaces = pixels * transport.samples * transport.bounces, most_surfaces = base::limit::path_surfaces.value;
+  if (surfaces > most_surfaces)
+    refuse("too many ways of light are to be followed",
+           "got " + std::to_string(transport.samples) + " for each of " + std::to_string(pixels) + " pixels, to " +
+               std::to_string(transport.bounces) + " surfaces each, " + std::to_string(surfaces) + " in all, at most " +
+               std::to_string(most_surfaces) + "\n  lower transport.samples (--samples)",
+           ErrorKind::limit);
+  if (transport.bounces > 0 && camera.power_model == PowerModel::paper_literal)
+    refuse("the paper's printed formula knows no light from surface to surface",
+           "leave out transport.bounces, or power_model paper_literal");
+  if (n == 1 && camera.lens.scatter.kind == Scatter::Kind::none && transport.bounces == 0) return;
   // At most: a plane for each part of each harmonic of each modulation frequency, or of one at the time of each raw frame.
   const auto raw_frames = static_cast<std::int64_t>(camera.mode.sequence.size());
   const std::int64_t values = pixels * (2 + 2 * flow::max_harmonics) * raw_frames, most = base::limit::light_values.value;
   if (values > most)
     refuse("the light image is too large",
            "got " + std::to_string(pixels) + " pixels and " + std::to_string(raw_frames) + " raw frames, up to " + std::to_string(values) +
-               " values, at most " + std::to_string(most) + "\n  sub-pixel samples and a lens that scatters need it",
+               " values, at most " + std::to_string(most) + "\n  sub-pixel samples, bounces and a lens that scatters need it",
            ErrorKind::limit);
 }
 

@@ -25,7 +25,7 @@ void prepare(Depth& depth, int width, int height) {
   TOFRAY_DEPTH_ARRAYS(TOFRAY_RESIZE)
 }
 
-void prepare(Frame& frame, const Camera& camera, const SimulatorOptions& options) {
+void prepare(Frame& frame, const Camera& camera, const SimulatorOptions& options, bool bounces) {
   const int width = camera.sensor.width, height = camera.sensor.height, phases = static_cast<int>(camera.mode.sequence.size());
   Raw& raw = frame.raw;
   raw.width = width, raw.height = height, raw.phases = phases;
@@ -46,7 +46,9 @@ void prepare(Frame& frame, const Camera& camera, const SimulatorOptions& options
   truth.width = width, truth.height = height, truth.phases = phases;
   TOFRAY_TRUTH_ARRAYS(TOFRAY_RESIZE)
 #undef TOFRAY_RESIZE
-  if (options.subpixel == 1) truth.mixed.clear(), truth.object_share.clear();  // nothing is known of it
+  // Of what nobody looks at, nothing is known.
+  if (options.subpixel == 1) truth.mixed.clear(), truth.object_share.clear();
+  if (!bounces) truth.direct_e.clear(), truth.indirect_e.clear(), truth.multipath_m.clear();
 }
 
 #define TOFRAY_PLACE(name, part, member, element, shape, stage, ...) view.name = place_of(part.member, Stage::stage, last);

@@ -9,7 +9,7 @@
 namespace tofray::simulator {
 
 /// Gives the arrays their sizes (nothing is allocated anew where they fit) and writes what is the same for all pixels.
-void prepare(Frame& frame, const Camera& camera, const SimulatorOptions& options);
+void prepare(Frame& frame, const Camera& camera, const SimulatorOptions& options, bool bounces);
 void prepare(Depth& depth, int width, int height);
 /// Where the arrays are that have a size, of the stages up to `last`.
 flow::FrameView view_of(Frame& frame, Stage last);

@@ -50,7 +50,7 @@ const Scene& checked(const Scene& scene, const Camera& camera, const SimulatorOp
   simulator::check(camera);
   simulator::check_moving_views(scene, camera::with_emitters(camera), options);
   simulator::check_changing_triangles(scene, camera, options);
-  simulator::check_light_image(camera, options);
+  simulator::check_light_image(scene, camera, options);
   return scene;
 }
 
@@ -61,7 +61,8 @@ Simulator::Impl::Impl(const Scene& all, const Camera& profile, const SimulatorOp
       camera(camera::with_emitters(profile)),
       options(wanted),
       frozen_camera(camera, wanted.noise != Noise::off, wanted.seed, wanted.subpixel),
-      frozen_scene(scene, positions(camera), static_cast<int>(camera.mode.sequence.size()) * options.exposure_samples),
+      frozen_scene(scene, positions(camera), static_cast<int>(camera.mode.sequence.size()) * options.exposure_samples,
+                   scene.transport.bounces > 0),
       setup(fixed_setup()),
       engines(options, setup) {
   simulator::set_filter(camera.decoding.filter, job);
@@ -82,6 +83,9 @@ pipeline::Setup Simulator::Impl::fixed_setup() {
   out.decoder = frozen_camera.decoder();
   out.last_stage = options.last_stage;
   out.culling = options.culling;
+  const Transport& transport = scene.transport;
+  out.bounces = {transport.bounces, transport.samples,
+                 num::round_keys(static_cast<std::uint32_t>(transport.seed), static_cast<std::uint32_t>(transport.seed >> 32))};
   set_scene(out);
   return out;
 }
@@ -119,7 +123,7 @@ void Simulator::Impl::set_sensor(const FrameRequest& request) {
 
 void Simulator::Impl::frame(std::uint64_t index, const pipeline::Input* input, Frame& into) {
   into.index = index;
-  simulator::prepare(into, camera, options);
+  simulator::prepare(into, camera, options, scene.transport.bounces > 0 && input == nullptr);
   const double start = start_of(index);
   into.raw.start_time_s.clear();
   for (const double after : frozen_camera.raw_frame_start_s()) into.raw.start_time_s.push_back(start + after);

@@ -72,8 +72,11 @@ struct CulledOf : shape::ByShape<From> {
 using Culled = CulledOf<PickedForms>;
 using CulledAlong = CulledOf<PickedAlongs>;
 
-/// Everything, without a list.
+/// Everything, without a list, for rays that each look at meshes by themselves.
+/// \tparam Views  scene::Forms or scene::Alongs
+template <class Views>
 struct Uncut {
+  static constexpr bool each_by_itself = true;
   template <class Form>
   struct Way {
     const Form* at;
@@ -82,12 +85,15 @@ struct Uncut {
     TOFRAY_FN const Form& form() const { return *at; }
     TOFRAY_FN void next() { ++at, --left; }
   };
-  scene::Alongs forms;
+  Views forms;
   template <class T>
-  TOFRAY_FN Way<typename T::Along> walk() const {
-    return {forms.of<T>().at, forms.of<T>().count};
+  TOFRAY_FN auto walk() const {
+    const auto& its = forms.template of<T>();
+    return Way<std::remove_cvref_t<decltype(*its.at)>>{its.at, its.count};
   }
 };
+template <class Views>
+Uncut(Views) -> Uncut<Views>;
 
 /// Bytes of one shape's list.
 TOFRAY_FN std::size_t list_bytes(int forms) {

@@ -32,12 +32,12 @@ TOFRAY_FN void scale_matt(const brdf::MaterialView& material, F by, Mask<F> its,
 }
 
 /// Smooth normals and reflectivity maps of the meshes that have them.
-/// @param pixel_area  that a pixel sees of a plane 1 m before the camera [m²]
+/// @param across  area that a pixel sees there, across the ray [m²]
 template <class F>
-TOFRAY_APART void add_details(const scene::SceneView& s, float pixel_area, const Ray<F>& ray, const Hit<F>& hit, Surface<F>& out) {
+TOFRAY_APART void add_details(const scene::SceneView& s, F across, const Ray<F>& ray, const Hit<F>& hit, Surface<F>& out) {
   const shape::FacetColumns<F> facet(s.facets, hit.facet);
   // What a pixel sees of the surface, by the triangle's own normal: a mean of several would let it see more than there is.
-  const F seen = F(pixel_area) * out.z * out.z * ray.inverse_length / num::max(out.cos_view, F(1e-3f));
+  const F seen = across / num::max(out.cos_view, F(1e-3f));
   Int<F> left = num::select(out.found, Int<F>(1), Int<F>(0));
   for (int i = 0; i < num::lanes<F>; ++i) {
     if (num::lane(left, i) == 0) continue;

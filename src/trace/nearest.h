@@ -13,8 +13,10 @@ using num::Int;
 using num::Mask;
 
 /// Whether forms of the shape T are searched for all pixels of a tile at once (mesh_tile.h), and left out here.
-template <class T, class F>
-constexpr bool by_tile = shape::many_of<T>&& shape::has_beams<F>;
+template <class T, class F, class Culled>
+constexpr bool by_tile = shape::many_of<T>&& shape::has_beams<F> && !requires {
+  Culled::each_by_itself;
+};
 
 /// The inverse range of the hit, 0 or less for none, and the facet that it names.
 template <class T, class F>
@@ -33,7 +35,7 @@ TOFRAY_FN F hit_of(const typename T::Form& form, const Ray<F>& ray, Int<F>& face
 template <class T, class F, class Culled>
 TOFRAY_FN void nearest_of(const Culled& culled, const Ray<F>& ray, Hit<F>& hit) {
   for (auto i = culled.template walk<T>(); i.more(); i.next()) {
-    if constexpr (by_tile<T, F>) {
+    if constexpr (by_tile<T, F, Culled>) {
       return;
     } else if constexpr (shape::many_of<T>) {
       nearest_in(i.form(), ray, hit);

@@ -28,7 +28,7 @@ TOFRAY_FN Mask<F> blocked_by(const Culled& culled, const Ray<F>& ray, const Surf
   const F limit = F(1.0f + shadow_margin);
   for (auto i = culled.template walk<T>(); i.more(); i.next()) {
     const typename T::Form& form = i.form();
-    if constexpr (by_tile<T, F>) {
+    if constexpr (by_tile<T, F, Culled>) {
       return dark;
     } else if constexpr (shape::many_of<T>) {
       dark = dark | stands_before(form, ray, F(before_surface), p.found & (!dark));
@@ -55,7 +55,7 @@ TOFRAY_FN Mask<F> blocked(const Culled& culled, const Ray<F>& ray, const Surface
 
 template <class T, class F, class Culled>
 TOFRAY_FN Mask<F> blocked_along(const Culled& culled, const float* s, const Surface<F>& p, Mask<F> dark) {
-  if constexpr (by_tile<T, F>) return dark;
+  if constexpr (by_tile<T, F, Culled>) return dark;
   const F margin = F(shadow_margin) * p.range;
   for (auto i = culled.template walk<T>(); i.more(); i.next()) {
     const Mask<F> hits = blocks(i.form(), p, s, margin);

@@ -163,6 +163,37 @@ TEST(cuda_host, has_the_same_bytes_of_samples_within_pixels_and_of_scattered_lig
   }
 }
 
+// Light from surface to surface, of what stands still and of what moves, with a sky and a sun, with samples within the pixels and without.
+TEST(cuda_host, has_the_same_bytes_of_bounces) {
+  const WithStandIn here;
+  for (int i = 0; i < 4; ++i) {
+    Random random(static_cast<std::uint64_t>(i) + 90);
+    Scene scene = random_scene(random, 9, i % 2 == 1);
+    scene.name = "bouncing " + std::to_string(i);
+    scene.transport = {2 + i, 3, 8};
+    if (i < 2) scene.ambient = {Ambient::Spectrum::sun_am15, Ambient::Quantity::level, 0.2, {}, {}, {}};
+    if (i == 1) scene.ambient.direction = Vec3{0.3, 0.2, 1};
+    Camera camera = small(load_camera("pico-flexx"));
+    camera.sensor.width = 20, camera.sensor.height = 14;
+    if (i == 2) camera.lens.scatter = {Scatter::Kind::gaussians, 0.1, {1, 9}};
+    expect_same(scene, camera, {.exposure_samples = 2, .subpixel = 1 + i % 3});
+    expect_same(scene, camera, {.last_stage = Stage::power});
+    expect_same(scene, camera, {.truth = false});
+    const SimulatorOptions options{.batch_bytes = 3'000'000, .subpixel = 1 + i % 2};
+    std::vector<FrameRequest> requests = mixed_requests(scene, 6);
+    Simulator simulator(scene, camera, on(Backend::cuda, options));
+    for (int round = 0; round < 2; ++round) {
+      std::size_t next = 0;
+      simulator.frames(requests, [&](const FrameArrays& arrays) {
+        EXPECT_EQ(first_difference(copy_of(arrays), alone(scene, camera, options, requests[next])), "") << scene.name << ", " << next;
+        ++next;
+      });
+      EXPECT_EQ(next, requests.size());
+      for (FrameRequest& request : requests) request.pose = {}, request.seed = {};
+    }
+  }
+}
+
 TEST(cuda_host, keeps_the_light_of_what_stands_still) {
   WithStandIn here;
   const Scene scene = load_scene("card");

@@ -334,7 +334,7 @@ TEST(scene, settings_change_any_key_before_it_is_read) {
 }
 
 TEST(built_in_scenes, load_with_their_cameras_and_say_what_they_are) {
-  EXPECT_EQ(load::builtin_scenes().size(), 17U);
+  EXPECT_EQ(load::builtin_scenes().size(), 20U);
   for (const auto& builtin : load::builtin_scenes()) {
     const Scene scene = load_scene(builtin.name);
     EXPECT_EQ(scene.name, builtin.name);

@@ -201,6 +201,8 @@ inline tofray::Frame sample_frame(int width, int height) {
       raw.tap_b.push_back(static_cast<float>(0.5 * s * (1 - wave) + 60));
       raw.raw.push_back(static_cast<std::uint16_t>(2048 + (raw.tap_a.back() - raw.tap_b.back()) / 10 + random.normal()));
       truth.signal_e.push_back(static_cast<float>(s));
+      truth.direct_e.push_back(static_cast<float>(0.75 * s)), truth.indirect_e.push_back(static_cast<float>(0.25 * s));
+      truth.multipath_m.push_back(raw.lit[k] != 0 ? 0.02F : std::nanf(""));
     }
   }
   return frame;

@@ -100,7 +100,7 @@ void Cpu::describe(RanOn& out) const { out.backend = "cpu", out.device = out.isa
 
 void Cpu::run_step(const pipeline::Step& step, const Work& work) {
   const camera::LensView& lens = work.setup->lens;
-  const bool tiles = step.pass == Pass::pixels || step.pass == Pass::input;
+  const bool tiles = step.pass == Pass::pixels || step.pass == Pass::input || step.pass == Pass::bounces || step.pass == Pass::sum;
   const int pieces = tiles ? pipeline::tile_count(lens) : (lens.height + pipeline::rows_per_band - 1) / pipeline::rows_per_band;
   pool_->runner.for_each_tile(pieces, [&](int index, void* scratch) { kernel_(&work, step.pass, index, scratch); });
 }

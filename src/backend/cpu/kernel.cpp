@@ -21,6 +21,7 @@ using F = float;
 #endif
 
 #include "backend/cpu/kernel.h"
+#include "pipeline/bounce.h"
 #include "pipeline/passes.h"
 #include "pipeline/scatter.h"
 #include "pipeline/tile.h"
@@ -37,12 +38,26 @@ TOFRAY_APART void run_tile(const Work& work, int index, void* scratch) {
   one_tile<F, can_move>(*work.setup, *work.job, index, scratch);
 }
 
-void run_input(const Work& work, int index) {
+template <class Run>
+TOFRAY_FN void each_pack(const Work& work, int index, const Run& run) {
   const Tile tile = tile_at(work.setup->lens, index);
   for (int q = 0; q < max_packs<F>; ++q) {
     const Pixels p = pack_at<F>(work.setup->lens, tile, q);
-    if (p.count > 0) enter<F>(*work.setup, *work.job, *work.input, p);
+    if (p.count > 0) run(p);
   }
+}
+
+void run_input(const Work& work, int index) {
+  each_pack(
+      work, index, [&](const Pixels& p) __attribute__((always_inline)) { enter<F>(*work.setup, *work.job, *work.input, p); });
+}
+void run_bounces(const Work& work, int index) {
+  each_pack(
+      work, index, [&](const Pixels& p) __attribute__((always_inline)) { bounce_pixels<F>(*work.setup, *work.job, work.item, p); });
+}
+void run_sum(const Work& work, int index) {
+  each_pack(
+      work, index, [&](const Pixels& p) __attribute__((always_inline)) { sum_light<F>(*work.setup, work.job->light, p); });
 }
 
 void run_rows(const Work& work, Pass pass, int band) {
@@ -73,6 +88,8 @@ extern "C" std::size_t TOFRAY_KERNEL(const Work* work, Pass pass, int index, voi
       break;
     case Pass::derive: break;  // the host has done it
     case Pass::input: run_input(*work, index); break;
+    case Pass::bounces: run_bounces(*work, index); break;
+    case Pass::sum: run_sum(*work, index); break;
     case Pass::flying:
     case Pass::filter:
     case Pass::settle:

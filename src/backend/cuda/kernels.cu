@@ -74,9 +74,13 @@ __global__ void __launch_bounds__(threads) tofray_pixels_own(const Batch batch) 
   run_pixel<true>(mine.setup, job_of(mine.job, batch.numbers[frame], 0), warp, patch, warp.lane);
 }
 
+/// Paths of light take more registers than a block of the largest size has.
+template <Pass pass>
+constexpr int most_threads = pass == Pass::bounces ? 256 : max_block_size;
+
 /// A pass over the images of all frames.
 template <Pass pass>
-__global__ void __launch_bounds__(max_block_size)
+__global__ void __launch_bounds__(most_threads<pass>)
     tofray_pass(const __grid_constant__ FrameArguments common, const Batch batch, const pipeline::Input input) {
   const int frame = static_cast<int>(blockIdx.y), index = static_cast<int>(blockIdx.x * blockDim.x + threadIdx.x);
   if (batch.own != nullptr) {
@@ -117,7 +121,7 @@ cudaError_t launch_derive(const Launch& what, cudaStream_t stream) {
 
 template <Pass pass>
 cudaError_t launch_pass(const Launch& what, int pixels, cudaStream_t stream) {
-  const auto block = static_cast<unsigned>(what.block_size);
+  const auto block = static_cast<unsigned>(what.block_size < most_threads<pass> ? what.block_size : most_threads<pass>);
   const dim3 grid((static_cast<unsigned>(pixels) + block - 1) / block, static_cast<unsigned>(what.batch.frames));
   tofray_pass<pass><<<grid, block, 0, stream>>>(*what.common, what.batch, what.input);
   return cudaGetLastError();
@@ -137,6 +141,8 @@ cudaError_t launch_kernel(const Launch& what, cudaStream_t stream) {
     case Pass::flying: return launch_pass<Pass::flying>(what, pixels, stream);
     case Pass::filter: return launch_pass<Pass::filter>(what, pixels, stream);
     case Pass::settle: return launch_pass<Pass::settle>(what, pixels, stream);
+    case Pass::bounces: return launch_pass<Pass::bounces>(what, pixels, stream);
+    case Pass::sum: return launch_pass<Pass::sum>(what, pixels, stream);
     case Pass::scatter_rows: return launch_pass<Pass::scatter_rows>(what, pixels, stream);
     case Pass::scatter_columns: return launch_pass<Pass::scatter_columns>(what, pixels, stream);
   }
@@ -154,6 +160,7 @@ cudaError_t find_kernels() {
   find(&tofray_derive);
   find(&tofray_pass<Pass::input>), find(&tofray_pass<Pass::flying>);
   find(&tofray_pass<Pass::filter>), find(&tofray_pass<Pass::settle>);
+  find(&tofray_pass<Pass::bounces>), find(&tofray_pass<Pass::sum>);
   find(&tofray_pass<Pass::scatter_rows>), find(&tofray_pass<Pass::scatter_columns>);
   return status;
 }
@@ -167,6 +174,8 @@ const void* kernel_function(Pass pass, int block_size) {
     case Pass::input: return reinterpret_cast<const void*>(&tofray_pass<Pass::input>);
     case Pass::flying: return reinterpret_cast<const void*>(&tofray_pass<Pass::flying>);
     case Pass::filter: return reinterpret_cast<const void*>(&tofray_pass<Pass::filter>);
+    case Pass::bounces: return reinterpret_cast<const void*>(&tofray_pass<Pass::bounces>);
+    case Pass::sum: return reinterpret_cast<const void*>(&tofray_pass<Pass::sum>);
     case Pass::scatter_rows: return reinterpret_cast<const void*>(&tofray_pass<Pass::scatter_rows>);
     case Pass::scatter_columns: return reinterpret_cast<const void*>(&tofray_pass<Pass::scatter_columns>);
     case Pass::settle: break;

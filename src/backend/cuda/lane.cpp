@@ -19,6 +19,8 @@ const char* starting(Pass pass) {
     case Pass::input: return "starting the kernel input";
     case Pass::flying: return "starting the kernel flying";
     case Pass::filter: return "starting the kernel filter";
+    case Pass::bounces: return "starting the kernel bounces";
+    case Pass::sum: return "starting the kernel sum";
     case Pass::scatter_rows: return "starting the kernel scatter_rows";
     case Pass::scatter_columns: return "starting the kernel scatter_columns";
     case Pass::settle: break;
@@ -218,7 +220,7 @@ void Lane::launch_all() {
     launch.pass = step.pass, launch.batch.step = step, launch.common = &common;
     launch.input = step.part == pipeline::Part::collect ? collected : given_;
     // Frames that differ by their number alone share their light.
-    launch.batch.frames = step.part == pipeline::Part::light && own_ == Own::number ? 1 : frames();
+    launch.batch.frames = pipeline::gathers(step.part) && own_ == Own::number ? 1 : frames();
     device_.check(runtime.launch(launch, stream_.get()), starting(step.pass));
   });
 }

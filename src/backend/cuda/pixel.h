@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include "backend/cuda/arguments.h"
+#include "pipeline/bounce.h"
 #include "pipeline/passes.h"
 #include "pipeline/scatter.h"
 #include "pipeline/steps.h"
@@ -106,8 +107,8 @@ struct WarpNear {
   }
   /// The sun's rays have no common origin: each looks at everything.
   TOFRAY_FN void look_along(const Setup&, int, const flow::Surface<float>&) const {}
-  TOFRAY_FN trace::Uncut still_along(const Setup& s) const { return {s.scene.sun_still()}; }
-  TOFRAY_FN trace::Uncut moving_along(const Setup& s, int moment) const { return {s.scene.sun_moving(moment)}; }
+  TOFRAY_FN trace::Uncut<scene::Alongs> still_along(const Setup& s) const { return {s.scene.sun_still()}; }
+  TOFRAY_FN trace::Uncut<scene::Alongs> moving_along(const Setup& s, int moment) const { return {s.scene.sun_moving(moment)}; }
   /// Each ray looks at meshes by itself.
   static constexpr int sun = 0;
   template <class F>
@@ -181,12 +182,14 @@ TOFRAY_FN void run_derive(const Setup& s, scene::Derive what, int unit) {
 }
 
 /// What came from elsewhere to depth, and the passes over images: pixel number `index`.
-/// @param item  which kernel of the lens
+/// @param item  which kernel of the lens, which sample within the pixels
 TOFRAY_FN void run_pass(Pass pass, int item, const Setup& s, const Job& job, const pipeline::Input& input, int index) {
   if (index >= s.lens.width * s.lens.height) return;
   const Pixels p{index, 1};
   const int x = index % s.lens.width, y = index / s.lens.width;
   if (pass == Pass::input) pipeline::enter<float>(s, job, input, p);
+  if (pass == Pass::bounces) pipeline::bounce_pixels<float>(s, job, item, p);
+  if (pass == Pass::sum) pipeline::sum_light<float>(s, job.light, p);
   if (pass == Pass::flying) pipeline::flag_flying_pixel(s, job, x, y);
   if (pass == Pass::filter) pipeline::filter_pixel(s, job, x, y);
   if (pass == Pass::settle) pipeline::settle<float>(s, job, p, pipeline::range_left(job));

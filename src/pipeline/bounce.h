@@ -1,0 +1,186 @@
+// SPDX-FileCopyrightText: 2026 The tofray authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "brdf/sample.h"
+#include "camera/ray.h"
+#include "num/sobol.h"
+#include "pipeline/gather.h"
+#include "pipeline/light_up.h"
+#include "trace/anywhere.h"
+
+/// Light that goes from surface to surface before it reaches the camera.                                   [theory: eq. 7.6, 7.7]
+///
+/// Paths are followed from the camera on, against the way of the light: from the first surface along a way that its BRDF chooses to the next
+/// one, at each of which all lights are asked directly. What the first surface itself gets from the lights is not part of this: that is
+/// direct light, which light_up.h knows without chance.
+namespace tofray::pipeline {
+
+/// From which surface on chance decides whether a path goes on.
+constexpr int first_roulette = 3;
+/// … once less than this is left of its light, so that the weights of those that go on do not fall below it.
+constexpr float least_left = 0.25f;
+/// Paths whose light is summed before it is added to that of others: a sum of some thousand floats would lose digits.
+constexpr int paths_together = 64;
+/// What random numbers are for, beside pixel and surface.
+constexpr std::uint32_t of_transport = 0x70617468u;
+
+/// A surface on the way, as the one before it sees it.
+template <class F>
+struct Vertex {
+  flow::Surface<F> at;      ///< its range is that of the path so far
+  flow::Direction<F> way;   ///< unit vector of the ray that came here
+  flow::Direction<F> flat;  ///< normal of the facet itself, toward where the ray came from
+  num::Int<F> facet;
+  num::Mask<F> escaped;  ///< the ray went on without end
+};
+
+/// What is met by a ray that leaves from anywhere.
+/// @param before      length of the path up to there [m]
+/// @param pixel_area  that a pixel sees 1 m away [m²]
+template <class F>
+TOFRAY_FN Vertex<F> next_vertex(const Setup& s, int moment, float pixel_area, const shape::FreeRay<F>& ray, const trace::Leaving<F>& from,
+                                F before) {
+  Vertex<F> out;
+  const trace::Met<F> met = trace::nearest_from(s.scene, moment, ray, from);
+  flow::Surface<F> p = trace::surface_met(s.scene, ray, met, from.wanted);
+  p.range = before + num::select(p.found, met.distance, F(0.0f));
+  out.escaped = from.wanted & (!p.found);
+  out.flat = {p.nx, p.ny, p.nz}, out.way = {ray.dx, ray.dy, ray.dz}, out.facet = met.facet;
+  if (s.scene.any_details != 0) {
+    flow::Surface<F> copy = p;
+    trace::add_details(s.scene, F(pixel_area) * p.range * p.range, flow::Ray<F>{ray.dx, ray.dy, ray.dz, F(1.0f), F(1.0f)},
+                       flow::Hit<F>{F(1.0f), met.facet, met.triangle}, copy);
+    p = copy;
+  }
+  out.at = p;
+  return out;
+}
+
+/// The first surface of a path.
+template <class F>
+TOFRAY_FN Vertex<F> first_vertex(const Setup& s, const camera::LensView& lens, int moment, const Pixels& p, F vignetting) {
+  const flow::Ray<F> ray = camera::ray<F>(lens, p);
+  const F per = ray.inverse_length, zero = F(0.0f);
+  const trace::Leaving<F> from{num::Int<F>(-1), zero, zero, zero, zero, vignetting > zero};
+  return next_vertex<F>(s, moment, lens.pixel_area, {zero, zero, zero, ray.x * per, ray.y * per, ray.z * per}, from, zero);
+}
+
+/// Three numbers of a path for one of its surfaces: two say along which way it goes on, one whether it does.
+template <class F>
+struct Choice {
+  F u, v, chance;
+};
+template <class F>
+TOFRAY_FN Choice<F> choose(const BounceView& s, const Pixels& p, int item, int bounce, int sample) {
+  const num::Uint<F> pixel = num::to_uint(num::Int<F>(p.index) + num::lane_index<F>());
+  const num::Random4<F> seed =
+      num::philox<F>(pixel, static_cast<std::uint32_t>(bounce), static_cast<std::uint32_t>(item), of_transport, s.keys);
+  Choice<F> out;
+  num::sobol_pair<F>(num::shuffled<F>(static_cast<std::uint32_t>(sample), seed.w[0]), seed.w[1], seed.w[2], out.u, out.v);
+  const num::Uint<F> other = num::shuffled<F>(static_cast<std::uint32_t>(sample), seed.w[3]);
+  out.chance = num::unit<F>(num::reversed<F>(num::turned_over<F>(other, seed.w[0] ^ seed.w[2])));
+  return out;
+}
+
+/// The light that reaches a surface on the way straight from the lights, and through it the pixel.
+/// @param weight  how much of what the surface sends back the pixel gets
+template <class F>
+TOFRAY_FN void light_vertex(const Setup& s, int moment, const power::Wanted& wanted, const Vertex<F>& v, F weight, flow::Light<F>& light) {
+  const flow::Ray<F> ray{v.way.x, v.way.y, v.way.z, F(1.0f), F(1.0f)};
+  flow::Radiometry<F> unused{F(0.0f), F(0.0f), F(0.0f)};
+  for (int l = 0; l < s.scene.lights; ++l) {
+    const flow::Ray<F> from_light = power::light_ray(s.lights[l], v.at);
+    num::Mask<F> dark = trace::blocked(trace::Uncut{s.scene.light_still(l)}, from_light, v.at);
+    if (s.scene.moments > 0) dark = dark | trace::blocked(trace::Uncut{s.scene.light_moving(moment, l)}, from_light, v.at);
+    flow::Path<F> path = power::received<F>(s.power, s.lights[l], v.at, ray, from_light, dark, weight, unused);
+    path.rate = num::select(v.at.found, path.rate, F(0.0f));  // where the path ended before, nothing need be a number
+    power::add_one_of_many(s.phasors, wanted, l, path, light);
+  }
+  if (s.power.ambient != camera::AmbientLight::directional) return;
+  const float* const sun = s.scene.sun(moment);
+  num::Mask<F> dark = trace::blocked_parallel(trace::Uncut{s.scene.sun_still()}, sun, v.at);
+  if (s.scene.moments > 0) dark = dark | trace::blocked_parallel(trace::Uncut{s.scene.sun_moving(moment)}, sun, v.at);
+  light.ambient_rate = light.ambient_rate + power::ambient_rate<F>(s.power, sun, v.at, dark, weight);
+}
+
+/// The way on from a surface, and what is left of the light that goes it.
+template <class F>
+struct Onward {
+  shape::FreeRay<F> ray;
+  trace::Leaving<F> from;
+  F weight;
+};
+/// @param weight  what was left up to here
+template <class F>
+TOFRAY_FN Onward<F> leave(const Choice<F>& choice, bool roulette, const Vertex<F>& v, F weight) {
+  const flow::Surface<F>& p = v.at;
+  const brdf::Sampled<F> sampled = brdf::sample<F>(p.finish, {p.nx, p.ny, p.nz}, {-v.way.x, -v.way.y, -v.way.z}, choice.u, choice.v);
+  const flow::Direction<F>& d = sampled.light;
+  const F along = num::fma(d.x, v.flat.x, num::fma(d.y, v.flat.y, d.z * v.flat.z));
+  num::Mask<F> goes_on = p.found & (sampled.weight > F(0.0f)) & (along > F(0.0f));
+  weight = weight * sampled.weight;
+  if (roulette) {
+    const F chance = num::min(weight * F(1.0f / least_left), F(1.0f));
+    goes_on = goes_on & (choice.chance < chance);
+    weight = weight / num::select(goes_on, chance, F(1.0f));
+  }
+  const F away = num::sqrt(flow::square_of(p.x, p.y, p.z));
+  return {{p.x, p.y, p.z, d.x, d.y, d.z}, {v.facet, v.flat.x, v.flat.y, v.flat.z, away, goes_on}, weight};
+}
+
+/// One path of each pixel.
+template <class F>
+TOFRAY_FN void follow_path(const Setup& s, const camera::LensView& lens, int item, int moment, const power::Wanted& wanted, const Pixels& p,
+                           const Vertex<F>& first, F vignetting, int sample, flow::Light<F>& light) {
+  const bool uniform = s.power.ambient == camera::AmbientLight::uniform;
+  Vertex<F> v = first;
+  F weight = F(1.0f);
+  for (int b = 1; b <= s.bounces.most + (uniform ? 1 : 0); ++b) {
+    const Onward<F> on = leave<F>(choose<F>(s.bounces, p, item, b, sample), b >= first_roulette, v, weight);
+    if (!num::any(on.from.wanted)) return;
+    v = next_vertex<F>(s, moment, lens.pixel_area, on.ray, on.from, v.at.range);
+    weight = on.weight;
+    const F share = weight * vignetting;
+    if (uniform) light.ambient_rate = light.ambient_rate + num::select(v.escaped, share * F(s.power.ambient_rate), F(0.0f));
+    if (b > s.bounces.most || !num::any(v.at.found)) return;
+    light_vertex<F>(s, moment, wanted, v, share, light);
+  }
+}
+
+/// The lens of a sample within the pixels, or that of their middle.
+TOFRAY_FN const camera::LensView& lens_of(const Setup& s, int item) { return s.subpixel.lens != nullptr ? s.subpixel.lens[item] : s.lens; }
+
+/// Paths of each sample within the pixels.
+TOFRAY_FN int paths_of(const Setup& s) { return (s.bounces.samples + s.subpixel.count - 1) / s.subpixel.count; }
+
+/// The light of all paths of a sample within the pixels, at all times, into the light image.
+/// @param item  which sample
+template <class F>
+TOFRAY_FN void bounce_pixels(const Setup& s, const Job& job, int item, const Pixels& p) {
+  const camera::LensView& lens = lens_of(s, item);
+  const F vignetting = camera::vignetting<F>(lens, p);
+  const int paths = paths_of(s), moments = s.scene.moments > 0 ? s.scene.moments : 1, per_time = moments / job.light.times;
+  const float share =
+      (s.subpixel.lens != nullptr ? s.subpixel.share[item] : 1.0f) / (static_cast<float>(paths) * static_cast<float>(per_time));
+  for (int time = 0; time < job.light.times; ++time) {
+    const Moment now = moment_of(s, time * per_time, moments);
+    const power::Wanted which = wanted(s, now, false);
+    flow::Light<F> light;
+    power::clear(s.phasors, which, light);
+    for (int m = 0; m < per_time; ++m) {
+      const int moment = time * per_time + m;
+      const Vertex<F> first = first_vertex<F>(s, lens, moment, p, vignetting);
+      if (!num::any(first.at.found)) continue;
+      for (int from = 0; from < paths; from += paths_together) {
+        flow::Light<F> part;
+        power::clear(s.phasors, which, part);
+        for (int i = from; i < from + paths_together && i < paths; ++i)
+          follow_path<F>(s, lens, item, moment, which, p, first, vignetting, i, part);
+        power::add_light(s.phasors, which, part, light);
+      }
+    }
+    gather_light<F>(s, {job.light.indirect_before, job.light.indirect}, p, job.light.times, time, light, share, item == 0);
+  }
+}
+
+}  // namespace tofray::pipeline

@@ -1,0 +1,66 @@
+// SPDX-FileCopyrightText: 2026 The tofray authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "depth/decode.h"
+#include "pipeline/gather.h"
+#include "raw/correlation.h"
+
+/// Ground truth of light that comes by several surfaces: how much of it there is, and what it does to the range.
+namespace tofray::pipeline {
+
+/// A−B per second of each raw frame, of light as the image keeps it.
+template <class F>
+TOFRAY_FN void differences(const Setup& s, const float* values, const Pixels& p, int times, F* difference) {
+  flow::Light<F> light;
+  for (int k = 0; k < s.sensor.raw_frames; ++k) {
+    if (times > 1 || k == 0) load_light(s, values, p, times, times > 1 ? k : 0, light);
+    const camera::RawFrameView& frame = s.sensor.frame[k];
+    difference[k] = frame.lit != 0 ? raw::difference_rate(frame, s.phasors.orders, light) : F(0.0f);
+  }
+}
+
+/// Half path that all light shows less that which the direct light shows, as the decoder has them from raw frames without noise, for each
+/// modulation frequency: at most half its unambiguous range to either side.                                     [theory: eq. 7.8]
+template <class F>
+TOFRAY_FN F multipath_error(const camera::DecoderView& s, const camera::DecodeModulation& m, const F* all, const F* direct) {
+  const depth::Estimate<F> of_all = depth::estimate(s, m, all), of_direct = depth::estimate(s, m, direct);
+  F slope;
+  const F turns = depth::unwiggle(s, m, of_all.turns, slope) - depth::unwiggle(s, m, of_direct.turns, slope);
+  const F error = (turns - num::round_even(turns)) * F(m.half_wave);
+  return num::select(of_direct.amplitude > F(0.0f), error, nan<F>());
+}
+
+template <class F>
+TOFRAY_APART void store_multipath(const Setup& s, float* to, const flow::LightImage& image, const Pixels& p) {
+  F all[flow::max_raw_frames], direct[flow::max_raw_frames];
+  differences(s, image.values, p, image.times, all), differences(s, image.before, p, image.times, direct);
+  const int pixels = s.lens.width * s.lens.height;
+  for (int k = 0; k < s.sensor.raw_frames; ++k)
+    if (s.sensor.frame[k].lit == 0) num::store(to + p.index + k * pixels, nan<F>(), p.count);
+  for (int j = 0; j < s.decoder.modulations; ++j) {
+    const camera::DecodeModulation& m = s.decoder.modulation[j];
+    const F error = multipath_error(s.decoder, m, all, direct);
+    for (int i = 0; i < m.count; ++i) num::store(to + p.index + m.raw_frame[i] * pixels, error, p.count);
+  }
+}
+
+/// @param time  of the ground truth
+template <class F>
+TOFRAY_FN void store_bounced(const Setup& s, const flow::FrameView& out, const flow::LightImage& image, const Pixels& p, int time) {
+  if (image.indirect == nullptr) return;
+  const auto rate = [&](const float* values, int at, int plane) __attribute__((always_inline)) {
+    return num::load<F>(values + light_place(s, p, image.times, at, plane), p.count);
+  };
+  store(out.gt_ambient_e_per_s, p, rate(image.values, time, 1));
+  const auto electrons = [&](float* to, const float* values) __attribute__((always_inline)) {
+    for (int k = 0; k < s.sensor.raw_frames && to != nullptr; ++k) {
+      const camera::RawFrameView& frame = s.sensor.frame[k];
+      const F charge = frame.lit != 0 ? rate(values, image.times > 1 ? k : 0, 0) * F(frame.integration_time) : F(0.0f);
+      num::store(to + p.index + k * s.lens.width * s.lens.height, charge, p.count);
+    }
+  };
+  electrons(out.gt_direct_e, image.before), electrons(out.gt_indirect_e, image.indirect);
+  if (out.gt_multipath_m != nullptr) store_multipath<F>(s, out.gt_multipath_m, image, p);
+}
+
+}  // namespace tofray::pipeline

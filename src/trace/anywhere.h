@@ -1,0 +1,134 @@
+// SPDX-FileCopyrightText: 2026 The tofray authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "trace/detail.h"
+
+/// Rays that leave from anywhere: the nearest surface, and what is there.
+///
+/// Nothing flat or convex stands in its own way, but that who is within a closed body always meets it again. So a body that a ray leaves is
+/// known by its facet, not by a distance, and light that leaves a wall beside a corner does not get through the other wall. Only meshes may
+/// shade themselves: their rays begin a little before the surface.
+namespace tofray::trace {
+
+using shape::FreeRay;
+
+/// The nearest surface of a ray from anywhere, `distance` from where it begins; shape::never: nothing.
+template <class F>
+struct Met {
+  F distance;
+  Int<F> facet, triangle;
+};
+template <class F>
+TOFRAY_FN Met<F> nothing_met() {
+  return {F(shape::never), Int<F>(0), Int<F>(0)};
+}
+
+/// Where a ray leaves from.
+template <class F>
+struct Leaving {
+  Int<F> facet;  ///< −1: from no surface
+  F nx, ny, nz;  ///< of the surface, on the side that it leaves to
+  F away;        ///< how far from the camera [m]: coordinates are known to some 10⁻⁷ of it
+  Mask<F> wanted;
+};
+
+/// How far before a mesh its rays begin, in units of the distances from which coordinates come.
+constexpr float before_mesh = 2e-6f;
+/// What is nearer than this part of the distance is where the ray begins.
+constexpr float at_beginning = 1e-6f;
+
+template <class T, class F>
+TOFRAY_FN Mask<F> leaves(const typename T::Free& form, const Leaving<F>& from) {
+  if constexpr (T::facets == 1) return from.facet == Int<F>(form.facet);
+  return (from.facet > Int<F>(form.facet - 1)) & (from.facet < Int<F>(form.facet + T::facets));
+}
+
+template <class T, class F>
+TOFRAY_FN void take_met(const typename T::Free& form, F distance, Int<F> side, Met<F>& met) {
+  const auto nearer = distance < met.distance;
+  met.facet = num::select(nearer, Int<F>(form.facet) + side, met.facet);
+  met.distance = num::select(nearer, distance, met.distance);
+}
+
+/// A closed body: whoever is outside never meets it again, whoever is inside always does.
+template <class T, class F>
+TOFRAY_FN void meet_closed(const typename T::Free& form, const FreeRay<F>& ray, const Leaving<F>& from, Met<F>& met) {
+  const shape::Passage<F> line = passage(form, ray);
+  if (form.inside != 0) {
+    take_met<T>(form, num::max(line.out, F(0.0f)), line.out_facet, met);
+  } else {
+    const auto meets = (line.in <= line.out) & (line.out > F(0.0f)) & (!leaves<T>(form, from));
+    take_met<T>(form, num::select(meets, num::max(line.in, F(0.0f)), F(shape::never)), line.in_facet, met);
+  }
+}
+
+template <class T, class F>
+TOFRAY_FN void meet_flat(const typename T::Free& form, const FreeRay<F>& ray, const Leaving<F>& from, Met<F>& met) {
+  Int<F> side;
+  const F distance = distance_to(form, ray, F(at_beginning) * from.away, side);
+  take_met<T>(form, num::select(leaves<T>(form, from), F(shape::never), distance), side, met);
+}
+
+template <class T, class F>
+TOFRAY_APART void meet_mesh(const typename T::Free& form, const FreeRay<F>& ray, const Leaving<F>& from, Met<F>& met) {
+  const F before = num::select(from.facet > Int<F>(-1), F(before_mesh) * (from.away + F(form.extent)), F(0.0f));
+  const FreeRay<F> moved{
+      num::fma(before, from.nx, ray.x), num::fma(before, from.ny, ray.y), num::fma(before, from.nz, ray.z), ray.dx, ray.dy, ray.dz};
+  Int<F> triangle;
+  const F distance = distance_to(form, moved, F(0.0f), met.distance, from.wanted, triangle);
+  const auto nearer = distance < met.distance;
+  met.facet = num::select(nearer, Int<F>(form.facet), met.facet);
+  met.triangle = num::select(nearer, triangle, met.triangle);
+  met.distance = num::select(nearer, distance, met.distance);
+}
+
+template <class T, class F>
+TOFRAY_FN void meet_all(const scene::Group& group, int moment, const FreeRay<F>& ray, const Leaving<F>& from, Met<F>& met) {
+  const int count = group.bodies.of<T>().count;
+  const typename T::Free* forms = group.derived.of<T>().free + moment * count;
+  for (int i = 0; i < count; ++i) {
+    if constexpr (T::closed) {
+      meet_closed<T>(forms[i], ray, from, met);
+    } else if constexpr (shape::many_of<T>) {
+      // What is handed to a function lies in memory; the originals need not.
+      const FreeRay<F> ray_copy = ray;
+      const Leaving<F> from_copy = from;
+      Met<F> copy = met;
+      meet_mesh<T>(forms[i], ray_copy, from_copy, copy);
+      met = copy;
+    } else {
+      meet_flat<T>(forms[i], ray, from, met);
+    }
+  }
+}
+template <class... T, class F>
+TOFRAY_FN void meet_each(shape::List<T...>, const scene::Group& group, int moment, const FreeRay<F>& ray, const Leaving<F>& from,
+                         Met<F>& met) {
+  (meet_all<T>(group, moment, ray, from, met), ...);
+}
+
+/// The nearest surface of all.
+template <class F>
+TOFRAY_FN Met<F> nearest_from(const scene::SceneView& s, int moment, const FreeRay<F>& ray, const Leaving<F>& from) {
+  Met<F> met = nothing_met<F>();
+  meet_each(shape::Shapes{}, s.still, 0, ray, from, met);
+  if (s.moments > 0) meet_each(shape::Shapes{}, s.moving, moment, ray, from, met);
+  return met;
+}
+
+/// Where and what it is: position, normal toward where the ray comes from, material; `range` is left to the caller.
+template <class F>
+TOFRAY_FN Surface<F> surface_met(const scene::SceneView& s, const FreeRay<F>& ray, const Met<F>& met, Mask<F> wanted) {
+  const shape::FacetColumns<F> facet(s.facets, met.facet);
+  Surface<F> out;
+  out.found = wanted & (met.distance < F(shape::never));
+  const F t = num::select(out.found, met.distance, F(0.0f));
+  out.x = num::fma(t, ray.dx, ray.x), out.y = num::fma(t, ray.dy, ray.y), out.z = num::fma(t, ray.dz, ray.z);
+  const shape::Direction<F> n = normal_of(shape::Shapes{}, facet, met.triangle, out);
+  face_camera(n.x, n.y, n.z, Ray<F>{ray.dx, ray.dy, ray.dz, F(1.0f), F(1.0f)}, out);
+  finish(s, facet, out.finish);
+  out.object = facet.object();
+  return out;
+}
+
+}  // namespace tofray::trace
