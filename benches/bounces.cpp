@@ -54,10 +54,10 @@ Truth truth_of(Scene scene, const Camera& camera, int samples, unsigned long lon
 
 /// Root of the mean square of what two sets of ways differ by, over the pixels that see something: of the indirect light, relative to the
 /// direct, and of what it does to the half path [mm].
-struct Error {
+struct Off {
   double share, shift_mm;
 };
-Error difference(const Truth& a, const Truth& b, std::size_t at) {
+Off difference(const Truth& a, const Truth& b, std::size_t at) {
   double share = 0, shift = 0;
   int count = 0;
   for (std::size_t i = at; i < at + a.range_m.size(); ++i) {
@@ -81,12 +81,12 @@ int main() {
     std::printf("%-20s  %7d  %4s  %8.2f\n", one.name.c_str(), 0, "-", frame_ms(one, camera, 41));
     one.transport.bounces = bounces;
     const Truth known = truth_of(one, camera, 4096, 1);
-    const auto lit = known.range_m.size() * static_cast<std::size_t>(1);  // the first raw frame is the grey one
+    const auto lit = known.range_m.size();  // the first raw frame is the grey one
     for (const int ways : {1, 4, 16, 64, 256}) {
       one.transport.samples = ways;
       const double ms = frame_ms(one, camera, ways > 64 ? 5 : 11);
-      const Error error = difference(truth_of(one, camera, ways, 0), known, lit);
-      std::printf("%-20s  %7d  %4d  %8.2f  %30.2f  %6.2f\n", one.name.c_str(), bounces, ways, ms, 100 * error.share, error.shift_mm);
+      const Off off = difference(truth_of(one, camera, ways, 0), known, lit);
+      std::printf("%-20s  %7d  %4d  %8.2f  %30.2f  %6.2f\n", one.name.c_str(), bounces, ways, ms, 100 * off.share, off.shift_mm);
       std::fflush(stdout);
     }
   }

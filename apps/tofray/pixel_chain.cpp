@@ -73,7 +73,8 @@ void read_raw_frames(const Arrays& arrays, std::size_t pixel, PixelChain& out) {
     one.modulation_frequency_hz = arrays.at("modulation_frequency_hz", k), one.reference_phase_rad = arrays.at("reference_phase_rad", k);
     one.integration_time_s = arrays.at("integration_time_s", k);
     one.signal_e = arrays.at("gt_signal_e", at);
-    one.indirect_e = arrays.at("gt_indirect_e", at), one.multipath_m = arrays.at("gt_multipath_m", at);
+    one.direct_e = arrays.at("gt_direct_e", at), one.indirect_e = arrays.at("gt_indirect_e", at);
+    one.multipath_m = arrays.at("gt_multipath_m", at);
     one.tap_a_e = arrays.at("tap_a", at), one.tap_b_e = arrays.at("tap_b", at), one.code_dn = arrays.at("raw", at);
     one.difference_e = step * (one.code_dn - mid);
     // Without codes, or without noise, depth takes the taps without rounding, as far as codes would reach. (fmin and fmax pass over NaN.)

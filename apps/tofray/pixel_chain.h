@@ -13,9 +13,9 @@ namespace tofray::app {
 struct ChainRawFrame {
   bool lit = false;
   double modulation_frequency_hz = 0, reference_phase_rad = 0, integration_time_s = 0;
-  double signal_e = 0;     ///< ground truth S, both taps
-  double indirect_e = 0;   ///< of it, what came by several surfaces
-  double multipath_m = 0;  ///< what that does to the half path                    [theory: eq. 7.8]
+  double signal_e = 0;                  ///< ground truth S, both taps
+  double direct_e = 0, indirect_e = 0;  ///< by one surface and by several, before the lens scatters them
+  double multipath_m = 0;               ///< what that does to the half path                    [theory: eq. 7.8]
   double tap_a_e = 0, tap_b_e = 0;
   double code_dn = 0;
   double difference_e = 0;  ///< D_k that depth comes from: out of the code, or unrounded where noise is off

@@ -64,8 +64,8 @@ std::string multipath_text(const PixelChain& p) {
   for (const ChainRawFrame& one : p.raw_frames) {
     if (!one.lit || std::isnan(one.indirect_e) || std::find(told.begin(), told.end(), one.modulation_frequency_hz) != told.end()) continue;
     told.push_back(one.modulation_frequency_hz);
-    text += fmt::format("multipath   {:.6g} MHz: {} % of the signal came by several surfaces, half path {} mm\n",
-                        1e-6 * one.modulation_frequency_hz, shown("{:.4g}", 100 * one.indirect_e / one.signal_e),
+    text += fmt::format("multipath   {:.6g} MHz: {} % of the light came by several surfaces, half path {} mm\n",
+                        1e-6 * one.modulation_frequency_hz, shown("{:.4g}", 100 * one.indirect_e / (one.direct_e + one.indirect_e)),
                         shown("{:+.2f}", 1e3 * one.multipath_m));
   }
   return text;
@@ -132,6 +132,7 @@ files::Json raw_json(const PixelChain& p) {
         .set("reference_phase_rad", one.reference_phase_rad);
     json.set("integration_time_s", one.integration_time_s)
         .set("signal_e", one.signal_e)
+        .set("direct_e", one.direct_e)
         .set("indirect_e", one.indirect_e)
         .set("multipath_m", one.multipath_m)
         .set("tap_a_e", one.tap_a_e)

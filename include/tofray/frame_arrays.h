@@ -81,8 +81,8 @@ enum class ArrayShape {
   row(gt_power_w,          truth, power_w,          float,        image,   power, "W",         "own light on the pixel") \
   row(gt_ambient_e_per_s,  truth, ambient_e_per_s,  float,        image,   power, "e/s",       "ambient light on the pixel, both taps") \
   row(gt_signal_e,         truth, signal_e,         float,        stack,   raw,   "e",         "electrons to expect, both taps, 0 unlit") \
-  row(gt_direct_e,         truth, direct_e,         float,        stack,   raw,   "e",         "of them, by one surface alone; bounces") \
-  row(gt_indirect_e,       truth, indirect_e,       float,        stack,   raw,   "e",         "of them, by several surfaces; bounces") \
+  row(gt_direct_e,         truth, direct_e,         float,        stack,   raw,   "e",         "by one surface alone, before lens scatter; bounces") \
+  row(gt_indirect_e,       truth, indirect_e,       float,        stack,   raw,   "e",         "by several surfaces, before lens scatter; bounces") \
   row(gt_multipath_m,      truth, multipath_m,      float,        stack,   raw,   "m",         "half path of all - of direct light, NaN unlit; bounces")
 
 // clang-format on

@@ -167,11 +167,11 @@ struct Ambient {
   std::optional<Vec3> direction;                  ///< direction in which the light travels (a sun); none: uniform from everywhere
 };
 
-/// How light goes on from surface to surface before it comes back: light that meets 1, 2 … 1 + bounces of them. Which ways it takes is chosen by
-/// chance, but the same for all frames: it is no noise of the camera's.
+/// How light goes on from surface to surface before it comes back: light that meets 1, 2 … 1 + bounces of them. Which ways it takes is
+/// chosen by chance, but the same for all frames: it is no noise of the camera's. Arrays in place of the scene bounce nothing.
 struct Transport {
   int bounces = 0;              ///< 0…64; 0: light comes straight back from the surface that the lights shine on
-  int samples = 16;             ///< 1…65536: ways of light for each pixel
+  int samples = 16;             ///< 1…65536: ways of light for each pixel, where it bounces
   unsigned long long seed = 0;  ///< another one: other ways, the same light but for their error
 };
 

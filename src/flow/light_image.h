@@ -10,8 +10,9 @@ namespace tofray::flow {
 ///
 /// Planes: S, the ambient rate, then of each modulation frequency what flow::Light has of it: in_phase and quarter where those are enough
 /// (PhasorView::sums_alone), else all orders' real parts, then all imaginary ones. Where something moves there is a time for each raw frame,
-/// which has but its own modulation frequency. Where light bounces, `values` is all of it in the end, and `before` the direct light. Where samples within the pixels are compared, three planes follow: the share of samples that
-/// see what the pixel's middle sees, and the nearest and farthest range [m] that they see (3e38 and 0: they see nothing).
+/// which has but its own modulation frequency. Where light bounces, `values` is all of it in the end, and `before` the direct light.
+/// Where samples within the pixels are compared, three planes follow: the share of samples that see what the pixel's middle sees, and the
+/// nearest and farthest range [m] that they see (3e38 and 0: they see nothing).
 struct LightImage {
   float* values;           ///< [time][plane][height][width]; null: there is none
   float* before;           ///< the same before the last sample was added: what is written is never read, so that it may be written twice

@@ -294,7 +294,8 @@ template <>
 const Table& table_of<Transport>() {
   static const Table rows = table<Transport>(
       number<&Transport::bounces>("bounces", {none, {0, 64}, "4"}, "surfaces that light meets beyond the first one, at most"),
-      number<&Transport::samples>("samples", {none, {1, 65536}, "16"}, "ways of light that are followed for each pixel"),
+      number<&Transport::samples>("samples", {none, {1, 65536}, "16"},
+                                  "ways of light that are followed for each pixel, where bounces is not 0"),
       number<&Transport::seed>("seed", {none, {0, 9007199254740991.0}, "0"}, "another one: other ways, the same light"));
   return rows;
 }

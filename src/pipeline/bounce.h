@@ -35,11 +35,10 @@ struct Vertex {
 };
 
 /// What is met by a ray that leaves from anywhere.
-/// @param before      length of the path up to there [m]
-/// @param pixel_area  that a pixel sees 1 m away [m²]
+/// @param before  length of the path up to there [m]
+/// @param area    that a pixel sees 1 m along its ray, across it [m²]
 template <class F>
-TOFRAY_FN Vertex<F> next_vertex(const Setup& s, int moment, float pixel_area, const shape::FreeRay<F>& ray, const trace::Leaving<F>& from,
-                                F before) {
+TOFRAY_FN Vertex<F> next_vertex(const Setup& s, int moment, F area, const shape::FreeRay<F>& ray, const trace::Leaving<F>& from, F before) {
   Vertex<F> out;
   const trace::Met<F> met = trace::nearest_from(s.scene, moment, ray, from);
   flow::Surface<F> p = trace::surface_met(s.scene, ray, met, from.wanted);
@@ -48,7 +47,7 @@ TOFRAY_FN Vertex<F> next_vertex(const Setup& s, int moment, float pixel_area, co
   out.flat = {p.nx, p.ny, p.nz}, out.way = {ray.dx, ray.dy, ray.dz}, out.facet = met.facet;
   if (s.scene.any_details != 0) {
     flow::Surface<F> copy = p;
-    trace::add_details(s.scene, F(pixel_area) * p.range * p.range, flow::Ray<F>{ray.dx, ray.dy, ray.dz, F(1.0f), F(1.0f)},
+    trace::add_details(s.scene, area * p.range * p.range, flow::Ray<F>{ray.dx, ray.dy, ray.dz, F(1.0f), F(1.0f)},
                        flow::Hit<F>{F(1.0f), met.facet, met.triangle}, copy);
     p = copy;
   }
@@ -58,11 +57,10 @@ TOFRAY_FN Vertex<F> next_vertex(const Setup& s, int moment, float pixel_area, co
 
 /// The first surface of a path.
 template <class F>
-TOFRAY_FN Vertex<F> first_vertex(const Setup& s, const camera::LensView& lens, int moment, const Pixels& p, F vignetting) {
-  const flow::Ray<F> ray = camera::ray<F>(lens, p);
+TOFRAY_FN Vertex<F> first_vertex(const Setup& s, int moment, const flow::Ray<F>& ray, F area, F vignetting) {
   const F per = ray.inverse_length, zero = F(0.0f);
   const trace::Leaving<F> from{num::Int<F>(-1), zero, zero, zero, zero, vignetting > zero};
-  return next_vertex<F>(s, moment, lens.pixel_area, {zero, zero, zero, ray.x * per, ray.y * per, ray.z * per}, from, zero);
+  return next_vertex<F>(s, moment, area, {zero, zero, zero, ray.x * per, ray.y * per, ray.z * per}, from, zero);
 }
 
 /// Three numbers of a path for one of its surfaces: two say along which way it goes on, one whether it does.
@@ -71,10 +69,9 @@ struct Choice {
   F u, v, chance;
 };
 template <class F>
-TOFRAY_FN Choice<F> choose(const BounceView& s, const Pixels& p, int item, int bounce, int sample) {
+TOFRAY_FN Choice<F> choose(const BounceView& s, const Pixels& p, int bounce, int sample) {
   const num::Uint<F> pixel = num::to_uint(num::Int<F>(p.index) + num::lane_index<F>());
-  const num::Random4<F> seed =
-      num::philox<F>(pixel, static_cast<std::uint32_t>(bounce), static_cast<std::uint32_t>(item), of_transport, s.keys);
+  const num::Random4<F> seed = num::philox<F>(pixel, static_cast<std::uint32_t>(bounce), 0, of_transport, s.keys);
   Choice<F> out;
   num::sobol_pair<F>(num::shuffled<F>(static_cast<std::uint32_t>(sample), seed.w[0]), seed.w[1], seed.w[2], out.u, out.v);
   const num::Uint<F> other = num::shuffled<F>(static_cast<std::uint32_t>(sample), seed.w[3]);
@@ -98,8 +95,10 @@ TOFRAY_FN void light_vertex(const Setup& s, int moment, const power::Wanted& wan
   }
   if (s.power.ambient != camera::AmbientLight::directional) return;
   const float* const sun = s.scene.sun(moment);
-  num::Mask<F> dark = trace::blocked_parallel(trace::Uncut{s.scene.sun_still()}, sun, v.at);
-  if (s.scene.moments > 0) dark = dark | trace::blocked_parallel(trace::Uncut{s.scene.sun_moving(moment)}, sun, v.at);
+  flow::Surface<F> p = v.at;  // what is near enough to be itself is a matter of where it is, not of how the light got there
+  p.range = num::sqrt(flow::square_of(p.x, p.y, p.z));
+  num::Mask<F> dark = trace::blocked_parallel(trace::Uncut{s.scene.sun_still()}, sun, p);
+  if (s.scene.moments > 0) dark = dark | trace::blocked_parallel(trace::Uncut{s.scene.sun_moving(moment)}, sun, p);
   light.ambient_rate = light.ambient_rate + power::ambient_rate<F>(s.power, sun, v.at, dark, weight);
 }
 
@@ -130,15 +129,15 @@ TOFRAY_FN Onward<F> leave(const Choice<F>& choice, bool roulette, const Vertex<F
 
 /// One path of each pixel.
 template <class F>
-TOFRAY_FN void follow_path(const Setup& s, const camera::LensView& lens, int item, int moment, const power::Wanted& wanted, const Pixels& p,
-                           const Vertex<F>& first, F vignetting, int sample, flow::Light<F>& light) {
+TOFRAY_FN void follow_path(const Setup& s, int moment, F area, const power::Wanted& wanted, const Pixels& p, const Vertex<F>& first,
+                           F vignetting, int sample, flow::Light<F>& light) {
   const bool uniform = s.power.ambient == camera::AmbientLight::uniform;
   Vertex<F> v = first;
   F weight = F(1.0f);
   for (int b = 1; b <= s.bounces.most + (uniform ? 1 : 0); ++b) {
-    const Onward<F> on = leave<F>(choose<F>(s.bounces, p, item, b, sample), b >= first_roulette, v, weight);
+    const Onward<F> on = leave<F>(choose<F>(s.bounces, p, b, sample), b >= first_roulette, v, weight);
     if (!num::any(on.from.wanted)) return;
-    v = next_vertex<F>(s, moment, lens.pixel_area, on.ray, on.from, v.at.range);
+    v = next_vertex<F>(s, moment, area, on.ray, on.from, v.at.range);
     weight = on.weight;
     const F share = weight * vignetting;
     if (uniform) light.ambient_rate = light.ambient_rate + num::select(v.escaped, share * F(s.power.ambient_rate), F(0.0f));
@@ -158,7 +157,8 @@ TOFRAY_FN int paths_of(const Setup& s) { return (s.bounces.samples + s.subpixel.
 template <class F>
 TOFRAY_FN void bounce_pixels(const Setup& s, const Job& job, int item, const Pixels& p) {
   const camera::LensView& lens = lens_of(s, item);
-  const F vignetting = camera::vignetting<F>(lens, p);
+  const flow::Ray<F> ray = camera::ray<F>(lens, p);
+  const F vignetting = camera::vignetting<F>(lens, p), per = ray.inverse_length, area = F(lens.pixel_area) * per * per * per;
   const int paths = paths_of(s), moments = s.scene.moments > 0 ? s.scene.moments : 1, per_time = moments / job.light.times;
   const float share =
       (s.subpixel.lens != nullptr ? s.subpixel.share[item] : 1.0f) / (static_cast<float>(paths) * static_cast<float>(per_time));
@@ -169,13 +169,13 @@ TOFRAY_FN void bounce_pixels(const Setup& s, const Job& job, int item, const Pix
     power::clear(s.phasors, which, light);
     for (int m = 0; m < per_time; ++m) {
       const int moment = time * per_time + m;
-      const Vertex<F> first = first_vertex<F>(s, lens, moment, p, vignetting);
+      const Vertex<F> first = first_vertex<F>(s, moment, ray, area, vignetting);
       if (!num::any(first.at.found)) continue;
       for (int from = 0; from < paths; from += paths_together) {
         flow::Light<F> part;
         power::clear(s.phasors, which, part);
         for (int i = from; i < from + paths_together && i < paths; ++i)
-          follow_path<F>(s, lens, item, moment, which, p, first, vignetting, i, part);
+          follow_path<F>(s, moment, area, which, p, first, vignetting, item * paths + i, part);
         power::add_light(s.phasors, which, part, light);
       }
     }

@@ -7,9 +7,9 @@
 /// What is done to a frame, step by step, each over all its pixels before the next begins.
 ///
 /// Where one look at the scene gives a pixel's light, a frame goes from rays to depth in one pass. Where a pixel's light is a sum (samples
-/// within the pixel, what the lens scatters), it is gathered in the light image first: its ground truth, which is that of the pixel's middle;
-/// its light, sample by sample; likewise what comes by several surfaces; what is scattered; then raw frames and depth out of the image. Of a scene that stands still the image is good
-/// for the next frame, too.
+/// within the pixel, light that bounces, what the lens scatters), it is gathered in the light image first: its ground truth, which is that of
+/// the pixel's middle; its light, sample by sample; likewise what comes by several surfaces; what is scattered; then raw frames and depth
+/// out of the image. Of a scene that stands still the image is good for the next frame, too.
 namespace tofray::pipeline {
 
 enum class Part : std::int32_t {

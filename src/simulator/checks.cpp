@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "simulator/checks.h"
 
+#include <algorithm>
 #include <set>
 #include <utility>
 
@@ -79,12 +80,16 @@ void check_light_image(const Scene& scene, const Camera& camera, const Simulator
                std::to_string(pixels * n * n) + " in all, at most " + std::to_string(most_rays) + "\n  lower subpixel (--subpixel)",
            ErrorKind::limit);
   const Transport& transport = scene.transport;
-  const std::int64_t surfaces = pixels * transport.samples * transport.bounces, most_surfaces = base::limit::path_surfaces.value;
+  const bool moves = !scene.camera.keyframes.empty() ||
+                     std::any_of(scene.objects.begin(), scene.objects.end(), [](const Object& object) { return scene::moves(object); });
+  const std::int64_t times = moves ? static_cast<std::int64_t>(camera.mode.sequence.size()) * options.exposure_samples : 1;
+  const std::int64_t ways = (transport.samples + n * n - 1) / (n * n) * n * n;
+  const std::int64_t surfaces = pixels * ways * transport.bounces * times, most_surfaces = base::limit::path_surfaces.value;
   if (surfaces > most_surfaces)
     refuse("too many ways of light are to be followed",
-           "got " + std::to_string(transport.samples) + " for each of " + std::to_string(pixels) + " pixels, to " +
-               std::to_string(transport.bounces) + " surfaces each, " + std::to_string(surfaces) + " in all, at most " +
-               std::to_string(most_surfaces) + "\n  lower transport.samples (--samples)",
+           "got " + std::to_string(ways) + " for each of " + std::to_string(pixels) + " pixels, to " + std::to_string(transport.bounces) +
+               " surfaces each" + (times > 1 ? " at each of " + std::to_string(times) + " times" : "") + ", " + std::to_string(surfaces) +
+               " in all, at most " + std::to_string(most_surfaces) + "\n  lower transport.samples (--samples)",
            ErrorKind::limit);
   if (transport.bounces > 0 && camera.power_model == PowerModel::paper_literal)
     refuse("the paper's printed formula knows no light from surface to surface",
