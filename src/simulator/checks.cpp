@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "simulator/checks.h"
 
-#include <algorithm>
 #include <set>
 #include <utility>
 
@@ -14,6 +13,17 @@
 #include "simulator/check.h"
 
 namespace tofray::simulator {
+
+namespace {
+
+/// Objects that move, or that the camera moves past.
+std::int64_t movers_of(const Scene& scene) {
+  std::int64_t movers = 0;
+  for (const Object& object : scene.objects) movers += !scene.camera.keyframes.empty() || scene::moves(object);
+  return movers;
+}
+
+}  // namespace
 
 void refuse(const std::string& what, const std::string& more, ErrorKind kind) { throw Error(kind, "error: " + what + "\n  " + more); }
 
@@ -42,8 +52,7 @@ void check(const SimulatorOptions& options) {
 }
 
 void check_moving_views(const Scene& scene, const Camera& camera, const SimulatorOptions& options) {
-  std::int64_t movers = 0;
-  for (const Object& object : scene.objects) movers += !scene.camera.keyframes.empty() || scene::moves(object);
+  const std::int64_t movers = movers_of(scene);
   const auto raw_frames = static_cast<std::int64_t>(camera.mode.sequence.size()),
              eyes = static_cast<std::int64_t>(camera.illumination.size()) + 2;
   const std::int64_t views = movers * eyes * raw_frames * options.exposure_samples, most = base::limit::moving_views.value;
@@ -80,9 +89,7 @@ void check_light_image(const Scene& scene, const Camera& camera, const Simulator
                std::to_string(pixels * n * n) + " in all, at most " + std::to_string(most_rays) + "\n  lower subpixel (--subpixel)",
            ErrorKind::limit);
   const Transport& transport = scene.transport;
-  const bool moves = !scene.camera.keyframes.empty() ||
-                     std::any_of(scene.objects.begin(), scene.objects.end(), [](const Object& object) { return scene::moves(object); });
-  const std::int64_t times = moves ? static_cast<std::int64_t>(camera.mode.sequence.size()) * options.exposure_samples : 1;
+  const std::int64_t times = movers_of(scene) > 0 ? static_cast<std::int64_t>(camera.mode.sequence.size()) * options.exposure_samples : 1;
   const std::int64_t ways = (transport.samples + n * n - 1) / (n * n) * n * n;
   const std::int64_t surfaces = pixels * ways * transport.bounces * times, most_surfaces = base::limit::path_surfaces.value;
   if (surfaces > most_surfaces)

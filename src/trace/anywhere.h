@@ -6,8 +6,8 @@
 /// Rays that leave from anywhere: the nearest surface, and what is there.
 ///
 /// Nothing flat or convex stands in its own way, but that who is within a closed body always meets it again. So a body that a ray leaves is
-/// known by its facet, not by a distance, and light that leaves a wall beside a corner meets the other one, down to micrometres. Only meshes may
-/// shade themselves: their rays begin a little before the surface.
+/// known by its facet, not by a distance, and light that leaves a wall beside a corner meets the other one, down to micrometres. Only
+/// meshes may shade themselves: their rays begin a little before the surface.
 namespace tofray::trace {
 
 using shape::FreeRay;
