@@ -449,10 +449,10 @@ TEST(bounces, do_not_leak_where_walls_meet) {
       const Vec3 low{-1, -0.7, -0.5}, high{0.8, 0.9, 1.5};
       for (std::size_t k = 0; k < 3; ++k)
         for (const double at : {low[k], high[k]}) {
-          Object side = object(Rectangle{{0, 0, 0}, {2.5, 2.5}});
-          side.rotation = {k == 0 ? Vec3{0, 1, 0} : Vec3{1, 0, 0}, k == 2 ? 0 : pi / 2};
-          side.position = 0.5 * (low + high), side.position[k] = at;
-          scene.objects.push_back(side);
+          Object face = object(Rectangle{{0, 0, 0}, {2.5, 2.5}});
+          face.rotation = {k == 0 ? Vec3{0, 1, 0} : Vec3{1, 0, 0}, k == 2 ? 0 : pi / 2};
+          face.position = 0.5 * (low + high), face.position[k] = at;
+          scene.objects.push_back(face);
         }
     }
     if (kind == 2) {
@@ -484,9 +484,9 @@ TEST(bounces, see_meshes_and_their_pictures_as_they_see_rectangles) {
   const Camera camera = lit_camera(24, 20, 20);
   const auto seen = [&](bool mesh) {
     Scene scene = wall(1, 0.8);
-    Material side{"side", Material::Brdf::lambert, mesh ? 0.8 : 0.4, 0, 1};
-    if (mesh) side.map = std::make_shared<ReflectivityMap>(ReflectivityMap{2, 2, {0.5f, 0.5f, 0.5f, 0.5f}});
-    scene.materials.push_back(side);
+    Material tinted{"side", Material::Brdf::lambert, mesh ? 0.8 : 0.4, 0, 1};
+    if (mesh) tinted.map = std::make_shared<ReflectivityMap>(ReflectivityMap{2, 2, {0.5f, 0.5f, 0.5f, 0.5f}});
+    scene.materials.push_back(tinted);
     if (mesh) {
       TriangleMesh triangles{{{0.4f, -1, -1}, {0.4f, 1, -1}, {0.4f, 1, 1}, {0.4f, -1, 1}}, {{0, 1, 2}, {0, 2, 3}}};
       triangles.texcoords = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
