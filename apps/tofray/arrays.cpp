@@ -25,9 +25,9 @@ Arrays::Arrays(std::vector<files::NamedArray> arrays, std::string where) : where
     const files::NpyArray* array = row.is_image() ? find(row.name) : nullptr;
     if (array == nullptr || array->shape.size() != static_cast<std::size_t>(1 + std::count(row.shape.begin(), row.shape.end(), ',')))
       continue;
-    const bool stack = row.shape.starts_with("[phase");
+    const bool by_phase = row.shape.starts_with("[phase"), stack = by_phase || row.shape.starts_with("[bin");
     if (width_ == 0) height_ = array->shape[stack ? 1 : 0], width_ = array->shape[stack ? 2 : 1];
-    if (stack && phases_ == 0) phases_ = array->shape[0];
+    if (by_phase && phases_ == 0) phases_ = array->shape[0];
   }
   if (const files::NpyArray* lit = find("lit"); phases_ == 0 && lit != nullptr && lit->shape.size() == 1) phases_ = lit->shape[0];
 }

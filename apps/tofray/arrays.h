@@ -45,9 +45,4 @@ Arrays read_arrays(const std::string& path);
 /// A pixel's flags out of the number that a file holds; 0 where it holds none.
 unsigned flag_bits(double number);
 
-/// A report on one pixel, for people or as JSON: surface, light, every raw frame, phases, depth.
-/// @throws Error (bad_input) where the pixel is outside the image
-std::string pixel_text(const Arrays& arrays, int u, int v);
-files::Json pixel_json(const Arrays& arrays, int u, int v);
-
 }  // namespace tofray::app

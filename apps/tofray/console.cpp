@@ -37,6 +37,8 @@ static_assert(std::atomic<bool>::is_always_lock_free);
 
 std::atomic<bool> noting{false};  ///< a StopRequest lives
 std::atomic<int> noted{0};
+std::atomic<std::atomic<bool>*> to_stop{nullptr};  ///< of that StopRequest
+static_assert(std::atomic<std::atomic<bool>*>::is_always_lock_free);
 static_assert(std::atomic<int>::is_always_lock_free);
 
 // Only async-signal-safe calls.
@@ -44,8 +46,8 @@ extern "C" void end_on_signal(int signal) {
   int none = 0;
   if (noting && signal != SIGPIPE && noted.compare_exchange_strong(none, signal)) {
     const int error = errno;  // of a call that the signal came into
-    if (signal == SIGINT && ::isatty(STDERR_FILENO) != 0)
-      write_all(STDERR_FILENO, "\r\x1b[Kfinishing this frame; once more ends at once\n");
+    *to_stop.load() = true;
+    if (signal == SIGINT && ::isatty(STDERR_FILENO) != 0) write_all(STDERR_FILENO, "\r\x1b[Kstopping; once more ends at once\n");
     errno = error;
     return;
   }
@@ -120,7 +122,8 @@ void end_cleanly_on_signals() {
   }
 }
 
-StopRequest::StopRequest() {
+StopRequest::StopRequest(std::atomic<bool>* stop) {
+  to_stop = stop;
   noted = 0;
   noting = true;
 }

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The tofray authors
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include <atomic>
 #include <string_view>
 
 /// Data goes to stdout, talk to stderr.
@@ -49,7 +50,8 @@ void end_cleanly_on_signals();
 /// what it did. The next signal ends the process at once.
 class StopRequest {
  public:
-  StopRequest();
+  /// @param stop  set by the signal: gives up what takes long
+  explicit StopRequest(std::atomic<bool>* stop);
   ~StopRequest();
   StopRequest(const StopRequest&) = delete;
   StopRequest& operator=(const StopRequest&) = delete;

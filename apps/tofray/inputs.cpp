@@ -138,6 +138,36 @@ std::string mesh_warnings(const Scene& scene) {
   return text;
 }
 
+/// Ways of light without light that bounces: what is typed so is refused, what a scene's file says so is told.
+/// @return what to tell
+std::string idle_transport(const Scene& scene, const Options& options) {
+  const auto typed = [&](const char* key) {
+    return std::any_of(options.set.begin(), options.set.end(), [key](const auto& one) { return one.first == key; });
+  };
+  // Who types --bounces 0 compares with and without.
+  if (scene.transport.bounces > 0 || typed("transport.bounces")) return {};
+  const Transport fresh, &is = scene.transport;
+  const std::pair<const char*, bool> said[] = {{"samples", is.samples != fresh.samples},
+                                               {"max_samples", is.max_samples != fresh.max_samples},
+                                               {"path_noise", is.path_noise_m != fresh.path_noise_m},
+                                               {"smooth", is.smooth != fresh.smooth}};
+  for (const auto& [key, differs] : said) {
+    const std::string name = std::string("transport.") + key;
+    if (typed(name.c_str()))
+      throw Error(ErrorKind::bad_input,
+                  fmt::format("error: {} ({}) is of light that bounces, and none does in the scene {}\n  expected "
+                              "--bounces N with it, as in --bounces 4 --samples 64, or neither",
+                              name == "transport.samples" ? "--samples" : "--set", name, base::in_quotes(scene.name)));
+  }
+  for (const auto& [key, differs] : said)
+    if (differs)
+      return fmt::format(
+          "warning: transport.{} is given, but no light bounces: transport.bounces is 0\n  nothing comes of it without bounces, as in "
+          "transport: {{bounces: 4, samples: 64}}\n",
+          key);
+  return {};
+}
+
 }  // namespace
 
 Inputs load_inputs(const std::string& scene, const Options& options) {
@@ -157,6 +187,7 @@ Inputs load_inputs(const std::string& scene, const Options& options) {
     in.scene = scene_of_text(text, scene, options);
     in.files.push_back({"scene", scene, text});
   }
+  in.idle_transport = idle_transport(in.scene, options);
   add_meshes(in.scene, in.files);
   const auto load = [&](const Scene& seen) { return load_camera(seen, {options.mode, {}, options.root}); };
   in.camera = load(in.scene);
@@ -202,7 +233,7 @@ std::string warnings(const Inputs& in) {
   std::string text;
   if (in.scene.objects.empty())
     text += "warning: the scene has no objects: objects is []\n  no pixel gets any light back, and every depth is invalid\n";
-  text += mesh_warnings(in.scene);
+  text += mesh_warnings(in.scene) + in.idle_transport;
   const double now = longest_lit(in.camera), modes = in.mode_integration_time_s;
   if (modes > 0 && now > modes)
     text += fmt::format(

@@ -20,12 +20,13 @@ struct Inputs {
   Camera camera;
   std::vector<results::InputFile> files;    ///< for manifest.json: the scene, a profile of one's own and its tables
   std::vector<files::NamedArray> kept;      ///< of a recording: arrays that are written again as they are
+  std::string idle_transport;               ///< a warning where the scene's file asks for ways of light that nothing follows
   double mode_integration_time_s = 0;       ///< longest lit exposure of the mode itself where camera.integration_time sets another; else 0
   std::optional<results::PoseMatrix> pose;  ///< of a recording; otherwise the scene says it
 };
 
 /// Reads the scene (a file or a built-in name) with --set, and the camera that it asks for with --mode and --root.
-/// @throws Error
+/// @throws Error, also (bad_input) for --samples where no light bounces
 Inputs load_inputs(const std::string& scene, const Options& options);
 
 /// The same from the texts that a manifest keeps; no file is read.
@@ -33,7 +34,8 @@ Inputs load_inputs(const std::string& scene, const Options& options);
 Inputs inputs_of(const results::Manifest& manifest, const Options& options);
 
 /// What is wrong with a scene that can be simulated all the same: no objects, no light, exposures longer than the mode's own, what a mesh's
-/// file has and is not used. One or two lines each, or nothing; each names the key and its value, or the file.
+/// file has and is not used, ways of light without bounces. One or two lines each, or nothing; each names the key and its value,
+/// or the file.
 std::string warnings(const Inputs& in);
 /// … and with a camera alone: no light source, no lit raw frame.
 /// @param before  what stands before the camera's keys: "camera." or nothing

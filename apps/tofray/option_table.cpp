@@ -7,6 +7,7 @@
 
 #include "base/limits.h"
 #include "base/text.h"
+#include "base/units.h"
 #include "commands.h"
 #include "results/array_table.h"
 #include "tofray/error.h"
@@ -42,6 +43,37 @@ void take_frame_rate(Options& o, const std::string& value) {
   if (read.ec != std::errc() || read.ptr != end || !(number >= 1e-4 && number <= 1e5))
     refuse("--fps", value, "frames per second, a number of 0.0001 to 100000");
   o.set.emplace_back("camera.frame_rate", value + " Hz");
+}
+
+/// A length, in metres where no unit is said.
+double length_of(const char* option, const std::string& value, double low, double high) {
+  const base::Quantity length = base::parse_quantity(value, base::Dimension::length);
+  const bool number = length.status == base::Quantity::Status::good || length.status == base::Quantity::Status::bare;
+  if (!number || !(length.value >= low && length.value <= high))
+    refuse(option, value, fmt::format("a length of {} to {} m, as in {} 1.5mm", low, high, option));
+  return length.value;
+}
+
+void take_factor(Options& o, const std::string& value) {
+  double number = 0;
+  const char* const end = value.data() + value.size();
+  const auto read = std::from_chars(value.data(), end, number);
+  if (read.ec != std::errc() || read.ptr != end || !(number > 0 && number <= 1e30))
+    refuse("--factor", value, "electrons per second for 1 of the file's unit, a number above 0, as in --factor 2.5e6");
+  o.per_factor = number;
+}
+
+/// Of `tofray process --transient`.
+std::vector<OptionSpec> transient_specs() {
+  return {
+      {"--transient", 0, "FILE", "begin with light by path length: a .npz of tofray, or a .npy or .npz of another renderer",
+       [](Options& o, const std::string& v) { o.transient = v; }, "<files>"},
+      {"--first", 0, "LENGTH", "with --transient: where the first bin begins, whole path from light to camera (what the file says, or 0)",
+       [](Options& o, const std::string& v) { o.first_m = length_of("--first", v, 0, 1e6); }},
+      {"--width", 0, "LENGTH", "with --transient: how wide a bin is (what the file says)",
+       [](Options& o, const std::string& v) { o.width_m = length_of("--width", v, 1e-6, 1e6); }},
+      {"--factor", 0, "X", "with --transient: electrons per second for 1 of the file's unit (1)", take_factor},
+  };
 }
 
 void take_noise(Options& o, const std::string& value) {
@@ -189,10 +221,16 @@ std::vector<OptionSpec> specs() {
        [](Options& o, const std::string& v) {
          o.set.emplace_back("transport.bounces", std::to_string(whole("--bounces", v, 0, 64, "a whole number of 0 to 64")));
        }},
-      {"--samples", 0, "N", "ways of light that are followed for each pixel, with bounces (as --set transport.samples=N)",
+      {"--samples", 0, "N",
+       "ways of light for each pixel, with --bounces (as --set transport.samples=N); auto: 16 to 1024, until they are enough",
        [](Options& o, const std::string& v) {
-         o.set.emplace_back("transport.samples", std::to_string(whole("--samples", v, 1, 65536, "a whole number of 1 to 65536")));
-       }},
+         const bool goes_on = v == "auto";
+         const std::string first =
+             goes_on ? "16" : std::to_string(whole("--samples", v, 1, 65536, "a whole number of 1 to 65536, or auto"));
+         o.set.emplace_back("transport.samples", first);
+         if (goes_on) o.set.emplace_back("transport.max_samples", "1024");
+       },
+       "auto"},
       {"--fps", 0, "F", "frames per second, in place of the mode's: as --set camera.frame_rate='F Hz'", take_frame_rate},
       {"--frames", 0, "N", "how many frames",
        [](Options& o, const std::string& v) { o.frames = whole("--frames", v, 1, most_frames, "a whole number of 1 to 1000000000"); }},
@@ -225,7 +263,8 @@ std::vector<OptionSpec> specs() {
 const std::vector<OptionSpec>& all_options() {
   static const std::vector<OptionSpec> all = [] {
     std::vector<OptionSpec> joined = specs();
-    for (const std::vector<OptionSpec>& more : {machine_specs(), bench_specs()}) joined.insert(joined.end(), more.begin(), more.end());
+    for (const std::vector<OptionSpec>& more : {machine_specs(), bench_specs(), transient_specs()})
+      joined.insert(joined.end(), more.begin(), more.end());
     return joined;
   }();
   return all;

@@ -35,6 +35,8 @@ struct Options {
   int device = -1;  ///< which GPU; -1: the first one
   pictures::Theme theme = pictures::Theme::dark;
   std::string mode, camera, root, from, output;
+  std::string transient;                               ///< --transient: a file
+  std::optional<double> first_m, width_m, per_factor;  ///< --first, --width, --factor: what that file does not say
   bool json = false, quiet = false, compare = false;
 };
 

@@ -121,7 +121,7 @@ Options parse(const Command& command, const std::vector<std::string>& typed) {
   }
   for (const std::string& word : too_many ? options.words : std::vector<std::string>()) refuse_cut_off(command, arguments, word, false);
   if (too_many) refuse_unknown(command, options.words[command.most_words]);
-  if (options.words.size() < command.least_words && options.from.empty())
+  if (options.words.size() < command.least_words && options.from.empty() && options.transient.empty())
     refuse(command, fmt::format("`tofray {}` needs {}", command.name, command.usage));
   return options;
 }

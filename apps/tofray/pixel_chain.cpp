@@ -74,7 +74,7 @@ void read_raw_frames(const Arrays& arrays, std::size_t pixel, PixelChain& out) {
     one.integration_time_s = arrays.at("integration_time_s", k);
     one.signal_e = arrays.at("gt_signal_e", at);
     one.direct_e = arrays.at("gt_direct_e", at), one.indirect_e = arrays.at("gt_indirect_e", at);
-    one.multipath_m = arrays.at("gt_multipath_m", at);
+    one.multipath_m = arrays.at("gt_multipath_m", at), one.path_noise_m = arrays.at("gt_path_noise_m", at);
     one.tap_a_e = arrays.at("tap_a", at), one.tap_b_e = arrays.at("tap_b", at), one.code_dn = arrays.at("raw", at);
     one.difference_e = step * (one.code_dn - mid);
     // Without codes, or without noise, depth takes the taps without rounding, as far as codes would reach. (fmin and fmax pass over NaN.)
@@ -152,7 +152,7 @@ void read_depth(const Arrays& arrays, std::size_t pixel, PixelChain& out) {
 
 }  // namespace
 
-PixelChain pixel_chain(const Arrays& arrays, int u, int v) {
+void refuse_outside(const Arrays& arrays, int u, int v) {
   if (arrays.width() == 0)
     throw Error(
         ErrorKind::bad_input,
@@ -162,6 +162,10 @@ PixelChain pixel_chain(const Arrays& arrays, int u, int v) {
     throw Error(ErrorKind::bad_input,
                 fmt::format("error: pixel {},{} is outside the image\n  expected a column of 0 to {} and a row of 0 to {}", u, v,
                             arrays.width() - 1, arrays.height() - 1));
+}
+
+PixelChain pixel_chain(const Arrays& arrays, int u, int v) {
+  refuse_outside(arrays, u, v);
   const std::size_t pixel = static_cast<std::size_t>(v) * arrays.width() + static_cast<std::size_t>(u);
   PixelChain chain;
   chain.u = u, chain.v = v;

@@ -16,6 +16,7 @@ struct ChainRawFrame {
   double signal_e = 0;                  ///< ground truth S, both taps
   double direct_e = 0, indirect_e = 0;  ///< by one surface and by several, before the lens scatters them
   double multipath_m = 0;               ///< what that does to the half path                    [theory: eq. 7.8]
+  double path_noise_m = 0;              ///< the standard error of that                         [theory: eq. 7.13]
   double tap_a_e = 0, tap_b_e = 0;
   double code_dn = 0;
   double difference_e = 0;  ///< D_k that depth comes from: out of the code, or unrounded where noise is off
@@ -47,6 +48,9 @@ struct PixelChain {
   std::array<double, 3> point_m{};
   std::vector<std::string> flags;
 };
+
+/// @throws Error (bad_input) where the pixel is outside the image
+void refuse_outside(const Arrays& arrays, int u, int v);
 
 /// @throws Error (bad_input) where the pixel is outside the image
 PixelChain pixel_chain(const Arrays& arrays, int u, int v);

@@ -1,5 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The tofray authors
 // SPDX-License-Identifier: Apache-2.0
+#include "pixel_report.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -57,18 +59,51 @@ std::string raw_text(const PixelChain& p) {
   return text;
 }
 
-/// Only frames whose light bounced know of it: for each modulation frequency once.
-std::string multipath_text(const PixelChain& p) {
-  std::string text;
-  std::vector<double> told;
-  for (const ChainRawFrame& one : p.raw_frames) {
-    if (!one.lit || std::isnan(one.indirect_e) || std::find(told.begin(), told.end(), one.modulation_frequency_hz) != told.end()) continue;
-    told.push_back(one.modulation_frequency_hz);
-    text += fmt::format("multipath   {:.6g} MHz: {} % of the light came by several surfaces, half path {} mm\n",
-                        1e-6 * one.modulation_frequency_hz, shown("{:.4g}", 100 * one.indirect_e / (one.direct_e + one.indirect_e)),
-                        shown("{:+.2f}", 1e3 * one.multipath_m));
+/// The first raw frame of each modulation frequency.
+std::vector<std::size_t> first_of_each_frequency(const PixelChain& p) {
+  std::vector<std::size_t> out;
+  for (std::size_t k = 0; k < p.raw_frames.size(); ++k) {
+    const auto same = [&](std::size_t i) { return p.raw_frames[i].modulation_frequency_hz == p.raw_frames[k].modulation_frequency_hz; };
+    if (p.raw_frames[k].lit && std::none_of(out.begin(), out.end(), same)) out.push_back(k);
+  }
+  return out;
+}
+
+std::string bounce_name(const BounceShare& one) {
+  if (one.last == 0) return "direct";
+  return one.first == one.last ? std::to_string(one.first) : fmt::format("{} to {}", one.first, one.last);
+}
+
+/// What each bounce brings; an element of `bounces` may be several.
+std::string bounces_text(const PixelChain& p, const PixelBounces& bounces) {
+  if (!bounces.unknown.empty()) return fmt::format("bounces     one by one unknown: {}\n", bounces.unknown);
+  if (bounces.list.empty()) return {};
+  const std::vector<std::size_t> frequencies = first_of_each_frequency(p);
+  std::string text = fmt::format("bounces   {:>10}", "light %");
+  for (const std::size_t k : frequencies)
+    text += fmt::format(" {:>16}", fmt::format("mm at {:.6g} MHz", 1e-6 * p.raw_frames[k].modulation_frequency_hz));
+  text += "\n";
+  for (const BounceShare& one : bounces.list) {
+    text += fmt::format("{:>9} {:>10.3f}", bounce_name(one), 100 * one.share);
+    if (one.last > 0)
+      for (const std::size_t k : frequencies) text += fmt::format(" {:>16}", shown("{:+.2f}", 1e3 * one.multipath_m[k]));
+    text += "\n";
   }
   return text;
+}
+
+/// Only frames whose light bounced know of it.
+std::string multipath_text(const PixelChain& p, const PixelBounces& bounces) {
+  std::string text;
+  for (const std::size_t k : first_of_each_frequency(p)) {
+    const ChainRawFrame& one = p.raw_frames[k];
+    if (std::isnan(one.indirect_e)) continue;
+    text += fmt::format("multipath   {:.6g} MHz: {} % of the light came by several surfaces, half path {}{} mm\n",
+                        1e-6 * one.modulation_frequency_hz, shown("{:.4g}", 100 * one.indirect_e / (one.direct_e + one.indirect_e)),
+                        shown("{:+.2f}", 1e3 * one.multipath_m),
+                        std::isfinite(one.path_noise_m) ? fmt::format(" +- {:.2f}", 1e3 * one.path_noise_m) : "");
+  }
+  return text.empty() ? text : text + bounces_text(p, bounces) + "\n";
 }
 
 std::string phase_text(const PixelChain& p) {
@@ -109,7 +144,7 @@ std::string missing_text(const Arrays& arrays) {
   for (const results::ArrayRow& row : results::array_table()) {
     // Of these no dash comes: where they are not known nothing is said.
     if (row.name == "gt_mixed" || row.name == "gt_object_share" || row.name == "gt_direct_e" || row.name == "gt_indirect_e" ||
-        row.name == "gt_multipath_m")
+        row.name == "gt_multipath_m" || row.name == "gt_path_noise_m" || row.name == "gt_path_count" || row.name.starts_with("transient_"))
       continue;
     if (arrays.find(row.name) == nullptr) names += (names.empty() ? "" : ", ") + row.name;
   }
@@ -135,6 +170,7 @@ files::Json raw_json(const PixelChain& p) {
         .set("direct_e", one.direct_e)
         .set("indirect_e", one.indirect_e)
         .set("multipath_m", one.multipath_m)
+        .set("path_noise_m", one.path_noise_m)
         .set("tap_a_e", one.tap_a_e)
         .set("tap_b_e", one.tap_b_e);
     list.push(std::move(json.set("difference_e", one.difference_e).set("raw_dn", one.code_dn)));
@@ -153,18 +189,29 @@ files::Json phases_json(const PixelChain& p) {
   return list;
 }
 
+files::Json bounces_json(const PixelBounces& bounces) {
+  if (!bounces.unknown.empty()) return {};
+  files::Json list = files::Json::array();
+  for (const BounceShare& one : bounces.list) {
+    files::Json json = files::Json::object();
+    json.set("first", one.first).set("last", one.last).set("share", one.share);
+    list.push(std::move(json.set("electrons_e", files::Json::list(one.electrons)).set("multipath_m", files::Json::list(one.multipath_m))));
+  }
+  return list;
+}
+
 }  // namespace
 
-std::string pixel_text(const Arrays& arrays, int u, int v) {
+std::string pixel_text(const Arrays& arrays, const PixelBounces& bounces, int u, int v) {
   const PixelChain p = pixel_chain(arrays, u, v);
   std::string text = fmt::format("{}: pixel {}, {} of {} x {}\n\n", arrays.where(), u, v, arrays.width(), arrays.height());
   if (has_any(arrays, true)) text += surface_text(p, arrays.find("gt_object_id") != nullptr) + "\n";
-  text += raw_text(p) + "\n" + multipath_text(p) + phase_text(p);
+  text += raw_text(p) + "\n" + multipath_text(p, bounces) + phase_text(p);
   if (has_any(arrays, false)) text += "\n" + depth_text(p, arrays);
   return text + missing_text(arrays);
 }
 
-files::Json pixel_json(const Arrays& arrays, int u, int v) {
+files::Json pixel_json(const Arrays& arrays, const PixelBounces& bounces, int u, int v) {
   const PixelChain p = pixel_chain(arrays, u, v);
   files::Json truth = files::Json::object(), depth = files::Json::object();
   truth.set("object_id", p.object)
@@ -182,7 +229,9 @@ files::Json pixel_json(const Arrays& arrays, int u, int v) {
       .set("flags", files::Json::list(p.flags));
   files::Json json = files::Json::object();
   json.set("file", arrays.where()).set("pixel", files::Json::list(std::array{u, v})).set("truth", std::move(truth));
-  return json.set("raw_frames", raw_json(p)).set("phases", phases_json(p)).set("depth", std::move(depth));
+  json.set("raw_frames", raw_json(p)).set("bounces", bounces_json(bounces));
+  if (!bounces.unknown.empty()) json.set("bounces_unknown", bounces.unknown);
+  return json.set("phases", phases_json(p)).set("depth", std::move(depth));
 }
 
 }  // namespace tofray::app

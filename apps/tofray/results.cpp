@@ -9,6 +9,7 @@
 #include "backend/cuda/cuda.h"
 #include "console.h"
 #include "pictures/pictures.h"
+#include "results/array_table.h"
 #include "results/meta.h"
 #include "results/ply.h"
 #include "scene/frozen_scene.h"
@@ -113,6 +114,11 @@ bool FrameFiles::need_truth() const {
                      [&](const std::string& kind) { return kind == "png" || (kind == "npz" && npz.arrays.has_truth()); });
 }
 
+bool FrameFiles::need_transient() const {
+  const auto shown = [&](const char* name) { return npz.arrays.has(*results::find_array(name)); };
+  return std::find(emit.begin(), emit.end(), "npz") != emit.end() && (shown("transient_e_per_s") || shown("transient_lost_e_per_s"));
+}
+
 std::vector<files::FileRecord> write_frame(const files::OutputFolder& folder, const FrameFiles& what, const std::string& suffix,
                                            const Frame& frame, std::string& memory) {
   std::vector<files::FileRecord> files;
@@ -129,7 +135,7 @@ std::vector<files::FileRecord> write_frame(const files::OutputFolder& folder, co
       put("depth", ".png", pictures::depth_png(frame.depth));
       put("amplitude", ".png", pictures::amplitude_png(frame.depth));
       put("raw", ".png", pictures::raw_png(frame.raw, what.theme));
-      put("preview", ".png", pictures::preview_png(frame.depth, frame.truth, caption(frame, in), what.theme));
+      put("preview", ".png", pictures::preview_png(frame.depth, frame.truth, frame.raw, caption(frame, in), what.theme));
     } else {
       put("cloud", ".ply", results::cloud_ply(frame.depth));
     }

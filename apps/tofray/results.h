@@ -53,6 +53,8 @@ struct FrameFiles {
   FrameFiles(const Options& options, const std::vector<std::string>& emit, const Inputs& inputs, const SimulatorOptions& simulated);
   /// Whether a file shows any of the ground truth.
   [[nodiscard]] bool need_truth() const;
+  /// … and histograms of light by path length.
+  [[nodiscard]] bool need_transient() const;
 
   std::vector<std::string> emit;
   results::FrameFileOptions npz;
@@ -84,9 +86,9 @@ void write_manifest(files::OutputFolder& folder, const Options& options, const s
                     const RanOn& machine, const Stopwatch& stopwatch, std::optional<std::uint64_t> interrupted_after = {});
 
 /// How a run went, for --json and for people.
-files::Json summary_json(const files::OutputFolder& folder, const Depth& last, std::uint64_t frames, const RanOn& machine,
+files::Json summary_json(const files::OutputFolder& folder, const Validity& last, std::uint64_t frames, const RanOn& machine,
                          const Stopwatch& stopwatch);
-std::string summary_text(const files::OutputFolder& folder, const Depth& last, std::uint64_t frames, const RanOn& machine,
+std::string summary_text(const files::OutputFolder& folder, const Validity& last, std::uint64_t frames, const RanOn& machine,
                          const Stopwatch& stopwatch);
 
 }  // namespace tofray::app

@@ -73,17 +73,16 @@ void write_manifest(files::OutputFolder& folder, const Options& options, const s
   folder.write("manifest.json", results::manifest_text(manifest));
 }
 
-files::Json summary_json(const files::OutputFolder& folder, const Depth& last, std::uint64_t frames, const RanOn& machine,
+files::Json summary_json(const files::OutputFolder& folder, const Validity& last, std::uint64_t frames, const RanOn& machine,
                          const Stopwatch& stopwatch) {
   files::Json files = files::Json::array(), timings = files::Json::object();
   for (const files::FileRecord& file : folder.files())
     files.push(files::Json::object().set("name", file.name).set("bytes", file.bytes).set("sha256", file.sha256));
   for (const auto& [stage, seconds] : stopwatch.stages()) timings.set(stage, seconds);
-  const Validity pixels = validity(last);
   const Rates rates = rates_of(frames, stopwatch);
   files::Json json = files::Json::object();
   json.set("computed_frames_per_s", rates.computed).set("written_frames_per_s", rates.written);
-  json.set("folder", folder.path().native()).set("frames", frames).set("pixels", pixels.pixels).set("valid_pixels", pixels.valid);
+  json.set("folder", folder.path().native()).set("frames", frames).set("pixels", last.pixels).set("valid_pixels", last.valid);
   return json.set("backend", machine.backend)
       .set("gpu", gpu_of(machine))
       .set("isa", machine.isa)
@@ -92,14 +91,13 @@ files::Json summary_json(const files::OutputFolder& folder, const Depth& last, s
       .set("files", std::move(files));
 }
 
-std::string summary_text(const files::OutputFolder& folder, const Depth& last, std::uint64_t frames, const RanOn& machine,
+std::string summary_text(const files::OutputFolder& folder, const Validity& last, std::uint64_t frames, const RanOn& machine,
                          const Stopwatch& stopwatch) {
   double bytes = 0;
   for (const files::FileRecord& file : folder.files()) bytes += static_cast<double>(file.bytes);
-  const Validity pixels = validity(last);
   std::string text = fmt::format("{} files, {}, in {}\n", folder.files().size(), size_text(bytes), folder.path().native());
-  text += fmt::format("{} of {} pixels {}have a depth{}{}\n", pixels.valid, pixels.pixels, frames > 1 ? "of the last frame " : "",
-                      pixels.reasons.empty() ? "" : "; invalid: ", pixels.reasons);
+  text += fmt::format("{} of {} pixels {}have a depth{}{}\n", last.valid, last.pixels, frames > 1 ? "of the last frame " : "",
+                      last.reasons.empty() ? "" : "; invalid: ", last.reasons);
   const Rates rates = rates_of(frames, stopwatch);
   if (frames > 1)
     text += fmt::format("{} frames in {:.2f} s: {:.1f} frames/s computed, {:.1f} written", frames, stopwatch.total(), rates.computed,

@@ -16,7 +16,7 @@ namespace {
 
 constexpr int least_bar = 90;  // [px] a shorter scale bar has no room for its labels
 
-/// One of the three images: what stands above it and in two lines below, and its values.
+/// One of the images: what stands above it and in two lines below, and its values.
 struct Panel {
   std::string title, note, scale_note;
   std::vector<double> values;
@@ -61,13 +61,11 @@ Panel amplitude_panel(const Depth& depth) {
   return panel;
 }
 
-Panel error_panel(const Depth& depth, const Truth& truth) {
-  Panel panel{"z \xE2\x88\x92 gt_z [mm]", "no pixel to compare", "", {}, {}};
+/// Errors of either sign in millimetres: what there is of them, and a scale with 0 in its middle.
+Panel signed_panel(const char* title, const char* of_what, const std::vector<double>& values_mm) {
+  Panel panel{title, "no pixel to compare", "", values_mm, {}};
   std::vector<double> magnitudes;
-  for (std::size_t i = 0; i < depth.z_m.size(); ++i) {
-    panel.values.push_back(1000.0 * (static_cast<double>(depth.z_m[i]) - static_cast<double>(truth.z_m[i])));
-    magnitudes.push_back(std::abs(panel.values.back()));
-  }
+  for (const double value : values_mm) magnitudes.push_back(std::abs(value));
   // One wrong cycle is metres: where more than 2 % are wrong, the 98th percentile shows them alone.
   const double most = percentile(magnitudes, 0.98, 1), usual = 3 * percentile(magnitudes, 0.68, 1);
   const double bound = std::min(most, usual);
@@ -76,7 +74,7 @@ Panel error_panel(const Depth& depth, const Truth& truth) {
   const auto place = [scale](double e) { return scale.at(e); };
   panel.colors = {scale, [place](double e) { return error_color(2 * place(e) - 1); }, place};
   const auto beyond = static_cast<double>(std::count_if(magnitudes.begin(), magnitudes.end(), [&](double e) { return e > scale.high; }));
-  panel.scale_note = fmt::format("scale: {} percentile of |error|, {:.1f} % beyond", most <= usual ? "98th" : "3 * 68th",
+  panel.scale_note = fmt::format("scale: {} percentile of |{}|, {:.1f} % beyond", most <= usual ? "98th" : "3 * 68th", of_what,
                                  100 * beyond / std::max(1.0, static_cast<double>(finite_count(magnitudes))));
   const double median = percentile(panel.values, 0.5, 0);
   for (std::size_t i = 0; i < magnitudes.size(); ++i) magnitudes[i] = std::abs(panel.values[i] - median);
@@ -84,6 +82,24 @@ Panel error_panel(const Depth& depth, const Truth& truth) {
     panel.note = fmt::format("median {}{:.2f} mm, 68 % within \xC2\xB1{:.2f} mm of it", median < 0 ? "\xE2\x88\x92" : "", std::abs(median),
                              percentile(magnitudes, 0.6827, 0));
   return panel;
+}
+
+Panel error_panel(const Depth& depth, const Truth& truth) {
+  std::vector<double> errors;
+  for (std::size_t i = 0; i < depth.z_m.size(); ++i)
+    errors.push_back(1000.0 * (static_cast<double>(depth.z_m[i]) - static_cast<double>(truth.z_m[i])));
+  return signed_panel("z \xE2\x88\x92 gt_z [mm]", "error", errors);
+}
+
+/// What light of several surfaces does to the half path at the first modulation frequency.
+Panel multipath_panel(const Depth& depth, const Truth& truth, const Raw& raw) {
+  const auto lit = std::find_if(raw.lit.begin(), raw.lit.end(), [](auto one) { return one != 0; });
+  const auto k = static_cast<std::size_t>(lit - raw.lit.begin());
+  std::vector<double> shifts(depth.z_m.size(), std::nan(""));
+  for (std::size_t i = 0; lit != raw.lit.end() && i < shifts.size(); ++i)
+    shifts[i] = 1000.0 * static_cast<double>(truth.multipath_m[k * shifts.size() + i]);
+  const std::string frequency = lit == raw.lit.end() ? "" : fmt::format(", {:.6g} MHz", 1e-6 * raw.modulation_frequency_hz[k]);
+  return signed_panel(("multipath: half path [mm]" + frequency).c_str(), "multipath", shifts);
 }
 
 Panel noise_panel(const Depth& depth) {
@@ -170,6 +186,7 @@ struct Layout {
 Layout layout_of(const Depth& depth, const std::vector<Panel>& panels, const std::string& caption, const std::vector<LegendEntry>& legend,
                  const Look& look) {
   Layout at{};
+  const auto panel_count = static_cast<int>(panels.size());
   at.scale = enlargement(depth.width, 450);
   at.image_width = at.scale * depth.width, at.image_height = at.scale * depth.height;
   // a panel has room for its texts even where the image is narrow
@@ -184,8 +201,8 @@ Layout layout_of(const Depth& depth, const std::vector<Panel>& panels, const std
   at.image_top = at.title_line + 12;
   at.note_line = at.image_top + std::max(at.image_height, least_bar) + 22;
   at.legend_top = at.note_line + 30;
-  at.title = fitting(caption, 3 * at.panel_width + figure::margin);
-  at.width = std::max(figure::margin + 3 * at.panel_width,
+  at.title = fitting(caption, panel_count * at.panel_width + figure::margin);
+  at.width = std::max(figure::margin + panel_count * at.panel_width,
                       static_cast<int>(Canvas::text_width(figure::title_size, at.title)) + 2 * figure::margin);
   at.height = at.legend_top + legend_line * draw_legend(nullptr, 0, at.width, legend, look) + figure::margin - 10;
   return at;
@@ -193,11 +210,12 @@ Layout layout_of(const Depth& depth, const std::vector<Panel>& panels, const std
 
 }  // namespace
 
-std::string preview_png(const Depth& depth, const Truth& truth, const std::string& caption, Theme theme) {
+std::string preview_png(const Depth& depth, const Truth& truth, const Raw& raw, const std::string& caption, Theme theme) {
   const bool with_truth = truth.z_m.size() == depth.z_m.size();
   const Look& look = look_of(theme);
-  const std::vector<Panel> panels = {depth_panel(depth), amplitude_panel(depth),
-                                     with_truth ? error_panel(depth, truth) : noise_panel(depth)};
+  std::vector<Panel> panels = {depth_panel(depth), amplitude_panel(depth), with_truth ? error_panel(depth, truth) : noise_panel(depth)};
+  if (!truth.multipath_m.empty() && truth.multipath_m.size() == raw.lit.size() * depth.z_m.size())
+    panels.push_back(multipath_panel(depth, truth, raw));
   const std::vector<LegendEntry> legend = legend_of(depth, look);
   const Layout at = layout_of(depth, panels, caption, legend, look);
   Canvas canvas(at.width, at.height, look.background);

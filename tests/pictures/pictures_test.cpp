@@ -63,7 +63,7 @@ TEST(depth_png, agrees_with_pillow) {
   const Frame frame = out_test::sample_frame(48, 32);
   out_test::write_file(folder.file("depth.png"), depth_png(frame.depth));
   out_test::write_file(folder.file("z.bin"), {reinterpret_cast<const char*>(frame.depth.z_m.data()), 4 * frame.depth.z_m.size()});
-  out_test::write_file(folder.file("preview.png"), preview_png(frame.depth, frame.truth, "caption"));
+  out_test::write_file(folder.file("preview.png"), preview_png(frame.depth, frame.truth, frame.raw, "caption"));
   EXPECT_EQ(python.run(R"py(
 import sys, numpy as np
 from PIL import Image
@@ -97,19 +97,19 @@ TEST(amplitude_png, square_root_of_the_share_of_the_brightest) {
 
 TEST(pictures, have_the_same_bytes_each_time_and_survive_empty_frames) {
   const Frame frame = out_test::sample_frame(48, 32);
-  EXPECT_EQ(preview_png(frame.depth, frame.truth, "a"), preview_png(frame.depth, frame.truth, "a"));
-  EXPECT_NE(preview_png(frame.depth, frame.truth, "a"), preview_png(frame.depth, frame.truth, "b"));
-  EXPECT_NE(preview_png(frame.depth, {}, "a"), preview_png(frame.depth, frame.truth, "a"));
+  EXPECT_EQ(preview_png(frame.depth, frame.truth, frame.raw, "a"), preview_png(frame.depth, frame.truth, frame.raw, "a"));
+  EXPECT_NE(preview_png(frame.depth, frame.truth, frame.raw, "a"), preview_png(frame.depth, frame.truth, frame.raw, "b"));
+  EXPECT_NE(preview_png(frame.depth, {}, frame.raw, "a"), preview_png(frame.depth, frame.truth, frame.raw, "a"));
   Frame dark = frame;
   for (auto* map : {&dark.depth.z_m, &dark.depth.noise_m}) map->assign(map->size(), out_test::nan_f);
   dark.depth.amplitude_e.assign(dark.depth.amplitude_e.size(), 0.F);
-  EXPECT_GT(read_back(preview_png(dark.depth, dark.truth, "")).width, 1000U);
-  EXPECT_GT(read_back(preview_png(dark.depth, {}, "")).width, 1000U);
+  EXPECT_GT(read_back(preview_png(dark.depth, dark.truth, dark.raw, "")).width, 1000U);
+  EXPECT_GT(read_back(preview_png(dark.depth, {}, dark.raw, "")).width, 1000U);
   // taps only, one pixel only
   Frame one = out_test::sample_frame(1, 1);
   one.raw.raw.clear();
   EXPECT_GT(read_back(raw_png(one.raw)).height, 3U);
-  EXPECT_GT(read_back(preview_png(one.depth, one.truth, "")).width, 3U);
+  EXPECT_GT(read_back(preview_png(one.depth, one.truth, one.raw, "")).width, 3U);
 }
 
 TEST(preview, shows_each_image_s_pixels_as_squares_in_the_map_s_colour) {
@@ -117,7 +117,7 @@ TEST(preview, shows_each_image_s_pixels_as_squares_in_the_map_s_colour) {
   Frame frame = out_test::sample_frame(64, 48);
   for (std::size_t i = 0; i < frame.depth.z_m.size(); ++i) frame.depth.z_m[i] = i % 64 < 16 ? 1.F : i % 64 < 32 ? out_test::nan_f : 2.F;
   std::fill(frame.depth.flags.begin(), frame.depth.flags.end(), std::uint16_t{0});  // of no reason that a legend would name
-  const ReadBack back = read_back(preview_png(frame.depth, frame.truth, ""));
+  const ReadBack back = read_back(preview_png(frame.depth, frame.truth, frame.raw, ""));
   std::size_t near = 0, far = 0, invalid = 0;
   for (std::size_t i = 0; i + 2 < back.bytes.size(); i += 3) {
     const Rgb color{back.bytes[i], back.bytes[i + 1], back.bytes[i + 2]};

@@ -44,7 +44,7 @@ TEST(preview, wrong_cycles_do_not_set_the_scale_of_errors) {
     const std::size_t good = static_cast<std::size_t>((1 - share) * 5000) * 25;
     const std::size_t expected = share < 0.02 ? 0 : good;  // of 1 % the 98th percentile tells nothing: its end is 2 mm
     const Frame frame = with_wrong_cycles(share);
-    EXPECT_NEAR(static_cast<double>(count_of(preview_png(frame.depth, frame.truth, ""), error_color(2.0 / 6))),
+    EXPECT_NEAR(static_cast<double>(count_of(preview_png(frame.depth, frame.truth, frame.raw, ""), error_color(2.0 / 6))),
                 static_cast<double>(expected), 60);
   }
 }
@@ -63,20 +63,44 @@ TEST(preview, invalid_pixels_have_the_colour_of_their_reason) {
   frame.truth = {};
   frame.depth.noise_m.assign(frame.depth.noise_m.size(), 0.001F);
   for (const Theme theme : {Theme::dark, Theme::light}) {
-    std::string legend = preview_png(frame.depth, frame.truth, "", theme);
+    std::string legend = preview_png(frame.depth, frame.truth, frame.raw, "", theme);
     const Look& look = look_of(theme);
     // 100 pixels of each reason, 5 times enlarged, and the legend's square of 11 x 11 with what letters' edges add
     for (const Rgb reason : look.reasons)
       EXPECT_NEAR(static_cast<double>(count_of(legend, reason)), 100 * 25 + 121, 60) << static_cast<int>(reason.red);
     Depth valid = frame.depth;
     std::fill(valid.flags.begin(), valid.flags.end(), std::uint16_t{0});
-    EXPECT_LT(read_back(preview_png(valid, {}, "", theme)).height, read_back(legend).height);  // no legend where nothing is to tell
+    EXPECT_LT(read_back(preview_png(valid, {}, {}, "", theme)).height, read_back(legend).height);  // no legend where nothing is to tell
   }
+}
+
+TEST(preview, shows_multipath_beside_the_error_where_light_bounced) {
+  Frame frame = with_wrong_cycles(0);
+  frame.depth.z_m = frame.truth.z_m;  // no other error
+  frame.truth.multipath_m.clear();
+  const std::size_t pixels = frame.depth.z_m.size(), raw_frames = frame.raw.lit.size();
+  const auto width = read_back(preview_png(frame.depth, frame.truth, frame.raw, "")).width;
+  frame.truth.multipath_m.assign(pixels * raw_frames, out_test::nan_f);
+  // Of the first lit raw frame: +10 mm at the left, -5 mm at the right. Others, of another modulation frequency, do not count.
+  const auto first = static_cast<std::size_t>(std::find(frame.raw.lit.begin(), frame.raw.lit.end(), 1) - frame.raw.lit.begin());
+  ASSERT_GT(first, 0U);
+  for (std::size_t k = first; k < raw_frames; ++k)
+    for (std::size_t i = 0; i < pixels; ++i) frame.truth.multipath_m[k * pixels + i] = k > first ? 0.1F : i % 100 < 50 ? 0.01F : -0.005F;
+  const std::string with = preview_png(frame.depth, frame.truth, frame.raw, "");
+  EXPECT_EQ(3 * (read_back(with).width - figure::margin), 4 * (width - figure::margin));
+  // 5 is the enlargement, and 10 mm the scale's end. (The bar shows its colours, too.)
+  EXPECT_NEAR(static_cast<double>(count_of(with, error_color(1))), 2500 * 25, 200);
+  EXPECT_NEAR(static_cast<double>(count_of(with, error_color(-0.5))), 2500 * 25, 200);
+  // Without any light nothing is known, and of another sequence nothing is shown.
+  frame.raw.lit.assign(raw_frames, 0);
+  EXPECT_EQ(read_back(preview_png(frame.depth, frame.truth, frame.raw, "")).width, read_back(with).width);
+  frame.raw.lit.pop_back();
+  EXPECT_EQ(read_back(preview_png(frame.depth, frame.truth, frame.raw, "")).width, width);
 }
 
 TEST(preview, light_theme_is_dark_on_white) {
   const Frame frame = out_test::sample_frame(48, 32);
-  for (const std::string& png : {preview_png(frame.depth, frame.truth, "x", Theme::light), raw_png(frame.raw, Theme::light)}) {
+  for (const std::string& png : {preview_png(frame.depth, frame.truth, frame.raw, "x", Theme::light), raw_png(frame.raw, Theme::light)}) {
     const ReadBack back = read_back(png);
     EXPECT_EQ(back.bytes[0], 255);
     EXPECT_EQ(count_of(png, figure::background), 0U);
@@ -99,7 +123,7 @@ TEST(raw_sheet, sunlight_in_the_unlit_frame_does_not_blacken_the_lit_ones) {
 TEST(pictures, of_any_shape_have_room_for_their_scale_bars) {
   for (const auto& [width, height] : {std::pair{16, 12}, {4, 4}, {512, 2}, {3, 200}}) {
     const Frame frame = out_test::sample_frame(width, height);
-    EXPECT_GT(read_back(preview_png(frame.depth, frame.truth, "x")).height, 190U) << width;
+    EXPECT_GT(read_back(preview_png(frame.depth, frame.truth, frame.raw, "x")).height, 190U) << width;
     EXPECT_GT(read_back(raw_png(frame.raw)).height, 130U) << width;
   }
 }

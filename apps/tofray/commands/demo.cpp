@@ -52,7 +52,7 @@ int run_demo(const Options& options) {
   const RanOn machine = simulator.ran_on();
   write_manifest(folder, options, in.files, machine, stopwatch);
   if (options.json) {
-    print(files::json_text(summary_json(folder, frame.depth, 1, machine, stopwatch), 2) + "\n");
+    print(files::json_text(summary_json(folder, validity(frame.depth), 1, machine, stopwatch), 2) + "\n");
   } else {
     const auto colors = stdout_has_colors() ? pictures::TerminalColors::full : pictures::TerminalColors::none;
     if (!options.quiet) print_picture(pictures::terminal_picture(frame.depth, std::min(terminal_columns(), 100), colors) + "\n");

@@ -14,6 +14,9 @@
 #include "console.h"
 #include "files/npy.h"
 #include "input_kind.h"
+#include "pixel_chain.h"
+#include "pixel_report.h"
+#include "progress.h"
 #include "results.h"
 #include "results/array_table.h"
 #include "results/meta.h"
@@ -183,8 +186,20 @@ std::string origin(const Arrays& arrays) {
                      word(meta, "frame"), word(meta, "seed"), word(meta, "noise"));
 }
 
-/// The file's arrays; those of a scene are simulated now.
-Arrays arrays_of(const Options& options) {
+Frame first_frame(const Inputs& in, SimulatorOptions wanted) {
+  FrameProgress now;
+  wanted.progress = &now;
+  const Progress progress(1, "frame", false, &now);
+  return Simulator(in.scene, in.camera, wanted).frame(0);
+}
+
+/// A file's arrays; those of a scene are simulated now.
+struct Inspected {
+  Arrays arrays;
+  FrameOrigin origin;  ///< only of a pixel is it asked for
+};
+
+Inspected inspected(const Options& options) {
   const std::string path = frame_in(options.words[0]);
   if (holds_arrays(path)) {
     if (!options.set.empty() || options.seed || options.noise || !options.mode.empty())
@@ -192,25 +207,33 @@ Arrays arrays_of(const Options& options) {
           ErrorKind::bad_input,
           path +
               ": error: this file is finished, its settings cannot be changed\n  expected a scene with --set, --mode, --seed and --noise");
-    return read_arrays(path);
+    return {read_arrays(path), {}};
   }
-  const Inputs in = load_inputs(path, options);
+  FrameOrigin origin;
+  const Inputs& in = origin.in.emplace(load_inputs(path, options));
   say(warnings(in));
-  const SimulatorOptions wanted = simulator_options(options);
-  const Frame frame = Simulator(in.scene, in.camera, wanted).frame(0);
+  const SimulatorOptions& wanted = origin.wanted = simulator_options(options);
+  const Frame frame = first_frame(in, wanted);
   const std::string meta = results::frame_meta(in.scene, in.camera, wanted, 0);
-  return Arrays(files::parse_npz(results::frame_npz_bytes(frame, in.camera, camera_pose(in.scene, frame.truth.time_s), meta), path), path);
+  Arrays arrays(files::parse_npz(results::frame_npz_bytes(frame, in.camera, camera_pose(in.scene, frame.truth.time_s), meta), path), path);
+  return {std::move(arrays), std::move(origin)};
+}
+
+void inspect_pixel(const Inspected& of, const Options& options) {
+  const auto [u, v] = *options.pixel;
+  const Arrays& arrays = of.arrays;
+  refuse_outside(arrays, u, v);
+  const bool knows = of.origin.in.has_value() || arrays.find("gt_indirect_e") == nullptr;
+  const PixelBounces bounces = pixel_bounces(arrays, knows ? of.origin : origin_of_file(arrays.where(), options), u, v);
+  print(options.json ? files::json_text(pixel_json(arrays, bounces, u, v), 2) + "\n" : pixel_text(arrays, bounces, u, v));
 }
 
 }  // namespace
 
 int run_inspect(const Options& options) {
-  const Arrays arrays = arrays_of(options);
-  if (options.pixel) {
-    const auto [u, v] = *options.pixel;
-    print(options.json ? files::json_text(pixel_json(arrays, u, v), 2) + "\n" : pixel_text(arrays, u, v));
-    return 0;
-  }
+  const Inspected of = inspected(options);
+  const Arrays& arrays = of.arrays;
+  if (options.pixel) return inspect_pixel(of, options), 0;
   if (options.json) {
     files::Json json = files::Json::object();
     json.set("file", arrays.where())

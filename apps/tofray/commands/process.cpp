@@ -19,6 +19,7 @@
 #include "results/meta.h"
 #include "results/meta_camera.h"
 #include "results/raw_file.h"
+#include "results/transient_file.h"
 #include "tofray/error.h"
 
 namespace tofray::app {
@@ -93,43 +94,37 @@ std::vector<float> true_z(const std::vector<files::NamedArray>& arrays, const De
   return z;
 }
 
-}  // namespace
+/// The file that is processed, and what it says of its camera.
+struct Source {
+  std::string path, bytes, meta;
+};
 
-int run_process(const Options& options) {
-  Stopwatch stopwatch;
-  const std::string& path = options.words[0];
-  const std::string bytes = files::read_bytes(path, files::max_data_file_bytes);
+/// @param role  of the file, for the manifest
+Inputs inputs_of(const Options& options, const Source& from, const char* role) {
   Inputs in;
-  const std::string meta = meta_of(bytes, path);
-  in.scene.name = std::filesystem::path(path).stem().native();
-  in.camera = camera_for(options, meta, path);
-  in.files.push_back({"raw", path, {}});
+  in.scene.name = std::filesystem::path(from.path).stem().native();
+  in.camera = camera_for(options, from.meta, from.path);
+  in.files.push_back({role, from.path, {}});
   if (!options.camera.empty() && !in.camera.source.starts_with("<"))
     in.files.push_back({"profile", in.camera.source, files::read_text(in.camera.source)});
-  Frame frame;
-  frame.raw = results::parse_raw_npz(bytes, path);
-  if (frame.raw.start_time_s.empty())
-    frame.raw.start_time_s = camera::raw_frame_starts_s(frame.raw.integration_time_s, in.camera.readout_time_s);
-  SimulatorOptions wanted = simulator_options(options);
-  if (!meta.empty() && results::is_noise_free(files::parse_json(meta, path + ": meta"))) {
-    wanted.noise = Noise::off;
-    if (!frame.raw.tap_a.empty()) frame.raw.raw.clear();
-  }
-  in.kept = arrays_to_keep(bytes, path);
+  if (!from.path.ends_with(".npy")) in.kept = arrays_to_keep(from.bytes, from.path);
   in.pose = pose_of(in.kept);
+  if (const auto bins = results::transient_of_meta(from.meta, from.path)) in.scene.transport.transient = *bins;  // of what is kept
   say(in.camera.illumination.empty() ? "warning: the camera has no light source: camera.illumination is []\n  every depth is invalid\n"
                                      : "");
-  const FrameFiles what(options, {"npz", "png", "ply"}, in, wanted);
-  stopwatch.lap("prepare");
-  RanOn machine;
-  frame.depth = process(frame.raw, in.camera, wanted, &machine);
+  return in;
+}
+
+/// Files, manifest and summary of a frame that is done.
+int write_results(const Options& options, const Inputs& in, const FrameFiles& what, const Frame& frame, const RanOn& machine,
+                  Stopwatch& stopwatch) {
   say_fallback(options, machine);
-  frame.truth.z_m = true_z(in.kept, frame.depth);
   stopwatch.lap("process");
   if (const std::vector<std::string> missing = results::missing_arrays(frame, what.npz); !missing.empty())
     throw Error(ErrorKind::bad_input,
-                fmt::format("{}: error: --arrays asks for {}, and there {}\n  depth is computed, all else has to be in the file", path,
-                            base::listed(missing, "and"), missing.size() == 1 ? "is none" : "are none"));
+                fmt::format("{}: error: --arrays asks for {}, and there {}\n  {}, all else has to be in the file", in.files[0].name,
+                            base::listed(missing, "and"), missing.size() == 1 ? "is none" : "are none",
+                            options.transient.empty() ? "depth is computed" : "raw frames and depth are computed"));
 
   files::OutputFolder folder(options.output.empty() ? in.scene.name + "-depth" : options.output);
   write_frame(folder, what, frame);
@@ -137,10 +132,63 @@ int run_process(const Options& options) {
   write_manifest(folder, options, in.files, machine, stopwatch);
   if (validity(frame.depth).valid == 0) say(fmt::format("warning: no pixel has a valid depth: {}\n", validity(frame.depth).reasons));
   if (options.json)
-    print(files::json_text(summary_json(folder, frame.depth, 1, machine, stopwatch), 2) + "\n");
+    print(files::json_text(summary_json(folder, validity(frame.depth), 1, machine, stopwatch), 2) + "\n");
   else
-    Talk(options.quiet)(summary_text(folder, frame.depth, 1, machine, stopwatch));
+    Talk(options.quiet)(summary_text(folder, validity(frame.depth), 1, machine, stopwatch));
   return 0;
 }
+
+/// Raw frames to depth.
+int process_raw(const Options& options) {
+  if (options.first_m || options.width_m || options.per_factor || options.seed || options.noise)
+    throw Error(ErrorKind::bad_input,
+                "error: --first, --width, --factor, --seed and --noise go with --transient\n  raw frames have their noise already");
+  Stopwatch stopwatch;
+  Source from{options.words[0], files::read_bytes(options.words[0], files::max_data_file_bytes), ""};
+  from.meta = meta_of(from.bytes, from.path);
+  const Inputs in = inputs_of(options, from, "raw");
+  Frame frame;
+  frame.raw = results::parse_raw_npz(from.bytes, from.path);
+  if (frame.raw.start_time_s.empty())
+    frame.raw.start_time_s = camera::raw_frame_starts_s(frame.raw.integration_time_s, in.camera.readout_time_s);
+  SimulatorOptions wanted = simulator_options(options);
+  if (!from.meta.empty() && results::is_noise_free(files::parse_json(from.meta, from.path + ": meta"))) {
+    wanted.noise = Noise::off;
+    if (!frame.raw.tap_a.empty()) frame.raw.raw.clear();
+  }
+  const FrameFiles what(options, {"npz", "png", "ply"}, in, wanted);
+  stopwatch.lap("prepare");
+  RanOn machine;
+  frame.depth = process(frame.raw, in.camera, wanted, &machine);
+  frame.truth.z_m = true_z(in.kept, frame.depth);
+  return write_results(options, in, what, frame, machine, stopwatch);
+}
+
+/// Light by path length to raw frames and depth.
+int process_transient(const Options& options) {
+  if (!options.words.empty())
+    throw Error(ErrorKind::bad_input,
+                fmt::format("error: --transient takes the place of {}\n  expected one file, of light or of raw frames",
+                            base::in_quotes(options.words[0])));
+  Stopwatch stopwatch;
+  Source from{options.transient, files::read_bytes(options.transient, files::max_data_file_bytes), ""};
+  if (!from.path.ends_with(".npy")) from.meta = meta_of(from.bytes, from.path);
+  Inputs in = inputs_of(options, from, "transient");
+  SimulatorOptions wanted = simulator_options(options);
+  wanted.truth = false;  // what the file has of it is kept
+  const Transient light =
+      results::parse_transient(from.bytes, from.path, in.camera, {options.first_m, options.width_m, options.per_factor.value_or(1)});
+  in.scene.transport.transient = {light.bins, light.first_m, light.bin_width_m};
+  const FrameFiles what(options, {"npz", "png", "ply"}, in, wanted);
+  Simulator simulator({}, in.camera, wanted);
+  stopwatch.lap("prepare");
+  Frame frame = simulator.frame(0, light);
+  frame.truth.z_m = true_z(in.kept, frame.depth);
+  return write_results(options, in, what, frame, simulator.ran_on(), stopwatch);
+}
+
+}  // namespace
+
+int run_process(const Options& options) { return options.transient.empty() ? process_raw(options) : process_transient(options); }
 
 }  // namespace tofray::app

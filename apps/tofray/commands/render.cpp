@@ -12,6 +12,7 @@
 #include "console.h"
 #include "frame_writer.h"
 #include "progress.h"
+#include "recall.h"
 #include "results.h"
 #include "tofray/error.h"
 
@@ -19,30 +20,18 @@ namespace tofray::app {
 
 namespace {
 
-/// What a run was told, put back from its manifest. What changes no bytes (threads, folder) stays as it was typed now.
-Options recalled(const Options& now, const results::Manifest& manifest) {
-  Options options = now;
+void refuse_other_settings(const Options& now) {
   if (!now.words.empty() || !now.set.empty() || !now.mode.empty() || now.seed || now.noise || now.exposure_samples || now.subpixel ||
       now.emit || !now.arrays.empty() || now.compress || now.frames || now.first_frame != 0)
     throw Error(ErrorKind::bad_input,
                 "error: --from makes the same bytes again and takes no other scene and no other settings\n"
                 "  with it there may be -o, --threads, --backend, --device, --json and --quiet");
-  options.set = manifest.set;
-  options.seed = manifest.seed;
-  for (const auto& [key, value] : manifest.options) {
-    if (key == "mode")
-      options.mode = value;
-    else if (key == "noise" || key == "emit" || key == "arrays" || key == "compress" || key == "theme" || key == "frames" ||
-             key == "first-frame" || key == "exposure-samples" || key == "subpixel")
-      option("--" + key).take(options, value);
-    else
-      throw Error(ErrorKind::bad_input,
-                  fmt::format("{}: error: unknown option {}\n  a newer tofray wrote this", now.from, base::in_quotes(key)));
-  }
+}
+
+void say_other_version(const results::Manifest& manifest) {
   if (manifest.tofray_version != base::version())
     say(fmt::format("warning: tofray {} wrote this manifest, this is {}\n  the bytes may differ\n", manifest.tofray_version,
                     base::version()));
-  return options;
 }
 
 /// The files whose bytes are not those of the manifest.
@@ -83,41 +72,64 @@ std::vector<std::string> kinds_of(const Options& options, std::uint64_t frames) 
 }
 
 struct Rendered {
-  Depth last;                     ///< of the last frame
+  Validity last;                  ///< of the last frame
   std::uint64_t frames = 0;       ///< how many are complete
   std::uint64_t all_invalid = 0;  ///< frames without any valid pixel
+  double light = 0, lost = 0;     ///< of all histograms by path length, and what lies beyond their bins
 };
 
-/// @param stop  asked for between two frames; none: a signal ends the process at once
+void add_lost(const Truth& truth, Rendered& out) {
+  double lost = 0;
+  for (const float light : truth.transient_lost_e_per_s) lost += static_cast<double>(light);
+  out.lost += lost, out.light += lost;
+  for (const float light : truth.transient_e_per_s) out.light += static_cast<double>(light);
+}
+
+/// The scene as its frames need it: without histograms where no file shows them.
+Scene needed(const Scene& scene, const FrameFiles& what) {
+  Scene out = scene;
+  if (!what.need_transient()) out.transport.transient = {};
+  return out;
+}
+
+/// @param now   how far the frame under way is
+/// @param stop  gives the frame under way up; none: a signal ends the process at once
 void render_frames(Simulator& simulator, const Options& options, const FrameFiles& what, files::OutputFolder& folder, Stopwatch& stopwatch,
-                   const StopRequest* stop, Rendered& out) {
+                   FrameProgress& now, const StopRequest* stop, Rendered& out) {
   const std::uint64_t frames = options.frames.value_or(1), first = options.first_frame;
   // One frame has no number, unless it was asked for by number.
   const bool numbered = options.frames.has_value() || first > 0;
-  Progress progress(frames, "frames", options.quiet);
+  Progress progress(frames, "frames", options.quiet, &now);
   FrameWriter writer(folder, what, frames);
-  const Frame* last = nullptr;
   for (std::uint64_t i = first; i < first + frames; ++i) {
     Frame& frame = writer.next();
     stopwatch.lap("write");
     simulator.frame(i, frame);
     stopwatch.lap("simulate");
-    if (validity(frame.depth).valid == 0) ++out.all_invalid;
+    if (stop != nullptr && stop->signal() != 0) break;
+    out.last = validity(frame.depth);
+    if (out.last.valid == 0) ++out.all_invalid;
+    add_lost(frame.truth, out);
     writer.write(numbered ? suffix_of(i, first + frames - 1) : "");
-    last = &frame;
     ++out.frames;
     progress.step();
-    if (stop != nullptr && stop->signal() != 0) break;
   }
   writer.finish();
   stopwatch.lap("write");
-  out.last = last->depth;
+}
+
+void warn_of_lost(const Rendered& out) {
+  if (!(out.lost > 0)) return;
+  say(
+      fmt::format("warning: {:.3g} % of the light took paths that are shorter or longer than all bins of transient_e_per_s\n"
+                  "  transient_lost_e_per_s has it; transport.transient.first, bins and width say which lengths there are\n",
+                  100 * out.lost / out.light));
 }
 
 void warn_of_invalid(const Rendered& out) {
   if (out.all_invalid == 0) return;
   say(fmt::format("warning: no pixel has a valid depth in {} of {} frame{}\n  in the last frame: {}\n", out.all_invalid, out.frames,
-                  out.frames == 1 ? "" : "s", validity(out.last).reasons));
+                  out.frames == 1 ? "" : "s", out.last.reasons));
 }
 
 /// What lies there after an interruption, and how to make the rest with the same names and kinds of files.
@@ -137,7 +149,11 @@ void say_interrupted(const Options& options, const files::OutputFolder& folder, 
 int run_render(const Options& typed) {
   Stopwatch stopwatch;
   results::Manifest before;
-  if (!typed.from.empty()) before = results::read_manifest(typed.from);
+  if (!typed.from.empty()) {
+    before = results::read_manifest(typed.from);
+    refuse_other_settings(typed);
+    say_other_version(before);
+  }
   const Options options = typed.from.empty() ? typed : recalled(typed, before);
   const Inputs in = typed.from.empty() ? load_inputs(options.words[0], options) : inputs_of(before, options);
   say(warnings(in));
@@ -145,19 +161,26 @@ int run_render(const Options& typed) {
   SimulatorOptions wanted = simulator_options(options);
   const FrameFiles what(options, kinds_of(options, frames), in, wanted);
   wanted.truth = what.need_truth();
-  Simulator simulator(in.scene, in.camera, wanted);
+  FrameProgress now;
+  wanted.progress = &now;
+  Simulator simulator(needed(in.scene, what), in.camera, wanted);
   say_fallback(options, simulator.ran_on());
   files::OutputFolder folder(options.output.empty() ? in.scene.name : options.output);
   stopwatch.lap("prepare");
 
   Rendered out;
   std::optional<StopRequest> stop;
-  if (frames > 1) stop.emplace();
-  render_frames(simulator, options, what, folder, stopwatch, stop ? &*stop : nullptr, out);
+  if (frames > 1) stop.emplace(&now.stop);
+  render_frames(simulator, options, what, folder, stopwatch, now, stop ? &*stop : nullptr, out);
+  if (out.frames == 0) {
+    say("interrupted before the first frame was complete\n");
+    return 128 + stop->signal();
+  }
   const RanOn machine = simulator.ran_on();
   const bool interrupted = out.frames < frames;
   write_manifest(folder, options, in.files, machine, stopwatch, interrupted ? std::optional(out.frames) : std::nullopt);
   warn_of_invalid(out);
+  warn_of_lost(out);
   if (interrupted) say_interrupted(options, folder, out.frames);
 
   if (options.json)
