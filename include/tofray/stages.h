@@ -52,6 +52,21 @@ struct PixelLight {
   std::vector<float> ambient_e_per_s;  ///< [moment][height][width] electrons of both taps together, 0…1e20; empty: none
 };
 
+/// The light that each pixel receives by the length of its path, for stage 3 (raw): as Truth::transient_e_per_s has it, or another renderer.
+///
+/// Bin k is centred at ℓ_k = first_m + (k + ½)·bin_width_m, and all of its light counts as of that length:
+///
+///     S = Σ_k S_k,   Z_jm = a_m·e^{iψ_m}·Σ_k S_k·e^{i m 2π f_j n ℓ_k/c}                            [theory: eq. 7.11]
+///
+/// All of the camera's lights have one waveform (a_m, ψ_m), since a histogram does not say whose light is whose.
+struct Transient {
+  int width = 0, height = 0, bins = 0;
+  double first_m = 0;                  ///< 0…1e6: where the first bin begins. Whole paths: from the light by all surfaces to the camera
+  double bin_width_m = 0;              ///< 1e-6…1e6
+  std::vector<float> e_per_s;          ///< [bin][height][width] S_k, electrons per second of both taps together, 0…1e20
+  std::vector<float> ambient_e_per_s;  ///< [height][width] likewise of light that has no modulation, 0…1e20; empty: none
+};
+
 /// Which way each pixel looks, for renderers of one's own: x/z and y/z of its ray in the camera frame, the lens undistorted (theory 4.3).
 /// @return [height][width][2]; NaN where the lens model has no inverse
 /// @throws Error as a Simulator's constructor does for this camera: all of it has to be good, not the lens alone

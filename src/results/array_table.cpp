@@ -23,6 +23,7 @@ const char* shape_of(ArrayShape shape) {
     case ArrayShape::pairs: return "[height, width, 2]";
     case ArrayShape::vectors: return "[height, width, 3]";
     case ArrayShape::stack: return "[phase, height, width]";
+    case ArrayShape::bins: return "[bin, height, width]";
     case ArrayShape::list: return "[phase]";
   }
   return "";
@@ -105,7 +106,7 @@ bool ArrayChoice::has(const ArrayRow& row) const {
 }
 
 bool ArrayChoice::has_truth() const {
-  return all_ || std::any_of(names_.begin(), names_.end(), [](const std::string& name) { return name.starts_with("gt_"); });
+  return all_ || std::any_of(names_.begin(), names_.end(), [](const std::string& name) { return find_array(name)->is_truth(); });
 }
 
 std::string array_reference() {
@@ -117,7 +118,8 @@ std::string array_reference() {
       "chooses. What has no pixels (`[phase]`, `[3, 3]` …) is small and always there, and so is `meta`, a text (JSON): version, seed,\n"
       "noise, number of the frame, units, and the camera and the scene with all their numbers.\n\n"
       "Arrays are row-major; invalid values are NaN in floats and 0 in integers. Camera frame: x right, y down, z forward. What begins\n"
-      "with `gt_` is ground truth at the middle of the middle raw frame; own light is the camera's. In C++ the same arrays are members of\n"
+      "with `gt_` or `transient_` is ground truth at the middle of the middle raw frame; own light is the camera's. In C++ the same arrays "
+      "are members of\n"
       "`Frame::raw`, `Frame::depth` and `Frame::truth` (there without `gt_`).\n\n"
       "| array | type | shape | unit | from | what it is |\n|---|---|---|---|---|---|\n";
   for (const ArrayRow& row : array_table())

@@ -18,7 +18,7 @@ struct ArrayRow {
   std::string unit;   ///< "W/(m2 sr)"; "1": none
   std::string from;   ///< what it comes from: a stage of the pipeline, or "scene", "camera"
   std::string what;   ///< one sentence
-  [[nodiscard]] bool is_truth() const { return name.starts_with("gt_"); }
+  [[nodiscard]] bool is_truth() const { return name.starts_with("gt_") || name.starts_with("transient_"); }
   /// One value or more for each pixel.
   [[nodiscard]] bool is_image() const { return shape.find("width") != std::string::npos; }
 };

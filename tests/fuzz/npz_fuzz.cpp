@@ -12,6 +12,7 @@
 #include "results/manifest.h"
 #include "results/meta_camera.h"
 #include "results/raw_file.h"
+#include "results/transient_file.h"
 #include "tofray/error.h"
 
 namespace {
@@ -29,7 +30,7 @@ void try_out(const Call& call) {
 
 }  // namespace
 
-/// Any bytes as .npy, as .npz, as raw data, as JSON, as a manifest and as a frame's meta: an Error or a result, nothing else.
+/// Any bytes as .npy, as .npz, as raw data, as light by path length, as JSON, as a manifest and as a frame's meta: an Error or a result, nothing else.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const std::string_view file(reinterpret_cast<const char*>(data), size);
   try_out([&] {
@@ -39,6 +40,10 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   });
   try_out([&] { (void)tofray::files::parse_npz(file, "fuzz"); });
   try_out([&] { (void)tofray::results::parse_raw_npz(file, "fuzz"); });
+  tofray::Camera camera;
+  camera.sensor.width = 3, camera.sensor.height = 2;
+  for (const char* name : {"fuzz.npy", "fuzz.npz"})
+    try_out([&] { (void)tofray::results::parse_transient(file, name, camera, {{}, 0.1, 2}); });
   try_out([&] { (void)tofray::files::json_text(tofray::files::parse_json(file, "fuzz")); });
   try_out([&] { (void)tofray::results::parse_manifest(file, "fuzz"); });
   try_out([&] { (void)tofray::results::camera_of_meta(std::string(file), "fuzz", {}); });

@@ -6,6 +6,7 @@
 
 #include <cstdio>
 #include <stdexcept>
+#include <vector>
 
 namespace {
 
@@ -38,6 +39,9 @@ void own_arrays(tofray::Simulator& simulator, const tofray::Camera& camera, cons
   light.power_w = frame.truth.power_w, light.path_length_m.assign(light.power_w.size(), 2.0f);
   simulator.frame(0, light, again);
   expect(simulator.frame(0, light).raw.raw == again.raw.raw, "light");
+  const tofray::Transient by_length{seen.width, seen.height, 2, 1, 0.5, std::vector<float>(2 * seen.z_m.size(), 1e5f), {}};
+  simulator.frame(0, by_length, again);
+  expect(simulator.frame(0, by_length).raw.raw == again.raw.raw, "light by path length");
   expect(tofray::pixel_rays(camera).size() == 2 * light.power_w.size(), "pixel_rays");
 }
 
