@@ -41,6 +41,7 @@ struct Depth {
 /// Ground truth at the middle of the middle raw frame, and the power of the camera's own light.
 struct Truth {
   int width = 0, height = 0, phases = 0;
+  int bins = 0;  ///< of transient_e_per_s
   double time_s = 0;
   TOFRAY_TRUTH_ARRAYS(TOFRAY_VECTOR)  // std::vector<float> range_m; …
 };
@@ -58,7 +59,7 @@ struct Frame {
 /// Null where a stage was not reached or the truth not asked for.
 struct FrameArrays {
   std::uint64_t index = 0;
-  int width = 0, height = 0, phases = 0;
+  int width = 0, height = 0, phases = 0, bins = 0;
   int device = -1;  ///< −1: host memory; else the pointers are for this GPU
 #define TOFRAY_POINTER(name, part, member, element, ...) const element* name = nullptr;
   TOFRAY_IMAGE_ARRAYS(TOFRAY_POINTER)  // const float* tap_a = nullptr; …

@@ -27,6 +27,7 @@ enum class ArrayShape {
   pairs,    ///< [height][width][2]
   vectors,  ///< [height][width][3]
   stack,    ///< [phase][height][width]
+  bins,     ///< [bin][height][width]
   list,     ///< [phase]
 };
 
@@ -83,7 +84,11 @@ enum class ArrayShape {
   row(gt_signal_e,         truth, signal_e,         float,        stack,   raw,   "e",         "electrons to expect, both taps, 0 unlit") \
   row(gt_direct_e,         truth, direct_e,         float,        stack,   raw,   "e",         "by one surface alone, before lens scatter; bounces") \
   row(gt_indirect_e,       truth, indirect_e,       float,        stack,   raw,   "e",         "by several surfaces, before lens scatter; bounces") \
-  row(gt_multipath_m,      truth, multipath_m,      float,        stack,   raw,   "m",         "half path of all - of direct light, NaN unlit; bounces")
+  row(gt_multipath_m,      truth, multipath_m,      float,        stack,   raw,   "m",         "half path of all - of direct light, NaN unlit; bounces") \
+  row(gt_path_noise_m,     truth, path_noise_m,     float,        stack,   raw,   "m",         "standard error of gt_multipath_m; bounces") \
+  row(gt_path_count,       truth, path_count,       std::int32_t, image,   raw,   "1",         "ways of light that were followed; bounces") \
+  row(transient_e_per_s,   truth, transient_e_per_s,   float,   bins,    power, "e/s",       "own light by path length, before lens scatter; transient") \
+  row(transient_lost_e_per_s, truth, transient_lost_e_per_s, float, image, power, "e/s",     "own light of lengths that have no bin; transient")
 
 // clang-format on
 

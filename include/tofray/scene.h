@@ -167,12 +167,24 @@ struct Ambient {
   std::optional<Vec3> direction;                  ///< direction in which the light travels (a sun); none: uniform from everywhere
 };
 
+/// Light by the length of its path, as histograms (Truth::transient_e_per_s): bin k is centred at first + (k + ½)·width. Light of a path is
+/// shared between the two bins whose centres are nearest.
+struct TransientBins {
+  int bins = 0;           ///< 0…1e6; 0: there are no histograms
+  double first_m = 0;     ///< 0…1e6: where the first bin begins. Whole paths: from the light by all surfaces to the camera
+  double width_m = 1e-3;  ///< 1e-6…1e6, of a bin
+};
+
 /// How light goes on from surface to surface before it comes back: light that meets 1, 2 … 1 + bounces of them. Which ways it takes is
 /// chosen by chance, but the same for all frames: it is no noise of the camera's. Arrays in place of the scene bounce nothing.
 struct Transport {
   int bounces = 0;              ///< 0…64; 0: light comes straight back from the surface that the lights shine on
-  int samples = 16;             ///< 1…65536: ways of light for each pixel, where it bounces
+  int samples = 16;             ///< 1…65536: ways of light for each pixel, where it bounces; an odd number is rounded up
   unsigned long long seed = 0;  ///< another one: other ways, the same light but for their error
+  int max_samples = 0;          ///< 0: as many as samples. Else a pixel goes on, twice as many again and again, up to these, until it knows
+  double path_noise_m = 0;      ///< its half path to this standard error; 0: to a fifth of its depth noise
+  bool smooth = false;          ///< light that bounces is smoothed over neighbours that see the same surface
+  TransientBins transient = {};
 };
 
 /// Where the camera stands. Camera frame: x right, y down, z forward.

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The tofray authors
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include <atomic>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -30,6 +31,12 @@ enum class Backend {
   cuda,  ///< a GPU, or an error that says why not
 };
 
+/// How far the processor is with a frame, for whoever waits for it: read and written from any thread.
+struct FrameProgress {
+  std::atomic<std::int64_t> done{0}, total{0};  ///< in rays, roughly; 0 of 0 before the first frame, and where a GPU computes
+  std::atomic<bool> stop{false};                ///< set: the frame under way ends soon, and what it holds means nothing
+};
+
 struct SimulatorOptions {
   std::uint64_t seed = 0;
   Noise noise = Noise::exact;
@@ -38,13 +45,14 @@ struct SimulatorOptions {
   int device = -1;     ///< which GPU, from 0 on; −1: the first one that can be used
   int block_size = 0;  ///< CUDA threads per block, a multiple of 32 up to 1024; 0: chosen
   std::size_t batch_bytes =
-      64'000'000;                   ///< host memory of one batch on its way from a GPU (or to it); there are three of them for each GPU
-  Isa isa = Isa::best;              ///< best: the environment's TOFRAY_ISA, else what the CPU can do
-  bool truth = true;                ///< fill Frame::truth
-  Stage last_stage = Stage::depth;  ///< stop after this stage: arrays of later ones are left as they are (zero in a new frame)
-  int exposure_samples = 1;         ///< 1…1000: times within each exposure at which what moves is seen, evenly spread: motion blur
-  int subpixel = 1;                 ///< 1…16: samples of each pixel along its rows and columns; 1: its middle alone sees the scene
-  bool culling = true;              ///< off: every pixel tests every object (slower, same bytes; for tests)
+      64'000'000;                     ///< host memory of one batch on its way from a GPU (or to it); there are three of them for each GPU
+  Isa isa = Isa::best;                ///< best: the environment's TOFRAY_ISA, else what the CPU can do
+  bool truth = true;                  ///< fill Frame::truth
+  Stage last_stage = Stage::depth;    ///< stop after this stage: arrays of later ones are left as they are (zero in a new frame)
+  int exposure_samples = 1;           ///< 1…1000: times within each exposure at which what moves is seen, evenly spread: motion blur
+  int subpixel = 1;                   ///< 1…16: samples of each pixel along its rows and columns; 1: its middle alone sees the scene
+  bool culling = true;                ///< off: every pixel tests every object (slower, same bytes; for tests)
+  FrameProgress* progress = nullptr;  ///< where not null: told how far a frame is; it must live as long as the simulator
 };
 
 /// What frames or depth were computed on.
@@ -109,6 +117,11 @@ class Simulator {
   /// @throws Error (bad_input) as above
   [[nodiscard]] Frame frame(std::uint64_t index, const PixelLight& light);
   void frame(std::uint64_t index, const PixelLight& light, Frame& into);
+  /// The same of light by the length of its path. Truth: signal_e, the rest is unknown.
+  /// @throws Error (bad_input) as above, where there is no light source or no lit raw frame, and where light sources differ in waveform;
+  /// (limit) for histograms that are too large
+  [[nodiscard]] Frame frame(std::uint64_t index, const Transient& light);
+  void frame(std::uint64_t index, const Transient& light, Frame& into);
 
   /// Many frames, in their order: `count` from `first` on, or one for each request. On GPUs several of them are on their way at once, in
   /// bounded memory; all GPUs take part unless SimulatorOptions::device names one.

@@ -20,6 +20,23 @@ int times_of(const pipeline::Setup& setup, const pipeline::Input* input) {
   return setup.scene.moments > 0 ? setup.sensor.raw_frames : 1;
 }
 
+/// What light that bounces needs beside the direct light.
+/// @param several  a pixel has several samples within it
+template <class Put>
+void place_bounces(const pipeline::Setup& setup, const flow::FrameView& wanted, std::size_t values, bool several, const Put& put,
+                   flow::LightImage& image) {
+  const std::size_t pixels = pixels_of(setup), by_modulation = pixels * static_cast<std::size_t>(setup.decoder.modulations);
+  const bool noise = pipeline::wants_path_noise(setup, wanted, Stage::trace), smooth = setup.bounces.smooth != 0;
+  const std::size_t all = noise ? 2 * values : values;
+  image.halves = noise ? 1 : 0;
+  put(image.indirect, all);
+  if (several || smooth || setup.bounces.rounds > 1) put(image.indirect_before, all);
+  if (pipeline::wants_guide(setup, wanted, Stage::trace)) put(image.guide, flow::guide_planes * pixels);
+  if (noise) put(image.error, by_modulation), put(image.noise, by_modulation);
+  if (noise && smooth) put(image.smoothed_noise, by_modulation);
+  if (setup.bounces.rounds > 1) put(image.goal, pixels);
+}
+
 }  // namespace
 
 std::size_t place_light(const pipeline::Setup& setup, const flow::FrameView& wanted, const pipeline::Input* input, unsigned char* base,
@@ -40,16 +57,18 @@ std::size_t place_light(const pipeline::Setup& setup, const flow::FrameView& wan
   put(image.values, all);
   const bool several = input == nullptr && setup.subpixel.lens != nullptr, bounces = pipeline::bounces(setup, entry_of(input));
   if (several || bounces) put(image.before, all);
-  if (bounces) put(image.indirect, values);
-  if (bounces && several) put(image.indirect_before, values);
+  if (bounces) place_bounces(setup, wanted, values, several, put, image);
   if (setup.scatter.terms > 0) put(image.rows, values), put(image.scattered, values);
   if (compared) put(image.object, pixels), put(image.range, pixels);
   return used;
 }
 
-LightOrigin light_origin(const pipeline::Setup& setup, const pipeline::Input* input) {
+LightOrigin light_origin(const pipeline::Setup& setup, const flow::FrameView& wanted, const pipeline::Input* input) {
   if (input != nullptr || setup.scene.moments > 0) return {};
-  return {true, setup.scene.camera};
+  const bool noise = pipeline::wants_path_noise(setup, wanted, Stage::trace);
+  if (noise && setup.sensor.drifts != 0)
+    return {};  // how well a half path is known is a matter of the gates, which are others in each frame
+  return {true, pipeline::wants_mixed(setup, wanted), noise, setup.scene.camera};
 }
 
 }  // namespace tofray::backend

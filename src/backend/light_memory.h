@@ -14,10 +14,11 @@ std::size_t place_light(const pipeline::Setup& setup, const flow::FrameView& wan
 /// Where the camera stood for a light image. Of a scene that stands still, the next frame from there has the same.
 struct LightOrigin {
   bool known = false;
+  bool mixed = false, noise = false;  ///< what else is known of it
   shape::Frame camera{};
   bool operator==(const LightOrigin&) const = default;
 };
 /// Of a frame; what moves, or comes from elsewhere, is not known twice.
-LightOrigin light_origin(const pipeline::Setup& setup, const pipeline::Input* input);
+LightOrigin light_origin(const pipeline::Setup& setup, const flow::FrameView& wanted, const pipeline::Input* input);
 
 }  // namespace tofray::backend

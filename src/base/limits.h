@@ -41,6 +41,8 @@ inline constexpr Limit path_surfaces{"path_surfaces", std::int64_t{1} << 34,
                                      "pixels times ways of light for each times surfaces that each may meet beyond the first"};
 inline constexpr Limit light_values{"light_values", 1 << 29,
                                     "values of the light image: pixels times what is kept of the light of each, at all times of a frame"};
+inline constexpr Limit transient_values{"transient_values", 1 << 28,
+                                        "values of all histograms of light by the length of its path: pixels times bins"};
 inline constexpr Limit mask_side{"mask_side", 1024, "rows, or columns, of a pixel's mask"};
 inline constexpr Limit kernel_side{"kernel_side", 255, "rows, or columns, of the kernel of a lens that scatters light"};
 inline constexpr Limit raw_samples{"raw_samples", 1 << 27, "pixels times raw frames of one frame"};
@@ -102,6 +104,7 @@ inline constexpr Limit all_limits[] = {
     limit::subpixel_rays,
     limit::path_surfaces,
     limit::light_values,
+    limit::transient_values,
     limit::mask_side,
     limit::kernel_side,
     limit::raw_samples,

@@ -19,7 +19,23 @@ enum Bits : std::int32_t {
   invalid = 31,
 };
 
-/// Phase and amplitude of one modulation frequency: Ẑ = (2/N)Σ D_k e^{−iτ_k}, φ̂ = arg Ẑ, Â = |Ẑ|.          [eq. 4.2]
+/// Ẑ = (2/N)Σ D_k e^{−iτ_k} of one modulation frequency.                                                  [eq. 4.2]
+template <class F>
+struct Phasor {
+  F real, imaginary;
+};
+template <class F>
+TOFRAY_FN Phasor<F> phasor(const camera::DecoderView& s, const camera::DecodeModulation& m, const F* difference) {
+  F real = F(0.0f), imaginary = F(0.0f);
+  for (int j = 0; j < m.count; ++j) {
+    const int k = m.raw_frame[j];
+    real = num::fma(difference[k], F(s.frame[k].cosine), real);
+    imaginary = num::fnma(difference[k], F(s.frame[k].sine), imaginary);
+  }
+  return {real, imaginary};
+}
+
+/// Its phase and amplitude: φ̂ = arg Ẑ, Â = |Ẑ|.                                                          [eq. 4.2]
 template <class F>
 struct Estimate {
   F real, imaginary;  ///< Ẑ [e⁻]
@@ -29,12 +45,7 @@ struct Estimate {
 
 template <class F>
 TOFRAY_FN Estimate<F> estimate(const camera::DecoderView& s, const camera::DecodeModulation& m, const F* difference) {
-  F real = F(0.0f), imaginary = F(0.0f);
-  for (int j = 0; j < m.count; ++j) {
-    const int k = m.raw_frame[j];
-    real = num::fma(difference[k], F(s.frame[k].cosine), real);
-    imaginary = num::fnma(difference[k], F(s.frame[k].sine), imaginary);
-  }
+  const auto [real, imaginary] = phasor(s, m, difference);
   const F turns = num::atan2_turns(imaginary, real);
   const F positive = num::select(turns < F(0.0f), turns + F(1.0f), turns);
   return {real, imaginary, num::select(positive >= F(1.0f), F(0.0f), positive), num::sqrt(num::fma(real, real, imaginary * imaginary))};
@@ -86,7 +97,7 @@ TOFRAY_FN F suppression_variance(const camera::DecoderView& s, const camera::Dec
   return across / square * F(s.suppression_variance * 0.5f * static_cast<float>(m.count));
 }
 
-/// V̂ = Â/C + B̂ + dark + 2σ_r² + s²/12, and what suppression adds; σ_φ² = (2V̂/N)/Â²·(dφ/dφ̂)².               [eq. 4.9]
+/// V̂ = Â/C + B̂ + dark + 2σ_r² + s²/12, and what suppression adds.                                      [eq. 4.9]
 template <class F>
 TOFRAY_FN F variance_of(const camera::DecoderView& s, const camera::DecodeModulation& m, const F* difference, const Estimate<F>& e,
                         F ambient) {
@@ -95,6 +106,13 @@ TOFRAY_FN F variance_of(const camera::DecoderView& s, const camera::DecodeModula
   const F variance = electrons + F(s.noise_floor + dark);
   if (!(s.suppression_threshold > 0)) return variance;
   return variance + suppression_variance(s, m, difference, e, electrons + F(dark));
+}
+
+/// 1/σ² of the half path that one modulation frequency says [1/m²]: σ_φ² = (2V̂/N)/Â²·(dφ/dφ̂)².           [eq. 4.9]
+template <class F>
+TOFRAY_FN F inverse_variance(const camera::DecodeModulation& m, const Estimate<F>& e, F variance, F slope) {
+  const F signal = num::max(e.amplitude, F(1e-3f));
+  return signal * signal / (variance * F(m.variance_factor) * (slope * slope));
 }
 
 /// Exact inverse of ℓ = |P − L| + |P| along the unit view ray u: range = (ℓ² − |L|²)/(2(ℓ − u·L)).             [eq. 2.9]
@@ -133,8 +151,7 @@ TOFRAY_FN Depth<F> decode(const camera::DecoderView& s, const F* difference, Mas
     turns[i] = phi - num::floor(phi);
     const F light = grey * F(m.ambient_scale);
     const F variance = variance_of(s, m, difference, e, light);
-    const F signal = num::max(e.amplitude, F(1e-3f));
-    weight[i] = signal * signal / (variance * F(m.variance_factor) * (slope * slope));
+    weight[i] = inverse_variance(m, e, variance, slope);
     moved = moved | phases_disagree<F>(m, difference, variance);
     amplitude = amplitude + e.amplitude;
     ambient = ambient + light;

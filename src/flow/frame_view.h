@@ -26,10 +26,17 @@ TOFRAY_FN void each_array(View& view, const Visit& visit) {
 #undef TOFRAY_VISIT
 }
 
+/// How large a frame's arrays are.
+struct FrameSize {
+  std::int64_t pixels, phases, bins;
+  bool operator==(const FrameSize&) const = default;
+};
 /// Values of an array; `list` lies on the host alone and is none of these.
-TOFRAY_FN std::int64_t values_of(ArrayShape shape, std::int64_t pixels, std::int64_t phases) {
+TOFRAY_FN std::int64_t values_of(ArrayShape shape, const FrameSize& size) {
+  const std::int64_t pixels = size.pixels;
   switch (shape) {
-    case ArrayShape::stack: return phases * pixels;
+    case ArrayShape::stack: return size.phases * pixels;
+    case ArrayShape::bins: return size.bins * pixels;
     case ArrayShape::vectors: return 3 * pixels;
     case ArrayShape::pairs: return 2 * pixels;
     default: return pixels;

@@ -20,11 +20,19 @@ struct LightImage {
   float* scattered;        ///< … and along columns: what reaches the pixels; null likewise
   float* indirect;         ///< what has met more than one surface, likewise; null where light does not bounce
   float* indirect_before;  ///< … before the last sample's was added
-  std::int32_t times;      ///< 1, or one for each raw frame
-  std::int32_t* object;    ///< [height][width] that the sample which is looked at now sees, or null: they are not compared
-  float* range;            ///< [height][width] likewise
+  float*
+      guide;  ///< [7][height][width] position [m], normal and reflectivity of what a pixel sees, 0: nothing; or null: nobody compares neighbours
+  float* error;           ///< [modulation][height][width] paths·(error across Ẑ)² [e⁻²], as two halves of the paths show it; or null
+  float* noise;           ///< [modulation][height][width] variance across Ẑ [e⁻²], of many pixels together; or null
+  float* smoothed_noise;  ///< … once the light is smoothed; or null
+  std::int32_t* goal;     ///< [height][width] paths that a pixel shall have; null: all as many
+  std::int32_t halves;    ///< 1: behind the indirect light is half the difference of what two halves of its paths say
+  std::int32_t times;     ///< 1, or one for each raw frame
+  std::int32_t* object;   ///< [height][width] that the sample which is looked at now sees, or null: they are not compared
+  float* range;           ///< [height][width] likewise
   bool operator==(const LightImage&) const = default;
 };
 constexpr int compared_planes = 3;
+constexpr int guide_planes = 7;
 
 }  // namespace tofray::flow

@@ -305,6 +305,16 @@ void objects_move_one_way(const Object& object, Complaints& complaints) {
   only(&object.angular_velocity_rad_per_s, "an angular velocity", object.angular_velocity_rad_per_s != zero);
 }
 
+void paths_have_an_aim(const Transport& transport, Complaints& complaints) {
+  if (transport.max_samples != 0 && transport.max_samples < 2 * transport.samples)
+    complaints.add(transport, &transport.max_samples, "max_samples is less than twice samples",
+                   "got " + std::to_string(transport.max_samples) + " and " + std::to_string(transport.samples) +
+                       ", with which a pixel begins; its next step is twice as many. 0 means no more than those");
+  if (transport.path_noise_m > 0 && transport.max_samples == 0)
+    complaints.add(transport, &transport.path_noise_m, "path_noise can change nothing",
+                   "pixels go on until they reach it where max_samples is at least twice samples");
+}
+
 void cameras_move_one_way(const CameraChoice& camera, Complaints& complaints) {
   using base::cross, base::dot, base::operator-, base::operator+;
   const std::vector<CameraKeyframe>& keys = camera.keyframes;

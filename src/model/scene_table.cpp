@@ -291,12 +291,31 @@ const Table& table_of<CameraChoice>() {
 }
 
 template <>
+const Table& table_of<TransientBins>() {
+  static const Table rows = table<TransientBins>(
+      number<&TransientBins::bins>("bins", {none, {0, 1e6}, "2000"}, "how many; 0: there are no histograms").required(),
+      number<&TransientBins::first_m>("first", {length, {0, 1e6}, "2 m"}, "where the first bin begins: whole length from light to camera"),
+      number<&TransientBins::width_m>("width", {length, {1e-6, 1e6}, "1 mm"}, "of a bin"));
+  return rows;
+}
+
+template <>
 const Table& table_of<Transport>() {
-  static const Table rows = table<Transport>(
-      number<&Transport::bounces>("bounces", {none, {0, 64}, "4"}, "surfaces that light meets beyond the first one, at most"),
-      number<&Transport::samples>("samples", {none, {1, 65536}, "16"},
-                                  "ways of light that are followed for each pixel, where bounces is not 0"),
-      number<&Transport::seed>("seed", {none, {0, 9007199254740991.0}, "0"}, "another one: other ways, the same light"));
+  static const Table rows =
+      table<Transport>(
+          number<&Transport::bounces>("bounces", {none, {0, 64}, "4"}, "surfaces that light meets beyond the first one, at most"),
+          number<&Transport::samples>("samples", {none, {1, 65536}, "16"},
+                                      "ways of light that are followed for each pixel, where bounces is not 0; of max_samples the first"),
+          number<&Transport::seed>("seed", {none, {0, 9007199254740991.0}, "0"}, "another one: other ways, the same light"),
+          number<&Transport::max_samples>(
+              "max_samples", {none, {0, 65536}, "1024"},
+              "twice as many again and again, pixel by pixel, up to these, until path_noise is reached; 0: samples"),
+          number<&Transport::path_noise_m>(
+              "path_noise", {length, {0, 100}, "2 mm"},
+              "standard error of the half path at which a pixel has ways enough; 0: a fifth of its depth noise"),
+          flag<&Transport::smooth>("smooth", "light that bounces is smoothed over neighbours that see the same surface"),
+          record<&Transport::transient>("transient", "light by the length of its path, as a histogram for each pixel; none unless given"))
+          .check_with(paths_have_an_aim);
   return rows;
 }
 

@@ -61,6 +61,8 @@ const Table& table_of<Object>();
 template <>
 const Table& table_of<Ambient>();
 template <>
+const Table& table_of<TransientBins>();
+template <>
 const Table& table_of<Transport>();
 template <>
 const Table& table_of<Pose>();

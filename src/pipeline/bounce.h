@@ -4,8 +4,10 @@
 #include "brdf/sample.h"
 #include "camera/ray.h"
 #include "num/sobol.h"
+#include "pipeline/alike.h"
 #include "pipeline/gather.h"
 #include "pipeline/light_up.h"
+#include "pipeline/rounds.h"
 #include "trace/anywhere.h"
 
 /// Light that goes from surface to surface before it reaches the camera.                                   [theory: eq. 7.6, 7.7]
@@ -21,6 +23,8 @@ constexpr int first_roulette = 3;
 constexpr float least_left = 0.25f;
 /// Paths whose light is summed before it is added to that of others: a sum of some thousand floats would lose digits.
 constexpr int paths_together = 64;
+/// How far back rays begin, as a share of the distances from which a point is known: single precision knows it to some 10⁻⁷ of them.
+constexpr float way_back = 2e-6f;
 /// What random numbers are for, beside pixel and surface.
 constexpr std::uint32_t of_transport = 0x70617468u;
 
@@ -29,6 +33,7 @@ template <class F>
 struct Vertex {
   flow::Surface<F> at;      ///< its range is that of the path so far
   flow::Direction<F> way;   ///< unit vector of the ray that came here
+  F step;                   ///< its length [m]
   flow::Direction<F> flat;  ///< normal of the facet itself, toward where the ray came from
   num::Int<F> facet;
   num::Mask<F> escaped;  ///< the ray went on without end
@@ -42,7 +47,8 @@ TOFRAY_FN Vertex<F> next_vertex(const Setup& s, int moment, F area, const shape:
   Vertex<F> out;
   const trace::Met<F> met = trace::nearest_from(s.scene, moment, ray, from);
   flow::Surface<F> p = trace::surface_met(s.scene, ray, met, from.wanted);
-  p.range = before + num::select(p.found, met.distance, F(0.0f));
+  out.step = num::select(p.found, met.distance, F(0.0f));
+  p.range = before + out.step;
   out.escaped = from.wanted & (!p.found);
   out.flat = {p.nx, p.ny, p.nz}, out.way = {ray.dx, ray.dy, ray.dz}, out.facet = met.facet;
   if (s.scene.any_details != 0) {
@@ -64,14 +70,17 @@ TOFRAY_FN Vertex<F> first_vertex(const Setup& s, int moment, const flow::Ray<F>&
 }
 
 /// Three numbers of a path for one of its surfaces: two say along which way it goes on, one whether it does.
+///
+/// Those of a pixel's two halves of paths know nothing of each other, so that how far they are apart says how well their mean is known.
 template <class F>
 struct Choice {
   F u, v, chance;
 };
 template <class F>
-TOFRAY_FN Choice<F> choose(const BounceView& s, const Pixels& p, int bounce, int sample) {
+TOFRAY_FN Choice<F> choose(const BounceView& s, const Pixels& p, int bounce, int half, int sample) {
   const num::Uint<F> pixel = num::to_uint(num::Int<F>(p.index) + num::lane_index<F>());
-  const num::Random4<F> seed = num::philox<F>(pixel, static_cast<std::uint32_t>(bounce), 0, of_transport, s.keys);
+  const num::Random4<F> seed =
+      num::philox<F>(pixel, static_cast<std::uint32_t>(bounce), static_cast<std::uint32_t>(half), of_transport, s.keys);
   Choice<F> out;
   num::sobol_pair<F>(num::shuffled<F>(static_cast<std::uint32_t>(sample), seed.w[0]), seed.w[1], seed.w[2], out.u, out.v);
   const num::Uint<F> other = num::shuffled<F>(static_cast<std::uint32_t>(sample), seed.w[3]);
@@ -79,20 +88,32 @@ TOFRAY_FN Choice<F> choose(const BounceView& s, const Pixels& p, int bounce, int
   return out;
 }
 
-/// The light that reaches a surface on the way straight from the lights, and through it the pixel.
+/// Calls take(l, path) for the way of each light straight to a surface, and from there along `ray` to where it came from.
 /// @param weight  how much of what the surface sends back the pixel gets
-template <class F>
-TOFRAY_FN void light_vertex(const Setup& s, int moment, const power::Wanted& wanted, const Vertex<F>& v, F weight, flow::Light<F>& light) {
-  const flow::Ray<F> ray{v.way.x, v.way.y, v.way.z, F(1.0f), F(1.0f)};
+template <class F, class Take>
+TOFRAY_FN void each_light(const Setup& s, int moment, const flow::Surface<F>& p, const flow::Ray<F>& ray, F weight, const Take& take) {
   flow::Radiometry<F> unused{F(0.0f), F(0.0f), F(0.0f)};
   for (int l = 0; l < s.scene.lights; ++l) {
-    const flow::Ray<F> from_light = power::light_ray(s.lights[l], v.at);
-    num::Mask<F> dark = trace::blocked(trace::Uncut{s.scene.light_still(l)}, from_light, v.at);
-    if (s.scene.moments > 0) dark = dark | trace::blocked(trace::Uncut{s.scene.light_moving(moment, l)}, from_light, v.at);
-    flow::Path<F> path = power::received<F>(s.power, s.lights[l], v.at, ray, from_light, dark, weight, unused);
-    path.rate = num::select(v.at.found, path.rate, F(0.0f));  // where the path ended before, nothing need be a number
-    power::add_one_of_many(s.phasors, wanted, l, path, light);
+    const flow::Ray<F> from_light = power::light_ray(s.lights[l], p);
+    num::Mask<F> dark = trace::blocked(trace::Uncut{s.scene.light_still(l)}, from_light, p);
+    if (s.scene.moments > 0) dark = dark | trace::blocked(trace::Uncut{s.scene.light_moving(moment, l)}, from_light, p);
+    flow::Path<F> path = power::received<F>(s.power, s.lights[l], p, ray, from_light, dark, weight, unused);
+    path.rate = num::select(p.found, path.rate, F(0.0f));  // where the path ended before, nothing need be a number
+    take(l, path);
   }
+}
+template <class F>
+TOFRAY_FN flow::Ray<F> ray_to(const Vertex<F>& v) {
+  return {v.way.x, v.way.y, v.way.z, F(1.0f), F(1.0f)};
+}
+
+/// The light that reaches a surface on the way straight from the lights, and through it the pixel.
+template <class F>
+TOFRAY_FN void light_vertex(const Setup& s, int moment, const power::Wanted& wanted, const Vertex<F>& v, F weight, flow::Light<F>& light) {
+  each_light<F>(
+      s, moment, v.at, ray_to(v), weight, [&](int l, const flow::Path<F>& path) __attribute__((always_inline)) {
+        power::add_one_of_many(s.phasors, wanted, l, path, light);
+      });
   if (s.power.ambient != camera::AmbientLight::directional) return;
   const float* const sun = s.scene.sun(moment);
   flow::Surface<F> p = v.at;  // what is near enough to be itself is a matter of where it is, not of how the light got there
@@ -123,63 +144,85 @@ TOFRAY_FN Onward<F> leave(const Choice<F>& choice, bool roulette, const Vertex<F
     goes_on = goes_on & (choice.chance < chance);
     weight = weight / num::select(goes_on, chance, F(1.0f));
   }
-  const F away = num::sqrt(flow::square_of(p.x, p.y, p.z));
-  return {{p.x, p.y, p.z, d.x, d.y, d.z}, {v.facet, v.flat.x, v.flat.y, v.flat.z, away, goes_on}, weight};
+  // The ray begins a little before the surface, on the way that led there: in a corner nobody knows on which side of the other wall the point
+  // itself is, but where a ray has just been there is room.
+  const F away = num::sqrt(flow::square_of(p.x, p.y, p.z)), back = num::min(F(way_back) * (away + v.step), F(0.5f) * v.step);
+  const shape::FreeRay<F> ray{num::fnma(back, v.way.x, p.x), num::fnma(back, v.way.y, p.y), num::fnma(back, v.way.z, p.z), d.x, d.y, d.z};
+  return {ray, {v.facet, v.flat.x, v.flat.y, v.flat.z, away, goes_on}, weight};
 }
 
-/// One path of each pixel.
-template <class F>
-TOFRAY_FN void follow_path(const Setup& s, int moment, F area, const power::Wanted& wanted, const Pixels& p, const Vertex<F>& first,
-                           F vignetting, int sample, flow::Light<F>& light) {
-  const bool uniform = s.power.ambient == camera::AmbientLight::uniform;
+/// Calls meet(b, surface, weight) for what one path of each pixel meets beyond the first surface, b = 1 … most.
+template <class F, class Meet>
+TOFRAY_FN void each_vertex(const Setup& s, int moment, F area, const Pixels& p, const Vertex<F>& first, F vignetting, int half, int sample,
+                           int most, const Meet& meet) {
   Vertex<F> v = first;
   F weight = F(1.0f);
-  for (int b = 1; b <= s.bounces.most + (uniform ? 1 : 0); ++b) {
-    const Onward<F> on = leave<F>(choose<F>(s.bounces, p, b, sample), b >= first_roulette, v, weight);
+  for (int b = 1; b <= most; ++b) {
+    const Onward<F> on = leave<F>(choose<F>(s.bounces, p, b, half, sample), b >= first_roulette, v, weight);
     if (!num::any(on.from.wanted)) return;
     v = next_vertex<F>(s, moment, area, on.ray, on.from, v.at.range);
     weight = on.weight;
-    const F share = weight * vignetting;
-    if (uniform) light.ambient_rate = light.ambient_rate + num::select(v.escaped, share * F(s.power.ambient_rate), F(0.0f));
-    if (b > s.bounces.most || !num::any(v.at.found)) return;
-    light_vertex<F>(s, moment, wanted, v, share, light);
+    meet(b, v, weight * vignetting);
+    if (!num::any(v.at.found)) return;
   }
+}
+
+/// The light of one path of each pixel.
+template <class F>
+TOFRAY_FN void follow_path(const Setup& s, int moment, F area, const power::Wanted& wanted, const Pixels& p, const Vertex<F>& first,
+                           F vignetting, int half, int sample, flow::Light<F>& light) {
+  const bool uniform = s.power.ambient == camera::AmbientLight::uniform;
+  each_vertex<F>(
+      s, moment, area, p, first, vignetting, half, sample,
+      s.bounces.most + (uniform ? 1 : 0), [&](int b, const Vertex<F>& v, F share) __attribute__((always_inline)) {
+        if (uniform) light.ambient_rate = light.ambient_rate + num::select(v.escaped, share * F(s.power.ambient_rate), F(0.0f));
+        if (b <= s.bounces.most && num::any(v.at.found)) light_vertex<F>(s, moment, wanted, v, share, light);
+      });
 }
 
 /// The lens of a sample within the pixels, or that of their middle.
 TOFRAY_FN const camera::LensView& lens_of(const Setup& s, int item) { return s.subpixel.lens != nullptr ? s.subpixel.lens[item] : s.lens; }
 
-/// Paths of each sample within the pixels.
-TOFRAY_FN int paths_of(const Setup& s) { return (s.bounces.samples + s.subpixel.count - 1) / s.subpixel.count; }
-
-/// The light of all paths of a sample within the pixels, at all times, into the light image.
-/// @param item  which sample
+/// The light of a step's paths, at all times, into the light image.
+/// @param item  which step
 template <class F>
 TOFRAY_FN void bounce_pixels(const Setup& s, const Job& job, int item, const Pixels& p) {
-  const camera::LensView& lens = lens_of(s, item);
+  const flow::LightImage& image = job.light;
+  const PathsOfStep paths = paths_of_step(s, item);
+  const num::Mask<F> active = takes_part<F>(s, image, paths.round, p);
+  const Growing whole{image.indirect_before, image.indirect};
+  const std::int64_t behind = light_values(s, image.times);
+  const Growing apart{whole.before == nullptr ? nullptr : whole.before + behind, whole.values + behind};
+  const camera::LensView& lens = lens_of(s, paths.sample);
   const flow::Ray<F> ray = camera::ray<F>(lens, p);
-  const F vignetting = camera::vignetting<F>(lens, p), per = ray.inverse_length, area = F(lens.pixel_area) * per * per * per;
-  const int paths = paths_of(s), moments = s.scene.moments > 0 ? s.scene.moments : 1, per_time = moments / job.light.times;
+  const F per = ray.inverse_length, area = F(lens.pixel_area) * per * per * per;
+  const F vignetting = num::select(active, camera::vignetting<F>(lens, p), F(0.0f));  // what is known well enough sees nothing more
+  const int moments = s.scene.moments > 0 ? s.scene.moments : 1, per_time = moments / image.times;
   const float share =
-      (s.subpixel.lens != nullptr ? s.subpixel.share[item] : 1.0f) / (static_cast<float>(paths) * static_cast<float>(per_time));
-  for (int time = 0; time < job.light.times; ++time) {
+      (s.subpixel.lens != nullptr ? s.subpixel.share[paths.sample] : 1.0f) / (static_cast<float>(paths.all) * static_cast<float>(per_time));
+  for (int time = 0; time < image.times; ++time) {
     const Moment now = moment_of(s, time * per_time, moments);
     const power::Wanted which = wanted(s, now, false);
-    flow::Light<F> light;
-    power::clear(s.phasors, which, light);
+    flow::Light<F> half[2];
+    power::clear(s.phasors, which, half[0]), power::clear(s.phasors, which, half[1]);
     for (int m = 0; m < per_time; ++m) {
       const int moment = time * per_time + m;
       const Vertex<F> first = first_vertex<F>(s, moment, ray, area, vignetting);
+      if (image.guide != nullptr && item == s.subpixel.count / 2 && time == image.times / 2 && m == 0)
+        store_guide<F>(s, image, p, first.at);
       if (!num::any(first.at.found)) continue;
-      for (int from = 0; from < paths; from += paths_together) {
-        flow::Light<F> part;
-        power::clear(s.phasors, which, part);
-        for (int i = from; i < from + paths_together && i < paths; ++i)
-          follow_path<F>(s, moment, area, which, p, first, vignetting, item * paths + i, part);
-        power::add_light(s.phasors, which, part, light);
-      }
+      for (int h = 0; h < 2; ++h)
+        for (int from = 0; from < paths.count; from += paths_together) {
+          flow::Light<F> part;
+          power::clear(s.phasors, which, part);
+          for (int i = from; i < from + paths_together && i < paths.count; ++i)
+            follow_path<F>(s, moment, area, which, p, first, vignetting, h, paths.first + i, part);
+          power::add_light(s.phasors, which, part, half[h]);
+        }
     }
-    gather_light<F>(s, {job.light.indirect_before, job.light.indirect}, p, job.light.times, time, light, share, item == 0);
+    power::sum_and_difference(s.phasors, which, half[0], half[1]);
+    grow_light<F>(s, whole, p, image.times, time, half[0], share, item == 0, paths.kept, active);
+    if (image.halves != 0) grow_light<F>(s, apart, p, image.times, time, half[1], share, item == 0, paths.kept, active);
   }
 }
 

@@ -26,6 +26,8 @@ struct LightArrays {
   const float* phasor;        ///< [moment][light][modulation][order][height][width][2] [W] in place of path_length, or null
   std::int32_t orders;        ///< of 1, 3, 5 …, those that `phasor` has
   const float* ambient_rate;  ///< [moment][height][width] [e⁻/s]
+  std::int32_t lights;        ///< that phasors are of, the camera's first ones
+  std::int32_t rates;         ///< 1: power and phasors are electrons per second
   bool operator==(const LightArrays&) const = default;
 };
 
@@ -122,13 +124,14 @@ TOFRAY_FN void given_phasors(const Setup& s, const LightArrays& in, const power:
                              flow::Light<F>& light, F& power) {
   const auto lane = num::lane_index<F>();
   const auto at = num::select(lane < num::Int<F>(p.count), lane, num::Int<F>(0));
-  for (int l = 0; l < s.scene.lights; ++l) {
-    const F watts = given<F>(in.power, s, p, moment * s.scene.lights + l, 0.0f), electrons = F(s.lights[l].electrons_per_joule);
+  for (int l = 0; l < in.lights; ++l) {
+    const F watts = given<F>(in.power, s, p, moment * in.lights + l, 0.0f);
+    const F electrons = F(in.rates != 0 ? 1.0f : s.lights[l].electrons_per_joule);
     light.signal_rate = num::fma(watts, electrons, light.signal_rate);
-    power = power + watts;
+    power = in.rates != 0 ? nan<F>() : power + watts;
     for (int j = wanted.first; j < wanted.last; ++j) {
       for (int h = 0; h < in.orders && h < s.phasors.orders; ++h) {
-        const int image = ((moment * s.scene.lights + l) * s.phasors.modulations + j) * in.orders + h;
+        const int image = ((moment * in.lights + l) * s.phasors.modulations + j) * in.orders + h;
         F real, imaginary;
         num::gather_pair(in.phasor + 2 * (place_of(s, image) + p.index), at, real, imaginary);
         power::add_phasor(s.phasors, j, l, h, real * electrons, imaginary * electrons, light);

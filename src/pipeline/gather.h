@@ -53,6 +53,27 @@ TOFRAY_APART void gather_light(const Setup& s, const Growing& image, const Pixel
       });
 }
 
+/// The same of light that comes in rounds: what there was counts `kept`, and only the active pixels get more.
+template <class F>
+TOFRAY_FN void grow_light(const Setup& s, const Growing& image, const Pixels& p, int times, int time, const flow::Light<F>& light,
+                          float share, bool first, float kept, num::Mask<F> active) {
+  each_plane<F>(
+      s, times, time, light, [&](int plane, F value) __attribute__((always_inline)) {
+        const std::int64_t at = light_place(s, p, times, time, plane);
+        F sum = value * F(share);
+        if (!first) {
+          const F before = num::load<F>(image.before + at, p.count);
+          sum = num::select(active, num::fma(before, F(kept), sum), before);
+        }
+        num::store(image.values + at, sum, p.count);
+      });
+}
+
+/// Values of all planes at all times.
+TOFRAY_FN std::int64_t light_values(const Setup& s, int times) {
+  return std::int64_t{times} * light_planes(s, times) * s.lens.width * s.lens.height;
+}
+
 /// Reads the light of the pixels at a time.
 /// @param values  the whole image's
 template <class F>

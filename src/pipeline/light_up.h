@@ -24,6 +24,13 @@ TOFRAY_FN Moment moment_of(const Setup& s, int moment, int moments) {
   return {frame, frame + 1, moment, sample, samples, frame == s.sensor.raw_frames / 2 && sample == samples / 2};
 }
 
+/// Which of the scene's moments that is.
+TOFRAY_FN int truth_moment(const Setup& s) {
+  if (s.scene.moments == 0) return 0;
+  const int samples = s.scene.moments / s.sensor.raw_frames;
+  return s.sensor.raw_frames / 2 * samples + samples / 2;
+}
+
 /// Light of what stands still may serve all raw frames; other light serves those of its moment.
 TOFRAY_FN power::Wanted wanted(const Setup& s, const Moment& now, bool undisturbed) {
   if (undisturbed || now.last > now.first + 1) return power::all_of(s.phasors);
@@ -47,6 +54,23 @@ TOFRAY_FN flow::Hit<F> see_moving(const Setup& s, const Near& near, int moment, 
 template <class F>
 TOFRAY_FN void hide_outside_lens(F vignetting, flow::Surface<F>& surface) {
   surface.found = surface.found & (vignetting > F(0.0f));
+}
+
+/// What is where a ray through the lens hits.
+template <class F>
+TOFRAY_FN flow::Surface<F> surface_seen(const Setup& s, const camera::LensView& lens, const flow::Ray<F>& ray, const flow::Hit<F>& hit,
+                                        F vignetting) {
+  flow::Surface<F> surface = trace::surface(s.scene, ray, hit);
+  if (s.scene.any_details != 0) {
+    // What is handed to a function lies in memory; the originals need not.
+    const flow::Ray<F> ray_copy = ray;
+    const flow::Hit<F> hit_copy = hit;
+    flow::Surface<F> copy = surface;
+    trace::add_details(s.scene, F(lens.pixel_area) * surface.z * surface.z * ray.inverse_length, ray_copy, hit_copy, copy);
+    surface = copy;
+  }
+  hide_outside_lens(vignetting, surface);
+  return surface;
 }
 
 /// Shadow rays through what stands still and, if it can come between, what moves.
@@ -133,16 +157,7 @@ TOFRAY_FN bool light_of_scene(const Setup& s, const Job& job, Near& near, const 
   const bool same = !moves || !near.any(hit.facet != still.facet);
   const bool open = !moves || s.last_stage < Stage::power || !near.can_be_shaded(s);  // nothing that moves can come between
   if (same && open && undisturbed && !now.truth) return false;
-  flow::Surface<F> surface = trace::surface(s.scene, ray, hit);
-  if (s.scene.any_details != 0) {
-    // What is handed to a function lies in memory; the originals need not.
-    const flow::Ray<F> ray_copy = ray;
-    const flow::Hit<F> hit_copy = hit;
-    flow::Surface<F> copy = surface;
-    trace::add_details(s.scene, F(s.lens.pixel_area) * surface.z * surface.z * ray.inverse_length, ray_copy, hit_copy, copy);
-    surface = copy;
-  }
-  hide_outside_lens(vignetting, surface);
+  const flow::Surface<F> surface = surface_seen(s, s.lens, ray, hit, vignetting);
   const bool calm = same && (open || !near.any(in_moving_shadow(s, near, now.index, surface)));
   if (calm && undisturbed && !now.truth) return false;
   undisturbed = calm;

@@ -3,6 +3,7 @@
 #pragma once
 #include "depth/decode.h"
 #include "pipeline/gather.h"
+#include "pipeline/rounds.h"
 #include "raw/correlation.h"
 
 /// Ground truth of light that comes by several surfaces: how much of it there is, and what it does to the range.
@@ -22,25 +23,52 @@ TOFRAY_FN void differences(const Setup& s, const float* values, const Pixels& p,
 /// Half path that all light shows less that which the direct light shows, as the decoder has them from raw frames without noise, for each
 /// modulation frequency: at most half its unambiguous range to either side.                                     [theory: eq. 7.8]
 template <class F>
-TOFRAY_FN F multipath_error(const camera::DecoderView& s, const camera::DecodeModulation& m, const F* all, const F* direct) {
+struct MultipathError {
+  F value;              ///< [m]
+  F slope, amplitude;   ///< dφ/dφ̂ and |Ẑ| of all light
+  num::Mask<F> exists;  ///< there is direct light
+};
+template <class F>
+TOFRAY_FN MultipathError<F> multipath_error(const camera::DecoderView& s, const camera::DecodeModulation& m, const F* all,
+                                            const F* direct) {
   const depth::Estimate<F> of_all = depth::estimate(s, m, all), of_direct = depth::estimate(s, m, direct);
-  F slope;
-  const F turns = depth::unwiggle(s, m, of_all.turns, slope) - depth::unwiggle(s, m, of_direct.turns, slope);
-  const F error = (turns - num::round_even(turns)) * F(m.half_wave);
-  return num::select(of_direct.amplitude > F(0.0f), error, nan<F>());
+  F slope, unused;
+  const F turns = depth::unwiggle(s, m, of_all.turns, slope) - depth::unwiggle(s, m, of_direct.turns, unused);
+  return {(turns - num::round_even(turns)) * F(m.half_wave), slope, of_all.amplitude, of_direct.amplitude > F(0.0f)};
 }
 
+/// What an error across Ẑ does to the half path: at most half its unambiguous range, and nothing where there is no light. [theory: eq. 7.13]
+/// @param slope      dφ/dφ̂
+/// @param amplitude  |Ẑ| [e⁻]
+/// @param variance   of the light across Ẑ [e⁻²]
 template <class F>
-TOFRAY_APART void store_multipath(const Setup& s, float* to, const flow::LightImage& image, const Pixels& p) {
+TOFRAY_FN F half_path_error(const camera::DecodeModulation& m, F slope, F amplitude, F variance) {
+  const F error = num::abs(slope) * F(m.half_wave * 0.15915494f) * num::sqrt(variance) / num::max(amplitude, F(1e-20f));
+  return num::select(variance > F(0.0f), num::min(error, F(0.5f * m.half_wave)), F(0.0f));
+}
+
+/// Of each raw frame that of its modulation frequency, and the standard error of it.
+template <class F>
+TOFRAY_APART void store_multipath(const Setup& s, const flow::FrameView& out, const flow::LightImage& image, const Pixels& p) {
   F all[flow::max_raw_frames], direct[flow::max_raw_frames];
   differences(s, image.values, p, image.times, all), differences(s, image.before, p, image.times, direct);
   const int pixels = s.lens.width * s.lens.height;
+  const auto put = [&](int k, F error, F noise) __attribute__((always_inline)) {
+    const Pixels at{p.index + k * pixels, p.count};
+    store(out.gt_multipath_m, at, error), store(out.gt_path_noise_m, at, noise);
+  };
   for (int k = 0; k < s.sensor.raw_frames; ++k)
-    if (s.sensor.frame[k].lit == 0) num::store(to + p.index + k * pixels, nan<F>(), p.count);
+    if (s.sensor.frame[k].lit == 0) put(k, nan<F>(), nan<F>());
+  const float* const variance = image.smoothed_noise != nullptr ? image.smoothed_noise : image.noise;
   for (int j = 0; j < s.decoder.modulations; ++j) {
     const camera::DecodeModulation& m = s.decoder.modulation[j];
-    const F error = multipath_error(s.decoder, m, all, direct);
-    for (int i = 0; i < m.count; ++i) num::store(to + p.index + m.raw_frame[i] * pixels, error, p.count);
+    const MultipathError<F> error = multipath_error(s.decoder, m, all, direct);
+    const auto known = [&](F value) __attribute__((always_inline)) { return num::select(error.exists, value, nan<F>()); };
+    F noise = nan<F>();
+    if (variance != nullptr)
+      noise = known(half_path_error(m, error.slope, error.amplitude * F(m.integration_time),
+                                    num::load<F>(variance + std::int64_t{j} * pixels + p.index, p.count)));
+    for (int i = 0; i < m.count; ++i) put(m.raw_frame[i], known(error.value), noise);
   }
 }
 
@@ -60,7 +88,9 @@ TOFRAY_FN void store_bounced(const Setup& s, const flow::FrameView& out, const f
     }
   };
   electrons(out.gt_direct_e, image.before), electrons(out.gt_indirect_e, image.indirect);
-  if (out.gt_multipath_m != nullptr) store_multipath<F>(s, out.gt_multipath_m, image, p);
+  if (out.gt_multipath_m != nullptr || out.gt_path_noise_m != nullptr) store_multipath<F>(s, out, image, p);
+  if (out.gt_path_count == nullptr) return;
+  num::store(out.gt_path_count + p.index, paths_known<F>(s, image, s.bounces.rounds - 1, p), p.count);
 }
 
 }  // namespace tofray::pipeline

@@ -11,9 +11,20 @@ namespace tofray::pipeline {
 /// Light that goes from surface to surface before it comes back.                                       [theory: eq. 7.6]
 struct BounceView {
   std::int32_t most;     ///< surfaces that a path meets beyond the first one; 0: light comes straight back
-  std::int32_t samples;  ///< paths of each pixel
+  std::int32_t samples;  ///< paths of each pixel in the first round, at least
+  std::int32_t rounds;   ///< each doubles the paths of those pixels that are not known well enough
+  std::int32_t smooth;   ///< 1: the indirect light is smoothed over like neighbours
+  float noise;           ///< [m] of the half path, that is well enough; 0: a share of the pixel's own depth noise
   num::RoundKeys keys;   ///< of the random numbers that choose them
   bool operator==(const BounceView&) const = default;
+};
+
+/// Histograms of light by the length of its path.                                                      [theory: eq. 7.10]
+struct TransientView {
+  std::int32_t bins;  ///< 0: there are none
+  float first;        ///< where the first one begins [m]
+  float per_metre;    ///< 1 / width of a bin
+  bool operator==(const TransientView&) const = default;
 };
 
 /// Everything that a frame needs, frozen: plain numbers and pointers that any machine can read.
@@ -28,6 +39,7 @@ struct Setup {
   camera::SensorView sensor;
   camera::DecoderView decoder;
   BounceView bounces;
+  TransientView transient;
   Stage last_stage;      ///< nothing is done after it
   std::int32_t culling;  ///< 0: every pixel tests every form
   bool operator==(const Setup&) const = default;
@@ -68,13 +80,20 @@ enum class Pass : std::int32_t {
   pixels,           ///< rays to depth
   input,            ///< what came from elsewhere, or is in the light image, to depth
   bounces,          ///< light from surface to surface, into the light image
+  path_error,       ///< how far the two halves of its paths are apart
+  path_noise,       ///< … of many pixels together: its standard error, and who needs more paths
+  smooth,           ///< its mean over like neighbours
   sum,              ///< all light of the image
   scatter_rows,     ///< the light image along rows
   scatter_columns,  ///< … and along columns; a kernel that is not separable: both at once
+  transient,        ///< histograms of light by the length of its path
   flying,           ///< flags of flying pixels
   filter,           ///< the image filter
   settle,           ///< the range that is left, to z, point and confidence
 };
+
+/// Whether it goes over the image by tiles, not by rows.
+TOFRAY_FN bool goes_by_tiles(Pass pass) { return (pass >= Pass::pixels && pass <= Pass::sum) || pass == Pass::transient; }
 
 /// Whether light is followed from surface to surface.
 /// @param entry  the first stage that is computed

@@ -24,8 +24,9 @@ enum class Part : std::int32_t {
 struct Step {
   Pass pass;
   Part part;
-  std::int32_t item;     ///< which sample of the pixel, which kernel of the lens
+  std::int32_t item;     ///< which sample of the pixel, which kernel of the lens, which round of paths
   std::int32_t swapped;  ///< 1: the light image's `values` are where `before` is said to be
+  std::int32_t turned;   ///< 1: its `indirect` is where `indirect_before` is said to be
 };
 
 /// Whether frames go through the light image.
@@ -41,6 +42,18 @@ TOFRAY_FN bool wants_truth(const flow::FrameView& out) {
 #define TOFRAY_OR(name, ...) || out.name != nullptr
   return false TOFRAY_TRUTH_ARRAYS(TOFRAY_OR);
 #undef TOFRAY_OR
+}
+/// Whether anybody wants to know how well light that bounces is known, …
+TOFRAY_FN bool wants_path_noise(const Setup& s, const flow::FrameView& out, Stage entry) {
+  return bounces(s, entry) && (out.gt_path_noise_m != nullptr || s.bounces.rounds > 1);
+}
+/// … and what a pixel's neighbours see.
+TOFRAY_FN bool wants_guide(const Setup& s, const flow::FrameView& out, Stage entry) {
+  return wants_path_noise(s, out, entry) || (bounces(s, entry) && s.bounces.smooth != 0);
+}
+
+TOFRAY_FN bool wants_transient(const flow::FrameView& out) {
+  return out.transient_e_per_s != nullptr || out.transient_lost_e_per_s != nullptr;
 }
 
 /// Whether a part makes the light image.
@@ -59,10 +72,8 @@ TOFRAY_FN void take_image_step(const Step& step, Job& job) {
     float* const first = a;
     a = b, b = first;
   };
-  // Once all is added, the direct light is where `before` is, and the indirect light is where the last sample has left it.
-  const bool others = step.part == Part::sum || step.part == Part::collect;
-  if (step.swapped != 0 && step.part != Part::bounce) swap(job.light.before, job.light.values);
-  if (step.part == Part::bounce ? step.swapped != 0 : others && step.swapped == 0) swap(job.light.indirect_before, job.light.indirect);
+  if (step.swapped != 0) swap(job.light.before, job.light.values);
+  if (step.turned != 0) swap(job.light.indirect_before, job.light.indirect);
   if (step.part == Part::light) job.gather = {1, step.item == 0, 1.0f, nullptr};
 }
 /// … and of the pass that begins with rays.
@@ -76,6 +87,28 @@ TOFRAY_FN void take_step(const Step& step, Setup& s, Job& job) {
   if (job.gather.middle != nullptr) job.out.gt_object_id = job.light.object, job.out.gt_range_m = job.light.range;
 }
 
+/// Calls run(step) for each step that follows light from surface to surface, once the direct light is where `before` is.
+/// @param swapped  for that to be so
+/// @return what `turned` is afterwards
+template <class Run>
+TOFRAY_FN int each_bounce_step(const Setup& s, const Job& job, bool known, int swapped, const Run& run) {
+  const int samples = s.subpixel.count, steps = s.bounces.rounds * samples;
+  const bool noise = wants_path_noise(s, job.out, Stage::trace);
+  int turned = (steps - 1) % 2;
+  if (!known) {
+    for (int i = 0; i < steps; ++i) {
+      run(Step{Pass::bounces, Part::bounce, i, swapped, i % 2});
+      if (!noise || (i + 1) % samples != 0) continue;
+      run(Step{Pass::path_error, Part::bounce, i / samples, swapped, i % 2});
+      run(Step{Pass::path_noise, Part::bounce, i / samples, swapped, i % 2});
+    }
+    if (s.bounces.smooth != 0) run(Step{Pass::smooth, Part::bounce, 0, swapped, turned});
+  }
+  if (s.bounces.smooth != 0) turned = 1 - turned;
+  if (!known) run(Step{Pass::sum, Part::sum, 0, swapped, turned});
+  return turned;
+}
+
 /// Calls run(step) for each step of a frame.
 /// @param entry  the first stage that is computed
 /// @param known  the light image is that of this frame already
@@ -83,27 +116,28 @@ template <class Run>
 void each_step(const Setup& s, const Job& job, Stage entry, bool known, const Run& run) {
   const Pass begin = entry == Stage::trace ? Pass::pixels : Pass::input;
   if (!has_light_image(s, entry)) {
-    run(Step{begin, Part::all, 0, 0});
+    run(Step{begin, Part::all, 0, 0, 0});
   } else {
-    if (entry == Stage::trace && wants_truth(job.out)) run(Step{begin, Part::truth, 0, 0});
-    const bool collects = s.last_stage >= Stage::raw;
+    if (entry == Stage::trace && wants_truth(job.out)) run(Step{begin, Part::truth, 0, 0, 0});
+    const bool collects = s.last_stage >= Stage::raw, bouncing = bounces(s, entry);
     const int samples = entry == Stage::trace ? s.subpixel.count : 1;
-    const int swapped = bounces(s, entry) ? samples % 2 : (samples - 1) % 2;
-    if (!known && (collects || entry != Stage::trace || wants_mixed(s, job.out))) {
-      for (int i = 0; i < samples; ++i) run(Step{begin, Part::light, i, i % 2});
-      for (int i = 0; i < samples && bounces(s, entry); ++i) run(Step{Pass::bounces, Part::bounce, i, i % 2});
-      if (bounces(s, entry)) run(Step{Pass::sum, Part::sum, 0, swapped});
-      for (int i = 0; i < s.scatter.terms && collects; ++i) {
-        if (s.scatter.separable != 0) run(Step{Pass::scatter_rows, Part::light, i, swapped});
-        run(Step{Pass::scatter_columns, Part::light, i, swapped});
-      }
+    // The last sample's is where `values` is; where light bounces, that is all of it in the end, and the direct light where `before` is.
+    const int swapped = bouncing ? samples % 2 : (samples - 1) % 2;
+    const bool makes = !known && (collects || entry != Stage::trace || wants_mixed(s, job.out));
+    for (int i = 0; i < samples && makes; ++i) run(Step{begin, Part::light, i, i % 2, 0});
+    const int turned = bouncing ? each_bounce_step(s, job, !makes, swapped, run) : 0;
+    for (int i = 0; i < s.scatter.terms && collects && makes; ++i) {
+      if (s.scatter.separable != 0) run(Step{Pass::scatter_rows, Part::light, i, swapped, turned});
+      run(Step{Pass::scatter_columns, Part::light, i, swapped, turned});
     }
-    if (collects || wants_mixed(s, job.out)) run(Step{Pass::input, Part::collect, 0, swapped});
+    if (collects || wants_mixed(s, job.out)) run(Step{Pass::input, Part::collect, 0, swapped, turned});
   }
+  if (entry == Stage::trace && wants_transient(job.out))
+    run(Step{Pass::transient, has_light_image(s, entry) ? Part::collect : Part::all, 0, 0, 0});
   if (s.last_stage < Stage::depth || job.out.z_m == nullptr || job.out.flags == nullptr) return;
-  run(Step{Pass::flying, Part::all, 0, 0});
-  if (job.filter != Filter::none) run(Step{Pass::filter, Part::all, 0, 0});
-  run(Step{Pass::settle, Part::all, 0, 0});
+  run(Step{Pass::flying, Part::all, 0, 0, 0});
+  if (job.filter != Filter::none) run(Step{Pass::filter, Part::all, 0, 0, 0});
+  run(Step{Pass::settle, Part::all, 0, 0, 0});
 }
 
 }  // namespace tofray::pipeline

@@ -34,6 +34,21 @@ TOFRAY_FN void add_light(const camera::PhasorView& s, const Wanted& wanted, cons
   }
 }
 
+/// Of two lights their sum and their difference, a + b and a − b, in their place.
+template <class F>
+TOFRAY_FN void sum_and_difference(const camera::PhasorView& s, const Wanted& wanted, Light<F>& a, Light<F>& b) {
+  const auto both = [](F & x, F & y) __attribute__((always_inline)) {
+    const F sum = x + y;
+    y = x - y, x = sum;
+  };
+  both(a.signal_rate, b.signal_rate), both(a.ambient_rate, b.ambient_rate);
+  for (int j = wanted.first; j < wanted.last; ++j) {
+    both(a.in_phase[j], b.in_phase[j]), both(a.quarter[j], b.quarter[j]);
+    for (int i = j * s.orders; i < (j + 1) * s.orders && s.sums_alone == 0; ++i)
+      both(a.real[i], b.real[i]), both(a.imaginary[i], b.imaginary[i]);
+  }
+}
+
 /// The mean of the light at several times within one exposure: what is seen at one of them, from the first on, is added.  [theory: eq. 6.12]
 template <class F>
 TOFRAY_APART void blend(const camera::PhasorView& s, const Wanted& wanted, const Light<F>& light, int sample, int samples, Light<F>& mean) {

@@ -25,7 +25,7 @@ constexpr std::uint64_t most_frames = 32'768;
 
 void Simulator::Impl::frames_one_by_one(backend::Engine& engine, std::uint64_t from, std::uint64_t count, const Request& request,
                                         const Take& take) {
-  simulator::prepare(scratch, camera, options, scene.transport.bounces > 0);
+  simulator::prepare(scratch, camera, options, scene.transport);
   const backend::gpu::Slab shown(setup, simulator::view_of(scratch, options.last_stage), false);  // leaves out what is not computed
   std::vector<unsigned char> memory(shown.bytes());
   for (std::uint64_t i = from; i < count; ++i) {
@@ -35,7 +35,8 @@ void Simulator::Impl::frames_one_by_one(backend::Engine& engine, std::uint64_t f
     job.out = view;
     if (!engine.derives()) frozen_scene.derive();
     engine.run(setup, job);
-    take(simulator::arrays_of(view, camera, wanted.index, -1));
+    if (options.progress != nullptr && options.progress->stop) return;  // the frame is no frame
+    take(simulator::arrays_of(view, camera, setup.transient.bins, wanted.index, -1));
   }
 }
 
@@ -72,7 +73,7 @@ void Simulator::Impl::frames_on_gpus(std::uint64_t count, const Request& request
     std::uint64_t from, frames;
   };
   const auto& gpus = engines.gpus();
-  simulator::prepare(scratch, camera, options, scene.transport.bounces > 0);
+  simulator::prepare(scratch, camera, options, scene.transport);
   job.out = simulator::view_of(scratch, options.last_stage);
   const std::size_t frame_bytes =
       std::max<std::size_t>(1, backend::gpu::Slab(setup, job.out, job.filter != pipeline::Filter::none).bytes());
@@ -94,7 +95,7 @@ void Simulator::Impl::frames_on_gpus(std::uint64_t count, const Request& request
     done.lane->wait();
     for (std::uint64_t i = 0; i < done.frames; ++i) {
       const flow::FrameView view = done.lane->slab().view(done.lane->received(static_cast<int>(i)));
-      take(simulator::arrays_of(view, camera, request(done.from + i).index, -1));
+      take(simulator::arrays_of(view, camera, setup.transient.bins, request(done.from + i).index, -1));
       ++taken;
     }
   }
@@ -120,7 +121,7 @@ void Simulator::Impl::frames_on_device(std::uint64_t count, const Request& reque
   const auto& gpus = engines.gpus();
   const std::string reason = engines.ran_on().fallback_reason;
   if (gpus.empty()) throw backend::gpu::Fault(reason.empty() ? "the processor computes" : reason, false);
-  simulator::prepare(scratch, camera, options, scene.transport.bounces > 0);
+  simulator::prepare(scratch, camera, options, scene.transport);
   job.out = simulator::view_of(scratch, options.last_stage);
   backend::Cuda& gpu = *gpus[0];
   into.indices.clear();
@@ -154,7 +155,7 @@ std::uint64_t DeviceFrames::size() const { return impl_->indices.size(); }
 double DeviceFrames::seconds() const { return impl_->seconds; }
 FrameArrays DeviceFrames::operator[](std::uint64_t i) const {
   void* const at = static_cast<unsigned char*>(impl_->memory.get()) + i * impl_->slab.bytes();
-  return simulator::arrays_of(impl_->slab.view(at), impl_->camera, impl_->indices[i], impl_->device->number());
+  return simulator::arrays_of(impl_->slab.view(at), impl_->camera, impl_->slab.size().bins, impl_->indices[i], impl_->device->number());
 }
 
 }  // namespace tofray

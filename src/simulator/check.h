@@ -7,6 +7,10 @@
 #include "tofray/scene.h"
 #include "tofray/simulator.h"
 
+namespace tofray::pipeline {
+struct Setup;
+}
+
 /// What the readers check of files, for what a program hands in.
 namespace tofray::simulator {
 
@@ -22,5 +26,9 @@ void check_moving_views(const Scene& scene, const Camera& camera, const Simulato
 void check_changing_triangles(const Scene& scene, const Camera& camera, const SimulatorOptions& options);
 /// … and whether the light image, and the rays of samples within pixels, are within their limits.
 void check_light_image(const Scene& scene, const Camera& camera, const SimulatorOptions& options);
+/// … and the histograms of light by the length of its path.
+void check_transient(const Scene& scene, const Camera& camera);
+/// … and whether light of all sources may stand in one of them: as pixels see it, they have one waveform.
+void check_one_waveform(const pipeline::Setup& setup);
 
 }  // namespace tofray::simulator

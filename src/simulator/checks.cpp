@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "simulator/checks.h"
 
+#include <algorithm>
 #include <set>
 #include <utility>
 
@@ -9,6 +10,7 @@
 #include "base/text.h"
 #include "flow/flow.h"
 #include "model/check.h"
+#include "pipeline/setup.h"
 #include "scene/motion.h"
 #include "simulator/check.h"
 
@@ -90,14 +92,19 @@ void check_light_image(const Scene& scene, const Camera& camera, const Simulator
            ErrorKind::limit);
   const Transport& transport = scene.transport;
   const std::int64_t times = movers_of(scene) > 0 ? static_cast<std::int64_t>(camera.mode.sequence.size()) * options.exposure_samples : 1;
-  const std::int64_t ways = (transport.samples + n * n - 1) / (n * n) * n * n;
+  const std::int64_t ways = std::max<std::int64_t>((transport.samples + 2 * n * n - 1) / (2 * n * n) * 2 * n * n, transport.max_samples);
   const std::int64_t surfaces = pixels * ways * transport.bounces * times, most_surfaces = base::limit::path_surfaces.value;
   if (surfaces > most_surfaces)
     refuse("too many ways of light are to be followed",
            "got " + std::to_string(ways) + " for each of " + std::to_string(pixels) + " pixels, to " + std::to_string(transport.bounces) +
                " surfaces each" + (times > 1 ? " at each of " + std::to_string(times) + " times" : "") + ", " + std::to_string(surfaces) +
-               " in all, at most " + std::to_string(most_surfaces) + "\n  lower transport.samples (--samples)",
+               " in all, at most " + std::to_string(most_surfaces) + "\n  lower transport.samples (--samples) or transport.max_samples",
            ErrorKind::limit);
+  if (const std::int64_t first = (transport.samples + 2 * n * n - 1) / (2 * n * n) * 2 * n * n;
+      transport.bounces > 0 && transport.max_samples > 0 && transport.max_samples < 2 * first)
+    refuse("transport.max_samples adds no ways of light", "got " + std::to_string(transport.max_samples) + ", but each pixel begins with " +
+                                                              std::to_string(first) +
+                                                              ", an even number for each sample within it, and goes on with twice as many");
   if (transport.bounces > 0 && camera.power_model == PowerModel::paper_literal)
     refuse("the paper's printed formula knows no light from surface to surface",
            "leave out transport.bounces, or power_model paper_literal");
@@ -110,6 +117,29 @@ void check_light_image(const Scene& scene, const Camera& camera, const Simulator
            "got " + std::to_string(pixels) + " pixels and " + std::to_string(raw_frames) + " raw frames, up to " + std::to_string(values) +
                " values, at most " + std::to_string(most) + "\n  sub-pixel samples, bounces and a lens that scatters need it",
            ErrorKind::limit);
+}
+
+void check_transient(const Scene& scene, const Camera& camera) {
+  const std::int64_t pixels = std::int64_t{camera.sensor.width} * camera.sensor.height, bins = scene.transport.transient.bins;
+  const std::int64_t most = base::limit::transient_values.value;
+  if (pixels * bins > most)
+    refuse("the histograms of light by path length are too large",
+           "got " + std::to_string(bins) + " bins for each of " + std::to_string(pixels) + " pixels, " + std::to_string(pixels * bins) +
+               " values, at most " + std::to_string(most) + "\n  lower transport.transient.bins, or let each be wider",
+           ErrorKind::limit);
+}
+
+void check_one_waveform(const pipeline::Setup& setup) {
+  const camera::PhasorView& s = setup.phasors;
+  for (int j = 0; j < s.modulations; ++j) {
+    const float* const first = s.modulation[j].source;
+    for (int i = 0; i < setup.scene.lights * 2 * s.orders; ++i) {
+      if (first[i] == first[i % (2 * s.orders)]) continue;
+      refuse(
+          "light source " + std::to_string(i / (2 * s.orders)) + " of the camera has another waveform than the first one",
+          "a histogram by path length does not say which light comes from where\n  let all have one waveform, or leave the histogram out");
+    }
+  }
 }
 
 }  // namespace tofray::simulator

@@ -6,7 +6,8 @@
 
 namespace tofray::simulator {
 
-Engines::Engines(const SimulatorOptions& options, const pipeline::Setup& setup) : options_(options), cpu_(options.isa, options.threads) {
+Engines::Engines(const SimulatorOptions& options, const pipeline::Setup& setup)
+    : options_(options), cpu_(options.isa, options.threads, options.progress) {
   backend::check_block_size(options.block_size);
   cpu_.load(setup);
   if (options.backend == Backend::cpu) return;

@@ -7,8 +7,8 @@ namespace tofray::simulator {
 namespace {
 
 template <class T>
-void resize(std::vector<T>& array, ArrayShape shape, int width, int height, int phases) {
-  array.resize(static_cast<std::size_t>(flow::values_of(shape, std::int64_t{width} * height, phases)));
+void resize(std::vector<T>& array, ArrayShape shape, const flow::FrameSize& size) {
+  array.resize(static_cast<std::size_t>(flow::values_of(shape, size)));
 }
 
 template <class T>
@@ -20,13 +20,14 @@ T* place_of(std::vector<T>& array, Stage stage, Stage last) {
 
 void prepare(Depth& depth, int width, int height) {
   depth.width = width, depth.height = height;
-#define TOFRAY_RESIZE(name, part, member, element, shape, ...) resize(part.member, ArrayShape::shape, width, height, phases);
-  constexpr int phases = 1;
+#define TOFRAY_RESIZE(name, part, member, element, shape, ...) resize(part.member, ArrayShape::shape, size);
+  const flow::FrameSize size{std::int64_t{width} * height, 1, 0};
   TOFRAY_DEPTH_ARRAYS(TOFRAY_RESIZE)
 }
 
-void prepare(Frame& frame, const Camera& camera, const SimulatorOptions& options, bool bounces) {
+void prepare(Frame& frame, const Camera& camera, const SimulatorOptions& options, const Transport& transport) {
   const int width = camera.sensor.width, height = camera.sensor.height, phases = static_cast<int>(camera.mode.sequence.size());
+  const flow::FrameSize size{std::int64_t{width} * height, phases, transport.transient.bins};
   Raw& raw = frame.raw;
   raw.width = width, raw.height = height, raw.phases = phases;
   TOFRAY_RAW_ARRAYS(TOFRAY_RESIZE)
@@ -43,12 +44,14 @@ void prepare(Frame& frame, const Camera& camera, const SimulatorOptions& options
     truth = {};
     return;
   }
-  truth.width = width, truth.height = height, truth.phases = phases;
+  truth.width = width, truth.height = height, truth.phases = phases, truth.bins = transport.transient.bins;
   TOFRAY_TRUTH_ARRAYS(TOFRAY_RESIZE)
 #undef TOFRAY_RESIZE
   // Of what nobody looks at, nothing is known.
   if (options.subpixel == 1) truth.mixed.clear(), truth.object_share.clear();
-  if (!bounces) truth.direct_e.clear(), truth.indirect_e.clear(), truth.multipath_m.clear();
+  if (truth.bins == 0) truth.transient_lost_e_per_s.clear();
+  if (transport.bounces > 0) return;
+  truth.direct_e.clear(), truth.indirect_e.clear(), truth.multipath_m.clear(), truth.path_noise_m.clear(), truth.path_count.clear();
 }
 
 #define TOFRAY_PLACE(name, part, member, element, shape, stage, ...) view.name = place_of(part.member, Stage::stage, last);
@@ -69,9 +72,10 @@ flow::FrameView view_of(Frame& frame, Stage last) {
 
 #undef TOFRAY_PLACE
 
-FrameArrays arrays_of(const flow::FrameView& view, const Camera& camera, std::uint64_t index, int device) {
+FrameArrays arrays_of(const flow::FrameView& view, const Camera& camera, std::int64_t bins, std::uint64_t index, int device) {
   FrameArrays arrays;
   arrays.index = index, arrays.device = device;
+  arrays.bins = view.transient_e_per_s != nullptr ? static_cast<int>(bins) : 0;
   arrays.width = camera.sensor.width, arrays.height = camera.sensor.height, arrays.phases = static_cast<int>(camera.mode.sequence.size());
 #define TOFRAY_SHOW(name, ...) arrays.name = view.name;
   TOFRAY_IMAGE_ARRAYS(TOFRAY_SHOW)

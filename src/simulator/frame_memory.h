@@ -9,12 +9,13 @@
 namespace tofray::simulator {
 
 /// Gives the arrays their sizes (nothing is allocated anew where they fit) and writes what is the same for all pixels.
-void prepare(Frame& frame, const Camera& camera, const SimulatorOptions& options, bool bounces);
+/// @param transport  of the scene; none (as it is fresh) where the light comes from elsewhere
+void prepare(Frame& frame, const Camera& camera, const SimulatorOptions& options, const Transport& transport);
 void prepare(Depth& depth, int width, int height);
 /// Where the arrays are that have a size, of the stages up to `last`.
 flow::FrameView view_of(Frame& frame, Stage last);
 flow::FrameView view_of(Depth& depth);
 /// The same under the public names.
-FrameArrays arrays_of(const flow::FrameView& view, const Camera& camera, std::uint64_t index, int device);
+FrameArrays arrays_of(const flow::FrameView& view, const Camera& camera, std::int64_t bins, std::uint64_t index, int device);
 
 }  // namespace tofray::simulator

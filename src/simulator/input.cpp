@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "base/limits.h"
 #include "base/text.h"
 #include "camera/frozen_camera.h"
 #include "model/tables.h"
@@ -17,7 +18,8 @@ namespace tofray::simulator {
 namespace {
 
 // What arrays that come from elsewhere may hold.
-constexpr base::Range pixel_power_w{0, 1}, path_length_m{0, 1e6}, ambient_e_per_s{0, 1e20}, unit_length{0.999, 1.001};
+constexpr base::Range bins_m{0, 1e6}, bin_width_m{1e-6, 1e6}, pixel_power_w{0, 1}, path_length_m{0, 1e6}, ambient_e_per_s{0, 1e20},
+    unit_length{0.999, 1.001};
 
 template <class T>
 const T* data_of(const std::vector<T>& array) {
@@ -176,7 +178,43 @@ OwnInput input_of(const PixelLight& light, const Camera& camera) {
                      phasors ? 0 : static_cast<std::int32_t>(paths),
                      phasors ? reinterpret_cast<const float*>(light.phasor_w.data()) : nullptr,
                      static_cast<std::int32_t>(orders),
-                     data_of(light.ambient_e_per_s)};
+                     data_of(light.ambient_e_per_s),
+                     static_cast<std::int32_t>(camera.illumination.size()),
+                     0};
+  return own;
+}
+
+namespace {
+
+void check_histograms(const Transient& light, const Camera& camera) {
+  const Look look("transient", light.width, light.height, 1, camera);
+  within(light.bins, {1, 1e6}, "transient.bins");
+  within(light.first_m, bins_m, "transient.first_m"), within(light.bin_width_m, bin_width_m, "transient.bin_width_m");
+  const std::int64_t values = light.bins * static_cast<std::int64_t>(look.image()), most = base::limit::transient_values.value;
+  if (values > most)
+    refuse("the histograms of light by path length are too large",
+           "got " + std::to_string(light.bins) + " bins for each of " + std::to_string(look.image()) + " pixels, " +
+               std::to_string(values) + " values, at most " + std::to_string(most) + "\n  take fewer bins, each of them wider",
+           ErrorKind::limit);
+  look.size(light.e_per_s, static_cast<std::size_t>(values), "e_per_s");
+  look.size_or_empty(light.ambient_e_per_s, look.image(), "ambient_e_per_s");
+  look.values(light.e_per_s, ambient_e_per_s, "e_per_s", "bin", static_cast<std::size_t>(light.bins));
+  look.values(light.ambient_e_per_s, ambient_e_per_s, "ambient_e_per_s", "", 1);
+}
+
+}  // namespace
+
+OwnInput input_of(const Transient& light, const Camera& camera, const pipeline::Setup& setup) {
+  check_histograms(light, camera);
+  if (camera.illumination.empty()) refuse("the camera has no light source", "a histogram does not say how its light is modulated");
+  const std::vector<double> frequencies = camera::modulations_of(camera.mode).frequency_hz;
+  if (frequencies.empty()) refuse("the camera's mode has no lit raw frame", "a histogram is of the camera's own light");
+  check_one_waveform(setup);
+  OwnInput own;
+  own.sums = sums_of(light, frequencies, camera.refractive_index, setup.phasors.orders);
+  own.input.entry = Stage::raw, own.input.moments = 1;
+  own.input.light = {own.sums.rate.data(),           nullptr, nullptr, 0, own.sums.phasor.data(), setup.phasors.orders,
+                     data_of(light.ambient_e_per_s), 1,       1};
   return own;
 }
 

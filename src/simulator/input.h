@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "pipeline/enter.h"
+#include "simulator/histogram.h"
 #include "tofray/camera.h"
 #include "tofray/frame.h"
 #include "tofray/stages.h"
@@ -14,12 +15,15 @@ namespace tofray::simulator {
 struct OwnInput {
   pipeline::Input input{};
   std::vector<std::int32_t> light_of_path;
+  HistogramSums sums;
 };
 
 /// Where the arrays of one's own are, once all of them are seen to be good.
 /// @throws Error (bad_input) naming the first array or value that is not
 OwnInput input_of(const Geometry& seen, const Camera& camera);
 OwnInput input_of(const PixelLight& light, const Camera& camera);
+/// @param setup  of the camera, with its phasors
+OwnInput input_of(const Transient& light, const Camera& camera, const pipeline::Setup& setup);
 /// The same of raw data; process() has looked at them.
 OwnInput input_of(const Raw& raw);
 

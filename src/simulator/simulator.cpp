@@ -51,6 +51,7 @@ const Scene& checked(const Scene& scene, const Camera& camera, const SimulatorOp
   simulator::check_moving_views(scene, camera::with_emitters(camera), options);
   simulator::check_changing_triangles(scene, camera, options);
   simulator::check_light_image(scene, camera, options);
+  simulator::check_transient(scene, camera);
   return scene;
 }
 
@@ -84,9 +85,17 @@ pipeline::Setup Simulator::Impl::fixed_setup() {
   out.last_stage = options.last_stage;
   out.culling = options.culling;
   const Transport& transport = scene.transport;
-  out.bounces = {transport.bounces, transport.samples,
+  out.bounces = {transport.bounces,
+                 transport.samples,
+                 1,
+                 transport.smooth ? 1 : 0,
+                 static_cast<float>(transport.path_noise_m),
                  num::round_keys(static_cast<std::uint32_t>(transport.seed), static_cast<std::uint32_t>(transport.seed >> 32))};
+  while (pipeline::paths_after(out, out.bounces.rounds) <= transport.max_samples) ++out.bounces.rounds;
+  const TransientBins& bins = transport.transient;
+  out.transient = {bins.bins, static_cast<float>(bins.first_m), static_cast<float>(1 / bins.width_m)};
   set_scene(out);
+  if (bins.bins > 0) simulator::check_one_waveform(out);
   return out;
 }
 
@@ -123,7 +132,7 @@ void Simulator::Impl::set_sensor(const FrameRequest& request) {
 
 void Simulator::Impl::frame(std::uint64_t index, const pipeline::Input* input, Frame& into) {
   into.index = index;
-  simulator::prepare(into, camera, options, scene.transport.bounces > 0 && input == nullptr);
+  simulator::prepare(into, camera, options, input == nullptr ? scene.transport : Transport{});
   const double start = start_of(index);
   into.raw.start_time_s.clear();
   for (const double after : frozen_camera.raw_frame_start_s()) into.raw.start_time_s.push_back(start + after);
@@ -155,9 +164,14 @@ void Simulator::frame(std::uint64_t index, const PixelLight& light, Frame& into)
   const simulator::OwnInput own = simulator::input_of(light, impl_->camera);
   impl_->frame(index, &own.input, into);
 }
+void Simulator::frame(std::uint64_t index, const Transient& light, Frame& into) {
+  const simulator::OwnInput own = simulator::input_of(light, impl_->camera, impl_->setup);
+  impl_->frame(index, &own.input, into);
+}
 Frame Simulator::frame(std::uint64_t index) { return new_frame(*this, index); }
 Frame Simulator::frame(std::uint64_t index, const Geometry& seen) { return new_frame(*this, index, seen); }
 Frame Simulator::frame(std::uint64_t index, const PixelLight& light) { return new_frame(*this, index, light); }
+Frame Simulator::frame(std::uint64_t index, const Transient& light) { return new_frame(*this, index, light); }
 
 void Simulator::frames(std::uint64_t first, std::uint64_t count, const std::function<void(const FrameArrays&)>& take) {
   impl_->frames(

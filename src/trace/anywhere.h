@@ -34,8 +34,6 @@ struct Leaving {
 
 /// How far before a mesh its rays begin, in units of the distances from which coordinates come.
 constexpr float before_mesh = 2e-6f;
-/// What is nearer than this part of the distance is where the ray begins.
-constexpr float at_beginning = 1e-6f;
 
 template <class T, class F>
 TOFRAY_FN Mask<F> leaves(const typename T::Free& form, const Leaving<F>& from) {
@@ -65,7 +63,7 @@ TOFRAY_FN void meet_closed(const typename T::Free& form, const FreeRay<F>& ray, 
 template <class T, class F>
 TOFRAY_FN void meet_flat(const typename T::Free& form, const FreeRay<F>& ray, const Leaving<F>& from, Met<F>& met) {
   Int<F> side;
-  const F distance = distance_to(form, ray, F(at_beginning) * from.away, side);
+  const F distance = distance_to(form, ray, F(0.0f), side);
   take_met<T>(form, num::select(leaves<T>(form, from), F(shape::never), distance), side, met);
 }
 

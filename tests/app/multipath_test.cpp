@@ -130,12 +130,55 @@ TEST(multipath, of_ways_without_bounces_is_refused_with_what_to_add) {
     const Result result = run(arguments, where);
     EXPECT_EQ(result.code, 2) << arguments[0];
     EXPECT_TRUE(has(result.err, "error: --samples (transport.samples) is of light that bounces, and none does in the scene")) << result.err;
-    EXPECT_TRUE(has(result.err, "\n  expected --bounces N with it, as in --bounces 4 --samples 64, or no --samples\n")) << result.err;
+    EXPECT_TRUE(has(result.err, "\n  expected --bounces N with it, as in --bounces 4 --samples 64, or neither\n")) << result.err;
   }
   EXPECT_FALSE(fs::exists(corner.folder / "out"));
   // Who types --bounces 0 compares, and a scene that has bounces needs no other word.
   EXPECT_EQ(corner.run({"render", "nook.yaml", "-o", "out", "--bounces", "0", "--samples", "64"}).code, 0);
   EXPECT_EQ(corner.run({"render", "sphere", "-o", "ball", "--samples", "1"}).code, 0);
+}
+
+// What else is of light that bounces: typed it is refused, in a file it is told of.
+TEST(multipath, of_other_words_without_bounces_is_none) {
+  const CornerFolder corner;
+  for (const auto& [key, value] : {std::pair{"max_samples", "64"}, {"path_noise", "2 mm"}, {"smooth", "true"}}) {
+    const std::string name = std::string("transport.") + key;
+    const bool alone = std::string(key) != "path_noise";  // which needs max_samples, too
+    const Result typed = corner.run({"render", "nook.yaml", "-o", "out", "--set", name + "=" + value});
+    EXPECT_EQ(typed.code, 2) << key;
+    if (alone) {
+      EXPECT_TRUE(has(typed.err, "(" + name + ") is of light that bounces, and none does in the scene")) << typed.err;
+    }
+    const CornerFolder said(std::string("transport: {") + key + ": " + value + (alone ? "}\n" : ", max_samples: 64}\n"));
+    EXPECT_TRUE(has(said.run({"render", "nook.yaml", "-o", "out"}).err, "is given, but no light bounces: transport.bounces is 0")) << key;
+  }
+}
+
+// --samples auto: 16 ways where they are enough, and more where they are not.
+TEST(multipath, of_as_many_ways_as_are_enough) {
+  const CornerFolder corner;
+  const auto ways = [&](const char* noise, const char* out) {
+    EXPECT_EQ(corner
+                  .run({"render", "nook.yaml", "-o", out, "--bounces", "1", "--samples", "auto", "--set",
+                        std::string("transport.path_noise=") + noise})
+                  .code,
+              0);
+    return corner.numbers(std::string(out) + "/frame.npz", "gt_path_count");
+  };
+  for (const double n : ways("1 m", "few")) ASSERT_EQ(n, 16);
+  for (const double n : ways("1 nm", "many")) ASSERT_EQ(n, 1024);
+  const Result wrong = corner.run({"render", "nook.yaml", "--bounces", "1", "--samples", "automatic"});
+  EXPECT_TRUE(has(wrong.err, "expected a whole number of 1 to 65536, or auto")) << wrong.err;
+  // A pixel's bounces are followed with its own number of ways, which its file has to say.
+  const Result told = run({"inspect", "few/frame.npz", "--pixel", "3,3"}, in_folder(corner.folder.path()));
+  EXPECT_TRUE(has(told.out, " +- ")) << told.out;
+  EXPECT_TRUE(has(told.out, "bounces      light %")) << told.out;
+  ASSERT_EQ(corner
+                .run({"render", "nook.yaml", "-o", "silent", "--bounces", "2", "--samples", "auto", "--set", "transport.path_noise=1 m",
+                      "--arrays", "raw,lit,modulation_frequency_hz,gt_direct_e,gt_indirect_e,gt_multipath_m"})
+                .code,
+            0);
+  EXPECT_TRUE(has(run({"inspect", "silent/frame.npz", "--pixel", "3,3"}, in_folder(corner.folder.path())).out, "it lacks gt_path_count"));
 }
 
 TEST(multipath, of_a_file_that_asks_for_ways_without_bounces_is_told) {
@@ -144,7 +187,7 @@ TEST(multipath, of_a_file_that_asks_for_ways_without_bounces_is_told) {
     EXPECT_EQ(result.code, 0) << result.err;
     return has(
         result.err,
-        "warning: transport.samples is 64, but no light bounces: transport.bounces is 0\n  nothing comes of it without bounces, as in "
+        "warning: transport.samples is given, but no light bounces: transport.bounces is 0\n  nothing comes of it without bounces, as in "
         "transport: {bounces: 4, samples: 64}\n");
   };
   EXPECT_TRUE(warned(idle.run({"render", "nook.yaml", "-o", "out", "--quiet"})));

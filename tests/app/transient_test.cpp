@@ -68,6 +68,15 @@ TEST(transient, is_written_and_comes_back_as_raw_frames_and_depth) {
   expect_near(folder / "out" / "frame.npz", folder / "back" / "frame.npz", "raw", 2);
   EXPECT_EQ(array_of(folder / "back" / "frame.npz", "gt_z_m").bytes, array_of(folder / "out" / "frame.npz", "gt_z_m").bytes);
   EXPECT_EQ(array_of(folder / "back" / "frame.npz", "transient_e_per_s").bytes, light.bytes);
+  // What was processed says what its bins are, too.
+  ASSERT_EQ(run({"process", "--transient", "out/frame.npz", "--first", "0.5m", "-o", "shifted", "--noise", "off"}, here).code, 0);
+  for (const std::string from : {"back/frame.npz", "shifted/frame.npz"}) {
+    ASSERT_EQ(run({"process", "--transient", from, "-o", "twice", "--noise", "off"}, here).code, 0);
+    EXPECT_EQ(array_of(folder / "twice" / "frame.npz", "z_m").bytes, array_of(folder / from, "z_m").bytes) << from;
+  }
+  ASSERT_EQ(run({"process", "out/frame.npz", "-o", "plain"}, here).code, 0);
+  ASSERT_EQ(run({"process", "--transient", "plain/frame.npz", "-o", "twice", "--noise", "off"}, here).code, 0);
+  EXPECT_EQ(array_of(folder / "twice" / "frame.npz", "raw").bytes, array_of(folder / "back" / "frame.npz", "raw").bytes);
   // With noise, which has a seed.
   for (const char* seed : {"1", "2", "1"})
     ASSERT_EQ(run({"process", "--transient", "out/frame.npz", "-o", std::string("noisy") + seed, "--seed", seed}, here).code, 0);

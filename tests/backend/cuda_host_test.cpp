@@ -170,7 +170,8 @@ TEST(cuda_host, has_the_same_bytes_of_bounces) {
     Random random(static_cast<std::uint64_t>(i) + 90);
     Scene scene = random_scene(random, 9, i % 2 == 1);
     scene.name = "bouncing " + std::to_string(i);
-    scene.transport = {2 + i, 3, 8};
+    scene.transport = {2 + i, 3, 8, i % 2 == 1 ? 16 : 0, i == 1 ? 1e-3 : 0, i >= 2};
+    if (i != 1) scene.transport.transient = {60, 0.5, 0.1};
     if (i < 2) scene.ambient = {Ambient::Spectrum::sun_am15, Ambient::Quantity::level, 0.2, {}, {}, {}};
     if (i == 1) scene.ambient.direction = Vec3{0.3, 0.2, 1};
     Camera camera = small(load_camera("pico-flexx"));
@@ -192,6 +193,30 @@ TEST(cuda_host, has_the_same_bytes_of_bounces) {
       for (FrameRequest& request : requests) request.pose = {}, request.seed = {};
     }
   }
+}
+
+// Light by path length, without bounces and with them, of what stands still and of what moves, of several lights.
+TEST(cuda_host, has_the_same_bytes_of_light_by_path_length) {
+  const WithStandIn here;
+  double found = 0, lost = 0;
+  for (int i = 0; i < 4; ++i) {
+    Random random(static_cast<std::uint64_t>(i) + 130);
+    Scene scene = random_scene(random, 9, i % 2 == 1);
+    scene.name = "by length " + std::to_string(i);
+    scene.transport = {i / 2 * 2, 3, 8, i == 3 ? 16 : 0};
+    scene.transport.transient = {40, 1.5, 0.05};
+    Camera camera = small(load_camera("pico-flexx"));
+    camera.sensor.width = 20, camera.sensor.height = 14;
+    if (i > 1) camera.illumination.push_back(camera.illumination[0]), camera.illumination[1].position = {0.2, 0, 0};
+    const SimulatorOptions options{.exposure_samples = 2, .subpixel = 1 + i % 3};
+    expect_same(scene, camera, options);
+    expect_same(scene, camera, {.last_stage = Stage::power});
+    const Frame frame = Simulator(scene, camera, on(Backend::cpu, options)).frame(0);
+    for (const float light : frame.truth.transient_e_per_s) found += static_cast<double>(light);
+    for (const float light : frame.truth.transient_lost_e_per_s) lost += static_cast<double>(light);
+  }
+  EXPECT_GT(found, 0);
+  EXPECT_GT(lost, 0);
 }
 
 TEST(cuda_host, keeps_the_light_of_what_stands_still) {

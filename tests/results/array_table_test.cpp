@@ -59,7 +59,7 @@ TEST(array_choice, leaves_out_what_was_not_asked_for_and_nothing_that_explains_t
 }
 
 TEST(array_choice, takes_patterns) {
-  const std::vector<std::string> truth = names_in(file_of("gt_*"));
+  const std::vector<std::string> truth = names_in(file_of("gt_*,transient_*"));
   for (const ArrayRow& row : array_table()) EXPECT_EQ(contains(truth, row.name), row.is_truth() || !row.is_image()) << row.name;
   const std::vector<std::string> metres = names_in(file_of("*_m"));
   EXPECT_TRUE(contains(metres, "z_m") && contains(metres, "gt_z_m") && contains(metres, "noise_m") && contains(metres, "gt_time_s"));
@@ -71,6 +71,7 @@ TEST(array_choice, takes_patterns) {
 TEST(array_choice, knows_whether_the_truth_is_wanted) {
   EXPECT_TRUE(ArrayChoice().has_truth());
   EXPECT_TRUE(ArrayChoice("raw,gt_normal").has_truth());
+  EXPECT_TRUE(ArrayChoice("raw,transient_e_per_s").has_truth());
   EXPECT_FALSE(ArrayChoice("raw,z_m,flags").has_truth());
 }
 

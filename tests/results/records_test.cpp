@@ -160,7 +160,7 @@ TEST(output, has_the_same_bytes_under_any_locale_and_umask) {
   const Camera camera = out_test::sample_camera(24, 16);
   const auto everything = [&] {
     const std::string meta = frame_meta(sample_scene(), camera, {.seed = 7}, 0);
-    return frame_npz_bytes(frame, camera, {}, meta) + preview_png(frame.depth, frame.truth, "x") + raw_png(frame.raw) +
+    return frame_npz_bytes(frame, camera, {}, meta) + preview_png(frame.depth, frame.truth, frame.raw, "x") + raw_png(frame.raw) +
            cloud_ply(frame.depth) + terminal_picture(frame.depth, 24, TerminalColors::full) + manifest_text(sample_manifest());
   };
   const std::string plain = everything();

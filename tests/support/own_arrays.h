@@ -124,6 +124,12 @@ inline PixelLight full_light(const Camera& camera, bool each_raw_frame) {
   return out;
 }
 
+inline std::vector<float> some_light(std::size_t count) {
+  std::vector<float> out;
+  for (std::size_t i = 0; i < count; ++i) out.push_back(1e4f * static_cast<float>(i % 89));
+  return out;
+}
+
 /// Both backends, entered at each stage, again and again in turn: none may take another's arrays.
 inline void expect_same_own_arrays(const Scene& scene, const Camera& camera) {
   Simulator cpu(scene, camera, on(Backend::cpu)), cuda(scene, camera, on(Backend::cuda));
@@ -135,6 +141,16 @@ inline void expect_same_own_arrays(const Scene& scene, const Camera& camera) {
       EXPECT_EQ(first_difference(cpu.frame(index, seen), cuda.frame(index, seen)), "") << scene.name << ", geometry " << each_raw_frame;
       const PixelLight light = full_light(camera, each_raw_frame);
       EXPECT_EQ(first_difference(cpu.frame(index, light), cuda.frame(index, light)), "") << scene.name << ", light " << each_raw_frame;
+    }
+    if (camera.illumination.size() == 1) {  // otherwise with waveforms of their own
+      const Transient light{camera.sensor.width,
+                            camera.sensor.height,
+                            7,
+                            0.5,
+                            0.3,
+                            some_light(frame.truth.z_m.size() * 7),
+                            index == 1 ? std::vector<float>() : some_light(frame.truth.z_m.size())};
+      EXPECT_EQ(first_difference(cpu.frame(index, light), cuda.frame(index, light)), "") << scene.name << ", light by path length";
     }
     Geometry least = geometry_of(scene, camera, frame);
     least.specular.clear(), least.exponent.clear(), least.object_id.clear(), least.shadow.clear();

@@ -205,6 +205,8 @@ inline tofray::Frame sample_frame(int width, int height) {
       truth.multipath_m.push_back(raw.lit[k] != 0 ? 0.02F : std::nanf(""));
     }
   }
+  truth.bins = 2;
+  truth.transient_e_per_s.assign(2 * pixels, 3e6F), truth.transient_lost_e_per_s.assign(pixels, 1e3F);
   return frame;
 }
 

@@ -44,6 +44,18 @@ bool processor_has(Isa isa) {
   return false;
 }
 
+/// Tiles of pixels, or bands of rows.
+int pieces_of(const pipeline::Step& step, const camera::LensView& lens) {
+  return pipeline::goes_by_tiles(step.pass) ? pipeline::tile_count(lens)
+                                            : (lens.height + pipeline::rows_per_band - 1) / pipeline::rows_per_band;
+}
+
+/// About how many rays each pixel of a piece sends.
+std::int64_t rays_of(const pipeline::Step& step, const pipeline::Setup& s) {
+  if (step.pass == Pass::transient) return 1 + std::int64_t{pipeline::paths_after(s, s.bounces.rounds - 1)} * s.bounces.most;
+  return step.pass == Pass::bounces ? 1 + 2 * std::int64_t{pipeline::paths_of_step(s, step.item).count} * s.bounces.most : 1;
+}
+
 }  // namespace
 
 bool can_run(Isa isa) { return isa == Isa::best || (kernel_of(isa) != nullptr && processor_has(isa)); }
@@ -83,8 +95,10 @@ struct Cpu::Threads {
   TileRunner runner;
 };
 
-Cpu::Cpu(Isa isa, int threads)
-    : isa_(choose_isa(isa)), threads_(threads > 0 ? threads : static_cast<int>(std::max(1u, std::thread::hardware_concurrency()))) {
+Cpu::Cpu(Isa isa, int threads, FrameProgress* progress)
+    : isa_(choose_isa(isa)),
+      threads_(threads > 0 ? threads : static_cast<int>(std::max(1u, std::thread::hardware_concurrency()))),
+      progress_(progress) {
   kernel_ = kernel_of(isa_);
 }
 
@@ -99,16 +113,19 @@ void Cpu::load(const pipeline::Setup& setup) {
 void Cpu::describe(RanOn& out) const { out.backend = "cpu", out.device = out.isa = isa_name(isa_), out.threads = threads_; }
 
 void Cpu::run_step(const pipeline::Step& step, const Work& work) {
-  const camera::LensView& lens = work.setup->lens;
-  const bool tiles = step.pass == Pass::pixels || step.pass == Pass::input || step.pass == Pass::bounces || step.pass == Pass::sum;
-  const int pieces = tiles ? pipeline::tile_count(lens) : (lens.height + pipeline::rows_per_band - 1) / pipeline::rows_per_band;
-  pool_->runner.for_each_tile(pieces, [&](int index, void* scratch) { kernel_(&work, step.pass, index, scratch); });
+  const std::int64_t rays = rays_of(step, *work.setup);
+  pool_->runner.for_each_tile(pieces_of(step, work.setup->lens), [&](int index, void* scratch) {
+    if (stopped()) return void(gave_up_ = true);
+    kernel_(&work, step.pass, index, scratch);
+    if (progress_ != nullptr) progress_->done += rays;
+  });
 }
 
 void Cpu::run(const pipeline::Setup& setup, const pipeline::Job& job, const pipeline::Input* input) {
+  gave_up_ = false;
   flow::LightImage image;
   const std::size_t bytes = place_light(setup, job.out, input, nullptr, image);
-  const LightOrigin origin = light_origin(setup, input);
+  const LightOrigin origin = light_origin(setup, job.out, input);
   const bool known = bytes > 0 && origin.known && origin == light_of_;
   if (bytes > 0) {
     if (!known) light_of_ = {};
@@ -116,7 +133,14 @@ void Cpu::run(const pipeline::Setup& setup, const pipeline::Job& job, const pipe
     place_light(setup, job.out, input, light_.data(), image);
   }
   const pipeline::Input collected = pipeline::from_light_image(image);
-  pipeline::each_step(setup, job, input == nullptr ? Stage::trace : input->entry, known, [&](const pipeline::Step& step) {
+  const Stage entry = input == nullptr ? Stage::trace : input->entry;
+  if (progress_ != nullptr) {
+    std::int64_t all = 0;
+    pipeline::each_step(setup, job, entry, known,
+                        [&](const pipeline::Step& step) { all += rays_of(step, setup) * pieces_of(step, setup.lens); });
+    progress_->done = 0, progress_->total = all;
+  }
+  pipeline::each_step(setup, job, entry, known, [&](const pipeline::Step& step) {
     if (step.part == pipeline::Part::all) return run_step(step, {&setup, &job, input, step.item});
     pipeline::Setup own_setup = setup;
     pipeline::Job own_job = job;
@@ -124,7 +148,7 @@ void Cpu::run(const pipeline::Setup& setup, const pipeline::Job& job, const pipe
     pipeline::take_step(step, own_setup, own_job);
     run_step(step, {&own_setup, &own_job, step.part == pipeline::Part::collect ? &collected : input, step.item});
   });
-  if (bytes > 0) light_of_ = origin;
+  if (bytes > 0 && !gave_up_) light_of_ = origin;
 }
 
 }  // namespace tofray::backend

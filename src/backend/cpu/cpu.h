@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The tofray authors
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include <atomic>
 #include <memory>
 #include <string>
 #include <vector>
@@ -21,8 +22,9 @@ bool can_run(Isa isa);
 
 class Cpu final : public Engine {
  public:
-  /// @param threads  0: one per core
-  Cpu(Isa isa, int threads);
+  /// @param threads   0: one per core
+  /// @param progress  null: nobody asks
+  Cpu(Isa isa, int threads, FrameProgress* progress = nullptr);
   ~Cpu() override;
 
   /// @throws Error (limit) where the system refuses that many threads
@@ -34,6 +36,8 @@ class Cpu final : public Engine {
  private:
   struct Threads;
   void run_step(const pipeline::Step& step, const Work& work);
+  std::atomic<bool> gave_up_ = false;  ///< steps of the frame were left out
+  [[nodiscard]] bool stopped() const { return progress_ != nullptr && progress_->stop; }
 
   Isa isa_;
   int threads_;
@@ -41,6 +45,7 @@ class Cpu final : public Engine {
   std::unique_ptr<Threads> pool_;
   std::vector<unsigned char> light_;  ///< memory of the light image
   LightOrigin light_of_;              ///< what it shows
+  FrameProgress* progress_;
 };
 
 }  // namespace tofray::backend

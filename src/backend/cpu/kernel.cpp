@@ -23,8 +23,11 @@ using F = float;
 #include "backend/cpu/kernel.h"
 #include "pipeline/bounce.h"
 #include "pipeline/passes.h"
+#include "pipeline/path_noise.h"
 #include "pipeline/scatter.h"
+#include "pipeline/smooth.h"
 #include "pipeline/tile.h"
+#include "pipeline/transient.h"
 
 namespace tofray::backend {
 
@@ -55,9 +58,28 @@ void run_bounces(const Work& work, int index) {
   each_pack(
       work, index, [&](const Pixels& p) __attribute__((always_inline)) { bounce_pixels<F>(*work.setup, *work.job, work.item, p); });
 }
+void run_path_error(const Work& work, int index) {
+  each_pack(
+      work,
+      index, [&](const Pixels& p) __attribute__((always_inline)) { store_path_error<F>(*work.setup, work.job->light, work.item, p); });
+}
+void run_path_noise(const Work& work, int index) {
+  each_pack(
+      work,
+      index, [&](const Pixels& p) __attribute__((always_inline)) { store_path_noise<F>(*work.setup, work.job->light, work.item, p); });
+}
+void run_smooth(const Work& work, int index) {
+  each_pack(
+      work, index, [&](const Pixels& p) __attribute__((always_inline)) { smooth_light<F>(*work.setup, work.job->light, p); });
+}
 void run_sum(const Work& work, int index) {
   each_pack(
       work, index, [&](const Pixels& p) __attribute__((always_inline)) { sum_light<F>(*work.setup, work.job->light, p); });
+}
+
+void run_transient(const Work& work, int index) {
+  each_pack(
+      work, index, [&](const Pixels& p) __attribute__((always_inline)) { find_transient<F>(*work.setup, *work.job, p); });
 }
 
 void run_rows(const Work& work, Pass pass, int band) {
@@ -89,7 +111,11 @@ extern "C" std::size_t TOFRAY_KERNEL(const Work* work, Pass pass, int index, voi
     case Pass::derive: break;  // the host has done it
     case Pass::input: run_input(*work, index); break;
     case Pass::bounces: run_bounces(*work, index); break;
+    case Pass::path_error: run_path_error(*work, index); break;
+    case Pass::path_noise: run_path_noise(*work, index); break;
+    case Pass::smooth: run_smooth(*work, index); break;
     case Pass::sum: run_sum(*work, index); break;
+    case Pass::transient: run_transient(*work, index); break;
     case Pass::flying:
     case Pass::filter:
     case Pass::settle:

@@ -76,7 +76,7 @@ __global__ void __launch_bounds__(threads) tofray_pixels_own(const Batch batch) 
 
 /// Paths of light take more registers than a block of the largest size has.
 template <Pass pass>
-constexpr int most_threads = pass == Pass::bounces ? 256 : max_block_size;
+constexpr int most_threads = pass == Pass::bounces || pass == Pass::transient ? 256 : max_block_size;
 
 /// A pass over the images of all frames.
 template <Pass pass>
@@ -142,7 +142,11 @@ cudaError_t launch_kernel(const Launch& what, cudaStream_t stream) {
     case Pass::filter: return launch_pass<Pass::filter>(what, pixels, stream);
     case Pass::settle: return launch_pass<Pass::settle>(what, pixels, stream);
     case Pass::bounces: return launch_pass<Pass::bounces>(what, pixels, stream);
+    case Pass::path_error: return launch_pass<Pass::path_error>(what, pixels, stream);
+    case Pass::path_noise: return launch_pass<Pass::path_noise>(what, pixels, stream);
+    case Pass::smooth: return launch_pass<Pass::smooth>(what, pixels, stream);
     case Pass::sum: return launch_pass<Pass::sum>(what, pixels, stream);
+    case Pass::transient: return launch_pass<Pass::transient>(what, pixels, stream);
     case Pass::scatter_rows: return launch_pass<Pass::scatter_rows>(what, pixels, stream);
     case Pass::scatter_columns: return launch_pass<Pass::scatter_columns>(what, pixels, stream);
   }
@@ -161,6 +165,8 @@ cudaError_t find_kernels() {
   find(&tofray_pass<Pass::input>), find(&tofray_pass<Pass::flying>);
   find(&tofray_pass<Pass::filter>), find(&tofray_pass<Pass::settle>);
   find(&tofray_pass<Pass::bounces>), find(&tofray_pass<Pass::sum>);
+  find(&tofray_pass<Pass::path_error>), find(&tofray_pass<Pass::path_noise>), find(&tofray_pass<Pass::smooth>);
+  find(&tofray_pass<Pass::transient>);
   find(&tofray_pass<Pass::scatter_rows>), find(&tofray_pass<Pass::scatter_columns>);
   return status;
 }
@@ -175,7 +181,11 @@ const void* kernel_function(Pass pass, int block_size) {
     case Pass::flying: return reinterpret_cast<const void*>(&tofray_pass<Pass::flying>);
     case Pass::filter: return reinterpret_cast<const void*>(&tofray_pass<Pass::filter>);
     case Pass::bounces: return reinterpret_cast<const void*>(&tofray_pass<Pass::bounces>);
+    case Pass::path_error: return reinterpret_cast<const void*>(&tofray_pass<Pass::path_error>);
+    case Pass::path_noise: return reinterpret_cast<const void*>(&tofray_pass<Pass::path_noise>);
+    case Pass::smooth: return reinterpret_cast<const void*>(&tofray_pass<Pass::smooth>);
     case Pass::sum: return reinterpret_cast<const void*>(&tofray_pass<Pass::sum>);
+    case Pass::transient: return reinterpret_cast<const void*>(&tofray_pass<Pass::transient>);
     case Pass::scatter_rows: return reinterpret_cast<const void*>(&tofray_pass<Pass::scatter_rows>);
     case Pass::scatter_columns: return reinterpret_cast<const void*>(&tofray_pass<Pass::scatter_columns>);
     case Pass::settle: break;

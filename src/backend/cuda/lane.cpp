@@ -20,7 +20,11 @@ const char* starting(Pass pass) {
     case Pass::flying: return "starting the kernel flying";
     case Pass::filter: return "starting the kernel filter";
     case Pass::bounces: return "starting the kernel bounces";
+    case Pass::path_error: return "starting the kernel path_error";
+    case Pass::path_noise: return "starting the kernel path_noise";
+    case Pass::smooth: return "starting the kernel smooth";
     case Pass::sum: return "starting the kernel sum";
+    case Pass::transient: return "starting the kernel transient";
     case Pass::scatter_rows: return "starting the kernel scatter_rows";
     case Pass::scatter_columns: return "starting the kernel scatter_columns";
     case Pass::settle: break;
@@ -33,15 +37,16 @@ pipeline::Input packed(Packer& packer, const pipeline::Setup& setup, const pipel
   const std::size_t pixels = static_cast<std::size_t>(setup.lens.width) * static_cast<std::size_t>(setup.lens.height);
   const std::size_t once = pixels * static_cast<std::size_t>(from.moments), lights = static_cast<std::size_t>(setup.scene.lights);
   const std::size_t by_light = once * lights, paths = static_cast<std::size_t>(from.light.paths);
+  const std::size_t of_lights = once * static_cast<std::size_t>(from.light.lights);
   const std::size_t phasors =
-      2 * by_light * static_cast<std::size_t>(setup.phasors.modulations) * static_cast<std::size_t>(from.light.orders);
+      2 * of_lights * static_cast<std::size_t>(setup.phasors.modulations) * static_cast<std::size_t>(from.light.orders);
   const std::size_t raw = pixels * static_cast<std::size_t>(setup.sensor.raw_frames);
   pipeline::Input to = from;
   to.surface = {packer.put(from.surface.z, once),          packer.put(from.surface.normal, 3 * once),
                 packer.put(from.surface.diffuse, once),    packer.put(from.surface.specular, once),
                 packer.put(from.surface.exponent, once),   packer.put(from.surface.object, once),
                 packer.put(from.surface.shadow, by_light), packer.put(from.surface.sun_shadow, once)};
-  to.light.power = packer.put(from.light.power, from.light.phasor != nullptr ? by_light : once * paths);
+  to.light.power = packer.put(from.light.power, from.light.phasor != nullptr ? of_lights : once * paths);
   to.light.path_length = packer.put(from.light.path_length, once * paths);
   to.light.light_of_path = packer.put(from.light.light_of_path, paths);
   to.light.phasor = packer.put(from.light.phasor, phasors);
@@ -167,7 +172,7 @@ void Lane::begin(const Resident& resident, const pipeline::Setup& first, const p
   flow::LightImage image;
   light_stride_ = place_light(first, job.out, input, nullptr, image);
   reserve_light(light_stride_ * (own == Own::number ? 1 : frames));
-  light_origin_ = own == Own::number && light_stride_ > 0 ? light_origin(first, input) : LightOrigin{};
+  light_origin_ = own == Own::number && light_stride_ > 0 ? light_origin(first, job.out, input) : LightOrigin{};
   place_light(first, job.out, input, light_memory(), common_light_);
   own_lights_.assign(own == Own::number ? 0 : frames, {});
   for (std::size_t i = 0; i < own_lights_.size(); ++i)

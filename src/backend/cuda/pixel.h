@@ -4,9 +4,12 @@
 #include "backend/cuda/arguments.h"
 #include "pipeline/bounce.h"
 #include "pipeline/passes.h"
+#include "pipeline/path_noise.h"
 #include "pipeline/scatter.h"
+#include "pipeline/smooth.h"
 #include "pipeline/steps.h"
 #include "pipeline/tile.h"
+#include "pipeline/transient.h"
 
 /// What one thread of the GPU does: the pipeline's own functions for one pixel, on plain floats. Compiled for the host, too, where a
 /// stand-in for the CUDA runtime runs it (tests/backend).
@@ -189,7 +192,11 @@ TOFRAY_FN void run_pass(Pass pass, int item, const Setup& s, const Job& job, con
   const int x = index % s.lens.width, y = index / s.lens.width;
   if (pass == Pass::input) pipeline::enter<float>(s, job, input, p);
   if (pass == Pass::bounces) pipeline::bounce_pixels<float>(s, job, item, p);
+  if (pass == Pass::path_error) pipeline::store_path_error<float>(s, job.light, item, p);
+  if (pass == Pass::path_noise) pipeline::store_path_noise<float>(s, job.light, item, p);
+  if (pass == Pass::smooth) pipeline::smooth_light<float>(s, job.light, p);
   if (pass == Pass::sum) pipeline::sum_light<float>(s, job.light, p);
+  if (pass == Pass::transient) pipeline::find_transient<float>(s, job, p);
   if (pass == Pass::flying) pipeline::flag_flying_pixel(s, job, x, y);
   if (pass == Pass::filter) pipeline::filter_pixel(s, job, x, y);
   if (pass == Pass::settle) pipeline::settle<float>(s, job, p, pipeline::range_left(job));

@@ -13,8 +13,7 @@ std::size_t rounded(std::size_t bytes) { return (bytes + 255) / 256 * 256; }
 }  // namespace
 
 Slab::Slab(const pipeline::Setup& setup, const flow::FrameView& wanted, bool filter)
-    : pixels_(static_cast<std::size_t>(setup.lens.width) * static_cast<std::size_t>(setup.lens.height)),
-      phases_(static_cast<std::size_t>(setup.sensor.raw_frames)) {
+    : size_{std::int64_t{setup.lens.width} * setup.lens.height, setup.sensor.raw_frames, setup.transient.bins} {
   int i = 0;
   flow::each_array(wanted, [&](const auto* array, ArrayShape shape, Stage) {
     if (array != nullptr) {
@@ -25,12 +24,10 @@ Slab::Slab(const pipeline::Setup& setup, const flow::FrameView& wanted, bool fil
   });
   shown_bytes_ = bytes_;
   filtered_offset_ = bytes_;
-  if (filter) bytes_ = rounded(bytes_ + pixels_ * sizeof(float));
+  if (filter) bytes_ = rounded(bytes_ + static_cast<std::size_t>(size_.pixels) * sizeof(float));
 }
 
-std::size_t Slab::count(ArrayShape shape) const {
-  return static_cast<std::size_t>(flow::values_of(shape, static_cast<std::int64_t>(pixels_), static_cast<std::int64_t>(phases_)));
-}
+std::size_t Slab::count(ArrayShape shape) const { return static_cast<std::size_t>(flow::values_of(shape, size_)); }
 
 flow::FrameView Slab::view(void* base) const {
   flow::FrameView out{};

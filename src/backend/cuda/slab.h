@@ -22,12 +22,14 @@ class Slab {
   [[nodiscard]] float* filtered(void* base) const;
   /// The arrays of the frame that begins at `base` → those of `to` that are not null.
   void copy_out(const void* base, const flow::FrameView& to) const;
+  [[nodiscard]] const flow::FrameSize& size() const { return size_; }
   bool operator==(const Slab&) const = default;
 
  private:
   [[nodiscard]] std::size_t count(ArrayShape shape) const;
 
-  std::size_t pixels_ = 0, phases_ = 0, bytes_ = 0, shown_bytes_ = 0;
+  flow::FrameSize size_{};
+  std::size_t bytes_ = 0, shown_bytes_ = 0;
   std::size_t offset_[flow::array_count] = {};  // +1; 0: no place
   std::size_t filtered_offset_ = 0;
 };
