@@ -72,13 +72,11 @@ std::vector<Command> make() {
            "reference_phase_rad, integration_time_s, lit and, if it is known, start_time_s (otherwise each exposure begins when the one\n"
            "before has been read out). Without --camera it is the camera that the file says it was made with.\n"
            "Its other arrays, such as gt_* and camera_pose, are written again as they are.\n\n"
-           "--transient FILE begins earlier, with histograms of light by path length, and simulates raw frames and depth: "
-           "transient_e_per_s\n"
-           "of a frame.npz, or an array [bin, height, width] or [height, width, bin], with or without a last axis of one channel "
-           "(mitransient\n"
-           "writes [height, width, bin, channel]; its start_opl is --first, its bin_width_opl --width). The camera's size tells where the "
-           "bins\n"
-           "are; where it cannot, they are last.\n",
+           "With --transient FILE it begins earlier, with histograms of light by path length, and simulates raw frames and depth:\n"
+           "transient_e_per_s of a frame.npz, or an array [bin, height, width] or [height, width, bin], with or without a last axis of "
+           "one\n"
+           "channel (mitransient writes [height, width, bin, channel]; its start_opl is --first, its bin_width_opl --width). The camera's\n"
+           "size tells where the bins are; where it cannot, they are last.\n",
        .options = {"--camera", "--output", "--set", "--mode", "--emit", "--arrays", "--compress", "--theme", "--transient", "--first",
                    "--width", "--factor", "--seed", "--noise", "--threads", "--backend", "--device", "--json", "--quiet"},
        .least_words = 1,

@@ -203,8 +203,10 @@ inline tofray::Frame sample_frame(int width, int height) {
       truth.signal_e.push_back(static_cast<float>(s));
       truth.direct_e.push_back(static_cast<float>(0.75 * s)), truth.indirect_e.push_back(static_cast<float>(0.25 * s));
       truth.multipath_m.push_back(raw.lit[k] != 0 ? 0.02F : std::nanf(""));
+      truth.path_noise_m.push_back(raw.lit[k] != 0 ? 0.002F : std::nanf(""));
     }
   }
+  truth.path_count.assign(pixels, 16);
   truth.bins = 2;
   truth.transient_e_per_s.assign(2 * pixels, 3e6F), truth.transient_lost_e_per_s.assign(pixels, 1e3F);
   return frame;
