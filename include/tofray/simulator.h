@@ -125,6 +125,7 @@ class Simulator {
 
   /// Many frames, in their order: `count` from `first` on, or one for each request. On GPUs several of them are on their way at once, in
   /// bounded memory; all GPUs take part unless SimulatorOptions::device names one.
+  /// Ends with the last whole frame once FrameProgress::stop is set.
   /// @param take  is given each frame when it is done; the arrays are good until it returns
   /// @throws Error (bad_input) for a request with a pose that cannot be: before the first frame
   void frames(std::uint64_t first, std::uint64_t count, const std::function<void(const FrameArrays&)>& take);

@@ -39,8 +39,8 @@ inline constexpr Limit sensor_pixels{"sensor_pixels", 1 << 24, "pixels of the se
 inline constexpr Limit subpixel_rays{"subpixel_rays", 1 << 26, "pixels times samples within each"};
 inline constexpr Limit path_surfaces{"path_surfaces", std::int64_t{1} << 34,
                                      "pixels times ways of light for each times surfaces that each may meet beyond the first"};
-inline constexpr Limit light_values{"light_values", 1 << 29,
-                                    "values of the light image: pixels times what is kept of the light of each, at all times of a frame"};
+inline constexpr Limit light_values{
+    "light_values", 1 << 29, "values of the images of light: pixels times what is kept of the light of each, at all times of a frame"};
 inline constexpr Limit transient_values{"transient_values", 1 << 28,
                                         "values of all histograms of light by the length of its path: pixels times bins"};
 inline constexpr Limit mask_side{"mask_side", 1024, "rows, or columns, of a pixel's mask"};

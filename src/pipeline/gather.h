@@ -41,22 +41,12 @@ struct Growing {
   float* values;
 };
 /// Adds a share of a light to the image.
-/// @param first  nothing was added before: the share is all there is
+/// @param first   nothing was added before: the share is all there is
+/// @param kept    what the light that was there before counts
+/// @param active  pixels that get more; the others keep what they have
 template <class F>
 TOFRAY_APART void gather_light(const Setup& s, const Growing& image, const Pixels& p, int times, int time, const flow::Light<F>& light,
-                               float share, bool first) {
-  each_plane<F>(
-      s, times, time, light, [&](int plane, F value) __attribute__((always_inline)) {
-        const std::int64_t at = light_place(s, p, times, time, plane);
-        const F sum = first ? value * F(share) : num::fma(value, F(share), num::load<F>(image.before + at, p.count));
-        num::store(image.values + at, sum, p.count);
-      });
-}
-
-/// The same of light that comes in rounds: what there was counts `kept`, and only the active pixels get more.
-template <class F>
-TOFRAY_FN void grow_light(const Setup& s, const Growing& image, const Pixels& p, int times, int time, const flow::Light<F>& light,
-                          float share, bool first, float kept, num::Mask<F> active) {
+                               float share, bool first, float kept, num::Mask<F> active) {
   each_plane<F>(
       s, times, time, light, [&](int plane, F value) __attribute__((always_inline)) {
         const std::int64_t at = light_place(s, p, times, time, plane);

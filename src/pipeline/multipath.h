@@ -22,6 +22,7 @@ TOFRAY_FN void differences(const Setup& s, const float* values, const Pixels& p,
 
 /// Half path that all light shows less that which the direct light shows, as the decoder has them from raw frames without noise, for each
 /// modulation frequency: at most half its unambiguous range to either side.                                     [theory: eq. 7.8]
+constexpr float per_turn = 0.15915494f;  ///< 1/(2π)
 template <class F>
 struct MultipathError {
   F value;              ///< [m]
@@ -43,7 +44,7 @@ TOFRAY_FN MultipathError<F> multipath_error(const camera::DecoderView& s, const 
 /// @param variance   of the light across Ẑ [e⁻²]
 template <class F>
 TOFRAY_FN F half_path_error(const camera::DecodeModulation& m, F slope, F amplitude, F variance) {
-  const F error = num::abs(slope) * F(m.half_wave * 0.15915494f) * num::sqrt(variance) / num::max(amplitude, F(1e-20f));
+  const F error = num::abs(slope) * F(m.half_wave * per_turn) * num::sqrt(variance) / num::max(amplitude, F(1e-20f));
   return num::select(variance > F(0.0f), num::min(error, F(0.5f * m.half_wave)), F(0.0f));
 }
 

@@ -7,7 +7,10 @@
 namespace tofray::pipeline {
 
 /// Paths of each sample within the pixels in the first round: as many in either half.
-TOFRAY_FN int paths_at_first(const Setup& s) { return 2 * ((s.bounces.samples + 2 * s.subpixel.count - 1) / (2 * s.subpixel.count)); }
+/// @param paths    that are asked for, of a pixel
+/// @param samples  within it
+TOFRAY_FN int paths_at_first(int paths, int samples) { return 2 * ((paths + 2 * samples - 1) / (2 * samples)); }
+TOFRAY_FN int paths_at_first(const Setup& s) { return paths_at_first(s.bounces.samples, s.subpixel.count); }
 /// Paths of a pixel that needs them, after a round.
 TOFRAY_FN int paths_after(const Setup& s, int round) { return s.subpixel.count * (paths_at_first(s) << round); }
 

@@ -84,16 +84,16 @@ enum class Pass : std::int32_t {
   path_noise,       ///< … of many pixels together: its standard error, and who needs more paths
   smooth,           ///< its mean over like neighbours
   sum,              ///< all light of the image
+  transient,        ///< histograms of light by the length of its path
   scatter_rows,     ///< the light image along rows
   scatter_columns,  ///< … and along columns; a kernel that is not separable: both at once
-  transient,        ///< histograms of light by the length of its path
   flying,           ///< flags of flying pixels
   filter,           ///< the image filter
   settle,           ///< the range that is left, to z, point and confidence
 };
 
 /// Whether it goes over the image by tiles, not by rows.
-TOFRAY_FN bool goes_by_tiles(Pass pass) { return (pass >= Pass::pixels && pass <= Pass::sum) || pass == Pass::transient; }
+TOFRAY_FN bool goes_by_tiles(Pass pass) { return pass >= Pass::pixels && pass <= Pass::transient; }
 
 /// Whether light is followed from surface to surface.
 /// @param entry  the first stage that is computed

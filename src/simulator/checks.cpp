@@ -10,7 +10,7 @@
 #include "base/text.h"
 #include "flow/flow.h"
 #include "model/check.h"
-#include "pipeline/setup.h"
+#include "pipeline/rounds.h"
 #include "scene/motion.h"
 #include "simulator/check.h"
 
@@ -23,6 +23,23 @@ std::int64_t movers_of(const Scene& scene) {
   std::int64_t movers = 0;
   for (const Object& object : scene.objects) movers += !scene.camera.keyframes.empty() || scene::moves(object);
   return movers;
+}
+
+std::int64_t modulation_frequencies(const Mode& mode) {
+  std::set<double> different;
+  for (const RawFrame& frame : mode.sequence)
+    if (frame.lit) different.insert(frame.modulation_frequency_hz);
+  return static_cast<std::int64_t>(different.size());
+}
+
+/// Images of light that a frame needs at once, at most (backend::place_light); none where light goes straight into raw frames.
+std::int64_t light_images(const Scene& scene, const Camera& camera, const SimulatorOptions& options) {
+  const Transport& transport = scene.transport;
+  const bool several = options.subpixel > 1, bounces = transport.bounces > 0, scatters = camera.lens.scatter.kind != Scatter::Kind::none;
+  if (!several && !bounces && !scatters) return 0;
+  const int direct = several || bounces ? 2 : 1, scattered = scatters ? 2 : 0;
+  const int halves = 2, twice = several || transport.smooth || transport.max_samples > 0 ? 2 : 1;
+  return direct + scattered + (bounces ? halves * twice : 0);
 }
 
 }  // namespace
@@ -92,30 +109,36 @@ void check_light_image(const Scene& scene, const Camera& camera, const Simulator
            ErrorKind::limit);
   const Transport& transport = scene.transport;
   const std::int64_t times = movers_of(scene) > 0 ? static_cast<std::int64_t>(camera.mode.sequence.size()) * options.exposure_samples : 1;
-  const std::int64_t ways = std::max<std::int64_t>((transport.samples + 2 * n * n - 1) / (2 * n * n) * 2 * n * n, transport.max_samples);
-  const std::int64_t surfaces = pixels * ways * transport.bounces * times, most_surfaces = base::limit::path_surfaces.value;
+  const std::int64_t first = n * n * pipeline::paths_at_first(transport.samples, static_cast<int>(n * n));
+  const std::int64_t ways = std::max<std::int64_t>(first, transport.max_samples);
+  const std::int64_t again = transport.transient.bins > 0 ? 1 : 0;  // histograms follow the ways of one time once more
+  const std::int64_t surfaces = pixels * ways * transport.bounces * (times + again), most_surfaces = base::limit::path_surfaces.value;
   if (surfaces > most_surfaces)
     refuse("too many ways of light are to be followed",
            "got " + std::to_string(ways) + " for each of " + std::to_string(pixels) + " pixels, to " + std::to_string(transport.bounces) +
-               " surfaces each" + (times > 1 ? " at each of " + std::to_string(times) + " times" : "") + ", " + std::to_string(surfaces) +
-               " in all, at most " + std::to_string(most_surfaces) + "\n  lower transport.samples (--samples) or transport.max_samples",
+               " surfaces each" + (times > 1 ? " at each of " + std::to_string(times) + " times" : "") +
+               (again > 0 ? ", and once more for their histograms" : "") + ", " + std::to_string(surfaces) + " in all, at most " +
+               std::to_string(most_surfaces) + "\n  lower transport.samples (--samples) or transport.max_samples",
            ErrorKind::limit);
-  if (const std::int64_t first = (transport.samples + 2 * n * n - 1) / (2 * n * n) * 2 * n * n;
-      transport.bounces > 0 && transport.max_samples > 0 && transport.max_samples < 2 * first)
+  if (transport.bounces > 0 && transport.max_samples > 0 && transport.max_samples < 2 * first)
     refuse("transport.max_samples adds no ways of light", "got " + std::to_string(transport.max_samples) + ", but each pixel begins with " +
                                                               std::to_string(first) +
                                                               ", an even number for each sample within it, and goes on with twice as many");
   if (transport.bounces > 0 && camera.power_model == PowerModel::paper_literal)
     refuse("the paper's printed formula knows no light from surface to surface",
            "leave out transport.bounces, or power_model paper_literal");
-  if (n == 1 && camera.lens.scatter.kind == Scatter::Kind::none && transport.bounces == 0) return;
+  const std::int64_t images = light_images(scene, camera, options);
+  if (images == 0) return;
   // At most: a plane for each part of each harmonic of each modulation frequency, or of one at the time of each raw frame.
   const auto raw_frames = static_cast<std::int64_t>(camera.mode.sequence.size());
-  const std::int64_t values = pixels * (2 + 2 * flow::max_harmonics) * raw_frames, most = base::limit::light_values.value;
+  const std::int64_t in_one =
+      movers_of(scene) > 0 ? (2 + 2 * flow::max_harmonics) * raw_frames : 2 + 2 * flow::max_harmonics * modulation_frequencies(camera.mode);
+  const std::int64_t values = pixels * in_one * images, most = base::limit::light_values.value;
   if (values > most)
     refuse("the light image is too large",
-           "got " + std::to_string(pixels) + " pixels and " + std::to_string(raw_frames) + " raw frames, up to " + std::to_string(values) +
-               " values, at most " + std::to_string(most) + "\n  sub-pixel samples, bounces and a lens that scatters need it",
+           "got " + std::to_string(pixels) + " pixels and up to " + std::to_string(in_one) + " values of each in " +
+               std::to_string(images) + " images, " + std::to_string(values) + " in all, at most " + std::to_string(most) +
+               "\n  sub-pixel samples, bounces and a lens that scatters need it",
            ErrorKind::limit);
 }
 

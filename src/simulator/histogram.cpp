@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <complex>
 
 #include "base/constants.h"
 #include "num/setup_math.h"

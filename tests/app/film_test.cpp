@@ -3,7 +3,6 @@
 // Films of things in motion: --fps, --exposure-samples, and what the manifest remembers of both.
 #include <gtest/gtest.h>
 
-#include "files/npz.h"
 #include "tool.h"
 
 namespace tofray::test {
@@ -21,12 +20,7 @@ constexpr const char* film_scene =
 struct FilmFolder {
   FilmFolder() { std::ofstream(folder / "film.yaml") << film_scene; }
   [[nodiscard]] Result run(const Arguments& arguments) const { return test::run(with_small_sensor(arguments), in_folder(folder.path())); }
-  [[nodiscard]] std::vector<double> numbers(const std::string& file, const char* name) const {
-    const auto arrays = files::read_npz(folder / file, {name});
-    std::vector<double> out;
-    for (std::size_t i = 0; i < arrays.at(0).array.count(); ++i) out.push_back(arrays[0].array.number(i));
-    return out;
-  }
+  [[nodiscard]] std::vector<double> numbers(const std::string& file, const char* name) const { return numbers_of(folder / file, name); }
   Folder folder;
 };
 

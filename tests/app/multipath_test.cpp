@@ -22,12 +22,7 @@ struct CornerFolder {
   }
   [[nodiscard]] Result run(const Arguments& arguments) const { return test::run(with_small_sensor(arguments), in_folder(folder.path())); }
   /// All numbers of one array.
-  [[nodiscard]] std::vector<double> numbers(const std::string& file, const char* name) const {
-    const auto arrays = files::read_npz(folder / file, {name});
-    std::vector<double> out;
-    for (std::size_t i = 0; i < arrays.at(0).array.count(); ++i) out.push_back(arrays[0].array.number(i));
-    return out;
-  }
+  [[nodiscard]] std::vector<double> numbers(const std::string& file, const char* name) const { return numbers_of(folder / file, name); }
   Folder folder;
 };
 

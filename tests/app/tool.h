@@ -21,6 +21,7 @@
 #include <utility>
 #include <vector>
 
+#include "files/npz.h"
 #include "support/text.h"
 
 /// Drives the real program, TOFRAY_TOOL, as a shell would.
@@ -47,6 +48,14 @@ class Folder {
  private:
   fs::path path_;
 };
+
+/// All numbers of one array of an npz file.
+inline std::vector<double> numbers_of(const fs::path& file, const char* name) {
+  const auto arrays = files::read_npz(file, {name});
+  std::vector<double> out;
+  for (std::size_t i = 0; i < arrays.at(0).array.count(); ++i) out.push_back(arrays[0].array.number(i));
+  return out;
+}
 
 struct Result {
   int code = -1;  ///< exit code; 1000 + signal where one ended the process

@@ -34,7 +34,8 @@ class StandInCuda final : public backend::gpu::Runtime {
   std::uint64_t calls = 0;
   std::set<int> unusable;  ///< devices without code
   int graphs_made = 0, graphs_launched = 0;
-  std::size_t pinned_bytes = 0;  ///< all that were ever taken
+  std::size_t pinned_bytes = 0;   ///< all that were ever taken
+  pipeline::Pass occupancy_of{};  ///< last asked for
   std::map<int, int> frames_by_device, launches_by_block_size;
 
   /// What was taken and not given back.
@@ -60,9 +61,10 @@ class StandInCuda final : public backend::gpu::Runtime {
     return 0;
   }
   Status find_code() override { return fails() || unusable.contains(device_) ? failed : 0; }
-  Status occupancy(pipeline::Pass, int block_size, int& blocks) override {
+  Status occupancy(pipeline::Pass pass, int block_size, int& threads) override {
     if (fails()) return failed;
-    blocks = 1024 / block_size;
+    occupancy_of = pass;
+    threads = 1024 / block_size * block_size;
     return 0;
   }
   Status allocate(std::size_t bytes, void*& memory) override { return take_memory(bytes, memory, device_); }

@@ -36,7 +36,6 @@ class Cpu final : public Engine {
  private:
   struct Threads;
   void run_step(const pipeline::Step& step, const Work& work);
-  std::atomic<bool> gave_up_ = false;  ///< steps of the frame were left out
   [[nodiscard]] bool stopped() const { return progress_ != nullptr && progress_->stop; }
 
   Isa isa_;
@@ -46,6 +45,7 @@ class Cpu final : public Engine {
   std::vector<unsigned char> light_;  ///< memory of the light image
   LightOrigin light_of_;              ///< what it shows
   FrameProgress* progress_;
+  std::atomic<bool> gave_up_ = false;  ///< steps of the frame were left out
 };
 
 }  // namespace tofray::backend

@@ -67,9 +67,10 @@ void Cuda::load(const pipeline::Setup& setup) {
   device_.check(device_.runtime().copy(resident_.memory.get(), staged.get(), packer.used(), gpu::Way::to_device, stream.get()),
                 "copying the scene to the GPU");
   device_.check(device_.runtime().synchronize(stream.get()), "copying the scene to the GPU");
-  int blocks = 0;
-  device_.check(device_.runtime().occupancy(pipeline::Pass::pixels, block_size_, blocks), "asking for the occupancy");
-  occupancy_ = static_cast<double>(blocks * block_size_) / device_.info().threads_per_processor;
+  const pipeline::Pass longest = pipeline::bounces(setup, Stage::trace) ? pipeline::Pass::bounces : pipeline::Pass::pixels;
+  int threads = 0;
+  device_.check(device_.runtime().occupancy(longest, block_size_, threads), "asking for the occupancy");
+  occupancy_ = static_cast<double>(threads) / device_.info().threads_per_processor;
 }
 
 gpu::Lane& Cuda::lane(std::size_t i) {

@@ -51,8 +51,11 @@ class CudaRuntime final : public Runtime {
   }
   Status use(int device) override { return told(cudaSetDevice(device)); }
   Status find_code() override { return told(find_kernels()); }
-  Status occupancy(Pass pass, int block_size, int& blocks) override {
-    return told(cudaOccupancyMaxActiveBlocksPerMultiprocessor(&blocks, kernel_function(pass, block_size), block_size, 0));
+  Status occupancy(Pass pass, int block_size, int& threads) override {
+    const int block = threads_of_block(pass, block_size);
+    const Status status = told(cudaOccupancyMaxActiveBlocksPerMultiprocessor(&threads, kernel_function(pass, block_size), block, 0));
+    threads *= block;
+    return status;
   }
 
   Status allocate(std::size_t bytes, void*& memory) override { return told(cudaMalloc(&memory, bytes)); }

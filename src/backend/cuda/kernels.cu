@@ -74,9 +74,9 @@ __global__ void __launch_bounds__(threads) tofray_pixels_own(const Batch batch) 
   run_pixel<true>(mine.setup, job_of(mine.job, batch.numbers[frame], 0), warp, patch, warp.lane);
 }
 
-/// Paths of light take more registers than a block of the largest size has.
+/// The largest block of a kernel.
 template <Pass pass>
-constexpr int most_threads = pass == Pass::bounces || pass == Pass::transient ? 256 : max_block_size;
+constexpr int most_threads = most_threads_of(pass);
 
 /// A pass over the images of all frames.
 template <Pass pass>
@@ -121,7 +121,7 @@ cudaError_t launch_derive(const Launch& what, cudaStream_t stream) {
 
 template <Pass pass>
 cudaError_t launch_pass(const Launch& what, int pixels, cudaStream_t stream) {
-  const auto block = static_cast<unsigned>(what.block_size < most_threads<pass> ? what.block_size : most_threads<pass>);
+  const auto block = static_cast<unsigned>(threads_of_block(pass, what.block_size));
   const dim3 grid((static_cast<unsigned>(pixels) + block - 1) / block, static_cast<unsigned>(what.batch.frames));
   tofray_pass<pass><<<grid, block, 0, stream>>>(*what.common, what.batch, what.input);
   return cudaGetLastError();

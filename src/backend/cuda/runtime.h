@@ -51,8 +51,8 @@ class Runtime {
   virtual Status use(int device) = 0;
   /// Whether this build has code that the device runs.
   virtual Status find_code() = 0;
-  /// How many blocks of a kernel one multiprocessor holds at once.
-  virtual Status occupancy(Pass pass, int block_size, int& blocks) = 0;
+  /// How many threads of a kernel one multiprocessor holds at once.
+  virtual Status occupancy(Pass pass, int block_size, int& threads) = 0;
 
   virtual Status allocate(std::size_t bytes, void*& memory) = 0;
   virtual Status allocate_pinned(std::size_t bytes, void*& memory) = 0;
