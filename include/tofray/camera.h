@@ -43,10 +43,14 @@ struct Scatter {
   int columns = 0, rows = 0;
 };
 
-/// Pinhole with Brown–Conrady distortion, OpenCV's convention; pixel (0,0)'s centre is at (0.0, 0.0).
+/// Pinhole with distortion, OpenCV's conventions (theory 1); pixel (0,0)'s centre is at (0.0, 0.0).
 struct Lens {
   double fx_px = 0, fy_px = 0, cx_px = 0, cy_px = 0;
-  double k1 = 0, k2 = 0, p1 = 0, p2 = 0, k3 = 0;
+  /// brown_conrady: radial (1 + k1r² + k2r⁴ + k3r⁶)/(1 + k4r² + k5r⁴ + k6r⁶), r = tan θ, and tangential p1, p2.
+  /// fisheye: radius θ(1 + k1θ² + k2θ⁴ + k3θ⁶ + k4θ⁸), and nothing else.
+  enum class Distortion { brown_conrady, fisheye };
+  Distortion distortion = Distortion::brown_conrady;
+  double k1 = 0, k2 = 0, p1 = 0, p2 = 0, k3 = 0, k4 = 0, k5 = 0, k6 = 0;
   double f_number = 1;
   double transmission = 1;  ///< T, 0…1, lens and filter at the illumination wavelength
   enum class Vignetting { cos4, off, table };

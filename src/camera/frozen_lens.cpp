@@ -12,14 +12,28 @@ namespace tofray::camera {
 
 using num::single;
 
+namespace {
+
+ProjectionView projection_of(const Lens& lens, double limit) {
+  const bool fisheye = lens.distortion == Lens::Distortion::fisheye;
+  ProjectionView out{};
+  out.fx = single(lens.fx_px), out.fy = single(lens.fy_px), out.limit = single(limit);
+  out.k1 = single(lens.k1), out.k2 = single(lens.k2), out.k3 = single(lens.k3), out.k4 = single(lens.k4);
+  out.fisheye = fisheye ? 1 : 0;
+  if (fisheye) return out;
+  out.p1 = single(lens.p1), out.p2 = single(lens.p2), out.k5 = single(lens.k5), out.k6 = single(lens.k6);
+  return out;
+}
+
+}  // namespace
+
 FrozenLens::FrozenLens(const Lens& lens, const Sensor& sensor, const Point2& offset_px, double area) {
   const std::size_t pixels = static_cast<std::size_t>(sensor.width) * static_cast<std::size_t>(sensor.height);
   ray_x_.assign(pixels, 0), ray_y_.assign(pixels, 0), inverse_length_.assign(pixels, 1), vignetting_.assign(pixels, 0);
   view_.width = sensor.width, view_.height = sensor.height;
   view_.pixel_area = single(area / (lens.fx_px * lens.fy_px));
   const double limit = growing_radius_squared(lens);
-  view_.projection = {single(lens.fx_px), single(lens.fy_px), single(lens.k1), single(lens.k2),
-                      single(lens.p1),    single(lens.p2),    single(lens.k3), single(limit)};
+  view_.projection = projection_of(lens, limit);
   const Vignetting vignetting(lens);
   std::size_t i = 0;
   for (int v = 0; v < sensor.height; ++v) {

@@ -11,8 +11,45 @@ namespace tofray::camera {
 
 namespace {
 
-/// d/dr of r(1 + k1r² + k2r⁴ + k3r⁶)
-double radial_slope(const Lens& lens, double square) { return 1 + square * (3 * lens.k1 + square * (5 * lens.k2 + square * 7 * lens.k3)); }
+/// The radial part of the model: g(r²), and its derivative.
+struct Radial {
+  double factor;
+  double slope;  ///< dg/d(r²)
+  bool grows;    ///< r·g does, with r
+};
+
+Radial brown_conrady(const Lens& l, double square) {
+  const double above = 1 + square * (l.k1 + square * (l.k2 + square * l.k3));
+  const double below = 1 + square * (l.k4 + square * (l.k5 + square * l.k6));
+  const double above_slope = l.k1 + square * (2 * l.k2 + square * 3 * l.k3), below_slope = l.k4 + square * (2 * l.k5 + square * 3 * l.k6);
+  // d(r·g)/dr·below²
+  const double growth = (1 + square * (3 * l.k1 + square * (5 * l.k2 + square * 7 * l.k3))) * below - 2 * square * above * below_slope;
+  return {above / below, (above_slope * below - above * below_slope) / (below * below), below > 0 && growth > 0};
+}
+
+Radial fisheye(const Lens& l, double square) {
+  const double r = std::sqrt(square), angle = num::setup::atan(r), a = angle * angle;
+  const double radius = angle * (1 + a * (l.k1 + a * (l.k2 + a * (l.k3 + a * l.k4))));
+  const double growth = 1 + a * (3 * l.k1 + a * (5 * l.k2 + a * (7 * l.k3 + a * 9 * l.k4)));  // d(radius)/dθ
+  // Near the axis g = 1 + (k1 − ⅓)r² + (⅕ − k1 + k2)r⁴ …, without a difference of two like numbers.
+  if (square < 1e-6) {
+    const double first = l.k1 - 1.0 / 3, second = 0.2 - l.k1 + l.k2;
+    return {1 + square * (first + square * second), first + 2 * square * second, true};
+  }
+  return {radius / r, (growth * r / (1 + square) - radius) / (2 * r * square), growth > 0};
+}
+
+Radial radial(const Lens& lens, double square) {
+  return lens.distortion == Lens::Distortion::fisheye ? fisheye(lens, square) : brown_conrady(lens, square);
+}
+
+/// What bends along the tangent, too; a fisheye has none.
+struct Tangential {
+  double p1, p2;
+};
+Tangential tangential(const Lens& lens) {
+  return lens.distortion == Lens::Distortion::fisheye ? Tangential{0, 0} : Tangential{lens.p1, lens.p2};
+}
 
 }  // namespace
 
@@ -20,10 +57,10 @@ double growing_radius_squared(const Lens& lens) {
   constexpr double farthest = 1e4;
   double low = 0;
   for (double high = 1e-3; high < farthest; high *= 1.02) {
-    if (radial_slope(lens, high) <= 0) {
+    if (!radial(lens, high).grows) {
       for (int i = 0; i < 60; ++i) {
         const double middle = 0.5 * (low + high);
-        (radial_slope(lens, middle) > 0 ? low : high) = middle;
+        (radial(lens, middle).grows ? low : high) = middle;
       }
       return low;
     }
@@ -39,31 +76,40 @@ struct Jacobian {
 };
 
 Jacobian jacobian(const Lens& l, const Point2& p) {
-  const double r2 = p.x * p.x + p.y * p.y;
-  const double radial = 1 + r2 * (l.k1 + r2 * (l.k2 + r2 * l.k3));
-  const double slope = 2 * (l.k1 + r2 * (2 * l.k2 + r2 * 3 * l.k3));
-  const double mixed = slope * p.x * p.y + 2 * l.p1 * p.x + 2 * l.p2 * p.y;
-  return {radial + slope * p.x * p.x + 2 * l.p1 * p.y + 6 * l.p2 * p.x, mixed, mixed,
-          radial + slope * p.y * p.y + 6 * l.p1 * p.y + 2 * l.p2 * p.x};
+  const Radial g = radial(l, p.x * p.x + p.y * p.y);
+  const auto [p1, p2] = tangential(l);
+  const double slope = 2 * g.slope;
+  const double mixed = slope * p.x * p.y + 2 * p1 * p.x + 2 * p2 * p.y;
+  return {g.factor + slope * p.x * p.x + 2 * p1 * p.y + 6 * p2 * p.x, mixed, mixed,
+          g.factor + slope * p.y * p.y + 6 * p1 * p.y + 2 * p2 * p.x};
+}
+
+/// Where the search for the inverse begins: a fisheye without coefficients there and back, or the distorted point itself.
+Point2 first_guess(const Lens& lens, const Point2& target) {
+  if (lens.distortion != Lens::Distortion::fisheye) return target;
+  const double angle = std::sqrt(target.x * target.x + target.y * target.y);
+  if (angle < 1e-6) return target;
+  const double grow = num::setup::tan(std::min(angle, 1.5)) / angle;
+  return {target.x * grow, target.y * grow};
 }
 
 }  // namespace
 
 Point2 distort(const Lens& l, const Point2& p) {
-  const double r2 = p.x * p.x + p.y * p.y;
-  const double radial = 1 + r2 * (l.k1 + r2 * (l.k2 + r2 * l.k3));
-  return {p.x * radial + 2 * l.p1 * p.x * p.y + l.p2 * (r2 + 2 * p.x * p.x),
-          p.y * radial + l.p1 * (r2 + 2 * p.y * p.y) + 2 * l.p2 * p.x * p.y};
+  const double r2 = p.x * p.x + p.y * p.y, g = radial(l, r2).factor;
+  const auto [p1, p2] = tangential(l);
+  return {p.x * g + 2 * p1 * p.x * p.y + p2 * (r2 + 2 * p.x * p.x), p.y * g + p1 * (r2 + 2 * p.y * p.y) + 2 * p2 * p.x * p.y};
 }
 
 bool undistort(const Lens& lens, double limit, const Point2& target, Point2& out) {
-  Point2 p = target;
-  const double start = p.x * p.x + p.y * p.y;
+  const auto [p1, p2] = tangential(lens);
+  const double distorted = target.x * target.x + target.y * target.y;
   // Farther out than the outermost ray lands there is nothing to be searched: 60 steps, halved 50 times each, took minutes for 12
   // megapixels. The tangential part is at most (|p1| + 3 |p2|) r² in each direction; one per cent of room is left.
-  const double edge = std::sqrt(limit) * (1 + limit * (lens.k1 + limit * (lens.k2 + limit * lens.k3))) +
-                      5 * (std::abs(lens.p1) + std::abs(lens.p2)) * limit;
-  if (start > 1.0201 * edge * edge) return false;
+  const double edge = std::sqrt(limit) * radial(lens, limit).factor + 5 * (std::abs(p1) + std::abs(p2)) * limit;
+  if (distorted > 1.0201 * edge * edge) return false;
+  Point2 p = first_guess(lens, target);
+  const double start = p.x * p.x + p.y * p.y;
   if (start > 0.9 * limit) {
     const double shrink = std::sqrt(0.9 * limit / start);
     p = {p.x * shrink, p.y * shrink};

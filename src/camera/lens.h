@@ -12,11 +12,13 @@ struct Point2 {
   double x, y;
 };
 
-/// Brown–Conrady: undistorted (x, y) = (X/Z, Y/Z) → distorted.
-///     x' = x(1 + k1r² + k2r⁴ + k3r⁶) + 2p1xy + p2(r² + 2x²),  y' = y(…) + p1(r² + 2y²) + 2p2xy
+/// Undistorted (x, y) = (X/Z, Y/Z) → distorted, r² = x² + y².                                          [theory: eq. 1.7, 1.8]
+///     Brown–Conrady:  x' = x·g + 2p1xy + p2(r² + 2x²),  y' = y·g + p1(r² + 2y²) + 2p2xy,
+///                     g = (1 + k1r² + k2r⁴ + k3r⁶)/(1 + k4r² + k5r⁴ + k6r⁶)
+///     fisheye:        x' = x·g,  y' = y·g,  g = θ(1 + k1θ² + k2θ⁴ + k3θ⁶ + k4θ⁸)/r,  tan θ = r
 Point2 distort(const Lens& lens, const Point2& undistorted);
 
-/// Largest r² (undistorted) up to which the radial part grows with r, so that it has an inverse; 1e4 where it always does.
+/// Largest r² (undistorted) up to which r·g grows with r, so that it has an inverse; 1e4 (89.4° off the axis) where it always does.
 double growing_radius_squared(const Lens& lens);
 
 /// Inverse by Newton's method, on the branch that starts at the axis.

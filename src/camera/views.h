@@ -13,7 +13,9 @@ namespace tofray::camera {
 struct ProjectionView {
   float fx, fy;  ///< [px]
   float k1, k2, p1, p2, k3;
-  float limit;  ///< r² (undistorted) up to which the radial part grows
+  float limit;           ///< r² (undistorted) up to which the radial part grows
+  float k4, k5, k6;      ///< 0 where the radial part is a polynomial
+  std::int32_t fisheye;  ///< 1: k1 to k4 over the angle to the axis, p1 and p2 are 0
   bool operator==(const ProjectionView&) const = default;
 };
 

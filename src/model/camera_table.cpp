@@ -27,7 +27,7 @@ constexpr auto raw_frames = static_cast<int>(base::limit::raw_frames.value);
 constexpr Number side{none, {1, static_cast<double>(base::limit::sensor_side.value)}, "224"};
 constexpr Number focal_length{pixel, {1, 1e6}, "212 px"};
 constexpr Number principal_point{pixel, {-1e5, 1e5}, "111.5 px"};
-constexpr Number distortion{none, {-10, 10}, "-0.3"};
+constexpr Number distortion{none, {-1000, 1000}, "-0.3"};
 constexpr Number wavelength{length, {100e-9, 20e-6}, "850 nm"};
 constexpr Number efficiency{fraction, {0, 1}, "0.4"};
 constexpr Number contrast{fraction, {0, 1}, "0.75"};
@@ -98,15 +98,24 @@ const Table& table_of<Scatter>() {
 
 template <>
 const Table& table_of<Lens>() {
+  constexpr auto brown_conrady = Lens::Distortion::brown_conrady;
   static const Table rows = table<Lens>(
       number<&Lens::fx_px>("fx", focal_length, "focal length over pixel pitch, along a row").required(),
       number<&Lens::fy_px>("fy", focal_length, "the same along a column").required(),
       number<&Lens::cx_px>("cx", principal_point, "principal point; the centre of pixel (0, 0) is at (0, 0)").required(),
       number<&Lens::cy_px>("cy", {pixel, principal_point.range, "85.5 px"}, "principal point").required(),
-      group("distortion", "Brown-Conrady, as in OpenCV",  //
-            number<&Lens::k1>("k1", distortion, "radial, r^2"), number<&Lens::k2>("k2", distortion, "radial, r^4"),
-            number<&Lens::p1>("p1", distortion, "tangential"), number<&Lens::p2>("p2", distortion, "tangential"),
-            number<&Lens::k3>("k3", distortion, "radial, r^6")),
+      group("distortion", "as in OpenCV",
+            choice<&Lens::distortion>(
+                "model", {"brown_conrady", "fisheye"},
+                "brown_conrady: k1 to k6, p1 and p2, rational from k4 on; fisheye: k1 to k4 over the angle to the axis"),
+            number<&Lens::k1>("k1", distortion, "radial, r^2; fisheye: angle^2"),
+            number<&Lens::k2>("k2", distortion, "radial, r^4; fisheye: angle^4"),
+            number<&Lens::p1>("p1", distortion, "tangential").when<&Lens::distortion>(brown_conrady),
+            number<&Lens::p2>("p2", distortion, "tangential").when<&Lens::distortion>(brown_conrady),
+            number<&Lens::k3>("k3", distortion, "radial, r^6; fisheye: angle^6"),
+            number<&Lens::k4>("k4", distortion, "radial, r^2 below the line; fisheye: angle^8"),
+            number<&Lens::k5>("k5", distortion, "radial, r^4 below the line").when<&Lens::distortion>(brown_conrady),
+            number<&Lens::k6>("k6", distortion, "radial, r^6 below the line").when<&Lens::distortion>(brown_conrady)),
       number<&Lens::f_number>("f_number", {none, {0.3, 100}, "1.6"}, "N").required(),
       number<&Lens::transmission>("transmission", {fraction, {0, 1}, "0.85"}, "of lens and filter at the illumination wavelength"),
       choice<&Lens::vignetting>("vignetting", {"cos4", "off", "table"},

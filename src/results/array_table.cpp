@@ -52,7 +52,8 @@ std::vector<ArrayRow> make_table() {
   TOFRAY_TRUTH_ARRAYS(TOFRAY_ROW)
 #undef TOFRAY_ROW
   rows.push_back({"camera_matrix", number, "[3, 3]", "px", "camera", "fx, 0, cx; 0, fy, cy; 0, 0, 1"});
-  rows.push_back({"distortion", number, "[5]", "1", "camera", "k1, k2, p1, p2, k3"});
+  rows.push_back({"distortion", number, "[5]", "1", "camera",
+                  "k1, k2, p1, p2, k3; of a rational lens [8], k4, k5, k6 behind them; of a fisheye [4], k1 to k4"});
   rows.push_back({"camera_pose", number, "[4, 4]", "m", "scene", "camera to world; the last row is 0, 0, 0, 1"});
   return rows;
 }

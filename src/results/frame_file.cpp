@@ -33,6 +33,14 @@ NpyShape extents(ArrayShape shape, int phases, int bins, int height, int width) 
   return {};
 }
 
+/// As OpenCV takes it: 5 numbers, 8 of a rational model, 4 of a fisheye.
+std::vector<double> distortion_of(const Lens& lens) {
+  if (lens.distortion == Lens::Distortion::fisheye) return {lens.k1, lens.k2, lens.k3, lens.k4};
+  std::vector<double> out{lens.k1, lens.k2, lens.p1, lens.p2, lens.k3};
+  if (lens.k4 != 0 || lens.k5 != 0 || lens.k6 != 0) out.insert(out.end(), {lens.k4, lens.k5, lens.k6});
+  return out;
+}
+
 /// What a file has beside the frame's own arrays; it must live as long as the views.
 struct Beside {
   std::vector<double> time, matrix, distortion, pose;
@@ -40,7 +48,7 @@ struct Beside {
   Beside(const Frame& frame, const Lens& lens, const PoseMatrix& camera_pose)
       : time{frame.truth.time_s},
         matrix{lens.fx_px, 0, lens.cx_px, 0, lens.fy_px, lens.cy_px, 0, 0, 1},
-        distortion{lens.k1, lens.k2, lens.p1, lens.p2, lens.k3},
+        distortion(distortion_of(lens)),
         pose(camera_pose.begin(), camera_pose.end()) {}
 };
 
@@ -61,7 +69,7 @@ std::vector<NpyView> views_of(const Frame& frame, const Beside& beside, const Ar
   TOFRAY_TRUTH_ARRAYS(TOFRAY_ADD)
 #undef TOFRAY_ADD
   add("camera_matrix", {3, 3}, beside.matrix);
-  add("distortion", {5}, beside.distortion);
+  add("distortion", {beside.distortion.size()}, beside.distortion);
   add("camera_pose", {4, 4}, beside.pose);
   return views;
 }

@@ -27,9 +27,31 @@ Lens random_lens(Random& random) {
   return lens;
 }
 
-/// Brown and Conrady's formula as OpenCV documents it, computed here.
+/// A rational one: OpenCV's calibrations have k1 and k4, k2 and k5, k3 and k6 that nearly cancel.
+Lens random_rational(Random& random) {
+  Lens lens = random_lens(random);
+  lens.k4 = random.between(-0.1, 2), lens.k5 = random.between(0, 1), lens.k6 = random.between(0, 0.2);
+  lens.k1 += lens.k4, lens.k2 += lens.k5, lens.k3 += lens.k6;
+  return lens;
+}
+
+Lens random_fisheye(Random& random) {
+  Lens lens = random_lens(random);
+  lens.distortion = Lens::Distortion::fisheye;
+  lens.k1 = random.between(-0.1, 0.1), lens.k2 = random.between(-0.03, 0.03), lens.k3 = random.between(-0.01, 0.01);
+  lens.k4 = random.between(-0.003, 0.003);
+  return lens;
+}
+
+/// The formulas as OpenCV documents them, computed here.
 Point2 formula(const Lens& l, double x, double y) {
-  const double r2 = x * x + y * y, radial = 1 + l.k1 * r2 + l.k2 * r2 * r2 + l.k3 * r2 * r2 * r2;
+  const double r2 = x * x + y * y;
+  if (l.distortion == Lens::Distortion::fisheye) {
+    const double r = std::sqrt(r2), t = std::atan(r), t2 = t * t;
+    const double scale = r > 0 ? t * (1 + l.k1 * t2 + l.k2 * t2 * t2 + l.k3 * t2 * t2 * t2 + l.k4 * t2 * t2 * t2 * t2) / r : 1;
+    return {x * scale, y * scale};
+  }
+  const double radial = (1 + l.k1 * r2 + l.k2 * r2 * r2 + l.k3 * r2 * r2 * r2) / (1 + l.k4 * r2 + l.k5 * r2 * r2 + l.k6 * r2 * r2 * r2);
   return {x * radial + 2 * l.p1 * x * y + l.p2 * (r2 + 2 * x * x), y * radial + l.p1 * (r2 + 2 * y * y) + 2 * l.p2 * x * y};
 }
 
@@ -43,8 +65,11 @@ double growth(const Lens& l, double x, double y) {
 /// True where the model is one to one from the axis to here, with room.
 bool well_behaved(const Lens& l, double x, double y) {
   for (int i = 0; i <= 40; ++i) {
-    const double s = 1.1 * i / 40, r2 = s * s * (x * x + y * y);
-    if (growth(l, s * x, s * y) < 0.1 || 1 + r2 * (3 * l.k1 + r2 * (5 * l.k2 + r2 * 7 * l.k3)) < 0.1) return false;
+    const double s = 1.1 * i / 40 + 1e-3, r2 = s * s * (x * x + y * y);
+    if (growth(l, s * x, s * y) < 0.1 || 1 + r2 * (l.k4 + r2 * (l.k5 + r2 * l.k6)) < 0.1) return false;
+    Lens radial = l;
+    radial.p1 = radial.p2 = 0;
+    if (growth(radial, s * x, s * y) < 0.1) return false;
   }
   return true;
 }
@@ -81,6 +106,61 @@ TEST(lens, takes_pixels_to_rays_and_back) {
     ASSERT_NEAR(again.y, pixel.y, 1e-10);
   }
   EXPECT_GT(tried, 50000);
+}
+
+TEST(lens, rational_or_a_fisheye_distorts_by_the_formula_and_back) {
+  Random random(7);
+  int tried[2] = {0, 0};
+  for (int i = 0; i < 60000; ++i) {
+    const bool rational = i % 2 == 0;
+    const Lens lens = rational ? random_rational(random) : random_fisheye(random);
+    const double far = rational ? 1.2 : i % 3 == 0 ? 1e-4 : 4;  // 100 degrees; 160, and where the fisheye's formula is a series
+    const double x = random.between(-far, far), y = random.between(-far, far);
+    const Point2 expected = formula(lens, x, y), got = camera::distort(lens, {x, y});
+    ASSERT_NEAR(got.x, expected.x, 2e-14 * (1 + std::abs(expected.x))) << i;
+    ASSERT_NEAR(got.y, expected.y, 2e-14 * (1 + std::abs(expected.y))) << i;
+    if (x * x + y * y >= camera::growing_radius_squared(lens) || (rational && !well_behaved(lens, x, y))) continue;
+    const double slope = rational ? 1 : 1 + x * x + y * y;  // of tan θ over θ
+    Point2 back{};
+    if (!rational && growth(lens, x, y) * slope * slope < 0.05) continue;
+    ASSERT_TRUE(camera::undistort(lens, camera::growing_radius_squared(lens), got, back)) << i << " " << x << " " << y;
+    ASSERT_NEAR(back.x, x, 1e-12 * slope) << i;
+    ASSERT_NEAR(back.y, y, 1e-12 * slope) << i;
+    ++tried[i % 2];
+  }
+  EXPECT_GT(tried[0], 15000);
+  EXPECT_GT(tried[1], 20000);
+}
+
+// Without coefficients a fisheye's radius is the angle itself, as far as the model goes; with a k1 below 0 it turns at θ = 1/√(−3 k1).
+TEST(lens, of_a_fisheye_ends_where_its_radius_turns) {
+  constexpr double degree = 3.14159265358979323846 / 180;
+  Lens lens;
+  lens.fx_px = lens.fy_px = 1, lens.distortion = Lens::Distortion::fisheye;
+  const double whole = camera::growing_radius_squared(lens);
+  Point2 p{};
+  for (const double angle : {0.0, 1e-9, 1.0, 45.0, 80.0, 89.0}) {
+    ASSERT_TRUE(camera::undistort(lens, whole, {0, angle * degree}, p)) << angle;
+    EXPECT_EQ(p.x, 0);
+    EXPECT_NEAR(p.y, std::tan(angle * degree), 1e-9 * (1 + p.y * p.y)) << angle;
+  }
+  EXPECT_FALSE(camera::undistort(lens, whole, {0, 89.9 * degree}, p));
+  lens.k1 = -0.5;
+  const double limit = camera::growing_radius_squared(lens), turn = 1 / std::sqrt(1.5);
+  EXPECT_NEAR(std::atan(std::sqrt(limit)), turn, 1e-9);
+  EXPECT_TRUE(camera::undistort(lens, limit, {turn * 2 / 3 * (1 - 1e-6), 0}, p));
+  EXPECT_FALSE(camera::undistort(lens, limit, {turn * 2 / 3 * (1 + 1e-6), 0}, p));
+}
+
+// Where 1 + k4 r² falls to 0 the model has a pole: nothing beyond it is seen.
+TEST(lens, rational_ends_before_its_pole) {
+  Lens lens;
+  lens.fx_px = lens.fy_px = 1, lens.k4 = -0.5;
+  const double limit = camera::growing_radius_squared(lens);
+  EXPECT_NEAR(limit, 2, 1e-9);
+  Point2 p{};
+  ASSERT_TRUE(camera::undistort(lens, limit, {5, 0}, p));  // x/(1 − x²/2) = 5
+  EXPECT_NEAR(p.x, (std::sqrt(1 + 2 * 25.0) - 1) / 5, 1e-12);
 }
 
 TEST(lens, without_distortion_is_a_pinhole) {

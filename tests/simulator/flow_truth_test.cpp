@@ -35,12 +35,25 @@ bool is_none(const Point2& flow) {
   return std::isnan(flow.x);
 }
 
+/// OpenCV's order: k1, k2, p1, p2, k3, k4, k5, k6.
+Lens distorted(const std::array<double, 8>& distortion) {
+  Lens out;
+  auto& [k1, k2, p1, p2, k3, k4, k5, k6] = distortion;
+  out.k1 = k1, out.k2 = k2, out.p1 = p1, out.p2 = p2, out.k3 = k3, out.k4 = k4, out.k5 = k5, out.k6 = k6;
+  return out;
+}
+Lens fisheye(double k1, double k2, double k3, double k4) {
+  Lens out;
+  out.distortion = Lens::Distortion::fisheye;
+  out.k1 = k1, out.k2 = k2, out.k3 = k3, out.k4 = k4;
+  return out;
+}
 /// 120 × 90 pixels, 10 frames a second.
-Camera camera_with(const std::array<double, 5>& distortion, double focal_px = 100) {
+Camera camera_with(const Lens& distortion, double focal_px = 100) {
   Camera out = lit_camera(120, 90, focal_px);
-  out.lens.fy_px = 1.1 * focal_px, out.lens.cx_px += 3.25;
-  auto& [k1, k2, p1, p2, k3] = distortion;
-  out.lens.k1 = k1, out.lens.k2 = k2, out.lens.p1 = p1, out.lens.p2 = p2, out.lens.k3 = k3;
+  const Lens pinhole = out.lens;
+  out.lens = distortion;
+  out.lens.fx_px = pinhole.fx_px, out.lens.fy_px = 1.1 * focal_px, out.lens.cx_px = pinhole.cx_px + 3.25, out.lens.cy_px = pinhole.cy_px;
   return out;
 }
 constexpr double period = 0.1;
@@ -68,7 +81,7 @@ TEST(velocity, is_the_object_s_in_the_camera_s_frame) {
     scene.objects.erase(scene.objects.begin());  // the wall
     scene.camera.pose = random_pose(random);
     scene.camera.pose.up = random.direction();
-    const Truth seen = truth_of(scene, camera_with({}));
+    const Truth seen = truth_of(scene, camera_with(Lens{}));
     for (std::size_t i = 0; i < seen.object_id.size(); ++i) {
       const Vec3 got = vector_at(seen.velocity_m_per_s, i);
       if (seen.object_id[i] < 0) {
@@ -97,20 +110,25 @@ TEST(velocity, goes_the_way_the_axes_say) {
   scene.camera.pose = {{0, 0, 0}, {1, 0, 0}, {0, 0, 1}};  // looks along x; its right is −y, its down −z
   scene.objects = {object(Plane{{2, 0, 0}, {-1, 0, 0}})};
   scene.objects[0].velocity_m_per_s = {0.5, 0.25, -2};
-  const Truth seen = truth_of(scene, camera_with({}));
+  const Truth seen = truth_of(scene, camera_with(Lens{}));
   EXPECT_EQ(vector_at(seen.velocity_m_per_s, 77), (Vec3{-0.25, 2, 0.5}));
 }
 
 // The lens model in double, from the same point: the difference of two numbers there, which the kernels do not take.
 TEST(flow, is_that_of_the_lens_model_in_double) {
-  const std::array<double, 5> lenses[] = {{},
-                                          {-0.3, 0, 0, 0, 0},
-                                          {0.12, -0.08, 0, 0, 0.02},
-                                          {0, 0, 2e-3, -3e-3, 0},
-                                          {-0.28, 0.11, 1e-3, 2e-3, -0.015},
-                                          {-0.5, 0.3, -4e-3, 1e-3, -0.05}};
+  const Lens lenses[] = {{},
+                         distorted({-0.3}),
+                         distorted({0.12, -0.08, 0, 0, 0.02}),
+                         distorted({0, 0, 2e-3, -3e-3}),
+                         distorted({-0.28, 0.11, 1e-3, 2e-3, -0.015}),
+                         distorted({-0.5, 0.3, -4e-3, 1e-3, -0.05}),
+                         distorted({0.6, 0.1, 1e-3, -1e-3, 0.02, 0.95, 0.3, 0.05}),
+                         distorted({0, 0, 0, 0, 0, 0.4}),
+                         fisheye(0, 0, 0, 0),
+                         fisheye(-0.02, 0.01, -0.004, 0.001),
+                         fisheye(0.15, -0.03, 0.002, 0)};
   int moving = 0, lost = 0, large = 0, within = 0;
-  for (const auto& distortion : lenses) {
+  for (const Lens& distortion : lenses) {
     for (int trial = 0; trial < 6; ++trial) {
       Random random(static_cast<std::uint64_t>(trial) + 300);
       const Scene scene = moving_scene(random);
@@ -137,8 +155,8 @@ TEST(flow, is_that_of_the_lens_model_in_double) {
         const bool inside = other.x > 0 && other.x < 119 && other.y > 0 && other.y < 89;
         const double scale = camera.lens.fy_px * base::length(m) / to[2] * (1 + p[2] / to[2]);
         const double bound = scale * (inside ? 3e-7 : 1e-6 * (1 + std::sqrt(square)) * (1 + 20 * (square + std::pow(square, 3))));
-        ASSERT_NEAR(got.x, expected.x, bound) << "pixel " << i << " lens " << distortion[0];
-        ASSERT_NEAR(got.y, expected.y, bound) << "pixel " << i << " lens " << distortion[0];
+        ASSERT_NEAR(got.x, expected.x, bound) << "pixel " << i << " lens " << distortion.k1;
+        ASSERT_NEAR(got.y, expected.y, bound) << "pixel " << i << " lens " << distortion.k1;
         within += inside && base::length(m) > 0;
         moving += base::length(m) > 0;
         large += std::abs(expected.x) + std::abs(expected.y) > 20;
@@ -155,7 +173,7 @@ TEST(flow, is_that_of_the_lens_model_in_double) {
 TEST(flow, of_what_hardly_moves_has_as_many_digits) {
   Scene scene = wall(2, 0.5);
   scene.objects[0].velocity_m_per_s = {1e-6, -2e-6, 0};
-  const Camera camera = camera_with({-0.2, 0, 0, 0, 0});
+  const Camera camera = camera_with(distorted({-0.2}));
   const Truth seen = truth_of(scene, camera);
   for (std::size_t i = 0; i < seen.object_id.size(); ++i) {
     const Vec3 p = vector_at(seen.position_m, i);
@@ -172,7 +190,7 @@ TEST(flow, is_zero_for_what_stands_still) {
   scene.camera.pose = random_pose(random);
   for (const bool something_moves : {false, true}) {
     scene.objects.back().velocity_m_per_s = {0, 0, something_moves ? 1.0 : 0.0};
-    const Truth seen = truth_of(scene, camera_with({-0.5, 0, 1e-3, 0, 0}, 60));  // corners without an inverse
+    const Truth seen = truth_of(scene, camera_with(distorted({-0.5, 0, 1e-3}), 60));  // corners without an inverse
     int still = 0, none = 0;
     for (std::size_t i = 0; i < seen.object_id.size(); ++i) {
       const std::int32_t id = seen.object_id[i];
@@ -248,7 +266,7 @@ TEST(flow, goes_on_beyond_the_image_and_not_beyond_the_lens_model) {
     for (const double speed : {5.0, 10.0, 40.0, -1e4}) {
       Scene scene = wall(2, 0.5);
       scene.objects[0].velocity_m_per_s = {speed, 0, 0};
-      const Camera camera = camera_with({k1, 0, 0, 0, 0});
+      const Camera camera = camera_with(distorted({k1}));
       const Truth seen = truth_of(scene, camera);
       const std::size_t middle = 45 * 120 + 63;
       const double x = static_cast<double>(seen.position_m[3 * middle]) / 2 + 0.05 * speed;
@@ -266,7 +284,7 @@ TEST(flow, goes_on_beyond_the_image_and_not_beyond_the_lens_model) {
 
 // The outermost pixels' rays are rounded, and so is the limit: what such a pixel sees is within the model, unless it goes outward.
 TEST(flow, at_the_edge_of_the_lens_model_is_there_unless_it_leads_outward) {
-  camera::ProjectionView lens{100, 100, -0.5F, 0, 0, 0, 0, 2.0F / 3};
+  camera::ProjectionView lens{100, 100, -0.5F, 0, 0, 0, 0, 2.0F / 3, 0, 0, 0, 0};
   const auto ray = flow::make_ray(std::sqrt(lens.limit) * 1.000001F, 0.0F, 1.0F);
   for (const auto& [aside, there] : {std::pair(0.0F, true), std::pair(-0.01F, true), std::pair(0.01F, false)}) {
     float u = 1, v = 1;
@@ -282,7 +300,7 @@ TEST(flow, at_the_edge_of_the_lens_model_is_there_unless_it_leads_outward) {
 TEST(flow, is_that_of_one_frame_of_the_mode) {
   Scene scene = wall(2, 0.5);
   scene.objects[0].velocity_m_per_s = {0.5, 0, 0};
-  Camera camera = camera_with({});
+  Camera camera = camera_with(Lens{});
   camera.mode.frame_rate_hz = 20;
   const Truth fast = truth_of(scene, camera);
   EXPECT_NEAR(flow_at(fast, 100).x, 100 * 0.5 / 20 / 2, 1e-6);
