@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "backend/cuda/cuda.h"
 #include "console.h"
@@ -84,6 +85,38 @@ const std::vector<std::string>& flag_names() {
   return names;
 }
 
+namespace {
+
+/// Median of the noise of the pixels whose first reason is low signal [m]; NaN where none has one.
+double median_noise(const Depth& depth) {
+  std::vector<float> noise;
+  for (std::size_t i = 0; i < depth.flags.size(); ++i)
+    if (1 << std::max(pictures::invalid_reason(depth.flags[i]), 0) == flag_low_signal && std::isfinite(depth.noise_m[i]))
+      noise.push_back(depth.noise_m[i]);
+  if (noise.empty()) return std::nan("");
+  const auto middle = noise.begin() + static_cast<std::ptrdiff_t>(noise.size() / 2);
+  std::nth_element(noise.begin(), middle, noise.end());
+  return static_cast<double>(*middle);
+}
+
+/// What helps against a reason why pixels are invalid.
+std::string help_against(int flag, const Depth& depth) {
+  switch (flag) {
+    case flag_saturated: return "less light, a shorter integration time, or more distance";
+    case flag_low_signal: {
+      const double noise = median_noise(depth);
+      const std::string known = std::isnan(noise) ? "" : fmt::format("noise {:.2g} m at the median; ", noise);
+      return known + "more light or a longer integration time";
+    }
+    case flag_flying_pixel:
+      return "surfaces that are seen at a glancing angle, or thinner than a few pixels; camera.decoding says what is one";
+    case flag_no_return: return "no light comes back: nothing is there, it is dark, or out of the light's reach";
+    default: return "the lens model has no rays there: see camera.lens.distortion";
+  }
+}
+
+}  // namespace
+
 Validity validity(const Depth& depth) {
   Validity out;
   out.pixels = depth.flags.size();
@@ -95,6 +128,10 @@ Validity validity(const Depth& depth) {
   for (std::size_t i = 0; i < counts.size(); ++i) {
     if (counts[i] > 0) out.reasons += fmt::format("{}{} {}", out.reasons.empty() ? "" : ", ", counts[i], flag_names()[i]);
   }
+  if (2 * out.valid >= out.pixels) return out;
+  const auto most = static_cast<std::size_t>(std::max_element(counts.begin(), counts.end()) - counts.begin());
+  out.advice = fmt::format("{:.0f} % {}: {}", 100.0 * static_cast<double>(counts[most]) / static_cast<double>(out.pixels),
+                           flag_names()[most], help_against(1 << most, depth));
   return out;
 }
 

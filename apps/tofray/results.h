@@ -41,6 +41,8 @@ struct Validity {
   std::size_t pixels = 0, valid = 0;
   /// "12 low signal, 3 no return"; empty where all are valid
   std::string reasons;
+  /// Where fewer than half are valid, the reason of most, and what helps: "71 % low signal: noise 0.11 m at the median; more light …"
+  std::string advice;
 };
 Validity validity(const Depth& depth);
 /// Name of each bit of Depth::flags, from bit 0.

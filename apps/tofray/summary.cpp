@@ -98,6 +98,7 @@ std::string summary_text(const files::OutputFolder& folder, const Validity& last
   std::string text = fmt::format("{} files, {}, in {}\n", folder.files().size(), size_text(bytes), folder.path().native());
   text += fmt::format("{} of {} pixels {}have a depth{}{}\n", last.valid, last.pixels, frames > 1 ? "of the last frame " : "",
                       last.reasons.empty() ? "" : "; invalid: ", last.reasons);
+  if (!last.advice.empty()) text += fmt::format("  {}\n", last.advice);
   const Rates rates = rates_of(frames, stopwatch);
   if (frames > 1)
     text += fmt::format("{} frames in {:.2f} s: {:.1f} frames/s computed, {:.1f} written", frames, stopwatch.total(), rates.computed,

@@ -27,16 +27,25 @@ Radial brown_conrady(const Lens& l, double square) {
   return {above / below, (above_slope * below - above * below_slope) / (below * below), below > 0 && growth > 0};
 }
 
+/// Of a fisheye: the radius of the angle θ, and its derivative.
+struct Radius {
+  double at, growth;
+};
+Radius fisheye_radius(const Lens& l, double angle) {
+  const double a = angle * angle;
+  return {angle * (1 + a * (l.k1 + a * (l.k2 + a * (l.k3 + a * l.k4)))),
+          1 + a * (3 * l.k1 + a * (5 * l.k2 + a * (7 * l.k3 + a * 9 * l.k4)))};
+}
+
 Radial fisheye(const Lens& l, double square) {
-  const double r = std::sqrt(square), angle = num::setup::atan(r), a = angle * angle;
-  const double radius = angle * (1 + a * (l.k1 + a * (l.k2 + a * (l.k3 + a * l.k4))));
-  const double growth = 1 + a * (3 * l.k1 + a * (5 * l.k2 + a * (7 * l.k3 + a * 9 * l.k4)));  // d(radius)/dθ
   // Near the axis g = 1 + (k1 − ⅓)r² + (⅕ − k1 + k2)r⁴ …, without a difference of two like numbers.
   if (square < 1e-6) {
     const double first = l.k1 - 1.0 / 3, second = 0.2 - l.k1 + l.k2;
     return {1 + square * (first + square * second), first + 2 * square * second, true};
   }
-  return {radius / r, (growth * r / (1 + square) - radius) / (2 * r * square), growth > 0};
+  const double r = std::sqrt(square);
+  const Radius radius = fisheye_radius(l, num::setup::atan(r));
+  return {radius.at / r, (radius.growth * r / (1 + square) - radius.at) / (2 * r * square), radius.growth > 0};
 }
 
 Radial radial(const Lens& lens, double square) {
@@ -84,13 +93,23 @@ Jacobian jacobian(const Lens& l, const Point2& p) {
           g.factor + slope * p.y * p.y + 6 * p1 * p.y + 2 * p2 * p.x};
 }
 
-/// Where the search for the inverse begins: a fisheye without coefficients there and back, or the distorted point itself.
-Point2 first_guess(const Lens& lens, const Point2& target) {
-  if (lens.distortion != Lens::Distortion::fisheye) return target;
-  const double angle = std::sqrt(target.x * target.x + target.y * target.y);
-  if (angle < 1e-6) return target;
-  const double grow = num::setup::tan(std::min(angle, 1.5)) / angle;
-  return {target.x * grow, target.y * grow};
+/// A fisheye's radius grows with the angle alone, up to where the model ends: Newton's method, held between two angles.
+bool undistort_fisheye(const Lens& lens, double limit, const Point2& target, Point2& out) {
+  const double radius = std::sqrt(target.x * target.x + target.y * target.y);
+  double low = 0, high = num::setup::atan(std::sqrt(limit));
+  if (!(radius < fisheye_radius(lens, high).at)) return false;
+  double angle = std::min(radius, high);
+  for (int i = 0; i < 100; ++i) {
+    const Radius there = fisheye_radius(lens, angle);
+    (there.at < radius ? low : high) = angle;
+    double next = angle - (there.at - radius) / there.growth;
+    if (!(next > low && next < high)) next = 0.5 * (low + high);
+    if (std::abs(next - angle) <= 1e-16 * angle) break;
+    angle = next;
+  }
+  const double grow = radius > 0 ? num::setup::tan(angle) / radius : 1;
+  out = {target.x * grow, target.y * grow};
+  return out.x * out.x + out.y * out.y < limit;
 }
 
 }  // namespace
@@ -102,16 +121,15 @@ Point2 distort(const Lens& l, const Point2& p) {
 }
 
 bool undistort(const Lens& lens, double limit, const Point2& target, Point2& out) {
-  const auto [p1, p2] = tangential(lens);
+  if (lens.distortion == Lens::Distortion::fisheye) return undistort_fisheye(lens, limit, target, out);
   const double distorted = target.x * target.x + target.y * target.y;
   // Farther out than the outermost ray lands there is nothing to be searched: 60 steps, halved 50 times each, took minutes for 12
   // megapixels. The tangential part is at most (|p1| + 3 |p2|) r² in each direction; one per cent of room is left.
-  const double edge = std::sqrt(limit) * radial(lens, limit).factor + 5 * (std::abs(p1) + std::abs(p2)) * limit;
+  const double edge = std::sqrt(limit) * radial(lens, limit).factor + 5 * (std::abs(lens.p1) + std::abs(lens.p2)) * limit;
   if (distorted > 1.0201 * edge * edge) return false;
-  Point2 p = first_guess(lens, target);
-  const double start = p.x * p.x + p.y * p.y;
-  if (start > 0.9 * limit) {
-    const double shrink = std::sqrt(0.9 * limit / start);
+  Point2 p = target;
+  if (distorted > 0.9 * limit) {
+    const double shrink = std::sqrt(0.9 * limit / distorted);
     p = {p.x * shrink, p.y * shrink};
   }
   for (int i = 0; i < 60; ++i) {

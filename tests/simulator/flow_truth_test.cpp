@@ -216,7 +216,7 @@ TEST(flow, ends_where_the_next_frame_has_the_point) {
   Object ball = object(Sphere{{-0.35, 0.1, 1.6}, 0.12});
   ball.velocity_m_per_s = {4, -1.5, -2};
   scene.objects.push_back(ball);
-  const Camera camera = camera_with({-0.25, 0.05, 1e-3, -2e-3, 0}, 110);
+  const Camera camera = camera_with(distorted({-0.25, 0.05, 1e-3, -2e-3}), 110);
   const Truth now = truth_of(scene, camera, 0), next = truth_of(scene, camera, 1);
   EXPECT_NEAR(next.time_s - now.time_s, period, 1e-12);
   int followed = 0;
@@ -366,7 +366,7 @@ TEST(motion_truth, of_turning_things_and_a_turning_camera_is_that_of_the_exact_m
   for (int trial = 0; trial < 6; ++trial) {
     Random random(static_cast<std::uint64_t>(trial) + 700);
     const Scene scene = spinning_scene(random, trial % 2 == 1);
-    const Camera camera = camera_with(trial < 3 ? std::array<double, 5>{} : std::array<double, 5>{-0.2, 0.03, 1e-3, 2e-3, 0});
+    const Camera camera = camera_with(trial < 3 ? Lens{} : distorted({-0.2, 0.03, 1e-3, 2e-3}));
     const Truth truth = truth_of(scene, camera);
     for (std::size_t i = 0; i < truth.object_id.size(); ++i) {
       if (truth.object_id[i] < 0) continue;
@@ -406,7 +406,7 @@ TEST(motion_truth, of_what_stands_still_beside_it_is_exactly_zero) {
       scene.objects[3].keyframes.clear();
       scene.objects[3].position = {0, 0, 1.5};
     }
-    const Truth truth = truth_of(scene, camera_with({-0.2, 0, 0, 0, 0}));
+    const Truth truth = truth_of(scene, camera_with(distorted({-0.2})));
     int still = 0;
     for (std::size_t i = 0; i < truth.object_id.size(); ++i) {
       if (truth.object_id[i] != 0 && !(keyframes && truth.object_id[i] == 3)) continue;

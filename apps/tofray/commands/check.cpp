@@ -4,6 +4,7 @@
 
 #include <set>
 
+#include "camera_report.h"
 #include "commands.h"
 #include "console.h"
 #include "files/json.h"
@@ -15,6 +16,8 @@
 #include "load/load.h"
 #include "load/provenance.h"
 #include "mesh_scene.h"
+#include "scene/motion.h"
+#include "shape/list.h"
 #include "tofray/error.h"
 #include "yaml/tree.h"
 
@@ -57,8 +60,10 @@ Report check_profile(const std::string& text, const std::string& name, const Opt
       .set("name", camera.name)
       .set("modes", files::Json::list(camera.mode_names))
       .set("unsourced_numbers", files::Json::list(unsourced));
-  report.text = fmt::format("{}: good: camera {}, {} x {} pixels, {} modes\n", name, camera.name, camera.sensor.width, camera.sensor.height,
-                            camera.mode_names.size());
+  const CameraReport can = camera_report(camera);
+  report.json.set("mode", camera.mode.name).set("camera_report", report_json(can));
+  report.text = fmt::format("{}: good: camera {}, {} x {} pixels, {} modes; in mode {}:\n{}", name, camera.name, camera.sensor.width,
+                            camera.sensor.height, camera.mode_names.size(), camera.mode.name, report_text(can));
   return report;
 }
 
@@ -70,6 +75,30 @@ std::size_t mesh_triangles(const Scene& scene) {
     if (const auto* mesh = std::get_if<Mesh>(&object.shape); mesh != nullptr && seen.insert(mesh->triangles.get()).second)
       count += mesh->triangles->triangles.size();
   return count;
+}
+
+template <class... T, class... Said>
+bool is_inside(shape::List<T...>, const std::variant<Said...>& said, const shape::Placement& at, const shape::Vec& p) {
+  bool found = false;
+  const auto look = [&]<class Shape, class One>(shape::List<Shape>, const One* one) {
+    if constexpr (Shape::closed) {
+      if (one != nullptr) found = inside(Shape::placed(*one, at), p);
+    }
+  };
+  (look(shape::List<T>{}, std::get_if<Said>(&said)), ...);
+  return found;
+}
+
+/// Closed objects that stand still and hold the camera at the first frame. (Of a mesh nobody knows whether it is closed.)
+std::vector<std::size_t> objects_around_the_camera(const Scene& scene) {
+  std::vector<std::size_t> out;
+  const shape::Vec eye = scene::vec(scene::pose_at(scene.camera, 0).position);
+  for (std::size_t i = 0; i < scene.objects.size(); ++i) {
+    const Object& object = scene.objects[i];
+    if (scene::moves(object)) continue;
+    if (is_inside(shape::Shapes{}, object.shape, scene::placement_of(object), eye)) out.push_back(i);
+  }
+  return out;
 }
 
 Report check_scene(const std::string& name, const Options& options) {
@@ -88,6 +117,12 @@ Report check_scene(const std::string& name, const Options& options) {
   report.text =
       fmt::format("{}: good: scene with {} object{}{}, camera {} in mode {}, {} raw frames\n", name, in.scene.objects.size(),
                   in.scene.objects.size() == 1 ? "" : "s", meshes, in.camera.name, in.camera.mode.name, in.camera.mode.sequence.size());
+  const CameraReport can = camera_report(in.camera);
+  report.json.set("camera_report", report_json(can));
+  report.text += report_text(can);
+  for (const std::size_t i : objects_around_the_camera(in.scene))
+    report.text += fmt::format("  note: the camera stands inside objects.{}{}: it sees the inner side, and nothing beyond\n", i,
+                               in.scene.objects[i].name.empty() ? "" : fmt::format(" ({})", in.scene.objects[i].name));
   return report;
 }
 
