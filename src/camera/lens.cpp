@@ -14,7 +14,7 @@ namespace {
 /// The radial part of the model: g(r²), and its derivative.
 struct Radial {
   double factor;
-  double slope;  ///< dg/d(r²)
+  double slope;  ///< dg/d(r²), of Brown–Conrady: a fisheye is inverted without it
   bool grows;    ///< r·g does, with r
 };
 
@@ -40,24 +40,15 @@ Radius fisheye_radius(const Lens& l, double angle) {
 Radial fisheye(const Lens& l, double square) {
   // Near the axis g = 1 + (k1 − ⅓)r² + (⅕ − k1 + k2)r⁴ …, without a difference of two like numbers.
   if (square < 1e-6) {
-    const double first = l.k1 - 1.0 / 3, second = 0.2 - l.k1 + l.k2;
-    return {1 + square * (first + square * second), first + 2 * square * second, true};
+    return {1 + square * (l.k1 - 1.0 / 3 + square * (0.2 - l.k1 + l.k2)), 0, true};
   }
   const double r = std::sqrt(square);
   const Radius radius = fisheye_radius(l, num::setup::atan(r));
-  return {radius.at / r, (radius.growth * r / (1 + square) - radius.at) / (2 * r * square), radius.growth > 0};
+  return {radius.at / r, 0, radius.growth > 0};
 }
 
 Radial radial(const Lens& lens, double square) {
   return lens.distortion == Lens::Distortion::fisheye ? fisheye(lens, square) : brown_conrady(lens, square);
-}
-
-/// What bends along the tangent, too; a fisheye has none.
-struct Tangential {
-  double p1, p2;
-};
-Tangential tangential(const Lens& lens) {
-  return lens.distortion == Lens::Distortion::fisheye ? Tangential{0, 0} : Tangential{lens.p1, lens.p2};
 }
 
 }  // namespace
@@ -84,10 +75,10 @@ struct Jacobian {
   double xx, xy, yx, yy;
 };
 
+/// Of Brown–Conrady.
 Jacobian jacobian(const Lens& l, const Point2& p) {
-  const Radial g = radial(l, p.x * p.x + p.y * p.y);
-  const auto [p1, p2] = tangential(l);
-  const double slope = 2 * g.slope;
+  const Radial g = brown_conrady(l, p.x * p.x + p.y * p.y);
+  const double slope = 2 * g.slope, p1 = l.p1, p2 = l.p2;
   const double mixed = slope * p.x * p.y + 2 * p1 * p.x + 2 * p2 * p.y;
   return {g.factor + slope * p.x * p.x + 2 * p1 * p.y + 6 * p2 * p.x, mixed, mixed,
           g.factor + slope * p.y * p.y + 6 * p1 * p.y + 2 * p2 * p.x};
@@ -116,7 +107,8 @@ bool undistort_fisheye(const Lens& lens, double limit, const Point2& target, Poi
 
 Point2 distort(const Lens& l, const Point2& p) {
   const double r2 = p.x * p.x + p.y * p.y, g = radial(l, r2).factor;
-  const auto [p1, p2] = tangential(l);
+  const bool fish = l.distortion == Lens::Distortion::fisheye;
+  const double p1 = fish ? 0 : l.p1, p2 = fish ? 0 : l.p2;
   return {p.x * g + 2 * p1 * p.x * p.y + p2 * (r2 + 2 * p.x * p.x), p.y * g + p1 * (r2 + 2 * p.y * p.y) + 2 * p2 * p.x * p.y};
 }
 

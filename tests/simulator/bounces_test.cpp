@@ -8,6 +8,7 @@
 #include <tuple>
 
 #include "backend/cpu/cpu.h"
+#include "support/bounces.h"
 #include "support/cuda_cases.h"
 #include "support/meshes.h"
 #include "support/pixels.h"
@@ -41,11 +42,6 @@ Camera dim_camera(int width, int height, double focal_px) {
   return camera;
 }
 
-Frame frame_of(Scene scene, const Camera& camera, int bounces, int samples, unsigned long long seed = 0) {
-  scene.transport.bounces = bounces, scene.transport.samples = samples, scene.transport.seed = seed;
-  return Simulator(scene, camera, {.noise = Noise::off}).frame(0);
-}
-
 /// Z of four phases, of all pixels from `first` to `last`, in double precision and whatever the ADC does.
 std::complex<double> phasor(const Raw& raw, std::size_t first, std::size_t last) {
   std::complex<double> sum = 0;
@@ -55,12 +51,6 @@ std::complex<double> phasor(const Raw& raw, std::size_t first, std::size_t last)
       const double d = static_cast<double>(raw.tap_a[k * pixels + i]) - static_cast<double>(raw.tap_b[k * pixels + i]);
       sum += d * std::polar(1.0, -raw.reference_phase_rad[k]);
     }
-  return sum;
-}
-
-double sum_of(const std::vector<float>& values, std::size_t first, std::size_t last) {
-  double sum = 0;
-  for (std::size_t i = first; i < last; ++i) sum += static_cast<double>(values[i]);
   return sum;
 }
 
@@ -86,12 +76,12 @@ struct Added {
   Measured shift_m;  ///< half path of all light less that of the direct light
 };
 Added added(const Scene& scene, const Camera& camera, int bounces, int samples) {
-  const Frame direct = frame_of(scene, camera, 0, 1), all = frame_of(scene, camera, bounces, samples);
+  const Frame direct = frame_with_bounces(scene, camera, 0, 1), all = frame_with_bounces(scene, camera, bounces, samples);
   const auto pixels = direct.truth.range_m.size();
   const double per_turn = light_speed / (2 * direct.raw.modulation_frequency_hz[0]);
   Added out;
   out.share = of_groups(
-      pixels, [&](std::size_t a, std::size_t b) { return sum_of(all.truth.indirect_e, a, b) / sum_of(direct.truth.signal_e, a, b); });
+      pixels, [&](std::size_t a, std::size_t b) { return sum_over(all.truth.indirect_e, a, b) / sum_over(direct.truth.signal_e, a, b); });
   out.shift_m = of_groups(
       pixels, [&](std::size_t a, std::size_t b) { return std::arg(phasor(all.raw, a, b) / phasor(direct.raw, a, b)) / two_pi * per_turn; });
   return out;
@@ -140,11 +130,11 @@ TEST(bounces, of_an_integrating_sphere_have_its_closed_form) {
 TEST(bounces, of_an_integrating_sphere_bring_a_power_of_its_reflectivity_each) {
   Camera camera = at_frequency(60e6, 8, 20);
   camera.illumination.push_back(bulb());
-  const double direct = sum_of(frame_of(white_ball(0.7), camera, 0, 1).truth.signal_e, 0, 64);
+  const double direct = sum_over(frame_with_bounces(white_ball(0.7), camera, 0, 1).truth.signal_e, 0, 64);
   double sum = 0, before = 0;
   for (int b = 1; b <= 4; ++b) {
-    const Frame frame = frame_of(white_ball(0.7), camera, b, 4096);
-    const double now = sum_of(frame.truth.indirect_e, 0, 64) / direct;
+    const Frame frame = frame_with_bounces(white_ball(0.7), camera, b, 4096);
+    const double now = sum_over(frame.truth.indirect_e, 0, 64) / direct;
     sum += std::pow(0.7, b);
     EXPECT_NEAR(now, sum, b < 3 ? 2e-5 : 2e-3) << b;
     EXPECT_NEAR(now - before, std::pow(0.7, b), b < 3 ? 2e-5 : 2e-3) << b;
@@ -194,13 +184,13 @@ TEST(bounces, of_a_mirror_have_the_length_of_the_folded_way) {
   scene.objects.push_back(object(Plane{{0, 0, 1}, {-1, 0, -1}}, 1));
   scene.objects.push_back(object(Plane{{-0.7, 0, 0}, {1, 0, 0}}));
   const Camera camera = lit_camera(4, 4, 2e4);
-  const Frame frame = frame_of(scene, camera, 1, 256);
+  const Frame frame = frame_with_bounces(scene, camera, 1, 256);
   const double path = 1 + 0.7 + std::hypot(0.7, 1.0);
   for (std::size_t i = 0; i < 16; ++i) EXPECT_NEAR(range_of_taps(frame.raw, i), path / 2, 0.25e-3) << i;
   // It is the wall's light through the mirror: E·ρ/π·F, F what the metal reflects of it.
   const double radiance = 0.8 / pi / 1.49 * (0.7 / std::hypot(0.7, 1.0)) * 0.95;
-  const Frame white = frame_of(wall(1, 1), camera, 0, 1);  // 1/π of 1 W/m²
-  EXPECT_NEAR(sum_of(frame.truth.indirect_e, 0, 16) / sum_of(white.truth.signal_e, 0, 16), radiance * pi, 0.01 * radiance * pi);
+  const Frame white = frame_with_bounces(wall(1, 1), camera, 0, 1);  // 1/π of 1 W/m²
+  EXPECT_NEAR(sum_over(frame.truth.indirect_e, 0, 16) / sum_over(white.truth.signal_e, 0, 16), radiance * pi, 0.01 * radiance * pi);
 }
 
 // What a convex thing sends out never comes back to it, and a room without a way out has no sky.
@@ -208,7 +198,7 @@ TEST(bounces, of_the_sky_come_where_rays_leave_the_scene) {
   const auto ambient = [](const Scene& scene, int bounces, int samples) {
     Camera camera = at_frequency(60e6, 8, 20);
     camera.illumination.push_back(bulb());
-    return frame_of(scene, camera, bounces, samples).truth.ambient_e_per_s;
+    return frame_with_bounces(scene, camera, bounces, samples).truth.ambient_e_per_s;
   };
   const Scene plane = sunny_wall(0.5);
   const std::vector<float> open = ambient(plane, 0, 1), alone = ambient(plane, 3, 16);
@@ -227,11 +217,11 @@ TEST(bounces, of_the_sky_come_where_rays_leave_the_scene) {
   edge.camera.pose = {{1, 0, 0}, {1e-4, 0, 1}, {0, -1, 0}};
   Camera camera = at_frequency(60e6, 32, 2e5);
   camera.illumination.push_back(bulb());
-  const Frame frame = frame_of(edge, camera, 30, 256), whole = frame_of(edge, camera, 0, 1);
-  const double share = sum_of(frame.truth.ambient_e_per_s, 0, 1024) / sum_of(whole.truth.ambient_e_per_s, 0, 1024);
+  const Frame frame = frame_with_bounces(edge, camera, 30, 256), whole = frame_with_bounces(edge, camera, 0, 1);
+  const double share = sum_over(frame.truth.ambient_e_per_s, 0, 1024) / sum_over(whole.truth.ambient_e_per_s, 0, 1024);
   EXPECT_NEAR(share, 0.5 / (1 - 0.5 * 0.5), 2e-3);
-  const Frame one = frame_of(edge, camera, 1, 1024);  // what leaves the last surface may still see the sky
-  EXPECT_NEAR(sum_of(one.truth.ambient_e_per_s, 0, 1024) / sum_of(whole.truth.ambient_e_per_s, 0, 1024), 0.5 + 0.5 * 0.5 * 0.5, 2e-3);
+  const Frame one = frame_with_bounces(edge, camera, 1, 1024);  // what leaves the last surface may still see the sky
+  EXPECT_NEAR(sum_over(one.truth.ambient_e_per_s, 0, 1024) / sum_over(whole.truth.ambient_e_per_s, 0, 1024), 0.5 + 0.5 * 0.5 * 0.5, 2e-3);
 }
 
 // Light that the sun brings to one wall shines on the other: of a lit floor's ρE, a wall that stands on it gets half.
@@ -242,16 +232,16 @@ TEST(bounces, of_the_sun_come_from_what_it_shines_on) {
   scene.camera.pose = {{0, 0, 0}, {0.9999, 0, 1}, {0, -1, 0}};
   Camera camera = at_frequency(60e6, 16, 2e5);
   camera.illumination.push_back(bulb());
-  const Frame direct = frame_of(scene, camera, 0, 1), one = frame_of(scene, camera, 1, 1024);
-  EXPECT_EQ(sum_of(direct.truth.ambient_e_per_s, 0, 256), 0);
+  const Frame direct = frame_with_bounces(scene, camera, 0, 1), one = frame_with_bounces(scene, camera, 1, 1024);
+  EXPECT_EQ(sum_over(direct.truth.ambient_e_per_s, 0, 256), 0);
   Scene facing = sunny_wall(0.5);
   facing.ambient.direction = Vec3{0, 0, 1};
   facing.camera.pose = scene.camera.pose;
-  const double full = sum_of(frame_of(facing, camera, 0, 1).truth.ambient_e_per_s, 0, 256);
-  EXPECT_NEAR(sum_of(one.truth.ambient_e_per_s, 0, 256) / full, 0.5 * 0.5, 2e-3);
+  const double full = sum_over(frame_with_bounces(facing, camera, 0, 1).truth.ambient_e_per_s, 0, 256);
+  EXPECT_NEAR(sum_over(one.truth.ambient_e_per_s, 0, 256) / full, 0.5 * 0.5, 2e-3);
   scene.materials.push_back({"black", Material::Brdf::lambert, 0, 0, 1});
   scene.objects.push_back(object(Plane{{-1, 0, 0}, {1, 0, 0}}, 1));  // in the way of the sun
-  EXPECT_EQ(sum_of(frame_of(scene, camera, 1, 64).truth.ambient_e_per_s, 0, 256), 0);
+  EXPECT_EQ(sum_over(frame_with_bounces(scene, camera, 1, 64).truth.ambient_e_per_s, 0, 256), 0);
 }
 
 // A black card keeps the light off a part of the side wall that the point sees, and its sight off another one, by quadrature.
@@ -302,7 +292,7 @@ TEST(bounces, give_the_same_bytes_on_every_machine) {
           .frame(2);
     };
     const Frame reference = with(Isa::scalar, 1, true);
-    EXPECT_GT(sum_of(reference.truth.indirect_e, 0, reference.truth.indirect_e.size()), 0);
+    EXPECT_GT(sum_over(reference.truth.indirect_e, 0, reference.truth.indirect_e.size()), 0);
     for (const Isa isa : {Isa::scalar, Isa::scalar_fma, Isa::avx2, Isa::avx512}) {
       if (!backend::can_run(isa)) continue;
       for (const int threads : {1, 3}) EXPECT_EQ(first_difference(with(isa, threads, threads == 1), reference), "") << i << " " << threads;
@@ -341,7 +331,7 @@ TEST(bounces, pull_the_range_by_what_the_truth_says) {
   const Camera camera = dim_camera(24, 20, 20);
   Scene scene = wall(1, 0.8);
   scene.objects.push_back(object(Plane{{0.4, 0, 0}, {-1, 0, 0}}));
-  const Frame direct = frame_of(scene, camera, 0, 1), all = frame_of(scene, camera, 4, 64);
+  const Frame direct = frame_with_bounces(scene, camera, 0, 1), all = frame_with_bounces(scene, camera, 4, 64);
   int seen = 0;
   for (std::size_t i = 0; i < direct.depth.range_m.size(); ++i) {
     if (!std::isfinite(direct.depth.range_m[i]) || !std::isfinite(all.depth.range_m[i])) continue;
@@ -368,78 +358,9 @@ TEST(bounces, are_the_same_from_frame_to_frame) {
   const Frame other = Simulator(scene, camera, {.seed = 4}).frame(0);
   EXPECT_NE(first.truth.indirect_e, other.truth.indirect_e);
   EXPECT_EQ(first.truth.direct_e, other.truth.direct_e);
-  const double one = sum_of(first.truth.indirect_e, 0, first.truth.indirect_e.size()),
-               two = sum_of(other.truth.indirect_e, 0, other.truth.indirect_e.size());
+  const double one = sum_over(first.truth.indirect_e, 0, first.truth.indirect_e.size()),
+               two = sum_over(other.truth.indirect_e, 0, other.truth.indirect_e.size());
   EXPECT_NEAR(one / two, 1, 0.02);
-}
-
-// P17: in the corner the error falls at least as N^−0.7 from 64 ways on (32 in either half), and is never above that of ways drawn one by one.
-TEST(bounces, come_closer_the_more_ways_are_followed) {
-  Scene scene = wall(1, 0.8);
-  scene.objects.push_back(object(Plane{{0.4, 0, 0}, {-1, 0, 0}}));
-  Camera camera = lit_camera(24, 20, 20);
-  constexpr int most = with_sanitizers ? 1024 : 16384;
-  const Frame known = frame_of(scene, camera, 1, most, 99);
-  const auto error = [&](int samples) {
-    double sum = 0;
-    for (unsigned long long seed = 0; seed < 8; ++seed) {
-      const Frame frame = frame_of(scene, camera, 1, samples, seed);
-      for (std::size_t i = 0; i < frame.truth.range_m.size(); ++i) {
-        const double off = static_cast<double>(frame.truth.indirect_e[i]) / static_cast<double>(known.truth.indirect_e[i]) - 1;
-        sum += off * off;
-      }
-    }
-    return std::sqrt(sum);
-  };
-  const double two = error(2);
-  double before = two;
-  for (int n = 4; n <= (with_sanitizers ? 64 : 1024); n *= 4) {
-    const double now = error(n);
-    EXPECT_LT(now, two / std::sqrt(n / 2.0)) << n;
-    EXPECT_LT(std::log(now / before) / std::log(4), n == 4                       ? -0.25
-                                                    : n == 16                    ? -0.55
-                                                    : n == 64 || with_sanitizers ? -0.6
-                                                                                 : -0.7)
-        << n << ": " << now / two;
-    before = now;
-  }
-}
-
-// Samples within a pixel each have ways of their own, and all of their light arrives.
-TEST(bounces, of_samples_within_pixels_add_up) {
-  const Camera camera = lit_camera(24, 20, 20);
-  Scene scene = wall(1, 0.8);
-  scene.objects.push_back(object(Plane{{0.4, 0, 0}, {-1, 0, 0}}));
-  scene.transport.bounces = 2, scene.transport.samples = 256;
-  const auto sum = [&](int subpixel) {
-    const Frame frame = Simulator(scene, camera, {.noise = Noise::off, .subpixel = subpixel}).frame(0);
-    return sum_of(frame.truth.indirect_e, 0, 480) / sum_of(frame.truth.direct_e, 0, 480);
-  };
-  const double one = sum(1);
-  for (const int n : {2, 3}) EXPECT_NEAR(sum(n) / one, 1, 0.01) << n;
-}
-
-// Errors of neighbours have nothing to do with each other, nor with those of another pixel in the same row or column.
-TEST(bounces, are_chosen_anew_for_each_pixel) {
-  constexpr int width = 32, height = 32, seeds = with_sanitizers ? 10 : 40;
-  Camera camera = lit_camera(width, height, 2e4);  // all of them see the same
-  Scene scene = wall(1, 0.8);
-  scene.objects.push_back(object(Plane{{0.2, 0, 0}, {-1, 0, 0}}));
-  double square = 0, of_next = 0, of_below = 0, of_seed = 0;
-  std::vector<double> before;
-  for (unsigned long long seed = 1; seed <= seeds; ++seed) {
-    const Frame frame = frame_of(scene, camera, 2, 4, seed);
-    std::vector<double> error;
-    const double mean = sum_of(frame.truth.indirect_e, 0, width * height) / (width * height);
-    for (std::size_t i = 0; i < width * height; ++i) error.push_back(static_cast<double>(frame.truth.indirect_e[i]) - mean);
-    for (std::size_t i = 0; i < error.size(); ++i) {
-      square += error[i] * error[i];
-      of_next += error[i] * error[(i + 1) % error.size()], of_below += error[i] * error[(i + width) % error.size()];
-      if (!before.empty()) of_seed += error[i] * before[i];
-    }
-    before = error;
-  }
-  for (const double product : {of_next, of_below, of_seed}) EXPECT_LT(std::abs(product), square * 5 / std::sqrt(width * height * seeds));
 }
 
 // A camera in the middle of a box's open side sees its edges exactly along a diagonal of pixels. There light is as it is beside them.
@@ -456,7 +377,7 @@ TEST(bounces, leave_no_rims_where_walls_meet) {
   }
   constexpr int n = 65;
   Camera camera = lit_camera(n, n, 100);
-  const Frame frame = frame_of(scene, camera, 3, with_sanitizers ? 64 : 1024);
+  const Frame frame = frame_with_bounces(scene, camera, 3, with_sanitizers ? 64 : 1024);
   int edges = 0;
   for (const bool mirrored : {false, true})
     for (std::size_t i = 1; i < n / 2; ++i) {
@@ -497,13 +418,13 @@ TEST(bounces, do_not_leak_where_walls_meet) {
     scene.camera.pose = {{0, 0, 0}, {0.8, 0.9, 1.5}, {0, -1, 0}};  // into the corner
     int leaks = 0;
     for (unsigned long long seed = 0; seed < (with_sanitizers ? 1 : 8); ++seed)
-      for (const float rate : frame_of(scene, camera, 8, 64, seed).truth.ambient_e_per_s) leaks += rate > 0;
+      for (const float rate : frame_with_bounces(scene, camera, 8, 64, seed).truth.ambient_e_per_s) leaks += rate > 0;
     // Of 10⁷ rays a few leave within micrometres of an edge, where nobody knows on which side of it they are. From inside a box none does.
     EXPECT_LE(leaks, kind == 0 ? 0 : 12) << kind;
     if (kind != 1) continue;
     // Nor does the sun, however far light goes in there.
     scene.ambient.direction = Vec3{0.3, 0.5, 0.8};
-    const Frame sunny = frame_of(scene, camera, 24, 16);
+    const Frame sunny = frame_with_bounces(scene, camera, 24, 16);
     int lit = 0;
     for (const float rate : sunny.truth.ambient_e_per_s) lit += rate > 0;
     EXPECT_LE(lit, 200);
@@ -528,7 +449,7 @@ TEST(bounces, see_meshes_and_their_pictures_as_they_see_rectangles) {
       one.rotation = {{0, 1, 0}, pi / 2}, one.position = {0.4, 0, 0};
       scene.objects.push_back(one);
     }
-    return frame_of(scene, camera, 1, 256);
+    return frame_with_bounces(scene, camera, 1, 256);
   };
   const Frame mesh = seen(true), rectangle = seen(false);
   // From the wall the same ways are taken; from the side others, since an axis of a rectangle may have another sign.
@@ -597,6 +518,31 @@ TEST(bounces, of_more_ways_than_can_be_followed_are_refused) {
   EXPECT_NE(refused({1, 1, 0}, camera), "");
 }
 
+// All images that stand in memory at once are counted, and histograms follow the ways of one time again.
+TEST(bounces, are_limited_by_all_that_they_make) {
+  const auto refused = [&](int side_px, int subpixel, const Transport& transport) {
+    Scene scene = wall(1);
+    scene.transport = transport;
+    try {
+      const Simulator simulator(scene, lit_camera(side_px, side_px, 200), {.subpixel = subpixel});
+    } catch (const Error& error) {
+      EXPECT_EQ(error.kind(), ErrorKind::limit);
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  // 64 × 64 pixels, 65536 ways, 64 surfaces: 2^34 exactly.
+  EXPECT_EQ(refused(64, 1, {.bounces = 64, .samples = 65536}), "");
+  const TransientBins bins{.bins = 10, .first_m = 0, .width_m = 1};
+  EXPECT_NE(refused(64, 1, {.bounces = 64, .samples = 65536, .transient = bins}).find("once more for their histograms"), std::string::npos);
+  // One modulation frequency: up to 18 values a pixel. Samples within pixels need two images, bounces two more for each half of their ways.
+  EXPECT_NE(refused(2300, 1, {.bounces = 1, .samples = 2, .smooth = true}).find("in 6 images"), std::string::npos);
+  if (!with_sanitizers) {
+    EXPECT_EQ(refused(2300, 1, {.bounces = 1, .samples = 2}), "");
+  }
+  EXPECT_NE(refused(2800, 1, {.bounces = 1, .samples = 2}).find("in 4 images"), std::string::npos);
+}
+
 // 64 bounces between walls that lose nothing, lights in walls, nothing to be seen: an end, and numbers.
 TEST(bounces, of_odd_scenes_end_in_numbers) {
   const auto finite = [](const Frame& frame) {
@@ -609,16 +555,16 @@ TEST(bounces, of_odd_scenes_end_in_numbers) {
   Scene box;
   box.materials.push_back({"white", Material::Brdf::lambert, 1, 0, 1});
   box.objects.push_back(object(Box{{-1, -1, -1}, {1, 1, 1}}));
-  EXPECT_TRUE(finite(frame_of(box, camera, 64, 16)));
-  EXPECT_TRUE(finite(frame_of(white_ball(1, 0.5), camera, 64, 16)));
+  EXPECT_TRUE(finite(frame_with_bounces(box, camera, 64, 16)));
+  EXPECT_TRUE(finite(frame_with_bounces(white_ball(1, 0.5), camera, 64, 16)));
   Scene nothing;
-  EXPECT_TRUE(finite(frame_of(nothing, camera, 8, 16)));
+  EXPECT_TRUE(finite(frame_with_bounces(nothing, camera, 8, 16)));
   camera.illumination[0].position = {0, 0, 1};  // in the wall
-  EXPECT_TRUE(finite(frame_of(wall(1), camera, 8, 16)));
+  EXPECT_TRUE(finite(frame_with_bounces(wall(1), camera, 8, 16)));
   camera.illumination[0].position = {0.3, 0, 0.99999};
   Scene corner = wall(1);
   corner.objects.push_back(object(Plane{{0.4, 0, 0}, {-1, 0, 0}}));
-  EXPECT_TRUE(finite(frame_of(corner, camera, 8, 256)));
+  EXPECT_TRUE(finite(frame_with_bounces(corner, camera, 8, 256)));
   camera.illumination.clear();
-  EXPECT_TRUE(finite(frame_of(corner, camera, 8, 4)));
+  EXPECT_TRUE(finite(frame_with_bounces(corner, camera, 8, 4)));
 }
