@@ -175,6 +175,8 @@ struct Decoding {
   double low_signal_noise_m = 0.07;                           ///< σ̂ above this: low signal; also the scale of confidence
   double flying_near_z_m = 1.0, flying_near_limit_m = 0.018;  ///< limit on |Δz| grows linearly from here …
   double flying_far_z_m = 4.5, flying_far_limit_m = 0.14;     ///< … to here, constant outside
+  double flying_sigmas = 4;  ///< … and a flying pixel is off by more than this times the noise of the difference, too
+  bool flying_check = true;  ///< false: nobody looks for flying pixels
   double inconsistent_range_m = 0.1;
   ImageFilter filter;
 };

@@ -146,6 +146,7 @@ void FrozenCamera::freeze_decoder(bool noise) {
   d.inconsistent_range = single(decoding.inconsistent_range_m);
   d.flying_near_z = single(decoding.flying_near_z_m), d.flying_near_limit = single(decoding.flying_near_limit_m);
   d.flying_far_z = single(decoding.flying_far_z_m), d.flying_far_limit = single(decoding.flying_far_limit_m);
+  d.flying_factor = noise ? single(decoding.flying_sigmas * decoding.flying_sigmas) : 0, d.flying_check = decoding.flying_check ? 1 : 0;
   d.delay = sensor_.delay;
 }
 

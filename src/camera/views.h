@@ -206,7 +206,9 @@ struct DecoderView {
   float per_confidence_noise;                       ///< 1/0.07 m
   float inconsistent_range;
   float flying_near_z, flying_near_limit, flying_far_z, flying_far_limit;
-  const float* delay;  ///< [height][width] [s], or null
+  float flying_factor;        ///< square of how many σ a flying pixel is off; 0 where noise is off
+  std::int32_t flying_check;  ///< 0: none are looked for
+  const float* delay;         ///< [height][width] [s], or null
   bool operator==(const DecoderView&) const = default;
 };
 

@@ -36,6 +36,7 @@ constexpr Number electrons{charge, {0, 1e12}, "50 e"};
 constexpr Number code_number{none, {0, 65535}, "400"};
 constexpr Number flying_z{length, {0, 1e4}, "1 m"};
 constexpr Number flying_limit{length, {0, 1e3}, "18 mm"};
+constexpr Number sigmas{none, {0, 1e3}, "4"};
 constexpr Number degrees{celsius, {-100, 200}, "25 degC"};
 constexpr Number integration_time{time, {1e-9, 1e3}, "2000 us"};
 constexpr Number frame_rate{frequency, {1e-4, 1e5}, "5 Hz"};
@@ -195,7 +196,10 @@ const Table& table_of<Decoding>() {
                             number<&Decoding::flying_near_z_m>("near_z", flying_z, "the limit on |dz| grows linearly from here"),
                             number<&Decoding::flying_near_limit_m>("near_limit", flying_limit, "limit at near_z and before"),
                             number<&Decoding::flying_far_z_m>("far_z", {length, flying_z.range, "4.5 m"}, "… to here"),
-                            number<&Decoding::flying_far_limit_m>("far_limit", flying_limit, "limit at far_z and beyond")),
+                            number<&Decoding::flying_far_limit_m>("far_limit", flying_limit, "limit at far_z and beyond"),
+                            number<&Decoding::flying_sigmas>("sigmas", sigmas,
+                                                             "|dz| has to be more than this times its noise, too; 0: the limit alone"),
+                            flag<&Decoding::flying_check>("check", "whether flying pixels are looked for")),
                       number<&Decoding::inconsistent_range_m>("inconsistent_range", {length, {0, 1e4}, "0.1 m"},
                                                               "two modulation frequencies may differ by this"),
                       record<&Decoding::filter>("filter", "over the range image"))
