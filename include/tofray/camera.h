@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The tofray authors
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -176,10 +177,17 @@ struct ImageFilter {
 /// How raw frames become depth (theory 4).
 struct Decoding {
   bool wiggling_correction = true;
-  double low_signal_noise_m = 0.07;                           ///< σ̂ above this: low signal; also the scale of confidence
-  double flying_near_z_m = 1.0, flying_near_limit_m = 0.018;  ///< limit on |Δz| grows linearly from here …
-  double flying_far_z_m = 4.5, flying_far_limit_m = 0.14;     ///< … to here, constant outside
-  double inconsistent_range_m = 0.1;
+  double noise_threshold_m = 0.07;                                 ///< σ̂ above this: low signal; also the scale of confidence
+  double amplitude_threshold_e = 0;                                ///< amplitude below this: low signal
+  std::optional<double> lower_saturation_dn, upper_saturation_dn;  ///< codes beyond: saturated; unless given, the ADC's valid codes
+  double flying_near_z_m = 1.0, flying_near_limit_m = 0.018;       ///< limit on |Δz| grows linearly from here …
+  double flying_far_z_m = 4.5, flying_far_limit_m = 0.14;          ///< … to here, constant outside
+  double flying_sigmas = 4;  ///< … and a flying pixel is off by more than this times the noise of the difference, too
+  bool flying_check = true;  ///< false: nobody looks for flying pixels
+  double asymmetry_limit_e = 0, asymmetry_sigmas = 5;    ///< D_k + D_k' half a turn apart: inconsistent phases beyond both
+  bool asymmetry_reject = false;                         ///< the depth is invalid then; otherwise the flag is a warning
+  double multipath_limit_m = 0.1, multipath_sigmas = 3;  ///< d_i − d_j of two modulation frequencies: inconsistent ones beyond both
+  bool multipath_reject = false;
   ImageFilter filter;
 };
 

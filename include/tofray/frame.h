@@ -20,7 +20,8 @@ struct Raw {
   TOFRAY_EXPOSURE_ARRAYS(TOFRAY_VECTOR)  // std::vector<double> modulation_frequency_hz; …
 };
 
-/// Bits of Depth::flags. The first five make the depth invalid, the last two warn.
+/// Bits of Depth::flags. The first five make the depth invalid, the next two warn, the last one says that the camera was
+/// told to reject what they warn of.
 enum Flag : std::uint16_t {
   flag_saturated = 1,
   flag_low_signal = 2,
@@ -29,8 +30,9 @@ enum Flag : std::uint16_t {
   flag_outside_lens = 16,
   flag_inconsistent_phases = 32,
   flag_inconsistent_frequencies = 64,
+  flag_rejected = 128,
 };
-inline constexpr std::uint16_t flags_invalid = 31;
+inline constexpr std::uint16_t flags_invalid = 31 + 128;
 
 /// Depth frame, camera frame (x right, y down, z forward).
 struct Depth {

@@ -141,11 +141,17 @@ void FrozenCamera::freeze_decoder(bool noise) {
   d.suppression_threshold = sensor_.suppression_threshold, d.suppression_budget = sensor_.suppression_budget;
   d.suppression_variance = single(2 * camera_.pixel.suppression_noise_factor * camera_.pixel.suppression_noise_factor);
   d.dark_rate_both = single(2 * camera_.pixel.dark_current_e_per_s);
-  d.low_signal_noise = noise ? single(decoding.low_signal_noise_m) : std::numeric_limits<float>::max();
-  d.per_confidence_noise = single(1 / decoding.low_signal_noise_m);
-  d.inconsistent_range = single(decoding.inconsistent_range_m);
+  d.noise_threshold = noise ? single(decoding.noise_threshold_m) : std::numeric_limits<float>::max();
+  d.per_confidence_noise = single(1 / decoding.noise_threshold_m);
+  d.amplitude_threshold = single(decoding.amplitude_threshold_e);
+  d.asymmetry_square = single(decoding.asymmetry_limit_e * decoding.asymmetry_limit_e);
+  d.asymmetry_factor = single(2 * decoding.asymmetry_sigmas * decoding.asymmetry_sigmas);
+  d.multipath_limit = single(decoding.multipath_limit_m),
+  d.multipath_factor = single(decoding.multipath_sigmas * decoding.multipath_sigmas);
+  d.rejected = (decoding.asymmetry_reject ? 32 : 0) + (decoding.multipath_reject ? 64 : 0);
   d.flying_near_z = single(decoding.flying_near_z_m), d.flying_near_limit = single(decoding.flying_near_limit_m);
   d.flying_far_z = single(decoding.flying_far_z_m), d.flying_far_limit = single(decoding.flying_far_limit_m);
+  d.flying_factor = noise ? single(decoding.flying_sigmas * decoding.flying_sigmas) : 0, d.flying_check = decoding.flying_check ? 1 : 0;
   d.delay = sensor_.delay;
 }
 

@@ -161,7 +161,9 @@ void take_numbers(const Camera& camera, SensorView& s) {
   s.per_step = f(1 / adc.step_e_per_dn), s.step = f(adc.step_e_per_dn), s.mid_code = f(adc.mid_code);
   s.max_code = f((1 << adc.bits) - 1);
   s.column_noise = f(pixel.column_noise_e / adc.step_e_per_dn), s.width = camera.sensor.width;
-  s.valid_middle = f(0.5 * (adc.valid_min + adc.valid_max)), s.valid_half = f(0.5 * (adc.valid_max - adc.valid_min));
+  const double lower = camera.decoding.lower_saturation_dn.value_or(adc.valid_min);
+  const double upper = camera.decoding.upper_saturation_dn.value_or(adc.valid_max);
+  s.valid_middle = f(0.5 * (lower + upper)), s.valid_half = f(0.5 * (upper - lower));
 }
 
 /// Variance of A−B without light: read noise of two taps, rounding, column noise [e²].                          [theory: eq. 3.9, 3.15]
@@ -204,11 +206,16 @@ struct DecoderView {
   float suppression_threshold, suppression_budget;  ///< [e⁻] of a tap; threshold 0: no suppression
   float suppression_variance;                       ///< 2κ²: variance of A−B for each electron off both taps
   float dark_rate_both;                             ///< dark electrons per second, both taps together: noise only
-  float low_signal_noise;                           ///< [m]; infinite where noise is off
+  float noise_threshold;                            ///< [m]; infinite where noise is off
+  float amplitude_threshold;                        ///< [e⁻]
   float per_confidence_noise;                       ///< 1/0.07 m
-  float inconsistent_range;
+  float asymmetry_square, asymmetry_factor;         ///< square of the limit on |D_k + D_k'| [e²], and of that over V̂: 2k²
+  float multipath_limit, multipath_factor;          ///< [m], k²
+  std::int32_t rejected;                            ///< flags that make a depth invalid though they are but warnings
   float flying_near_z, flying_near_limit, flying_far_z, flying_far_limit;
-  const float* delay;  ///< [height][width] [s], or null
+  float flying_factor;        ///< square of how many σ a flying pixel is off; 0 where noise is off
+  std::int32_t flying_check;  ///< 0: none are looked for
+  const float* delay;         ///< [height][width] [s], or null
   bool operator==(const DecoderView&) const = default;
 };
 

@@ -16,7 +16,8 @@ enum Bits : std::int32_t {
   outside_lens = 16,
   inconsistent_phases = 32,
   inconsistent_frequencies = 64,
-  invalid = 31,
+  rejected = 128,
+  invalid = 31 + 128,
 };
 
 /// Ẑ = (2/N)Σ D_k e^{−iτ_k} of one modulation frequency.                                                  [eq. 4.2]
@@ -71,12 +72,12 @@ TOFRAY_FN F grey_sum(const camera::DecoderView& s, const F* difference) {
   return num::max(sum, F(0.0f));
 }
 
-/// Opposite reference phases must cancel: |D_k + D_k'| > 5√(2V̂) says that something moved.
+/// Opposite reference phases must cancel: |D_k + D_k'| > max(limit, k√(2V̂)) says that something moved.
 template <class F>
-TOFRAY_FN Mask<F> phases_disagree(const camera::DecodeModulation& m, const F* difference, F variance) {
+TOFRAY_FN Mask<F> phases_disagree(const camera::DecoderView& s, const camera::DecodeModulation& m, const F* difference, F variance) {
   F most = F(0.0f);
   for (int j = 0; j < m.pairs; ++j) most = num::max(most, num::abs(difference[m.pair[2 * j]] + difference[m.pair[2 * j + 1]]));
-  return most * most > F(50.0f) * variance;
+  return most * most > num::max(F(s.asymmetry_factor) * variance, F(s.asymmetry_square));
 }
 
 /// What background suppression adds to the variance, as if to each raw frame: of frame k it took about
@@ -134,6 +135,13 @@ TOFRAY_FN num::Int<F> bit(Mask<F> m, Bits value) {
   return num::select(m, num::Int<F>(value), num::Int<F>(0));
 }
 
+/// What was a warning makes the depth invalid, where the camera was told so.
+template <class F>
+TOFRAY_FN num::Int<F> rejected_bit(const camera::DecoderView& s, num::Int<F> flags) {
+  const num::Int<F> none(0);
+  return num::select((flags & num::Int<F>(s.rejected)) == none, none, num::Int<F>(rejected));
+}
+
 /// @param difference  A−B of each raw frame [e⁻]
 /// @param delay       the pixel's fixed delay [s]
 template <class F>
@@ -152,7 +160,7 @@ TOFRAY_FN Depth<F> decode(const camera::DecoderView& s, const F* difference, Mas
     const F light = grey * F(m.ambient_scale);
     const F variance = variance_of(s, m, difference, e, light);
     weight[i] = inverse_variance(m, e, variance, slope);
-    moved = moved | phases_disagree<F>(m, difference, variance);
+    moved = moved | phases_disagree<F>(s, m, difference, variance);
     amplitude = amplitude + e.amplitude;
     ambient = ambient + light;
     weakest = num::min(weakest, e.amplitude);
@@ -169,8 +177,10 @@ TOFRAY_FN Depth<F> decode(const camera::DecoderView& s, const F* difference, Mas
   out.ambient = ambient * per_count;
   out.noise = sigma;
   const auto nothing = (weakest < F(1.0f)) | (!(path_length * path_length > F(s.light_square)));
-  out.flags = bit<F>(clipped, saturated) | bit<F>(sigma > F(s.low_signal_noise), low_signal) | bit<F>(nothing, no_return) |
-              bit<F>(outside, outside_lens) | bit<F>(moved, inconsistent_phases) | bit<F>(half.inconsistent, inconsistent_frequencies);
+  const auto weak = (sigma > F(s.noise_threshold)) | (out.amplitude < F(s.amplitude_threshold));
+  out.flags = bit<F>(clipped, saturated) | bit<F>(weak, low_signal) | bit<F>(nothing, no_return) | bit<F>(outside, outside_lens) |
+              bit<F>(moved, inconsistent_phases) | bit<F>(half.inconsistent, inconsistent_frequencies);
+  if (s.rejected != 0) out.flags = out.flags | rejected_bit<F>(s, out.flags);
   return out;
 }
 

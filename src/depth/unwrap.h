@@ -48,10 +48,11 @@ TOFRAY_FN HalfPath<F> unwrap(const camera::DecoderView& s, const F* turns, const
     const F d = nearest_half_path(s.modulation[i], turns[i], best);
     weights = weights + weight[i];
     sum = num::fma(weight[i], d - best, sum);
-    // apart² > 9(σ_i² + σ_ref²), without a division
+    // apart² > k²(σ_i² + σ_ref²), without a division
     const F apart = num::abs(d - best), reference_weight = weight[s.reference];
     const F significance = apart * apart * (weight[i] * reference_weight);
-    inconsistent = inconsistent | ((apart > F(s.inconsistent_range)) & (significance > F(9.0f) * (weight[i] + reference_weight)));
+    inconsistent =
+        inconsistent | ((apart > F(s.multipath_limit)) & (significance > F(s.multipath_factor) * (weight[i] + reference_weight)));
   }
   const F variance = F(1.0f) / weights;
   F mean = num::fma(sum, variance, best);

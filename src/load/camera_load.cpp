@@ -52,12 +52,24 @@ struct Profile {
   std::string folder;  ///< of its table files; empty: none
 };
 
+/// What is set for a run counts more than what a mode says: where a mode has a decoding of its own, it is changed as well.
+void set_decoding_of_modes(Node& root, const Change& change) {
+  if (change.key != "decoding" && !change.key.starts_with("decoding.")) return;
+  Node* modes = root.find("modes");
+  if (modes == nullptr) return;
+  for (Node& mode : modes->items)
+    if (mode.find("decoding") != nullptr) set_key(mode, change.key, parse_value(change.text, change.place), change.place);
+}
+
 Camera interpret(const Profile& profile, const std::string& mode, const base::Place& mode_place, const std::vector<Change>& changes,
                  const SeeCamera& see_each_mode = {}) {
   refuse_too_many(changes.size(), base::whole(profile.source));
   Node root = parse_tree(profile.text, profile.source);
   if (!mode.empty()) set_key(root, "mode", mode_node(mode, mode_place), mode_place);
-  for (const auto& change : changes) set_key(root, change.key, parse_value(change.text, change.place), change.place);
+  for (const auto& change : changes) {
+    set_key(root, change.key, parse_value(change.text, change.place), change.place);
+    set_decoding_of_modes(root, change);
+  }
   base::Faults faults;
   const Value value = read(model::camera_form(), root, faults);
   Camera camera;

@@ -116,6 +116,10 @@ void Modes::choose(std::size_t which, Camera& camera, Filler& filler) const {
   const Value& all = root_["modes"];
   if (modes_.empty()) return;
   camera.mode_names = all.names;
+  // That of the profile first: another mode may have been chosen before.
+  camera.decoding = {};
+  filler.fill(root_["decoding"], camera.decoding);
+  filler.fill(all.items[which]["decoding"], camera.decoding);
   camera.mode = modes_[which].mode;
   filler.remember(all.items[which], camera.mode);
   if (modes_[which].good) check_time(all.items[which], camera);

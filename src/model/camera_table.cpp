@@ -36,6 +36,7 @@ constexpr Number electrons{charge, {0, 1e12}, "50 e"};
 constexpr Number code_number{none, {0, 65535}, "400"};
 constexpr Number flying_z{length, {0, 1e4}, "1 m"};
 constexpr Number flying_limit{length, {0, 1e3}, "18 mm"};
+constexpr Number sigmas{none, {0, 1e3}, "4"};
 constexpr Number degrees{celsius, {-100, 200}, "25 degC"};
 constexpr Number integration_time{time, {1e-9, 1e3}, "2000 us"};
 constexpr Number frame_rate{frequency, {1e-4, 1e5}, "5 Hz"};
@@ -197,17 +198,35 @@ const Table& table_of<ImageFilter>() {
 template <>
 const Table& table_of<Decoding>() {
   static const Table rows =
-      table<Decoding>(flag<&Decoding::wiggling_correction>("wiggling_correction", "take out what the harmonics do to the phase"),
-                      number<&Decoding::low_signal_noise_m>("low_signal_noise", {length, {1e-6, 1e3}, "70 mm"},
-                                                            "more noise than this: flagged as low signal; also the scale of confidence"),
-                      group("flying_pixel", "limits of the flying pixel flag",
-                            number<&Decoding::flying_near_z_m>("near_z", flying_z, "the limit on |dz| grows linearly from here"),
-                            number<&Decoding::flying_near_limit_m>("near_limit", flying_limit, "limit at near_z and before"),
-                            number<&Decoding::flying_far_z_m>("far_z", {length, flying_z.range, "4.5 m"}, "… to here"),
-                            number<&Decoding::flying_far_limit_m>("far_limit", flying_limit, "limit at far_z and beyond")),
-                      number<&Decoding::inconsistent_range_m>("inconsistent_range", {length, {0, 1e4}, "0.1 m"},
-                                                              "two modulation frequencies may differ by this"),
-                      record<&Decoding::filter>("filter", "over the range image"))
+      table<Decoding>(
+          flag<&Decoding::wiggling_correction>("wiggling_correction", "take out what the harmonics do to the phase"),
+          number<&Decoding::noise_threshold_m>("noise_threshold", {length, {1e-6, 1e3}, "70 mm"},
+                                               "more noise than this: flagged as low signal; also the scale of confidence"),
+          number<&Decoding::amplitude_threshold_e>("amplitude_threshold", {charge, {0, 1e12}, "100 e"},
+                                                   "less amplitude than this: flagged as low signal"),
+          number<&Decoding::lower_saturation_dn>("lower_saturation", code_number,
+                                                 "codes below are flagged as saturated; adc.valid_min unless given")
+              .absent(),
+          number<&Decoding::upper_saturation_dn>("upper_saturation", {none, code_number.range, "3750"},
+                                                 "codes above are flagged as saturated; adc.valid_max unless given")
+              .absent(),
+          group(
+              "flying_pixel", "limits of the flying pixel flag",
+              number<&Decoding::flying_near_z_m>("near_z", flying_z, "the limit on |dz| grows linearly from here"),
+              number<&Decoding::flying_near_limit_m>("near_limit", flying_limit, "limit at near_z and before"),
+              number<&Decoding::flying_far_z_m>("far_z", {length, flying_z.range, "4.5 m"}, "… to here"),
+              number<&Decoding::flying_far_limit_m>("far_limit", flying_limit, "limit at far_z and beyond"),
+              number<&Decoding::flying_sigmas>("sigmas", sigmas, "|dz| has to be more than this times its noise, too; 0: the limit alone"),
+              flag<&Decoding::flying_check>("check", "whether flying pixels are looked for")),
+          group("asymmetry", "raw frames whose reference phases are half a turn apart add up to nothing, unless something moves",
+                number<&Decoding::asymmetry_limit_e>("limit", {charge, {0, 1e12}, "200 e"}, "their sum may be this"),
+                number<&Decoding::asymmetry_sigmas>("sigmas", sigmas, "... and this times its noise; beyond both the pixel is flagged"),
+                flag<&Decoding::asymmetry_reject>("reject", "whether the depth is invalid then")),
+          group("multipath", "two modulation frequencies say the same, unless light took several paths",
+                number<&Decoding::multipath_limit_m>("limit", {length, {0, 1e4}, "0.1 m"}, "they may differ by this"),
+                number<&Decoding::multipath_sigmas>("sigmas", sigmas, "... and by this times the noise; beyond both the pixel is flagged"),
+                flag<&Decoding::multipath_reject>("reject", "whether the depth is invalid then")),
+          record<&Decoding::filter>("filter", "over the range image"))
           .check_with(far_is_beyond_near);
   return rows;
 }
@@ -273,7 +292,7 @@ const Table& table_of<Camera>() {
                                                  "paper_literal: the printed formula of the paper, for comparison only"),
                     record<&Camera::mode>("", ""),  // one out of the file's `modes`
                     no_row<&Camera::mode_names>("what else the file has is no part of the camera"))
-          .check_with(sizes_are_within_the_limits)
+          .check_with(cameras_are_within_the_limits)
           .complete_with(filter_at_the_light);
   return rows;
 }
@@ -282,8 +301,9 @@ const FileForm& camera_form() {
   static const FileForm form = [] {
     FileForm file{"camera", "tofray camera profile: lens, light, pixel, ADC, modes and decoding", form_of(table_of<Camera>()), true};
     const auto most = static_cast<int>(base::limit::modes.value);
-    file.root.keys.push_back(
-        required("modes", dictionary(form_of(table_of<Mode>()), 1, most), "the camera's use cases by name; the first is the default"));
+    Form mode = form_of(table_of<Mode>());
+    mode.keys.push_back(absent("decoding", form_of(table_of<Decoding>()), "keys of decoding that this mode has otherwise"));
+    file.root.keys.push_back(required("modes", dictionary(mode, 1, most), "the camera's use cases by name; the first is the default"));
     file.root.keys.push_back(absent("mode", text("a mode", "MODE_9_5FPS_2000"), "which of the modes; the first unless given"));
     file.root.keys.push_back(
         absent("integration_time", form_of(integration_time), "takes the place of that of every lit raw frame of the mode"));

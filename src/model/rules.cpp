@@ -81,7 +81,20 @@ void add_up_to_the_limit(const Camera& camera, long long (*count)(const Illumina
 }
 }  // namespace
 
-void sizes_are_within_the_limits(const Camera& camera, Complaints& complaints) {
+namespace {
+/// What takes the place of one end of the ADC's valid codes has to fit the other one.
+void saturation_is_in_order(const Camera& camera, Complaints& complaints) {
+  const Decoding& d = camera.decoding;
+  const double lower = d.lower_saturation_dn.value_or(camera.adc.valid_min), upper = d.upper_saturation_dn.value_or(camera.adc.valid_max);
+  if (lower < upper || (!d.lower_saturation_dn && !d.upper_saturation_dn)) return;
+  const void* member = d.lower_saturation_dn ? static_cast<const void*>(&d.lower_saturation_dn) : &d.upper_saturation_dn;
+  complaints.add(d, member, "lower_saturation is not below upper_saturation",
+                 "got " + number_text(lower) + " and " + number_text(upper) + ", adc.valid_min and adc.valid_max where they are not given");
+}
+}  // namespace
+
+void cameras_are_within_the_limits(const Camera& camera, Complaints& complaints) {
+  saturation_is_in_order(camera, complaints);
   add_up_to_the_limit(camera, sources_of, base::limit::lights, "the camera has too many light sources", "take fewer points or LEDs",
                       complaints);
   add_up_to_the_limit(camera, samples_of, base::limit::light_samples, "the camera's light sources have too many samples of their patterns",

@@ -10,7 +10,7 @@ void codes_are_in_order(const Adc& adc, Complaints& complaints);
 void far_is_beyond_near(const Decoding& decoding, Complaints& complaints);
 void lit_raw_frames_have_a_frequency(const RawFrame& raw, Complaints& complaints);
 /// … of lights and of pixels.
-void sizes_are_within_the_limits(const Camera& camera, Complaints& complaints);
+void cameras_are_within_the_limits(const Camera& camera, Complaints& complaints);
 void masks_let_light_through(const PixelMask& mask, Complaints& complaints);
 void scatter_goes_somewhere(const Scatter& scatter, Complaints& complaints);
 void tables_shine(const Pattern& pattern, Complaints& complaints);

@@ -15,12 +15,20 @@ int invalid_reason(std::uint16_t flags) {
   if ((flags & flag_outside_lens) != 0) return 4;
   if ((flags & flag_saturated) != 0) return 0;
   if ((flags & flag_no_return) != 0) return 3;
-  return (flags & flag_low_signal) != 0 ? 1 : 2;
+  if ((flags & flag_low_signal) != 0) return 1;
+  if ((flags & flag_flying_pixel) != 0) return 2;
+  return (flags & flag_inconsistent_phases) != 0 ? 5 : 6;
 }
 
 const char* flag_name(int bit) {
-  constexpr const char* names[flag_count] = {
-      "saturated", "low signal", "flying pixel", "no return", "outside the lens model", "inconsistent phases", "inconsistent frequencies"};
+  constexpr const char* names[flag_count] = {"saturated",
+                                             "low signal",
+                                             "flying pixel",
+                                             "no return",
+                                             "outside the lens model",
+                                             "inconsistent phases",
+                                             "inconsistent frequencies",
+                                             "rejected for these"};
   return names[bit];
 }
 

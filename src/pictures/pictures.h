@@ -14,11 +14,11 @@ namespace tofray::pictures {
 enum class Theme : std::uint8_t { dark, light };
 
 /// Which bit of Depth::flags explains best why a pixel is invalid: outside the lens, saturated, no return, low signal, flying, in this
-/// order, for a pixel that got nothing back is also weak and noisy. −1: it is valid.
+/// order, then the warnings for which it was rejected; for a pixel that got nothing back is also weak and noisy. −1: it is valid.
 int invalid_reason(std::uint16_t flags);
 /// What messages and legends call a bit of Depth::flags.
 const char* flag_name(int bit);
-constexpr int flag_count = 7, invalid_flag_count = 5;
+constexpr int flag_count = 8, invalid_flag_count = 7;
 
 /// depth.png: uint16, z in mm, rounded. 0 where invalid, and where z does not fit (nearer than 0.5 mm, farther than 65.535 m).
 std::string depth_png(const Depth& depth);

@@ -10,10 +10,12 @@
 /// The passes over whole images that follow the pixels: flying pixels, filters, and the range that is left.
 namespace tofray::pipeline {
 
-/// Pass 1: flags a flying pixel; z is only read.
+/// Pass 1: flags a flying pixel; z and noise are only read.
 TOFRAY_FN void flag_flying_pixel(const Setup& s, const Job& job, int x, int y) {
   const int width = s.lens.width, at = y * width + x;
-  if (!depth::flies<float>(s.decoder, job.out.z_m + at, width, 1, y > 0 && y + 1 < s.lens.height, x > 0 && x + 1 < width)) return;
+  if (!depth::flies<float>(s.decoder, {job.out.z_m + at, job.out.noise_m + at, width}, 1, y > 0 && y + 1 < s.lens.height,
+                           x > 0 && x + 1 < width))
+    return;
   job.out.flags[at] = static_cast<std::uint16_t>(job.out.flags[at] | depth::flying_pixel);
 }
 
@@ -22,13 +24,13 @@ template <class F>
 TOFRAY_FN void flag_flying_row(const Setup& s, const Job& job, int y) {
   const int width = s.lens.width;
   const bool has_rows = y > 0 && y + 1 < s.lens.height;
-  const float* z = job.out.z_m + y * width;
+  const float *z = job.out.z_m + y * width, *noise = job.out.noise_m + y * width;
   std::uint16_t* flags = job.out.flags + y * width;
   flag_flying_pixel(s, job, 0, y);
   if (width > 1) flag_flying_pixel(s, job, width - 1, y);
   for (int x = 1; x < width - 1; x += num::lanes<F>) {
     const int count = width - 1 - x < num::lanes<F> ? width - 1 - x : num::lanes<F>;
-    const auto flying = depth::flies<F>(s.decoder, z + x, width, count, has_rows, true);
+    const auto flying = depth::flies<F>(s.decoder, {z + x, noise + x, width}, count, has_rows, true);
     if (!num::any(flying)) continue;
     const num::Int<F> marks = num::select(flying, num::Int<F>(1), num::Int<F>(0));
     for (int i = 0; i < count; ++i) {

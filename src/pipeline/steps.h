@@ -135,9 +135,9 @@ void each_step(const Setup& s, const Job& job, Stage entry, bool known, const Ru
   if (entry == Stage::trace && wants_transient(job.out))
     run(Step{Pass::transient, has_light_image(s, entry) ? Part::collect : Part::all, 0, 0, 0});
   if (s.last_stage < Stage::depth || job.out.z_m == nullptr || job.out.flags == nullptr) return;
-  run(Step{Pass::flying, Part::all, 0, 0, 0});
+  if (s.decoder.flying_check != 0) run(Step{Pass::flying, Part::all, 0, 0, 0});
   if (job.filter != Filter::none) run(Step{Pass::filter, Part::all, 0, 0, 0});
-  run(Step{Pass::settle, Part::all, 0, 0, 0});
+  if (s.decoder.flying_check != 0 || job.filter != Filter::none) run(Step{Pass::settle, Part::all, 0, 0, 0});
 }
 
 }  // namespace tofray::pipeline

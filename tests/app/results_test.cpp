@@ -322,7 +322,7 @@ INSTANTIATE_TEST_SUITE_P(
         Dark{"saturated", {"render", "card", "--set", "camera.illumination.0.power=10 kW"}, "no pixel has a valid depth"},
         Dark{"black", {"render", "card", "--noise", "off", "--set", "objects.0.plane.reflectivity=0"}, "no pixel has a valid depth"},
         Dark{"all_noise", {"render", "card", "--set", "camera.pixel.read_noise=100 ke"}, "no pixel has a valid depth"},
-        Dark{"strict", {"render", "card", "--set", "camera.decoding.low_signal_noise=1 um"}, "no pixel has a valid depth"}),
+        Dark{"strict", {"render", "card", "--set", "camera.decoding.noise_threshold=1 um"}, "no pixel has a valid depth"}),
     [](const testing::TestParamInfo<Dark>& one) { return one.param.name; });
 
 TEST(check, warns_of_a_camera_without_light) {

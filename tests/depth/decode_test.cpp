@@ -4,7 +4,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <optional>
+#include <utility>
 #include <vector>
 
 #include "support/bench.h"
@@ -185,6 +188,37 @@ TEST(flags, say_low_signal_where_the_noise_is_above_its_limit) {
   }
 }
 
+// Â = 0.7·S, with noise and without.
+TEST(flags, say_low_signal_where_the_amplitude_is_below_its_threshold) {
+  Camera camera = two_frequencies();
+  camera.decoding.amplitude_threshold_e = 7000;
+  for (const bool noise : {false, true}) {
+    const Bench bench(camera, noise), silent(camera);
+    for (const double signal : {9900.0, 10100.0}) {
+      std::vector<float> difference;
+      for (const auto& taps : silent.expose({signal, 1.2, 0})) difference.push_back(taps.difference);
+      EXPECT_EQ(bench.decode(difference).flags & depth::low_signal, signal < 10000 ? depth::low_signal : 0) << signal;
+    }
+  }
+}
+
+// φ = 0: D_0 = 7000 and D_2 = −7000, about code 32768. Either limit may be given alone; the other one is the ADC's.
+TEST(flags, say_saturated_beyond_the_codes_of_the_decoding) {
+  const auto saturated = [](std::optional<double> lower, std::optional<double> upper) {
+    Camera camera = bench_camera();
+    camera.decoding.lower_saturation_dn = lower, camera.decoding.upper_saturation_dn = upper;
+    bool found = false;
+    (void)Bench(camera).expose({10000, 0, 0}, 0, 0, &found);
+    return found;
+  };
+  EXPECT_FALSE(saturated({}, {}));
+  EXPECT_FALSE(saturated({}, 39769));
+  EXPECT_TRUE(saturated({}, 39767));
+  EXPECT_FALSE(saturated(25767, {}));
+  EXPECT_TRUE(saturated(25769, {}));
+  EXPECT_FALSE(saturated(25767, 39769));
+}
+
 TEST(flags, say_no_return_where_nothing_comes_back) {
   const Bench bench(two_frequencies());
   EXPECT_EQ(flags_of(bench, {0, 1.2, 3000}) & depth::no_return, depth::no_return);
@@ -226,20 +260,62 @@ TEST(flags, warn_where_opposite_phases_do_not_cancel) {
   }
 }
 
-// |d_1 − d_2| > 0.1 m and > 3 times its σ̂.
+// |D_0 + D_2| > max(limit, k√(2V̂)), √(2V̂) = 208 e⁻.
+TEST(flags, warn_of_phases_by_the_limit_and_the_factor_that_are_set) {
+  const double noise = std::sqrt(2 * (20000 + 1800 + 1.0 / 12));
+  for (const double sigmas : {0.0, 2.0, 9.0}) {
+    for (const double limit : {300.0, 1000.0}) {
+      Camera camera = two_frequencies();
+      camera.decoding.asymmetry_sigmas = sigmas, camera.decoding.asymmetry_limit_e = limit;
+      const Bench bench(camera);
+      for (const double share : {0.95, 1.05}) {
+        std::vector<float> difference;
+        for (const auto& taps : bench.expose({20000, 1.2, 0})) difference.push_back(taps.difference);
+        difference[3] += static_cast<float>(share * std::max(limit, sigmas * noise));
+        EXPECT_EQ(bench.decode(difference).flags, share > 1 ? depth::inconsistent_phases : 0) << sigmas << " " << limit << " " << share;
+      }
+    }
+  }
+}
+
+// What warns makes the depth invalid where the camera says so, each warning by itself.
+TEST(flags, say_rejected_where_a_warning_shall_be_heeded) {
+  for (const bool phases : {false, true}) {
+    for (const bool frequencies : {false, true}) {
+      Camera camera = two_frequencies();
+      camera.decoding.asymmetry_reject = phases, camera.decoding.multipath_reject = frequencies;
+      const Bench bench(camera);
+      std::vector<float> good, moved, apart;
+      for (const auto& taps : bench.expose({20000, 1.2, 0})) good.push_back(taps.difference);
+      for (const auto& taps : bench.expose({20000, 1.5, 0})) apart.push_back(taps.difference);
+      moved = good, moved[3] += 2000;
+      for (std::size_t k = 0; k < 5; ++k) apart[k] = good[k];
+      const int warned = bench.decode(moved).flags, differ = bench.decode(apart).flags;
+      EXPECT_EQ(bench.decode(good).flags, 0);
+      EXPECT_EQ(warned & ~depth::inconsistent_frequencies, depth::inconsistent_phases + (phases ? depth::rejected : 0));
+      EXPECT_EQ(differ, depth::inconsistent_frequencies + (frequencies ? depth::rejected : 0));
+      EXPECT_EQ((warned & depth::invalid) != 0, phases) << "a warning alone leaves the depth";
+    }
+  }
+}
+
+// |d_1 − d_2| > 0.1 m and > 3 times its σ̂, or what is set in their place.
 TEST(flags, warn_where_the_frequencies_do_not_agree) {
   Camera camera = two_frequencies();
   camera.adc.step_e_per_dn = 10;  // the brighter one would clip at the bench's 1 e⁻
-  for (const double signal : {2e5, 1500.0}) {
-    const Bench bench(camera);
-    for (const double apart : {0.09, 0.11, 0.2}) {
-      const auto first = bench.expose({signal, 1.0, 0}), second = bench.expose({signal, 1.0 + apart, 0});
-      std::vector<float> difference;
-      for (std::size_t k = 0; k < 9; ++k) difference.push_back(k < 5 ? first[k].difference : second[k].difference);
-      const auto got = bench.decode(difference);
-      const double sigma = std::sqrt((signal + 1800) / 2) / (0.7 * signal) * c / (4 * pi) * std::hypot(1 / 80.32e6, 1 / 60.24e6);
-      const bool expected = apart > 0.1 && apart > 3 * sigma;
-      EXPECT_EQ((got.flags & depth::inconsistent_frequencies) != 0, expected) << signal << " " << apart << " " << 3 * sigma;
+  for (const auto& [limit, sigmas] : {std::pair{0.1, 3.0}, {0.19, 3.0}, {0.1, 1.0}, {0.0, 6.0}}) {
+    for (const double signal : {2e5, 1500.0}) {
+      camera.decoding.multipath_limit_m = limit, camera.decoding.multipath_sigmas = sigmas;
+      const Bench bench(camera);
+      for (const double apart : {0.09, 0.11, 0.2}) {
+        const auto first = bench.expose({signal, 1.0, 0}), second = bench.expose({signal, 1.0 + apart, 0});
+        std::vector<float> difference;
+        for (std::size_t k = 0; k < 9; ++k) difference.push_back(k < 5 ? first[k].difference : second[k].difference);
+        const auto got = bench.decode(difference);
+        const double sigma = std::sqrt((signal + 1800) / 2) / (0.7 * signal) * c / (4 * pi) * std::hypot(1 / 80.32e6, 1 / 60.24e6);
+        const bool expected = apart > limit && apart > sigmas * sigma;
+        EXPECT_EQ((got.flags & depth::inconsistent_frequencies) != 0, expected) << signal << " " << apart << " " << sigmas * sigma;
+      }
     }
   }
 }

@@ -23,10 +23,17 @@ constexpr float no_value = std::numeric_limits<float>::quiet_NaN();
 /// Largest step of one surface: 0.018 m up to 1 m, 0.14 m from 4.5 m on, a line between.
 double limit_at(double z) { return 0.018 + (0.14 - 0.018) * std::clamp((z - 1) / 3.5, 0.0, 1.0); }
 
-/// Whether the middle of a cross of z values flies.
+/// Whether the middle of a cross of z values flies; without noise to speak of.
 bool flies(const Bench& bench, float here, float left, float right, float up, float down, bool rows = true, bool columns = true) {
-  const float z[9] = {0, up, 0, left, here, right, 0, down, 0};
-  return depth::flies<float>(bench.decoder(), z + 4, 3, 1, rows, columns);
+  const float z[9] = {0, up, 0, left, here, right, 0, down, 0}, noise[9] = {};
+  return depth::flies<float>(bench.decoder(), {z + 4, noise + 4, 3}, 1, rows, columns);
+}
+
+/// Bench whose decoder knows that there is noise.
+Bench noisy_bench(double sigmas) {
+  Camera camera = bench_camera();
+  camera.decoding.flying_sigmas = sigmas;
+  return Bench(camera, true);
 }
 
 struct Image {
@@ -88,6 +95,46 @@ TEST(flying_pixel, at_the_border_has_one_pair_only) {
   EXPECT_FALSE(flies(bench, 1.0f, 1.0f, 1.0f, 2.0f, 2.0f, false, true));
   EXPECT_TRUE(flies(bench, 1.0f, 2.0f, 2.0f, 2.0f, 2.0f, true, false));
   EXPECT_TRUE(flies(bench, 1.0f, 2.0f, 2.0f, 2.0f, 2.0f, false, true));
+}
+
+// Left (or up) is off by less, right (or down) by more: what the lesser one says, decides. σ̂ 30 mm here, 40 mm there: 50 mm of the difference.
+TEST(flying_pixel, is_off_by_more_than_its_noise) {
+  for (const double sigmas : {0.5, 4.0, 9.0}) {
+    const Bench bench = noisy_bench(sigmas);
+    for (const double share : {0.99, 1.01}) {
+      for (const double sign : {-1.0, 1.0}) {
+        const double most = std::max(limit_at(1.0), sigmas * 0.050), off = sign * share * most;
+        for (const int neighbour : {1, 3, 5, 7}) {
+          float z[9] = {0, 1, 0, 1, 1, 1, 0, 1, 0}, noise[9] = {0, 0.04f, 0, 0.04f, 0.03f, 0.04f, 0, 0.04f, 0};
+          z[neighbour] = static_cast<float>(1.0 + off), z[8 - neighbour] = static_cast<float>(1.0 + 2 * off);
+          EXPECT_EQ(depth::flies<float>(bench.decoder(), {z + 4, noise + 4, 3}, 1, true, true), share > 1) << sigmas << " " << neighbour;
+        }
+      }
+    }
+  }
+}
+
+// The noise of each neighbour counts, and of the pixel itself.
+TEST(flying_pixel, looks_at_the_noise_of_all_three) {
+  const Bench bench = noisy_bench(4);
+  const float z[9] = {0, 1, 0, 1.2f, 1, 1.2f, 0, 1, 0};
+  for (const int loud : {3, 4, 5}) {
+    float noise[9] = {};
+    EXPECT_TRUE(depth::flies<float>(bench.decoder(), {z + 4, noise + 4, 3}, 1, true, true));
+    noise[loud] = 0.049f;  // 0.2 m are 4.08 of them
+    EXPECT_TRUE(depth::flies<float>(bench.decoder(), {z + 4, noise + 4, 3}, 1, true, true)) << loud;
+    noise[loud] = 0.051f;
+    EXPECT_FALSE(depth::flies<float>(bench.decoder(), {z + 4, noise + 4, 3}, 1, true, true)) << loud;
+  }
+}
+
+// Without noise, and where k is 0, the limit alone holds, whatever the estimate says.
+TEST(flying_pixel, without_noise_is_found_by_the_limit_alone) {
+  const float z[9] = {0, 1, 0, 1.02f, 1, 1.02f, 0, 1, 0}, noise[9] = {1, 1, 1, 1, 1, 1, 1, 1, 1};
+  const Bench quiet(bench_camera()), zero = noisy_bench(0), loud = noisy_bench(4);
+  EXPECT_TRUE(depth::flies<float>(quiet.decoder(), {z + 4, noise + 4, 3}, 1, true, true));
+  EXPECT_TRUE(depth::flies<float>(zero.decoder(), {z + 4, noise + 4, 3}, 1, true, true));
+  EXPECT_FALSE(depth::flies<float>(loud.decoder(), {z + 4, noise + 4, 3}, 1, true, true));
 }
 
 TEST(gaussian, preserves_a_constant_up_to_the_border) {

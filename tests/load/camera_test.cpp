@@ -71,7 +71,7 @@ TEST(pico_flexx, has_the_numbers_of_its_table) {
   EXPECT_EQ(camera.adc.valid_max, 3750);
   EXPECT_EQ(camera.readout_time_s, 3.5e-3);
   EXPECT_EQ(camera.min_integration_time_s, 27e-6);
-  EXPECT_EQ(camera.decoding.low_signal_noise_m, 0.07);
+  EXPECT_EQ(camera.decoding.noise_threshold_m, 0.07);
   EXPECT_EQ(camera.decoding.flying_far_limit_m, 0.14);
 }
 
@@ -113,6 +113,28 @@ TEST(settings, change_any_key_and_names_them_where_they_are_wrong) {
   EXPECT_TRUE(has(refusal({{"f_number", "2"}}), "\"f_number\" stands elsewhere: as lens.f_number"));
 }
 
+// Single keys, in the place of the profile's; what is set for a run takes the place of both.
+TEST(modes, may_have_a_decoding_of_their_own) {
+  const std::string first = "modes.MODE_9_5FPS_2000.", second = "modes.MODE_9_10FPS_1000.";
+  const std::vector<std::pair<std::string, std::string>> set = {{"decoding.amplitude_threshold", "50 e"},
+                                                                {"decoding.filter", "{kind: median, radius: 2}"},
+                                                                {first + "decoding.noise_threshold", "30 mm"},
+                                                                {first + "decoding.filter", "{kind: gaussian, sigma: 2 px}"}};
+  const Decoding own = with(set).decoding;
+  EXPECT_EQ(own.noise_threshold_m, 0.03);
+  EXPECT_EQ(own.amplitude_threshold_e, 50) << "what the mode does not say is the profile's";
+  EXPECT_EQ(own.filter.kind, ImageFilter::Kind::gaussian);
+  EXPECT_EQ(own.filter.sigma_px, 2);
+  auto other = set;
+  other.emplace_back("mode", "MODE_9_10FPS_1000");
+  EXPECT_EQ(with(other).decoding.noise_threshold_m, 0.07) << "another mode knows nothing of it";
+  EXPECT_EQ(with(other).decoding.filter.kind, ImageFilter::Kind::median);
+  auto run = set;
+  run.emplace_back("decoding.noise_threshold", "20 mm");
+  EXPECT_EQ(with(run).decoding.noise_threshold_m, 0.02);
+  EXPECT_EQ(with(run).decoding.filter.sigma_px, 2);
+}
+
 TEST(no_light, is_a_camera_too) { EXPECT_TRUE(with({{"illumination", "[]"}}).illumination.empty()); }
 
 TEST(no_lit_raw_frame, is_a_camera_too) {
@@ -143,6 +165,10 @@ TEST(checks, refuse_cameras_that_cannot_be) {
       {{{"illumination.0.axis", "[0, 0, 0]"}}, "axis has no length"},
       {{{"illumination.0.waveform.rise_time", "4 ns"}}, "edges are longer than the pulse"},
       {{{"decoding.flying_pixel", "{near_z: 5 m}"}}, "far_z is not beyond near_z"},
+      {{{mode + "decoding.flying_pixel", "{near_z: 5 m}"}}, "far_z is not beyond near_z"},
+      {{{mode + "decoding.noise_treshold", "5 mm"}}, "did you mean \"noise_threshold\"?"},
+      {{{"decoding.lower_saturation", "3750"}}, "lower_saturation is not below upper_saturation"},
+      {{{"decoding.upper_saturation", "400"}}, "lower_saturation is not below upper_saturation"},
       {{{"pixel.quantum_efficiency", "{wavelength: [850 nm, 840 nm], value: [0.4, 0.4]}"}}, "wavelength does not ascend"},
       {{{"pixel.quantum_efficiency", "{wavelength: [850 nm, 860 nm], value: [0.4, 0.4, 0.4]}"}}, "value is not as long as wavelength"},
       {{{"illumination.0.pattern", "{kind: table, samples: [[1, 2], [1, 2, 3]], half_range_x: 1 rad, half_range_y: 1 rad}"}},

@@ -82,7 +82,7 @@ TEST_P(DepthNoise, is_that_of_the_closed_form) {
   scene.materials[static_cast<std::size_t>(scene.objects[0].material)].diffuse = card.reflectivity;
   Camera camera = load_camera(scene);
   // Flags would sort out the widest noise, and the deviation of what is left would be less.
-  camera.decoding.flying_near_limit_m = camera.decoding.flying_far_limit_m = 10, camera.decoding.low_signal_noise_m = 10;
+  camera.decoding.flying_near_limit_m = camera.decoding.flying_far_limit_m = 10, camera.decoding.noise_threshold_m = 10;
   Simulator simulator(scene, camera, {.seed = 4, .truth = false});
   Frame frame;
   constexpr int frames = 200, side = 24, left = 112 - side / 2, top = 86 - side / 2;

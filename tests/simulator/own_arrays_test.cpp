@@ -154,7 +154,7 @@ TEST(own_arrays, of_light_become_the_electrons_of_the_closed_form) {
 // Two paths of one light: two phasors of the same length have the direction of their middle, and the cosine of half their angle as length.
 TEST(own_arrays, of_several_paths_add_up_as_phasors) {
   Camera camera = pico();
-  camera.decoding.inconsistent_range_m = 100;
+  camera.decoding.multipath_limit_m = 100;
   camera.illumination.push_back(camera.illumination[0]);
   const Frame once = Simulator({}, pico(), {.noise = Noise::off}).frame(0, even_light(pico(), 2e-12f, 2.5f));
   PixelLight light = even_light(camera, 1e-12f, 2.3f);
