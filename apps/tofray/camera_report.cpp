@@ -191,7 +191,7 @@ CameraReport camera_report(const Camera& camera) {
   report_view(camera, out);
   const camera::Modulations modulations = camera::modulations_of(camera.mode);
   out.modulation_frequency_hz = modulations.frequency_hz;
-  out.low_signal_m = camera.decoding.low_signal_noise_m;
+  out.low_signal_m = camera.decoding.noise_threshold_m;
   report_light(coarser(camera), out);
   if (modulations.frequency_hz.empty()) return out;
   out.ambiguity_range_m = base::speed_of_light / camera.refractive_index / (2 * modulations.base_hz);

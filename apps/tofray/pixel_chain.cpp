@@ -129,7 +129,7 @@ void calibrate(const camera::DecoderView& d, std::size_t pixel, PixelChain& chai
     const camera::DecodeModulation& m = d.modulation[i];
     float slope = 0;
     const auto calibrated = static_cast<double>(depth::unwiggle<float>(d, m, static_cast<float>(phase.measured_turns), slope));
-    const double delay = d.delay == nullptr ? 0 : static_cast<double>(d.delay[pixel]);
+    const double delay = d.delay == nullptr ? 0 : static_cast<double>(d.delay[i * static_cast<std::size_t>(d.delay_stride) + pixel]);
     phase.calibrated_turns = calibrated - delay * phase.modulation_frequency_hz;
     phase.calibrated_turns -= std::floor(phase.calibrated_turns);
     phase.half_wave_m = static_cast<double>(m.half_wave);

@@ -130,13 +130,19 @@ struct Pixel {
   Curve contrast;            ///< modulation frequency [Hz] → K; one sample: a constant
   double bandwidth_hz = 0;   ///< single pole of the gate; 0: none
   double full_well_e = 1e30;
-  double read_noise_e = 0;    ///< reset + read, 1 sigma
-  double column_noise_e = 0;  ///< of A−B, the same for all pixels of a column in one raw frame, anew in each, 1 sigma
-  double dark_current_e_per_s = 0;
+  double read_noise_e = 0;              ///< reset + read, 1 sigma
+  double column_noise_e = 0;            ///< of A−B, the same for all pixels of a column in one raw frame, anew in each, 1 sigma
+  double row_noise_e = 0;               ///< the same of a row
+  double dark_current_e_per_s = 0;      ///< at Temperature::reference_celsius
+  double dark_current_doubling_k = 0;   ///< it doubles with every so many kelvin above that; 0: the same at all temperatures
+  double tap_gain_mismatch = 0;         ///< g: tap A collects 1 + g/2 of what it should, tap B 1 − g/2
+  double tap_offset_mismatch_e = 0;     ///< what A has more than B before any charge comes
+  Curve nonlinearity;                   ///< charge of a tap [e⁻] → charge that is read of it; none: the same
   double prnu = 0;                      ///< photo response non-uniformity, 1 sigma, relative
   double dsnu_dn = 0;                   ///< offset pattern, 1 sigma [DN]
   double delay_s = 0;                   ///< fixed-pattern delay per pixel, 1 sigma
-  unsigned long long pattern_seed = 1;  ///< which specimen of the sensor: seed of the three patterns above
+  double phase_offset_rad = 0;          ///< fixed-pattern phase per pixel, another one at each modulation frequency, 1 sigma
+  unsigned long long pattern_seed = 1;  ///< which specimen of the sensor: seed of the patterns above
   /// Background suppression: when the smaller tap reaches the threshold, the excess is taken off both taps, at most `budget`.
   /// Each tap's removed charge x adds a variance of noise_factor² · x. Threshold 0: no suppression.
   double suppression_threshold_e = 0;

@@ -70,6 +70,7 @@ constexpr Unit units[] = {
     {"mm/K", drift, -3},
     {"um/K", drift, -6},
     {"m/K", drift, 0},
+    {"K", temperature_difference, 0},
     {"lx", illuminance, 0},
     {"klx", illuminance, 3},
     {"W/m2", irradiance, 0},
@@ -124,6 +125,7 @@ const char* article_and_name(Dimension dimension) {
     case pixel: return "a size in pixels";
     case celsius: return "a temperature";
     case drift: return "a length per kelvin";
+    case temperature_difference: return "a difference of temperatures";
     case illuminance: return "an illuminance";
     case irradiance: return "an irradiance";
     case spectral_irradiance: return "a spectral irradiance";

@@ -25,6 +25,7 @@ enum class Dimension {
   pixel,
   celsius,
   drift,
+  temperature_difference,
   illuminance,
   irradiance,
   spectral_irradiance,

@@ -11,6 +11,7 @@
 #include "base/faults.h"
 #include "base/limits.h"
 #include "camera/emitters.h"
+#include "camera/read_curve.h"
 #include "camera/subpixel.h"
 #include "camera/waveform.h"
 #include "num/philox.h"
@@ -23,6 +24,8 @@ namespace setup = num::setup;
 using num::single;
 
 static_assert(flow::max_lights == limit::lights.value);
+
+constexpr double ln_2 = 0.69314718055994530942;
 
 FrozenCamera::FrozenCamera(const Camera& camera, bool noise, std::uint64_t seed, int subpixel)
     : camera_(with_emitters(camera)), modulations_(modulations_of(camera.mode)), scatter_(camera.lens.scatter, camera.sensor) {
@@ -40,6 +43,7 @@ FrozenCamera::FrozenCamera(const Camera& camera, bool noise, std::uint64_t seed,
   for (const FrozenLight& light : lights_) light_views_.push_back(light.view);
   freeze_phasors();
   freeze_sequence(seed, noise);
+  freeze_read_curve();
   freeze_patterns();
   const bool quarters =
       std::none_of(raw_frames_.begin(), raw_frames_.end(), [](const RawFrameView& k) { return k.lit != 0 && k.gate_kind == Gate::other; });
@@ -117,7 +121,7 @@ void FrozenCamera::freeze_sequence(std::uint64_t seed, bool noise) {
   for (std::size_t k = 0; k < camera_.mode.sequence.size(); ++k) {
     const RawFrame& frame = camera_.mode.sequence[k];
     raw_frames_.push_back({frame.lit, std::max(modulations_.of_raw_frame[k], 0), single(frame.integration_time_s),
-                           single(camera_.pixel.dark_current_e_per_s * frame.integration_time_s), Gate::other, gates_.data() + k * values});
+                           single(dark_current() * frame.integration_time_s), Gate::other, gates_.data() + k * values});
     integration_time_s.push_back(frame.integration_time_s);
   }
   s.frame = raw_frames_.data();
@@ -163,6 +167,31 @@ std::vector<double> raw_frame_starts_s(const std::vector<double>& integration_ti
   return out;
 }
 
+/// Twice as much with every `dark_current_doubling_k` kelvin.                                                 [theory: eq. 3.19]
+double FrozenCamera::dark_current() const {
+  const Pixel& pixel = camera_.pixel;
+  if (pixel.dark_current_doubling_k == 0) return pixel.dark_current_e_per_s;
+  const double warmer = camera_.temperature.celsius - camera_.temperature.reference_celsius;
+  return pixel.dark_current_e_per_s * setup::exp(ln_2 * warmer / pixel.dark_current_doubling_k);
+}
+
+/// Lines between equidistant charges for what is read of them.                                              [theory: eq. 3.18]
+void FrozenCamera::freeze_read_curve() {
+  SensorView& s = sensor_;
+  s.full_read = s.full_well;
+  const Curve& curve = camera_.pixel.nonlinearity;
+  if (curve.x.empty()) return;
+  constexpr int cells = 1024;
+  const ClampedCurve read(curve, "nonlinearity");
+  const double width = curve.x.back() / cells;
+  for (int i = 0; i < cells; ++i) {
+    const double from = read.evaluate(i * width), to = read.evaluate((i + 1) * width);
+    read_.push_back(single(from)), read_.push_back(single(to - from));
+  }
+  s.read = {read_.data(), cells, single(1 / width)};
+  s.full_read = read_charge(s.read, s.full_well).value;
+}
+
 void FrozenCamera::freeze_patterns() {
   const Pixel& pixel = camera_.pixel;
   const std::size_t pixels = static_cast<std::size_t>(camera_.sensor.width) * static_cast<std::size_t>(camera_.sensor.height);
@@ -183,6 +212,19 @@ void FrozenCamera::freeze_patterns() {
   sensor_.gain = draw(pixel.prnu, 1, 0, 0x50524e55, gain_);
   sensor_.offset = draw(pixel.dsnu_dn, 0, -infinite, 0x44534e55, offset_);
   sensor_.delay = draw(pixel.delay_s, 0, -infinite, 0x44454c41, delay_);
+  if (pixel.phase_offset_rad == 0 || modulations_.frequency_hz.empty()) return;
+  // A phase at one modulation frequency is a delay there.                                                  [theory: eq. 3.17]
+  std::vector<float> late;
+  for (std::size_t j = 0; j < modulations_.frequency_hz.size(); ++j) {
+    std::vector<float> phase;
+    draw(pixel.phase_offset_rad, 0, -infinite, 0x50480000u + static_cast<std::uint32_t>(j), phase);
+    for (std::size_t i = 0; i < pixels; ++i) {
+      const double delay = delay_.empty() ? 0.0 : static_cast<double>(delay_[i]);
+      late.push_back(single(delay + static_cast<double>(phase[i]) / (2 * pi * modulations_.frequency_hz[j])));
+    }
+  }
+  delay_ = std::move(late);
+  sensor_.delay = delay_.data(), sensor_.delay_stride = static_cast<std::int32_t>(pixels);
 }
 
 double FrozenCamera::drift_m(double time_s) const {

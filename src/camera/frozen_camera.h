@@ -61,6 +61,8 @@ class FrozenCamera {
   void freeze_gates(double half_path_m);
   [[nodiscard]] double drift_m(double time_s) const;
   void freeze_patterns();
+  void freeze_read_curve();
+  [[nodiscard]] double dark_current() const;
   void freeze_decoder(bool noise);
   void freeze_modulations(double grey_time);
   void freeze_without_modulation();
@@ -87,7 +89,7 @@ class FrozenCamera {
   std::vector<DecodeModulation> decode_modulations_;
   std::vector<std::int32_t> grey_frames_;
   std::vector<std::vector<std::int32_t>> grouped_, pairs_;  // [modulation]
-  std::vector<float> gain_, offset_, delay_;
+  std::vector<float> gain_, offset_, delay_, read_;
   std::vector<std::vector<float>> wiggling_;
   std::vector<double> start_;
 };

@@ -137,10 +137,11 @@ void FrozenCamera::freeze_decoder(bool noise) {
   for (std::size_t k = 0; k < 3; ++k) d.light[k] = single(mean[k]);
   // No path is that long: without a light source nothing that is measured is a return.
   d.light_square = shares.empty() ? std::numeric_limits<float>::max() : single(square);
-  d.noise_floor = single(dark_variance(camera_));
+  const double read_noise = camera_.pixel.read_noise_e;
+  d.noise_floor = single(2 * read_noise * read_noise + output_variance(camera_)), d.output_floor = single(output_variance(camera_));
   d.suppression_threshold = sensor_.suppression_threshold, d.suppression_budget = sensor_.suppression_budget;
   d.suppression_variance = single(2 * camera_.pixel.suppression_noise_factor * camera_.pixel.suppression_noise_factor);
-  d.dark_rate_both = single(2 * camera_.pixel.dark_current_e_per_s);
+  d.dark_rate_both = single(2 * dark_current());
   d.noise_threshold = noise ? single(decoding.noise_threshold_m) : std::numeric_limits<float>::max();
   d.per_confidence_noise = single(1 / decoding.noise_threshold_m);
   d.amplitude_threshold = single(decoding.amplitude_threshold_e);
@@ -152,7 +153,7 @@ void FrozenCamera::freeze_decoder(bool noise) {
   d.flying_near_z = single(decoding.flying_near_z_m), d.flying_near_limit = single(decoding.flying_near_limit_m);
   d.flying_far_z = single(decoding.flying_far_z_m), d.flying_far_limit = single(decoding.flying_far_limit_m);
   d.flying_factor = noise ? single(decoding.flying_sigmas * decoding.flying_sigmas) : 0, d.flying_check = decoding.flying_check ? 1 : 0;
-  d.delay = sensor_.delay;
+  d.delay = sensor_.delay, d.delay_stride = sensor_.delay_stride, d.read = sensor_.read;
 }
 
 void FrozenCamera::freeze_modulations(double grey_time) {

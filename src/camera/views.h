@@ -122,11 +122,19 @@ struct PhasorView {
 };
 
 /// What a draw with the sensor's keys is for: part of the random counter, beside pixel, raw frame and frame.
-enum Purpose : std::uint32_t { shot_and_read = 0, merged = 1, suppression = 2, of_column = 3 };
+enum Purpose : std::uint32_t { shot_and_read = 0, merged = 1, suppression = 2, of_column = 3, of_row = 4 };
 
 /// How charge is drawn: shot and read noise apart, or merged into one draw, whose law is as good as theirs from this read noise on.
 enum class Noise : std::int32_t { off, apart, merged };
 constexpr double least_merged_read_noise = 4;  ///< [e⁻]                                                      [theory: eq. 3.11]
+
+/// What is read of a tap's charge: lines between equidistant charges from 0 on; the last one goes on.        [theory: eq. 3.18]
+struct ReadCurveView {
+  const float* cell;  ///< [cells][2] what is read where a cell begins, and how much more at its end; null: the charge itself
+  std::int32_t cells;
+  float per_cell;  ///< 1/width of a cell [1/e⁻]
+  bool operator==(const ReadCurveView&) const = default;
+};
 
 /// Sequence, charge, ADC.
 struct SensorView {
@@ -140,11 +148,18 @@ struct SensorView {
   float step, mid_code, max_code, valid_middle, valid_half;  ///< codes, the valid range as middle and half width
   const float* gain;                                         ///< [height][width] 1 + PRNU, both taps alike, or null
   const float* offset;                                       ///< [height][width] DSNU [DN], or null
-  const float* delay;                                        ///< [height][width] [s], or null
+  const float* delay;                                        ///< [modulations][height][width] [s], or null
+  std::int32_t delay_stride;                                 ///< from one modulation's delays to the next's; 0: all have the same
   num::RoundKeys keys;                                       ///< of the seed
   Noise noise;
-  float column_noise;  ///< [DN]
-  std::int32_t width;  ///< pixels of a row
+  float column_noise, row_noise;  ///< [DN]
+  std::int32_t lines_are_noisy;   ///< 1: columns or rows have noise
+  std::int32_t width;             ///< pixels of a row
+  std::int32_t taps_differ;       ///< 1: by the two numbers below
+  float half_gain_mismatch;       ///< g/2
+  float half_offset_mismatch;     ///< [e⁻] of a tap
+  ReadCurveView read;
+  float full_read;  ///< what is read of a full well
   bool operator==(const SensorView&) const = default;
 };
 
@@ -160,17 +175,20 @@ void take_numbers(const Camera& camera, SensorView& s) {
   s.suppression_noise = f(pixel.suppression_noise_factor);
   s.per_step = f(1 / adc.step_e_per_dn), s.step = f(adc.step_e_per_dn), s.mid_code = f(adc.mid_code);
   s.max_code = f((1 << adc.bits) - 1);
-  s.column_noise = f(pixel.column_noise_e / adc.step_e_per_dn), s.width = camera.sensor.width;
+  s.column_noise = f(pixel.column_noise_e / adc.step_e_per_dn), s.row_noise = f(pixel.row_noise_e / adc.step_e_per_dn);
+  s.lines_are_noisy = s.column_noise > 0 || s.row_noise > 0, s.width = camera.sensor.width;
+  s.half_gain_mismatch = f(0.5 * pixel.tap_gain_mismatch), s.half_offset_mismatch = f(0.5 * pixel.tap_offset_mismatch_e);
+  s.taps_differ = s.half_gain_mismatch != 0 || s.half_offset_mismatch != 0;
   const double lower = camera.decoding.lower_saturation_dn.value_or(adc.valid_min);
   const double upper = camera.decoding.upper_saturation_dn.value_or(adc.valid_max);
   s.valid_middle = f(0.5 * (lower + upper)), s.valid_half = f(0.5 * (upper - lower));
 }
 
-/// Variance of A−B without light: read noise of two taps, rounding, column noise [e²].                          [theory: eq. 3.9, 3.15]
+/// Variance of A−B that has nothing to do with charge: rounding, column and row noise [e²].                     [theory: eq. 3.9, 3.15]
 template <class Camera>
-double dark_variance(const Camera& camera) {
-  const double read = camera.pixel.read_noise_e, step = camera.adc.step_e_per_dn, column = camera.pixel.column_noise_e;
-  return 2 * read * read + step * step / 12 + column * column;
+double output_variance(const Camera& camera) {
+  const double step = camera.adc.step_e_per_dn, column = camera.pixel.column_noise_e, row = camera.pixel.row_noise_e;
+  return step * step / 12 + column * column + row * row;
 }
 
 /// One modulation frequency as the decoder sees it.
@@ -202,7 +220,8 @@ struct DecoderView {
   float common_range, per_common_range;  ///< R_0 [m], 1/R_0
   std::int32_t wiggling_nodes;
   float light[3], light_square;                     ///< mean position of the lights and mean |L|², weighted by their power
-  float noise_floor;                                ///< 2σ_r² + s²/12 [e²]
+  float noise_floor;                                ///< 2σ_r² + s²/12 + what lines add [e²]
+  float output_floor;                               ///< the same without 2σ_r²
   float suppression_threshold, suppression_budget;  ///< [e⁻] of a tap; threshold 0: no suppression
   float suppression_variance;                       ///< 2κ²: variance of A−B for each electron off both taps
   float dark_rate_both;                             ///< dark electrons per second, both taps together: noise only
@@ -215,7 +234,9 @@ struct DecoderView {
   float flying_near_z, flying_near_limit, flying_far_z, flying_far_limit;
   float flying_factor;        ///< square of how many σ a flying pixel is off; 0 where noise is off
   std::int32_t flying_check;  ///< 0: none are looked for
-  const float* delay;         ///< [height][width] [s], or null
+  ReadCurveView read;         ///< as of the sensor
+  const float* delay;         ///< [modulations][height][width] [s], or null
+  std::int32_t delay_stride;  ///< as of the sensor
   bool operator==(const DecoderView&) const = default;
 };
 

@@ -1,6 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The tofray authors
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include "camera/late.h"
+#include "camera/read_curve.h"
 #include "depth/unwrap.h"
 
 /// Stage 4: from raw frames to range.                                                                   [theory: chapter 4]
@@ -98,12 +100,26 @@ TOFRAY_FN F suppression_variance(const camera::DecoderView& s, const camera::Dec
   return across / square * F(s.suppression_variance * 0.5f * static_cast<float>(m.count));
 }
 
+/// V̂ where what is read of a charge is not the charge: that of the charge, times the square of the curve's slope there. The charge is found
+/// in two steps, since its own slope makes it out of what was read.                                       [eq. 4.17]
+/// @param electrons  Â/C + B̂, as read
+template <class F>
+TOFRAY_FN F variance_as_read(const camera::DecoderView& s, F electrons, F dark, F suppressed) {
+  F slope = F(1.0f);
+  for (int step = 0; step < 2; ++step) slope = camera::read_charge(s.read, F(0.5f) * (electrons / slope + dark)).slope;
+  return num::fma(slope * slope, electrons / slope + dark + F(s.noise_floor - s.output_floor) + suppressed, F(s.output_floor));
+}
+
 /// V̂ = Â/C + B̂ + dark + 2σ_r² + s²/12, and what suppression adds.                                      [eq. 4.9]
 template <class F>
 TOFRAY_FN F variance_of(const camera::DecoderView& s, const camera::DecodeModulation& m, const F* difference, const Estimate<F>& e,
                         F ambient) {
   const F electrons = num::fma(e.amplitude, F(m.per_contrast), ambient);
   const float dark = s.dark_rate_both * m.integration_time;
+  if (s.read.cell != nullptr) {
+    const bool suppresses = s.suppression_threshold > 0;
+    return variance_as_read(s, electrons, F(dark), suppresses ? suppression_variance(s, m, difference, e, electrons + F(dark)) : F(0.0f));
+  }
   const F variance = electrons + F(s.noise_floor + dark);
   if (!(s.suppression_threshold > 0)) return variance;
   return variance + suppression_variance(s, m, difference, e, electrons + F(dark));
@@ -143,10 +159,10 @@ TOFRAY_FN num::Int<F> rejected_bit(const camera::DecoderView& s, num::Int<F> fla
 }
 
 /// @param difference  A−B of each raw frame [e⁻]
-/// @param delay       the pixel's fixed delay [s]
+/// @param p           the pixels, for what is known of each
 template <class F>
 TOFRAY_FN Depth<F> decode(const camera::DecoderView& s, const F* difference, Mask<F> clipped, Mask<F> outside, const flow::Ray<F>& ray,
-                          F delay) {
+                          const flow::Pixels& p) {
   F turns[flow::max_modulation_frequencies], weight[flow::max_modulation_frequencies];
   F amplitude = F(0.0f), ambient = F(0.0f), weakest = F(3e38f);
   Mask<F> moved = F(1.0f) < F(0.0f);
@@ -155,7 +171,8 @@ TOFRAY_FN Depth<F> decode(const camera::DecoderView& s, const F* difference, Mas
     const camera::DecodeModulation& m = s.modulation[i];
     const Estimate<F> e = estimate(s, m, difference);
     F slope;
-    const F phi = num::fnma(delay, F(m.frequency), unwiggle(s, m, e.turns, slope));
+    F phi = unwiggle(s, m, e.turns, slope);
+    if (s.delay != nullptr) phi = num::fnma(camera::late_by<F>(s, i, p), F(m.frequency), phi);
     turns[i] = phi - num::floor(phi);
     const F light = grey * F(m.ambient_scale);
     const F variance = variance_of(s, m, difference, e, light);

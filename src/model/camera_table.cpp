@@ -33,6 +33,7 @@ constexpr Number efficiency{fraction, {0, 1}, "0.4"};
 constexpr Number contrast{fraction, {0, 1}, "0.75"};
 constexpr Number modulation_frequency{frequency, {1e3, 1e10}, "80.32 MHz"};
 constexpr Number electrons{charge, {0, 1e12}, "50 e"};
+constexpr Number dark_current{charge_rate, {0, 1e12}, "1000 e/s"};
 constexpr Number code_number{none, {0, 65535}, "400"};
 constexpr Number flying_z{length, {0, 1e4}, "1 m"};
 constexpr Number flying_limit{length, {0, 1e3}, "18 mm"};
@@ -154,11 +155,24 @@ const Table& table_of<Pixel>() {
           number<&Pixel::read_noise_e>("read_noise", {charge, {0, 1e6}, "50 e"}, "per tap, reset and read, 1 sigma"),
           number<&Pixel::column_noise_e>("column_noise", {charge, {0, 1e6}, "10 e"},
                                          "of A-B, shared by a column, anew in each raw frame, 1 sigma"),
-          number<&Pixel::dark_current_e_per_s>("dark_current", {charge_rate, {0, 1e12}, "1000 e/s"}, "per tap"),
+          number<&Pixel::row_noise_e>("row_noise", {charge, {0, 1e6}, "10 e"}, "the same, shared by a row"),
+          number<&Pixel::dark_current_e_per_s>("dark_current", dark_current, "per tap, at the camera's reference temperature"),
+          number<&Pixel::dark_current_doubling_k>("dark_current_doubling", {temperature_difference, {0, 1e3}, "8 K"},
+                                                  "it doubles with every so many kelvin; 0: the same at all temperatures"),
+          group("taps", "how tap A differs from tap B in all pixels; the mean of both stays",
+                number<&Pixel::tap_gain_mismatch>("gain_mismatch", {fraction, {-1, 1}, "1 %"},
+                                                  "g: A collects 1 + g/2 of its charge, B 1 - g/2"),
+                number<&Pixel::tap_offset_mismatch_e>("offset_mismatch", {charge, {-1e6, 1e6}, "100 e"},
+                                                      "A holds half of this more, B half of it less, in each raw frame")),
+          curve<&Pixel::nonlinearity>("nonlinearity", {"charge", electrons}, {"read", electrons},
+                                      "what is read of a tap's charge, from 0 e on, rising; what there is unless given")
+              .absent(),
           group("patterns", "what differs from pixel to pixel",
                 number<&Pixel::prnu>("prnu", {fraction, {0, 1}, "1 %"}, "photo response non-uniformity, 1 sigma"),
                 number<&Pixel::dsnu_dn>("dsnu", {code, {0, 1e4}, "2 DN"}, "offset pattern, 1 sigma"),
                 number<&Pixel::delay_s>("delay", {time, {0, 1e-6}, "20 ps"}, "fixed delay per pixel, 1 sigma"),
+                number<&Pixel::phase_offset_rad>("phase_offset", {angle, {0, 2 * pi}, "0.02 rad"},
+                                                 "fixed phase per pixel and modulation frequency, 1 sigma"),
                 number<&Pixel::pattern_seed>("seed", {none, {0, 9007199254740991.0}, "1"}, "which specimen of the sensor")),
           group("suppression", "background suppression; none unless given",
                 number<&Pixel::suppression_threshold_e>("threshold", electrons, "starts when the smaller tap reaches it; 0: no suppression")
@@ -166,6 +180,7 @@ const Table& table_of<Pixel>() {
                 number<&Pixel::suppression_budget_e>("budget", electrons, "largest charge taken off each tap").required(),
                 number<&Pixel::suppression_noise_factor>("noise_factor", {none, {0, 100}, "1"},
                                                          "each tap's removed charge x adds a variance of noise_factor^2 x")))
+          .check_with(what_is_read_rises_with_the_charge)
           .complete_with(contrast_is_full);
   return rows;
 }
@@ -292,7 +307,7 @@ const Table& table_of<Camera>() {
                                                  "paper_literal: the printed formula of the paper, for comparison only"),
                     record<&Camera::mode>("", ""),  // one out of the file's `modes`
                     no_row<&Camera::mode_names>("what else the file has is no part of the camera"))
-          .check_with(cameras_are_within_the_limits)
+          .check_with(cameras_make_sense)
           .complete_with(filter_at_the_light);
   return rows;
 }

@@ -218,7 +218,7 @@ TOFRAY_FN void decode_pixels(const Setup& s, const Job& job, const Recording& in
       const raw::Means<F> charge{num::select(charges, a, F(0.0f)), num::select(charges, b, F(0.0f))};
       level = raw::read_out(sensor, charge, offset).level;
       difference[k] = raw::held_to_codes(sensor, charge.a - charge.b, offset);
-      over = (!charges) | (a >= F(sensor.full_well)) | (b >= F(sensor.full_well));
+      over = (!charges) | (a >= F(sensor.full_read)) | (b >= F(sensor.full_read));
     }
     if (in.raw != nullptr) {
       std::int32_t codes[num::lanes<F>] = {};
@@ -230,8 +230,7 @@ TOFRAY_FN void decode_pixels(const Setup& s, const Job& job, const Recording& in
     over = over | (num::abs(level - F(sensor.valid_middle)) > F(sensor.valid_half));
     if (sensor.frame[k].lit != 0) clipped = clipped | over;
   }
-  find_depth(s, job, p, camera::ray<F>(s.lens, p), difference, clipped, raw::pattern<F>(s.decoder.delay, p, 0.0f),
-             camera::vignetting<F>(s.lens, p));
+  find_depth(s, job, p, camera::ray<F>(s.lens, p), difference, clipped, camera::vignetting<F>(s.lens, p));
 }
 
 template <class F>

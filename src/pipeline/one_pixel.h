@@ -48,9 +48,9 @@ TOFRAY_FN F collect(const Setup& s, const Job& job, const Pixels& p, int k, cons
 /// Stage 4.
 template <class F>
 TOFRAY_FN void find_depth(const Setup& s, const Job& job, const Pixels& p, const flow::Ray<F>& ray, const F* difference,
-                          num::Mask<F> clipped, F delay, F vignetting) {
+                          num::Mask<F> clipped, F vignetting) {
   const auto outside = !(vignetting > F(0.0f));
-  const flow::Depth<F> found = depth::decode<F>(s.decoder, difference, clipped, outside, ray, delay);
+  const flow::Depth<F> found = depth::decode<F>(s.decoder, difference, clipped, outside, ray, p);
   store(job.out.amplitude_e, p, found.amplitude);
   store(job.out.ambient_e, p, found.ambient);
   store_range(s, job.out, p, ray, found.range, found.noise, found.flags);
@@ -87,7 +87,7 @@ TOFRAY_FN void run_pipeline(const Setup& s, const Job& job, Walk& walk) {
         compare_sample<F>(s, job.light, job.gather.middle, p, job.gather.share, job.gather.first != 0);
       if (s.last_stage < Stage::raw) continue;
       if (anew && s.sensor.delay != nullptr && job.gather.on == 0)
-        power::delay_by(s.phasors, wanted(s, now, pack.undisturbed), pack.exposure.delay, pack.light);
+        power::delay_by(s.phasors, wanted(s, now, pack.undisturbed), s.sensor, p, pack.light);
       const bool several = Walk::blurs && now.samples > 1;
       if (several) power::blend(s.phasors, wanted(s, now, false), pack.light, now.sample, now.samples, walk.mean(q));
       if (several && now.sample + 1 < now.samples) continue;
@@ -98,7 +98,7 @@ TOFRAY_FN void run_pipeline(const Setup& s, const Job& job, Walk& walk) {
       }
       for (int k = now.first; k < now.last; ++k) pack.difference[k] = collect(s, job, p, k, light, pack.exposure);  // stage 3
       if (now.last < s.sensor.raw_frames || s.last_stage < Stage::depth) continue;
-      find_depth<F>(s, job, p, ray, pack.difference, raw::saturated(s.sensor, pack.exposure), pack.exposure.delay, vignetting);  // stage 4
+      find_depth<F>(s, job, p, ray, pack.difference, raw::saturated(s.sensor, pack.exposure), vignetting);  // stage 4
     }
   }
 }

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The tofray authors
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-#include "camera/views.h"
+#include "camera/late.h"
 
 /// Light as phasors: where every path ends, whatever it came by.                                            [theory: eq. 1.6]
 namespace tofray::power {
@@ -215,10 +215,12 @@ TOFRAY_FN void add_phasor(const camera::PhasorView& s, int j, int l, int h, F x,
 }
 
 /// Turns all phasors by m·2π·f·delay, and adds them up again: a pixel that is late by `delay` [s] sees longer paths.
+/// @param sensor  has delays
 template <class F>
-TOFRAY_FN void delay_by(const camera::PhasorView& s, const Wanted& wanted, F delay, Light<F>& light) {
+TOFRAY_FN void delay_by(const camera::PhasorView& s, const Wanted& wanted, const camera::SensorView& sensor, const flow::Pixels& p,
+                        Light<F>& light) {
   for (int j = wanted.first; j < wanted.last; ++j) {
-    const Turn<F> turn = turn_of(delay * F(s.modulation[j].frequency));
+    const Turn<F> turn = turn_of(camera::late_by<F>(sensor, j, p) * F(s.modulation[j].frequency));
     F x = turn.real, y = turn.imaginary;
     for (int h = 0; h < s.orders; ++h) {
       F &real = light.real[j * s.orders + h], &imaginary = light.imaginary[j * s.orders + h];

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The tofray authors
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-#include "camera/views.h"
+#include "camera/read_curve.h"
 #include "num/philox.h"
 #include "raw/correlation.h"
 
@@ -120,6 +120,18 @@ TOFRAY_FN Means<F> expose_merged(const camera::SensorView& s, const Means<F>& me
   return {merged_normal(s, mean.a, a), merged_normal(s, mean.b, b)};
 }
 
+/// Taps that collect 1 ± g/2 of what they should.                                                           [eq. 3.16]
+template <class F>
+TOFRAY_FN Means<F> with_unlike_gains(const camera::SensorView& s, const Means<F>& mean) {
+  return {num::fma(mean.a, F(s.half_gain_mismatch), mean.a), num::fnma(mean.b, F(s.half_gain_mismatch), mean.b)};
+}
+
+/// Taps of which one holds more than the other before any charge comes.                                     [eq. 3.16]
+template <class F>
+TOFRAY_FN Means<F> with_unlike_offsets(const camera::SensorView& s, const Means<F>& charge) {
+  return {charge.a + F(s.half_offset_mismatch), charge.b - F(s.half_offset_mismatch)};
+}
+
 /// Equal charge x = min(budget, max(0, min(A, B) − threshold)) off both taps; each removal adds its own variance factor²·x. [eq. 3.7]
 template <class F>
 TOFRAY_FN Means<F> suppress(const camera::SensorView& s, const Means<F>& charge, num::Int<F> pixel, int k, FrameIndex frame) {
@@ -143,11 +155,19 @@ TOFRAY_FN F held_to_codes(const camera::SensorView& s, F difference, F offset) {
   return num::min(num::max(difference, -zero * F(s.step)), (F(s.max_code) - zero) * F(s.step));
 }
 
+/// Full well per tap, and what is read of it. The well comes first: it holds charge, and the curve is that of the amplifier behind. [eq. 3.18]
+template <class F>
+TOFRAY_FN Means<F> read_charges(const camera::SensorView& s, const Means<F>& charge) {
+  return {camera::read_charge(s.read, num::min(charge.a, F(s.full_well))).value,
+          camera::read_charge(s.read, num::min(charge.b, F(s.full_well))).value};
+}
+
 /// Full well per tap, then A−B through the ADC: DN = round((A−B)/s + mid + offset), held to the code range.   [eq. 3.8]
+/// @param charge  what is read of both taps
 template <class F>
 TOFRAY_FN Taps<F> read_out(const camera::SensorView& s, const Means<F>& charge, F offset) {
   Taps<F> out;
-  out.a = num::min(charge.a, F(s.full_well)), out.b = num::min(charge.b, F(s.full_well));
+  out.a = num::min(charge.a, F(s.full_read)), out.b = num::min(charge.b, F(s.full_read));
   const F difference = out.a - out.b;
   out.level = num::round_even(num::fma(difference, F(s.per_step), F(s.mid_code) + offset));
   out.code = num::min(num::max(out.level, F(0.0f)), F(s.max_code));

@@ -10,8 +10,8 @@ namespace tofray::raw {
 template <class F>
 struct Exposure {
   num::Int<F> pixel;
-  num::Int<F> column;  ///< where the sensor has column noise
-  F gain, offset, delay;
+  num::Int<F> column, row;  ///< where the sensor's lines are noisy
+  F gain, offset;
   MergedWords<F> merged_words;
   F most_charge, widest_level;  ///< of the lit raw frames: most charge of a tap, largest distance of a level from the valid codes' middle
 };
@@ -25,9 +25,8 @@ template <class F>
 TOFRAY_FN Exposure<F> start(const camera::SensorView& s, const flow::Pixels& p) {
   Exposure<F> e;
   e.pixel = num::Int<F>(p.index) + num::lane_index<F>();
-  if (s.column_noise > 0) e.column = num::Int<F>(p.index % s.width) + num::lane_index<F>();
+  if (s.lines_are_noisy != 0) e.column = num::Int<F>(p.index % s.width) + num::lane_index<F>(), e.row = num::Int<F>(p.index / s.width);
   e.gain = pattern<F>(s.gain, p, 1.0f), e.offset = pattern<F>(s.offset, p, 0.0f);
-  e.delay = pattern<F>(s.delay, p, 0.0f);
   e.most_charge = F(0.0f), e.widest_level = F(0.0f);
   return e;
 }
@@ -47,17 +46,43 @@ TOFRAY_FN Mask<F> saturated(const camera::SensorView& s, const Exposure<F>& e) {
   return (e.most_charge >= F(s.full_well)) | (e.widest_level > F(s.valid_half));
 }
 
-/// The pixel's offset [DN] with that of its column in this raw frame, one draw for all pixels of the column.         [theory: eq. 3.15]
+/// An offset [DN] with that of a line of pixels in this raw frame: one draw for all pixels of the line.              [theory: eq. 3.15]
 template <class F>
-TOFRAY_FN F offset_of(const camera::SensorView& s, int k, FrameIndex index, const Exposure<F>& e) {
-  if (!(s.column_noise > 0) || s.noise == Noise::off) return e.offset;
-  const num::Random4<F> words = draw<F>(s, e.column, k, index, of_column);
+TOFRAY_FN F with_line_noise(const camera::SensorView& s, float deviation, num::Int<F> line, int k, FrameIndex index, Purpose purpose,
+                            F offset) {
+  if (!(deviation > 0)) return offset;
+  const num::Random4<F> words = draw<F>(s, line, k, index, purpose);
   F z, other;
   num::normal_pair<F>(words.w[0], words.w[1], z, other);
-  return num::fma(F(s.column_noise), z, e.offset);
+  return num::fma(F(deviation), z, offset);
 }
 
-/// Mean electrons × (1 + PRNU) → Poisson → reset and read noise → background suppression → full well → column noise, ADC.
+/// The pixel's offset [DN] with those of its column and its row.
+template <class F>
+TOFRAY_FN F offset_of(const camera::SensorView& s, int k, FrameIndex index, const Exposure<F>& e) {
+  if (s.lines_are_noisy == 0 || s.noise == Noise::off) return e.offset;
+  const F of_columns = with_line_noise(s, s.column_noise, e.column, k, index, of_column, e.offset);
+  return with_line_noise(s, s.row_noise, e.row, k, index, of_row, of_columns);
+}
+
+/// A−B without noise. Strong ambient light leaves few places of a float to the difference of the taps; where neither clips, and what is read
+/// is the charge itself, it is known better than that.
+template <class F>
+TOFRAY_FN F known_difference(const camera::SensorView& s, const camera::RawFrameView& frame, const Light<F>& light, F rate,
+                             const Means<F>& charge, const Exposure<F>& e, F otherwise) {
+  if (s.read.cell != nullptr) return otherwise;
+  const F common = light.signal_rate + light.ambient_rate;
+  const auto whole = (num::max(charge.a, charge.b) < F(s.full_well)) & (num::abs(rate) <= common);
+  F difference = rate * F(frame.integration_time) * e.gain;
+  if (s.taps_differ != 0) {
+    const F both = num::fma(common, F(frame.integration_time), F(2 * frame.dark)) * e.gain;
+    difference = num::fma(both, F(s.half_gain_mismatch), difference) + F(2 * s.half_offset_mismatch);
+  }
+  return num::select(whole, held_to_codes(s, difference, e.offset), otherwise);
+}
+
+/// Mean electrons × (1 + PRNU) × (1 ± g/2) → Poisson → reset and read noise → tap offsets → background suppression → full well →
+/// non-linearity → A, B, A−B → column and row noise → ADC.
 /// @param light  as this pixel sees it, its own delay included
 /// @param orders of the light's phasors
 template <class F>
@@ -66,18 +91,17 @@ TOFRAY_FN Taps<F> expose(const camera::SensorView& s, int k, const Light<F>& lig
   const F rate = frame.lit != 0 ? difference_rate(frame, orders, light) : F(0.0f);
   Means<F> charge = tap_means(frame, light.signal_rate, light.ambient_rate, rate);
   charge.a = charge.a * e.gain, charge.b = charge.b * e.gain;
+  if (s.taps_differ != 0) charge = with_unlike_gains(s, charge);
   if (s.noise == Noise::merged) {
     charge = expose_merged(s, charge, e.pixel, k, index, e.merged_words);
   } else if (s.noise == Noise::apart) {
     charge = expose_apart(s, charge, e.pixel, k, index);
   }
+  if (s.taps_differ != 0) charge = with_unlike_offsets(s, charge);
   if (s.suppression_threshold > 0) charge = suppress(s, charge, e.pixel, k, index);
-  Taps<F> taps = read_out(s, charge, offset_of(s, k, index, e));
-  if (s.noise == Noise::off && frame.lit != 0) {
-    // Strong ambient light leaves few places of a float to the difference of the taps; where neither clips it is known better than that.
-    const auto whole = (num::max(charge.a, charge.b) < F(s.full_well)) & (num::abs(rate) <= light.signal_rate + light.ambient_rate);
-    taps.difference = num::select(whole, held_to_codes(s, rate * F(frame.integration_time) * e.gain, e.offset), taps.difference);
-  }
+  const Means<F> read = s.read.cell != nullptr ? read_charges(s, charge) : charge;
+  Taps<F> taps = read_out(s, read, offset_of(s, k, index, e));
+  if (s.noise == Noise::off && frame.lit != 0) taps.difference = known_difference(s, frame, light, rate, charge, e, taps.difference);
   watch(s, frame, charge, taps, e);
   return taps;
 }

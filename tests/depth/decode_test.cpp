@@ -239,9 +239,9 @@ TEST(flags, say_saturated_and_outside_where_they_are_told) {
   std::vector<float> difference;
   for (const auto& taps : bench.expose({10000, 1, 0})) difference.push_back(taps.difference);
   const auto ray = flow::make_ray(0.0f, 0.0f, 1.0f);
-  EXPECT_EQ(depth::decode<float>(bench.decoder(), difference.data(), true, false, ray, 0.0f).flags, depth::saturated);
-  EXPECT_EQ(depth::decode<float>(bench.decoder(), difference.data(), false, true, ray, 0.0f).flags, depth::outside_lens);
-  EXPECT_EQ(depth::decode<float>(bench.decoder(), difference.data(), false, false, ray, 0.0f).flags, 0);
+  EXPECT_EQ(depth::decode<float>(bench.decoder(), difference.data(), true, false, ray, {0, 1}).flags, depth::saturated);
+  EXPECT_EQ(depth::decode<float>(bench.decoder(), difference.data(), false, true, ray, {0, 1}).flags, depth::outside_lens);
+  EXPECT_EQ(depth::decode<float>(bench.decoder(), difference.data(), false, false, ray, {0, 1}).flags, 0);
 }
 
 // |D_0 + D_2| > 5·√(2V̂): just above and just below; likewise the other pair.

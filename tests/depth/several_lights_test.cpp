@@ -30,7 +30,7 @@ double range_error(const Camera& camera, double x, double range) {
     difference.push_back(raw::expose(bench.sensor(), k, light, bench.phasors().orders, {0, 0}, exposure).difference);
   }
   const auto ray = flow::make_ray(static_cast<float>(x), 0.0f, 1.0f);
-  return static_cast<double>(depth::decode<float>(bench.decoder(), difference.data(), false, false, ray, 0.0f).range) - range;
+  return static_cast<double>(depth::decode<float>(bench.decoder(), difference.data(), false, false, ray, {0, 1}).range) - range;
 }
 
 Camera lights_at(const std::vector<std::pair<double, double>>& x_and_power) {

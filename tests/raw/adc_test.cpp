@@ -16,7 +16,7 @@ namespace {
 /// A sensor of the given ADC; wells of 100 000 e⁻; noise on, so that depth takes the codes.
 camera::SensorView adc(double step, double mid = 2048, double max_code = 4095, double valid_min = 400, double valid_max = 3750) {
   camera::SensorView s{};
-  s.full_well = 100000;
+  s.full_well = s.full_read = 100000;
   s.per_step = static_cast<float>(1 / step), s.step = static_cast<float>(step), s.mid_code = static_cast<float>(mid);
   s.max_code = static_cast<float>(max_code), s.valid_middle = static_cast<float>(0.5 * (valid_min + valid_max)),
   s.valid_half = static_cast<float>(0.5 * (valid_max - valid_min));

@@ -76,7 +76,7 @@ class Bench {
     flow::Light<float> light = light_of({{static_cast<float>(in.signal_e * 1e3), static_cast<float>(2 * in.half_path_m)}});
     light.ambient_rate = static_cast<float>(in.ambient_e * 1e3);
     raw::Exposure<float> exposure = raw::start<float>(sensor_, {pixel, 1});
-    if (sensor_.delay != nullptr) power::delay_by(phasors(), power::all_of(phasors()), exposure.delay, light);
+    if (sensor_.delay != nullptr) power::delay_by(phasors(), power::all_of(phasors()), sensor_, {pixel, 1}, light);
     std::vector<flow::Taps<float>> taps;
     for (int k = 0; k < sensor_.raw_frames; ++k) {
       const raw::FrameIndex index{static_cast<std::uint32_t>(frame), static_cast<std::uint32_t>(frame >> 32)};
@@ -86,8 +86,8 @@ class Bench {
     return taps;
   }
 
-  [[nodiscard]] flow::Depth<float> decode(const std::vector<float>& difference, bool clipped = false, float delay = 0) const {
-    return depth::decode<float>(camera_->decoder(), difference.data(), clipped, false, flow::make_ray(0.0f, 0.0f, 1.0f), delay);
+  [[nodiscard]] flow::Depth<float> decode(const std::vector<float>& difference, bool clipped = false, int pixel = 0) const {
+    return depth::decode<float>(camera_->decoder(), difference.data(), clipped, false, flow::make_ray(0.0f, 0.0f, 1.0f), {pixel, 1});
   }
 
   [[nodiscard]] Measured measure(const Incoming& in, int pixel = 0, std::uint64_t frame = 0) const {
@@ -96,7 +96,7 @@ class Bench {
     out.taps = expose(in, pixel, frame, &clipped);
     std::vector<float> difference;
     for (const auto& t : out.taps) difference.push_back(t.difference);
-    out.depth = decode(difference, clipped, sensor_.delay != nullptr ? sensor_.delay[pixel] : 0.0f);
+    out.depth = decode(difference, clipped, pixel);
     return out;
   }
 

@@ -110,7 +110,7 @@ void Lane::write_arguments(const pipeline::Setup& setup, FrameArguments& out) co
   const camera::SensorView& maps = resident_->setup.sensor;
   out.setup.sensor = setup.sensor;
   out.setup.sensor.gain = maps.gain, out.setup.sensor.offset = maps.offset, out.setup.sensor.delay = maps.delay;
-  out.setup.sensor.frame = maps.frame;
+  out.setup.sensor.frame = maps.frame, out.setup.sensor.read = maps.read;
   out.job = job_;
   out.job.index_low = out.job.index_high = 0;  // frames have their numbers beside
 }

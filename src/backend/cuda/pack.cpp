@@ -103,6 +103,11 @@ void pack_phasors(Packer& packer, std::int32_t lights, const camera::PhasorView&
   to.modulation = packer.put(static_cast<const camera::ModulationView*>(modulations.data()), modulations.size());
 }
 
+/// Of each pixel, or of each pixel and modulation frequency.
+std::size_t delays_of(const pipeline::Setup& setup, std::size_t pixels) {
+  return setup.sensor.delay_stride == 0 ? pixels : pixels * count_of(setup.decoder.modulations);
+}
+
 void pack_decoder(Packer& packer, const pipeline::Setup& setup, std::size_t pixels, camera::DecoderView& to) {
   const camera::DecoderView& from = setup.decoder;
   std::vector<camera::DecodeModulation> modulations(from.modulation, from.modulation + from.modulations);
@@ -113,7 +118,7 @@ void pack_decoder(Packer& packer, const pipeline::Setup& setup, std::size_t pixe
   to.modulation = packer.put(static_cast<const camera::DecodeModulation*>(modulations.data()), modulations.size());
   to.frame = packer.put(from.frame, count_of(setup.sensor.raw_frames)),
   to.grey_frame = packer.put(from.grey_frame, count_of(from.grey_frames));
-  to.delay = packer.put(from.delay, pixels);
+  to.delay = packer.put(from.delay, delays_of(setup, pixels)), to.read.cell = packer.put(from.read.cell, 2 * count_of(from.read.cells));
 }
 
 /// What each patch of pixels sees.
@@ -165,7 +170,8 @@ void pack_camera(Packer& packer, const pipeline::Setup& from, pipeline::Setup& t
   pack_phasors(packer, from.scene.lights, from.phasors, to.phasors);
   pack_raw_frames(packer, from, to.sensor);
   to.sensor.gain = packer.put(from.sensor.gain, pixels), to.sensor.offset = packer.put(from.sensor.offset, pixels);
-  to.sensor.delay = packer.put(from.sensor.delay, pixels);
+  to.sensor.delay = packer.put(from.sensor.delay, delays_of(from, pixels));
+  to.sensor.read.cell = packer.put(from.sensor.read.cell, 2 * count_of(from.sensor.read.cells));
   pack_decoder(packer, from, pixels, to.decoder);
 }
 
