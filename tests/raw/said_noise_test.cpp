@@ -48,7 +48,7 @@ double bent_variance(double theta) {
 TEST_P(SaidNoise, is_that_of_the_closed_form_and_of_the_frames) {
   const Effect& effect = GetParam();
   Camera camera = bench_camera();
-  camera.decoding.low_signal_noise_m = 10;
+  camera.decoding.noise_threshold_m = 10;
   effect.turn_on(camera);
   const Bench bench(camera, true);
   Moments range(said_half_path), said;
