@@ -172,12 +172,16 @@ struct Mode {
   std::vector<RawFrame> sequence;
 };
 
-/// Image filter over the range image; invalid pixels are neither changed nor used.
+/// Image filter over the range image; invalid pixels are neither changed nor used. Bilateral and adaptive filters leave edges as they are,
+/// and come before the check for flying pixels; the others come after it.
 struct ImageFilter {
-  enum class Kind { none, gaussian, median };
+  enum class Kind { none, gaussian, median, bilateral, adaptive };
   Kind kind = Kind::none;
-  double sigma_px = 1;  ///< gaussian
-  int radius_px = 1;    ///< median: window (2 radius + 1)²
+  double sigma_px = 1;   ///< gaussian, bilateral
+  int radius_px = 1;     ///< median, adaptive: window (2 radius + 1)², at most
+  double sigmas = 3;     ///< bilateral, adaptive: neighbours count that are off by less than this times the noise of the difference …
+  double range_m = 0;    ///< bilateral: … and this, summed in quadrature
+  double goal_m = 0.01;  ///< adaptive: neighbours are added, ring by ring, until the noise is no more than this
 };
 
 /// How raw frames become depth (theory 4).

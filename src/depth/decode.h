@@ -101,7 +101,7 @@ TOFRAY_FN F suppression_variance(const camera::DecoderView& s, const camera::Dec
 }
 
 /// V̂ where what is read of a charge is not the charge: that of the charge, times the square of the curve's slope there. The charge is found
-/// in two steps, since its own slope makes it out of what was read.                                       [eq. 4.17]
+/// in two steps, since its own slope makes it out of what was read.                                       [eq. 4.21]
 /// @param electrons  Â/C + B̂, as read
 template <class F>
 TOFRAY_FN F variance_as_read(const camera::DecoderView& s, F electrons, F dark, F suppressed) {

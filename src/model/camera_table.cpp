@@ -202,11 +202,19 @@ const Table& table_of<Adc>() {
 template <>
 const Table& table_of<ImageFilter>() {
   using Kind = ImageFilter::Kind;
+  constexpr auto kind_of = &ImageFilter::kind;
   static const Table rows = table<ImageFilter>(
-      kind<&ImageFilter::kind>("kind", {"none", "gaussian", "median"}),
-      number<&ImageFilter::sigma_px>("sigma", {pixel, {0.1, 10}, "1 px"}, "width of the kernel").when<&ImageFilter::kind>(Kind::gaussian),
-      number<&ImageFilter::radius_px>("radius", {none, {1, 4}, "1"}, "window of (2 radius + 1)^2 pixels")
-          .when<&ImageFilter::kind>(Kind::median));
+      kind<kind_of>("kind", {"none", "gaussian", "median", "bilateral", "adaptive"}),
+      number<&ImageFilter::sigma_px>("sigma", {pixel, {0.1, 10}, "1 px"}, "width of the kernel")
+          .when<kind_of>(Kind::gaussian, Kind::bilateral),
+      number<&ImageFilter::radius_px>("radius", {none, {1, 4}, "1"}, "window of (2 radius + 1)^2 pixels, of adaptive at most")
+          .when<kind_of>(Kind::median, Kind::adaptive),
+      number<&ImageFilter::sigmas>("sigmas", {none, sigmas.range, "3"}, "neighbours count that are off by less than this times the noise")
+          .when<kind_of>(Kind::bilateral, Kind::adaptive),
+      number<&ImageFilter::range_m>("range", {length, {0, 1e3}, "20 mm"}, "... and this, the root of both squares' sum")
+          .when<kind_of>(Kind::bilateral),
+      number<&ImageFilter::goal_m>("goal", {length, {0, 1e3}, "10 mm"}, "neighbours are added until the noise is no more than this")
+          .when<kind_of>(Kind::adaptive));
   return rows;
 }
 

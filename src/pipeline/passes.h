@@ -39,15 +39,27 @@ TOFRAY_FN void flag_flying_row(const Setup& s, const Job& job, int y) {
   }
 }
 
-/// Pass 2, where a filter is on: filtered range of one pixel, from `out.range_m` to `filtered`. Flying pixels count as invalid already.
-TOFRAY_FN void filter_pixel(const Setup& s, const Job& job, int x, int y) {
-  const depth::RangeImage image{job.out.range_m, job.out.flags, s.lens.width, s.lens.height};
-  float value = image.range[y * image.width + x];
-  if (image.valid(x, y)) {
-    value = job.filter == Filter::gaussian ? depth::gaussian(image, x, y, job.filter_radius, job.filter_weights)
-                                           : depth::median(image, x, y, job.filter_radius);
+/// One pixel by the filter that is on.
+TOFRAY_FN depth::Filtered filtered(const depth::RangeImage& image, const Job& job, int x, int y) {
+  switch (job.filter) {
+    case Filter::gaussian: return depth::gaussian(image, x, y, job.filter_radius, job.filter_weights);
+    case Filter::median: return depth::median(image, x, y, job.filter_radius);
+    case Filter::bilateral:
+      return depth::bilateral(image, x, y, job.filter_radius, job.filter_weights, {job.filter_factor, job.filter_range});
+    case Filter::adaptive: return depth::adaptive(image, x, y, job.filter_radius, job.filter_factor, job.filter_goal);
+    case Filter::none: break;
   }
-  job.filtered[y * image.width + x] = value;
+  return {image.range[y * image.width + x], image.noise[y * image.width + x]};
+}
+
+/// Where a filter is on: filtered range of one pixel and its noise, from `out` to `filtered`. Invalid pixels stay as they are, flying ones
+/// among them where they are known already.
+TOFRAY_FN void filter_pixel(const Setup& s, const Job& job, int x, int y) {
+  const depth::RangeImage image{job.out.range_m, job.out.noise_m, job.out.flags, s.lens.width, s.lens.height};
+  const int at = y * image.width + x;
+  depth::Filtered value{image.range[at], image.noise[at]};
+  if (image.valid(x, y)) value = filtered(image, job, x, y);
+  job.filtered[at] = value.range, job.filtered[at + image.width * image.height] = value.noise;
 }
 TOFRAY_FN void filter_row(const Setup& s, const Job& job, int y) {
   for (int x = 0; x < s.lens.width; ++x) filter_pixel(s, job, x, y);
@@ -66,21 +78,24 @@ TOFRAY_FN bool any_flying(const std::uint16_t* flags, int count) {
   return (found & 0x0001000100010001u * depth::flying_pixel) != 0;
 }
 
-/// Pass 3: range (filtered or not) of one row → z, point, confidence; flying pixels become invalid.
+/// Range of some pixels → z, point, confidence; flying pixels become invalid.
+/// @param item  of_filter: the range that the filter left, and its noise; else that of `out`, which changes where pixels fly
 template <class F>
-TOFRAY_FN void settle(const Setup& s, const Job& job, const Pixels& p, const float* range) {
-  if (job.filter == Filter::none && !any_flying(job.out.flags + p.index, p.count)) return;
+TOFRAY_FN void settle(const Setup& s, const Job& job, const Pixels& p, std::int32_t item) {
+  if (item != of_filter && !any_flying(job.out.flags + p.index, p.count)) return;
   std::int32_t flags[num::lanes<F>] = {};
   for (int i = 0; i < p.count; ++i) flags[i] = job.out.flags[p.index + i];
-  const F noise = num::load<F>(job.out.noise_m + p.index, p.count);
+  const float* const range = item == of_filter ? job.filtered : job.out.range_m;
+  const float* const noise_of = item == of_filter ? job.filtered + s.lens.width * s.lens.height : job.out.noise_m;
+  const F noise = num::load<F>(noise_of + p.index, p.count);
   store_range(s, job.out, p, camera::ray<F>(s.lens, p), num::load<F>(range + p.index, p.count), noise, num::load_int<F>(flags, p.count));
+  if (item == of_filter) num::store(job.out.noise_m + p.index, noise, p.count);
 }
-TOFRAY_FN const float* range_left(const Job& job) { return job.filter != Filter::none ? job.filtered : job.out.range_m; }
 template <class F>
-TOFRAY_FN void settle_row(const Setup& s, const Job& job, int y) {
+TOFRAY_FN void settle_row(const Setup& s, const Job& job, int y, std::int32_t item) {
   const int width = s.lens.width;
   for (int x = 0; x < width; x += num::lanes<F>) {
-    settle<F>(s, job, Pixels{y * width + x, width - x < num::lanes<F> ? width - x : num::lanes<F>}, range_left(job));
+    settle<F>(s, job, Pixels{y * width + x, width - x < num::lanes<F> ? width - x : num::lanes<F>}, item);
   }
 }
 

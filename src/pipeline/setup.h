@@ -45,7 +45,9 @@ struct Setup {
   bool operator==(const Setup&) const = default;
 };
 
-enum class Filter : std::int32_t { none, gaussian, median };
+enum class Filter : std::int32_t { none, gaussian, median, bilateral, adaptive };
+/// Whether it leaves edges as they are: then the check for flying pixels looks at what it left.
+TOFRAY_FN bool keeps_edges(Filter filter) { return filter == Filter::bilateral || filter == Filter::adaptive; }
 
 /// Whether stages 1 and 2 end in the light image, and what they add to it.
 struct Gather {
@@ -62,15 +64,20 @@ struct Job {
   flow::LightImage light;
   Gather gather;
   std::uint32_t index_low, index_high;
-  float* filtered;  ///< [height][width] scratch of the image filters
+  float* filtered;  ///< [2][height][width] scratch of the image filters: range, noise
   Filter filter;
   std::int32_t filter_radius;
   float filter_weights[33];  ///< Gaussian, [0] the middle
+  float filter_factor;       ///< square of how many σ neighbours may be off
+  float filter_range;        ///< square of how far, besides [m²]
+  float filter_goal;         ///< square of the noise that is good enough [m²]
   bool operator==(const Job&) const = default;
 };
 
 using flow::tile_height;
 using flow::tile_width;
+
+constexpr std::int32_t of_filter = 1;  ///< `item` of a pass `settle` that takes what the filter left
 
 constexpr int rows_per_band = 8;  ///< of an image, for one worker at a time in the passes that follow the pixels
 

@@ -24,7 +24,7 @@ enum class Part : std::int32_t {
 struct Step {
   Pass pass;
   Part part;
-  std::int32_t item;     ///< which sample of the pixel, which kernel of the lens, which round of paths
+  std::int32_t item;     ///< which sample of the pixel, which kernel of the lens, which round of paths, whether the range is a filter's
   std::int32_t swapped;  ///< 1: the light image's `values` are where `before` is said to be
   std::int32_t turned;   ///< 1: its `indirect` is where `indirect_before` is said to be
 };
@@ -109,6 +109,13 @@ TOFRAY_FN int each_bounce_step(const Setup& s, const Job& job, bool known, int s
   return turned;
 }
 
+/// The image filter, and its range to z, points and confidence.
+template <class Run>
+void each_filter_step(const Run& run) {
+  run(Step{Pass::filter, Part::all, 0, 0, 0});
+  run(Step{Pass::settle, Part::all, of_filter, 0, 0});
+}
+
 /// Calls run(step) for each step of a frame.
 /// @param entry  the first stage that is computed
 /// @param known  the light image is that of this frame already
@@ -135,9 +142,14 @@ void each_step(const Setup& s, const Job& job, Stage entry, bool known, const Ru
   if (entry == Stage::trace && wants_transient(job.out))
     run(Step{Pass::transient, has_light_image(s, entry) ? Part::collect : Part::all, 0, 0, 0});
   if (s.last_stage < Stage::depth || job.out.z_m == nullptr || job.out.flags == nullptr) return;
-  if (s.decoder.flying_check != 0) run(Step{Pass::flying, Part::all, 0, 0, 0});
-  if (job.filter != Filter::none) run(Step{Pass::filter, Part::all, 0, 0, 0});
-  if (s.decoder.flying_check != 0 || job.filter != Filter::none) run(Step{Pass::settle, Part::all, 0, 0, 0});
+  const bool first = keeps_edges(job.filter), check = s.decoder.flying_check != 0;
+  if (first) each_filter_step(run);
+  if (check) run(Step{Pass::flying, Part::all, 0, 0, 0});
+  if (job.filter != Filter::none && !first) {
+    each_filter_step(run);
+  } else if (check) {
+    run(Step{Pass::settle, Part::all, 0, 0, 0});
+  }
 }
 
 }  // namespace tofray::pipeline

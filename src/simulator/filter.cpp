@@ -13,14 +13,23 @@ void set_filter(const ImageFilter& filter, pipeline::Job& job) {
     case ImageFilter::Kind::none: job.filter = pipeline::Filter::none; break;
     case ImageFilter::Kind::gaussian: job.filter = pipeline::Filter::gaussian; break;
     case ImageFilter::Kind::median: job.filter = pipeline::Filter::median; break;
+    case ImageFilter::Kind::bilateral: job.filter = pipeline::Filter::bilateral; break;
+    case ImageFilter::Kind::adaptive: job.filter = pipeline::Filter::adaptive; break;
   }
   job.filter_radius = filter.radius_px;
-  if (filter.kind != ImageFilter::Kind::gaussian) return;
+  const auto square = [](double value) { return static_cast<float>(value * value); };
+  job.filter_factor = square(filter.sigmas), job.filter_range = square(filter.range_m), job.filter_goal = square(filter.goal_m);
+  if (filter.kind != ImageFilter::Kind::gaussian && filter.kind != ImageFilter::Kind::bilateral) return;
   // Beyond 3 sigma the weights are below 1.2 %.
   job.filter_radius = static_cast<int>(std::ceil(3 * filter.sigma_px));
   for (int i = 0; i <= job.filter_radius; ++i) {
     job.filter_weights[i] = static_cast<float>(num::setup::exp(-0.5 * i * i / (filter.sigma_px * filter.sigma_px)));
   }
+}
+
+std::size_t filter_scratch(const pipeline::Job& job, const pipeline::Setup& setup) {
+  if (job.filter == pipeline::Filter::none) return 0;
+  return 2 * static_cast<std::size_t>(setup.lens.width) * static_cast<std::size_t>(setup.lens.height);
 }
 
 }  // namespace tofray::simulator

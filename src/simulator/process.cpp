@@ -60,7 +60,7 @@ Depth process(const Raw& raw, const Camera& profile, const SimulatorOptions& opt
   simulator::set_filter(camera.decoding.filter, job);
   Depth depth;
   simulator::prepare(depth, raw.width, raw.height);
-  std::vector<float> filtered(job.filter != pipeline::Filter::none ? depth.z_m.size() : 0);
+  std::vector<float> filtered(simulator::filter_scratch(job, setup));
   job.filtered = filtered.data();
   job.out = simulator::view_of(depth);
   const simulator::OwnInput own = simulator::input_of(raw);

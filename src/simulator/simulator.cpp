@@ -67,8 +67,7 @@ Simulator::Impl::Impl(const Scene& all, const Camera& profile, const SimulatorOp
       setup(fixed_setup()),
       engines(options, setup) {
   simulator::set_filter(camera.decoding.filter, job);
-  if (job.filter != pipeline::Filter::none)
-    filtered.resize(static_cast<std::size_t>(camera.sensor.width) * static_cast<std::size_t>(camera.sensor.height));
+  filtered.resize(simulator::filter_scratch(job, setup));
   job.filtered = filtered.data();
 }
 

@@ -83,7 +83,8 @@ TEST_F(Gpu, enters_at_any_stage) {
 TEST_F(Gpu, filters_and_stages_have_the_bytes_of_the_processor) {
   const Scene scene = load_scene("demo");
   Camera camera = load_camera(scene);
-  for (const auto kind : {ImageFilter::Kind::none, ImageFilter::Kind::gaussian, ImageFilter::Kind::median}) {
+  for (const auto kind : {ImageFilter::Kind::none, ImageFilter::Kind::gaussian, ImageFilter::Kind::median, ImageFilter::Kind::bilateral,
+                          ImageFilter::Kind::adaptive}) {
     camera.decoding.filter.kind = kind;
     expect_same(scene, with_everything(camera), {});
     for (const Stage stage : {Stage::trace, Stage::power, Stage::raw, Stage::depth}) expect_same(scene, camera, {.last_stage = stage});

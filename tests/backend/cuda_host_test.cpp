@@ -61,7 +61,8 @@ TEST(cuda_host, has_the_same_bytes_with_everything_switched_on) {
   const WithStandIn here;
   const Scene scene = load_scene("demo");
   Camera camera = with_everything(load_camera(scene));
-  for (const auto kind : {ImageFilter::Kind::none, ImageFilter::Kind::gaussian, ImageFilter::Kind::median}) {
+  for (const auto kind : {ImageFilter::Kind::none, ImageFilter::Kind::gaussian, ImageFilter::Kind::median, ImageFilter::Kind::bilateral,
+                          ImageFilter::Kind::adaptive}) {
     camera.decoding.filter.kind = kind;
     for (const PowerModel model : {PowerModel::tofray, PowerModel::paper_literal}) {
       camera.power_model = model;
@@ -412,7 +413,7 @@ TEST(cuda_host, decodes_recorded_raw_data) {
   const WithStandIn here;
   const Scene scene = load_scene("demo");
   Camera camera = small(load_camera(scene));
-  for (const auto kind : {ImageFilter::Kind::none, ImageFilter::Kind::median}) {
+  for (const auto kind : {ImageFilter::Kind::none, ImageFilter::Kind::median, ImageFilter::Kind::adaptive}) {
     camera.decoding.filter.kind = kind;
     Frame recorded = Simulator(scene, camera, on(Backend::cpu)).frame(0), on_gpu;
     for (const bool taps : {false, true}) {

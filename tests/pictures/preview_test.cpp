@@ -52,11 +52,16 @@ TEST(preview, wrong_cycles_do_not_set_the_scale_of_errors) {
 TEST(preview, invalid_pixels_have_the_colour_of_their_reason) {
   Frame frame = out_test::sample_frame(100, 50);
   std::fill(frame.depth.flags.begin(), frame.depth.flags.end(), std::uint16_t{0});
-  const std::uint16_t flags[] = {flag_saturated | flag_low_signal, flag_low_signal | flag_flying_pixel, flag_flying_pixel,
-                                 flag_no_return | flag_low_signal, flag_outside_lens | flag_saturated};
+  const std::uint16_t flags[] = {flag_saturated | flag_low_signal,
+                                 flag_low_signal | flag_flying_pixel,
+                                 flag_flying_pixel,
+                                 flag_no_return | flag_low_signal,
+                                 flag_outside_lens | flag_saturated,
+                                 flag_rejected | flag_inconsistent_phases,
+                                 flag_rejected | flag_inconsistent_frequencies};
   for (std::size_t i = 0; i < frame.depth.z_m.size(); ++i) {
     frame.depth.z_m[i] = 1.F;
-    if (i / 100 >= 5) continue;
+    if (i / 100 >= 7) continue;
     frame.depth.z_m[i] = out_test::nan_f;
     frame.depth.flags[i] = flags[i / 100];
   }

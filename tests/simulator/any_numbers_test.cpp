@@ -25,7 +25,7 @@ constexpr double extremes[] = {nan,   infinite, -infinite, 0.0,   -0.0,  1,    -
 /// 8 × 4 pixels; all kinds of light, waveform, vignetting, filter and mode, one after the other.
 Camera random_camera(Random& random) {
   Camera c = lit_camera(8, 4, 9);
-  c.decoding.filter.kind = static_cast<ImageFilter::Kind>(random.below(3));
+  c.decoding.filter.kind = static_cast<ImageFilter::Kind>(random.below(5));
   c.illumination.resize(static_cast<std::size_t>(random.below(3)), c.illumination[0]);
   for (Illumination& light : c.illumination) {
     light.pattern.kind = static_cast<Pattern::Kind>(random.below(5));

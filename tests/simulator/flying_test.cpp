@@ -35,3 +35,48 @@ TEST(flying_pixels, of_a_wall_are_noise_where_the_limit_alone_decides) {
   camera.decoding.flying_sigmas = 0;
   EXPECT_GT(flat_loss(camera, 1.0, 0.3, 1).flat, 0.2);
 }
+
+namespace {
+/// Mean square of (z − truth)/σ̂, and of σ̂ [mm²], of the valid pixels in the middle of a wall that are no wrong cycles.
+struct Left {
+  double ratio = 0, noise = 0;
+};
+Left left_of_noise(const Camera& camera) {
+  const Frame frame = Simulator(wall_at(1.0, 0.3), camera, {.seed = 5}).frame(0);
+  Left out;
+  double count = 0;
+  for (std::size_t i = 0; i < frame.depth.flags.size(); ++i) {
+    const std::size_t x = i % 224, y = i / 224;
+    const double off = static_cast<double>(frame.depth.range_m[i] - frame.truth.range_m[i]),
+                 noise = static_cast<double>(frame.depth.noise_m[i]);
+    if (x < 80 || x >= 144 || y < 54 || y >= 118 || (frame.depth.flags[i] & flags_invalid) != 0 || std::abs(off) > 0.3) continue;
+    out.ratio += off * off / (noise * noise), out.noise += 1e6 * noise * noise, count += 1;
+  }
+  out.ratio = std::sqrt(out.ratio / count), out.noise = std::sqrt(out.noise / count);
+  return out;
+}
+}  // namespace
+
+// 64 × 64 pixels, whole frames: what the pixels say after a filter of 25 of them is what they are off by. 4096/25 = 160 independent ones say
+// so to 5.6 %; 3 of these are allowed, and the bilateral filter's 8 %.
+TEST(filters, of_frames_leave_the_noise_that_noise_m_says) {
+  Camera camera = flying_camera(700e-6);
+  const Left plain = left_of_noise(camera);
+  EXPECT_NEAR(plain.ratio, 1, 0.06);
+  for (const auto kind :
+       {ImageFilter::Kind::gaussian, ImageFilter::Kind::median, ImageFilter::Kind::bilateral, ImageFilter::Kind::adaptive}) {
+    camera.decoding.filter.kind = kind, camera.decoding.filter.radius_px = 2, camera.decoding.filter.goal_m = 0;
+    const Left got = left_of_noise(camera);
+    EXPECT_NEAR(got.ratio, 1, 0.25) << static_cast<int>(kind);
+    EXPECT_LT(got.noise, 0.6 * plain.noise) << static_cast<int>(kind);
+  }
+}
+
+// After the adaptive filter less noise hides the edges: more of them are found, and no more of the wall is lost.
+TEST(flying_pixels, are_found_after_the_adaptive_filter) {
+  Camera camera = flying_camera(1000e-6), filtered = camera;
+  filtered.decoding.filter.kind = ImageFilter::Kind::adaptive, filtered.decoding.filter.radius_px = 2;
+  const double without = edges_found(camera, 1.0, 0.3, 0.3, 2).noisy, with = edges_found(filtered, 1.0, 0.3, 0.3, 2).noisy;
+  EXPECT_GT(with, without + 0.1) << without;
+  EXPECT_LT(flat_loss(filtered, 1.0, 0.3, 1).flying, 2e-3);
+}

@@ -88,7 +88,8 @@ TEST(process, takes_fixed_patterns_filters_and_all_instruction_sets) {
   const Scene scene = load_scene("grey-cards");
   Camera camera = load_camera(scene);
   camera.pixel.prnu = 0.01, camera.pixel.dsnu_dn = 0.7, camera.pixel.delay_s = 30e-12;
-  for (const auto kind : {ImageFilter::Kind::none, ImageFilter::Kind::gaussian, ImageFilter::Kind::median}) {
+  for (const auto kind : {ImageFilter::Kind::none, ImageFilter::Kind::gaussian, ImageFilter::Kind::median, ImageFilter::Kind::bilateral,
+                          ImageFilter::Kind::adaptive}) {
     camera.decoding.filter.kind = kind;
     const Frame frame = Simulator(scene, camera).frame(0);
     expect_same(process(frame.raw, camera, {.isa = Isa::scalar}), frame.depth);

@@ -51,7 +51,7 @@ Case random_case(int number) {
     c.scene.ambient.amount = 0.05;
     if (number % 4 == 0) c.scene.ambient.direction = Vec3{0.3, 0.8, 0.4} + random.point(0.3);
   }
-  c.camera.decoding.filter.kind = static_cast<ImageFilter::Kind>(number % 3);
+  c.camera.decoding.filter.kind = static_cast<ImageFilter::Kind>(number % 5);
   return c;
 }
 

@@ -160,7 +160,8 @@ TEST(same_bytes, with_everything_switched_on) {
   camera.illumination[1].waveform.jitter_s = 3e-10;
   camera.sensor.width = 219, camera.sensor.height = 163;  // no whole tiles
   camera.temperature.drift_m_per_kelvin = 1e-4, camera.temperature.celsius = 41;
-  for (const auto kind : {ImageFilter::Kind::gaussian, ImageFilter::Kind::median}) {
+  for (const auto kind :
+       {ImageFilter::Kind::gaussian, ImageFilter::Kind::median, ImageFilter::Kind::bilateral, ImageFilter::Kind::adaptive}) {
     camera.decoding.filter.kind = kind;
     for (const PowerModel model : {PowerModel::tofray, PowerModel::paper_literal}) {
       camera.power_model = model;

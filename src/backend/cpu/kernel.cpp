@@ -87,7 +87,7 @@ void run_rows(const Work& work, Pass pass, int band) {
   for (int y = first; y < first + rows_per_band && y < height; ++y) {
     if (pass == Pass::flying) flag_flying_row<F>(*work.setup, *work.job, y);
     if (pass == Pass::filter) filter_row(*work.setup, *work.job, y);
-    if (pass == Pass::settle) settle_row<F>(*work.setup, *work.job, y);
+    if (pass == Pass::settle) settle_row<F>(*work.setup, *work.job, y, work.item);
     if (pass == Pass::scatter_rows || pass == Pass::scatter_columns) scatter_rows<F>(*work.setup, *work.job, pass, work.item, y);
   }
 }

@@ -199,7 +199,7 @@ TOFRAY_FN void run_pass(Pass pass, int item, const Setup& s, const Job& job, con
   if (pass == Pass::transient) pipeline::find_transient<float>(s, job, p);
   if (pass == Pass::flying) pipeline::flag_flying_pixel(s, job, x, y);
   if (pass == Pass::filter) pipeline::filter_pixel(s, job, x, y);
-  if (pass == Pass::settle) pipeline::settle<float>(s, job, p, pipeline::range_left(job));
+  if (pass == Pass::settle) pipeline::settle<float>(s, job, p, item);
   if (pass == Pass::scatter_rows || pass == Pass::scatter_columns) pipeline::scatter<float>(s, job, pass, item, {x, y, 1});
 }
 

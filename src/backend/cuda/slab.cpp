@@ -24,7 +24,7 @@ Slab::Slab(const pipeline::Setup& setup, const flow::FrameView& wanted, bool fil
   });
   shown_bytes_ = bytes_;
   filtered_offset_ = bytes_;
-  if (filter) bytes_ = rounded(bytes_ + static_cast<std::size_t>(size_.pixels) * sizeof(float));
+  if (filter) bytes_ = rounded(bytes_ + 2 * static_cast<std::size_t>(size_.pixels) * sizeof(float));
 }
 
 std::size_t Slab::count(ArrayShape shape) const { return static_cast<std::size_t>(flow::values_of(shape, size_)); }
