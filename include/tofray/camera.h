@@ -88,16 +88,23 @@ struct Pattern {
 
 /// Light modulation over one period (theory 3).
 struct Waveform {
-  enum class Kind { rectangular, sine, measured };
+  enum class Kind { rectangular, sine, measured, trapezoid, gaussian, emission };
   Kind kind = Kind::rectangular;
   double duty = 0.5;            ///< width at half height over the period
-  double rise_time_s = 0;       ///< linear edge, 0 to 100 %
+  double rise_time_s = 0;       ///< linear edge, 0 to 100 %; of a rectangular pulse both
   double bandwidth_hz = 0;      ///< the light source's own single pole; 0: none
   double jitter_s = 0;          ///< Gaussian, 1 sigma
   int harmonics = 4;            ///< how many odd harmonics are kept (1,3,5,7); a sine has one
   double modulation_depth = 1;  ///< sine: d of the light 1 + d·cos; it has no duty and no edges
-  /// measured: correlation D(τ)/S at equally spaced reference phases over one period, φ = 0; its Fourier transform gives a_m, ψ_m.
-  std::vector<double> correlation;
+  /// measured: correlation D(τ)/S at reference phases over one period, φ = 0; its Fourier transform gives a_m, ψ_m.
+  std::vector<double> correlation = {};
+  // of the kinds that came later
+  double fall_time_s = 0;  ///< trapezoid: the other edge
+  double sigma_s = 0;      ///< gaussian: width of the pulse, 1 sigma
+  /// emission: the light itself over one period, any unit, from the middle of what would be a rectangular pulse on.
+  std::vector<double> emission = {};
+  /// measured, emission: at which phases of the period the samples are, ascending within one turn; empty: equally spaced from 0 on.
+  std::vector<double> sample_phases_rad = {};
 };
 
 /// Where the light of a source comes out: at a point, or evenly all over a disk or rectangle across its axis. So many points at fixed
@@ -126,9 +133,10 @@ struct Illumination {
 
 /// The two-tap pixel (theory 3). Electrons per tap where nothing else is said.
 struct Pixel {
-  Curve quantum_efficiency;  ///< wavelength [m] → QE; one sample: a constant
-  Curve contrast;            ///< modulation frequency [Hz] → K; one sample: a constant
-  double bandwidth_hz = 0;   ///< single pole of the gate; 0: none
+  Curve quantum_efficiency;           ///< wavelength [m] → QE; one sample: a constant
+  Curve contrast;                     ///< modulation frequency [Hz] → K; one sample: a constant
+  Curve contrast_by_wavelength = {};  ///< wavelength [m] → factor on K; none: 1
+  double bandwidth_hz = 0;            ///< single pole of the gate; 0: none
   double full_well_e = 1e30;
   double read_noise_e = 0;              ///< reset + read, 1 sigma
   double column_noise_e = 0;            ///< of A−B, the same for all pixels of a column in one raw frame, anew in each, 1 sigma
@@ -137,7 +145,7 @@ struct Pixel {
   double dark_current_doubling_k = 0;   ///< it doubles with every so many kelvin above that; 0: the same at all temperatures
   double tap_gain_mismatch = 0;         ///< g: tap A collects 1 + g/2 of what it should, tap B 1 − g/2
   double tap_offset_mismatch_e = 0;     ///< what A has more than B before any charge comes
-  Curve nonlinearity;                   ///< charge of a tap [e⁻] → charge that is read of it; none: the same
+  Curve nonlinearity = {};              ///< charge of a tap [e⁻] → charge that is read of it; none: the same
   double prnu = 0;                      ///< photo response non-uniformity, 1 sigma, relative
   double dsnu_dn = 0;                   ///< offset pattern, 1 sigma [DN]
   double delay_s = 0;                   ///< fixed-pattern delay per pixel, 1 sigma

@@ -83,7 +83,7 @@ void FrozenCamera::freeze_phasors() {
   std::size_t most = 0;
   for (const double frequency : modulations_.frequency_hz) {
     for (const Illumination& light : camera_.illumination) {
-      harmonics.push_back(correlation_harmonics(light.waveform, camera_.pixel, frequency));
+      harmonics.push_back(correlation_harmonics(light, camera_.pixel, frequency));
       most = std::max(most, harmonics.back().size());
     }
   }

@@ -91,7 +91,7 @@ std::vector<Harmonic> mean_harmonics(const std::vector<Share>& shares, const Pix
   if (shares.empty()) return {{1, 1, 0}};
   std::vector<std::complex<double>> phasors;
   for (const Share& share : shares) {
-    for (const Harmonic& h : correlation_harmonics(share.light->waveform, pixel, frequency)) {
+    for (const Harmonic& h : correlation_harmonics(*share.light, pixel, frequency)) {
       const auto at = static_cast<std::size_t>(h.order / 2);
       if (phasors.size() <= at) phasors.resize(at + 1);
       phasors[at] += share.weight * h.amplitude * std::complex<double>(setup::cos(h.phase_rad), setup::sin(h.phase_rad));

@@ -27,12 +27,17 @@ struct Harmonic {
 ///
 /// `sine` is light 1 + d·cos of `modulation_depth` d, which has no duty and no edges: a_1 = (2d/π) · g(f/f_gate) · g(f/f_light) ·
 /// exp(−½(2πfσ_jitter)²) · K(f) with the same ψ_1, and no other harmonic [theory: eq. 3.14].
-/// `measured` takes a_m·e^{iψ_m} = (2/n)·Σ_k D(τ_k)/S·e^{−imτ_k} [theory: eq. 3.12], odd m < n/2, from the curve, which has everything in it: no other member of the waveform but `harmonics`, and no pole or contrast of the
-/// pixel, is applied to it.
+/// `trapezoid`, `gaussian` and `emission` are other lights, each of its own L_m; a_m·e^{iψ_m} = 2/(πm)·sin(mπ/2)·conj(L_m) with the same
+/// factors [theory: eq. 3.20 to 3.22].
+/// `measured` takes a_m·e^{iψ_m} = (2/n)·Σ_k D(τ_k)/S·e^{−imτ_k} [theory: eq. 3.12], odd m < n/2, from the curve, which has everything in it:
+/// no other member of the waveform but `harmonics` and the samples' phases, and no pole or contrast of the pixel, is applied to it.
 ///
 /// @param modulation_frequency_hz f > 0
 /// @return orders 1, 3, 5, …, `waveform.harmonics` of them (fewer where a measured curve has too few samples)
 /// @throws Error (bad_input) for a frequency, duty, modulation depth, number of harmonics or curve that makes no sense
 std::vector<Harmonic> correlation_harmonics(const Waveform& waveform, const Pixel& pixel, double modulation_frequency_hz);
+
+/// The same of a light, whose wavelength has its say in the pixel's contrast (a measured correlation has that in it).
+std::vector<Harmonic> correlation_harmonics(const Illumination& light, const Pixel& pixel, double modulation_frequency_hz);
 
 }  // namespace tofray::camera

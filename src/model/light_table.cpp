@@ -17,6 +17,7 @@ constexpr Number half_angle{angle, {1e-3, pi}, "43 deg"};
 constexpr Number half_range{angle, {1e-3, 2 * pi}, "43 deg"};
 constexpr Number width{angle, {1e-3, 2 * pi}, "62 deg"};
 constexpr Number cells{none, {2, 4096}, "172"};  // between two of them it is interpolated
+constexpr Number edge{time, {0, 1e-3}, "1 ns"};
 constexpr Number extent{length, {base::shortest_m, 10}, "10 mm"};
 constexpr auto most_lights = static_cast<double>(base::limit::lights.value);
 constexpr auto curve_points = static_cast<int>(base::limit::curve_points.value);
@@ -66,22 +67,35 @@ const Table& table_of<Waveform>() {
   constexpr auto kind_of = &Waveform::kind;
   static const Table rows =
       table<Waveform>(
-          kind<kind_of>("kind", {"rectangular", "sine", "measured"}),
+          kind<kind_of>("kind", {"rectangular", "sine", "measured", "trapezoid", "gaussian", "emission"}),
           number<&Waveform::duty>("duty", {fraction, {1e-3, 0.999}, "25 %"}, "width at half height over the period")
-              .when<kind_of>(rectangular),
-          number<&Waveform::rise_time_s>("rise_time", {time, {0, 1e-3}, "1 ns"}, "linear edge, 0 to 100 %").when<kind_of>(rectangular),
+              .when<kind_of>(rectangular, trapezoid),
+          number<&Waveform::rise_time_s>("rise_time", edge, "linear edge, 0 to 100 %").when<kind_of>(rectangular, trapezoid),
+          number<&Waveform::fall_time_s>("fall_time", edge, "the edge at the pulse's end").when<kind_of>(trapezoid),
+          number<&Waveform::sigma_s>("sigma", {time, {0, 1e-3}, "1.5 ns"}, "width of the pulse, 1 sigma")
+              .when<kind_of>(gaussian)
+              .required(),
           number<&Waveform::modulation_depth>("modulation_depth", {fraction, {1e-3, 1}, "90 %"}, "d of the light 1 + d cos")
               .when<kind_of>(sine),
           number<&Waveform::bandwidth_hz>("bandwidth", {frequency, {0, 1e12}, "200 MHz"}, "single pole of the light source; 0: none")
-              .when<kind_of>(rectangular, sine),
-          number<&Waveform::jitter_s>("jitter", {time, {0, 1e-6}, "50 ps"}, "Gaussian, 1 sigma").when<kind_of>(rectangular, sine),
+              .when<kind_of>(rectangular, sine, trapezoid, gaussian, emission),
+          number<&Waveform::jitter_s>("jitter", {time, {0, 1e-6}, "50 ps"}, "Gaussian, 1 sigma")
+              .when<kind_of>(rectangular, sine, trapezoid, gaussian, emission),
           numbers<&Waveform::correlation>("correlation", {none, {-10, 10}, "0.5"}, 4, curve_points,
-                                          "(A-B)/(A+B) at equally spaced reference phases over one period, light and pixel at no distance")
+                                          "(A-B)/(A+B) at reference phases over one period, light and pixel at no distance")
               .when<kind_of>(measured)
               .or_file("correlation.csv"),
+          numbers<&Waveform::emission>("emission", {none, {0, 1e12}, "1"}, 4, curve_points,
+                                       "the light over one period, any unit, from the middle of the pulse on")
+              .when<kind_of>(emission)
+              .or_file("emission.csv"),
+          numbers<&Waveform::sample_phases_rad>("phases", {angle, {-100, 100}, "45 deg"}, 4, curve_points,
+                                                "where in the period the samples are, ascending; equally spaced from 0 unless given")
+              .when<kind_of>(measured, emission)
+              .absent(),
           number<&Waveform::harmonics>("harmonics", {none, {1, 8}, "4"}, "how many odd harmonics are kept: 1, 3, 5, 7 …")
-              .when<kind_of>(rectangular, measured))
-          .check_with(correlations_carry_their_harmonics);
+              .when<kind_of>(rectangular, measured, trapezoid, gaussian, emission))
+          .check_with(samples_carry_their_harmonics);
   return rows;
 }
 

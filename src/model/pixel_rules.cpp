@@ -4,12 +4,18 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/constants.h"
+#include "base/periodic.h"
 #include "base/text.h"
 #include "model/rules.h"
 
 namespace tofray::model {
 
 using base::number_text;
+
+namespace {
+constexpr double most_even = 0.01;  // of even harmonics beside the odd ones
+}
 
 namespace {
 /// Dark current of the temperature: i·2^((T − T_ref)/d), bounded from above without a logarithm: 2^u ≤ (1 + u − ⌊u⌋)·2^⌊u⌋.
@@ -47,6 +53,54 @@ void what_is_read_rises_with_the_charge(const Pixel& pixel, Complaints& complain
                           number_text(charge[i]) + " e; expected more than before, by at most 10 e for each electron");
   }
   if (charge.back() < 1) complain("the nonlinearity ends below 1 e", "got " + number_text(charge.back()) + " e");
+}
+
+namespace {
+/// Of the period's samples: where they are.
+bool phases_are_sound(const Waveform& waveform, const std::vector<double>& samples, Complaints& complaints) {
+  const std::vector<double>& phases = waveform.sample_phases_rad;
+  const auto complain = [&](const std::string& what, const std::string& more) {
+    complaints.add(waveform, &phases, what, more);
+    return false;
+  };
+  if (phases.empty()) return true;
+  if (phases.size() != samples.size())
+    return complain("there are not as many phases as samples",
+                    "got " + std::to_string(phases.size()) + " phases of " + std::to_string(samples.size()) + " samples");
+  for (std::size_t i = 1; i < phases.size(); ++i)
+    if (!(phases[i] > phases[i - 1]))
+      return complain("the phases of the samples do not ascend",
+                      "got " + number_text(phases[i]) + " rad after " + number_text(phases[i - 1]) + " rad");
+  const double span = phases.back() - phases.front();
+  if (!(span < base::two_pi))
+    return complain("the phases of the samples reach over more than a period",
+                    "got " + number_text(span) + " rad from the first to the last; the period's end is the first sample again");
+  return true;
+}
+}  // namespace
+
+void samples_carry_their_harmonics(const Waveform& waveform, Complaints& complaints) {
+  const bool correlation = waveform.kind == Waveform::Kind::measured;
+  if (!correlation && waveform.kind != Waveform::Kind::emission) return;
+  const std::vector<double>& samples = correlation ? waveform.correlation : waveform.emission;
+  const std::string what = correlation ? "the correlation" : "the emission";
+  const auto complain = [&](const std::string& fault, const std::string& more) { complaints.add(waveform, &samples, fault, more); };
+  double largest = 0;
+  for (const double sample : samples) largest = std::max(largest, std::abs(sample));
+  if (!(largest > 0)) complain(what + " is nowhere above 0", correlation ? "expected (A-B)/(A+B)" : "expected light");
+  const int needed = 2 * (2 * waveform.harmonics - 1);  // harmonic m needs more than 2 m samples
+  if (static_cast<long long>(samples.size()) <= needed)
+    return complain("too few samples of " + what + " for its harmonics",
+                    "got " + std::to_string(samples.size()) + " samples, expected more than " + std::to_string(needed) + " for " +
+                        std::to_string(waveform.harmonics) + " odd harmonics");
+  if (!phases_are_sound(waveform, samples, complaints) || !correlation || !(largest > 0)) return;
+  // A gate that is open for half the period has no even harmonics: what a pixel shows of them, this model has not. [theory: eq. 3.23]
+  const double share = base::even_share(base::over_a_period(waveform.sample_phases_rad, samples));
+  if (share > most_even)
+    complain("the correlation has even harmonics, which the pixel's model has not",
+             "got " + number_text(std::round(1e4 * share) / 100) +
+                 " % of the odd ones, at most 1 %; put (D(t) - D(t + 180 deg))/2 in the "
+                 "place of D(t) where they may be left out, which for an even number of reference phases they are in the camera, too");
 }
 
 }  // namespace tofray::model

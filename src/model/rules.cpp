@@ -179,18 +179,6 @@ void tables_shine(const Pattern& pattern, Complaints& complaints) {
     complaints.add(pattern, &samples, "the pattern has fewer than two rows or columns", "a constant one needs the same number four times");
 }
 
-void correlations_carry_their_harmonics(const Waveform& waveform, Complaints& complaints) {
-  if (waveform.kind != Waveform::Kind::measured) return;
-  double largest = 0;
-  for (const double sample : waveform.correlation) largest = std::max(largest, std::abs(sample));
-  if (!(largest > 0)) complaints.add(waveform, &waveform.correlation, "the correlation is nowhere above 0", "expected (A-B)/(A+B)");
-  const int needed = 2 * (2 * waveform.harmonics - 1);  // harmonic m needs more than 2 m samples
-  if (static_cast<long long>(waveform.correlation.size()) <= needed)
-    complaints.add(waveform, &waveform.correlation, "too few samples of the correlation for its harmonics",
-                   "got " + std::to_string(waveform.correlation.size()) + " samples, expected more than " + std::to_string(needed) +
-                       " for " + std::to_string(waveform.harmonics) + " odd harmonics");
-}
-
 namespace {
 void check_map(const Material& material, Complaints& complaints) {
   const ReflectivityMap& map = *material.map;

@@ -17,7 +17,7 @@ void cameras_make_sense(const Camera& camera, Complaints& complaints);
 void masks_let_light_through(const PixelMask& mask, Complaints& complaints);
 void scatter_goes_somewhere(const Scatter& scatter, Complaints& complaints);
 void tables_shine(const Pattern& pattern, Complaints& complaints);
-void correlations_carry_their_harmonics(const Waveform& waveform, Complaints& complaints);
+void samples_carry_their_harmonics(const Waveform& waveform, Complaints& complaints);
 
 void contrast_is_full(Pixel& pixel, const Given& given);
 void codes_by_bits(Adc& adc, const Given& given);

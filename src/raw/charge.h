@@ -120,12 +120,6 @@ TOFRAY_FN Means<F> expose_merged(const camera::SensorView& s, const Means<F>& me
   return {merged_normal(s, mean.a, a), merged_normal(s, mean.b, b)};
 }
 
-/// Taps that collect 1 ± g/2 of what they should.                                                           [eq. 3.16]
-template <class F>
-TOFRAY_FN Means<F> with_unlike_gains(const camera::SensorView& s, const Means<F>& mean) {
-  return {num::fma(mean.a, F(s.half_gain_mismatch), mean.a), num::fnma(mean.b, F(s.half_gain_mismatch), mean.b)};
-}
-
 /// Taps of which one holds more than the other before any charge comes.                                     [eq. 3.16]
 template <class F>
 TOFRAY_FN Means<F> with_unlike_offsets(const camera::SensorView& s, const Means<F>& charge) {
@@ -160,6 +154,15 @@ template <class F>
 TOFRAY_FN Means<F> read_charges(const camera::SensorView& s, const Means<F>& charge) {
   return {camera::read_charge(s.read, num::min(charge.a, F(s.full_well))).value,
           camera::read_charge(s.read, num::min(charge.b, F(s.full_well))).value};
+}
+
+/// Tap offsets → background suppression → full well → what is read, as far as the sensor has them.
+/// @param charge  changes to what the taps hold after suppression
+template <class F>
+TOFRAY_FN Means<F> reach_the_output(const camera::SensorView& s, num::Int<F> pixel, int k, FrameIndex frame, Means<F>& charge) {
+  if (s.half_offset_mismatch != 0) charge = with_unlike_offsets(s, charge);
+  if (s.suppression_threshold > 0) charge = suppress(s, charge, pixel, k, frame);
+  return s.read.cell != nullptr ? read_charges(s, charge) : charge;
 }
 
 /// Full well per tap, then A−B through the ADC: DN = round((A−B)/s + mid + offset), held to the code range.   [eq. 3.8]

@@ -11,7 +11,7 @@ template <class F>
 struct Exposure {
   num::Int<F> pixel;
   num::Int<F> column, row;  ///< where the sensor's lines are noisy
-  F gain, offset;
+  F gain_a, gain_b, offset;
   MergedWords<F> merged_words;
   F most_charge, widest_level;  ///< of the lit raw frames: most charge of a tap, largest distance of a level from the valid codes' middle
 };
@@ -21,12 +21,20 @@ TOFRAY_FN F pattern(const float* map, const flow::Pixels& p, float otherwise) {
   return map != nullptr ? num::load<F>(map + p.index, p.count) : F(otherwise);
 }
 
+/// One tap collects 1 + g/2 of what it should, the other 1 − g/2.                                            [theory: eq. 3.16]
+template <class F>
+TOFRAY_FN void unlike_gains(const camera::SensorView& s, Exposure<F>& e) {
+  e.gain_a = num::fma(e.gain_a, F(s.half_gain_mismatch), e.gain_a);
+  e.gain_b = num::fnma(e.gain_b, F(s.half_gain_mismatch), e.gain_b);
+}
+
 template <class F>
 TOFRAY_FN Exposure<F> start(const camera::SensorView& s, const flow::Pixels& p) {
   Exposure<F> e;
   e.pixel = num::Int<F>(p.index) + num::lane_index<F>();
   if (s.lines_are_noisy != 0) e.column = num::Int<F>(p.index % s.width) + num::lane_index<F>(), e.row = num::Int<F>(p.index / s.width);
-  e.gain = pattern<F>(s.gain, p, 1.0f), e.offset = pattern<F>(s.offset, p, 0.0f);
+  e.gain_a = e.gain_b = pattern<F>(s.gain, p, 1.0f), e.offset = pattern<F>(s.offset, p, 0.0f);
+  if (s.half_gain_mismatch != 0) unlike_gains(s, e);
   e.most_charge = F(0.0f), e.widest_level = F(0.0f);
   return e;
 }
@@ -73,10 +81,11 @@ TOFRAY_FN F known_difference(const camera::SensorView& s, const camera::RawFrame
   if (s.read.cell != nullptr) return otherwise;
   const F common = light.signal_rate + light.ambient_rate;
   const auto whole = (num::max(charge.a, charge.b) < F(s.full_well)) & (num::abs(rate) <= common);
-  F difference = rate * F(frame.integration_time) * e.gain;
+  F difference = rate * F(frame.integration_time) * e.gain_a;
   if (s.taps_differ != 0) {
-    const F both = num::fma(common, F(frame.integration_time), F(2 * frame.dark)) * e.gain;
-    difference = num::fma(both, F(s.half_gain_mismatch), difference) + F(2 * s.half_offset_mismatch);
+    const F of_rate = F(0.5f * frame.integration_time) * rate * (e.gain_a + e.gain_b);
+    const F each = num::fma(common, F(0.5f * frame.integration_time), F(frame.dark));
+    difference = num::fma(each, e.gain_a - e.gain_b, of_rate) + F(2 * s.half_offset_mismatch);
   }
   return num::select(whole, held_to_codes(s, difference, e.offset), otherwise);
 }
@@ -90,16 +99,13 @@ TOFRAY_FN Taps<F> expose(const camera::SensorView& s, int k, const Light<F>& lig
   const camera::RawFrameView& frame = s.frame[k];
   const F rate = frame.lit != 0 ? difference_rate(frame, orders, light) : F(0.0f);
   Means<F> charge = tap_means(frame, light.signal_rate, light.ambient_rate, rate);
-  charge.a = charge.a * e.gain, charge.b = charge.b * e.gain;
-  if (s.taps_differ != 0) charge = with_unlike_gains(s, charge);
+  charge.a = charge.a * e.gain_a, charge.b = charge.b * e.gain_b;
   if (s.noise == Noise::merged) {
     charge = expose_merged(s, charge, e.pixel, k, index, e.merged_words);
   } else if (s.noise == Noise::apart) {
     charge = expose_apart(s, charge, e.pixel, k, index);
   }
-  if (s.taps_differ != 0) charge = with_unlike_offsets(s, charge);
-  if (s.suppression_threshold > 0) charge = suppress(s, charge, e.pixel, k, index);
-  const Means<F> read = s.read.cell != nullptr ? read_charges(s, charge) : charge;
+  const Means<F> read = s.more_than_noise != 0 ? reach_the_output(s, e.pixel, k, index, charge) : charge;
   Taps<F> taps = read_out(s, read, offset_of(s, k, index, e));
   if (s.noise == Noise::off && frame.lit != 0) taps.difference = known_difference(s, frame, light, rate, charge, e, taps.difference);
   watch(s, frame, charge, taps, e);

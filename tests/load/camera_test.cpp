@@ -307,6 +307,44 @@ TEST(every_member_of_a_camera, can_be_written) {
   EXPECT_EQ(c.illumination[0].pattern.samples[4], 3);
 }
 
+TEST(every_effect_of_the_pixel, can_be_written) {
+  const Camera c =
+      with({{"pixel.row_noise", "7 e"},
+            {"pixel.dark_current_doubling", "8 K"},
+            {"pixel.taps", "{gain_mismatch: -2 %, offset_mismatch: 40 e}"},
+            {"pixel.nonlinearity", "{charge: [0 e, 50 ke, 100 ke], read: [0 e, 47 ke, 88 ke]}"},
+            {"pixel.patterns", "{phase_offset: 2 deg}"},
+            {"pixel.contrast_by_wavelength", "{wavelength: [850 nm, 940 nm], factor: [1, 0.8]}"},
+            {"illumination.0.waveform", "{kind: trapezoid, duty: 30 %, rise_time: 1 ns, fall_time: 2 ns, bandwidth: 200 MHz}"}});
+  EXPECT_EQ(c.pixel.row_noise_e, 7);
+  EXPECT_EQ(c.pixel.dark_current_doubling_k, 8);
+  EXPECT_EQ(c.pixel.tap_gain_mismatch, -0.02);
+  EXPECT_EQ(c.pixel.tap_offset_mismatch_e, 40);
+  EXPECT_EQ(c.pixel.nonlinearity.y, (std::vector<double>{0, 47e3, 88e3}));
+  EXPECT_DOUBLE_EQ(c.pixel.phase_offset_rad, 2 * 3.14159265358979323846 / 180);
+  EXPECT_EQ(c.pixel.contrast_by_wavelength.y, (std::vector<double>{1, 0.8}));
+  EXPECT_EQ(c.illumination[0].waveform.fall_time_s, 2e-9);
+  const Camera gaussian = with({{"illumination.0.waveform", "{kind: gaussian, sigma: 1.5 ns}"}});
+  EXPECT_EQ(gaussian.illumination[0].waveform.sigma_s, 1.5e-9);
+  const Camera emission = with(
+      {{"illumination.0.waveform", "{kind: emission, harmonics: 1, emission: [3, 1, 0, 1], phases: [0 deg, 80 deg, 180 deg, 280 deg]}"}});
+  EXPECT_EQ(emission.illumination[0].waveform.emission, (std::vector<double>{3, 1, 0, 1}));
+  EXPECT_EQ(emission.illumination[0].waveform.sample_phases_rad.size(), 4U);
+}
+
+TEST(every_effect_of_the_pixel, that_makes_no_sense_is_refused_and_says_where) {
+  EXPECT_TRUE(has(refusal({{"pixel.nonlinearity", "{charge: [0 e, 50 ke, 100 ke], read: [0 e, 47 ke, 46 ke]}"}}),
+                  "--set pixel.nonlinearity: error: what is read does not rise with the charge as it should"));
+  const std::string even = refusal({{"illumination.0.waveform", "{kind: measured, harmonics: 1, correlation: [1, 0, -0.8, 0]}"}});
+  EXPECT_TRUE(has(even, "the correlation has even harmonics")) << even;
+  EXPECT_TRUE(has(even, "put (D(t) - D(t + 180 deg))/2 in the place of D(t)")) << even;
+  EXPECT_TRUE(has(refusal({{"pixel.taps", "{gain_mismatch: 101 %}"}}), "gain_mismatch is out of range"));
+  EXPECT_TRUE(has(refusal({{"pixel.dark_current_doubling", "-1 K"}}), "dark_current_doubling is out of range"));
+  EXPECT_TRUE(has(refusal({{"pixel.dark_current_doubling", "8 degC"}}), "expected a difference of temperatures such as \"8 K\""))
+      << refusal({{"pixel.dark_current_doubling", "8 degC"}});
+  EXPECT_TRUE(has(refusal({{"illumination.0.waveform", "{kind: gaussian}"}}), "sigma"));
+}
+
 TEST(tables_of_shares, are_refused_where_a_sample_is_none_and_say_where) {
   const std::string efficiency = refusal({{"pixel.quantum_efficiency", "{wavelength: [800 nm, 900 nm], value: [0.4, 1.2]}"}});
   EXPECT_TRUE(has(efficiency, "value[1] is out of range\n  got \"1.2\", expected a fraction such as \"0.4\", 0 to 1")) << efficiency;

@@ -266,12 +266,14 @@ TEST(fixed_pattern, is_each_pixel_s_own_from_the_start_of_its_exposure) {
   const Bench bench(patterned(50)), plain(bench_camera());
   for (int i = 0; i < 50; ++i) {
     const auto exposure = raw::start<float>(bench.sensor(), {i, 1});
-    EXPECT_EQ(exposure.gain, bench.sensor().gain[i]);
+    EXPECT_EQ(exposure.gain_a, bench.sensor().gain[i]);
+    EXPECT_EQ(exposure.gain_b, bench.sensor().gain[i]);
     EXPECT_EQ(exposure.offset, bench.sensor().offset[i]);
     EXPECT_EQ(camera::late_by<float>(bench.sensor(), 0, {i, 1}), bench.sensor().delay[i]);
   }
   const auto exposure = raw::start<float>(plain.sensor(), {0, 1});
-  EXPECT_EQ(exposure.gain, 1.0f);
+  EXPECT_EQ(exposure.gain_a, 1.0f);
+  EXPECT_EQ(exposure.gain_b, 1.0f);
   EXPECT_EQ(exposure.offset, 0.0f);
   EXPECT_EQ(plain.sensor().delay, nullptr);
 }

@@ -11,6 +11,7 @@
 #include "support/numbers.h"
 #include "support/random_scene.h"
 #include "support/sanitizers.h"
+#include "support/whole_pixel.h"
 
 using namespace tofray;
 using namespace tofray::test;
@@ -33,7 +34,8 @@ Camera random_camera(Random& random) {
     light.pattern.columns = 3, light.pattern.rows = 2, light.pattern.half_range_x_rad = light.pattern.half_range_y_rad = 0.6;
     light.pattern.samples = {1, 2, 3, 4, 5, 6};
     // A table of harmonics takes milliseconds: the sine most of the time.
-    light.waveform.kind = random.below(20) == 0 ? static_cast<Waveform::Kind>(random.below(3)) : Waveform::Kind::sine;
+    light.waveform.kind = random.below(20) == 0 ? static_cast<Waveform::Kind>(random.below(6)) : Waveform::Kind::sine;
+    light.waveform.sigma_s = 1e-9, light.waveform.fall_time_s = 1e-9, light.waveform.emission = {3, 2, 1, 0, 0, 0, 1, 2};
     light.waveform.harmonics = 2, light.waveform.correlation = {1, 0.7, 0, -0.7, -1, -0.7, 0, 0.7};
     light.position = random.point(0.1);
     light.area = {static_cast<Area::Kind>(random.below(3)), 0.02, 0.03, 0.01, 1 + random.below(4)};
@@ -42,6 +44,7 @@ Camera random_camera(Random& random) {
   c.lens.vignetting_table = {{0, 0.5, 1}, {1, 0.8, 0.3}};
   if (random.below(2) == 0) c.filter.table = {{830e-9, 850e-9, 870e-9}, {0, 0.9, 0}};
   c.pixel.prnu = 0.01, c.pixel.dsnu_dn = 1, c.pixel.delay_s = 1e-11, c.pixel.read_noise_e = 30, c.pixel.full_well_e = 1e5;
+  if (random.below(2) == 0) turn_on_every_effect(c);
   if (random.below(2) == 0) c.pixel.suppression_threshold_e = 1e4, c.pixel.suppression_budget_e = 1e5;
   c.adc.step_e_per_dn = 20;
   if (random.below(4) == 0) c.mode.sequence.insert(c.mode.sequence.begin(), {false, 0, 0, 1e-4});
@@ -173,6 +176,8 @@ TEST(largest_numbers, give_flags_or_finite_numbers) {
   camera.illumination.resize(8, light);
   camera.pixel.quantum_efficiency.y = {1}, camera.pixel.dark_current_e_per_s = 1e12, camera.pixel.read_noise_e = 1e6;
   camera.pixel.prnu = 1, camera.pixel.dsnu_dn = 1e4, camera.pixel.delay_s = 1e-6, camera.pixel.full_well_e = 1e30;
+  camera.pixel.column_noise_e = camera.pixel.row_noise_e = 1e6, camera.pixel.phase_offset_rad = 6.28;
+  camera.pixel.tap_gain_mismatch = 1, camera.pixel.tap_offset_mismatch_e = 1e6;
   camera.filter = {850e-9, 10e-6, 1, {}};
   camera.mode.frame_rate_hz = 1e-4;
   Scene scene = wall(1);
@@ -185,6 +190,11 @@ TEST(largest_numbers, give_flags_or_finite_numbers) {
       for (const double step : {1e-6, 1e9}) {
         camera.adc.step_e_per_dn = step;
         for (const Noise noise : {Noise::off, Noise::exact}) {
+          for (const Curve& curve : {Curve{}, Curve{{0, 1e12}, {0, 1e12}}, Curve{{0, 1}, {0, 10}}, Curve{{0, 1, 2}, {0, 1e-12, 1e-11}}}) {
+            camera.pixel.nonlinearity = curve;
+            expect_sane(Simulator(scene, camera, {.noise = noise, .threads = 1}).frame(0));
+          }
+          camera.pixel.nonlinearity = {};
           for (const Isa isa : {Isa::scalar, Isa::best}) {
             expect_sane(Simulator(scene, camera, {.noise = noise, .threads = 1, .isa = isa}).frame(0));
           }

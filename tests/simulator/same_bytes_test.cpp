@@ -15,6 +15,7 @@
 #include "results/frame_file.h"
 #include "support/files.h"
 #include "support/random_scene.h"
+#include "support/whole_pixel.h"
 #include "tofray/tofray.h"
 
 using namespace tofray;
@@ -149,17 +150,15 @@ TEST_P(KnownBytes, come_from_the_scalar_reference) { expect_known(GetParam(), Is
 
 INSTANTIATE_TEST_SUITE_P(all, KnownBytes, testing::ValuesIn(all_scenes()), [](const auto& which) { return test_name(which.param); });
 
-// Filters, fixed patterns, suppression and a second light, which no scene has.
+// Filters, all effects of the pixel and a second light, which no scene has.
 TEST(same_bytes, with_everything_switched_on) {
   const Scene scene = load_scene("demo");
   Camera camera = load_camera(scene);
-  camera.pixel.prnu = 0.01, camera.pixel.dsnu_dn = 1, camera.pixel.delay_s = 1e-11;
-  camera.pixel.suppression_threshold_e = 2000, camera.pixel.suppression_budget_e = 20000;
+  turn_on_every_effect(camera);
   camera.illumination.push_back(camera.illumination[0]);
   camera.illumination[1].position = {-0.02, 0.01, 0.003}, camera.illumination[1].axis = {0.1, -0.2, 1};
   camera.illumination[1].waveform.jitter_s = 3e-10;
   camera.sensor.width = 219, camera.sensor.height = 163;  // no whole tiles
-  camera.temperature.drift_m_per_kelvin = 1e-4, camera.temperature.celsius = 41;
   for (const auto kind :
        {ImageFilter::Kind::gaussian, ImageFilter::Kind::median, ImageFilter::Kind::bilateral, ImageFilter::Kind::adaptive}) {
     camera.decoding.filter.kind = kind;

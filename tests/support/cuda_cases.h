@@ -5,6 +5,7 @@
 
 #include "flow/frame_view.h"
 #include "support/same_frame.h"
+#include "support/whole_pixel.h"
 #include "tofray/tofray.h"
 
 /// What tests of the GPU backend share.
@@ -59,16 +60,14 @@ inline Frame alone(const Scene& scene, const Camera& camera, SimulatorOptions op
   return arrays_only(Simulator(posed, camera, on(Backend::cpu, options)).frame(request.index));
 }
 
-/// Filters, fixed patterns, suppression, a second light: what no scene has.
+/// Filters, all effects of the pixel, a second light: what no scene has.
 inline Camera with_everything(Camera camera) {
   camera = small(camera);
-  camera.pixel.prnu = 0.01, camera.pixel.dsnu_dn = 1, camera.pixel.delay_s = 1e-11;
-  camera.pixel.suppression_threshold_e = 2000, camera.pixel.suppression_budget_e = 20000;
+  turn_on_every_effect(camera);
   camera.illumination.push_back(camera.illumination[0]);
   camera.illumination[1].position = {-0.02, 0.01, 0.003}, camera.illumination[1].axis = {0.1, -0.2, 1};
   camera.illumination[1].waveform.jitter_s = 3e-10;
   camera.decoding.filter.kind = ImageFilter::Kind::median;
-  camera.temperature.drift_m_per_kelvin = 1e-4, camera.temperature.celsius = 41;
   return camera;
 }
 
