@@ -23,7 +23,7 @@ SPEED_OF_LIGHT = 299792458
 
 def limit_mm(camera):
     """More noise than this, and the pixel is invalid."""
-    found = re.search(r"low_signal_noise: *\{?(?:value: *)?([\d.]+) mm", (ROOT / f"profiles/{camera}.yaml").read_text(encoding="utf-8"))
+    found = re.search(r"(?:low_signal_noise|noise_threshold): *\{?(?:value: *)?([\d.]+) mm", (ROOT / f"profiles/{camera}.yaml").read_text(encoding="utf-8"))
     return float(found.group(1)) if found else 70.0
 
 

@@ -34,12 +34,13 @@ Camera on_the_axis(Camera camera) {
   return camera;
 }
 
-/// The same view with an eighth of the pixels along each side.
+/// The same view with an eighth of the pixels along each side, none of which is taken for flying: that would choose among the errors.
 Camera coarse(Camera camera) {
   Lens& lens = camera.lens;
   camera.sensor.width /= 8, camera.sensor.height /= 8;
   lens.fx_px /= 8, lens.fy_px /= 8;
   lens.cx_px = (lens.cx_px + 0.5) / 8 - 0.5, lens.cy_px = (lens.cy_px + 0.5) / 8 - 0.5;
+  camera.decoding.flying_near_limit_m = camera.decoding.flying_far_limit_m = 1e3;
   return camera;
 }
 
@@ -86,10 +87,10 @@ double median(std::vector<double> all) {
   return all[all.size() / 2];
 }
 
-// Its reference scene: a wall of 80 % at 1 m, which every mode of every camera reaches. Of those pixels that the light reaches at most 5 %
-// may be saturated or dark, and all numbers of the others are finite. Their error is as large as they say: half of a normal error's
-// absolute value lies below 0.674 of its standard deviation. The median of 100 or more has a standard error of 0.08 at most, and the check
-// for flying pixels, which takes the largest errors out of the noisiest modes, lowers it.
+// Its reference scene: a wall of 80 % at 1 m, which every mode of every camera reaches. At most 5 % of the pixels may be saturated or dark, and
+// all numbers of the others are finite. Their errors are as large as they say: half of the absolute values of normal errors lie below 0.674
+// of their standard deviation, where the density is 0.636, so that the median of n has a standard error of 1/(2·0.636·√n). Four of them are
+// exceeded by one of 16,000 modes; the seed is fixed. 0.03 is for what a pixel's estimate of its noise is off by in the dark (4.4).
 TEST_P(EveryCamera, sees_a_white_wall_in_each_mode) {
   for (const Camera& camera : in_each_mode()) {
     const Frame frame = Simulator(wall(1, 0.8), coarse(camera), {.seed = 3, .threads = 1}).frame(0);
@@ -99,27 +100,15 @@ TEST_P(EveryCamera, sees_a_white_wall_in_each_mode) {
     ASSERT_GT(pixels.size(), 100U) << camera.mode.name;
     for (const std::size_t i : pixels) {
       constexpr int no_number = flag_saturated | flag_low_signal | flag_no_return | flag_outside_lens;
-      if ((frame.depth.flags[i] & no_number) != 0) ++invalid;
-      if ((frame.depth.flags[i] & (no_number | flag_flying_pixel)) != 0) continue;
+      if ((frame.depth.flags[i] & no_number) != 0) {
+        ++invalid;
+        continue;
+      }
       ASSERT_TRUE(std::isfinite(frame.depth.range_m[i]) && std::isfinite(frame.depth.noise_m[i]) && frame.depth.noise_m[i] > 0) << i;
       errors.push_back(static_cast<double>(std::abs(frame.depth.range_m[i] - frame.truth.range_m[i]) / frame.depth.noise_m[i]));
     }
     EXPECT_LE(invalid, static_cast<int>(pixels.size()) / 20) << camera.mode.name;
-    ASSERT_GE(errors.size(), pixels.size() / 4) << camera.mode.name;
-    EXPECT_GT(median(errors), 0.40) << camera.mode.name;
-    EXPECT_LT(median(errors), 0.85) << camera.mode.name;
-  }
-}
-
-// Exposures and readouts, one after the other.
-TEST_P(EveryCamera, has_modes_that_fit_into_their_frames) {
-  for (const Camera& camera : in_each_mode()) {
-    double taken = 0;
-    for (const RawFrame& raw : camera.mode.sequence) {
-      taken += raw.integration_time_s + camera.readout_time_s;
-      EXPECT_GE(raw.integration_time_s, camera.min_integration_time_s) << camera.mode.name;
-    }
-    EXPECT_LE(taken, 1 / camera.mode.frame_rate_hz) << camera.mode.name;
+    EXPECT_NEAR(median(errors), 0.674, 4 * 0.786 / std::sqrt(static_cast<double>(errors.size())) + 0.03) << camera.mode.name;
   }
 }
 
