@@ -45,6 +45,7 @@ UNKNOWN_NAMES = {
     "lower_snake": "how names are written",
     "UpperCamel": "how names are written",
     "cv2.undistortPoints": "OpenCV's",
+    "cv2.fisheye.undistortPoints": "OpenCV's",
     "compinit": "zsh's",
     "std::*_distribution": "what the source must not call",
 }

@@ -33,14 +33,14 @@ SCENES = [
     "objects: [mesh: {{file: a-chair.obj, reflectivity: 0.5, {}}}]\n",
     "objects: [box: {{min: [-1, -1, 2], max: [1, 1, 3], reflectivity: 0.5, {}}}]\n",
 ]
-PROFILE_KEYS = ["{}={}", "illumination.0.{}={}"]
+PROFILE_KEYS = ["{}={}", "illumination.0.{}={}", "lens.{}={}"]
 
 
 @functools.cache
 def words_of(source):
     """Every name that the source knows."""
     found = set()
-    for top in "include src apps cmake scenes profiles examples tests CMakeLists.txt CMakePresets.json .ci dev".split():
+    for top in "include src apps cmake scenes profiles tools examples tests CMakeLists.txt CMakePresets.json .ci dev".split():
         for path in [source / top] if (source / top).is_file() else (source / top).rglob("*"):
             if path.is_file() and path.parent != source / "tests/docs":
                 found |= set(re.findall(r"[A-Za-z_]\w*", str(path.relative_to(source)) + path.read_text(errors="replace")))

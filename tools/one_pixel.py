@@ -1,0 +1,69 @@
+# SPDX-FileCopyrightText: 2026 The tofray authors
+# SPDX-License-Identifier: Apache-2.0
+"""One pixel on a camera's optical axis before a wall: what `tofray` says about its noise. Needs nothing but Python's own library."""
+
+import array
+import json
+import os
+import pathlib
+import shutil
+import subprocess
+import tempfile
+import zipfile
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent
+TYPES = {"'<f4'": "f", "'<u4'": "I", "'<u2'": "H", "'|u1'": "B", "'<f8'": "d"}
+
+
+def program():
+    """The tool: what the environment variable TOFRAY names, that of the release build, or that on the path."""
+    for candidate in (os.environ.get("TOFRAY"), ROOT / "build/release/apps/tofray/tofray", shutil.which("tofray")):
+        if candidate and pathlib.Path(candidate).exists():
+            return str(candidate)
+    raise SystemExit("error: no tofray found; build it, or say where it is: TOFRAY=… python3 tools/…")
+
+
+def modes_of(camera):
+    """All that `tofray list cameras` says of a camera."""
+    listed = json.loads(subprocess.run([program(), "list", "cameras", "--json"], check=True, capture_output=True, text=True).stdout)
+    return next(one for one in (listed["cameras"] if isinstance(listed, dict) else listed) if one["name"] == camera)
+
+
+def read(archive, name):
+    """An array of an npz file, flat."""
+    data = archive.read(name + ".npy")
+    length = int.from_bytes(data[8:10], "little")
+    header = data[10 : 10 + length].decode("latin1")
+    kind = next(code for text, code in TYPES.items() if text in header)
+    return array.array(kind, data[10 + length :])
+
+
+class Pixel:
+    """What one pixel on the axis says: sigma of its range [mm], its error without noise [mm], flags, amplitude [e]."""
+
+    def __init__(self, camera, mode, distance, reflectivity, sets=()):
+        with tempfile.TemporaryDirectory() as folder:
+            command = [program(), "render", "card", "--quiet", "--noise", "off", "--emit", "npz", "-o", folder + "/out"]
+            command += ["--arrays", "noise_m,range_m,gt_range_m,flags,amplitude_e"]
+            changes = {
+                "camera.profile": camera,
+                "camera.mode": mode,
+                "objects.0.plane.point": f"[0, 0, {distance:.9g}]",
+                "objects.0.plane.reflectivity": f"{reflectivity:.9g}",
+                "camera.sensor.width": 1,
+                "camera.sensor.height": 1,
+                "camera.lens.cx": "0 px",
+                "camera.lens.cy": "0 px",
+                **dict(sets),
+            }
+            for key, value in changes.items():
+                command += ["--set", f"{key}={value}"]
+            done = subprocess.run(command, capture_output=True, text=True)
+            if done.returncode != 0:
+                raise SystemExit(f"{' '.join(command)}\n{done.stderr}")
+            with zipfile.ZipFile(folder + "/out/frame.npz") as archive:
+                value = {name: read(archive, name)[0] for name in ("noise_m", "range_m", "gt_range_m", "flags", "amplitude_e")}
+        self.sigma_mm = 1e3 * value["noise_m"]
+        self.error_mm = 1e3 * (value["range_m"] - value["gt_range_m"])
+        self.flags = value["flags"]
+        self.amplitude_e = value["amplitude_e"]
