@@ -90,8 +90,8 @@ class CalledMotion final : public MeshMotion {
       turned = py::reinterpret_borrow<py::object>(PyTuple_GET_ITEM(got.ptr(), 1));
       got = py::reinterpret_borrow<py::object>(PyTuple_GET_ITEM(got.ptr(), 0));
     }
-    vertices = rows_of<float, 3>(got, "", static_cast<py::ssize_t>(vertices.size()), place);
-    if (!turned.is_none()) normals = rows_of<float, 3>(turned, "", static_cast<py::ssize_t>(normals.size()), place);
+    vertices = rows_of<float, 3>(got, "vertices", -1, place);  // that they are as many as before is looked at by whoever asks
+    if (!turned.is_none()) normals = rows_of<float, 3>(turned, "vertices", -1, place);
   }
 
   py::object at_;
@@ -124,6 +124,12 @@ void bind_motion(py::module_& module) {
 std::shared_ptr<py::error_already_set>& pending_callback_fault() {
   thread_local std::shared_ptr<py::error_already_set> fault;
   return fault;
+}
+
+void raise_callback_fault() {
+  const auto fault = std::move(pending_callback_fault());
+  pending_callback_fault().reset();
+  if (fault) throw *fault;
 }
 
 void bind_meshes(py::module_& module) {

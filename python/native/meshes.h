@@ -14,5 +14,7 @@ void bind_meshes(py::module_& module);
 
 /// What a function of the user's raised while a frame was computed: the exception that the call ends with.
 std::shared_ptr<py::error_already_set>& pending_callback_fault();
+/// Raises it, if there is one. Needs the interpreter's lock.
+void raise_callback_fault();
 
 }  // namespace tofray::python

@@ -70,11 +70,7 @@ class HeldSimulator {
         stopped = progress_.stop.exchange(false);
       } catch (...) {
         progress_.stop.store(false);
-        if (pending_callback_fault()) {
-          const auto fault = std::move(pending_callback_fault());
-          pending_callback_fault().reset();
-          throw *fault;
-        }
+        raise_callback_fault();
         if (PyErr_CheckSignals() != 0) throw py::error_already_set();
         throw;
       }
@@ -198,8 +194,13 @@ std::unique_ptr<HeldSimulator> make_simulator(const py::object& scene, const py:
   from_python(scene, one, {nullptr, "scene"});
   Camera seen_by;
   from_python(camera, seen_by, {nullptr, "camera"});
-  const py::gil_scoped_release free;
-  return std::make_unique<HeldSimulator>(one, seen_by, options);
+  try {  // which asks meshes that move how they look
+    const py::gil_scoped_release free;
+    return std::make_unique<HeldSimulator>(one, seen_by, options);
+  } catch (const Error&) {
+    raise_callback_fault();
+    throw;
+  }
 }
 
 py::object process_raw(const py::object& raw, const py::object& camera, const py::dict& words) {

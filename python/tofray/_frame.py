@@ -83,7 +83,8 @@ class Frame:
         if not valid_only:
             return points
         valid = (self.depth.flags.reshape(-1) & _native.flags()["invalid"]) == 0
-        return points[valid]
+        kept: NDArray[np.float32] = points[valid]
+        return kept
 
     def preview(self, theme: str = "dark") -> bytes:
         """The picture that the command line writes as ``preview.png``: z, amplitude and error, each on its scale.
@@ -121,7 +122,7 @@ class Frame:
             raise IoError(f"{os.fspath(folder)}: error: {fault.strerror}") from fault
 
     def plot(self, what: str = "z") -> Any:
-        """A figure of matplotlib's. @see _plot.plot
+        """A figure of matplotlib's, where that is installed.
 
         Parameters
         ----------
@@ -138,8 +139,10 @@ class Frame:
 
     def to_open3d(self) -> Any:
         """The valid points as a cloud of Open3D's, where that is installed."""
+        import importlib
+
         try:
-            import open3d
+            open3d = importlib.import_module("open3d")
         except ImportError as fault:
             raise ImportError("to_open3d() needs the package open3d; points() needs none") from fault
         cloud = open3d.geometry.PointCloud()

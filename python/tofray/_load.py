@@ -57,7 +57,7 @@ def scene(description: Mapping[str, Any], *, name: str = "scene", folder: str | 
     Parameters
     ----------
     description : mapping
-        ``{"objects": [{"sphere": {"center": [0, 0, 1.3], "radius": "25 cm"}, "reflectivity": "40 %"}]}``
+        ``{"objects": [{"sphere": {"center": [0, 0, 1.3], "radius": "25 cm", "reflectivity": "40 %"}}]}``
     name : str
         What pictures and files call it.
     folder : path

@@ -151,4 +151,5 @@ class Part:
 
 
 def _part_of(part: type[Part], sizes: dict[str, Any], arrays: dict[str, NDArray[Any]]) -> Part:
-    return part(**sizes, **arrays)
+    words: dict[str, Any] = {**sizes, **arrays}
+    return part(**words)

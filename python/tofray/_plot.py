@@ -17,8 +17,10 @@ def plot(frame: Frame, what: str = "z") -> Any:
     makers = {"z": _z, "amplitude": _amplitude, "error": _error, "raw": _raw, "cloud": _cloud}
     if what not in makers:
         raise BadInput(f"what: error: got {what!r}\n  expected one of {', '.join(makers)}")
+    import importlib
+
     try:
-        from matplotlib.figure import Figure
+        Figure = importlib.import_module("matplotlib.figure").Figure
     except ImportError as fault:
         raise ImportError("plot() needs the package matplotlib; preview() needs none") from fault
     figure = Figure(figsize=(6.4, 4.8), layout="constrained")

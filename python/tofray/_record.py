@@ -18,7 +18,7 @@ def _plain(value: Any) -> Any:
 class Record:
     """A struct: members with their units in their names, and no others."""
 
-    __slots__ = ()
+    __slots__: tuple[str, ...] = ()
     __hash__ = None  # type: ignore[assignment]
 
     def __eq__(self, other: object) -> bool:

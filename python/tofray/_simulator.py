@@ -108,7 +108,7 @@ class Simulator:
     @property
     def camera(self) -> Camera:
         """A copy of the camera."""
-        camera: Camera = copy.deepcopy(self._camera)  # type: ignore[assignment]
+        camera: Camera = copy.deepcopy(self._camera)
         return camera
 
     def frame(self, index: int = 0, own: Geometry | PixelLight | Transient | None = None) -> Frame:
