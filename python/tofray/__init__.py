@@ -14,18 +14,85 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from ._arrays import Depth, Raw, Truth
-    from ._errors import Error
-    from ._frame import Frame, load
-    from ._load import camera, load_camera, load_scene, scene
-    from ._model import (
-        Adc, Ambient, Area, Box, Camera, CameraChoice, CameraKeyframe, Capsule, Cone, Curve, Cylinder, Decoding, Disk, Filter, FrameRequest,
-        Illumination, ImageFilter, Keyframe, Lens, Material, Mesh, Mode, Object, Override, Pattern, Pixel, PixelMask, Plane, Pose, RanOn,
-        RawFrame, Rectangle, Rotation, Scatter, Scene, Sensor, Sphere, Temperature, TransientBins, Transport, Triangle, Waveform,
+    from ._arrays import (
+        Depth as Depth,
+        Raw as Raw,
+        Truth as Truth,
     )
-    from ._native import MeshMotion, ReflectivityMap, TriangleMesh
-    from ._own import Geometry, PixelLight, Transient
-    from ._simulator import Simulator, camera_pose, demo, pixel_rays, process
+    from ._errors import (
+        Error as Error,
+    )
+    from ._frame import (
+        Frame as Frame,
+        load as load,
+    )
+    from ._load import (
+        camera as camera,
+        load_camera as load_camera,
+        load_scene as load_scene,
+        scene as scene,
+    )
+    from ._model import (
+        Adc as Adc,
+        Ambient as Ambient,
+        Area as Area,
+        Box as Box,
+        Camera as Camera,
+        CameraChoice as CameraChoice,
+        CameraKeyframe as CameraKeyframe,
+        Capsule as Capsule,
+        Cone as Cone,
+        Curve as Curve,
+        Cylinder as Cylinder,
+        Decoding as Decoding,
+        Disk as Disk,
+        Filter as Filter,
+        FrameRequest as FrameRequest,
+        Illumination as Illumination,
+        ImageFilter as ImageFilter,
+        Keyframe as Keyframe,
+        Lens as Lens,
+        Material as Material,
+        Mesh as Mesh,
+        Mode as Mode,
+        Object as Object,
+        Override as Override,
+        Pattern as Pattern,
+        Pixel as Pixel,
+        PixelMask as PixelMask,
+        Plane as Plane,
+        Pose as Pose,
+        RanOn as RanOn,
+        RawFrame as RawFrame,
+        Rectangle as Rectangle,
+        Rotation as Rotation,
+        Scatter as Scatter,
+        Scene as Scene,
+        Sensor as Sensor,
+        Sphere as Sphere,
+        Temperature as Temperature,
+        TransientBins as TransientBins,
+        Transport as Transport,
+        Triangle as Triangle,
+        Waveform as Waveform,
+    )
+    from ._native import (
+        MeshMotion as MeshMotion,
+        ReflectivityMap as ReflectivityMap,
+        TriangleMesh as TriangleMesh,
+    )
+    from ._own import (
+        Geometry as Geometry,
+        PixelLight as PixelLight,
+        Transient as Transient,
+    )
+    from ._simulator import (
+        Simulator as Simulator,
+        camera_pose as camera_pose,
+        demo as demo,
+        pixel_rays as pixel_rays,
+        process as process,
+    )
 
     __version__: str
     flags: dict[str, int]

@@ -14,6 +14,7 @@ import subprocess
 import sys
 import threading
 import time
+from typing import Any
 
 import numpy as np
 import pytest
@@ -132,7 +133,8 @@ def test_process_gives_the_depth_of_the_frame() -> None:
     assert frame.camera is not None
     depth = tofray.process(frame.raw, frame.camera)
     assert depth.z_m.tobytes() == frame.depth.z_m.tobytes()
-    own = tofray.Raw(**{name: frame.raw[name].copy() for name in frame.raw})
+    arrays: dict[str, Any] = {name: frame.raw[name].copy() for name in frame.raw}
+    own = tofray.Raw(**arrays)
     assert tofray.process(own, frame.camera).flags.tobytes() == depth.flags.tobytes()
 
 
@@ -285,8 +287,12 @@ def test_a_mesh_of_numpy_moves_by_a_function() -> None:
     corners = np.array([[-1, -1, 0], [1, -1, 0], [1, 1, 0], [-1, 1, 0]], dtype=np.float32)
     mesh = tofray.TriangleMesh(corners, np.array([[0, 1, 2], [0, 2, 3]], dtype=np.int32))
     assert not mesh.vertices.flags.writeable
+
+    def at(time_s: float) -> Any:
+        return corners + np.array([0, 0, time_s], dtype=np.float32)
+
     scene = tofray.scene(BALL)
-    scene.objects = [tofray.Object(shape=tofray.Mesh(triangles=mesh, motion=tofray.MeshMotion(lambda t: corners + np.float32([0, 0, t]))),
+    scene.objects = [tofray.Object(shape=tofray.Mesh(triangles=mesh, motion=tofray.MeshMotion(at)),
                                    position=(0, 0, 1))]
     simulator = tofray.Simulator(scene, noise="off")
     frame = simulator.frame(5)

@@ -15,17 +15,17 @@ import pytest
 import tofray
 
 FRAME = tofray.demo()
-CAMERA = FRAME.camera
-SCENE = FRAME.scene
-assert CAMERA is not None and SCENE is not None
+assert FRAME.camera is not None and FRAME.scene is not None
+CAMERA: tofray.Camera = FRAME.camera
+SCENE: tofray.Scene = FRAME.scene
 SIMULATOR = tofray.Simulator(SCENE, CAMERA)
 TAPS = {name: FRAME.raw[name] for name in FRAME.raw}
 H, W, K = FRAME.raw.height, FRAME.raw.width, FRAME.raw.phases
-LIGHT = {"power_w": FRAME.truth.power_w[np.newaxis].copy(), "path_length_m": (2 * FRAME.truth.range_m)[np.newaxis].copy()}
-SEEN = {"z_m": FRAME.truth.z_m, "normal": FRAME.truth.normal, "diffuse": FRAME.truth.reflectivity}
+LIGHT: dict[str, Any] = {"power_w": FRAME.truth.power_w[np.newaxis].copy(), "path_length_m": (2 * FRAME.truth.range_m)[np.newaxis].copy()}
+SEEN: dict[str, Any] = {"z_m": FRAME.truth.z_m, "normal": FRAME.truth.normal, "diffuse": FRAME.truth.reflectivity}
 
 
-def unaligned(array: np.ndarray) -> np.ndarray:
+def unaligned(array: Any) -> Any:
     memory = np.zeros(array.nbytes + 1, np.uint8)
     out = memory[1:].view(array.dtype).reshape(array.shape)
     out[...] = array
@@ -33,7 +33,7 @@ def unaligned(array: np.ndarray) -> np.ndarray:
 
 
 # What can be wrong of any array: its name in messages, and how to make it.
-SPOILT: dict[str, Callable[[np.ndarray], Any]] = {
+SPOILT: dict[str, Callable[[Any], Any]] = {
     "another dtype": lambda a: a.astype(np.int8),
     "complex": lambda a: a.astype(np.complex128),
     "objects": lambda a: a.astype(object),
@@ -47,7 +47,7 @@ SPOILT: dict[str, Callable[[np.ndarray], Any]] = {
     "short": lambda a: a[..., :-1].copy(),
     "empty": lambda a: a[..., :0].copy(),
     "not aligned": unaligned,
-    "masked": lambda a: np.ma.masked_array(a),
+    "masked": lambda a: getattr(np.ma, "masked_array")(a),
     "a list": lambda a: a.tolist(),
     "text": lambda a: "tap_a",
     "huge": lambda a: np.broadcast_to(a.dtype.type(1), (10**4, 10**5, 10**5)),
@@ -58,7 +58,6 @@ SPOILT: dict[str, Callable[[np.ndarray], Any]] = {
 @pytest.mark.parametrize("where", ["raw.tap_a", "raw.start_time_s", "geometry.z_m", "geometry.normal", "light.power_w", "light.path_length_m"])
 def test_an_array_is_taken_as_it_lies_or_refused(where: str, fault: str) -> None:
     owner, name = where.split(".")
-    assert CAMERA is not None
     if owner == "raw":
         if name == "start_time_s" and fault in ("Fortran's order", "flat"):
             pytest.skip("one axis has one order, and is flat")
@@ -99,21 +98,24 @@ def endless() -> Any:
     return deep
 
 
+MEMBERS: list[tuple[str, Any]] = [
+    ("scene.objects", None), ("scene.objects", 5), ("scene.objects", "abc"), ("scene.objects", {"a": 1}), ("scene.objects", [None]),
+    ("scene.objects", endless()), ("scene.objects.0.shape", None), ("scene.objects.0.shape", CAMERA), ("scene.objects.0.material", 10**6),
+    ("scene.objects.0.material", -1), ("scene.objects.0.material", 2**63), ("scene.objects.0.material", 1.0),
+    ("scene.objects.0.material", True), ("scene.objects.0.position", (1, 2)), ("scene.objects.0.position", (1, 2, "3")),
+    ("scene.objects.0.position", np.zeros((3, 3))), ("scene.objects.0.position", (1, 2, float("nan"))),
+    ("scene.objects.0.velocity_m_per_s", (0, 0, 1e300)), ("scene.objects.0.name", 5), ("scene.objects.0.name", "\ud8ff"),
+    ("scene.objects.0.keyframes", [tofray.Pose()]), ("scene.ambient.spectrum", "moon"), ("scene.ambient.spectrum", 1),
+    ("scene.ambient.amount", Angry()), ("scene.ambient.amount", 1j), ("scene.ambient.amount", "5 %"), ("scene.ambient.direction", 0),
+    ("scene.transport.seed", -1), ("scene.transport.seed", 2**64), ("scene.transport.bounces", 65), ("scene.transport.smooth", 1),
+    ("scene.camera", CAMERA), ("scene.materials", []), ("scene.materials.0.map", np.zeros((2, 2), np.float32)),
+    ("camera.sensor", None), ("camera.sensor.width", 0), ("camera.sensor.width", 10**9), ("camera.sensor.width", 2**31),
+    ("camera.lens.vignetting", "cos5"), ("camera.pixel.quantum_efficiency", 0.4), ("camera.illumination", [1]),
+    ("camera.mode.sequence", []), ("camera.mode.frame_rate_hz", 0), ("camera.adc.bits", 99), ("camera.refractive_index", 10**400),
+]
+
 USES: dict[str, Callable[[], object]] = {
-    **{f"{path} = {value!r:.30}": with_member(path, value) for path, value in [
-        ("scene.objects", None), ("scene.objects", 5), ("scene.objects", "abc"), ("scene.objects", {"a": 1}), ("scene.objects", [None]),
-        ("scene.objects", endless()), ("scene.objects.0.shape", None), ("scene.objects.0.shape", CAMERA), ("scene.objects.0.material", 10**6),
-        ("scene.objects.0.material", -1), ("scene.objects.0.material", 2**63), ("scene.objects.0.material", 1.0),
-        ("scene.objects.0.material", True), ("scene.objects.0.position", (1, 2)), ("scene.objects.0.position", (1, 2, "3")),
-        ("scene.objects.0.position", np.zeros((3, 3))), ("scene.objects.0.position", (1, 2, float("nan"))),
-        ("scene.objects.0.velocity_m_per_s", (0, 0, 1e300)), ("scene.objects.0.name", 5), ("scene.objects.0.name", "\ud8ff"),
-        ("scene.objects.0.keyframes", [tofray.Pose()]), ("scene.ambient.spectrum", "moon"), ("scene.ambient.spectrum", 1),
-        ("scene.ambient.amount", Angry()), ("scene.ambient.amount", 1j), ("scene.ambient.amount", "5 %"), ("scene.ambient.direction", 0),
-        ("scene.transport.seed", -1), ("scene.transport.seed", 2**64), ("scene.transport.bounces", 65), ("scene.transport.smooth", 1),
-        ("scene.camera", CAMERA), ("scene.materials", []), ("scene.materials.0.map", np.zeros((2, 2), np.float32)),
-        ("camera.sensor", None), ("camera.sensor.width", 0), ("camera.sensor.width", 10**9), ("camera.sensor.width", 2**31),
-        ("camera.lens.vignetting", "cos5"), ("camera.pixel.quantum_efficiency", 0.4), ("camera.illumination", [1]),
-        ("camera.mode.sequence", []), ("camera.mode.frame_rate_hz", 0), ("camera.adc.bits", 99), ("camera.refractive_index", 10**400)]},
+    **{f"{path} = {value!r:.30}": with_member(path, value) for path, value in MEMBERS},
     "a scene that is none": lambda: tofray.Simulator("demo"),  # type: ignore[arg-type]
     "a camera that is none": lambda: tofray.Simulator(SCENE, "pico-flexx"),  # type: ignore[arg-type]
     "a scene for a camera": lambda: tofray.Simulator(SCENE, SCENE),  # type: ignore[arg-type]
@@ -214,7 +216,6 @@ def test_a_member_that_there_is_not_is_refused() -> None:
 
 def test_a_deleted_member_is_named() -> None:
     scene = copy.deepcopy(SCENE)
-    assert scene is not None
     del scene.objects[0].name
     with pytest.raises(tofray.Error, match=r"scene.objects\[0\].name"):
         tofray.Simulator(scene)
@@ -279,7 +280,6 @@ def test_a_callback_may_not_ask_its_own_simulator() -> None:
 
 def test_a_scene_that_is_gone_is_missed_by_nobody() -> None:
     scene = copy.deepcopy(SCENE)
-    assert scene is not None
     simulator = tofray.Simulator(scene)
     scene.objects.clear()
     scene.materials.clear()
