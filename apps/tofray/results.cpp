@@ -13,7 +13,6 @@
 #include "results/array_table.h"
 #include "results/meta.h"
 #include "results/ply.h"
-#include "scene/frozen_scene.h"
 #include "tofray/error.h"
 
 namespace tofray::app {
@@ -62,18 +61,6 @@ double Stopwatch::total() const {
   double sum = 0;
   for (const auto& [name, seconds] : stages_) sum += seconds;
   return sum;
-}
-
-results::PoseMatrix camera_pose(const Scene& scene, double time_s) {
-  const scene::CameraFrame frame = scene::camera_frame(scene::pose_at(scene.camera, time_s));
-  results::PoseMatrix pose{};
-  for (std::size_t i = 0; i < 3; ++i) {
-    // The frame's rotation takes world to camera: its transpose goes back.
-    for (std::size_t j = 0; j < 3; ++j) pose[4 * i + j] = frame.rotation[j][i] + 0.0;
-    pose[4 * i + 3] = frame.position[i];
-  }
-  pose[15] = 1;
-  return pose;
 }
 
 const std::vector<std::string>& flag_names() {

@@ -33,9 +33,6 @@ class Stopwatch {
   std::vector<std::pair<std::string, double>> stages_;
 };
 
-/// Camera to world of the scene's pose.
-results::PoseMatrix camera_pose(const Scene& scene, double time_s);
-
 /// How many pixels are invalid, and the first reason of each.
 struct Validity {
   std::size_t pixels = 0, valid = 0;

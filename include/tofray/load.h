@@ -32,4 +32,8 @@ Camera load_camera(const std::string& file_or_name, const CameraOptions& options
 /// The camera that a scene asks for: its profile, mode and overrides; `options` come on top.
 Camera load_camera(const Scene& scene, const CameraOptions& options = {});
 
+/// The same from texts. `source` stands for the file: messages name it, and what the text names is looked for beside it.
+Scene load_scene_text(const std::string& text, const std::string& source);
+Camera load_camera_text(const std::string& text, const std::string& source, const CameraOptions& options = {});
+
 }  // namespace tofray

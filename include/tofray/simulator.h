@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The tofray authors
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include <array>
 #include <atomic>
 #include <cstdint>
 #include <functional>
@@ -143,6 +144,12 @@ class Simulator {
  private:
   std::unique_ptr<Impl> impl_;
 };
+
+/// Where the camera is at a time: camera to world, [4][4] row-major, last row 0 0 0 1.
+std::array<double, 16> camera_pose(const Scene& scene, double time_s);
+
+/// This library's version, "major.minor.patch".
+const char* version();
 
 /// Decodes raw data, simulated or measured, into depth (theory 4). Needs `raw`, or `tap_a` and `tap_b`, and the arrays by
 /// phase; the camera says the rest. Taps, where present, are taken unrounded only if `raw` is empty; a tap that holds no

@@ -5,6 +5,7 @@
 #include "tofray/error.h"
 #include "tofray/frame.h"
 #include "tofray/load.h"
+#include "tofray/save.h"
 #include "tofray/scene.h"
 #include "tofray/simulator.h"
 #include "tofray/stages.h"

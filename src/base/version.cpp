@@ -2,8 +2,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "base/version.h"
 
+#include "tofray/simulator.h"
+
 namespace tofray::base {
 
 const char* version() { return TOFRAY_VERSION; }
 
 }  // namespace tofray::base
+
+namespace tofray {
+
+const char* version() { return base::version(); }
+
+}  // namespace tofray

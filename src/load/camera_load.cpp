@@ -133,6 +133,10 @@ Camera load_camera(const std::string& file_or_name, const CameraOptions& options
   return load::interpret(load::named_profile(file_or_name), options.mode, base::whole("--mode"), load::changes_of(options));
 }
 
+Camera load_camera_text(const std::string& text, const std::string& source, const CameraOptions& options) {
+  return load::camera_from_text(text, source, files::folder_of(source), options);
+}
+
 Camera load_camera(const Scene& scene, const CameraOptions& options) {
   std::vector<load::Change> changes;
   for (const auto& one : scene.camera.overrides)

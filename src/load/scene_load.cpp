@@ -353,4 +353,6 @@ namespace tofray {
 
 Scene load_scene(const std::string& file_or_name) { return load::load_scene(file_or_name, {}); }
 
+Scene load_scene_text(const std::string& text, const std::string& source) { return load::scene_from_text(text, source); }
+
 }  // namespace tofray

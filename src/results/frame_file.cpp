@@ -6,6 +6,8 @@
 
 #include "files/atomic_file.h"
 #include "results/array_table.h"
+#include "results/meta.h"
+#include "tofray/save.h"
 
 namespace tofray::results {
 
@@ -121,3 +123,14 @@ void write_frame_npz(const std::filesystem::path& path, const Frame& frame, cons
 }
 
 }  // namespace tofray::results
+
+namespace tofray {
+
+std::string frame_npz(const Frame& frame, const Scene& scene, const Camera& camera, const SimulatorOptions& options, bool compress) {
+  results::FrameFileOptions how;
+  how.packing = compress ? files::Packing::deflated : files::Packing::stored;
+  return results::frame_npz_bytes(frame, camera, camera_pose(scene, frame.truth.time_s), results::frame_meta(scene, camera, options, frame.index),
+                                  how);
+}
+
+}  // namespace tofray

@@ -7,6 +7,7 @@
 
 #include "base/constants.h"
 #include "num/setup_math.h"
+#include "tofray/simulator.h"
 
 namespace tofray::scene {
 
@@ -146,3 +147,19 @@ MovingCamera camera_at(const CameraChoice& camera, double time_s) {
 }
 
 }  // namespace tofray::scene
+
+namespace tofray {
+
+std::array<double, 16> camera_pose(const Scene& scene, double time_s) {
+  const scene::CameraFrame frame = scene::camera_frame(scene::pose_at(scene.camera, time_s));
+  std::array<double, 16> pose{};
+  for (std::size_t i = 0; i < 3; ++i) {
+    // The frame's rotation takes world to camera: its transpose goes back.
+    for (std::size_t j = 0; j < 3; ++j) pose[4 * i + j] = frame.rotation[j][i] + 0.0;
+    pose[4 * i + 3] = frame.position[i];
+  }
+  pose[15] = 1;
+  return pose;
+}
+
+}  // namespace tofray

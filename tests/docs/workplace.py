@@ -11,7 +11,7 @@ import exceptions
 
 CHECKOUT = (
     ".ci CHANGELOG.md CMakeLists.txt CMakePresets.json CONTRIBUTING.md LICENSE README.md apps benches cmake docs examples include profiles "
-    "scenes src tests"
+    "pyproject.toml python scenes src tests"
 ).split()
 LONGEST_S = 300
 

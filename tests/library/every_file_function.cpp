@@ -30,11 +30,16 @@ void all() {
   const tofray::Scene scene = tofray::load_scene("card");
   const tofray::Camera camera = tofray::load_camera(scene);
   expect(tofray::load_camera("pico-flexx").sensor.width == 224, "load_camera");
-  expect(!tofray::Simulator(scene, camera).frame(0).depth.z_m.empty(), "frame");
+  const tofray::Frame frame = tofray::Simulator(scene, camera).frame(0);
+  expect(!frame.depth.z_m.empty(), "frame");
+  expect(tofray::frame_npz(frame, scene, camera).starts_with("PK"), "frame_npz");
+  expect(tofray::load_scene_text("objects: [{sphere: {center: [0, 0, 1], radius: 10 cm, reflectivity: 0.5}}]", "here").objects.size() == 1,
+         "load_scene_text");
   using tofray::ErrorKind;
   expect(kind_of([] { (void)tofray::load_scene("no such scene"); }) == ErrorKind::io, "a scene that is not there");
   const tofray::CameraOptions wrong{.set = {{"lens.f_number", "far"}}};
   expect(kind_of([&] { (void)tofray::load_camera("pico-flexx", wrong); }) == ErrorKind::bad_input, "a wrong value");
+  expect(kind_of([] { (void)tofray::load_camera_text("sensor: 1", "here"); }) == ErrorKind::bad_input, "load_camera_text");
   expect(kind_of([&] { const tofray::Simulator simulator(scene, {}); }) == ErrorKind::bad_input, "a camera without pixels");
 }
 

@@ -94,6 +94,9 @@ void all() {
   expect(tofray::process(frame.raw, camera).z_m.size() == frame.depth.z_m.size(), "process");
   const tofray::RanOn machine = simulator.ran_on();
   expect(!machine.backend.empty() && !machine.device.empty() && !machine.isa.empty() && machine.threads > 0, "ran_on");
+  const auto pose = tofray::camera_pose(scene, 0);
+  expect(pose[0] == 1 && pose[10] == 1 && pose[15] == 1 && pose[3] == 0, "camera_pose: the world's frame is the camera's");
+  expect(tofray::version()[0] != 0, "version");
   on_device(simulator);
   own_arrays(simulator, camera, frame);
   refusal();

@@ -1,0 +1,170 @@
+// SPDX-FileCopyrightText: 2026 The tofray authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include <array>
+#include <string_view>
+#include <tuple>
+#include <type_traits>
+#include <utility>
+
+#include "tofray/tofray.h"
+
+/// The members of the public structs, and the names of their enumerators. A member that has no place here does not compile.
+namespace tofray::python {
+
+namespace detail {
+
+/// Stands for a member of any type.
+struct Anything {
+  template <class T>
+  operator T() const;
+};
+
+template <class T, class... Member>
+consteval std::size_t member_count() {
+  if constexpr (requires { T{Member{}..., Anything{}}; }) {
+    return member_count<T, Member..., Anything>();
+  } else {
+    return sizeof...(Member);
+  }
+}
+
+/// "…M = &tofray::Pixel::read_noise_e; …" out of what the compiler calls the function: what follows the last "::".
+constexpr std::string_view last_name(std::string_view all, std::string_view mark) {
+  const std::string_view behind = all.substr(all.find(mark) + mark.size());
+  const std::string_view whole = behind.substr(0, behind.find_first_of(";]"));
+  if (whole.find(')') != std::string_view::npos) return {};  // "(tofray::Noise)7"
+  const std::size_t colon = whole.rfind(':');
+  return colon == std::string_view::npos ? std::string_view{} : whole.substr(colon + 1);
+}
+
+}  // namespace detail
+
+template <auto M>
+constexpr std::string_view member_name() {
+  return detail::last_name(__PRETTY_FUNCTION__, "M = ");
+}
+
+/// Empty where the enumeration has no such value: compilers write a number in brackets then.
+template <auto E>
+constexpr std::string_view enumerator_name() {
+  return detail::last_name(__PRETTY_FUNCTION__, "E = ");
+}
+
+/// The names of an enumeration that counts from 0 on, at the places of their values.
+template <class E, std::size_t... I>
+constexpr auto enumerators_of(std::index_sequence<I...>) {
+  return std::array<std::string_view, sizeof...(I)>{enumerator_name<static_cast<E>(I)>()...};
+}
+inline constexpr std::size_t most_enumerators = 16;
+template <class E>
+constexpr std::array<std::string_view, most_enumerators> enumerators() {
+  return enumerators_of<E>(std::make_index_sequence<most_enumerators>());
+}
+
+template <class T, auto... M>
+struct FieldList {
+  static_assert(sizeof...(M) == detail::member_count<T>(), "every member of the struct needs its place in fields.h");
+
+  /// Calls with each member: its name, and a pointer to it.
+  template <class Call>
+  static void each(const Call& call) {
+    (call(member_name<M>(), M), ...);
+  }
+};
+
+template <class T>
+struct Fields;
+template <class T>
+concept Record = requires { Fields<T>::name; };
+
+#define TOFRAY_FIELDS(T, ...)                          \
+  template <>                                          \
+  struct Fields<T> : FieldList<T, __VA_ARGS__> {       \
+    static constexpr const char* name = #T;            \
+  };
+
+// clang-format off
+TOFRAY_FIELDS(Curve, &Curve::x, &Curve::y)
+TOFRAY_FIELDS(PixelMask, &PixelMask::kind, &PixelMask::samples, &PixelMask::columns, &PixelMask::rows)
+TOFRAY_FIELDS(Sensor, &Sensor::width, &Sensor::height, &Sensor::pixel_pitch_m, &Sensor::fill_factor, &Sensor::mask)
+TOFRAY_FIELDS(Scatter, &Scatter::kind, &Scatter::share, &Scatter::sigma_px, &Scatter::weights, &Scatter::kernel, &Scatter::columns,
+              &Scatter::rows)
+TOFRAY_FIELDS(Lens, &Lens::fx_px, &Lens::fy_px, &Lens::cx_px, &Lens::cy_px, &Lens::k1, &Lens::k2, &Lens::p1, &Lens::p2, &Lens::k3,
+              &Lens::f_number, &Lens::transmission, &Lens::vignetting, &Lens::vignetting_table, &Lens::scatter)
+TOFRAY_FIELDS(Filter, &Filter::center_m, &Filter::half_width_m, &Filter::peak, &Filter::table)
+TOFRAY_FIELDS(Pattern, &Pattern::kind, &Pattern::half_angle_rad, &Pattern::exponent, &Pattern::width_rad, &Pattern::height_rad,
+              &Pattern::columns, &Pattern::rows, &Pattern::half_range_x_rad, &Pattern::half_range_y_rad, &Pattern::samples)
+TOFRAY_FIELDS(Waveform, &Waveform::kind, &Waveform::duty, &Waveform::rise_time_s, &Waveform::bandwidth_hz, &Waveform::jitter_s,
+              &Waveform::harmonics, &Waveform::modulation_depth, &Waveform::correlation)
+TOFRAY_FIELDS(Area, &Area::kind, &Area::radius_m, &Area::width_m, &Area::height_m, &Area::points)
+TOFRAY_FIELDS(Illumination, &Illumination::position, &Illumination::axis, &Illumination::illumination_wavelength_m, &Illumination::power_w,
+              &Illumination::ring_leds, &Illumination::ring_radius_m, &Illumination::area, &Illumination::pattern, &Illumination::waveform)
+TOFRAY_FIELDS(Pixel, &Pixel::quantum_efficiency, &Pixel::contrast, &Pixel::bandwidth_hz, &Pixel::full_well_e, &Pixel::read_noise_e,
+              &Pixel::column_noise_e, &Pixel::dark_current_e_per_s, &Pixel::prnu, &Pixel::dsnu_dn, &Pixel::delay_s, &Pixel::pattern_seed,
+              &Pixel::suppression_threshold_e, &Pixel::suppression_budget_e, &Pixel::suppression_noise_factor)
+TOFRAY_FIELDS(Adc, &Adc::bits, &Adc::step_e_per_dn, &Adc::mid_code, &Adc::valid_min, &Adc::valid_max)
+TOFRAY_FIELDS(RawFrame, &RawFrame::lit, &RawFrame::modulation_frequency_hz, &RawFrame::reference_phase_rad, &RawFrame::integration_time_s)
+TOFRAY_FIELDS(Mode, &Mode::name, &Mode::frame_rate_hz, &Mode::sequence)
+TOFRAY_FIELDS(ImageFilter, &ImageFilter::kind, &ImageFilter::sigma_px, &ImageFilter::radius_px)
+TOFRAY_FIELDS(Decoding, &Decoding::wiggling_correction, &Decoding::low_signal_noise_m, &Decoding::flying_near_z_m,
+              &Decoding::flying_near_limit_m, &Decoding::flying_far_z_m, &Decoding::flying_far_limit_m, &Decoding::inconsistent_range_m,
+              &Decoding::filter)
+TOFRAY_FIELDS(Temperature, &Temperature::celsius, &Temperature::reference_celsius, &Temperature::drift_m_per_kelvin,
+              &Temperature::warm_up_m, &Temperature::warm_up_time_s, &Temperature::since_start_s)
+TOFRAY_FIELDS(Camera, &Camera::name, &Camera::source, &Camera::sensor, &Camera::lens, &Camera::filter, &Camera::illumination,
+              &Camera::pixel, &Camera::adc, &Camera::decoding, &Camera::temperature, &Camera::refractive_index, &Camera::readout_time_s,
+              &Camera::min_integration_time_s, &Camera::power_model, &Camera::mode, &Camera::mode_names)
+
+TOFRAY_FIELDS(Material, &Material::name, &Material::brdf, &Material::diffuse, &Material::specular, &Material::exponent,
+              &Material::roughness_rad, &Material::alpha, &Material::retro, &Material::spread_rad, &Material::map)
+TOFRAY_FIELDS(Plane, &Plane::point, &Plane::normal)
+TOFRAY_FIELDS(Sphere, &Sphere::center, &Sphere::radius)
+TOFRAY_FIELDS(Box, &Box::min, &Box::max)
+TOFRAY_FIELDS(Triangle, &Triangle::vertices)
+TOFRAY_FIELDS(Cylinder, &Cylinder::center, &Cylinder::axis, &Cylinder::radius, &Cylinder::height)
+TOFRAY_FIELDS(Rectangle, &Rectangle::center, &Rectangle::size)
+TOFRAY_FIELDS(Disk, &Disk::center, &Disk::normal, &Disk::radius)
+TOFRAY_FIELDS(Capsule, &Capsule::start, &Capsule::end, &Capsule::radius)
+TOFRAY_FIELDS(Cone, &Cone::base, &Cone::axis, &Cone::radius, &Cone::height)
+TOFRAY_FIELDS(Mesh, &Mesh::file, &Mesh::scale, &Mesh::up, &Mesh::time_s, &Mesh::play, &Mesh::sha256, &Mesh::left_out, &Mesh::guessed,
+              &Mesh::notices, &Mesh::triangles, &Mesh::motion)
+TOFRAY_FIELDS(Rotation, &Rotation::axis, &Rotation::angle_rad)
+TOFRAY_FIELDS(Keyframe, &Keyframe::time_s, &Keyframe::position, &Keyframe::rotation)
+TOFRAY_FIELDS(Object, &Object::name, &Object::shape, &Object::material, &Object::position, &Object::rotation, &Object::velocity_m_per_s,
+              &Object::angular_velocity_rad_per_s, &Object::keyframes)
+TOFRAY_FIELDS(Ambient, &Ambient::spectrum, &Ambient::quantity, &Ambient::amount, &Ambient::table_wavelength_m,
+              &Ambient::table_irradiance_w_per_m3, &Ambient::direction)
+TOFRAY_FIELDS(TransientBins, &TransientBins::bins, &TransientBins::first_m, &TransientBins::width_m)
+TOFRAY_FIELDS(Transport, &Transport::bounces, &Transport::samples, &Transport::seed, &Transport::max_samples, &Transport::path_noise_m,
+              &Transport::smooth, &Transport::transient)
+TOFRAY_FIELDS(Pose, &Pose::position, &Pose::look_at, &Pose::up)
+TOFRAY_FIELDS(CameraKeyframe, &CameraKeyframe::time_s, &CameraKeyframe::pose)
+TOFRAY_FIELDS(Override, &Override::key, &Override::value, &Override::where)
+TOFRAY_FIELDS(CameraChoice, &CameraChoice::profile, &CameraChoice::mode, &CameraChoice::pose, &CameraChoice::keyframes,
+              &CameraChoice::overrides, &CameraChoice::profile_where, &CameraChoice::mode_where)
+TOFRAY_FIELDS(Scene, &Scene::name, &Scene::source, &Scene::camera, &Scene::ambient, &Scene::transport, &Scene::materials, &Scene::objects)
+TOFRAY_FIELDS(RanOn, &RanOn::backend, &RanOn::device, &RanOn::isa, &RanOn::threads, &RanOn::block_size, &RanOn::occupancy,
+              &RanOn::fallback_reason)
+TOFRAY_FIELDS(FrameRequest, &FrameRequest::index, &FrameRequest::seed, &FrameRequest::pose)
+// What Simulator() takes as words; `progress` is Simulator.progress in Python.
+TOFRAY_FIELDS(SimulatorOptions, &SimulatorOptions::seed, &SimulatorOptions::noise, &SimulatorOptions::threads, &SimulatorOptions::backend,
+              &SimulatorOptions::device, &SimulatorOptions::block_size, &SimulatorOptions::batch_bytes, &SimulatorOptions::isa,
+              &SimulatorOptions::truth, &SimulatorOptions::last_stage, &SimulatorOptions::exposure_samples, &SimulatorOptions::subpixel,
+              &SimulatorOptions::culling, &SimulatorOptions::progress)
+// clang-format on
+#undef TOFRAY_FIELDS
+
+/// Calls with a null pointer of each struct that Python sees as a class of its own.
+template <class Call>
+void each_record(const Call& call) {
+  const auto all = [&]<class... T>(std::tuple<T...>*) { (call(static_cast<T*>(nullptr)), ...); };
+  using Records =
+      std::tuple<Curve, PixelMask, Sensor, Scatter, Lens, Filter, Pattern, Waveform, Area, Illumination, Pixel, Adc, RawFrame, Mode,
+                 ImageFilter, Decoding, Temperature, Camera, Material, Plane, Sphere, Box, Triangle, Cylinder, Rectangle, Disk, Capsule,
+                 Cone, Mesh, Rotation, Keyframe, Object, Ambient, TransientBins, Transport, Pose, CameraKeyframe, Override, CameraChoice,
+                 Scene, RanOn, FrameRequest>;
+  all(static_cast<Records*>(nullptr));
+}
+
+}  // namespace tofray::python

@@ -1,0 +1,216 @@
+// SPDX-FileCopyrightText: 2026 The tofray authors
+// SPDX-License-Identifier: Apache-2.0
+#include "meshes.h"
+
+#include <cstring>
+
+#include "arrays.h"
+
+namespace tofray::python {
+
+namespace {
+
+template <class T, std::size_t N>
+std::vector<std::array<T, N>> rows_of(py::handle value, const char* letter, py::ssize_t count, const Place& place) {
+  const std::vector<T> flat = take<T>(value, {{count, letter}, {static_cast<py::ssize_t>(N), ""}}, place);
+  std::vector<std::array<T, N>> out(flat.size() / N);
+  if (!flat.empty()) std::memcpy(out.data(), flat.data(), flat.size() * sizeof(T));
+  return out;
+}
+
+/// A view that keeps the mesh alive. Read-only: simulators and scenes share it.
+template <class T, std::size_t N>
+py::array rows_view(py::handle self, const std::vector<std::array<T, N>>& rows) {
+  return view<T>(reinterpret_cast<const T*>(rows.data()), {static_cast<py::ssize_t>(rows.size()), static_cast<py::ssize_t>(N)}, self, false);
+}
+
+template <class T>
+void refuse_indices(const std::vector<T>& triangles, std::size_t vertices) {
+  for (std::size_t i = 0; i < triangles.size(); ++i)
+    for (const std::int32_t index : triangles[i])
+      if (index < 0 || static_cast<std::size_t>(index) >= vertices)
+        throw Error(ErrorKind::bad_input, "triangles[" + std::to_string(i) + "]: error: names vertex " + std::to_string(index) +
+                                              "\n  expected 0 to " + std::to_string(vertices) + " - 1: the mesh has so many vertices");
+}
+
+std::shared_ptr<TriangleMesh> make_mesh(const py::object& vertices, const py::object& triangles, const py::object& normals,
+                                        const py::object& texcoords) {
+  auto mesh = std::make_shared<TriangleMesh>();
+  mesh->vertices = rows_of<float, 3>(vertices, "n", -1, {nullptr, "vertices"});
+  mesh->triangles = rows_of<std::int32_t, 3>(triangles, "m", -1, {nullptr, "triangles"});
+  const auto count = static_cast<py::ssize_t>(mesh->vertices.size());
+  if (!normals.is_none()) mesh->normals = rows_of<float, 3>(normals, "", count, {nullptr, "normals"});
+  if (!texcoords.is_none()) mesh->texcoords = rows_of<float, 2>(texcoords, "", count, {nullptr, "texcoords"});
+  refuse_indices(mesh->triangles, mesh->vertices.size());
+  return mesh;
+}
+
+std::shared_ptr<ReflectivityMap> make_map(const py::object& values, const py::object& wrap_u, const py::object& wrap_v) {
+  auto map = std::make_shared<ReflectivityMap>();
+  Shape shape;
+  map->values = take<float>(values, {{-1, "height"}, {-1, "width"}}, {nullptr, "values"}, &shape);
+  map->height = static_cast<int>(shape[0]), map->width = static_cast<int>(shape[1]);
+  from_python(wrap_u, map->wrap_u, {nullptr, "wrap_u"});
+  from_python(wrap_v, map->wrap_v, {nullptr, "wrap_v"});
+  return map;
+}
+
+/// A motion out of Python: a function that gives the vertices, and the normals, at a time.
+class CalledMotion final : public MeshMotion {
+ public:
+  explicit CalledMotion(py::object at) : at_(std::move(at)) {}
+  CalledMotion(const CalledMotion&) = delete;
+  CalledMotion& operator=(const CalledMotion&) = delete;
+  ~CalledMotion() override {
+    if (Py_IsInitialized() == 0) {
+      at_.release();  // the interpreter is gone, and the function with it
+      return;
+    }
+    const py::gil_scoped_acquire lock;
+    at_ = py::object();
+  }
+  void at(double time_s, std::vector<std::array<float, 3>>& vertices, std::vector<std::array<float, 3>>& normals) const override {
+    const py::gil_scoped_acquire lock;
+    try {
+      ask(time_s, vertices, normals);
+    } catch (py::error_already_set& fault) {
+      const std::string said = fault.what();
+      pending_callback_fault() = std::make_shared<py::error_already_set>(fault);
+      throw Error(ErrorKind::bad_input, "MeshMotion: error: its function raised " + said);
+    }
+  }
+  [[nodiscard]] py::object function() const { return at_; }
+
+ private:
+  void ask(double time_s, std::vector<std::array<float, 3>>& vertices, std::vector<std::array<float, 3>>& normals) const {
+    const Place place{nullptr, "MeshMotion.at(" + std::to_string(time_s) + ")"};
+    py::object got = at_(time_s);
+    py::object turned = py::none();
+    if (PyTuple_Check(got.ptr()) && PyTuple_GET_SIZE(got.ptr()) == 2) {
+      turned = py::reinterpret_borrow<py::object>(PyTuple_GET_ITEM(got.ptr(), 1));
+      got = py::reinterpret_borrow<py::object>(PyTuple_GET_ITEM(got.ptr(), 0));
+    }
+    vertices = rows_of<float, 3>(got, "vertices", -1, place);  // that they are as many as before is looked at by whoever asks
+    if (!turned.is_none()) normals = rows_of<float, 3>(turned, "vertices", -1, place);
+  }
+
+  py::object at_;
+};
+
+[[noreturn]] void refuse_pickling(const char* what, const char* way_out) {
+  PyErr_SetString(PyExc_TypeError, (std::string(what) + " cannot be pickled\n  expected " + way_out).c_str());
+  throw py::error_already_set();
+}
+
+std::shared_ptr<MeshMotion> make_motion(const py::object& at) {
+  if (PyCallable_Check(at.ptr()) == 0) refuse({nullptr, "at"}, at, "a function of the time in seconds that gives the vertices");
+  return std::make_shared<CalledMotion>(at);
+}
+
+void bind_motion(py::module_& module) {
+  py::class_<MeshMotion, std::shared_ptr<MeshMotion>>(module, "MeshMotion")
+      .def(py::init(&make_motion), py::arg("at"))
+      .def("__reduce__",
+           [](py::object self) -> py::object {
+             const auto* called = dynamic_cast<const CalledMotion*>(self.cast<const MeshMotion*>());
+             if (called == nullptr) refuse_pickling("the motion of a glTF file's mesh", "the scene to be loaded again by its file");
+             return py::make_tuple(py::type::of(self), py::make_tuple(called->function()));
+           })
+      .def("__deepcopy__", [](py::object self, const py::object&) { return self; });
+}
+
+}  // namespace
+
+std::shared_ptr<py::error_already_set>& pending_callback_fault() {
+  thread_local std::shared_ptr<py::error_already_set> fault;
+  return fault;
+}
+
+void raise_callback_fault() {
+  const auto fault = std::move(pending_callback_fault());
+  pending_callback_fault().reset();
+  if (fault) throw *fault;
+}
+
+void bind_meshes(py::module_& module) {
+  using Mesh = TriangleMesh;
+  py::class_<Mesh, std::shared_ptr<Mesh>>(module, "TriangleMesh")
+      .def(py::init(&make_mesh), py::arg("vertices"), py::arg("triangles"), py::arg("normals") = py::none(), py::arg("texcoords") = py::none())
+      .def_property_readonly("vertices", [](py::object self) { return rows_view(self, self.cast<const Mesh&>().vertices); })
+      .def_property_readonly("triangles", [](py::object self) { return rows_view(self, self.cast<const Mesh&>().triangles); })
+      .def_property_readonly("normals", [](py::object self) { return rows_view(self, self.cast<const Mesh&>().normals); })
+      .def_property_readonly("texcoords", [](py::object self) { return rows_view(self, self.cast<const Mesh&>().texcoords); })
+      .def("__eq__",
+           [](const Mesh& self, py::handle other) {
+             if (!py::isinstance<Mesh>(other)) return false;
+             const Mesh& is = other.cast<const Mesh&>();
+             return self.vertices == is.vertices && self.triangles == is.triangles && self.normals == is.normals &&
+                    self.texcoords == is.texcoords;
+           })
+      .def("__hash__", [](const Mesh& self) { return py::hash(py::make_tuple(self.vertices.size(), self.triangles.size())); })
+      .def("__repr__",
+           [](const Mesh& self) {
+             return "TriangleMesh(" + std::to_string(self.vertices.size()) + " vertices, " + std::to_string(self.triangles.size()) +
+                    " triangles)";
+           })
+      .def("__reduce__",
+           [](py::object self) {
+             const Mesh& mesh = self.cast<const Mesh&>();
+             const auto kept = [&](const char* name, bool there) { return there ? py::object(self.attr(name).attr("copy")()) : py::none(); };
+             return py::make_tuple(py::type::of(self), py::make_tuple(kept("vertices", true), kept("triangles", true),
+                                                                      kept("normals", !mesh.normals.empty()),
+                                                                      kept("texcoords", !mesh.texcoords.empty())));
+           })
+      .def("__deepcopy__", [](py::object self, const py::object&) { return self; });
+
+  using Map = ReflectivityMap;
+  py::class_<Map, std::shared_ptr<Map>>(module, "ReflectivityMap")
+      .def(py::init(&make_map), py::arg("values"), py::arg("wrap_u") = "repeat", py::arg("wrap_v") = "repeat")
+      .def_property_readonly("values",
+                             [](py::object self) {
+                               const Map& map = self.cast<const Map&>();
+                               return view<float>(map.values.data(), {map.height, map.width}, self, false);
+                             })
+      .def_property_readonly("wrap_u", [](const Map& self) { return to_python(self.wrap_u); })
+      .def_property_readonly("wrap_v", [](const Map& self) { return to_python(self.wrap_v); })
+      .def_readonly("width", &Map::width)
+      .def_readonly("height", &Map::height)
+      .def("__eq__",
+           [](const Map& self, py::handle other) {
+             if (!py::isinstance<Map>(other)) return false;
+             const Map& is = other.cast<const Map&>();
+             return self.values == is.values && self.width == is.width && self.wrap_u == is.wrap_u && self.wrap_v == is.wrap_v;
+           })
+      .def("__hash__", [](const Map& self) { return py::hash(py::make_tuple(self.width, self.height)); })
+      .def("__repr__",
+           [](const Map& self) { return "ReflectivityMap(" + std::to_string(self.width) + " x " + std::to_string(self.height) + ")"; })
+      .def("__reduce__",
+           [](py::object self) {
+             return py::make_tuple(py::type::of(self),
+                                   py::make_tuple(self.attr("values").attr("copy")(), self.attr("wrap_u"), self.attr("wrap_v")));
+           })
+      .def("__deepcopy__", [](py::object self, const py::object&) { return self; });
+  bind_motion(module);
+}
+
+// Python sees no way to change them, so constness is all that is cast away.
+py::object mesh_to_python(const std::shared_ptr<const TriangleMesh>& mesh) { return py::cast(std::const_pointer_cast<TriangleMesh>(mesh)); }
+py::object map_to_python(const std::shared_ptr<const ReflectivityMap>& map) {
+  return py::cast(std::const_pointer_cast<ReflectivityMap>(map));
+}
+py::object motion_to_python(const std::shared_ptr<const MeshMotion>& motion) { return py::cast(std::const_pointer_cast<MeshMotion>(motion)); }
+
+std::shared_ptr<const TriangleMesh> mesh_from_python(py::handle value, const Place& place) {
+  if (!py::isinstance<TriangleMesh>(value)) refuse(place, value, "a tofray.TriangleMesh, or None");
+  return value.cast<std::shared_ptr<TriangleMesh>>();
+}
+std::shared_ptr<const ReflectivityMap> map_from_python(py::handle value, const Place& place) {
+  if (!py::isinstance<ReflectivityMap>(value)) refuse(place, value, "a tofray.ReflectivityMap, or None");
+  return value.cast<std::shared_ptr<ReflectivityMap>>();
+}
+std::shared_ptr<const MeshMotion> motion_from_python(py::handle value, const Place& place) {
+  if (!py::isinstance<MeshMotion>(value)) refuse(place, value, "a tofray.MeshMotion, or None");
+  return value.cast<std::shared_ptr<MeshMotion>>();
+}
+
+}  // namespace tofray::python

@@ -1,0 +1,208 @@
+// SPDX-FileCopyrightText: 2026 The tofray authors
+// SPDX-License-Identifier: Apache-2.0
+// tofray._native: what the Python files of the package stand on.
+#include <pybind11/pybind11.h>
+
+#include "arrays.h"
+#include "convert.h"
+#include "frames.h"
+#include "meshes.h"
+#include "pictures/pictures.h"
+#include "simulator.h"
+#include "tofray/tofray.h"
+
+namespace tofray::python {
+
+namespace {
+
+const char* kind_name(ErrorKind kind) {
+  switch (kind) {
+    case ErrorKind::bad_input: return "bad_input";
+    case ErrorKind::io: return "io";
+    case ErrorKind::limit: return "limit";
+    case ErrorKind::device: return "device";
+    case ErrorKind::bug: return "bug";
+  }
+  return "bug";
+}
+
+/// tofray.Error, whose subclasses are ValueError, OSError, MemoryError and RuntimeError, too.
+void raise(const Error& error) {
+  const py::object made = py::module_::import("tofray._errors").attr("error_of")(kind_name(error.kind()), std::string(error.what()));
+  PyErr_SetObject(py::type::of(made).ptr(), made.ptr());
+}
+
+void translate(std::exception_ptr thrown) {
+  try {
+    std::rethrow_exception(thrown);
+  } catch (const Error& error) {
+    try {
+      raise(error);
+    } catch (py::error_already_set& fault) {
+      fault.restore();
+    }
+  }
+}
+
+CameraOptions camera_options(const py::object& mode, const py::dict& set, const py::object& root) {
+  CameraOptions out;
+  from_python(mode, out.mode, {nullptr, "mode"});
+  from_python(root, out.root, {nullptr, "root"});
+  for (const auto& [key, value] : set)
+    out.set.emplace_back(from_text(key, {nullptr, "set"}), from_text(value, {nullptr, "set"}));
+  return out;
+}
+
+Scene scene_of(const py::object& scene) {
+  Scene out;
+  from_python(scene, out, {nullptr, "scene"});
+  return out;
+}
+
+/// Runs without the interpreter's lock: files may be long.
+template <class Call>
+auto freely(const Call& call) {
+  const py::gil_scoped_release free;
+  return call();
+}
+
+void bind_files(py::module_& module) {
+  module.def("load_scene", [](const py::object& file) {
+    const std::string name = from_text(file, {nullptr, "file"});
+    return to_python(freely([&] { return load_scene(name); }));
+  });
+  module.def("load_scene_text", [](const py::object& text, const py::object& source) {
+    const std::string all = from_text(text, {nullptr, "text"}), name = from_text(source, {nullptr, "source"});
+    return to_python(freely([&] { return load_scene_text(all, name); }));
+  });
+  module.def("load_camera", [](const py::object& file, const py::object& mode, const py::dict& set, const py::object& root) {
+    const std::string name = from_text(file, {nullptr, "file"});
+    const CameraOptions options = camera_options(mode, set, root);
+    return to_python(freely([&] { return load_camera(name, options); }));
+  });
+  module.def("load_camera_of", [](const py::object& scene, const py::object& mode, const py::dict& set, const py::object& root) {
+    const Scene one = scene_of(scene);
+    const CameraOptions options = camera_options(mode, set, root);
+    return to_python(freely([&] { return load_camera(one, options); }));
+  });
+  module.def("load_camera_text",
+             [](const py::object& text, const py::object& source, const py::object& mode, const py::dict& set) {
+               const std::string all = from_text(text, {nullptr, "text"}), name = from_text(source, {nullptr, "source"});
+               const CameraOptions options = camera_options(mode, set, py::str(""));
+               return to_python(freely([&] { return load_camera_text(all, name, options); }));
+             });
+  module.def("frame_npz",
+             [](const py::object& frame, const py::object& scene, const py::object& camera, const py::dict& words, bool compress) {
+               const std::shared_ptr<Frame> one = frame_from_python(frame);
+               const Scene seen = scene_of(scene);
+               Camera seen_by;
+               from_python(camera, seen_by, {nullptr, "camera"});
+               const SimulatorOptions options = options_from_python(words);
+               return py::bytes(freely([&] { return frame_npz(*one, seen, seen_by, options, compress); }));
+             });
+  module.def("camera_pose", [](const py::object& scene, double time_s) {
+    const std::array<double, 16> pose = camera_pose(scene_of(scene), time_s);
+    py::array_t<double> out({4, 4});
+    std::copy(pose.begin(), pose.end(), out.mutable_data());
+    return out;
+  });
+  module.def("version", &version);
+}
+
+pictures::Theme theme_of(const std::string& name) {
+  if (name == "dark") return pictures::Theme::dark;
+  if (name == "light") return pictures::Theme::light;
+  throw Error(ErrorKind::bad_input, "theme: error: got '" + name + "'\n  expected dark or light");
+}
+
+py::bytes picture(const py::object& frame, const std::string& what, const std::string& caption, const std::string& theme) {
+  const std::shared_ptr<Frame> one = frame_from_python(frame);
+  const pictures::Theme look = theme_of(theme);
+  if (what == "raw" ? one->raw.width == 0 : one->depth.z_m.empty())
+    throw Error(ErrorKind::bad_input, "frame: error: has no array to make this picture of");
+  return py::bytes(freely([&] {
+    if (what == "preview") return pictures::preview_png(one->depth, one->truth, one->raw, caption, look);
+    if (what == "raw") return pictures::raw_png(one->raw, look);
+    if (what == "depth") return pictures::depth_png(one->depth);
+    return pictures::amplitude_png(one->depth);
+  }));
+}
+
+/// Name, members with type and value of a fresh one, for each struct: tofray._model is written from it.
+py::list structs() {
+  py::list all;
+  each_record([&]<class T>(T*) {
+    py::list members;
+    const T fresh{};
+    Fields<T>::each([&](std::string_view name, auto member) {
+      using Member = std::remove_cvref_t<decltype(fresh.*member)>;
+      py::object value = py::none();
+      if constexpr (!Record<Member> && !std::is_same_v<Member, decltype(Object::shape)>) value = to_python(fresh.*member);
+      members.append(py::make_tuple(std::string(name), As<Member>::type(), value));
+    });
+    all.append(py::make_tuple(Fields<T>::name, members));
+  });
+  return all;
+}
+
+/// A struct as C++ makes it, and a round trip through C++: for tests.
+py::object fresh(const std::string& wanted) {
+  py::object out = py::none();
+  each_record([&]<class T>(T*) {
+    if (wanted == Fields<T>::name) out = to_python(T{});
+  });
+  return out;
+}
+
+py::object round_trip(const py::object& value) {
+  py::object out = py::none();
+  each_record([&]<class T>(T*) {
+    if (!py::type::of(value).is(model_class(Fields<T>::name))) return;
+    T one{};
+    from_python(value, one, {nullptr, Fields<T>::name});
+    out = to_python(one);
+  });
+  return out;
+}
+
+py::dict flags() {
+  py::dict out;
+  const std::pair<const char*, Flag> all[] = {{"saturated", flag_saturated},
+                                              {"low_signal", flag_low_signal},
+                                              {"flying_pixel", flag_flying_pixel},
+                                              {"no_return", flag_no_return},
+                                              {"outside_lens", flag_outside_lens},
+                                              {"inconsistent_phases", flag_inconsistent_phases},
+                                              {"inconsistent_frequencies", flag_inconsistent_frequencies}};
+  for (const auto& [name, bit] : all) out[name] = static_cast<int>(bit);
+  out["invalid"] = static_cast<int>(flags_invalid);
+  return out;
+}
+
+py::list options() {
+  py::list out;
+  const SimulatorOptions fresh_options{};
+  Fields<SimulatorOptions>::each([&](std::string_view name, auto member) {
+    using Member = std::remove_cvref_t<decltype(fresh_options.*member)>;
+    if (name != "progress") out.append(py::make_tuple(std::string(name), As<Member>::type(), to_python(fresh_options.*member)));
+  });
+  return out;
+}
+
+}  // namespace
+
+PYBIND11_MODULE(_native, module) {
+  py::register_exception_translator(&translate);
+  bind_frames(module);
+  bind_meshes(module);
+  bind_simulator(module);
+  bind_files(module);
+  module.def("picture", &picture);
+  module.def("structs", &structs);
+  module.def("options", &options);
+  module.def("fresh", &fresh);
+  module.def("round_trip", &round_trip);
+  module.def("flags", &flags);
+}
+
+}  // namespace tofray::python

@@ -1,0 +1,265 @@
+// SPDX-FileCopyrightText: 2026 The tofray authors
+// SPDX-License-Identifier: Apache-2.0
+#include "simulator.h"
+
+#include <unistd.h>
+
+#include <atomic>
+#include <mutex>
+#include <thread>
+
+#include "arrays.h"
+#include "frames.h"
+#include "interrupt.h"
+#include "meshes.h"
+#include "own_arrays.h"
+
+namespace tofray::python {
+
+namespace {
+
+/// Memory of frames that nobody looks at any more: a frame's 5 MB cost more to fetch anew from the system than to fill.
+struct FramePool {
+  std::mutex mutex;
+  std::vector<std::unique_ptr<Frame>> free;
+  static constexpr std::size_t most = 2;
+};
+
+class HeldSimulator {
+ public:
+  HeldSimulator(const Scene& scene, const Camera& camera, SimulatorOptions options)
+      : frame_rate_(camera.mode.frame_rate_hz) {
+    options.progress = &progress_;
+    simulator_ = std::make_unique<Simulator>(scene, camera, options);
+    // What a stage before the last leaves alone has to be zero: only in a new frame it is.
+    recycles_ = options.last_stage == Stage::depth;
+  }
+
+  /// A frame that goes back to the pool when its last array is gone.
+  std::shared_ptr<Frame> new_frame() {
+    std::unique_ptr<Frame> frame;
+    if (recycles_) {
+      const std::lock_guard lock(pool_->mutex);
+      if (!pool_->free.empty()) frame = std::move(pool_->free.back()), pool_->free.pop_back();
+    }
+    if (frame == nullptr) frame = std::make_unique<Frame>();
+    return {frame.release(), [pool = std::weak_ptr<FramePool>(recycles_ ? pool_ : nullptr)](Frame* gone) {
+              std::unique_ptr<Frame> one(gone);
+              const std::shared_ptr<FramePool> there = pool.lock();
+              if (there == nullptr) return;
+              const std::lock_guard lock(there->mutex);
+              if (there->free.size() < FramePool::most) there->free.push_back(std::move(one));
+            }};
+  }
+
+  /// Runs `compute` without the interpreter's lock, one thread at a time.
+  template <class Compute>
+  void run(const Compute& compute) {
+    refuse_child();
+    if (owner_.load() == std::this_thread::get_id())
+      throw Error(ErrorKind::bad_input, "Simulator: error: a function that it calls asks it for a frame\n  expected a Simulator of its own there");
+    for (;;) {
+      bool stopped = false;
+      pending_callback_fault().reset();
+      try {
+        const StopOnInterrupt watch(progress_);
+        const py::gil_scoped_release free;
+        const std::lock_guard lock(mutex_);
+        const Owned owned(owner_);
+        compute(*simulator_);
+        stopped = progress_.stop.exchange(false);
+      } catch (...) {
+        progress_.stop.store(false);
+        raise_callback_fault();
+        if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+        throw;
+      }
+      if (!stopped) return;
+      // The frame means nothing. Ctrl-C raises, or Python's handler took it for something else and the frame is computed once more.
+      if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+      if (asked_to_stop_.exchange(false)) throw Error(ErrorKind::limit, "Simulator: error: stop() ended the frame");
+    }
+  }
+
+  void stop() {
+    if (owner_.load() == std::thread::id()) return;
+    asked_to_stop_.store(true);
+    progress_.stop.store(true);
+  }
+
+  [[nodiscard]] py::tuple progress() const { return py::make_tuple(progress_.done.load(), progress_.total.load()); }
+  [[nodiscard]] RanOn ran_on() const { return simulator_->ran_on(); }
+  [[nodiscard]] double frame_rate() const { return frame_rate_; }
+
+ private:
+  struct Owned {
+    explicit Owned(std::atomic<std::thread::id>& which) : owner(which) { owner.store(std::this_thread::get_id()); }
+    ~Owned() { owner.store({}); }
+    Owned(const Owned&) = delete;
+    Owned& operator=(const Owned&) = delete;
+    std::atomic<std::thread::id>& owner;
+  };
+
+  /// fork() copies one thread alone: those that would compute are not there.
+  void refuse_child() const {
+    if (getpid() != made_by_)
+      throw Error(ErrorKind::bad_input,
+                  "Simulator: error: this process was forked off the one that made it\n  expected a Simulator made here: scenes and cameras may "
+                  "come along, simulators cannot");
+  }
+
+  FrameProgress progress_;
+  double frame_rate_;
+  std::unique_ptr<Simulator> simulator_;
+  std::shared_ptr<FramePool> pool_ = std::make_shared<FramePool>();
+  std::mutex mutex_;
+  std::atomic<std::thread::id> owner_{};
+  std::atomic<bool> asked_to_stop_{false};
+  bool recycles_ = true;
+  pid_t made_by_ = getpid();
+};
+
+/// Copies what a batch's frame lies in, since it is gone when the next one is computed.
+std::shared_ptr<Frame> copied(const FrameArrays& from, const Raw& exposures) {
+  auto out = std::make_shared<Frame>();
+  out->index = from.index;
+  const auto pixels = static_cast<std::size_t>(from.width) * static_cast<std::size_t>(from.height);
+  const auto phases = static_cast<std::size_t>(from.phases), bins = static_cast<std::size_t>(from.bins);
+  const std::size_t sizes[] = {pixels, 2 * pixels, 3 * pixels, phases * pixels, bins * pixels, phases};
+#define TOFRAY_COPY(name, part, member, element, shape, ...) \
+  if (from.name != nullptr) out->part.member.assign(from.name, from.name + sizes[static_cast<int>(ArrayShape::shape)]);
+  TOFRAY_IMAGE_ARRAYS(TOFRAY_COPY)
+#undef TOFRAY_COPY
+#define TOFRAY_SIZES(part) out->part.width = from.width, out->part.height = from.height;
+  TOFRAY_SIZES(raw) TOFRAY_SIZES(depth)
+#undef TOFRAY_SIZES
+  if (from.gt_range_m != nullptr || from.gt_signal_e != nullptr)
+    out->truth.width = from.width, out->truth.height = from.height, out->truth.phases = from.phases, out->truth.bins = from.bins;
+  out->raw.phases = from.phases;
+#define TOFRAY_EXPOSURE(name, part, member, ...) out->part.member = exposures.member;
+  TOFRAY_EXPOSURE_ARRAYS(TOFRAY_EXPOSURE)
+#undef TOFRAY_EXPOSURE
+  return out;
+}
+
+py::object memory_of(std::shared_ptr<Frame> frame) { return py::cast(FrameMemory{std::move(frame)}); }
+
+/// The frame as a function of what takes the scene's place: None, or a tofray.Geometry, PixelLight or Transient.
+py::object frame_of(HeldSimulator& self, const py::object& index, const py::object& own) {
+  const std::uint64_t i = from_natural(index, {nullptr, "index"});
+  std::shared_ptr<Frame> into = self.new_frame();
+  const auto compute = [&](const auto&... seen) { self.run([&](Simulator& simulator) { simulator.frame(i, seen..., *into); }); };
+  if (own.is_none()) {
+    compute();
+  } else {
+    into = std::make_shared<Frame>();
+    if (py::isinstance(own, model_class("Geometry")))
+      compute(geometry_from_python(own));
+    else if (py::isinstance(own, model_class("PixelLight")))
+      compute(light_from_python(own));
+    else if (py::isinstance(own, model_class("Transient")))
+      compute(transient_from_python(own));
+    else
+      refuse({nullptr, "own"}, own, "a tofray.Geometry, PixelLight or Transient");
+  }
+  return memory_of(std::move(into));
+}
+
+/// Frames with seeds and poses of their own, or several on their way to and from GPUs at once.
+py::list frames_of(HeldSimulator& self, const py::object& wanted) {
+  std::vector<FrameRequest> requests;
+  from_python(wanted, requests, {nullptr, "requests"});
+  std::vector<std::shared_ptr<Frame>> frames;
+  Frame first;
+  const double rate = self.frame_rate();
+  self.run([&](Simulator& simulator) {
+    frames.clear();
+    simulator.frame(0, first);  // says when each raw frame is exposed
+    simulator.frames(requests, [&](const FrameArrays& arrays) {
+      std::shared_ptr<Frame> one = copied(arrays, first.raw);
+      const double start = static_cast<double>(arrays.index) / rate;
+      for (double& time : one->raw.start_time_s) time += start;
+      one->truth.time_s = one->truth.width > 0 ? first.truth.time_s + start : 0;
+      frames.push_back(std::move(one));
+    });
+  });
+  py::list out;
+  for (auto& frame : frames) out.append(memory_of(std::move(frame)));
+  return out;
+}
+
+std::unique_ptr<HeldSimulator> make_simulator(const py::object& scene, const py::object& camera, const py::dict& words) {
+  const SimulatorOptions options = options_from_python(words);
+  Scene one;
+  from_python(scene, one, {nullptr, "scene"});
+  Camera seen_by;
+  from_python(camera, seen_by, {nullptr, "camera"});
+  try {  // which asks meshes that move how they look
+    const py::gil_scoped_release free;
+    return std::make_unique<HeldSimulator>(one, seen_by, options);
+  } catch (const Error&) {
+    raise_callback_fault();
+    throw;
+  }
+}
+
+py::object process_raw(const py::object& raw, const py::object& camera, const py::dict& words) {
+  if (!py::isinstance(raw, model_class("Raw"))) refuse({nullptr, "raw"}, raw, "a tofray.Raw");
+  SimulatorOptions options = options_from_python(words);
+  const Raw taken = raw_from_python(raw);
+  Camera one;
+  from_python(camera, one, {nullptr, "camera"});
+  FrameProgress progress;
+  options.progress = &progress;
+  auto out = std::make_shared<Frame>();
+  RanOn ran_on;
+  {
+    const StopOnInterrupt watch(progress);
+    const py::gil_scoped_release free;
+    out->depth = process(taken, one, options, &ran_on);
+  }
+  if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+  return py::make_tuple(memory_of(std::move(out)), to_python(ran_on));
+}
+
+py::array pixel_rays_of(const py::object& camera) {
+  Camera one;
+  from_python(camera, one, {nullptr, "camera"});
+  auto* const rays = new std::vector<float>(pixel_rays(one));
+  const py::capsule keeper(rays, [](void* at) { delete static_cast<std::vector<float>*>(at); });
+  return view<float>(rays->data(), {one.sensor.height, one.sensor.width, 2}, keeper, true);
+}
+
+}  // namespace
+
+SimulatorOptions options_from_python(const py::dict& words) {
+  SimulatorOptions options;
+  for (const auto& [key, value] : words) {
+    const std::string word = from_text(key, {nullptr, "option"});
+    bool known = false;
+    std::string all;
+    Fields<SimulatorOptions>::each([&](std::string_view name, auto member) {
+      if (name == "progress") return;
+      all += (all.empty() ? "" : ", ") + std::string(name);
+      if (name != word) return;
+      known = true;
+      from_python(value, options.*member, Place{nullptr, word});
+    });
+    if (!known) throw Error(ErrorKind::bad_input, "Simulator: error: there is no option " + word + "\n  expected some of " + all);
+  }
+  return options;
+}
+
+void bind_simulator(py::module_& module) {
+  py::class_<HeldSimulator>(module, "Simulator")
+      .def(py::init(&make_simulator))
+      .def("frame", &frame_of)
+      .def("frames", &frames_of)
+      .def("stop", &HeldSimulator::stop)
+      .def("progress", &HeldSimulator::progress)
+      .def("ran_on", [](const HeldSimulator& self) { return to_python(self.ran_on()); });
+  module.def("process", &process_raw);
+  module.def("pixel_rays", &pixel_rays_of);
+}
+
+}  // namespace tofray::python

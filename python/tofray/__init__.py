@@ -1,0 +1,138 @@
+# SPDX-FileCopyrightText: 2026 The tofray authors
+# SPDX-License-Identifier: Apache-2.0
+"""tofray simulates indirect time-of-flight (PMD) 3D cameras.
+
+>>> import tofray
+>>> frame = tofray.Simulator(tofray.load_scene("demo"), seed=7).frame(0)
+>>> frame.depth.z_m            # metres, float32 [height, width]
+
+All numbers are in SI units, and names end in their unit.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from ._arrays import (
+        Depth as Depth,
+        Raw as Raw,
+        Truth as Truth,
+    )
+    from ._errors import (
+        Error as Error,
+    )
+    from ._frame import (
+        Frame as Frame,
+        load as load,
+    )
+    from ._load import (
+        camera as camera,
+        load_camera as load_camera,
+        load_scene as load_scene,
+        scene as scene,
+    )
+    from ._model import (
+        Adc as Adc,
+        Ambient as Ambient,
+        Area as Area,
+        Box as Box,
+        Camera as Camera,
+        CameraChoice as CameraChoice,
+        CameraKeyframe as CameraKeyframe,
+        Capsule as Capsule,
+        Cone as Cone,
+        Curve as Curve,
+        Cylinder as Cylinder,
+        Decoding as Decoding,
+        Disk as Disk,
+        Filter as Filter,
+        FrameRequest as FrameRequest,
+        Illumination as Illumination,
+        ImageFilter as ImageFilter,
+        Keyframe as Keyframe,
+        Lens as Lens,
+        Material as Material,
+        Mesh as Mesh,
+        Mode as Mode,
+        Object as Object,
+        Override as Override,
+        Pattern as Pattern,
+        Pixel as Pixel,
+        PixelMask as PixelMask,
+        Plane as Plane,
+        Pose as Pose,
+        RanOn as RanOn,
+        RawFrame as RawFrame,
+        Rectangle as Rectangle,
+        Rotation as Rotation,
+        Scatter as Scatter,
+        Scene as Scene,
+        Sensor as Sensor,
+        Sphere as Sphere,
+        Temperature as Temperature,
+        TransientBins as TransientBins,
+        Transport as Transport,
+        Triangle as Triangle,
+        Waveform as Waveform,
+    )
+    from ._native import (
+        MeshMotion as MeshMotion,
+        ReflectivityMap as ReflectivityMap,
+        TriangleMesh as TriangleMesh,
+    )
+    from ._own import (
+        Geometry as Geometry,
+        PixelLight as PixelLight,
+        Transient as Transient,
+    )
+    from ._simulator import (
+        Simulator as Simulator,
+        camera_pose as camera_pose,
+        demo as demo,
+        pixel_rays as pixel_rays,
+        process as process,
+    )
+
+    __version__: str
+    flags: dict[str, int]
+    arrays: list[tuple[str, ...]]
+
+# Where each name comes from, so that `import tofray` costs next to nothing: neither numpy nor the libraries are loaded before they are used.
+_HOME = {
+    "_arrays": ("Depth", "Raw", "Truth"),
+    "_errors": ("Error",),
+    "_frame": ("Frame", "load"),
+    "_load": ("camera", "load_camera", "load_scene", "scene"),
+    "_model": (
+        "Adc", "Ambient", "Area", "Box", "Camera", "CameraChoice", "CameraKeyframe", "Capsule", "Cone", "Curve", "Cylinder", "Decoding",
+        "Disk", "Filter", "FrameRequest", "Illumination", "ImageFilter", "Keyframe", "Lens", "Material", "Mesh", "Mode", "Object", "Override",
+        "Pattern", "Pixel", "PixelMask", "Plane", "Pose", "RanOn", "RawFrame", "Rectangle", "Rotation", "Scatter", "Scene", "Sensor",
+        "Sphere", "Temperature", "TransientBins", "Transport", "Triangle", "Waveform",
+    ),
+    "_native": ("MeshMotion", "ReflectivityMap", "TriangleMesh"),
+    "_own": ("Geometry", "PixelLight", "Transient"),
+    "_simulator": ("Simulator", "camera_pose", "demo", "pixel_rays", "process"),
+}
+
+__all__ = sorted(name for names in _HOME.values() for name in names) + ["arrays", "flags"]
+
+
+def __getattr__(name: str) -> Any:
+    import importlib
+
+    if name in ("__version__", "flags", "arrays"):
+        from . import _native
+
+        value: Any = {"__version__": _native.version, "flags": _native.flags, "arrays": _native.array_table}[name]()
+    else:
+        home = next((module for module, names in _HOME.items() if name in names), None)
+        if home is None:
+            raise AttributeError(f"module 'tofray' has no attribute {name!r}")
+        value = getattr(importlib.import_module("." + home, __name__), name)
+    globals()[name] = value
+    return value
+
+
+def __dir__() -> list[str]:
+    return [*__all__, "__version__"]

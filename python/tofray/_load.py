@@ -1,0 +1,162 @@
+# SPDX-FileCopyrightText: 2026 The tofray authors
+# SPDX-License-Identifier: Apache-2.0
+"""Scenes and cameras out of files, built-in names and plain dicts."""
+
+from __future__ import annotations
+
+import json
+import os
+import re
+from typing import TYPE_CHECKING, Any, Mapping
+
+from . import _native
+from ._errors import BadInput, Error, error_of
+from ._model import Scene
+
+if TYPE_CHECKING:
+    from ._model import Camera
+
+
+def load_scene(file: str | os.PathLike[str]) -> Scene:
+    """Reads a scene file (YAML 1.2 or JSON), or a built-in scene by name, as ``tofray list scenes`` has them.
+
+    Raises
+    ------
+    Error
+        With every fault of the file at once, by line and column.
+    """
+    scene: Scene = _native.load_scene(os.fspath(file))
+    return scene
+
+
+def load_camera(camera: str | os.PathLike[str] | Scene, mode: str = "", *, set: Mapping[str, Any] | None = None,
+                root: str | os.PathLike[str] = "") -> Camera:
+    """Reads a camera profile: a file, a built-in name such as "pico-flexx", or what a scene asks for.
+
+    Parameters
+    ----------
+    camera : path, name or Scene
+    mode : str
+        One of the profile's modes; empty: its first.
+    set : mapping
+        Keys of the profile and their values as written there: ``{"lens.f_number": 1.2, "integration_time": "500 us"}``.
+    root : path
+        A scene's profile file has to lie in or below the scene's folder, or this one.
+    """
+    words = {key: value if isinstance(value, str) else _Text().text_of(value, key) for key, value in dict(set or {}).items()}
+    if isinstance(camera, Scene):
+        out: Camera = _native.load_camera_of(camera, mode, words, os.fspath(root))
+    else:
+        out = _native.load_camera(os.fspath(camera), mode, words, os.fspath(root))
+    return out
+
+
+def scene(description: Mapping[str, Any], *, name: str = "scene", folder: str | os.PathLike[str] = ".") -> Scene:
+    """A scene out of a dict, exactly as in YAML: units in strings, the same keys, the same checks.
+
+    Parameters
+    ----------
+    description : mapping
+        ``{"objects": [{"sphere": {"center": [0, 0, 1.3], "radius": "25 cm", "reflectivity": "40 %"}}]}``
+    name : str
+        What pictures and files call it.
+    folder : path
+        Where meshes and profiles that it names lie.
+
+    Raises
+    ------
+    Error
+        With every fault at once; each names its member: ``objects[0].sphere.radius: error: …``
+    """
+    out: Scene = _from_dict(description, os.path.join(os.fspath(folder), name + ".yaml"), _native.load_scene_text)
+    return out
+
+
+def camera(description: Mapping[str, Any], mode: str = "", *, folder: str | os.PathLike[str] = ".") -> Camera:
+    """A camera out of a dict, exactly as a profile in YAML.
+
+    Parameters
+    ----------
+    description : mapping
+        A profile's keys and values, units in strings.
+    mode : str
+        One of its modes; empty: the first.
+    folder : path
+        Where its table files lie.
+    """
+    out: Camera = _from_dict(description, os.path.join(os.fspath(folder), "camera.yaml"),
+                             lambda text, source: _native.load_camera_text(text, source, mode, {}))
+    return out
+
+
+class _Text:
+    """JSON, which YAML has in it, with each value on a line of its own, so that a line says where in the dict it is."""
+
+    def __init__(self) -> None:
+        self.lines: list[str] = []
+        self.places: list[str] = []
+        self.depth = 0
+
+    def text_of(self, value: Any, place: str) -> str:
+        self.write(value, place, "", "")
+        return " ".join(self.lines)
+
+    def line(self, text: str, place: str) -> None:
+        self.lines.append(text)
+        self.places.append(place)
+
+    def write(self, value: Any, place: str, before: str, after: str) -> None:
+        if self.depth > 100:
+            raise BadInput(f"{place[:80]}: error: is nested too deeply\n  expected dicts and lists within 100 others at most")
+        self.depth += 1
+        if hasattr(value, "tolist") and hasattr(value, "dtype"):
+            value = value.tolist()
+        if isinstance(value, Mapping):
+            self.line(before + "{", place)
+            self._items(((json.dumps(self._key(key, place), ensure_ascii=False) + ": ", f"{place}.{key}".lstrip("."), one) for key, one in value.items()), len(value))
+            self.line("}" + after, place)
+        elif isinstance(value, (list, tuple)):
+            self.line(before + "[", place)
+            self._items((("", f"{place}[{i}]", one) for i, one in enumerate(value)), len(value))
+            self.line("]" + after, place)
+        else:
+            self.line(before + self._scalar(value, place) + after, place)
+        self.depth -= 1
+
+    def _items(self, items: Any, count: int) -> None:
+        for i, (before, place, one) in enumerate(items):
+            self.write(one, place, before, "," if i + 1 < count else "")
+
+    @staticmethod
+    def _key(key: Any, place: str) -> str:
+        if not isinstance(key, str):
+            raise BadInput(f"{place or 'top level'}: error: got the key {key!r}\n  expected a text")
+        return key
+
+    @staticmethod
+    def _scalar(value: Any, place: str) -> str:
+        if isinstance(value, float) and (value != value or value in (float("inf"), float("-inf"))):
+            return {"nan": ".nan", "inf": ".inf", "-inf": "-.inf"}[str(value)]
+        if value is None or isinstance(value, (bool, int, float, str)):
+            return json.dumps(value, ensure_ascii=False)
+        if hasattr(value, "__fspath__"):
+            return json.dumps(os.fspath(value), ensure_ascii=False)
+        raise BadInput(f"{place}: error: got {value!r:.60} ({type(value).__name__})\n  expected a number, a text with a unit, True or False, a list or a dict")
+
+
+def _from_dict(description: Mapping[str, Any], source: str, read: Any) -> Any:
+    if not isinstance(description, Mapping):
+        raise BadInput(f"error: got {type(description).__name__}\n  expected a dict, as of the YAML file")
+    text = _Text()
+    text.write(description, "", "", "")
+    try:
+        return read("\n".join(text.lines) + "\n", source)
+    except Error as fault:
+        message = str(fault)
+
+        def member(found: re.Match[str]) -> str:
+            line = int(found[1])
+            place = text.places[line - 1] if line <= len(text.places) else ""
+            return (place or "top level") + ": "
+
+        raise error_of(fault.kind, re.sub(rf"^{re.escape(source)}:(\d+):\d+: ", member, message, flags=re.M)) from None

@@ -1,0 +1,1700 @@
+# SPDX-FileCopyrightText: 2026 The tofray authors
+# SPDX-License-Identifier: Apache-2.0
+"""Scene and camera: what include/tofray/scene.h and camera.h hold. Written by python/tools/make_model.py; do not edit."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Sequence
+
+from ._record import Record
+
+if TYPE_CHECKING:
+    from typing import Literal
+
+    from ._native import MeshMotion, ReflectivityMap, TriangleMesh
+
+
+class Curve(Record):
+    """A function of one variable given by samples; a not-a-knot cubic spline goes through them,
+    limited so that it turns only at samples.
+
+    Attributes
+    ----------
+    x : list[float]
+        Ascending.
+    y : list[float]
+    """
+    __slots__ = ("x", "y")
+    x: list[float]
+    y: list[float]
+
+    def __init__(
+        self,
+        *,
+        x: Sequence[float] = (),
+        y: Sequence[float] = (),
+    ) -> None:
+        self.x = list(x)
+        self.y = list(y)
+
+
+class PixelMask(Record):
+    """Where within a pixel light is collected, for samples within it (SimulatorOptions::subpixel).
+
+    Attributes
+    ----------
+    kind : Literal["square", "table"]
+        Square: evenly in a square of area fill_factor·pitch² in its middle.
+    samples : list[float]
+        Table: of the whole pixel, rows from its top on, columns from its left on, any unit.
+    columns : int
+    rows : int
+    """
+    __slots__ = ("kind", "samples", "columns", "rows")
+    kind: Literal["square", "table"]
+    samples: list[float]
+    columns: int
+    rows: int
+
+    def __init__(
+        self,
+        *,
+        kind: Literal["square", "table"] = 'square',
+        samples: Sequence[float] = (),
+        columns: int = 0,
+        rows: int = 0,
+    ) -> None:
+        self.kind = kind
+        self.samples = list(samples)
+        self.columns = columns
+        self.rows = rows
+
+
+class Sensor(Record):
+    """What C++ calls Sensor.
+
+    Attributes
+    ----------
+    width : int
+        Pixels.
+    height : int
+        Pixels.
+    pixel_pitch_m : float
+    fill_factor : float
+        0…1.
+    mask : PixelMask
+    """
+    __slots__ = ("width", "height", "pixel_pitch_m", "fill_factor", "mask")
+    width: int
+    height: int
+    pixel_pitch_m: float
+    fill_factor: float
+    mask: PixelMask
+
+    def __init__(
+        self,
+        *,
+        width: int = 0,
+        height: int = 0,
+        pixel_pitch_m: float = 0.0,
+        fill_factor: float = 1.0,
+        mask: PixelMask | None = None,
+    ) -> None:
+        self.width = width
+        self.height = height
+        self.pixel_pitch_m = pixel_pitch_m
+        self.fill_factor = fill_factor
+        self.mask = PixelMask() if mask is None else mask
+
+
+class Scatter(Record):
+    """Light that lens and filter scatter over the sensor before it is collected: (1 − share)·δ +
+    share·K, ΣK = 1.
+
+    Attributes
+    ----------
+    kind : Literal["none", "gaussians", "kernel"]
+    share : float
+        0…1 of the light that is scattered.
+    sigma_px : list[float]
+        Gaussians: width of each.
+    weights : list[float]
+        Gaussians: how much of it each takes, any unit; empty: all alike.
+    kernel : list[float]
+        Kernel: how much goes where, rows from above on, columns from the left on; odd numbers of
+        both, any unit. The middle is the pixel itself.
+    columns : int
+    rows : int
+    """
+    __slots__ = ("kind", "share", "sigma_px", "weights", "kernel", "columns", "rows")
+    kind: Literal["none", "gaussians", "kernel"]
+    share: float
+    sigma_px: list[float]
+    weights: list[float]
+    kernel: list[float]
+    columns: int
+    rows: int
+
+    def __init__(
+        self,
+        *,
+        kind: Literal["none", "gaussians", "kernel"] = 'none',
+        share: float = 0.0,
+        sigma_px: Sequence[float] = (),
+        weights: Sequence[float] = (),
+        kernel: Sequence[float] = (),
+        columns: int = 0,
+        rows: int = 0,
+    ) -> None:
+        self.kind = kind
+        self.share = share
+        self.sigma_px = list(sigma_px)
+        self.weights = list(weights)
+        self.kernel = list(kernel)
+        self.columns = columns
+        self.rows = rows
+
+
+class Lens(Record):
+    """Pinhole with Brown–Conrady distortion, OpenCV's convention; pixel (0,0)'s centre is at (0.0,
+    0.0).
+
+    Attributes
+    ----------
+    fx_px : float
+    fy_px : float
+    cx_px : float
+    cy_px : float
+    k1 : float
+    k2 : float
+    p1 : float
+    p2 : float
+    k3 : float
+    f_number : float
+    transmission : float
+        T, 0…1, lens and filter at the illumination wavelength.
+    vignetting : Literal["cos4", "off", "table"]
+    vignetting_table : Curve
+        Angle to the optical axis [rad] → factor.
+    scatter : Scatter
+    """
+    __slots__ = ("fx_px", "fy_px", "cx_px", "cy_px", "k1", "k2", "p1", "p2", "k3", "f_number", "transmission", "vignetting", "vignetting_table", "scatter")
+    fx_px: float
+    fy_px: float
+    cx_px: float
+    cy_px: float
+    k1: float
+    k2: float
+    p1: float
+    p2: float
+    k3: float
+    f_number: float
+    transmission: float
+    vignetting: Literal["cos4", "off", "table"]
+    vignetting_table: Curve
+    scatter: Scatter
+
+    def __init__(
+        self,
+        *,
+        fx_px: float = 0.0,
+        fy_px: float = 0.0,
+        cx_px: float = 0.0,
+        cy_px: float = 0.0,
+        k1: float = 0.0,
+        k2: float = 0.0,
+        p1: float = 0.0,
+        p2: float = 0.0,
+        k3: float = 0.0,
+        f_number: float = 1.0,
+        transmission: float = 1.0,
+        vignetting: Literal["cos4", "off", "table"] = 'cos4',
+        vignetting_table: Curve | None = None,
+        scatter: Scatter | None = None,
+    ) -> None:
+        self.fx_px = fx_px
+        self.fy_px = fy_px
+        self.cx_px = cx_px
+        self.cy_px = cy_px
+        self.k1 = k1
+        self.k2 = k2
+        self.p1 = p1
+        self.p2 = p2
+        self.k3 = k3
+        self.f_number = f_number
+        self.transmission = transmission
+        self.vignetting = vignetting
+        self.vignetting_table = Curve() if vignetting_table is None else vignetting_table
+        self.scatter = Scatter() if scatter is None else scatter
+
+
+class Filter(Record):
+    """Optical filter before the sensor, seen by ambient light only (the camera's own light has
+    Lens::transmission).
+
+    Attributes
+    ----------
+    center_m : float
+    half_width_m : float
+        Passes centre ± half width, transmission `peak`.
+    peak : float
+    table : Curve
+        Wavelength [m] → transmission; takes the place of the above where not empty.
+    """
+    __slots__ = ("center_m", "half_width_m", "peak", "table")
+    center_m: float
+    half_width_m: float
+    peak: float
+    table: Curve
+
+    def __init__(
+        self,
+        *,
+        center_m: float = 8.5e-07,
+        half_width_m: float = 1.5e-08,
+        peak: float = 1.0,
+        table: Curve | None = None,
+    ) -> None:
+        self.center_m = center_m
+        self.half_width_m = half_width_m
+        self.peak = peak
+        self.table = Curve() if table is None else table
+
+
+class Pattern(Record):
+    """How light of one source is spread over directions; integral over the sphere is 1 (theory 2.1).
+
+    Attributes
+    ----------
+    kind : Literal["cone", "lambertian", "cosine_lobe", "flat_top", "table"]
+    half_angle_rad : float
+        Cone.
+    exponent : float
+        Cosine_lobe: cos^exponent.
+    width_rad : float
+        Flat_top: full width across θx at half its peak.
+    height_rad : float
+        Flat_top: across θy.
+    columns : int
+        Table: samples over θx (columns) and θy (rows), cell centres on a regular grid centred on
+        the axis, f-theta. Of a flat top, only the paper's printed formula reads such a grid; 0: 172
+        × 168.
+    rows : int
+        Table: samples over θx (columns) and θy (rows), cell centres on a regular grid centred on
+        the axis, f-theta. Of a flat top, only the paper's printed formula reads such a grid; 0: 172
+        × 168.
+    half_range_x_rad : float
+        The grid covers ±this across its columns (edges of the outer cells); beyond, the light is
+        dark. Of a flat top, 0 takes its width, where the light has fallen to nothing (2⁻²⁵⁶).
+    half_range_y_rad : float
+        The same across its rows; 0: the height.
+    samples : list[float]
+        [rows][columns], any unit.
+    """
+    __slots__ = ("kind", "half_angle_rad", "exponent", "width_rad", "height_rad", "columns", "rows", "half_range_x_rad", "half_range_y_rad", "samples")
+    kind: Literal["cone", "lambertian", "cosine_lobe", "flat_top", "table"]
+    half_angle_rad: float
+    exponent: float
+    width_rad: float
+    height_rad: float
+    columns: int
+    rows: int
+    half_range_x_rad: float
+    half_range_y_rad: float
+    samples: list[float]
+
+    def __init__(
+        self,
+        *,
+        kind: Literal["cone", "lambertian", "cosine_lobe", "flat_top", "table"] = 'lambertian',
+        half_angle_rad: float = 0.0,
+        exponent: float = 1.0,
+        width_rad: float = 0.0,
+        height_rad: float = 0.0,
+        columns: int = 0,
+        rows: int = 0,
+        half_range_x_rad: float = 0.0,
+        half_range_y_rad: float = 0.0,
+        samples: Sequence[float] = (),
+    ) -> None:
+        self.kind = kind
+        self.half_angle_rad = half_angle_rad
+        self.exponent = exponent
+        self.width_rad = width_rad
+        self.height_rad = height_rad
+        self.columns = columns
+        self.rows = rows
+        self.half_range_x_rad = half_range_x_rad
+        self.half_range_y_rad = half_range_y_rad
+        self.samples = list(samples)
+
+
+class Waveform(Record):
+    """Light modulation over one period (theory 3).
+
+    Attributes
+    ----------
+    kind : Literal["rectangular", "sine", "measured"]
+    duty : float
+        Width at half height over the period.
+    rise_time_s : float
+        Linear edge, 0 to 100 %.
+    bandwidth_hz : float
+        The light source's own single pole; 0: none.
+    jitter_s : float
+        Gaussian, 1 sigma.
+    harmonics : int
+        How many odd harmonics are kept (1,3,5,7); a sine has one.
+    modulation_depth : float
+        Sine: d of the light 1 + d·cos; it has no duty and no edges.
+    correlation : list[float]
+        Measured: correlation D(τ)/S at equally spaced reference phases over one period, φ = 0; its
+        Fourier transform gives a_m, ψ_m.
+    """
+    __slots__ = ("kind", "duty", "rise_time_s", "bandwidth_hz", "jitter_s", "harmonics", "modulation_depth", "correlation")
+    kind: Literal["rectangular", "sine", "measured"]
+    duty: float
+    rise_time_s: float
+    bandwidth_hz: float
+    jitter_s: float
+    harmonics: int
+    modulation_depth: float
+    correlation: list[float]
+
+    def __init__(
+        self,
+        *,
+        kind: Literal["rectangular", "sine", "measured"] = 'rectangular',
+        duty: float = 0.5,
+        rise_time_s: float = 0.0,
+        bandwidth_hz: float = 0.0,
+        jitter_s: float = 0.0,
+        harmonics: int = 4,
+        modulation_depth: float = 1.0,
+        correlation: Sequence[float] = (),
+    ) -> None:
+        self.kind = kind
+        self.duty = duty
+        self.rise_time_s = rise_time_s
+        self.bandwidth_hz = bandwidth_hz
+        self.jitter_s = jitter_s
+        self.harmonics = harmonics
+        self.modulation_depth = modulation_depth
+        self.correlation = list(correlation)
+
+
+class Area(Record):
+    """Where the light of a source comes out: at a point, or evenly all over a disk or rectangle across
+    its axis. So many points at fixed places stand for that, in equal shares (theory 2.1).
+
+    Attributes
+    ----------
+    kind : Literal["none", "disk", "rectangle"]
+    radius_m : float
+        Disk.
+    width_m : float
+        Rectangle: toward the camera's x (of an axis along x: its y).
+    height_m : float
+        Across that.
+    points : int
+    """
+    __slots__ = ("kind", "radius_m", "width_m", "height_m", "points")
+    kind: Literal["none", "disk", "rectangle"]
+    radius_m: float
+    width_m: float
+    height_m: float
+    points: int
+
+    def __init__(
+        self,
+        *,
+        kind: Literal["none", "disk", "rectangle"] = 'none',
+        radius_m: float = 0.0,
+        width_m: float = 0.0,
+        height_m: float = 0.0,
+        points: int = 16,
+    ) -> None:
+        self.kind = kind
+        self.radius_m = radius_m
+        self.width_m = width_m
+        self.height_m = height_m
+        self.points = points
+
+
+class Illumination(Record):
+    """One of the camera's light sources, in the camera frame.
+
+    Attributes
+    ----------
+    position : tuple[float, float, float]
+    axis : tuple[float, float, float]
+    illumination_wavelength_m : float
+    power_w : float
+        Optical, of a lit raw frame, mean over the modulation period.
+    ring_leds : int
+        So many sources, evenly on a circle about `position`, across `axis`; they share the power.
+    ring_radius_m : float
+        Of that circle; the first stands toward the camera's x (of an axis along x: its y).
+    area : Area
+        Of each; its middle is where a point would be.
+    pattern : Pattern
+        Of each point.
+    waveform : Waveform
+    """
+    __slots__ = ("position", "axis", "illumination_wavelength_m", "power_w", "ring_leds", "ring_radius_m", "area", "pattern", "waveform")
+    position: tuple[float, float, float]
+    axis: tuple[float, float, float]
+    illumination_wavelength_m: float
+    power_w: float
+    ring_leds: int
+    ring_radius_m: float
+    area: Area
+    pattern: Pattern
+    waveform: Waveform
+
+    def __init__(
+        self,
+        *,
+        position: tuple[float, float, float] = (0.0, 0.0, 0.0),
+        axis: tuple[float, float, float] = (0.0, 0.0, 1.0),
+        illumination_wavelength_m: float = 8.5e-07,
+        power_w: float = 0.0,
+        ring_leds: int = 1,
+        ring_radius_m: float = 0.0,
+        area: Area | None = None,
+        pattern: Pattern | None = None,
+        waveform: Waveform | None = None,
+    ) -> None:
+        self.position = position
+        self.axis = axis
+        self.illumination_wavelength_m = illumination_wavelength_m
+        self.power_w = power_w
+        self.ring_leds = ring_leds
+        self.ring_radius_m = ring_radius_m
+        self.area = Area() if area is None else area
+        self.pattern = Pattern() if pattern is None else pattern
+        self.waveform = Waveform() if waveform is None else waveform
+
+
+class Pixel(Record):
+    """The two-tap pixel (theory 3). Electrons per tap where nothing else is said.
+
+    Attributes
+    ----------
+    quantum_efficiency : Curve
+        Wavelength [m] → QE; one sample: a constant.
+    contrast : Curve
+        Modulation frequency [Hz] → K; one sample: a constant.
+    bandwidth_hz : float
+        Single pole of the gate; 0: none.
+    full_well_e : float
+    read_noise_e : float
+        Reset + read, 1 sigma.
+    column_noise_e : float
+        Of A−B, the same for all pixels of a column in one raw frame, anew in each, 1 sigma.
+    dark_current_e_per_s : float
+    prnu : float
+        Photo response non-uniformity, 1 sigma, relative.
+    dsnu_dn : float
+        Offset pattern, 1 sigma [DN].
+    delay_s : float
+        Fixed-pattern delay per pixel, 1 sigma.
+    pattern_seed : int
+        Which specimen of the sensor: seed of the three patterns above.
+    suppression_threshold_e : float
+        Background suppression: when the smaller tap reaches the threshold, the excess is taken off
+        both taps, at most `budget`. Each tap's removed charge x adds a variance of noise_factor² ·
+        x. Threshold 0: no suppression.
+    suppression_budget_e : float
+    suppression_noise_factor : float
+    """
+    __slots__ = ("quantum_efficiency", "contrast", "bandwidth_hz", "full_well_e", "read_noise_e", "column_noise_e", "dark_current_e_per_s", "prnu", "dsnu_dn", "delay_s", "pattern_seed", "suppression_threshold_e", "suppression_budget_e", "suppression_noise_factor")
+    quantum_efficiency: Curve
+    contrast: Curve
+    bandwidth_hz: float
+    full_well_e: float
+    read_noise_e: float
+    column_noise_e: float
+    dark_current_e_per_s: float
+    prnu: float
+    dsnu_dn: float
+    delay_s: float
+    pattern_seed: int
+    suppression_threshold_e: float
+    suppression_budget_e: float
+    suppression_noise_factor: float
+
+    def __init__(
+        self,
+        *,
+        quantum_efficiency: Curve | None = None,
+        contrast: Curve | None = None,
+        bandwidth_hz: float = 0.0,
+        full_well_e: float = 1e+30,
+        read_noise_e: float = 0.0,
+        column_noise_e: float = 0.0,
+        dark_current_e_per_s: float = 0.0,
+        prnu: float = 0.0,
+        dsnu_dn: float = 0.0,
+        delay_s: float = 0.0,
+        pattern_seed: int = 1,
+        suppression_threshold_e: float = 0.0,
+        suppression_budget_e: float = 0.0,
+        suppression_noise_factor: float = 1.0,
+    ) -> None:
+        self.quantum_efficiency = Curve() if quantum_efficiency is None else quantum_efficiency
+        self.contrast = Curve() if contrast is None else contrast
+        self.bandwidth_hz = bandwidth_hz
+        self.full_well_e = full_well_e
+        self.read_noise_e = read_noise_e
+        self.column_noise_e = column_noise_e
+        self.dark_current_e_per_s = dark_current_e_per_s
+        self.prnu = prnu
+        self.dsnu_dn = dsnu_dn
+        self.delay_s = delay_s
+        self.pattern_seed = pattern_seed
+        self.suppression_threshold_e = suppression_threshold_e
+        self.suppression_budget_e = suppression_budget_e
+        self.suppression_noise_factor = suppression_noise_factor
+
+
+class Adc(Record):
+    """What C++ calls Adc.
+
+    Attributes
+    ----------
+    bits : int
+    step_e_per_dn : float
+        S.
+    mid_code : float
+    valid_min : int
+        Codes outside valid_min…valid_max flag the pixel as saturated.
+    valid_max : int
+    """
+    __slots__ = ("bits", "step_e_per_dn", "mid_code", "valid_min", "valid_max")
+    bits: int
+    step_e_per_dn: float
+    mid_code: float
+    valid_min: int
+    valid_max: int
+
+    def __init__(
+        self,
+        *,
+        bits: int = 12,
+        step_e_per_dn: float = 1.0,
+        mid_code: float = 2048.0,
+        valid_min: int = 0,
+        valid_max: int = 4095,
+    ) -> None:
+        self.bits = bits
+        self.step_e_per_dn = step_e_per_dn
+        self.mid_code = mid_code
+        self.valid_min = valid_min
+        self.valid_max = valid_max
+
+
+class RawFrame(Record):
+    """One exposure of the sequence.
+
+    Attributes
+    ----------
+    lit : bool
+    modulation_frequency_hz : float
+        0 where unlit.
+    reference_phase_rad : float
+        Τ.
+    integration_time_s : float
+    """
+    __slots__ = ("lit", "modulation_frequency_hz", "reference_phase_rad", "integration_time_s")
+    lit: bool
+    modulation_frequency_hz: float
+    reference_phase_rad: float
+    integration_time_s: float
+
+    def __init__(
+        self,
+        *,
+        lit: bool = True,
+        modulation_frequency_hz: float = 0.0,
+        reference_phase_rad: float = 0.0,
+        integration_time_s: float = 0.0,
+    ) -> None:
+        self.lit = lit
+        self.modulation_frequency_hz = modulation_frequency_hz
+        self.reference_phase_rad = reference_phase_rad
+        self.integration_time_s = integration_time_s
+
+
+class Mode(Record):
+    """What C++ calls Mode.
+
+    Attributes
+    ----------
+    name : str
+    frame_rate_hz : float
+    sequence : list[RawFrame]
+    """
+    __slots__ = ("name", "frame_rate_hz", "sequence")
+    name: str
+    frame_rate_hz: float
+    sequence: list[RawFrame]
+
+    def __init__(
+        self,
+        *,
+        name: str = '',
+        frame_rate_hz: float = 0.0,
+        sequence: Sequence[RawFrame] = (),
+    ) -> None:
+        self.name = name
+        self.frame_rate_hz = frame_rate_hz
+        self.sequence = list(sequence)
+
+
+class ImageFilter(Record):
+    """Image filter over the range image; invalid pixels are neither changed nor used.
+
+    Attributes
+    ----------
+    kind : Literal["none", "gaussian", "median"]
+    sigma_px : float
+        Gaussian.
+    radius_px : int
+        Median: window (2 radius + 1)².
+    """
+    __slots__ = ("kind", "sigma_px", "radius_px")
+    kind: Literal["none", "gaussian", "median"]
+    sigma_px: float
+    radius_px: int
+
+    def __init__(
+        self,
+        *,
+        kind: Literal["none", "gaussian", "median"] = 'none',
+        sigma_px: float = 1.0,
+        radius_px: int = 1,
+    ) -> None:
+        self.kind = kind
+        self.sigma_px = sigma_px
+        self.radius_px = radius_px
+
+
+class Decoding(Record):
+    """How raw frames become depth (theory 4).
+
+    Attributes
+    ----------
+    wiggling_correction : bool
+    low_signal_noise_m : float
+        Σ̂ above this: low signal; also the scale of confidence.
+    flying_near_z_m : float
+        Limit on |Δz| grows linearly from here ….
+    flying_near_limit_m : float
+        Limit on |Δz| grows linearly from here ….
+    flying_far_z_m : float
+        … to here, constant outside.
+    flying_far_limit_m : float
+        … to here, constant outside.
+    inconsistent_range_m : float
+    filter : ImageFilter
+    """
+    __slots__ = ("wiggling_correction", "low_signal_noise_m", "flying_near_z_m", "flying_near_limit_m", "flying_far_z_m", "flying_far_limit_m", "inconsistent_range_m", "filter")
+    wiggling_correction: bool
+    low_signal_noise_m: float
+    flying_near_z_m: float
+    flying_near_limit_m: float
+    flying_far_z_m: float
+    flying_far_limit_m: float
+    inconsistent_range_m: float
+    filter: ImageFilter
+
+    def __init__(
+        self,
+        *,
+        wiggling_correction: bool = True,
+        low_signal_noise_m: float = 0.07,
+        flying_near_z_m: float = 1.0,
+        flying_near_limit_m: float = 0.018,
+        flying_far_z_m: float = 4.5,
+        flying_far_limit_m: float = 0.14,
+        inconsistent_range_m: float = 0.1,
+        filter: ImageFilter | None = None,
+    ) -> None:
+        self.wiggling_correction = wiggling_correction
+        self.low_signal_noise_m = low_signal_noise_m
+        self.flying_near_z_m = flying_near_z_m
+        self.flying_near_limit_m = flying_near_limit_m
+        self.flying_far_z_m = flying_far_z_m
+        self.flying_far_limit_m = flying_far_limit_m
+        self.inconsistent_range_m = inconsistent_range_m
+        self.filter = ImageFilter() if filter is None else filter
+
+
+class Temperature(Record):
+    """What C++ calls Temperature.
+
+    Attributes
+    ----------
+    celsius : float
+    reference_celsius : float
+    drift_m_per_kelvin : float
+        D_off = drift · (T − reference), added to half the path.
+    warm_up_m : float
+        First-order warm-up: warm_up · (1 − exp(−t/time constant)).
+    warm_up_time_s : float
+    since_start_s : float
+        How long the camera has run at frame 0.
+    """
+    __slots__ = ("celsius", "reference_celsius", "drift_m_per_kelvin", "warm_up_m", "warm_up_time_s", "since_start_s")
+    celsius: float
+    reference_celsius: float
+    drift_m_per_kelvin: float
+    warm_up_m: float
+    warm_up_time_s: float
+    since_start_s: float
+
+    def __init__(
+        self,
+        *,
+        celsius: float = 25.0,
+        reference_celsius: float = 25.0,
+        drift_m_per_kelvin: float = 0.0,
+        warm_up_m: float = 0.0,
+        warm_up_time_s: float = 600.0,
+        since_start_s: float = 1000000000.0,
+    ) -> None:
+        self.celsius = celsius
+        self.reference_celsius = reference_celsius
+        self.drift_m_per_kelvin = drift_m_per_kelvin
+        self.warm_up_m = warm_up_m
+        self.warm_up_time_s = warm_up_time_s
+        self.since_start_s = since_start_s
+
+
+class Camera(Record):
+    """What C++ calls Camera.
+
+    Attributes
+    ----------
+    name : str
+    source : str
+        The file it came from.
+    sensor : Sensor
+    lens : Lens
+    filter : Filter
+    illumination : list[Illumination]
+    pixel : Pixel
+    adc : Adc
+    decoding : Decoding
+    temperature : Temperature
+    refractive_index : float
+    readout_time_s : float
+        Between the end of one exposure and the start of the next.
+    min_integration_time_s : float
+    power_model : Literal["tofray", "paper_literal"]
+    mode : Mode
+        The chosen one.
+    mode_names : list[str]
+        All that the profile has.
+    """
+    __slots__ = ("name", "source", "sensor", "lens", "filter", "illumination", "pixel", "adc", "decoding", "temperature", "refractive_index", "readout_time_s", "min_integration_time_s", "power_model", "mode", "mode_names")
+    name: str
+    source: str
+    sensor: Sensor
+    lens: Lens
+    filter: Filter
+    illumination: list[Illumination]
+    pixel: Pixel
+    adc: Adc
+    decoding: Decoding
+    temperature: Temperature
+    refractive_index: float
+    readout_time_s: float
+    min_integration_time_s: float
+    power_model: Literal["tofray", "paper_literal"]
+    mode: Mode
+    mode_names: list[str]
+
+    def __init__(
+        self,
+        *,
+        name: str = '',
+        source: str = '',
+        sensor: Sensor | None = None,
+        lens: Lens | None = None,
+        filter: Filter | None = None,
+        illumination: Sequence[Illumination] = (),
+        pixel: Pixel | None = None,
+        adc: Adc | None = None,
+        decoding: Decoding | None = None,
+        temperature: Temperature | None = None,
+        refractive_index: float = 1.0,
+        readout_time_s: float = 0.0,
+        min_integration_time_s: float = 0.0,
+        power_model: Literal["tofray", "paper_literal"] = 'tofray',
+        mode: Mode | None = None,
+        mode_names: Sequence[str] = (),
+    ) -> None:
+        self.name = name
+        self.source = source
+        self.sensor = Sensor() if sensor is None else sensor
+        self.lens = Lens() if lens is None else lens
+        self.filter = Filter() if filter is None else filter
+        self.illumination = list(illumination)
+        self.pixel = Pixel() if pixel is None else pixel
+        self.adc = Adc() if adc is None else adc
+        self.decoding = Decoding() if decoding is None else decoding
+        self.temperature = Temperature() if temperature is None else temperature
+        self.refractive_index = refractive_index
+        self.readout_time_s = readout_time_s
+        self.min_integration_time_s = min_integration_time_s
+        self.power_model = power_model
+        self.mode = Mode() if mode is None else mode
+        self.mode_names = list(mode_names)
+
+
+class Material(Record):
+    """How a surface sends light back, at the illumination wavelength.
+
+    Attributes
+    ----------
+    name : str
+        Empty for a material written inside an object.
+    brdf : Literal["lambert", "phong", "oren_nayar", "ggx", "retro"]
+    diffuse : float
+        K_d, 0…1: Lambertian reflectivity (Lambert, Oren–Nayar: the reflectivity rho; GGX: its
+        ground's).
+    specular : float
+        Phong: k_s, the lobe's share, k_d + k_s <= 1; GGX: F_0, of one of its mirrors at normal
+        incidence.
+    exponent : float
+        N >= 1: the Phong lobe's exponent.
+    roughness_rad : float
+        Σ, 0…π/2: Oren–Nayar's spread of the slopes of a matt surface's facets.
+    alpha : float
+        Α, 0.001…1: GGX's spread of the slopes of small mirrors (glTF's roughness squared).
+    retro : float
+        K_r, 0…1 with k_d + k_r <= 1: the share that a retro-reflector sends back toward the light.
+    spread_rad : float
+        Σ, 1e-3…π/4: angle between light and camera at which half of the retro-reflector's peak is
+        left.
+    map : ReflectivityMap | None
+        Scales `diffuse` from place to place; none: it is the same everywhere.
+    """
+    __slots__ = ("name", "brdf", "diffuse", "specular", "exponent", "roughness_rad", "alpha", "retro", "spread_rad", "map")
+    name: str
+    brdf: Literal["lambert", "phong", "oren_nayar", "ggx", "retro"]
+    diffuse: float
+    specular: float
+    exponent: float
+    roughness_rad: float
+    alpha: float
+    retro: float
+    spread_rad: float
+    map: ReflectivityMap | None
+
+    def __init__(
+        self,
+        *,
+        name: str = '',
+        brdf: Literal["lambert", "phong", "oren_nayar", "ggx", "retro"] = 'lambert',
+        diffuse: float = 0.0,
+        specular: float = 0.0,
+        exponent: float = 1.0,
+        roughness_rad: float = 0.0,
+        alpha: float = 0.5,
+        retro: float = 0.0,
+        spread_rad: float = 0.01,
+        map: ReflectivityMap | None = None,
+    ) -> None:
+        self.name = name
+        self.brdf = brdf
+        self.diffuse = diffuse
+        self.specular = specular
+        self.exponent = exponent
+        self.roughness_rad = roughness_rad
+        self.alpha = alpha
+        self.retro = retro
+        self.spread_rad = spread_rad
+        self.map = map
+
+
+class Plane(Record):
+    """Infinite; the normal need not be of unit length.
+
+    Attributes
+    ----------
+    point : tuple[float, float, float]
+    normal : tuple[float, float, float]
+    """
+    __slots__ = ("point", "normal")
+    point: tuple[float, float, float]
+    normal: tuple[float, float, float]
+
+    def __init__(
+        self,
+        *,
+        point: tuple[float, float, float] = (0.0, 0.0, 0.0),
+        normal: tuple[float, float, float] = (0.0, 0.0, -1.0),
+    ) -> None:
+        self.point = point
+        self.normal = normal
+
+
+class Sphere(Record):
+    """What C++ calls Sphere.
+
+    Attributes
+    ----------
+    center : tuple[float, float, float]
+    radius : float
+    """
+    __slots__ = ("center", "radius")
+    center: tuple[float, float, float]
+    radius: float
+
+    def __init__(
+        self,
+        *,
+        center: tuple[float, float, float] = (0.0, 0.0, 0.0),
+        radius: float = 1.0,
+    ) -> None:
+        self.center = center
+        self.radius = radius
+
+
+class Box(Record):
+    """Along the axes before its rotation.
+
+    Attributes
+    ----------
+    min : tuple[float, float, float]
+    max : tuple[float, float, float]
+    """
+    __slots__ = ("min", "max")
+    min: tuple[float, float, float]
+    max: tuple[float, float, float]
+
+    def __init__(
+        self,
+        *,
+        min: tuple[float, float, float] = (0.0, 0.0, 0.0),
+        max: tuple[float, float, float] = (0.0, 0.0, 0.0),
+    ) -> None:
+        self.min = min
+        self.max = max
+
+
+class Triangle(Record):
+    """What C++ calls Triangle.
+
+    Attributes
+    ----------
+    vertices : tuple[tuple[float, float, float], tuple[float, float, float], tuple[float, float, float]]
+    """
+    __slots__ = ("vertices",)
+    vertices: tuple[tuple[float, float, float], tuple[float, float, float], tuple[float, float, float]]
+
+    def __init__(
+        self,
+        *,
+        vertices: tuple[tuple[float, float, float], tuple[float, float, float], tuple[float, float, float]] = ((0.0, 0.0, 0.0), (0.0, 0.0, 0.0), (0.0, 0.0, 0.0)),
+    ) -> None:
+        self.vertices = vertices
+
+
+class Cylinder(Record):
+    """With caps; the axis need not be of unit length.
+
+    Attributes
+    ----------
+    center : tuple[float, float, float]
+    axis : tuple[float, float, float]
+    radius : float
+    height : float
+    """
+    __slots__ = ("center", "axis", "radius", "height")
+    center: tuple[float, float, float]
+    axis: tuple[float, float, float]
+    radius: float
+    height: float
+
+    def __init__(
+        self,
+        *,
+        center: tuple[float, float, float] = (0.0, 0.0, 0.0),
+        axis: tuple[float, float, float] = (0.0, 1.0, 0.0),
+        radius: float = 1.0,
+        height: float = 1.0,
+    ) -> None:
+        self.center = center
+        self.axis = axis
+        self.radius = radius
+        self.height = height
+
+
+class Rectangle(Record):
+    """Flat, in the x-y plane before its rotation.
+
+    Attributes
+    ----------
+    center : tuple[float, float, float]
+    size : tuple[float, float]
+        Along x and y before its rotation.
+    """
+    __slots__ = ("center", "size")
+    center: tuple[float, float, float]
+    size: tuple[float, float]
+
+    def __init__(
+        self,
+        *,
+        center: tuple[float, float, float] = (0.0, 0.0, 0.0),
+        size: tuple[float, float] = (1.0, 1.0),
+    ) -> None:
+        self.center = center
+        self.size = size
+
+
+class Disk(Record):
+    """Flat; the normal need not be of unit length.
+
+    Attributes
+    ----------
+    center : tuple[float, float, float]
+    normal : tuple[float, float, float]
+    radius : float
+    """
+    __slots__ = ("center", "normal", "radius")
+    center: tuple[float, float, float]
+    normal: tuple[float, float, float]
+    radius: float
+
+    def __init__(
+        self,
+        *,
+        center: tuple[float, float, float] = (0.0, 0.0, 0.0),
+        normal: tuple[float, float, float] = (0.0, 0.0, -1.0),
+        radius: float = 1.0,
+    ) -> None:
+        self.center = center
+        self.normal = normal
+        self.radius = radius
+
+
+class Capsule(Record):
+    """All points within `radius` of the line between its two points, which differ.
+
+    Attributes
+    ----------
+    start : tuple[float, float, float]
+    end : tuple[float, float, float]
+    radius : float
+    """
+    __slots__ = ("start", "end", "radius")
+    start: tuple[float, float, float]
+    end: tuple[float, float, float]
+    radius: float
+
+    def __init__(
+        self,
+        *,
+        start: tuple[float, float, float] = (0.0, 0.0, 0.0),
+        end: tuple[float, float, float] = (0.0, 1.0, 0.0),
+        radius: float = 1.0,
+    ) -> None:
+        self.start = start
+        self.end = end
+        self.radius = radius
+
+
+class Cone(Record):
+    """With a base, whose middle is `base`; the axis, which need not be of unit length, goes from there
+    to the tip.
+
+    Attributes
+    ----------
+    base : tuple[float, float, float]
+    axis : tuple[float, float, float]
+    radius : float
+    height : float
+    """
+    __slots__ = ("base", "axis", "radius", "height")
+    base: tuple[float, float, float]
+    axis: tuple[float, float, float]
+    radius: float
+    height: float
+
+    def __init__(
+        self,
+        *,
+        base: tuple[float, float, float] = (0.0, 0.0, 0.0),
+        axis: tuple[float, float, float] = (0.0, -1.0, 0.0),
+        radius: float = 1.0,
+        height: float = 1.0,
+    ) -> None:
+        self.base = base
+        self.axis = axis
+        self.radius = radius
+        self.height = height
+
+
+class Mesh(Record):
+    """Many triangles, about the zero of their own frame. In files: those of an OBJ, PLY, STL or glTF
+    file, turned and scaled when it is read; of a glTF or OBJ file those of one material, unless the
+    object has a material of its own.
+
+    Attributes
+    ----------
+    file : str
+        Empty if built in code.
+    scale : float
+        Of the file's numbers, to metres.
+    up : Literal["automatic", "y", "z", "minus_y"]
+        The file's axis that is up (−y in the world); automatic: y in OBJ and glTF, z in PLY and
+        STL.
+    time_s : float | None
+        Of a glTF file's first animation; none: as its nodes stand.
+    play : Literal["still", "once", "loop"]
+        Whether that animation goes on, from `time_s` (or its start) at t = 0.
+    sha256 : str
+        Of the file's bytes and those of the files that it names, as hexadecimal digits; empty if
+        built in code.
+    left_out : int
+        Triangles of the file with a corner that is no finite number, or beyond 1e5 m.
+    guessed : int
+        Materials of the file whose visible colour stands for their reflectivity.
+    notices : list[str]
+        Sentences: what else of the file is left out, or mended.
+    triangles : TriangleMesh | None
+        What is seen: already turned and scaled; objects may share it.
+    motion : MeshMotion | None
+        How it changes its shape; none: it does not.
+    """
+    __slots__ = ("file", "scale", "up", "time_s", "play", "sha256", "left_out", "guessed", "notices", "triangles", "motion")
+    file: str
+    scale: float
+    up: Literal["automatic", "y", "z", "minus_y"]
+    time_s: float | None
+    play: Literal["still", "once", "loop"]
+    sha256: str
+    left_out: int
+    guessed: int
+    notices: list[str]
+    triangles: TriangleMesh | None
+    motion: MeshMotion | None
+
+    def __init__(
+        self,
+        *,
+        file: str = '',
+        scale: float = 1.0,
+        up: Literal["automatic", "y", "z", "minus_y"] = 'automatic',
+        time_s: float | None = None,
+        play: Literal["still", "once", "loop"] = 'still',
+        sha256: str = '',
+        left_out: int = 0,
+        guessed: int = 0,
+        notices: Sequence[str] = (),
+        triangles: TriangleMesh | None = None,
+        motion: MeshMotion | None = None,
+    ) -> None:
+        self.file = file
+        self.scale = scale
+        self.up = up
+        self.time_s = time_s
+        self.play = play
+        self.sha256 = sha256
+        self.left_out = left_out
+        self.guessed = guessed
+        self.notices = list(notices)
+        self.triangles = triangles
+        self.motion = motion
+
+
+class Rotation(Record):
+    """A turn by the right-hand rule about `axis` (any length but zero).
+
+    Attributes
+    ----------
+    axis : tuple[float, float, float]
+    angle_rad : float
+    """
+    __slots__ = ("axis", "angle_rad")
+    axis: tuple[float, float, float]
+    angle_rad: float
+
+    def __init__(
+        self,
+        *,
+        axis: tuple[float, float, float] = (0.0, 0.0, 1.0),
+        angle_rad: float = 0.0,
+    ) -> None:
+        self.axis = axis
+        self.angle_rad = angle_rad
+
+
+class Keyframe(Record):
+    """Where an object is at a time. Between two of them its shift changes evenly, and it turns evenly:
+    where both rotations are about the same axis from the one angle to the other, however far that
+    is, else the shortest way. Before the first and after the last it stands still.
+
+    Attributes
+    ----------
+    time_s : float
+    position : tuple[float, float, float]
+        Shift [m], as Object::position.
+    rotation : Rotation
+    """
+    __slots__ = ("time_s", "position", "rotation")
+    time_s: float
+    position: tuple[float, float, float]
+    rotation: Rotation
+
+    def __init__(
+        self,
+        *,
+        time_s: float = 0.0,
+        position: tuple[float, float, float] = (0.0, 0.0, 0.0),
+        rotation: Rotation | None = None,
+    ) -> None:
+        self.time_s = time_s
+        self.position = position
+        self.rotation = Rotation() if rotation is None else rotation
+
+
+class Object(Record):
+    """One thing in the scene. Order of operations: rotation about its own centre (sphere, box,
+    cylinder, rectangle, disk: the centre; triangle: the centroid; capsule: halfway between its
+    points; plane: its point; cone: the middle of its base; mesh: its zero), then the shift
+    `position`; then, both with time, a turn about the centre and a shift: by angular velocity · t
+    and velocity · t.
+
+    Attributes
+    ----------
+    name : str
+    shape : Plane | Sphere | Box | Triangle | Cylinder | Rectangle | Disk | Capsule | Cone | Mesh
+    material : int
+        Index in Scene::materials.
+    position : tuple[float, float, float]
+        Shift [m].
+    rotation : Rotation
+    velocity_m_per_s : tuple[float, float, float]
+    angular_velocity_rad_per_s : tuple[float, float, float]
+        Its axis, in the world, times how fast it turns by the right-hand rule.
+    keyframes : list[Keyframe]
+        In place of position, rotation and both velocities; ascending in time.
+    """
+    __slots__ = ("name", "shape", "material", "position", "rotation", "velocity_m_per_s", "angular_velocity_rad_per_s", "keyframes")
+    name: str
+    shape: Plane | Sphere | Box | Triangle | Cylinder | Rectangle | Disk | Capsule | Cone | Mesh
+    material: int
+    position: tuple[float, float, float]
+    rotation: Rotation
+    velocity_m_per_s: tuple[float, float, float]
+    angular_velocity_rad_per_s: tuple[float, float, float]
+    keyframes: list[Keyframe]
+
+    def __init__(
+        self,
+        *,
+        name: str = '',
+        shape: Plane | Sphere | Box | Triangle | Cylinder | Rectangle | Disk | Capsule | Cone | Mesh | None = None,
+        material: int = 0,
+        position: tuple[float, float, float] = (0.0, 0.0, 0.0),
+        rotation: Rotation | None = None,
+        velocity_m_per_s: tuple[float, float, float] = (0.0, 0.0, 0.0),
+        angular_velocity_rad_per_s: tuple[float, float, float] = (0.0, 0.0, 0.0),
+        keyframes: Sequence[Keyframe] = (),
+    ) -> None:
+        self.name = name
+        self.shape = Plane() if shape is None else shape
+        self.material = material
+        self.position = position
+        self.rotation = Rotation() if rotation is None else rotation
+        self.velocity_m_per_s = velocity_m_per_s
+        self.angular_velocity_rad_per_s = angular_velocity_rad_per_s
+        self.keyframes = list(keyframes)
+
+
+class Ambient(Record):
+    """Light that is not the camera's own. One of level, illuminance and band irradiance says how much.
+
+    Attributes
+    ----------
+    spectrum : Literal["none", "sun_am15", "equal_energy", "table"]
+    quantity : Literal["level", "illuminance_lx", "band_irradiance_w_per_m2"]
+    amount : float
+        In the quantity's unit.
+    table_wavelength_m : list[float]
+        Spectrum `table`: ascending.
+    table_irradiance_w_per_m3 : list[float]
+        Spectral irradiance per metre of wavelength (1 W m-2 nm-1 = 1e9 W m-3).
+    direction : tuple[float, float, float] | None
+        Direction in which the light travels (a sun); none: uniform from everywhere.
+    """
+    __slots__ = ("spectrum", "quantity", "amount", "table_wavelength_m", "table_irradiance_w_per_m3", "direction")
+    spectrum: Literal["none", "sun_am15", "equal_energy", "table"]
+    quantity: Literal["level", "illuminance_lx", "band_irradiance_w_per_m2"]
+    amount: float
+    table_wavelength_m: list[float]
+    table_irradiance_w_per_m3: list[float]
+    direction: tuple[float, float, float] | None
+
+    def __init__(
+        self,
+        *,
+        spectrum: Literal["none", "sun_am15", "equal_energy", "table"] = 'none',
+        quantity: Literal["level", "illuminance_lx", "band_irradiance_w_per_m2"] = 'level',
+        amount: float = 0.0,
+        table_wavelength_m: Sequence[float] = (),
+        table_irradiance_w_per_m3: Sequence[float] = (),
+        direction: tuple[float, float, float] | None = None,
+    ) -> None:
+        self.spectrum = spectrum
+        self.quantity = quantity
+        self.amount = amount
+        self.table_wavelength_m = list(table_wavelength_m)
+        self.table_irradiance_w_per_m3 = list(table_irradiance_w_per_m3)
+        self.direction = direction
+
+
+class TransientBins(Record):
+    """Light by the length of its path, as histograms (Truth::transient_e_per_s): bin k is centred at
+    first + (k + ½)·width. Light of a path is shared between the two bins whose centres are nearest.
+
+    Attributes
+    ----------
+    bins : int
+        0…1e6; 0: there are no histograms.
+    first_m : float
+        0…1e6: where the first bin begins. Whole paths: from the light by all surfaces to the
+        camera.
+    width_m : float
+        1e-6…1e6, of a bin.
+    """
+    __slots__ = ("bins", "first_m", "width_m")
+    bins: int
+    first_m: float
+    width_m: float
+
+    def __init__(
+        self,
+        *,
+        bins: int = 0,
+        first_m: float = 0.0,
+        width_m: float = 0.001,
+    ) -> None:
+        self.bins = bins
+        self.first_m = first_m
+        self.width_m = width_m
+
+
+class Transport(Record):
+    """How light goes on from surface to surface before it comes back: light that meets 1, 2 … 1 +
+    bounces of them. Which ways it takes is chosen by chance, but the same for all frames: it is no
+    noise of the camera's. Arrays in place of the scene bounce nothing.
+
+    Attributes
+    ----------
+    bounces : int
+        0…64; 0: light comes straight back from the surface that the lights shine on.
+    samples : int
+        1…65536: ways of light for each pixel, where it bounces; an odd number is rounded up.
+    seed : int
+        Another one: other ways, the same light but for their error.
+    max_samples : int
+        0: as many as samples. Else a pixel goes on, twice as many again and again, up to these,
+        until it knows.
+    path_noise_m : float
+        Its half path to this standard error; 0: to a fifth of its depth noise.
+    smooth : bool
+        Light that bounces is smoothed over neighbours that see the same surface.
+    transient : TransientBins
+    """
+    __slots__ = ("bounces", "samples", "seed", "max_samples", "path_noise_m", "smooth", "transient")
+    bounces: int
+    samples: int
+    seed: int
+    max_samples: int
+    path_noise_m: float
+    smooth: bool
+    transient: TransientBins
+
+    def __init__(
+        self,
+        *,
+        bounces: int = 0,
+        samples: int = 16,
+        seed: int = 0,
+        max_samples: int = 0,
+        path_noise_m: float = 0.0,
+        smooth: bool = False,
+        transient: TransientBins | None = None,
+    ) -> None:
+        self.bounces = bounces
+        self.samples = samples
+        self.seed = seed
+        self.max_samples = max_samples
+        self.path_noise_m = path_noise_m
+        self.smooth = smooth
+        self.transient = TransientBins() if transient is None else transient
+
+
+class Pose(Record):
+    """Where the camera stands. Camera frame: x right, y down, z forward.
+
+    Attributes
+    ----------
+    position : tuple[float, float, float]
+    look_at : tuple[float, float, float]
+        A point on the optical axis.
+    up : tuple[float, float, float]
+    """
+    __slots__ = ("position", "look_at", "up")
+    position: tuple[float, float, float]
+    look_at: tuple[float, float, float]
+    up: tuple[float, float, float]
+
+    def __init__(
+        self,
+        *,
+        position: tuple[float, float, float] = (0.0, 0.0, 0.0),
+        look_at: tuple[float, float, float] = (0.0, 0.0, 1.0),
+        up: tuple[float, float, float] = (0.0, -1.0, 0.0),
+    ) -> None:
+        self.position = position
+        self.look_at = look_at
+        self.up = up
+
+
+class CameraKeyframe(Record):
+    """Where the camera stands at a time. Between two of them position, look_at and up change evenly: a
+    camera that looks at one point goes on doing so. Before the first and after the last it stands
+    still.
+
+    Attributes
+    ----------
+    time_s : float
+    pose : Pose
+    """
+    __slots__ = ("time_s", "pose")
+    time_s: float
+    pose: Pose
+
+    def __init__(
+        self,
+        *,
+        time_s: float = 0.0,
+        pose: Pose | None = None,
+    ) -> None:
+        self.time_s = time_s
+        self.pose = Pose() if pose is None else pose
+
+
+class Override(Record):
+    """A key of the profile that the scene changes: dotted path and the text of the value, e.g.
+    {"lens.f_number", "1.2"} or {"integration_time", "500 us"}.
+
+    Attributes
+    ----------
+    key : str
+    value : str
+    where : str
+        File:line:col for messages; empty if built in code.
+    """
+    __slots__ = ("key", "value", "where")
+    key: str
+    value: str
+    where: str
+
+    def __init__(
+        self,
+        *,
+        key: str = '',
+        value: str = '',
+        where: str = '',
+    ) -> None:
+        self.key = key
+        self.value = value
+        self.where = where
+
+
+class CameraChoice(Record):
+    """The scene's `camera` section: which profile and mode to take, and what to change in it.
+
+    Attributes
+    ----------
+    profile : str
+        A built-in name or a file.
+    mode : str
+        Empty: the profile's first.
+    pose : Pose
+    keyframes : list[CameraKeyframe]
+        In place of the pose; ascending in time.
+    overrides : list[Override]
+    profile_where : str
+        File:line:col for messages; empty if built in code.
+    mode_where : str
+        File:line:col for messages; empty if built in code.
+    """
+    __slots__ = ("profile", "mode", "pose", "keyframes", "overrides", "profile_where", "mode_where")
+    profile: str
+    mode: str
+    pose: Pose
+    keyframes: list[CameraKeyframe]
+    overrides: list[Override]
+    profile_where: str
+    mode_where: str
+
+    def __init__(
+        self,
+        *,
+        profile: str = 'pico-flexx',
+        mode: str = '',
+        pose: Pose | None = None,
+        keyframes: Sequence[CameraKeyframe] = (),
+        overrides: Sequence[Override] = (),
+        profile_where: str = '',
+        mode_where: str = '',
+    ) -> None:
+        self.profile = profile
+        self.mode = mode
+        self.pose = Pose() if pose is None else pose
+        self.keyframes = list(keyframes)
+        self.overrides = list(overrides)
+        self.profile_where = profile_where
+        self.mode_where = mode_where
+
+
+class Scene(Record):
+    """What C++ calls Scene.
+
+    Attributes
+    ----------
+    name : str
+        The file's stem, or a built-in name.
+    source : str
+        The file it came from, empty if built in code.
+    camera : CameraChoice
+    ambient : Ambient
+    transport : Transport
+    materials : list[Material]
+    objects : list[Object]
+    """
+    __slots__ = ("name", "source", "camera", "ambient", "transport", "materials", "objects")
+    name: str
+    source: str
+    camera: CameraChoice
+    ambient: Ambient
+    transport: Transport
+    materials: list[Material]
+    objects: list[Object]
+
+    def __init__(
+        self,
+        *,
+        name: str = '',
+        source: str = '',
+        camera: CameraChoice | None = None,
+        ambient: Ambient | None = None,
+        transport: Transport | None = None,
+        materials: Sequence[Material] = (),
+        objects: Sequence[Object] = (),
+    ) -> None:
+        self.name = name
+        self.source = source
+        self.camera = CameraChoice() if camera is None else camera
+        self.ambient = Ambient() if ambient is None else ambient
+        self.transport = Transport() if transport is None else transport
+        self.materials = list(materials)
+        self.objects = list(objects)
+
+
+class RanOn(Record):
+    """What frames or depth were computed on.
+
+    Attributes
+    ----------
+    backend : str
+        "cpu" or "cuda".
+    device : str
+        Its name: of the GPU, or of the processor's instruction set.
+    isa : str
+        Of the processor, which is there in any case: "scalar", "scalar_fma", "avx2" or "avx512".
+    threads : int
+        Of the processor.
+    block_size : int
+        Threads per block of the kernel from ray to depth; 0 where the processor computed.
+    occupancy : float
+        How full that kernel makes the GPU, 0 … 1.
+    fallback_reason : str
+        Why Backend::automatic took no GPU; empty where it did, or where the processor was asked
+        for.
+    """
+    __slots__ = ("backend", "device", "isa", "threads", "block_size", "occupancy", "fallback_reason")
+    backend: str
+    device: str
+    isa: str
+    threads: int
+    block_size: int
+    occupancy: float
+    fallback_reason: str
+
+    def __init__(
+        self,
+        *,
+        backend: str = '',
+        device: str = '',
+        isa: str = '',
+        threads: int = 0,
+        block_size: int = 0,
+        occupancy: float = 0.0,
+        fallback_reason: str = '',
+    ) -> None:
+        self.backend = backend
+        self.device = device
+        self.isa = isa
+        self.threads = threads
+        self.block_size = block_size
+        self.occupancy = occupancy
+        self.fallback_reason = fallback_reason
+
+
+class FrameRequest(Record):
+    """One frame of a batch. What is not set is the simulator's.
+
+    Attributes
+    ----------
+    index : int
+        Starts at index / frame_rate.
+    seed : int | None
+    pose : Pose | None
+        Of the camera.
+    """
+    __slots__ = ("index", "seed", "pose")
+    index: int
+    seed: int | None
+    pose: Pose | None
+
+    def __init__(
+        self,
+        *,
+        index: int = 0,
+        seed: int | None = None,
+        pose: Pose | None = None,
+    ) -> None:
+        self.index = index
+        self.seed = seed
+        self.pose = pose
+
+
+__all__ = [
+    "Curve", "PixelMask", "Sensor", "Scatter", "Lens", "Filter", "Pattern", "Waveform", "Area",
+    "Illumination", "Pixel", "Adc", "RawFrame", "Mode", "ImageFilter", "Decoding", "Temperature",
+    "Camera", "Material", "Plane", "Sphere", "Box", "Triangle", "Cylinder", "Rectangle", "Disk",
+    "Capsule", "Cone", "Mesh", "Rotation", "Keyframe", "Object", "Ambient", "TransientBins",
+    "Transport", "Pose", "CameraKeyframe", "Override", "CameraChoice", "Scene", "RanOn",
+    "FrameRequest",
+]

@@ -1,0 +1,71 @@
+# SPDX-FileCopyrightText: 2026 The tofray authors
+# SPDX-License-Identifier: Apache-2.0
+"""Figures of a frame by matplotlib, which is asked for only here."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from ._errors import BadInput
+
+if TYPE_CHECKING:
+    from ._frame import Frame
+
+
+def plot(frame: Frame, what: str = "z") -> Any:
+    """One figure of a frame: "z", "amplitude", "error", "raw" or "cloud"."""
+    makers = {"z": _z, "amplitude": _amplitude, "error": _error, "raw": _raw, "cloud": _cloud}
+    if what not in makers:
+        raise BadInput(f"what: error: got {what!r}\n  expected one of {', '.join(makers)}")
+    import importlib
+
+    try:
+        Figure = importlib.import_module("matplotlib.figure").Figure
+    except ImportError as fault:
+        raise ImportError("plot() needs the package matplotlib; preview() needs none") from fault
+    figure = Figure(figsize=(6.4, 4.8), layout="constrained")
+    makers[what](frame, figure)
+    return figure
+
+
+def _image(figure: Any, values: Any, label: str, **looks: Any) -> None:
+    axes = figure.add_subplot()
+    figure.colorbar(axes.imshow(values, interpolation="nearest", **looks), label=label)
+    axes.set(xlabel="column", ylabel="row")
+
+
+def _z(frame: Frame, figure: Any) -> None:
+    _image(figure, frame.depth.z_m, "z [m]", cmap="viridis_r")
+
+
+def _amplitude(frame: Frame, figure: Any) -> None:
+    _image(figure, frame.depth.amplitude_e, "amplitude [e]", cmap="gray")
+
+
+def _error(frame: Frame, figure: Any) -> None:
+    import numpy as np
+
+    error = 1e3 * (frame.depth.z_m - frame.truth.z_m)
+    finite = np.abs(error[np.isfinite(error)])
+    scale = float(np.percentile(finite, 98)) if finite.size else 1.0
+    _image(figure, error, "z - true z [mm]", cmap="RdBu", vmin=-scale, vmax=scale)
+
+
+def _raw(frame: Frame, figure: Any) -> None:
+    stack = frame.raw.get("raw")
+    if stack is None:
+        stack = frame.raw.tap_a - frame.raw.tap_b
+    columns = 3
+    for k, image in enumerate(stack):
+        axes = figure.add_subplot(-(-len(stack) // columns), columns, k + 1)
+        axes.imshow(image, cmap="gray", interpolation="nearest")
+        axes.set(xticks=[], yticks=[])
+        if "modulation_frequency_hz" in frame.raw:
+            axes.set_title(f"{frame.raw.modulation_frequency_hz[k] / 1e6:g} MHz", fontsize=8)
+
+
+def _cloud(frame: Frame, figure: Any) -> None:
+    points = frame.points()
+    axes = figure.add_subplot(projection="3d")
+    axes.scatter(points[:, 0], points[:, 2], -points[:, 1], c=points[:, 2], s=1)
+    axes.set(xlabel="x [m]", ylabel="z [m]", zlabel="-y [m]")

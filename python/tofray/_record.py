@@ -1,0 +1,44 @@
+# SPDX-FileCopyrightText: 2026 The tofray authors
+# SPDX-License-Identifier: Apache-2.0
+"""What the classes of _model have in common."""
+
+from __future__ import annotations
+
+from typing import Any
+
+
+def _plain(value: Any) -> Any:
+    if isinstance(value, Record):
+        return value.to_dict()
+    if isinstance(value, (list, tuple)):
+        return [_plain(one) for one in value]
+    return value
+
+
+class Record:
+    """A struct: members with their units in their names, and no others."""
+
+    __slots__: tuple[str, ...] = ()
+    __hash__ = None  # type: ignore[assignment]
+
+    def __eq__(self, other: object) -> bool:
+        if type(other) is not type(self):
+            return NotImplemented
+        return all(getattr(self, name) == getattr(other, name) for name in self.__slots__)
+
+    def __repr__(self) -> str:
+        fresh = type(self)()
+        said = ((name, getattr(self, name)) for name in self.__slots__)
+        return f"{type(self).__name__}({', '.join(f'{name}={value!r}' for name, value in said if value != getattr(fresh, name))})"
+
+    def __setattr__(self, name: str, value: Any) -> None:
+        try:
+            object.__setattr__(self, name, value)
+        except AttributeError:
+            raise AttributeError(
+                f"{type(self).__name__} has no member {name!r}\n  expected one of {', '.join(self.__slots__)}"
+            ) from None
+
+    def to_dict(self) -> dict[str, Any]:
+        """Members by name, in SI units; structs within as dicts."""
+        return {name: _plain(getattr(self, name)) for name in self.__slots__}

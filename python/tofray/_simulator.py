@@ -1,0 +1,239 @@
+# SPDX-FileCopyrightText: 2026 The tofray authors
+# SPDX-License-Identifier: Apache-2.0
+"""Simulator, process and demo."""
+
+from __future__ import annotations
+
+import copy
+from typing import TYPE_CHECKING, Any, Iterable, Iterator
+
+from . import _native
+from ._arrays import Depth, Raw
+from ._frame import Frame
+from ._load import load_camera, load_scene
+from ._model import Camera, FrameRequest, RanOn, Scene
+from ._own import Geometry, PixelLight, Transient
+
+if TYPE_CHECKING:
+    from typing import Literal
+
+    import numpy as np
+    from numpy.typing import NDArray
+
+
+class Simulator:
+    """Simulates frames of one scene seen by one camera.
+
+    ``frame(i)`` depends on nothing but scene, camera, options and i: the same bytes as the command line's, on any
+    machine. The interpreter's lock is free while it computes; Ctrl-C ends a frame. A simulator computes one frame at a
+    time, whichever threads ask; several simulators compute at once.
+
+    Parameters
+    ----------
+    scene : Scene
+        A copy is made: what is changed later changes no simulator.
+    camera : Camera, optional
+        Left out: the one that the scene asks for.
+    seed : int
+        0 to 2**64 - 1.
+    noise : {"exact", "off"}
+        Poisson counts with read noise, or expected values.
+    threads : int
+        0: as many as the machine has cores.
+    backend : {"automatic", "cpu", "cuda"}
+        What computes.
+    device : int
+        Which GPU; -1: the first one that can be used.
+    block_size : int
+        CUDA threads per block; 0: chosen.
+    batch_bytes : int
+        Host memory of one batch on its way from a GPU.
+    isa : {"best", "scalar", "scalar_fma", "avx2", "avx512"}
+        Which machine code runs. All give the same bytes.
+    truth : bool
+        Fill ``frame.truth``.
+    last_stage : {"trace", "power", "raw", "depth"}
+        Stop after this stage.
+    exposure_samples : int
+        1 to 1000: times within each exposure at which what moves is seen.
+    subpixel : int
+        1 to 16: samples of each pixel along its rows and columns.
+    culling : bool
+        Off: every pixel tests every object (for tests).
+
+    Raises
+    ------
+    Error
+        For a number out of its range, by its member, and where scene, camera and options do not fit together.
+    """
+
+    __slots__ = ("_camera", "_native", "_options", "_scene")
+
+    def __init__(
+        self,
+        scene: Scene,
+        camera: Camera | None = None,
+        *,
+        seed: int = 0,
+        noise: Literal["off", "exact"] = "exact",
+        threads: int = 0,
+        backend: Literal["automatic", "cpu", "cuda"] = "automatic",
+        device: int = -1,
+        block_size: int = 0,
+        batch_bytes: int = 64_000_000,
+        isa: Literal["best", "scalar", "scalar_fma", "avx2", "avx512"] = "best",
+        truth: bool = True,
+        last_stage: Literal["trace", "power", "raw", "depth"] = "depth",
+        exposure_samples: int = 1,
+        subpixel: int = 1,
+        culling: bool = True,
+    ) -> None:
+        self._options: dict[str, Any] = {
+            "seed": seed, "noise": noise, "threads": threads, "backend": backend, "device": device, "block_size": block_size,
+            "batch_bytes": batch_bytes, "isa": isa, "truth": truth, "last_stage": last_stage,
+            "exposure_samples": exposure_samples, "subpixel": subpixel, "culling": culling,
+        }
+        if camera is None and isinstance(scene, Scene):
+            camera = load_camera(scene)
+        # Frames tell later what they were made of, whatever becomes of the caller's own.
+        self._scene = copy.deepcopy(scene)
+        self._camera = copy.deepcopy(camera)
+        self._native = _native.Simulator(self._scene, self._camera, self._options)
+
+    @property
+    def scene(self) -> Scene:
+        """A copy of what is simulated."""
+        return copy.deepcopy(self._scene)
+
+    @property
+    def camera(self) -> Camera:
+        """A copy of the camera."""
+        camera: Camera = copy.deepcopy(self._camera)
+        return camera
+
+    def frame(self, index: int = 0, own: Geometry | PixelLight | Transient | None = None) -> Frame:
+        """Computes one frame, which starts at index / frame_rate.
+
+        Parameters
+        ----------
+        index : int
+            0 or more.
+        own : Geometry, PixelLight or Transient, optional
+            Arrays of one's own in the place of what the scene's objects give.
+        """
+        return Frame._of(self._native.frame(index, own), self._scene, self._camera, self._options)
+
+    def frames(self, first: int = 0, count: int | None = None, *, requests: Iterable[FrameRequest] | None = None) -> Iterator[Frame]:
+        """Frames one after the other; without a count they do not end.
+
+        Parameters
+        ----------
+        first, count : int
+            From which frame on, and how many.
+        requests : iterable of FrameRequest, optional
+            In place of them: each frame's index and, where they differ from the simulator's, its seed and the camera's pose.
+            A request with a seed or a pose is remembered by its number alone in what ``save`` writes.
+        """
+        if requests is None:
+            index = first
+            while count is None or index < first + count:
+                yield self.frame(index)
+                index += 1
+            return
+        # On a GPU several are on their way at once.
+        batch = 16 if self.ran_on.backend == "cuda" else 1
+        waiting: list[FrameRequest] = []
+        for request in requests:
+            waiting.append(request)
+            if len(waiting) == batch:
+                yield from self._batch(waiting)
+                waiting = []
+        if waiting:
+            yield from self._batch(waiting)
+
+    def _batch(self, requests: list[FrameRequest]) -> Iterator[Frame]:
+        for request, memory in zip(requests, self._native.frames(requests)):
+            scene, options = self._scene, self._options
+            if request.seed is not None:
+                options = {**options, "seed": request.seed}
+            if request.pose is not None:
+                scene = copy.deepcopy(scene)
+                scene.camera.pose, scene.camera.keyframes = request.pose, []
+            yield Frame._of(memory, scene, self._camera, options)
+
+    def stop(self) -> None:
+        """Ends the frame under way, from another thread; whoever waits for it gets an Error of kind "limit"."""
+        self._native.stop()
+
+    @property
+    def progress(self) -> tuple[int, int]:
+        """How far the frame under way is: (done, of so many), in rays, roughly. For other threads to look at."""
+        return self._native.progress()
+
+    @property
+    def ran_on(self) -> RanOn:
+        """What computes the frames."""
+        ran_on: RanOn = self._native.ran_on()
+        return ran_on
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return _simulator_of, (self._scene, self._camera, self._options)
+
+    def __repr__(self) -> str:
+        ran_on = self.ran_on
+        return f"<tofray.Simulator of {self._scene.name or 'a scene'} on {ran_on.backend}, {ran_on.isa}, {ran_on.threads} threads>"
+
+    def __dir__(self) -> list[str]:
+        return ["camera", "frame", "frames", "progress", "ran_on", "scene", "stop"]
+
+
+def _simulator_of(scene: Scene, camera: Camera, options: dict[str, Any]) -> Simulator:
+    return Simulator(scene, camera, **options)
+
+
+def process(raw: Raw, camera: Camera, **options: Any) -> Depth:
+    """Decodes raw data, simulated or measured, into depth.
+
+    Parameters
+    ----------
+    raw : Raw
+        ``raw``, or ``tap_a`` and ``tap_b``, and the arrays by phase: ``modulation_frequency_hz``, ``reference_phase_rad``,
+        ``integration_time_s``, ``lit``.
+    camera : Camera
+        Says the rest.
+    **options
+        As of Simulator: ``noise="off"`` for expected values, ``threads``, ``backend`` …
+
+    Returns
+    -------
+    Depth
+    """
+    memory, _ = _native.process(raw, camera, options)
+    depth: Depth = Depth._of(memory, memory.sizes())
+    return depth
+
+
+def pixel_rays(camera: Camera) -> NDArray[np.float32]:
+    """Which way each pixel looks: x/z and y/z of its ray in the camera's frame, the lens undistorted.
+
+    Returns
+    -------
+    float32 array [height, width, 2]
+    """
+    return _native.pixel_rays(camera)
+
+
+def camera_pose(scene: Scene, time_s: float = 0.0) -> NDArray[np.float64]:
+    """Where the camera is at a time: camera to world.
+
+    Returns
+    -------
+    float64 array [4, 4]
+        Last row 0 0 0 1.
+    """
+    return _native.camera_pose(scene, time_s)
+
+
+def demo() -> Frame:
+    """The first frame of the built-in demo: a snowman beside a fir tree."""
+    return Simulator(load_scene("demo")).frame(0)

@@ -1,0 +1,103 @@
+# SPDX-FileCopyrightText: 2026 The tofray authors
+# SPDX-License-Identifier: Apache-2.0
+"""Every public name of the C++ API is reached from Python, or is in the list of those that are not, with the reason."""
+
+from __future__ import annotations
+
+import pathlib
+import re
+
+import numpy as np
+import pytest
+
+import tofray
+from tofray import _native
+
+INCLUDE = pathlib.Path(__file__).resolve().parents[2] / "include/tofray"
+TEXT = {path.name: re.sub(r"//.*", "", path.read_text(encoding="utf-8")) for path in INCLUDE.glob("*.h")}
+
+LEFT_OUT = {
+    "DeviceFrames": "frames that stay on a GPU have no arrays of numpy's",
+    "frames_on_device": "likewise",
+    "FrameArrays": "a batch's frames are copied into Frame, since a view would outlive its memory",
+    "FrameProgress": "Simulator.progress and Simulator.stop()",
+    "SimulatorOptions": "Simulator's own words",
+    "CameraOptions": "load_camera's own words",
+    "ErrorKind": "Error.kind, a word",
+    "Noise": "a word", "Isa": "a word", "Backend": "a word", "Stage": "a word", "PowerModel": "a word",
+    "ArrayShape": "an array has its shape",
+    "Flag": "tofray.flags",
+    "load_scene_text": "tofray.scene", "load_camera_text": "tofray.camera",
+    "frame_npz": "Frame.save",
+    "version": "tofray.__version__",
+}
+
+
+def types() -> list[str]:
+    return sorted({name for text in TEXT.values() for name in re.findall(r"^(?:struct|class|enum class|enum) (\w+)(?: :[^;{]*| final)? \{", text, re.M)})
+
+
+def functions() -> list[str]:
+    return sorted({name for text in TEXT.values() for name in re.findall(r"^(?! )[\w:<>,&* ]*[ &*](\w+)\([^;]*?\);", text, re.M)})
+
+
+@pytest.mark.parametrize("name", types())
+def test_a_type_is_reached_or_left_out_with_a_reason(name: str) -> None:
+    assert (name in LEFT_OUT) != hasattr(tofray, name)
+
+
+@pytest.mark.parametrize("name", functions())
+def test_a_function_is_reached_or_left_out_with_a_reason(name: str) -> None:
+    assert (name in LEFT_OUT) != hasattr(tofray, name)
+
+
+def test_the_headers_were_read() -> None:
+    assert {"Scene", "Camera", "Simulator", "Geometry", "Noise", "Flag", "Error"} <= set(types())
+    assert {"load_scene", "load_camera", "process", "pixel_rays", "camera_pose", "frame_npz"} <= set(functions())
+    assert all(name in {*types(), *functions(), "frames_on_device"} for name in LEFT_OUT), "nothing is left out that there is not"
+
+
+def test_a_simulators_functions_are_there() -> None:
+    body = re.search(r"^class Simulator \{(.*?)^\};", TEXT["simulator.h"], re.M | re.S)
+    assert body is not None
+    names = set(re.findall(r"(\w+)\([^;]*\)(?: const)?;", body[1].split("private:")[0])) - {"Simulator"}
+    assert names - {"operator"} == {"frame", "frames", "frames_on_device", "ran_on"}
+    assert all(name in LEFT_OUT or hasattr(tofray.Simulator, name) for name in names if name != "operator")
+
+
+def test_each_enumerator_is_a_word() -> None:
+    words = {word for _, members in _native.structs() for _, kind, _ in members for word in re.findall(r'"(\w+)"', kind)}
+    for wrap in ("repeat", "mirror", "clamp"):
+        assert tofray.ReflectivityMap(np.zeros((1, 1), np.float32), wrap).wrap_u == wrap
+        words.add(wrap)
+    words |= {word for _, kind, _ in _native.options() for word in re.findall(r'"(\w+)"', kind)}
+    found = 0
+    for text in (TEXT["scene.h"], TEXT["camera.h"], TEXT["simulator.h"], TEXT["frame_arrays.h"]):
+        for name, body in re.findall(r"enum class (\w+) \{([^}]*)\}", text):
+            if name == "ArrayShape":
+                continue
+            for word in re.findall(r"\w+", body):
+                assert word in words, f"{name}::{word}"
+                found += 1
+    assert found > 40
+
+
+def test_own_arrays_have_the_members_of_their_structs() -> None:
+    for kind in (tofray.Geometry, tofray.PixelLight, tofray.Transient):
+        body = re.search(rf"^struct {kind.__name__} \{{(.*?)^\}};", TEXT["stages.h"], re.M | re.S)
+        assert body is not None
+        members = set(re.findall(r"(\w+)(?: = [\d.]+)?[,;]", body[1])) - {"width", "height", "moments", "bins"}
+        assert members == set(getattr(kind, "__slots__"))
+
+
+def test_flags_are_those_of_the_header() -> None:
+    of_header = {name: int(value) for name, value in re.findall(r"flag_(\w+) = (\d+)", TEXT["frame.h"])}
+    assert {**of_header, "invalid": 31} == tofray.flags
+
+
+def test_a_simulators_words_are_the_options() -> None:
+    import inspect
+
+    signature = inspect.signature(tofray.Simulator.__init__)
+    mine = {name: one.default for name, one in signature.parameters.items() if name not in ("self", "scene", "camera")}
+    assert mine == {name: value for name, _, value in _native.options()}
