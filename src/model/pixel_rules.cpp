@@ -95,10 +95,10 @@ void samples_carry_their_harmonics(const Waveform& waveform, Complaints& complai
                         std::to_string(waveform.harmonics) + " odd harmonics");
   if (!phases_are_sound(waveform, samples, complaints) || !correlation || !(largest > 0)) return;
   // A gate that is open for half the period has no even harmonics: what a pixel shows of them, this model has not. [theory: eq. 3.23]
-  const double share = base::even_share(base::over_a_period(waveform.sample_phases_rad, samples));
-  if (share > most_even)
+  const double of_odd_ones = base::even_share(base::over_a_period(waveform.sample_phases_rad, samples));
+  if (of_odd_ones > most_even)
     complain("the correlation has even harmonics, which the pixel's model has not",
-             "got " + number_text(std::round(1e4 * share) / 100) +
+             "got " + number_text(std::round(1e4 * of_odd_ones) / 100) +
                  " % of the odd ones, at most 1 %; put (D(t) - D(t + 180 deg))/2 in the "
                  "place of D(t) where they may be left out, which for an even number of reference phases they are in the camera, too");
 }

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "backend/cpu/cpu.h"
+#include "support/bench.h"
 #include "support/pixels.h"
 #include "support/statistics.h"
 
@@ -94,4 +95,22 @@ TEST(row_noise, is_the_same_with_every_instruction_set) {
     if (!backend::can_run(isa)) continue;
     EXPECT_EQ(raw_rows(camera, 3, Noise::exact, isa).raw, scalar.raw);
   }
+}
+
+// The same of the plain float's text alone: the draw is the row's, and another one than that of the column of the same number.
+TEST(row_noise, of_a_pixel_is_its_row_s_and_not_that_of_the_column_of_that_number) {
+  const auto bench_of = [](double row_noise_e, double column_noise_e) {
+    Camera camera = bench_camera();
+    camera.sensor.width = 5, camera.sensor.height = 3;
+    camera.pixel.row_noise_e = row_noise_e, camera.pixel.column_noise_e = column_noise_e;
+    return Bench(camera, true);
+  };
+  const Bench rows = bench_of(1e3, 0), columns = bench_of(0, 1e3);
+  const auto level = [](const Bench& bench, int pixel) { return bench.expose({0, 0, 0}, pixel)[0].level; };
+  for (int pixel = 0; pixel < 15; ++pixel) {
+    EXPECT_EQ(level(rows, pixel), level(rows, pixel / 5 * 5)) << pixel;
+    EXPECT_EQ(level(columns, pixel), level(columns, pixel % 5)) << pixel;
+  }
+  for (int i = 0; i < 3; ++i) EXPECT_NE(level(rows, 5 * i), level(columns, i)) << i;
+  EXPECT_NE(level(rows, 0), level(rows, 5));
 }
