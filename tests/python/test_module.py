@@ -36,7 +36,8 @@ def same(a: tofray.Frame, b: tofray.Frame) -> bool:
 def test_frame_is_that_of_the_command_line(tmp_path: pathlib.Path) -> None:
     command = command_line.command()
     assert command is not None
-    subprocess.run([command, "render", "demo", "--seed", "7", "-o", str(tmp_path / "there"), "--emit", "npz"], check=True, capture_output=True)
+    subprocess.run([command, "render", "demo", "--seed", "7", "-o", str(tmp_path / "there"), "--emit", "npz"], check=True,
+                   capture_output=True)
     tofray.Simulator(tofray.load_scene("demo"), seed=7).frame(0).save(tmp_path / "here")
     assert (tmp_path / "here/frame.npz").read_bytes() == (tmp_path / "there/frame.npz").read_bytes()
 
