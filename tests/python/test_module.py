@@ -165,6 +165,18 @@ def test_frames_are_those_of_their_numbers() -> None:
     assert same(asked[1], tofray.Simulator(tofray.scene(BALL), seed=9).frame(0))
 
 
+def test_a_frame_remembers_what_it_was_made_of(tmp_path: pathlib.Path) -> None:
+    scene = tofray.scene(BALL)
+    simulator = tofray.Simulator(scene, seed=5)
+    frame = simulator.frame(0)
+    scene.objects.clear()
+    assert frame.scene is not None and len(frame.scene.objects) == 2
+    asked = next(simulator.frames(requests=[tofray.FrameRequest(index=0, seed=9)]))
+    for one, seed in ((frame, 5), (asked, 9)):
+        one.save(tmp_path / str(seed))
+        assert tofray.load(tmp_path / f"{seed}/frame.npz").meta["seed"] == seed
+
+
 @pytest.mark.parametrize("make", [lambda: tofray.load_scene("demo"), lambda: tofray.load_camera("pico-flexx"), tofray.demo,
                                   lambda: tofray.load_scene("bench-mesh")])
 def test_pickles_and_copies_are_the_same(make) -> None:  # type: ignore[no-untyped-def]

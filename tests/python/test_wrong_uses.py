@@ -260,6 +260,22 @@ def test_what_a_callback_raises_comes_out_as_it_is() -> None:
             moving(at).frame(1)
 
 
+def test_what_a_callback_raises_later_comes_out_as_it_is() -> None:
+    armed: list[bool] = []
+
+    def at(time_s: float) -> Any:
+        if armed:
+            raise Mine("at", time_s)
+        return np.array([[-1, -1, 1], [1, -1, 1], [0, 1, 1]], np.float32)
+
+    simulator = moving(at)
+    armed.append(True)
+    with pytest.raises(Mine):
+        simulator.frame(1)
+    armed.clear()
+    assert simulator.frame(1).truth.z_m.size == H * W
+
+
 @pytest.mark.parametrize("given", [None, 5, "abc", np.zeros((2, 3), np.float32), np.zeros((3, 3)), (1, 2, 3),
                                    np.full((3, 3), np.nan, np.float32)], ids=lambda given: f"{given!r:.20}")
 def test_what_a_callback_returns_is_looked_at(given: Any) -> None:
