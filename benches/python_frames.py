@@ -27,11 +27,12 @@ def main() -> None:
     simulator = tofray.Simulator(tofray.load_scene(scene), threads=2)
     rows: list[list[float]] = []
     for _ in range(ROUNDS):
-        there = [float(word) for word in subprocess.run([program, scene, str(COUNT)], check=True, capture_output=True, text=True).stdout.split()]
+        done = subprocess.run([program, scene, str(COUNT)], check=True, capture_output=True, text=True)
+        there = [float(word) for word in done.stdout.split()]
         rows.append([*there, milliseconds(simulator, False), milliseconds(simulator, True)])
     anew, kept, python, touched = (statistics.median(column) for column in zip(*rows))
     print(f"C++, a new frame each time    {anew:.3f} ms\nC++, one frame kept           {kept:.3f} ms")
-    print(f"Python                        {python:.3f} ms ({100 * (python / anew - 1):+.1f} % of a new one, {100 * (python / kept - 1):+.1f} % of one kept)")
+    print(f"Python                        {python:.3f} ms ({100 * (python / anew - 1):+.1f} %, {100 * (python / kept - 1):+.1f} %)")
     print(f"Python, one array looked at   {touched:.3f} ms ({100 * (touched / anew - 1):+.1f} %, {100 * (touched / kept - 1):+.1f} %)")
 
 

@@ -45,7 +45,7 @@ if(BUILD_SHARED_LIBS)
   set(shared_by_both tofray_base tofray_model)
 endif()
 tofray_make_library(tofray_files_library files files ${shared_by_both})
-set_target_properties(tofray_files_library PROPERTIES OUTPUT_NAME tofray_files)
+set_target_properties(tofray_files_library PROPERTIES OUTPUT_NAME tofray_files INSTALL_RPATH $ORIGIN)   # libtofray lies beside it
 target_link_libraries(tofray_files_library PUBLIC tofray_library)
 tofray_show_only(tofray_files_library ${CMAKE_SOURCE_DIR}/cmake/tofray_files.map)
 

@@ -1,6 +1,7 @@
 # SPDX-FileCopyrightText: 2026 The tofray authors
 # SPDX-License-Identifier: Apache-2.0
-"""Frames without end for training: raw frames as input, true depth as target. Each worker has its share of the numbers, and so no frame comes twice.
+"""Frames without end for training: raw frames as input, true depth as target. Each worker has its share of the
+numbers, and so no frame comes twice.
 
 `FrameShare` needs no torch; `dataset()` makes a torch.utils.data.IterableDataset of it. A worker is forked or started before it makes its
 simulator, as it has to be.

@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """Builds wheels (PEP 517 and 660) by CMake: the module with both libraries in it, and the command.
 
-Needs what `./dev packages` installs, and Python's headers and pybind11; nothing of a registry. What is built stays in build/wheel, or where the
-environment variable TOFRAY_WHEEL_BUILD says, and is used again; TOFRAY_CMAKE_ARGS are further words for CMake.
+Needs what `./dev packages` installs, and Python's headers and pybind11; nothing of a registry. What is built stays in build/wheel, or where
+the environment variable TOFRAY_WHEEL_BUILD says, and is used again; TOFRAY_CMAKE_ARGS are further words for CMake.
 """
 
 from __future__ import annotations
@@ -45,8 +45,8 @@ def _build() -> pathlib.Path:
     """Archives in place of shared libraries, so that the module stands alone wherever it is copied to."""
     folder = pathlib.Path(os.environ.get("TOFRAY_WHEEL_BUILD") or ROOT / "build/wheel")
     jobs = os.environ.get("TOFRAY_JOBS") or str(os.cpu_count() or 1)
-    subprocess.run(["cmake", "-S", str(ROOT), "-B", str(folder), "-DCMAKE_BUILD_TYPE=Release", "-DCMAKE_UNITY_BUILD=ON", "-DBUILD_SHARED_LIBS=OFF",
-                    "-DTOFRAY_TESTS=OFF", "-DTOFRAY_PYTHON=ON", f"-DTOFRAY_PYTHON_EXECUTABLE={sys.executable}",
+    subprocess.run(["cmake", "-S", str(ROOT), "-B", str(folder), "-DCMAKE_BUILD_TYPE=Release", "-DCMAKE_UNITY_BUILD=ON",
+                    "-DBUILD_SHARED_LIBS=OFF", "-DTOFRAY_TESTS=OFF", "-DTOFRAY_PYTHON=ON", f"-DTOFRAY_PYTHON_EXECUTABLE={sys.executable}",
                     *shlex.split(os.environ.get("TOFRAY_CMAKE_ARGS", ""))], check=True)
     subprocess.run(["cmake", "--build", str(folder), "--parallel", jobs, "--target", "tofray_python", "tofray"], check=True)
     return folder

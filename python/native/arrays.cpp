@@ -30,7 +30,8 @@ Shape require_array(py::handle value, const py::dtype& type, const std::vector<E
   if (!fits) refuse(place, value, expected);
   const int flags = array.flags();
   if ((flags & py::array::c_style) == 0)
-    throw Error(ErrorKind::bad_input, place.text() + ": error: got " + shown(value) + " that does not lie in C order\n  expected " + expected);
+    throw Error(ErrorKind::bad_input,
+                place.text() + ": error: got " + shown(value) + " that does not lie in C order\n  expected " + expected);
   if ((flags & py::detail::npy_api::NPY_ARRAY_ALIGNED_) == 0)
     throw Error(ErrorKind::bad_input, place.text() + ": error: got " + shown(value) + " that is not aligned\n  expected x.copy()");
   constexpr py::ssize_t most = std::numeric_limits<int>::max();

@@ -112,8 +112,8 @@ unsigned long long from_natural(py::handle value, const Place& place) {
 
 std::vector<py::object> items_of(py::handle value, const Place& place, const std::string& expected, int count) {
   // Texts are sequences of texts, and a dict of its keys: neither is meant.
-  const bool list = PySequence_Check(value.ptr()) && !PyUnicode_Check(value.ptr()) &&
-                    !PyBytes_Check(value.ptr()) && !PyDict_Check(value.ptr());
+  const bool list =
+      PySequence_Check(value.ptr()) && !PyUnicode_Check(value.ptr()) && !PyBytes_Check(value.ptr()) && !PyDict_Check(value.ptr());
   py::object fast;
   if (list) fast = py::reinterpret_steal<py::object>(PySequence_Fast(value.ptr(), ""));
   if (!fast) {

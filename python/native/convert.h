@@ -104,8 +104,7 @@ struct As<int> {
   }
 };
 template <class T>
-  requires(std::is_same_v<T, unsigned long> || std::is_same_v<T, unsigned long long>)
-struct As<T> {
+requires(std::is_same_v<T, unsigned long> || std::is_same_v<T, unsigned long long>) struct As<T> {
   static std::string type() { return "int"; }
   static py::object out(T value) { return py::int_(value); }
   static void in(py::handle value, T& into, const Place& place) { into = static_cast<T>(from_natural(value, place)); }
@@ -118,7 +117,7 @@ struct As<std::string> {
 };
 
 template <class T>
-  requires std::is_enum_v<T>
+requires std::is_enum_v<T>
 struct As<T> {
   static std::string type() {
     std::string all;
@@ -205,14 +204,14 @@ struct As<std::variant<T...>> {
   }
 };
 
-#define TOFRAY_SHARED(T, to, from, word)                                                                                     \
-  template <>                                                                                                               \
-  struct As<std::shared_ptr<const T>> {                                                                                     \
-    static std::string type() { return word " | None"; }                                                                    \
-    static py::object out(const std::shared_ptr<const T>& value) { return value ? to(value) : py::none(); }                 \
-    static void in(py::handle value, std::shared_ptr<const T>& into, const Place& place) {                                  \
-      into = value.is_none() ? nullptr : from(value, place);                                                                \
-    }                                                                                                                       \
+#define TOFRAY_SHARED(T, to, from, word)                                                                    \
+  template <>                                                                                               \
+  struct As<std::shared_ptr<const T>> {                                                                     \
+    static std::string type() { return word " | None"; }                                                    \
+    static py::object out(const std::shared_ptr<const T>& value) { return value ? to(value) : py::none(); } \
+    static void in(py::handle value, std::shared_ptr<const T>& into, const Place& place) {                  \
+      into = value.is_none() ? nullptr : from(value, place);                                                \
+    }                                                                                                       \
   };
 TOFRAY_SHARED(TriangleMesh, mesh_to_python, mesh_from_python, "TriangleMesh")
 TOFRAY_SHARED(ReflectivityMap, map_to_python, map_from_python, "ReflectivityMap")

@@ -76,12 +76,14 @@ struct FieldList {
 template <class T>
 struct Fields;
 template <class T>
-concept Record = requires { Fields<T>::name; };
+concept Record = requires {
+  Fields<T>::name;
+};
 
-#define TOFRAY_FIELDS(T, ...)                          \
-  template <>                                          \
-  struct Fields<T> : FieldList<T, __VA_ARGS__> {       \
-    static constexpr const char* name = #T;            \
+#define TOFRAY_FIELDS(T, ...)                    \
+  template <>                                    \
+  struct Fields<T> : FieldList<T, __VA_ARGS__> { \
+    static constexpr const char* name = #T;      \
   };
 
 // clang-format off
@@ -159,11 +161,10 @@ TOFRAY_FIELDS(SimulatorOptions, &SimulatorOptions::seed, &SimulatorOptions::nois
 template <class Call>
 void each_record(const Call& call) {
   const auto all = [&]<class... T>(std::tuple<T...>*) { (call(static_cast<T*>(nullptr)), ...); };
-  using Records =
-      std::tuple<Curve, PixelMask, Sensor, Scatter, Lens, Filter, Pattern, Waveform, Area, Illumination, Pixel, Adc, RawFrame, Mode,
-                 ImageFilter, Decoding, Temperature, Camera, Material, Plane, Sphere, Box, Triangle, Cylinder, Rectangle, Disk, Capsule,
-                 Cone, Mesh, Rotation, Keyframe, Object, Ambient, TransientBins, Transport, Pose, CameraKeyframe, Override, CameraChoice,
-                 Scene, RanOn, FrameRequest>;
+  using Records = std::tuple<Curve, PixelMask, Sensor, Scatter, Lens, Filter, Pattern, Waveform, Area, Illumination, Pixel, Adc, RawFrame,
+                             Mode, ImageFilter, Decoding, Temperature, Camera, Material, Plane, Sphere, Box, Triangle, Cylinder, Rectangle,
+                             Disk, Capsule, Cone, Mesh, Rotation, Keyframe, Object, Ambient, TransientBins, Transport, Pose, CameraKeyframe,
+                             Override, CameraChoice, Scene, RanOn, FrameRequest>;
   all(static_cast<Records*>(nullptr));
 }
 

@@ -42,10 +42,10 @@ Sizes sizes_of(const Frame& frame) {
 py::object array_of(py::object self, const std::string& part_name, const std::string& member_name) {
   const Frame& frame = *self.cast<const FrameMemory&>().frame;
   const Sizes sizes = sizes_of(frame);
-#define TOFRAY_VIEW(name, part, member, element, shape, ...)                                              \
-  if (part_name == #part && member_name == #member)                                                       \
-    return frame.part.member.empty()                                                                      \
-               ? py::none()                                                                               \
+#define TOFRAY_VIEW(name, part, member, element, shape, ...) \
+  if (part_name == #part && member_name == #member)          \
+    return frame.part.member.empty()                         \
+               ? py::none()                                  \
                : py::object(view<element>(frame.part.member.data(), shape_of(ArrayShape::shape, sizes), self, true));
   TOFRAY_FRAME_ARRAYS(TOFRAY_VIEW)
 #undef TOFRAY_VIEW
@@ -55,11 +55,11 @@ py::object array_of(py::object self, const std::string& part_name, const std::st
 /// One row for each array: name in files, part, member, dtype, shape, stage, unit, what it is.
 py::list array_table() {
   py::list rows;
-  const char* const shapes[] = {"[height, width]", "[height, width, 2]", "[height, width, 3]", "[phase, height, width]", "[bin, height, width]",
-                                "[phase]"};
+  const char* const shapes[] = {"[height, width]",        "[height, width, 2]",   "[height, width, 3]",
+                                "[phase, height, width]", "[bin, height, width]", "[phase]"};
   const char* const stages[] = {"trace", "power", "raw", "depth"};
-#define TOFRAY_ROW(name, part, member, element, shape, stage, unit, what)                                      \
-  rows.append(py::make_tuple(#name, #part, #member, py::str(dtype_of<element>().attr("name")),                 \
+#define TOFRAY_ROW(name, part, member, element, shape, stage, unit, what)                      \
+  rows.append(py::make_tuple(#name, #part, #member, py::str(dtype_of<element>().attr("name")), \
                              shapes[static_cast<int>(ArrayShape::shape)], stages[static_cast<int>(Stage::stage)], unit, what));
   TOFRAY_FRAME_ARRAYS(TOFRAY_ROW)
 #undef TOFRAY_ROW
@@ -87,7 +87,7 @@ int whole_of(py::handle part, const char* name) {
 
 /// Copies the arrays of one part, of the sizes that the part says.
 #define TOFRAY_TAKE(name, part, member, element, shape, ...) \
-  if (const py::object array = held(from, #member)) \
+  if (const py::object array = held(from, #member))          \
     into.member = take<element>(array, extents(ArrayShape::shape, sizes), Place{nullptr, #part "." #member});
 
 void take_raw(py::handle from, Raw& into) {

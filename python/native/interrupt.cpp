@@ -11,7 +11,7 @@ namespace tofray::python {
 namespace {
 
 std::atomic<FrameProgress*> running{nullptr};
-struct sigaction before{};
+struct sigaction before {};
 static_assert(std::atomic<FrameProgress*>::is_always_lock_free, "a signal handler may not wait");
 
 void on_interrupt(int signal, siginfo_t* info, void* context) {
@@ -43,7 +43,7 @@ StopOnInterrupt::StopOnInterrupt(FrameProgress& progress) {
     installed_ = true;
     return;
   }
-  struct sigaction current{};
+  struct sigaction current {};
   sigaction(SIGINT, nullptr, &current);
   if ((current.sa_flags & SA_SIGINFO) == 0 && (current.sa_handler == SIG_DFL || current.sa_handler == SIG_IGN)) {
     running.store(nullptr);
@@ -62,7 +62,7 @@ StopOnInterrupt::~StopOnInterrupt() {
   running.store(outer_);
   if (outer_ != nullptr) return;
   // A handler that somebody set in between (Python of a callback) stays.
-  struct sigaction current{};
+  struct sigaction current {};
   sigaction(SIGINT, nullptr, &current);
   if ((current.sa_flags & SA_SIGINFO) != 0 && current.sa_sigaction == &on_interrupt) sigaction(SIGINT, &before, nullptr);
 }

@@ -21,7 +21,8 @@ std::vector<std::array<T, N>> rows_of(py::handle value, const char* letter, py::
 /// A view that keeps the mesh alive. Read-only: simulators and scenes share it.
 template <class T, std::size_t N>
 py::array rows_view(py::handle self, const std::vector<std::array<T, N>>& rows) {
-  return view<T>(reinterpret_cast<const T*>(rows.data()), {static_cast<py::ssize_t>(rows.size()), static_cast<py::ssize_t>(N)}, self, false);
+  return view<T>(reinterpret_cast<const T*>(rows.data()), {static_cast<py::ssize_t>(rows.size()), static_cast<py::ssize_t>(N)}, self,
+                 false);
 }
 
 template <class T>
@@ -132,10 +133,13 @@ void raise_callback_fault() {
   if (fault) throw *fault;
 }
 
-void bind_meshes(py::module_& module) {
+namespace {
+
+void bind_mesh(py::module_& module) {
   using Mesh = TriangleMesh;
   py::class_<Mesh, std::shared_ptr<Mesh>>(module, "TriangleMesh")
-      .def(py::init(&make_mesh), py::arg("vertices"), py::arg("triangles"), py::arg("normals") = py::none(), py::arg("texcoords") = py::none())
+      .def(py::init(&make_mesh), py::arg("vertices"), py::arg("triangles"), py::arg("normals") = py::none(),
+           py::arg("texcoords") = py::none())
       .def_property_readonly("vertices", [](py::object self) { return rows_view(self, self.cast<const Mesh&>().vertices); })
       .def_property_readonly("triangles", [](py::object self) { return rows_view(self, self.cast<const Mesh&>().triangles); })
       .def_property_readonly("normals", [](py::object self) { return rows_view(self, self.cast<const Mesh&>().normals); })
@@ -156,13 +160,17 @@ void bind_meshes(py::module_& module) {
       .def("__reduce__",
            [](py::object self) {
              const Mesh& mesh = self.cast<const Mesh&>();
-             const auto kept = [&](const char* name, bool there) { return there ? py::object(self.attr(name).attr("copy")()) : py::none(); };
-             return py::make_tuple(py::type::of(self), py::make_tuple(kept("vertices", true), kept("triangles", true),
-                                                                      kept("normals", !mesh.normals.empty()),
-                                                                      kept("texcoords", !mesh.texcoords.empty())));
+             const auto kept = [&](const char* name, bool there) {
+               return there ? py::object(self.attr(name).attr("copy")()) : py::none();
+             };
+             return py::make_tuple(py::type::of(self),
+                                   py::make_tuple(kept("vertices", true), kept("triangles", true), kept("normals", !mesh.normals.empty()),
+                                                  kept("texcoords", !mesh.texcoords.empty())));
            })
       .def("__deepcopy__", [](py::object self, const py::object&) { return self; });
+}
 
+void bind_map(py::module_& module) {
   using Map = ReflectivityMap;
   py::class_<Map, std::shared_ptr<Map>>(module, "ReflectivityMap")
       .def(py::init(&make_map), py::arg("values"), py::arg("wrap_u") = "repeat", py::arg("wrap_v") = "repeat")
@@ -190,6 +198,13 @@ void bind_meshes(py::module_& module) {
                                    py::make_tuple(self.attr("values").attr("copy")(), self.attr("wrap_u"), self.attr("wrap_v")));
            })
       .def("__deepcopy__", [](py::object self, const py::object&) { return self; });
+}
+
+}  // namespace
+
+void bind_meshes(py::module_& module) {
+  bind_mesh(module);
+  bind_map(module);
   bind_motion(module);
 }
 
@@ -198,7 +213,9 @@ py::object mesh_to_python(const std::shared_ptr<const TriangleMesh>& mesh) { ret
 py::object map_to_python(const std::shared_ptr<const ReflectivityMap>& map) {
   return py::cast(std::const_pointer_cast<ReflectivityMap>(map));
 }
-py::object motion_to_python(const std::shared_ptr<const MeshMotion>& motion) { return py::cast(std::const_pointer_cast<MeshMotion>(motion)); }
+py::object motion_to_python(const std::shared_ptr<const MeshMotion>& motion) {
+  return py::cast(std::const_pointer_cast<MeshMotion>(motion));
+}
 
 std::shared_ptr<const TriangleMesh> mesh_from_python(py::handle value, const Place& place) {
   if (!py::isinstance<TriangleMesh>(value)) refuse(place, value, "a tofray.TriangleMesh, or None");

@@ -48,8 +48,7 @@ CameraOptions camera_options(const py::object& mode, const py::dict& set, const 
   CameraOptions out;
   from_python(mode, out.mode, {nullptr, "mode"});
   from_python(root, out.root, {nullptr, "root"});
-  for (const auto& [key, value] : set)
-    out.set.emplace_back(from_text(key, {nullptr, "set"}), from_text(value, {nullptr, "set"}));
+  for (const auto& [key, value] : set) out.set.emplace_back(from_text(key, {nullptr, "set"}), from_text(value, {nullptr, "set"}));
   return out;
 }
 
@@ -85,12 +84,11 @@ void bind_files(py::module_& module) {
     const CameraOptions options = camera_options(mode, set, root);
     return to_python(freely([&] { return load_camera(one, options); }));
   });
-  module.def("load_camera_text",
-             [](const py::object& text, const py::object& source, const py::object& mode, const py::dict& set) {
-               const std::string all = from_text(text, {nullptr, "text"}), name = from_text(source, {nullptr, "source"});
-               const CameraOptions options = camera_options(mode, set, py::str(""));
-               return to_python(freely([&] { return load_camera_text(all, name, options); }));
-             });
+  module.def("load_camera_text", [](const py::object& text, const py::object& source, const py::object& mode, const py::dict& set) {
+    const std::string all = from_text(text, {nullptr, "text"}), name = from_text(source, {nullptr, "source"});
+    const CameraOptions options = camera_options(mode, set, py::str(""));
+    return to_python(freely([&] { return load_camera_text(all, name, options); }));
+  });
   module.def("frame_npz",
              [](const py::object& frame, const py::object& scene, const py::object& camera, const py::dict& words, bool compress) {
                const std::shared_ptr<Frame> one = frame_from_python(frame);

@@ -27,8 +27,7 @@ struct FramePool {
 
 class HeldSimulator {
  public:
-  HeldSimulator(const Scene& scene, const Camera& camera, SimulatorOptions options)
-      : frame_rate_(camera.mode.frame_rate_hz) {
+  HeldSimulator(const Scene& scene, const Camera& camera, SimulatorOptions options) : frame_rate_(camera.mode.frame_rate_hz) {
     options.progress = &progress_;
     simulator_ = std::make_unique<Simulator>(scene, camera, options);
     // What a stage before the last leaves alone has to be zero: only in a new frame it is.
@@ -57,7 +56,8 @@ class HeldSimulator {
   void run(const Compute& compute) {
     refuse_child();
     if (owner_.load() == std::this_thread::get_id())
-      throw Error(ErrorKind::bad_input, "Simulator: error: a function that it calls asks it for a frame\n  expected a Simulator of its own there");
+      throw Error(ErrorKind::bad_input,
+                  "Simulator: error: a function that it calls asks it for a frame\n  expected a Simulator of its own there");
     for (;;) {
       bool stopped = false;
       pending_callback_fault().reset();
@@ -103,9 +103,10 @@ class HeldSimulator {
   /// fork() copies one thread alone: those that would compute are not there.
   void refuse_child() const {
     if (getpid() != made_by_)
-      throw Error(ErrorKind::bad_input,
-                  "Simulator: error: this process was forked off the one that made it\n  expected a Simulator made here: scenes and cameras may "
-                  "come along, simulators cannot");
+      throw Error(
+          ErrorKind::bad_input,
+          "Simulator: error: this process was forked off the one that made it\n  expected a Simulator made here: scenes and cameras may "
+          "come along, simulators cannot");
   }
 
   FrameProgress progress_;
@@ -131,7 +132,8 @@ std::shared_ptr<Frame> copied(const FrameArrays& from, const Raw& exposures) {
   TOFRAY_IMAGE_ARRAYS(TOFRAY_COPY)
 #undef TOFRAY_COPY
 #define TOFRAY_SIZES(part) out->part.width = from.width, out->part.height = from.height;
-  TOFRAY_SIZES(raw) TOFRAY_SIZES(depth)
+  TOFRAY_SIZES(raw)
+  TOFRAY_SIZES(depth)
 #undef TOFRAY_SIZES
   if (from.gt_range_m != nullptr || from.gt_signal_e != nullptr)
     out->truth.width = from.width, out->truth.height = from.height, out->truth.phases = from.phases, out->truth.bins = from.bins;
@@ -234,8 +236,9 @@ py::array pixel_rays_of(const py::object& camera) {
 
 SimulatorOptions options_from_python(const py::dict& words) {
   SimulatorOptions options;
-  for (const auto& [key, value] : words) {
-    const std::string word = from_text(key, {nullptr, "option"});
+  for (const auto& entry : words) {
+    const py::handle value = entry.second;  // clang 14 takes no structured binding into a lambda
+    const std::string word = from_text(entry.first, {nullptr, "option"});
     bool known = false;
     std::string all;
     Fields<SimulatorOptions>::each([&](std::string_view name, auto member) {

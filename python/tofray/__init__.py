@@ -98,7 +98,8 @@ if TYPE_CHECKING:
     flags: dict[str, int]
     arrays: list[tuple[str, ...]]
 
-# Where each name comes from, so that `import tofray` costs next to nothing: neither numpy nor the libraries are loaded before they are used.
+# Where each name comes from, so that `import tofray` costs next to nothing: neither numpy nor the libraries are
+# loaded before they are used.
 _HOME = {
     "_arrays": ("Depth", "Raw", "Truth"),
     "_errors": ("Error",),
@@ -106,8 +107,8 @@ _HOME = {
     "_load": ("camera", "load_camera", "load_scene", "scene"),
     "_model": (
         "Adc", "Ambient", "Area", "Box", "Camera", "CameraChoice", "CameraKeyframe", "Capsule", "Cone", "Curve", "Cylinder", "Decoding",
-        "Disk", "Filter", "FrameRequest", "Illumination", "ImageFilter", "Keyframe", "Lens", "Material", "Mesh", "Mode", "Object", "Override",
-        "Pattern", "Pixel", "PixelMask", "Plane", "Pose", "RanOn", "RawFrame", "Rectangle", "Rotation", "Scatter", "Scene", "Sensor",
+        "Disk", "Filter", "FrameRequest", "Illumination", "ImageFilter", "Keyframe", "Lens", "Material", "Mesh", "Mode", "Object",
+        "Override", "Pattern", "Pixel", "PixelMask", "Plane", "Pose", "RanOn", "RawFrame", "Rectangle", "Rotation", "Scatter", "Scene", "Sensor",
         "Sphere", "Temperature", "TransientBins", "Transport", "Triangle", "Waveform",
     ),
     "_native": ("MeshMotion", "ReflectivityMap", "TriangleMesh"),

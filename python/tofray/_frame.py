@@ -166,7 +166,8 @@ class Frame:
         return frame_html(self)
 
     def __repr__(self) -> str:
-        return f"<tofray.Frame {self.index}: {self.raw.phases} raw frames of {self.raw.width or self.depth.width} x {self.raw.height or self.depth.height}>"
+        width, height = self.raw.width or self.depth.width, self.raw.height or self.depth.height
+        return f"<tofray.Frame {self.index}: {self.raw.phases} raw frames of {width} x {height}>"
 
     def __reduce__(self) -> tuple[Any, ...]:
         return _frame_of, (self.index, self.raw, self.depth, self.truth, self.scene, self.camera, self.meta, self._options)

@@ -113,7 +113,9 @@ class _Text:
             value = value.tolist()
         if isinstance(value, Mapping):
             self.line(before + "{", place)
-            self._items(((json.dumps(self._key(key, place), ensure_ascii=False) + ": ", f"{place}.{key}".lstrip("."), one) for key, one in value.items()), len(value))
+            said = ((json.dumps(self._key(key, place), ensure_ascii=False) + ": ", f"{place}.{key}".lstrip("."), one)
+                    for key, one in value.items())
+            self._items(said, len(value))
             self.line("}" + after, place)
         elif isinstance(value, (list, tuple)):
             self.line(before + "[", place)
@@ -141,7 +143,8 @@ class _Text:
             return json.dumps(value, ensure_ascii=False)
         if hasattr(value, "__fspath__"):
             return json.dumps(os.fspath(value), ensure_ascii=False)
-        raise BadInput(f"{place}: error: got {value!r:.60} ({type(value).__name__})\n  expected a number, a text with a unit, True or False, a list or a dict")
+        raise BadInput(f"{place}: error: got {value!r:.60} ({type(value).__name__})\n"
+                       "  expected a number, a text with a unit, True or False, a list or a dict")
 
 
 def _from_dict(description: Mapping[str, Any], source: str, read: Any) -> Any:

@@ -109,7 +109,8 @@ class Part:
         if name in self._rows:
             if not self._own:
                 raise AttributeError(
-                    f"{self._part}.{name} is the frame's own memory\n  expected {self._part}.{name}[...] = values, or a tofray.{type(self).__name__} of one's own")
+                    f"{self._part}.{name} is the frame's own memory\n"
+                    f"  expected {self._part}.{name}[...] = values, or a tofray.{type(self).__name__} of one's own")
             self._held[name] = value
             return
         object.__setattr__(self, name, value)

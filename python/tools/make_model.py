@@ -163,8 +163,10 @@ if TYPE_CHECKING:
     }
     for part, doc in about.items():
         rows = [row for row in _native.array_table() if row[1] == part]
-        lines = [f"    {member} : {dtype} array {shape}, {unit}\n        {sentence(what)}" for _, _, member, dtype, shape, _, unit, what in rows]
-        parts.append(f'\n\nclass {part.capitalize()}(Part):\n    """{doc}\n\n    An array that this frame does not have raises AttributeError; '
+        lines = [f"    {member} : {dtype} array {shape}, {unit}\n        {sentence(what)}"
+                 for _, _, member, dtype, shape, _, unit, what in rows]
+        parts.append(f'\n\nclass {part.capitalize()}(Part):\n    """{doc}\n\n'
+                     f'    An array that this frame does not have raises AttributeError; '
                      f'``names`` lists those that it has.\n\n    Attributes\n    ----------\n' + "\n".join(lines) + '\n    """\n\n')
         table = [f'        "{member}": ("{name}", "{dtype}", "{shape}", "{stage}", "{unit}"),'
                  for name, _, member, dtype, shape, stage, unit, _ in rows]

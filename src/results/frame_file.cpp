@@ -129,8 +129,8 @@ namespace tofray {
 std::string frame_npz(const Frame& frame, const Scene& scene, const Camera& camera, const SimulatorOptions& options, bool compress) {
   results::FrameFileOptions how;
   how.packing = compress ? files::Packing::deflated : files::Packing::stored;
-  return results::frame_npz_bytes(frame, camera, camera_pose(scene, frame.truth.time_s), results::frame_meta(scene, camera, options, frame.index),
-                                  how);
+  return results::frame_npz_bytes(frame, camera, camera_pose(scene, frame.truth.time_s),
+                                  results::frame_meta(scene, camera, options, frame.index), how);
 }
 
 }  // namespace tofray

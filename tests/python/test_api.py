@@ -34,7 +34,8 @@ LEFT_OUT = {
 
 
 def types() -> list[str]:
-    return sorted({name for text in TEXT.values() for name in re.findall(r"^(?:struct|class|enum class|enum) (\w+)(?: :[^;{]*| final)? \{", text, re.M)})
+    return sorted({name for text in TEXT.values()
+                   for name in re.findall(r"^(?:struct|class|enum class|enum) (\w+)(?: :[^;{]*| final)? \{", text, re.M)})
 
 
 def functions() -> list[str]:
@@ -101,3 +102,7 @@ def test_a_simulators_words_are_the_options() -> None:
     signature = inspect.signature(tofray.Simulator.__init__)
     mine = {name: one.default for name, one in signature.parameters.items() if name not in ("self", "scene", "camera")}
     assert mine == {name: value for name, _, value in _native.options()}
+
+
+def test_each_name_of_the_module_is_there() -> None:
+    assert all(getattr(tofray, name) is not None for name in tofray.__all__)

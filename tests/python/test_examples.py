@@ -29,7 +29,8 @@ def test_an_example_runs_and_says_what_it_should(name: str, tmp_path: pathlib.Pa
     said = re.search(SAYS[name], done.stdout)
     assert said is not None, done.stdout
     if name == "noise_against_distance":
-        # The standard deviation of 12 frames is within 42 % of the true one in 95 % of pixels; of the median of 144 pixels within a few per cent.
+        # The standard deviation of 12 frames is within 42 % of the true one in 95 % of pixels; the median of
+        # 144 pixels is within a few per cent.
         assert float(said[1]) == pytest.approx(float(said[2]), rel=0.15)
     if name == "decode_recording":
         assert int(said[1]) > 50

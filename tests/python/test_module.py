@@ -36,7 +36,8 @@ def same(a: tofray.Frame, b: tofray.Frame) -> bool:
 def test_frame_is_that_of_the_command_line(tmp_path: pathlib.Path) -> None:
     command = command_line.command()
     assert command is not None
-    subprocess.run([command, "render", "demo", "--seed", "7", "-o", str(tmp_path / "there"), "--emit", "npz"], check=True, capture_output=True)
+    subprocess.run([command, "render", "demo", "--seed", "7", "-o", str(tmp_path / "there"), "--emit", "npz"], check=True,
+                   capture_output=True)
     tofray.Simulator(tofray.load_scene("demo"), seed=7).frame(0).save(tmp_path / "here")
     assert (tmp_path / "here/frame.npz").read_bytes() == (tmp_path / "there/frame.npz").read_bytes()
 
@@ -162,6 +163,18 @@ def test_frames_are_those_of_their_numbers() -> None:
     asked = list(simulator.frames(requests=[tofray.FrameRequest(index=4), tofray.FrameRequest(index=0, seed=9)]))
     assert same(asked[0], two[1]) and asked[0].truth.time_s == pytest.approx(two[1].truth.time_s, rel=1e-12)
     assert same(asked[1], tofray.Simulator(tofray.scene(BALL), seed=9).frame(0))
+
+
+def test_a_frame_remembers_what_it_was_made_of(tmp_path: pathlib.Path) -> None:
+    scene = tofray.scene(BALL)
+    simulator = tofray.Simulator(scene, seed=5)
+    frame = simulator.frame(0)
+    scene.objects.clear()
+    assert frame.scene is not None and len(frame.scene.objects) == 2
+    asked = next(simulator.frames(requests=[tofray.FrameRequest(index=0, seed=9)]))
+    for one, seed in ((frame, 5), (asked, 9)):
+        one.save(tmp_path / str(seed))
+        assert tofray.load(tmp_path / f"{seed}/frame.npz").meta["seed"] == seed
 
 
 @pytest.mark.parametrize("make", [lambda: tofray.load_scene("demo"), lambda: tofray.load_camera("pico-flexx"), tofray.demo,

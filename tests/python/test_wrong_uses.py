@@ -55,7 +55,8 @@ SPOILT: dict[str, Callable[[Any], Any]] = {
 
 
 @pytest.mark.parametrize("fault", SPOILT)
-@pytest.mark.parametrize("where", ["raw.tap_a", "raw.start_time_s", "geometry.z_m", "geometry.normal", "light.power_w", "light.path_length_m"])
+@pytest.mark.parametrize("where", ["raw.tap_a", "raw.start_time_s", "geometry.z_m", "geometry.normal", "light.power_w",
+                                   "light.path_length_m"])
 def test_an_array_is_taken_as_it_lies_or_refused(where: str, fault: str) -> None:
     owner, name = where.split(".")
     if owner == "raw":
@@ -143,7 +144,8 @@ USES: dict[str, Callable[[], object]] = {
         SIMULATOR.frames(requests=[tofray.FrameRequest(pose=tofray.Pose(look_at=(0, 0, 0)))])),
     "raw data without arrays": lambda: tofray.process(tofray.Raw(), CAMERA),  # type: ignore[arg-type]
     "raw data that are none": lambda: tofray.process(FRAME, CAMERA),  # type: ignore[arg-type]
-    "raw data of a negative size": lambda: tofray.process(tofray.Raw(width=-5, height=H, phases=K, **TAPS), CAMERA),  # type: ignore[arg-type]
+    "raw data of a negative size": lambda: tofray.process(
+        tofray.Raw(width=-5, height=H, phases=K, **TAPS), CAMERA),  # type: ignore[arg-type]
     "raw data of half a pixel": lambda: tofray.process(tofray.Raw(width=2.5, **TAPS), CAMERA),  # type: ignore[arg-type]
     "an array that there is not": lambda: tofray.Raw(tap_c=FRAME.raw.tap_a),
     "an option that there is not": lambda: tofray.process(FRAME.raw, CAMERA, speed=9),  # type: ignore[arg-type]
@@ -256,6 +258,22 @@ def test_what_a_callback_raises_comes_out_as_it_is() -> None:
     for _ in range(3):
         with pytest.raises(Mine):
             moving(at).frame(1)
+
+
+def test_what_a_callback_raises_later_comes_out_as_it_is() -> None:
+    armed: list[bool] = []
+
+    def at(time_s: float) -> Any:
+        if armed:
+            raise Mine("at", time_s)
+        return np.array([[-1, -1, 1], [1, -1, 1], [0, 1, 1]], np.float32)
+
+    simulator = moving(at)
+    armed.append(True)
+    with pytest.raises(Mine):
+        simulator.frame(1)
+    armed.clear()
+    assert simulator.frame(1).truth.z_m.size == H * W
 
 
 @pytest.mark.parametrize("given", [None, 5, "abc", np.zeros((2, 3), np.float32), np.zeros((3, 3)), (1, 2, 3),
