@@ -19,11 +19,13 @@ PAGE = ROOT / "docs/cameras.md"
 DISTANCES = (0.5, 1, 2, 4)
 REFLECTIVITIES = (0.8, 0.2)
 SPEED_OF_LIGHT = 299792458
+MEND = "python3 tools/camera_tables.py writes it"
 
 
 def limit_mm(camera):
     """More noise than this, and the pixel is invalid."""
-    found = re.search(r"(?:low_signal_noise|noise_threshold): *\{?(?:value: *)?([\d.]+) mm", (ROOT / f"profiles/{camera}.yaml").read_text(encoding="utf-8"))
+    profile = (ROOT / f"profiles/{camera}.yaml").read_text(encoding="utf-8")
+    found = re.search(r"(?:low_signal_noise|noise_threshold): *\{?(?:value: *)?([\d.]+) mm", profile)
     return float(found.group(1)) if found else 70.0
 
 
@@ -62,19 +64,13 @@ def main():
     if sys.argv[1:] == ["--check"]:
         for number, (old, now) in enumerate(zip(text.split("\n"), new.split("\n")), start=1):
             if old != now:
-                raise SystemExit(f"docs/cameras.md:{number}: error: the table is not what tofray says; python3 tools/camera_tables.py writes it\n"
-                                 f"  there:  {old}\n  tofray: {now}")
-        return 1 if old_length_differs(text, new) else 0
+                fault = f"docs/cameras.md:{number}: error: the table is not what tofray says; {MEND}"
+                raise SystemExit(f"{fault}\n  there:  {old}\n  tofray: {now}")
+        if text.count("\n") != new.count("\n"):
+            raise SystemExit(f"docs/cameras.md:1: error: a table has more or fewer rows than tofray says; {MEND}")
+        return
     PAGE.write_text(new, encoding="utf-8")
-    return 0
-
-
-def old_length_differs(text, new):
-    if text.count("\n") == new.count("\n"):
-        return False
-    print("docs/cameras.md:1: error: a table has more or fewer rows than tofray says; python3 tools/camera_tables.py writes them", file=sys.stderr)
-    return True
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    main()

@@ -105,8 +105,8 @@ def compare(case, power, read_noise):
     for point in case.points + case.beyond:
         camera, mode, distance, reflectivity, noise = point
         found = sigma(case, point, power, read_noise)
-        print(f"  {camera:<26} {distance:>6.3f} m at {reflectivity:.0%}: published {noise:>5.2f} mm, here {found:>5.2f} mm ({found / noise - 1:+.0%})"
-              + ("" if point in case.points else ", not fitted"))
+        print(f"  {camera:<26} {distance:>6.3f} m at {reflectivity:.0%}: published {noise:>5.2f} mm, "
+              f"here {found:>5.2f} mm ({found / noise - 1:+.0%})" + ("" if point in case.points else ", not fitted"))
 
 
 def exposures(case, power):
