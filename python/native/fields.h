@@ -92,26 +92,32 @@ TOFRAY_FIELDS(PixelMask, &PixelMask::kind, &PixelMask::samples, &PixelMask::colu
 TOFRAY_FIELDS(Sensor, &Sensor::width, &Sensor::height, &Sensor::pixel_pitch_m, &Sensor::fill_factor, &Sensor::mask)
 TOFRAY_FIELDS(Scatter, &Scatter::kind, &Scatter::share, &Scatter::sigma_px, &Scatter::weights, &Scatter::kernel, &Scatter::columns,
               &Scatter::rows)
-TOFRAY_FIELDS(Lens, &Lens::fx_px, &Lens::fy_px, &Lens::cx_px, &Lens::cy_px, &Lens::k1, &Lens::k2, &Lens::p1, &Lens::p2, &Lens::k3,
-              &Lens::f_number, &Lens::transmission, &Lens::vignetting, &Lens::vignetting_table, &Lens::scatter)
+TOFRAY_FIELDS(Lens, &Lens::fx_px, &Lens::fy_px, &Lens::cx_px, &Lens::cy_px, &Lens::distortion, &Lens::k1, &Lens::k2, &Lens::p1,
+              &Lens::p2, &Lens::k3, &Lens::k4, &Lens::k5, &Lens::k6, &Lens::f_number, &Lens::transmission, &Lens::vignetting, &Lens::vignetting_table, &Lens::scatter)
 TOFRAY_FIELDS(Filter, &Filter::center_m, &Filter::half_width_m, &Filter::peak, &Filter::table)
 TOFRAY_FIELDS(Pattern, &Pattern::kind, &Pattern::half_angle_rad, &Pattern::exponent, &Pattern::width_rad, &Pattern::height_rad,
               &Pattern::columns, &Pattern::rows, &Pattern::half_range_x_rad, &Pattern::half_range_y_rad, &Pattern::samples)
 TOFRAY_FIELDS(Waveform, &Waveform::kind, &Waveform::duty, &Waveform::rise_time_s, &Waveform::bandwidth_hz, &Waveform::jitter_s,
-              &Waveform::harmonics, &Waveform::modulation_depth, &Waveform::correlation)
+              &Waveform::harmonics, &Waveform::modulation_depth, &Waveform::correlation, &Waveform::fall_time_s, &Waveform::sigma_s,
+              &Waveform::emission, &Waveform::sample_phases_rad)
 TOFRAY_FIELDS(Area, &Area::kind, &Area::radius_m, &Area::width_m, &Area::height_m, &Area::points)
 TOFRAY_FIELDS(Illumination, &Illumination::position, &Illumination::axis, &Illumination::illumination_wavelength_m, &Illumination::power_w,
               &Illumination::ring_leds, &Illumination::ring_radius_m, &Illumination::area, &Illumination::pattern, &Illumination::waveform)
-TOFRAY_FIELDS(Pixel, &Pixel::quantum_efficiency, &Pixel::contrast, &Pixel::bandwidth_hz, &Pixel::full_well_e, &Pixel::read_noise_e,
-              &Pixel::column_noise_e, &Pixel::dark_current_e_per_s, &Pixel::prnu, &Pixel::dsnu_dn, &Pixel::delay_s, &Pixel::pattern_seed,
+TOFRAY_FIELDS(Pixel, &Pixel::quantum_efficiency, &Pixel::contrast, &Pixel::contrast_by_wavelength, &Pixel::bandwidth_hz,
+              &Pixel::full_well_e, &Pixel::read_noise_e, &Pixel::column_noise_e, &Pixel::row_noise_e, &Pixel::dark_current_e_per_s,
+              &Pixel::dark_current_doubling_k, &Pixel::tap_gain_mismatch, &Pixel::tap_offset_mismatch_e, &Pixel::nonlinearity, &Pixel::prnu,
+              &Pixel::dsnu_dn, &Pixel::delay_s, &Pixel::phase_offset_rad, &Pixel::pattern_seed,
               &Pixel::suppression_threshold_e, &Pixel::suppression_budget_e, &Pixel::suppression_noise_factor)
 TOFRAY_FIELDS(Adc, &Adc::bits, &Adc::step_e_per_dn, &Adc::mid_code, &Adc::valid_min, &Adc::valid_max)
 TOFRAY_FIELDS(RawFrame, &RawFrame::lit, &RawFrame::modulation_frequency_hz, &RawFrame::reference_phase_rad, &RawFrame::integration_time_s)
 TOFRAY_FIELDS(Mode, &Mode::name, &Mode::frame_rate_hz, &Mode::sequence)
-TOFRAY_FIELDS(ImageFilter, &ImageFilter::kind, &ImageFilter::sigma_px, &ImageFilter::radius_px)
-TOFRAY_FIELDS(Decoding, &Decoding::wiggling_correction, &Decoding::low_signal_noise_m, &Decoding::flying_near_z_m,
-              &Decoding::flying_near_limit_m, &Decoding::flying_far_z_m, &Decoding::flying_far_limit_m, &Decoding::inconsistent_range_m,
-              &Decoding::filter)
+TOFRAY_FIELDS(ImageFilter, &ImageFilter::kind, &ImageFilter::sigma_px, &ImageFilter::radius_px, &ImageFilter::sigmas,
+              &ImageFilter::range_m, &ImageFilter::goal_m)
+TOFRAY_FIELDS(Decoding, &Decoding::wiggling_correction, &Decoding::noise_threshold_m, &Decoding::amplitude_threshold_e,
+              &Decoding::lower_saturation_dn, &Decoding::upper_saturation_dn, &Decoding::flying_near_z_m, &Decoding::flying_near_limit_m,
+              &Decoding::flying_far_z_m, &Decoding::flying_far_limit_m, &Decoding::flying_sigmas, &Decoding::flying_check,
+              &Decoding::asymmetry_limit_e, &Decoding::asymmetry_sigmas, &Decoding::asymmetry_reject, &Decoding::multipath_limit_m,
+              &Decoding::multipath_sigmas, &Decoding::multipath_reject, &Decoding::filter)
 TOFRAY_FIELDS(Temperature, &Temperature::celsius, &Temperature::reference_celsius, &Temperature::drift_m_per_kelvin,
               &Temperature::warm_up_m, &Temperature::warm_up_time_s, &Temperature::since_start_s)
 TOFRAY_FIELDS(Camera, &Camera::name, &Camera::source, &Camera::sensor, &Camera::lens, &Camera::filter, &Camera::illumination,

@@ -23,7 +23,7 @@ Camera square_by_square(int phases) {
   Waveform& waveform = camera.illumination[0].waveform;
   waveform = {};
   waveform.harmonics = 8;
-  camera.decoding.wiggling_correction = false, camera.decoding.low_signal_noise_m = 1e3;
+  camera.decoding.wiggling_correction = false, camera.decoding.noise_threshold_m = 1e3;
   camera.mode.sequence.clear();
   for (int k = 0; k < phases; ++k) camera.mode.sequence.push_back({true, modulation, two_pi * k / phases, 1e-3});
   return camera;
