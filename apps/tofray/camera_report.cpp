@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "base/constants.h"
 #include "base/limits.h"
@@ -77,18 +76,23 @@ Camera coarser(Camera camera) {
 /// What of a wall at 1 m the light source reaches.
 void report_light(const Camera& camera, CameraReport& out) {
   const Truth seen = Simulator(Scene(), camera, without_noise(Stage::power)).frame(0, wall(camera, 1, 1)).truth;
-  float least = std::numeric_limits<float>::max(), most = 0;
+  const float most = *std::max_element(seen.power_w.begin(), seen.power_w.end());
+  float least = most;
   const double one = 1 / static_cast<double>(seen.power_w.size());
   for (std::size_t i = 0; i < seen.power_w.size(); ++i) {
     if (seen.object_id[i] < 0) {
       out.outside += one;
-    } else if (!(seen.power_w[i] > 0)) {
+    } else if (!(seen.power_w[i] > 1e-6F * most)) {
       out.unlit += one;
     } else {
-      least = std::min(least, seen.power_w[i]), most = std::max(most, seen.power_w[i]);
+      least = std::min(least, seen.power_w[i]);
     }
   }
   if (most > 0) out.darkest = static_cast<double>(least / most);
+}
+
+bool has_unlit(const Mode& mode) {
+  return std::any_of(mode.sequence.begin(), mode.sequence.end(), [](const RawFrame& one) { return !one.lit; });
 }
 
 /// The camera with one pixel alone, which looks along the optical axis and is like the mean of all.
@@ -96,13 +100,11 @@ Camera pixel_on_the_axis(Camera camera) {
   camera.sensor.width = camera.sensor.height = 1;
   camera.lens.cx_px = camera.lens.cy_px = 0;
   camera.lens.scatter = {};
-  camera.pixel.prnu = camera.pixel.dsnu_dn = camera.pixel.delay_s = 0;
+  camera.pixel.prnu = camera.pixel.dsnu_dn = camera.pixel.delay_s = camera.pixel.phase_offset_rad = 0;
   // Without an unlit raw frame the camera itself does not know how much noise the sun makes; who chooses one should.
   std::vector<RawFrame>& sequence = camera.mode.sequence;
-  const auto lit = std::find_if(sequence.begin(), sequence.end(), [](const RawFrame& one) { return one.lit; });
-  if (std::all_of(sequence.begin(), sequence.end(), [](const RawFrame& one) { return one.lit; }) &&
-      sequence.size() < static_cast<std::size_t>(base::limit::raw_frames.value))
-    sequence.push_back({false, 0, 0, 0.05 * lit->integration_time_s});
+  if (!has_unlit(camera.mode) && sequence.size() < static_cast<std::size_t>(base::limit::raw_frames.value))
+    sequence.push_back({false, 0, 0, 0.05 * sequence.front().integration_time_s});
   return camera;
 }
 
@@ -181,6 +183,8 @@ std::string noise_text(const CameraReport& report) {
                                                 : "   nowhere\n";
   }
   if (low) text += fmt::format("  {:<18}* low signal: above {}\n", "", base::quantity_text(report.low_signal_m, "1 mm"));
+  if (!report.knows_ambient)
+    text += fmt::format("  {:<18}The mode has no unlit raw frame: the camera's own estimate (noise_m) leaves out what the sun adds.\n", "");
   return text;
 }
 
@@ -195,12 +199,14 @@ CameraReport camera_report(const Camera& camera) {
   report_light(coarser(camera), out);
   if (modulations.frequency_hz.empty()) return out;
   out.ambiguity_range_m = base::speed_of_light / camera.refractive_index / (2 * modulations.base_hz);
+  out.knows_ambient = has_unlit(camera.mode);
   if (std::any_of(camera.illumination.begin(), camera.illumination.end(), [](const Illumination& one) { return one.power_w > 0; }))
     report_noise(camera, out);
   return out;
 }
 
 std::string report_text(const CameraReport& report) {
+  const auto share = [](double part) { return part < 5e-4 ? std::string("less than 0.1 %") : fmt::format("{:.1f} %", 100 * part); };
   const auto row = [](const char* what, const std::string& value) { return fmt::format("  {:<18}{}\n", what, value); };
   const std::string corners = std::isnan(report.diagonal_deg) ? "" : fmt::format(", {:.1f} deg from corner to corner", report.diagonal_deg);
   const std::string view = std::isnan(report.width_deg) || std::isnan(report.height_deg)
@@ -209,8 +215,8 @@ std::string report_text(const CameraReport& report) {
   std::string text = row("field of view", view);
   text +=
       row("a pixel at 1 m", fmt::format("{} x {} mm on the axis", millimetres(report.pixel_width_m), millimetres(report.pixel_height_m)));
-  if (report.outside > 0) text += row("outside the lens", fmt::format("{:.1f} % of the pixels have no ray", 100 * report.outside));
-  if (report.unlit > 0) text += row("unlit", fmt::format("{:.1f} % of the pixels see nothing of the camera's light", 100 * report.unlit));
+  if (report.outside > 0) text += row("outside the lens", share(report.outside) + " of the pixels have no ray");
+  if (report.unlit > 0) text += row("unlit", share(report.unlit) + " of the pixels see nothing of the camera's light");
   if (report.darkest > 0)
     text += row("light on a wall", fmt::format("the darkest pixel gets {:.2g} % of the brightest one's", 100 * report.darkest));
   if (report.ambiguity_range_m > 0) {
@@ -246,6 +252,7 @@ files::Json report_json(const CameraReport& report) {
       .set("darkest_over_brightest", report.darkest)
       .set("modulation_frequency_hz", std::move(frequencies))
       .set("ambiguity_range_m", report.ambiguity_range_m)
+      .set("knows_ambient", report.knows_ambient)
       .set("noise", std::move(noise));
 }
 

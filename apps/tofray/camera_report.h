@@ -25,11 +25,13 @@ struct NoiseAtDistances {
 struct CameraReport {
   double width_deg = 0, height_deg = 0, diagonal_deg = 0;  ///< between the outer edges of the outermost pixels, through the middle
   double pixel_width_m = 0, pixel_height_m = 0;            ///< that one pixel sees at 1 m on the axis
-  double outside = 0, unlit = 0;                           ///< shares of the pixels: outside the lens model, without light of a wall at 1 m
-  double darkest = 0;                                      ///< signal of the darkest lit pixel over the brightest one's, of that wall
-  std::vector<double> modulation_frequency_hz;             ///< of the mode
+  double outside = 0;                                      ///< share of the pixels that are outside the lens model
+  double unlit = 0;                             ///< … that get less than a millionth of the brightest one's light of a wall at 1 m
+  double darkest = 0;                           ///< signal of the darkest lit pixel over the brightest one's, of that wall
+  std::vector<double> modulation_frequency_hz;  ///< of the mode
   double ambiguity_range_m = 0;
   double low_signal_m = 0;              ///< σ above this is flagged
+  bool knows_ambient = true;            ///< an unlit raw frame tells the camera how much noise ambient light makes
   std::vector<NoiseAtDistances> noise;  ///< empty where the mode has no lit raw frame, or the camera no light
 };
 

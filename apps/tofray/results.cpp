@@ -93,12 +93,15 @@ std::string help_against(int flag, const Depth& depth) {
     case flag_low_signal: {
       const double noise = median_noise(depth);
       const std::string known = std::isnan(noise) ? "" : fmt::format("noise {:.2g} m at the median; ", noise);
-      return known + "more light or a longer integration time";
+      return known + "more light, a longer integration time, or another threshold of camera.decoding";
     }
     case flag_flying_pixel:
       return "surfaces that are seen at a glancing angle, or thinner than a few pixels; camera.decoding says what is one";
     case flag_no_return: return "no light comes back: nothing is there, it is dark, or out of the light's reach";
-    default: return "the lens model has no rays there: see camera.lens.distortion";
+    case flag_outside_lens: return "the lens model has no rays there: see camera.lens.distortion";
+    case flag_inconsistent_phases: return "something moves, or camera.decoding.asymmetry rejects too much";
+    case flag_inconsistent_frequencies: return "light on several ways, a wrong cycle, or camera.decoding.multipath rejects too much";
+    default: return "see flags";
   }
 }
 

@@ -9,6 +9,8 @@
 /// Ground truth of light that comes by several surfaces: how much of it there is, and what it does to the range.
 namespace tofray::pipeline {
 
+constexpr float per_turn = 0.15915494f;  ///< 1/(2π)
+
 /// A−B per second of each raw frame, of light as the image keeps it.
 template <class F>
 TOFRAY_FN void differences(const Setup& s, const float* values, const Pixels& p, int times, F* difference) {
@@ -22,7 +24,6 @@ TOFRAY_FN void differences(const Setup& s, const float* values, const Pixels& p,
 
 /// Half path that all light shows less that which the direct light shows, as the decoder has them from raw frames without noise, for each
 /// modulation frequency: at most half its unambiguous range to either side.                                     [theory: eq. 7.8]
-constexpr float per_turn = 0.15915494f;  ///< 1/(2π)
 template <class F>
 struct MultipathError {
   F value;              ///< [m]

@@ -8,6 +8,7 @@
 
 #include "base/limits.h"
 #include "base/text.h"
+#include "camera/frozen_camera.h"
 #include "flow/flow.h"
 #include "model/check.h"
 #include "pipeline/rounds.h"
@@ -23,13 +24,6 @@ std::int64_t movers_of(const Scene& scene) {
   std::int64_t movers = 0;
   for (const Object& object : scene.objects) movers += !scene.camera.keyframes.empty() || scene::moves(object);
   return movers;
-}
-
-std::int64_t modulation_frequencies(const Mode& mode) {
-  std::set<double> different;
-  for (const RawFrame& frame : mode.sequence)
-    if (frame.lit) different.insert(frame.modulation_frequency_hz);
-  return static_cast<std::int64_t>(different.size());
 }
 
 /// Images of light that a frame needs at once, at most (backend::place_light); none where light goes straight into raw frames.
@@ -131,8 +125,10 @@ void check_light_image(const Scene& scene, const Camera& camera, const Simulator
   if (images == 0) return;
   // At most: a plane for each part of each harmonic of each modulation frequency, or of one at the time of each raw frame.
   const auto raw_frames = static_cast<std::int64_t>(camera.mode.sequence.size());
-  const std::int64_t in_one =
-      movers_of(scene) > 0 ? (2 + 2 * flow::max_harmonics) * raw_frames : 2 + 2 * flow::max_harmonics * modulation_frequencies(camera.mode);
+  // Arrays of one's own, which a lens scatters as it does the scene's light, may have a time for each raw frame, too.
+  const bool by_raw_frame = movers_of(scene) > 0 || camera.lens.scatter.kind != Scatter::Kind::none;
+  const auto modulations = static_cast<std::int64_t>(camera::modulations_of(camera.mode).frequency_hz.size());
+  const std::int64_t in_one = by_raw_frame ? (2 + 2 * flow::max_harmonics) * raw_frames : 2 + 2 * flow::max_harmonics * modulations;
   const std::int64_t values = pixels * in_one * images, most = base::limit::light_values.value;
   if (values > most)
     refuse("the light image is too large",

@@ -194,9 +194,11 @@ TEST(render, says_why_few_pixels_are_valid_and_what_helps) {
   };
   const std::string dark = said("camera.integration_time", "30 us");
   EXPECT_TRUE(has(dark, " % low signal: noise 0.")) << dark;
-  EXPECT_TRUE(has(dark, "m at the median; more light or a longer integration time\n")) << dark;
+  EXPECT_TRUE(has(dark, "m at the median; more light, a longer integration time, or another threshold")) << dark;
   const std::string bright = said("camera.illumination.0.power", "100 W");
   EXPECT_TRUE(has(bright, " % saturated: less light, a shorter integration time, or more distance\n")) << bright;
+  const std::string rejected = said("camera.decoding.asymmetry", "{sigmas: 0, reject: true}");
+  EXPECT_TRUE(has(rejected, " % inconsistent phases: something moves, or camera.decoding.asymmetry rejects too much\n")) << rejected;
   const std::string good = said("camera.integration_time", "2000 us");
   EXPECT_FALSE(has(good, "longer integration time")) << good;
 }

@@ -5,7 +5,7 @@
 
 namespace tofray::test {
 
-/// Every effect of the pixel that is off unless asked for.
+/// Every effect of lens, pixel and decoding that is off unless asked for.
 inline void turn_on_every_effect(Camera& camera) {
   Pixel& pixel = camera.pixel;
   pixel.prnu = 0.01, pixel.dsnu_dn = 1, pixel.delay_s = 1e-11, pixel.phase_offset_rad = 0.03;
@@ -14,6 +14,8 @@ inline void turn_on_every_effect(Camera& camera) {
   pixel.dark_current_doubling_k = 8;
   pixel.nonlinearity = {{0, 2e4, 1e5}, {0, 1.9e4, 8e4}};
   pixel.suppression_threshold_e = 2000, pixel.suppression_budget_e = 20000;
+  camera.lens.k4 = 0.05, camera.lens.k5 = -0.01, camera.lens.k6 = 0.002;
+  camera.decoding.amplitude_threshold_e = 5, camera.decoding.asymmetry_reject = camera.decoding.multipath_reject = true;
   camera.temperature.drift_m_per_kelvin = 1e-4, camera.temperature.celsius = 41;
 }
 
