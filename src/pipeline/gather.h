@@ -53,7 +53,7 @@ TOFRAY_APART void gather_light(const Setup& s, const Growing& image, const Pixel
         F sum = value * F(share);
         if (!first) {
           const F before = num::load<F>(image.before + at, p.count);
-          sum = num::select(active, num::fma(before, F(kept), sum), before);
+          sum = num::select(active, num::fma(value, F(share), before * F(kept)), before);
         }
         num::store(image.values + at, sum, p.count);
       });
