@@ -247,7 +247,7 @@ TEST(completion, offers_what_the_tables_hold) {
   EXPECT_EQ(offered({"render", "-o", ""}), Words{":files"});
   EXPECT_EQ(offered({"render", "--arrays", "raw,gt_mater"}), Words{"raw,gt_material_id"});
   EXPECT_EQ(offered({"render", "--emit", "npz,p"}), (Words{"npz,png", "npz,ply"}));
-  EXPECT_EQ(offered({"render", "--mode", "MODE_9_5F"}), Words{"MODE_9_5FPS_2000"});
+  EXPECT_EQ(offered({"render", "--mode", "MODE_9_5FPS_2"}), Words{"MODE_9_5FPS_2000"});
   EXPECT_EQ(offered({"render", "--seed", ""}), Words{});
   EXPECT_EQ(offered({"render", "--set", "ambient.level", "=", "5"}), Words{});
   EXPECT_EQ(offered({"render", "--", "--noise", "car"}), (Words{"card", ":files"}));  // behind "--" all are names
