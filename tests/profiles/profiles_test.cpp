@@ -132,8 +132,9 @@ TEST(built_in_cameras, are_these) {
   }
 }
 
-// Light was fitted to published noise in a mode with its own exposure: a wall of that reflectivity, in the dark, a pixel on the axis. The
-// fit leaves less than 15 %, and says so on the page of the cameras; an exposure or a light that was not the fitted one is off by more.
+// Light was fitted to published noise in a mode with its own exposure: a wall of that reflectivity, in the dark, a pixel on the axis.
+// At these points the fit leaves less than 15 %, as the page of the cameras says; with an exposure or a light that was not the
+// fitted one it is more.
 TEST(built_in_cameras, have_the_published_noise_that_their_light_was_fitted_to) {
   struct Published {
     const char* camera;
