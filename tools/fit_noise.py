@@ -27,7 +27,6 @@ class Case:
     first_w: float
     first_read_noise_e: float = 0  # above 0: fitted, too
     beyond: list = dataclasses.field(default_factory=list)  # compared, but not fitted
-    exposure: str = ""  # in place of the mode's
 
 
 def published(camera, mode, reflectivity, noise):
@@ -38,15 +37,15 @@ def published(camera, mode, reflectivity, noise):
 FLEXX2 = [(2, 3.29), (3, 6.02)]
 FLEXX2_NEAR = [(0.5, 2.03), (1, 2.07)]
 # ArturSchuetz/Time-Fo-Flight-Sensor-Simulation (MIT licence, 2018 Artur Schuetz), docs/graphs/distance_noise_o3d303.dat, commit 174d211:
-# medians of ten rows each. Reflectivity (80 %), mode and exposure (1 ms, the default of the camera's interface) are assumed.
+# medians of ten rows each. Reflectivity (80 %), mode and exposure (the mode's 1 ms) are assumed.
 O3D303 = [(0.663, 5.0), (0.879, 6.1), (1.082, 7.5), (1.268, 8.7), (1.465, 13.5), (1.73, 21.2), (2.034, 22.6), (2.288, 20.8),
           (2.538, 28.9), (2.829, 38.8), (3.1, 50.2), (3.351, 46.7), (3.591, 56.3), (3.82, 59.3)]
 
 CASES = {
     "flexx2": Case("noise in [cai2024]", published("flexx2", "MODE_9_5FPS", 0.8, FLEXX2), 1,
                    beyond=published("flexx2", "MODE_9_5FPS", 0.8, FLEXX2_NEAR)),
-    "o3d303": Case("deviations in docs/graphs of Time-Fo-Flight-Sensor-Simulation", published("o3d303", "upto30m_low", 0.8, O3D303), 1, 100,
-                   exposure="1000 us"),
+    "o3d303": Case("deviations in docs/graphs of Time-Fo-Flight-Sensor-Simulation",
+                   published("o3d303", "upto30m_low", 0.8, O3D303), 1, 100),
     "azure-kinect-nfov": Case("the maker's 17 mm at 15 % at the end of the range",
                               published("azure-kinect-nfov", "DEPTH_30FPS", 0.15, [(3.86, 17)])
                               + published("azure-kinect-nfov-binned", "DEPTH_30FPS", 0.15, [(5.46, 17)]), 16),
@@ -57,18 +56,18 @@ CASES = {
 }
 
 
-def sigma(case, point, power_w, read_noise_e=0.0, exposure=""):
+def sigma(point, power_w, read_noise_e=0.0, exposure=""):
     camera, mode, distance, reflectivity, _ = point
     changes = {"camera.illumination.0.power": f"{power_w:.9g} W"}
-    if exposure or case.exposure:
-        changes["camera.integration_time"] = exposure or case.exposure
+    if exposure:
+        changes["camera.integration_time"] = exposure
     if read_noise_e > 0:
         changes["camera.pixel.read_noise"] = f"{read_noise_e:.9g} e"
     return Pixel(camera, mode, distance, reflectivity, changes).sigma_mm
 
 
 def misfit(case, power_w, read_noise_e):
-    return sum(math.log(sigma(case, point, power_w, read_noise_e) / point[4]) ** 2 for point in case.points)
+    return sum(math.log(sigma(point, power_w, read_noise_e) / point[4]) ** 2 for point in case.points)
 
 
 def least(function, low, high, rounds=18):
@@ -104,7 +103,7 @@ def fit(case):
 def compare(case, power, read_noise):
     for point in case.points + case.beyond:
         camera, mode, distance, reflectivity, noise = point
-        found = sigma(case, point, power, read_noise)
+        found = sigma(point, power, read_noise)
         print(f"  {camera:<26} {distance:>6.3f} m at {reflectivity:.0%}: published {noise:>5.2f} mm, "
               f"here {found:>5.2f} mm ({found / noise - 1:+.0%})" + ("" if point in case.points else ", not fitted"))
 
@@ -112,7 +111,7 @@ def compare(case, power, read_noise):
 def exposures(case, power):
     """What exposure would give the published noise where the mode's longest gives less of it: automatic exposure shortens it so."""
     for point in case.beyond:
-        time = math.exp(least(lambda x: math.log(sigma(case, point, power, 0, f"{math.exp(x):.6g} us") / point[4]) ** 2,
+        time = math.exp(least(lambda x: math.log(sigma(point, power, 0, f"{math.exp(x):.6g} us") / point[4]) ** 2,
                               math.log(50), math.log(2000), 16))
         print(f"  {point[0]} {point[2]} m: {point[4]} mm would be an exposure of {time:.0f} us")
 
