@@ -12,6 +12,8 @@
 
 namespace tofray::base {
 
+constexpr int read_cells = 1024;  ///< equal lines that stand for a pixel's nonlinearity in kernels; a power of two   [theory: eq. 3.18]
+
 /// A measured function of one variable as profiles give it: a limited not-a-knot spline through its samples, held at its first and last
 /// value outside their range (a cubic that runs on would soon be far from anything measured). One sample is a constant. So it is never
 /// below its lowest sample nor above its highest: what is a share of something stays one.

@@ -175,20 +175,19 @@ double FrozenCamera::dark_current() const {
   return pixel.dark_current_e_per_s * setup::exp(ln_2 * warmer / pixel.dark_current_doubling_k);
 }
 
-/// Lines between equidistant charges for what is read of them.                                              [theory: eq. 3.18]
+/// Lines between equidistant charges for what is read of them, as far as a tap can hold them.               [theory: eq. 3.18]
 void FrozenCamera::freeze_read_curve() {
   SensorView& s = sensor_;
   s.full_read = s.full_well;
   const Curve& curve = camera_.pixel.nonlinearity;
   if (curve.x.empty()) return;
-  constexpr int cells = 1024;
   const ClampedCurve read(curve, "nonlinearity");
-  const double width = curve.x.back() / cells;
-  for (int i = 0; i < cells; ++i) {
+  const double width = std::min(curve.x.back(), camera_.pixel.full_well_e) / read_cells;
+  for (int i = 0; i < read_cells; ++i) {
     const double from = read.evaluate(i * width), to = read.evaluate((i + 1) * width);
     read_.push_back(single(from)), read_.push_back(single(to - from));
   }
-  s.read = {read_.data(), cells, single(1 / width)};
+  s.read = {read_.data(), read_cells, single(1 / width), s.full_well};
   s.full_read = read_charge(s.read, s.full_well).value;
 }
 

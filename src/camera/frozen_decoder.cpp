@@ -142,6 +142,11 @@ void FrozenCamera::freeze_decoder(bool noise) {
   d.suppression_threshold = sensor_.suppression_threshold, d.suppression_budget = sensor_.suppression_budget;
   d.suppression_variance = single(2 * camera_.pixel.suppression_noise_factor * camera_.pixel.suppression_noise_factor);
   d.dark_rate_both = single(2 * dark_current());
+  if (d.grey_frames > 0) {  // suppression takes dark charge off, too
+    const double dark = dark_current() * grey_time / d.grey_frames, above = std::max(dark - camera_.pixel.suppression_threshold_e, 0.0);
+    const bool suppresses = camera_.pixel.suppression_threshold_e > 0;
+    d.grey_dark = single(suppresses ? dark - std::min(above, camera_.pixel.suppression_budget_e) : dark);
+  }
   d.noise_threshold = noise ? single(decoding.noise_threshold_m) : std::numeric_limits<float>::max();
   d.per_confidence_noise = single(1 / decoding.noise_threshold_m);
   d.amplitude_threshold = single(decoding.amplitude_threshold_e);

@@ -21,4 +21,19 @@ TOFRAY_FN ReadCharge<F> read_charge(const ReadCurveView& curve, F charge) {
   return {num::fma(place - cell, step, value), step * F(curve.per_cell)};
 }
 
+/// Charge of which this is read: read_charge the other way round. By halves, since a curve may bend to either side; with a power of two of
+/// cells. [theory: eq. 4.21]
+template <class F>
+TOFRAY_FN F charge_of(const ReadCurveView& curve, F read) {
+  F cell = F(0.0f), value, step;
+  for (std::int32_t half = curve.cells / 2; half > 0; half /= 2) {
+    const F upper = cell + F(static_cast<float>(half));
+    num::gather_pair(curve.cell, num::to_int(upper), value, step);
+    cell = num::select(read < value, cell, upper);
+  }
+  num::gather_pair(curve.cell, num::to_int(cell), value, step);
+  const F charge = (cell + (read - value) / num::max(step, F(1e-20f))) * F(1.0f / curve.per_cell);
+  return num::max(num::min(charge, F(curve.most)), F(-curve.most));
+}
+
 }  // namespace tofray::camera

@@ -133,6 +133,7 @@ struct ReadCurveView {
   const float* cell;  ///< [cells][2] what is read where a cell begins, and how much more at its end; null: the charge itself
   std::int32_t cells;
   float per_cell;  ///< 1/width of a cell [1/e⁻]
+  float most;      ///< full well [e⁻]: no tap holds more
   bool operator==(const ReadCurveView&) const = default;
 };
 
@@ -227,6 +228,7 @@ struct DecoderView {
   float suppression_threshold, suppression_budget;  ///< [e⁻] of a tap; threshold 0: no suppression
   float suppression_variance;                       ///< 2κ²: variance of A−B for each electron off both taps
   float dark_rate_both;                             ///< dark electrons per second, both taps together: noise only
+  float grey_dark;                                  ///< dark electrons that a tap of an unlit raw frame holds when it is read, the mean
   float noise_threshold;                            ///< [m]; infinite where noise is off
   float amplitude_threshold;                        ///< [e⁻]
   float per_confidence_noise;                       ///< 1/0.07 m

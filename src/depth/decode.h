@@ -66,10 +66,16 @@ TOFRAY_FN F unwiggle(const camera::DecoderView& s, const camera::DecodeModulatio
   return turns + num::fma(place - node, step, value);
 }
 
-/// Ambient electrons per second from the unlit raw frames' A−B, at least 0.
+/// Electrons of ambient light in the unlit raw frames together, at least 0: their A−B, or the charge of which this is read: all of the light is in
+/// A, and dark charge below it.                                                                           [eq. 4.9, 4.21]
 template <class F>
 TOFRAY_FN F grey_sum(const camera::DecoderView& s, const F* difference) {
   F sum = F(0.0f);
+  if (s.read.cell != nullptr) {
+    const F dark_read = camera::read_charge(s.read, F(s.grey_dark)).value;
+    for (int j = 0; j < s.grey_frames; ++j) sum = sum + camera::charge_of(s.read, difference[s.grey_frame[j]] + dark_read) - F(s.grey_dark);
+    return num::max(sum, F(0.0f));
+  }
   for (int j = 0; j < s.grey_frames; ++j) sum = sum + difference[s.grey_frame[j]];
   return num::max(sum, F(0.0f));
 }
@@ -82,17 +88,25 @@ TOFRAY_FN Mask<F> phases_disagree(const camera::DecoderView& s, const camera::De
   return most * most > num::max(F(s.asymmetry_factor) * variance, F(s.asymmetry_square));
 }
 
-/// What background suppression adds to the variance, as if to each raw frame: of frame k it took about
-/// x_k = min(budget, ½(collected − |D_k|) − threshold), and its noise turns the phase by the part that stands across Ẑ.   [eq. 4.13]
-/// @param collected  Â/C + B̂ + dark: electrons of both taps together
+/// What background suppression took off each tap of raw frame k: about x_k = min(budget, ½(collected − |D_k|) − threshold).    [eq. 4.13]
+/// @param collected   electrons of both taps together
+/// @param difference  D_k [e⁻]
+template <class F>
+TOFRAY_FN F suppressed(const camera::DecoderView& s, F difference, F collected) {
+  const F excess = F(0.5f) * (collected - num::abs(difference)) - F(s.suppression_threshold);
+  return num::min(num::max(excess, F(0.0f)), F(s.suppression_budget));
+}
+
+/// What background suppression adds to the variance, as if to each raw frame: its noise turns the phase by the part that stands across Ẑ.
+/// @param collected   electrons of both taps together                                                     [eq. 4.13]
+/// @param per_slope   electrons of each one that is read
 template <class F>
 TOFRAY_FN F suppression_variance(const camera::DecoderView& s, const camera::DecodeModulation& m, const F* difference, const Estimate<F>& e,
-                                 F collected) {
+                                 F collected, F per_slope) {
   F across = F(0.0f);
   for (int j = 0; j < m.count; ++j) {
     const int k = m.raw_frame[j];
-    const F excess = F(0.5f) * (collected - num::abs(difference[k])) - F(s.suppression_threshold);
-    const F removed = num::min(num::max(excess, F(0.0f)), F(s.suppression_budget));
+    const F removed = suppressed(s, difference[k] * per_slope, collected);
     const F turn = num::fma(e.imaginary, F(s.frame[k].cosine), e.real * F(s.frame[k].sine));  // (2/N)·Â·sin(φ̂ + τ_k)
     across = num::fma(removed, turn * turn, across);
   }
@@ -100,29 +114,46 @@ TOFRAY_FN F suppression_variance(const camera::DecoderView& s, const camera::Dec
   return across / square * F(s.suppression_variance * 0.5f * static_cast<float>(m.count));
 }
 
-/// V̂ where what is read of a charge is not the charge: that of the charge, times the square of the curve's slope there. The charge is found
-/// in two steps, since its own slope makes it out of what was read.                                       [eq. 4.21]
-/// @param electrons  Â/C + B̂, as read
+/// Charge of a tap when it is read, the mean over both taps and a modulation's raw frames.                [eq. 4.21]
 template <class F>
-TOFRAY_FN F variance_as_read(const camera::DecoderView& s, F electrons, F dark, F suppressed) {
-  F slope = F(1.0f);
-  for (int step = 0; step < 2; ++step) slope = camera::read_charge(s.read, F(0.5f) * (electrons / slope + dark)).slope;
-  return num::fma(slope * slope, electrons / slope + dark + F(s.noise_floor - s.output_floor) + suppressed, F(s.output_floor));
+TOFRAY_FN F charge_left(const camera::DecoderView& s, const camera::DecodeModulation& m, const F* difference, F collected, F per_slope) {
+  const F charge = F(0.5f) * collected;
+  if (!(s.suppression_threshold > 0)) return charge;
+  F removed = F(0.0f);
+  for (int j = 0; j < m.count; ++j) removed = removed + suppressed(s, difference[m.raw_frame[j]] * per_slope, collected);
+  return num::fnma(removed, F(1.0f / static_cast<float>(m.count)), charge);
+}
+
+/// V̂ where what is read of a charge is not the charge: that of the charge, times the square of the curve's slope where it is read. Only the
+/// signal is small enough to go by the slope; it and the slope are found in turns, from no signal on, and held to what the taps hold.  [eq. 4.21]
+/// @param known  electrons of both taps that are no signal: ambient light and dark current
+template <class F>
+TOFRAY_FN F variance_as_read(const camera::DecoderView& s, const camera::DecodeModulation& m, const F* difference, const Estimate<F>& e,
+                             F known) {
+  constexpr int turns = 6;
+  const F both_full = F(2 * s.read.most);
+  F collected = num::min(known, both_full), slope = F(1.0f), per_slope = F(1.0f);
+  for (int turn = 0; turn < turns; ++turn) {
+    slope = camera::read_charge(s.read, charge_left(s, m, difference, collected, per_slope)).slope;
+    slope = num::max(slope, F(1e-12f));  // a spline may fall between two samples that rise
+    per_slope = F(1.0f) / slope;
+    collected = num::min(num::fma(e.amplitude * per_slope, F(m.per_contrast), known), both_full);
+  }
+  F variance = collected + F(s.noise_floor - s.output_floor);
+  if (s.suppression_threshold > 0) variance = variance + suppression_variance(s, m, difference, e, collected, per_slope);
+  return num::fma(slope * slope, variance, F(s.output_floor));
 }
 
 /// V̂ = Â/C + B̂ + dark + 2σ_r² + s²/12, and what suppression adds.                                      [eq. 4.9]
 template <class F>
 TOFRAY_FN F variance_of(const camera::DecoderView& s, const camera::DecodeModulation& m, const F* difference, const Estimate<F>& e,
                         F ambient) {
-  const F electrons = num::fma(e.amplitude, F(m.per_contrast), ambient);
   const float dark = s.dark_rate_both * m.integration_time;
-  if (s.read.cell != nullptr) {
-    const bool suppresses = s.suppression_threshold > 0;
-    return variance_as_read(s, electrons, F(dark), suppresses ? suppression_variance(s, m, difference, e, electrons + F(dark)) : F(0.0f));
-  }
+  if (s.read.cell != nullptr) return variance_as_read(s, m, difference, e, ambient + F(dark));
+  const F electrons = num::fma(e.amplitude, F(m.per_contrast), ambient);
   const F variance = electrons + F(s.noise_floor + dark);
   if (!(s.suppression_threshold > 0)) return variance;
-  return variance + suppression_variance(s, m, difference, e, electrons + F(dark));
+  return variance + suppression_variance(s, m, difference, e, electrons + F(dark), F(1.0f));
 }
 
 /// 1/σ² of the half path that one modulation frequency says [1/m²]: σ_φ² = (2V̂/N)/Â²·(dφ/dφ̂)².           [eq. 4.9]

@@ -150,8 +150,9 @@ const Table& table_of<Pixel>() {
           curve<&Pixel::contrast>("contrast", {"modulation_frequency", modulation_frequency}, {"value", contrast},
                                   "demodulation contrast of the pixel itself; 1 unless given", allowed)
               .absent(),
-          curve<&Pixel::contrast_by_wavelength>("contrast_by_wavelength", {"wavelength", wavelength}, {"factor", {none, {0, 10}, "0.9"}},
-                                                "on the contrast, at the wavelength of each light; 1 unless given")
+          curve<&Pixel::contrast_by_wavelength>(
+              "contrast_by_wavelength", {"wavelength", wavelength}, {"factor", {none, {0, 10}, "0.9"}},
+              "on the contrast, at the wavelength of each light; 1 unless given; not of a measured waveform, which has it in it")
               .absent(),
           number<&Pixel::bandwidth_hz>("bandwidth", {frequency, {0, 1e12}, "180 MHz"}, "single pole of the gate; 0: none"),
           number<&Pixel::full_well_e>("full_well", {charge, {1, 1e30}, "100000 e"}, "per tap"),

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "base/constants.h"
+#include "base/curve.h"
 #include "base/periodic.h"
 #include "base/text.h"
 #include "model/rules.h"
@@ -52,7 +53,15 @@ void what_is_read_rises_with_the_charge(const Pixel& pixel, Complaints& complain
                       "got " + number_text(read[i - 1]) + " e, then " + number_text(read[i]) + " e at a charge of " +
                           number_text(charge[i]) + " e; expected more than before, by at most 10 e for each electron");
   }
-  if (charge.back() < 1) complain("the nonlinearity ends below 1 e", "got " + number_text(charge.back()) + " e");
+  if (charge.back() < 1) return complain("the nonlinearity ends below 1 e", "got " + number_text(charge.back()) + " e");
+  // What no line of the kernels' table can follow would be gone without a word.                           [theory: eq. 3.18]
+  const double end = std::min(charge.back(), pixel.full_well_e), cell = end / base::read_cells;
+  for (std::size_t i = 1; i < charge.size() && charge[i - 1] < end; ++i)
+    if (charge[i] - charge[i - 1] < cell * (1 - 1e-9))
+      return complain("samples of the nonlinearity are closer than the lines that stand for it",
+                      "got " + number_text(charge[i - 1]) + " e, then " + number_text(charge[i]) + " e, of " +
+                          std::to_string(base::read_cells) + " lines up to " + number_text(end) + " e; put them at least " +
+                          number_text(cell) + " e apart, or end the curve (or full_well) sooner");
 }
 
 namespace {
@@ -77,6 +86,16 @@ bool phases_are_sound(const Waveform& waveform, const std::vector<double>& sampl
                     "got " + number_text(span) + " rad from the first to the last; the period's end is the first sample again");
   return true;
 }
+
+/// Of a measured correlation, beside the odd ones. A gate that is open for half the period has none: what a pixel shows of them, this model has
+/// not.                                                                                                   [theory: eq. 3.23]
+double even_harmonics_of(const Waveform& waveform) {
+  const std::vector<double>& measured = waveform.correlation;
+  if (waveform.sample_phases_rad.empty() && measured.size() % 2 == 0) return base::even_share(measured);
+  const std::vector<double> equal =
+      waveform.sample_phases_rad.empty() ? measured : base::over_a_period(waveform.sample_phases_rad, measured);
+  return base::even_share_of_few(equal, measured.size(), 2 * static_cast<std::size_t>(waveform.harmonics));
+}
 }  // namespace
 
 void samples_carry_their_harmonics(const Waveform& waveform, Complaints& complaints) {
@@ -94,13 +113,14 @@ void samples_carry_their_harmonics(const Waveform& waveform, Complaints& complai
                     "got " + std::to_string(samples.size()) + " samples, expected more than " + std::to_string(needed) + " for " +
                         std::to_string(waveform.harmonics) + " odd harmonics");
   if (!phases_are_sound(waveform, samples, complaints) || !correlation || !(largest > 0)) return;
-  // A gate that is open for half the period has no even harmonics: what a pixel shows of them, this model has not. [theory: eq. 3.23]
-  const double of_odd_ones = base::even_share(base::over_a_period(waveform.sample_phases_rad, samples));
-  if (of_odd_ones > most_even)
-    complain("the correlation has even harmonics, which the pixel's model has not",
-             "got " + number_text(std::round(1e4 * of_odd_ones) / 100) +
-                 " % of the odd ones, at most 1 %; put (D(t) - D(t + 180 deg))/2 in the "
-                 "place of D(t) where they may be left out, which for an even number of reference phases they are in the camera, too");
+  const double of_odd_ones = even_harmonics_of(waveform);
+  if (!(of_odd_ones > most_even)) return;
+  const bool opposite = waveform.sample_phases_rad.empty() && samples.size() % 2 == 0;
+  complain("the correlation has even harmonics, which the pixel's model has not",
+           "got " + number_text(std::round(1e4 * of_odd_ones) / 100) + " % of the odd ones, at most 1 %; " +
+               (opposite ? "put (D(t) - D(t + 180 deg))/2 in the place of D(t)"
+                         : "measure at an even number of equally spaced phases and put (D(t) - D(t + 180 deg))/2 in the place of D(t)") +
+               " where they may be left out, which for an even number of reference phases they are in the camera, too");
 }
 
 }  // namespace tofray::model

@@ -234,6 +234,33 @@ TEST(even_harmonics, of_a_measured_correlation_are_refused_above_one_per_cent) {
   }
 }
 
+// Of an odd number of samples harmonic m beyond them shows as n − m, which is even: those of a sound triangle are none of its own.
+TEST(even_harmonics, of_a_triangle_are_none_however_many_samples_it_has) {
+  const auto told = [](int count, int harmonics, double even, bool phases) {
+    Camera camera = load_camera("pico-flexx");
+    Waveform& waveform = camera.illumination[0].waveform;
+    waveform = {};
+    waveform.kind = Waveform::Kind::measured, waveform.harmonics = harmonics;
+    for (int k = 0; k < count; ++k) {
+      const double turn = static_cast<double>(k) / count;
+      waveform.correlation.push_back(0.7 * (1 - 4 * std::min(turn, 1 - turn)) + 0.7 * even * std::cos(2 * two_pi * turn + 1));
+      if (phases) waveform.sample_phases_rad.push_back(two_pi * turn);
+    }
+    return refused([&] { Simulator(load_scene("card"), camera, {.threads = 1}); });
+  };
+  for (const bool phases : {false, true}) {
+    for (int count = 15; count <= 31; ++count) {
+      for (const int harmonics : {1, 2, 4}) {
+        EXPECT_EQ(told(count, harmonics, 0, phases), "taken") << count << " " << harmonics << phases;
+        const std::string even = told(count, harmonics, 0.06, phases);
+        EXPECT_NE(even.find("the correlation has even harmonics"), std::string::npos) << count << " " << harmonics << phases << even;
+      }
+    }
+  }
+  EXPECT_NE(told(15, 4, 0.06, false).find("measure at an even number of equally spaced phases"), std::string::npos);
+  EXPECT_EQ(told(16, 4, 0.06, false).find("measure at an even number"), std::string::npos);
+}
+
 TEST(pulses, with_samples_that_make_no_sense_are_refused) {
   const auto told = [](const std::function<void(Waveform&)>& change) {
     Camera camera = load_camera("pico-flexx");

@@ -57,22 +57,64 @@ TEST(nonlinearity, acts_on_each_tap_behind_the_full_well) {
   EXPECT_TRUE(clipped);
 }
 
-// Of a frame's tap_a and tap_b the same flags come as of the frame itself: a full well reads less than its charge.
+// Single precision knows a charge of 1e5 e⁻ to 0.008; a curve's slope, here 0.2 at least, makes five times as much of it.
+TEST(nonlinearity, is_undone_cell_by_cell_whichever_way_it_bends) {
+  const auto bending = [](double third) {
+    Camera camera = bent(90000);
+    camera.pixel.nonlinearity = {};
+    for (int i = 0; i <= 8; ++i) {
+      const double x = 1e4 * i;
+      camera.pixel.nonlinearity.x.push_back(x),
+          camera.pixel.nonlinearity.y.push_back(x + third * (x - 4e4) * (x - 4e4) * (x - 4e4) + third * 6.4e13);
+    }
+    return camera;
+  };
+  for (const Camera& camera : {bent(90000), bending(1e-9), bending(-1.6e-10)}) {
+    const Bench bench(camera);
+    const camera::ReadCurveView& curve = bench.sensor().read;
+    for (float x = -500; x < 90000; x += 37)
+      EXPECT_NEAR(static_cast<double>(camera::charge_of(curve, camera::read_charge(curve, x).value)), static_cast<double>(x), 0.1) << x;
+    EXPECT_EQ(camera::charge_of(curve, 1e9f), 90000.0f);  // no tap holds more
+    EXPECT_EQ(camera::charge_of(curve, -1e9f), -90000.0f);
+  }
+}
+
+// A sample far beyond the full well takes no lines away from where charge is: the samples lie on the lines' ends, each 128 cells on.
+TEST(nonlinearity, ends_where_a_tap_is_full) {
+  Camera camera = bent(80000);
+  camera.pixel.nonlinearity.x.push_back(1e9), camera.pixel.nonlinearity.y.push_back(1e8);
+  const Bench far(camera);
+  for (int i = 0; i <= 8; ++i) {
+    const double x = 1e4 * i;
+    EXPECT_NEAR(static_cast<double>(camera::read_charge(far.sensor().read, static_cast<float>(x)).value), read_of(x), 0.02) << x;
+  }
+}
+
+// Of a frame's tap_a and tap_b the same depth comes as of the frame itself. The curve is no parabola, which would leave the phase; and a full well
+// reads less than its charge.
 TEST(nonlinearity, of_recorded_taps_is_not_applied_twice) {
   Camera camera = load_camera("pico-flexx");
-  for (int i = 0; i <= 8; ++i) camera.pixel.nonlinearity.x.push_back(1e4 * i), camera.pixel.nonlinearity.y.push_back(read_of(1e4 * i));
+  for (int i = 0; i <= 8; ++i) {
+    const double x = 125 * i;
+    camera.pixel.nonlinearity.x.push_back(x), camera.pixel.nonlinearity.y.push_back(x - x * x * x / (3 * 1200.0 * 1200));
+  }
   camera.pixel.full_well_e = 1000;
+  camera.decoding.noise_threshold_m = 100, camera.decoding.flying_check = false;  // of recorded raw frames both look at noise
   Simulator simulator(load_scene("card"), camera, {.noise = Noise::off, .threads = 1});
   Frame first = simulator.frame(0);
   Raw taps = first.raw;
   taps.raw.clear();
   const Depth again = process(taps, camera);
-  int full = 0;
+  int full = 0, valid = 0;
   for (std::size_t i = 0; i < first.depth.flags.size(); ++i) {
     EXPECT_EQ(again.flags[i] & 1, first.depth.flags[i] & 1) << i;
     full += first.depth.flags[i] & 1;
+    if (std::isnan(first.depth.range_m[i])) continue;
+    ++valid;
+    EXPECT_NEAR(again.range_m[i], first.depth.range_m[i], 1e-5) << i;
   }
   EXPECT_GT(full, 100);
+  EXPECT_GT(valid, 100);
 }
 
 TEST(nonlinearity, is_refused_where_it_is_no_rising_curve_from_nothing) {
@@ -92,6 +134,12 @@ TEST(nonlinearity, is_refused_where_it_is_no_rising_curve_from_nothing) {
   EXPECT_NE(refusal({{0, 100, 200}, {0, 90, 90}}).find("does not rise"), std::string::npos);
   EXPECT_NE(refusal({{0, 100, 200}, {0, 90, 2000}}).find("at most 10 e for each electron"), std::string::npos);
   EXPECT_NE(refusal({{0, 0.5}, {0, 0.5}}).find("ends below 1 e"), std::string::npos);
+  // Up to the full well of 100 ke or the last sample 1024 lines of 97.7 e⁻ each.
+  EXPECT_NE(refusal({{0, 90, 2e5}, {0, 80, 1e5}}).find("samples of the nonlinearity are closer than the lines that stand for it"),
+            std::string::npos)
+      << refusal({{0, 90, 2e5}, {0, 80, 1e5}});
+  EXPECT_EQ(refusal({{0, 98, 2e5}, {0, 80, 1e5}}), "taken");
+  EXPECT_EQ(refusal({{0, 50e3, 1e5, 100010, 1e9}, {0, 45e3, 8e4, 80001, 1e8}}), "taken");  // what is beyond the well does not count
   EXPECT_EQ(refusal({{0, 1}, {0, 10}}), "taken");
   EXPECT_EQ(refusal({{0, 1e12}, {0, 1e12}}), "taken");
 }

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The tofray authors
 // SPDX-License-Identifier: Apache-2.0
-// Fixed phases of pixels, others at each modulation two_frequencies.                                                          [theory: eq. 3.17]
+// Fixed phases of pixels, others at each modulation frequency.                                                          [theory: eq. 3.17]
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -23,7 +23,7 @@ Camera phases_on(int width, double phase_offset_rad, double delay_s = 0) {
   return camera;
 }
 
-/// What a pixel has at a modulation two_frequencies [rad].
+/// What a pixel has at a modulation frequency [rad].
 double phase_of(const Bench& bench, int pixel, int modulation) {
   return two_pi * two_frequencies[modulation] * static_cast<double>(camera::late_by<float>(bench.sensor(), modulation, {pixel, 1}));
 }

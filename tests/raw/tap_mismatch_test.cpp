@@ -49,7 +49,7 @@ TEST(tap_mismatch, is_no_error_of_the_range_but_one_that_the_flag_sees) {
     const double plain = static_cast<double>(Bench(unlike(0, 0, phases)).measure({unlike_signal, 1.1, unlike_ambient}).depth.range);
     const auto depth = Bench(unlike(0.2, 100, phases)).measure({unlike_signal, 1.1, unlike_ambient}).depth;
     EXPECT_NEAR(static_cast<double>(depth.range), plain, 2e-6) << phases;
-    const bool pairs = phases % 2 == 0;  // D_k + D_k' = g·(S + B + unlike_dark) + 2o = 4820, and 5·√(2V) some 1090
+    const bool pairs = phases % 2 == 0;  // D_k + D_k' = g·(S + B + both dark) + 2o = 4820, and 5·√(2V) some 1090
     EXPECT_EQ((depth.flags & depth::inconsistent_phases) != 0, pairs) << phases;
   }
   EXPECT_EQ(Bench(unlike(0, 0)).measure({unlike_signal, 1.1, unlike_ambient}).depth.flags, 0);
