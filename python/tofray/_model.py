@@ -181,7 +181,8 @@ class Lens(Record):
         Angle to the optical axis [rad] → factor.
     scatter : Scatter
     """
-    __slots__ = ("fx_px", "fy_px", "cx_px", "cy_px", "distortion", "k1", "k2", "p1", "p2", "k3", "k4", "k5", "k6", "f_number", "transmission", "vignetting", "vignetting_table", "scatter")
+    __slots__ = ("fx_px", "fy_px", "cx_px", "cy_px", "distortion", "k1", "k2", "p1", "p2", "k3", "k4", "k5", "k6", "f_number",
+                 "transmission", "vignetting", "vignetting_table", "scatter")
     fx_px: float
     fy_px: float
     cx_px: float
@@ -306,7 +307,8 @@ class Pattern(Record):
     samples : list[float]
         [rows][columns], any unit.
     """
-    __slots__ = ("kind", "half_angle_rad", "exponent", "width_rad", "height_rad", "columns", "rows", "half_range_x_rad", "half_range_y_rad", "samples")
+    __slots__ = ("kind", "half_angle_rad", "exponent", "width_rad", "height_rad", "columns", "rows", "half_range_x_rad",
+                 "half_range_y_rad", "samples")
     kind: Literal["cone", "lambertian", "cosine_lobe", "flat_top", "table"]
     half_angle_rad: float
     exponent: float
@@ -376,7 +378,8 @@ class Waveform(Record):
         Measured, emission: at which phases of the period the samples are, ascending within one
         turn; empty: equally spaced from 0 on.
     """
-    __slots__ = ("kind", "duty", "rise_time_s", "bandwidth_hz", "jitter_s", "harmonics", "modulation_depth", "correlation", "fall_time_s", "sigma_s", "emission", "sample_phases_rad")
+    __slots__ = ("kind", "duty", "rise_time_s", "bandwidth_hz", "jitter_s", "harmonics", "modulation_depth", "correlation",
+                 "fall_time_s", "sigma_s", "emission", "sample_phases_rad")
     kind: Literal["rectangular", "sine", "measured", "trapezoid", "gaussian", "emission"]
     duty: float
     rise_time_s: float
@@ -478,7 +481,8 @@ class Illumination(Record):
         Of each point.
     waveform : Waveform
     """
-    __slots__ = ("position", "axis", "illumination_wavelength_m", "power_w", "ring_leds", "ring_radius_m", "area", "pattern", "waveform")
+    __slots__ = ("position", "axis", "illumination_wavelength_m", "power_w", "ring_leds", "ring_radius_m", "area", "pattern",
+                 "waveform")
     position: tuple[float, float, float]
     axis: tuple[float, float, float]
     illumination_wavelength_m: float
@@ -560,7 +564,10 @@ class Pixel(Record):
     suppression_budget_e : float
     suppression_noise_factor : float
     """
-    __slots__ = ("quantum_efficiency", "contrast", "contrast_by_wavelength", "bandwidth_hz", "full_well_e", "read_noise_e", "column_noise_e", "row_noise_e", "dark_current_e_per_s", "dark_current_doubling_k", "tap_gain_mismatch", "tap_offset_mismatch_e", "nonlinearity", "prnu", "dsnu_dn", "delay_s", "phase_offset_rad", "pattern_seed", "suppression_threshold_e", "suppression_budget_e", "suppression_noise_factor")
+    __slots__ = ("quantum_efficiency", "contrast", "contrast_by_wavelength", "bandwidth_hz", "full_well_e", "read_noise_e",
+                 "column_noise_e", "row_noise_e", "dark_current_e_per_s", "dark_current_doubling_k", "tap_gain_mismatch",
+                 "tap_offset_mismatch_e", "nonlinearity", "prnu", "dsnu_dn", "delay_s", "phase_offset_rad", "pattern_seed",
+                 "suppression_threshold_e", "suppression_budget_e", "suppression_noise_factor")
     quantum_efficiency: Curve
     contrast: Curve
     contrast_by_wavelength: Curve
@@ -810,7 +817,10 @@ class Decoding(Record):
     multipath_reject : bool
     filter : ImageFilter
     """
-    __slots__ = ("wiggling_correction", "noise_threshold_m", "amplitude_threshold_e", "lower_saturation_dn", "upper_saturation_dn", "flying_near_z_m", "flying_near_limit_m", "flying_far_z_m", "flying_far_limit_m", "flying_sigmas", "flying_check", "asymmetry_limit_e", "asymmetry_sigmas", "asymmetry_reject", "multipath_limit_m", "multipath_sigmas", "multipath_reject", "filter")
+    __slots__ = ("wiggling_correction", "noise_threshold_m", "amplitude_threshold_e", "lower_saturation_dn", "upper_saturation_dn",
+                 "flying_near_z_m", "flying_near_limit_m", "flying_far_z_m", "flying_far_limit_m", "flying_sigmas", "flying_check",
+                 "asymmetry_limit_e", "asymmetry_sigmas", "asymmetry_reject", "multipath_limit_m", "multipath_sigmas",
+                 "multipath_reject", "filter")
     wiggling_correction: bool
     noise_threshold_m: float
     amplitude_threshold_e: float
@@ -939,7 +949,8 @@ class Camera(Record):
     mode_names : list[str]
         All that the profile has.
     """
-    __slots__ = ("name", "source", "sensor", "lens", "filter", "illumination", "pixel", "adc", "decoding", "temperature", "refractive_index", "readout_time_s", "min_integration_time_s", "power_model", "mode", "mode_names")
+    __slots__ = ("name", "source", "sensor", "lens", "filter", "illumination", "pixel", "adc", "decoding", "temperature",
+                 "refractive_index", "readout_time_s", "min_integration_time_s", "power_model", "mode", "mode_names")
     name: str
     source: str
     sensor: Sensor
@@ -1140,7 +1151,8 @@ class Triangle(Record):
     def __init__(
         self,
         *,
-        vertices: tuple[tuple[float, float, float], tuple[float, float, float], tuple[float, float, float]] = ((0.0, 0.0, 0.0), (0.0, 0.0, 0.0), (0.0, 0.0, 0.0)),
+        vertices: tuple[tuple[float, float, float], tuple[float, float, float], tuple[float, float, float]]
+        = ((0.0, 0.0, 0.0), (0.0, 0.0, 0.0), (0.0, 0.0, 0.0)),
     ) -> None:
         self.vertices = vertices
 
