@@ -107,7 +107,8 @@ def test_parts_of_a_simulated_frame_are_not_exchanged_and_others_are() -> None:
             setattr(frame.truth, name, 1)
     mine = tofray.Frame(depth=frame.depth)
     before = mine.preview()
-    mine.depth = tofray.Depth(**{name: frame.depth[name][::2].copy() for name in frame.depth})
+    halves: dict[str, Any] = {name: frame.depth[name][::2].copy() for name in frame.depth}
+    mine.depth = tofray.Depth(**halves)
     assert mine.preview() != before
 
 

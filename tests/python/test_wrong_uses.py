@@ -155,7 +155,7 @@ USES: dict[str, Callable[[], object]] = {
         tofray.Raw(width=-5, height=H, phases=K, **TAPS), CAMERA),  # type: ignore[arg-type]
     "raw data of half a pixel": lambda: tofray.process(tofray.Raw(width=2.5, **TAPS), CAMERA),  # type: ignore[arg-type]
     "an array that there is not": lambda: tofray.Raw(tap_c=FRAME.raw.tap_a),
-    "an option that there is not": lambda: tofray.process(FRAME.raw, CAMERA, speed=9),  # type: ignore[arg-type]
+    "an option that there is not": lambda: tofray.process(FRAME.raw, CAMERA, speed=9),  # type: ignore[call-arg]
     "a mesh without corners": lambda: tofray.TriangleMesh(np.zeros((0, 3), np.float32), np.zeros((1, 3), np.int32)),
     "a mesh beyond its corners": lambda: tofray.TriangleMesh(np.zeros((3, 3), np.float32), np.array([[0, 1, 3]], np.int32)),
     "a mesh before its corners": lambda: tofray.TriangleMesh(np.zeros((3, 3), np.float32), np.array([[0, 1, -1]], np.int32)),
@@ -188,7 +188,7 @@ USES: dict[str, Callable[[], object]] = {
     "a preview without flags": lambda: without("depth", "flags").preview(),
     "a preview without truth or noise": lambda: without("depth", "noise_m").preview(),
     "a preview with a short array": lambda: tofray.Frame(
-        depth=tofray.Depth(**{**DEPTH, "flags": FRAME.depth.flags[:-1]})).preview(),
+        depth=tofray.Depth(**{**DEPTH, "flags": DEPTH["flags"][:-1]})).preview(),
     "parts of two sizes": lambda: tofray.Frame(
         raw=FRAME.raw, depth=tofray.Depth(z_m=FRAME.depth.z_m[:-1])).preview(),
     "processing for truth": lambda: tofray.process(FRAME.raw, CAMERA, truth=False),  # type: ignore[call-arg]
