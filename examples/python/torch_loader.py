@@ -2,7 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """Frames for training: raw frames as input, true depth as target, each seen from a place of its own.
 
-`Frames` needs no torch, and torch.utils.data.DataLoader takes it as it is: DataLoader(Frames(…), batch_size=8, shuffle=True, num_workers=4).
+`Frames` needs no torch, and torch.utils.data.DataLoader takes it as it is:
+DataLoader(Frames(…), batch_size=8, shuffle=True, num_workers=4).
 Item i depends on scene, camera, seed and i alone, whichever worker computes it.
 """
 

@@ -97,6 +97,28 @@ def test_a_request_is_copied_when_it_is_taken() -> None:
     assert frame.scene is not None and tuple(frame.scene.camera.pose.position) == (0.1, 0, 0)
 
 
+def test_the_times_of_exposures_are_taken_once() -> None:
+    corners = np.array([[-1, -1, 1], [1, -1, 1], [0, 1, 1]], np.float32)
+    asked: list[float] = []
+
+    def at(time_s: float) -> Any:
+        asked.append(time_s)
+        return corners
+
+    mesh = tofray.TriangleMesh(corners, np.array([[0, 1, 2]], np.int32))
+    scene = tofray.Scene(materials=[tofray.Material(diffuse=0.5)],
+                         objects=[tofray.Object(shape=tofray.Mesh(triangles=mesh, motion=tofray.MeshMotion(at)))])
+    simulator = tofray.Simulator(scene, FRAME.camera)
+    late = [tofray.FrameRequest(index=1000)]
+    first = next(simulator.frames(requests=late))
+    asked.clear()
+    again = next(simulator.frames(requests=late))
+    assert FRAME.camera is not None
+    start = 1000 / FRAME.camera.mode.frame_rate_hz
+    assert asked and min(asked) >= start - 1e-9, "frame 0 is not computed again"
+    assert again.raw.start_time_s[0] == first.raw.start_time_s[0] == pytest.approx(start, abs=1e-9)
+
+
 def test_parts_of_a_simulated_frame_are_not_exchanged_and_others_are() -> None:
     frame = tofray.Simulator(tofray.load_scene("demo")).frame(0)
     for name, value in {"raw": tofray.Raw(), "depth": tofray.Depth(), "truth": tofray.Truth(), "index": 3}.items():
@@ -192,5 +214,5 @@ def test_records_with_numpys_values_are_compared_and_shown() -> None:
     assert other.to_dict() == plain.to_dict() and json.dumps(other.to_dict())
     for center in (np.array([0.0, 1.0, 2.5]), np.array([0.0, 1.0]), np.zeros((3, 3))):
         assert plain != tofray.Sphere(center=center, radius=0.5)  # type: ignore[arg-type]
-    scene = tofray.Scene(objects=[tofray.Object(shape=plain)])
-    assert scene == tofray.Scene(objects=[tofray.Object(shape=other)]) and "array" in repr(tofray.Scene(objects=[tofray.Object(shape=other)]))
+    scene, again = (tofray.Scene(objects=[tofray.Object(shape=shape)]) for shape in (plain, other))
+    assert scene == again and "array" in repr(again)
