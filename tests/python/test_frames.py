@@ -109,14 +109,13 @@ def test_the_times_of_exposures_are_taken_once() -> None:
     scene = tofray.Scene(materials=[tofray.Material(diffuse=0.5)],
                          objects=[tofray.Object(shape=tofray.Mesh(triangles=mesh, motion=tofray.MeshMotion(at)))])
     simulator = tofray.Simulator(scene, FRAME.camera)
-    late = [tofray.FrameRequest(index=1000)]
-    first = next(simulator.frames(requests=late))
+    next(simulator.frames(requests=[tofray.FrameRequest(index=1000)]))
     asked.clear()
-    again = next(simulator.frames(requests=late))
+    frame = next(simulator.frames(requests=[tofray.FrameRequest(index=2000)]))
     assert FRAME.camera is not None
-    start = 1000 / FRAME.camera.mode.frame_rate_hz
+    start = 2000 / FRAME.camera.mode.frame_rate_hz
     assert asked and min(asked) >= start - 1e-9, "frame 0 is not computed again"
-    assert again.raw.start_time_s[0] == first.raw.start_time_s[0] == pytest.approx(start, abs=1e-9)
+    assert frame.raw.start_time_s[0] == pytest.approx(start, abs=1e-9)
 
 
 def test_parts_of_a_simulated_frame_are_not_exchanged_and_others_are() -> None:

@@ -190,7 +190,7 @@ USES: dict[str, Callable[[], object]] = {
     "a preview with a short array": lambda: tofray.Frame(
         depth=tofray.Depth(**{**DEPTH, "flags": DEPTH["flags"][:-1]})).preview(),
     "parts of two sizes": lambda: tofray.Frame(
-        raw=FRAME.raw, depth=tofray.Depth(z_m=FRAME.depth.z_m[:-1])).preview(),
+        raw=FRAME.raw, depth=tofray.Depth(**{name: array[:-1] for name, array in DEPTH.items()})).preview(),
     "processing for truth": lambda: tofray.process(FRAME.raw, CAMERA, truth=False),  # type: ignore[call-arg]
     "processing up to raw": lambda: tofray.process(FRAME.raw, CAMERA, last_stage="raw"),  # type: ignore[call-arg]
     "saving what has no scene": lambda: tofray.Frame().save("/tmp/nowhere"),
