@@ -1,16 +1,16 @@
 # SPDX-FileCopyrightText: 2026 The tofray authors
 # SPDX-License-Identifier: Apache-2.0
-"""Frames without end for training: raw frames as input, true depth as target. Each worker has its share of the
-numbers, and so no frame comes twice.
+"""Frames for training: raw frames as input, true depth as target, each seen from a place of its own.
 
-`FrameShare` needs no torch; `dataset()` makes a torch.utils.data.IterableDataset of it. A worker is forked or started before it makes its
-simulator, as it has to be.
+`Frames` needs no torch, and torch.utils.data.DataLoader takes it as it is:
+DataLoader(Frames(…), batch_size=8, shuffle=True, num_workers=4).
+Item i depends on scene, camera, seed and i alone, whichever worker computes it.
 """
 
 from __future__ import annotations
 
-import importlib
-from typing import Any, Iterator
+import os
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,38 +18,48 @@ from numpy.typing import NDArray
 import tofray
 
 
-class FrameShare:
-    """The frames of one worker out of several: numbers worker, worker + workers, worker + 2 · workers …, each with a seed of its own."""
+class Frames:
+    """`count` frames of one scene: the noise is that of frame i, the camera's pose is drawn by seed and i."""
 
-    def __init__(self, scene: tofray.Scene, camera: tofray.Camera, count: int, *, worker: int = 0, workers: int = 1, seed: int = 0) -> None:
-        self.scene, self.camera, self.count = scene, camera, count
-        self.worker, self.workers, self.seed = worker, workers, seed
+    def __init__(self, scene: tofray.Scene, camera: tofray.Camera, count: int, *, seed: int = 0, shift_m: float = 0.2) -> None:
+        self.scene, self.camera, self.count, self.seed, self.shift_m = scene, camera, count, seed, shift_m
+        self._simulator: tofray.Simulator | None = None
+        self._made_by = 0
 
-    def __iter__(self) -> Iterator[tuple[int, NDArray[np.float32], NDArray[np.float32]]]:
-        # One thread for each worker: the workers themselves are what runs at once.
-        simulator = tofray.Simulator(self.scene, self.camera, seed=self.seed, threads=1)
-        for index in range(self.worker, self.count, self.workers):
-            frame = simulator.frame(index)
-            yield index, frame.raw.raw.astype(np.float32), frame.truth.z_m  # torch has no uint16; the depth is a view
+    def __len__(self) -> int:
+        return self.count
 
+    def pose(self, index: int) -> tofray.Pose:
+        """The scene's own, shifted by up to shift_m along each axis; it looks at a point that is shifted likewise."""
+        own = self.scene.camera.pose
+        shifts = np.random.default_rng([self.seed, index]).uniform(-self.shift_m, self.shift_m, (2, 3))
+        (x, y, z), (u, v, w) = (np.array([own.position, own.look_at]) + shifts).tolist()
+        return tofray.Pose(position=(x, y, z), look_at=(u, v, w), up=own.up)
 
-def dataset(scene: tofray.Scene, camera: tofray.Camera, count: int, seed: int = 0) -> Any:
-    """What torch.utils.data.DataLoader(…, num_workers=N) takes."""
-    data = importlib.import_module("torch.utils.data")
+    def __getitem__(self, index: int) -> tuple[NDArray[np.float32], NDArray[np.float32]]:
+        if not 0 <= index < self.count:
+            raise IndexError(f"frame {index} of {self.count}")
+        request = tofray.FrameRequest(index=index, pose=self.pose(index))
+        frame = next(self._here().frames(requests=[request]))
+        return frame.raw.raw.astype(np.float32), frame.truth.z_m  # torch before 2.3 has no uint16; the depth is a view
 
-    class Frames(data.IterableDataset):  # type: ignore[misc, name-defined]
-        def __iter__(self) -> Iterator[Any]:
-            info = data.get_worker_info()
-            worker, workers = (0, 1) if info is None else (info.id, info.num_workers)
-            return iter(FrameShare(scene, camera, count, worker=worker, workers=workers, seed=seed))
+    def _here(self) -> tofray.Simulator:
+        """Made by the worker that uses it: a simulator does not come along through fork()."""
+        if self._simulator is None or self._made_by != os.getpid():
+            # One thread for each worker: the workers themselves are what runs at once.
+            self._simulator = tofray.Simulator(self.scene, self.camera, seed=self.seed, threads=1)
+            self._made_by = os.getpid()
+        return self._simulator
 
-    return Frames()
+    def __getstate__(self) -> dict[str, Any]:
+        return {**self.__dict__, "_simulator": None}
 
 
 def main() -> None:
     scene = tofray.load_scene("card")
-    shares = [list(FrameShare(scene, tofray.load_camera(scene), 6, worker=worker, workers=2)) for worker in range(2)]
-    print("numbers of the frames:", [[index for index, _, _ in share] for share in shares])
+    frames = Frames(scene, tofray.load_camera(scene), 6)
+    middles = [float(z_m[z_m.shape[0] // 2, z_m.shape[1] // 2]) for _, z_m in (frames[i] for i in range(len(frames)))]
+    print("true depth in the middle:", ", ".join(f"{z:.3f} m" for z in middles))
 
 
 if __name__ == "__main__":

@@ -43,7 +43,7 @@ def _tag() -> str:
 
 def _build() -> pathlib.Path:
     """Archives in place of shared libraries, so that the module stands alone wherever it is copied to."""
-    folder = pathlib.Path(os.environ.get("TOFRAY_WHEEL_BUILD") or ROOT / "build/wheel")
+    folder = pathlib.Path(os.environ.get("TOFRAY_WHEEL_BUILD") or ROOT / "build/wheel").resolve()
     jobs = os.environ.get("TOFRAY_JOBS") or str(os.cpu_count() or 1)
     subprocess.run(["cmake", "-S", str(ROOT), "-B", str(folder), "-DCMAKE_BUILD_TYPE=Release", "-DCMAKE_UNITY_BUILD=ON",
                     "-DBUILD_SHARED_LIBS=OFF", "-DTOFRAY_TESTS=OFF", "-DTOFRAY_PYTHON=ON", f"-DTOFRAY_PYTHON_EXECUTABLE={sys.executable}",

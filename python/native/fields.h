@@ -93,7 +93,8 @@ TOFRAY_FIELDS(Sensor, &Sensor::width, &Sensor::height, &Sensor::pixel_pitch_m, &
 TOFRAY_FIELDS(Scatter, &Scatter::kind, &Scatter::share, &Scatter::sigma_px, &Scatter::weights, &Scatter::kernel, &Scatter::columns,
               &Scatter::rows)
 TOFRAY_FIELDS(Lens, &Lens::fx_px, &Lens::fy_px, &Lens::cx_px, &Lens::cy_px, &Lens::distortion, &Lens::k1, &Lens::k2, &Lens::p1,
-              &Lens::p2, &Lens::k3, &Lens::k4, &Lens::k5, &Lens::k6, &Lens::f_number, &Lens::transmission, &Lens::vignetting, &Lens::vignetting_table, &Lens::scatter)
+              &Lens::p2, &Lens::k3, &Lens::k4, &Lens::k5, &Lens::k6, &Lens::f_number, &Lens::transmission, &Lens::vignetting,
+              &Lens::vignetting_table, &Lens::scatter)
 TOFRAY_FIELDS(Filter, &Filter::center_m, &Filter::half_width_m, &Filter::peak, &Filter::table)
 TOFRAY_FIELDS(Pattern, &Pattern::kind, &Pattern::half_angle_rad, &Pattern::exponent, &Pattern::width_rad, &Pattern::height_rad,
               &Pattern::columns, &Pattern::rows, &Pattern::half_range_x_rad, &Pattern::half_range_y_rad, &Pattern::samples)

@@ -112,7 +112,29 @@ void take_truth(py::handle from, Truth& into) {
 }
 #undef TOFRAY_TAKE
 
+/// One size of all parts; 0 where none says one. @param what  "width"
+int common_size(const char* what, int raw, int depth, int truth) {
+  int common = 0;
+  const char* whose = "";
+  const std::pair<const char*, int> parts[] = {{"raw", raw}, {"depth", depth}, {"truth", truth}};
+  for (const auto& [name, size] : parts) {
+    if (size == 0) continue;
+    if (common != 0 && size != common)
+      throw Error(ErrorKind::bad_input, std::string("frame: error: ") + name + "." + what + " is " + std::to_string(size) + ", " + whose +
+                                            "." + what + " is " + std::to_string(common) + "\n  expected one size of all parts");
+    common = size, whose = name;
+  }
+  return common;
+}
+
 }  // namespace
+
+void leave_out_after(Stage last, Frame& frame) {
+#define TOFRAY_DROP(name, part, member, element, shape, stage, ...) \
+  if (Stage::stage > last) frame.part.member = {};
+  TOFRAY_IMAGE_ARRAYS(TOFRAY_DROP)
+#undef TOFRAY_DROP
+}
 
 Raw raw_from_python(py::handle value) {
   Raw out;
@@ -128,6 +150,10 @@ std::shared_ptr<Frame> frame_from_python(py::handle value) {
   take_raw(value.attr("raw"), out->raw);
   take_depth(value.attr("depth"), out->depth);
   take_truth(value.attr("truth"), out->truth);
+  // What stands by pixel or by phase in another part says the size of raw, too, which may have neither.
+  out->raw.width = common_size("width", out->raw.width, out->depth.width, out->truth.width);
+  out->raw.height = common_size("height", out->raw.height, out->depth.height, out->truth.height);
+  out->raw.phases = common_size("phases", out->raw.phases, 0, out->truth.phases);
   return out;
 }
 

@@ -19,9 +19,12 @@ struct FrameMemory {
 
 void bind_frames(py::module_& module);
 
+/// Takes away the images that no stage computed: they would be offered as data, all zero. @param last  the last one that did
+void leave_out_after(Stage last, Frame& frame);
+
 /// Raw data out of a tofray.Raw's arrays.
 Raw raw_from_python(py::handle value);
-/// A frame out of a tofray.Frame's arrays: those that are of this frame already, or copies.
+/// A frame out of a tofray.Frame's arrays: those that are of this frame already, or copies. Its parts agree in their sizes.
 std::shared_ptr<Frame> frame_from_python(py::handle value);
 
 }  // namespace tofray::python

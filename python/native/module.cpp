@@ -113,17 +113,49 @@ pictures::Theme theme_of(const std::string& name) {
   throw Error(ErrorKind::bad_input, "theme: error: got '" + name + "'\n  expected dark or light");
 }
 
-py::bytes picture(const py::object& frame, const std::string& what, const std::string& caption, const std::string& theme) {
+/// The arrays that a picture is made of and the frame does not have; those that it has are of its size.
+std::vector<std::string> lacking(const Frame& frame, const std::string& what) {
+  const auto& [index, raw, depth, truth] = frame;
+  std::vector<std::string> out;
+  const auto need = [&](const auto& array, const char* name) {
+    if (array.empty()) out.emplace_back(name);
+  };
+  if (what == "raw") {
+    const bool taps = raw.raw.empty() && !(raw.tap_a.empty() && raw.tap_b.empty());
+    if (taps)
+      need(raw.tap_a, "raw.tap_a"), need(raw.tap_b, "raw.tap_b");
+    else
+      need(raw.raw, "raw.raw");
+    need(raw.modulation_frequency_hz, "raw.modulation_frequency_hz"), need(raw.reference_phase_rad, "raw.reference_phase_rad");
+    need(raw.integration_time_s, "raw.integration_time_s"), need(raw.lit, "raw.lit");
+    return out;
+  }
+  if (what != "amplitude") need(depth.z_m, "depth.z_m");
+  if (what != "depth") need(depth.amplitude_e, "depth.amplitude_e");
+  if (what != "preview") return out;
+  need(depth.flags, "depth.flags");
+  if (truth.z_m.empty()) need(depth.noise_m, "depth.noise_m");
+  if (!truth.multipath_m.empty() && !raw.lit.empty()) need(raw.modulation_frequency_hz, "raw.modulation_frequency_hz");
+  return out;
+}
+
+std::string picture_bytes(const Frame& frame, const std::string& what, const std::string& caption, pictures::Theme look) {
+  if (what == "preview") return pictures::preview_png(frame.depth, frame.truth, frame.raw, caption, look);
+  if (what == "raw") return pictures::raw_png(frame.raw, look);
+  return what == "depth" ? pictures::depth_png(frame.depth) : pictures::amplitude_png(frame.depth);
+}
+
+/// @param needed  whether it is an error that an array is not there; else there is None then
+py::object picture(const py::object& frame, const std::string& what, const std::string& caption, const std::string& theme, bool needed) {
   const std::shared_ptr<Frame> one = frame_from_python(frame);
   const pictures::Theme look = theme_of(theme);
-  if (what == "raw" ? one->raw.width == 0 : one->depth.z_m.empty())
-    throw Error(ErrorKind::bad_input, "frame: error: has no array to make this picture of");
-  return py::bytes(freely([&] {
-    if (what == "preview") return pictures::preview_png(one->depth, one->truth, one->raw, caption, look);
-    if (what == "raw") return pictures::raw_png(one->raw, look);
-    if (what == "depth") return pictures::depth_png(one->depth);
-    return pictures::amplitude_png(one->depth);
-  }));
+  const std::vector<std::string> missing = lacking(*one, what);
+  if (!missing.empty() && !needed) return py::none();
+  std::string names;
+  for (const std::string& name : missing) names += (names.empty() ? "" : ", ") + name;
+  if (!missing.empty())
+    throw Error(ErrorKind::bad_input, "frame: error: has no " + names + "\n  expected what the picture \"" + what + "\" is made of");
+  return py::bytes(freely([&] { return picture_bytes(*one, what, caption, look); }));
 }
 
 /// Name, members with type and value of a fresh one, for each struct: tofray._model is written from it.
@@ -171,7 +203,8 @@ py::dict flags() {
                                               {"no_return", flag_no_return},
                                               {"outside_lens", flag_outside_lens},
                                               {"inconsistent_phases", flag_inconsistent_phases},
-                                              {"inconsistent_frequencies", flag_inconsistent_frequencies}};
+                                              {"inconsistent_frequencies", flag_inconsistent_frequencies},
+                                              {"rejected", flag_rejected}};
   for (const auto& [name, bit] : all) out[name] = static_cast<int>(bit);
   out["invalid"] = static_cast<int>(flags_invalid);
   return out;

@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <atomic>
+#include <chrono>
 #include <mutex>
 #include <thread>
 
@@ -32,6 +33,7 @@ class HeldSimulator {
     simulator_ = std::make_unique<Simulator>(scene, camera, options);
     // What a stage before the last leaves alone has to be zero: only in a new frame it is.
     recycles_ = options.last_stage == Stage::depth;
+    last_stage_ = options.last_stage;
   }
 
   /// A frame that goes back to the pool when its last array is gone.
@@ -51,7 +53,7 @@ class HeldSimulator {
             }};
   }
 
-  /// Runs `compute` without the interpreter's lock, one thread at a time.
+  /// Runs `compute` without the interpreter's lock, one thread at a time. Nothing is held while Python handles a signal.
   template <class Compute>
   void run(const Compute& compute) {
     refuse_child();
@@ -59,17 +61,18 @@ class HeldSimulator {
       throw Error(ErrorKind::bad_input,
                   "Simulator: error: a function that it calls asks it for a frame\n  expected a Simulator of its own there");
     for (;;) {
-      bool stopped = false;
+      bool stopped = false, asked = false;
       pending_callback_fault().reset();
       try {
+        const std::unique_lock<std::timed_mutex> turn = wait_for_turn();
+        progress_.stop.store(false), asked_to_stop_.store(false);
+        // Only now: Ctrl-C of one who waits is not for the frame of another.
         const StopOnInterrupt watch(progress_);
         const py::gil_scoped_release free;
-        const std::lock_guard lock(mutex_);
         const Owned owned(owner_);
         compute(*simulator_);
-        stopped = progress_.stop.exchange(false);
+        stopped = progress_.stop.load(), asked = asked_to_stop_.load();
       } catch (...) {
-        progress_.stop.store(false);
         raise_callback_fault();
         if (PyErr_CheckSignals() != 0) throw py::error_already_set();
         throw;
@@ -77,8 +80,22 @@ class HeldSimulator {
       if (!stopped) return;
       // The frame means nothing. Ctrl-C raises, or Python's handler took it for something else and the frame is computed once more.
       if (PyErr_CheckSignals() != 0) throw py::error_already_set();
-      if (asked_to_stop_.exchange(false)) throw Error(ErrorKind::limit, "Simulator: error: stop() ended the frame");
+      if (asked) raise_stopped();
     }
+  }
+
+  /// The raw frames' times as of frame 0, and when its ground truth holds: a batch's frames do not say theirs.
+  const Frame& exposures() {
+    if (exposures_.raw.phases == 0) {
+      Frame first;
+      run([&](Simulator& simulator) { simulator.frame(0, first); });
+#define TOFRAY_EXPOSURE(name, part, member, ...) exposures_.part.member = first.part.member;
+      TOFRAY_EXPOSURE_ARRAYS(TOFRAY_EXPOSURE)
+#undef TOFRAY_EXPOSURE
+      exposures_.truth.time_s = first.truth.time_s;
+      exposures_.raw.phases = first.raw.phases;
+    }
+    return exposures_;
   }
 
   void stop() {
@@ -90,6 +107,7 @@ class HeldSimulator {
   [[nodiscard]] py::tuple progress() const { return py::make_tuple(progress_.done.load(), progress_.total.load()); }
   [[nodiscard]] RanOn ran_on() const { return simulator_->ran_on(); }
   [[nodiscard]] double frame_rate() const { return frame_rate_; }
+  [[nodiscard]] Stage last_stage() const { return last_stage_; }
 
  private:
   struct Owned {
@@ -99,6 +117,26 @@ class HeldSimulator {
     Owned& operator=(const Owned&) = delete;
     std::atomic<std::thread::id>& owner;
   };
+
+  /// Waits for whoever computes. A signal meanwhile is Python's at once.
+  std::unique_lock<std::timed_mutex> wait_for_turn() {
+    constexpr std::chrono::milliseconds between_signals{50};
+    std::unique_lock<std::timed_mutex> turn(mutex_, std::defer_lock);
+    for (;;) {
+      {
+        const py::gil_scoped_release free;
+        if (turn.try_lock_for(between_signals)) break;
+      }
+      if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+    }
+    return turn;
+  }
+
+  [[noreturn]] static void raise_stopped() {
+    const py::object stopped = py::module_::import("tofray._errors").attr("Stopped");
+    PyErr_SetString(stopped.ptr(), "Simulator: error: stop() ended the frame");
+    throw py::error_already_set();
+  }
 
   /// fork() copies one thread alone: those that would compute are not there.
   void refuse_child() const {
@@ -113,10 +151,12 @@ class HeldSimulator {
   double frame_rate_;
   std::unique_ptr<Simulator> simulator_;
   std::shared_ptr<FramePool> pool_ = std::make_shared<FramePool>();
-  std::mutex mutex_;
+  std::timed_mutex mutex_;
   std::atomic<std::thread::id> owner_{};
   std::atomic<bool> asked_to_stop_{false};
   bool recycles_ = true;
+  Stage last_stage_ = Stage::depth;
+  Frame exposures_;  ///< what is not an image of frame 0; looked at with the interpreter's lock
   pid_t made_by_ = getpid();
 };
 
@@ -150,17 +190,21 @@ py::object memory_of(std::shared_ptr<Frame> frame) { return py::cast(FrameMemory
 py::object frame_of(HeldSimulator& self, const py::object& index, const py::object& own) {
   const std::uint64_t i = from_natural(index, {nullptr, "index"});
   std::shared_ptr<Frame> into = self.new_frame();
-  const auto compute = [&](const auto&... seen) { self.run([&](Simulator& simulator) { simulator.frame(i, seen..., *into); }); };
+  // What is given of a stage is known, however early the last one is.
+  const auto compute = [&](Stage given, const auto&... seen) {
+    self.run([&](Simulator& simulator) { simulator.frame(i, seen..., *into); });
+    leave_out_after(std::max(self.last_stage(), given), *into);
+  };
   if (own.is_none()) {
-    compute();
+    compute(Stage::trace);
   } else {
     into = std::make_shared<Frame>();
     if (py::isinstance(own, model_class("Geometry")))
-      compute(geometry_from_python(own));
+      compute(Stage::trace, geometry_from_python(own));
     else if (py::isinstance(own, model_class("PixelLight")))
-      compute(light_from_python(own));
+      compute(Stage::power, light_from_python(own));
     else if (py::isinstance(own, model_class("Transient")))
-      compute(transient_from_python(own));
+      compute(Stage::power, transient_from_python(own));
     else
       refuse({nullptr, "own"}, own, "a tofray.Geometry, PixelLight or Transient");
   }
@@ -172,11 +216,10 @@ py::list frames_of(HeldSimulator& self, const py::object& wanted) {
   std::vector<FrameRequest> requests;
   from_python(wanted, requests, {nullptr, "requests"});
   std::vector<std::shared_ptr<Frame>> frames;
-  Frame first;
+  const Frame first = self.exposures();
   const double rate = self.frame_rate();
   self.run([&](Simulator& simulator) {
     frames.clear();
-    simulator.frame(0, first);  // says when each raw frame is exposed
     simulator.frames(requests, [&](const FrameArrays& arrays) {
       std::shared_ptr<Frame> one = copied(arrays, first.raw);
       const double start = static_cast<double>(arrays.index) / rate;
@@ -215,12 +258,15 @@ py::object process_raw(const py::object& raw, const py::object& camera, const py
   options.progress = &progress;
   auto out = std::make_shared<Frame>();
   RanOn ran_on;
-  {
-    const StopOnInterrupt watch(progress);
-    const py::gil_scoped_release free;
-    out->depth = process(taken, one, options, &ran_on);
-  }
-  if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+  do {  // once more where Python's handler took Ctrl-C for something else: what was computed so far means nothing
+    progress.stop.store(false);
+    {
+      const StopOnInterrupt watch(progress);
+      const py::gil_scoped_release free;
+      out->depth = process(taken, one, options, &ran_on);
+    }
+    if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+  } while (progress.stop.load());
   return py::make_tuple(memory_of(std::move(out)), to_python(ran_on));
 }
 

@@ -108,8 +108,8 @@ _HOME = {
     "_model": (
         "Adc", "Ambient", "Area", "Box", "Camera", "CameraChoice", "CameraKeyframe", "Capsule", "Cone", "Curve", "Cylinder", "Decoding",
         "Disk", "Filter", "FrameRequest", "Illumination", "ImageFilter", "Keyframe", "Lens", "Material", "Mesh", "Mode", "Object",
-        "Override", "Pattern", "Pixel", "PixelMask", "Plane", "Pose", "RanOn", "RawFrame", "Rectangle", "Rotation", "Scatter", "Scene", "Sensor",
-        "Sphere", "Temperature", "TransientBins", "Transport", "Triangle", "Waveform",
+        "Override", "Pattern", "Pixel", "PixelMask", "Plane", "Pose", "RanOn", "RawFrame", "Rectangle", "Rotation", "Scatter", "Scene",
+        "Sensor", "Sphere", "Temperature", "TransientBins", "Transport", "Triangle", "Waveform",
     ),
     "_native": ("MeshMotion", "ReflectivityMap", "TriangleMesh"),
     "_own": ("Geometry", "PixelLight", "Transient"),

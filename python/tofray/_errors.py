@@ -11,7 +11,8 @@ class Error(Exception):
     Attributes
     ----------
     kind : str
-        "bad_input" (also a ValueError), "io" (also an OSError), "limit" (also a MemoryError), "device" or "bug" (RuntimeError).
+        "bad_input" (also a ValueError), "io" (also an OSError), "limit" (also a MemoryError), "device" or "bug" (RuntimeError), or
+        "stopped": by ``Simulator.stop()``.
     """
 
     kind = "bug"
@@ -44,16 +45,22 @@ class DeviceError(Error, RuntimeError):
     kind = "device"
 
 
+class Stopped(Error):
+    """``Simulator.stop()`` ended the frame."""
+
+    kind = "stopped"
+
+
 class Bug(Error, RuntimeError):
     """A fault of tofray's own."""
 
 
 def error_of(kind: str, text: str) -> Error:
-    for one in (BadInput, IoError, LimitError, DeviceError):
+    for one in (BadInput, IoError, LimitError, DeviceError, Stopped):
         if one.kind == kind:
             return one(text)
     return Bug(text)
 
 
-for _one in (Error, BadInput, IoError, LimitError, DeviceError, Bug):
+for _one in (Error, BadInput, IoError, LimitError, DeviceError, Stopped, Bug):
     _one.__module__ = "tofray"

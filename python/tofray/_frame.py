@@ -4,12 +4,13 @@
 
 from __future__ import annotations
 
+import copy
 import os
 from typing import TYPE_CHECKING, Any
 
 from . import _native
 from ._arrays import Depth, Raw, Truth
-from ._errors import BadInput, IoError
+from ._errors import BadInput, IoError, LimitError
 
 if TYPE_CHECKING:
     import numpy as np
@@ -31,23 +32,22 @@ class Frame:
     index : int
         Number of the frame; it starts at index / frame_rate.
     raw, depth, truth : Raw, Depth, Truth
-        The arrays.
+        The arrays. Index and parts of a simulated frame are its own and cannot be exchanged; those of other frames can.
     scene, camera : Scene, Camera or None
-        What was simulated; None where the frame came from a file.
+        What was simulated, as this frame's own copies; None where the frame came from a file.
     meta : dict
         Of a frame out of a file: what ``frame.npz`` says of it.
     """
 
-    __slots__ = ("_memory", "_options", "camera", "depth", "index", "meta", "raw", "scene", "truth")
+    __slots__ = ("_camera", "_depth", "_index", "_memory", "_options", "_raw", "_scene", "_shared", "_truth", "meta")
 
     def __init__(self, *, index: int = 0, raw: Raw | None = None, depth: Depth | None = None, truth: Truth | None = None,
                  scene: Scene | None = None, camera: Camera | None = None, meta: dict[str, Any] | None = None) -> None:
-        self.index = index
-        self.raw = Raw() if raw is None else raw
-        self.depth = Depth() if depth is None else depth
-        self.truth = Truth() if truth is None else truth
-        self.scene = scene
-        self.camera = camera
+        self._index = index
+        self._raw = Raw() if raw is None else raw
+        self._depth = Depth() if depth is None else depth
+        self._truth = Truth() if truth is None else truth
+        self._scene, self._camera, self._shared = scene, camera, False
         self.meta: dict[str, Any] = {} if meta is None else meta
         self._memory: Any = None
         self._options: dict[str, Any] = {}
@@ -56,11 +56,81 @@ class Frame:
     def _of(cls, memory: _native.FrameMemory, scene: Scene | None, camera: Camera | None, options: dict[str, Any]) -> Frame:
         self = cls.__new__(cls)
         sizes = memory.sizes()
-        self.index = memory.index
-        self.raw, self.depth, self.truth = (part._of(memory, sizes) for part in (Raw, Depth, Truth))
-        self.scene, self.camera, self.meta = scene, camera, {}
+        self._index = memory.index
+        self._raw, self._depth, self._truth = (part._of(memory, sizes) for part in (Raw, Depth, Truth))
+        # The simulator's own, which nobody changes: copied when they are first asked for.
+        self._scene, self._camera, self._shared = scene, camera, True
+        self.meta = {}
         self._memory, self._options = memory, options
         return self
+
+    def _own(self) -> None:
+        if self._shared:
+            self._scene, self._camera, self._shared = copy.deepcopy(self._scene), copy.deepcopy(self._camera), False
+
+    @property
+    def scene(self) -> Scene | None:
+        """What was simulated."""
+        self._own()
+        return self._scene
+
+    @scene.setter
+    def scene(self, scene: Scene | None) -> None:
+        self._own()
+        self._scene = scene
+
+    @property
+    def camera(self) -> Camera | None:
+        """What saw it."""
+        self._own()
+        return self._camera
+
+    @camera.setter
+    def camera(self, camera: Camera | None) -> None:
+        self._own()
+        self._camera = camera
+
+    def _exchange(self, name: str, value: Any) -> None:
+        if self._memory is not None:
+            raise AttributeError(f"frame.{name} is what was simulated\n"
+                                 "  expected values written into its arrays, or a tofray.Frame(raw=…, depth=…, truth=…) of one's own")
+        setattr(self, "_" + name, value)
+
+    @property
+    def index(self) -> int:
+        """Number of the frame."""
+        return self._index
+
+    @index.setter
+    def index(self, index: int) -> None:
+        self._exchange("index", index)
+
+    @property
+    def raw(self) -> Raw:
+        """What the sensor hands out."""
+        return self._raw
+
+    @raw.setter
+    def raw(self, raw: Raw) -> None:
+        self._exchange("raw", raw)
+
+    @property
+    def depth(self) -> Depth:
+        """The depth frame."""
+        return self._depth
+
+    @depth.setter
+    def depth(self, depth: Depth) -> None:
+        self._exchange("depth", depth)
+
+    @property
+    def truth(self) -> Truth:
+        """Ground truth."""
+        return self._truth
+
+    @truth.setter
+    def truth(self, truth: Truth) -> None:
+        self._exchange("truth", truth)
 
     def to_dict(self) -> dict[str, NDArray[Any]]:
         """All arrays under their names in files: ``z_m``, ``tap_a``, ``gt_range_m``. Views, not copies."""
@@ -93,28 +163,39 @@ class Frame:
         ----------
         theme : {"dark", "light"}
             Light writing on a dark ground, or dark on white.
+
+        Raises
+        ------
+        Error
+            Where the frame lacks an array of it, by name.
         """
-        return _native.picture(self, "preview", self._caption(), theme)
+        picture = _native.picture(self, "preview", self._caption(), theme, True)
+        assert picture is not None
+        return picture
+
+    def _own_options(self) -> dict[str, Any]:
+        """Of a frame out of a file: what the file says."""
+        return self._options or {name: self.meta[name] for name in ("seed", "noise", "exposure_samples", "subpixel") if name in self.meta}
 
     def save(self, folder: str | os.PathLike[str], *, compress: bool = False) -> list[str]:
-        """Writes ``frame.npz`` and the pictures into a folder, which is made if need be.
+        """Writes ``frame.npz``, and the pictures that it has the arrays for, into a folder, which is made if need be.
 
-        ``frame.npz`` has the same bytes as the command line's for the same scene, camera, options and seed.
+        ``frame.npz`` has the same bytes as the command line's for the same scene, camera, options and seed. That of a frame out of a
+        file says the seed, noise and samples that the file said.
 
         Returns
         -------
         list of str
             The files.
         """
-        if self.scene is None or self.camera is None:
+        if self._scene is None or self._camera is None:
             raise BadInput("frame.save: error: the frame does not know its scene and camera\n"
                            "  expected a simulated frame, or frame.scene = … and frame.camera = …")
-        files = {"frame.npz": _native.frame_npz(self, self.scene, self.camera, self._options, compress)}
-        if "z_m" in self.depth:
-            for what in ("preview", "depth", "amplitude"):
-                files[what + ".png"] = _native.picture(self, what, self._caption(), "dark")
-        if "raw" in self.raw or "tap_a" in self.raw:
-            files["raw.png"] = _native.picture(self, "raw", "", "dark")
+        files = {"frame.npz": _native.frame_npz(self, self._scene, self._camera, self._own_options(), compress)}
+        for what in ("preview", "depth", "amplitude", "raw"):
+            picture = _native.picture(self, what, self._caption(), "dark", False)
+            if picture is not None:
+                files[what + ".png"] = picture
         try:
             os.makedirs(folder, exist_ok=True)
             return [_write(os.path.join(os.fspath(folder), name), data) for name, data in files.items()]
@@ -150,15 +231,18 @@ class Frame:
         return cloud
 
     def _caption(self) -> str:
-        if self.scene is None or self.camera is None:
+        if self._scene is None or self._camera is None:
             return ""
-        text = f"{self.scene.name} seen by {self.camera.name}"
-        if self.camera.mode.name:
-            text += " " + self.camera.mode.name
+        text = f"{self._scene.name} seen by {self._camera.name}"
+        if self._camera.mode.name:
+            text += " " + self._camera.mode.name
         return text + (f", frame {self.index}" if self.index else "")
 
     def _repr_png_(self) -> bytes | None:
-        return self.preview() if "z_m" in self.depth else None
+        try:
+            return _native.picture(self, "preview", self._caption(), "dark", False)
+        except BadInput:  # arrays that do not fit together: a notebook shows the rest
+            return None
 
     def _repr_html_(self) -> str:
         from ._html import frame_html
@@ -205,25 +289,57 @@ def load(file: str | os.PathLike[str]) -> Frame:
     Frame
         Its ``meta`` is the file's; arrays that are not there raise AttributeError.
     """
-    import json
-    import zipfile
-
     import numpy as np
 
+    name = os.fspath(file)
     try:
         with np.load(file, allow_pickle=False) as archive:
-            arrays = {name: archive[name] for name in archive.files}
-    except (OSError, FileNotFoundError) as fault:
-        raise IoError(f"{os.fspath(file)}: error: cannot be read: {fault}") from fault
-    except (ValueError, zipfile.BadZipFile, EOFError, AttributeError, TypeError) as fault:
-        raise BadInput(f"{os.fspath(file)}: error: is no npz file: {fault}") from fault
+            arrays = {one: archive[one] for one in archive.files}
+    except OSError as fault:
+        raise IoError(f"{name}: error: cannot be read: {fault}") from fault
+    except MemoryError as fault:
+        raise LimitError(f"{name}: error: its arrays do not fit into memory: {fault}") from fault
+    except Exception as fault:  # numpy and zipfile do not say which ones they raise of a broken file
+        raise BadInput(f"{name}: error: is no npz file: {fault}") from fault
     parts: dict[str, dict[str, Any]] = {"raw": {}, "depth": {}, "truth": {}}
+    extents: dict[str, int] = {}
     for part, kind in PARTS.items():
-        for member, (name, dtype, *_) in kind._rows.items():
-            if name in arrays:
-                # `lit` is bool in files
-                parts[part][member] = np.ascontiguousarray(arrays[name]).astype(dtype, copy=False)
-    meta = json.loads(str(arrays["meta"])) if "meta" in arrays else {}
-    time_s = float(arrays["gt_time_s"]) if "gt_time_s" in arrays else 0.0
-    raw, depth, truth = Raw(**parts["raw"]), Depth(**parts["depth"]), Truth(time_s=time_s, **parts["truth"])
-    return Frame(index=int(meta.get("frame", 0)), raw=raw, depth=depth, truth=truth, meta=meta)
+        for member, (stored, dtype, shape, *_) in kind._rows.items():
+            if stored in arrays:
+                parts[part][member] = _as_told(f"{name}: {stored}", arrays[stored], dtype, shape, extents)
+    meta = _meta_of(name, arrays.get("meta", "{}"))
+    time_s = _as_told(f"{name}: gt_time_s", arrays["gt_time_s"], "float64", "[]", extents) if "gt_time_s" in arrays else 0.0
+    raw, depth, truth = Raw(**parts["raw"]), Depth(**parts["depth"]), Truth(time_s=float(time_s), **parts["truth"])
+    return Frame(index=meta.get("frame", 0), raw=raw, depth=depth, truth=truth, meta=meta)
+
+
+def _as_told(where: str, array: Any, dtype: str, shape: str, extents: dict[str, int]) -> Any:
+    """An array of a file as the table says it is: digits are not lost, and all arrays have the same sizes."""
+    import numpy as np
+
+    wanted = [letter for letter in shape.strip("[]").split(", ") if letter]
+    # `lit` is bool in files
+    if not isinstance(array, np.ndarray) or not np.can_cast(array.dtype, dtype, "safe"):
+        raise BadInput(f"{where}: error: is of {getattr(array, 'dtype', type(array).__name__)}\n  expected {dtype}")
+    known = [int(letter) if letter.isdigit() else extents.get(letter, size) for letter, size in zip(wanted, array.shape)]
+    if array.ndim != len(wanted) or list(array.shape) != known:
+        sizes = ", ".join(f"{letter} {size}" for letter, size in extents.items())
+        raise BadInput(f"{where}: error: has the shape {array.shape}\n  expected {shape}"
+                       + (f", as other arrays have {sizes}" if sizes else ""))
+    extents.update(zip(wanted, array.shape))
+    return np.ascontiguousarray(array).astype(dtype, copy=False).reshape(array.shape)
+
+
+def _meta_of(file: str, text: Any) -> dict[str, Any]:
+    import json
+
+    try:
+        meta = json.loads(str(text))
+    except (ValueError, RecursionError) as fault:
+        raise BadInput(f"{file}: meta: error: is no JSON: {fault}") from fault
+    if not isinstance(meta, dict):
+        raise BadInput(f"{file}: meta: error: is a {type(meta).__name__}\n  expected an object of JSON")
+    index = meta.get("frame", 0)
+    if not isinstance(index, int) or isinstance(index, bool) or not 0 <= index < 2**64:
+        raise BadInput(f"{file}: meta.frame: error: got {index!r}\n  expected a whole number from 0 to 2**64 - 1")
+    return meta

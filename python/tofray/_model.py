@@ -156,8 +156,7 @@ class Scatter(Record):
 
 
 class Lens(Record):
-    """Pinhole with Brown–Conrady distortion, OpenCV's convention; pixel (0,0)'s centre is at (0.0,
-    0.0).
+    """Pinhole with distortion, OpenCV's conventions (theory 1); pixel (0,0)'s centre is at (0.0, 0.0).
 
     Attributes
     ----------
@@ -165,11 +164,15 @@ class Lens(Record):
     fy_px : float
     cx_px : float
     cy_px : float
+    distortion : Literal["brown_conrady", "fisheye"]
     k1 : float
     k2 : float
     p1 : float
     p2 : float
     k3 : float
+    k4 : float
+    k5 : float
+    k6 : float
     f_number : float
     transmission : float
         T, 0…1, lens and filter at the illumination wavelength.
@@ -178,16 +181,21 @@ class Lens(Record):
         Angle to the optical axis [rad] → factor.
     scatter : Scatter
     """
-    __slots__ = ("fx_px", "fy_px", "cx_px", "cy_px", "k1", "k2", "p1", "p2", "k3", "f_number", "transmission", "vignetting", "vignetting_table", "scatter")
+    __slots__ = ("fx_px", "fy_px", "cx_px", "cy_px", "distortion", "k1", "k2", "p1", "p2", "k3", "k4", "k5", "k6", "f_number",
+                 "transmission", "vignetting", "vignetting_table", "scatter")
     fx_px: float
     fy_px: float
     cx_px: float
     cy_px: float
+    distortion: Literal["brown_conrady", "fisheye"]
     k1: float
     k2: float
     p1: float
     p2: float
     k3: float
+    k4: float
+    k5: float
+    k6: float
     f_number: float
     transmission: float
     vignetting: Literal["cos4", "off", "table"]
@@ -201,11 +209,15 @@ class Lens(Record):
         fy_px: float = 0.0,
         cx_px: float = 0.0,
         cy_px: float = 0.0,
+        distortion: Literal["brown_conrady", "fisheye"] = 'brown_conrady',
         k1: float = 0.0,
         k2: float = 0.0,
         p1: float = 0.0,
         p2: float = 0.0,
         k3: float = 0.0,
+        k4: float = 0.0,
+        k5: float = 0.0,
+        k6: float = 0.0,
         f_number: float = 1.0,
         transmission: float = 1.0,
         vignetting: Literal["cos4", "off", "table"] = 'cos4',
@@ -216,11 +228,15 @@ class Lens(Record):
         self.fy_px = fy_px
         self.cx_px = cx_px
         self.cy_px = cy_px
+        self.distortion = distortion
         self.k1 = k1
         self.k2 = k2
         self.p1 = p1
         self.p2 = p2
         self.k3 = k3
+        self.k4 = k4
+        self.k5 = k5
+        self.k6 = k6
         self.f_number = f_number
         self.transmission = transmission
         self.vignetting = vignetting
@@ -291,7 +307,8 @@ class Pattern(Record):
     samples : list[float]
         [rows][columns], any unit.
     """
-    __slots__ = ("kind", "half_angle_rad", "exponent", "width_rad", "height_rad", "columns", "rows", "half_range_x_rad", "half_range_y_rad", "samples")
+    __slots__ = ("kind", "half_angle_rad", "exponent", "width_rad", "height_rad", "columns", "rows", "half_range_x_rad",
+                 "half_range_y_rad", "samples")
     kind: Literal["cone", "lambertian", "cosine_lobe", "flat_top", "table"]
     half_angle_rad: float
     exponent: float
@@ -334,11 +351,11 @@ class Waveform(Record):
 
     Attributes
     ----------
-    kind : Literal["rectangular", "sine", "measured"]
+    kind : Literal["rectangular", "sine", "measured", "trapezoid", "gaussian", "emission"]
     duty : float
         Width at half height over the period.
     rise_time_s : float
-        Linear edge, 0 to 100 %.
+        Linear edge, 0 to 100 %; of a rectangular pulse both.
     bandwidth_hz : float
         The light source's own single pole; 0: none.
     jitter_s : float
@@ -348,11 +365,22 @@ class Waveform(Record):
     modulation_depth : float
         Sine: d of the light 1 + d·cos; it has no duty and no edges.
     correlation : list[float]
-        Measured: correlation D(τ)/S at equally spaced reference phases over one period, φ = 0; its
-        Fourier transform gives a_m, ψ_m.
+        Measured: correlation D(τ)/S at reference phases over one period, φ = 0; its Fourier
+        transform gives a_m, ψ_m.
+    fall_time_s : float
+        Trapezoid: the other edge.
+    sigma_s : float
+        Gaussian: width of the pulse, 1 sigma.
+    emission : list[float]
+        Emission: the light itself over one period, any unit, from the middle of what would be a
+        rectangular pulse on.
+    sample_phases_rad : list[float]
+        Measured, emission: at which phases of the period the samples are, ascending within one
+        turn; empty: equally spaced from 0 on.
     """
-    __slots__ = ("kind", "duty", "rise_time_s", "bandwidth_hz", "jitter_s", "harmonics", "modulation_depth", "correlation")
-    kind: Literal["rectangular", "sine", "measured"]
+    __slots__ = ("kind", "duty", "rise_time_s", "bandwidth_hz", "jitter_s", "harmonics", "modulation_depth", "correlation",
+                 "fall_time_s", "sigma_s", "emission", "sample_phases_rad")
+    kind: Literal["rectangular", "sine", "measured", "trapezoid", "gaussian", "emission"]
     duty: float
     rise_time_s: float
     bandwidth_hz: float
@@ -360,11 +388,15 @@ class Waveform(Record):
     harmonics: int
     modulation_depth: float
     correlation: list[float]
+    fall_time_s: float
+    sigma_s: float
+    emission: list[float]
+    sample_phases_rad: list[float]
 
     def __init__(
         self,
         *,
-        kind: Literal["rectangular", "sine", "measured"] = 'rectangular',
+        kind: Literal["rectangular", "sine", "measured", "trapezoid", "gaussian", "emission"] = 'rectangular',
         duty: float = 0.5,
         rise_time_s: float = 0.0,
         bandwidth_hz: float = 0.0,
@@ -372,6 +404,10 @@ class Waveform(Record):
         harmonics: int = 4,
         modulation_depth: float = 1.0,
         correlation: Sequence[float] = (),
+        fall_time_s: float = 0.0,
+        sigma_s: float = 0.0,
+        emission: Sequence[float] = (),
+        sample_phases_rad: Sequence[float] = (),
     ) -> None:
         self.kind = kind
         self.duty = duty
@@ -381,6 +417,10 @@ class Waveform(Record):
         self.harmonics = harmonics
         self.modulation_depth = modulation_depth
         self.correlation = list(correlation)
+        self.fall_time_s = fall_time_s
+        self.sigma_s = sigma_s
+        self.emission = list(emission)
+        self.sample_phases_rad = list(sample_phases_rad)
 
 
 class Area(Record):
@@ -441,7 +481,8 @@ class Illumination(Record):
         Of each point.
     waveform : Waveform
     """
-    __slots__ = ("position", "axis", "illumination_wavelength_m", "power_w", "ring_leds", "ring_radius_m", "area", "pattern", "waveform")
+    __slots__ = ("position", "axis", "illumination_wavelength_m", "power_w", "ring_leds", "ring_radius_m", "area", "pattern",
+                 "waveform")
     position: tuple[float, float, float]
     axis: tuple[float, float, float]
     illumination_wavelength_m: float
@@ -485,6 +526,8 @@ class Pixel(Record):
         Wavelength [m] → QE; one sample: a constant.
     contrast : Curve
         Modulation frequency [Hz] → K; one sample: a constant.
+    contrast_by_wavelength : Curve
+        Wavelength [m] → factor on K; none: 1.
     bandwidth_hz : float
         Single pole of the gate; 0: none.
     full_well_e : float
@@ -492,15 +535,28 @@ class Pixel(Record):
         Reset + read, 1 sigma.
     column_noise_e : float
         Of A−B, the same for all pixels of a column in one raw frame, anew in each, 1 sigma.
+    row_noise_e : float
+        The same of a row.
     dark_current_e_per_s : float
+        At Temperature::reference_celsius.
+    dark_current_doubling_k : float
+        It doubles with every so many kelvin above that; 0: the same at all temperatures.
+    tap_gain_mismatch : float
+        G: tap A collects 1 + g/2 of what it should, tap B 1 − g/2.
+    tap_offset_mismatch_e : float
+        What A has more than B before any charge comes.
+    nonlinearity : Curve
+        Charge of a tap [e⁻] → charge that is read of it; none: the same.
     prnu : float
         Photo response non-uniformity, 1 sigma, relative.
     dsnu_dn : float
         Offset pattern, 1 sigma [DN].
     delay_s : float
         Fixed-pattern delay per pixel, 1 sigma.
+    phase_offset_rad : float
+        Fixed-pattern phase per pixel, another one at each modulation frequency, 1 sigma.
     pattern_seed : int
-        Which specimen of the sensor: seed of the three patterns above.
+        Which specimen of the sensor: seed of the patterns above.
     suppression_threshold_e : float
         Background suppression: when the smaller tap reaches the threshold, the excess is taken off
         both taps, at most `budget`. Each tap's removed charge x adds a variance of noise_factor² ·
@@ -508,17 +564,27 @@ class Pixel(Record):
     suppression_budget_e : float
     suppression_noise_factor : float
     """
-    __slots__ = ("quantum_efficiency", "contrast", "bandwidth_hz", "full_well_e", "read_noise_e", "column_noise_e", "dark_current_e_per_s", "prnu", "dsnu_dn", "delay_s", "pattern_seed", "suppression_threshold_e", "suppression_budget_e", "suppression_noise_factor")
+    __slots__ = ("quantum_efficiency", "contrast", "contrast_by_wavelength", "bandwidth_hz", "full_well_e", "read_noise_e",
+                 "column_noise_e", "row_noise_e", "dark_current_e_per_s", "dark_current_doubling_k", "tap_gain_mismatch",
+                 "tap_offset_mismatch_e", "nonlinearity", "prnu", "dsnu_dn", "delay_s", "phase_offset_rad", "pattern_seed",
+                 "suppression_threshold_e", "suppression_budget_e", "suppression_noise_factor")
     quantum_efficiency: Curve
     contrast: Curve
+    contrast_by_wavelength: Curve
     bandwidth_hz: float
     full_well_e: float
     read_noise_e: float
     column_noise_e: float
+    row_noise_e: float
     dark_current_e_per_s: float
+    dark_current_doubling_k: float
+    tap_gain_mismatch: float
+    tap_offset_mismatch_e: float
+    nonlinearity: Curve
     prnu: float
     dsnu_dn: float
     delay_s: float
+    phase_offset_rad: float
     pattern_seed: int
     suppression_threshold_e: float
     suppression_budget_e: float
@@ -529,14 +595,21 @@ class Pixel(Record):
         *,
         quantum_efficiency: Curve | None = None,
         contrast: Curve | None = None,
+        contrast_by_wavelength: Curve | None = None,
         bandwidth_hz: float = 0.0,
         full_well_e: float = 1e+30,
         read_noise_e: float = 0.0,
         column_noise_e: float = 0.0,
+        row_noise_e: float = 0.0,
         dark_current_e_per_s: float = 0.0,
+        dark_current_doubling_k: float = 0.0,
+        tap_gain_mismatch: float = 0.0,
+        tap_offset_mismatch_e: float = 0.0,
+        nonlinearity: Curve | None = None,
         prnu: float = 0.0,
         dsnu_dn: float = 0.0,
         delay_s: float = 0.0,
+        phase_offset_rad: float = 0.0,
         pattern_seed: int = 1,
         suppression_threshold_e: float = 0.0,
         suppression_budget_e: float = 0.0,
@@ -544,14 +617,21 @@ class Pixel(Record):
     ) -> None:
         self.quantum_efficiency = Curve() if quantum_efficiency is None else quantum_efficiency
         self.contrast = Curve() if contrast is None else contrast
+        self.contrast_by_wavelength = Curve() if contrast_by_wavelength is None else contrast_by_wavelength
         self.bandwidth_hz = bandwidth_hz
         self.full_well_e = full_well_e
         self.read_noise_e = read_noise_e
         self.column_noise_e = column_noise_e
+        self.row_noise_e = row_noise_e
         self.dark_current_e_per_s = dark_current_e_per_s
+        self.dark_current_doubling_k = dark_current_doubling_k
+        self.tap_gain_mismatch = tap_gain_mismatch
+        self.tap_offset_mismatch_e = tap_offset_mismatch_e
+        self.nonlinearity = Curve() if nonlinearity is None else nonlinearity
         self.prnu = prnu
         self.dsnu_dn = dsnu_dn
         self.delay_s = delay_s
+        self.phase_offset_rad = phase_offset_rad
         self.pattern_seed = pattern_seed
         self.suppression_threshold_e = suppression_threshold_e
         self.suppression_budget_e = suppression_budget_e
@@ -653,31 +733,49 @@ class Mode(Record):
 
 
 class ImageFilter(Record):
-    """Image filter over the range image; invalid pixels are neither changed nor used.
+    """Image filter over the range image; invalid pixels are neither changed nor used. Bilateral and
+    adaptive filters leave edges as they are, and come before the check for flying pixels; the
+    others come after it.
 
     Attributes
     ----------
-    kind : Literal["none", "gaussian", "median"]
+    kind : Literal["none", "gaussian", "median", "bilateral", "adaptive"]
     sigma_px : float
-        Gaussian.
+        Gaussian, bilateral.
     radius_px : int
-        Median: window (2 radius + 1)².
+        Median, adaptive: window (2 radius + 1)², at most.
+    sigmas : float
+        Bilateral, adaptive: neighbours count that are off by less than this times the noise of the
+        difference ….
+    range_m : float
+        Bilateral: … and this, summed in quadrature.
+    goal_m : float
+        Adaptive: neighbours are added, ring by ring, until the noise is no more than this.
     """
-    __slots__ = ("kind", "sigma_px", "radius_px")
-    kind: Literal["none", "gaussian", "median"]
+    __slots__ = ("kind", "sigma_px", "radius_px", "sigmas", "range_m", "goal_m")
+    kind: Literal["none", "gaussian", "median", "bilateral", "adaptive"]
     sigma_px: float
     radius_px: int
+    sigmas: float
+    range_m: float
+    goal_m: float
 
     def __init__(
         self,
         *,
-        kind: Literal["none", "gaussian", "median"] = 'none',
+        kind: Literal["none", "gaussian", "median", "bilateral", "adaptive"] = 'none',
         sigma_px: float = 1.0,
         radius_px: int = 1,
+        sigmas: float = 3.0,
+        range_m: float = 0.0,
+        goal_m: float = 0.01,
     ) -> None:
         self.kind = kind
         self.sigma_px = sigma_px
         self.radius_px = radius_px
+        self.sigmas = sigmas
+        self.range_m = range_m
+        self.goal_m = goal_m
 
 
 class Decoding(Record):
@@ -686,8 +784,14 @@ class Decoding(Record):
     Attributes
     ----------
     wiggling_correction : bool
-    low_signal_noise_m : float
+    noise_threshold_m : float
         Σ̂ above this: low signal; also the scale of confidence.
+    amplitude_threshold_e : float
+        Amplitude below this: low signal.
+    lower_saturation_dn : float | None
+        Codes beyond: saturated; unless given, the ADC's valid codes.
+    upper_saturation_dn : float | None
+        Codes beyond: saturated; unless given, the ADC's valid codes.
     flying_near_z_m : float
         Limit on |Δz| grows linearly from here ….
     flying_near_limit_m : float
@@ -696,38 +800,85 @@ class Decoding(Record):
         … to here, constant outside.
     flying_far_limit_m : float
         … to here, constant outside.
-    inconsistent_range_m : float
+    flying_sigmas : float
+        … and a flying pixel is off by more than this times the noise of the difference, too.
+    flying_check : bool
+        False: nobody looks for flying pixels.
+    asymmetry_limit_e : float
+        D_k + D_k' half a turn apart: inconsistent phases beyond both.
+    asymmetry_sigmas : float
+        D_k + D_k' half a turn apart: inconsistent phases beyond both.
+    asymmetry_reject : bool
+        The depth is invalid then; otherwise the flag is a warning.
+    multipath_limit_m : float
+        D_i − d_j of two modulation frequencies: inconsistent ones beyond both.
+    multipath_sigmas : float
+        D_i − d_j of two modulation frequencies: inconsistent ones beyond both.
+    multipath_reject : bool
     filter : ImageFilter
     """
-    __slots__ = ("wiggling_correction", "low_signal_noise_m", "flying_near_z_m", "flying_near_limit_m", "flying_far_z_m", "flying_far_limit_m", "inconsistent_range_m", "filter")
+    __slots__ = ("wiggling_correction", "noise_threshold_m", "amplitude_threshold_e", "lower_saturation_dn", "upper_saturation_dn",
+                 "flying_near_z_m", "flying_near_limit_m", "flying_far_z_m", "flying_far_limit_m", "flying_sigmas", "flying_check",
+                 "asymmetry_limit_e", "asymmetry_sigmas", "asymmetry_reject", "multipath_limit_m", "multipath_sigmas",
+                 "multipath_reject", "filter")
     wiggling_correction: bool
-    low_signal_noise_m: float
+    noise_threshold_m: float
+    amplitude_threshold_e: float
+    lower_saturation_dn: float | None
+    upper_saturation_dn: float | None
     flying_near_z_m: float
     flying_near_limit_m: float
     flying_far_z_m: float
     flying_far_limit_m: float
-    inconsistent_range_m: float
+    flying_sigmas: float
+    flying_check: bool
+    asymmetry_limit_e: float
+    asymmetry_sigmas: float
+    asymmetry_reject: bool
+    multipath_limit_m: float
+    multipath_sigmas: float
+    multipath_reject: bool
     filter: ImageFilter
 
     def __init__(
         self,
         *,
         wiggling_correction: bool = True,
-        low_signal_noise_m: float = 0.07,
+        noise_threshold_m: float = 0.07,
+        amplitude_threshold_e: float = 0.0,
+        lower_saturation_dn: float | None = None,
+        upper_saturation_dn: float | None = None,
         flying_near_z_m: float = 1.0,
         flying_near_limit_m: float = 0.018,
         flying_far_z_m: float = 4.5,
         flying_far_limit_m: float = 0.14,
-        inconsistent_range_m: float = 0.1,
+        flying_sigmas: float = 4.0,
+        flying_check: bool = True,
+        asymmetry_limit_e: float = 0.0,
+        asymmetry_sigmas: float = 5.0,
+        asymmetry_reject: bool = False,
+        multipath_limit_m: float = 0.1,
+        multipath_sigmas: float = 3.0,
+        multipath_reject: bool = False,
         filter: ImageFilter | None = None,
     ) -> None:
         self.wiggling_correction = wiggling_correction
-        self.low_signal_noise_m = low_signal_noise_m
+        self.noise_threshold_m = noise_threshold_m
+        self.amplitude_threshold_e = amplitude_threshold_e
+        self.lower_saturation_dn = lower_saturation_dn
+        self.upper_saturation_dn = upper_saturation_dn
         self.flying_near_z_m = flying_near_z_m
         self.flying_near_limit_m = flying_near_limit_m
         self.flying_far_z_m = flying_far_z_m
         self.flying_far_limit_m = flying_far_limit_m
-        self.inconsistent_range_m = inconsistent_range_m
+        self.flying_sigmas = flying_sigmas
+        self.flying_check = flying_check
+        self.asymmetry_limit_e = asymmetry_limit_e
+        self.asymmetry_sigmas = asymmetry_sigmas
+        self.asymmetry_reject = asymmetry_reject
+        self.multipath_limit_m = multipath_limit_m
+        self.multipath_sigmas = multipath_sigmas
+        self.multipath_reject = multipath_reject
         self.filter = ImageFilter() if filter is None else filter
 
 
@@ -798,7 +949,8 @@ class Camera(Record):
     mode_names : list[str]
         All that the profile has.
     """
-    __slots__ = ("name", "source", "sensor", "lens", "filter", "illumination", "pixel", "adc", "decoding", "temperature", "refractive_index", "readout_time_s", "min_integration_time_s", "power_model", "mode", "mode_names")
+    __slots__ = ("name", "source", "sensor", "lens", "filter", "illumination", "pixel", "adc", "decoding", "temperature",
+                 "refractive_index", "readout_time_s", "min_integration_time_s", "power_model", "mode", "mode_names")
     name: str
     source: str
     sensor: Sensor
@@ -999,7 +1151,8 @@ class Triangle(Record):
     def __init__(
         self,
         *,
-        vertices: tuple[tuple[float, float, float], tuple[float, float, float], tuple[float, float, float]] = ((0.0, 0.0, 0.0), (0.0, 0.0, 0.0), (0.0, 0.0, 0.0)),
+        vertices: tuple[tuple[float, float, float], tuple[float, float, float], tuple[float, float, float]]
+        = ((0.0, 0.0, 0.0), (0.0, 0.0, 0.0), (0.0, 0.0, 0.0)),
     ) -> None:
         self.vertices = vertices
 

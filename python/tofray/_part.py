@@ -14,6 +14,7 @@ if TYPE_CHECKING:
 
     from ._native import FrameMemory
 
+_SIZES = ("width", "height", "phases", "bins", "time_s")
 _EXTENTS = {"phase": "phases", "height": "height", "width": "width", "bin": "bins"}
 
 
@@ -78,7 +79,7 @@ class Part:
         object.__setattr__(self, "_memory", memory)
         object.__setattr__(self, "_own", False)
         object.__setattr__(self, "_held", {})
-        for name in ("width", "height", "phases", "bins", "time_s"):
+        for name in _SIZES:
             object.__setattr__(self, name, sizes[name])
         return self
 
@@ -113,6 +114,8 @@ class Part:
                     f"  expected {self._part}.{name}[...] = values, or a tofray.{type(self).__name__} of one's own")
             self._held[name] = value
             return
+        if name in _SIZES and not self._own:
+            raise AttributeError(f"{self._part}.{name} is what the frame has\n  expected a tofray.{type(self).__name__} of one's own")
         object.__setattr__(self, name, value)
 
     def __getitem__(self, name: str) -> NDArray[Any]:
@@ -147,7 +150,7 @@ class Part:
         return f"<tofray.{type(self).__name__} {self.width} x {self.height}: {', '.join(self.names) or 'no arrays'}>"
 
     def __reduce__(self) -> tuple[Any, ...]:
-        sizes = {"width": self.width, "height": self.height, "phases": self.phases, "bins": self.bins, "time_s": self.time_s}
+        sizes = {name: getattr(self, name) for name in _SIZES}
         return _part_of, (type(self), sizes, {name: self[name] for name in self.names})
 
 

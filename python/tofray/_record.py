@@ -10,9 +10,23 @@ from typing import Any
 def _plain(value: Any) -> Any:
     if isinstance(value, Record):
         return value.to_dict()
+    value = _listed(value)
     if isinstance(value, (list, tuple)):
         return [_plain(one) for one in value]
     return value
+
+
+def _listed(value: Any) -> Any:
+    """Arrays and numbers of numpy's, which members may hold, as lists and numbers of Python's."""
+    return value.tolist() if hasattr(value, "tolist") and hasattr(value, "dtype") else value
+
+
+def _same(one: Any, other: Any) -> bool:
+    """Whether two members say the same: a list, a tuple and an array of the same numbers do."""
+    one, other = _listed(one), _listed(other)
+    if isinstance(one, (list, tuple)) and isinstance(other, (list, tuple)):
+        return len(one) == len(other) and all(map(_same, one, other))
+    return bool(one == other)
 
 
 class Record:
@@ -24,12 +38,12 @@ class Record:
     def __eq__(self, other: object) -> bool:
         if type(other) is not type(self):
             return NotImplemented
-        return all(getattr(self, name) == getattr(other, name) for name in self.__slots__)
+        return all(_same(getattr(self, name), getattr(other, name)) for name in self.__slots__)
 
     def __repr__(self) -> str:
         fresh = type(self)()
         said = ((name, getattr(self, name)) for name in self.__slots__)
-        return f"{type(self).__name__}({', '.join(f'{name}={value!r}' for name, value in said if value != getattr(fresh, name))})"
+        return f"{type(self).__name__}({', '.join(f'{name}={value!r}' for name, value in said if not _same(value, getattr(fresh, name)))})"
 
     def __setattr__(self, name: str, value: Any) -> None:
         try:

@@ -53,7 +53,7 @@ class Simulator:
     truth : bool
         Fill ``frame.truth``.
     last_stage : {"trace", "power", "raw", "depth"}
-        Stop after this stage.
+        Stop after this stage: frames have no arrays of later ones.
     exposure_samples : int
         1 to 1000: times within each exposure at which what moves is seen.
     subpixel : int
@@ -132,6 +132,7 @@ class Simulator:
             From which frame on, and how many.
         requests : iterable of FrameRequest, optional
             In place of them: each frame's index and, where they differ from the simulator's, its seed and the camera's pose.
+            Requests are copied when they are taken.
             A request with a seed or a pose is remembered by its number alone in what ``save`` writes.
         """
         if requests is None:
@@ -144,7 +145,7 @@ class Simulator:
         batch = 16 if self.ran_on.backend == "cuda" else 1
         waiting: list[FrameRequest] = []
         for request in requests:
-            waiting.append(request)
+            waiting.append(copy.deepcopy(request))
             if len(waiting) == batch:
                 yield from self._batch(waiting)
                 waiting = []
@@ -162,7 +163,7 @@ class Simulator:
             yield Frame._of(memory, scene, self._camera, options)
 
     def stop(self) -> None:
-        """Ends the frame under way, from another thread; whoever waits for it gets an Error of kind "limit"."""
+        """Ends the frame under way, from another thread; whoever waits for it gets an Error of kind "stopped"."""
         self._native.stop()
 
     @property
@@ -191,7 +192,17 @@ def _simulator_of(scene: Scene, camera: Camera, options: dict[str, Any]) -> Simu
     return Simulator(scene, camera, **options)
 
 
-def process(raw: Raw, camera: Camera, **options: Any) -> Depth:
+def process(
+    raw: Raw,
+    camera: Camera,
+    *,
+    noise: Literal["off", "exact"] = "exact",
+    threads: int = 0,
+    backend: Literal["automatic", "cpu", "cuda"] = "automatic",
+    device: int = -1,
+    block_size: int = 0,
+    isa: Literal["best", "scalar", "scalar_fma", "avx2", "avx512"] = "best",
+) -> Depth:
     """Decodes raw data, simulated or measured, into depth.
 
     Parameters
@@ -201,13 +212,14 @@ def process(raw: Raw, camera: Camera, **options: Any) -> Depth:
         ``integration_time_s``, ``lit``.
     camera : Camera
         Says the rest.
-    **options
-        As of Simulator: ``noise="off"`` for expected values, ``threads``, ``backend`` …
+    noise, threads, backend, device, block_size, isa
+        As of Simulator: ``noise="off"`` for expected values.
 
     Returns
     -------
     Depth
     """
+    options = {"noise": noise, "threads": threads, "backend": backend, "device": device, "block_size": block_size, "isa": isa}
     memory, _ = _native.process(raw, camera, options)
     depth: Depth = Depth._of(memory, memory.sizes())
     return depth

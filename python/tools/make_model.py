@@ -115,13 +115,15 @@ def class_text(name: str, members: list[tuple[str, str, object]], said: dict[str
         if said.get(member):
             doc.append(wrapped(sentence(said[member]), 8))
     out.append('    """' + "\n".join(doc) + '\n    """')
-    out.append("    __slots__ = (" + ", ".join(f'"{member}"' for member, _, _ in members) + ("," if len(members) == 1 else "") + ")")
+    slots = "    __slots__ = (" + ", ".join(f'"{member}"' for member, _, _ in members) + ("," if len(members) == 1 else "") + ")"
+    out.append(textwrap.fill(slots, 136, subsequent_indent=" " * 17, break_long_words=False))
     out += [f"    {member}: {type_name}" for member, type_name, _ in members]
     out += ["", "    def __init__(", "        self,", "        *,"]
     kept = []
     for member, type_name, value in members:
         given, default, keep = argument(type_name, value)
-        out.append(f"        {member}: {given} = {default},")
+        line = f"        {member}: {given} = {default},"
+        out.append(line if len(line) <= 140 else f"        {member}: {given}\n        = {default},")
         kept.append(f"        self.{member} = " + keep.format(member))
     return "\n".join([*out, "    ) -> None:", *kept])
 

@@ -4,13 +4,17 @@
 
 from __future__ import annotations
 
+import concurrent.futures
 import importlib
+import importlib.util
+import multiprocessing
 import os
 import pathlib
+import pickle
 import re
-import runpy
 import subprocess
 import sys
+from typing import Any
 
 import pytest
 
@@ -19,7 +23,7 @@ import tofray
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 EXAMPLES = ROOT / "examples/python"
 SAYS = {"first_frame": r"within (\d+\.\d) mm of the truth", "noise_against_distance": r"2\.0 +(\d+\.\d+) +(\d+\.\d+)",
-        "torch_loader": r"\[\[0, 2, 4\], \[1, 3, 5\]\]", "decode_recording": r"(\d+)% of the pixels are valid"}
+        "torch_loader": r"middle: (?:\d\.\d{3} m(?:, )?){6}\n", "decode_recording": r"(\d+)% of the pixels are valid"}
 
 
 @pytest.mark.parametrize("name", sorted(file.stem for file in EXAMPLES.glob("*.py")))
@@ -36,26 +40,45 @@ def test_an_example_runs_and_says_what_it_should(name: str, tmp_path: pathlib.Pa
         assert int(said[1]) > 50
 
 
-def test_no_frame_of_the_loader_comes_twice_and_each_is_the_simulators() -> None:
-    share = runpy.run_path(str(EXAMPLES / "torch_loader.py"))["FrameShare"]
+def frames_of_the_loader(**words: Any) -> Any:
+    module = importlib.util.spec_from_file_location("torch_loader", EXAMPLES / "torch_loader.py")
+    assert module is not None and module.loader is not None
+    loaded = importlib.util.module_from_spec(module)
+    sys.modules["torch_loader"] = loaded  # so that it can be pickled
+    module.loader.exec_module(loaded)
     scene = tofray.load_scene("card")
-    camera = tofray.load_camera(scene)
-    rows = [row for worker in range(3) for row in share(scene, camera, 7, worker=worker, workers=3, seed=4)]
-    assert sorted(index for index, _, _ in rows) == list(range(7))
-    simulator = tofray.Simulator(scene, camera, seed=4)
-    for index, raw, z_m in rows:
-        frame = simulator.frame(index)
-        assert raw.tobytes() == frame.raw.raw.astype("float32").tobytes() and z_m.tobytes() == frame.truth.z_m.tobytes()
+    return loaded.Frames(scene, tofray.load_camera(scene), 4, **words)
+
+
+def test_each_frame_of_the_loader_is_another_and_the_same_in_each_worker() -> None:
+    frames = frames_of_the_loader(seed=4)
+    here = [frames[i] for i in range(len(frames))]
+    assert len({z_m.tobytes() for _, z_m in here}) == len({raw.tobytes() for raw, _ in here}) == 4
+    with pytest.raises(IndexError):
+        frames[4]
+    # Through fork() and through a pickle, as torch's workers get it.
+    with concurrent.futures.ProcessPoolExecutor(2, multiprocessing.get_context("fork")) as pool:
+        there = list(pool.map(frames.__getitem__, range(4)))
+    again = pickle.loads(pickle.dumps(frames))
+    for i, (raw, z_m) in enumerate(here):
+        for other in (there[i], again[i]):
+            assert other[0].tobytes() == raw.tobytes() and other[1].tobytes() == z_m.tobytes()
+    assert frames_of_the_loader(seed=5)[0][1].tobytes() != here[0][1].tobytes()
+
+
+def test_the_loaders_targets_are_those_of_its_poses() -> None:
+    # The card stands 1 m before the scene's pose, and d = 0.8 to 1.2 m before that of a frame. What is looked at is at least d - 0.2 m
+    # ahead and sqrt(2) * 0.4 m aside at the most: along the axis the card is as far as d * sqrt(1 + (0.57 / (d - 0.2))**2) < 1.4 m.
+    middles = [float(z_m[z_m.shape[0] // 2, z_m.shape[1] // 2]) for _, z_m in frames_of_the_loader()]
+    assert all(0.79 < z < 1.41 for z in middles) and len(set(middles)) == 4
 
 
 @pytest.mark.parametrize("workers", [0, 2])
 def test_torch_takes_the_loader(workers: int) -> None:
     pytest.importorskip("torch")
     DataLoader = importlib.import_module("torch.utils.data").DataLoader
-
-    scene = tofray.load_scene("card")
-    frames = runpy.run_path(str(EXAMPLES / "torch_loader.py"))["dataset"](scene, tofray.load_camera(scene), 6)
-    assert sorted(int(index) for index, _, _ in DataLoader(frames, num_workers=workers, batch_size=None)) == list(range(6))
+    batches = list(DataLoader(frames_of_the_loader(), num_workers=workers, batch_size=2))
+    assert len(batches) == 2 and all(len(raw) == 2 for raw, _ in batches)
 
 
 def test_types_are_right() -> None:

@@ -20,6 +20,7 @@ CAMERA: tofray.Camera = FRAME.camera
 SCENE: tofray.Scene = FRAME.scene
 SIMULATOR = tofray.Simulator(SCENE, CAMERA)
 TAPS = {name: FRAME.raw[name] for name in FRAME.raw}
+DEPTH: dict[str, Any] = {name: FRAME.depth[name] for name in FRAME.depth}
 H, W, K = FRAME.raw.height, FRAME.raw.width, FRAME.raw.phases
 LIGHT: dict[str, Any] = {"power_w": FRAME.truth.power_w[np.newaxis].copy(), "path_length_m": (2 * FRAME.truth.range_m)[np.newaxis].copy()}
 SEEN: dict[str, Any] = {"z_m": FRAME.truth.z_m, "normal": FRAME.truth.normal, "diffuse": FRAME.truth.reflectivity}
@@ -115,6 +116,12 @@ MEMBERS: list[tuple[str, Any]] = [
     ("camera.mode.sequence", []), ("camera.mode.frame_rate_hz", 0), ("camera.adc.bits", 99), ("camera.refractive_index", 10**400),
 ]
 
+def without(part: str, *names: str) -> tofray.Frame:
+    """A copy of the frame's arrays but for some; the frame has no other part."""
+    arrays = {name: FRAME.depth[name] if part == "depth" else FRAME.raw[name] for name in getattr(FRAME, part) if name not in names}
+    return tofray.Frame(**{part: (tofray.Depth if part == "depth" else tofray.Raw)(**arrays)})  # type: ignore[arg-type]
+
+
 USES: dict[str, Callable[[], object]] = {
     **{f"{path} = {value!r:.30}": with_member(path, value) for path, value in MEMBERS},
     "a scene that is none": lambda: tofray.Simulator("demo"),  # type: ignore[arg-type]
@@ -148,7 +155,7 @@ USES: dict[str, Callable[[], object]] = {
         tofray.Raw(width=-5, height=H, phases=K, **TAPS), CAMERA),  # type: ignore[arg-type]
     "raw data of half a pixel": lambda: tofray.process(tofray.Raw(width=2.5, **TAPS), CAMERA),  # type: ignore[arg-type]
     "an array that there is not": lambda: tofray.Raw(tap_c=FRAME.raw.tap_a),
-    "an option that there is not": lambda: tofray.process(FRAME.raw, CAMERA, speed=9),  # type: ignore[arg-type]
+    "an option that there is not": lambda: tofray.process(FRAME.raw, CAMERA, speed=9),  # type: ignore[call-arg]
     "a mesh without corners": lambda: tofray.TriangleMesh(np.zeros((0, 3), np.float32), np.zeros((1, 3), np.int32)),
     "a mesh beyond its corners": lambda: tofray.TriangleMesh(np.zeros((3, 3), np.float32), np.array([[0, 1, 3]], np.int32)),
     "a mesh before its corners": lambda: tofray.TriangleMesh(np.zeros((3, 3), np.float32), np.array([[0, 1, -1]], np.int32)),
@@ -177,6 +184,15 @@ USES: dict[str, Callable[[], object]] = {
     "a theme of another colour": lambda: FRAME.preview("green"),
     "a plot of another thing": lambda: FRAME.plot("colour"),
     "a preview of nothing": lambda: tofray.Frame().preview(),
+    "a preview of z alone": lambda: tofray.Frame(depth=tofray.Depth(z_m=FRAME.depth.z_m)).preview(),
+    "a preview without flags": lambda: without("depth", "flags").preview(),
+    "a preview without truth or noise": lambda: without("depth", "noise_m").preview(),
+    "a preview with a short array": lambda: tofray.Frame(
+        depth=tofray.Depth(**{**DEPTH, "flags": DEPTH["flags"][:-1]})).preview(),
+    "parts of two sizes": lambda: tofray.Frame(
+        raw=FRAME.raw, depth=tofray.Depth(**{name: array[:-1] for name, array in DEPTH.items()})).preview(),
+    "processing for truth": lambda: tofray.process(FRAME.raw, CAMERA, truth=False),  # type: ignore[call-arg]
+    "processing up to raw": lambda: tofray.process(FRAME.raw, CAMERA, last_stage="raw"),  # type: ignore[call-arg]
     "saving what has no scene": lambda: tofray.Frame().save("/tmp/nowhere"),
     "saving where nothing can be": lambda: FRAME.save("/proc/nowhere"),
     "rays of no camera": lambda: tofray.pixel_rays(SCENE),  # type: ignore[arg-type]
