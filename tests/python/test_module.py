@@ -205,9 +205,9 @@ def test_several_simulators_in_several_threads() -> None:
     assert len(of_shared) == 4 and all(same(one, expected[0]) for one in of_shared)
 
 
-def slow() -> tofray.Simulator:
+def slow(samples: int = 65536) -> tofray.Simulator:
     scene = tofray.load_scene("cornell-nir")
-    scene.transport.bounces, scene.transport.samples = 3, 65536
+    scene.transport.bounces, scene.transport.samples = 3, samples
     return tofray.Simulator(scene)
 
 
@@ -237,7 +237,7 @@ def test_the_interpreter_goes_on_while_a_frame_is_computed() -> None:
 
 
 def test_ctrl_c_of_one_who_waits_is_not_for_the_frame_of_another() -> None:
-    simulator = slow()
+    simulator = slow(4096)  # few enough for progress to be told several times a second
     faults: list[BaseException] = []
 
     def compute() -> None:
