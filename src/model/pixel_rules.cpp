@@ -92,9 +92,11 @@ bool phases_are_sound(const Waveform& waveform, const std::vector<double>& sampl
 double even_harmonics_of(const Waveform& waveform) {
   const std::vector<double>& measured = waveform.correlation;
   if (waveform.sample_phases_rad.empty() && measured.size() % 2 == 0) return base::even_share(measured);
-  const std::vector<double> equal =
-      waveform.sample_phases_rad.empty() ? measured : base::over_a_period(waveform.sample_phases_rad, measured);
-  return base::even_share_of_few(equal, measured.size(), 2 * static_cast<std::size_t>(waveform.harmonics));
+  const std::vector<double> even = base::over_a_period(waveform.sample_phases_rad, measured);
+  const std::vector<double>& equal = waveform.sample_phases_rad.empty() ? measured : even;
+  const auto most = 2 * static_cast<std::size_t>(waveform.harmonics);
+  return std::min(base::even_share(even),
+                  base::even_share_of_few(equal, measured.size(), most));  // a spline of few samples may know better
 }
 }  // namespace
 
