@@ -25,7 +25,15 @@ TEST(camera_of_meta, gives_back_every_mode_of_every_builtin_profile) {
 TEST(camera_of_meta, gives_back_kinds_that_no_builtin_profile_has) {
   const std::vector<std::vector<std::pair<std::string, std::string>>> changes = {
       {{"illumination.0.waveform", "{kind: sine, jitter: 10 ps, modulation_depth: 87 %}"}},
-      {{"illumination.0.waveform", "{kind: measured, correlation: [1, 0.1, -1, 0.2, 0.3, 0.05, -0.2, 0.1], harmonics: 2}"}},
+      {{"illumination.0.waveform", "{kind: measured, correlation: [1, 0.8, 0.1, -0.7, -1, -0.8, -0.1, 0.7], harmonics: 2}"}},
+      {{"illumination.0.waveform", "{kind: trapezoid, duty: 30 %, rise_time: 1 ns, fall_time: 2 ns}"}},
+      {{"illumination.0.waveform", "{kind: gaussian, sigma: 1 ns}"}},
+      {{"lens.distortion", "{model: fisheye, k1: 0.01, k2: 0.002, k3: 0.0003, k4: 0.00004}"}},
+      {{"lens.distortion", "{k1: 0.6, k2: 0.1, p1: 0.001, p2: 0.002, k3: 0.01, k4: 0.9, k5: 0.2, k6: 0.02}"}},
+      {{"pixel.nonlinearity", "{charge: [0 e, 50 ke, 100 ke], read: [0 e, 48 ke, 90 ke]}"}, {"pixel.row_noise", "7 e"}},
+      {{"pixel.taps", "{gain_mismatch: 1 %, offset_mismatch: 30 e}"}, {"pixel.dark_current_doubling", "8 K"}},
+      {{"decoding.filter", "{kind: bilateral, sigma: 1 px, sigmas: 4, range: 5 mm}"}, {"decoding.lower_saturation", "300"}},
+      {{"decoding.filter", "{kind: adaptive, radius: 3, goal: 5 mm}"}, {"decoding.asymmetry", "{limit: 30 e, sigmas: 4, reject: true}"}},
       {{"illumination.0.pattern", "{kind: table, half_range_x: 30 deg, half_range_y: 20 deg, samples: [[1, 2, 3], [4, 5, 6]]}"}},
       {{"illumination.0.pattern", "{kind: cone, half_angle: 30 deg}"}},
       {{"illumination.0.pattern", "{kind: cosine_lobe, exponent: 4}"}},
