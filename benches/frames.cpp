@@ -1,12 +1,13 @@
 // SPDX-FileCopyrightText: 2026 The tofray authors
 // SPDX-License-Identifier: Apache-2.0
-// frames SCENE COUNT: milliseconds per frame of Simulator::frame as C++ calls it, for benches/python_frames.py: into a frame that is made
-// anew each time, and into one that is kept.
+// frames SCENE COUNT [no-truth]: milliseconds per frame of Simulator::frame as C++ calls it, for benches/python_frames.py and recording.py:
+// into a frame that is made anew each time, and into one that is kept.
 #include <tofray/tofray.h>
 
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
+#include <string_view>
 
 namespace {
 
@@ -19,10 +20,11 @@ double milliseconds(Clock::time_point since, std::uint64_t count) {
 }  // namespace
 
 int main(int argc, char** argv) try {
-  if (argc != 3) return 2;
+  if (argc != 3 && argc != 4) return 2;
+  const bool truth = argc == 3 || std::string_view(argv[3]) != "no-truth";
   const tofray::Scene scene = tofray::load_scene(argv[1]);
   const std::uint64_t count = std::strtoull(argv[2], nullptr, 10);
-  tofray::Simulator simulator(scene, tofray::load_camera(scene), {.threads = 2});
+  tofray::Simulator simulator(scene, tofray::load_camera(scene), {.threads = 2, .truth = truth});
   tofray::Frame kept = simulator.frame(0);
   Clock::time_point since = Clock::now();
   for (std::uint64_t i = 0; i < count; ++i) kept = simulator.frame(i);

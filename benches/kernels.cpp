@@ -92,7 +92,7 @@ void decode(benchmark::State& state) {
   const auto ray = flow::make_ray(num::to_float(num::lane_index<F>()) * F(0.01f), F(0.1f), F(1.0f));
   for (auto _ : state) {
     benchmark::DoNotOptimize(difference);
-    auto found = depth::decode<F>(frozen.decoder(), difference, F(1.0f) < F(0.0f), F(1.0f) < F(0.0f), ray, F(0.0f));
+    auto found = depth::decode<F>(frozen.decoder(), difference, F(1.0f) < F(0.0f), F(1.0f) < F(0.0f), ray, {0, 8});
     benchmark::DoNotOptimize(found);
   }
 }

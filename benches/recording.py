@@ -1,0 +1,83 @@
+#!/usr/bin/env python3
+# SPDX-FileCopyrightText: 2026 The tofray authors
+# SPDX-License-Identifier: Apache-2.0
+"""recording.py TOFRAY BENCH_FRAMES [FOLDER]: does `tofray render --frames` keep up with the slower of computing and the disk?
+
+In turn, in each round and for each choice of arrays: frames per second that are computed (benches/frames.cpp, nothing written); that the
+disk of FOLDER takes (files of a frame's size from memory, written by as many threads as tofray's, each synced before it counts); and that
+`tofray render` records. Medians of the rounds, and the share of the slower of the two."""
+
+import concurrent.futures
+import os
+import pathlib
+import shutil
+import statistics
+import subprocess
+import sys
+import tempfile
+import time
+
+SCENE, FRAMES, ROUNDS, WRITERS = "room", 200, 5, 6
+CHOICES = ("all", "raw,z_m,flags")
+
+
+def run(*command: object) -> str:
+    return subprocess.run([str(word) for word in command], check=True, capture_output=True, text=True).stdout
+
+
+def computed(program: str, truth: bool) -> float:
+    kept = float(run(program, SCENE, FRAMES, *([] if truth else ["no-truth"])).split()[1])
+    return 1e3 / kept
+
+
+def settle() -> None:
+    """What the run before left to the disk is no part of the next."""
+    os.sync()
+
+
+def recorded(tofray: str, folder: pathlib.Path, arrays: str) -> tuple[float, int]:
+    settle()
+    since = time.perf_counter()
+    run(tofray, "render", SCENE, "--frames", FRAMES, "-o", folder, "--quiet", *([] if arrays == "all" else ["--arrays", arrays]))
+    rate = FRAMES / (time.perf_counter() - since)
+    size = next(folder.glob("frame_*.npz")).stat().st_size
+    shutil.rmtree(folder)
+    return rate, size
+
+
+def write(path: pathlib.Path, data: bytes) -> None:
+    with open(path, "wb", buffering=0) as file:
+        file.write(data)
+        os.fsync(file.fileno())
+
+
+def taken_by_disk(folder: pathlib.Path, size: int) -> float:
+    folder.mkdir()
+    data = os.urandom(size)
+    settle()
+    since = time.perf_counter()
+    with concurrent.futures.ThreadPoolExecutor(WRITERS) as pool:
+        list(pool.map(lambda i: write(folder / f"{i}.npz", data), range(FRAMES)))
+    rate = FRAMES / (time.perf_counter() - since)
+    shutil.rmtree(folder)
+    return rate
+
+
+def main() -> None:
+    tofray, program = sys.argv[1:3]
+    where = tempfile.mkdtemp(dir=sys.argv[3] if len(sys.argv) > 3 else ".")
+    try:
+        print("| arrays | MB a frame | computed | disk takes | recorded | of the slower |\n|---|---|---|---|---|---|")
+        for arrays in CHOICES:
+            rows = []
+            for _ in range(ROUNDS):
+                rate, size = recorded(tofray, pathlib.Path(where) / "frames", arrays)
+                rows.append((computed(program, arrays == "all"), taken_by_disk(pathlib.Path(where) / "disk", size), rate))
+            c, d, r = (statistics.median(column) for column in zip(*rows))
+            print(f"| {arrays} | {size / 1e6:.2f} | {c:.0f} | {d:.0f} | {r:.0f} | {100 * r / min(c, d):.0f} % |", flush=True)
+    finally:
+        shutil.rmtree(where)
+
+
+if __name__ == "__main__":
+    main()
