@@ -9,6 +9,11 @@ using F = tofray::num::F32x16;
 #include "num/avx2.h"
 #define PACK_FUNCTIONS pack_functions_avx2
 using F = tofray::num::F32x8;
+#elif defined(PACK_NEON)
+#include "num/neon.h"
+#include "num/twin.h"
+#define PACK_FUNCTIONS pack_functions_neon
+using F = tofray::num::Twin<tofray::num::F32x4>;
 #elif defined(PACK_SCALAR_FMA)
 #define PACK_FUNCTIONS pack_functions_scalar_fma
 using F = float;
@@ -73,7 +78,9 @@ TOFRAY_FN bool arithmetic(int which, const PackBlock& block) {
     case 2: EACH(at.put(at.a() * at.b()));
     case 3: EACH(at.put(at.a() / at.b()));
     case 4: EACH(at.put(-at.a()));
-    case 5: EACH(at.put(num::fma(at.a(), at.b(), at.c())); at.put(num::fnma(at.a(), at.b(), at.c()), 1));
+    case 5:
+      EACH(at.put(num::fma(at.a(), at.b(), at.c())); at.put(num::fnma(at.a(), at.b(), at.c()), 1);
+           at.put(num::fms(at.a(), at.b(), at.c()), 2));
     case 6: EACH(at.put(num::sqrt(at.a())));
     case 7: EACH(at.put(num::min(at.a(), at.b())));
     case 8: EACH(at.put(num::max(at.a(), at.b())));

@@ -25,7 +25,6 @@ namespace tofray::app {
 
 namespace {
 
-constexpr Isa instruction_sets[] = {Isa::scalar, Isa::scalar_fma, Isa::avx2, Isa::avx512};
 constexpr double wall_limit_m = 1e-4;
 #ifdef __clang__
 constexpr const char* compiler = "clang " __clang_version__;
@@ -122,7 +121,7 @@ Diagnosis diagnose(const Options& options) {
   out.isa = backend::isa_name(backend::choose_isa(Isa::best));
   out.missing = missing_things();
   std::vector<float> scalar_z;
-  for (const Isa isa : instruction_sets) {
+  for (const Isa isa : backend::isas_here) {
     if (!backend::can_run(isa)) continue;
     out.sets.push_back(backend::isa_name(isa));
     out.tests.push_back(test_wall(Backend::cpu, isa, options, scalar_z));
