@@ -9,6 +9,9 @@ add_library(tofray_flags INTERFACE)
 target_compile_options(tofray_flags INTERFACE -ffp-contract=off -Wall -Wextra -Wpedantic -Wshadow -Wconversion
   -Wno-sign-conversion $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict> $<$<CXX_COMPILER_ID:GNU>:-fno-tree-slp-vectorize>
   $<$<CXX_COMPILER_ID:Clang>:-Wno-bitwise-instead-of-logical> $<$<BOOL:${TOFRAY_WARNINGS_AS_ERRORS}>:-Werror>)
+if(CMAKE_SYSTEM_PROCESSOR MATCHES "^(aarch64|arm64)$")   # g++ tells that it passed some arguments otherwise before version 10
+  target_compile_options(tofray_flags INTERFACE $<$<CXX_COMPILER_ID:GNU>:-Wno-psabi>)
+endif()
 # Where CMake joins the files of a folder into one to compile (./dev and the presets of the sanitizers: 0.4 to 0.6 of the time), a parameter hides what
 # another file has, and a class that only one file knows is no fault.
 if(CMAKE_UNITY_BUILD)

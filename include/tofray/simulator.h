@@ -23,7 +23,7 @@ enum class Noise {
 };
 
 /// Which machine code runs. All give the same bytes.
-enum class Isa { best, scalar, scalar_fma, avx2, avx512 };
+enum class Isa { best, scalar, scalar_fma, avx2, avx512, neon };
 
 /// What computes the frames. Both give the same bytes.
 enum class Backend {
@@ -60,7 +60,7 @@ struct SimulatorOptions {
 struct RanOn {
   std::string backend;          ///< "cpu" or "cuda"
   std::string device;           ///< its name: of the GPU, or of the processor's instruction set
-  std::string isa;              ///< of the processor, which is there in any case: "scalar", "scalar_fma", "avx2" or "avx512"
+  std::string isa;              ///< of the processor, which is there in any case: "scalar", "scalar_fma", "avx2", "avx512" or "neon"
   int threads = 0;              ///< of the processor
   int block_size = 0;           ///< threads per block of the kernel from ray to depth; 0 where the processor computed
   double occupancy = 0;         ///< how full that kernel makes the GPU, 0 … 1

@@ -51,7 +51,7 @@ class Simulator:
         CUDA threads per block; 0: chosen.
     batch_bytes : int
         Host memory of one batch on its way from a GPU.
-    isa : {"best", "scalar", "scalar_fma", "avx2", "avx512"}
+    isa : {"best", "scalar", "scalar_fma", "avx2", "avx512", "neon"}
         Which machine code runs. All give the same bytes.
     truth : bool
         Fill ``frame.truth``.
@@ -84,7 +84,7 @@ class Simulator:
         device: int = -1,
         block_size: int = 0,
         batch_bytes: int = 64_000_000,
-        isa: Literal["best", "scalar", "scalar_fma", "avx2", "avx512"] = "best",
+        isa: Literal["best", "scalar", "scalar_fma", "avx2", "avx512", "neon"] = "best",
         truth: bool = True,
         last_stage: Literal["trace", "power", "raw", "depth"] = "depth",
         exposure_samples: int = 1,
@@ -237,7 +237,7 @@ def process(
     backend: Literal["automatic", "cpu", "cuda"] = "automatic",
     device: int = -1,
     block_size: int = 0,
-    isa: Literal["best", "scalar", "scalar_fma", "avx2", "avx512"] = "best",
+    isa: Literal["best", "scalar", "scalar_fma", "avx2", "avx512", "neon"] = "best",
 ) -> Depth:
     """Decodes raw data, simulated or measured, into depth.
 

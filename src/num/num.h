@@ -7,8 +7,8 @@
 
 /// The number type that kernels are written on.
 ///
-/// A kernel is a template over `F`: float (scalar reference and CUDA), or a pack of 8 or 16 floats (avx2.h, avx512.h). With F come
-/// Int<F>, Uint<F> (32 bits) and Mask<F>. All of them have the operators + - * / < <= > >= == != & | ! and the free functions of this
+/// A kernel is a template over `F`: float (scalar reference and CUDA), or a pack of 4, 8 or 16 floats (neon.h, avx2.h, avx512.h). With F
+/// come Int<F>, Uint<F> (32 bits) and Mask<F>. All of them have the operators + - * / < <= > >= == != & | ! and the free functions of this
 /// file; nothing else is needed to add a machine. Every function gives the same bits on every machine: IEEE single precision,
 /// rounded to nearest, subnormals kept; min and max are comparisons (the second argument where one is NaN).
 ///

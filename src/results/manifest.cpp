@@ -4,7 +4,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdio>
+#include <string_view>
 
 #include "base/faults.h"
 #include "files/data_limits.h"
@@ -150,20 +152,29 @@ Json json_of(const InputFile& input) {
 
 }  // namespace
 
+std::string cpu_model_in(std::string_view cpuinfo) {
+  const auto value = [&](std::string_view key) -> std::string {
+    for (std::size_t at = 0; at < cpuinfo.size();) {
+      const std::size_t end = std::min(cpuinfo.find('\n', at), cpuinfo.size());
+      const std::string_view line = cpuinfo.substr(at, end - at);
+      const std::size_t colon = line.find(": ");
+      if (line.starts_with(key) && colon != std::string_view::npos) return std::string(line.substr(colon + 2));
+      at = end + 1;
+    }
+    return "";
+  };
+  const std::string model = value("model name"), maker = value("CPU implementer"), design = value("CPU part");
+  if (!model.empty()) return model;
+  return maker.empty() || design.empty() ? "unknown" : "ARM, implementer " + maker + ", part " + design;
+}
+
 std::string cpu_model() {
-  std::string model = "unknown";
   std::FILE* file = std::fopen("/proc/cpuinfo", "re");
-  if (file == nullptr) return model;
-  char line[512];
-  while (std::fgets(line, sizeof line, file) != nullptr) {
-    const std::string_view text(line);
-    const std::size_t colon = text.find(": ");
-    if (!text.starts_with("model name") || colon == std::string_view::npos) continue;
-    model = text.substr(colon + 2, text.find('\n') - colon - 2);
-    break;
-  }
+  if (file == nullptr) return "unknown";
+  char text[4096];  // the first processor's part, and more
+  const std::size_t count = std::fread(text, 1, sizeof text, file);
   std::fclose(file);
-  return model;
+  return cpu_model_in({text, count});
 }
 
 std::string manifest_text(const Manifest& manifest) {

@@ -42,8 +42,10 @@ struct Manifest {
   std::optional<std::uint64_t> interrupted_after_frames;
 };
 
-/// "model name" of /proc/cpuinfo, or "unknown".
+/// What /proc/cpuinfo calls the first processor: its "model name"; of ARM, which has none there, the numbers of its maker and its design;
+/// else "unknown".
 std::string cpu_model();
+std::string cpu_model_in(std::string_view cpuinfo);
 
 std::string manifest_text(const Manifest& manifest);
 

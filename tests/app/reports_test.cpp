@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
+#include "backend/cpu/sets.h"
 #include "files/json.h"
 #include "files/npz.h"
 #include "tool.h"
@@ -49,6 +50,7 @@ TEST(doctor, finds_this_machine_well) {
   const Result result = run({"doctor"});
   EXPECT_EQ(result.code, 0) << result.out;
   EXPECT_TRUE(has(result.out, "all good"));
+  EXPECT_EQ(has(result.out, "trials: on 64-bit ARM"), backend::isas_here.back() == Isa::neon) << "what nobody has tried is said";
 }
 
 TEST(bench, measures_what_it_says) {

@@ -40,7 +40,7 @@ class Environment {
 }  // namespace
 
 TEST(choose_isa, takes_what_is_named) {
-  for (const Isa isa : {Isa::scalar, Isa::scalar_fma, Isa::avx2, Isa::avx512}) {
+  for (const Isa isa : every_isa) {
     if (!can_run(isa)) {
       EXPECT_THROW((void)choose_isa(isa), Error) << isa_name(isa);
       continue;
@@ -56,7 +56,24 @@ TEST(choose_isa, best_is_the_widest_that_runs) {
   const Environment empty("");
   const Isa best = choose_isa(Isa::best);
   EXPECT_TRUE(can_run(best));
-  EXPECT_EQ(best, can_run(Isa::avx512) ? Isa::avx512 : can_run(Isa::avx2) ? Isa::avx2 : Isa::scalar);
+  EXPECT_EQ(best, can_run(Isa::avx512) ? Isa::avx512 : can_run(Isa::avx2) ? Isa::avx2 : can_run(Isa::neon) ? Isa::neon : Isa::scalar);
+}
+
+// What another kind of processor has is known by its name, and refused for that.
+TEST(choose_isa, says_that_another_processor_s_set_is_not_this_one_s) {
+#if defined(__aarch64__)
+  const std::string other = "avx2";
+#else
+  const std::string other = "neon";
+#endif
+  const Environment named(other.c_str());
+  try {
+    (void)choose_isa(Isa::best);
+    FAIL() << "no error";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), ErrorKind::device);
+    EXPECT_TRUE(std::string(error.what()).starts_with("error: this processor has no " + other + "\n")) << error.what();
+  }
 }
 
 TEST(choose_isa, refuses_an_unknown_name) {

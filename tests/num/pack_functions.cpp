@@ -9,6 +9,11 @@ using F = tofray::num::F32x16;
 #include "num/avx2.h"
 #define PACK_FUNCTIONS pack_functions_avx2
 using F = tofray::num::F32x8;
+#elif defined(PACK_NEON)
+#include "num/neon.h"
+#include "num/twin.h"
+#define PACK_FUNCTIONS pack_functions_neon
+using F = tofray::num::Twin<tofray::num::F32x4>;
 #elif defined(PACK_SCALAR_FMA)
 #define PACK_FUNCTIONS pack_functions_scalar_fma
 using F = float;
@@ -73,7 +78,9 @@ TOFRAY_FN bool arithmetic(int which, const PackBlock& block) {
     case 2: EACH(at.put(at.a() * at.b()));
     case 3: EACH(at.put(at.a() / at.b()));
     case 4: EACH(at.put(-at.a()));
-    case 5: EACH(at.put(num::fma(at.a(), at.b(), at.c())); at.put(num::fnma(at.a(), at.b(), at.c()), 1));
+    case 5:
+      EACH(at.put(num::fma(at.a(), at.b(), at.c())); at.put(num::fnma(at.a(), at.b(), at.c()), 1);
+           at.put(num::fms(at.a(), at.b(), at.c()), 2));
     case 6: EACH(at.put(num::sqrt(at.a())));
     case 7: EACH(at.put(num::min(at.a(), at.b())));
     case 8: EACH(at.put(num::max(at.a(), at.b())));
@@ -204,23 +211,50 @@ TOFRAY_FN bool memory(int which, const PackBlock& block) {
   }
 }
 
+/// Rows of four, read and written back, against a plain loop: they agree, and nothing else is written. (A template: a plain float has none.)
+template <class P>
+TOFRAY_FN bool square_is_good(const float* from) {
+  if constexpr (num::lanes<P> >= 4) {
+    constexpr int row = 7, room = num::lanes<P> / 4 * row;
+    const P square = num::load_square<P>(from, row);
+    float to[room];
+    for (int k = 0; k < room; ++k) to[k] = 7.5f;
+    num::store_square(to, row, square);
+    bool good = true;
+    for (int k = 0; k < num::lanes<P>; ++k) good = good && num::lane(square, k) == from[k / 4 * row + k % 4];
+    for (int k = 0; k < room; ++k) good = good && to[k] == (k % row < 4 ? from[k] : 7.5f);
+    return good;
+  } else {
+    return true;
+  }
+}
+TOFRAY_FN bool squares(const PackBlock& block) {
+  return each(
+      block, [&](const At& at) __attribute__((always_inline)) {
+        const bool good = square_is_good<F>(block.table + at.i);
+        for (int k = 0; k < lanes; ++k) block.out[at.i + k] = good;
+      });
+}
+
 /// What speaks of all lanes: the smallest, the largest, any and all, the first, against a plain loop over the same pack. 1: agrees.
 TOFRAY_FN bool over_lanes(int which, const PackBlock& block) {
+  if (which == 1) return squares(block);
   if (which != 0) return false;
   return each(
       block, [&](const At& at) __attribute__((always_inline)) {
         float low = 3e38f, high = -3e38f;
         bool some = false, every = true;
+        std::uint32_t less = 0;
         for (int k = 0; k < lanes; ++k) {
           const float a = num::from_bits(block.a[at.i + k] & 0xbfffffffu),
                       b = num::from_bits(block.b[at.i + k] & 0xbfffffffu);  // no NaN, no inf
           low = a < low ? a : low, high = a > high ? a : high;
-          some = some || a < b, every = every && a < b;
+          some = some || a < b, every = every && a < b, less |= (a < b ? 1u : 0u) << k;
         }
         const F a = num::from_bits(at.ua() & U(0xbfffffffu)), b = num::from_bits(at.ub() & U(0xbfffffffu));
         const bool good = num::lowest(a) == low && num::highest(a) == high && num::any(a < b) == some && num::all(a < b) == every &&
-                          num::first(at.ia()) == static_cast<std::int32_t>(block.a[at.i]) && num::any(a == a) && num::all(a == a) &&
-                          !num::any(a != a);
+                          num::lanes_of(a < b) == less && num::first(at.ia()) == static_cast<std::int32_t>(block.a[at.i]) &&
+                          num::any(a == a) && num::all(a == a) && !num::any(a != a);
         for (int k = 0; k < lanes; ++k) block.out[at.i + k] = good;
       });
 }

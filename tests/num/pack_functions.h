@@ -20,4 +20,5 @@ bool pack_functions_scalar(int which, const PackBlock*);
 bool pack_functions_scalar_fma(int which, const PackBlock*);
 bool pack_functions_avx2(int which, const PackBlock*);
 bool pack_functions_avx512(int which, const PackBlock*);
+bool pack_functions_neon(int which, const PackBlock*);
 }

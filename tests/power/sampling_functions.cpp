@@ -11,6 +11,11 @@ using F = tofray::num::Twin<tofray::num::F32x16>;
 #include "num/twin.h"
 #define SAMPLING sampling_avx2
 using F = tofray::num::Twin<tofray::num::F32x8>;
+#elif defined(SAMPLING_NEON)
+#include "num/neon.h"
+#include "num/twin.h"
+#define SAMPLING sampling_neon
+using F = tofray::num::Twin<tofray::num::F32x4>;
 #elif defined(SAMPLING_SCALAR_FMA)
 #define SAMPLING sampling_scalar_fma
 using F = float;

@@ -20,4 +20,5 @@ void sampling_scalar(const SamplingBlock*);
 void sampling_scalar_fma(const SamplingBlock*);
 void sampling_avx2(const SamplingBlock*);
 void sampling_avx512(const SamplingBlock*);
+void sampling_neon(const SamplingBlock*);
 }

@@ -51,6 +51,16 @@ Material material_of(int brdf, Random& random) {
           other, random.scale(1e-3, 0.785)};
 }
 
+SamplingFunction sampling_of(Isa isa) {
+  switch (isa) {
+#define ONE_SET(set) \
+  case Isa::set: return sampling_##set;
+    TOFRAY_SETS(ONE_SET)
+#undef ONE_SET
+    default: return sampling_scalar;
+  }
+}
+
 class SamplingMachines : public testing::TestWithParam<Isa> {};
 
 }  // namespace
@@ -58,7 +68,7 @@ class SamplingMachines : public testing::TestWithParam<Isa> {};
 TEST_P(SamplingMachines, draw_the_same_bits_as_the_plain_float) {
   const Isa isa = GetParam();
   if (!tofray::backend::can_run(isa)) GTEST_SKIP() << tofray::backend::isa_name(isa) << " does not run here";
-  const SamplingFunction machine = isa == Isa::avx512 ? sampling_avx512 : isa == Isa::avx2 ? sampling_avx2 : sampling_scalar_fma;
+  const SamplingFunction machine = sampling_of(isa);
   Random random(11);
   for (int i = 0; i < 3000; ++i) {
     Lanes lanes;
@@ -80,5 +90,5 @@ TEST_P(SamplingMachines, draw_the_same_bits_as_the_plain_float) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(machines, SamplingMachines, testing::Values(Isa::scalar_fma, Isa::avx2, Isa::avx512),
+INSTANTIATE_TEST_SUITE_P(machines, SamplingMachines, testing::ValuesIn(tofray::backend::machine_isas),
                          [](const auto& which) { return tofray::backend::isa_name(which.param); });

@@ -66,6 +66,16 @@ Manifest sample_manifest() {
 
 }  // namespace
 
+TEST(cpu_model, is_the_first_processor_s_by_its_name_or_by_its_numbers) {
+  EXPECT_EQ(cpu_model_in("processor\t: 0\nmodel\t\t: 17\nmodel name\t: A CPU @ 2.10GHz: fast\nprocessor\t: 1\nmodel name\t: Another\n"),
+            "A CPU @ 2.10GHz: fast");
+  EXPECT_EQ(cpu_model_in("processor\t: 0\nBogoMIPS\t: 50.00\nCPU implementer\t: 0x41\nCPU architecture: 8\nCPU variant\t: 0x3\n"
+                         "CPU part\t: 0xd0c\nprocessor\t: 1\nCPU implementer\t: 0x42\nCPU part\t: 0xd0d\n"),
+            "ARM, implementer 0x41, part 0xd0c");
+  for (const char* text : {"", "\n", "model name", "model name\t", "processor: 0\nCPU part\t: 0xd0c", "x model name\t: no"})
+    EXPECT_EQ(cpu_model_in(text), "unknown") << text;
+}
+
 TEST(meta, says_what_made_the_frame_and_nothing_of_where) {
   const Scene scene = sample_scene();
   const Camera camera = out_test::sample_camera(24, 16);

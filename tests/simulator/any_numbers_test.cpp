@@ -230,7 +230,7 @@ TEST(any_taps, give_flags_or_finite_numbers) {
   const Scene scene = wall(1);
   Camera camera = lit_camera(8, 4, 9);
   camera.pixel.full_well_e = 1e5;
-  for (const Isa isa : {Isa::scalar, Isa::scalar_fma, Isa::avx2, Isa::avx512}) {
+  for (const Isa isa : backend::isas_here) {
     if (!backend::can_run(isa)) continue;
     const SimulatorOptions options{.threads = 1, .isa = isa};
     Raw raw = Simulator(scene, camera, options).frame(0).raw;

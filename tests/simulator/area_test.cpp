@@ -312,7 +312,7 @@ TEST(area_light, of_64_points_has_the_same_bytes_on_all_processors) {
     camera.illumination[0].ring_leds = 4, camera.illumination[0].ring_radius_m = 0.1;
     camera.illumination[0].area = number < 2 ? shining_disk(0.03) : shining_rectangle(0.05, 0.02);
     const Frame reference = Simulator(scene, camera, {.threads = 1, .isa = Isa::scalar}).frame(1);
-    for (const Isa isa : {Isa::scalar, Isa::scalar_fma, Isa::avx2, Isa::avx512}) {
+    for (const Isa isa : backend::isas_here) {
       if (!backend::can_run(isa)) continue;
       for (const bool culling : {true, false}) {
         EXPECT_EQ(first_difference(Simulator(scene, camera, {.threads = 3, .isa = isa, .culling = culling}).frame(1), reference), "")

@@ -293,7 +293,7 @@ TEST(bounces, give_the_same_bytes_on_every_machine) {
     };
     const Frame reference = with(Isa::scalar, 1, true);
     EXPECT_GT(sum_over(reference.truth.indirect_e, 0, reference.truth.indirect_e.size()), 0);
-    for (const Isa isa : {Isa::scalar, Isa::scalar_fma, Isa::avx2, Isa::avx512}) {
+    for (const Isa isa : backend::isas_here) {
       if (!backend::can_run(isa)) continue;
       for (const int threads : {1, 3}) EXPECT_EQ(first_difference(with(isa, threads, threads == 1), reference), "") << i << " " << threads;
     }

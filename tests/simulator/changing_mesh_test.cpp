@@ -177,7 +177,7 @@ TEST(changing_mesh, has_the_same_bytes_by_all_kinds_of_code) {
           .frame(4);
     };
     const Frame reference = frame(Isa::scalar, false, 1);
-    for (const Isa isa : {Isa::scalar, Isa::scalar_fma, Isa::avx2, Isa::avx512})
+    for (const Isa isa : backend::isas_here)
       for (const bool culling : {false, true}) {
         if (!backend::can_run(isa)) continue;
         EXPECT_EQ(first_difference(frame(isa, culling, 2), reference), "") << number;

@@ -37,7 +37,7 @@ Frame frame_of(const Scene& scene, const Camera& camera, Isa isa, bool culling, 
 /// On all kinds of code, against one object after the other. @return pixels that see an object but the wall
 int expect_same_without_culling(const Scene& scene, const Camera& camera, int samples = 1) {
   const Frame reference = frame_of(scene, camera, Isa::best, false, 1, samples);
-  for (const Isa isa : {Isa::scalar, Isa::scalar_fma, Isa::avx2, Isa::avx512})
+  for (const Isa isa : backend::isas_here)
     if (backend::can_run(isa)) {
       EXPECT_EQ(first_difference(frame_of(scene, camera, isa, true, 1, samples), reference), "") << backend::isa_name(isa);
     }

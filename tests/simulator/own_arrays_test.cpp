@@ -71,7 +71,7 @@ TEST(own_arrays, have_the_same_bytes_on_every_machine) {
   PixelLight light = light_of(camera, frame);
   light.ambient_e_per_s.assign(light.power_w.size(), 1e6f);
   Frame geometry_reference, light_reference;
-  for (const Isa isa : {Isa::scalar, Isa::scalar_fma, Isa::avx2, Isa::avx512}) {
+  for (const Isa isa : backend::isas_here) {
     if (!backend::can_run(isa)) continue;
     for (const int threads : {1, 3}) {
       Simulator simulator(scene, camera, {.threads = threads, .backend = Backend::cpu, .isa = isa});

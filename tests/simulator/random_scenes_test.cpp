@@ -153,11 +153,11 @@ TEST_P(EveryIsa, renders_random_scenes_as_the_scalar_reference_without_culling) 
   }
   EXPECT_GT(hits, with_sanitizers ? 40000 : 300000);
 }
-INSTANTIATE_TEST_SUITE_P(isa, EveryIsa, testing::Values(Isa::scalar, Isa::scalar_fma, Isa::avx2, Isa::avx512), isa_of);
+INSTANTIATE_TEST_SUITE_P(isa, EveryIsa, testing::ValuesIn(backend::isas_here), isa_of);
 
 // Tiles look at meshes as a whole where the machine has packs; each ray by itself where it has none.
 TEST(swift_meshes, are_seen_and_shaded_alike_by_tiles_and_by_single_rays) {
-  if (!backend::can_run(Isa::avx2)) GTEST_SKIP() << "no packs on this machine";
+  if (!backend::can_run(Isa::avx2) && !backend::can_run(Isa::neon)) GTEST_SKIP() << "no packs on this machine";
   int moving = 0, changing = 0;
   for (int i = 0; i < (with_sanitizers ? 2 : 6); ++i) {
     const Case c = swift_case(i);
@@ -168,7 +168,7 @@ TEST(swift_meshes, are_seen_and_shaded_alike_by_tiles_and_by_single_rays) {
       moving += reference.truth.object_id[p] > 3;
       changing += reference.truth.signal_e[pixels + p] != reference.truth.signal_e[2 * pixels + p];
     }
-    for (const Isa isa : {Isa::avx2, Isa::avx512}) {
+    for (const Isa isa : {Isa::avx2, Isa::avx512, Isa::neon}) {
       if (!backend::can_run(isa)) continue;
       same(render(c, isa, true, 1, 0), reference);
       same(render(c, isa, false, 2, 0), reference);
@@ -198,7 +198,7 @@ TEST(scenes_in_motion, have_the_same_bytes_on_all_kinds_of_code) {
           reference.truth.object_id[p] >= 0 && !c.scene.objects[static_cast<std::size_t>(reference.truth.object_id[p])].keyframes.empty();
     }
     same(render(c, Isa::scalar, true, 2, frame, samples), reference);
-    for (const Isa isa : {Isa::scalar_fma, Isa::avx2, Isa::avx512}) {
+    for (const Isa isa : backend::machine_isas) {
       if (!backend::can_run(isa)) continue;
       same(render(c, isa, true, 1, frame, samples), reference);
       same(render(c, isa, false, 2, frame, samples), reference);

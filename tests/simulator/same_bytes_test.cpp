@@ -123,7 +123,7 @@ TEST_P(SameBytes, on_every_machine_and_with_any_number_of_threads) {
   for (const auto& [name, noise, quiet] : kinds) {
     if (quiet) camera.pixel.read_noise_e = 3;
     const std::string reference = bytes_of(scene, camera, options_of(GetParam(), noise, 1, Isa::scalar));
-    for (const Isa isa : {Isa::scalar, Isa::scalar_fma, Isa::avx2, Isa::avx512}) {
+    for (const Isa isa : backend::isas_here) {
       if (!backend::can_run(isa)) continue;  // named by skipped_on_this_machine
       for (const int threads : thread_numbers(isa)) {
         const std::string bytes = bytes_of(scene, camera, options_of(GetParam(), noise, threads, isa));
@@ -165,7 +165,7 @@ TEST(same_bytes, with_everything_switched_on) {
     for (const PowerModel model : {PowerModel::tofray, PowerModel::paper_literal}) {
       camera.power_model = model;
       const std::string reference = bytes_of(scene, camera, {.threads = 1, .isa = Isa::scalar});
-      for (const Isa isa : {Isa::scalar_fma, Isa::avx2, Isa::avx512}) {
+      for (const Isa isa : backend::machine_isas) {
         if (!backend::can_run(isa)) continue;
         EXPECT_TRUE(bytes_of(scene, camera, {.threads = 3, .isa = isa}) == reference) << backend::isa_name(isa);
         EXPECT_TRUE(bytes_of(scene, camera, {.threads = 2, .isa = isa, .culling = false}) == reference)
@@ -195,5 +195,5 @@ TEST_P(SkippedOnThisMachine, is_what_it_cannot_run) {
             backend::isa_name(GetParam()));
 }
 
-INSTANTIATE_TEST_SUITE_P(same_bytes, SkippedOnThisMachine, testing::Values(Isa::scalar, Isa::scalar_fma, Isa::avx2, Isa::avx512),
+INSTANTIATE_TEST_SUITE_P(same_bytes, SkippedOnThisMachine, testing::ValuesIn(backend::every_isa),
                          [](const auto& which) { return backend::isa_name(which.param); });

@@ -181,7 +181,7 @@ TEST(scatter, gives_the_same_bytes_on_every_machine) {
     camera.lens.scatter = scatter;
     const Frame reference = Simulator(scene, camera, {.threads = 1, .isa = Isa::scalar}).frame(2);
     EXPECT_NE(first_difference(reference, Simulator(scene, small(load_camera(scene))).frame(2)), "");
-    for (const Isa isa : {Isa::scalar_fma, Isa::avx2, Isa::avx512}) {
+    for (const Isa isa : backend::machine_isas) {
       if (!backend::can_run(isa)) continue;  // named by skipped_on_this_machine
       EXPECT_EQ(first_difference(Simulator(scene, camera, {.threads = 3, .isa = isa}).frame(2), reference), "") << backend::isa_name(isa);
     }

@@ -241,7 +241,7 @@ TEST(subpixel, samples_give_the_same_bytes_on_every_machine) {
           .frame(2);
     };
     const Frame reference = bytes(Isa::scalar, 1, true);
-    for (const Isa isa : {Isa::scalar, Isa::scalar_fma, Isa::avx2, Isa::avx512}) {
+    for (const Isa isa : backend::isas_here) {
       if (!backend::can_run(isa)) continue;  // named by skipped_on_this_machine
       EXPECT_EQ(first_difference(bytes(isa, 3, true), reference), "") << backend::isa_name(isa);
     }

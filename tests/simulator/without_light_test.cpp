@@ -13,7 +13,6 @@ using namespace tofray::test;
 
 namespace {
 
-constexpr Isa every_isa[] = {Isa::scalar, Isa::scalar_fma, Isa::avx2, Isa::avx512};
 constexpr Noise every_noise[] = {Noise::off, Noise::exact};
 
 /// 33 × 9 pixels, a grey raw frame of 1 ms and one of 3 ms before the lit ones, noisy and offset.
@@ -42,7 +41,7 @@ void expect_all_invalid(const Scene& scene, const Camera& camera) {
     const Frame reference = Simulator(scene, camera, {.noise = noise, .threads = 1, .isa = Isa::scalar}).frame(2);
     expect_all_invalid(reference.depth);
     expect_all_invalid(process(reference.raw, camera, {.noise = noise, .threads = 1}));
-    for (const Isa isa : every_isa) {
+    for (const Isa isa : backend::isas_here) {
       if (!backend::can_run(isa)) continue;
       const Frame frame = Simulator(scene, camera, {.noise = noise, .threads = 2, .isa = isa}).frame(2);
       expect_all_invalid(frame.depth);
@@ -100,7 +99,7 @@ TEST(no_lit_raw_frame, gives_ambient_light_of_the_mean_exposure) {
 }
 
 TEST(no_objects, makes_every_depth_invalid_without_noise) {
-  for (const Isa isa : every_isa) {
+  for (const Isa isa : backend::isas_here) {
     if (!backend::can_run(isa)) continue;
     const Frame frame = Simulator(Scene(), grey_camera(), {.noise = Noise::off, .threads = 1, .isa = isa}).frame(0);
     expect_all_invalid(frame.depth);

@@ -11,6 +11,11 @@ using Number = tofray::num::Twin<tofray::num::F32x16>;
 #include "num/twin.h"
 #define TILE_SEARCH tile_search_avx2
 using Number = tofray::num::Twin<tofray::num::F32x8>;
+#elif defined(TILE_SEARCH_NEON)
+#include "num/neon.h"
+#include "num/twin.h"
+#define TILE_SEARCH tile_search_neon
+using Number = tofray::num::Twin<tofray::num::F32x4>;
 #elif defined(TILE_SEARCH_SCALAR_FMA)
 #define TILE_SEARCH tile_search_scalar_fma
 using Number = float;

@@ -18,4 +18,5 @@ void tile_search_scalar(const TileSearch*);
 void tile_search_scalar_fma(const TileSearch*);
 void tile_search_avx2(const TileSearch*);
 void tile_search_avx512(const TileSearch*);
+void tile_search_neon(const TileSearch*);
 }

@@ -25,7 +25,6 @@ namespace tofray::app {
 
 namespace {
 
-constexpr Isa instruction_sets[] = {Isa::scalar, Isa::scalar_fma, Isa::avx2, Isa::avx512};
 constexpr double wall_limit_m = 1e-4;
 #ifdef __clang__
 constexpr const char* compiler = "clang " __clang_version__;
@@ -91,12 +90,22 @@ int cores_allowed() {
   return sched_getaffinity(0, sizeof set, &set) == 0 ? CPU_COUNT(&set) : static_cast<int>(std::thread::hardware_concurrency());
 }
 
+/// Where the widest code there is for this kind of processor does not run.
+std::string lacking_packs() {
+  if (backend::isas_here.back() == Isa::neon)
+    return "NEON: this build has no code for it; scalar code runs, several times slower, with the same results";
+  return backend::can_run(Isa::avx2)
+             ? "AVX-512: this processor does not have it; AVX2 code runs, with the same results"
+             : "AVX2 with FMA: this processor has neither; scalar code runs, several times slower, with the same results";
+}
+
 std::vector<std::string> missing_things() {
   std::vector<std::string> missing;
-  if (!backend::can_run(Isa::avx2))
-    missing.emplace_back("AVX2 with FMA: this processor has neither; scalar code runs, several times slower, with the same results");
-  else if (!backend::can_run(Isa::avx512))
-    missing.emplace_back("AVX-512: this processor does not have it; AVX2 code runs, with the same results");
+  constexpr Isa widest = backend::isas_here.back();
+  if (!backend::can_run(widest)) missing.emplace_back(lacking_packs());
+  if (widest == Isa::scalar) missing.emplace_back("packs: tofray has scalar code only for this kind of processor, with the same results");
+  if (widest == Isa::neon)
+    missing.emplace_back("trials: on 64-bit ARM tofray has run under qemu alone so far; please report what this says");
   const std::string lack = backend::why_no_cuda(-1).reason;
   if (!lack.empty()) missing.push_back("GPU: " + lack + "; the processor computes, with the same results");
   return missing;
@@ -122,7 +131,7 @@ Diagnosis diagnose(const Options& options) {
   out.isa = backend::isa_name(backend::choose_isa(Isa::best));
   out.missing = missing_things();
   std::vector<float> scalar_z;
-  for (const Isa isa : instruction_sets) {
+  for (const Isa isa : backend::isas_here) {
     if (!backend::can_run(isa)) continue;
     out.sets.push_back(backend::isa_name(isa));
     out.tests.push_back(test_wall(Backend::cpu, isa, options, scalar_z));

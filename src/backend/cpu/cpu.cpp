@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "backend/cpu/cpu.h"
 
+#include <algorithm>
 #include <cstdlib>
 #include <thread>
 
@@ -24,11 +25,15 @@ Kernel kernel_of(Isa isa) {
 #if defined(TOFRAY_HAS_SCALAR_FMA)
     case Isa::scalar_fma: return tofray_kernel_scalar_fma;
 #endif
+#if defined(TOFRAY_HAS_NEON)
+    case Isa::neon: return tofray_kernel_neon;
+#endif
     case Isa::scalar: return tofray_kernel_scalar;
     default: return nullptr;
   }
 }
 
+#if defined(__x86_64__)
 bool processor_has(Isa isa) {
   __builtin_cpu_init();
   const bool fma = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
@@ -40,8 +45,20 @@ bool processor_has(Isa isa) {
     case Isa::avx512:
       return fma && __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512dq") &&
              __builtin_cpu_supports("avx512vl");
+    case Isa::neon: break;
   }
   return false;
+}
+#else
+/// Nothing to ask: every 64-bit ARM has NEON, and elsewhere there is scalar code only.
+bool processor_has(Isa isa) { return isa == Isa::best || std::find(isas_here.begin(), isas_here.end(), isa) != isas_here.end(); }
+#endif
+
+/// The widest that this processor has and this build has code for.
+Isa best_isa() {
+  Isa best = Isa::scalar;
+  for (const Isa isa : isas_here) best = isa != Isa::scalar_fma && can_run(isa) ? isa : best;
+  return best;
 }
 
 /// Tiles of pixels, or bands of rows.
@@ -66,6 +83,7 @@ std::string isa_name(Isa isa) {
     case Isa::scalar_fma: return "scalar_fma";
     case Isa::avx2: return "avx2";
     case Isa::avx512: return "avx512";
+    case Isa::neon: return "neon";
     case Isa::best: break;
   }
   return "best";
@@ -74,15 +92,15 @@ std::string isa_name(Isa isa) {
 Isa choose_isa(Isa wanted) {
   const char* named = std::getenv("TOFRAY_ISA");
   if (wanted == Isa::best && named != nullptr && *named != '\0') {
-    for (const Isa isa : {Isa::scalar, Isa::scalar_fma, Isa::avx2, Isa::avx512}) {
+    for (const Isa isa : every_isa) {
       if (named == isa_name(isa)) wanted = isa;
     }
     if (wanted == Isa::best) {
       throw Error(ErrorKind::bad_input,
-                  "error: TOFRAY_ISA=" + std::string(named) + " is unknown\n  expected scalar, scalar_fma, avx2 or avx512");
+                  "error: TOFRAY_ISA=" + std::string(named) + " is unknown\n  expected scalar, scalar_fma, avx2, avx512 or neon");
     }
   }
-  if (wanted == Isa::best) wanted = can_run(Isa::avx512) ? Isa::avx512 : can_run(Isa::avx2) ? Isa::avx2 : Isa::scalar;
+  if (wanted == Isa::best) wanted = best_isa();
   if (!can_run(wanted)) {
     const std::string who = processor_has(wanted) ? "this build of tofray" : "this processor";
     throw Error(ErrorKind::device,

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "backend/cpu/kernel.h"
+#include "backend/cpu/sets.h"
 #include "backend/engine.h"
 #include "backend/light_memory.h"
 
@@ -15,7 +16,7 @@ namespace tofray::backend {
 
 /// @throws Error (device) where the processor, or this build, cannot run the instruction set; (bad_input) for an unknown TOFRAY_ISA
 Isa choose_isa(Isa wanted);
-/// "scalar", "scalar_fma", "avx2", "avx512".
+/// "scalar", "scalar_fma", "avx2", "avx512", "neon".
 std::string isa_name(Isa isa);
 /// The processor has it, and this build has its kernel.
 bool can_run(Isa isa);

@@ -12,6 +12,11 @@ using F = tofray::num::Twin<tofray::num::F32x16>;
 #include "num/twin.h"
 #define TOFRAY_KERNEL tofray_kernel_avx2
 using F = tofray::num::Twin<tofray::num::F32x8>;
+#elif defined(TOFRAY_KERNEL_NEON)
+#include "num/neon.h"
+#include "num/twin.h"
+#define TOFRAY_KERNEL tofray_kernel_neon
+using F = tofray::num::Twin<tofray::num::F32x4>;
 #elif defined(TOFRAY_KERNEL_SCALAR_FMA)
 #define TOFRAY_KERNEL tofray_kernel_scalar_fma
 using F = float;

@@ -27,6 +27,7 @@ std::size_t tofray_kernel_scalar(const Work*, Pass, int, void*);
 std::size_t tofray_kernel_scalar_fma(const Work*, Pass, int, void*);
 std::size_t tofray_kernel_avx2(const Work*, Pass, int, void*);
 std::size_t tofray_kernel_avx512(const Work*, Pass, int, void*);
+std::size_t tofray_kernel_neon(const Work*, Pass, int, void*);
 }
 
 }  // namespace tofray::backend
