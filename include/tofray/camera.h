@@ -217,6 +217,15 @@ struct Temperature {
   double since_start_s = 1e9;  ///< how long the camera has run at frame 0
 };
 
+/// Another camera of the same kind, at the same place, whose light falls on the same surfaces (theory 3.7).
+struct Interference {
+  double share = 0;                    ///< of its light over the own, in each pixel; 0: there is no other camera
+  double frequency_difference_hz = 0;  ///< its modulation frequencies less the own
+  double active = 1;                   ///< how likely a raw frame meets its light, 0…1
+  /// By how much its light is later than the own, at the start of frame 0; none: drawn anew for each raw frame.
+  std::optional<double> phase_rad = {};
+};
+
 enum class PowerModel { tofray, paper_literal };
 
 struct Camera {
@@ -230,6 +239,7 @@ struct Camera {
   Adc adc;
   Decoding decoding;
   Temperature temperature;
+  Interference interference;
   double refractive_index = 1.0;
   double readout_time_s = 0;  ///< between the end of one exposure and the start of the next
   double min_integration_time_s = 0;

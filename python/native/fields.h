@@ -121,9 +121,10 @@ TOFRAY_FIELDS(Decoding, &Decoding::wiggling_correction, &Decoding::noise_thresho
               &Decoding::multipath_sigmas, &Decoding::multipath_reject, &Decoding::filter)
 TOFRAY_FIELDS(Temperature, &Temperature::celsius, &Temperature::reference_celsius, &Temperature::drift_m_per_kelvin,
               &Temperature::warm_up_m, &Temperature::warm_up_time_s, &Temperature::since_start_s)
+TOFRAY_FIELDS(Interference, &Interference::share, &Interference::frequency_difference_hz, &Interference::active, &Interference::phase_rad)
 TOFRAY_FIELDS(Camera, &Camera::name, &Camera::source, &Camera::sensor, &Camera::lens, &Camera::filter, &Camera::illumination,
-              &Camera::pixel, &Camera::adc, &Camera::decoding, &Camera::temperature, &Camera::refractive_index, &Camera::readout_time_s,
-              &Camera::min_integration_time_s, &Camera::power_model, &Camera::mode, &Camera::mode_names)
+              &Camera::pixel, &Camera::adc, &Camera::decoding, &Camera::temperature, &Camera::interference, &Camera::refractive_index,
+              &Camera::readout_time_s, &Camera::min_integration_time_s, &Camera::power_model, &Camera::mode, &Camera::mode_names)
 
 TOFRAY_FIELDS(Material, &Material::name, &Material::brdf, &Material::diffuse, &Material::specular, &Material::exponent,
               &Material::roughness_rad, &Material::alpha, &Material::retro, &Material::spread_rad, &Material::map)
@@ -169,9 +170,9 @@ template <class Call>
 void each_record(const Call& call) {
   const auto all = [&]<class... T>(std::tuple<T...>*) { (call(static_cast<T*>(nullptr)), ...); };
   using Records = std::tuple<Curve, PixelMask, Sensor, Scatter, Lens, Filter, Pattern, Waveform, Area, Illumination, Pixel, Adc, RawFrame,
-                             Mode, ImageFilter, Decoding, Temperature, Camera, Material, Plane, Sphere, Box, Triangle, Cylinder, Rectangle,
-                             Disk, Capsule, Cone, Mesh, Rotation, Keyframe, Object, Ambient, TransientBins, Transport, Pose, CameraKeyframe,
-                             Override, CameraChoice, Scene, RanOn, FrameRequest>;
+                             Mode, ImageFilter, Decoding, Temperature, Interference, Camera, Material, Plane, Sphere, Box, Triangle,
+                             Cylinder, Rectangle, Disk, Capsule, Cone, Mesh, Rotation, Keyframe, Object, Ambient, TransientBins, Transport,
+                             Pose, CameraKeyframe, Override, CameraChoice, Scene, RanOn, FrameRequest>;
   all(static_cast<Records*>(nullptr));
 }
 

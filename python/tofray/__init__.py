@@ -50,6 +50,7 @@ if TYPE_CHECKING:
         FrameRequest as FrameRequest,
         Illumination as Illumination,
         ImageFilter as ImageFilter,
+        Interference as Interference,
         Keyframe as Keyframe,
         Lens as Lens,
         Material as Material,
@@ -109,8 +110,8 @@ _HOME = {
     "_load": ("camera", "load_camera", "load_scene", "scene"),
     "_model": (
         "Adc", "Ambient", "Area", "Box", "Camera", "CameraChoice", "CameraKeyframe", "Capsule", "Cone", "Curve", "Cylinder", "Decoding",
-        "Disk", "Filter", "FrameRequest", "Illumination", "ImageFilter", "Keyframe", "Lens", "Material", "Mesh", "Mode", "Object",
-        "Override", "Pattern", "Pixel", "PixelMask", "Plane", "Pose", "RanOn", "RawFrame", "Rectangle", "Rotation", "Scatter", "Scene",
+        "Disk", "Filter", "FrameRequest", "Illumination", "ImageFilter", "Interference", "Keyframe", "Lens", "Material", "Mesh", "Mode",
+        "Object", "Override", "Pattern", "Pixel", "PixelMask", "Plane", "Pose", "RanOn", "RawFrame", "Rectangle", "Rotation", "Scatter", "Scene",
         "Sensor", "Sphere", "Temperature", "TransientBins", "Transport", "Triangle", "Waveform",
     ),
     "_native": ("DeviceArray", "DeviceFrames", "MeshMotion", "ReflectivityMap", "TriangleMesh"),

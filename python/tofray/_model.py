@@ -923,6 +923,42 @@ class Temperature(Record):
         self.since_start_s = since_start_s
 
 
+class Interference(Record):
+    """Another camera of the same kind, at the same place, whose light falls on the same surfaces
+    (theory 3.7).
+
+    Attributes
+    ----------
+    share : float
+        Of its light over the own, in each pixel; 0: there is no other camera.
+    frequency_difference_hz : float
+        Its modulation frequencies less the own.
+    active : float
+        How likely a raw frame meets its light, 0…1.
+    phase_rad : float | None
+        By how much its light is later than the own, at the start of frame 0; none: drawn anew for
+        each raw frame.
+    """
+    __slots__ = ("share", "frequency_difference_hz", "active", "phase_rad")
+    share: float
+    frequency_difference_hz: float
+    active: float
+    phase_rad: float | None
+
+    def __init__(
+        self,
+        *,
+        share: float = 0.0,
+        frequency_difference_hz: float = 0.0,
+        active: float = 1.0,
+        phase_rad: float | None = None,
+    ) -> None:
+        self.share = share
+        self.frequency_difference_hz = frequency_difference_hz
+        self.active = active
+        self.phase_rad = phase_rad
+
+
 class Camera(Record):
     """What C++ calls Camera.
 
@@ -939,6 +975,7 @@ class Camera(Record):
     adc : Adc
     decoding : Decoding
     temperature : Temperature
+    interference : Interference
     refractive_index : float
     readout_time_s : float
         Between the end of one exposure and the start of the next.
@@ -950,7 +987,7 @@ class Camera(Record):
         All that the profile has.
     """
     __slots__ = ("name", "source", "sensor", "lens", "filter", "illumination", "pixel", "adc", "decoding", "temperature",
-                 "refractive_index", "readout_time_s", "min_integration_time_s", "power_model", "mode", "mode_names")
+                 "interference", "refractive_index", "readout_time_s", "min_integration_time_s", "power_model", "mode", "mode_names")
     name: str
     source: str
     sensor: Sensor
@@ -961,6 +998,7 @@ class Camera(Record):
     adc: Adc
     decoding: Decoding
     temperature: Temperature
+    interference: Interference
     refractive_index: float
     readout_time_s: float
     min_integration_time_s: float
@@ -981,6 +1019,7 @@ class Camera(Record):
         adc: Adc | None = None,
         decoding: Decoding | None = None,
         temperature: Temperature | None = None,
+        interference: Interference | None = None,
         refractive_index: float = 1.0,
         readout_time_s: float = 0.0,
         min_integration_time_s: float = 0.0,
@@ -998,6 +1037,7 @@ class Camera(Record):
         self.adc = Adc() if adc is None else adc
         self.decoding = Decoding() if decoding is None else decoding
         self.temperature = Temperature() if temperature is None else temperature
+        self.interference = Interference() if interference is None else interference
         self.refractive_index = refractive_index
         self.readout_time_s = readout_time_s
         self.min_integration_time_s = min_integration_time_s
@@ -1846,8 +1886,8 @@ class FrameRequest(Record):
 __all__ = [
     "Curve", "PixelMask", "Sensor", "Scatter", "Lens", "Filter", "Pattern", "Waveform", "Area",
     "Illumination", "Pixel", "Adc", "RawFrame", "Mode", "ImageFilter", "Decoding", "Temperature",
-    "Camera", "Material", "Plane", "Sphere", "Box", "Triangle", "Cylinder", "Rectangle", "Disk",
-    "Capsule", "Cone", "Mesh", "Rotation", "Keyframe", "Object", "Ambient", "TransientBins",
-    "Transport", "Pose", "CameraKeyframe", "Override", "CameraChoice", "Scene", "RanOn",
-    "FrameRequest",
+    "Interference", "Camera", "Material", "Plane", "Sphere", "Box", "Triangle", "Cylinder",
+    "Rectangle", "Disk", "Capsule", "Cone", "Mesh", "Rotation", "Keyframe", "Object", "Ambient",
+    "TransientBins", "Transport", "Pose", "CameraKeyframe", "Override", "CameraChoice", "Scene",
+    "RanOn", "FrameRequest",
 ]

@@ -11,6 +11,7 @@
 #include "base/faults.h"
 #include "base/limits.h"
 #include "camera/emitters.h"
+#include "camera/other_camera.h"
 #include "camera/read_curve.h"
 #include "camera/subpixel.h"
 #include "camera/waveform.h"
@@ -109,23 +110,34 @@ void FrozenCamera::freeze_phasors() {
   phasors_ = {static_cast<std::int32_t>(modulations), static_cast<std::int32_t>(orders), phasor_modulations_.data(), 0};
 }
 
+namespace {
+
+num::RoundKeys keys_of(std::uint64_t seed) {
+  return num::round_keys(static_cast<std::uint32_t>(seed), static_cast<std::uint32_t>(seed >> 32));
+}
+
+}  // namespace
+
 void FrozenCamera::freeze_sequence(std::uint64_t seed, bool noise) {
   SensorView& s = sensor_;
   s.raw_frames = static_cast<std::int32_t>(camera_.mode.sequence.size());
   take_numbers(camera_, s);
   s.noise = !noise ? Noise::off : camera_.pixel.read_noise_e < least_merged_read_noise ? Noise::apart : Noise::merged;
-  s.keys = num::round_keys(static_cast<std::uint32_t>(seed), static_cast<std::uint32_t>(seed >> 32));
+  s.keys = keys_ = keys_of(seed);
   const std::size_t values = 2 * static_cast<std::size_t>(phasors_.orders);
+  const bool another = camera_.interference.share > 0;
   gates_.resize(camera_.mode.sequence.size() * values);
+  if (another) other_gates_.resize(gates_.size());
   std::vector<double> integration_time_s;
   for (std::size_t k = 0; k < camera_.mode.sequence.size(); ++k) {
     const RawFrame& frame = camera_.mode.sequence[k];
     raw_frames_.push_back({frame.lit, std::max(modulations_.of_raw_frame[k], 0), single(frame.integration_time_s),
-                           single(dark_current() * frame.integration_time_s), Gate::other, gates_.data() + k * values});
+                           single(dark_current() * frame.integration_time_s), Gate::other, gates_.data() + k * values,
+                           another ? other_gates_.data() + k * values : nullptr, 0.0f});
     integration_time_s.push_back(frame.integration_time_s);
   }
   s.frame = raw_frames_.data();
-  s.drifts = camera_.temperature.warm_up_m != 0;
+  s.drifts = camera_.temperature.warm_up_m != 0 || another;
   start_ = raw_frame_starts_s(integration_time_s, camera_.readout_time_s);
   freeze_gates(drift_m(0));
 }
@@ -140,20 +152,40 @@ Gate gate_at(double phase) {
 
 }  // namespace
 
-/// cos and sin of m(τ − τ_0 + δ), where δ = 2π·f·n/c·2·(half path by which the sensor has drifted).
+/// τ − τ_0 + δ, where δ = 2π·f·n/c·2·(half path by which the sensor has drifted).
+double FrozenCamera::gate_phase(std::size_t raw_frame) const {
+  const auto modulation = static_cast<std::size_t>(raw_frames_[raw_frame].modulation);
+  const double drift = 4 * pi * drifted_m_ * modulations_.frequency_hz[modulation] * camera_.refractive_index / speed_of_light;
+  return camera_.mode.sequence[raw_frame].reference_phase_rad - first_phase(modulation) + drift;
+}
+
+/// cos and sin of m times that.
 void FrozenCamera::freeze_gates(double half_path_m) {
   drifted_m_ = half_path_m;
   std::size_t at = 0;
   for (std::size_t k = 0; k < raw_frames_.size(); ++k, at += 2 * static_cast<std::size_t>(phasors_.orders)) {
     if (raw_frames_[k].lit == 0) continue;
-    const auto modulation = static_cast<std::size_t>(raw_frames_[k].modulation);
-    const double drift = 4 * pi * half_path_m * modulations_.frequency_hz[modulation] * camera_.refractive_index / speed_of_light;
-    const double phase = camera_.mode.sequence[k].reference_phase_rad - first_phase(modulation) + drift;
+    const double phase = gate_phase(k);
     raw_frames_[k].gate_kind = gate_at(phase);
     for (int h = 0; h < phasors_.orders; ++h) {
       float* const gate = &gates_[at + 2 * static_cast<std::size_t>(h)];
       gate[0] = single(setup::cos((2 * h + 1) * phase)), gate[1] = single(setup::sin((2 * h + 1) * phase));
     }
+  }
+}
+
+/// What another camera's light does in each raw frame of a frame.                                           [theory: eq. 3.24]
+void FrozenCamera::freeze_other_camera(double time_s, std::uint64_t index) {
+  const Interference& other = camera_.interference;
+  for (std::size_t k = 0; k < raw_frames_.size(); ++k) {
+    const double exposure = camera_.mode.sequence[k].integration_time_s;
+    const auto words = num::philox<float>(0, static_cast<std::uint32_t>(k) | (static_cast<std::uint32_t>(Purpose::other_camera) << 16),
+                                          static_cast<std::uint32_t>(index), static_cast<std::uint32_t>(index >> 32), sensor_.keys);
+    const OtherLight light = other_light(other, time_s + start_[k] + 0.5 * exposure, sensor_.noise == Noise::off ? nullptr : &words);
+    raw_frames_[k].other_light = single(light.share);
+    if (raw_frames_[k].lit == 0) continue;
+    float* const gate = &other_gates_[k * 2 * static_cast<std::size_t>(phasors_.orders)];
+    write_other_gate(light, other.frequency_difference_hz * exposure, gate_phase(k), phasors_.orders, gate);
   }
 }
 
@@ -232,9 +264,11 @@ double FrozenCamera::drift_m(double time_s) const {
   return t.drift_m_per_kelvin * (t.celsius - t.reference_celsius) + warm;
 }
 
-const SensorView& FrozenCamera::sensor(double time_s) {
+const SensorView& FrozenCamera::sensor(double time_s, std::uint64_t index, std::optional<std::uint64_t> seed) {
   const double drift = drift_m(time_s);
   if (drift != drifted_m_) freeze_gates(drift);
+  sensor_.keys = seed ? keys_of(*seed) : keys_;
+  if (!other_gates_.empty()) freeze_other_camera(time_s, index);
   return sensor_;
 }
 

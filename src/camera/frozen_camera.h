@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The tofray authors
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include <optional>
 #include <vector>
 
 #include "camera/frozen_lens.h"
@@ -48,8 +49,10 @@ class FrozenCamera {
   [[nodiscard]] const PhasorView& phasors() const { return phasors_; }
   [[nodiscard]] const PowerView& power() const { return power_; }
   [[nodiscard]] const DecoderView& decoder() const { return decoder_; }
-  /// The sensor at frame start time t [s]: only the temperature drift depends on it. Where it drifts, a view is good until the next call.
-  [[nodiscard]] const SensorView& sensor(double time_s);
+  /// The sensor in a frame that starts at time t [s]: temperature drift and another camera's light depend on that, and on the frame's number
+  /// and seed what is drawn of the latter. Where either is there, a view is good until the next call.
+  /// @param seed  of this frame, in place of the camera's
+  [[nodiscard]] const SensorView& sensor(double time_s, std::uint64_t index = 0, std::optional<std::uint64_t> seed = {});
   /// Start of each raw frame after the start of its frame [s].
   [[nodiscard]] const std::vector<double>& raw_frame_start_s() const { return start_; }
 
@@ -58,7 +61,9 @@ class FrozenCamera {
   void freeze_sequence(std::uint64_t seed, bool noise);
   void freeze_phasors();
   [[nodiscard]] double first_phase(std::size_t modulation) const;
+  [[nodiscard]] double gate_phase(std::size_t raw_frame) const;
   void freeze_gates(double half_path_m);
+  void freeze_other_camera(double time_s, std::uint64_t index);
   [[nodiscard]] double drift_m(double time_s) const;
   void freeze_patterns();
   void freeze_read_curve();
@@ -83,8 +88,9 @@ class FrozenCamera {
   std::vector<LightView> light_views_;
   std::vector<RawFrameView> raw_frames_;
   std::vector<ModulationView> phasor_modulations_;
-  std::vector<float> sources_, gates_;
-  double drifted_m_ = 0;  // what the gates were made for
+  std::vector<float> sources_, gates_, other_gates_;
+  num::RoundKeys keys_{};  // of the camera's seed
+  double drifted_m_ = 0;   // what the gates were made for
   std::vector<DecodeRawFrame> decode_frames_;
   std::vector<DecodeModulation> decode_modulations_;
   std::vector<std::int32_t> grey_frames_;

@@ -104,6 +104,9 @@ struct RawFrameView {
   float dark;               ///< dark electrons of a tap
   Gate gate_kind;
   const float* gate;  ///< [orders][2] cos and sin of m(τ − τ_0 + δ), δ the phase of temperature drift
+  /// The same for another camera's light, times its share of the own, or null: there is none.                [theory: eq. 3.24]
+  const float* other;
+  float other_light;  ///< its share of the own
 };
 
 /// One modulation frequency: how the light of a path becomes phasors.
@@ -122,7 +125,7 @@ struct PhasorView {
 };
 
 /// What a draw with the sensor's keys is for: part of the random counter, beside pixel, raw frame and frame.
-enum Purpose : std::uint32_t { shot_and_read = 0, merged = 1, suppression = 2, of_column = 3, of_row = 4 };
+enum Purpose : std::uint32_t { shot_and_read = 0, merged = 1, suppression = 2, of_column = 3, of_row = 4, other_camera = 5 };
 
 /// How charge is drawn: shot and read noise apart, or merged into one draw, whose law is as good as theirs from this read noise on.
 enum class Noise : std::int32_t { off, apart, merged };
@@ -140,7 +143,7 @@ struct ReadCurveView {
 /// Sequence, charge, ADC.
 struct SensorView {
   std::int32_t raw_frames;
-  std::int32_t drifts;        ///< 1: the gates are others in each frame
+  std::int32_t drifts;        ///< 1: the gates, or what they meet of another camera, are others in each frame
   const RawFrameView* frame;  ///< [raw_frames]
   float read_noise, read_variance;
   float full_well;

@@ -271,6 +271,19 @@ const Table& table_of<Temperature>() {
 }
 
 template <>
+const Table& table_of<Interference>() {
+  static const Table rows = table<Interference>(
+      number<&Interference::share>("share", {fraction, {0, 100}, "5 %"}, "of its light over the own, in each pixel; 0: no other camera"),
+      number<&Interference::frequency_difference_hz>("frequency_difference", {frequency, {-1e9, 1e9}, "30 Hz"},
+                                                     "its modulation frequencies less the own"),
+      number<&Interference::active>("active", {fraction, {0, 1}, "50 %"}, "how likely a raw frame meets its light"),
+      number<&Interference::phase_rad>("phase", {angle, {-100, 100}, "90 deg"},
+                                       "of its light behind the own at the start of frame 0; drawn anew for each raw frame unless given")
+          .absent());
+  return rows;
+}
+
+template <>
 const Table& table_of<RawFrame>() {
   static const Table rows =
       table<RawFrame>(flag<&RawFrame::lit>("lit", "whether the camera's light is on"),
@@ -310,6 +323,7 @@ const Table& table_of<Camera>() {
                     record<&Camera::adc>("adc", "from electrons to codes").required(),
                     record<&Camera::decoding>("decoding", "from raw frames to depth"),
                     record<&Camera::temperature>("temperature", "drift of the range"),
+                    record<&Camera::interference>("interference", "light of another camera of the same kind, at the same place"),
                     number<&Camera::refractive_index>("refractive_index", {none, {1, 3}, "1.0003"}, "of the medium"),
                     group("timing", "of the readout",
                           number<&Camera::readout_time_s>("readout_time", pause, "from the end of one exposure to the start of the next"),

@@ -48,6 +48,8 @@ const Table& table_of<Decoding>();
 template <>
 const Table& table_of<Temperature>();
 template <>
+const Table& table_of<Interference>();
+template <>
 const Table& table_of<Camera>();
 
 template <>

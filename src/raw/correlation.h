@@ -33,6 +33,16 @@ TOFRAY_FN F difference_rate(const camera::RawFrameView& frame, int orders, const
   return orders <= 4 ? correlated<4>(frame.gate, real, imaginary) : correlated<flow::max_harmonics>(frame.gate, real, imaginary);
 }
 
+/// What another camera's light adds to the rate of both taps together and, where the gate swings, to that of their difference. [eq. 3.24]
+template <class F>
+TOFRAY_FN void add_other_camera(const camera::RawFrameView& frame, int orders, const Light<F>& light, F& rate, F& difference) {
+  rate = num::fma(light.signal_rate, F(frame.other_light), rate);
+  if (frame.lit == 0) return;
+  const F *real = light.real + frame.modulation * orders, *imaginary = light.imaginary + frame.modulation * orders;
+  difference = difference +
+               (orders <= 4 ? correlated<4>(frame.other, real, imaginary) : correlated<flow::max_harmonics>(frame.other, real, imaginary));
+}
+
 /// Expected electrons of the two taps.
 template <class F>
 struct Means {

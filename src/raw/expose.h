@@ -75,11 +75,11 @@ TOFRAY_FN F offset_of(const camera::SensorView& s, int k, FrameIndex index, cons
 
 /// A−B without noise. Strong ambient light leaves few places of a float to the difference of the taps; where neither clips, and what is read
 /// is the charge itself, it is known better than that.
+/// @param common, rate  electrons per second of both taps together, and of their difference
 template <class F>
-TOFRAY_FN F known_difference(const camera::SensorView& s, const camera::RawFrameView& frame, const Light<F>& light, F rate,
-                             const Means<F>& charge, const Exposure<F>& e, F otherwise) {
+TOFRAY_FN F known_difference(const camera::SensorView& s, const camera::RawFrameView& frame, F common, F rate, const Means<F>& charge,
+                             const Exposure<F>& e, F otherwise) {
   if (s.read.cell != nullptr) return otherwise;
-  const F common = light.signal_rate + light.ambient_rate;
   const auto whole = (num::max(charge.a, charge.b) < F(s.full_well)) & (num::abs(rate) <= common);
   F difference = rate * F(frame.integration_time) * e.gain_a;
   if (s.taps_differ != 0) {
@@ -97,8 +97,9 @@ TOFRAY_FN F known_difference(const camera::SensorView& s, const camera::RawFrame
 template <class F>
 TOFRAY_FN Taps<F> expose(const camera::SensorView& s, int k, const Light<F>& light, int orders, FrameIndex index, Exposure<F>& e) {
   const camera::RawFrameView& frame = s.frame[k];
-  const F rate = frame.lit != 0 ? difference_rate(frame, orders, light) : F(0.0f);
-  Means<F> charge = tap_means(frame, light.signal_rate, light.ambient_rate, rate);
+  F rate = frame.lit != 0 ? difference_rate(frame, orders, light) : F(0.0f), ambient_rate = light.ambient_rate;
+  if (frame.other != nullptr) add_other_camera(frame, orders, light, ambient_rate, rate);
+  Means<F> charge = tap_means(frame, light.signal_rate, ambient_rate, rate);
   charge.a = charge.a * e.gain_a, charge.b = charge.b * e.gain_b;
   if (s.noise == Noise::merged) {
     charge = expose_merged(s, charge, e.pixel, k, index, e.merged_words);
@@ -107,7 +108,9 @@ TOFRAY_FN Taps<F> expose(const camera::SensorView& s, int k, const Light<F>& lig
   }
   const Means<F> read = s.more_than_noise != 0 ? reach_the_output(s, e.pixel, k, index, charge) : charge;
   Taps<F> taps = read_out(s, read, offset_of(s, k, index, e));
-  if (s.noise == Noise::off && frame.lit != 0) taps.difference = known_difference(s, frame, light, rate, charge, e, taps.difference);
+  if (s.noise == Noise::off && frame.lit != 0) {
+    taps.difference = known_difference(s, frame, light.signal_rate + ambient_rate, rate, charge, e, taps.difference);
+  }
   watch(s, frame, charge, taps, e);
   return taps;
 }

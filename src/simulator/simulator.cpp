@@ -123,9 +123,7 @@ void Simulator::Impl::set_frame(const FrameRequest& request) {
 }
 
 void Simulator::Impl::set_sensor(const FrameRequest& request) {
-  setup.sensor = frozen_camera.sensor(start_of(request.index));
-  if (request.seed)
-    setup.sensor.keys = num::round_keys(static_cast<std::uint32_t>(*request.seed), static_cast<std::uint32_t>(*request.seed >> 32));
+  setup.sensor = frozen_camera.sensor(start_of(request.index), request.index, request.seed);
   job.index_low = static_cast<std::uint32_t>(request.index), job.index_high = static_cast<std::uint32_t>(request.index >> 32);
 }
 

@@ -315,6 +315,7 @@ TEST(every_effect_of_the_pixel, can_be_written) {
             {"pixel.nonlinearity", "{charge: [0 e, 50 ke, 100 ke], read: [0 e, 47 ke, 88 ke]}"},
             {"pixel.patterns", "{phase_offset: 2 deg}"},
             {"pixel.contrast_by_wavelength", "{wavelength: [850 nm, 940 nm], factor: [1, 0.8]}"},
+            {"interference", "{share: 5 %, frequency_difference: -30 Hz, active: 60 %, phase: 90 deg}"},
             {"illumination.0.waveform", "{kind: trapezoid, duty: 30 %, rise_time: 1 ns, fall_time: 2 ns, bandwidth: 200 MHz}"}});
   EXPECT_EQ(c.pixel.row_noise_e, 7);
   EXPECT_EQ(c.pixel.dark_current_doubling_k, 8);
@@ -323,6 +324,11 @@ TEST(every_effect_of_the_pixel, can_be_written) {
   EXPECT_EQ(c.pixel.nonlinearity.y, (std::vector<double>{0, 47e3, 88e3}));
   EXPECT_DOUBLE_EQ(c.pixel.phase_offset_rad, 2 * 3.14159265358979323846 / 180);
   EXPECT_EQ(c.pixel.contrast_by_wavelength.y, (std::vector<double>{1, 0.8}));
+  EXPECT_EQ(c.interference.share, 0.05);
+  EXPECT_EQ(c.interference.frequency_difference_hz, -30);
+  EXPECT_EQ(c.interference.active, 0.6);
+  EXPECT_EQ(c.interference.phase_rad, 0.5 * 3.14159265358979323846);
+  EXPECT_FALSE(with({{"interference.share", "1 %"}}).interference.phase_rad.has_value());
   EXPECT_EQ(c.illumination[0].waveform.fall_time_s, 2e-9);
   const Camera gaussian = with({{"illumination.0.waveform", "{kind: gaussian, sigma: 1.5 ns}"}});
   EXPECT_EQ(gaussian.illumination[0].waveform.sigma_s, 1.5e-9);

@@ -177,7 +177,8 @@ void pack_camera(Packer& packer, const pipeline::Setup& from, pipeline::Setup& t
 
 void pack_raw_frames(Packer& packer, const pipeline::Setup& from, camera::SensorView& to) {
   std::vector<camera::RawFrameView> frames(from.sensor.frame, from.sensor.frame + from.sensor.raw_frames);
-  for (camera::RawFrameView& frame : frames) frame.gate = packer.put(frame.gate, 2 * count_of(from.phasors.orders));
+  const std::size_t values = 2 * count_of(from.phasors.orders);
+  for (camera::RawFrameView& frame : frames) frame.gate = packer.put(frame.gate, values), frame.other = packer.put(frame.other, values);
   to.frame = packer.put(static_cast<const camera::RawFrameView*>(frames.data()), frames.size());
 }
 
