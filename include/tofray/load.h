@@ -17,6 +17,7 @@ namespace tofray {
 /// @throws Error with every fault of the file at once.
 Scene load_scene(const std::string& file_or_name);
 
+/// Which mode of a profile, and what to change in it.
 struct CameraOptions {
   std::string mode = {};  ///< empty: the profile's first
   /// Dotted key and value as written in a profile, e.g. {"lens.f_number", "1.2"}.

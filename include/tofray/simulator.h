@@ -38,6 +38,7 @@ struct FrameProgress {
   std::atomic<bool> stop{false};                ///< set: the frame under way ends soon, and what it holds means nothing
 };
 
+/// How a Simulator computes: seed and noise, where it runs, and how much of the pipeline.
 struct SimulatorOptions {
   std::uint64_t seed = 0;
   Noise noise = Noise::exact;
