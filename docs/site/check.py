@@ -103,15 +103,25 @@ def names_without_page(folder, xml_folder, build):
     return faults + [f"python/tofray: error: {name} is on no page of the site" for name in sorted(public_python_names(build) - python)]
 
 
-def uncommented_types(xml_folder):
+def uncommented_things(xml_folder):
     """Structs, classes, enumerations and functions of the namespace without a comment."""
     faults = []
     for path in sorted(pathlib.Path(xml_folder).glob("*.xml")):
         for compound in xml.etree.ElementTree.parse(path).getroot().iter("compounddef"):
-            if compound.get("kind") in ("struct", "class") and not "".join(compound.find("briefdescription").itertext()).strip():
-                faults.append(f"{compound.find('location').get('file')}:{compound.find('location').get('line')}: error: "
-                              f"{compound.findtext('compoundname')} has no comment that says what it is")
+            if compound.get("kind") in ("struct", "class"):
+                faults += uncommented(compound, compound.findtext("compoundname"))
+            elif compound.get("kind") == "namespace":
+                for member in compound.iter("memberdef"):
+                    if member.get("kind") in ("enum", "function"):
+                        faults += uncommented(member, member.findtext("name"))
     return faults
+
+
+def uncommented(thing, name):
+    if "".join(thing.find("briefdescription").itertext()).strip() or "".join(thing.find("detaileddescription").itertext()).strip():
+        return []
+    place = thing.find("location")
+    return [f"include/{place.get('declfile') or place.get('file')}:{place.get('line')}: error: {name} has no comment that says what it is"]
 
 
 def pictures_without_code(root):
@@ -126,4 +136,4 @@ def faults(root, folder, xml_folder, build):
     if len(pages) < 20:
         return [f"{folder}: error: {len(pages)} pages are too few to be the site"]
     return (broken_links(folder, pages) + equation_count(root, pages) + names_without_page(folder, xml_folder, build) +
-            uncommented_types(xml_folder) + pictures_without_code(root))
+            uncommented_things(xml_folder) + pictures_without_code(root))

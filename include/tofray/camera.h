@@ -221,6 +221,7 @@ struct Temperature {
   double since_start_s = 1e9;  ///< how long the camera has run at frame 0
 };
 
+/// Light on a pixel: by radiometry (theory 2), or by the formula that the paper prints (equation 2.11).
 enum class PowerModel { tofray, paper_literal };
 
 /// A camera in one of its modes: lens, light sources, pixel, ADC, the sequence of raw frames, and how they are decoded.

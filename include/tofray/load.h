@@ -35,6 +35,7 @@ Camera load_camera(const Scene& scene, const CameraOptions& options = {});
 
 /// The same from texts. `source` stands for the file: messages name it, and what the text names is looked for beside it.
 Scene load_scene_text(const std::string& text, const std::string& source);
+/// As load_camera(), likewise.
 Camera load_camera_text(const std::string& text, const std::string& source, const CameraOptions& options = {});
 
 }  // namespace tofray

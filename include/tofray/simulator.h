@@ -17,6 +17,7 @@
 
 namespace tofray {
 
+/// Whether frames are drawn by chance.
 enum class Noise {
   off,    ///< expected values: no draw; wells and codes still clip, depth comes from the unrounded A−B
   exact,  ///< Poisson counts with read noise, each tap its own (the default)
