@@ -24,6 +24,7 @@ struct PixelMask {
   int columns = 0, rows = 0;
 };
 
+/// The pixel array.
 struct Sensor {
   int width = 0;   ///< pixels
   int height = 0;  ///< pixels
@@ -158,6 +159,7 @@ struct Pixel {
   double suppression_noise_factor = 1;
 };
 
+/// The converter of A−B to codes: code = round((A−B)/step + mid), clipped to its bits (theory 3.8).
 struct Adc {
   int bits = 12;
   double step_e_per_dn = 1;  ///< s
@@ -174,6 +176,7 @@ struct RawFrame {
   double integration_time_s = 0;
 };
 
+/// One of a profile's modes: the raw frames that make a frame, in their order, and how often a frame begins.
 struct Mode {
   std::string name;
   double frame_rate_hz = 0;
@@ -209,6 +212,7 @@ struct Decoding {
   ImageFilter filter;
 };
 
+/// How much of the distance is drift with temperature, and with the time since the camera was switched on.
 struct Temperature {
   double celsius = 25, reference_celsius = 25;
   double drift_m_per_kelvin = 0;  ///< d_off = drift · (T − reference), added to half the path
@@ -226,8 +230,10 @@ struct Interference {
   std::optional<double> phase_rad = {};
 };
 
+/// Light on a pixel: by radiometry (theory 2), or by the formula that the paper prints (equation 2.11).
 enum class PowerModel { tofray, paper_literal };
 
+/// A camera in one of its modes: lens, light sources, pixel, ADC, the sequence of raw frames, and how they are decoded.
 struct Camera {
   std::string name;
   std::string source;  ///< the file it came from

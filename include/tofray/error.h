@@ -21,7 +21,7 @@ enum class ErrorKind {
 /// got, what is expected and how to mend it. Several faults of one file stand one after the other.
 class Error : public std::runtime_error {
  public:
-  /// The text is safe to print: control characters and bytes that are not UTF-8 stand as \xNN, and what is too long is cut.
+  /// The text is safe to print: control characters and bytes that are not UTF-8 stand as `\xNN`, and what is too long is cut.
   Error(ErrorKind kind, const std::string& message);
   [[nodiscard]] ErrorKind kind() const noexcept { return kind_; }
 

@@ -50,6 +50,7 @@ struct Truth {
 
 #undef TOFRAY_VECTOR
 
+/// What a camera delivers of one run through its sequence, and the truth about it.
 struct Frame {
   std::uint64_t index = 0;
   Raw raw;

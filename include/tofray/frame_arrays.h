@@ -22,6 +22,7 @@ namespace tofray {
 /// The pipeline's stages, in order.
 enum class Stage { trace, power, raw, depth };
 
+/// The axes of an array.
 enum class ArrayShape {
   image,    ///< [height][width]
   pairs,    ///< [height][width][2]

@@ -17,6 +17,7 @@ namespace tofray {
 /// @throws Error with every fault of the file at once.
 Scene load_scene(const std::string& file_or_name);
 
+/// Which mode of a profile, and what to change in it.
 struct CameraOptions {
   std::string mode = {};  ///< empty: the profile's first
   /// Dotted key and value as written in a profile, e.g. {"lens.f_number", "1.2"}.
@@ -34,6 +35,7 @@ Camera load_camera(const Scene& scene, const CameraOptions& options = {});
 
 /// The same from texts. `source` stands for the file: messages name it, and what the text names is looked for beside it.
 Scene load_scene_text(const std::string& text, const std::string& source);
+/// As load_camera(), likewise.
 Camera load_camera_text(const std::string& text, const std::string& source, const CameraOptions& options = {});
 
 }  // namespace tofray

@@ -45,6 +45,7 @@ struct Plane {
   Vec3 point{};
   Vec3 normal{0, 0, -1};
 };  ///< infinite; the normal need not be of unit length
+/// A ball's surface.
 struct Sphere {
   Vec3 center{};
   double radius = 1;
@@ -53,6 +54,7 @@ struct Box {
   Vec3 min{};
   Vec3 max{};
 };  ///< along the axes before its rotation
+/// Flat, between its corners; both sides reflect.
 struct Triangle {
   std::array<Vec3, 3> vertices{};
 };
@@ -219,6 +221,7 @@ struct CameraChoice {
   std::string profile_where, mode_where;  ///< file:line:col for messages; empty if built in code
 };
 
+/// All that is seen, in which light, and which camera looks at it.
 struct Scene {
   std::string name;    ///< the file's stem, or a built-in name
   std::string source;  ///< the file it came from, empty if built in code

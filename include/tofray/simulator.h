@@ -17,6 +17,7 @@
 
 namespace tofray {
 
+/// Whether frames are drawn by chance.
 enum class Noise {
   off,    ///< expected values: no draw; wells and codes still clip, depth comes from the unrounded A−B
   exact,  ///< Poisson counts with read noise, each tap its own (the default)
@@ -38,6 +39,7 @@ struct FrameProgress {
   std::atomic<bool> stop{false};                ///< set: the frame under way ends soon, and what it holds means nothing
 };
 
+/// How a Simulator computes: seed and noise, where it runs, and how much of the pipeline.
 struct SimulatorOptions {
   std::uint64_t seed = 0;
   Noise noise = Noise::exact;

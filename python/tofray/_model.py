@@ -71,7 +71,7 @@ class PixelMask(Record):
 
 
 class Sensor(Record):
-    """What C++ calls Sensor.
+    """The pixel array.
 
     Attributes
     ----------
@@ -639,7 +639,7 @@ class Pixel(Record):
 
 
 class Adc(Record):
-    """What C++ calls Adc.
+    """The converter of A−B to codes: code = round((A−B)/step + mid), clipped to its bits (theory 3.8).
 
     Attributes
     ----------
@@ -707,7 +707,8 @@ class RawFrame(Record):
 
 
 class Mode(Record):
-    """What C++ calls Mode.
+    """One of a profile's modes: the raw frames that make a frame, in their order, and how often a
+    frame begins.
 
     Attributes
     ----------
@@ -883,7 +884,8 @@ class Decoding(Record):
 
 
 class Temperature(Record):
-    """What C++ calls Temperature.
+    """How much of the distance is drift with temperature, and with the time since the camera was
+    switched on.
 
     Attributes
     ----------
@@ -960,7 +962,8 @@ class Interference(Record):
 
 
 class Camera(Record):
-    """What C++ calls Camera.
+    """A camera in one of its modes: lens, light sources, pixel, ADC, the sequence of raw frames, and
+    how they are decoded.
 
     Attributes
     ----------
@@ -1135,7 +1138,7 @@ class Plane(Record):
 
 
 class Sphere(Record):
-    """What C++ calls Sphere.
+    """A ball's surface.
 
     Attributes
     ----------
@@ -1179,7 +1182,7 @@ class Box(Record):
 
 
 class Triangle(Record):
-    """What C++ calls Triangle.
+    """Flat, between its corners; both sides reflect.
 
     Attributes
     ----------
@@ -1762,7 +1765,7 @@ class CameraChoice(Record):
 
 
 class Scene(Record):
-    """What C++ calls Scene.
+    """All that is seen, in which light, and which camera looks at it.
 
     Attributes
     ----------

@@ -140,7 +140,7 @@ class Part:
 
     @property
     def units(self) -> dict[str, str]:
-        """Unit of each array: "m", "e", "1" …"""
+        """The unit of each array, such as "m", "e" or "1"."""
         return {name: row[4] for name, row in self._rows.items()}
 
     def __dir__(self) -> list[str]:

@@ -195,7 +195,7 @@ class Simulator:
 
     @property
     def progress(self) -> tuple[int, int]:
-        """How far the frame under way is: (done, of so many), in rays, roughly. For other threads to look at."""
+        """How far the frame under way is, as (done, of so many), in rays, roughly. For other threads to look at."""
         return self._native.progress()
 
     @property

@@ -1,0 +1,179 @@
+# SPDX-FileCopyrightText: 2026 The tofray authors
+# SPDX-License-Identifier: Apache-2.0
+"""What the site adds to Sphinx: equations are HTML when the page is made, "equation 2.5" leads to equation 2.5, and x_1 in a chapter is x with an index."""
+
+import html
+import json
+import os
+import re
+import subprocess
+
+from docutils import nodes
+from sphinx.errors import ExtensionError
+from sphinx.util import logging
+
+log = logging.getLogger(__name__)
+HERE = os.path.dirname(os.path.abspath(__file__))
+KATEX = os.environ.get("TOFRAY_SITE_KATEX", "/usr/share/javascript/katex")
+
+TAG = re.compile(r"\\tag\{([\d.]+)\}")
+# eq. 4.5, eqs. 2.5 and 2.6, equation 2.13, equations 4.4–4.7, equations 2.5 to 2.7
+CITATION = re.compile(r"\b(?:[Ee]qs?\.|[Ee]quations?)\s((?:\d+\.\d+(?:[–-]| to | and |, )?)+)")
+NUMBER = re.compile(r"\d+\.\d+")
+INDEX = re.compile(r"(?<=\w)_(?:\{([^{}]*(?:\{[^{}]*\}[^{}]*)*)\}|((?:\w|[θφτσψ])+(?:,\w+)*))|(?<=[\w)])\^(?:\{([^{}]*(?:\{[^{}]*\}[^{}]*)*)\}|\(([^()]*(?:\([^()]*\)[^()]*)*)\))")
+
+NOT_OURS = {"Any", "Callable", "Hz", "Iterable", "Iterator", "Literal", "Mapping", "None", "Sequence"}
+
+
+def anchor(number):
+    return f"equation-{number}"
+
+
+class Katex:
+    """One process of node for all equations; it is started with the first."""
+
+    def __init__(self):
+        self.process = None
+
+    def html(self, tex, display):
+        if self.process is None:
+            self.process = subprocess.Popen(["node", f"{HERE}/katex.js", f"{KATEX}/katex.js"], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
+        self.process.stdin.write(json.dumps({"tex": tex, "display": display}) + "\n")
+        self.process.stdin.flush()
+        line = self.process.stdout.readline()
+        if not line:
+            raise ExtensionError("KaTeX gave no answer: node, or libjs-katex, is missing")
+        return json.loads(line)
+
+
+katex = Katex()
+
+
+def rendered(self, node, display):
+    tex = node.astext()
+    answer = katex.html(tex, display)
+    if "error" in answer:
+        log.warning("KaTeX: %s", answer["error"], location=node)
+        return f"<code>{html.escape(tex)}</code>"
+    return answer["html"]
+
+
+def visit_math(self, node):
+    self.body.append(rendered(self, node, False))
+    raise nodes.SkipNode
+
+
+def visit_math_block(self, node):
+    tags = TAG.findall(node.astext())
+    place = f' id="{anchor(tags[0])}"' if tags else ""
+    self.body.append(f'<div class="equation"{place}>{rendered(self, node, True)}</div>\n')
+    raise nodes.SkipNode
+
+
+def note_equations(app, document):
+    """Which page has which equation."""
+    homes = app.env.__dict__.setdefault("tofray_equations", {})
+    for block in document.findall(nodes.math_block):
+        for number in TAG.findall(block.astext()):
+            homes[number] = app.env.docname
+
+
+def plain_texts(tree):
+    """Text that is prose: not code, not a heading's (which tables of contents repeat), not within a link."""
+    left_out = (nodes.literal, nodes.literal_block, nodes.math, nodes.math_block, nodes.reference, nodes.title, nodes.raw, nodes.comment)
+    for text in list(tree.findall(nodes.Text)):
+        above = text.parent
+        while above is not None and not isinstance(above, left_out):
+            above = above.parent
+        if above is None:
+            yield text
+
+
+def replaced(text, found):
+    """The text's pieces: what lies between the places (start, end, node), and these nodes."""
+    end, out, whole = 0, [], text.astext()
+    for start, stop, node in found:
+        if start > end:
+            out.append(nodes.Text(whole[end:start]))
+        out.append(node)
+        end = stop
+    if end < len(whole):
+        out.append(nodes.Text(whole[end:]))
+    if found:
+        text.parent.replace(text, out)
+
+
+def link_equations(app, tree, docname):
+    homes = getattr(app.env, "tofray_equations", {})
+    for text in plain_texts(tree):
+        found = []
+        for cited in CITATION.finditer(text.astext()):
+            for number in NUMBER.finditer(cited[1]):
+                home = homes.get(number[0])
+                if home is None:
+                    log.warning("there is no equation %s", number[0], location=tree)
+                    continue
+                address = app.builder.get_relative_uri(docname, home) + "#" + anchor(number[0])
+                start = cited.start(1) + number.start()
+                found.append((start, start + len(number[0]), nodes.reference(number[0], number[0], internal=True, refuri=address)))
+        replaced(text, found)
+    if docname == "theory/equations":
+        link_list(app, tree, docname, homes)
+
+
+def link_list(app, tree, docname, homes):
+    """The numbers at the beginning of the lines of the page of all equations."""
+    for strong in list(tree.findall(nodes.strong)):
+        number = strong.astext()
+        if NUMBER.fullmatch(number):
+            if number not in homes:
+                log.warning("there is no equation %s", number, location=strong)
+                continue
+            address = app.builder.get_relative_uri(docname, homes[number]) + "#" + anchor(number)
+            strong.replace_self(nodes.reference("", "", strong.deepcopy(), internal=True, refuri=address))
+
+
+def indexed(text):
+    """Nodes of a text with its indices low and its powers high."""
+    out, end = [], 0
+    for found in INDEX.finditer(text):
+        out.append(nodes.Text(text[end : found.start()]))
+        low, inner = found[1] or found[2], found[1] or found[2] or found[3] or found[4]
+        kind = nodes.subscript if low else nodes.superscript
+        out.append(kind("", "", *indexed(inner)))
+        end = found.end()
+    out.append(nodes.Text(text[end:]))
+    return [one for one in out if not (isinstance(one, nodes.Text) and not one.astext())]
+
+
+def set_indices(app, tree, docname):
+    if docname.startswith(("theory/", "decisions/")) or docname in ("round-corner", "not-simulated"):
+        for text in plain_texts(tree):
+            if INDEX.search(text.astext()):
+                text.parent.replace(text, indexed(text.astext()))
+
+
+def escape_bars(app, what, name, obj, options, lines):
+    """|x| is a magnitude, and for reStructuredText something else."""
+    for at, line in enumerate(lines):
+        if "|" in line and "``" not in line:
+            lines[at] = line.replace("|", "\\|")
+
+
+def take_prose(app, env, node, text):
+    """Types of parameters are prose, such as "float32 array [phase, height, width]". A word that begins as our classes do has to be one."""
+    if node.get("refdomain") != "py" or node.get("reftype") not in ("class", "obj"):
+        return None
+    target = node.get("reftarget", "")
+    ours = target.startswith("tofray.") or (re.fullmatch(r"[A-Z][a-z]\w*", target) and target not in NOT_OURS)
+    return None if ours else text
+
+
+def setup(app):
+    app.add_html_math_renderer("katex", (visit_math, None), (visit_math_block, None))
+    app.connect("doctree-read", note_equations)
+    app.connect("doctree-resolved", link_equations)
+    app.connect("doctree-resolved", set_indices)
+    app.connect("autodoc-process-docstring", escape_bars)
+    app.connect("missing-reference", take_prose)
+    return {"version": "1", "parallel_read_safe": False}
