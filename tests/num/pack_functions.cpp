@@ -147,68 +147,81 @@ TOFRAY_FN bool elementary(int which, const PackBlock& block) {
   }
 }
 
-/// What moves between lanes and memory. Results are laid out so that the width of a pack does not show.
-TOFRAY_FN bool memory(int which, const PackBlock& block) {
+/// Calls `part` for each number n of lanes, with where to say which bits are wrong.
+template <class Part>
+TOFRAY_FN bool each_part(const PackBlock& block, const Part& part) {
+  return each(
+      block, [&](const At& at) __attribute__((always_inline)) {
+        for (int n = 1; n <= lanes; ++n) part(at, n, block.out + at.i);
+      });
+}
+
+/// Which bits are wrong of what was 7 before and is `from` where it is written.
+TOFRAY_FN std::uint32_t wrong(std::uint32_t got, bool written, std::uint32_t from) { return got ^ (written ? from : 7u); }
+
+/// Parts of a pack: what lies beyond reads as 0 and is not written. No bit is wrong.
+TOFRAY_FN bool parts(int which, const PackBlock& block) {
   switch (which) {
     case 0:
-      return each(
-          block, [&](const At& at) __attribute__((always_inline)) {  // a part of a pack: the others read 0, are not written
-            alignas(64) float from[lanes], to[lanes];
-            for (int k = 0; k < lanes; ++k) from[k] = num::from_bits(block.a[at.i + k]), to[k] = 7.0f;
-            for (int n = 1; n <= lanes; ++n) {
-              num::store(to, num::load<F>(from, n), n);
-              for (int k = n; k < lanes; ++k) at.block.out[pack_block + at.i + k] |= num::bits(to[k]) ^ num::bits(7.0f);
-              alignas(64) float all[lanes];
-              num::store(all, num::load<F>(from, n), lanes);
-              for (int k = n; k < lanes; ++k) at.block.out[pack_block + at.i + k] |= num::bits(all[k]);
+      return each_part(
+          block, [&](const At& at, int n, std::uint32_t* out) __attribute__((always_inline)) {
+            float to[lanes], all[lanes], from[lanes];
+            for (int k = 0; k < lanes; ++k) from[k] = num::from_bits(block.a[at.i + k]), to[k] = num::from_bits(7u);
+            num::store(to, num::load<F>(from, n), n), num::store(all, num::load<F>(from, n), lanes);
+            for (int k = 0; k < lanes; ++k) {
+              out[k] |= wrong(num::bits(to[k]), k < n, block.a[at.i + k]);
+              out[pack_block + k] |= num::bits(all[k]) ^ (k < n ? block.a[at.i + k] : 0u);
             }
-            for (int k = 0; k < lanes; ++k) at.block.out[at.i + k] = num::bits(to[k]);
           });
     case 1:
-      return each(
-          block, [&](const At& at) __attribute__((always_inline)) {
+      return each_part(
+          block, [&](const At& at, int n, std::uint32_t* out) __attribute__((always_inline)) {
+            std::int32_t to[lanes], all[lanes], from[lanes];
+            for (int k = 0; k < lanes; ++k) from[k] = static_cast<std::int32_t>(block.a[at.i + k]), to[k] = 7;
+            num::store(to, num::load_int<F>(from, n), n), num::store(all, num::load_int<F>(from, n), lanes);
+            for (int k = 0; k < lanes; ++k) {
+              out[k] |= wrong(static_cast<std::uint32_t>(to[k]), k < n, block.a[at.i + k]);
+              out[pack_block + k] |= static_cast<std::uint32_t>(all[k]) ^ (k < n ? block.a[at.i + k] : 0u);
+            }
+          });
+    case 2:
+      return each_part(
+          block, [&](const At& at, int n, std::uint32_t* out) __attribute__((always_inline)) {
             std::uint16_t halves[lanes];
             std::uint8_t bytes[lanes];
             for (int k = 0; k < lanes; ++k) halves[k] = 7, bytes[k] = 7;
-            for (int n = 1; n <= lanes; ++n) {
-              num::store(halves, num::to_signed(at.ua() >> 16), n), num::store(bytes, num::to_signed(at.ua() >> 24), n);
-              for (int k = n; k < lanes; ++k) block.out[2 * pack_block + at.i + k] |= (halves[k] ^ 7u) | (bytes[k] ^ 7u);
+            num::store(halves, num::to_signed(at.ua() >> 16), n), num::store(bytes, num::to_signed(at.ua() >> 24), n);
+            for (int k = 0; k < lanes; ++k) {
+              out[k] |= wrong(halves[k], k < n, block.a[at.i + k] >> 16);
+              out[pack_block + k] |= wrong(bytes[k], k < n, block.a[at.i + k] >> 24);
             }
-            for (int k = 0; k < lanes; ++k) block.out[at.i + k] = halves[k], block.out[pack_block + at.i + k] = bytes[k];
-          });
-    case 2:
-      return each(
-          block, [&](const At& at) __attribute__((always_inline)) {
-            float points[3 * lanes];
-            for (int k = 0; k < 3 * lanes; ++k) points[k] = 7.0f;
-            for (int n = 1; n <= lanes; ++n) {
-              num::store3(points, at.a(), at.b(), at.c(), n);
-              for (int k = 3 * n; k < 3 * lanes; ++k) block.out[3 * pack_block + at.i] |= num::bits(points[k]) ^ num::bits(7.0f);
-            }
-            for (int k = 0; k < 3 * lanes; ++k) block.out[3 * at.i + k] = num::bits(points[k]);
           });
     case 3:
-      return each(
-          block, [&](const At& at) __attribute__((always_inline)) {
-            at.put(num::lane_index<F>() + I(at.i));
-            for (int k = 0; k < lanes; ++k) {
-              block.out[pack_block + at.i + k] = num::bits(num::lane(at.a(), k));
-              block.out[2 * pack_block + at.i + k] = static_cast<std::uint32_t>(num::lane(at.ia(), k));
-            }
-          });
-    case 4:
-      return each(
-          block, [&](const At& at) __attribute__((always_inline)) {
-            float pairs[2 * lanes];
-            for (int k = 0; k < 2 * lanes; ++k) pairs[k] = 7.0f;
-            for (int n = 1; n <= lanes; ++n) {
-              num::store2(pairs, at.a(), at.b(), n);
-              for (int k = 2 * n; k < 2 * lanes; ++k) block.out[3 * pack_block + at.i] |= num::bits(pairs[k]) ^ num::bits(7.0f);
-            }
-            for (int k = 0; k < 2 * lanes; ++k) block.out[2 * at.i + k] = num::bits(pairs[k]);
+      return each_part(
+          block, [&](const At& at, int n, std::uint32_t* out) __attribute__((always_inline)) {
+            float pairs[2 * lanes], points[3 * lanes];
+            for (float& one : pairs) one = num::from_bits(7u);
+            for (float& one : points) one = num::from_bits(7u);
+            num::store2(pairs, at.a(), at.b(), n), num::store3(points, at.a(), at.b(), at.c(), n);
+            const std::uint32_t* from[] = {block.a + at.i, block.b + at.i, block.c + at.i};
+            for (int k = 0; k < 2 * lanes; ++k) out[k / 2] |= wrong(num::bits(pairs[k]), k / 2 < n, from[k % 2][k / 2]);
+            for (int k = 0; k < 3 * lanes; ++k) out[pack_block + k / 3] |= wrong(num::bits(points[k]), k / 3 < n, from[k % 3][k / 3]);
           });
     default: return false;
   }
+}
+
+/// What moves between lanes and memory.
+TOFRAY_FN bool memory(int which, const PackBlock& block) {
+  if (which > 0) return parts(which - 1, block);
+  return each(
+      block, [&](const At& at) __attribute__((always_inline)) {
+        at.put(num::lane_index<F>() + I(at.i));
+        for (int k = 0; k < lanes; ++k) {
+          block.out[pack_block + at.i + k] = num::bits(num::lane(at.a(), k));
+          block.out[2 * pack_block + at.i + k] = static_cast<std::uint32_t>(num::lane(at.ia(), k));
+        }
+      });
 }
 
 /// Rows of four, read and written back, against a plain loop: they agree, and nothing else is written. (A template: a plain float has none.)
