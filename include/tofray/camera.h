@@ -146,6 +146,8 @@ struct Pixel {
   double dark_current_doubling_k = 0;   ///< it doubles with every so many kelvin above that; 0: the same at all temperatures
   double tap_gain_mismatch = 0;         ///< g: tap A collects 1 + g/2 of what it should, tap B 1 − g/2
   double tap_offset_mismatch_e = 0;     ///< what A has more than B before any charge comes
+  double crosstalk_left_right = 0;      ///< share of a pixel's charge that its left neighbour collects, and the right one as much
+  double crosstalk_up_down = 0;         ///< the same of the neighbours above and below
   Curve nonlinearity = {};              ///< charge of a tap [e⁻] → charge that is read of it; none: the same
   double prnu = 0;                      ///< photo response non-uniformity, 1 sigma, relative
   double dsnu_dn = 0;                   ///< offset pattern, 1 sigma [DN]

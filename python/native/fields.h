@@ -106,8 +106,8 @@ TOFRAY_FIELDS(Illumination, &Illumination::position, &Illumination::axis, &Illum
               &Illumination::ring_leds, &Illumination::ring_radius_m, &Illumination::area, &Illumination::pattern, &Illumination::waveform)
 TOFRAY_FIELDS(Pixel, &Pixel::quantum_efficiency, &Pixel::contrast, &Pixel::contrast_by_wavelength, &Pixel::bandwidth_hz,
               &Pixel::full_well_e, &Pixel::read_noise_e, &Pixel::column_noise_e, &Pixel::row_noise_e, &Pixel::dark_current_e_per_s,
-              &Pixel::dark_current_doubling_k, &Pixel::tap_gain_mismatch, &Pixel::tap_offset_mismatch_e, &Pixel::nonlinearity, &Pixel::prnu,
-              &Pixel::dsnu_dn, &Pixel::delay_s, &Pixel::phase_offset_rad, &Pixel::pattern_seed,
+              &Pixel::dark_current_doubling_k, &Pixel::tap_gain_mismatch, &Pixel::tap_offset_mismatch_e, &Pixel::crosstalk_left_right,
+              &Pixel::crosstalk_up_down, &Pixel::nonlinearity, &Pixel::prnu, &Pixel::dsnu_dn, &Pixel::delay_s, &Pixel::phase_offset_rad, &Pixel::pattern_seed,
               &Pixel::suppression_threshold_e, &Pixel::suppression_budget_e, &Pixel::suppression_noise_factor)
 TOFRAY_FIELDS(Adc, &Adc::bits, &Adc::step_e_per_dn, &Adc::mid_code, &Adc::valid_min, &Adc::valid_max)
 TOFRAY_FIELDS(RawFrame, &RawFrame::lit, &RawFrame::modulation_frequency_hz, &RawFrame::reference_phase_rad, &RawFrame::integration_time_s)

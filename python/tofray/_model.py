@@ -545,6 +545,10 @@ class Pixel(Record):
         G: tap A collects 1 + g/2 of what it should, tap B 1 − g/2.
     tap_offset_mismatch_e : float
         What A has more than B before any charge comes.
+    crosstalk_left_right : float
+        Share of a pixel's charge that its left neighbour collects, and the right one as much.
+    crosstalk_up_down : float
+        The same of the neighbours above and below.
     nonlinearity : Curve
         Charge of a tap [e⁻] → charge that is read of it; none: the same.
     prnu : float
@@ -566,8 +570,8 @@ class Pixel(Record):
     """
     __slots__ = ("quantum_efficiency", "contrast", "contrast_by_wavelength", "bandwidth_hz", "full_well_e", "read_noise_e",
                  "column_noise_e", "row_noise_e", "dark_current_e_per_s", "dark_current_doubling_k", "tap_gain_mismatch",
-                 "tap_offset_mismatch_e", "nonlinearity", "prnu", "dsnu_dn", "delay_s", "phase_offset_rad", "pattern_seed",
-                 "suppression_threshold_e", "suppression_budget_e", "suppression_noise_factor")
+                 "tap_offset_mismatch_e", "crosstalk_left_right", "crosstalk_up_down", "nonlinearity", "prnu", "dsnu_dn", "delay_s",
+                 "phase_offset_rad", "pattern_seed", "suppression_threshold_e", "suppression_budget_e", "suppression_noise_factor")
     quantum_efficiency: Curve
     contrast: Curve
     contrast_by_wavelength: Curve
@@ -580,6 +584,8 @@ class Pixel(Record):
     dark_current_doubling_k: float
     tap_gain_mismatch: float
     tap_offset_mismatch_e: float
+    crosstalk_left_right: float
+    crosstalk_up_down: float
     nonlinearity: Curve
     prnu: float
     dsnu_dn: float
@@ -605,6 +611,8 @@ class Pixel(Record):
         dark_current_doubling_k: float = 0.0,
         tap_gain_mismatch: float = 0.0,
         tap_offset_mismatch_e: float = 0.0,
+        crosstalk_left_right: float = 0.0,
+        crosstalk_up_down: float = 0.0,
         nonlinearity: Curve | None = None,
         prnu: float = 0.0,
         dsnu_dn: float = 0.0,
@@ -627,6 +635,8 @@ class Pixel(Record):
         self.dark_current_doubling_k = dark_current_doubling_k
         self.tap_gain_mismatch = tap_gain_mismatch
         self.tap_offset_mismatch_e = tap_offset_mismatch_e
+        self.crosstalk_left_right = crosstalk_left_right
+        self.crosstalk_up_down = crosstalk_up_down
         self.nonlinearity = Curve() if nonlinearity is None else nonlinearity
         self.prnu = prnu
         self.dsnu_dn = dsnu_dn

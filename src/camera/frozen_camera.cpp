@@ -29,7 +29,9 @@ static_assert(flow::max_lights == limit::lights.value);
 constexpr double ln_2 = 0.69314718055994530942;
 
 FrozenCamera::FrozenCamera(const Camera& camera, bool noise, std::uint64_t seed, int subpixel)
-    : camera_(with_emitters(camera)), modulations_(modulations_of(camera.mode)), scatter_(camera.lens.scatter, camera.sensor) {
+    : camera_(with_emitters(camera)),
+      modulations_(modulations_of(camera.mode)),
+      scatter_(camera.lens.scatter, camera.sensor, camera.pixel) {
   if (camera.mode.sequence.size() > flow::max_raw_frames) throw Error(ErrorKind::limit, "error: more than 64 raw frames in one sequence");
   freeze_lens(subpixel);
   const ClampedCurve efficiency(camera.pixel.quantum_efficiency, "quantum_efficiency");

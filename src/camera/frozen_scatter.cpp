@@ -23,55 +23,102 @@ double share_of_pixel(double sigma_px, int far) {
   return below((-d + 0.5) / sigma_px) - below((-d - 0.5) / sigma_px);
 }
 
+/// What is left of weights of neighbours once each has given a share to the ones on either side of it.              [theory: eq. 3.27]
+std::vector<double> given_on(const std::vector<double>& weights, double share) {
+  std::vector<double> out(weights.size() + 2);
+  for (std::size_t i = 0; i < weights.size(); ++i) {
+    out[i] += share * weights[i], out[i + 1] += (1 - 2 * share) * weights[i], out[i + 2] += share * weights[i];
+  }
+  return out;
+}
+
 }  // namespace
 
-FrozenScatter::FrozenScatter(const Scatter& scatter, const Sensor& sensor) {
-  if (scatter.kind == Scatter::Kind::none || scatter.share == 0) return;
-  view_.kept = single(1 - scatter.share);
-  if (scatter.kind == Scatter::Kind::kernel) {
+bool FrozenScatter::spreads(const Camera& camera) {
+  return camera.lens.scatter.kind != Scatter::Kind::none || camera.pixel.crosstalk_left_right > 0 || camera.pixel.crosstalk_up_down > 0;
+}
+
+FrozenScatter::FrozenScatter(const Scatter& scatter, const Sensor& sensor, const Pixel& pixel)
+    : left_right_(pixel.crosstalk_left_right), up_down_(pixel.crosstalk_up_down) {
+  const bool scatters = scatter.kind != Scatter::Kind::none && scatter.share > 0;
+  if (!scatters && !shared()) return;
+  const bool whole = scatters && scatter.kind == Scatter::Kind::kernel;
+  const double kept = scatters ? 1 - scatter.share : 1;
+  view_.kept = shared() ? 0.0f : single(kept), view_.separable = !whole;
+  if (whole) {
     add_kernel(scatter);
   } else {
-    double sum = 0;
-    const auto weight = [&](std::size_t i) { return scatter.weights.empty() ? 1.0 : scatter.weights[i]; };
-    for (std::size_t i = 0; i < scatter.sigma_px.size(); ++i) sum += weight(i);
-    for (std::size_t i = 0; i < scatter.sigma_px.size(); ++i) {
-      if (weight(i) > 0) add_gaussian(scatter.sigma_px[i], scatter.share * weight(i) / sum, std::max(sensor.width, sensor.height) - 1);
-    }
+    if (shared()) add_separable({1}, {kept});
+    if (scatters) add_gaussians(scatter, std::max(sensor.width, sensor.height) - 1);
   }
-  view_.separable = scatter.kind == Scatter::Kind::gaussians;
   view_.terms = static_cast<std::int32_t>(terms_.size()), view_.term = terms_.data();
 }
 
-/// Integrals over pixels, up to 6 widths away (2e-9 of the light is beyond), or as far as the sensor goes.            [theory: eq. 7.5]
-void FrozenScatter::add_gaussian(double sigma_px, double share, int most) {
-  const int radius = std::min(static_cast<int>(std::ceil(6 * sigma_px)), most);
-  constexpr int pad = ScatterTerm::pad;
-  std::vector<float> row(static_cast<std::size_t>(2 * (radius + pad) + 1)), column;
-  for (int i = -radius; i <= radius; ++i) {
-    row[static_cast<std::size_t>(i + radius + pad)] = single(share_of_pixel(sigma_px, i));
-    column.push_back(single(share * share_of_pixel(sigma_px, i)));
-  }
-  weights_.push_back(std::move(row)), weights_.push_back(std::move(column));
+/// K(dx, dy) = row(dx)·column(dy), and what neighbours then share of it.
+void FrozenScatter::add_separable(Weights row, Weights column) {
+  if (shared()) row = given_on(row, left_right_), column = given_on(column, up_down_);
+  constexpr std::size_t pad = ScatterTerm::pad;
+  std::vector<float> padded(row.size() + 2 * pad), other;
+  for (std::size_t i = 0; i < row.size(); ++i) padded[i + pad] = single(row[i]), other.push_back(single(column[i]));
+  const auto radius = static_cast<std::int32_t>(row.size() / 2);
+  weights_.push_back(std::move(padded)), weights_.push_back(std::move(other));
   terms_.push_back({radius, weights_[weights_.size() - 2].data(), weights_.back().data()});
+}
+
+/// Integrals over pixels, up to 6 widths away (2e-9 of the light is beyond), or as far as the sensor goes.            [theory: eq. 7.5]
+void FrozenScatter::add_gaussians(const Scatter& scatter, int most) {
+  double sum = 0;
+  const auto weight = [&](std::size_t i) { return scatter.weights.empty() ? 1.0 : scatter.weights[i]; };
+  for (std::size_t i = 0; i < scatter.sigma_px.size(); ++i) sum += weight(i);
+  for (std::size_t i = 0; i < scatter.sigma_px.size(); ++i) {
+    if (weight(i) <= 0) continue;
+    const double sigma = scatter.sigma_px[i], share = scatter.share * weight(i) / sum;
+    const int radius = std::min(static_cast<int>(std::ceil(6 * sigma)), most);
+    Weights row, column;
+    for (int d = -radius; d <= radius; ++d) row.push_back(share_of_pixel(sigma, d)), column.push_back(share * share_of_pixel(sigma, d));
+    add_separable(std::move(row), std::move(column));
+  }
 }
 
 void FrozenScatter::add_kernel(const Scatter& scatter) {
   const int radius = std::max(scatter.columns, scatter.rows) / 2;
-  const auto stride = static_cast<std::size_t>(2 * (radius + ScatterTerm::pad) + 1);
-  std::vector<float> weights(stride * static_cast<std::size_t>(2 * radius + 1));
+  const auto side = static_cast<std::size_t>(2 * radius + 1);
+  std::vector<Weights> rows(side, Weights(side));
   const double largest = *std::max_element(scatter.kernel.begin(), scatter.kernel.end());
   double sum = 0;
   for (const double value : scatter.kernel) sum += value / largest;
   std::size_t at = 0;
   for (int row = 0; row < scatter.rows; ++row) {
     for (int column = 0; column < scatter.columns; ++column, ++at) {
-      const int y = row - scatter.rows / 2 + radius, x = column - scatter.columns / 2 + radius + ScatterTerm::pad;
-      weights[static_cast<std::size_t>(y) * stride + static_cast<std::size_t>(x)] =
-          single(scatter.share * (scatter.kernel[at] / largest) / sum);
+      const int y = row - scatter.rows / 2 + radius, x = column - scatter.columns / 2 + radius;
+      rows[static_cast<std::size_t>(y)][static_cast<std::size_t>(x)] = scatter.share * (scatter.kernel[at] / largest) / sum;
     }
   }
+  add_whole(std::move(rows), 1 - scatter.share);
+}
+
+/// A kernel that is no product, and what neighbours then share of it and of the light that is not scattered.
+void FrozenScatter::add_whole(std::vector<Weights> rows, double kept) {
+  if (shared()) {
+    const std::size_t side = rows.size();
+    rows[side / 2][side / 2] += kept;
+    std::vector<Weights> wider(side + 2, Weights(side + 2));
+    for (Weights& row : rows) row = given_on(row, left_right_);
+    for (std::size_t x = 0; x < side + 2; ++x) {
+      Weights column;
+      for (const Weights& row : rows) column.push_back(row[x]);
+      column = given_on(column, up_down_);
+      for (std::size_t y = 0; y < side + 2; ++y) wider[y][x] = column[y];
+    }
+    rows = std::move(wider);
+  }
+  constexpr std::size_t pad = ScatterTerm::pad;
+  const std::size_t side = rows.size(), stride = side + 2 * pad;
+  std::vector<float> weights(stride * side);
+  for (std::size_t y = 0; y < side; ++y)
+    for (std::size_t x = 0; x < side; ++x) weights[y * stride + pad + x] = single(rows[y][x]);
   weights_.push_back(std::move(weights));
-  terms_.push_back({radius, weights_.back().data(), nullptr});
+  terms_.push_back({static_cast<std::int32_t>(side / 2), weights_.back().data(), nullptr});
 }
 
 }  // namespace tofray::camera

@@ -8,18 +8,27 @@
 
 namespace tofray::camera {
 
-/// The kernels by which a lens scatters light; owns the weights that the view points to. Not copied.
+/// The kernels by which a lens scatters light and pixels share their charge; owns the weights that the view points to. Not copied.
 class FrozenScatter {
  public:
-  FrozenScatter(const Scatter& scatter, const Sensor& sensor);
+  FrozenScatter(const Scatter& scatter, const Sensor& sensor, const Pixel& pixel);
   FrozenScatter(const FrozenScatter&) = delete;
   FrozenScatter& operator=(const FrozenScatter&) = delete;
 
   [[nodiscard]] const ScatterView& view() const { return view_; }
 
+  /// Whether there are any of a camera's.
+  static bool spreads(const Camera& camera);
+
  private:
-  void add_gaussian(double sigma_px, double share, int most);
+  using Weights = std::vector<double>;
+  void add_gaussians(const Scatter& scatter, int most);
   void add_kernel(const Scatter& scatter);
+  void add_separable(Weights row, Weights column);
+  void add_whole(std::vector<Weights> rows, double kept);
+  [[nodiscard]] bool shared() const { return left_right_ > 0 || up_down_ > 0; }
+
+  double left_right_, up_down_;  // of the charge, to each neighbour
 
   ScatterView view_{1, 0, 0, nullptr};
   std::vector<ScatterTerm> terms_;

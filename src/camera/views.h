@@ -39,7 +39,7 @@ struct SubpixelView {
   bool operator==(const SubpixelView&) const = default;
 };
 
-/// A part of the light that the lens scatters, as a kernel over the sensor: K(dx, dy), zero beyond ±radius.
+/// A part of the light that the lens scatters or neighbours collect, as a kernel over the sensor: K(dx, dy), zero beyond ±radius.
 struct ScatterTerm {
   static constexpr int pad = 32;  ///< zeros before and behind each row of weights
   std::int32_t radius;
@@ -47,9 +47,9 @@ struct ScatterTerm {
   const float* column;   ///< [2·radius + 1]
 };
 
-/// Light that lens and filter scatter over the sensor: (1 − share)·δ + Σ_terms K.                           [theory: eq. 7.4]
+/// Light that lens and filter scatter over the sensor, and charge that neighbours collect: kept·δ + Σ_terms K. [theory: eq. 3.27, 7.4]
 struct ScatterView {
-  float kept;  ///< 1 − share
+  float kept;  ///< 1 − share of the lens's scatter; 0 where neighbours collect charge: then a term has it
   std::int32_t terms;
   std::int32_t separable;  ///< all of them are
   const ScatterTerm* term;

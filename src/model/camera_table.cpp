@@ -168,6 +168,10 @@ const Table& table_of<Pixel>() {
                                                   "g: A collects 1 + g/2 of its charge, B 1 - g/2"),
                 number<&Pixel::tap_offset_mismatch_e>("offset_mismatch", {charge, {-1e6, 1e6}, "100 e"},
                                                       "A holds half of this more, B half of it less, in each raw frame")),
+          group("crosstalk", "charge that neighbours collect",
+                number<&Pixel::crosstalk_left_right>("left_right", {fraction, {0, 0.25}, "1 %"},
+                                                     "share of its charge that the left neighbour gets, and the right one as much"),
+                number<&Pixel::crosstalk_up_down>("up_down", {fraction, {0, 0.25}, "1 %"}, "the same of those above and below")),
           curve<&Pixel::nonlinearity>("nonlinearity", {"charge", electrons}, {"read", electrons},
                                       "what is read of a tap's charge, from 0 e on, rising; what there is unless given")
               .absent(),

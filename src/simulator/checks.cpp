@@ -29,7 +29,7 @@ std::int64_t movers_of(const Scene& scene) {
 /// Images of light that a frame needs at once, at most (backend::place_light); none where light goes straight into raw frames.
 std::int64_t light_images(const Scene& scene, const Camera& camera, const SimulatorOptions& options) {
   const Transport& transport = scene.transport;
-  const bool several = options.subpixel > 1, bounces = transport.bounces > 0, scatters = camera.lens.scatter.kind != Scatter::Kind::none;
+  const bool several = options.subpixel > 1, bounces = transport.bounces > 0, scatters = camera::FrozenScatter::spreads(camera);
   if (!several && !bounces && !scatters) return 0;
   const int direct = several || bounces ? 2 : 1, scattered = scatters ? 2 : 0;
   const int halves = 2, twice = several || transport.smooth || transport.max_samples > 0 ? 2 : 1;
@@ -126,7 +126,7 @@ void check_light_image(const Scene& scene, const Camera& camera, const Simulator
   // At most: a plane for each part of each harmonic of each modulation frequency, or of one at the time of each raw frame.
   const auto raw_frames = static_cast<std::int64_t>(camera.mode.sequence.size());
   // Arrays of one's own, which a lens scatters as it does the scene's light, may have a time for each raw frame, too.
-  const bool by_raw_frame = movers_of(scene) > 0 || camera.lens.scatter.kind != Scatter::Kind::none;
+  const bool by_raw_frame = movers_of(scene) > 0 || camera::FrozenScatter::spreads(camera);
   const auto modulations = static_cast<std::int64_t>(camera::modulations_of(camera.mode).frequency_hz.size());
   const std::int64_t in_one = by_raw_frame ? (2 + 2 * flow::max_harmonics) * raw_frames : 2 + 2 * flow::max_harmonics * modulations;
   const std::int64_t values = pixels * in_one * images, most = base::limit::light_values.value;
@@ -134,7 +134,7 @@ void check_light_image(const Scene& scene, const Camera& camera, const Simulator
     refuse("the light image is too large",
            "got " + std::to_string(pixels) + " pixels and up to " + std::to_string(in_one) + " values of each in " +
                std::to_string(images) + " images, " + std::to_string(values) + " in all, at most " + std::to_string(most) +
-               "\n  sub-pixel samples, bounces and a lens that scatters need it",
+               "\n  sub-pixel samples, bounces, crosstalk and a lens that scatters need it",
            ErrorKind::limit);
 }
 

@@ -315,6 +315,7 @@ TEST(every_effect_of_the_pixel, can_be_written) {
             {"pixel.nonlinearity", "{charge: [0 e, 50 ke, 100 ke], read: [0 e, 47 ke, 88 ke]}"},
             {"pixel.patterns", "{phase_offset: 2 deg}"},
             {"pixel.contrast_by_wavelength", "{wavelength: [850 nm, 940 nm], factor: [1, 0.8]}"},
+            {"pixel.crosstalk", "{left_right: 1 %, up_down: 0.5 %}"},
             {"interference", "{share: 5 %, frequency_difference: -30 Hz, active: 60 %, phase: 90 deg}"},
             {"illumination.0.waveform", "{kind: trapezoid, duty: 30 %, rise_time: 1 ns, fall_time: 2 ns, bandwidth: 200 MHz}"}});
   EXPECT_EQ(c.pixel.row_noise_e, 7);
@@ -324,6 +325,8 @@ TEST(every_effect_of_the_pixel, can_be_written) {
   EXPECT_EQ(c.pixel.nonlinearity.y, (std::vector<double>{0, 47e3, 88e3}));
   EXPECT_DOUBLE_EQ(c.pixel.phase_offset_rad, 2 * 3.14159265358979323846 / 180);
   EXPECT_EQ(c.pixel.contrast_by_wavelength.y, (std::vector<double>{1, 0.8}));
+  EXPECT_EQ(c.pixel.crosstalk_left_right, 0.01);
+  EXPECT_EQ(c.pixel.crosstalk_up_down, 0.005);
   EXPECT_EQ(c.interference.share, 0.05);
   EXPECT_EQ(c.interference.frequency_difference_hz, -30);
   EXPECT_EQ(c.interference.active, 0.6);
