@@ -20,7 +20,10 @@ TAG = re.compile(r"\\tag\{([\d.]+)\}")
 # eq. 4.5, eqs. 2.5 and 2.6, equation 2.13, equations 4.4–4.7, equations 2.5 to 2.7
 CITATION = re.compile(r"\b(?:[Ee]qs?\.|[Ee]quations?)\s((?:\d+\.\d+(?:[–-]| to | and |, )?)+)")
 NUMBER = re.compile(r"\d+\.\d+")
-INDEX = re.compile(r"(?<=\w)_(?:\{([^{}]*(?:\{[^{}]*\}[^{}]*)*)\}|((?:\w|[θφτσψ])+(?:,\w+)*))|(?<=[\w)])\^(?:\{([^{}]*(?:\{[^{}]*\}[^{}]*)*)\}|\(([^()]*(?:\([^()]*\)[^()]*)*)\))")
+# D_k, Z_jm, N_A,k, k_1r² (the index is 1), e^{i·m·φ_j}, (l·m)^(n+1). Of fill_factor it is none: a symbol is one letter.
+BASE = r"(?:(?<=(?<![A-Za-z_])[A-Za-z])|(?<=[^\x00-\x7f])|(?<='))"
+BRACES, PARENTHESES = r"\{([^{}]*(?:\{[^{}]*\}[^{}]*)*)\}", r"\(([^()]*(?:\([^()]*\)[^()]*)*)\)"
+INDEX = re.compile(rf"{BASE}_(?:{BRACES}|(\d+|[A-Za-zα-ωΔ]+(?:,[A-Za-z0-9]+)*))|(?<=[\w)])\^(?:{BRACES}|{PARENTHESES})")
 
 NOT_OURS = {"Any", "Callable", "Hz", "Iterable", "Iterator", "Literal", "Mapping", "None", "Sequence"}
 
@@ -153,11 +156,18 @@ def set_indices(app, tree, docname):
                 text.parent.replace(text, indexed(text.astext()))
 
 
-def escape_bars(app, what, name, obj, options, lines):
-    """|x| is a magnitude, and for reStructuredText something else."""
+def mend_docstrings(app, what, name, obj, options, lines):
+    """|x| is a magnitude, and for reStructuredText something else. What type a member has stands beside its name."""
+    directive = None
     for at, line in enumerate(lines):
         if "|" in line and "``" not in line:
             lines[at] = line.replace("|", "\\|")
+        if line.startswith(".. attribute:: "):
+            directive = at
+        elif line.startswith("   :type: ") and directive is not None:
+            lines[at] = ""
+            lines[directive] += "\n" + line
+    lines[:] = "\n".join(lines).split("\n")
 
 
 def take_prose(app, env, node, text):
@@ -174,6 +184,6 @@ def setup(app):
     app.connect("doctree-read", note_equations)
     app.connect("doctree-resolved", link_equations)
     app.connect("doctree-resolved", set_indices)
-    app.connect("autodoc-process-docstring", escape_bars)
+    app.connect("autodoc-process-docstring", mend_docstrings)
     app.connect("missing-reference", take_prose)
     return {"version": "1", "parallel_read_safe": False}
