@@ -12,7 +12,8 @@ struct PastFrame {
   const float* noise;
 };
 
-/// Mean of a valid pixel and of what it was in earlier frames within k√(σ̂² + σ̂_n²) of it, weighted by 1/σ̂².
+/// Mean of a pixel and of what it was in earlier frames within k√(σ̂² + σ̂_n²) of it, weighted by 1/σ̂².
+/// Of an invalid pixel, whose range is NaN, nothing is near.
 /// @param past    the youngest first
 /// @param factor  k²
 TOFRAY_FN Filtered mean_over_time(const RangeImage& image, const PastFrame* past, int count, int at, float factor) {

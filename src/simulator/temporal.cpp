@@ -45,9 +45,7 @@ void Temporal::settle(std::uint64_t index, const pipeline::Setup& setup, const p
   pipeline::Job settled = job;
   settled.filtered = mean_.data();
   for (int at = 0; at < pixels; ++at) {
-    depth::Filtered value{image.range[at], image.noise[at]};
-    if ((image.flags[at] & depth::invalid) == 0)
-      value = depth::mean_over_time(image, past.data(), static_cast<int>(past.size()), at, factor_);
+    const depth::Filtered value = depth::mean_over_time(image, past.data(), static_cast<int>(past.size()), at, factor_);
     mean_[static_cast<std::size_t>(at)] = value.range, mean_[static_cast<std::size_t>(at + pixels)] = value.noise;
     pipeline::settle<float>(setup, settled, pipeline::Pixels{at, 1}, pipeline::of_filter);
   }

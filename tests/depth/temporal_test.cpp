@@ -146,6 +146,22 @@ TEST(temporal, of_a_frame_is_the_same_wherever_a_sequence_begins) {
   }
 }
 
+// A frame that is given up while those before it are computed leaves some of them out; the next one wants them.
+TEST(temporal, of_a_frame_behind_one_that_was_given_up_lacks_nothing) {
+  const Scene scene = passing_wall();
+  const Camera camera = over_frames(3);
+  FrameProgress progress;
+  Simulator simulator(scene, camera, {.seed = 11, .threads = 1, .progress = &progress});
+  progress.stop = true;
+  (void)simulator.frame(7);
+  progress.stop = false;
+  EXPECT_EQ(first_difference(simulator.frame(6), timed(scene, camera).frame(6)), "");
+  progress.stop = true;
+  (void)simulator.frame(7);
+  progress.stop = false;
+  EXPECT_EQ(first_difference(simulator.frame(8), timed(scene, camera).frame(8)), "");
+}
+
 TEST(temporal, is_off_unless_asked_for_and_needs_frames_before) {
   EXPECT_EQ(Decoding().temporal_frames, 1);
   const Scene scene = wall(1);
