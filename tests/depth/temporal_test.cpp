@@ -160,6 +160,10 @@ TEST(temporal, of_a_frame_behind_one_that_was_given_up_lacks_nothing) {
   (void)simulator.frame(7);
   progress.stop = false;
   EXPECT_EQ(first_difference(simulator.frame(8), timed(scene, camera).frame(8)), "");
+  progress.stop = true;
+  (void)simulator.frame(3);
+  progress.stop = false;
+  EXPECT_EQ(first_difference(simulator.frame(3), timed(scene, camera).frame(3)), "");
 }
 
 TEST(temporal, is_off_unless_asked_for_and_needs_frames_before) {
