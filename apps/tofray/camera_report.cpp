@@ -99,7 +99,7 @@ bool has_unlit(const Mode& mode) {
 Camera pixel_on_the_axis(Camera camera) {
   camera.sensor.width = camera.sensor.height = 1;
   camera.lens.cx_px = camera.lens.cy_px = 0;
-  camera.lens.scatter = {}, camera.interference = {};
+  camera.lens.scatter = {}, camera.interference = {}, camera.decoding.temporal_frames = 1;
   camera.pixel.crosstalk_left_right = camera.pixel.crosstalk_up_down = 0;
   camera.pixel.prnu = camera.pixel.dsnu_dn = camera.pixel.delay_s = camera.pixel.phase_offset_rad = 0;
   // Without an unlit raw frame the camera itself does not know how much noise the sun makes; who chooses one should.

@@ -107,7 +107,8 @@ class Simulator {
   Simulator(Simulator&&) noexcept;
   Simulator& operator=(Simulator&&) noexcept;
 
-  /// Frame i starts at i / frame_rate.
+  /// Frame i starts at i / frame_rate. Where Decoding::temporal_frames is more than 1, so many frames less one are computed before it, but for
+  /// those that were computed last.
   [[nodiscard]] Frame frame(std::uint64_t index);
   /// The same into memory that the caller keeps: arrays of the right size are not allocated anew.
   void frame(std::uint64_t index, Frame& into);

@@ -19,6 +19,7 @@ using base::pi;
 constexpr auto mask_side = static_cast<int>(base::limit::mask_side.value);
 constexpr auto kernel_side = static_cast<int>(base::limit::kernel_side.value);
 constexpr int scatter_gaussians = 4;
+constexpr int temporal_frames = 32;
 // Files say them by the rows themselves; `meta` has the numbers in one list.
 constexpr Number mask_size{none, {1, mask_side}, "2"};
 constexpr Number kernel_size{none, {1, kernel_side}, "3"};
@@ -257,7 +258,11 @@ const Table& table_of<Decoding>() {
                 number<&Decoding::multipath_limit_m>("limit", {length, {0, 1e4}, "0.1 m"}, "they may differ by this"),
                 number<&Decoding::multipath_sigmas>("sigmas", sigmas, "... and by this times the noise; beyond both the pixel is flagged"),
                 flag<&Decoding::multipath_reject>("reject", "whether the depth is invalid then")),
-          record<&Decoding::filter>("filter", "over the range image"))
+          record<&Decoding::filter>("filter", "over the range image"),
+          group("temporal", "mean over frames that follow each other, pixel by pixel",
+                number<&Decoding::temporal_frames>("frames", {none, {1, temporal_frames}, "4"},
+                                                   "the last one and those before it; 1: each frame stands by itself"),
+                number<&Decoding::temporal_sigmas>("sigmas", sigmas, "frames count that are off by less than this times the noise")))
           .check_with(far_is_beyond_near);
   return rows;
 }

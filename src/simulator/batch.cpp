@@ -103,7 +103,28 @@ void Simulator::Impl::frames_on_gpus(std::uint64_t count, const Request& request
   }
 }
 
+/// Where depth is that of several frames, one follows the other.
+void Simulator::Impl::frames_over_time(std::uint64_t count, const Request& request, const Take& take) {
+  for (std::uint64_t i = 0; i < count; ++i) {
+    const FrameRequest wanted = request(i);
+    if (wanted.seed || wanted.pose)
+      throw Error(ErrorKind::bad_input,
+                  "error: a mean over frames needs those before, which a request of another seed or pose does not have\n"
+                  "  set decoding.temporal.frames to 1");
+  }
+  for (std::uint64_t i = 0; i < count; ++i) {
+    const std::uint64_t index = request(i).index;
+    frame(index, nullptr, scratch);
+    if (stopped()) return;  // the frame is no frame
+    take(simulator::arrays_of(simulator::view_of(scratch, options.last_stage), camera, setup.transient.bins, index, -1));
+  }
+}
+
 void Simulator::Impl::frames(std::uint64_t count, const Request& request, const Take& take) {
+  if (temporal.on()) {
+    frames_over_time(count, request, take);
+    return;
+  }
   std::uint64_t taken = 0;
   engines.run([&](backend::Engine& engine) {
     if (engines.gpus().empty()) {
@@ -120,6 +141,8 @@ void Simulator::Impl::frames(std::uint64_t count, const Request& request, const 
 }
 
 void Simulator::Impl::frames_on_device(std::uint64_t count, const Request& request, DeviceFrames::Impl& into) {
+  if (temporal.on())
+    throw Error(ErrorKind::bad_input, "error: frames that stay on the GPU are no mean over frames\n  set decoding.temporal.frames to 1");
   const auto& gpus = engines.gpus();
   const std::string reason = engines.ran_on().fallback_reason;
   if (gpus.empty()) throw backend::gpu::Fault(reason.empty() ? "the processor computes" : reason, false);

@@ -8,6 +8,7 @@
 #include "camera/frozen_camera.h"
 #include "scene/frozen_scene.h"
 #include "simulator/engines.h"
+#include "simulator/temporal.h"
 #include "tofray/simulator.h"
 
 namespace tofray {
@@ -26,6 +27,8 @@ struct Simulator::Impl {
   pipeline::Job job{};
   std::vector<float> filtered;
   Frame scratch;  ///< of a batch on the processor, and the model of one on a GPU
+  simulator::Temporal temporal;
+  Frame earlier;  ///< one that a mean over frames needs beside the one that is asked for
   simulator::Engines engines;
 
   Impl(const Scene& scene, const Camera& profile, const SimulatorOptions& wanted);
@@ -45,6 +48,10 @@ struct Simulator::Impl {
   void set_sensor(const FrameRequest& request);
 
  private:
+  /// A frame by itself.
+  void compute(std::uint64_t index, const pipeline::Input* input, const SimulatorOptions& with, const Transport& transport, Frame& into);
+  [[nodiscard]] bool stopped() const { return options.progress != nullptr && options.progress->stop; }
+  void frames_over_time(std::uint64_t count, const Request& request, const Take& take);
   /// What does not change from frame to frame.
   [[nodiscard]] pipeline::Setup fixed_setup();
   [[nodiscard]] scene::Times times_from(double start) const;

@@ -35,6 +35,8 @@ void set_ambient(const Scene& scene, const Camera& camera, camera::PowerView& po
   power.ambient_rate = static_cast<float>(rate * static_cast<double>(power.watts_per_radiance) / base::pi);
 }
 
+const Transport no_transport;
+
 /// A frame in memory of its own.
 template <class... From>
 Frame new_frame(Simulator& simulator, std::uint64_t index, const From&... from) {
@@ -65,6 +67,7 @@ Simulator::Impl::Impl(const Scene& all, const Camera& profile, const SimulatorOp
       frozen_scene(scene, positions(camera), static_cast<int>(camera.mode.sequence.size()) * options.exposure_samples,
                    scene.transport.bounces > 0),
       setup(fixed_setup()),
+      temporal(camera, options.last_stage),
       engines(options, setup) {
   simulator::set_filter(camera.decoding.filter, job);
   filtered.resize(simulator::filter_scratch(job, setup));
@@ -128,8 +131,32 @@ void Simulator::Impl::set_sensor(const FrameRequest& request) {
 }
 
 void Simulator::Impl::frame(std::uint64_t index, const pipeline::Input* input, Frame& into) {
+  const Transport& transport = input == nullptr ? scene.transport : no_transport;
+  if (!temporal.on()) {
+    compute(index, input, options, transport, into);
+    return;
+  }
+  if (input != nullptr)
+    throw Error(ErrorKind::bad_input,
+                "error: a mean over frames needs those before, and arrays of one's own are one frame\n  set decoding.temporal.frames to 1");
+  // Frame i is the same whatever was computed before it: what is not at hand of the frames before is computed once more.
+  SimulatorOptions bare = options;
+  bare.truth = false;
+  for (std::uint64_t before = temporal.missing_from(index); before < index; ++before) {
+    compute(before, nullptr, bare, no_transport, earlier);
+    if (stopped()) return;
+    temporal.keep(before, job.out);
+  }
+  compute(index, nullptr, options, transport, into);
+  if (stopped()) return;
+  temporal.keep(index, job.out);
+  temporal.settle(index, setup, job);
+}
+
+void Simulator::Impl::compute(std::uint64_t index, const pipeline::Input* input, const SimulatorOptions& with, const Transport& transport,
+                              Frame& into) {
   into.index = index;
-  simulator::prepare(into, camera, options, input == nullptr ? scene.transport : Transport{});
+  simulator::prepare(into, camera, with, transport);
   const double start = start_of(index);
   into.raw.start_time_s.clear();
   for (const double after : frozen_camera.raw_frame_start_s()) into.raw.start_time_s.push_back(start + after);

@@ -316,6 +316,7 @@ TEST(every_effect_of_the_pixel, can_be_written) {
             {"pixel.patterns", "{phase_offset: 2 deg}"},
             {"pixel.contrast_by_wavelength", "{wavelength: [850 nm, 940 nm], factor: [1, 0.8]}"},
             {"pixel.crosstalk", "{left_right: 1 %, up_down: 0.5 %}"},
+            {"decoding.temporal", "{frames: 4, sigmas: 5}"},
             {"interference", "{share: 5 %, frequency_difference: -30 Hz, active: 60 %, phase: 90 deg}"},
             {"illumination.0.waveform", "{kind: trapezoid, duty: 30 %, rise_time: 1 ns, fall_time: 2 ns, bandwidth: 200 MHz}"}});
   EXPECT_EQ(c.pixel.row_noise_e, 7);
@@ -327,6 +328,8 @@ TEST(every_effect_of_the_pixel, can_be_written) {
   EXPECT_EQ(c.pixel.contrast_by_wavelength.y, (std::vector<double>{1, 0.8}));
   EXPECT_EQ(c.pixel.crosstalk_left_right, 0.01);
   EXPECT_EQ(c.pixel.crosstalk_up_down, 0.005);
+  EXPECT_EQ(c.decoding.temporal_frames, 4);
+  EXPECT_EQ(c.decoding.temporal_sigmas, 5);
   EXPECT_EQ(c.interference.share, 0.05);
   EXPECT_EQ(c.interference.frequency_difference_hz, -30);
   EXPECT_EQ(c.interference.active, 0.6);

@@ -33,6 +33,7 @@ TEST(camera_of_meta, gives_back_kinds_that_no_builtin_profile_has) {
       {{"pixel.nonlinearity", "{charge: [0 e, 50 ke, 100 ke], read: [0 e, 48 ke, 90 ke]}"}, {"pixel.row_noise", "7 e"}},
       {{"interference", "{share: 5 %, frequency_difference: -30 Hz, active: 60 %, phase: 90 deg}"}},
       {{"interference", "{share: 120 %}"}, {"pixel.crosstalk", "{left_right: 2 %, up_down: 1 %}"}},
+      {{"decoding.temporal", "{frames: 3, sigmas: 4}"}},
       {{"pixel.taps", "{gain_mismatch: 1 %, offset_mismatch: 30 e}"}, {"pixel.dark_current_doubling", "8 K"}},
       {{"decoding.filter", "{kind: bilateral, sigma: 1 px, sigmas: 4, range: 5 mm}"}, {"decoding.lower_saturation", "300"}},
       {{"decoding.filter", "{kind: adaptive, radius: 3, goal: 5 mm}"}, {"decoding.asymmetry", "{limit: 30 e, sigmas: 4, reject: true}"}},

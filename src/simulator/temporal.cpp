@@ -1,0 +1,54 @@
+// SPDX-FileCopyrightText: 2026 The tofray authors
+// SPDX-License-Identifier: Apache-2.0
+#include "simulator/temporal.h"
+
+#include <algorithm>
+
+#include "depth/temporal.h"
+#include "pipeline/passes.h"
+
+namespace tofray::simulator {
+
+Temporal::Temporal(const Camera& camera, Stage last)
+    : factor_(static_cast<float>(camera.decoding.temporal_sigmas * camera.decoding.temporal_sigmas)) {
+  if (camera.decoding.temporal_frames < 2 || last < Stage::depth) return;
+  window_ = static_cast<std::uint64_t>(camera.decoding.temporal_frames) - 1;
+  const std::size_t pixels = static_cast<std::size_t>(camera.sensor.width) * static_cast<std::size_t>(camera.sensor.height);
+  kept_.resize(window_ + 1);
+  for (Kept& one : kept_) one.range.resize(pixels), one.noise.resize(pixels);
+  mean_.resize(2 * pixels);
+}
+
+std::uint64_t Temporal::missing_from(std::uint64_t index) {
+  const std::uint64_t oldest = index < window_ ? 0 : index - window_;
+  if (first_ <= oldest && oldest <= end_ && end_ <= index) return end_;
+  first_ = end_ = oldest;
+  return oldest;
+}
+
+void Temporal::keep(std::uint64_t index, const flow::FrameView& depth) {
+  Kept& to = place_of(index);
+  std::copy_n(depth.range_m, to.range.size(), to.range.data());
+  std::copy_n(depth.noise_m, to.noise.size(), to.noise.data());
+  end_ = index + 1;
+}
+
+void Temporal::settle(std::uint64_t index, const pipeline::Setup& setup, const pipeline::Job& job) {
+  std::vector<depth::PastFrame> past;
+  for (std::uint64_t age = 1; age <= window_ && age <= index; ++age) {
+    const Kept& one = place_of(index - age);
+    past.push_back({one.range.data(), one.noise.data()});
+  }
+  const Kept& own = place_of(index);
+  const depth::RangeImage image{own.range.data(), own.noise.data(), job.out.flags, setup.lens.width, setup.lens.height};
+  const int pixels = setup.lens.width * setup.lens.height;
+  pipeline::Job settled = job;
+  settled.filtered = mean_.data();
+  for (int at = 0; at < pixels; ++at) {
+    const depth::Filtered value = depth::mean_over_time(image, past.data(), static_cast<int>(past.size()), at, factor_);
+    mean_[static_cast<std::size_t>(at)] = value.range, mean_[static_cast<std::size_t>(at + pixels)] = value.noise;
+    pipeline::settle<float>(setup, settled, pipeline::Pixels{at, 1}, pipeline::of_filter);
+  }
+}
+
+}  // namespace tofray::simulator
