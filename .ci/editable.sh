@@ -15,7 +15,7 @@ cd /
 "$venv/bin/python" -m tofray list scenes >/dev/null
 echo 'added_by_editable_sh = True' >>"$changed"
 "$venv/bin/python" -c 'from tofray import _html; assert _html.added_by_editable_sh, "the checkout is not what is imported"'
-"$venv/bin/pip" show -f tofray | grep -q 'tofray\.pth'
+[[ $("$venv/bin/pip" show -f tofray) == *tofray.pth* ]]
 "$venv/bin/pip" uninstall -q -y tofray
 if "$venv/bin/python" -c 'import tofray' 2>/dev/null; then
   echo "pip uninstall left the package" >&2
