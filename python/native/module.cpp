@@ -5,6 +5,7 @@
 
 #include "arrays.h"
 #include "convert.h"
+#include "device_frames.h"
 #include "frames.h"
 #include "meshes.h"
 #include "pictures/pictures.h"
@@ -225,6 +226,7 @@ py::list options() {
 PYBIND11_MODULE(_native, module) {
   py::register_exception_translator(&translate);
   bind_frames(module);
+  bind_device_frames(module);
   bind_meshes(module);
   bind_simulator(module);
   bind_files(module);

@@ -10,6 +10,7 @@
 #include <thread>
 
 #include "arrays.h"
+#include "device_frames.h"
 #include "frames.h"
 #include "interrupt.h"
 #include "meshes.h"
@@ -19,11 +20,33 @@ namespace tofray::python {
 
 namespace {
 
-/// Memory of frames that nobody looks at any more: a frame's 5 MB cost more to fetch anew from the system than to fill.
-struct FramePool {
-  std::mutex mutex;
-  std::vector<std::unique_ptr<Frame>> free;
-  static constexpr std::size_t most = 2;
+/// Memory that nobody looks at any more: a frame's 5 MB cost more to fetch anew from the system than to fill, and so do a GPU's.
+template <class T>
+class Pool {
+ public:
+  explicit Pool(std::size_t most) : most_(most) {}
+
+  /// One that comes back here, if the pool is still there, when nobody holds it any more.
+  static std::shared_ptr<T> take(const std::shared_ptr<Pool>& pool) {
+    std::unique_ptr<T> one;
+    {
+      const std::lock_guard lock(pool->mutex_);
+      if (!pool->free_.empty()) one = std::move(pool->free_.back()), pool->free_.pop_back();
+    }
+    if (one == nullptr) one = std::make_unique<T>();
+    return {one.release(), [weak = std::weak_ptr<Pool>(pool)](T* gone) {
+              std::unique_ptr<T> back(gone);
+              const std::shared_ptr<Pool> there = weak.lock();
+              if (there == nullptr) return;
+              const std::lock_guard lock(there->mutex_);
+              if (there->free_.size() < there->most_) there->free_.push_back(std::move(back));
+            }};
+  }
+
+ private:
+  std::mutex mutex_;
+  std::vector<std::unique_ptr<T>> free_;
+  std::size_t most_;
 };
 
 class HeldSimulator {
@@ -37,21 +60,8 @@ class HeldSimulator {
   }
 
   /// A frame that goes back to the pool when its last array is gone.
-  std::shared_ptr<Frame> new_frame() {
-    std::unique_ptr<Frame> frame;
-    if (recycles_) {
-      const std::lock_guard lock(pool_->mutex);
-      if (!pool_->free.empty()) frame = std::move(pool_->free.back()), pool_->free.pop_back();
-    }
-    if (frame == nullptr) frame = std::make_unique<Frame>();
-    return {frame.release(), [pool = std::weak_ptr<FramePool>(recycles_ ? pool_ : nullptr)](Frame* gone) {
-              std::unique_ptr<Frame> one(gone);
-              const std::shared_ptr<FramePool> there = pool.lock();
-              if (there == nullptr) return;
-              const std::lock_guard lock(there->mutex);
-              if (there->free.size() < FramePool::most) there->free.push_back(std::move(one));
-            }};
-  }
+  std::shared_ptr<Frame> new_frame() { return recycles_ ? Pool<Frame>::take(frames_) : std::make_shared<Frame>(); }
+  std::shared_ptr<DeviceFrames> new_device_frames() { return Pool<DeviceFrames>::take(device_frames_); }
 
   /// Runs `compute` without the interpreter's lock, one thread at a time. Nothing is held while Python handles a signal.
   template <class Compute>
@@ -150,7 +160,8 @@ class HeldSimulator {
   FrameProgress progress_;
   double frame_rate_;
   std::unique_ptr<Simulator> simulator_;
-  std::shared_ptr<FramePool> pool_ = std::make_shared<FramePool>();
+  std::shared_ptr<Pool<Frame>> frames_ = std::make_shared<Pool<Frame>>(2);
+  std::shared_ptr<Pool<DeviceFrames>> device_frames_ = std::make_shared<Pool<DeviceFrames>>(1);
   std::timed_mutex mutex_;
   std::atomic<std::thread::id> owner_{};
   std::atomic<bool> asked_to_stop_{false};
@@ -233,6 +244,16 @@ py::list frames_of(HeldSimulator& self, const py::object& wanted) {
   return out;
 }
 
+/// Frames that stay in a GPU's memory.
+DeviceBatch frames_on_device_of(HeldSimulator& self, const py::object& wanted) {
+  std::vector<FrameRequest> requests;
+  from_python(wanted, requests, {nullptr, "requests"});
+  if (requests.empty()) throw Error(ErrorKind::bad_input, "frames_on_device: error: got no frame\n  expected 1 or more");
+  const std::shared_ptr<DeviceFrames> into = self.new_device_frames();
+  self.run([&](Simulator& simulator) { simulator.frames_on_device(requests, *into); });
+  return {into};
+}
+
 std::unique_ptr<HeldSimulator> make_simulator(const py::object& scene, const py::object& camera, const py::dict& words) {
   const SimulatorOptions options = options_from_python(words);
   Scene one;
@@ -304,6 +325,7 @@ void bind_simulator(py::module_& module) {
       .def(py::init(&make_simulator))
       .def("frame", &frame_of)
       .def("frames", &frames_of)
+      .def("frames_on_device", &frames_on_device_of)
       .def("stop", &HeldSimulator::stop)
       .def("progress", &HeldSimulator::progress)
       .def("ran_on", [](const HeldSimulator& self) { return to_python(self.ran_on()); });

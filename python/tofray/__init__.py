@@ -77,6 +77,8 @@ if TYPE_CHECKING:
         Waveform as Waveform,
     )
     from ._native import (
+        DeviceArray as DeviceArray,
+        DeviceFrames as DeviceFrames,
         MeshMotion as MeshMotion,
         ReflectivityMap as ReflectivityMap,
         TriangleMesh as TriangleMesh,
@@ -111,7 +113,7 @@ _HOME = {
         "Override", "Pattern", "Pixel", "PixelMask", "Plane", "Pose", "RanOn", "RawFrame", "Rectangle", "Rotation", "Scatter", "Scene",
         "Sensor", "Sphere", "Temperature", "TransientBins", "Transport", "Triangle", "Waveform",
     ),
-    "_native": ("MeshMotion", "ReflectivityMap", "TriangleMesh"),
+    "_native": ("DeviceArray", "DeviceFrames", "MeshMotion", "ReflectivityMap", "TriangleMesh"),
     "_own": ("Geometry", "PixelLight", "Transient"),
     "_simulator": ("Simulator", "camera_pose", "demo", "pixel_rays", "process"),
 }

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any, Iterable, Iterator
 
 from . import _native
 from ._arrays import Depth, Raw
+from ._errors import error_of
 from ._frame import Frame
 from ._load import load_camera, load_scene
 from ._model import Camera, FrameRequest, RanOn, Scene
@@ -19,6 +20,8 @@ if TYPE_CHECKING:
 
     import numpy as np
     from numpy.typing import NDArray
+
+    from ._native import DeviceFrames
 
 
 class Simulator:
@@ -162,6 +165,30 @@ class Simulator:
                 scene.camera.pose, scene.camera.keyframes = request.pose, []
             yield Frame._of(memory, scene, self._camera, options)
 
+    def frames_on_device(
+        self, first: int = 0, count: int = 1, *, requests: Iterable[FrameRequest] | None = None
+    ) -> DeviceFrames:
+        """Frames that stay in the GPU's memory, for a library that goes on computing there.
+
+        ``torch.from_dlpack(simulator.frames_on_device(0, 64)["z_m"])`` is a tensor [64, height, width] of that memory.
+
+        Parameters
+        ----------
+        first, count : int
+            From which frame on, and how many: all are computed before this returns.
+        requests : iterable of FrameRequest, optional
+            In place of them, as in ``frames``.
+
+        Raises
+        ------
+        Error
+            Of kind "device" where the processor computes, or where the GPU's memory is too small for them.
+        """
+        if requests is None:
+            _check_count(first, count)
+            requests = (FrameRequest(index=index) for index in range(first, first + count))
+        return self._native.frames_on_device(list(requests))
+
     def stop(self) -> None:
         """Ends the frame under way, from another thread; whoever waits for it gets an Error of kind "stopped"."""
         self._native.stop()
@@ -185,7 +212,16 @@ class Simulator:
         return f"<tofray.Simulator of {self._scene.name or 'a scene'} on {ran_on.backend}, {ran_on.isa}, {ran_on.threads} threads>"
 
     def __dir__(self) -> list[str]:
-        return ["camera", "frame", "frames", "progress", "ran_on", "scene", "stop"]
+        return ["camera", "frame", "frames", "frames_on_device", "progress", "ran_on", "scene", "stop"]
+
+
+def _check_count(first: object, count: object) -> None:
+    """A range that a list of requests can be made of."""
+    most = 1_000_000
+    for name, value, least in (("first", first, 0), ("count", count, 1)):
+        if isinstance(value, bool) or not isinstance(value, int) or not least <= value <= (most if name == "count" else 2**64 - most - 1):
+            expected = f"1 to {most}" if name == "count" else "0 or more"
+            raise error_of("bad_input", f"frames_on_device: error: {name}: got {value!r}\n  expected {expected}")
 
 
 def _simulator_of(scene: Scene, camera: Camera, options: dict[str, Any]) -> Simulator:

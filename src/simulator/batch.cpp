@@ -3,6 +3,8 @@
 // Many frames: on the processor one by one, on GPUs several on their way while the host fills and empties others.
 #include <algorithm>
 #include <deque>
+#include <limits>
+#include <string>
 #include <utility>
 
 #include "simulator/frame_memory.h"
@@ -128,6 +130,8 @@ void Simulator::Impl::frames_on_device(std::uint64_t count, const Request& reque
   into.seconds = 0;
   into.slab = backend::gpu::Slab(setup, job.out, job.filter != pipeline::Filter::none);
   into.camera = camera;
+  if (count > std::numeric_limits<std::size_t>::max() / std::max<std::size_t>(1, into.slab.bytes()))
+    throw backend::gpu::Fault("its memory is too small for " + std::to_string(count) + " frames", true);
   const std::size_t bytes = into.slab.bytes() * count;
   if (into.memory_bytes < bytes || !into.device || into.device->number() != gpu.device().number()) {
     into.memory_bytes = 0;

@@ -405,6 +405,12 @@ TEST(cuda_host, frames_can_stay_on_the_device) {
   cuda.frames_on_device(7, 2, frames);
   EXPECT_EQ(frames[0].z_m, memory) << "it is used again";
   EXPECT_EQ(first_difference(copy_of(frames[1]), alone(scene, camera, {.truth = false}, {8, {}, {}})), "");
+  // Also so many that their bytes are few again, modulo 2^64.
+  const auto frame_bytes = static_cast<std::uint64_t>(4 * (frames[1].z_m - frames[0].z_m));
+  for (const std::uint64_t too_many : {std::uint64_t{1} << 20, std::uint64_t{1} << 63, ~std::uint64_t{0} / frame_bytes + 2})
+    EXPECT_THROW(cuda.frames_on_device(0, too_many, frames), Error) << too_many;
+  cuda.frames_on_device(3, 1, frames);
+  EXPECT_EQ(first_difference(copy_of(frames[0]), alone(scene, camera, {.truth = false}, {3, {}, {}})), "");
   Simulator cpu(scene, camera, on(Backend::cpu));
   EXPECT_THROW(cpu.frames_on_device(0, 1, frames), Error);
 }

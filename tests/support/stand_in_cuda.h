@@ -24,6 +24,7 @@ class StandInCuda final : public backend::gpu::Runtime {
   using Status = backend::gpu::Status;
   using Cause = backend::gpu::Cause;
   static constexpr Status failed = 999;
+  static constexpr std::size_t memory_bytes = 1u << 30;
 
   // what a test may change
   int devices = 1;
@@ -52,7 +53,7 @@ class StandInCuda final : public backend::gpu::Runtime {
   }
   Status describe(int device, backend::gpu::DeviceInfo& info) override {
     if (fails()) return failed;
-    info = {"Stand-in " + std::to_string(device), 9, 0, 4, 2048, 1u << 30, "0000:3b:00." + std::to_string(device)};
+    info = {"Stand-in " + std::to_string(device), 9, 0, 4, 2048, memory_bytes, "0000:3b:00." + std::to_string(device)};
     return 0;
   }
   Status use(int device) override {
@@ -135,7 +136,7 @@ class StandInCuda final : public backend::gpu::Runtime {
     int device;  ///< whose memory it is, or the host's
   };
   Status take_memory(std::size_t bytes, void*& memory, int device) {
-    if (fails()) return failed;
+    if (fails() || bytes > memory_bytes) return failed;
     memory = std::aligned_alloc(256, (bytes + 255) / 256 * 256 + 256);
     std::memset(memory, 0xa5, bytes);
     memory_[memory] = {bytes, device};
