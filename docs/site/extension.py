@@ -114,7 +114,7 @@ def link_equations(app, tree, docname):
             for number in NUMBER.finditer(cited[1]):
                 home = homes.get(number[0])
                 if home is None:
-                    log.warning("there is no equation %s", number[0], location=tree)
+                    log.warning("there is no equation %s", number[0], location=docname)
                     continue
                 address = app.builder.get_relative_uri(docname, home) + "#" + anchor(number[0])
                 start = cited.start(1) + number.start()
