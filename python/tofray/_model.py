@@ -1775,7 +1775,8 @@ class RanOn(Record):
     device : str
         Its name: of the GPU, or of the processor's instruction set.
     isa : str
-        Of the processor, which is there in any case: "scalar", "scalar_fma", "avx2", "avx512" or "neon".
+        Of the processor, which is there in any case: "scalar", "scalar_fma", "avx2", "avx512" or
+        "neon".
     threads : int
         Of the processor.
     block_size : int
