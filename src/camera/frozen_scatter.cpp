@@ -82,7 +82,7 @@ void FrozenScatter::add_gaussians(const Scatter& scatter, int most) {
 
 void FrozenScatter::add_kernel(const Scatter& scatter) {
   const int radius = std::max(scatter.columns, scatter.rows) / 2;
-  const auto side = static_cast<std::size_t>(2 * radius + 1);
+  const std::size_t side = 2 * static_cast<std::size_t>(radius) + 1;
   std::vector<Weights> rows(side, Weights(side));
   const double largest = *std::max_element(scatter.kernel.begin(), scatter.kernel.end());
   double sum = 0;

@@ -41,12 +41,13 @@ void Temporal::settle(std::uint64_t index, const pipeline::Setup& setup, const p
   }
   const Kept& own = place_of(index);
   const depth::RangeImage image{own.range.data(), own.noise.data(), job.out.flags, setup.lens.width, setup.lens.height};
-  const int pixels = setup.lens.width * setup.lens.height;
+  const std::size_t pixels = own.range.size();
   pipeline::Job settled = job;
   settled.filtered = mean_.data();
-  for (int at = 0; at < pixels; ++at) {
+  for (std::size_t i = 0; i < pixels; ++i) {
+    const auto at = static_cast<std::int32_t>(i);
     const depth::Filtered value = depth::mean_over_time(image, past.data(), static_cast<int>(past.size()), at, factor_);
-    mean_[static_cast<std::size_t>(at)] = value.range, mean_[static_cast<std::size_t>(at + pixels)] = value.noise;
+    mean_[i] = value.range, mean_[i + pixels] = value.noise;
     pipeline::settle<float>(setup, settled, pipeline::Pixels{at, 1}, pipeline::of_filter);
   }
 }
