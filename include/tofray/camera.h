@@ -211,9 +211,9 @@ struct Decoding {
   bool asymmetry_reject = false;                         ///< the depth is invalid then; otherwise the flag is a warning
   double multipath_limit_m = 0.1, multipath_sigmas = 3;  ///< d_i − d_j of two modulation frequencies: inconsistent ones beyond both
   bool multipath_reject = false;
-  ImageFilter filter;
   int temporal_frames = 1;     ///< range is the mean over so many frames, the last one and those before it; 1: of each by itself
   double temporal_sigmas = 3;  ///< … of those that are off by less than this times the noise of the difference
+  ImageFilter filter;
 };
 
 /// How much of the distance is drift with temperature, and with the time since the camera was switched on.

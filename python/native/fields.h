@@ -118,8 +118,8 @@ TOFRAY_FIELDS(Decoding, &Decoding::wiggling_correction, &Decoding::noise_thresho
               &Decoding::lower_saturation_dn, &Decoding::upper_saturation_dn, &Decoding::flying_near_z_m, &Decoding::flying_near_limit_m,
               &Decoding::flying_far_z_m, &Decoding::flying_far_limit_m, &Decoding::flying_sigmas, &Decoding::flying_check,
               &Decoding::asymmetry_limit_e, &Decoding::asymmetry_sigmas, &Decoding::asymmetry_reject, &Decoding::multipath_limit_m,
-              &Decoding::multipath_sigmas, &Decoding::multipath_reject, &Decoding::filter, &Decoding::temporal_frames,
-              &Decoding::temporal_sigmas)
+              &Decoding::multipath_sigmas, &Decoding::multipath_reject, &Decoding::temporal_frames,
+              &Decoding::temporal_sigmas, &Decoding::filter)
 TOFRAY_FIELDS(Temperature, &Temperature::celsius, &Temperature::reference_celsius, &Temperature::drift_m_per_kelvin,
               &Temperature::warm_up_m, &Temperature::warm_up_time_s, &Temperature::since_start_s)
 TOFRAY_FIELDS(Interference, &Interference::share, &Interference::frequency_difference_hz, &Interference::active, &Interference::phase_rad)

@@ -826,17 +826,17 @@ class Decoding(Record):
     multipath_sigmas : float
         D_i − d_j of two modulation frequencies: inconsistent ones beyond both.
     multipath_reject : bool
-    filter : ImageFilter
     temporal_frames : int
         Range is the mean over so many frames, the last one and those before it; 1: of each by
         itself.
     temporal_sigmas : float
         … of those that are off by less than this times the noise of the difference.
+    filter : ImageFilter
     """
     __slots__ = ("wiggling_correction", "noise_threshold_m", "amplitude_threshold_e", "lower_saturation_dn", "upper_saturation_dn",
                  "flying_near_z_m", "flying_near_limit_m", "flying_far_z_m", "flying_far_limit_m", "flying_sigmas", "flying_check",
                  "asymmetry_limit_e", "asymmetry_sigmas", "asymmetry_reject", "multipath_limit_m", "multipath_sigmas",
-                 "multipath_reject", "filter", "temporal_frames", "temporal_sigmas")
+                 "multipath_reject", "temporal_frames", "temporal_sigmas", "filter")
     wiggling_correction: bool
     noise_threshold_m: float
     amplitude_threshold_e: float
@@ -854,9 +854,9 @@ class Decoding(Record):
     multipath_limit_m: float
     multipath_sigmas: float
     multipath_reject: bool
-    filter: ImageFilter
     temporal_frames: int
     temporal_sigmas: float
+    filter: ImageFilter
 
     def __init__(
         self,
@@ -878,9 +878,9 @@ class Decoding(Record):
         multipath_limit_m: float = 0.1,
         multipath_sigmas: float = 3.0,
         multipath_reject: bool = False,
-        filter: ImageFilter | None = None,
         temporal_frames: int = 1,
         temporal_sigmas: float = 3.0,
+        filter: ImageFilter | None = None,
     ) -> None:
         self.wiggling_correction = wiggling_correction
         self.noise_threshold_m = noise_threshold_m
@@ -899,9 +899,9 @@ class Decoding(Record):
         self.multipath_limit_m = multipath_limit_m
         self.multipath_sigmas = multipath_sigmas
         self.multipath_reject = multipath_reject
-        self.filter = ImageFilter() if filter is None else filter
         self.temporal_frames = temporal_frames
         self.temporal_sigmas = temporal_sigmas
+        self.filter = ImageFilter() if filter is None else filter
 
 
 class Temperature(Record):
