@@ -14,7 +14,7 @@ using namespace tofray::test;
 
 namespace {
 
-constexpr double modulation = 60.24e6, light_speed = 299792458.0;
+constexpr double modulation = 60.24e6, speed_of_light = 299792458.0;
 constexpr int paths = 4096;
 
 /// A row of pixels; half duty against the square gate: a triangle, of which harmonics 1 to 15 are kept.
@@ -30,7 +30,7 @@ Camera square_by_square(int phases) {
 }
 
 /// Half a path for each pixel, over one period and no path at 0.
-double half_path(int i) { return light_speed / (2 * modulation) * (i + 0.5) / paths; }
+double half_path(int i) { return speed_of_light / (2 * modulation) * (i + 0.5) / paths; }
 
 /// The error that N phases make of a_m = 8/(πm)², m up to `highest`, from the sum over raw frames.
 double expected_error(int phases, double phi, int highest) {
@@ -61,8 +61,8 @@ TEST(reference_phases, wiggle_as_the_closed_form_says) {
     const Frame frame = Simulator({}, camera, {.noise = Noise::off, .threads = 1}).frame(0, light);
     double worst = 0;
     for (int i = 0; i < paths; ++i) {
-      const double phi = 4 * pi * modulation / light_speed * half_path(i);
-      double error = 4 * pi * modulation / light_speed * static_cast<double>(frame.depth.range_m[static_cast<std::size_t>(i)]) - phi;
+      const double phi = 4 * pi * modulation / speed_of_light * half_path(i);
+      double error = 4 * pi * modulation / speed_of_light * static_cast<double>(frame.depth.range_m[static_cast<std::size_t>(i)]) - phi;
       error -= two_pi * std::round(error / two_pi);
       ASSERT_NEAR(error, expected_error(phases, phi, 15), 5e-6) << phases << " " << i;
       worst = std::max(worst, std::abs(error));
