@@ -28,7 +28,7 @@ struct Set {
 const Set all_sets[] = {TOFRAY_SETS(ONE_SET){"scalar", Isa::scalar, tile_search_scalar}};
 #undef ONE_SET
 /// What the others are held against: each ray by itself. (Plain scalar code has its fused products in software on x86.)
-const Set& reference = all_sets[0].isa == Isa::scalar_fma ? all_sets[0] : all_sets[std::size(all_sets) - 1];
+const Set& yardstick = all_sets[0].isa == Isa::scalar_fma ? all_sets[0] : all_sets[std::size(all_sets) - 1];
 
 /// The one with the widest packs that run here; null: none do.
 const Set* widest() {
@@ -133,11 +133,11 @@ std::int32_t triangle(const TileRays& rays, int i) {
 /// All sets agree about a tile. @return rays that met something
 int same_in_all_sets(const TileSearch& what, bool scalar_too) {
   static TileRays one, other;
-  search(reference, what, one);
+  search(yardstick, what, one);
   int met = 0;
   for (int i = 0; i < TileRays::count; ++i) met += what.rays->far[i] > 0 && triangle(one, i) >= 0;
   for (const Set& set : all_sets) {
-    if (&set == &reference || !backend::can_run(set.isa) || (set.isa == Isa::scalar && !scalar_too)) continue;
+    if (&set == &yardstick || !backend::can_run(set.isa) || (set.isa == Isa::scalar && !scalar_too)) continue;
     search(set, what, other);
     for (int i = 0; i < TileRays::count; ++i) {
       if (!(what.rays->far[i] > 0)) continue;
@@ -157,7 +157,7 @@ class Beams : public testing::TestWithParam<int> {};
 
 // 20 scenes, a million rays in each: from near and far, along and across, narrow and wide, at what is seen and through it.
 TEST_P(Beams, meet_what_each_ray_meets) {
-  if (!backend::can_run(reference.isa)) GTEST_SKIP() << "this machine has no FMA";
+  if (!backend::can_run(yardstick.isa)) GTEST_SKIP() << "this machine has no FMA";
   Random random(static_cast<std::uint64_t>(100 + GetParam()));
   const double away = GetParam() % 7 == 6 ? 1.5e5 : GetParam() % 7 == 5 ? 1e3 : 0;
   const Vec3 shift = away * Vec3{1, -0.7, 0.4};
