@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "tofray/array.h"
 #include "tofray/frame_arrays.h"
 
 /// What a simulated camera delivers: plain contiguous arrays, row-major, [height][width] or [phase][height][width].
@@ -12,11 +13,12 @@
 namespace tofray {
 
 #define TOFRAY_VECTOR(name, part, member, element, ...) std::vector<element> member;
+#define TOFRAY_ALIGNED(name, part, member, element, ...) Array<element> member;
 
 /// Raw frames of one frame, as the sensor hands them out, and when and how each was exposed.
 struct Raw {
   int width = 0, height = 0, phases = 0;
-  TOFRAY_RAW_ARRAYS(TOFRAY_VECTOR)       // std::vector<float> tap_a; …
+  TOFRAY_RAW_ARRAYS(TOFRAY_ALIGNED)      // Array<float> tap_a; …
   TOFRAY_EXPOSURE_ARRAYS(TOFRAY_VECTOR)  // std::vector<double> modulation_frequency_hz; …
 };
 
@@ -48,6 +50,7 @@ struct Truth {
   TOFRAY_TRUTH_ARRAYS(TOFRAY_VECTOR)  // std::vector<float> range_m; …
 };
 
+#undef TOFRAY_ALIGNED
 #undef TOFRAY_VECTOR
 
 /// What a camera delivers of one run through its sequence, and the truth about it.

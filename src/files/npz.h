@@ -21,8 +21,8 @@ struct NpyView {
 };
 
 /// View of a vector's data under a shape. @throws Error (bug) where they do not fit
-template <class T>
-NpyView npy_view(const std::string& name, const NpyShape& shape, const std::vector<T>& data, NpyType type = npy_type_of<T>()) {
+template <class Vector, class T = typename Vector::value_type>
+NpyView npy_view(const std::string& name, const NpyShape& shape, const Vector& data, NpyType type = npy_type_of<T>()) {
   std::size_t count = 1;
   for (const std::size_t extent : shape) count *= extent;
   if (count != data.size()) throw Error(ErrorKind::bug, "error: array " + name + " does not have the shape " + shape_text(shape));

@@ -150,6 +150,7 @@ struct Memory<F32x8> {
   TOFRAY_FN static F32x8 load_square(const float* from, int row) {
     return _mm256_insertf128_ps(_mm256_castps128_ps256(_mm_loadu_ps(from)), _mm_loadu_ps(from + row), 1);
   }
+  TOFRAY_FN static void finish_stores() { _mm_sfence(); }
   TOFRAY_FN static I32x8 load_int(const std::int32_t* from, int n) { return _mm256_maskload_epi32(from, first_lanes8(n)); }
 };
 TOFRAY_FN void store_square(float* to, int row, F32x8 a) {
@@ -183,6 +184,12 @@ TOFRAY_FN void store(std::uint8_t* to, I32x8 a, int n) {
     _mm_store_si128(reinterpret_cast<__m128i*>(packed), narrow);
     for (int i = 0; i < n; ++i) to[i] = packed[i];
   }
+}
+template <>
+inline constexpr bool can_store_past<F32x8> = true;
+TOFRAY_FN void store_past(float* to, F32x8 a) { _mm256_stream_ps(to, a.v); }
+TOFRAY_FN void store_past(std::uint16_t* to, I32x8 a) {
+  _mm_stream_si128(reinterpret_cast<__m128i*>(to), _mm256_castsi256_si128(_mm256_permute4x64_epi64(_mm256_packus_epi32(a.v, a.v), 0x08)));
 }
 TOFRAY_FN void store2(float* to, F32x8 x, F32x8 y, int n) {
   const __m256 low = _mm256_unpacklo_ps(x.v, y.v), high = _mm256_unpackhi_ps(x.v, y.v);

@@ -135,6 +135,7 @@ TOFRAY_FN float highest(F32x16 a) { return highest(max(low_half(a), high_half(a)
 TOFRAY_FN __mmask16 first_lanes16(int n) { return static_cast<__mmask16>(n >= 16 ? 0xffffu : (1u << n) - 1u); }
 template <>
 struct Memory<F32x16> {
+  TOFRAY_FN static void finish_stores() { _mm_sfence(); }
   TOFRAY_FN static I32x16 lane_index() { return _mm512_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15); }
   TOFRAY_FN static F32x16 load(const float* from, int n) {
     return n >= 16 ? _mm512_loadu_ps(from) : _mm512_maskz_loadu_ps(first_lanes16(n), from);
@@ -173,6 +174,10 @@ TOFRAY_FN void store(std::uint16_t* to, I32x16 a, int n) {
     _mm256_mask_storeu_epi16(to, first_lanes16(n), narrow);
   }
 }
+template <>
+inline constexpr bool can_store_past<F32x16> = true;
+TOFRAY_FN void store_past(float* to, F32x16 a) { _mm512_stream_ps(to, a.v); }
+TOFRAY_FN void store_past(std::uint16_t* to, I32x16 a) { _mm256_stream_si256(reinterpret_cast<__m256i*>(to), _mm512_cvtepi32_epi16(a.v)); }
 TOFRAY_FN void store(std::uint8_t* to, I32x16 a, int n) {
   const __m128i narrow = _mm512_cvtepi32_epi8(a.v);
   if (n >= 16) {

@@ -185,6 +185,16 @@ TOFRAY_FN void store(float* to, float a, int) { *to = a; }
 TOFRAY_FN void store(std::int32_t* to, std::int32_t a, int) { *to = a; }
 TOFRAY_FN void store(std::uint16_t* to, std::int32_t a, int) { *to = static_cast<std::uint16_t>(a); }
 TOFRAY_FN void store(std::uint8_t* to, std::int32_t a, int) { *to = static_cast<std::uint8_t>(a); }
+/// Whether a number type has a store_past(to, value) of its own (avx2.h, avx512.h): all lanes, past the caches, to memory that is aligned to
+/// the pack. For what will not be read soon; other threads may read it once finish_stores() has been called.
+template <class F>
+inline constexpr bool can_store_past = false;
+TOFRAY_FN void store_past(float* to, float a) { *to = a; }
+TOFRAY_FN void store_past(std::uint16_t* to, std::int32_t a) { *to = static_cast<std::uint16_t>(a); }
+template <class F>
+TOFRAY_FN void finish_stores() {
+  if constexpr (can_store_past<F>) Memory<F>::finish_stores();
+}
 /// x0 y0 x1 y1 …
 TOFRAY_FN void store2(float* to, float x, float y, int) { to[0] = x, to[1] = y; }
 /// x0 y0 z0 x1 y1 z1 …

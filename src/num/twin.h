@@ -207,6 +207,7 @@ TOFRAY_FN int beyond(int n) {
 
 template <class H>
 struct Memory<Twin<H>> {
+  TOFRAY_FN static void finish_stores() { Memory<H>::finish_stores(); }
   TOFRAY_FN static Twin<H> load(const float* from, int n) { return {num::load<H>(from, n), num::load<H>(from + lanes<H>, beyond<H>(n))}; }
   TOFRAY_FN static TwinInt<H> load_int(const std::int32_t* from, int n) {
     return {num::load_int<H>(from, n), num::load_int<H>(from + lanes<H>, beyond<H>(n))};
@@ -227,6 +228,16 @@ TOFRAY_FN void store_square(float* to, int row, Twin<H> x) {
 template <class H, class Element>
 TOFRAY_FN void store(Element* to, TwinInt<H> x, int n) {
   store(to, x.a, n), store(to + lanes<H>, x.b, beyond<H>(n));
+}
+template <class H>
+inline constexpr bool can_store_past<Twin<H>> = can_store_past<H>;
+template <class H>
+TOFRAY_FN void store_past(float* to, Twin<H> x) {
+  store_past(to, x.a), store_past(to + lanes<H>, x.b);
+}
+template <class H>
+TOFRAY_FN void store_past(std::uint16_t* to, TwinInt<H> x) {
+  store_past(to, x.a), store_past(to + lanes<H>, x.b);
 }
 template <class H>
 TOFRAY_FN void store2(float* to, Twin<H> x, Twin<H> y, int n) {

@@ -30,11 +30,11 @@ TOFRAY_FN void flag_flying_row(const Setup& s, const Job& job, int y) {
   if (width > 1) flag_flying_pixel(s, job, width - 1, y);
   for (int x = 1; x < width - 1; x += num::lanes<F>) {
     const int count = width - 1 - x < num::lanes<F> ? width - 1 - x : num::lanes<F>;
+    const std::uint32_t first = 0xffffffffu >> (32 - count);
     const auto flying = depth::flies<F>(s.decoder, {z + x, noise + x, width}, count, has_rows, true);
-    if (!num::any(flying)) continue;
-    const num::Int<F> marks = num::select(flying, num::Int<F>(1), num::Int<F>(0));
-    for (int i = 0; i < count; ++i) {
-      if (num::lane(marks, i) != 0) flags[x + i] = static_cast<std::uint16_t>(flags[x + i] | depth::flying_pixel);
+    for (std::uint32_t marks = num::lanes_of(flying) & first; marks != 0; marks &= marks - 1) {  // from one that flies to the next
+      std::uint16_t& flag = flags[x + __builtin_ctz(marks)];
+      flag = static_cast<std::uint16_t>(flag | depth::flying_pixel);
     }
   }
 }

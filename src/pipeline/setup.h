@@ -71,6 +71,7 @@ struct Job {
   float filter_factor;       ///< square of how many σ neighbours may be off
   float filter_range;        ///< square of how far, besides [m²]
   float filter_goal;         ///< square of the noise that is good enough [m²]
+  std::int32_t past_caches;  ///< 1: electrons and codes are written past the caches, which their places allow
   bool operator==(const Job&) const = default;
 };
 

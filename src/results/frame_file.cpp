@@ -57,7 +57,7 @@ struct Beside {
 /// Views of the arrays that are there and wanted, in the table's order. Empty ones (ground truth that was not asked for) are left out.
 std::vector<NpyView> views_of(const Frame& frame, const Beside& beside, const ArrayChoice& choice) {
   std::vector<NpyView> views;
-  const auto add = [&]<class T>(const char* name, const NpyShape& shape, const std::vector<T>& data, bool there = true) {
+  const auto add = [&](const char* name, const NpyShape& shape, const auto& data, bool there = true) {
     const ArrayRow& row = *find_array(name);
     if (there && !data.empty() && choice.has(row)) views.push_back(npy_view(name, shape, data, row.type));
   };

@@ -118,7 +118,7 @@ class RawReader {
     }
   }
 
-  void read_tap(const char* name, Raw& raw, std::vector<float>& tap) {
+  void read_tap(const char* name, Raw& raw, Array<float>& tap) {
     const NpyArray* array = wanted(name, "f", "float32 electrons, (phase, height, width)");
     if (array == nullptr || !fits_stack(name, *array, raw)) return;
     tap.resize(array->count());

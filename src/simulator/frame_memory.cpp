@@ -2,18 +2,20 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "simulator/frame_memory.h"
 
+#include "flow/flow.h"
+
 namespace tofray::simulator {
 
 namespace {
 
-template <class T>
-void resize(std::vector<T>& array, ArrayShape shape, const flow::FrameSize& size) {
+template <class Vector>
+void resize(Vector& array, ArrayShape shape, const flow::FrameSize& size) {
   array.resize(static_cast<std::size_t>(flow::values_of(shape, size)));
 }
 
-template <class T>
-T* place_of(std::vector<T>& array, Stage stage, Stage last) {
-  return stage <= last && !array.empty() ? array.data() : nullptr;
+template <class Vector>
+auto* place_of(Vector& array, Stage stage, Stage last) {
+  return stage <= last && !array.empty() ? array.data() : static_cast<typename Vector::value_type*>(nullptr);
 }
 
 }  // namespace
@@ -71,6 +73,19 @@ flow::FrameView view_of(Frame& frame, Stage last) {
 }
 
 #undef TOFRAY_PLACE
+
+bool goes_past_caches(const flow::FrameView& out, const float* before, int width, const flow::FrameSize& size) {
+  constexpr std::uintptr_t line = 64;
+  constexpr std::int64_t most_in_caches = 8'000'000;  // a core's share of the last one is some 2 to 16 MB
+  constexpr std::int64_t each = sizeof *out.tap_a + sizeof *out.tap_b + sizeof *out.raw;
+  const std::uintptr_t places[] = {reinterpret_cast<std::uintptr_t>(out.tap_a), reinterpret_cast<std::uintptr_t>(out.tap_b),
+                                   reinterpret_cast<std::uintptr_t>(out.raw)};
+  for (const std::uintptr_t place : places) {
+    if (place == 0 || place % line != 0) return false;
+  }
+  if (width % flow::tile_width != 0) return false;
+  return out.tap_a != before || each * flow::values_of(ArrayShape::stack, size) > most_in_caches;
+}
 
 FrameArrays arrays_of(const flow::FrameView& view, const Camera& camera, std::int64_t bins, std::uint64_t index, int device) {
   FrameArrays arrays;

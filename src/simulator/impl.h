@@ -30,6 +30,7 @@ struct Simulator::Impl {
   simulator::Temporal temporal;
   Frame earlier;  ///< one that a mean over frames needs beside the one that is asked for
   simulator::Engines engines;
+  const float* written_before = nullptr;  ///< Raw::tap_a of the frame before; nobody looks at what lies there
 
   Impl(const Scene& scene, const Camera& profile, const SimulatorOptions& wanted);
 

@@ -21,8 +21,8 @@ namespace {
 constexpr base::Range bins_m{0, 1e6}, bin_width_m{1e-6, 1e6}, pixel_power_w{0, 1}, path_length_m{0, 1e6}, ambient_e_per_s{0, 1e20},
     unit_length{0.999, 1.001};
 
-template <class T>
-const T* data_of(const std::vector<T>& array) {
+template <class Vector>
+const typename Vector::value_type* data_of(const Vector& array) {
   return array.empty() ? nullptr : array.data();
 }
 

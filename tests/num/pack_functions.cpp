@@ -159,6 +159,28 @@ TOFRAY_FN bool each_part(const PackBlock& block, const Part& part) {
 /// Which bits are wrong of what was 7 before and is `from` where it is written.
 TOFRAY_FN std::uint32_t wrong(std::uint32_t got, bool written, std::uint32_t from) { return got ^ (written ? from : 7u); }
 
+/// Whole packs past the caches, between others that stay: no bit is wrong. (A template: a plain float has no such function.)
+template <class P>
+TOFRAY_FN void past_caches(const At& at) {
+  alignas(64) float to[3 * num::lanes<P>];
+  alignas(64) std::uint16_t halves[3 * num::lanes<P>];
+  for (float& one : to) one = num::from_bits(7u);
+  for (std::uint16_t& one : halves) one = 7;
+  if constexpr (num::can_store_past<P>) {
+    num::store_past(to + num::lanes<P>, at.a()), num::store_past(halves + num::lanes<P>, num::to_signed(at.ua() >> 16));
+    num::finish_stores<P>();
+  } else {
+    num::store(to + num::lanes<P>, at.a(), num::lanes<P>);
+    num::store(halves + num::lanes<P>, num::to_signed(at.ua() >> 16), num::lanes<P>);
+  }
+  for (int k = 0; k < 3 * num::lanes<P>; ++k) {
+    const int of = k % num::lanes<P>;
+    const bool written = k / num::lanes<P> == 1;
+    at.block.out[at.i + of] |= wrong(num::bits(to[k]), written, at.block.a[at.i + of]);
+    at.block.out[pack_block + at.i + of] |= wrong(halves[k], written, at.block.a[at.i + of] >> 16);
+  }
+}
+
 /// Parts of a pack: what lies beyond reads as 0 and is not written. No bit is wrong.
 TOFRAY_FN bool parts(int which, const PackBlock& block) {
   switch (which) {
@@ -207,6 +229,9 @@ TOFRAY_FN bool parts(int which, const PackBlock& block) {
             for (int k = 0; k < 2 * lanes; ++k) out[k / 2] |= wrong(num::bits(pairs[k]), k / 2 < n, from[k % 2][k / 2]);
             for (int k = 0; k < 3 * lanes; ++k) out[pack_block + k / 3] |= wrong(num::bits(points[k]), k / 3 < n, from[k % 3][k / 3]);
           });
+    case 4:
+      return each(
+          block, [&](const At& at) __attribute__((always_inline)) { past_caches<F>(at); });
     default: return false;
   }
 }

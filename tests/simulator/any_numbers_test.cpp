@@ -88,9 +88,9 @@ void disturb(Random& random, const Numbers& numbers) {
   }
 }
 
-template <class T>
-void expect_finite(const std::vector<T>& values, const char* name) {
-  const auto odd = std::find_if(values.begin(), values.end(), [](T value) { return !std::isfinite(value); });
+template <class Vector>
+void expect_finite(const Vector& values, const char* name) {
+  const auto odd = std::find_if(values.begin(), values.end(), [](auto value) { return !std::isfinite(value); });
   EXPECT_TRUE(odd == values.end()) << name << " " << *odd;
 }
 
@@ -239,7 +239,7 @@ TEST(any_taps, give_flags_or_finite_numbers) {
     for (int round = 0; round < often(500); ++round) {
       Raw any = raw;
       for (int i = 0; i < 20; ++i) {
-        std::vector<float>& tap = random.below(2) == 0 ? any.tap_a : any.tap_b;
+        Array<float>& tap = random.below(2) == 0 ? any.tap_a : any.tap_b;
         tap[static_cast<std::size_t>(random.below(static_cast<int>(tap.size())))] =
             static_cast<float>(extremes[random.below(static_cast<int>(std::size(extremes)))]);
       }

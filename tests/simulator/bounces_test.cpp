@@ -546,10 +546,10 @@ TEST(bounces, are_limited_by_all_that_they_make) {
 // 64 bounces between walls that lose nothing, lights in walls, nothing to be seen: an end, and numbers.
 TEST(bounces, of_odd_scenes_end_in_numbers) {
   const auto finite = [](const Frame& frame) {
-    for (const std::vector<float>* array : {&frame.truth.signal_e, &frame.truth.indirect_e, &frame.truth.ambient_e_per_s, &frame.raw.tap_a})
-      for (const float value : *array)
-        if (!std::isfinite(value)) return false;
-    return true;
+    const auto all = [](const auto& array) {
+      return std::all_of(array.begin(), array.end(), [](float value) { return std::isfinite(value); });
+    };
+    return all(frame.truth.signal_e) && all(frame.truth.indirect_e) && all(frame.truth.ambient_e_per_s) && all(frame.raw.tap_a);
   };
   Camera camera = lit_camera(8, 8, 10);
   Scene box;

@@ -30,8 +30,8 @@ void add_triangles(const Object& whole, Scene& scene) {
 }
 
 /// How many of the values differ by more than rounding: outlines and shadows' edges.
-template <class T>
-double share_that_differs(const std::vector<T>& a, const std::vector<T>& b, double relative, double absolute) {
+template <class Vector>
+double share_that_differs(const Vector& a, const Vector& b, double relative, double absolute) {
   EXPECT_EQ(a.size(), b.size());
   std::size_t other = 0;
   for (std::size_t i = 0; i < a.size(); ++i) {

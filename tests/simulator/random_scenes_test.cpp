@@ -84,8 +84,9 @@ Case swift_case(int number) {
   return c;
 }
 
-template <class T>
-void same(const std::vector<T>& a, const std::vector<T>& b, const char* name) {
+template <class Vector>
+void same(const Vector& a, const Vector& b, const char* name) {
+  using T = typename Vector::value_type;
   ASSERT_EQ(a.size(), b.size()) << name;
   if (std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0) return;
   std::size_t first = 0, count = 0;

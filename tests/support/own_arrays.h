@@ -90,8 +90,8 @@ void append(std::vector<T>& to, const std::vector<T>& from) {
 }
 
 /// Image k of several.
-template <class T>
-std::vector<T> image(const std::vector<T>& array, std::size_t pixels, std::size_t k) {
+template <class Vector>
+std::vector<typename Vector::value_type> image(const Vector& array, std::size_t pixels, std::size_t k) {
   const auto at = array.begin() + static_cast<std::ptrdiff_t>(k * pixels);
   return {at, at + static_cast<std::ptrdiff_t>(pixels)};
 }

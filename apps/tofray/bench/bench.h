@@ -12,10 +12,14 @@
 
 namespace tofray::app {
 
+/// Where frames are written: each to the same place, which the caches may hold; or each to another, as who records many does, until far
+/// more memory than caches hold has been gone through.
+enum class Places { same, others };
+
 /// One way to simulate a scene, and how long its frames took.
 class Contender {
  public:
-  Contender(const Inputs& in, const SimulatorOptions& options);
+  Contender(const Inputs& in, const SimulatorOptions& options, Places places = Places::same);
   /// Simulates the next frame; `timed`: into the record.
   void step(bool timed);
   /// The given share of frames took no longer than this [ms].
@@ -34,13 +38,16 @@ class Contender {
  private:
   /// Median time of each stage [ms], from runs of their own.
   [[nodiscard]] files::Json stage_ms();
+  /// The same frames again, each written to another place.
+  [[nodiscard]] files::Json other_places();
+  [[nodiscard]] Frame& place();
 
   Inputs in_;
   std::string scene_;
   SimulatorOptions options_;
   double pixels_;
   Simulator simulator_;
-  Frame frame_;
+  std::vector<Frame> frames_;  ///< as many as are written in turn
   std::uint64_t next_ = 0;
   std::vector<double> ms_;
 };

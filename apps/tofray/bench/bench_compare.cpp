@@ -19,6 +19,7 @@ struct Pair {
   Inputs a_in, b_in;
   SimulatorOptions a, b;
   bool rate = false;  ///< ratio of pixel rates, not of times
+  Places a_places = Places::same, b_places = Places::same;
 };
 
 /// The scene with its first object that is no plane on the move: what moves is traced anew for each raw frame.
@@ -66,6 +67,9 @@ std::vector<Pair> pairs_of(const Options& options, const Inputs& in) {
   pairs.push_back({"time: one object moves / nothing moves", moving(in), in, standard, standard});
   pairs.push_back({fmt::format("pixels per second: 640 x 480 / {} x {}", in.camera.sensor.width, in.camera.sensor.height), enlarged(in), in,
                    standard, standard, true});
+  pairs.push_back({"time: each frame to another place / to the same", in, in, standard, standard, false, Places::others});
+  pairs.push_back({fmt::format("pixels per second, to other places: 640 x 480 / {} x {}", in.camera.sensor.width, in.camera.sensor.height),
+                   enlarged(in), in, standard, standard, true, Places::others, Places::others});
   return pairs;
 }
 
@@ -78,7 +82,7 @@ std::vector<Ratio> compare(const Options& options, const std::string& scene, fil
   std::vector<Ratio> ratios;
   Progress progress(pairs.size() * (frames + options.warmup), "pairs of frames", options.json);
   for (const Pair& pair : pairs) {
-    Contender a(pair.a_in, pair.a), b(pair.b_in, pair.b);
+    Contender a(pair.a_in, pair.a, pair.a_places), b(pair.b_in, pair.b, pair.b_places);
     for (std::uint64_t i = 0; i < frames + options.warmup; ++i) {
       a.step(i >= options.warmup);
       b.step(i >= options.warmup);

@@ -40,10 +40,16 @@ namespace {
 
 using namespace pipeline;
 
+/// What went past the caches is there for all before the piece counts as done.
+TOFRAY_FN void finish(const Work& work) {
+  if (work.job->past_caches != 0) num::finish_stores<F>();
+}
+
 /// Apart, so that the compiler has one of them at a time to find registers for.
 template <bool can_move>
 TOFRAY_APART void run_tile(const Work& work, int index, void* scratch) {
   one_tile<F, can_move>(*work.setup, *work.job, index, scratch);
+  finish(work);
 }
 
 template <class Run>
@@ -58,6 +64,7 @@ TOFRAY_FN void each_pack(const Work& work, int index, const Run& run) {
 void run_input(const Work& work, int index) {
   each_pack(
       work, index, [&](const Pixels& p) __attribute__((always_inline)) { enter<F>(*work.setup, *work.job, *work.input, p); });
+  finish(work);
 }
 void run_bounces(const Work& work, int index) {
   each_pack(
