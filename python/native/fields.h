@@ -128,7 +128,8 @@ TOFRAY_FIELDS(Camera, &Camera::name, &Camera::source, &Camera::sensor, &Camera::
               &Camera::readout_time_s, &Camera::min_integration_time_s, &Camera::power_model, &Camera::mode, &Camera::mode_names)
 
 TOFRAY_FIELDS(Material, &Material::name, &Material::brdf, &Material::diffuse, &Material::specular, &Material::exponent,
-              &Material::roughness_rad, &Material::alpha, &Material::retro, &Material::spread_rad, &Material::map)
+              &Material::roughness_rad, &Material::alpha, &Material::retro, &Material::spread_rad, &Material::map, &Material::normals,
+              &Material::finish)
 TOFRAY_FIELDS(Plane, &Plane::point, &Plane::normal)
 TOFRAY_FIELDS(Sphere, &Sphere::center, &Sphere::radius)
 TOFRAY_FIELDS(Box, &Box::min, &Box::max)

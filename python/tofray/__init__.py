@@ -83,6 +83,7 @@ if TYPE_CHECKING:
         MeshMotion as MeshMotion,
         ReflectivityMap as ReflectivityMap,
         TriangleMesh as TriangleMesh,
+        VectorMap as VectorMap,
     )
     from ._own import (
         Geometry as Geometry,
@@ -114,7 +115,7 @@ _HOME = {
         "Object", "Override", "Pattern", "Pixel", "PixelMask", "Plane", "Pose", "RanOn", "RawFrame", "Rectangle", "Rotation", "Scatter", "Scene",
         "Sensor", "Sphere", "Temperature", "TransientBins", "Transport", "Triangle", "Waveform",
     ),
-    "_native": ("DeviceArray", "DeviceFrames", "MeshMotion", "ReflectivityMap", "TriangleMesh"),
+    "_native": ("DeviceArray", "DeviceFrames", "MeshMotion", "ReflectivityMap", "TriangleMesh", "VectorMap"),
     "_own": ("Geometry", "PixelLight", "Transient"),
     "_simulator": ("Simulator", "camera_pose", "demo", "pixel_rays", "process"),
 }

@@ -28,7 +28,7 @@ from ._record import Record
 if TYPE_CHECKING:
     from typing import Literal
 
-    from ._native import MeshMotion, ReflectivityMap, TriangleMesh
+    from ._native import MeshMotion, ReflectivityMap, TriangleMesh, VectorMap
 '''
 
 
