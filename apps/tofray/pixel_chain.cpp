@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "base/constants.h"
+#include "base/readout.h"
 #include "base/text.h"
 #include "camera/frozen_camera.h"
 #include "depth/decode.h"
@@ -175,14 +176,15 @@ PixelChain pixel_chain(const Arrays& arrays, int u, int v) {
   if (chain.raw_frames.empty()) return chain;
   const bool known = arrays.meta().find("camera") != nullptr;
   const Camera profile = camera_of(arrays, chain);
-  if (static_cast<std::size_t>(profile.sensor.width) != arrays.width() ||
-      static_cast<std::size_t>(profile.sensor.height) != arrays.height() || profile.mode.sequence.size() != chain.raw_frames.size())
+  const Sensor image = base::as_read_out(profile).sensor;
+  if (static_cast<std::size_t>(image.width) != arrays.width() || static_cast<std::size_t>(image.height) != arrays.height() ||
+      profile.mode.sequence.size() != chain.raw_frames.size())
     throw Error(
         ErrorKind::bad_input,
-        fmt::format("{}: error: the camera in meta is not the one of the arrays\n  got a sensor of {} x {} pixels with {} raw frames, "
+        fmt::format("{}: error: the camera in meta is not the one of the arrays\n  got an image of {} x {} pixels with {} raw frames, "
                     "and arrays of {} x {} pixels with {}",
-                    base::printable(arrays.where()), profile.sensor.width, profile.sensor.height, profile.mode.sequence.size(),
-                    arrays.width(), arrays.height(), chain.raw_frames.size()));
+                    base::printable(arrays.where()), image.width, image.height, profile.mode.sequence.size(), arrays.width(),
+                    arrays.height(), chain.raw_frames.size()));
   try {
     if (!known) simulator::check(profile);  // its raw frames come from arrays that anybody can write
     const camera::FrozenCamera frozen(profile, true, 0);

@@ -234,6 +234,23 @@ struct Interference {
   std::optional<double> phase_rad = {};
 };
 
+/// Which of the sensor's pixels are read, and how many of them together (theory 4.8).
+struct Readout {
+  int binning = 1;        ///< n: the charge of n × n neighbours is added before it is read
+  int left = 0, top = 0;  ///< first column and row of the sensor that are read
+  int width = 0;          ///< columns from there on; 0: as far as the sensor goes
+  int height = 0;         ///< rows
+};
+
+/// Integration times that follow the light, from frame to frame (theory 4.9).
+struct AutoExposure {
+  double speed = 0;       ///< 0…1: share of the way to the aim that each frame goes, by the logarithm; 0: the mode's times stay
+  double aim = 0.7;       ///< how far the bright pixels shall go, a share of the valid codes and of the well
+  double bright = 0.99;   ///< which those are: the quantile of all pixels
+  double shortest_s = 0;  ///< longest lit raw frame: no shorter than this; 0: than Camera::min_integration_time_s
+  double longest_s = 0;   ///< … and no longer than this; 0: than the mode has it
+};
+
 /// Light on a pixel: by radiometry (theory 2), or by the formula that the paper prints (equation 2.11).
 enum class PowerModel { tofray, paper_literal };
 
@@ -250,6 +267,8 @@ struct Camera {
   Decoding decoding;
   Temperature temperature;
   Interference interference;
+  Readout readout;
+  AutoExposure auto_exposure;
   double refractive_index = 1.0;
   double readout_time_s = 0;  ///< between the end of one exposure and the start of the next
   double min_integration_time_s = 0;

@@ -294,9 +294,10 @@ py::object process_raw(const py::object& raw, const py::object& camera, const py
 py::array pixel_rays_of(const py::object& camera) {
   Camera one;
   from_python(camera, one, {nullptr, "camera"});
+  const ImageSize size = image_size(one);
   auto* const rays = new std::vector<float>(pixel_rays(one));
   const py::capsule keeper(rays, [](void* at) { delete static_cast<std::vector<float>*>(at); });
-  return view<float>(rays->data(), {one.sensor.height, one.sensor.width, 2}, keeper, true);
+  return view<float>(rays->data(), {size.height, size.width, 2}, keeper, true);
 }
 
 }  // namespace

@@ -982,6 +982,85 @@ class Interference(Record):
         self.phase_rad = phase_rad
 
 
+class Readout(Record):
+    """Which of the sensor's pixels are read, and how many of them together (theory 4.8).
+
+    Attributes
+    ----------
+    binning : int
+        N: the charge of n × n neighbours is added before it is read.
+    left : int
+        First column and row of the sensor that are read.
+    top : int
+        First column and row of the sensor that are read.
+    width : int
+        Columns from there on; 0: as far as the sensor goes.
+    height : int
+        Rows.
+    """
+    __slots__ = ("binning", "left", "top", "width", "height")
+    binning: int
+    left: int
+    top: int
+    width: int
+    height: int
+
+    def __init__(
+        self,
+        *,
+        binning: int = 1,
+        left: int = 0,
+        top: int = 0,
+        width: int = 0,
+        height: int = 0,
+    ) -> None:
+        self.binning = binning
+        self.left = left
+        self.top = top
+        self.width = width
+        self.height = height
+
+
+class AutoExposure(Record):
+    """Integration times that follow the light, from frame to frame (theory 4.9).
+
+    Attributes
+    ----------
+    speed : float
+        0…1: share of the way to the aim that each frame goes, by the logarithm; 0: the mode's times
+        stay.
+    aim : float
+        How far the bright pixels shall go, a share of the valid codes and of the well.
+    bright : float
+        Which those are: the quantile of all pixels.
+    shortest_s : float
+        Longest lit raw frame: no shorter than this; 0: than Camera::min_integration_time_s.
+    longest_s : float
+        … and no longer than this; 0: than the mode has it.
+    """
+    __slots__ = ("speed", "aim", "bright", "shortest_s", "longest_s")
+    speed: float
+    aim: float
+    bright: float
+    shortest_s: float
+    longest_s: float
+
+    def __init__(
+        self,
+        *,
+        speed: float = 0.0,
+        aim: float = 0.7,
+        bright: float = 0.99,
+        shortest_s: float = 0.0,
+        longest_s: float = 0.0,
+    ) -> None:
+        self.speed = speed
+        self.aim = aim
+        self.bright = bright
+        self.shortest_s = shortest_s
+        self.longest_s = longest_s
+
+
 class Camera(Record):
     """A camera in one of its modes: lens, light sources, pixel, ADC, the sequence of raw frames, and
     how they are decoded.
@@ -1000,6 +1079,8 @@ class Camera(Record):
     decoding : Decoding
     temperature : Temperature
     interference : Interference
+    readout : Readout
+    auto_exposure : AutoExposure
     refractive_index : float
     readout_time_s : float
         Between the end of one exposure and the start of the next.
@@ -1011,7 +1092,8 @@ class Camera(Record):
         All that the profile has.
     """
     __slots__ = ("name", "source", "sensor", "lens", "filter", "illumination", "pixel", "adc", "decoding", "temperature",
-                 "interference", "refractive_index", "readout_time_s", "min_integration_time_s", "power_model", "mode", "mode_names")
+                 "interference", "readout", "auto_exposure", "refractive_index", "readout_time_s", "min_integration_time_s",
+                 "power_model", "mode", "mode_names")
     name: str
     source: str
     sensor: Sensor
@@ -1023,6 +1105,8 @@ class Camera(Record):
     decoding: Decoding
     temperature: Temperature
     interference: Interference
+    readout: Readout
+    auto_exposure: AutoExposure
     refractive_index: float
     readout_time_s: float
     min_integration_time_s: float
@@ -1044,6 +1128,8 @@ class Camera(Record):
         decoding: Decoding | None = None,
         temperature: Temperature | None = None,
         interference: Interference | None = None,
+        readout: Readout | None = None,
+        auto_exposure: AutoExposure | None = None,
         refractive_index: float = 1.0,
         readout_time_s: float = 0.0,
         min_integration_time_s: float = 0.0,
@@ -1062,6 +1148,8 @@ class Camera(Record):
         self.decoding = Decoding() if decoding is None else decoding
         self.temperature = Temperature() if temperature is None else temperature
         self.interference = Interference() if interference is None else interference
+        self.readout = Readout() if readout is None else readout
+        self.auto_exposure = AutoExposure() if auto_exposure is None else auto_exposure
         self.refractive_index = refractive_index
         self.readout_time_s = readout_time_s
         self.min_integration_time_s = min_integration_time_s
@@ -1911,8 +1999,8 @@ class FrameRequest(Record):
 __all__ = [
     "Curve", "PixelMask", "Sensor", "Scatter", "Lens", "Filter", "Pattern", "Waveform", "Area",
     "Illumination", "Pixel", "Adc", "RawFrame", "Mode", "ImageFilter", "Decoding", "Temperature",
-    "Interference", "Camera", "Material", "Plane", "Sphere", "Box", "Triangle", "Cylinder",
-    "Rectangle", "Disk", "Capsule", "Cone", "Mesh", "Rotation", "Keyframe", "Object", "Ambient",
-    "TransientBins", "Transport", "Pose", "CameraKeyframe", "Override", "CameraChoice", "Scene",
-    "RanOn", "FrameRequest",
+    "Interference", "Readout", "AutoExposure", "Camera", "Material", "Plane", "Sphere", "Box",
+    "Triangle", "Cylinder", "Rectangle", "Disk", "Capsule", "Cone", "Mesh", "Rotation", "Keyframe",
+    "Object", "Ambient", "TransientBins", "Transport", "Pose", "CameraKeyframe", "Override",
+    "CameraChoice", "Scene", "RanOn", "FrameRequest",
 ]

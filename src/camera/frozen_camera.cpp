@@ -10,6 +10,7 @@
 #include "base/curve.h"
 #include "base/faults.h"
 #include "base/limits.h"
+#include "base/readout.h"
 #include "camera/emitters.h"
 #include "camera/other_camera.h"
 #include "camera/read_curve.h"
@@ -29,9 +30,12 @@ static_assert(flow::max_lights == limit::lights.value);
 constexpr double ln_2 = 0.69314718055994530942;
 
 FrozenCamera::FrozenCamera(const Camera& camera, bool noise, std::uint64_t seed, int subpixel)
-    : camera_(with_emitters(camera)),
+    : sensor_pixels_(camera.sensor),
+      one_pixel_(camera.pixel),
+      readout_(camera.readout),
+      camera_(with_emitters(base::as_read_out(camera))),
       modulations_(modulations_of(camera.mode)),
-      scatter_(camera.lens.scatter, camera.sensor, camera.pixel) {
+      scatter_(camera_.lens.scatter, camera_.sensor, camera_.pixel) {
   if (camera.mode.sequence.size() > flow::max_raw_frames) throw Error(ErrorKind::limit, "error: more than 64 raw frames in one sequence");
   freeze_lens(subpixel);
   const ClampedCurve efficiency(camera.pixel.quantum_efficiency, "quantum_efficiency");
@@ -139,9 +143,24 @@ void FrozenCamera::freeze_sequence(std::uint64_t seed, bool noise) {
     integration_time_s.push_back(frame.integration_time_s);
   }
   s.frame = raw_frames_.data();
-  s.drifts = camera_.temperature.warm_up_m != 0 || another;
+  s.drifts = camera_.temperature.warm_up_m != 0 || another || camera_.auto_exposure.speed > 0;
   start_ = raw_frame_starts_s(integration_time_s, camera_.readout_time_s);
   freeze_gates(drift_m(0));
+}
+
+void FrozenCamera::set_integration_times(const std::vector<double>& seconds) {
+  double grey_time = 0;
+  for (std::size_t k = 0; k < seconds.size(); ++k) {
+    camera_.mode.sequence[k].integration_time_s = seconds[k];
+    raw_frames_[k].integration_time = single(seconds[k]), raw_frames_[k].dark = single(dark_current() * seconds[k]);
+    if (raw_frames_[k].lit == 0) grey_time += seconds[k];
+  }
+  start_ = raw_frame_starts_s(seconds, camera_.readout_time_s);
+  for (std::size_t i = 0; i < grouped_.size(); ++i) {
+    const double exposed = seconds[static_cast<std::size_t>(grouped_[i].front())];
+    decode_modulations_[i].integration_time = single(exposed);
+    decode_modulations_[i].ambient_scale = single(grey_time > 0 ? exposed / grey_time : 0);
+  }
 }
 
 namespace {
@@ -225,25 +244,41 @@ void FrozenCamera::freeze_read_curve() {
   s.full_read = read_charge(s.read, s.full_well).value;
 }
 
+/// A pattern over the image: of pixels of the specimen, each one its own draw from a stream of the sensor's seed; the mean over those that are
+/// read together.                                                                                               [theory: eq. 4.26]
+std::vector<float> FrozenCamera::pattern(double sigma, double mean, double least, std::uint32_t stream) const {
+  const auto keys =
+      num::round_keys(static_cast<std::uint32_t>(one_pixel_.pattern_seed), static_cast<std::uint32_t>(one_pixel_.pattern_seed >> 32));
+  const auto of_pixel = [&](int x, int y) {
+    const auto words = num::philox<float>(static_cast<std::uint32_t>(y * sensor_pixels_.width + x), stream, 0, 0, keys);
+    float z, other;
+    num::normal_pair<float>(words.w[0], words.w[1], z, other);
+    return std::max(mean + sigma * static_cast<double>(z), least);
+  };
+  const int n = readout_.binning;
+  std::vector<float> map;
+  for (int y = 0; y < camera_.sensor.height; ++y) {
+    for (int x = 0; x < camera_.sensor.width; ++x) {
+      double sum = 0;
+      for (int i = 0; i < n * n; ++i) sum += of_pixel(readout_.left + x * n + i % n, readout_.top + y * n + i / n);
+      map.push_back(single(sum / (n * n)));
+    }
+  }
+  return map;
+}
+
 void FrozenCamera::freeze_patterns() {
-  const Pixel& pixel = camera_.pixel;
+  const Pixel& pixel = one_pixel_;
   const std::size_t pixels = static_cast<std::size_t>(camera_.sensor.width) * static_cast<std::size_t>(camera_.sensor.height);
   constexpr double infinite = std::numeric_limits<double>::infinity();
-  // Each pattern is a stream of its own in the random numbers of the sensor's seed.
   const auto draw = [&](double sigma, double mean, double least, std::uint32_t stream, std::vector<float>& map) -> const float* {
     if (sigma == 0) return nullptr;
-    const num::RoundKeys keys =
-        num::round_keys(static_cast<std::uint32_t>(pixel.pattern_seed), static_cast<std::uint32_t>(pixel.pattern_seed >> 32));
-    for (std::size_t i = 0; i < pixels; ++i) {
-      const auto words = num::philox<float>(static_cast<std::uint32_t>(i), stream, 0, 0, keys);
-      float z, other;
-      num::normal_pair<float>(words.w[0], words.w[1], z, other);
-      map.push_back(single(std::max(mean + sigma * static_cast<double>(z), least)));
-    }
+    map = pattern(sigma, mean, least, stream);
     return map.data();
   };
+  const int together = readout_.binning * readout_.binning;
   sensor_.gain = draw(pixel.prnu, 1, 0, 0x50524e55, gain_);
-  sensor_.offset = draw(pixel.dsnu_dn, 0, -infinite, 0x44534e55, offset_);
+  sensor_.offset = draw(pixel.dsnu_dn * together, 0, -infinite, 0x44534e55, offset_);  // offsets are charge, which adds
   sensor_.delay = draw(pixel.delay_s, 0, -infinite, 0x44454c41, delay_);
   if (pixel.phase_offset_rad == 0 || modulations_.frequency_hz.empty()) return;
   // A phase at one modulation frequency is a delay there.                                                  [theory: eq. 3.17]

@@ -53,6 +53,8 @@ class FrozenCamera {
   /// and seed what is drawn of the latter. Where either is there, a view is good until the next call.
   /// @param seed  of this frame, in place of the camera's
   [[nodiscard]] const SensorView& sensor(double time_s, std::uint64_t index = 0, std::optional<std::uint64_t> seed = {});
+  /// Exposes each raw frame for so long from now on; the views stay where they are.
+  void set_integration_times(const std::vector<double>& seconds);
   /// Start of each raw frame after the start of its frame [s].
   [[nodiscard]] const std::vector<double>& raw_frame_start_s() const { return start_; }
 
@@ -66,13 +68,17 @@ class FrozenCamera {
   void freeze_other_camera(double time_s, std::uint64_t index);
   [[nodiscard]] double drift_m(double time_s) const;
   void freeze_patterns();
+  [[nodiscard]] std::vector<float> pattern(double sigma, double mean, double least, std::uint32_t stream) const;
   void freeze_read_curve();
   [[nodiscard]] double dark_current() const;
   void freeze_decoder(bool noise);
   void freeze_modulations(double grey_time);
   void freeze_without_modulation();
 
-  Camera camera_;
+  Sensor sensor_pixels_;  // the whole sensor, and what is read of it
+  Pixel one_pixel_;
+  Readout readout_;
+  Camera camera_;  // as it is read out
   Modulations modulations_;
   FrozenLens middle_;
   std::vector<FrozenLens> samples_;  // within the pixel

@@ -147,7 +147,10 @@ void FrozenCamera::freeze_decoder(bool noise) {
     const bool suppresses = camera_.pixel.suppression_threshold_e > 0;
     d.grey_dark = single(suppresses ? dark - std::min(above, camera_.pixel.suppression_budget_e) : dark);
   }
-  d.noise_threshold = noise ? single(decoding.noise_threshold_m) : std::numeric_limits<float>::max();
+  // What weighs by 1/σ̂² may have all pixels, however noisy: the noise that it leaves says which are good.
+  const bool after_filter = decoding.filter.kind == ImageFilter::Kind::adaptive;
+  d.noise_threshold = d.filtered_noise_threshold = std::numeric_limits<float>::max();
+  if (noise) (after_filter ? d.filtered_noise_threshold : d.noise_threshold) = single(decoding.noise_threshold_m);
   d.per_confidence_noise = single(1 / decoding.noise_threshold_m);
   d.amplitude_threshold = single(decoding.amplitude_threshold_e);
   d.asymmetry_square = single(decoding.asymmetry_limit_e * decoding.asymmetry_limit_e);

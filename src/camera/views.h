@@ -232,7 +232,8 @@ struct DecoderView {
   float suppression_variance;                       ///< 2κ²: variance of A−B for each electron off both taps
   float dark_rate_both;                             ///< dark electrons per second, both taps together: noise only
   float grey_dark;                                  ///< dark electrons that a tap of an unlit raw frame holds when it is read, the mean
-  float noise_threshold;                            ///< [m]; infinite where noise is off
+  float noise_threshold;                            ///< [m]; infinite where noise is off, or the filter comes first
+  float filtered_noise_threshold;                   ///< [m] of the noise that the adaptive filter left; else infinite
   float amplitude_threshold;                        ///< [e⁻]
   float per_confidence_noise;                       ///< 1/0.07 m
   float asymmetry_square, asymmetry_factor;         ///< square of the limit on |D_k + D_k'| [e²], and of that over V̂: 2k²

@@ -117,9 +117,12 @@ void Modes::choose(std::size_t which, Camera& camera, Filler& filler) const {
   if (modes_.empty()) return;
   camera.mode_names = all.names;
   // That of the profile first: another mode may have been chosen before.
-  camera.decoding = {};
-  filler.fill(root_["decoding"], camera.decoding);
-  filler.fill(all.items[which]["decoding"], camera.decoding);
+  const auto fill = [&](const char* key, auto& record) {
+    record = {};
+    filler.fill(root_[key], record);
+    filler.fill(all.items[which][key], record);
+  };
+  fill("decoding", camera.decoding), fill("readout", camera.readout), fill("auto_exposure", camera.auto_exposure);
   camera.mode = modes_[which].mode;
   filler.remember(all.items[which], camera.mode);
   if (modes_[which].good) check_time(all.items[which], camera);

@@ -19,7 +19,7 @@ using base::pi;
 constexpr auto mask_side = static_cast<int>(base::limit::mask_side.value);
 constexpr auto kernel_side = static_cast<int>(base::limit::kernel_side.value);
 constexpr int scatter_gaussians = 4;
-constexpr int temporal_frames = 32;
+constexpr int temporal_frames = 32, binning = 16;
 // Files say them by the rows themselves; `meta` has the numbers in one list.
 constexpr Number mask_size{none, {1, mask_side}, "2"};
 constexpr Number kernel_size{none, {1, kernel_side}, "3"};
@@ -293,6 +293,32 @@ const Table& table_of<Interference>() {
 }
 
 template <>
+const Table& table_of<Readout>() {
+  constexpr Number side_or_all{none, {0, static_cast<double>(base::limit::sensor_side.value)}, "8"};
+  static const Table rows = table<Readout>(
+      number<&Readout::binning>("binning", {none, {1, binning}, "2"}, "n: charge of n x n pixels is added before it is read"),
+      group("region", "the rectangle of the sensor that is read, in pixels of the sensor",
+            number<&Readout::left>("left", {none, side_or_all.range, "2"}, "its first column"),
+            number<&Readout::top>("top", {none, side_or_all.range, "2"}, "its first row"),
+            number<&Readout::width>("width", side_or_all, "columns; 0: as far as the sensor goes"),
+            number<&Readout::height>("height", side_or_all, "rows; 0: as far as the sensor goes")));
+  return rows;
+}
+
+template <>
+const Table& table_of<AutoExposure>() {
+  static const Table rows = table<AutoExposure>(
+      number<&AutoExposure::speed>("speed", {fraction, {0, 1}, "50 %"}, "of the way to the aim in each frame; 0: integration times stay"),
+      number<&AutoExposure::aim>("aim", {fraction, {0.01, 1}, "70 %"},
+                                 "how much of the valid codes, and of their wells, the bright pixels shall use"),
+      number<&AutoExposure::bright>("bright", {fraction, {0, 1}, "99 %"}, "so many of the pixels are no brighter than those"),
+      number<&AutoExposure::shortest_s>("shortest", {time, {0, 1e3}, "100 us"},
+                                        "lit integration times get no shorter; 0: timing.min_integration_time"),
+      number<&AutoExposure::longest_s>("longest", {time, {0, 1e3}, "2000 us"}, "... and no longer; 0: as the mode has them"));
+  return rows;
+}
+
+template <>
 const Table& table_of<RawFrame>() {
   static const Table rows =
       table<RawFrame>(flag<&RawFrame::lit>("lit", "whether the camera's light is on"),
@@ -333,6 +359,8 @@ const Table& table_of<Camera>() {
                     record<&Camera::decoding>("decoding", "from raw frames to depth"),
                     record<&Camera::temperature>("temperature", "drift of the range"),
                     record<&Camera::interference>("interference", "light of another camera of the same kind, at the same place"),
+                    record<&Camera::readout>("readout", "which pixels of the sensor are read, and how many together"),
+                    record<&Camera::auto_exposure>("auto_exposure", "integration times that follow the light, from frame to frame"),
                     number<&Camera::refractive_index>("refractive_index", {none, {1, 3}, "1.0003"}, "of the medium"),
                     group("timing", "of the readout",
                           number<&Camera::readout_time_s>("readout_time", pause, "from the end of one exposure to the start of the next"),
@@ -353,6 +381,8 @@ const FileForm& camera_form() {
     const auto most = static_cast<int>(base::limit::modes.value);
     Form mode = form_of(table_of<Mode>());
     mode.keys.push_back(absent("decoding", form_of(table_of<Decoding>()), "keys of decoding that this mode has otherwise"));
+    mode.keys.push_back(absent("readout", form_of(table_of<Readout>()), "keys of readout that this mode has otherwise"));
+    mode.keys.push_back(absent("auto_exposure", form_of(table_of<AutoExposure>()), "keys of auto_exposure that this mode has otherwise"));
     file.root.keys.push_back(required("modes", dictionary(mode, 1, most), "the camera's use cases by name; the first is the default"));
     file.root.keys.push_back(absent("mode", text("a mode", "MODE_9_5FPS_2000"), "which of the modes; the first unless given"));
     file.root.keys.push_back(

@@ -35,6 +35,8 @@ void dark_current_stays_one(const Camera& camera, Complaints& complaints) {
 void cameras_make_sense(const Camera& camera, Complaints& complaints) {
   cameras_are_within_the_limits(camera, complaints);
   dark_current_stays_one(camera, complaints);
+  something_is_read(camera, complaints);
+  exposures_fit(camera, complaints);
 }
 
 void what_is_read_rises_with_the_charge(const Pixel& pixel, Complaints& complaints) {

@@ -50,6 +50,10 @@ const Table& table_of<Temperature>();
 template <>
 const Table& table_of<Interference>();
 template <>
+const Table& table_of<Readout>();
+template <>
+const Table& table_of<AutoExposure>();
+template <>
 const Table& table_of<Camera>();
 
 template <>

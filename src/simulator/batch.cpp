@@ -103,14 +103,13 @@ void Simulator::Impl::frames_on_gpus(std::uint64_t count, const Request& request
   }
 }
 
-/// Where depth is that of several frames, one follows the other.
+/// Where a frame hangs on those before, one follows the other.
 void Simulator::Impl::frames_over_time(std::uint64_t count, const Request& request, const Take& take) {
   for (std::uint64_t i = 0; i < count; ++i) {
     const FrameRequest wanted = request(i);
     if (wanted.seed || wanted.pose)
       throw Error(ErrorKind::bad_input,
-                  "error: a mean over frames needs those before, which a request of another seed or pose does not have\n"
-                  "  set decoding.temporal.frames to 1");
+                  "error: " + std::string(needs_earlier()) + ", which a request of another seed or pose does not have");
   }
   for (std::uint64_t i = 0; i < count; ++i) {
     const std::uint64_t index = request(i).index;
@@ -121,7 +120,7 @@ void Simulator::Impl::frames_over_time(std::uint64_t count, const Request& reque
 }
 
 void Simulator::Impl::frames(std::uint64_t count, const Request& request, const Take& take) {
-  if (temporal.on()) {
+  if (needs_earlier() != nullptr) {
     frames_over_time(count, request, take);
     return;
   }
@@ -141,8 +140,8 @@ void Simulator::Impl::frames(std::uint64_t count, const Request& request, const 
 }
 
 void Simulator::Impl::frames_on_device(std::uint64_t count, const Request& request, DeviceFrames::Impl& into) {
-  if (temporal.on())
-    throw Error(ErrorKind::bad_input, "error: frames that stay on the GPU are no mean over frames\n  set decoding.temporal.frames to 1");
+  if (const char* const why = needs_earlier(); why != nullptr)
+    throw Error(ErrorKind::bad_input, "error: " + std::string(why) + ", and frames that stay on the GPU are computed side by side");
   const auto& gpus = engines.gpus();
   const std::string reason = engines.ran_on().fallback_reason;
   if (gpus.empty()) throw backend::gpu::Fault(reason.empty() ? "the processor computes" : reason, false);

@@ -8,6 +8,7 @@
 #include "camera/frozen_camera.h"
 #include "scene/frozen_scene.h"
 #include "simulator/engines.h"
+#include "simulator/exposure.h"
 #include "simulator/temporal.h"
 #include "tofray/simulator.h"
 
@@ -28,7 +29,8 @@ struct Simulator::Impl {
   std::vector<float> filtered;
   Frame scratch;  ///< of a batch on the processor, and the model of one on a GPU
   simulator::Temporal temporal;
-  Frame earlier;  ///< one that a mean over frames needs beside the one that is asked for
+  simulator::Exposure exposure;
+  Frame earlier;  ///< one that a later one needs
   simulator::Engines engines;
 
   Impl(const Scene& scene, const Camera& profile, const SimulatorOptions& wanted);
@@ -42,6 +44,8 @@ struct Simulator::Impl {
   [[nodiscard]] double start_of(std::uint64_t index) const { return static_cast<double>(index) / camera.mode.frame_rate_hz; }
   /// Puts the scene as it was looked at last into a setup.
   void set_scene(pipeline::Setup& to) const;
+  /// Why a frame hangs on earlier ones; null: it stands by itself.
+  [[nodiscard]] const char* needs_earlier() const;
   /// Puts scene and sensor of a frame into `setup` and `job`.
   void set_frame(const FrameRequest& request);
   /// Its sensor alone.
@@ -50,6 +54,9 @@ struct Simulator::Impl {
  private:
   /// A frame by itself.
   void compute(std::uint64_t index, const pipeline::Input* input, const SimulatorOptions& with, const Transport& transport, Frame& into);
+  /// Computes the frames before, as far as the exposures of this one are not known without them.
+  void find_exposures(std::uint64_t index);
+  void set_exposures(std::uint64_t index);
   [[nodiscard]] bool stopped() const { return options.progress != nullptr && options.progress->stop; }
   void frames_over_time(std::uint64_t count, const Request& request, const Take& take);
   /// What does not change from frame to frame.

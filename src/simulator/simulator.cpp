@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "base/constants.h"
+#include "base/readout.h"
 #include "camera/emitters.h"
 #include "scene/ambient.h"
 #include "simulator/check.h"
@@ -52,8 +53,9 @@ const Scene& checked(const Scene& scene, const Camera& camera, const SimulatorOp
   simulator::check(camera);
   simulator::check_moving_views(scene, camera::with_emitters(camera), options);
   simulator::check_changing_triangles(scene, camera, options);
-  simulator::check_light_image(scene, camera, options);
-  simulator::check_transient(scene, camera);
+  const Camera image = base::as_read_out(camera);
+  simulator::check_light_image(scene, image, options);
+  simulator::check_transient(scene, image);
   return scene;
 }
 
@@ -61,13 +63,14 @@ const Scene& checked(const Scene& scene, const Camera& camera, const SimulatorOp
 
 Simulator::Impl::Impl(const Scene& all, const Camera& profile, const SimulatorOptions& wanted)
     : scene(checked(all, profile, wanted)),
-      camera(camera::with_emitters(profile)),
+      camera(camera::with_emitters(base::as_read_out(profile))),
       options(wanted),
-      frozen_camera(camera, wanted.noise != Noise::off, wanted.seed, wanted.subpixel),
+      frozen_camera(profile, wanted.noise != Noise::off, wanted.seed, wanted.subpixel),
       frozen_scene(scene, positions(camera), static_cast<int>(camera.mode.sequence.size()) * options.exposure_samples,
                    scene.transport.bounces > 0),
       setup(fixed_setup()),
       temporal(camera, options.last_stage),
+      exposure(camera, options.last_stage),
       engines(options, setup) {
   simulator::set_filter(camera.decoding.filter, job);
   filtered.resize(simulator::filter_scratch(job, setup));
@@ -105,8 +108,8 @@ scene::Times Simulator::Impl::times_from(double start) const {
   scene::Times out;
   const int samples = frozen_scene.moves() ? options.exposure_samples : 1;
   for (std::size_t k = 0; k < camera.mode.sequence.size(); ++k) {
-    const double begin = start + frozen_camera.raw_frame_start_s()[k], exposure = camera.mode.sequence[k].integration_time_s;
-    for (int i = 0; i < samples; ++i) out.moments.push_back(begin + (i + 0.5) / samples * exposure);
+    const double begin = start + frozen_camera.raw_frame_start_s()[k], exposed = camera.mode.sequence[k].integration_time_s;
+    for (int i = 0; i < samples; ++i) out.moments.push_back(begin + (i + 0.5) / samples * exposed);
   }
   // That of the middle of the middle raw frame, as pipeline::moment_of has it.
   const auto middle = camera.mode.sequence.size() / 2 * static_cast<std::size_t>(samples) + static_cast<std::size_t>(samples / 2);
@@ -132,13 +135,14 @@ void Simulator::Impl::set_sensor(const FrameRequest& request) {
 
 void Simulator::Impl::frame(std::uint64_t index, const pipeline::Input* input, Frame& into) {
   const Transport& transport = input == nullptr ? scene.transport : no_transport;
+  if (const char* const why = needs_earlier(); why != nullptr && input != nullptr)
+    throw Error(ErrorKind::bad_input, "error: " + std::string(why) + ", and arrays of one's own are one frame");
+  find_exposures(index);
+  if (stopped()) return;
   if (!temporal.on()) {
     compute(index, input, options, transport, into);
     return;
   }
-  if (input != nullptr)
-    throw Error(ErrorKind::bad_input,
-                "error: a mean over frames needs those before, and arrays of one's own are one frame\n  set decoding.temporal.frames to 1");
   // Frame i is the same whatever was computed before it: what is not at hand of the frames before is computed once more.
   SimulatorOptions bare = options;
   bare.truth = false;
@@ -153,8 +157,29 @@ void Simulator::Impl::frame(std::uint64_t index, const pipeline::Input* input, F
   temporal.settle(index, setup, job);
 }
 
+const char* Simulator::Impl::needs_earlier() const {
+  if (temporal.on()) return "a mean over frames (decoding.temporal.frames) needs those before";
+  if (exposure.on()) return "exposures that follow the light (auto_exposure.speed) need the frames before";
+  return nullptr;
+}
+
+/// Frame i is the same whatever was computed before it: all begin with frame 0.
+void Simulator::Impl::find_exposures(std::uint64_t index) {
+  exposure.check(index);
+  SimulatorOptions bare = options;
+  bare.truth = false;
+  while (exposure.on() && exposure.known() <= index && !stopped()) compute(exposure.known() - 1, nullptr, bare, no_transport, earlier);
+}
+
+void Simulator::Impl::set_exposures(std::uint64_t index) {
+  const std::vector<double> times = exposure.times_of(index);
+  frozen_camera.set_integration_times(times);
+  for (std::size_t k = 0; k < times.size(); ++k) camera.mode.sequence[k].integration_time_s = times[k];
+}
+
 void Simulator::Impl::compute(std::uint64_t index, const pipeline::Input* input, const SimulatorOptions& with, const Transport& transport,
                               Frame& into) {
+  if (exposure.on()) set_exposures(index);
   into.index = index;
   simulator::prepare(into, camera, with, transport);
   const double start = start_of(index);
@@ -171,6 +196,8 @@ void Simulator::Impl::compute(std::uint64_t index, const pipeline::Input* input,
     if (!engine.derives()) frozen_scene.derive();
     engine.run(setup, job, input);
   });
+  if (exposure.on() && exposure.known() == index + 1 && !stopped())
+    exposure.follow(setup.sensor, job.out, static_cast<std::size_t>(setup.lens.width) * static_cast<std::size_t>(setup.lens.height));
 }
 
 Simulator::Simulator(const Scene& scene, const Camera& camera, const SimulatorOptions& options)

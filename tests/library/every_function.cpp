@@ -43,6 +43,8 @@ void own_arrays(tofray::Simulator& simulator, const tofray::Camera& camera, cons
   simulator.frame(0, by_length, again);
   expect(simulator.frame(0, by_length).raw.raw == again.raw.raw, "light by path length");
   expect(tofray::pixel_rays(camera).size() == 2 * light.power_w.size(), "pixel_rays");
+  const tofray::ImageSize image = tofray::image_size(camera);
+  expect(image.width == seen.width && image.height == seen.height, "image_size");
 }
 
 tofray::Scene wall() {

@@ -78,6 +78,7 @@ void pack_own(const Resident& resident, Own own, const pipeline::Setup& from, Pa
   to.scene = resident.setup.scene;
   if (own == Own::number) return;
   pack_raw_frames(packer, from, to.sensor);
+  pack_exposures(packer, resident.modulations, from.decoder, to.decoder);
   if (!derives(own, from.scene)) return;
   to.scene.camera = from.scene.camera;
   pack_motion(packer, from.scene, to.scene);
