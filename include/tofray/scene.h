@@ -29,7 +29,7 @@ struct ReflectivityMap {
 /// A picture of three numbers, which its user gives a meaning. Otherwise as a ReflectivityMap.
 struct VectorMap {
   int width = 0, height = 0;
-  std::vector<std::array<float, 3>> values;  ///< [height][width]
+  std::vector<std::array<float, 3>> values;                                                              ///< [height][width]
   ReflectivityMap::Wrap wrap_u = ReflectivityMap::Wrap::repeat, wrap_v = ReflectivityMap::Wrap::repeat;  ///< beyond 0…1
 };
 

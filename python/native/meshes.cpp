@@ -187,8 +187,7 @@ void bind_mesh(py::module_& module) {
              };
              return py::make_tuple(py::type::of(self),
                                    py::make_tuple(kept("vertices", true), kept("triangles", true), kept("normals", !mesh.normals.empty()),
-                                                  kept("texcoords", !mesh.texcoords.empty()),
-                                                  kept("shades", !mesh.shades.empty())));
+                                                  kept("texcoords", !mesh.texcoords.empty()), kept("shades", !mesh.shades.empty())));
            })
       .def("__deepcopy__", [](py::object self, const py::object&) { return self; });
 }
@@ -213,8 +212,8 @@ void bind_map(py::module_& module, const char* name) {
              return self.values == is.values && self.width == is.width && self.wrap_u == is.wrap_u && self.wrap_v == is.wrap_v;
            })
       .def("__hash__", [](const Map& self) { return py::hash(py::make_tuple(self.width, self.height)); })
-      .def("__repr__",
-           [name = std::string(name)](const Map& self) { return name + "(" + std::to_string(self.width) + " x " + std::to_string(self.height) + ")"; })
+      .def("__repr__", [name = std::string(name)](
+                           const Map& self) { return name + "(" + std::to_string(self.width) + " x " + std::to_string(self.height) + ")"; })
       .def("__reduce__",
            [](py::object self) {
              return py::make_tuple(py::type::of(self),

@@ -11,7 +11,7 @@ from ._record import Record
 if TYPE_CHECKING:
     from typing import Literal
 
-    from ._native import MeshMotion, ReflectivityMap, TriangleMesh
+    from ._native import MeshMotion, ReflectivityMap, TriangleMesh, VectorMap
 
 
 class Curve(Record):
@@ -1185,8 +1185,17 @@ class Material(Record):
         left.
     map : ReflectivityMap | None
         Scales `diffuse` from place to place; none: it is the same everywhere.
+    normals : VectorMap | None
+        How a mesh's normal leans from place to place: its parts along growing u, against growing v,
+        and along the normal that the mesh has, −1…1, the last one above 0, of length 0.5…1.5. None:
+        it does not.
+    finish : VectorMap | None
+        GGX, of a mesh: k_d, F_0 and α from place to place, in place of `diffuse`, `specular` and
+        `alpha`, which then are a mean for those who look; `map` scales k_d, too. None: they are the
+        same everywhere.
     """
-    __slots__ = ("name", "brdf", "diffuse", "specular", "exponent", "roughness_rad", "alpha", "retro", "spread_rad", "map")
+    __slots__ = ("name", "brdf", "diffuse", "specular", "exponent", "roughness_rad", "alpha", "retro", "spread_rad", "map", "normals",
+                 "finish")
     name: str
     brdf: Literal["lambert", "phong", "oren_nayar", "ggx", "retro"]
     diffuse: float
@@ -1197,6 +1206,8 @@ class Material(Record):
     retro: float
     spread_rad: float
     map: ReflectivityMap | None
+    normals: VectorMap | None
+    finish: VectorMap | None
 
     def __init__(
         self,
@@ -1211,6 +1222,8 @@ class Material(Record):
         retro: float = 0.0,
         spread_rad: float = 0.01,
         map: ReflectivityMap | None = None,
+        normals: VectorMap | None = None,
+        finish: VectorMap | None = None,
     ) -> None:
         self.name = name
         self.brdf = brdf
@@ -1222,6 +1235,8 @@ class Material(Record):
         self.retro = retro
         self.spread_rad = spread_rad
         self.map = map
+        self.normals = normals
+        self.finish = finish
 
 
 class Plane(Record):

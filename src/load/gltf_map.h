@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include <array>
+#include <cstddef>
 #include <memory>
 #include <string>
 
@@ -25,17 +26,19 @@ bool lies_there(const gltf::TextureUse& use, const gltf::TextureUse& coordinates
 
 /// A material's picture of how normals lean, of unit length: 2c − 1 of red, green and blue c, the first two times its scale, the last one
 /// 0.001 at least.
+/// @param most  texels that it may have: larger pictures are reduced by means
 /// @return null where the picture is grey
 /// @throws Error as image::read
-std::shared_ptr<VectorMap> normals_of(const gltf::Model& model, const gltf::Material& material, const std::string& path);
+std::shared_ptr<VectorMap> normals_of(const gltf::Model& model, const gltf::Material& material, std::size_t most, const std::string& path);
 
 /// Metal m (blue) and roughness r (green) of a material's picture times its factors, base colour of luminance ρ of its other picture, as
 /// k_d = (1 − m)·ρ, F_0 = F·(1 − m) + m·ρ, α = r². The smaller picture is interpolated between the texels of the larger.
 /// @param color  of the base
 /// @param matt   F
+/// @param most   as of normals_of()
 /// @throws Error as image::read
 std::shared_ptr<VectorMap> finish_of(const gltf::Model& model, const gltf::Material& material, const std::array<double, 3>& color,
-                                     double matt, const std::string& path);
+                                     double matt, std::size_t most, const std::string& path);
 
 /// Texture coordinates as the material's picture takes them (KHR_texture_transform).
 std::array<float, 2> placed(const gltf::TextureUse& use, const std::array<float, 2>& texcoord);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "base/limits.h"
 #include "base/text.h"
 #include "base/vec.h"
 #include "image/read_image.h"
@@ -107,8 +108,10 @@ GltfMaterials::Means GltfMaterials::means(const gltf::TextureUse& use) {
   return known->second;
 }
 
-void GltfMaterials::count(int width, int height, int numbers) {
-  for (int i = 0; i < numbers; ++i) count_texels(width, height, place_, texels_);
+std::size_t GltfMaterials::most_texels() const {
+  constexpr std::size_t numbers = 3 + 5, largest = std::size_t{1} << 22;
+  const std::size_t materials = std::max<std::size_t>(model_.materials.size(), 1);
+  return std::min(largest, static_cast<std::size_t>(base::limit::map_pixels.value) / (numbers * materials));
 }
 
 void GltfMaterials::guess(const gltf::Material& of, const std::array<double, 3>& color, const std::array<double, 3>& mean_color,
@@ -126,15 +129,13 @@ void GltfMaterials::guess(const gltf::Material& of, const std::array<double, 3>&
     brightest *= 0.5, mean *= 0.5;  // nobody knows where on the picture its triangles are
   } else if (has_base) {
     picture = map_of(model_, of, color, path_);
-    count(picture.map->width, picture.map->height, 1);
+    count_texels(picture.map->width, picture.map->height, place_, texels_);
     mean *= brightest > 0 ? picture.mean / brightest : 1;
     brightest = picture.brightest;
   }
   out.material = finish(of, metal, roughness, brightest, mean);
   if (has_finish && has_texcoords && lies_there(of_finish, *coordinates_of(of))) {
-    auto map = finish_of(model_, of, color, dielectric(of), path_);
-    count(map->width, map->height, 5);
-    out.material.finish = std::move(map);
+    out.material.finish = finish_of(model_, of, color, dielectric(of), most_texels(), path_);
     return;
   }
   out.mean_finish = has_finish;
@@ -145,10 +146,8 @@ void GltfMaterials::lean(const gltf::Material& of, bool has_texcoords, FileMater
   const gltf::TextureUse& use = of.normal_texture;
   if (use.texture == gltf::none || of.unlit) return;
   std::shared_ptr<VectorMap> map;
-  if (has_texcoords && lies_there(use, *coordinates_of(of))) map = normals_of(model_, of, path_);
+  if (has_texcoords && lies_there(use, *coordinates_of(of))) map = normals_of(model_, of, most_texels(), path_);
   out.lost_normals = map == nullptr;
-  if (map == nullptr) return;
-  count(map->width, map->height, 3);
   out.material.normals = std::move(map);
 }
 

@@ -70,7 +70,9 @@ class GltfMaterials {
   void guess(const gltf::Material& of, const std::array<double, 3>& color, const std::array<double, 3>& mean, bool has_texcoords,
              FileMaterial& out);
   void lean(const gltf::Material& of, bool has_texcoords, FileMaterial& out);
-  void count(int width, int height, int numbers);
+  /// So many texels each picture of normals and of metal and roughness may have, so that those of all materials take no more memory than
+  /// other pictures may.
+  [[nodiscard]] std::size_t most_texels() const;
   [[nodiscard]] const Material& named(std::size_t index) const;
 
   const gltf::Model& model_;

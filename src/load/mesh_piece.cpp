@@ -27,10 +27,10 @@ void count_texels(int width, int height, const base::Place& place, std::size_t& 
 }
 
 void count_pictures(const Material& material, const base::Place& place, std::size_t& texels) {
-  const auto count = [&](const auto& map, int numbers) {
-    for (int i = 0; map != nullptr && i < numbers; ++i) count_texels(map->width, map->height, place, texels);
+  const auto count = [&](const auto& map) {
+    if (map != nullptr) count_texels(map->width, map->height, place, texels);
   };
-  count(material.map, 1), count(material.normals, 3), count(material.finish, 5);
+  count(material.map), count(material.normals), count(material.finish);
 }
 
 std::vector<std::string> notices_of(const std::vector<const FileMaterial*>& materials) {

@@ -65,7 +65,8 @@ class Divider {
       to.reserve(used_.size());
       for (const std::int32_t i : used_) to.push_back(rows[static_cast<std::size_t>(i)]);
     };
-    take(mesh_.vertices, out.vertices), take(mesh_.normals, out.normals), take(mesh_.texcoords, out.texcoords), take(mesh_.shades, out.shades);
+    take(mesh_.vertices, out.vertices), take(mesh_.normals, out.normals), take(mesh_.texcoords, out.texcoords),
+        take(mesh_.shades, out.shades);
     for (const std::int32_t i : used_) place_[static_cast<std::size_t>(i)] = -1;
     return out;
   }

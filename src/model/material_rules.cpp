@@ -58,7 +58,8 @@ void check_normals(const VectorMap& map, const Complain& complain) {
 template <class Complain>
 void check_finish(const Material& material, const Complain& complain) {
   const VectorMap& map = *material.finish;
-  if (material.brdf != Material::Brdf::ggx) return complain("the material has a map of its finish", "expected the brdf ggx, or no such map");
+  if (material.brdf != Material::Brdf::ggx)
+    return complain("the material has a map of its finish", "expected the brdf ggx, or no such map");
   if (!has_its_size(map, "map of the finish", complain)) return;
   const auto is_share = [](float a) { return a >= 0 && a <= 1; };
   const auto bad = std::find_if(map.values.begin(), map.values.end(), [&](const std::array<float, 3>& of) {

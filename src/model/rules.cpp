@@ -198,9 +198,9 @@ namespace {
 template <class Complain>
 void check_shades(const TriangleMesh& mesh, const Complain& complain) {
   if (!mesh.shades.empty() && mesh.shades.size() != mesh.vertices.size())
-    return complain("the mesh has not as many shades as vertices",
-                    "got " + std::to_string(mesh.shades.size()) + " for " + std::to_string(mesh.vertices.size()) +
-                        " vertices; expected none, or one for each");
+    return complain("the mesh has not as many shades as vertices", "got " + std::to_string(mesh.shades.size()) + " for " +
+                                                                       std::to_string(mesh.vertices.size()) +
+                                                                       " vertices; expected none, or one for each");
   for (std::size_t i = 0; i < mesh.shades.size(); ++i)
     if (!(mesh.shades[i] >= 0 && mesh.shades[i] <= 1))
       return complain("the shade of vertex " + std::to_string(i) + " of the mesh is out of range",

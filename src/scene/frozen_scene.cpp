@@ -104,15 +104,15 @@ void FrozenScene::add_materials(const std::vector<Material>& materials) {
   for (const Material& material : materials) {
     brdf::MaterialView& view = materials_.emplace_back(brdf::view_of(material));
     if (view.brdf != 0) view_.any_other_brdf = 1;
-    if (material.map != nullptr) view.map = number_of_maps(material.map.get(), [&] {
-      Levels one;
-      one.push_back(std::make_unique<MapLevels>(*material.map));
-      return one;
-    });
+    if (material.map != nullptr)
+      view.map = number_of_maps(material.map.get(), [&] {
+        Levels one;
+        one.push_back(std::make_unique<MapLevels>(*material.map));
+        return one;
+      });
     if (material.normals != nullptr)
       view.normals = number_of_maps(material.normals.get(), [&] { return levels_of_normals(*material.normals); });
-    if (material.finish != nullptr)
-      view.finish = number_of_maps(material.finish.get(), [&] { return levels_of_finish(*material.finish); });
+    if (material.finish != nullptr) view.finish = number_of_maps(material.finish.get(), [&] { return levels_of_finish(*material.finish); });
   }
   // Facet 0 has a material even where there is nothing to be seen.
   if (materials_.empty()) materials_.emplace_back();

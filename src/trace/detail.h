@@ -11,7 +11,8 @@ namespace tofray::trace {
 /// does at the rim of a coarse ball, it is turned back until it does not.
 /// @param of  whose side of the triangle counts: n, or what n leans away from
 template <class F>
-TOFRAY_FN void face_as_shaded(const shape::Direction<F>& n, const shape::Direction<F>& of, Mask<F> its, const Ray<F>& ray, Surface<F>& out) {
+TOFRAY_FN void face_as_shaded(const shape::Direction<F>& n, const shape::Direction<F>& of, Mask<F> its, const Ray<F>& ray,
+                              Surface<F>& out) {
   const auto known = its & (flow::square_of(n.x, n.y, n.z) > F(0.25f));
   const F side = num::fma(of.x, out.nx, num::fma(of.y, out.ny, of.z * out.nz));
   const F sign = num::select(side < F(0.0f), F(-1.0f), F(1.0f)), per = ray.inverse_length;

@@ -30,7 +30,8 @@ std::string corner_gltf(const std::string& buffer, const std::string& image) {
 "bufferViews": [{"buffer": 0, "byteLength": 36}, {"buffer": 0, "byteOffset": 36, "byteLength": 24}],
 "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3", "min": [0, 0, 0], "max": [1, 1, 0]},
 {"bufferView": 1, "componentType": 5126, "count": 3, "type": "VEC2"}],
-"images": [{"uri": )" + quoted(image) + R"(}], "textures": [{"source": 0}],
+"images": [{"uri": )" +
+         quoted(image) + R"(}], "textures": [{"source": 0}],
 "materials": [{"pbrMetallicRoughness": {"baseColorTexture": {"index": 0}}}],
 "meshes": [{"primitives": [{"attributes": {"POSITION": 0, "TEXCOORD_0": 1}, "material": 0}]}], "nodes": [{"mesh": 0}]})";
 }
@@ -38,9 +39,9 @@ std::string corner_gltf(const std::string& buffer, const std::string& image) {
 /// One place where a file names another, and what lies there that nobody may read.
 struct Naming {
   const char* what;
-  std::string file;    ///< the name of a good one
-  std::string good;    ///< its bytes
-  std::string scene;   ///< the scene's mesh
+  std::string file;                                      ///< the name of a good one
+  std::string good;                                      ///< its bytes
+  std::string scene;                                     ///< the scene's mesh
   std::function<std::string(const std::string&)> namer;  ///< the file `namer_file` that names it
   std::string namer_file;
 };
@@ -48,16 +49,15 @@ struct Naming {
 std::vector<Naming> all_namings() {
   const std::string png = image_test::hand_png(1, 1, 8, image_test::rgb, std::string("\0\x80\x80\x80", 4));
   const auto scene = [](const std::string& mesh) { return "objects: [{mesh: {file: " + quoted(mesh) + "}}]\n"; };
-  return {
-      {"the mesh of a scene", "good.obj", corner_obj, "", [](const std::string& name) {
-         return "objects: [{mesh: {file: " + quoted(name) + ", reflectivity: 0.5}}]\n";
-       }, "scene.yaml"},
-      {"a buffer of glTF", "good.bin", corner_bytes(), scene("a.gltf"), [](const std::string& name) { return corner_gltf(name, "own.png"); },
-       "a.gltf"},
-      {"an image of glTF", "good.png", png, scene("a.gltf"), [](const std::string& name) { return corner_gltf("own.bin", name); }, "a.gltf"},
-      {"mtllib", "good.mtl", "newmtl a\nKd 1 1 1\n", scene("a.obj"),
-       [](const std::string& name) { return "mtllib " + name + "\nusemtl a\n" + corner_obj; }, "a.obj"},
-      {"map_Kd", "good.png", png, scene("b.obj"), [](const std::string& name) { return "newmtl a\nmap_Kd " + name + "\n"; }, "b.mtl"}};
+  return {{"the mesh of a scene", "good.obj", corner_obj, "",
+           [](const std::string& name) { return "objects: [{mesh: {file: " + quoted(name) + ", reflectivity: 0.5}}]\n"; }, "scene.yaml"},
+          {"a buffer of glTF", "good.bin", corner_bytes(), scene("a.gltf"),
+           [](const std::string& name) { return corner_gltf(name, "own.png"); }, "a.gltf"},
+          {"an image of glTF", "good.png", png, scene("a.gltf"), [](const std::string& name) { return corner_gltf("own.bin", name); },
+           "a.gltf"},
+          {"mtllib", "good.mtl", "newmtl a\nKd 1 1 1\n", scene("a.obj"),
+           [](const std::string& name) { return "mtllib " + name + "\nusemtl a\n" + corner_obj; }, "a.obj"},
+          {"map_Kd", "good.png", png, scene("b.obj"), [](const std::string& name) { return "newmtl a\nmap_Kd " + name + "\n"; }, "b.mtl"}};
 }
 
 class references : public testing::Test {
@@ -88,14 +88,36 @@ class references : public testing::Test {
 
   [[nodiscard]] std::vector<std::string> escapes(const Naming& one) const {
     const std::string out = outside(one), end = suffix(one);
-    std::vector<std::string> names = {"../" + out, "below/../../" + out, "below/./../../" + out, "./../" + out, "link" + end, "up/" + out,
-                                      "up/inside/" + one.file, (top_.path() / out).string(), (in() / one.file).string(),
-                                      "../inside-too/" + out, "pipe" + end, "folder" + end, "/dev/zero" + end, one.file + "/",
-                                      std::string("good\0", 5) + end, one.file + std::string(1, '\0'), std::string(1, '\0') + one.file,
-                                      "..", ".", "below", "/", "//", "/dev/zero", "/dev/stdin", "/etc/passwd", "/proc/self/environ"};
-    for (const char* const before : {"file:",  "file://", "file:///", "http://", "https://", "ftp://", "//server/", "\\\\server\\", "C:\\",
-                                     "~/",     "~root/",  "$HOME/",   "${HOME}/", "`pwd`/",  "$(pwd)/", "%2e%2e/", "%2e%2e%2f", "..%2f",
-                                     "%2E./",  "....//",  "..\\",     "/proc/self/root/", "/proc/self/cwd/", "../inside/../"})
+    std::vector<std::string> names = {"../" + out,
+                                      "below/../../" + out,
+                                      "below/./../../" + out,
+                                      "./../" + out,
+                                      "link" + end,
+                                      "up/" + out,
+                                      "up/inside/" + one.file,
+                                      (top_.path() / out).string(),
+                                      (in() / one.file).string(),
+                                      "../inside-too/" + out,
+                                      "pipe" + end,
+                                      "folder" + end,
+                                      "/dev/zero" + end,
+                                      one.file + "/",
+                                      std::string("good\0", 5) + end,
+                                      one.file + std::string(1, '\0'),
+                                      std::string(1, '\0') + one.file,
+                                      "..",
+                                      ".",
+                                      "below",
+                                      "/",
+                                      "//",
+                                      "/dev/zero",
+                                      "/dev/stdin",
+                                      "/etc/passwd",
+                                      "/proc/self/environ"};
+    for (const char* const before :
+         {"file:",     "file://", "file:///", "http://", "https://", "ftp://",           "//server/",       "\\\\server\\",
+          "C:\\",      "~/",      "~root/",   "$HOME/",  "${HOME}/", "`pwd`/",           "$(pwd)/",         "%2e%2e/",
+          "%2e%2e%2f", "..%2f",   "%2E./",    "....//",  "..\\",     "/proc/self/root/", "/proc/self/cwd/", "../inside/../"})
       for (const std::string& file : {out, "../" + out}) names.push_back(before + file);
     return names;
   }
@@ -163,7 +185,8 @@ TEST_F(references, that_lead_elsewhere_open_nothing_there) {
   const Naming first = all_namings()[0];
   lay_out(first);
   write_scene(first, first.file);
-  if (!has(opened("scene.yaml"), "<" + (fs::canonical(in()) / first.file).string() + ">")) GTEST_SKIP() << "no strace here, or it may not trace";
+  if (!has(opened("scene.yaml"), "<" + (fs::canonical(in()) / first.file).string() + ">"))
+    GTEST_SKIP() << "no strace here, or it may not trace";
   const std::string top = fs::canonical(top_.path()).string(), within = top + "/inside/";
   for (const Naming& one : all_namings()) {
     lay_out(one);
@@ -178,7 +201,8 @@ TEST_F(references, that_lead_elsewhere_open_nothing_there) {
         const std::size_t from = log.find('<', at), end = log.find('\n', at);
         if (from >= end) continue;
         const std::string file = log.substr(from + 1, log.find('>', from) - from - 1);
-        EXPECT_FALSE(file.starts_with(top + "/outside") || file.starts_with(top + "/inside-too")) << one.what << ": " << name << " " << file;
+        EXPECT_FALSE(file.starts_with(top + "/outside") || file.starts_with(top + "/inside-too"))
+            << one.what << ": " << name << " " << file;
         EXPECT_TRUE(file != "/etc/passwd" && file != "/dev/zero") << one.what << ": " << name;
       }
     }

@@ -27,7 +27,9 @@ class vertex_colors : public testing::Test {
   [[nodiscard]] Scene scene(const std::string& keys) const {
     return load::scene_from_text("objects:\n  - mesh: {" + keys + "}\n", (folder_.path() / "s.yaml").string());
   }
-  [[nodiscard]] std::string refused(const std::string& keys) const { return out_test::error_of([&] { (void)scene(keys); }).what(); }
+  [[nodiscard]] std::string refused(const std::string& keys) const {
+    return out_test::error_of([&] { (void)scene(keys); }).what();
+  }
   static const Mesh& mesh(const Scene& scene, std::size_t object = 0) { return std::get<Mesh>(scene.objects.at(object).shape); }
   static void expect_shades(const Scene& scene, const std::vector<double>& expected, std::size_t object = 0) {
     const std::vector<float>& got = mesh(scene, object).triangles->shades;
@@ -83,8 +85,7 @@ TEST_F(vertex_colors, are_needed_where_nothing_says_a_material) {
 
 // A weight may stand before them. Vertices without are white, also those that come before; those that become several keep theirs.
 TEST_F(vertex_colors, of_an_obj_file_follow_its_vertices) {
-  save("a.obj",
-       "v 0 0 0\nv 1 0 0 0.5 0 1 0\nv 0 1 0 0 0 1\nv nan 0 0 1 1 1\nvt 0 0\nvt 1 1\nf 1/1 2/1 3/1\nf 1/1 2/2 3/2\n");
+  save("a.obj", "v 0 0 0\nv 1 0 0 0.5 0 1 0\nv 0 1 0 0 0 1\nv nan 0 0 1 1 1\nvt 0 0\nvt 1 1\nf 1/1 2/1 3/1\nf 1/1 2/2 3/2\n");
   const Scene got = scene("file: a.obj");
   EXPECT_EQ(got.objects.at(0).name, "a/no material");
   EXPECT_EQ(got.materials.at(0).diffuse, 1);
@@ -96,7 +97,8 @@ TEST_F(vertex_colors, of_an_obj_file_follow_its_vertices) {
 TEST_F(vertex_colors, give_way_to_materials) {
   save("a.mtl", "newmtl red\nKd 0.5 0 0\nnewmtl known\n#!nir_reflectivity 0.6\nnewmtl bare\n");
   save("a.obj",
-       "mtllib a.mtl\nv 0 0 0 0 1 0\nv 1 0 0 0 1 0\nv 0 1 0 0 1 0\nf 1 2 3\nusemtl red\nf 1 2 3\nusemtl known\nf 1 2 3\nusemtl bare\nf 1 2 3\n");
+       "mtllib a.mtl\nv 0 0 0 0 1 0\nv 1 0 0 0 1 0\nv 0 1 0 0 1 0\nf 1 2 3\nusemtl red\nf 1 2 3\nusemtl known\nf 1 2 3\nusemtl bare\nf 1 2 "
+       "3\n");
   const Scene got = scene("file: a.obj");
   ASSERT_EQ(got.objects.size(), 4U);
   const auto material = [&](std::size_t i) { return got.materials.at(static_cast<std::size_t>(got.objects[i].material)); };

@@ -130,7 +130,8 @@ TEST(leaning_normals, follow_the_texture_coordinates) {
     const bool by_corners = trial % 2 == 1;
     TriangleMesh mesh = patch.mesh();
     const Vec3 outward = base::normalized(across);
-    if (by_corners) mesh.normals.assign(4, {static_cast<float>(outward[0]), static_cast<float>(outward[1]), static_cast<float>(outward[2])});
+    if (by_corners)
+      mesh.normals.assign(4, {static_cast<float>(outward[0]), static_cast<float>(outward[1]), static_cast<float>(outward[2])});
     const Vec3 x = base::normalized(patch.at(1e-3, 0) - patch.at(0, 0)), down = patch.at(0, 1e-3) - patch.at(0, 0);
     const Vec3 y = base::normalized(base::dot(down, x) * x - down);
     const Vec3 out = lean[0] * x + lean[1] * y + lean[2] * outward;
@@ -208,7 +209,8 @@ TEST(finish, of_one_texel_is_the_materials_own) {
                         [&](std::size_t i) {
                           // Between 1,024 steps of the root of alpha the share of light is a line: 1e-6 off.
                           ASSERT_NEAR(a.truth.reflectivity[i], b.truth.reflectivity[i], 3e-6F) << trial;
-                          ASSERT_NEAR(a.truth.radiance_w_m2_sr[i], b.truth.radiance_w_m2_sr[i], 2e-5F * b.truth.radiance_w_m2_sr[i]) << trial;
+                          ASSERT_NEAR(a.truth.radiance_w_m2_sr[i], b.truth.radiance_w_m2_sr[i], 2e-5F * b.truth.radiance_w_m2_sr[i])
+                              << trial;
                         }),
               1000);
   }
@@ -286,13 +288,17 @@ TEST(lean_and_finish, have_to_fit) {
               m.normals = one({0, 0.6, 0.8}), m.finish = one({1, 1, 1}), mesh.shades.assign(4, 1);
             }),
             "");
-  EXPECT_TRUE(has(refusal([&](TriangleMesh&, Material& m) { m.normals = one({0.6, 0, 0}); }),
+  EXPECT_TRUE(has(refusal([&](TriangleMesh&, Material& m) {
+                    m.normals = one({0.6, 0, 0});
+                  }),
                   "value 0 of the map of normals is no direction out of the surface\n  got [0.6"));
   EXPECT_TRUE(has(refusal([&](TriangleMesh&, Material& m) { m.normals = one({0, 0, 0.4}); }), "a length of 0.5 to 1.5"));
   EXPECT_TRUE(has(refusal([&](TriangleMesh&, Material& m) { m.normals = one({std::nan(""), 0, 1}); }), "value 0 of the map of normals"));
   EXPECT_TRUE(has(refusal([&](TriangleMesh&, Material& m) { m.finish = one({1, 1.5, 1}); }), "value 0 of the map of the finish"));
   EXPECT_TRUE(has(refusal([&](TriangleMesh&, Material& m) { m.finish = one({1, 1, 0}); }), "an alpha of 0.001 to 1"));
-  EXPECT_TRUE(has(refusal([&](TriangleMesh&, Material& m) { m.finish = one({1, 1, 1}), m.brdf = Material::Brdf::lambert; }),
+  EXPECT_TRUE(has(refusal([&](TriangleMesh&, Material& m) {
+                    m.finish = one({1, 1, 1}), m.brdf = Material::Brdf::lambert;
+                  }),
                   "the material has a map of its finish\n  expected the brdf ggx"));
   EXPECT_TRUE(has(refusal([&](TriangleMesh&, Material& m) {
                     auto map = vectors(2, 2, [](int, int) { return Vec3{0, 0, 1}; });
@@ -301,6 +307,7 @@ TEST(lean_and_finish, have_to_fit) {
                   }),
                   "the map of normals has not as many values as pixels\n  got 3, expected 4"));
   EXPECT_TRUE(has(refusal([&](TriangleMesh& mesh, Material&) { mesh.shades.assign(3, 1); }), "not as many shades as vertices"));
-  EXPECT_TRUE(has(refusal([&](TriangleMesh& mesh, Material&) { mesh.shades.assign(4, 1.5F); }), "the shade of vertex 0 of the mesh is out"));
+  EXPECT_TRUE(
+      has(refusal([&](TriangleMesh& mesh, Material&) { mesh.shades.assign(4, 1.5F); }), "the shade of vertex 0 of the mesh is out"));
   EXPECT_TRUE(has(refusal([&](TriangleMesh& mesh, Material&) { mesh.shades.assign(4, std::nanf("")); }), "the shade of vertex 0"));
 }
