@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What has to hold of the pixels that are read, and of exposures that follow the light.
 #include <algorithm>
+#include <cmath>
 #include <string>
 
 #include "base/text.h"
@@ -9,7 +10,12 @@
 
 namespace tofray::model {
 
-using base::number_text;
+namespace {
+
+/// A time to a nanosecond at most, which products of decimals are not.
+std::string rounded(double value) { return base::number_text(std::round(value * 1e6) / 1e6); }
+
+}  // namespace
 
 void something_is_read(const Camera& camera, Complaints& complaints) {
   const Readout& r = camera.readout;
@@ -44,12 +50,12 @@ void exposures_fit(const Camera& camera, Complaints& complaints) {
   const double shortest = std::max(a.shortest_s, camera.min_integration_time_s);
   if (shortest > longest)
     return complaints.add(a, a.longest_s > 0 ? &a.longest_s : &a.shortest_s, "the shortest exposure is longer than the longest",
-                          "got " + number_text(1e6 * shortest) + " us and " + number_text(1e6 * longest) +
+                          "got " + rounded(1e6 * shortest) + " us and " + rounded(1e6 * longest) +
                               " us (auto_exposure.shortest or timing.min_integration_time; auto_exposure.longest or the mode's)");
   const double total = others + lit * (longest / longest_in_mode), frame = 1 / camera.mode.frame_rate_hz;
   if (a.longest_s > 0 && !(total <= frame * (1 + 1e-9)))
     complaints.add(a, &a.longest_s, "the longest exposures do not fit into a frame",
-                   "got " + number_text(1e3 * total) + " ms together, readout included; a frame has " + number_text(1e3 * frame) + " ms");
+                   "got " + rounded(1e3 * total) + " ms together, readout included; a frame has " + rounded(1e3 * frame) + " ms");
 }
 
 }  // namespace tofray::model
