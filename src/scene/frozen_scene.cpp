@@ -286,8 +286,8 @@ void FrozenScene::derive() {
   const Derive what = still_known_ ? Derive::moving : Derive::all;
   const int units = unit_count(view_, what);
   for (int i = 0; i < units; ++i) scene::derive(view_, what, i);
-  if (!still_known_) still_clusters_.update(view_.still);
-  moving_clusters_.update(view_.moving);
+  if (!still_known_) still_clusters_.update(view_, view_.still);
+  moving_clusters_.update(view_, view_.moving);
   still_known_ = moving_known_ = true;
 }
 
