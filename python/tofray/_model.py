@@ -20,9 +20,9 @@ class Curve(Record):
 
     Attributes
     ----------
-    x : list[float]
+    x : list[float], any unit
         Ascending.
-    y : list[float]
+    y : list[float], any unit
     """
     __slots__ = ("x", "y")
     x: list[float]
@@ -45,7 +45,7 @@ class PixelMask(Record):
     ----------
     kind : Literal["square", "table"]
         Square: evenly in a square of area fill_factor·pitch² in its middle.
-    samples : list[float]
+    samples : list[float], 1
         Table: of the whole pixel, rows from its top on, columns from its left on, any unit.
     columns : int
     rows : int
@@ -79,8 +79,8 @@ class Sensor(Record):
         Pixels.
     height : int
         Pixels.
-    pixel_pitch_m : float
-    fill_factor : float
+    pixel_pitch_m : float, m
+    fill_factor : float, 1
         0…1.
     mask : PixelMask
     """
@@ -114,13 +114,13 @@ class Scatter(Record):
     Attributes
     ----------
     kind : Literal["none", "gaussians", "kernel"]
-    share : float
+    share : float, 1
         0…1 of the light that is scattered.
-    sigma_px : list[float]
+    sigma_px : list[float], px
         Gaussians: width of each.
-    weights : list[float]
+    weights : list[float], 1
         Gaussians: how much of it each takes, any unit; empty: all alike.
-    kernel : list[float]
+    kernel : list[float], 1
         Kernel: how much goes where, rows from above on, columns from the left on; odd numbers of
         both, any unit. The middle is the pixel itself.
     columns : int
@@ -160,21 +160,21 @@ class Lens(Record):
 
     Attributes
     ----------
-    fx_px : float
-    fy_px : float
-    cx_px : float
-    cy_px : float
+    fx_px : float, px
+    fy_px : float, px
+    cx_px : float, px
+    cy_px : float, px
     distortion : Literal["brown_conrady", "fisheye"]
-    k1 : float
-    k2 : float
-    p1 : float
-    p2 : float
-    k3 : float
-    k4 : float
-    k5 : float
-    k6 : float
-    f_number : float
-    transmission : float
+    k1 : float, 1
+    k2 : float, 1
+    p1 : float, 1
+    p2 : float, 1
+    k3 : float, 1
+    k4 : float, 1
+    k5 : float, 1
+    k6 : float, 1
+    f_number : float, 1
+    transmission : float, 1
         T, 0…1, lens and filter at the illumination wavelength.
     vignetting : Literal["cos4", "off", "table"]
     vignetting_table : Curve
@@ -250,10 +250,10 @@ class Filter(Record):
 
     Attributes
     ----------
-    center_m : float
-    half_width_m : float
+    center_m : float, m
+    half_width_m : float, m
         Passes centre ± half width, transmission `peak`.
-    peak : float
+    peak : float, 1
     table : Curve
         Wavelength [m] → transmission; takes the place of the above where not empty.
     """
@@ -283,13 +283,13 @@ class Pattern(Record):
     Attributes
     ----------
     kind : Literal["cone", "lambertian", "cosine_lobe", "flat_top", "table"]
-    half_angle_rad : float
+    half_angle_rad : float, rad
         Cone.
-    exponent : float
+    exponent : float, 1
         Cosine_lobe: cos^exponent.
-    width_rad : float
+    width_rad : float, rad
         Flat_top: full width across θx at half its peak.
-    height_rad : float
+    height_rad : float, rad
         Flat_top: across θy.
     columns : int
         Table: samples over θx (columns) and θy (rows), cell centres on a regular grid centred on
@@ -299,12 +299,12 @@ class Pattern(Record):
         Table: samples over θx (columns) and θy (rows), cell centres on a regular grid centred on
         the axis, f-theta. Of a flat top, only the paper's printed formula reads such a grid; 0: 172
         × 168.
-    half_range_x_rad : float
+    half_range_x_rad : float, rad
         The grid covers ±this across its columns (edges of the outer cells); beyond, the light is
         dark. Of a flat top, 0 takes its width, where the light has fallen to nothing (2⁻²⁵⁶).
-    half_range_y_rad : float
+    half_range_y_rad : float, rad
         The same across its rows; 0: the height.
-    samples : list[float]
+    samples : list[float], 1
         [rows][columns], any unit.
     """
     __slots__ = ("kind", "half_angle_rad", "exponent", "width_rad", "height_rad", "columns", "rows", "half_range_x_rad",
@@ -352,29 +352,29 @@ class Waveform(Record):
     Attributes
     ----------
     kind : Literal["rectangular", "sine", "measured", "trapezoid", "gaussian", "emission"]
-    duty : float
+    duty : float, 1
         Width at half height over the period.
-    rise_time_s : float
+    rise_time_s : float, s
         Linear edge, 0 to 100 %; of a rectangular pulse both.
-    bandwidth_hz : float
+    bandwidth_hz : float, Hz
         The light source's own single pole; 0: none.
-    jitter_s : float
+    jitter_s : float, s
         Gaussian, 1 sigma.
     harmonics : int
         How many odd harmonics are kept (1,3,5,7); a sine has one.
-    modulation_depth : float
+    modulation_depth : float, 1
         Sine: d of the light 1 + d·cos; it has no duty and no edges.
-    correlation : list[float]
+    correlation : list[float], 1
         Measured: correlation D(τ)/S at reference phases over one period, φ = 0; its Fourier
         transform gives a_m, ψ_m.
-    fall_time_s : float
+    fall_time_s : float, s
         Trapezoid: the other edge.
-    sigma_s : float
+    sigma_s : float, s
         Gaussian: width of the pulse, 1 sigma.
-    emission : list[float]
+    emission : list[float], 1
         Emission: the light itself over one period, any unit, from the middle of what would be a
         rectangular pulse on.
-    sample_phases_rad : list[float]
+    sample_phases_rad : list[float], rad
         Measured, emission: at which phases of the period the samples are, ascending within one
         turn; empty: equally spaced from 0 on.
     """
@@ -430,11 +430,11 @@ class Area(Record):
     Attributes
     ----------
     kind : Literal["none", "disk", "rectangle"]
-    radius_m : float
+    radius_m : float, m
         Disk.
-    width_m : float
+    width_m : float, m
         Rectangle: toward the camera's x (of an axis along x: its y).
-    height_m : float
+    height_m : float, m
         Across that.
     points : int
     """
@@ -466,14 +466,14 @@ class Illumination(Record):
 
     Attributes
     ----------
-    position : tuple[float, float, float]
-    axis : tuple[float, float, float]
-    illumination_wavelength_m : float
-    power_w : float
+    position : tuple[float, float, float], m
+    axis : tuple[float, float, float], 1
+    illumination_wavelength_m : float, m
+    power_w : float, W
         Optical, of a lit raw frame, mean over the modulation period.
     ring_leds : int
         So many sources, evenly on a circle about `position`, across `axis`; they share the power.
-    ring_radius_m : float
+    ring_radius_m : float, m
         Of that circle; the first stands toward the camera's x (of an axis along x: its y).
     area : Area
         Of each; its middle is where a point would be.
@@ -528,45 +528,45 @@ class Pixel(Record):
         Modulation frequency [Hz] → K; one sample: a constant.
     contrast_by_wavelength : Curve
         Wavelength [m] → factor on K; none: 1.
-    bandwidth_hz : float
+    bandwidth_hz : float, Hz
         Single pole of the gate; 0: none.
-    full_well_e : float
-    read_noise_e : float
+    full_well_e : float, e
+    read_noise_e : float, e
         Reset + read, 1 sigma.
-    column_noise_e : float
+    column_noise_e : float, e
         Of A−B, the same for all pixels of a column in one raw frame, anew in each, 1 sigma.
-    row_noise_e : float
+    row_noise_e : float, e
         The same of a row.
-    dark_current_e_per_s : float
+    dark_current_e_per_s : float, e/s
         At Temperature::reference_celsius.
-    dark_current_doubling_k : float
+    dark_current_doubling_k : float, K
         It doubles with every so many kelvin above that; 0: the same at all temperatures.
-    tap_gain_mismatch : float
+    tap_gain_mismatch : float, 1
         G: tap A collects 1 + g/2 of what it should, tap B 1 − g/2.
-    tap_offset_mismatch_e : float
+    tap_offset_mismatch_e : float, e
         What A has more than B before any charge comes.
-    crosstalk_left_right : float
+    crosstalk_left_right : float, 1
         Share of a pixel's charge that its left neighbour collects, and the right one as much.
-    crosstalk_up_down : float
+    crosstalk_up_down : float, 1
         The same of the neighbours above and below.
     nonlinearity : Curve
         Charge of a tap [e⁻] → charge that is read of it; none: the same.
-    prnu : float
+    prnu : float, 1
         Photo response non-uniformity, 1 sigma, relative.
-    dsnu_dn : float
+    dsnu_dn : float, DN
         Offset pattern, 1 sigma [DN].
-    delay_s : float
+    delay_s : float, s
         Fixed-pattern delay per pixel, 1 sigma.
-    phase_offset_rad : float
+    phase_offset_rad : float, rad
         Fixed-pattern phase per pixel, another one at each modulation frequency, 1 sigma.
     pattern_seed : int
         Which specimen of the sensor: seed of the patterns above.
-    suppression_threshold_e : float
+    suppression_threshold_e : float, e
         Background suppression: when the smaller tap reaches the threshold, the excess is taken off
         both taps, at most `budget`. Each tap's removed charge x adds a variance of noise_factor² ·
         x. Threshold 0: no suppression.
-    suppression_budget_e : float
-    suppression_noise_factor : float
+    suppression_budget_e : float, e
+    suppression_noise_factor : float, 1
     """
     __slots__ = ("quantum_efficiency", "contrast", "contrast_by_wavelength", "bandwidth_hz", "full_well_e", "read_noise_e",
                  "column_noise_e", "row_noise_e", "dark_current_e_per_s", "dark_current_doubling_k", "tap_gain_mismatch",
@@ -654,9 +654,9 @@ class Adc(Record):
     Attributes
     ----------
     bits : int
-    step_e_per_dn : float
+    step_e_per_dn : float, e/DN
         S.
-    mid_code : float
+    mid_code : float, DN
     valid_min : int
         Codes outside valid_min…valid_max flag the pixel as saturated.
     valid_max : int
@@ -690,11 +690,11 @@ class RawFrame(Record):
     Attributes
     ----------
     lit : bool
-    modulation_frequency_hz : float
+    modulation_frequency_hz : float, Hz
         0 where unlit.
-    reference_phase_rad : float
+    reference_phase_rad : float, rad
         Τ.
-    integration_time_s : float
+    integration_time_s : float, s
     """
     __slots__ = ("lit", "modulation_frequency_hz", "reference_phase_rad", "integration_time_s")
     lit: bool
@@ -723,7 +723,7 @@ class Mode(Record):
     Attributes
     ----------
     name : str
-    frame_rate_hz : float
+    frame_rate_hz : float, Hz
     sequence : list[RawFrame]
     """
     __slots__ = ("name", "frame_rate_hz", "sequence")
@@ -751,16 +751,16 @@ class ImageFilter(Record):
     Attributes
     ----------
     kind : Literal["none", "gaussian", "median", "bilateral", "adaptive"]
-    sigma_px : float
+    sigma_px : float, px
         Gaussian, bilateral.
     radius_px : int
         Median, adaptive: window (2 radius + 1)², at most.
-    sigmas : float
+    sigmas : float, 1
         Bilateral, adaptive: neighbours count that are off by less than this times the noise of the
         difference ….
-    range_m : float
+    range_m : float, m
         Bilateral: … and this, summed in quadrature.
-    goal_m : float
+    goal_m : float, m
         Adaptive: neighbours are added, ring by ring, until the noise is no more than this.
     """
     __slots__ = ("kind", "sigma_px", "radius_px", "sigmas", "range_m", "goal_m")
@@ -795,41 +795,41 @@ class Decoding(Record):
     Attributes
     ----------
     wiggling_correction : bool
-    noise_threshold_m : float
+    noise_threshold_m : float, m
         Σ̂ above this: low signal; also the scale of confidence.
-    amplitude_threshold_e : float
+    amplitude_threshold_e : float, e
         Amplitude below this: low signal.
-    lower_saturation_dn : float | None
+    lower_saturation_dn : float | None, DN
         Codes beyond: saturated; unless given, the ADC's valid codes.
-    upper_saturation_dn : float | None
+    upper_saturation_dn : float | None, DN
         Codes beyond: saturated; unless given, the ADC's valid codes.
-    flying_near_z_m : float
+    flying_near_z_m : float, m
         Limit on |Δz| grows linearly from here ….
-    flying_near_limit_m : float
+    flying_near_limit_m : float, m
         Limit on |Δz| grows linearly from here ….
-    flying_far_z_m : float
+    flying_far_z_m : float, m
         … to here, constant outside.
-    flying_far_limit_m : float
+    flying_far_limit_m : float, m
         … to here, constant outside.
-    flying_sigmas : float
+    flying_sigmas : float, 1
         … and a flying pixel is off by more than this times the noise of the difference, too.
     flying_check : bool
         False: nobody looks for flying pixels.
-    asymmetry_limit_e : float
+    asymmetry_limit_e : float, e
         D_k + D_k' half a turn apart: inconsistent phases beyond both.
-    asymmetry_sigmas : float
+    asymmetry_sigmas : float, 1
         D_k + D_k' half a turn apart: inconsistent phases beyond both.
     asymmetry_reject : bool
         The depth is invalid then; otherwise the flag is a warning.
-    multipath_limit_m : float
+    multipath_limit_m : float, m
         D_i − d_j of two modulation frequencies: inconsistent ones beyond both.
-    multipath_sigmas : float
+    multipath_sigmas : float, 1
         D_i − d_j of two modulation frequencies: inconsistent ones beyond both.
     multipath_reject : bool
     temporal_frames : int
         Range is the mean over so many frames, the last one and those before it; 1: of each by
         itself.
-    temporal_sigmas : float
+    temporal_sigmas : float, 1
         … of those that are off by less than this times the noise of the difference.
     filter : ImageFilter
     """
@@ -910,14 +910,14 @@ class Temperature(Record):
 
     Attributes
     ----------
-    celsius : float
-    reference_celsius : float
-    drift_m_per_kelvin : float
+    celsius : float, °C
+    reference_celsius : float, °C
+    drift_m_per_kelvin : float, m/K
         D_off = drift · (T − reference), added to half the path.
-    warm_up_m : float
+    warm_up_m : float, m
         First-order warm-up: warm_up · (1 − exp(−t/time constant)).
-    warm_up_time_s : float
-    since_start_s : float
+    warm_up_time_s : float, s
+    since_start_s : float, s
         How long the camera has run at frame 0.
     """
     __slots__ = ("celsius", "reference_celsius", "drift_m_per_kelvin", "warm_up_m", "warm_up_time_s", "since_start_s")
@@ -952,13 +952,13 @@ class Interference(Record):
 
     Attributes
     ----------
-    share : float
+    share : float, 1
         Of its light over the own, in each pixel; 0: there is no other camera.
-    frequency_difference_hz : float
+    frequency_difference_hz : float, Hz
         Its modulation frequencies less the own.
-    active : float
+    active : float, 1
         How likely a raw frame meets its light, 0…1.
-    phase_rad : float | None
+    phase_rad : float | None, rad
         By how much its light is later than the own, at the start of frame 0; none: drawn anew for
         each raw frame.
     """
@@ -1000,10 +1000,10 @@ class Camera(Record):
     decoding : Decoding
     temperature : Temperature
     interference : Interference
-    refractive_index : float
-    readout_time_s : float
+    refractive_index : float, 1
+    readout_time_s : float, s
         Between the end of one exposure and the start of the next.
-    min_integration_time_s : float
+    min_integration_time_s : float, s
     power_model : Literal["tofray", "paper_literal"]
     mode : Mode
         The chosen one.
@@ -1078,21 +1078,21 @@ class Material(Record):
     name : str
         Empty for a material written inside an object.
     brdf : Literal["lambert", "phong", "oren_nayar", "ggx", "retro"]
-    diffuse : float
+    diffuse : float, 1
         K_d, 0…1: Lambertian reflectivity (Lambert, Oren–Nayar: the reflectivity rho; GGX: its
         ground's).
-    specular : float
+    specular : float, 1
         Phong: k_s, the lobe's share, k_d + k_s <= 1; GGX: F_0, of one of its mirrors at normal
         incidence.
-    exponent : float
+    exponent : float, 1
         N >= 1: the Phong lobe's exponent.
-    roughness_rad : float
+    roughness_rad : float, rad
         Σ, 0…π/2: Oren–Nayar's spread of the slopes of a matt surface's facets.
-    alpha : float
+    alpha : float, 1
         Α, 0.001…1: GGX's spread of the slopes of small mirrors (glTF's roughness squared).
-    retro : float
+    retro : float, 1
         K_r, 0…1 with k_d + k_r <= 1: the share that a retro-reflector sends back toward the light.
-    spread_rad : float
+    spread_rad : float, rad
         Σ, 1e-3…π/4: angle between light and camera at which half of the retro-reflector's peak is
         left.
     map : ReflectivityMap | None
@@ -1141,8 +1141,8 @@ class Plane(Record):
 
     Attributes
     ----------
-    point : tuple[float, float, float]
-    normal : tuple[float, float, float]
+    point : tuple[float, float, float], m
+    normal : tuple[float, float, float], 1
     """
     __slots__ = ("point", "normal")
     point: tuple[float, float, float]
@@ -1163,8 +1163,8 @@ class Sphere(Record):
 
     Attributes
     ----------
-    center : tuple[float, float, float]
-    radius : float
+    center : tuple[float, float, float], m
+    radius : float, m
     """
     __slots__ = ("center", "radius")
     center: tuple[float, float, float]
@@ -1185,8 +1185,8 @@ class Box(Record):
 
     Attributes
     ----------
-    min : tuple[float, float, float]
-    max : tuple[float, float, float]
+    min : tuple[float, float, float], m
+    max : tuple[float, float, float], m
     """
     __slots__ = ("min", "max")
     min: tuple[float, float, float]
@@ -1207,7 +1207,7 @@ class Triangle(Record):
 
     Attributes
     ----------
-    vertices : tuple[tuple[float, float, float], tuple[float, float, float], tuple[float, float, float]]
+    vertices : tuple[tuple[float, float, float], tuple[float, float, float], tuple[float, float, float]], m
     """
     __slots__ = ("vertices",)
     vertices: tuple[tuple[float, float, float], tuple[float, float, float], tuple[float, float, float]]
@@ -1226,10 +1226,10 @@ class Cylinder(Record):
 
     Attributes
     ----------
-    center : tuple[float, float, float]
-    axis : tuple[float, float, float]
-    radius : float
-    height : float
+    center : tuple[float, float, float], m
+    axis : tuple[float, float, float], 1
+    radius : float, m
+    height : float, m
     """
     __slots__ = ("center", "axis", "radius", "height")
     center: tuple[float, float, float]
@@ -1256,8 +1256,8 @@ class Rectangle(Record):
 
     Attributes
     ----------
-    center : tuple[float, float, float]
-    size : tuple[float, float]
+    center : tuple[float, float, float], m
+    size : tuple[float, float], m
         Along x and y before its rotation.
     """
     __slots__ = ("center", "size")
@@ -1279,9 +1279,9 @@ class Disk(Record):
 
     Attributes
     ----------
-    center : tuple[float, float, float]
-    normal : tuple[float, float, float]
-    radius : float
+    center : tuple[float, float, float], m
+    normal : tuple[float, float, float], 1
+    radius : float, m
     """
     __slots__ = ("center", "normal", "radius")
     center: tuple[float, float, float]
@@ -1305,9 +1305,9 @@ class Capsule(Record):
 
     Attributes
     ----------
-    start : tuple[float, float, float]
-    end : tuple[float, float, float]
-    radius : float
+    start : tuple[float, float, float], m
+    end : tuple[float, float, float], m
+    radius : float, m
     """
     __slots__ = ("start", "end", "radius")
     start: tuple[float, float, float]
@@ -1332,10 +1332,10 @@ class Cone(Record):
 
     Attributes
     ----------
-    base : tuple[float, float, float]
-    axis : tuple[float, float, float]
-    radius : float
-    height : float
+    base : tuple[float, float, float], m
+    axis : tuple[float, float, float], 1
+    radius : float, m
+    height : float, m
     """
     __slots__ = ("base", "axis", "radius", "height")
     base: tuple[float, float, float]
@@ -1366,12 +1366,12 @@ class Mesh(Record):
     ----------
     file : str
         Empty if built in code.
-    scale : float
+    scale : float, 1
         Of the file's numbers, to metres.
     up : Literal["automatic", "y", "z", "minus_y"]
         The file's axis that is up (−y in the world); automatic: y in OBJ and glTF, z in PLY and
         STL.
-    time_s : float | None
+    time_s : float | None, s
         Of a glTF file's first animation; none: as its nodes stand.
     play : Literal["still", "once", "loop"]
         Whether that animation goes on, from `time_s` (or its start) at t = 0.
@@ -1435,8 +1435,8 @@ class Rotation(Record):
 
     Attributes
     ----------
-    axis : tuple[float, float, float]
-    angle_rad : float
+    axis : tuple[float, float, float], 1
+    angle_rad : float, rad
     """
     __slots__ = ("axis", "angle_rad")
     axis: tuple[float, float, float]
@@ -1459,8 +1459,8 @@ class Keyframe(Record):
 
     Attributes
     ----------
-    time_s : float
-    position : tuple[float, float, float]
+    time_s : float, s
+    position : tuple[float, float, float], m
         Shift [m], as Object::position.
     rotation : Rotation
     """
@@ -1494,11 +1494,11 @@ class Object(Record):
     shape : Plane | Sphere | Box | Triangle | Cylinder | Rectangle | Disk | Capsule | Cone | Mesh
     material : int
         Index in Scene::materials.
-    position : tuple[float, float, float]
+    position : tuple[float, float, float], m
         Shift [m].
     rotation : Rotation
-    velocity_m_per_s : tuple[float, float, float]
-    angular_velocity_rad_per_s : tuple[float, float, float]
+    velocity_m_per_s : tuple[float, float, float], m/s
+    angular_velocity_rad_per_s : tuple[float, float, float], rad/s
         Its axis, in the world, times how fast it turns by the right-hand rule.
     keyframes : list[Keyframe]
         In place of position, rotation and both velocities; ascending in time.
@@ -1542,13 +1542,13 @@ class Ambient(Record):
     ----------
     spectrum : Literal["none", "sun_am15", "equal_energy", "table"]
     quantity : Literal["level", "illuminance_lx", "band_irradiance_w_per_m2"]
-    amount : float
+    amount : float, by its quantity
         In the quantity's unit.
-    table_wavelength_m : list[float]
+    table_wavelength_m : list[float], m
         Spectrum `table`: ascending.
-    table_irradiance_w_per_m3 : list[float]
+    table_irradiance_w_per_m3 : list[float], W/m³
         Spectral irradiance per metre of wavelength (1 W m-2 nm-1 = 1e9 W m-3).
-    direction : tuple[float, float, float] | None
+    direction : tuple[float, float, float] | None, 1
         Direction in which the light travels (a sun); none: uniform from everywhere.
     """
     __slots__ = ("spectrum", "quantity", "amount", "table_wavelength_m", "table_irradiance_w_per_m3", "direction")
@@ -1585,10 +1585,10 @@ class TransientBins(Record):
     ----------
     bins : int
         0…1e6; 0: there are no histograms.
-    first_m : float
+    first_m : float, m
         0…1e6: where the first bin begins. Whole paths: from the light by all surfaces to the
         camera.
-    width_m : float
+    width_m : float, m
         1e-6…1e6, of a bin.
     """
     __slots__ = ("bins", "first_m", "width_m")
@@ -1624,7 +1624,7 @@ class Transport(Record):
     max_samples : int
         0: as many as samples. Else a pixel goes on, twice as many again and again, up to these,
         until it knows.
-    path_noise_m : float
+    path_noise_m : float, m
         Its half path to this standard error; 0: to a fifth of its depth noise.
     smooth : bool
         Light that bounces is smoothed over neighbours that see the same surface.
@@ -1664,10 +1664,10 @@ class Pose(Record):
 
     Attributes
     ----------
-    position : tuple[float, float, float]
-    look_at : tuple[float, float, float]
+    position : tuple[float, float, float], m
+    look_at : tuple[float, float, float], m
         A point on the optical axis.
-    up : tuple[float, float, float]
+    up : tuple[float, float, float], 1
     """
     __slots__ = ("position", "look_at", "up")
     position: tuple[float, float, float]
@@ -1693,7 +1693,7 @@ class CameraKeyframe(Record):
 
     Attributes
     ----------
-    time_s : float
+    time_s : float, s
     pose : Pose
     """
     __slots__ = ("time_s", "pose")
@@ -1845,7 +1845,7 @@ class RanOn(Record):
         Of the processor.
     block_size : int
         Threads per block of the kernel from ray to depth; 0 where the processor computed.
-    occupancy : float
+    occupancy : float, 1
         How full that kernel makes the GPU, 0 … 1.
     fallback_reason : str
         Why Backend::automatic took no GPU; empty where it did, or where the processor was asked
@@ -1881,7 +1881,7 @@ class RanOn(Record):
 
 
 class FrameRequest(Record):
-    """One frame of a batch. What is not set is the simulator's.
+    """Which frame. What is not set is the simulator's.
 
     Attributes
     ----------

@@ -34,7 +34,7 @@ struct Simulator::Impl {
   Impl(const Scene& scene, const Camera& profile, const SimulatorOptions& wanted);
 
   /// @param input  null: from the scene on
-  void frame(std::uint64_t index, const pipeline::Input* input, Frame& into);
+  void frame(const FrameRequest& request, const pipeline::Input* input, Frame& into);
   void frames(std::uint64_t count, const Request& request, const Take& take);
   void frames_on_device(std::uint64_t count, const Request& request, DeviceFrames::Impl& into);
 
@@ -49,8 +49,10 @@ struct Simulator::Impl {
 
  private:
   /// A frame by itself.
-  void compute(std::uint64_t index, const pipeline::Input* input, const SimulatorOptions& with, const Transport& transport, Frame& into);
+  void compute(const FrameRequest& request, const pipeline::Input* input, const SimulatorOptions& with, const Transport& transport,
+               Frame& into);
   [[nodiscard]] bool stopped() const { return options.progress != nullptr && options.progress->stop; }
+  void frame_by_batch(const FrameRequest& request, Frame& into);
   void frames_over_time(std::uint64_t count, const Request& request, const Take& take);
   /// What does not change from frame to frame.
   [[nodiscard]] pipeline::Setup fixed_setup();
