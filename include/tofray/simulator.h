@@ -69,7 +69,7 @@ struct RanOn {
   std::string fallback_reason;  ///< why Backend::automatic took no GPU; empty where it did, or where the processor was asked for
 };
 
-/// One frame of a batch. What is not set is the simulator's.
+/// Which frame. What is not set is the simulator's.
 struct FrameRequest {
   std::uint64_t index = 0;  ///< starts at index / frame_rate
   std::optional<std::uint64_t> seed = {};
@@ -112,6 +112,9 @@ class Simulator {
   [[nodiscard]] Frame frame(std::uint64_t index);
   /// The same into memory that the caller keeps: arrays of the right size are not allocated anew.
   void frame(std::uint64_t index, Frame& into);
+  /// The same of a frame with a seed or a pose of its own.
+  /// @throws Error (bad_input) for a pose that cannot be
+  void frame(const FrameRequest& request, Frame& into);
 
   /// Stages 2 to 4 of what another renderer saw. Of the scene only its ambient light counts, and the camera's pose for where the sun is.
   /// @throws Error (bad_input) for an array of another size than camera and sequence ask for, and for a value out of its range

@@ -125,8 +125,16 @@ std::shared_ptr<MeshMotion> make_motion(const py::object& at) {
   return std::make_shared<CalledMotion>(at);
 }
 
+constexpr const char* motion_doc = R"(How a mesh changes its shape with time, in its own frame.
+
+Parameters
+----------
+at : function
+    Of the time in seconds: gives the vertices, float32 array [vertex, 3], m, as many as the mesh has; or a tuple of them and the
+    normals, float32 array [vertex, 3], 1. It is called at the middle of exposures, and may be asked for one time more than once.)";
+
 void bind_motion(py::module_& module) {
-  py::class_<MeshMotion, std::shared_ptr<MeshMotion>>(module, "MeshMotion")
+  py::class_<MeshMotion, std::shared_ptr<MeshMotion>>(module, "MeshMotion", motion_doc)
       .def(py::init(&make_motion), py::arg("at"))
       .def("__reduce__",
            [](py::object self) -> py::object {
@@ -152,20 +160,80 @@ void raise_callback_fault() {
 
 namespace {
 
+constexpr const char* mesh_doc =
+    R"(Triangles that share vertices, both sides of which reflect. Never changes: scenes and simulators share it.
+
+Parameters
+----------
+vertices : float32 array [vertex, 3], m
+    In the mesh's own frame.
+triangles : int32 array [triangle, 3], 1
+    Three indices of vertices each.
+normals : float32 array [vertex, 3], 1, optional
+    Of unit length, outward or inward, 0 where there is none: light and camera see the mean of a triangle's three.
+texcoords : float32 array [vertex, 2], 1, optional
+    (u, v) in the material's map.
+shades : float32 array [vertex], 1, optional
+    0 to 1: scale the material's matt part, as its map does.
+
+Raises
+------
+Error
+    For an array of another dtype, shape or order, and for an index that no vertex has.)";
+
+constexpr const char* map_doc = R"(A picture of how much a surface sends back. Never changes: scenes and simulators share it.
+
+Parameters
+----------
+values : float32 array [height, width], 1
+    0 to 1: 1 where it is its material's diffuse reflectivity, 0 where it is black. (u, v) = (0, 0) is the corner of the first.
+wrap_u, wrap_v : {"repeat", "mirror", "clamp"}
+    What is seen beyond 0 to 1.
+
+Raises
+------
+Error
+    For an array of another dtype, shape or order. (Values beyond 0 to 1 are refused by whoever simulates.))";
+
+constexpr const char* vector_map_doc = R"(A picture of three numbers, which its user gives a meaning. Never changes: scenes and simulators share it.
+
+Parameters
+----------
+values : float32 array [height, width, 3], 1
+    How a normal leans (along u, along v, along the mesh's normal), or a surface's finish (k_d, F_0, alpha). (u, v) = (0, 0) is the
+    corner of the first.
+wrap_u, wrap_v : {"repeat", "mirror", "clamp"}
+    What is seen beyond 0 to 1.
+
+Raises
+------
+Error
+    For an array of another dtype, shape or order. (Values out of their range are refused by whoever simulates.))";
+
 void bind_mesh(py::module_& module) {
   using Mesh = TriangleMesh;
-  py::class_<Mesh, std::shared_ptr<Mesh>>(module, "TriangleMesh")
+  py::class_<Mesh, std::shared_ptr<Mesh>>(module, "TriangleMesh", mesh_doc)
       .def(py::init(&make_mesh), py::arg("vertices"), py::arg("triangles"), py::arg("normals") = py::none(),
            py::arg("texcoords") = py::none(), py::arg("shades") = py::none())
-      .def_property_readonly("vertices", [](py::object self) { return rows_view(self, self.cast<const Mesh&>().vertices); })
-      .def_property_readonly("triangles", [](py::object self) { return rows_view(self, self.cast<const Mesh&>().triangles); })
-      .def_property_readonly("normals", [](py::object self) { return rows_view(self, self.cast<const Mesh&>().normals); })
-      .def_property_readonly("texcoords", [](py::object self) { return rows_view(self, self.cast<const Mesh&>().texcoords); })
-      .def_property_readonly("shades",
-                             [](py::object self) {
-                               const std::vector<float>& shades = self.cast<const Mesh&>().shades;
-                               return view<float>(shades.data(), {static_cast<py::ssize_t>(shades.size())}, self, false);
-                             })
+      .def_property_readonly(
+          "vertices", [](py::object self) { return rows_view(self, self.cast<const Mesh&>().vertices); },
+          "float32 array [vertex, 3], m, read-only.")
+      .def_property_readonly(
+          "triangles", [](py::object self) { return rows_view(self, self.cast<const Mesh&>().triangles); },
+          "int32 array [triangle, 3], 1, read-only.")
+      .def_property_readonly(
+          "normals", [](py::object self) { return rows_view(self, self.cast<const Mesh&>().normals); },
+          "float32 array [vertex, 3], 1, read-only; of no rows where there are none.")
+      .def_property_readonly(
+          "texcoords", [](py::object self) { return rows_view(self, self.cast<const Mesh&>().texcoords); },
+          "float32 array [vertex, 2], 1, read-only; of no rows where there are none.")
+      .def_property_readonly(
+          "shades",
+          [](py::object self) {
+            const std::vector<float>& shades = self.cast<const Mesh&>().shades;
+            return view<float>(shades.data(), {static_cast<py::ssize_t>(shades.size())}, self, false);
+          },
+          "float32 array [vertex], 1, read-only; empty where there are none.")
       .def("__eq__",
            [](const Mesh& self, py::handle other) {
              if (!py::isinstance<Mesh>(other)) return false;
@@ -193,18 +261,22 @@ void bind_mesh(py::module_& module) {
 }
 
 template <class Map>
-void bind_map(py::module_& module, const char* name) {
-  py::class_<Map, std::shared_ptr<Map>>(module, name)
+void bind_map(py::module_& module, const char* name, const char* doc, const char* values_doc) {
+  py::class_<Map, std::shared_ptr<Map>>(module, name, doc)
       .def(py::init(&make_map<Map>), py::arg("values"), py::arg("wrap_u") = "repeat", py::arg("wrap_v") = "repeat")
-      .def_property_readonly("values",
-                             [](py::object self) {
-                               const Map& map = self.cast<const Map&>();
-                               return view_of(self, map);
-                             })
-      .def_property_readonly("wrap_u", [](const Map& self) { return to_python(self.wrap_u); })
-      .def_property_readonly("wrap_v", [](const Map& self) { return to_python(self.wrap_v); })
-      .def_readonly("width", &Map::width)
-      .def_readonly("height", &Map::height)
+      .def_property_readonly(
+          "values",
+          [](py::object self) {
+            const Map& map = self.cast<const Map&>();
+            return view_of(self, map);
+          },
+          values_doc)
+      .def_property_readonly(
+          "wrap_u", [](const Map& self) { return to_python(self.wrap_u); }, "What is seen beyond 0 to 1, along rows.")
+      .def_property_readonly(
+          "wrap_v", [](const Map& self) { return to_python(self.wrap_v); }, "What is seen beyond 0 to 1, along columns.")
+      .def_readonly("width", &Map::width, "Values of a row.")
+      .def_readonly("height", &Map::height, "Rows.")
       .def("__eq__",
            [](const Map& self, py::handle other) {
              if (!py::isinstance<Map>(other)) return false;
@@ -226,8 +298,8 @@ void bind_map(py::module_& module, const char* name) {
 
 void bind_meshes(py::module_& module) {
   bind_mesh(module);
-  bind_map<ReflectivityMap>(module, "ReflectivityMap");
-  bind_map<VectorMap>(module, "VectorMap");
+  bind_map<ReflectivityMap>(module, "ReflectivityMap", map_doc, "float32 array [height, width], 1, read-only.");
+  bind_map<VectorMap>(module, "VectorMap", vector_map_doc, "float32 array [height, width, 3], 1, read-only.");
   bind_motion(module);
 }
 

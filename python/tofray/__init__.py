@@ -11,9 +11,11 @@ All numbers are in SI units, and names end in their unit.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+TYPE_CHECKING = False  # as a checker of types knows it, without typing, which costs more than all else here
 
 if TYPE_CHECKING:
+    from typing import Any
+
     from ._arrays import (
         Depth as Depth,
         Raw as Raw,

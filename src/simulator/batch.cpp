@@ -7,6 +7,7 @@
 #include <string>
 #include <utility>
 
+#include "simulator/check.h"
 #include "simulator/frame_memory.h"
 #include "simulator/impl.h"
 #include "tofray/error.h"
@@ -103,17 +104,25 @@ void Simulator::Impl::frames_on_gpus(std::uint64_t count, const Request& request
   }
 }
 
+/// A frame of a GPU with a seed or pose of its own: a batch of one, whose lane takes them along.
+void Simulator::Impl::frame_by_batch(const FrameRequest& request, Frame& into) {
+  std::uint64_t taken = 0;
+  const auto take = [&](const FrameArrays& from) {
+#define TOFRAY_COPY(name, part, member, ...) \
+  if (from.name != nullptr) std::copy_n(from.name, into.part.member.size(), into.part.member.begin());
+    TOFRAY_IMAGE_ARRAYS(TOFRAY_COPY)
+#undef TOFRAY_COPY
+  };
+  frames_on_gpus(
+      1, [&](std::uint64_t) { return request; }, take, taken);
+}
+
 /// Where a frame hangs on those before, one follows the other.
 void Simulator::Impl::frames_over_time(std::uint64_t count, const Request& request, const Take& take) {
-  for (std::uint64_t i = 0; i < count; ++i) {
-    const FrameRequest wanted = request(i);
-    if (wanted.seed || wanted.pose)
-      throw Error(ErrorKind::bad_input,
-                  "error: " + std::string(needs_earlier()) + ", which a request of another seed or pose does not have");
-  }
+  for (std::uint64_t i = 0; i < count; ++i) check_over_time(request(i));
   for (std::uint64_t i = 0; i < count; ++i) {
     const std::uint64_t index = request(i).index;
-    frame(index, nullptr, scratch);
+    frame({index, {}, {}}, nullptr, scratch);
     if (stopped()) return;  // the frame is no frame
     take(simulator::arrays_of(simulator::view_of(scratch, options.last_stage), camera, setup.transient.bins, index, -1));
   }

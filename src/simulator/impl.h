@@ -36,7 +36,7 @@ struct Simulator::Impl {
   Impl(const Scene& scene, const Camera& profile, const SimulatorOptions& wanted);
 
   /// @param input  null: from the scene on
-  void frame(std::uint64_t index, const pipeline::Input* input, Frame& into);
+  void frame(const FrameRequest& request, const pipeline::Input* input, Frame& into);
   void frames(std::uint64_t count, const Request& request, const Take& take);
   void frames_on_device(std::uint64_t count, const Request& request, DeviceFrames::Impl& into);
 
@@ -53,11 +53,15 @@ struct Simulator::Impl {
 
  private:
   /// A frame by itself.
-  void compute(std::uint64_t index, const pipeline::Input* input, const SimulatorOptions& with, const Transport& transport, Frame& into);
+  void compute(const FrameRequest& request, const pipeline::Input* input, const SimulatorOptions& with, const Transport& transport,
+               Frame& into);
   /// Computes the frames before, as far as the exposures of this one are not known without them.
   void find_exposures(std::uint64_t index);
   void set_exposures(std::uint64_t index);
+  /// @throws Error (bad_input) where a frame hangs on earlier ones, and the request has another seed or pose than they
+  void check_over_time(const FrameRequest& request) const;
   [[nodiscard]] bool stopped() const { return options.progress != nullptr && options.progress->stop; }
+  void frame_by_batch(const FrameRequest& request, Frame& into);
   void frames_over_time(std::uint64_t count, const Request& request, const Take& take);
   /// What does not change from frame to frame.
   [[nodiscard]] pipeline::Setup fixed_setup();

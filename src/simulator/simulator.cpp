@@ -133,25 +133,27 @@ void Simulator::Impl::set_sensor(const FrameRequest& request) {
   job.index_low = static_cast<std::uint32_t>(request.index), job.index_high = static_cast<std::uint32_t>(request.index >> 32);
 }
 
-void Simulator::Impl::frame(std::uint64_t index, const pipeline::Input* input, Frame& into) {
+void Simulator::Impl::frame(const FrameRequest& request, const pipeline::Input* input, Frame& into) {
   const Transport& transport = input == nullptr ? scene.transport : no_transport;
   if (const char* const why = needs_earlier(); why != nullptr && input != nullptr)
     throw Error(ErrorKind::bad_input, "error: " + std::string(why) + ", and arrays of one's own are one frame");
-  find_exposures(index);
+  check_over_time(request);
+  find_exposures(request.index);
   if (stopped()) return;
   if (!temporal.on()) {
-    compute(index, input, options, transport, into);
+    compute(request, input, options, transport, into);
     return;
   }
   // Frame i is the same whatever was computed before it: what is not at hand of the frames before is computed once more.
   SimulatorOptions bare = options;
   bare.truth = false;
+  const std::uint64_t index = request.index;
   for (std::uint64_t before = temporal.missing_from(index); before < index; ++before) {
-    compute(before, nullptr, bare, no_transport, earlier);
+    compute({before, {}, {}}, nullptr, bare, no_transport, earlier);
     if (stopped()) return;
     temporal.keep(before, job.out);
   }
-  compute(index, nullptr, options, transport, into);
+  compute(request, nullptr, options, transport, into);
   if (stopped()) return;
   temporal.keep(index, job.out);
   temporal.settle(index, setup, job);
@@ -168,7 +170,7 @@ void Simulator::Impl::find_exposures(std::uint64_t index) {
   exposure.check(index);
   SimulatorOptions bare = options;
   bare.truth = false;
-  while (exposure.on() && exposure.known() <= index && !stopped()) compute(exposure.known() - 1, nullptr, bare, no_transport, earlier);
+  while (exposure.on() && exposure.known() <= index && !stopped()) compute({exposure.known() - 1, {}, {}}, nullptr, bare, no_transport, earlier);
 }
 
 void Simulator::Impl::set_exposures(std::uint64_t index) {
@@ -177,26 +179,35 @@ void Simulator::Impl::set_exposures(std::uint64_t index) {
   for (std::size_t k = 0; k < times.size(); ++k) camera.mode.sequence[k].integration_time_s = times[k];
 }
 
-void Simulator::Impl::compute(std::uint64_t index, const pipeline::Input* input, const SimulatorOptions& with, const Transport& transport,
-                              Frame& into) {
-  if (exposure.on()) set_exposures(index);
-  into.index = index;
+void Simulator::Impl::check_over_time(const FrameRequest& request) const {
+  const char* const why = needs_earlier();
+  if (why != nullptr && (request.seed || request.pose))
+    throw Error(ErrorKind::bad_input, "error: " + std::string(why) + ", which a request of another seed or pose does not have");
+}
+
+void Simulator::Impl::compute(const FrameRequest& request, const pipeline::Input* input, const SimulatorOptions& with,
+                              const Transport& transport, Frame& into) {
+  if (exposure.on()) set_exposures(request.index);
+  into.index = request.index;
   simulator::prepare(into, camera, with, transport);
-  const double start = start_of(index);
+  const double start = start_of(request.index);
   into.raw.start_time_s.clear();
   for (const double after : frozen_camera.raw_frame_start_s()) into.raw.start_time_s.push_back(start + after);
   into.truth.time_s = times_from(start).truth_s();
-  const FrameRequest request{index, {}, {}};
   set_frame(request);
   if (input != nullptr) setup.scene.moments = 0;  // nothing of what moves need go to a GPU
   // What is given of the stage before the entry is known, however early the last one is.
   const Stage given = input == nullptr ? Stage::trace : static_cast<Stage>(static_cast<int>(input->entry) - 1);
   job.out = simulator::view_of(into, std::max(options.last_stage, given));
   engines.run([&](backend::Engine& engine) {
+    if ((request.seed || request.pose) && !engines.gpus().empty()) {
+      frame_by_batch(request, into);
+      return;
+    }
     if (!engine.derives()) frozen_scene.derive();
     engine.run(setup, job, input);
   });
-  if (exposure.on() && exposure.known() == index + 1 && !stopped())
+  if (exposure.on() && exposure.known() == request.index + 1 && !stopped())
     exposure.follow(setup.sensor, job.out, static_cast<std::size_t>(setup.lens.width) * static_cast<std::size_t>(setup.lens.height));
 }
 
@@ -206,18 +217,22 @@ Simulator::~Simulator() = default;
 Simulator::Simulator(Simulator&&) noexcept = default;
 Simulator& Simulator::operator=(Simulator&&) noexcept = default;
 
-void Simulator::frame(std::uint64_t index, Frame& into) { impl_->frame(index, nullptr, into); }
+void Simulator::frame(std::uint64_t index, Frame& into) { impl_->frame({index, {}, {}}, nullptr, into); }
+void Simulator::frame(const FrameRequest& request, Frame& into) {
+  simulator::check(request);
+  impl_->frame(request, nullptr, into);
+}
 void Simulator::frame(std::uint64_t index, const Geometry& seen, Frame& into) {
   const simulator::OwnInput own = simulator::input_of(seen, impl_->camera);
-  impl_->frame(index, &own.input, into);
+  impl_->frame({index, {}, {}}, &own.input, into);
 }
 void Simulator::frame(std::uint64_t index, const PixelLight& light, Frame& into) {
   const simulator::OwnInput own = simulator::input_of(light, impl_->camera);
-  impl_->frame(index, &own.input, into);
+  impl_->frame({index, {}, {}}, &own.input, into);
 }
 void Simulator::frame(std::uint64_t index, const Transient& light, Frame& into) {
   const simulator::OwnInput own = simulator::input_of(light, impl_->camera, impl_->setup);
-  impl_->frame(index, &own.input, into);
+  impl_->frame({index, {}, {}}, &own.input, into);
 }
 Frame Simulator::frame(std::uint64_t index) { return new_frame(*this, index); }
 Frame Simulator::frame(std::uint64_t index, const Geometry& seen) { return new_frame(*this, index, seen); }

@@ -159,6 +159,11 @@ TEST(cuda_host, has_the_same_bytes_of_samples_within_pixels_and_of_scattered_lig
           EXPECT_EQ(first_difference(copy_of(arrays), alone(scene, camera, options, request)), "") << scene.name << ", " << next - 1;
         });
         EXPECT_EQ(next, requests.size());
+        Frame into;
+        for (const FrameRequest& request : requests) {
+          simulator.frame(request, into);
+          EXPECT_EQ(first_difference(into, alone(scene, camera, options, request)), "") << scene.name << ", frame " << request.index;
+        }
       }
     }
   }

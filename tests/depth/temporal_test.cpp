@@ -177,6 +177,8 @@ TEST(temporal, is_off_unless_asked_for_and_needs_frames_before) {
   EXPECT_THROW((void)simulator.frame(0, test::wall(camera, 1)), Error);
   const std::vector<FrameRequest> requests = {{0, 5, {}}};
   EXPECT_THROW(simulator.frames(requests, [](const FrameArrays&) { ADD_FAILURE(); }), Error);
+  Frame into;
+  EXPECT_THROW(simulator.frame(requests[0], into), Error);
   DeviceFrames device;
   EXPECT_THROW(simulator.frames_on_device(0, 1, device), Error);
   for (const int frames : {0, 33}) EXPECT_THROW(timed(scene, over_frames(frames)), Error);

@@ -92,6 +92,8 @@ void all() {
   const tofray::FrameRequest requests[] = {{3, {}, {}}};
   simulator.frames(0, 2, take);
   simulator.frames(requests, take);
+  simulator.frame(requests[0], frame);
+  expect(frame.index == 3, "frame of a request");
   expect(taken == 3, "frames");
   expect(tofray::process(frame.raw, camera).z_m.size() == frame.depth.z_m.size(), "process");
   const tofray::RanOn machine = simulator.ran_on();

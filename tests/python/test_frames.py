@@ -8,6 +8,8 @@ import copy
 import json
 import os
 import pathlib
+import sys
+import types
 from typing import Any, Callable
 
 import numpy as np
@@ -25,6 +27,25 @@ BY_PHASE = ("modulation_frequency_hz", "reference_phase_rad", "integration_time_
 def test_a_picture_that_lacks_an_array_names_it() -> None:
     with pytest.raises(tofray.Error, match=r"depth.amplitude_e, depth.flags, depth.noise_m"):
         tofray.Frame(depth=tofray.Depth(z_m=FRAME.depth.z_m)).preview()
+
+
+def test_open3d_gets_the_valid_points(monkeypatch: pytest.MonkeyPatch) -> None:
+    # A stand-in that says what it got: Open3D itself is large, and not among what tests install.
+    def kept(points: Any) -> int:
+        got.append(points)
+        return len(got)
+
+    got: list[Any] = []
+    modules: Any = sys.modules
+    stand_in = types.SimpleNamespace(geometry=types.SimpleNamespace(PointCloud=types.SimpleNamespace),
+                                     utility=types.SimpleNamespace(Vector3dVector=kept))
+    monkeypatch.setitem(modules, "open3d", stand_in)
+    assert FRAME.to_open3d().points == 1
+    valid = (FRAME.depth.flags & tofray.flags["invalid"]) == 0
+    assert got[0].dtype == np.float64 and np.array_equal(got[0], FRAME.depth.points_m[valid]) and 0 < len(got[0]) < H * W
+    monkeypatch.setitem(modules, "open3d", None)
+    with pytest.raises(ImportError, match="needs the package open3d"):
+        FRAME.to_open3d()
 
 
 @pytest.mark.parametrize("part", ["raw", "depth"])

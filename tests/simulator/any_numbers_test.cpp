@@ -265,5 +265,7 @@ TEST(any_pose, of_a_request_is_refused_where_it_is_none) {
     EXPECT_EQ(taken, 0);
     DeviceFrames frames;
     EXPECT_THROW(simulator.frames_on_device(requests, frames), Error);
+    Frame into;
+    EXPECT_THROW(simulator.frame(requests[1], into), Error);
   }
 }
