@@ -532,7 +532,7 @@ class Pixel(Record):
         Single pole of the gate; 0: none.
     full_well_e : float
     read_noise_e : float
-        Reset + read, 1 sigma.
+        Reset + read, 1 sigma; reset noise alone may stand in reset_noise_e.
     column_noise_e : float
         Of A−B, the same for all pixels of a column in one raw frame, anew in each, 1 sigma.
     row_noise_e : float
@@ -567,11 +567,20 @@ class Pixel(Record):
         x. Threshold 0: no suppression.
     suppression_budget_e : float
     suppression_noise_factor : float
+    reset_noise_e : float
+        KTC noise of a tap at Temperature::reference_celsius, 1 sigma, beside read_noise_e.
+    cancels_reset_noise : bool
+        Correlated double sampling: no reset noise, but each tap is read twice.
+    blooming_share : float
+        Of the charge beyond a full well, what each of the four neighbours gets; 0: none.
+    blooming_limit_e : float
+        Who gets more than this in a lit raw frame is flagged as saturated.
     """
     __slots__ = ("quantum_efficiency", "contrast", "contrast_by_wavelength", "bandwidth_hz", "full_well_e", "read_noise_e",
                  "column_noise_e", "row_noise_e", "dark_current_e_per_s", "dark_current_doubling_k", "tap_gain_mismatch",
                  "tap_offset_mismatch_e", "crosstalk_left_right", "crosstalk_up_down", "nonlinearity", "prnu", "dsnu_dn", "delay_s",
-                 "phase_offset_rad", "pattern_seed", "suppression_threshold_e", "suppression_budget_e", "suppression_noise_factor")
+                 "phase_offset_rad", "pattern_seed", "suppression_threshold_e", "suppression_budget_e", "suppression_noise_factor",
+                 "reset_noise_e", "cancels_reset_noise", "blooming_share", "blooming_limit_e")
     quantum_efficiency: Curve
     contrast: Curve
     contrast_by_wavelength: Curve
@@ -595,6 +604,10 @@ class Pixel(Record):
     suppression_threshold_e: float
     suppression_budget_e: float
     suppression_noise_factor: float
+    reset_noise_e: float
+    cancels_reset_noise: bool
+    blooming_share: float
+    blooming_limit_e: float
 
     def __init__(
         self,
@@ -622,6 +635,10 @@ class Pixel(Record):
         suppression_threshold_e: float = 0.0,
         suppression_budget_e: float = 0.0,
         suppression_noise_factor: float = 1.0,
+        reset_noise_e: float = 0.0,
+        cancels_reset_noise: bool = False,
+        blooming_share: float = 0.0,
+        blooming_limit_e: float = 0.0,
     ) -> None:
         self.quantum_efficiency = Curve() if quantum_efficiency is None else quantum_efficiency
         self.contrast = Curve() if contrast is None else contrast
@@ -646,6 +663,10 @@ class Pixel(Record):
         self.suppression_threshold_e = suppression_threshold_e
         self.suppression_budget_e = suppression_budget_e
         self.suppression_noise_factor = suppression_noise_factor
+        self.reset_noise_e = reset_noise_e
+        self.cancels_reset_noise = cancels_reset_noise
+        self.blooming_share = blooming_share
+        self.blooming_limit_e = blooming_limit_e
 
 
 class Adc(Record):
@@ -660,13 +681,16 @@ class Adc(Record):
     valid_min : int
         Codes outside valid_min…valid_max flag the pixel as saturated.
     valid_max : int
+    gains : list[float]
+        What modes may choose from; the step of a mode is step_e_per_dn over its gain.
     """
-    __slots__ = ("bits", "step_e_per_dn", "mid_code", "valid_min", "valid_max")
+    __slots__ = ("bits", "step_e_per_dn", "mid_code", "valid_min", "valid_max", "gains")
     bits: int
     step_e_per_dn: float
     mid_code: float
     valid_min: int
     valid_max: int
+    gains: list[float]
 
     def __init__(
         self,
@@ -676,12 +700,14 @@ class Adc(Record):
         mid_code: float = 2048.0,
         valid_min: int = 0,
         valid_max: int = 4095,
+        gains: Sequence[float] = (),
     ) -> None:
         self.bits = bits
         self.step_e_per_dn = step_e_per_dn
         self.mid_code = mid_code
         self.valid_min = valid_min
         self.valid_max = valid_max
+        self.gains = list(gains)
 
 
 class RawFrame(Record):
@@ -695,12 +721,15 @@ class RawFrame(Record):
     reference_phase_rad : float
         Τ.
     integration_time_s : float
+    reference_delay_s : float
+        The light is later by this against the gate: adds 2π·f·delay to τ.
     """
-    __slots__ = ("lit", "modulation_frequency_hz", "reference_phase_rad", "integration_time_s")
+    __slots__ = ("lit", "modulation_frequency_hz", "reference_phase_rad", "integration_time_s", "reference_delay_s")
     lit: bool
     modulation_frequency_hz: float
     reference_phase_rad: float
     integration_time_s: float
+    reference_delay_s: float
 
     def __init__(
         self,
@@ -709,11 +738,13 @@ class RawFrame(Record):
         modulation_frequency_hz: float = 0.0,
         reference_phase_rad: float = 0.0,
         integration_time_s: float = 0.0,
+        reference_delay_s: float = 0.0,
     ) -> None:
         self.lit = lit
         self.modulation_frequency_hz = modulation_frequency_hz
         self.reference_phase_rad = reference_phase_rad
         self.integration_time_s = integration_time_s
+        self.reference_delay_s = reference_delay_s
 
 
 class Mode(Record):
@@ -725,11 +756,14 @@ class Mode(Record):
     name : str
     frame_rate_hz : float
     sequence : list[RawFrame]
+    gain : float
+        Of the amplifier before the ADC: one of Adc::gains, or 1.
     """
-    __slots__ = ("name", "frame_rate_hz", "sequence")
+    __slots__ = ("name", "frame_rate_hz", "sequence", "gain")
     name: str
     frame_rate_hz: float
     sequence: list[RawFrame]
+    gain: float
 
     def __init__(
         self,
@@ -737,10 +771,12 @@ class Mode(Record):
         name: str = '',
         frame_rate_hz: float = 0.0,
         sequence: Sequence[RawFrame] = (),
+        gain: float = 1.0,
     ) -> None:
         self.name = name
         self.frame_rate_hz = frame_rate_hz
         self.sequence = list(sequence)
+        self.gain = gain
 
 
 class ImageFilter(Record):
@@ -982,6 +1018,31 @@ class Interference(Record):
         self.phase_rad = phase_rad
 
 
+class SpreadSpectrum(Record):
+    """Modulation frequencies that are swept evenly over a band within each exposure, so that they
+    disturb radios less (theory 3.9).
+
+    Attributes
+    ----------
+    width : float
+        Of the band, over the modulation frequency; 0: none.
+    kind : Literal["center", "down"]
+        Center: the modulation frequency is the band's middle; down: its upper end.
+    """
+    __slots__ = ("width", "kind")
+    width: float
+    kind: Literal["center", "down"]
+
+    def __init__(
+        self,
+        *,
+        width: float = 0.0,
+        kind: Literal["center", "down"] = 'center',
+    ) -> None:
+        self.width = width
+        self.kind = kind
+
+
 class Camera(Record):
     """A camera in one of its modes: lens, light sources, pixel, ADC, the sequence of raw frames, and
     how they are decoded.
@@ -1000,6 +1061,7 @@ class Camera(Record):
     decoding : Decoding
     temperature : Temperature
     interference : Interference
+    spread_spectrum : SpreadSpectrum
     refractive_index : float
     readout_time_s : float
         Between the end of one exposure and the start of the next.
@@ -1011,7 +1073,8 @@ class Camera(Record):
         All that the profile has.
     """
     __slots__ = ("name", "source", "sensor", "lens", "filter", "illumination", "pixel", "adc", "decoding", "temperature",
-                 "interference", "refractive_index", "readout_time_s", "min_integration_time_s", "power_model", "mode", "mode_names")
+                 "interference", "spread_spectrum", "refractive_index", "readout_time_s", "min_integration_time_s", "power_model",
+                 "mode", "mode_names")
     name: str
     source: str
     sensor: Sensor
@@ -1023,6 +1086,7 @@ class Camera(Record):
     decoding: Decoding
     temperature: Temperature
     interference: Interference
+    spread_spectrum: SpreadSpectrum
     refractive_index: float
     readout_time_s: float
     min_integration_time_s: float
@@ -1044,6 +1108,7 @@ class Camera(Record):
         decoding: Decoding | None = None,
         temperature: Temperature | None = None,
         interference: Interference | None = None,
+        spread_spectrum: SpreadSpectrum | None = None,
         refractive_index: float = 1.0,
         readout_time_s: float = 0.0,
         min_integration_time_s: float = 0.0,
@@ -1062,6 +1127,7 @@ class Camera(Record):
         self.decoding = Decoding() if decoding is None else decoding
         self.temperature = Temperature() if temperature is None else temperature
         self.interference = Interference() if interference is None else interference
+        self.spread_spectrum = SpreadSpectrum() if spread_spectrum is None else spread_spectrum
         self.refractive_index = refractive_index
         self.readout_time_s = readout_time_s
         self.min_integration_time_s = min_integration_time_s
@@ -1911,8 +1977,8 @@ class FrameRequest(Record):
 __all__ = [
     "Curve", "PixelMask", "Sensor", "Scatter", "Lens", "Filter", "Pattern", "Waveform", "Area",
     "Illumination", "Pixel", "Adc", "RawFrame", "Mode", "ImageFilter", "Decoding", "Temperature",
-    "Interference", "Camera", "Material", "Plane", "Sphere", "Box", "Triangle", "Cylinder",
-    "Rectangle", "Disk", "Capsule", "Cone", "Mesh", "Rotation", "Keyframe", "Object", "Ambient",
-    "TransientBins", "Transport", "Pose", "CameraKeyframe", "Override", "CameraChoice", "Scene",
-    "RanOn", "FrameRequest",
+    "Interference", "SpreadSpectrum", "Camera", "Material", "Plane", "Sphere", "Box", "Triangle",
+    "Cylinder", "Rectangle", "Disk", "Capsule", "Cone", "Mesh", "Rotation", "Keyframe", "Object",
+    "Ambient", "TransientBins", "Transport", "Pose", "CameraKeyframe", "Override", "CameraChoice",
+    "Scene", "RanOn", "FrameRequest",
 ]

@@ -76,8 +76,10 @@ Camera interpret(const Profile& profile, const std::string& mode, const base::Pl
   Filler filler(profile.folder, faults);
   filler.fill(value, camera);
   camera.source = profile.source;
+  const Camera whole = camera;  // before a mode takes a part of its pixels
   const Modes modes(value, faults);
   const auto choose = [&](std::size_t which) {
+    camera.sensor = whole.sensor, camera.lens = whole.lens, camera.pixel = whole.pixel;
     modes.choose(which, camera, filler);
     filler.check(camera);
     faults.raise();
