@@ -65,7 +65,8 @@ double meta_number(const Arrays& arrays, const char* section, const char* key, d
 
 void read_raw_frames(const Arrays& arrays, std::size_t pixel, PixelChain& out) {
   const std::size_t pixels = arrays.width() * arrays.height();
-  const double step = meta_number(arrays, "adc", "step_e_per_dn", std::nan("")), mid = meta_number(arrays, "adc", "mid_code", std::nan(""));
+  const double step = meta_number(arrays, "adc", "step_e_per_dn", std::nan("")) / meta_number(arrays, "mode", "gain", 1),
+               mid = meta_number(arrays, "adc", "mid_code", std::nan(""));
   const double most = step * (std::exp2(meta_number(arrays, "adc", "bits", std::nan(""))) - 1 - mid);
   for (std::size_t k = 0; k < arrays.phases(); ++k) {
     const std::size_t at = k * pixels + pixel;

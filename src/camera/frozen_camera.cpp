@@ -54,7 +54,8 @@ FrozenCamera::FrozenCamera(const Camera& camera, bool noise, std::uint64_t seed,
   freeze_patterns();
   const bool quarters =
       std::none_of(raw_frames_.begin(), raw_frames_.end(), [](const RawFrameView& k) { return k.lit != 0 && k.gate_kind == Gate::other; });
-  phasors_.sums_alone = quarters && lights_.size() == 1 && sensor_.drifts == 0 && sensor_.delay == nullptr;
+  phasors_.sums_alone =
+      quarters && lights_.size() == 1 && camera_.spread_spectrum.width == 0 && sensor_.drifts == 0 && sensor_.delay == nullptr;
   freeze_decoder(noise);
 }
 
@@ -81,7 +82,14 @@ void FrozenCamera::freeze_lens(int subpixel) {
 /// Reference phase of a modulation frequency's first raw frame.
 double FrozenCamera::first_phase(std::size_t modulation) const {
   const auto at = std::find(modulations_.of_raw_frame.begin(), modulations_.of_raw_frame.end(), static_cast<int>(modulation));
-  return camera_.mode.sequence[static_cast<std::size_t>(at - modulations_.of_raw_frame.begin())].reference_phase_rad;
+  return reference_phase_of(camera_.mode.sequence[static_cast<std::size_t>(at - modulations_.of_raw_frame.begin())]);
+}
+
+/// Of the light, over the band that is swept.                                                              [theory: eq. 3.31]
+double FrozenCamera::mean_frequency(std::size_t modulation) const {
+  const SpreadSpectrum& spread = camera_.spread_spectrum;
+  const double frequency = modulations_.frequency_hz[modulation];
+  return spread.kind == SpreadSpectrum::Kind::down ? frequency * (1 - 0.5 * spread.width) : frequency;
 }
 
 void FrozenCamera::freeze_phasors() {
@@ -106,8 +114,10 @@ void FrozenCamera::freeze_phasors() {
   }
   for (std::size_t i = 0; i < modulations; ++i) {
     ModulationView m{};
-    m.frequency = single(modulations_.frequency_hz[i]);
-    const double turns_per_metre = modulations_.frequency_hz[i] * camera_.refractive_index / speed_of_light;
+    const double frequency = mean_frequency(i), per_speed = camera_.refractive_index / speed_of_light;
+    m.frequency = single(frequency);
+    m.swept_turns_per_metre = single(0.5 * camera_.spread_spectrum.width * modulations_.frequency_hz[i] * per_speed);
+    const double turns_per_metre = frequency * per_speed;
     m.turns_per_metre_high = single(turns_per_metre);
     m.turns_per_metre_low = single(turns_per_metre - static_cast<double>(m.turns_per_metre_high));
     m.source = sources_.data() + i * lights * orders * 2;
@@ -128,7 +138,7 @@ void FrozenCamera::freeze_sequence(std::uint64_t seed, bool noise) {
   SensorView& s = sensor_;
   s.raw_frames = static_cast<std::int32_t>(camera_.mode.sequence.size());
   take_numbers(camera_, s);
-  s.noise = !noise ? Noise::off : camera_.pixel.read_noise_e < least_merged_read_noise ? Noise::apart : Noise::merged;
+  s.noise = !noise ? Noise::off : read_noise_of(camera_) < least_merged_read_noise ? Noise::apart : Noise::merged;
   s.keys = keys_ = keys_of(seed);
   const std::size_t values = 2 * static_cast<std::size_t>(phasors_.orders);
   const bool another = camera_.interference.share > 0;
@@ -176,8 +186,8 @@ Gate gate_at(double phase) {
 /// τ − τ_0 + δ, where δ = 2π·f·n/c·2·(half path by which the sensor has drifted).
 double FrozenCamera::gate_phase(std::size_t raw_frame) const {
   const auto modulation = static_cast<std::size_t>(raw_frames_[raw_frame].modulation);
-  const double drift = 4 * pi * drifted_m_ * modulations_.frequency_hz[modulation] * camera_.refractive_index / speed_of_light;
-  return camera_.mode.sequence[raw_frame].reference_phase_rad - first_phase(modulation) + drift;
+  const double drift = 4 * pi * drifted_m_ * mean_frequency(modulation) * camera_.refractive_index / speed_of_light;
+  return reference_phase_of(camera_.mode.sequence[raw_frame]) - first_phase(modulation) + drift;
 }
 
 /// cos and sin of m times that.

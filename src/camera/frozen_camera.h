@@ -29,6 +29,9 @@ struct Modulations {
 /// @throws Error (bad_input) where the frequencies have no common base with cycles up to 1000
 Modulations modulations_of(const Mode& mode);
 
+/// τ, of its phase and its delay together [rad]; 0 where unlit.
+double reference_phase_of(const RawFrame& frame);
+
 /// Start of each raw frame after the start of its frame [s]: an exposure begins when the one before has been read out.
 std::vector<double> raw_frame_starts_s(const std::vector<double>& integration_time_s, double readout_time_s);
 
@@ -63,6 +66,7 @@ class FrozenCamera {
   void freeze_sequence(std::uint64_t seed, bool noise);
   void freeze_phasors();
   [[nodiscard]] double first_phase(std::size_t modulation) const;
+  [[nodiscard]] double mean_frequency(std::size_t modulation) const;
   [[nodiscard]] double gate_phase(std::size_t raw_frame) const;
   void freeze_gates(double half_path_m);
   void freeze_other_camera(double time_s, std::uint64_t index);

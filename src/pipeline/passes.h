@@ -10,6 +10,24 @@
 /// The passes over whole images that follow the pixels: flying pixels, filters, and the range that is left.
 namespace tofray::pipeline {
 
+/// A pixel that gets more than the limit of what its neighbours' wells cannot hold is flagged as saturated.  [theory: eq. 3.32]
+TOFRAY_FN void bloom_pixel(const Setup& s, const Job& job, int x, int y) {
+  const int width = s.lens.width, at = y * width + x;
+  const float* const over = overflow_in(s, job);
+  float spilled = 0;
+  if (x > 0) spilled = spilled + over[at - 1];
+  if (x + 1 < width) spilled = spilled + over[at + 1];
+  if (y > 0) spilled = spilled + over[at - width];
+  if (y + 1 < s.lens.height) spilled = spilled + over[at + width];
+  if (!(spilled * s.sensor.blooming_share > s.sensor.blooming_limit)) return;
+  const Pixels p{at, 1};
+  const std::int32_t flags = job.out.flags[at] | depth::saturated;
+  store_range<float>(s, job.out, p, camera::ray<float>(s.lens, p), 0.0f, 0.0f, flags);
+}
+TOFRAY_FN void bloom_row(const Setup& s, const Job& job, int y) {
+  for (int x = 0; x < s.lens.width; ++x) bloom_pixel(s, job, x, y);
+}
+
 /// Pass 1: flags a flying pixel; z and noise are only read.
 TOFRAY_FN void flag_flying_pixel(const Setup& s, const Job& job, int x, int y) {
   const int width = s.lens.width, at = y * width + x;

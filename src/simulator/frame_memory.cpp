@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "simulator/frame_memory.h"
 
+#include "camera/frozen_camera.h"
+
 namespace tofray::simulator {
 
 namespace {
@@ -34,7 +36,7 @@ void prepare(Frame& frame, const Camera& camera, const SimulatorOptions& options
   raw.modulation_frequency_hz.clear(), raw.reference_phase_rad.clear(), raw.integration_time_s.clear(), raw.lit.clear();
   for (const RawFrame& k : camera.mode.sequence) {
     raw.modulation_frequency_hz.push_back(k.lit ? k.modulation_frequency_hz : 0);
-    raw.reference_phase_rad.push_back(k.lit ? k.reference_phase_rad : 0);
+    raw.reference_phase_rad.push_back(camera::reference_phase_of(k));
     raw.integration_time_s.push_back(k.integration_time_s);
     raw.lit.push_back(k.lit);
   }

@@ -179,6 +179,7 @@ TEST(largest_numbers, give_flags_or_finite_numbers) {
   camera.pixel.column_noise_e = camera.pixel.row_noise_e = 1e6, camera.pixel.phase_offset_rad = 6.28;
   camera.pixel.tap_gain_mismatch = 1, camera.pixel.tap_offset_mismatch_e = 1e6;
   camera.interference = {100, -1e9, 1, -100};
+  camera.pixel.reset_noise_e = 1e6, camera.pixel.blooming_share = 0.25, camera.spread_spectrum = {0.5, SpreadSpectrum::Kind::down};
   camera.filter = {850e-9, 10e-6, 1, {}};
   camera.mode.frame_rate_hz = 1e-4;
   Scene scene = wall(1);
