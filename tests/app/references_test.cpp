@@ -220,17 +220,17 @@ TEST(oversized_meshes, are_refused_at_the_limit) {
   };
   // 4 GB that a header promises, of which 20 bytes are there.
   write(folder / "claims.glb", std::string("glTF\2\0\0\0\xFF\xFF\xFF\xFF\xEE\xFF\xFF\xFFJSON", 20));
-  refused("claims.glb", 1, "claims.glb: error: ");
+  refused("claims.glb", 2, "claims.glb: error: ");
   // A data URI of 1 GiB, as a file with a hole.
   write(folder / "data.gltf", R"({"asset": {"version": "2.0"}, "buffers": [{"byteLength": 3, "uri": "data:;base64,)");
   fs::resize_file(folder / "data.gltf", (1ULL << 30) + 100);
   refused("data.gltf", 4, "is too long");
   // A scene that somebody packed.
   write(folder / "scene.obj", std::string("\x1F\x8B\x08\0\0\0\0\0\0\3", 10) + std::string(1000, '\xA5'));
-  refused("scene.obj", 1, "scene.obj:1");
+  refused("scene.obj", 2, "scene.obj:1");
   // 2^40 instances need one node below two others again and again: a node has one parent.
   std::string nodes;
   for (int i = 0; i < 40; ++i) nodes += "{\"children\": [" + std::to_string(i + 1) + ", " + std::to_string(i + 1) + "]}, ";
   write(folder / "many.gltf", R"({"asset": {"version": "2.0"}, "nodes": [)" + nodes + "{}]}");
-  refused("many.gltf", 1, "many.gltf: error: nodes[");
+  refused("many.gltf", 2, "many.gltf: error: nodes[");
 }
