@@ -178,10 +178,11 @@ TOFRAY_FIELDS(SimulatorOptions, &SimulatorOptions::seed, &SimulatorOptions::nois
 template <class Call>
 void each_record(const Call& call) {
   const auto all = [&]<class... T>(std::tuple<T...>*) { (call(static_cast<T*>(nullptr)), ...); };
-  using Records = std::tuple<Curve, PixelMask, Sensor, Scatter, Lens, Filter, Pattern, Waveform, Area, Illumination, Pixel, Adc, RawFrame,
-                             Mode, ImageFilter, Decoding, Temperature, Interference, SpreadSpectrum, Readout, AutoExposure, Camera, Material, Plane, Sphere,
-                             Box, Triangle, Cylinder, Rectangle, Disk, Capsule, Cone, Mesh, Rotation, Keyframe, Object, Ambient,
-                             TransientBins, Transport, Pose, CameraKeyframe, Override, CameraChoice, Scene, RanOn, FrameRequest>;
+  using Records =
+      std::tuple<Curve, PixelMask, Sensor, Scatter, Lens, Filter, Pattern, Waveform, Area, Illumination, Pixel, Adc, RawFrame, Mode,
+                 ImageFilter, Decoding, Temperature, Interference, SpreadSpectrum, Readout, AutoExposure, Camera, Material, Plane, Sphere,
+                 Box, Triangle, Cylinder, Rectangle, Disk, Capsule, Cone, Mesh, Rotation, Keyframe, Object, Ambient, TransientBins,
+                 Transport, Pose, CameraKeyframe, Override, CameraChoice, Scene, RanOn, FrameRequest>;
   all(static_cast<Records*>(nullptr));
 }
 

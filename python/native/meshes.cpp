@@ -195,7 +195,8 @@ Raises
 Error
     For an array of another dtype, shape or order. (Values beyond 0 to 1 are refused by whoever simulates.))";
 
-constexpr const char* vector_map_doc = R"(A picture of three numbers, which its user gives a meaning. Never changes: scenes and simulators share it.
+constexpr const char* vector_map_doc =
+    R"(A picture of three numbers, which its user gives a meaning. Never changes: scenes and simulators share it.
 
 Parameters
 ----------

@@ -58,7 +58,7 @@ void bin_pixel(Pixel& pixel, int n) {
   for (double& charge : pixel.nonlinearity.x) charge *= all;
   for (double& read : pixel.nonlinearity.y) read *= all;
   pixel.crosstalk_left_right /= n, pixel.crosstalk_up_down /= n;  // of the pixels along one edge alone
-  pixel.blooming_share /= n, pixel.blooming_limit_e *= n;               // and so spill what is beyond wells
+  pixel.blooming_share /= n, pixel.blooming_limit_e *= n;         // and so spill what is beyond wells
   pixel.prnu /= n, pixel.delay_s /= n, pixel.phase_offset_rad /= n, pixel.dsnu_dn *= n;
 }
 

@@ -170,7 +170,8 @@ void Simulator::Impl::find_exposures(std::uint64_t index) {
   exposure.check(index);
   SimulatorOptions bare = options;
   bare.truth = false;
-  while (exposure.on() && exposure.known() <= index && !stopped()) compute({exposure.known() - 1, {}, {}}, nullptr, bare, no_transport, earlier);
+  while (exposure.on() && exposure.known() <= index && !stopped())
+    compute({exposure.known() - 1, {}, {}}, nullptr, bare, no_transport, earlier);
 }
 
 void Simulator::Impl::set_exposures(std::uint64_t index) {
