@@ -104,8 +104,10 @@ METRES = {"position", "point", "center", "radius", "min", "max", "vertices", "he
 RATIOS = {"fill_factor", "share", "weights", "kernel", "k1", "k2", "k3", "k4", "k5", "k6", "p1", "p2", "f_number", "transmission", "peak",
           "exponent", "duty", "modulation_depth", "correlation", "emission", "axis", "normal", "direction", "up", "samples", "scale", "active",
           "tap_gain_mismatch", "crosstalk_left_right", "crosstalk_up_down", "prnu", "suppression_noise_factor", "sigmas", "flying_sigmas",
-          "asymmetry_sigmas", "multipath_sigmas", "temporal_sigmas", "refractive_index", "diffuse", "specular", "alpha", "retro", "occupancy"}
-OTHERS = {"mid_code": "DN", "celsius": "°C", "Ambient.amount": "by its quantity", "Curve.x": "any unit", "Curve.y": "any unit"}
+          "asymmetry_sigmas", "multipath_sigmas", "temporal_sigmas", "refractive_index", "diffuse", "specular", "alpha", "retro", "occupancy",
+          "blooming_share", "gain", "gains", "speed", "aim", "bright"}
+OTHERS = {"mid_code": "DN", "celsius": "°C", "Ambient.amount": "by its quantity", "Curve.x": "any unit", "Curve.y": "any unit",
+          "SpreadSpectrum.width": "1"}
 
 
 def unit(struct: str, member: str, type_name: str) -> str:
