@@ -42,7 +42,10 @@ void add_raw_frames(const Value& entry, const RawFrame& raw, std::vector<RawFram
     faults.add(entry.place(), "a lit raw frame lacks modulation_frequency", "expected modulation_frequency, or lit: false");
   if (raw.lit && !phase && !delay)
     faults.add(entry.place(), "a lit raw frame lacks reference_phase", "expected reference_phase, or reference_delay, or lit: false");
-  if (phase && delay) faults.add(delay.place(), "a raw frame has reference_phase and reference_delay", "expected one of them");
+  // (`meta` has both, one of which is 0.)
+  const bool either = phase.either == 0 && delay.either == 0 && (raw.reference_phase_rad == 0 || raw.reference_delay_s == 0);
+  if (phase && delay && !either)
+    faults.add(delay.place(), "a raw frame has reference_phase and reference_delay", "expected one of them, or 0 for the other");
   for (const char* key : {"modulation_frequency", "reference_phase", "reference_delay"}) {
     if (!raw.lit && entry[key])
       faults.add(entry[key].place(), std::string("an unlit raw frame has no ") + key, "take it out, or lit: false");

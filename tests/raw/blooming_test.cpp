@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "backend/cpu/cpu.h"
+#include "support/own_arrays.h"
 #include "support/pixels.h"
 #include "support/same_frame.h"
 
@@ -41,10 +42,6 @@ PixelLight with_bright_spots() {
   return out;
 }
 
-Frame frame_of(const Camera& camera, const PixelLight& light, Noise noise = Noise::off, Isa isa = Isa::best) {
-  return Simulator({}, camera, {.seed = 3, .noise = noise, .threads = 1, .isa = isa}).frame(0, light);
-}
-
 /// What each pixel's wells have no room for in the raw frame in which that is most.
 std::vector<double> overflow_of(const Frame& whole) {
   std::vector<double> out(bloom_pixels, 0.0);
@@ -72,10 +69,10 @@ TEST(blooming, flags_who_gets_more_than_the_limit_of_what_neighbours_cannot_hold
   const PixelLight light = with_bright_spots();
   Camera bottomless = blooming(0, 0);
   bottomless.pixel.full_well_e = 1e30;
-  const std::vector<double> over = overflow_of(frame_of(bottomless, light));
-  const Frame plain = frame_of(blooming(0, 0), light);
+  const std::vector<double> over = overflow_of(frame_of_light(bottomless, light));
+  const Frame plain = frame_of_light(blooming(0, 0), light);
   for (const auto& [share, limit] : {std::pair{0.05, 400.0}, {0.25, 0.0}, {0.01, 2000.0}}) {
-    const Frame seen = frame_of(blooming(share, limit), light);
+    const Frame seen = frame_of_light(blooming(share, limit), light);
     EXPECT_EQ(seen.raw.tap_a, plain.raw.tap_a);
     EXPECT_EQ(seen.raw.raw, plain.raw.raw);
     int more = 0;
@@ -104,10 +101,10 @@ TEST(blooming, begins_where_the_limit_is_passed) {
   light.power_w[middle] = 2.4e-11f, light.path_length_m[middle] = static_cast<float>(299792458.0 / 60e6);
   Camera bottomless = blooming(0, 0);
   bottomless.pixel.full_well_e = 1e30;
-  const double over = overflow_of(frame_of(bottomless, light))[middle];
+  const double over = overflow_of(frame_of_light(bottomless, light))[middle];
   ASSERT_GT(over, 1000);
   for (const double off : {-1.0, 1.0}) {
-    const Frame seen = frame_of(blooming(0.1, 0.1 * over + off), light);
+    const Frame seen = frame_of_light(blooming(0.1, 0.1 * over + off), light);
     int flagged = 0;
     for (const std::size_t at : {middle - 1, middle + 1, middle - bloom_width, middle + bloom_width})
       flagged += (seen.depth.flags[at] & flag_saturated) != 0 ? 1 : 0;
@@ -122,7 +119,7 @@ TEST(blooming, looks_at_lit_raw_frames) {
   PixelLight light = with_bright_spots();
   std::fill(light.power_w.begin(), light.power_w.end(), 2e-12f);
   light.ambient_e_per_s.assign(bloom_pixels, 1e5f);  // 100 e⁻ in a lit raw frame, 1e5 in the unlit one
-  const Frame seen = frame_of(camera, light);
+  const Frame seen = frame_of_light(camera, light);
   EXPECT_TRUE(std::all_of(seen.depth.flags.begin(), seen.depth.flags.end(), [](auto flags) { return (flags & flag_saturated) == 0; }));
 }
 
@@ -131,9 +128,9 @@ TEST(blooming, comes_before_filters) {
   for (const auto kind :
        {ImageFilter::Kind::median, ImageFilter::Kind::adaptive, ImageFilter::Kind::bilateral, ImageFilter::Kind::gaussian}) {
     Camera camera = blooming(0.05, 400);
-    const Frame plain = frame_of(camera, with_bright_spots());
+    const Frame plain = frame_of_light(camera, with_bright_spots());
     camera.decoding.filter.kind = kind;
-    const Frame seen = frame_of(camera, with_bright_spots());
+    const Frame seen = frame_of_light(camera, with_bright_spots());
     for (std::size_t i = 0; i < bloom_pixels; ++i) {
       if ((plain.depth.flags[i] & flag_saturated) == 0) continue;
       ASSERT_NE(seen.depth.flags[i] & flag_saturated, 0);
@@ -152,7 +149,7 @@ TEST(blooming, lets_no_flagged_pixel_bleed_into_what_filters_make) {
     constexpr std::size_t middle = bloom_pixels / 2;
     light.power_w[middle] = 4e-10f;
     for (const std::size_t at : {middle - 1, middle + 1, middle - bloom_width, middle + bloom_width}) light.path_length_m[at] = 3.4f;
-    const Frame seen = frame_of(camera, light);
+    const Frame seen = frame_of_light(camera, light);
     int valid = 0;
     for (const float range : seen.depth.range_m) {
       if (std::isnan(range)) continue;
@@ -165,20 +162,20 @@ TEST(blooming, lets_no_flagged_pixel_bleed_into_what_filters_make) {
 
 TEST(blooming, is_the_same_with_every_instruction_set_and_off_unless_given) {
   EXPECT_EQ(Pixel().blooming_share, 0);
-  const Frame scalar = frame_of(blooming(0.05, 400), with_bright_spots(), Noise::exact, Isa::scalar);
+  const Frame scalar = frame_of_light(blooming(0.05, 400), with_bright_spots(), Noise::exact, Isa::scalar);
   for (const Isa isa : {Isa::scalar_fma, Isa::avx2, Isa::avx512}) {
     if (!backend::can_run(isa)) continue;
-    EXPECT_EQ(first_difference(frame_of(blooming(0.05, 400), with_bright_spots(), Noise::exact, isa), scalar), "");
+    EXPECT_EQ(first_difference(frame_of_light(blooming(0.05, 400), with_bright_spots(), Noise::exact, isa), scalar), "");
   }
   // A limit without a share is nothing.
-  EXPECT_EQ(first_difference(frame_of(blooming(0, 400), with_bright_spots(), Noise::exact),
-                             frame_of(blooming(0, 0), with_bright_spots(), Noise::exact)),
+  EXPECT_EQ(first_difference(frame_of_light(blooming(0, 400), with_bright_spots(), Noise::exact),
+                             frame_of_light(blooming(0, 0), with_bright_spots(), Noise::exact)),
             "");
 }
 
 // What is recorded says nothing of charge beyond the wells.
 TEST(blooming, is_not_known_of_a_recording) {
-  const Frame plain = frame_of(blooming(0, 0), with_bright_spots());
+  const Frame plain = frame_of_light(blooming(0, 0), with_bright_spots());
   const Depth again = process(plain.raw, blooming(0.25, 0)), before = process(plain.raw, blooming(0, 0));
   EXPECT_EQ(again.flags, before.flags);
 }
