@@ -25,7 +25,7 @@ Camera small_camera(Random& random) {
   return camera;
 }
 
-constexpr int crowd_size = with_sanitizers ? 400 : 900;
+constexpr int bouncing_crowd = with_sanitizers ? 400 : 600;
 
 /// @return its indirect light
 double expect_same_as_scalar(Scene scene, const Camera& camera, int ways = 4) {
@@ -53,7 +53,7 @@ void let_the_sun_shine(Random& random, Scene& scene) {
 TEST(bounces, in_a_crowd_are_those_of_each_body_looked_at) {
   Random random(91);
   for (const bool sun : {false, true}) {
-    Scene scene = crowd(random, crowd_size, false, 0.8);
+    Scene scene = crowd(random, bouncing_crowd, false, 0.8);
     scene.camera.pose = random_pose(random);
     if (sun) let_the_sun_shine(random, scene);
     EXPECT_GT(expect_same_as_scalar(scene, small_camera(random)), 0);
@@ -63,7 +63,7 @@ TEST(bounces, in_a_crowd_are_those_of_each_body_looked_at) {
 TEST(bounces, in_a_crowd_that_moves_are_those_of_each_body_looked_at) {
   Random random(92);
   for (const bool passed : {false, true}) {
-    Scene scene = crowd(random, crowd_size / 2, true, 0.8);
+    Scene scene = crowd(random, bouncing_crowd / 2, true, 0.8);
     let_the_sun_shine(random, scene);
     let_meshes_change(scene);
     set_in_motion(random, scene, passed);
