@@ -139,7 +139,7 @@ void Simulator::Impl::frame(const FrameRequest& request, const pipeline::Input* 
     throw Error(ErrorKind::bad_input, "error: " + std::string(why) + ", and arrays of one's own are one frame");
   check_over_time(request);
   find_exposures(request.index);
-  if (stopped()) return;
+  if (exposure.on() && exposure.known() <= request.index) return;  // stopped on the way
   if (!temporal.on()) {
     compute(request, input, options, transport, into);
     return;

@@ -159,11 +159,12 @@ TEST(cuda_host, has_the_same_bytes_of_samples_within_pixels_and_of_scattered_lig
           EXPECT_EQ(first_difference(copy_of(arrays), alone(scene, camera, options, request)), "") << scene.name << ", " << next - 1;
         });
         EXPECT_EQ(next, requests.size());
-        Frame into;
-        for (const FrameRequest& request : requests) {
-          simulator.frame(request, into);
-          EXPECT_EQ(first_difference(into, alone(scene, camera, options, request)), "") << scene.name << ", frame " << request.index;
-        }
+      }
+      if (alike || i % 3 != 0) continue;
+      Frame into;
+      for (std::size_t which = 0; which < 4; ++which) {  // each kind of request once
+        simulator.frame(requests[which], into);
+        EXPECT_EQ(first_difference(arrays_only(into), alone(scene, camera, options, requests[which])), "") << scene.name << ", " << which;
       }
     }
   }

@@ -157,7 +157,7 @@ TEST(checks, refuse_cameras_that_cannot_be) {
       {{{mode + "sequence", "[{reference_phase: 0, integration_time: 1 ms}]"}}, "a lit raw frame lacks modulation_frequency"},
       {{{mode + "sequence", "[{lit: false, reference_delay: 0, integration_time: 1 ms}]"}}, "an unlit raw frame has no reference_delay"},
       {{{mode + "sequence", "[{modulation_frequency: 1 MHz, integration_time: 1 ms}]"}}, "a lit raw frame lacks reference_phase"},
-      {{{mode + "sequence", "[{modulation_frequency: 1 MHz, reference_phase: 0, reference_delay: 0" + phases}},
+      {{{mode + "sequence", "[{modulation_frequency: 1 MHz, reference_phase: 90 deg, reference_delay: 1 ns" + phases}},
        "a raw frame has reference_phase and reference_delay"},
       {{{mode + "sequence", "[{modulation_frequency: 1 MHz, reference_delay: [0, 250 ns, 500 ns]" + phases}}, "not equally spaced"},
       {{{mode + "gain", "2"}}, "expected 1, since adc.gains is not given"},

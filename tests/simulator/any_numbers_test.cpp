@@ -109,7 +109,7 @@ void expect_sane(const Depth& depth) {
   std::vector<bool> valid, returned;
   for (const std::uint16_t flags : depth.flags) {
     valid.push_back((flags & flags_invalid) == 0), returned.push_back((flags & flag_no_return) == 0);
-    EXPECT_LT(flags, 256);
+    EXPECT_LT(flags, 512);
   }
   expect_flagged(depth.z_m, valid, 1, "z"), expect_flagged(depth.range_m, valid, 1, "range"),
       expect_flagged(depth.points_m, valid, 3, "points");
