@@ -103,6 +103,6 @@ TEST(flying_pixels, are_found_after_the_adaptive_filter) {
   const double without = edges_found(camera, 1.0, 0.3, 0.3, 2).noisy, with = edges_found(filtered, 1.0, 0.3, 0.3, 2).noisy;
   EXPECT_GT(with, without + 0.1) << without;
   const FlatLoss loss = flat_loss(filtered, 1.0, 0.3, 1), alone = flat_loss(camera, 1.0, 0.3, 1);
-  EXPECT_LT(loss.flat, 2e-3) << loss.flying;
+  EXPECT_LT(loss.flat, 4e-3) << loss.flying;
   EXPECT_GT(loss.valid, alone.valid + 0.02) << alone.valid;
 }
