@@ -7,7 +7,6 @@
 #include <string>
 #include <utility>
 
-#include "simulator/check.h"
 #include "simulator/frame_memory.h"
 #include "simulator/impl.h"
 #include "tofray/error.h"
