@@ -9,8 +9,7 @@ so many workers as there may be give the same set. torch_loader.py hands them to
 from __future__ import annotations
 
 import os
-import threading
-from typing import Any
+from typing import Any, Sequence
 
 import numpy as np
 from numpy.typing import NDArray
@@ -19,13 +18,17 @@ import tofray
 
 
 class Frames:
-    """`count` frames of one scene: the noise is that of frame i, the camera's pose is drawn by seed and i."""
+    """`count` frames of one scene: the noise is that of frame i, the camera's pose is drawn by seed and i.
 
-    def __init__(self, scene: tofray.Scene, camera: tofray.Camera, count: int, *, seed: int = 0, shift_m: float = 0.2) -> None:
+    `threads` is how many share each frame: 1 where as many worker processes as cores run at once.
+    """
+
+    def __init__(self, scene: tofray.Scene, camera: tofray.Camera, count: int, *, seed: int = 0, shift_m: float = 0.2, threads: int = 1) -> None:
         if camera.adc.bits > 15:
             raise ValueError(f"codes of {camera.adc.bits} bits do not fit into int16")
-        self.scene, self.camera, self.count, self.seed, self.shift_m = scene, camera, count, seed, shift_m
-        self._own = threading.local()
+        self.scene, self.camera, self.count, self.seed, self.shift_m, self.threads = scene, camera, count, seed, shift_m, threads
+        self._simulator: tofray.Simulator | None = None
+        self._made_by = 0
 
     def __len__(self) -> int:
         return self.count
@@ -37,28 +40,33 @@ class Frames:
         (x, y, z), (u, v, w) = (np.array([own.position, own.look_at]) + shifts).tolist()
         return tofray.Pose(position=(x, y, z), look_at=(u, v, w), up=own.up)
 
-    def __getitem__(self, index: int) -> tuple[NDArray[np.int16], NDArray[np.float32]]:
-        """Codes [phase, height, width], and z in metres [height, width], NaN where nothing is seen."""
-        if not 0 <= index < self.count:
-            raise IndexError(f"frame {index} of {self.count}")
-        request = tofray.FrameRequest(index=index, pose=self.pose(index))
-        frame = next(self._simulator().frames(requests=[request]))
-        # Copies of what is wanted: the frame's 5 MB go to the next one. (torch before 2.3 has no uint16.)
-        return frame.raw.raw.astype(np.int16), frame.truth.z_m.copy()
+    def batch(self, indices: Sequence[int]) -> tuple[NDArray[np.int16], NDArray[np.float32]]:
+        """Codes [frame, phase, height, width], and z in metres [frame, height, width], NaN where nothing is seen."""
+        for index in indices:
+            if not 0 <= index < self.count:
+                raise IndexError(f"frame {index} of {self.count}")
+        height, width = self.camera.sensor.height, self.camera.sensor.width
+        codes = np.empty((len(indices), len(self.camera.mode.sequence), height, width), np.int16)
+        z_m = np.empty((len(indices), height, width), np.float32)
+        requests = [tofray.FrameRequest(index=index, pose=self.pose(index)) for index in indices]
+        for i, frame in enumerate(self.simulator().frames(requests=requests)):
+            codes[i], z_m[i] = frame.raw.raw.view(np.int16), frame.truth.z_m  # torch before 2.3 has no uint16
+            del frame  # so that the next one takes its memory, which is in the processor's caches
+        return codes, z_m
 
-    def _simulator(self) -> tofray.Simulator:
-        """One for each thread of each worker: what runs at once are the workers, and none comes along through fork()."""
-        if getattr(self._own, "made_by", 0) != os.getpid():
-            self._own.simulator = tofray.Simulator(self.scene, self.camera, seed=self.seed, threads=1)
-            self._own.made_by = os.getpid()
-        simulator: tofray.Simulator = self._own.simulator
-        return simulator
+    def __getitem__(self, index: int) -> tuple[NDArray[np.int16], NDArray[np.float32]]:
+        codes, z_m = self.batch([index])
+        return codes[0], z_m[0]
+
+    def simulator(self) -> tofray.Simulator:
+        """One for each process, for none comes along through fork(). It makes of the truth what is wanted, and a frame at a time."""
+        if self._simulator is None or self._made_by != os.getpid():
+            self._simulator = tofray.Simulator(self.scene, self.camera, seed=self.seed, threads=self.threads, arrays=["raw", "gt_z_m"])
+            self._made_by = os.getpid()
+        return self._simulator
 
     def __getstate__(self) -> dict[str, Any]:
-        return {name: value for name, value in self.__dict__.items() if name != "_own"}
-
-    def __setstate__(self, state: dict[str, Any]) -> None:
-        self.__dict__.update(state, _own=threading.local())
+        return {**self.__dict__, "_simulator": None}
 
 
 def main() -> None:

@@ -169,7 +169,7 @@ TOFRAY_FIELDS(FrameRequest, &FrameRequest::index, &FrameRequest::seed, &FrameReq
 // What Simulator() takes as words; `progress` is Simulator.progress in Python.
 TOFRAY_FIELDS(SimulatorOptions, &SimulatorOptions::seed, &SimulatorOptions::noise, &SimulatorOptions::threads, &SimulatorOptions::backend,
               &SimulatorOptions::device, &SimulatorOptions::block_size, &SimulatorOptions::batch_bytes, &SimulatorOptions::isa,
-              &SimulatorOptions::truth, &SimulatorOptions::last_stage, &SimulatorOptions::exposure_samples, &SimulatorOptions::subpixel,
+              &SimulatorOptions::truth, &SimulatorOptions::arrays, &SimulatorOptions::last_stage, &SimulatorOptions::exposure_samples, &SimulatorOptions::subpixel,
               &SimulatorOptions::culling, &SimulatorOptions::progress)
 // clang-format on
 #undef TOFRAY_FIELDS

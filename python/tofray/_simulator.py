@@ -5,7 +5,7 @@
 from __future__ import annotations
 
 import copy
-from typing import TYPE_CHECKING, Any, Iterable, Iterator
+from typing import TYPE_CHECKING, Any, Iterable, Iterator, Sequence
 
 from . import _native
 from ._arrays import Depth, Raw
@@ -55,6 +55,9 @@ class Simulator:
         Which machine code runs. All give the same bytes.
     truth : bool
         Fill ``frame.truth``.
+    arrays : sequence of str
+        Fill these alone, by their names in files: ``("raw", "gt_z_m")``. Frames lack the others, but for those that these
+        are made of, and no stage is run that none of them comes from. Left empty: all of them.
     last_stage : {"trace", "power", "raw", "depth"}
         Stop after this stage: frames have no arrays of later ones.
     exposure_samples : int
@@ -86,6 +89,7 @@ class Simulator:
         batch_bytes: int = 64_000_000,
         isa: Literal["best", "scalar", "scalar_fma", "avx2", "avx512", "neon"] = "best",
         truth: bool = True,
+        arrays: Sequence[str] = (),
         last_stage: Literal["trace", "power", "raw", "depth"] = "depth",
         exposure_samples: int = 1,
         subpixel: int = 1,
@@ -93,8 +97,8 @@ class Simulator:
     ) -> None:
         self._options: dict[str, Any] = {
             "seed": seed, "noise": noise, "threads": threads, "backend": backend, "device": device, "block_size": block_size,
-            "batch_bytes": batch_bytes, "isa": isa, "truth": truth, "last_stage": last_stage,
-            "exposure_samples": exposure_samples, "subpixel": subpixel, "culling": culling,
+            "batch_bytes": batch_bytes, "isa": isa, "truth": truth, "arrays": arrays if isinstance(arrays, str) else list(arrays),
+            "last_stage": last_stage, "exposure_samples": exposure_samples, "subpixel": subpixel, "culling": culling,
         }
         if camera is None and isinstance(scene, Scene):
             camera = load_camera(scene)

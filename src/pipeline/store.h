@@ -30,9 +30,8 @@ TOFRAY_FN void store3(float* to, const Pixels& p, F x, F y, F z) {
 template <class F>
 TOFRAY_FN void store_taps(int pixels, const flow::FrameView& out, const Pixels& p, int k, const flow::Taps<F>& taps) {
   const Pixels at{p.index + k * pixels, p.count};
-  num::store(out.tap_a + at.index, taps.a, at.count);
-  num::store(out.tap_b + at.index, taps.b, at.count);
-  num::store(out.raw + at.index, num::to_int(taps.code), at.count);
+  store(out.tap_a, at, taps.a), store(out.tap_b, at, taps.b);
+  if (out.raw != nullptr) num::store(out.raw + at.index, num::to_int(taps.code), at.count);
 }
 
 /// What the surface shows: the paper's matrices.

@@ -59,12 +59,18 @@ const Scene& checked(const Scene& scene, const Camera& camera, const SimulatorOp
   return scene;
 }
 
+SimulatorOptions with_last_stage(const SimulatorOptions& wanted, const Camera& camera, const Scene& scene) {
+  SimulatorOptions out = wanted;
+  out.last_stage = simulator::last_stage_of(camera, wanted, scene.transport);
+  return out;
+}
+
 }  // namespace
 
 Simulator::Impl::Impl(const Scene& all, const Camera& profile, const SimulatorOptions& wanted)
     : scene(checked(all, profile, wanted)),
       camera(camera::with_emitters(base::as_read_out(profile))),
-      options(wanted),
+      options(with_last_stage(wanted, camera, scene)),
       frozen_camera(profile, wanted.noise != Noise::off, wanted.seed, wanted.subpixel),
       frozen_scene(scene, positions(camera), static_cast<int>(camera.mode.sequence.size()) * options.exposure_samples,
                    scene.transport.bounces > 0),

@@ -144,6 +144,7 @@ TEST(cuda_host, has_the_same_bytes_of_samples_within_pixels_and_of_scattered_lig
     camera.lens.scatter = scatters[i % 3];
     expect_same(scene, camera, {.exposure_samples = 2, .subpixel = 1 + i % 4});
     expect_same(scene, camera, {.last_stage = Stage::trace, .subpixel = 2});
+    expect_same(scene, camera, {.arrays = {"raw", "gt_mixed"}, .subpixel = 2});
     expect_same(scene, camera, {.truth = false, .subpixel = 3});
     expect_same_own_arrays(load_scene("demo"), camera);
     const SimulatorOptions options{.batch_bytes = 3'000'000, .exposure_samples = 2, .subpixel = 2};

@@ -41,7 +41,7 @@ int run_demo(const Options& options) {
   say(warnings(in));
   SimulatorOptions wanted = simulator_options(options);
   const FrameFiles what(options, {"npz", "png", "ply"}, in, wanted);
-  wanted.truth = what.need_truth();
+  wanted.truth = what.need_truth(), wanted.arrays = what.needed_arrays();
   Simulator simulator(in.scene, in.camera, wanted);
   say_fallback(options, simulator.ran_on());
   files::OutputFolder folder(options.output.empty() ? "tofray-demo" : options.output);
