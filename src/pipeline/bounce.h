@@ -223,8 +223,9 @@ TOFRAY_FN void bounce_pixels(const Setup& s, const Job& job, int item, const Pix
         }
     }
     power::sum_and_difference(s.phasors, which, half[0], half[1]);
-    gather_light<F>(s, whole, p, image.times, time, half[0], share, item == 0, paths.kept, active);
-    if (image.halves != 0) gather_light<F>(s, apart, p, image.times, time, half[1], share, item == 0, paths.kept, active);
+    const Adding<F> how{share, item == 0, paths.kept, active};
+    gather_light<F>(s, whole, p, image.times, time, half[0], how);
+    if (image.halves != 0) gather_light<F>(s, apart, p, image.times, time, half[1], how);
   }
 }
 

@@ -66,10 +66,9 @@ TOFRAY_FN void find_depth(const Setup& s, const Job& job, const Pixels& p, const
 /// What a sample within the pixels adds to the light image, or all of them at once.
 template <class F>
 TOFRAY_FN void gather(const Setup& s, const Job& job, int time, const Pixels& p, const flow::Light<F>& light) {
-  const flow::Light<F> copy = light;  // what is handed to a function lies in memory; the original need not
   const num::Mask<F> every = F(0.0f) < F(1.0f);
-  gather_light<F>(s, {job.light.before, job.light.values}, p, job.light.times, time, copy, job.gather.share, job.gather.first != 0, 1.0f,
-                  every);
+  gather_light<F>(s, {job.light.before, job.light.values}, p, job.light.times, time, light,
+                  {job.gather.share, job.gather.first != 0, 1.0f, every});
 }
 
 /// From rays to depth.
