@@ -37,13 +37,13 @@ Scene with_light_of_all_ways() {
 }
 
 /// The names of arrays that have values, and whether each has those of the whole frame.
-struct Compared {
+struct Chosen {
   std::set<std::string> there;
   std::string other;  ///< the first one whose bytes are others
 };
 
-Compared compare(const Frame& chosen, const Frame& whole) {
-  Compared out;
+Chosen compared_with(const Frame& chosen, const Frame& whole) {
+  Chosen out;
   const auto look = [&](const char* name, const auto& one, const auto& all) {
     if (one.empty()) return;
     out.there.insert(name);
@@ -58,14 +58,14 @@ Compared compare(const Frame& chosen, const Frame& whole) {
 
 void expect_each_alone(const Scene& scene, const Camera& camera, SimulatorOptions options, std::uint64_t index) {
   const Frame whole = Simulator(scene, camera, options).frame(index);
-  const std::set<std::string> all = compare(whole, whole).there;
+  const std::set<std::string> all = compared_with(whole, whole).there;
   ASSERT_GT(all.size(), 20U);
   Frame used;  // goes from one choice to the next
   for (const std::string& name : all) {
     options.arrays = {name};
     Simulator simulator(scene, camera, options);
     simulator.frame(index, used);
-    const Compared alone = compare(used, whole);
+    const Chosen alone = compared_with(used, whole);
     EXPECT_EQ(alone.other, "") << name;
     EXPECT_EQ(alone.there.count(name), 1U) << name;
     EXPECT_LE(alone.there.size(), camera.auto_exposure.speed > 0 ? 8U : 5U) << name;
@@ -103,7 +103,7 @@ TEST(chosen_arrays, have_the_bytes_that_they_have_among_all_where_frames_hang_to
 TEST(chosen_arrays, are_alone_but_for_what_they_are_made_of) {
   const auto there = [](const std::vector<std::string>& arrays, const Camera& camera, int subpixel = 1) {
     const Frame frame = Simulator(moving_steps(), camera, {.arrays = arrays, .subpixel = subpixel}).frame(0);
-    return compare(frame, frame).there;
+    return compared_with(frame, frame).there;
   };
   using Names = std::set<std::string>;
   Camera camera = busy_camera();
@@ -114,7 +114,7 @@ TEST(chosen_arrays, are_alone_but_for_what_they_are_made_of) {
   camera.auto_exposure.speed = 0.5;
   EXPECT_EQ(there({"gt_z_m"}, camera), (Names{"gt_z_m", "tap_a", "tap_b", "raw"})) << "the next exposure follows them";
   const Frame none = Simulator(moving_steps(), busy_camera(), {.truth = false, .arrays = {"gt_z_m"}}).frame(0);
-  EXPECT_TRUE(compare(none, none).there.empty()) << "truth is switched off";
+  EXPECT_TRUE(compared_with(none, none).there.empty()) << "truth is switched off";
 }
 
 TEST(chosen_arrays, of_batches_are_the_only_pointers) {
