@@ -72,10 +72,12 @@ Off difference(const Truth& a, const Truth& b, std::size_t at) {
 
 }  // namespace
 
-int main() {
+/// @param words  names of scenes, in place of all of them
+int main(int count, char** words) {
   std::printf("scene                 bounces  ways        ms   off by [%% of the direct light]  [mm]\n");
   for (const auto& [scene, bounces] : {std::pair{corner_with_box(), 7}, {load_scene("room"), 7}, {load_scene("bench-mesh"), 3}}) {
     Scene one = scene;
+    if (count > 1 && std::find(words + 1, words + count, one.name) == words + count) continue;
     const Camera camera = load_camera(one);
     one.transport = {0, 1, 0};
     std::printf("%-20s  %7d  %4s  %8.2f\n", one.name.c_str(), 0, "-", frame_ms(one, camera, 41));

@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 # SPDX-FileCopyrightText: 2026 The tofray authors
 # SPDX-License-Identifier: Apache-2.0
 """python_frames.py PROGRAM [SCENE]: what a frame costs from Python and from C++ (benches/frames.cpp), in turn; medians of rounds."""
@@ -30,10 +30,12 @@ def main() -> None:
         done = subprocess.run([program, scene, str(COUNT)], check=True, capture_output=True, text=True)
         there = [float(word) for word in done.stdout.split()]
         rows.append([*there, milliseconds(simulator, False), milliseconds(simulator, True)])
-    anew, kept, python, touched = (statistics.median(column) for column in zip(*rows))
-    print(f"C++, a new frame each time    {anew:.3f} ms\nC++, one frame kept           {kept:.3f} ms")
-    print(f"Python                        {python:.3f} ms ({100 * (python / anew - 1):+.1f} %, {100 * (python / kept - 1):+.1f} %)")
-    print(f"Python, one array looked at   {touched:.3f} ms ({100 * (touched / anew - 1):+.1f} %, {100 * (touched / kept - 1):+.1f} %)")
+    anew, kept, in_turn, python, touched = (statistics.median(column) for column in zip(*rows))
+    for name, time_ms in (("C++, a new frame each time", anew), ("C++, one frame kept", kept), ("C++, two frames in turn", in_turn),
+                          ("Python", python), ("Python, one array looked at", touched)):
+        print(f"{name:30}{time_ms:.3f} ms")
+    for there, name in ((anew, "a new frame each time"), (in_turn, "two frames in turn, as here")):
+        print(f"Python against C++, {name}: {100 * (python / there - 1):+.1f} %, and one array looked at {100 * (touched / there - 1):+.1f} %")
 
 
 if __name__ == "__main__":

@@ -6,6 +6,7 @@ import array
 import json
 import os
 import pathlib
+import re
 import shutil
 import subprocess
 import tempfile
@@ -29,6 +30,13 @@ def modes_of(camera):
     return next(one for one in (listed["cameras"] if isinstance(listed, dict) else listed) if one["name"] == camera)
 
 
+def binning_of(camera):
+    """How many pixels of the sensor lie along a side of one of the image."""
+    profile = (ROOT / f"profiles/{camera}.yaml").read_text(encoding="utf-8")
+    found = re.search(r"^  binning: *\{?(?:value: *)?(\d+)", profile, flags=re.M)
+    return int(found.group(1)) if found else 1
+
+
 def read(archive, name):
     """An array of an npz file, flat."""
     data = archive.read(name + ".npy")
@@ -45,15 +53,16 @@ class Pixel:
         with tempfile.TemporaryDirectory() as folder:
             command = [program(), "render", "card", "--quiet", "--noise", "off", "--emit", "npz", "-o", folder + "/out"]
             command += ["--arrays", "noise_m,range_m,gt_range_m,flags,amplitude_e"]
+            side = binning_of(camera)
             changes = {
                 "camera.profile": camera,
                 "camera.mode": mode,
                 "objects.0.plane.point": f"[0, 0, {distance:.9g}]",
                 "objects.0.plane.reflectivity": f"{reflectivity:.9g}",
-                "camera.sensor.width": 1,
-                "camera.sensor.height": 1,
-                "camera.lens.cx": "0 px",
-                "camera.lens.cy": "0 px",
+                "camera.sensor.width": side,
+                "camera.sensor.height": side,
+                "camera.lens.cx": f"{0.5 * (side - 1)} px",
+                "camera.lens.cy": f"{0.5 * (side - 1)} px",
                 **dict(sets),
             }
             for key, value in changes.items():

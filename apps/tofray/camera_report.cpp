@@ -9,6 +9,7 @@
 
 #include "base/constants.h"
 #include "base/limits.h"
+#include "base/readout.h"
 #include "base/text.h"
 #include "base/units.h"
 #include "camera/frozen_camera.h"
@@ -191,8 +192,11 @@ std::string noise_text(const CameraReport& report) {
 
 }  // namespace
 
-CameraReport camera_report(const Camera& camera) {
+CameraReport camera_report(const Camera& profile) {
+  Camera camera = base::as_read_out(profile);
+  camera.auto_exposure = {};  // exposures of the mode
   CameraReport out;
+  out.width = camera.sensor.width, out.height = camera.sensor.height;
   report_view(camera, out);
   const camera::Modulations modulations = camera::modulations_of(camera.mode);
   out.modulation_frequency_hz = modulations.frequency_hz;

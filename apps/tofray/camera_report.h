@@ -23,6 +23,7 @@ struct NoiseAtDistances {
 };
 
 struct CameraReport {
+  int width = 0, height = 0;                               ///< of the image
   double width_deg = 0, height_deg = 0, diagonal_deg = 0;  ///< between the outer edges of the outermost pixels, through the middle
   double pixel_width_m = 0, pixel_height_m = 0;            ///< that one pixel sees at 1 m on the axis
   double outside = 0;                                      ///< share of the pixels that are outside the lens model

@@ -232,7 +232,7 @@ Inputs inputs_of(const results::Manifest& manifest, const Options& options) {
 std::string warnings(const Inputs& in) {
   std::string text;
   if (in.scene.objects.empty())
-    text += "warning: the scene has no objects: objects is []\n  no pixel gets any light back, and every depth is invalid\n";
+    text += "warning: the scene has no objects: objects is []\n  no pixel gets any light back: what depth there is, noise makes\n";
   text += mesh_warnings(in.scene) + in.idle_transport;
   const double now = longest_lit(in.camera), modes = in.mode_integration_time_s;
   if (modes > 0 && now > modes)

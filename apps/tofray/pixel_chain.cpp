@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "base/constants.h"
+#include "base/readout.h"
 #include "base/text.h"
 #include "camera/frozen_camera.h"
 #include "depth/decode.h"
@@ -64,7 +65,8 @@ double meta_number(const Arrays& arrays, const char* section, const char* key, d
 
 void read_raw_frames(const Arrays& arrays, std::size_t pixel, PixelChain& out) {
   const std::size_t pixels = arrays.width() * arrays.height();
-  const double step = meta_number(arrays, "adc", "step_e_per_dn", std::nan("")), mid = meta_number(arrays, "adc", "mid_code", std::nan(""));
+  const double step = meta_number(arrays, "adc", "step_e_per_dn", std::nan("")) / meta_number(arrays, "mode", "gain", 1),
+               mid = meta_number(arrays, "adc", "mid_code", std::nan(""));
   const double most = step * (std::exp2(meta_number(arrays, "adc", "bits", std::nan(""))) - 1 - mid);
   for (std::size_t k = 0; k < arrays.phases(); ++k) {
     const std::size_t at = k * pixels + pixel;
@@ -175,14 +177,15 @@ PixelChain pixel_chain(const Arrays& arrays, int u, int v) {
   if (chain.raw_frames.empty()) return chain;
   const bool known = arrays.meta().find("camera") != nullptr;
   const Camera profile = camera_of(arrays, chain);
-  if (static_cast<std::size_t>(profile.sensor.width) != arrays.width() ||
-      static_cast<std::size_t>(profile.sensor.height) != arrays.height() || profile.mode.sequence.size() != chain.raw_frames.size())
+  const Sensor image = base::as_read_out(profile).sensor;
+  if (static_cast<std::size_t>(image.width) != arrays.width() || static_cast<std::size_t>(image.height) != arrays.height() ||
+      profile.mode.sequence.size() != chain.raw_frames.size())
     throw Error(
         ErrorKind::bad_input,
-        fmt::format("{}: error: the camera in meta is not the one of the arrays\n  got a sensor of {} x {} pixels with {} raw frames, "
+        fmt::format("{}: error: the camera in meta is not the one of the arrays\n  got an image of {} x {} pixels with {} raw frames, "
                     "and arrays of {} x {} pixels with {}",
-                    base::printable(arrays.where()), profile.sensor.width, profile.sensor.height, profile.mode.sequence.size(),
-                    arrays.width(), arrays.height(), chain.raw_frames.size()));
+                    base::printable(arrays.where()), image.width, image.height, profile.mode.sequence.size(), arrays.width(),
+                    arrays.height(), chain.raw_frames.size()));
   try {
     if (!known) simulator::check(profile);  // its raw frames come from arrays that anybody can write
     const camera::FrozenCamera frozen(profile, true, 0);

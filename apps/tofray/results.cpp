@@ -141,6 +141,20 @@ bool FrameFiles::need_truth() const {
                      [&](const std::string& kind) { return kind == "png" || (kind == "npz" && npz.arrays.has_truth()); });
 }
 
+std::vector<std::string> FrameFiles::needed_arrays() const {
+  const auto emits = [&](const char* kind) { return std::find(emit.begin(), emit.end(), kind) != emit.end(); };
+  if (emits("npz") && npz.arrays.is_all()) return {};
+  std::vector<std::string> names;
+  for (const results::ArrayRow& row : results::array_table()) {
+    const bool filed = emits("npz") && npz.arrays.has(row), told = row.from == "depth";
+    const bool drawn = emits("png") && (row.name == "raw" || row.name == "gt_z_m" || row.name == "gt_multipath_m");
+    // What no bin holds is told beside what the bins hold.
+    const bool counted = need_transient() && row.name.starts_with("transient_");
+    if (row.is_image() && (filed || told || drawn || counted)) names.push_back(row.name);
+  }
+  return names;
+}
+
 bool FrameFiles::need_transient() const {
   const auto shown = [&](const char* name) { return npz.arrays.has(*results::find_array(name)); };
   return std::find(emit.begin(), emit.end(), "npz") != emit.end() && (shown("transient_e_per_s") || shown("transient_lost_e_per_s"));

@@ -52,6 +52,8 @@ struct FrameFiles {
   FrameFiles(const Options& options, const std::vector<std::string>& emit, const Inputs& inputs, const SimulatorOptions& simulated);
   /// Whether a file shows any of the ground truth.
   [[nodiscard]] bool need_truth() const;
+  /// What the files and the summary are made of, as SimulatorOptions::arrays has it.
+  [[nodiscard]] std::vector<std::string> needed_arrays() const;
   /// … and histograms of light by path length.
   [[nodiscard]] bool need_transient() const;
 

@@ -63,6 +63,16 @@ def run_sphinx(source, out, doxygen, build):
     return subprocess.run(command, check=False, env=environment).returncode == 0
 
 
+def join_scripts(html):
+    """Debian's Furo is a script that imports another, which pages do not load as a module, nor could from a folder: one script of both."""
+    script = html / "_static/scripts/furo.js"
+    text = re.sub(r'^import Gumshoe from ".*";\n', "", script.read_text(encoding="utf-8"))
+    if re.search(r"^(import|export)\b", text, re.M):
+        return [f"{script}: error: imports what no page loads: the switch for dark pages and the marks of the contents would do nothing"]
+    script.write_text((script.parent / "gumshoe-patched.js").read_text(encoding="utf-8") + "\n" + text, encoding="utf-8")
+    return []
+
+
 def stage_settings(source):
     """Sphinx's settings beside the pages, with the files that pages load: the site asks no other host for any."""
     for name in ("conf.py", "extension.py", "katex.js"):
@@ -113,7 +123,7 @@ def main():
     headers.fill_pages(source, doxygen / "xml")
     good = run_sphinx(source, html, doxygen, build)
     clock.lap("sphinx")
-    faults = check.faults(ROOT, html, doxygen / "xml", build) if good else []
+    faults = join_scripts(html) + check.faults(ROOT, html, doxygen / "xml", build) if good else []
     clock.lap("check")
     if faults or not good:
         fail(faults or ["docs/site: error: Sphinx warned, see above"])

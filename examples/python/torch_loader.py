@@ -1,65 +1,74 @@
 # SPDX-FileCopyrightText: 2026 The tofray authors
 # SPDX-License-Identifier: Apache-2.0
-"""Frames for training: raw frames as input, true depth as target, each seen from a place of its own.
-
-`Frames` needs no torch, and torch.utils.data.DataLoader takes it as it is:
-DataLoader(Frames(…), batch_size=8, shuffle=True, num_workers=4).
-Item i depends on scene, camera, seed and i alone, whichever worker computes it.
-"""
+"""A loader for torch: batches are simulated while they are needed, in worker processes or beside the training, and no frame comes twice."""
 
 from __future__ import annotations
 
 import os
-from typing import Any
+import sys
+import time
+from collections import deque
+from concurrent.futures import Future, ThreadPoolExecutor
+from typing import Iterator
 
-import numpy as np
-from numpy.typing import NDArray
+import torch
+from torch.utils.data import DataLoader, IterableDataset, get_worker_info
+from training_frames import Frames
 
 import tofray
 
+Batch = tuple[torch.Tensor, torch.Tensor]  # codes [frame, phase, height, width], z_m [frame, height, width]
 
-class Frames:
-    """`count` frames of one scene: the noise is that of frame i, the camera's pose is drawn by seed and i."""
 
-    def __init__(self, scene: tofray.Scene, camera: tofray.Camera, count: int, *, seed: int = 0, shift_m: float = 0.2) -> None:
-        self.scene, self.camera, self.count, self.seed, self.shift_m = scene, camera, count, seed, shift_m
-        self._simulator: tofray.Simulator | None = None
-        self._made_by = 0
+class Stream(IterableDataset):
+    """Whole batches, for DataLoader(Stream(…), batch_size=None, num_workers=n): worker w has the batches w, w + n, w + 2n …; without
+    workers all of them come, one after the other."""
+
+    def __init__(self, frames: Frames, batch_size: int) -> None:
+        super().__init__()
+        self.frames, self.batch_size = frames, batch_size
 
     def __len__(self) -> int:
-        return self.count
+        return -(-len(self.frames) // self.batch_size)
 
-    def pose(self, index: int) -> tofray.Pose:
-        """The scene's own, shifted by up to shift_m along each axis; it looks at a point that is shifted likewise."""
-        own = self.scene.camera.pose
-        shifts = np.random.default_rng([self.seed, index]).uniform(-self.shift_m, self.shift_m, (2, 3))
-        (x, y, z), (u, v, w) = (np.array([own.position, own.look_at]) + shifts).tolist()
-        return tofray.Pose(position=(x, y, z), look_at=(u, v, w), up=own.up)
+    def __getitem__(self, number: int) -> Batch:
+        first = number * self.batch_size
+        codes, z_m = self.frames.batch(range(first, min(first + self.batch_size, len(self.frames))))
+        return torch.from_numpy(codes), torch.from_numpy(z_m)
 
-    def __getitem__(self, index: int) -> tuple[NDArray[np.float32], NDArray[np.float32]]:
-        if not 0 <= index < self.count:
-            raise IndexError(f"frame {index} of {self.count}")
-        request = tofray.FrameRequest(index=index, pose=self.pose(index))
-        frame = next(self._here().frames(requests=[request]))
-        return frame.raw.raw.astype(np.float32), frame.truth.z_m  # torch before 2.3 has no uint16; the depth is a view
+    def __iter__(self) -> Iterator[Batch]:
+        worker = get_worker_info()
+        own, step = (0, 1) if worker is None else (worker.id, worker.num_workers)
+        return (self[number] for number in range(own, len(self), step))
 
-    def _here(self) -> tofray.Simulator:
-        """Made by the worker that uses it: a simulator does not come along through fork()."""
-        if self._simulator is None or self._made_by != os.getpid():
-            # One thread for each worker: the workers themselves are what runs at once.
-            self._simulator = tofray.Simulator(self.scene, self.camera, seed=self.seed, threads=1)
-            self._made_by = os.getpid()
-        return self._simulator
 
-    def __getstate__(self) -> dict[str, Any]:
-        return {**self.__dict__, "_simulator": None}
+def ahead(stream: Stream, batches: int = 2) -> Iterator[Batch]:
+    """The batches of a stream, in order, computed by one thread while those before are used: nothing goes from process to process, and
+    the simulator's own threads (Frames(…, threads=n)) share each frame, whose arrays stay in the processor's caches. A frame is
+    computed without the interpreter's lock."""
+    with ThreadPoolExecutor(1) as thread:
+        coming: deque[Future[Batch]] = deque()
+        for number in range(len(stream)):
+            coming.append(thread.submit(stream.__getitem__, number))
+            if len(coming) > batches:
+                yield coming.popleft().result()
+        while coming:
+            yield coming.popleft().result()
 
 
 def main() -> None:
+    count = int(sys.argv[1]) if len(sys.argv) > 1 else 24
     scene = tofray.load_scene("card")
-    frames = Frames(scene, tofray.load_camera(scene), 6)
-    middles = [float(z_m[z_m.shape[0] // 2, z_m.shape[1] // 2]) for _, z_m in (frames[i] for i in range(len(frames)))]
-    print("true depth in the middle:", ", ".join(f"{z:.3f} m" for z in middles))
+    camera = tofray.load_camera(scene)
+    in_processes = Stream(Frames(scene, camera, count), 4)
+    beside = Stream(Frames(scene, camera, count, threads=os.cpu_count() or 1), 4)
+    ways = {"two processes": DataLoader(in_processes, batch_size=None, num_workers=2), "beside, on all cores": ahead(beside)}
+    for name, loader in ways.items():
+        since, seen = time.perf_counter(), 0
+        for codes, z_m in loader:
+            light = (codes.float() - camera.adc.mid_code).std(dim=1)  # here a network would be trained
+            seen += len(z_m)
+        print(f"{name}: {seen} frames, {seen / (time.perf_counter() - since):.0f} per second, the last batch {list(light.shape)}")
 
 
 if __name__ == "__main__":

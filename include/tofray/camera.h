@@ -139,7 +139,7 @@ struct Pixel {
   Curve contrast_by_wavelength = {};  ///< wavelength [m] → factor on K; none: 1
   double bandwidth_hz = 0;            ///< single pole of the gate; 0: none
   double full_well_e = 1e30;
-  double read_noise_e = 0;              ///< reset + read, 1 sigma
+  double read_noise_e = 0;              ///< reset + read, 1 sigma; reset noise alone may stand in reset_noise_e
   double column_noise_e = 0;            ///< of A−B, the same for all pixels of a column in one raw frame, anew in each, 1 sigma
   double row_noise_e = 0;               ///< the same of a row
   double dark_current_e_per_s = 0;      ///< at Temperature::reference_celsius
@@ -159,6 +159,10 @@ struct Pixel {
   double suppression_threshold_e = 0;
   double suppression_budget_e = 0;
   double suppression_noise_factor = 1;
+  double reset_noise_e = 0;          ///< kTC noise of a tap at Temperature::reference_celsius, 1 sigma, beside read_noise_e
+  bool cancels_reset_noise = false;  ///< correlated double sampling: no reset noise, but each tap is read twice
+  double blooming_share = 0;         ///< of the charge beyond a full well, what each of the four neighbours gets; 0: none
+  double blooming_limit_e = 0;       ///< who gets more than this in a lit raw frame is flagged as saturated
 };
 
 /// The converter of A−B to codes: code = round((A−B)/step + mid), clipped to its bits (theory 3.8).
@@ -168,6 +172,7 @@ struct Adc {
   double mid_code = 2048;
   int valid_min = 0;  ///< codes outside valid_min…valid_max flag the pixel as saturated
   int valid_max = 4095;
+  std::vector<double> gains = {};  ///< what modes may choose from; the step of a mode is step_e_per_dn over its gain
 };
 
 /// One exposure of the sequence.
@@ -176,6 +181,7 @@ struct RawFrame {
   double modulation_frequency_hz = 0;  ///< 0 where unlit
   double reference_phase_rad = 0;      ///< τ
   double integration_time_s = 0;
+  double reference_delay_s = 0;  ///< the light is later by this against the gate: adds 2π·f·delay to τ
 };
 
 /// One of a profile's modes: the raw frames that make a frame, in their order, and how often a frame begins.
@@ -183,6 +189,7 @@ struct Mode {
   std::string name;
   double frame_rate_hz = 0;
   std::vector<RawFrame> sequence;
+  double gain = 1;  ///< of the amplifier before the ADC: one of Adc::gains, or 1
 };
 
 /// Image filter over the range image; invalid pixels are neither changed nor used. Bilateral and adaptive filters leave edges as they are,
@@ -234,6 +241,30 @@ struct Interference {
   std::optional<double> phase_rad = {};
 };
 
+/// Modulation frequencies that are swept evenly over a band within each exposure, so that they disturb radios less (theory 3.9).
+struct SpreadSpectrum {
+  enum class Kind { center, down };
+  double width = 0;          ///< of the band, over the modulation frequency; 0: none
+  Kind kind = Kind::center;  ///< center: the modulation frequency is the band's middle; down: its upper end
+};
+
+/// Which of the sensor's pixels are read, and how many of them together (theory 4.8).
+struct Readout {
+  int binning = 1;        ///< n: the charge of n × n neighbours is added before it is read
+  int left = 0, top = 0;  ///< first column and row of the sensor that are read
+  int width = 0;          ///< columns from there on; 0: as far as the sensor goes
+  int height = 0;         ///< rows
+};
+
+/// Integration times that follow the light, from frame to frame (theory 4.9).
+struct AutoExposure {
+  double speed = 0;       ///< 0…1: share of the way to the aim that each frame goes, by the logarithm; 0: the mode's times stay
+  double aim = 0.7;       ///< how far the bright pixels shall go, a share of the valid codes and of the well
+  double bright = 0.99;   ///< which those are: the quantile of all pixels
+  double shortest_s = 0;  ///< longest lit raw frame: no shorter than this; 0: than Camera::min_integration_time_s
+  double longest_s = 0;   ///< … and no longer than this; 0: than the mode has it
+};
+
 /// Light on a pixel: by radiometry (theory 2), or by the formula that the paper prints (equation 2.11).
 enum class PowerModel { tofray, paper_literal };
 
@@ -250,6 +281,9 @@ struct Camera {
   Decoding decoding;
   Temperature temperature;
   Interference interference;
+  SpreadSpectrum spread_spectrum;
+  Readout readout;
+  AutoExposure auto_exposure;
   double refractive_index = 1.0;
   double readout_time_s = 0;  ///< between the end of one exposure and the start of the next
   double min_integration_time_s = 0;

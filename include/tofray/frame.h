@@ -22,8 +22,8 @@ struct Raw {
   TOFRAY_EXPOSURE_ARRAYS(TOFRAY_VECTOR)  // std::vector<double> modulation_frequency_hz; …
 };
 
-/// Bits of Depth::flags. The first five make the depth invalid, the next two warn, the last one says that the camera was
-/// told to reject what they warn of.
+/// Bits of Depth::flags. The first five make the depth invalid, the next two warn, the one after them says that the camera was
+/// told to reject what they warn of, and the last one that a filter, or a mean over frames, changed the range.
 enum Flag : std::uint16_t {
   flag_saturated = 1,
   flag_low_signal = 2,
@@ -33,6 +33,7 @@ enum Flag : std::uint16_t {
   flag_inconsistent_phases = 32,
   flag_inconsistent_frequencies = 64,
   flag_rejected = 128,
+  flag_filtered = 256,
 };
 inline constexpr std::uint16_t flags_invalid = 31 + 128;
 

@@ -26,6 +26,13 @@ struct ReflectivityMap {
   Wrap wrap_u = Wrap::repeat, wrap_v = Wrap::repeat;  ///< beyond 0…1
 };
 
+/// A picture of three numbers, which its user gives a meaning. Otherwise as a ReflectivityMap.
+struct VectorMap {
+  int width = 0, height = 0;
+  std::vector<std::array<float, 3>> values;                                                              ///< [height][width]
+  ReflectivityMap::Wrap wrap_u = ReflectivityMap::Wrap::repeat, wrap_v = ReflectivityMap::Wrap::repeat;  ///< beyond 0…1
+};
+
 /// How a surface sends light back, at the illumination wavelength.
 struct Material {
   enum class Brdf { lambert, phong, oren_nayar, ggx, retro };
@@ -39,6 +46,12 @@ struct Material {
   double retro = 0.0;          ///< k_r, 0…1 with k_d + k_r <= 1: the share that a retro-reflector sends back toward the light
   double spread_rad = 0.01;    ///< σ, 1e-3…π/4: angle between light and camera at which half of the retro-reflector's peak is left
   std::shared_ptr<const ReflectivityMap> map = {};  ///< scales `diffuse` from place to place; none: it is the same everywhere
+  /// How a mesh's normal leans from place to place: its parts along growing u, against growing v, and along the normal that the mesh has,
+  /// −1…1, the last one above 0, of length 0.5…1.5. None: it does not.
+  std::shared_ptr<const VectorMap> normals = {};
+  /// GGX, of a mesh: k_d, F_0 and α from place to place, in place of `diffuse`, `specular` and `alpha`, which then are a mean for those
+  /// who look; `map` scales k_d, too. None: they are the same everywhere.
+  std::shared_ptr<const VectorMap> finish = {};
 };
 
 struct Plane {
@@ -93,6 +106,7 @@ struct TriangleMesh {
   /// vertex.
   std::vector<std::array<float, 3>> normals = {};
   std::vector<std::array<float, 2>> texcoords = {};  ///< (u, v) in the material's map. Empty, or one for each vertex
+  std::vector<float> shades = {};  ///< 0…1: scale the material's matt part, as its map does. Empty, or one for each vertex
 };
 
 /// How a mesh changes its shape with time, in its own frame.

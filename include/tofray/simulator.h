@@ -48,9 +48,12 @@ struct SimulatorOptions {
   int device = -1;     ///< which GPU, from 0 on; −1: the first one that can be used
   int block_size = 0;  ///< CUDA threads per block, a multiple of 32 up to 1024; 0: chosen
   std::size_t batch_bytes =
-      64'000'000;                     ///< host memory of one batch on its way from a GPU (or to it); there are three of them for each GPU
-  Isa isa = Isa::best;                ///< best: the environment's TOFRAY_ISA, else what the CPU can do
-  bool truth = true;                  ///< fill Frame::truth
+      64'000'000;       ///< host memory of one batch on its way from a GPU (or to it); there are three of them for each GPU
+  Isa isa = Isa::best;  ///< best: the environment's TOFRAY_ISA, else what the CPU can do
+  bool truth = true;    ///< fill Frame::truth
+  /// Fill these arrays alone, by their names in files: {"raw", "gt_z_m"}. The others stay empty, but for those that these are made of, and
+  /// no stage is run that none of them comes from. Left empty: all of them.
+  std::vector<std::string> arrays = {};
   Stage last_stage = Stage::depth;    ///< stop after this stage: arrays of later ones are left as they are (zero in a new frame)
   int exposure_samples = 1;           ///< 1…1000: times within each exposure at which what moves is seen, evenly spread: motion blur
   int subpixel = 1;                   ///< 1…16: samples of each pixel along its rows and columns; 1: its middle alone sees the scene
@@ -69,7 +72,7 @@ struct RanOn {
   std::string fallback_reason;  ///< why Backend::automatic took no GPU; empty where it did, or where the processor was asked for
 };
 
-/// One frame of a batch. What is not set is the simulator's.
+/// Which frame. What is not set is the simulator's.
 struct FrameRequest {
   std::uint64_t index = 0;  ///< starts at index / frame_rate
   std::optional<std::uint64_t> seed = {};
@@ -112,6 +115,9 @@ class Simulator {
   [[nodiscard]] Frame frame(std::uint64_t index);
   /// The same into memory that the caller keeps: arrays of the right size are not allocated anew.
   void frame(std::uint64_t index, Frame& into);
+  /// The same of a frame with a seed or a pose of its own.
+  /// @throws Error (bad_input) for a pose that cannot be
+  void frame(const FrameRequest& request, Frame& into);
 
   /// Stages 2 to 4 of what another renderer saw. Of the scene only its ambient light counts, and the camera's pose for where the sun is.
   /// @throws Error (bad_input) for an array of another size than camera and sequence ask for, and for a value out of its range

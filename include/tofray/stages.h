@@ -67,6 +67,14 @@ struct Transient {
   std::vector<float> ambient_e_per_s;  ///< [height][width] likewise of light that has no modulation, 0…1e20; empty: none
 };
 
+/// Pixels of the image that a camera delivers.
+struct ImageSize {
+  int width = 0, height = 0;
+};
+/// Those of the sensor that are read, binned ones as one (theory 4.8): the size of all arrays of a frame, and of those given to a stage.
+/// @throws Error as a Simulator's constructor does for this camera
+ImageSize image_size(const Camera& camera);
+
 /// Which way each pixel looks, for renderers of one's own: x/z and y/z of its ray in the camera frame, the lens undistorted (theory 4.3).
 /// @return [height][width][2]; NaN where the lens model has no inverse
 /// @throws Error as a Simulator's constructor does for this camera: all of it has to be good, not the lens alone

@@ -45,9 +45,11 @@ std::vector<py::object> items_of(py::handle value, const Place& place, const std
 
 py::object mesh_to_python(const std::shared_ptr<const TriangleMesh>& mesh);
 py::object map_to_python(const std::shared_ptr<const ReflectivityMap>& map);
+py::object vectors_to_python(const std::shared_ptr<const VectorMap>& map);
 py::object motion_to_python(const std::shared_ptr<const MeshMotion>& motion);
 std::shared_ptr<const TriangleMesh> mesh_from_python(py::handle value, const Place& place);
 std::shared_ptr<const ReflectivityMap> map_from_python(py::handle value, const Place& place);
+std::shared_ptr<const VectorMap> vectors_from_python(py::handle value, const Place& place);
 std::shared_ptr<const MeshMotion> motion_from_python(py::handle value, const Place& place);
 
 /// How a type of C++ looks in Python: its name for stubs, and both ways. The structs come first.
@@ -215,6 +217,7 @@ struct As<std::variant<T...>> {
   };
 TOFRAY_SHARED(TriangleMesh, mesh_to_python, mesh_from_python, "TriangleMesh")
 TOFRAY_SHARED(ReflectivityMap, map_to_python, map_from_python, "ReflectivityMap")
+TOFRAY_SHARED(VectorMap, vectors_to_python, vectors_from_python, "VectorMap")
 TOFRAY_SHARED(MeshMotion, motion_to_python, motion_from_python, "MeshMotion")
 #undef TOFRAY_SHARED
 

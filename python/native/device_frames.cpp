@@ -225,7 +225,8 @@ void bind_device_frames(py::module_& module) {
       .def_property_readonly("indices", &indices_of, "Each frame's own: it starts at index / frame_rate.")
       .def_property_readonly("device", &device_of, "Which GPU, from 0 on.")
       .def_property_readonly(
-          "seconds", [](const DeviceBatch& self) { return self.frames->seconds(); }, "How long the GPU computed, by its own clock.");
+          "seconds", [](const DeviceBatch& self) { return self.frames->seconds(); },
+          "How long the GPU computed, by its own clock, in seconds.");
   frames.attr("__iter__") = py::none();  // neither of names nor of frames
 }
 

@@ -108,10 +108,12 @@ TOFRAY_FIELDS(Pixel, &Pixel::quantum_efficiency, &Pixel::contrast, &Pixel::contr
               &Pixel::full_well_e, &Pixel::read_noise_e, &Pixel::column_noise_e, &Pixel::row_noise_e, &Pixel::dark_current_e_per_s,
               &Pixel::dark_current_doubling_k, &Pixel::tap_gain_mismatch, &Pixel::tap_offset_mismatch_e, &Pixel::crosstalk_left_right,
               &Pixel::crosstalk_up_down, &Pixel::nonlinearity, &Pixel::prnu, &Pixel::dsnu_dn, &Pixel::delay_s, &Pixel::phase_offset_rad, &Pixel::pattern_seed,
-              &Pixel::suppression_threshold_e, &Pixel::suppression_budget_e, &Pixel::suppression_noise_factor)
-TOFRAY_FIELDS(Adc, &Adc::bits, &Adc::step_e_per_dn, &Adc::mid_code, &Adc::valid_min, &Adc::valid_max)
-TOFRAY_FIELDS(RawFrame, &RawFrame::lit, &RawFrame::modulation_frequency_hz, &RawFrame::reference_phase_rad, &RawFrame::integration_time_s)
-TOFRAY_FIELDS(Mode, &Mode::name, &Mode::frame_rate_hz, &Mode::sequence)
+              &Pixel::suppression_threshold_e, &Pixel::suppression_budget_e, &Pixel::suppression_noise_factor, &Pixel::reset_noise_e,
+              &Pixel::cancels_reset_noise, &Pixel::blooming_share, &Pixel::blooming_limit_e)
+TOFRAY_FIELDS(Adc, &Adc::bits, &Adc::step_e_per_dn, &Adc::mid_code, &Adc::valid_min, &Adc::valid_max, &Adc::gains)
+TOFRAY_FIELDS(RawFrame, &RawFrame::lit, &RawFrame::modulation_frequency_hz, &RawFrame::reference_phase_rad, &RawFrame::integration_time_s,
+              &RawFrame::reference_delay_s)
+TOFRAY_FIELDS(Mode, &Mode::name, &Mode::frame_rate_hz, &Mode::sequence, &Mode::gain)
 TOFRAY_FIELDS(ImageFilter, &ImageFilter::kind, &ImageFilter::sigma_px, &ImageFilter::radius_px, &ImageFilter::sigmas,
               &ImageFilter::range_m, &ImageFilter::goal_m)
 TOFRAY_FIELDS(Decoding, &Decoding::wiggling_correction, &Decoding::noise_threshold_m, &Decoding::amplitude_threshold_e,
@@ -123,12 +125,18 @@ TOFRAY_FIELDS(Decoding, &Decoding::wiggling_correction, &Decoding::noise_thresho
 TOFRAY_FIELDS(Temperature, &Temperature::celsius, &Temperature::reference_celsius, &Temperature::drift_m_per_kelvin,
               &Temperature::warm_up_m, &Temperature::warm_up_time_s, &Temperature::since_start_s)
 TOFRAY_FIELDS(Interference, &Interference::share, &Interference::frequency_difference_hz, &Interference::active, &Interference::phase_rad)
+TOFRAY_FIELDS(SpreadSpectrum, &SpreadSpectrum::width, &SpreadSpectrum::kind)
+TOFRAY_FIELDS(Readout, &Readout::binning, &Readout::left, &Readout::top, &Readout::width, &Readout::height)
+TOFRAY_FIELDS(AutoExposure, &AutoExposure::speed, &AutoExposure::aim, &AutoExposure::bright, &AutoExposure::shortest_s,
+              &AutoExposure::longest_s)
 TOFRAY_FIELDS(Camera, &Camera::name, &Camera::source, &Camera::sensor, &Camera::lens, &Camera::filter, &Camera::illumination,
-              &Camera::pixel, &Camera::adc, &Camera::decoding, &Camera::temperature, &Camera::interference, &Camera::refractive_index,
-              &Camera::readout_time_s, &Camera::min_integration_time_s, &Camera::power_model, &Camera::mode, &Camera::mode_names)
+              &Camera::pixel, &Camera::adc, &Camera::decoding, &Camera::temperature, &Camera::interference, &Camera::spread_spectrum,
+              &Camera::readout, &Camera::auto_exposure, &Camera::refractive_index, &Camera::readout_time_s,
+              &Camera::min_integration_time_s, &Camera::power_model, &Camera::mode, &Camera::mode_names)
 
 TOFRAY_FIELDS(Material, &Material::name, &Material::brdf, &Material::diffuse, &Material::specular, &Material::exponent,
-              &Material::roughness_rad, &Material::alpha, &Material::retro, &Material::spread_rad, &Material::map)
+              &Material::roughness_rad, &Material::alpha, &Material::retro, &Material::spread_rad, &Material::map, &Material::normals,
+              &Material::finish)
 TOFRAY_FIELDS(Plane, &Plane::point, &Plane::normal)
 TOFRAY_FIELDS(Sphere, &Sphere::center, &Sphere::radius)
 TOFRAY_FIELDS(Box, &Box::min, &Box::max)
@@ -161,7 +169,7 @@ TOFRAY_FIELDS(FrameRequest, &FrameRequest::index, &FrameRequest::seed, &FrameReq
 // What Simulator() takes as words; `progress` is Simulator.progress in Python.
 TOFRAY_FIELDS(SimulatorOptions, &SimulatorOptions::seed, &SimulatorOptions::noise, &SimulatorOptions::threads, &SimulatorOptions::backend,
               &SimulatorOptions::device, &SimulatorOptions::block_size, &SimulatorOptions::batch_bytes, &SimulatorOptions::isa,
-              &SimulatorOptions::truth, &SimulatorOptions::last_stage, &SimulatorOptions::exposure_samples, &SimulatorOptions::subpixel,
+              &SimulatorOptions::truth, &SimulatorOptions::arrays, &SimulatorOptions::last_stage, &SimulatorOptions::exposure_samples, &SimulatorOptions::subpixel,
               &SimulatorOptions::culling, &SimulatorOptions::progress)
 // clang-format on
 #undef TOFRAY_FIELDS
@@ -170,10 +178,11 @@ TOFRAY_FIELDS(SimulatorOptions, &SimulatorOptions::seed, &SimulatorOptions::nois
 template <class Call>
 void each_record(const Call& call) {
   const auto all = [&]<class... T>(std::tuple<T...>*) { (call(static_cast<T*>(nullptr)), ...); };
-  using Records = std::tuple<Curve, PixelMask, Sensor, Scatter, Lens, Filter, Pattern, Waveform, Area, Illumination, Pixel, Adc, RawFrame,
-                             Mode, ImageFilter, Decoding, Temperature, Interference, Camera, Material, Plane, Sphere, Box, Triangle,
-                             Cylinder, Rectangle, Disk, Capsule, Cone, Mesh, Rotation, Keyframe, Object, Ambient, TransientBins, Transport,
-                             Pose, CameraKeyframe, Override, CameraChoice, Scene, RanOn, FrameRequest>;
+  using Records =
+      std::tuple<Curve, PixelMask, Sensor, Scatter, Lens, Filter, Pattern, Waveform, Area, Illumination, Pixel, Adc, RawFrame, Mode,
+                 ImageFilter, Decoding, Temperature, Interference, SpreadSpectrum, Readout, AutoExposure, Camera, Material, Plane, Sphere,
+                 Box, Triangle, Cylinder, Rectangle, Disk, Capsule, Cone, Mesh, Rotation, Keyframe, Object, Ambient, TransientBins,
+                 Transport, Pose, CameraKeyframe, Override, CameraChoice, Scene, RanOn, FrameRequest>;
   all(static_cast<Records*>(nullptr));
 }
 

@@ -35,21 +35,38 @@ void refuse_indices(const std::vector<T>& triangles, std::size_t vertices) {
 }
 
 std::shared_ptr<TriangleMesh> make_mesh(const py::object& vertices, const py::object& triangles, const py::object& normals,
-                                        const py::object& texcoords) {
+                                        const py::object& texcoords, const py::object& shades) {
   auto mesh = std::make_shared<TriangleMesh>();
   mesh->vertices = rows_of<float, 3>(vertices, "n", -1, {nullptr, "vertices"});
   mesh->triangles = rows_of<std::int32_t, 3>(triangles, "m", -1, {nullptr, "triangles"});
   const auto count = static_cast<py::ssize_t>(mesh->vertices.size());
   if (!normals.is_none()) mesh->normals = rows_of<float, 3>(normals, "", count, {nullptr, "normals"});
   if (!texcoords.is_none()) mesh->texcoords = rows_of<float, 2>(texcoords, "", count, {nullptr, "texcoords"});
+  if (!shades.is_none()) mesh->shades = take<float>(shades, {{count, ""}}, {nullptr, "shades"});
   refuse_indices(mesh->triangles, mesh->vertices.size());
   return mesh;
 }
 
-std::shared_ptr<ReflectivityMap> make_map(const py::object& values, const py::object& wrap_u, const py::object& wrap_v) {
-  auto map = std::make_shared<ReflectivityMap>();
+void put_values(const py::object& values, Shape& shape, std::vector<float>& out) {
+  out = take<float>(values, {{-1, "height"}, {-1, "width"}}, {nullptr, "values"}, &shape);
+}
+void put_values(const py::object& values, Shape& shape, std::vector<std::array<float, 3>>& out) {
+  const std::vector<float> flat = take<float>(values, {{-1, "height"}, {-1, "width"}, {3, ""}}, {nullptr, "values"}, &shape);
+  out.resize(flat.size() / 3);
+  if (!flat.empty()) std::memcpy(out.data(), flat.data(), flat.size() * sizeof(float));
+}
+py::array view_of(const py::object& self, const ReflectivityMap& map) {
+  return view<float>(map.values.data(), {map.height, map.width}, self, false);
+}
+py::array view_of(const py::object& self, const VectorMap& map) {
+  return view<float>(reinterpret_cast<const float*>(map.values.data()), {map.height, map.width, 3}, self, false);
+}
+
+template <class Map>
+std::shared_ptr<Map> make_map(const py::object& values, const py::object& wrap_u, const py::object& wrap_v) {
+  auto map = std::make_shared<Map>();
   Shape shape;
-  map->values = take<float>(values, {{-1, "height"}, {-1, "width"}}, {nullptr, "values"}, &shape);
+  put_values(values, shape, map->values);
   map->height = static_cast<int>(shape[0]), map->width = static_cast<int>(shape[1]);
   from_python(wrap_u, map->wrap_u, {nullptr, "wrap_u"});
   from_python(wrap_v, map->wrap_v, {nullptr, "wrap_v"});
@@ -108,8 +125,16 @@ std::shared_ptr<MeshMotion> make_motion(const py::object& at) {
   return std::make_shared<CalledMotion>(at);
 }
 
+constexpr const char* motion_doc = R"(How a mesh changes its shape with time, in its own frame.
+
+Parameters
+----------
+at : function
+    Of the time in seconds: gives the vertices, float32 array [vertex, 3], m, as many as the mesh has; or a tuple of them and the
+    normals, float32 array [vertex, 3], 1. It is called at the middle of exposures, and may be asked for one time more than once.)";
+
 void bind_motion(py::module_& module) {
-  py::class_<MeshMotion, std::shared_ptr<MeshMotion>>(module, "MeshMotion")
+  py::class_<MeshMotion, std::shared_ptr<MeshMotion>>(module, "MeshMotion", motion_doc)
       .def(py::init(&make_motion), py::arg("at"))
       .def("__reduce__",
            [](py::object self) -> py::object {
@@ -135,21 +160,87 @@ void raise_callback_fault() {
 
 namespace {
 
+constexpr const char* mesh_doc =
+    R"(Triangles that share vertices, both sides of which reflect. Never changes: scenes and simulators share it.
+
+Parameters
+----------
+vertices : float32 array [vertex, 3], m
+    In the mesh's own frame.
+triangles : int32 array [triangle, 3], 1
+    Three indices of vertices each.
+normals : float32 array [vertex, 3], 1, optional
+    Of unit length, outward or inward, 0 where there is none: light and camera see the mean of a triangle's three.
+texcoords : float32 array [vertex, 2], 1, optional
+    (u, v) in the material's map.
+shades : float32 array [vertex], 1, optional
+    0 to 1: scale the material's matt part, as its map does.
+
+Raises
+------
+Error
+    For an array of another dtype, shape or order, and for an index that no vertex has.)";
+
+constexpr const char* map_doc = R"(A picture of how much a surface sends back. Never changes: scenes and simulators share it.
+
+Parameters
+----------
+values : float32 array [height, width], 1
+    0 to 1: 1 where it is its material's diffuse reflectivity, 0 where it is black. (u, v) = (0, 0) is the corner of the first.
+wrap_u, wrap_v : {"repeat", "mirror", "clamp"}
+    What is seen beyond 0 to 1.
+
+Raises
+------
+Error
+    For an array of another dtype, shape or order. (Values beyond 0 to 1 are refused by whoever simulates.))";
+
+constexpr const char* vector_map_doc =
+    R"(A picture of three numbers, which its user gives a meaning. Never changes: scenes and simulators share it.
+
+Parameters
+----------
+values : float32 array [height, width, 3], 1
+    How a normal leans (along u, along v, along the mesh's normal), or a surface's finish (k_d, F_0, alpha). (u, v) = (0, 0) is the
+    corner of the first.
+wrap_u, wrap_v : {"repeat", "mirror", "clamp"}
+    What is seen beyond 0 to 1.
+
+Raises
+------
+Error
+    For an array of another dtype, shape or order. (Values out of their range are refused by whoever simulates.))";
+
 void bind_mesh(py::module_& module) {
   using Mesh = TriangleMesh;
-  py::class_<Mesh, std::shared_ptr<Mesh>>(module, "TriangleMesh")
+  py::class_<Mesh, std::shared_ptr<Mesh>>(module, "TriangleMesh", mesh_doc)
       .def(py::init(&make_mesh), py::arg("vertices"), py::arg("triangles"), py::arg("normals") = py::none(),
-           py::arg("texcoords") = py::none())
-      .def_property_readonly("vertices", [](py::object self) { return rows_view(self, self.cast<const Mesh&>().vertices); })
-      .def_property_readonly("triangles", [](py::object self) { return rows_view(self, self.cast<const Mesh&>().triangles); })
-      .def_property_readonly("normals", [](py::object self) { return rows_view(self, self.cast<const Mesh&>().normals); })
-      .def_property_readonly("texcoords", [](py::object self) { return rows_view(self, self.cast<const Mesh&>().texcoords); })
+           py::arg("texcoords") = py::none(), py::arg("shades") = py::none())
+      .def_property_readonly(
+          "vertices", [](py::object self) { return rows_view(self, self.cast<const Mesh&>().vertices); },
+          "float32 array [vertex, 3], m, read-only.")
+      .def_property_readonly(
+          "triangles", [](py::object self) { return rows_view(self, self.cast<const Mesh&>().triangles); },
+          "int32 array [triangle, 3], 1, read-only.")
+      .def_property_readonly(
+          "normals", [](py::object self) { return rows_view(self, self.cast<const Mesh&>().normals); },
+          "float32 array [vertex, 3], 1, read-only; of no rows where there are none.")
+      .def_property_readonly(
+          "texcoords", [](py::object self) { return rows_view(self, self.cast<const Mesh&>().texcoords); },
+          "float32 array [vertex, 2], 1, read-only; of no rows where there are none.")
+      .def_property_readonly(
+          "shades",
+          [](py::object self) {
+            const std::vector<float>& shades = self.cast<const Mesh&>().shades;
+            return view<float>(shades.data(), {static_cast<py::ssize_t>(shades.size())}, self, false);
+          },
+          "float32 array [vertex], 1, read-only; empty where there are none.")
       .def("__eq__",
            [](const Mesh& self, py::handle other) {
              if (!py::isinstance<Mesh>(other)) return false;
              const Mesh& is = other.cast<const Mesh&>();
              return self.vertices == is.vertices && self.triangles == is.triangles && self.normals == is.normals &&
-                    self.texcoords == is.texcoords;
+                    self.texcoords == is.texcoords && self.shades == is.shades;
            })
       .def("__hash__", [](const Mesh& self) { return py::hash(py::make_tuple(self.vertices.size(), self.triangles.size())); })
       .def("__repr__",
@@ -165,24 +256,28 @@ void bind_mesh(py::module_& module) {
              };
              return py::make_tuple(py::type::of(self),
                                    py::make_tuple(kept("vertices", true), kept("triangles", true), kept("normals", !mesh.normals.empty()),
-                                                  kept("texcoords", !mesh.texcoords.empty())));
+                                                  kept("texcoords", !mesh.texcoords.empty()), kept("shades", !mesh.shades.empty())));
            })
       .def("__deepcopy__", [](py::object self, const py::object&) { return self; });
 }
 
-void bind_map(py::module_& module) {
-  using Map = ReflectivityMap;
-  py::class_<Map, std::shared_ptr<Map>>(module, "ReflectivityMap")
-      .def(py::init(&make_map), py::arg("values"), py::arg("wrap_u") = "repeat", py::arg("wrap_v") = "repeat")
-      .def_property_readonly("values",
-                             [](py::object self) {
-                               const Map& map = self.cast<const Map&>();
-                               return view<float>(map.values.data(), {map.height, map.width}, self, false);
-                             })
-      .def_property_readonly("wrap_u", [](const Map& self) { return to_python(self.wrap_u); })
-      .def_property_readonly("wrap_v", [](const Map& self) { return to_python(self.wrap_v); })
-      .def_readonly("width", &Map::width)
-      .def_readonly("height", &Map::height)
+template <class Map>
+void bind_map(py::module_& module, const char* name, const char* doc, const char* values_doc) {
+  py::class_<Map, std::shared_ptr<Map>>(module, name, doc)
+      .def(py::init(&make_map<Map>), py::arg("values"), py::arg("wrap_u") = "repeat", py::arg("wrap_v") = "repeat")
+      .def_property_readonly(
+          "values",
+          [](py::object self) {
+            const Map& map = self.cast<const Map&>();
+            return view_of(self, map);
+          },
+          values_doc)
+      .def_property_readonly(
+          "wrap_u", [](const Map& self) { return to_python(self.wrap_u); }, "What is seen beyond 0 to 1, along rows.")
+      .def_property_readonly(
+          "wrap_v", [](const Map& self) { return to_python(self.wrap_v); }, "What is seen beyond 0 to 1, along columns.")
+      .def_readonly("width", &Map::width, "Values of a row.")
+      .def_readonly("height", &Map::height, "Rows.")
       .def("__eq__",
            [](const Map& self, py::handle other) {
              if (!py::isinstance<Map>(other)) return false;
@@ -190,8 +285,8 @@ void bind_map(py::module_& module) {
              return self.values == is.values && self.width == is.width && self.wrap_u == is.wrap_u && self.wrap_v == is.wrap_v;
            })
       .def("__hash__", [](const Map& self) { return py::hash(py::make_tuple(self.width, self.height)); })
-      .def("__repr__",
-           [](const Map& self) { return "ReflectivityMap(" + std::to_string(self.width) + " x " + std::to_string(self.height) + ")"; })
+      .def("__repr__", [name = std::string(name)](
+                           const Map& self) { return name + "(" + std::to_string(self.width) + " x " + std::to_string(self.height) + ")"; })
       .def("__reduce__",
            [](py::object self) {
              return py::make_tuple(py::type::of(self),
@@ -204,7 +299,8 @@ void bind_map(py::module_& module) {
 
 void bind_meshes(py::module_& module) {
   bind_mesh(module);
-  bind_map(module);
+  bind_map<ReflectivityMap>(module, "ReflectivityMap", map_doc, "float32 array [height, width], 1, read-only.");
+  bind_map<VectorMap>(module, "VectorMap", vector_map_doc, "float32 array [height, width, 3], 1, read-only.");
   bind_motion(module);
 }
 
@@ -213,6 +309,7 @@ py::object mesh_to_python(const std::shared_ptr<const TriangleMesh>& mesh) { ret
 py::object map_to_python(const std::shared_ptr<const ReflectivityMap>& map) {
   return py::cast(std::const_pointer_cast<ReflectivityMap>(map));
 }
+py::object vectors_to_python(const std::shared_ptr<const VectorMap>& map) { return py::cast(std::const_pointer_cast<VectorMap>(map)); }
 py::object motion_to_python(const std::shared_ptr<const MeshMotion>& motion) {
   return py::cast(std::const_pointer_cast<MeshMotion>(motion));
 }
@@ -224,6 +321,10 @@ std::shared_ptr<const TriangleMesh> mesh_from_python(py::handle value, const Pla
 std::shared_ptr<const ReflectivityMap> map_from_python(py::handle value, const Place& place) {
   if (!py::isinstance<ReflectivityMap>(value)) refuse(place, value, "a tofray.ReflectivityMap, or None");
   return value.cast<std::shared_ptr<ReflectivityMap>>();
+}
+std::shared_ptr<const VectorMap> vectors_from_python(py::handle value, const Place& place) {
+  if (!py::isinstance<VectorMap>(value)) refuse(place, value, "a tofray.VectorMap, or None");
+  return value.cast<std::shared_ptr<VectorMap>>();
 }
 std::shared_ptr<const MeshMotion> motion_from_python(py::handle value, const Place& place) {
   if (!py::isinstance<MeshMotion>(value)) refuse(place, value, "a tofray.MeshMotion, or None");

@@ -5,7 +5,7 @@
 
 #include <memory>
 
-/// TriangleMesh, ReflectivityMap and MeshMotion: what scenes share, and what therefore never changes.
+/// TriangleMesh, ReflectivityMap, VectorMap and MeshMotion: what scenes share, and what therefore never changes.
 namespace tofray::python {
 
 namespace py = pybind11;

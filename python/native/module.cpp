@@ -205,7 +205,8 @@ py::dict flags() {
                                               {"outside_lens", flag_outside_lens},
                                               {"inconsistent_phases", flag_inconsistent_phases},
                                               {"inconsistent_frequencies", flag_inconsistent_frequencies},
-                                              {"rejected", flag_rejected}};
+                                              {"rejected", flag_rejected},
+                                              {"filtered", flag_filtered}};
   for (const auto& [name, bit] : all) out[name] = static_cast<int>(bit);
   out["invalid"] = static_cast<int>(flags_invalid);
   return out;

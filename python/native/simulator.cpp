@@ -222,10 +222,20 @@ py::object frame_of(HeldSimulator& self, const py::object& index, const py::obje
   return memory_of(std::move(into));
 }
 
-/// Frames with seeds and poses of their own, or several on their way to and from GPUs at once.
+/// Frames with seeds and poses of their own; of a GPU several are on their way at once.
 py::list frames_of(HeldSimulator& self, const py::object& wanted) {
   std::vector<FrameRequest> requests;
   from_python(wanted, requests, {nullptr, "requests"});
+  if (self.ran_on().backend == "cpu") {
+    py::list out;
+    for (const FrameRequest& request : requests) {
+      const std::shared_ptr<Frame> into = self.new_frame();
+      self.run([&](Simulator& simulator) { simulator.frame(request, *into); });
+      leave_out_after(self.last_stage(), *into);
+      out.append(memory_of(into));
+    }
+    return out;
+  }
   std::vector<std::shared_ptr<Frame>> frames;
   const Frame first = self.exposures();
   const double rate = self.frame_rate();
@@ -294,9 +304,10 @@ py::object process_raw(const py::object& raw, const py::object& camera, const py
 py::array pixel_rays_of(const py::object& camera) {
   Camera one;
   from_python(camera, one, {nullptr, "camera"});
+  const ImageSize size = image_size(one);
   auto* const rays = new std::vector<float>(pixel_rays(one));
   const py::capsule keeper(rays, [](void* at) { delete static_cast<std::vector<float>*>(at); });
-  return view<float>(rays->data(), {one.sensor.height, one.sensor.width, 2}, keeper, true);
+  return view<float>(rays->data(), {size.height, size.width, 2}, keeper, true);
 }
 
 }  // namespace

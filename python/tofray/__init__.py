@@ -11,9 +11,11 @@ All numbers are in SI units, and names end in their unit.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+TYPE_CHECKING = False  # as a checker of types knows it, without typing, which costs more than all else here
 
 if TYPE_CHECKING:
+    from typing import Any
+
     from ._arrays import (
         Depth as Depth,
         Raw as Raw,
@@ -36,6 +38,7 @@ if TYPE_CHECKING:
         Adc as Adc,
         Ambient as Ambient,
         Area as Area,
+        AutoExposure as AutoExposure,
         Box as Box,
         Camera as Camera,
         CameraChoice as CameraChoice,
@@ -65,12 +68,14 @@ if TYPE_CHECKING:
         Pose as Pose,
         RanOn as RanOn,
         RawFrame as RawFrame,
+        Readout as Readout,
         Rectangle as Rectangle,
         Rotation as Rotation,
         Scatter as Scatter,
         Scene as Scene,
         Sensor as Sensor,
         Sphere as Sphere,
+        SpreadSpectrum as SpreadSpectrum,
         Temperature as Temperature,
         TransientBins as TransientBins,
         Transport as Transport,
@@ -83,6 +88,7 @@ if TYPE_CHECKING:
         MeshMotion as MeshMotion,
         ReflectivityMap as ReflectivityMap,
         TriangleMesh as TriangleMesh,
+        VectorMap as VectorMap,
     )
     from ._own import (
         Geometry as Geometry,
@@ -109,12 +115,12 @@ _HOME = {
     "_frame": ("Frame", "load"),
     "_load": ("camera", "load_camera", "load_scene", "scene"),
     "_model": (
-        "Adc", "Ambient", "Area", "Box", "Camera", "CameraChoice", "CameraKeyframe", "Capsule", "Cone", "Curve", "Cylinder", "Decoding",
+        "Adc", "Ambient", "Area", "AutoExposure", "Box", "Camera", "CameraChoice", "CameraKeyframe", "Capsule", "Cone", "Curve", "Cylinder", "Decoding",
         "Disk", "Filter", "FrameRequest", "Illumination", "ImageFilter", "Interference", "Keyframe", "Lens", "Material", "Mesh", "Mode",
-        "Object", "Override", "Pattern", "Pixel", "PixelMask", "Plane", "Pose", "RanOn", "RawFrame", "Rectangle", "Rotation", "Scatter", "Scene",
-        "Sensor", "Sphere", "Temperature", "TransientBins", "Transport", "Triangle", "Waveform",
+        "Object", "Override", "Pattern", "Pixel", "PixelMask", "Plane", "Pose", "RanOn", "RawFrame", "Readout", "Rectangle", "Rotation", "Scatter", "Scene",
+        "Sensor", "Sphere", "SpreadSpectrum", "Temperature", "TransientBins", "Transport", "Triangle", "Waveform",
     ),
-    "_native": ("DeviceArray", "DeviceFrames", "MeshMotion", "ReflectivityMap", "TriangleMesh"),
+    "_native": ("DeviceArray", "DeviceFrames", "MeshMotion", "ReflectivityMap", "TriangleMesh", "VectorMap"),
     "_own": ("Geometry", "PixelLight", "Transient"),
     "_simulator": ("Simulator", "camera_pose", "demo", "pixel_rays", "process"),
 }

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
 
-    from ._model import Camera, Scene
+    from ._model import Camera, Pose, Scene
 
 PARTS = {"raw": Raw, "depth": Depth, "truth": Truth}
 
@@ -39,7 +39,7 @@ class Frame:
         Of a frame out of a file: what ``frame.npz`` says of it.
     """
 
-    __slots__ = ("_camera", "_depth", "_index", "_memory", "_options", "_raw", "_scene", "_shared", "_truth", "meta")
+    __slots__ = ("_camera", "_depth", "_index", "_memory", "_options", "_pose", "_raw", "_scene", "_shared", "_truth", "meta")
 
     def __init__(self, *, index: int = 0, raw: Raw | None = None, depth: Depth | None = None, truth: Truth | None = None,
                  scene: Scene | None = None, camera: Camera | None = None, meta: dict[str, Any] | None = None) -> None:
@@ -48,18 +48,20 @@ class Frame:
         self._depth = Depth() if depth is None else depth
         self._truth = Truth() if truth is None else truth
         self._scene, self._camera, self._shared = scene, camera, False
+        self._pose: Pose | None = None
         self.meta: dict[str, Any] = {} if meta is None else meta
         self._memory: Any = None
         self._options: dict[str, Any] = {}
 
     @classmethod
-    def _of(cls, memory: _native.FrameMemory, scene: Scene | None, camera: Camera | None, options: dict[str, Any]) -> Frame:
+    def _of(cls, memory: _native.FrameMemory, scene: Scene | None, camera: Camera | None, options: dict[str, Any],
+            pose: Pose | None = None) -> Frame:
         self = cls.__new__(cls)
         sizes = memory.sizes()
         self._index = memory.index
         self._raw, self._depth, self._truth = (part._of(memory, sizes) for part in (Raw, Depth, Truth))
         # The simulator's own, which nobody changes: copied when they are first asked for.
-        self._scene, self._camera, self._shared = scene, camera, True
+        self._scene, self._camera, self._shared, self._pose = scene, camera, True, pose
         self.meta = {}
         self._memory, self._options = memory, options
         return self
@@ -67,6 +69,8 @@ class Frame:
     def _own(self) -> None:
         if self._shared:
             self._scene, self._camera, self._shared = copy.deepcopy(self._scene), copy.deepcopy(self._camera), False
+            if self._pose is not None and self._scene is not None:
+                self._scene.camera.pose, self._scene.camera.keyframes = self._pose, []
 
     @property
     def scene(self) -> Scene | None:
@@ -133,7 +137,13 @@ class Frame:
         self._exchange("truth", truth)
 
     def to_dict(self) -> dict[str, NDArray[Any]]:
-        """All arrays under their names in files: ``z_m``, ``tap_a``, ``gt_range_m``. Views, not copies."""
+        """All arrays under their names in files: ``z_m``, ``tap_a``, ``gt_range_m``.
+
+        Returns
+        -------
+        dict of arrays
+            Views, not copies; units and shapes are those of ``raw``, ``depth`` and ``truth``.
+        """
         return {part._rows[name][0]: part[name] for part in (self.raw, self.depth, self.truth) for name in part.names}
 
     def points(self, valid_only: bool = True) -> NDArray[np.float32]:
@@ -146,8 +156,13 @@ class Frame:
 
         Returns
         -------
-        float32 array [n, 3]
+        float32 array [n, 3], m
             x right, y down, z forward.
+
+        Raises
+        ------
+        AttributeError
+            Where the frame has no depth.
         """
         points: NDArray[np.float32] = self.depth.points_m.reshape(-1, 3)
         if not valid_only:
@@ -163,6 +178,11 @@ class Frame:
         ----------
         theme : {"dark", "light"}
             Light writing on a dark ground, or dark on white.
+
+        Returns
+        -------
+        bytes
+            A PNG file.
 
         Raises
         ------
@@ -183,14 +203,29 @@ class Frame:
         ``frame.npz`` has the same bytes as the command line's for the same scene, camera, options and seed. That of a frame out of a
         file says the seed, noise and samples that the file said.
 
+        Parameters
+        ----------
+        folder : path
+            Files of the same names in it are replaced.
+        compress : bool
+            Smaller and slower: deflated arrays.
+
         Returns
         -------
         list of str
             The files.
+
+        Raises
+        ------
+        Error
+            Of kind "bad_input" where the frame does not know its scene and camera, or its arrays do not fit together; of kind "io" where
+            the folder cannot be written to.
         """
         if self._scene is None or self._camera is None:
             raise BadInput("frame.save: error: the frame does not know its scene and camera\n"
                            "  expected a simulated frame, or frame.scene = … and frame.camera = …")
+        if self._pose is not None:
+            self._own()
         files = {"frame.npz": _native.frame_npz(self, self._scene, self._camera, self._own_options(), compress)}
         for what in ("preview", "depth", "amplitude", "raw"):
             picture = _native.picture(self, what, self._caption(), "dark", False)
@@ -213,13 +248,34 @@ class Frame:
         Returns
         -------
         matplotlib.figure.Figure
+            Not shown by itself: a notebook does, and ``figure.savefig("z.png")`` writes it.
+
+        Raises
+        ------
+        Error
+            For another word.
+        AttributeError
+            Where the frame lacks the array.
+        ImportError
+            Without matplotlib.
         """
         from ._plot import plot
 
         return plot(self, what)
 
     def to_open3d(self) -> Any:
-        """The valid points as a cloud of Open3D's, where that is installed."""
+        """The valid points as a cloud of Open3D's, where that is installed.
+
+        Returns
+        -------
+        open3d.geometry.PointCloud
+            Metres: x right, y down, z forward.
+
+        Raises
+        ------
+        ImportError
+            Without Open3D.
+        """
         import importlib
 
         try:
@@ -288,6 +344,12 @@ def load(file: str | os.PathLike[str]) -> Frame:
     -------
     Frame
         Its ``meta`` is the file's; arrays that are not there raise AttributeError.
+
+    Raises
+    ------
+    Error
+        Of kind "io" for a file that cannot be read, of kind "bad_input" for one that is no npz file, or whose arrays are not those of the
+        table, by their names.
     """
     import numpy as np
 

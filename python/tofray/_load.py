@@ -18,7 +18,16 @@ if TYPE_CHECKING:
 
 
 def load_scene(file: str | os.PathLike[str]) -> Scene:
-    """Reads a scene file (YAML 1.2 or JSON), or a built-in scene by name, as ``tofray list scenes`` has them.
+    """Reads a scene file (YAML 1.2 or JSON), or a built-in scene by name.
+
+    Parameters
+    ----------
+    file : path or name
+        ``"room.yaml"``, or a name that ``tofray list scenes`` has: ``"demo"``.
+
+    Returns
+    -------
+    Scene
 
     Raises
     ------
@@ -36,12 +45,22 @@ def load_camera(camera: str | os.PathLike[str] | Scene, mode: str = "", *, set: 
     Parameters
     ----------
     camera : path, name or Scene
+        ``"camera.yaml"``, or a name that ``tofray list cameras`` has, or what the scene's own ``camera`` asks for.
     mode : str
         One of the profile's modes; empty: its first.
     set : mapping
         Keys of the profile and their values as written there: ``{"lens.f_number": 1.2, "integration_time": "500 us"}``.
     root : path
         A scene's profile file has to lie in or below the scene's folder, or this one.
+
+    Returns
+    -------
+    Camera
+
+    Raises
+    ------
+    Error
+        With every fault of the file at once, by line and column, and for a mode that it does not have.
     """
     words = {key: value if isinstance(value, str) else _Text().text_of(value, key) for key, value in dict(set or {}).items()}
     if isinstance(camera, Scene):
@@ -63,6 +82,10 @@ def scene(description: Mapping[str, Any], *, name: str = "scene", folder: str | 
     folder : path
         Where meshes and profiles that it names lie.
 
+    Returns
+    -------
+    Scene
+
     Raises
     ------
     Error
@@ -83,6 +106,15 @@ def camera(description: Mapping[str, Any], mode: str = "", *, folder: str | os.P
         One of its modes; empty: the first.
     folder : path
         Where its table files lie.
+
+    Returns
+    -------
+    Camera
+
+    Raises
+    ------
+    Error
+        With every fault at once, each by its member.
     """
     out: Camera = _from_dict(description, os.path.join(os.fspath(folder), "camera.yaml"),
                              lambda text, source: _native.load_camera_text(text, source, mode, {}))

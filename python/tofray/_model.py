@@ -11,7 +11,7 @@ from ._record import Record
 if TYPE_CHECKING:
     from typing import Literal
 
-    from ._native import MeshMotion, ReflectivityMap, TriangleMesh
+    from ._native import MeshMotion, ReflectivityMap, TriangleMesh, VectorMap
 
 
 class Curve(Record):
@@ -20,9 +20,9 @@ class Curve(Record):
 
     Attributes
     ----------
-    x : list[float]
+    x : list[float], any unit
         Ascending.
-    y : list[float]
+    y : list[float], any unit
     """
     __slots__ = ("x", "y")
     x: list[float]
@@ -45,7 +45,7 @@ class PixelMask(Record):
     ----------
     kind : Literal["square", "table"]
         Square: evenly in a square of area fill_factor·pitch² in its middle.
-    samples : list[float]
+    samples : list[float], 1
         Table: of the whole pixel, rows from its top on, columns from its left on, any unit.
     columns : int
     rows : int
@@ -79,8 +79,8 @@ class Sensor(Record):
         Pixels.
     height : int
         Pixels.
-    pixel_pitch_m : float
-    fill_factor : float
+    pixel_pitch_m : float, m
+    fill_factor : float, 1
         0…1.
     mask : PixelMask
     """
@@ -114,13 +114,13 @@ class Scatter(Record):
     Attributes
     ----------
     kind : Literal["none", "gaussians", "kernel"]
-    share : float
+    share : float, 1
         0…1 of the light that is scattered.
-    sigma_px : list[float]
+    sigma_px : list[float], px
         Gaussians: width of each.
-    weights : list[float]
+    weights : list[float], 1
         Gaussians: how much of it each takes, any unit; empty: all alike.
-    kernel : list[float]
+    kernel : list[float], 1
         Kernel: how much goes where, rows from above on, columns from the left on; odd numbers of
         both, any unit. The middle is the pixel itself.
     columns : int
@@ -160,21 +160,21 @@ class Lens(Record):
 
     Attributes
     ----------
-    fx_px : float
-    fy_px : float
-    cx_px : float
-    cy_px : float
+    fx_px : float, px
+    fy_px : float, px
+    cx_px : float, px
+    cy_px : float, px
     distortion : Literal["brown_conrady", "fisheye"]
-    k1 : float
-    k2 : float
-    p1 : float
-    p2 : float
-    k3 : float
-    k4 : float
-    k5 : float
-    k6 : float
-    f_number : float
-    transmission : float
+    k1 : float, 1
+    k2 : float, 1
+    p1 : float, 1
+    p2 : float, 1
+    k3 : float, 1
+    k4 : float, 1
+    k5 : float, 1
+    k6 : float, 1
+    f_number : float, 1
+    transmission : float, 1
         T, 0…1, lens and filter at the illumination wavelength.
     vignetting : Literal["cos4", "off", "table"]
     vignetting_table : Curve
@@ -250,10 +250,10 @@ class Filter(Record):
 
     Attributes
     ----------
-    center_m : float
-    half_width_m : float
+    center_m : float, m
+    half_width_m : float, m
         Passes centre ± half width, transmission `peak`.
-    peak : float
+    peak : float, 1
     table : Curve
         Wavelength [m] → transmission; takes the place of the above where not empty.
     """
@@ -283,13 +283,13 @@ class Pattern(Record):
     Attributes
     ----------
     kind : Literal["cone", "lambertian", "cosine_lobe", "flat_top", "table"]
-    half_angle_rad : float
+    half_angle_rad : float, rad
         Cone.
-    exponent : float
+    exponent : float, 1
         Cosine_lobe: cos^exponent.
-    width_rad : float
+    width_rad : float, rad
         Flat_top: full width across θx at half its peak.
-    height_rad : float
+    height_rad : float, rad
         Flat_top: across θy.
     columns : int
         Table: samples over θx (columns) and θy (rows), cell centres on a regular grid centred on
@@ -299,12 +299,12 @@ class Pattern(Record):
         Table: samples over θx (columns) and θy (rows), cell centres on a regular grid centred on
         the axis, f-theta. Of a flat top, only the paper's printed formula reads such a grid; 0: 172
         × 168.
-    half_range_x_rad : float
+    half_range_x_rad : float, rad
         The grid covers ±this across its columns (edges of the outer cells); beyond, the light is
         dark. Of a flat top, 0 takes its width, where the light has fallen to nothing (2⁻²⁵⁶).
-    half_range_y_rad : float
+    half_range_y_rad : float, rad
         The same across its rows; 0: the height.
-    samples : list[float]
+    samples : list[float], 1
         [rows][columns], any unit.
     """
     __slots__ = ("kind", "half_angle_rad", "exponent", "width_rad", "height_rad", "columns", "rows", "half_range_x_rad",
@@ -352,29 +352,29 @@ class Waveform(Record):
     Attributes
     ----------
     kind : Literal["rectangular", "sine", "measured", "trapezoid", "gaussian", "emission"]
-    duty : float
+    duty : float, 1
         Width at half height over the period.
-    rise_time_s : float
+    rise_time_s : float, s
         Linear edge, 0 to 100 %; of a rectangular pulse both.
-    bandwidth_hz : float
+    bandwidth_hz : float, Hz
         The light source's own single pole; 0: none.
-    jitter_s : float
+    jitter_s : float, s
         Gaussian, 1 sigma.
     harmonics : int
         How many odd harmonics are kept (1,3,5,7); a sine has one.
-    modulation_depth : float
+    modulation_depth : float, 1
         Sine: d of the light 1 + d·cos; it has no duty and no edges.
-    correlation : list[float]
+    correlation : list[float], 1
         Measured: correlation D(τ)/S at reference phases over one period, φ = 0; its Fourier
         transform gives a_m, ψ_m.
-    fall_time_s : float
+    fall_time_s : float, s
         Trapezoid: the other edge.
-    sigma_s : float
+    sigma_s : float, s
         Gaussian: width of the pulse, 1 sigma.
-    emission : list[float]
+    emission : list[float], 1
         Emission: the light itself over one period, any unit, from the middle of what would be a
         rectangular pulse on.
-    sample_phases_rad : list[float]
+    sample_phases_rad : list[float], rad
         Measured, emission: at which phases of the period the samples are, ascending within one
         turn; empty: equally spaced from 0 on.
     """
@@ -430,11 +430,11 @@ class Area(Record):
     Attributes
     ----------
     kind : Literal["none", "disk", "rectangle"]
-    radius_m : float
+    radius_m : float, m
         Disk.
-    width_m : float
+    width_m : float, m
         Rectangle: toward the camera's x (of an axis along x: its y).
-    height_m : float
+    height_m : float, m
         Across that.
     points : int
     """
@@ -466,14 +466,14 @@ class Illumination(Record):
 
     Attributes
     ----------
-    position : tuple[float, float, float]
-    axis : tuple[float, float, float]
-    illumination_wavelength_m : float
-    power_w : float
+    position : tuple[float, float, float], m
+    axis : tuple[float, float, float], 1
+    illumination_wavelength_m : float, m
+    power_w : float, W
         Optical, of a lit raw frame, mean over the modulation period.
     ring_leds : int
         So many sources, evenly on a circle about `position`, across `axis`; they share the power.
-    ring_radius_m : float
+    ring_radius_m : float, m
         Of that circle; the first stands toward the camera's x (of an axis along x: its y).
     area : Area
         Of each; its middle is where a point would be.
@@ -528,50 +528,59 @@ class Pixel(Record):
         Modulation frequency [Hz] → K; one sample: a constant.
     contrast_by_wavelength : Curve
         Wavelength [m] → factor on K; none: 1.
-    bandwidth_hz : float
+    bandwidth_hz : float, Hz
         Single pole of the gate; 0: none.
-    full_well_e : float
-    read_noise_e : float
-        Reset + read, 1 sigma.
-    column_noise_e : float
+    full_well_e : float, e
+    read_noise_e : float, e
+        Reset + read, 1 sigma; reset noise alone may stand in reset_noise_e.
+    column_noise_e : float, e
         Of A−B, the same for all pixels of a column in one raw frame, anew in each, 1 sigma.
-    row_noise_e : float
+    row_noise_e : float, e
         The same of a row.
-    dark_current_e_per_s : float
+    dark_current_e_per_s : float, e/s
         At Temperature::reference_celsius.
-    dark_current_doubling_k : float
+    dark_current_doubling_k : float, K
         It doubles with every so many kelvin above that; 0: the same at all temperatures.
-    tap_gain_mismatch : float
+    tap_gain_mismatch : float, 1
         G: tap A collects 1 + g/2 of what it should, tap B 1 − g/2.
-    tap_offset_mismatch_e : float
+    tap_offset_mismatch_e : float, e
         What A has more than B before any charge comes.
-    crosstalk_left_right : float
+    crosstalk_left_right : float, 1
         Share of a pixel's charge that its left neighbour collects, and the right one as much.
-    crosstalk_up_down : float
+    crosstalk_up_down : float, 1
         The same of the neighbours above and below.
     nonlinearity : Curve
         Charge of a tap [e⁻] → charge that is read of it; none: the same.
-    prnu : float
+    prnu : float, 1
         Photo response non-uniformity, 1 sigma, relative.
-    dsnu_dn : float
+    dsnu_dn : float, DN
         Offset pattern, 1 sigma [DN].
-    delay_s : float
+    delay_s : float, s
         Fixed-pattern delay per pixel, 1 sigma.
-    phase_offset_rad : float
+    phase_offset_rad : float, rad
         Fixed-pattern phase per pixel, another one at each modulation frequency, 1 sigma.
     pattern_seed : int
         Which specimen of the sensor: seed of the patterns above.
-    suppression_threshold_e : float
+    suppression_threshold_e : float, e
         Background suppression: when the smaller tap reaches the threshold, the excess is taken off
         both taps, at most `budget`. Each tap's removed charge x adds a variance of noise_factor² ·
         x. Threshold 0: no suppression.
-    suppression_budget_e : float
-    suppression_noise_factor : float
+    suppression_budget_e : float, e
+    suppression_noise_factor : float, 1
+    reset_noise_e : float, e
+        KTC noise of a tap at Temperature::reference_celsius, 1 sigma, beside read_noise_e.
+    cancels_reset_noise : bool
+        Correlated double sampling: no reset noise, but each tap is read twice.
+    blooming_share : float, 1
+        Of the charge beyond a full well, what each of the four neighbours gets; 0: none.
+    blooming_limit_e : float, e
+        Who gets more than this in a lit raw frame is flagged as saturated.
     """
     __slots__ = ("quantum_efficiency", "contrast", "contrast_by_wavelength", "bandwidth_hz", "full_well_e", "read_noise_e",
                  "column_noise_e", "row_noise_e", "dark_current_e_per_s", "dark_current_doubling_k", "tap_gain_mismatch",
                  "tap_offset_mismatch_e", "crosstalk_left_right", "crosstalk_up_down", "nonlinearity", "prnu", "dsnu_dn", "delay_s",
-                 "phase_offset_rad", "pattern_seed", "suppression_threshold_e", "suppression_budget_e", "suppression_noise_factor")
+                 "phase_offset_rad", "pattern_seed", "suppression_threshold_e", "suppression_budget_e", "suppression_noise_factor",
+                 "reset_noise_e", "cancels_reset_noise", "blooming_share", "blooming_limit_e")
     quantum_efficiency: Curve
     contrast: Curve
     contrast_by_wavelength: Curve
@@ -595,6 +604,10 @@ class Pixel(Record):
     suppression_threshold_e: float
     suppression_budget_e: float
     suppression_noise_factor: float
+    reset_noise_e: float
+    cancels_reset_noise: bool
+    blooming_share: float
+    blooming_limit_e: float
 
     def __init__(
         self,
@@ -622,6 +635,10 @@ class Pixel(Record):
         suppression_threshold_e: float = 0.0,
         suppression_budget_e: float = 0.0,
         suppression_noise_factor: float = 1.0,
+        reset_noise_e: float = 0.0,
+        cancels_reset_noise: bool = False,
+        blooming_share: float = 0.0,
+        blooming_limit_e: float = 0.0,
     ) -> None:
         self.quantum_efficiency = Curve() if quantum_efficiency is None else quantum_efficiency
         self.contrast = Curve() if contrast is None else contrast
@@ -646,6 +663,10 @@ class Pixel(Record):
         self.suppression_threshold_e = suppression_threshold_e
         self.suppression_budget_e = suppression_budget_e
         self.suppression_noise_factor = suppression_noise_factor
+        self.reset_noise_e = reset_noise_e
+        self.cancels_reset_noise = cancels_reset_noise
+        self.blooming_share = blooming_share
+        self.blooming_limit_e = blooming_limit_e
 
 
 class Adc(Record):
@@ -654,19 +675,22 @@ class Adc(Record):
     Attributes
     ----------
     bits : int
-    step_e_per_dn : float
+    step_e_per_dn : float, e/DN
         S.
-    mid_code : float
+    mid_code : float, DN
     valid_min : int
         Codes outside valid_min…valid_max flag the pixel as saturated.
     valid_max : int
+    gains : list[float], 1
+        What modes may choose from; the step of a mode is step_e_per_dn over its gain.
     """
-    __slots__ = ("bits", "step_e_per_dn", "mid_code", "valid_min", "valid_max")
+    __slots__ = ("bits", "step_e_per_dn", "mid_code", "valid_min", "valid_max", "gains")
     bits: int
     step_e_per_dn: float
     mid_code: float
     valid_min: int
     valid_max: int
+    gains: list[float]
 
     def __init__(
         self,
@@ -676,12 +700,14 @@ class Adc(Record):
         mid_code: float = 2048.0,
         valid_min: int = 0,
         valid_max: int = 4095,
+        gains: Sequence[float] = (),
     ) -> None:
         self.bits = bits
         self.step_e_per_dn = step_e_per_dn
         self.mid_code = mid_code
         self.valid_min = valid_min
         self.valid_max = valid_max
+        self.gains = list(gains)
 
 
 class RawFrame(Record):
@@ -690,17 +716,20 @@ class RawFrame(Record):
     Attributes
     ----------
     lit : bool
-    modulation_frequency_hz : float
+    modulation_frequency_hz : float, Hz
         0 where unlit.
-    reference_phase_rad : float
+    reference_phase_rad : float, rad
         Τ.
-    integration_time_s : float
+    integration_time_s : float, s
+    reference_delay_s : float, s
+        The light is later by this against the gate: adds 2π·f·delay to τ.
     """
-    __slots__ = ("lit", "modulation_frequency_hz", "reference_phase_rad", "integration_time_s")
+    __slots__ = ("lit", "modulation_frequency_hz", "reference_phase_rad", "integration_time_s", "reference_delay_s")
     lit: bool
     modulation_frequency_hz: float
     reference_phase_rad: float
     integration_time_s: float
+    reference_delay_s: float
 
     def __init__(
         self,
@@ -709,11 +738,13 @@ class RawFrame(Record):
         modulation_frequency_hz: float = 0.0,
         reference_phase_rad: float = 0.0,
         integration_time_s: float = 0.0,
+        reference_delay_s: float = 0.0,
     ) -> None:
         self.lit = lit
         self.modulation_frequency_hz = modulation_frequency_hz
         self.reference_phase_rad = reference_phase_rad
         self.integration_time_s = integration_time_s
+        self.reference_delay_s = reference_delay_s
 
 
 class Mode(Record):
@@ -723,13 +754,16 @@ class Mode(Record):
     Attributes
     ----------
     name : str
-    frame_rate_hz : float
+    frame_rate_hz : float, Hz
     sequence : list[RawFrame]
+    gain : float, 1
+        Of the amplifier before the ADC: one of Adc::gains, or 1.
     """
-    __slots__ = ("name", "frame_rate_hz", "sequence")
+    __slots__ = ("name", "frame_rate_hz", "sequence", "gain")
     name: str
     frame_rate_hz: float
     sequence: list[RawFrame]
+    gain: float
 
     def __init__(
         self,
@@ -737,10 +771,12 @@ class Mode(Record):
         name: str = '',
         frame_rate_hz: float = 0.0,
         sequence: Sequence[RawFrame] = (),
+        gain: float = 1.0,
     ) -> None:
         self.name = name
         self.frame_rate_hz = frame_rate_hz
         self.sequence = list(sequence)
+        self.gain = gain
 
 
 class ImageFilter(Record):
@@ -751,16 +787,16 @@ class ImageFilter(Record):
     Attributes
     ----------
     kind : Literal["none", "gaussian", "median", "bilateral", "adaptive"]
-    sigma_px : float
+    sigma_px : float, px
         Gaussian, bilateral.
     radius_px : int
         Median, adaptive: window (2 radius + 1)², at most.
-    sigmas : float
+    sigmas : float, 1
         Bilateral, adaptive: neighbours count that are off by less than this times the noise of the
         difference ….
-    range_m : float
+    range_m : float, m
         Bilateral: … and this, summed in quadrature.
-    goal_m : float
+    goal_m : float, m
         Adaptive: neighbours are added, ring by ring, until the noise is no more than this.
     """
     __slots__ = ("kind", "sigma_px", "radius_px", "sigmas", "range_m", "goal_m")
@@ -795,41 +831,41 @@ class Decoding(Record):
     Attributes
     ----------
     wiggling_correction : bool
-    noise_threshold_m : float
+    noise_threshold_m : float, m
         Σ̂ above this: low signal; also the scale of confidence.
-    amplitude_threshold_e : float
+    amplitude_threshold_e : float, e
         Amplitude below this: low signal.
-    lower_saturation_dn : float | None
+    lower_saturation_dn : float | None, DN
         Codes beyond: saturated; unless given, the ADC's valid codes.
-    upper_saturation_dn : float | None
+    upper_saturation_dn : float | None, DN
         Codes beyond: saturated; unless given, the ADC's valid codes.
-    flying_near_z_m : float
+    flying_near_z_m : float, m
         Limit on |Δz| grows linearly from here ….
-    flying_near_limit_m : float
+    flying_near_limit_m : float, m
         Limit on |Δz| grows linearly from here ….
-    flying_far_z_m : float
+    flying_far_z_m : float, m
         … to here, constant outside.
-    flying_far_limit_m : float
+    flying_far_limit_m : float, m
         … to here, constant outside.
-    flying_sigmas : float
+    flying_sigmas : float, 1
         … and a flying pixel is off by more than this times the noise of the difference, too.
     flying_check : bool
         False: nobody looks for flying pixels.
-    asymmetry_limit_e : float
+    asymmetry_limit_e : float, e
         D_k + D_k' half a turn apart: inconsistent phases beyond both.
-    asymmetry_sigmas : float
+    asymmetry_sigmas : float, 1
         D_k + D_k' half a turn apart: inconsistent phases beyond both.
     asymmetry_reject : bool
         The depth is invalid then; otherwise the flag is a warning.
-    multipath_limit_m : float
+    multipath_limit_m : float, m
         D_i − d_j of two modulation frequencies: inconsistent ones beyond both.
-    multipath_sigmas : float
+    multipath_sigmas : float, 1
         D_i − d_j of two modulation frequencies: inconsistent ones beyond both.
     multipath_reject : bool
     temporal_frames : int
         Range is the mean over so many frames, the last one and those before it; 1: of each by
         itself.
-    temporal_sigmas : float
+    temporal_sigmas : float, 1
         … of those that are off by less than this times the noise of the difference.
     filter : ImageFilter
     """
@@ -910,14 +946,14 @@ class Temperature(Record):
 
     Attributes
     ----------
-    celsius : float
-    reference_celsius : float
-    drift_m_per_kelvin : float
+    celsius : float, °C
+    reference_celsius : float, °C
+    drift_m_per_kelvin : float, m/K
         D_off = drift · (T − reference), added to half the path.
-    warm_up_m : float
+    warm_up_m : float, m
         First-order warm-up: warm_up · (1 − exp(−t/time constant)).
-    warm_up_time_s : float
-    since_start_s : float
+    warm_up_time_s : float, s
+    since_start_s : float, s
         How long the camera has run at frame 0.
     """
     __slots__ = ("celsius", "reference_celsius", "drift_m_per_kelvin", "warm_up_m", "warm_up_time_s", "since_start_s")
@@ -952,13 +988,13 @@ class Interference(Record):
 
     Attributes
     ----------
-    share : float
+    share : float, 1
         Of its light over the own, in each pixel; 0: there is no other camera.
-    frequency_difference_hz : float
+    frequency_difference_hz : float, Hz
         Its modulation frequencies less the own.
-    active : float
+    active : float, 1
         How likely a raw frame meets its light, 0…1.
-    phase_rad : float | None
+    phase_rad : float | None, rad
         By how much its light is later than the own, at the start of frame 0; none: drawn anew for
         each raw frame.
     """
@@ -982,6 +1018,110 @@ class Interference(Record):
         self.phase_rad = phase_rad
 
 
+class SpreadSpectrum(Record):
+    """Modulation frequencies that are swept evenly over a band within each exposure, so that they
+    disturb radios less (theory 3.9).
+
+    Attributes
+    ----------
+    width : float, 1
+        Of the band, over the modulation frequency; 0: none.
+    kind : Literal["center", "down"]
+        Center: the modulation frequency is the band's middle; down: its upper end.
+    """
+    __slots__ = ("width", "kind")
+    width: float
+    kind: Literal["center", "down"]
+
+    def __init__(
+        self,
+        *,
+        width: float = 0.0,
+        kind: Literal["center", "down"] = 'center',
+    ) -> None:
+        self.width = width
+        self.kind = kind
+
+
+class Readout(Record):
+    """Which of the sensor's pixels are read, and how many of them together (theory 4.8).
+
+    Attributes
+    ----------
+    binning : int
+        N: the charge of n × n neighbours is added before it is read.
+    left : int
+        First column and row of the sensor that are read.
+    top : int
+        First column and row of the sensor that are read.
+    width : int
+        Columns from there on; 0: as far as the sensor goes.
+    height : int
+        Rows.
+    """
+    __slots__ = ("binning", "left", "top", "width", "height")
+    binning: int
+    left: int
+    top: int
+    width: int
+    height: int
+
+    def __init__(
+        self,
+        *,
+        binning: int = 1,
+        left: int = 0,
+        top: int = 0,
+        width: int = 0,
+        height: int = 0,
+    ) -> None:
+        self.binning = binning
+        self.left = left
+        self.top = top
+        self.width = width
+        self.height = height
+
+
+class AutoExposure(Record):
+    """Integration times that follow the light, from frame to frame (theory 4.9).
+
+    Attributes
+    ----------
+    speed : float, 1
+        0…1: share of the way to the aim that each frame goes, by the logarithm; 0: the mode's times
+        stay.
+    aim : float, 1
+        How far the bright pixels shall go, a share of the valid codes and of the well.
+    bright : float, 1
+        Which those are: the quantile of all pixels.
+    shortest_s : float, s
+        Longest lit raw frame: no shorter than this; 0: than Camera::min_integration_time_s.
+    longest_s : float, s
+        … and no longer than this; 0: than the mode has it.
+    """
+    __slots__ = ("speed", "aim", "bright", "shortest_s", "longest_s")
+    speed: float
+    aim: float
+    bright: float
+    shortest_s: float
+    longest_s: float
+
+    def __init__(
+        self,
+        *,
+        speed: float = 0.0,
+        aim: float = 0.7,
+        bright: float = 0.99,
+        shortest_s: float = 0.0,
+        longest_s: float = 0.0,
+    ) -> None:
+        self.speed = speed
+        self.aim = aim
+        self.bright = bright
+        self.shortest_s = shortest_s
+        self.longest_s = longest_s
+
+
 class Camera(Record):
     """A camera in one of its modes: lens, light sources, pixel, ADC, the sequence of raw frames, and
     how they are decoded.
@@ -1000,10 +1140,13 @@ class Camera(Record):
     decoding : Decoding
     temperature : Temperature
     interference : Interference
-    refractive_index : float
-    readout_time_s : float
+    spread_spectrum : SpreadSpectrum
+    readout : Readout
+    auto_exposure : AutoExposure
+    refractive_index : float, 1
+    readout_time_s : float, s
         Between the end of one exposure and the start of the next.
-    min_integration_time_s : float
+    min_integration_time_s : float, s
     power_model : Literal["tofray", "paper_literal"]
     mode : Mode
         The chosen one.
@@ -1011,7 +1154,8 @@ class Camera(Record):
         All that the profile has.
     """
     __slots__ = ("name", "source", "sensor", "lens", "filter", "illumination", "pixel", "adc", "decoding", "temperature",
-                 "interference", "refractive_index", "readout_time_s", "min_integration_time_s", "power_model", "mode", "mode_names")
+                 "interference", "spread_spectrum", "readout", "auto_exposure", "refractive_index", "readout_time_s",
+                 "min_integration_time_s", "power_model", "mode", "mode_names")
     name: str
     source: str
     sensor: Sensor
@@ -1023,6 +1167,9 @@ class Camera(Record):
     decoding: Decoding
     temperature: Temperature
     interference: Interference
+    spread_spectrum: SpreadSpectrum
+    readout: Readout
+    auto_exposure: AutoExposure
     refractive_index: float
     readout_time_s: float
     min_integration_time_s: float
@@ -1044,6 +1191,9 @@ class Camera(Record):
         decoding: Decoding | None = None,
         temperature: Temperature | None = None,
         interference: Interference | None = None,
+        spread_spectrum: SpreadSpectrum | None = None,
+        readout: Readout | None = None,
+        auto_exposure: AutoExposure | None = None,
         refractive_index: float = 1.0,
         readout_time_s: float = 0.0,
         min_integration_time_s: float = 0.0,
@@ -1062,6 +1212,9 @@ class Camera(Record):
         self.decoding = Decoding() if decoding is None else decoding
         self.temperature = Temperature() if temperature is None else temperature
         self.interference = Interference() if interference is None else interference
+        self.spread_spectrum = SpreadSpectrum() if spread_spectrum is None else spread_spectrum
+        self.readout = Readout() if readout is None else readout
+        self.auto_exposure = AutoExposure() if auto_exposure is None else auto_exposure
         self.refractive_index = refractive_index
         self.readout_time_s = readout_time_s
         self.min_integration_time_s = min_integration_time_s
@@ -1078,27 +1231,36 @@ class Material(Record):
     name : str
         Empty for a material written inside an object.
     brdf : Literal["lambert", "phong", "oren_nayar", "ggx", "retro"]
-    diffuse : float
+    diffuse : float, 1
         K_d, 0…1: Lambertian reflectivity (Lambert, Oren–Nayar: the reflectivity rho; GGX: its
         ground's).
-    specular : float
+    specular : float, 1
         Phong: k_s, the lobe's share, k_d + k_s <= 1; GGX: F_0, of one of its mirrors at normal
         incidence.
-    exponent : float
+    exponent : float, 1
         N >= 1: the Phong lobe's exponent.
-    roughness_rad : float
+    roughness_rad : float, rad
         Σ, 0…π/2: Oren–Nayar's spread of the slopes of a matt surface's facets.
-    alpha : float
+    alpha : float, 1
         Α, 0.001…1: GGX's spread of the slopes of small mirrors (glTF's roughness squared).
-    retro : float
+    retro : float, 1
         K_r, 0…1 with k_d + k_r <= 1: the share that a retro-reflector sends back toward the light.
-    spread_rad : float
+    spread_rad : float, rad
         Σ, 1e-3…π/4: angle between light and camera at which half of the retro-reflector's peak is
         left.
     map : ReflectivityMap | None
         Scales `diffuse` from place to place; none: it is the same everywhere.
+    normals : VectorMap | None
+        How a mesh's normal leans from place to place: its parts along growing u, against growing v,
+        and along the normal that the mesh has, −1…1, the last one above 0, of length 0.5…1.5. None:
+        it does not.
+    finish : VectorMap | None
+        GGX, of a mesh: k_d, F_0 and α from place to place, in place of `diffuse`, `specular` and
+        `alpha`, which then are a mean for those who look; `map` scales k_d, too. None: they are the
+        same everywhere.
     """
-    __slots__ = ("name", "brdf", "diffuse", "specular", "exponent", "roughness_rad", "alpha", "retro", "spread_rad", "map")
+    __slots__ = ("name", "brdf", "diffuse", "specular", "exponent", "roughness_rad", "alpha", "retro", "spread_rad", "map", "normals",
+                 "finish")
     name: str
     brdf: Literal["lambert", "phong", "oren_nayar", "ggx", "retro"]
     diffuse: float
@@ -1109,6 +1271,8 @@ class Material(Record):
     retro: float
     spread_rad: float
     map: ReflectivityMap | None
+    normals: VectorMap | None
+    finish: VectorMap | None
 
     def __init__(
         self,
@@ -1123,6 +1287,8 @@ class Material(Record):
         retro: float = 0.0,
         spread_rad: float = 0.01,
         map: ReflectivityMap | None = None,
+        normals: VectorMap | None = None,
+        finish: VectorMap | None = None,
     ) -> None:
         self.name = name
         self.brdf = brdf
@@ -1134,6 +1300,8 @@ class Material(Record):
         self.retro = retro
         self.spread_rad = spread_rad
         self.map = map
+        self.normals = normals
+        self.finish = finish
 
 
 class Plane(Record):
@@ -1141,8 +1309,8 @@ class Plane(Record):
 
     Attributes
     ----------
-    point : tuple[float, float, float]
-    normal : tuple[float, float, float]
+    point : tuple[float, float, float], m
+    normal : tuple[float, float, float], 1
     """
     __slots__ = ("point", "normal")
     point: tuple[float, float, float]
@@ -1163,8 +1331,8 @@ class Sphere(Record):
 
     Attributes
     ----------
-    center : tuple[float, float, float]
-    radius : float
+    center : tuple[float, float, float], m
+    radius : float, m
     """
     __slots__ = ("center", "radius")
     center: tuple[float, float, float]
@@ -1185,8 +1353,8 @@ class Box(Record):
 
     Attributes
     ----------
-    min : tuple[float, float, float]
-    max : tuple[float, float, float]
+    min : tuple[float, float, float], m
+    max : tuple[float, float, float], m
     """
     __slots__ = ("min", "max")
     min: tuple[float, float, float]
@@ -1207,7 +1375,7 @@ class Triangle(Record):
 
     Attributes
     ----------
-    vertices : tuple[tuple[float, float, float], tuple[float, float, float], tuple[float, float, float]]
+    vertices : tuple[tuple[float, float, float], tuple[float, float, float], tuple[float, float, float]], m
     """
     __slots__ = ("vertices",)
     vertices: tuple[tuple[float, float, float], tuple[float, float, float], tuple[float, float, float]]
@@ -1226,10 +1394,10 @@ class Cylinder(Record):
 
     Attributes
     ----------
-    center : tuple[float, float, float]
-    axis : tuple[float, float, float]
-    radius : float
-    height : float
+    center : tuple[float, float, float], m
+    axis : tuple[float, float, float], 1
+    radius : float, m
+    height : float, m
     """
     __slots__ = ("center", "axis", "radius", "height")
     center: tuple[float, float, float]
@@ -1256,8 +1424,8 @@ class Rectangle(Record):
 
     Attributes
     ----------
-    center : tuple[float, float, float]
-    size : tuple[float, float]
+    center : tuple[float, float, float], m
+    size : tuple[float, float], m
         Along x and y before its rotation.
     """
     __slots__ = ("center", "size")
@@ -1279,9 +1447,9 @@ class Disk(Record):
 
     Attributes
     ----------
-    center : tuple[float, float, float]
-    normal : tuple[float, float, float]
-    radius : float
+    center : tuple[float, float, float], m
+    normal : tuple[float, float, float], 1
+    radius : float, m
     """
     __slots__ = ("center", "normal", "radius")
     center: tuple[float, float, float]
@@ -1305,9 +1473,9 @@ class Capsule(Record):
 
     Attributes
     ----------
-    start : tuple[float, float, float]
-    end : tuple[float, float, float]
-    radius : float
+    start : tuple[float, float, float], m
+    end : tuple[float, float, float], m
+    radius : float, m
     """
     __slots__ = ("start", "end", "radius")
     start: tuple[float, float, float]
@@ -1332,10 +1500,10 @@ class Cone(Record):
 
     Attributes
     ----------
-    base : tuple[float, float, float]
-    axis : tuple[float, float, float]
-    radius : float
-    height : float
+    base : tuple[float, float, float], m
+    axis : tuple[float, float, float], 1
+    radius : float, m
+    height : float, m
     """
     __slots__ = ("base", "axis", "radius", "height")
     base: tuple[float, float, float]
@@ -1366,12 +1534,12 @@ class Mesh(Record):
     ----------
     file : str
         Empty if built in code.
-    scale : float
+    scale : float, 1
         Of the file's numbers, to metres.
     up : Literal["automatic", "y", "z", "minus_y"]
         The file's axis that is up (−y in the world); automatic: y in OBJ and glTF, z in PLY and
         STL.
-    time_s : float | None
+    time_s : float | None, s
         Of a glTF file's first animation; none: as its nodes stand.
     play : Literal["still", "once", "loop"]
         Whether that animation goes on, from `time_s` (or its start) at t = 0.
@@ -1435,8 +1603,8 @@ class Rotation(Record):
 
     Attributes
     ----------
-    axis : tuple[float, float, float]
-    angle_rad : float
+    axis : tuple[float, float, float], 1
+    angle_rad : float, rad
     """
     __slots__ = ("axis", "angle_rad")
     axis: tuple[float, float, float]
@@ -1459,8 +1627,8 @@ class Keyframe(Record):
 
     Attributes
     ----------
-    time_s : float
-    position : tuple[float, float, float]
+    time_s : float, s
+    position : tuple[float, float, float], m
         Shift [m], as Object::position.
     rotation : Rotation
     """
@@ -1494,11 +1662,11 @@ class Object(Record):
     shape : Plane | Sphere | Box | Triangle | Cylinder | Rectangle | Disk | Capsule | Cone | Mesh
     material : int
         Index in Scene::materials.
-    position : tuple[float, float, float]
+    position : tuple[float, float, float], m
         Shift [m].
     rotation : Rotation
-    velocity_m_per_s : tuple[float, float, float]
-    angular_velocity_rad_per_s : tuple[float, float, float]
+    velocity_m_per_s : tuple[float, float, float], m/s
+    angular_velocity_rad_per_s : tuple[float, float, float], rad/s
         Its axis, in the world, times how fast it turns by the right-hand rule.
     keyframes : list[Keyframe]
         In place of position, rotation and both velocities; ascending in time.
@@ -1542,13 +1710,13 @@ class Ambient(Record):
     ----------
     spectrum : Literal["none", "sun_am15", "equal_energy", "table"]
     quantity : Literal["level", "illuminance_lx", "band_irradiance_w_per_m2"]
-    amount : float
+    amount : float, by its quantity
         In the quantity's unit.
-    table_wavelength_m : list[float]
+    table_wavelength_m : list[float], m
         Spectrum `table`: ascending.
-    table_irradiance_w_per_m3 : list[float]
+    table_irradiance_w_per_m3 : list[float], W/m³
         Spectral irradiance per metre of wavelength (1 W m-2 nm-1 = 1e9 W m-3).
-    direction : tuple[float, float, float] | None
+    direction : tuple[float, float, float] | None, 1
         Direction in which the light travels (a sun); none: uniform from everywhere.
     """
     __slots__ = ("spectrum", "quantity", "amount", "table_wavelength_m", "table_irradiance_w_per_m3", "direction")
@@ -1585,10 +1753,10 @@ class TransientBins(Record):
     ----------
     bins : int
         0…1e6; 0: there are no histograms.
-    first_m : float
+    first_m : float, m
         0…1e6: where the first bin begins. Whole paths: from the light by all surfaces to the
         camera.
-    width_m : float
+    width_m : float, m
         1e-6…1e6, of a bin.
     """
     __slots__ = ("bins", "first_m", "width_m")
@@ -1624,7 +1792,7 @@ class Transport(Record):
     max_samples : int
         0: as many as samples. Else a pixel goes on, twice as many again and again, up to these,
         until it knows.
-    path_noise_m : float
+    path_noise_m : float, m
         Its half path to this standard error; 0: to a fifth of its depth noise.
     smooth : bool
         Light that bounces is smoothed over neighbours that see the same surface.
@@ -1664,10 +1832,10 @@ class Pose(Record):
 
     Attributes
     ----------
-    position : tuple[float, float, float]
-    look_at : tuple[float, float, float]
+    position : tuple[float, float, float], m
+    look_at : tuple[float, float, float], m
         A point on the optical axis.
-    up : tuple[float, float, float]
+    up : tuple[float, float, float], 1
     """
     __slots__ = ("position", "look_at", "up")
     position: tuple[float, float, float]
@@ -1693,7 +1861,7 @@ class CameraKeyframe(Record):
 
     Attributes
     ----------
-    time_s : float
+    time_s : float, s
     pose : Pose
     """
     __slots__ = ("time_s", "pose")
@@ -1845,7 +2013,7 @@ class RanOn(Record):
         Of the processor.
     block_size : int
         Threads per block of the kernel from ray to depth; 0 where the processor computed.
-    occupancy : float
+    occupancy : float, 1
         How full that kernel makes the GPU, 0 … 1.
     fallback_reason : str
         Why Backend::automatic took no GPU; empty where it did, or where the processor was asked
@@ -1881,7 +2049,7 @@ class RanOn(Record):
 
 
 class FrameRequest(Record):
-    """One frame of a batch. What is not set is the simulator's.
+    """Which frame. What is not set is the simulator's.
 
     Attributes
     ----------
@@ -1911,8 +2079,8 @@ class FrameRequest(Record):
 __all__ = [
     "Curve", "PixelMask", "Sensor", "Scatter", "Lens", "Filter", "Pattern", "Waveform", "Area",
     "Illumination", "Pixel", "Adc", "RawFrame", "Mode", "ImageFilter", "Decoding", "Temperature",
-    "Interference", "Camera", "Material", "Plane", "Sphere", "Box", "Triangle", "Cylinder",
-    "Rectangle", "Disk", "Capsule", "Cone", "Mesh", "Rotation", "Keyframe", "Object", "Ambient",
-    "TransientBins", "Transport", "Pose", "CameraKeyframe", "Override", "CameraChoice", "Scene",
-    "RanOn", "FrameRequest",
+    "Interference", "SpreadSpectrum", "Readout", "AutoExposure", "Camera", "Material", "Plane",
+    "Sphere", "Box", "Triangle", "Cylinder", "Rectangle", "Disk", "Capsule", "Cone", "Mesh",
+    "Rotation", "Keyframe", "Object", "Ambient", "TransientBins", "Transport", "Pose",
+    "CameraKeyframe", "Override", "CameraChoice", "Scene", "RanOn", "FrameRequest",
 ]

@@ -19,19 +19,19 @@ class Geometry:
 
     Parameters
     ----------
-    z_m : float32 array [height, width]
+    z_m : float32 array [height, width], m
         Along the optical axis, in metres; NaN, or not above 0: nothing is seen.
-    normal : float32 array [height, width, 3]
+    normal : float32 array [height, width, 3], 1
         Of unit length, on either side of the surface.
-    diffuse : float32 array [height, width]
+    diffuse : float32 array [height, width], 1
         Reflectivity, 0 to 1.
-    specular, exponent : float32 arrays [height, width], optional
+    specular, exponent : float32 arrays [height, width], 1, optional
         Of the Phong lobe.
-    object_id : int32 array [height, width], optional
+    object_id : int32 array [height, width], 1, optional
         For ``truth.object_id``.
-    shadow : uint8 array [light, height, width], optional
+    shadow : uint8 array [light, height, width], 1, optional
         1 where the light does not reach.
-    sun_shadow : uint8 array [height, width], optional
+    sun_shadow : uint8 array [height, width], 1, optional
         The same of ambient light with a direction.
     """
 
@@ -56,15 +56,15 @@ class PixelLight:
 
     Parameters
     ----------
-    power_w : float32 array [path, height, width]
+    power_w : float32 array [path, height, width], W
         On the pixel, mean of a modulation period. All arrays may have an axis of moments before the others.
-    path_length_m : float32 array [path, height, width], optional
+    path_length_m : float32 array [path, height, width], m, optional
         From the light to the surface and on to the camera.
     light_of_path : sequence of int, optional
         Which light each path comes from; left out: one path of each.
-    phasor_w : complex64 array [light, modulation frequency, harmonic, height, width], optional
+    phasor_w : complex64 array [light, modulation frequency, harmonic, height, width], W, optional
         In place of path_length_m.
-    ambient_e_per_s : float32 array [height, width], optional
+    ambient_e_per_s : float32 array [height, width], e/s, optional
         Electrons of both taps together.
     """
 
@@ -85,11 +85,11 @@ class Transient:
 
     Parameters
     ----------
-    e_per_s : float32 array [bin, height, width]
+    e_per_s : float32 array [bin, height, width], e/s
         Electrons per second of both taps together.
-    first_m, bin_width_m : float
+    first_m, bin_width_m : float, m
         Where the first bin begins, and how wide each is: whole path lengths, in metres.
-    ambient_e_per_s : float32 array [height, width], optional
+    ambient_e_per_s : float32 array [height, width], e/s, optional
         Light without modulation.
     """
 

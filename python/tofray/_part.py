@@ -30,7 +30,7 @@ class Part:
     bins : int
         Of histograms of light by path length.
     time_s : float
-        When the ground truth holds.
+        When the ground truth holds, in seconds from the scene as written.
     units : dict of str
         Unit of each array.
     names : tuple of str
@@ -88,7 +88,18 @@ class Part:
         return type(self).__name__.lower()
 
     def get(self, name: str) -> NDArray[Any] | None:
-        """The array of that name, or None where this frame does not have it."""
+        """The array of that name, or None where this frame does not have it.
+
+        Parameters
+        ----------
+        name : str
+            One of ``names``: "z_m".
+
+        Returns
+        -------
+        array or None
+            A view of the frame's memory; dtype, shape and unit are those of the class's list.
+        """
         held = self._held.get(name)
         if held is None and self._memory is not None and name in self._rows:
             held = self._memory.array(self._part, name)

@@ -28,14 +28,24 @@ def plot(frame: Frame, what: str = "z") -> Any:
     return figure
 
 
-def _image(figure: Any, values: Any, label: str, **looks: Any) -> None:
+def _span(values: Any) -> tuple[float, float]:
+    """Without the hundredth at either end: a few pixels of a wrong cycle shall not set the scale."""
+    import numpy as np
+
+    finite = values[np.isfinite(values)]
+    low, high = (float(one) for one in np.percentile(finite, (1, 99))) if finite.size else (0.0, 1.0)
+    return low, high
+
+
+def _image(figure: Any, values: Any, label: str, extend: str = "neither", **looks: Any) -> None:
     axes = figure.add_subplot()
-    figure.colorbar(axes.imshow(values, interpolation="nearest", **looks), label=label)
+    figure.colorbar(axes.imshow(values, interpolation="nearest", **looks), label=label, extend=extend)
     axes.set(xlabel="column", ylabel="row")
 
 
 def _z(frame: Frame, figure: Any) -> None:
-    _image(figure, frame.depth.z_m, "z [m]", cmap="viridis_r")
+    low, high = _span(frame.depth.z_m)
+    _image(figure, frame.depth.z_m, "z [m]", "both", cmap="viridis_r", vmin=low, vmax=high)
 
 
 def _amplitude(frame: Frame, figure: Any) -> None:
@@ -48,7 +58,7 @@ def _error(frame: Frame, figure: Any) -> None:
     error = 1e3 * (frame.depth.z_m - frame.truth.z_m)
     finite = np.abs(error[np.isfinite(error)])
     scale = float(np.percentile(finite, 98)) if finite.size else 1.0
-    _image(figure, error, "z - true z [mm]", cmap="RdBu", vmin=-scale, vmax=scale)
+    _image(figure, error, "z - true z [mm]", "both", cmap="RdBu", vmin=-scale, vmax=scale)
 
 
 def _raw(frame: Frame, figure: Any) -> None:
@@ -61,11 +71,15 @@ def _raw(frame: Frame, figure: Any) -> None:
         axes.imshow(image, cmap="gray", interpolation="nearest")
         axes.set(xticks=[], yticks=[])
         if "modulation_frequency_hz" in frame.raw:
-            axes.set_title(f"{frame.raw.modulation_frequency_hz[k] / 1e6:g} MHz", fontsize=8)
+            frequency_hz = frame.raw.modulation_frequency_hz[k]
+            axes.set_title(f"{frequency_hz / 1e6:g} MHz" if frequency_hz > 0 else "unlit", fontsize=8)
 
 
 def _cloud(frame: Frame, figure: Any) -> None:
-    points = frame.points()
+    x, y, z = frame.points().T
+    spans = [_span(axis) for axis in (x, z, -y)]
+    inside = (z >= spans[1][0]) & (z <= spans[1][1])
     axes = figure.add_subplot(projection="3d")
-    axes.scatter(points[:, 0], points[:, 2], -points[:, 1], c=points[:, 2], s=1)
+    axes.scatter(x[inside], z[inside], -y[inside], c=z[inside], cmap="viridis_r", s=1)
     axes.set(xlabel="x [m]", ylabel="z [m]", zlabel="-y [m]")
+    axes.set_box_aspect([max(high - low, 1e-3) for low, high in spans])

@@ -54,5 +54,11 @@ class Record:
             ) from None
 
     def to_dict(self) -> dict[str, Any]:
-        """Members by name, in SI units; structs within as dicts."""
+        """Members by name, in SI units; structs within as dicts.
+
+        Returns
+        -------
+        dict
+            Lists in place of tuples and arrays, numbers and texts as they are.
+        """
         return {name: _plain(getattr(self, name)) for name in self.__slots__}

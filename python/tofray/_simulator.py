@@ -5,7 +5,7 @@
 from __future__ import annotations
 
 import copy
-from typing import TYPE_CHECKING, Any, Iterable, Iterator
+from typing import TYPE_CHECKING, Any, Iterable, Iterator, Sequence
 
 from . import _native
 from ._arrays import Depth, Raw
@@ -55,6 +55,9 @@ class Simulator:
         Which machine code runs. All give the same bytes.
     truth : bool
         Fill ``frame.truth``.
+    arrays : sequence of str
+        Fill these alone, by their names in files: ``("raw", "gt_z_m")``. Frames lack the others, but for those that these
+        are made of, and no stage is run that none of them comes from. Left empty: all of them.
     last_stage : {"trace", "power", "raw", "depth"}
         Stop after this stage: frames have no arrays of later ones.
     exposure_samples : int
@@ -86,6 +89,7 @@ class Simulator:
         batch_bytes: int = 64_000_000,
         isa: Literal["best", "scalar", "scalar_fma", "avx2", "avx512", "neon"] = "best",
         truth: bool = True,
+        arrays: Sequence[str] = (),
         last_stage: Literal["trace", "power", "raw", "depth"] = "depth",
         exposure_samples: int = 1,
         subpixel: int = 1,
@@ -93,8 +97,8 @@ class Simulator:
     ) -> None:
         self._options: dict[str, Any] = {
             "seed": seed, "noise": noise, "threads": threads, "backend": backend, "device": device, "block_size": block_size,
-            "batch_bytes": batch_bytes, "isa": isa, "truth": truth, "last_stage": last_stage,
-            "exposure_samples": exposure_samples, "subpixel": subpixel, "culling": culling,
+            "batch_bytes": batch_bytes, "isa": isa, "truth": truth, "arrays": arrays if isinstance(arrays, str) else list(arrays),
+            "last_stage": last_stage, "exposure_samples": exposure_samples, "subpixel": subpixel, "culling": culling,
         }
         if camera is None and isinstance(scene, Scene):
             camera = load_camera(scene)
@@ -123,6 +127,18 @@ class Simulator:
             0 or more.
         own : Geometry, PixelLight or Transient, optional
             Arrays of one's own in the place of what the scene's objects give.
+
+        Returns
+        -------
+        Frame
+            Its memory is its own, and stays while the frame or one of its arrays is held.
+
+        Raises
+        ------
+        Error
+            Of kind "stopped" where ``stop`` ended it; of kind "bad_input" for an index below 0, and for arrays that do not fit the camera.
+        KeyboardInterrupt
+            By Ctrl-C.
         """
         return Frame._of(self._native.frame(index, own), self._scene, self._camera, self._options)
 
@@ -137,6 +153,16 @@ class Simulator:
             In place of them: each frame's index and, where they differ from the simulator's, its seed and the camera's pose.
             Requests are copied when they are taken.
             A request with a seed or a pose is remembered by its number alone in what ``save`` writes.
+
+        Yields
+        ------
+        Frame
+            Each as of ``frame``.
+
+        Raises
+        ------
+        Error
+            As ``frame``, and for a request whose pose cannot be.
         """
         if requests is None:
             index = first
@@ -157,13 +183,10 @@ class Simulator:
 
     def _batch(self, requests: list[FrameRequest]) -> Iterator[Frame]:
         for request, memory in zip(requests, self._native.frames(requests)):
-            scene, options = self._scene, self._options
+            options = self._options
             if request.seed is not None:
                 options = {**options, "seed": request.seed}
-            if request.pose is not None:
-                scene = copy.deepcopy(scene)
-                scene.camera.pose, scene.camera.keyframes = request.pose, []
-            yield Frame._of(memory, scene, self._camera, options)
+            yield Frame._of(memory, self._scene, self._camera, options, request.pose)
 
     def frames_on_device(
         self, first: int = 0, count: int = 1, *, requests: Iterable[FrameRequest] | None = None
@@ -178,6 +201,11 @@ class Simulator:
             From which frame on, and how many: all are computed before this returns.
         requests : iterable of FrameRequest, optional
             In place of them, as in ``frames``.
+
+        Returns
+        -------
+        DeviceFrames
+            The arrays of all of them, [frame, …], by their names in files.
 
         Raises
         ------
@@ -247,13 +275,18 @@ def process(
         ``raw``, or ``tap_a`` and ``tap_b``, and the arrays by phase: ``modulation_frequency_hz``, ``reference_phase_rad``,
         ``integration_time_s``, ``lit``.
     camera : Camera
-        Says the rest.
+        Says the rest: what lens, pixel, ADC and decoding are.
     noise, threads, backend, device, block_size, isa
         As of Simulator: ``noise="off"`` for expected values.
 
     Returns
     -------
     Depth
+
+    Raises
+    ------
+    Error
+        For arrays that lack, or do not fit together or to the camera, by their names.
     """
     options = {"noise": noise, "threads": threads, "backend": backend, "device": device, "block_size": block_size, "isa": isa}
     memory, _ = _native.process(raw, camera, options)
@@ -262,11 +295,21 @@ def process(
 
 
 def pixel_rays(camera: Camera) -> NDArray[np.float32]:
-    """Which way each pixel looks: x/z and y/z of its ray in the camera's frame, the lens undistorted.
+    """Which way each pixel looks, the lens undistorted.
+
+    Parameters
+    ----------
+    camera : Camera
 
     Returns
     -------
-    float32 array [height, width, 2]
+    float32 array [height, width, 2], 1
+        x/z and y/z of the pixel's ray in the camera's frame.
+
+    Raises
+    ------
+    Error
+        For a camera that cannot be, by its member.
     """
     return _native.pixel_rays(camera)
 
@@ -274,14 +317,31 @@ def pixel_rays(camera: Camera) -> NDArray[np.float32]:
 def camera_pose(scene: Scene, time_s: float = 0.0) -> NDArray[np.float64]:
     """Where the camera is at a time: camera to world.
 
+    Parameters
+    ----------
+    scene : Scene
+        Its ``camera`` says pose and keyframes.
+    time_s : float
+        In seconds; 0: the scene as written.
+
     Returns
     -------
-    float64 array [4, 4]
-        Last row 0 0 0 1.
+    float64 array [4, 4], m
+        A rotation, and in the last column the camera's place. Last row 0 0 0 1.
+
+    Raises
+    ------
+    Error
+        For a pose that cannot be.
     """
     return _native.camera_pose(scene, time_s)
 
 
 def demo() -> Frame:
-    """The first frame of the built-in demo: a snowman beside a fir tree."""
+    """The first frame of the built-in demo: a snowman beside a fir tree.
+
+    Returns
+    -------
+    Frame
+    """
     return Simulator(load_scene("demo")).frame(0)

@@ -28,7 +28,7 @@ from ._record import Record
 if TYPE_CHECKING:
     from typing import Literal
 
-    from ._native import MeshMotion, ReflectivityMap, TriangleMesh
+    from ._native import MeshMotion, ReflectivityMap, TriangleMesh, VectorMap
 '''
 
 
@@ -96,6 +96,36 @@ def wrapped(text: str, indent: int) -> str:
     return textwrap.fill(text, 100, initial_indent=" " * indent, subsequent_indent=" " * indent)
 
 
+# Units that a number's name ends in …
+ENDS = {"m": "m", "px": "px", "rad": "rad", "s": "s", "hz": "Hz", "w": "W", "e": "e", "k": "K", "dn": "DN", "celsius": "°C",
+        "e_per_s": "e/s", "e_per_dn": "e/DN", "m_per_s": "m/s", "m_per_kelvin": "m/K", "rad_per_s": "rad/s", "w_per_m3": "W/m³"}
+# … and of those that end in none: scene.h says metres, where it is not a direction or a ratio.
+METRES = {"position", "point", "center", "radius", "min", "max", "vertices", "height", "size", "start", "end", "base", "look_at"}
+RATIOS = {"fill_factor", "share", "weights", "kernel", "k1", "k2", "k3", "k4", "k5", "k6", "p1", "p2", "f_number", "transmission", "peak",
+          "exponent", "duty", "modulation_depth", "correlation", "emission", "axis", "normal", "direction", "up", "samples", "scale", "active",
+          "tap_gain_mismatch", "crosstalk_left_right", "crosstalk_up_down", "prnu", "suppression_noise_factor", "sigmas", "flying_sigmas",
+          "asymmetry_sigmas", "multipath_sigmas", "temporal_sigmas", "refractive_index", "diffuse", "specular", "alpha", "retro", "occupancy",
+          "blooming_share", "gain", "gains", "speed", "aim", "bright"}
+OTHERS = {"mid_code": "DN", "celsius": "°C", "Ambient.amount": "by its quantity", "Curve.x": "any unit", "Curve.y": "any unit",
+          "SpreadSpectrum.width": "1"}
+
+
+def unit(struct: str, member: str, type_name: str) -> str:
+    """What follows the type in a docstring: ", m"; nothing for what is no number."""
+    if "float" not in type_name:
+        return ""
+    for name in (f"{struct}.{member}", member):
+        if name in OTHERS:
+            return ", " + OTHERS[name]
+    for length in (3, 2, 1):
+        words = member.split("_")
+        if len(words) > length and "_".join(words[-length:]) in ENDS:
+            return ", " + ENDS["_".join(words[-length:])]
+    if member not in METRES | RATIOS:
+        raise SystemExit(f"python/tools/make_model.py: say the unit of {struct}.{member}")
+    return ", m" if member in METRES else ", 1"
+
+
 def argument(type_name: str, value: object) -> tuple[str, str, str]:
     """How a member is given to the constructor: its type, its default, and what is kept of it."""
     if type_name.startswith("list["):
@@ -111,7 +141,7 @@ def class_text(name: str, members: list[tuple[str, str, object]], said: dict[str
     out = [f"class {name}(Record):"]
     doc = [wrapped(sentence(said.get("", "")) or f"What C++ calls {name}.", 4).strip(), "", "    Attributes", "    ----------"]
     for member, type_name, _ in members:
-        doc.append(f"    {member} : {type_name}")
+        doc.append(f"    {member} : {type_name}{unit(name, member, type_name)}")
         if said.get(member):
             doc.append(wrapped(sentence(said[member]), 8))
     out.append('    """' + "\n".join(doc) + '\n    """')

@@ -16,6 +16,8 @@ struct MaterialView {
   float matt;                        ///< what of the reflectivity a map scales
   std::int32_t matt_numbers;         ///< how many of the numbers, the first ones, it scales
   std::int32_t map;                  ///< number of its map; −1: none
+  std::int32_t normals = -1;         ///< number of the first of three maps: how the normal leans; −1: it does not
+  std::int32_t finish = -1;          ///< number of the first of five maps: `number`, reflectivity, matt; −1: they are the same everywhere
 };
 constexpr int material_words = sizeof(MaterialView) / sizeof(float);
 

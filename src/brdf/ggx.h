@@ -17,15 +17,32 @@ namespace tofray::brdf {
 struct Ggx {
   template <class Said>
   static MaterialView view(const Said& material) {
-    const double alpha = material.alpha, f0 = material.specular, ground = 28.0 / 23.0 * (1 - f0) * material.diffuse;
+    return view(material.diffuse, material.specular, material.alpha, lobe_reflectivity(material.alpha, material.specular));
+  }
+  /// @param lobe  lobe_reflectivity() of α and F_0
+  static MaterialView view(double diffuse, double f0, double alpha, double lobe) {
+    const double ground = 28.0 / 23.0 * (1 - f0) * diffuse;
     // At normal incidence the ground sends back 23/28·(1 − 1/32) of its factor.
-    const double matt = ground * 23 / 28 * 31 / 32, all = matt + lobe_reflectivity(alpha, f0);
-    return {static_cast<float>(all),
+    const double matt = ground * 23 / 28 * 31 / 32;
+    return {static_cast<float>(matt + lobe),
             {static_cast<float>(ground), static_cast<float>(f0), static_cast<float>(alpha * alpha)},
             0,
             static_cast<float>(matt),
             1,
             -1};
+  }
+  /// ∫ D·V·F·cosθ dω at normal incidence: over the share u of D's slopes, tan²θ_h = α²·u/(1 − u), it is ∫ 4·F·V·n·l du. Linear in F_0.
+  static double lobe_reflectivity(double alpha, double f0) {
+    const int steps = 2000;
+    const double square = alpha * alpha;
+    double sum = 0;
+    for (int i = 0; i < steps; ++i) {
+      const double u = (i + 0.5) / steps, slope = square * u / (1 - u), light = (1 - slope) / (1 + slope);
+      if (light <= 0) break;
+      const double fresnel = f0 + (1 - f0) * fifth_power(1 - 1 / ::sqrt(1 + slope));
+      sum += 2 * fresnel * light / (light + ::sqrt(square + (1 - square) * light * light));
+    }
+    return sum / steps;
   }
   template <class F>
   TOFRAY_FN static F f_r(const Finish<F>& of, const Cosines<F>& cosine, const Directions<F>& directions) {
@@ -89,19 +106,6 @@ struct Ggx {
   template <class F>
   TOFRAY_FN static F passed(F cosine) {
     return F(1.0f) - fifth_power(num::fnma(F(0.5f), cosine, F(1.0f)));
-  }
-  /// ∫ D·V·F·cosθ dω at normal incidence: over the share u of D's slopes, tan²θ_h = α²·u/(1 − u), it is ∫ 4·F·V·n·l du.
-  static double lobe_reflectivity(double alpha, double f0) {
-    const int steps = 2000;
-    const double square = alpha * alpha;
-    double sum = 0;
-    for (int i = 0; i < steps; ++i) {
-      const double u = (i + 0.5) / steps, slope = square * u / (1 - u), light = (1 - slope) / (1 + slope);
-      if (light <= 0) break;
-      const double fresnel = f0 + (1 - f0) * fifth_power(1 - 1 / ::sqrt(1 + slope));
-      sum += 2 * fresnel * light / (light + ::sqrt(square + (1 - square) * light * light));
-    }
-    return sum / steps;
   }
 };
 

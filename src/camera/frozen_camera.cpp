@@ -10,6 +10,7 @@
 #include "base/curve.h"
 #include "base/faults.h"
 #include "base/limits.h"
+#include "base/readout.h"
 #include "camera/emitters.h"
 #include "camera/other_camera.h"
 #include "camera/read_curve.h"
@@ -29,9 +30,12 @@ static_assert(flow::max_lights == limit::lights.value);
 constexpr double ln_2 = 0.69314718055994530942;
 
 FrozenCamera::FrozenCamera(const Camera& camera, bool noise, std::uint64_t seed, int subpixel)
-    : camera_(with_emitters(camera)),
+    : sensor_pixels_(camera.sensor),
+      one_pixel_(camera.pixel),
+      readout_(camera.readout),
+      camera_(with_emitters(base::as_read_out(camera))),
       modulations_(modulations_of(camera.mode)),
-      scatter_(camera.lens.scatter, camera.sensor, camera.pixel) {
+      scatter_(camera_.lens.scatter, camera_.sensor, camera_.pixel) {
   if (camera.mode.sequence.size() > flow::max_raw_frames) throw Error(ErrorKind::limit, "error: more than 64 raw frames in one sequence");
   freeze_lens(subpixel);
   const ClampedCurve efficiency(camera.pixel.quantum_efficiency, "quantum_efficiency");
@@ -50,7 +54,8 @@ FrozenCamera::FrozenCamera(const Camera& camera, bool noise, std::uint64_t seed,
   freeze_patterns();
   const bool quarters =
       std::none_of(raw_frames_.begin(), raw_frames_.end(), [](const RawFrameView& k) { return k.lit != 0 && k.gate_kind == Gate::other; });
-  phasors_.sums_alone = quarters && lights_.size() == 1 && sensor_.drifts == 0 && sensor_.delay == nullptr;
+  phasors_.sums_alone =
+      quarters && lights_.size() == 1 && camera_.spread_spectrum.width == 0 && sensor_.drifts == 0 && sensor_.delay == nullptr;
   freeze_decoder(noise);
 }
 
@@ -77,7 +82,14 @@ void FrozenCamera::freeze_lens(int subpixel) {
 /// Reference phase of a modulation frequency's first raw frame.
 double FrozenCamera::first_phase(std::size_t modulation) const {
   const auto at = std::find(modulations_.of_raw_frame.begin(), modulations_.of_raw_frame.end(), static_cast<int>(modulation));
-  return camera_.mode.sequence[static_cast<std::size_t>(at - modulations_.of_raw_frame.begin())].reference_phase_rad;
+  return reference_phase_of(camera_.mode.sequence[static_cast<std::size_t>(at - modulations_.of_raw_frame.begin())]);
+}
+
+/// Of the light, over the band that is swept.                                                              [theory: eq. 3.31]
+double FrozenCamera::mean_frequency(std::size_t modulation) const {
+  const SpreadSpectrum& spread = camera_.spread_spectrum;
+  const double frequency = modulations_.frequency_hz[modulation];
+  return spread.kind == SpreadSpectrum::Kind::down ? frequency * (1 - 0.5 * spread.width) : frequency;
 }
 
 void FrozenCamera::freeze_phasors() {
@@ -102,8 +114,10 @@ void FrozenCamera::freeze_phasors() {
   }
   for (std::size_t i = 0; i < modulations; ++i) {
     ModulationView m{};
-    m.frequency = single(modulations_.frequency_hz[i]);
-    const double turns_per_metre = modulations_.frequency_hz[i] * camera_.refractive_index / speed_of_light;
+    const double frequency = mean_frequency(i), per_speed = camera_.refractive_index / speed_of_light;
+    m.frequency = single(frequency);
+    m.swept_turns_per_metre = single(0.5 * camera_.spread_spectrum.width * modulations_.frequency_hz[i] * per_speed);
+    const double turns_per_metre = frequency * per_speed;
     m.turns_per_metre_high = single(turns_per_metre);
     m.turns_per_metre_low = single(turns_per_metre - static_cast<double>(m.turns_per_metre_high));
     m.source = sources_.data() + i * lights * orders * 2;
@@ -124,7 +138,7 @@ void FrozenCamera::freeze_sequence(std::uint64_t seed, bool noise) {
   SensorView& s = sensor_;
   s.raw_frames = static_cast<std::int32_t>(camera_.mode.sequence.size());
   take_numbers(camera_, s);
-  s.noise = !noise ? Noise::off : camera_.pixel.read_noise_e < least_merged_read_noise ? Noise::apart : Noise::merged;
+  s.noise = !noise ? Noise::off : read_noise_of(camera_) < least_merged_read_noise ? Noise::apart : Noise::merged;
   s.keys = keys_ = keys_of(seed);
   const std::size_t values = 2 * static_cast<std::size_t>(phasors_.orders);
   const bool another = camera_.interference.share > 0;
@@ -139,9 +153,24 @@ void FrozenCamera::freeze_sequence(std::uint64_t seed, bool noise) {
     integration_time_s.push_back(frame.integration_time_s);
   }
   s.frame = raw_frames_.data();
-  s.drifts = camera_.temperature.warm_up_m != 0 || another;
+  s.drifts = camera_.temperature.warm_up_m != 0 || another || camera_.auto_exposure.speed > 0;
   start_ = raw_frame_starts_s(integration_time_s, camera_.readout_time_s);
   freeze_gates(drift_m(0));
+}
+
+void FrozenCamera::set_integration_times(const std::vector<double>& seconds) {
+  double grey_time = 0;
+  for (std::size_t k = 0; k < seconds.size(); ++k) {
+    camera_.mode.sequence[k].integration_time_s = seconds[k];
+    raw_frames_[k].integration_time = single(seconds[k]), raw_frames_[k].dark = single(dark_current() * seconds[k]);
+    if (raw_frames_[k].lit == 0) grey_time += seconds[k];
+  }
+  start_ = raw_frame_starts_s(seconds, camera_.readout_time_s);
+  for (std::size_t i = 0; i < grouped_.size(); ++i) {
+    const double exposed = seconds[static_cast<std::size_t>(grouped_[i].front())];
+    decode_modulations_[i].integration_time = single(exposed);
+    decode_modulations_[i].ambient_scale = single(grey_time > 0 ? exposed / grey_time : 0);
+  }
 }
 
 namespace {
@@ -157,8 +186,8 @@ Gate gate_at(double phase) {
 /// τ − τ_0 + δ, where δ = 2π·f·n/c·2·(half path by which the sensor has drifted).
 double FrozenCamera::gate_phase(std::size_t raw_frame) const {
   const auto modulation = static_cast<std::size_t>(raw_frames_[raw_frame].modulation);
-  const double drift = 4 * pi * drifted_m_ * modulations_.frequency_hz[modulation] * camera_.refractive_index / speed_of_light;
-  return camera_.mode.sequence[raw_frame].reference_phase_rad - first_phase(modulation) + drift;
+  const double drift = 4 * pi * drifted_m_ * mean_frequency(modulation) * camera_.refractive_index / speed_of_light;
+  return reference_phase_of(camera_.mode.sequence[raw_frame]) - first_phase(modulation) + drift;
 }
 
 /// cos and sin of m times that.
@@ -225,25 +254,41 @@ void FrozenCamera::freeze_read_curve() {
   s.full_read = read_charge(s.read, s.full_well).value;
 }
 
+/// A pattern over the image: of pixels of the specimen, each one its own draw from a stream of the sensor's seed; the mean over those that are
+/// read together.                                                                                               [theory: eq. 4.26]
+std::vector<float> FrozenCamera::pattern(double sigma, double mean, double least, std::uint32_t stream) const {
+  const auto keys =
+      num::round_keys(static_cast<std::uint32_t>(one_pixel_.pattern_seed), static_cast<std::uint32_t>(one_pixel_.pattern_seed >> 32));
+  const auto of_pixel = [&](int x, int y) {
+    const auto words = num::philox<float>(static_cast<std::uint32_t>(y * sensor_pixels_.width + x), stream, 0, 0, keys);
+    float z, other;
+    num::normal_pair<float>(words.w[0], words.w[1], z, other);
+    return std::max(mean + sigma * static_cast<double>(z), least);
+  };
+  const int n = readout_.binning;
+  std::vector<float> map;
+  for (int y = 0; y < camera_.sensor.height; ++y) {
+    for (int x = 0; x < camera_.sensor.width; ++x) {
+      double sum = 0;
+      for (int i = 0; i < n * n; ++i) sum += of_pixel(readout_.left + x * n + i % n, readout_.top + y * n + i / n);
+      map.push_back(single(sum / (n * n)));
+    }
+  }
+  return map;
+}
+
 void FrozenCamera::freeze_patterns() {
-  const Pixel& pixel = camera_.pixel;
+  const Pixel& pixel = one_pixel_;
   const std::size_t pixels = static_cast<std::size_t>(camera_.sensor.width) * static_cast<std::size_t>(camera_.sensor.height);
   constexpr double infinite = std::numeric_limits<double>::infinity();
-  // Each pattern is a stream of its own in the random numbers of the sensor's seed.
   const auto draw = [&](double sigma, double mean, double least, std::uint32_t stream, std::vector<float>& map) -> const float* {
     if (sigma == 0) return nullptr;
-    const num::RoundKeys keys =
-        num::round_keys(static_cast<std::uint32_t>(pixel.pattern_seed), static_cast<std::uint32_t>(pixel.pattern_seed >> 32));
-    for (std::size_t i = 0; i < pixels; ++i) {
-      const auto words = num::philox<float>(static_cast<std::uint32_t>(i), stream, 0, 0, keys);
-      float z, other;
-      num::normal_pair<float>(words.w[0], words.w[1], z, other);
-      map.push_back(single(std::max(mean + sigma * static_cast<double>(z), least)));
-    }
+    map = pattern(sigma, mean, least, stream);
     return map.data();
   };
+  const int together = readout_.binning * readout_.binning;
   sensor_.gain = draw(pixel.prnu, 1, 0, 0x50524e55, gain_);
-  sensor_.offset = draw(pixel.dsnu_dn, 0, -infinite, 0x44534e55, offset_);
+  sensor_.offset = draw(pixel.dsnu_dn * together, 0, -infinite, 0x44534e55, offset_);  // offsets are charge, which adds
   sensor_.delay = draw(pixel.delay_s, 0, -infinite, 0x44454c41, delay_);
   if (pixel.phase_offset_rad == 0 || modulations_.frequency_hz.empty()) return;
   // A phase at one modulation frequency is a delay there.                                                  [theory: eq. 3.17]

@@ -29,6 +29,9 @@ struct Modulations {
 /// @throws Error (bad_input) where the frequencies have no common base with cycles up to 1000
 Modulations modulations_of(const Mode& mode);
 
+/// τ, of its phase and its delay together [rad]; 0 where unlit.
+double reference_phase_of(const RawFrame& frame);
+
 /// Start of each raw frame after the start of its frame [s]: an exposure begins when the one before has been read out.
 std::vector<double> raw_frame_starts_s(const std::vector<double>& integration_time_s, double readout_time_s);
 
@@ -53,6 +56,8 @@ class FrozenCamera {
   /// and seed what is drawn of the latter. Where either is there, a view is good until the next call.
   /// @param seed  of this frame, in place of the camera's
   [[nodiscard]] const SensorView& sensor(double time_s, std::uint64_t index = 0, std::optional<std::uint64_t> seed = {});
+  /// Exposes each raw frame for so long from now on; the views stay where they are.
+  void set_integration_times(const std::vector<double>& seconds);
   /// Start of each raw frame after the start of its frame [s].
   [[nodiscard]] const std::vector<double>& raw_frame_start_s() const { return start_; }
 
@@ -61,18 +66,23 @@ class FrozenCamera {
   void freeze_sequence(std::uint64_t seed, bool noise);
   void freeze_phasors();
   [[nodiscard]] double first_phase(std::size_t modulation) const;
+  [[nodiscard]] double mean_frequency(std::size_t modulation) const;
   [[nodiscard]] double gate_phase(std::size_t raw_frame) const;
   void freeze_gates(double half_path_m);
   void freeze_other_camera(double time_s, std::uint64_t index);
   [[nodiscard]] double drift_m(double time_s) const;
   void freeze_patterns();
+  [[nodiscard]] std::vector<float> pattern(double sigma, double mean, double least, std::uint32_t stream) const;
   void freeze_read_curve();
   [[nodiscard]] double dark_current() const;
   void freeze_decoder(bool noise);
   void freeze_modulations(double grey_time);
   void freeze_without_modulation();
 
-  Camera camera_;
+  Sensor sensor_pixels_;  // the whole sensor, and what is read of it
+  Pixel one_pixel_;
+  Readout readout_;
+  Camera camera_;  // as it is read out
   Modulations modulations_;
   FrozenLens middle_;
   std::vector<FrozenLens> samples_;  // within the pixel

@@ -42,9 +42,10 @@ Group group_of(const Mode& mode, const Modulations& modulations, int modulation)
     }
     g.integration_time = frame.integration_time_s;
     g.raw_frame.push_back(static_cast<std::int32_t>(k));
-    g.tau.push_back(frame.reference_phase_rad);
+    const double tau = reference_phase_of(frame);
+    g.tau.push_back(tau);
     for (int h = 0; h < 2; ++h) {
-      sums[2 * h] += setup::cos((h + 1) * frame.reference_phase_rad), sums[2 * h + 1] += setup::sin((h + 1) * frame.reference_phase_rad);
+      sums[2 * h] += setup::cos((h + 1) * tau), sums[2 * h + 1] += setup::sin((h + 1) * tau);
     }
   }
   // Σ e^{iτ} = Σ e^{2iτ} = 0 is what (2/N)Σ D e^{−iτ} needs to see neither a constant nor the mirror image.
@@ -137,7 +138,7 @@ void FrozenCamera::freeze_decoder(bool noise) {
   for (std::size_t k = 0; k < 3; ++k) d.light[k] = single(mean[k]);
   // No path is that long: without a light source nothing that is measured is a return.
   d.light_square = shares.empty() ? std::numeric_limits<float>::max() : single(square);
-  const double read_noise = camera_.pixel.read_noise_e;
+  const double read_noise = read_noise_of(camera_);
   d.noise_floor = single(2 * read_noise * read_noise + output_variance(camera_)), d.output_floor = single(output_variance(camera_));
   d.suppression_threshold = sensor_.suppression_threshold, d.suppression_budget = sensor_.suppression_budget;
   d.suppression_variance = single(2 * camera_.pixel.suppression_noise_factor * camera_.pixel.suppression_noise_factor);
@@ -147,7 +148,10 @@ void FrozenCamera::freeze_decoder(bool noise) {
     const bool suppresses = camera_.pixel.suppression_threshold_e > 0;
     d.grey_dark = single(suppresses ? dark - std::min(above, camera_.pixel.suppression_budget_e) : dark);
   }
-  d.noise_threshold = noise ? single(decoding.noise_threshold_m) : std::numeric_limits<float>::max();
+  // What weighs by 1/σ̂² may have all pixels, however noisy: the noise that it leaves says which are good.
+  const bool after_filter = decoding.filter.kind == ImageFilter::Kind::adaptive;
+  d.noise_threshold = d.filtered_noise_threshold = std::numeric_limits<float>::max();
+  if (noise) (after_filter ? d.filtered_noise_threshold : d.noise_threshold) = single(decoding.noise_threshold_m);
   d.per_confidence_noise = single(1 / decoding.noise_threshold_m);
   d.amplitude_threshold = single(decoding.amplitude_threshold_e);
   d.asymmetry_square = single(decoding.asymmetry_limit_e * decoding.asymmetry_limit_e);

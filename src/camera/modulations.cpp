@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/constants.h"
 #include "camera/frozen_camera.h"
 #include "tofray/error.h"
 
@@ -28,6 +29,10 @@ bool whole_ratio(const std::vector<double>& frequencies, std::vector<int>& cycle
 }
 
 }  // namespace
+
+double reference_phase_of(const RawFrame& frame) {
+  return frame.lit ? frame.reference_phase_rad + base::two_pi * frame.modulation_frequency_hz * frame.reference_delay_s : 0;
+}
 
 Modulations modulations_of(const Mode& mode) {
   Modulations out;

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The tofray authors
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include <cmath>
 #include <cstdint>
 
 #include "flow/flow.h"
@@ -113,7 +114,8 @@ struct RawFrameView {
 struct ModulationView {
   float turns_per_metre_high, turns_per_metre_low;  ///< f·n/c in two parts
   float frequency;                                  ///< [Hz], for delays by pixel
-  const float* source;  ///< [light][orders][2] a_m·e^{i(ψ_m + mτ_0)} of each light, τ_0 the modulation's first reference phase
+  float swept_turns_per_metre;  ///< half the swept band's width·n/c; 0: nothing is swept                        [theory: eq. 3.30]
+  const float* source;          ///< [light][orders][2] a_m·e^{i(ψ_m + mτ_0)} of each light, τ_0 the modulation's first reference phase
 };
 
 /// All of them. `orders` of 1, 3, 5 … are kept, 4 or 8; those that a camera does not have are zero.
@@ -164,9 +166,29 @@ struct SensorView {
   float half_gain_mismatch;       ///< g/2
   float half_offset_mismatch;     ///< [e⁻] of a tap
   ReadCurveView read;
-  float full_read;  ///< what is read of a full well
+  float full_read;                       ///< what is read of a full well
+  std::int32_t blooms;                   ///< 1: full wells spill into their neighbours
+  float blooming_share, blooming_limit;  ///< of what overflows to each neighbour; who gets more [e⁻] is flagged
   bool operator==(const SensorView&) const = default;
 };
+
+/// Electrons of A−B for each code, in the mode's gain.                                                         [theory: eq. 3.33]
+template <class Camera>
+double step_of(const Camera& camera) {
+  return camera.adc.step_e_per_dn / camera.mode.gain;
+}
+
+/// Reset and read noise of a tap at the camera's temperature, 1 sigma [e⁻].                                   [theory: eq. 3.29]
+template <class Camera>
+double read_noise_of(const Camera& camera) {
+  constexpr double kelvin = 273.15;
+  const auto& pixel = camera.pixel;
+  const double read = pixel.read_noise_e * pixel.read_noise_e;
+  if (pixel.cancels_reset_noise) return std::sqrt(2 * read);
+  if (pixel.reset_noise_e == 0) return pixel.read_noise_e;
+  const double warmer = (camera.temperature.celsius + kelvin) / (camera.temperature.reference_celsius + kelvin);
+  return std::sqrt(read + pixel.reset_noise_e * pixel.reset_noise_e * warmer);
+}
 
 /// The numbers that kernels take from a camera as they are, beside the view that holds them. (Templates: kernel headers know no profile.)
 template <class Camera>
@@ -174,13 +196,15 @@ void take_numbers(const Camera& camera, SensorView& s) {
   const auto& pixel = camera.pixel;
   const auto& adc = camera.adc;
   const auto f = [](double a) { return static_cast<float>(a); };
-  s.read_noise = f(pixel.read_noise_e), s.read_variance = f(pixel.read_noise_e * pixel.read_noise_e);
+  const double read_noise = read_noise_of(camera), step = step_of(camera);
+  s.read_noise = f(read_noise), s.read_variance = f(read_noise * read_noise);
   s.full_well = f(pixel.full_well_e) < flow::max_charge ? f(pixel.full_well_e) : flow::max_charge;
   s.suppression_threshold = f(pixel.suppression_threshold_e), s.suppression_budget = f(pixel.suppression_budget_e);
   s.suppression_noise = f(pixel.suppression_noise_factor);
-  s.per_step = f(1 / adc.step_e_per_dn), s.step = f(adc.step_e_per_dn), s.mid_code = f(adc.mid_code);
+  s.per_step = f(1 / step), s.step = f(step), s.mid_code = f(adc.mid_code);
   s.max_code = f((1 << adc.bits) - 1);
-  s.column_noise = f(pixel.column_noise_e / adc.step_e_per_dn), s.row_noise = f(pixel.row_noise_e / adc.step_e_per_dn);
+  s.column_noise = f(pixel.column_noise_e / step), s.row_noise = f(pixel.row_noise_e / step);
+  s.blooming_share = f(pixel.blooming_share), s.blooming_limit = f(pixel.blooming_limit_e), s.blooms = s.blooming_share > 0;
   s.lines_are_noisy = s.column_noise > 0 || s.row_noise > 0, s.width = camera.sensor.width;
   s.half_gain_mismatch = f(0.5 * pixel.tap_gain_mismatch), s.half_offset_mismatch = f(0.5 * pixel.tap_offset_mismatch_e);
   s.taps_differ = s.half_gain_mismatch != 0 || s.half_offset_mismatch != 0;
@@ -193,7 +217,7 @@ void take_numbers(const Camera& camera, SensorView& s) {
 /// Variance of A−B that has nothing to do with charge: rounding, column and row noise [e²].                     [theory: eq. 3.9, 3.15]
 template <class Camera>
 double output_variance(const Camera& camera) {
-  const double step = camera.adc.step_e_per_dn, column = camera.pixel.column_noise_e, row = camera.pixel.row_noise_e;
+  const double step = step_of(camera), column = camera.pixel.column_noise_e, row = camera.pixel.row_noise_e;
   return step * step / 12 + column * column + row * row;
 }
 
@@ -232,7 +256,8 @@ struct DecoderView {
   float suppression_variance;                       ///< 2κ²: variance of A−B for each electron off both taps
   float dark_rate_both;                             ///< dark electrons per second, both taps together: noise only
   float grey_dark;                                  ///< dark electrons that a tap of an unlit raw frame holds when it is read, the mean
-  float noise_threshold;                            ///< [m]; infinite where noise is off
+  float noise_threshold;                            ///< [m]; infinite where noise is off, or the filter comes first
+  float filtered_noise_threshold;                   ///< [m] of the noise that the adaptive filter left; else infinite
   float amplitude_threshold;                        ///< [e⁻]
   float per_confidence_noise;                       ///< 1/0.07 m
   float asymmetry_square, asymmetry_factor;         ///< square of the limit on |D_k + D_k'| [e²], and of that over V̂: 2k²

@@ -19,6 +19,7 @@ enum Bits : std::int32_t {
   inconsistent_phases = 32,
   inconsistent_frequencies = 64,
   rejected = 128,
+  filtered = 256,
   invalid = 31 + 128,
 };
 

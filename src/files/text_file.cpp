@@ -23,6 +23,11 @@ namespace fs = std::filesystem;
 using base::in_quotes;
 using base::Place;
 
+[[noreturn]] void too_long(const Place& place, const std::string& path, std::size_t most) {
+  base::fail(place, in_quotes(path, 200) + " is too long", "at most " + std::to_string(most) + " bytes (`tofray --limits`)",
+             ErrorKind::limit);
+}
+
 std::string read_all(int descriptor, const Place& place, const std::string& path, const base::Limit& limit) {
   const auto most = static_cast<std::size_t>(limit.value);
   std::string text;
@@ -33,9 +38,7 @@ std::string read_all(int descriptor, const Place& place, const std::string& path
     if (got < 0) base::fail(place, "cannot read " + in_quotes(path, 200) + ": " + std::strerror(errno), {}, ErrorKind::io);
     if (got == 0) return text;
     text.append(buffer, static_cast<std::size_t>(got));
-    if (text.size() > most)
-      base::fail(place, in_quotes(path, 200) + " is too long", "at most " + std::to_string(most) + " bytes (`tofray --limits`)",
-                 ErrorKind::limit);
+    if (text.size() > most) too_long(place, path, most);
   }
 }
 
@@ -107,6 +110,7 @@ std::string read_reference(const std::string& reference, const std::string& fold
   struct stat status {};
   if (::fstat(file.number(), &status) != 0 || !S_ISREG(status.st_mode))
     base::fail(place, in_quotes(found, 200) + " is not a plain file", {}, ErrorKind::io);
+  if (status.st_size > most.value) too_long(place, found, static_cast<std::size_t>(most.value));  // before any of it is read
   return read_all(file.number(), place, found, most);
 }
 

@@ -107,7 +107,8 @@ class PrimitiveReader {
     out.colors = mended(attributes_, "COLOR_0", wanted_colors);
     if (out.colors) out.color_width = reading_.accessors[accessor(attributes_, "COLOR_0")].width;
     read_joints(out);
-    constexpr std::string_view known[] = {"POSITION", "NORMAL", "TEXCOORD_0", "TEXCOORD_1", "COLOR_0", "JOINTS_0", "WEIGHTS_0"};
+    (void)attribute(attributes_, "TANGENT");  // which way they point follows from texture coordinates
+    constexpr std::string_view known[] = {"POSITION", "NORMAL", "TEXCOORD_0", "TEXCOORD_1", "COLOR_0", "JOINTS_0", "WEIGHTS_0", "TANGENT"};
     for (const auto& [name, value] : attributes_.members()) {
       if (std::find(std::begin(known), std::end(known), name) != std::end(known)) continue;
       (void)attribute(attributes_, name);

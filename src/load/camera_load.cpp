@@ -52,13 +52,14 @@ struct Profile {
   std::string folder;  ///< of its table files; empty: none
 };
 
-/// What is set for a run counts more than what a mode says: where a mode has a decoding of its own, it is changed as well.
-void set_decoding_of_modes(Node& root, const Change& change) {
-  if (change.key != "decoding" && !change.key.starts_with("decoding.")) return;
+/// What is set for a run counts more than what a mode says: where a mode has, say, a decoding of its own, it is changed as well.
+void set_keys_of_modes(Node& root, const Change& change) {
+  const std::string section = change.key.substr(0, change.key.find('.'));
+  if (section != "decoding" && section != "readout" && section != "auto_exposure") return;
   Node* modes = root.find("modes");
   if (modes == nullptr) return;
   for (Node& mode : modes->items)
-    if (mode.find("decoding") != nullptr) set_key(mode, change.key, parse_value(change.text, change.place), change.place);
+    if (mode.find(section) != nullptr) set_key(mode, change.key, parse_value(change.text, change.place), change.place);
 }
 
 Camera interpret(const Profile& profile, const std::string& mode, const base::Place& mode_place, const std::vector<Change>& changes,
@@ -68,7 +69,7 @@ Camera interpret(const Profile& profile, const std::string& mode, const base::Pl
   if (!mode.empty()) set_key(root, "mode", mode_node(mode, mode_place), mode_place);
   for (const auto& change : changes) {
     set_key(root, change.key, parse_value(change.text, change.place), change.place);
-    set_decoding_of_modes(root, change);
+    set_keys_of_modes(root, change);
   }
   base::Faults faults;
   const Value value = read(model::camera_form(), root, faults);

@@ -35,19 +35,27 @@ bool equally_spaced(std::vector<double> phases) {
 
 std::string milliseconds(double seconds) { return base::number_text(std::round(seconds * 1e9) / 1e6) + " ms"; }
 
-// A list of reference phases makes one raw frame of each.
+// A list of reference phases, or of delays, makes one raw frame of each.
 void add_raw_frames(const Value& entry, const RawFrame& raw, std::vector<RawFrame>& sequence, base::Faults& faults) {
-  for (const char* key : {"modulation_frequency", "reference_phase"}) {
-    if (raw.lit && !entry[key])
-      faults.add(entry.place(), std::string("a lit raw frame lacks ") + key, "expected " + std::string(key) + ", or lit: false");
+  const Value &phase = entry["reference_phase"], &delay = entry["reference_delay"];
+  if (raw.lit && !entry["modulation_frequency"])
+    faults.add(entry.place(), "a lit raw frame lacks modulation_frequency", "expected modulation_frequency, or lit: false");
+  if (raw.lit && !phase && !delay)
+    faults.add(entry.place(), "a lit raw frame lacks reference_phase", "expected reference_phase, or reference_delay, or lit: false");
+  // (`meta` has both, one of which is 0.)
+  const bool either = phase.either == 0 && delay.either == 0 && (raw.reference_phase_rad == 0 || raw.reference_delay_s == 0);
+  if (phase && delay && !either)
+    faults.add(delay.place(), "a raw frame has reference_phase and reference_delay", "expected one of them, or 0 for the other");
+  for (const char* key : {"modulation_frequency", "reference_phase", "reference_delay"}) {
     if (!raw.lit && entry[key])
       faults.add(entry[key].place(), std::string("an unlit raw frame has no ") + key, "take it out, or lit: false");
   }
-  const Value& phase = entry["reference_phase"];
-  if (phase.either == 0) sequence.push_back(raw);
-  for (const auto& one : phase.items) {
+  const bool late = static_cast<bool>(delay);
+  const Value& given = late ? delay : phase;
+  if (given.either == 0) sequence.push_back(raw);
+  for (const auto& one : given.items) {
     sequence.push_back(raw);
-    sequence.back().reference_phase_rad = one.number;
+    (late ? sequence.back().reference_delay_s : sequence.back().reference_phase_rad) = one.number;
   }
 }
 
@@ -58,7 +66,7 @@ void check_phases(const Value& sequence, const Mode& mode, base::Faults& faults)
   for (const auto& [hz, frames] : lit) {
     const std::string at = " at " + base::quantity_text(hz, "1 MHz");
     std::vector<double> phases;
-    for (const auto* raw : frames) phases.push_back(raw->reference_phase_rad);
+    for (const auto* raw : frames) phases.push_back(raw->reference_phase_rad + 2 * pi * hz * raw->reference_delay_s);
     if (phases.size() < 3)
       faults.add(sequence.place(), "too few reference phases" + at,
                  "got " + std::to_string(phases.size()) + ", expected three or more, equally spaced over 360 deg");
@@ -117,9 +125,12 @@ void Modes::choose(std::size_t which, Camera& camera, Filler& filler) const {
   if (modes_.empty()) return;
   camera.mode_names = all.names;
   // That of the profile first: another mode may have been chosen before.
-  camera.decoding = {};
-  filler.fill(root_["decoding"], camera.decoding);
-  filler.fill(all.items[which]["decoding"], camera.decoding);
+  const auto fill = [&](const char* key, auto& record) {
+    record = {};
+    filler.fill(root_[key], record);
+    filler.fill(all.items[which][key], record);
+  };
+  fill("decoding", camera.decoding), fill("readout", camera.readout), fill("auto_exposure", camera.auto_exposure);
   camera.mode = modes_[which].mode;
   filler.remember(all.items[which], camera.mode);
   if (modes_[which].good) check_time(all.items[which], camera);

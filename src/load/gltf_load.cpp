@@ -40,11 +40,9 @@ void append(const gltf::Part& part, const gltf::TextureUse* use, TriangleMesh& m
   append_details(texcoords, before, after, mesh.texcoords);
 }
 
-/// The picture that a part's material shows, if any.
-const gltf::TextureUse* picture_of(const gltf::Model& model, int material) {
-  if (material == gltf::none) return nullptr;
-  const gltf::TextureUse& use = model.materials[static_cast<std::size_t>(material)].base_color_texture;
-  return use.texture == gltf::none ? nullptr : &use;
+/// How the pictures that a part's material shows lie on it, if there are any.
+const gltf::TextureUse* coordinates_in(const gltf::Model& model, int material) {
+  return material == gltf::none ? nullptr : coordinates_of(model.materials[static_cast<std::size_t>(material)]);
 }
 
 }  // namespace
@@ -79,7 +77,7 @@ std::vector<MeshPiece> pieces_of(const gltf::Model& model, const gltf::Pose& pos
   std::map<int, VertexColors> colors;
   for (const gltf::Part& part : gltf::parts(model, pose)) {
     MeshPiece& piece = found[by_material ? part.material : gltf::none];
-    append(part, by_material ? picture_of(model, part.material) : nullptr, piece.mesh);
+    append(part, by_material ? coordinates_in(model, part.material) : nullptr, piece.mesh);
     piece.left_out += part.not_finite;
     if (by_material) colors[part.material].add(part);
   }
@@ -87,7 +85,10 @@ std::vector<MeshPiece> pieces_of(const gltf::Model& model, const gltf::Pose& pos
   for (auto& [material, piece] : found) piece.by_material = by_material, piece.number = material;
   if (by_material) {
     GltfMaterials materials(model, path, place);
-    for (auto& [material, piece] : found) piece.of = materials.worn(material, colors[material], !piece.mesh.texcoords.empty());
+    for (auto& [material, piece] : found) {
+      piece.of = materials.worn(material, colors[material], !piece.mesh.texcoords.empty());
+      if (piece.of.varying_color) piece.mesh.shades = materials.shades(material, colors[material]);
+    }
   }
   for (auto& [material, piece] : found) out.push_back(std::move(piece));
   return out;

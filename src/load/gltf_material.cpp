@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "base/limits.h"
 #include "base/text.h"
 #include "base/vec.h"
 #include "image/read_image.h"
@@ -14,9 +15,9 @@ namespace tofray::load {
 
 namespace {
 
-constexpr double least_alpha = 1e-3;
+std::array<double, 3> rgb(const std::array<double, 4>& base) { return {base[0], base[1], base[2]}; }
 
-std::array<double, 3> product(const std::array<double, 4>& base, const std::array<double, 3>& color) {
+std::array<double, 3> product(const std::array<double, 3>& base, const std::array<double, 3>& color) {
   return {base[0] * color[0], base[1] * color[1], base[2] * color[2]};
 }
 
@@ -49,19 +50,23 @@ void VertexColors::add(const Color& color, double area) {
 void VertexColors::add(const gltf::Part& part) {
   using base::operator-;
   any_ = any_ || !part.colors.empty();
+  const auto color_of = [&](std::size_t vertex) {
+    Color color{1, 1, 1};
+    if (!part.colors.empty())
+      for (std::size_t k = 0; k < 3; ++k) color[k] = std::clamp(static_cast<double>(part.colors[vertex][k]), 0.0, 1.0);
+    return color;
+  };
+  for (std::size_t i = 0; i < part.mesh.vertices.size(); ++i) {
+    const Color color = color_of(i);
+    all_.push_back({static_cast<float>(color[0]), static_cast<float>(color[1]), static_cast<float>(color[2])});
+  }
   const auto corner = [&](std::int32_t vertex) {
     const auto& p = part.mesh.vertices[static_cast<std::size_t>(vertex)];
     return Vec3{static_cast<double>(p[0]), static_cast<double>(p[1]), static_cast<double>(p[2])};
   };
   for (const auto& [a, b, c] : part.mesh.triangles) {
     const double area = base::length(base::cross(corner(b) - corner(a), corner(c) - corner(a))) / 2;
-    for (const std::int32_t vertex : {a, b, c}) {
-      Color color{1, 1, 1};
-      if (!part.colors.empty())
-        for (std::size_t k = 0; k < 3; ++k)
-          color[k] = std::clamp(static_cast<double>(part.colors[static_cast<std::size_t>(vertex)][k]), 0.0, 1.0);
-      add(color, area / 3);
-    }
+    for (const std::int32_t vertex : {a, b, c}) add(color_of(static_cast<std::size_t>(vertex)), area / 3);
   }
 }
 
@@ -103,32 +108,57 @@ GltfMaterials::Means GltfMaterials::means(const gltf::TextureUse& use) {
   return known->second;
 }
 
-void GltfMaterials::guess(const gltf::Material& of, const std::array<double, 3>& color, bool has_texcoords, FileMaterial& out) {
-  double metal = of.metallic, roughness = of.roughness, brightest = luminance(color[0], color[1], color[2]), mean = brightest;
-  if (const gltf::TextureUse& use = of.metallic_roughness_texture; use.texture != gltf::none && !of.unlit) {
-    const Means of_picture = means(use);
-    metal *= of_picture.metal, roughness *= of_picture.roughness, out.mean_finish = true;
+std::size_t GltfMaterials::most_texels() const {
+  constexpr std::size_t numbers = 3 + 5, largest = std::size_t{1} << 22;
+  const std::size_t materials = std::max<std::size_t>(model_.materials.size(), 1);
+  return std::min(largest, static_cast<std::size_t>(base::limit::map_pixels.value) / (numbers * materials));
+}
+
+void GltfMaterials::guess(const gltf::Material& of, const std::array<double, 3>& color, const std::array<double, 3>& mean_color,
+                          bool has_texcoords, FileMaterial& out) {
+  const gltf::TextureUse &base = of.base_color_texture, &of_finish = of.metallic_roughness_texture;
+  const bool has_base = base.texture != gltf::none, has_finish = of_finish.texture != gltf::none && !of.unlit;
+  double metal = of.metallic, roughness = of.roughness;
+  if (has_finish) {
+    const Means of_picture = means(of_finish);
+    metal *= of_picture.metal, roughness *= of_picture.roughness;
   }
+  double brightest = luminance(color[0], color[1], color[2]), mean = luminance(mean_color[0], mean_color[1], mean_color[2]);
   PictureMap picture;
-  if (of.base_color_texture.texture != gltf::none && !has_texcoords) {
-    brightest *= 0.5, mean = brightest;  // nobody knows where on the picture its triangles are
-  } else if (of.base_color_texture.texture != gltf::none) {
+  if (has_base && !has_texcoords) {
+    brightest *= 0.5, mean *= 0.5;  // nobody knows where on the picture its triangles are
+  } else if (has_base) {
     picture = map_of(model_, of, color, path_);
     count_texels(picture.map->width, picture.map->height, place_, texels_);
-    brightest = picture.brightest, mean = picture.mean;
+    mean *= brightest > 0 ? picture.mean / brightest : 1;
+    brightest = picture.brightest;
   }
   out.material = finish(of, metal, roughness, brightest, mean);
+  if (has_finish && has_texcoords && lies_there(of_finish, *coordinates_of(of))) {
+    out.material.finish = finish_of(model_, of, color, dielectric(of), most_texels(), path_);
+    return;
+  }
+  out.mean_finish = has_finish;
   if (out.material.diffuse > 0 || out.material.brdf == Material::Brdf::lambert) out.material.map = std::move(picture.map);
+}
+
+void GltfMaterials::lean(const gltf::Material& of, bool has_texcoords, FileMaterial& out) {
+  const gltf::TextureUse& use = of.normal_texture;
+  if (use.texture == gltf::none || of.unlit) return;
+  std::shared_ptr<VectorMap> map;
+  if (has_texcoords && lies_there(use, *coordinates_of(of))) map = normals_of(model_, of, most_texels(), path_);
+  out.lost_normals = map == nullptr;
+  out.material.normals = std::move(map);
 }
 
 FileMaterial GltfMaterials::worn(int index, const VertexColors& colors, bool has_texcoords) {
   FileMaterial out;
   out.name = name_of(model_, index);
-  const std::array<double, 3> color = colors.mean();
+  const std::array<double, 3> mean = colors.mean();
   if (index == gltf::none) {
     if (!colors.any()) return out;
-    out.from = FileMaterial::From::visible_colour, out.mean_color = colors.vary();
-    out.material.diffuse = luminance(color[0], color[1], color[2]);
+    out.from = FileMaterial::From::visible_colour, out.varying_color = colors.vary();
+    out.material.diffuse = colors.vary() ? 1 : luminance(mean[0], mean[1], mean[2]);
     return out;
   }
   const gltf::Material& of = model_.materials[static_cast<std::size_t>(index)];
@@ -138,8 +168,24 @@ FileMaterial GltfMaterials::worn(int index, const VertexColors& colors, bool has
   } else if (of.nir_reflectivity) {
     out.material.diffuse = *of.nir_reflectivity;
   } else {
-    out.from = FileMaterial::From::visible_colour, out.mean_color = colors.vary();
-    guess(of, product(of.base_color, color), has_texcoords, out);
+    out.from = FileMaterial::From::visible_colour, out.varying_color = colors.vary();
+    const std::array<double, 3> color = rgb(of.base_color), all = product(color, mean);
+    guess(of, colors.vary() ? color : all, all, has_texcoords, out);
+    out.mean_color = colors.vary() && out.material.brdf == Material::Brdf::ggx && of.metallic > 0;
+  }
+  lean(of, has_texcoords, out);
+  return out;
+}
+
+std::vector<float> GltfMaterials::shades(int index, const VertexColors& colors) const {
+  const std::array<double, 3> base =
+      index == gltf::none ? std::array<double, 3>{1, 1, 1} : rgb(model_.materials[static_cast<std::size_t>(index)].base_color);
+  const double white = luminance(base[0], base[1], base[2]);
+  std::vector<float> out;
+  for (const auto& [red, green, blue] : colors.all()) {
+    const double here =
+        luminance(base[0] * static_cast<double>(red), base[1] * static_cast<double>(green), base[2] * static_cast<double>(blue));
+    out.push_back(white > 0 ? std::min(static_cast<float>(here / white), 1.0F) : 1.0F);
   }
   return out;
 }

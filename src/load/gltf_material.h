@@ -6,6 +6,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "base/faults.h"
 #include "gltf/model.h"
@@ -15,23 +16,26 @@
 /// Materials of glTF files as a near-infrared camera sees them.
 namespace tofray::load {
 
-/// What the vertices of one material's triangles say of its colour: their mean by area, linear.
+/// What the vertices of one material's triangles say of its colour, linear: each of them, white where it says none, and their mean by area.
 class VertexColors {
  public:
+  using Color = std::array<double, 3>;
   void add(const gltf::Part& part);
   /// Whether any vertex says a colour.
   [[nodiscard]] bool any() const { return any_; }
   [[nodiscard]] bool vary() const { return vary_; }
   /// White where none says one.
-  [[nodiscard]] std::array<double, 3> mean() const;
+  [[nodiscard]] Color mean() const;
+  /// Of each vertex of all parts, one part after the other.
+  [[nodiscard]] const std::vector<std::array<float, 3>>& all() const { return all_; }
 
  private:
-  using Color = std::array<double, 3>;
   void add(const Color& color, double area);
 
   std::optional<Color> first_;
   Color sum_{};
   double area_ = 0;
+  std::vector<std::array<float, 3>> all_;
   bool any_ = false, vary_ = false;
 };
 
@@ -52,6 +56,8 @@ class GltfMaterials {
   /// @param has_texcoords  whether its triangles have coordinates in its picture
   /// @throws Error as image::read; (limit) beyond limit::map_pixels
   FileMaterial worn(int index, const VertexColors& colors, bool has_texcoords);
+  /// Luminance of the base colour times that of each vertex, over that of the base colour.
+  [[nodiscard]] std::vector<float> shades(int index, const VertexColors& colors) const;
 
  private:
   /// Blue and green of a picture as the file has it, each 0 to 1: the factors of metal and roughness.
@@ -59,7 +65,14 @@ class GltfMaterials {
     double metal = 1, roughness = 1;
   };
   Means means(const gltf::TextureUse& use);
-  void guess(const gltf::Material& of, const std::array<double, 3>& color, bool has_texcoords, FileMaterial& out);
+  /// @param color  of the base
+  /// @param mean   that, times the mean of its vertices' colours
+  void guess(const gltf::Material& of, const std::array<double, 3>& color, const std::array<double, 3>& mean, bool has_texcoords,
+             FileMaterial& out);
+  void lean(const gltf::Material& of, bool has_texcoords, FileMaterial& out);
+  /// So many texels each picture of normals and of metal and roughness may have, so that those of all materials take no more memory than
+  /// other pictures may.
+  [[nodiscard]] std::size_t most_texels() const;
   [[nodiscard]] const Material& named(std::size_t index) const;
 
   const gltf::Model& model_;

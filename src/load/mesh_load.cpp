@@ -47,10 +47,20 @@ Mesh::Up up_of(const Mesh& mesh) {
 std::string folder_beside(const std::string& source) { return source.starts_with("<") ? "." : files::folder_of(source); }
 
 /// All of a file as one piece.
-std::vector<MeshPiece> whole(mesh::ReadMesh read, MeshReader::Known& known) {
+/// @param by_material  whether the colours of its vertices are its material
+std::vector<MeshPiece> whole(mesh::ReadMesh read, bool by_material, MeshReader::Known& known) {
   known.notices = std::move(read.notices);
   std::vector<MeshPiece> out;
   out.push_back({std::move(read.mesh), read.not_finite, {}});
+  if (!by_material) {
+    out[0].mesh.shades.clear();
+  } else {
+    out[0].of.name = no_material;
+    if (out[0].mesh.shades.empty())
+      known.lacks = "has no colours of vertices";
+    else
+      out[0].of.from = FileMaterial::From::visible_colour, out[0].of.material.diffuse = 1;
+  }
   return out;
 }
 
@@ -90,8 +100,17 @@ std::size_t keep_in_world(TriangleMesh& mesh) {
 
 }  // namespace
 
-void MeshReader::Known::show(std::size_t piece, Mesh& mesh) const {
-  mesh.triangles = pieces[piece].triangles, mesh.motion = pieces[piece].motion;
+void MeshReader::Known::show(std::size_t piece, Mesh& mesh, bool shaded) const {
+  const Piece& of = pieces[piece];
+  mesh.triangles = of.triangles, mesh.motion = of.motion;
+  if (!shaded && !of.triangles->shades.empty()) {
+    if (of.without_shades == nullptr) {
+      auto plain = std::make_shared<TriangleMesh>(*of.triangles);
+      plain->shades.clear();
+      of.without_shades = std::move(plain);
+    }
+    mesh.triangles = of.without_shades;
+  }
   mesh.sha256 = sha256, mesh.left_out = pieces[piece].left_out;
 }
 
@@ -117,7 +136,7 @@ std::vector<MeshPiece> MeshReader::pieces(const Places& places, const Mesh& want
   if (with_materials_.contains(wanted.file)) return from_obj(places, wanted, path, std::move(bytes), by_material, known);
   known.sha256 = files::sha256_hex(bytes);
   check_expected(places.file, wanted.file, path, known.sha256);
-  return whole(mesh::parse(format, bytes, path), known);
+  return whole(mesh::parse(format, bytes, path), by_material, known);
 }
 
 MeshReader::Known MeshReader::from_file(const Places& places, const Mesh& wanted, bool by_material) {
@@ -129,7 +148,7 @@ MeshReader::Known MeshReader::from_file(const Places& places, const Mesh& wanted
     count(places.file, piece.mesh);
     for (Corner& p : piece.mesh.vertices) p = in_world(p, wanted.scale, up);
     for (Corner& n : piece.mesh.normals) n = turned(n, up);
-    if (const auto& map = piece.of.material.map) count_texels(map->width, map->height, places.file, texels_);
+    count_pictures(piece.of.material, places.file, texels_);
     piece.left_out += keep_in_world(piece.mesh);
     if (piece.mesh.triangles.empty()) continue;
     if (by_material && piece.of.name == no_material) known.materials.emplace_back(no_material);
@@ -180,8 +199,9 @@ std::vector<MeshPiece> MeshReader::from_obj(const Places& places, const Mesh& wa
   bytes += materials.bytes();
   known.sha256 = files::sha256_hex(bytes);
   check_expected(places.file, wanted.file, path, known.sha256);
-  if (!by_material) return whole(std::move(mesh), known);
-  known.notices = mesh.notices, known.names_library = !mesh.libraries.empty();
+  if (!by_material) return whole(std::move(mesh), false, known);
+  known.notices = mesh.notices;
+  if (mesh.libraries.empty() && mesh.mesh.shades.empty()) known.lacks = "names no mtllib";
   for (const std::string& name : mesh.materials) known.materials.push_back(shown_name(name));
   return materials.pieces(std::move(mesh), places.file, known.notices);
 }
@@ -209,7 +229,8 @@ void MeshReader::count(const base::Place& place, const TriangleMesh& mesh) {
 }
 
 bool has_own_materials(const std::string& file, const std::string& source, const std::string& root) {
-  if (is_gltf(file) || !is_obj(file)) return is_gltf(file);
+  if (is_gltf(file)) return true;
+  if (!is_obj(file) && mesh::suffix_of(file) != ".ply") return false;
   std::string path, bytes;
   try {
     bytes = files::read_reference(file, folder_beside(source), root, base::whole(source), path, base::limit::mesh_bytes);

@@ -17,7 +17,7 @@ namespace tofray::load {
 
 /// Of an object that has no material, and whose file has none.
 inline constexpr const char* lacks_material =
-    "expected one of \"reflectivity\" or \"material\"; glTF files, and OBJ files that name an mtllib, have their own";
+    "expected one of \"reflectivity\" or \"material\"; glTF files, OBJ files that name an mtllib, and vertices with colours have their own";
 
 /// Reads the meshes that a scene names: each file once, turned so that its up is the world's −y, and scaled to metres.
 ///
@@ -30,22 +30,24 @@ class MeshReader {
   struct Places {
     base::Place file, time, play;
   };
-  /// What the file shows; of a glTF or OBJ file one for each material, where that is asked for.
+  /// What the file shows; of a glTF or OBJ file one for each material, where that is asked for. Shades are those of a material of the file.
   struct Piece {
     std::shared_ptr<const TriangleMesh> triangles;
     std::shared_ptr<const MeshMotion> motion;
     int left_out;
     FileMaterial of;
+    mutable std::shared_ptr<const TriangleMesh> without_shades = {};  ///< once somebody asked for them
   };
   struct Known {
     std::vector<Piece> pieces;  ///< at least one; each has triangles
     std::string sha256;
     std::vector<std::string> notices;    ///< of all of the file
     std::vector<std::string> materials;  ///< names of all that the file has, where they were asked for
-    bool names_library = true;           ///< false of an OBJ file without mtllib
+    std::string lacks;                   ///< what of an OBJ or PLY file would be its material, if it has none
 
     /// Fills `mesh` by one piece.
-    void show(std::size_t piece, Mesh& mesh) const;
+    /// @param shaded  whether it is of the file's material
+    void show(std::size_t piece, Mesh& mesh, bool shaded = true) const;
   };
 
   /// @param source  the scene's file: meshes lie beside it or below
@@ -83,7 +85,8 @@ class MeshReader {
 /// @param source  the scene's file, beside which the mesh lies
 std::optional<Pose> camera_in(const Mesh& mesh, const std::string& source, const std::string& root);
 
-/// Whether a mesh's file has materials of its own: glTF, and OBJ where the files of materials that it names can be read.
+/// Whether a mesh's file has materials of its own: glTF, OBJ where the files of materials that it names can be read, and OBJ and PLY whose
+/// vertices have colours.
 /// @param file    as a scene has it
 /// @param source  the scene's file, beside which it lies
 bool has_own_materials(const std::string& file, const std::string& source, const std::string& root);

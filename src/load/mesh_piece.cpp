@@ -26,20 +26,31 @@ void count_texels(int width, int height, const base::Place& place, std::size_t& 
              ErrorKind::limit);
 }
 
+void count_pictures(const Material& material, const base::Place& place, std::size_t& texels) {
+  const auto count = [&](const auto& map) {
+    if (map != nullptr) count_texels(map->width, map->height, place, texels);
+  };
+  count(material.map), count(material.normals), count(material.finish);
+}
+
 std::vector<std::string> notices_of(const std::vector<const FileMaterial*>& materials) {
   using From = FileMaterial::From;
-  std::vector<std::string> out, colourless, finishes, colors;
+  std::vector<std::string> out, colourless, finishes, colors, normals;
   bool without = false;
   for (const FileMaterial* one : materials) {
     without = without || one->from == From::nothing;
     if (one->from == From::colourless) colourless.push_back(one->name);
     if (one->mean_finish) finishes.push_back(one->name);
     if (one->mean_color) colors.push_back(one->name);
+    if (one->lost_normals) normals.push_back(one->name);
   }
   if (without) out.emplace_back("triangles without a material get a reflectivity of 0.5");
   if (!colourless.empty()) out.push_back("no MTL file says a colour of material " + and_more(colourless) + ": a reflectivity of 0.5");
   if (!finishes.empty()) out.push_back("metal and roughness of material " + and_more(finishes) + " are the means of a picture");
-  if (!colors.empty()) out.push_back("colours of vertices vary at material " + and_more(colors) + ": their mean is used");
+  if (!colors.empty()) out.push_back("colours of vertices vary at material " + and_more(colors) + ": of what is metal their mean is used");
+  if (!normals.empty())
+    out.push_back("the picture of normals of material " + and_more(normals) +
+                  " is left out: it is grey, or lies elsewhere on the triangles than the first picture");
   return out;
 }
 

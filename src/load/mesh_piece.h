@@ -24,8 +24,10 @@ struct FileMaterial {
   std::string name;  ///< or its place among the file's
   Material material{"", Material::Brdf::lambert, 0.5};
   From from = From::nothing;
-  bool mean_finish = false;  ///< its metal and roughness are means of a picture
-  bool mean_color = false;   ///< its vertices have several colours, and their mean is used
+  bool mean_finish = false;    ///< its metal and roughness are means of a picture
+  bool varying_color = false;  ///< its vertices have several colours, which its mesh has as shades
+  bool mean_color = false;     ///< … but of what is metal their mean is used
+  bool lost_normals = false;   ///< it has a picture of normals that cannot be used
 };
 
 /// Sentences: what is guessed of these materials, each once.
@@ -40,6 +42,9 @@ struct MeshPiece {
   int number = -1;                                ///< … this one; −1: those that have none
   std::shared_ptr<const MeshMotion> motion = {};  ///< in the file's own axes and unit
 };
+
+/// Adds the pixels of a material's pictures to those that the meshes of a scene wear. @throws Error as count_texels()
+void count_pictures(const Material& material, const base::Place& place, std::size_t& texels);
 
 /// Adds a picture's pixels to those that the meshes of a scene wear. @throws Error (limit) beyond limit::map_pixels
 void count_texels(int width, int height, const base::Place& place, std::size_t& texels);

@@ -65,7 +65,8 @@ class Divider {
       to.reserve(used_.size());
       for (const std::int32_t i : used_) to.push_back(rows[static_cast<std::size_t>(i)]);
     };
-    take(mesh_.vertices, out.vertices), take(mesh_.normals, out.normals), take(mesh_.texcoords, out.texcoords);
+    take(mesh_.vertices, out.vertices), take(mesh_.normals, out.normals), take(mesh_.texcoords, out.texcoords),
+        take(mesh_.shades, out.shades);
     for (const std::int32_t i : used_) place_[static_cast<std::size_t>(i)] = -1;
     return out;
   }
@@ -106,10 +107,11 @@ bool is_obj(const std::string& path) { return mesh::suffix_of(path) == ".obj"; }
 
 bool has_materials(std::string_view bytes, const std::string& path, const std::string& root) {
   try {
+    if (!is_obj(path)) return !mesh::parse(mesh::format_of(path, base::whole(path)), bytes, path).mesh.shades.empty();
     const std::vector<mesh::Reference> files = mesh::libraries_of_obj(bytes, path);
     std::string found;
     for (const mesh::Reference& file : files) (void)read_beside(file, files::folder_of(path), root, base::limit::mtl_bytes, 0, found);
-    return !files.empty();
+    return !files.empty() || !mesh::parse(mesh::Format::obj, bytes, path).mesh.shades.empty();
   } catch (const Error&) {
     return false;
   }
@@ -196,8 +198,10 @@ void ObjMaterials::wear(std::vector<MeshPiece>& pieces, const std::vector<int>& 
     FileMaterial& piece = pieces[i].of;
     if (of == nullptr || (!of->nir_reflectivity && !of->color && !of->picture)) {
       piece.from = used[i] < 0 ? From::nothing : From::colourless;
+      if (!pieces[i].mesh.shades.empty()) piece.from = From::visible_colour, piece.material.diffuse = 1;
       continue;
     }
+    pieces[i].mesh.shades.clear();  // its material says more
     const std::array<double, 3> color = of->color.value_or(white);
     piece.from = of->nir_reflectivity ? From::file : From::visible_colour;
     piece.material.diffuse = of->nir_reflectivity.value_or(luminance(color[0], color[1], color[2]));

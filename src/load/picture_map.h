@@ -4,14 +4,17 @@
 #include <array>
 #include <memory>
 
+#include "base/srgb.h"
 #include "image/read_image.h"
 #include "tofray/scene.h"
 
 /// Visible colours as reflectivities, out of glTF and MTL files.
 namespace tofray::load {
 
-/// Relative luminance (ITU-R BT.709) of linear red, green and blue, 1 at most.
-double luminance(double red, double green, double blue);
+using base::luminance;
+
+/// Of a texel, decoded from sRGB, times a linear colour.
+double luminance_at(const image::Image& picture, int x, int y, const std::array<double, 3>& color);
 
 /// A picture of colours as one of reflectivities: the luminance of each texel, decoded from sRGB, times a linear colour, over the brightest
 /// one.

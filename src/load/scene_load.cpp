@@ -190,12 +190,13 @@ class SceneReader {
     for (std::size_t i = 0; i < own.items.size(); ++i)
       if (own.items[i].good) one.own[own.names[i]] = &material_in_place(own.items[i], scene);
     if (!value["file"].good || is_gltf(out.file)) return;
+    const bool may_have_colors = is_obj(out.file) || mesh::suffix_of(out.file) == ".ply";
     if (!has_material && is_obj(out.file))
       meshes_.want_materials(out.file);
     else if (own)
       faults_.add(own.place(), "materials are those of glTF and OBJ files",
                   "PLY and STL files have none; expected reflectivity or material");
-    else if (!has_material)
+    else if (!has_material && !may_have_colors)
       faults_.add(value.place(), "mesh lacks a key", lacks_material);
     if (out.time_s) faults_.add(value["time"].place(), "time is for glTF files", "an OBJ, PLY or STL file stands still");
     if (out.play != Mesh::Play::still)
@@ -214,9 +215,9 @@ class SceneReader {
         one.known = &meshes_.read({place("file"), place("time"), place("play")}, mesh, one.by_material);
         one.known->show(0, mesh);
         mesh.notices = one.known->notices;
-        if (one.by_material && one.own.empty() && !one.known->names_library)
+        if (one.by_material && one.own.empty() && !one.known->lacks.empty())
           base::fail(one.value->place(), "mesh lacks a key",
-                     std::string(lacks_material) + "; " + in_quotes(mesh.file, 200) + " names no mtllib");
+                     std::string(lacks_material) + "; " + in_quotes(mesh.file, 200) + " " + one.known->lacks);
       } else {
         mesh.triangles = std::make_shared<const TriangleMesh>();  // what is wrong is told already
       }
@@ -277,11 +278,14 @@ class SceneReader {
       const FileMaterial& in_file = pieces[k].of;
       const auto own = of.own.find(in_file.name);
       one.name = name + "/" + in_file.name;
-      of.known->show(k, std::get<Mesh>(one.shape));
+      of.known->show(k, std::get<Mesh>(one.shape), own == of.own.end());
       std::get<Mesh>(one.shape).notices.clear();
       if (k > 0) one.material = static_cast<int>(materials.size()), materials.emplace_back();
       materials[static_cast<std::size_t>(one.material)] = own != of.own.end() ? *own->second : in_file.material;
-      if (own != of.own.end()) continue;
+      if (own != of.own.end()) {
+        materials[static_cast<std::size_t>(one.material)].normals = in_file.material.normals;  // its shape, not what it is made of
+        continue;
+      }
       taken.push_back(&in_file);
       guessed += in_file.from == FileMaterial::From::visible_colour ? 1 : 0;
     }

@@ -67,6 +67,7 @@ class Splitter {
       : builder_(builder), mesh_(builder.so_far().mesh), own_(mesh_.vertices.size()), is_given_(own_) {
     if (normals) mesh_.normals.resize(own_);
     if (texcoords) mesh_.texcoords.resize(own_);
+    if (!mesh_.shades.empty()) mesh_.shades.resize(own_, 1);
   }
 
   /// The vertex for a corner at `vertex`, which is the file's.
@@ -89,6 +90,7 @@ class Splitter {
       const Normal position = mesh_.vertices[at];
       builder_.vertex(position);
       origin_.push_back(vertex);
+      if (!mesh_.shades.empty()) mesh_.shades.push_back(mesh_.shades[at]);
       if (!mesh_.normals.empty()) mesh_.normals.push_back(normal);
       if (!mesh_.texcoords.empty()) mesh_.texcoords.push_back(texcoord);
     }

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "base/faults.h"
+#include "base/srgb.h"
 
 namespace tofray::mesh {
 namespace {
@@ -75,6 +76,19 @@ std::array<float, 2> MeshBuilder::place_in_picture(float u, float v) {
   return {0, 0};
 }
 
+void MeshBuilder::color(const std::array<double, 3>& red_green_blue) {
+  std::array<double, 3> linear{};
+  bool good = true;
+  for (std::size_t k = 0; k < 3; ++k) {
+    good = good && red_green_blue[k] >= 0 && red_green_blue[k] <= 1;
+    linear[k] = base::linear_of_srgb(red_green_blue[k] > 0 ? std::min(red_green_blue[k], 1.0) : 0.0);
+  }
+  if (!good) ++mended_colors_;
+  std::vector<float>& shades = read_.mesh.shades;
+  shades.resize(read_.mesh.vertices.size() - 1, 1);
+  shades.push_back(static_cast<float>(base::luminance(linear[0], linear[1], linear[2])));
+}
+
 void MeshBuilder::drop_not_finite() {
   TriangleMesh& mesh = read_.mesh;
   if (std::all_of(mesh.vertices.begin(), mesh.vertices.end(), finite_vertex)) return;
@@ -85,6 +99,7 @@ void MeshBuilder::drop_not_finite() {
   keep(place, mesh.vertices);
   keep(place, mesh.normals);
   keep(place, mesh.texcoords);
+  if (!mesh.shades.empty()) keep(place, mesh.shades);
   std::size_t kept = 0;
   for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
     Triangle moved{};
@@ -102,10 +117,12 @@ void MeshBuilder::tell_of_mended() {
   if (mended_normals_ > 0) read_.notices.push_back(fmt::format("normals that are not finite ({}) become 0: flat", mended_normals_));
   if (mended_texcoords_ > 0)
     read_.notices.push_back(fmt::format("texture coordinates that are not finite, or beyond 1e6 ({}), become 0", mended_texcoords_));
+  if (mended_colors_ > 0) read_.notices.push_back(fmt::format("colours of vertices beyond 0 to 1 ({}) are held there", mended_colors_));
 }
 
 ReadMesh MeshBuilder::finish() {
   const std::size_t vertices = read_.mesh.vertices.size();
+  if (!read_.mesh.shades.empty()) read_.mesh.shades.resize(vertices, 1);
   drop_not_finite();
   std::vector<Vertex>& normals = read_.mesh.normals;
   if (std::all_of(normals.begin(), normals.end(), [](const Vertex& n) { return n == Vertex{0, 0, 0}; })) normals = {};

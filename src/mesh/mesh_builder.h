@@ -35,6 +35,9 @@ class MeshBuilder {
   /// Of the vertex that came last, in the file's own form; each vertex has some, or none has.
   void normal(const std::array<float, 3>& direction) { read_.mesh.normals.push_back(unit_normal(direction)); }
   void texcoord(float u, float v) { read_.mesh.texcoords.push_back(place_in_picture(u, v)); }
+  /// Its colour, 0…1 as programs show it (sRGB): how bright it is. Vertices before the first one with a colour, and others without, are
+  /// white.
+  void color(const std::array<double, 3>& red_green_blue);
 
   /// The direction in unit length; 0 where there is none, and counted where it is not finite.
   std::array<float, 3> unit_normal(const std::array<float, 3>& direction);
@@ -67,7 +70,7 @@ class MeshBuilder {
   const std::string& name_;
   ReadMesh read_;
   std::int32_t material_ = -1;
-  std::size_t mended_normals_ = 0, mended_texcoords_ = 0;
+  std::size_t mended_normals_ = 0, mended_texcoords_ = 0, mended_colors_ = 0;
 };
 
 }  // namespace tofray::mesh

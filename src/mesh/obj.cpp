@@ -120,12 +120,14 @@ class ObjReader {
   void read_vertex() {
     const Mark start = words_.mark();
     std::array<float, 3> position{};
+    std::array<double, 7> numbers{};
     std::size_t count = 0;
     for (std::string_view word; words_.in_line(word); ++count) {
       double value = 0;
       if (!read_number(word, value))
         words_.fail("a coordinate is no number", "got " + in_quotes(word) + ", expected a number such as 0.25");
       if (count < 3) position[count] = to_float(value);
+      if (count < numbers.size()) numbers[count] = value;
     }
     // Beside x y z there may be a weight, which polygons do not use, or a colour, or both.
     if (count != 3 && count != 4 && count != 6 && count != 7)
@@ -133,6 +135,7 @@ class ObjReader {
           start, "a vertex does not have three coordinates",
           fmt::format("got {} number{}, expected x y z, and behind them a weight or a colour at most", count, count == 1 ? "" : "s"));
     mesh_.vertex(position);
+    if (count >= 6) mesh_.color({numbers[count - 3], numbers[count - 2], numbers[count - 1]});
   }
 
   /// The numbers of a line, NaN where one is none.

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The tofray authors
 // SPDX-License-Identifier: Apache-2.0
 // PLY: x, y, z of the element vertex, its normal (nx, ny, nz) and texture coordinates (s, t; u, v; texture_u, texture_v), and lists of
-// vertices: polygons in the element face, strips in tristrips. All else is read past, colours too.
+// vertices: polygons in the element face, strips in tristrips; and colours of vertices (red, green, blue). All else is read past.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -77,8 +77,8 @@ class PlyReader {
     }
   }
 
-  /// For each property which number of a vertex it is: 0 to 2 of its place, 3 to 5 of its normal, 6 and 7 of its texture coordinates; else
-  /// -1.
+  /// For each property which number of a vertex it is: 0 to 2 of its place, 3 to 5 of its normal, 6 and 7 of its texture coordinates, 8 to
+  /// 10 of its colour; else -1.
   using Columns = std::vector<int>;
 
   static std::size_t find(const PlyElement& element, std::string_view name) {
@@ -95,6 +95,17 @@ class PlyReader {
     return true;
   }
 
+  /// The number that stands for full colour; 0 of a type that stands for none.
+  static double full(PlyType type) {
+    if (type == PlyType::uint8) return 255;
+    return type == PlyType::uint16 ? 65535 : is_integer(type) ? 0 : 1;
+  }
+  static bool colors_are_shares(const PlyElement& element) {
+    return std::all_of(element.properties.begin(), element.properties.end(), [](const PlyProperty& property) {
+      return (property.name != "red" && property.name != "green" && property.name != "blue") || full(property.type) > 0;
+    });
+  }
+
   Columns columns_of(const PlyElement& element) {
     Columns columns(element.properties.size(), -1);
     for (const char* const axis : {"x", "y", "z"})
@@ -105,6 +116,7 @@ class PlyReader {
     has_normals_ = take(element, {"nx", "ny", "nz"}, 3, columns);
     has_texcoords_ = take(element, {"s", "t"}, 6, columns) || take(element, {"u", "v"}, 6, columns) ||
                      take(element, {"texture_u", "texture_v"}, 6, columns);
+    has_colors_ = colors_are_shares(element) && take(element, {"red", "green", "blue"}, 8, columns);
     return columns;
   }
 
@@ -115,15 +127,19 @@ class PlyReader {
     for (std::uint64_t row = 0; row < element.count; ++row) {
       body_.row(element.name, row);
       std::array<float, 8> number{};
+      std::array<double, 3> color{};
       for (std::size_t i = 0; i < columns.size(); ++i) {
         if (columns[i] < 0)
           pass(element.properties[i]);
-        else
+        else if (columns[i] < 8)
           number[static_cast<std::size_t>(columns[i])] = to_float(body_.number(element.properties[i].type));
+        else
+          color[static_cast<std::size_t>(columns[i] - 8)] = body_.number(element.properties[i].type) / full(element.properties[i].type);
       }
       mesh_.vertex({number[0], number[1], number[2]});
       if (has_normals_) mesh_.normal({number[3], number[4], number[5]});
       if (has_texcoords_) mesh_.texcoord(number[6], number[7]);
+      if (has_colors_) mesh_.color(color);
     }
   }
 
@@ -210,7 +226,7 @@ class PlyReader {
   Body body_;
   MeshBuilder mesh_;
   std::uint64_t vertices_ = 0;
-  bool has_normals_ = false, has_texcoords_ = false;
+  bool has_normals_ = false, has_texcoords_ = false, has_colors_ = false;
 };
 
 }  // namespace

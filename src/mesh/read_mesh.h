@@ -22,7 +22,7 @@ struct Reference {
 /// A mesh as its file has it: the file's own unit and axes.
 struct ReadMesh {
   /// Indices within the vertices, coordinates finite; normals of unit length or 0, texture coordinates within ±1e6, their v downward. No
-  /// normals where all are 0.
+  /// normals where all are 0. Shades are the luminances of the vertices' colours.
   TriangleMesh mesh;
   std::size_t not_finite = 0;             ///< triangles dropped because a corner is not a finite number (NaN, inf, or beyond float)
   std::vector<std::string> notices;       ///< sentences: what was mended

@@ -19,13 +19,12 @@ using base::pi;
 constexpr auto mask_side = static_cast<int>(base::limit::mask_side.value);
 constexpr auto kernel_side = static_cast<int>(base::limit::kernel_side.value);
 constexpr int scatter_gaussians = 4;
-constexpr int temporal_frames = 32;
+constexpr int temporal_frames = 32, most_gains = 16, binning = 16;
 // Files say them by the rows themselves; `meta` has the numbers in one list.
 constexpr Number mask_size{none, {1, mask_side}, "2"};
 constexpr Number kernel_size{none, {1, kernel_side}, "3"};
 constexpr auto raw_frames = static_cast<int>(base::limit::raw_frames.value);
 
-constexpr Number side{none, {1, static_cast<double>(base::limit::sensor_side.value)}, "224"};
 constexpr Number focal_length{pixel, {1, 1e6}, "212 px"};
 constexpr Number principal_point{pixel, {-1e5, 1e5}, "111.5 px"};
 constexpr Number distortion{none, {-1000, 1000}, "-0.3"};
@@ -40,8 +39,7 @@ constexpr Number flying_z{length, {0, 1e4}, "1 m"};
 constexpr Number flying_limit{length, {0, 1e3}, "18 mm"};
 constexpr Number sigmas{none, {0, 1e3}, "4"};
 constexpr Number degrees{celsius, {-100, 200}, "25 degC"};
-constexpr Number integration_time{time, {1e-9, 1e3}, "2000 us"};
-constexpr Number frame_rate{frequency, {1e-4, 1e5}, "5 Hz"};
+constexpr Number gain{none, {0.01, 100}, "4"};
 constexpr Number pause{time, {0, 10}, "3.5 ms"};
 
 }  // namespace
@@ -64,7 +62,8 @@ const Table& table_of<PixelMask>() {
 template <>
 const Table& table_of<Sensor>() {
   static const Table rows = table<Sensor>(
-      number<&Sensor::width>("width", side, "pixels").required(), number<&Sensor::height>("height", side, "pixels").required(),
+      number<&Sensor::width>("width", sensor_side, "pixels").required(),
+      number<&Sensor::height>("height", sensor_side, "pixels").required(),
       number<&Sensor::pixel_pitch_m>("pixel_pitch", {length, {0.5e-6, 1e-3}, "12 um"}, "from pixel to pixel").required(),
       number<&Sensor::fill_factor>("fill_factor", {fraction, {1e-3, 1}, "0.8"}, "share of the pixel's area that collects light"),
       record<&Sensor::mask>("mask", "where within a pixel it is collected, for samples within it"));
@@ -157,7 +156,12 @@ const Table& table_of<Pixel>() {
               .absent(),
           number<&Pixel::bandwidth_hz>("bandwidth", {frequency, {0, 1e12}, "180 MHz"}, "single pole of the gate; 0: none"),
           number<&Pixel::full_well_e>("full_well", {charge, {1, 1e30}, "100000 e"}, "per tap"),
-          number<&Pixel::read_noise_e>("read_noise", {charge, {0, 1e6}, "50 e"}, "per tap, reset and read, 1 sigma"),
+          number<&Pixel::read_noise_e>("read_noise", {charge, {0, 1e6}, "50 e"},
+                                       "per tap, reset and read, 1 sigma; reset noise has a key of its own, too"),
+          group("reset_noise", "charge that the reset leaves in a tap by chance",
+                number<&Pixel::reset_noise_e>("sigma", {charge, {0, 1e6}, "50 e"},
+                                              "per tap at the camera's reference temperature, 1 sigma, beside read_noise"),
+                flag<&Pixel::cancels_reset_noise>("cancelled", "by correlated double sampling: none is left, but taps are read twice")),
           number<&Pixel::column_noise_e>("column_noise", {charge, {0, 1e6}, "10 e"},
                                          "of A-B, shared by a column, anew in each raw frame, 1 sigma"),
           number<&Pixel::row_noise_e>("row_noise", {charge, {0, 1e6}, "10 e"}, "the same, shared by a row"),
@@ -173,6 +177,10 @@ const Table& table_of<Pixel>() {
                 number<&Pixel::crosstalk_left_right>("left_right", {fraction, {0, 0.25}, "1 %"},
                                                      "share of its charge that the left neighbour gets, and the right one as much"),
                 number<&Pixel::crosstalk_up_down>("up_down", {fraction, {0, 0.25}, "1 %"}, "the same of those above and below")),
+          group("blooming", "charge beyond a full well, which spills",
+                number<&Pixel::blooming_share>("share", {fraction, {0, 0.25}, "5 %"}, "of it that each of the four neighbours gets"),
+                number<&Pixel::blooming_limit_e>("limit", {charge, electrons.range, "1000 e"},
+                                                 "who gets more in a lit raw frame is flagged as saturated")),
           curve<&Pixel::nonlinearity>("nonlinearity", {"charge", electrons}, {"read", electrons},
                                       "what is read of a tap's charge, from 0 e on, rising; what there is unless given")
               .absent(),
@@ -202,7 +210,8 @@ const Table& table_of<Adc>() {
           number<&Adc::step_e_per_dn>("step", {charge_per_code, {1e-6, 1e9}, "20 e/DN"}, "electrons of A-B per code").required(),
           number<&Adc::mid_code>("mid_code", {none, code_number.range, "2048"}, "code of A-B = 0; the middle unless given").absent(),
           number<&Adc::valid_min>("valid_min", code_number, "codes below are flagged as saturated; 0 unless given").absent(),
-          number<&Adc::valid_max>("valid_max", code_number, "codes above are flagged as saturated; the largest unless given").absent())
+          number<&Adc::valid_max>("valid_max", code_number, "codes above are flagged as saturated; the largest unless given").absent(),
+          numbers<&Adc::gains>("gains", gain, 1, most_gains, "what modes may choose from; a mode's step is `step` over its gain").absent())
           .check_with(codes_are_in_order)
           .complete_with(codes_by_bits);
   return rows;
@@ -293,17 +302,57 @@ const Table& table_of<Interference>() {
 }
 
 template <>
+const Table& table_of<SpreadSpectrum>() {
+  static const Table rows = table<SpreadSpectrum>(
+      number<&SpreadSpectrum::width>("width", {fraction, {0, 0.5}, "1 %"}, "of the band over the modulation frequency; 0: none"),
+      choice<&SpreadSpectrum::kind>("kind", {"center", "down"},
+                                    "center: the modulation frequency is the band's middle; down: its upper end"));
+  return rows;
+}
+
+template <>
+const Table& table_of<Readout>() {
+  constexpr Number side_or_all{none, {0, static_cast<double>(base::limit::sensor_side.value)}, "8"};
+  static const Table rows = table<Readout>(
+      number<&Readout::binning>("binning", {none, {1, binning}, "2"}, "n: charge of n x n pixels is added before it is read"),
+      group("region", "the rectangle of the sensor that is read, in pixels of the sensor",
+            number<&Readout::left>("left", {none, side_or_all.range, "2"}, "its first column"),
+            number<&Readout::top>("top", {none, side_or_all.range, "2"}, "its first row"),
+            number<&Readout::width>("width", side_or_all, "columns; 0: as far as the sensor goes"),
+            number<&Readout::height>("height", side_or_all, "rows; 0: as far as the sensor goes")));
+  return rows;
+}
+
+template <>
+const Table& table_of<AutoExposure>() {
+  static const Table rows = table<AutoExposure>(
+      number<&AutoExposure::speed>("speed", {fraction, {0, 1}, "50 %"}, "of the way to the aim in each frame; 0: integration times stay"),
+      number<&AutoExposure::aim>("aim", {fraction, {0.01, 1}, "70 %"},
+                                 "how much of the valid codes, and of their wells, the bright pixels shall use"),
+      number<&AutoExposure::bright>("bright", {fraction, {0, 1}, "99 %"}, "so many of the pixels are no brighter than those"),
+      number<&AutoExposure::shortest_s>("shortest", {time, {0, 1e3}, "100 us"},
+                                        "lit integration times get no shorter; 0: timing.min_integration_time"),
+      number<&AutoExposure::longest_s>("longest", {time, {0, 1e3}, "2000 us"}, "... and no longer; 0: as the mode has them"));
+  return rows;
+}
+
+template <>
 const Table& table_of<RawFrame>() {
   static const Table rows =
-      table<RawFrame>(flag<&RawFrame::lit>("lit", "whether the camera's light is on"),
-                      number<&RawFrame::modulation_frequency_hz>("modulation_frequency", modulation_frequency, "of lit raw frames")
-                          .when<&RawFrame::lit>(true)
-                          .absent(),
-                      number_or_list<&RawFrame::reference_phase_rad>("reference_phase", {angle, {-100, 100}, "90 deg"}, raw_frames,
-                                                                     "of lit raw frames; a list makes one raw frame of each")
-                          .when<&RawFrame::lit>(true)
-                          .absent(),
-                      number<&RawFrame::integration_time_s>("integration_time", integration_time, "of each raw frame").required())
+      table<RawFrame>(
+          flag<&RawFrame::lit>("lit", "whether the camera's light is on"),
+          number<&RawFrame::modulation_frequency_hz>("modulation_frequency", modulation_frequency, "of lit raw frames")
+              .when<&RawFrame::lit>(true)
+              .absent(),
+          number_or_list<&RawFrame::reference_phase_rad>("reference_phase", {angle, {-100, 100}, "90 deg"}, raw_frames,
+                                                         "of lit raw frames; a list makes one raw frame of each")
+              .when<&RawFrame::lit>(true)
+              .absent(),
+          number<&RawFrame::integration_time_s>("integration_time", integration_time, "of each raw frame").required(),
+          number_or_list<&RawFrame::reference_delay_s>("reference_delay", {time, {-1e-3, 1e-3}, "4.15 ns"}, raw_frames,
+                                                       "in place of reference_phase: the light is later by this, as a path may be")
+              .when<&RawFrame::lit>(true)
+              .absent())
           .check_with(lit_raw_frames_have_a_frequency);
   return rows;
 }
@@ -313,7 +362,8 @@ const Table& table_of<Mode>() {
   static const Table rows =
       table<Mode>(words<&Mode::name>("", "", "", ""),
                   number<&Mode::frame_rate_hz>("frame_rate", frame_rate, "frame i starts at i / frame_rate").required(),
-                  records<&Mode::sequence>("sequence", 1, raw_frames, "the raw frames, in order").required());
+                  records<&Mode::sequence>("sequence", 1, raw_frames, "the raw frames, in order").required(),
+                  number<&Mode::gain>("gain", gain, "before the ADC, one of adc.gains"));
   return rows;
 }
 
@@ -333,6 +383,9 @@ const Table& table_of<Camera>() {
                     record<&Camera::decoding>("decoding", "from raw frames to depth"),
                     record<&Camera::temperature>("temperature", "drift of the range"),
                     record<&Camera::interference>("interference", "light of another camera of the same kind, at the same place"),
+                    record<&Camera::spread_spectrum>("spread_spectrum", "modulation frequencies swept over a band within each exposure"),
+                    record<&Camera::readout>("readout", "which pixels of the sensor are read, and how many together"),
+                    record<&Camera::auto_exposure>("auto_exposure", "integration times that follow the light, from frame to frame"),
                     number<&Camera::refractive_index>("refractive_index", {none, {1, 3}, "1.0003"}, "of the medium"),
                     group("timing", "of the readout",
                           number<&Camera::readout_time_s>("readout_time", pause, "from the end of one exposure to the start of the next"),
@@ -345,22 +398,6 @@ const Table& table_of<Camera>() {
           .check_with(cameras_make_sense)
           .complete_with(filter_at_the_light);
   return rows;
-}
-
-const FileForm& camera_form() {
-  static const FileForm form = [] {
-    FileForm file{"camera", "tofray camera profile: lens, light, pixel, ADC, modes and decoding", form_of(table_of<Camera>()), true};
-    const auto most = static_cast<int>(base::limit::modes.value);
-    Form mode = form_of(table_of<Mode>());
-    mode.keys.push_back(absent("decoding", form_of(table_of<Decoding>()), "keys of decoding that this mode has otherwise"));
-    file.root.keys.push_back(required("modes", dictionary(mode, 1, most), "the camera's use cases by name; the first is the default"));
-    file.root.keys.push_back(absent("mode", text("a mode", "MODE_9_5FPS_2000"), "which of the modes; the first unless given"));
-    file.root.keys.push_back(
-        absent("integration_time", form_of(integration_time), "takes the place of that of every lit raw frame of the mode"));
-    file.root.keys.push_back(absent("frame_rate", form_of(frame_rate), "takes the place of the mode's"));
-    return file;
-  }();
-  return form;
 }
 
 }  // namespace tofray::model

@@ -3,6 +3,7 @@
 // What has to hold between the numbers of the pixel, the waveform and their temperature.
 #include <algorithm>
 #include <cmath>
+#include <string>
 
 #include "base/constants.h"
 #include "base/curve.h"
@@ -32,9 +33,29 @@ void dark_current_stays_one(const Camera& camera, Complaints& complaints) {
 }
 }  // namespace
 
+void gains_are_those_of_the_adc(const Camera& camera, Complaints& complaints) {
+  const std::vector<double>& gains = camera.adc.gains;
+  const double gain = camera.mode.gain, step = camera.adc.step_e_per_dn / gain;
+  const auto complain = [&](const std::string& what, const std::string& more) {
+    complaints.add(camera.mode, &camera.mode.gain, what, more);
+  };
+  std::string known;
+  for (const double one : gains) known += (known.empty() ? "" : ", ") + number_text(one);
+  if (gains.empty() ? gain != 1 : std::find(gains.begin(), gains.end(), gain) == gains.end())
+    return complain(
+        "the ADC does not have the mode's gain",
+        "got " + number_text(gain) + ", expected " + (known.empty() ? "1, since adc.gains is not given" : "one of adc.gains: " + known));
+  if (!(step >= 1e-6 && step <= 1e9))
+    complain("the step of the mode's gain is none that an ADC has",
+             "got " + number_text(step) + " e/DN, adc.step over the gain; expected 1e-06 e/DN to 1e+09 e/DN");
+}
+
 void cameras_make_sense(const Camera& camera, Complaints& complaints) {
   cameras_are_within_the_limits(camera, complaints);
   dark_current_stays_one(camera, complaints);
+  gains_are_those_of_the_adc(camera, complaints);
+  something_is_read(camera, complaints);
+  exposures_fit(camera, complaints);
 }
 
 void what_is_read_rises_with_the_charge(const Pixel& pixel, Complaints& complaints) {

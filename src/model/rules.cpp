@@ -179,36 +179,6 @@ void tables_shine(const Pattern& pattern, Complaints& complaints) {
     complaints.add(pattern, &samples, "the pattern has fewer than two rows or columns", "a constant one needs the same number four times");
 }
 
-namespace {
-void check_map(const Material& material, Complaints& complaints) {
-  const ReflectivityMap& map = *material.map;
-  const auto complain = [&](const std::string& what, const std::string& more) { complaints.add(material, nullptr, what, more); };
-  if (map.width < 1 || map.height < 1 || map.width > 32767 || map.height > 32767)
-    return complain("the reflectivity map has no size that it may have",
-                    "got " + std::to_string(map.width) + " x " + std::to_string(map.height) + ", expected 1 to 32767 each");
-  const auto pixels = static_cast<std::size_t>(map.width) * static_cast<std::size_t>(map.height);
-  if (map.values.size() != pixels)
-    return complain("the reflectivity map has not as many values as pixels",
-                    "got " + std::to_string(map.values.size()) + ", expected " + std::to_string(pixels));
-  const auto bad = std::find_if(map.values.begin(), map.values.end(), [](float a) { return !(a >= 0 && a <= 1); });
-  if (bad != map.values.end())
-    complain("value " + std::to_string(bad - map.values.begin()) + " of the reflectivity map is out of range",
-             "got " + number_text(static_cast<double>(*bad)) + ", expected 0 to 1");
-}
-}  // namespace
-
-void materials_send_back_no_more_than_they_get(const Material& material, Complaints& complaints) {
-  if (material.map != nullptr) check_map(material, complaints);
-  const auto together = [&](const char* which, double lobe) {
-    if (material.diffuse + lobe > 1 + 1e-12)
-      complaints.add(
-          material, nullptr, std::string("diffuse + ") + which + " is more than 1",
-          "got " + number_text(material.diffuse) + " + " + number_text(lobe) + "; a surface cannot send back more light than it gets");
-  };
-  if (material.brdf == Material::Brdf::retro) return together("retro", material.retro);
-  if (material.brdf != Material::Brdf::ggx) together("specular", material.specular);
-}
-
 void boxes_are_thick(const Box& box, Complaints& complaints) {
   for (std::size_t k = 0; k < 3; ++k)
     if (!(box.max[k] - box.min[k] >= shortest_m))
@@ -223,6 +193,20 @@ void capsules_have_a_length(const Capsule& capsule, Complaints& complaints) {
     complaints.add(capsule, &capsule.end, "the capsule ends where it starts",
                    "expected points at least 1 um apart; a sphere has the same shape without them");
 }
+
+namespace {
+template <class Complain>
+void check_shades(const TriangleMesh& mesh, const Complain& complain) {
+  if (!mesh.shades.empty() && mesh.shades.size() != mesh.vertices.size())
+    return complain("the mesh has not as many shades as vertices", "got " + std::to_string(mesh.shades.size()) + " for " +
+                                                                       std::to_string(mesh.vertices.size()) +
+                                                                       " vertices; expected none, or one for each");
+  for (std::size_t i = 0; i < mesh.shades.size(); ++i)
+    if (!(mesh.shades[i] >= 0 && mesh.shades[i] <= 1))
+      return complain("the shade of vertex " + std::to_string(i) + " of the mesh is out of range",
+                      "got " + number_text(static_cast<double>(mesh.shades[i])) + ", expected 0 to 1");
+}
+}  // namespace
 
 void meshes_have_triangles(const Mesh& mesh, Complaints& complaints) {
   const auto complain = [&](const std::string& what, const std::string& more) { complaints.add(mesh, &mesh.file, what, more); };
@@ -261,6 +245,7 @@ void meshes_have_triangles(const Mesh& mesh, Complaints& complaints) {
   };
   check_details(all.normals, "normals", 2.0F);
   check_details(all.texcoords, "texture coordinates", 1e6F);
+  check_shades(all, complain);
 }
 
 void turns_have_an_axis(const Rotation& rotation, Complaints& complaints) {

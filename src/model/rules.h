@@ -8,12 +8,17 @@ namespace tofray::model {
 
 void codes_are_in_order(const Adc& adc, Complaints& complaints);
 void far_is_beyond_near(const Decoding& decoding, Complaints& complaints);
+void gains_are_those_of_the_adc(const Camera& camera, Complaints& complaints);
 void lit_raw_frames_have_a_frequency(const RawFrame& raw, Complaints& complaints);
 void what_is_read_rises_with_the_charge(const Pixel& pixel, Complaints& complaints);
 /// … of lights and of pixels.
 void cameras_are_within_the_limits(const Camera& camera, Complaints& complaints);
-/// The same, and the dark current at the temperature.
+/// The same, the dark current at the temperature, and the mode's gain.
 void cameras_make_sense(const Camera& camera, Complaints& complaints);
+/// The region that is read lies on the sensor, and a binned pixel in it.
+void something_is_read(const Camera& camera, Complaints& complaints);
+/// Limits are in order, and the longest exposures fit into a frame.
+void exposures_fit(const Camera& camera, Complaints& complaints);
 void masks_let_light_through(const PixelMask& mask, Complaints& complaints);
 void scatter_goes_somewhere(const Scatter& scatter, Complaints& complaints);
 void tables_shine(const Pattern& pattern, Complaints& complaints);

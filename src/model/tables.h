@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The tofray authors
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include "base/limits.h"
 #include "model/row.h"
 
 /// The tables of all public structs: camera_table.cpp, light_table.cpp, scene_table.cpp.
@@ -8,6 +9,11 @@ namespace tofray::model {
 
 /// Shares of light, and how shiny a surface can be.
 inline constexpr base::Range share{0, 1}, phong_exponent{1, 1e4};
+
+/// What files say of a camera in two places.
+inline constexpr Number sensor_side{base::Dimension::none, {1, static_cast<double>(base::limit::sensor_side.value)}, "224"};
+inline constexpr Number integration_time{base::Dimension::time, {1e-9, 1e3}, "2000 us"},
+    frame_rate{base::Dimension::frequency, {1e-4, 1e5}, "5 Hz"};
 
 /// What files may say of a struct.
 Form form_of(const Table& table);
@@ -49,6 +55,12 @@ template <>
 const Table& table_of<Temperature>();
 template <>
 const Table& table_of<Interference>();
+template <>
+const Table& table_of<SpreadSpectrum>();
+template <>
+const Table& table_of<Readout>();
+template <>
+const Table& table_of<AutoExposure>();
 template <>
 const Table& table_of<Camera>();
 

@@ -28,7 +28,8 @@ const char* flag_name(int bit) {
                                              "outside the lens model",
                                              "inconsistent phases",
                                              "inconsistent frequencies",
-                                             "rejected for these"};
+                                             "rejected for these",
+                                             "filtered"};
   return names[bit];
 }
 

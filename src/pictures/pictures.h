@@ -18,7 +18,7 @@ enum class Theme : std::uint8_t { dark, light };
 int invalid_reason(std::uint16_t flags);
 /// What messages and legends call a bit of Depth::flags.
 const char* flag_name(int bit);
-constexpr int flag_count = 8, invalid_flag_count = 7;
+constexpr int flag_count = 9, invalid_flag_count = 7;
 
 /// depth.png: uint16, z in mm, rounded. 0 where invalid, and where z does not fit (nearer than 0.5 mm, farther than 65.535 m).
 std::string depth_png(const Depth& depth);

@@ -95,8 +95,10 @@ TOFRAY_FN void each_light(const Setup& s, int moment, const flow::Surface<F>& p,
   flow::Radiometry<F> unused{F(0.0f), F(0.0f), F(0.0f)};
   for (int l = 0; l < s.scene.lights; ++l) {
     const flow::Ray<F> from_light = power::light_ray(s.lights[l], p);
-    num::Mask<F> dark = trace::blocked(trace::Uncut{s.scene.light_still(l)}, from_light, p);
-    if (s.scene.moments > 0) dark = dark | trace::blocked(trace::Uncut{s.scene.light_moving(moment, l)}, from_light, p);
+    const float* const at = s.lights[l].position;
+    num::Mask<F> dark = trace::blocked_anywhere(s.scene.still, 0, s.scene.light_still(l), at, from_light, p);
+    if (s.scene.moments > 0)
+      dark = dark | trace::blocked_anywhere(s.scene.moving, moment, s.scene.light_moving(moment, l), at, from_light, p);
     flow::Path<F> path = power::received<F>(s.power, s.lights[l], p, ray, from_light, dark, weight, unused);
     path.rate = num::select(p.found, path.rate, F(0.0f));  // where the path ended before, nothing need be a number
     take(l, path);
@@ -118,8 +120,8 @@ TOFRAY_FN void light_vertex(const Setup& s, int moment, const power::Wanted& wan
   const float* const sun = s.scene.sun(moment);
   flow::Surface<F> p = v.at;  // what is near enough to be itself is a matter of where it is, not of how the light got there
   p.range = num::sqrt(flow::square_of(p.x, p.y, p.z));
-  num::Mask<F> dark = trace::blocked_parallel(trace::Uncut{s.scene.sun_still()}, sun, p);
-  if (s.scene.moments > 0) dark = dark | trace::blocked_parallel(trace::Uncut{s.scene.sun_moving(moment)}, sun, p);
+  num::Mask<F> dark = trace::blocked_parallel_anywhere(s.scene.still, 0, s.scene.sun_still(), sun, p);
+  if (s.scene.moments > 0) dark = dark | trace::blocked_parallel_anywhere(s.scene.moving, moment, s.scene.sun_moving(moment), sun, p);
   light.ambient_rate = light.ambient_rate + power::ambient_rate<F>(s.power, sun, v.at, dark, weight);
 }
 
@@ -221,8 +223,9 @@ TOFRAY_FN void bounce_pixels(const Setup& s, const Job& job, int item, const Pix
         }
     }
     power::sum_and_difference(s.phasors, which, half[0], half[1]);
-    gather_light<F>(s, whole, p, image.times, time, half[0], share, item == 0, paths.kept, active);
-    if (image.halves != 0) gather_light<F>(s, apart, p, image.times, time, half[1], share, item == 0, paths.kept, active);
+    const Adding<F> how{share, item == 0, paths.kept, active};
+    gather_light<F>(s, whole, p, image.times, time, half[0], how);
+    if (image.halves != 0) gather_light<F>(s, apart, p, image.times, time, half[1], how);
   }
 }
 

@@ -40,23 +40,40 @@ struct Growing {
   const float* before;
   float* values;
 };
-/// Adds a share of a light to the image.
-/// @param first   nothing was added before: the share is all there is
-/// @param kept    what the light that was there before counts
-/// @param active  pixels that get more; the others keep what they have
+/// How a share of a light is added to the image.
 template <class F>
-TOFRAY_APART void gather_light(const Setup& s, const Growing& image, const Pixels& p, int times, int time, const flow::Light<F>& light,
-                               float share, bool first, float kept, num::Mask<F> active) {
+struct Adding {
+  float share;
+  bool first;           ///< nothing was added before: the share is all there is
+  float kept;           ///< what the light that was there before counts
+  num::Mask<F> active;  ///< pixels that get more; the others keep what they have
+};
+template <class F>
+TOFRAY_APART void gather_planes(const Setup& s, const Growing& image, const Pixels& p, std::int64_t at, const F* values, int planes,
+                                const Adding<F>& how) {
+  const std::int64_t pixels = std::int64_t{s.lens.width} * s.lens.height;
+  for (int plane = 0; plane < planes; ++plane, at += pixels) {
+    F sum = values[plane] * F(how.share);
+    if (!how.first) {
+      const F before = num::load<F>(image.before + at, p.count);
+      sum = num::select(how.active, num::fma(values[plane], F(how.share), before * F(how.kept)), before);
+    }
+    num::store(image.values + at, sum, p.count);
+  }
+}
+/// Adds a share of a light to the image. (What is handed to a function lies in memory: that is what the image keeps, and not all of a
+/// light's kilobytes.)
+template <class F>
+TOFRAY_FN void gather_light(const Setup& s, const Growing& image, const Pixels& p, int times, int time, const flow::Light<F>& light,
+                            const Adding<F>& how) {
+  F values[2 + 2 * flow::max_modulation_frequencies * flow::max_harmonics];
+  int planes = 0;
   each_plane<F>(
       s, times, time, light, [&](int plane, F value) __attribute__((always_inline)) {
-        const std::int64_t at = light_place(s, p, times, time, plane);
-        F sum = value * F(share);
-        if (!first) {
-          const F before = num::load<F>(image.before + at, p.count);
-          sum = num::select(active, num::fma(value, F(share), before * F(kept)), before);
-        }
-        num::store(image.values + at, sum, p.count);
+        values[plane] = value;
+        ++planes;
       });
+  gather_planes<F>(s, image, p, light_place(s, p, times, time, 0), values, planes, how);
 }
 
 /// Values of all planes at all times.

@@ -45,6 +45,12 @@ TOFRAY_FN F collect(const Setup& s, const Job& job, const Pixels& p, int k, cons
   return taps.difference;
 }
 
+/// For the pass `bloom`, which looks at neighbours.
+template <class F>
+TOFRAY_FN void store_overflow(const Setup& s, const Job& job, const Pixels& p, const raw::Exposure<F>& exposure) {
+  if (s.sensor.blooms != 0) num::store(overflow_in(s, job) + p.index, exposure.overflow, p.count);
+}
+
 /// Stage 4.
 template <class F>
 TOFRAY_FN void find_depth(const Setup& s, const Job& job, const Pixels& p, const flow::Ray<F>& ray, const F* difference,
@@ -60,10 +66,9 @@ TOFRAY_FN void find_depth(const Setup& s, const Job& job, const Pixels& p, const
 /// What a sample within the pixels adds to the light image, or all of them at once.
 template <class F>
 TOFRAY_FN void gather(const Setup& s, const Job& job, int time, const Pixels& p, const flow::Light<F>& light) {
-  const flow::Light<F> copy = light;  // what is handed to a function lies in memory; the original need not
   const num::Mask<F> every = F(0.0f) < F(1.0f);
-  gather_light<F>(s, {job.light.before, job.light.values}, p, job.light.times, time, copy, job.gather.share, job.gather.first != 0, 1.0f,
-                  every);
+  gather_light<F>(s, {job.light.before, job.light.values}, p, job.light.times, time, light,
+                  {job.gather.share, job.gather.first != 0, 1.0f, every});
 }
 
 /// From rays to depth.
@@ -98,6 +103,7 @@ TOFRAY_FN void run_pipeline(const Setup& s, const Job& job, Walk& walk) {
       }
       for (int k = now.first; k < now.last; ++k) pack.difference[k] = collect(s, job, p, k, light, pack.exposure);  // stage 3
       if (now.last < s.sensor.raw_frames || s.last_stage < Stage::depth) continue;
+      store_overflow(s, job, p, pack.exposure);
       find_depth<F>(s, job, p, ray, pack.difference, raw::saturated(s.sensor, pack.exposure), vignetting);  // stage 4
     }
   }

@@ -10,6 +10,24 @@
 /// The passes over whole images that follow the pixels: flying pixels, filters, and the range that is left.
 namespace tofray::pipeline {
 
+/// A pixel that gets more than the limit of what its neighbours' wells cannot hold is flagged as saturated.  [theory: eq. 3.32]
+TOFRAY_FN void bloom_pixel(const Setup& s, const Job& job, int x, int y) {
+  const int width = s.lens.width, at = y * width + x;
+  const float* const over = overflow_in(s, job);
+  float spilled = 0;
+  if (x > 0) spilled = spilled + over[at - 1];
+  if (x + 1 < width) spilled = spilled + over[at + 1];
+  if (y > 0) spilled = spilled + over[at - width];
+  if (y + 1 < s.lens.height) spilled = spilled + over[at + width];
+  if (!(spilled * s.sensor.blooming_share > s.sensor.blooming_limit)) return;
+  const Pixels p{at, 1};
+  const std::int32_t flags = job.out.flags[at] | depth::saturated;
+  store_range<float>(s, job.out, p, camera::ray<float>(s.lens, p), 0.0f, 0.0f, flags);
+}
+TOFRAY_FN void bloom_row(const Setup& s, const Job& job, int y) {
+  for (int x = 0; x < s.lens.width; ++x) bloom_pixel(s, job, x, y);
+}
+
 /// Pass 1: flags a flying pixel; z and noise are only read.
 TOFRAY_FN void flag_flying_pixel(const Setup& s, const Job& job, int x, int y) {
   const int width = s.lens.width, at = y * width + x;
@@ -78,13 +96,23 @@ TOFRAY_FN bool any_flying(const std::uint16_t* flags, int count) {
   return (found & 0x0001000100010001u * depth::flying_pixel) != 0;
 }
 
+/// The flags that a filter leaves: of what is too noisy still, and of a range that is no longer the pixel's own.
+TOFRAY_FN std::int32_t flags_of_filter(const Setup& s, const Job& job, std::int32_t at) {
+  const float range = job.filtered[at], noise = job.filtered[at + s.lens.width * s.lens.height];
+  if (noise > s.decoder.filtered_noise_threshold) return depth::low_signal;
+  return range < job.out.range_m[at] || range > job.out.range_m[at] ? depth::filtered : 0;
+}
+
 /// Range of some pixels → z, point, confidence; flying pixels become invalid.
 /// @param item  of_filter: the range that the filter left, and its noise; else that of `out`, which changes where pixels fly
 template <class F>
 TOFRAY_FN void settle(const Setup& s, const Job& job, const Pixels& p, std::int32_t item) {
   if (item != of_filter && !any_flying(job.out.flags + p.index, p.count)) return;
   std::int32_t flags[num::lanes<F>] = {};
-  for (int i = 0; i < p.count; ++i) flags[i] = job.out.flags[p.index + i];
+  for (int i = 0; i < p.count; ++i) {
+    flags[i] = job.out.flags[p.index + i];
+    if (item == of_filter) flags[i] |= flags_of_filter(s, job, p.index + i);
+  }
   const float* const range = item == of_filter ? job.filtered : job.out.range_m;
   const float* const noise_of = item == of_filter ? job.filtered + s.lens.width * s.lens.height : job.out.noise_m;
   const F noise = num::load<F>(noise_of + p.index, p.count);

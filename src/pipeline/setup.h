@@ -64,7 +64,7 @@ struct Job {
   flow::LightImage light;
   Gather gather;
   std::uint32_t index_low, index_high;
-  float* filtered;  ///< [2][height][width] scratch of the image filters: range, noise
+  float* filtered;  ///< [2][height][width] scratch of the image filters: range, noise; where wells overflow, [3]: by how much
   Filter filter;
   std::int32_t filter_radius;
   float filter_weights[33];  ///< Gaussian, [0] the middle
@@ -77,6 +77,11 @@ struct Job {
 
 using flow::tile_height;
 using flow::tile_width;
+
+/// What the wells of each pixel had no room for [e⁻].
+TOFRAY_FN float* overflow_in(const Setup& s, const Job& job) { return job.filtered + 2 * s.lens.width * s.lens.height; }
+/// How many images `filtered` has room for.
+TOFRAY_FN int scratch_images(const Setup& s, Filter filter) { return s.sensor.blooms != 0 ? 3 : filter != Filter::none ? 2 : 0; }
 
 constexpr std::int32_t of_filter = 1;  ///< `item` of a pass `settle` that takes what the filter left
 
@@ -95,6 +100,7 @@ enum class Pass : std::int32_t {
   transient,        ///< histograms of light by the length of its path
   scatter_rows,     ///< the light image along rows
   scatter_columns,  ///< … and along columns; a kernel that is not separable: both at once
+  bloom,            ///< flags of pixels into which full wells spill
   flying,           ///< flags of flying pixels
   filter,           ///< the image filter
   settle,           ///< the range that is left, to z, point and confidence

@@ -142,6 +142,7 @@ void each_step(const Setup& s, const Job& job, Stage entry, bool known, const Ru
   if (entry == Stage::trace && wants_transient(job.out))
     run(Step{Pass::transient, has_light_image(s, entry) ? Part::collect : Part::all, 0, 0, 0});
   if (s.last_stage < Stage::depth || job.out.z_m == nullptr || job.out.flags == nullptr) return;
+  if (s.sensor.blooms != 0 && entry != Stage::depth) run(Step{Pass::bloom, Part::all, 0, 0, 0});
   const bool first = keeps_edges(job.filter), check = s.decoder.flying_check != 0;
   if (first) each_filter_step(run);
   if (check) run(Step{Pass::flying, Part::all, 0, 0, 0});

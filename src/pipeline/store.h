@@ -39,9 +39,8 @@ TOFRAY_FN void store_taps(int pixels, const flow::FrameView& out, const Pixels& 
       return;
     }
   }
-  num::store(out.tap_a + at.index, taps.a, at.count);
-  num::store(out.tap_b + at.index, taps.b, at.count);
-  num::store(out.raw + at.index, num::to_int(taps.code), at.count);
+  store(out.tap_a, at, taps.a), store(out.tap_b, at, taps.b);
+  if (out.raw != nullptr) num::store(out.raw + at.index, num::to_int(taps.code), at.count);
 }
 
 /// What the surface shows: the paper's matrices.

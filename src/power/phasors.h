@@ -118,11 +118,36 @@ TOFRAY_FN void add_up(const camera::PhasorView& s, const Wanted& wanted, Light<F
   }
 }
 
+/// sin(2πt)/(2πt), t in turns.
+template <class F>
+TOFRAY_FN F sinc_turns(F t) {
+  const F held = num::max(num::abs(t), F(1e-6f));
+  F sine, cosine;
+  num::sincos_turns(held, sine, cosine);
+  return sine / (held * F(6.28318531f));
+}
+
+/// The same of a modulation frequency that is swept over a band of width Δf: the mean over it is e^{imφ}·sinc(m·Δf·ℓ/c), φ at its middle.
+///                                                                                                        [theory: eq. 3.30]
+template <bool first, class F>
+TOFRAY_APART void add_swept_turns(const camera::ModulationView& modulation, int orders, const float* source, const Path<F>& path, F* real,
+                                  F* imaginary) {
+  const F turns = path_turns(modulation, path.length), swept = path.length * F(modulation.swept_turns_per_metre);
+  for (int h = 0; h < orders; ++h) {
+    const F m = F(static_cast<float>(2 * h + 1)), left = path.rate * sinc_turns(m * swept);
+    const Turn<F> turn = turn_of(m * turns);
+    const F x = turn.real * left, y = turn.imaginary * left, a = F(source[2 * h]), b = F(source[2 * h + 1]);
+    real[h] = num::fma(x, a, first ? -(y * b) : num::fnma(y, b, real[h]));
+    imaginary[h] = num::fma(x, b, first ? y * a : num::fma(y, a, imaginary[h]));
+  }
+}
+
 template <bool first, class F>
 TOFRAY_FN void add_turns(const camera::PhasorView& s, int j, int l, const Path<F>& path, Light<F>& light) {
   const camera::ModulationView& modulation = s.modulation[j];
   const float* source = modulation.source + 2 * l * s.orders;
   F *real = light.real + j * s.orders, *imaginary = light.imaginary + j * s.orders;
+  if (modulation.swept_turns_per_metre > 0) return add_swept_turns<first>(modulation, s.orders, source, path, real, imaginary);
   const Turn<F> turn = turn_of(path_turns(modulation, path.length));
   if (s.orders <= 4) {
     add_turns<4, first>(source, path.rate, turn, real, imaginary);

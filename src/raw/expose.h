@@ -13,6 +13,7 @@ struct Exposure {
   num::Int<F> column, row;  ///< where the sensor's lines are noisy
   F gain_a, gain_b, offset;
   MergedWords<F> merged_words;
+  F overflow;                   ///< of the lit raw frames: most charge for which both wells have no room, where that spills
   F most_charge, widest_level;  ///< of the lit raw frames: most charge of a tap, largest distance of a level from the valid codes' middle
 };
 
@@ -35,8 +36,14 @@ TOFRAY_FN Exposure<F> start(const camera::SensorView& s, const flow::Pixels& p) 
   if (s.lines_are_noisy != 0) e.column = num::Int<F>(p.index % s.width) + num::lane_index<F>(), e.row = num::Int<F>(p.index / s.width);
   e.gain_a = e.gain_b = pattern<F>(s.gain, p, 1.0f), e.offset = pattern<F>(s.offset, p, 0.0f);
   if (s.half_gain_mismatch != 0) unlike_gains(s, e);
-  e.most_charge = F(0.0f), e.widest_level = F(0.0f);
+  e.overflow = e.most_charge = F(0.0f), e.widest_level = F(0.0f);
   return e;
+}
+
+/// Charge of both taps for which their wells have no room.                                                   [theory: eq. 3.32]
+template <class F>
+TOFRAY_FN F overflow_of(const camera::SensorView& s, const Means<F>& charge) {
+  return num::max(charge.a - F(s.full_well), F(0.0f)) + num::max(charge.b - F(s.full_well), F(0.0f));
 }
 
 /// Notes how far a lit raw frame went.
@@ -44,6 +51,7 @@ template <class F>
 TOFRAY_FN void watch(const camera::SensorView& s, const camera::RawFrameView& frame, const Means<F>& charge, const Taps<F>& taps,
                      Exposure<F>& e) {
   if (frame.lit == 0) return;
+  if (s.blooms != 0) e.overflow = num::max(e.overflow, overflow_of(s, charge));
   e.most_charge = num::max(e.most_charge, num::max(charge.a, charge.b));
   e.widest_level = num::max(e.widest_level, num::abs(taps.level - F(s.valid_middle)));
 }

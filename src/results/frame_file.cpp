@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "base/readout.h"
 #include "files/atomic_file.h"
 #include "results/array_table.h"
 #include "results/meta.h"
@@ -80,7 +81,7 @@ std::vector<NpyView> views_of(const Frame& frame, const Beside& beside, const Ar
 
 void frame_npz_bytes(const Frame& frame, const Camera& camera, const PoseMatrix& camera_pose, const std::string& meta,
                      const FrameFileOptions& options, std::string& file) {
-  const Beside beside(frame, camera.lens, camera_pose);
+  const Beside beside(frame, base::as_read_out(camera).lens, camera_pose);
   std::vector<NpyView> views = views_of(frame, beside, options.arrays);
   // a 0-d string; numpy has no strings of length 0
   const std::string meta_bytes = utf32_of(meta.empty() ? "{}" : meta);

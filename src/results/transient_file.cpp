@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "base/limits.h"
+#include "base/readout.h"
 #include "base/text.h"
 #include "files/json.h"
 #include "files/npz.h"
@@ -137,7 +138,8 @@ std::optional<TransientBins> transient_of_meta(const std::string& text, const st
   return TransientBins{static_cast<int>(*bins), *first, *width};
 }
 
-Transient parse_transient(std::string_view file, const std::string& where, const Camera& camera, const TransientHints& hints) {
+Transient parse_transient(std::string_view file, const std::string& where, const Camera& profile, const TransientHints& hints) {
+  const Camera camera = base::as_read_out(profile);
   const Found found = arrays_of(file, where);
   check_kind(found.histograms, where);
   const Layout layout = layout_of(found.histograms, where, camera);

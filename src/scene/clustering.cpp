@@ -79,6 +79,52 @@ void fill(const std::vector<std::int32_t>& bodies, const Form* forms, ManyBounds
   for (int c = clusters; c % cluster_size != 0; ++c) put(of_clusters[c / cluster_size], c % cluster_size, none);
 }
 
+/// A point where no ray comes to: at its least distance along one axis it is beyond all that is met.
+constexpr float nowhere = 3e38f;
+/// Boxes are larger than what they hold by this share of how far away it is, which is more than rounding.
+constexpr double around_it = 1e-5;
+
+template <class T>
+void put_box(ManyBoxes& many, int i, const T& shape) {
+  for (std::size_t k = 0; k < 3; ++k) {
+    const shape::Span span = span_along(shape, {k == 0 ? 1.0 : 0.0, k == 1 ? 1.0 : 0.0, k == 2 ? 1.0 : 0.0});
+    const double room = around_it * farthest(span);
+    many.low[k][i] = num::single(span.low - room), many.high[k][i] = num::single(span.high + room);
+  }
+}
+void put_nothing(ManyBoxes& many, int i) {
+  for (std::size_t k = 0; k < 3; ++k) many.low[k][i] = many.high[k][i] = nowhere;
+}
+/// The box around those of a cluster.
+void put_around(ManyBoxes& many, int i, const ManyBoxes& its) {
+  for (std::size_t k = 0; k < 3; ++k) {
+    many.low[k][i] = infinite, many.high[k][i] = -infinite;
+    for (std::size_t j = 0; j < cluster_size; ++j) {
+      if (its.low[k][j] >= nowhere) continue;
+      many.low[k][i] = std::min(many.low[k][i], its.low[k][j]), many.high[k][i] = std::max(many.high[k][i], its.high[k][j]);
+    }
+  }
+}
+
+/// The boxes of a moment.
+template <class T>
+void fill_boxes(const SceneView& scene, const BodiesOf<T>& of, int moment, const std::vector<std::int32_t>& bodies, ManyBoxes* of_bodies,
+                ManyBoxes* of_clusters) {
+  const int clusters = static_cast<int>(bodies.size()) / cluster_size;
+  for (int c = 0; c < clusters; ++c) {
+    for (int i = 0; i < cluster_size; ++i) {
+      const std::int32_t body = bodies[static_cast<std::size_t>(c * cluster_size + i)];
+      if (body < 0) {
+        put_nothing(of_bodies[c], i);
+      } else {
+        put_box(of_bodies[c], i, body_at(scene, of.at(moment, body), moment));
+      }
+    }
+    put_around(of_clusters[c / cluster_size], c % cluster_size, of_bodies[c]);
+  }
+  for (int c = clusters; c % cluster_size != 0; ++c) put_nothing(of_clusters[c / cluster_size], c % cluster_size);
+}
+
 std::size_t in_rows(int each, int rows) { return static_cast<std::size_t>(each) * static_cast<std::size_t>(rows); }
 
 template <class T>
@@ -94,13 +140,16 @@ void build_one(const SceneView& scene, const BodiesOf<T>& of, int moments, Clust
   const int rows = moments * (1 + scene.lights), light_rows = scene.has_sun != 0 ? moments : 0;
   memory.bodies_seen.resize(in_rows(out.count, rows)), memory.clusters_seen.resize(in_rows(out.groups(), rows));
   memory.bodies_along.resize(in_rows(out.count, light_rows)), memory.clusters_along.resize(in_rows(out.groups(), light_rows));
+  const int moments_around = scene.bounces != 0 ? moments : 0;
+  memory.bodies_around.resize(in_rows(out.count, moments_around)), memory.clusters_around.resize(in_rows(out.groups(), moments_around));
   out.bodies = memory.bodies.data();
+  out.bodies_around = memory.bodies_around.data(), out.clusters_around = memory.clusters_around.data();
   out.bodies_seen = memory.bodies_seen.data(), out.clusters_seen = memory.clusters_seen.data();
   out.bodies_along = memory.bodies_along.data(), out.clusters_along = memory.clusters_along.data();
 }
 
 template <class T>
-void update_one(const Group& group, ClusterMemory<T>& memory) {
+void update_one(const SceneView& scene, const Group& group, ClusterMemory<T>& memory) {
   const std::size_t clusters = memory.bodies.size() / cluster_size, groups = (clusters + cluster_size - 1) / cluster_size;
   if (clusters == 0) return;
   const auto bodies = static_cast<std::size_t>(group.bodies.of<T>().count);
@@ -109,6 +158,9 @@ void update_one(const Group& group, ClusterMemory<T>& memory) {
     fill(memory.bodies, derived.forms + row * bodies, &memory.bodies_seen[row * clusters], &memory.clusters_seen[row * groups]);
   for (std::size_t row = 0; row < memory.bodies_along.size() / clusters; ++row)
     fill(memory.bodies, derived.along + row * bodies, &memory.bodies_along[row * clusters], &memory.clusters_along[row * groups]);
+  for (std::size_t row = 0; row < memory.bodies_around.size() / clusters; ++row)
+    fill_boxes(scene, group.bodies.of<T>(), static_cast<int>(row), memory.bodies, &memory.bodies_around[row * clusters],
+               &memory.clusters_around[row * groups]);
 }
 
 template <class... T, class Each>
@@ -126,8 +178,8 @@ void Clustering::build(const SceneView& scene, Group& group, int moments) {
                [&]<class T>(shape::List<T>) { build_one(scene, group.bodies.of<T>(), moments, memory_.of<T>(), group.clusters.of<T>()); });
 }
 
-void Clustering::update(const Group& group) {
-  each_bounded(shape::Shapes{}, [&]<class T>(shape::List<T>) { update_one<T>(group, memory_.of<T>()); });
+void Clustering::update(const SceneView& scene, const Group& group) {
+  each_bounded(shape::Shapes{}, [&]<class T>(shape::List<T>) { update_one<T>(scene, group, memory_.of<T>()); });
 }
 
 }  // namespace tofray::scene

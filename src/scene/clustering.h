@@ -7,11 +7,12 @@
 
 namespace tofray::scene {
 
-/// One shape's bodies sorted into clusters, and where these are seen.
+/// One shape's bodies sorted into clusters, and where these are seen, and are.
 template <class T>
 struct ClusterMemory {
   std::vector<std::int32_t> bodies;
   std::vector<ManyBounds> bodies_seen, clusters_seen, bodies_along, clusters_along;
+  std::vector<ManyBoxes> bodies_around, clusters_around;
 };
 
 /// The clusters of a group. Bodies of the same cluster are near each other when they are built; whether they stay so decides how much is
@@ -27,8 +28,8 @@ class Clustering {
   /// @param group    of the scene
   /// @param moments  that it has forms for
   void build(const SceneView& scene, Group& group, int moments);
-  /// Takes the rectangles out of the forms.
-  void update(const Group& group);
+  /// Takes the rectangles out of the forms and, where light bounces, the boxes out of the shapes.
+  void update(const SceneView& scene, const Group& group);
 
  private:
   shape::ByShape<ClusterMemory> memory_;

@@ -14,6 +14,19 @@ struct alignas(64) ManyBounds {
   float x_min[cluster_size], x_max[cluster_size], y_min[cluster_size], y_max[cluster_size];
 };
 
+/// Boxes side by side. One that holds nothing is a point that no ray comes to.
+struct alignas(64) ManyBoxes {
+  float low[3][cluster_size], high[3][cluster_size];
+};
+
+/// One shape's clusters in space, for rays that leave from anywhere.
+struct Boxes {
+  const std::int32_t* bodies;    ///< [cluster][32] numbers; −1: none
+  const ManyBoxes* of_bodies;    ///< [cluster]
+  const ManyBoxes* of_clusters;  ///< [cluster/32]
+  std::int32_t count;            ///< of clusters; 0: each body is looked at
+};
+
 /// One shape's clusters as seen from one point, or along parallel light.
 struct Clusters {
   const std::int32_t* bodies;     ///< [cluster][32] numbers; −1: none
@@ -26,12 +39,16 @@ struct Clusters {
 template <class T>
 struct ClustersOf {
   const std::int32_t* bodies;
-  const ManyBounds *bodies_seen, *clusters_seen;    ///< [moment][eye][…] as forms are
-  const ManyBounds *bodies_along, *clusters_along;  ///< [moment][…]
+  const ManyBounds *bodies_seen, *clusters_seen;     ///< [moment][eye][…] as forms are
+  const ManyBounds *bodies_along, *clusters_along;   ///< [moment][…]
+  const ManyBoxes *bodies_around, *clusters_around;  ///< [moment][…] where light bounces
   std::int32_t count;
 
   TOFRAY_FN Clusters seen_from(int row) const { return {bodies, bodies_seen + row * count, clusters_seen + row * groups(), count}; }
   TOFRAY_FN Clusters seen_along(int row) const { return {bodies, bodies_along + row * count, clusters_along + row * groups(), count}; }
+  TOFRAY_FN Boxes around(int moment) const {
+    return {bodies, bodies_around + moment * count, clusters_around + moment * groups(), bodies_around == nullptr ? 0 : count};
+  }
   /// How often 32 clusters are looked at.
   TOFRAY_FN int groups() const { return (count + cluster_size - 1) / cluster_size; }
   bool operator==(const ClustersOf&) const = default;

@@ -89,14 +89,30 @@ FrozenScene::FrozenScene(const Scene& scene, const std::vector<Vec3>& lights, in
   derive();
 }
 
+template <class Make>
+int FrozenScene::number_of_maps(const void* map, const Make& make) {
+  const auto [known, fresh] = map_numbers_.try_emplace(map, static_cast<int>(maps_.size()));
+  if (!fresh) return known->second;
+  for (auto& levels : make()) {
+    maps_.push_back(levels->view);
+    map_levels_.push_back(std::move(levels));
+  }
+  return known->second;
+}
+
 void FrozenScene::add_materials(const std::vector<Material>& materials) {
   for (const Material& material : materials) {
     brdf::MaterialView& view = materials_.emplace_back(brdf::view_of(material));
     if (view.brdf != 0) view_.any_other_brdf = 1;
-    if (material.map == nullptr) continue;
-    const auto [known, fresh] = map_numbers_.try_emplace(material.map, static_cast<int>(maps_.size()));
-    if (fresh) maps_.push_back(map_levels_.emplace_back(std::make_unique<MapLevels>(*material.map))->view);
-    view.map = known->second;
+    if (material.map != nullptr)
+      view.map = number_of_maps(material.map.get(), [&] {
+        Levels one;
+        one.push_back(std::make_unique<MapLevels>(*material.map));
+        return one;
+      });
+    if (material.normals != nullptr)
+      view.normals = number_of_maps(material.normals.get(), [&] { return levels_of_normals(*material.normals); });
+    if (material.finish != nullptr) view.finish = number_of_maps(material.finish.get(), [&] { return levels_of_finish(*material.finish); });
   }
   // Facet 0 has a material even where there is nothing to be seen.
   if (materials_.empty()) materials_.emplace_back();
@@ -270,8 +286,8 @@ void FrozenScene::derive() {
   const Derive what = still_known_ ? Derive::moving : Derive::all;
   const int units = unit_count(view_, what);
   for (int i = 0; i < units; ++i) scene::derive(view_, what, i);
-  if (!still_known_) still_clusters_.update(view_.still);
-  moving_clusters_.update(view_.moving);
+  if (!still_known_) still_clusters_.update(view_, view_.still);
+  moving_clusters_.update(view_, view_.moving);
   still_known_ = moving_known_ = true;
 }
 

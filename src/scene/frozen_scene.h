@@ -10,6 +10,7 @@
 #include "scene/hierarchy.h"
 #include "scene/map_levels.h"
 #include "scene/motion.h"
+#include "scene/vector_maps.h"
 #include "scene/view.h"
 
 /// The scene, frozen for rendering: its shapes in the world, and everything in the camera frame as seen from the camera and from each light.
@@ -71,6 +72,9 @@ class FrozenScene {
   void add_bodies(int moments);
   void add_changing(std::size_t object);
   void add_materials(const std::vector<Material>& materials);
+  /// The first of what make() makes of a picture, once for all materials that share it.
+  template <class Make>
+  int number_of_maps(const void* map, const Make& make);
   /// The shape in the world.
   template <class T, class Said>
   T placed(const Said& said, const shape::Placement& at);
@@ -89,8 +93,8 @@ class FrozenScene {
   std::vector<Mover> movers_;
   BodyLists still_, moving_;
   std::map<std::shared_ptr<const TriangleMesh>, Hierarchy> hierarchies_;  ///< one for all objects that share the triangles
-  std::map<std::shared_ptr<const ReflectivityMap>, int> map_numbers_;     ///< one for all materials that share it
-  std::vector<std::unique_ptr<const MapLevels>> map_levels_;
+  std::map<const void*, int> map_numbers_;                                ///< one for all materials that share a picture
+  Levels map_levels_;
   std::vector<brdf::MapView> maps_;
   std::vector<shape::Vec> lights_;
   std::vector<Changing> changing_;

@@ -215,7 +215,7 @@ class Builder {
     shape::MeshTriangles& triangles = out_.triangles.emplace_back();
     for (std::size_t i = 0; i < shape::block_width; ++i) triangles.number[i] = items_[std::min(part.first + i, part.last - 1)].number;
     put_corners(mesh_, triangles);
-    if (!mesh_.normals.empty() || !mesh_.texcoords.empty()) add_details(triangles);
+    if (!mesh_.normals.empty() || !mesh_.texcoords.empty() || !mesh_.shades.empty()) add_details(triangles);
     return shape::leaf_of(block, static_cast<std::int32_t>(part.count()));
   }
 
@@ -224,6 +224,7 @@ class Builder {
     put_normals(mesh_, triangles, details);
     each_corner(mesh_, triangles, [&](std::size_t c, std::size_t vertex, std::size_t i) {
       for (std::size_t k = 0; k < 2; ++k) details.texcoord[c][k][i] = mesh_.texcoords.empty() ? 0 : mesh_.texcoords[vertex][k];
+      details.shade[c][i] = mesh_.shades.empty() ? 1 : mesh_.shades[vertex];
     });
   }
 
@@ -239,7 +240,7 @@ class Builder {
 Hierarchy build_hierarchy(const TriangleMesh& mesh) {
   Hierarchy out;
   Builder(mesh, out).build();
-  out.has_texcoords = !mesh.texcoords.empty();
+  out.has_texcoords = !mesh.texcoords.empty(), out.has_shades = !mesh.shades.empty();
   return out;
 }
 

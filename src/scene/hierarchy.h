@@ -15,6 +15,7 @@ struct Hierarchy {
   std::vector<shape::MeshTriangles> triangles;
   std::vector<shape::MeshDetails> details;  ///< one for each block of triangles, or none
   bool has_texcoords = false;               ///< in `details`
+  bool has_shades = false;                  ///< likewise
   shape::Vec center{}, half{};              ///< of the box round all of them
 };
 

@@ -3,6 +3,7 @@
 #include "scene/map_levels.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace tofray::scene {
 
@@ -22,9 +23,9 @@ void each_share(int from, int to, int i, const Add& add) {
 
 }  // namespace
 
-MapLevels::MapLevels(const ReflectivityMap& map) : texels(map.values) {
-  int width = map.width, height = map.height;
-  view.wrap[0] = static_cast<std::int32_t>(map.wrap_u), view.wrap[1] = static_cast<std::int32_t>(map.wrap_v);
+MapLevels::MapLevels(std::vector<float> values, int width, int height, ReflectivityMap::Wrap wrap_u, ReflectivityMap::Wrap wrap_v)
+    : texels(std::move(values)) {
+  view.wrap[0] = static_cast<std::int32_t>(wrap_u), view.wrap[1] = static_cast<std::int32_t>(wrap_v);
   for (std::size_t start = 0;;) {
     const int level = view.levels++;
     view.start[level] = static_cast<std::int32_t>(start), view.width[level] = width, view.height[level] = height;

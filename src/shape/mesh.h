@@ -32,6 +32,7 @@ struct alignas(64) MeshTriangles {
 struct alignas(64) MeshDetails {
   float normal[3][3][block_width];    ///< [corner][coordinate], in the mesh's frame
   float texcoord[3][2][block_width];  ///< [corner][u, v]
+  float shade[3][block_width];        ///< [corner]
 };
 constexpr int mesh_triangles_words = sizeof(MeshTriangles) / sizeof(float), mesh_details_words = sizeof(MeshDetails) / sizeof(float);
 constexpr int most_mesh_levels = 28;
@@ -105,7 +106,7 @@ struct Mesh {
   const MeshDetails* details;  ///< null: no corner has any
   const MeshSteps* steps;      ///< null: it keeps its shape, or nobody asks
   std::int32_t node_count, block_count;
-  std::int32_t has_texcoords;
+  std::int32_t has_texcoords, has_shades;
 
   /// What it turns about.
   template <class Said>
@@ -127,7 +128,8 @@ struct Mesh {
             nullptr,
             static_cast<std::int32_t>(built.nodes.size()),
             static_cast<std::int32_t>(built.triangles.size()),
-            built.has_texcoords ? 1 : 0};
+            built.has_texcoords ? 1 : 0,
+            built.has_shades ? 1 : 0};
   }
 
   /// Of the triangles that these lanes see, not turned to the camera.
@@ -146,11 +148,12 @@ TOFRAY_FN Span span_along(const Mesh& mesh, const Vec& a) {
   return span_about(dot(mesh.origin, a) + dot(mesh.center, mesh.axes * a), reach_of_box(mesh.axes, mesh.half, a));
 }
 
-/// The second: where the camera's zero is in the mesh's frame, whether corners have texture coordinates, and how they move.
+/// The second: where the camera's zero is in the mesh's frame, whether corners have texture coordinates and shades, and how they
+/// move.
 TOFRAY_FN void facet_of(const Mesh& mesh, int side, Facet& out) {
   if (side == 1) {
     copy(mesh.axes * (-1.0 * mesh.origin), out.number);
-    out.number[3] = mesh.has_texcoords != 0 ? 1.0f : 0.0f;
+    out.number[3] = mesh.has_texcoords != 0 ? 1.0f : 0.0f, out.number[4] = mesh.has_shades != 0 ? 1.0f : 0.0f;
     out.steps = mesh.steps;
     return;
   }

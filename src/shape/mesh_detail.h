@@ -18,6 +18,7 @@ struct MeshDetail {
   Direction<F> normal;  ///< the mean of the corners', in the camera's frame, of unit length; zero where they have none
   F u, v;               ///< the mean of the corners' texture coordinates
   F uv_per_area;        ///< [1/m²] area in texture coordinates of a square metre of the triangle
+  F shade;              ///< the mean of the corners'; 1 where they have none
 };
 
 /// The corners' weights are areas, of the triangles that the point's foot makes with each side: b_1 = (p × e_2)·n/n², b_2 = (e_1 × p)·n/n²,
@@ -77,6 +78,9 @@ TOFRAY_FN Direction<F> mesh_turned(const Facet& facet, F x, F y, F z) {
   return {row(0), row(1), row(2)};
 }
 
+/// Whether corners have shades. @param facet  the mesh's first
+TOFRAY_FN bool has_shades(const Facet& facet) { return (&facet + 1)->number[4] != 0.0f; }
+
 template <class F>
 TOFRAY_FN MeshDetail<F> mesh_detail(const Facet& facet, Int<F> triangle, F x, F y, F z) {
   const MeshPlace<F> at = mesh_place(facet, triangle, x, y, z);
@@ -95,6 +99,7 @@ TOFRAY_FN MeshDetail<F> mesh_detail(const Facet& facet, Int<F> triangle, F x, F 
     dv[c] = num::gather(texcoords + (3 + 2 * c) * block_width, detail) - num::gather(texcoords + block_width, detail);
   }
   out.uv_per_area = num::abs(difference_of_products(du[0], dv[1], du[1], dv[0])) * num::sqrt(at.per_square);
+  out.shade = has_shades(facet) ? mean(facet.details->shade[0], 1) : F(1.0f);
   return out;
 }
 

@@ -79,7 +79,7 @@ void Simulator::Impl::frames_on_gpus(std::uint64_t count, const Request& request
   simulator::prepare(scratch, camera, options, scene.transport);
   job.out = simulator::view_of(scratch, options.last_stage);
   const std::size_t frame_bytes =
-      std::max<std::size_t>(1, backend::gpu::Slab(setup, job.out, job.filter != pipeline::Filter::none).bytes());
+      std::max<std::size_t>(1, backend::gpu::Slab(setup, job.out, pipeline::scratch_images(setup, job.filter)).bytes());
   const std::uint64_t chunk = std::clamp<std::uint64_t>(options.batch_bytes / frame_bytes, 1, most_frames),
                       lanes = lanes_per_gpu * gpus.size();
   std::deque<Flight> flights;
@@ -104,25 +104,32 @@ void Simulator::Impl::frames_on_gpus(std::uint64_t count, const Request& request
   }
 }
 
-/// Where depth is that of several frames, one follows the other.
+/// A frame of a GPU with a seed or pose of its own: a batch of one, whose lane takes them along.
+void Simulator::Impl::frame_by_batch(const FrameRequest& request, Frame& into) {
+  std::uint64_t taken = 0;
+  const auto take = [&](const FrameArrays& from) {
+#define TOFRAY_COPY(name, part, member, ...) \
+  if (from.name != nullptr) std::copy_n(from.name, into.part.member.size(), into.part.member.begin());
+    TOFRAY_IMAGE_ARRAYS(TOFRAY_COPY)
+#undef TOFRAY_COPY
+  };
+  frames_on_gpus(
+      1, [&](std::uint64_t) { return request; }, take, taken);
+}
+
+/// Where a frame hangs on those before, one follows the other.
 void Simulator::Impl::frames_over_time(std::uint64_t count, const Request& request, const Take& take) {
-  for (std::uint64_t i = 0; i < count; ++i) {
-    const FrameRequest wanted = request(i);
-    if (wanted.seed || wanted.pose)
-      throw Error(ErrorKind::bad_input,
-                  "error: a mean over frames needs those before, which a request of another seed or pose does not have\n"
-                  "  set decoding.temporal.frames to 1");
-  }
+  for (std::uint64_t i = 0; i < count; ++i) check_over_time(request(i));
   for (std::uint64_t i = 0; i < count; ++i) {
     const std::uint64_t index = request(i).index;
-    frame(index, nullptr, scratch);
+    frame({index, {}, {}}, nullptr, scratch);
     if (stopped()) return;  // the frame is no frame
     take(simulator::arrays_of(simulator::view_of(scratch, options.last_stage), camera, setup.transient.bins, index, -1));
   }
 }
 
 void Simulator::Impl::frames(std::uint64_t count, const Request& request, const Take& take) {
-  if (temporal.on()) {
+  if (needs_earlier() != nullptr) {
     frames_over_time(count, request, take);
     return;
   }
@@ -142,8 +149,8 @@ void Simulator::Impl::frames(std::uint64_t count, const Request& request, const 
 }
 
 void Simulator::Impl::frames_on_device(std::uint64_t count, const Request& request, DeviceFrames::Impl& into) {
-  if (temporal.on())
-    throw Error(ErrorKind::bad_input, "error: frames that stay on the GPU are no mean over frames\n  set decoding.temporal.frames to 1");
+  if (const char* const why = needs_earlier(); why != nullptr)
+    throw Error(ErrorKind::bad_input, "error: " + std::string(why) + ", and frames that stay on the GPU are computed side by side");
   const auto& gpus = engines.gpus();
   const std::string reason = engines.ran_on().fallback_reason;
   if (gpus.empty()) throw backend::gpu::Fault(reason.empty() ? "the processor computes" : reason, false);
@@ -152,7 +159,7 @@ void Simulator::Impl::frames_on_device(std::uint64_t count, const Request& reque
   backend::Cuda& gpu = *gpus[0];
   into.indices.clear();
   into.seconds = 0;
-  into.slab = backend::gpu::Slab(setup, job.out, job.filter != pipeline::Filter::none);
+  into.slab = backend::gpu::Slab(setup, job.out, pipeline::scratch_images(setup, job.filter));
   into.camera = camera;
   if (count > std::numeric_limits<std::size_t>::max() / std::max<std::size_t>(1, into.slab.bytes()))
     throw backend::gpu::Fault("its memory is too small for " + std::to_string(count) + " frames", true);

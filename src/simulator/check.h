@@ -17,6 +17,7 @@ namespace tofray::simulator {
 /// @throws Error (bad_input; limit for counts) naming the member
 void check(const Camera& camera);
 void check(const Scene& scene);
+void check(const FrameRequest& request);
 void check(std::span<const FrameRequest> requests);
 void check(const SimulatorOptions& options);
 /// … and for all of them together: what is derived of things that move has to fit into memory.

@@ -50,6 +50,10 @@ void check(const Camera& camera) { model::check_in_code(camera); }
 
 void check(const Scene& scene) { model::check_in_code(scene); }
 
+void check(const FrameRequest& request) {
+  if (request.pose) model::check_in_code(*request.pose, "request.pose");
+}
+
 void check(std::span<const FrameRequest> requests) {
   for (std::size_t i = 0; i < requests.size(); ++i) {
     if (requests[i].pose) model::check_in_code(*requests[i].pose, "requests[" + std::to_string(i) + "].pose");
@@ -62,6 +66,15 @@ void check(const SimulatorOptions& options) {
     refuse("too many threads", "got " + std::to_string(options.threads) + ", at most " + std::to_string(most), ErrorKind::limit);
   within(options.exposure_samples, {1, 1000}, "exposure_samples");
   within(options.subpixel, {1, 16}, "subpixel");
+#define TOFRAY_NAME(name, ...) #name,
+  const std::vector<std::string> known = {TOFRAY_IMAGE_ARRAYS(TOFRAY_NAME)};
+#undef TOFRAY_NAME
+  for (std::size_t i = 0; i < options.arrays.size(); ++i) {
+    const std::string& word = options.arrays[i];
+    if (std::find(known.begin(), known.end(), word) == known.end())
+      refuse("arrays[" + std::to_string(i) + "]: frames have no array " + base::in_quotes(word) + base::did_you_mean(word, known),
+             "expected names as in files: raw, z_m, gt_z_m …");
+  }
 }
 
 void check_moving_views(const Scene& scene, const Camera& camera, const SimulatorOptions& options) {

@@ -2,6 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "simulator/frame_memory.h"
 
+#include <algorithm>
+#include <string_view>
+
+#include "camera/frozen_camera.h"
 #include "flow/flow.h"
 
 namespace tofray::simulator {
@@ -9,9 +13,50 @@ namespace tofray::simulator {
 namespace {
 
 template <class Vector>
-void resize(Vector& array, ArrayShape shape, const flow::FrameSize& size) {
-  array.resize(static_cast<std::size_t>(flow::values_of(shape, size)));
+void resize(Vector& array, ArrayShape shape, const flow::FrameSize& size, bool wanted) {
+  array.resize(wanted ? static_cast<std::size_t>(flow::values_of(shape, size)) : 0);
 }
+
+template <std::size_t N>
+bool among(const std::string_view (&names)[N], std::string_view name) {
+  return std::find(std::begin(names), std::end(names), name) != std::end(names);
+}
+
+/// Whether frames have an array. Of samples, bounces and histograms there is one only with these.
+class Wanted {
+ public:
+  Wanted(const Camera& camera, const SimulatorOptions& options, const Transport& transport)
+      : camera_(camera), options_(options), transport_(transport) {}
+
+  [[nodiscard]] bool has(std::string_view name, std::string_view part) const {
+    constexpr std::string_view of_samples[] = {"gt_mixed", "gt_object_share"},
+                               of_bounces[] = {"gt_direct_e", "gt_indirect_e", "gt_multipath_m", "gt_path_noise_m", "gt_path_count"},
+                               of_bins[] = {"transient_e_per_s", "transient_lost_e_per_s"};
+    if (part == "truth" && !options_.truth) return false;
+    if (options_.subpixel == 1 && among(of_samples, name)) return false;
+    if (transport_.bounces == 0 && among(of_bounces, name)) return false;
+    if (transport_.transient.bins == 0 && among(of_bins, name)) return false;
+    return options_.arrays.empty() || asks_for(name) || is_needed(name);
+  }
+
+ private:
+  [[nodiscard]] bool asks_for(std::string_view name) const {
+    return std::find(options_.arrays.begin(), options_.arrays.end(), name) != options_.arrays.end();
+  }
+  /// … by others on their way: what the passes over a depth image look at, what exposures follow, what samples are compared with.
+  [[nodiscard]] bool is_needed(std::string_view name) const {
+    constexpr std::string_view of_passes[] = {"z_m", "range_m", "noise_m", "flags"}, of_exposures[] = {"tap_a", "tap_b", "raw"};
+#define TOFRAY_ASKED(name, ...) || asks_for(#name)
+    if (among(of_passes, name)) return false TOFRAY_DEPTH_ARRAYS(TOFRAY_ASKED);
+#undef TOFRAY_ASKED
+    if (among(of_exposures, name)) return camera_.auto_exposure.speed > 0;
+    return name == "gt_object_id" && options_.subpixel > 1 && (asks_for("gt_mixed") || asks_for("gt_object_share"));
+  }
+
+  const Camera& camera_;
+  const SimulatorOptions& options_;
+  const Transport& transport_;
+};
 
 template <class Vector>
 auto* place_of(Vector& array, Stage stage, Stage last) {
@@ -22,38 +67,41 @@ auto* place_of(Vector& array, Stage stage, Stage last) {
 
 void prepare(Depth& depth, int width, int height) {
   depth.width = width, depth.height = height;
-#define TOFRAY_RESIZE(name, part, member, element, shape, ...) resize(part.member, ArrayShape::shape, size);
   const flow::FrameSize size{std::int64_t{width} * height, 1, 0};
+#define TOFRAY_RESIZE(name, part, member, element, shape, ...) resize(part.member, ArrayShape::shape, size, true);
   TOFRAY_DEPTH_ARRAYS(TOFRAY_RESIZE)
+#undef TOFRAY_RESIZE
 }
 
 void prepare(Frame& frame, const Camera& camera, const SimulatorOptions& options, const Transport& transport) {
   const int width = camera.sensor.width, height = camera.sensor.height, phases = static_cast<int>(camera.mode.sequence.size());
   const flow::FrameSize size{std::int64_t{width} * height, phases, transport.transient.bins};
-  Raw& raw = frame.raw;
+  const Wanted wanted(camera, options, transport);
+  auto& [index, raw, depth, truth] = frame;
   raw.width = width, raw.height = height, raw.phases = phases;
-  TOFRAY_RAW_ARRAYS(TOFRAY_RESIZE)
   raw.modulation_frequency_hz.clear(), raw.reference_phase_rad.clear(), raw.integration_time_s.clear(), raw.lit.clear();
   for (const RawFrame& k : camera.mode.sequence) {
     raw.modulation_frequency_hz.push_back(k.lit ? k.modulation_frequency_hz : 0);
-    raw.reference_phase_rad.push_back(k.lit ? k.reference_phase_rad : 0);
+    raw.reference_phase_rad.push_back(camera::reference_phase_of(k));
     raw.integration_time_s.push_back(k.integration_time_s);
     raw.lit.push_back(k.lit);
   }
-  prepare(frame.depth, width, height);
-  Truth& truth = frame.truth;
-  if (!options.truth) {
-    truth = {};
-    return;
-  }
-  truth.width = width, truth.height = height, truth.phases = phases, truth.bins = transport.transient.bins;
-  TOFRAY_TRUTH_ARRAYS(TOFRAY_RESIZE)
+  depth.width = width, depth.height = height;
+  if (!options.truth) truth = {};
+  if (options.truth) truth.width = width, truth.height = height, truth.phases = phases, truth.bins = transport.transient.bins;
+#define TOFRAY_RESIZE(name, part, member, element, shape, ...) resize(part.member, ArrayShape::shape, size, wanted.has(#name, #part));
+  TOFRAY_IMAGE_ARRAYS(TOFRAY_RESIZE)
 #undef TOFRAY_RESIZE
-  // Of what nobody looks at, nothing is known.
-  if (options.subpixel == 1) truth.mixed.clear(), truth.object_share.clear();
-  if (truth.bins == 0) truth.transient_lost_e_per_s.clear();
-  if (transport.bounces > 0) return;
-  truth.direct_e.clear(), truth.indirect_e.clear(), truth.multipath_m.clear(), truth.path_noise_m.clear(), truth.path_count.clear();
+}
+
+Stage last_stage_of(const Camera& camera, const SimulatorOptions& options, const Transport& transport) {
+  const Wanted wanted(camera, options, transport);
+  Stage last = Stage::trace;
+#define TOFRAY_LAST(name, part, member, element, shape, stage, ...) \
+  if (wanted.has(#name, #part)) last = std::max(last, Stage::stage);
+  TOFRAY_IMAGE_ARRAYS(TOFRAY_LAST)
+#undef TOFRAY_LAST
+  return std::min(last, options.last_stage);
 }
 
 #define TOFRAY_PLACE(name, part, member, element, shape, stage, ...) view.name = place_of(part.member, Stage::stage, last);

@@ -12,6 +12,8 @@ namespace tofray::simulator {
 /// @param transport  of the scene; none (as it is fresh) where the light comes from elsewhere
 void prepare(Frame& frame, const Camera& camera, const SimulatorOptions& options, const Transport& transport);
 void prepare(Depth& depth, int width, int height);
+/// The last stage that any of the arrays of a frame comes from: nothing is computed that nobody sees.
+Stage last_stage_of(const Camera& camera, const SimulatorOptions& options, const Transport& transport);
 /// Where the arrays are that have a size, of the stages up to `last`.
 flow::FrameView view_of(Frame& frame, Stage last);
 flow::FrameView view_of(Depth& depth);

@@ -8,6 +8,7 @@
 #include "camera/frozen_camera.h"
 #include "scene/frozen_scene.h"
 #include "simulator/engines.h"
+#include "simulator/exposure.h"
 #include "simulator/temporal.h"
 #include "tofray/simulator.h"
 
@@ -28,14 +29,15 @@ struct Simulator::Impl {
   std::vector<float> filtered;
   Frame scratch;  ///< of a batch on the processor, and the model of one on a GPU
   simulator::Temporal temporal;
-  Frame earlier;  ///< one that a mean over frames needs beside the one that is asked for
+  simulator::Exposure exposure;
+  Frame earlier;  ///< one that a later one needs
   simulator::Engines engines;
   const float* written_before = nullptr;  ///< Raw::tap_a of the frame before; nobody looks at what lies there
 
   Impl(const Scene& scene, const Camera& profile, const SimulatorOptions& wanted);
 
   /// @param input  null: from the scene on
-  void frame(std::uint64_t index, const pipeline::Input* input, Frame& into);
+  void frame(const FrameRequest& request, const pipeline::Input* input, Frame& into);
   void frames(std::uint64_t count, const Request& request, const Take& take);
   void frames_on_device(std::uint64_t count, const Request& request, DeviceFrames::Impl& into);
 
@@ -43,6 +45,8 @@ struct Simulator::Impl {
   [[nodiscard]] double start_of(std::uint64_t index) const { return static_cast<double>(index) / camera.mode.frame_rate_hz; }
   /// Puts the scene as it was looked at last into a setup.
   void set_scene(pipeline::Setup& to) const;
+  /// Why a frame hangs on earlier ones; null: it stands by itself.
+  [[nodiscard]] const char* needs_earlier() const;
   /// Puts scene and sensor of a frame into `setup` and `job`.
   void set_frame(const FrameRequest& request);
   /// Its sensor alone.
@@ -50,8 +54,15 @@ struct Simulator::Impl {
 
  private:
   /// A frame by itself.
-  void compute(std::uint64_t index, const pipeline::Input* input, const SimulatorOptions& with, const Transport& transport, Frame& into);
+  void compute(const FrameRequest& request, const pipeline::Input* input, const SimulatorOptions& with, const Transport& transport,
+               Frame& into);
+  /// Computes the frames before, as far as the exposures of this one are not known without them.
+  void find_exposures(std::uint64_t index);
+  void set_exposures(std::uint64_t index);
+  /// @throws Error (bad_input) where a frame hangs on earlier ones, and the request has another seed or pose than they
+  void check_over_time(const FrameRequest& request) const;
   [[nodiscard]] bool stopped() const { return options.progress != nullptr && options.progress->stop; }
+  void frame_by_batch(const FrameRequest& request, Frame& into);
   void frames_over_time(std::uint64_t count, const Request& request, const Take& take);
   /// What does not change from frame to frame.
   [[nodiscard]] pipeline::Setup fixed_setup();

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "base/limits.h"
+#include "base/readout.h"
 #include "base/text.h"
 #include "camera/frozen_camera.h"
 #include "model/tables.h"
@@ -226,6 +227,12 @@ OwnInput input_of(const Raw& raw) {
 }
 
 }  // namespace tofray::simulator
+
+tofray::ImageSize tofray::image_size(const Camera& camera) {
+  simulator::check(camera);
+  const Sensor image = base::as_read_out(camera).sensor;
+  return {image.width, image.height};
+}
 
 std::vector<float> tofray::pixel_rays(const Camera& camera) {
   simulator::check(camera);

@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The tofray authors
 // SPDX-License-Identifier: Apache-2.0
+#include "base/readout.h"
 #include "camera/frozen_camera.h"
 #include "num/setup_math.h"
 #include "simulator/check.h"
@@ -17,9 +18,10 @@ namespace {
 /// The camera with the sequence that the raw data says it was taken with.
 Camera camera_of(const Raw& raw, const Camera& profile) {
   const auto complain = [](const std::string& what) { throw Error(ErrorKind::bad_input, "error: " + what); };
-  if (raw.width != profile.sensor.width || raw.height != profile.sensor.height) {
+  const Sensor image = base::as_read_out(profile).sensor;
+  if (raw.width != image.width || raw.height != image.height) {
     complain("raw data has " + std::to_string(raw.width) + " × " + std::to_string(raw.height) + " pixels, the camera profile " +
-             std::to_string(profile.sensor.width) + " × " + std::to_string(profile.sensor.height));
+             std::to_string(image.width) + " × " + std::to_string(image.height));
   }
   const std::size_t phases = static_cast<std::size_t>(raw.phases);
   const std::size_t all = phases * static_cast<std::size_t>(raw.width) * static_cast<std::size_t>(raw.height);
@@ -34,6 +36,7 @@ Camera camera_of(const Raw& raw, const Camera& profile) {
     complain("raw data needs modulation_frequency_hz, reference_phase_rad, integration_time_s and lit, one value for each raw frame");
   }
   Camera camera = profile;
+  camera.auto_exposure = {};  // integration times are known
   camera.mode.sequence.clear();
   for (std::size_t k = 0; k < phases; ++k) {
     camera.mode.sequence.push_back(

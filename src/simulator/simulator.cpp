@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "base/constants.h"
+#include "base/readout.h"
 #include "camera/emitters.h"
 #include "scene/ambient.h"
 #include "simulator/check.h"
@@ -52,22 +53,30 @@ const Scene& checked(const Scene& scene, const Camera& camera, const SimulatorOp
   simulator::check(camera);
   simulator::check_moving_views(scene, camera::with_emitters(camera), options);
   simulator::check_changing_triangles(scene, camera, options);
-  simulator::check_light_image(scene, camera, options);
-  simulator::check_transient(scene, camera);
+  const Camera image = base::as_read_out(camera);
+  simulator::check_light_image(scene, image, options);
+  simulator::check_transient(scene, image);
   return scene;
+}
+
+SimulatorOptions with_last_stage(const SimulatorOptions& wanted, const Camera& camera, const Scene& scene) {
+  SimulatorOptions out = wanted;
+  out.last_stage = simulator::last_stage_of(camera, wanted, scene.transport);
+  return out;
 }
 
 }  // namespace
 
 Simulator::Impl::Impl(const Scene& all, const Camera& profile, const SimulatorOptions& wanted)
     : scene(checked(all, profile, wanted)),
-      camera(camera::with_emitters(profile)),
-      options(wanted),
-      frozen_camera(camera, wanted.noise != Noise::off, wanted.seed, wanted.subpixel),
+      camera(camera::with_emitters(base::as_read_out(profile))),
+      options(with_last_stage(wanted, camera, scene)),
+      frozen_camera(profile, wanted.noise != Noise::off, wanted.seed, wanted.subpixel),
       frozen_scene(scene, positions(camera), static_cast<int>(camera.mode.sequence.size()) * options.exposure_samples,
                    scene.transport.bounces > 0),
       setup(fixed_setup()),
       temporal(camera, options.last_stage),
+      exposure(camera, options.last_stage),
       engines(options, setup) {
   simulator::set_filter(camera.decoding.filter, job);
   filtered.resize(simulator::filter_scratch(job, setup));
@@ -105,8 +114,8 @@ scene::Times Simulator::Impl::times_from(double start) const {
   scene::Times out;
   const int samples = frozen_scene.moves() ? options.exposure_samples : 1;
   for (std::size_t k = 0; k < camera.mode.sequence.size(); ++k) {
-    const double begin = start + frozen_camera.raw_frame_start_s()[k], exposure = camera.mode.sequence[k].integration_time_s;
-    for (int i = 0; i < samples; ++i) out.moments.push_back(begin + (i + 0.5) / samples * exposure);
+    const double begin = start + frozen_camera.raw_frame_start_s()[k], exposed = camera.mode.sequence[k].integration_time_s;
+    for (int i = 0; i < samples; ++i) out.moments.push_back(begin + (i + 0.5) / samples * exposed);
   }
   // That of the middle of the middle raw frame, as pipeline::moment_of has it.
   const auto middle = camera.mode.sequence.size() / 2 * static_cast<std::size_t>(samples) + static_cast<std::size_t>(samples / 2);
@@ -130,38 +139,68 @@ void Simulator::Impl::set_sensor(const FrameRequest& request) {
   job.index_low = static_cast<std::uint32_t>(request.index), job.index_high = static_cast<std::uint32_t>(request.index >> 32);
 }
 
-void Simulator::Impl::frame(std::uint64_t index, const pipeline::Input* input, Frame& into) {
+void Simulator::Impl::frame(const FrameRequest& request, const pipeline::Input* input, Frame& into) {
   const Transport& transport = input == nullptr ? scene.transport : no_transport;
+  if (const char* const why = needs_earlier(); why != nullptr && input != nullptr)
+    throw Error(ErrorKind::bad_input, "error: " + std::string(why) + ", and arrays of one's own are one frame");
+  check_over_time(request);
+  find_exposures(request.index);
+  if (exposure.on() && exposure.known() <= request.index) return;  // stopped on the way
   if (!temporal.on()) {
-    compute(index, input, options, transport, into);
+    compute(request, input, options, transport, into);
     return;
   }
-  if (input != nullptr)
-    throw Error(ErrorKind::bad_input,
-                "error: a mean over frames needs those before, and arrays of one's own are one frame\n  set decoding.temporal.frames to 1");
   // Frame i is the same whatever was computed before it: what is not at hand of the frames before is computed once more.
   SimulatorOptions bare = options;
   bare.truth = false;
+  const std::uint64_t index = request.index;
   for (std::uint64_t before = temporal.missing_from(index); before < index; ++before) {
-    compute(before, nullptr, bare, no_transport, earlier);
+    compute({before, {}, {}}, nullptr, bare, no_transport, earlier);
     if (stopped()) return;
     temporal.keep(before, job.out);
   }
-  compute(index, nullptr, options, transport, into);
+  compute(request, nullptr, options, transport, into);
   if (stopped()) return;
   temporal.keep(index, job.out);
   temporal.settle(index, setup, job);
 }
 
-void Simulator::Impl::compute(std::uint64_t index, const pipeline::Input* input, const SimulatorOptions& with, const Transport& transport,
-                              Frame& into) {
-  into.index = index;
+const char* Simulator::Impl::needs_earlier() const {
+  if (temporal.on()) return "a mean over frames (decoding.temporal.frames) needs those before";
+  if (exposure.on()) return "exposures that follow the light (auto_exposure.speed) need the frames before";
+  return nullptr;
+}
+
+/// Frame i is the same whatever was computed before it: all begin with frame 0.
+void Simulator::Impl::find_exposures(std::uint64_t index) {
+  exposure.check(index);
+  SimulatorOptions bare = options;
+  bare.truth = false;
+  while (exposure.on() && exposure.known() <= index && !stopped())
+    compute({exposure.known() - 1, {}, {}}, nullptr, bare, no_transport, earlier);
+}
+
+void Simulator::Impl::set_exposures(std::uint64_t index) {
+  const std::vector<double> times = exposure.times_of(index);
+  frozen_camera.set_integration_times(times);
+  for (std::size_t k = 0; k < times.size(); ++k) camera.mode.sequence[k].integration_time_s = times[k];
+}
+
+void Simulator::Impl::check_over_time(const FrameRequest& request) const {
+  const char* const why = needs_earlier();
+  if (why != nullptr && (request.seed || request.pose))
+    throw Error(ErrorKind::bad_input, "error: " + std::string(why) + ", which a request of another seed or pose does not have");
+}
+
+void Simulator::Impl::compute(const FrameRequest& request, const pipeline::Input* input, const SimulatorOptions& with,
+                              const Transport& transport, Frame& into) {
+  if (exposure.on()) set_exposures(request.index);
+  into.index = request.index;
   simulator::prepare(into, camera, with, transport);
-  const double start = start_of(index);
+  const double start = start_of(request.index);
   into.raw.start_time_s.clear();
   for (const double after : frozen_camera.raw_frame_start_s()) into.raw.start_time_s.push_back(start + after);
   into.truth.time_s = times_from(start).truth_s();
-  const FrameRequest request{index, {}, {}};
   set_frame(request);
   if (input != nullptr) setup.scene.moments = 0;  // nothing of what moves need go to a GPU
   // What is given of the stage before the entry is known, however early the last one is.
@@ -172,9 +211,15 @@ void Simulator::Impl::compute(std::uint64_t index, const pipeline::Input* input,
                                                 {pixels, static_cast<std::int64_t>(camera.mode.sequence.size()), 0});
   written_before = job.out.tap_a;
   engines.run([&](backend::Engine& engine) {
+    if ((request.seed || request.pose) && !engines.gpus().empty()) {
+      frame_by_batch(request, into);
+      return;
+    }
     if (!engine.derives()) frozen_scene.derive();
     engine.run(setup, job, input);
   });
+  if (exposure.on() && exposure.known() == request.index + 1 && !stopped())
+    exposure.follow(setup.sensor, job.out, static_cast<std::size_t>(setup.lens.width) * static_cast<std::size_t>(setup.lens.height));
 }
 
 Simulator::Simulator(const Scene& scene, const Camera& camera, const SimulatorOptions& options)
@@ -183,18 +228,22 @@ Simulator::~Simulator() = default;
 Simulator::Simulator(Simulator&&) noexcept = default;
 Simulator& Simulator::operator=(Simulator&&) noexcept = default;
 
-void Simulator::frame(std::uint64_t index, Frame& into) { impl_->frame(index, nullptr, into); }
+void Simulator::frame(std::uint64_t index, Frame& into) { impl_->frame({index, {}, {}}, nullptr, into); }
+void Simulator::frame(const FrameRequest& request, Frame& into) {
+  simulator::check(request);
+  impl_->frame(request, nullptr, into);
+}
 void Simulator::frame(std::uint64_t index, const Geometry& seen, Frame& into) {
   const simulator::OwnInput own = simulator::input_of(seen, impl_->camera);
-  impl_->frame(index, &own.input, into);
+  impl_->frame({index, {}, {}}, &own.input, into);
 }
 void Simulator::frame(std::uint64_t index, const PixelLight& light, Frame& into) {
   const simulator::OwnInput own = simulator::input_of(light, impl_->camera);
-  impl_->frame(index, &own.input, into);
+  impl_->frame({index, {}, {}}, &own.input, into);
 }
 void Simulator::frame(std::uint64_t index, const Transient& light, Frame& into) {
   const simulator::OwnInput own = simulator::input_of(light, impl_->camera, impl_->setup);
-  impl_->frame(index, &own.input, into);
+  impl_->frame({index, {}, {}}, &own.input, into);
 }
 Frame Simulator::frame(std::uint64_t index) { return new_frame(*this, index); }
 Frame Simulator::frame(std::uint64_t index, const Geometry& seen) { return new_frame(*this, index, seen); }

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The tofray authors
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include "trace/boxes.h"
 #include "trace/detail.h"
 
 /// Rays that leave from anywhere: the nearest surface, and what is there.
@@ -81,23 +82,59 @@ TOFRAY_APART void meet_mesh(const typename T::Free& form, const FreeRay<F>& ray,
 }
 
 template <class T, class F>
+TOFRAY_FN void meet_one(const typename T::Free& form, const FreeRay<F>& ray, const Leaving<F>& from, Met<F>& met) {
+  if constexpr (T::closed) {
+    meet_closed<T>(form, ray, from, met);
+  } else if constexpr (shape::many_of<T>) {
+    // What is handed to a function lies in memory; the originals need not.
+    const FreeRay<F> ray_copy = ray;
+    const Leaving<F> from_copy = from;
+    Met<F> copy = met;
+    meet_mesh<T>(form, ray_copy, from_copy, copy);
+    met = copy;
+  } else {
+    meet_flat<T>(form, ray, from, met);
+  }
+}
+
+/// Of many bodies those whose boxes a ray meets. They come in no order; of two at the same distance the first one is met all the same.
+template <class T, class F>
+TOFRAY_APART void meet_in_boxes(const typename T::Free* forms, const scene::Boxes& boxes, const FreeRay<F>& ray, const Leaving<F>& from,
+                                Met<F>& met) {
+  RaysApart<F> rays;
+  take_apart<F>(ray, met.distance, from.wanted, rays);
+  Met<F> best{met.distance, Int<F>(-1), Int<F>(0)};
+  each_in_reach<F>(
+      boxes, rays, [&](int body) __attribute__((always_inline)) {
+        const F beyond = num::fma(best.distance, F(1.0f + 1e-6f), F(1e-30f));  // so that what is as far is met, too
+        Met<F> one{beyond, Int<F>(0), Int<F>(0)};
+        meet_one<T>(forms[body], ray, from, one);
+        const auto better =
+            (one.distance < beyond) & ((one.distance < best.distance) | ((!(one.distance > best.distance)) & (best.facet > one.facet)));
+        best.distance = num::select(better, one.distance, best.distance);
+        best.facet = num::select(better, one.facet, best.facet), best.triangle = num::select(better, one.triangle, best.triangle);
+      });
+  const auto nearer = best.distance < met.distance;
+  met.distance = num::select(nearer, best.distance, met.distance);
+  met.facet = num::select(nearer, best.facet, met.facet), met.triangle = num::select(nearer, best.triangle, met.triangle);
+}
+
+template <class T, class F>
 TOFRAY_FN void meet_all(const scene::Group& group, int moment, const FreeRay<F>& ray, const Leaving<F>& from, Met<F>& met) {
   const int count = group.bodies.of<T>().count;
   const typename T::Free* forms = group.derived.of<T>().free + moment * count;
-  for (int i = 0; i < count; ++i) {
-    if constexpr (T::closed) {
-      meet_closed<T>(forms[i], ray, from, met);
-    } else if constexpr (shape::many_of<T>) {
-      // What is handed to a function lies in memory; the originals need not.
+  if constexpr (has_boxes<T, F>) {
+    const scene::Boxes boxes = group.clusters.of<T>().around(moment);
+    if (boxes.count > 0) {
       const FreeRay<F> ray_copy = ray;
       const Leaving<F> from_copy = from;
       Met<F> copy = met;
-      meet_mesh<T>(forms[i], ray_copy, from_copy, copy);
+      meet_in_boxes<T, F>(forms, boxes, ray_copy, from_copy, copy);
       met = copy;
-    } else {
-      meet_flat<T>(forms[i], ray, from, met);
+      return;
     }
   }
+  for (int i = 0; i < count; ++i) meet_one<T>(forms[i], ray, from, met);
 }
 template <class... T, class F>
 TOFRAY_FN void meet_each(shape::List<T...>, const scene::Group& group, int moment, const FreeRay<F>& ray, const Leaving<F>& from,

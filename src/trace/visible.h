@@ -23,20 +23,20 @@ TOFRAY_FN Mask<F> shaded(const Form& form, Mask<F> hits, Int<F> own) {
   return dark;
 }
 
+/// What one form keeps from a light, and what was in the dark before.
+template <class T, class F>
+TOFRAY_FN Mask<F> blocked_by_one(const typename T::Form& form, const Ray<F>& ray, const Surface<F>& p, Mask<F> dark) {
+  if constexpr (shape::many_of<T>) {
+    return dark | stands_before(form, ray, F(before_surface), p.found & (!dark));
+  } else {
+    Int<F> facet;
+    return dark | shaded<T, F>(form, hit_of<T>(form, ray, facet) > F(1.0f + shadow_margin), p.object);
+  }
+}
 template <class T, class F, class Culled>
 TOFRAY_FN Mask<F> blocked_by(const Culled& culled, const Ray<F>& ray, const Surface<F>& p, Mask<F> dark) {
-  const F limit = F(1.0f + shadow_margin);
-  for (auto i = culled.template walk<T>(); i.more(); i.next()) {
-    const typename T::Form& form = i.form();
-    if constexpr (by_tile<T, F, Culled>) {
-      return dark;
-    } else if constexpr (shape::many_of<T>) {
-      dark = dark | stands_before(form, ray, F(before_surface), p.found & (!dark));
-    } else {
-      Int<F> facet;
-      dark = dark | shaded<T, F>(form, hit_of<T>(form, ray, facet) > limit, p.object);
-    }
-  }
+  if constexpr (by_tile<T, F, Culled>) return dark;
+  for (auto i = culled.template walk<T>(); i.more(); i.next()) dark = blocked_by_one<T>(i.form(), ray, p, dark);
   return dark;
 }
 
@@ -53,18 +53,20 @@ TOFRAY_FN Mask<F> blocked(const Culled& culled, const Ray<F>& ray, const Surface
   return blocked_by_each(shape::Shapes{}, culled, ray, p);
 }
 
+template <class T, class F>
+TOFRAY_FN Mask<F> blocked_along_one(const typename T::Along& form, const float* s, const Surface<F>& p, F margin, Mask<F> dark) {
+  const Mask<F> hits = blocks(form, p, s, margin);
+  if constexpr (shape::many_of<T>) {
+    return dark | hits;
+  } else {
+    return dark | shaded<T, F>(form, hits, p.object);
+  }
+}
 template <class T, class F, class Culled>
 TOFRAY_FN Mask<F> blocked_along(const Culled& culled, const float* s, const Surface<F>& p, Mask<F> dark) {
   if constexpr (by_tile<T, F, Culled>) return dark;
   const F margin = F(shadow_margin) * p.range;
-  for (auto i = culled.template walk<T>(); i.more(); i.next()) {
-    const Mask<F> hits = blocks(i.form(), p, s, margin);
-    if constexpr (shape::many_of<T>) {
-      dark = dark | hits;
-    } else {
-      dark = dark | shaded<T, F>(i.form(), hits, p.object);
-    }
-  }
+  for (auto i = culled.template walk<T>(); i.more(); i.next()) dark = blocked_along_one<T>(i.form(), s, p, margin, dark);
   return dark;
 }
 

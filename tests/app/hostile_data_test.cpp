@@ -33,7 +33,7 @@ TEST(hostile_npz, the_camera_of_meta_has_to_be_that_of_the_arrays) {
     views.push_back({one.name, type, one.array.shape, one.array.bytes});
   }
   write(folder / "small.npz", files::npz_bytes(views));
-  expect_refused(attack(folder, {"inspect", "small.npz", "--pixel", "27,21"}), 2, "got a sensor of 2 x 2 pixels with");
+  expect_refused(attack(folder, {"inspect", "small.npz", "--pixel", "27,21"}), 2, "got an image of 2 x 2 pixels with");
   EXPECT_EQ(attack(folder, {"inspect", "out/frame.npz", "--pixel", "27,21"}).code, 0);
 }
 

@@ -30,6 +30,11 @@ TEST(packed_scene, points_into_its_own_memory) {
   detailed.normals = detailed.vertices;
   const Mesh ball = shared(std::move(detailed));
   scene.materials[0].map = std::make_shared<ReflectivityMap>(ReflectivityMap{1, 2, {0.5F, 1}});
+  const auto vectors = [](std::vector<std::array<float, 3>> values) {
+    return std::make_shared<VectorMap>(VectorMap{1, static_cast<int>(values.size()), std::move(values)});
+  };
+  scene.materials[0].brdf = Material::Brdf::ggx;
+  scene.materials[0].normals = vectors({{0, 0, 1}}), scene.materials[0].finish = vectors({{0, 1, 1}, {0, 1, 1}});
   scene.objects.push_back(object(ball));
   scene.objects.push_back(object(ball));
   scene.objects.push_back(object(shared(single(icosphere(1)))));
@@ -76,8 +81,8 @@ TEST(packed_scene, points_into_its_own_memory) {
     EXPECT_EQ(packed.facets[still.first[i].facet].triangles, still.first[i].shape.triangles);
     EXPECT_EQ(packed.facets[still.first[i].facet].details, still.first[i].shape.details);
   }
-  ASSERT_EQ(packed.map_count, 1);
+  ASSERT_EQ(packed.map_count, 1 + 3 + 5);
   ASSERT_TRUE(device.holds(packed.maps));
-  EXPECT_TRUE(device.holds(packed.maps[0].texels));
+  for (int i = 0; i < packed.map_count; ++i) EXPECT_TRUE(device.holds(packed.maps[i].texels));
   EXPECT_EQ(packed.maps[0].texel_count, 3);
 }

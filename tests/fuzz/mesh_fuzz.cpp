@@ -55,7 +55,7 @@ void look_at(const tofray::TriangleMesh& mesh) {
 }
 
 void check(const tofray::mesh::ReadMesh& read) {
-  const auto& [vertices, triangles, normals, texcoords] = read.mesh;
+  const auto& [vertices, triangles, normals, texcoords, shades] = read.mesh;
   if (triangles.empty()) std::abort();
   for (const auto& vertex : vertices)
     for (const float coordinate : vertex)
@@ -65,6 +65,9 @@ void check(const tofray::mesh::ReadMesh& read) {
       if (index < 0 || static_cast<std::size_t>(index) >= vertices.size()) std::abort();
   if (!normals.empty() && normals.size() != vertices.size()) std::abort();
   if (!texcoords.empty() && texcoords.size() != vertices.size()) std::abort();
+  if (!shades.empty() && shades.size() != vertices.size()) std::abort();
+  for (const float shade : shades)
+    if (!(shade >= 0 && shade <= 1)) std::abort();
   if (!read.material_of.empty() && read.material_of.size() != triangles.size()) std::abort();
   for (const auto& normal : normals) {
     const double square = static_cast<double>(normal[0]) * normal[0] + static_cast<double>(normal[1]) * normal[1] +

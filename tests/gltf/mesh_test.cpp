@@ -130,10 +130,10 @@ TEST(primitive, has_colors_with_an_alpha_of_their_own) {
 TEST(primitive, with_other_attributes_says_that_they_are_left_out) {
   File file = triangle_file();
   file.primitive(0)["attributes"]["_HEAT"] = 0;
-  file.primitive(0)["attributes"]["TANGENT"] = file.floats(std::vector<float>(12, 0), "VEC4");
+  file.primitive(0)["attributes"]["_WEAR"] = file.floats(std::vector<float>(12, 0), "VEC4");
   const Model model = model_of(file);
   EXPECT_TRUE(has_notice(model, "the attribute \"_HEAT\" is left out"));
-  EXPECT_TRUE(has_notice(model, "the attribute \"TANGENT\" is left out"));
+  EXPECT_TRUE(has_notice(model, "the attribute \"_WEAR\" is left out"));
 }
 
 TEST(primitive, with_quantized_positions_needs_its_node_s_scale) {

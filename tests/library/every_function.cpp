@@ -43,6 +43,8 @@ void own_arrays(tofray::Simulator& simulator, const tofray::Camera& camera, cons
   simulator.frame(0, by_length, again);
   expect(simulator.frame(0, by_length).raw.raw == again.raw.raw, "light by path length");
   expect(tofray::pixel_rays(camera).size() == 2 * light.power_w.size(), "pixel_rays");
+  const tofray::ImageSize image = tofray::image_size(camera);
+  expect(image.width == seen.width && image.height == seen.height, "image_size");
 }
 
 tofray::Scene wall() {
@@ -90,6 +92,8 @@ void all() {
   const tofray::FrameRequest requests[] = {{3, {}, {}}};
   simulator.frames(0, 2, take);
   simulator.frames(requests, take);
+  simulator.frame(requests[0], frame);
+  expect(frame.index == 3, "frame of a request");
   expect(taken == 3, "frames");
   expect(tofray::process(frame.raw, camera).z_m.size() == frame.depth.z_m.size(), "process");
   const tofray::RanOn machine = simulator.ran_on();

@@ -155,6 +155,13 @@ TEST(checks, refuse_cameras_that_cannot_be) {
       {{{mode + "sequence", "[{modulation_frequency: 1 MHz, reference_phase: [0, 0, 180 deg, 270 deg]" + phases}}, "not equally spaced"},
       {{{mode + "sequence", "[{lit: false, reference_phase: 0, integration_time: 1 ms}]"}}, "an unlit raw frame has no reference_phase"},
       {{{mode + "sequence", "[{reference_phase: 0, integration_time: 1 ms}]"}}, "a lit raw frame lacks modulation_frequency"},
+      {{{mode + "sequence", "[{lit: false, reference_delay: 0, integration_time: 1 ms}]"}}, "an unlit raw frame has no reference_delay"},
+      {{{mode + "sequence", "[{modulation_frequency: 1 MHz, integration_time: 1 ms}]"}}, "a lit raw frame lacks reference_phase"},
+      {{{mode + "sequence", "[{modulation_frequency: 1 MHz, reference_phase: 90 deg, reference_delay: 1 ns" + phases}},
+       "a raw frame has reference_phase and reference_delay"},
+      {{{mode + "sequence", "[{modulation_frequency: 1 MHz, reference_delay: [0, 250 ns, 500 ns]" + phases}}, "not equally spaced"},
+      {{{mode + "gain", "2"}}, "expected 1, since adc.gains is not given"},
+      {{{mode + "gain", "2"}, {"adc.gains", "[1, 4]"}}, "got 2, expected one of adc.gains: 1, 4"},
       {{{mode + "sequence.1.integration_time", "1 ms"},
         {mode + "sequence",
          "[{modulation_frequency: 1 MHz, reference_phase: [0, 120 deg], integration_time: 1 ms}, {modulation_frequency: 1 MHz, "
@@ -189,6 +196,25 @@ TEST(three_phases, from_any_start_in_any_order_are_good) {
   const Camera camera = with({{"modes.MODE_9_5FPS_2000.sequence",
                                "[{modulation_frequency: 20 MHz, reference_phase: [250 deg, 10 deg, 130 deg], integration_time: 1 ms}]"}});
   EXPECT_EQ(camera.mode.sequence.size(), 3U);
+}
+
+TEST(delays, may_stand_in_the_place_of_phases) {
+  const Camera camera =
+      with({{"modes.MODE_9_5FPS_2000.sequence",
+             "[{modulation_frequency: 20 MHz, reference_delay: [0 ns, 12.5 ns, 25 ns, 37.5 ns], integration_time: 1 ms}, {lit: false, "
+             "integration_time: 1 ms}, {modulation_frequency: 10 MHz, reference_phase: [0, 120 deg, 240 deg], integration_time: 1 ms}]"}});
+  ASSERT_EQ(camera.mode.sequence.size(), 8U);
+  for (std::size_t k = 0; k < 8; ++k) {
+    EXPECT_NEAR(camera.mode.sequence[k].reference_delay_s, k < 4 ? 12.5e-9 * static_cast<double>(k) : 0, 1e-18);
+    EXPECT_NEAR(camera.mode.sequence[k].reference_phase_rad, k > 5 ? static_cast<double>(k - 5) * 2 * base::pi / 3 : 0, 1e-12);
+  }
+}
+
+TEST(gains, are_chosen_by_the_mode) {
+  const Camera camera = with({{"adc.gains", "[1, 4]"}, {"modes.MODE_9_5FPS_2000.gain", "4"}});
+  EXPECT_EQ(camera.mode.gain, 4);
+  EXPECT_EQ(camera.adc.gains, (std::vector<double>{1, 4}));
+  EXPECT_EQ(with({{"adc.gains", "[1, 4]"}}).mode.gain, 1);
 }
 
 TEST(counts, are_refused_before_anything_is_allocated) {

@@ -32,6 +32,8 @@ inline Node sample(const Form& form, std::size_t v, int k = 0, const std::string
   static const std::map<std::string, std::string> fixed = {
       {"sequence",
        "[{lit: true, modulation_frequency: 80.32 MHz, reference_phase: [0 deg, 90 deg, 180 deg, 270 deg], integration_time: 2000 us}]"},
+      {"gain", "4"},
+      {"gains", "[4]"},
       {"nonlinearity", "{charge: [0 e, 50000 e], read: [0 e, 48000 e]}"},
       {"phases",
        "[0 deg, 20 deg, 40 deg, 60 deg, 80 deg, 100 deg, 120 deg, 140 deg, 160 deg, 180 deg, 200 deg, 220 deg, 240 deg, 260 deg, 280 deg, "

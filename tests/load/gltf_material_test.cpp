@@ -3,6 +3,8 @@
 // What a glTF file says of metal, roughness, refraction and vertices' colours, as scenes have it; and what scenes say in its place.
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "gltf/gltf_files.h"
 #include "image/image_files.h"
 #include "load/load.h"
@@ -105,14 +107,96 @@ TEST_F(gltf_material, without_metal_and_roughness_or_unlit_is_matt) {
   EXPECT_EQ(mesh(scene()).notices, Sentences{});
 }
 
-TEST_F(gltf_material, takes_metal_and_roughness_as_the_means_of_their_picture) {
+TEST_F(gltf_material, takes_metal_and_roughness_from_texel_to_texel) {
   // Blue: 255 and 51 of 255, a mean of 0.6; green: 0 and 102, a mean of 0.2. They are no sRGB.
   const Material got = of(pbr({{"baseColorFactor", {0.5, 0.5, 0.5, 1}},
                                {"metallicFactor", 0.5},
                                {"roughnessFactor", 0.75},
                                {"metallicRoughnessTexture", {{"index", 1}}}}));
   expect_ggx(got, 0.7 * 0.5, 0.04 * 0.7 + 0.3 * 0.5, 0.15 * 0.15);
-  EXPECT_EQ(mesh(scene()).notices, Sentences{"metal and roughness of material \"material 0\" are the means of a picture"});
+  ASSERT_NE(got.finish, nullptr);
+  EXPECT_EQ(got.map, nullptr);
+  ASSERT_EQ(got.finish->values.size(), 2U);
+  const auto expect_texel = [&](const VectorMap& map, std::size_t i, double diffuse, double specular, double alpha) {
+    EXPECT_NEAR(static_cast<double>(map.values[i][0]), diffuse, 1e-5);
+    EXPECT_NEAR(static_cast<double>(map.values[i][1]), specular, 1e-5);
+    EXPECT_NEAR(static_cast<double>(map.values[i][2]), alpha, 1e-6);
+  };
+  // m = 0.5 and 0.1, r = 0 (held to the narrowest mirror) and 0.3.
+  expect_texel(*got.finish, 0, 0.5 * 0.5, 0.04 * 0.5 + 0.5 * 0.5, 1e-3);
+  expect_texel(*got.finish, 1, 0.9 * 0.5, 0.04 * 0.9 + 0.1 * 0.5, 0.09);
+  EXPECT_EQ(mesh(scene()).notices, Sentences{});
+  // With a picture of the base colour, of which the texels are white and grey.
+  const Material both = of(pbr({{"baseColorTexture", {{"index", 0}}}, {"metallicRoughnessTexture", {{"index", 1}}}}));
+  EXPECT_EQ(both.map, nullptr);
+  expect_texel(*both.finish, 0, 0, 1, 1e-3);
+  expect_texel(*both.finish, 1, 0.8 * grey_texel, 0.04 * 0.8 + 0.2 * grey_texel, 0.16);
+  // One that lies elsewhere, or on triangles without coordinates, has its mean.
+  const Sentences told{"metal and roughness of material \"material 0\" are the means of a picture"};
+  const Doc shifted = {{"index", 1}, {"extensions", {{"KHR_texture_transform", {{"offset", {0.5, 0}}}}}}};
+  const Material elsewhere = of(pbr({{"baseColorTexture", {{"index", 0}}}, {"metallicRoughnessTexture", shifted}}));
+  EXPECT_EQ(elsewhere.finish, nullptr);
+  EXPECT_NE(elsewhere.map, nullptr);
+  EXPECT_EQ(mesh(scene()).notices, told);
+  File without = sheet(pbr({{"metallicRoughnessTexture", {{"index", 1}}}}));
+  without.primitive(0)["attributes"].erase("TEXCOORD_0");
+  save(without);
+  EXPECT_EQ(scene().materials.at(0).finish, nullptr);
+  EXPECT_EQ(mesh(scene()).notices, told);
+}
+
+// 4096 × 4096 texels, of which 2048 × 2048 are kept.
+TEST_F(gltf_material, reduces_large_pictures_to_means) {
+  // Columns of 0 and 255: red and green 0 and 1, so that the normal's parts across have a mean of 0, and roughness one of a half.
+  std::string rows;
+  for (int y = 0; y < 4096; ++y) {
+    rows += '\0';
+    for (int x = 0; x < 4096; ++x) rows += std::string(x % 2 == 0 ? "\0\0\xFF" : "\xFF\xFF\xFF", 3);
+  }
+  File file = sheet({{"normalTexture", {{"index", 2}}}, {"pbrMetallicRoughness", {{"metallicRoughnessTexture", {{"index", 2}}}}}});
+  file.add("images", {{"bufferView", file.view(image_test::hand_png(4096, 4096, 8, image_test::rgb, rows))}, {"mimeType", "image/png"}});
+  file.add("textures", {{"source", 2}});
+  save(file);
+  const Material got = scene().materials.at(0);
+  for (const auto& map : {got.normals, got.finish}) {
+    ASSERT_NE(map, nullptr);
+    ASSERT_EQ(map->width, 2048);
+    ASSERT_EQ(map->height, 2048);
+  }
+  for (const std::size_t i : {std::size_t{0}, std::size_t{1}, std::size_t{2048 * 2048 - 1}}) {
+    EXPECT_NEAR(static_cast<double>(got.normals->values[i][0]), 0, 1e-6);
+    EXPECT_NEAR(static_cast<double>(got.normals->values[i][2]), 1, 1e-6);
+    EXPECT_NEAR(static_cast<double>(got.finish->values[i][2]), 0.25, 1e-6);
+  }
+}
+
+// Red 255, green 0 and 102 of 255, blue 255 and 51: 2c − 1, times the scale across, blue not below 0.001.
+TEST_F(gltf_material, takes_normals_from_texel_to_texel) {
+  const auto expect_leaning = [](const Material& got, double scale) {
+    ASSERT_NE(got.normals, nullptr);
+    ASSERT_EQ(got.normals->values.size(), 2U);
+    const auto expected = [&](double x, double y, double z) {
+      const double length = std::sqrt(scale * scale * (x * x + y * y) + z * z);
+      return std::array<double, 3>{scale * x / length, scale * y / length, z / length};
+    };
+    const std::array<double, 3> texels[] = {expected(1, -1, 1), expected(-1, -0.2, 0.001)};
+    for (std::size_t i = 0; i < 2; ++i)
+      for (std::size_t k = 0; k < 3; ++k) EXPECT_NEAR(static_cast<double>(got.normals->values[i][k]), texels[i][k], 1e-6) << i << k;
+  };
+  Doc said = {{"name", "Bumps"}, {"normalTexture", {{"index", 1}}}};
+  expect_leaning(of(said), 1);
+  said["normalTexture"]["scale"] = 0.5;
+  expect_leaning(of(said), 0.5);
+  EXPECT_EQ(mesh(scene()).notices, Sentences{});
+  expect_leaning(scene(", materials: {Bumps: skin}").materials.at(0), 0.5);
+  EXPECT_EQ(scene(", materials: {Bumps: skin}").materials.at(0).name, "skin");
+  said["extras"] = {{"nir_reflectivity", 0.7}};
+  expect_leaning(of(said), 0.5);
+  said["pbrMetallicRoughness"] = {{"baseColorTexture", {{"index", 0}, {"extensions", {{"KHR_texture_transform", {{"scale", {2, 2}}}}}}}}};
+  EXPECT_EQ(of(said).normals, nullptr);
+  EXPECT_EQ(mesh(scene()).notices,
+            Sentences{"the picture of normals of material \"Bumps\" is left out: it is grey, or lies elsewhere on the "
+                      "triangles than the first picture"});
 }
 
 TEST_F(gltf_material, of_metal_with_a_picture_reflects_its_mean) {
@@ -140,14 +224,27 @@ TEST_F(gltf_material, takes_refraction_and_its_factor) {
   expect_ggx(with({{"KHR_materials_ior", {{"ior", 3}}}, {"KHR_materials_specular", {{"specularFactor", 0.5}}}}), 0.5, 0.125, 1);
 }
 
-TEST_F(gltf_material, takes_colours_of_vertices_by_area) {
+TEST_F(gltf_material, takes_colours_of_vertices) {
   const double red = 0.2126, green = 0.7152;
   const Doc half = pbr({{"baseColorFactor", {0.5, 0.5, 0.5, 1}}, {"metallicFactor", 0}});
+  const auto expect_shades = [&](const Scene& got) {
+    const std::vector<float>& shades = mesh(got).triangles->shades;
+    ASSERT_EQ(shades.size(), 6U);
+    for (std::size_t i = 0; i < 6; ++i) EXPECT_NEAR(static_cast<double>(shades[i]), i < 3 ? red : green, 1e-6) << i;
+  };
   save(two_coloured(half));
-  EXPECT_NEAR(scene().materials.at(0).diffuse, 0.5 * (0.2 * red + 0.8 * green), 1e-12);
-  EXPECT_EQ(mesh(scene()).notices, Sentences{"colours of vertices vary at material \"material 0\": their mean is used"});
+  EXPECT_NEAR(scene().materials.at(0).diffuse, 0.5, 1e-12);
+  expect_shades(scene());
+  EXPECT_EQ(mesh(scene()).notices, Sentences{});
+  // What the scene says in its place is the same everywhere.
+  EXPECT_TRUE(mesh(scene(", materials: {material 0: skin}")).triangles->shades.empty());
+  EXPECT_TRUE(mesh(scene(", reflectivity: 0.5")).triangles->shades.empty());
+  save(two_coloured(pbr({{"baseColorFactor", {0.5, 0.5, 0.5, 1}}, {"metallicFactor", 1}})));
+  EXPECT_NEAR(scene().materials.at(0).specular, 0.5 * (0.2 * red + 0.8 * green), 1e-12);
+  EXPECT_EQ(mesh(scene()).notices, Sentences{"colours of vertices vary at material \"material 0\": of what is metal their mean is used"});
   save(two_coloured(nullptr));
-  EXPECT_NEAR(scene().materials.at(0).diffuse, 0.2 * red + 0.8 * green, 1e-12);
+  EXPECT_NEAR(scene().materials.at(0).diffuse, 1, 1e-12);
+  expect_shades(scene());
   EXPECT_EQ(mesh(scene()).guessed, 1);
   File one = two_coloured(half);
   one.json["meshes"][0]["primitives"][0]["attributes"]["COLOR_0"] =
@@ -159,6 +256,7 @@ TEST_F(gltf_material, takes_colours_of_vertices_by_area) {
   known["extras"] = {{"nir_reflectivity", 0.6}};
   save(two_coloured(known));
   EXPECT_EQ(scene().materials.at(0).diffuse, 0.6);
+  EXPECT_TRUE(mesh(scene()).triangles->shades.empty());
   EXPECT_EQ(mesh(scene()).notices, Sentences{});
 }
 

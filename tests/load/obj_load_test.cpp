@@ -139,7 +139,7 @@ TEST_F(obj_in_scene, is_one_object_where_that_has_a_material) {
 TEST_F(obj_in_scene, without_material_needs_an_mtllib) {
   EXPECT_TRUE(has(refusal("file: corner.obj"),
                   "scene.yaml:2:11: error: mesh lacks a key\n  expected one of \"reflectivity\" or "
-                  "\"material\"; glTF files, and OBJ files that name an mtllib, have their own; "));
+                  "\"material\"; glTF files, OBJ files that name an mtllib, and vertices with colours have their own; "));
   EXPECT_TRUE(has(refusal("file: corner.obj"), "corner.obj\" names no mtllib"));
   file("in/one.mtl", ""), file("in/one.obj", "mtllib one.mtl\n" + out_test::read_file(folder_.path() / "in/corner.obj"));
   const Scene got = scene("file: one.obj");

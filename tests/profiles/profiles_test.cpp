@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "base/readout.h"
 #include "load/builtin.h"
 #include "support/pixels.h"
 
@@ -29,6 +30,7 @@ double repeats_after(const Mode& mode) {
 
 /// A single pixel on the axis.
 Camera on_the_axis(Camera camera) {
+  camera = base::as_read_out(camera);
   camera.sensor.width = camera.sensor.height = 1;
   camera.lens.cx_px = camera.lens.cy_px = 0;
   return camera;
@@ -36,6 +38,7 @@ Camera on_the_axis(Camera camera) {
 
 /// The same view with an eighth of the pixels along each side, none of which is taken for flying: that would choose among the errors.
 Camera coarse(Camera camera) {
+  camera = base::as_read_out(camera);
   Lens& lens = camera.lens;
   camera.sensor.width /= 8, camera.sensor.height /= 8;
   lens.fx_px /= 8, lens.fy_px /= 8;
@@ -124,8 +127,8 @@ INSTANTIATE_TEST_SUITE_P(all, EveryCamera, testing::ValuesIn(profiles()), [](con
 
 TEST(built_in_cameras, are_these) {
   EXPECT_EQ(profiles(), (std::vector<std::string>{"adtf3175", "azure-kinect-nfov-binned", "azure-kinect-nfov", "azure-kinect-wfov-binned",
-                                                  "azure-kinect-wfov", "custom", "flexx2", "imx556", "kinect-v2", "o3d303", "opt8241",
-                                                  "pico-flexx", "pico-monstar"}));
+                                                  "azure-kinect-wfov", "custom", "flexx2", "imx556", "kinect-v2", "o3d303-binned", "o3d303",
+                                                  "opt8241", "pico-flexx", "pico-monstar"}));
   for (const auto& one : load::builtin_profiles()) {
     EXPECT_EQ(load_camera(one.name).name, one.name);
     EXPECT_GT(one.description.size(), 20U) << one.name;

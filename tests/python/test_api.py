@@ -28,6 +28,7 @@ LEFT_OUT = {
     "load_scene_text": "tofray.scene", "load_camera_text": "tofray.camera",
     "frame_npz": "Frame.save",
     "version": "tofray.__version__",
+    "ImageSize": "the shape of pixel_rays", "image_size": "the shape of pixel_rays",
 }
 
 
@@ -101,7 +102,7 @@ def test_a_simulators_words_are_the_options() -> None:
 
     signature = inspect.signature(tofray.Simulator.__init__)
     mine = {name: one.default for name, one in signature.parameters.items() if name not in ("self", "scene", "camera")}
-    assert mine == {name: value for name, _, value in _native.options()}
+    assert mine == {name: tuple(value) if isinstance(value, list) else value for name, _, value in _native.options()}
 
 
 def test_each_name_of_the_module_is_there() -> None:

@@ -8,6 +8,9 @@ import copy
 import json
 import os
 import pathlib
+import pickle
+import sys
+import types
 from typing import Any, Callable
 
 import numpy as np
@@ -25,6 +28,25 @@ BY_PHASE = ("modulation_frequency_hz", "reference_phase_rad", "integration_time_
 def test_a_picture_that_lacks_an_array_names_it() -> None:
     with pytest.raises(tofray.Error, match=r"depth.amplitude_e, depth.flags, depth.noise_m"):
         tofray.Frame(depth=tofray.Depth(z_m=FRAME.depth.z_m)).preview()
+
+
+def test_open3d_gets_the_valid_points(monkeypatch: pytest.MonkeyPatch) -> None:
+    # A stand-in that says what it got: Open3D itself is large, and not among what tests install.
+    def kept(points: Any) -> int:
+        got.append(points)
+        return len(got)
+
+    got: list[Any] = []
+    modules: Any = sys.modules
+    stand_in = types.SimpleNamespace(geometry=types.SimpleNamespace(PointCloud=types.SimpleNamespace),
+                                     utility=types.SimpleNamespace(Vector3dVector=kept))
+    monkeypatch.setitem(modules, "open3d", stand_in)
+    assert FRAME.to_open3d().points == 1
+    valid = (FRAME.depth.flags & tofray.flags["invalid"]) == 0
+    assert got[0].dtype == np.float64 and np.array_equal(got[0], FRAME.depth.points_m[valid]) and 0 < len(got[0]) < H * W
+    monkeypatch.setitem(modules, "open3d", None)
+    with pytest.raises(ImportError, match="needs the package open3d"):
+        FRAME.to_open3d()
 
 
 @pytest.mark.parametrize("part", ["raw", "depth"])
@@ -215,3 +237,19 @@ def test_records_with_numpys_values_are_compared_and_shown() -> None:
         assert plain != tofray.Sphere(center=center, radius=0.5)  # type: ignore[arg-type]
     scene, again = (tofray.Scene(objects=[tofray.Object(shape=shape)]) for shape in (plain, other))
     assert scene == again and "array" in repr(again)
+
+
+def test_frames_of_chosen_arrays_have_the_bytes_of_whole_ones_and_nothing_else(tmp_path: pathlib.Path) -> None:
+    scene = tofray.load_scene("card")
+    whole, simulator = tofray.Simulator(scene, seed=2).frame(1), tofray.Simulator(scene, seed=2, arrays=("raw", "gt_z_m"))
+    for chosen in (simulator.frame(1), pickle.loads(pickle.dumps(simulator)).frame(1), next(simulator.frames(1, 1))):
+        assert chosen.raw.raw.tobytes() == whole.raw.raw.tobytes() and chosen.truth.z_m.tobytes() == whole.truth.z_m.tobytes()
+        assert (chosen.depth.names, chosen.truth.names) == ((), ("z_m",)) and "tap_a" not in chosen.raw.names
+    with pytest.raises(AttributeError, match="no depth.z_m .*it was not asked for"):
+        chosen.depth.z_m
+    assert {pathlib.Path(file).name for file in chosen.save(tmp_path)} == {"frame.npz", "raw.png"}
+    assert set(tofray.load(tmp_path / "frame.npz").to_dict()) == set(chosen.to_dict())
+    wrong: Any
+    for wrong, said in (("raw", "a list of str"), (["raws"], "did you mean \"raw\""), ([3], r"arrays\[0\]"), (["raw", ""], r"arrays\[1\]")):
+        with pytest.raises(tofray.Error, match=said):
+            tofray.Simulator(scene, arrays=wrong)

@@ -391,6 +391,22 @@ def test_pictures_points_and_plots() -> None:
         assert len(figure.axes) > 0
 
 
+def test_a_wrong_pixel_does_not_set_the_scale_of_a_plot_and_no_valid_one_is_none_either() -> None:
+    pytest.importorskip("matplotlib")
+    frame = tofray.demo()
+    v, u = np.argwhere(np.isfinite(frame.depth.z_m))[0]
+    frame.depth.z_m[v, u] = frame.depth.points_m[v, u, 2] = 500
+    low, high = frame.plot("z").axes[0].images[0].get_clim()
+    assert np.nanmin(frame.depth.z_m) <= low < high < 2
+    figure = frame.plot("cloud")
+    figure.canvas.draw()
+    assert figure.axes[0].get_ylim()[1] < 2, "z is the axis into the picture"
+    frame.depth.z_m[...] = np.nan
+    frame.depth.flags[...] = tofray.flags["no_return"]
+    for what in ("z", "error", "cloud"):
+        frame.plot(what).canvas.draw()
+
+
 def test_no_private_name_is_offered() -> None:
     frame = tofray.demo()
     offered = [*dir(tofray), *dir(frame), *dir(frame.depth), *dir(tofray.Simulator(tofray.scene(BALL)))]

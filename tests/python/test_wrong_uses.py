@@ -164,6 +164,9 @@ USES: dict[str, Callable[[], object]] = {
     "fewer normals": lambda: tofray.TriangleMesh(np.zeros((3, 3), np.float32), np.zeros((1, 3), np.int32), np.zeros((2, 3), np.float32)),
     "texcoords of three": lambda: tofray.TriangleMesh(
         np.zeros((3, 3), np.float32), np.zeros((1, 3), np.int32), None, np.zeros((3, 3), np.float32)),
+    "shades in rows": lambda: tofray.TriangleMesh(
+        np.zeros((3, 3), np.float32), np.zeros((1, 3), np.int32), None, None, np.zeros((3, 1), np.float32)),
+    "vectors of two": lambda: tofray.VectorMap(np.zeros((2, 2, 2), np.float32)),
     "a map of a line": lambda: tofray.ReflectivityMap(np.zeros(3, np.float32)),
     "a map that wraps otherwise": lambda: tofray.ReflectivityMap(np.zeros((2, 2), np.float32), "around"),
     "a motion of no function": lambda: tofray.MeshMotion(5),  # type: ignore[arg-type]

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "backend/cpu/cpu.h"
+#include "support/own_arrays.h"
 #include "support/pixels.h"
 #include "support/same_frame.h"
 #include "support/statistics.h"
@@ -37,10 +38,6 @@ PixelLight uneven_light() {
     out.ambient_e_per_s.push_back(static_cast<float>(1e5 * (1.1 + std::cos(2.3 * x))));
   }
   return out;
-}
-
-Frame frame_of(const Camera& camera, const PixelLight& light, Noise noise = Noise::off, Isa isa = Isa::best) {
-  return Simulator({}, camera, {.seed = 3, .noise = noise, .threads = 1, .isa = isa}).frame(0, light);
 }
 
 std::size_t place(int x, int y) { return static_cast<std::size_t>(y * shared_width + x); }
@@ -76,9 +73,9 @@ void expect_shared(const Frame& seen, const Frame& whole, double left_right, dou
 }  // namespace
 
 TEST(crosstalk, mixes_each_tap_with_those_of_the_neighbours) {
-  const Frame whole = frame_of(sharing(0, 0), uneven_light());
+  const Frame whole = frame_of_light(sharing(0, 0), uneven_light());
   for (const auto& [left_right, up_down] : {std::pair{0.03, 0.1}, std::pair{0.02, 0.0}, std::pair{0.0, 0.05}, std::pair{0.25, 0.25}})
-    expect_shared(frame_of(sharing(left_right, up_down), uneven_light()), whole, left_right, up_down, 0);
+    expect_shared(frame_of_light(sharing(left_right, up_down), uneven_light()), whole, left_right, up_down, 0);
 }
 
 // What the lens scatters comes first. At the rim it may come back over the edge, which the frame to compare with has cut off.
@@ -88,7 +85,7 @@ TEST(crosstalk, acts_on_what_the_lens_scatters) {
   for (const Scatter& scatter : {Scatter{Scatter::Kind::gaussians, 0.3, {0.7, 9}, {3, 1}}, kernel}) {
     Camera scattering = sharing(0, 0), both = sharing(0.04, 0.02);
     scattering.lens.scatter = both.lens.scatter = scatter;
-    expect_shared(frame_of(both, uneven_light()), frame_of(scattering, uneven_light()), 0.04, 0.02, 1);
+    expect_shared(frame_of_light(both, uneven_light()), frame_of_light(scattering, uneven_light()), 0.04, 0.02, 1);
   }
 }
 
@@ -102,7 +99,7 @@ TEST(crosstalk, leaves_of_stripes_what_the_closed_form_says) {
         light.power_w[i] = static_cast<float>(1e-12 * (1 + 0.8 * std::cos(two_pi * x / period)));
         light.path_length_m[i] = 2, light.ambient_e_per_s[i] = 0;
       }
-      const Frame flat = frame_of(sharing(0, 0), light), frame = frame_of(sharing(share, 0), light);
+      const Frame flat = frame_of_light(sharing(0, 0), light), frame = frame_of_light(sharing(share, 0), light);
       const double mtf = 1 - 4 * share * std::pow(std::sin(pi / period), 2);
       const auto row = static_cast<std::size_t>(shared_height / 2 * shared_width);
       const double peak = static_cast<double>(flat.truth.signal_e[row]) / 1.8;
@@ -120,7 +117,7 @@ TEST(crosstalk, leaves_the_noise_of_each_pixel_its_own) {
   PixelLight light = uneven_light();
   light.power_w.assign(shared_pixels, 1e-12f), light.path_length_m.assign(shared_pixels, 2.0f), light.ambient_e_per_s.clear();
   const Camera camera = sharing(0.2, 0.2);
-  const Frame noisy = frame_of(camera, light, Noise::exact), mean = frame_of(camera, light);
+  const Frame noisy = frame_of_light(camera, light, Noise::exact), mean = frame_of_light(camera, light);
   Moments spread;
   Correlation along(0, 0), across(0, 0), corner(0, 0);
   for (std::size_t k = 0; k < 4; ++k) {
@@ -148,7 +145,7 @@ TEST(crosstalk, of_an_even_wall_is_no_error_whatever_the_delays) {
   camera.pixel.delay_s = 50e-12;
   PixelLight light = uneven_light();
   light.power_w.assign(shared_pixels, 1e-12f), light.path_length_m.assign(shared_pixels, 2.4f);
-  const Frame frame = frame_of(camera, light);
+  const Frame frame = frame_of_light(camera, light);
   for (int y = 1; y < shared_height - 1; ++y)
     for (int x = 1; x < shared_width - 1; ++x) ASSERT_NEAR(static_cast<double>(frame.depth.range_m[place(x, y)]), 1.2, 3e-6);
 }
@@ -158,10 +155,10 @@ TEST(crosstalk, is_off_unless_given_and_the_same_with_every_instruction_set) {
   EXPECT_EQ(Pixel().crosstalk_up_down, 0);
   Camera camera = sharing(0.02, 0.01);
   camera.interference = {0.1, 30, 1, {}};
-  const Frame scalar = frame_of(camera, uneven_light(), Noise::exact, Isa::scalar);
+  const Frame scalar = frame_of_light(camera, uneven_light(), Noise::exact, Isa::scalar);
   for (const Isa isa : {Isa::scalar_fma, Isa::avx2, Isa::avx512}) {
     if (!backend::can_run(isa)) continue;
-    EXPECT_EQ(first_difference(frame_of(camera, uneven_light(), Noise::exact, isa), scalar), "");
+    EXPECT_EQ(first_difference(frame_of_light(camera, uneven_light(), Noise::exact, isa), scalar), "");
   }
   for (const double beyond : {-0.01, 0.26}) EXPECT_THROW(Simulator({}, sharing(beyond, 0)), Error);
 }

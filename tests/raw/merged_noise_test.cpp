@@ -31,7 +31,7 @@ class MergedNoise : public testing::TestWithParam<TapCharge> {};
 
 constexpr int tries = 1'000'000;
 
-/// Mean, variance, skew and every one of 200 cells, both taps. |z| < 5.5 each: a false alarm in 26 million.
+/// Mean, variance, skew and every one of 200 cells, both taps. |z| < 5 each: a false alarm in 1.7 million.
 template <class Draw>
 void expect_law(double mean, double read, const Draw& draw) {
   const NoiseLaw law(mean, read);
@@ -53,15 +53,15 @@ void expect_law(double mean, double read, const Draw& draw) {
     ++seen_b[static_cast<std::size_t>(std::lower_bound(edges.begin(), edges.end(), tap_b) - edges.begin())];
     a.add(tap_a), b.add(tap_b), taps.add(tap_a, tap_b);
   }
-  EXPECT_LT(std::abs(chi_square_z(seen_a, expected)), 5.5);
-  EXPECT_LT(std::abs(chi_square_z(seen_b, expected)), 5.5);
-  EXPECT_LT(std::abs(taps.z()), 5.5);
+  EXPECT_LT(std::abs(chi_square_z(seen_a, expected)), 5);
+  EXPECT_LT(std::abs(chi_square_z(seen_b, expected)), 5);
+  EXPECT_LT(std::abs(taps.z()), 5);
   // fourth central moment: λ + 3V²
   const double of_variance = std::sqrt((mean + 2 * variance * variance) / tries);
   for (const Moments* tap : {&a, &b}) {
-    EXPECT_LT(std::abs(tap->mean() - mean) / std::sqrt(variance / tries), 5.5);
-    EXPECT_LT(std::abs(tap->variance() - variance) / of_variance, 5.5);
-    EXPECT_NEAR(tap->skewness(), mean / std::pow(variance, 1.5), 5.5 * std::sqrt(6.0 / tries));
+    EXPECT_LT(std::abs(tap->mean() - mean) / std::sqrt(variance / tries), 5);
+    EXPECT_LT(std::abs(tap->variance() - variance) / of_variance, 5);
+    EXPECT_NEAR(tap->skewness(), mean / std::pow(variance, 1.5), 5 * std::sqrt(6.0 / tries));
   }
 }
 

@@ -115,36 +115,36 @@ TEST(amplitude, of_a_noisy_phasor_is_longer_by_rice_s_share) {
   EXPECT_LT(std::abs(longer - expected * expected / 2), 5 * error);
 }
 
-// 2e5 pairs, |r|·√n < 5.5: false alarm 4e-8 each. Pairs that differ in one thing only, on both sides of the switch.
+// 2e5 pairs, |r|·√n < 5: false alarm 6e-7 each. Pairs that differ in one thing only, on both sides of the switch.
 TEST(draws, are_independent_of_each_other) {
   for (const double mean : {8.0, 1000.0}) {
     const auto base = shot(mean, {});
-    EXPECT_LT(std::abs(correlation(base, shot(mean, {.tap = 1}))), 5.5) << "taps";
-    EXPECT_LT(std::abs(correlation(base, shot(mean, {.k = 1}))), 5.5) << "raw frames";
-    EXPECT_LT(std::abs(correlation(shot(mean, {.k = 2}), shot(mean, {.tap = 1, .k = 3}))), 5.5) << "tap and raw frame";
-    EXPECT_LT(std::abs(correlation(base, shot(mean, {.shift = 1}))), 5.5) << "neighbours";
-    EXPECT_LT(std::abs(correlation(base, shot(mean, {.shift = 224}))), 5.5) << "rows";
-    EXPECT_LT(std::abs(correlation(base, shot(mean, {.frame = 1}))), 5.5) << "frames";
-    EXPECT_LT(std::abs(correlation(base, shot(mean, {.frame = 1ull << 32}))), 5.5) << "frames 2^32 apart";
-    EXPECT_LT(std::abs(correlation(base, shot(mean, {.seed = 2}))), 5.5) << "seeds";
-    EXPECT_LT(std::abs(correlation(base, shot(mean, {.seed = 1 + (1ull << 32)}))), 5.5) << "seeds 2^32 apart";
+    EXPECT_LT(std::abs(correlation(base, shot(mean, {.tap = 1}))), 5) << "taps";
+    EXPECT_LT(std::abs(correlation(base, shot(mean, {.k = 1}))), 5) << "raw frames";
+    EXPECT_LT(std::abs(correlation(shot(mean, {.k = 2}), shot(mean, {.tap = 1, .k = 3}))), 5) << "tap and raw frame";
+    EXPECT_LT(std::abs(correlation(base, shot(mean, {.shift = 1}))), 5) << "neighbours";
+    EXPECT_LT(std::abs(correlation(base, shot(mean, {.shift = 224}))), 5) << "rows";
+    EXPECT_LT(std::abs(correlation(base, shot(mean, {.frame = 1}))), 5) << "frames";
+    EXPECT_LT(std::abs(correlation(base, shot(mean, {.frame = 1ull << 32}))), 5) << "frames 2^32 apart";
+    EXPECT_LT(std::abs(correlation(base, shot(mean, {.seed = 2}))), 5) << "seeds";
+    EXPECT_LT(std::abs(correlation(base, shot(mean, {.seed = 1 + (1ull << 32)}))), 5) << "seeds 2^32 apart";
   }
-  EXPECT_LT(std::abs(correlation(shot(8, {}), shot(1000, {}))), 5.5) << "inversion and expansion";
+  EXPECT_LT(std::abs(correlation(shot(8, {}), shot(1000, {}))), 5) << "inversion and expansion";
 }
 
 TEST(draws, of_merged_noise_are_independent_of_each_other) {
   constexpr auto merged = camera::Noise::merged;
   const auto base = shot(1000, {}, merged);
-  EXPECT_LT(std::abs(correlation(base, shot(1000, {.tap = 1}, merged))), 5.5) << "taps";
-  EXPECT_LT(std::abs(correlation(base, shot(1000, {.k = 1}, merged))), 5.5) << "raw frames of one block";
-  EXPECT_LT(std::abs(correlation(shot(1000, {.k = 1}, merged), shot(1000, {.k = 2}, merged))), 5.5) << "raw frames of two blocks";
-  EXPECT_LT(std::abs(correlation(base, shot(1000, {.tap = 1, .k = 1}, merged))), 5.5);
-  EXPECT_LT(std::abs(correlation(base, shot(1000, {.shift = 1}, merged))), 5.5) << "neighbours";
-  EXPECT_LT(std::abs(correlation(base, shot(1000, {.shift = 224}, merged))), 5.5) << "rows";
-  EXPECT_LT(std::abs(correlation(base, shot(1000, {.frame = 1}, merged))), 5.5) << "frames";
-  EXPECT_LT(std::abs(correlation(base, shot(1000, {.frame = 1ull << 32}, merged))), 5.5) << "frames 2^32 apart";
-  EXPECT_LT(std::abs(correlation(base, shot(1000, {.seed = 2}, merged))), 5.5) << "seeds";
-  EXPECT_LT(std::abs(correlation(base, shot(1000, {.seed = 1 + (1ull << 32)}, merged))), 5.5) << "seeds 2^32 apart";
+  EXPECT_LT(std::abs(correlation(base, shot(1000, {.tap = 1}, merged))), 5) << "taps";
+  EXPECT_LT(std::abs(correlation(base, shot(1000, {.k = 1}, merged))), 5) << "raw frames of one block";
+  EXPECT_LT(std::abs(correlation(shot(1000, {.k = 1}, merged), shot(1000, {.k = 2}, merged))), 5) << "raw frames of two blocks";
+  EXPECT_LT(std::abs(correlation(base, shot(1000, {.tap = 1, .k = 1}, merged))), 5);
+  EXPECT_LT(std::abs(correlation(base, shot(1000, {.shift = 1}, merged))), 5) << "neighbours";
+  EXPECT_LT(std::abs(correlation(base, shot(1000, {.shift = 224}, merged))), 5) << "rows";
+  EXPECT_LT(std::abs(correlation(base, shot(1000, {.frame = 1}, merged))), 5) << "frames";
+  EXPECT_LT(std::abs(correlation(base, shot(1000, {.frame = 1ull << 32}, merged))), 5) << "frames 2^32 apart";
+  EXPECT_LT(std::abs(correlation(base, shot(1000, {.seed = 2}, merged))), 5) << "seeds";
+  EXPECT_LT(std::abs(correlation(base, shot(1000, {.seed = 1 + (1ull << 32)}, merged))), 5) << "seeds 2^32 apart";
 }
 
 // Whole sequences, as frames take them: no raw frame's A or B is like another's, with shot and read noise apart and merged.
@@ -166,7 +166,7 @@ TEST(draws, of_a_whole_sequence_are_independent_of_each_other) {
     }
     for (std::size_t x = 0; x < taps; ++x) {
       for (std::size_t y = 0; y < x; ++y)
-        EXPECT_LT(std::abs(pairs[x * taps + y].z()), 6) << "read noise " << read << ": " << x << " and " << y;
+        EXPECT_LT(std::abs(pairs[x * taps + y].z()), 5) << "read noise " << read << ": " << x << " and " << y;
     }
   }
 }
@@ -186,11 +186,11 @@ TEST(draws, of_read_noise_are_independent_of_shot_noise) {
     between_taps.add(read_a, read_b);
     size.add(read_a), size.add(read_b);
   }
-  EXPECT_LT(std::abs(with_shot.z()), 5.5);
-  EXPECT_LT(std::abs(with_other_shot.z()), 5.5);
-  EXPECT_LT(std::abs(between_taps.z()), 5.5);
-  EXPECT_NEAR(size.deviation(), 16, 5.5 * 16 / std::sqrt(4.0 * samples));
-  EXPECT_LT(std::abs(size.mean()), 5.5 * 16 / std::sqrt(2.0 * samples));
+  EXPECT_LT(std::abs(with_shot.z()), 5);
+  EXPECT_LT(std::abs(with_other_shot.z()), 5);
+  EXPECT_LT(std::abs(between_taps.z()), 5);
+  EXPECT_NEAR(size.deviation(), 16, 5 * 16 / std::sqrt(4.0 * samples));
+  EXPECT_LT(std::abs(size.mean()), 5 * 16 / std::sqrt(2.0 * samples));
 }
 
 // What suppression draws is not what shot and read noise drew for the same pixel, raw frame and frame: neither the value nor its size.
@@ -215,11 +215,11 @@ TEST(draws, of_suppression_are_independent_of_shot_and_read_noise) {
       }
     }
   }
-  for (std::size_t i = 0; i < pairs.size(); ++i) EXPECT_LT(std::abs(pairs[i].z()), 5.5) << (i < 12 ? "values " : "squares ") << i % 12;
+  for (std::size_t i = 0; i < pairs.size(); ++i) EXPECT_LT(std::abs(pairs[i].z()), 5) << (i < 12 ? "values " : "squares ") << i % 12;
 }
 
 // Merged noise's ninth raw frame lives on the bits that eight before it left over: its radius and angle are as evenly spread as theirs, and
-// the sizes of its normals know nothing of those whose words the bits came from. χ² over 64 cells and |r|·√n < 5.5: false alarm 4e-8 each.
+// the sizes of its normals know nothing of those whose words the bits came from. χ² over 64 cells and |r|·√n < 5: false alarm 6e-7 each.
 TEST(draws, of_merged_noise_from_spare_bits_are_as_good_as_any) {
   constexpr double mean = 1e6;
   constexpr int cells = 64;
@@ -247,9 +247,9 @@ TEST(draws, of_merged_noise_from_spare_bits_are_as_good_as_any) {
     return std::vector<double>(counts.begin() + k * cells, counts.begin() + (k + 1) * cells);
   };
   for (std::ptrdiff_t k = 0; k < 9; ++k) {
-    EXPECT_LT(std::abs(chi_square_z(of_frame(radius, k), even)), 5.5) << "radius, raw frame " << k;
-    EXPECT_LT(std::abs(chi_square_z(of_frame(angle, k), even)), 5.5) << "angle, raw frame " << k;
+    EXPECT_LT(std::abs(chi_square_z(of_frame(radius, k), even)), 5) << "radius, raw frame " << k;
+    EXPECT_LT(std::abs(chi_square_z(of_frame(angle, k), even)), 5) << "angle, raw frame " << k;
   }
-  for (std::size_t k = 0; k < 8; ++k) EXPECT_LT(std::abs(sizes[k].z()), 5.5) << "sizes, raw frame " << k;
-  for (std::size_t i = 0; i < values.size(); ++i) EXPECT_LT(std::abs(values[i].z()), 5.5) << "values, raw frame " << i / 4;
+  for (std::size_t k = 0; k < 8; ++k) EXPECT_LT(std::abs(sizes[k].z()), 5) << "sizes, raw frame " << k;
+  for (std::size_t i = 0; i < values.size(); ++i) EXPECT_LT(std::abs(values[i].z()), 5) << "values, raw frame " << i / 4;
 }

@@ -35,7 +35,7 @@ Agreement compare(const std::string& name, Waveform::Kind kind) {
   for (Object& object : scene.objects) object.velocity_m_per_s = {0, 0, 0};  // one place in all raw frames
   Camera camera = load_camera(scene);
   for (Illumination& light : camera.illumination) light.waveform.kind = kind;
-  camera.lens.scatter = {};  // each pixel its own light alone
+  camera.lens.scatter = {}, camera.decoding.filter = {};  // each pixel its own light alone, and its own range
   const Frame frame = Simulator(scene, camera, {.noise = Noise::off}).frame(0);
   Agreement out;
   for (int y = 0; y < frame.truth.height; ++y) {

@@ -109,7 +109,7 @@ void expect_sane(const Depth& depth) {
   std::vector<bool> valid, returned;
   for (const std::uint16_t flags : depth.flags) {
     valid.push_back((flags & flags_invalid) == 0), returned.push_back((flags & flag_no_return) == 0);
-    EXPECT_LT(flags, 256);
+    EXPECT_LT(flags, 512);
   }
   expect_flagged(depth.z_m, valid, 1, "z"), expect_flagged(depth.range_m, valid, 1, "range"),
       expect_flagged(depth.points_m, valid, 3, "points");
@@ -179,6 +179,7 @@ TEST(largest_numbers, give_flags_or_finite_numbers) {
   camera.pixel.column_noise_e = camera.pixel.row_noise_e = 1e6, camera.pixel.phase_offset_rad = 6.28;
   camera.pixel.tap_gain_mismatch = 1, camera.pixel.tap_offset_mismatch_e = 1e6;
   camera.interference = {100, -1e9, 1, -100};
+  camera.pixel.reset_noise_e = 1e6, camera.pixel.blooming_share = 0.25, camera.spread_spectrum = {0.5, SpreadSpectrum::Kind::down};
   camera.filter = {850e-9, 10e-6, 1, {}};
   camera.mode.frame_rate_hz = 1e-4;
   Scene scene = wall(1);
@@ -265,5 +266,7 @@ TEST(any_pose, of_a_request_is_refused_where_it_is_none) {
     EXPECT_EQ(taken, 0);
     DeviceFrames frames;
     EXPECT_THROW(simulator.frames_on_device(requests, frames), Error);
+    Frame into;
+    EXPECT_THROW(simulator.frame(requests[1], into), Error);
   }
 }

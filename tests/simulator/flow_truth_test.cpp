@@ -134,7 +134,7 @@ TEST(flow, is_that_of_the_lens_model_in_double) {
       const Scene scene = moving_scene(random);
       const Camera camera = camera_with(distortion, trial % 2 == 0 ? 100 : 700);
       const Truth seen = truth_of(scene, camera, static_cast<std::uint64_t>(trial % 3));
-      for (std::size_t i = 0; i < seen.object_id.size(); ++i) {
+      for (std::size_t i = 0; i < seen.object_id.size(); i += 3) {
         const Point2 got = flow_at(seen, i);
         if (seen.object_id[i] < 0) {
           ASSERT_TRUE(is_none(got)) << i;
@@ -163,10 +163,10 @@ TEST(flow, is_that_of_the_lens_model_in_double) {
       }
     }
   }
-  EXPECT_GT(moving, 200000);
-  EXPECT_GT(within, 150000);
-  EXPECT_GT(large, 50000);
-  EXPECT_GT(lost, 1000);
+  EXPECT_GT(moving, 65000);
+  EXPECT_GT(within, 50000);
+  EXPECT_GT(large, 16000);
+  EXPECT_GT(lost, 300);
 }
 
 // Half a frame's motion of a micrometre: the numbers are as good as those of large flows.

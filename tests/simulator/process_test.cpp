@@ -45,7 +45,8 @@ TEST_P(Process, of_a_frame_s_raw_data_is_the_frame_s_depth) {
 // Without noise depth comes from the difference that is expected, which the taps hold to within the last place of a float.
 TEST_P(Process, of_silent_taps_is_the_frame_s_depth_within_their_last_place) {
   const Scene scene = load_scene(GetParam());
-  const Camera camera = load_camera(scene);
+  Camera camera = load_camera(scene);
+  camera.decoding.filter = {};  // whom it averages with hangs on last places, too
   const SimulatorOptions silent{.noise = Noise::off};
   Frame frame = Simulator(scene, camera, silent).frame(2);
   frame.raw.raw.clear();

@@ -227,6 +227,11 @@ TEST(subpixel, light_that_is_kept_is_that_of_the_frame) {
       ++next;
     });
     EXPECT_EQ(next, 8u);
+    Frame into;
+    for (const FrameRequest& request : requests) {
+      simulator.frame(request, into);
+      EXPECT_EQ(first_difference(arrays_only(into), alone(scene, camera, options, request)), "") << "request of frame " << request.index;
+    }
   }
 }
 

@@ -3,6 +3,9 @@
 #pragma once
 #include <gtest/gtest.h>
 
+#include <cstdint>
+#include <vector>
+
 #include "flow/frame_view.h"
 #include "support/same_frame.h"
 #include "support/whole_pixel.h"
@@ -25,10 +28,11 @@ inline SimulatorOptions on(Backend backend, SimulatorOptions options = {}) {
 }
 
 /// The first frames and a late one have the same bytes on both backends.
-inline void expect_same(const Scene& scene, const Camera& camera, const SimulatorOptions& options) {
+inline void expect_same(const Scene& scene, const Camera& camera, const SimulatorOptions& options,
+                        const std::vector<std::uint64_t>& indices = {0, 1, 5, (3ull << 32) + 1}) {
   Simulator cpu(scene, camera, on(Backend::cpu, options)), cuda(scene, camera, on(Backend::cuda, options));
   ASSERT_EQ(cuda.ran_on().backend, "cuda");
-  for (const std::uint64_t index : {0ull, 1ull, 5ull, (3ull << 32) + 1}) {
+  for (const std::uint64_t index : indices) {
     EXPECT_EQ(first_difference(cpu.frame(index), cuda.frame(index)), "") << scene.name << ", frame " << index;
   }
 }

@@ -11,6 +11,11 @@
 /// What a user who brings arrays of his own would have, taken from a frame's truth.
 namespace tofray::test {
 
+/// The frame that this light makes in a camera, by one thread.
+inline Frame frame_of_light(const Camera& camera, const PixelLight& light, Noise noise = Noise::off, Isa isa = Isa::best) {
+  return Simulator({}, camera, {.seed = 3, .noise = noise, .threads = 1, .isa = isa}).frame(0, light);
+}
+
 /// What a frame of one light saw, at the time of its truth. A pixel that got no light is one in the shadow.
 inline Geometry geometry_of(const Scene& scene, const Camera& camera, const Frame& frame) {
   const Truth& truth = frame.truth;

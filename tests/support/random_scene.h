@@ -38,12 +38,13 @@ inline TriangleMesh garbage(Random& random, int count) {
   return out;
 }
 
-/// Normals that are not the triangles', and texture coordinates.
+/// Normals that are not the triangles', texture coordinates, and shades.
 inline void add_details(Random& random, TriangleMesh& mesh) {
   for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
     const Vec3 n = random.direction();
     mesh.normals.push_back({static_cast<float>(n[0]), static_cast<float>(n[1]), static_cast<float>(n[2])});
     mesh.texcoords.push_back({static_cast<float>(random.between(-2, 3)), static_cast<float>(random.between(-2, 3))});
+    mesh.shades.push_back(static_cast<float>(i % 7) / 6);
   }
 }
 
@@ -53,6 +54,21 @@ inline std::shared_ptr<const ReflectivityMap> random_map(Random& random) {
   map->wrap_u = static_cast<ReflectivityMap::Wrap>(random.below(3)), map->wrap_v = static_cast<ReflectivityMap::Wrap>(random.below(3));
   for (int i = 0; i < map->width * map->height; ++i) map->values.push_back(static_cast<float>(random.uniform()));
   return map;
+}
+
+/// Pictures of normals, and of metal and roughness; by a chance of their own.
+inline void add_vector_maps(Material& leaning, Material& metal) {
+  Random random(99);
+  const auto map = [&](int width, int height, const auto& value) {
+    auto out = std::make_shared<VectorMap>();
+    out->width = width, out->height = height;
+    for (int i = 0; i < width * height; ++i) out->values.push_back(value());
+    return out;
+  };
+  const auto number = [&](double low, double high) { return static_cast<float>(random.between(low, high)); };
+  leaning.normals = map(7, 5, [&] { return std::array{number(-0.6, 0.6), number(-0.6, 0.6), 0.7F}; });
+  metal.normals = leaning.normals;
+  metal.finish = map(6, 9, [&] { return std::array{number(0, 1), number(0, 1), number(0.1, 1)}; });
 }
 
 /// Some of everything before a slanted wall; half of it turned, and moving if asked for.
@@ -65,6 +81,7 @@ inline Scene random_scene(Random& random, int objects, bool moving) {
                      {"sheet", Material::Brdf::retro, 0.1}};
   for (Material& one : scene.materials) one.map = random_map(random);
   scene.materials[3].alpha = 0.2;
+  add_vector_maps(scene.materials[1], scene.materials[3]);
   scene.materials[4].retro = 0.3, scene.materials[4].spread_rad = 0.03;
   const double back = random.between(3, 6);
   const Vec3 slant = random.point(0.4);

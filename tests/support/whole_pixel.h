@@ -16,6 +16,9 @@ inline void turn_on_every_effect(Camera& camera) {
   pixel.suppression_threshold_e = 2000, pixel.suppression_budget_e = 20000;
   camera.lens.k4 = 0.05, camera.lens.k5 = -0.01, camera.lens.k6 = 0.002;
   camera.decoding.amplitude_threshold_e = 5, camera.decoding.asymmetry_reject = camera.decoding.multipath_reject = true;
+  pixel.reset_noise_e = 25, pixel.blooming_share = 0.1, pixel.blooming_limit_e = 50;
+  camera.adc.gains = {1, 1.25}, camera.mode.gain = 1.25;
+  camera.spread_spectrum = {0.01, SpreadSpectrum::Kind::down};
   camera.interference = {0.1, 40, 0.8, {}};
   camera.temperature.drift_m_per_kelvin = 1e-4, camera.temperature.celsius = 41;
 }

@@ -45,10 +45,52 @@ void search(const Form& form, TileRays& rays) {
   }
 }
 
+/// By every triangle.
+template <class F>
+void look_at_all(const shape::MeshForm& form, int blocks, TileRays& rays) {
+  constexpr int n = num::lanes<F>;
+  for (int first = 0; first < TileRays::count; first += n) {
+    const auto some = [&](const float* from) {
+      if constexpr (n == 1) {
+        return F(from[first]);
+      } else {
+        return shape::load_all<F>(from + first);
+      }
+    };
+    const F given[3] = {some(rays.given[0]), some(rays.given[1]), some(rays.given[2])};
+    const shape::MeshRay<F> ray = shape::in_mesh(form, given);
+    const num::Int<F> longest = shape::longest_of(ray.direction);
+    const F shortest = some(rays.shortest), far = some(rays.far);
+    shape::MeshHit<F> hit{far, num::Int<F>(0x7fffffff), num::Int<F>(-1)};
+    for (int k = 0; k < 3; ++k) {
+      const auto these = (far > F(0.0f)) & (longest == num::Int<F>(k));
+      if (!num::any(these)) continue;
+      const shape::Sheared<F> along = shape::sheared(ray.direction, k);
+      for (int b = 0; b < blocks; ++b) {
+        const shape::MeshTriangles& block = form.triangles[b];
+        for (int i = 0; i < shape::block_width; ++i) {
+          if (i > 0 && block.number[i] == block.number[i - 1]) break;
+          F t = F(0.0f);
+          const auto corner = [&](int c, int x) __attribute__((always_inline)) { return F(block.corner[c][x][i]) - ray.origin[x]; };
+          const auto inside = these & shape::meet<true>(corner, along, t);
+          if (num::any(inside)) (void)shape::take_nearer(inside, t, block.number[i], b * shape::block_width + i, shortest, hit);
+        }
+      }
+    }
+    for (int i = 0; i < n; ++i) {
+      rays.t[first + i] = num::lane(hit.t, i);
+      const std::int32_t triangle = num::lane(hit.triangle, i);
+      __builtin_memcpy(rays.triangle + first + i, &triangle, sizeof triangle);
+    }
+  }
+}
+
 }  // namespace
 
 extern "C" void TILE_SEARCH(const TileSearch* what) {
-  if (what->parallel != nullptr) {
+  if (what->all_blocks > 0) {
+    look_at_all<Number>(*what->from_point, what->all_blocks, *what->rays);
+  } else if (what->parallel != nullptr) {
     search<true, Number>(*what->parallel, *what->rays);
   } else if (what->any) {
     search<true, Number>(*what->from_point, *what->rays);

@@ -7,11 +7,14 @@
 extern "C" {
 
 /// One of the forms is null. \p any  as of MeshSquare
+/// \p all_blocks  above 0: so many blocks of triangles are all looked at, one triangle after the other, without boxes (a form from a
+/// point, and not \p any)
 struct TileSearch {
   const tofray::shape::MeshForm* from_point;
   const tofray::shape::MeshAlong* parallel;
   bool any;
   tofray::shape::TileRays* rays;
+  int all_blocks = 0;
 };
 using TileSearchFunction = void (*)(const TileSearch*);
 void tile_search_scalar(const TileSearch*);

@@ -13,6 +13,7 @@
 #include <set>
 
 #include "backend/cuda/cuda.h"
+#include "base/readout.h"
 #include "bench/experiment.h"
 #include "commands.h"
 #include "console.h"
@@ -80,13 +81,15 @@ std::string table_of(const files::Json& results, const std::vector<Ratio>& ratio
   return text;
 }
 
+double pixels_of(const Sensor& image) { return static_cast<double>(image.width) * image.height; }
+
 }  // namespace
 
 Contender::Contender(const Inputs& in, const SimulatorOptions& options, Places places)
     : in_(in),
       scene_(in.scene.name),
       options_(options),
-      pixels_(static_cast<double>(in.camera.sensor.width) * in.camera.sensor.height),
+      pixels_(pixels_of(base::as_read_out(in.camera).sensor)),
       simulator_(in.scene, in.camera, options_),
       frames_(1) {
   if (places == Places::same) return;

@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "backend/cpu/cpu.h"
+#include "base/readout.h"
 #include "bench/bench.h"
 #include "progress.h"
 
@@ -35,6 +36,7 @@ Inputs moving(Inputs in) {
 
 /// The same view on 640 x 480 pixels.
 Inputs enlarged(Inputs in) {
+  in.camera = base::as_read_out(in.camera);
   Sensor& sensor = in.camera.sensor;
   Lens& lens = in.camera.lens;
   const double x = 640.0 / sensor.width, y = 480.0 / sensor.height;
@@ -65,10 +67,11 @@ std::vector<Pair> pairs_of(const Options& options, const Inputs& in) {
   pairs.push_back({"time: 1 thread / 2 threads", in, in, standard, with(base, best, 2, base.noise)});
   pairs.push_back({"time: noise exact / off", in, in, one(Noise::exact), one(Noise::off)});
   pairs.push_back({"time: one object moves / nothing moves", moving(in), in, standard, standard});
-  pairs.push_back({fmt::format("pixels per second: 640 x 480 / {} x {}", in.camera.sensor.width, in.camera.sensor.height), enlarged(in), in,
+  const Sensor image = base::as_read_out(in.camera).sensor;
+  pairs.push_back({fmt::format("pixels per second: 640 x 480 / {} x {}", image.width, image.height), enlarged(in), in,
                    standard, standard, true});
   pairs.push_back({"time: each frame to another place / to the same", in, in, standard, standard, false, Places::others});
-  pairs.push_back({fmt::format("pixels per second, to other places: 640 x 480 / {} x {}", in.camera.sensor.width, in.camera.sensor.height),
+  pairs.push_back({fmt::format("pixels per second, to other places: 640 x 480 / {} x {}", image.width, image.height),
                    enlarged(in), in, standard, standard, true, Places::others, Places::others});
   return pairs;
 }

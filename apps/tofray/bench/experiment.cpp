@@ -9,6 +9,7 @@
 #include <thread>
 
 #include "backend/cpu/cpu.h"
+#include "base/readout.h"
 #include "base/text.h"
 #include "bench/bench.h"
 #include "console.h"
@@ -147,7 +148,8 @@ Experiment described(const Options& options, const Inputs& in, bool gpu) {
   if (gpu) out.gpu = Simulator(in.scene, in.camera, wanted).ran_on().device;
   out.noise = results::noise_name(wanted.noise);
   out.frames = options.frames.value_or(30);
-  out.width = in.camera.sensor.width, out.height = in.camera.sensor.height;
+  const Sensor image = base::as_read_out(in.camera).sensor;
+  out.width = image.width, out.height = image.height;
   out.raw_frames = static_cast<int>(in.camera.mode.sequence.size());
   return out;
 }

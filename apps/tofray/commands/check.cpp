@@ -4,6 +4,7 @@
 
 #include <set>
 
+#include "base/readout.h"
 #include "camera_report.h"
 #include "commands.h"
 #include "console.h"
@@ -42,7 +43,7 @@ Report check_profile(const std::string& text, const std::string& name, const Opt
   bool tables_seen = false;
   // A fault can be in any mode.
   const auto check_mode = [&](const Camera& in_mode) {
-    Camera camera = in_mode;
+    Camera camera = base::as_read_out(in_mode);
     // Sensor and lens are the same in all modes: their tables, by pixel, are made once.
     if (tables_seen) camera.sensor.width = camera.sensor.height = 1;
     tables_seen = true;
@@ -62,8 +63,8 @@ Report check_profile(const std::string& text, const std::string& name, const Opt
       .set("unsourced_numbers", files::Json::list(unsourced));
   const CameraReport can = camera_report(camera);
   report.json.set("mode", camera.mode.name).set("camera_report", report_json(can));
-  report.text = fmt::format("{}: good: camera {}, {} x {} pixels, {} modes; in mode {}:\n{}", name, camera.name, camera.sensor.width,
-                            camera.sensor.height, camera.mode_names.size(), camera.mode.name, report_text(can));
+  report.text = fmt::format("{}: good: camera {}, {} x {} pixels, {} modes; in mode {}:\n{}", name, camera.name, can.width, can.height,
+                            camera.mode_names.size(), camera.mode.name, report_text(can));
   return report;
 }
 

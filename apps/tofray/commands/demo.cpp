@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "base/readout.h"
 #include "commands.h"
 #include "console.h"
 #include "pictures/terminal_picture.h"
@@ -16,7 +17,7 @@ namespace {
 std::string told(const Frame& frame, const Inputs& in, const Simulator& simulator, const files::OutputFolder& folder,
                  const Stopwatch& stopwatch) {
   const Validity pixels = validity(frame.depth);
-  const Sensor& sensor = in.camera.sensor;
+  const Sensor sensor = base::as_read_out(in.camera).sensor;
   std::string text = fmt::format("{} in mode {}: {} x {} pixels, {} raw frames, {} objects, depth as colour\n", in.camera.name,
                                  in.camera.mode.name, sensor.width, sensor.height, in.camera.mode.sequence.size(), in.scene.objects.size());
   text += fmt::format("{} of {} pixels have a depth{}{}\n", pixels.valid, pixels.pixels,
@@ -40,7 +41,7 @@ int run_demo(const Options& options) {
   say(warnings(in));
   SimulatorOptions wanted = simulator_options(options);
   const FrameFiles what(options, {"npz", "png", "ply"}, in, wanted);
-  wanted.truth = what.need_truth();
+  wanted.truth = what.need_truth(), wanted.arrays = what.needed_arrays();
   Simulator simulator(in.scene, in.camera, wanted);
   say_fallback(options, simulator.ran_on());
   files::OutputFolder folder(options.output.empty() ? "tofray-demo" : options.output);

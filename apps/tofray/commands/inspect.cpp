@@ -151,7 +151,9 @@ std::string flag_table(const Arrays& arrays) {
   const double pixels = static_cast<double>(std::max<std::size_t>(1, flags->count()));
   std::string text = fmt::format("\n{:<26} {:>8} {:>7.1f} %\n", "pixels with a depth", valid, 100 * static_cast<double>(valid) / pixels);
   for (std::size_t bit = 0; bit < counts.size(); ++bit) {
-    const char* effect = (flags_invalid >> bit & 1) != 0 ? "" : "   (a warning, the depth stays)";
+    const char* effect = (flags_invalid >> bit & 1) != 0 ? ""
+                         : 1 << bit == flag_filtered     ? "   (the range is a filter's)"
+                                                         : "   (a warning, the depth stays)";
     text += fmt::format("  {:<24} {:>8} {:>7.1f} %{}\n", flag_names()[bit], counts[bit], 100 * static_cast<double>(counts[bit]) / pixels,
                         effect);
   }

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
+#include "base/readout.h"
 #include "base/text.h"
 #include "commands.h"
 #include "console.h"
@@ -59,6 +60,7 @@ files::Json list_cameras(std::string& text) {
   files::Json json = files::Json::array();
   for (const load::Builtin& one : load::builtin_profiles()) {
     const Camera camera = load_camera(one.name);
+    const Sensor image = base::as_read_out(camera).sensor;
     files::Json modes = files::Json::array();
     text += fmt::format("{:<18} {}\n", one.name, one.description);
     for (const std::string& name : camera.mode_names) {
@@ -69,8 +71,8 @@ files::Json list_cameras(std::string& text) {
     json.push(files::Json::object()
                   .set("name", one.name)
                   .set("description", one.description)
-                  .set("width", camera.sensor.width)
-                  .set("height", camera.sensor.height)
+                  .set("width", image.width)
+                  .set("height", image.height)
                   .set("modes", std::move(modes)));
   }
   return json;

@@ -160,7 +160,7 @@ int run_render(const Options& typed) {
   const std::uint64_t frames = options.frames.value_or(1);
   SimulatorOptions wanted = simulator_options(options);
   const FrameFiles what(options, kinds_of(options, frames), in, wanted);
-  wanted.truth = what.need_truth();
+  wanted.truth = what.need_truth(), wanted.arrays = what.needed_arrays();
   FrameProgress now;
   wanted.progress = &now;
   Simulator simulator(needed(in.scene, what), in.camera, wanted);

@@ -139,6 +139,21 @@ void Cpu::run_step(const pipeline::Step& step, const Work& work) {
   });
 }
 
+void Cpu::run_samples(const std::vector<pipeline::Step>& steps, const pipeline::Setup& setup, const pipeline::Job& job) {
+  if (steps.empty()) return;
+  pool_->runner.for_each_tile(pieces_of(steps.front(), setup.lens), [&](int index, void* scratch) {
+    pipeline::Setup own_setup = setup;
+    for (const pipeline::Step& step : steps) {
+      if (stopped()) return void(gave_up_ = true);
+      pipeline::Job own_job = job;
+      pipeline::take_step(step, own_setup, own_job);
+      const Work work{&own_setup, &own_job, nullptr, step.item};
+      kernel_(&work, step.pass, index, scratch);
+      if (progress_ != nullptr) progress_->done += rays_of(step, own_setup);
+    }
+  });
+}
+
 void Cpu::run(const pipeline::Setup& setup, const pipeline::Job& job, const pipeline::Input* input) {
   gave_up_ = false;
   flow::LightImage image;
@@ -158,14 +173,20 @@ void Cpu::run(const pipeline::Setup& setup, const pipeline::Job& job, const pipe
                         [&](const pipeline::Step& step) { all += rays_of(step, setup) * pieces_of(step, setup.lens); });
     progress_->done = 0, progress_->total = all;
   }
+  std::vector<pipeline::Step> samples;
+  pipeline::Job with_image = job;
+  with_image.light = image;
+  const auto run_samples_so_far = [&] { run_samples(samples, setup, with_image), samples.clear(); };
   pipeline::each_step(setup, job, entry, known, [&](const pipeline::Step& step) {
+    if (step.part == pipeline::Part::light && step.pass == Pass::pixels) return samples.push_back(step);
+    run_samples_so_far();
     if (step.part == pipeline::Part::all) return run_step(step, {&setup, &job, input, step.item});
     pipeline::Setup own_setup = setup;
-    pipeline::Job own_job = job;
-    own_job.light = image;
+    pipeline::Job own_job = with_image;
     pipeline::take_step(step, own_setup, own_job);
     run_step(step, {&own_setup, &own_job, step.part == pipeline::Part::collect ? &collected : input, step.item});
   });
+  run_samples_so_far();
   if (bytes > 0 && !gave_up_) light_of_ = origin;
 }
 

@@ -37,6 +37,9 @@ class Cpu final : public Engine {
  private:
   struct Threads;
   void run_step(const pipeline::Step& step, const Work& work);
+  /// Steps that add samples within the pixels to the light image, tile by tile: a tile reads and writes its own pixels alone, and what it
+  /// adds to, at each time of each raw frame, then stays in the caches from one sample to the next.
+  void run_samples(const std::vector<pipeline::Step>& steps, const pipeline::Setup& setup, const pipeline::Job& job);
   [[nodiscard]] bool stopped() const { return progress_ != nullptr && progress_->stop; }
 
   Isa isa_;

@@ -97,6 +97,7 @@ void run_transient(const Work& work, int index) {
 void run_rows(const Work& work, Pass pass, int band) {
   const int height = work.setup->lens.height, first = band * rows_per_band;
   for (int y = first; y < first + rows_per_band && y < height; ++y) {
+    if (pass == Pass::bloom) bloom_row(*work.setup, *work.job, y);
     if (pass == Pass::flying) flag_flying_row<F>(*work.setup, *work.job, y);
     if (pass == Pass::filter) filter_row(*work.setup, *work.job, y);
     if (pass == Pass::settle) settle_row<F>(*work.setup, *work.job, y, work.item);
@@ -128,6 +129,7 @@ extern "C" std::size_t TOFRAY_KERNEL(const Work* work, Pass pass, int index, voi
     case Pass::smooth: run_smooth(*work, index); break;
     case Pass::sum: run_sum(*work, index); break;
     case Pass::transient: run_transient(*work, index); break;
+    case Pass::bloom:
     case Pass::flying:
     case Pass::filter:
     case Pass::settle:

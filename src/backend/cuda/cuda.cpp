@@ -52,7 +52,7 @@ void Cuda::load(const pipeline::Setup& setup) {
   const auto pack = [&](gpu::Packer& packer) {
     pipeline::Setup to = setup;
     resident_.sample_lenses = gpu::pack_lenses(packer, setup, to);
-    gpu::pack_camera(packer, setup, to);
+    resident_.modulations = gpu::pack_camera(packer, setup, to);
     gpu::pack_scene(packer, setup.scene, to.scene);
     return to;
   };

@@ -138,6 +138,7 @@ cudaError_t launch_kernel(const Launch& what, cudaStream_t stream) {
       return what.block_size <= few_threads ? launch_pixels<few_threads>(what, patch_count(lens), stream)
                                             : launch_pixels<max_block_size>(what, patch_count(lens), stream);
     case Pass::input: return launch_pass<Pass::input>(what, pixels, stream);
+    case Pass::bloom: return launch_pass<Pass::bloom>(what, pixels, stream);
     case Pass::flying: return launch_pass<Pass::flying>(what, pixels, stream);
     case Pass::filter: return launch_pass<Pass::filter>(what, pixels, stream);
     case Pass::settle: return launch_pass<Pass::settle>(what, pixels, stream);
@@ -162,7 +163,7 @@ cudaError_t find_kernels() {
   find(&tofray_pixels<few_threads>), find(&tofray_pixels<max_block_size>);
   find(&tofray_pixels_own<few_threads>), find(&tofray_pixels_own<max_block_size>);
   find(&tofray_derive);
-  find(&tofray_pass<Pass::input>), find(&tofray_pass<Pass::flying>);
+  find(&tofray_pass<Pass::input>), find(&tofray_pass<Pass::bloom>), find(&tofray_pass<Pass::flying>);
   find(&tofray_pass<Pass::filter>), find(&tofray_pass<Pass::settle>);
   find(&tofray_pass<Pass::bounces>), find(&tofray_pass<Pass::sum>);
   find(&tofray_pass<Pass::path_error>), find(&tofray_pass<Pass::path_noise>), find(&tofray_pass<Pass::smooth>);
@@ -178,6 +179,7 @@ const void* kernel_function(Pass pass, int block_size) {
       return block_size <= few_threads ? reinterpret_cast<const void*>(&tofray_pixels<few_threads>)
                                        : reinterpret_cast<const void*>(&tofray_pixels<max_block_size>);
     case Pass::input: return reinterpret_cast<const void*>(&tofray_pass<Pass::input>);
+    case Pass::bloom: return reinterpret_cast<const void*>(&tofray_pass<Pass::bloom>);
     case Pass::flying: return reinterpret_cast<const void*>(&tofray_pass<Pass::flying>);
     case Pass::filter: return reinterpret_cast<const void*>(&tofray_pass<Pass::filter>);
     case Pass::bounces: return reinterpret_cast<const void*>(&tofray_pass<Pass::bounces>);

@@ -17,6 +17,7 @@ const char* starting(Pass pass) {
     case Pass::derive: return "starting the kernel derive";
     case Pass::pixels: return "starting the kernel pixels";
     case Pass::input: return "starting the kernel input";
+    case Pass::bloom: return "starting the kernel bloom";
     case Pass::flying: return "starting the kernel flying";
     case Pass::filter: return "starting the kernel filter";
     case Pass::bounces: return "starting the kernel bounces";
@@ -78,6 +79,7 @@ void pack_own(const Resident& resident, Own own, const pipeline::Setup& from, Pa
   to.scene = resident.setup.scene;
   if (own == Own::number) return;
   pack_raw_frames(packer, from, to.sensor);
+  pack_exposures(packer, resident.modulations, from.decoder, to.decoder);
   if (!derives(own, from.scene)) return;
   to.scene.camera = from.scene.camera;
   pack_motion(packer, from.scene, to.scene);
@@ -160,7 +162,7 @@ void Lane::begin(const Resident& resident, const pipeline::Setup& first, const p
   resident_ = &resident;
   job_ = job;
   own_ = own, capacity_ = capacity, derives_ = derives(own, first.scene);
-  slab_ = Slab(first, job.out, job.filter != pipeline::Filter::none);
+  slab_ = Slab(first, job.out, pipeline::scratch_images(first, job.filter));
   const auto frames = static_cast<std::size_t>(capacity);
   arguments_at_ = align(frames * sizeof(FrameNumber));
   room_from_ = arguments_at_ + (own != Own::number ? align(frames * sizeof(FrameArguments)) : 0);

@@ -24,6 +24,7 @@ struct Resident {
   pipeline::Setup setup{};                      ///< pointers are the device's
   std::vector<camera::LensView> sample_lenses;  ///< of samples within pixels, for the host; their pointers are the device's
   std::vector<float> shares;
+  std::vector<camera::DecodeModulation> modulations;  ///< of the decoder, likewise
   DeviceMemory memory;
 };
 

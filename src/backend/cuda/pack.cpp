@@ -108,7 +108,9 @@ std::size_t delays_of(const pipeline::Setup& setup, std::size_t pixels) {
   return setup.sensor.delay_stride == 0 ? pixels : pixels * count_of(setup.decoder.modulations);
 }
 
-void pack_decoder(Packer& packer, const pipeline::Setup& setup, std::size_t pixels, camera::DecoderView& to) {
+/// @return the modulations, as the device sees them
+std::vector<camera::DecodeModulation> pack_decoder(Packer& packer, const pipeline::Setup& setup, std::size_t pixels,
+                                                   camera::DecoderView& to) {
   const camera::DecoderView& from = setup.decoder;
   std::vector<camera::DecodeModulation> modulations(from.modulation, from.modulation + from.modulations);
   for (camera::DecodeModulation& m : modulations) {
@@ -119,6 +121,7 @@ void pack_decoder(Packer& packer, const pipeline::Setup& setup, std::size_t pixe
   to.frame = packer.put(from.frame, count_of(setup.sensor.raw_frames)),
   to.grey_frame = packer.put(from.grey_frame, count_of(from.grey_frames));
   to.delay = packer.put(from.delay, delays_of(setup, pixels)), to.read.cell = packer.put(from.read.cell, 2 * count_of(from.read.cells));
+  return modulations;
 }
 
 /// What each patch of pixels sees.
@@ -159,7 +162,7 @@ std::vector<camera::LensView> pack_lenses(Packer& packer, const pipeline::Setup&
   return samples;
 }
 
-void pack_camera(Packer& packer, const pipeline::Setup& from, pipeline::Setup& to) {
+std::vector<camera::DecodeModulation> pack_camera(Packer& packer, const pipeline::Setup& from, pipeline::Setup& to) {
   const std::size_t pixels = count_of(from.lens.width) * count_of(from.lens.height);
   pack_scatter(packer, from.scatter, to.scatter);
   std::vector<camera::LightView> lights(from.lights, from.lights + from.scene.lights);
@@ -172,7 +175,14 @@ void pack_camera(Packer& packer, const pipeline::Setup& from, pipeline::Setup& t
   to.sensor.gain = packer.put(from.sensor.gain, pixels), to.sensor.offset = packer.put(from.sensor.offset, pixels);
   to.sensor.delay = packer.put(from.sensor.delay, delays_of(from, pixels));
   to.sensor.read.cell = packer.put(from.sensor.read.cell, 2 * count_of(from.sensor.read.cells));
-  pack_decoder(packer, from, pixels, to.decoder);
+  return pack_decoder(packer, from, pixels, to.decoder);
+}
+
+void pack_exposures(Packer& packer, std::vector<camera::DecodeModulation> there, const camera::DecoderView& from, camera::DecoderView& to) {
+  for (std::size_t i = 0; i < there.size(); ++i) {
+    there[i].integration_time = from.modulation[i].integration_time, there[i].ambient_scale = from.modulation[i].ambient_scale;
+  }
+  to.modulation = packer.put(static_cast<const camera::DecodeModulation*>(there.data()), there.size());
 }
 
 void pack_raw_frames(Packer& packer, const pipeline::Setup& from, camera::SensorView& to) {

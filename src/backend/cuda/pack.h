@@ -40,9 +40,12 @@ class Packer {
 /// @return those of the samples, as the device sees them
 std::vector<camera::LensView> pack_lenses(Packer& packer, const pipeline::Setup& from, pipeline::Setup& to);
 /// Lights, scatter, sequence and tables. `to` is a copy of `from` and gets other pointers.
-void pack_camera(Packer& packer, const pipeline::Setup& from, pipeline::Setup& to);
+/// @return what the decoder knows of each modulation frequency, as the device sees it
+std::vector<camera::DecodeModulation> pack_camera(Packer& packer, const pipeline::Setup& from, pipeline::Setup& to);
 /// The sequence alone: its gates turn where the sensor drifts.
 void pack_raw_frames(Packer& packer, const pipeline::Setup& from, camera::SensorView& to);
+/// How long the decoder thinks each modulation frequency was exposed: that changes where exposures follow the light.
+void pack_exposures(Packer& packer, std::vector<camera::DecodeModulation> there, const camera::DecoderView& from, camera::DecoderView& to);
 /// The scene's shapes and materials, and what is derived of those that stand still. `to` is a copy of `from` and gets other pointers.
 /// Where its things are at the times of a frame, and how they move.
 void pack_motion(Packer& packer, const scene::SceneView& from, scene::SceneView& to);

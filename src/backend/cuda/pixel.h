@@ -197,6 +197,7 @@ TOFRAY_FN void run_pass(Pass pass, int item, const Setup& s, const Job& job, con
   if (pass == Pass::smooth) pipeline::smooth_light<float>(s, job.light, p);
   if (pass == Pass::sum) pipeline::sum_light<float>(s, job.light, p);
   if (pass == Pass::transient) pipeline::find_transient<float>(s, job, p);
+  if (pass == Pass::bloom) pipeline::bloom_pixel(s, job, x, y);
   if (pass == Pass::flying) pipeline::flag_flying_pixel(s, job, x, y);
   if (pass == Pass::filter) pipeline::filter_pixel(s, job, x, y);
   if (pass == Pass::settle) pipeline::settle<float>(s, job, p, item);

@@ -12,7 +12,7 @@ std::size_t rounded(std::size_t bytes) { return (bytes + 255) / 256 * 256; }
 
 }  // namespace
 
-Slab::Slab(const pipeline::Setup& setup, const flow::FrameView& wanted, bool filter)
+Slab::Slab(const pipeline::Setup& setup, const flow::FrameView& wanted, int scratch)
     : size_{std::int64_t{setup.lens.width} * setup.lens.height, setup.sensor.raw_frames, setup.transient.bins} {
   int i = 0;
   flow::each_array(wanted, [&](const auto* array, ArrayShape shape, Stage) {
@@ -24,7 +24,7 @@ Slab::Slab(const pipeline::Setup& setup, const flow::FrameView& wanted, bool fil
   });
   shown_bytes_ = bytes_;
   filtered_offset_ = bytes_;
-  if (filter) bytes_ = rounded(bytes_ + 2 * static_cast<std::size_t>(size_.pixels) * sizeof(float));
+  bytes_ = rounded(bytes_ + static_cast<std::size_t>(scratch * size_.pixels) * sizeof(float));
 }
 
 std::size_t Slab::count(ArrayShape shape) const { return static_cast<std::size_t>(flow::values_of(shape, size_)); }

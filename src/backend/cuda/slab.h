@@ -11,8 +11,9 @@ namespace tofray::backend::gpu {
 class Slab {
  public:
   Slab() = default;
-  /// @param wanted  arrays that are null here get no place
-  Slab(const pipeline::Setup& setup, const flow::FrameView& wanted, bool filter);
+  /// @param wanted   arrays that are null here get no place
+  /// @param scratch  images of floats beside them
+  Slab(const pipeline::Setup& setup, const flow::FrameView& wanted, int scratch);
 
   /// Bytes from one frame to the next; of them those that the caller wants to see come first.
   [[nodiscard]] std::size_t bytes() const { return bytes_; }

@@ -1,0 +1,175 @@
+// SPDX-FileCopyrightText: 2026 The tofray authors
+// SPDX-License-Identifier: Apache-2.0
+// Rays from anywhere through the mesh of the scene bench-mesh, one thread: those along which light goes on from what a pico flexx sees, each in a
+// direction of its own, as packs of neighbouring pixels and by Embree's rtcIntersect1 where Embree is installed, in turn.
+#include "num/avx2.h"
+#include "num/twin.h"
+// The number type comes first.
+#if defined(TOFRAY_HAS_EMBREE)
+#include <embree3/rtcore.h>
+#endif
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstring>
+#include <random>
+#include <vector>
+
+#include "load/builtin_mesh.h"
+#include "scene/hierarchy.h"
+#include "shape/mesh_search.h"
+
+using namespace tofray;
+
+namespace {
+
+using F = num::Twin<num::F32x8>;
+constexpr int width = 224, height = 172, rounds = 11, lanes = num::lanes<F>;
+
+double seconds() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
+
+struct OneRay {
+  float from[3], way[3];
+};
+
+/// The ball and the floor of bench-mesh as one mesh, before a camera at zero that looks along +z.
+TriangleMesh world() {
+  TriangleMesh out = load::bumpy_ball(6), floor = load::wavy_floor(100);
+  for (auto& v : out.vertices) v[2] += 1.2f;
+  const auto first = static_cast<std::int32_t>(out.vertices.size());
+  for (auto& v : floor.vertices) out.vertices.push_back({v[0], v[1] + 0.5f, v[2] + 1.2f});
+  for (auto& t : floor.triangles) out.triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
+  return out;
+}
+
+/// Distances that packs of rays find.
+double search(const shape::MeshFree& form, const std::vector<OneRay>& rays, std::vector<float>& found) {
+  const double before = seconds();
+  for (std::size_t i = 0; i + lanes <= rays.size(); i += lanes) {
+    float column[6][lanes];
+    for (std::size_t l = 0; l < lanes; ++l)
+      for (std::size_t k = 0; k < 3; ++k) column[k][l] = rays[i + l].from[k], column[3 + k][l] = rays[i + l].way[k];
+    const auto load = [&](int k) { return num::load<F>(column[k], lanes); };
+    const shape::FreeRay<F> ray{load(0), load(1), load(2), load(3), load(4), load(5)};
+    num::Int<F> triangle;
+    const F t = shape::distance_to(form, ray, F(0.0f), F(shape::never), F(0.0f) < F(1.0f), triangle);
+    num::store(&found[i], t, lanes);
+  }
+  return seconds() - before;
+}
+
+#if defined(TOFRAY_HAS_EMBREE)
+struct Embree {
+  RTCDevice device = rtcNewDevice("threads=1");
+  RTCScene scene = rtcNewScene(device);
+  explicit Embree(const TriangleMesh& mesh) {
+    RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
+    void* vertices = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 12, mesh.vertices.size());
+    std::memcpy(vertices, mesh.vertices.data(), 12 * mesh.vertices.size());
+    void* indices = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 12, mesh.triangles.size());
+    std::memcpy(indices, mesh.triangles.data(), 12 * mesh.triangles.size());
+    rtcCommitGeometry(geometry);
+    rtcAttachGeometry(scene, geometry);
+    rtcReleaseGeometry(geometry);
+    rtcCommitScene(scene);
+  }
+  Embree(const Embree&) = delete;
+  Embree& operator=(const Embree&) = delete;
+  ~Embree() { rtcReleaseScene(scene), rtcReleaseDevice(device); }
+
+  double search(const std::vector<OneRay>& rays, std::vector<float>& found) const {
+    const double before = seconds();
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+      const OneRay& one = rays[i];
+      RTCRayHit hit;
+      hit.ray = {one.from[0], one.from[1], one.from[2], 0, one.way[0], one.way[1], one.way[2], 0, shape::never, ~0u, 0, 0};
+      hit.hit.geomID = RTC_INVALID_GEOMETRY_ID, hit.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+      rtcIntersect1(scene, &context, &hit);
+      found[i] = hit.ray.tfar;
+    }
+    return seconds() - before;
+  }
+};
+#endif
+
+/// What a camera sees, and from there a matt surface's ways on.
+std::vector<OneRay> ways_on(const shape::MeshFree& form, const scene::Hierarchy& built) {
+  std::mt19937 random(1);
+  std::uniform_real_distribution<float> unit(0.0f, 1.0f);
+  std::vector<OneRay> out;
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x) {
+      const float dx = (static_cast<float>(x) - 111.5f) / 212.0f, dy = (static_cast<float>(y) - 85.5f) / 212.0f;
+      const float per = 1.0f / std::sqrt(dx * dx + dy * dy + 1.0f);
+      const shape::FreeRay<float> ray{0, 0, 0, dx * per, dy * per, per};
+      std::int32_t triangle = -1;
+      const float t = shape::distance_to(form, ray, 0.0f, shape::never, true, triangle);
+      if (triangle < 0) continue;
+      const shape::MeshTriangles& block = built.triangles[static_cast<std::size_t>(triangle / shape::block_width)];
+      const int at = triangle % shape::block_width;
+      double a[3], b[3], n[3];
+      for (int k = 0; k < 3; ++k) {
+        a[k] = static_cast<double>(block.corner[1][k][at] - block.corner[0][k][at]);
+        b[k] = static_cast<double>(block.corner[2][k][at] - block.corner[0][k][at]);
+      }
+      for (int k = 0; k < 3; ++k) n[k] = a[(k + 1) % 3] * b[(k + 2) % 3] - a[(k + 2) % 3] * b[(k + 1) % 3];
+      const double size = std::sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
+      const double side =
+          n[0] * static_cast<double>(ray.dx) + n[1] * static_cast<double>(ray.dy) + n[2] * static_cast<double>(ray.dz) > 0 ? -1 : 1;
+      // The normal and a direction that is even over the sphere: a cosine about the normal.
+      const float up = 2 * unit(random) - 1, turn = 6.2831853f * unit(random), across = std::sqrt(1 - up * up);
+      float way[3] = {across * std::cos(turn), across * std::sin(turn), up}, length = 0;
+      for (int k = 0; k < 3; ++k) way[k] += static_cast<float>(side * n[k] / size), length += way[k] * way[k];
+      OneRay one{};
+      const float at_point[3] = {t * ray.dx, t * ray.dy, t * ray.dz};
+      for (int k = 0; k < 3; ++k) {
+        one.way[k] = way[k] / std::sqrt(length);
+        one.from[k] = at_point[k] + 1e-5f * static_cast<float>(side * n[k] / size);
+      }
+      out.push_back(one);
+    }
+  out.resize(out.size() / lanes * lanes);
+  return out;
+}
+
+double median(std::vector<double> times) {
+  std::sort(times.begin(), times.end());
+  return times[times.size() / 2];
+}
+
+}  // namespace
+
+int main() {
+  const TriangleMesh mesh = world();
+  const scene::Hierarchy built = scene::build_hierarchy(mesh);
+  const shape::Mesh placed = shape::Mesh::placed(built, {{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}}, {0, 0, 0}});
+  const shape::MeshFree form = shape::free_of(placed);
+  const std::vector<OneRay> rays = ways_on(form, built);
+  std::vector<float> own(rays.size()), other(rays.size());
+  std::vector<double> times, other_times;
+#if defined(TOFRAY_HAS_EMBREE)
+  const Embree peer(mesh);
+#endif
+  for (int i = 0; i < rounds; ++i) {
+    times.push_back(search(form, rays, own));
+#if defined(TOFRAY_HAS_EMBREE)
+    other_times.push_back(peer.search(rays, other));
+#endif
+  }
+  const auto count = static_cast<double>(rays.size());
+  fmt::print("{} triangles, {} rays from anywhere, one thread, AVX2\n", mesh.triangles.size(), rays.size());
+  fmt::print("packs of {}: {:.2f} M/s\n", lanes, count / median(times) * 1e-6);
+#if defined(TOFRAY_HAS_EMBREE)
+  int met = 0, same = 0;
+  for (std::size_t i = 0; i < rays.size(); ++i) {
+    const bool hit = other[i] < shape::never;
+    met += hit, same += hit == (own[i] < shape::never) && (!hit || std::abs(own[i] - other[i]) < 1e-4f);
+  }
+  fmt::print("Embree's rtcIntersect1: {:.2f} M/s; ratio {:.2f}\n", count / median(other_times) * 1e-6, median(other_times) / median(times));
+  fmt::print("{} meet something; {} of all meet the same\n", met, same);
+#endif
+}

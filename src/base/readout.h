@@ -1,0 +1,13 @@
+// SPDX-FileCopyrightText: 2026 The tofray authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "tofray/camera.h"
+
+namespace tofray::base {
+
+/// The camera whose pixels are those of the image: region and binning are in its numbers, and nothing is left to be binned. A camera that
+/// reads all of its pixels one by one is itself.                                                        [theory: eq. 4.24 to 4.26]
+/// @param camera  was seen to be good
+Camera as_read_out(const Camera& camera);
+
+}  // namespace tofray::base
