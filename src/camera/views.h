@@ -162,9 +162,10 @@ struct SensorView {
   std::int32_t lines_are_noisy;   ///< 1: columns or rows have noise
   std::int32_t width;             ///< pixels of a row
   std::int32_t taps_differ;       ///< 1: by the two numbers below
-  std::int32_t more_than_noise;   ///< 1: offsets of taps, suppression or a curve change the charge
-  float half_gain_mismatch;       ///< g/2
-  float half_offset_mismatch;     ///< [e⁻] of a tap
+  std::int32_t
+      more_than_noise;  ///< 1: offsets of taps, suppression, a curve, lines that are noisy or wells that overflow: one question for all that is rare
+  float half_gain_mismatch;    ///< g/2
+  float half_offset_mismatch;  ///< [e⁻] of a tap
   ReadCurveView read;
   float full_read;                       ///< what is read of a full well
   std::int32_t blooms;                   ///< 1: full wells spill into their neighbours
@@ -210,7 +211,8 @@ void take_numbers(const Camera& camera, SensorView& s) {
   s.taps_differ = s.half_gain_mismatch != 0 || s.half_offset_mismatch != 0;
   const double lower = camera.decoding.lower_saturation_dn.value_or(adc.valid_min);
   const double upper = camera.decoding.upper_saturation_dn.value_or(adc.valid_max);
-  s.more_than_noise = s.half_offset_mismatch != 0 || s.suppression_threshold > 0 || !pixel.nonlinearity.x.empty();
+  s.more_than_noise = s.half_offset_mismatch != 0 || s.suppression_threshold > 0 || !pixel.nonlinearity.x.empty() ||
+                      s.lines_are_noisy != 0 || s.blooms != 0;
   s.valid_middle = f(0.5 * (lower + upper)), s.valid_half = f(0.5 * (upper - lower));
 }
 

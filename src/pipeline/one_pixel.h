@@ -37,7 +37,7 @@ struct Pack {
 template <class F>
 TOFRAY_FN F collect(const Setup& s, const Job& job, const Pixels& p, int k, const flow::Light<F>& light, raw::Exposure<F>& exposure) {
   const flow::Taps<F> taps = raw::expose(s.sensor, k, light, s.phasors.orders, raw::FrameIndex{job.index_low, job.index_high}, exposure);
-  store_taps(s.lens.width * s.lens.height, job.out, p, k, taps, job.past_caches != 0);
+  store_taps(s.lens.width * s.lens.height, job.out, p, k, taps, job.tap_stores);
   if (job.out.gt_signal_e != nullptr) {
     const F signal = s.sensor.frame[k].lit != 0 ? light.signal_rate * F(s.sensor.frame[k].integration_time) : F(0.0f);
     num::store(job.out.gt_signal_e + p.index + k * s.lens.width * s.lens.height, signal, p.count);

@@ -58,6 +58,13 @@ struct Gather {
   bool operator==(const Gather&) const = default;
 };
 
+/// How electrons and codes of raw frames are written.
+enum class TapStores : std::int32_t {
+  some,         ///< where there is a place for them
+  all,          ///< there are places for all three
+  past_caches,  ///< … past the caches, which these places allow
+};
+
 /// One frame: where its arrays are and its place in the random numbers.
 struct Job {
   flow::FrameView out;
@@ -71,7 +78,7 @@ struct Job {
   float filter_factor;       ///< square of how many σ neighbours may be off
   float filter_range;        ///< square of how far, besides [m²]
   float filter_goal;         ///< square of the noise that is good enough [m²]
-  std::int32_t past_caches;  ///< 1: electrons and codes are written past the caches, which their places allow
+  TapStores tap_stores;
   bool operator==(const Job&) const = default;
 };
 

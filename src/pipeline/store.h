@@ -27,15 +27,20 @@ TOFRAY_FN void store3(float* to, const Pixels& p, F x, F y, F z) {
   if (to != nullptr) num::store3(to + 3 * p.index, x, y, z, p.count);
 }
 
-/// @param past  past the caches, where the number type can
 template <class F>
-TOFRAY_FN void store_taps(int pixels, const flow::FrameView& out, const Pixels& p, int k, const flow::Taps<F>& taps, bool past) {
+TOFRAY_FN void store_taps(int pixels, const flow::FrameView& out, const Pixels& p, int k, const flow::Taps<F>& taps, TapStores how) {
   const Pixels at{p.index + k * pixels, p.count};
   if constexpr (num::can_store_past<F>) {
-    if (past) {
+    if (how == TapStores::past_caches) {
       num::store_past(out.tap_a + at.index, taps.a);
       num::store_past(out.tap_b + at.index, taps.b);
       num::store_past(out.raw + at.index, num::to_int(taps.code));
+      return;
+    }
+    if (how == TapStores::all) {
+      num::store(out.tap_a + at.index, taps.a, at.count);
+      num::store(out.tap_b + at.index, taps.b, at.count);
+      num::store(out.raw + at.index, num::to_int(taps.code), at.count);
       return;
     }
   }

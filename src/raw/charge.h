@@ -156,13 +156,11 @@ TOFRAY_FN Means<F> read_charges(const camera::SensorView& s, const Means<F>& cha
           camera::read_charge(s.read, num::min(charge.b, F(s.full_well))).value};
 }
 
-/// Tap offsets → background suppression → full well → what is read, as far as the sensor has them.
-/// @param charge  changes to what the taps hold after suppression
+/// What the taps hold after tap offsets and background suppression, as far as the sensor has them.
 template <class F>
-TOFRAY_FN Means<F> reach_the_output(const camera::SensorView& s, num::Int<F> pixel, int k, FrameIndex frame, Means<F>& charge) {
+TOFRAY_FN void offset_and_suppress(const camera::SensorView& s, num::Int<F> pixel, int k, FrameIndex frame, Means<F>& charge) {
   if (s.half_offset_mismatch != 0) charge = with_unlike_offsets(s, charge);
   if (s.suppression_threshold > 0) charge = suppress(s, charge, pixel, k, frame);
-  return s.read.cell != nullptr ? read_charges(s, charge) : charge;
 }
 
 /// Full well per tap, then A−B through the ADC: DN = round((A−B)/s + mid + offset), held to the code range.   [eq. 3.8]

@@ -47,12 +47,11 @@ TOFRAY_FN F overflow_of(const camera::SensorView& s, const Means<F>& charge) {
 }
 
 /// Notes how far a lit raw frame went.
+/// @param most  charge of the tap that holds more
 template <class F>
-TOFRAY_FN void watch(const camera::SensorView& s, const camera::RawFrameView& frame, const Means<F>& charge, const Taps<F>& taps,
-                     Exposure<F>& e) {
+TOFRAY_FN void watch(const camera::SensorView& s, const camera::RawFrameView& frame, F most, const Taps<F>& taps, Exposure<F>& e) {
   if (frame.lit == 0) return;
-  if (s.blooms != 0) e.overflow = num::max(e.overflow, overflow_of(s, charge));
-  e.most_charge = num::max(e.most_charge, num::max(charge.a, charge.b));
+  e.most_charge = num::max(e.most_charge, most);
   e.widest_level = num::max(e.widest_level, num::abs(taps.level - F(s.valid_middle)));
 }
 
@@ -84,11 +83,12 @@ TOFRAY_FN F offset_of(const camera::SensorView& s, int k, FrameIndex index, cons
 /// A−B without noise. Strong ambient light leaves few places of a float to the difference of the taps; where neither clips, and what is read
 /// is the charge itself, it is known better than that.
 /// @param common, rate  electrons per second of both taps together, and of their difference
+/// @param most          charge of the tap that holds more
 template <class F>
-TOFRAY_FN F known_difference(const camera::SensorView& s, const camera::RawFrameView& frame, F common, F rate, const Means<F>& charge,
-                             const Exposure<F>& e, F otherwise) {
+TOFRAY_FN F known_difference(const camera::SensorView& s, const camera::RawFrameView& frame, F common, F rate, F most, const Exposure<F>& e,
+                             F otherwise) {
   if (s.read.cell != nullptr) return otherwise;
-  const auto whole = (num::max(charge.a, charge.b) < F(s.full_well)) & (num::abs(rate) <= common);
+  const auto whole = (most < F(s.full_well)) & (num::abs(rate) <= common);
   F difference = rate * F(frame.integration_time) * e.gain_a;
   if (s.taps_differ != 0) {
     const F of_rate = F(0.5f * frame.integration_time) * rate * (e.gain_a + e.gain_b);
@@ -114,12 +114,18 @@ TOFRAY_FN Taps<F> expose(const camera::SensorView& s, int k, const Light<F>& lig
   } else if (s.noise == Noise::apart) {
     charge = expose_apart(s, charge, e.pixel, k, index);
   }
-  const Means<F> read = s.more_than_noise != 0 ? reach_the_output(s, e.pixel, k, index, charge) : charge;
-  Taps<F> taps = read_out(s, read, offset_of(s, k, index, e));
-  if (s.noise == Noise::off && frame.lit != 0) {
-    taps.difference = known_difference(s, frame, light.signal_rate + ambient_rate, rate, charge, e, taps.difference);
+  F most = num::max(charge.a, charge.b), offset = e.offset;
+  if (s.more_than_noise != 0) {
+    offset_and_suppress(s, e.pixel, k, index, charge), offset = offset_of(s, k, index, e);
+    most = num::max(charge.a, charge.b);
+    if (s.blooms != 0 && frame.lit != 0) e.overflow = num::max(e.overflow, overflow_of(s, charge));
+    if (s.read.cell != nullptr) charge = read_charges(s, charge);
   }
-  watch(s, frame, charge, taps, e);
+  Taps<F> taps = read_out(s, charge, offset);
+  if (s.noise == Noise::off && frame.lit != 0) {
+    taps.difference = known_difference(s, frame, light.signal_rate + ambient_rate, rate, most, e, taps.difference);
+  }
+  watch(s, frame, most, taps, e);
   return taps;
 }
 

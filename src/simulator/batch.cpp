@@ -30,7 +30,7 @@ void Simulator::Impl::frames_one_by_one(backend::Engine& engine, std::uint64_t f
   simulator::prepare(scratch, camera, options, scene.transport);
   const backend::gpu::Slab shown(setup, simulator::view_of(scratch, options.last_stage), false);  // leaves out what is not computed
   std::vector<unsigned char> memory(shown.bytes());
-  job.past_caches = 0;  // each frame lies where the one before was
+  job.tap_stores = pipeline::TapStores::some;  // each frame lies where the one before was
   for (std::uint64_t i = from; i < count; ++i) {
     const FrameRequest wanted = request(i);
     set_frame(wanted);

@@ -122,17 +122,18 @@ flow::FrameView view_of(Frame& frame, Stage last) {
 
 #undef TOFRAY_PLACE
 
-bool goes_past_caches(const flow::FrameView& out, const float* before, int width, const flow::FrameSize& size) {
+pipeline::TapStores tap_stores(const flow::FrameView& out, const float* before, int width, const flow::FrameSize& size) {
+  using enum pipeline::TapStores;
   constexpr std::uintptr_t line = 64;
   constexpr std::int64_t most_in_caches = 8'000'000;  // a core's share of the last one is some 2 to 16 MB
   constexpr std::int64_t each = sizeof *out.tap_a + sizeof *out.tap_b + sizeof *out.raw;
   const std::uintptr_t places[] = {reinterpret_cast<std::uintptr_t>(out.tap_a), reinterpret_cast<std::uintptr_t>(out.tap_b),
                                    reinterpret_cast<std::uintptr_t>(out.raw)};
-  for (const std::uintptr_t place : places) {
-    if (place == 0 || place % line != 0) return false;
-  }
-  if (width % flow::tile_width != 0) return false;
-  return out.tap_a != before || each * flow::values_of(ArrayShape::stack, size) > most_in_caches;
+  if (std::any_of(std::begin(places), std::end(places), [](std::uintptr_t place) { return place == 0; })) return some;
+  const bool whole_lines = width % flow::tile_width == 0 &&
+                           std::all_of(std::begin(places), std::end(places), [](std::uintptr_t place) { return place % line == 0; });
+  const bool is_lost = out.tap_a != before || each * flow::values_of(ArrayShape::stack, size) > most_in_caches;
+  return whole_lines && is_lost ? past_caches : all;
 }
 
 FrameArrays arrays_of(const flow::FrameView& view, const Camera& camera, std::int64_t bins, std::uint64_t index, int device) {

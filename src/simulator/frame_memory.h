@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include "flow/frame_view.h"
+#include "pipeline/setup.h"
 #include "tofray/camera.h"
 #include "tofray/frame.h"
 #include "tofray/simulator.h"
@@ -17,11 +18,11 @@ Stage last_stage_of(const Camera& camera, const SimulatorOptions& options, const
 /// Where the arrays are that have a size, of the stages up to `last`.
 flow::FrameView view_of(Frame& frame, Stage last);
 flow::FrameView view_of(Depth& depth);
-/// The rule by which a frame's electrons and codes are written past the caches, and the only place that has it: where they lie elsewhere
-/// than those of the frame before, or are more than caches hold, whoever reads them would fetch them from memory anyway, and what the caches
-/// have stays there. Their rows must be whole lines of the cache: half a line costs more than it saves.
+/// How a frame's electrons and codes are written. Past the caches where they lie elsewhere than those of the frame before, or are more than
+/// caches hold: whoever reads them would fetch them from memory anyway, and what the caches have stays there. Their rows must be whole lines
+/// of the cache: half a line costs more than it saves.
 /// @param before  tap_a of the frame before; null: there was none
-bool goes_past_caches(const flow::FrameView& out, const float* before, int width, const flow::FrameSize& size);
+pipeline::TapStores tap_stores(const flow::FrameView& out, const float* before, int width, const flow::FrameSize& size);
 /// The same under the public names.
 FrameArrays arrays_of(const flow::FrameView& view, const Camera& camera, std::int64_t bins, std::uint64_t index, int device);
 

@@ -206,9 +206,9 @@ void Simulator::Impl::compute(const FrameRequest& request, const pipeline::Input
   // What is given of the stage before the entry is known, however early the last one is.
   const Stage given = input == nullptr ? Stage::trace : static_cast<Stage>(static_cast<int>(input->entry) - 1);
   job.out = simulator::view_of(into, std::max(options.last_stage, given));
-  const std::int64_t pixels = std::int64_t{camera.sensor.width} * camera.sensor.height;
-  job.past_caches = simulator::goes_past_caches(job.out, written_before, camera.sensor.width,
-                                                {pixels, static_cast<std::int64_t>(camera.mode.sequence.size()), 0});
+  const std::int64_t pixels = std::int64_t{camera.sensor.width} * camera.sensor.height,
+                     phases = static_cast<std::int64_t>(camera.mode.sequence.size());
+  job.tap_stores = simulator::tap_stores(job.out, written_before, camera.sensor.width, {pixels, phases, 0});
   written_before = job.out.tap_a;
   engines.run([&](backend::Engine& engine) {
     if ((request.seed || request.pose) && !engines.gpus().empty()) {

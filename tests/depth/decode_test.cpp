@@ -59,6 +59,24 @@ TEST(range, is_the_exact_inverse_of_the_path) {
   }
 }
 
+// … and of raw frames, along the pixel's own ray.
+TEST(range, follows_the_ray_of_its_pixel) {
+  Camera camera = bench_camera();
+  camera.illumination[0].position = {0.1, -0.2, 0.05};
+  const Bench bench(camera);
+  for (const double x : {-0.6, 0.5}) {
+    for (const double y : {-0.4, 0.7}) {
+      constexpr double z = 1.2;
+      const double range = z * std::sqrt(x * x + y * y + 1), path = std::hypot(x * z - 0.1, y * z + 0.2, z - 0.05) + range;
+      std::vector<float> difference;
+      for (const auto& taps : bench.expose({10000, 0.5 * path, 0})) difference.push_back(taps.difference);
+      const auto ray = flow::make_ray(static_cast<float>(x), static_cast<float>(y), 1.0f);
+      EXPECT_NEAR(static_cast<double>(depth::decode<float>(bench.decoder(), difference.data(), false, false, ray, {0, 1}).range), range,
+                  5e-6);
+    }
+  }
+}
+
 // Â, B̂ and σ̂ of a quiet pixel are those that went in; the mean over the modulation frequencies.
 TEST(decode, finds_amplitude_and_ambient) {
   const Bench bench(two_frequencies());
@@ -136,6 +154,27 @@ TEST(noise_estimate, counts_how_the_range_follows_half_the_path) {
   }
 }
 
+// A budget without a threshold is no suppression.
+TEST(noise_estimate, counts_no_suppression_that_is_off) {
+  Camera camera = two_frequencies();
+  const float quiet = Bench(camera).measure({20000, 1.2, 300000}).depth.noise;
+  camera.pixel.suppression_budget_e = 1e6, camera.pixel.suppression_noise_factor = 1;
+  EXPECT_EQ(Bench(camera).measure({20000, 1.2, 300000}).depth.noise, quiet);
+}
+
+// What is left in a tap, the mean over both and all raw frames: ½·collected − mean of min(budget, ½(collected − |D_k|) − threshold).
+TEST(noise_estimate, knows_what_suppression_leaves) {
+  Camera camera = bench_camera();
+  camera.pixel.suppression_threshold_e = 2000, camera.pixel.suppression_budget_e = 5000;
+  const Bench bench(camera);
+  const float difference[] = {9000, -1000, -7000, 3000};
+  const double removed = (0.5 * (14000 - 9000) - 2000 + 4500 + (0.5 * (14000 - 7000) - 2000) + 3500) / 4;
+  EXPECT_NEAR(static_cast<double>(depth::charge_left<float>(bench.decoder(), bench.decoder().modulation[0], difference, 14000, 1)),
+              7000 - removed, 1e-3);
+  EXPECT_NEAR(static_cast<double>(depth::charge_left<float>(bench.decoder(), bench.decoder().modulation[0], difference, 40000, 1)), 15000,
+              1e-2);
+}
+
 // Background suppression adds its own noise, more of it in the raw frames whose taps are alike. 4e4 draws know the spread to 0.35 %; the
 // estimate is first order in the noise, which may differ by 1 %: 3 %. Without it, the estimate would be low by 15 % to 60 % here.
 TEST(noise_estimate, counts_what_background_suppression_adds) {
@@ -199,6 +238,17 @@ TEST(flags, say_low_signal_where_the_amplitude_is_below_its_threshold) {
       for (const auto& taps : silent.expose({signal, 1.2, 0})) difference.push_back(taps.difference);
       EXPECT_EQ(bench.decode(difference).flags & depth::low_signal, signal < 10000 ? depth::low_signal : 0) << signal;
     }
+  }
+}
+
+// D = 0 reads code 32768: the lower end of the narrowest range there is, half a code from its middle.
+TEST(flags, say_nothing_of_codes_at_the_ends_of_the_narrowest_range) {
+  for (const double lower : {32767.0, 32768.0, 32769.0}) {
+    Camera camera = bench_camera();
+    camera.decoding.lower_saturation_dn = lower, camera.decoding.upper_saturation_dn = lower + 1;
+    bool found = false;
+    (void)Bench(camera).expose({}, 0, 0, &found);
+    EXPECT_EQ(found, lower > 32768) << lower;
   }
 }
 

@@ -127,6 +127,14 @@ TEST(flying_pixel, looks_at_the_noise_of_all_three) {
     noise[loud] = 0.051f;
     EXPECT_FALSE(depth::flies<float>(bench.decoder(), {z + 4, noise + 4, 3}, 1, true, true)) << loud;
   }
+  // Each neighbour's own: 0.2 m to one side are 3.92 of 51 mm, 0.3 m to the other 5.9.
+  for (const int near : {1, 3, 5, 7}) {
+    float uneven[9] = {0, 1, 0, 1, 1, 1, 0, 1, 0}, noise[9] = {};
+    uneven[near] = 1.2f, uneven[8 - near] = 1.3f, noise[near] = 0.051f;
+    EXPECT_FALSE(depth::flies<float>(bench.decoder(), {uneven + 4, noise + 4, 3}, 1, true, true)) << near;
+    std::swap(noise[near], noise[8 - near]);
+    EXPECT_TRUE(depth::flies<float>(bench.decoder(), {uneven + 4, noise + 4, 3}, 1, true, true)) << near;
+  }
 }
 
 // Without noise, and where k is 0, the limit alone holds, whatever the estimate says.

@@ -87,6 +87,21 @@ TEST(interference, is_what_its_light_correlates_to_moment_by_moment) {
   }
 }
 
+// Two modulation frequencies, whose light has harmonics: each raw frame has the phasors of its own.
+TEST(interference, has_the_phasors_of_each_modulation_frequency) {
+  constexpr double share = 0.3, phase = 1.1;
+  Camera camera = beside({share, 0, 1, phase}, Waveform::Kind::rectangular);
+  camera.mode.sequence.clear();
+  for (const double hz : {other_frequency, 80e6})
+    for (int k = 0; k < 4; ++k) camera.mode.sequence.push_back({true, hz, k * pi / 2, other_exposure});
+  const Raw raw = raw_beside(camera);
+  for (std::size_t k = 0; k < 8; ++k) {
+    const double x = two_pi * 2 * (k < 4 ? other_frequency : 80e6) / c + static_cast<double>(k % 4) * pi / 2;
+    const double expected = correlation_at(x, Waveform::Kind::rectangular) + share * correlation_at(x + phase, Waveform::Kind::rectangular);
+    EXPECT_NEAR((static_cast<double>(raw.tap_a[k]) - static_cast<double>(raw.tap_b[k])) / own_electrons(), expected, 3e-6) << k;
+  }
+}
+
 // arg(1 + s·e^{iθ}) [3.25]: at a quarter of a turn atan(s), at most asin(s).
 TEST(interference, of_a_known_phase_pulls_the_range_by_the_closed_form) {
   for (const double share : {0.02, 0.3}) {

@@ -12,6 +12,7 @@
 
 using namespace tofray;
 using namespace tofray::test;
+using pipeline::TapStores;
 
 namespace {
 
@@ -67,25 +68,26 @@ TEST(array, stands_where_a_vector_does) {
 TEST(past_caches, goes_what_lies_in_another_place_than_before_or_is_too_much) {
   Memory here, there;
   const flow::FrameSize small{std::int64_t{224} * 172, 9, 0}, large{std::int64_t{640} * 480, 9, 0};
-  EXPECT_TRUE(simulator::goes_past_caches(here.view(), nullptr, 224, small)) << "the first frame";
-  EXPECT_TRUE(simulator::goes_past_caches(here.view(), there.a, 224, small)) << "another place";
-  EXPECT_FALSE(simulator::goes_past_caches(here.view(), here.a, 224, small)) << "the same place, which the caches hold";
-  EXPECT_TRUE(simulator::goes_past_caches(here.view(), here.a, 640, large)) << "more than they hold";
+  EXPECT_EQ(simulator::tap_stores(here.view(), nullptr, 224, small), TapStores::past_caches) << "the first frame";
+  EXPECT_EQ(simulator::tap_stores(here.view(), there.a, 224, small), TapStores::past_caches) << "another place";
+  EXPECT_EQ(simulator::tap_stores(here.view(), here.a, 224, small), TapStores::all) << "the same place, which the caches hold";
+  EXPECT_EQ(simulator::tap_stores(here.view(), here.a, 640, large), TapStores::past_caches) << "more than they hold";
 }
 
 TEST(past_caches, go_whole_lines_alone) {
   Memory memory;
   const flow::FrameSize size{std::int64_t{640} * 480, 9, 0};
-  for (const int width : {8, 16, 48, 200, 639}) EXPECT_FALSE(simulator::goes_past_caches(memory.view(), nullptr, width, size)) << width;
+  for (const int width : {8, 16, 48, 200, 639})
+    EXPECT_EQ(simulator::tap_stores(memory.view(), nullptr, width, size), TapStores::all) << width;
   flow::FrameView view = memory.view();
   ++view.tap_a;
-  EXPECT_FALSE(simulator::goes_past_caches(view, nullptr, 640, size));
+  EXPECT_EQ(simulator::tap_stores(view, nullptr, 640, size), TapStores::all);
   view = memory.view(), ++view.tap_b;
-  EXPECT_FALSE(simulator::goes_past_caches(view, nullptr, 640, size));
+  EXPECT_EQ(simulator::tap_stores(view, nullptr, 640, size), TapStores::all);
   view = memory.view(), ++view.raw;
-  EXPECT_FALSE(simulator::goes_past_caches(view, nullptr, 640, size));
+  EXPECT_EQ(simulator::tap_stores(view, nullptr, 640, size), TapStores::all);
   view = memory.view(), view.raw = nullptr;
-  EXPECT_FALSE(simulator::goes_past_caches(view, nullptr, 640, size)) << "raw frames are not wanted";
+  EXPECT_EQ(simulator::tap_stores(view, nullptr, 640, size), TapStores::some) << "raw frames are not wanted";
 }
 
 TEST(past_caches, goes_the_same_frame) {

@@ -159,6 +159,42 @@ TEST(readout, wells_of_all_pixels_are_filled) {
   EXPECT_NE(frame.depth.flags[0] & flag_saturated, 0);
 }
 
+// A card of which one edge lies between two binned pixels: who lies beside it gets what its wells have no room for, along n pixels. So it is
+// flagged where one pixel would be that stood beside the mean of the card's.
+TEST(readout, binned_pixels_spill_from_where_single_ones_would) {
+  constexpr int n = 4, rows = 12, left = 7, right = 8;
+  constexpr double share = 0.1;
+  Scene scene = wall(0.5, 0.6);
+  scene.objects = {object(Box{{-2, -2, 0.5}, {0, 2, 0.6}})};
+  Camera camera = lit_camera(16 * n, rows * n, 60);
+  camera.adc = {16, 10, 32768, 0, 65535};
+  const Frame bottomless = without_noise_of(scene, camera);
+  const auto mean = [&](const Array<float>& tap, std::size_t k, std::size_t row) {
+    double sum = 0;
+    for (std::size_t y = 0; y < n; ++y)
+      for (std::size_t x = 0; x < n; ++x) sum += tap[(k * rows * n + row * n + y) * 16 * n + left * n + x];
+    return sum / (n * n);
+  };
+  camera.pixel.full_well_e = 0.5 * mean(bottomless.raw.tap_a, 0, rows / 2);
+  std::vector<double> spilled(rows, 0.0);
+  for (std::size_t row = 0; row < rows; ++row)
+    for (std::size_t k = 0; k < 4; ++k) {
+      double over = 0;
+      for (const auto* tap : {&bottomless.raw.tap_a, &bottomless.raw.tap_b})
+        over += std::max(mean(*tap, k, row) - camera.pixel.full_well_e, 0.0);
+      spilled[row] = std::max(spilled[row], share * over);
+    }
+  camera.pixel.blooming_share = share, camera.pixel.blooming_limit_e = 0.5 * (spilled[1] + spilled[2]);
+  const Frame binned = without_noise_of(scene, read_by(camera, {n, 0, 0, 0, 0}));
+  int flagged = 0;
+  for (std::size_t row = 0; row < rows; ++row) {
+    const bool is = (binned.depth.flags[row * 16 + right] & flag_saturated) != 0;
+    EXPECT_EQ(is, spilled[row] > camera.pixel.blooming_limit_e) << row << ": " << spilled[row] << " of " << camera.pixel.blooming_limit_e;
+    flagged += is ? 1 : 0;
+  }
+  EXPECT_EQ(flagged, rows - 4);
+}
+
 // Gains of binned pixels are the means of the specimen's: by the ratio of frames with and without them, whose pixels have the same light.
 TEST(readout, patterns_of_binned_pixels_are_means_of_the_specimens) {
   Camera camera = whole_sensor(), uneven = camera;

@@ -115,7 +115,7 @@ class Bench {
 /// Whether one raw frame of this charge flags its pixel.
 inline bool flags(const camera::SensorView& sensor, const camera::RawFrameView& frame, const raw::Means<float>& charge) {
   raw::Exposure<float> exposure{};
-  raw::watch(sensor, frame, charge, raw::read_out(sensor, charge, 0.0f), exposure);
+  raw::watch(sensor, frame, num::max(charge.a, charge.b), raw::read_out(sensor, charge, 0.0f), exposure);
   return raw::saturated(sensor, exposure);
 }
 

@@ -68,11 +68,11 @@ std::vector<Pair> pairs_of(const Options& options, const Inputs& in) {
   pairs.push_back({"time: noise exact / off", in, in, one(Noise::exact), one(Noise::off)});
   pairs.push_back({"time: one object moves / nothing moves", moving(in), in, standard, standard});
   const Sensor image = base::as_read_out(in.camera).sensor;
-  pairs.push_back({fmt::format("pixels per second: 640 x 480 / {} x {}", image.width, image.height), enlarged(in), in,
-                   standard, standard, true});
+  pairs.push_back(
+      {fmt::format("pixels per second: 640 x 480 / {} x {}", image.width, image.height), enlarged(in), in, standard, standard, true});
   pairs.push_back({"time: each frame to another place / to the same", in, in, standard, standard, false, Places::others});
-  pairs.push_back({fmt::format("pixels per second, to other places: 640 x 480 / {} x {}", image.width, image.height),
-                   enlarged(in), in, standard, standard, true, Places::others, Places::others});
+  pairs.push_back({fmt::format("pixels per second, to other places: 640 x 480 / {} x {}", image.width, image.height), enlarged(in), in,
+                   standard, standard, true, Places::others, Places::others});
   return pairs;
 }
 

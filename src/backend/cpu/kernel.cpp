@@ -42,7 +42,7 @@ using namespace pipeline;
 
 /// What went past the caches is there for all before the piece counts as done.
 TOFRAY_FN void finish(const Work& work) {
-  if (work.job->past_caches != 0) num::finish_stores<F>();
+  if (work.job->tap_stores == TapStores::past_caches) num::finish_stores<F>();
 }
 
 /// Apart, so that the compiler has one of them at a time to find registers for.
