@@ -76,7 +76,8 @@ def public_cpp_names(xml_folder):
                 continue
             for member in compound.iter("memberdef"):
                 if member.get("prot") == "public" and member.get("kind") != "friend":
-                    names.add(f"{own}::{member.findtext('name', '')}")
+                    name = member.findtext("name", "").replace("< ", "<").replace(" >", ">")  # as Sphinx writes it
+                    names.add(f"{own}::{name}")
     return names
 
 

@@ -35,7 +35,9 @@ class Array : public std::vector<T, AlignedMemory<T>> {
  public:
   using std::vector<T, AlignedMemory<T>>::vector;
   Array() = default;
+  /// A copy of a plain vector.
   Array(const std::vector<T>& from) : std::vector<T, AlignedMemory<T>>(from.begin(), from.end()) {}
+  /// A copy as a plain vector.
   operator std::vector<T>() const { return std::vector<T>(this->begin(), this->end()); }
 
   friend bool operator==(const Array& a, const Array& b) {

@@ -24,6 +24,7 @@ LEFT_OUT = {
     "ErrorKind": "Error.kind, a word",
     "Noise": "a word", "Isa": "a word", "Backend": "a word", "Stage": "a word", "PowerModel": "a word",
     "ArrayShape": "an array has its shape",
+    "Array": "a numpy array", "AlignedMemory": "a numpy array",
     "Flag": "tofray.flags",
     "load_scene_text": "tofray.scene", "load_camera_text": "tofray.camera",
     "frame_npz": "Frame.save",
