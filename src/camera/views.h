@@ -162,10 +162,9 @@ struct SensorView {
   std::int32_t lines_are_noisy;   ///< 1: columns or rows have noise
   std::int32_t width;             ///< pixels of a row
   std::int32_t taps_differ;       ///< 1: by the two numbers below
-  std::int32_t
-      more_than_noise;  ///< 1: offsets of taps, suppression, a curve, lines that are noisy or wells that overflow: one question for all that is rare
-  float half_gain_mismatch;    ///< g/2
-  float half_offset_mismatch;  ///< [e⁻] of a tap
+  std::int32_t more_than_noise;   ///< 1: what is rare: unlike offsets of taps, suppression, a curve, noisy lines, wells that overflow
+  float half_gain_mismatch;       ///< g/2
+  float half_offset_mismatch;     ///< [e⁻] of a tap
   ReadCurveView read;
   float full_read;                       ///< what is read of a full well
   std::int32_t blooms;                   ///< 1: full wells spill into their neighbours

@@ -77,6 +77,24 @@ TEST(final_noise, of_the_adaptive_filter_counts) {
   EXPECT_NEAR(square / saved, 1, 5 * std::sqrt(2.0 / (saved / 3.0)));
 }
 
+// Nine pixels are at most three times as good as one: where the noise is four times the threshold they do not do.
+TEST(final_noise, that_is_left_too_large_is_low_signal) {
+  const std::vector<float> all = sorted_noise();
+  Camera camera = noisy(ImageFilter::Kind::adaptive);
+  camera.decoding.noise_threshold_m = static_cast<double>(all[all.size() * 2 / 3]) / 4;
+  camera.decoding.filter.goal_m = camera.decoding.noise_threshold_m, camera.decoding.filter.radius_px = 1;
+  const Depth depth = seen_by(camera).depth;
+  std::size_t lost = 0;
+  for (std::size_t i = 0; i < depth.flags.size(); ++i) {
+    const bool weak = (depth.flags[i] & flag_low_signal) != 0;
+    ASSERT_EQ(weak, static_cast<double>(depth.noise_m[i]) > camera.decoding.noise_threshold_m) << i;
+    ASSERT_EQ(std::isnan(depth.z_m[i]), (depth.flags[i] & flags_invalid) != 0) << i;
+    lost += weak ? 1 : 0;
+  }
+  EXPECT_GT(lost, all.size() / 4);
+  EXPECT_LT(lost, all.size());
+}
+
 // The other filters do not weigh by noise: a pixel that is too noisy would spoil its neighbours, and is left out before.
 TEST(final_noise, of_the_pixel_itself_counts_with_other_filters) {
   const std::vector<float> all = sorted_noise();

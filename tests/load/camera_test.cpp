@@ -135,6 +135,21 @@ TEST(modes, may_have_a_decoding_of_their_own) {
   EXPECT_EQ(with(run).decoding.filter.sigma_px, 2);
 }
 
+// Who is shown one mode after the other sees each as if it had been the only one.
+TEST(modes, leave_nothing_of_themselves_behind) {
+  std::size_t seen = 0;
+  const Camera left = load::camera_from_text(pico(), "pico-flexx", "", {}, [&](const Camera& camera) {
+    const Camera alone = load_camera("pico-flexx", {.mode = camera.mode.name});
+    EXPECT_EQ(camera.decoding.filter.kind, alone.decoding.filter.kind) << camera.mode.name;
+    EXPECT_EQ(camera.decoding.filter.goal_m, alone.decoding.filter.goal_m) << camera.mode.name;
+    EXPECT_EQ(camera.mode.sequence.size(), alone.mode.sequence.size());
+    ++seen;
+  });
+  EXPECT_EQ(seen, left.mode_names.size());
+  EXPECT_EQ(left.mode.name, "MODE_9_5FPS_2000") << "the one that was asked for";
+  EXPECT_EQ(left.decoding.filter.kind, ImageFilter::Kind::none);
+}
+
 TEST(no_light, is_a_camera_too) { EXPECT_TRUE(with({{"illumination", "[]"}}).illumination.empty()); }
 
 TEST(no_lit_raw_frame, is_a_camera_too) {
