@@ -66,9 +66,9 @@ TEST_F(vertex_colors, of_a_ply_file_are_its_reflectivity) {
 }
 
 TEST_F(vertex_colors, beyond_their_range_are_held_there) {
-  save("a.ply", ply("float", "0 2 0 1 1 0\n1 -1 0 0 0 0\n0 nan 1 1 1 0\n"));
+  save("a.ply", ply("float", "0 2 0 0 0 0\n1 -1 0 0 0 0\n0 nan 1 1 1 0\n"));
   const Scene got = scene("file: a.ply");
-  expect_shades(got, {1, 0, 0.7152 + 0.0722});
+  expect_shades(got, {0.2126, 0, 0.7152 + 0.0722});
   ASSERT_EQ(mesh(got).notices.size(), 1U);
   EXPECT_EQ(mesh(got).notices[0], "colours of vertices beyond 0 to 1 (3) are held there");
 }

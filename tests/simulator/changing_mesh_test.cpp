@@ -147,9 +147,14 @@ TEST(changing_mesh, that_is_shared_by_objects_is_one_and_others_stay_as_they_are
   scene.objects[2].position = {-0.5, 0, 1.6}, scene.objects[2].rotation = {}, scene.objects[2].velocity_m_per_s = {0.2, 0, 0};
   scene.objects.push_back(object(still));
   scene.objects[3].position = {0.4, -0.3, 1.4};
+  // … and one that shares its triangles with the first, but not how it moves.
+  scene.objects.push_back(object(changing(still, [](double time_s, Corners& vertices, Corners&) {
+    shift(vertices, {0.3 * time_s, 0, 0});
+  })));
+  scene.objects[4].position = {0.7, 0.5, 1.9};
   const Camera camera = lit_camera(120, 90, 90);
   const Truth seen = Simulator(scene, camera, {.noise = Noise::off}).frame(0).truth;
-  double largest[4] = {};
+  double largest[5] = {};
   for (std::size_t i = 0; i < seen.object_id.size(); ++i)
     if (seen.object_id[i] >= 0)
       largest[seen.object_id[i]] = std::max(largest[seen.object_id[i]], base::length(vector_at(seen.velocity_m_per_s, i)));
@@ -158,6 +163,7 @@ TEST(changing_mesh, that_is_shared_by_objects_is_one_and_others_stay_as_they_are
   EXPECT_LT(largest[1], 1.3);
   EXPECT_GT(largest[2], 0.8);
   EXPECT_EQ(largest[3], 0);
+  EXPECT_NEAR(largest[4], 0.3, 1e-3);
 }
 
 TEST(changing_mesh, has_the_same_bytes_by_all_kinds_of_code) {

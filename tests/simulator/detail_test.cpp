@@ -121,6 +121,33 @@ TEST(smooth_normals, are_those_of_the_ball_that_the_corners_lie_on) {
   }
 }
 
+// The light stands at the camera, so that what a surface sends back hangs on one angle, that to the smooth normal: Oren and Nayar's
+// A + B·sin θ·tan θ over Lambert's.                                                                     [theory: eq. 2.14]
+TEST(smooth_normals, are_those_that_materials_see) {
+  const Vec3 normal = base::normalized(Vec3{0.5, -0.3, -1});
+  Scene scene = card(nullptr);
+  auto mesh = std::make_shared<TriangleMesh>(*std::get<Mesh>(scene.objects[0].shape).triangles);
+  mesh->normals.assign(4, {static_cast<float>(normal[0]), static_cast<float>(normal[1]), static_cast<float>(normal[2])});
+  std::get<Mesh>(scene.objects[0].shape).triangles = mesh;
+  const Frame matt = Simulator(scene, lit_camera(64, 64, 60), expected_values()).frame(0);
+  scene.materials[0].brdf = Material::Brdf::oren_nayar, scene.materials[0].roughness_rad = 0.6;
+  const Frame rough = Simulator(scene, lit_camera(64, 64, 60), expected_values()).frame(0);
+  const double a = 1 - 0.5 * 0.36 / (0.36 + 0.33), b = 0.45 * 0.36 / (0.36 + 0.09);
+  int count = 0;
+  for (std::size_t i = 0; i < matt.truth.object_id.size(); ++i) {
+    if (matt.truth.object_id[i] != 0) continue;
+    const Vec3 p{static_cast<double>(matt.truth.position_m[3 * i]), static_cast<double>(matt.truth.position_m[3 * i + 1]),
+                 static_cast<double>(matt.truth.position_m[3 * i + 2])};
+    const double cosine = -base::dot(normal, p) / base::length(p);
+    ASSERT_GT(cosine, 0.3);
+    ASSERT_NEAR(static_cast<double>(rough.truth.radiance_w_m2_sr[i]) / static_cast<double>(matt.truth.radiance_w_m2_sr[i]),
+                a + b * (1 - cosine * cosine) / cosine, 1e-5)
+        << i;
+    ++count;
+  }
+  EXPECT_GT(count, 1000);
+}
+
 TEST(smooth_normals, of_length_zero_leave_the_triangle_flat) {
   Scene scene = card(nullptr);
   auto mesh = std::make_shared<TriangleMesh>(*std::get<Mesh>(scene.objects[0].shape).triangles);
@@ -193,6 +220,47 @@ TEST(reflectivity_map, changes_level_where_texels_are_as_large_as_pixels) {
     const float got = brdf::map_value<float>(view, 0.3F, 0.8F, static_cast<float>(texels / 65536));
     EXPECT_NEAR(static_cast<double>(got), expected, 1e-5) << texels;
   }
+}
+
+// A card of a quarter of the size at a quarter of the distance looks the same.
+TEST(reflectivity_map, has_the_level_of_what_a_pixel_sees_at_any_size) {
+  Random random(4);
+  const auto stripes = picture(512, 512, [&](int, int) { return random.uniform(); });
+  const Scene large = card(stripes);
+  Scene small = large;
+  auto mesh = std::make_shared<TriangleMesh>(*std::get<Mesh>(large.objects[0].shape).triangles);
+  for (auto& v : mesh->vertices)
+    for (float& x : v) x *= 0.25F;
+  std::get<Mesh>(small.objects[0].shape).triangles = mesh;
+  const Frame far = Simulator(large, lit_camera(64, 64, 60), expected_values()).frame(0),
+              near = Simulator(small, lit_camera(64, 64, 60), expected_values()).frame(0);
+  ASSERT_EQ(far.truth.object_id, near.truth.object_id);
+  for (std::size_t i = 0; i < far.truth.object_id.size(); ++i)
+    if (far.truth.object_id[i] == 0) {
+      ASSERT_NEAR(far.truth.reflectivity[i], near.truth.reflectivity[i], 1e-5F) << i;
+    }
+}
+
+// Askew by 60 degrees a pixel sees twice as much of the card, as if the picture were twice as dense; along its axis nothing else changes.
+TEST(reflectivity_map, has_the_level_of_what_a_pixel_sees_askew) {
+  Random random(6);
+  std::vector<double> values(512);
+  for (double& value : values) value = random.uniform();
+  const auto stripes = picture(512, 1, [&](int x, int) { return values[static_cast<std::size_t>(x)]; });
+  const Scene dense = card(stripes, {0, 1}, {0, 512});
+  Scene askew = card(stripes, {0, 1}, {0, 256});
+  auto mesh = std::make_shared<TriangleMesh>(*std::get<Mesh>(askew.objects[0].shape).triangles);
+  for (auto& v : mesh->vertices) v = {v[0], 0.5F * v[1], 2 + v[1] * static_cast<float>(std::sqrt(0.75))};
+  std::get<Mesh>(askew.objects[0].shape).triangles = mesh;
+  const Frame straight = Simulator(dense, lit_camera(64, 65, 60), expected_values()).frame(0),
+              turned = Simulator(askew, lit_camera(64, 65, 60), expected_values()).frame(0);
+  int count = 0;
+  for (std::size_t i = 32 * 64; i < 33 * 64; ++i)
+    if (straight.truth.object_id[i] == 0 && turned.truth.object_id[i] == 0) {
+      ASSERT_NEAR(straight.truth.reflectivity[i], turned.truth.reflectivity[i], 2e-4F) << i;
+      ++count;
+    }
+  EXPECT_GT(count, 50);
 }
 
 TEST(map_levels, keep_the_mean_of_pictures_of_any_size) {

@@ -179,6 +179,33 @@ TEST(leaning_normals, are_interpolated_and_turn_the_light_with_them) {
   EXPECT_GT(largest, 0.05);
 }
 
+// On smooth normals the axes are what is left of u across them, and what stands on both.
+TEST(leaning_normals, stand_on_smooth_normals) {
+  Material leaning = matt;
+  const Vec3 lean = base::normalized(Vec3{0.3, 0.4, 1}), normal = base::normalized(Vec3{0.4, 0.25, -1});
+  leaning.normals = vectors(lean);
+  TriangleMesh mesh = card_patch().mesh();
+  mesh.normals.assign(4, {static_cast<float>(normal[0]), static_cast<float>(normal[1]), static_cast<float>(normal[2])});
+  const Frame frame = seen(scene_of(mesh, leaning));
+  const Vec3 x = base::normalized(Vec3{1, 0, 0} - normal[0] * normal), y = base::cross(normal, x);
+  ASSERT_LT(y[1], 0) << "up, against v";
+  const Vec3 expected = lean[0] * x + lean[1] * y + lean[2] * normal;
+  EXPECT_GT(each_seen(frame, [&](std::size_t i) { ASSERT_LT(base::length(three(frame.truth.normal, i) - expected), 3e-6); }), 1000);
+}
+
+// A file's vectors need not be of unit length: it is their directions that are mixed.
+TEST(leaning_normals, are_mixed_as_directions) {
+  const auto two = [](double left, double right) {
+    Material out = matt;
+    out.normals = vectors(2, 1, [=](int x, int) { return x == 0 ? left * Vec3{0.6, 0, 0.8} : right * Vec3{-0.6, 0.48, 0.64}; });
+    return seen(scene_of(card_patch().mesh(), out));
+  };
+  const Frame units = two(1, 1), others = two(0.6, 1.4);
+  EXPECT_GT(
+      each_seen(units, [&](std::size_t i) { ASSERT_LT(base::length(three(units.truth.normal, i) - three(others.truth.normal, i)), 1e-6); }),
+      1000);
+}
+
 // What a pixel does not resolve has the direction of its mean: of slopes that cancel none.
 TEST(leaning_normals, finer_than_pixels_are_a_mean) {
   Material leaning = matt;
@@ -214,6 +241,22 @@ TEST(finish, of_one_texel_is_the_materials_own) {
                         }),
               1000);
   }
+}
+
+// How much of it is matt says the picture, too: that part alone is scaled by shades.
+TEST(finish, says_how_much_is_matt) {
+  Material by_number{"", Material::Brdf::ggx, 0.7, 0.1}, by_map{"", Material::Brdf::ggx, 0.2, 0.6};
+  by_number.alpha = 0.4;
+  by_map.finish = vectors({by_number.diffuse, by_number.specular, by_number.alpha});
+  TriangleMesh mesh = card_patch().mesh();
+  mesh.shades.assign(4, 0.3F);
+  const Frame a = seen(scene_of(mesh, by_map)), b = seen(scene_of(mesh, by_number));
+  EXPECT_GT(each_seen(a,
+                      [&](std::size_t i) {
+                        ASSERT_NEAR(a.truth.reflectivity[i], b.truth.reflectivity[i], 3e-6F);
+                        ASSERT_NEAR(a.truth.radiance_w_m2_sr[i], b.truth.radiance_w_m2_sr[i], 2e-5F * b.truth.radiance_w_m2_sr[i]);
+                      }),
+            1000);
 }
 
 // Halfway between two texels the ground, F_0 and the square of alpha are halfway.
