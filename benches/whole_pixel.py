@@ -4,14 +4,15 @@
 """What the sensor's effects cost: time of a frame with all of them, and with each alone, over that without.  benches/whole_pixel.py [ROUNDS]
 
 `tofray bench` of the scene bench-primitives, all variants in turn in each round; ratios of the fastest tenths, medians over the rounds. Effects
-that take a pass over the image of their own (crosstalk, scatter, what overflows into neighbours) are not among them."""
+that take a pass over the image of their own (crosstalk, scatter, what overflows into neighbours) are not among them. TOFRAY: another program than that of build/release."""
 import json
+import os
 import statistics
 import subprocess
 import sys
 from pathlib import Path
 
-tofray = Path(__file__).resolve().parents[1] / "build/release/apps/tofray/tofray"
+tofray = Path(os.environ.get("TOFRAY", Path(__file__).resolve().parents[1] / "build/release/apps/tofray/tofray"))
 effects = {
     "patterns": ["pixel.patterns={prnu: 1 %, dsnu: 2 DN, delay: 20 ps, phase_offset: 0.02 rad, seed: 1}"],
     "column and row noise": ["pixel.column_noise=10 e", "pixel.row_noise=10 e"],
