@@ -1,18 +1,15 @@
 #!/usr/bin/env python3
 # SPDX-FileCopyrightText: 2026 The tofray authors
 # SPDX-License-Identifier: Apache-2.0
-"""What the sensor's effects cost: time of a frame with all of them, and with each alone, over that without.  benches/whole_pixel.py [ROUNDS]
+"""What the sensor's effects cost: time of a frame with all of them, and with each alone, over that without.  whole_pixel.py TOFRAY [ROUNDS]
 
 `tofray bench` of the scene bench-primitives, all variants in turn in each round; ratios of the fastest tenths, medians over the rounds. Effects
-that take a pass over the image of their own (crosstalk, scatter, what overflows into neighbours) are not among them. TOFRAY: another program than that of build/release."""
+that take a pass over the image of their own (crosstalk, scatter, what overflows into neighbours) are not among them."""
 import json
-import os
 import statistics
 import subprocess
 import sys
-from pathlib import Path
 
-tofray = Path(os.environ.get("TOFRAY", Path(__file__).resolve().parents[1] / "build/release/apps/tofray/tofray"))
 effects = {
     "patterns": ["pixel.patterns={prnu: 1 %, dsnu: 2 DN, delay: 20 ps, phase_offset: 0.02 rad, seed: 1}"],
     "column and row noise": ["pixel.column_noise=10 e", "pixel.row_noise=10 e"],
@@ -27,7 +24,7 @@ effects = {
 variants = {"none": [], **effects, "all": [one for each in effects.values() for one in each]}
 
 
-def milliseconds(settings, threads, noise):
+def milliseconds(tofray, settings, threads, noise):
     command = [tofray, "bench", "--json", "--frames", "60", "--threads", str(threads), "--noise", noise]
     for one in settings:
         command += ["--set", "camera." + one]
@@ -38,15 +35,16 @@ def milliseconds(settings, threads, noise):
 
 
 def main():
-    rounds = int(sys.argv[1]) if len(sys.argv) > 1 else 5
-    print("| effects | " + " | ".join(f"{noise}, {threads} thread{'s' if threads > 1 else ''}" for noise in ("exact", "off") for threads in (1, 2)) + " |")
-    print("|---|---|---|---|---|")
+    if len(sys.argv) < 2:
+        sys.exit(__doc__)
+    tofray, rounds = sys.argv[1], int(sys.argv[2]) if len(sys.argv) > 2 else 5
+    print("| effects | exact, 1 thread | exact, 2 threads | off, 1 thread | off, 2 threads |\n|---|---|---|---|---|")
     times = {name: {} for name in variants}
     for _ in range(rounds):
         for noise in ("exact", "off"):
             for threads in (1, 2):
                 for name, settings in variants.items():
-                    times[name].setdefault((noise, threads), []).append(milliseconds(settings, threads, noise))
+                    times[name].setdefault((noise, threads), []).append(milliseconds(tofray, settings, threads, noise))
     for name, measured in times.items():
         cells = []
         for key, ms in measured.items():

@@ -187,6 +187,7 @@ TOFRAY_FN void store(std::uint16_t* to, std::int32_t a, int) { *to = static_cast
 TOFRAY_FN void store(std::uint8_t* to, std::int32_t a, int) { *to = static_cast<std::uint8_t>(a); }
 /// Whether a number type has a store_past(to, value) of its own (avx2.h, avx512.h): all lanes, past the caches, to memory that is aligned to
 /// the pack. For what will not be read soon; other threads may read it once finish_stores() has been called.
+/// (Those of a float are plain stores: the name has to stand where no type has its own.)
 template <class F>
 inline constexpr bool can_store_past = false;
 TOFRAY_FN void store_past(float* to, float a) { *to = a; }

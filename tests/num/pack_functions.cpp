@@ -159,7 +159,7 @@ TOFRAY_FN bool each_part(const PackBlock& block, const Part& part) {
 /// Which bits are wrong of what was 7 before and is `from` where it is written.
 TOFRAY_FN std::uint32_t wrong(std::uint32_t got, bool written, std::uint32_t from) { return got ^ (written ? from : 7u); }
 
-/// Whole packs past the caches, between others that stay: no bit is wrong. (A template: a plain float has no such function.)
+/// Whole packs past the caches, between others that stay: no bit is wrong. (A template, since only there `if constexpr` leaves out what a type lacks.)
 template <class P>
 TOFRAY_FN void past_caches(const At& at) {
   alignas(64) float to[3 * num::lanes<P>];
