@@ -75,7 +75,7 @@ void nine_raw_frames(benchmark::State& state) {
   const flow::Light<F> incoming = light(frozen.phasors());
   std::uint32_t frame = 0;
   for (auto _ : state) {
-    auto exposure = raw::start<F>(sensor, {0, 8});
+    auto exposure = raw::start<F>(sensor, {0, 8}, nullptr);
     for (int k = 0; k < sensor.raw_frames; ++k) {
       auto taps = raw::expose(sensor, k, incoming, frozen.phasors().orders, {frame, 0}, exposure);
       benchmark::DoNotOptimize(taps);

@@ -160,7 +160,7 @@ struct SensorView {
   Noise noise;
   float column_noise, row_noise;  ///< [DN]
   std::int32_t lines_are_noisy;   ///< 1: columns or rows have noise
-  std::int32_t width;             ///< pixels of a row
+  std::int32_t width, height;     ///< of the image that is read out
   std::int32_t taps_differ;       ///< 1: by the two numbers below
   std::int32_t more_than_noise;   ///< 1: what is rare: unlike offsets of taps, suppression, a curve, noisy lines, wells that overflow
   float half_gain_mismatch;       ///< g/2
@@ -205,7 +205,7 @@ void take_numbers(const Camera& camera, SensorView& s) {
   s.max_code = f((1 << adc.bits) - 1);
   s.column_noise = f(pixel.column_noise_e / step), s.row_noise = f(pixel.row_noise_e / step);
   s.blooming_share = f(pixel.blooming_share), s.blooming_limit = f(pixel.blooming_limit_e), s.blooms = s.blooming_share > 0;
-  s.lines_are_noisy = s.column_noise > 0 || s.row_noise > 0, s.width = camera.sensor.width;
+  s.lines_are_noisy = s.column_noise > 0 || s.row_noise > 0, s.width = camera.sensor.width, s.height = camera.sensor.height;
   s.half_gain_mismatch = f(0.5 * pixel.tap_gain_mismatch), s.half_offset_mismatch = f(0.5 * pixel.tap_offset_mismatch_e);
   s.taps_differ = s.half_gain_mismatch != 0 || s.half_offset_mismatch != 0;
   const double lower = camera.decoding.lower_saturation_dn.value_or(adc.valid_min);

@@ -86,7 +86,7 @@ TOFRAY_FN void run_pipeline(const Setup& s, const Job& job, Walk& walk) {
       Pack<F>& pack = walk.pack(q);
       const flow::Ray<F> ray = camera::ray<F>(s.lens, p);
       const F vignetting = camera::vignetting<F>(s.lens, p);
-      if (first) pack.exposure = raw::start<F>(s.sensor, p), pack.undisturbed = false;
+      if (first) pack.exposure = raw::start<F>(s.sensor, p, line_normals_in(s, job)), pack.undisturbed = false;
       const bool anew = walk.find_light(now, q, p, ray, vignetting, pack);  // stages 1 and 2
       if (now.truth && job.gather.middle != nullptr)
         compare_sample<F>(s, job.light, job.gather.middle, p, job.gather.share, job.gather.first != 0);

@@ -70,14 +70,14 @@ TOFRAY_FN depth::Filtered filtered(const depth::RangeImage& image, const Job& jo
   return {image.range[y * image.width + x], image.noise[y * image.width + x]};
 }
 
-/// Where a filter is on: filtered range of one pixel and its noise, from `out` to `filtered`. Invalid pixels stay as they are, flying ones
+/// Where a filter is on: filtered range of one pixel and its noise, from `out` to `scratch`. Invalid pixels stay as they are, flying ones
 /// among them where they are known already.
 TOFRAY_FN void filter_pixel(const Setup& s, const Job& job, int x, int y) {
   const depth::RangeImage image{job.out.range_m, job.out.noise_m, job.out.flags, s.lens.width, s.lens.height};
   const int at = y * image.width + x;
   depth::Filtered value{image.range[at], image.noise[at]};
   if (image.valid(x, y)) value = filtered(image, job, x, y);
-  job.filtered[at] = value.range, job.filtered[at + image.width * image.height] = value.noise;
+  job.scratch[at] = value.range, job.scratch[at + image.width * image.height] = value.noise;
 }
 TOFRAY_FN void filter_row(const Setup& s, const Job& job, int y) {
   for (int x = 0; x < s.lens.width; ++x) filter_pixel(s, job, x, y);
@@ -98,7 +98,7 @@ TOFRAY_FN bool any_flying(const std::uint16_t* flags, int count) {
 
 /// The flags that a filter leaves: of what is too noisy still, and of a range that is no longer the pixel's own.
 TOFRAY_FN std::int32_t flags_of_filter(const Setup& s, const Job& job, std::int32_t at) {
-  const float range = job.filtered[at], noise = job.filtered[at + s.lens.width * s.lens.height];
+  const float range = job.scratch[at], noise = job.scratch[at + s.lens.width * s.lens.height];
   if (noise > s.decoder.filtered_noise_threshold) return depth::low_signal;
   return range < job.out.range_m[at] || range > job.out.range_m[at] ? depth::filtered : 0;
 }
@@ -113,8 +113,8 @@ TOFRAY_FN void settle(const Setup& s, const Job& job, const Pixels& p, std::int3
     flags[i] = job.out.flags[p.index + i];
     if (item == of_filter) flags[i] |= flags_of_filter(s, job, p.index + i);
   }
-  const float* const range = item == of_filter ? job.filtered : job.out.range_m;
-  const float* const noise_of = item == of_filter ? job.filtered + s.lens.width * s.lens.height : job.out.noise_m;
+  const float* const range = item == of_filter ? job.scratch : job.out.range_m;
+  const float* const noise_of = item == of_filter ? job.scratch + s.lens.width * s.lens.height : job.out.noise_m;
   const F noise = num::load<F>(noise_of + p.index, p.count);
   store_range(s, job.out, p, camera::ray<F>(s.lens, p), num::load<F>(range + p.index, p.count), noise, num::load_int<F>(flags, p.count));
   if (item == of_filter) num::store(job.out.noise_m + p.index, noise, p.count);

@@ -4,6 +4,7 @@
 #include "camera/views.h"
 #include "flow/frame_view.h"
 #include "flow/light_image.h"
+#include "raw/line_noise.h"
 #include "scene/view.h"
 
 namespace tofray::pipeline {
@@ -71,7 +72,7 @@ struct Job {
   flow::LightImage light;
   Gather gather;
   std::uint32_t index_low, index_high;
-  float* filtered;  ///< [2][height][width] scratch of the image filters: range, noise; where wells overflow, [3]: by how much
+  float* scratch;  ///< images [height][width]: filtered range, its noise, what wells had no room for; then the draws of noisy lines
   Filter filter;
   std::int32_t filter_radius;
   float filter_weights[33];  ///< Gaussian, [0] the middle
@@ -86,9 +87,17 @@ using flow::tile_height;
 using flow::tile_width;
 
 /// What the wells of each pixel had no room for [e⁻].
-TOFRAY_FN float* overflow_in(const Setup& s, const Job& job) { return job.filtered + 2 * s.lens.width * s.lens.height; }
-/// How many images `filtered` has room for.
+TOFRAY_FN float* overflow_in(const Setup& s, const Job& job) { return job.scratch + 2 * s.lens.width * s.lens.height; }
+/// How many images `scratch` has room for, …
 TOFRAY_FN int scratch_images(const Setup& s, Filter filter) { return s.sensor.blooms != 0 ? 3 : filter != Filter::none ? 2 : 0; }
+/// … and how many numbers in all.
+TOFRAY_FN std::int64_t scratch_floats(const Setup& s, Filter filter) {
+  return std::int64_t{scratch_images(s, filter)} * s.lens.width * s.lens.height + raw::line_draws(s.sensor);
+}
+/// Draws of the sensor's lines, [raw_frames][width + height].
+TOFRAY_FN float* line_normals_in(const Setup& s, const Job& job) {
+  return job.scratch + scratch_images(s, job.filter) * s.lens.width * s.lens.height;
+}
 
 constexpr std::int32_t of_filter = 1;  ///< `item` of a pass `settle` that takes what the filter left
 
@@ -97,6 +106,7 @@ constexpr int rows_per_band = 8;  ///< of an image, for one worker at a time in 
 /// What is done to a frame, one after the other, each over all its pixels before the next begins.
 enum class Pass : std::int32_t {
   derive,           ///< forms and facets out of the scene's shapes, where the backend does that itself, before all else
+  lines,            ///< noise of the sensor's columns and rows
   pixels,           ///< rays to depth
   input,            ///< what came from elsewhere, or is in the light image, to depth
   bounces,          ///< light from surface to surface, into the light image

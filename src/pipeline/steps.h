@@ -122,6 +122,8 @@ void each_filter_step(const Run& run) {
 template <class Run>
 void each_step(const Setup& s, const Job& job, Stage entry, bool known, const Run& run) {
   const Pass begin = entry == Stage::trace ? Pass::pixels : Pass::input;
+  const bool exposes = s.last_stage >= Stage::raw && entry != Stage::depth;
+  if (exposes && raw::draws_lines(s.sensor)) run(Step{Pass::lines, Part::all, 0, 0, 0});
   if (!has_light_image(s, entry)) {
     run(Step{begin, Part::all, 0, 0, 0});
   } else {

@@ -126,16 +126,25 @@ TOFRAY_FN Means<F> with_unlike_offsets(const camera::SensorView& s, const Means<
   return {charge.a + F(s.half_offset_mismatch), charge.b - F(s.half_offset_mismatch)};
 }
 
+/// Words of a pixel's suppression noise: a block serves two raw frames, the first of which has an even number.
+template <class F>
+struct SuppressionWords {
+  num::Random4<F> block;
+  std::int32_t first;  ///< of these raw frames; below 0: nothing is drawn yet
+};
+
 /// Equal charge x = min(budget, max(0, min(A, B) − threshold)) off both taps; each removal adds its own variance factor²·x. [eq. 3.7]
 template <class F>
-TOFRAY_FN Means<F> suppress(const camera::SensorView& s, const Means<F>& charge, num::Int<F> pixel, int k, FrameIndex frame) {
+TOFRAY_FN Means<F> suppress(const camera::SensorView& s, const Means<F>& charge, num::Int<F> pixel, int k, FrameIndex frame,
+                            SuppressionWords<F>& words) {
   const F excess = num::max(num::min(charge.a, charge.b) - F(s.suppression_threshold), F(0.0f));
   const F removed = num::min(excess, F(s.suppression_budget));
   Means<F> left{charge.a - removed, charge.b - removed};
   if (s.noise != Noise::off && s.suppression_noise > 0 && num::any(removed > F(0.0f))) {
-    const num::Random4<F> words = draw<F>(s, pixel, k, frame, suppression);
+    const int odd = k & 1;
+    if (words.first != k - odd) words = {draw<F>(s, pixel, k - odd, frame, suppression), k - odd};
     F a, b;
-    num::normal_pair<F>(words.w[0], words.w[1], a, b);
+    num::normal_pair<F>(words.block.w[2 * odd], words.block.w[2 * odd + 1], a, b);
     const F sigma = F(s.suppression_noise) * num::sqrt(removed);
     left.a = num::fma(sigma, a, left.a), left.b = num::fma(sigma, b, left.b);
   }
@@ -158,9 +167,10 @@ TOFRAY_FN Means<F> read_charges(const camera::SensorView& s, const Means<F>& cha
 
 /// What the taps hold after tap offsets and background suppression, as far as the sensor has them.
 template <class F>
-TOFRAY_FN void offset_and_suppress(const camera::SensorView& s, num::Int<F> pixel, int k, FrameIndex frame, Means<F>& charge) {
+TOFRAY_FN void offset_and_suppress(const camera::SensorView& s, num::Int<F> pixel, int k, FrameIndex frame, SuppressionWords<F>& words,
+                                   Means<F>& charge) {
   if (s.half_offset_mismatch != 0) charge = with_unlike_offsets(s, charge);
-  if (s.suppression_threshold > 0) charge = suppress(s, charge, pixel, k, frame);
+  if (s.suppression_threshold > 0) charge = suppress(s, charge, pixel, k, frame, words);
 }
 
 /// Full well per tap, then A−B through the ADC: DN = round((A−B)/s + mid + offset), held to the code range.   [eq. 3.8]

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The tofray authors
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-#include "raw/charge.h"
+#include "raw/line_noise.h"
 
 /// Stage 3: what the sensor collects in one raw frame.                                                  [theory: eq. 3.6]
 namespace tofray::raw {
@@ -10,9 +10,10 @@ namespace tofray::raw {
 template <class F>
 struct Exposure {
   num::Int<F> pixel;
-  num::Int<F> column, row;  ///< where the sensor's lines are noisy
+  LineNoise lines;
   F gain_a, gain_b, offset;
   MergedWords<F> merged_words;
+  SuppressionWords<F> suppression_words;
   F overflow;                   ///< of the lit raw frames: most charge for which both wells have no room, where that spills
   F most_charge, widest_level;  ///< of the lit raw frames: most charge of a tap, largest distance of a level from the valid codes' middle
 };
@@ -29,11 +30,12 @@ TOFRAY_FN void unlike_gains(const camera::SensorView& s, Exposure<F>& e) {
   e.gain_b = num::fnma(e.gain_b, F(s.half_gain_mismatch), e.gain_b);
 }
 
+/// @param line_normals  as line_noise.h draws them, where it does
 template <class F>
-TOFRAY_FN Exposure<F> start(const camera::SensorView& s, const flow::Pixels& p) {
+TOFRAY_FN Exposure<F> start(const camera::SensorView& s, const flow::Pixels& p, const float* line_normals) {
   Exposure<F> e;
   e.pixel = num::Int<F>(p.index) + num::lane_index<F>();
-  if (s.lines_are_noisy != 0) e.column = num::Int<F>(p.index % s.width) + num::lane_index<F>(), e.row = num::Int<F>(p.index / s.width);
+  e.lines = lines_through(s, p, line_normals), e.suppression_words.first = -1;
   e.gain_a = e.gain_b = pattern<F>(s.gain, p, 1.0f), e.offset = pattern<F>(s.offset, p, 0.0f);
   if (s.half_gain_mismatch != 0) unlike_gains(s, e);
   e.overflow = e.most_charge = F(0.0f), e.widest_level = F(0.0f);
@@ -59,25 +61,6 @@ TOFRAY_FN void watch(const camera::SensorView& s, const camera::RawFrameView& fr
 template <class F>
 TOFRAY_FN Mask<F> saturated(const camera::SensorView& s, const Exposure<F>& e) {
   return (e.most_charge >= F(s.full_well)) | (e.widest_level > F(s.valid_half));
-}
-
-/// An offset [DN] with that of a line of pixels in this raw frame: one draw for all pixels of the line.              [theory: eq. 3.15]
-template <class F>
-TOFRAY_FN F with_line_noise(const camera::SensorView& s, float deviation, num::Int<F> line, int k, FrameIndex index, Purpose purpose,
-                            F offset) {
-  if (!(deviation > 0)) return offset;
-  const num::Random4<F> words = draw<F>(s, line, k, index, purpose);
-  F z, other;
-  num::normal_pair<F>(words.w[0], words.w[1], z, other);
-  return num::fma(F(deviation), z, offset);
-}
-
-/// The pixel's offset [DN] with those of its column and its row.
-template <class F>
-TOFRAY_FN F offset_of(const camera::SensorView& s, int k, FrameIndex index, const Exposure<F>& e) {
-  if (s.lines_are_noisy == 0 || s.noise == Noise::off) return e.offset;
-  const F of_columns = with_line_noise(s, s.column_noise, e.column, k, index, of_column, e.offset);
-  return with_line_noise(s, s.row_noise, e.row, k, index, of_row, of_columns);
 }
 
 /// A−B without noise. Strong ambient light leaves few places of a float to the difference of the taps; where neither clips, and what is read
@@ -116,7 +99,7 @@ TOFRAY_FN Taps<F> expose(const camera::SensorView& s, int k, const Light<F>& lig
   }
   F most = num::max(charge.a, charge.b), offset = e.offset;
   if (s.more_than_noise != 0) {
-    offset_and_suppress(s, e.pixel, k, index, charge), offset = offset_of(s, k, index, e);
+    offset_and_suppress(s, e.pixel, k, index, e.suppression_words, charge), offset = with_line_noise(s, k, e.lines, e.offset);
     most = num::max(charge.a, charge.b);
     if (s.blooms != 0 && frame.lit != 0) e.overflow = num::max(e.overflow, overflow_of(s, charge));
     if (s.read.cell != nullptr) charge = read_charges(s, charge);

@@ -79,7 +79,7 @@ void Simulator::Impl::frames_on_gpus(std::uint64_t count, const Request& request
   simulator::prepare(scratch, camera, options, scene.transport);
   job.out = simulator::view_of(scratch, options.last_stage);
   const std::size_t frame_bytes =
-      std::max<std::size_t>(1, backend::gpu::Slab(setup, job.out, pipeline::scratch_images(setup, job.filter)).bytes());
+      std::max<std::size_t>(1, backend::gpu::Slab(setup, job.out, pipeline::scratch_floats(setup, job.filter)).bytes());
   const std::uint64_t chunk = std::clamp<std::uint64_t>(options.batch_bytes / frame_bytes, 1, most_frames),
                       lanes = lanes_per_gpu * gpus.size();
   std::deque<Flight> flights;
@@ -159,7 +159,7 @@ void Simulator::Impl::frames_on_device(std::uint64_t count, const Request& reque
   backend::Cuda& gpu = *gpus[0];
   into.indices.clear();
   into.seconds = 0;
-  into.slab = backend::gpu::Slab(setup, job.out, pipeline::scratch_images(setup, job.filter));
+  into.slab = backend::gpu::Slab(setup, job.out, pipeline::scratch_floats(setup, job.filter));
   into.camera = camera;
   if (count > std::numeric_limits<std::size_t>::max() / std::max<std::size_t>(1, into.slab.bytes()))
     throw backend::gpu::Fault("its memory is too small for " + std::to_string(count) + " frames", true);

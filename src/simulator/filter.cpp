@@ -27,9 +27,4 @@ void set_filter(const ImageFilter& filter, pipeline::Job& job) {
   }
 }
 
-std::size_t filter_scratch(const pipeline::Job& job, const pipeline::Setup& setup) {
-  const auto images = static_cast<std::size_t>(pipeline::scratch_images(setup, job.filter));
-  return images * static_cast<std::size_t>(setup.lens.width) * static_cast<std::size_t>(setup.lens.height);
-}
-
 }  // namespace tofray::simulator

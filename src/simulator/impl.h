@@ -26,7 +26,7 @@ struct Simulator::Impl {
   scene::FrozenScene frozen_scene;
   pipeline::Setup setup{};
   pipeline::Job job{};
-  std::vector<float> filtered;
+  std::vector<float> passes_scratch;
   Frame scratch;  ///< of a batch on the processor, and the model of one on a GPU
   simulator::Temporal temporal;
   simulator::Exposure exposure;

@@ -63,8 +63,8 @@ Depth process(const Raw& raw, const Camera& profile, const SimulatorOptions& opt
   simulator::set_filter(camera.decoding.filter, job);
   Depth depth;
   simulator::prepare(depth, raw.width, raw.height);
-  std::vector<float> filtered(simulator::filter_scratch(job, setup));
-  job.filtered = filtered.data();
+  std::vector<float> scratch(static_cast<std::size_t>(pipeline::scratch_floats(setup, job.filter)));
+  job.scratch = scratch.data();
   job.out = simulator::view_of(depth);
   const simulator::OwnInput own = simulator::input_of(raw);
   simulator::Engines engines(options, setup);

@@ -79,8 +79,8 @@ Simulator::Impl::Impl(const Scene& all, const Camera& profile, const SimulatorOp
       exposure(camera, options.last_stage),
       engines(options, setup) {
   simulator::set_filter(camera.decoding.filter, job);
-  filtered.resize(simulator::filter_scratch(job, setup));
-  job.filtered = filtered.data();
+  passes_scratch.resize(static_cast<std::size_t>(pipeline::scratch_floats(setup, job.filter)));
+  job.scratch = passes_scratch.data();
 }
 
 pipeline::Setup Simulator::Impl::fixed_setup() {

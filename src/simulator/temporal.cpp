@@ -43,7 +43,7 @@ void Temporal::settle(std::uint64_t index, const pipeline::Setup& setup, const p
   const depth::RangeImage image{own.range.data(), own.noise.data(), job.out.flags, setup.lens.width, setup.lens.height};
   const std::size_t pixels = own.range.size();
   pipeline::Job settled = job;
-  settled.filtered = mean_.data();
+  settled.scratch = mean_.data();
   for (std::size_t i = 0; i < pixels; ++i) {
     const auto at = static_cast<std::int32_t>(i);
     const depth::Filtered value = depth::mean_over_time(image, past.data(), static_cast<int>(past.size()), at, factor_);

@@ -72,6 +72,21 @@ TEST(cuda_host, has_the_same_bytes_with_everything_switched_on) {
   }
 }
 
+// A column has noise in each raw frame, one pixel or many: here there are more draws of lines than pixels.
+TEST(cuda_host, has_the_same_bytes_of_noisy_lines_where_they_outnumber_the_pixels) {
+  const WithStandIn here;
+  const Scene scene = load_scene("card");
+  for (const auto& [width, height] : {std::pair{1, 1}, std::pair{3, 1}, std::pair{1, 5}, std::pair{33, 2}}) {
+    Camera camera = small(load_camera(scene));
+    camera.sensor.width = width, camera.sensor.height = height;
+    camera.pixel.column_noise_e = 3000, camera.pixel.row_noise_e = 2000;
+    for (const auto kind : {ImageFilter::Kind::none, ImageFilter::Kind::median}) {
+      camera.decoding.filter.kind = kind;
+      expect_same(scene, camera, {});
+    }
+  }
+}
+
 TEST(cuda_host, has_the_same_bytes_of_random_scenes_still_and_moving) {
   const WithStandIn here;
   const Camera camera = small(load_camera("pico-flexx"));
@@ -314,7 +329,8 @@ TEST(cuda_host, batches_have_the_bytes_of_single_frames) {
     here.cuda.devices = devices;
     for (const char* name : {"card", "flying-ball"}) {
       const Scene scene = load_scene(name);
-      const Camera camera = small(load_camera(scene));
+      Camera camera = small(load_camera(scene));
+      camera.pixel.column_noise_e = 30, camera.pixel.row_noise_e = 20;
       for (const Backend backend : {Backend::cpu, Backend::cuda}) {
         Simulator simulator(scene, camera, on(backend, {.seed = 5, .batch_bytes = 2'000'000}));
         Simulator single(scene, camera, on(Backend::cpu, {.seed = 5}));

@@ -24,7 +24,7 @@ double range_error(const Camera& camera, double x, double range) {
     paths.push_back({static_cast<float>(2e7 * source.power_w / sum), static_cast<float>(from_light + range)});
   }
   const flow::Light<float> light = bench.light_of(paths);
-  auto exposure = raw::start<float>(bench.sensor(), {0, 1});
+  auto exposure = raw::start<float>(bench.sensor(), {0, 1}, nullptr);
   std::vector<float> difference;
   for (int k = 0; k < bench.sensor().raw_frames; ++k) {
     difference.push_back(raw::expose(bench.sensor(), k, light, bench.phasors().orders, {0, 0}, exposure).difference);

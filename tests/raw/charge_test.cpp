@@ -12,6 +12,12 @@ using namespace tofray::test;
 
 namespace {
 
+/// By a pixel that has drawn nothing before.
+raw::Means<float> suppressed(const camera::SensorView& s, const raw::Means<float>& charge, int pixel, int k, raw::FrameIndex frame) {
+  raw::SuppressionWords<float> words{{}, -1};
+  return raw::suppress<float>(s, charge, pixel, k, frame, words);
+}
+
 camera::SensorView suppressing(float threshold, float budget, float factor, camera::Noise noise) {
   camera::SensorView s{};
   s.suppression_threshold = threshold, s.suppression_budget = budget, s.suppression_noise = factor, s.noise = noise;
@@ -25,7 +31,7 @@ TEST(suppression, takes_the_same_off_both_taps) {
   const auto s = suppressing(20000, 50000, 1, camera::Noise::off);
   for (int a = 0; a <= 120000; a += 997) {
     for (int b = 0; b <= 120000; b += 1009) {
-      const auto left = raw::suppress<float>(s, {static_cast<float>(a), static_cast<float>(b)}, 0, 0, {0, 0});
+      const auto left = suppressed(s, {static_cast<float>(a), static_cast<float>(b)}, 0, 0, {0, 0});
       const int removed = std::min(50000, std::max(0, std::min(a, b) - 20000));
       ASSERT_EQ(left.a, static_cast<float>(a - removed));
       ASSERT_EQ(left.b, static_cast<float>(b - removed));
@@ -39,10 +45,10 @@ TEST(suppression, adds_the_variance_of_what_it_takes) {
   Moments a(1000), b(5000), untouched(500);
   Correlation taps(1000, 5000);
   for (int i = 0; i < 200'000; ++i) {
-    const auto left = raw::suppress<float>(s, {9000.0f, 13000.0f}, i, 1, {2, 0});
+    const auto left = suppressed(s, {9000.0f, 13000.0f}, i, 1, {2, 0});
     a.add(static_cast<double>(left.a)), b.add(static_cast<double>(left.b)),
         taps.add(static_cast<double>(left.a), static_cast<double>(left.b));
-    untouched.add(static_cast<double>(raw::suppress<float>(s, {500.0f, 700.0f}, i, 1, {2, 0}).a));
+    untouched.add(static_cast<double>(suppressed(s, {500.0f, 700.0f}, i, 1, {2, 0}).a));
   }
   const double expected = 1.5 * 1.5 * 8000;
   EXPECT_NEAR(a.variance() / expected, 1, 5 * std::sqrt(2.0 / 200'000));
@@ -214,7 +220,7 @@ TEST(electrons, of_several_lights_add_up) {
   camera.illumination.push_back(camera.illumination[0]);
   const Bench bench(camera);
   const flow::Light<float> light = bench.light_of({{3e6f, 2.0f}, {1e6f, 3.1f}});
-  auto exposure = raw::start<float>(bench.sensor(), {0, 1});
+  auto exposure = raw::start<float>(bench.sensor(), {0, 1}, nullptr);
   for (int k = 0; k < 4; ++k) {
     const auto taps = raw::expose(bench.sensor(), k, light, bench.phasors().orders, {0, 0}, exposure);
     double expected = 0;
@@ -243,7 +249,7 @@ TEST(electrons, of_several_lights_add_up_at_any_reference_phases) {
     std::vector<flow::Path<float>> way;
     for (int l = 0; l < 2; ++l) way.push_back({static_cast<float>(1e3 * signals[l]), static_cast<float>(paths[l])});
     const flow::Light<float> light = bench.light_of(way);
-    auto exposure = raw::start<float>(bench.sensor(), {0, 1});
+    auto exposure = raw::start<float>(bench.sensor(), {0, 1}, nullptr);
     for (int k = 0; k < phases; ++k) {
       const auto taps = raw::expose(bench.sensor(), k, light, bench.phasors().orders, {0, 0}, exposure);
       double expected = 0;
@@ -265,13 +271,13 @@ TEST(electrons, of_several_lights_add_up_at_any_reference_phases) {
 TEST(fixed_pattern, is_each_pixel_s_own_from_the_start_of_its_exposure) {
   const Bench bench(patterned(50)), plain(bench_camera());
   for (int i = 0; i < 50; ++i) {
-    const auto exposure = raw::start<float>(bench.sensor(), {i, 1});
+    const auto exposure = raw::start<float>(bench.sensor(), {i, 1}, nullptr);
     EXPECT_EQ(exposure.gain_a, bench.sensor().gain[i]);
     EXPECT_EQ(exposure.gain_b, bench.sensor().gain[i]);
     EXPECT_EQ(exposure.offset, bench.sensor().offset[i]);
     EXPECT_EQ(camera::late_by<float>(bench.sensor(), 0, {i, 1}), bench.sensor().delay[i]);
   }
-  const auto exposure = raw::start<float>(plain.sensor(), {0, 1});
+  const auto exposure = raw::start<float>(plain.sensor(), {0, 1}, nullptr);
   EXPECT_EQ(exposure.gain_a, 1.0f);
   EXPECT_EQ(exposure.gain_b, 1.0f);
   EXPECT_EQ(exposure.offset, 0.0f);

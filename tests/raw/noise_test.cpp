@@ -204,7 +204,8 @@ TEST(draws, of_suppression_are_independent_of_shot_and_read_noise) {
     const auto without_read = raw::expose_apart<float>(shot, {10000.0f, 10000.0f}, i, 0, {0, 0});
     const auto with_read = raw::expose_apart<float>(read, {10000.0f, 10000.0f}, i, 0, {0, 0});
     const auto together = raw::expose_merged<float>(shot, {10000.0f, 10000.0f}, i, 0, {0, 0}, words);
-    const auto left = raw::suppress<float>(taking, {10000.0f, 10000.0f}, i, 0, {0, 0});
+    raw::SuppressionWords<float> own{{}, -1};
+    const auto left = raw::suppress<float>(taking, {10000.0f, 10000.0f}, i, 0, {0, 0}, own);
     const double drawn[6] = {static_cast<double>(without_read.a) - 10000,       static_cast<double>(without_read.b) - 10000,
                              static_cast<double>(with_read.a - without_read.a), static_cast<double>(with_read.b - without_read.b),
                              static_cast<double>(together.a) - 10000,           static_cast<double>(together.b) - 10000};
@@ -216,6 +217,43 @@ TEST(draws, of_suppression_are_independent_of_shot_and_read_noise) {
     }
   }
   for (std::size_t i = 0; i < pairs.size(); ++i) EXPECT_LT(std::abs(pairs[i].z()), 5) << (i < 12 ? "values " : "squares ") << i % 12;
+}
+
+// Two raw frames share a block of words: their draws know nothing of each other's, nor of those of the next block, and each is the same
+// whether the pixel's charge was suppressed in raw frames before or not.
+TEST(draws, of_suppression_are_independent_between_taps_and_raw_frames) {
+  constexpr int raw_frames = 5;
+  constexpr std::size_t draws = 2 * raw_frames;
+  camera::SensorView s{};
+  s.suppression_threshold = 1000, s.suppression_budget = 1e6f, s.suppression_noise = 1, s.noise = camera::Noise::merged;
+  const raw::Means<float> charge{10000.0f, 10000.0f}, little{500.0f, 500.0f};
+  std::vector<Correlation> values(draws * draws, Correlation(1000, 1000)), sizes(draws * draws, Correlation(9000, 9000));
+  for (int i = 0; i < samples; ++i) {
+    raw::SuppressionWords<float> words{{}, -1};
+    double drawn[draws];
+    for (int k = 0; k < raw_frames; ++k) {
+      const auto left = raw::suppress<float>(s, charge, i, k, {0, 0}, words);
+      drawn[2 * k] = static_cast<double>(left.a), drawn[2 * k + 1] = static_cast<double>(left.b);
+      if (i >= 100) continue;
+      raw::SuppressionWords<float> fresh{{}, -1};
+      for (int before = 0; before < k; ++before) (void)raw::suppress<float>(s, before == 0 ? charge : little, i, before, {0, 0}, fresh);
+      const auto alone = raw::suppress<float>(s, charge, i, k, {0, 0}, fresh);
+      ASSERT_EQ(alone.a, left.a) << "pixel " << i << ", raw frame " << k;
+      ASSERT_EQ(alone.b, left.b) << "pixel " << i << ", raw frame " << k;
+    }
+    for (std::size_t x = 0; x < draws; ++x) {
+      for (std::size_t y = 0; y < x; ++y) {
+        const auto size = [&](std::size_t at) { return (drawn[at] - 1000) * (drawn[at] - 1000); };
+        values[x * draws + y].add(drawn[x], drawn[y]), sizes[x * draws + y].add(size(x), size(y));
+      }
+    }
+  }
+  for (std::size_t x = 0; x < draws; ++x) {
+    for (std::size_t y = 0; y < x; ++y) {
+      EXPECT_LT(std::abs(values[x * draws + y].z()), 5) << x << " and " << y;
+      EXPECT_LT(std::abs(sizes[x * draws + y].z()), 5) << "sizes of " << x << " and " << y;
+    }
+  }
 }
 
 // Merged noise's ninth raw frame lives on the bits that eight before it left over: its radius and angle are as evenly spread as theirs, and

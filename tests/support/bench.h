@@ -75,13 +75,13 @@ class Bench {
                                                       bool* saturated = nullptr) const {
     flow::Light<float> light = light_of({{static_cast<float>(in.signal_e * 1e3), static_cast<float>(2 * in.half_path_m)}});
     light.ambient_rate = static_cast<float>(in.ambient_e * 1e3);
-    raw::Exposure<float> exposure = raw::start<float>(sensor_, {pixel, 1});
+    const raw::FrameIndex index{static_cast<std::uint32_t>(frame), static_cast<std::uint32_t>(frame >> 32)};
+    std::vector<float> line_normals(static_cast<std::size_t>(raw::line_draws(sensor_)));
+    for (int i = 0; i < raw::line_draws(sensor_); ++i) raw::draw_line(sensor_, index, i, line_normals.data());
+    raw::Exposure<float> exposure = raw::start<float>(sensor_, {pixel, 1}, line_normals.data());
     if (sensor_.delay != nullptr) power::delay_by(phasors(), power::all_of(phasors()), sensor_, {pixel, 1}, light);
     std::vector<flow::Taps<float>> taps;
-    for (int k = 0; k < sensor_.raw_frames; ++k) {
-      const raw::FrameIndex index{static_cast<std::uint32_t>(frame), static_cast<std::uint32_t>(frame >> 32)};
-      taps.push_back(raw::expose(sensor_, k, light, phasors().orders, index, exposure));
-    }
+    for (int k = 0; k < sensor_.raw_frames; ++k) taps.push_back(raw::expose(sensor_, k, light, phasors().orders, index, exposure));
     if (saturated != nullptr) *saturated = raw::saturated(sensor_, exposure);
     return taps;
   }

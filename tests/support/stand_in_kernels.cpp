@@ -49,8 +49,7 @@ void run_on_host(const backend::gpu::Launch& what, const backend::gpu::FrameArgu
     if (what.pass != Pass::pixels) {
       pipeline::Job job = job_of(a.job, number, owns ? 0 : frame * what.batch.stride);
       if (owns) pipeline::take_image_step(what.batch.step, job);
-      const int pixels = a.setup.lens.width * a.setup.lens.height;
-      for (int i = 0; i < pixels + 7; ++i) run_pass(what.pass, what.batch.step.item, a.setup, job, what.input, i);
+      for (int i = 0; i < units_of(what.pass, a.setup) + 7; ++i) run_pass(what.pass, what.batch.step.item, a.setup, job, what.input, i);
       continue;
     }
     if (owns) pipeline::take_step(what.batch.step, a.setup, a.job);

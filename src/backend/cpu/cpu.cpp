@@ -61,8 +61,10 @@ Isa best_isa() {
   return best;
 }
 
-/// Tiles of pixels, or bands of rows.
-int pieces_of(const pipeline::Step& step, const camera::LensView& lens) {
+/// Tiles of pixels, bands of rows, or raw frames.
+int pieces_of(const pipeline::Step& step, const pipeline::Setup& setup) {
+  const camera::LensView& lens = setup.lens;
+  if (step.pass == Pass::lines) return setup.sensor.raw_frames;
   return pipeline::goes_by_tiles(step.pass) ? pipeline::tile_count(lens)
                                             : (lens.height + pipeline::rows_per_band - 1) / pipeline::rows_per_band;
 }
@@ -132,7 +134,7 @@ void Cpu::describe(RanOn& out) const { out.backend = "cpu", out.device = out.isa
 
 void Cpu::run_step(const pipeline::Step& step, const Work& work) {
   const std::int64_t rays = rays_of(step, *work.setup);
-  pool_->runner.for_each_tile(pieces_of(step, work.setup->lens), [&](int index, void* scratch) {
+  pool_->runner.for_each_tile(pieces_of(step, *work.setup), [&](int index, void* scratch) {
     if (stopped()) return void(gave_up_ = true);
     kernel_(&work, step.pass, index, scratch);
     if (progress_ != nullptr) progress_->done += rays;
@@ -141,7 +143,7 @@ void Cpu::run_step(const pipeline::Step& step, const Work& work) {
 
 void Cpu::run_samples(const std::vector<pipeline::Step>& steps, const pipeline::Setup& setup, const pipeline::Job& job) {
   if (steps.empty()) return;
-  pool_->runner.for_each_tile(pieces_of(steps.front(), setup.lens), [&](int index, void* scratch) {
+  pool_->runner.for_each_tile(pieces_of(steps.front(), setup), [&](int index, void* scratch) {
     pipeline::Setup own_setup = setup;
     for (const pipeline::Step& step : steps) {
       if (stopped()) return void(gave_up_ = true);
@@ -170,7 +172,7 @@ void Cpu::run(const pipeline::Setup& setup, const pipeline::Job& job, const pipe
   if (progress_ != nullptr) {
     std::int64_t all = 0;
     pipeline::each_step(setup, job, entry, known,
-                        [&](const pipeline::Step& step) { all += rays_of(step, setup) * pieces_of(step, setup.lens); });
+                        [&](const pipeline::Step& step) { all += rays_of(step, setup) * pieces_of(step, setup); });
     progress_->done = 0, progress_->total = all;
   }
   std::vector<pipeline::Step> samples;

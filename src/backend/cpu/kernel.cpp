@@ -94,6 +94,14 @@ void run_transient(const Work& work, int index) {
       work, index, [&](const Pixels& p) __attribute__((always_inline)) { find_transient<F>(*work.setup, *work.job, p); });
 }
 
+void run_lines(const Work& work, int k) {
+  const camera::SensorView& sensor = work.setup->sensor;
+  const raw::FrameIndex index{work.job->index_low, work.job->index_high};
+  float* const normals = line_normals_in(*work.setup, *work.job);
+  raw::draw_all_lines<F>(sensor, k, index, camera::of_column, sensor.width, normals);
+  raw::draw_all_lines<F>(sensor, k, index, camera::of_row, sensor.height, normals);
+}
+
 void run_rows(const Work& work, Pass pass, int band) {
   const int height = work.setup->lens.height, first = band * rows_per_band;
   for (int y = first; y < first + rows_per_band && y < height; ++y) {
@@ -122,6 +130,7 @@ extern "C" std::size_t TOFRAY_KERNEL(const Work* work, Pass pass, int index, voi
       }
       break;
     case Pass::derive: break;  // the host has done it
+    case Pass::lines: run_lines(*work, index); break;
     case Pass::input: run_input(*work, index); break;
     case Pass::bounces: run_bounces(*work, index); break;
     case Pass::path_error: run_path_error(*work, index); break;

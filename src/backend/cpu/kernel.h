@@ -18,7 +18,7 @@ struct Work {
   std::int32_t item;  ///< which kernel of the lens
 };
 
-/// Does piece number `index` of a pass: a tile of pixels, or a band of rows; `scratch` is aligned to 64 bytes. @return 0;
+/// Does piece number `index` of a pass: a tile of pixels, a band of rows, or the lines of a raw frame; `scratch` is aligned to 64 bytes. @return 0;
 /// where `scratch` is null, the bytes of it that a worker needs for the work's scene, and nothing is done.
 using Kernel = std::size_t (*)(const Work* work, Pass pass, int index, void* scratch);
 

@@ -120,9 +120,10 @@ cudaError_t launch_derive(const Launch& what, cudaStream_t stream) {
 }
 
 template <Pass pass>
-cudaError_t launch_pass(const Launch& what, int pixels, cudaStream_t stream) {
+cudaError_t launch_pass(const Launch& what, cudaStream_t stream) {
   const auto block = static_cast<unsigned>(threads_of_block(pass, what.block_size));
-  const dim3 grid((static_cast<unsigned>(pixels) + block - 1) / block, static_cast<unsigned>(what.batch.frames));
+  const auto units = static_cast<unsigned>(units_of(pass, what.common->setup));
+  const dim3 grid((units + block - 1) / block, static_cast<unsigned>(what.batch.frames));
   tofray_pass<pass><<<grid, block, 0, stream>>>(*what.common, what.batch, what.input);
   return cudaGetLastError();
 }
@@ -131,25 +132,25 @@ cudaError_t launch_pass(const Launch& what, int pixels, cudaStream_t stream) {
 
 cudaError_t launch_kernel(const Launch& what, cudaStream_t stream) {
   const camera::LensView& lens = what.common->setup.lens;
-  const int pixels = lens.width * lens.height;
   switch (what.pass) {
     case Pass::derive: return launch_derive(what, stream);
     case Pass::pixels:
       return what.block_size <= few_threads ? launch_pixels<few_threads>(what, patch_count(lens), stream)
                                             : launch_pixels<max_block_size>(what, patch_count(lens), stream);
-    case Pass::input: return launch_pass<Pass::input>(what, pixels, stream);
-    case Pass::bloom: return launch_pass<Pass::bloom>(what, pixels, stream);
-    case Pass::flying: return launch_pass<Pass::flying>(what, pixels, stream);
-    case Pass::filter: return launch_pass<Pass::filter>(what, pixels, stream);
-    case Pass::settle: return launch_pass<Pass::settle>(what, pixels, stream);
-    case Pass::bounces: return launch_pass<Pass::bounces>(what, pixels, stream);
-    case Pass::path_error: return launch_pass<Pass::path_error>(what, pixels, stream);
-    case Pass::path_noise: return launch_pass<Pass::path_noise>(what, pixels, stream);
-    case Pass::smooth: return launch_pass<Pass::smooth>(what, pixels, stream);
-    case Pass::sum: return launch_pass<Pass::sum>(what, pixels, stream);
-    case Pass::transient: return launch_pass<Pass::transient>(what, pixels, stream);
-    case Pass::scatter_rows: return launch_pass<Pass::scatter_rows>(what, pixels, stream);
-    case Pass::scatter_columns: return launch_pass<Pass::scatter_columns>(what, pixels, stream);
+    case Pass::lines: return launch_pass<Pass::lines>(what, stream);
+    case Pass::input: return launch_pass<Pass::input>(what, stream);
+    case Pass::bloom: return launch_pass<Pass::bloom>(what, stream);
+    case Pass::flying: return launch_pass<Pass::flying>(what, stream);
+    case Pass::filter: return launch_pass<Pass::filter>(what, stream);
+    case Pass::settle: return launch_pass<Pass::settle>(what, stream);
+    case Pass::bounces: return launch_pass<Pass::bounces>(what, stream);
+    case Pass::path_error: return launch_pass<Pass::path_error>(what, stream);
+    case Pass::path_noise: return launch_pass<Pass::path_noise>(what, stream);
+    case Pass::smooth: return launch_pass<Pass::smooth>(what, stream);
+    case Pass::sum: return launch_pass<Pass::sum>(what, stream);
+    case Pass::transient: return launch_pass<Pass::transient>(what, stream);
+    case Pass::scatter_rows: return launch_pass<Pass::scatter_rows>(what, stream);
+    case Pass::scatter_columns: return launch_pass<Pass::scatter_columns>(what, stream);
   }
   return cudaErrorInvalidValue;
 }
@@ -163,7 +164,7 @@ cudaError_t find_kernels() {
   find(&tofray_pixels<few_threads>), find(&tofray_pixels<max_block_size>);
   find(&tofray_pixels_own<few_threads>), find(&tofray_pixels_own<max_block_size>);
   find(&tofray_derive);
-  find(&tofray_pass<Pass::input>), find(&tofray_pass<Pass::bloom>), find(&tofray_pass<Pass::flying>);
+  find(&tofray_pass<Pass::lines>), find(&tofray_pass<Pass::input>), find(&tofray_pass<Pass::bloom>), find(&tofray_pass<Pass::flying>);
   find(&tofray_pass<Pass::filter>), find(&tofray_pass<Pass::settle>);
   find(&tofray_pass<Pass::bounces>), find(&tofray_pass<Pass::sum>);
   find(&tofray_pass<Pass::path_error>), find(&tofray_pass<Pass::path_noise>), find(&tofray_pass<Pass::smooth>);
@@ -178,6 +179,7 @@ const void* kernel_function(Pass pass, int block_size) {
     case Pass::pixels:
       return block_size <= few_threads ? reinterpret_cast<const void*>(&tofray_pixels<few_threads>)
                                        : reinterpret_cast<const void*>(&tofray_pixels<max_block_size>);
+    case Pass::lines: return reinterpret_cast<const void*>(&tofray_pass<Pass::lines>);
     case Pass::input: return reinterpret_cast<const void*>(&tofray_pass<Pass::input>);
     case Pass::bloom: return reinterpret_cast<const void*>(&tofray_pass<Pass::bloom>);
     case Pass::flying: return reinterpret_cast<const void*>(&tofray_pass<Pass::flying>);

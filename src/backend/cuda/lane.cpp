@@ -15,6 +15,7 @@ constexpr std::size_t align(std::size_t bytes) { return (bytes + 255) / 256 * 25
 const char* starting(Pass pass) {
   switch (pass) {
     case Pass::derive: return "starting the kernel derive";
+    case Pass::lines: return "starting the kernel lines";
     case Pass::pixels: return "starting the kernel pixels";
     case Pass::input: return "starting the kernel input";
     case Pass::bloom: return "starting the kernel bloom";
@@ -162,7 +163,7 @@ void Lane::begin(const Resident& resident, const pipeline::Setup& first, const p
   resident_ = &resident;
   job_ = job;
   own_ = own, capacity_ = capacity, derives_ = derives(own, first.scene);
-  slab_ = Slab(first, job.out, pipeline::scratch_images(first, job.filter));
+  slab_ = Slab(first, job.out, pipeline::scratch_floats(first, job.filter));
   const auto frames = static_cast<std::size_t>(capacity);
   arguments_at_ = align(frames * sizeof(FrameNumber));
   room_from_ = arguments_at_ + (own != Own::number ? align(frames * sizeof(FrameArguments)) : 0);
@@ -244,11 +245,11 @@ void Lane::take_step(const pipeline::Step& step, FrameArguments& arguments) cons
 /// Tells the frames where their arrays are, and copies what the host knows to where the GPU will fetch it.
 void Lane::place(void* base) {
   std::memcpy(staged(), numbers_.data(), numbers_.size() * sizeof(FrameNumber));
-  common_.job.out = slab_.view(base), common_.job.filtered = slab_.filtered(base), common_.job.light = common_light_;
+  common_.job.out = slab_.view(base), common_.job.scratch = slab_.scratch(base), common_.job.light = common_light_;
   for (int i = 0; i < frames() && own_ != Own::number; ++i) {
     void* const at = static_cast<unsigned char*>(base) + static_cast<std::size_t>(i) * slab_.bytes();
     auto* own = reinterpret_cast<FrameArguments*>(staged() + arguments_at_) + i;
-    own->job.out = slab_.view(at), own->job.filtered = slab_.filtered(at), own->job.light = own_lights_[static_cast<std::size_t>(i)];
+    own->job.out = slab_.view(at), own->job.scratch = slab_.scratch(at), own->job.light = own_lights_[static_cast<std::size_t>(i)];
   }
 }
 

@@ -184,10 +184,15 @@ TOFRAY_FN void run_derive(const Setup& s, scene::Derive what, int unit) {
   if (unit < scene::unit_count(s.scene, what)) scene::derive(s.scene, what, unit);
 }
 
-/// What came from elsewhere to depth, and the passes over images: pixel number `index`.
+/// How much there is to do in a pass over images: its pixels; or the sensor's lines in all raw frames.
+TOFRAY_FN int units_of(Pass pass, const Setup& s) { return pass == Pass::lines ? raw::line_draws(s.sensor) : s.lens.width * s.lens.height; }
+
+/// What came from elsewhere to depth, and the passes over images: unit number `index` of one.
 /// @param item  which kernel of the lens, which sample within the pixels
 TOFRAY_FN void run_pass(Pass pass, int item, const Setup& s, const Job& job, const pipeline::Input& input, int index) {
-  if (index >= s.lens.width * s.lens.height) return;
+  if (index >= units_of(pass, s)) return;
+  if (pass == Pass::lines)
+    return raw::draw_line(s.sensor, raw::FrameIndex{job.index_low, job.index_high}, index, pipeline::line_normals_in(s, job));
   const Pixels p{index, 1};
   const int x = index % s.lens.width, y = index / s.lens.width;
   if (pass == Pass::input) pipeline::enter<float>(s, job, input, p);
@@ -215,7 +220,7 @@ TOFRAY_FN Job job_of(const Job& first, const FrameNumber& number, std::int64_t b
   Job job = first;
   job.index_low = number.low, job.index_high = number.high;
   flow::each_array(job.out, [&](auto*& array, ArrayShape, Stage) { array = shifted(array, bytes); });
-  job.filtered = shifted(job.filtered, bytes);
+  job.scratch = shifted(job.scratch, bytes);
   return job;
 }
 

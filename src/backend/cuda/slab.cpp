@@ -12,7 +12,7 @@ std::size_t rounded(std::size_t bytes) { return (bytes + 255) / 256 * 256; }
 
 }  // namespace
 
-Slab::Slab(const pipeline::Setup& setup, const flow::FrameView& wanted, int scratch)
+Slab::Slab(const pipeline::Setup& setup, const flow::FrameView& wanted, std::int64_t scratch)
     : size_{std::int64_t{setup.lens.width} * setup.lens.height, setup.sensor.raw_frames, setup.transient.bins} {
   int i = 0;
   flow::each_array(wanted, [&](const auto* array, ArrayShape shape, Stage) {
@@ -23,8 +23,8 @@ Slab::Slab(const pipeline::Setup& setup, const flow::FrameView& wanted, int scra
     ++i;
   });
   shown_bytes_ = bytes_;
-  filtered_offset_ = bytes_;
-  bytes_ = rounded(bytes_ + static_cast<std::size_t>(scratch * size_.pixels) * sizeof(float));
+  scratch_offset_ = bytes_;
+  bytes_ = rounded(bytes_ + static_cast<std::size_t>(scratch) * sizeof(float));
 }
 
 std::size_t Slab::count(ArrayShape shape) const { return static_cast<std::size_t>(flow::values_of(shape, size_)); }
@@ -39,8 +39,8 @@ flow::FrameView Slab::view(void* base) const {
   return out;
 }
 
-float* Slab::filtered(void* base) const {
-  return filtered_offset_ == bytes_ ? nullptr : reinterpret_cast<float*>(static_cast<unsigned char*>(base) + filtered_offset_);
+float* Slab::scratch(void* base) const {
+  return scratch_offset_ == bytes_ ? nullptr : reinterpret_cast<float*>(static_cast<unsigned char*>(base) + scratch_offset_);
 }
 
 void Slab::copy_out(const void* base, const flow::FrameView& to) const {

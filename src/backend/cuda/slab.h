@@ -12,15 +12,15 @@ class Slab {
  public:
   Slab() = default;
   /// @param wanted   arrays that are null here get no place
-  /// @param scratch  images of floats beside them
-  Slab(const pipeline::Setup& setup, const flow::FrameView& wanted, int scratch);
+  /// @param scratch  floats beside them
+  Slab(const pipeline::Setup& setup, const flow::FrameView& wanted, std::int64_t scratch);
 
   /// Bytes from one frame to the next; of them those that the caller wants to see come first.
   [[nodiscard]] std::size_t bytes() const { return bytes_; }
   [[nodiscard]] std::size_t shown_bytes() const { return shown_bytes_; }
   /// The arrays of the frame that begins at `base`.
   [[nodiscard]] flow::FrameView view(void* base) const;
-  [[nodiscard]] float* filtered(void* base) const;
+  [[nodiscard]] float* scratch(void* base) const;
   /// The arrays of the frame that begins at `base` → those of `to` that are not null.
   void copy_out(const void* base, const flow::FrameView& to) const;
   [[nodiscard]] const flow::FrameSize& size() const { return size_; }
@@ -32,7 +32,7 @@ class Slab {
   flow::FrameSize size_{};
   std::size_t bytes_ = 0, shown_bytes_ = 0;
   std::size_t offset_[flow::array_count] = {};  // +1; 0: no place
-  std::size_t filtered_offset_ = 0;
+  std::size_t scratch_offset_ = 0;
 };
 
 }  // namespace tofray::backend::gpu
