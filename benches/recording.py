@@ -5,11 +5,15 @@
 
 In turn, in each round and for each choice of arrays: frames per second that are computed (benches/frames.cpp, nothing written); that the
 disk of FOLDER takes (files of a frame's size from memory, written by as many threads as tofray's, each synced before it counts); and that
-`tofray render` records. Medians of the rounds, and the share of the slower of the two."""
+`tofray render` records. Medians of the rounds, and the share of the slower of the two. Beside it the processor's time of a recorded frame, by
+which `cores / time` frames per second can be recorded at most, and the share of that.
+
+Files are removed at the end (some 32 GB): where many were removed a moment ago, ext4 searches long for a place for each new one."""
 
 import concurrent.futures
 import os
 import pathlib
+import resource
 import shutil
 import statistics
 import subprocess
@@ -17,7 +21,7 @@ import sys
 import tempfile
 import time
 
-SCENE, FRAMES, ROUNDS, WRITERS = "room", 200, 5, 6
+SCENE, FRAMES, ROUNDS, WRITERS = "room", 500, 3, 6
 CHOICES = ("all", "raw,z_m,flags")
 
 
@@ -35,14 +39,18 @@ def settle() -> None:
     os.sync()
 
 
-def recorded(tofray: str, folder: pathlib.Path, arrays: str) -> tuple[float, int]:
+def processor_s() -> float:
+    used = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return used.ru_utime + used.ru_stime
+
+
+def recorded(tofray: str, folder: pathlib.Path, arrays: str) -> tuple[float, float, int]:
+    """Frames per second, processor's time of one [s], bytes of its file."""
     settle()
-    since = time.perf_counter()
+    before, since = processor_s(), time.perf_counter()
     run(tofray, "render", SCENE, "--frames", FRAMES, "-o", folder, "--quiet", *([] if arrays == "all" else ["--arrays", arrays]))
     rate = FRAMES / (time.perf_counter() - since)
-    size = next(folder.glob("frame_*.npz")).stat().st_size
-    shutil.rmtree(folder)
-    return rate, size
+    return rate, (processor_s() - before) / FRAMES, next(folder.glob("frame_*.npz")).stat().st_size
 
 
 def write(path: pathlib.Path, data: bytes) -> None:
@@ -58,23 +66,23 @@ def taken_by_disk(folder: pathlib.Path, size: int) -> float:
     since = time.perf_counter()
     with concurrent.futures.ThreadPoolExecutor(WRITERS) as pool:
         list(pool.map(lambda i: write(folder / f"{i}.npz", data), range(FRAMES)))
-    rate = FRAMES / (time.perf_counter() - since)
-    shutil.rmtree(folder)
-    return rate
+    return FRAMES / (time.perf_counter() - since)
 
 
 def main() -> None:
     tofray, program = sys.argv[1:3]
     where = tempfile.mkdtemp(dir=sys.argv[3] if len(sys.argv) > 3 else ".")
     try:
-        print("| arrays | MB a frame | computed | disk takes | recorded | of the slower |\n|---|---|---|---|---|---|")
-        for arrays in CHOICES:
+        print("| arrays | MB a frame | computed | disk takes | recorded | of the slower | processor, ms a frame | of what it allows |")
+        print("|---|---|---|---|---|---|---|---|")
+        for name, arrays in enumerate(CHOICES):
             rows = []
-            for _ in range(ROUNDS):
-                rate, size = recorded(tofray, pathlib.Path(where) / "frames", arrays)
-                rows.append((computed(program, arrays == "all"), taken_by_disk(pathlib.Path(where) / "disk", size), rate))
-            c, d, r = (statistics.median(column) for column in zip(*rows))
-            print(f"| {arrays} | {size / 1e6:.2f} | {c:.0f} | {d:.0f} | {r:.0f} | {100 * r / min(c, d):.0f} % |", flush=True)
+            for i in range(ROUNDS):
+                rate, busy, size = recorded(tofray, pathlib.Path(where) / f"frames{name}{i}", arrays)
+                rows.append((computed(program, arrays == "all"), taken_by_disk(pathlib.Path(where) / f"disk{name}{i}", size), rate, busy))
+            c, d, r, busy = (statistics.median(column) for column in zip(*rows))
+            share, allowed = 100 * r / min(c, d), len(os.sched_getaffinity(0)) / busy
+            print(f"| {arrays} | {size / 1e6:.2f} | {c:.0f} | {d:.0f} | {r:.0f} | {share:.0f} % | {1e3 * busy:.1f} | {100 * r / allowed:.0f} % |")
     finally:
         shutil.rmtree(where)
 

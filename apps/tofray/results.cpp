@@ -11,7 +11,6 @@
 #include "console.h"
 #include "pictures/pictures.h"
 #include "results/array_table.h"
-#include "results/meta.h"
 #include "results/ply.h"
 #include "tofray/error.h"
 
@@ -127,7 +126,7 @@ Validity validity(const Depth& depth) {
 
 FrameFiles::FrameFiles(const Options& options, const std::vector<std::string>& otherwise, const Inputs& from,
                        const SimulatorOptions& wanted)
-    : emit(options.emit.value_or(otherwise)), inputs(from), simulated(wanted), theme(options.theme) {
+    : emit(options.emit.value_or(otherwise)), inputs(from), meta(from.scene, from.camera, wanted), theme(options.theme) {
   if (!options.arrays.empty()) npz.arrays = results::ArrayChoice(options.arrays);
   npz.kept = from.kept;
   npz.packing = options.compress ? files::Packing::deflated : files::Packing::stored;
@@ -169,8 +168,8 @@ std::vector<files::FileRecord> write_frame(const files::OutputFolder& folder, co
   const Inputs& in = what.inputs;
   for (const std::string& kind : what.emit) {
     if (kind == "npz") {
-      const std::string meta = results::frame_meta(in.scene, in.camera, what.simulated, frame.index);
-      results::frame_npz_bytes(frame, in.camera, in.pose.value_or(camera_pose(in.scene, frame.truth.time_s)), meta, what.npz, memory);
+      results::frame_npz_bytes(frame, in.camera, in.pose.value_or(camera_pose(in.scene, frame.truth.time_s)), what.meta.of(frame.index),
+                               what.npz, memory);
       put("frame", ".npz", memory);
     } else if (kind == "png") {
       put("depth", ".png", pictures::depth_png(frame.depth));

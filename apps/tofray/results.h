@@ -14,6 +14,7 @@
 #include "options.h"
 #include "results/frame_file.h"
 #include "results/manifest.h"
+#include "results/meta.h"
 #include "tofray/frame.h"
 
 /// What demo, render and process leave behind.
@@ -60,7 +61,7 @@ struct FrameFiles {
   std::vector<std::string> emit;
   results::FrameFileOptions npz;
   const Inputs& inputs;
-  SimulatorOptions simulated;
+  results::FrameMeta meta;
   pictures::Theme theme;
 };
 

@@ -77,7 +77,7 @@ bool is_noise_free(const files::Json& meta) {
   return noise != nullptr && noise->is_string() && *noise->string() == noise_name(Noise::off);
 }
 
-std::string frame_meta(const Scene& scene, const Camera& camera, const SimulatorOptions& options, std::uint64_t frame_index) {
+FrameMeta::FrameMeta(const Scene& scene, const Camera& camera, const SimulatorOptions& options) {
   Tree what = tree_of(model::table_of<Scene>(), &scene);
   if (scene.camera.keyframes.empty()) {
     what["camera_pose"] = tree_of(model::table_of<Pose>(), &scene.camera.pose);
@@ -85,16 +85,21 @@ std::string frame_meta(const Scene& scene, const Camera& camera, const Simulator
     Tree& keyframes = what["camera_keyframes"] = Tree::array();
     for (const CameraKeyframe& key : scene.camera.keyframes) keyframes.push_back(tree_of(model::table_of<CameraKeyframe>(), &key));
   }
-  const Tree meta{{"tofray", base::version()},
-                  {"seed", options.seed},
-                  {"noise", noise_name(options.noise)},
-                  {"exposure_samples", options.exposure_samples},
-                  {"subpixel", options.subpixel},
-                  {"frame", frame_index},
-                  {"units", units_tree()},
-                  {"camera", tree_of(model::table_of<Camera>(), &camera)},
-                  {"scene", std::move(what)}};
-  return meta.dump(-1, ' ', false, Tree::error_handler_t::replace);
+  const Tree how{{"tofray", base::version()},
+                 {"seed", options.seed},
+                 {"noise", noise_name(options.noise)},
+                 {"exposure_samples", options.exposure_samples},
+                 {"subpixel", options.subpixel}};
+  const Tree rest{{"units", units_tree()}, {"camera", tree_of(model::table_of<Camera>(), &camera)}, {"scene", std::move(what)}};
+  before_ = how.dump(), after_ = rest.dump(-1, ' ', false, Tree::error_handler_t::replace);
+  before_.back() = ',', after_.front() = ',';  // two objects become one, around the index
+  before_ += "\"frame\":";
+}
+
+std::string FrameMeta::of(std::uint64_t frame_index) const { return before_ + std::to_string(frame_index) + after_; }
+
+std::string frame_meta(const Scene& scene, const Camera& camera, const SimulatorOptions& options, std::uint64_t frame_index) {
+  return FrameMeta(scene, camera, options).of(frame_index);
 }
 
 }  // namespace tofray::results

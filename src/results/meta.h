@@ -21,8 +21,19 @@ const char* noise_name(Noise noise);
 bool is_noise_free(const files::Json& meta);
 
 /// The `meta` string of frame.npz: one JSON object on one line with
-/// `tofray` (version), `seed`, `noise`, `exposure_samples`, `subpixel`, `frame` (index), `units` (one per array), `camera` and `scene`, both resolved, in SI units with the names
-/// of tofray/camera.h and scene.h. Neither time nor machine nor a file's place is in it: the same arguments give the same bytes.
+/// `tofray` (version), `seed`, `noise`, `exposure_samples`, `subpixel`, `frame` (index), `units` (one per array), `camera` and `scene`, both
+/// resolved, in SI units with the names of tofray/camera.h and scene.h. Neither time nor machine nor a file's place is in it: the same
+/// arguments give the same bytes. Of a sequence's frames only the index differs: the rest is made once.
+class FrameMeta {
+ public:
+  FrameMeta(const Scene& scene, const Camera& camera, const SimulatorOptions& options);
+  [[nodiscard]] std::string of(std::uint64_t frame_index) const;
+
+ private:
+  std::string before_, after_;  ///< of the index
+};
+
+/// The same of one frame.
 std::string frame_meta(const Scene& scene, const Camera& camera, const SimulatorOptions& options, std::uint64_t frame_index);
 
 }  // namespace tofray::results
