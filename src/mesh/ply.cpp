@@ -38,7 +38,7 @@ class PlyReader {
     if (vertex == nullptr) base::fail(base::whole(name_), "the header has no element \"vertex\"", "expected one with x, y and z");
     vertices_ = vertex->count;
     for (const PlyElement& element : header_.elements) {
-      if (element.properties.empty()) continue;
+      if (element.properties.empty() && element.name != "vertex") continue;
       if (element.name == "vertex")
         read_vertices(element);
       else if (element.name == "face")
