@@ -101,6 +101,19 @@ TEST(hostile_npz, statistics_take_no_eight_bytes_for_each) {
   EXPECT_LT(result.peak_bytes, most_memory(6 * (64L << 20)));
 }
 
+// Zeros pack a thousandfold: 400 kB that would be 400 MB.
+TEST(hostile_npz, that_unpacks_to_more_than_the_limit_takes_no_memory_for_it) {
+  const Folder folder;
+  {
+    const std::vector<std::uint8_t> zeros(400'000'000);
+    write(folder / "bomb.npz", files::npz_bytes({files::npy_view("raw", {20000, 20000}, zeros)}, files::Packing::deflated));
+  }
+  ASSERT_LT(fs::file_size(folder / "bomb.npz"), 4'000'000U);
+  const Attack result = attack(folder, {"inspect", "bomb.npz"});
+  expect_refused(result, 4, "unpack to more than");
+  EXPECT_LT(result.peak_bytes, most_memory(static_cast<long>(base::limit::unpacked_bytes.value) + (64L << 20)));
+}
+
 TEST(hostile_npz, many_keys_in_meta_end_soon) {
   const Folder folder;
   const std::string meta = "{" + repeated(100'000, [](int i) { return "\"key" + std::to_string(i) + "\":1,"; }) + "\"end\":1}";

@@ -1,6 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The tofray authors
 // SPDX-License-Identifier: Apache-2.0
 // Scenes and profiles of somebody who means harm.
+#include <zlib.h>
+
 #include "attack.h"
 
 namespace tofray::test {
@@ -32,6 +34,20 @@ TEST(hostile_yaml, aliases_and_anchors_take_no_more_memory_than_a_file_may_have)
     // 400,000 values of about 200 bytes, twice where a list grows; the file; the program. 3.2 GB and 4 GB without the limits.
     EXPECT_LT(result.peak_bytes, most_memory(400'000'000)) << name;
   }
+}
+
+TEST(hostile_yaml, packed_by_gzip_is_no_text_and_is_not_unpacked) {
+  const Folder folder;
+  {
+    const std::string text = wall_yaml + std::string(300'000'000, '#');
+    const gzFile file = ::gzopen((folder / "scene.yaml").c_str(), "wb");
+    ASSERT_NE(file, nullptr);
+    EXPECT_EQ(::gzwrite(file, text.data(), static_cast<unsigned>(text.size())), static_cast<int>(text.size()));
+    ASSERT_EQ(::gzclose(file), Z_OK);
+  }
+  const Attack result = attack(folder, {"check", "scene.yaml"});
+  expect_refused(result, 2, "scene.yaml:1:1: error: ");
+  EXPECT_LT(result.peak_bytes, most_memory(64L << 20));
 }
 
 TEST(hostile_yaml, a_name_is_at_most_as_long_as_the_limit_and_does_not_make_pictures_larger) {

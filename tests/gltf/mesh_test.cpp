@@ -181,6 +181,7 @@ TEST(primitive, leaves_out_triangles_beyond_the_range_of_float) {
 TEST(primitive, takes_other_numbers_that_are_not_finite_as_0_and_says_so) {
   File file = triangle_file();
   file.primitive(0)["attributes"]["TEXCOORD_0"] = file.floats({0, std::nanf(""), 2, HUGE_VALF, 4, 5}, "VEC2");
+  file.primitive(0)["attributes"]["NORMAL"] = file.floats({0, 0, 1, std::nanf(""), 0, 1, HUGE_VALF, -HUGE_VALF, 1}, "VEC3");
   const Model model = model_of(file);
   EXPECT_EQ(*model.meshes[0].primitives[0].texcoords[0], (std::vector<float>{0, 0, 2, 0, 4, 5}));
   EXPECT_TRUE(has_notice(model, "numbers of TEXCOORD_0 that are not finite are taken as 0"));

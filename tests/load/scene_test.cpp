@@ -279,6 +279,8 @@ TEST(scene, refuses_what_is_degenerate) {
       {"triangle: {vertices: [[0,0,1],[0,0,1],[2,0,1]], reflectivity: 0.5}", "no area"},
       {"triangle: {vertices: [[0,0,1],[1e5,1e5,1],[5e4,5e4,1]], reflectivity: 0.5}", "no area"},
       {"sphere: {center: [0,0,1], radius: 1, rotation: {axis: [0,0,0], angle: 1 deg}, reflectivity: 0.5}", "axis has no length"},
+      {"sphere: {center: [0,0,1], radius: 1, material: {brdf: phong_original, diffuse: 0.5, specular: 0.3, exponent: 2}}",
+       "phong_original"},
       {"sphere: {center: [0,0,1], radius: 1, material: {brdf: phong, diffuse: 0.8, specular: 0.3, exponent: 2}}",
        "diffuse + specular is more than 1"},
       {"sphere: {center: [0,0,1], radius: 1, material: nope}", "no material \"nope\""},

@@ -64,6 +64,11 @@ Scene any_scene(Random& random) {
     scene.ambient.table_wavelength_m = {800e-9, 850e-9, 900e-9}, scene.ambient.table_irradiance_w_per_m3 = {1e9, 2e9, 1e9};
     if (random.below(2) == 0) scene.ambient.direction = Vec3{0.3, 0.8, 0.4};
   }
+  if (random.below(20) == 0) {
+    Object broken = object(shared(garbage(random, 1 + random.below(60))));
+    broken.position = random.point(0.5) + Vec3{0, 0, 2};
+    scene.objects.push_back(broken);
+  }
   return scene;
 }
 

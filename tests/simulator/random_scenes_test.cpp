@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cstdlib>
 #include <cstring>
 
 #include "backend/cpu/cpu.h"
@@ -155,6 +156,59 @@ TEST_P(EveryIsa, renders_random_scenes_as_the_scalar_reference_without_culling) 
   EXPECT_GT(hits, with_sanitizers ? 40000 : 300000);
 }
 INSTANTIATE_TEST_SUITE_P(isa, EveryIsa, testing::ValuesIn(backend::isas_here), isa_of);
+
+/// A few things before a few pixels, with one or two lights.
+Case tiny_case(Random& random, const Camera& camera) {
+  Case c{random_scene(random, random.below(4), random.below(3) == 0), camera};
+  c.scene.camera.pose = random_pose(random);
+  c.camera.sensor.width = 1 + random.below(10), c.camera.sensor.height = 1 + random.below(4);
+  Lens& lens = c.camera.lens;
+  lens.cx_px = 0.5 * (c.camera.sensor.width - 1), lens.cy_px = 0.5 * (c.camera.sensor.height - 1);
+  lens.fx_px = lens.fy_px = random.scale(1, 20);
+  if (random.below(3) == 0) c.camera.illumination.push_back(c.camera.illumination[0]);
+  const bool plain = random.below(40) != 0;  // the tables of what is not take longer than ten such scenes
+  if (plain) c.camera.mode.sequence.resize(5);  // one modulation frequency
+  for (Illumination& light : c.camera.illumination) {
+    light.position = random.point(0.4);
+    if (!plain) continue;
+    light.waveform.kind = Waveform::Kind::sine;
+    light.pattern.kind = random.below(2) == 0 ? Pattern::Kind::lambertian : Pattern::Kind::cone, light.pattern.half_angle_rad = 0.6;
+  }
+  if (random.below(3) == 0) {
+    c.scene.ambient.spectrum = Ambient::Spectrum::sun_am15, c.scene.ambient.amount = 0.1;
+    c.scene.ambient.direction = Vec3{0.3, 0.8, 0.4} + random.point(0.3);
+  }
+  return c;
+}
+
+// Every ray for itself against every shape; and lists of what a tile may see, packs, threads. So many scenes as TOFRAY_LONG_SCENES says where
+// it is set (.ci/long: a million).
+TEST(tiny_scenes, are_the_same_however_they_are_computed) {
+  const char* const said = std::getenv("TOFRAY_LONG_SCENES");
+  const int wanted = said != nullptr ? std::atoi(said) : often(1000);
+  const Camera camera = load_camera("pico-flexx");
+  Random random(77);
+  std::size_t hits = 0, shaded = 0;
+  for (int i = 0; i < wanted && !testing::Test::HasFailure(); ++i) {
+    SCOPED_TRACE("scene " + std::to_string(i));
+    const Case c = tiny_case(random, camera);
+    const Frame reference = render(c, Isa::scalar, false);
+    for (std::size_t p = 0; p < reference.truth.object_id.size(); ++p) {
+      if (reference.truth.object_id[p] < 0) continue;
+      ++hits, shaded += !(reference.truth.irradiance_w_m2[p] > 0);
+    }
+    same(render(c, Isa::scalar, true), reference);
+    Isa last = Isa::scalar;
+    for (const Isa isa : {Isa::avx2, Isa::avx512, Isa::neon}) {
+      if (!backend::can_run(isa)) continue;
+      same(render(c, isa, true), reference);
+      last = isa;
+    }
+    same(render(c, last, false, 2), reference);
+  }
+  EXPECT_GT(hits, static_cast<std::size_t>(wanted));
+  EXPECT_GT(shaded, static_cast<std::size_t>(wanted) / 10);
+}
 
 // Tiles look at meshes as a whole where the machine has packs; each ray by itself where it has none.
 TEST(swift_meshes, are_seen_and_shaded_alike_by_tiles_and_by_single_rays) {

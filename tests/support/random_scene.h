@@ -23,7 +23,7 @@ inline TriangleMesh garbage(Random& random, int count) {
   }
   for (int i = 0; i < 3 * count; i += 3 * (1 + random.below(4))) {  // needles
     const auto at = static_cast<std::size_t>(i);
-    const double share = random.uniform(), thick = random.scale(1e-9, 1e-3);
+    const double share = random.uniform(), thick = random.scale(random.below(4) == 0 ? 1e-30 : 1e-9, 1e-3);
     for (std::size_t k = 0; k < 3; ++k) {
       const double a = static_cast<double>(out.vertices[at][k]), b = static_cast<double>(out.vertices[at + 1][k]);
       out.vertices[at + 2][k] = static_cast<float>(a + share * (b - a) + thick * random.between(-1, 1));

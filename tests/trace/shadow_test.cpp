@@ -122,11 +122,13 @@ TEST(shadow, of_the_sun_is_where_brute_force_finds_something_between) {
 TEST(shadow, is_never_cast_by_a_convex_thing_upon_itself) {
   Random random(3);
   int points = 0;
-  for (int trial = 0; trial < 9; ++trial) {
-    const double far = 0.5 * std::pow(10, trial / 3);
+  constexpr int kinds = 6;
+  for (int trial = 0; trial < 3 * kinds; ++trial) {
+    const int kind = trial % kinds;
+    const double far = 0.5 * std::pow(10, trial / kinds);
     Scene scene = wall(1);
     scene.objects.clear();
-    if (trial % 3 == 0) {
+    if (kind == 0) {
       const ClosedMesh mesh = icosphere(2);
       for (const auto& t : mesh.triangles) {
         Triangle triangle;
@@ -134,11 +136,14 @@ TEST(shadow, is_never_cast_by_a_convex_thing_upon_itself) {
         scene.objects.push_back(object(triangle));
       }
     }
-    if (trial % 3 == 1) scene.objects.push_back(object(Sphere{{0.05 * far, 0, far}, 0.3 * far}));
-    if (trial % 3 == 2) scene.objects.push_back(object(Box{{-0.3 * far, -0.2 * far, 0.8 * far}, {0.2 * far, 0.2 * far, 1.2 * far}}));
+    if (kind == 1) scene.objects.push_back(object(Sphere{{0.05 * far, 0, far}, 0.3 * far}));
+    if (kind == 2) scene.objects.push_back(object(Box{{-0.3 * far, -0.2 * far, 0.8 * far}, {0.2 * far, 0.2 * far, 1.2 * far}}));
+    if (kind == 3) scene.objects.push_back(object(Cylinder{{0.05 * far, 0, far}, random.direction(), 0.2 * far, 0.4 * far}));
+    if (kind == 4) scene.objects.push_back(object(Capsule{{-0.1 * far, 0.05 * far, 0.9 * far}, {0.1 * far, 0, 1.1 * far}, 0.2 * far}));
+    if (kind == 5) scene.objects.push_back(object(Cone{{0, 0.05 * far, far}, random.direction(), 0.2 * far, 0.5 * far}));
     const std::vector<Vec3> lamps{{0, 0.05 * far, 0}, {0, -0.1 * far, 0.2 * far}, {0.9 * far, 0.4 * far, 0.9 * far}};
     const scene::FrozenScene frozen(scene, lamps, 1);
-    for (int i = 0; i < (trial % 3 == 0 ? 20000 : 100000); ++i) {
+    for (int i = 0; i < (kind == 0 ? 20000 : 100000); ++i) {
       const Vec3 d{random.between(-0.35, 0.35), random.between(-0.3, 0.3), 1};
       const flow::Surface<float> s = surface_seen(frozen, ray(d));
       if (!s.found) continue;
@@ -150,7 +155,7 @@ TEST(shadow, is_never_cast_by_a_convex_thing_upon_itself) {
       }
     }
   }
-  EXPECT_GT(points, 300000);
+  EXPECT_GT(points, 1'000'000);
 }
 
 // Seen or lit at a grazing angle the range of a flat thing is uncertain by far more than the margin: it must not ask for itself.

@@ -95,9 +95,9 @@ TEST_P(Watertight, no_ray_leaves_through_an_edge) {
   }
   Random random(6);
   int missed = 0;
-  for (int i = 0; i < 1000000;) {
+  for (int i = 0, round = 0; i < 1000000; ++round) {
     for (const auto& [key, edge] : edges) {
-      const double share = i % 2 == 0 ? 0.5 : random.uniform(), stretch = random.between(0.5, 2);
+      const double share = round % 2 == 0 ? 0.5 : random.uniform(), stretch = random.between(0.5, 2);
       const Vec3 p = (1 - share) * scene.mesh.at(edge.a) + share * scene.mesh.at(edge.b);
       missed += scene.missed(test::ray(stretch * (p - scene.origin)), edge.triangles);
       ++i;
