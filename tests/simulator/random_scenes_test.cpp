@@ -166,7 +166,7 @@ Case tiny_case(Random& random, const Camera& camera) {
   lens.cx_px = 0.5 * (c.camera.sensor.width - 1), lens.cy_px = 0.5 * (c.camera.sensor.height - 1);
   lens.fx_px = lens.fy_px = random.scale(1, 20);
   if (random.below(3) == 0) c.camera.illumination.push_back(c.camera.illumination[0]);
-  const bool plain = random.below(40) != 0;  // the tables of what is not take longer than ten such scenes
+  const bool plain = random.below(40) != 0;     // the tables of what is not take longer than ten such scenes
   if (plain) c.camera.mode.sequence.resize(5);  // one modulation frequency
   for (Illumination& light : c.camera.illumination) {
     light.position = random.point(0.4);
