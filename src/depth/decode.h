@@ -135,8 +135,10 @@ TOFRAY_FN F variance_as_read(const camera::DecoderView& s, const camera::DecodeM
   const F both_full = F(2 * s.read.most);
   F collected = num::min(known, both_full), slope = F(1.0f), per_slope = F(1.0f);
   for (int turn = 0; turn < turns; ++turn) {
+    const F before = slope;
     slope = camera::read_charge(s.read, charge_left(s, m, difference, collected, per_slope)).slope;
-    slope = num::max(slope, F(1e-12f));  // a spline may fall between two samples that rise
+    slope = num::max(slope, F(1e-12f));                // a spline may fall between two samples that rise
+    if (turn > 0 && num::all(slope == before)) break;  // it is of straight lines: all that follows would stay
     per_slope = F(1.0f) / slope;
     collected = num::min(num::fma(e.amplitude * per_slope, F(m.per_contrast), known), both_full);
   }

@@ -74,6 +74,16 @@ TEST(nonlinearity, is_undone_cell_by_cell_whichever_way_it_bends) {
     const camera::ReadCurveView& curve = bench.sensor().read;
     for (float x = -500; x < 90000; x += 37)
       EXPECT_NEAR(static_cast<double>(camera::charge_of(curve, camera::read_charge(curve, x).value)), static_cast<double>(x), 0.1) << x;
+    // the cell by a guess is that by halves: the charge lies in it, or beyond an end
+    for (int i = 0; i < curve.cells; ++i) {
+      const float begin = curve.cell[2 * i], step = curve.cell[2 * i + 1];
+      for (const float read : {begin, std::nextafter(begin, -1e9f), begin + 0.5f * step, begin + step}) {
+        const float cell = camera::cell_of(curve, read);
+        const int at = 2 * static_cast<int>(cell);
+        const float charge = (cell + (read - curve.cell[at]) / curve.cell[at + 1]) * (1.0f / curve.per_cell);
+        EXPECT_EQ(camera::charge_of(curve, read), std::fmax(std::fmin(charge, curve.most), -curve.most)) << i;
+      }
+    }
     EXPECT_EQ(camera::charge_of(curve, 1e9f), 90000.0f);  // no tap holds more
     EXPECT_EQ(camera::charge_of(curve, -1e9f), -90000.0f);
   }

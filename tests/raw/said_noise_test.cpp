@@ -98,6 +98,12 @@ INSTANTIATE_TEST_SUITE_P(
                            [](Camera& camera) { camera.pixel.tap_gain_mismatch = 0.1, camera.pixel.tap_offset_mismatch_e = 300; },
                            of_light},
                     Effect{"phase_offsets", [](Camera& camera) { camera.pixel.phase_offset_rad = 0.1; }, of_light},
+                    Effect{"curve_that_is_none",
+                           [](Camera& camera) {
+                             bend_what_is_read(camera);
+                             camera.pixel.nonlinearity.y = camera.pixel.nonlinearity.x;
+                           },
+                           of_light},
                     bent_under("nonlinearity", 0), bent_under("nonlinearity_under_a_little_light", 0.1),
                     bent_under("nonlinearity_under_much_light", 0.5)),
     [](const auto& which) { return std::string(which.param.name); });
