@@ -131,8 +131,9 @@ TEST(mesh_file, that_announces_more_than_the_limits_is_refused_before_it_is_read
       "ply\nformat binary_little_endian 1.0\nelement vertex " + many + "\nproperty char x\nproperty char y\nproperty char z\nend_header\n";
   EXPECT_TRUE(
       test::has(message_of(Format::ply, LongFile(vertices, 3 * 20'000'001).bytes(), ErrorKind::limit), "more than 20000000 vertices"));
-  const std::string faces = "ply\nformat binary_little_endian 1.0\nelement vertex 0\nelement face " + many +
-                            "\nproperty list char char vertex_index\nend_header\n";
+  const std::string faces =
+      "ply\nformat binary_little_endian 1.0\nelement vertex 0\nproperty char x\nproperty char y\nproperty char z\nelement face " + many +
+      "\nproperty list char char vertex_index\nend_header\n";
   EXPECT_TRUE(
       test::has(message_of(Format::ply, LongFile(faces, 4 * 20'000'001).bytes(), ErrorKind::limit), "more than 20000000 triangles"));
   std::string stl(80, ' ');
