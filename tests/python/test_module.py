@@ -271,7 +271,7 @@ def test_ctrl_c_of_one_who_waits_is_not_for_the_frame_of_another() -> None:
 
 
 def test_ctrl_c_ends_a_long_frame() -> None:
-    simulator = slow()
+    simulator = slow(4096)  # minutes; a tile, after each of which it is asked, takes a second
     timer = threading.Timer(0.4, lambda: os.kill(os.getpid(), signal.SIGINT))
     timer.start()
     begin = time.monotonic()
