@@ -75,11 +75,11 @@ def main() -> None:
     try:
         print("| arrays | MB a frame | computed | disk takes | recorded | of the slower | processor, ms a frame | of what it allows |")
         print("|---|---|---|---|---|---|---|---|")
-        for name, arrays in enumerate(CHOICES):
+        for choice, arrays in enumerate(CHOICES):
             rows = []
             for i in range(ROUNDS):
-                rate, busy, size = recorded(tofray, pathlib.Path(where) / f"frames{name}{i}", arrays)
-                rows.append((computed(program, arrays == "all"), taken_by_disk(pathlib.Path(where) / f"disk{name}{i}", size), rate, busy))
+                rate, busy, size = recorded(tofray, pathlib.Path(where) / f"frames{choice}{i}", arrays)
+                rows.append((computed(program, arrays == "all"), taken_by_disk(pathlib.Path(where) / f"disk{choice}{i}", size), rate, busy))
             c, d, r, busy = (statistics.median(column) for column in zip(*rows))
             share, allowed = 100 * r / min(c, d), len(os.sched_getaffinity(0)) / busy
             print(f"| {arrays} | {size / 1e6:.2f} | {c:.0f} | {d:.0f} | {r:.0f} | {share:.0f} % | {1e3 * busy:.1f} | {100 * r / allowed:.0f} % |")

@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cstdlib>
 #include <string>
 #include <vector>
 
@@ -154,8 +153,7 @@ INSTANTIATE_TEST_SUITE_P(each, Sampling, testing::Combine(testing::ValuesIn(draw
 // of each of 13 × 4 cases: by Šidák z < 5.8 each is one false alarm in a million of all. (TOFRAY_LONG_RAYS: so many in each run; .ci/long: a
 // million.)
 TEST_P(Sampling, is_as_dense_as_printed) {
-  const char* const said = std::getenv("TOFRAY_LONG_RAYS");
-  const int samples = said != nullptr ? std::atoi(said) : test::often(200'000);
+  const int samples = test::often_unless("TOFRAY_LONG_RAYS", 200'000);
   const Vec3 view = at_angle(angle, 0);
   const Cells grid = cells(view);
   std::vector<double> expected = grid.integral([&](const Vec3& l) { return brdf_test::printed_pdf(material, l, view); });

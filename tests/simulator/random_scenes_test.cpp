@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cstdlib>
 #include <cstring>
 
 #include "backend/cpu/cpu.h"
@@ -184,8 +183,7 @@ Case tiny_case(Random& random, const Camera& camera) {
 // Every ray for itself against every shape; and lists of what a tile may see, packs, threads. So many scenes as TOFRAY_LONG_SCENES says where
 // it is set (.ci/long: a million).
 TEST(tiny_scenes, are_the_same_however_they_are_computed) {
-  const char* const said = std::getenv("TOFRAY_LONG_SCENES");
-  const int wanted = said != nullptr ? std::atoi(said) : often(1000);
+  const int wanted = often_unless("TOFRAY_LONG_SCENES", 1000);
   const Camera camera = load_camera("pico-flexx");
   Random random(77);
   std::size_t hits = 0, shaded = 0;

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The tofray authors
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include <cstdlib>
 
 /// clang says by another word what g++ says by these.
 #if defined(__clang__)
@@ -23,5 +24,11 @@ constexpr bool with_sanitizers = false;
 
 /// How often a test that repeats itself does so: a sanitizer sees in a tenth of it what it would see in all.
 constexpr int often(int times) { return with_sanitizers ? times / 10 : times; }
+
+/// The same; but so often as an environment variable says where it is set (.ci/long).
+inline int often_unless(const char* variable, int times) {
+  const char* const said = std::getenv(variable);
+  return said != nullptr ? std::atoi(said) : often(times);
+}
 
 }  // namespace tofray::test
