@@ -163,6 +163,7 @@ void FrozenCamera::freeze_decoder(bool noise) {
   d.flying_far_z = single(decoding.flying_far_z_m), d.flying_far_limit = single(decoding.flying_far_limit_m);
   d.flying_factor = noise ? single(decoding.flying_sigmas * decoding.flying_sigmas) : 0, d.flying_check = decoding.flying_check ? 1 : 0;
   d.delay = sensor_.delay, d.delay_stride = sensor_.delay_stride, d.read = sensor_.read;
+  d.effects = d.delay != nullptr || d.suppression_threshold > 0 || d.read.cell != nullptr;
 }
 
 void FrozenCamera::freeze_modulations(double grey_time) {

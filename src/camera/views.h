@@ -162,7 +162,7 @@ struct SensorView {
   std::int32_t lines_are_noisy;   ///< 1: columns or rows have noise
   std::int32_t width, height;     ///< of the image that is read out
   std::int32_t taps_differ;       ///< 1: by the two numbers below
-  std::int32_t more_than_noise;   ///< 1: what is rare: unlike offsets of taps, suppression, a curve, noisy lines, wells that overflow
+  std::int32_t effects;           ///< 0: it is plain: taps alike, no other camera, suppression, curve, noisy lines or wells that overflow
   float half_gain_mismatch;       ///< g/2
   float half_offset_mismatch;     ///< [e⁻] of a tap
   ReadCurveView read;
@@ -210,8 +210,8 @@ void take_numbers(const Camera& camera, SensorView& s) {
   s.taps_differ = s.half_gain_mismatch != 0 || s.half_offset_mismatch != 0;
   const double lower = camera.decoding.lower_saturation_dn.value_or(adc.valid_min);
   const double upper = camera.decoding.upper_saturation_dn.value_or(adc.valid_max);
-  s.more_than_noise = s.half_offset_mismatch != 0 || s.suppression_threshold > 0 || !pixel.nonlinearity.x.empty() ||
-                      s.lines_are_noisy != 0 || s.blooms != 0;
+  s.effects = s.taps_differ != 0 || s.suppression_threshold > 0 || !pixel.nonlinearity.x.empty() || s.lines_are_noisy != 0 ||
+              s.blooms != 0 || camera.interference.share > 0;
   s.valid_middle = f(0.5 * (lower + upper)), s.valid_half = f(0.5 * (upper - lower));
 }
 
@@ -270,6 +270,7 @@ struct DecoderView {
   ReadCurveView read;         ///< as of the sensor
   const float* delay;         ///< [modulations][height][width] [s], or null
   std::int32_t delay_stride;  ///< as of the sensor
+  std::int32_t effects;       ///< 0: it knows of no suppression, curve or delays
   bool operator==(const DecoderView&) const = default;
 };
 

@@ -69,10 +69,11 @@ TOFRAY_FN F unwiggle(const camera::DecoderView& s, const camera::DecodeModulatio
 
 /// Electrons of ambient light in the unlit raw frames together, at least 0: their A−B, or the charge of which this is read: all of the light is in
 /// A, and dark charge below it.                                                                           [eq. 4.9, 4.21]
-template <class F>
+/// \tparam plain  as of decode
+template <bool plain, class F>
 TOFRAY_FN F grey_sum(const camera::DecoderView& s, const F* difference) {
   F sum = F(0.0f);
-  if (s.read.cell != nullptr) {
+  if (!plain && s.read.cell != nullptr) {
     const F dark_read = camera::read_charge(s.read, F(s.grey_dark)).value;
     for (int j = 0; j < s.grey_frames; ++j) sum = sum + camera::charge_of(s.read, difference[s.grey_frame[j]] + dark_read) - F(s.grey_dark);
     return num::max(sum, F(0.0f));
@@ -148,14 +149,15 @@ TOFRAY_FN F variance_as_read(const camera::DecoderView& s, const camera::DecodeM
 }
 
 /// V̂ = Â/C + B̂ + dark + 2σ_r² + s²/12, and what suppression adds.                                      [eq. 4.9]
-template <class F>
+/// \tparam plain  as of decode
+template <bool plain = false, class F>
 TOFRAY_FN F variance_of(const camera::DecoderView& s, const camera::DecodeModulation& m, const F* difference, const Estimate<F>& e,
                         F ambient) {
   const float dark = s.dark_rate_both * m.integration_time;
-  if (s.read.cell != nullptr) return variance_as_read(s, m, difference, e, ambient + F(dark));
+  if (!plain && s.read.cell != nullptr) return variance_as_read(s, m, difference, e, ambient + F(dark));
   const F electrons = num::fma(e.amplitude, F(m.per_contrast), ambient);
   const F variance = electrons + F(s.noise_floor + dark);
-  if (!(s.suppression_threshold > 0)) return variance;
+  if (plain || !(s.suppression_threshold > 0)) return variance;
   return variance + suppression_variance(s, m, difference, e, electrons + F(dark), F(1.0f));
 }
 
@@ -194,22 +196,23 @@ TOFRAY_FN num::Int<F> rejected_bit(const camera::DecoderView& s, num::Int<F> fla
 
 /// @param difference  A−B of each raw frame [e⁻]
 /// @param p           the pixels, for what is known of each
-template <class F>
+/// \tparam plain      true: the sensor has none of the effects that depth knows of, and there is no code for them
+template <bool plain, class F>
 TOFRAY_FN Depth<F> decode(const camera::DecoderView& s, const F* difference, Mask<F> clipped, Mask<F> outside, const flow::Ray<F>& ray,
                           const flow::Pixels& p) {
   F turns[flow::max_modulation_frequencies], weight[flow::max_modulation_frequencies];
   F amplitude = F(0.0f), ambient = F(0.0f), weakest = F(3e38f);
   Mask<F> moved = F(1.0f) < F(0.0f);
-  const F grey = grey_sum(s, difference);
+  const F grey = grey_sum<plain>(s, difference);
   for (int i = 0; i < s.modulations; ++i) {
     const camera::DecodeModulation& m = s.modulation[i];
     const Estimate<F> e = estimate(s, m, difference);
     F slope;
     F phi = unwiggle(s, m, e.turns, slope);
-    if (s.delay != nullptr) phi = num::fnma(camera::late_by<F>(s, i, p), F(m.frequency), phi);
+    if (!plain && s.delay != nullptr) phi = num::fnma(camera::late_by<F>(s, i, p), F(m.frequency), phi);
     turns[i] = phi - num::floor(phi);
     const F light = grey * F(m.ambient_scale);
-    const F variance = variance_of(s, m, difference, e, light);
+    const F variance = variance_of<plain>(s, m, difference, e, light);
     weight[i] = inverse_variance(m, e, variance, slope);
     moved = moved | phases_disagree<F>(s, m, difference, variance);
     amplitude = amplitude + e.amplitude;
@@ -233,6 +236,11 @@ TOFRAY_FN Depth<F> decode(const camera::DecoderView& s, const F* difference, Mas
               bit<F>(moved, inconsistent_phases) | bit<F>(half.inconsistent, inconsistent_frequencies);
   if (s.rejected != 0) out.flags = out.flags | rejected_bit<F>(s, out.flags);
   return out;
+}
+template <class F>
+TOFRAY_FN Depth<F> decode(const camera::DecoderView& s, const F* difference, Mask<F> clipped, Mask<F> outside, const flow::Ray<F>& ray,
+                          const flow::Pixels& p) {
+  return s.effects != 0 ? decode<false>(s, difference, clipped, outside, ray, p) : decode<true>(s, difference, clipped, outside, ray, p);
 }
 
 }  // namespace tofray::depth

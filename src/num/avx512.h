@@ -101,7 +101,8 @@ TOFRAY_FN I32x16 to_signed(U32x16 a) { return a.v; }
 
 TOFRAY_FN void multiply_wide(U32x16 a, U32x16 b, U32x16& high, U32x16& low) {
   const __m512i even = _mm512_mul_epu32(a.v, b.v);
-  const __m512i odd = _mm512_mul_epu32(_mm512_srli_epi64(a.v, 32), _mm512_srli_epi64(b.v, 32));
+  const __m512i odd = _mm512_mul_epu32(_mm512_shuffle_epi32(a.v, static_cast<_MM_PERM_ENUM>(0xF5)),
+                                       _mm512_shuffle_epi32(b.v, static_cast<_MM_PERM_ENUM>(0xF5)));
   high = _mm512_mask_shuffle_epi32(odd, 0x5555, even, static_cast<_MM_PERM_ENUM>(0xF5));
   low = _mm512_mask_shuffle_epi32(even, 0xAAAA, odd, static_cast<_MM_PERM_ENUM>(0xA0));
 }

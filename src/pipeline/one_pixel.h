@@ -33,16 +33,29 @@ struct Pack {
   F difference[flow::max_raw_frames];  ///< A−B of each raw frame [e⁻]
 };
 
-/// Stage 3 for one raw frame: A−B as depth takes it.
+/// Stage 3 for the raw frames of one moment: A−B as depth takes it.
+/// \tparam plain  as of raw::expose
+template <bool plain, class F>
+TOFRAY_FN void collect(const Setup& s, const Job& job, const Pixels& p, const Moment& now, const flow::Light<F>& light, Pack<F>& pack) {
+  const raw::FrameIndex index{job.index_low, job.index_high};
+  for (int k = now.first; k < now.last; ++k) {
+    const flow::Taps<F> taps = raw::expose<plain>(s.sensor, k, light, s.phasors.orders, index, pack.exposure);
+    store_taps(s.lens.width * s.lens.height, job.out, p, k, taps, job.tap_stores);
+    pack.difference[k] = taps.difference;
+  }
+}
 template <class F>
-TOFRAY_FN F collect(const Setup& s, const Job& job, const Pixels& p, int k, const flow::Light<F>& light, raw::Exposure<F>& exposure) {
-  const flow::Taps<F> taps = raw::expose(s.sensor, k, light, s.phasors.orders, raw::FrameIndex{job.index_low, job.index_high}, exposure);
-  store_taps(s.lens.width * s.lens.height, job.out, p, k, taps, job.tap_stores);
-  if (job.out.gt_signal_e != nullptr) {
+TOFRAY_FN void collect(const Setup& s, const Job& job, const Pixels& p, const Moment& now, const flow::Light<F>& light, Pack<F>& pack) {
+  if (s.sensor.effects != 0) {
+    collect<false>(s, job, p, now, light, pack);
+  } else {
+    collect<true>(s, job, p, now, light, pack);
+  }
+  if (job.out.gt_signal_e == nullptr) return;
+  for (int k = now.first; k < now.last; ++k) {
     const F signal = s.sensor.frame[k].lit != 0 ? light.signal_rate * F(s.sensor.frame[k].integration_time) : F(0.0f);
     num::store(job.out.gt_signal_e + p.index + k * s.lens.width * s.lens.height, signal, p.count);
   }
-  return taps.difference;
 }
 
 /// For the pass `bloom`, which looks at neighbours.
@@ -101,7 +114,7 @@ TOFRAY_FN void run_pipeline(const Setup& s, const Job& job, Walk& walk) {
         gather<F>(s, job, moments == 1 ? 0 : now.first, p, light);
         continue;
       }
-      for (int k = now.first; k < now.last; ++k) pack.difference[k] = collect(s, job, p, k, light, pack.exposure);  // stage 3
+      collect(s, job, p, now, light, pack);  // stage 3
       if (now.last < s.sensor.raw_frames || s.last_stage < Stage::depth) continue;
       store_overflow(s, job, p, pack.exposure);
       find_depth<F>(s, job, p, ray, pack.difference, raw::saturated(s.sensor, pack.exposure), vignetting);  // stage 4

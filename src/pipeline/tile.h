@@ -167,6 +167,7 @@ class TileWalk {
         tile_(tile_at(s.lens, index)),
         view_(s.culling != 0 ? s.lens.tile + index : nullptr),
         hits_(scratch.still) {
+    fetch_lens();
     scratch.near.take_room(s.scene, reinterpret_cast<unsigned char*>(&scratch + 1));
     trace::cull<F>(s.scene.camera_still(), view_, scratch.near.marks, scratch.near.camera_still);
     for (int q = 0; q < max_packs<F>; ++q) {
@@ -211,6 +212,17 @@ class TileWalk {
   }
 
  private:
+  /// Says early what of the lens the tile will read: a frame's arrays have driven it out of the near caches since the frame before.
+  TOFRAY_FN void fetch_lens() const {
+    constexpr int line = 16;  // floats
+    for (int y = tile_.y; y < tile_.y + tile_.height; ++y) {
+      for (int x = tile_.x; x < tile_.x + tile_.width; x += line) {
+        const int at = y * s_.lens.width + x;
+        __builtin_prefetch(s_.lens.ray_x + at), __builtin_prefetch(s_.lens.ray_y + at);
+        __builtin_prefetch(s_.lens.inverse_length + at), __builtin_prefetch(s_.lens.vignetting + at);
+      }
+    }
+  }
   TOFRAY_FN bool has_sun() const { return s_.power.ambient == camera::AmbientLight::directional; }
   /// Where nothing that moves is in view, the tile sees what stands still.
   TOFRAY_FN void see_what_moves(int moment) {

@@ -86,38 +86,39 @@ TOFRAY_FN Means<F> expose_apart(const camera::SensorView& s, const Means<F>& mea
 /// N = λ + √V·z + r·((z² − 1)/6 + (z/√V)·((z² − 3)/24 − r·(2z² − 5)/36)).                                 [eq. 3.11]
 template <class F>
 TOFRAY_FN F merged_normal(const camera::SensorView& s, F mean, F z) {
-  const F variance = mean + F(s.read_variance), per_variance = F(1.0f) / variance;
-  const F root = num::sqrt(variance), share = mean * per_variance, square = z * z;
+  const F variance = mean + F(s.read_variance), root = num::sqrt(variance), per_root = num::inverse_root(variance, root);
+  const F share = mean * (per_root * per_root), square = z * z;
   const F skew = num::fma(square, F(1.0f / 6.0f), F(-1.0f / 6.0f));
   const F skew_squared = num::fma(square, F(1.0f / 18.0f), F(-5.0f / 36.0f));
   const F excess = num::fma(square, F(1.0f / 24.0f), F(-1.0f / 8.0f));
-  const F shape = num::fma(z * (root * per_variance), num::fnma(share, skew_squared, excess), skew);
+  const F shape = num::fma(z * per_root, num::fnma(share, skew_squared, excess), skew);
   return num::fma(root, z, num::fma(share, shape, mean));
 }
 
-/// Words of a pixel's merged normals. Four blocks serve nine raw frames: each block two, and the ninth lives on the byte that each of the eight
-/// radius words before it has to spare.
+/// Random words of a pixel that serve three raw frames, the first of which has a number that three divides.
 template <class F>
-struct MergedWords {
+struct TapWords {
   num::Random4<F> block;
-  num::Uint<F> spare[2];
+  std::int32_t first = -1;  ///< of these raw frames; below 0: nothing is drawn yet
 };
+
+/// A normal for each tap of raw frame k. Each of three words has a radius of 24 bits and 8 of an angle, the fourth ten more for each angle.
+template <class F>
+TOFRAY_FN Means<F> tap_normals(const camera::SensorView& s, num::Int<F> pixel, int k, FrameIndex frame, Purpose purpose,
+                               TapWords<F>& words) {
+  const int place = k % 3;
+  if (words.first != k - place) words.block = draw<F>(s, pixel, k - place, frame, purpose), words.first = k - place;
+  const num::Uint<F> radius = words.block.w[place], more = ((words.block.w[3] << (10 * place)) >> 8) & num::Uint<F>(0x00ffc000u);
+  Means<F> out;
+  num::normal_pair<F>(radius, (radius << 24) | more, out.a, out.b);
+  return out;
+}
 
 template <class F>
 TOFRAY_FN Means<F> expose_merged(const camera::SensorView& s, const Means<F>& mean, num::Int<F> pixel, int k, FrameIndex frame,
-                                 MergedWords<F>& words) {
-  const int place = k % 9;
-  num::Uint<F> radius = words.spare[0], angle = words.spare[1];
-  if (place < 8) {
-    if ((place & 1) == 0) words.block = draw<F>(s, pixel, k, frame, merged);
-    radius = words.block.w[2 * (place & 1)], angle = words.block.w[2 * (place & 1) + 1];
-    num::Uint<F>& spare = words.spare[place >> 2];
-    const num::Uint<F> byte = radius & num::Uint<F>(0xffu);
-    spare = (place & 3) == 0 ? byte : (spare << 8) | byte;
-  }
-  F a, b;
-  num::normal_pair<F>(radius, angle, a, b);
-  return {merged_normal(s, mean.a, a), merged_normal(s, mean.b, b)};
+                                 TapWords<F>& words) {
+  const Means<F> normal = tap_normals<F>(s, pixel, k, frame, merged, words);
+  return {merged_normal(s, mean.a, normal.a), merged_normal(s, mean.b, normal.b)};
 }
 
 /// Taps of which one holds more than the other before any charge comes.                                     [eq. 3.16]
@@ -126,27 +127,17 @@ TOFRAY_FN Means<F> with_unlike_offsets(const camera::SensorView& s, const Means<
   return {charge.a + F(s.half_offset_mismatch), charge.b - F(s.half_offset_mismatch)};
 }
 
-/// Words of a pixel's suppression noise: a block serves two raw frames, the first of which has an even number.
-template <class F>
-struct SuppressionWords {
-  num::Random4<F> block;
-  std::int32_t first;  ///< of these raw frames; below 0: nothing is drawn yet
-};
-
 /// Equal charge x = min(budget, max(0, min(A, B) − threshold)) off both taps; each removal adds its own variance factor²·x. [eq. 3.7]
 template <class F>
 TOFRAY_FN Means<F> suppress(const camera::SensorView& s, const Means<F>& charge, num::Int<F> pixel, int k, FrameIndex frame,
-                            SuppressionWords<F>& words) {
+                            TapWords<F>& words) {
   const F excess = num::max(num::min(charge.a, charge.b) - F(s.suppression_threshold), F(0.0f));
   const F removed = num::min(excess, F(s.suppression_budget));
   Means<F> left{charge.a - removed, charge.b - removed};
   if (s.noise != Noise::off && s.suppression_noise > 0 && num::any(removed > F(0.0f))) {
-    const int odd = k & 1;
-    if (words.first != k - odd) words = {draw<F>(s, pixel, k - odd, frame, suppression), k - odd};
-    F a, b;
-    num::normal_pair<F>(words.block.w[2 * odd], words.block.w[2 * odd + 1], a, b);
+    const Means<F> normal = tap_normals<F>(s, pixel, k, frame, suppression, words);
     const F sigma = F(s.suppression_noise) * num::sqrt(removed);
-    left.a = num::fma(sigma, a, left.a), left.b = num::fma(sigma, b, left.b);
+    left.a = num::fma(sigma, normal.a, left.a), left.b = num::fma(sigma, normal.b, left.b);
   }
   return left;
 }
@@ -167,7 +158,7 @@ TOFRAY_FN Means<F> read_charges(const camera::SensorView& s, const Means<F>& cha
 
 /// What the taps hold after tap offsets and background suppression, as far as the sensor has them.
 template <class F>
-TOFRAY_FN void offset_and_suppress(const camera::SensorView& s, num::Int<F> pixel, int k, FrameIndex frame, SuppressionWords<F>& words,
+TOFRAY_FN void offset_and_suppress(const camera::SensorView& s, num::Int<F> pixel, int k, FrameIndex frame, TapWords<F>& words,
                                    Means<F>& charge) {
   if (s.half_offset_mismatch != 0) charge = with_unlike_offsets(s, charge);
   if (s.suppression_threshold > 0) charge = suppress(s, charge, pixel, k, frame, words);

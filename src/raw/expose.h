@@ -12,8 +12,7 @@ struct Exposure {
   num::Int<F> pixel;
   LineNoise lines;
   F gain_a, gain_b, offset;
-  MergedWords<F> merged_words;
-  SuppressionWords<F> suppression_words;
+  TapWords<F> merged_words, suppression_words;
   F overflow;                   ///< of the lit raw frames: most charge for which both wells have no room, where that spills
   F most_charge, widest_level;  ///< of the lit raw frames: most charge of a tap, largest distance of a level from the valid codes' middle
 };
@@ -35,7 +34,7 @@ template <class F>
 TOFRAY_FN Exposure<F> start(const camera::SensorView& s, const flow::Pixels& p, const float* line_normals) {
   Exposure<F> e;
   e.pixel = num::Int<F>(p.index) + num::lane_index<F>();
-  e.lines = lines_through(s, p, line_normals), e.suppression_words.first = -1;
+  e.lines = lines_through(s, p, line_normals);
   e.gain_a = e.gain_b = pattern<F>(s.gain, p, 1.0f), e.offset = pattern<F>(s.offset, p, 0.0f);
   if (s.half_gain_mismatch != 0) unlike_gains(s, e);
   e.overflow = e.most_charge = F(0.0f), e.widest_level = F(0.0f);
@@ -67,13 +66,14 @@ TOFRAY_FN Mask<F> saturated(const camera::SensorView& s, const Exposure<F>& e) {
 /// is the charge itself, it is known better than that.
 /// @param common, rate  electrons per second of both taps together, and of their difference
 /// @param most          charge of the tap that holds more
-template <class F>
+/// \tparam plain        as of expose
+template <bool plain, class F>
 TOFRAY_FN F known_difference(const camera::SensorView& s, const camera::RawFrameView& frame, F common, F rate, F most, const Exposure<F>& e,
                              F otherwise) {
-  if (s.read.cell != nullptr) return otherwise;
+  if (!plain && s.read.cell != nullptr) return otherwise;
   const auto whole = (most < F(s.full_well)) & (num::abs(rate) <= common);
   F difference = rate * F(frame.integration_time) * e.gain_a;
-  if (s.taps_differ != 0) {
+  if (!plain && s.taps_differ != 0) {
     const F of_rate = F(0.5f * frame.integration_time) * rate * (e.gain_a + e.gain_b);
     const F each = num::fma(common, F(0.5f * frame.integration_time), F(frame.dark));
     difference = num::fma(each, e.gain_a - e.gain_b, of_rate) + F(2 * s.half_offset_mismatch);
@@ -85,11 +85,12 @@ TOFRAY_FN F known_difference(const camera::SensorView& s, const camera::RawFrame
 /// non-linearity → A, B, A−B → column and row noise → ADC.
 /// @param light  as this pixel sees it, its own delay included
 /// @param orders of the light's phasors
-template <class F>
+/// \tparam plain true: the sensor has none of its effects, and there is no code for them
+template <bool plain = false, class F>
 TOFRAY_FN Taps<F> expose(const camera::SensorView& s, int k, const Light<F>& light, int orders, FrameIndex index, Exposure<F>& e) {
-  const camera::RawFrameView& frame = s.frame[k];
+  const camera::RawFrameView frame = s.frame[k];
   F rate = frame.lit != 0 ? difference_rate(frame, orders, light) : F(0.0f), ambient_rate = light.ambient_rate;
-  if (frame.other != nullptr) add_other_camera(frame, orders, light, ambient_rate, rate);
+  if (!plain && frame.other != nullptr) add_other_camera(frame, orders, light, ambient_rate, rate);
   Means<F> charge = tap_means(frame, light.signal_rate, ambient_rate, rate);
   charge.a = charge.a * e.gain_a, charge.b = charge.b * e.gain_b;
   if (s.noise == Noise::merged) {
@@ -98,7 +99,7 @@ TOFRAY_FN Taps<F> expose(const camera::SensorView& s, int k, const Light<F>& lig
     charge = expose_apart(s, charge, e.pixel, k, index);
   }
   F most = num::max(charge.a, charge.b), offset = e.offset;
-  if (s.more_than_noise != 0) {
+  if constexpr (!plain) {
     offset_and_suppress(s, e.pixel, k, index, e.suppression_words, charge), offset = with_line_noise(s, k, e.lines, e.offset);
     most = num::max(charge.a, charge.b);
     if (s.blooms != 0 && frame.lit != 0) e.overflow = num::max(e.overflow, overflow_of(s, charge));
@@ -106,7 +107,7 @@ TOFRAY_FN Taps<F> expose(const camera::SensorView& s, int k, const Light<F>& lig
   }
   Taps<F> taps = read_out(s, charge, offset);
   if (s.noise == Noise::off && frame.lit != 0) {
-    taps.difference = known_difference(s, frame, light.signal_rate + ambient_rate, rate, most, e, taps.difference);
+    taps.difference = known_difference<plain>(s, frame, light.signal_rate + ambient_rate, rate, most, e, taps.difference);
   }
   watch(s, frame, most, taps, e);
   return taps;

@@ -104,6 +104,17 @@ TEST(atan2_turns, is_exact_on_the_axes_and_diagonals) {
   EXPECT_EQ(num::atan2_turns(-0.0f, -1.0f), -0.5f);
 }
 
+// Two octaves hold all mantissas with either parity of the exponent; the rest is a matter of powers of two, up to the last normal numbers.
+TEST(inverse_root, is_within_4e_7_of_one) {
+  const auto check = [](float x) {
+    const float root = std::sqrt(x);
+    ASSERT_NEAR(wide(num::inverse_root(x, root)) * std::sqrt(wide(x)), 1, 4e-7) << x;
+  };
+  for (std::uint32_t bits = 0x3f800000u; bits < 0x40800000u; bits += 3) check(num::from_bits(bits));
+  sweep(16, 1e7, check);
+  for (const float end : {std::numeric_limits<float>::min(), 1e15f, std::numeric_limits<float>::max()}) check(end);
+}
+
 TEST(log, is_within_two_ulps_and_3e_8) {
   double relative = 0, absolute = 0;
   std::mt19937_64 random(13);

@@ -50,10 +50,9 @@ TEST(normal_pair, is_that_of_the_formula) {
     float first, second;
     num::normal_pair<float>(radius_word, angle_word, first, second);
     const double u = ((radius_word >> 8) + 1.0) * 0x1p-24, square = -2 * std::log(u);
-    const double r = static_cast<double>(static_cast<std::int32_t>(angle_word << 2)) * 0x1p-34;
-    const double s = std::sin(2 * test::pi * r), c = std::cos(2 * test::pi * r);
-    const double turn = (angle_word >> 30 & 1) != 0 ? -1 : 1;
-    const double x = turn * ((angle_word >> 31) != 0 ? s : c), y = turn * ((angle_word >> 31) != 0 ? c : s);
+    const double r = static_cast<double>(static_cast<std::int32_t>(angle_word << 1)) * 0x1p-33;
+    const double turn = (angle_word >> 31) != 0 ? -1 : 1;
+    const double x = turn * std::cos(2 * test::pi * r), y = turn * std::sin(2 * test::pi * r);
     const double f = static_cast<double>(first), g = static_cast<double>(second), radius = std::sqrt(f * f + g * g);
     EXPECT_LT(std::abs(f * f + g * g - square), 3.3e-6 + 5e-7 * square) << radius_word;
     worst = std::max({worst, std::abs(f - radius * x), std::abs(g - radius * y)});

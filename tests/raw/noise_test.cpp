@@ -64,7 +64,7 @@ Stream shot(double mean, const Key& key, camera::Noise noise = camera::Noise::ap
             const raw::Means<float> means{static_cast<float>(mean), static_cast<float>(mean)};
             raw::Means<float> got;
             if (noise == camera::Noise::merged) {
-              raw::MergedWords<float> words{};
+              raw::TapWords<float> words;
               for (int k = 0; k <= key.k; ++k) got = raw::expose_merged<float>(s, means, pixel + key.shift, k, frame, words);
             } else {
               got = raw::expose_apart<float>(s, means, pixel + key.shift, key.k, frame);
@@ -200,11 +200,11 @@ TEST(draws, of_suppression_are_independent_of_shot_and_read_noise) {
   taking.suppression_threshold = 1000, taking.suppression_budget = 1e6f, taking.suppression_noise = 1, taking.noise = camera::Noise::merged;
   std::vector<Correlation> pairs(24, Correlation(0, 0));
   for (int i = 0; i < samples; ++i) {
-    raw::MergedWords<float> words{};
+    raw::TapWords<float> words;
     const auto without_read = raw::expose_apart<float>(shot, {10000.0f, 10000.0f}, i, 0, {0, 0});
     const auto with_read = raw::expose_apart<float>(read, {10000.0f, 10000.0f}, i, 0, {0, 0});
     const auto together = raw::expose_merged<float>(shot, {10000.0f, 10000.0f}, i, 0, {0, 0}, words);
-    raw::SuppressionWords<float> own{{}, -1};
+    raw::TapWords<float> own;
     const auto left = raw::suppress<float>(taking, {10000.0f, 10000.0f}, i, 0, {0, 0}, own);
     const double drawn[6] = {static_cast<double>(without_read.a) - 10000,       static_cast<double>(without_read.b) - 10000,
                              static_cast<double>(with_read.a - without_read.a), static_cast<double>(with_read.b - without_read.b),
@@ -219,7 +219,7 @@ TEST(draws, of_suppression_are_independent_of_shot_and_read_noise) {
   for (std::size_t i = 0; i < pairs.size(); ++i) EXPECT_LT(std::abs(pairs[i].z()), 5) << (i < 12 ? "values " : "squares ") << i % 12;
 }
 
-// Two raw frames share a block of words: their draws know nothing of each other's, nor of those of the next block, and each is the same
+// Three raw frames share a block of words: their draws know nothing of each other's, nor of those of the next block, and each is the same
 // whether the pixel's charge was suppressed in raw frames before or not.
 TEST(draws, of_suppression_are_independent_between_taps_and_raw_frames) {
   constexpr int raw_frames = 5;
@@ -229,13 +229,13 @@ TEST(draws, of_suppression_are_independent_between_taps_and_raw_frames) {
   const raw::Means<float> charge{10000.0f, 10000.0f}, little{500.0f, 500.0f};
   std::vector<Correlation> values(draws * draws, Correlation(1000, 1000)), sizes(draws * draws, Correlation(9000, 9000));
   for (int i = 0; i < samples; ++i) {
-    raw::SuppressionWords<float> words{{}, -1};
+    raw::TapWords<float> words;
     double drawn[draws];
     for (int k = 0; k < raw_frames; ++k) {
       const auto left = raw::suppress<float>(s, charge, i, k, {0, 0}, words);
       drawn[2 * k] = static_cast<double>(left.a), drawn[2 * k + 1] = static_cast<double>(left.b);
       if (i >= 100) continue;
-      raw::SuppressionWords<float> fresh{{}, -1};
+      raw::TapWords<float> fresh;
       for (int before = 0; before < k; ++before) (void)raw::suppress<float>(s, before == 0 ? charge : little, i, before, {0, 0}, fresh);
       const auto alone = raw::suppress<float>(s, charge, i, k, {0, 0}, fresh);
       ASSERT_EQ(alone.a, left.a) << "pixel " << i << ", raw frame " << k;
@@ -256,38 +256,44 @@ TEST(draws, of_suppression_are_independent_between_taps_and_raw_frames) {
   }
 }
 
-// Merged noise's ninth raw frame lives on the bits that eight before it left over: its radius and angle are as evenly spread as theirs, and
-// the sizes of its normals know nothing of those whose words the bits came from. χ² over 64 cells and |r|·√n < 5: false alarm 6e-7 each.
-TEST(draws, of_merged_noise_from_spare_bits_are_as_good_as_any) {
+// Three raw frames share a block of merged noise, too, and its fourth word: radii and angles of all of them are evenly spread, and no two know of
+// each other. χ² over 64 cells of radius and 1,024 of angle, and |r|·√n < 5: false alarm 6e-7 each.
+TEST(draws, of_merged_noise_that_share_a_block_are_as_good_as_any) {
   constexpr double mean = 1e6;
-  constexpr int cells = 64;
-  camera::SensorView sensor{};
-  std::vector<double> radius(9 * cells), angle(9 * cells);
-  std::vector<Correlation> sizes(8, Correlation(2, 2)), values(32, Correlation(0, 0));
-  for (int i = 0; i < samples; ++i) {
-    raw::MergedWords<float> words{};
-    double za[9], zb[9];
-    for (int k = 0; k < 9; ++k) {
-      const auto got = raw::expose_merged<float>(sensor, {1e6f, 1e6f}, i, k, {0, 0}, words);
-      za[k] = (static_cast<double>(got.a) - mean) / std::sqrt(mean), zb[k] = (static_cast<double>(got.b) - mean) / std::sqrt(mean);
-      const auto cell = [](double share) { return static_cast<std::size_t>(std::min(cells - 1.0, std::max(0.0, share * cells))); };
-      ++radius[static_cast<std::size_t>(k * cells) + cell(std::exp(-0.5 * (za[k] * za[k] + zb[k] * zb[k])))];
-      ++angle[static_cast<std::size_t>(k * cells) + cell(std::atan2(zb[k], za[k]) / two_pi + 0.5)];
-    }
-    for (std::size_t k = 0; k < 8; ++k) {
-      sizes[k].add(za[k] * za[k] + zb[k] * zb[k], za[8] * za[8] + zb[8] * zb[8]);
-      values[4 * k].add(za[k], za[8]), values[4 * k + 1].add(za[k], zb[8]);
-      values[4 * k + 2].add(zb[k], za[8]), values[4 * k + 3].add(zb[k], zb[8]);
-    }
-  }
-  const std::vector<double> even(cells, static_cast<double>(samples) / cells);
-  const auto of_frame = [](const std::vector<double>& counts, std::ptrdiff_t k) {
-    return std::vector<double>(counts.begin() + k * cells, counts.begin() + (k + 1) * cells);
+  constexpr std::size_t raw_frames = 5;
+  const auto count = [](std::vector<double>& cells, double share) {
+    const double last = static_cast<double>(cells.size()) - 1;
+    ++cells[static_cast<std::size_t>(std::min(last, std::max(0.0, share * (last + 1))))];
   };
-  for (std::ptrdiff_t k = 0; k < 9; ++k) {
-    EXPECT_LT(std::abs(chi_square_z(of_frame(radius, k), even)), 5) << "radius, raw frame " << k;
-    EXPECT_LT(std::abs(chi_square_z(of_frame(angle, k), even)), 5) << "angle, raw frame " << k;
+  camera::SensorView sensor{};
+  std::vector<std::vector<double>> radius(raw_frames, std::vector<double>(64)), angle(raw_frames, std::vector<double>(1024));
+  std::vector<Correlation> sizes(raw_frames * raw_frames, Correlation(2, 2)), values(4 * raw_frames * raw_frames, Correlation(0, 0));
+  for (int i = 0; i < samples; ++i) {
+    raw::TapWords<float> words;
+    double z[raw_frames][2], size[raw_frames];
+    for (std::size_t k = 0; k < raw_frames; ++k) {
+      const auto got = raw::expose_merged<float>(sensor, {1e6f, 1e6f}, i, static_cast<int>(k), {0, 0}, words);
+      z[k][0] = (static_cast<double>(got.a) - mean) / std::sqrt(mean), z[k][1] = (static_cast<double>(got.b) - mean) / std::sqrt(mean);
+      size[k] = z[k][0] * z[k][0] + z[k][1] * z[k][1];
+      count(radius[k], std::exp(-0.5 * size[k])), count(angle[k], std::atan2(z[k][1], z[k][0]) / two_pi + 0.5);
+      for (std::size_t before = 0; before < k; ++before) {
+        const std::size_t pair = raw_frames * k + before;
+        sizes[pair].add(size[k], size[before]);
+        for (std::size_t tap = 0; tap < 4; ++tap) values[4 * pair + tap].add(z[k][tap / 2], z[before][tap % 2]);
+      }
+    }
   }
-  for (std::size_t k = 0; k < 8; ++k) EXPECT_LT(std::abs(sizes[k].z()), 5) << "sizes, raw frame " << k;
-  for (std::size_t i = 0; i < values.size(); ++i) EXPECT_LT(std::abs(values[i].z()), 5) << "values, raw frame " << i / 4;
+  for (std::size_t k = 0; k < raw_frames; ++k) {
+    const auto even = [](std::size_t cells) {
+      return std::vector<double>(cells, static_cast<double>(samples) / static_cast<double>(cells));
+    };
+    EXPECT_LT(std::abs(chi_square_z(radius[k], even(64))), 5) << "radius, raw frame " << k;
+    EXPECT_LT(std::abs(chi_square_z(angle[k], even(1024))), 5) << "angle, raw frame " << k;
+    for (std::size_t before = 0; before < k; ++before) {
+      const std::size_t pair = raw_frames * k + before;
+      EXPECT_LT(std::abs(sizes[pair].z()), 5) << "sizes, raw frames " << k << " and " << before;
+      for (std::size_t tap = 0; tap < 4; ++tap)
+        EXPECT_LT(std::abs(values[4 * pair + tap].z()), 5) << "values, raw frames " << k << " and " << before;
+    }
+  }
 }
