@@ -86,7 +86,7 @@ TOFRAY_FN F known_difference(const camera::SensorView& s, const camera::RawFrame
 /// @param light  as this pixel sees it, its own delay included
 /// @param orders of the light's phasors
 /// \tparam plain true: the sensor has none of its effects, and there is no code for them
-template <bool plain = false, class F>
+template <bool plain, class F>
 TOFRAY_FN Taps<F> expose(const camera::SensorView& s, int k, const Light<F>& light, int orders, FrameIndex index, Exposure<F>& e) {
   const camera::RawFrameView frame = s.frame[k];
   F rate = frame.lit != 0 ? difference_rate(frame, orders, light) : F(0.0f), ambient_rate = light.ambient_rate;
@@ -111,6 +111,10 @@ TOFRAY_FN Taps<F> expose(const camera::SensorView& s, int k, const Light<F>& lig
   }
   watch(s, frame, most, taps, e);
   return taps;
+}
+template <class F>
+TOFRAY_FN Taps<F> expose(const camera::SensorView& s, int k, const Light<F>& light, int orders, FrameIndex index, Exposure<F>& e) {
+  return s.effects != 0 ? expose<false>(s, k, light, orders, index, e) : expose<true>(s, k, light, orders, index, e);
 }
 
 }  // namespace tofray::raw

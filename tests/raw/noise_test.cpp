@@ -257,7 +257,7 @@ TEST(draws, of_suppression_are_independent_between_taps_and_raw_frames) {
 }
 
 // Three raw frames share a block of merged noise, too, and its fourth word: radii and angles of all of them are evenly spread, and no two know of
-// each other. χ² over 64 cells of radius and 1,024 of angle, and |r|·√n < 5: false alarm 6e-7 each.
+// each other, nor where within a 256th of a turn their angles lie, which is what the fourth word says. χ² over 64 cells of radius and 1,024 of angle, and |r|·√n < 5: false alarm 6e-7 each.
 TEST(draws, of_merged_noise_that_share_a_block_are_as_good_as_any) {
   constexpr double mean = 1e6;
   constexpr std::size_t raw_frames = 5;
@@ -267,18 +267,21 @@ TEST(draws, of_merged_noise_that_share_a_block_are_as_good_as_any) {
   };
   camera::SensorView sensor{};
   std::vector<std::vector<double>> radius(raw_frames, std::vector<double>(64)), angle(raw_frames, std::vector<double>(1024));
-  std::vector<Correlation> sizes(raw_frames * raw_frames, Correlation(2, 2)), values(4 * raw_frames * raw_frames, Correlation(0, 0));
+  std::vector<Correlation> sizes(raw_frames * raw_frames, Correlation(2, 2)), values(4 * raw_frames * raw_frames, Correlation(0, 0)),
+      places(raw_frames * raw_frames, Correlation(0.5, 0.5));
   for (int i = 0; i < samples; ++i) {
     raw::TapWords<float> words;
-    double z[raw_frames][2], size[raw_frames];
+    double z[raw_frames][2], size[raw_frames], place[raw_frames];
     for (std::size_t k = 0; k < raw_frames; ++k) {
       const auto got = raw::expose_merged<float>(sensor, {1e6f, 1e6f}, i, static_cast<int>(k), {0, 0}, words);
       z[k][0] = (static_cast<double>(got.a) - mean) / std::sqrt(mean), z[k][1] = (static_cast<double>(got.b) - mean) / std::sqrt(mean);
       size[k] = z[k][0] * z[k][0] + z[k][1] * z[k][1];
-      count(radius[k], std::exp(-0.5 * size[k])), count(angle[k], std::atan2(z[k][1], z[k][0]) / two_pi + 0.5);
+      const double turns = std::atan2(z[k][1], z[k][0]) / two_pi + 0.5;
+      place[k] = 256 * turns - std::floor(256 * turns);
+      count(radius[k], std::exp(-0.5 * size[k])), count(angle[k], turns);
       for (std::size_t before = 0; before < k; ++before) {
         const std::size_t pair = raw_frames * k + before;
-        sizes[pair].add(size[k], size[before]);
+        sizes[pair].add(size[k], size[before]), places[pair].add(place[k], place[before]);
         for (std::size_t tap = 0; tap < 4; ++tap) values[4 * pair + tap].add(z[k][tap / 2], z[before][tap % 2]);
       }
     }
@@ -292,6 +295,7 @@ TEST(draws, of_merged_noise_that_share_a_block_are_as_good_as_any) {
     for (std::size_t before = 0; before < k; ++before) {
       const std::size_t pair = raw_frames * k + before;
       EXPECT_LT(std::abs(sizes[pair].z()), 5) << "sizes, raw frames " << k << " and " << before;
+      EXPECT_LT(std::abs(places[pair].z()), 5) << "places within a 256th, raw frames " << k << " and " << before;
       for (std::size_t tap = 0; tap < 4; ++tap)
         EXPECT_LT(std::abs(values[4 * pair + tap].z()), 5) << "values, raw frames " << k << " and " << before;
     }

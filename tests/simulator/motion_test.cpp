@@ -134,7 +134,7 @@ TEST(motion, raises_the_warning_of_inconsistent_phases) {
     if (moving) {
       EXPECT_GT(warned, 5000);
     } else {
-      EXPECT_EQ(warned, 0);  // 5 sigma, 77 000 pairs of phases: 0.04 expected; the seed is fixed
+      EXPECT_LE(warned, 1);  // 5 sigma, 77 000 pairs of phases: 0.04 expected, two by chance 8e-4
     }
   }
 }
