@@ -11,13 +11,13 @@ namespace {
 TEST(process, keeps_ground_truth_pose_and_arrays_of_one_s_own) {
   const Folder folder;
   const Prepare here = in_folder(folder.path());
-  ASSERT_EQ(run(with_small_sensor({"render", "card", "-o", "out", "--set", "camera.pose.position=[0, 0, 0.25]"}), here).code, 0);
+  ASSERT_EQ(run(with_small_sensor({"render", "card", "-o", "out", "--set", "camera.pose.position=[0, 0, -1]"}), here).code, 0);
   auto arrays = files::read_npz(folder / "out" / "frame.npz");
   arrays.push_back({"labels", {{'U', 12}, {2}, files::utf32_of("abcdef")}});
   std::vector<files::NpyView> views;
   for (const files::NamedArray& one : arrays) views.push_back({one.name, one.array.type, one.array.shape, one.array.bytes});
   std::ofstream(folder / "labelled.npz", std::ios::binary) << files::npz_bytes(views);
-  ASSERT_EQ(run({"process", "labelled.npz", "-o", "again", "--set", "camera.decoding.noise_threshold=10 m"}, here).code, 0);
+  ASSERT_EQ(run({"process", "labelled.npz", "-o", "again", "--set", "camera.decoding.filter.kind=median"}, here).code, 0);
   std::map<std::string, files::NpyArray> after;
   for (files::NamedArray& one : files::read_npz(folder / "again" / "frame.npz")) after[one.name] = std::move(one.array);
   int kept = 0;
