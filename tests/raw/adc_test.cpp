@@ -62,7 +62,7 @@ TEST_P(PhotonTransfer, is_the_line_of_the_closed_form) {
     const auto& frame = bench.sensor().frame[0];
     for (int i = 0; i < samples; ++i) {
       const auto mean = raw::tap_means(frame, 0.0f, static_cast<float>(means[at] * 1e3), 0.0f);
-      raw::TapWords<float> words;
+      raw::TapWords<float> words{};
       const auto charge = bench.sensor().noise == camera::Noise::merged
                               ? raw::expose_merged<float>(bench.sensor(), mean, i, 0, {0, 0}, words)
                               : raw::expose_apart<float>(bench.sensor(), mean, i, 0, {0, 0});

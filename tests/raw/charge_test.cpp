@@ -14,7 +14,7 @@ namespace {
 
 /// By a pixel that has drawn nothing before.
 raw::Means<float> suppressed(const camera::SensorView& s, const raw::Means<float>& charge, int pixel, int k, raw::FrameIndex frame) {
-  raw::TapWords<float> words;
+  raw::TapWords<float> words{};
   return raw::suppress<float>(s, charge, pixel, k, frame, words);
 }
 

@@ -71,7 +71,7 @@ TEST_P(MergedNoise, has_the_law_of_shot_and_read_noise_together) {
   const auto [read, mean] = GetParam();
   const camera::SensorView sensor = sensor_with(read);
   const raw::Means<float> means{static_cast<float>(mean), static_cast<float>(mean)};
-  raw::TapWords<float> words;
+  raw::TapWords<float> words{};
   expect_law(mean, read, [&](int i) { return raw::expose_merged<float>(sensor, means, i / 9, i % 9, {0, 0}, words); });
 }
 
