@@ -4,14 +4,19 @@
 
 #include <openssl/evp.h>
 
+#include <memory>
+
 #include "tofray/error.h"
 
 namespace tofray::files {
 
-std::string sha256_hex(std::string_view bytes) {
+std::string sha256_hex(std::span<const std::string_view> parts) {
+  const std::unique_ptr<EVP_MD_CTX, decltype(&EVP_MD_CTX_free)> context(EVP_MD_CTX_new(), &EVP_MD_CTX_free);
   unsigned char digest[EVP_MAX_MD_SIZE];
   unsigned int length = 0;
-  if (EVP_Digest(bytes.data(), bytes.size(), digest, &length, EVP_sha256(), nullptr) != 1)
+  bool good = context != nullptr && EVP_DigestInit_ex(context.get(), EVP_sha256(), nullptr) == 1;
+  for (const std::string_view part : parts) good = good && EVP_DigestUpdate(context.get(), part.data(), part.size()) == 1;
+  if (!good || EVP_DigestFinal_ex(context.get(), digest, &length) != 1)
     throw Error(ErrorKind::bug, "error: OpenSSL cannot compute SHA-256");
   constexpr const char* digits = "0123456789abcdef";
   std::string text;
@@ -22,5 +27,7 @@ std::string sha256_hex(std::string_view bytes) {
   }
   return text;
 }
+
+std::string sha256_hex(std::string_view bytes) { return sha256_hex({&bytes, 1}); }
 
 }  // namespace tofray::files

@@ -348,4 +348,6 @@ TEST(sha256, agrees_with_the_standard_s_examples) {
   // FIPS 180-4: "abc", and the empty message
   EXPECT_EQ(sha256_hex("abc"), "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");
   EXPECT_EQ(sha256_hex(""), "e3b0c44298fc1c149afbf4c8996fb92427ae41e4649b934ca495991b7852b855");
+  const std::string_view parts[] = {"a", "", "bc"};
+  EXPECT_EQ(sha256_hex(parts), sha256_hex("abc"));
 }

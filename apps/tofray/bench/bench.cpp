@@ -11,6 +11,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <set>
+#include <string_view>
 
 #include "backend/cuda/cuda.h"
 #include "base/readout.h"
@@ -28,8 +29,8 @@ namespace tofray::app {
 namespace {
 
 template <class Vector>
-void append(std::string& bytes, const Vector& array) {
-  bytes.append(reinterpret_cast<const char*>(array.data()), array.size() * sizeof(array[0]));
+std::string_view bytes_of(const Vector& array) {
+  return {reinterpret_cast<const char*>(array.data()), array.size() * sizeof(array[0])};
 }
 
 double number(const files::Json& row, const char* key) {
@@ -99,11 +100,11 @@ Contender::Contender(const Inputs& in, const SimulatorOptions& options, Places p
   for (std::size_t i = 0; i < frames_.size(); ++i) step(false);  // all of it is there before anything is timed
 }
 
-Frame& Contender::place() { return frames_[next_ % frames_.size()]; }
+void Contender::step(bool timed) { step_into(frames_[next_ % frames_.size()], timed); }
 
-void Contender::step(bool timed) {
+void Contender::step_into(Frame& place, bool timed) {
   const auto start = std::chrono::steady_clock::now();
-  simulator_.frame(next_, place());
+  simulator_.frame(next_, place);
   ++next_;
   if (timed) ms_.push_back(std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count());
 }
@@ -131,7 +132,7 @@ files::Json Contender::stage_ms() {
     upto.emplace_back(in_, options);
   }
   for (std::size_t i = 0; i <= std::clamp<std::size_t>(ms_.size(), 1, 50); ++i) {
-    for (Contender& one : upto) one.step(i > 0);
+    for (Contender& one : upto) one.step_into(frames_[0], i > 0);
   }
   std::vector<double> medians;
   for (const Contender& one : upto) medians.push_back(one.median_ms());
@@ -203,11 +204,10 @@ std::uint64_t peak_bytes() {
 }
 
 std::string arrays_sha256(const Frame& frame) {
-  std::string bytes;
-#define TOFRAY_APPEND(name, part, member, ...) append(bytes, frame.part.member);
-  TOFRAY_IMAGE_ARRAYS(TOFRAY_APPEND)
-#undef TOFRAY_APPEND
-  return files::sha256_hex(bytes);
+#define TOFRAY_BYTES(name, part, member, ...) bytes_of(frame.part.member),
+  const std::string_view arrays[] = {TOFRAY_IMAGE_ARRAYS(TOFRAY_BYTES)};
+#undef TOFRAY_BYTES
+  return files::sha256_hex(arrays);
 }
 
 SimulatorOptions bench_options(const Options& options) {

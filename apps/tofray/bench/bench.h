@@ -36,11 +36,11 @@ class Contender {
   [[nodiscard]] files::Json result();
 
  private:
-  /// Median time of each stage [ms], from runs of their own.
+  /// Median time of each stage [ms], from runs of their own that write to one place.
   [[nodiscard]] files::Json stage_ms();
   /// The same frames again, each written to another place.
   [[nodiscard]] files::Json other_places();
-  [[nodiscard]] Frame& place();
+  void step_into(Frame& place, bool timed);
 
   Inputs in_;
   std::string scene_;
