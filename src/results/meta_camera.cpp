@@ -82,8 +82,10 @@ class Writer {
     const void* tag = model::address(row.tag(const_cast<void*>(table_.fresh)));
     const Row* kind = model::Complaints::row_of(table_, table_.fresh, tag);
     const SortedTree& said = member(meta_, kind->name());
+    if (said.is_null()) return model::applies(row, table_.fresh);  // as in files: what they do not say is as it is in a new struct
+    const std::vector<std::string>& names = kind->form.names;      // none where the kind is yes or no
     const auto is = [&](int index) {
-      return said.is_boolean() ? said == (index != 0) : said == kind->form.names[static_cast<std::size_t>(index)];
+      return names.empty() ? said == SortedTree(index != 0) : said == names[static_cast<std::size_t>(index)];
     };
     return std::any_of(row.kinds.begin(), row.kinds.end(), is);
   }

@@ -4,6 +4,9 @@
 
 #include <gtest/gtest.h>
 
+#include <nlohmann/json.hpp>
+#include <string>
+
 #include "load/builtin.h"
 #include "results/meta.h"
 #include "tofray/error.h"
@@ -67,6 +70,47 @@ TEST(camera_of_meta, takes_changes) {
   EXPECT_EQ(results::camera_of_meta(meta, "frame.npz", {{"decoding.filter.kind", "median"}}).decoding.filter.kind,
             ImageFilter::Kind::median);
   EXPECT_THROW(results::camera_of_meta(meta, "frame.npz", {{"decoding.filtre", "median"}}), Error);
+}
+
+// Whatever of it is called otherwise, or is of another type: a camera or an error. ("l*t" for the "lit" of a raw frame ended with a signal.)
+TEST(camera_of_meta, of_which_one_thing_is_wrong_is_refused_or_read) {
+  using Json = nlohmann::json;
+  const Json meta = Json::parse(results::frame_meta(Scene(), load_camera("pico-flexx"), {.seed = 0}, 0));
+  const Json places = Json{{"camera", meta["camera"]}}.flatten();
+  int refused = 0, read = 0;
+  const auto attempt = [&](const Json& wrong, const std::string& what) {
+    try {
+      results::camera_of_meta(wrong.dump(), "frame.npz");
+      ++read;
+    } catch (const Error& error) {
+      EXPECT_EQ(error.kind(), ErrorKind::bad_input) << what << ": " << error.what();
+      ++refused;
+    }
+  };
+  for (const auto& [key, value] : places.items()) {
+    const Json::json_pointer place(key);
+    for (const Json& other : {Json(nullptr), Json(3), Json("x"), Json(true), Json::array(), Json::object()}) {
+      Json wrong = meta;
+      wrong[place] = other;
+      attempt(wrong, key + " " + other.dump());
+    }
+    Json without = meta;
+    Json& around = without[place.parent_pointer()];
+    if (!around.is_object()) continue;
+    around.erase(place.back());
+    attempt(without, "no " + key);
+  }
+  EXPECT_GT(refused, 500);
+  EXPECT_GT(read, 100);
+}
+
+TEST(camera_of_meta, without_a_word_on_the_light_has_lit_raw_frames_as_files_have) {
+  using Json = nlohmann::json;
+  Json meta = Json::parse(results::frame_meta(Scene(), load_camera("pico-flexx"), {.seed = 0}, 0));
+  meta["camera"]["mode"]["sequence"][1].erase("lit");
+  const RawFrame got = results::camera_of_meta(meta.dump(), "frame.npz").mode.sequence[1];
+  EXPECT_TRUE(got.lit);
+  EXPECT_EQ(got.modulation_frequency_hz, 80.32e6);
 }
 
 TEST(camera_of_meta, names_what_is_missing) {

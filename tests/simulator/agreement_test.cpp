@@ -76,3 +76,12 @@ INSTANTIATE_TEST_SUITE_P(all, Scenes, testing::ValuesIn(scenes_of_one_point_ligh
                          [](const auto& which) { return test_name(which.param); });
 
 TEST(scenes, are_there) { EXPECT_GE(scene_names().size(), 9u); }
+
+TEST(scenes, of_one_point_light_are_those_named) {
+  for (const std::string& name : scene_names()) {
+    const Scene scene = load_scene(name);
+    const std::vector<Illumination> lights = load_camera(scene).illumination;
+    const bool one_point = lights.size() == 1 && lights[0].ring_leds == 1 && lights[0].area.kind == Area::Kind::none;
+    EXPECT_EQ(test::is_of_one_point_light(name), one_point && scene.transport.bounces == 0) << name;
+  }
+}

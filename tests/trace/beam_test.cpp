@@ -3,7 +3,6 @@
 // Beams of rays find what each ray finds by itself, bit by bit, with each instruction set; and so does a look at every triangle.
 #include <gtest/gtest.h>
 
-#include <cstdlib>
 #include <cstring>
 
 #include "backend/cpu/cpu.h"
@@ -12,6 +11,7 @@
 #include "support/random.h"
 #include "support/random_scene.h"
 #include "support/rays.h"
+#include "support/sanitizers.h"
 #include "trace/tile_search.h"
 
 using namespace tofray;
@@ -193,8 +193,7 @@ TEST_P(Beams, meet_what_each_ray_meets) {
 TEST_P(Beams, meet_what_a_look_at_every_triangle_meets) {
   const Set* const packs = widest();
   if (packs == nullptr || !backend::can_run(yardstick.isa)) GTEST_SKIP() << "no packs on this machine";
-  const char* const said = std::getenv("TOFRAY_LONG_RAYS");
-  const int rays_wanted = said != nullptr ? std::atoi(said) : 20'000;
+  const int rays_wanted = often_unless("TOFRAY_LONG_RAYS", 20'000);
   Random random(static_cast<std::uint64_t>(300 + GetParam()));
   const Vec3 shift = (GetParam() % 7 == 6 ? 1.5e5 : 0) * Vec3{1, -0.7, 0.4};
   const int kind = GetParam() % 5;
