@@ -83,8 +83,8 @@ std::string folder_of(const std::string& path) {
 
 std::string read_text(const std::string& path) {
   const Place place = base::whole(path);
-  const Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NOCTTY));
   if (path.find('\0') != std::string::npos) base::fail(place, "a file's name holds no NUL", {}, ErrorKind::io);
+  const Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NOCTTY));
   if (file.number() < 0) base::fail(place, std::string("cannot open the file: ") + std::strerror(errno), {}, ErrorKind::io);
   return read_all(file.number(), place, path, base::limit::file_bytes);
 }

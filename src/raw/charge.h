@@ -99,7 +99,7 @@ TOFRAY_FN F merged_normal(const camera::SensorView& s, F mean, F z) {
 /// cost 3 to 5 % of a frame.)
 template <class F>
 struct TapWords {
-  num::Random4<F> block;    ///< not zeroed at first: that alone takes 3 to 5 % of a frame
+  num::Random4<F> block;
   std::int32_t first = -1;  ///< of these raw frames; below 0: nothing is drawn yet
 };
 
