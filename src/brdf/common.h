@@ -19,7 +19,6 @@ struct MaterialView {
   std::int32_t normals = -1;         ///< number of the first of three maps: how the normal leans; −1: it does not
   std::int32_t finish = -1;          ///< number of the first of five maps: `number`, reflectivity, matt; −1: they are the same everywhere
 };
-constexpr int material_words = sizeof(MaterialView) / sizeof(float);
 
 /// Between a surface's normal and the directions from it to light and camera.
 template <class F>

@@ -30,13 +30,9 @@ TOFRAY_FN void sincos_turns(F t, F& sine, F& cosine) {
   cosine = from_bits(bits(select(swap, s, c)) ^ turned_cosine);
 }
 
-/// Angle of the vector (x, y) in turns, in [−½, ½]; 0 for the zero vector. Fit of atan on [0, 1]: 1.5e-8.
+/// atan(t)/t in turns, of t² in [0, 1]. Fit of atan: 1.5e-8.
 template <class F>
-TOFRAY_FN F atan2_turns(F y, F x) {
-  const F ax = abs(x), ay = abs(y);
-  const F longer = max(ax, ay), shorter = min(ax, ay);
-  const F t = shorter / select(longer > F(0.0f), longer, F(1.0f));
-  const F u = t * t;
+TOFRAY_FN F atan_share(F u) {
   F p = fma(u, F(0.000453568035f), F(-0.0025573778f));
   p = fma(u, p, F(0.00679452764f));
   p = fma(u, p, F(-0.0119434232f));
@@ -44,7 +40,16 @@ TOFRAY_FN F atan2_turns(F y, F x) {
   p = fma(u, p, F(-0.0226057991f));
   p = fma(u, p, F(0.031819243f));
   p = fma(u, p, F(-0.0530512333f));
-  p = t * fma(u, p, F(0.159154937f));
+  return fma(u, p, F(0.159154937f));
+}
+
+/// Angle of the vector (x, y) in turns, in [−½, ½]; 0 for the zero vector.
+template <class F>
+TOFRAY_FN F atan2_turns(F y, F x) {
+  const F ax = abs(x), ay = abs(y);
+  const F longer = max(ax, ay), shorter = min(ax, ay);
+  const F t = shorter / select(longer > F(0.0f), longer, F(1.0f));
+  F p = t * atan_share(t * t);
   p = select(ay > ax, F(0.25f) - p, p);
   p = select(x < F(0.0f), F(0.5f) - p, p);
   return copy_sign(p, y);

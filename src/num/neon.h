@@ -150,6 +150,7 @@ TOFRAY_FN I32x4 numbered4() {
   return vld1q_s32(numbers);
 }
 TOFRAY_FN std::uint32_t lanes_of(Mask4 a) { return vaddvq_u32(vandq_u32(a.v, vshlq_u32(vdupq_n_u32(1), numbered4().v))); }
+TOFRAY_FN std::int32_t first_of(Mask4 m, I32x4 a) { return lane(a, __builtin_ctz(lanes_of(m))); }
 
 // Parts of a pack lane by lane: nothing beyond it is read or written.
 template <>

@@ -144,6 +144,8 @@ TOFRAY_FN void gather_pair(const float* table, std::int32_t index, float& first,
 
 /// The value of lane 0.
 TOFRAY_FN std::int32_t first(std::int32_t a) { return a; }
+/// … and of the first lane of those in a mask, of which there is one at least.
+TOFRAY_FN std::int32_t first_of(bool, std::int32_t a) { return a; }
 /// The value of lane 0 … lanes−1.
 TOFRAY_FN float lane(float a, int) { return a; }
 TOFRAY_FN std::int32_t lane(std::int32_t a, int) { return a; }
@@ -185,6 +187,20 @@ TOFRAY_FN void store(float* to, float a, int) { *to = a; }
 TOFRAY_FN void store(std::int32_t* to, std::int32_t a, int) { *to = a; }
 TOFRAY_FN void store(std::uint16_t* to, std::int32_t a, int) { *to = static_cast<std::uint16_t>(a); }
 TOFRAY_FN void store(std::uint8_t* to, std::int32_t a, int) { *to = static_cast<std::uint8_t>(a); }
+/// Says early that n values will be read, or written, from table[first] on, if there is a table: for the processor's types, which wait for
+/// memory.
+template <class F, bool to = false, class T>
+TOFRAY_FN void fetch(const T* table, std::int32_t first, int n) {
+  constexpr int pixels_at_once = lanes<F>, line = 64 / sizeof(T);
+  if constexpr (pixels_at_once > 1) {
+    for (int i = 0; table != nullptr && i < n; i += line) __builtin_prefetch(table + first + i, to ? 1 : 0);
+  }
+}
+template <class F, class T>
+TOFRAY_FN void fetch_to(const T* table, std::int32_t first, int n) {
+  fetch<F, true>(table, first, n);
+}
+
 /// Whether a number type has a store_past(to, value) of its own (avx2.h, avx512.h): all lanes, past the caches, to memory that is aligned to
 /// the pack. For what will not be read soon; other threads may read it once finish_stores() has been called.
 /// (Those of a float are plain stores: the name has to stand where no type has its own.)

@@ -149,6 +149,7 @@ class GivenWalk {
   TOFRAY_FN int moments() const { return in_.moments; }
   TOFRAY_FN int packs() const { return 1; }
   TOFRAY_FN Pixels pixels(int) const { return pixels_; }
+  TOFRAY_FN Pixels ahead(int) const { return {0, 0}; }
   TOFRAY_FN Pack<F>& pack(int) { return pack_; }
   static constexpr bool blurs = false;
   TOFRAY_FN flow::Light<F>& mean(int) { return pack_.light; }
@@ -217,7 +218,7 @@ TOFRAY_FN void decode_pixels(const Setup& s, const Job& job, const Recording& in
       const auto charges = (num::abs(a) <= F(flow::max_charge)) & (num::abs(b) <= F(flow::max_charge));
       const raw::Means<F> charge{num::select(charges, a, F(0.0f)), num::select(charges, b, F(0.0f))};
       level = raw::read_out(sensor, charge, offset).level;
-      difference[k] = raw::held_to_codes(sensor, charge.a - charge.b, offset);
+      difference[k] = raw::held_to_codes(raw::reach_of_codes(sensor, offset), charge.a - charge.b);
       over = (!charges) | (a >= F(sensor.full_read)) | (b >= F(sensor.full_read));
     }
     if (in.raw != nullptr) {

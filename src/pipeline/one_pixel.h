@@ -19,6 +19,7 @@
 ///     moments()                     times at which the scene is looked at: 1, or as many for each raw frame
 ///     go_to(now)                    what can be seen, and what can throw a shadow, at one of them
 ///     packs(), pixels(q)            the pixels, in packs that are computed at once
+///     ahead(q)                      those that come after pack q, whose memory may be fetched meanwhile; count 0: none
 ///     pack(q)                       what a pack keeps from one moment to the next
 ///     blurs, mean(q)                whether an exposure may see the scene at several times, and where the mean of their light is kept
 ///     find_light(now, q, …)         stages 1 and 2 for one pack; false: the light of the moment before is still good
@@ -34,22 +35,26 @@ struct Pack {
 };
 
 /// Stage 3 for the raw frames of one moment: A−B as depth takes it.
+/// @param next    pixels that come after these
 /// \tparam plain  as of raw::expose
 template <bool plain, class F>
-TOFRAY_FN void collect(const Setup& s, const Job& job, const Pixels& p, const Moment& now, const flow::Light<F>& light, Pack<F>& pack) {
+TOFRAY_FN void collect(const Setup& s, const Job& job, const Pixels& p, const Pixels& next, const Moment& now, const flow::Light<F>& light,
+                       Pack<F>& pack) {
   const raw::FrameIndex index{job.index_low, job.index_high};
   for (int k = now.first; k < now.last; ++k) {
     const flow::Taps<F> taps = raw::expose<plain>(s.sensor, k, light, s.phasors.orders, index, pack.exposure);
+    fetch_taps<F>(s.lens.width * s.lens.height, job.out, next, k, job.tap_stores);
     store_taps(s.lens.width * s.lens.height, job.out, p, k, taps, job.tap_stores);
     pack.difference[k] = taps.difference;
   }
 }
 template <class F>
-TOFRAY_FN void collect(const Setup& s, const Job& job, const Pixels& p, const Moment& now, const flow::Light<F>& light, Pack<F>& pack) {
+TOFRAY_FN void collect(const Setup& s, const Job& job, const Pixels& p, const Pixels& next, const Moment& now, const flow::Light<F>& light,
+                       Pack<F>& pack) {
   if (s.sensor.effects != 0) {
-    collect<false>(s, job, p, now, light, pack);
+    collect<false>(s, job, p, next, now, light, pack);
   } else {
-    collect<true>(s, job, p, now, light, pack);
+    collect<true>(s, job, p, next, now, light, pack);
   }
   if (job.out.gt_signal_e == nullptr) return;
   for (int k = now.first; k < now.last; ++k) {
@@ -114,8 +119,10 @@ TOFRAY_FN void run_pipeline(const Setup& s, const Job& job, Walk& walk) {
         gather<F>(s, job, moments == 1 ? 0 : now.first, p, light);
         continue;
       }
-      collect(s, job, p, now, light, pack);  // stage 3
+      const Pixels next = walk.ahead(q);
+      collect(s, job, p, next, now, light, pack);  // stage 3
       if (now.last < s.sensor.raw_frames || s.last_stage < Stage::depth) continue;
+      fetch_depth<F>(job.out, next);
       store_overflow(s, job, p, pack.exposure);
       find_depth<F>(s, job, p, ray, pack.difference, raw::saturated(s.sensor, pack.exposure), vignetting);  // stage 4
     }

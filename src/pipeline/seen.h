@@ -35,25 +35,19 @@ TOFRAY_FN Seen<F> nothing_known() {
 template <class F>
 TOFRAY_FN void look_at_triangle(const scene::SceneView& s, const flow::Hit<F>& hit, const flow::Surface<F>& p, Seen<F>& out) {
   using Int = num::Int<F>;
-  const shape::FacetColumns<F> facet(s.facets, hit.facet);
-  Int left = num::select(p.found, Int(1), Int(0));
-  for (int i = 0; i < num::lanes<F>; ++i) {
-    if (num::lane(left, i) == 0) continue;
-    const std::int32_t row = num::lane(facet.facet, i);
-    const auto its = p.found & (facet.facet == Int(row));
-    left = num::select(its, Int(0), left);
-    const shape::Facet& one = facet.at(row);
-    if (one.triangles == nullptr) continue;
-    const Int triangle = num::select(its, hit.triangle, Int(0));
-    out.triangle = num::select(its, shape::mesh_number<F>(one, triangle), out.triangle);
-    if (shape::has_steps(one)) {
-      const shape::MeshStep<F> step = shape::mesh_step(one, triangle, p.x, p.y, p.z);
-      out.own_velocity = chosen(its, step.velocity, out.own_velocity), out.own_step = chosen(its, step.step, out.own_step);
-    }
-    if (!shape::has_texcoords(one)) continue;
-    const shape::MeshDetail<F> detail = shape::mesh_detail(one, triangle, p.x, p.y, p.z);
-    out.u = num::select(its, detail.u, out.u), out.v = num::select(its, detail.v, out.v);
-  }
+  shape::for_each_facet<F>(
+      s.facets, hit.facet, p.found, [&](const shape::Facet& one, num::Mask<F> its) __attribute__((always_inline)) {
+        if (one.triangles == nullptr) return;
+        const Int triangle = num::select(its, hit.triangle, Int(0));
+        out.triangle = num::select(its, shape::mesh_number<F>(one, triangle), out.triangle);
+        if (shape::has_steps(one)) {
+          const shape::MeshStep<F> step = shape::mesh_step(one, triangle, p.x, p.y, p.z);
+          out.own_velocity = chosen(its, step.velocity, out.own_velocity), out.own_step = chosen(its, step.step, out.own_step);
+        }
+        if (!shape::has_texcoords(one)) return;
+        const shape::MeshDetail<F> detail = shape::mesh_detail(one, triangle, p.x, p.y, p.z);
+        out.u = num::select(its, detail.u, out.u), out.v = num::select(its, detail.v, out.v);
+      });
 }
 
 /// As the camera sees it. (Adding 0 leaves one kind of zero.)

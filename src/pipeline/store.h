@@ -48,6 +48,23 @@ TOFRAY_FN void store_taps(int pixels, const flow::FrameView& out, const Pixels& 
   if (out.raw != nullptr) num::store(out.raw + at.index, num::to_int(taps.code), at.count);
 }
 
+/// Says early where the taps, and the depth, of some pixels will be written: a frame is larger than the near caches, and a store that misses
+/// them waits for its line.
+template <class F>
+TOFRAY_FN void fetch_taps(int pixels, const flow::FrameView& out, const Pixels& p, int k, TapStores how) {
+  if (p.count == 0 || how == TapStores::past_caches) return;
+  const std::int32_t at = p.index + k * pixels;
+  num::fetch_to<F>(out.tap_a, at, p.count), num::fetch_to<F>(out.tap_b, at, p.count), num::fetch_to<F>(out.raw, at, p.count);
+}
+template <class F>
+TOFRAY_FN void fetch_depth(const flow::FrameView& out, const Pixels& p) {
+  if (p.count == 0) return;
+  const auto fetch = [&](const auto* to) __attribute__((always_inline)) { num::fetch_to<F>(to, p.index, p.count); };
+  fetch(out.z_m), fetch(out.range_m), fetch(out.amplitude_e), fetch(out.ambient_e), fetch(out.noise_m), fetch(out.confidence),
+      fetch(out.flags);
+  num::fetch_to<F>(out.points_m, 3 * p.index, 3 * p.count);
+}
+
 /// What the surface shows: the paper's matrices.
 /// @param material  says the number of its material, where that is wanted
 template <class F, class Material>

@@ -165,9 +165,9 @@ class TileWalk {
         job_(job),
         scratch_(scratch),
         tile_(tile_at(s.lens, index)),
+        next_tile_(tile_at(s.lens, index + 1)),
         view_(s.culling != 0 ? s.lens.tile + index : nullptr),
         hits_(scratch.still) {
-    fetch_lens();
     scratch.near.take_room(s.scene, reinterpret_cast<unsigned char*>(&scratch + 1));
     trace::cull<F>(s.scene.camera_still(), view_, scratch.near.marks, scratch.near.camera_still);
     for (int q = 0; q < max_packs<F>; ++q) {
@@ -184,6 +184,11 @@ class TileWalk {
   TOFRAY_FN int moments() const { return can_move ? s_.scene.moments : 1; }
   TOFRAY_FN int packs() const { return max_packs<F>; }
   TOFRAY_FN Pixels pixels(int q) const { return pack_at<F>(s_.lens, tile_, q); }
+  TOFRAY_FN Pixels ahead(int q) const {
+    camera::fetch_lens<F>(s_.lens, pack_at<F>(s_.lens, next_tile_, q));
+    const Pixels next = q + 1 < max_packs<F> ? pixels(q + 1) : Pixels{0, 0};
+    return next.count > 0 ? next : pack_at<F>(s_.lens, next_tile_, 0);
+  }
   TOFRAY_FN Pack<F>& pack(int q) {
     if constexpr (can_move) return scratch_.pack[q];
     return here_;
@@ -212,17 +217,6 @@ class TileWalk {
   }
 
  private:
-  /// Says early what of the lens the tile will read: a frame's arrays have driven it out of the near caches since the frame before.
-  TOFRAY_FN void fetch_lens() const {
-    constexpr int line = 16;  // floats
-    for (int y = tile_.y; y < tile_.y + tile_.height; ++y) {
-      for (int x = tile_.x; x < tile_.x + tile_.width; x += line) {
-        const int at = y * s_.lens.width + x;
-        __builtin_prefetch(s_.lens.ray_x + at), __builtin_prefetch(s_.lens.ray_y + at);
-        __builtin_prefetch(s_.lens.inverse_length + at), __builtin_prefetch(s_.lens.vignetting + at);
-      }
-    }
-  }
   TOFRAY_FN bool has_sun() const { return s_.power.ambient == camera::AmbientLight::directional; }
   /// Where nothing that moves is in view, the tile sees what stands still.
   TOFRAY_FN void see_what_moves(int moment) {
@@ -297,7 +291,7 @@ class TileWalk {
   const Setup& s_;
   const Job& job_;
   Scratch<F, can_move>& scratch_;
-  Tile tile_;
+  Tile tile_, next_tile_;
   const flow::Bounds* view_;
   const flow::Hit<F>* hits_;
   const flow::Hit<F>* seen_from_lights_ = nullptr;  // near.light_still and `seen` are those of these hits

@@ -143,11 +143,20 @@ TOFRAY_FN Means<F> suppress(const camera::SensorView& s, const Means<F>& charge,
   return left;
 }
 
-/// A−B without rounding, held to what the codes reach; the pixel's offset pattern is not in it.               [eq. 3.13]
+/// A−B of the least and of the most code [e⁻]; the pixel's offset pattern is not in it.
 template <class F>
-TOFRAY_FN F held_to_codes(const camera::SensorView& s, F difference, F offset) {
+struct CodeReach {
+  F least, most;
+};
+template <class F>
+TOFRAY_FN CodeReach<F> reach_of_codes(const camera::SensorView& s, F offset) {
   const F zero = F(s.mid_code) + offset;
-  return num::min(num::max(difference, -zero * F(s.step)), (F(s.max_code) - zero) * F(s.step));
+  return {-zero * F(s.step), (F(s.max_code) - zero) * F(s.step)};
+}
+/// A−B without rounding, held to what the codes reach.                                                     [eq. 3.13]
+template <class F>
+TOFRAY_FN F held_to_codes(const CodeReach<F>& reach, F difference) {
+  return num::min(num::max(difference, reach.least), reach.most);
 }
 
 /// Full well per tap, and what is read of it. The well comes first: it holds charge, and the curve is that of the amplifier behind. [eq. 3.18]
@@ -167,15 +176,23 @@ TOFRAY_FN void offset_and_suppress(const camera::SensorView& s, num::Int<F> pixe
 
 /// Full well per tap, then A−B through the ADC: DN = round((A−B)/s + mid + offset), held to the code range.   [eq. 3.8]
 /// @param charge  what is read of both taps
-template <class F>
-TOFRAY_FN Taps<F> read_out(const camera::SensorView& s, const Means<F>& charge, F offset) {
+/// @param reach   of the codes, offset included; asked for where noise is off
+/// @param known   a function that says of the taps' difference what it is without noise
+template <class F, class Known>
+TOFRAY_FN Taps<F> read_out(const camera::SensorView& s, const Means<F>& charge, F offset, const CodeReach<F>& reach, const Known& known) {
   Taps<F> out;
   out.a = num::min(charge.a, F(s.full_read)), out.b = num::min(charge.b, F(s.full_read));
   const F difference = out.a - out.b;
   out.level = num::round_even(num::fma(difference, F(s.per_step), F(s.mid_code) + offset));
   out.code = num::min(num::max(out.level, F(0.0f)), F(s.max_code));
-  out.difference = s.noise == Noise::off ? held_to_codes(s, difference, offset) : (out.code - F(s.mid_code)) * F(s.step);
+  out.difference = s.noise == Noise::off ? held_to_codes(reach, known(difference)) : (out.code - F(s.mid_code)) * F(s.step);
   return out;
+}
+
+template <class F>
+TOFRAY_FN Taps<F> read_out(const camera::SensorView& s, const Means<F>& charge, F offset) {
+  return read_out(
+      s, charge, offset, reach_of_codes(s, offset), [](F difference) __attribute__((always_inline)) { return difference; });
 }
 
 }  // namespace tofray::raw

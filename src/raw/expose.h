@@ -12,6 +12,7 @@ struct Exposure {
   num::Int<F> pixel;
   LineNoise lines;
   F gain_a, gain_b, offset;
+  CodeReach<F> reach;  ///< with that offset
   TapWords<F> merged_words, suppression_words;
   F overflow;                   ///< of the lit raw frames: most charge for which both wells have no room, where that spills
   F most_charge, widest_level;  ///< of the lit raw frames: most charge of a tap, largest distance of a level from the valid codes' middle
@@ -37,6 +38,7 @@ TOFRAY_FN Exposure<F> start(const camera::SensorView& s, const flow::Pixels& p, 
   e.lines = lines_through(s, p, line_normals);
   e.gain_a = e.gain_b = pattern<F>(s.gain, p, 1.0f), e.offset = pattern<F>(s.offset, p, 0.0f);
   if (s.half_gain_mismatch != 0) unlike_gains(s, e);
+  e.reach = reach_of_codes(s, e.offset);
   e.overflow = e.most_charge = F(0.0f), e.widest_level = F(0.0f);
   return e;
 }
@@ -62,10 +64,11 @@ TOFRAY_FN Mask<F> saturated(const camera::SensorView& s, const Exposure<F>& e) {
   return (e.most_charge >= F(s.full_well)) | (e.widest_level > F(s.valid_half));
 }
 
-/// A−B without noise. Strong ambient light leaves few places of a float to the difference of the taps; where neither clips, and what is read
+/// A−B of a lit raw frame without noise. Strong ambient light leaves few places of a float to the difference of the taps; where neither clips, and what is read
 /// is the charge itself, it is known better than that.
 /// @param common, rate  electrons per second of both taps together, and of their difference
 /// @param most          charge of the tap that holds more
+/// @param otherwise     A−B of the taps
 /// \tparam plain        as of expose
 template <bool plain, class F>
 TOFRAY_FN F known_difference(const camera::SensorView& s, const camera::RawFrameView& frame, F common, F rate, F most, const Exposure<F>& e,
@@ -78,7 +81,7 @@ TOFRAY_FN F known_difference(const camera::SensorView& s, const camera::RawFrame
     const F each = num::fma(common, F(0.5f * frame.integration_time), F(frame.dark));
     difference = num::fma(each, e.gain_a - e.gain_b, of_rate) + F(2 * s.half_offset_mismatch);
   }
-  return num::select(whole, held_to_codes(s, difference, e.offset), otherwise);
+  return num::select(whole, difference, otherwise);
 }
 
 /// Mean electrons × (1 + PRNU) × (1 ± g/2) → Poisson → reset and read noise → tap offsets → background suppression → full well →
@@ -105,10 +108,12 @@ TOFRAY_FN Taps<F> expose(const camera::SensorView& s, int k, const Light<F>& lig
     if (s.blooms != 0 && frame.lit != 0) e.overflow = num::max(e.overflow, overflow_of(s, charge));
     if (s.read.cell != nullptr) charge = read_charges(s, charge);
   }
-  Taps<F> taps = read_out(s, charge, offset);
-  if (s.noise == Noise::off && frame.lit != 0) {
-    taps.difference = known_difference<plain>(s, frame, light.signal_rate + ambient_rate, rate, most, e, taps.difference);
-  }
+  // (Without noise there is none of lines either: the codes' reach is that of the offset alone.)
+  const Taps<F> taps = read_out(
+      s, charge, offset, e.reach, [&](F difference) __attribute__((always_inline)) {
+        if (frame.lit == 0) return difference;
+        return known_difference<plain>(s, frame, light.signal_rate + ambient_rate, rate, most, e, difference);
+      });
   watch(s, frame, most, taps, e);
   return taps;
 }

@@ -103,7 +103,6 @@ int FrozenScene::number_of_maps(const void* map, const Make& make) {
 void FrozenScene::add_materials(const std::vector<Material>& materials) {
   for (const Material& material : materials) {
     brdf::MaterialView& view = materials_.emplace_back(brdf::view_of(material));
-    if (view.brdf != 0) view_.any_other_brdf = 1;
     if (material.map != nullptr)
       view.map = number_of_maps(material.map.get(), [&] {
         Levels one;

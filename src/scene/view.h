@@ -110,10 +110,9 @@ struct SceneView {
   std::int32_t has_sun;  ///< light comes from one direction, too
   std::int32_t material_count;
   std::int32_t map_count;
-  std::int32_t object_count;    ///< of `motion_of`; one at least
-  std::int32_t any_other_brdf;  ///< than Lambert's
-  std::int32_t any_details;     ///< of meshes
-  std::int32_t bounces;         ///< light goes from surface to surface, too: rays leave from anywhere
+  std::int32_t object_count;  ///< of `motion_of`; one at least
+  std::int32_t any_details;   ///< of meshes
+  std::int32_t bounces;       ///< light goes from surface to surface, too: rays leave from anywhere
 
   TOFRAY_FN Forms camera_still() const { return still.seen_from(0, 0, 1 + lights); }
   TOFRAY_FN Forms camera_moving(int moment) const { return moving.seen_from(moment, 0, 1 + lights); }

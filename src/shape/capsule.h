@@ -56,7 +56,7 @@ struct Capsule {
   }
 
   template <class F>
-  TOFRAY_FN static Direction<F> normal(const FacetColumns<F>& of, F x, F y, F z) {
+  TOFRAY_FN static Direction<F> normal(const Facet& of, F x, F y, F z) {
     return Cylinder::normal(of, x, y, z);
   }
 };

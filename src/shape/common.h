@@ -159,7 +159,6 @@ struct Facet {
     const MeshSteps* steps;      ///< of its second, or null: how they move
   };
 };
-constexpr int facet_words = sizeof(Facet) / sizeof(float);
 
 /// A flat facet's numbers. (Adding 0 leaves one kind of zero.)
 TOFRAY_FN void face(const Vec& normal, Facet& out) {
@@ -168,30 +167,17 @@ TOFRAY_FN void face(const Vec& normal, Facet& out) {
   out.curved = 0;
 }
 
-/// The columns of each lane's facet. A pack that sees a single one reads it once.
-template <class F>
-struct FacetColumns {
-  const Facet* table;
-  Int<F> facet;
-  bool same;
-
-  TOFRAY_FN FacetColumns(const Facet* facets, Int<F> which)
-      : table(facets), facet(which * Int<F>(facet_words)), same(num::all(which == Int<F>(num::first(which)))) {}
-  /// The one that begins at a word.
-  TOFRAY_FN const Facet& at(std::int32_t word) const { return *reinterpret_cast<const Facet*>(words() + word); }
-  TOFRAY_FN const Facet& first() const { return at(num::first(facet)); }
-  TOFRAY_FN F number(int c) const {
-    const float* column = reinterpret_cast<const float*>(table) + c;
-    return same ? F(column[num::first(facet)]) : num::gather(column, facet);
+/// Calls take(facet, its lanes) for each facet that some of the lanes name: mostly one, seldom more than three, so that each is read once and
+/// nothing lane by lane.
+template <class F, class Take>
+TOFRAY_FN void for_each_facet(const Facet* table, Int<F> which, Mask<F> lanes, const Take& take) {
+  for (Mask<F> left = lanes; num::any(left);) {
+    const std::int32_t one = num::first_of(left, which);
+    const Mask<F> its = lanes & (which == Int<F>(one));
+    left = left & (!its);
+    take(table[one], its);
   }
-  TOFRAY_FN Int<F> curved() const { return whole(9); }
-  TOFRAY_FN Int<F> object() const { return whole(10); }
-  TOFRAY_FN Int<F> material() const { return whole(11); }
-
- private:
-  TOFRAY_FN const std::int32_t* words() const { return reinterpret_cast<const std::int32_t*>(table); }
-  TOFRAY_FN Int<F> whole(int c) const { return same ? Int<F>(words()[num::first(facet) + c]) : num::gather(words() + c, facet); }
-};
+}
 
 /// A ray from anywhere: P = o + t·d, d of unit length; t is the distance.
 template <class F>

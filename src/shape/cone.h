@@ -63,12 +63,12 @@ struct Cone {
 
   /// Of its side: n = K·(what of P − T is across a, of unit length) + S·a. The tip has none: there it is S·a, the mean of those about it.
   template <class F>
-  TOFRAY_FN static Direction<F> normal(const FacetColumns<F>& of, F x, F y, F z) {
-    const F ax = of.number(3), ay = of.number(4), az = of.number(5), sine = of.number(7);
-    const F qx = x - of.number(0), qy = y - of.number(1), qz = z - of.number(2);
+  TOFRAY_FN static Direction<F> normal(const Facet& of, F x, F y, F z) {
+    const F ax = F(of.number[3]), ay = F(of.number[4]), az = F(of.number[5]), sine = F(of.number[7]);
+    const F qx = x - F(of.number[0]), qy = y - F(of.number[1]), qz = z - F(of.number[2]);
     const F along = num::fma(qx, ax, num::fma(qy, ay, qz * az));
     const F ox = num::fnma(along, ax, qx), oy = num::fnma(along, ay, qy), oz = num::fnma(along, az, qz);
-    const F scale = of.number(6) / num::sqrt(num::max(flow::square_of(ox, oy, oz), F(1e-30f)));
+    const F scale = F(of.number[6]) / num::sqrt(num::max(flow::square_of(ox, oy, oz), F(1e-30f)));
     return {num::fma(sine, ax, scale * ox), num::fma(sine, ay, scale * oy), num::fma(sine, az, scale * oz)};
   }
 };

@@ -65,11 +65,11 @@ struct Cylinder {
 
   /// Of its side: n = ((P − c) − a·((P − c)·a))/R.
   template <class F>
-  TOFRAY_FN static Direction<F> normal(const FacetColumns<F>& of, F x, F y, F z) {
-    const F curvature = of.number(3), ax = of.number(4), ay = of.number(5), az = of.number(6);
+  TOFRAY_FN static Direction<F> normal(const Facet& of, F x, F y, F z) {
+    const F curvature = F(of.number[3]), ax = F(of.number[4]), ay = F(of.number[5]), az = F(of.number[6]);
     const F along = num::fma(x, ax, num::fma(y, ay, z * az));
-    return {num::fma(num::fnma(along, ax, x), curvature, of.number(0)), num::fma(num::fnma(along, ay, y), curvature, of.number(1)),
-            num::fma(num::fnma(along, az, z), curvature, of.number(2))};
+    return {num::fma(num::fnma(along, ax, x), curvature, F(of.number[0])), num::fma(num::fnma(along, ay, y), curvature, F(of.number[1])),
+            num::fma(num::fnma(along, az, z), curvature, F(of.number[2]))};
   }
 };
 

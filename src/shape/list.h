@@ -29,7 +29,7 @@
 ///     can_meet(Form, rectangle), inverse_range(Form, ray[, side]), blocks(Along, P, …)
 ///     Form::bounds, Along::bounds    rectangles of directions, and on the light's screen, that hold it, unless it has no end
 ///     many_of<T>       it is made of many triangles: nearest_in(Form, ray, hit) and stands_before(Form, ray, …) in place of
-///                      inverse_range, and T::normal(facet, triangle, …); search_tile(Form, rays), search_tile(Along, rays) in place of
+///                      inverse_range, and T::normal(facet, triangle); search_tile(Form, rays), search_tile(Along, rays) in place of
 ///                      all three where has_beams
 namespace tofray::shape {
 

@@ -132,9 +132,9 @@ struct Mesh {
             built.has_shades ? 1 : 0};
   }
 
-  /// Of the triangles that these lanes see, not turned to the camera.
+  /// Of its triangles, not turned to the camera.
   template <class F>
-  TOFRAY_FN static Direction<F> normal(const FacetColumns<F>& of, Int<F> triangle, Mask<F> its);
+  TOFRAY_FN static Direction<F> normal(const Facet& of, Int<F> triangle);
 };
 
 TOFRAY_FN Mesh in_frame(const Mesh& mesh, const Frame& frame) {
@@ -288,7 +288,7 @@ TOFRAY_FN MeshRay<F> in_mesh(const MeshAlong& form, const F (&point)[3]) {
 
 /// (B − A) × (C − A) of one facet's triangles, in the camera's frame and of unit length; zero where a triangle has no area.
 template <class F>
-TOFRAY_FN Direction<F> mesh_normal(const Facet& facet, Int<F> triangle) {
+TOFRAY_FN Direction<F> Mesh::normal(const Facet& facet, Int<F> triangle) {
   const float* corners = facet.triangles->corner[0][0];
   const Int<F> place = triangle & Int<F>(block_width - 1);
   const Int<F> at = (triangle - place) * Int<F>(mesh_triangles_words / block_width) + place;
@@ -309,22 +309,6 @@ TOFRAY_FN Direction<F> mesh_normal(const Facet& facet, Int<F> triangle) {
     return num::fma(n[0], F(turn[c]), num::fma(n[1], F(turn[3 + c]), n[2] * F(turn[6 + c]))) * unit;
   };
   return {turned(0), turned(1), turned(2)};
-}
-
-/// Mostly all lanes see one mesh; else one after the other.
-template <class F>
-TOFRAY_FN Direction<F> Mesh::normal(const FacetColumns<F>& of, Int<F> triangle, Mask<F> its) {
-  Direction<F> out{F(0.0f), F(0.0f), F(0.0f)};
-  Int<F> left = num::select(its, Int<F>(1), Int<F>(0));
-  for (int i = 0; i < num::lanes<F>; ++i) {
-    if (num::lane(left, i) == 0) continue;
-    const std::int32_t row = num::lane(of.facet, i);
-    const auto these = its & (of.facet == Int<F>(row));
-    const Direction<F> n = mesh_normal<F>(of.at(row), num::select(these, triangle, Int<F>(0)));
-    out = {num::select(these, n.x, out.x), num::select(these, n.y, out.y), num::select(these, n.z, out.z)};
-    left = num::select(these, Int<F>(0), left);
-  }
-  return out;
 }
 
 TOFRAY_FN MeshFree free_of(const Mesh& mesh) {

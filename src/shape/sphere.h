@@ -53,9 +53,9 @@ struct Sphere {
 
   /// n = (P − c)/R.
   template <class F>
-  TOFRAY_FN static Direction<F> normal(const FacetColumns<F>& of, F x, F y, F z) {
-    const F curvature = of.number(3);
-    return {num::fma(x, curvature, of.number(0)), num::fma(y, curvature, of.number(1)), num::fma(z, curvature, of.number(2))};
+  TOFRAY_FN static Direction<F> normal(const Facet& of, F x, F y, F z) {
+    const F curvature = F(of.number[3]);
+    return {num::fma(x, curvature, F(of.number[0])), num::fma(y, curvature, F(of.number[1])), num::fma(z, curvature, F(of.number[2]))};
   }
 };
 

@@ -154,15 +154,12 @@ TOFRAY_FN Met<F> nearest_from(const scene::SceneView& s, int moment, const FreeR
 /// Where and what it is: position, normal toward where the ray comes from, material; `range` is left to the caller.
 template <class F>
 TOFRAY_FN Surface<F> surface_met(const scene::SceneView& s, const FreeRay<F>& ray, const Met<F>& met, Mask<F> wanted) {
-  const shape::FacetColumns<F> facet(s.facets, met.facet);
   Surface<F> out;
   out.found = wanted & (met.distance < F(shape::never));
   const F t = num::select(out.found, met.distance, F(0.0f));
   out.x = num::fma(t, ray.dx, ray.x), out.y = num::fma(t, ray.dy, ray.y), out.z = num::fma(t, ray.dz, ray.z);
-  const shape::Direction<F> n = normal_of(shape::Shapes{}, facet, met.triangle, out);
+  const shape::Direction<F> n = what_is_there(s, met.facet, met.triangle, out);
   face_camera(n.x, n.y, n.z, Ray<F>{ray.dx, ray.dy, ray.dz, F(1.0f), F(1.0f)}, out);
-  finish(s, facet, out.finish);
-  out.object = facet.object();
   return out;
 }
 

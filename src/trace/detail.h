@@ -68,30 +68,24 @@ TOFRAY_FN void face_as_leaning(const shape::Facet& one, Int<F> triangle, const s
 /// @param across  area that a pixel sees there, across the ray [m²]
 template <class F>
 TOFRAY_APART void add_details(const scene::SceneView& s, F across, const Ray<F>& ray, const Hit<F>& hit, Surface<F>& out) {
-  const shape::FacetColumns<F> facet(s.facets, hit.facet);
   // What a pixel sees of the surface, by the triangle's own normal: a mean of several would let it see more than there is.
   const F seen = across / num::max(out.cos_view, F(1e-3f));
-  Int<F> left = num::select(out.found, Int<F>(1), Int<F>(0));
-  for (int i = 0; i < num::lanes<F>; ++i) {
-    if (num::lane(left, i) == 0) continue;
-    const std::int32_t row = num::lane(facet.facet, i);
-    const auto its = out.found & (facet.facet == Int<F>(row));
-    left = num::select(its, Int<F>(0), left);
-    const shape::Facet& one = facet.at(row);
-    if (one.details == nullptr) continue;
-    const Int<F> triangle = num::select(its, hit.triangle, Int<F>(0));
-    const shape::MeshDetail<F> detail = shape::mesh_detail(one, triangle, out.x, out.y, out.z);
-    const brdf::MaterialView& material = s.materials[one.material];
-    const Pictures<F> pictures{s.maps, detail.u, detail.v, seen * detail.uv_per_area};
-    if (material.normals >= 0)
-      face_as_leaning(one, triangle, detail.normal, pictures, material.normals, its, ray, out);
-    else
-      face_as_shaded(detail.normal, detail.normal, its, ray, out);
-    F matt = F(material.matt), by = detail.shade;
-    if (material.finish >= 0) matt = take_finish(pictures, material.finish, its, out.finish);
-    if (material.map >= 0) by = by * pictures.at(material.map);
-    if (material.map >= 0 || shape::has_shades(one)) scale_matt(material, matt, by, its, out.finish);
-  }
+  shape::for_each_facet<F>(
+      s.facets, hit.facet, out.found, [&](const shape::Facet& one, Mask<F> its) __attribute__((always_inline)) {
+        if (one.details == nullptr) return;
+        const Int<F> triangle = num::select(its, hit.triangle, Int<F>(0));
+        const shape::MeshDetail<F> detail = shape::mesh_detail(one, triangle, out.x, out.y, out.z);
+        const brdf::MaterialView& material = s.materials[one.material];
+        const Pictures<F> pictures{s.maps, detail.u, detail.v, seen * detail.uv_per_area};
+        if (material.normals >= 0)
+          face_as_leaning(one, triangle, detail.normal, pictures, material.normals, its, ray, out);
+        else
+          face_as_shaded(detail.normal, detail.normal, its, ray, out);
+        F matt = F(material.matt), by = detail.shade;
+        if (material.finish >= 0) matt = take_finish(pictures, material.finish, its, out.finish);
+        if (material.map >= 0) by = by * pictures.at(material.map);
+        if (material.map >= 0 || shape::has_shades(one)) scale_matt(material, matt, by, its, out.finish);
+      });
 }
 
 }  // namespace tofray::trace

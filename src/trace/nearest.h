@@ -85,66 +85,74 @@ TOFRAY_FN void face_camera(F nx, F ny, F nz, const Ray<F>& ray, Surface<F>& out)
   out.cos_view = num::abs(along) * ray.inverse_length;
 }
 
-/// The lanes that see a curved facet of the shape T ask the shape for its normal.
+/// Of a facet that is curved its shape knows the normal.
 template <class T, class F>
-TOFRAY_FN void curved_normal(const shape::FacetColumns<F>& facet, Int<F> curved, Int<F> triangle, const Surface<F>& at,
-                             shape::Direction<F>& n) {
+TOFRAY_FN void curved_normal(const shape::Facet& facet, Int<F> triangle, const Surface<F>& at, shape::Direction<F>& n) {
   if constexpr (T::curved) {
-    const auto its = curved == Int<F>(1 + shape::place_in<T>(shape::Shapes{}));
-    if (!num::any(its)) return;
-    shape::Direction<F> own;
+    if (facet.curved != 1 + shape::place_in<T>(shape::Shapes{})) return;
     if constexpr (shape::many_of<T>) {
-      own = T::normal(facet, triangle, its & at.found);
+      n = T::template normal<F>(facet, triangle);
     } else {
-      own = T::normal(facet, at.x, at.y, at.z);
+      n = T::normal(facet, at.x, at.y, at.z);
     }
-    n = {num::select(its, own.x, n.x), num::select(its, own.y, n.y), num::select(its, own.z, n.z)};
   }
 }
 
+/// @param triangle  0 in other lanes than the facet's
 template <class... T, class F>
-TOFRAY_FN shape::Direction<F> normal_of(shape::List<T...>, const shape::FacetColumns<F>& facet, Int<F> triangle, const Surface<F>& at) {
-  shape::Direction<F> n{facet.number(0), facet.number(1), facet.number(2)};
-  if (facet.same && facet.first().curved == 0) return n;
-  const Int<F> curved = facet.curved();
-  (curved_normal<T>(facet, curved, triangle, at, n), ...);
+TOFRAY_FN shape::Direction<F> normal_of(shape::List<T...>, const shape::Facet& facet, Int<F> triangle, const Surface<F>& at) {
+  shape::Direction<F> n{F(facet.number[0]), F(facet.number[1]), F(facet.number[2])};
+  if (facet.curved != 0) (curved_normal<T>(facet, triangle, at, n), ...);
   return n;
 }
 
-/// What the facets' materials say.
+/// What a material says. Lambert, the first BRDF, needs no numbers.
 template <class F>
-TOFRAY_FN void finish(const scene::SceneView& s, const shape::FacetColumns<F>& facet, flow::Finish<F>& out) {
-  const Int<F> material = facet.material() * Int<F>(brdf::material_words);
-  const float* table = reinterpret_cast<const float*>(s.materials);
-  const auto number = [&](int c) __attribute__((always_inline)) {
-    return facet.same ? F(table[num::first(material) + c]) : num::gather(table + c, material);
-  };
-  out.reflectivity = number(0);
-  out.brdf = Int<F>(0);
-  for (int i = 0; i < flow::brdf_numbers; ++i) out.number[i] = F(0.0f);
-  if (s.any_other_brdf == 0) return;
-  for (int i = 0; i < flow::brdf_numbers; ++i) out.number[i] = number(1 + i);
-  const std::int32_t* brdfs = reinterpret_cast<const std::int32_t*>(s.materials) + 1 + flow::brdf_numbers;
-  out.brdf = facet.same ? Int<F>(brdfs[num::first(material)]) : num::gather(brdfs, material);
+TOFRAY_FN void finish(const brdf::MaterialView& material, Mask<F> its, flow::Finish<F>& out) {
+  out.reflectivity = num::select(its, F(material.reflectivity), out.reflectivity);
+  if (material.brdf == 0) return;
+  for (int i = 0; i < flow::brdf_numbers; ++i) out.number[i] = num::select(its, F(material.number[i]), out.number[i]);
+  out.brdf = num::select(its, Int<F>(material.brdf), out.brdf);
+}
+
+/// What it is that lies there, as its facets and their materials say.
+/// @param out  where it lies: its object and material are added
+/// @return the normal, not turned to the camera
+template <class F>
+TOFRAY_FN shape::Direction<F> what_is_there(const scene::SceneView& s, Int<F> facet, Int<F> triangle, Surface<F>& out) {
+  shape::Direction<F> n{F(0.0f), F(0.0f), F(0.0f)};
+  out.finish = {F(0.0f), {}, Int<F>(0)};
+  for (int i = 0; i < flow::brdf_numbers; ++i) out.finish.number[i] = F(0.0f);
+  out.object = Int<F>(0);
+  shape::for_each_facet<F>(
+      s.facets, facet, out.found, [&](const shape::Facet& one, Mask<F> its) __attribute__((always_inline)) {
+        const shape::Direction<F> its_own = normal_of(shape::Shapes{}, one, num::select(its, triangle, Int<F>(0)), out);
+        n = {num::select(its, its_own.x, n.x), num::select(its, its_own.y, n.y), num::select(its, its_own.z, n.z)};
+        finish(s.materials[one.material], its, out.finish);
+        out.object = num::select(its, Int<F>(one.object), out.object);
+      });
+  return n;
 }
 
 /// Where and what the hit is: position, normal toward the camera, material.
 template <class F>
 TOFRAY_FN Surface<F> surface(const scene::SceneView& s, const Ray<F>& ray, const Hit<F>& hit) {
-  const shape::FacetColumns<F> facet(s.facets, hit.facet);
   Surface<F> out;
   out.found = place(ray, hit, out);
-  const shape::Direction<F> n = normal_of(shape::Shapes{}, facet, hit.triangle, out);
+  const shape::Direction<F> n = what_is_there(s, hit.facet, hit.triangle, out);
   face_camera(n.x, n.y, n.z, ray, out);
-  finish(s, facet, out.finish);
-  out.object = facet.object();
   return out;
 }
 
 /// Number of its material; only truth asks.
 template <class F>
 TOFRAY_FN Int<F> material(const scene::SceneView& s, const Hit<F>& hit) {
-  return shape::FacetColumns<F>(s.facets, hit.facet).material();
+  Int<F> out(0);
+  shape::for_each_facet<F>(
+      s.facets, hit.facet, hit.w > F(0.0f), [&](const shape::Facet& one, Mask<F> its) __attribute__((always_inline)) {
+        out = num::select(its, Int<F>(one.material), out);
+      });
+  return out;
 }
 
 }  // namespace tofray::trace

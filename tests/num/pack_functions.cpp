@@ -292,6 +292,7 @@ TOFRAY_FN bool over_lanes(int which, const PackBlock& block) {
         const F a = num::from_bits(at.ua() & U(0xbfffffffu)), b = num::from_bits(at.ub() & U(0xbfffffffu));
         const bool good = num::lowest(a) == low && num::highest(a) == high && num::any(a < b) == some && num::all(a < b) == every &&
                           num::lanes_of(a < b) == less && num::first(at.ia()) == static_cast<std::int32_t>(block.a[at.i]) &&
+                          (!some || num::first_of(a < b, at.ia()) == static_cast<std::int32_t>(block.a[at.i + __builtin_ctz(less)])) &&
                           num::any(a == a) && num::all(a == a) && !num::any(a != a);
         for (int k = 0; k < lanes; ++k) block.out[at.i + k] = good;
       });

@@ -73,6 +73,27 @@ Vec3 f_theta(double theta_x, double theta_y) {
 
 }  // namespace
 
+// On the axis, about 45 degrees, where the formula changes, sideways and almost straight back; of any length.
+TEST(light_source, angles_of_a_direction_are_those_of_double_precision) {
+  double worst = 0;
+  for (int i = 0; i <= 3600; ++i) {
+    const double theta = i == 0 ? 1e-6 : i * pi / 3601;
+    for (int k = 0; k < 24; ++k) {
+      const double length = k % 3 == 0 ? 1e-3 : (k % 3 == 1 ? 1 : 30);
+      const auto x = static_cast<float>(length * std::sin(theta) * std::cos(k * pi / 12)),
+                 y = static_cast<float>(length * std::sin(theta) * std::sin(k * pi / 12)), z = static_cast<float>(length * std::cos(theta));
+      const power::Angles<float> got = power::f_theta(x, y, z);
+      const double sine = std::hypot(double{x}, double{y}), angle = std::atan2(sine, double{z});
+      worst = std::max(worst, std::hypot(got.x - angle * x / sine, got.y - angle * y / sine) / angle);
+    }
+  }
+  EXPECT_LT(worst, 4e-7);
+  for (const auto& [x, z] : {std::pair{1.0f, 1.0f}, {1.0f, std::nextafter(1.0f, 0.0f)}, {1.0f, std::nextafter(1.0f, 2.0f)}}) {
+    EXPECT_NEAR(power::f_theta(x, 0.0f, z).x, pi / 4, 1e-6);
+    EXPECT_EQ(power::f_theta(x, 0.0f, z).y, 0);
+  }
+}
+
 // Lobes are the same all around and smooth in z but for the rim at 90 degrees, which lies between two rings.
 TEST(light_source, lobes_give_off_their_power) {
   for (const Vec3& axis : {Vec3{0, 0, 1}, base::normalized(Vec3{1, -2, 0.5}), Vec3{0, 0, -1}, Vec3{1, 0, 0}}) {

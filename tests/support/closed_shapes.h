@@ -140,8 +140,7 @@ Vec3 normal_at(const T& shape, int side, const Vec3& at) {
   facet_of(shape, side, facet);
   const auto wide = [](float a) { return static_cast<double>(a); };
   if (facet.curved == 0) return {wide(facet.number[0]), wide(facet.number[1]), wide(facet.number[2])};
-  const shape::Direction<float> n =
-      T::normal(shape::FacetColumns<float>(&facet, 0), static_cast<float>(at[0]), static_cast<float>(at[1]), static_cast<float>(at[2]));
+  const shape::Direction<float> n = T::normal(facet, static_cast<float>(at[0]), static_cast<float>(at[1]), static_cast<float>(at[2]));
   return {wide(n.x), wide(n.y), wide(n.z)};
 }
 

@@ -121,7 +121,7 @@ TEST(cylinder, has_the_normal_of_its_side) {
     ASSERT_EQ(facet.curved, 1);
     const Vec3 out = random.across(c.axis), at = c.center + random.between(-1, 1) * c.half * c.axis + c.radius * out;
     const auto f = [](double a) { return static_cast<float>(a); };
-    const shape::Direction<float> n = shape::Cylinder::normal(shape::FacetColumns<float>(&facet, 0), f(at[0]), f(at[1]), f(at[2]));
+    const shape::Direction<float> n = shape::Cylinder::normal(facet, f(at[0]), f(at[1]), f(at[2]));
     const Vec3 got{static_cast<double>(n.x), static_cast<double>(n.y), static_cast<double>(n.z)};
     ASSERT_NEAR(length(got - out), 0, 8 * 0x1p-24 * (length(c.center) + c.radius) / c.radius) << i;
     facet_of(c.shape(), 1, facet);

@@ -179,7 +179,7 @@ TEST(mesh, garbage_is_found_as_by_a_look_at_every_triangle) {
       shape::Facet facet{};
       facet_of(lying.mesh, 0, facet);
       if (!(hit.w > 0)) continue;
-      const shape::Direction<float> n = shape::mesh_normal<float>(facet, hit.triangle);
+      const shape::Direction<float> n = shape::Mesh::normal<float>(facet, hit.triangle);
       ASSERT_TRUE(std::isfinite(n.x) && std::isfinite(n.y) && std::isfinite(n.z));
       ASSERT_LE(n.x * n.x + n.y * n.y + n.z * n.z, 1.001f);
     }

@@ -151,6 +151,7 @@ class PixelWalk {
   TOFRAY_FN int moments() const { return near_.moves(s_) ? s_.scene.moments : 1; }
   TOFRAY_FN int packs() const { return 1; }
   TOFRAY_FN Pixels pixels(int) const { return pixels_; }
+  TOFRAY_FN Pixels ahead(int) const { return {0, 0}; }
   TOFRAY_FN pipeline::Pack<float>& pack(int) { return pack_; }
   static constexpr bool blurs = can_move;
   TOFRAY_FN flow::Light<float>& mean(int) { return mean_.in(pack_.light); }
