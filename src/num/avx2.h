@@ -120,19 +120,8 @@ TOFRAY_FN void gather_pair(const float* table, I32x8 index, F32x8& first, F32x8&
   first = _mm256_shuffle_ps(outer, inner, 0x88), second = _mm256_shuffle_ps(outer, inner, 0xDD);
 }
 TOFRAY_FN I32x8 gather(const std::int32_t* table, I32x8 index) { return _mm256_i32gather_epi32(table, index.v, 4); }
-TOFRAY_FN std::int32_t first(I32x8 a) { return _mm256_cvtsi256_si32(a.v); }
 TOFRAY_FN std::int32_t first_of(Mask8 m, I32x8 a) {
-  return first(I32x8(_mm256_permutevar8x32_epi32(a.v, _mm256_set1_epi32(__builtin_ctz(lanes_of(m))))));
-}
-TOFRAY_FN float lane(F32x8 a, int i) {
-  alignas(32) float all_lanes[8];
-  _mm256_store_ps(all_lanes, a.v);
-  return all_lanes[i];
-}
-TOFRAY_FN std::int32_t lane(I32x8 a, int i) {
-  alignas(32) std::int32_t all_lanes[8];
-  _mm256_store_si256(reinterpret_cast<__m256i*>(all_lanes), a.v);
-  return all_lanes[i];
+  return _mm256_cvtsi256_si32(_mm256_permutevar8x32_epi32(a.v, _mm256_set1_epi32(__builtin_ctz(lanes_of(m)))));
 }
 
 TOFRAY_FN float lowest(F32x8 a) {

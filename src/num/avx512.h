@@ -116,17 +116,8 @@ TOFRAY_FN void gather_pair(const float* table, I32x16 index, F32x16& first, F32x
   second = _mm512_permutex2var_ps(low, _mm512_add_epi32(even, _mm512_set1_epi32(1)), high);
 }
 TOFRAY_FN I32x16 gather(const std::int32_t* table, I32x16 index) { return _mm512_i32gather_epi32(index.v, table, 4); }
-TOFRAY_FN std::int32_t first(I32x16 a) { return _mm_cvtsi128_si32(_mm512_castsi512_si128(a.v)); }
-TOFRAY_FN std::int32_t first_of(Mask16 m, I32x16 a) { return first(I32x16(_mm512_maskz_compress_epi32(m.v, a.v))); }
-TOFRAY_FN float lane(F32x16 a, int i) {
-  alignas(64) float all_lanes[16];
-  _mm512_store_ps(all_lanes, a.v);
-  return all_lanes[i];
-}
-TOFRAY_FN std::int32_t lane(I32x16 a, int i) {
-  alignas(64) std::int32_t all_lanes[16];
-  _mm512_store_si512(all_lanes, a.v);
-  return all_lanes[i];
+TOFRAY_FN std::int32_t first_of(Mask16 m, I32x16 a) {
+  return _mm_cvtsi128_si32(_mm512_castsi512_si128(_mm512_maskz_compress_epi32(m.v, a.v)));
 }
 
 TOFRAY_FN F32x8 low_half(F32x16 a) { return _mm512_extractf32x8_ps(a.v, 0); }

@@ -123,17 +123,6 @@ TOFRAY_FN void gather_pair(const float* table, I32x4 index, F32x4& first, F32x4&
   const float32x4_t high = vcombine_f32(vld1_f32(table + 2 * vgetq_lane_s32(index.v, 2)), vld1_f32(table + 2 * vgetq_lane_s32(index.v, 3)));
   first = vuzp1q_f32(low, high), second = vuzp2q_f32(low, high);
 }
-TOFRAY_FN std::int32_t first(I32x4 a) { return vgetq_lane_s32(a.v, 0); }
-TOFRAY_FN float lane(F32x4 a, int i) {
-  float all_lanes[4];
-  vst1q_f32(all_lanes, a.v);
-  return all_lanes[i];
-}
-TOFRAY_FN std::int32_t lane(I32x4 a, int i) {
-  std::int32_t all_lanes[4];
-  vst1q_s32(all_lanes, a.v);
-  return all_lanes[i];
-}
 
 // By comparisons, and in the order of AVX's lanes: zeros keep their signs.
 TOFRAY_FN float lowest(F32x4 a) {
@@ -150,7 +139,11 @@ TOFRAY_FN I32x4 numbered4() {
   return vld1q_s32(numbers);
 }
 TOFRAY_FN std::uint32_t lanes_of(Mask4 a) { return vaddvq_u32(vandq_u32(a.v, vshlq_u32(vdupq_n_u32(1), numbered4().v))); }
-TOFRAY_FN std::int32_t first_of(Mask4 m, I32x4 a) { return lane(a, __builtin_ctz(lanes_of(m))); }
+TOFRAY_FN std::int32_t first_of(Mask4 m, I32x4 a) {
+  std::int32_t all_lanes[4];
+  vst1q_s32(all_lanes, a.v);
+  return all_lanes[__builtin_ctz(lanes_of(m))];
+}
 
 // Parts of a pack lane by lane: nothing beyond it is read or written.
 template <>

@@ -142,13 +142,8 @@ TOFRAY_FN void gather_pair(const float* table, std::int32_t index, float& first,
   first = table[2 * index], second = table[2 * index + 1];
 }
 
-/// The value of lane 0.
-TOFRAY_FN std::int32_t first(std::int32_t a) { return a; }
-/// … and of the first lane of those in a mask, of which there is one at least.
+/// The value of the first lane of those in a mask, of which there is one at least.
 TOFRAY_FN std::int32_t first_of(bool, std::int32_t a) { return a; }
-/// The value of lane 0 … lanes−1.
-TOFRAY_FN float lane(float a, int) { return a; }
-TOFRAY_FN std::int32_t lane(std::int32_t a, int) { return a; }
 /// Smallest and largest of all lanes.
 TOFRAY_FN float lowest(float a) { return a; }
 TOFRAY_FN float highest(float a) { return a; }

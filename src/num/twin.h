@@ -179,20 +179,8 @@ TOFRAY_FN void gather_pair(const float* table, TwinInt<H> index, Twin<H>& first,
   gather_pair(table, index.b, first.b, second.b);
 }
 template <class H>
-TOFRAY_FN std::int32_t first(TwinInt<H> x) {
-  return first(x.a);
-}
-template <class H>
 TOFRAY_FN std::int32_t first_of(TwinMask<H> m, TwinInt<H> x) {
   return any(m.a) ? first_of(m.a, x.a) : first_of(m.b, x.b);
-}
-template <class H>
-TOFRAY_FN float lane(Twin<H> x, int i) {
-  return i < lanes<H> ? lane(x.a, i) : lane(x.b, i - lanes<H>);
-}
-template <class H>
-TOFRAY_FN std::int32_t lane(TwinInt<H> x, int i) {
-  return i < lanes<H> ? lane(x.a, i) : lane(x.b, i - lanes<H>);
 }
 template <class H>
 TOFRAY_FN float lowest(Twin<H> x) {

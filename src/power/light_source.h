@@ -15,12 +15,12 @@ template <class F>
 TOFRAY_FN Angles<F> f_theta(F x, F y, F z) {
   constexpr float turn = 6.28318531f;
   const F square = num::fma(x, x, y * y);
-  const auto ahead = (z > F(0.0f)) & (square <= z * z);  // θ <= π/4: where a light is aimed
-  const F per_z = F(1.0f) / num::select(ahead, z, F(1.0f));
+  const auto near = (z > F(0.0f)) & (square <= z * z);  // θ <= π/4: where a light is aimed
+  const F per_z = F(1.0f) / num::select(near, z, F(1.0f));
   F stretch = F(turn) * num::atan_share(square * per_z * per_z) * per_z;
-  if (!num::all(ahead)) {
+  if (!num::all(near)) {
     const F sine = num::sqrt(square);
-    stretch = num::select(ahead, stretch, num::atan2_turns(sine, z) * F(turn) / num::max(sine, F(1e-30f)));
+    stretch = num::select(near, stretch, num::atan2_turns(sine, z) * F(turn) / num::max(sine, F(1e-30f)));
   }
   return {x * stretch, y * stretch};
 }

@@ -64,8 +64,8 @@ TOFRAY_FN Mask<F> saturated(const camera::SensorView& s, const Exposure<F>& e) {
   return (e.most_charge >= F(s.full_well)) | (e.widest_level > F(s.valid_half));
 }
 
-/// A−B of a lit raw frame without noise. Strong ambient light leaves few places of a float to the difference of the taps; where neither clips, and what is read
-/// is the charge itself, it is known better than that.
+/// A−B of a lit raw frame without noise. Strong ambient light leaves few places of a float to the difference of the taps; where neither
+/// clips, and what is read is the charge itself, it is known better than that.
 /// @param common, rate  electrons per second of both taps together, and of their difference
 /// @param most          charge of the tap that holds more
 /// @param otherwise     A−B of the taps

@@ -121,7 +121,7 @@ TOFRAY_FN void finish(const brdf::MaterialView& material, Mask<F> its, flow::Fin
 template <class F>
 TOFRAY_FN shape::Direction<F> what_is_there(const scene::SceneView& s, Int<F> facet, Int<F> triangle, Surface<F>& out) {
   shape::Direction<F> n{F(0.0f), F(0.0f), F(0.0f)};
-  out.finish = {F(0.0f), {}, Int<F>(0)};
+  out.finish.reflectivity = F(0.0f), out.finish.brdf = Int<F>(0);
   for (int i = 0; i < flow::brdf_numbers; ++i) out.finish.number[i] = F(0.0f);
   out.object = Int<F>(0);
   shape::for_each_facet<F>(

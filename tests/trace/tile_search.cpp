@@ -77,11 +77,9 @@ void look_at_all(const shape::MeshForm& form, int blocks, TileRays& rays) {
         }
       }
     }
-    for (int i = 0; i < n; ++i) {
-      rays.t[first + i] = num::lane(hit.t, i);
-      const std::int32_t triangle = num::lane(hit.triangle, i);
-      __builtin_memcpy(rays.triangle + first + i, &triangle, sizeof triangle);
-    }
+    std::int32_t triangles[num::lanes<F>];
+    num::store(rays.t + first, hit.t, n), num::store(triangles, hit.triangle, n);
+    __builtin_memcpy(rays.triangle + first, triangles, static_cast<std::size_t>(n) * sizeof *triangles);
   }
 }
 
