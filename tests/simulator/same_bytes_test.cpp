@@ -70,6 +70,17 @@ Scene scene_of(const std::string& name) {
   scene.transport.samples = 2;  // more of them take their time, and go the same ways
   return scene;
 }
+/// What known hashes are of: the same view on a quarter of the pixels, with tiles that are cut at the right and below, since each pixel takes its
+/// time under qemu and sanitizers. (One scene keeps its whole tiles.)
+Camera known_camera(const Scene& scene) {
+  Camera camera = load_camera(scene);
+  if (scene.name == "bench-primitives") return camera;
+  Lens& lens = camera.lens;
+  camera.sensor.width /= 2, camera.sensor.height /= 2;
+  lens.fx_px /= 2, lens.fy_px /= 2;
+  lens.cx_px = (lens.cx_px + 0.5) / 2 - 0.5, lens.cy_px = (lens.cy_px + 0.5) / 2 - 0.5;
+  return camera;
+}
 std::vector<std::string> all_scenes() {
   std::vector<std::string> names = scene_names();
   names.emplace_back(in_motion);
@@ -103,7 +114,7 @@ class KnownBytes : public testing::TestWithParam<std::string> {};
 
 void expect_known(const std::string& scene_name, Isa isa) {
   const Scene scene = scene_of(scene_name);
-  Camera camera = load_camera(scene);
+  Camera camera = known_camera(scene);
   const std::map<std::string, Hashes> known = golden();
   for (const auto& [name, noise, quiet] : kinds) {
     if (quiet) camera.pixel.read_noise_e = 3;
@@ -117,11 +128,11 @@ void expect_known(const std::string& scene_name, Isa isa) {
 
 TEST_P(SameBytes, on_every_machine_and_with_any_number_of_threads) {
   const Scene scene = scene_of(GetParam());
-  Camera camera = load_camera(scene);
+  Camera camera = load_camera(scene), small = known_camera(scene);
   const std::map<std::string, Hashes> known = golden();
   const char* write_to = std::getenv("TOFRAY_WRITE_GOLDEN");
   for (const auto& [name, noise, quiet] : kinds) {
-    if (quiet) camera.pixel.read_noise_e = 3;
+    if (quiet) camera.pixel.read_noise_e = small.pixel.read_noise_e = 3;
     const std::string reference = bytes_of(scene, camera, options_of(GetParam(), noise, 1, Isa::scalar));
     for (const Isa isa : backend::isas_here) {
       if (!backend::can_run(isa)) continue;  // named by skipped_on_this_machine
@@ -130,7 +141,7 @@ TEST_P(SameBytes, on_every_machine_and_with_any_number_of_threads) {
         EXPECT_TRUE(bytes == reference) << name << ", " << backend::isa_name(isa) << " with " << threads << " threads";
       }
     }
-    const Hashes hashes = hashes_of(reference);
+    const Hashes hashes = hashes_of(bytes_of(scene, small, options_of(GetParam(), noise, 1, Isa::scalar)));
     const std::string key = GetParam() + " " + name;
     if (write_to != nullptr) {
       for (const auto& [array, hash] : hashes) std::ofstream(write_to, std::ios::app) << key << " " << array << " " << hash << "\n";
