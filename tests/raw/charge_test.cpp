@@ -267,6 +267,21 @@ TEST(electrons, of_several_lights_add_up_at_any_reference_phases) {
   }
 }
 
+// Without noise a pixel's difference, which has no offset pattern in it, is held to what the pixel's own codes reach.
+TEST(fixed_pattern, moves_the_ends_that_codes_reach_without_noise) {
+  Camera camera = patterned(50);
+  camera.adc = {12, 2, 2048, 0, 4095};
+  const Bench bench(camera);
+  for (int i = 0; i < 50; ++i) {
+    float least = 0, most = 0;
+    for (const auto& taps : bench.expose({40000, 0, 0}, i))
+      least = std::min(least, taps.difference), most = std::max(most, taps.difference);
+    const float zero = 2048 + bench.sensor().offset[i];
+    EXPECT_EQ(least, -zero * 2);
+    EXPECT_EQ(most, (4095 - zero) * 2);
+  }
+}
+
 // What a pixel starts with is its own place in each pattern; without patterns gain 1, no offset, no delay.
 TEST(fixed_pattern, is_each_pixel_s_own_from_the_start_of_its_exposure) {
   const Bench bench(patterned(50)), plain(bench_camera());
