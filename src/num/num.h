@@ -182,6 +182,7 @@ TOFRAY_FN void store(float* to, float a, int) { *to = a; }
 TOFRAY_FN void store(std::int32_t* to, std::int32_t a, int) { *to = a; }
 TOFRAY_FN void store(std::uint16_t* to, std::int32_t a, int) { *to = static_cast<std::uint16_t>(a); }
 TOFRAY_FN void store(std::uint8_t* to, std::int32_t a, int) { *to = static_cast<std::uint8_t>(a); }
+
 /// Says early that n values will be read, or written, from table[first] on, if there is a table: for the processor's types, which wait for
 /// memory.
 template <class F, bool to = false, class T>
