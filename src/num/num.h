@@ -12,14 +12,17 @@
 /// file; nothing else is needed to add a machine. Every function gives the same bits on every machine: IEEE single precision,
 /// rounded to nearest, subnormals kept; min and max are comparisons (the second argument where one is NaN).
 ///
-/// TOFRAY_FN is written out where it is called; TOFRAY_APART, for what is long and called in several places, is not.
+/// TOFRAY_FN is written out where it is called; TOFRAY_APART, for what is long and called in several places, is not. TOFRAY_ONCE is apart on
+/// processors alone, for what takes long to compile and much longer to run than a call: a GPU, which calls by way of memory, has it written out.
 #if defined(__CUDACC__)
 #define TOFRAY_FN __host__ __device__ __forceinline__
 #define TOFRAY_APART __host__ __device__ __noinline__ static
+#define TOFRAY_ONCE TOFRAY_FN
 #define TOFRAY_CONSTANT __device__ constexpr
 #else
 #define TOFRAY_FN __attribute__((always_inline)) inline
 #define TOFRAY_APART __attribute__((noinline)) static
+#define TOFRAY_ONCE TOFRAY_APART
 #define TOFRAY_CONSTANT inline constexpr
 #endif
 

@@ -43,7 +43,8 @@ struct Vertex {
 /// @param before  length of the path up to there [m]
 /// @param area    that a pixel sees 1 m along its ray, across it [m²]
 template <class F>
-TOFRAY_FN Vertex<F> next_vertex(const Setup& s, int moment, F area, const shape::FreeRay<F>& ray, const trace::Leaving<F>& from, F before) {
+TOFRAY_ONCE Vertex<F> next_vertex(const Setup& s, int moment, F area, const shape::FreeRay<F>& ray, const trace::Leaving<F>& from,
+                                  F before) {
   Vertex<F> out;
   const trace::Met<F> met = trace::nearest_from(s.scene, moment, ray, from);
   flow::Surface<F> p = trace::surface_met(s.scene, ray, met, from.wanted);
@@ -88,21 +89,24 @@ TOFRAY_FN Choice<F> choose(const BounceView& s, const Pixels& p, int bounce, int
   return out;
 }
 
-/// Calls take(l, path) for the way of each light straight to a surface, and from there along `ray` to where it came from.
+/// The way of one light straight to a surface, and from there along `ray` to where it came from.
 /// @param weight  how much of what the surface sends back the pixel gets
+template <class F>
+TOFRAY_ONCE flow::Path<F> path_by(const Setup& s, int moment, int l, const flow::Surface<F>& p, const flow::Ray<F>& ray, const F& weight) {
+  const flow::Ray<F> from_light = power::light_ray(s.lights[l], p);
+  const float* const at = s.lights[l].position;
+  num::Mask<F> dark = trace::blocked_anywhere(s.scene.still, 0, s.scene.light_still(l), at, from_light, p);
+  if (s.scene.moments > 0)
+    dark = dark | trace::blocked_anywhere(s.scene.moving, moment, s.scene.light_moving(moment, l), at, from_light, p);
+  flow::Radiometry<F> unused{F(0.0f), F(0.0f), F(0.0f)};
+  flow::Path<F> path = power::received<F>(s.power, s.lights[l], p, ray, from_light, dark, weight, unused);
+  path.rate = num::select(p.found, path.rate, F(0.0f));  // where the path ended before, nothing need be a number
+  return path;
+}
+/// Calls take(l, path) for the way of each light.
 template <class F, class Take>
 TOFRAY_FN void each_light(const Setup& s, int moment, const flow::Surface<F>& p, const flow::Ray<F>& ray, F weight, const Take& take) {
-  flow::Radiometry<F> unused{F(0.0f), F(0.0f), F(0.0f)};
-  for (int l = 0; l < s.scene.lights; ++l) {
-    const flow::Ray<F> from_light = power::light_ray(s.lights[l], p);
-    const float* const at = s.lights[l].position;
-    num::Mask<F> dark = trace::blocked_anywhere(s.scene.still, 0, s.scene.light_still(l), at, from_light, p);
-    if (s.scene.moments > 0)
-      dark = dark | trace::blocked_anywhere(s.scene.moving, moment, s.scene.light_moving(moment, l), at, from_light, p);
-    flow::Path<F> path = power::received<F>(s.power, s.lights[l], p, ray, from_light, dark, weight, unused);
-    path.rate = num::select(p.found, path.rate, F(0.0f));  // where the path ended before, nothing need be a number
-    take(l, path);
-  }
+  for (int l = 0; l < s.scene.lights; ++l) take(l, path_by<F>(s, moment, l, p, ray, weight));
 }
 template <class F>
 TOFRAY_FN flow::Ray<F> ray_to(const Vertex<F>& v) {

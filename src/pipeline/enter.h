@@ -151,7 +151,7 @@ class GivenWalk {
   TOFRAY_FN Pixels pixels(int) const { return pixels_; }
   TOFRAY_FN Pixels ahead(int) const { return {0, 0}; }
   TOFRAY_FN Pack<F>& pack(int) { return pack_; }
-  static constexpr bool blurs = false;
+  static constexpr bool blurs = false, written_out = true;
   TOFRAY_FN flow::Light<F>& mean(int) { return pack_.light; }
   TOFRAY_FN void go_to(const Moment&) const {}
 
@@ -231,7 +231,7 @@ TOFRAY_FN void decode_pixels(const Setup& s, const Job& job, const Recording& in
     over = over | (num::abs(level - F(sensor.valid_middle)) > F(sensor.valid_half));
     if (sensor.frame[k].lit != 0) clipped = clipped | over;
   }
-  find_depth(s, job, p, camera::ray<F>(s.lens, p), difference, clipped, camera::vignetting<F>(s.lens, p));
+  find_depth_once<F>(s, job, p, camera::ray<F>(s.lens, p), difference, clipped, camera::vignetting<F>(s.lens, p));
 }
 
 template <class F>

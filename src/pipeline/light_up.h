@@ -73,6 +73,15 @@ TOFRAY_FN flow::Surface<F> surface_seen(const Setup& s, const camera::LensView& 
   return surface;
 }
 
+template <class F, class Culled>
+TOFRAY_ONCE num::Mask<F> blocked_by_what_moves(const Culled& culled, const flow::Ray<F>& from_light, const flow::Surface<F>& p) {
+  return trace::blocked(culled, from_light, p);
+}
+template <class F, class Culled>
+TOFRAY_ONCE num::Mask<F> blocked_by_what_moves(const Culled& culled, const float* sun, const flow::Surface<F>& p) {
+  return trace::blocked_parallel(culled, sun, p);
+}
+
 /// Shadow rays through what stands still and, if it can come between, what moves.
 template <class F, class Near>
 struct ShadowRays {
@@ -87,7 +96,7 @@ struct ShadowRays {
     num::Mask<F> dark = F(1.0f) < F(0.0f);
     if (still) dark = trace::blocked(near.still_from(s, l), from_light, p) | near.template behind_still_meshes<F>(l);
     if (moving) {
-      dark = dark | trace::blocked(near.moving_from(s, moment, l), from_light, p) | near.template behind_moving_meshes<F>(l);
+      dark = dark | blocked_by_what_moves<F>(near.moving_from(s, moment, l), from_light, p) | near.template behind_moving_meshes<F>(l);
     }
     return dark;
   }
@@ -98,7 +107,7 @@ struct ShadowRays {
       dark = trace::blocked_parallel(near.still_along(s), sun_direction(), p) | near.template behind_still_meshes<F>(near.sun);
     }
     if (moving) {
-      dark = dark | trace::blocked_parallel(near.moving_along(s, moment), sun_direction(), p) |
+      dark = dark | blocked_by_what_moves<F>(near.moving_along(s, moment), sun_direction(), p) |
              near.template behind_moving_meshes<F>(near.sun);
     }
     return dark;

@@ -22,6 +22,7 @@
 ///     ahead(q)                      those that come after pack q, whose memory may be fetched meanwhile; count 0: none
 ///     pack(q)                       what a pack keeps from one moment to the next
 ///     blurs, mean(q)                whether an exposure may see the scene at several times, and where the mean of their light is kept
+///     written_out                   whether stages 3 and 4 are to be a part of the walk's own code, as fast as can be, or shared with others
 ///     find_light(now, q, …)         stages 1 and 2 for one pack; false: the light of the moment before is still good
 namespace tofray::pipeline {
 
@@ -62,6 +63,11 @@ TOFRAY_FN void collect(const Setup& s, const Job& job, const Pixels& p, const Pi
     num::store(job.out.gt_signal_e + p.index + k * s.lens.width * s.lens.height, signal, p.count);
   }
 }
+template <class F>
+TOFRAY_ONCE void collect_once(const Setup& s, const Job& job, const Pixels& p, const Pixels& next, const Moment& now,
+                              const flow::Light<F>& light, Pack<F>& pack) {
+  collect(s, job, p, next, now, light, pack);
+}
 
 /// For the pass `bloom`, which looks at neighbours.
 template <class F>
@@ -79,6 +85,12 @@ TOFRAY_FN void find_depth(const Setup& s, const Job& job, const Pixels& p, const
   store(job.out.ambient_e, p, found.ambient);
   store_range(s, job.out, p, ray, found.range, found.noise, found.flags);
   store(job.out.noise_m, p, num::select((found.flags & num::Int<F>(depth::no_return)) == num::Int<F>(0), found.noise, nan<F>()));
+}
+
+template <class F>
+TOFRAY_ONCE void find_depth_once(const Setup& s, const Job& job, const Pixels& p, const flow::Ray<F>& ray, const F* difference,
+                                 const num::Mask<F>& clipped, const F& vignetting) {
+  find_depth<F>(s, job, p, ray, difference, clipped, vignetting);
 }
 
 /// What a sample within the pixels adds to the light image, or all of them at once.
@@ -120,11 +132,20 @@ TOFRAY_FN void run_pipeline(const Setup& s, const Job& job, Walk& walk) {
         continue;
       }
       const Pixels next = walk.ahead(q);
-      collect(s, job, p, next, now, light, pack);  // stage 3
+      if constexpr (Walk::written_out) {
+        collect(s, job, p, next, now, light, pack);  // stage 3
+      } else {
+        collect_once(s, job, p, next, now, light, pack);
+      }
       if (now.last < s.sensor.raw_frames || s.last_stage < Stage::depth) continue;
       fetch_depth<F>(job.out, next);
       store_overflow(s, job, p, pack.exposure);
-      find_depth<F>(s, job, p, ray, pack.difference, raw::saturated(s.sensor, pack.exposure), vignetting);  // stage 4
+      const num::Mask<F> clipped = raw::saturated(s.sensor, pack.exposure);
+      if constexpr (Walk::written_out) {
+        find_depth<F>(s, job, p, ray, pack.difference, clipped, vignetting);  // stage 4
+      } else {
+        find_depth_once<F>(s, job, p, ray, pack.difference, clipped, vignetting);
+      }
     }
   }
 }

@@ -193,7 +193,7 @@ class TileWalk {
     if constexpr (can_move) return scratch_.pack[q];
     return here_;
   }
-  static constexpr bool blurs = can_move;
+  static constexpr bool blurs = can_move, written_out = !can_move;
   TOFRAY_FN flow::Light<F>& mean(int q) { return scratch_.mean[can_move ? q : 0]; }
 
   TOFRAY_FN void go_to(const Moment& now) {

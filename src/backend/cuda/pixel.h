@@ -153,7 +153,7 @@ class PixelWalk {
   TOFRAY_FN Pixels pixels(int) const { return pixels_; }
   TOFRAY_FN Pixels ahead(int) const { return {0, 0}; }
   TOFRAY_FN pipeline::Pack<float>& pack(int) { return pack_; }
-  static constexpr bool blurs = can_move;
+  static constexpr bool blurs = can_move, written_out = true;
   TOFRAY_FN flow::Light<float>& mean(int) { return mean_.in(pack_.light); }
   TOFRAY_FN void go_to(const pipeline::Moment& now) {
     if (near_.moves(s_)) hit_ = pipeline::see_moving(s_, near_, now.index, camera::ray<float>(s_.lens, pixels_), still_);
