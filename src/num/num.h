@@ -13,7 +13,7 @@
 /// rounded to nearest, subnormals kept; min and max are comparisons (the second argument where one is NaN).
 ///
 /// TOFRAY_FN is written out where it is called; TOFRAY_APART, for what is long and called in several places, is not. TOFRAY_ONCE is apart on
-/// processors alone, for what takes long to compile and much longer to run than a call: a GPU, which calls by way of memory, has it written out.
+/// processors alone: a GPU, which has to put a pixel's numbers into memory to call anything, has it written out.
 #if defined(__CUDACC__)
 #define TOFRAY_FN __host__ __device__ __forceinline__
 #define TOFRAY_APART __host__ __device__ __noinline__ static

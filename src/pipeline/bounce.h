@@ -43,8 +43,8 @@ struct Vertex {
 /// @param before  length of the path up to there [m]
 /// @param area    that a pixel sees 1 m along its ray, across it [m²]
 template <class F>
-TOFRAY_ONCE Vertex<F> next_vertex(const Setup& s, int moment, F area, const shape::FreeRay<F>& ray, const trace::Leaving<F>& from,
-                                  F before) {
+TOFRAY_APART Vertex<F> next_vertex(const Setup& s, int moment, F area, const shape::FreeRay<F>& ray, const trace::Leaving<F>& from,
+                                   F before) {
   Vertex<F> out;
   const trace::Met<F> met = trace::nearest_from(s.scene, moment, ray, from);
   flow::Surface<F> p = trace::surface_met(s.scene, ray, met, from.wanted);
@@ -92,7 +92,7 @@ TOFRAY_FN Choice<F> choose(const BounceView& s, const Pixels& p, int bounce, int
 /// The way of one light straight to a surface, and from there along `ray` to where it came from.
 /// @param weight  how much of what the surface sends back the pixel gets
 template <class F>
-TOFRAY_ONCE flow::Path<F> path_by(const Setup& s, int moment, int l, const flow::Surface<F>& p, const flow::Ray<F>& ray, const F& weight) {
+TOFRAY_APART flow::Path<F> path_by(const Setup& s, int moment, int l, const flow::Surface<F>& p, const flow::Ray<F>& ray, const F& weight) {
   const flow::Ray<F> from_light = power::light_ray(s.lights[l], p);
   const float* const at = s.lights[l].position;
   num::Mask<F> dark = trace::blocked_anywhere(s.scene.still, 0, s.scene.light_still(l), at, from_light, p);

@@ -137,8 +137,8 @@ TOFRAY_FN void meet_all(const scene::Group& group, int moment, const FreeRay<F>&
   for (int i = 0; i < count; ++i) meet_one<T>(forms[i], ray, from, met);
 }
 template <class... T, class F>
-TOFRAY_ONCE void meet_each(shape::List<T...>, const scene::Group& group, int moment, const FreeRay<F>& ray, const Leaving<F>& from,
-                           Met<F>& met) {
+TOFRAY_APART void meet_each(shape::List<T...>, const scene::Group& group, int moment, const FreeRay<F>& ray, const Leaving<F>& from,
+                            Met<F>& met) {
   (meet_all<T>(group, moment, ray, from, met), ...);
 }
 

@@ -146,16 +146,16 @@ TOFRAY_FN Mask<F> block_by_each(shape::List<T...>, const Views& views, Asking<F>
 /// Points anywhere that a group's forms keep from a light. [as blocked]
 /// @param at  the light's position
 template <class F>
-TOFRAY_ONCE Mask<F> blocked_anywhere(const scene::Group& group, int moment, const scene::Forms& forms, const float* at, const Ray<F>& ray,
-                                     const Surface<F>& p) {
+TOFRAY_APART Mask<F> blocked_anywhere(const scene::Group& group, int moment, const scene::Forms& forms, const float* at, const Ray<F>& ray,
+                                      const Surface<F>& p) {
   RaysApart<F> rays;
   const Asking<F> asking{group, moment, {F(at[0]), F(at[1]), F(at[2]), ray.x, ray.y, ray.z}, F(1.0f), p.found, rays};
   return block_by_each(shape::Shapes{}, forms, asking, ray, p);
 }
 /// … and from the sun. [as blocked_parallel]
 template <class F>
-TOFRAY_ONCE Mask<F> blocked_parallel_anywhere(const scene::Group& group, int moment, const scene::Alongs& forms, const float* sun,
-                                              const Surface<F>& p) {
+TOFRAY_APART Mask<F> blocked_parallel_anywhere(const scene::Group& group, int moment, const scene::Alongs& forms, const float* sun,
+                                               const Surface<F>& p) {
   RaysApart<F> rays;
   const Asking<F> asking{group, moment, {p.x, p.y, p.z, F(sun[0]), F(sun[1]), F(sun[2])}, F(shape::never), p.found, rays};
   return block_by_each(shape::Shapes{}, forms, asking, sun, p);

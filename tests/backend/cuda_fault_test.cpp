@@ -23,7 +23,7 @@ struct Ailment {
 class Failing : public testing::TestWithParam<Ailment> {};
 
 /// Batches of few frames, so that several are on their way.
-const SimulatorOptions few_bytes{.batch_bytes = 60'000};
+const SimulatorOptions few_bytes{.batch_bytes = 22'000};
 
 /// What a user does: frames alone, a batch.
 std::vector<Frame> some_frames(Simulator& simulator) {
@@ -133,7 +133,7 @@ TEST(cuda_fault, passes_over_gpus_that_cannot_be_used) {
   here.cuda.unusable = {0, 2};
   const Scene scene = load_scene("card");
   const Camera camera = small(load_camera(scene));
-  Simulator simulator(scene, camera, {.batch_bytes = 2'000'000});
+  Simulator simulator(scene, camera, {.batch_bytes = 750'000});
   EXPECT_EQ(simulator.ran_on().device, "Stand-in 1");
   for (int round = 0; round < 2; ++round) simulator.frames(0, 30, [](const FrameArrays&) {});
   EXPECT_EQ(here.cuda.frames_by_device.size(), 2u);

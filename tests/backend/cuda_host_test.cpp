@@ -114,7 +114,7 @@ TEST(cuda_host, batches_of_scenes_in_motion_take_seeds_and_poses) {
   for (int i = 0; i < 2; ++i) {
     const Scene scene = scene_in_motion(i);
     const Camera camera = small(load_camera("pico-flexx"));
-    const SimulatorOptions options{.batch_bytes = 3'000'000, .exposure_samples = 2};
+    const SimulatorOptions options{.batch_bytes = 1'100'000, .exposure_samples = 2};
     const std::vector<FrameRequest> requests = mixed_requests(scene, 8);
     for (const Backend backend : {Backend::cpu, Backend::cuda}) {
       Simulator simulator(scene, camera, on(backend, options));
@@ -162,7 +162,7 @@ TEST(cuda_host, has_the_same_bytes_of_samples_within_pixels_and_of_scattered_lig
     expect_same(scene, camera, {.arrays = {"raw", "gt_mixed"}, .subpixel = 2}, {0, 1});
     expect_same(scene, camera, {.truth = false, .subpixel = 3}, {5});
     expect_same_own_arrays(load_scene("demo"), camera);
-    const SimulatorOptions options{.batch_bytes = 3'000'000, .exposure_samples = 2, .subpixel = 2};
+    const SimulatorOptions options{.batch_bytes = 1'100'000, .exposure_samples = 2, .subpixel = 2};
     for (const bool alike : {true, false}) {
       std::vector<FrameRequest> requests = mixed_requests(scene, 5);
       for (FrameRequest& request : requests)
@@ -203,7 +203,7 @@ TEST(cuda_host, has_the_same_bytes_of_bounces) {
     expect_same(scene, camera, {.exposure_samples = 2, .subpixel = 1 + i % 3});
     expect_same(scene, camera, {.last_stage = Stage::power});
     expect_same(scene, camera, {.truth = false});
-    const SimulatorOptions options{.batch_bytes = 3'000'000, .subpixel = 1 + i % 2};
+    const SimulatorOptions options{.batch_bytes = 1'100'000, .subpixel = 1 + i % 2};
     std::vector<FrameRequest> requests = mixed_requests(scene, 6);
     Simulator simulator(scene, camera, on(Backend::cuda, options));
     for (int round = 0; round < 2; ++round) {
@@ -332,7 +332,7 @@ TEST(cuda_host, batches_have_the_bytes_of_single_frames) {
       Camera camera = small(load_camera(scene));
       camera.pixel.column_noise_e = 30, camera.pixel.row_noise_e = 20;
       for (const Backend backend : {Backend::cpu, Backend::cuda}) {
-        Simulator simulator(scene, camera, on(backend, {.seed = 5, .batch_bytes = 2'000'000}));
+        Simulator simulator(scene, camera, on(backend, {.seed = 5, .batch_bytes = 750'000}));
         Simulator single(scene, camera, on(Backend::cpu, {.seed = 5}));
         std::uint64_t next = 2;
         simulator.frames(2, 30, [&](const FrameArrays& arrays) {
@@ -352,14 +352,14 @@ TEST(cuda_host, batches_of_poses_take_little_pinned_memory) {
   WithStandIn here;
   const Scene scene = load_scene("card");
   const Camera camera = small(load_camera(scene));
-  Simulator simulator(scene, camera, on(Backend::cuda, {.batch_bytes = 1'000'000}));
+  Simulator simulator(scene, camera, on(Backend::cuda, {.batch_bytes = 370'000}));
   std::vector<FrameRequest> requests(400, {0, {}, scene.camera.pose});
   for (std::size_t i = 0; i < requests.size(); ++i) requests[i].index = i;
   DeviceFrames frames;
   simulator.frames_on_device(requests, frames);
   ASSERT_EQ(frames.size(), 400u);
   EXPECT_EQ(frames[399].index, 399u);
-  EXPECT_LT(here.cuda.pinned_bytes, 3'000'000u);
+  EXPECT_LT(here.cuda.pinned_bytes, 1'000'000u);
 }
 
 // Only poses and times go to the GPU: a frame of a large scene takes as much along as one of a small scene.
@@ -423,7 +423,7 @@ TEST(cuda_host, frames_can_stay_on_the_device) {
   const std::size_t pinned = here.cuda.pinned_bytes;
   DeviceFrames many;
   cuda.frames_on_device(0, 60, many);
-  EXPECT_LT(here.cuda.pinned_bytes - pinned, 60u * 67 * 43 * 50) << "the host has no room for frames that it does not take";
+  EXPECT_LT(here.cuda.pinned_bytes - pinned, 60u * 37 * 29 * 50) << "the host has no room for frames that it does not take";
   const float* memory = frames[0].z_m;
   cuda.frames_on_device(7, 2, frames);
   EXPECT_EQ(frames[0].z_m, memory) << "it is used again";

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Files cut short or changed anywhere: an error or a sound model, nothing else.
 #include "everything.h"
+#include "support/sanitizers.h"
 #include "support/told.h"
 
 using namespace tofray;
@@ -55,17 +56,18 @@ TEST(hostile_gltf, cut_short_anywhere_is_an_error) {
 }
 
 TEST(hostile_gltf, with_any_byte_changed_is_an_error_or_sound) {
+  constexpr std::size_t step = test::with_sanitizers ? 5 : 1;  // no divisor of the size of anything in the file
   std::size_t taken = 0, refused = 0;
   for (const std::string& sample : samples())
-    for (std::size_t at = 0; at < sample.size(); ++at)
+    for (std::size_t at = 0; at < sample.size(); at += step)
       for (const char byte : {'\0', '\xFF', '\x7F', '\x80', '\n', ' ', '-', '9', '0', '"', '[', '}', 'e'}) {
         std::string changed = sample;
         changed[at] = byte;
         SCOPED_TRACE(at);
         (is_taken(changed) ? taken : refused) += 1;
       }
-  EXPECT_GT(taken, 5000U);
-  EXPECT_GT(refused, 5000U);
+  EXPECT_GT(taken, 5000U / step);
+  EXPECT_GT(refused, 5000U / step);
 }
 
 TEST(hostile_gltf, with_many_changes_is_an_error_or_sound) {

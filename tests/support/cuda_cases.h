@@ -16,8 +16,8 @@ namespace tofray::test {
 
 /// A part of the usual sensor, with sides that are no multiples of a patch's.
 inline Camera small(Camera camera) {
-  camera.sensor.width = 67, camera.sensor.height = 43;
-  camera.lens.fx_px *= 0.3, camera.lens.fy_px *= 0.25, camera.lens.cx_px = 33, camera.lens.cy_px = 21;
+  camera.sensor.width = 37, camera.sensor.height = 29;
+  camera.lens.fx_px *= 0.165, camera.lens.fy_px *= 0.17, camera.lens.cx_px = 18, camera.lens.cy_px = 14;
   return camera;
 }
 
