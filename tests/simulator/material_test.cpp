@@ -6,6 +6,7 @@
 
 #include "support/files.h"
 #include "support/own_arrays.h"
+#include "support/quarter.h"
 #include "tofray/tofray.h"
 
 using namespace tofray;
@@ -15,7 +16,7 @@ class material_id : public testing::TestWithParam<std::string> {};
 
 TEST_P(material_id, is_that_of_the_object_that_is_seen) {
   const Scene scene = load_scene(GetParam());
-  const Frame frame = Simulator(scene, load_camera(scene), {.noise = Noise::off}).frame(3);
+  const Frame frame = Simulator(scene, camera_of(scene), {.noise = Noise::off}).frame(3);
   const Truth& truth = frame.truth;
   ASSERT_EQ(truth.material_id.size(), truth.object_id.size());
   for (std::size_t i = 0; i < truth.object_id.size(); ++i) {

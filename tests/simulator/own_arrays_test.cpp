@@ -10,6 +10,7 @@
 
 #include "backend/cpu/cpu.h"
 #include "support/files.h"
+#include "support/quarter.h"
 #include "support/same_frame.h"
 #include "support/scenes.h"
 #include "support/statistics.h"
@@ -34,7 +35,7 @@ Scene still(Scene scene) {
 TEST_P(OwnArrays, of_what_a_scene_showed_give_its_frame) {
   Scene scene = still(load_scene(GetParam()));
   scene.ambient.spectrum = Ambient::Spectrum::sun_am15, scene.ambient.amount = 0.05;  // uniform
-  const Camera camera = load_camera(scene);
+  const Camera camera = camera_of(scene);
   for (const Noise noise : {Noise::off, Noise::exact}) {
     Simulator simulator(scene, camera, {.seed = 7, .noise = noise});
     const Frame frame = simulator.frame(3);
@@ -45,7 +46,7 @@ TEST_P(OwnArrays, of_what_a_scene_showed_give_its_frame) {
 
 TEST_P(OwnArrays, of_the_light_that_a_scene_sent_give_its_raw_data_and_depth) {
   const Scene scene = still(load_scene(GetParam()));
-  const Camera camera = load_camera(scene);
+  const Camera camera = camera_of(scene);
   for (const Noise noise : {Noise::off, Noise::exact}) {
     Simulator simulator(scene, camera, {.seed = 7, .noise = noise});
     Frame frame = simulator.frame(3);
