@@ -63,6 +63,7 @@ TOFRAY_FN void collect(const Setup& s, const Job& job, const Pixels& p, const Pi
     num::store(job.out.gt_signal_e + p.index + k * s.lens.width * s.lens.height, signal, p.count);
   }
 }
+/// … compiled once, for walks that are not written out.
 template <class F>
 TOFRAY_ONCE void collect_once(const Setup& s, const Job& job, const Pixels& p, const Pixels& next, const Moment& now,
                               const flow::Light<F>& light, Pack<F>& pack) {
@@ -87,6 +88,7 @@ TOFRAY_FN void find_depth(const Setup& s, const Job& job, const Pixels& p, const
   store(job.out.noise_m, p, num::select((found.flags & num::Int<F>(depth::no_return)) == num::Int<F>(0), found.noise, nan<F>()));
 }
 
+/// … compiled once, for walks that are not written out, and for recordings.
 template <class F>
 TOFRAY_ONCE void find_depth_once(const Setup& s, const Job& job, const Pixels& p, const flow::Ray<F>& ray, const F* difference,
                                  const num::Mask<F>& clipped, const F& vignetting) {
