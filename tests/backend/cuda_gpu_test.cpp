@@ -3,11 +3,9 @@
 // On a real GPU: the same bytes as the processor. Where there is none, each test says that it was skipped.
 #include <gtest/gtest.h>
 
-#include <cstdlib>
-
-#include "backend/cuda/cuda.h"
 #include "support/cuda_cases.h"
 #include "support/files.h"
+#include "support/gpu.h"
 #include "support/own_arrays.h"
 #include "support/random_scene.h"
 
@@ -18,12 +16,7 @@ namespace {
 
 class Gpu : public testing::Test {
  protected:
-  void SetUp() override {
-    const std::string reason = backend::why_no_cuda(-1).reason;
-    if (reason.empty()) return;
-    if (std::getenv("TOFRAY_EXPECT_GPU") != nullptr) FAIL() << "TOFRAY_EXPECT_GPU is set: " << reason;
-    GTEST_SKIP() << "not compared with a GPU: " << reason;
-  }
+  void SetUp() override { need_gpu(); }
 };
 class GpuScene : public Gpu, public testing::WithParamInterface<std::string> {};
 class GpuBlockSize : public Gpu, public testing::WithParamInterface<int> {};
