@@ -12,17 +12,15 @@
 /// file; nothing else is needed to add a machine. Every function gives the same bits on every machine: IEEE single precision,
 /// rounded to nearest, subnormals kept; min and max are comparisons (the second argument where one is NaN).
 ///
-/// TOFRAY_FN is written out where it is called; TOFRAY_APART, for what is long and called in several places, is not. TOFRAY_ONCE is apart on
-/// processors alone: a GPU, which has to put a pixel's numbers into memory to call anything, has it written out.
+/// TOFRAY_FN is written out where it is called. TOFRAY_APART, for what is long and called in several places, is not on a processor. It is on a
+/// GPU, which puts a pixel's numbers into memory to call anything.
 #if defined(__CUDACC__)
 #define TOFRAY_FN __host__ __device__ __forceinline__
-#define TOFRAY_APART __host__ __device__ __noinline__ static
-#define TOFRAY_ONCE TOFRAY_FN
+#define TOFRAY_APART __host__ __device__ __forceinline__ static
 #define TOFRAY_CONSTANT __device__ constexpr
 #else
 #define TOFRAY_FN __attribute__((always_inline)) inline
 #define TOFRAY_APART __attribute__((noinline)) static
-#define TOFRAY_ONCE TOFRAY_APART
 #define TOFRAY_CONSTANT inline constexpr
 #endif
 

@@ -75,11 +75,11 @@ TOFRAY_FN flow::Surface<F> surface_seen(const Setup& s, const camera::LensView& 
 
 /// Where something that moves stands between a light and the surface, or the sun and it: asked in two places.
 template <class F, class Culled>
-TOFRAY_ONCE num::Mask<F> blocked_by_what_moves(const Culled& culled, const flow::Ray<F>& from_light, const flow::Surface<F>& p) {
+TOFRAY_APART num::Mask<F> blocked_by_what_moves(const Culled& culled, const flow::Ray<F>& from_light, const flow::Surface<F>& p) {
   return trace::blocked(culled, from_light, p);
 }
 template <class F, class Culled>
-TOFRAY_ONCE num::Mask<F> blocked_by_what_moves(const Culled& culled, const float* sun, const flow::Surface<F>& p) {
+TOFRAY_APART num::Mask<F> blocked_by_what_moves(const Culled& culled, const float* sun, const flow::Surface<F>& p) {
   return trace::blocked_parallel(culled, sun, p);
 }
 

@@ -65,8 +65,8 @@ TOFRAY_FN void collect(const Setup& s, const Job& job, const Pixels& p, const Pi
 }
 /// … compiled once, for walks that are not written out.
 template <class F>
-TOFRAY_ONCE void collect_once(const Setup& s, const Job& job, const Pixels& p, const Pixels& next, const Moment& now,
-                              const flow::Light<F>& light, Pack<F>& pack) {
+TOFRAY_APART void collect_once(const Setup& s, const Job& job, const Pixels& p, const Pixels& next, const Moment& now,
+                               const flow::Light<F>& light, Pack<F>& pack) {
   collect(s, job, p, next, now, light, pack);
 }
 
@@ -90,8 +90,8 @@ TOFRAY_FN void find_depth(const Setup& s, const Job& job, const Pixels& p, const
 
 /// … compiled once, for walks that are not written out, and for recordings.
 template <class F>
-TOFRAY_ONCE void find_depth_once(const Setup& s, const Job& job, const Pixels& p, const flow::Ray<F>& ray, const F* difference,
-                                 const num::Mask<F>& clipped, const F& vignetting) {
+TOFRAY_APART void find_depth_once(const Setup& s, const Job& job, const Pixels& p, const flow::Ray<F>& ray, const F* difference,
+                                  const num::Mask<F>& clipped, const F& vignetting) {
   find_depth<F>(s, job, p, ray, difference, clipped, vignetting);
 }
 

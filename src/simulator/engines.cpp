@@ -12,7 +12,7 @@ Engines::Engines(const SimulatorOptions& options, const pipeline::Setup& setup)
   cpu_.load(setup);
   if (options.backend == Backend::cpu) return;
   try {
-    gpus_.push_back(std::make_unique<backend::Cuda>(options.device, options.block_size));
+    gpus_.push_back(std::make_unique<backend::Cuda>(options.device, options.block_size, cpu_));
     gpus_[0]->load(setup);
   } catch (const backend::gpu::Fault& fault) {
     give_up(fault);
@@ -30,7 +30,7 @@ void Engines::open_other_gpus(const std::function<const pipeline::Setup&()>& set
   const pipeline::Setup& setup = setup_of();
   for (int i = gpus_[0]->device().number() + 1; i < backend::gpu::count_devices(); ++i) {
     try {
-      auto gpu = std::make_unique<backend::Cuda>(i, options_.block_size);
+      auto gpu = std::make_unique<backend::Cuda>(i, options_.block_size, cpu_);
       gpu->load(setup);
       gpus_.push_back(std::move(gpu));
     } catch (const backend::gpu::Fault&) {

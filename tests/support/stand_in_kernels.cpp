@@ -47,22 +47,22 @@ void run_on_host(const backend::gpu::Launch& what, const backend::gpu::FrameArgu
       continue;
     }
     if (what.pass != Pass::pixels) {
-      pipeline::Job job = job_of(a.job, number, owns ? 0 : frame * what.batch.stride);
-      if (owns) pipeline::take_image_step(what.batch.step, job);
-      for (int i = 0; i < units_of(what.pass, a.setup) + 7; ++i) run_pass(what.pass, what.batch.step.item, a.setup, job, what.input, i);
+      if (owns) pipeline::take_image_step(what.batch.step, a.job);
+      for (int i = 0; i <= flow::array_count; ++i) take_frame(number, owns ? 0 : frame * what.batch.stride, i, a.job);
+      for (int i = 0; i < units_of(what.pass, a.setup) + 7; ++i) run_pass(what.pass, what.batch.step.item, a.setup, a.job, what.input, i);
       continue;
     }
     if (owns) pipeline::take_step(what.batch.step, a.setup, a.job);
-    const pipeline::Job job = job_of(a.job, number, owns ? 0 : frame * what.batch.stride);
+    for (int i = 0; i <= flow::array_count; ++i) take_frame(number, owns ? 0 : frame * what.batch.stride, i, a.job);
     for (int patch = 0; patch < patch_count(a.setup.lens); ++patch) {
       std::map<int, pipeline::Rectangle<float>> seen;
       for (const bool collecting : {true, false}) {
         HostWarp warp{seen, collecting};
         for (int lane = 0; lane < warp_size; ++lane) {
           if (owns)
-            run_pixel<true>(a.setup, job, warp, patch, lane);
+            run_pixel<true>(a.setup, a.job, warp, patch, lane);
           else
-            run_pixel<false>(a.setup, job, warp, patch, lane);
+            run_pixel<false>(a.setup, a.job, warp, patch, lane);
         }
       }
     }

@@ -132,6 +132,10 @@ void Cpu::load(const pipeline::Setup& setup) {
 
 void Cpu::describe(RanOn& out) const { out.backend = "cpu", out.device = out.isa = isa_name(isa_), out.threads = threads_; }
 
+void Cpu::for_each(int count, const std::function<void(int)>& piece) {
+  pool_->runner.for_each_tile(count, [&](int i, void*) { piece(i); });
+}
+
 void Cpu::run_step(const pipeline::Step& step, const Work& work) {
   const std::int64_t rays = rays_of(step, *work.setup);
   pool_->runner.for_each_tile(pieces_of(step, *work.setup), [&](int index, void* scratch) {

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include <atomic>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -33,6 +34,8 @@ class Cpu final : public Engine {
   void run(const pipeline::Setup& setup, const pipeline::Job& job, const pipeline::Input* input = nullptr) override;
   [[nodiscard]] bool derives() const override { return false; }
   void describe(RanOn& out) const override;
+  /// Calls `piece(i)` for 0 <= i < count on its threads, in any order, and waits; once `load` has been called.
+  void for_each(int count, const std::function<void(int)>& piece);
 
  private:
   struct Threads;

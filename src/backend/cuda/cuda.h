@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "backend/cpu/cpu.h"
 #include "backend/cuda/lane.h"
 #include "backend/engine.h"
 
@@ -37,8 +38,9 @@ class Cuda final : public Engine {
  public:
   /// @param device      −1: the first one that can be used
   /// @param block_size  threads per block, a multiple of 32 up to 1024; 0: chosen
+  /// @param host        its threads take a frame's arrays to their places
   /// @throws gpu::Fault where the GPU cannot be used; Error (bad_input) for a block size that cannot be
-  Cuda(int device, int block_size);
+  Cuda(int device, int block_size, Cpu& host);
 
   /// @throws gpu::Fault
   void load(const pipeline::Setup& setup) override;
@@ -56,6 +58,7 @@ class Cuda final : public Engine {
  private:
   gpu::Device device_;
   int block_size_;
+  Cpu& host_;
   double occupancy_ = 0;  ///< how full one multiprocessor is of the kernel that takes the time
   gpu::Resident resident_;
   std::deque<gpu::Lane> lanes_;

@@ -38,10 +38,19 @@ struct DeviceWarp {
 #endif
 };
 
-/// The block copies a frame's arguments.
-__device__ void copy_arguments(FrameArguments& to, const FrameArguments& from) {
-  for (unsigned i = threadIdx.x; i < sizeof to / 16; i += blockDim.x)
-    reinterpret_cast<uint4*>(&to)[i] = reinterpret_cast<const uint4*>(&from)[i];
+/// The block copies what its threads share. (A copy of each thread's own would be in its local memory, and every array's place read there.)
+template <class T>
+__device__ void copy_to_block(T& to, const T& from) {
+  static_assert(sizeof to % sizeof(uint2) == 0 && alignof(T) % sizeof(uint2) == 0);
+  for (unsigned i = threadIdx.x; i < sizeof to / sizeof(uint2); i += blockDim.x)
+    reinterpret_cast<uint2*>(&to)[i] = reinterpret_cast<const uint2*>(&from)[i];
+  __syncthreads();
+}
+
+/// The block's threads make its job that of one frame.
+__device__ void take_frame_of_block(const FrameNumber& number, std::int64_t bytes, Job& job) {
+  for (unsigned worker = threadIdx.x; worker <= flow::array_count; worker += blockDim.x)
+    take_frame(number, bytes, static_cast<int>(worker), job);
   __syncthreads();
 }
 
@@ -51,11 +60,14 @@ __device__ int patch_of_warp() { return static_cast<int>(blockIdx.x * (blockDim.
 /// Ray to depth of frames that share their arguments, which lie in the constant bank: nothing moves in them.
 template <int threads>
 __global__ void __launch_bounds__(threads) tofray_pixels(const __grid_constant__ FrameArguments common, const Batch batch) {
+  __shared__ Job job;
+  const int frame = static_cast<int>(blockIdx.y);
+  copy_to_block(job, common.job);
+  take_frame_of_block(batch.numbers[frame], frame * batch.stride, job);
   const int patch = patch_of_warp();
   if (patch >= patch_count(common.setup.lens)) return;
   DeviceWarp warp{static_cast<int>(threadIdx.x % warp_size)};
-  const int frame = static_cast<int>(blockIdx.y);
-  run_pixel<false>(common.setup, job_of(common.job, batch.numbers[frame], frame * batch.stride), warp, patch, warp.lane);
+  run_pixel<false>(common.setup, job, warp, patch, warp.lane);
 }
 
 /// The same where each frame has arguments of its own: each block takes its frame's into shared memory, with what the step has of its own.
@@ -63,37 +75,36 @@ template <int threads>
 __global__ void __launch_bounds__(threads) tofray_pixels_own(const Batch batch) {
   __shared__ FrameArguments mine;
   const int frame = static_cast<int>(blockIdx.y);
-  copy_arguments(mine, batch.own[frame]);
-  if (batch.step.part != pipeline::Part::all) {
-    if (threadIdx.x == 0) pipeline::take_step(batch.step, mine.setup, mine.job);
-    __syncthreads();
-  }
+  copy_to_block(mine, batch.own[frame]);
+  if (threadIdx.x == 0 && batch.step.part != pipeline::Part::all) pipeline::take_step(batch.step, mine.setup, mine.job);
+  __syncthreads();
+  take_frame_of_block(batch.numbers[frame], 0, mine.job);
   const int patch = patch_of_warp();
   if (patch >= patch_count(mine.setup.lens)) return;
   DeviceWarp warp{static_cast<int>(threadIdx.x % warp_size)};
-  run_pixel<true>(mine.setup, job_of(mine.job, batch.numbers[frame], 0), warp, patch, warp.lane);
+  run_pixel<true>(mine.setup, mine.job, warp, patch, warp.lane);
 }
 
 /// The largest block of a kernel.
 template <Pass pass>
 constexpr int most_threads = most_threads_of(pass);
 
-/// A pass over the images of all frames.
+/// A pass over the images of all frames. (Written out once, for arguments in shared memory, wherever they came from.)
 template <Pass pass>
 __global__ void __launch_bounds__(most_threads<pass>)
     tofray_pass(const __grid_constant__ FrameArguments common, const Batch batch, const pipeline::Input input) {
+  __shared__ FrameArguments mine;
+  const bool owns = batch.own != nullptr;
   const int frame = static_cast<int>(blockIdx.y), index = static_cast<int>(blockIdx.x * blockDim.x + threadIdx.x);
-  if (batch.own != nullptr) {
-    Job job = job_of(batch.own[frame].job, batch.numbers[frame], 0);
-    pipeline::take_image_step(batch.step, job);
-    run_pass(pass, batch.step.item, batch.own[frame].setup, job, input, index);
-  } else {
-    run_pass(pass, batch.step.item, common.setup, job_of(common.job, batch.numbers[frame], frame * batch.stride), input, index);
-  }
+  copy_to_block(mine, owns ? batch.own[frame] : common);
+  if (owns && threadIdx.x == 0) pipeline::take_image_step(batch.step, mine.job);
+  __syncthreads();
+  take_frame_of_block(batch.numbers[frame], owns ? 0 : frame * batch.stride, mine.job);
+  run_pass(pass, batch.step.item, mine.setup, mine.job, input, index);
 }
 
 /// Forms and facets of each frame.
-__global__ void __launch_bounds__(max_block_size) tofray_derive(const Batch batch) {
+__global__ void __launch_bounds__(most_threads<Pass::derive>) tofray_derive(const Batch batch) {
   run_derive(batch.own[blockIdx.y].setup, batch.derive, static_cast<int>(blockIdx.x * blockDim.x + threadIdx.x));
 }
 
@@ -113,7 +124,7 @@ cudaError_t launch_pixels(const Launch& what, int patches, cudaStream_t stream) 
 }
 
 cudaError_t launch_derive(const Launch& what, cudaStream_t stream) {
-  const auto block = static_cast<unsigned>(what.block_size),
+  const auto block = static_cast<unsigned>(threads_of_block(Pass::derive, what.block_size)),
              units = static_cast<unsigned>(scene::unit_count(what.common->setup.scene, what.batch.derive));
   tofray_derive<<<dim3((units + block - 1) / block, static_cast<unsigned>(what.batch.frames)), block, 0, stream>>>(what.batch);
   return cudaGetLastError();

@@ -216,13 +216,17 @@ TOFRAY_FN T* shifted(T* array, std::int64_t bytes) {
   return array == nullptr ? nullptr : reinterpret_cast<T*>(reinterpret_cast<char*>(array) + bytes);
 }
 
-/// The job of one frame of a batch.
-TOFRAY_FN Job job_of(const Job& first, const FrameNumber& number, std::int64_t bytes) {
-  Job job = first;
-  job.index_low = number.low, job.index_high = number.high;
-  flow::each_array(job.out, [&](auto*& array, ArrayShape, Stage) { array = shifted(array, bytes); });
-  job.scratch = shifted(job.scratch, bytes);
-  return job;
+/// Makes the job that a batch has in common that of one frame, whose arrays are `bytes` further on.
+/// @param worker  does its share of it: all from 0 to `array_count` on are needed, in any order
+TOFRAY_FN void take_frame(const FrameNumber& number, std::int64_t bytes, int worker, Job& job) {
+  if (worker == 0) {
+    job.index_low = number.low, job.index_high = number.high;
+    job.scratch = shifted(job.scratch, bytes);
+  }
+  int i = 0;
+  flow::each_array(job.out, [&](auto*& array, ArrayShape, Stage) {
+    if (++i == worker) array = shifted(array, bytes);
+  });
 }
 
 }  // namespace tofray::backend::gpu

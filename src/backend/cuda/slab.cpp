@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "backend/cuda/slab.h"
 
-#include <cstring>
+#include <algorithm>
 
 namespace tofray::backend::gpu {
 
@@ -43,14 +43,19 @@ float* Slab::scratch(void* base) const {
   return scratch_offset_ == bytes_ ? nullptr : reinterpret_cast<float*>(static_cast<unsigned char*>(base) + scratch_offset_);
 }
 
-void Slab::copy_out(const void* base, const flow::FrameView& to) const {
+std::vector<Slab::Piece> Slab::pieces(const void* base, const flow::FrameView& to) const {
+  constexpr std::size_t most_bytes = 1 << 17;
+  std::vector<Piece> out;
   int i = 0;
   flow::each_array(to, [&](auto* array, ArrayShape shape, Stage) {
-    if (array != nullptr && offset_[i] != 0) {
-      std::memcpy(array, static_cast<const unsigned char*>(base) + offset_[i] - 1, count(shape) * sizeof *array);
+    const std::size_t bytes = array != nullptr && offset_[i] != 0 ? count(shape) * sizeof *array : 0;
+    for (std::size_t at = 0; at < bytes; at += most_bytes) {
+      out.push_back({reinterpret_cast<unsigned char*>(array) + at, static_cast<const unsigned char*>(base) + offset_[i] - 1 + at,
+                     std::min(most_bytes, bytes - at)});
     }
     ++i;
   });
+  return out;
 }
 
 }  // namespace tofray::backend::gpu

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include <cstddef>
+#include <vector>
 
 #include "pipeline/setup.h"
 
@@ -21,8 +22,14 @@ class Slab {
   /// The arrays of the frame that begins at `base`.
   [[nodiscard]] flow::FrameView view(void* base) const;
   [[nodiscard]] float* scratch(void* base) const;
-  /// The arrays of the frame that begins at `base` → those of `to` that are not null.
-  void copy_out(const void* base, const flow::FrameView& to) const;
+  /// A part of an array, and where it belongs.
+  struct Piece {
+    void* to;
+    const void* from;
+    std::size_t bytes;
+  };
+  /// The arrays of the frame that begins at `base`, as pieces for several threads to copy to those of `to` that are not null.
+  [[nodiscard]] std::vector<Piece> pieces(const void* base, const flow::FrameView& to) const;
   [[nodiscard]] const flow::FrameSize& size() const { return size_; }
   bool operator==(const Slab&) const = default;
 
