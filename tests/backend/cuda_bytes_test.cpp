@@ -113,7 +113,7 @@ TEST_P(CudaBytes, batches_of_scenes_in_motion_take_seeds_and_poses) {
   for (int i = 0; i < 2; ++i) {
     const Scene scene = scene_in_motion(i);
     const Camera camera = small(load_camera("pico-flexx"));
-    const SimulatorOptions options{.batch_bytes = 1'100'000, .exposure_samples = 2};
+    const SimulatorOptions options{.batch_bytes = 320'000, .exposure_samples = 2};
     const std::vector<FrameRequest> requests = mixed_requests(scene, 8);
     for (const Backend backend : {Backend::cpu, Backend::cuda}) {
       Simulator simulator(scene, camera, on(backend, options));
@@ -159,7 +159,7 @@ TEST_P(CudaBytes, has_the_same_bytes_of_samples_within_pixels_and_of_scattered_l
     expect_same(scene, camera, {.arrays = {"raw", "gt_mixed"}, .subpixel = 2}, {0, 1});
     expect_same(scene, camera, {.truth = false, .subpixel = 3}, {5});
     expect_same_own_arrays(load_scene("demo"), camera);
-    const SimulatorOptions options{.batch_bytes = 1'100'000, .exposure_samples = 2, .subpixel = 2};
+    const SimulatorOptions options{.batch_bytes = 320'000, .exposure_samples = 2, .subpixel = 2};
     for (const bool alike : {true, false}) {
       std::vector<FrameRequest> requests = mixed_requests(scene, 5);
       for (FrameRequest& request : requests)

@@ -72,7 +72,7 @@ TEST_P(Failing, at_any_call) {
     calls = here.cuda.calls;
   }
   ASSERT_GT(calls, 40u);
-  for (std::uint64_t n = 1; n <= calls; n += with_sanitizers ? 3 : 1) {
+  for (std::uint64_t n = 1; n <= calls; n += with_sanitizers ? 7 : 1) {
     SCOPED_TRACE("call " + std::to_string(n));
     run_with_failure(GetParam(), n, Backend::automatic, scene, camera, reference);
     run_with_failure(GetParam(), n, Backend::cuda, scene, camera, reference);
@@ -133,7 +133,7 @@ TEST(cuda_fault, passes_over_gpus_that_cannot_be_used) {
   here.cuda.unusable = {0, 2};
   const Scene scene = load_scene("card");
   const Camera camera = small(load_camera(scene));
-  Simulator simulator(scene, camera, {.batch_bytes = 750'000});
+  Simulator simulator(scene, camera, {.batch_bytes = 220'000});
   EXPECT_EQ(simulator.ran_on().device, "Stand-in 1");
   for (int round = 0; round < 2; ++round) simulator.frames(0, 30, [](const FrameArrays&) {});
   EXPECT_EQ(here.cuda.frames_by_device.size(), 2u);

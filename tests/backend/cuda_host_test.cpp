@@ -98,7 +98,7 @@ TEST(cuda_host, batches_have_the_bytes_of_single_frames) {
       Camera camera = small(load_camera(scene));
       camera.pixel.column_noise_e = 30, camera.pixel.row_noise_e = 20;
       for (const Backend backend : {Backend::cpu, Backend::cuda}) {
-        Simulator simulator(scene, camera, on(backend, {.seed = 5, .batch_bytes = 750'000}));
+        Simulator simulator(scene, camera, on(backend, {.seed = 5, .batch_bytes = 220'000}));
         Simulator single(scene, camera, on(Backend::cpu, {.seed = 5}));
         std::uint64_t next = 2;
         simulator.frames(2, 30, [&](const FrameArrays& arrays) {
@@ -168,7 +168,7 @@ TEST(cuda_host, frames_can_stay_on_the_device) {
   const std::size_t pinned = here.cuda.pinned_bytes;
   DeviceFrames many;
   cuda.frames_on_device(0, 60, many);
-  EXPECT_LT(here.cuda.pinned_bytes - pinned, 60u * 37 * 29 * 50) << "the host has no room for frames that it does not take";
+  EXPECT_LT(here.cuda.pinned_bytes - pinned, 60u * 21 * 15 * 50) << "the host has no room for frames that it does not take";
   const float* memory = frames[0].z_m;
   cuda.frames_on_device(7, 2, frames);
   EXPECT_EQ(frames[0].z_m, memory) << "it is used again";

@@ -73,7 +73,7 @@ TEST(hostile_gltf, with_any_byte_changed_is_an_error_or_sound) {
 TEST(hostile_gltf, with_many_changes_is_an_error_or_sound) {
   out_test::Random random(7);
   const std::vector<std::string> all = samples();
-  for (int trial = 0; trial < 20'000; ++trial) {
+  for (int trial = 0; trial < test::often(20'000); ++trial) {
     std::string changed = all[random.below(all.size())];
     for (std::size_t changes = 1 + random.below(5); changes > 0; --changes) {
       const std::size_t at = random.below(changed.size()), from = random.below(changed.size()), size = random.below(20);
@@ -97,7 +97,7 @@ TEST(hostile_gltf, with_other_values_is_an_error_or_sound) {
   for (const auto& [place, value] : flat.items()) places.push_back(place);
   const std::vector<Document> values = {0, 1, 2, 3, 5, 7, 12, 5121, 5123, 5125, 5126, -1, 0.5, 1e9, 1e308, -1e308, "", "VEC4", true};
   std::size_t taken = 0;
-  for (int trial = 0; trial < 4000; ++trial) {
+  for (int trial = 0; trial < test::often(4000); ++trial) {
     Document flattened = flat;
     for (std::size_t changes = 1 + random.below(3); changes > 0; --changes) {
       const std::string& place = places[random.below(places.size())];
@@ -108,5 +108,5 @@ TEST(hostile_gltf, with_other_values_is_an_error_or_sound) {
     SCOPED_TRACE(trial);
     if (is_taken(changed.glb())) ++taken;
   }
-  EXPECT_GT(taken, 200U);
+  EXPECT_GT(taken, static_cast<std::size_t>(test::often(200)));
 }

@@ -9,6 +9,7 @@
 
 #include "load/builtin.h"
 #include "results/meta.h"
+#include "support/sanitizers.h"
 #include "tofray/error.h"
 
 namespace tofray {
@@ -77,8 +78,10 @@ TEST(camera_of_meta, of_which_one_thing_is_wrong_is_refused_or_read) {
   using Json = nlohmann::json;
   const Json meta = Json::parse(results::frame_meta(Scene(), load_camera("pico-flexx"), {.seed = 0}, 0));
   const Json places = Json{{"camera", meta["camera"]}}.flatten();
-  int refused = 0, read = 0;
+  int refused = 0, read = 0, cases = 0;
+  constexpr int each = test::with_sanitizers ? 5 : 1;  // which six types do not share
   const auto attempt = [&](const Json& wrong, const std::string& what) {
+    if (++cases % each != 0) return;
     try {
       results::camera_of_meta(wrong.dump(), "frame.npz");
       ++read;
@@ -100,8 +103,8 @@ TEST(camera_of_meta, of_which_one_thing_is_wrong_is_refused_or_read) {
     around.erase(place.back());
     attempt(without, "no " + key);
   }
-  EXPECT_GT(refused, 500);
-  EXPECT_GT(read, 100);
+  EXPECT_GT(refused, 500 / each);
+  EXPECT_GT(read, 100 / each);
 }
 
 TEST(camera_of_meta, without_a_word_on_the_light_has_lit_raw_frames_as_files_have) {

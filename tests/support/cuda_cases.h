@@ -16,8 +16,8 @@ namespace tofray::test {
 
 /// A part of the usual sensor, with sides that are no multiples of a patch's.
 inline Camera small(Camera camera) {
-  camera.sensor.width = 37, camera.sensor.height = 29;
-  camera.lens.fx_px *= 0.165, camera.lens.fy_px *= 0.17, camera.lens.cx_px = 18, camera.lens.cy_px = 14;
+  camera.sensor.width = 21, camera.sensor.height = 15;
+  camera.lens.fx_px *= 0.094, camera.lens.fy_px *= 0.087, camera.lens.cx_px = 10, camera.lens.cy_px = 7;
   return camera;
 }
 
