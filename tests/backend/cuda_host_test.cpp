@@ -30,6 +30,19 @@ TEST_P(EveryScene, has_the_same_bytes_by_the_functions_of_the_gpu) {
 
 INSTANTIATE_TEST_SUITE_P(cuda_host, EveryScene, testing::ValuesIn(scene_names()), [](const auto& which) { return test_name(which.param); });
 
+// Its arrays are copied to their places in pieces, by several threads.
+TEST(cuda_host, a_frame_of_the_usual_size_has_the_same_bytes_for_any_number_of_threads) {
+  const WithStandIn here;
+  const Scene scene = load_scene("card");
+  const Camera camera = load_camera(scene);
+  const Frame wanted = Simulator(scene, camera, on(Backend::cpu)).frame(2);
+  for (const int threads : {1, 3}) {
+    SimulatorOptions options = on(Backend::cuda);
+    options.threads = threads;
+    EXPECT_EQ(first_difference(Simulator(scene, camera, options).frame(2), wanted), "") << threads;
+  }
+}
+
 TEST(cuda_host, keeps_the_light_of_what_stands_still) {
   WithStandIn here;
   const Scene scene = load_scene("card");
