@@ -14,7 +14,7 @@
 #include "base/limits.h"
 #include "base/text.h"
 #include "support/sanitizers.h"
-#include "tool.h"
+#include "support/tool.h"
 
 /// Input of somebody who means harm: it ends soon, in little memory, with a short message that steers no terminal.
 namespace tofray::test {

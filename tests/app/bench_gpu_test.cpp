@@ -11,7 +11,7 @@
 #include "files/json.h"
 #include "rows.h"
 #include "support/stand_in_cuda.h"
-#include "tool.h"
+#include "support/tool.h"
 
 namespace tofray::test {
 namespace {

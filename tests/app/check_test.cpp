@@ -9,7 +9,7 @@
 #include "rows.h"
 #include "support/files.h"
 #include "support/pi.h"
-#include "tool.h"
+#include "support/tool.h"
 
 using namespace tofray;
 using namespace tofray::test;

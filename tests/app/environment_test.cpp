@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
-#include "tool.h"
+#include "support/tool.h"
 
 namespace tofray::test {
 namespace {

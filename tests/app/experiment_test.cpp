@@ -9,7 +9,7 @@
 
 #include "files/json.h"
 #include "rows.h"
-#include "tool.h"
+#include "support/tool.h"
 
 namespace tofray::test {
 namespace {

@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "gltf/gltf_files.h"
-#include "tool.h"
+#include "support/tool.h"
 
 namespace tofray::test {
 namespace {

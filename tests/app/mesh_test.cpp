@@ -3,7 +3,7 @@
 // Meshes on the command line: alone, in a scene, made again from a manifest.
 #include <gtest/gtest.h>
 
-#include "tool.h"
+#include "support/tool.h"
 
 namespace tofray::test {
 namespace {

@@ -7,7 +7,7 @@
 
 #include "files/json.h"
 #include "files/npz.h"
-#include "tool.h"
+#include "support/tool.h"
 
 namespace tofray::test {
 namespace {

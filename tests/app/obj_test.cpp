@@ -3,7 +3,7 @@
 // OBJ files with materials of their own on the command line: alone, made again from a manifest, and without their files.
 #include <gtest/gtest.h>
 
-#include "tool.h"
+#include "support/tool.h"
 
 namespace tofray::test {
 namespace {

@@ -5,7 +5,7 @@
 #include "backend/cpu/sets.h"
 #include "files/json.h"
 #include "files/npz.h"
-#include "tool.h"
+#include "support/tool.h"
 
 namespace tofray::test {
 namespace {

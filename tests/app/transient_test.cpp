@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "files/npz.h"
-#include "tool.h"
+#include "support/tool.h"
 
 namespace tofray::test {
 namespace {

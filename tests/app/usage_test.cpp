@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "files/json.h"
-#include "tool.h"
+#include "support/tool.h"
 
 namespace tofray::test {
 namespace {

@@ -4,14 +4,9 @@
 
 #include <gtest/gtest.h>
 
-#include <atomic>
-#include <cstdint>
 #include <cstdlib>
-#include <set>
-#include <stdexcept>
-#include <vector>
+#include <string>
 
-#include "backend/cpu/for_each_tile.h"
 #include "tofray/error.h"
 
 using namespace tofray;
@@ -85,40 +80,5 @@ TEST(choose_isa, refuses_an_unknown_name) {
     EXPECT_EQ(error.kind(), ErrorKind::bad_input);
     EXPECT_NE(std::string(error.what()).find("avx1024"), std::string::npos);
     EXPECT_NE(std::string(error.what()).find("avx512"), std::string::npos) << "says what is expected";
-  }
-}
-
-// Every piece exactly once, each worker with scratch memory of its own, for more threads than cores and pieces as well.
-TEST(for_each_tile, does_every_piece_once) {
-  for (const int threads : {1, 2, 7, 64}) {
-    TileRunner runner(threads, 1000);
-    for (const int count : {0, 1, 3, 1000}) {
-      std::vector<std::atomic<int>> done(static_cast<std::size_t>(count));
-      std::atomic<int> clashes{0}, misaligned{0};
-      runner.for_each_tile(count, [&](int index, void* scratch) {
-        auto* word = static_cast<std::atomic<int>*>(scratch);
-        misaligned += reinterpret_cast<std::uintptr_t>(scratch) % 64 != 0;
-        word->store(index);
-        for (int i = 0; i < 200; ++i) clashes += word->load() != index;
-        ++done[static_cast<std::size_t>(index)];
-      });
-      for (const auto& d : done) ASSERT_EQ(d.load(), 1) << threads << " threads, " << count << " pieces";
-      EXPECT_EQ(clashes.load(), 0);
-      EXPECT_EQ(misaligned.load(), 0);
-    }
-  }
-}
-
-TEST(for_each_tile, lets_an_error_of_a_piece_surface) {
-  for (const int threads : {1, 4}) {
-    TileRunner runner(threads, 64);
-    EXPECT_THROW(runner.for_each_tile(100,
-                                      [](int index, void*) {
-                                        if (index == 37) throw std::runtime_error("piece 37");
-                                      }),
-                 std::runtime_error);
-    std::atomic<int> after{0};
-    runner.for_each_tile(10, [&](int, void*) { ++after; });
-    EXPECT_EQ(after.load(), 10) << "and goes on working";
   }
 }

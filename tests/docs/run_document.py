@@ -3,8 +3,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """Runs what a document tells its reader to type, word for word and in its order, in one fresh folder. run_document.py --help
 
-Blocks: sh and zsh and fish run in that shell (where it is installed) and have to succeed; python runs after the document's python
-before it; cpp and CMake's calls make one project, built and run at the end; yaml goes into the file that its first line's comment
+Blocks: sh and zsh and fish run in that shell (where it is installed) and have to succeed; python is run by the one
+Python that ran the document's python before it; cpp and CMake's calls make one project, built and run at the end; yaml goes into the file that its first line's comment
 names, or into the one that <!-- test: into FILE --> before it names, and tofray check has to like that file once the next command runs;
 text is for people. <!-- test: prints TEXT --> before a shell or python block: what a sentence beside it says of its output. Code within
 lines: what begins with a command's name is run; `key: value` has to be good YAML of a scene or a camera profile somewhere; options have
@@ -47,6 +47,7 @@ def words_of(source):
     return found
 
 
+@functools.cache
 def options_of(place):
     """Every option of every command."""
     commands = re.findall(r"^  ([a-z]+) ", place.must(["tofray", "--help"]).split("Commands:\n")[1].split("\n\n")[0], re.M)
@@ -57,7 +58,7 @@ def options_of(place):
 class Document:
     def __init__(self, path, place):
         self.name, self.text, self.place = path.name, path.read_text(encoding="utf-8"), place
-        self.python, self.cpp, self.cmake, self.changed = "", "", "", set()
+        self.cpp, self.cmake, self.changed = "", "", set()
 
     def faults(self):
         """(line, what) of everything that does not do what it says."""
@@ -80,8 +81,7 @@ class Document:
             self.check_files()
             self.holds(one.prints, self.shell(one.kind, one.text))
         elif one.kind == "python":
-            self.python += one.text
-            self.holds(one.prints, self.place.must([sys.executable, "-W", "error", "-"], self.python))
+            self.holds(one.prints, self.place.python(one.text))
         elif one.kind == "yaml":
             self.yaml(one)
         elif one.kind == "cpp":
@@ -148,17 +148,23 @@ class Document:
             self.names(code)
 
     def yaml_of_a_line(self, code):
-        said = []
         shutil.copy(self.place.path / "examples/chair/chair.obj", self.place.path / "a-chair.obj")
+        key, value = code.split(": ", 1)
+        known = []  # what is said against it in places that know the key
         for scene in SCENES:
             (self.place.path / "a-line.yaml").write_text(scene.format(code))
-            said.append(self.place.run(["tofray", "check", "a-line.yaml"]))
-        for key in PROFILE_KEYS:
-            said.append(self.place.run(["tofray", "check", "pico-flexx", "--set", key.format(*code.split(": ", 1))]))
-        if all(exit_code != 0 for exit_code, _ in said):
-            key = code.split(":")[0]
-            known = [out for _, out in said if f'unknown key "{key}"' not in out]  # of the places that know it
-            raise ValueError(f"no file may say {code}\n" + "".join(known).rstrip())
+            if self.is_good(["tofray", "check", "a-line.yaml"], key, known):
+                return
+        for setting in PROFILE_KEYS:
+            if self.is_good(["tofray", "check", "pico-flexx", "--set", setting.format(key, value)], key, known):
+                return
+        raise ValueError(f"no file may say {code}\n" + "".join(known).rstrip())
+
+    def is_good(self, command, key, known):
+        code, out = self.place.run(command)
+        if code != 0 and f'unknown key "{key}"' not in out:
+            known.append(out)
+        return code == 0
 
     def names(self, code):
         if setting := re.fullmatch(r"--set (\S+=\S+)", code):

@@ -5,7 +5,9 @@
 import os
 import pathlib
 import subprocess
+import sys
 import tempfile
+import threading
 
 import exceptions
 
@@ -15,12 +17,27 @@ CHECKOUT = (
 ).split()
 LONGEST_S = 300
 
+# Reads pieces of a program, each after its length, and runs them one after the other, like cells of a notebook.
+SESSION = """
+import sys, traceback
+names = {"__name__": "__main__"}
+for size in iter(sys.stdin.readline, ""):
+    text, fault = sys.stdin.read(int(size)), 0
+    try:
+        exec(compile(text, "the document", "exec"), names)
+    except BaseException:
+        traceback.print_exc()
+        fault = 1
+    sys.stderr.flush()
+    print(f"\\n--- done: {fault}", flush=True)
+"""
+
 
 class Workplace:
     def __init__(self, source, build, compiler, installed=None):
         """`installed`: where tofray has been installed already; otherwise it is, here."""
         self.source, self.build, self.compiler, self.installed = source, build, compiler, installed
-        self.folder = None
+        self.folder, self.session = None, None
 
     def __enter__(self):
         self.folder = tempfile.TemporaryDirectory(prefix="tofray-docs-")
@@ -45,7 +62,33 @@ class Workplace:
         return self
 
     def __exit__(self, *_):
+        if self.session:
+            self.session.kill()
+            self.session.communicate()
         self.folder.cleanup()
+
+    def python(self, text):
+        """What this piece wrote, run by the Python that ran all pieces before it."""
+        if not self.session:
+            self.session = subprocess.Popen(
+                [sys.executable, "-W", "error", "-u", "-c", SESSION], cwd=self.path, env=self.environment, text=True, encoding="utf-8",
+                stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, errors="replace",
+            )
+        too_long = threading.Timer(LONGEST_S, self.session.kill)
+        too_long.start()
+        out = []
+        try:
+            self.session.stdin.write(f"{len(text)}\n{text}")
+            self.session.stdin.flush()
+            for line in self.session.stdout:
+                if line == "--- done: 0\n":
+                    return "".join(out)
+                if line.startswith("--- done: "):
+                    raise ValueError("".join(out).rstrip())
+                out.append(line)
+        finally:
+            too_long.cancel()
+        raise ValueError("".join(out) + f"Python has ended, or was not done after {LONGEST_S} s")
 
     def run(self, command, text=""):
         """(exit code, what it wrote)."""

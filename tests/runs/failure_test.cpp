@@ -6,7 +6,7 @@
 #include "files/npz.h"
 #include "files/sha256.h"
 #include "support/sanitizers.h"
-#include "tool.h"
+#include "support/tool.h"
 
 namespace tofray::test {
 namespace {

@@ -6,7 +6,7 @@
 #include <chrono>
 
 #include "support/sanitizers.h"
-#include "tool.h"
+#include "support/tool.h"
 
 namespace tofray::test {
 namespace {

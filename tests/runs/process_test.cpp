@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "files/npz.h"
-#include "tool.h"
+#include "support/tool.h"
 
 namespace tofray::test {
 namespace {

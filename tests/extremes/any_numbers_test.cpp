@@ -211,26 +211,6 @@ TEST(largest_numbers, give_flags_or_finite_numbers) {
   }
 }
 
-TEST(any_number_of_threads, beyond_the_limit_is_refused) {
-  const Scene scene = wall(1);
-  const Camera camera = lit_camera(8, 4, 9);
-  const Raw raw = Simulator(scene, camera, {.threads = 1024}).frame(0).raw;
-  for (const int threads : {1025, std::numeric_limits<int>::max()}) {
-    for (const bool recorded : {false, true}) {
-      try {
-        if (recorded) {
-          process(raw, camera, {.threads = threads});
-        } else {
-          Simulator(scene, camera, {.threads = threads});
-        }
-        ADD_FAILURE() << threads << " threads passed";
-      } catch (const Error& error) {
-        EXPECT_EQ(error.kind(), ErrorKind::limit);
-      }
-    }
-  }
-}
-
 // Measured data may hold anything, too.
 TEST(any_taps, give_flags_or_finite_numbers) {
   Random random(5);

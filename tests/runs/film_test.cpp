@@ -3,7 +3,7 @@
 // Films of things in motion: --fps, --exposure-samples, and what the manifest remembers of both.
 #include <gtest/gtest.h>
 
-#include "tool.h"
+#include "support/tool.h"
 
 namespace tofray::test {
 namespace {

@@ -8,7 +8,7 @@
 #include "files/npz.h"
 #include "files/sha256.h"
 #include "load/builtin.h"
-#include "tool.h"
+#include "support/tool.h"
 
 namespace tofray::test {
 namespace {
