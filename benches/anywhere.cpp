@@ -8,7 +8,7 @@
 #if defined(TOFRAY_HAS_EMBREE)
 #include <embree3/rtcore.h>
 #endif
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <chrono>

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Light that bounces: how long it takes to follow it, and how far off it is, against the number of ways for each pixel. The camera is moved
 // by a hair's breadth from frame to frame, so that nothing is kept.
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <chrono>

@@ -3,7 +3,7 @@
 // Both errors of the check for flying pixels, as the table of docs/theory/04-depth.md: share of a wall's pixels that are lost, share of the
 // edges' flying pixels that are found, against distance and integration time, by the limit alone (k = 0), with noise looked at (k = 4), and that after the
 // adaptive filter over 25 pixels at most.
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <cstdio>
 

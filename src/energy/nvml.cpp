@@ -3,7 +3,7 @@
 #include "energy/nvml.h"
 
 #include <dlfcn.h>
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 namespace tofray::energy {
 

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "files/npy_header.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include "files/data_limits.h"
 #include "tofray/error.h"

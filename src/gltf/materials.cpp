@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The tofray authors
 // SPDX-License-Identifier: Apache-2.0
 // Materials, and the textures and images that they use. Images are not decoded.
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <limits>
 

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "gltf/read.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include "base/faults.h"
 #include "base/limits.h"

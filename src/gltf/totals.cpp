@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The tofray authors
 // SPDX-License-Identifier: Apache-2.0
 // How much there is: of each list, and of what all nodes show, since one mesh may stand in many places.
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 

@@ -3,7 +3,7 @@
 // The markers of a JPEG file (ITU-T T.81, annex B): what is between them libjpeg reads.
 #include "image/jpeg_markers.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <array>

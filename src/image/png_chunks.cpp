@@ -3,7 +3,7 @@
 // The chunks of a PNG file: length, name, data, checksum. What is in them libpng reads.
 #include "image/png_chunks.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include "base/bytes.h"
 #include "base/text.h"

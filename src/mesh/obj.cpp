@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Wavefront OBJ: vertices (v), their normals (vn) and texture coordinates (vt), polygons (f), and the materials they wear (mtllib, usemtl).
 // Groups, lines and points are read past.
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <array>

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // PLY: x, y, z of the element vertex, its normal (nx, ny, nz) and texture coordinates (s, t; u, v; texture_u, texture_v), and lists of
 // vertices: polygons in the element face, strips in tristrips; and colours of vertices (red, green, blue). All else is read past.
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <array>

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "mesh/ply_body.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include "base/bytes.h"
 #include "base/faults.h"

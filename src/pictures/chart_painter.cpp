@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "pictures/chart_painter.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 namespace tofray::pictures {
 
