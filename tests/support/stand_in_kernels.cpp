@@ -2,30 +2,57 @@
 // SPDX-License-Identifier: Apache-2.0
 // The pipeline on plain floats, as nvcc compiles it: for the host, and once for all programs of tests, since it takes long.
 #include "backend/cuda/pixel.h"
+
+#include <cstring>
+#include <map>
+#include <vector>
+
 #include "support/stand_in_cuda.h"
 
 namespace tofray::test {
 
 namespace {
 
+/// What the lanes of a warp have told each other.
+struct Said {
+  struct Vote {
+    const void* forms;
+    flow::Bounds within;
+    std::uint32_t word;
+  };
+  std::map<int, pipeline::Rectangle<float>> rectangles;
+  std::vector<Vote> votes;
+};
+
 /// The 32 lanes of a warp, one after the other. The rectangle that all lanes span is known only when all have been there, so each warp
-/// runs twice: first to collect rectangles (with none, every form is tested), then with them.
+/// runs twice: first to collect rectangles (with none, every form is tested), then with them. A vote is counted by the lane that comes to
+/// it first.
 struct HostWarp {
-  std::map<int, pipeline::Rectangle<float>>& seen;
+  Said& said;
   bool collecting;
+  mutable std::size_t next = 0;  ///< where the vote that this lane comes to is likely to be
 
   template <class Test>
-  [[nodiscard]] std::uint32_t vote(const Test& test) const {
+  [[nodiscard]] std::uint32_t vote(const void* forms, const flow::Bounds& within, const Test& test) const {
+    for (std::size_t i = 0; i < said.votes.size(); ++i) {
+      if (next >= said.votes.size()) next = 0;
+      const Said::Vote& one = said.votes[next++];
+      if (one.forms == forms && std::memcmp(&one.within, &within, sizeof within) == 0) return one.word;
+    }
     std::uint32_t word = 0;
     for (int lane = 0; lane < backend::gpu::warp_size; ++lane) word |= static_cast<std::uint32_t>(test(lane)) << lane;
+    said.votes.push_back({forms, within, word});
+    next = said.votes.size();
     return word;
   }
+  /// (Each lane is alone at that time, and a lane that goes along for another's sake changes nothing.)
+  [[nodiscard]] static bool any(bool mask) { return mask; }
   void unite(int key, pipeline::Rectangle<float>& own) const {
     if (!collecting) {
-      own = seen.at(key);
+      own = said.rectangles.at(key);
       return;
     }
-    pipeline::Rectangle<float>& all = seen[key];
+    pipeline::Rectangle<float>& all = said.rectangles[key];
     all.open = all.open || own.open;
     all.x_min = num::min(all.x_min, own.x_min), all.x_max = num::max(all.x_max, own.x_max);
     all.y_min = num::min(all.y_min, own.y_min), all.y_max = num::max(all.y_max, own.y_max);
@@ -55,10 +82,10 @@ void run_on_host(const backend::gpu::Launch& what, const backend::gpu::FrameArgu
     if (owns) pipeline::take_step(what.batch.step, a.setup, a.job);
     for (int i = 0; i <= flow::array_count; ++i) take_frame(number, owns ? 0 : frame * what.batch.stride, i, a.job);
     for (int patch = 0; patch < patch_count(a.setup.lens); ++patch) {
-      std::map<int, pipeline::Rectangle<float>> seen;
+      Said said;
       for (const bool collecting : {true, false}) {
-        HostWarp warp{seen, collecting};
         for (int lane = 0; lane < warp_size; ++lane) {
+          HostWarp warp{said, collecting};
           if (owns)
             run_pixel<true>(a.setup, a.job, warp, patch, lane);
           else

@@ -14,10 +14,12 @@ namespace {
 struct DeviceWarp {
   int lane;
 #if defined(__CUDA_ARCH__)
+  /// Which of these forms can be met: a word of what each lane says of one.
   template <class Test>
-  TOFRAY_FN std::uint32_t vote(Test test) const {
+  TOFRAY_FN std::uint32_t vote(const void*, const flow::Bounds&, Test test) const {
     return __ballot_sync(~0u, test(lane));
   }
+  TOFRAY_FN bool any(bool mask) const { return __ballot_sync(~0u, mask) != 0; }
   TOFRAY_FN void unite(int, pipeline::Rectangle<float>& seen) const {
     seen.open = __any_sync(~0u, seen.open) != 0;
     for (int apart = warp_size / 2; apart > 0; apart /= 2) {
@@ -30,9 +32,10 @@ struct DeviceWarp {
   TOFRAY_FN static int lowest_bit(std::uint32_t word) { return __ffs(static_cast<int>(word)) - 1; }
 #else
   template <class Test>
-  TOFRAY_FN std::uint32_t vote(Test) const {
+  TOFRAY_FN std::uint32_t vote(const void*, const flow::Bounds&, Test) const {
     return 0;
   }
+  TOFRAY_FN bool any(bool) const { return false; }
   TOFRAY_FN void unite(int, pipeline::Rectangle<float>&) const {}
   TOFRAY_FN static int lowest_bit(std::uint32_t) { return 0; }
 #endif

@@ -58,7 +58,7 @@ struct WarpWalk {
 
  private:
   TOFRAY_FN std::uint32_t vote() const {
-    return warp.vote([&](int lane) { return base + lane < count && can_meet(forms[base + lane], *within); });
+    return warp.vote(forms + base, *within, [&](int lane) { return base + lane < count && can_meet(forms[base + lane], *within); });
   }
 };
 
@@ -87,9 +87,7 @@ struct WarpNear {
   TOFRAY_FN WarpNear(Warp& w, const flow::Bounds* view) : warp(w), culling(view != nullptr), from_camera(view) {}
 
   TOFRAY_FN bool moves(const Setup& s) const { return can_move && s.scene.moments > 0; }
-  TOFRAY_FN bool any(bool mask) const {
-    return warp.vote([&](int) { return mask; }) != 0;
-  }
+  TOFRAY_FN bool any(bool mask) const { return warp.any(mask); }
   TOFRAY_FN bool can_be_shaded(const Setup&) const { return true; }  // known once the rays to the lights are
   /// The rectangle that holds the rays of all lanes from a light to their surfaces.
   TOFRAY_FN void look(int moment, int light, const flow::Ray<float>& ray, bool use) {
