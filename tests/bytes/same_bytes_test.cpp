@@ -100,7 +100,7 @@ constexpr Kind kinds[] = {{"off", Noise::off}, {"exact", Noise::exact}, {"quiet"
 
 /// The reference has one thread. More numbers for the fastest instruction set: which thread takes which tile does not depend on it.
 std::vector<int> thread_numbers(Isa isa) {
-  if (isa == backend::choose_isa(Isa::best)) return {1, 2, 3, 7, 8, 64};
+  if (isa == backend::choose_isa(Isa::best)) return {1, 2, 7, 64};
   return {7};
 }
 

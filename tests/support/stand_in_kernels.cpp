@@ -3,7 +3,6 @@
 // The pipeline on plain floats, as nvcc compiles it: for the host, and once for all programs of tests, since it takes long.
 #include "backend/cuda/pixel.h"
 
-#include <cstring>
 #include <map>
 #include <vector>
 
@@ -16,8 +15,7 @@ namespace {
 /// What the lanes of a warp have told each other.
 struct Said {
   struct Vote {
-    const void* forms;
-    flow::Bounds within;
+    const void* forms;  ///< of one view, which the lanes look at through one rectangle
     std::uint32_t word;
   };
   std::map<int, pipeline::Rectangle<float>> rectangles;
@@ -33,15 +31,15 @@ struct HostWarp {
   mutable std::size_t next = 0;  ///< where the vote that this lane comes to is likely to be
 
   template <class Test>
-  [[nodiscard]] std::uint32_t vote(const void* forms, const flow::Bounds& within, const Test& test) const {
+  [[nodiscard]] std::uint32_t vote(const void* forms, const Test& test) const {
     for (std::size_t i = 0; i < said.votes.size(); ++i) {
       if (next >= said.votes.size()) next = 0;
       const Said::Vote& one = said.votes[next++];
-      if (one.forms == forms && std::memcmp(&one.within, &within, sizeof within) == 0) return one.word;
+      if (one.forms == forms) return one.word;
     }
     std::uint32_t word = 0;
     for (int lane = 0; lane < backend::gpu::warp_size; ++lane) word |= static_cast<std::uint32_t>(test(lane)) << lane;
-    said.votes.push_back({forms, within, word});
+    said.votes.push_back({forms, word});
     next = said.votes.size();
     return word;
   }

@@ -16,7 +16,7 @@ struct DeviceWarp {
 #if defined(__CUDA_ARCH__)
   /// Which of these forms can be met: a word of what each lane says of one.
   template <class Test>
-  TOFRAY_FN std::uint32_t vote(const void*, const flow::Bounds&, Test test) const {
+  TOFRAY_FN std::uint32_t vote(const void*, Test test) const {
     return __ballot_sync(~0u, test(lane));
   }
   TOFRAY_FN bool any(bool mask) const { return __ballot_sync(~0u, mask) != 0; }
@@ -32,7 +32,7 @@ struct DeviceWarp {
   TOFRAY_FN static int lowest_bit(std::uint32_t word) { return __ffs(static_cast<int>(word)) - 1; }
 #else
   template <class Test>
-  TOFRAY_FN std::uint32_t vote(const void*, const flow::Bounds&, Test) const {
+  TOFRAY_FN std::uint32_t vote(const void*, Test) const {
     return 0;
   }
   TOFRAY_FN bool any(bool) const { return false; }

@@ -58,7 +58,7 @@ struct WarpWalk {
 
  private:
   TOFRAY_FN std::uint32_t vote() const {
-    return warp.vote(forms + base, *within, [&](int lane) { return base + lane < count && can_meet(forms[base + lane], *within); });
+    return warp.vote(forms + base, [&](int lane) { return base + lane < count && can_meet(forms[base + lane], *within); });
   }
 };
 
