@@ -24,7 +24,7 @@ import equivalent
 from woven_tree import WovenTree, root, sample
 
 folders = "trace power raw depth camera scene pipeline num base simulator".split()
-programs = "base num camera scene depth power trace raw backend bytes simulator yaml files load results".split()
+programs = "base num camera scene depth power trace raw backend bytes simulator extremes threads yaml files load results".split()
 golden = re.compile(r"(^|/)KnownBytes\.")        # SameBytes does the same and more, and takes long: neither is a claim
 batches = (0.1, 1.0, 1e9)        # seconds of a test alone: fast ones first
 

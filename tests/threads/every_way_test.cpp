@@ -71,7 +71,11 @@ TEST(every_way, of_everything_switched_on) {
   Camera camera = with_everything(some_tiles(scene));
   camera.sensor.width = 97, camera.sensor.height = 61;
   camera.decoding.temporal_frames = 2;
-  expect_same_bytes(scene, camera, {}, two_frames);
+  for (const auto kind :
+       {ImageFilter::Kind::gaussian, ImageFilter::Kind::median, ImageFilter::Kind::bilateral, ImageFilter::Kind::adaptive}) {
+    camera.decoding.filter.kind = kind;
+    for (const Isa isa : {Isa::scalar, Isa::best}) expect_same_bytes(scene, camera, {.isa = isa}, two_frames);
+  }
 }
 
 TEST(every_way, of_light_that_bounces) {
