@@ -4,9 +4,9 @@
 """Runs what a document tells its reader to type, word for word and in its order, in one fresh folder. run_document.py --help
 
 Blocks: sh and zsh and fish run in that shell (where it is installed) and have to succeed; python is run by the one
-Python that ran the document's python before it; cpp and CMake's calls make one project, built and run at the end; yaml goes into the file that its first line's comment
-names, or into the one that <!-- test: into FILE --> before it names, and tofray check has to like that file once the next command runs;
-text is for people. <!-- test: prints TEXT --> before a shell or python block: what a sentence beside it says of its output. Code within
+Python that ran the document's python before it; cpp and CMake's calls make one project, built and run at the end; yaml goes into the
+file that its first line's comment names, or into the one that <!-- test: into FILE --> before it names, and tofray check has to like that
+file once the next command runs; text is for people. <!-- test: prints TEXT --> before a shell or python block: what a sentence beside it says of its output. Code within
 lines: what begins with a command's name is run; `key: value` has to be good YAML of a scene or a camera profile somewhere; options have
 to exist; all other names have to occur in the source. exceptions.py lists what is not run so, and why.
 """
