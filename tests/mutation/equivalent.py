@@ -29,5 +29,5 @@ def gone(places):
     there = set()
     for file in {place.split(" | ")[0] for place in places}:
         if (root / file).is_file():
-            there |= {m.place for m in mutants_of(file, (root / file).read_text())}
+            there |= {m.place.strip() for m in mutants_of(file, (root / file).read_text())}
     return [place for place in places if place not in there]

@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """All mutants of a source: small changes of its formulas that still compile, as edits that a switch can turn on (switch.h)."""
 import hashlib
+import re
 from dataclasses import dataclass, field
 
 from tokens import Source
@@ -15,6 +16,7 @@ left_out = {"sqrt", "abs", "exp"}
 keywords = {"return", "if", "else", "for", "while", "do", "switch", "case", "default", "break", "continue", "throw", "try", "catch", "const",
             "constexpr", "static", "auto", "using", "namespace", "template", "typename", "struct", "class", "enum", "new", "delete", "static_assert",
             "friend", "operator", "goto", "extern", "inline", "typedef", "public", "private", "co_return", "sizeof"}
+declared_arrays = re.compile(r"(?:const\s+|static\s+)*\w[\w:]*(?:<[\w:]*>)?\s+\w+(?:\[[^\[\]]*\])*(?:,\s*\w+(?:\[[^\[\]]*\])*)*")
 assignments = {"=", "+=", "-=", "*=", "/=", "|=", "&=", "^=", "<<=", ">>=", "%="}
 
 
@@ -65,7 +67,7 @@ class Finder:
         return self.found
 
     def add(self, kind, i, before, after, replace=(), wrap=()):
-        if kind != "constant" and self.in_constant(i) >= 0:
+        if kind != "constant" and self.in_constant(i) >= 0 or self.in_size(i):
             return   # computed by the compiler
         at = self.s.tokens[i].start
         text = self.s.line_text(at)
@@ -198,6 +200,19 @@ class Finder:
             j = self.s.partner[j] - 1 if self.s.text(j) in (")", "]", "}") else j - 1
         return -1
 
+    def in_size(self, i):
+        """Token i is, or stands within, the size of an array that is declared: `float a[2 * n], b[n];`."""
+        bracket = i if self.s.text(i) == "[" else self.s.inside[i]
+        while bracket >= 0:
+            first = bracket
+            while first > 0 and self.s.text(first - 1) not in (";", "{", "}", ")"):
+                first -= 1
+            before = self.s.source[self.s.tokens[first].start:self.s.tokens[bracket].start]
+            if self.s.text(bracket) == "[" and declared_arrays.fullmatch(before) and before.split()[0] not in keywords - {"const", "static"}:
+                return True
+            bracket = self.s.inside[bracket]
+        return False
+
     def in_table(self, i):
         """One of more than 24 values in braces, alone or in pairs."""
         bracket = self.s.inside[i]
@@ -232,7 +247,8 @@ class Finder:
             other = f"2 * {t.text}" if value else t.text.replace("0", "1", 1)
         else:
             other = f"{t.text} + 1"
-        edits = [(t.start, t.end, f"::tofray_mutation::number<@n>({t.text}, static_cast<decltype({t.text})>({other}))")]
+        name = "constant" if constant >= 0 else "number"
+        edits = [(t.start, t.end, f"::tofray_mutation::{name}<@n>({t.text}, static_cast<decltype({t.text})>({other}))")]
         if constant >= 0:
             c = self.s.tokens[constant]
             edits.append((c.start, c.end, "const"))

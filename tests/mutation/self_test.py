@@ -26,7 +26,8 @@ inline int gpu(int a) { return a - 1; }
 template <class T>
 T planted(T a, T b, const T* table, int i) {
   const T sum = a + b * table[i];
-  T out = 2;
+  T kept[2 * size], more[size];                   // sizes: of the compiler
+  T out = *kept = *more = 2;
   out += sum;
   if (a < b && i > 0) out = out - (i >= 1 ? std::max(a, b) : a);
   return -out;
@@ -52,7 +53,7 @@ class Mutants(unittest.TestCase):
     def test_stand_in_code_and_nowhere_else(self):
         lines = {m.text for m in mutants_of("f.cpp", program)}
         self.assertIn("const T sum = a + b * table[i];", lines)
-        for part in ("constexpr int size", "gpu", "text"):
+        for part in ("constexpr int size", "gpu", "text", "kept[2"):
             self.assertFalse([line for line in lines if part in line], part)
 
     def test_are_of_every_kind(self):
@@ -61,7 +62,7 @@ class Mutants(unittest.TestCase):
                               ("+=", "-="), ("if (c)", "if (!c)"), ("? a : b", "? b : a"), ("2", "2 + 1"), ("out += sum;", "")}, changes)
 
     def test_change_what_is_computed_when_they_are_on_and_nothing_when_off(self):
-        found = [m for m in mutants_of("f.cpp", program) if 11 <= m.line <= 15]
+        found = [m for m in mutants_of("f.cpp", program) if 11 <= m.line <= 16]
         numbered = list(enumerate(found, 1))
         plain, *changed = outputs(woven(program, numbered), [n for n, _ in numbered])
         self.assertEqual(outputs(program, [1])[0], plain)

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The tofray authors
 // SPDX-License-Identifier: Apache-2.0
 // Linked to every program of the woven copy. TOFRAY_MUTANT: the mutant that is on. TOFRAY_MUTANTS_SEEN: a file to which a program that ends
-// adds the numbers of all mutants that it reached.
+// adds the numbers of all mutants that it reached, with a minus for those that cannot be.
 #include "switch.h"
 
 #include <cstdio>
@@ -24,7 +24,7 @@ __attribute__((destructor(101))) void report() {
   std::FILE* file = path != nullptr ? std::fopen(path, "a") : nullptr;
   if (file == nullptr) return;
   for (int i = 1; i <= TOFRAY_MUTANTS; ++i) {
-    if (tofray_mutant_seen[i] != 0) std::fprintf(file, "%d\n", i);
+    if (tofray_mutant_seen[i] != 0) std::fprintf(file, "%d\n", (tofray_mutant_seen[i] & 1) != 0 ? i : -i);
   }
   std::fclose(file);
 }

@@ -7,7 +7,7 @@
 /// variable TOFRAY_MUTANT says which of them is switched on. One build holds hundreds of mutants.
 extern "C" {
 extern int tofray_mutant;                   ///< the one that is on; 0 for none
-extern unsigned char tofray_mutant_seen[];  ///< 1 for each whose place was reached
+extern unsigned char tofray_mutant_seen[];  ///< for each: bit 0 where its place was reached, bit 1 where it cannot be there (`text - text`)
 }
 
 namespace tofray_mutation {
@@ -18,8 +18,13 @@ namespace tofray_mutation {
 template <int N>
 TOFRAY_MUTATION_FN bool on() {
   if (__builtin_is_constant_evaluated()) return false;
-  tofray_mutant_seen[N] = 1;
+  tofray_mutant_seen[N] |= 1;
   return tofray_mutant == N;
+}
+/// There is no such mutant of these types.
+template <int N>
+TOFRAY_MUTATION_FN void none() {
+  if (!__builtin_is_constant_evaluated()) tofray_mutant_seen[N] |= 2;
 }
 
 template <class A>
@@ -148,6 +153,8 @@ struct BitOr {
     using R = decltype(static_cast<A&&>(l.a) op static_cast<B&&>(b));                                                         \
     if constexpr (requires { static_cast<R>(Other::of(l.a, b)); }) {                                                          \
       if (on<N>()) return static_cast<R>(Other::of(l.a, b));                                                                  \
+    } else {                                                                                                                  \
+      none<N>();                                                                                                              \
     }                                                                                                                         \
     return static_cast<A&&>(l.a) op static_cast<B&&>(b);                                                                      \
   }
@@ -170,6 +177,12 @@ TOFRAY_MUTATION_FN T number(T original, T other) {
   return on<N>() ? other : original;
 }
 
+/// That of a constant, which is none of the compiler's any more.
+template <int N, class T>
+__attribute__((always_inline)) inline T constant(T original, T other) {
+  return on<N>() ? other : original;
+}
+
 /// −a, and a in its place.
 template <int N, class A>
 TOFRAY_MUTATION_FN auto negative(A a) -> decltype(-a) {
@@ -183,6 +196,7 @@ TOFRAY_MUTATION_FN decltype(auto) added(A&& a) {
     if (on<N>()) return static_cast<Plain<A>>(-a);
     return static_cast<Plain<A>>(a);
   } else {
+    none<N>();
     return static_cast<A&&>(a);
   }
 }
@@ -201,6 +215,7 @@ TOFRAY_MUTATION_FN decltype(auto) index(A&& a) {
                 }) {
     return static_cast<Plain<A>>(on<N>() ? a + 1 : a);
   } else {
+    none<N>();
     return static_cast<A&&>(a);
   }
 }
@@ -221,6 +236,8 @@ TOFRAY_MUTATION_FN bool either(A&& a, B&& b) {
   [](const auto&... v) __attribute__((always_inline)) {                               \
     if constexpr (requires { static_cast<decltype(f(v...))>(g(v...)); }) {            \
       if (::tofray_mutation::on<N>()) return static_cast<decltype(f(v...))>(g(v...)); \
+    } else {                                                                          \
+      ::tofray_mutation::none<N>();                                                   \
     }                                                                                 \
     return f(v...);                                                                   \
   }
