@@ -38,7 +38,9 @@ std::uint16_t version_of(std::uint16_t method, bool large) { return large ? vers
 const Bytef* bytes_of(std::string_view text) { return reinterpret_cast<const Bytef*>(text.data()); }
 
 std::uint32_t crc_of(std::string_view head, std::string_view body) {
-  return static_cast<std::uint32_t>(crc32_z(crc32_z(0, bytes_of(head), head.size()), bytes_of(body), body.size()));
+  auto crc = crc32_z(0, bytes_of(head), head.size());
+  if (!body.empty()) crc = crc32_z(crc, bytes_of(body), body.size());  // of no bytes nowhere zlib begins anew
+  return static_cast<std::uint32_t>(crc);
 }
 
 /// zlib's stream, ended whatever happens.

@@ -91,6 +91,19 @@ TEST(npy, text_goes_through_utf32) {
   EXPECT_EQ((NpyArray{{'U', 8}, {}, utf32_of("\xFF\xC0")}.text()), "\xEF\xBF\xBD\xEF\xBF\xBD");
 }
 
+TEST(npy, text_has_each_character_s_shortest_form) {
+  // the first and the last of each length
+  const std::vector<std::uint32_t> codes = {0x1, 0x7F, 0x80, 0x7FF, 0x800, 0xD7FF, 0xE000, 0xFFFF, 0x10000, 0x10FFFF};
+  const std::string text = "\x01\x7F\xC2\x80\xDF\xBF\xE0\xA0\x80\xED\x9F\xBF\xEE\x80\x80\xEF\xBF\xBF\xF0\x90\x80\x80\xF4\x8F\xBF\xBF";
+  EXPECT_EQ((NpyArray{{'U', static_cast<int>(4 * codes.size())}, {}, bytes_of(codes)}.text()), text);
+  EXPECT_EQ(utf32_of(text), bytes_of(codes));
+  for (const char* bad : {"\xF5\x80\x80\x80", "\xF8\x80\x80\x80", "\xC1\x80\x80\x80", "\xE0\x9F\x80\x80", "\xF0\x8F\x80\x80"})
+    EXPECT_EQ(utf32_of(bad), bytes_of(std::vector<std::uint32_t>(4, 0xFFFD))) << "a byte at a time";
+  // beyond the last, and halves of a pair of UTF-16
+  EXPECT_EQ((NpyArray{{'U', 12}, {}, bytes_of(std::vector<std::uint32_t>{0x110000, 0xD800, 0xDFFF})}.text()),
+            "\xEF\xBF\xBD\xEF\xBF\xBD\xEF\xBF\xBD");
+}
+
 TEST(npy, refuses_what_it_cannot_hold) {
   const auto header_of = [](const std::string& dictionary) {
     std::string file("\x93NUMPY\x01\x00", 8);
@@ -105,10 +118,16 @@ TEST(npy, refuses_what_it_cannot_hold) {
   EXPECT_NE(message(header_of("{'descr': '<f4', 'fortran_order': False, 'shape': (3,), }") + "123").find("cut short"), std::string::npos);
   EXPECT_NE(message(header_of("{'descr': '<f4', 'fortran_order': False, 'shape': (1,), }") + "12345").find("not its own"),
             std::string::npos);
+  for (const char* dictionary :
+       {"'descr': '<f4', 'fortran_order': False, 'shape': (3,), }", "{'descr' '<f4', 'fortran_order': False, 'shape': (3,), }",
+        "{'descr': '<f4' 'fortran_order': False, 'shape': (3,), }", "{'descr': '<f4', 'fortran_order': False, 'shape': 3,), }",
+        "{'descr': '<f4', 'fortran_order': False, 'shape': (3 4), }", "{'descr': '<f4', 'fortran_order': False, 'shape': (3,)"})
+    EXPECT_NE(message(header_of(dictionary)).find("the array's header is malformed"), std::string::npos) << message(header_of(dictionary));
   EXPECT_NE(message("PK\x03\x04 and so on").find("not a .npy array"), std::string::npos);
   EXPECT_NE(message(std::string("\x93NUMPY\x09\x00 0 0 0 0", 16)).find("version 9"), std::string::npos);
   // declared sizes that overflow 64 bits, or only memory
-  for (const char* shape : {"(4294967296, 4294967296, 4)", "(999999999999,)", "(100000000000000000,100000000000000000)"}) {
+  for (const char* shape :
+       {"(4294967296, 4294967296, 4)", "(999999999999,)", "(100000000000000000,100000000000000000)", "(18446744073709551617,)"}) {
     const Error error = error_of(
         [&] { (void)parse_npy(header_of(std::string("{'descr': '<f4', 'fortran_order': False, 'shape': ") + shape + ", }"), "x.npy"); });
     EXPECT_EQ(error.kind(), ErrorKind::limit) << shape;
@@ -116,6 +135,38 @@ TEST(npy, refuses_what_it_cannot_hold) {
   EXPECT_EQ(
       error_of([&] { (void)parse_npy(header_of("{'descr': '<f4', 'fortran_order': False, 'shape': (1,1,1,1,1,1,1,1,1), }"), "x"); }).kind(),
       ErrorKind::limit);
+}
+
+TEST(npz, with_an_array_of_no_values_is_whole) {
+  const std::vector<float> none;
+  for (const Packing packing : {Packing::stored, Packing::deflated}) {
+    const std::vector<NamedArray> back =
+        parse_npz(npz_bytes({npy_view("none", {0, 3}, none), npy_view("more", {0}, none)}, packing), "x.npz");
+    ASSERT_EQ(back.size(), 2U);
+    EXPECT_EQ(back[0].array.shape, (NpyShape{0, 3}));
+    EXPECT_TRUE(back[0].array.bytes.empty());
+  }
+}
+
+TEST(npz, with_two_arrays_of_one_name_is_refused) {
+  const std::vector<std::uint8_t> data = {7};
+  const std::string file = npz_bytes({npy_view("a", {1}, data), npy_view("b", {1}, data), npy_view("a", {1}, data)});
+  EXPECT_EQ(error_of([&] { (void)parse_npz(file, "x.npz"); }).kind(), ErrorKind::bad_input);
+}
+
+TEST(npz, has_as_many_arrays_as_the_limit_and_no_more) {
+  const std::vector<std::uint8_t> data = {7};
+  std::vector<std::string> names;
+  for (int i = 0; i < 4097; ++i) names.push_back("a" + std::to_string(i));
+  const auto archive = [&](std::size_t count) {
+    std::vector<NpyView> views;
+    for (std::size_t i = 0; i < count; ++i) views.push_back(npy_view(names[i].c_str(), {1}, data));
+    return npz_bytes(views);
+  };
+  EXPECT_EQ(parse_npz(archive(4096), "full.npz").size(), 4096U);
+  const Error error = error_of([&] { (void)parse_npz(archive(4097), "over.npz"); });
+  EXPECT_EQ(error.kind(), ErrorKind::limit);
+  EXPECT_NE(std::string(error.what()).find("the zip has 4097 entries, more than 4096"), std::string::npos);
 }
 
 TEST(npz, has_the_same_bytes_each_time_and_in_every_time_zone) {
