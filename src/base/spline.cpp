@@ -75,19 +75,12 @@ std::vector<double> not_a_knot_slopes(const std::vector<double>& h, const std::v
   return slope;
 }
 
-/// Slope at every knot of the periodic spline, n >= 3 knots: the C² rows on a ring.
+/// Slope at every knot of the periodic spline, n >= 2 pieces: the C² rows on a ring. Of two pieces, both neighbours of a knot are the same one.
 ///
 /// The ring's two corner elements are taken out as a rank-one change u·vᵀ (Sherman–Morrison).
 std::vector<double> periodic_slopes(const std::vector<double>& h, const std::vector<double>& g) {
   const std::size_t n = h.size();
   std::vector<double> slope(n + 1);
-  if (n == 2) {
-    // Both neighbours of a knot are the same one: the upper and the lower element of a row fall together.
-    const double sum = h[0] + h[1];
-    const double right = 3 * (h[0] * g[1] + h[1] * g[0]) / sum;
-    slope = {right / 3, right / 3, right / 3};
-    return slope;
-  }
   std::vector<double> lower(n), middle(n), upper(n), solution(n), change(n);
   for (std::size_t i = 0; i < n; ++i) {
     const std::size_t before = i == 0 ? n - 1 : i - 1;

@@ -86,7 +86,8 @@ class DictionaryReader {
     skip_space();
     std::size_t value = 0, digits = 0;
     while (!rest_.empty() && rest_[0] >= '0' && rest_[0] <= '9') {
-      if (++digits > 18) refuse(where_, "the array's header declares an extent beyond any memory");
+      if (++digits > 18)
+        throw Error(ErrorKind::limit, fmt::format("{}: error: the array's header declares an extent beyond any memory", where_));
       value = value * 10 + static_cast<std::size_t>(rest_[0] - '0');
       rest_.remove_prefix(1);
     }

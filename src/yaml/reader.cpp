@@ -335,7 +335,6 @@ class Reader {
                       "expected one of them; start a new entry with \"-\"");
         found = static_cast<int>(name - form.names.begin());
         value.alternative = found;
-        value.text = key.text;
         value.items.clear();
         value.items.push_back(read(form.forms[static_cast<std::size_t>(found)], node.items[i], key.text));
         continue;

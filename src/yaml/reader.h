@@ -21,7 +21,7 @@ struct Value {
   bool good = true;                     ///< no fault was found in it or below it
   double number = 0;                    ///< number; integer, too (exact up to 2^53)
   bool flag = false;                    ///< boolean
-  std::string text;                     ///< text, choice; the tag of a tagged map; the name of a variant
+  std::string text;                     ///< text, choice; the tag of a tagged map
   int alternative = 0;                  ///< tagged, variant: which one
   int either = 0;                       ///< which form of Form::Kind::either
   std::vector<std::string> names;       ///< map, dictionary: keys of `items`; list: empty

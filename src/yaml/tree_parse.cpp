@@ -142,7 +142,6 @@ class Builder : public YAML::EventHandler {
   void open(const YAML::Mark& mark, YAML::anchor_t anchor, Node::Kind kind) {
     too_deep(mark, static_cast<int>(stack_.size()) + 1);
     count(mark, 1, 0);
-    refuse_as_key(mark, kind);
     Node node;
     node.kind = kind;
     node.place = place(mark);
@@ -166,13 +165,6 @@ class Builder : public YAML::EventHandler {
     attach(mark, std::move(node));
   }
 
-  void refuse_as_key(const YAML::Mark& mark, Node::Kind kind) const {
-    if (stack_.empty() || stack_.back().node.kind != Node::Kind::map || stack_.back().key_pending) return;
-    if (kind != Node::Kind::scalar)
-      fail(place(mark), "a key must be a plain word",
-           "got a list, a map or nothing as the key, expected e.g. \"name: value\"; or a closing bracket is missing below");
-  }
-
   void attach(const YAML::Mark& mark, Node node) {
     if (stack_.empty()) {
       root_ = std::move(node);
@@ -181,7 +173,9 @@ class Builder : public YAML::EventHandler {
     Open& parent = stack_.back();
     too_deep(mark, static_cast<int>(stack_.size()) + node.height);
     if (parent.node.kind == Node::Kind::map && !parent.key_pending) {
-      refuse_as_key(mark, node.kind);
+      if (node.kind != Node::Kind::scalar)
+        fail(place(mark), "a key must be a plain word",
+             "got a list, a map or nothing as the key, expected e.g. \"name: value\"; or a closing bracket is missing below");
       if (node.text == "<<" && !node.quoted)
         fail(place(mark), "merge keys (\"<<\") are not used here", "write the keys out, or give the whole value by an alias: key: *name");
       if (!parent.seen.insert(node.text).second) duplicate(mark, parent.node, node.text);
