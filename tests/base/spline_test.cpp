@@ -156,7 +156,12 @@ TEST(spline_periodic, closes_smoothly) {
   for (const double x : {-7.3, .1, 2.99}) EXPECT_NEAR(spline.evaluate(x), spline.evaluate(x + 9), 1e-12);
 }
 
-TEST(spline_periodic, works_with_three_and_two_knots) {
+TEST(spline_periodic, works_with_four_three_and_two_knots) {
+  expect_values(Spline({0, 1, 3, 4.5}, {1, 2, -1, 1}, Spline::Kind::periodic), {{.5, 1.7716346153846154},
+                                                                                {1.3, 1.7590673076923073},
+                                                                                {2.2, .07569230769230734},
+                                                                                {3.3, -.9350769230769234},
+                                                                                {4.2, .4227692307692312}});
   expect_values(Spline({0, 1, 3}, {1, 2, 1}, Spline::Kind::periodic), {{.5, 1.5}, {1.3, 2.0285}, {2.2, 1.304}, {2.9, .9645}});
   expect_values(Spline({0, 1}, {4, 4}, Spline::Kind::periodic), {{-3.3, 4.0}, {.5, 4.0}});
 }

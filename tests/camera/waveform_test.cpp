@@ -247,5 +247,7 @@ TEST(correlation_harmonics, refuse_what_makes_no_sense) {
   EXPECT_NE(message(measured, 1e6).find("at least 3 samples"), std::string::npos);
   measured.correlation = {1, 0, nan, 0};
   EXPECT_NE(message(measured, 1e6).find("sample 2"), std::string::npos);
+  measured.correlation = {nan, 0, 1, 0};
+  EXPECT_NE(message(measured, 1e6).find("sample 0"), std::string::npos);
   EXPECT_NE(refusal([] { correlation_harmonics(rectangular(0.5, 4), Pixel{}, 1e6); }).find("contrast has no samples"), std::string::npos);
 }

@@ -69,16 +69,29 @@ TEST_F(RaplTree, packages_are_summed_and_each_wraps_around_by_its_own_range) {
   EXPECT_NEAR(meter.joules(), 3.9, 1e-12);
 }
 
+TEST_F(RaplTree, packages_are_named_in_their_order) {
+  for (const bool upward : {true, false}) {  // a file system may list them by when they came
+    SetUp();
+    for (int i = 0; i < 5; ++i) {
+      const std::string number = std::to_string(upward ? i : 4 - i);
+      zone("intel-rapl:" + number, "package-" + number, "0");
+    }
+    EXPECT_EQ(Rapl(root_.native()).what(), "package-0, package-1, package-2, package-3, package-4");
+    TearDown();
+  }
+}
+
 TEST_F(RaplTree, parts_of_a_package_and_the_whole_board_are_not_added) {
   zone("intel-rapl:0", "package-0", "0");
   zone("intel-rapl:0:0", "core", "0");
   zone("intel-rapl:1", "psys", "0");
   zone("intel-rapl-mmio:0", "package-0", "0");
+  zone("intel-rapl:", "package-1", "0");
   std::filesystem::create_directories(root_ / "intel-rapl");
   std::filesystem::create_directories(root_ / "dtpm");
   Rapl meter(root_.native());
   meter.start();
-  for (const char* folder : {"intel-rapl:0", "intel-rapl:0:0", "intel-rapl:1", "intel-rapl-mmio:0"}) set(folder, "1000000");
+  for (const char* folder : {"intel-rapl:0", "intel-rapl:0:0", "intel-rapl:1", "intel-rapl-mmio:0", "intel-rapl:"}) set(folder, "1000000");
   EXPECT_DOUBLE_EQ(meter.joules(), 1);
 }
 
@@ -97,6 +110,7 @@ TEST_F(RaplTree, says_why_nothing_can_be_read) {
   set("intel-rapl:0", "12");
   std::filesystem::remove(root_ / "intel-rapl:0" / "max_energy_range_uj");
   EXPECT_NE(Rapl(root_.native()).reason().find("max_energy_range_uj: No such file"), std::string::npos);
+  EXPECT_EQ(Rapl(root_.native()).reason().find("only root"), std::string::npos);
 }
 
 TEST_F(RaplTree, a_counter_that_only_root_may_read_is_named) {

@@ -207,6 +207,26 @@ TEST(animation, leaves_out_channels_that_move_nothing_it_knows) {
   EXPECT_TRUE(model_of(file).animations[0].channels.empty());
 }
 
+TEST(animation, needs_times_that_rise_of_each_channel) {
+  // Three lists of times in a row; any of them may be the wrong one, whichever is read first.
+  for (const std::size_t wrong : {0U, 1U, 2U})
+    for (const std::size_t first : {0U, 1U, 2U}) {
+      File file = triangle_file();
+      int lists[3];
+      for (std::size_t i = 0; i < 3; ++i)
+        lists[i] = file.floats(i == wrong ? std::vector<float>{1, 2, 2} : std::vector<float>{1, 2, 3}, "SCALAR");
+      const int vectors = file.floats({1, 0, 0, 1, 0, 0, 2, 0, 0}, "VEC3"),
+                turns = file.floats({0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 1, 0}, "VEC4");
+      Document samplers = Document::array(), channels = Document::array();
+      for (std::size_t k = 0; k < 3; ++k) {
+        samplers.push_back({{"input", lists[(first + k) % 3]}, {"output", k == 2 ? turns : vectors}});
+        channels.push_back({{"sampler", k}, {"target", {{"node", 0}, {"path", k == 0 ? "translation" : k == 1 ? "scale" : "rotation"}}}});
+      }
+      file.add("animations", {{"samplers", samplers}, {"channels", channels}});
+      expect_fault(file.glb(), "has keyframes whose times do not rise\n  got 2 behind 2 as number 2");
+    }
+}
+
 TEST(animation, of_too_many_keyframes_is_refused) {
   File file = triangle_file();
   const int view = file.view(std::string(4 * 10'000'001ULL, '\0'));

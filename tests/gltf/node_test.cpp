@@ -31,6 +31,28 @@ TEST(node, scales_then_turns_then_moves) {
   expect_near(vertices[2], {7, 20, 30}, 1e-6);
 }
 
+// M = T·R·S, with the matrix of a quaternion as it is printed.
+TEST(node, has_the_matrix_of_any_rotation_and_scale) {
+  const double x = 0.1, y = -0.5, z = 0.7, w = 0.5;  // of unit length
+  const double rotation[3][3] = {{1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)},
+                                 {2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)},
+                                 {2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)}};
+  const double scale[3] = {2, 3, 5}, translation[3] = {10, 20, 30};
+  File file;
+  const float corners[3][3] = {{1, 2, 3}, {-2, 1, 4}, {3, -1, 0.5}};
+  file.mesh({{"POSITION", file.floats({1, 2, 3, -2, 1, 4, 3, -1, 0.5}, "VEC3")}});
+  file.json["nodes"] = {{{"mesh", 0}, {"translation", {10, 20, 30}}, {"rotation", {x, y, z, w}}, {"scale", {2, 3, 5}}}};
+  const Vertices vertices = vertices_of(file);
+  for (std::size_t i = 0; i < 3; ++i) {
+    Vec3 expected{};
+    for (std::size_t row = 0; row < 3; ++row) {
+      expected[row] = translation[row];
+      for (std::size_t k = 0; k < 3; ++k) expected[row] += rotation[row][k] * scale[k] * static_cast<double>(corners[i][k]);
+    }
+    expect_near(vertices[i], expected, 1e-5);
+  }
+}
+
 TEST(node, turns_by_the_right_hand_rule) {
   const auto turned = [](const Document& rotation) { return vertices_of(with_nodes({{{"mesh", 0}, {"rotation", rotation}}})); };
   expect_near(turned({half_root, 0, 0, half_root})[2], {0, 0, 1}, 1e-7);   // about x: y to z
@@ -90,6 +112,26 @@ TEST(node, turns_normals_so_that_they_stay_upright_on_the_surface) {
   expect_near(parts_at_rest(model_of(file))[0].normals[0], {0, half_root, half_root}, 1e-6);
   file.json["nodes"] = {{{"mesh", 0}, {"scale", {0, 0, 0}}}};
   EXPECT_EQ(parts_at_rest(model_of(file))[0].normals[0], (std::array<float, 3>{0, 0, 0}));
+}
+
+TEST(node, keeps_normals_upright_by_any_matrix) {
+  // Of a triangle that lies in no axis's plane, by matrices that scale, turn and shear at once: upright on what becomes of its edges.
+  const std::vector<float> corners = {1, 0, 0, 0, 2, 0, 0, 0, 3};
+  const float nx = 6.F / 7, ny = 3.F / 7, nz = 2.F / 7;
+  File file;
+  file.mesh({{"POSITION", file.floats(corners, "VEC3")}, {"NORMAL", file.floats({nx, ny, nz, nx, ny, nz, nx, ny, nz}, "VEC3")}});
+  for (const Document& matrix :
+       {Document({1, 2, 3, 0, -4, 5, 6, 0, 7, -8, 10, 0, 0, 0, 0, 1}), Document({0, 3, 0.5, 0, 0.25, 0, -2, 0, 1, 1, 0, 0, 3, 2, 1, 1})}) {
+    file.json["nodes"] = {{{"mesh", 0}, {"matrix", matrix}}};
+    const Part part = parts_at_rest(model_of(file))[0];
+    const auto edge = [&](std::size_t i) {
+      const auto &to = part.mesh.vertices[i], &from = part.mesh.vertices[0];
+      return tofray::Vec3{to[0] - from[0], to[1] - from[1], to[2] - from[2]};
+    };
+    const tofray::Vec3 expected = base::normalized(base::cross(edge(1), edge(2)));
+    const double sign = part.mesh.triangles[0] == std::array<std::int32_t, 3>{0, 1, 2} ? 1 : -1;  // turned round where the matrix mirrors
+    expect_near(part.normals[0], {sign * expected[0], sign * expected[1], sign * expected[2]}, 1e-6);
+  }
 }
 
 TEST(node, may_share_its_mesh_with_others) {

@@ -91,6 +91,19 @@ TEST(skin, that_mirrors_turns_triangles_round) {
   EXPECT_EQ(arm.part().mesh.triangles, (Triangles{{0, 2, 1}, {0, 2, 3}}));
 }
 
+TEST(skin, counts_all_four_weights_of_a_vertex) {
+  Arm arm;
+  Document& attributes = arm.file.json["meshes"][0]["primitives"][0]["attributes"];
+  attributes["JOINTS_0"] = arm.file.accessor<std::uint8_t>({0, 0, 0, 0, 0, 1, 0, 1, 0, 1, 0, 1, 1, 1, 0, 1}, "VEC4");
+  attributes["WEIGHTS_0"] = arm.file.floats({1, 0, 0, 0, 0.5F, 0.125F, 0.25F, 0.125F, 0, 0, 0.25F, 0.75F, 0, 0.5F, 0.25F, 0.25F}, "VEC4");
+  arm.file.json["nodes"][2]["translation"] = {1, 4, 0};  // the second joint moves up by 4
+  const Vertices rest = Arm().part().mesh.vertices, vertices = arm.part().mesh.vertices;
+  const double shares[] = {0, 0.25, 0.75, 0.75};
+  for (std::size_t i = 0; i < 4; ++i)
+    expect_near(vertices[i],
+                {static_cast<double>(rest[i][0]), static_cast<double>(rest[i][1]) + 4 * shares[i], static_cast<double>(rest[i][2])}, 1e-6);
+}
+
 TEST(skin, scales_weights_that_do_not_add_up_to_1) {
   Arm arm;
   const auto weights = [&](const std::vector<float>& all) {
@@ -104,6 +117,7 @@ TEST(skin, scales_weights_that_do_not_add_up_to_1) {
   EXPECT_TRUE(has_notice(model, "weights of vertices that do not add up to 1 are scaled"));
   weights({1, 0, 0, 0, 0, 0, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0});
   EXPECT_TRUE(has_notice(model_of(arm.file), "vertices without weights hang on their first joint"));
+  EXPECT_FALSE(has_notice(model_of(arm.file), "weights of vertices that do not add up to 1 are scaled"));
   expect_near(arm.part().mesh.vertices[1], {2, 4, 0}, 1e-6);
   weights({1, 0, 0, 0, 1, 0, 0, 0, 1, -0.5F, 0, 0, 0, 1, 0, 0});
   expect_fault(arm.file.glb(), "meshes[0].primitives[0].attributes.WEIGHTS_0 is negative\n  got -0.5 at vertex 2");

@@ -101,6 +101,11 @@ TEST(settings, change_any_key_and_names_them_where_they_are_wrong) {
   EXPECT_EQ(with({{"illumination.0.power", "400 mW"}}).illumination[0].power_w, 0.4);
   EXPECT_EQ(with({{"mode", "MODE_5_45FPS_500"}}).mode.name, "MODE_5_45FPS_500");
   EXPECT_EQ(with({{"sensor.pixel_pitch", "{value: 10 um, assumed: a test}"}}).sensor.pixel_pitch_m, 10e-6);
+  for (const char* word : {"source", "assumed", "note"})  // words, wherever they stand
+    for (const std::string where : {"", "sensor.", "illumination.0.pattern.", "modes."})
+      EXPECT_TRUE(has(refusal({{where + word, "[1, 2]"}}), "expected a text")) << where << word << refusal({{where + word, "[1, 2]"}});
+  for (const char* index : {"0x", "1", "-0", "0 ", ""})
+    EXPECT_TRUE(has(refusal({{std::string("illumination.") + index + ".power", "1 W"}}), "--set illumination.")) << index;
   const Camera cone = with({{"illumination.0.pattern.kind", "cone"}, {"illumination.0.pattern.half_angle", "30 deg"}});
   EXPECT_EQ(cone.illumination[0].pattern.kind, Pattern::Kind::cone);
   const Camera lobe = with({{"illumination.0.pattern", "{kind: cosine_lobe, exponent: 3}"}});

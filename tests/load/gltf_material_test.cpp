@@ -199,6 +199,14 @@ TEST_F(gltf_material, takes_normals_from_texel_to_texel) {
                       "triangles than the first picture"});
 }
 
+// sRGB 102 is 0.13287 linear, 51 is 0.033105: magenta, and a green.
+TEST_F(gltf_material, of_a_coloured_picture_has_its_luminance) {
+  const Material got = of(pbr({{"baseColorTexture", {{"index", 1}}}, {"metallicFactor", 0}}));
+  ASSERT_NE(got.map, nullptr);
+  EXPECT_NEAR(got.diffuse * static_cast<double>(got.map->values.at(0)), 0.2126 + 0.0722, 1e-5);
+  EXPECT_NEAR(got.diffuse * static_cast<double>(got.map->values.at(1)), 0.7152 * 0.13287 + 0.0722 * 0.033105, 1e-5);
+}
+
 TEST_F(gltf_material, of_metal_with_a_picture_reflects_its_mean) {
   const Doc texture = {{"index", 0}};
   const Material metal = of(pbr({{"baseColorTexture", texture}, {"roughnessFactor", 0.5}}));
@@ -252,6 +260,11 @@ TEST_F(gltf_material, takes_colours_of_vertices) {
   save(one);
   EXPECT_NEAR(scene().materials.at(0).diffuse, 0.5 * 0.2 * green, 1e-8);  // 51 of 255 as a float
   EXPECT_EQ(mesh(scene()).notices, Sentences{});
+  // Floats beyond 0 to 1 are held there.
+  one.json["meshes"][0]["primitives"][0]["attributes"]["COLOR_0"] =
+      one.floats({-1, 1.5F, 0, -1, 1.5F, 0, -1, 1.5F, 0, -1, 1.5F, 0, -1, 1.5F, 0, -1, 1.5F, 0}, "VEC3");
+  save(one);
+  EXPECT_NEAR(scene().materials.at(0).diffuse, 0.5 * green, 1e-12);
   Doc known = half;
   known["extras"] = {{"nir_reflectivity", 0.6}};
   save(two_coloured(known));

@@ -127,6 +127,8 @@ TEST_F(mesh_files, lose_triangles_that_are_nowhere) {
   for (const auto& v : one.triangles->vertices)
     for (const float x : v) EXPECT_TRUE(std::isfinite(x) && std::abs(x) <= 1e5f);
   EXPECT_TRUE(tells(refusal("file: corner.obj, scale: 1e9"), "no triangle of")) << refusal("file: corner.obj, scale: 1e9");
+  file("in/far.obj", "v 100000 0 0\nv 0 -100000 0\nv 0 0 100000\nv 100001 0 0\nf 1 2 3\nf 4 2 3\n");  // the world's end, and a metre beyond
+  EXPECT_EQ(mesh("file: far.obj").left_out, 1);
 }
 
 // Closed: each edge is that of two triangles, once each way. Radii as their header says.

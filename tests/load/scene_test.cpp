@@ -69,6 +69,9 @@ TEST(scene, keys_beside_a_shape_s_name_are_one_fault_that_says_how_to_indent) {
   EXPECT_TRUE(has(text, "\"point\" and \"reflectivity\" stand as far to the left as \"plane:\"")) << text;
   EXPECT_TRUE(has(text, "indent them by two spaces more")) << text;
   EXPECT_EQ(text.find("error:"), text.rfind("error:"));
+  // What is none of the shape's is not named among them.
+  const std::string other = refusal("objects:\n  - plane:\n    point: [0, 0, 2]\n    radius: 3\n");
+  EXPECT_TRUE(has(other, "\n  \"point\" stands as far to the left as \"plane:\"")) << other;
   // One key that went astray is named with the shape that it belongs to.
   const std::string one = refusal("objects:\n  - plane: {point: [0, 0, 2]}\n    reflectivity: 0.5\n");
   EXPECT_TRUE(has(one, "as in \"plane: {…, reflectivity: …}\"")) << one;
@@ -271,6 +274,8 @@ TEST(scene, reports_all_faults_at_once_in_order) {
 TEST(scene, refuses_what_is_degenerate) {
   const std::pair<const char*, const char*> cases[] = {
       {"plane: {point: [0,0,1], normal: [0,0,0], reflectivity: 0.5}", "normal has no length"},
+      {"plane: {point: [0,0,1], normal: [1e-13,-2e-13,3e-13], reflectivity: 0.5}",
+       "normal has no length\n  got [1e-13, -2e-13, 3e-13], expected a direction"},
       {"plane: {point: [0,0,1], normal: [0,0,1e-9], reflectivity: 0.5}", "normal has no length"},
       {"sphere: {center: [0,0,1], radius: 0, reflectivity: 0.5}", "radius is out of range"},
       {"box: {min: [0,0,1], max: [1,0,2], reflectivity: 0.5}", "min is not below its max in y"},

@@ -190,6 +190,33 @@ TEST(checks_in_code, keep_every_number_within_the_range_of_its_row) {
   EXPECT_GE(cases, 100);
 }
 
+TEST(checks_in_code, name_a_member_as_code_does_and_its_element_alone_where_one_is_wrong) {
+  const auto said = [](const auto& record) {
+    try {
+      model::check_in_code(record);
+    } catch (const Error& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  Scene scene = full_scene();
+  scene.objects[2].shape = Plane{{0, 0, 1}, {1e-13, 0, -2e-13}};
+  EXPECT_EQ(said(scene), "error: objects[2].shape.normal has no length\n  got [1e-13, 0, -2e-13], expected a direction such as [0, 0, 1]");
+  scene = full_scene(), scene.objects[1].position[2] = 2e5;
+  EXPECT_EQ(said(scene), "error: objects[1].position[2] is out of range\n  got 200000, expected -100000 to 100000");
+  Camera camera = full_camera();
+  camera.lens.vignetting_table.x[1] = 0.1;
+  EXPECT_EQ(said(camera), "error: lens.vignetting_table.x[1]: angle does not ascend\n  got 0.1 after 0.1");
+  camera = full_camera(), camera.illumination[0].pattern.samples[4] = -1;
+  EXPECT_EQ(said(camera), "error: illumination[0].pattern.samples[4] is out of range\n  got -1, expected 0 to 1e+12");
+  camera = full_camera(), camera.illumination[0].pattern.kind = static_cast<Pattern::Kind>(99);
+  EXPECT_EQ(
+      said(camera),
+      "error: illumination[0].pattern.kind is none of its values\n  got 99, expected cone, lambertian, cosine_lobe, flat_top or table");
+  camera = full_camera(), camera.mode.sequence.clear();
+  EXPECT_EQ(said(camera), "error: mode.sequence has too few elements\n  got 0, expected at least 1");
+}
+
 TEST(reference_page, is_what_the_tables_say) {
   std::stringstream committed;
   committed << std::ifstream(TOFRAY_SOURCE_DIR "/docs/reference/keys.md").rdbuf();

@@ -164,6 +164,7 @@ TEST(power, is_that_of_the_formula_within_the_rounding_of_its_exponent) {
 TEST(power, knows_its_ends) {
   EXPECT_EQ(num::power(0.0f, 0.0f), 1.0f);
   EXPECT_EQ(num::power(0.0f, 3.0f), 0.0f);
+  EXPECT_EQ(num::power(0.0f, 0.01f), 0.0f);
   EXPECT_EQ(num::power(0.5f, 0.0f), 1.0f);
   EXPECT_EQ(num::power(1.0f, 250.0f), 1.0f);
   EXPECT_NEAR(num::power(0.5f, 10.0f), 0x1p-10f, 1e-9f);

@@ -65,6 +65,30 @@ TEST(chart, equal_ratios_are_equally_far_apart_on_a_log_axis) {
   EXPECT_NEAR(points[1].y - points[2].y, step, 0.02);  // two decimals in the file
   EXPECT_NEAR(points[2].y - points[3].y, step, 0.02);
   EXPECT_NEAR(points[1].x - points[0].x, points[3].x - points[2].x, 0.02);
+  EXPECT_GT(points[1].x - points[0].x, 50);  // to the right is more
+  // from edge to edge, below which the ticks are written
+  const std::string svg = chart_svg(sample(true));
+  const auto x_of_text = [&](const std::string& text) {
+    const std::size_t end = svg.find(">" + text + "</text>"), begin = svg.rfind("<text", end);
+    return std::stod(svg.substr(svg.find("x=\"", begin) + 3));
+  };
+  EXPECT_NEAR(points[0].x, x_of_text("32"), 0.02);
+  EXPECT_NEAR(points[3].x, x_of_text("128"), 0.02);
+  EXPECT_GT(points[3].x - points[0].x, 500) << "of 900";
+}
+
+TEST(chart, rings_a_point_where_it_is_told_to) {
+  Chart chart = sample(true);
+  chart.curves[0].marked = Curve{}.marked;
+  EXPECT_EQ(dots(chart_svg(chart), curve_color(0)).size(), 4u) << "unasked none";
+  for (const int marked : {0, 3}) {
+    chart.curves[0].marked = marked;
+    const std::vector<Point> points = dots(chart_svg(chart), curve_color(0));
+    ASSERT_EQ(points.size(), 5u);
+    const auto there = [&](const Point& at) { return std::abs(at.x - points.back().x) < 0.01 && std::abs(at.y - points.back().y) < 0.01; };
+    EXPECT_EQ(std::count_if(points.begin(), points.end(), there), 2) << marked;
+    EXPECT_TRUE(there(points[static_cast<std::size_t>(marked)])) << marked;
+  }
 }
 
 TEST(chart, a_linear_axis_begins_at_0) {

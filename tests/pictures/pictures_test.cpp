@@ -8,6 +8,7 @@
 
 #include "pictures/canvas.h"
 #include "pictures/color_map.h"
+#include "pictures/figure.h"
 #include "pictures/picture_scale.h"
 #include "pictures/pictures.h"
 #include "pictures/png_file.h"
@@ -133,6 +134,47 @@ TEST(preview, shows_each_image_s_pixels_as_squares_in_the_map_s_colour) {
   for (std::size_t i = 0; i < frame.depth.z_m.size(); ++i)
     none += (std::isnan(frame.depth.z_m[i]) ? 1U : 0U) + (std::isnan(frame.depth.z_m[i] - frame.truth.z_m[i]) ? 1U : 0U);
   EXPECT_NEAR(static_cast<double>(invalid), static_cast<double>(49 * none), 60);
+}
+
+TEST(scale_bar, has_a_mark_and_a_label_at_each_tick) {
+  const Look& look = look_of(Theme::dark);
+  const PictureScale scale = round_scale(1.0, 2.0, 0.1);
+  const ValueColors colors{scale, [&](double z) { return depth_color(scale.at(z)); }, [&](double z) { return scale.at(z); }};
+  Canvas canvas(150, 340, look.background);
+  draw_scale_bar(canvas, 20, 20, 300, colors, look);
+  const auto color = [&](int x, int y) {
+    const std::size_t at = 3 * static_cast<std::size_t>(150 * y + x);
+    return Rgb{canvas.pixels()[at], canvas.pixels()[at + 1], canvas.pixels()[at + 2]};
+  };
+  ASSERT_GE(scale.ticks().size(), 3U);
+  for (const double tick : scale.ticks()) {
+    const int line = std::clamp(static_cast<int>(20 + 300 * (1 - scale.at(tick))), 20, 319);
+    EXPECT_EQ(color(20 + figure::bar_width, line), look.faint_ink) << tick;
+    int written = 0;  // as high as the label's letters, behind the mark
+    for (int y = line - 6; y <= line + 6; ++y)
+      for (int x = 20 + figure::bar_width + 8; x < 130; ++x) written += color(x, y) == look.background ? 0 : 1;
+    EXPECT_GT(written, 20) << tick;
+  }
+  EXPECT_EQ(color(25, 20), depth_color(scale.at(scale.high - (scale.high - scale.low) * 0.5 / 300)));
+  EXPECT_EQ(color(25, 319), depth_color(scale.at(scale.low + (scale.high - scale.low) * 0.5 / 300)));
+}
+
+TEST(picture_scale, steps_by_1_2_or_5_of_the_power_below_a_fifth) {
+  for (const auto& [span, step] : {std::pair(5.0, 1.0),
+                                   {7.4, 1.0},
+                                   {7.6, 2.0},
+                                   {15.9, 2.0},
+                                   {16.1, 5.0},
+                                   {34.9, 5.0},
+                                   {35.1, 10.0},
+                                   {50.0, 10.0},
+                                   {54.0, 10.0},
+                                   {75.1, 20.0},
+                                   {0.5, 0.1},
+                                   {0.054, 0.01},
+                                   {5e5, 1e5},
+                                   {5.2e5, 1e5}})
+    EXPECT_NEAR(round_scale(0, span, 1e-9).step, step, 1e-9 * step) << span;
 }
 
 TEST(picture_scale, ends_and_ticks_are_round) {
@@ -310,6 +352,46 @@ TEST(terminal_picture, fits_the_terminal_and_resets_its_colours) {
     }
     EXPECT_NEAR(static_cast<double>(lines), 0.5 * width * 48 / 64, 1);
   }
+}
+
+TEST(terminal_picture, has_each_cell_s_colour_above_and_below) {
+  // Columns of either depth, wider ones in every other row, as a terminal shows them: a colour holds until the next one.
+  Depth depth;
+  depth.width = 12, depth.height = 12;
+  for (int i = 0; i < 144; ++i) depth.z_m.push_back((i % 12) / (i / 12 % 2 == 0 ? 2 : 3) % 2 == 0 ? 1.0F : 2.0F);
+  const std::string text = terminal_picture(depth, 12, TerminalColors::full);
+  std::string ground[2];  // of a half block: its upper half, what is behind it
+  std::size_t cell = 0;
+  const auto code = [&](float z) {
+    const Rgb c = depth_color(z > 1.5F ? 1 : 0);
+    return std::to_string(c.red) + ";" + std::to_string(c.green) + ";" + std::to_string(c.blue);
+  };
+  for (std::size_t at = 0; at < text.size() && cell < 72;) {
+    if (text.compare(at, 7, "\x1b[38;2;") == 0 || text.compare(at, 7, "\x1b[48;2;") == 0) {
+      const std::size_t end = text.find('m', at);
+      ground[text[at + 2] == '3' ? 0 : 1] = text.substr(at + 7, end - at - 7);
+      at = end + 1;
+    } else if (text.compare(at, 3, "\xE2\x96\x80") == 0) {
+      const std::size_t upper = 24 * (cell / 12) + cell % 12;
+      EXPECT_EQ(ground[0], code(depth.z_m[upper])) << cell;
+      EXPECT_EQ(ground[1], code(depth.z_m[upper + 12])) << cell;
+      ++cell, at += 3;
+    } else {
+      ++at;
+    }
+  }
+  EXPECT_EQ(cell, 72U);
+}
+
+TEST(terminal_picture, shows_a_cell_where_most_of_its_pixels_are_valid) {
+  Depth depth;
+  depth.width = 40, depth.height = 4;
+  depth.z_m.assign(160, 1.0F);
+  for (const std::size_t i : {0U, 1U, 40U, 41U, 2U, 42U, 82U})
+    depth.z_m[i] = out_test::nan_f;  // of 2 x 4: four of the first cell, three of the second
+  const std::string text = terminal_picture(depth, 20, TerminalColors::none);
+  EXPECT_EQ(text[0], ' ') << "half";
+  EXPECT_NE(text[1], ' ') << "five of eight";
 }
 
 TEST(terminal_picture, without_colours_is_plain_ascii_with_the_near_dense_and_the_invalid_blank) {

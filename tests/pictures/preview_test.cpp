@@ -49,6 +49,55 @@ TEST(preview, wrong_cycles_do_not_set_the_scale_of_errors) {
   }
 }
 
+TEST(preview, says_how_many_pixels_are_beyond_the_scale_of_errors) {
+  // Wrong cycles are red to the end, be they 10 or 20 % of the image: only the lines below it, which end 52 + 250 + 40 pixels down, say which.
+  const auto writing = [](double share) {
+    const Frame frame = with_wrong_cycles(share);
+    const ReadBack back = read_back(preview_png(frame.depth, frame.truth, frame.raw, ""));
+    const std::size_t row = 3 * back.width;
+    return std::vector<unsigned char>(back.bytes.begin() + static_cast<std::ptrdiff_t>(308 * row),
+                                      back.bytes.begin() + static_cast<std::ptrdiff_t>(342 * row));
+  };
+  const std::vector<unsigned char> ten = writing(0.1), twenty = writing(0.2);
+  ASSERT_EQ(ten.size(), twenty.size());
+  std::size_t other = 0;
+  for (std::size_t i = 0; i < ten.size(); i += 3) other += ten[i] != twenty[i] ? 1 : 0;
+  EXPECT_GT(other, 10U);
+  EXPECT_LT(other, 300U) << "a digit";
+}
+
+TEST(preview, and_the_sheet_of_raw_frames_keep_a_margin_all_round) {
+  const Frame frame = out_test::sample_frame(64, 48);
+  const auto written = [](const std::string& png, int border, int right) {  // what is written within the margin
+    const ReadBack back = read_back(png);
+    const auto width = static_cast<int>(back.width), height = static_cast<int>(back.height);
+    int count = 0;
+    for (int y = 0; y < height; ++y)
+      for (int x = 0; x < width; ++x) {
+        if (x >= border && x < width - right && y >= border && y < height - border) continue;
+        const std::size_t at = 3 * static_cast<std::size_t>(y * width + x);
+        count += back.bytes[at] != back.bytes[0] || back.bytes[at + 1] != back.bytes[1] || back.bytes[at + 2] != back.bytes[2] ? 1 : 0;
+      }
+    return count;
+  };
+  EXPECT_EQ(written(preview_png(frame.depth, frame.truth, frame.raw, "Scene of a ball"), 8, 8), 0);
+  EXPECT_EQ(written(raw_png(frame.raw), 8, 24), 0);
+}
+
+TEST(preview, has_a_caption_as_long_as_the_picture_is_wide) {
+  const Frame frame = out_test::sample_frame(700, 4);  // three images side by side, wider than any ordinary caption
+  const std::string caption(110, 'm');
+  const double needed = Canvas::text_width(figure::title_size, caption);
+  const ReadBack back = read_back(preview_png(frame.depth, frame.truth, frame.raw, caption));
+  ASSERT_GT(needed, 1600);
+  ASSERT_LT(needed, back.width);
+  std::size_t last = 0;  // column that something is written in, in the caption's line
+  for (std::size_t y = 26; y < 40; ++y)
+    for (std::size_t x = 0; x < back.width; ++x)
+      if (back.bytes[3 * (y * back.width + x)] != back.bytes[0]) last = std::max(last, x);
+  EXPECT_NEAR(static_cast<double>(last), figure::margin + needed, 10);
+}
+
 TEST(preview, invalid_pixels_have_the_colour_of_their_reason) {
   Frame frame = out_test::sample_frame(100, 50);
   std::fill(frame.depth.flags.begin(), frame.depth.flags.end(), std::uint16_t{0});

@@ -299,6 +299,10 @@ TEST(sampling, keeps_the_digits_of_narrow_lobes) {
     const double phong = beside(-2 * std::expm1(std::log1p(-u) / 10001)), retro = beside(u / ((1 - u) / width + 0.25));
     const double ggx = std::sin(2 * std::atan(1e-3 * std::sqrt(u / (1 - u))));  // tan²θ of the half vector is α²u/(1 − u)
     EXPECT_NEAR(sine(of_phong(0, 1, 1e4)), phong, 2e-6 * phong) << k;
+    for (const double exponent : {1.0, 10.0, 100.0}) {
+      const double wide = beside(-2 * std::expm1(std::log1p(-u) / (exponent + 1)));
+      EXPECT_NEAR(sine(of_phong(0, 1, exponent)), wide, 4e-6 * wide) << exponent << " " << k;
+    }
     EXPECT_NEAR(sine(of_ggx(0, 1, 1e-3)), ggx, 2e-6 * ggx) << k;
     EXPECT_NEAR(sine(of_retro(0, 1, 1e-3)), retro, 2e-6 * retro) << k;
   }

@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "files/npz.h"
 #include "results/frame_file.h"
 #include "support/samples.h"
@@ -90,4 +92,79 @@ TEST(raw_file, wider_integers_are_taken_where_they_fit) {
     else
       EXPECT_NE(std::string(error_of([&] { (void)read_raw_npz(folder.file("x.npz")); }).what()).find("no uint16"), std::string::npos);
   }
+}
+
+TEST(raw_file, of_one_row_and_of_one_column_is_one) {
+  const std::vector<double> f = {80e6}, tau = {0}, time = {1e-3};
+  const std::vector<std::uint8_t> lit = {1};
+  const std::vector<std::uint16_t> raw = {1, 2, 3};
+  for (const bool row : {true, false}) {
+    const Raw back = parse_raw_npz(
+        npz_bytes({npy_view("raw", row ? NpyShape{1, 1, 3} : NpyShape{1, 3, 1}, raw), npy_view("modulation_frequency_hz", {1}, f),
+                   npy_view("reference_phase_rad", {1}, tau), npy_view("integration_time_s", {1}, time), npy_view("lit", {1}, lit)}),
+        "x.npz");
+    EXPECT_EQ(back.width, row ? 3 : 1);
+    EXPECT_EQ(back.height, row ? 1 : 3);
+    EXPECT_EQ(back.raw, raw);
+  }
+}
+
+TEST(raw_file, needs_a_frequency_of_each_lit_raw_frame_and_a_time_of_each) {
+  const std::vector<std::uint16_t> raw(3 * 2, 2048);
+  const std::vector<double> tau = {0, 0, 0};
+  const auto said = [&](const std::vector<std::uint8_t>& lit, const std::vector<double>& f,
+                        const std::vector<double>& time) -> std::string {
+    const std::string file =
+        npz_bytes({npy_view("raw", {3, 1, 2}, raw), npy_view("modulation_frequency_hz", {3}, f), npy_view("reference_phase_rad", {3}, tau),
+                   npy_view("integration_time_s", {3}, time), npy_view("lit", {3}, lit)});
+    try {
+      (void)parse_raw_npz(file, "x.npz");
+    } catch (const Error& error) {
+      return error.what();
+    }
+    return "";
+  };
+  EXPECT_EQ(said({1, 0, 1}, {8e7, 0, 6e7}, {1e-3, 1e-3, 1e-3}), "");
+  for (std::size_t k = 0; k < 3; ++k) {
+    std::vector<double> f(3, 8e7), time(3, 1e-3);
+    f[k] = 0;
+    const std::string number = "raw frame " + std::to_string(k);
+    EXPECT_NE(said({1, 1, 1}, f, time).find(number + " is lit and has no modulation frequency"), std::string::npos)
+        << said({1, 1, 1}, f, time);
+    f[k] = 8e7, time[k] = 0;
+    EXPECT_NE(said({1, 0, 1}, f, time).find(number + " has no integration time"), std::string::npos) << said({1, 0, 1}, f, time);
+  }
+}
+
+TEST(raw_file, of_a_shape_or_with_numbers_that_make_no_sense_says_so) {
+  const auto said = [](const NpyShape& shape, double phase, double time) -> std::string {
+    std::size_t count = 1;
+    for (const std::size_t extent : shape) count *= extent;
+    const std::vector<std::uint16_t> raw(count, 2048);
+    const std::vector<double> f = {8e7, 8e7}, tau = {0, phase}, times = {1e-3, time};
+    const std::vector<std::uint8_t> lit = {1, 1};
+    const std::string file =
+        npz_bytes({npy_view("raw", shape, raw), npy_view("modulation_frequency_hz", {2}, f), npy_view("reference_phase_rad", {2}, tau),
+                   npy_view("integration_time_s", {2}, times), npy_view("lit", {2}, lit)});
+    try {
+      (void)parse_raw_npz(file, "x.npz");
+    } catch (const Error& error) {
+      return error.what();
+    }
+    return "";
+  };
+  EXPECT_EQ(said({2, 3, 4}, 1, 1e-3), "");
+  for (const NpyShape& shape : {NpyShape{0, 3, 4}, {2, 0, 4}, {2, 3, 0}, {3, 4}, {2, 3, 4, 1}, {24}})
+    EXPECT_NE(said(shape, 1, 1e-3).find("array \"raw\" has the wrong shape\n  got ("), std::string::npos) << said(shape, 1, 1e-3);
+  const double nan = std::nan("");
+  EXPECT_NE(said({2, 3, 4}, nan, 1e-3)
+                .find("array \"reference_phase_rad\" has a value that makes no sense\n  got nan for raw frame 1, expected a finite number"),
+            std::string::npos);
+  EXPECT_EQ(said({2, 3, 4}, nan, 1e-3).find("0 or more"), std::string::npos);
+  EXPECT_EQ(said({2, 3, 4}, -1, 1e-3), "");
+  EXPECT_NE(
+      said({2, 3, 4}, 1, -1e-3)
+          .find(
+              "\"integration_time_s\" has a value that makes no sense\n  got -0.001 for raw frame 1, expected a finite number, 0 or more"),
+      std::string::npos);
 }

@@ -124,6 +124,18 @@ TEST(manifest, comes_back_as_it_was_written) {
   EXPECT_EQ(back.gpu, "NVIDIA H200");
 }
 
+TEST(manifest, takes_as_many_threads_as_anybody_has) {
+  TemporaryFolder folder;
+  const std::string path = folder.file("m.json");
+  Manifest manifest = sample_manifest();
+  manifest.threads = 1'000'000;
+  out_test::write_file(path, manifest_text(manifest));
+  EXPECT_EQ(read_manifest(path).threads, 1'000'000);
+  manifest.threads = 1'000'001;
+  out_test::write_file(path, manifest_text(manifest));
+  EXPECT_NE(std::string(error_of([&] { (void)read_manifest(path); }).what()).find("threads is missing or malformed"), std::string::npos);
+}
+
 TEST(manifest, every_missing_or_malformed_key_is_named_at_once) {
   TemporaryFolder folder;
   const std::string path = folder.file("m.json");

@@ -343,6 +343,27 @@ TEST(bounces, pull_the_range_by_what_the_truth_says) {
   EXPECT_GT(seen, 300);
 }
 
+// Steps, smoothing and samples within pixels each have memory of their own, and each two of them.
+TEST(bounces, are_as_bright_by_every_way_of_following_them) {
+  const Camera camera = dim_camera(16, 12, 20);
+  Scene scene = wall(1, 0.8);
+  scene.objects.push_back(object(Plane{{0.4, 0, 0}, {-1, 0, 0}}));
+  scene.transport.bounces = 2, scene.transport.samples = 16;
+  double expected = 0;
+  for (const int subpixel : {1, 2})
+    for (const int most : {0, 32, 64})
+      for (const bool smooth : {false, true})
+        for (const bool truth : {true, false}) {
+          scene.transport.max_samples = most, scene.transport.smooth = smooth;
+          SimulatorOptions options{.noise = Noise::off, .truth = truth};
+          options.subpixel = subpixel;
+          const Frame frame = Simulator(scene, camera, options).frame(0);
+          const double light = sum_over(frame.raw.tap_a, 0, frame.raw.tap_a.size());
+          if (expected == 0) expected = light;
+          EXPECT_NEAR(light / expected, 1, 0.01) << subpixel << " " << most << " " << smooth << " " << truth;
+        }
+}
+
 // The light of what stands still is followed once; another seed follows other ways of the same light.
 TEST(bounces, are_the_same_from_frame_to_frame) {
   const Camera camera = dim_camera(16, 12, 20);
@@ -362,6 +383,23 @@ TEST(bounces, are_the_same_from_frame_to_frame) {
   const double one = sum_over(first.truth.indirect_e, 0, first.truth.indirect_e.size()),
                two = sum_over(other.truth.indirect_e, 0, other.truth.indirect_e.size());
   EXPECT_NEAR(one / two, 1, 0.02);
+}
+
+// What moves is elsewhere in each frame, also where each frame is a single raw frame: no light is left over from the one before.
+TEST(bounces, of_what_moves_are_followed_anew_in_each_frame) {
+  Camera camera = dim_camera(12, 10, 20);
+  camera.mode.sequence = {{false, 0, 0, 600e-6}};
+  Scene scene = sunny_wall(0.8);
+  scene.ambient.direction = Vec3{0.2, 0.3, 1};
+  scene.objects.push_back(object(Box{{0.1, -0.1, 0.6}, {0.3, 0.1, 0.8}}));
+  scene.objects[1].velocity_m_per_s = {-2, 0, 0};
+  scene.transport.bounces = 1, scene.transport.samples = 16;
+  const SimulatorOptions options{.noise = Noise::off};
+  Simulator simulator(scene, camera, options);
+  const std::vector<Frame> frames = {simulator.frame(0), simulator.frame(1), simulator.frame(2)};
+  for (const Frame& frame : frames)
+    EXPECT_EQ(first_difference(frame, Simulator(scene, camera, options).frame(frame.index)), "") << frame.index;
+  EXPECT_NE(frames.at(0).raw.tap_a, frames.at(1).raw.tap_a);
 }
 
 // A camera in the middle of a box's open side sees its edges exactly along a diagonal of pixels. There light is as it is beside them.
@@ -465,6 +503,43 @@ TEST(bounces, see_meshes_and_their_pictures_as_they_see_rectangles) {
   }
   EXPECT_GT(expected, 0);
   EXPECT_NEAR(of_side / expected, 1, 0.01);
+}
+
+// A box stands close before a wall: its faces as six rectangles, which are met one by one, or as a body that light passes into and out of.
+TEST(bounces, between_a_body_and_what_is_close_are_those_of_its_faces) {
+  const Camera camera = dim_camera(24, 20, 60);
+  const auto seen = [&](bool body) {
+    Scene scene = wall(1, 0.8);
+    scene.materials.push_back({"box", Material::Brdf::lambert, 0.5, 0, 1});
+    const Vec3 low{0.05, -0.1, 0.85}, high{0.25, 0.1, 0.97};
+    if (body) {
+      scene.objects.push_back(object(Box{low, high}, 1));
+    } else {
+      TriangleMesh faces;
+      for (int i = 0; i < 8; ++i) {
+        const auto at = [&](std::size_t k) { return static_cast<float>((i >> k & 1) != 0 ? high[k] : low[k]); };
+        faces.vertices.push_back({at(0), at(1), at(2)});
+      }
+      for (const std::array<std::int32_t, 4>& q :
+           {std::array<std::int32_t, 4>{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}})
+        faces.triangles.push_back({q[0], q[1], q[2]}), faces.triangles.push_back({q[0], q[2], q[3]});
+      scene.objects.push_back(object(shared(std::move(faces)), 1));
+    }
+    return frame_with_bounces(scene, camera, 1, 64);
+  };
+  const Frame body = seen(true), faces = seen(false);
+  double of_wall = 0, other = 0;
+  int compared = 0;
+  for (std::size_t i = 0; i < body.truth.range_m.size(); ++i) {
+    ASSERT_EQ(body.truth.object_id[i], faces.truth.object_id[i]) << i;
+    if (body.truth.object_id[i] != 0) continue;
+    // The same ways are taken; a few pass an edge on another side.
+    const auto one = static_cast<double>(body.truth.indirect_e[i]), two = static_cast<double>(faces.truth.indirect_e[i]);
+    of_wall += one, other += std::abs(one - two), ++compared;
+  }
+  EXPECT_GT(compared, 200);
+  EXPECT_GT(of_wall, 0);
+  EXPECT_LT(other, 1e-3 * of_wall);
 }
 
 // Each raw frame's light bounces where things are while it is exposed, in the middle of each part of its exposure.

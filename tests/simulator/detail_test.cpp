@@ -330,6 +330,8 @@ TEST(mesh_details, have_to_fit) {
   EXPECT_TRUE(has(refusal([](TriangleMesh& m, Material&) { m.normals.assign(3, {0, 0, 1}); }), "not as many normals as vertices"));
   EXPECT_TRUE(has(refusal([](TriangleMesh& m, Material&) { m.texcoords[2][1] = std::nanf(""); }), "texture coordinates of vertex 2"));
   EXPECT_TRUE(has(refusal([](TriangleMesh& m, Material&) { m.normals.assign(4, {0, 0, 3}); }), "normals of vertex 0"));
+  EXPECT_EQ(refusal([](TriangleMesh& m, Material&) { m.normals.assign(4, {0, 0, 2}), m.texcoords[1] = {1e6F, -1e6F}; }), "");
+  EXPECT_TRUE(has(refusal([](TriangleMesh& m, Material&) { m.texcoords[1][0] = 1.5e6F; }), "texture coordinates of vertex 1"));
   EXPECT_TRUE(has(refusal([&](TriangleMesh&, Material& m) { m.map = map(2, 2, {1, 1, 1}); }), "not as many values as pixels"));
   EXPECT_TRUE(has(refusal([&](TriangleMesh&, Material& m) { m.map = map(0, 2, {}); }), "no size that it may have"));
   EXPECT_TRUE(

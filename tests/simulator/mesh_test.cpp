@@ -115,6 +115,18 @@ TEST(mesh_in_a_scene, of_many_triangles_is_a_ball) {
   EXPECT_NEAR(light / count, 0, 1e-3);
 }
 
+TEST(mesh_in_a_scene, of_one_triangle_is_that_triangle) {
+  const Triangle one{{{{-0.3, -0.2, 1.5}, {0.4, -0.1, 1.4}, {0, 0.3, 1.6}}}};
+  TriangleMesh mesh{{{-0.3F, -0.2F, 1.5F}, {0.4F, -0.1F, 1.4F}, {0, 0.3F, 1.6F}}, {{0, 1, 2}}};
+  Scene alone = wall(3, 0.8), meshed = alone;
+  alone.objects.push_back(object(one)), meshed.objects.push_back(object(shared(std::move(mesh))));
+  const Frame a = Simulator(alone, camera_with_a_light_aside(), without_noise()).frame(0);
+  const Frame b = Simulator(meshed, camera_with_a_light_aside(), without_noise()).frame(0);
+  EXPECT_GT(std::count(b.truth.object_id.begin(), b.truth.object_id.end(), 1), 200);
+  EXPECT_LT(share_that_differs(b.truth.z_m, a.truth.z_m, 1e-6, 0), 0.002);
+  EXPECT_LT(share_that_differs(b.raw.tap_a, a.raw.tap_a, 1e-3, 0.05), 0.01);
+}
+
 // Two objects may have the same triangles: each is where it is placed, with its own name and material.
 TEST(mesh_in_a_scene, may_be_placed_twice) {
   Scene scene = wall(3, 0.8);

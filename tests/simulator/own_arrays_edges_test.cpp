@@ -119,10 +119,14 @@ TEST(own_arrays, that_do_not_fit_are_refused_by_name) {
   EXPECT_EQ(geometry([](Geometry& g) { g.normal.clear(); }), "error: geometry.normal has the wrong size\n  got 0 values, expected 115584");
   EXPECT_EQ(geometry([](Geometry& g) { g.shadow.assign(7, 0); }),
             "error: geometry.shadow has the wrong size\n  got 7 values, expected 38528");
+  EXPECT_EQ(geometry([](Geometry& g) { g.object_id.assign(38529, 0); }),
+            "error: geometry.object_id has the wrong size\n  got 38529 values, expected 38528");
   EXPECT_EQ(geometry([](Geometry& g) { g.specular.assign(g.z_m.size(), 0); }),
             "error: geometry has specular or exponent without the other\n  expected both, or neither for Lambertian surfaces");
   EXPECT_EQ(geometry([](Geometry& g) { g.normal[3 * 225 + 2] = 0.5f; }),
             "error: geometry.normal's length, pixel (column 1, row 1) is out of range\n  got 0.5, expected 0.999 to 1.001");
+  EXPECT_EQ(geometry([](Geometry& g) { g.normal[0] = 0.6f, g.normal[1] = 0, g.normal[2] = -0.8f; }), "no error");
+  EXPECT_EQ(geometry([](Geometry& g) { g.normal[0] = 0, g.normal[1] = -0.6f, g.normal[2] = 0.8f; }), "no error");
   EXPECT_EQ(geometry([](Geometry& g) { g.diffuse[0] = nan; }),
             "error: geometry.diffuse, pixel (column 0, row 0) is out of range\n  got nan, expected 0 to 1");
   EXPECT_EQ(geometry([](Geometry& g) { g.specular.assign(g.z_m.size(), 0.6f), g.exponent.assign(g.z_m.size(), 20); }),

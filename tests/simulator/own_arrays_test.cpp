@@ -199,6 +199,7 @@ TEST(own_arrays, of_several_paths_may_come_from_one_light) {
 // Σ P·e^{imφ} of two paths, summed here in double precision, for every modulation frequency and harmonic, moment by moment.
 TEST(own_arrays, of_phasors_are_the_light_of_their_paths) {
   Camera camera = pico();
+  camera.illumination[0].waveform.kind = Waveform::Kind::rectangular;
   camera.illumination.push_back(camera.illumination[0]);
   camera.illumination[1].waveform.bandwidth_hz = 150e6;
   camera.pixel.delay_s = 2e-11, camera.refractive_index = 1.0003;
@@ -236,6 +237,24 @@ TEST(own_arrays, of_phasors_are_the_light_of_their_paths) {
     EXPECT_LT(most, 2e-6) << moments;
     EXPECT_NEAR(static_cast<double>(a.depth.range_m[5000]), static_cast<double>(b.depth.range_m[5000]), 3e-6);
   }
+}
+
+// Who knows fewer orders than the camera has leaves the others out.
+TEST(own_arrays, of_phasors_may_end_before_the_camera_s_last_order) {
+  Camera camera = pico();
+  camera.illumination[0].waveform.kind = Waveform::Kind::rectangular;
+  const auto frame = [&](int given, int filled) {
+    PixelLight sums;
+    sums.width = 224, sums.height = 172, sums.moments = 1;
+    sums.power_w.assign(38528, 1e-12f);
+    for (int j = 0; j < 2; ++j)
+      for (int h = 0; h < given; ++h)
+        sums.phasor_w.insert(sums.phasor_w.end(), 38528,
+                             h < filled ? std::complex<float>(5e-13f + 1e-13f * static_cast<float>(j), 3e-13f) : 0);
+    return Simulator({}, camera, {.noise = Noise::off}).frame(0, sums);
+  };
+  for (const int given : {1, 2, 3}) EXPECT_EQ(first_difference(frame(given, given), frame(4, given)), "") << given;
+  EXPECT_NE(first_difference(frame(1, 1), frame(2, 2)), "");
 }
 
 TEST(own_arrays, of_shadows_keep_light_and_sun_away) {

@@ -123,6 +123,34 @@ TEST(path_noise, is_that_of_smoothed_light) {
   EXPECT_LT(rms(bias), (with_sanitizers ? 0.4 : 0.22) * rms(rough.had));
 }
 
+// A pixel that goes on takes twice as many ways: fewer are no next step. It begins with two at least for each sample within it.
+TEST(path_noise, needs_room_for_a_second_step) {
+  Scene scene = walls_and_card();
+  const auto said = [&](int bounces, int samples, int most, int subpixel = 1) -> std::string {
+    scene.transport.bounces = bounces, scene.transport.samples = samples, scene.transport.max_samples = most;
+    try {
+      const Simulator simulator(scene, small_camera(), {.subpixel = subpixel});
+    } catch (const Error& error) {
+      EXPECT_EQ(error.kind(), ErrorKind::bad_input);
+      return error.what();
+    }
+    return "";
+  };
+  for (const int bounces : {1, 2}) {
+    EXPECT_EQ(said(bounces, 16, 32), "");
+    EXPECT_EQ(said(bounces, 16, 0), "");
+    for (const auto& [samples, most] : {std::pair(16, 31), {16, 1}, {15, 29}})
+      EXPECT_NE(said(bounces, samples, most).find("transport.max_samples: max_samples is less than twice samples"), std::string::npos)
+          << most;
+  }
+  for (const int bounces : {1, 2}) {
+    EXPECT_EQ(said(bounces, 16, 64, 4), "");
+    EXPECT_NE(said(bounces, 16, 63, 4).find("transport.max_samples adds no ways of light\n  got 63, but each pixel begins with 32"),
+              std::string::npos)
+        << said(bounces, 16, 63, 4);
+  }
+}
+
 TEST(path_noise, ends_the_search_for_more_ways) {
   Scene scene = walls_and_card();
   scene.transport.bounces = 2, scene.transport.samples = 16, scene.transport.max_samples = 512;

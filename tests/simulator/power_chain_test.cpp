@@ -168,3 +168,13 @@ TEST(power_chain, each_pixel_gets_what_the_closed_form_says) {
     EXPECT_NEAR(value(t.radiance_w_m2_sr, i), 0.7 / pi * irradiance, 1e-5 * irradiance) << i;
   }
 }
+
+// A lamp that touches its wall lights it with 1e12 W/m², not without end.
+TEST(power_chain, ends_at_an_irradiance_that_nothing_stands) {
+  Camera camera = lit_camera();
+  camera.illumination[0].position = {0, 0, 1 - 0x1p-22};
+  const Truth held = truth(wall(1, 0.8), camera);
+  EXPECT_NEAR(static_cast<double>(held.radiance_w_m2_sr[0]) / (0.8 / pi * 1e12), 1, 1e-6);
+  camera.illumination[0].position = {0, 0, 1 - 0x1p-19};  // E = I/d² = 2.7e11 W/m²
+  EXPECT_NEAR(static_cast<double>(truth(wall(1, 0.8), camera).radiance_w_m2_sr[0]) / (0.8 / pi * 0x1p38), 1, 1e-6);
+}

@@ -2,8 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <limits>
 
 #include "support/files.h"
 #include "support/quarter.h"
@@ -143,6 +145,36 @@ TEST(confidence, falls_with_the_noise) {
     const double exact = 255 * std::max(0.0, 1 - static_cast<double>(frame.depth.noise_m[i]) / 0.07);
     ASSERT_NEAR(frame.depth.confidence[i], exact, 0.5 + 1e-4) << i;
   }
+}
+
+// No well holds 1e15 electrons: what says so, or says no number, counts as none, and its pixel as saturated.
+TEST(process, takes_charges_beyond_measure_for_none) {
+  const Scene scene = load_scene("card");
+  const Camera camera = load_camera(scene);
+  const Raw good = Simulator(scene, camera).frame(0).raw;
+  const auto with = [&](float charge) {
+    Raw raw = good;
+    raw.raw.clear(), raw.tap_a[good.tap_a.size() / 9 * 3 + 1234] = charge;
+    return process(raw, camera);
+  };
+  const Depth expected = with(std::numeric_limits<float>::infinity());
+  EXPECT_NE(expected.flags[1234] & flag_saturated, 0);
+  for (const float charge : {1.001e15F, 1.9e15F, 1e30F, -1.001e15F, std::nanf("")}) expect_same(with(charge), expected);
+}
+
+// A grey frame alone is raw data, too: there is ambient light, and no depth.
+TEST(process, takes_a_single_raw_frame) {
+  Camera camera = load_camera("pico-flexx");
+  camera.mode.sequence.resize(1);
+  ASSERT_FALSE(camera.mode.sequence[0].lit);
+  const Frame frame = Simulator(load_scene("card"), camera).frame(0);
+  const Depth depth = process(frame.raw, camera);
+  expect_same(depth, frame.depth);
+  for (const Depth& one : {depth, frame.depth}) {
+    EXPECT_EQ(one.width, 224);
+    EXPECT_EQ(one.height, 172);
+  }
+  EXPECT_TRUE(std::all_of(depth.z_m.begin(), depth.z_m.end(), [](float z) { return std::isnan(z); }));
 }
 
 TEST(process, refuses_raw_data_that_does_not_fit) {

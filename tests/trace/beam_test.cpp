@@ -79,12 +79,13 @@ TriangleMesh some_mesh(Random& random, int kind) {
 /// A rectangle of directions, as a lens sees them, about d.
 void look_along(Random& random, const Vec3& d, double pitch, TileRays& rays) {
   const Vec3 axis = base::normalized(d), right = random.across(axis), down = base::cross(axis, right);
-  const bool wild = random.below(20) == 0;  // no beam at all
+  const bool wild = random.below(20) == 0, both_ways = random.below(20) == 0;  // no beam at all
   const int count = random.below(4) == 0 ? 1 + random.below(TileRays::count) : TileRays::count;
   const bool near_limit = random.below(4) == 0;
   for (int i = 0; i < TileRays::count; ++i) {
     const double x = pitch * (i % TileRays::row - 15.5 + random.between(-0.3, 0.3)), y = pitch * (i / TileRays::row - 3.5);
-    const Vec3 to = wild ? random.direction() : base::length(d) * (axis + x * right + y * down);
+    const double way = base::length(d) * (both_ways && i / 8 % 2 == 1 ? -1 : 1);
+    const Vec3 to = wild ? random.direction() : way * (axis + x * right + y * down);
     for (std::size_t k = 0; k < 3; ++k) rays.given[k][i] = static_cast<float>(to[k]);
     rays.shortest[i] = random.below(8) == 0 ? 0.5f : shape::nearest_mesh;
     rays.far[i] = i >= count ? -1.0f : near_limit ? static_cast<float>(random.between(0.5, 1.5)) : 3e38f;

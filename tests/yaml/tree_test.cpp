@@ -163,6 +163,26 @@ TEST(malformed_text, is_refused_with_line_and_column) {
   }
 }
 
+TEST(malformed_text, is_known_from_its_first_byte_and_its_first_key) {
+  EXPECT_NE(refusal("\xFF: 1\n").find("f.yaml:1:1: error: this is not UTF-8 text\n  got the byte 255"), std::string::npos)
+      << refusal("\xFF: 1\n");
+  const std::pair<const char*, const char*> keys[] = {{"{a: 1,\n [b]: 2}\n", "2:2"},
+                                                      {"{a: 1,\n [b, 2]}\n", "2:2"},
+                                                      {"? a\n: b\n? - c\n: d\n", "3:3"},
+                                                      {"{a: b,\n ? : c}\n", "2:4"},
+                                                      {"{é: 1, [ü, ä, ö]: 5}\n", "1:8"}};
+  for (const auto& [text, place] : keys)
+    EXPECT_NE(refusal(text).find("f.yaml:" + std::string(place) + ": error: a key must be a plain word"), std::string::npos)
+        << refusal(text);
+}
+
+// What an anchor keeps is memory once more.
+TEST(malformed_text, with_anchors_has_as_many_bytes_as_the_limit_and_no_more) {
+  const std::string long_text(9 << 20, 'x');
+  EXPECT_EQ(refusal("a: " + long_text + "\n"), "");
+  EXPECT_NE(refusal("a: &x " + long_text + "\n").find("f.yaml:1:"), std::string::npos);
+}
+
 TEST(malformed_text, cut_anywhere_is_a_tree_or_an_error) {
   const std::string text = "a: [1, {b: 'c', \"d\\x41\": &x e}]\nf: |\n  g\n  h\ni: *x\n? j\n: - k\n  - l: m\n";
   EXPECT_EQ(refusal(text), "");
@@ -213,6 +233,10 @@ TEST(aliases, that_multiply_are_stopped_at_the_limit) {
     text += "a" + std::to_string(i) + ": &a" + std::to_string(i) + " [" + repeat(alias + ", ", 9) + alias + "]\n";
   }
   EXPECT_EQ(kind_of(text), ErrorKind::limit);
+  // Nothing but one anchor, written out again and again: 1,001 values each.
+  const std::string once = "a: &a [" + repeat("x, ", 999) + "x]\n";
+  EXPECT_EQ(refusal(once + "b: [" + repeat("*a, ", 300) + "]\n"), "");
+  EXPECT_EQ(kind_of(once + "b: [" + repeat("*a, ", 500) + "]\n"), ErrorKind::limit);
 }
 
 TEST(size, is_limited_on_both_sides_of_the_edge) {
@@ -241,7 +265,7 @@ TEST(json, is_yaml) {
 TEST(flow_text, reads_back_to_the_same_tree) {
   for (const char* text :
        {"{a: 1, b: [x, 'true', \"null\", '5 %', \"\\x01\\\"\", '', \"- x\", '# no', 'a: b', \"ä\"], 'c d': {}, e: [], f: null}", "x",
-        "[[[]]]", "'%x'", "'--- x'"}) {
+        "[[[]]]", "'%x'", "'--- x'", "'- x'", "'-'", "'..'", "'...'", "'--'", "{a: '-', '- b': '- c', '-': ['-', '- d']}"}) {
     const Node once = yaml::parse_tree(text, "f.yaml");
     EXPECT_EQ(yaml::flow_text(yaml::parse_tree(yaml::flow_text(once), "g.yaml")), yaml::flow_text(once)) << text;
   }
