@@ -20,6 +20,16 @@ namespace {
 
 constexpr PoseMatrix identity = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
 
+/// What is wrong with a file of these arrays; nothing: empty.
+std::string fault_of(const std::vector<NpyView>& arrays) {
+  try {
+    (void)parse_raw_npz(npz_bytes(arrays), "x.npz");
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "";
+}
+
 }  // namespace
 
 TEST(raw_file, round_trip_keeps_every_array) {
@@ -114,15 +124,8 @@ TEST(raw_file, needs_a_frequency_of_each_lit_raw_frame_and_a_time_of_each) {
   const std::vector<double> tau = {0, 0, 0};
   const auto said = [&](const std::vector<std::uint8_t>& lit, const std::vector<double>& f,
                         const std::vector<double>& time) -> std::string {
-    const std::string file =
-        npz_bytes({npy_view("raw", {3, 1, 2}, raw), npy_view("modulation_frequency_hz", {3}, f), npy_view("reference_phase_rad", {3}, tau),
-                   npy_view("integration_time_s", {3}, time), npy_view("lit", {3}, lit)});
-    try {
-      (void)parse_raw_npz(file, "x.npz");
-    } catch (const Error& error) {
-      return error.what();
-    }
-    return "";
+    return fault_of({npy_view("raw", {3, 1, 2}, raw), npy_view("modulation_frequency_hz", {3}, f),
+                     npy_view("reference_phase_rad", {3}, tau), npy_view("integration_time_s", {3}, time), npy_view("lit", {3}, lit)});
   };
   EXPECT_EQ(said({1, 0, 1}, {8e7, 0, 6e7}, {1e-3, 1e-3, 1e-3}), "");
   for (std::size_t k = 0; k < 3; ++k) {
@@ -143,15 +146,8 @@ TEST(raw_file, of_a_shape_or_with_numbers_that_make_no_sense_says_so) {
     const std::vector<std::uint16_t> raw(count, 2048);
     const std::vector<double> f = {8e7, 8e7}, tau = {0, phase}, times = {1e-3, time};
     const std::vector<std::uint8_t> lit = {1, 1};
-    const std::string file =
-        npz_bytes({npy_view("raw", shape, raw), npy_view("modulation_frequency_hz", {2}, f), npy_view("reference_phase_rad", {2}, tau),
-                   npy_view("integration_time_s", {2}, times), npy_view("lit", {2}, lit)});
-    try {
-      (void)parse_raw_npz(file, "x.npz");
-    } catch (const Error& error) {
-      return error.what();
-    }
-    return "";
+    return fault_of({npy_view("raw", shape, raw), npy_view("modulation_frequency_hz", {2}, f), npy_view("reference_phase_rad", {2}, tau),
+                     npy_view("integration_time_s", {2}, times), npy_view("lit", {2}, lit)});
   };
   EXPECT_EQ(said({2, 3, 4}, 1, 1e-3), "");
   for (const NpyShape& shape : {NpyShape{0, 3, 4}, {2, 0, 4}, {2, 3, 0}, {3, 4}, {2, 3, 4, 1}, {24}})
