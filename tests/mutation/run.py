@@ -121,7 +121,7 @@ class Round:
                 r.update(fate="open", tried=[] if again else r["tried"])     # programs that were not asked yet are
         for name in self.tree.programs:
             reached = self.look(name)
-            waiting = [n for n, m in self.tree.numbered.items() if self.waits(m.place, name)]
+            waiting = [n for n, m in self.tree.numbered.items() if self.results[m.place]["fate"] == "open" and name not in self.results[m.place]["tried"]]
             print(f"{name}: {len(waiting)} of {len(self.tree.numbered)} mutants to try", flush=True)
             with concurrent.futures.ThreadPoolExecutor(self.jobs) as pool:
                 list(pool.map(lambda number: self.judge(number, name, sorted(reached.get(number, []))), waiting))
@@ -130,10 +130,6 @@ class Round:
             if r["fate"] == "open":
                 r["fate"] = "golden" if r.get("hash") else "survived" if r.get("reached") else "refused" if r.get("void") else "unreached"
         self.save()
-
-    def waits(self, place, name):
-        r = self.results[place]
-        return r["fate"] == "open" and name not in r["tried"]
 
     def judge(self, number, name, tests):
         claims, hashes = [t for t in tests if not golden.search(t[1])], [t for t in tests if golden.search(t[1])]

@@ -129,7 +129,6 @@ TEST(transient, of_an_integrating_spheres_first_bounce_is_a_straight_line) {
   }
 }
 
-// Sharing keeps the mean: with the light at the camera it is twice the range, wherever a scene's surfaces stand at the time of the truth.
 // Wide and low, or narrow and high: as many pieces of the image as there are, whichever way they are counted.
 TEST(transient, is_there_in_every_pixel_of_any_image) {
   for (const auto& [width, height] : {std::pair(400, 2), std::pair(2, 400), std::pair(33, 17)}) {
@@ -138,6 +137,7 @@ TEST(transient, is_there_in_every_pixel_of_any_image) {
   }
 }
 
+// Sharing keeps the mean: with the light at the camera it is twice the range, wherever a scene's surfaces stand at the time of the truth.
 TEST(transient, has_the_mean_length_of_what_the_truth_sees) {
   for (const bool moves : {false, true}) {
     Random random(31);
