@@ -219,7 +219,7 @@ TOFRAY_FN void decode_pixels(const Setup& s, const Job& job, const Recording& in
       const raw::Means<F> charge{num::select(charges, a, F(0.0f)), num::select(charges, b, F(0.0f))};
       level = raw::read_out(sensor, charge, offset).level;
       difference[k] = raw::held_to_codes(raw::reach_of_codes(sensor, offset), charge.a - charge.b);
-      over = (!charges) | (a >= F(sensor.full_read)) | (b >= F(sensor.full_read));
+      over = (!charges) | (num::max(charge.a, charge.b) >= F(sensor.full_read));
     }
     if (in.raw != nullptr) {
       std::int32_t codes[num::lanes<F>] = {};

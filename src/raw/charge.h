@@ -64,19 +64,17 @@ TOFRAY_FN Means<F> expose_apart(const camera::SensorView& s, const Means<F>& mea
   num::normal_pair<F>(words.w[2], words.w[3], read_a, read_b);
   F a = poisson_by_expansion(mean.a, shot_a), b = poisson_by_expansion(mean.b, shot_b);
   const auto small_a = mean.a < F(inversion_limit), small_b = mean.b < F(inversion_limit);
-  if (__builtin_expect(num::any(small_a | small_b), 1)) {
-    // Uniform words: where both counts are small the normals' words are free; where one is, it takes the 28 bits that the normals left.
-    const num::Uint<F> left = (words.w[0] << 24) | ((words.w[1] & num::Uint<F>(0x3fu)) << 18) | ((words.w[2] & num::Uint<F>(0xffu)) << 10) |
-                              ((words.w[3] & num::Uint<F>(0x3fu)) << 4);
-    const auto both = small_a & small_b;
-    if (num::any(small_a)) {
-      const F u = num::uniform<F>(num::select(both, words.w[0], left));
-      a = num::select(small_a, poisson_by_inversion<F>(num::select(small_a, mean.a, F(0.0f)), u), a);
-    }
-    if (num::any(small_b)) {
-      const F u = num::uniform<F>(num::select(both, words.w[1], left));
-      b = num::select(small_b, poisson_by_inversion<F>(num::select(small_b, mean.b, F(0.0f)), u), b);
-    }
+  // Uniform words: where both counts are small the normals' words are free; where one is, it takes the 28 bits that the normals left.
+  const num::Uint<F> left = (words.w[0] << 24) | ((words.w[1] & num::Uint<F>(0x3fu)) << 18) | ((words.w[2] & num::Uint<F>(0xffu)) << 10) |
+                            ((words.w[3] & num::Uint<F>(0x3fu)) << 4);
+  const auto both = small_a & small_b;
+  if (__builtin_expect(num::any(small_a), 1)) {
+    const F u = num::uniform<F>(num::select(both, words.w[0], left));
+    a = num::select(small_a, poisson_by_inversion<F>(num::select(small_a, mean.a, F(0.0f)), u), a);
+  }
+  if (__builtin_expect(num::any(small_b), 1)) {
+    const F u = num::uniform<F>(num::select(both, words.w[1], left));
+    b = num::select(small_b, poisson_by_inversion<F>(num::select(small_b, mean.b, F(0.0f)), u), b);
   }
   return {num::fma(F(s.read_noise), read_a, a), num::fma(F(s.read_noise), read_b, b)};
 }
