@@ -18,16 +18,16 @@ if(CMAKE_UNITY_BUILD)
   target_compile_options(tofray_flags INTERFACE -Wno-shadow $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
 endif()
 
-# tofray_folder(name [PART_OF core|files|none] [SOURCES file…] [USES folder…] [LIBRARIES target…] [HEADERS target…])
+# tofray_folder(name [COLD] [PART_OF core|files|none] [SOURCES file…] [USES folder…] [LIBRARIES target…] [HEADERS target…])
 #
 # One folder of src/ is one target, tofray_<name>, with an include root of its own: a link in the build tree that holds the folder
 # and nothing else. An include of a folder that is not named in USES therefore does not build.
 #
 # PART_OF says which library has it: core is libtofray (unless another is named), files is libtofray_files; of none are the folders that
 # the command line and tests alone have. LIBRARIES are linked, and who links the library statically needs them, too; HEADERS are packages
-# of which nothing is linked.
+# of which nothing is linked. COLD is what reads, checks and writes and does nothing by pixel or by triangle: it takes TOFRAY_COLD_OPTIONS.
 function(tofray_folder name)
-  cmake_parse_arguments(arg "" "PART_OF" "SOURCES;USES;LIBRARIES;HEADERS" ${ARGN})
+  cmake_parse_arguments(arg "COLD" "PART_OF" "SOURCES;USES;LIBRARIES;HEADERS" ${ARGN})
   set(root ${CMAKE_BINARY_DIR}/roots/${name})
   file(MAKE_DIRECTORY ${root})
   file(CREATE_LINK ${CMAKE_CURRENT_SOURCE_DIR} ${root}/${name} SYMBOLIC)
@@ -36,6 +36,9 @@ function(tofray_folder name)
     add_library(tofray_${name} OBJECT ${arg_SOURCES})
     target_include_directories(tofray_${name} PUBLIC ${root})
     target_link_libraries(tofray_${name} PUBLIC ${arg_USES} PRIVATE tofray_flags ${arg_LIBRARIES} ${arg_HEADERS})
+    if(arg_COLD AND CMAKE_BUILD_TYPE STREQUAL "Release")
+      target_compile_options(tofray_${name} PRIVATE ${TOFRAY_COLD_OPTIONS})
+    endif()
     if(TOFRAY_FUZZERS)   # which branches input takes, for the fuzz targets (kernels see no input as it was written)
       target_compile_options(tofray_${name} PRIVATE -fsanitize=fuzzer-no-link)
     endif()

@@ -3,7 +3,8 @@
 """Builds wheels (PEP 517 and 660) by CMake: the module with both libraries in it, and the command.
 
 Needs what `./dev packages` installs, and Python's headers and pybind11; nothing of a registry. What is built stays in build/wheel, or where
-the environment variable TOFRAY_WHEEL_BUILD says, and is used again; TOFRAY_CMAKE_ARGS are further words for CMake.
+the environment variable TOFRAY_WHEEL_BUILD says, and is used again; TOFRAY_CUDA (ON, OFF or AUTO) and CUDAARCHS say for which GPUs, as in ./dev;
+TOFRAY_CMAKE_ARGS are further words for CMake. `pip install -v .` shows what was chosen, `python -m tofray doctor` says it afterwards.
 """
 
 from __future__ import annotations
@@ -47,7 +48,11 @@ def _build() -> pathlib.Path:
     jobs = os.environ.get("TOFRAY_JOBS") or str(os.cpu_count() or 1)
     subprocess.run(["cmake", "-S", str(ROOT), "-B", str(folder), "-DCMAKE_BUILD_TYPE=Release", "-DCMAKE_UNITY_BUILD=ON",
                     "-DBUILD_SHARED_LIBS=OFF", "-DTOFRAY_TESTS=OFF", "-DTOFRAY_PYTHON=ON", f"-DTOFRAY_PYTHON_EXECUTABLE={sys.executable}",
+                    *(f"-D{option}={os.environ[name]}" for option, name in
+                      (("TOFRAY_CUDA", "TOFRAY_CUDA"), ("TOFRAY_CUDA_ARCHITECTURES", "CUDAARCHS")) if os.environ.get(name)),
                     *shlex.split(os.environ.get("TOFRAY_CMAKE_ARGS", ""))], check=True)
+    for line in (folder / "choices.txt").read_text(encoding="utf-8").splitlines():
+        print(f"Building {line}", flush=True)
     subprocess.run(["cmake", "--build", str(folder), "--parallel", jobs, "--target", "tofray_python", "tofray"], check=True)
     return folder
 

@@ -92,6 +92,12 @@ int cores_allowed() {
 
 /// Where the widest code there is for this kind of processor does not run.
 std::string lacking_packs() {
+  for (auto isa = backend::isas_here.rbegin(); isa != backend::isas_here.rend(); ++isa) {
+    if (!backend::processor_has(*isa)) continue;
+    if (backend::can_run(*isa)) break;
+    return fmt::format("{}: this processor has it, this build has no code for it; `./dev build` makes it: faster, with the same results",
+                       backend::isa_name(*isa));
+  }
   if (backend::isas_here.back() == Isa::neon)
     return "NEON: this build has no code for it; scalar code runs, several times slower, with the same results";
   return backend::can_run(Isa::avx2)

@@ -33,27 +33,6 @@ Kernel kernel_of(Isa isa) {
   }
 }
 
-#if defined(__x86_64__)
-bool processor_has(Isa isa) {
-  __builtin_cpu_init();
-  const bool fma = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
-  switch (isa) {
-    case Isa::best:
-    case Isa::scalar: return true;
-    case Isa::scalar_fma:
-    case Isa::avx2: return fma;
-    case Isa::avx512:
-      return fma && __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512dq") &&
-             __builtin_cpu_supports("avx512vl");
-    case Isa::neon: break;
-  }
-  return false;
-}
-#else
-/// Nothing to ask: every 64-bit ARM has NEON, and elsewhere there is scalar code only.
-bool processor_has(Isa isa) { return isa == Isa::best || std::find(isas_here.begin(), isas_here.end(), isa) != isas_here.end(); }
-#endif
-
 /// The widest that this processor has and this build has code for.
 Isa best_isa() {
   Isa best = Isa::scalar;
@@ -76,6 +55,27 @@ std::int64_t rays_of(const pipeline::Step& step, const pipeline::Setup& s) {
 }
 
 }  // namespace
+
+#if defined(__x86_64__)
+bool processor_has(Isa isa) {
+  __builtin_cpu_init();
+  const bool fma = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
+  switch (isa) {
+    case Isa::best:
+    case Isa::scalar: return true;
+    case Isa::scalar_fma:
+    case Isa::avx2: return fma;
+    case Isa::avx512:
+      return fma && __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512dq") &&
+             __builtin_cpu_supports("avx512vl");
+    case Isa::neon: break;
+  }
+  return false;
+}
+#else
+/// Nothing to ask: every 64-bit ARM has NEON, and elsewhere there is scalar code only.
+bool processor_has(Isa isa) { return isa == Isa::best || std::find(isas_here.begin(), isas_here.end(), isa) != isas_here.end(); }
+#endif
 
 bool can_run(Isa isa) { return isa == Isa::best || (kernel_of(isa) != nullptr && processor_has(isa)); }
 

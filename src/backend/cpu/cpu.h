@@ -19,6 +19,8 @@ namespace tofray::backend {
 Isa choose_isa(Isa wanted);
 /// "scalar", "scalar_fma", "avx2", "avx512", "neon".
 std::string isa_name(Isa isa);
+/// The processor has it, whether this build has its kernel or not.
+bool processor_has(Isa isa);
 /// The processor has it, and this build has its kernel.
 bool can_run(Isa isa);
 

@@ -25,7 +25,7 @@ Fault::Fault(const std::string& reason, bool gpu_present)
       gpu_present_(gpu_present) {}
 
 Device::Device(int number) : runtime_(gpu::runtime()), number_(number) {
-  if (runtime_ == nullptr) throw Fault("tofray was built without CUDA", false);
+  if (runtime_ == nullptr) throw Fault("tofray was built without code for GPUs (TOFRAY_CUDA=ON ./dev build makes it, with nvcc)", false);
   int count = 0;
   check(runtime_->count_devices(count), "looking for GPUs");
   if (count < 1) throw Fault("there is no GPU", false);
