@@ -25,18 +25,22 @@ fi
 # clock SECONDS: as 1:05
 clock() { printf '%d:%02d' $(($1 / 60)) $(($1 % 60)); }
 
-start=$SECONDS started=0
+start=$SECONDS finished=0
+at_work=()   # make says a step when it begins, ninja when it is done: what the latest steps of make take
 while IFS= read -r line; do
   if [[ $line =~ ^\[[\ 0-9/%]+\]\ (Building|Compiling|Linking|Joining) ]]; then
     if [[ $line =~ Building.*/([^/]+)\.dir/ ]]; then
       target=${BASH_REMATCH[1]}
-      started=$((started + ${left[$target]-0}))
+      at_work+=("${left[$target]-0}")
       unset "left[$target]"
     fi
-    # The latest steps are at work still: half of a usual one each.
-    done_of_it=$((started - jobs * usual / 2)) elapsed=$((SECONDS - start))
-    rest=$(((total - started) / jobs))
-    if ((done_of_it > 30)); then rest=$(((total - done_of_it) * elapsed / done_of_it)); fi
+    if [[ $line == *%* ]]; then behind=$jobs; else behind=0; fi
+    while ((${#at_work[@]} > behind)); do
+      finished=$((finished + at_work[0]))
+      at_work=("${at_work[@]:1}")
+    done
+    elapsed=$((SECONDS - start)) rest=$(((total - finished) / jobs))
+    if ((finished > 30)); then rest=$(((total - finished) * elapsed / finished)); fi
     if ((rest >= 5)); then line+="  ($(clock "$elapsed"), about $(clock "$rest") left)"; fi
   fi
   printf '%s\n' "$line"

@@ -40,12 +40,15 @@ class Progress(unittest.TestCase):
     def test_passes_on_what_the_compiler_says(self):
         self.assertEqual(self.shown(COMPILER, ["tofray_load"]), COMPILER)
 
-    def test_both_generators_steps_are_steps(self):
-        targets = ["tofray_kernel_avx2", "tofray_kernel_scalar", "tofray_model"]
-        for step in ("[1/3] Building CXX object src/CMakeFiles/tofray_model.dir/x.o", "[ 33%] Building CXX object src/CMakeFiles/tofray_model.dir/x.o"):
-            line, = self.shown([step], targets)
-            self.assertTrue(line.startswith(step))
-            self.assertEqual(self.seconds_left(line), (40 + 26) // 2)
+    def test_a_step_of_ninja_is_done_when_it_is_said(self):
+        line, = self.shown(["[1/3] Building CXX object src/CMakeFiles/tofray_model.dir/x.o"], ["tofray_kernel_avx2", "tofray_kernel_scalar", "tofray_model"])
+        self.assertTrue(line.startswith("[1/3] Building CXX object src/CMakeFiles/tofray_model.dir/x.o"))
+        self.assertEqual(self.seconds_left(line), (40 + 26) // 2)
+
+    def test_a_step_of_make_begins_when_it_is_said(self):
+        steps = [f"[ 33%] Building CXX object src/CMakeFiles/tofray_{name}.dir/x.o" for name in ("model", "kernel_scalar", "kernel_avx2")]
+        left = [self.seconds_left(line) for line in self.shown(steps, ["tofray_kernel_avx2", "tofray_kernel_scalar", "tofray_model"])]
+        self.assertEqual(left, [(10 + 26 + 40) // 2, (10 + 26 + 40) // 2, (26 + 40) // 2])   # two at work
 
     def test_what_is_there_already_takes_no_time(self):
         line, = self.shown(["[1/2] Building CXX object src/CMakeFiles/tofray_model.dir/x.o"], ["tofray_kernel_avx2", "tofray_kernel_avx512", "tofray_model"],
