@@ -151,7 +151,7 @@ TOFRAY_FIELDS(Mesh, &Mesh::file, &Mesh::scale, &Mesh::up, &Mesh::time_s, &Mesh::
 TOFRAY_FIELDS(Rotation, &Rotation::axis, &Rotation::angle_rad)
 TOFRAY_FIELDS(Keyframe, &Keyframe::time_s, &Keyframe::position, &Keyframe::rotation)
 TOFRAY_FIELDS(Object, &Object::name, &Object::shape, &Object::material, &Object::position, &Object::rotation, &Object::velocity_m_per_s,
-              &Object::angular_velocity_rad_per_s, &Object::keyframes)
+              &Object::angular_velocity_rad_per_s, &Object::keyframes, &Object::key, &Object::where)
 TOFRAY_FIELDS(Ambient, &Ambient::spectrum, &Ambient::quantity, &Ambient::amount, &Ambient::table_wavelength_m,
               &Ambient::table_irradiance_w_per_m3, &Ambient::direction)
 TOFRAY_FIELDS(TransientBins, &TransientBins::bins, &TransientBins::first_m, &TransientBins::width_m)

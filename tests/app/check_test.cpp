@@ -168,13 +168,13 @@ TEST(check, notes_a_closed_object_around_the_camera) {
     EXPECT_EQ(result.code, 0) << result.err;
     return has(result.out, "note: the camera stands inside objects.1");
   };
-  EXPECT_TRUE(note_of("sphere: {center: [1.1, 0, 0], radius: 0.2, reflectivity: 0.5}"));
-  EXPECT_FALSE(note_of("sphere: {center: [1.1, 0, 0], radius: 0.09, reflectivity: 0.5}"));
+  EXPECT_TRUE(note_of("sphere: {center: [1.1, 0, 0], radius: 0.2 m, reflectivity: 0.5}"));
+  EXPECT_FALSE(note_of("sphere: {center: [1.1, 0, 0], radius: 0.09 m, reflectivity: 0.5}"));
   EXPECT_TRUE(note_of("box: {min: [-0.1, -0.1, -0.1], max: [0.1, 0.1, 0.1], position: [1, 0, 0], reflectivity: 0.5}"));
   EXPECT_FALSE(note_of("box: {min: [-0.1, -0.1, -0.1], max: [0.1, 0.1, 0.1], reflectivity: 0.5}"));
-  EXPECT_TRUE(note_of("cylinder: {center: [1, 0, 0.2], axis: [0, 0, 1], radius: 0.1, height: 0.5, reflectivity: 0.5}"));
-  EXPECT_FALSE(note_of("cylinder: {center: [1, 0, 0.2], axis: [0, 0, 1], radius: 0.1, height: 0.3, reflectivity: 0.5}"));
-  EXPECT_FALSE(note_of("disk: {center: [1, 0, 0], normal: [0, 0, 1], radius: 0.1, reflectivity: 0.5}"));
+  EXPECT_TRUE(note_of("cylinder: {center: [1, 0, 0.2], axis: [0, 0, 1], radius: 0.1 m, height: 0.5 m, reflectivity: 0.5}"));
+  EXPECT_FALSE(note_of("cylinder: {center: [1, 0, 0.2], axis: [0, 0, 1], radius: 0.1 m, height: 0.3 m, reflectivity: 0.5}"));
+  EXPECT_FALSE(note_of("disk: {center: [1, 0, 0], normal: [0, 0, 1], radius: 0.1 m, reflectivity: 0.5}"));
 }
 
 TEST(check, of_a_camera_without_light_says_no_noise) {

@@ -18,7 +18,7 @@ using namespace tofray;
 using test::has;
 
 std::string ball(const std::string& keys) {
-  return "objects: [sphere: {center: [0, 0, 1], radius: 0.2, reflectivity: 0.5, " + keys + "}]\n";
+  return "objects: [sphere: {center: [0, 0, 1], radius: 0.2 m, reflectivity: 0.5, " + keys + "}]\n";
 }
 std::string with_camera(const std::string& keyframes) { return "camera: {keyframes: [" + keyframes + "]}\nobjects: []\n"; }
 
