@@ -20,9 +20,9 @@ int run_complete(const Options& options);
 
 namespace {
 
-const std::vector<const char*> simulation = {"--output",   "--clean",   "--set",     "--mode",    "--seed",    "--noise",   "--exposure-samples",
-                                             "--subpixel", "--bounces", "--samples", "--fps",     "--emit",    "--arrays",
-                                             "--compress", "--theme",   "--root",    "--threads", "--backend", "--device"};
+const std::vector<const char*> simulation = {
+    "--output", "--clean", "--set",    "--mode",     "--seed",  "--noise", "--exposure-samples", "--subpixel", "--bounces", "--samples",
+    "--fps",    "--emit",  "--arrays", "--compress", "--theme", "--root",  "--threads",          "--backend",  "--device"};
 
 std::vector<const char*> simulation_and(std::vector<const char*> more) {
   std::vector<const char*> all = simulation;
@@ -78,8 +78,9 @@ std::vector<Command> make() {
            "one\n"
            "channel (mitransient writes [height, width, bin, channel]; its start_opl is --first, its bin_width_opl --width). The camera's\n"
            "size tells where the bins are; where it cannot, they are last.\n",
-       .options = {"--camera", "--output", "--clean", "--set", "--mode", "--emit", "--arrays", "--compress", "--theme", "--transient", "--first",
-                   "--width", "--factor", "--seed", "--noise", "--threads", "--backend", "--device", "--json", "--quiet"},
+       .options = {"--camera",   "--output",  "--clean",     "--set",    "--mode",  "--emit",   "--arrays",
+                   "--compress", "--theme",   "--transient", "--first",  "--width", "--factor", "--seed",
+                   "--noise",    "--threads", "--backend",   "--device", "--json",  "--quiet"},
        .least_words = 1,
        .most_words = 1,
        .run = run_process,

@@ -91,13 +91,15 @@ void EarlierFiles::settle(const files::OutputFolder& folder, bool clean, results
   now.earlier_files = left;
   now.earlier_files.insert(now.earlier_files.end(), changed.begin(), changed.end());
   const std::string where = folder.path().native();
-  if (!removed.empty()) remarks.tell(fmt::format("note: {} of an earlier run removed from {}: {}\n", count_of(removed.size()), where, names_of(removed)));
+  if (!removed.empty())
+    remarks.tell(fmt::format("note: {} of an earlier run removed from {}: {}\n", count_of(removed.size()), where, names_of(removed)));
   if (!changed.empty())
     remarks.tell(fmt::format("warning: {} of an earlier run stay{} in {}: {}\n  --clean removes what is as that run wrote it\n",
                              count_of(changed.size()), changed.size() == 1 ? "s" : "", where, names_of(changed)));
   if (!left.empty() && !parts_of_one_run(*before_, now))
-    remarks.tell(fmt::format("warning: {} of an earlier run lie{} in {}: {}\n  who reads the whole folder mixes two runs; --clean removes them\n",
-                             count_of(left.size()), left.size() == 1 ? "s" : "", where, names_of(left)));
+    remarks.tell(
+        fmt::format("warning: {} of an earlier run lie{} in {}: {}\n  who reads the whole folder mixes two runs; --clean removes them\n",
+                    count_of(left.size()), left.size() == 1 ? "s" : "", where, names_of(left)));
 }
 
 }  // namespace tofray::app

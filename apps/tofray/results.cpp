@@ -93,7 +93,8 @@ double median_noise(const Frame& frame) {
 
 std::string more_light(const Frame& frame, const Camera& camera) {
   const auto shines = [](const Illumination& one) { return one.power_w > 0; };
-  if (std::none_of(camera.illumination.begin(), camera.illumination.end(), shines)) return "the camera has no light: see camera.illumination";
+  if (std::none_of(camera.illumination.begin(), camera.illumination.end(), shines))
+    return "the camera has no light: see camera.illumination";
   const double noise = median_noise(frame);
   return (std::isnan(noise) ? "" : fmt::format("noise {:.2g} m at the median; ", noise)) +
          fmt::format("more light, a longer integration time, or a higher camera.decoding.noise_threshold (now {})",
@@ -111,7 +112,8 @@ std::string whole_cycles(const InvalidPixels& pixels) {
 std::string help_against(NoDepth reason, const InvalidPixels& pixels, const Frame& frame, const Camera& camera) {
   switch (reason) {
     case NoDepth::saturated: return "less light, a shorter integration time, or more distance";
-    case NoDepth::no_surface: return "the rays of these pixels hit nothing: more light does not help; see camera.pose, or add a wall or a floor";
+    case NoDepth::no_surface:
+      return "the rays of these pixels hit nothing: more light does not help; see camera.pose, or add a wall or a floor";
     case NoDepth::beyond_reach:
       return fmt::format("surfaces farther than the ambiguity range of {:.3f} m: a smaller scene, or a mode of a longer range",
                          pixels.ambiguity_range_m);

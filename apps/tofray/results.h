@@ -89,7 +89,8 @@ void say_fallback(const Options& options, const RanOn& machine, Remarks& remarks
 /// @param interrupted_after  how many frames are complete where the run did not come to its end
 /// @param left  what lay in the folder before: what of it stays is told, or removed where --clean says so
 void write_manifest(files::OutputFolder& folder, const Options& options, const std::vector<results::InputFile>& inputs,
-                    const RanOn& machine, const Stopwatch& stopwatch, EarlierFiles& left, Remarks& remarks, std::optional<std::uint64_t> interrupted_after = {});
+                    const RanOn& machine, const Stopwatch& stopwatch, EarlierFiles& left, Remarks& remarks,
+                    std::optional<std::uint64_t> interrupted_after = {});
 
 /// How a run went, for --json and for people.
 /// @param remarks  the warnings and notes that were said

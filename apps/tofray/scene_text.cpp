@@ -28,9 +28,12 @@ std::string size_of(const ObjectInView& one) { return one.endless ? "endless" : 
 
 /// Letters of UTF-8.
 std::size_t letters(const std::string& text) {
-  return static_cast<std::size_t>(std::count_if(text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xC0) != 0x80; }));
+  return static_cast<std::size_t>(
+      std::count_if(text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xC0) != 0x80; }));
 }
-std::string padded(const std::string& text, std::size_t width) { return text + std::string(width > letters(text) ? width - letters(text) : 0, ' '); }
+std::string padded(const std::string& text, std::size_t width) {
+  return text + std::string(width > letters(text) ? width - letters(text) : 0, ' ');
+}
 
 /// The objects that most pixels see, in the scene's order.
 std::vector<const ObjectInView*> largest(const SceneReport& report) {
@@ -51,7 +54,9 @@ std::string objects_text(const SceneReport& report) {
   for (const ObjectInView* one : shown)
     text += fmt::format("  {}{:>10}{:>12}   {}{}\n", padded(one->name, width), std::isnan(one->nearest_m) ? "-" : metres(one->nearest_m),
                         percent(one->pixels, report.pixels), size_of(*one),
-                        one->around_camera ? ", around the camera" : one->behind_camera ? ", behind the camera" : "");
+                        one->around_camera   ? ", around the camera"
+                        : one->behind_camera ? ", behind the camera"
+                                             : "");
   if (shown.size() == report.objects.size()) return text;
   std::size_t seen = 0;
   for (const ObjectInView& one : report.objects) seen += one.pixels > 0 ? 1 : 0;
@@ -73,7 +78,8 @@ std::string scene_report_text(const SceneReport& report) {
   if (report.objects.empty()) return "";
   std::string text = row("nothing hit by", percent(report.no_surface, report.pixels) + " of the rays");
   if (report.nearest_m > 0) text += row("surfaces", fmt::format("from {} to {}", metres(report.nearest_m), metres(report.farthest_m)));
-  if (report.beyond_reach > 0) text += row("beyond the range", percent(report.beyond_reach, report.pixels) + " of the pixels see farther than the ambiguity range");
+  if (report.beyond_reach > 0)
+    text += row("beyond the range", percent(report.beyond_reach, report.pixels) + " of the pixels see farther than the ambiguity range");
   return text + objects_text(report);
 }
 

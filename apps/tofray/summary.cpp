@@ -47,7 +47,8 @@ Rates rates_of(std::uint64_t frames, const Stopwatch& stopwatch) {
 }  // namespace
 
 void write_manifest(files::OutputFolder& folder, const Options& options, const std::vector<results::InputFile>& inputs,
-                    const RanOn& machine, const Stopwatch& stopwatch, EarlierFiles& left, Remarks& remarks, std::optional<std::uint64_t> interrupted_after) {
+                    const RanOn& machine, const Stopwatch& stopwatch, EarlierFiles& left, Remarks& remarks,
+                    std::optional<std::uint64_t> interrupted_after) {
   results::Manifest manifest;
   manifest.tofray_version = base::version();
   manifest.command = options.typed;

@@ -17,15 +17,15 @@ namespace tofray {
 
 /// What one object is to the camera, at one time. The camera looks along z of its frame.
 struct ObjectInView {
-  int object = 0;           ///< index in Scene::objects
-  std::string name;         ///< as messages call it: "objects.2 (ball)"
-  std::int64_t pixels = 0;  ///< that see it
+  int object = 0;                                                ///< index in Scene::objects
+  std::string name;                                              ///< as messages call it: "objects.2 (ball)"
+  std::int64_t pixels = 0;                                       ///< that see it
   double nearest_m = std::numeric_limits<double>::quiet_NaN();   ///< range of the nearest pixel that sees it; NaN where none does
   double farthest_m = std::numeric_limits<double>::quiet_NaN();  ///< likewise
   bool endless = false;                                          ///< a plane
-  Vec3 low{}, high{};            ///< its box in the world [m]; of a plane −inf and inf
-  bool behind_camera = false;    ///< all of it has z < 0 in the camera's frame
-  bool around_camera = false;    ///< the camera stands inside; of a mesh: its triangles surround the camera, by their solid angle
+  Vec3 low{}, high{};                                            ///< its box in the world [m]; of a plane −inf and inf
+  bool behind_camera = false;                                    ///< all of it has z < 0 in the camera's frame
+  bool around_camera = false;  ///< the camera stands inside; of a mesh: its triangles surround the camera, by their solid angle
 };
 
 /// Something about a scene that is seldom meant.
@@ -52,12 +52,12 @@ struct SceneFinding {
 
 /// What the camera sees of the scene at one time.
 struct SceneReport {
-  double time_s = 0;             ///< of the scene
-  std::int64_t pixels = 0;       ///< of the image
-  std::int64_t outside_lens = 0; ///< pixels without a ray
-  std::int64_t no_surface = 0;   ///< pixels whose ray hits nothing
-  std::int64_t beyond_reach = 0; ///< pixels that see what is farther than the ambiguity range
-  double ambiguity_range_m = 0;  ///< of the camera's mode; 0 where no raw frame is lit
+  double time_s = 0;                                             ///< of the scene
+  std::int64_t pixels = 0;                                       ///< of the image
+  std::int64_t outside_lens = 0;                                 ///< pixels without a ray
+  std::int64_t no_surface = 0;                                   ///< pixels whose ray hits nothing
+  std::int64_t beyond_reach = 0;                                 ///< pixels that see what is farther than the ambiguity range
+  double ambiguity_range_m = 0;                                  ///< of the camera's mode; 0 where no raw frame is lit
   double nearest_m = std::numeric_limits<double>::quiet_NaN();   ///< least range of all pixels; NaN where no ray hits anything
   double farthest_m = std::numeric_limits<double>::quiet_NaN();  ///< likewise the largest
   std::vector<ObjectInView> objects;                             ///< one for each of Scene::objects
@@ -95,7 +95,7 @@ struct InvalidPixels {
   std::array<std::int64_t, no_depth_count> count{};  ///< by NoDepth
   double ambiguity_range_m = 0;                      ///< of the camera's mode; 0 where no raw frame is lit
   std::vector<double> ranges_m;                      ///< that of each modulation frequency alone
-  std::int64_t wrapped = 0;  ///< valid pixels whose surface is beyond the ambiguity range: their depth is too small
+  std::int64_t wrapped = 0;                          ///< valid pixels whose surface is beyond the ambiguity range: their depth is too small
 };
 
 /// Needs `flags`; of the truth `object_id` and `range_m`; `raw` or both taps to know wrong cycles. What is missing is not told apart.

@@ -42,8 +42,8 @@ void with_shape(shape::List<Shape...>, const std::variant<Said...>& said, const 
 
 /// Directions that tell turned things of the same box apart.
 const std::array<Vec, 4>& some_directions() {
-  static const std::array<Vec, 4> all = {shape::normalized(Vec{1, 2, 3}), shape::normalized(Vec{-2, 3, 1}), shape::normalized(Vec{3, 1, -2}),
-                                         shape::normalized(Vec{1, -3, 2})};
+  static const std::array<Vec, 4> all = {shape::normalized(Vec{1, 2, 3}), shape::normalized(Vec{-2, 3, 1}),
+                                         shape::normalized(Vec{3, 1, -2}), shape::normalized(Vec{1, -3, 2})};
   return all;
 }
 
@@ -83,8 +83,8 @@ Body body_of(const Mesh& mesh, const Stand& stand, KnownMeshes& known) {
                                   (corner & 4) != 0 ? box.high.z : box.low.z}));
   const auto& first = mesh.triangles->vertices[static_cast<std::size_t>(mesh.triangles->triangles[0][0])];
   const Vec corner = mesh_point(stand, {static_cast<double>(first[0]), static_cast<double>(first[1]), static_cast<double>(first[2])});
-  out.print = {static_cast<double>(mesh.triangles->triangles.size()), static_cast<double>(mesh.triangles->vertices.size()),
-               corner.x, corner.y, corner.z};
+  out.print = {static_cast<double>(mesh.triangles->triangles.size()), static_cast<double>(mesh.triangles->vertices.size()), corner.x,
+               corner.y, corner.z};
   return out;
 }
 

@@ -135,7 +135,8 @@ std::vector<MeshFile> mesh_files(const Seen& seen, const SceneReport& report) {
     MeshFile& file = out[found->second];
     file.objects.push_back(static_cast<int>(i));
     for (int k = 0; k < 3; ++k)
-      file.all.low[k] = std::min(file.all.low[k], seen.bodies[i].low[k]), file.all.high[k] = std::max(file.all.high[k], seen.bodies[i].high[k]);
+      file.all.low[k] = std::min(file.all.low[k], seen.bodies[i].low[k]),
+      file.all.high[k] = std::max(file.all.high[k], seen.bodies[i].high[k]);
     if (report.objects[i].pixels > 0) file.nearest_m = std::min(file.nearest_m, report.objects[i].nearest_m);
   }
   return out;
@@ -148,15 +149,21 @@ std::string set_scale(const Object& object) { return object.key.empty() ? "" : f
 bool find_mesh_sizes(const Seen& seen, SceneReport& report) {
   bool said = false;
   for (const MeshFile& file : mesh_files(seen, report)) {
-    const double size = widest(file.all.low, file.all.high), scale = std::get<Mesh>(seen.scene.objects[static_cast<std::size_t>(file.objects[0])].shape).scale;
+    const double size = widest(file.all.low, file.all.high),
+                 scale = std::get<Mesh>(seen.scene.objects[static_cast<std::size_t>(file.objects[0])].shape).scale;
     const bool unseen = !(file.nearest_m <= report.ambiguity_range_m);
     const bool large = size >= very_large_m || (size >= large_m && unseen && report.ambiguity_range_m > 0);
     if (!large && !(size > 0 && size < very_small_m)) continue;
-    const std::string more = large && scale == 1   ? fmt::format("is its file in millimetres? Then say scale: 0.001 in its mesh{}", set_scale(seen.scene.objects[static_cast<std::size_t>(file.objects[0])]))
-                             : large               ? fmt::format("its mesh says scale: {}, which makes metres of the file's numbers", base::number_text(scale))
-                             : scale == 1          ? "is its file in kilometres? scale in its mesh makes metres of the file's numbers"
-                                                   : fmt::format("is its file in metres? Then take scale: {} out of its mesh", base::number_text(scale));
-    add(seen, report, Kind::mesh_size, true, file.objects, fmt::format("{} measures {}", name_of(seen.scene, file.objects[0]), size_text({file.all.low.x, file.all.low.y, file.all.low.z}, {file.all.high.x, file.all.high.y, file.all.high.z})), more);
+    const std::string more =
+        large && scale == 1 ? fmt::format("is its file in millimetres? Then say scale: 0.001 in its mesh{}",
+                                          set_scale(seen.scene.objects[static_cast<std::size_t>(file.objects[0])]))
+        : large             ? fmt::format("its mesh says scale: {}, which makes metres of the file's numbers", base::number_text(scale))
+        : scale == 1        ? "is its file in kilometres? scale in its mesh makes metres of the file's numbers"
+                            : fmt::format("is its file in metres? Then take scale: {} out of its mesh", base::number_text(scale));
+    add(seen, report, Kind::mesh_size, true, file.objects,
+        fmt::format("{} measures {}", name_of(seen.scene, file.objects[0]),
+                    size_text({file.all.low.x, file.all.low.y, file.all.low.z}, {file.all.high.x, file.all.high.y, file.all.high.z})),
+        more);
     said = true;
   }
   return said;
@@ -204,7 +211,8 @@ std::optional<double> height_above(const Seen& seen, std::size_t i, const Vec& u
   const std::optional<Vec> normal = normal_of(object);
   if (!normal || scene::moves(object) || !(std::abs(shape::dot(*normal, up)) > 0.9)) return {};
   const Body& body = seen.bodies[i];
-  const Vec at = body.endless ? scene::vec(std::get<Plane>(object.shape).point) + scene::vec(object.position) : 0.5 * (body.low + body.high);
+  const Vec at =
+      body.endless ? scene::vec(std::get<Plane>(object.shape).point) + scene::vec(object.position) : 0.5 * (body.low + body.high);
   return shape::dot(at - seen.eye, up);
 }
 
@@ -222,14 +230,16 @@ void find_floors(const Seen& seen, SceneReport& report) {
     if (std::holds_alternative<Plane>(object.shape)) level.push_back(static_cast<int>(i));
     if (*height > 0 && is_called(object, {"floor", "ground"})) above.push_back(static_cast<int>(i));
   }
-  if (above.empty() && usual && level.size() == 1 && !is_called(seen.scene.objects[static_cast<std::size_t>(level[0])], {"ceiling", "roof", "sky", "lid"}) &&
+  if (above.empty() && usual && level.size() == 1 &&
+      !is_called(seen.scene.objects[static_cast<std::size_t>(level[0])], {"ceiling", "roof", "sky", "lid"}) &&
       *height_above(seen, static_cast<std::size_t>(level[0]), up) > 0)
     above = level;
   if (above.empty()) return;
   const double height = *height_above(seen, static_cast<std::size_t>(above[0]), up);
   add(seen, report, Kind::floor_above, true, above,
       fmt::format("{} is level and {} above the camera: a ceiling, not a floor", name_of(seen.scene, above[0]), metres(height)),
-      up.y < -0.9 ? "the world's y points down: a floor has a larger y than the camera, as in point: [0, 0.5, 0]; a ceiling is known by its name, as in name: ceiling"
+      up.y < -0.9 ? "the world's y points down: a floor has a larger y than the camera, as in point: [0, 0.5, 0]; a ceiling is known by "
+                    "its name, as in name: ceiling"
                   : fmt::format("up is {} by camera.pose.up; a ceiling is known by its name, as in name: ceiling", point(up)));
 }
 
@@ -268,7 +278,8 @@ std::string name_of(const Scene& scene, int object) {
   const std::string key = one.key.empty() ? fmt::format("objects.{}", object) : one.key;
   static constexpr const char* kinds[] = {"plane", "sphere", "box", "triangle", "cylinder", "rectangle", "disk", "capsule", "cone", "mesh"};
   std::string name = one.name;
-  if (const auto* mesh = std::get_if<Mesh>(&one.shape); mesh != nullptr && name.empty()) name = std::filesystem::path(mesh->file).filename().string();
+  if (const auto* mesh = std::get_if<Mesh>(&one.shape); mesh != nullptr && name.empty())
+    name = std::filesystem::path(mesh->file).filename().string();
   if (name.empty()) name = kinds[one.shape.index()];
   return fmt::format("{} ({})", key, base::printable(name.substr(0, 60)));
 }

@@ -77,7 +77,9 @@ bool is_cycles_off(const Depth& all, std::size_t i, const std::vector<double>& r
     if (!there || !std::isfinite(all.range_m[k])) return;
     ++known;
     const auto noise = static_cast<double>(std::hypot(all.noise_m[i], all.noise_m[k]));
-    if (is_whole_cycles(static_cast<double>(all.range_m[i]) - static_cast<double>(all.range_m[k]), std::isfinite(noise) ? noise : 0, ranges)) ++off;
+    if (is_whole_cycles(static_cast<double>(all.range_m[i]) - static_cast<double>(all.range_m[k]), std::isfinite(noise) ? noise : 0,
+                        ranges))
+      ++off;
   };
   look(x > 0, i - 1), look(x + 1 < width, i + 1), look(i >= width, i - width), look(i + width < all.range_m.size(), i + width);
   return std::isfinite(all.range_m[i]) && 2 * off > known;
@@ -93,10 +95,17 @@ std::int64_t& count_of(InvalidPixels& of, NoDepth reason) { return of.count[stat
 }  // namespace
 
 const char* no_depth_name(NoDepth reason) {
-  static constexpr const char* names[no_depth_count] = {"saturated",    "no surface",   "beyond reach",
-                                                        "dark",         "low signal",   "no return",
-                                                        "wrong cycle",  "flying pixel", "outside the lens model",
-                                                        "inconsistent phases",          "inconsistent frequencies"};
+  static constexpr const char* names[no_depth_count] = {"saturated",
+                                                        "no surface",
+                                                        "beyond reach",
+                                                        "dark",
+                                                        "low signal",
+                                                        "no return",
+                                                        "wrong cycle",
+                                                        "flying pixel",
+                                                        "outside the lens model",
+                                                        "inconsistent phases",
+                                                        "inconsistent frequencies"};
   return names[static_cast<std::size_t>(reason)];
 }
 
@@ -121,7 +130,8 @@ InvalidPixels invalid_pixels(const Frame& frame, const Camera& camera, bool wron
   const Depth all = with_flying_pixels(frame, camera);
   if (all.range_m.size() != flags.size()) return out;
   for (const std::size_t i : flying)
-    if (is_cycles_off(all, i, reach.ranges_m) && !is_right(seen.error(i, all.range_m[i]), all.noise_m[i], reach.ranges_m)) --count_of(out, NoDepth::flying_pixel), ++count_of(out, NoDepth::wrong_cycle);
+    if (is_cycles_off(all, i, reach.ranges_m) && !is_right(seen.error(i, all.range_m[i]), all.noise_m[i], reach.ranges_m))
+      --count_of(out, NoDepth::flying_pixel), ++count_of(out, NoDepth::wrong_cycle);
   return out;
 }
 

@@ -40,7 +40,8 @@ void place_objects(const Seen& seen, SceneReport& report) {
     one.endless = body.endless;
     one.low = {body.low.x, body.low.y, body.low.z}, one.high = {body.high.x, body.high.y, body.high.z};
     one.behind_camera = is_behind(body, seen);
-    if (!body.endless && holds(body, seen.eye)) one.around_camera = is_inside(seen.scene.objects[i], report.time_s, seen.eye).value_or(false);
+    if (!body.endless && holds(body, seen.eye))
+      one.around_camera = is_inside(seen.scene.objects[i], report.time_s, seen.eye).value_or(false);
   }
 }
 

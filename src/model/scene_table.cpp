@@ -79,9 +79,8 @@ const Table& table_of<Plane>() {
 
 template <>
 const Table& table_of<Sphere>() {
-  static const Table rows =
-      table<Sphere>(number<&Sphere::center>("center", coordinate, "[m]").required(),
-                    number<&Sphere::radius>("radius", {length, {base::shortest_m, 1e5}, "25 cm"}, "[m]").required());
+  static const Table rows = table<Sphere>(number<&Sphere::center>("center", coordinate, "[m]").required(),
+                                          number<&Sphere::radius>("radius", {length, {base::shortest_m, 1e5}, "25 cm"}, "[m]").required());
   return rows;
 }
 
@@ -103,11 +102,11 @@ const Table& table_of<Triangle>() {
 
 template <>
 const Table& table_of<Cylinder>() {
-  static const Table rows = table<Cylinder>(
-      number<&Cylinder::center>("center", coordinate, "halfway between its caps [m]").required(),
-      number<&Cylinder::axis>("axis", component, "from cap to cap; any length but zero").required().direction(),
-      number<&Cylinder::radius>("radius", {length, {base::shortest_m, 1e5}, "5 cm"}, "[m]").required(),
-      number<&Cylinder::height>("height", {length, {base::shortest_m, 1e5}, "20 cm"}, "from cap to cap [m]").required());
+  static const Table rows =
+      table<Cylinder>(number<&Cylinder::center>("center", coordinate, "halfway between its caps [m]").required(),
+                      number<&Cylinder::axis>("axis", component, "from cap to cap; any length but zero").required().direction(),
+                      number<&Cylinder::radius>("radius", {length, {base::shortest_m, 1e5}, "5 cm"}, "[m]").required(),
+                      number<&Cylinder::height>("height", {length, {base::shortest_m, 1e5}, "20 cm"}, "from cap to cap [m]").required());
   return rows;
 }
 

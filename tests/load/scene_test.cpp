@@ -259,10 +259,10 @@ TEST(scene, may_be_empty) {
 
 TEST(scene, reports_all_faults_at_once_in_order) {
   const std::string what =
-      refusal("camera: {itegration_time: 1 ms}\nobjects:\n  - sphere: {center: [0, 0], radius: -1, reflectivity: 2}\n  - ball: {}\n");
+      refusal("camera: {itegration_time: 1 ms}\nobjects:\n  - sphere: {center: [0, 0], radius: -1 m, reflectivity: 2}\n  - ball: {}\n");
   const char* in_order[] = {"s.yaml:1:10: error: unknown key \"itegration_time\" in camera; did you mean \"integration_time\"?",
                             "s.yaml:3:22: error: center has the wrong number of elements", "s.yaml:3:38: error: radius is out of range",
-                            "s.yaml:3:56: error: reflectivity is out of range", "s.yaml:4:5: error: unknown key \"ball\""};
+                            "s.yaml:3:58: error: reflectivity is out of range", "s.yaml:4:5: error: unknown key \"ball\""};
   std::size_t at = 0;
   for (const char* line : in_order) {
     const std::size_t found = what.find(line, at);

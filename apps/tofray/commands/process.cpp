@@ -110,8 +110,10 @@ Inputs inputs_of(const Options& options, const Source& from, const char* role, R
   if (!from.path.ends_with(".npy")) in.kept = arrays_to_keep(from.bytes, from.path, remarks);
   in.pose = pose_of(in.kept);
   if (const auto bins = results::transient_of_meta(from.meta, from.path)) in.scene.transport.transient = *bins;  // of what is kept
-  remarks.tell(in.camera.illumination.empty() ? "warning: the camera has no light source: camera.illumination is []\n  no light comes back: what depth there is, is noise\n"
-                                     : "");
+  remarks.tell(
+      in.camera.illumination.empty()
+          ? "warning: the camera has no light source: camera.illumination is []\n  no light comes back: what depth there is, is noise\n"
+          : "");
   return in;
 }
 

@@ -31,7 +31,7 @@ void refuse_other_settings(const Options& now) {
 void say_other_version(const results::Manifest& manifest, Remarks& remarks) {
   if (manifest.tofray_version != base::version())
     remarks.tell(fmt::format("warning: tofray {} wrote this manifest, this is {}\n  the bytes may differ\n", manifest.tofray_version,
-                    base::version()));
+                             base::version()));
 }
 
 /// The files whose bytes are not those of the manifest.
@@ -52,8 +52,8 @@ bool made_again(const Options& options, const results::Manifest& before, const f
   const std::vector<std::string> changed = changed_files(before, folder);
   if (changed.empty()) return true;
   if (std::all_of(changed.begin(), changed.end(), is_figure)) {
-    remarks.tell(fmt::format("note: {} {} letters of other fonts than {} lists; all else has the same bytes\n", base::listed(changed, "and"),
-                    changed.size() == 1 ? "has" : "have", options.from));
+    remarks.tell(fmt::format("note: {} {} letters of other fonts than {} lists; all else has the same bytes\n",
+                             base::listed(changed, "and"), changed.size() == 1 ? "has" : "have", options.from));
     return true;
   }
   say(fmt::format("error: {} of {} files are not the bytes that {} lists: {}\n  it was written by tofray {} on {} ({})\n", changed.size(),
@@ -131,8 +131,8 @@ void warn_of_lost(const Rendered& out, Remarks& remarks) {
 
 void warn_of_invalid(const Rendered& out, Remarks& remarks) {
   if (out.all_invalid == 0) return;
-  remarks.tell(fmt::format("warning: no pixel has a valid depth in {} of {} frame{}\n  in the last frame: {}\n", out.all_invalid, out.frames,
-                  out.frames == 1 ? "" : "s", out.last.reasons));
+  remarks.tell(fmt::format("warning: no pixel has a valid depth in {} of {} frame{}\n  in the last frame: {}\n", out.all_invalid,
+                           out.frames, out.frames == 1 ? "" : "s", out.last.reasons));
 }
 
 /// What lies there after an interruption, and how to make the rest with the same names and kinds of files.
@@ -191,7 +191,8 @@ int run_render(const Options& typed) {
   const bool stopped = stop && stop->signal() != 0;
   const bool same = typed.from.empty() || stopped || made_again(typed, before, folder, remarks);
   if (options.json)
-    print(files::json_text(summary_json(folder, out.last, out.frames, machine, stopwatch, remarks).set("interrupted", interrupted), 2) + "\n");
+    print(files::json_text(summary_json(folder, out.last, out.frames, machine, stopwatch, remarks).set("interrupted", interrupted), 2) +
+          "\n");
   else
     Talk(options.quiet)(summary_text(folder, out.last, out.frames, machine, stopwatch));
   return stopped ? 128 + stop->signal() : same ? 0 : 1;
