@@ -134,15 +134,16 @@ std::string help_against(NoDepth reason, const InvalidPixels& pixels, const Fram
 
 Validity validity(const Frame& frame, const Camera& camera, bool wrong_cycles) {
   Validity out{invalid_pixels(frame, camera, wrong_cycles), {}, {}};
-  const auto& counts = out.pixels.count;
-  for (std::size_t i = 0; i < counts.size(); ++i)
-    if (counts[i] > 0)
-      out.reasons += fmt::format("{}{} {}", out.reasons.empty() ? "" : ", ", counts[i], no_depth_name(static_cast<NoDepth>(i)));
+  NoDepth most{};
+  for (std::size_t i = 0; i < no_depth_count; ++i) {
+    const auto reason = static_cast<NoDepth>(i);
+    const std::int64_t count = out.pixels.count(reason);
+    if (count > 0) out.reasons += fmt::format("{}{} {}", out.reasons.empty() ? "" : ", ", count, no_depth_name(reason));
+    if (count > out.pixels.count(most)) most = reason;
+  }
   if (!out.few()) return out;
-  const auto most = static_cast<std::size_t>(std::max_element(counts.begin(), counts.end()) - counts.begin());
-  const auto reason = static_cast<NoDepth>(most);
-  out.advice = fmt::format("{:.0f} % {}: {}", 100.0 * static_cast<double>(counts[most]) / static_cast<double>(out.pixels.pixels),
-                           no_depth_name(reason), help_against(reason, out.pixels, frame, camera));
+  const double share = static_cast<double>(out.pixels.count(most)) / static_cast<double>(out.pixels.pixels);
+  out.advice = fmt::format("{:.0f} % {}: {}", 100 * share, no_depth_name(most), help_against(most, out.pixels, frame, camera));
   return out;
 }
 

@@ -52,7 +52,7 @@ std::string objects_text(const SceneReport& report) {
   for (const ObjectInView* one : shown) width = std::max(width, letters(one->name));
   std::string text = "  " + padded("object", width) + "   nearest   of pixels   size\n";
   for (const ObjectInView* one : shown)
-    text += fmt::format("  {}{:>10}{:>12}   {}{}\n", padded(one->name, width), std::isnan(one->nearest_m) ? "-" : metres(one->nearest_m),
+    text += fmt::format("  {}{:>10}{:>12}   {}{}\n", padded(one->name, width), one->nearest_m ? metres(*one->nearest_m) : "-",
                         percent(one->pixels, report.pixels), size_of(*one),
                         one->around_camera   ? ", around the camera"
                         : one->behind_camera ? ", behind the camera"
@@ -64,7 +64,7 @@ std::string objects_text(const SceneReport& report) {
                             report.objects.size(), seen);
 }
 
-files::Json number(double value) { return std::isfinite(value) ? files::Json(value) : files::Json(); }
+files::Json number(const std::optional<double>& value) { return value && std::isfinite(*value) ? files::Json(*value) : files::Json(); }
 
 files::Json box_json(const Vec3& corner) {
   files::Json out = files::Json::array();
@@ -77,7 +77,7 @@ files::Json box_json(const Vec3& corner) {
 std::string scene_report_text(const SceneReport& report) {
   if (report.objects.empty()) return "";
   std::string text = row("nothing hit by", percent(report.no_surface, report.pixels) + " of the rays");
-  if (report.nearest_m > 0) text += row("surfaces", fmt::format("from {} to {}", metres(report.nearest_m), metres(report.farthest_m)));
+  if (report.nearest_m) text += row("surfaces", fmt::format("from {} to {}", metres(*report.nearest_m), metres(*report.farthest_m)));
   if (report.beyond_reach > 0)
     text += row("beyond the range", percent(report.beyond_reach, report.pixels) + " of the pixels see farther than the ambiguity range");
   return text + objects_text(report);

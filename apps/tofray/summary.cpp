@@ -87,10 +87,11 @@ files::Json summary_json(const files::OutputFolder& folder, const Validity& last
   files::Json json = files::Json::object();
   json.set("computed_frames_per_s", rates.computed).set("written_frames_per_s", rates.written);
   files::Json invalid = files::Json::object();
-  for (std::size_t i = 0; i < last.pixels.count.size(); ++i) {
-    std::string name = no_depth_name(static_cast<NoDepth>(i));
+  for (std::size_t i = 0; i < no_depth_count; ++i) {
+    const auto reason = static_cast<NoDepth>(i);
+    std::string name = no_depth_name(reason);
     std::replace(name.begin(), name.end(), ' ', '_');
-    invalid.set(name, last.pixels.count[i]);
+    invalid.set(name, last.pixels.count(reason));
   }
   json.set("folder", folder.path().native()).set("frames", frames).set("pixels", last.pixels.pixels).set("valid_pixels", last.pixels.valid);
   json.set("invalid_pixels", std::move(invalid)).set("valid_beyond_ambiguity_range", last.pixels.wrapped).set("advice", last.advice);

@@ -1,10 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The tofray authors
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-#include <array>
 #include <cstddef>
 #include <cstdint>
-#include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,15 +16,15 @@ namespace tofray {
 
 /// What one object is to the camera, at one time. The camera looks along z of its frame.
 struct ObjectInView {
-  int object = 0;                                                ///< index in Scene::objects
-  std::string name;                                              ///< as messages call it: "objects.2 (ball)"
-  std::int64_t pixels = 0;                                       ///< that see it
-  double nearest_m = std::numeric_limits<double>::quiet_NaN();   ///< range of the nearest pixel that sees it; NaN where none does
-  double farthest_m = std::numeric_limits<double>::quiet_NaN();  ///< likewise
-  bool endless = false;                                          ///< a plane
-  Vec3 low{}, high{};                                            ///< its box in the world [m]; of a plane −inf and inf
-  bool behind_camera = false;                                    ///< all of it has z < 0 in the camera's frame
-  bool around_camera = false;  ///< the camera stands inside; of a mesh: its triangles surround the camera, by their solid angle
+  int object = 0;                    ///< index in Scene::objects
+  std::string name;                  ///< as messages call it: "objects.2 (ball)"
+  std::int64_t pixels = 0;           ///< that see it
+  std::optional<double> nearest_m;   ///< range of the nearest pixel that sees it; none where no pixel does
+  std::optional<double> farthest_m;  ///< likewise
+  bool endless = false;              ///< a plane
+  Vec3 low{}, high{};                ///< its box in the world [m]; of a plane −inf and inf
+  bool behind_camera = false;        ///< all of it has z < 0 in the camera's frame
+  bool around_camera = false;        ///< the camera stands inside; of a mesh: its triangles surround the camera, by their solid angle
 };
 
 /// Something about a scene that is seldom meant.
@@ -52,15 +51,15 @@ struct SceneFinding {
 
 /// What the camera sees of the scene at one time.
 struct SceneReport {
-  double time_s = 0;                                             ///< of the scene
-  std::int64_t pixels = 0;                                       ///< of the image
-  std::int64_t outside_lens = 0;                                 ///< pixels without a ray
-  std::int64_t no_surface = 0;                                   ///< pixels whose ray hits nothing
-  std::int64_t beyond_reach = 0;                                 ///< pixels that see what is farther than the ambiguity range
-  double ambiguity_range_m = 0;                                  ///< of the camera's mode; 0 where no raw frame is lit
-  double nearest_m = std::numeric_limits<double>::quiet_NaN();   ///< least range of all pixels; NaN where no ray hits anything
-  double farthest_m = std::numeric_limits<double>::quiet_NaN();  ///< likewise the largest
-  std::vector<ObjectInView> objects;                             ///< one for each of Scene::objects
+  double time_s = 0;                  ///< of the scene
+  std::int64_t pixels = 0;            ///< of the image
+  std::int64_t outside_lens = 0;      ///< pixels without a ray
+  std::int64_t no_surface = 0;        ///< pixels whose ray hits nothing
+  std::int64_t beyond_reach = 0;      ///< pixels that see what is farther than the ambiguity range
+  double ambiguity_range_m = 0;       ///< of the camera's mode; 0 where no raw frame is lit
+  std::optional<double> nearest_m;    ///< least range of all pixels; none where no ray hits anything
+  std::optional<double> farthest_m;   ///< likewise the largest
+  std::vector<ObjectInView> objects;  ///< one for each of Scene::objects
   std::vector<SceneFinding> findings;
 };
 
@@ -89,13 +88,26 @@ inline constexpr std::size_t no_depth_count = 11;
 /// What messages call it: "no surface", "wrong cycle".
 const char* no_depth_name(NoDepth reason);
 
-/// How many pixels have no depth, and why: each counts once.
+/// How many pixels have no depth, and why: each counts once, under the member of its NoDepth.
 struct InvalidPixels {
-  std::int64_t pixels = 0, valid = 0;
-  std::array<std::int64_t, no_depth_count> count{};  ///< by NoDepth
-  double ambiguity_range_m = 0;                      ///< of the camera's mode; 0 where no raw frame is lit
-  std::vector<double> ranges_m;                      ///< that of each modulation frequency alone
-  std::int64_t wrapped = 0;                          ///< valid pixels whose surface is beyond the ambiguity range: their depth is too small
+  std::int64_t pixels = 0;                    ///< of the image
+  std::int64_t valid = 0;                     ///< of them, those that have a depth
+  std::int64_t wrapped = 0;                   ///< valid ones whose surface is beyond the ambiguity range: their depth is too small
+  std::int64_t saturated = 0;                 ///< a well or the ADC is full
+  std::int64_t no_surface = 0;                ///< the ray hits nothing
+  std::int64_t beyond_reach = 0;              ///< the surface is farther than the ambiguity range
+  std::int64_t dark = 0;                      ///< there is a surface within reach, and too little light comes back
+  std::int64_t low_signal = 0;                ///< too little light; without truth nobody knows what is there
+  std::int64_t no_return = 0;                 ///< no light; likewise
+  std::int64_t wrong_cycle = 0;               ///< most neighbours are off by whole cycles of a modulation frequency
+  std::int64_t flying_pixel = 0;              ///< light of near and far mixed
+  std::int64_t outside_lens = 0;              ///< the lens model has no ray there
+  std::int64_t inconsistent_phases = 0;       ///< rejected for these
+  std::int64_t inconsistent_frequencies = 0;  ///< likewise
+  double ambiguity_range_m = 0;               ///< of the camera's mode; 0 where no raw frame is lit
+  std::vector<double> ranges_m;               ///< that of each modulation frequency alone
+
+  [[nodiscard]] std::int64_t count(NoDepth reason) const;
 };
 
 /// Needs `flags`; of the truth `object_id` and `range_m`; `raw` or both taps to know wrong cycles. What is missing is not told apart.

@@ -104,14 +104,12 @@ bool find_nothing(const Seen& seen, SceneReport& report) {
 /// @return whether something is said
 bool find_millimetres(const Seen& seen, SceneReport& report) {
   const std::vector<int> all = things(report);
-  const bool hits = report.nearest_m > 0;
+  const bool hits = report.nearest_m.has_value();
   const bool far = std::all_of(all.begin(), all.end(), [&](int i) { return distance_to_box(body_of(seen, i), seen.eye) > very_far_m; });
-  if (hits ? !(report.nearest_m > very_far_m) : all.empty() || !far) return false;
-  double nearest = report.nearest_m;
-  if (!hits) {
-    nearest = std::numeric_limits<double>::infinity();
-    for (const int i : all) nearest = std::min(nearest, distance_to_box(body_of(seen, i), seen.eye));
-  }
+  if (hits ? *report.nearest_m <= very_far_m : all.empty() || !far) return false;
+  double nearest = report.nearest_m.value_or(std::numeric_limits<double>::infinity());
+  for (const int i : all)
+    if (!hits) nearest = std::min(nearest, distance_to_box(body_of(seen, i), seen.eye));
   add(seen, report, Kind::millimetres, true, all, fmt::format("the nearest object is {} away from the camera", metres(nearest)),
       fmt::format("coordinates without a unit are metres: are these millimetres? Then this would be {}: write 1.5 or 1500 mm, not 1500",
                   metres(1e-3 * nearest)));
@@ -137,7 +135,7 @@ std::vector<MeshFile> mesh_files(const Seen& seen, const SceneReport& report) {
     for (int k = 0; k < 3; ++k)
       file.all.low[k] = std::min(file.all.low[k], seen.bodies[i].low[k]),
       file.all.high[k] = std::max(file.all.high[k], seen.bodies[i].high[k]);
-    if (report.objects[i].pixels > 0) file.nearest_m = std::min(file.nearest_m, report.objects[i].nearest_m);
+    file.nearest_m = std::min(file.nearest_m, report.objects[i].nearest_m.value_or(file.nearest_m));
   }
   return out;
 }
@@ -250,8 +248,8 @@ void find_beyond(const Seen& seen, SceneReport& report) {
   std::int64_t pixels = 0;
   double nearest = std::numeric_limits<double>::infinity();
   for (const ObjectInView& one : report.objects)
-    if (one.nearest_m > report.ambiguity_range_m)
-      beyond.push_back(one.object), pixels += one.pixels, nearest = std::min(nearest, one.nearest_m);
+    if (one.nearest_m && *one.nearest_m > report.ambiguity_range_m)
+      beyond.push_back(one.object), pixels += one.pixels, nearest = std::min(nearest, *one.nearest_m);
   if (!(static_cast<double>(pixels) >= one_percent * static_cast<double>(report.pixels))) return;
   std::stable_sort(beyond.begin(), beyond.end(), [&](int a, int b) { return in_view(report, a).pixels > in_view(report, b).pixels; });
   const std::string range = fmt::format("{:.3f} m", report.ambiguity_range_m);

@@ -90,7 +90,18 @@ bool is_right(double error, float noise, const std::vector<double>& ranges) {
   return std::isfinite(error) && !is_whole_cycles(error, std::isfinite(noise) ? static_cast<double>(noise) : 0, ranges);
 }
 
-std::int64_t& count_of(InvalidPixels& of, NoDepth reason) { return of.count[static_cast<std::size_t>(reason)]; }
+constexpr std::int64_t InvalidPixels::*members[no_depth_count] = {&InvalidPixels::saturated,
+                                                                  &InvalidPixels::no_surface,
+                                                                  &InvalidPixels::beyond_reach,
+                                                                  &InvalidPixels::dark,
+                                                                  &InvalidPixels::low_signal,
+                                                                  &InvalidPixels::no_return,
+                                                                  &InvalidPixels::wrong_cycle,
+                                                                  &InvalidPixels::flying_pixel,
+                                                                  &InvalidPixels::outside_lens,
+                                                                  &InvalidPixels::inconsistent_phases,
+                                                                  &InvalidPixels::inconsistent_frequencies};
+std::int64_t& count_of(InvalidPixels& of, NoDepth reason) { return of.*members[static_cast<std::size_t>(reason)]; }
 
 }  // namespace
 
@@ -108,6 +119,8 @@ const char* no_depth_name(NoDepth reason) {
                                                         "inconsistent frequencies"};
   return names[static_cast<std::size_t>(reason)];
 }
+
+std::int64_t InvalidPixels::count(NoDepth reason) const { return this->*members[static_cast<std::size_t>(reason)]; }
 
 InvalidPixels invalid_pixels(const Frame& frame, const Camera& camera, bool wrong_cycles) {
   const analysis::Reach reach = analysis::reach_of(camera);

@@ -66,8 +66,8 @@ void find_meshes_around(const Seen& seen, SceneReport& report) {
 }
 
 void count_pixels(const Truth& truth, SceneReport& report) {
-  const auto least = [](double& known, double m) { known = known <= m ? known : m; };
-  const auto most = [](double& known, double m) { known = known >= m ? known : m; };
+  const auto least = [](std::optional<double>& known, double m) { known = std::min(known.value_or(m), m); };
+  const auto most = [](std::optional<double>& known, double m) { known = std::max(known.value_or(m), m); };
   for (std::size_t i = 0; i < truth.object_id.size(); ++i) {
     if (truth.object_id[i] < 0) {
       ++report.no_surface;

@@ -72,10 +72,10 @@ TEST(scene_report, knows_ranges_shares_and_boxes_of_a_ball_before_a_wall) {
   EXPECT_EQ(wall.name, "objects.0 (wall)");
   EXPECT_EQ(ball.name, "objects.1 (sphere)");
   EXPECT_TRUE(wall.endless);
-  EXPECT_NEAR(ball.nearest_m, 0.9, 1e-6);
+  EXPECT_NEAR(ball.nearest_m.value(), 0.9, 1e-6);
   EXPECT_EQ(report.nearest_m, ball.nearest_m);
   EXPECT_EQ(report.farthest_m, wall.farthest_m);
-  EXPECT_NEAR(wall.farthest_m, 2 * std::sqrt(1 + 2 * 0.3 * 0.3), 1e-6);
+  EXPECT_NEAR(wall.farthest_m.value(), 2 * std::sqrt(1 + 2 * 0.3 * 0.3), 1e-6);
   // The ball's outline: a disk of tangent r/√(d² − r²); its rim of some 2πr pixels is right by half of it.
   const double radius = 100 * 0.1 / std::sqrt(1 - 0.01);
   EXPECT_NEAR(static_cast<double>(ball.pixels), pi * radius * radius, pi * radius);

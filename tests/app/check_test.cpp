@@ -194,7 +194,8 @@ TEST(render, says_why_few_pixels_are_valid_and_what_helps) {
   };
   const std::string dark = said("camera.integration_time", "30 us");
   EXPECT_TRUE(has(dark, " % dark: noise 0.")) << dark;
-  EXPECT_TRUE(has(dark, "m at the median; more light, a longer integration time, or a higher camera.decoding.noise_threshold (now 70 mm)")) << dark;
+  EXPECT_TRUE(has(dark, "m at the median; more light, a longer integration time, or a higher camera.decoding.noise_threshold (now 70 mm)"))
+      << dark;
   const std::string bright = said("camera.illumination.0.power", "100 W");
   EXPECT_TRUE(has(bright, " % saturated: less light, a shorter integration time, or more distance\n")) << bright;
   const std::string rejected = said("camera.decoding.asymmetry", "{sigmas: 0, reject: true}");
