@@ -21,7 +21,7 @@ KINDS = ("spread-sphere", "spread-box", "spread-mesh", "pile-sphere", "sun-spher
 
 def shape(kind, x, y, z, radius):
     if kind == "sphere":
-        return f"sphere: {{center: [{x:.5f}, {y:.5f}, {z:.5f}], radius: {radius:.5f}, reflectivity: 0.5}}"
+        return f"sphere: {{center: [{x:.5f}, {y:.5f}, {z:.5f}], radius: {radius:.5f} m, reflectivity: 0.5}}"
     if kind == "box":
         low, high = ([f"{a + s * 0.8 * radius:.5f}" for a in (x, y, z)] for s in (-1, 1))
         return f"box: {{min: [{', '.join(low)}], max: [{', '.join(high)}], reflectivity: 0.5}}"

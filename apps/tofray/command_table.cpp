@@ -20,9 +20,9 @@ int run_complete(const Options& options);
 
 namespace {
 
-const std::vector<const char*> simulation = {"--output",   "--set",     "--mode",    "--seed",    "--noise",   "--exposure-samples",
-                                             "--subpixel", "--bounces", "--samples", "--fps",     "--emit",    "--arrays",
-                                             "--compress", "--theme",   "--root",    "--threads", "--backend", "--device"};
+const std::vector<const char*> simulation = {
+    "--output", "--clean", "--set",    "--mode",     "--seed",  "--noise", "--exposure-samples", "--subpixel", "--bounces", "--samples",
+    "--fps",    "--emit",  "--arrays", "--compress", "--theme", "--root",  "--threads",          "--backend",  "--device"};
 
 std::vector<const char*> simulation_and(std::vector<const char*> more) {
   std::vector<const char*> all = simulation;
@@ -52,6 +52,7 @@ std::vector<Command> make() {
                    "tofray render room --frames 500 --arrays raw,z_m,flags   # an eighth of the bytes\n"
                    "tofray render scene.yaml --frames 60 --fps 15 --exposure-samples 4  # a film, with motion blur\n"
                    "tofray render room --subpixel 3                          # edges mix near and far, as in a real pixel\n"
+                   "tofray render scene.yaml -o out --clean                  # what an earlier run left in out goes\n"
                    "tofray render --from out/manifest.json -o again          # the same bytes again\n",
        .more = "SCENE is a YAML or JSON file, a name out of `tofray list scenes`, or a mesh (OBJ, PLY, STL), which is put on a floor.\n"
                "Without -o the folder is called like the scene.\n"
@@ -77,8 +78,9 @@ std::vector<Command> make() {
            "one\n"
            "channel (mitransient writes [height, width, bin, channel]; its start_opl is --first, its bin_width_opl --width). The camera's\n"
            "size tells where the bins are; where it cannot, they are last.\n",
-       .options = {"--camera", "--output", "--set", "--mode", "--emit", "--arrays", "--compress", "--theme", "--transient", "--first",
-                   "--width", "--factor", "--seed", "--noise", "--threads", "--backend", "--device", "--json", "--quiet"},
+       .options = {"--camera",   "--output",  "--clean",     "--set",    "--mode",  "--emit",   "--arrays",
+                   "--compress", "--theme",   "--transient", "--first",  "--width", "--factor", "--seed",
+                   "--noise",    "--threads", "--backend",   "--device", "--json",  "--quiet"},
        .least_words = 1,
        .most_words = 1,
        .run = run_process,

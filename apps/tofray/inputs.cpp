@@ -176,8 +176,9 @@ Inputs load_inputs(const std::string& scene, const Options& options) {
     in.scene = load::load_scene(scene, options.set);
     in.files.push_back({"scene", scene, {}});
   } else if (is_called_like_a_mesh(scene)) {
-    const std::string name = scene_name_of_mesh(scene), text = scene_of_mesh(scene, name, options);
+    const std::string name = scene_name_of_mesh(scene), text = scene_of_mesh(scene, name, options, in.mesh_alone);
     in.scene = load::scene_from_text(text, name, options.set, {options.root, {}});
+    for (Object& object : in.scene.objects) object.where = scene;  // its text lies nowhere
     in.files.push_back({"scene", name, text});
   } else {
     // Read once, so that a pipe is good, too, and the manifest holds what was simulated.
@@ -232,8 +233,8 @@ Inputs inputs_of(const results::Manifest& manifest, const Options& options) {
 std::string warnings(const Inputs& in) {
   std::string text;
   if (in.scene.objects.empty())
-    text += "warning: the scene has no objects: objects is []\n  no pixel gets any light back: what depth there is, noise makes\n";
-  text += mesh_warnings(in.scene) + in.idle_transport;
+    text += "warning: the scene has no objects: objects is []\n  no pixel gets any light back: what depth there is, is noise\n";
+  text += in.mesh_alone + mesh_warnings(in.scene) + in.idle_transport;
   const double now = longest_lit(in.camera), modes = in.mode_integration_time_s;
   if (modes > 0 && now > modes)
     text += fmt::format(
@@ -247,7 +248,7 @@ std::string warnings(const Inputs& in) {
 std::string warnings(const Camera& camera, const std::string& before) {
   const auto& lights = camera.illumination;
   const auto& sequence = camera.mode.sequence;
-  const char* const effect = "\n  every depth is invalid\n";
+  const char* const effect = "\n  no light comes back: what depth there is, is noise\n";
   std::string text;
   if (lights.empty()) {
     text += fmt::format("warning: the camera has no light source: {}illumination is []{}", before, effect);

@@ -20,6 +20,7 @@ struct Inputs {
   Camera camera;
   std::vector<results::InputFile> files;    ///< for manifest.json: the scene, a profile of one's own and its tables
   std::vector<files::NamedArray> kept;      ///< of a recording: arrays that are written again as they are
+  std::string mesh_alone;                   ///< warnings of a mesh's file that stands alone
   std::string idle_transport;               ///< a warning where the scene's file asks for ways of light that nothing follows
   double mode_integration_time_s = 0;       ///< longest lit exposure of the mode itself where camera.integration_time sets another; else 0
   std::optional<results::PoseMatrix> pose;  ///< of a recording; otherwise the scene says it

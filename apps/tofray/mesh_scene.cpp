@@ -12,6 +12,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "base/text.h"
 #include "base/vec.h"
 #include "load/gltf_load.h"
 #include "load/mesh_load.h"
@@ -73,12 +74,18 @@ bool is_called_like_a_mesh(const std::string& path) {
 
 std::string scene_name_of_mesh(const std::string& path) { return std::filesystem::path(path).replace_extension(".yaml").string(); }
 
-std::string scene_of_mesh(const std::string& path, const std::string& source, const Options& options) {
+std::string scene_of_mesh(const std::string& path, const std::string& source, const Options& options, std::string& warnings) {
   // What --set makes of the mesh, so that its scale and its axes count; the rest of the scene is not there yet.
   load::Settings of_mesh;
   for (const auto& one : options.set)
     if (one.first.starts_with("objects.0.mesh.")) of_mesh.push_back(one);
-  const bool own_materials = load::has_own_materials(std::filesystem::path(path).filename().string(), source, options.root);
+  std::string unread;
+  const bool own_materials = load::has_own_materials(std::filesystem::path(path).filename().string(), source, options.root, &unread);
+  if (!unread.empty())
+    warnings += fmt::format(
+        "{}: warning: its file of materials (mtllib) cannot be read: {}; the mesh is grey, of reflectivity 0.5\n"
+        "  put the file beside the mesh, or say another reflectivity: --set objects.0.mesh.reflectivity=0.3\n",
+        path, base::in_quotes(unread));
   const Scene alone = load::scene_from_text(text_of(path, own_materials, ""), source, of_mesh, {options.root});
   const Box box = box_round(alone);
   const std::optional<Pose> own = load::camera_in(std::get<Mesh>(alone.objects[0].shape), source, options.root);

@@ -203,6 +203,8 @@ std::vector<OptionSpec> bench_specs() {
 std::vector<OptionSpec> specs() {
   return {
       {"--output", 'o', "DIR", "folder to write to", [](Options& o, const std::string& v) { o.output = v; }, "<files>"},
+      {"--clean", 0, nullptr, "remove what earlier runs wrote into the folder and this one does not, by the manifest.json there",
+       [](Options& o, const std::string&) { o.clean = true; }},
       {"--set", 0, "KEY=VALUE", "change a key of the scene, or of its camera as camera.…; as often as you like", take_set, "<keys>"},
       {"--mode", 0, "NAME", "the camera's mode (`tofray list cameras` names them)", [](Options& o, const std::string& v) { o.mode = v; },
        "<modes>"},

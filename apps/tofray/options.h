@@ -37,7 +37,7 @@ struct Options {
   std::string mode, camera, root, from, output;
   std::string transient;                               ///< --transient: a file
   std::optional<double> first_m, width_m, per_factor;  ///< --first, --width, --factor: what that file does not say
-  bool json = false, quiet = false, compare = false;
+  bool json = false, quiet = false, compare = false, clean = false;
 };
 
 }  // namespace tofray::app

@@ -8,6 +8,8 @@
 #include <cmath>
 
 #include "backend/cuda/cuda.h"
+#include "base/text.h"
+#include "base/units.h"
 #include "console.h"
 #include "pictures/pictures.h"
 #include "results/array_table.h"
@@ -37,10 +39,10 @@ std::string machine_text(const RanOn& machine) {
   return fmt::format("{} on {} thread{}", machine.isa, machine.threads, machine.threads == 1 ? "" : "s");
 }
 
-void say_fallback(const Options& options, const RanOn& machine) {
+void say_fallback(const Options& options, const RanOn& machine, Remarks& remarks) {
   const std::string& reason = machine.fallback_reason;
   if (reason.empty() || (!options.backend && !backend::why_no_cuda(options.device).gpu_present)) return;
-  say(fmt::format("note: the processor computes, not a GPU: {}\n", reason));
+  remarks.tell(fmt::format("note: the processor computes, not a GPU: {}\n", reason));
 }
 
 void Stopwatch::lap(const std::string& stage) {
@@ -73,54 +75,75 @@ const std::vector<std::string>& flag_names() {
 
 namespace {
 
-/// Median of the noise of the pixels whose first reason is low signal [m]; NaN where none has one.
-double median_noise(const Depth& depth) {
+/// Median of the noise of the pixels that are invalid for too little light [m], but for those of which truth says that nothing is there;
+/// NaN where none has one.
+double median_noise(const Frame& frame) {
+  const Depth& depth = frame.depth;
+  const bool knows = frame.truth.object_id.size() == depth.flags.size();
   std::vector<float> noise;
-  for (std::size_t i = 0; i < depth.flags.size(); ++i)
-    if (1 << std::max(pictures::invalid_reason(depth.flags[i]), 0) == flag_low_signal && std::isfinite(depth.noise_m[i]))
-      noise.push_back(depth.noise_m[i]);
+  for (std::size_t i = 0; i < depth.flags.size(); ++i) {
+    const bool low = 1 << std::max(pictures::invalid_reason(depth.flags[i]), 0) == flag_low_signal;
+    if (low && std::isfinite(depth.noise_m[i]) && (!knows || frame.truth.object_id[i] >= 0)) noise.push_back(depth.noise_m[i]);
+  }
   if (noise.empty()) return std::nan("");
   const auto middle = noise.begin() + static_cast<std::ptrdiff_t>(noise.size() / 2);
   std::nth_element(noise.begin(), middle, noise.end());
   return static_cast<double>(*middle);
 }
 
+std::string more_light(const Frame& frame, const Camera& camera) {
+  const auto shines = [](const Illumination& one) { return one.power_w > 0; };
+  if (std::none_of(camera.illumination.begin(), camera.illumination.end(), shines))
+    return "the camera has no light: see camera.illumination";
+  const double noise = median_noise(frame);
+  return (std::isnan(noise) ? "" : fmt::format("noise {:.2g} m at the median; ", noise)) +
+         fmt::format("more light, a longer integration time, or a higher camera.decoding.noise_threshold (now {})",
+                     base::quantity_text(camera.decoding.noise_threshold_m, "1 mm"));
+}
+
+std::string whole_cycles(const InvalidPixels& pixels) {
+  std::vector<std::string> ranges;
+  for (const double range : pixels.ranges_m) ranges.push_back(fmt::format("{:.3f} m", range));
+  return fmt::format("noise moves these by whole cycles, of {}: more light, a longer integration time{}", base::listed(ranges, "and"),
+                     ranges.size() > 1 ? ", or modulation frequencies in a ratio of smaller whole numbers" : "");
+}
+
 /// What helps against a reason why pixels are invalid.
-std::string help_against(int flag, const Depth& depth) {
-  switch (flag) {
-    case flag_saturated: return "less light, a shorter integration time, or more distance";
-    case flag_low_signal: {
-      const double noise = median_noise(depth);
-      const std::string known = std::isnan(noise) ? "" : fmt::format("noise {:.2g} m at the median; ", noise);
-      return known + "more light, a longer integration time, or another threshold of camera.decoding";
-    }
-    case flag_flying_pixel:
+std::string help_against(NoDepth reason, const InvalidPixels& pixels, const Frame& frame, const Camera& camera) {
+  switch (reason) {
+    case NoDepth::saturated: return "less light, a shorter integration time, or more distance";
+    case NoDepth::no_surface:
+      return "the rays of these pixels hit nothing: more light does not help; see camera.pose, or add a wall or a floor";
+    case NoDepth::beyond_reach:
+      return fmt::format("surfaces farther than the ambiguity range of {:.3f} m: a smaller scene, or a mode of a longer range",
+                         pixels.ambiguity_range_m);
+    case NoDepth::dark:
+    case NoDepth::low_signal: return more_light(frame, camera);
+    case NoDepth::no_return: return "no light comes back: nothing is there, it is dark, or out of the light's reach";
+    case NoDepth::wrong_cycle: return whole_cycles(pixels);
+    case NoDepth::flying_pixel:
       return "surfaces that are seen at a glancing angle, or thinner than a few pixels; camera.decoding says what is one";
-    case flag_no_return: return "no light comes back: nothing is there, it is dark, or out of the light's reach";
-    case flag_outside_lens: return "the lens model has no rays there: see camera.lens.distortion";
-    case flag_inconsistent_phases: return "something moves, or camera.decoding.asymmetry rejects too much";
-    case flag_inconsistent_frequencies: return "light on several ways, a wrong cycle, or camera.decoding.multipath rejects too much";
-    default: return "see flags";
+    case NoDepth::outside_lens: return "the lens model has no rays there: see camera.lens.distortion";
+    case NoDepth::inconsistent_phases: return "something moves, or camera.decoding.asymmetry rejects too much";
+    case NoDepth::inconsistent_frequencies: return "light on several ways, a wrong cycle, or camera.decoding.multipath rejects too much";
   }
+  return "see flags";
 }
 
 }  // namespace
 
-Validity validity(const Depth& depth) {
-  Validity out;
-  out.pixels = depth.flags.size();
-  std::vector<std::size_t> counts(pictures::invalid_flag_count);
-  for (const std::uint16_t flags : depth.flags) {
-    const int reason = pictures::invalid_reason(flags);
-    ++(reason < 0 ? out.valid : counts[static_cast<std::size_t>(reason)]);
+Validity validity(const Frame& frame, const Camera& camera, bool wrong_cycles) {
+  Validity out{invalid_pixels(frame, camera, wrong_cycles), {}, {}};
+  NoDepth most{};
+  for (std::size_t i = 0; i < no_depth_count; ++i) {
+    const auto reason = static_cast<NoDepth>(i);
+    const std::int64_t count = out.pixels.count(reason);
+    if (count > 0) out.reasons += fmt::format("{}{} {}", out.reasons.empty() ? "" : ", ", count, no_depth_name(reason));
+    if (count > out.pixels.count(most)) most = reason;
   }
-  for (std::size_t i = 0; i < counts.size(); ++i) {
-    if (counts[i] > 0) out.reasons += fmt::format("{}{} {}", out.reasons.empty() ? "" : ", ", counts[i], flag_names()[i]);
-  }
-  if (2 * out.valid >= out.pixels) return out;
-  const auto most = static_cast<std::size_t>(std::max_element(counts.begin(), counts.end()) - counts.begin());
-  out.advice = fmt::format("{:.0f} % {}: {}", 100.0 * static_cast<double>(counts[most]) / static_cast<double>(out.pixels),
-                           flag_names()[most], help_against(1 << most, depth));
+  if (!out.few()) return out;
+  const double share = static_cast<double>(out.pixels.count(most)) / static_cast<double>(out.pixels.pixels);
+  out.advice = fmt::format("{:.0f} % {}: {}", 100 * share, no_depth_name(most), help_against(most, out.pixels, frame, camera));
   return out;
 }
 
@@ -135,11 +158,6 @@ FrameFiles::FrameFiles(const Options& options, const std::vector<std::string>& o
                 "error: --arrays and --compress are of npz files, and --emit leaves these out\n  expected npz in --emit");
 }
 
-bool FrameFiles::need_truth() const {
-  return std::any_of(emit.begin(), emit.end(),
-                     [&](const std::string& kind) { return kind == "png" || (kind == "npz" && npz.arrays.has_truth()); });
-}
-
 std::vector<std::string> FrameFiles::needed_arrays() const {
   const auto emits = [&](const char* kind) { return std::find(emit.begin(), emit.end(), kind) != emit.end(); };
   if (emits("npz") && npz.arrays.is_all()) return {};
@@ -149,7 +167,9 @@ std::vector<std::string> FrameFiles::needed_arrays() const {
     const bool drawn = emits("png") && (row.name == "raw" || row.name == "gt_z_m" || row.name == "gt_multipath_m");
     // What no bin holds is told beside what the bins hold.
     const bool counted = need_transient() && row.name.starts_with("transient_");
-    if (row.is_image() && (filed || told || drawn || counted)) names.push_back(row.name);
+    // Why pixels have no depth.
+    const bool seen = row.name == "gt_object_id" || row.name == "gt_range_m";
+    if (row.is_image() && (filed || told || drawn || counted || seen)) names.push_back(row.name);
   }
   return names;
 }

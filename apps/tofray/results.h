@@ -8,13 +8,16 @@
 #include <utility>
 #include <vector>
 
+#include "earlier_files.h"
 #include "files/json.h"
 #include "files/output_folder.h"
 #include "inputs.h"
 #include "options.h"
+#include "remarks.h"
 #include "results/frame_file.h"
 #include "results/manifest.h"
 #include "results/meta.h"
+#include "tofray/analysis.h"
 #include "tofray/frame.h"
 
 /// What demo, render and process leave behind.
@@ -36,13 +39,15 @@ class Stopwatch {
 
 /// How many pixels are invalid, and the first reason of each.
 struct Validity {
-  std::size_t pixels = 0, valid = 0;
-  /// "12 low signal, 3 no return"; empty where all are valid
+  InvalidPixels pixels;
+  /// "12 dark, 3 no surface"; empty where all are valid
   std::string reasons;
-  /// Where fewer than half are valid, the reason of most, and what helps: "71 % low signal: noise 0.11 m at the median; more light …"
+  /// Where fewer than half are valid, the reason of most, and what helps: "71 % dark: noise 0.11 m at the median; more light …"
   std::string advice;
+  [[nodiscard]] bool few() const { return 2 * pixels.valid < pixels.pixels; }
 };
-Validity validity(const Depth& depth);
+/// @param wrong_cycles  whether they are told from flying pixels, which takes as long as to decode the frame
+Validity validity(const Frame& frame, const Camera& camera, bool wrong_cycles = true);
 /// Name of each bit of Depth::flags, from bit 0.
 const std::vector<std::string>& flag_names();
 
@@ -51,9 +56,7 @@ struct FrameFiles {
   /// @param emit  out of npz, png, ply, where the user has not said
   /// @throws Error (bad_input) where --arrays or --compress is of files that --emit leaves out
   FrameFiles(const Options& options, const std::vector<std::string>& emit, const Inputs& inputs, const SimulatorOptions& simulated);
-  /// Whether a file shows any of the ground truth.
-  [[nodiscard]] bool need_truth() const;
-  /// What the files and the summary are made of, as SimulatorOptions::arrays has it.
+  /// What the files and the summary are made of, as SimulatorOptions::arrays has it: what pixels see of the scene is always among it.
   [[nodiscard]] std::vector<std::string> needed_arrays() const;
   /// … and histograms of light by path length.
   [[nodiscard]] bool need_transient() const;
@@ -80,16 +83,19 @@ std::string gpu_of(const RanOn& machine);
 std::string machine_text(const RanOn& machine);
 
 /// One line on stderr where the backend was left to choose and no GPU is used: if `auto` was typed, or if there is a GPU all the same.
-void say_fallback(const Options& options, const RanOn& machine);
+void say_fallback(const Options& options, const RanOn& machine, Remarks& remarks);
 
 /// Writes manifest.json, last of all: what made the other files.
 /// @param interrupted_after  how many frames are complete where the run did not come to its end
+/// @param left  what lay in the folder before: what of it stays is told, or removed where --clean says so
 void write_manifest(files::OutputFolder& folder, const Options& options, const std::vector<results::InputFile>& inputs,
-                    const RanOn& machine, const Stopwatch& stopwatch, std::optional<std::uint64_t> interrupted_after = {});
+                    const RanOn& machine, const Stopwatch& stopwatch, EarlierFiles& left, Remarks& remarks,
+                    std::optional<std::uint64_t> interrupted_after = {});
 
 /// How a run went, for --json and for people.
+/// @param remarks  the warnings and notes that were said
 files::Json summary_json(const files::OutputFolder& folder, const Validity& last, std::uint64_t frames, const RanOn& machine,
-                         const Stopwatch& stopwatch);
+                         const Stopwatch& stopwatch, const Remarks& remarks);
 std::string summary_text(const files::OutputFolder& folder, const Validity& last, std::uint64_t frames, const RanOn& machine,
                          const Stopwatch& stopwatch);
 

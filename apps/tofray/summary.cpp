@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/core.h>
 
+#include <algorithm>
+
 #include "base/version.h"
 #include "files/json.h"
 #include "results.h"
@@ -45,7 +47,8 @@ Rates rates_of(std::uint64_t frames, const Stopwatch& stopwatch) {
 }  // namespace
 
 void write_manifest(files::OutputFolder& folder, const Options& options, const std::vector<results::InputFile>& inputs,
-                    const RanOn& machine, const Stopwatch& stopwatch, std::optional<std::uint64_t> interrupted_after) {
+                    const RanOn& machine, const Stopwatch& stopwatch, EarlierFiles& left, Remarks& remarks,
+                    std::optional<std::uint64_t> interrupted_after) {
   results::Manifest manifest;
   manifest.tofray_version = base::version();
   manifest.command = options.typed;
@@ -70,11 +73,12 @@ void write_manifest(files::OutputFolder& folder, const Options& options, const s
   manifest.timings_s = stopwatch.stages();
   manifest.files = folder.files();
   manifest.interrupted_after_frames = interrupted_after;
+  left.settle(folder, options.clean, manifest, remarks);
   folder.write("manifest.json", results::manifest_text(manifest));
 }
 
 files::Json summary_json(const files::OutputFolder& folder, const Validity& last, std::uint64_t frames, const RanOn& machine,
-                         const Stopwatch& stopwatch) {
+                         const Stopwatch& stopwatch, const Remarks& remarks) {
   files::Json files = files::Json::array(), timings = files::Json::object();
   for (const files::FileRecord& file : folder.files())
     files.push(files::Json::object().set("name", file.name).set("bytes", file.bytes).set("sha256", file.sha256));
@@ -82,7 +86,16 @@ files::Json summary_json(const files::OutputFolder& folder, const Validity& last
   const Rates rates = rates_of(frames, stopwatch);
   files::Json json = files::Json::object();
   json.set("computed_frames_per_s", rates.computed).set("written_frames_per_s", rates.written);
-  json.set("folder", folder.path().native()).set("frames", frames).set("pixels", last.pixels).set("valid_pixels", last.valid);
+  files::Json invalid = files::Json::object();
+  for (std::size_t i = 0; i < no_depth_count; ++i) {
+    const auto reason = static_cast<NoDepth>(i);
+    std::string name = no_depth_name(reason);
+    std::replace(name.begin(), name.end(), ' ', '_');
+    invalid.set(name, last.pixels.count(reason));
+  }
+  json.set("folder", folder.path().native()).set("frames", frames).set("pixels", last.pixels.pixels).set("valid_pixels", last.pixels.valid);
+  json.set("invalid_pixels", std::move(invalid)).set("valid_beyond_ambiguity_range", last.pixels.wrapped).set("advice", last.advice);
+  remarks.put(json);
   return json.set("backend", machine.backend)
       .set("gpu", gpu_of(machine))
       .set("isa", machine.isa)
@@ -96,7 +109,7 @@ std::string summary_text(const files::OutputFolder& folder, const Validity& last
   double bytes = 0;
   for (const files::FileRecord& file : folder.files()) bytes += static_cast<double>(file.bytes);
   std::string text = fmt::format("{} files, {}, in {}\n", folder.files().size(), size_text(bytes), folder.path().native());
-  text += fmt::format("{} of {} pixels {}have a depth{}{}\n", last.valid, last.pixels, frames > 1 ? "of the last frame " : "",
+  text += fmt::format("{} of {} pixels {}have a depth{}{}\n", last.pixels.valid, last.pixels.pixels, frames > 1 ? "of the last frame " : "",
                       last.reasons.empty() ? "" : "; invalid: ", last.reasons);
   if (!last.advice.empty()) text += fmt::format("  {}\n", last.advice);
   const Rates rates = rates_of(frames, stopwatch);

@@ -165,6 +165,8 @@ struct Object {
   Vec3 velocity_m_per_s{0, 0, 0};
   Vec3 angular_velocity_rad_per_s{0, 0, 0};  ///< its axis, in the world, times how fast it turns by the right-hand rule
   std::vector<Keyframe> keyframes = {};      ///< in place of position, rotation and both velocities; ascending in time
+  std::string key = {};                      ///< how its file addresses it, e.g. "objects.2"; empty if built in code
+  std::string where = {};                    ///< file:line:col for messages; empty if built in code
 };
 
 /// Light that is not the camera's own. One of level, illuminance and band irradiance says how much.

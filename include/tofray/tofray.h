@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The tofray authors
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include "tofray/analysis.h"
 #include "tofray/camera.h"
 #include "tofray/error.h"
 #include "tofray/frame.h"

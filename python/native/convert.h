@@ -105,6 +105,14 @@ struct As<int> {
     into = static_cast<int>(from_whole(value, place, std::numeric_limits<int>::min(), std::numeric_limits<int>::max()));
   }
 };
+template <>
+struct As<std::int64_t> {
+  static std::string type() { return "int"; }
+  static py::object out(std::int64_t value) { return py::int_(value); }
+  static void in(py::handle value, std::int64_t& into, const Place& place) {
+    into = from_whole(value, place, std::numeric_limits<std::int64_t>::min(), std::numeric_limits<std::int64_t>::max());
+  }
+};
 template <class T>
 requires(std::is_same_v<T, unsigned long> || std::is_same_v<T, unsigned long long>) struct As<T> {
   static std::string type() { return "int"; }

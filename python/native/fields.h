@@ -151,7 +151,7 @@ TOFRAY_FIELDS(Mesh, &Mesh::file, &Mesh::scale, &Mesh::up, &Mesh::time_s, &Mesh::
 TOFRAY_FIELDS(Rotation, &Rotation::axis, &Rotation::angle_rad)
 TOFRAY_FIELDS(Keyframe, &Keyframe::time_s, &Keyframe::position, &Keyframe::rotation)
 TOFRAY_FIELDS(Object, &Object::name, &Object::shape, &Object::material, &Object::position, &Object::rotation, &Object::velocity_m_per_s,
-              &Object::angular_velocity_rad_per_s, &Object::keyframes)
+              &Object::angular_velocity_rad_per_s, &Object::keyframes, &Object::key, &Object::where)
 TOFRAY_FIELDS(Ambient, &Ambient::spectrum, &Ambient::quantity, &Ambient::amount, &Ambient::table_wavelength_m,
               &Ambient::table_irradiance_w_per_m3, &Ambient::direction)
 TOFRAY_FIELDS(TransientBins, &TransientBins::bins, &TransientBins::first_m, &TransientBins::width_m)
@@ -165,6 +165,16 @@ TOFRAY_FIELDS(CameraChoice, &CameraChoice::profile, &CameraChoice::mode, &Camera
 TOFRAY_FIELDS(Scene, &Scene::name, &Scene::source, &Scene::camera, &Scene::ambient, &Scene::transport, &Scene::materials, &Scene::objects)
 TOFRAY_FIELDS(RanOn, &RanOn::backend, &RanOn::device, &RanOn::isa, &RanOn::threads, &RanOn::block_size, &RanOn::occupancy,
               &RanOn::fallback_reason)
+TOFRAY_FIELDS(ObjectInView, &ObjectInView::object, &ObjectInView::name, &ObjectInView::pixels, &ObjectInView::nearest_m, &ObjectInView::farthest_m,
+              &ObjectInView::endless, &ObjectInView::low, &ObjectInView::high, &ObjectInView::behind_camera, &ObjectInView::around_camera)
+TOFRAY_FIELDS(SceneFinding, &SceneFinding::kind, &SceneFinding::warning, &SceneFinding::objects, &SceneFinding::where, &SceneFinding::what,
+              &SceneFinding::more)
+TOFRAY_FIELDS(SceneReport, &SceneReport::time_s, &SceneReport::pixels, &SceneReport::outside_lens, &SceneReport::no_surface, &SceneReport::beyond_reach,
+              &SceneReport::ambiguity_range_m, &SceneReport::nearest_m, &SceneReport::farthest_m, &SceneReport::objects, &SceneReport::findings)
+TOFRAY_FIELDS(InvalidPixels, &InvalidPixels::pixels, &InvalidPixels::valid, &InvalidPixels::wrapped, &InvalidPixels::saturated, &InvalidPixels::no_surface,
+              &InvalidPixels::beyond_reach, &InvalidPixels::dark, &InvalidPixels::low_signal, &InvalidPixels::no_return, &InvalidPixels::wrong_cycle,
+              &InvalidPixels::flying_pixel, &InvalidPixels::outside_lens, &InvalidPixels::inconsistent_phases, &InvalidPixels::inconsistent_frequencies,
+              &InvalidPixels::ambiguity_range_m, &InvalidPixels::ranges_m)
 TOFRAY_FIELDS(FrameRequest, &FrameRequest::index, &FrameRequest::seed, &FrameRequest::pose)
 // What Simulator() takes as words; `progress` is Simulator.progress in Python.
 TOFRAY_FIELDS(SimulatorOptions, &SimulatorOptions::seed, &SimulatorOptions::noise, &SimulatorOptions::threads, &SimulatorOptions::backend,
@@ -178,11 +188,11 @@ TOFRAY_FIELDS(SimulatorOptions, &SimulatorOptions::seed, &SimulatorOptions::nois
 template <class Call>
 void each_record(const Call& call) {
   const auto all = [&]<class... T>(std::tuple<T...>*) { (call(static_cast<T*>(nullptr)), ...); };
-  using Records =
-      std::tuple<Curve, PixelMask, Sensor, Scatter, Lens, Filter, Pattern, Waveform, Area, Illumination, Pixel, Adc, RawFrame, Mode,
-                 ImageFilter, Decoding, Temperature, Interference, SpreadSpectrum, Readout, AutoExposure, Camera, Material, Plane, Sphere,
-                 Box, Triangle, Cylinder, Rectangle, Disk, Capsule, Cone, Mesh, Rotation, Keyframe, Object, Ambient, TransientBins,
-                 Transport, Pose, CameraKeyframe, Override, CameraChoice, Scene, RanOn, FrameRequest>;
+  using Records = std::tuple<Curve, PixelMask, Sensor, Scatter, Lens, Filter, Pattern, Waveform, Area, Illumination, Pixel, Adc, RawFrame,
+                             Mode, ImageFilter, Decoding, Temperature, Interference, SpreadSpectrum, Readout, AutoExposure, Camera,
+                             Material, Plane, Sphere, Box, Triangle, Cylinder, Rectangle, Disk, Capsule, Cone, Mesh, Rotation, Keyframe,
+                             Object, Ambient, TransientBins, Transport, Pose, CameraKeyframe, Override, CameraChoice, Scene, RanOn,
+                             FrameRequest, ObjectInView, SceneFinding, SceneReport, InvalidPixels>;
   all(static_cast<Records*>(nullptr));
 }
 

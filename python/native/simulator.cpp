@@ -310,6 +310,33 @@ py::array pixel_rays_of(const py::object& camera) {
   return view<float>(rays->data(), {size.height, size.width, 2}, keeper, true);
 }
 
+/// @param frame  None: rays are traced anew
+py::object scene_report_of(const py::object& scene, const py::object& camera, const py::object& frame) {
+  Scene seen;
+  Camera by;
+  from_python(scene, seen, {nullptr, "scene"});
+  from_python(camera, by, {nullptr, "camera"});
+  const std::shared_ptr<Frame> is = frame.is_none() ? nullptr : frame_from_python(frame);
+  SceneReport out;
+  {
+    const py::gil_scoped_release free;
+    out = is == nullptr ? scene_report(seen, by) : scene_report(seen, by, is->truth);
+  }
+  return to_python(out);
+}
+
+py::object invalid_pixels_of(const py::object& frame, const py::object& camera, bool wrong_cycles) {
+  Camera by;
+  from_python(camera, by, {nullptr, "camera"});
+  const std::shared_ptr<Frame> is = frame_from_python(frame);
+  InvalidPixels out;
+  {
+    const py::gil_scoped_release free;
+    out = invalid_pixels(*is, by, wrong_cycles);
+  }
+  return to_python(out);
+}
+
 }  // namespace
 
 SimulatorOptions options_from_python(const py::dict& words) {
@@ -342,6 +369,8 @@ void bind_simulator(py::module_& module) {
       .def("ran_on", [](const HeldSimulator& self) { return to_python(self.ran_on()); });
   module.def("process", &process_raw);
   module.def("pixel_rays", &pixel_rays_of);
+  module.def("scene_report", &scene_report_of);
+  module.def("invalid_pixels", &invalid_pixels_of);
 }
 
 }  // namespace tofray::python

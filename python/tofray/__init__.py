@@ -54,12 +54,14 @@ if TYPE_CHECKING:
         Illumination as Illumination,
         ImageFilter as ImageFilter,
         Interference as Interference,
+        InvalidPixels as InvalidPixels,
         Keyframe as Keyframe,
         Lens as Lens,
         Material as Material,
         Mesh as Mesh,
         Mode as Mode,
         Object as Object,
+        ObjectInView as ObjectInView,
         Override as Override,
         Pattern as Pattern,
         Pixel as Pixel,
@@ -73,6 +75,8 @@ if TYPE_CHECKING:
         Rotation as Rotation,
         Scatter as Scatter,
         Scene as Scene,
+        SceneFinding as SceneFinding,
+        SceneReport as SceneReport,
         Sensor as Sensor,
         Sphere as Sphere,
         SpreadSpectrum as SpreadSpectrum,
@@ -99,8 +103,10 @@ if TYPE_CHECKING:
         Simulator as Simulator,
         camera_pose as camera_pose,
         demo as demo,
+        invalid_pixels as invalid_pixels,
         pixel_rays as pixel_rays,
         process as process,
+        scene_report as scene_report,
     )
 
     __version__: str
@@ -116,13 +122,13 @@ _HOME = {
     "_load": ("camera", "load_camera", "load_scene", "scene"),
     "_model": (
         "Adc", "Ambient", "Area", "AutoExposure", "Box", "Camera", "CameraChoice", "CameraKeyframe", "Capsule", "Cone", "Curve", "Cylinder", "Decoding",
-        "Disk", "Filter", "FrameRequest", "Illumination", "ImageFilter", "Interference", "Keyframe", "Lens", "Material", "Mesh", "Mode",
-        "Object", "Override", "Pattern", "Pixel", "PixelMask", "Plane", "Pose", "RanOn", "RawFrame", "Readout", "Rectangle", "Rotation", "Scatter", "Scene",
+        "Disk", "Filter", "FrameRequest", "Illumination", "ImageFilter", "Interference", "InvalidPixels", "Keyframe", "Lens", "Material", "Mesh", "Mode",
+        "Object", "ObjectInView", "Override", "Pattern", "Pixel", "PixelMask", "Plane", "Pose", "RanOn", "RawFrame", "Readout", "Rectangle", "Rotation", "Scatter", "Scene", "SceneFinding", "SceneReport",
         "Sensor", "Sphere", "SpreadSpectrum", "Temperature", "TransientBins", "Transport", "Triangle", "Waveform",
     ),
     "_native": ("DeviceArray", "DeviceFrames", "MeshMotion", "ReflectivityMap", "TriangleMesh", "VectorMap"),
     "_own": ("Geometry", "PixelLight", "Transient"),
-    "_simulator": ("Simulator", "camera_pose", "demo", "pixel_rays", "process"),
+    "_simulator": ("Simulator", "camera_pose", "demo", "invalid_pixels", "pixel_rays", "process", "scene_report"),
 }
 
 __all__ = sorted(name for names in _HOME.values() for name in names) + ["arrays", "flags"]

@@ -92,6 +92,8 @@ def scene(description: Mapping[str, Any], *, name: str = "scene", folder: str | 
         With every fault at once; each names its member: ``objects[0].sphere.radius: error: …``
     """
     out: Scene = _from_dict(description, os.path.join(os.fspath(folder), name + ".yaml"), _native.load_scene_text)
+    for one in out.objects:
+        one.where = ""  # a place in a text that nobody has seen: `key` says which it is
     return out
 
 

@@ -1670,8 +1670,13 @@ class Object(Record):
         Its axis, in the world, times how fast it turns by the right-hand rule.
     keyframes : list[Keyframe]
         In place of position, rotation and both velocities; ascending in time.
+    key : str
+        How its file addresses it, e.g. "objects.2"; empty if built in code.
+    where : str
+        File:line:col for messages; empty if built in code.
     """
-    __slots__ = ("name", "shape", "material", "position", "rotation", "velocity_m_per_s", "angular_velocity_rad_per_s", "keyframes")
+    __slots__ = ("name", "shape", "material", "position", "rotation", "velocity_m_per_s", "angular_velocity_rad_per_s", "keyframes",
+                 "key", "where")
     name: str
     shape: Plane | Sphere | Box | Triangle | Cylinder | Rectangle | Disk | Capsule | Cone | Mesh
     material: int
@@ -1680,6 +1685,8 @@ class Object(Record):
     velocity_m_per_s: tuple[float, float, float]
     angular_velocity_rad_per_s: tuple[float, float, float]
     keyframes: list[Keyframe]
+    key: str
+    where: str
 
     def __init__(
         self,
@@ -1692,6 +1699,8 @@ class Object(Record):
         velocity_m_per_s: tuple[float, float, float] = (0.0, 0.0, 0.0),
         angular_velocity_rad_per_s: tuple[float, float, float] = (0.0, 0.0, 0.0),
         keyframes: Sequence[Keyframe] = (),
+        key: str = '',
+        where: str = '',
     ) -> None:
         self.name = name
         self.shape = Plane() if shape is None else shape
@@ -1701,6 +1710,8 @@ class Object(Record):
         self.velocity_m_per_s = velocity_m_per_s
         self.angular_velocity_rad_per_s = angular_velocity_rad_per_s
         self.keyframes = list(keyframes)
+        self.key = key
+        self.where = where
 
 
 class Ambient(Record):
@@ -2076,11 +2087,281 @@ class FrameRequest(Record):
         self.pose = pose
 
 
+class ObjectInView(Record):
+    """What one object is to the camera, at one time. The camera looks along z of its frame.
+
+    Attributes
+    ----------
+    object : int
+        Index in Scene::objects.
+    name : str
+        As messages call it: "objects.2 (ball)".
+    pixels : int
+        That see it.
+    nearest_m : float | None, m
+        Range of the nearest pixel that sees it; none where no pixel does.
+    farthest_m : float | None, m
+        Likewise.
+    endless : bool
+        A plane.
+    low : tuple[float, float, float], m
+        Its box in the world [m]; of a plane −inf and inf.
+    high : tuple[float, float, float], m
+        Its box in the world [m]; of a plane −inf and inf.
+    behind_camera : bool
+        All of it has z < 0 in the camera's frame.
+    around_camera : bool
+        The camera stands inside; of a mesh: its triangles surround the camera, by their solid
+        angle.
+    """
+    __slots__ = ("object", "name", "pixels", "nearest_m", "farthest_m", "endless", "low", "high", "behind_camera", "around_camera")
+    object: int
+    name: str
+    pixels: int
+    nearest_m: float | None
+    farthest_m: float | None
+    endless: bool
+    low: tuple[float, float, float]
+    high: tuple[float, float, float]
+    behind_camera: bool
+    around_camera: bool
+
+    def __init__(
+        self,
+        *,
+        object: int = 0,
+        name: str = '',
+        pixels: int = 0,
+        nearest_m: float | None = None,
+        farthest_m: float | None = None,
+        endless: bool = False,
+        low: tuple[float, float, float] = (0.0, 0.0, 0.0),
+        high: tuple[float, float, float] = (0.0, 0.0, 0.0),
+        behind_camera: bool = False,
+        around_camera: bool = False,
+    ) -> None:
+        self.object = object
+        self.name = name
+        self.pixels = pixels
+        self.nearest_m = nearest_m
+        self.farthest_m = farthest_m
+        self.endless = endless
+        self.low = low
+        self.high = high
+        self.behind_camera = behind_camera
+        self.around_camera = around_camera
+
+
+class SceneFinding(Record):
+    """Something about a scene that is seldom meant.
+
+    Attributes
+    ----------
+    kind : Literal["no_objects", "nothing_in_view", "behind_camera", "millimetres", "mesh_size", "around_camera", "floor_above", "same_place", "inside_another", "beyond_reach"]
+    warning : bool
+        False: a note; it may well be meant.
+    objects : list[int]
+        Indices in Scene::objects.
+    where : str
+        File:line:col of the first of them; empty if built in code.
+    what : str
+        One line, complete in itself.
+    more : str
+        What it means and how to mend it, one line.
+    """
+    __slots__ = ("kind", "warning", "objects", "where", "what", "more")
+    kind: Literal["no_objects", "nothing_in_view", "behind_camera", "millimetres", "mesh_size", "around_camera", "floor_above", "same_place", "inside_another", "beyond_reach"]
+    warning: bool
+    objects: list[int]
+    where: str
+    what: str
+    more: str
+
+    def __init__(
+        self,
+        *,
+        kind: Literal["no_objects", "nothing_in_view", "behind_camera", "millimetres", "mesh_size", "around_camera", "floor_above", "same_place", "inside_another", "beyond_reach"]
+        = 'no_objects',
+        warning: bool = True,
+        objects: Sequence[int] = (),
+        where: str = '',
+        what: str = '',
+        more: str = '',
+    ) -> None:
+        self.kind = kind
+        self.warning = warning
+        self.objects = list(objects)
+        self.where = where
+        self.what = what
+        self.more = more
+
+
+class SceneReport(Record):
+    """What the camera sees of the scene at one time.
+
+    Attributes
+    ----------
+    time_s : float, s
+        Of the scene.
+    pixels : int
+        Of the image.
+    outside_lens : int
+        Pixels without a ray.
+    no_surface : int
+        Pixels whose ray hits nothing.
+    beyond_reach : int
+        Pixels that see what is farther than the ambiguity range.
+    ambiguity_range_m : float, m
+        Of the camera's mode; 0 where no raw frame is lit.
+    nearest_m : float | None, m
+        Least range of all pixels; none where no ray hits anything.
+    farthest_m : float | None, m
+        Likewise the largest.
+    objects : list[ObjectInView]
+        One for each of Scene::objects.
+    findings : list[SceneFinding]
+    """
+    __slots__ = ("time_s", "pixels", "outside_lens", "no_surface", "beyond_reach", "ambiguity_range_m", "nearest_m", "farthest_m",
+                 "objects", "findings")
+    time_s: float
+    pixels: int
+    outside_lens: int
+    no_surface: int
+    beyond_reach: int
+    ambiguity_range_m: float
+    nearest_m: float | None
+    farthest_m: float | None
+    objects: list[ObjectInView]
+    findings: list[SceneFinding]
+
+    def __init__(
+        self,
+        *,
+        time_s: float = 0.0,
+        pixels: int = 0,
+        outside_lens: int = 0,
+        no_surface: int = 0,
+        beyond_reach: int = 0,
+        ambiguity_range_m: float = 0.0,
+        nearest_m: float | None = None,
+        farthest_m: float | None = None,
+        objects: Sequence[ObjectInView] = (),
+        findings: Sequence[SceneFinding] = (),
+    ) -> None:
+        self.time_s = time_s
+        self.pixels = pixels
+        self.outside_lens = outside_lens
+        self.no_surface = no_surface
+        self.beyond_reach = beyond_reach
+        self.ambiguity_range_m = ambiguity_range_m
+        self.nearest_m = nearest_m
+        self.farthest_m = farthest_m
+        self.objects = list(objects)
+        self.findings = list(findings)
+
+
+class InvalidPixels(Record):
+    """How many pixels have no depth, and why: each counts once, under the member of its NoDepth.
+
+    Attributes
+    ----------
+    pixels : int
+        Of the image.
+    valid : int
+        Of them, those that have a depth.
+    wrapped : int
+        Valid ones whose surface is beyond the ambiguity range: their depth is too small.
+    saturated : int
+        A well or the ADC is full.
+    no_surface : int
+        The ray hits nothing.
+    beyond_reach : int
+        The surface is farther than the ambiguity range.
+    dark : int
+        There is a surface within reach, and too little light comes back.
+    low_signal : int
+        Too little light; without truth nobody knows what is there.
+    no_return : int
+        No light; likewise.
+    wrong_cycle : int
+        Most neighbours are off by whole cycles of a modulation frequency.
+    flying_pixel : int
+        Light of near and far mixed.
+    outside_lens : int
+        The lens model has no ray there.
+    inconsistent_phases : int
+        Rejected for these.
+    inconsistent_frequencies : int
+        Likewise.
+    ambiguity_range_m : float, m
+        Of the camera's mode; 0 where no raw frame is lit.
+    ranges_m : list[float], m
+        That of each modulation frequency alone.
+    """
+    __slots__ = ("pixels", "valid", "wrapped", "saturated", "no_surface", "beyond_reach", "dark", "low_signal", "no_return",
+                 "wrong_cycle", "flying_pixel", "outside_lens", "inconsistent_phases", "inconsistent_frequencies", "ambiguity_range_m",
+                 "ranges_m")
+    pixels: int
+    valid: int
+    wrapped: int
+    saturated: int
+    no_surface: int
+    beyond_reach: int
+    dark: int
+    low_signal: int
+    no_return: int
+    wrong_cycle: int
+    flying_pixel: int
+    outside_lens: int
+    inconsistent_phases: int
+    inconsistent_frequencies: int
+    ambiguity_range_m: float
+    ranges_m: list[float]
+
+    def __init__(
+        self,
+        *,
+        pixels: int = 0,
+        valid: int = 0,
+        wrapped: int = 0,
+        saturated: int = 0,
+        no_surface: int = 0,
+        beyond_reach: int = 0,
+        dark: int = 0,
+        low_signal: int = 0,
+        no_return: int = 0,
+        wrong_cycle: int = 0,
+        flying_pixel: int = 0,
+        outside_lens: int = 0,
+        inconsistent_phases: int = 0,
+        inconsistent_frequencies: int = 0,
+        ambiguity_range_m: float = 0.0,
+        ranges_m: Sequence[float] = (),
+    ) -> None:
+        self.pixels = pixels
+        self.valid = valid
+        self.wrapped = wrapped
+        self.saturated = saturated
+        self.no_surface = no_surface
+        self.beyond_reach = beyond_reach
+        self.dark = dark
+        self.low_signal = low_signal
+        self.no_return = no_return
+        self.wrong_cycle = wrong_cycle
+        self.flying_pixel = flying_pixel
+        self.outside_lens = outside_lens
+        self.inconsistent_phases = inconsistent_phases
+        self.inconsistent_frequencies = inconsistent_frequencies
+        self.ambiguity_range_m = ambiguity_range_m
+        self.ranges_m = list(ranges_m)
+
+
 __all__ = [
     "Curve", "PixelMask", "Sensor", "Scatter", "Lens", "Filter", "Pattern", "Waveform", "Area",
     "Illumination", "Pixel", "Adc", "RawFrame", "Mode", "ImageFilter", "Decoding", "Temperature",
     "Interference", "SpreadSpectrum", "Readout", "AutoExposure", "Camera", "Material", "Plane",
     "Sphere", "Box", "Triangle", "Cylinder", "Rectangle", "Disk", "Capsule", "Cone", "Mesh",
     "Rotation", "Keyframe", "Object", "Ambient", "TransientBins", "Transport", "Pose",
-    "CameraKeyframe", "Override", "CameraChoice", "Scene", "RanOn", "FrameRequest",
+    "CameraKeyframe", "Override", "CameraChoice", "Scene", "RanOn", "FrameRequest", "ObjectInView",
+    "SceneFinding", "SceneReport", "InvalidPixels",
 ]

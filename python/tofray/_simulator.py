@@ -12,7 +12,7 @@ from ._arrays import Depth, Raw
 from ._errors import error_of
 from ._frame import Frame
 from ._load import load_camera, load_scene
-from ._model import Camera, FrameRequest, RanOn, Scene
+from ._model import Camera, FrameRequest, InvalidPixels, RanOn, Scene, SceneReport
 from ._own import Geometry, PixelLight, Transient
 
 if TYPE_CHECKING:
@@ -312,6 +312,57 @@ def pixel_rays(camera: Camera) -> NDArray[np.float32]:
         For a camera that cannot be, by its member.
     """
     return _native.pixel_rays(camera)
+
+
+def scene_report(scene: Scene, camera: Camera, frame: Frame | None = None) -> SceneReport:
+    """What the camera sees of the scene, and what of it is seldom meant.
+
+    Parameters
+    ----------
+    scene : Scene
+    camera : Camera
+    frame : Frame, optional
+        Of the scene, with ``truth.object_id`` and ``truth.range_m``. None: one ray for each pixel is traced, at frame 0.
+
+    Returns
+    -------
+    SceneReport
+        ``findings`` says in words what ``tofray check`` warns of; ``objects`` has one entry for each of the scene's.
+
+    Raises
+    ------
+    Error
+        For a scene and a camera that no Simulator takes, and for a frame of another scene.
+    """
+    report: SceneReport = _native.scene_report(scene, camera, frame)
+    return report
+
+
+def invalid_pixels(frame: Frame, camera: Camera, wrong_cycles: bool = True) -> InvalidPixels:
+    """How many pixels have no depth, and why.
+
+    Parameters
+    ----------
+    frame : Frame
+        With ``depth.flags``. Where it has ``truth.object_id`` and ``truth.range_m``, too little light is told apart: no surface,
+        beyond reach, dark.
+    camera : Camera
+        The one that the frame is of.
+    wrong_cycles : bool
+        Whether the raw frames are decoded once more to tell wrong cycles from flying pixels, where 1 % are flying.
+
+    Returns
+    -------
+    InvalidPixels
+        Each pixel counts once.
+
+    Raises
+    ------
+    Error
+        For raw frames that do not fit to the camera.
+    """
+    pixels: InvalidPixels = _native.invalid_pixels(frame, camera, wrong_cycles)
+    return pixels
 
 
 def camera_pose(scene: Scene, time_s: float = 0.0) -> NDArray[np.float64]:

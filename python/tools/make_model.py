@@ -46,7 +46,7 @@ def declared(code: str) -> list[str]:
 def comments() -> dict[str, dict[str, str]]:
     """The comment of each struct ('' is its key) and of each of its members."""
     out: dict[str, dict[str, str]] = {}
-    for header in ("scene.h", "camera.h", "simulator.h"):
+    for header in ("scene.h", "camera.h", "simulator.h", "analysis.h"):
         before: list[str] = []
         struct, members = "", [""]
         behind = False
@@ -100,7 +100,7 @@ def wrapped(text: str, indent: int) -> str:
 ENDS = {"m": "m", "px": "px", "rad": "rad", "s": "s", "hz": "Hz", "w": "W", "e": "e", "k": "K", "dn": "DN", "celsius": "°C",
         "e_per_s": "e/s", "e_per_dn": "e/DN", "m_per_s": "m/s", "m_per_kelvin": "m/K", "rad_per_s": "rad/s", "w_per_m3": "W/m³"}
 # … and of those that end in none: scene.h says metres, where it is not a direction or a ratio.
-METRES = {"position", "point", "center", "radius", "min", "max", "vertices", "height", "size", "start", "end", "base", "look_at"}
+METRES = {"position", "point", "center", "radius", "min", "max", "vertices", "height", "size", "start", "end", "base", "look_at", "low", "high"}
 RATIOS = {"fill_factor", "share", "weights", "kernel", "k1", "k2", "k3", "k4", "k5", "k6", "p1", "p2", "f_number", "transmission", "peak",
           "exponent", "duty", "modulation_depth", "correlation", "emission", "axis", "normal", "direction", "up", "samples", "scale", "active",
           "tap_gain_mismatch", "crosstalk_left_right", "crosstalk_up_down", "prnu", "suppression_noise_factor", "sigmas", "flying_sigmas",

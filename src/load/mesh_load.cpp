@@ -228,7 +228,7 @@ void MeshReader::count(const base::Place& place, const TriangleMesh& mesh) {
   check(triangles_, base::limit::mesh_triangles, "triangles");
 }
 
-bool has_own_materials(const std::string& file, const std::string& source, const std::string& root) {
+bool has_own_materials(const std::string& file, const std::string& source, const std::string& root, std::string* unread) {
   if (is_gltf(file)) return true;
   if (!is_obj(file) && mesh::suffix_of(file) != ".ply") return false;
   std::string path, bytes;
@@ -237,7 +237,10 @@ bool has_own_materials(const std::string& file, const std::string& source, const
   } catch (const Error&) {
     return false;  // whoever reads the mesh tells
   }
-  return has_materials(bytes, path, root);
+  std::string missing;
+  const bool has = has_materials(bytes, path, root, missing);
+  if (unread != nullptr) *unread = missing;
+  return has;
 }
 
 std::optional<Pose> camera_in(const Mesh& mesh, const std::string& source, const std::string& root) {

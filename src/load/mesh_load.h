@@ -89,6 +89,7 @@ std::optional<Pose> camera_in(const Mesh& mesh, const std::string& source, const
 /// vertices have colours.
 /// @param file    as a scene has it
 /// @param source  the scene's file, beside which it lies
-bool has_own_materials(const std::string& file, const std::string& source, const std::string& root);
+/// @param unread  out: the first file of materials that the mesh's file names and that cannot be read
+bool has_own_materials(const std::string& file, const std::string& source, const std::string& root, std::string* unread = nullptr);
 
 }  // namespace tofray::load

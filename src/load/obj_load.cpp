@@ -105,14 +105,20 @@ std::array<float, 2> placed(const mesh::MtlPicture& picture, const std::array<fl
 
 bool is_obj(const std::string& path) { return mesh::suffix_of(path) == ".obj"; }
 
-bool has_materials(std::string_view bytes, const std::string& path, const std::string& root) {
+bool has_materials(std::string_view bytes, const std::string& path, const std::string& root, std::string& unread) {
+  std::string reading;
   try {
     if (!is_obj(path)) return !mesh::parse(mesh::format_of(path, base::whole(path)), bytes, path).mesh.shades.empty();
     const std::vector<mesh::Reference> files = mesh::libraries_of_obj(bytes, path);
     std::string found;
-    for (const mesh::Reference& file : files) (void)read_beside(file, files::folder_of(path), root, base::limit::mtl_bytes, 0, found);
+    for (const mesh::Reference& file : files) {
+      reading = file.file;
+      (void)read_beside(file, files::folder_of(path), root, base::limit::mtl_bytes, 0, found);
+    }
+    reading.clear();
     return !files.empty() || !mesh::parse(mesh::Format::obj, bytes, path).mesh.shades.empty();
   } catch (const Error&) {
+    unread = reading;
     return false;
   }
 }

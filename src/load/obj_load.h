@@ -17,8 +17,10 @@ namespace tofray::load {
 /// By the file name's suffix, in any case.
 bool is_obj(const std::string& path);
 
-/// Whether an OBJ file names files of materials, all of which can be read. @param path  where it lies
-bool has_materials(std::string_view bytes, const std::string& path, const std::string& root);
+/// Whether an OBJ file names files of materials, all of which can be read.
+/// @param path    where it lies
+/// @param unread  out: the first of them that cannot be read
+bool has_materials(std::string_view bytes, const std::string& path, const std::string& root, std::string& unread);
 
 /// The materials of one OBJ file.
 class ObjMaterials {

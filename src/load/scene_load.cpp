@@ -63,8 +63,8 @@ class SceneReader {
       filler_.fill(materials.items[i], out.materials.emplace_back());
       out.materials.back().name = materials.names[i];
     }
-    for (const auto& entry : objects.items)
-      if (entry.good && !entry.items.empty()) object(entry, out);
+    for (std::size_t i = 0; i < objects.items.size(); ++i)
+      if (const Value& entry = objects.items[i]; entry.good && !entry.items.empty()) object(entry, i, out);
     read_meshes(out);
     filler_.check(out);
     for (const Material& one : of_files_) filler_.check(one);
@@ -169,9 +169,10 @@ class SceneReader {
                     std::string("; `tofray list materials` names those that are built in; or write reflectivity: 0.5 instead"));
   }
 
-  void object(const Value& entry, Scene& scene) {
+  void object(const Value& entry, std::size_t number, Scene& scene) {
     const Value& value = entry.items[0];
     Object& out = scene.objects.emplace_back();
+    out.key = "objects." + std::to_string(number), out.where = base::to_string(entry.place());
     out.material = material_of(value, scene);
     filler_.fill(value, out);
     const model::Slot shape = model::slot_of(out.shape);

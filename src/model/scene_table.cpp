@@ -79,9 +79,8 @@ const Table& table_of<Plane>() {
 
 template <>
 const Table& table_of<Sphere>() {
-  static const Table rows =
-      table<Sphere>(number<&Sphere::center>("center", coordinate, "[m]").required(),
-                    number<&Sphere::radius>("radius", {length, {base::shortest_m, 1e5}, "25 cm", true}, "[m]").required());
+  static const Table rows = table<Sphere>(number<&Sphere::center>("center", coordinate, "[m]").required(),
+                                          number<&Sphere::radius>("radius", {length, {base::shortest_m, 1e5}, "25 cm"}, "[m]").required());
   return rows;
 }
 
@@ -103,11 +102,11 @@ const Table& table_of<Triangle>() {
 
 template <>
 const Table& table_of<Cylinder>() {
-  static const Table rows = table<Cylinder>(
-      number<&Cylinder::center>("center", coordinate, "halfway between its caps [m]").required(),
-      number<&Cylinder::axis>("axis", component, "from cap to cap; any length but zero").required().direction(),
-      number<&Cylinder::radius>("radius", {length, {base::shortest_m, 1e5}, "5 cm", true}, "[m]").required(),
-      number<&Cylinder::height>("height", {length, {base::shortest_m, 1e5}, "20 cm", true}, "from cap to cap [m]").required());
+  static const Table rows =
+      table<Cylinder>(number<&Cylinder::center>("center", coordinate, "halfway between its caps [m]").required(),
+                      number<&Cylinder::axis>("axis", component, "from cap to cap; any length but zero").required().direction(),
+                      number<&Cylinder::radius>("radius", {length, {base::shortest_m, 1e5}, "5 cm"}, "[m]").required(),
+                      number<&Cylinder::height>("height", {length, {base::shortest_m, 1e5}, "20 cm"}, "from cap to cap [m]").required());
   return rows;
 }
 
@@ -126,7 +125,7 @@ const Table& table_of<Disk>() {
   static const Table rows =
       table<Disk>(number<&Disk::center>("center", coordinate, "[m]").required(),
                   number<&Disk::normal>("normal", component, "any length but zero; both sides reflect").required().direction(),
-                  number<&Disk::radius>("radius", {length, {base::shortest_m, 1e5}, "15 cm", true}, "[m]").required());
+                  number<&Disk::radius>("radius", {length, {base::shortest_m, 1e5}, "15 cm"}, "[m]").required());
   return rows;
 }
 
@@ -135,7 +134,7 @@ const Table& table_of<Capsule>() {
   static const Table rows =
       table<Capsule>(number<&Capsule::start>("start", coordinate, "the middle of one of its round ends [m]").required(),
                      number<&Capsule::end>("end", coordinate, "that of the other one, which is another point [m]").required(),
-                     number<&Capsule::radius>("radius", {length, {base::shortest_m, 1e5}, "5 cm", true}, "[m]").required())
+                     number<&Capsule::radius>("radius", {length, {base::shortest_m, 1e5}, "5 cm"}, "[m]").required())
           .check_with(capsules_have_a_length);
   return rows;
 }
@@ -145,8 +144,8 @@ const Table& table_of<Cone>() {
   static const Table rows =
       table<Cone>(number<&Cone::base>("base", coordinate, "the middle of its base [m]").required(),
                   number<&Cone::axis>("axis", component, "from the base to the tip; any length but zero").required().direction(),
-                  number<&Cone::radius>("radius", {length, {base::shortest_m, 1e5}, "10 cm", true}, "of the base [m]").required(),
-                  number<&Cone::height>("height", {length, {base::shortest_m, 1e5}, "30 cm", true}, "from base to tip [m]").required());
+                  number<&Cone::radius>("radius", {length, {base::shortest_m, 1e5}, "10 cm"}, "of the base [m]").required(),
+                  number<&Cone::height>("height", {length, {base::shortest_m, 1e5}, "30 cm"}, "from base to tip [m]").required());
   return rows;
 }
 
@@ -219,7 +218,8 @@ const Table& table_of<Object>() {
                                                       "the axis of a steady turn about the object's own centre, times how fast it turns"),
           records<&Object::keyframes>(
               "keyframes", 0, most_keyframes,
-              "where it is when, in place of `position`, `rotation` and both velocities; it moves evenly between two"))
+              "where it is when, in place of `position`, `rotation` and both velocities; it moves evenly between two"),
+          no_row<&Object::key, &Object::where>("where the file says it"))
           .check_with(objects_move_one_way);
   return rows;
 }

@@ -49,7 +49,8 @@ class Reader {
     const Json* seed = find(document_, "", "seed", "a whole number of 0 or more");
     if (seed != nullptr && !seed->unsigned_integer(manifest.seed)) fault("seed", "a whole number of 0 or more");
     read_machine(manifest);
-    read_files(manifest);
+    read_files("files", manifest.files);
+    if (document_.is_object() && document_.find("earlier_files") != nullptr) read_files("earlier_files", manifest.earlier_files);
     faults_.raise();
     return manifest;
   }
@@ -126,11 +127,11 @@ class Reader {
       manifest.timings_s.emplace_back(stage, value);
     }
   }
-  void read_files(Manifest& manifest) {
-    const Json::Array& files = items(document_, "files", "a list of name, bytes and sha256");
+  void read_files(const char* key, std::vector<FileRecord>& records) {
+    const Json::Array& files = items(document_, key, "a list of name, bytes and sha256");
     for (std::size_t i = 0; i < files.size(); ++i) {
-      const std::string before = fmt::format("files[{}].", i);
-      FileRecord& file = manifest.files.emplace_back();
+      const std::string before = fmt::format("{}[{}].", key, i);
+      FileRecord& file = records.emplace_back();
       string(files[i], before, "name", file.name);
       string(files[i], before, "sha256", file.sha256);
       const Json* bytes = find(files[i], before, "bytes", "a whole number");
@@ -147,6 +148,13 @@ Json json_of(const InputFile& input) {
   Json out = Json::object();
   out.set("role", input.role).set("name", input.name).set("text", input.text);
   if (!input.sha256.empty()) out.set("sha256", input.sha256);
+  return out;
+}
+
+Json records_json(const std::vector<FileRecord>& records) {
+  Json out = Json::array();
+  for (const FileRecord& file : records)
+    out.push(Json::object().set("name", file.name).set("bytes", file.bytes).set("sha256", file.sha256));
   return out;
 }
 
@@ -178,10 +186,8 @@ std::string cpu_model() {
 }
 
 std::string manifest_text(const Manifest& manifest) {
-  Json inputs = Json::array(), files = Json::array(), timings = Json::object();
+  Json inputs = Json::array(), timings = Json::object();
   for (const InputFile& input : manifest.inputs) inputs.push(json_of(input));
-  for (const FileRecord& file : manifest.files)
-    files.push(Json::object().set("name", file.name).set("bytes", file.bytes).set("sha256", file.sha256));
   for (const auto& [stage, seconds] : manifest.timings_s) timings.set(stage, seconds);
   Json json = Json::object();
   json.set("tofray", manifest.tofray_version).set("command", Json::list(manifest.command)).set("inputs", std::move(inputs));
@@ -190,7 +196,8 @@ std::string manifest_text(const Manifest& manifest) {
   if (!manifest.gpu.empty()) device.set("gpu", manifest.gpu);
   json.set("backend", manifest.backend).set("device", std::move(device));
   if (manifest.interrupted_after_frames) json.set("interrupted_after_frames", *manifest.interrupted_after_frames);
-  json.set("threads", manifest.threads).set("timings_s", std::move(timings)).set("files", std::move(files));
+  json.set("threads", manifest.threads).set("timings_s", std::move(timings)).set("files", records_json(manifest.files));
+  if (!manifest.earlier_files.empty()) json.set("earlier_files", records_json(manifest.earlier_files));
   return json_text(json, 2) + "\n";
 }
 

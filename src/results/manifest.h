@@ -37,6 +37,8 @@ struct Manifest {
   int threads = 0;
   std::vector<std::pair<std::string, double>> timings_s;  ///< by stage
   std::vector<files::FileRecord> files;                   ///< every other file of the folder that this run wrote
+  /// Files of earlier runs that lie in the folder besides, as far as they are known.
+  std::vector<files::FileRecord> earlier_files;
   /// Frames that were complete when the run was interrupted, all of them in `files`; none where it came to its end. For people and
   /// scripts: `--from` makes the whole run.
   std::optional<std::uint64_t> interrupted_after_frames;

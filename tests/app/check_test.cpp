@@ -166,15 +166,15 @@ TEST(check, notes_a_closed_object_around_the_camera) {
               object + "\n");
     const Result result = run({"check", "scene.yaml"}, in_folder(folder.path()));
     EXPECT_EQ(result.code, 0) << result.err;
-    return has(result.out, "note: the camera stands inside objects.1");
+    return has(result.err, ": the camera stands inside objects.1");
   };
-  EXPECT_TRUE(note_of("sphere: {center: [1.1, 0, 0], radius: 0.2, reflectivity: 0.5}"));
-  EXPECT_FALSE(note_of("sphere: {center: [1.1, 0, 0], radius: 0.09, reflectivity: 0.5}"));
+  EXPECT_TRUE(note_of("sphere: {center: [1.1, 0, 0], radius: 0.2 m, reflectivity: 0.5}"));
+  EXPECT_FALSE(note_of("sphere: {center: [1.1, 0, 0], radius: 0.09 m, reflectivity: 0.5}"));
   EXPECT_TRUE(note_of("box: {min: [-0.1, -0.1, -0.1], max: [0.1, 0.1, 0.1], position: [1, 0, 0], reflectivity: 0.5}"));
   EXPECT_FALSE(note_of("box: {min: [-0.1, -0.1, -0.1], max: [0.1, 0.1, 0.1], reflectivity: 0.5}"));
-  EXPECT_TRUE(note_of("cylinder: {center: [1, 0, 0.2], axis: [0, 0, 1], radius: 0.1, height: 0.5, reflectivity: 0.5}"));
-  EXPECT_FALSE(note_of("cylinder: {center: [1, 0, 0.2], axis: [0, 0, 1], radius: 0.1, height: 0.3, reflectivity: 0.5}"));
-  EXPECT_FALSE(note_of("disk: {center: [1, 0, 0], normal: [0, 0, 1], radius: 0.1, reflectivity: 0.5}"));
+  EXPECT_TRUE(note_of("cylinder: {center: [1, 0, 0.2], axis: [0, 0, 1], radius: 0.1 m, height: 0.5 m, reflectivity: 0.5}"));
+  EXPECT_FALSE(note_of("cylinder: {center: [1, 0, 0.2], axis: [0, 0, 1], radius: 0.1 m, height: 0.3 m, reflectivity: 0.5}"));
+  EXPECT_FALSE(note_of("disk: {center: [1, 0, 0], normal: [0, 0, 1], radius: 0.1 m, reflectivity: 0.5}"));
 }
 
 TEST(check, of_a_camera_without_light_says_no_noise) {
@@ -193,8 +193,9 @@ TEST(render, says_why_few_pixels_are_valid_and_what_helps) {
     return run({"render", "card", "-o", "out", "--emit", "npz", "--set", std::string(set) + "=" + value}, where).err;
   };
   const std::string dark = said("camera.integration_time", "30 us");
-  EXPECT_TRUE(has(dark, " % low signal: noise 0.")) << dark;
-  EXPECT_TRUE(has(dark, "m at the median; more light, a longer integration time, or another threshold")) << dark;
+  EXPECT_TRUE(has(dark, " % dark: noise 0.")) << dark;
+  EXPECT_TRUE(has(dark, "m at the median; more light, a longer integration time, or a higher camera.decoding.noise_threshold (now 70 mm)"))
+      << dark;
   const std::string bright = said("camera.illumination.0.power", "100 W");
   EXPECT_TRUE(has(bright, " % saturated: less light, a shorter integration time, or more distance\n")) << bright;
   const std::string rejected = said("camera.decoding.asymmetry", "{sigmas: 0, reject: true}");

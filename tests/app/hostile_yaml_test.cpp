@@ -73,7 +73,7 @@ TEST(hostile_yaml, a_name_is_at_most_as_long_as_the_limit_and_does_not_make_pict
 
 TEST(hostile_yaml, many_faults_and_many_keys_end_soon) {
   const Folder folder;
-  const auto sphere = [](int i) { return "  - sphere: {center: [0, 0, 1], radius: 0.1, material: q" + std::to_string(i) + "}\n"; };
+  const auto sphere = [](int i) { return "  - sphere: {center: [0, 0, 1], radius: 0.1 m, material: q" + std::to_string(i) + "}\n"; };
   const auto material = [](int i) { return "  m" + std::to_string(i) + std::string(50, 'x') + ": {brdf: lambert, reflectivity: 0.5}\n"; };
   write(folder / "overrides.yaml", "camera:\n  profile: pico-flexx\n" +
                                        repeated(often(40'000), [](int i) { return "  lens.k" + std::to_string(i) + ": 1\n"; }) + wall_yaml);
@@ -146,7 +146,7 @@ TEST(hostile_message, what_is_quoted_is_cut) {
       "materials:\n" +
           repeated(20, [](int i) { return "  m" + std::to_string(i) + std::string(900, 'x') + ": {brdf: lambert, reflectivity: 0.5}\n"; }) +
           "objects:\n" +
-          repeated(60, [](int i) { return "  - sphere: {center: [0, 0, 1], radius: 0.1, material: q" + std::to_string(i) + "}\n"; }));
+          repeated(60, [](int i) { return "  - sphere: {center: [0, 0, 1], radius: 0.1 m, material: q" + std::to_string(i) + "}\n"; }));
   write(folder / "duplicates.yaml", std::string(50'000, 'k') + ": 1\n" + std::string(50'000, 'k') + ": 1\n");
   for (const char* name : {"names.yaml", "duplicates.yaml"}) expect_refused(attack(folder, {"check", name}), 2, "error: ");
   expect_refused(attack(folder, {"render", std::string(50'000, 'f')}), 3, "error: ");

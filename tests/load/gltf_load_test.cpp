@@ -92,9 +92,9 @@ double reflectivity(const Scene& scene, std::size_t object) {
 TEST_F(gltf_in_scene, is_an_object_for_each_material) {
   const Scene got = load::scene_from_text(
       "materials: {paper: {reflectivity: 0.7}}\n"
-      "objects:\n  - sphere: {center: [0, 0, 1], radius: 0.1, material: paper}\n"
+      "objects:\n  - sphere: {center: [0, 0, 1], radius: 0.1 m, material: paper}\n"
       "  - mesh: {file: two.glb, name: toy, position: [1, 2, 3], velocity: [0, 1, 0]}\n  - mesh: {file: two.glb}\n"
-      "  - sphere: {center: [0, 0, 1], radius: 0.1, reflectivity: 0.2}\n",
+      "  - sphere: {center: [0, 0, 1], radius: 0.1 m, reflectivity: 0.2}\n",
       source());
   ASSERT_EQ(got.objects.size(), 6U);
   std::vector<std::string> names;
@@ -388,7 +388,7 @@ TEST_F(gltf_in_scene, may_not_make_more_objects_than_a_scene_has) {
   };
   refused(one + one + one, "scene.yaml:4:18");
   std::string spheres;
-  for (int i = 0; i < 2001; ++i) spheres += "  - sphere: {center: [0, 0, 1], radius: 0.1, reflectivity: 0.2}\n";
+  for (int i = 0; i < 2001; ++i) spheres += "  - sphere: {center: [0, 0, 1], radius: 0.1 m, reflectivity: 0.2}\n";
   refused(one + one + spheres, "scene.yaml:3:18");
 }
 

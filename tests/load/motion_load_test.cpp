@@ -18,7 +18,7 @@ using namespace tofray;
 using test::has;
 
 std::string ball(const std::string& keys) {
-  return "objects: [sphere: {center: [0, 0, 1], radius: 0.2, reflectivity: 0.5, " + keys + "}]\n";
+  return "objects: [sphere: {center: [0, 0, 1], radius: 0.2 m, reflectivity: 0.5, " + keys + "}]\n";
 }
 std::string with_camera(const std::string& keyframes) { return "camera: {keyframes: [" + keyframes + "]}\nobjects: []\n"; }
 
@@ -48,7 +48,7 @@ TEST(motion_in_files, has_angular_velocities_in_any_unit) {
 
 TEST(motion_in_files, refuses_angular_velocities_without_their_unit) {
   const std::string bare = motion_refusal(ball("angular_velocity: [0, 90, 0]"));
-  EXPECT_TRUE(has(bare, "m.yaml:1:93: error: angular_velocity[1] has no unit")) << bare;
+  EXPECT_TRUE(has(bare, "m.yaml:1:95: error: angular_velocity[1] has no unit")) << bare;
   EXPECT_TRUE(has(bare, "got \"90\", expected an angular speed such as \"90 deg/s\" (units: deg/s, rad/s, rpm and °/s)")) << bare;
   EXPECT_TRUE(has(motion_refusal(ball("angular_velocity: [0, 3 m/s, 0]")), "angular_velocity[1] is a speed, not an angular speed"));
   EXPECT_TRUE(has(motion_refusal(ball("angular_velocity: [0, 10001 rad/s, 0]")), "angular_velocity[1] is out of range"));
@@ -78,7 +78,7 @@ TEST(motion_in_files, has_keyframes_of_objects_and_of_the_camera) {
 TEST(motion_in_files, refuses_what_goes_two_ways_or_backward) {
   const std::pair<std::string, const char*> cases[] = {
       {ball("keyframes: [{time: 1 s}, {time: 0.5 s}]"),
-       "m.yaml:1:103: error: a keyframe is not later than the one before\n  got 0.5 s after 1 s"},
+       "m.yaml:1:105: error: a keyframe is not later than the one before\n  got 0.5 s after 1 s"},
       {ball("keyframes: [{time: 1 s}, {time: 1 s}]"), "a keyframe is not later than the one before\n  got 1 s after 1 s"},
       {ball("position: [1, 0, 0], keyframes: [{time: 0 s}]"), "the object has keyframes and a position"},
       {ball("rotation: {axis: [0, 1, 0], angle: 1 deg}, keyframes: [{time: 0 s}]"), "the object has keyframes and a rotation"},

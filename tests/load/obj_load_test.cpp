@@ -98,7 +98,7 @@ constexpr const char* way_out = "\n  or give the object a reflectivity or a mate
 
 TEST_F(obj_in_scene, is_an_object_for_each_material) {
   const Scene got = load::scene_from_text(
-      "objects:\n  - sphere: {center: [0, 0, 1], radius: 0.1, reflectivity: 0.7}\n"
+      "objects:\n  - sphere: {center: [0, 0, 1], radius: 0.1 m, reflectivity: 0.7}\n"
       "  - mesh: {file: two.obj, name: toy, position: [1, 2, 3]}\n  - mesh: {file: two.obj}\n",
       source());
   std::vector<std::string> names;

@@ -52,10 +52,10 @@ TEST(scene, decimal_commas_are_called_so) {
   const std::string quoted = refusal("objects: [{sphere: {center: [0, 0, 1], radius: \"1,5 m\", reflectivity: 0.5}}]");
   EXPECT_TRUE(has(quoted, "s.yaml:1:48: error: radius has a decimal comma\n  got \"1,5 m\", expected a decimal point: \"1.5 m\""))
       << quoted;
-  const std::string in_map = refusal("objects: [{sphere: {center: [0, 0, 1], radius: 1, reflectivity: 0,5}}]");
+  const std::string in_map = refusal("objects: [{sphere: {center: [0, 0, 1], radius: 1 m, reflectivity: 0,5}}]");
   EXPECT_TRUE(has(in_map, "error: reflectivity has a decimal comma")) << in_map;
   EXPECT_TRUE(has(in_map, "expected a decimal point: \"reflectivity: 0.5\"")) << in_map;
-  const std::string in_list = refusal("objects: [{sphere: {center: [0, 0, 1,5], radius: 1, reflectivity: 0.5}}]");
+  const std::string in_list = refusal("objects: [{sphere: {center: [0, 0, 1,5], radius: 1 m, reflectivity: 0.5}}]");
   EXPECT_TRUE(has(in_list, "write 1.5, not 1,5")) << in_list;
   const std::string set = refusal(one_of_each, {{"objects.1.sphere.radius", "1,5 m"}});
   EXPECT_TRUE(has(set, "has a decimal comma")) << set;
@@ -122,9 +122,9 @@ TEST(scene, reads_cylinders) {
   EXPECT_EQ(cylinder.axis, (Vec3{0, 2, 0}));
   EXPECT_EQ(cylinder.radius, 0.05);
   EXPECT_EQ(cylinder.height, 0.2);
-  EXPECT_TRUE(has(refusal("objects: [cylinder: {center: [0, 0, 1], axis: [0, 0, 0], radius: 1, height: 1, reflectivity: 0.5}]"),
+  EXPECT_TRUE(has(refusal("objects: [cylinder: {center: [0, 0, 1], axis: [0, 0, 0], radius: 1 m, height: 1 m, reflectivity: 0.5}]"),
                   "axis has no length"));
-  EXPECT_TRUE(has(refusal("objects: [cylinder: {center: [0, 0, 1], axis: [0, 1, 0], radius: 1, reflectivity: 0.5}]"), "height"));
+  EXPECT_TRUE(has(refusal("objects: [cylinder: {center: [0, 0, 1], axis: [0, 1, 0], radius: 1 m, reflectivity: 0.5}]"), "height"));
 }
 
 TEST(scene, reads_rectangles_and_disks) {
@@ -145,14 +145,14 @@ TEST(scene, reads_rectangles_and_disks) {
   EXPECT_TRUE(has(refused("rectangle: {center: [0, 0, 1], size: 1"), "size"));
   EXPECT_TRUE(has(refused("rectangle: {center: [0, 0, 1], size: [1, 0]"), "size"));
   EXPECT_TRUE(has(refused("rectangle: {center: [0, 0, 1]"), "size"));
-  EXPECT_TRUE(has(refused("disk: {center: [0, 0, 1], normal: [0, 0, 0], radius: 1"), "normal has no length"));
+  EXPECT_TRUE(has(refused("disk: {center: [0, 0, 1], normal: [0, 0, 0], radius: 1 m"), "normal has no length"));
   EXPECT_TRUE(has(refused("disk: {center: [0, 0, 1], normal: [0, 0, 1]"), "radius"));
 }
 
 TEST(scene, reads_capsules_and_cones) {
   const Scene scene = load::scene_from_text(
       "objects: [capsule: {start: [0, 0, 1], end: [0, 20 cm, 1], radius: 5 cm, reflectivity: 0.5},"
-      " cone: {base: [0, 0, 2], axis: [0, -2, 0], radius: 10 cm, height: 0.3, reflectivity: 0.5}]",
+      " cone: {base: [0, 0, 2], axis: [0, -2, 0], radius: 10 cm, height: 0.3 m, reflectivity: 0.5}]",
       "s.yaml");
   const auto& capsule = std::get<Capsule>(scene.objects[0].shape);
   EXPECT_EQ(capsule.start, (Vec3{0, 0, 1}));
@@ -164,14 +164,14 @@ TEST(scene, reads_capsules_and_cones) {
   EXPECT_EQ(cone.radius, 0.1);
   EXPECT_EQ(cone.height, 0.3);
   const auto refused = [](const std::string& shape) { return refusal("objects: [" + shape + ", reflectivity: 0.5}]"); };
-  EXPECT_TRUE(has(refused("capsule: {start: [0, 0, 1], end: [0, 0, 1], radius: 1"), "the capsule ends where it starts"));
+  EXPECT_TRUE(has(refused("capsule: {start: [0, 0, 1], end: [0, 0, 1], radius: 1 m"), "the capsule ends where it starts"));
   EXPECT_TRUE(has(refused("capsule: {start: [0, 0, 1], end: [0, 0, 2]"), "radius"));
-  EXPECT_TRUE(has(refused("cone: {base: [0, 0, 1], axis: [0, 0, 0], radius: 1, height: 1"), "axis has no length"));
-  EXPECT_TRUE(has(refused("cone: {base: [0, 0, 1], axis: [0, 1, 0], radius: 1"), "height"));
+  EXPECT_TRUE(has(refused("cone: {base: [0, 0, 1], axis: [0, 0, 0], radius: 1 m, height: 1 m"), "axis has no length"));
+  EXPECT_TRUE(has(refused("cone: {base: [0, 0, 1], axis: [0, 1, 0], radius: 1 m"), "height"));
 }
 
 TEST(scene, reads_rough_materials) {
-  const std::string around = "objects: [sphere: {center: [0, 0, 1], radius: 1, material: {brdf: oren_nayar, reflectivity: 0.5";
+  const std::string around = "objects: [sphere: {center: [0, 0, 1], radius: 1 m, material: {brdf: oren_nayar, reflectivity: 0.5";
   const Material one = load::scene_from_text(around + ", roughness: 30 deg}}]", "s.yaml").materials[0];
   EXPECT_EQ(one.brdf, Material::Brdf::oren_nayar);
   EXPECT_EQ(one.diffuse, 0.5);
@@ -181,7 +181,7 @@ TEST(scene, reads_rough_materials) {
 }
 
 TEST(scene, reads_small_mirrors_and_retro_reflectors) {
-  const std::string around = "objects: [sphere: {center: [0, 0, 1], radius: 1, material: {brdf: ";
+  const std::string around = "objects: [sphere: {center: [0, 0, 1], radius: 1 m, material: {brdf: ";
   const Material metal = load::scene_from_text(around + "ggx, specular: 0.9, alpha: 0.1}}]", "s.yaml").materials[0];
   EXPECT_EQ(metal.brdf, Material::Brdf::ggx);
   EXPECT_EQ(metal.diffuse, 0);
@@ -203,9 +203,9 @@ TEST(scene, reads_small_mirrors_and_retro_reflectors) {
 
 TEST(scene, names_materials_of_the_library) {
   const Scene scene = load::scene_from_text(
-      "materials: {skin: {reflectivity: 0.1}}\nobjects: [sphere: {center: [0, 0, 1], radius: 1, material: wood}, sphere: {center: [0, 0, "
+      "materials: {skin: {reflectivity: 0.1}}\nobjects: [sphere: {center: [0, 0, 1], radius: 1 m, material: wood}, sphere: {center: [0, 0, "
       "3], "
-      "radius: 1, material: skin}, sphere: {center: [0, 0, 5], radius: 1, material: wood}]",
+      "radius: 1 m, material: skin}, sphere: {center: [0, 0, 5], radius: 1 m, material: wood}]",
       "s.yaml");
   ASSERT_EQ(scene.materials.size(), 2U);  // once, however often it is named
   EXPECT_EQ(scene.materials[1].name, "wood");
@@ -213,7 +213,7 @@ TEST(scene, names_materials_of_the_library) {
   EXPECT_EQ(scene.objects[0].material, 1);
   EXPECT_EQ(scene.objects[1].material, 0);  // the scene's own comes first
   EXPECT_EQ(scene.objects[2].material, 1);
-  const std::string said = refusal("objects: [sphere: {center: [0, 0, 1], radius: 1, material: skim}]");
+  const std::string said = refusal("objects: [sphere: {center: [0, 0, 1], radius: 1 m, material: skim}]");
   EXPECT_TRUE(has(said, "did you mean \"skin\"?")) << said;
   EXPECT_TRUE(has(said, "`tofray list materials`")) << said;
 }
@@ -227,7 +227,7 @@ TEST(material_library, is_in_order_and_sound) {
       EXPECT_LT(library[i - 1].material.name, one.material.name);
     }
     EXPECT_FALSE(one.what.empty() || one.source.empty()) << one.material.name;
-    const std::string object = "objects: [sphere: {center: [0, 0, 1], radius: 1, material: " + one.material.name + "}]";
+    const std::string object = "objects: [sphere: {center: [0, 0, 1], radius: 1 m, material: " + one.material.name + "}]";
     EXPECT_EQ(load::scene_from_text(object, "s.yaml").materials[0].name, one.material.name);
   }
   std::ostringstream committed;
@@ -259,10 +259,10 @@ TEST(scene, may_be_empty) {
 
 TEST(scene, reports_all_faults_at_once_in_order) {
   const std::string what =
-      refusal("camera: {itegration_time: 1 ms}\nobjects:\n  - sphere: {center: [0, 0], radius: -1, reflectivity: 2}\n  - ball: {}\n");
+      refusal("camera: {itegration_time: 1 ms}\nobjects:\n  - sphere: {center: [0, 0], radius: -1 m, reflectivity: 2}\n  - ball: {}\n");
   const char* in_order[] = {"s.yaml:1:10: error: unknown key \"itegration_time\" in camera; did you mean \"integration_time\"?",
                             "s.yaml:3:22: error: center has the wrong number of elements", "s.yaml:3:38: error: radius is out of range",
-                            "s.yaml:3:56: error: reflectivity is out of range", "s.yaml:4:5: error: unknown key \"ball\""};
+                            "s.yaml:3:58: error: reflectivity is out of range", "s.yaml:4:5: error: unknown key \"ball\""};
   std::size_t at = 0;
   for (const char* line : in_order) {
     const std::size_t found = what.find(line, at);
@@ -283,15 +283,15 @@ TEST(scene, refuses_what_is_degenerate) {
       {"triangle: {vertices: [[0,0,1],[1,0,1],[2,0,1]], reflectivity: 0.5}", "no area"},
       {"triangle: {vertices: [[0,0,1],[0,0,1],[2,0,1]], reflectivity: 0.5}", "no area"},
       {"triangle: {vertices: [[0,0,1],[1e5,1e5,1],[5e4,5e4,1]], reflectivity: 0.5}", "no area"},
-      {"sphere: {center: [0,0,1], radius: 1, rotation: {axis: [0,0,0], angle: 1 deg}, reflectivity: 0.5}", "axis has no length"},
-      {"sphere: {center: [0,0,1], radius: 1, material: {brdf: phong_original, diffuse: 0.5, specular: 0.3, exponent: 2}}",
+      {"sphere: {center: [0,0,1], radius: 1 m, rotation: {axis: [0,0,0], angle: 1 deg}, reflectivity: 0.5}", "axis has no length"},
+      {"sphere: {center: [0,0,1], radius: 1 m, material: {brdf: phong_original, diffuse: 0.5, specular: 0.3, exponent: 2}}",
        "phong_original"},
-      {"sphere: {center: [0,0,1], radius: 1, material: {brdf: phong, diffuse: 0.8, specular: 0.3, exponent: 2}}",
+      {"sphere: {center: [0,0,1], radius: 1 m, material: {brdf: phong, diffuse: 0.8, specular: 0.3, exponent: 2}}",
        "diffuse + specular is more than 1"},
-      {"sphere: {center: [0,0,1], radius: 1, material: nope}", "no material \"nope\""},
-      {"sphere: {center: [0,0,1], radius: 1}", "lacks a key"},
-      {"sphere: {center: [0,0,1], radius: 1, material: a, reflectivity: 0.5}", "say the same thing"},
-      {"sphere: {center: [0,0,1 s], radius: 1, reflectivity: 0.5}", "is a time"},
+      {"sphere: {center: [0,0,1], radius: 1 m, material: nope}", "no material \"nope\""},
+      {"sphere: {center: [0,0,1], radius: 1 m}", "lacks a key"},
+      {"sphere: {center: [0,0,1], radius: 1 m, material: a, reflectivity: 0.5}", "say the same thing"},
+      {"sphere: {center: [0,0,1 s], radius: 1 m, reflectivity: 0.5}", "is a time"},
   };
   for (const auto& [object, expected] : cases)
     EXPECT_TRUE(has(refusal("objects: [" + std::string(object) + "]"), expected)) << object << "\n"
@@ -317,7 +317,7 @@ TEST(scene, ambient_light_is_the_suns_unless_it_says_otherwise) {
 }
 
 TEST(scene, takes_an_edge_at_full_reflection) {
-  EXPECT_EQ(refusal("objects: [sphere: {center: [0,0,1], radius: 1, material: {brdf: phong, diffuse: 0.7, specular: 0.3, exponent: 2}}]"),
+  EXPECT_EQ(refusal("objects: [sphere: {center: [0,0,1], radius: 1 m, material: {brdf: phong, diffuse: 0.7, specular: 0.3, exponent: 2}}]"),
             "");
 }
 

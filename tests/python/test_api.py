@@ -26,6 +26,7 @@ LEFT_OUT = {
     "ArrayShape": "an array has its shape",
     "Array": "a numpy array", "AlignedMemory": "a numpy array",
     "Flag": "tofray.flags",
+    "NoDepth": "members of InvalidPixels", "no_depth_name": "members of InvalidPixels",
     "load_scene_text": "tofray.scene", "load_camera_text": "tofray.camera",
     "frame_npz": "Frame.save",
     "version": "tofray.__version__",

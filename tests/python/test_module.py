@@ -54,6 +54,9 @@ objects:
     by_file, by_dict = tofray.load_scene(file), tofray.scene(BALL, name="ball", folder=tmp_path)
     by_file.camera.profile_where = by_dict.camera.profile_where = ""
     by_file.camera.mode_where = by_dict.camera.mode_where = ""
+    for k, one in enumerate(by_file.objects):
+        assert (one.key, one.where) == (f"objects.{k}", f"{file}:{4 + k}:5")
+        one.where = ""
     assert by_file == by_dict
 
 

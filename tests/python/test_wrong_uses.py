@@ -176,7 +176,7 @@ USES: dict[str, Callable[[], object]] = {
     "a dict with an object": lambda: tofray.scene({"objects": [object()]}),
     "a dict with keys of numbers": lambda: tofray.scene({1: 2}),  # type: ignore[dict-item]
     "a dict within itself": lambda: tofray.scene({"objects": endless()}),
-    "a dict with nan": lambda: tofray.scene({"objects": [{"sphere": {"center": [0, 0, float("nan")], "radius": 1}}]}),
+    "a dict with nan": lambda: tofray.scene({"objects": [{"sphere": {"center": [0, 0, float("nan")], "radius": "1 m"}}]}),
     "a dict with bytes": lambda: tofray.scene({"objects": b"abc"}),
     "a scene of another name": lambda: tofray.load_scene("demmo"),
     "a scene of a folder": lambda: tofray.load_scene(os.getcwd()),

@@ -214,7 +214,7 @@ TEST(memory, is_not_asked_for_where_counts_are_beyond_their_limits) {
   const Folder folder;
   std::ofstream(folder / "objects.yaml") << "objects: [" << [] {
     std::string list;
-    for (int i = 0; i < 20'001; ++i) list += "{sphere: {center: [0, 0, 1], radius: 1, reflectivity: 1}}, ";
+    for (int i = 0; i < 20'001; ++i) list += "{sphere: {center: [0, 0, 1], radius: 1 m, reflectivity: 1}}, ";
     return list;
   }() << "]\n";
   std::ofstream(folder / "long.yaml") << std::string((16 << 20) + 1, '#');

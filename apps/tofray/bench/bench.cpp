@@ -235,7 +235,8 @@ int run_bench(const Options& options) {
     const Inputs in = load_inputs(scene, options);
     say(warnings(in));
     Contender one(in, bench_options(options));
-    say_fallback(options, one.simulator().ran_on());
+    Remarks remarks;
+    say_fallback(options, one.simulator().ran_on(), remarks);
     Progress progress(frames + options.warmup, "frames", options.json);
     for (std::uint64_t i = 0; i < frames + options.warmup; ++i) {
       one.step(i >= options.warmup);

@@ -113,7 +113,8 @@ int run_batch_bench(const Options& options) {
   SimulatorOptions wanted = bench_options(options);
   if (wanted.device < 0) wanted.device = 0;  // one GPU, also where frames would be spread over several: its energy is measured
   Simulator simulator(in.scene, in.camera, wanted);
-  say_fallback(options, simulator.ran_on());
+  Remarks remarks;
+  say_fallback(options, simulator.ran_on(), remarks);
   const std::uint64_t repeats = options.frames.value_or(20);
   files::Json results = files::Json::array();
   for (const char* differing : {"index", "seeds", "poses"}) {

@@ -134,7 +134,8 @@ bool takes_gpu(Options& options, const Inputs& in) {
   SimulatorOptions wanted = bench_options(options);
   if (sizes) wanted.backend = Backend::cuda;
   const Simulator probe(in.scene, in.camera, wanted);
-  if (probe.ran_on().backend != "cuda") return say_fallback(options, probe.ran_on()), false;
+  Remarks remarks;
+  if (probe.ran_on().backend != "cuda") return say_fallback(options, probe.ran_on(), remarks), false;
   for (int size = 32; !sizes && size <= 1024; size += 32) options.block_sizes.push_back(size);
   return true;
 }

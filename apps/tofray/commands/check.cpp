@@ -17,8 +17,8 @@
 #include "load/load.h"
 #include "load/provenance.h"
 #include "mesh_scene.h"
-#include "scene/motion.h"
-#include "shape/list.h"
+#include "remarks.h"
+#include "scene_text.h"
 #include "tofray/error.h"
 #include "yaml/tree.h"
 
@@ -36,6 +36,7 @@ SimulatorOptions on_processor(const Options& options) {
 struct Report {
   files::Json json = files::Json::object();
   std::string text, warnings;
+  std::vector<SceneFinding> odd;
 };
 
 Report check_profile(const std::string& text, const std::string& name, const Options& options) {
@@ -78,30 +79,6 @@ std::size_t mesh_triangles(const Scene& scene) {
   return count;
 }
 
-template <class... T, class... Said>
-bool is_inside(shape::List<T...>, const std::variant<Said...>& said, const shape::Placement& at, const shape::Vec& p) {
-  bool found = false;
-  const auto look = [&]<class Shape, class One>(shape::List<Shape>, const One* one) {
-    if constexpr (Shape::closed) {
-      if (one != nullptr) found = inside(Shape::placed(*one, at), p);
-    }
-  };
-  (look(shape::List<T>{}, std::get_if<Said>(&said)), ...);
-  return found;
-}
-
-/// Closed objects that stand still and hold the camera at the first frame. (Of a mesh nobody knows whether it is closed.)
-std::vector<std::size_t> objects_around_the_camera(const Scene& scene) {
-  std::vector<std::size_t> out;
-  const shape::Vec eye = scene::vec(scene::pose_at(scene.camera, 0).position);
-  for (std::size_t i = 0; i < scene.objects.size(); ++i) {
-    const Object& object = scene.objects[i];
-    if (scene::moves(object)) continue;
-    if (is_inside(shape::Shapes{}, object.shape, scene::placement_of(object), eye)) out.push_back(i);
-  }
-  return out;
-}
-
 Report check_scene(const std::string& name, const Options& options) {
   const Inputs in = load_inputs(name, options);
   Simulator(in.scene, in.camera, on_processor(options));
@@ -119,11 +96,10 @@ Report check_scene(const std::string& name, const Options& options) {
       fmt::format("{}: good: scene with {} object{}{}, camera {} in mode {}, {} raw frames\n", name, in.scene.objects.size(),
                   in.scene.objects.size() == 1 ? "" : "s", meshes, in.camera.name, in.camera.mode.name, in.camera.mode.sequence.size());
   const CameraReport can = camera_report(in.camera);
-  report.json.set("camera_report", report_json(can));
-  report.text += report_text(can);
-  for (const std::size_t i : objects_around_the_camera(in.scene))
-    report.text += fmt::format("  note: the camera stands inside objects.{}{}: it sees the inner side, and nothing beyond\n", i,
-                               in.scene.objects[i].name.empty() ? "" : fmt::format(" ({})", in.scene.objects[i].name));
+  const SceneReport seen = scene_report(in.scene, in.camera);
+  report.json.set("camera_report", report_json(can)).set("scene_report", scene_report_json(seen));
+  report.text += report_text(can) + scene_report_text(seen);
+  report.odd = seen.findings;
   return report;
 }
 
@@ -143,9 +119,10 @@ Report check(const Options& options) {
 
 int run_check(const Options& options) {
   Report report = check(options);
-  say(report.warnings);
+  Remarks remarks;
+  remarks.tell(report.warnings), remarks.tell(report.odd, true);
   if (options.json)
-    print(files::json_text(report.json.set("good", true), 2) + "\n");
+    print(files::json_text(remarks.put(report.json.set("good", true)), 2) + "\n");
   else if (!options.quiet)
     print(report.text);
   return 0;

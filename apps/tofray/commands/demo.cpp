@@ -14,13 +14,12 @@ namespace tofray::app {
 
 namespace {
 
-std::string told(const Frame& frame, const Inputs& in, const Simulator& simulator, const files::OutputFolder& folder,
+std::string told(const Validity& pixels, const Inputs& in, const Simulator& simulator, const files::OutputFolder& folder,
                  const Stopwatch& stopwatch) {
-  const Validity pixels = validity(frame.depth);
   const Sensor sensor = base::as_read_out(in.camera).sensor;
   std::string text = fmt::format("{} in mode {}: {} x {} pixels, {} raw frames, {} objects, depth as colour\n", in.camera.name,
                                  in.camera.mode.name, sensor.width, sensor.height, in.camera.mode.sequence.size(), in.scene.objects.size());
-  text += fmt::format("{} of {} pixels have a depth{}{}\n", pixels.valid, pixels.pixels,
+  text += fmt::format("{} of {} pixels have a depth{}{}\n", pixels.pixels.valid, pixels.pixels.pixels,
                       pixels.reasons.empty() ? "" : "; invalid: ", pixels.reasons);
   text += fmt::format("{} files in {}, {:.2f} s with {}\n", folder.files().size(), folder.path().native(), stopwatch.total(),
                       machine_text(simulator.ran_on()));
@@ -38,26 +37,30 @@ std::string told(const Frame& frame, const Inputs& in, const Simulator& simulato
 int run_demo(const Options& options) {
   Stopwatch stopwatch;
   Inputs in = load_inputs("demo", options);
-  say(warnings(in));
+  Remarks remarks;
+  remarks.tell(warnings(in));
   SimulatorOptions wanted = simulator_options(options);
   const FrameFiles what(options, {"npz", "png", "ply"}, in, wanted);
-  wanted.truth = what.need_truth(), wanted.arrays = what.needed_arrays();
+  wanted.arrays = what.needed_arrays();
   Simulator simulator(in.scene, in.camera, wanted);
-  say_fallback(options, simulator.ran_on());
+  say_fallback(options, simulator.ran_on(), remarks);
   files::OutputFolder folder(options.output.empty() ? "tofray-demo" : options.output);
+  EarlierFiles left(folder.path());
   stopwatch.lap("prepare");
   const Frame frame = simulator.frame(0);
   stopwatch.lap("simulate");
   write_frame(folder, what, frame);
   stopwatch.lap("write");
   const RanOn machine = simulator.ran_on();
-  write_manifest(folder, options, in.files, machine, stopwatch);
+  write_manifest(folder, options, in.files, machine, stopwatch, left, remarks);
+  const Validity pixels = validity(frame, in.camera);
+  remarks.tell(scene_report(in.scene, in.camera, frame.truth).findings, pixels.few());
   if (options.json) {
-    print(files::json_text(summary_json(folder, validity(frame.depth), 1, machine, stopwatch), 2) + "\n");
+    print(files::json_text(summary_json(folder, pixels, 1, machine, stopwatch, remarks), 2) + "\n");
   } else {
     const auto colors = stdout_has_colors() ? pictures::TerminalColors::full : pictures::TerminalColors::none;
     if (!options.quiet) print_picture(pictures::terminal_picture(frame.depth, std::min(terminal_columns(), 100), colors) + "\n");
-    if (!options.quiet) print(told(frame, in, simulator, folder, stopwatch));
+    if (!options.quiet) print(told(pixels, in, simulator, folder, stopwatch));
   }
   return 0;
 }

@@ -58,13 +58,13 @@ bool is_plain(const std::string& name) {
 
 /// All arrays of the file: those that processing does not make are written again as they are (ground truth, the camera's pose, one's own
 /// labels). Where one is of a kind that is not read, none are kept, and a warning says so.
-std::vector<files::NamedArray> arrays_to_keep(std::string_view bytes, const std::string& path) {
+std::vector<files::NamedArray> arrays_to_keep(std::string_view bytes, const std::string& path, Remarks& remarks) {
   try {
     std::vector<files::NamedArray> arrays = files::parse_npz(bytes, path);
     std::erase_if(arrays, [](const files::NamedArray& one) { return !is_plain(one.name); });
     return arrays;
   } catch (const Error& error) {
-    say(fmt::format("warning: arrays besides the raw data are not kept:\n  {}\n", error.what()));
+    remarks.tell(fmt::format("warning: arrays besides the raw data are not kept:\n  {}\n", error.what()));
     return {};
   }
 }
@@ -100,25 +100,27 @@ struct Source {
 };
 
 /// @param role  of the file, for the manifest
-Inputs inputs_of(const Options& options, const Source& from, const char* role) {
+Inputs inputs_of(const Options& options, const Source& from, const char* role, Remarks& remarks) {
   Inputs in;
   in.scene.name = std::filesystem::path(from.path).stem().native();
   in.camera = camera_for(options, from.meta, from.path);
   in.files.push_back({role, from.path, {}});
   if (!options.camera.empty() && !in.camera.source.starts_with("<"))
     in.files.push_back({"profile", in.camera.source, files::read_text(in.camera.source)});
-  if (!from.path.ends_with(".npy")) in.kept = arrays_to_keep(from.bytes, from.path);
+  if (!from.path.ends_with(".npy")) in.kept = arrays_to_keep(from.bytes, from.path, remarks);
   in.pose = pose_of(in.kept);
   if (const auto bins = results::transient_of_meta(from.meta, from.path)) in.scene.transport.transient = *bins;  // of what is kept
-  say(in.camera.illumination.empty() ? "warning: the camera has no light source: camera.illumination is []\n  every depth is invalid\n"
-                                     : "");
+  remarks.tell(
+      in.camera.illumination.empty()
+          ? "warning: the camera has no light source: camera.illumination is []\n  no light comes back: what depth there is, is noise\n"
+          : "");
   return in;
 }
 
 /// Files, manifest and summary of a frame that is done.
 int write_results(const Options& options, const Inputs& in, const FrameFiles& what, const Frame& frame, const RanOn& machine,
-                  Stopwatch& stopwatch) {
-  say_fallback(options, machine);
+                  Stopwatch& stopwatch, Remarks& remarks) {
+  say_fallback(options, machine, remarks);
   stopwatch.lap("process");
   if (const std::vector<std::string> missing = results::missing_arrays(frame, what.npz); !missing.empty())
     throw Error(ErrorKind::bad_input,
@@ -127,14 +129,16 @@ int write_results(const Options& options, const Inputs& in, const FrameFiles& wh
                             options.transient.empty() ? "depth is computed" : "raw frames and depth are computed"));
 
   files::OutputFolder folder(options.output.empty() ? in.scene.name + "-depth" : options.output);
+  EarlierFiles left(folder.path());
   write_frame(folder, what, frame);
   stopwatch.lap("write");
-  write_manifest(folder, options, in.files, machine, stopwatch);
-  if (validity(frame.depth).valid == 0) say(fmt::format("warning: no pixel has a valid depth: {}\n", validity(frame.depth).reasons));
+  write_manifest(folder, options, in.files, machine, stopwatch, left, remarks);
+  const Validity pixels = validity(frame, in.camera);
+  if (pixels.pixels.valid == 0) remarks.tell(fmt::format("warning: no pixel has a valid depth: {}\n", pixels.reasons));
   if (options.json)
-    print(files::json_text(summary_json(folder, validity(frame.depth), 1, machine, stopwatch), 2) + "\n");
+    print(files::json_text(summary_json(folder, pixels, 1, machine, stopwatch, remarks), 2) + "\n");
   else
-    Talk(options.quiet)(summary_text(folder, validity(frame.depth), 1, machine, stopwatch));
+    Talk(options.quiet)(summary_text(folder, pixels, 1, machine, stopwatch));
   return 0;
 }
 
@@ -146,7 +150,8 @@ int process_raw(const Options& options) {
   Stopwatch stopwatch;
   Source from{options.words[0], files::read_bytes(options.words[0], files::max_data_file_bytes), ""};
   from.meta = meta_of(from.bytes, from.path);
-  const Inputs in = inputs_of(options, from, "raw");
+  Remarks remarks;
+  const Inputs in = inputs_of(options, from, "raw", remarks);
   Frame frame;
   frame.raw = results::parse_raw_npz(from.bytes, from.path);
   if (frame.raw.start_time_s.empty())
@@ -161,7 +166,7 @@ int process_raw(const Options& options) {
   RanOn machine;
   frame.depth = process(frame.raw, in.camera, wanted, &machine);
   frame.truth.z_m = true_z(in.kept, frame.depth);
-  return write_results(options, in, what, frame, machine, stopwatch);
+  return write_results(options, in, what, frame, machine, stopwatch, remarks);
 }
 
 /// Light by path length to raw frames and depth.
@@ -173,7 +178,8 @@ int process_transient(const Options& options) {
   Stopwatch stopwatch;
   Source from{options.transient, files::read_bytes(options.transient, files::max_data_file_bytes), ""};
   if (!from.path.ends_with(".npy")) from.meta = meta_of(from.bytes, from.path);
-  Inputs in = inputs_of(options, from, "transient");
+  Remarks remarks;
+  Inputs in = inputs_of(options, from, "transient", remarks);
   SimulatorOptions wanted = simulator_options(options);
   wanted.truth = false;  // what the file has of it is kept
   const Transient light =
@@ -184,7 +190,7 @@ int process_transient(const Options& options) {
   stopwatch.lap("prepare");
   Frame frame = simulator.frame(0, light);
   frame.truth.z_m = true_z(in.kept, frame.depth);
-  return write_results(options, in, what, frame, simulator.ran_on(), stopwatch);
+  return write_results(options, in, what, frame, simulator.ran_on(), stopwatch, remarks);
 }
 
 }  // namespace

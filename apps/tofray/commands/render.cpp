@@ -28,10 +28,10 @@ void refuse_other_settings(const Options& now) {
                 "  with it there may be -o, --threads, --backend, --device, --json and --quiet");
 }
 
-void say_other_version(const results::Manifest& manifest) {
+void say_other_version(const results::Manifest& manifest, Remarks& remarks) {
   if (manifest.tofray_version != base::version())
-    say(fmt::format("warning: tofray {} wrote this manifest, this is {}\n  the bytes may differ\n", manifest.tofray_version,
-                    base::version()));
+    remarks.tell(fmt::format("warning: tofray {} wrote this manifest, this is {}\n  the bytes may differ\n", manifest.tofray_version,
+                             base::version()));
 }
 
 /// The files whose bytes are not those of the manifest.
@@ -48,12 +48,12 @@ std::vector<std::string> changed_files(const results::Manifest& before, const fi
 bool is_figure(const std::string& name) { return name.ends_with(".png") && (name.starts_with("preview") || name.starts_with("raw")); }
 
 /// Whether a run made the files that its manifest lists; says what it did not make.
-bool made_again(const Options& options, const results::Manifest& before, const files::OutputFolder& folder) {
+bool made_again(const Options& options, const results::Manifest& before, const files::OutputFolder& folder, Remarks& remarks) {
   const std::vector<std::string> changed = changed_files(before, folder);
   if (changed.empty()) return true;
   if (std::all_of(changed.begin(), changed.end(), is_figure)) {
-    say(fmt::format("note: {} {} letters of other fonts than {} lists; all else has the same bytes\n", base::listed(changed, "and"),
-                    changed.size() == 1 ? "has" : "have", options.from));
+    remarks.tell(fmt::format("note: {} {} letters of other fonts than {} lists; all else has the same bytes\n",
+                             base::listed(changed, "and"), changed.size() == 1 ? "has" : "have", options.from));
     return true;
   }
   say(fmt::format("error: {} of {} files are not the bytes that {} lists: {}\n  it was written by tofray {} on {} ({})\n", changed.size(),
@@ -75,6 +75,7 @@ struct Rendered {
   Validity last;                  ///< of the last frame
   std::uint64_t frames = 0;       ///< how many are complete
   std::uint64_t all_invalid = 0;  ///< frames without any valid pixel
+  std::vector<SceneFinding> odd;  ///< about the scene in the first frame
   double light = 0, lost = 0;     ///< of all histograms by path length, and what lies beyond their bins
 };
 
@@ -107,8 +108,10 @@ void render_frames(Simulator& simulator, const Options& options, const FrameFile
     simulator.frame(i, frame);
     stopwatch.lap("simulate");
     if (stop != nullptr && stop->signal() != 0) break;
-    out.last = validity(frame.depth);
-    if (out.last.valid == 0) ++out.all_invalid;
+    // Of the last frame alone it is worth the time to know wrong cycles.
+    out.last = validity(frame, what.inputs.camera, i + 1 == first + frames);
+    if (out.last.pixels.valid == 0) ++out.all_invalid;
+    if (i == first) out.odd = scene_report(what.inputs.scene, what.inputs.camera, frame.truth).findings;
     add_lost(frame.truth, out);
     writer.write(numbered ? suffix_of(i, first + frames - 1) : "");
     ++out.frames;
@@ -118,18 +121,18 @@ void render_frames(Simulator& simulator, const Options& options, const FrameFile
   stopwatch.lap("write");
 }
 
-void warn_of_lost(const Rendered& out) {
+void warn_of_lost(const Rendered& out, Remarks& remarks) {
   if (!(out.lost > 0)) return;
-  say(
+  remarks.tell(
       fmt::format("warning: {:.3g} % of the light took paths that are shorter or longer than all bins of transient_e_per_s\n"
                   "  transient_lost_e_per_s has it; transport.transient.first, bins and width say which lengths there are\n",
                   100 * out.lost / out.light));
 }
 
-void warn_of_invalid(const Rendered& out) {
+void warn_of_invalid(const Rendered& out, Remarks& remarks) {
   if (out.all_invalid == 0) return;
-  say(fmt::format("warning: no pixel has a valid depth in {} of {} frame{}\n  in the last frame: {}\n", out.all_invalid, out.frames,
-                  out.frames == 1 ? "" : "s", out.last.reasons));
+  remarks.tell(fmt::format("warning: no pixel has a valid depth in {} of {} frame{}\n  in the last frame: {}\n", out.all_invalid,
+                           out.frames, out.frames == 1 ? "" : "s", out.last.reasons));
 }
 
 /// What lies there after an interruption, and how to make the rest with the same names and kinds of files.
@@ -149,23 +152,25 @@ void say_interrupted(const Options& options, const files::OutputFolder& folder, 
 int run_render(const Options& typed) {
   Stopwatch stopwatch;
   results::Manifest before;
+  Remarks remarks;
   if (!typed.from.empty()) {
     before = results::read_manifest(typed.from);
     refuse_other_settings(typed);
-    say_other_version(before);
+    say_other_version(before, remarks);
   }
   const Options options = typed.from.empty() ? typed : recalled(typed, before);
   const Inputs in = typed.from.empty() ? load_inputs(options.words[0], options) : inputs_of(before, options);
-  say(warnings(in));
+  remarks.tell(warnings(in));
   const std::uint64_t frames = options.frames.value_or(1);
   SimulatorOptions wanted = simulator_options(options);
   const FrameFiles what(options, kinds_of(options, frames), in, wanted);
-  wanted.truth = what.need_truth(), wanted.arrays = what.needed_arrays();
+  wanted.arrays = what.needed_arrays();
   FrameProgress now;
   wanted.progress = &now;
   Simulator simulator(needed(in.scene, what), in.camera, wanted);
-  say_fallback(options, simulator.ran_on());
+  say_fallback(options, simulator.ran_on(), remarks);
   files::OutputFolder folder(options.output.empty() ? in.scene.name : options.output);
+  EarlierFiles left(folder.path());
   stopwatch.lap("prepare");
 
   Rendered out;
@@ -178,17 +183,19 @@ int run_render(const Options& typed) {
   }
   const RanOn machine = simulator.ran_on();
   const bool interrupted = out.frames < frames;
-  write_manifest(folder, options, in.files, machine, stopwatch, interrupted ? std::optional(out.frames) : std::nullopt);
-  warn_of_invalid(out);
-  warn_of_lost(out);
+  write_manifest(folder, options, in.files, machine, stopwatch, left, remarks, interrupted ? std::optional(out.frames) : std::nullopt);
+  remarks.tell(out.odd, out.last.few());
+  warn_of_invalid(out, remarks);
+  warn_of_lost(out, remarks);
   if (interrupted) say_interrupted(options, folder, out.frames);
-
+  const bool stopped = stop && stop->signal() != 0;
+  const bool same = typed.from.empty() || stopped || made_again(typed, before, folder, remarks);
   if (options.json)
-    print(files::json_text(summary_json(folder, out.last, out.frames, machine, stopwatch).set("interrupted", interrupted), 2) + "\n");
+    print(files::json_text(summary_json(folder, out.last, out.frames, machine, stopwatch, remarks).set("interrupted", interrupted), 2) +
+          "\n");
   else
     Talk(options.quiet)(summary_text(folder, out.last, out.frames, machine, stopwatch));
-  if (stop && stop->signal() != 0) return 128 + stop->signal();
-  return typed.from.empty() || made_again(typed, before, folder) ? 0 : 1;
+  return stopped ? 128 + stop->signal() : same ? 0 : 1;
 }
 
 }  // namespace tofray::app

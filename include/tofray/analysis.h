@@ -1,0 +1,118 @@
+// SPDX-FileCopyrightText: 2026 The tofray authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "tofray/camera.h"
+#include "tofray/frame.h"
+#include "tofray/scene.h"
+
+/// Whether scene, camera and frame make sense, out of the ground truth: what the camera sees of the scene, and why pixels have no depth.
+namespace tofray {
+
+/// What one object is to the camera, at one time. The camera looks along z of its frame.
+struct ObjectInView {
+  int object = 0;                    ///< index in Scene::objects
+  std::string name;                  ///< as messages call it: "objects.2 (ball)"
+  std::int64_t pixels = 0;           ///< that see it
+  std::optional<double> nearest_m;   ///< range of the nearest pixel that sees it; none where no pixel does
+  std::optional<double> farthest_m;  ///< likewise
+  bool endless = false;              ///< a plane
+  Vec3 low{}, high{};                ///< its box in the world [m]; of a plane −inf and inf
+  bool behind_camera = false;        ///< all of it has z < 0 in the camera's frame
+  bool around_camera = false;        ///< the camera stands inside; of a mesh: its triangles surround the camera, by their solid angle
+};
+
+/// Something about a scene that is seldom meant.
+struct SceneFinding {
+  enum class Kind {
+    no_objects,       ///< the scene has none
+    nothing_in_view,  ///< no ray hits an object, or nothing but planes
+    behind_camera,    ///< likewise, and all that is no plane is behind the camera
+    millimetres,      ///< all is farther than 100 m: coordinates in millimetres?
+    mesh_size,        ///< a mesh is very large or very small: a scale is missing, or one too many?
+    around_camera,    ///< the camera stands inside an object
+    floor_above,      ///< a floor is above the camera: is y up?
+    same_place,       ///< an object is the same as another one, in the same place
+    inside_another,   ///< an object is hidden inside another one
+    beyond_reach,     ///< what is seen of an object is all beyond the ambiguity range
+  };
+  Kind kind = Kind::no_objects;
+  bool warning = true;       ///< false: a note; it may well be meant
+  std::vector<int> objects;  ///< indices in Scene::objects
+  std::string where;         ///< file:line:col of the first of them; empty if built in code
+  std::string what;          ///< one line, complete in itself
+  std::string more;          ///< what it means and how to mend it, one line
+};
+
+/// What the camera sees of the scene at one time.
+struct SceneReport {
+  double time_s = 0;                  ///< of the scene
+  std::int64_t pixels = 0;            ///< of the image
+  std::int64_t outside_lens = 0;      ///< pixels without a ray
+  std::int64_t no_surface = 0;        ///< pixels whose ray hits nothing
+  std::int64_t beyond_reach = 0;      ///< pixels that see what is farther than the ambiguity range
+  double ambiguity_range_m = 0;       ///< of the camera's mode; 0 where no raw frame is lit
+  std::optional<double> nearest_m;    ///< least range of all pixels; none where no ray hits anything
+  std::optional<double> farthest_m;   ///< likewise the largest
+  std::vector<ObjectInView> objects;  ///< one for each of Scene::objects
+  std::vector<SceneFinding> findings;
+};
+
+/// Of the scene at frame 0: rays are traced once for each pixel, nothing else is simulated.
+/// @throws Error as a Simulator's constructor does
+SceneReport scene_report(const Scene& scene, const Camera& camera);
+/// Of a frame that is there; of its truth `object_id` and `range_m` are needed.
+/// @throws Error (bad_input) where they are not there or not of the same size, or name objects that the scene does not have
+SceneReport scene_report(const Scene& scene, const Camera& camera, const Truth& truth);
+
+/// Why a pixel has no depth. Where there is truth, low_signal and no_return are told apart by it: no_surface, beyond_reach, dark.
+enum class NoDepth {
+  saturated,
+  no_surface,                ///< its ray hits nothing
+  beyond_reach,              ///< the surface is farther than the ambiguity range
+  dark,                      ///< it sees a surface within reach, and too little light comes back
+  low_signal,                ///< too little light; nobody knows what is there
+  no_return,                 ///< no light; likewise
+  wrong_cycle,               ///< flying by flags, but most neighbours are off by multiples of a modulation frequency's ambiguity range
+  flying_pixel,              ///< light of near and far mixed
+  outside_lens,              ///< the lens model has no ray there
+  inconsistent_phases,       ///< rejected for these
+  inconsistent_frequencies,  ///< likewise
+};
+inline constexpr std::size_t no_depth_count = 11;
+/// What messages call it: "no surface", "wrong cycle".
+const char* no_depth_name(NoDepth reason);
+
+/// How many pixels have no depth, and why: each counts once, under the member of its NoDepth.
+struct InvalidPixels {
+  std::int64_t pixels = 0;                    ///< of the image
+  std::int64_t valid = 0;                     ///< of them, those that have a depth
+  std::int64_t wrapped = 0;                   ///< valid ones whose surface is beyond the ambiguity range: their depth is too small
+  std::int64_t saturated = 0;                 ///< a well or the ADC is full
+  std::int64_t no_surface = 0;                ///< the ray hits nothing
+  std::int64_t beyond_reach = 0;              ///< the surface is farther than the ambiguity range
+  std::int64_t dark = 0;                      ///< there is a surface within reach, and too little light comes back
+  std::int64_t low_signal = 0;                ///< too little light; without truth nobody knows what is there
+  std::int64_t no_return = 0;                 ///< no light; likewise
+  std::int64_t wrong_cycle = 0;               ///< most neighbours are off by whole cycles of a modulation frequency
+  std::int64_t flying_pixel = 0;              ///< light of near and far mixed
+  std::int64_t outside_lens = 0;              ///< the lens model has no ray there
+  std::int64_t inconsistent_phases = 0;       ///< rejected for these
+  std::int64_t inconsistent_frequencies = 0;  ///< likewise
+  double ambiguity_range_m = 0;               ///< of the camera's mode; 0 where no raw frame is lit
+  std::vector<double> ranges_m;               ///< that of each modulation frequency alone
+
+  [[nodiscard]] std::int64_t count(NoDepth reason) const;
+};
+
+/// Needs `flags`; of the truth `object_id` and `range_m`; `raw` or both taps to know wrong cycles. What is missing is not told apart.
+/// @param wrong_cycles  whether the frame is decoded once more to know them, where 1 % of the pixels are flying
+/// @throws Error as process() does
+InvalidPixels invalid_pixels(const Frame& frame, const Camera& camera, bool wrong_cycles = true);
+
+}  // namespace tofray
