@@ -88,7 +88,7 @@ std::string scene_of_mesh(const std::string& path, const std::string& source, co
   const bool own_materials = load::has_own_materials(std::filesystem::path(path).filename().string(), source, options.root);
   const Scene alone = load::scene_from_text(text_of(path, own_materials, ""), source, of_mesh, {options.root});
   const Box box = box_round(alone);
-  const std::optional<Pose> own = load::camera_in(std::get<Mesh>(alone.objects[0].shape), alone.world_up, source, options.root);
+  const std::optional<Pose> own = load::camera_in(std::get<Mesh>(alone.objects[0].shape), source, options.root, alone.world_up);
   // A file with a camera is a scene of its own: a second floor would lie in the first.
   if (own)
     return text_of(path, own_materials,

@@ -217,7 +217,7 @@ struct Pose {
   std::optional<Quaternion> quaternion = {};  ///< x, y, z, w, from the camera's frame to the world's, in place of look_at and up
 };
 
-/// Where the camera stands at a time. Between two of them its position changes evenly. Where both have quaternions it turns evenly, the
+/// Where the camera stands at a time. Between two of them its position changes evenly. Where one has a quaternion it turns evenly, the
 /// shortest way; else look_at and up change evenly: a camera that looks at one point goes on doing so. Before the first and after the last
 /// it stands still.
 struct CameraKeyframe {

@@ -73,6 +73,7 @@ if TYPE_CHECKING:
         Rotation as Rotation,
         Scatter as Scatter,
         Scene as Scene,
+        SceneFile as SceneFile,
         Sensor as Sensor,
         Sphere as Sphere,
         SpreadSpectrum as SpreadSpectrum,
@@ -117,7 +118,7 @@ _HOME = {
     "_model": (
         "Adc", "Ambient", "Area", "AutoExposure", "Box", "Camera", "CameraChoice", "CameraKeyframe", "Capsule", "Cone", "Curve", "Cylinder", "Decoding",
         "Disk", "Filter", "FrameRequest", "Illumination", "ImageFilter", "Interference", "Keyframe", "Lens", "Material", "Mesh", "Mode",
-        "Object", "Override", "Pattern", "Pixel", "PixelMask", "Plane", "Pose", "RanOn", "RawFrame", "Readout", "Rectangle", "Rotation", "Scatter", "Scene",
+        "Object", "Override", "Pattern", "Pixel", "PixelMask", "Plane", "Pose", "RanOn", "RawFrame", "Readout", "Rectangle", "Rotation", "Scatter", "Scene", "SceneFile",
         "Sensor", "Sphere", "SpreadSpectrum", "Temperature", "TransientBins", "Transport", "Triangle", "Waveform",
     ),
     "_native": ("DeviceArray", "DeviceFrames", "MeshMotion", "ReflectivityMap", "TriangleMesh", "VectorMap"),

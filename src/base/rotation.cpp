@@ -30,8 +30,8 @@ Quaternion quaternion_of(const Mat3& m) {
     q[i] = squares[i], q[j] = m[j][i] + m[i][j], q[k] = m[k][i] + m[i][k], q[3] = m[k][j] - m[j][k];
   }
   q = normalized(q);
-  if (q[3] < 0)
-    for (double& part : q) part = -part;
+  const double sign = q[3] < 0 ? -1 : 1;
+  for (double& part : q) part = sign * part + 0.0;  // no −0
   return q;
 }
 
@@ -62,7 +62,7 @@ NoRotation why_no_rotation(const Mat3& m) {
 
 NoRotation why_no_rotation(const Quaternion& q) {
   const double size = length(q);
-  if (std::abs(size - 1) <= rotation_tolerance) return {};
+  if (std::abs(size - 1) <= rotation_tolerance) return {};  // NaN: no
   return {"the quaternion is not of unit length",
           "got a length of " + in_short(size) + ", expected 1; its order is x, y, z, w: no rotation at all is [0, 0, 0, 1]"};
 }

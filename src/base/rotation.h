@@ -39,13 +39,6 @@ inline Mat3 matrix_of(const Quaternion& q) {
 /// Whether it is one by its quaternion or by its angle.
 inline bool turns(const Rotation& rotation) { return rotation.quaternion || rotation.angle_rad != 0; }
 
-/// The pose by look_at, 1 m ahead, and up.
-inline Pose by_look_at(const Pose& pose) {
-  if (!pose.quaternion) return pose;
-  const Mat3 axes = transposed(matrix_of(*pose.quaternion));
-  return {pose.position, pose.position + axes[2], -1.0 * axes[1]};
-}
-
 /// Of unit length, w or else its largest part not below 0, of a matrix (rows) that is a rotation.
 Quaternion quaternion_of(const Mat3& m);
 

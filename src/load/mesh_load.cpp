@@ -249,7 +249,7 @@ bool has_own_materials(const std::string& file, const std::string& source, const
   return has_materials(bytes, path, root);
 }
 
-std::optional<Pose> camera_in(const Mesh& mesh, Scene::Up world_up, const std::string& source, const std::string& root) {
+std::optional<Pose> camera_in(const Mesh& mesh, const std::string& source, const std::string& root, Scene::Up world_up) {
   using base::operator*;
   if (!is_gltf(mesh.file)) return std::nullopt;
   std::string path;

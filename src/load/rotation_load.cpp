@@ -64,6 +64,8 @@ std::optional<Quaternion> of_matrix(const Value& matrix, Vec3* position, Faults&
   return base::quaternion_of(m);
 }
 
+Quaternion without_minus_zero(const Quaternion& q) { return {q[0] + 0.0, q[1] + 0.0, q[2] + 0.0, q[3] + 0.0}; }
+
 /// What a map says by a quaternion, a matrix or Euler angles; nothing where it does not, or where that is told as a fault.
 /// @param position  out: where a matrix has one; none: it may have none
 std::optional<Quaternion> said_rotation(const Value& map, Vec3* position, Faults& faults) {
@@ -126,7 +128,7 @@ void complete_pose(const Value& map, Pose& pose, Faults& faults) {
   pose.look_at = fresh.look_at, pose.up = fresh.up, pose.quaternion.reset();
   const bool said = map["quaternion"] || map["matrix"] || map["euler"];
   const std::optional<Quaternion> q = said ? said_rotation(map, &pose.position, faults) : Quaternion{0, 0, 0, 1};
-  if (q) pose.quaternion = axes ? product(*q, optical_in(map)) : *q;
+  if (q) pose.quaternion = without_minus_zero(axes ? product(*q, optical_in(map)) : *q);
 }
 
 void complete_rotation(const Value& map, Rotation& rotation, Faults& faults) {
@@ -135,7 +137,7 @@ void complete_rotation(const Value& map, Rotation& rotation, Faults& faults) {
   if (angle && !axis && (map["quaternion"] || map["matrix"] || map["euler"]))
     faults.add(angle.place(), "angle goes with axis alone", "quaternion, matrix and euler say how far; leave it away");
   rotation.quaternion.reset();
-  if (const auto q = said_rotation(map, nullptr, faults)) rotation.quaternion = *q;
+  if (const auto q = said_rotation(map, nullptr, faults)) rotation.quaternion = without_minus_zero(*q);
 }
 
 }  // namespace tofray::load

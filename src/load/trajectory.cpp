@@ -80,10 +80,9 @@ std::vector<Field> fields_of(std::string_view line, bool names) {
   return split_at_blanks(line);
 }
 
-bool is_number(std::string_view text) {
-  const auto status = base::parse_quantity(text, base::Dimension::none).status;
-  using enum base::Quantity::Status;
-  return status == good || status == bare || status == not_finite || status == out_of_range;
+bool begins_like_a_number(std::string_view text) {
+  const bool digit = !text.empty() && std::string_view("0123456789+-.").find(text[0]) != std::string_view::npos;
+  return digit || base::parse_quantity(text, base::Dimension::none).status == base::Quantity::Status::not_finite;
 }
 
 /// A column's name: lower case, its words, and the unit that stands in brackets.
@@ -205,7 +204,7 @@ class TrajectoryParser {
     const bool data = !comment && !fields_of(text, false).empty();
     if (comment) {
       if (out_.empty() && !headed_) header(fields_in(text, first + 1), true);
-    } else if (data && out_.empty() && !plain_header_ && !is_number(fields_of(text, false)[0].text)) {
+    } else if (data && out_.empty() && !plain_header_ && !begins_like_a_number(fields_of(text, false)[0].text)) {
       plain_header_ = true;
       header(fields_in(text, 0), false);
     } else if (data) {

@@ -333,8 +333,8 @@ void cameras_move_one_way(const CameraChoice& camera, Complaints& complaints) {
     complaints.add(camera, &camera.pose, "the camera has keyframes and a pose", "its keyframes say where it stands; take the pose out");
   // View f and up u change evenly; f × u, to the image's left, never vanishes where its three Bernstein coefficients are ahead of the first.
   for (std::size_t i = 1; i < keys.size(); ++i) {
-    if (keys[i - 1].pose.quaternion && keys[i].pose.quaternion) continue;  // it turns the shortest way
-    const Pose a = base::by_look_at(keys[i - 1].pose), b = base::by_look_at(keys[i].pose);
+    const Pose &a = keys[i - 1].pose, &b = keys[i].pose;
+    if (a.quaternion || b.quaternion) continue;  // it turns the shortest way
     const Vec3 from = a.look_at - a.position, to = b.look_at - b.position, left = cross(from, a.up);
     const Vec3 last = cross(to, b.up);
     const double halfway = dot(cross(from, b.up) + cross(to, a.up), left);

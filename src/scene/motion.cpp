@@ -146,21 +146,24 @@ CameraFrame camera_frame(const Pose& pose) {
 
 namespace {
 /// Whether the camera turns evenly from one to the other.
-bool steady(const Between<CameraKeyframe>& keys) { return keys.from->pose.quaternion && keys.to->pose.quaternion; }
+bool steady(const Between<CameraKeyframe>& keys) { return keys.from->pose.quaternion || keys.to->pose.quaternion; }
 
-Turn turn_between(const Quaternion& from, const Quaternion& to) { return turn_of(base::product(normalized(to), inverse(normalized(from)))); }
+Quaternion quaternion_of(const Pose& pose) {
+  return pose.quaternion ? normalized(*pose.quaternion) : base::quaternion_of(transposed(camera_frame(pose).rotation));
+}
+
+Turn turn_between(const Pose& from, const Pose& to) { return turn_of(base::product(quaternion_of(to), inverse(quaternion_of(from)))); }
 }  // namespace
 
 Pose pose_at(const CameraChoice& camera, double time_s) {
   if (camera.keyframes.empty()) return camera.pose;
   const auto keys = between(camera.keyframes, time_s);
+  const Pose &a = keys.from->pose, &b = keys.to->pose;
   if (steady(keys)) {
-    const Pose &from = keys.from->pose, &to = keys.to->pose;
-    const Turn turn = turn_between(*from.quaternion, *to.quaternion);
+    const Turn turn = turn_between(a, b);
     const Quaternion part = quaternion_of(Rotation{turn.axis, keys.share * turn.angle});
-    return {mixed(from.position, to.position, keys.share), {0, 0, 1}, {0, -1, 0}, base::product(part, *from.quaternion)};
+    return {mixed(a.position, b.position, keys.share), {0, 0, 1}, {0, -1, 0}, base::product(part, quaternion_of(a))};
   }
-  const Pose a = by_look_at(keys.from->pose), b = by_look_at(keys.to->pose);
   return {mixed(a.position, b.position, keys.share), mixed(a.look_at, b.look_at, keys.share), mixed(a.up, b.up, keys.share)};
 }
 
@@ -170,9 +173,9 @@ MovingCamera camera_at(const CameraChoice& camera, double time_s) {
   if (camera.keyframes.empty()) return out;
   const auto keys = between(camera.keyframes, time_s);
   if (keys.from == keys.to) return out;
-  const Pose from = by_look_at(keys.from->pose), to = by_look_at(keys.to->pose);
+  const Pose &from = keys.from->pose, &to = keys.to->pose;
   if (steady(keys)) {
-    const Turn turn = turn_between(*keys.from->pose.quaternion, *keys.to->pose.quaternion);
+    const Turn turn = turn_between(from, to);
     out.velocity = (1 / keys.duration_s) * (vec(to.position) - vec(from.position));
     out.spin = (turn.angle / keys.duration_s) * vec(turn.axis);
     return out;
@@ -193,7 +196,8 @@ MovingCamera camera_at(const CameraChoice& camera, double time_s) {
 
 namespace tofray {
 
-std::array<double, 16> matrix_of(const Pose& one) {
+namespace {
+std::array<double, 16> camera_to_world(const Pose& one) {
   const scene::CameraFrame frame = scene::camera_frame(one);
   std::array<double, 16> pose{};
   for (std::size_t i = 0; i < 3; ++i) {
@@ -204,10 +208,22 @@ std::array<double, 16> matrix_of(const Pose& one) {
   pose[15] = 1;
   return pose;
 }
+}  // namespace
 
-std::array<double, 16> camera_pose(const Scene& scene, double time_s) { return matrix_of(scene::pose_at(scene.camera, time_s)); }
+std::array<double, 16> pose_matrix(const Pose& pose) {
+  if (pose.quaternion) {
+    const base::NoRotation wrong = base::why_no_rotation(*pose.quaternion);
+    if (!wrong.what.empty()) base::refuse(wrong.what + "\n  " + wrong.more);
+  }
+  const std::array<double, 16> out = camera_to_world(pose);
+  if (!std::all_of(out.begin(), out.end(), [](double part) { return std::isfinite(part); }))
+    base::refuse("the pose looks nowhere\n  expected finite numbers, look_at apart from position, and up across the way from there to it");
+  return out;
+}
 
-Pose pose_of(const std::array<double, 16>& camera_to_world) {
+std::array<double, 16> camera_pose(const Scene& scene, double time_s) { return camera_to_world(scene::pose_at(scene.camera, time_s)); }
+
+Pose pose_from_matrix(const std::array<double, 16>& camera_to_world) {
   const auto& m = camera_to_world;
   for (std::size_t i = 0; i < m.size(); ++i)
     if (!std::isfinite(m[i])) base::refuse("the matrix of a pose has a number that is not finite, at row " + std::to_string(i / 4) + ", column " + std::to_string(i % 4));
