@@ -102,8 +102,7 @@ std::string scene_of_mesh(const std::string& path, const std::string& source, co
   return text_of(path, own_materials,
                  fmt::format("  - plane: {{point: {}, normal: {}, reflectivity: 0.3}}  # a floor\n"
                              "camera: {{pose: {{position: {}, look_at: {}}}}}\n",
-                             point(below), point(up), point(pose.position),
-                             point(pose.look_at)));
+                             point(below), point(up), point(pose.position), point(pose.look_at)));
 }
 
 }  // namespace tofray::app

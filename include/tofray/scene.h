@@ -212,8 +212,8 @@ struct Transport {
 /// Where the camera stands. Camera frame: x right, y down, z forward (the optical frame of ROS and OpenCV).
 struct Pose {
   Vec3 position{0, 0, 0};
-  Vec3 look_at{0, 0, 1};  ///< a point on the optical axis
-  Vec3 up{0, -1, 0};      ///< direction in the world that is up in the image
+  Vec3 look_at{0, 0, 1};                      ///< a point on the optical axis
+  Vec3 up{0, -1, 0};                          ///< direction in the world that is up in the image
   std::optional<Quaternion> quaternion = {};  ///< x, y, z, w, from the camera's frame to the world's, in place of look_at and up
 };
 

@@ -105,9 +105,7 @@ void bind_files(py::module_& module) {
                const SimulatorOptions options = options_from_python(words);
                return py::bytes(freely([&] { return frame_npz(*one, seen, seen_by, options, compress); }));
              });
-  module.def("camera_pose", [](const py::object& scene, double time_s) {
-    return matrix_array(camera_pose(scene_of(scene), time_s));
-  });
+  module.def("camera_pose", [](const py::object& scene, double time_s) { return matrix_array(camera_pose(scene_of(scene), time_s)); });
   module.def("pose_from_matrix", [](const py::object& matrix) {
     std::array<double, 16> given{};
     from_python(matrix, given, {nullptr, "matrix"});

@@ -92,7 +92,8 @@ class MeshReader {
 /// @param mesh      its file, scale, up and time: a mesh that was read
 /// @param world_up  of its scene
 /// @param source  the scene's file, beside which the mesh lies
-std::optional<Pose> camera_in(const Mesh& mesh, const std::string& source, const std::string& root, Scene::Up world_up = Scene::Up::minus_y);
+std::optional<Pose> camera_in(const Mesh& mesh, const std::string& source, const std::string& root,
+                              Scene::Up world_up = Scene::Up::minus_y);
 
 /// Whether a mesh's file has materials of its own: glTF, OBJ where the files of materials that it names can be read, and OBJ and PLY whose
 /// vertices have colours.

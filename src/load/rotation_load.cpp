@@ -35,8 +35,9 @@ bool good_last_row(const Value& matrix, Faults& faults) {
   if (last == std::vector<double>{0, 0, 0, 1}) return true;
   const auto column = [&](std::size_t row) { return matrix.items[row].items[3].number; };
   const bool transposed = column(0) == 0 && column(1) == 0 && column(2) == 0 && last[3] == 1;
-  faults.add(matrix.items[3].place(), "the last row of a matrix of 4 x 4 is not 0, 0, 0, 1",
-             transposed ? "the matrix is transposed: expected the position in the last column, not in the last row" : "expected [0, 0, 0, 1]");
+  faults.add(
+      matrix.items[3].place(), "the last row of a matrix of 4 x 4 is not 0, 0, 0, 1",
+      transposed ? "the matrix is transposed: expected the position in the last column, not in the last row" : "expected [0, 0, 0, 1]");
   return false;
 }
 

@@ -224,9 +224,11 @@ class SceneReader {
   void read_keyframes(const Value& root, Scene& scene) {
     const Value& of_camera = root["camera"]["keyframes"];
     if (of_camera.is_map() && faults_.empty()) {
-      const Pose mount = of_camera["mount"] ? mount_of(of_camera["mount"], faults_) : Pose{{0, 0, 0}, {0, 0, 1}, {0, -1, 0}, optical_in(of_camera)};
+      const Pose mount =
+          of_camera["mount"] ? mount_of(of_camera["mount"], faults_) : Pose{{0, 0, 0}, {0, 0, 1}, {0, -1, 0}, optical_in(of_camera)};
       if (of_camera["mount"] && of_camera["axes"])
-        faults_.add(of_camera["axes"].place(), "keyframes have axes and a mount", "the mount says how the camera is turned; it may have axes");
+        faults_.add(of_camera["axes"].place(), "keyframes have axes and a mount",
+                    "the mount says how the camera is turned; it may have axes");
       for (const TimedPose& one : timed_poses(of_camera, scene)) {
         using base::operator*, base::operator+;
         CameraKeyframe& key = scene.camera.keyframes.emplace_back();
@@ -369,7 +371,7 @@ class SceneReader {
   const std::string& source_;
   const MeshFiles& files_;
   std::vector<std::pair<const Value*, std::size_t>> keyframes_of_objects_;  ///< out of files, and their objects
-  std::optional<Stamp> clock_;                                               ///< where the times of such files begin
+  std::optional<Stamp> clock_;                                              ///< where the times of such files begin
   std::map<std::string, int> index_;
   std::deque<Material> of_files_;  ///< what objects say in place of their files' materials
   MeshReader meshes_;

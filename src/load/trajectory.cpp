@@ -24,9 +24,9 @@ namespace {
 constexpr std::size_t column_count = 8;
 constexpr std::array<const char*, column_count> column_names{"t", "x", "y", "z", "qx", "qy", "qz", "qw"};
 constexpr const char* in_order = "t x y z qx qy qz qw";
-constexpr double longest_s = 1e6;     // of a scene
-constexpr double oldest_s = 1e12;     // of a file: nobody's clock
-constexpr double no_clock_s = 1e11;   // the year 5138: a time without a unit is not in seconds
+constexpr double longest_s = 1e6;    // of a scene
+constexpr double oldest_s = 1e12;    // of a file: nobody's clock
+constexpr double no_clock_s = 1e11;  // the year 5138: a time without a unit is not in seconds
 
 struct Field {
   std::string_view text;
@@ -120,7 +120,8 @@ struct ColumnName {
   [[nodiscard]] int column() const {
     if (words.empty()) return -1;
     const std::string& last = words.back();
-    if (has({"t", "time", "timestamp", "timestamps", "stamp", "sec", "secs", "seconds"}) && !(last.size() == 1 && words.size() > 1 && std::string_view("xyzw").find(last[0]) != std::string_view::npos))
+    if (has({"t", "time", "timestamp", "timestamps", "stamp", "sec", "secs", "seconds"}) &&
+        !(last.size() == 1 && words.size() > 1 && std::string_view("xyzw").find(last[0]) != std::string_view::npos))
       return 0;
     // "qx", "tx", "p_RS_R_x", "pose.orientation.w"
     const auto part = [&](const char* before, std::initializer_list<const char*> names) {
@@ -160,7 +161,8 @@ std::optional<Stamp> shifted(std::string_view text, int digits) {
   const std::size_t point = std::min(text.find('.'), text.size());
   std::string whole(text.substr(0, point)), rest(point < text.size() ? text.substr(point + 1) : "");
   for (; digits > 0; --digits) whole += rest.empty() ? '0' : rest[0], rest.erase(0, rest.empty() ? 0 : 1);
-  for (; digits < 0; ++digits) rest.insert(rest.begin(), whole.empty() ? '0' : whole.back()), whole.resize(whole.empty() ? 0 : whole.size() - 1);
+  for (; digits < 0; ++digits)
+    rest.insert(rest.begin(), whole.empty() ? '0' : whole.back()), whole.resize(whole.empty() ? 0 : whole.size() - 1);
   Stamp out;
   whole.insert(0, "0"), rest.insert(0, "0.");
   if (std::from_chars(whole.data(), whole.data() + whole.size(), out.whole).ec != std::errc()) return {};
@@ -255,8 +257,9 @@ class TrajectoryParser {
     }
     for (std::size_t i = 0; i < 3; ++i)
       if (scales[i] == 0)
-        return broken(place(fields[static_cast<std::size_t>(columns[1 + i])].at), "the header has an unknown unit of length",
-                      "got " + in_quotes(fields[static_cast<std::size_t>(columns[1 + i])].text) + ", expected m, cm or mm, or none: metres");
+        return broken(
+            place(fields[static_cast<std::size_t>(columns[1 + i])].at), "the header has an unknown unit of length",
+            "got " + in_quotes(fields[static_cast<std::size_t>(columns[1 + i])].text) + ", expected m, cm or mm, or none: metres");
     if (!unit.empty() && digits_of(unit) > 0)
       return broken(place(fields[static_cast<std::size_t>(columns[0])].at), "the header has an unknown unit of time",
                     "got " + in_quotes(fields[static_cast<std::size_t>(columns[0])].text) + ", expected s, ms, us or ns, or none: seconds");
@@ -294,9 +297,10 @@ class TrajectoryParser {
       return;
     }
     if (out_.size() >= static_cast<std::size_t>(base::limit::keyframes.value))
-      return broken(place(0), "there are too many poses",
-                    "at most " + std::to_string(base::limit::keyframes.value) + " (`tofray --limits`); take every other line, or a part of them",
-                    ErrorKind::limit);
+      return broken(
+          place(0), "there are too many poses",
+          "at most " + std::to_string(base::limit::keyframes.value) + " (`tofray --limits`); take every other line, or a part of them",
+          ErrorKind::limit);
     std::array<double, column_count> values{};
     bool good = true;
     for (std::size_t i = 0; i < column_count; ++i) good = number(field(fields, i), i, values[i]) && good;

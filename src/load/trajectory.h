@@ -29,7 +29,7 @@ struct TimedPose {
 
 /// What a scene says of its times.
 struct TrajectoryTimes {
-  std::string unit = {};          ///< s, ms, us or ns; empty: the header's, else s
+  std::string unit = {};           ///< s, ms, us or ns; empty: the header's, else s
   std::optional<Stamp> zero = {};  ///< of the file's times: the scene's 0
 };
 

@@ -42,11 +42,11 @@ struct Row {
   std::string doc;
   Presence presence = Presence::optional;
   bool in_meta = true;
-  bool meta_if_set = false;             ///< `meta` has it only where it is not as in a fresh struct
+  bool meta_if_set = false;              ///< `meta` has it only where it is not as in a fresh struct
   std::vector<std::string> in_place_of;  ///< members that count for nothing where this one is given, and that `meta` then leaves out
   bool direction = false;                ///< has to have a length
-  std::string file;        ///< the numbers may be in a text file, under the key `file`, called for instance this
-  Form otherwise;          ///< of a list of structs: what may stand in its place, which the reader of files makes such a list of
+  std::string file;                      ///< the numbers may be in a text file, under the key `file`, called for instance this
+  Form otherwise;  ///< of a list of structs: what may stand in its place, which the reader of files makes such a list of
   // of a curve
   std::string x_key, y_key;
   Form x, y;

@@ -6,8 +6,8 @@
 #include <cmath>
 
 #include "base/limits.h"
-#include "base/text.h"
 #include "base/rotation.h"
+#include "base/text.h"
 #include "base/vec.h"
 
 namespace tofray::model {

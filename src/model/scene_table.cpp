@@ -159,9 +159,9 @@ const Table& table_of<Mesh>() {
                              "OBJ, PLY, STL or glTF, beside the scene or below; or tofray:bumpy-ball, tofray:wavy-floor")
               .required(),
           number<&Mesh::scale>("scale", {none, {1e-9, 1e9}, "0.001"}, "of the file's numbers, to metres: 0.001 where they are mm"),
-          choice<&Mesh::up>(
-              "up", {"automatic", "y", "z", "-y", "none"},
-              "the file's axis that is up, turned to `world_up`; automatic: y of an OBJ or glTF, z of a PLY or STL file; none: the file's axes are the world's"),
+          choice<&Mesh::up>("up", {"automatic", "y", "z", "-y", "none"},
+                            "the file's axis that is up, turned to `world_up`; automatic: y of an OBJ or glTF, z of a PLY or STL file; "
+                            "none: the file's axes are the world's"),
           number<&Mesh::time_s>("time", {time, {0, 1e6}, "1.5 s"},
                                 "of a glTF file's first animation; as the file stands still unless given")
               .absent(),
@@ -188,7 +188,9 @@ namespace {
 std::vector<Key> matrix_and_euler(int columns, const char* matrix) {
   const Form entry = form_of(component), turn = form_of(Number{angle, {-100, 100}, "30 deg"});
   std::vector<Key> angles;
-  for (const auto& [name, doc] : {std::pair{"roll", "about x"}, {"pitch", "about y, after that"}, {"yaw", "about z, last"}}) {
+  for (const auto& [name, doc] : {std::pair{"roll", "about the fixed axis x, as rpy in URDF"},
+                                  {"pitch", "about the fixed axis y, after that"},
+                                  {"yaw", "about the fixed axis z, last"}}) {
     angles.push_back(absent(name, turn, doc));
     angles.back().fallback = "0 deg";
   }
@@ -221,11 +223,10 @@ Form keyframe_file(std::vector<Key> more) {
 template <>
 const Table& table_of<Rotation>() {
   static const Table rows =
-      table<Rotation>(number<&Rotation::axis>("axis", component, "the axis, by the right-hand rule; any length but zero").absent(),
-                      number<&Rotation::angle_rad>("angle", {angle, {-100, 100}, "30 deg"}, "how far, with axis").absent(),
-                      number<&Rotation::quaternion>("quaternion", component, "x, y, z, w, of length 1")
-                          .absent()
-                          .in_place_of({"axis", "angle_rad"}))
+      table<Rotation>(
+          number<&Rotation::axis>("axis", component, "the axis, by the right-hand rule; any length but zero").absent(),
+          number<&Rotation::angle_rad>("angle", {angle, {-100, 100}, "30 deg"}, "how far, with axis").absent(),
+          number<&Rotation::quaternion>("quaternion", component, "x, y, z, w, of length 1").absent().in_place_of({"axis", "angle_rad"}))
           .and_keys(matrix_and_euler(3, "three rows of three: its columns are where x, y and z turn to"))
           .with_exactly_one({"axis", "quaternion", "matrix", "euler"})
           .with_meant({{"orientation", "quaternion"}, {"rpy", "euler"}})
@@ -305,13 +306,12 @@ const Table& table_of<Pose>() {
     std::vector<Key> more = matrix_and_euler(
         4, "from the camera's frame to the world's, as rows: 3 x 3, or 3 x 4 or 4 x 4 with the position in the last column [m]");
     for (Key& key : axes_of_cameras()) more.push_back(std::move(key));
-    return table<Pose>(
-               number<&Pose::position>("position", coordinate, "of the entrance pupil [m]"),
-               number<&Pose::look_at>("look_at", coordinate, "a point on the optical axis; [1, 0, 0] where `world_up` is z [m]"),
-               number<&Pose::up>("up", component, "the world's direction that is up in the image; that of `world_up`").direction(),
-               number<&Pose::quaternion>("quaternion", component, "x, y, z, w, from the camera's frame to the world's, of length 1")
-                   .absent()
-                   .in_place_of({"look_at", "up"}))
+    return table<Pose>(number<&Pose::position>("position", coordinate, "of the entrance pupil [m]"),
+                       number<&Pose::look_at>("look_at", coordinate, "a point on the optical axis; [1, 0, 0] where `world_up` is z [m]"),
+                       number<&Pose::up>("up", component, "the world's direction that is up in the image; that of `world_up`").direction(),
+                       number<&Pose::quaternion>("quaternion", component, "x, y, z, w, from the camera's frame to the world's, of length 1")
+                           .absent()
+                           .in_place_of({"look_at", "up"}))
         .and_keys(std::move(more))
         .with_at_most_one({"look_at", "quaternion", "matrix", "euler"})
         .with_meant({{"frame", "axes"},
@@ -332,6 +332,12 @@ Form mount_form() {
   Form form = form_of(table_of<Pose>());
   std::erase_if(form.keys, [](const Key& key) { return key.name == "look_at" || key.name == "up"; });
   std::erase(form.at_most_one, "look_at");
+  for (Key& key : form.keys) {
+    if (key.name == "position") key.doc = "of the entrance pupil, in the robot's frame [m]";
+    if (key.name == "quaternion") key.doc = "x, y, z, w, from the camera's frame to the robot's, of length 1";
+    if (key.name == "matrix") key.doc = "from the camera's frame to the robot's, as rows, as at `pose`";
+    key.member.clear();
+  }
   return form;
 }
 }  // namespace
@@ -359,8 +365,9 @@ const Table& table_of<CameraChoice>() {
               .or_else(keyframe_file([] {
                 std::vector<Key> more = axes_of_cameras();
                 more[0].doc = "of what moves by the file: as at `pose`";
-                more.push_back(absent("mount", mount_form(),
-                                      "where the camera is on what moves by the file (its frame to the robot's), if they are not the same"));
+                more.push_back(
+                    absent("mount", mount_form(),
+                           "where the camera is on what moves by the file (its frame to the robot's), if they are not the same"));
                 return more;
               }())),
           no_row<&CameraChoice::overrides>("keys of the profile among the section's own"),

@@ -51,7 +51,8 @@ Turn turn_of(const Quaternion& q) {
 }
 Turn turn_of(const Rotation& rotation) {
   if (rotation.quaternion) return turn_of(normalized(*rotation.quaternion));
-  return rotation.angle_rad == 0 ? Turn{} : Turn{normalized(rotation.axis), rotation.angle_rad}; }
+  return rotation.angle_rad == 0 ? Turn{} : Turn{normalized(rotation.axis), rotation.angle_rad};
+}
 
 Quaternion quaternion_of(const Rotation& rotation) {
   if (rotation.quaternion) return normalized(*rotation.quaternion);
@@ -226,9 +227,13 @@ std::array<double, 16> camera_pose(const Scene& scene, double time_s) { return c
 Pose pose_from_matrix(const std::array<double, 16>& camera_to_world) {
   const auto& m = camera_to_world;
   for (std::size_t i = 0; i < m.size(); ++i)
-    if (!std::isfinite(m[i])) base::refuse("the matrix of a pose has a number that is not finite, at row " + std::to_string(i / 4) + ", column " + std::to_string(i % 4));
+    if (!std::isfinite(m[i]))
+      base::refuse("the matrix of a pose has a number that is not finite, at row " + std::to_string(i / 4) + ", column " +
+                   std::to_string(i % 4));
   if (m[12] != 0 || m[13] != 0 || m[14] != 0 || m[15] != 1)
-    base::refuse("the last row of the matrix of a pose is not 0, 0, 0, 1\n  expected the position in the last column; a transposed matrix has it in the last row");
+    base::refuse(
+        "the last row of the matrix of a pose is not 0, 0, 0, 1\n  expected the position in the last column; a transposed matrix has it in "
+        "the last row");
   const base::Mat3 turn{{{m[0], m[1], m[2]}, {m[4], m[5], m[6]}, {m[8], m[9], m[10]}}};
   const base::NoRotation wrong = base::why_no_rotation(turn);
   if (!wrong.what.empty()) base::refuse(wrong.what + "\n  " + wrong.more);

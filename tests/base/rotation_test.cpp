@@ -86,8 +86,9 @@ TEST(matrix, that_is_no_rotation_says_what_it_is) {
   EXPECT_EQ(why({{{0.707, -0.707, 0}, {0.707, 0.707, 0}, {0, 0, 1}}}), " | ") << "three decimals are good enough";
   EXPECT_NE(why({{{0.70, -0.71, 0}, {0.71, 0.70, 0}, {0, 0, 1}}}), " | ");
   EXPECT_TRUE(why({{{1, 0, 0}, {0, 1, 0}, {0, 0, -1}}}).starts_with("the matrix mirrors: its determinant is -1 | expected 1;"));
-  EXPECT_TRUE(why({{{2, 0, 0}, {0, 2, 0}, {0, 0, 2}}})
-                  .starts_with("the matrix scales: it is no rotation | got columns that are 2, 2 and 2 long, determinant 8; expected 1; divide"));
+  EXPECT_TRUE(
+      why({{{2, 0, 0}, {0, 2, 0}, {0, 0, 2}}})
+          .starts_with("the matrix scales: it is no rotation | got columns that are 2, 2 and 2 long, determinant 8; expected 1; divide"));
   EXPECT_TRUE(why({{{1, 0, 0}, {0, 1, 0}, {0, 0, 2}}}).starts_with("the matrix is no rotation | got columns that are 1, 1 and 2 long"));
   EXPECT_TRUE(why({{{1, 0.6, 0}, {0, 0.8, 0}, {0, 0, 1}}}).starts_with("the matrix shears"));
   EXPECT_TRUE(why({{{0, 0, 0}, {0, 0, 0}, {0, 0, 0}}}).starts_with("the matrix is no rotation"));

@@ -81,7 +81,8 @@ TEST_F(mesh_files, are_turned_to_the_worlds_up_or_not_at_all) {
   EXPECT_EQ(in("y", "file: corner.obj, up: -y"), (V{1, -2, -3}));
   EXPECT_EQ(in("-y", "file: corner.obj"), (V{1, -2, -3}));
   for (const char* world : {"-y", "y", "z"})
-    for (const char* name : {"corner.obj", "side/corner.ply"}) EXPECT_EQ(in(world, std::string("up: none, file: ") + name), (V{1, 2, 3})) << world;
+    for (const char* name : {"corner.obj", "side/corner.ply"})
+      EXPECT_EQ(in(world, std::string("up: none, file: ") + name), (V{1, 2, 3})) << world;
 }
 
 TEST_F(mesh_files, are_scaled_to_metres) {

@@ -33,7 +33,8 @@ std::string pose_refusal(const std::string& pose, const std::string& more = "") 
 }
 std::string turn_refusal(const std::string& rotation) {
   try {
-    load::scene_from_text("objects: [sphere: {center: [0, 0, 1], radius: 0.2, reflectivity: 0.5, rotation: {" + rotation + "}}]\n", "t.yaml");
+    load::scene_from_text("objects: [sphere: {center: [0, 0, 1], radius: 0.2, reflectivity: 0.5, rotation: {" + rotation + "}}]\n",
+                          "t.yaml");
   } catch (const Error& error) {
     return error.what();
   }
@@ -47,15 +48,17 @@ void expect_near(const Matrix& got, const Matrix& expected, double tolerance = 1
 /// Rz(yaw)·Ry(pitch)·Rx(roll), and a position.
 Matrix by_angles(double roll, double pitch, double yaw, const Vec3& p) {
   const double a = std::cos(roll), b = std::sin(roll), c = std::cos(pitch), d = std::sin(pitch), e = std::cos(yaw), f = std::sin(yaw);
-  return {e * c, e * d * b - f * a, e * d * a + f * b, p[0], f * c, f * d * b + e * a, f * d * a - e * b, p[1],
-          -d,    c * b,             c * a,             p[2], 0,     0,                 0,                 1};
+  return {
+      e * c, e * d * b - f * a, e * d * a + f * b, p[0], f * c, f * d * b + e * a, f * d * a - e * b, p[1], -d, c * b, c * a, p[2], 0, 0, 0,
+      1};
 }
 
 }  // namespace
 
 TEST(pose, by_quaternion_has_the_scalar_last) {
   // A quarter turn about z: the image's right looks along the world's y.
-  EXPECT_EQ(pose_of("position: [1, 2, 3], quaternion: [0, 0, 0.70710678, 0.70710678]"), (Matrix{0, -1, 0, 1, 1, 0, 0, 2, 0, 0, 1, 3, 0, 0, 0, 1}));
+  EXPECT_EQ(pose_of("position: [1, 2, 3], quaternion: [0, 0, 0.70710678, 0.70710678]"),
+            (Matrix{0, -1, 0, 1, 1, 0, 0, 2, 0, 0, 1, 3, 0, 0, 0, 1}));
   EXPECT_EQ(pose_of("quaternion: [0, 0, 0, 1]"), (Matrix{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}));
 }
 
@@ -102,7 +105,8 @@ TEST(pose, of_a_body_or_of_opengl_is_turned_to_the_optical_axes) {
 
 TEST(pose, gives_the_bytes_that_look_at_gives) {
   const std::string room =
-      "objects:\n  - plane: {point: [2, 0, 0], normal: [-1, 0, 0], reflectivity: 0.8}\n  - sphere: {center: [1.3, 0.1, 0.5], radius: 25 cm, "
+      "objects:\n  - plane: {point: [2, 0, 0], normal: [-1, 0, 0], reflectivity: 0.8}\n  - sphere: {center: [1.3, 0.1, 0.5], radius: 25 "
+      "cm, "
       "reflectivity: 40 %}\n";
   const auto frame = [&](const std::string& pose) {
     const Scene scene = load::scene_from_text("camera: {pose: {position: [0, 0, 0.5], " + pose + "}}\n" + room, "f.yaml");
@@ -118,16 +122,20 @@ TEST(pose, gives_the_bytes_that_look_at_gives) {
 
 TEST(pose, that_cannot_be_says_what_helps) {
   const std::pair<const char*, const char*> cases[] = {
-      {"quaternion: [0, 0, 0, 2]", "p.yaml:1:29: error: the quaternion is not of unit length\n  got a length of 2, expected 1; its order is x, y, z, w"},
+      {"quaternion: [0, 0, 0, 2]",
+       "p.yaml:1:29: error: the quaternion is not of unit length\n  got a length of 2, expected 1; its order is x, y, z, w"},
       {"quaternion: [0, 0, 0, 0]", "got a length of 0"},
       {"quaternion: [0, 0, 1]", "quaternion has the wrong number of elements\n  got 3, expected 4"},
       {"quaternion: {x: 0, y: 0, z: 0, w: 1}", "quaternion is not a list"},
       {"matrix: [[1, 0, 0], [0, 1, 0], [0, 0, -1]]", "p.yaml:1:25: error: the matrix mirrors: its determinant is -1"},
       {"matrix: [[1, 0, 0], [0, 1, 0]]", "matrix has the wrong number of elements"},
-      {"matrix: [[1, 0, 0], [0, 1, 0], [0, 0, 1, 2]]", "p.yaml:1:48: error: the matrix has rows of other lengths than a pose's\n  got 4 numbers"},
+      {"matrix: [[1, 0, 0], [0, 1, 0], [0, 0, 1, 2]]",
+       "p.yaml:1:48: error: the matrix has rows of other lengths than a pose's\n  got 4 numbers"},
       {"matrix: [[1, 0, 0], [0, 1, 0], [0, 0, 1], [0, 0, 0]]", "the matrix has rows of other lengths than a pose's"},
-      {"matrix: [[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 2]]", "the last row of a matrix of 4 x 4 is not 0, 0, 0, 1\n  expected [0,"},
-      {"matrix: [[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0], [1, 2, 3, 1]]", "the matrix is transposed: expected the position in the last column"},
+      {"matrix: [[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 2]]",
+       "the last row of a matrix of 4 x 4 is not 0, 0, 0, 1\n  expected [0,"},
+      {"matrix: [[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0], [1, 2, 3, 1]]",
+       "the matrix is transposed: expected the position in the last column"},
       {"matrix: [[1, 0, 0, 1], [0, 1, 0, 2], [0, 0, 1, 3]], position: [1, 2, 3]", "the pose has a position, and its matrix another one"},
       {"matrix: [[1, 0, 0, 200000], [0, 1, 0, 2], [0, 0, 1, 3]]", "position is out of range"},
       {"euler: {yaw: 90}", "yaw has no unit"},
@@ -153,18 +161,20 @@ TEST(pose, in_a_world_whose_z_is_up_looks_along_x_and_has_z_up_unless_it_says_so
   expect_near(pose_of("look_at: [0, 2, 0]", "world_up: z\n"), {1, 0, 0, 0, 0, 0, 1, 0, 0, -1, 0, 0, 0, 0, 0, 1});
   EXPECT_EQ(pose_of("look_at: [2, 0, 0], up: [0, 1, 0]", "world_up: z\n")[1], 0) << "its own up counts";
   EXPECT_EQ(pose_of("quaternion: [0, 0, 0, 1]", "world_up: z\n"), pose_of("quaternion: [0, 0, 0, 1]")) << "numbers stay what they are";
-  const Scene keys = load::scene_from_text("world_up: z\ncamera: {keyframes: [{time: 0 s}, {time: 1 s, pose: {look_at: [3, 0, 0]}}]}\nobjects: []\n", "z.yaml");
+  const Scene keys = load::scene_from_text(
+      "world_up: z\ncamera: {keyframes: [{time: 0 s}, {time: 1 s, pose: {look_at: [3, 0, 0]}}]}\nobjects: []\n", "z.yaml");
   for (const CameraKeyframe& key : keys.camera.keyframes) expect_near(pose_matrix(key.pose), body);
   EXPECT_EQ(pose_matrix(load::scene_from_text("world_up: y\nobjects: []\n", "y.yaml").camera.pose),
             (Matrix{1, 0, 0, 0, 0, -1, 0, 0, 0, 0, -1, 0, 0, 0, 0, 1}));
   EXPECT_EQ(pose_of(""), (Matrix{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}));
-  EXPECT_TRUE(has(pose_refusal("", "world_up: x\n"), "p.yaml:1:11: error: world_up is unknown: \"x\"")) << pose_refusal("", "world_up: x\n");
+  EXPECT_TRUE(has(pose_refusal("", "world_up: x\n"), "p.yaml:1:11: error: world_up is unknown: \"x\""))
+      << pose_refusal("", "world_up: x\n");
 }
 
 TEST(rotation, of_an_object_may_be_a_quaternion_a_matrix_or_euler_angles) {
   const auto turned = [](const std::string& rotation) {
-    const Scene scene =
-        load::scene_from_text("objects: [box: {min: [-0.1, -0.2, 1], max: [0.1, 0.2, 1.3], reflectivity: 0.5, rotation: {" + rotation + "}}]\n", "r.yaml");
+    const Scene scene = load::scene_from_text(
+        "objects: [box: {min: [-0.1, -0.2, 1], max: [0.1, 0.2, 1.3], reflectivity: 0.5, rotation: {" + rotation + "}}]\n", "r.yaml");
     return Simulator(scene, load_camera(scene), {.noise = Noise::off}).frame(0).truth.position_m;
   };
   const auto axis = turned("axis: [0, 0, 1], angle: 90 deg"), quaternion = turned("quaternion: [0, 0, 0.70710678, 0.70710678]");
@@ -179,7 +189,8 @@ TEST(rotation, of_an_object_may_be_a_quaternion_a_matrix_or_euler_angles) {
   EXPECT_GT(seen, 1000U);
   EXPECT_EQ(turned("matrix: [[0, -1, 0], [1, 0, 0], [0, 0, 1]]").size(), axis.size());
   EXPECT_TRUE(has(turn_refusal("axis: [0, 0, 1]"), "rotation lacks the key \"angle\""));
-  EXPECT_TRUE(has(turn_refusal("angle: 3 deg"), "rotation lacks a key\n  expected one of axis, quaternion, matrix or euler")) << turn_refusal("angle: 3 deg");
+  EXPECT_TRUE(has(turn_refusal("angle: 3 deg"), "rotation lacks a key\n  expected one of axis, quaternion, matrix or euler"))
+      << turn_refusal("angle: 3 deg");
   EXPECT_TRUE(has(turn_refusal("angle: 3 deg, quaternion: [0, 0, 0, 1]"), "angle goes with axis alone"));
   EXPECT_TRUE(has(turn_refusal("axis: [0, 0, 1], angle: 3 deg, euler: {yaw: 1 deg}"), "rotation has \"axis\" and \"euler\""));
   EXPECT_TRUE(has(turn_refusal("matrix: [[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0]]"), "matrix[0] has the wrong number of elements"));
@@ -202,8 +213,10 @@ TEST(pose, in_code_is_checked_as_that_of_files) {
   };
   const Quaternion good{0, 0, 0, 1};
   EXPECT_EQ(refused({{0, 0, 0}, {0, 0, 1}, {0, -1, 0}, good}), "");
-  EXPECT_TRUE(has(refused({{0, 0, 0}, {0, 0, 1}, {0, -1, 0}, Quaternion{0, 0, 0, 0.9}}), "camera.pose.quaternion: the quaternion is not of unit length"));
-  EXPECT_TRUE(has(refused({{0, 0, 0}, {0, 0, 1}, {0, -1, 0}, Quaternion{0, 0, 0, std::nan("")}}), "camera.pose.quaternion[3] is out of range"));
+  EXPECT_TRUE(has(refused({{0, 0, 0}, {0, 0, 1}, {0, -1, 0}, Quaternion{0, 0, 0, 0.9}}),
+                  "camera.pose.quaternion: the quaternion is not of unit length"));
+  EXPECT_TRUE(
+      has(refused({{0, 0, 0}, {0, 0, 1}, {0, -1, 0}, Quaternion{0, 0, 0, std::nan("")}}), "camera.pose.quaternion[3] is out of range"));
   EXPECT_TRUE(has(refused({{0, 0, 0}, {0, 0, 2}, {0, -1, 0}, good}), "the pose has a quaternion, and look_at or up"));
   EXPECT_TRUE(has(refused({}, {{0, 0, 1}, 1, good}), "the rotation has a quaternion and an angle"));
   Matrix matrix{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};

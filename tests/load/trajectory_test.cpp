@@ -52,10 +52,12 @@ class keyframe_files : public testing::Test {
   void file(const std::string& name, const std::string& text) const { write_file(folder_.path() / name, text); }
   [[nodiscard]] Scene scene(const std::string& camera, const std::string& ball = "", const load::MeshFiles& files = {},
                             const std::string& before = "") const {
-    return load::scene_from_text(before + "camera: {" + camera + "}\nobjects:\n  - sphere: {center: [0, 0, 2], radius: 0.2, reflectivity: 0.5" + ball + "}\n",
-                                 folder_.file("in/s.yaml"), {}, files);
+    return load::scene_from_text(
+        before + "camera: {" + camera + "}\nobjects:\n  - sphere: {center: [0, 0, 2], radius: 0.2, reflectivity: 0.5" + ball + "}\n",
+        folder_.file("in/s.yaml"), {}, files);
   }
-  [[nodiscard]] std::string refusal(const std::string& camera, ErrorKind kind = ErrorKind::bad_input, const load::MeshFiles& files = {}) const {
+  [[nodiscard]] std::string refusal(const std::string& camera, ErrorKind kind = ErrorKind::bad_input,
+                                    const load::MeshFiles& files = {}) const {
     const Error error = out_test::error_of([&] { (void)scene(camera, "", files); });
     EXPECT_EQ(error.kind(), kind) << error.what();
     return error.what();
@@ -78,7 +80,8 @@ TEST(trajectory, is_read_with_any_separators_line_ends_and_headers) {
            "0.5 1 -2 3.25 0 0 0 1\n1 1.5 0 0.001 0.5 -0.5 0.5 0.5\n",
            "\xEF\xBB\xBFt,x,y,z,qx,qy,qz,qw\n\"0.5\",\"1\",-2,3.25,0,0,0,1\n1,1.5,0,0.001,0.5,-0.5,0.5,0.5\n",
            // TUM
-           "# ground truth trajectory\n# file: 'room.bag'\n# timestamp tx ty tz qx qy qz qw\n0.5 1 -2 3.25 0 0 0 1\n1 1.5 0 0.001 0.5 -0.5 0.5 "
+           "# ground truth trajectory\n# file: 'room.bag'\n# timestamp tx ty tz qx qy qz qw\n0.5 1 -2 3.25 0 0 0 1\n1 1.5 0 0.001 0.5 -0.5 "
+           "0.5 "
            "0.5\n",
            // EuRoC: w first, units, further columns
            "#timestamp [ns], p_RS_R_x [m], p_RS_R_y [m], p_RS_R_z [m], q_RS_w [], q_RS_x [], q_RS_y [], q_RS_z [], v_RS_R_x [m s^-1]\n"
@@ -88,7 +91,8 @@ TEST(trajectory, is_read_with_any_separators_line_ends_and_headers) {
            "%time,field.header.seq,field.pose.position.x,field.pose.position.y,field.pose.position.z,field.pose.orientation.x,field.pose."
            "orientation.y,field.pose.orientation.z,field.pose.orientation.w,field.twist.linear.x\n0.5,1,1,-2,3.25,0,0,0,1,9\n"
            "1,2,1.5,0,0.001,0.5,-0.5,0.5,0.5,9\n",
-           "/odom/header/stamp,/odom/pose/position/x,/odom/pose/position/y,/odom/pose/position/z,/odom/pose/orientation/x,/odom/pose/orientation/"
+           "/odom/header/stamp,/odom/pose/position/x,/odom/pose/position/y,/odom/pose/position/z,/odom/pose/orientation/x,/odom/pose/"
+           "orientation/"
            "y,/odom/pose/orientation/z,/odom/pose/orientation/w\n0.5,1,-2,3.25,0,0,0,1\n1,1.5,0,0.001,0.5,-0.5,0.5,0.5\n",
            "Timestamp (ms)\tPosition X (mm)\tPosition Y (mm)\tPosition Z (mm)\tRotation X\tRotation Y\tRotation Z\tRotation W\n"
            "500\t1000\t-2000\t3250\t0\t0\t0\t1\n1000\t1500\t0\t1\t0.5\t-0.5\t0.5\t0.5\n",
@@ -129,27 +133,33 @@ TEST(trajectory, that_is_wrong_is_told_with_line_and_column) {
   const std::pair<std::string, const char*> cases[] = {
       {"", "p.csv: error: there are no poses in it\n  expected lines of t x y z qx qy qz qw"},
       {"# t x y z qx qy qz qw\n\n", "there are no poses in it"},
-      {good + "1 0 0 0 0 0 1\n", "p.csv:2:1: error: the line has the wrong number of columns\n  got 7, expected 8: t x y z qx qy qz qw, or a header"},
-      {"t,x,y,z,qx,qy,qz,qw,v\n1,0,0,0,0,0,0,1\n", "p.csv:2:1: error: the line has the wrong number of columns\n  got 8, expected 9 as in the header"},
+      {good + "1 0 0 0 0 0 1\n",
+       "p.csv:2:1: error: the line has the wrong number of columns\n  got 7, expected 8: t x y z qx qy qz qw, or a header"},
+      {"t,x,y,z,qx,qy,qz,qw,v\n1,0,0,0,0,0,0,1\n",
+       "p.csv:2:1: error: the line has the wrong number of columns\n  got 8, expected 9 as in the header"},
       {"0,5,1,5,2,5,0,0,0,1\n", "a decimal comma makes two of one"},
       {"0,5;1;2;3;0;0;0;1\n", "p.csv:1:1: error: t is not a number\n  got \"0,5\", expected a number such as 1.5, with a decimal point"},
       {good + "1 0 zero 0 0 0 0 1\n", "p.csv:2:5: error: y is not a number\n  got \"zero\""},
       {"1,0,,0,0,0,0,1\n", "p.csv:1:5: error: y is empty"},
       {good + "1 0 nan 0 0 0 0 1\n", "p.csv:2:5: error: y is not finite\n  got \"nan\"; take the line out"},
-      {good + "1 0 0 0 0 0 0 0.9\n", "p.csv:2:9: error: the quaternion is not of unit length\n  got a length of 0.9, expected 1; its order is x, y, z, w"},
+      {good + "1 0 0 0 0 0 0 0.9\n",
+       "p.csv:2:9: error: the quaternion is not of unit length\n  got a length of 0.9, expected 1; its order is x, y, z, w"},
       {good + "0 0 0 0 0 0 0 1\n", "p.csv:2:1: error: the time is not later than that of the line before\n  got \"0\"; sort the lines"},
       {"1 0 0 0 0 0 0 1\n" + good, "the time is not later"},
       {"0 0 0 100001 0 0 0 1\n", "p.csv:1:7: error: z is out of range\n  got 100001 m"},
       {"x,y,z,qx,qy,qz,qw\n", "p.csv:1:1: error: the header has no column for t\n  got \"x\", \"y\""},
       {"t,x,y,z,roll,pitch,yaw\n1,0,0,0,0,0,0\n", "the header has no column for qx, qy, qz and qw"},
-      {"t,x,y,z,qx,qy,qz,qw,time\n", "p.csv:1:21: error: the header has two columns for t\n  got \"t\" and \"time\"; take one of them out, or rename it"},
+      {"t,x,y,z,qx,qy,qz,qw,time\n",
+       "p.csv:1:21: error: the header has two columns for t\n  got \"t\" and \"time\"; take one of them out, or rename it"},
       {"t,x [furlong],y,z,qx,qy,qz,qw\n", "p.csv:1:3: error: the header has an unknown unit of length\n  got \"x [furlong]\""},
       {"t [min],x,y,z,qx,qy,qz,qw\n", "p.csv:1:1: error: the header has an unknown unit of time\n  got \"t [min]\""},
       {"1403636579758555392 0 0 0 0 0 0 1\n",
-       "p.csv:1:1: error: the time is out of range\n  got \"1403636579758555392\" s; nanoseconds? say so in the header, timestamp [ns], or in the scene, time_unit: ns"},
+       "p.csv:1:1: error: the time is out of range\n  got \"1403636579758555392\" s; nanoseconds? say so in the header, timestamp [ns], or "
+       "in the scene, time_unit: ns"},
       {"1e99 0 0 0 0 0 0 1\n", "the time is out of range"},
       {"1e999 0 0 0 0 0 0 1\n", "t is not finite"},
-      {"0 0 0 0 0 0 0 1\n2000000 0 0 0 0 0 0 1\n", "p.csv:2:1: error: the time is out of range\n  got 2000000 s, expected -1e6 s to 1e6 s; time_zero says"},
+      {"0 0 0 0 0 0 0 1\n2000000 0 0 0 0 0 0 1\n",
+       "p.csv:2:1: error: the time is out of range\n  got 2000000 s, expected -1e6 s to 1e6 s; time_zero says"},
       {"\xEF\xBB\xBFx 0 0 0 0 0 0 1\n", "p.csv:1:4: error: the header has no column for"},
       {"t;x;y;z;qx;qy;qz;qw\nt;x;y;z;qx;qy;qz;qw\n", "p.csv:2:1: error: t is not a number"},
   };
@@ -179,15 +189,17 @@ TEST_F(keyframe_files, move_camera_and_objects) {
   EXPECT_EQ(read.files[0].file, "c.csv");
   EXPECT_EQ(read.files[1].sha256.size(), 64U);
   // What is written out gives the same frame.
-  const Scene said = scene("keyframes: [{time: 0 s, pose: {position: [0, 0, -0.5], quaternion: [0, 0, 0, 1]}}, "
-                           "{time: 1 s, pose: {position: [0.1, 0, -0.5], quaternion: [0, 0.6, 0, 0.8]}}]",
-                           ", keyframes: [{time: 0 s}, {time: 2 s, position: [0.4, 0, 0]}]");
+  const Scene said = scene(
+      "keyframes: [{time: 0 s, pose: {position: [0, 0, -0.5], quaternion: [0, 0, 0, 1]}}, "
+      "{time: 1 s, pose: {position: [0.1, 0, -0.5], quaternion: [0, 0.6, 0, 0.8]}}]",
+      ", keyframes: [{time: 0 s}, {time: 2 s, position: [0.4, 0, 0]}]");
   const auto raw = [](const Scene& of) { return Simulator(of, load_camera(of)).frame(2).raw.raw; };
   EXPECT_EQ(raw(read), raw(said));
 }
 
 TEST_F(keyframe_files, of_one_clock_have_one_zero_the_cameras_first) {
-  file("in/c.csv", "1305031449.5 0 0 0 0 0 0 1\n1305031450.5 0 0 0 0 0 0 1\n"), file("in/b.csv", "1305031449.25 0 0 0 0 0 0 1\n1305031450 0 0 0 0 0 0 1\n");
+  file("in/c.csv", "1305031449.5 0 0 0 0 0 0 1\n1305031450.5 0 0 0 0 0 0 1\n"),
+      file("in/b.csv", "1305031449.25 0 0 0 0 0 0 1\n1305031450 0 0 0 0 0 0 1\n");
   const Scene both = scene("keyframes: {file: c.csv}", ", keyframes: {file: b.csv}");
   EXPECT_EQ(both.camera.keyframes[0].time_s, 0);
   EXPECT_EQ(both.objects[0].keyframes[0].time_s, -0.25);
@@ -199,7 +211,9 @@ TEST_F(keyframe_files, of_one_clock_have_one_zero_the_cameras_first) {
 
 TEST_F(keyframe_files, of_a_robot_say_its_axes_or_where_the_camera_is_on_it) {
   file("in/r.csv", "0 1 2 0 0 0 0.70710678 0.70710678\n");  // it looks along y
-  const auto pose = [&](const std::string& more) { return pose_matrix(scene("keyframes: {file: r.csv" + more + "}").camera.keyframes[0].pose); };
+  const auto pose = [&](const std::string& more) {
+    return pose_matrix(scene("keyframes: {file: r.csv" + more + "}").camera.keyframes[0].pose);
+  };
   using Matrix = std::array<double, 16>;
   EXPECT_EQ(pose(", axes: body"), (Matrix{1, 0, 0, 1, 0, 0, 1, 2, 0, -1, 0, 0, 0, 0, 0, 1}));
   // 0.5 m ahead of the robot's zero and 0.25 m above it, looking ahead.
@@ -208,9 +222,11 @@ TEST_F(keyframe_files, of_a_robot_say_its_axes_or_where_the_camera_is_on_it) {
   EXPECT_EQ(pose(", mount: {position: [0.5, 0, 0.25], quaternion: [-0.5, 0.5, -0.5, 0.5]}"), mounted);
   EXPECT_EQ(pose(", mount: {matrix: [[0, 0, 1, 0.5], [-1, 0, 0, 0], [0, -1, 0, 0.25], [0, 0, 0, 1]]}"), mounted);
   EXPECT_TRUE(has(refusal("keyframes: {file: r.csv, axes: body, mount: {axes: body}}"), "keyframes have axes and a mount"));
-  EXPECT_TRUE(has(refusal("keyframes: {file: r.csv, mount: {quaternion: [0, 0, 0, 2]}}"), "s.yaml:1:55: error: the quaternion is not of unit length"));
+  EXPECT_TRUE(has(refusal("keyframes: {file: r.csv, mount: {quaternion: [0, 0, 0, 2]}}"),
+                  "s.yaml:1:55: error: the quaternion is not of unit length"));
   EXPECT_TRUE(has(refusal("keyframes: {file: r.csv, mount: {look_at: [0, 0, 1]}}"), "unknown key \"look_at\" in mount"));
-  EXPECT_TRUE(has(out_test::error_of([&] { (void)scene("mode: MODE_9_5FPS_2000", ", keyframes: {file: r.csv, axes: body}"); }).what(), "unknown key \"axes\" in keyframes"));
+  EXPECT_TRUE(has(out_test::error_of([&] { (void)scene("mode: MODE_9_5FPS_2000", ", keyframes: {file: r.csv, axes: body}"); }).what(),
+                  "unknown key \"axes\" in keyframes"));
 }
 
 TEST_F(keyframe_files, lie_beside_the_scene_or_below_and_are_known_by_their_sha256) {

@@ -347,7 +347,8 @@ TEST(moving_camera, by_a_quaternion_and_a_point_that_it_looks_at_turns_evenly_to
     pose.look_at = pose.position + 7.0 * Vec3{std::sin(angle), 0, std::cos(angle)};
     for (const double time : {1.0, 1.5, 2.2, 3.0})
       for (std::size_t k = 0; k < 3; ++k)
-        EXPECT_LT(length(scene::camera_frame(pose_at(one, time)).rotation[k] - scene::camera_frame(pose_at(both, time)).rotation[k]), 1e-14);
+        EXPECT_LT(length(scene::camera_frame(pose_at(one, time)).rotation[k] - scene::camera_frame(pose_at(both, time)).rotation[k]),
+                  1e-14);
     EXPECT_LT(length(array_of(camera_at(one, 2).spin) - array_of(camera_at(both, 2).spin)), 1e-14);
   }
 }
