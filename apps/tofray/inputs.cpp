@@ -45,21 +45,22 @@ Scene scene_of_text(const std::string& text, const std::string& name, const Opti
   }
 }
 
-/// Its meshes by name and SHA-256, each once; not those that tofray has itself.
-void add_meshes(const Scene& scene, std::vector<results::InputFile>& files) {
+/// Its meshes and keyframes by name and SHA-256, each once; not meshes that tofray has itself.
+void add_files(const Scene& scene, std::vector<results::InputFile>& files) {
   for (const Object& object : scene.objects) {
     const auto* mesh = std::get_if<Mesh>(&object.shape);
     const auto is_it = [mesh](const results::InputFile& file) { return file.role == "mesh" && file.name == mesh->file; };
     if (mesh != nullptr && !mesh->sha256.empty() && std::none_of(files.begin(), files.end(), is_it))
       files.push_back({"mesh", mesh->file, "", mesh->sha256});
   }
+  for (const SceneFile& one : scene.files) files.push_back({"keyframes", one.file, "", one.sha256});
 }
 
-/// The files that --from takes for meshes: those of the manifest, unchanged.
-load::MeshFiles meshes_of(const results::Manifest& manifest, const Options& options) {
+/// The files that --from takes for meshes and keyframes: those of the manifest, unchanged.
+load::MeshFiles files_of(const results::Manifest& manifest, const Options& options) {
   load::MeshFiles out{options.root, std::map<std::string, std::string>{}};
   for (const results::InputFile& file : manifest.inputs)
-    if (file.role == "mesh") (*out.expected)[file.name] = file.sha256;
+    if (file.role == "mesh" || file.role == "keyframes") (*out.expected)[file.name] = file.sha256;
   return out;
 }
 
@@ -189,7 +190,7 @@ Inputs load_inputs(const std::string& scene, const Options& options) {
     in.files.push_back({"scene", scene, text});
   }
   in.idle_transport = idle_transport(in.scene, options);
-  add_meshes(in.scene, in.files);
+  add_files(in.scene, in.files);
   const auto load = [&](const Scene& seen) { return load_camera(seen, {options.mode, {}, options.root}); };
   in.camera = load(in.scene);
   in.mode_integration_time_s = mode_integration_time(in.scene, load);
@@ -204,7 +205,7 @@ Inputs inputs_of(const results::Manifest& manifest, const Options& options) {
   if (manifest.inputs.empty() || manifest.inputs[0].role != "scene")
     throw Error(ErrorKind::bad_input, options.from + ": error: inputs has no scene\n  expected the manifest.json of a `tofray render`");
   const results::InputFile& first = manifest.inputs[0];
-  // A stranger's manifest reads no files of ours: what is not in it has to be built in. (Meshes are read if their SHA-256 is the one in it.)
+  // A stranger's manifest reads no files of ours: what is not in it has to be built in. (Meshes and keyframes are read if their SHA-256 is the one in it.)
   if (first.text.empty() && load::find_builtin(load::builtin_scenes(), first.name) == nullptr)
     throw Error(ErrorKind::bad_input,
                 fmt::format("{}: error: it does not hold the text of the scene {}\n  expected the scene's file in it, or the "
@@ -213,7 +214,7 @@ Inputs inputs_of(const results::Manifest& manifest, const Options& options) {
   Inputs in;
   in.files = manifest.inputs;
   in.scene = first.text.empty() ? load::load_scene(first.name, options.set)
-                                : load::scene_from_text(first.text, first.name, options.set, meshes_of(manifest, options));
+                                : load::scene_from_text(first.text, first.name, options.set, files_of(manifest, options));
   const auto profile =
       std::find_if(in.files.begin(), in.files.end(), [](const results::InputFile& file) { return file.role == "profile"; });
   const std::string& named = in.scene.camera.profile;

@@ -57,12 +57,19 @@ std::string text_of(const std::string& path, bool own_materials, const std::stri
   return fmt::format("objects:\n  - mesh: {{file: {}{}}}\n{}", file, own_materials ? "" : ", reflectivity: 0.5", more);
 }
 
+/// A direction, x right, y down, z forward, in the world.
+Vec3 in_world(const Vec3& v, Scene::Up up) {
+  if (up == Scene::Up::y) return {v[0], -v[1], -v[2]};
+  if (up == Scene::Up::z) return {v[0], v[2], -v[1]};
+  return v;
+}
+
 /// All of it from before, above and aside.
-Pose pose_before(const Box& box) {
+Pose pose_before(const Box& box, Scene::Up up) {
   const Vec3 middle = 0.5 * (box.low + box.high);
   const double radius = std::max(0.5 * base::length(box.high - box.low), 1e-3);
   // So far away the ball round it fits into the 45 degrees that most such cameras see from top to bottom.
-  return {middle + 2.7 * radius * base::normalized(Vec3{0.5, -0.4, -1}), middle};
+  return {middle + 2.7 * radius * base::normalized(in_world({0.5, -0.4, -1}, up)), middle};
 }
 
 }  // namespace
@@ -78,7 +85,7 @@ std::string scene_of_mesh(const std::string& path, const std::string& source, co
   // What --set makes of the mesh, so that its scale and its axes count; the rest of the scene is not there yet.
   load::Settings of_mesh;
   for (const auto& one : options.set)
-    if (one.first.starts_with("objects.0.mesh.")) of_mesh.push_back(one);
+    if (one.first.starts_with("objects.0.mesh.") || one.first == "world_up") of_mesh.push_back(one);
   std::string unread;
   const bool own_materials = load::has_own_materials(std::filesystem::path(path).filename().string(), source, options.root, &unread);
   if (!unread.empty())
@@ -88,18 +95,21 @@ std::string scene_of_mesh(const std::string& path, const std::string& source, co
         path, base::in_quotes(unread));
   const Scene alone = load::scene_from_text(text_of(path, own_materials, ""), source, of_mesh, {options.root});
   const Box box = box_round(alone);
-  const std::optional<Pose> own = load::camera_in(std::get<Mesh>(alone.objects[0].shape), source, options.root);
+  const std::optional<Pose> own = load::camera_in(std::get<Mesh>(alone.objects[0].shape), source, options.root, alone.world_up);
   // A file with a camera is a scene of its own: a second floor would lie in the first.
   if (own)
     return text_of(path, own_materials,
                    fmt::format("camera: {{pose: {{position: {}, look_at: {}, up: {}}}}}\n", point(own->position), point(own->look_at),
                                point(own->up)));
-  const Pose pose = pose_before(box);
+  const Pose pose = pose_before(box, alone.world_up);
+  const Vec3 up = in_world({0, -1, 0}, alone.world_up);
+  Vec3 below = 0.5 * (box.low + box.high);
+  for (std::size_t k = 0; k < 3; ++k)
+    if (up[k] != 0) below[k] = up[k] < 0 ? box.high[k] : box.low[k];
   return text_of(path, own_materials,
-                 fmt::format("  - plane: {{point: {}, normal: [0, -1, 0], reflectivity: 0.3}}  # a floor\n"
+                 fmt::format("  - plane: {{point: {}, normal: {}, reflectivity: 0.3}}  # a floor\n"
                              "camera: {{pose: {{position: {}, look_at: {}}}}}\n",
-                             point({0.5 * (box.low[0] + box.high[0]), box.high[1], 0.5 * (box.low[2] + box.high[2])}), point(pose.position),
-                             point(pose.look_at)));
+                             point(below), point(up), point(pose.position), point(pose.look_at)));
 }
 
 }  // namespace tofray::app

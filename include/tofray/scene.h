@@ -17,6 +17,10 @@ namespace tofray {
 
 using Vec3 = std::array<double, 3>;
 
+/// A rotation as x, y, z and w, the scalar part last: cos(angle/2) is w, the axis of unit length times sin(angle/2) the others. q and −q are the
+/// same rotation. Where a struct holds one, its length may be 1e-3 from 1.
+using Quaternion = std::array<double, 4>;
+
 /// A picture of how much a surface sends back: 1 where it is its material's `diffuse`, 0 where it is black. Meshes show it where their
 /// vertices have texture coordinates.
 struct ReflectivityMap {
@@ -124,11 +128,12 @@ class MeshMotion {
 /// Many triangles, about the zero of their own frame. In files: those of an OBJ, PLY, STL or glTF file, turned and scaled when it is read;
 /// of a glTF or OBJ file those of one material, unless the object has a material of its own.
 struct Mesh {
-  enum class Up { automatic, y, z, minus_y };
+  enum class Up { automatic, y, z, minus_y, none };
   enum class Play { still, once, loop };
   std::string file;              ///< empty if built in code
   double scale = 1;              ///< of the file's numbers, to metres
-  Up up = Up::automatic;         ///< the file's axis that is up (−y in the world); automatic: y in OBJ and glTF, z in PLY and STL
+  Up up = Up::automatic;         ///< the file's axis that is up, turned to Scene::world_up; automatic: y in OBJ and glTF, z in PLY and STL;
+                                 ///< none: the file's axes are the world's
   std::optional<double> time_s;  ///< of a glTF file's first animation; none: as its nodes stand
   Play play = Play::still;       ///< whether that animation goes on, from `time_s` (or its start) at t = 0
   std::string sha256;  ///< of the file's bytes and those of the files that it names, as hexadecimal digits; empty if built in code
@@ -143,6 +148,7 @@ struct Mesh {
 struct Rotation {
   Vec3 axis{0, 0, 1};
   double angle_rad = 0;
+  std::optional<Quaternion> quaternion = {};  ///< x, y, z, w, in place of axis and angle
 };
 
 /// Where an object is at a time. Between two of them its shift changes evenly, and it turns evenly: where both rotations are about the same
@@ -205,15 +211,17 @@ struct Transport {
   TransientBins transient = {};
 };
 
-/// Where the camera stands. Camera frame: x right, y down, z forward.
+/// Where the camera stands. Camera frame: x right, y down, z forward (the optical frame of ROS and OpenCV).
 struct Pose {
   Vec3 position{0, 0, 0};
-  Vec3 look_at{0, 0, 1};  ///< a point on the optical axis
-  Vec3 up{0, -1, 0};
+  Vec3 look_at{0, 0, 1};                      ///< a point on the optical axis
+  Vec3 up{0, -1, 0};                          ///< direction in the world that is up in the image
+  std::optional<Quaternion> quaternion = {};  ///< x, y, z, w, from the camera's frame to the world's, in place of look_at and up
 };
 
-/// Where the camera stands at a time. Between two of them position, look_at and up change evenly: a camera that looks at one point goes on
-/// doing so. Before the first and after the last it stands still.
+/// Where the camera stands at a time. Between two of them its position changes evenly. Where one has a quaternion it turns evenly, the
+/// shortest way; else look_at and up change evenly: a camera that looks at one point goes on doing so. Before the first and after the last
+/// it stands still.
 struct CameraKeyframe {
   double time_s = 0;
   Pose pose;
@@ -237,8 +245,15 @@ struct CameraChoice {
   std::string profile_where, mode_where;  ///< file:line:col for messages; empty if built in code
 };
 
+/// A file that a scene was read from, beside its own and those of meshes.
+struct SceneFile {
+  std::string file;    ///< as the scene names it
+  std::string sha256;  ///< of its bytes, as hexadecimal digits
+};
+
 /// All that is seen, in which light, and which camera looks at it.
 struct Scene {
+  enum class Up { minus_y, y, z };
   std::string name;    ///< the file's stem, or a built-in name
   std::string source;  ///< the file it came from, empty if built in code
   CameraChoice camera;
@@ -246,6 +261,10 @@ struct Scene {
   Transport transport = {};
   std::vector<Material> materials;
   std::vector<Object> objects;
+  /// The world's axis that is up. In files, what is not said follows from it: where a camera looks, what is up in its image, how the axes of
+  /// meshes are turned. In code nothing does.
+  Up world_up = Up::minus_y;
+  std::vector<SceneFile> files = {};  ///< of keyframes
 };
 
 }  // namespace tofray

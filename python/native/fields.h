@@ -148,7 +148,7 @@ TOFRAY_FIELDS(Capsule, &Capsule::start, &Capsule::end, &Capsule::radius)
 TOFRAY_FIELDS(Cone, &Cone::base, &Cone::axis, &Cone::radius, &Cone::height)
 TOFRAY_FIELDS(Mesh, &Mesh::file, &Mesh::scale, &Mesh::up, &Mesh::time_s, &Mesh::play, &Mesh::sha256, &Mesh::left_out, &Mesh::guessed,
               &Mesh::notices, &Mesh::triangles, &Mesh::motion)
-TOFRAY_FIELDS(Rotation, &Rotation::axis, &Rotation::angle_rad)
+TOFRAY_FIELDS(Rotation, &Rotation::axis, &Rotation::angle_rad, &Rotation::quaternion)
 TOFRAY_FIELDS(Keyframe, &Keyframe::time_s, &Keyframe::position, &Keyframe::rotation)
 TOFRAY_FIELDS(Object, &Object::name, &Object::shape, &Object::material, &Object::position, &Object::rotation, &Object::velocity_m_per_s,
               &Object::angular_velocity_rad_per_s, &Object::keyframes, &Object::key, &Object::where)
@@ -157,12 +157,14 @@ TOFRAY_FIELDS(Ambient, &Ambient::spectrum, &Ambient::quantity, &Ambient::amount,
 TOFRAY_FIELDS(TransientBins, &TransientBins::bins, &TransientBins::first_m, &TransientBins::width_m)
 TOFRAY_FIELDS(Transport, &Transport::bounces, &Transport::samples, &Transport::seed, &Transport::max_samples, &Transport::path_noise_m,
               &Transport::smooth, &Transport::transient)
-TOFRAY_FIELDS(Pose, &Pose::position, &Pose::look_at, &Pose::up)
+TOFRAY_FIELDS(Pose, &Pose::position, &Pose::look_at, &Pose::up, &Pose::quaternion)
 TOFRAY_FIELDS(CameraKeyframe, &CameraKeyframe::time_s, &CameraKeyframe::pose)
 TOFRAY_FIELDS(Override, &Override::key, &Override::value, &Override::where)
 TOFRAY_FIELDS(CameraChoice, &CameraChoice::profile, &CameraChoice::mode, &CameraChoice::pose, &CameraChoice::keyframes,
               &CameraChoice::overrides, &CameraChoice::profile_where, &CameraChoice::mode_where)
-TOFRAY_FIELDS(Scene, &Scene::name, &Scene::source, &Scene::camera, &Scene::ambient, &Scene::transport, &Scene::materials, &Scene::objects)
+TOFRAY_FIELDS(SceneFile, &SceneFile::file, &SceneFile::sha256)
+TOFRAY_FIELDS(Scene, &Scene::name, &Scene::source, &Scene::camera, &Scene::ambient, &Scene::transport, &Scene::materials, &Scene::objects,
+              &Scene::world_up, &Scene::files)
 TOFRAY_FIELDS(RanOn, &RanOn::backend, &RanOn::device, &RanOn::isa, &RanOn::threads, &RanOn::block_size, &RanOn::occupancy,
               &RanOn::fallback_reason)
 TOFRAY_FIELDS(ObjectInView, &ObjectInView::object, &ObjectInView::name, &ObjectInView::pixels, &ObjectInView::nearest_m, &ObjectInView::farthest_m,
@@ -191,8 +193,8 @@ void each_record(const Call& call) {
   using Records = std::tuple<Curve, PixelMask, Sensor, Scatter, Lens, Filter, Pattern, Waveform, Area, Illumination, Pixel, Adc, RawFrame,
                              Mode, ImageFilter, Decoding, Temperature, Interference, SpreadSpectrum, Readout, AutoExposure, Camera,
                              Material, Plane, Sphere, Box, Triangle, Cylinder, Rectangle, Disk, Capsule, Cone, Mesh, Rotation, Keyframe,
-                             Object, Ambient, TransientBins, Transport, Pose, CameraKeyframe, Override, CameraChoice, Scene, RanOn,
-                             FrameRequest, ObjectInView, SceneFinding, SceneReport, InvalidPixels>;
+                             Object, Ambient, TransientBins, Transport, Pose, CameraKeyframe, Override, CameraChoice, SceneFile, Scene,
+                             RanOn, FrameRequest, ObjectInView, SceneFinding, SceneReport, InvalidPixels>;
   all(static_cast<Records*>(nullptr));
 }
 

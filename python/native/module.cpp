@@ -59,6 +59,12 @@ Scene scene_of(const py::object& scene) {
   return out;
 }
 
+py::array_t<double> matrix_array(const std::array<double, 16>& matrix) {
+  py::array_t<double> out({4, 4});
+  std::copy(matrix.begin(), matrix.end(), out.mutable_data());
+  return out;
+}
+
 /// Runs without the interpreter's lock: files may be long.
 template <class Call>
 auto freely(const Call& call) {
@@ -99,11 +105,16 @@ void bind_files(py::module_& module) {
                const SimulatorOptions options = options_from_python(words);
                return py::bytes(freely([&] { return frame_npz(*one, seen, seen_by, options, compress); }));
              });
-  module.def("camera_pose", [](const py::object& scene, double time_s) {
-    const std::array<double, 16> pose = camera_pose(scene_of(scene), time_s);
-    py::array_t<double> out({4, 4});
-    std::copy(pose.begin(), pose.end(), out.mutable_data());
-    return out;
+  module.def("camera_pose", [](const py::object& scene, double time_s) { return matrix_array(camera_pose(scene_of(scene), time_s)); });
+  module.def("pose_from_matrix", [](const py::object& matrix) {
+    std::array<double, 16> given{};
+    from_python(matrix, given, {nullptr, "matrix"});
+    return to_python(pose_from_matrix(given));
+  });
+  module.def("pose_matrix", [](const py::object& pose) {
+    Pose one;
+    from_python(pose, one, {nullptr, "pose"});
+    return matrix_array(tofray::pose_matrix(one));
   });
   module.def("version", &version);
 }

@@ -75,6 +75,7 @@ if TYPE_CHECKING:
         Rotation as Rotation,
         Scatter as Scatter,
         Scene as Scene,
+        SceneFile as SceneFile,
         SceneFinding as SceneFinding,
         SceneReport as SceneReport,
         Sensor as Sensor,
@@ -123,7 +124,7 @@ _HOME = {
     "_model": (
         "Adc", "Ambient", "Area", "AutoExposure", "Box", "Camera", "CameraChoice", "CameraKeyframe", "Capsule", "Cone", "Curve", "Cylinder", "Decoding",
         "Disk", "Filter", "FrameRequest", "Illumination", "ImageFilter", "Interference", "InvalidPixels", "Keyframe", "Lens", "Material", "Mesh", "Mode",
-        "Object", "ObjectInView", "Override", "Pattern", "Pixel", "PixelMask", "Plane", "Pose", "RanOn", "RawFrame", "Readout", "Rectangle", "Rotation", "Scatter", "Scene", "SceneFinding", "SceneReport",
+        "Object", "ObjectInView", "Override", "Pattern", "Pixel", "PixelMask", "Plane", "Pose", "RanOn", "RawFrame", "Readout", "Rectangle", "Rotation", "Scatter", "Scene", "SceneFile", "SceneFinding", "SceneReport",
         "Sensor", "Sphere", "SpreadSpectrum", "Temperature", "TransientBins", "Transport", "Triangle", "Waveform",
     ),
     "_native": ("DeviceArray", "DeviceFrames", "MeshMotion", "ReflectivityMap", "TriangleMesh", "VectorMap"),

@@ -6,6 +6,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Sequence
 
+from ._pose import PoseMethods
 from ._record import Record
 
 if TYPE_CHECKING:
@@ -1536,11 +1537,12 @@ class Mesh(Record):
         Empty if built in code.
     scale : float, 1
         Of the file's numbers, to metres.
-    up : Literal["automatic", "y", "z", "minus_y"]
-        The file's axis that is up (−y in the world); automatic: y in OBJ and glTF, z in PLY and
-        STL.
+    up : Literal["automatic", "y", "z", "minus_y", "none"]
+        The file's axis that is up, turned to Scene::world_up; automatic: y in OBJ and glTF, z in
+        PLY and STL;.
     time_s : float | None, s
-        Of a glTF file's first animation; none: as its nodes stand.
+        < none: the file's axes are the world's of a glTF file's first animation; none: as its nodes
+        stand.
     play : Literal["still", "once", "loop"]
         Whether that animation goes on, from `time_s` (or its start) at t = 0.
     sha256 : str
@@ -1560,7 +1562,7 @@ class Mesh(Record):
     __slots__ = ("file", "scale", "up", "time_s", "play", "sha256", "left_out", "guessed", "notices", "triangles", "motion")
     file: str
     scale: float
-    up: Literal["automatic", "y", "z", "minus_y"]
+    up: Literal["automatic", "y", "z", "minus_y", "none"]
     time_s: float | None
     play: Literal["still", "once", "loop"]
     sha256: str
@@ -1575,7 +1577,7 @@ class Mesh(Record):
         *,
         file: str = '',
         scale: float = 1.0,
-        up: Literal["automatic", "y", "z", "minus_y"] = 'automatic',
+        up: Literal["automatic", "y", "z", "minus_y", "none"] = 'automatic',
         time_s: float | None = None,
         play: Literal["still", "once", "loop"] = 'still',
         sha256: str = '',
@@ -1605,19 +1607,24 @@ class Rotation(Record):
     ----------
     axis : tuple[float, float, float], 1
     angle_rad : float, rad
+    quaternion : tuple[float, float, float, float] | None, 1
+        X, y, z, w, in place of axis and angle.
     """
-    __slots__ = ("axis", "angle_rad")
+    __slots__ = ("axis", "angle_rad", "quaternion")
     axis: tuple[float, float, float]
     angle_rad: float
+    quaternion: tuple[float, float, float, float] | None
 
     def __init__(
         self,
         *,
         axis: tuple[float, float, float] = (0.0, 0.0, 1.0),
         angle_rad: float = 0.0,
+        quaternion: tuple[float, float, float, float] | None = None,
     ) -> None:
         self.axis = axis
         self.angle_rad = angle_rad
+        self.quaternion = quaternion
 
 
 class Keyframe(Record):
@@ -1838,8 +1845,9 @@ class Transport(Record):
         self.transient = TransientBins() if transient is None else transient
 
 
-class Pose(Record):
-    """Where the camera stands. Camera frame: x right, y down, z forward.
+class Pose(PoseMethods):
+    """Where the camera stands. Camera frame: x right, y down, z forward (the optical frame of ROS and
+    OpenCV).
 
     Attributes
     ----------
@@ -1847,11 +1855,15 @@ class Pose(Record):
     look_at : tuple[float, float, float], m
         A point on the optical axis.
     up : tuple[float, float, float], 1
+        Direction in the world that is up in the image.
+    quaternion : tuple[float, float, float, float] | None, 1
+        X, y, z, w, from the camera's frame to the world's, in place of look_at and up.
     """
-    __slots__ = ("position", "look_at", "up")
+    __slots__ = ("position", "look_at", "up", "quaternion")
     position: tuple[float, float, float]
     look_at: tuple[float, float, float]
     up: tuple[float, float, float]
+    quaternion: tuple[float, float, float, float] | None
 
     def __init__(
         self,
@@ -1859,16 +1871,18 @@ class Pose(Record):
         position: tuple[float, float, float] = (0.0, 0.0, 0.0),
         look_at: tuple[float, float, float] = (0.0, 0.0, 1.0),
         up: tuple[float, float, float] = (0.0, -1.0, 0.0),
+        quaternion: tuple[float, float, float, float] | None = None,
     ) -> None:
         self.position = position
         self.look_at = look_at
         self.up = up
+        self.quaternion = quaternion
 
 
 class CameraKeyframe(Record):
-    """Where the camera stands at a time. Between two of them position, look_at and up change evenly: a
-    camera that looks at one point goes on doing so. Before the first and after the last it stands
-    still.
+    """Where the camera stands at a time. Between two of them its position changes evenly. Where one
+    has a quaternion it turns evenly, the shortest way; else look_at and up change evenly: a camera
+    that looks at one point goes on doing so. Before the first and after the last it stands still.
 
     Attributes
     ----------
@@ -1964,6 +1978,30 @@ class CameraChoice(Record):
         self.mode_where = mode_where
 
 
+class SceneFile(Record):
+    """A file that a scene was read from, beside its own and those of meshes.
+
+    Attributes
+    ----------
+    file : str
+        As the scene names it.
+    sha256 : str
+        Of its bytes, as hexadecimal digits.
+    """
+    __slots__ = ("file", "sha256")
+    file: str
+    sha256: str
+
+    def __init__(
+        self,
+        *,
+        file: str = '',
+        sha256: str = '',
+    ) -> None:
+        self.file = file
+        self.sha256 = sha256
+
+
 class Scene(Record):
     """All that is seen, in which light, and which camera looks at it.
 
@@ -1978,8 +2016,13 @@ class Scene(Record):
     transport : Transport
     materials : list[Material]
     objects : list[Object]
+    world_up : Literal["minus_y", "y", "z"]
+        The world's axis that is up. In files, what is not said follows from it: where a camera
+        looks, what is up in its image, how the axes of meshes are turned. In code nothing does.
+    files : list[SceneFile]
+        Of keyframes.
     """
-    __slots__ = ("name", "source", "camera", "ambient", "transport", "materials", "objects")
+    __slots__ = ("name", "source", "camera", "ambient", "transport", "materials", "objects", "world_up", "files")
     name: str
     source: str
     camera: CameraChoice
@@ -1987,6 +2030,8 @@ class Scene(Record):
     transport: Transport
     materials: list[Material]
     objects: list[Object]
+    world_up: Literal["minus_y", "y", "z"]
+    files: list[SceneFile]
 
     def __init__(
         self,
@@ -1998,6 +2043,8 @@ class Scene(Record):
         transport: Transport | None = None,
         materials: Sequence[Material] = (),
         objects: Sequence[Object] = (),
+        world_up: Literal["minus_y", "y", "z"] = 'minus_y',
+        files: Sequence[SceneFile] = (),
     ) -> None:
         self.name = name
         self.source = source
@@ -2006,6 +2053,8 @@ class Scene(Record):
         self.transport = Transport() if transport is None else transport
         self.materials = list(materials)
         self.objects = list(objects)
+        self.world_up = world_up
+        self.files = list(files)
 
 
 class RanOn(Record):
@@ -2362,6 +2411,6 @@ __all__ = [
     "Interference", "SpreadSpectrum", "Readout", "AutoExposure", "Camera", "Material", "Plane",
     "Sphere", "Box", "Triangle", "Cylinder", "Rectangle", "Disk", "Capsule", "Cone", "Mesh",
     "Rotation", "Keyframe", "Object", "Ambient", "TransientBins", "Transport", "Pose",
-    "CameraKeyframe", "Override", "CameraChoice", "Scene", "RanOn", "FrameRequest", "ObjectInView",
+    "CameraKeyframe", "Override", "CameraChoice", "SceneFile", "Scene", "RanOn", "FrameRequest", "ObjectInView",
     "SceneFinding", "SceneReport", "InvalidPixels",
 ]

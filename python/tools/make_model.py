@@ -23,6 +23,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Sequence
 
+from ._pose import PoseMethods
 from ._record import Record
 
 if TYPE_CHECKING:
@@ -96,6 +97,9 @@ def wrapped(text: str, indent: int) -> str:
     return textwrap.fill(text, 100, initial_indent=" " * indent, subsequent_indent=" " * indent)
 
 
+# Classes that have more than their members.
+BASES = {"Pose": "PoseMethods"}
+
 # Units that a number's name ends in …
 ENDS = {"m": "m", "px": "px", "rad": "rad", "s": "s", "hz": "Hz", "w": "W", "e": "e", "k": "K", "dn": "DN", "celsius": "°C",
         "e_per_s": "e/s", "e_per_dn": "e/DN", "m_per_s": "m/s", "m_per_kelvin": "m/K", "rad_per_s": "rad/s", "w_per_m3": "W/m³"}
@@ -104,7 +108,7 @@ METRES = {"position", "point", "center", "radius", "min", "max", "vertices", "he
 RATIOS = {"fill_factor", "share", "weights", "kernel", "k1", "k2", "k3", "k4", "k5", "k6", "p1", "p2", "f_number", "transmission", "peak",
           "exponent", "duty", "modulation_depth", "correlation", "emission", "axis", "normal", "direction", "up", "samples", "scale", "active",
           "tap_gain_mismatch", "crosstalk_left_right", "crosstalk_up_down", "prnu", "suppression_noise_factor", "sigmas", "flying_sigmas",
-          "asymmetry_sigmas", "multipath_sigmas", "temporal_sigmas", "refractive_index", "diffuse", "specular", "alpha", "retro", "occupancy",
+          "asymmetry_sigmas", "multipath_sigmas", "temporal_sigmas", "quaternion", "refractive_index", "diffuse", "specular", "alpha", "retro", "occupancy",
           "blooming_share", "gain", "gains", "speed", "aim", "bright"}
 OTHERS = {"mid_code": "DN", "celsius": "°C", "Ambient.amount": "by its quantity", "Curve.x": "any unit", "Curve.y": "any unit",
           "SpreadSpectrum.width": "1"}
@@ -138,7 +142,7 @@ def argument(type_name: str, value: object) -> tuple[str, str, str]:
 
 
 def class_text(name: str, members: list[tuple[str, str, object]], said: dict[str, str]) -> str:
-    out = [f"class {name}(Record):"]
+    out = [f"class {name}({BASES.get(name, 'Record')}):"]
     doc = [wrapped(sentence(said.get("", "")) or f"What C++ calls {name}.", 4).strip(), "", "    Attributes", "    ----------"]
     for member, type_name, _ in members:
         doc.append(f"    {member} : {type_name}{unit(name, member, type_name)}")

@@ -8,6 +8,7 @@
 #include "base/units.h"
 #include "files/text_file.h"
 #include "load/convert.h"
+#include "load/rotation_load.h"
 
 namespace tofray::load {
 
@@ -61,6 +62,9 @@ struct Plain {
   void operator()(std::array<double, 2>* member) const { *member = {value.items[0].number, value.items[1].number}; }
   void operator()(std::optional<double>* member) const { *member = value.number; }
   void operator()(std::optional<Vec3>* member) const { *member = vector(value); }
+  void operator()(std::optional<Quaternion>* member) const {
+    *member = {value.items[0].number, value.items[1].number, value.items[2].number, value.items[3].number};
+  }
   void operator()(std::array<Vec3, 3>* member) const {
     for (std::size_t k = 0; k < 3; ++k) (*member)[k] = vector(value.items[k]);
   }
@@ -74,6 +78,8 @@ struct Plain {
 void Filler::fill(const Value& map, const Table& table, void* record) {
   if (!map) return;
   from_[{record, &table}] = &map;
+  if (&table == &model::table_of<Pose>()) *static_cast<Pose*>(record) = pose_in(world_up_);
+  if (&table == &model::table_of<CameraKeyframe>()) static_cast<CameraKeyframe*>(record)->pose = pose_in(world_up_);
   for (const Row& row : table.rows) {
     if (!table.tag.empty() && row.key == table.tag) {
       const model::Slot slot = row.slot(record);
@@ -83,6 +89,8 @@ void Filler::fill(const Value& map, const Table& table, void* record) {
       member(map, row, record);
     }
   }
+  if (&table == &model::table_of<Pose>()) complete_pose(map, *static_cast<Pose*>(record), faults_);
+  if (&table == &model::table_of<Rotation>()) complete_rotation(map, *static_cast<Rotation*>(record), faults_);
   if (map.good && table.complete) table.complete(record, [&](const void* member) { return says(map, table, record, member); });
 }
 
@@ -144,6 +152,7 @@ void Filler::grid(const Value& value, const std::vector<std::vector<double>>& ro
 }
 
 void Filler::list(const Value& value, const model::ListSlot& slot) {
+  if (value.is_map()) return;  // Row::otherwise
   slot.resize(slot.at, value.items.size());
   for (std::size_t i = 0; i < value.items.size(); ++i) fill(value.items[i], slot.table(), slot.element(slot.at, i));
 }

@@ -25,6 +25,9 @@ class Filler : public model::Complaints {
   }
   void fill(const yaml::Value& map, const model::Table& table, void* record);
 
+  /// What poses are where nothing is said.
+  void set_world_up(Scene::Up up) { world_up_ = up; }
+
   /// The struct stands for that map: faults of its members are reported there.
   template <class T>
   void remember(const yaml::Value& map, const T& record) {
@@ -54,6 +57,7 @@ class Filler : public model::Complaints {
 
   std::string folder_;
   base::Faults& faults_;
+  Scene::Up world_up_ = Scene::Up::minus_y;
   std::map<std::pair<const void*, const model::Table*>, const yaml::Value*> from_;
 };
 

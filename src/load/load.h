@@ -16,7 +16,7 @@ namespace tofray::load {
 /// Dotted key and value as written in the file, e.g. {"ambient.level", "5 %"} or {"objects.1.sphere.radius", "20 cm"}.
 using Settings = std::vector<std::pair<std::string, std::string>>;
 
-/// Which meshes a scene may take.
+/// Which files a scene may take: those of meshes and of keyframes.
 struct MeshFiles {
   std::string root = {};  ///< they lie in or below the scene's folder, or in or below this one where it is not empty
   std::optional<std::map<std::string, std::string>> expected = {};  ///< SHA-256 by name as the scene has it: these files and no others

@@ -24,27 +24,34 @@ namespace {
 
 using Corner = std::array<float, 3>;
 
+/// Which axis is up in a file (never automatic), and in the world.
+struct Axes {
+  Mesh::Up file;
+  Scene::Up world;
+};
+
 template <class T>
-std::array<T, 3> turned(const std::array<T, 3>& p, Mesh::Up up) {
-  if (up == Mesh::Up::y) return {p[0], -p[1], -p[2]};
-  if (up == Mesh::Up::z) return {p[0], -p[2], p[1]};
+std::array<T, 3> turned(std::array<T, 3> p, const Axes& up) {
+  if (up.file == Mesh::Up::none) return p;
+  if (up.file == Mesh::Up::y) p = {p[0], -p[1], -p[2]};
+  if (up.file == Mesh::Up::z) p = {p[0], -p[2], p[1]};
+  if (up.world == Scene::Up::y) p = {p[0], -p[1], -p[2]};
+  if (up.world == Scene::Up::z) p = {p[0], p[2], -p[1]};
   return p;
 }
 
 /// In double, rounded once.
-Corner in_world(const Corner& p, double scale, Mesh::Up up) {
+Corner in_world(const Corner& p, double scale, const Axes& up) {
   Corner out = turned(p, up);
   for (float& a : out) a = static_cast<float>(scale * static_cast<double>(a));
   return out;
 }
 
-Mesh::Up up_of(const Mesh& mesh) {
-  if (mesh.up != Mesh::Up::automatic) return mesh.up;
-  if (is_builtin_mesh(mesh.file)) return Mesh::Up::minus_y;
-  return is_gltf(mesh.file) || is_obj(mesh.file) ? Mesh::Up::y : Mesh::Up::z;
+Axes axes_of(const Mesh& mesh, Scene::Up world) {
+  if (mesh.up != Mesh::Up::automatic) return {mesh.up, world};
+  if (is_builtin_mesh(mesh.file)) return {Mesh::Up::minus_y, world};
+  return {is_gltf(mesh.file) || is_obj(mesh.file) ? Mesh::Up::y : Mesh::Up::z, world};
 }
-
-std::string folder_beside(const std::string& source) { return source.starts_with("<") ? "." : files::folder_of(source); }
 
 /// All of a file as one piece.
 /// @param by_material  whether the colours of its vertices are its material
@@ -67,7 +74,7 @@ std::vector<MeshPiece> whole(mesh::ReadMesh read, bool by_material, MeshReader::
 /// What a file says of a mesh's motion, turned and scaled as the mesh is.
 class PlacedMotion : public MeshMotion {
  public:
-  PlacedMotion(std::shared_ptr<const MeshMotion> of_file, double scale, Mesh::Up up)
+  PlacedMotion(std::shared_ptr<const MeshMotion> of_file, double scale, const Axes& up)
       : of_file_(std::move(of_file)), scale_(scale), up_(up) {}
   void at(double time_s, std::vector<Corner>& vertices, std::vector<Corner>& normals) const override {
     of_file_->at(time_s, vertices, normals);
@@ -78,7 +85,7 @@ class PlacedMotion : public MeshMotion {
  private:
   std::shared_ptr<const MeshMotion> of_file_;
   double scale_;
-  Mesh::Up up_;
+  Axes up_;
 };
 
 bool is_in_world(const Corner& p) {
@@ -99,6 +106,8 @@ std::size_t keep_in_world(TriangleMesh& mesh) {
 }
 
 }  // namespace
+
+std::string folder_beside(const std::string& source) { return source.starts_with("<") ? "." : files::folder_of(source); }
 
 void MeshReader::Known::show(std::size_t piece, Mesh& mesh, bool shaded) const {
   const Piece& of = pieces[piece];
@@ -143,7 +152,7 @@ MeshReader::Known MeshReader::from_file(const Places& places, const Mesh& wanted
   std::string path;
   Known known;
   std::vector<MeshPiece> pieces = this->pieces(places, wanted, by_material, path, known);
-  const Mesh::Up up = up_of(wanted);
+  const Axes up = axes_of(wanted, world_up_);
   for (MeshPiece& piece : pieces) {
     count(places.file, piece.mesh);
     for (Corner& p : piece.mesh.vertices) p = in_world(p, wanted.scale, up);
@@ -243,7 +252,7 @@ bool has_own_materials(const std::string& file, const std::string& source, const
   return has;
 }
 
-std::optional<Pose> camera_in(const Mesh& mesh, const std::string& source, const std::string& root) {
+std::optional<Pose> camera_in(const Mesh& mesh, const std::string& source, const std::string& root, Scene::Up world_up) {
   using base::operator*;
   if (!is_gltf(mesh.file)) return std::nullopt;
   std::string path;
@@ -252,7 +261,7 @@ std::optional<Pose> camera_in(const Mesh& mesh, const std::string& source, const
   const GltfFile file = read_gltf(bytes, path, root);
   std::optional<Pose> pose = camera_of(file.model, pose_at(file.model, mesh.time_s));
   if (!pose) return pose;
-  const Mesh::Up up = up_of(mesh);
+  const Axes up = axes_of(mesh, world_up);
   pose->position = mesh.scale * turned(pose->position, up), pose->look_at = mesh.scale * turned(pose->look_at, up);
   pose->up = turned(pose->up, up);
   return pose;

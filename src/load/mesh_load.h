@@ -19,11 +19,17 @@ namespace tofray::load {
 inline constexpr const char* lacks_material =
     "expected one of \"reflectivity\" or \"material\"; glTF files, OBJ files that name an mtllib, and vertices with colours have their own";
 
-/// Reads the meshes that a scene names: each file once, turned so that its up is the world's −y, and scaled to metres.
+/// Where the files that a scene names lie.
+/// @param source  the scene's file, or <NAME> of a built-in one
+std::string folder_beside(const std::string& source);
+
+/// Reads the meshes that a scene names: each file once, turned so that its up is the world's, and scaled to metres. In a world where −y is up:
 ///
 ///     up y:   (x, −y, −z)     its front, +z, looks at a camera at zero that looks along +z
 ///     up z:   (x, −z, y)      its front, −y, does
 ///     up −y:  (x, y, z)
+///
+/// and then, where y is up in the world, to (x, −y, −z), where z is, to (x, z, −y). Up none: (x, y, z) in any world.
 class MeshReader {
  public:
   /// Where the scene names what a mesh is made of.
@@ -52,6 +58,7 @@ class MeshReader {
 
   /// @param source  the scene's file: meshes lie beside it or below
   MeshReader(const std::string& source, const MeshFiles& files);
+  void set_world_up(Scene::Up up) { world_up_ = up; }
   /// Says that read() will want this file's materials: its SHA-256 then is that of all that it names, for all objects.
   void want_materials(const std::string& file) { with_materials_.insert(file); }
   /// What `mesh` shows by its file, scale, up, time and play.
@@ -75,15 +82,18 @@ class MeshReader {
 
   std::string folder_;
   const MeshFiles& files_;
+  Scene::Up world_up_ = Scene::Up::minus_y;
   std::set<std::string> with_materials_;
   std::size_t vertices_ = 0, triangles_ = 0, texels_ = 0;
   std::map<std::tuple<std::string, double, Mesh::Up, std::optional<double>, Mesh::Play, bool>, Known> known_;
 };
 
 /// Where the first perspective camera of a glTF file stands in the world; nothing where there is none, or the file is of another kind.
-/// @param mesh    its file, scale, up and time: a mesh that was read
+/// @param mesh      its file, scale, up and time: a mesh that was read
+/// @param world_up  of its scene
 /// @param source  the scene's file, beside which the mesh lies
-std::optional<Pose> camera_in(const Mesh& mesh, const std::string& source, const std::string& root);
+std::optional<Pose> camera_in(const Mesh& mesh, const std::string& source, const std::string& root,
+                              Scene::Up world_up = Scene::Up::minus_y);
 
 /// Whether a mesh's file has materials of its own: glTF, OBJ where the files of materials that it names can be read, and OBJ and PLY whose
 /// vertices have colours.

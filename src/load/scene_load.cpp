@@ -7,8 +7,10 @@
 #include <set>
 
 #include "base/limits.h"
+#include "base/rotation.h"
 #include "base/text.h"
 #include "base/vec.h"
+#include "files/sha256.h"
 #include "files/text_file.h"
 #include "load/builtin.h"
 #include "load/convert.h"
@@ -18,6 +20,8 @@
 #include "load/material_library.h"
 #include "load/mesh_load.h"
 #include "load/obj_load.h"
+#include "load/rotation_load.h"
+#include "load/trajectory.h"
 #include "yaml/settings.h"
 
 namespace tofray::load {
@@ -48,10 +52,11 @@ struct MeshOfScene {
 class SceneReader {
  public:
   SceneReader(const std::string& source, const MeshFiles& meshes, Faults& faults)
-      : faults_(faults), filler_("", faults), meshes_(source, meshes) {}
+      : faults_(faults), filler_("", faults), source_(source), files_(meshes), meshes_(source, meshes) {}
 
   Scene scene(const Value& root) {
     Scene out;
+    set_world_up(root, out);
     filler_.fill(root, out);
     camera(root["camera"], out.camera);
     ambient(root["ambient"], out.ambient);
@@ -65,6 +70,7 @@ class SceneReader {
     }
     for (std::size_t i = 0; i < objects.items.size(); ++i)
       if (const Value& entry = objects.items[i]; entry.good && !entry.items.empty()) object(entry, i, out);
+    read_keyframes(root, out);
     read_meshes(out);
     filler_.check(out);
     for (const Material& one : of_files_) filler_.check(one);
@@ -74,6 +80,16 @@ class SceneReader {
   }
 
  private:
+  /// It is known before any pose is read.
+  void set_world_up(const Value& root, Scene& out) {
+    const Value& said = root["world_up"];
+    if (said.text == "z") out.world_up = Scene::Up::z;
+    if (said.text == "y") out.world_up = Scene::Up::y;
+    filler_.set_world_up(out.world_up);
+    meshes_.set_world_up(out.world_up);
+    if (!root["camera"]["keyframes"]) out.camera.pose = pose_in(out.world_up);
+  }
+
   void camera(const Value& value, CameraChoice& out) {
     if (!value.is_map()) return;
     if (value["profile"]) out.profile_where = base::to_string(value["profile"].place());
@@ -180,6 +196,7 @@ class SceneReader {
     const auto which = static_cast<std::size_t>(entry.alternative);
     one.emplace(one.at, which);
     filler_.fill(value, one.tables[which](), one.held(one.at));
+    if (value["keyframes"].is_map()) keyframes_of_objects_.emplace_back(&value["keyframes"], scene.objects.size() - 1);
     if (const auto* triangle = std::get_if<Triangle>(&out.shape)) area(value, *triangle);
     if (std::holds_alternative<Mesh>(out.shape)) mesh(value, std::get<Mesh>(out.shape), scene);
   }
@@ -202,6 +219,50 @@ class SceneReader {
     if (out.time_s) faults_.add(value["time"].place(), "time is for glTF files", "an OBJ, PLY or STL file stands still");
     if (out.play != Mesh::Play::still)
       faults_.add(value["play"].place(), "play is for glTF files", "an OBJ, PLY or STL file has no animation");
+  }
+
+  /// Those out of files, once all else that was read is good.
+  void read_keyframes(const Value& root, Scene& scene) {
+    const Value& of_camera = root["camera"]["keyframes"];
+    if (of_camera.is_map() && faults_.empty()) {
+      const Pose mount =
+          of_camera["mount"] ? mount_of(of_camera["mount"], faults_) : Pose{{0, 0, 0}, {0, 0, 1}, {0, -1, 0}, optical_in(of_camera)};
+      if (of_camera["mount"] && of_camera["axes"])
+        faults_.add(of_camera["axes"].place(), "keyframes have axes and a mount",
+                    "the mount says how the camera is turned; it may have axes");
+      for (const TimedPose& one : timed_poses(of_camera, scene)) {
+        using base::operator*, base::operator+;
+        CameraKeyframe& key = scene.camera.keyframes.emplace_back();
+        key.time_s = one.time_s;
+        key.pose.position = one.position + base::matrix_of(one.quaternion) * mount.position;
+        key.pose.quaternion = base::product(one.quaternion, *mount.quaternion);
+      }
+    }
+    for (const auto& [value, object] : keyframes_of_objects_) {
+      if (!faults_.empty()) return;
+      for (const TimedPose& one : timed_poses(*value, scene)) {
+        Keyframe& key = scene.objects[object].keyframes.emplace_back();
+        key.time_s = one.time_s, key.position = one.position, key.rotation.quaternion = one.quaternion;
+      }
+    }
+  }
+
+  std::vector<TimedPose> timed_poses(const Value& map, Scene& scene) {
+    const Value &name = map["file"], &zero = map["time_zero"];
+    std::string path;
+    const std::string text = files::read_reference(name.text, folder_beside(source_), files_.root, name.place(), path);
+    const std::string sha256 = files::sha256_hex(text);
+    if (files_.expected) {
+      const auto expected = files_.expected->find(name.text);
+      if (expected == files_.expected->end() || expected->second != sha256)
+        base::fail(name.place(), in_quotes(path, 200) + " does not hold the keyframes that it did",
+                   "its SHA-256 is not the one that the manifest has; expected the same file in the same place");
+    }
+    TrajectoryTimes times{map["time_unit"].text, {}};
+    if (zero) times.zero = stamp_of(zero.number);
+    const auto same = [&](const SceneFile& file) { return file.file == name.text; };
+    if (std::none_of(scene.files.begin(), scene.files.end(), same)) scene.files.push_back({name.text, sha256});
+    return parse_trajectory(text, path, times, clock_, faults_);
   }
 
   /// Once all else that was read is good: a file may be long.
@@ -308,6 +369,10 @@ class SceneReader {
 
   Faults& faults_;
   Filler filler_;
+  const std::string& source_;
+  const MeshFiles& files_;
+  std::vector<std::pair<const Value*, std::size_t>> keyframes_of_objects_;  ///< out of files, and their objects
+  std::optional<Stamp> clock_;                                              ///< where the times of such files begin
   std::map<std::string, int> index_;
   std::deque<Material> of_files_;  ///< what objects say in place of their files' materials
   MeshReader meshes_;

@@ -37,7 +37,7 @@ void each_number(const Slot& slot, const Visit& visit) {
             list(*one, Spot::whole);
           else if constexpr (std::is_same_v<Member, std::optional<double>>)
             one->has_value() ? void(visit(**one, Spot::whole, -1LL)) : void();
-          else if constexpr (std::is_same_v<Member, std::optional<Vec3>>)
+          else if constexpr (std::is_same_v<Member, std::optional<Vec3>> || std::is_same_v<Member, std::optional<Quaternion>>)
             one->has_value() ? list(**one, Spot::whole) : void();
           else if constexpr (std::is_same_v<Member, std::array<Vec3, 3>>)
             for (const Vec3& point : *one) list(point, Spot::whole);

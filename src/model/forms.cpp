@@ -48,7 +48,10 @@ Form value_form(const Row& row, const Table& table) {
   const Slot slot = slot_of(row, table.fresh);
   Form form = row.form;
   if (const auto* record = std::get_if<RecordSlot>(&slot)) return form_of(record->table());
-  if (const auto* records = std::get_if<ListSlot>(&slot)) form.forms[0] = form_of(records->table());
+  if (const auto* records = std::get_if<ListSlot>(&slot)) {
+    form.forms[0] = form_of(records->table());
+    if (row.otherwise.kind != Kind::anything) form = either({std::move(form), row.otherwise});
+  }
   // A kind that another row under the same key stands for is no word of the files.
   if (std::holds_alternative<ChoiceSlot>(slot))
     for (const Row& other : table.rows)
@@ -118,6 +121,8 @@ class Keys {
 /// A map of the keys, with what they exclude: numbers and their file, ways to say one number.
 Form map_of(const Table& table, int kind) {
   Form form = map(keys_of(table, kind));
+  form.keys.insert(form.keys.end(), table.more.begin(), table.more.end());
+  form.at_most_one = table.at_most_one, form.exactly_one = table.exactly_one, form.meant = table.meant;
   const auto there = [&](const Row& row) {
     return std::any_of(form.keys.begin(), form.keys.end(), [&](const Key& key) { return key.name == row.key && key.member == row.member; });
   };

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "model/lines.h"
 
+#include <algorithm>
+
 #include "base/text.h"
 
 namespace tofray::model {
@@ -55,15 +57,20 @@ class Lines {
   void keys(const Form& form, const std::string& path, const std::string& note) {
     for (const Key& key : form.keys) {
       const std::string here = path.empty() ? key.name : path + "." + key.name;
-      const bool value =
-          is_scalar(key.form) || key.form.kind == Kind::either || (key.form.kind == Kind::list && has_values(key.form.forms[0]));
+      const bool value = has_values(key.form) && (key.form.kind != Kind::list || has_values(key.form.forms[0]));
       if (value) all.push_back({here, value_text(key.form), key.fallback, key.required, note + key.doc, key.member});
       below(key.form, here, key);
     }
   }
 
  private:
-  static bool has_values(const Form& form) { return is_scalar(form) || form.kind == Kind::list; }
+  static bool has_values(const Form& form) {
+    const auto structs = [](const Form& one) {
+      return one.kind == Kind::map || one.kind == Kind::tagged || (one.kind == Kind::list && one.forms[0].kind == Kind::map);
+    };
+    if (form.kind == Kind::either) return !std::all_of(form.forms.begin(), form.forms.end(), structs);
+    return is_scalar(form) || form.kind == Kind::list;
+  }
 
   void below(const Form& form, const std::string& path, const Key& key) {
     switch (form.kind) {

@@ -42,8 +42,11 @@ struct Row {
   std::string doc;
   Presence presence = Presence::optional;
   bool in_meta = true;
-  bool direction = false;  ///< has to have a length
-  std::string file;        ///< the numbers may be in a text file, under the key `file`, called for instance this
+  bool meta_if_set = false;              ///< `meta` has it only where it is not as in a fresh struct
+  std::vector<std::string> in_place_of;  ///< members that count for nothing where this one is given, and that `meta` then leaves out
+  bool direction = false;                ///< has to have a length
+  std::string file;                      ///< the numbers may be in a text file, under the key `file`, called for instance this
+  Form otherwise;  ///< of a list of structs: what may stand in its place, which the reader of files makes such a list of
   // of a curve
   std::string x_key, y_key;
   Form x, y;
@@ -77,6 +80,9 @@ struct Table {
   const void* fresh = nullptr;                                ///< a struct as it is when nothing was set
   std::string tag;                                            ///< the key that says which kind it is; empty: there is but one
   bool default_kind = false;                                  ///< where the key is missing, the fresh struct's kind holds
+  std::vector<Key> more;                                      ///< further keys of files: the reader makes members of them
+  std::vector<std::string> at_most_one, exactly_one;          ///< of the keys, those of `more` too
+  std::vector<std::pair<std::string, std::string>> meant;     ///< unknown keys that people try, and what they mean
   std::function<void(const void* record, Complaints&)> rule;  ///< what has to hold between members
   std::function<void(void* record, const Given&)> complete;   ///< members that follow from others unless the file gives them
 
@@ -85,6 +91,22 @@ struct Table {
   Table& check_with(void (*rule)(const T&, Complaints&));
   template <class T>
   Table& complete_with(void (*complete)(T&, const Given&));
+  Table& and_keys(std::vector<Key> keys) {
+    more = std::move(keys);
+    return *this;
+  }
+  Table& with_at_most_one(std::vector<std::string> keys) {
+    at_most_one = std::move(keys);
+    return *this;
+  }
+  Table& with_exactly_one(std::vector<std::string> keys) {
+    exactly_one = std::move(keys);
+    return *this;
+  }
+  Table& with_meant(std::vector<std::pair<std::string, std::string>> words) {
+    meant = std::move(words);
+    return *this;
+  }
   Table& kind_may_be_missing() {
     default_kind = true;
     return *this;
@@ -154,6 +176,9 @@ struct Rows {
   Rows required() && { return std::move(*this).with(&Row::presence, Presence::required); }
   Rows absent() && { return std::move(*this).with(&Row::presence, Presence::absent); }
   Rows not_in_meta() && { return std::move(*this).with(&Row::in_meta, false); }
+  Rows in_meta_if_set() && { return std::move(*this).with(&Row::meta_if_set, true); }
+  Rows in_place_of(std::vector<std::string> members) && { return std::move(*this).with(&Row::in_place_of, members); }
+  Rows or_else(Form form) && { return std::move(*this).with(&Row::otherwise, form); }
   /// Its numbers may also be in a text file.
   Rows or_file(const char* example) && { return std::move(*this).with(&Row::file, std::string(example)); }
   Rows direction() && { return std::move(*this).with(&Row::direction, true); }
@@ -181,7 +206,7 @@ Rows<1> row(const char* key, Form form, const char* doc) {
 }
 }  // namespace detail
 
-/// A number, a whole number, two lengths, three coordinates, three points: what the member is.
+/// A number, a whole number, two lengths, three coordinates, three points, a quaternion: what the member is.
 template <auto M>
 Rows<1> number(const char* key, const Number& number, const char* doc) {
   using Member = typename detail::Of<decltype(M)>::Member;
@@ -194,6 +219,8 @@ Rows<1> number(const char* key, const Number& number, const char* doc) {
     return detail::row<M>(key, list(list(one, 3, 3), 3, 3), doc);
   } else if constexpr (std::is_same_v<Member, std::array<double, 2>>) {
     return detail::row<M>(key, list(one, 2, 2), doc);
+  } else if constexpr (std::is_same_v<Member, std::optional<Quaternion>>) {
+    return detail::row<M>(key, list(one, 4, 4), doc);
   } else {
     return detail::row<M>(key, list(one, 3, 3), doc);
   }

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "base/limits.h"
+#include "base/rotation.h"
 #include "base/text.h"
 #include "base/vec.h"
 
@@ -248,13 +249,34 @@ void meshes_have_triangles(const Mesh& mesh, Complaints& complaints) {
   check_shades(all, complain);
 }
 
+namespace {
+/// @return whether there is a quaternion
+template <class Record>
+bool good_quaternion(const Record& record, Complaints& complaints) {
+  if (!record.quaternion) return false;
+  const base::NoRotation wrong = base::why_no_rotation(*record.quaternion);
+  if (!wrong.what.empty()) complaints.add(record, &record.quaternion, wrong.what, wrong.more);
+  return true;
+}
+}  // namespace
+
 void turns_have_an_axis(const Rotation& rotation, Complaints& complaints) {
-  if (rotation.angle_rad != 0 && base::length(rotation.axis) < shortest_m)
+  if (good_quaternion(rotation, complaints)) {
+    if (rotation.angle_rad != 0)
+      complaints.add(rotation, &rotation.angle_rad, "the rotation has a quaternion and an angle", "take the one out or the other");
+  } else if (rotation.angle_rad != 0 && base::length(rotation.axis) < shortest_m)
     complaints.add(rotation, &rotation.axis, "axis has no length", "expected a direction such as [0, 0, 1]");
 }
 
 void poses_look_somewhere(const Pose& pose, Complaints& complaints) {
   using base::operator-;
+  if (good_quaternion(pose, complaints)) {
+    const Pose fresh;
+    if (pose.look_at != fresh.look_at || pose.up != fresh.up)
+      complaints.add(pose, &pose.quaternion, "the pose has a quaternion, and look_at or up",
+                     "the quaternion says how the camera is turned; take it out, or leave the others as they are in a new pose");
+    return;
+  }
   const Vec3 view = pose.look_at - pose.position;
   const double view_length = base::length(view), up_length = base::length(pose.up);
   if (view_length < shortest_m) {
@@ -286,7 +308,7 @@ void objects_move_one_way(const Object& object, Complaints& complaints) {
   };
   const Vec3 zero{0, 0, 0};
   only(&object.position, "a position", object.position != zero);
-  only(&object.rotation, "a rotation", object.rotation.angle_rad != 0);
+  only(&object.rotation, "a rotation", base::turns(object.rotation));
   only(&object.velocity_m_per_s, "a velocity", object.velocity_m_per_s != zero);
   only(&object.angular_velocity_rad_per_s, "an angular velocity", object.angular_velocity_rad_per_s != zero);
 }
@@ -306,11 +328,13 @@ void cameras_move_one_way(const CameraChoice& camera, Complaints& complaints) {
   const std::vector<CameraKeyframe>& keys = camera.keyframes;
   if (!follow_each_other(keys, complaints)) return;
   const Pose fresh;
-  if (camera.pose.position != fresh.position || camera.pose.look_at != fresh.look_at || camera.pose.up != fresh.up)
+  if (camera.pose.position != fresh.position || camera.pose.look_at != fresh.look_at || camera.pose.up != fresh.up ||
+      camera.pose.quaternion)
     complaints.add(camera, &camera.pose, "the camera has keyframes and a pose", "its keyframes say where it stands; take the pose out");
   // View f and up u change evenly; f × u, to the image's left, never vanishes where its three Bernstein coefficients are ahead of the first.
   for (std::size_t i = 1; i < keys.size(); ++i) {
     const Pose &a = keys[i - 1].pose, &b = keys[i].pose;
+    if (a.quaternion || b.quaternion) continue;  // it turns the shortest way
     const Vec3 from = a.look_at - a.position, to = b.look_at - b.position, left = cross(from, a.up);
     const Vec3 last = cross(to, b.up);
     const double halfway = dot(cross(from, b.up) + cross(to, a.up), left);

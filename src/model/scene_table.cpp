@@ -158,9 +158,9 @@ const Table& table_of<Mesh>() {
                              "OBJ, PLY, STL or glTF, beside the scene or below; or tofray:bumpy-ball, tofray:wavy-floor")
               .required(),
           number<&Mesh::scale>("scale", {none, {1e-9, 1e9}, "0.001"}, "of the file's numbers, to metres: 0.001 where they are mm"),
-          choice<&Mesh::up>(
-              "up", {"automatic", "y", "z", "-y"},
-              "the file's axis that is up; automatic: y of an OBJ or glTF, z of a PLY or STL file; -y: the file has the world's axes"),
+          choice<&Mesh::up>("up", {"automatic", "y", "z", "-y", "none"},
+                            "the file's axis that is up, turned to `world_up`; automatic: y of an OBJ or glTF, z of a PLY or STL file; "
+                            "none: the file's axes are the world's"),
           number<&Mesh::time_s>("time", {time, {0, 1e6}, "1.5 s"},
                                 "of a glTF file's first animation; as the file stands still unless given")
               .absent(),
@@ -181,11 +181,54 @@ std::vector<const Table& (*)()> tables_in(const std::variant<T...>*) {
 
 std::vector<const Table& (*)()> tables_of_shapes() { return tables_in(static_cast<const decltype(Object::shape)*>(nullptr)); }
 
+namespace {
+
+/// Rotations as other software writes them: the reader makes quaternions of them.
+std::vector<Key> matrix_and_euler(int columns, const char* matrix) {
+  const Form entry = form_of(component), turn = form_of(Number{angle, {-100, 100}, "30 deg"});
+  std::vector<Key> angles;
+  for (const auto& [name, doc] : {std::pair{"roll", "about the fixed axis x, as rpy in URDF"},
+                                  {"pitch", "about the fixed axis y, after that"},
+                                  {"yaw", "about the fixed axis z, last"}}) {
+    angles.push_back(absent(name, turn, doc));
+    angles.back().fallback = "0 deg";
+  }
+  return {absent("matrix", list(list(entry, 3, columns), 3, columns), matrix),
+          absent("euler", map(std::move(angles)), "turns about the fixed axes x, y and z, one after the other, as rpy in URDF")};
+}
+
+std::vector<Key> axes_of_cameras() {
+  std::vector<Key> keys{absent("axes", choice({"optical", "body", "opengl"}),
+                               "of what quaternion, matrix and euler turn: optical: x right, y down, z forward; body (ROS): x forward, y "
+                               "left, z up; opengl (Blender): x right, y up, z backward")};
+  keys.back().fallback = "optical";
+  return keys;
+}
+
+/// Poses at times out of a file.
+Form keyframe_file(std::vector<Key> more) {
+  std::vector<Key> keys{required("file", text("a file", "poses.csv"),
+                                 "a pose a line, t x y z qx qy qz qw or what its header says, beside the scene or below"),
+                        absent("time_unit", choice({"s", "ms", "us", "ns"}), "of its times; what its header says, else s"),
+                        absent("time_zero", form_of(Number{time, {-1e12, 1e12}, "0 s"}),
+                               "the file's time at which the scene's is 0; 0 s, but where its times are of a clock (beyond 1e6 s) the "
+                               "first one of the scene's first such file, the camera's before those of objects")};
+  for (Key& key : more) keys.push_back(std::move(key));
+  return map(std::move(keys));
+}
+
+}  // namespace
+
 template <>
 const Table& table_of<Rotation>() {
   static const Table rows =
-      table<Rotation>(number<&Rotation::axis>("axis", component, "the axis, by the right-hand rule; any length but zero").required(),
-                      number<&Rotation::angle_rad>("angle", {angle, {-100, 100}, "30 deg"}, "how far").required())
+      table<Rotation>(
+          number<&Rotation::axis>("axis", component, "the axis, by the right-hand rule; any length but zero").absent(),
+          number<&Rotation::angle_rad>("angle", {angle, {-100, 100}, "30 deg"}, "how far, with axis").absent(),
+          number<&Rotation::quaternion>("quaternion", component, "x, y, z, w, of length 1").absent().in_place_of({"axis", "angle_rad"}))
+          .and_keys(matrix_and_euler(3, "three rows of three: its columns are where x, y and z turn to"))
+          .with_exactly_one({"axis", "quaternion", "matrix", "euler"})
+          .with_meant({{"orientation", "quaternion"}, {"rpy", "euler"}})
           .check_with(turns_have_an_axis);
   return rows;
 }
@@ -218,7 +261,8 @@ const Table& table_of<Object>() {
                                                       "the axis of a steady turn about the object's own centre, times how fast it turns"),
           records<&Object::keyframes>(
               "keyframes", 0, most_keyframes,
-              "where it is when, in place of `position`, `rotation` and both velocities; it moves evenly between two"),
+              "where it is when, in place of `position`, `rotation` and both velocities; it moves evenly between two")
+              .or_else(keyframe_file({})),
           no_row<&Object::key, &Object::where>("where the file says it"))
           .check_with(objects_move_one_way);
   return rows;
@@ -258,12 +302,45 @@ const Table& table_of<Ambient>() {
 
 template <>
 const Table& table_of<Pose>() {
-  static const Table rows = table<Pose>(number<&Pose::position>("position", coordinate, "of the entrance pupil [m]"),
-                                        number<&Pose::look_at>("look_at", coordinate, "a point on the optical axis [m]"),
-                                        number<&Pose::up>("up", component, "the world's direction that is up in the image").direction())
-                                .check_with(poses_look_somewhere);
+  static const Table rows = [] {
+    std::vector<Key> more = matrix_and_euler(
+        4, "from the camera's frame to the world's, as rows: 3 x 3, or 3 x 4 or 4 x 4 with the position in the last column [m]");
+    for (Key& key : axes_of_cameras()) more.push_back(std::move(key));
+    return table<Pose>(number<&Pose::position>("position", coordinate, "of the entrance pupil [m]"),
+                       number<&Pose::look_at>("look_at", coordinate, "a point on the optical axis; [1, 0, 0] where `world_up` is z [m]"),
+                       number<&Pose::up>("up", component, "the world's direction that is up in the image; that of `world_up`").direction(),
+                       number<&Pose::quaternion>("quaternion", component, "x, y, z, w, from the camera's frame to the world's, of length 1")
+                           .absent()
+                           .in_place_of({"look_at", "up"}))
+        .and_keys(std::move(more))
+        .with_at_most_one({"look_at", "quaternion", "matrix", "euler"})
+        .with_meant({{"frame", "axes"},
+                     {"convention", "axes"},
+                     {"orientation", "quaternion"},
+                     {"rotation", "quaternion"},
+                     {"rpy", "euler"},
+                     {"translation", "position"},
+                     {"transform", "matrix"}})
+        .check_with(poses_look_somewhere);
+  }();
   return rows;
 }
+
+namespace {
+/// Where a camera is on what carries it.
+Form mount_form() {
+  Form form = form_of(table_of<Pose>());
+  std::erase_if(form.keys, [](const Key& key) { return key.name == "look_at" || key.name == "up"; });
+  std::erase(form.at_most_one, "look_at");
+  for (Key& key : form.keys) {
+    if (key.name == "position") key.doc = "of the entrance pupil, in the robot's frame [m]";
+    if (key.name == "quaternion") key.doc = "x, y, z, w, from the camera's frame to the robot's, of length 1";
+    if (key.name == "matrix") key.doc = "from the camera's frame to the robot's, as rows, as at `pose`";
+    key.member.clear();
+  }
+  return form;
+}
+}  // namespace
 
 template <>
 const Table& table_of<CameraKeyframe>() {
@@ -284,7 +361,15 @@ const Table& table_of<CameraChoice>() {
               .absent(),
           record<&CameraChoice::pose>("pose", "where the camera stands; the world is the camera's frame unless given"),
           records<&CameraChoice::keyframes>("keyframes", 0, most_keyframes,
-                                            "where it stands when, in place of `pose`; it moves evenly between two"),
+                                            "where it stands when, in place of `pose`; it moves evenly between two")
+              .or_else(keyframe_file([] {
+                std::vector<Key> more = axes_of_cameras();
+                more[0].doc = "of what moves by the file: as at `pose`";
+                more.push_back(
+                    absent("mount", mount_form(),
+                           "where the camera is on what moves by the file (its frame to the robot's), if they are not the same"));
+                return more;
+              }())),
           no_row<&CameraChoice::overrides>("keys of the profile among the section's own"),
           no_row<&CameraChoice::profile_where, &CameraChoice::mode_where>("where the file says them"))
           .check_with(cameras_move_one_way);
@@ -325,11 +410,15 @@ const Table& table_of<Scene>() {
   static const Table rows =
       table<Scene>(words<&Scene::name>("", "", "", ""),  // the file's
                    no_row<&Scene::source>("a file's place is no part of what it says"),
+                   choice<&Scene::world_up>("world_up", {"-y", "y", "z"},
+                                            "the world's axis that is up: where a camera looks and what is up in its image unless its pose "
+                                            "says it, how meshes are turned; z in the worlds of ROS and Blender")
+                       .in_meta_if_set(),
                    record<&Scene::camera>("camera", "which camera, where it stands, and what to change in its profile").not_in_meta(),
                    record<&Scene::ambient>("ambient", "light that is not the camera's own; none unless given"),
                    record<&Scene::transport>("transport", "light that goes on from surface to surface; straight back unless given"),
                    records<&Scene::materials>("", 0, most_materials + most_objects, ""),  // by name, and those of objects
-                   records<&Scene::objects>("", 0, most_objects, ""))
+                   records<&Scene::objects>("", 0, most_objects, ""), no_row<&Scene::files>("what the reader met"))
           .check_with(objects_have_a_material);
   return rows;
 }
@@ -385,7 +474,9 @@ std::vector<std::pair<std::string, std::string>> words_that_people_try() {
                                                             {"meshes", "objects"},
                                                             {"profile", "camera.profile"},
                                                             {"pose", "camera.pose"},
-                                                            {"keyframes", "camera.keyframes"}};
+                                                            {"keyframes", "camera.keyframes"},
+                                                            {"up_axis", "world_up"},
+                                                            {"z_up", "world_up: z"}};
   // What a camera's profile has may be meant for the scene's camera.
   for (const Key& key : camera_form().root.keys) words.emplace_back(key.name, "camera." + key.name);
   return words;
@@ -397,7 +488,7 @@ const FileForm& scene_form() {
   static const FileForm form = [] {
     FileForm file{"scene", "tofray scene: objects, materials, ambient light, and where the camera stands", form_of(table_of<Scene>()),
                   false};
-    file.root.keys[0].form.open = true;  // the profile's own keys may follow and override it
+    file.root.keys[1].form.open = true;  // the profile's own keys may follow and override it
     file.root.keys.push_back(absent("materials", dictionary(form_of(table_of<Material>()), 0, most_materials),
                                     "materials by name, at the illumination wavelength"));
     file.root.keys.push_back(required("objects", objects_form(), "what the camera looks at"));

@@ -62,8 +62,8 @@ struct VariantSlot {
 };
 
 using Slot = std::variant<double*, int*, unsigned long long*, bool*, std::string*, Vec3*, std::optional<double>*, std::optional<Vec3>*,
-                          std::array<double, 2>*, std::array<Vec3, 3>*, std::vector<double>*, CurveSlot, GridSlot, ChoiceSlot, RecordSlot,
-                          ListSlot, VariantSlot>;
+                          std::optional<Quaternion>*, std::array<double, 2>*, std::array<Vec3, 3>*, std::vector<double>*, CurveSlot,
+                          GridSlot, ChoiceSlot, RecordSlot, ListSlot, VariantSlot>;
 
 template <class T>
 Slot slot_of(T& member);

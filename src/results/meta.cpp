@@ -35,6 +35,7 @@ struct MemberTree {
   Tree operator()(std::string* member) const { return *member; }
   Tree operator()(std::optional<double>* member) const { return member->has_value() ? Tree(**member) : Tree(); }
   Tree operator()(std::optional<Vec3>* member) const { return member->has_value() ? Tree(**member) : Tree(); }
+  Tree operator()(std::optional<Quaternion>* member) const { return member->has_value() ? Tree(**member) : Tree(); }
   Tree operator()(std::vector<double>* member) const { return member->empty() ? Tree() : Tree(*member); }
   Tree operator()(const model::CurveSlot& curve) const { return curve.y->empty() ? Tree() : Tree{{"x", *curve.x}, {"y", *curve.y}}; }
   Tree operator()(const model::GridSlot& grid) const { return (*this)(grid.samples); }
@@ -55,7 +56,8 @@ Tree tree_of(const Table& table, const void* record) {
     if (!row.in_meta || out.contains(row.name())) continue;  // a second row of the same member
     const model::Slot slot = slot_of(row, record);
     Tree value = std::visit(MemberTree{row}, slot);
-    if (value.is_null()) continue;
+    if (value.is_null() || (row.meta_if_set && value == std::visit(MemberTree{row}, slot_of(row, table.fresh)))) continue;
+    for (const std::string& idle : row.in_place_of) out.erase(idle);
     if (row.second.empty()) {
       out[row.name()] = std::move(value);
     } else {

@@ -6,6 +6,8 @@
 #include <cmath>
 
 #include "base/constants.h"
+#include "base/faults.h"
+#include "base/rotation.h"
 #include "num/setup_math.h"
 #include "tofray/simulator.h"
 
@@ -41,11 +43,28 @@ struct Turn {
   Vec3 axis{0, 0, 1};
   double angle = 0;
 };
-Turn turn_of(const Rotation& rotation) { return rotation.angle_rad == 0 ? Turn{} : Turn{normalized(rotation.axis), rotation.angle_rad}; }
+Turn turn_of(const Quaternion& q) {
+  const Vec3 v{q[0], q[1], q[2]};
+  const double sine = length(v);
+  if (sine == 0) return {};
+  return {(q[3] < 0 ? -1 / sine : 1 / sine) * v, 2 * setup::atan2(sine, std::abs(q[3]))};
+}
+Turn turn_of(const Rotation& rotation) {
+  if (rotation.quaternion) return turn_of(normalized(*rotation.quaternion));
+  return rotation.angle_rad == 0 ? Turn{} : Turn{normalized(rotation.axis), rotation.angle_rad};
+}
+
+Quaternion quaternion_of(const Rotation& rotation) {
+  if (rotation.quaternion) return normalized(*rotation.quaternion);
+  const Turn turn = turn_of(rotation);
+  const double sine = setup::sin(0.5 * turn.angle);
+  return {sine * turn.axis[0], sine * turn.axis[1], sine * turn.axis[2], setup::cos(0.5 * turn.angle)};
+}
 
 /// From one rotation to another, by a turn that follows the first. Rotations about one axis, or its opposite, keep all their angle; others go
-/// the shortest way, by the quaternion b·a⁻¹.
+/// the shortest way, by the quaternion b·a⁻¹, and so does what a quaternion says.
 Turn turn_between(const Rotation& from, const Rotation& to) {
+  if (from.quaternion || to.quaternion) return turn_of(base::product(quaternion_of(to), inverse(quaternion_of(from))));
   const Turn a = turn_of(from), b = turn_of(to);
   if (a.angle == 0) return b;
   if (b.angle == 0) return {a.axis, -a.angle};
@@ -77,6 +96,10 @@ Vec3 change_of_direction(const Vec3& v, const Vec3& change) {
 Mat product(const Mat& a, const Mat& b) { return {{back(b, a.row[0]), back(b, a.row[1]), back(b, a.row[2])}}; }
 
 Mat rotation_matrix(const Rotation& r) {
+  if (r.quaternion) {
+    const Mat3 m = matrix_of(*r.quaternion);
+    return {{vec(m[0]), vec(m[1]), vec(m[2])}};
+  }
   if (r.angle_rad == 0) return {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
   const Vec3 k = normalized(r.axis);
   const double c = setup::cos(r.angle_rad), s = setup::sin(r.angle_rad), v = 1 - c;
@@ -108,7 +131,7 @@ Motion motion_at(const Object& object, const Vec& center, double time_s) {
     velocity = (1 / keys.duration_s) * (vec(to.position) - vec(from.position));
     out.turn = product(rotation_matrix({turn.axis, keys.share * turn.angle}), rotation_matrix(from.rotation));
     out.spin = (turn.angle / keys.duration_s) * vec(turn.axis);
-    turns = from.rotation.angle_rad != 0 || turn.angle != 0;
+    turns = base::turns(from.rotation) || turn.angle != 0;
   }
   out.shift = turns ? center + shift - out.turn * center : shift;
   out.drift = velocity - cross(out.spin, center + shift);
@@ -116,15 +139,32 @@ Motion motion_at(const Object& object, const Vec& center, double time_s) {
 }
 
 CameraFrame camera_frame(const Pose& pose) {
+  if (pose.quaternion) return {transposed(matrix_of(*pose.quaternion)), pose.position};
   const Vec3 forward = normalized(pose.look_at - pose.position);
   const Vec3 down = normalized(dot(pose.up, forward) * forward - pose.up);
   return {{{cross(down, forward), down, forward}}, pose.position};
 }
 
+namespace {
+/// Whether the camera turns evenly from one to the other.
+bool steady(const Between<CameraKeyframe>& keys) { return keys.from->pose.quaternion || keys.to->pose.quaternion; }
+
+Quaternion quaternion_of(const Pose& pose) {
+  return pose.quaternion ? normalized(*pose.quaternion) : base::quaternion_of(transposed(camera_frame(pose).rotation));
+}
+
+Turn turn_between(const Pose& from, const Pose& to) { return turn_of(base::product(quaternion_of(to), inverse(quaternion_of(from)))); }
+}  // namespace
+
 Pose pose_at(const CameraChoice& camera, double time_s) {
   if (camera.keyframes.empty()) return camera.pose;
   const auto keys = between(camera.keyframes, time_s);
   const Pose &a = keys.from->pose, &b = keys.to->pose;
+  if (steady(keys)) {
+    const Turn turn = turn_between(a, b);
+    const Quaternion part = quaternion_of(Rotation{turn.axis, keys.share * turn.angle});
+    return {mixed(a.position, b.position, keys.share), {0, 0, 1}, {0, -1, 0}, base::product(part, quaternion_of(a))};
+  }
   return {mixed(a.position, b.position, keys.share), mixed(a.look_at, b.look_at, keys.share), mixed(a.up, b.up, keys.share)};
 }
 
@@ -134,8 +174,15 @@ MovingCamera camera_at(const CameraChoice& camera, double time_s) {
   if (camera.keyframes.empty()) return out;
   const auto keys = between(camera.keyframes, time_s);
   if (keys.from == keys.to) return out;
+  const Pose &from = keys.from->pose, &to = keys.to->pose;
+  if (steady(keys)) {
+    const Turn turn = turn_between(from, to);
+    out.velocity = (1 / keys.duration_s) * (vec(to.position) - vec(from.position));
+    out.spin = (turn.angle / keys.duration_s) * vec(turn.axis);
+    return out;
+  }
   // The axes turn as their derivatives say: spin = ½·Σ axis × its change.
-  const auto change = [&](const Vec3 Pose::*of) { return (1 / keys.duration_s) * (keys.to->pose.*of - keys.from->pose.*of); };
+  const auto change = [&](const Vec3 Pose::*of) { return (1 / keys.duration_s) * (to.*of - from.*of); };
   const Vec3 view = now.look_at - now.position, forward = out.frame.rotation[2];
   const Vec3 turn = change_of_direction(view, change(&Pose::look_at) - change(&Pose::position)), rise = change(&Pose::up);
   const Vec3 down = dot(now.up, forward) * forward - now.up;
@@ -150,8 +197,9 @@ MovingCamera camera_at(const CameraChoice& camera, double time_s) {
 
 namespace tofray {
 
-std::array<double, 16> camera_pose(const Scene& scene, double time_s) {
-  const scene::CameraFrame frame = scene::camera_frame(scene::pose_at(scene.camera, time_s));
+namespace {
+std::array<double, 16> camera_to_world(const Pose& one) {
+  const scene::CameraFrame frame = scene::camera_frame(one);
   std::array<double, 16> pose{};
   for (std::size_t i = 0; i < 3; ++i) {
     // The frame's rotation takes world to camera: its transpose goes back.
@@ -159,6 +207,38 @@ std::array<double, 16> camera_pose(const Scene& scene, double time_s) {
     pose[4 * i + 3] = frame.position[i];
   }
   pose[15] = 1;
+  return pose;
+}
+}  // namespace
+
+std::array<double, 16> pose_matrix(const Pose& pose) {
+  if (pose.quaternion) {
+    const base::NoRotation wrong = base::why_no_rotation(*pose.quaternion);
+    if (!wrong.what.empty()) base::refuse(wrong.what + "\n  " + wrong.more);
+  }
+  const std::array<double, 16> out = camera_to_world(pose);
+  if (!std::all_of(out.begin(), out.end(), [](double part) { return std::isfinite(part); }))
+    base::refuse("the pose looks nowhere\n  expected finite numbers, look_at apart from position, and up across the way from there to it");
+  return out;
+}
+
+std::array<double, 16> camera_pose(const Scene& scene, double time_s) { return camera_to_world(scene::pose_at(scene.camera, time_s)); }
+
+Pose pose_from_matrix(const std::array<double, 16>& camera_to_world) {
+  const auto& m = camera_to_world;
+  for (std::size_t i = 0; i < m.size(); ++i)
+    if (!std::isfinite(m[i]))
+      base::refuse("the matrix of a pose has a number that is not finite, at row " + std::to_string(i / 4) + ", column " +
+                   std::to_string(i % 4));
+  if (m[12] != 0 || m[13] != 0 || m[14] != 0 || m[15] != 1)
+    base::refuse(
+        "the last row of the matrix of a pose is not 0, 0, 0, 1\n  expected the position in the last column; a transposed matrix has it in "
+        "the last row");
+  const base::Mat3 turn{{{m[0], m[1], m[2]}, {m[4], m[5], m[6]}, {m[8], m[9], m[10]}}};
+  const base::NoRotation wrong = base::why_no_rotation(turn);
+  if (!wrong.what.empty()) base::refuse(wrong.what + "\n  " + wrong.more);
+  Pose pose;
+  pose.position = {m[3], m[7], m[11]}, pose.quaternion = base::quaternion_of(turn);
   return pose;
 }
 

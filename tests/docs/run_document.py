@@ -30,6 +30,8 @@ SCENES = [
     "objects: []\n{}\n",
     "objects: []\nambient: {{{}}}\n",
     "objects: []\nambient: {{level: 5 %, {}}}\n",
+    "objects: []\ncamera: {{pose: {{{}}}}}\n",
+    "objects: []\ncamera: {{keyframes: {{file: poses.csv, {}}}}}\n",
     "objects: [mesh: {{file: a-chair.obj, reflectivity: 0.5, {}}}]\n",
     "objects: [box: {{min: [-1, -1, 2], max: [1, 1, 3], reflectivity: 0.5, {}}}]\n",
 ]

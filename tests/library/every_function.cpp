@@ -99,6 +99,7 @@ void all() {
   const tofray::RanOn machine = simulator.ran_on();
   expect(!machine.backend.empty() && !machine.device.empty() && !machine.isa.empty() && machine.threads > 0, "ran_on");
   const auto pose = tofray::camera_pose(scene, 0);
+  expect(tofray::pose_matrix(tofray::pose_from_matrix(pose)) == pose, "pose_matrix, pose_from_matrix: there and back");
   expect(pose[0] == 1 && pose[10] == 1 && pose[15] == 1 && pose[3] == 0, "camera_pose: the world's frame is the camera's");
   expect(tofray::version()[0] != 0, "version");
   on_device(simulator);

@@ -38,7 +38,9 @@ inline Node sample(const Form& form, std::size_t v, int k = 0, const std::string
       {"phases",
        "[0 deg, 20 deg, 40 deg, 60 deg, 80 deg, 100 deg, 120 deg, 140 deg, 160 deg, 180 deg, 200 deg, 220 deg, 240 deg, 260 deg, 280 deg, "
        "300 deg]"},
-      {"valid_max", "3750"}};
+      {"valid_max", "3750"},
+      {"quaternion", "[0, 0.6, 0, 0.8]"},
+      {"matrix", "[[0, -1, 0], [1, 0, 0], [0, 0, 1]]"}};
   if (const auto found = fixed.find(key); found != fixed.end()) return scalar(found->second);
   Node node;
   const auto map_of = [&](const Form& map, Node& into) {
@@ -55,6 +57,14 @@ inline Node sample(const Form& form, std::size_t v, int k = 0, const std::string
         return at == group.end() || static_cast<std::size_t>(at - group.begin()) == v % count;
       };
       if (!one_of(map.exactly_one) || !one_of(map.at_most_one)) continue;
+      // Keys that go with one way of saying a rotation.
+      const auto has = [&](const char* name) {
+        return std::any_of(map.keys.begin(), map.keys.end(), [&](const auto& other) { return other.name == name; });
+      };
+      const bool first_way = v % 4 == 0;
+      if ((row.name == "up" && has("look_at") && !first_way) || (row.name == "axes" && ((has("look_at") && first_way) || has("mount"))) ||
+          (row.name == "angle" && has("axis") && has("euler") && !first_way))
+        continue;
       into.keys.push_back({row.name, {}});
       into.items.push_back(sample(row.form, v, k + (row.name == "max" || row.name == "end" || row.name == "look_at" ? 5 : 0), row.name));
     }

@@ -47,6 +47,7 @@ class every_field : public testing::TestWithParam<const char*> {
   // The files that the tables' examples name lie in the working folder.
   void SetUp() override {
     out_test::write_file(folder_.path() / "chair.glb", gltf_test::animated_file().glb());
+    out_test::write_file(folder_.path() / "poses.csv", "0 0 0 0 0 0 0 1\n1 0.1 0 0 0 0 0 1\n");
     std::filesystem::current_path(folder_.path());
   }
   void TearDown() override { std::filesystem::current_path(before_); }

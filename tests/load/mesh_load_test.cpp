@@ -66,6 +66,25 @@ TEST_F(mesh_files, are_turned_so_that_up_is_up) {
   EXPECT_EQ(first("file: side/corner.ply, up: y"), (V{1, -2, -3}));
 }
 
+// As Blender turns a file with y up when it takes it into its own world: (x, -z, y).
+TEST_F(mesh_files, are_turned_to_the_worlds_up_or_not_at_all) {
+  const auto in = [&](const char* world, const std::string& keys) {
+    const std::string text = std::string("world_up: ") + world + "\nobjects:\n  - mesh: {" + keys + ", reflectivity: 0.5}\n";
+    const Scene one = load::scene_from_text(text, (folder_.path() / "in/scene.yaml").string());
+    return std::get<Mesh>(one.objects.at(0).shape).triangles->vertices.at(0);
+  };
+  EXPECT_EQ(in("z", "file: corner.obj"), (V{1, -3, 2}));
+  EXPECT_EQ(in("z", "file: side/corner.ply"), (V{1, 2, 3}));
+  EXPECT_EQ(in("z", "file: corner.obj, up: -y"), (V{1, 3, -2}));
+  EXPECT_EQ(in("y", "file: corner.obj"), (V{1, 2, 3}));
+  EXPECT_EQ(in("y", "file: side/corner.ply"), (V{1, 3, -2}));
+  EXPECT_EQ(in("y", "file: corner.obj, up: -y"), (V{1, -2, -3}));
+  EXPECT_EQ(in("-y", "file: corner.obj"), (V{1, -2, -3}));
+  for (const char* world : {"-y", "y", "z"})
+    for (const char* name : {"corner.obj", "side/corner.ply"})
+      EXPECT_EQ(in(world, std::string("up: none, file: ") + name), (V{1, 2, 3})) << world;
+}
+
 TEST_F(mesh_files, are_scaled_to_metres) {
   EXPECT_EQ(first("file: corner.obj, scale: 0.001"), (V{0.001f, -0.002f, -0.003f}));
   EXPECT_TRUE(tells(refusal("file: corner.obj, scale: 0"), "scale is out of range"));

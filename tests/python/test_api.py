@@ -30,6 +30,7 @@ LEFT_OUT = {
     "load_scene_text": "tofray.scene", "load_camera_text": "tofray.camera",
     "frame_npz": "Frame.save",
     "version": "tofray.__version__",
+    "pose_matrix": "Pose.matrix", "pose_from_matrix": "Pose.from_matrix",
     "ImageSize": "the shape of pixel_rays", "image_size": "the shape of pixel_rays",
 }
 

@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "base/rotation.h"
 #include "shape/list.h"
 #include "support/pi.h"
 #include "support/random.h"
@@ -177,7 +178,7 @@ TEST(keyframes, about_different_axes_go_the_shortest_way) {
   int negated = 0;
   for (int trial = 0; trial < 200; ++trial) {
     const Rotation a{random.direction(), random.between(-6, 6)}, b{random.direction(), random.between(-6, 6)};
-    const Quaternion from = quaternion(a), to = quaternion(b);
+    const tofray::test::Quaternion from = quaternion(a), to = quaternion(b);
     double cosine = dot(from, to);
     const double sign = cosine < 0 ? -1 : 1;
     negated += cosine < 0;
@@ -186,7 +187,7 @@ TEST(keyframes, about_different_axes_go_the_shortest_way) {
     const Object object = with_keyframes({{2, {}, a}, {2.5, {}, b}});
     for (const double share : {0.0, 0.25, 0.5, 1 - 1e-9}) {
       const double one = std::sin((1 - share) * angle) / std::sin(angle), other = sign * std::sin(share * angle) / std::sin(angle);
-      const Rotation expected = rotation(Quaternion{one * from.w + other * to.w, one * from.v + other * to.v});
+      const Rotation expected = rotation(tofray::test::Quaternion{one * from.w + other * to.w, one * from.v + other * to.v});
       const Motion motion = motion_at(object, {0, 0, 0}, 2 + 0.5 * share);
       expect_turn(motion, expected, 1e-12 / std::sin(angle));
       EXPECT_NEAR(length(array_of(motion.spin)), 2 * angle / 0.5, 1e-12 / std::sin(angle));
@@ -296,4 +297,85 @@ TEST(moving_camera, moves_and_turns_as_the_differences_of_its_frames) {
     turning += length(array_of(now.spin)) / 100;
   }
   EXPECT_GT(turning, 0.3) << "it would be no test";
+}
+
+namespace {
+
+tofray::Quaternion quaternion_about(const Vec3& axis, double angle) {
+  const Vec3 v = std::sin(0.5 * angle) * base::normalized(axis);
+  return {v[0], v[1], v[2], std::cos(0.5 * angle)};
+}
+
+CameraChoice turning_camera(const tofray::Quaternion& from, const tofray::Quaternion& to) {
+  CameraChoice camera;
+  camera.keyframes = {{1, {{0, 0, 0}, {0, 0, 1}, {0, -1, 0}, from}}, {3, {{0.4, 0, -2}, {0, 0, 1}, {0, -1, 0}, to}}};
+  return camera;
+}
+
+}  // namespace
+
+TEST(moving_camera, by_quaternions_turns_evenly_the_shortest_way) {
+  const Vec3 axis{1, 2, -3};
+  const tofray::Quaternion start = quaternion_about({0.2, -1, 0.4}, 0.8);
+  for (const double angle : {0.02, 1.5, 3.1, 3.2, 6.0}) {
+    const double way = angle < pi ? angle : angle - 2 * pi;
+    tofray::Quaternion end = base::product(quaternion_about(axis, angle), start);
+    for (const int sign : {1, -1}) {
+      for (double& part : end) part *= sign;
+      const CameraChoice camera = turning_camera(start, end);
+      for (const double time : {0.0, 1.0, 1.3, 2.0, 2.9, 3.0, 4.0}) {
+        const double share = std::min(std::max(0.5 * (time - 1), 0.0), 1.0);
+        const base::Mat3 got = base::transposed(scene::camera_frame(pose_at(camera, time)).rotation), first = base::matrix_of(start);
+        for (const Vec3& p : {Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, 1}})
+          EXPECT_LT(length(got * p - turned({axis, share * way}, first * p)), 1e-14) << angle << " at " << time;
+        EXPECT_LT(length(pose_at(camera, time).position - share * Vec3{0.4, 0, -2}), 1e-15);
+      }
+      const scene::MovingCamera moving = camera_at(camera, 1.7);
+      EXPECT_LT(length(array_of(moving.spin) - (0.5 * way / length(axis)) * axis), 1e-14) << angle;
+      EXPECT_LT(length(array_of(moving.velocity) - Vec3{0.2, 0, -1}), 1e-15);
+    }
+  }
+}
+
+TEST(moving_camera, by_a_quaternion_and_a_point_that_it_looks_at_turns_evenly_too) {
+  const CameraChoice both = turning_camera({0, 0, 0, 1}, quaternion_about({0, 1, 0}, 2.1));
+  for (const std::size_t which : {0U, 1U}) {
+    CameraChoice one = both;
+    Pose& pose = one.keyframes[which].pose;
+    pose.quaternion.reset();
+    const double angle = which == 0 ? 0 : 2.1;
+    pose.look_at = pose.position + 7.0 * Vec3{std::sin(angle), 0, std::cos(angle)};
+    for (const double time : {1.0, 1.5, 2.2, 3.0})
+      for (std::size_t k = 0; k < 3; ++k)
+        EXPECT_LT(length(scene::camera_frame(pose_at(one, time)).rotation[k] - scene::camera_frame(pose_at(both, time)).rotation[k]),
+                  1e-14);
+    EXPECT_LT(length(array_of(camera_at(one, 2).spin) - array_of(camera_at(both, 2).spin)), 1e-14);
+  }
+}
+
+TEST(keyframes, by_quaternions_go_the_shortest_way_as_others_do) {
+  const tofray::Quaternion from = quaternion_about({0, 0, 1}, 170 * pi / 180), to = quaternion_about({0, 0, 1}, 190 * pi / 180);
+  for (const double sign : {1.0, -1.0}) {
+    Keyframe last{1, {0, 0, 0}, {}};
+    last.rotation.quaternion = tofray::Quaternion{sign * to[0], sign * to[1], sign * to[2], sign * to[3]};
+    Keyframe first{0, {0, 0, 0}, {}};
+    first.rotation.quaternion = from;
+    const Object object = with_keyframes({first, last});
+    for (const double share : {0.0, 0.25, 0.5, 1.0})
+      expect_turn(motion_at(object, {1, 2, 3}, share), {{0, 0, 1}, (170 + 20 * share) * pi / 180}, 1e-14);
+    // From a quaternion to an angle: its whole turns count for nothing.
+    Keyframe angle{1, {0, 0, 0}, {{0, 0, 1}, 190 * pi / 180 + 4 * pi}};
+    expect_turn(motion_at(with_keyframes({first, angle}), {1, 2, 3}, 0.5), {{0, 0, 1}, pi}, 1e-13);
+  }
+}
+
+TEST(rotation, by_quaternion_is_that_about_its_axis) {
+  Rotation by;
+  by.quaternion = quaternion_about({1, 2, 3}, 1.2);
+  Motion got;
+  got.turn = scene::rotation_matrix(by);
+  expect_turn(got, {{1, 2, 3}, 1.2}, 1e-15);
+  for (double& part : *by.quaternion) part *= 1.0005;
+  got.turn = scene::rotation_matrix(by);
+  expect_turn(got, {{1, 2, 3}, 1.2}, 1e-15);
 }
