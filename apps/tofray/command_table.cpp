@@ -123,8 +123,9 @@ std::vector<Command> make() {
        .summary = "read a scene or a camera profile and report every fault with its place",
        .examples = "tofray check scene.yaml\n"
                    "tofray check mycam.yaml                          # also names the numbers that do not say where they come from\n"
-                   "tofray check scene.yaml --set ambient.level=\"5 %\"\n",
-       .options = {"--set", "--mode", "--root", "--json", "--quiet"},
+                   "tofray check scene.yaml --set ambient.level=\"5 %\"\n"
+                   "tofray check pico-flexx --at 0.3m..4m --reflectivity 10%,80% --ambient none,50klx    # noise and wrong cycles there\n",
+       .options = {"--set", "--mode", "--at", "--reflectivity", "--ambient", "--root", "--json", "--quiet"},
        .least_words = 1,
        .most_words = 1,
        .run = run_check,

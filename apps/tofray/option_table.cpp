@@ -46,11 +46,11 @@ void take_frame_rate(Options& o, const std::string& value) {
 }
 
 /// A length, in metres where no unit is said.
-double length_of(const char* option, const std::string& value, double low, double high) {
+double length_of(const char* option, const std::string& value, double low, double high, const char* example = "1.5mm") {
   const base::Quantity length = base::parse_quantity(value, base::Dimension::length);
   const bool number = length.status == base::Quantity::Status::good || length.status == base::Quantity::Status::bare;
   if (!number || !(length.value >= low && length.value <= high))
-    refuse(option, value, fmt::format("a length of {} to {} m, as in {} 1.5mm", low, high, option));
+    refuse(option, value, fmt::format("a length of {} to {} m, as in {} {}", low, high, option, example));
   return length.value;
 }
 
@@ -104,6 +104,60 @@ std::vector<std::string> split(const std::string& text, char at) {
     from = end + 1;
   }
   return parts;
+}
+
+/// `2m`, `0.5m,1m` or `0.3m..4m`, which is eight distances, as many metres apart, or as many as `0.3m..4m:50` says.
+void take_at(Options& o, const std::string& value) {
+  constexpr std::size_t most = 1000;
+  for (const std::string& part : split(value, ',')) {
+    const std::size_t dots = part.find("..");
+    if (dots == std::string::npos) {
+      o.at_m.push_back(length_of("--at", part, 0.01, 1000, "0.5m,1m or 0.3m..4m"));
+      continue;
+    }
+    const std::size_t colon = part.find(':', dots);
+    const std::uint64_t count = colon == std::string::npos ? 8
+                                                           : whole("--at", part.substr(colon + 1), 2, most,
+                                                                   "a number of distances of 2 to 1000, as in --at 0.3m..4m:50");
+    const double first = length_of("--at", part.substr(0, dots), 0.01, 1000, "0.3m..4m");
+    const double last =
+        length_of("--at", part.substr(dots + 2, colon == std::string::npos ? colon : colon - dots - 2), 0.01, 1000, "0.3m..4m");
+    for (std::uint64_t i = 0; i < count; ++i)
+      o.at_m.push_back(first + (last - first) * static_cast<double>(i) / static_cast<double>(count - 1));
+  }
+  if (o.at_m.size() > most) refuse("--at", value, "1000 distances at most");
+}
+
+void take_reflectivity(Options& o, const std::string& value) {
+  for (const std::string& part : split(value, ',')) {
+    const base::Quantity share = base::parse_quantity(part, base::Dimension::fraction);
+    const bool number = share.status == base::Quantity::Status::good || share.status == base::Quantity::Status::bare;
+    if (!number || !(share.value >= 0 && share.value <= 1))
+      refuse("--reflectivity", part, "shares of 0 to 100 %, as in --reflectivity 10%,80%");
+    o.reflectivities.push_back(share.value);
+  }
+}
+
+/// Light of the sun's spectrum from everywhere, by illuminance or by its share of the standard sun.
+void take_ambient(Options& o, const std::string& value) {
+  for (const std::string& part : split(value, ',')) {
+    AmbientCase one;
+    const base::Quantity lux = base::parse_quantity(part, base::Dimension::illuminance),
+                         share = base::parse_quantity(part, base::Dimension::fraction);
+    if (lux.status == base::Quantity::Status::good && lux.value >= 0 && lux.value <= 1e6) {
+      one.ambient.quantity = Ambient::Quantity::illuminance_lx, one.ambient.amount = lux.value;
+      if (lux.value > 0) one.name = "at " + base::quantity_text(lux.value, lux.value < 1000 ? "1 lx" : "1 klx");
+    } else if (share.status == base::Quantity::Status::good && part.find('%') != std::string::npos && share.value >= 0 &&
+               share.value <= 10) {
+      one.ambient.amount = share.value;
+      if (share.value > 0) one.name = fmt::format("at {:g} % sun", 100 * share.value);
+    } else if (part != "none") {
+      refuse("--ambient", part,
+             "an illuminance of 0 to 1000 klx, a share of the sun's light of 0 to 1000 %, or none, as in --ambient none,50klx,100%");
+    }
+    if (one.ambient.amount > 0) one.ambient.spectrum = Ambient::Spectrum::sun_am15;
+    o.ambients.push_back(one);
+  }
 }
 
 void take_emit(Options& o, const std::string& value) {
@@ -208,6 +262,9 @@ std::vector<OptionSpec> specs() {
       {"--set", 0, "KEY=VALUE", "change a key of the scene, or of its camera as camera.…; as often as you like", take_set, "<keys>"},
       {"--mode", 0, "NAME", "the camera's mode (`tofray list cameras` names them)", [](Options& o, const std::string& v) { o.mode = v; },
        "<modes>"},
+      {"--at", 0, "LENGTHS", "distances of the table: 2m, 0.5m,1m or 0.3m..4m (eight of them; 0.3m..4m:50 is 50)", take_at},
+      {"--reflectivity", 0, "SHARES", "reflectivities of the table: 10%,80%", take_reflectivity},
+      {"--ambient", 0, "LIGHTS", "light of the sun's spectrum in the table: none,50klx,100% (of the standard sun)", take_ambient},
       {"--camera", 0, "PROFILE", "camera profile: a built-in name or a file", [](Options& o, const std::string& v) { o.camera = v; },
        "<profiles> <files>"},
       {"--seed", 0, "N", "seed of the noise: another one, other noise (0)",

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "pictures/pictures.h"
+#include "tofray/camera_report.h"
 #include "tofray/simulator.h"
 
 namespace tofray::app {
@@ -35,6 +36,9 @@ struct Options {
   int device = -1;  ///< which GPU; -1: the first one
   pictures::Theme theme = pictures::Theme::dark;
   std::string mode, camera, root, from, output;
+  std::vector<double> at_m;                            ///< --at: distances
+  std::vector<double> reflectivities;                  ///< --reflectivity
+  std::vector<AmbientCase> ambients;                   ///< --ambient
   std::string transient;                               ///< --transient: a file
   std::optional<double> first_m, width_m, per_factor;  ///< --first, --width, --factor: what that file does not say
   bool json = false, quiet = false, compare = false, clean = false;

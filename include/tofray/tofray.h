@@ -3,6 +3,7 @@
 #pragma once
 #include "tofray/analysis.h"
 #include "tofray/camera.h"
+#include "tofray/camera_report.h"
 #include "tofray/error.h"
 #include "tofray/frame.h"
 #include "tofray/load.h"

@@ -177,6 +177,14 @@ TOFRAY_FIELDS(InvalidPixels, &InvalidPixels::pixels, &InvalidPixels::valid, &Inv
               &InvalidPixels::beyond_reach, &InvalidPixels::dark, &InvalidPixels::low_signal, &InvalidPixels::no_return, &InvalidPixels::wrong_cycle,
               &InvalidPixels::flying_pixel, &InvalidPixels::outside_lens, &InvalidPixels::inconsistent_phases, &InvalidPixels::inconsistent_frequencies,
               &InvalidPixels::ambiguity_range_m, &InvalidPixels::ranges_m)
+TOFRAY_FIELDS(AmbientCase, &AmbientCase::name, &AmbientCase::ambient, &AmbientCase::pose)
+TOFRAY_FIELDS(CameraQuestion, &CameraQuestion::distances_m, &CameraQuestion::reflectivities, &CameraQuestion::ambients)
+TOFRAY_FIELDS(NoiseAt, &NoiseAt::z_m, &NoiseAt::sigma_m, &NoiseAt::wrong_cycle, &NoiseAt::saturated)
+TOFRAY_FIELDS(NoiseAtDistances, &NoiseAtDistances::reflectivity, &NoiseAtDistances::ambient, &NoiseAtDistances::saturated_up_to_m, &NoiseAtDistances::at)
+TOFRAY_FIELDS(CameraReport, &CameraReport::width, &CameraReport::height, &CameraReport::width_deg, &CameraReport::height_deg, &CameraReport::diagonal_deg,
+              &CameraReport::pixel_width_m, &CameraReport::pixel_height_m, &CameraReport::outside, &CameraReport::unlit, &CameraReport::darkest,
+              &CameraReport::modulation_frequency_hz, &CameraReport::cycles, &CameraReport::ambiguity_range_m, &CameraReport::low_signal_m,
+              &CameraReport::knows_ambient, &CameraReport::noise, &CameraReport::warnings)
 TOFRAY_FIELDS(FrameRequest, &FrameRequest::index, &FrameRequest::seed, &FrameRequest::pose)
 // What Simulator() takes as words; `progress` is Simulator.progress in Python.
 TOFRAY_FIELDS(SimulatorOptions, &SimulatorOptions::seed, &SimulatorOptions::noise, &SimulatorOptions::threads, &SimulatorOptions::backend,
@@ -190,11 +198,12 @@ TOFRAY_FIELDS(SimulatorOptions, &SimulatorOptions::seed, &SimulatorOptions::nois
 template <class Call>
 void each_record(const Call& call) {
   const auto all = [&]<class... T>(std::tuple<T...>*) { (call(static_cast<T*>(nullptr)), ...); };
-  using Records = std::tuple<Curve, PixelMask, Sensor, Scatter, Lens, Filter, Pattern, Waveform, Area, Illumination, Pixel, Adc, RawFrame,
-                             Mode, ImageFilter, Decoding, Temperature, Interference, SpreadSpectrum, Readout, AutoExposure, Camera,
-                             Material, Plane, Sphere, Box, Triangle, Cylinder, Rectangle, Disk, Capsule, Cone, Mesh, Rotation, Keyframe,
-                             Object, Ambient, TransientBins, Transport, Pose, CameraKeyframe, Override, CameraChoice, SceneFile, Scene,
-                             RanOn, FrameRequest, ObjectInView, SceneFinding, SceneReport, InvalidPixels>;
+  using Records =
+      std::tuple<Curve, PixelMask, Sensor, Scatter, Lens, Filter, Pattern, Waveform, Area, Illumination, Pixel, Adc, RawFrame, Mode,
+                 ImageFilter, Decoding, Temperature, Interference, SpreadSpectrum, Readout, AutoExposure, Camera, Material, Plane, Sphere,
+                 Box, Triangle, Cylinder, Rectangle, Disk, Capsule, Cone, Mesh, Rotation, Keyframe, Object, Ambient, TransientBins,
+                 Transport, Pose, CameraKeyframe, Override, CameraChoice, SceneFile, Scene, RanOn, FrameRequest, ObjectInView, SceneFinding,
+                 SceneReport, InvalidPixels, AmbientCase, CameraQuestion, NoiseAt, NoiseAtDistances, CameraReport>;
   all(static_cast<Records*>(nullptr));
 }
 

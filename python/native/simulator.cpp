@@ -325,6 +325,19 @@ py::object scene_report_of(const py::object& scene, const py::object& camera, co
   return to_python(out);
 }
 
+py::object camera_report_of(const py::object& camera, const py::object& question) {
+  Camera of;
+  CameraQuestion asked;
+  from_python(camera, of, {nullptr, "camera"});
+  from_python(question, asked, {nullptr, "question"});
+  CameraReport out;
+  {
+    const py::gil_scoped_release free;
+    out = camera_report(of, asked);
+  }
+  return to_python(out);
+}
+
 py::object invalid_pixels_of(const py::object& frame, const py::object& camera, bool wrong_cycles) {
   Camera by;
   from_python(camera, by, {nullptr, "camera"});
@@ -369,6 +382,7 @@ void bind_simulator(py::module_& module) {
       .def("ran_on", [](const HeldSimulator& self) { return to_python(self.ran_on()); });
   module.def("process", &process_raw);
   module.def("pixel_rays", &pixel_rays_of);
+  module.def("camera_report", &camera_report_of);
   module.def("scene_report", &scene_report_of);
   module.def("invalid_pixels", &invalid_pixels_of);
 }

@@ -37,12 +37,15 @@ if TYPE_CHECKING:
     from ._model import (
         Adc as Adc,
         Ambient as Ambient,
+        AmbientCase as AmbientCase,
         Area as Area,
         AutoExposure as AutoExposure,
         Box as Box,
         Camera as Camera,
         CameraChoice as CameraChoice,
         CameraKeyframe as CameraKeyframe,
+        CameraQuestion as CameraQuestion,
+        CameraReport as CameraReport,
         Capsule as Capsule,
         Cone as Cone,
         Curve as Curve,
@@ -60,6 +63,8 @@ if TYPE_CHECKING:
         Material as Material,
         Mesh as Mesh,
         Mode as Mode,
+        NoiseAt as NoiseAt,
+        NoiseAtDistances as NoiseAtDistances,
         Object as Object,
         ObjectInView as ObjectInView,
         Override as Override,
@@ -103,7 +108,9 @@ if TYPE_CHECKING:
     from ._simulator import (
         Simulator as Simulator,
         camera_pose as camera_pose,
+        camera_report as camera_report,
         demo as demo,
+        full_sun as full_sun,
         invalid_pixels as invalid_pixels,
         pixel_rays as pixel_rays,
         process as process,
@@ -122,14 +129,14 @@ _HOME = {
     "_frame": ("Frame", "load"),
     "_load": ("camera", "load_camera", "load_scene", "scene"),
     "_model": (
-        "Adc", "Ambient", "Area", "AutoExposure", "Box", "Camera", "CameraChoice", "CameraKeyframe", "Capsule", "Cone", "Curve", "Cylinder", "Decoding",
+        "Adc", "Ambient", "AmbientCase", "Area", "AutoExposure", "Box", "Camera", "CameraChoice", "CameraKeyframe", "CameraQuestion", "CameraReport", "Capsule", "Cone", "Curve", "Cylinder", "Decoding",
         "Disk", "Filter", "FrameRequest", "Illumination", "ImageFilter", "Interference", "InvalidPixels", "Keyframe", "Lens", "Material", "Mesh", "Mode",
-        "Object", "ObjectInView", "Override", "Pattern", "Pixel", "PixelMask", "Plane", "Pose", "RanOn", "RawFrame", "Readout", "Rectangle", "Rotation", "Scatter", "Scene", "SceneFile", "SceneFinding", "SceneReport",
+        "NoiseAt", "NoiseAtDistances", "Object", "ObjectInView", "Override", "Pattern", "Pixel", "PixelMask", "Plane", "Pose", "RanOn", "RawFrame", "Readout", "Rectangle", "Rotation", "Scatter", "Scene", "SceneFile", "SceneFinding", "SceneReport",
         "Sensor", "Sphere", "SpreadSpectrum", "Temperature", "TransientBins", "Transport", "Triangle", "Waveform",
     ),
     "_native": ("DeviceArray", "DeviceFrames", "MeshMotion", "ReflectivityMap", "TriangleMesh", "VectorMap"),
     "_own": ("Geometry", "PixelLight", "Transient"),
-    "_simulator": ("Simulator", "camera_pose", "demo", "invalid_pixels", "pixel_rays", "process", "scene_report"),
+    "_simulator": ("Simulator", "camera_pose", "camera_report", "demo", "full_sun", "invalid_pixels", "pixel_rays", "process", "scene_report"),
 }
 
 __all__ = sorted(name for names in _HOME.values() for name in names) + ["arrays", "flags"]

@@ -2405,12 +2405,243 @@ class InvalidPixels(Record):
         self.ranges_m = list(ranges_m)
 
 
+class AmbientCase(Record):
+    """Light that is not the camera's own, by the name that tables call it.
+
+    Attributes
+    ----------
+    name : str
+        What tables call it.
+    ambient : Ambient
+        None: darkness.
+    pose : Pose
+        Of the camera, where the ambient light has a direction.
+    """
+    __slots__ = ("name", "ambient", "pose")
+    name: str
+    ambient: Ambient
+    pose: Pose
+
+    def __init__(
+        self,
+        *,
+        name: str = 'in the dark',
+        ambient: Ambient | None = None,
+        pose: Pose | None = None,
+    ) -> None:
+        self.name = name
+        self.ambient = Ambient() if ambient is None else ambient
+        self.pose = Pose() if pose is None else pose
+
+
+class CameraQuestion(Record):
+    """What a camera report is asked.
+
+    Attributes
+    ----------
+    distances_m : list[float], m
+        Z on the optical axis, 1e-3 to 1e5.
+    reflectivities : list[float], 1
+        Of a matt surface that faces the camera, 0 to 1.
+    ambients : list[AmbientCase]
+        Empty: darkness, and all of the standard sun (100 % of sun_am15) from everywhere.
+    """
+    __slots__ = ("distances_m", "reflectivities", "ambients")
+    distances_m: list[float]
+    reflectivities: list[float]
+    ambients: list[AmbientCase]
+
+    def __init__(
+        self,
+        *,
+        distances_m: Sequence[float] = (),
+        reflectivities: Sequence[float] = (),
+        ambients: Sequence[AmbientCase] = (),
+    ) -> None:
+        self.distances_m = list(distances_m)
+        self.reflectivities = list(reflectivities)
+        self.ambients = list(ambients)
+
+
+class NoiseAt(Record):
+    """Range noise and wrong cycles at one distance.
+
+    Attributes
+    ----------
+    z_m : float, m
+        On the optical axis.
+    sigma_m : float, m
+        Standard deviation of the range, expected; NaN: nothing comes back [theory: eq. 4.9].
+    wrong_cycle : float, 1
+        Share of pixels whose range is whole cycles off, whatever flag they get: how often noise
+        makes unwrapping choose another cycle, of phases that have the exact density of a noisy
+        phasor's. 0 with one modulation frequency; NaN where there is no phase. [theory: eq. 4.29,
+        4.30].
+    saturated : bool
+        There is no depth.
+    """
+    __slots__ = ("z_m", "sigma_m", "wrong_cycle", "saturated")
+    z_m: float
+    sigma_m: float
+    wrong_cycle: float
+    saturated: bool
+
+    def __init__(
+        self,
+        *,
+        z_m: float = 0.0,
+        sigma_m: float = 0.0,
+        wrong_cycle: float = 0.0,
+        saturated: bool = False,
+    ) -> None:
+        self.z_m = z_m
+        self.sigma_m = sigma_m
+        self.wrong_cycle = wrong_cycle
+        self.saturated = saturated
+
+
+class NoiseAtDistances(Record):
+    """Range noise and wrong cycles on the optical axis, of a matt surface that faces the camera.
+
+    Attributes
+    ----------
+    reflectivity : float, 1
+        Of the surface.
+    ambient : str
+        Name of the light that is not the camera's own.
+    saturated_up_to_m : float, m
+        From there on to the camera it saturates; 0: not from 5 cm on.
+    at : list[NoiseAt]
+        One for each distance.
+    """
+    __slots__ = ("reflectivity", "ambient", "saturated_up_to_m", "at")
+    reflectivity: float
+    ambient: str
+    saturated_up_to_m: float
+    at: list[NoiseAt]
+
+    def __init__(
+        self,
+        *,
+        reflectivity: float = 0.0,
+        ambient: str = '',
+        saturated_up_to_m: float = 0.0,
+        at: Sequence[NoiseAt] = (),
+    ) -> None:
+        self.reflectivity = reflectivity
+        self.ambient = ambient
+        self.saturated_up_to_m = saturated_up_to_m
+        self.at = list(at)
+
+
+class CameraReport(Record):
+    """What a camera can do in its mode.
+
+    Attributes
+    ----------
+    width : int
+        Of the image.
+    height : int
+        Of the image.
+    width_deg : float, °
+        Field of view between the outer edges of the outermost pixels, through the middle.
+    height_deg : float, °
+        Likewise.
+    diagonal_deg : float, °
+        From corner to corner.
+    pixel_width_m : float, m
+        That one pixel sees at 1 m on the axis.
+    pixel_height_m : float, m
+        Likewise.
+    outside : float, 1
+        Share of the pixels that are outside the lens model.
+    unlit : float, 1
+        Share of those that get less than a millionth of the brightest one's light of a wall at 1 m.
+    darkest : float, 1
+        Signal of the darkest lit pixel over the brightest one's, of that wall.
+    modulation_frequency_hz : list[float], Hz
+        Of the mode.
+    cycles : list[int]
+        Of each of them in the ambiguity range: M and N of two.
+    ambiguity_range_m : float, m
+        Of the mode; 0 where no raw frame is lit.
+    low_signal_m : float, m
+        Σ above this is flagged.
+    knows_ambient : bool
+        An unlit raw frame tells the camera how much noise ambient light makes.
+    noise : list[NoiseAtDistances]
+        Ambient by ambient, in each by reflectivity; empty: no raw frame is lit, or no light.
+    warnings : list[str]
+        About the design, a line each.
+    """
+    __slots__ = ("width", "height", "width_deg", "height_deg", "diagonal_deg", "pixel_width_m", "pixel_height_m", "outside", "unlit",
+                 "darkest", "modulation_frequency_hz", "cycles", "ambiguity_range_m", "low_signal_m", "knows_ambient", "noise",
+                 "warnings")
+    width: int
+    height: int
+    width_deg: float
+    height_deg: float
+    diagonal_deg: float
+    pixel_width_m: float
+    pixel_height_m: float
+    outside: float
+    unlit: float
+    darkest: float
+    modulation_frequency_hz: list[float]
+    cycles: list[int]
+    ambiguity_range_m: float
+    low_signal_m: float
+    knows_ambient: bool
+    noise: list[NoiseAtDistances]
+    warnings: list[str]
+
+    def __init__(
+        self,
+        *,
+        width: int = 0,
+        height: int = 0,
+        width_deg: float = 0.0,
+        height_deg: float = 0.0,
+        diagonal_deg: float = 0.0,
+        pixel_width_m: float = 0.0,
+        pixel_height_m: float = 0.0,
+        outside: float = 0.0,
+        unlit: float = 0.0,
+        darkest: float = 0.0,
+        modulation_frequency_hz: Sequence[float] = (),
+        cycles: Sequence[int] = (),
+        ambiguity_range_m: float = 0.0,
+        low_signal_m: float = 0.0,
+        knows_ambient: bool = True,
+        noise: Sequence[NoiseAtDistances] = (),
+        warnings: Sequence[str] = (),
+    ) -> None:
+        self.width = width
+        self.height = height
+        self.width_deg = width_deg
+        self.height_deg = height_deg
+        self.diagonal_deg = diagonal_deg
+        self.pixel_width_m = pixel_width_m
+        self.pixel_height_m = pixel_height_m
+        self.outside = outside
+        self.unlit = unlit
+        self.darkest = darkest
+        self.modulation_frequency_hz = list(modulation_frequency_hz)
+        self.cycles = list(cycles)
+        self.ambiguity_range_m = ambiguity_range_m
+        self.low_signal_m = low_signal_m
+        self.knows_ambient = knows_ambient
+        self.noise = list(noise)
+        self.warnings = list(warnings)
+
+
 __all__ = [
     "Curve", "PixelMask", "Sensor", "Scatter", "Lens", "Filter", "Pattern", "Waveform", "Area",
     "Illumination", "Pixel", "Adc", "RawFrame", "Mode", "ImageFilter", "Decoding", "Temperature",
     "Interference", "SpreadSpectrum", "Readout", "AutoExposure", "Camera", "Material", "Plane",
     "Sphere", "Box", "Triangle", "Cylinder", "Rectangle", "Disk", "Capsule", "Cone", "Mesh",
     "Rotation", "Keyframe", "Object", "Ambient", "TransientBins", "Transport", "Pose",
-    "CameraKeyframe", "Override", "CameraChoice", "SceneFile", "Scene", "RanOn", "FrameRequest", "ObjectInView",
-    "SceneFinding", "SceneReport", "InvalidPixels",
+    "CameraKeyframe", "Override", "CameraChoice", "SceneFile", "Scene", "RanOn", "FrameRequest",
+    "ObjectInView", "SceneFinding", "SceneReport", "InvalidPixels", "AmbientCase", "CameraQuestion",
+    "NoiseAt", "NoiseAtDistances", "CameraReport",
 ]

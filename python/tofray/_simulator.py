@@ -12,7 +12,7 @@ from ._arrays import Depth, Raw
 from ._errors import error_of
 from ._frame import Frame
 from ._load import load_camera, load_scene
-from ._model import Camera, FrameRequest, InvalidPixels, RanOn, Scene, SceneReport
+from ._model import Ambient, AmbientCase, Camera, CameraQuestion, CameraReport, FrameRequest, InvalidPixels, RanOn, Scene, SceneReport
 from ._own import Geometry, PixelLight, Transient
 
 if TYPE_CHECKING:
@@ -312,6 +312,41 @@ def pixel_rays(camera: Camera) -> NDArray[np.float32]:
         For a camera that cannot be, by its member.
     """
     return _native.pixel_rays(camera)
+
+
+def camera_report(camera: Camera, question: CameraQuestion | None = None) -> CameraReport:
+    """What a camera can do in its mode, from expected values: field of view, range noise, wrong cycles, saturation.
+
+    Parameters
+    ----------
+    camera : Camera
+    question : CameraQuestion, optional
+        Distances on the optical axis, reflectivities of a matt surface that faces the camera, and ambient light. None: 0.5, 1, 2 and 4 m,
+        20 and 80 %, in the dark and in the sun.
+
+    Returns
+    -------
+    CameraReport
+        ``noise`` has one entry for each ambient light and reflectivity; its ``at`` has ``z_m``, ``sigma_m`` (equation 4.9), ``wrong_cycle``
+        (equations 4.29 and 4.30) and ``saturated`` of each distance. ``warnings`` says what makes no sense about the design.
+
+    Raises
+    ------
+    Error
+        For a camera that no Simulator takes, and for a distance or a reflectivity out of range.
+    """
+    report: CameraReport = _native.camera_report(camera, CameraQuestion() if question is None else question)
+    return report
+
+
+def full_sun() -> AmbientCase:
+    """All of the standard sun's light (100 % of ``sun_am15``), from everywhere, for a CameraQuestion.
+
+    Returns
+    -------
+    AmbientCase
+    """
+    return AmbientCase(name="in the sun", ambient=Ambient(spectrum="sun_am15", amount=1.0))
 
 
 def scene_report(scene: Scene, camera: Camera, frame: Frame | None = None) -> SceneReport:

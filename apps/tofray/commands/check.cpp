@@ -5,7 +5,7 @@
 #include <set>
 
 #include "base/readout.h"
-#include "camera_report.h"
+#include "camera_text.h"
 #include "commands.h"
 #include "console.h"
 #include "files/json.h"
@@ -18,6 +18,7 @@
 #include "load/provenance.h"
 #include "mesh_scene.h"
 #include "remarks.h"
+#include "scene/motion.h"
 #include "scene_text.h"
 #include "tofray/error.h"
 #include "yaml/tree.h"
@@ -30,6 +31,27 @@ namespace {
 SimulatorOptions on_processor(const Options& options) {
   SimulatorOptions out = simulator_options(options);
   out.backend = Backend::cpu;
+  return out;
+}
+
+/// What is asked of the camera: by the options, else what stands there without them, and in a scene its own light, too.
+CameraQuestion question_of(const Options& options, const Scene* scene) {
+  CameraQuestion out;
+  if (!options.at_m.empty()) out.distances_m = options.at_m;
+  if (!options.reflectivities.empty()) out.reflectivities = options.reflectivities;
+  out.ambients = options.ambients;
+  if (!out.ambients.empty() || scene == nullptr || scene->ambient.spectrum == Ambient::Spectrum::none || !(scene->ambient.amount > 0))
+    return out;
+  AmbientCase own;
+  own.name = "in scene's light", own.ambient = scene->ambient, own.pose = scene::pose_at(scene->camera, 0);
+  out.ambients = {AmbientCase(), own, full_sun()};
+  return out;
+}
+
+/// What is odd about the design.
+std::string design_warnings(const CameraReport& report, const std::string& name) {
+  std::string out;
+  for (const std::string& one : report.warnings) out += fmt::format("{}: warning: {}\n", name, one);
   return out;
 }
 
@@ -62,7 +84,8 @@ Report check_profile(const std::string& text, const std::string& name, const Opt
       .set("name", camera.name)
       .set("modes", files::Json::list(camera.mode_names))
       .set("unsourced_numbers", files::Json::list(unsourced));
-  const CameraReport can = camera_report(camera);
+  const CameraReport can = camera_report(camera, question_of(options, nullptr));
+  report.warnings += design_warnings(can, name);
   report.json.set("mode", camera.mode.name).set("camera_report", report_json(can));
   report.text = fmt::format("{}: good: camera {}, {} x {} pixels, {} modes; in mode {}:\n{}", name, camera.name, can.width, can.height,
                             camera.mode_names.size(), camera.mode.name, report_text(can));
@@ -95,7 +118,8 @@ Report check_scene(const std::string& name, const Options& options) {
   report.text =
       fmt::format("{}: good: scene with {} object{}{}, camera {} in mode {}, {} raw frames\n", name, in.scene.objects.size(),
                   in.scene.objects.size() == 1 ? "" : "s", meshes, in.camera.name, in.camera.mode.name, in.camera.mode.sequence.size());
-  const CameraReport can = camera_report(in.camera);
+  const CameraReport can = camera_report(in.camera, question_of(options, &in.scene));
+  report.warnings += design_warnings(can, name);
   const SceneReport seen = scene_report(in.scene, in.camera);
   report.json.set("camera_report", report_json(can)).set("scene_report", scene_report_json(seen));
   report.text += report_text(can) + scene_report_text(seen);

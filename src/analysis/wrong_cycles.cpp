@@ -1,0 +1,133 @@
+// SPDX-FileCopyrightText: 2026 The tofray authors
+// SPDX-License-Identifier: Apache-2.0
+#include "analysis/wrong_cycles.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+
+#include "base/constants.h"
+
+namespace tofray::analysis {
+
+namespace {
+
+using base::pi;
+
+/// Phases farther off than this are rarer than 1e-30.
+constexpr double farthest_in_sigmas = 12;
+
+/// Probabilities of phase errors, on a grid of equal steps of the measured phase.
+class PhaseErrors {
+ public:
+  explicit PhaseErrors(const NoisyPhase& phase) {
+    const double sigma = std::max(phase.sigma_rad, 1e-9), reach = std::min(pi, farthest_in_sigmas * sigma), step = 2 * reach / steps;
+    std::vector<double> density;
+    for (int i = 0; i <= steps; ++i) {
+      const double measured = -reach + i * step;
+      density.push_back(phase_density(measured, sigma));
+      place_.push_back(phase.corrected ? phase.corrected(measured) : measured);
+    }
+    // From either end, so that small tails keep all their digits.
+    above_.assign(steps + 1, 0.0), below_.assign(steps + 1, 0.0);
+    double sum = 0;
+    for (std::size_t i = steps; i-- > 0;) above_[i] = sum += 0.5 * step * (density[i] + density[i + 1]);
+    for (std::size_t i = 0; i < steps; ++i) below_[i + 1] = below_[i] + 0.5 * step * (density[i] + density[i + 1]);
+    for (std::size_t i = 0; i <= steps; ++i) above_[i] /= sum, below_[i] /= sum;
+    for (std::size_t i = 0; i <= steps; ++i) weight_.push_back(density[i] * step * (i == 0 || i == steps ? 0.5 : 1) / sum);
+  }
+
+  [[nodiscard]] static constexpr std::size_t count() { return steps + 1; }
+  [[nodiscard]] double place(std::size_t i) const { return place_[i]; }
+  /// Probability of the grid's place i: trapezoids.
+  [[nodiscard]] double weight(std::size_t i) const { return weight_[i]; }
+  /// P(θ > x), P(θ < x).
+  [[nodiscard]] double above(double x) const { return x <= place_.front() ? 1 : x >= place_.back() ? 0 : at(above_, x); }
+  [[nodiscard]] double below(double x) const { return x <= place_.front() ? 0 : x >= place_.back() ? 1 : at(below_, x); }
+  /// The error that a share u of all are above.
+  [[nodiscard]] double at_share(double u) const {
+    const auto found = std::lower_bound(above_.begin(), above_.end(), u, [](double one, double than) { return one > than; });
+    const auto i = static_cast<std::size_t>(std::clamp<std::ptrdiff_t>(found - above_.begin(), 1, steps));
+    const double upper = above_[i - 1], lower = above_[i], part = upper > lower ? (u - lower) / (upper - lower) : 0.0;
+    return part * place_[i - 1] + (1 - part) * place_[i];
+  }
+
+ private:
+  [[nodiscard]] double at(const std::vector<double>& tail, double x) const {
+    const auto next = static_cast<std::size_t>(std::upper_bound(place_.begin(), place_.end(), x) - place_.begin());
+    const double part = (x - place_[next - 1]) / (place_[next] - place_[next - 1]);
+    return (1 - part) * tail[next - 1] + part * tail[next];
+  }
+
+  static constexpr int steps = 4096;
+  std::vector<double> place_, weight_, above_, below_;
+};
+
+/// P(|M θ₂ − N θ₁| > π): the errors of q of equation 4.5, which is rounded.
+double of_two(const PhaseErrors& first, const PhaseErrors& second, double m, double n) {
+  double sum = 0;
+  for (std::size_t i = 0; i < PhaseErrors::count(); ++i) {
+    const double shift = n * first.place(i);
+    sum += first.weight(i) * (second.above((pi + shift) / m) + second.below((shift - pi) / m));
+  }
+  return std::min(sum, 1.0);
+}
+
+/// One choice of cycles by equation 4.6, with half paths in ambiguity ranges: whether it is another than that of exact phases.
+bool chooses_wrongly(const std::vector<double>& error, const std::vector<int>& cycles, std::size_t reference) {
+  double best = 0;
+  int chosen = 0;
+  bool own = true;  // every other modulation frequency's cycle is its own there
+  for (int n = 0; n < cycles[reference]; ++n) {
+    const double here = error[reference] + static_cast<double>(n) / cycles[reference];
+    double cost = 0;
+    bool all_own = true;
+    for (std::size_t i = 0; i < cycles.size(); ++i) {
+      if (i == reference) continue;
+      const double apart = (error[i] - here) * cycles[i], whole = std::round(apart);
+      cost += (apart - whole) * (apart - whole) / (static_cast<double>(cycles[i]) * cycles[i]);
+      all_own = all_own && whole == 0;
+    }
+    if (n == 0 || cost < best) best = cost, chosen = n, own = all_own;
+  }
+  return chosen != 0 || !own;
+}
+
+double of_many(const std::vector<PhaseErrors>& errors, const std::vector<int>& cycles) {
+  const auto reference = static_cast<std::size_t>(std::min_element(cycles.begin(), cycles.end()) - cycles.begin());
+  // Kronecker's sequence by the powers of 1/φ_d, the root of x^{d+1} = x + 1: as even in d dimensions as a golden section is in one.
+  double root = 1;
+  for (int i = 0; i < 64; ++i) root = std::pow(1 + root, 1 / (static_cast<double>(errors.size()) + 1));
+  constexpr int draws = 1 << 14;
+  int wrong = 0;
+  std::vector<double> error(errors.size());
+  for (int draw = 0; draw < draws; ++draw) {
+    double step = 1;
+    for (std::size_t i = 0; i < errors.size(); ++i) {
+      step /= root;
+      const double u = std::fmod(0.5 + (draw + 1) * step, 1.0);
+      error[i] = errors[i].at_share(u) / (2 * pi * cycles[i]);
+    }
+    wrong += chooses_wrongly(error, cycles, reference) ? 1 : 0;
+  }
+  return static_cast<double>(wrong) / draws;
+}
+
+}  // namespace
+
+double phase_density(double theta, double sigma) {
+  const double rho = 1 / sigma, along = rho * std::cos(theta), across = rho * std::sin(theta);
+  const double tail = 0.5 * std::erfc(-along / std::sqrt(2.0));
+  return std::exp(-0.5 * rho * rho) / (2 * pi) + along / std::sqrt(2 * pi) * std::exp(-0.5 * across * across) * tail;
+}
+
+double wrong_cycle_probability(const std::vector<NoisyPhase>& phases, const std::vector<int>& cycles) {
+  if (cycles.size() < 2) return 0;
+  std::vector<PhaseErrors> errors;
+  errors.reserve(phases.size());
+  for (const NoisyPhase& one : phases) errors.emplace_back(one);
+  return cycles.size() == 2 ? of_two(errors[0], errors[1], cycles[0], cycles[1]) : of_many(errors, cycles);
+}
+
+}  // namespace tofray::analysis
