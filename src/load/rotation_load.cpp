@@ -65,8 +65,6 @@ std::optional<Quaternion> of_matrix(const Value& matrix, Vec3* position, Faults&
   return base::quaternion_of(m);
 }
 
-Quaternion without_minus_zero(const Quaternion& q) { return {q[0] + 0.0, q[1] + 0.0, q[2] + 0.0, q[3] + 0.0}; }
-
 /// What a map says by a quaternion, a matrix or Euler angles; nothing where it does not, or where that is told as a fault.
 /// @param position  out: where a matrix has one; none: it may have none
 std::optional<Quaternion> said_rotation(const Value& map, Vec3* position, Faults& faults) {

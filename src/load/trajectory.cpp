@@ -149,6 +149,7 @@ struct ColumnName {
 
 /// A decimal number that is good, shifted by so many digits; nothing where it is beyond oldest_s.
 std::optional<Stamp> shifted(std::string_view text, int digits) {
+  if (text.size() > 400) return {};
   const bool negative = !text.empty() && text[0] == '-';
   if (!text.empty() && (text[0] == '-' || text[0] == '+')) text.remove_prefix(1);
   if (const std::size_t e = text.find_first_of("eE"); e != std::string_view::npos) {

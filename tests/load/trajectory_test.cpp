@@ -167,6 +167,45 @@ TEST(trajectory, that_is_wrong_is_told_with_line_and_column) {
   EXPECT_TRUE(has(fault_in(good, {"", load::stamp_of(1e9)}), "got -1e+09 s after the scene's zero"));
 }
 
+TEST(trajectory, of_any_bytes_is_read_or_refused) {
+  const std::string seeds[] = {"# t [ns], x, y, z, qx, qy, qz, qw\n1403636579758555392,1,2,3,0,0,0,1\n",
+                               "0.5;1e3;-2;3;0;0.6;0;-0.8\r\n1;1;1;1;1;0;0;0"};
+  const std::string letters = "0123456789.,;eE+-#%[]() \t\r\nxyzqwtn\"";
+  std::uint64_t state = 1;
+  const auto random = [&](std::size_t below) {
+    state = state * 6364136223846793005U + 1442695040888963407U;
+    return static_cast<std::size_t>(state >> 33U) % below;
+  };
+  int read = 0, refused = 0;
+  for (int i = 0; i < 20'000; ++i) {
+    std::string text = seeds[i % 2];
+    for (std::size_t k = 0; k <= random(4); ++k) {
+      const std::size_t at = random(text.size());
+      if (random(3) == 0)
+        text.erase(at, 1 + random(3));
+      else
+        text[at] = random(10) == 0 ? static_cast<char>(random(256)) : letters[random(letters.size())];
+    }
+    base::Faults faults;
+    std::optional<load::Stamp> clock;
+    for (const TimedPose& one : load::parse_trajectory(text, "p.csv", {}, clock, faults)) {
+      ++read;
+      EXPECT_NEAR(std::hypot(one.quaternion[0], one.quaternion[1], one.quaternion[2]) *
+                          std::hypot(one.quaternion[0], one.quaternion[1], one.quaternion[2]) +
+                      one.quaternion[3] * one.quaternion[3],
+                  1, 1e-14)
+          << text;
+      EXPECT_TRUE(std::abs(one.time_s) <= 1e6) << text;
+    }
+    refused += faults.empty() ? 0 : 1;
+  }
+  EXPECT_GT(read, 1000);
+  EXPECT_GT(refused, 1000);
+  const std::string digits(1'000'000, '9');
+  EXPECT_TRUE(has(fault_in(digits + " 0 0 0 0 0 0 1\n"), "t is not finite"));
+  EXPECT_TRUE(has(fault_in("0." + digits + " 0 0 0 0 0 0 1\n"), "the time is out of range"));
+}
+
 TEST(trajectory, has_no_more_poses_than_there_may_be_keyframes) {
   std::string text;
   for (std::int64_t i = 0; i < base::limit::keyframes.value; ++i) text += std::to_string(i) + " 0 0 0 0 0 0 1\n";
