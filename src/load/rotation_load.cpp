@@ -12,7 +12,6 @@
 namespace tofray::load {
 
 using base::Faults;
-using base::product;
 using yaml::Value;
 
 namespace {
@@ -25,7 +24,7 @@ Quaternion of_euler(const Value& map) {
     q[axis] = num::setup::sin(half);
     return q;
   };
-  return product(about("yaw", 2), product(about("pitch", 1), about("roll", 0)));
+  return base::product(about("yaw", 2), base::product(about("pitch", 1), about("roll", 0)));
 }
 
 /// @return whether it has its last row, if any
@@ -109,7 +108,7 @@ Pose mount_of(const Value& map, Faults& faults) {
   Pose out;
   out.position = vector(map["position"]);
   refuse_two_positions(map, faults);
-  out.quaternion = product(said_rotation(map, &out.position, faults).value_or(Quaternion{0, 0, 0, 1}), optical_in(map));
+  out.quaternion = base::product(said_rotation(map, &out.position, faults).value_or(Quaternion{0, 0, 0, 1}), optical_in(map));
   return out;
 }
 
@@ -127,7 +126,7 @@ void complete_pose(const Value& map, Pose& pose, Faults& faults) {
   pose.look_at = fresh.look_at, pose.up = fresh.up, pose.quaternion.reset();
   const bool said = map["quaternion"] || map["matrix"] || map["euler"];
   const std::optional<Quaternion> q = said ? said_rotation(map, &pose.position, faults) : Quaternion{0, 0, 0, 1};
-  if (q) pose.quaternion = without_minus_zero(axes ? product(*q, optical_in(map)) : *q);
+  if (q) pose.quaternion = without_minus_zero(axes ? base::product(*q, optical_in(map)) : *q);
 }
 
 void complete_rotation(const Value& map, Rotation& rotation, Faults& faults) {

@@ -112,12 +112,14 @@ TEST(trajectory, of_a_clock_begins_at_zero_and_keeps_its_nanoseconds) {
   const std::string rest = " 0 0 0 0 0 0 1\n";
   const std::string tum = "1305031449.7996" + rest + "1305031449.8096" + rest + "1305031450.799600001" + rest;
   std::vector<double> got = times(poses_in(tum));
+  ASSERT_EQ(got.size(), 3U);
   EXPECT_EQ(got[0], 0);
   EXPECT_NEAR(got[1], 0.01, 1e-15);
   EXPECT_NEAR(got[2], 1.000000001, 1e-15);
   // Beyond 2^53: a double alone holds no more than 256 of these.
   const std::string ns = "1403636579758555392" + rest + "1403636579758555393" + rest + "1.403636580758555392e18" + rest;
   got = times(poses_in(ns, {"ns", {}}));
+  ASSERT_EQ(got.size(), 3U);
   EXPECT_NEAR(got[1], 1e-9, 1e-15);
   EXPECT_NEAR(got[2], 1, 1e-15);
   // The zero that the scene says; times that are no clock's stay.
@@ -240,6 +242,7 @@ TEST_F(keyframe_files, of_one_clock_have_one_zero_the_cameras_first) {
   file("in/c.csv", "1305031449.5 0 0 0 0 0 0 1\n1305031450.5 0 0 0 0 0 0 1\n"),
       file("in/b.csv", "1305031449.25 0 0 0 0 0 0 1\n1305031450 0 0 0 0 0 0 1\n");
   const Scene both = scene("keyframes: {file: c.csv}", ", keyframes: {file: b.csv}");
+  ASSERT_EQ(both.camera.keyframes.size(), 2U);
   EXPECT_EQ(both.camera.keyframes[0].time_s, 0);
   EXPECT_EQ(both.objects[0].keyframes[0].time_s, -0.25);
   EXPECT_EQ(scene("mode: MODE_9_5FPS_2000", ", keyframes: {file: b.csv}").objects[0].keyframes[0].time_s, 0);
