@@ -140,6 +140,9 @@ TEST(trajectory, that_is_wrong_is_told_with_line_and_column) {
       {"t,x,y,z,qx,qy,qz,qw,v\n1,0,0,0,0,0,0,1\n",
        "p.csv:2:1: error: the line has the wrong number of columns\n  got 8, expected 9 as in the header"},
       {"0,5,1,5,2,5,0,0,0,1\n", "a decimal comma makes two of one"},
+      {good + "1,5 0 0 0 0 0 0 1\n",
+       "p.csv:2:1: error: the line has the wrong number of columns\n  got 2, expected 8: t x y z qx qy qz qw, or a header that names "
+       "them\n  a decimal comma"},
       {"0,5;1;2;3;0;0;0;1\n", "p.csv:1:1: error: t is not a number\n  got \"0,5\", expected a number such as 1.5, with a decimal point"},
       {good + "1 0 zero 0 0 0 0 1\n", "p.csv:2:5: error: y is not a number\n  got \"zero\""},
       {"1,0,,0,0,0,0,1\n", "p.csv:1:5: error: y is empty"},
