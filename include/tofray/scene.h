@@ -148,7 +148,7 @@ struct Mesh {
 struct Rotation {
   Vec3 axis{0, 0, 1};
   double angle_rad = 0;
-  std::optional<Quaternion> quaternion = {};  ///< x, y, z, w, in place of axis and angle
+  std::optional<Quaternion> quaternion = {};  ///< in place of axis and angle: x, y, z, w
 };
 
 /// Where an object is at a time. Between two of them its shift changes evenly, and it turns evenly: where both rotations are about the same
@@ -216,7 +216,7 @@ struct Pose {
   Vec3 position{0, 0, 0};
   Vec3 look_at{0, 0, 1};                      ///< a point on the optical axis
   Vec3 up{0, -1, 0};                          ///< direction in the world that is up in the image
-  std::optional<Quaternion> quaternion = {};  ///< x, y, z, w, from the camera's frame to the world's, in place of look_at and up
+  std::optional<Quaternion> quaternion = {};  ///< from the camera's frame to the world's, as x, y, z, w; in place of look_at and up
 };
 
 /// Where the camera stands at a time. Between two of them its position changes evenly. Where one has a quaternion it turns evenly, the

@@ -1608,7 +1608,7 @@ class Rotation(Record):
     axis : tuple[float, float, float], 1
     angle_rad : float, rad
     quaternion : tuple[float, float, float, float] | None, 1
-        X, y, z, w, in place of axis and angle.
+        In place of axis and angle: x, y, z, w.
     """
     __slots__ = ("axis", "angle_rad", "quaternion")
     axis: tuple[float, float, float]
@@ -1857,7 +1857,7 @@ class Pose(PoseMethods):
     up : tuple[float, float, float], 1
         Direction in the world that is up in the image.
     quaternion : tuple[float, float, float, float] | None, 1
-        X, y, z, w, from the camera's frame to the world's, in place of look_at and up.
+        From the camera's frame to the world's, as x, y, z, w; in place of look_at and up.
     """
     __slots__ = ("position", "look_at", "up", "quaternion")
     position: tuple[float, float, float]

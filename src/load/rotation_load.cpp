@@ -12,7 +12,6 @@
 namespace tofray::load {
 
 using base::Faults;
-using base::product;
 using yaml::Value;
 
 namespace {
@@ -25,7 +24,7 @@ Quaternion of_euler(const Value& map) {
     q[axis] = num::setup::sin(half);
     return q;
   };
-  return product(about("yaw", 2), product(about("pitch", 1), about("roll", 0)));
+  return base::product(about("yaw", 2), base::product(about("pitch", 1), about("roll", 0)));
 }
 
 /// @return whether it has its last row, if any
@@ -64,8 +63,6 @@ std::optional<Quaternion> of_matrix(const Value& matrix, Vec3* position, Faults&
   }
   return base::quaternion_of(m);
 }
-
-Quaternion without_minus_zero(const Quaternion& q) { return {q[0] + 0.0, q[1] + 0.0, q[2] + 0.0, q[3] + 0.0}; }
 
 /// What a map says by a quaternion, a matrix or Euler angles; nothing where it does not, or where that is told as a fault.
 /// @param position  out: where a matrix has one; none: it may have none
@@ -111,7 +108,7 @@ Pose mount_of(const Value& map, Faults& faults) {
   Pose out;
   out.position = vector(map["position"]);
   refuse_two_positions(map, faults);
-  out.quaternion = product(said_rotation(map, &out.position, faults).value_or(Quaternion{0, 0, 0, 1}), optical_in(map));
+  out.quaternion = base::product(said_rotation(map, &out.position, faults).value_or(Quaternion{0, 0, 0, 1}), optical_in(map));
   return out;
 }
 
@@ -129,7 +126,7 @@ void complete_pose(const Value& map, Pose& pose, Faults& faults) {
   pose.look_at = fresh.look_at, pose.up = fresh.up, pose.quaternion.reset();
   const bool said = map["quaternion"] || map["matrix"] || map["euler"];
   const std::optional<Quaternion> q = said ? said_rotation(map, &pose.position, faults) : Quaternion{0, 0, 0, 1};
-  if (q) pose.quaternion = without_minus_zero(axes ? product(*q, optical_in(map)) : *q);
+  if (q) pose.quaternion = without_minus_zero(axes ? base::product(*q, optical_in(map)) : *q);
 }
 
 void complete_rotation(const Value& map, Rotation& rotation, Faults& faults) {

@@ -16,6 +16,9 @@ void complete_pose(const yaml::Value& map, Pose& pose, base::Faults& faults);
 /// The same of an object's rotation.
 void complete_rotation(const yaml::Value& map, Rotation& rotation, base::Faults& faults);
 
+/// Zero has no sign in what readers hand on.
+inline Quaternion without_minus_zero(const Quaternion& q) { return {q[0] + 0.0, q[1] + 0.0, q[2] + 0.0, q[3] + 0.0}; }
+
 /// Where a camera is on what carries it: what a map says by position, quaternion, matrix or euler, and axes. Not turned unless it says so.
 Pose mount_of(const yaml::Value& map, base::Faults& faults);
 

@@ -235,7 +235,7 @@ class SceneReader {
         CameraKeyframe& key = scene.camera.keyframes.emplace_back();
         key.time_s = one.time_s;
         key.pose.position = one.position + base::matrix_of(one.quaternion) * mount.position;
-        key.pose.quaternion = base::product(one.quaternion, *mount.quaternion);
+        key.pose.quaternion = without_minus_zero(base::product(one.quaternion, *mount.quaternion));
       }
     }
     for (const auto& [value, object] : keyframes_of_objects_) {

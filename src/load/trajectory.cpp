@@ -149,6 +149,7 @@ struct ColumnName {
 
 /// A decimal number that is good, shifted by so many digits; nothing where it is beyond oldest_s.
 std::optional<Stamp> shifted(std::string_view text, int digits) {
+  if (text.size() > 400) return {};
   const bool negative = !text.empty() && text[0] == '-';
   if (!text.empty() && (text[0] == '-' || text[0] == '+')) text.remove_prefix(1);
   if (const std::size_t e = text.find_first_of("eE"); e != std::string_view::npos) {
@@ -289,7 +290,10 @@ class TrajectoryParser {
   void row(std::string_view text) {
     const std::vector<Field> fields = fields_of(text, false);
     if (fields.size() != width_) {
-      const bool comma = fields.size() > width_ && text.find(';') == std::string_view::npos && text.find(',') != std::string_view::npos;
+      const bool both = std::any_of(fields.begin(), fields.end(),
+                                    [](const Field& field) { return field.text.find_first_of(" \t") != std::string_view::npos; });
+      const bool comma =
+          (fields.size() > width_ || both) && text.find(';') == std::string_view::npos && text.find(',') != std::string_view::npos;
       faults_.add(place(fields[0].at), "the line has the wrong number of columns",
                   "got " + std::to_string(fields.size()) + ", expected " + std::to_string(width_) +
                       (headed_ ? " as in the header" : std::string(": ") + in_order + ", or a header that names them") +

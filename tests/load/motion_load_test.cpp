@@ -109,6 +109,12 @@ TEST(motion_in_files, refuses_a_camera_that_turns_a_quarter_between_two_keyframe
   EXPECT_EQ(motion_refusal(turning("[0, 0, 1]", "[1, -0.1, 0]")), "");
 }
 
+TEST(motion_in_files, has_a_camera_that_turns_as_far_as_quaternions_say) {
+  EXPECT_EQ(motion_refusal(with_camera("{time: 0 s, pose: {quaternion: [0, 0, 0, 1]}}, "
+                                       "{time: 1 s, pose: {position: [0, 0, 3], quaternion: [0, 1, 0, 0]}}, {time: 2 s}")),
+            "");
+}
+
 TEST(motion_in_files, has_no_more_keyframes_than_the_limit) {
   for (const int more : {0, 1}) {
     std::string keys;

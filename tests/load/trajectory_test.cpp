@@ -112,12 +112,14 @@ TEST(trajectory, of_a_clock_begins_at_zero_and_keeps_its_nanoseconds) {
   const std::string rest = " 0 0 0 0 0 0 1\n";
   const std::string tum = "1305031449.7996" + rest + "1305031449.8096" + rest + "1305031450.799600001" + rest;
   std::vector<double> got = times(poses_in(tum));
+  ASSERT_EQ(got.size(), 3U);
   EXPECT_EQ(got[0], 0);
   EXPECT_NEAR(got[1], 0.01, 1e-15);
   EXPECT_NEAR(got[2], 1.000000001, 1e-15);
   // Beyond 2^53: a double alone holds no more than 256 of these.
   const std::string ns = "1403636579758555392" + rest + "1403636579758555393" + rest + "1.403636580758555392e18" + rest;
   got = times(poses_in(ns, {"ns", {}}));
+  ASSERT_EQ(got.size(), 3U);
   EXPECT_NEAR(got[1], 1e-9, 1e-15);
   EXPECT_NEAR(got[2], 1, 1e-15);
   // The zero that the scene says; times that are no clock's stay.
@@ -138,6 +140,9 @@ TEST(trajectory, that_is_wrong_is_told_with_line_and_column) {
       {"t,x,y,z,qx,qy,qz,qw,v\n1,0,0,0,0,0,0,1\n",
        "p.csv:2:1: error: the line has the wrong number of columns\n  got 8, expected 9 as in the header"},
       {"0,5,1,5,2,5,0,0,0,1\n", "a decimal comma makes two of one"},
+      {good + "1,5 0 0 0 0 0 0 1\n",
+       "p.csv:2:1: error: the line has the wrong number of columns\n  got 2, expected 8: t x y z qx qy qz qw, or a header that names "
+       "them\n  a decimal comma"},
       {"0,5;1;2;3;0;0;0;1\n", "p.csv:1:1: error: t is not a number\n  got \"0,5\", expected a number such as 1.5, with a decimal point"},
       {good + "1 0 zero 0 0 0 0 1\n", "p.csv:2:5: error: y is not a number\n  got \"zero\""},
       {"1,0,,0,0,0,0,1\n", "p.csv:1:5: error: y is empty"},
@@ -165,6 +170,45 @@ TEST(trajectory, that_is_wrong_is_told_with_line_and_column) {
   };
   for (const auto& [text, expected] : cases) EXPECT_TRUE(has(fault_in(text), expected)) << text << "\n" << fault_in(text);
   EXPECT_TRUE(has(fault_in(good, {"", load::stamp_of(1e9)}), "got -1e+09 s after the scene's zero"));
+}
+
+TEST(trajectory, of_any_bytes_is_read_or_refused) {
+  const std::string seeds[] = {"# t [ns], x, y, z, qx, qy, qz, qw\n1403636579758555392,1,2,3,0,0,0,1\n",
+                               "0.5;1e3;-2;3;0;0.6;0;-0.8\r\n1;1;1;1;1;0;0;0"};
+  const std::string letters = "0123456789.,;eE+-#%[]() \t\r\nxyzqwtn\"";
+  std::uint64_t state = 1;
+  const auto random = [&](std::size_t below) {
+    state = state * 6364136223846793005U + 1442695040888963407U;
+    return static_cast<std::size_t>(state >> 33U) % below;
+  };
+  int read = 0, refused = 0;
+  for (int i = 0; i < 20'000; ++i) {
+    std::string text = seeds[i % 2];
+    for (std::size_t k = 0; k <= random(4); ++k) {
+      const std::size_t at = random(text.size());
+      if (random(3) == 0)
+        text.erase(at, 1 + random(3));
+      else
+        text[at] = random(10) == 0 ? static_cast<char>(random(256)) : letters[random(letters.size())];
+    }
+    base::Faults faults;
+    std::optional<load::Stamp> clock;
+    for (const TimedPose& one : load::parse_trajectory(text, "p.csv", {}, clock, faults)) {
+      ++read;
+      EXPECT_NEAR(std::hypot(one.quaternion[0], one.quaternion[1], one.quaternion[2]) *
+                          std::hypot(one.quaternion[0], one.quaternion[1], one.quaternion[2]) +
+                      one.quaternion[3] * one.quaternion[3],
+                  1, 1e-14)
+          << text;
+      EXPECT_TRUE(std::abs(one.time_s) <= 1e6) << text;
+    }
+    refused += faults.empty() ? 0 : 1;
+  }
+  EXPECT_GT(read, 1000);
+  EXPECT_GT(refused, 1000);
+  const std::string digits(1'000'000, '9');
+  EXPECT_TRUE(has(fault_in(digits + " 0 0 0 0 0 0 1\n"), "t is not finite"));
+  EXPECT_TRUE(has(fault_in("0." + digits + " 0 0 0 0 0 0 1\n"), "the time is out of range"));
 }
 
 TEST(trajectory, has_no_more_poses_than_there_may_be_keyframes) {
@@ -201,6 +245,7 @@ TEST_F(keyframe_files, of_one_clock_have_one_zero_the_cameras_first) {
   file("in/c.csv", "1305031449.5 0 0 0 0 0 0 1\n1305031450.5 0 0 0 0 0 0 1\n"),
       file("in/b.csv", "1305031449.25 0 0 0 0 0 0 1\n1305031450 0 0 0 0 0 0 1\n");
   const Scene both = scene("keyframes: {file: c.csv}", ", keyframes: {file: b.csv}");
+  ASSERT_EQ(both.camera.keyframes.size(), 2U);
   EXPECT_EQ(both.camera.keyframes[0].time_s, 0);
   EXPECT_EQ(both.objects[0].keyframes[0].time_s, -0.25);
   EXPECT_EQ(scene("mode: MODE_9_5FPS_2000", ", keyframes: {file: b.csv}").objects[0].keyframes[0].time_s, 0);

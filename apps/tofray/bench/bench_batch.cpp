@@ -48,7 +48,7 @@ std::vector<FrameRequest> requests_of(const Inputs& in, std::uint64_t count, std
     Pose pose = scene::pose_at(in.scene.camera, 0);
     const double x = 0.01 * (static_cast<double>(i % 7) - 3), y = 0.01 * (static_cast<double>(i / 7 % 5) - 2);
     pose.position[0] += x, pose.position[1] += y;
-    pose.look_at[0] += x, pose.look_at[1] += y;
+    if (!pose.quaternion) pose.look_at[0] += x, pose.look_at[1] += y;
     requests[i].pose = pose;
   }
   return requests;
