@@ -131,6 +131,24 @@ TEST(scene_report, knows_a_camera_within_a_mesh_by_its_solid_angle) {
   EXPECT_FALSE(around(cube(2), {0, 0, 4.5})) << "within its box at most";
 }
 
+TEST(scene_report, turns_a_mesh_as_its_object_says) {
+  const auto around = [](double angle) {
+    Object object = object_of(cube(2));
+    object.position = {0, 0, 2.5}, object.rotation = {{0, 1, 0}, angle};  // an edge reaches 2.83 back, a side 2
+    return report_of({object}).objects[0].around_camera;
+  };
+  EXPECT_TRUE(around(pi / 4));
+  EXPECT_FALSE(around(0));
+}
+
+TEST(scene_report, takes_no_parts_of_one_file_for_copies) {
+  Object one = object_of(cube(0.1F)), other = one;
+  one.position = other.position = {0, 0, 1};
+  EXPECT_TRUE(finds(report_of({one, other}), SceneFinding::Kind::same_place));
+  one.key = other.key = "objects.0";
+  EXPECT_FALSE(finds(report_of({one, other}), SceneFinding::Kind::same_place));
+}
+
 TEST(scene_report, takes_parts_of_one_file_together) {
   Object left = object_of(cube(2, 0, 3), "room/left"), right = object_of(cube(2, 3, 6), "room/right");
   EXPECT_FALSE(report_of({left, right}).objects[0].around_camera) << "two files of half a cube";
