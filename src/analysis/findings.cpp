@@ -97,19 +97,23 @@ bool find_nothing(const Seen& seen, SceneReport& report) {
   const std::string what = behind ? fmt::format("{} {} behind the camera{}", who, all.size() == 1 ? "is" : "are", but)
                            : hits ? fmt::format("the camera sees planes alone: {} {} out of view", who, all.size() == 1 ? "is" : "are")
                                   : fmt::format("no ray of the camera hits an object: it looks past {}", who);
-  add(seen, report, behind ? Kind::behind_camera : Kind::nothing_in_view, true, all, what, camera_text(seen) + way_to(seen, all));
+  // Light that bounces comes round corners: who follows it may well look at a wall alone.
+  const bool warning = !hits || seen.scene.transport.bounces == 0;
+  add(seen, report, behind ? Kind::behind_camera : Kind::nothing_in_view, warning, all, what, camera_text(seen) + way_to(seen, all));
   return true;
 }
 
 /// @return whether something is said
 bool find_millimetres(const Seen& seen, SceneReport& report) {
-  const std::vector<int> all = things(report);
+  std::vector<int> all = things(report);
   const bool hits = report.nearest_m.has_value();
   const bool far = std::all_of(all.begin(), all.end(), [&](int i) { return distance_to_box(body_of(seen, i), seen.eye) > very_far_m; });
   if (hits ? *report.nearest_m <= very_far_m : all.empty() || !far) return false;
   double nearest = report.nearest_m.value_or(std::numeric_limits<double>::infinity());
   for (const int i : all)
     if (!hits) nearest = std::min(nearest, distance_to_box(body_of(seen, i), seen.eye));
+  for (const ObjectInView& one : report.objects)
+    if (one.endless && one.pixels > 0) all.push_back(one.object);
   add(seen, report, Kind::millimetres, true, all, fmt::format("the nearest object is {} away from the camera", metres(nearest)),
       fmt::format("coordinates without a unit are metres: are these millimetres? Then this would be {}: write 1.5 or 1500 mm, not 1500",
                   metres(1e-3 * nearest)));
@@ -151,12 +155,11 @@ bool find_mesh_sizes(const Seen& seen, SceneReport& report) {
                  scale = std::get<Mesh>(seen.scene.objects[static_cast<std::size_t>(file.objects[0])].shape).scale;
     const bool unseen = !(file.nearest_m <= report.ambiguity_range_m);
     const bool large = size >= very_large_m || (size >= large_m && unseen && report.ambiguity_range_m > 0);
-    if (!large && !(size > 0 && size < very_small_m)) continue;
+    if (!large && !(scale < 1 && size > 0 && size < very_small_m)) continue;
     const std::string more =
         large && scale == 1 ? fmt::format("is its file in millimetres? Then say scale: 0.001 in its mesh{}",
                                           set_scale(seen.scene.objects[static_cast<std::size_t>(file.objects[0])]))
         : large             ? fmt::format("its mesh says scale: {}, which makes metres of the file's numbers", base::number_text(scale))
-        : scale == 1        ? "is its file in kilometres? scale in its mesh makes metres of the file's numbers"
                             : fmt::format("is its file in metres? Then take scale: {} out of its mesh", base::number_text(scale));
     add(seen, report, Kind::mesh_size, true, file.objects,
         fmt::format("{} measures {}", name_of(seen.scene, file.objects[0]),
@@ -171,9 +174,11 @@ void find_around(const Seen& seen, SceneReport& report) {
   std::vector<int> around;
   std::set<std::string> entries;
   bool others = false, others_seen = false, narrow = false;
+  std::int64_t pixels = 0;
   for (const ObjectInView& one : report.objects) {
     if (one.around_camera) {
       if (entries.insert(name_of(seen.scene, one.object)).second) around.push_back(one.object);
+      pixels += one.pixels;
       narrow = narrow || widest({one.low[0], one.low[1], one.low[2]}, {one.high[0], one.high[1], one.high[2]}) < narrow_m;
     } else if (!one.endless) {
       others = true, others_seen = others_seen || one.pixels > 0;
@@ -181,7 +186,8 @@ void find_around(const Seen& seen, SceneReport& report) {
   }
   if (around.empty()) return;
   const bool hides = others && !others_seen && !anything_moves(seen.scene);
-  add(seen, report, Kind::around_camera, hides || narrow, around, fmt::format("the camera stands inside {}", names_of(seen.scene, around)),
+  add(seen, report, Kind::around_camera, hides || (narrow && 2 * pixels > report.pixels), around,
+      fmt::format("the camera stands inside {}", names_of(seen.scene, around)),
       std::string("it sees the inner side, and nothing beyond") + (hides ? ": none of the other objects is in view" : ""));
 }
 
@@ -219,7 +225,8 @@ std::optional<double> height_above(const Seen& seen, std::size_t i, const Vec& u
 void find_floors(const Seen& seen, SceneReport& report) {
   const Vec up = shape::normalized(scene::vec(seen.pose.up));
   if (std::abs(shape::dot(up, seen.forward)) > 0.8) return;
-  const bool usual = std::abs(up.y) > 0.9;
+  // Else the camera lies on its side or hangs upside down.
+  if (!(up.y < -0.9 || up.z > 0.9)) return;
   std::vector<int> level, above;
   for (std::size_t i = 0; i < seen.scene.objects.size(); ++i) {
     const Object& object = seen.scene.objects[i];
@@ -228,7 +235,7 @@ void find_floors(const Seen& seen, SceneReport& report) {
     if (std::holds_alternative<Plane>(object.shape)) level.push_back(static_cast<int>(i));
     if (*height > 0 && is_called(object, {"floor", "ground"})) above.push_back(static_cast<int>(i));
   }
-  if (above.empty() && usual && level.size() == 1 &&
+  if (above.empty() && up.y < -0.9 && level.size() == 1 &&
       !is_called(seen.scene.objects[static_cast<std::size_t>(level[0])], {"ceiling", "roof", "sky", "lid"}) &&
       *height_above(seen, static_cast<std::size_t>(level[0]), up) > 0)
     above = level;

@@ -131,6 +131,24 @@ TEST(scene_report, knows_a_camera_within_a_mesh_by_its_solid_angle) {
   EXPECT_FALSE(around(cube(2), {0, 0, 4.5})) << "within its box at most";
 }
 
+TEST(scene_report, turns_a_mesh_as_its_object_says) {
+  const auto around = [](double angle) {
+    Object object = object_of(cube(2));
+    object.position = {0, 0, 2.5}, object.rotation = {{0, 1, 0}, angle};  // an edge reaches 2.83 back, a side 2
+    return report_of({object}).objects[0].around_camera;
+  };
+  EXPECT_TRUE(around(pi / 4));
+  EXPECT_FALSE(around(0));
+}
+
+TEST(scene_report, takes_no_parts_of_one_file_for_copies) {
+  Object one = object_of(cube(0.1F)), other = one;
+  one.position = other.position = {0, 0, 1};
+  EXPECT_TRUE(finds(report_of({one, other}), SceneFinding::Kind::same_place));
+  one.key = other.key = "objects.0";
+  EXPECT_FALSE(finds(report_of({one, other}), SceneFinding::Kind::same_place));
+}
+
 TEST(scene_report, takes_parts_of_one_file_together) {
   Object left = object_of(cube(2, 0, 3), "room/left"), right = object_of(cube(2, 3, 6), "room/right");
   EXPECT_FALSE(report_of({left, right}).objects[0].around_camera) << "two files of half a cube";
@@ -145,13 +163,15 @@ TEST(scene_report, takes_parts_of_one_file_together) {
 }
 
 TEST(scene_report, warns_of_a_mesh_that_is_out_of_scale_only) {
-  const auto warned = [](float half, double z) {
+  const auto warned = [](float half, double z, double scale = 1) {
     Object mesh = object_of(cube(half));
+    std::get<Mesh>(mesh.shape).scale = scale;
     mesh.position = {0, 0, z};
     return finds(report_of({mesh}), SceneFinding::Kind::mesh_size);
   };
   EXPECT_TRUE(warned(200, 0.5));
-  EXPECT_TRUE(warned(0.002F, 0.5));
+  EXPECT_TRUE(warned(0.002F, 0.5, 0.001));
+  EXPECT_FALSE(warned(0.002F, 0.5)) << "a grain";
   EXPECT_FALSE(warned(0.2F, 1));
   EXPECT_FALSE(warned(4, 5)) << "a hall within reach";
   EXPECT_TRUE(warned(8, 60)) << "16 m, and all beyond reach";
@@ -164,6 +184,39 @@ TEST(scene_report, calls_no_moving_camera_turned_away) {
   scene.camera.keyframes = {{0, scene.camera.pose}, {1, {{0, 0, 0}, {0.1, 0, -1}, {0, -1, 0}}}};
   scene.camera.pose = {};
   EXPECT_FALSE(finds(scene_report(scene, small_camera()), SceneFinding::Kind::behind_camera));
+}
+
+TEST(scene_report, notes_what_light_may_reach_round_a_corner) {
+  Scene scene = scene_of({object_of(Plane{{0, 0, 2}, {0, 0, -1}}), object_of(Sphere{{1.5, 0, 0}, 0.1})});
+  SceneReport report = scene_report(scene, small_camera());
+  ASSERT_EQ(report.findings.size(), 1U);
+  EXPECT_EQ(report.findings[0].kind, SceneFinding::Kind::nothing_in_view);
+  EXPECT_TRUE(report.findings[0].warning);
+  scene.transport.bounces = 2;
+  report = scene_report(scene, small_camera());
+  ASSERT_EQ(report.findings.size(), 1U);
+  EXPECT_FALSE(report.findings[0].warning);
+}
+
+// A camera that hangs upside down has its floor above it in the image.
+TEST(scene_report, leaves_cameras_alone_that_are_turned_about_their_axis) {
+  Scene scene = scene_of({object_of(Plane{{0, 1, 0}, {0, -1, 0}}, "floor"), object_of(Sphere{{0, 0, 1}, 0.1})});
+  for (const Vec3& up : {Vec3{0, 1, 0}, Vec3{1, 0, 0}}) {
+    scene.camera.pose.up = up;
+    EXPECT_FALSE(finds(scene_report(scene, small_camera()), SceneFinding::Kind::floor_above)) << up[0];
+  }
+  // In a world whose z is up.
+  scene = scene_of({object_of(Plane{{0, 0, 1}, {0, 0, 1}}, "floor"), object_of(Sphere{{2, 0, 0}, 0.1})});
+  scene.camera.pose = {{0, 0, 0}, {1, 0, 0}, {0, 0, 1}};
+  EXPECT_TRUE(finds(scene_report(scene, small_camera()), SceneFinding::Kind::floor_above));
+}
+
+TEST(scene_report, warns_not_of_a_narrow_housing_that_the_camera_looks_out_of) {
+  Object housing = object_of(cube(0.2F, 0, 5));  // without the side towards +z
+  const SceneReport report = report_of({housing, object_of(Plane{{0, 0, 2}, {0, 0, -1}}), object_of(Sphere{{0, 0, 1}, 0.1})});
+  ASSERT_EQ(report.findings.size(), 1U);
+  EXPECT_EQ(report.findings[0].kind, SceneFinding::Kind::around_camera);
+  EXPECT_FALSE(report.findings[0].warning);
 }
 
 TEST(scene_report, finds_what_is_hidden_inside_a_closed_object) {
