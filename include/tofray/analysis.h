@@ -84,6 +84,7 @@ enum class NoDepth {
   inconsistent_phases,       ///< rejected for these
   inconsistent_frequencies,  ///< likewise
 };
+/// How many reasons there are.
 inline constexpr std::size_t no_depth_count = 11;
 /// What messages call it: "no surface", "wrong cycle".
 const char* no_depth_name(NoDepth reason);
@@ -108,6 +109,7 @@ struct InvalidPixels {
   double ambiguity_range_m = 0;               ///< of the camera's mode; 0 where no raw frame is lit
   std::vector<double> ranges_m;               ///< that of each modulation frequency alone
 
+  /// Those of one reason.
   [[nodiscard]] std::int64_t count(NoDepth reason) const;
 };
 
