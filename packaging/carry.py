@@ -70,8 +70,8 @@ def carry(files: list[pathlib.Path], folder: pathlib.Path, own: pathlib.Path, re
             run("patchelf", *replaced, file)
         if replaced or any(name in {path.name for path in ours} for name in needed):
             places = [folder] if rename_own or file in carried else [folder, own]
-            path = ":".join("$ORIGIN" + (f"/{to}" if (to := os.path.relpath(place, file.parent)) != "." else "") for place in places)
-            run("patchelf", "--set-rpath", path, file)
+            search = ":".join("$ORIGIN" + (f"/{to}" if (to := os.path.relpath(place, file.parent)) != "." else "") for place in places)
+            run("patchelf", "--set-rpath", search, file)
     return foreign
 
 

@@ -12,6 +12,7 @@ from __future__ import annotations
 
 import argparse
 import gzip
+import io
 import os
 import pathlib
 import platform
@@ -98,10 +99,11 @@ class Maker:
             entry.mode = 0o755 if entry.isdir() or entry.mode & 0o100 else 0o644
             return entry
 
-        with open(self.out / name, "wb") as file, gzip.GzipFile("", "wb", 9, file, self.time) as zipped:
-            with tarfile.open(fileobj=zipped, mode="w", format=tarfile.GNU_FORMAT) as archive:
-                for path in [folder, *sorted(folder.rglob("*"))]:
-                    archive.add(path, pathlib.Path(top) / path.relative_to(folder), recursive=False, filter=plain)
+        content = io.BytesIO()
+        with tarfile.open(fileobj=content, mode="w", format=tarfile.GNU_FORMAT) as archive:
+            for path in [folder, *sorted(folder.rglob("*"))]:
+                archive.add(path, pathlib.Path(top) / path.relative_to(folder), recursive=False, filter=plain)
+        (self.out / name).write_bytes(gzip.compress(content.getvalue(), 9, mtime=self.time))
 
     def tarball(self) -> None:
         top = f"tofray-{VERSION}-linux-{MACHINE}"
