@@ -40,7 +40,7 @@ endforeach()
 
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME tofray)
-set(CPACK_PACKAGE_CONTACT "The tofray authors <tofray@localhost>")
+set(CPACK_PACKAGE_CONTACT "The tofray authors <tofray@authors.invalid>")
 set(CPACK_PACKAGE_VERSION ${PROJECT_VERSION})
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
 set(CPACK_STRIP_FILES ON)

@@ -26,7 +26,7 @@ fi
 root=$work/root
 cp -a "$bare" "$root"
 cp -L /etc/resolv.conf "$root/etc/resolv.conf"
-echo 'APT::Get::Assume-Yes "true"; APT::Get::Update::Error-Mode "any"; APT::Install-Recommends "false"; quiet "1";' >"$root/etc/apt/apt.conf.d/90bare"
+echo 'APT::Get::Assume-Yes "true"; APT::Get::Update::Error-Mode "any"; APT::Install-Recommends "false"; quiet "2"; Dpkg::Use-Pty "0";' >"$root/etc/apt/apt.conf.d/90bare"
 cp -a "$folder" "$root/work"
 cat >"$root/script"
 mapfile -t environment < <(env | grep -E '^(TOFRAY_(CUDA|JOBS)|CUDAARCHS)=' || true)

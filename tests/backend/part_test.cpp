@@ -11,27 +11,30 @@
 
 #include "backend/cuda/part.h"
 
-using namespace tofray::backend::gpu;
-namespace fs = std::filesystem;
-
 namespace {
+
+namespace fs = std::filesystem;
+using tofray::backend::gpu::load_part;
+using tofray::backend::gpu::Part;
+using tofray::backend::gpu::part_file;
+using tofray::backend::gpu::part_folders;
 
 const fs::path parts = TOFRAY_PARTS;
 const std::string ours = "1.2.3 (sources 0123abcd)";
 
 /// A folder that goes with the test.
-struct Folder {
+struct EmptyFolder {
   fs::path path;
-  Folder() {
+  EmptyFolder() {
     std::string pattern = (fs::temp_directory_path() / "tofray-part-XXXXXX").string();
     path = ::mkdtemp(pattern.data());
   }
-  ~Folder() {
+  ~EmptyFolder() {
     std::error_code ignored;
     fs::remove_all(path, ignored);
   }
-  Folder(const Folder&) = delete;
-  Folder& operator=(const Folder&) = delete;
+  EmptyFolder(const EmptyFolder&) = delete;
+  EmptyFolder& operator=(const EmptyFolder&) = delete;
 };
 
 }  // namespace
@@ -61,7 +64,7 @@ TEST(part, that_is_none_of_tofrays_is_refused) {
 }
 
 TEST(part, that_is_no_library_is_refused_with_the_loaders_reason) {
-  const Folder folder;
+  const EmptyFolder folder;
   std::ofstream(folder.path / part_file) << "no library";
   const Part part = load_part({folder.path}, ours);
   EXPECT_EQ(part.runtime, nullptr);
@@ -70,7 +73,7 @@ TEST(part, that_is_no_library_is_refused_with_the_loaders_reason) {
 }
 
 TEST(part, that_is_not_there_is_named_with_its_package) {
-  const Folder folder;
+  const EmptyFolder folder;
   const Part part = load_part({folder.path, folder.path / "lib"}, ours);
   EXPECT_EQ(part.runtime, nullptr);
   EXPECT_FALSE(part.is_installed);
@@ -80,7 +83,7 @@ TEST(part, that_is_not_there_is_named_with_its_package) {
 }
 
 TEST(part, of_the_first_folder_that_has_one_counts) {
-  const Folder folder;
+  const EmptyFolder folder;
   EXPECT_NE(load_part({folder.path, parts / "good", parts / "other"}, ours).runtime, nullptr);
   EXPECT_EQ(load_part({folder.path, parts / "other", parts / "good"}, ours).runtime, nullptr);
 }
