@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-FileCopyrightText: 2026 The tofray authors
 # SPDX-License-Identifier: Apache-2.0
-"""Checks what nothing else reads: links between documents, equation numbers that code and documents cite, SPDX lines."""
+"""Checks what nothing else reads: links between documents, equation numbers that code and documents cite, SPDX lines, versions."""
 
 import pathlib
 import re
@@ -59,6 +59,23 @@ for path in files:
         head = path.read_text(encoding="utf-8")[:300]
         if "SPDX-FileCopyrightText: 2026 The tofray authors" not in head or "SPDX-License-Identifier: Apache-2.0" not in head:
             fault(path, 1, "the two SPDX lines are missing")
+
+# One version, wherever it stands.
+def said(name, pattern):
+    text = (root / name).read_text(encoding="utf-8")
+    found = re.search(pattern, text, re.M)
+    if not found:
+        faults.append(f"{name}:1: error: no version is found: {pattern}")
+    return found and (found[1], text[: found.start(1)].count("\n") + 1)
+
+
+version, _ = said("CMakeLists.txt", r"^project\(tofray VERSION ([\d.]+)") or ("", 0)
+for name, pattern in (("CITATION.cff", r"^version: ([\d.]+)$"), ("CHANGELOG.md", r"^## ([\d.]+) ")):
+    other = said(name, pattern)
+    if other and other[0] != version:
+        fault(root / name, other[1], f"the version is {other[0]}, in CMakeLists.txt it is {version}")
+if not (root / f"docs/release-notes/{version}.md").exists():
+    faults.append(f"docs/release-notes/{version}.md:1: error: there is no such page, and the version is {version}")
 
 print("\n".join(faults) if faults else f"{len(equations)} equations, {len(files)} files: good")
 sys.exit(1 if faults else 0)

@@ -72,10 +72,21 @@ write_basic_package_version_file(${CMAKE_BINARY_DIR}/tofray-config-version.cmake
 install(EXPORT tofray-targets NAMESPACE tofray:: DESTINATION ${tofray_package_dir})
 install(FILES ${CMAKE_BINARY_DIR}/tofray-config.cmake ${CMAKE_BINARY_DIR}/tofray-config-version.cmake DESTINATION ${tofray_package_dir})
 
+# For builds without CMake: pkg-config --cflags --libs tofray-files. (Static libraries leave it to CMake to say what they need.)
+if(BUILD_SHARED_LIBS)
+  file(RELATIVE_PATH tofray_pc_prefix /${CMAKE_INSTALL_LIBDIR}/pkgconfig /)
+  string(REGEX REPLACE "/$" "" tofray_pc_prefix ${tofray_pc_prefix})
+  foreach(name tofray tofray-files)
+    configure_file(cmake/${name}.pc.in ${CMAKE_BINARY_DIR}/${name}.pc @ONLY)
+    install(FILES ${CMAKE_BINARY_DIR}/${name}.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
+  endforeach()
+endif()
+
 # Completion, written by the command itself, where the shells look for it.
+set(TOFRAY_ZSH_DIR zsh/site-functions CACHE STRING "Folder below share for zsh's completion (Debian's own packages: zsh/vendor-completions)")
 if(NOT CMAKE_CROSSCOMPILING)
   install(CODE "
-    foreach(place IN ITEMS bash=bash-completion/completions/tofray zsh=zsh/site-functions/_tofray fish=fish/vendor_completions.d/tofray.fish)
+    foreach(place IN ITEMS bash=bash-completion/completions/tofray zsh=${TOFRAY_ZSH_DIR}/_tofray fish=fish/vendor_completions.d/tofray.fish)
       string(REGEX MATCH \"^[a-z]+\" shell \${place})
       string(REPLACE \"\${shell}=\" \"\$ENV{DESTDIR}\${CMAKE_INSTALL_PREFIX}/${CMAKE_INSTALL_DATADIR}/\" file \${place})
       get_filename_component(folder \${file} DIRECTORY)

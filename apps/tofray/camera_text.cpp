@@ -77,7 +77,7 @@ std::string noise_text(const CameraReport& report) {
     text += noise_lines(report, from, std::min(from + distances_in_a_line, distances), marks);
   const auto foot = [&](const std::string& line) { text += fmt::format("  {:<24}{}\n", "", line); };
   if (marks.low) foot(fmt::format("* low signal: above {}", base::quantity_text(report.low_signal_m, "1 mm")));
-  if (marks.wrong) foot("! of 100 pixels so many have a range that is off by whole cycles of a modulation frequency");
+  if (marks.wrong) foot("! above 1 %: the range of so many pixels is off by whole cycles of a modulation frequency");
   if (marks.sun) foot(fmt::format("the sun: 100 % of sun_am15 from everywhere, {:.0f} klx", 1e-3 * base::illuminance_lx(base::sun_am15())));
   if (!report.knows_ambient)
     foot("The mode has no unlit raw frame: the camera's own estimate (noise_m) leaves out what ambient light adds.");

@@ -141,9 +141,14 @@ Validity validity(const Frame& frame, const Camera& camera, bool wrong_cycles) {
     if (count > 0) out.reasons += fmt::format("{}{} {}", out.reasons.empty() ? "" : ", ", count, no_depth_name(reason));
     if (count > out.pixels.count(most)) most = reason;
   }
+  const std::int64_t wrong = out.pixels.valid_on_wrong_cycle;
+  if (100 * wrong > out.pixels.valid)
+    out.advice = fmt::format("{:.0f} % of the pixels that have a depth are whole cycles off, and noise_m does not know: {}",
+                             100 * static_cast<double>(wrong) / static_cast<double>(out.pixels.valid), whole_cycles(out.pixels));
   if (!out.few()) return out;
   const double share = static_cast<double>(out.pixels.count(most)) / static_cast<double>(out.pixels.pixels);
-  out.advice = fmt::format("{:.0f} % {}: {}", 100 * share, no_depth_name(most), help_against(most, out.pixels, frame, camera));
+  out.advice += fmt::format("{}{:.0f} % {}: {}", out.advice.empty() ? "" : "\n  ", 100 * share, no_depth_name(most),
+                            help_against(most, out.pixels, frame, camera));
   return out;
 }
 

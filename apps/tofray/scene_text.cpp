@@ -20,7 +20,7 @@ std::string percent(std::int64_t count, std::int64_t of) {
   return count == 0 ? "none" : share < 0.05 ? "< 0.1 %" : fmt::format("{:.1f} %", share);
 }
 
-std::string row(const char* what, const std::string& value) { return fmt::format("  {:<18}{}\n", what, value); }
+std::string row(const char* what, const std::string& value) { return fmt::format("  {:<24}{}\n", what, value); }
 
 std::string metres(double m) { return m >= 1e5 ? "> 100 km" : fmt::format("{:.{}f} m", m, m < 1000 ? 2 : 0); }
 

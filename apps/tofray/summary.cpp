@@ -96,7 +96,10 @@ files::Json summary_json(const files::OutputFolder& folder, const Validity& last
     invalid.set(name, last.pixels.count(reason));
   }
   json.set("folder", folder.path().native()).set("frames", frames).set("pixels", last.pixels.pixels).set("valid_pixels", last.pixels.valid);
-  json.set("invalid_pixels", std::move(invalid)).set("valid_beyond_ambiguity_range", last.pixels.wrapped).set("advice", last.advice);
+  json.set("invalid_pixels", std::move(invalid))
+      .set("valid_beyond_ambiguity_range", last.pixels.wrapped)
+      .set("valid_on_wrong_cycle", last.pixels.valid_on_wrong_cycle)
+      .set("advice", last.advice);
   remarks.put(json);
   return json.set("backend", machine.backend)
       .set("gpu", gpu_of(machine))

@@ -19,6 +19,7 @@ MOVED = {
     "README.md": "index.md",
     "CONTRIBUTING.md": "contributing.md",
     "CHANGELOG.md": "changelog.md",
+    "SECURITY.md": "security.md",
     "docs/index.md": None,  # the tree's own list of documents: the site has its contents beside each page
     "docs/decisions/README.md": "decisions/index.md",
 }

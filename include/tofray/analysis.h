@@ -84,29 +84,32 @@ enum class NoDepth {
   inconsistent_phases,       ///< rejected for these
   inconsistent_frequencies,  ///< likewise
 };
+/// How many reasons there are.
 inline constexpr std::size_t no_depth_count = 11;
 /// What messages call it: "no surface", "wrong cycle".
 const char* no_depth_name(NoDepth reason);
 
 /// How many pixels have no depth, and why: each counts once, under the member of its NoDepth.
 struct InvalidPixels {
-  std::int64_t pixels = 0;                    ///< of the image
-  std::int64_t valid = 0;                     ///< of them, those that have a depth
-  std::int64_t wrapped = 0;                   ///< valid ones whose surface is beyond the ambiguity range: their depth is too small
-  std::int64_t saturated = 0;                 ///< a well or the ADC is full
-  std::int64_t no_surface = 0;                ///< the ray hits nothing
-  std::int64_t beyond_reach = 0;              ///< the surface is farther than the ambiguity range
-  std::int64_t dark = 0;                      ///< there is a surface within reach, and too little light comes back
-  std::int64_t low_signal = 0;                ///< too little light; without truth nobody knows what is there
-  std::int64_t no_return = 0;                 ///< no light; likewise
-  std::int64_t wrong_cycle = 0;               ///< most neighbours are off by whole cycles of a modulation frequency
-  std::int64_t flying_pixel = 0;              ///< light of near and far mixed
-  std::int64_t outside_lens = 0;              ///< the lens model has no ray there
-  std::int64_t inconsistent_phases = 0;       ///< rejected for these
+  std::int64_t pixels = 0;                ///< of the image
+  std::int64_t valid = 0;                 ///< of them, those that have a depth
+  std::int64_t wrapped = 0;               ///< valid ones whose surface is beyond the ambiguity range: their depth is too small
+  std::int64_t valid_on_wrong_cycle = 0;  ///< valid ones whose range is off by more than half a cycle of the highest modulation frequency
+  std::int64_t saturated = 0;             ///< a well or the ADC is full
+  std::int64_t no_surface = 0;            ///< the ray hits nothing
+  std::int64_t beyond_reach = 0;          ///< the surface is farther than the ambiguity range
+  std::int64_t dark = 0;                  ///< there is a surface within reach, and too little light comes back
+  std::int64_t low_signal = 0;            ///< too little light; without truth nobody knows what is there
+  std::int64_t no_return = 0;             ///< no light; likewise
+  std::int64_t wrong_cycle = 0;           ///< most neighbours are off by whole cycles of a modulation frequency
+  std::int64_t flying_pixel = 0;          ///< light of near and far mixed
+  std::int64_t outside_lens = 0;          ///< the lens model has no ray there
+  std::int64_t inconsistent_phases = 0;   ///< rejected for these
   std::int64_t inconsistent_frequencies = 0;  ///< likewise
   double ambiguity_range_m = 0;               ///< of the camera's mode; 0 where no raw frame is lit
   std::vector<double> ranges_m;               ///< that of each modulation frequency alone
 
+  /// Those of one reason.
   [[nodiscard]] std::int64_t count(NoDepth reason) const;
 };
 

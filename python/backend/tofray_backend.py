@@ -57,11 +57,12 @@ def _build() -> pathlib.Path:
     return folder
 
 
-def _write(directory: str, files: dict[str, tuple[bytes, int]]) -> str:
-    name = f"tofray-{_version()}-{_tag()}.whl"
-    info = f"tofray-{_version()}.dist-info"
-    files = {**files, f"{info}/METADATA": (_metadata().encode(), 0o644),
-             f"{info}/WHEEL": (f"Wheel-Version: 1.0\nGenerator: tofray\nRoot-Is-Purelib: false\nTag: {_tag()}\n".encode(), 0o644)}
+def _write(directory: str, files: dict[str, tuple[bytes, int]], name: str = "tofray", tag: str = "", metadata: str = "") -> str:
+    """(packaging/make.py has wheels of other names, tags and metadata.)"""
+    info, tag = f"{name}-{_version()}.dist-info", tag or _tag()
+    name = f"{name}-{_version()}-{tag}.whl"
+    files = {**files, f"{info}/METADATA": ((metadata or _metadata()).encode(), 0o644),
+             f"{info}/WHEEL": (f"Wheel-Version: 1.0\nGenerator: tofray\nRoot-Is-Purelib: false\nTag: {tag}\n".encode(), 0o644)}
     record = io.StringIO()
     lines = csv.writer(record, lineterminator="\n")
     with zipfile.ZipFile(os.path.join(directory, name), "w", zipfile.ZIP_DEFLATED) as wheel:

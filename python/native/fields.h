@@ -173,7 +173,7 @@ TOFRAY_FIELDS(SceneFinding, &SceneFinding::kind, &SceneFinding::warning, &SceneF
               &SceneFinding::more)
 TOFRAY_FIELDS(SceneReport, &SceneReport::time_s, &SceneReport::pixels, &SceneReport::outside_lens, &SceneReport::no_surface, &SceneReport::beyond_reach,
               &SceneReport::ambiguity_range_m, &SceneReport::nearest_m, &SceneReport::farthest_m, &SceneReport::objects, &SceneReport::findings)
-TOFRAY_FIELDS(InvalidPixels, &InvalidPixels::pixels, &InvalidPixels::valid, &InvalidPixels::wrapped, &InvalidPixels::saturated, &InvalidPixels::no_surface,
+TOFRAY_FIELDS(InvalidPixels, &InvalidPixels::pixels, &InvalidPixels::valid, &InvalidPixels::wrapped, &InvalidPixels::valid_on_wrong_cycle, &InvalidPixels::saturated, &InvalidPixels::no_surface,
               &InvalidPixels::beyond_reach, &InvalidPixels::dark, &InvalidPixels::low_signal, &InvalidPixels::no_return, &InvalidPixels::wrong_cycle,
               &InvalidPixels::flying_pixel, &InvalidPixels::outside_lens, &InvalidPixels::inconsistent_phases, &InvalidPixels::inconsistent_frequencies,
               &InvalidPixels::ambiguity_range_m, &InvalidPixels::ranges_m)

@@ -220,13 +220,21 @@ std::optional<double> height_above(const Seen& seen, std::size_t i, const Vec& u
   return shape::dot(at - seen.eye, up);
 }
 
+/// Which way is up: what the scene says of its world; else the camera's up, and of a pose by quaternion, which has none, −y.
+Vec up_of(const Seen& seen) {
+  if (seen.scene.world_up == Scene::Up::z) return {0, 0, 1};
+  if (seen.scene.world_up == Scene::Up::y) return {0, 1, 0};
+  return seen.pose.quaternion ? Vec{0, -1, 0} : shape::normalized(scene::vec(seen.pose.up));
+}
+
 /// A floor that is above the camera by its name, or a plane above it where the scene has no other level plane and does not call it a
 /// ceiling. A camera that looks up or down does not know which way is up.
 void find_floors(const Seen& seen, SceneReport& report) {
-  const Vec up = shape::normalized(scene::vec(seen.pose.up));
+  const Vec up = up_of(seen);
   if (std::abs(shape::dot(up, seen.forward)) > 0.8) return;
   // Else the camera lies on its side or hangs upside down.
-  if (!(up.y < -0.9 || up.z > 0.9)) return;
+  const bool said = seen.scene.world_up != Scene::Up::minus_y;
+  if (!(said || up.y < -0.9 || up.z > 0.9)) return;
   std::vector<int> level, above;
   for (std::size_t i = 0; i < seen.scene.objects.size(); ++i) {
     const Object& object = seen.scene.objects[i];
@@ -245,7 +253,8 @@ void find_floors(const Seen& seen, SceneReport& report) {
       fmt::format("{} is level and {} above the camera: a ceiling, not a floor", name_of(seen.scene, above[0]), metres(height)),
       up.y < -0.9 ? "the world's y points down: a floor has a larger y than the camera, as in point: [0, 0.5, 0]; a ceiling is known by "
                     "its name, as in name: ceiling"
-                  : fmt::format("up is {} by camera.pose.up; a ceiling is known by its name, as in name: ceiling", point(up)));
+                  : fmt::format("up is {} by {}; a ceiling is known by its name, as in name: ceiling", point(up),
+                                said ? "world_up" : "camera.pose.up"));
 }
 
 /// What is seen of them lies all beyond the ambiguity range.

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "analysis/reach.h"
 #include "tofray/analysis.h"
@@ -129,10 +130,16 @@ InvalidPixels invalid_pixels(const Frame& frame, const Camera& camera, bool wron
   const std::vector<std::uint16_t>& flags = frame.depth.flags;
   out.pixels = static_cast<std::int64_t>(flags.size());
   const PixelTruth seen(frame, reach.ambiguity_range_m);
+  // (Of one modulation frequency alone no cycle can be mistaken for another.)
+  const double half_a_cycle = reach.ranges_m.size() > 1 ? 0.5 * *std::min_element(reach.ranges_m.begin(), reach.ranges_m.end())
+                                                        : std::numeric_limits<double>::infinity();
   std::vector<std::size_t> flying;
   for (std::size_t i = 0; i < flags.size(); ++i) {
     if ((flags[i] & flags_invalid) == 0) {
-      ++out.valid, out.wrapped += seen.beyond(i) ? 1 : 0;
+      const bool beyond = seen.beyond(i);
+      ++out.valid, out.wrapped += beyond ? 1 : 0;
+      if (!beyond && i < frame.depth.range_m.size() && std::abs(seen.error(i, frame.depth.range_m[i])) > half_a_cycle)
+        ++out.valid_on_wrong_cycle;
       continue;
     }
     const NoDepth reason = seen.reason(i, reason_by_flags(flags[i]));

@@ -24,9 +24,10 @@ using Print = std::array<std::int64_t, 15>;
 Print print_of(const Object& object, const Body& body) {
   const auto rounded = [](double m) { return std::isfinite(m) ? std::llround(std::clamp(m, -1e9, 1e9) / same_m) : 0; };
   Print out{static_cast<std::int64_t>(object.shape.index())};
-  for (int k = 0; k < 3; ++k)
-    out[static_cast<std::size_t>(1 + k)] = rounded(body.low[k]), out[static_cast<std::size_t>(4 + k)] = rounded(body.high[k]);
-  for (std::size_t k = 0; k < body.print.size(); ++k) out[7 + k] = rounded(body.print[k]);
+  auto to = out.begin() + 1;
+  for (const Vec& corner : {body.low, body.high})
+    for (int k = 0; k < 3; ++k) *to++ = rounded(corner[k]);
+  for (const double one : body.print) *to++ = rounded(one);
   return out;
 }
 

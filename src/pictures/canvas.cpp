@@ -10,6 +10,7 @@
 
 #include "base/constants.h"
 #include "base/text.h"
+#include "pictures/carried_font.h"
 #include "tofray/error.h"
 
 namespace tofray::pictures {
@@ -23,6 +24,7 @@ void check(cairo_t* context) {
 /// Letters keep their shapes and places whatever the screen is like: no hints, no colours at their edges.
 void set_font(cairo_t* context, double size) {
   constexpr double capital = 0.72;  // of what fonts call their size
+  use_carried_font();
   cairo_select_font_face(context, "sans-serif", CAIRO_FONT_SLANT_NORMAL, CAIRO_FONT_WEIGHT_NORMAL);
   cairo_set_font_size(context, size / capital);
   cairo_font_options_t* options = cairo_font_options_create();

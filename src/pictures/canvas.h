@@ -30,7 +30,7 @@ class Canvas {
   /// Straight strokes with round ends from point to point. @param dashes  lengths of strokes and gaps in turn; empty: no gaps
   void stroke(const std::vector<Point>& points, double width, Rgb color, const std::vector<double>& dashes = {});
   void disc(Point center, double radius, Rgb color);
-  /// One line of UTF-8 text in the machine's sans-serif font. Where there is none, cairo draws plain letters of its own.
+  /// One line of UTF-8 text in the machine's sans-serif font, or in that of the package (carried_font.h). Where there is none, cairo draws plain letters of its own.
   /// @param x, baseline  where the first letter's left edge stands
   /// @param size   height of a capital letter [px]
   void text(double x, double baseline, double size, Rgb color, std::string_view utf8);

@@ -7,6 +7,7 @@
 
 #include "support/pixels.h"
 #include "tofray/analysis.h"
+#include "tofray/camera_report.h"
 #include "tofray/load.h"
 #include "tofray/simulator.h"
 
@@ -117,4 +118,25 @@ TEST(invalid_pixels, of_edges_are_flying_pixels) {
   const InvalidPixels seen = invalid_pixels(Simulator(scene, camera, options).frame(0), camera);
   EXPECT_GT(seen.flying_pixel, seen.pixels / 100);
   EXPECT_LT(20 * seen.wrong_cycle, seen.flying_pixel);
+}
+
+// 10 % at 2.5 m before a pico flexx in 50 klx, no threshold: check says how many are on a wrong cycle, and truth counts them.
+TEST(invalid_pixels, count_valid_ones_on_a_wrong_cycle) {
+  Scene scene;
+  scene.ambient = full_sun().ambient;
+  scene.ambient.quantity = Ambient::Quantity::illuminance_lx, scene.ambient.amount = 50000;
+  Material grey;
+  grey.diffuse = 0.1;
+  Object wall;
+  wall.shape = Plane{{0, 0, 2.5}, {0, 0, -1}};
+  scene.materials = {grey}, scene.objects = {wall};
+  Camera camera = load_camera("pico-flexx");
+  camera.decoding.noise_threshold_m = 1e3, camera.decoding.flying_check = false, camera.decoding.filter = {};
+  SimulatorOptions options;
+  options.backend = Backend::cpu;
+  const InvalidPixels noisy = invalid_pixels(Simulator(scene, camera, options).frame(0), camera);
+  EXPECT_GT(noisy.valid_on_wrong_cycle, noisy.valid / 2);
+  EXPECT_LT(noisy.valid_on_wrong_cycle, noisy.valid);
+  options.noise = Noise::off;
+  EXPECT_EQ(invalid_pixels(Simulator(scene, camera, options).frame(0), camera).valid_on_wrong_cycle, 0);
 }

@@ -211,6 +211,18 @@ TEST(scene_report, leaves_cameras_alone_that_are_turned_about_their_axis) {
   EXPECT_TRUE(finds(scene_report(scene, small_camera()), SceneFinding::Kind::floor_above));
 }
 
+// The scene says which way is up, whatever turns the camera has: forward is x and up is z here, by a quaternion.
+TEST(scene_report, takes_up_from_the_world_and_not_from_a_quaternion) {
+  Scene scene = scene_of({object_of(Plane{{0, 0, -1}, {0, 0, 1}}, "floor"), object_of(Sphere{{2, 0, 0}, 0.1})});
+  scene.camera.pose = {{0, 0, 0}, {0, 0, 1}, {0, -1, 0}, Quaternion{-0.5, 0.5, -0.5, 0.5}};
+  scene.world_up = Scene::Up::z;
+  EXPECT_FALSE(finds(scene_report(scene, small_camera()), SceneFinding::Kind::floor_above));
+  std::get<Plane>(scene.objects[0].shape).point = {0, 0, 1};
+  const SceneReport report = scene_report(scene, small_camera());
+  EXPECT_TRUE(finds(report, SceneFinding::Kind::floor_above));
+  EXPECT_NE(report.findings[0].more.find("by world_up"), std::string::npos) << report.findings[0].more;
+}
+
 TEST(scene_report, warns_not_of_a_narrow_housing_that_the_camera_looks_out_of) {
   Object housing = object_of(cube(0.2F, 0, 5));  // without the side towards +z
   const SceneReport report = report_of({housing, object_of(Plane{{0, 0, 2}, {0, 0, -1}}), object_of(Sphere{{0, 0, 1}, 0.1})});

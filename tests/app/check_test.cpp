@@ -203,3 +203,89 @@ TEST(render, says_why_few_pixels_are_valid_and_what_helps) {
   const std::string good = said("camera.integration_time", "2000 us");
   EXPECT_FALSE(has(good, "longer integration time")) << good;
 }
+TEST(check, answers_what_is_asked_of_distance_reflectivity_and_light) {
+  const ProfileFolder in;
+  const files::Json report =
+      in.report({"check", "simple.yaml", "--at", "1m,50cm", "--reflectivity", "10%,0.9", "--ambient", "none,50klx,100%", "--json"});
+  const auto* noise = report.find("noise")->items();
+  ASSERT_EQ(noise->size(), 6U);
+  EXPECT_EQ(value(*noise->at(1).find("reflectivity")), 0.9);
+  ASSERT_EQ(noise->at(0).find("at")->items()->size(), 2U);
+  EXPECT_EQ(value(*item(noise->at(0), "at", 0).find("z_m")), 1);
+  EXPECT_EQ(value(*item(noise->at(0), "at", 1).find("z_m")), 0.5);
+  std::vector<std::string> ambients;
+  for (const files::Json& one : *noise) ambients.push_back(files::json_text(*one.find("ambient"), 0));
+  EXPECT_EQ(ambients,
+            (std::vector<std::string>{"\"none\"", "\"none\"", "\"at 50 klx\"", "\"at 50 klx\"", "\"at 100 % sun\"", "\"at 100 % sun\""}));
+  EXPECT_LT(value(*item(noise->at(0), "at", 0).find("noise_m")), value(*item(noise->at(2), "at", 0).find("noise_m")));
+}
+
+// A range has its ends, and evenly spaced distances between them.
+TEST(check, spreads_a_range_of_distances_evenly) {
+  const ProfileFolder in;
+  for (const auto& [typed, count] : {std::pair{"0.5m..4m", 8U}, std::pair{"0.5m..4m:15", 15U}, std::pair{"4m..50cm:2", 2U}}) {
+    const files::Json report = in.report({"check", "simple.yaml", "--at", typed, "--reflectivity", "0.2", "--ambient", "none", "--json"});
+    const auto* at = report.find("noise")->items()->at(0).find("at")->items();
+    ASSERT_EQ(at->size(), count) << typed;
+    const double first = value(*at->at(0).find("z_m")), step = value(*at->at(1).find("z_m")) - first;
+    EXPECT_EQ(first, typed[0] == '4' ? 4 : 0.5);
+    for (std::size_t i = 0; i < count; ++i) EXPECT_NEAR(value(*at->at(i).find("z_m")), first + static_cast<double>(i) * step, 1e-12);
+  }
+  const Result lines = in.run({"check", "simple.yaml", "--at", "0.5m..4m"});
+  EXPECT_NE(lines.out.find("       0.5 m       1 m     1.5 m       2 m     2.5 m       3 m   saturates"), std::string::npos) << lines.out;
+  EXPECT_NE(lines.out.find("       3.5 m       4 m   saturates"), std::string::npos) << lines.out;
+}
+
+TEST(check, refuses_distances_reflectivities_and_light_with_what_is_expected) {
+  const ProfileFolder in;
+  const struct {
+    const char *option, *value, *expected;
+  } wrong[] = {{"--at", "x", "0.3m..4m"},         {"--at", "0", "0.01 to 1000 m"},   {"--at", "1m..", "0.3m..4m"},
+               {"--at", "1m..2m:1", "2 to 1000"}, {"--at", "3kg", "0.01 to 1000 m"}, {"--reflectivity", "80", "0 to 100 %"},
+               {"--reflectivity", "", "10%,80%"}, {"--ambient", "50", "none,50klx"}, {"--ambient", "-1klx", "0 to 1000 klx"},
+               {"--ambient", "2000 klx", "klx"},  {"--ambient", "sun", "none,50klx"}};
+  for (const auto& one : wrong) {
+    const Result result = in.run({"check", "simple.yaml", one.option, one.value});
+    EXPECT_EQ(result.code, 2) << one.option << " " << one.value;
+    EXPECT_NE(result.err.find(one.expected), std::string::npos) << result.err;
+  }
+}
+
+/// A second modulation frequency, of which one pixel in so many is on a wrong cycle.
+std::string with_second_frequency(const std::string& mhz) {
+  std::string text = simple_profile();
+  const std::string one = "[{modulation_frequency: 20 MHz";
+  const std::string second =
+      "[{modulation_frequency: " + mhz +
+      " MHz, reference_phase: [0 deg, 90 deg, 180 deg, 270 deg], integration_time: 1 ms}, {modulation_frequency: 20 MHz";
+  return text.replace(text.find(one), one.size(), second);
+}
+
+TEST(check, says_wrong_cycles_and_warns_of_incommensurate_frequencies) {
+  const ProfileFolder good(with_second_frequency("15")), odd(with_second_frequency("19.99"));
+  const Result fine = good.run({"check", "simple.yaml"});
+  EXPECT_EQ(fine.err, "");
+  EXPECT_NE(fine.out.find("by 15 MHz and 20 MHz, as 3 : 4"), std::string::npos) << fine.out;
+  EXPECT_NE(fine.out.find("wrong cycle, %"), std::string::npos) << fine.out;
+  const Result warned = odd.run({"check", "simple.yaml"});
+  EXPECT_EQ(warned.code, 0);
+  EXPECT_NE(warned.err.find("simple.yaml: warning: "), std::string::npos) << warned.err;
+  EXPECT_NE(warned.err.find("are on a wrong cycle: the modulation frequencies 19.99 MHz and 20 MHz are as 1999 to 2000"), std::string::npos)
+      << warned.err;
+  const Result json = odd.run({"check", "simple.yaml", "--json"});
+  EXPECT_NE(json.out.find("wrong cycle"), std::string::npos) << json.out;
+}
+
+TEST(check, has_rows_for_the_light_of_the_scene) {
+  const ProfileFolder in;
+  write(in.folder / "lit.yaml",
+        "camera: {profile: simple.yaml}\nambient: {illuminance: 20 klx}\nobjects:\n  - plane: {point: [0, 0, 2], normal: [0, 0, -1], "
+        "reflectivity: 0.5}\n");
+  const files::Json own = in.report({"check", "lit.yaml", "--json"});
+  const files::Json asked = in.report({"check", "simple.yaml", "--ambient", "20klx", "--json"});
+  const auto* noise = own.find("noise")->items();
+  ASSERT_EQ(noise->size(), 6U);
+  EXPECT_EQ(files::json_text(*noise->at(2).find("ambient"), 0), "\"in scene's light\"");
+  EXPECT_EQ(value(*item(noise->at(2), "at", 1).find("noise_m")),
+            value(*item(asked.find("noise")->items()->at(0), "at", 1).find("noise_m")));
+}

@@ -244,8 +244,8 @@ TEST_F(newcomer, reads_all_of_it_in_json) {
 TEST_F(newcomer, reads_what_the_camera_sees_of_each_object) {
   save("scene.yaml", "objects:\n" + std::string(wall) + ball);
   const Result result = tool({"check", "scene.yaml"});
-  EXPECT_TRUE(has(result.out, "nothing hit by    none of the rays\n")) << result.out;
-  EXPECT_TRUE(has(result.out, "  surfaces          from 1.0")) << result.out;
+  EXPECT_TRUE(has(result.out, "nothing hit by          none of the rays\n")) << result.out;
+  EXPECT_TRUE(has(result.out, "  surfaces                from 1.0")) << result.out;
   EXPECT_TRUE(has(result.out, "objects.0 (wall)")) << result.out;
   EXPECT_TRUE(has(result.out, "endless\n")) << result.out;
   EXPECT_TRUE(has(result.out, "0.50 x 0.50 x 0.50 m\n")) << result.out;

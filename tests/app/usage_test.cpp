@@ -38,9 +38,9 @@ TEST(usage, nothing_said_is_bad_usage) {
 }
 
 TEST(usage, version_and_limits) {
-  EXPECT_EQ(run({"--version"}).out, "tofray 0.1.0\n");
+  EXPECT_EQ(run({"--version"}).out, "tofray 0.2.0\n");
   EXPECT_TRUE(has(run({"--limits"}).out, "\nsensor_pixels"));
-  EXPECT_EQ(files::parse_json(run({"--version", "--json"}).out, "stdout").find("tofray")->string()->substr(0, 4), "0.1.");
+  EXPECT_EQ(files::parse_json(run({"--version", "--json"}).out, "stdout").find("tofray")->string()->substr(0, 4), "0.2.");
   EXPECT_NE(files::parse_json(run({"--limits", "--json"}).out, "stdout").find("raw_samples"), nullptr);
 }
 

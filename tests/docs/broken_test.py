@@ -67,6 +67,7 @@ BROKEN = [
     ("gt_range_m", "gt_rang_m", 23),
     ("```text", "```", 28),
     ("```text", "```rust", 28),
+    ("```text", "<!-- test: by try_packages.sh nothing -->\n```text", 29),
 ]
 BROKEN_PROGRAM = [("find_package(tofray)", "find_package(tofrai)", 1), ("load_scene", "load_scenes", 1)]
 

@@ -55,4 +55,13 @@ UNKNOWN_NAMES = {
     "cv2.fisheye.undistortPoints": "OpenCV's",
     "compinit": "zsh's",
     "std::*_distribution": "what the source must not call",
+    "~deb13": "out of a package's name",
+    "cp311": "out of a package's name",
+    "cp313": "out of a package's name",
+    "manylinux_2_36": "out of a package's name",
+    "tofray-cuda_….deb": "a package's name",
+    "CMAKE_PREFIX_PATH": "CMake's",
+    "explorer.exe tofray-demo": "Windows'",
+    "date-released": "a key of CITATION.cff, once there is a release",
+    "v0.2.0": "a tag that is to come",
 }

@@ -1,9 +1,13 @@
 # SPDX-FileCopyrightText: 2026 The tofray authors
 # SPDX-License-Identifier: Apache-2.0
-"""What of a Markdown document a reader may type: fenced blocks by language, and code within lines."""
+"""What of a Markdown document a reader may type: fenced blocks by language, and code within lines.
+
+    markdown.py DOCUMENT SCRIPT WORD     all blocks behind <!-- test: by SCRIPT WORD -->, which that script runs
+"""
 
 import dataclasses
 import re
+import sys
 
 
 @dataclasses.dataclass
@@ -13,6 +17,7 @@ class Snippet:
     line: int
     target: str = ""  # of a YAML block: the file that it changes, from <!-- test: into FILE --> before it
     prints: str = ""  # of a shell or Python block: what its output has to hold, from <!-- test: prints TEXT --> before it
+    elsewhere: str = ""  # the script, and its word for it, that runs the block in place of this test, from <!-- test: by SCRIPT WORD --> before it
 
 
 class Fault(Exception):
@@ -54,6 +59,8 @@ def parsed(directive, line):
         return {"target": into[1]}
     if prints := re.fullmatch(r"prints (.+)", directive):
         return {"prints": prints[1]}
+    if elsewhere := re.fullmatch(r"by (\S+ \S+)", directive):
+        return {"elsewhere": elsewhere[1]}
     raise Fault(line, f"the test does not know what to do: {directive}")
 
 
@@ -94,3 +101,11 @@ def parts(block):
 def starts_afresh(line, name):
     """Whether a line is no longer part of what began with `name`."""
     return line.startswith("  - ") or not line.startswith(" ") if name.startswith("  - ") else bool(line) and line[0] not in " #"
+
+
+if __name__ == "__main__":
+    with open(sys.argv[1], encoding="utf-8") as document:
+        blocks = [one.text for one in snippets(document.read()) if one.elsewhere == " ".join(sys.argv[2:4])]
+    if not blocks:
+        sys.exit(f"{sys.argv[1]}: no block says <!-- test: by {' '.join(sys.argv[2:4])} -->")
+    print("".join(blocks), end="")

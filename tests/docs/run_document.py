@@ -6,7 +6,8 @@
 Blocks: sh and zsh and fish run in that shell (where it is installed) and have to succeed; python is run by the one
 Python that ran the document's python before it; cpp and CMake's calls make one project, built and run at the end; yaml goes into the
 file that its first line's comment names, or into the one that <!-- test: into FILE --> before it names, and tofray check has to like that
-file once the next command runs; text is for people. <!-- test: prints TEXT --> before a shell or python block: what a sentence beside it says of its output. Code within
+file once the next command runs; text is for people. <!-- test: prints TEXT --> before a shell or python block: what a sentence beside it says of its output.
+<!-- test: by SCRIPT WORD --> before a block: that script of tools/ runs it, since it takes another machine. Code within
 lines: what begins with a command's name is run; `key: value` has to be good YAML of a scene or a camera profile somewhere; options have
 to exist; all other names have to occur in the source. exceptions.py lists what is not run so, and why.
 """
@@ -42,7 +43,7 @@ PROFILE_KEYS = ["{}={}", "illumination.0.{}={}", "lens.{}={}"]
 def words_of(source):
     """Every name that the source knows."""
     found = set()
-    for top in "include src apps python cmake scenes profiles tools examples tests CMakeLists.txt CMakePresets.json .ci dev".split():
+    for top in "include src apps python cmake packaging scenes profiles tools examples tests CMakeLists.txt CMakePresets.json .ci dev".split():
         for path in [source / top] if (source / top).is_file() else (source / top).rglob("*"):
             if path.is_file() and path.parent != source / "tests/docs":
                 found |= set(re.findall(r"[A-Za-z_]\w*", str(path.relative_to(source)) + path.read_text(errors="replace")))
@@ -77,7 +78,9 @@ class Document:
         return found
 
     def take(self, one):
-        if one.kind == "inline":
+        if one.elsewhere:
+            self.runs_elsewhere(*one.elsewhere.split())
+        elif one.kind == "inline":
             self.inline(one.text)
         elif one.kind in ("sh", "zsh", "fish"):
             self.check_files()
@@ -90,6 +93,11 @@ class Document:
             self.cpp += one.text
         elif one.kind != "text":
             raise ValueError(f"the test does not know what to do with a block of {one.kind}")
+
+    def runs_elsewhere(self, script, word):
+        """Whether that script asks for this document's blocks of that word."""
+        if f"blocks {self.name} {word}\n" not in (self.place.source / "tools" / script).read_text(encoding="utf-8"):
+            raise ValueError(f"tools/{script} does not run the blocks {word} of {self.name}")
 
     @staticmethod
     def holds(wanted, out):

@@ -2,12 +2,20 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "backend/cuda/device.h"
 
+#include "backend/cuda/part.h"
+
 namespace tofray::backend::gpu {
 
 namespace {
 
+/// Looked for once.
+const Part& part() {
+  static const Part found = find_part();
+  return found;
+}
+
 Runtime*& current_runtime() {
-  static Runtime* current = tofray_cuda_runtime();
+  static Runtime* current = part().runtime;
   return current;
 }
 
@@ -25,7 +33,7 @@ Fault::Fault(const std::string& reason, bool gpu_present)
       gpu_present_(gpu_present) {}
 
 Device::Device(int number) : runtime_(gpu::runtime()), number_(number) {
-  if (runtime_ == nullptr) throw Fault("tofray was built without code for GPUs (TOFRAY_CUDA=ON ./dev build makes it, with nvcc)", false);
+  if (runtime_ == nullptr) throw Fault(part().lack, part().is_installed);
   int count = 0;
   check(runtime_->count_devices(count), "looking for GPUs");
   if (count < 1) throw Fault("there is no GPU", false);

@@ -3,7 +3,9 @@
 # The device code, where a GPU is to run it or where somebody asks for it: it takes nvcc 12.1 or newer, and minutes for each generation of GPUs.
 # The rest of tofray, its packages and its tests are the same without it.
 # Sets TOFRAY_HAS_CUDA; with it tofray_object_files get one object that holds the kernels of all architectures and the part of CUDA's
-# runtime that they need, so that nobody who uses tofray has to have CUDA, and the program starts where there is no driver.
+# runtime that they need, so that nobody who uses tofray has to have CUDA, and the program starts where there is no driver. With
+# TOFRAY_CUDA_APART it is linked to nothing but a library of its own (apart.cmake).
+option(TOFRAY_CUDA_APART "Code for GPUs as a library of its own, which tofray looks for when it runs: for packages" OFF)
 set(TOFRAY_CUDA AUTO CACHE STRING
   "AUTO: device code where nvcc and an NVIDIA GPU are, or where TOFRAY_CUDA_ARCHITECTURES (or CUDAARCHS) names GPUs; ON: fail without nvcc; OFF: without")
 set_property(CACHE TOFRAY_CUDA PROPERTY STRINGS AUTO ON OFF)
@@ -163,7 +165,10 @@ if(nvcc)
     COMMAND ${CMAKE_COMMAND} -E rm ${object}.all
     DEPENDS ${pieces} COMMENT "Joining the device code and CUDA's runtime" VERBATIM)
   add_custom_target(tofray_cuda_object DEPENDS ${object})
-  set_property(GLOBAL APPEND PROPERTY tofray_object_files ${object})
+  set_property(GLOBAL PROPERTY tofray_cuda_object_file ${object})
+  if(NOT TOFRAY_CUDA_APART)
+    set_property(GLOBAL APPEND PROPERTY tofray_object_files ${object})
+  endif()
 endif()
 message(STATUS "GPUs: ${tofray_choice_of_gpus}")
 set_property(GLOBAL PROPERTY tofray_choice_of_gpus "${tofray_choice_of_gpus}")

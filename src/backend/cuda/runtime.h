@@ -79,10 +79,10 @@ class Runtime {
   virtual void destroy_graph(void* graph) = 0;
 };
 
-/// CUDA's own. Null where tofray was built without it. (The only name that the object of the device code shows.)
+/// CUDA's own: part_linked.cpp calls it, or load_part() finds it. (The only name that the object of the device code shows.)
 extern "C" Runtime* tofray_cuda_runtime();
 
-/// The runtime that backends are made with: CUDA's, or the one that a test has put there.
+/// The runtime that backends are made with: CUDA's, or the one that a test has put there. Null where there is none.
 Runtime* runtime();
 /// For tests only. @return what was there before
 Runtime* replace_runtime(Runtime* stand_in);

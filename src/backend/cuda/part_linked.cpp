@@ -1,10 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The tofray authors
 // SPDX-License-Identifier: Apache-2.0
-// In the place of runtime.cu where tofray is built without CUDA.
-#include "backend/cuda/runtime.h"
+#include "backend/cuda/part.h"
 
 namespace tofray::backend::gpu {
 
-extern "C" Runtime* tofray_cuda_runtime() { return nullptr; }
+Part find_part() { return {tofray_cuda_runtime(), "", true}; }
 
 }  // namespace tofray::backend::gpu

@@ -1,0 +1,27 @@
+# SPDX-FileCopyrightText: 2026 The tofray authors
+# SPDX-License-Identifier: Apache-2.0
+# libtofray_cuda.so: the device code and CUDA's runtime. Its classes are those of our headers, so each side says of which sources it is.
+file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/src/*.h ${CMAKE_SOURCE_DIR}/src/*.cu ${CMAKE_SOURCE_DIR}/include/*.h)
+list(SORT sources)
+set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${sources})
+set(hashes "")
+foreach(source ${sources})
+  file(SHA256 ${source} hash)
+  string(APPEND hashes ${hash})
+endforeach()
+string(SHA256 hash "${hashes}")
+string(SUBSTRING ${hash} 0 8 hash)
+set(identity "${PROJECT_VERSION} (sources ${hash})")
+target_compile_definitions(tofray_backend PRIVATE TOFRAY_PART_IDENTITY="${identity}" TOFRAY_LIBRARY_ARCHITECTURE="${CMAKE_LIBRARY_ARCHITECTURE}")
+
+if(TOFRAY_HAS_CUDA)
+  get_property(object GLOBAL PROPERTY tofray_cuda_object_file)
+  add_library(tofray_cuda MODULE cuda/part_identity.cpp ${object})
+  add_dependencies(tofray_cuda tofray_cuda_object)
+  set_target_properties(tofray_cuda PROPERTIES LIBRARY_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR})
+  target_compile_definitions(tofray_cuda PRIVATE TOFRAY_PART_IDENTITY="${identity}")
+  target_link_libraries(tofray_cuda PRIVATE tofray_flags ${CMAKE_DL_LIBS} rt Threads::Threads)
+  target_link_options(tofray_cuda PRIVATE LINKER:--version-script=${CMAKE_SOURCE_DIR}/cmake/tofray_cuda.map LINKER:-z,defs)
+  set_property(TARGET tofray_cuda APPEND PROPERTY LINK_DEPENDS ${CMAKE_SOURCE_DIR}/cmake/tofray_cuda.map)
+  install(TARGETS tofray_cuda LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT cuda)
+endif()
