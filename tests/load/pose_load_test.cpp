@@ -33,7 +33,7 @@ std::string pose_refusal(const std::string& pose, const std::string& more = "") 
 }
 std::string turn_refusal(const std::string& rotation) {
   try {
-    load::scene_from_text("objects: [sphere: {center: [0, 0, 1], radius: 0.2, reflectivity: 0.5, rotation: {" + rotation + "}}]\n",
+    load::scene_from_text("objects: [sphere: {center: [0, 0, 1], radius: 20 cm, reflectivity: 0.5, rotation: {" + rotation + "}}]\n",
                           "t.yaml");
   } catch (const Error& error) {
     return error.what();

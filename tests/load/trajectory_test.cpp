@@ -53,7 +53,7 @@ class keyframe_files : public testing::Test {
   [[nodiscard]] Scene scene(const std::string& camera, const std::string& ball = "", const load::MeshFiles& files = {},
                             const std::string& before = "") const {
     return load::scene_from_text(
-        before + "camera: {" + camera + "}\nobjects:\n  - sphere: {center: [0, 0, 2], radius: 0.2, reflectivity: 0.5" + ball + "}\n",
+        before + "camera: {" + camera + "}\nobjects:\n  - sphere: {center: [0, 0, 2], radius: 20 cm, reflectivity: 0.5" + ball + "}\n",
         folder_.file("in/s.yaml"), {}, files);
   }
   [[nodiscard]] std::string refusal(const std::string& camera, ErrorKind kind = ErrorKind::bad_input,
