@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 
@@ -115,7 +116,8 @@ SceneReport scene_report(const Scene& scene, const Camera& camera, const Truth& 
   const std::vector<Body> bodies = bodies_at(scene, truth.time_s);
   Seen seen{scene, bodies, scene::pose_at(scene.camera, truth.time_s)};
   seen.eye = scene::vec(seen.pose.position);
-  seen.forward = shape::normalized(scene::vec(seen.pose.look_at) - seen.eye);
+  const std::array<double, 16> to_world = pose_matrix(seen.pose);
+  seen.forward = {to_world[2], to_world[6], to_world[10]};
   place_objects(seen, out);
   find_meshes_around(seen, out);
   count_pixels(truth, out);

@@ -111,7 +111,7 @@ TEST(check, counts_pixels_without_light_and_without_rays) {
   EXPECT_NEAR(number(bent, "share_outside_lens"), 1 - seen / 20000, 0.01);
   EXPECT_TRUE(item(bent, "field_of_view_deg", 0).is_null());
   const std::string text = barrel.run({"check", "simple.yaml"}).out;
-  EXPECT_TRUE(has(text, "field of view     wider than the lens model")) << text;
+  EXPECT_TRUE(has(text, "field of view           wider than the lens model")) << text;
   EXPECT_TRUE(has(text, "outside the lens  ")) << text;
 }
 
@@ -262,7 +262,7 @@ std::string with_second_frequency(const std::string& mhz) {
 }
 
 TEST(check, says_wrong_cycles_and_warns_of_incommensurate_frequencies) {
-  const ProfileFolder good(with_second_frequency("15")), odd(with_second_frequency("19.99"));
+  const ProfileFolder good(with_second_frequency("15")), odd(with_second_frequency("19.95"));
   const Result fine = good.run({"check", "simple.yaml"});
   EXPECT_EQ(fine.err, "");
   EXPECT_NE(fine.out.find("by 15 MHz and 20 MHz, as 3 : 4"), std::string::npos) << fine.out;
@@ -270,7 +270,7 @@ TEST(check, says_wrong_cycles_and_warns_of_incommensurate_frequencies) {
   const Result warned = odd.run({"check", "simple.yaml"});
   EXPECT_EQ(warned.code, 0);
   EXPECT_NE(warned.err.find("simple.yaml: warning: "), std::string::npos) << warned.err;
-  EXPECT_NE(warned.err.find("are on a wrong cycle: the modulation frequencies 19.99 MHz and 20 MHz are as 1999 to 2000"), std::string::npos)
+  EXPECT_NE(warned.err.find("are on a wrong cycle: the modulation frequencies 19.95 MHz and 20 MHz are as 399 to 400"), std::string::npos)
       << warned.err;
   const Result json = odd.run({"check", "simple.yaml", "--json"});
   EXPECT_NE(json.out.find("wrong cycle"), std::string::npos) << json.out;
