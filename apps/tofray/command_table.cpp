@@ -20,9 +20,10 @@ int run_complete(const Options& options);
 
 namespace {
 
-const std::vector<const char*> simulation = {
-    "--output", "--clean", "--set",    "--mode",     "--seed",  "--noise", "--exposure-samples", "--subpixel", "--bounces", "--samples",
-    "--fps",    "--emit",  "--arrays", "--compress", "--theme", "--root",  "--threads",          "--backend",  "--device"};
+const std::vector<const char*> simulation = {"--output",           "--clean",    "--set",     "--mode",    "--seed", "--noise",
+                                             "--exposure-samples", "--subpixel", "--bounces", "--samples", "--fps",  "--emit",
+                                             "--arrays",           "--compress", "--theme",   "--scale",   "--root", "--threads",
+                                             "--backend",          "--device"};
 
 std::vector<const char*> simulation_and(std::vector<const char*> more) {
   std::vector<const char*> all = simulation;
@@ -78,9 +79,9 @@ std::vector<Command> make() {
            "one\n"
            "channel (mitransient writes [height, width, bin, channel]; its start_opl is --first, its bin_width_opl --width). The camera's\n"
            "size tells where the bins are; where it cannot, they are last.\n",
-       .options = {"--camera",   "--output",  "--clean",     "--set",    "--mode",  "--emit",   "--arrays",
-                   "--compress", "--theme",   "--transient", "--first",  "--width", "--factor", "--seed",
-                   "--noise",    "--threads", "--backend",   "--device", "--json",  "--quiet"},
+       .options = {"--camera",   "--output", "--clean",   "--set",       "--mode",   "--emit",  "--arrays",
+                   "--compress", "--theme",  "--scale",   "--transient", "--first",  "--width", "--factor",
+                   "--seed",     "--noise",  "--threads", "--backend",   "--device", "--json",  "--quiet"},
        .least_words = 1,
        .most_words = 1,
        .run = run_process,
@@ -122,10 +123,10 @@ std::vector<Command> make() {
        .usage = "FILE [options]",
        .summary = "read a scene or a camera profile and report every fault with its place",
        .examples = "tofray check scene.yaml\n"
-                   "tofray check mycam.yaml                          # also names the numbers that do not say where they come from\n"
+                   "tofray check mycam.yaml --sources                # names each number that does not say where it comes from\n"
                    "tofray check scene.yaml --set ambient.level=\"5 %\"\n"
                    "tofray check pico-flexx --at 0.3m..4m --reflectivity 10%,80% --ambient none,50klx    # noise and wrong cycles there\n",
-       .options = {"--set", "--mode", "--at", "--reflectivity", "--ambient", "--root", "--json", "--quiet"},
+       .options = {"--set", "--mode", "--at", "--reflectivity", "--ambient", "--sources", "--root", "--json", "--quiet"},
        .least_words = 1,
        .most_words = 1,
        .run = run_check,

@@ -42,7 +42,9 @@ const std::vector<Command>& all_commands();
 /// The one of that name, or none.
 const Command* find_command(std::string_view name);
 const OptionSpec& option(std::string_view name);
-/// The options that a command has.
+/// What help puts an option below: "Output", …
+const char* group_of(const OptionSpec& one);
+/// The options that a command has, by groups.
 std::vector<const OptionSpec*> options_of(const Command& command);
 
 /// Reads `arguments`, all that stands after the command's name.

@@ -33,6 +33,34 @@ std::string held(const std::vector<std::string>& names, const char* none) {
 
 }  // namespace
 
+Chosen file_before_builtin(const std::string& typed, const std::vector<load::Builtin>& builtins, const char* what) {
+  if (load::find_builtin(builtins, typed) == nullptr) return {typed, {}};
+  for (const char* suffix : {"", ".yaml", ".yml"}) {
+    const std::string file = typed + suffix;
+    std::error_code ignored;
+    if (!fs::is_regular_file(file, ignored)) continue;
+    // "./" keeps a name without a suffix from being that of a built-in one again.
+    const std::string name = *suffix == '\0' ? "./" + file : file;
+    return {name,
+            fmt::format(
+                "note: {} of this folder is taken, not the built-in {} {}\n  the built-in one is taken where the folder has no such file\n",
+                name, what, typed)};
+  }
+  return {typed, {}};
+}
+
+void refuse_missing(const std::string& path) {
+  std::error_code ignored;
+  if (fs::exists(path, ignored)) return;
+  const fs::path folder = fs::path(path).parent_path();
+  const std::string shown = folder.empty() ? "." : folder.native();
+  if (!is_folder(shown)) return;  // who reads it says what is wrong
+  const std::string ending = fs::path(path).extension().native();
+  const std::string others = held(names_in(shown, {ending}, enough_names), ("it holds no " + base::printable(ending) + " file").c_str());
+  throw Error(ErrorKind::io, fmt::format("{}: error: there is no such file\n  {} {}", base::printable(path),
+                                         folder.empty() ? "this folder" : "the folder " + base::in_quotes(shown), others.substr(3)));
+}
+
 bool is_folder(const std::string& path) {
   std::error_code ignored;
   return fs::is_directory(path, ignored);

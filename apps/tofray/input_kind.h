@@ -6,6 +6,8 @@
 #include <string_view>
 #include <vector>
 
+#include "load/builtin.h"
+
 /// Files given to a command that takes others: what they are, and which command fits.
 namespace tofray::app {
 
@@ -22,6 +24,18 @@ void refuse_folder(const std::string& path, const char* command);
 
 /// A camera profile is told from a scene by what it has to have.
 bool looks_like_a_profile(const std::string& text, const std::string& name);
+
+/// A scene or profile by the name of one that is built in, and a file of that name here, with or without .yaml or .yml: the file wins.
+struct Chosen {
+  std::string name;  ///< the file, or what was typed
+  std::string note;  ///< one that says so; nothing where there is no choice
+};
+/// @param what  "scene", "camera"
+Chosen file_before_builtin(const std::string& typed, const std::vector<load::Builtin>& builtins, const char* what);
+
+/// Refuses a file that is not there, and says which of its kind lie beside the place.
+/// @throws Error (io)
+void refuse_missing(const std::string& path);
 
 bool is_folder(const std::string& path);
 

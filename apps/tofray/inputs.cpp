@@ -264,6 +264,13 @@ std::string warnings(const Camera& camera, const std::string& before) {
   return text;
 }
 
+std::vector<std::pair<std::string, std::string>> camera_settings(const Options& options) {
+  auto settings = options.set;
+  for (auto& [key, value] : settings)
+    if (key.starts_with("camera.")) key.erase(0, 7);
+  return settings;
+}
+
 SimulatorOptions simulator_options(const Options& options) {
   SimulatorOptions out;
   out.seed = options.seed.value_or(0);

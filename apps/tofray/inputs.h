@@ -3,6 +3,7 @@
 #pragma once
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "files/npz.h"
@@ -41,6 +42,9 @@ std::string warnings(const Inputs& in);
 /// … and with a camera alone: no light source, no lit raw frame.
 /// @param before  what stands before the camera's keys: "camera." or nothing
 std::string warnings(const Camera& camera, const std::string& before);
+
+/// --set where there is no scene: keys of the camera, with or without "camera." before them.
+std::vector<std::pair<std::string, std::string>> camera_settings(const Options& options);
 
 SimulatorOptions simulator_options(const Options& options);
 

@@ -5,6 +5,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <filesystem>
 #include <limits>
@@ -12,11 +13,13 @@
 
 #include <nlohmann/json.hpp>
 
+#include "base/readout.h"
 #include "base/text.h"
 #include "base/vec.h"
 #include "load/gltf_load.h"
 #include "load/mesh_load.h"
 #include "mesh/read_mesh.h"
+#include "tofray/load.h"
 
 namespace tofray::app {
 
@@ -30,24 +33,45 @@ struct Box {
   Vec3 low{}, high{};
 };
 
-void widen(Box& box, const TriangleMesh& mesh) {
-  for (const auto& triangle : mesh.triangles)
-    for (const std::int32_t corner : triangle)
-      for (std::size_t k = 0; k < 3; ++k) {
-        const auto x = static_cast<double>(mesh.vertices[static_cast<std::size_t>(corner)][k]);
-        box.low[k] = std::min(box.low[k], x), box.high[k] = std::max(box.high[k], x);
+/// Shows each triangle's corners to `see`; those that triangles share several times.
+template <class See>
+void for_each_corner(const Scene& scene, const See& see) {
+  for (const Object& object : scene.objects) {
+    const TriangleMesh& mesh = *std::get<Mesh>(object.shape).triangles;
+    for (const auto& triangle : mesh.triangles)
+      for (const std::int32_t corner : triangle) {
+        const auto& at = mesh.vertices[static_cast<std::size_t>(corner)];
+        see(Vec3{static_cast<double>(at[0]), static_cast<double>(at[1]), static_cast<double>(at[2])});
       }
+  }
 }
 
-Box box_round(const Scene& scene) {
-  Box out;
-  out.low.fill(std::numeric_limits<double>::infinity()), out.high.fill(-std::numeric_limits<double>::infinity());
-  for (const Object& object : scene.objects) widen(out, *std::get<Mesh>(object.shape).triangles);
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+/// Round all of a scene's meshes, along three directions.
+Box box_round(const Scene& scene, const std::array<Vec3, 3>& axes = {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}}) {
+  Box out{{infinity, infinity, infinity}, {-infinity, -infinity, -infinity}};
+  for_each_corner(scene, [&](const Vec3& p) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      const double x = base::dot(axes[k], p);
+      out.low[k] = std::min(out.low[k], x), out.high[k] = std::max(out.high[k], x);
+    }
+  });
   return out;
 }
 
 /// −0 becomes 0.
 std::string point(const Vec3& p) { return fmt::format("[{:.6g}, {:.6g}, {:.6g}]", p[0] + 0.0, p[1] + 0.0, p[2] + 0.0); }
+
+/// The camera that looks at a mesh alone: what --set makes of the one that scenes have.
+Camera camera_of(const std::string& source, const Options& options) {
+  load::Settings of_camera;
+  for (const auto& one : options.set)
+    if (one.first.starts_with("camera.") && !one.first.starts_with("camera.pose") && !one.first.starts_with("camera.keyframes"))
+      of_camera.push_back(one);
+  const Scene scene = load::scene_from_text("objects: []\n", source, of_camera, {options.root});
+  return load_camera(scene, {options.mode, {}, options.root});
+}
 
 /// The mesh alone; `more` are lines below it.
 std::string text_of(const std::string& path, bool own_materials, const std::string& more) {
@@ -64,12 +88,36 @@ Vec3 in_world(const Vec3& v, Scene::Up up) {
   return v;
 }
 
-/// All of it from before, above and aside.
-Pose pose_before(const Box& box, Scene::Up up) {
+/// Tangents of the angles that a camera sees on both sides of its axis: to the right and left, up and down.
+struct View {
+  double x, y;
+};
+
+View view_of(const Camera& camera) {
+  const Camera read_out = base::as_read_out(camera);
+  const Sensor& sensor = read_out.sensor;
+  const Lens& lens = read_out.lens;
+  const auto half = [](double center, int pixels, double focal) {
+    return std::max(0.05, std::min(center + 0.5, pixels - 0.5 - center) / focal);
+  };
+  return {half(lens.cx_px, sensor.width, lens.fx_px), half(lens.cy_px, sensor.height, lens.fy_px)};
+}
+
+/// All of it from before, above and aside, as near as it stays in view with a twentieth of the image to spare on each side.
+Pose pose_before(const Scene& scene, const View& view) {
+  const Scene::Up up = scene.world_up;
+  const Vec3 aside = base::normalized(in_world({0.5, -0.4, -1}, up)), forward = -1.0 * aside;
+  const Vec3 right = base::normalized(base::cross(in_world({0, 1, 0}, up), forward)), down = base::cross(forward, right);
+  const Box box = box_round(scene, {right, down, forward});
   const Vec3 middle = 0.5 * (box.low + box.high);
-  const double radius = std::max(0.5 * base::length(box.high - box.low), 1e-3);
-  // So far away the ball round it fits into the 45 degrees that most such cameras see from top to bottom.
-  return {middle + 2.7 * radius * base::normalized(in_world({0.5, -0.4, -1}, up)), middle};
+  constexpr double used = 0.9;
+  double distance = 2e-3;
+  for_each_corner(scene, [&](const Vec3& p) {
+    const double x = std::abs(base::dot(right, p) - middle[0]), y = std::abs(base::dot(down, p) - middle[1]);
+    distance = std::max(distance, std::max(x / view.x, y / view.y) / used - (base::dot(forward, p) - middle[2]));
+  });
+  const Vec3 seen = middle[0] * right + middle[1] * down + middle[2] * forward;
+  return {seen + distance * aside, seen};
 }
 
 }  // namespace
@@ -101,7 +149,7 @@ std::string scene_of_mesh(const std::string& path, const std::string& source, co
     return text_of(path, own_materials,
                    fmt::format("camera: {{pose: {{position: {}, look_at: {}, up: {}}}}}\n", point(own->position), point(own->look_at),
                                point(own->up)));
-  const Pose pose = pose_before(box, alone.world_up);
+  const Pose pose = pose_before(alone, view_of(camera_of(source, options)));
   const Vec3 up = in_world({0, -1, 0}, alone.world_up);
   Vec3 below = 0.5 * (box.low + box.high);
   for (std::size_t k = 0; k < 3; ++k)

@@ -265,6 +265,8 @@ std::vector<OptionSpec> specs() {
       {"--at", 0, "LENGTHS", "distances of the table: 2m, 0.5m,1m or 0.3m..4m (eight of them; 0.3m..4m:50 is 50)", take_at},
       {"--reflectivity", 0, "SHARES", "reflectivities of the table: 10%,80%", take_reflectivity},
       {"--ambient", 0, "LIGHTS", "light of the sun's spectrum in the table: none,50klx,100% (of the standard sun)", take_ambient},
+      {"--sources", 0, nullptr, "of a profile: name each number that does not say where it comes from, not only how many",
+       [](Options& o, const std::string&) { o.sources = true; }},
       {"--camera", 0, "PROFILE", "camera profile: a built-in name or a file", [](Options& o, const std::string& v) { o.camera = v; },
        "<profiles> <files>"},
       {"--seed", 0, "N", "seed of the noise: another one, other noise (0)",
@@ -299,6 +301,8 @@ std::vector<OptionSpec> specs() {
        }},
       {"--emit", 0, "KINDS", "what to write, out of npz,png,ply (all for one frame, npz for many)", take_emit, "npz png ply", true},
       {"--theme", 0, "NAME", "look of preview.png and raw.png: dark, or light for papers (dark)", take_theme, "dark light"},
+      {"--scale", 0, "N", "preview.png and raw.png with N times as many pixels along each side, for slides (1)",
+       [](Options& o, const std::string& v) { o.scale = static_cast<int>(whole("--scale", v, 1, 8, "a whole number of 1 to 8")); }},
       {"--arrays", 0, "LIST", "arrays that npz files get, as in raw,z_m,gt_* (all; `tofray list arrays` names them)",
        [](Options& o, const std::string& v) {
          (void)results::ArrayChoice(v);
@@ -308,7 +312,8 @@ std::vector<OptionSpec> specs() {
       {"--compress", 0, nullptr, "deflate npz files: smaller and slower", [](Options& o, const std::string&) { o.compress = true; }},
       {"--from", 0, "MANIFEST", "make again what a manifest.json describes, byte for byte",
        [](Options& o, const std::string& v) { o.from = v; }, "<files>"},
-      {"--root", 0, "DIR", "where a scene's profile and meshes may lie besides the scene's own folder",
+      {"--root", 0, "DIR",
+       "folder whose files a scene may read, too; without it those of its own folder alone: a scene may be a stranger's",
        [](Options& o, const std::string& v) { o.root = v; }, "<files>"},
       {"--pixel", 0, "U,V", "show one pixel's whole chain, from light to depth", take_pixel},
       {"--json", 0, nullptr, "one JSON object on stdout", [](Options& o, const std::string&) { o.json = true; }},
@@ -336,9 +341,41 @@ const OptionSpec& option(std::string_view name) {
   throw Error(ErrorKind::bug, fmt::format("error: no option is called {}", name));
 }
 
+namespace {
+
+struct Group {
+  const char* name;
+  std::vector<std::string_view> options;
+};
+
+const std::vector<Group>& groups() {
+  static const std::vector<Group> all = {
+      {"Scene and camera",
+       {"--set", "--mode", "--camera", "--fps", "--transient", "--first", "--width", "--factor", "--at", "--reflectivity", "--ambient",
+        "--sources", "--root"}},
+      {"Simulation", {"--seed", "--noise", "--exposure-samples", "--subpixel", "--bounces", "--samples"}},
+      {"Measuring", {"--warmup", "--compare", "--batch", "--stage", "--block-size"}},
+      {"Frames", {"--frames", "--first-frame", "--from", "--pixel"}},
+      {"Output", {"--output", "--clean", "--emit", "--arrays", "--compress", "--theme", "--scale", "--json", "--quiet"}},
+      {"Machine", {"--threads", "--backend", "--device"}}};
+  return all;
+}
+
+std::size_t group_number(const OptionSpec& one) {
+  for (std::size_t i = 0; i < groups().size(); ++i)
+    for (const std::string_view name : groups()[i].options)
+      if (name == one.name) return i;
+  throw Error(ErrorKind::bug, fmt::format("error: the option {} is in no group of help", one.name));
+}
+
+}  // namespace
+
+const char* group_of(const OptionSpec& one) { return groups()[group_number(one)].name; }
+
 std::vector<const OptionSpec*> options_of(const Command& command) {
   std::vector<const OptionSpec*> own;
   for (const char* name : command.options) own.push_back(&option(name));
+  std::stable_sort(own.begin(), own.end(), [](const auto* a, const auto* b) { return group_number(*a) < group_number(*b); });
   return own;
 }
 

@@ -35,13 +35,14 @@ struct Options {
   std::optional<Backend> backend;
   int device = -1;  ///< which GPU; -1: the first one
   pictures::Theme theme = pictures::Theme::dark;
+  int scale = 1;  ///< of preview.png and raw.png
   std::string mode, camera, root, from, output;
   std::vector<double> at_m;                            ///< --at: distances
   std::vector<double> reflectivities;                  ///< --reflectivity
   std::vector<AmbientCase> ambients;                   ///< --ambient
   std::string transient;                               ///< --transient: a file
   std::optional<double> first_m, width_m, per_factor;  ///< --first, --width, --factor: what that file does not say
-  bool json = false, quiet = false, compare = false, clean = false;
+  bool json = false, quiet = false, compare = false, clean = false, sources = false;
 };
 
 }  // namespace tofray::app

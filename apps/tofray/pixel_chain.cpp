@@ -144,6 +144,7 @@ void read_depth(const Arrays& arrays, std::size_t pixel, PixelChain& out) {
   out.range_m = arrays.at("range_m", pixel), out.z_m = arrays.at("z_m", pixel), out.noise_m = arrays.at("noise_m", pixel);
   out.amplitude_e = arrays.at("amplitude_e", pixel), out.ambient_e = arrays.at("ambient_e", pixel),
   out.confidence = arrays.at("confidence", pixel);
+  out.noise_threshold_m = meta_number(arrays, "decoding", "noise_threshold_m", std::nan(""));
   out.point_m = triple(arrays, "points_m", pixel);
   const double flags = arrays.at("flags", pixel);
   const unsigned bits = flag_bits(flags);

@@ -44,7 +44,7 @@ struct PixelChain {
   // measured
   std::vector<ChainRawFrame> raw_frames;
   std::vector<ChainPhase> phases;  ///< one for each modulation frequency
-  double range_m = 0, z_m = 0, noise_m = 0, amplitude_e = 0, ambient_e = 0, confidence = 0;
+  double range_m = 0, z_m = 0, noise_m = 0, noise_threshold_m = 0, amplitude_e = 0, ambient_e = 0, confidence = 0;
   std::array<double, 3> point_m{};
   std::vector<std::string> flags;
 };

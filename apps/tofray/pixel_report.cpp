@@ -125,6 +125,11 @@ std::string depth_text(const PixelChain& p, const Arrays& arrays) {
   for (const std::string& one : p.flags) flags += (flags.empty() ? "" : ", ") + one;
   const bool none = std::isnan(p.range_m) && arrays.find("range_m") != nullptr;
   std::string text = fmt::format("depth       none{}{}\n", flags.empty() ? "" : ": ", flags);
+  if (none && std::isfinite(p.noise_m)) {
+    const bool above = p.noise_m > p.noise_threshold_m;
+    text += fmt::format("            noise {:.2f} mm (1 sigma){}\n", 1e3 * p.noise_m,
+                        above ? fmt::format(", above camera.decoding.noise_threshold: {:.6g} mm", 1e3 * p.noise_threshold_m) : "");
+  }
   if (!none) {
     text =
         fmt::format("depth       range {} m, z {} m, point {} m\n", shown("{:.6f}", p.range_m), shown("{:.6f}", p.z_m), triple(p.point_m));

@@ -17,8 +17,8 @@ Options recalled(const Options& now, const results::Manifest& manifest) {
   for (const auto& [key, value] : manifest.options) {
     if (key == "mode")
       options.mode = value;
-    else if (key == "noise" || key == "emit" || key == "arrays" || key == "compress" || key == "theme" || key == "frames" ||
-             key == "first-frame" || key == "exposure-samples" || key == "subpixel")
+    else if (key == "noise" || key == "emit" || key == "arrays" || key == "compress" || key == "theme" || key == "scale" ||
+             key == "frames" || key == "first-frame" || key == "exposure-samples" || key == "subpixel")
       option("--" + key).take(options, value);
     else
       throw Error(ErrorKind::bad_input,

@@ -154,7 +154,11 @@ Validity validity(const Frame& frame, const Camera& camera, bool wrong_cycles) {
 
 FrameFiles::FrameFiles(const Options& options, const std::vector<std::string>& otherwise, const Inputs& from,
                        const SimulatorOptions& wanted)
-    : emit(options.emit.value_or(otherwise)), inputs(from), meta(from.scene, from.camera, wanted), theme(options.theme) {
+    : emit(options.emit.value_or(otherwise)),
+      inputs(from),
+      meta(from.scene, from.camera, wanted),
+      theme(options.theme),
+      scale(options.scale) {
   if (!options.arrays.empty()) npz.arrays = results::ArrayChoice(options.arrays);
   npz.kept = from.kept;
   npz.packing = options.compress ? files::Packing::deflated : files::Packing::stored;
@@ -199,8 +203,8 @@ std::vector<files::FileRecord> write_frame(const files::OutputFolder& folder, co
     } else if (kind == "png") {
       put("depth", ".png", pictures::depth_png(frame.depth));
       put("amplitude", ".png", pictures::amplitude_png(frame.depth));
-      put("raw", ".png", pictures::raw_png(frame.raw, what.theme));
-      put("preview", ".png", pictures::preview_png(frame.depth, frame.truth, frame.raw, caption(frame, in), what.theme));
+      put("raw", ".png", pictures::raw_png(frame.raw, what.theme, what.scale));
+      put("preview", ".png", pictures::preview_png(frame.depth, frame.truth, frame.raw, caption(frame, in), what.theme, what.scale));
     } else {
       put("cloud", ".ply", results::cloud_ply(frame.depth));
     }

@@ -66,6 +66,7 @@ struct FrameFiles {
   const Inputs& inputs;
   results::FrameMeta meta;
   pictures::Theme theme;
+  int scale;  ///< of preview.png and raw.png
 };
 
 /// Writes the files of one frame, each name with `suffix` before its extension. Arrays that the frame does not have are left out.
@@ -96,6 +97,8 @@ void write_manifest(files::OutputFolder& folder, const Options& options, const s
 /// @param remarks  the warnings and notes that were said
 files::Json summary_json(const files::OutputFolder& folder, const Validity& last, std::uint64_t frames, const RanOn& machine,
                          const Stopwatch& stopwatch, const Remarks& remarks);
+/// Which picture to look at, on a line of its own; nothing where there is none.
+std::string picture_to_open(const files::OutputFolder& folder);
 std::string summary_text(const files::OutputFolder& folder, const Validity& last, std::uint64_t frames, const RanOn& machine,
                          const Stopwatch& stopwatch);
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "base/text.h"
 #include "base/version.h"
 #include "files/json.h"
 #include "results.h"
@@ -60,6 +61,7 @@ void write_manifest(files::OutputFolder& folder, const Options& options, const s
   if (options.subpixel) manifest.options.emplace_back("subpixel", std::to_string(*options.subpixel));
   if (options.emit) manifest.options.emplace_back("emit", joined(*options.emit));
   if (options.theme == pictures::Theme::light) manifest.options.emplace_back("theme", "light");
+  if (options.scale != 1) manifest.options.emplace_back("scale", std::to_string(options.scale));
   if (!options.arrays.empty()) manifest.options.emplace_back("arrays", options.arrays);
   if (options.compress) manifest.options.emplace_back("compress", "on");
   if (options.frames) manifest.options.emplace_back("frames", std::to_string(*options.frames));
@@ -107,6 +109,18 @@ files::Json summary_json(const files::OutputFolder& folder, const Validity& last
       .set("files", std::move(files));
 }
 
+std::string picture_to_open(const files::OutputFolder& folder) {
+  std::string preview;
+  bool depth = false;
+  for (const files::FileRecord& file : folder.files()) {
+    if (preview.empty() && file.name.starts_with("preview")) preview = (folder.path() / file.name).native();
+    depth = depth || file.name.starts_with("depth");
+  }
+  if (preview.empty()) return {};
+  return fmt::format("open {}{}\n", base::printable(preview),
+                     depth ? "   # the picture; depth.png is for programs: 16-bit mm, black in viewers" : "");
+}
+
 std::string summary_text(const files::OutputFolder& folder, const Validity& last, std::uint64_t frames, const RanOn& machine,
                          const Stopwatch& stopwatch) {
   double bytes = 0;
@@ -121,7 +135,7 @@ std::string summary_text(const files::OutputFolder& folder, const Validity& last
                         rates.written);
   else
     text += fmt::format("{:.2f} s", stopwatch.total());
-  return text + fmt::format(" with {}\n", machine_text(machine));
+  return text + fmt::format(" with {}\n", machine_text(machine)) + picture_to_open(folder);
 }
 
 }  // namespace tofray::app

@@ -58,21 +58,39 @@ def _error(frame: Frame, figure: Any) -> None:
     error = 1e3 * (frame.depth.z_m - frame.truth.z_m)
     finite = np.abs(error[np.isfinite(error)])
     scale = float(np.percentile(finite, 98)) if finite.size else 1.0
-    _image(figure, error, "z - true z [mm]", "both", cmap="RdBu", vmin=-scale, vmax=scale)
+    _image(figure, error, "z - true z [mm]", "both", cmap="RdBu_r", vmin=-scale, vmax=scale)
 
 
 def _raw(frame: Frame, figure: Any) -> None:
-    stack = frame.raw.get("raw")
+    import numpy as np
+
+    stack, label = frame.raw.get("raw"), "raw [DN]"
     if stack is None:
-        stack = frame.raw.tap_a - frame.raw.tap_b
+        stack, label = frame.raw.tap_a - frame.raw.tap_b, "A - B [e]"
+    lit = frame.raw.get("lit")
+    shown = stack if lit is None or not np.any(lit) else stack[np.asarray(lit, bool)]
+    low, high = (float(one) for one in np.percentile(shown, (0.5, 99.5)))
     columns = 3
-    for k, image in enumerate(stack):
+    image = None
+    for k, values in enumerate(stack):
         axes = figure.add_subplot(-(-len(stack) // columns), columns, k + 1)
-        axes.imshow(image, cmap="gray", interpolation="nearest")
+        image = axes.imshow(values, cmap="gray", interpolation="nearest", vmin=low, vmax=high)
         axes.set(xticks=[], yticks=[])
-        if "modulation_frequency_hz" in frame.raw:
-            frequency_hz = frame.raw.modulation_frequency_hz[k]
-            axes.set_title(f"{frequency_hz / 1e6:g} MHz" if frequency_hz > 0 else "unlit", fontsize=8)
+        axes.set_title(_title_of(frame, k), fontsize=8)
+    figure.colorbar(image, ax=figure.axes, label=label, extend="both")
+
+
+def _title_of(frame: Frame, k: int) -> str:
+    """What a raw frame was taken with: "80.32 MHz, 90 deg"."""
+    import math
+
+    frequencies, phases, lit = (frame.raw.get(name) for name in ("modulation_frequency_hz", "reference_phase_rad", "lit"))
+    if frequencies is None:
+        return ""
+    if not frequencies[k] > 0 or (lit is not None and not lit[k]):
+        return "unlit"
+    title = f"{frequencies[k] / 1e6:g} MHz"
+    return title if phases is None else f"{title}, {math.degrees(phases[k]):.4g} deg"
 
 
 def _cloud(frame: Frame, figure: Any) -> None:

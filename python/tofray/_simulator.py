@@ -5,7 +5,8 @@
 from __future__ import annotations
 
 import copy
-from typing import TYPE_CHECKING, Any, Iterable, Iterator, Sequence
+import functools
+from typing import TYPE_CHECKING, Any, Callable, Iterable, Iterator, Sequence
 
 from . import _native
 from ._arrays import Depth, Raw
@@ -22,6 +23,32 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from ._native import DeviceFrames
+
+
+# What is no option of a simulator, but a member or an argument elsewhere.
+_ELSEWHERE = {
+    "bounces": "scene.transport.bounces",
+    "samples": "scene.transport.samples",
+    "max_samples": "scene.transport.max_samples",
+    "path_noise": "scene.transport.path_noise_m",
+    "ambient": "scene.ambient",
+    "mode": "an option of load_camera",
+    "frames": "simulator.frames(first, count)",
+    "fps": "camera.mode.frame_rate_hz",
+}
+
+
+def _says_where(init: Callable[..., None]) -> Callable[..., None]:
+    """Of options that stand elsewhere says where; Python itself only says that they are unexpected."""
+
+    @functools.wraps(init)
+    def checked(self: Simulator, *arguments: Any, **options: Any) -> None:
+        for name in options:
+            if name in _ELSEWHERE:
+                raise TypeError(f"Simulator has no option {name}: it is {_ELSEWHERE[name]}")
+        init(self, *arguments, **options)
+
+    return checked
 
 
 class Simulator:
@@ -106,6 +133,9 @@ class Simulator:
         self._scene = copy.deepcopy(scene)
         self._camera = copy.deepcopy(camera)
         self._native = _native.Simulator(self._scene, self._camera, self._options)
+
+    if not TYPE_CHECKING:
+        __init__ = _says_where(__init__)
 
     @property
     def scene(self) -> Scene:

@@ -133,6 +133,7 @@ std::string nearest(std::string_view word, const std::vector<std::string>& known
   const int allowed = std::max(1, static_cast<int>(wanted.size()) / 3);
   std::string best;
   int best_distance = 0;
+  bool best_left_out = false;
   std::size_t work = 0;  // of comparing: long lists of long names are not searched to their end
   for (const auto& name : known) {
     const std::string candidate = folded(name);
@@ -142,7 +143,10 @@ std::string nearest(std::string_view word, const std::vector<std::string>& known
     int distance = edit_distance(wanted, candidate);
     // A word cut short ("mod" for "modulation_frequency") is near, too.
     if (wanted.size() >= 3 && candidate.starts_with(wanted)) distance = std::min(distance, 2);
-    if (best.empty() || distance < best_distance) {
+    // A letter that was left out ("sed" for "seed") is likelier than one that is another ("set").
+    const bool left_out = distance == difference;
+    if (best.empty() || distance < best_distance || (distance == best_distance && left_out && !best_left_out)) {
+      best_left_out = left_out;
       best = name;
       best_distance = distance;
     }

@@ -71,7 +71,8 @@ int open_beneath(const std::string& folder, const std::string& relative) {
 
 [[noreturn]] void refuse(const Place& place, const std::string& reference) {
   base::fail(place, in_quotes(reference) + " leads out of the folder of this file",
-             "expected a path in or below that folder, without \"..\"; what a scene names may lie elsewhere below DIR with --root DIR");
+             "expected a path in or below that folder, without \"..\": what a stranger's scene names shall not be any file of yours\n"
+             "--root DIR lets a scene name files in or below DIR, too, by their paths from there");
 }
 
 }  // namespace

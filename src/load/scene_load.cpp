@@ -97,6 +97,13 @@ class SceneReader {
     overrides(*value.node, out);
   }
 
+  /// A key that stands deeper in a profile, or that people call otherwise.
+  static std::string meant_in_camera(const std::string& key) {
+    for (const auto& [word, path] : model::camera_form().root.meant)
+      if (word == key) return path;
+    return yaml::home_of(model::camera_form().root, key);
+  }
+
   void overrides(const Node& camera, CameraChoice& out) {
     std::vector<std::string> known = {"profile", "mode", "pose", "keyframes"};
     out.overrides = flattened(camera, known);
@@ -106,10 +113,14 @@ class SceneReader {
     known.insert(known.end(), names.begin(), names.end());
     for (const auto& key : camera.keys) {
       const std::string first = key.text.substr(0, key.text.find('.'));
-      if (std::find(known.begin(), known.end(), first) == known.end())
-        faults_.add(key.place, "unknown key " + in_quotes(key.text) + " in camera" + base::did_you_mean(first, known),
-                    "expected profile, mode, pose, keyframes, or a key of a camera profile that overrides its value: " +
-                        base::listed(names, "and"));
+      if (std::find(known.begin(), known.end(), first) != known.end()) continue;
+      const std::string near = base::did_you_mean(first, known);
+      const std::string home = near.empty() ? meant_in_camera(key.text) : "";
+      faults_.add(
+          key.place,
+          "unknown key " + in_quotes(key.text) + " in camera" +
+              (home.empty() ? near : "; did you mean " + in_quotes("camera." + home) + "?"),
+          "expected profile, mode, pose, keyframes, or a key of a camera profile that overrides its value: " + base::listed(names, "and"));
     }
   }
 
@@ -120,7 +131,7 @@ class SceneReader {
     if (!amount && out.spectrum != Ambient::Spectrum::none)
       faults_.add(value.place(), "ambient does not say how much light",
                   "expected level: 5 %, illuminance: 5 klx, or band_irradiance: 0.4 W/m2");
-    if (out.amount > 0 && out.spectrum == Ambient::Spectrum::none)
+    if (value.good && out.amount > 0 && out.spectrum == Ambient::Spectrum::none)
       faults_.add(spectrum ? spectrum.place() : value.place(), "ambient has an amount, but its spectrum is none",
                   "expected a spectrum such as sun_am15, or no amount");
   }
@@ -391,7 +402,7 @@ void apply(Node& root, const Settings& settings) {
   refuse_too_many(settings.size(), base::whole("--set"));
   for (const auto& [key, text] : settings) {
     const base::Place place = base::whole("--set " + key);
-    set_key(root, key, parse_value(text, place), place);
+    set_key(root, key, parse_value(text, place), place, yaml::Maps::replace);
   }
 }
 

@@ -19,6 +19,7 @@ const FileForm& camera_form() {
     file.root.keys.push_back(
         absent("integration_time", form_of(integration_time), "takes the place of that of every lit raw frame of the mode"));
     file.root.keys.push_back(absent("frame_rate", form_of(frame_rate), "takes the place of the mode's"));
+    file.root.meant = {{"wavelength", "illumination.0.illumination_wavelength"}, {"power", "illumination.0.power"}};
     return file;
   }();
   return form;

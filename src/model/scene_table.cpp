@@ -476,7 +476,9 @@ std::vector<std::pair<std::string, std::string>> words_that_people_try() {
                                                             {"pose", "camera.pose"},
                                                             {"keyframes", "camera.keyframes"},
                                                             {"up_axis", "world_up"},
-                                                            {"z_up", "world_up: z"}};
+                                                            {"z_up", "world_up: z"},
+                                                            {"seed", "--seed"}};
+  for (const auto& [word, path] : camera_form().root.meant) words.emplace_back(word, "camera." + path);
   // What a camera's profile has may be meant for the scene's camera.
   for (const Key& key : camera_form().root.keys) words.emplace_back(key.name, "camera." + key.name);
   return words;

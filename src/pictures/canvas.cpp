@@ -42,13 +42,14 @@ class Canvas::Mask {
  public:
   /// @param low, high  corners of what will be drawn
   Mask(const Canvas& canvas, Point low, Point high)
-      : left(inside(std::floor(low.x), canvas.width())),
-        top(inside(std::floor(low.y), canvas.height())),
-        width(std::max(0, inside(std::ceil(high.x), canvas.width()) - left)),
-        height(std::max(0, inside(std::ceil(high.y), canvas.height()) - top)),
+      : left(inside(std::floor(canvas.scale_ * low.x), canvas.width())),
+        top(inside(std::floor(canvas.scale_ * low.y), canvas.height())),
+        width(std::max(0, inside(std::ceil(canvas.scale_ * high.x), canvas.width()) - left)),
+        height(std::max(0, inside(std::ceil(canvas.scale_ * high.y), canvas.height()) - top)),
         surface_(cairo_image_surface_create(CAIRO_FORMAT_A8, width, height)),
         context_(cairo_create(surface_.get())) {
     cairo_translate(context(), -left, -top);
+    cairo_scale(context(), canvas.scale_, canvas.scale_);
   }
 
   [[nodiscard]] cairo_t* context() const { return context_.get(); }
@@ -75,14 +76,14 @@ class Canvas::Mask {
   std::unique_ptr<cairo_t, Destroy> context_;
 };
 
-Canvas::Canvas(int width, int height, Rgb background) : width_(width), height_(height) {
-  pixels_.resize(static_cast<std::size_t>(width) * static_cast<std::size_t>(height) * 3);
+Canvas::Canvas(int width, int height, Rgb background, int scale) : width_(scale * width), height_(scale * height), scale_(scale) {
+  pixels_.resize(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_) * 3);
   fill(0, 0, width, height, background);
 }
 
 void Canvas::fill(int x, int y, int width, int height, Rgb color) {
-  const int left = std::max(x, 0), right = std::min(x + width, width_);
-  for (int v = std::max(y, 0); left < right && v < std::min(y + height, height_); ++v) {
+  const int left = std::max(scale_ * x, 0), right = std::min(scale_ * (x + width), width_);
+  for (int v = std::max(scale_ * y, 0); left < right && v < std::min(scale_ * (y + height), height_); ++v) {
     std::uint8_t* pixel = &pixels_[at(left, v)];
     for (int u = left; u < right; ++u) *pixel++ = color.red, *pixel++ = color.green, *pixel++ = color.blue;
   }

@@ -17,10 +17,11 @@ struct Point {
 /// of pixels. It may be wider than the 32,767 pixels of cairo's own pictures.
 class Canvas {
  public:
-  Canvas(int width, int height, Rgb background);
+  /// @param scale  pixels of the picture for one of all lengths below: 2 is a picture of twice the width and height, drawn as finely
+  Canvas(int width, int height, Rgb background, int scale = 1);
 
-  [[nodiscard]] int width() const { return width_; }
-  [[nodiscard]] int height() const { return height_; }
+  [[nodiscard]] int width() const { return width_; }                                 ///< of the picture [px]
+  [[nodiscard]] int height() const { return height_; }                               ///< of the picture [px]
   [[nodiscard]] const std::vector<std::uint8_t>& pixels() const { return pixels_; }  ///< [height][width][3]
 
   void fill(int x, int y, int width, int height, Rgb color);
@@ -45,7 +46,7 @@ class Canvas {
   /// One colour where the mask covers.
   void paint(const Mask& mask, Rgb color);
 
-  int width_, height_;
+  int width_, height_, scale_;
   std::vector<std::uint8_t> pixels_;
 };
 

@@ -8,17 +8,18 @@
 namespace tofray::pictures {
 
 const Look& look_of(Theme theme) {
-  static const Look dark{figure::background,
-                         figure::ink,
-                         figure::faint_ink,
-                         invalid_color,
-                         {{{70, 225, 205}, {96, 100, 108}, {62, 175, 84}, invalid_color, {178, 181, 188}, {190, 60, 190}, {120, 60, 130}}}};
+  static const Look dark{
+      figure::background,
+      figure::ink,
+      figure::faint_ink,
+      invalid_color,
+      {{{70, 225, 205}, {124, 128, 137}, {62, 175, 84}, invalid_color, {212, 215, 221}, {190, 60, 190}, {120, 60, 130}}}};
   static const Look light{
       {255, 255, 255},
       {24, 26, 30},
       {84, 88, 96},
-      {198, 201, 206},
-      {{{0, 165, 150}, {158, 162, 170}, {62, 175, 84}, {198, 201, 206}, {228, 230, 233}, {190, 60, 190}, {120, 60, 130}}}};
+      {192, 195, 201},
+      {{{0, 165, 150}, {118, 122, 131}, {62, 175, 84}, {192, 195, 201}, {235, 237, 240}, {190, 60, 190}, {120, 60, 130}}}};
   return theme == Theme::light ? light : dark;
 }
 
@@ -27,6 +28,12 @@ std::vector<Rgb> colored(const std::vector<double>& values, const ValueColors& c
   image.reserve(values.size());
   for (const double value : values) image.push_back(std::isfinite(value) ? colors.color(value) : invalid);
   return image;
+}
+
+int width_with_labels(const PictureScale& scale) {
+  double label = 0;
+  for (const double tick : scale.ticks()) label = std::max(label, Canvas::text_width(figure::label_size, scale.label(tick)));
+  return figure::bar_width + std::max(figure::label_width, figure::label_gap + static_cast<int>(std::ceil(label)) + figure::bar_gap);
 }
 
 void draw_scale_bar(Canvas& canvas, int x, int y, int height, const ValueColors& colors, const Look& look) {
@@ -45,7 +52,8 @@ void draw_scale_bar(Canvas& canvas, int x, int y, int height, const ValueColors&
     last = line;
     const int at = std::clamp(static_cast<int>(line), y, y + height - 1);
     canvas.fill(x + figure::bar_width, at, 5, 1, look.faint_ink);
-    canvas.text(x + figure::bar_width + 10, line + 0.5 * figure::label_size, figure::label_size, look.ink, colors.scale.label(tick));
+    canvas.text(x + figure::bar_width + figure::label_gap, line + 0.5 * figure::label_size, figure::label_size, look.ink,
+                colors.scale.label(tick));
   }
 }
 

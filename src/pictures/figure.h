@@ -17,7 +17,7 @@ namespace figure {
 inline constexpr Rgb background{23, 24, 28}, ink{226, 228, 232}, faint_ink{150, 154, 162};
 inline constexpr int margin = 26;
 inline constexpr double title_size = 13, label_size = 9, note_size = 9.5;
-inline constexpr int bar_gap = 12, bar_width = 14, label_width = 58;
+inline constexpr int bar_gap = 12, bar_width = 14, label_width = 58, label_gap = 10;
 }  // namespace figure
 
 /// Colours of a figure's writing and of its invalid pixels.
@@ -37,6 +37,9 @@ struct ValueColors {
 
 /// Colours of an image's values; NaN is `invalid`.
 std::vector<Rgb> colored(const std::vector<double>& values, const ValueColors& colors, Rgb invalid);
+
+/// How wide a bar is with its labels.
+int width_with_labels(const PictureScale& scale);
 
 /// A vertical bar with ticks and labels to its right.
 void draw_scale_bar(Canvas& canvas, int x, int y, int height, const ValueColors& colors, const Look& look);

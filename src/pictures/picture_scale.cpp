@@ -17,9 +17,16 @@ std::vector<double> PictureScale::ticks() const {
   return values;
 }
 
+std::string grouped(std::string digits) {
+  const std::size_t point = std::min(digits.find('.'), digits.size());
+  for (std::ptrdiff_t at = static_cast<std::ptrdiff_t>(point) - 3; at > (digits[0] == '-' ? 1 : 0); at -= 3)
+    digits.insert(static_cast<std::size_t>(at), 1, ' ');
+  return digits;
+}
+
 std::string PictureScale::label(double tick) const {
-  const std::string digits = fmt::format("{:.{}f}", std::abs(tick), decimals);
-  const bool zero = digits.find_first_not_of("0.") == std::string::npos;
+  const std::string digits = grouped(fmt::format("{:.{}f}", std::abs(tick), decimals));
+  const bool zero = digits.find_first_not_of("0. ") == std::string::npos;
   return (tick < 0 && !zero ? "\xE2\x88\x92" : "") + digits;
 }
 

@@ -16,9 +16,12 @@ struct PictureScale {
   [[nodiscard]] double at(double value) const { return (value - low) / (high - low); }
   /// The multiples of step from low to high.
   [[nodiscard]] std::vector<double> ticks() const;
-  /// A tick's label, with a true minus sign.
+  /// A tick's label, with a true minus sign and digits in threes: "12 000".
   [[nodiscard]] std::string label(double tick) const;
 };
+
+/// Digits before the point in threes: "1 234 567".
+std::string grouped(std::string digits);
 
 /// The scale whose ticks are 1, 2 or 5 times a power of ten apart, about five of them, and that holds low…high.
 /// @param least_span  the scale is made at least this wide

@@ -29,15 +29,18 @@ std::string amplitude_png(const Depth& depth);
 /// raw.png: the raw frames as a labelled contact sheet, one row per modulation frequency. One scale of codes, from the 0.5th to the 99.5th
 /// percentile of the lit raw frames; an unlit one of which more than 2 % lie beyond it, as in the sun, has a scale of its own beside
 /// its label. Without `raw` it shows tap A − tap B in electrons.
-std::string raw_png(const Raw& raw, Theme theme = Theme::dark);
+/// @param scale  times as many pixels along either side, letters drawn as finely: 2 for slides
+std::string raw_png(const Raw& raw, Theme theme = Theme::dark, int scale = 1);
 
-/// preview.png, for people: z in colours (scale: 1st to 99th percentile), amplitude (0 to 99.5th), and the error z − gt_z (± the 98th
+/// preview.png, for people: z in colours (scale: 1st to 99th percentile; where truth is known, of pixels that are no cycle off), amplitude (0 to 99.5th), and the error z − gt_z (± the 98th
 /// percentile of |error|, or three times the 68th where that is less, so that wrong cycles do not set the scale; without ground truth:
 /// the noise estimate, 0 to 98th), each with its scale bar and a line on its scale. Where light bounced, the error by multipath stands
 /// beside it: gt_multipath_m of the first lit raw frame, on a scale made in the same way. Invalid pixels of z have the colour of their
 /// invalid_reason(), which a legend names with its share.
 /// @param raw      says which raw frames are lit, and at which modulation frequency
 /// @param caption  one line above, UTF-8; may be empty
-std::string preview_png(const Depth& depth, const Truth& truth, const Raw& raw, const std::string& caption, Theme theme = Theme::dark);
+/// @param scale    as of raw_png()
+std::string preview_png(const Depth& depth, const Truth& truth, const Raw& raw, const std::string& caption, Theme theme = Theme::dark,
+                        int scale = 1);
 
 }  // namespace tofray::pictures

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 
+#include "base/constants.h"
 #include "base/text.h"
 #include "pictures/figure.h"
 #include "pictures/pictures.h"
@@ -32,16 +33,29 @@ std::size_t finite_count(const std::vector<double>& values) {
 /// 1234567 → "1 234 567"; below 100 with as many digits as make three.
 std::string plain_number(double value) {
   if (std::abs(value) < 100) return fmt::format("{:.{}f}", value, std::abs(value) < 10 ? 2 : 1);
-  std::string digits = fmt::format("{:.0f}", value);
-  for (std::ptrdiff_t at = static_cast<std::ptrdiff_t>(digits.size()) - 3; at > (digits[0] == '-' ? 1 : 0); at -= 3)
-    digits.insert(static_cast<std::size_t>(at), 1, ' ');
-  return digits;
+  return grouped(fmt::format("{:.0f}", value));
 }
 
-Panel depth_panel(const Depth& depth) {
+/// The values of z that are not a cycle off, as far as truth says it; all where none is right.
+std::vector<double> right_z(const Depth& depth, const Truth& truth, const Raw& raw) {
+  const std::vector<double> all(depth.z_m.begin(), depth.z_m.end());
+  double highest_hz = 0;
+  for (std::size_t k = 0; k < std::min(raw.lit.size(), raw.modulation_frequency_hz.size()); ++k)
+    if (raw.lit[k] != 0) highest_hz = std::max(highest_hz, raw.modulation_frequency_hz[k]);
+  if (!(highest_hz > 0) || truth.z_m.size() != all.size()) return all;
+  const double half_cycle = base::speed_of_light / (4 * highest_hz);
+  std::vector<double> right;
+  for (std::size_t i = 0; i < all.size(); ++i)
+    if (std::abs(all[i] - static_cast<double>(truth.z_m[i])) < half_cycle) right.push_back(all[i]);
+  return right.empty() ? all : right;
+}
+
+Panel depth_panel(const Depth& depth, const Truth& truth, const Raw& raw) {
   Panel panel{"z [m]", "no valid pixel", "scale: 1st to 99th percentile", {depth.z_m.begin(), depth.z_m.end()}, {}};
   const std::size_t valid = finite_count(panel.values);
-  const double low = percentile(panel.values, 0.01, 0), high = percentile(panel.values, 0.99, 1);
+  const std::vector<double> right = right_z(depth, truth, raw);
+  if (finite_count(right) < valid) panel.scale_note += ", without wrong cycles";
+  const double low = percentile(right, 0.01, 0), high = percentile(right, 0.99, 1);
   const PictureScale scale = round_scale(low, high, 0.1);
   const auto place = [scale](double z) { return scale.at(z); };
   panel.colors = {scale, [place](double z) { return depth_color(place(z)); }, place};
@@ -195,7 +209,8 @@ Layout layout_of(const Depth& depth, const std::vector<Panel>& panels, const std
     for (const std::string& note : {panel.note, panel.scale_note})
       text_width = std::max(text_width, Canvas::text_width(figure::note_size, note));
   }
-  const int bar = figure::bar_gap + figure::bar_width + figure::label_width;
+  int bar = 0;
+  for (const Panel& panel : panels) bar = std::max(bar, figure::bar_gap + width_with_labels(panel.colors.scale));
   at.panel_width = std::max(at.image_width + bar, static_cast<int>(text_width) + figure::margin);
   at.title_line = caption.empty() ? figure::margin + 14 : figure::margin + 48;
   at.image_top = at.title_line + 12;
@@ -210,15 +225,16 @@ Layout layout_of(const Depth& depth, const std::vector<Panel>& panels, const std
 
 }  // namespace
 
-std::string preview_png(const Depth& depth, const Truth& truth, const Raw& raw, const std::string& caption, Theme theme) {
+std::string preview_png(const Depth& depth, const Truth& truth, const Raw& raw, const std::string& caption, Theme theme, int scale) {
   const bool with_truth = truth.z_m.size() == depth.z_m.size();
   const Look& look = look_of(theme);
-  std::vector<Panel> panels = {depth_panel(depth), amplitude_panel(depth), with_truth ? error_panel(depth, truth) : noise_panel(depth)};
+  std::vector<Panel> panels = {depth_panel(depth, truth, raw), amplitude_panel(depth),
+                               with_truth ? error_panel(depth, truth) : noise_panel(depth)};
   if (!truth.multipath_m.empty() && truth.multipath_m.size() == raw.lit.size() * depth.z_m.size())
     panels.push_back(multipath_panel(depth, truth, raw));
   const std::vector<LegendEntry> legend = legend_of(depth, look);
   const Layout at = layout_of(depth, panels, caption, legend, look);
-  Canvas canvas(at.width, at.height, look.background);
+  Canvas canvas(at.width, at.height, look.background, scale);
 
   if (!caption.empty()) canvas.text(figure::margin, figure::margin + 14, figure::title_size, look.ink, at.title);
   int x = figure::margin;

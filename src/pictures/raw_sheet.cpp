@@ -109,7 +109,7 @@ std::vector<Cell> cells_of(const Raw& raw, const ValueColors& common) {
 
 }  // namespace
 
-std::string raw_png(const Raw& raw, Theme theme) {
+std::string raw_png(const Raw& raw, Theme theme, int picture_scale) {
   const Look& look = look_of(theme);
   const ValueColors colors = common_colors(raw);
   const std::vector<Cell> cells = cells_of(raw, colors);
@@ -126,9 +126,9 @@ std::string raw_png(const Raw& raw, Theme theme) {
   const int bar_x = figure::margin + (last.column + 1) * step_x, bar_height = std::max(last.row * step_y + image_height, 90);
   const std::string note = fmt::format("scale: {:g} to {:g} % of the lit raw frames' values", 100 * low_share, 100 * high_share);
   const int note_line = figure::margin + 16 + bar_height + 24;
-  const int width = std::max(bar_x + figure::bar_width + figure::label_width,
-                             figure::margin + static_cast<int>(Canvas::text_width(figure::note_size, note)));
-  Canvas canvas(width + figure::margin, note_line + figure::margin - 8, look.background);
+  const int width =
+      std::max(bar_x + width_with_labels(colors.scale), figure::margin + static_cast<int>(Canvas::text_width(figure::note_size, note)));
+  Canvas canvas(width + figure::margin, note_line + figure::margin - 8, look.background, picture_scale);
   for (const Cell& cell : cells) {
     const int x = figure::margin + cell.place.column * step_x, y = figure::margin + cell.place.row * step_y;
     canvas.text(x, y + 6, figure::label_size, look.ink, cell.label);

@@ -78,9 +78,34 @@ class RawReader {
     return array;
   }
 
+  /// How many raw frames all arrays with one value for each agree on; 0 where they do not.
+  [[nodiscard]] std::size_t agreed_phases() const {
+    std::size_t count = 0;
+    for (const char* name : {"modulation_frequency_hz", "reference_phase_rad", "integration_time_s", "lit"}) {
+      const NpyArray* array = find(name);
+      if (array == nullptr || array->shape.size() != 1 || (count != 0 && array->shape[0] != count)) return 0;
+      count = array->shape[0];
+    }
+    return count;
+  }
+
+  /// Raw frames that are not the first axis: all arrays with one value for each say how many there are.
+  bool has_other_axes(const char* name, const NpyShape& shape) {
+    const std::size_t phases = agreed_phases();
+    if (phases == 0 || shape.size() != 3 || shape[0] == phases) return false;
+    if (shape[1] != phases && shape[2] != phases) return false;
+    const std::size_t axis = shape[2] == phases ? 2 : 1;
+    const NpyShape turned = axis == 2 ? NpyShape{phases, shape[0], shape[1]} : NpyShape{phases, shape[0], shape[2]};
+    fault(fmt::format("array \"{}\" has its raw frames on axis {}, not on axis 0", name, axis),
+          fmt::format("got {}, expected {}: all arrays by raw frame have {} values\nnp.moveaxis({}, {}, 0) turns it", shape_text(shape),
+                      shape_text(turned), phases, name, axis));
+    return true;
+  }
+
   /// Takes the sizes from the first stack and compares the others with them.
   bool fits_stack(const char* name, const NpyArray& array, Raw& raw) {
     const NpyShape& shape = array.shape;
+    if (raw.phases == 0 && has_other_axes(name, shape)) return false;
     const bool sensible = shape.size() == 3 && shape[0] > 0 && shape[1] > 0 && shape[2] > 0 && shape[0] <= max_phases &&
                           shape[1] <= max_image_side && shape[2] <= max_image_side;
     if (!sensible) {
@@ -151,12 +176,24 @@ class RawReader {
 
   /// A lit raw frame has a modulation frequency, and each one collects light for some time.
   void check_exposures(const Raw& raw) {
+    check_hertz(raw);
     for (std::size_t k = 0; k < raw.lit.size(); ++k) {
       if (raw.lit[k] != 0 && raw.modulation_frequency_hz[k] == 0)
         fault(fmt::format("raw frame {} is lit and has no modulation frequency", k),
               "expected modulation_frequency_hz above 0 where lit is true");
       if (raw.integration_time_s[k] == 0)
         fault(fmt::format("raw frame {} has no integration time", k), "expected integration_time_s above 0");
+    }
+  }
+
+  /// Told once: who writes megahertz writes all of them so.
+  void check_hertz(const Raw& raw) {
+    constexpr double lowest_hz = 1e3;  // that a camera may have
+    for (std::size_t k = 0; k < raw.lit.size(); ++k) {
+      const double value = raw.modulation_frequency_hz[k];
+      if (raw.lit[k] == 0 || !(value > 0 && value < lowest_hz)) continue;
+      return fault(fmt::format("array \"modulation_frequency_hz\" has {} Hz for raw frame {}", value, k),
+                   fmt::format("expected hertz, {} or more; are these megahertz? Then multiply them by 1e6", lowest_hz));
     }
   }
 

@@ -67,6 +67,31 @@ std::string expected(const Form& form) {
   return "a value";
 }
 
+// "wavelength" for "illumination_wavelength", where no other key ends so.
+std::string longer_name(const std::string& word, const std::vector<std::string>& names) {
+  const auto ends_so = [&](const std::string& name) { return name.ends_with("_" + word); };
+  const auto found = std::find_if(names.begin(), names.end(), ends_so);
+  if (word.empty() || found == names.end() || std::any_of(found + 1, names.end(), ends_so)) return {};
+  return "; did you mean " + in_quotes(*found) + "?";
+}
+
+// Where in the file a key of that name belongs, as a dotted path.
+std::string home_below(const Form& form, const std::string& name, const std::string& path) {
+  for (const auto& key : form.keys) {
+    const std::string here = path.empty() ? key.name : path + "." + key.name;
+    if (key.name == name) return here;
+    if (const auto below = home_below(key.form, name, here); !below.empty()) return below;
+  }
+  for (std::size_t i = 0; i < form.forms.size(); ++i) {
+    std::string here = path;
+    if (form.kind == Kind::list) here += "[]";
+    if (form.kind == Kind::dictionary) here += ".NAME";
+    if (form.kind == Kind::variant) here += "." + form.names[i];
+    if (const auto below = home_below(form.forms[i], name, here); !below.empty()) return below;
+  }
+  return {};
+}
+
 class Reader {
  public:
   Reader(const FileForm& file, base::Faults& faults) : file_(file), faults_(faults) {}
@@ -269,8 +294,11 @@ class Reader {
     auto names = key_names(form);
     if (!tag.empty()) names.push_back(tag);
     const auto meant = std::find_if(form.meant.begin(), form.meant.end(), [&](const auto& pair) { return pair.first == key.text; });
-    std::string hint = meant != form.meant.end() ? "; did you mean " + in_quotes(meant->second) + "?" : did_you_mean(key.text, names);
-    std::string elsewhere = hint.empty() ? home_of(file_.root, key.text, "") : "";
+    std::string hint = meant == form.meant.end()         ? did_you_mean(key.text, names)
+                       : meant->second.starts_with("--") ? "; did you mean the option " + meant->second + "?"
+                                                         : "; did you mean " + in_quotes(meant->second) + "?";
+    if (hint.empty()) hint = longer_name(key.text, names);
+    std::string elsewhere = hint.empty() ? home_below(file_.root, key.text, "") : "";
     if (elsewhere == key.text)
       elsewhere = "at the top level";
     else if (!elsewhere.empty())
@@ -278,23 +306,6 @@ class Reader {
     faults_.add(key.place, "unknown key " + in_quotes(key.text) + " in " + label + hint,
                 (elsewhere.empty() ? "" : in_quotes(key.text) + " stands elsewhere: " + elsewhere + "\n") +
                     (names.empty() ? "no keys are known here" : "known keys: " + listed(names, "and")));
-  }
-
-  // Where in the file a key of that name belongs, as a dotted path.
-  static std::string home_of(const Form& form, const std::string& name, const std::string& path) {
-    for (const auto& key : form.keys) {
-      const std::string here = path.empty() ? key.name : path + "." + key.name;
-      if (key.name == name) return here;
-      if (const auto below = home_of(key.form, name, here); !below.empty()) return below;
-    }
-    for (std::size_t i = 0; i < form.forms.size(); ++i) {
-      std::string here = path;
-      if (form.kind == Kind::list) here += "[]";
-      if (form.kind == Kind::dictionary) here += ".NAME";
-      if (form.kind == Kind::variant) here += "." + form.names[i];
-      if (const auto below = home_of(form.forms[i], name, here); !below.empty()) return below;
-    }
-    return {};
   }
 
   void read_tagged(const Form& form, const Node& node, const std::string& label, Value& value) {
@@ -390,5 +401,7 @@ Value read(const FileForm& file, const Node& root, base::Faults& faults) {
   }
   return reader.read(file.root, root, "the " + file.kind);
 }
+
+std::string home_of(const Form& root, const std::string& name) { return home_below(root, name, ""); }
 
 }  // namespace tofray::yaml

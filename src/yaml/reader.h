@@ -37,6 +37,9 @@ struct Value {
   [[nodiscard]] bool is_map() const { return node != nullptr && node->kind == Node::Kind::map; }
 };
 
+/// Where a key of that name stands in such a file, as a dotted path; empty where none does.
+std::string home_of(const Form& root, const std::string& name);
+
 /// Reads all of the tree, adding every fault to `faults`.
 Value read(const FileForm& file, const Node& root, base::Faults& faults);
 

@@ -81,7 +81,7 @@ Node& element(Node& list, const std::string& part, const std::string& before, co
 
 }  // namespace
 
-void set_key(Node& root, const std::string& path, Node value, const Place& place) {
+void set_key(Node& root, const std::string& path, Node value, const Place& place, Maps maps) {
   const auto parts = std::count(path.begin(), path.end(), '.') + 1;
   if (parts > base::limit::nesting_depth.value)
     base::fail(place, "the key has too many parts",
@@ -115,7 +115,10 @@ void set_key(Node& root, const std::string& path, Node value, const Place& place
     from = dot + 1;
     if (last) break;
   }
-  merge(*here, std::move(value), place);
+  if (maps == Maps::replace)
+    *here = std::move(value);
+  else
+    merge(*here, std::move(value), place);
 }
 
 namespace {

@@ -11,10 +11,12 @@
 /// Keys of a tree that are changed from elsewhere: the command line, a scene that overrides its camera's profile.
 namespace tofray::yaml {
 
+enum class Maps { merge, replace };
+
 /// Sets the value at a dotted path in the tree; list elements go by index. Maps on the way are made where missing.
-/// A value that is a map is merged into the map that is there, unless it says another kind.
+/// @param maps  what a value that is a map does to the map that is there: replaces it, or is merged into it unless it says another kind
 /// @throws Error naming `place` where the path leads nowhere
-void set_key(Node& root, const std::string& path, Node value, const base::Place& place);
+void set_key(Node& root, const std::string& path, Node value, const base::Place& place, Maps maps = Maps::merge);
 
 /// @throws Error (limit) where more keys are changed than limit::overrides: each change looks for its key in a list
 void refuse_too_many(std::size_t changes, const base::Place& place);

@@ -191,6 +191,10 @@ TEST(picture_scale, ends_and_ticks_are_round) {
             "\xE2\x88\x92"
             "0.02");
   EXPECT_EQ(wall.label(-0.0), "0.00");
+  EXPECT_EQ(round_scale(0, 150'000, 1).label(150'000), "150 000");
+  EXPECT_EQ(round_scale(0, 15'000, 1).label(-1000),
+            "\xE2\x88\x92"
+            "1 000");
   for (double span = 1e-6; span < 1e7; span *= 1.7) {
     const PictureScale scale = round_scale(-0.3 * span, 0.7 * span, 0);
     EXPECT_LE(scale.low, -0.3 * span * (1 - 1e-6));

@@ -98,6 +98,64 @@ TEST(preview, has_a_caption_as_long_as_the_picture_is_wide) {
   EXPECT_NEAR(static_cast<double>(last), figure::margin + needed, 10);
 }
 
+TEST(preview, wrong_cycles_do_not_set_the_scale_of_z) {
+  // Of 100 columns a tenth is a cycle off; the others run from 1 to 2 m, whose middle is the middle of all colours.
+  Frame frame = out_test::sample_frame(100, 50);
+  ASSERT_GT(*std::max_element(frame.raw.modulation_frequency_hz.begin(), frame.raw.modulation_frequency_hz.end()), 5e7);
+  for (std::size_t i = 0; i < frame.depth.z_m.size(); ++i) {
+    frame.truth.z_m[i] = i % 100 == 50 ? 1.5F : i % 2 == 0 ? 1.F : 2.F;
+    frame.depth.z_m[i] = i % 100 < 10 ? 9.F : frame.truth.z_m[i];
+  }
+  const auto middle = [&](const Truth& truth) { return count_of(preview_png(frame.depth, truth, frame.raw, ""), depth_color(0.5)); };
+  EXPECT_NEAR(static_cast<double>(middle(frame.truth)), 50 * 25, 60);
+  EXPECT_LT(middle({}), 100U);  // without truth nobody knows
+}
+
+TEST(preview, has_room_for_long_numbers_beside_its_bars) {
+  Frame frame = out_test::sample_frame(64, 48);
+  for (float& amplitude : frame.depth.amplitude_e) amplitude *= 1e6F;
+  frame.truth = {};
+  frame.depth.noise_m.assign(frame.depth.noise_m.size(), 1e6F);  // the last panel's numbers stand at the picture's edge
+  frame.depth.noise_m[0] = 0;
+  const ReadBack back = read_back(preview_png(frame.depth, frame.truth, frame.raw, ""));
+  int written = 0;
+  for (std::size_t y = 0; y < back.height; ++y)
+    for (std::size_t x = back.width - 8; x < back.width; ++x) {
+      const std::size_t at = 3 * (y * back.width + x);
+      written += back.bytes[at] != back.bytes[0] || back.bytes[at + 1] != back.bytes[1] ? 1 : 0;
+    }
+  EXPECT_EQ(written, 0);
+}
+
+TEST(preview, no_two_reasons_look_alike) {
+  // Differences summed over the channels. 163 and 120 between the greys of "low signal" and "no return" were too little for a reader.
+  const auto apart = [](Rgb a, Rgb b) { return std::abs(a.red - b.red) + std::abs(a.green - b.green) + std::abs(a.blue - b.blue); };
+  for (const Theme theme : {Theme::dark, Theme::light}) {
+    const auto& reasons = look_of(theme).reasons;
+    for (std::size_t i = 0; i < reasons.size(); ++i)
+      for (std::size_t k = 0; k < i; ++k) EXPECT_GE(apart(reasons[i], reasons[k]), 60) << i << " " << k;
+    EXPECT_GE(apart(reasons[1], reasons[3]), 200);
+    EXPECT_GE(apart(reasons[3], reasons[4]), 120);
+  }
+}
+
+TEST(preview, and_raw_frames_have_as_many_times_the_pixels_as_asked_for) {
+  const Frame frame = out_test::sample_frame(64, 48);
+  const auto size = [](const std::string& png) { return std::pair(read_back(png).width, read_back(png).height); };
+  const auto one = size(preview_png(frame.depth, frame.truth, frame.raw, "x")),
+             two = size(preview_png(frame.depth, frame.truth, frame.raw, "x", Theme::dark, 2));
+  EXPECT_EQ(two, std::pair(2 * one.first, 2 * one.second));
+  const auto raw = size(raw_png(frame.raw)), three = size(raw_png(frame.raw, Theme::dark, 3));
+  EXPECT_EQ(three, std::pair(3 * raw.first, 3 * raw.second));
+  // Each pixel of the images is four now.
+  const auto painted = [&](int scale) {
+    const Frame wrong = with_wrong_cycles(0.2);
+    return static_cast<double>(count_of(preview_png(wrong.depth, wrong.truth, wrong.raw, "", Theme::dark, scale), error_color(2.0 / 6)));
+  };
+  EXPECT_GT(painted(1), 1e5 - 100);
+  EXPECT_NEAR(painted(2), 4 * painted(1), 400);
+}
+
 TEST(preview, invalid_pixels_have_the_colour_of_their_reason) {
   Frame frame = out_test::sample_frame(100, 50);
   std::fill(frame.depth.flags.begin(), frame.depth.flags.end(), std::uint16_t{0});

@@ -394,6 +394,24 @@ def test_pictures_points_and_plots() -> None:
         assert len(figure.axes) > 0
 
 
+def test_a_plot_of_raw_frames_has_one_scale_their_phases_and_a_bar() -> None:
+    pytest.importorskip("matplotlib")
+    frame = tofray.demo()
+    figure = frame.plot("raw")
+    images, titles = [axes.images[0] for axes in figure.axes if axes.images], [axes.get_title() for axes in figure.axes]
+    assert len(images) == frame.raw.phases and len({image.get_clim() for image in images}) == 1
+    assert titles[:3] == ["unlit", "80.32 MHz, 0 deg", "80.32 MHz, 90 deg"] and "60.24 MHz, 270 deg" in titles
+    assert [axes.get_ylabel() for axes in figure.axes if axes.get_ylabel()] == ["raw [DN]"]
+
+
+def test_red_is_too_far_as_in_the_preview() -> None:
+    pytest.importorskip("matplotlib")
+    image = tofray.demo().plot("error").axes[0].images[0]
+    high = image.get_clim()[1]
+    red, _, blue, _ = image.cmap(image.norm(high))
+    assert red > 2 * blue
+
+
 def test_a_wrong_pixel_does_not_set_the_scale_of_a_plot_and_no_valid_one_is_none_either() -> None:
     pytest.importorskip("matplotlib")
     frame = tofray.demo()

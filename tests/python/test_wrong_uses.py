@@ -7,6 +7,7 @@ from __future__ import annotations
 import copy
 import os
 import pickle
+import re
 from typing import Any, Callable
 
 import numpy as np
@@ -226,6 +227,15 @@ def test_errors_are_what_python_would_raise_and_travel() -> None:
     with pytest.raises(OSError) as not_there:
         tofray.load_scene("no such scene")
     assert isinstance(not_there.value, tofray.Error) and not_there.value.kind == "io"
+
+
+def test_an_option_that_stands_elsewhere_says_where() -> None:
+    wrong: Any = tofray.Simulator
+    for option, place in (("bounces", "scene.transport.bounces"), ("samples", "scene.transport.samples"), ("mode", "an option of load_camera")):
+        with pytest.raises(TypeError, match=f"Simulator has no option {option}: it is {re.escape(place)}"):
+            wrong(SCENE, **{option: 4})
+    with pytest.raises(TypeError, match="unexpected keyword argument 'bonces'"):
+        wrong(SCENE, bonces=4)
 
 
 def test_a_member_that_there_is_not_is_refused() -> None:

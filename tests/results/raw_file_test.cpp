@@ -139,6 +139,24 @@ TEST(raw_file, needs_a_frequency_of_each_lit_raw_frame_and_a_time_of_each) {
   }
 }
 
+TEST(raw_file, of_megahertz_or_of_turned_axes_says_so) {
+  const auto said = [](const NpyShape& shape, double f) -> std::string {
+    const std::vector<std::uint16_t> raw(24, 2048);
+    const std::vector<double> fs = {0, f}, tau = {0, 0}, times = {1e-3, 1e-3};
+    const std::vector<std::uint8_t> lit = {0, 1};
+    return fault_of({npy_view("raw", shape, raw), npy_view("modulation_frequency_hz", {2}, fs), npy_view("reference_phase_rad", {2}, tau),
+                     npy_view("integration_time_s", {2}, times), npy_view("lit", {2}, lit)});
+  };
+  EXPECT_EQ(said({2, 3, 4}, 80.32e6), "");
+  EXPECT_EQ(said({2, 3, 4}, 80.32),
+            "x.npz: error: array \"modulation_frequency_hz\" has 80.32 Hz for raw frame 1\n"
+            "  expected hertz, 1000 or more; are these megahertz? Then multiply them by 1e6");
+  EXPECT_EQ(said({3, 4, 2}, 80.32e6),
+            "x.npz: error: array \"raw\" has its raw frames on axis 2, not on axis 0\n"
+            "  got (3, 4, 2), expected (2, 3, 4): all arrays by raw frame have 2 values\n  np.moveaxis(raw, 2, 0) turns it");
+  EXPECT_NE(said({3, 2, 4}, 80.32e6).find("on axis 1, not on axis 0\n  got (3, 2, 4), expected (2, 3, 4)"), std::string::npos);
+}
+
 TEST(raw_file, of_a_shape_or_with_numbers_that_make_no_sense_says_so) {
   const auto said = [](const NpyShape& shape, double phase, double time) -> std::string {
     std::size_t count = 1;

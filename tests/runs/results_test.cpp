@@ -356,7 +356,7 @@ TEST(check, of_a_profile_names_numbers_without_a_source) {
   ASSERT_TRUE(has(text, with_source));
   text.replace(text.find("  source: the paper; the device's SDK"), 2, "  note: x\n  #");
   std::ofstream(folder / "mycam.yaml") << text;
-  const Result result = run({"check", "mycam.yaml"}, in_folder(folder.path()));
+  const Result result = run({"check", "mycam.yaml", "--sources"}, in_folder(folder.path()));
   EXPECT_EQ(result.code, 0) << result.err;
   EXPECT_TRUE(has(result.err, "warning: sensor.width is 224, and does not say where that comes from")) << result.err;
 }

@@ -61,6 +61,20 @@ struct Report {
   std::vector<SceneFinding> odd;
 };
 
+/// Numbers that do not say where they come from: how many there are, or each.
+std::string source_warnings(const std::vector<std::string>& unsourced, const std::string& name, bool each) {
+  if (unsourced.empty()) return {};
+  const std::string expected = "  expected source: or assumed: beside it, or for its group";
+  if (!each && unsourced.size() > 1)
+    return fmt::format("{}: warning: {} numbers do not say where they come from\n{}; --sources names each\n", name, unsourced.size(),
+                       expected);
+  std::string out;
+  for (const std::string& one : unsourced)
+    out += fmt::format("{}: warning: {}, and does not say where that comes from\n", one.substr(0, one.find(": ")),
+                       one.substr(one.find(": ") + 2));
+  return out + expected + "\n";
+}
+
 Report check_profile(const std::string& text, const std::string& name, const Options& options) {
   Report report;
   bool tables_seen = false;
@@ -74,12 +88,10 @@ Report check_profile(const std::string& text, const std::string& name, const Opt
     const std::string more = warnings(in_mode, "");
     if (report.warnings.find(more) == std::string::npos) report.warnings += more;
   };
-  const Camera camera = load::camera_from_text(text, name, files::folder_of(name), {options.mode, options.set, {}}, check_mode);
+  const Camera camera =
+      load::camera_from_text(text, name, files::folder_of(name), {options.mode, camera_settings(options), {}}, check_mode);
   const std::vector<std::string> unsourced = load::unsourced_numbers(yaml::parse_tree(text, name));
-  for (const std::string& one : unsourced)
-    report.warnings += fmt::format("{}: warning: {}, and does not say where that comes from\n", one.substr(0, one.find(": ")),
-                                   one.substr(one.find(": ") + 2));
-  if (!unsourced.empty()) report.warnings += "  expected source: or assumed: beside it, or for its group\n";
+  report.warnings += source_warnings(unsourced, name, options.sources);
   report.json.set("kind", "camera")
       .set("name", camera.name)
       .set("modes", files::Json::list(camera.mode_names))
@@ -127,8 +139,8 @@ Report check_scene(const std::string& name, const Options& options) {
   return report;
 }
 
-Report check(const Options& options) {
-  const std::string& name = options.words[0];
+/// @param name  a file, or what is built in
+Report check(const std::string& name, const Options& options) {
   if (load::find_builtin(load::builtin_scenes(), name) != nullptr) return check_scene(name, options);
   if (const load::Builtin* profile = load::find_builtin(load::builtin_profiles(), name))
     return check_profile(std::string(profile->text), name, options);
@@ -142,8 +154,11 @@ Report check(const Options& options) {
 }  // namespace
 
 int run_check(const Options& options) {
-  Report report = check(options);
   Remarks remarks;
+  const Chosen scene = file_before_builtin(options.words[0], load::builtin_scenes(), "scene"),
+               chosen = scene.note.empty() ? file_before_builtin(options.words[0], load::builtin_profiles(), "camera") : scene;
+  remarks.tell(chosen.note);
+  Report report = check(chosen.name, options);
   remarks.tell(report.warnings), remarks.tell(report.odd, true);
   if (options.json)
     print(files::json_text(remarks.put(report.json.set("good", true)), 2) + "\n");

@@ -29,7 +29,7 @@ std::string told(const Validity& pixels, const Inputs& in, const Simulator& simu
     text += fmt::format("  tofray inspect {} --pixel 112,86      # how one pixel gets its depth\n", npz);
   text += "  tofray demo --set camera.illumination.0.power=\"0.02 W\"   # a tenth of the light\n";
   text += "  tofray list scenes                                       # more scenes; `tofray render` takes your own\n";
-  return text;
+  return text + picture_to_open(folder);
 }
 
 }  // namespace

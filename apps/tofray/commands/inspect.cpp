@@ -202,8 +202,11 @@ struct Inspected {
 };
 
 Inspected inspected(const Options& options) {
-  const std::string path = frame_in(options.words[0]);
+  const Chosen chosen = file_before_builtin(frame_in(options.words[0]), load::builtin_scenes(), "scene");
+  const std::string& path = chosen.name;
+  say(chosen.note);
   if (holds_arrays(path)) {
+    refuse_missing(path);
     if (!options.set.empty() || options.seed || options.noise || !options.mode.empty())
       throw Error(
           ErrorKind::bad_input,

@@ -15,6 +15,7 @@
 #include "files/npz.h"
 #include "files/read_bytes.h"
 #include "files/text_file.h"
+#include "input_kind.h"
 #include "results.h"
 #include "results/meta.h"
 #include "results/meta_camera.h"
@@ -25,15 +26,6 @@
 namespace tofray::app {
 
 namespace {
-
-/// --set of a command that has no scene: keys of the camera, with or without "camera." before them.
-load::Settings camera_settings(const Options& options) {
-  load::Settings settings = options.set;
-  for (auto& [key, value] : settings) {
-    if (key.starts_with("camera.")) key.erase(0, 7);
-  }
-  return settings;
-}
 
 std::string meta_of(std::string_view bytes, const std::string& path) {
   const auto found = files::parse_npz(bytes, path, {"meta"});
@@ -148,6 +140,7 @@ int process_raw(const Options& options) {
     throw Error(ErrorKind::bad_input,
                 "error: --first, --width, --factor, --seed and --noise go with --transient\n  raw frames have their noise already");
   Stopwatch stopwatch;
+  refuse_missing(options.words[0]);
   Source from{options.words[0], files::read_bytes(options.words[0], files::max_data_file_bytes), ""};
   from.meta = meta_of(from.bytes, from.path);
   Remarks remarks;

@@ -11,6 +11,7 @@
 #include "commands.h"
 #include "console.h"
 #include "frame_writer.h"
+#include "input_kind.h"
 #include "progress.h"
 #include "recall.h"
 #include "results.h"
@@ -22,7 +23,7 @@ namespace {
 
 void refuse_other_settings(const Options& now) {
   if (!now.words.empty() || !now.set.empty() || !now.mode.empty() || now.seed || now.noise || now.exposure_samples || now.subpixel ||
-      now.emit || !now.arrays.empty() || now.compress || now.frames || now.first_frame != 0)
+      now.emit || !now.arrays.empty() || now.compress || now.scale != 1 || now.frames || now.first_frame != 0)
     throw Error(ErrorKind::bad_input,
                 "error: --from makes the same bytes again and takes no other scene and no other settings\n"
                 "  with it there may be -o, --threads, --backend, --device, --json and --quiet");
@@ -159,7 +160,9 @@ int run_render(const Options& typed) {
     say_other_version(before, remarks);
   }
   const Options options = typed.from.empty() ? typed : recalled(typed, before);
-  const Inputs in = typed.from.empty() ? load_inputs(options.words[0], options) : inputs_of(before, options);
+  const Chosen chosen = typed.from.empty() ? file_before_builtin(options.words[0], load::builtin_scenes(), "scene") : Chosen();
+  remarks.tell(chosen.note);
+  const Inputs in = typed.from.empty() ? load_inputs(chosen.name, options) : inputs_of(before, options);
   remarks.tell(warnings(in));
   const std::uint64_t frames = options.frames.value_or(1);
   SimulatorOptions wanted = simulator_options(options);

@@ -1,0 +1,193 @@
+// SPDX-FileCopyrightText: 2026 The tofray authors
+// SPDX-License-Identifier: Apache-2.0
+// Small things of the first hour: which file to look at, which of two names counts, what was meant by a word.
+#include <gtest/gtest.h>
+
+#include <sstream>
+
+#include "files/json.h"
+#include "load/builtin.h"
+#include "rows.h"
+#include "support/tool.h"
+
+namespace tofray::test {
+namespace {
+
+constexpr const char* ball = "objects:\n  - sphere: {center: [0.1, 0, 1.3], radius: 25 cm, reflectivity: 40 %}\n";
+
+class first_hour : public testing::Test {
+ protected:
+  [[nodiscard]] Result tool(const Arguments& arguments) const { return run(arguments, in_folder(folder_.path())); }
+  void save(const std::string& name, const std::string& text) const { write(folder_ / name, text); }
+  /// A refusal whose text has these words.
+  void expect_refused(const Arguments& arguments, const std::string& words) const {
+    const Result result = tool(arguments);
+    EXPECT_NE(result.code, 0) << words;
+    EXPECT_TRUE(has(result.err, words)) << words << " in " << result.err;
+  }
+
+  Folder folder_;
+};
+
+std::string last_line(const std::string& text) {
+  const std::size_t end = text.find_last_not_of('\n');
+  return end == std::string::npos ? "" : text.substr(text.rfind('\n', end) + 1, end - text.rfind('\n', end));
+}
+
+}  // namespace
+
+TEST_F(first_hour, ends_with_the_picture_to_open) {
+  save("ball.yaml", ball);
+  const std::string named = "   # the picture; depth.png is for programs: 16-bit mm, black in viewers";
+  EXPECT_EQ(last_line(tool({"render", "ball.yaml", "-o", "out"}).err), "open out/preview.png" + named);
+  EXPECT_EQ(last_line(tool({"demo", "-o", "shown"}).out), "open shown/preview.png" + named);
+  EXPECT_EQ(last_line(tool({"render", "ball.yaml", "-o", "film", "--frames", "2", "--emit", "png"}).err),
+            "open film/preview_0000.png" + named);
+  EXPECT_FALSE(has(tool({"render", "ball.yaml", "-o", "data", "--emit", "npz"}).err, "open "));
+}
+
+TEST_F(first_hour, a_file_here_is_taken_before_what_is_built_in) {
+  save("room.yaml", ball);
+  const std::string note = "note: room.yaml of this folder is taken, not the built-in scene room";
+  for (const Arguments& command : {Arguments{"check", "room"}, Arguments{"render", "room", "-o", "out", "--emit", "npz"},
+                                   Arguments{"inspect", "room", "--pixel", "112,86"}}) {
+    const Result result = tool(command);
+    EXPECT_EQ(result.code, 0) << result.err;
+    EXPECT_TRUE(has(result.err, note)) << result.err;
+  }
+  EXPECT_TRUE(has(tool({"check", "room"}).out, "room.yaml: good: scene with 1 object,"));
+  EXPECT_TRUE(has(tool({"check", "room", "--json"}).out, "room.yaml of this folder is taken, not the built-in scene room"));
+  save("card", ball);
+  EXPECT_TRUE(has(tool({"check", "card"}).out, "./card: good: scene with 1 object,"));
+  // What is typed in full is no choice, and the demo is the demo.
+  EXPECT_FALSE(has(tool({"check", "room.yaml"}).err, "built-in"));
+  save("demo.yaml", ball);
+  const Result demo = tool({"demo", "-o", "shown"});
+  EXPECT_FALSE(has(demo.out, " 1 objects,")) << demo.out;
+  EXPECT_FALSE(has(demo.err, "note")) << demo.err;
+  save("pico-flexx.yaml", ball);
+  EXPECT_TRUE(has(tool({"check", "pico-flexx"}).err, "note: pico-flexx.yaml of this folder is taken, not the built-in camera pico-flexx"));
+}
+
+TEST_F(first_hour, keys_of_a_profile_may_begin_with_camera) {
+  const auto noise_of = [&](const Arguments& more) {
+    Arguments arguments{"check", "pico-flexx", "--json"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const Result result = tool(arguments);
+    EXPECT_EQ(result.code, 0) << result.err;
+    return result.out;
+  };
+  const std::string without = noise_of({"--set", "illumination.0.power=0.1 W"});
+  EXPECT_EQ(noise_of({"--set", "camera.illumination.0.power=0.1 W"}), without);
+  EXPECT_NE(noise_of({}), without);
+}
+
+TEST_F(first_hour, a_map_that_is_set_takes_the_place_of_the_files) {
+  save("lit.yaml", "ambient: {illuminance: 5 klx}\n" + std::string(ball));
+  EXPECT_EQ(tool({"check", "lit.yaml", "--set", "ambient={spectrum: sun_am15, level: 5 %}"}).code, 0);
+  // What is wrong with it is wrong with the option, and is one thing.
+  for (const char* scene : {"lit.yaml", "card"}) {
+    const Result result = tool({"check", scene, "--set", "ambient={level: 5 %, illuminance: 5 klx}"});
+    EXPECT_EQ(result.err,
+              "--set ambient: error: ambient has \"level\" and \"illuminance\"\n  these keys say the same thing; keep one of them\n");
+  }
+}
+
+TEST_F(first_hour, an_invalid_pixel_has_its_noise) {
+  save("dark.yaml", "ambient: {illuminance: 5 klx}\nobjects:\n  - plane: {point: [0, 0, 2.5], normal: [0, 0, -1], reflectivity: 0.1}\n");
+  const Result text = tool({"inspect", "dark.yaml", "--pixel", "10,10"}),
+               json = tool({"inspect", "dark.yaml", "--pixel", "10,10", "--json"});
+  const std::string before = "depth       none: low signal\n            noise ";
+  ASSERT_TRUE(has(text.out, before)) << text.out;
+  EXPECT_TRUE(has(text.out, " mm (1 sigma), above camera.decoding.noise_threshold: 70 mm\n")) << text.out;
+  double noise_m = 0;
+  ASSERT_TRUE(files::parse_json(json.out, "stdout").find("depth")->find("noise_m")->number(noise_m));
+  EXPECT_NEAR(std::stod(text.out.substr(text.out.find(before) + before.size())), 1e3 * noise_m, 0.0051);
+}
+
+TEST_F(first_hour, numbers_without_a_source_are_counted) {
+  std::string profile(load::find_builtin(load::builtin_profiles(), "pico-flexx")->text);
+  save("own.yaml", profile + "\nrefractive_index: 1.0003\n");
+  const std::string one = "warning: refractive_index is 1.0003, and does not say where that comes from\n  expected source: or assumed: ";
+  EXPECT_TRUE(has(tool({"check", "own.yaml"}).err, one));  // one is no more lines than a count
+  const std::string source = "  source: the paper; the device's SDK";
+  ASSERT_TRUE(has(profile, source));
+  profile.replace(profile.find(source), source.size(), "  note: x");
+  save("own.yaml", profile + "\nrefractive_index: 1.0003\n");
+  const std::string each = tool({"check", "own.yaml", "--sources"}).err, counted = tool({"check", "own.yaml"}).err;
+  std::size_t lines = 0;
+  for (std::size_t at = each.find("does not say where"); at != std::string::npos; at = each.find("does not say where", at + 1)) ++lines;
+  EXPECT_GT(lines, 1U);
+  EXPECT_TRUE(has(each, "warning: refractive_index is 1.0003, and does not say where")) << each;
+  EXPECT_EQ(counted, "own.yaml: warning: " + std::to_string(lines) +
+                         " numbers do not say where they come from\n  expected source: or assumed: beside it, or for its group; --sources "
+                         "names each\n");
+}
+
+TEST_F(first_hour, words_that_are_meant_otherwise) {
+  save("ball.yaml", ball);
+  const auto set = [](const char* text) { return Arguments{"check", "ball.yaml", "--set", text}; };
+  expect_refused(set("seed=3"), "unknown key \"seed\" in the scene; did you mean the option --seed?");
+  expect_refused(set("camera.f_number=1.2"), "unknown key \"f_number\" in camera; did you mean \"camera.lens.f_number\"?");
+  for (const char* key : {"wavelength", "camera.wavelength"})
+    expect_refused(set((key + std::string("=940 nm")).c_str()), "did you mean \"camera.illumination.0.illumination_wavelength\"?");
+  expect_refused(set("camera.illumination.0.wavelength=940 nm"),
+                 "unknown key \"wavelength\" in illumination[0]; did you mean \"illumination_wavelength\"?");
+  expect_refused({"check", "pico-flexx", "--set", "wavelength=940 nm"}, "did you mean \"illumination.0.illumination_wavelength\"?");
+  expect_refused({"render", "ball.yaml", "--sed", "3"}, "unknown option \"--sed\"; did you mean \"--seed\"?");
+  expect_refused({"render", "ball.yaml", "--sat", "x=3"}, "unknown option \"--sat\"; did you mean \"--set\"?");
+}
+
+TEST_F(first_hour, a_frame_that_is_not_there_is_told_with_those_that_are) {
+  save("ball.yaml", ball);
+  ASSERT_EQ(tool({"render", "ball.yaml", "-o", "out", "--frames", "3"}).code, 0);
+  for (const char* command : {"inspect", "process"}) {
+    const Result result = tool({command, "out/frame.npz"});
+    EXPECT_EQ(result.code, 3);
+    EXPECT_EQ(result.err,
+              "out/frame.npz: error: there is no such file\n  the folder \"out\" holds frame_0000.npz … frame_0002.npz (3 files)\n");
+  }
+  expect_refused({"inspect", "frame.npz"}, "this folder holds no .npz file");
+}
+
+TEST_F(first_hour, help_is_as_wide_as_the_terminal_and_in_groups) {
+  for (const int columns : {60, 80, 100}) {
+    const auto narrow = [&] {
+      in_folder(folder_.path())();
+      ::setenv("COLUMNS", std::to_string(columns).c_str(), 1);
+    };
+    for (const char* command : {"demo", "render", "process", "inspect", "diff", "check", "list", "schema", "doctor", "bench", ""}) {
+      const Result help = run(*command == '\0' ? Arguments{"--help"} : Arguments{command, "--help"}, narrow);
+      std::istringstream lines(help.out);
+      for (std::string line; std::getline(lines, line);)
+        // A command that is longer stands as it is typed.
+        EXPECT_TRUE(line.size() <= static_cast<std::size_t>(columns) + 4 || line.starts_with("  tofray ")) << columns << ": " << line;
+    }
+  }
+  const std::string help = tool({"render", "--help"}).out;
+  std::size_t at = 0;
+  for (const char* group : {"\nScene and camera:\n", "\nSimulation:\n", "\nFrames:\n", "\nOutput:\n", "\nMachine:\n"}) {
+    EXPECT_GT(help.find(group, at), at) << group;
+    at = help.find(group, at);
+    ASSERT_NE(at, std::string::npos) << group;
+  }
+  EXPECT_FALSE(has(help, "\n\n\n"));
+}
+
+TEST_F(first_hour, a_mesh_alone_is_seen_from_as_near_as_the_view_allows) {
+  save("small.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0.5 0.5 0.4\nf 1 2 4\nf 2 3 4\nf 3 1 4\n");
+  const auto seen_share = [&](const Arguments& more) {
+    Arguments arguments{"check", "small.obj", "--json"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const Result result = tool(arguments);
+    EXPECT_EQ(result.code, 0) << result.err;
+    const files::Json json = files::parse_json(result.out, "stdout");
+    return number(json.find("scene_report")->find("objects")->items()->at(0), "share_of_pixels");
+  };
+  const double near = seen_share({});
+  EXPECT_GT(near, 0.1);  // from the distance of the ball round it they are 0.08
+  // A camera that sees half the angle stands twice as far away and has as many pixels on the mesh.
+  EXPECT_NEAR(seen_share({"--set", "camera.lens.fx=420 px", "--set", "camera.lens.fy=420 px"}) / near, 1, 0.35);
+}
+
+}  // namespace tofray::test
