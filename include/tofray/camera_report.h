@@ -22,9 +22,9 @@ AmbientCase full_sun();
 
 /// What a camera report is asked.
 struct CameraQuestion {
-  std::vector<double> distances_m = {0.5, 1, 2, 4};  ///< z on the optical axis, 1e-3 to 1e5
-  std::vector<double> reflectivities = {0.2, 0.8};   ///< of a matt surface that faces the camera, 0 to 1
-  std::vector<AmbientCase> ambients;                 ///< empty: darkness, and all of the standard sun (100 % of sun_am15) from everywhere
+  std::vector<double> distances_m;     ///< z on the optical axis, 1e-3 to 1e5; empty: 0.5, 1, 2 and 4 m
+  std::vector<double> reflectivities;  ///< of a matt surface that faces the camera, 0 to 1; empty: 0.2 and 0.8
+  std::vector<AmbientCase> ambients;   ///< empty: darkness, and all of the standard sun (100 % of sun_am15) from everywhere
 };
 
 /// Range noise and wrong cycles at one distance.

@@ -2445,9 +2445,9 @@ class CameraQuestion(Record):
     Attributes
     ----------
     distances_m : list[float], m
-        Z on the optical axis, 1e-3 to 1e5.
+        Z on the optical axis, 1e-3 to 1e5; empty: 0.5, 1, 2 and 4 m.
     reflectivities : list[float], 1
-        Of a matt surface that faces the camera, 0 to 1.
+        Of a matt surface that faces the camera, 0 to 1; empty: 0.2 and 0.8.
     ambients : list[AmbientCase]
         Empty: darkness, and all of the standard sun (100 % of sun_am15) from everywhere.
     """

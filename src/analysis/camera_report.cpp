@@ -243,9 +243,7 @@ double saturated_up_to(Looker& looker, double reflectivity) {
 
 void report_noise(const Camera& camera, const CameraQuestion& question, CameraReport& out) {
   const Camera pixel = pixel_on_the_axis(camera);
-  std::vector<AmbientCase> ambients = question.ambients;
-  if (ambients.empty()) ambients = {AmbientCase(), full_sun()};
-  for (const AmbientCase& light : ambients) {
+  for (const AmbientCase& light : question.ambients) {
     Looker looker(pixel, light);
     WrongCycles cycles(pixel, light);
     for (const double reflectivity : question.reflectivities) {
@@ -306,7 +304,11 @@ AmbientCase full_sun() {
   return out;
 }
 
-CameraReport camera_report(const Camera& profile, const CameraQuestion& question) {
+CameraReport camera_report(const Camera& profile, const CameraQuestion& asked) {
+  CameraQuestion question = asked;
+  if (question.distances_m.empty()) question.distances_m = {0.5, 1, 2, 4};
+  if (question.reflectivities.empty()) question.reflectivities = {0.2, 0.8};
+  if (question.ambients.empty()) question.ambients = {AmbientCase(), full_sun()};
   check_question(question);
   Camera camera = base::as_read_out(profile);
   camera.auto_exposure = {};  // exposures of the mode
