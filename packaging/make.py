@@ -4,7 +4,7 @@
 """Debian packages, a wheel and a tarball of what `./dev package` has built with TOFRAY_PACKAGES=ON. make.py --help
 
 All three are of the same compiled files. The wheel and the tarball carry the libraries that these need; the code for GPUs, where it was
-built, is a package, a wheel and a tarball of its own. The same files give the same bytes of wheel and tarball: their times are SOURCE_DATE_EPOCH,
+built, is a package, a wheel and a tarball of its own. The same compiled files give the same bytes: all times are SOURCE_DATE_EPOCH,
 or that of the last commit.
 """
 
@@ -64,8 +64,13 @@ class Maker:
         self.has_cuda = "\ncode for NVIDIA GPUs" in (build / "choices.txt").read_text(encoding="utf-8")
         self.time = int(os.environ.get("SOURCE_DATE_EPOCH") or run("git", "-C", ROOT, "log", "-1", "--format=%ct"))
 
+    def lay_out(self, lib: str, python: str, zsh: str) -> None:
+        """Where things go when they are installed. Nothing is compiled for that."""
+        run("cmake", "-S", ROOT, "-B", self.build, f"-DCMAKE_INSTALL_LIBDIR={lib}", f"-DTOFRAY_PYTHON_DIR={python}", f"-DTOFRAY_ZSH_DIR={zsh}")
+
     def debs(self) -> None:
-        """By the layout that the build was configured for: /usr, libraries in the folder of this kind of machine."""
+        """By Debian's layout."""
+        self.lay_out("lib/" + run("dpkg-architecture", "-qDEB_HOST_MULTIARCH").strip(), "lib/python3/dist-packages", "zsh/vendor-completions")
         environment = {**os.environ, "SOURCE_DATE_EPOCH": str(self.time)}
         said = subprocess.run(["cpack", "-B", str(self.work / "deb")], cwd=self.build, env=environment, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
         if said.returncode != 0:
@@ -81,7 +86,7 @@ class Maker:
 
     def install_all(self) -> None:
         """By the layout of a prefix of one's own: bin, lib, share."""
-        run("cmake", "-S", ROOT, "-B", self.build, "-DCMAKE_INSTALL_LIBDIR=lib", "-DTOFRAY_PYTHON_DIR=python", "-DTOFRAY_ZSH_DIR=zsh/site-functions")
+        self.lay_out("lib", "python", "zsh/site-functions")
         self.prefix = self.install("tofray")
         self.python = self.install("python")
         if self.has_cuda:

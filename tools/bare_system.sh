@@ -9,6 +9,7 @@
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 (($# == 2)) || { sed -n 's/^#   //p' "${BASH_SOURCE[0]}" >&2; exit 2; }
+((EUID == 0)) || { echo "bare_system.sh: only root may change into another system" >&2; exit 1; }
 suite=$1 folder=$2
 bare=${TOFRAY_ROOTS:-build/roots}/$suite
 work=$(mktemp -d)
@@ -18,6 +19,7 @@ if [[ ! -e $bare/etc/debian_version ]]; then
   # shellcheck disable=SC2016  # apt's own
   mirror=$(apt-get indextargets --format '$(ORIGIN) $(CODENAME) $(REPO_URI)' | awk '$1 == "Debian" && $2 !~ /-/ { print $3; exit }')
   [[ -n $mirror ]] || { echo "apt of this machine has no Debian to make a bare system of" >&2; exit 1; }
+  command -v debootstrap >/dev/null || { echo "debootstrap is missing: apt-get install debootstrap" >&2; exit 1; }
   mkdir -p "$(dirname "$bare")"
   debootstrap --variant=minbase "$suite" "$work/bare" "$mirror" >&2
   mv "$work/bare" "$bare"

@@ -19,11 +19,19 @@ blocks() { python3 tests/docs/markdown.py "docs/$1" try_packages.sh "$2"; }
 # The first piece of Python of README.md.
 four_lines() { awk '/^```python$/ { inside = 1; next } /^```$/ && inside { exit } inside' README.md; }
 
+# gpu_part FILES COMMAND TOFRAY: where there are such files, the command makes tofray find the code for GPUs, and then lack a GPU at most.
+gpu_part() {
+  echo "if compgen -G '$1' >/dev/null; then"
+  echo "  $3 doctor | grep 'the package tofray-cuda'"
+  echo "  $2 $1 && if $3 doctor | grep -E 'tofray-cuda|code for GPUs'; then exit 1; fi"
+  echo 'fi'
+}
+
 # trial KIND ENDING: runs the script on stdin where the files of that ending are; does nothing where there are none.
 trial() {
   local kind=$1 these
   mapfile -t these < <(printf '%s\n' "${files[@]}" | grep "$2\$" || true)
-  ((${#these[@]})) || return 0
+  ((${#these[@]})) || { cat >/dev/null; return 0; }
   mkdir "$work/$kind"
   cp -- "${these[@]}" "$work/$kind"
   four_lines >"$work/$kind/readme.py"
@@ -36,6 +44,7 @@ trial() {
   echo 'apt-get update >/dev/null'
   blocks systems.md deb
   echo 'python3 readme.py && cmp first/frame.npz out/frame.npz'   # render's bytes
+  gpu_part './tofray-cuda_*.deb' 'apt-get install' tofray
 } | trial deb '\.deb'
 {
   echo 'cp ./*.deb /tmp'
@@ -46,12 +55,14 @@ trial() {
   echo 'apt-get update >/dev/null && apt-get install python3-venv python3-numpy >/dev/null'
   blocks systems.md wheel
   echo 'v/bin/python readme.py && test -s first/frame.npz'
+  gpu_part './tofray_cuda-*.whl' 'v/bin/pip install' 'v/bin/python -m tofray'
 } | trial wheel '\.whl'
 {
   blocks systems.md tarball
   # Nothing is amiss where there is no font, and the letters are of the font that goes along, not cairo's own.
-  echo 'test -z "$(tofray-*/bin/tofray demo -o carried 2>&1 >/dev/null)"'
-  echo 'FONTCONFIG_FILE=/dev/null tofray-*/bin/tofray demo -o plain >/dev/null 2>&1'
+  echo 'test -z "$(tofray-[0-9]*/bin/tofray demo -o carried 2>&1 >/dev/null)"'
+  echo 'FONTCONFIG_FILE=/dev/null tofray-[0-9]*/bin/tofray demo -o plain >/dev/null 2>&1'
   echo 'if cmp -s carried/preview.png plain/preview.png; then exit 1; fi'
+  gpu_part './tofray-cuda-*.tar.gz' 'tar xf' 'tofray-[0-9]*/bin/tofray'
 } | trial tarball '\.tar\.gz'
 echo "=== $suite: good"

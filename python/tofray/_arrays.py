@@ -79,7 +79,7 @@ class Depth(Part):
     ambient_e : float32 array [height, width], e
         Of both taps, per lit (if none: mean) exposure.
     noise_m : float32 array [height, width], m
-        Estimated noise of the range, 1 sigma.
+        The camera's estimate of the range's noise, 1 sigma; without wrong cycles, and too low of weak signals (theory 4.4).
     confidence : uint8 array [height, width], 1
         0 to 255.
     flags : uint16 array [height, width], 1

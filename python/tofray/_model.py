@@ -2320,6 +2320,8 @@ class InvalidPixels(Record):
         Of them, those that have a depth.
     wrapped : int
         Valid ones whose surface is beyond the ambiguity range: their depth is too small.
+    valid_on_wrong_cycle : int
+        Valid ones whose range is off by more than half a cycle of the highest modulation frequency.
     saturated : int
         A well or the ADC is full.
     no_surface : int
@@ -2347,12 +2349,13 @@ class InvalidPixels(Record):
     ranges_m : list[float], m
         That of each modulation frequency alone.
     """
-    __slots__ = ("pixels", "valid", "wrapped", "saturated", "no_surface", "beyond_reach", "dark", "low_signal", "no_return",
-                 "wrong_cycle", "flying_pixel", "outside_lens", "inconsistent_phases", "inconsistent_frequencies", "ambiguity_range_m",
-                 "ranges_m")
+    __slots__ = ("pixels", "valid", "wrapped", "valid_on_wrong_cycle", "saturated", "no_surface", "beyond_reach", "dark", "low_signal",
+                 "no_return", "wrong_cycle", "flying_pixel", "outside_lens", "inconsistent_phases", "inconsistent_frequencies",
+                 "ambiguity_range_m", "ranges_m")
     pixels: int
     valid: int
     wrapped: int
+    valid_on_wrong_cycle: int
     saturated: int
     no_surface: int
     beyond_reach: int
@@ -2373,6 +2376,7 @@ class InvalidPixels(Record):
         pixels: int = 0,
         valid: int = 0,
         wrapped: int = 0,
+        valid_on_wrong_cycle: int = 0,
         saturated: int = 0,
         no_surface: int = 0,
         beyond_reach: int = 0,
@@ -2390,6 +2394,7 @@ class InvalidPixels(Record):
         self.pixels = pixels
         self.valid = valid
         self.wrapped = wrapped
+        self.valid_on_wrong_cycle = valid_on_wrong_cycle
         self.saturated = saturated
         self.no_surface = no_surface
         self.beyond_reach = beyond_reach

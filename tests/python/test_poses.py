@@ -55,7 +55,7 @@ def test_poses_of_a_body_and_of_opengl_are_turned_to_the_optical_axes() -> None:
 
 def test_a_pose_by_look_at_has_a_matrix_which_gives_the_same_frame() -> None:
     objects = [{"plane": {"point": [2, 0, 0], "normal": [-1, 0, 0], "reflectivity": 0.8}},
-               {"sphere": {"center": [1.3, 0.1, 0.5], "radius": 0.25, "reflectivity": 0.4}}]
+               {"sphere": {"center": [1.3, 0.1, 0.5], "radius": "25 cm", "reflectivity": 0.4}}]
     scene = tofray.scene({"world_up": "z", "camera": {"pose": {"position": [0.5, 0, 0.25], "look_at": [1, 0, 0.25]}}, "objects": objects})
     assert np.array_equal(scene.camera.pose.matrix, AHEAD) and scene.world_up == "z"
     first = tofray.Simulator(scene, seed=5).frame(0)
