@@ -46,6 +46,14 @@ TEST_F(first_hour, ends_with_the_picture_to_open) {
   EXPECT_FALSE(has(tool({"render", "ball.yaml", "-o", "data", "--emit", "npz"}).err, "open "));
 }
 
+TEST_F(first_hour, the_first_frame_of_a_series_has_its_number_in_the_picture) {
+  save("ball.yaml", ball);
+  ASSERT_EQ(tool({"render", "ball.yaml", "-o", "alone", "--emit", "png"}).code, 0);
+  ASSERT_EQ(tool({"render", "ball.yaml", "-o", "series", "--emit", "png", "--frames", "1"}).code, 0);
+  EXPECT_EQ(content(folder_ / "alone/depth.png"), content(folder_ / "series/depth_0000.png"));
+  EXPECT_NE(content(folder_ / "alone/preview.png"), content(folder_ / "series/preview_0000.png"));
+}
+
 TEST_F(first_hour, a_file_here_is_taken_before_what_is_built_in) {
   save("room.yaml", ball);
   const std::string note = "note: room.yaml of this folder is taken, not the built-in scene room";
