@@ -23,10 +23,11 @@ namespace {
 /// Bytes that are not UTF-8 replaced as JSON replaces them: a scene that comes from a manifest has the same caption.
 std::string as_utf8(const std::string& name) { return *files::parse_json(files::json_text(files::Json(name)), "name").string(); }
 
-std::string caption(const Frame& frame, const Inputs& inputs) {
+/// @param numbered  whether the frame is one of a series
+std::string caption(const Frame& frame, const Inputs& inputs, bool numbered) {
   std::string text = fmt::format("{} seen by {}", as_utf8(inputs.scene.name), inputs.camera.name);
   if (!inputs.camera.mode.name.empty()) text += " " + inputs.camera.mode.name;
-  if (frame.index > 0) text += fmt::format(", frame {}", frame.index);
+  if (numbered || frame.index > 0) text += fmt::format(", frame {}", frame.index);
   return text;
 }
 
@@ -204,7 +205,8 @@ std::vector<files::FileRecord> write_frame(const files::OutputFolder& folder, co
       put("depth", ".png", pictures::depth_png(frame.depth));
       put("amplitude", ".png", pictures::amplitude_png(frame.depth));
       put("raw", ".png", pictures::raw_png(frame.raw, what.theme, what.scale));
-      put("preview", ".png", pictures::preview_png(frame.depth, frame.truth, frame.raw, caption(frame, in), what.theme, what.scale));
+      put("preview", ".png",
+          pictures::preview_png(frame.depth, frame.truth, frame.raw, caption(frame, in, !suffix.empty()), what.theme, what.scale));
     } else {
       put("cloud", ".ply", results::cloud_ply(frame.depth));
     }

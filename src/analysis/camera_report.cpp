@@ -111,14 +111,14 @@ Camera pixel_on_the_axis(Camera camera) {
   return camera;
 }
 
-struct Seen {
+struct SeenWall {
   double sigma_m;
   bool saturated;
 };
 class Looker {
  public:
   Looker(const Camera& camera, const AmbientCase& light) : camera_(camera), simulator_(scene(light), camera, without_noise(Stage::depth)) {}
-  Seen at(double z, double reflectivity) {
+  SeenWall at(double z, double reflectivity) {
     const Depth depth = simulator_.frame(0, wall(camera_, z, reflectivity)).depth;
     return {static_cast<double>(depth.noise_m[0]), (depth.flags[0] & flag_saturated) != 0};
   }
@@ -250,7 +250,7 @@ void report_noise(const Camera& camera, const CameraQuestion& question, CameraRe
       NoiseAtDistances one;
       one.reflectivity = reflectivity, one.ambient = light.name, one.saturated_up_to_m = saturated_up_to(looker, reflectivity);
       for (const double z : question.distances_m) {
-        const Seen seen = looker.at(z, reflectivity);
+        const SeenWall seen = looker.at(z, reflectivity);
         const bool no_phase = seen.saturated || std::isnan(seen.sigma_m);
         one.at.push_back({z, seen.sigma_m, no_phase ? std::nan("") : cycles.at(z, reflectivity), seen.saturated});
       }

@@ -13,7 +13,7 @@
 namespace tofray::test {
 namespace {
 
-constexpr const char* ball = "objects:\n  - sphere: {center: [0.1, 0, 1.3], radius: 25 cm, reflectivity: 40 %}\n";
+constexpr const char* lone_ball = "objects:\n  - sphere: {center: [0.1, 0, 1.3], radius: 25 cm, reflectivity: 40 %}\n";
 
 class first_hour : public testing::Test {
  protected:
@@ -29,7 +29,7 @@ class first_hour : public testing::Test {
   Folder folder_;
 };
 
-std::string last_line(const std::string& text) {
+std::string end_line(const std::string& text) {
   const std::size_t end = text.find_last_not_of('\n');
   return end == std::string::npos ? "" : text.substr(text.rfind('\n', end) + 1, end - text.rfind('\n', end));
 }
@@ -37,17 +37,25 @@ std::string last_line(const std::string& text) {
 }  // namespace
 
 TEST_F(first_hour, ends_with_the_picture_to_open) {
-  save("ball.yaml", ball);
+  save("ball.yaml", lone_ball);
   const std::string named = "   # the picture; depth.png is for programs: 16-bit mm, black in viewers";
-  EXPECT_EQ(last_line(tool({"render", "ball.yaml", "-o", "out"}).err), "open out/preview.png" + named);
-  EXPECT_EQ(last_line(tool({"demo", "-o", "shown"}).out), "open shown/preview.png" + named);
-  EXPECT_EQ(last_line(tool({"render", "ball.yaml", "-o", "film", "--frames", "2", "--emit", "png"}).err),
+  EXPECT_EQ(end_line(tool({"render", "ball.yaml", "-o", "out"}).err), "open out/preview.png" + named);
+  EXPECT_EQ(end_line(tool({"demo", "-o", "shown"}).out), "open shown/preview.png" + named);
+  EXPECT_EQ(end_line(tool({"render", "ball.yaml", "-o", "film", "--frames", "2", "--emit", "png"}).err),
             "open film/preview_0000.png" + named);
   EXPECT_FALSE(has(tool({"render", "ball.yaml", "-o", "data", "--emit", "npz"}).err, "open "));
 }
 
+TEST_F(first_hour, the_first_frame_of_a_series_has_its_number_in_the_picture) {
+  save("ball.yaml", lone_ball);
+  ASSERT_EQ(tool({"render", "ball.yaml", "-o", "alone", "--emit", "png"}).code, 0);
+  ASSERT_EQ(tool({"render", "ball.yaml", "-o", "series", "--emit", "png", "--frames", "1"}).code, 0);
+  EXPECT_EQ(content(folder_ / "alone/depth.png"), content(folder_ / "series/depth_0000.png"));
+  EXPECT_NE(content(folder_ / "alone/preview.png"), content(folder_ / "series/preview_0000.png"));
+}
+
 TEST_F(first_hour, a_file_here_is_taken_before_what_is_built_in) {
-  save("room.yaml", ball);
+  save("room.yaml", lone_ball);
   const std::string note = "note: room.yaml of this folder is taken, not the built-in scene room";
   for (const Arguments& command : {Arguments{"check", "room"}, Arguments{"render", "room", "-o", "out", "--emit", "npz"},
                                    Arguments{"inspect", "room", "--pixel", "112,86"}}) {
@@ -57,15 +65,15 @@ TEST_F(first_hour, a_file_here_is_taken_before_what_is_built_in) {
   }
   EXPECT_TRUE(has(tool({"check", "room"}).out, "room.yaml: good: scene with 1 object,"));
   EXPECT_TRUE(has(tool({"check", "room", "--json"}).out, "room.yaml of this folder is taken, not the built-in scene room"));
-  save("card", ball);
+  save("card", lone_ball);
   EXPECT_TRUE(has(tool({"check", "card"}).out, "./card: good: scene with 1 object,"));
   // What is typed in full is no choice, and the demo is the demo.
   EXPECT_FALSE(has(tool({"check", "room.yaml"}).err, "built-in"));
-  save("demo.yaml", ball);
+  save("demo.yaml", lone_ball);
   const Result demo = tool({"demo", "-o", "shown"});
   EXPECT_FALSE(has(demo.out, " 1 objects,")) << demo.out;
   EXPECT_FALSE(has(demo.err, "note")) << demo.err;
-  save("pico-flexx.yaml", ball);
+  save("pico-flexx.yaml", lone_ball);
   EXPECT_TRUE(has(tool({"check", "pico-flexx"}).err, "note: pico-flexx.yaml of this folder is taken, not the built-in camera pico-flexx"));
 }
 
@@ -83,7 +91,7 @@ TEST_F(first_hour, keys_of_a_profile_may_begin_with_camera) {
 }
 
 TEST_F(first_hour, a_map_that_is_set_takes_the_place_of_the_files) {
-  save("lit.yaml", "ambient: {illuminance: 5 klx}\n" + std::string(ball));
+  save("lit.yaml", "ambient: {illuminance: 5 klx}\n" + std::string(lone_ball));
   EXPECT_EQ(tool({"check", "lit.yaml", "--set", "ambient={spectrum: sun_am15, level: 5 %}"}).code, 0);
   // What is wrong with it is wrong with the option, and is one thing.
   for (const char* scene : {"lit.yaml", "card"}) {
@@ -125,7 +133,7 @@ TEST_F(first_hour, numbers_without_a_source_are_counted) {
 }
 
 TEST_F(first_hour, words_that_are_meant_otherwise) {
-  save("ball.yaml", ball);
+  save("ball.yaml", lone_ball);
   const auto set = [](const char* text) { return Arguments{"check", "ball.yaml", "--set", text}; };
   expect_refused(set("seed=3"), "unknown key \"seed\" in the scene; did you mean the option --seed?");
   expect_refused(set("camera.f_number=1.2"), "unknown key \"f_number\" in camera; did you mean \"camera.lens.f_number\"?");
@@ -139,7 +147,7 @@ TEST_F(first_hour, words_that_are_meant_otherwise) {
 }
 
 TEST_F(first_hour, a_frame_that_is_not_there_is_told_with_those_that_are) {
-  save("ball.yaml", ball);
+  save("ball.yaml", lone_ball);
   ASSERT_EQ(tool({"render", "ball.yaml", "-o", "out", "--frames", "3"}).code, 0);
   for (const char* command : {"inspect", "process"}) {
     const Result result = tool({command, "out/frame.npz"});
