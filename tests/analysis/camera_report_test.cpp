@@ -10,6 +10,7 @@
 #include <random>
 
 #include "analysis/wrong_cycles.h"
+#include "support/pi.h"
 #include "tofray/error.h"
 #include "tofray/load.h"
 #include "tofray/simulator.h"
@@ -17,10 +18,9 @@
 
 using namespace tofray;
 using analysis::phase_density;
+using test::pi;
 
 namespace {
-
-constexpr double pi = std::numbers::pi;
 
 /// Of phases without wiggling.
 double wrong_cycle_probability(const std::vector<double>& sigma_rad, const std::vector<int>& cycles) {
