@@ -58,9 +58,9 @@ std::string noise_lines(const CameraReport& report, std::size_t from, std::size_
     marks.sun = marks.sun || one.ambient == "in the sun";
     text += fmt::format("  {:>6} {:<17}", fmt::format("{:g} %", 100 * one.reflectivity), one.ambient);
     for (std::size_t i = from; i < to; ++i) text += fmt::format("{:>10}", sigma_cell(report, one.at[i], marks));
-    text += one.saturated_up_to_m >= 20 ? "   everywhere\n"
-            : one.saturated_up_to_m > 0 ? fmt::format("   nearer than {:.2f} m\n", one.saturated_up_to_m)
-                                        : "   nowhere\n";
+    text += one.saturated_up_to_m >= NoiseAtDistances::everywhere_m ? "   everywhere\n"
+            : one.saturated_up_to_m > 0                             ? fmt::format("   nearer than {:.2f} m\n", one.saturated_up_to_m)
+                                                                    : "   nowhere\n";
     if (report.cycles.size() < 2) continue;
     text += fmt::format("  {:<24}", "         wrong cycle, %");
     for (std::size_t i = from; i < to; ++i) text += fmt::format("{:>10}", wrong_cell(one.at[i], marks));

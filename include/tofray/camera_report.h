@@ -42,8 +42,9 @@ struct NoiseAt {
 struct NoiseAtDistances {
   double reflectivity = 0;       ///< of the surface
   std::string ambient;           ///< name of the light that is not the camera's own
-  double saturated_up_to_m = 0;  ///< from there on to the camera it saturates; 0: not from 5 cm on
+  double saturated_up_to_m = 0;  ///< from there on to the camera it saturates; 0: not from 5 cm on; everywhere_m: at all distances
   std::vector<NoiseAt> at;       ///< one for each distance
+  static constexpr double everywhere_m = 20;  ///< nobody looks for saturation farther than this
 };
 
 /// What a camera can do in its mode.

@@ -156,7 +156,7 @@ class Simulator {
 
 /// Where the camera is at a time: camera to world, [4][4] row-major, last row 0 0 0 1.
 std::array<double, 16> camera_pose(const Scene& scene, double time_s);
-/// The same of one pose.
+/// A pose as a matrix: camera to world, row by row.
 /// @throws Error (bad_input) where it looks nowhere, or its quaternion is not of unit length to 1e-3
 std::array<double, 16> pose_matrix(const Pose& pose);
 /// The pose, by its quaternion, that has such a matrix: of a camera's optical frame, x right, y down, z forward.

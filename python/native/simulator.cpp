@@ -383,6 +383,7 @@ void bind_simulator(py::module_& module) {
   module.def("process", &process_raw);
   module.def("pixel_rays", &pixel_rays_of);
   module.def("camera_report", &camera_report_of);
+  module.def("full_sun", [] { return to_python(full_sun()); });
   module.def("scene_report", &scene_report_of);
   module.def("invalid_pixels", &invalid_pixels_of);
 }

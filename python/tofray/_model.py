@@ -2515,7 +2515,8 @@ class NoiseAtDistances(Record):
     ambient : str
         Name of the light that is not the camera's own.
     saturated_up_to_m : float, m
-        From there on to the camera it saturates; 0: not from 5 cm on.
+        From there on to the camera it saturates; 0: not from 5 cm on; everywhere_m: at all
+        distances.
     at : list[NoiseAt]
         One for each distance.
     """

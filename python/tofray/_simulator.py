@@ -13,7 +13,7 @@ from ._arrays import Depth, Raw
 from ._errors import error_of
 from ._frame import Frame
 from ._load import load_camera, load_scene
-from ._model import Ambient, AmbientCase, Camera, CameraQuestion, CameraReport, FrameRequest, InvalidPixels, RanOn, Scene, SceneReport
+from ._model import AmbientCase, Camera, CameraQuestion, CameraReport, FrameRequest, InvalidPixels, RanOn, Scene, SceneReport
 from ._own import Geometry, PixelLight, Transient
 
 if TYPE_CHECKING:
@@ -376,7 +376,8 @@ def full_sun() -> AmbientCase:
     -------
     AmbientCase
     """
-    return AmbientCase(name="in the sun", ambient=Ambient(spectrum="sun_am15", amount=1.0))
+    sun: AmbientCase = _native.full_sun()
+    return sun
 
 
 def scene_report(scene: Scene, camera: Camera, frame: Frame | None = None) -> SceneReport:

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "analysis/reach.h"
 #include "analysis/wrong_cycles.h"
 #include "base/constants.h"
 #include "base/limits.h"
@@ -25,7 +26,7 @@ namespace {
 
 using base::pi;
 
-constexpr double nearest_m = 0.05, farthest_m = 20;
+constexpr double nearest_m = 0.05, farthest_m = NoiseAtDistances::everywhere_m;
 
 SimulatorOptions without_noise(Stage last) {
   SimulatorOptions out;
@@ -64,7 +65,7 @@ void report_view(const Camera& camera, CameraReport& out) {
   out.pixel_width_m = 1 / lens.fx_px, out.pixel_height_m = 1 / lens.fy_px;
 }
 
-/// The same view in fewer pixels, where it has very many: shares of them are all that is asked for.
+/// The camera with its view in fewer pixels, where it has very many: shares of them are all that is asked for.
 Camera coarser(Camera camera) {
   constexpr double enough = 1 << 18;
   Sensor& sensor = camera.sensor;
@@ -320,7 +321,7 @@ CameraReport camera_report(const Camera& profile, const CameraQuestion& asked) {
   out.low_signal_m = camera.decoding.noise_threshold_m;
   report_light(coarser(camera), out);
   if (modulations.frequency_hz.empty()) return out;
-  out.ambiguity_range_m = base::speed_of_light / camera.refractive_index / (2 * modulations.base_hz);
+  out.ambiguity_range_m = analysis::reach_of(camera).ambiguity_range_m;
   out.knows_ambient = has_unlit(camera.mode);
   if (std::any_of(camera.illumination.begin(), camera.illumination.end(), [](const Illumination& one) { return one.power_w > 0; }))
     report_noise(camera, question, out);

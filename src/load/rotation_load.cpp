@@ -79,6 +79,13 @@ std::optional<Quaternion> said_rotation(const Value& map, Vec3* position, Faults
   return {};
 }
 
+void refuse_two_positions(const Value& map, Faults& faults) {
+  const Value& matrix = map["matrix"];
+  if (matrix && matrix.good && matrix.items[0].items.size() == 4 && map["position"])
+    faults.add(map["position"].place(), "the pose has a position, and its matrix another one",
+               "the last column of the matrix is its position; expected 3 x 3, or no position");
+}
+
 }  // namespace
 
 Pose pose_in(Scene::Up world_up) {
@@ -94,15 +101,6 @@ Quaternion optical_in(const Value& map) {
   if (axes.text == "opengl") return {1, 0, 0, 0};
   return {0, 0, 0, 1};
 }
-
-namespace {
-void refuse_two_positions(const Value& map, Faults& faults) {
-  const Value& matrix = map["matrix"];
-  if (matrix && matrix.good && matrix.items[0].items.size() == 4 && map["position"])
-    faults.add(map["position"].place(), "the pose has a position, and its matrix another one",
-               "the last column of the matrix is its position; expected 3 x 3, or no position");
-}
-}  // namespace
 
 Pose mount_of(const Value& map, Faults& faults) {
   Pose out;

@@ -13,7 +13,7 @@ Pose pose_in(Scene::Up world_up);
 
 /// What a pose's map says beside look_at and up, as the pose's position and quaternion.
 void complete_pose(const yaml::Value& map, Pose& pose, base::Faults& faults);
-/// The same of an object's rotation.
+/// What an object's rotation says beside axis and angle, as its quaternion.
 void complete_rotation(const yaml::Value& map, Rotation& rotation, base::Faults& faults);
 
 /// Zero has no sign in what readers hand on.

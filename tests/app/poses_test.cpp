@@ -75,7 +75,7 @@ TEST_F(pose_file, that_is_wrong_ends_check_with_its_line) {
   EXPECT_TRUE(has(checked.err + checked.out, "way.csv:4:1: error: the time is not later than that of the line before")) << checked.err;
 }
 
-// The same view of it, whatever the world's axes: on its floor, from above.
+// A mesh alone is seen alike, whatever the world's axes: on its floor, from above.
 TEST_F(pose_file, is_not_needed_for_a_mesh_alone_in_a_world_whose_z_is_up) {
   write("tent.obj",
         "v -0.5 0 0.4\nv 0.5 0 0.4\nv 0.5 0 -0.4\nv -0.5 0 -0.4\nv -0.5 0.6 0\nv 0.5 0.6 0\nf 1 2 6 5\nf 3 4 5 6\nf 2 3 6\nf 4 1 5\n");

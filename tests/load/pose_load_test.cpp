@@ -197,7 +197,7 @@ TEST(rotation, of_an_object_may_be_a_quaternion_a_matrix_or_euler_angles) {
   EXPECT_TRUE(has(turn_refusal("quaternion: [1, 1, 0, 0]"), "got a length of 1.414"));
 }
 
-// The same in structs: by the names of their members.
+// Rotations in structs are checked as those of files are: told by the names of their members.
 TEST(pose, in_code_is_checked_as_that_of_files) {
   const auto refused = [](const Pose& pose, const Rotation& rotation = {}) -> std::string {
     Scene scene;
