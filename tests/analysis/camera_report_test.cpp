@@ -66,6 +66,12 @@ TEST(wrong_cycles, of_close_frequencies_are_those_of_normal_phases) {
   }
 }
 
+// The noise of one modulation frequency counts as many times as the other has cycles: M of the second, N of the first.
+TEST(wrong_cycles, weigh_each_frequencys_noise_by_the_cycles_of_the_other) {
+  const double sigma_q = std::hypot(40 * 0.03, 3 * 0.005) / (2 * pi);
+  EXPECT_NEAR(wrong_cycle_probability({0.005, 0.03}, {40, 3}) / std::erfc(0.5 / (std::numbers::sqrt2 * sigma_q)), 1, 1e-2);
+}
+
 TEST(wrong_cycles, depend_on_each_frequencys_noise_and_not_on_their_order) {
   const double one = wrong_cycle_probability({0.1, 0.3}, {4, 3}), other = wrong_cycle_probability({0.3, 0.1}, {3, 4});
   EXPECT_NEAR(one / other, 1, 1e-4);  // grids of 4,096 steps
@@ -91,7 +97,7 @@ TEST(wrong_cycles, of_three_frequencies_are_those_of_drawn_phasors) {
   const int cycles[] = {15, 12, 10};
   std::mt19937_64 words(7);
   std::normal_distribution<double> normal;
-  for (const double sigma : {0.12, 0.2, 0.4}) {
+  for (const double sigma : {0.12, 0.2, 0.4, 1.0}) {
     constexpr int draws = 20000;
     int wrong = 0;
     for (int draw = 0; draw < draws; ++draw) {
