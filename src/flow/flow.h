@@ -82,6 +82,7 @@ template <class F>
 struct Surface {
   F x, y, z;     ///< position [m]
   F nx, ny, nz;  ///< unit normal, toward the camera
+  F fx, fy, fz;  ///< that of the facet itself, whatever normals of corners or pictures say: on its side light can arrive
   F range;       ///< [m]
   F cos_view;    ///< of the angle between normal and the way back to the camera
   Finish<F> finish;

@@ -23,8 +23,6 @@ constexpr int first_roulette = 3;
 constexpr float least_left = 0.25f;
 /// Paths whose light is summed before it is added to that of others: a sum of some thousand floats would lose digits.
 constexpr int paths_together = 64;
-/// How far back rays begin, as a share of the distances from which a point is known: single precision knows it to some 10⁻⁷ of them.
-constexpr float way_back = 2e-6f;
 /// What random numbers are for, beside pixel and surface.
 constexpr std::uint32_t of_transport = 0x70617468u;
 
@@ -34,7 +32,6 @@ struct Vertex {
   flow::Surface<F> at;      ///< its range is that of the path so far
   flow::Direction<F> way;   ///< unit vector of the ray that came here
   F step;                   ///< its length [m]
-  flow::Direction<F> flat;  ///< normal of the facet itself, toward where the ray came from
   num::Int<F> facet;
   num::Mask<F> escaped;  ///< the ray went on without end
 };
@@ -47,11 +44,11 @@ TOFRAY_APART Vertex<F> next_vertex(const Setup& s, int moment, F area, const sha
                                    F before) {
   Vertex<F> out;
   const trace::Met<F> met = trace::nearest_from(s.scene, moment, ray, from);
-  flow::Surface<F> p = trace::surface_met(s.scene, ray, met, from.wanted);
+  flow::Surface<F> p = trace::surface_met(s.scene, ray, from, met);
   out.step = num::select(p.found, met.distance, F(0.0f));
   p.range = before + out.step;
   out.escaped = from.wanted & (!p.found);
-  out.flat = {p.nx, p.ny, p.nz}, out.way = {ray.dx, ray.dy, ray.dz}, out.facet = met.facet;
+  out.way = {ray.dx, ray.dy, ray.dz}, out.facet = met.facet;
   if (s.scene.any_details != 0) {
     flow::Surface<F> copy = p;
     trace::add_details(s.scene, area * p.range * p.range, flow::Ray<F>{ray.dx, ray.dy, ray.dz, F(1.0f), F(1.0f)},
@@ -89,15 +86,24 @@ TOFRAY_FN Choice<F> choose(const BounceView& s, const Pixels& p, int bounce, int
   return out;
 }
 
+/// Where shadow rays end. [as trace::a_little_before]
+template <class F>
+TOFRAY_FN flow::Surface<F> a_little_before(const Setup& s, const flow::Surface<F>& p, const flow::Ray<F>& way, F step) {
+  return trace::a_little_before(s.scene, p, way, num::sqrt(flow::square_of(p.x, p.y, p.z)), step);
+}
+
 /// The way of one light straight to a surface, and from there along `ray` to where it came from.
+/// @param step    length of the way along `ray` [m]
 /// @param weight  how much of what the surface sends back the pixel gets
 template <class F>
-TOFRAY_APART flow::Path<F> path_by(const Setup& s, int moment, int l, const flow::Surface<F>& p, const flow::Ray<F>& ray, const F& weight) {
-  const flow::Ray<F> from_light = power::light_ray(s.lights[l], p);
+TOFRAY_APART flow::Path<F> path_by(const Setup& s, int moment, int l, const flow::Surface<F>& p, const flow::Ray<F>& ray, const F& step,
+                                   const F& weight) {
+  const flow::Surface<F> before = a_little_before(s, p, ray, step);
+  const flow::Ray<F> from_light = power::light_ray(s.lights[l], p), to_shade = power::light_ray(s.lights[l], before);
   const float* const at = s.lights[l].position;
-  num::Mask<F> dark = trace::blocked_anywhere(s.scene.still, 0, s.scene.light_still(l), at, from_light, p);
+  num::Mask<F> dark = trace::blocked_anywhere(s.scene.still, 0, s.scene.light_still(l), at, to_shade, before);
   if (s.scene.moments > 0)
-    dark = dark | trace::blocked_anywhere(s.scene.moving, moment, s.scene.light_moving(moment, l), at, from_light, p);
+    dark = dark | trace::blocked_anywhere(s.scene.moving, moment, s.scene.light_moving(moment, l), at, to_shade, before);
   flow::Radiometry<F> unused{F(0.0f), F(0.0f), F(0.0f)};
   flow::Path<F> path = power::received<F>(s.power, s.lights[l], p, ray, from_light, dark, weight, unused);
   path.rate = num::select(p.found, path.rate, F(0.0f));  // where the path ended before, nothing need be a number
@@ -105,8 +111,9 @@ TOFRAY_APART flow::Path<F> path_by(const Setup& s, int moment, int l, const flow
 }
 /// Calls take(l, path) for the way of each light.
 template <class F, class Take>
-TOFRAY_FN void each_light(const Setup& s, int moment, const flow::Surface<F>& p, const flow::Ray<F>& ray, F weight, const Take& take) {
-  for (int l = 0; l < s.scene.lights; ++l) take(l, path_by<F>(s, moment, l, p, ray, weight));
+TOFRAY_FN void each_light(const Setup& s, int moment, const flow::Surface<F>& p, const flow::Ray<F>& ray, F step, F weight,
+                          const Take& take) {
+  for (int l = 0; l < s.scene.lights; ++l) take(l, path_by<F>(s, moment, l, p, ray, step, weight));
 }
 template <class F>
 TOFRAY_FN flow::Ray<F> ray_to(const Vertex<F>& v) {
@@ -117,13 +124,12 @@ TOFRAY_FN flow::Ray<F> ray_to(const Vertex<F>& v) {
 template <class F>
 TOFRAY_FN void light_vertex(const Setup& s, int moment, const power::Wanted& wanted, const Vertex<F>& v, F weight, flow::Light<F>& light) {
   each_light<F>(
-      s, moment, v.at, ray_to(v), weight, [&](int l, const flow::Path<F>& path) __attribute__((always_inline)) {
+      s, moment, v.at, ray_to(v), v.step, weight, [&](int l, const flow::Path<F>& path) __attribute__((always_inline)) {
         power::add_one_of_many(s.phasors, wanted, l, path, light);
       });
   if (s.power.ambient != camera::AmbientLight::directional) return;
   const float* const sun = s.scene.sun(moment);
-  flow::Surface<F> p = v.at;  // what is near enough to be itself is a matter of where it is, not of how the light got there
-  p.range = num::sqrt(flow::square_of(p.x, p.y, p.z));
+  const flow::Surface<F> p = a_little_before(s, v.at, ray_to(v), v.step);
   num::Mask<F> dark = trace::blocked_parallel_anywhere(s.scene.still, 0, s.scene.sun_still(), sun, p);
   if (s.scene.moments > 0) dark = dark | trace::blocked_parallel_anywhere(s.scene.moving, moment, s.scene.sun_moving(moment), sun, p);
   light.ambient_rate = light.ambient_rate + power::ambient_rate<F>(s.power, sun, v.at, dark, weight);
@@ -142,7 +148,7 @@ TOFRAY_FN Onward<F> leave(const Choice<F>& choice, bool roulette, const Vertex<F
   const flow::Surface<F>& p = v.at;
   const brdf::Sampled<F> sampled = brdf::sample<F>(p.finish, {p.nx, p.ny, p.nz}, {-v.way.x, -v.way.y, -v.way.z}, choice.u, choice.v);
   const flow::Direction<F>& d = sampled.light;
-  const F along = num::fma(d.x, v.flat.x, num::fma(d.y, v.flat.y, d.z * v.flat.z));
+  const F along = num::fma(d.x, p.fx, num::fma(d.y, p.fy, d.z * p.fz));
   num::Mask<F> goes_on = p.found & (sampled.weight > F(0.0f)) & (along > F(0.0f));
   weight = weight * sampled.weight;
   if (roulette) {
@@ -152,9 +158,9 @@ TOFRAY_FN Onward<F> leave(const Choice<F>& choice, bool roulette, const Vertex<F
   }
   // The ray begins a little before the surface, on the way that led there: in a corner nobody knows on which side of the other wall the point
   // itself is, but where a ray has just been there is room.
-  const F away = num::sqrt(flow::square_of(p.x, p.y, p.z)), back = num::min(F(way_back) * (away + v.step), F(0.5f) * v.step);
+  const F away = num::sqrt(flow::square_of(p.x, p.y, p.z)), back = num::min(F(trace::way_back) * (away + v.step), F(0.5f) * v.step);
   const shape::FreeRay<F> ray{num::fnma(back, v.way.x, p.x), num::fnma(back, v.way.y, p.y), num::fnma(back, v.way.z, p.z), d.x, d.y, d.z};
-  return {ray, {v.facet, v.flat.x, v.flat.y, v.flat.z, away, goes_on}, weight};
+  return {ray, {v.facet, p.fx, p.fy, p.fz, away, goes_on}, weight};
 }
 
 /// Calls meet(b, surface, weight) for what one path of each pixel meets beyond the first surface, b = 1 … most.

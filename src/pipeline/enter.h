@@ -87,6 +87,7 @@ TOFRAY_FN flow::Surface<F> given_surface(const Setup& s, const SurfaceArrays& in
   return out;
 }
 
+template <class F>
 struct GivenShadows {
   const Setup& s;
   const SurfaceArrays& in;
@@ -95,12 +96,10 @@ struct GivenShadows {
 
   TOFRAY_FN const float* sun_direction() const { return s.power.sun_direction; }
 
-  template <class F>
-  TOFRAY_FN num::Mask<F> of_light(int l, const flow::Ray<F>&, const flow::Surface<F>&) const {
+  TOFRAY_FN num::Mask<F> of_light(int l) const {
     return given_mask<F>(in.shadow, s, p, moment * s.scene.lights + l);
   }
-  template <class F>
-  TOFRAY_FN num::Mask<F> of_sun(const flow::Surface<F>&) const {
+  TOFRAY_FN num::Mask<F> of_sun() const {
     return given_mask<F>(in.sun_shadow, s, p, moment);
   }
 };
@@ -172,7 +171,7 @@ class GivenWalk {
       surface = given_surface(s_, in_.surface, p, now.index, ray);
       hide_outside_lens(vignetting, surface);
       if (s_.last_stage >= Stage::power) {
-        light_up(s_, which, GivenShadows{s_, in_.surface, p, now.index}, ray, surface, vignetting, pack.light, radiometry);
+        light_up(s_, which, GivenShadows<F>{s_, in_.surface, p, now.index}, ray, surface, vignetting, pack.light, radiometry);
       }
     } else {
       radiometry.irradiance = radiometry.radiance = nan<F>();

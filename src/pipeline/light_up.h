@@ -90,9 +90,11 @@ struct ShadowRays {
   Near& near;
   int moment;
   bool still, moving;
+  flow::Surface<F> p;  ///< a little before the surface
 
   TOFRAY_FN const float* sun_direction() const { return s.scene.sun(moment); }
-  TOFRAY_FN num::Mask<F> of_light(int l, const flow::Ray<F>& from_light, const flow::Surface<F>& p) {
+  TOFRAY_FN num::Mask<F> of_light(int l) {
+    const flow::Ray<F> from_light = power::light_ray(s.lights[l], p);
     near.look(moment, l, from_light, p.found);
     num::Mask<F> dark = F(1.0f) < F(0.0f);
     if (still) dark = trace::blocked(near.still_from(s, l), from_light, p) | near.template behind_still_meshes<F>(l);
@@ -101,7 +103,7 @@ struct ShadowRays {
     }
     return dark;
   }
-  TOFRAY_FN num::Mask<F> of_sun(const flow::Surface<F>& p) {
+  TOFRAY_FN num::Mask<F> of_sun() {
     near.look_along(s, moment, p);
     num::Mask<F> dark = F(1.0f) < F(0.0f);
     if (still) {
@@ -122,7 +124,7 @@ TOFRAY_FN void light_up(const Setup& s, const power::Wanted& wanted, Shadows&& s
   if (s.scene.lights == 0) power::clear(s.phasors, wanted, light);
   for (int l = 0; l < s.scene.lights; ++l) {
     const flow::Ray<F> from_light = power::light_ray(s.lights[l], p);
-    const auto dark = shadows.of_light(l, from_light, p);
+    const auto dark = shadows.of_light(l);
     const flow::Path<F> path = power::received<F>(s.power, s.lights[l], p, ray, from_light, dark, vignetting, radiometry);
     if (s.phasors.sums_alone != 0) {
       power::sums_of_path(s.phasors, wanted, path, light);
@@ -132,21 +134,22 @@ TOFRAY_FN void light_up(const Setup& s, const power::Wanted& wanted, Shadows&& s
   }
   if (s.phasors.sums_alone == 0) power::add_up(s.phasors, wanted, light);
   num::Mask<F> shade = F(1.0f) < F(0.0f);
-  if (s.power.ambient == camera::AmbientLight::directional) shade = shadows.of_sun(p);
+  if (s.power.ambient == camera::AmbientLight::directional) shade = shadows.of_sun();
   light.ambient_rate = s.power.ambient == camera::AmbientLight::none
                            ? F(0.0f)
                            : power::ambient_rate<F>(s.power, shadows.sun_direction(), p, shade, vignetting);
 }
 
 /// Whether something that moves keeps a light off any of the pixels.
+/// @param p  a little before the surface
 template <class F, class Near>
 TOFRAY_FN num::Mask<F> in_moving_shadow(const Setup& s, Near& near, int moment, const flow::Surface<F>& p) {
-  ShadowRays<F, Near> shadows{s, near, moment, false, true};
+  ShadowRays<F, Near> shadows{s, near, moment, false, true, p};
   num::Mask<F> dark = F(1.0f) < F(0.0f);
   for (int l = 0; l < s.scene.lights; ++l) {
-    dark = dark | shadows.of_light(l, power::light_ray(s.lights[l], p), p);
+    dark = dark | shadows.of_light(l);
   }
-  if (s.power.ambient == camera::AmbientLight::directional) dark = dark | shadows.of_sun(p);
+  if (s.power.ambient == camera::AmbientLight::directional) dark = dark | shadows.of_sun();
   return dark & p.found;
 }
 
@@ -168,12 +171,13 @@ TOFRAY_FN bool light_of_scene(const Setup& s, const Job& job, Near& near, const 
   const bool open = !moves || s.last_stage < Stage::power || !near.can_be_shaded(s);  // nothing that moves can come between
   if (same && open && undisturbed && !now.truth) return false;
   const flow::Surface<F> surface = surface_seen(s, s.lens, ray, hit, vignetting);
-  const bool calm = same && (open || !near.any(in_moving_shadow(s, near, now.index, surface)));
+  const flow::Surface<F> before = trace::a_little_before(s.scene, surface, ray);
+  const bool calm = same && (open || !near.any(in_moving_shadow(s, near, now.index, before)));
   if (calm && undisturbed && !now.truth) return false;
   undisturbed = calm;
   flow::Radiometry<F> radiometry{F(0.0f), F(0.0f), F(0.0f)};
   if (s.last_stage >= Stage::power) {
-    light_up(s, wanted(s, now, calm), ShadowRays<F, Near>{s, near, now.index, true, moves && !calm}, ray, surface, vignetting, light,
+    light_up(s, wanted(s, now, calm), ShadowRays<F, Near>{s, near, now.index, true, moves && !calm, before}, ray, surface, vignetting, light,
              radiometry);
     // Where rays say how much of the sky a surface sees, it does not see all of it.
     if (bounces(s, Stage::trace) && s.power.ambient == camera::AmbientLight::uniform) light.ambient_rate = F(0.0f);

@@ -8,7 +8,7 @@
 /// no meshes should not pay for them with registers.
 namespace tofray::pipeline {
 
-/// Where the pixels of a tile see something.
+/// Where shadow rays end: a little before what the pixels of a tile see.
 struct TilePoints {
   alignas(64) trace::TileRays::Array x, y, z, range;
   alignas(64) trace::TileRays::Array found;  ///< 1 or 0
@@ -41,7 +41,11 @@ TOFRAY_APART void put_points(const Setup& s, const Tile& tile, const flow::Hit<F
     const Pixels p = tile.pixels(q);
     flow::Surface<F> surface{};
     num::Mask<F> found = F(1.0f) < F(0.0f);
-    if (p.count > 0) found = trace::place(camera::ray<F>(s.lens, p), hits[q], surface) & in_use<F>(p);
+    if (p.count > 0) {
+      const flow::Ray<F> ray = camera::ray<F>(s.lens, p);
+      found = trace::place(ray, hits[q], surface) & in_use<F>(p);
+      surface = trace::a_little_before(s.scene, surface, ray);
+    }
     shape::store_all(points.x + at, surface.x), shape::store_all(points.y + at, surface.y), shape::store_all(points.z + at, surface.z);
     shape::store_all(points.range + at, surface.range);
     shape::store_all(points.found + at, num::select(found, F(1.0f), F(0.0f)));

@@ -50,7 +50,8 @@ struct Rectangle {
   TOFRAY_FN flow::Bounds bounds() const { return {num::lowest(x_min), num::highest(x_max), num::lowest(y_min), num::highest(y_max)}; }
 };
 
-/// What one light sees of the tile: the way from the light to a surface point is (d − w·L)/w for the ray d that hits it.
+/// What one light sees of the tile: the way from the light to a point is (d − w·L)/w for the ray d that hits it, and shadow rays end at a w
+/// that is a little larger than the surface's (trace::a_little_before).
 /// @return false where that is no rectangle ahead of the light
 template <class F>
 TOFRAY_FN bool seen_by_light(const Setup& s, const Tile& tile, const flow::Hit<F>* hits, int light, flow::Bounds& bounds) {
@@ -60,7 +61,8 @@ TOFRAY_FN bool seen_by_light(const Setup& s, const Tile& tile, const flow::Hit<F
     const Pixels p = pack_at<F>(s.lens, tile, q);
     if (p.count == 0) continue;
     const flow::Ray<F> ray = camera::ray<F>(s.lens, p);
-    const F w = hits[q].w;
+    const F share = num::min(num::fma(F(s.scene.roughness) * hits[q].w, ray.inverse_length, F(2 * trace::way_back)), F(0.5f));
+    const F w = hits[q].w / (F(1.0f) - share);
     seen.add(num::fnma(w, F(at[0]), ray.x), num::fnma(w, F(at[1]), ray.y), num::fnma(w, F(at[2]), ray.z), in_use<F>(p) & (w > F(0.0f)));
   }
   bounds = seen.bounds();
@@ -96,7 +98,9 @@ TOFRAY_FN flow::Bounds seen_by_sun(const Setup& s, int moment, const Tile& tile,
     const Pixels p = pack_at<F>(s.lens, tile, q);
     if (p.count == 0) continue;
     flow::Surface<F> at;
-    const auto found = trace::place(camera::ray<F>(s.lens, p), hits[q], at);
+    const flow::Ray<F> ray = camera::ray<F>(s.lens, p);
+    const auto found = trace::place(ray, hits[q], at);
+    at = trace::a_little_before(s.scene, at, ray);
     screen.add(at.x, at.y, at.z, in_use<F>(p) & found, seen);
   }
   return seen.bounds();

@@ -62,7 +62,7 @@ TOFRAY_FN void add_direct(const Setup& s, const camera::LensView& lens, int mome
   if (s.scene.moments > 0) hit = trace::nearest(trace::Uncut{s.scene.camera_moving(moment)}, ray, hit);
   const flow::Surface<F> surface = surface_seen(s, lens, ray, hit, vignetting);
   each_light<F>(
-      s, moment, surface, ray, vignetting, [&](int, const flow::Path<F>& path) __attribute__((always_inline)) {
+      s, moment, surface, ray, surface.range, vignetting, [&](int, const flow::Path<F>& path) __attribute__((always_inline)) {
         add_light<F>(to, path.rate * F(share), path.length);
       });
 }
@@ -80,8 +80,7 @@ TOFRAY_FN void add_bounced(const Setup& s, const flow::LightImage& image, const 
   const F each = F(share * static_cast<float>(s.subpixel.count)) / num::to_float(paths_known<F>(s, image, rounds - 1, to.p));
   const auto meet = [&](int, const Vertex<F>& v, F weight) __attribute__((always_inline)) {
     each_light<F>(
-        s, moment, v.at, ray_to(v),
-        weight, [&](int, const flow::Path<F>& path) __attribute__((always_inline)) { add_light<F>(to, path.rate * each, path.length); });
+        s, moment, v.at, ray_to(v), v.step, weight, [&](int, const flow::Path<F>& path) __attribute__((always_inline)) { add_light<F>(to, path.rate * each, path.length); });
   };
   for (int round = 0; round < rounds; ++round) {
     const PathsOfStep paths = paths_of_step(s, round * s.subpixel.count + sample);

@@ -20,6 +20,12 @@ TOFRAY_FN Ray<F> light_ray(const camera::LightView& light, const Surface<F>& p) 
   return flow::make_ray(p.x - F(light.position[0]), p.y - F(light.position[1]), p.z - F(light.position[2]));
 }
 
+/// Whether light from there arrives on the side of the facet that is seen: no normal of a corner or of a picture lets light through it.
+template <class F>
+TOFRAY_FN Mask<F> before_facet(const Surface<F>& p, F x, F y, F z) {
+  return num::fma(p.fx, x, num::fma(p.fy, y, p.fz * z)) > F(0.0f);
+}
+
 /// One light source: E_s = I·max(0, n·l)·V/r_L²  [eq. 2.2], L = f_r·E_s, S/t = L·(π T pitch² FF/4N²)·vignetting·λQE/(hc)  [eq. 2.5–2.7],
 /// ℓ = |P − L| + |P|  [eq. 2.8]. What the truth shows of it is added to `sum`.
 template <class F>
@@ -27,7 +33,7 @@ TOFRAY_FN Path<F> received(const camera::PowerView& s, const camera::LightView& 
                            const Ray<F>& from_light, Mask<F> dark, F vignetting, Radiometry<F>& sum) {
   const F per_distance = from_light.inverse_length, distance = from_light.square * per_distance;
   const F cos_light = -num::fma(p.nx, from_light.x, num::fma(p.ny, from_light.y, p.nz * from_light.z)) * per_distance;
-  const auto lit = p.found & (!dark) & (cos_light > F(0.0f));
+  const auto lit = p.found & (!dark) & (cos_light > F(0.0f)) & before_facet(p, -from_light.x, -from_light.y, -from_light.z);
   const F radiant = intensity(light, from_light.x, from_light.y, from_light.z, per_distance);
   const F irradiance = num::select(lit, num::min(radiant * cos_light * (per_distance * per_distance), F(flow::max_irradiance)), F(0.0f));
   // both directions point from the surface: to the light −from_light/r_L, to the camera −ray/|ray|
@@ -42,7 +48,7 @@ TOFRAY_FN Path<F> received(const camera::PowerView& s, const camera::LightView& 
   F radiance = irradiance * brdf::reflection(p.finish, {cos_light, p.cos_view, cos_between}, directions);
   F watts = radiance * F(s.watts_per_radiance) * vignetting;
   if (s.paper_literal != 0) {
-    radiance = paper_radiance(light, p, p.found & (!dark));
+    radiance = paper_radiance(light, p, p.found & (!dark) & before_facet(p, -from_light.x, -from_light.y, -from_light.z));
     watts = radiance * F(s.paper_scale) * vignetting;
   }
   sum.irradiance = sum.irradiance + irradiance;
@@ -58,7 +64,8 @@ TOFRAY_FN F ambient_rate(const camera::PowerView& s, const float* sun, const Sur
   F rate = F(s.ambient_rate) * p.finish.reflectivity * vignetting;
   if (s.ambient == camera::AmbientLight::directional) {
     const F cosine = num::fma(p.nx, F(sun[0]), num::fma(p.ny, F(sun[1]), p.nz * F(sun[2])));
-    rate = num::select(!dark, rate * num::max(cosine, F(0.0f)), F(0.0f));
+    const auto lit = (!dark) & before_facet(p, F(sun[0]), F(sun[1]), F(sun[2]));
+    rate = num::select(lit, rate * num::max(cosine, F(0.0f)), F(0.0f));
   }
   return num::select(p.found, rate, F(0.0f));
 }

@@ -69,6 +69,23 @@ TriangleMesh shape_at(const TriangleMesh& mesh, const MeshMotion& motion, double
   return out;
 }
 
+/// Share of its distance by which a position may be elsewhere: some 32 roundings in single precision.
+constexpr double position_error = 2e-6;
+
+double farthest(const std::vector<shape::Vec>& points) {
+  double out = 0;
+  for (const shape::Vec& point : points) out = std::fmax(out, shape::length(point));
+  return out;
+}
+/// The largest coordinate of any mesh in its own frame.
+double largest_mesh(const Group& group, int moments) {
+  const BodiesOf<shape::Mesh>& meshes = group.bodies.of<shape::Mesh>();
+  double out = 0;
+  for (int k = 0; k < (meshes.per_moment != 0 ? moments : 1); ++k)
+    for (int i = 0; i < meshes.count; ++i) out = std::fmax(out, reach(meshes.at(k, i).shape, {0, 0, 0}));
+  return out;
+}
+
 bool turns(const Object& object) { return !object.keyframes.empty() || length(object.angular_velocity_rad_per_s) > 0; }
 
 }  // namespace
@@ -285,6 +302,7 @@ void FrozenScene::derive() {
   const Derive what = still_known_ ? Derive::moving : Derive::all;
   const int units = unit_count(view_, what);
   for (int i = 0; i < units; ++i) scene::derive(view_, what, i);
+  view_.roughness = num::single(position_error * (farthest(lights_) + std::fmax(largest_mesh(view_.still, 1), largest_mesh(view_.moving, view_.moments))));
   if (!still_known_) still_clusters_.update(view_, view_.still);
   moving_clusters_.update(view_, view_.moving);
   still_known_ = moving_known_ = true;

@@ -112,6 +112,7 @@ struct SceneView {
   std::int32_t map_count;
   std::int32_t object_count;  ///< of `motion_of`; one at least
   std::int32_t any_details;   ///< of meshes
+  float roughness;            ///< how well positions are known at all, by lights that are far away and meshes that are large [m]
   std::int32_t bounces;       ///< light goes from surface to surface, too: rays leave from anywhere
 
   TOFRAY_FN Forms camera_still() const { return still.seen_from(0, 0, 1 + lights); }

@@ -18,10 +18,11 @@ template <class F>
 struct Met {
   F distance;
   Int<F> facet, triangle;
+  F lift;  ///< how far before the surface that it left, along its normal, the ray began that met it [m]
 };
 template <class F>
 TOFRAY_FN Met<F> nothing_met() {
-  return {F(shape::never), Int<F>(0), Int<F>(0)};
+  return {F(shape::never), Int<F>(0), Int<F>(0), F(0.0f)};
 }
 
 /// Where a ray leaves from.
@@ -46,7 +47,7 @@ template <class T, class F>
 TOFRAY_FN void take_met(const typename T::Free& form, F distance, Int<F> side, Met<F>& met) {
   const auto nearer = distance < met.distance;
   met.facet = num::select(nearer, Int<F>(form.facet) + side, met.facet);
-  met.distance = num::select(nearer, distance, met.distance);
+  met.distance = num::select(nearer, distance, met.distance), met.lift = num::select(nearer, F(0.0f), met.lift);
 }
 
 /// A closed body: whoever is outside never meets it again, whoever is inside always does.
@@ -78,7 +79,7 @@ TOFRAY_APART void meet_mesh(const typename T::Free& form, const FreeRay<F>& ray,
   const auto nearer = distance < met.distance;
   met.facet = num::select(nearer, Int<F>(form.facet), met.facet);
   met.triangle = num::select(nearer, triangle, met.triangle);
-  met.distance = num::select(nearer, distance, met.distance);
+  met.distance = num::select(nearer, distance, met.distance), met.lift = num::select(nearer, before, met.lift);
 }
 
 template <class T, class F>
@@ -103,20 +104,22 @@ TOFRAY_APART void meet_in_boxes(const typename T::Free* forms, const scene::Boxe
                                 Met<F>& met) {
   RaysApart<F> rays;
   take_apart<F>(ray, met.distance, from.wanted, rays);
-  Met<F> best{met.distance, Int<F>(-1), Int<F>(0)};
+  Met<F> best{met.distance, Int<F>(-1), Int<F>(0), F(0.0f)};
   each_in_reach<F>(
       boxes, rays, [&](int body) __attribute__((always_inline)) {
         const F beyond = num::fma(best.distance, F(1.0f + 1e-6f), F(1e-30f));  // so that what is as far is met, too
-        Met<F> one{beyond, Int<F>(0), Int<F>(0)};
+        Met<F> one{beyond, Int<F>(0), Int<F>(0), F(0.0f)};
         meet_one<T>(forms[body], ray, from, one);
         const auto better =
             (one.distance < beyond) & ((one.distance < best.distance) | ((!(one.distance > best.distance)) & (best.facet > one.facet)));
         best.distance = num::select(better, one.distance, best.distance);
         best.facet = num::select(better, one.facet, best.facet), best.triangle = num::select(better, one.triangle, best.triangle);
+        best.lift = num::select(better, one.lift, best.lift);
       });
   const auto nearer = best.distance < met.distance;
   met.distance = num::select(nearer, best.distance, met.distance);
   met.facet = num::select(nearer, best.facet, met.facet), met.triangle = num::select(nearer, best.triangle, met.triangle);
+  met.lift = num::select(nearer, best.lift, met.lift);
 }
 
 template <class T, class F>
@@ -153,11 +156,14 @@ TOFRAY_FN Met<F> nearest_from(const scene::SceneView& s, int moment, const FreeR
 
 /// Where and what it is: position, normal toward where the ray comes from, material; `range` is left to the caller.
 template <class F>
-TOFRAY_FN Surface<F> surface_met(const scene::SceneView& s, const FreeRay<F>& ray, const Met<F>& met, Mask<F> wanted) {
+TOFRAY_FN Surface<F> surface_met(const scene::SceneView& s, const FreeRay<F>& ray, const Leaving<F>& from, const Met<F>& met) {
   Surface<F> out;
-  out.found = wanted & (met.distance < F(shape::never));
-  const F t = num::select(out.found, met.distance, F(0.0f));
-  out.x = num::fma(t, ray.dx, ray.x), out.y = num::fma(t, ray.dy, ray.y), out.z = num::fma(t, ray.dz, ray.z);
+  out.found = from.wanted & (met.distance < F(shape::never));
+  const F t = num::select(out.found, met.distance, F(0.0f)), lift = num::select(out.found, met.lift, F(0.0f));
+  // From where the ray began that met it: a point that is beside its triangle by that much may be on the other side, and the next ray leaves a
+  // closed mesh.
+  out.x = num::fma(t, ray.dx, num::fma(lift, from.nx, ray.x)), out.y = num::fma(t, ray.dy, num::fma(lift, from.ny, ray.y));
+  out.z = num::fma(t, ray.dz, num::fma(lift, from.nz, ray.z));
   const shape::Direction<F> n = what_is_there(s, met.facet, met.triangle, out);
   face_camera(n.x, n.y, n.z, Ray<F>{ray.dx, ray.dy, ray.dz, F(1.0f), F(1.0f)}, out);
   return out;

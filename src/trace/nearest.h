@@ -81,7 +81,7 @@ template <class F>
 TOFRAY_FN void face_camera(F nx, F ny, F nz, const Ray<F>& ray, Surface<F>& out) {
   const F along = num::fma(nx, ray.x, num::fma(ny, ray.y, nz * ray.z));
   const F sign = num::select(along > F(0.0f), F(-1.0f), F(1.0f));
-  out.nx = nx * sign, out.ny = ny * sign, out.nz = nz * sign;
+  out.nx = out.fx = nx * sign, out.ny = out.fy = ny * sign, out.nz = out.fz = nz * sign;
   out.cos_view = num::abs(along) * ray.inverse_length;
 }
 

@@ -6,8 +6,35 @@
 /// Shadow rays. They leave the light, so that all of them have one origin: d = P − L, and the surface itself is at w = 1.
 namespace tofray::trace {
 
-/// An occluder must be nearer to the light than the surface by this share of the distance: more than rounding, less than is seen.
-constexpr float shadow_margin = 1e-4f;
+/// Shadow rays end a little before the surface, on the way from which it is seen. Where that way has come there is room: so they do not end
+/// beyond another wall that meets it, however far the light, and no light passes a corner. It is this share of the distances from which the
+/// point is known, and SceneView::roughness.
+constexpr float way_back = 2e-6f;
+/// … as much of it as keeps the way's beginning out.
+template <class F>
+TOFRAY_FN F room_before(const scene::SceneView& s, F away, F step) {
+  return num::min(num::fma(F(2 * way_back), away, F(s.roughness)), F(0.5f) * step);
+}
+
+/// @param way   the ray that leads to the surface, of any length
+/// @param away  how far the surface is from the camera [m]
+/// @param step  length of the way [m]
+template <class F>
+TOFRAY_FN Surface<F> a_little_before(const scene::SceneView& s, const Surface<F>& p, const Ray<F>& way, F away, F step) {
+  const F back = room_before(s, away, step) * way.inverse_length;
+  Surface<F> out = p;
+  out.x = num::fnma(back, way.x, p.x), out.y = num::fnma(back, way.y, p.y), out.z = num::fnma(back, way.z, p.z);
+  out.range = away;
+  return out;
+}
+/// … of a surface that the camera sees.
+template <class F>
+TOFRAY_FN Surface<F> a_little_before(const scene::SceneView& s, const Surface<F>& p, const Ray<F>& way) {
+  return a_little_before(s, p, way, p.range, p.range);
+}
+
+/// An occluder must be nearer to the light than where its ray ends by this share of the distance: some roundings.
+constexpr float shadow_margin = 0x1p-21f;
 constexpr float before_surface = 1.0f / (1.0f + shadow_margin);
 
 /// No object but a mesh shadows itself, since all others are flat or convex; but where light and camera are on different sides of a closed one, its surface

@@ -496,7 +496,7 @@ TEST(bounces, see_meshes_and_their_pictures_as_they_see_rectangles) {
   for (std::size_t i = 0; i < mesh.truth.range_m.size(); ++i) {
     const auto one = static_cast<double>(mesh.truth.indirect_e[i]), other = static_cast<double>(rectangle.truth.indirect_e[i]);
     if (mesh.truth.object_id[i] == 0) {
-      ASSERT_NEAR(one, other, 1e-5 * other) << i;
+      ASSERT_NEAR(one, other, 3e-5 * other) << i;  // rays toward a mesh begin some micrometres before the wall
     } else {
       of_side += one, expected += other;
     }

@@ -25,14 +25,15 @@ Vec3 normal_of(const flow::Surface<float>& s) { return {static_cast<double>(s.nx
 
 bool dark(const scene::FrozenScene& frozen, std::size_t light, const Vec3& at, const flow::Surface<float>& s) {
   const scene::Forms forms = frozen.view().light_still(static_cast<int>(light));
-  const Vec3 p = place_of(s);
-  return trace::blocked(everything(forms), ray(p - at), s);
+  const flow::Surface<float> before = trace::a_little_before(frozen.view(), s, ray(place_of(s)));
+  return trace::blocked(everything(forms), ray(place_of(before) - at), before);
 }
 
 bool dark_of_sun(const scene::FrozenScene& frozen, const flow::Surface<float>& s) {
   const Vec3& toward = frozen.toward_sun();
   const float sun[3] = {static_cast<float>(toward[0]), static_cast<float>(toward[1]), static_cast<float>(toward[2])};
-  return trace::blocked_parallel(trace::Uncut{frozen.view().sun_still()}, sun, s);
+  return trace::blocked_parallel(trace::Uncut{frozen.view().sun_still()}, sun,
+                                 trace::a_little_before(frozen.view(), s, ray(place_of(s))));
 }
 
 enum class Answer { lit, dark, unsure };
@@ -42,7 +43,7 @@ enum class Answer { lit, dark, unsure };
 Answer crossed(const scene::FrozenScene& frozen, const Vec3& p, const Vec3& d, double high, int own) {
   bool unsure = false;
   for (const Span& s : spans(frozen, p, d)) {
-    const double low = 1e-3;
+    const double low = 1e-4;
     if (s.clearance < 1e-4) {
       unsure = true;
       continue;
@@ -53,13 +54,13 @@ Answer crossed(const scene::FrozenScene& frozen, const Vec3& p, const Vec3& d, d
       continue;
     }
     if (s.enter > s.leave || s.leave < 0 || s.enter > high) continue;
-    if (s.leave < low || s.enter > high * (1 - 1e-3)) {
+    if (s.leave < low || s.enter > high * (1 - 1e-4)) {
       unsure = true;
       continue;
     }
     // a body that p or the light is inside of still stands between if its surface is crossed
-    if (s.enter > low || s.leave < high * (1 - 1e-3)) return Answer::dark;
-    if (s.enter > -low || s.leave < high * (1 + 1e-3)) unsure = true;
+    if (s.enter > low || s.leave < high * (1 - 1e-4)) return Answer::dark;
+    if (s.enter > -low || s.leave < high * (1 + 1e-4)) unsure = true;
   }
   return unsure ? Answer::unsure : Answer::lit;
 }
