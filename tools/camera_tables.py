@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-FileCopyrightText: 2026 The tofray authors
 # SPDX-License-Identifier: Apache-2.0
-"""The tables of docs/cameras.md: what noise `tofray` says of each camera's pixel on the axis, in each of its modes.
+"""The tables of docs/cameras.md: what noise `tofray` says of each camera's pixel on the axis, in each of its modes; and the fields of view
+that intrinsics make, there and in the first lines of profiles, which `tofray list cameras` shows.
 
     python3 tools/camera_tables.py             writes them anew
     python3 tools/camera_tables.py --check     says whether they are true; a test runs this
@@ -9,11 +10,13 @@
 A table stands between <!-- table: CAMERA --> and <!-- end -->; what stands there is replaced.
 """
 
+import json
 import math
 import re
+import subprocess
 import sys
 
-from one_pixel import ROOT, Pixel, modes_of
+from one_pixel import ROOT, Pixel, modes_of, program
 
 PAGE = ROOT / "docs/cameras.md"
 DISTANCES = (0.5, 1, 2, 4)
@@ -54,22 +57,44 @@ def table(camera):
     return head + "|---" * (2 + len(REFLECTIVITIES) * len(DISTANCES)) + "|\n" + "\n".join(lines) + "\n"
 
 
+def view(camera, times):
+    """Between the outer edges of the pixels at the ends of the middle row, and of the middle column."""
+    said = json.loads(subprocess.run([program(), "check", camera, "--json"], check=True, capture_output=True, text=True).stdout)
+    return f" {times} ".join(f"{degrees:.1f}" for degrees in said["camera_report"]["field_of_view_deg"])
+
+
+def with_views(text):
+    """The first table of the page: of each row that names a camera, the third column."""
+    row = re.compile(r"^(\| ([a-z][\w-]+)[^|]*\| [^|]*\| )\d[\d.]* × [\d.]+ \|", flags=re.M)
+    return row.sub(lambda m: f"{m.group(1)}{view(m.group(2), '×')} |", text)
+
+
+def settle(path, old, new, check, mend=MEND):
+    """Writes what is new, or says which line of it is not there."""
+    if not check:
+        path.write_text(new, encoding="utf-8")
+        return
+    name = path.relative_to(ROOT)
+    for number, (line, now) in enumerate(zip(old.split("\n"), new.split("\n")), start=1):
+        if line != now:
+            raise SystemExit(f"{name}:{number}: error: this is not what tofray says; {mend}\n  there:  {line}\n  tofray: {now}")
+    if old.count("\n") != new.count("\n"):
+        raise SystemExit(f"{name}:1: error: a table has more or fewer rows than tofray says; {mend}")
+
+
 def main():
+    check = sys.argv[1:] == ["--check"]
+    for path in sorted((ROOT / "profiles").glob("*.yaml")):
+        profile = path.read_text(encoding="utf-8")
+        head, rest = profile.split("\n", 1)
+        settle(path, profile, re.sub(r"[\d.]+ x [\d.]+ degrees", lambda _: view(path.stem, "x") + " degrees", head) + "\n" + rest, check)
     text = PAGE.read_text(encoding="utf-8")
     cameras = re.findall(r"<!-- table: (\S+) -->", text)
     missing = {path.stem for path in (ROOT / "profiles").glob("*.yaml")} - set(cameras) - {"custom"}
     if missing:
         raise SystemExit(f"docs/cameras.md:1: error: no table for {', '.join(sorted(missing))}")
     new = re.sub(r"(<!-- table: (\S+) -->\n).*?(<!-- end -->)", lambda m: m.group(1) + table(m.group(2)) + m.group(3), text, flags=re.S)
-    if sys.argv[1:] == ["--check"]:
-        for number, (old, now) in enumerate(zip(text.split("\n"), new.split("\n")), start=1):
-            if old != now:
-                fault = f"docs/cameras.md:{number}: error: the table is not what tofray says; {MEND}"
-                raise SystemExit(f"{fault}\n  there:  {old}\n  tofray: {now}")
-        if text.count("\n") != new.count("\n"):
-            raise SystemExit(f"docs/cameras.md:1: error: a table has more or fewer rows than tofray says; {MEND}")
-        return
-    PAGE.write_text(new, encoding="utf-8")
+    settle(PAGE, text, with_views(new), check)
 
 
 if __name__ == "__main__":

@@ -73,7 +73,7 @@ enum class ArrayShape {
   row(gt_object_id,        truth, object_id,        std::int32_t, image,   trace, "1",         "instance: index in Scene::objects, or -1") \
   row(gt_material_id,      truth, material_id,      std::int32_t, image,   trace, "1",         "class: index in Scene::materials, or -1") \
   row(gt_triangle_id,      truth, triangle_id,      std::int32_t, image,   trace, "1",         "face: index in mesh triangles, or -1") \
-  row(gt_texcoord,         truth, texcoord,         float,        pairs,   trace, "1",         "u, v of TriangleMesh::texcoords, or NaN") \
+  row(gt_texcoord,         truth, texcoord,         float,        pairs,   trace, "1",         "u, v of TriangleMesh::texcoords, v down the picture, or NaN") \
   row(gt_velocity_m_per_s, truth, velocity_m_per_s, float,        vectors, trace, "m/s",       "scene flow: of the point, camera frame") \
   row(gt_flow_px,          truth, flow_px,          float,        pairs,   trace, "px",        "u, v: optical flow to one frame later") \
   row(gt_mixed,            truth, mixed,            std::uint8_t, image,   trace, "1",         "several objects or > 5 cm of range; sub-pixel samples") \

@@ -106,7 +106,7 @@ class FrozenCamera {
   std::vector<std::int32_t> grey_frames_;
   std::vector<std::vector<std::int32_t>> grouped_, pairs_;  // [modulation]
   std::vector<float> gain_, offset_, delay_, read_;
-  std::vector<std::vector<float>> wiggling_;
+  std::vector<std::vector<float>> wiggling_, light_;
   std::vector<double> start_;
 };
 

@@ -106,6 +106,18 @@ std::vector<Harmonic> mean_harmonics(const std::vector<Share>& shares, const Pix
   return out;
 }
 
+/// A table's values, each with the step to the next one.
+std::vector<float> with_steps(const std::vector<double>& values) {
+  std::vector<float> out;
+  for (std::size_t j = 0; j < values.size(); ++j)
+    out.insert(out.end(), {single(values[j]), single(values[(j + 1) % values.size()] - values[j])});
+  return out;
+}
+bool is_even(const std::vector<double>& values) {
+  const auto [least, most] = std::minmax_element(values.begin(), values.end());
+  return *most - *least <= 1e-6 * *most;
+}
+
 }  // namespace
 
 void FrozenCamera::freeze_decoder(bool noise) {
@@ -181,18 +193,18 @@ void FrozenCamera::freeze_modulations(double grey_time) {
              number_text(1e-6 * frequency) + " MHz; mind the pixel's contrast, bandwidths, rise time, jitter and modulation depth");
     }
     if (!camera_.decoding.wiggling_correction) harmonics.resize(1);
-    wiggling_.emplace_back();
-    const std::vector<double> correction = wiggling_correction(harmonics, group.tau, wiggling_nodes);
-    for (std::size_t j = 0; j < correction.size(); ++j) {
-      wiggling_.back().push_back(single(correction[j]));
-      wiggling_.back().push_back(single(correction[(j + 1) % correction.size()] - correction[j]));
-    }
+    const WigglingTable table = wiggling_table(harmonics, group.tau, wiggling_nodes);
+    wiggling_.push_back(with_steps(table.correction));
+    std::vector<double> per_amplitude;
+    for (const double one : table.amplitude) per_amplitude.push_back(1 / one);
+    light_.push_back(with_steps(per_amplitude));
     const double half_wave = wave_speed / (2 * frequency);
     DecodeModulation& m = decode_modulations_.emplace_back();
     m.half_wave = single(half_wave), m.per_half_wave = single(1 / half_wave), m.cycles = single(modulations_.cycles[at]),
     m.frequency = single(frequency);
     m.per_contrast = single(1 / contrast), m.integration_time = single(group.integration_time);
     m.wiggling = wiggling_.back().data();
+    m.light = is_even(table.amplitude) ? nullptr : light_.back().data();
     m.ambient_scale = single(grey_time > 0 ? group.integration_time / grey_time : 0),
     m.variance_factor = single(2 / (count * 4 * pi * pi) * half_wave * half_wave);
     grouped_.push_back(group.raw_frame), pairs_.push_back(pairs_of(group));

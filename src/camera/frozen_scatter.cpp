@@ -23,40 +23,48 @@ double share_of_pixel(double sigma_px, int far) {
   return below((-d + 0.5) / sigma_px) - below((-d - 0.5) / sigma_px);
 }
 
-/// What is left of weights of neighbours once each has given a share to the ones on either side of it.              [theory: eq. 3.27]
-std::vector<double> given_on(const std::vector<double>& weights, double share) {
-  std::vector<double> out(weights.size() + 2);
-  for (std::size_t i = 0; i < weights.size(); ++i) {
-    out[i] += share * weights[i], out[i + 1] += (1 - 2 * share) * weights[i], out[i + 2] += share * weights[i];
-  }
-  return out;
-}
+/// Beyond 6 widths is 2e-9 of the light.
+int radius_of(double sigma_px) { return static_cast<int>(std::ceil(6 * sigma_px)); }
 
 }  // namespace
+
+int scattered_radius(const Scatter& scatter) {
+  if (!(scatter.share > 0)) return 0;
+  int out = 0;
+  if (scatter.kind == Scatter::Kind::kernel) out = std::max(scatter.columns, scatter.rows) / 2;
+  if (scatter.kind != Scatter::Kind::gaussians) return out;
+  for (std::size_t i = 0; i < scatter.sigma_px.size(); ++i)
+    if (scatter.weights.empty() || scatter.weights[i] > 0) out = std::max(out, radius_of(scatter.sigma_px[i]));
+  return out;
+}
 
 bool FrozenScatter::spreads(const Camera& camera) {
   return camera.lens.scatter.kind != Scatter::Kind::none || camera.pixel.crosstalk_left_right > 0 || camera.pixel.crosstalk_up_down > 0;
 }
 
-FrozenScatter::FrozenScatter(const Scatter& scatter, const Sensor& sensor, const Pixel& pixel)
-    : left_right_(pixel.crosstalk_left_right), up_down_(pixel.crosstalk_up_down) {
+FrozenScatter::FrozenScatter(const Scatter& scatter, const Sensor& sensor, const Pixel& pixel) {
   const bool scatters = scatter.kind != Scatter::Kind::none && scatter.share > 0;
-  if (!scatters && !shared()) return;
-  const bool whole = scatters && scatter.kind == Scatter::Kind::kernel;
-  const double kept = scatters ? 1 - scatter.share : 1;
-  view_.kept = shared() ? 0.0f : single(kept), view_.separable = !whole;
-  if (whole) {
+  if (scatters && scatter.kind == Scatter::Kind::kernel) {
+    view_.separable = 0;
     add_kernel(scatter);
-  } else {
-    if (shared()) add_separable({1}, {kept});
-    if (scatters) add_gaussians(scatter, std::max(sensor.width, sensor.height) - 1);
+  } else if (scatters) {
+    add_gaussians(scatter, std::max(sensor.width, sensor.height) - 1);
   }
+  if (scatters) view_.kept = single(1 - scatter.share);
+  add_sharing(pixel);
   view_.terms = static_cast<std::int32_t>(terms_.size()), view_.term = terms_.data();
 }
 
-/// K(dx, dy) = row(dx)·column(dy), and what neighbours then share of it.
-void FrozenScatter::add_separable(Weights row, Weights column) {
-  if (shared()) row = given_on(row, left_right_), column = given_on(column, up_down_);
+/// Of its light a pixel gives a share to the neighbours on either side, of what the lens has brought there.           [theory: eq. 3.27]
+void FrozenScatter::add_sharing(const Pixel& pixel) {
+  const double a = pixel.crosstalk_left_right, b = pixel.crosstalk_up_down;
+  if (!(a > 0 || b > 0)) return;
+  view_.shares = 1;
+  add_separable({a, 1 - 2 * a, a}, {b, 1 - 2 * b, b});
+}
+
+/// K(dx, dy) = row(dx)·column(dy).
+void FrozenScatter::add_separable(const Weights& row, const Weights& column) {
   constexpr std::size_t pad = ScatterTerm::pad;
   std::vector<float> padded(row.size() + 2 * pad), other;
   for (std::size_t i = 0; i < row.size(); ++i) padded[i + pad] = single(row[i]), other.push_back(single(column[i]));
@@ -65,7 +73,7 @@ void FrozenScatter::add_separable(Weights row, Weights column) {
   terms_.push_back({radius, weights_[weights_.size() - 2].data(), weights_.back().data()});
 }
 
-/// Integrals over pixels, up to 6 widths away (2e-9 of the light is beyond), or as far as the sensor goes.            [theory: eq. 7.5]
+/// Integrals over pixels, or as far as the sensor goes.                                                             [theory: eq. 7.5]
 void FrozenScatter::add_gaussians(const Scatter& scatter, int most) {
   double sum = 0;
   const auto weight = [&](std::size_t i) { return scatter.weights.empty() ? 1.0 : scatter.weights[i]; };
@@ -73,10 +81,10 @@ void FrozenScatter::add_gaussians(const Scatter& scatter, int most) {
   for (std::size_t i = 0; i < scatter.sigma_px.size(); ++i) {
     if (weight(i) <= 0) continue;
     const double sigma = scatter.sigma_px[i], share = scatter.share * weight(i) / sum;
-    const int radius = std::min(static_cast<int>(std::ceil(6 * sigma)), most);
+    const int radius = std::min(radius_of(sigma), most);
     Weights row, column;
     for (int d = -radius; d <= radius; ++d) row.push_back(share_of_pixel(sigma, d)), column.push_back(share * share_of_pixel(sigma, d));
-    add_separable(std::move(row), std::move(column));
+    add_separable(row, column);
   }
 }
 
@@ -94,26 +102,8 @@ void FrozenScatter::add_kernel(const Scatter& scatter) {
       rows[static_cast<std::size_t>(y)][static_cast<std::size_t>(x)] = scatter.share * (scatter.kernel[at] / largest) / sum;
     }
   }
-  add_whole(std::move(rows), 1 - scatter.share);
-}
-
-/// A kernel that is no product, and what neighbours then share of it and of the light that is not scattered.
-void FrozenScatter::add_whole(std::vector<Weights> rows, double kept) {
-  if (shared()) {
-    const std::size_t side = rows.size();
-    rows[side / 2][side / 2] += kept;
-    std::vector<Weights> wider(side + 2, Weights(side + 2));
-    for (Weights& row : rows) row = given_on(row, left_right_);
-    for (std::size_t x = 0; x < side + 2; ++x) {
-      Weights column;
-      for (const Weights& row : rows) column.push_back(row[x]);
-      column = given_on(column, up_down_);
-      for (std::size_t y = 0; y < side + 2; ++y) wider[y][x] = column[y];
-    }
-    rows = std::move(wider);
-  }
   constexpr std::size_t pad = ScatterTerm::pad;
-  const std::size_t side = rows.size(), stride = side + 2 * pad;
+  const std::size_t stride = side + 2 * pad;
   std::vector<float> weights(stride * side);
   for (std::size_t y = 0; y < side; ++y)
     for (std::size_t x = 0; x < side; ++x) weights[y * stride + pad + x] = single(rows[y][x]);

@@ -8,6 +8,9 @@
 
 namespace tofray::camera {
 
+/// How far a lens scatters light [px].
+int scattered_radius(const Scatter& scatter);
+
 /// The kernels by which a lens scatters light and pixels share their charge; owns the weights that the view points to. Not copied.
 class FrozenScatter {
  public:
@@ -24,13 +27,10 @@ class FrozenScatter {
   using Weights = std::vector<double>;
   void add_gaussians(const Scatter& scatter, int most);
   void add_kernel(const Scatter& scatter);
-  void add_separable(Weights row, Weights column);
-  void add_whole(std::vector<Weights> rows, double kept);
-  [[nodiscard]] bool shared() const { return left_right_ > 0 || up_down_ > 0; }
+  void add_sharing(const Pixel& pixel);
+  void add_separable(const Weights& row, const Weights& column);
 
-  double left_right_, up_down_;  // of the charge, to each neighbour
-
-  ScatterView view_{1, 0, 0, nullptr};
+  ScatterView view_{1, 0, 1, 0, nullptr};
   std::vector<ScatterTerm> terms_;
   std::vector<std::vector<float>> weights_;
 };

@@ -48,12 +48,15 @@ struct ScatterTerm {
   const float* column;   ///< [2·radius + 1]
 };
 
-/// Light that lens and filter scatter over the sensor, and charge that neighbours collect: kept·δ + Σ_terms K. [theory: eq. 3.27, 7.4]
+/// Light that lens and filter scatter over the sensor, kept·δ + Σ_terms K, and after it charge that neighbours collect. [theory: eq. 3.27, 7.4]
 struct ScatterView {
-  float kept;  ///< 1 − share of the lens's scatter; 0 where neighbours collect charge: then a term has it
+  float kept;  ///< 1 − share of the lens's scatter
   std::int32_t terms;
-  std::int32_t separable;  ///< all of them are
+  std::int32_t separable;  ///< all of them are, but for the last one if it is what neighbours collect, which always is
+  std::int32_t shares;     ///< 1: the last one is; it takes what those before have brought
   const ScatterTerm* term;
+  [[nodiscard]] TOFRAY_FN bool is_sharing(int item) const { return shares != 0 && item + 1 == terms; }
+  [[nodiscard]] TOFRAY_FN bool has_rows(int item) const { return separable != 0 || is_sharing(item); }
   bool operator==(const ScatterView&) const = default;
 };
 
@@ -235,6 +238,7 @@ struct DecodeModulation {
   std::int32_t count, pairs;      ///< raw frames of this modulation; pairs of them with τ half a turn apart
   const std::int32_t* raw_frame;  ///< [count]
   const std::int32_t* pair;       ///< [pairs][2]
+  const float* light;             ///< [wiggling_nodes][2] S/Â at equidistant φ̂, and the step to the next node; null: 1/C throughout
   const float* wiggling;          ///< [wiggling_nodes][2] φ − φ̂ in turns at equidistant φ̂, and the step to the next node
 };
 

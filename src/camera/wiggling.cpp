@@ -93,15 +93,14 @@ PhaseResponse::Value PhaseResponse::at(double phase_rad) const {
   return {offset_ + setup::atan2(rest.imag(), rest.real()), (derivative * std::conj(z)).real() / square, std::sqrt(square)};
 }
 
-std::vector<double> wiggling_correction(const std::vector<Harmonic>& harmonics, const std::vector<double>& reference_phases_rad,
-                                        int nodes) {
+WigglingTable wiggling_table(const std::vector<Harmonic>& harmonics, const std::vector<double>& reference_phases_rad, int nodes) {
   if (nodes < 2) base::refuse("a wiggling table needs at least 2 nodes\n  got " + std::to_string(nodes));
   const PhaseResponse response(harmonics, reference_phases_rad);
   int highest_order = 1;
   for (const Harmonic& h : harmonics) highest_order = std::max(highest_order, h.order);
   const Forward forward = sample(response, highest_order, nodes);
 
-  std::vector<double> correction;
+  WigglingTable out;
   for (int j = 0; j < nodes; ++j) {
     // Bring the node into the period that the samples span, and find its two neighbours.
     const double node = two_pi * j / nodes;
@@ -110,9 +109,9 @@ std::vector<double> wiggling_correction(const std::vector<Harmonic>& harmonics, 
     const auto right = std::upper_bound(forward.measured.begin() + 1, forward.measured.end() - 1, target);
     const auto i = static_cast<std::size_t>(right - forward.measured.begin());
     const double phase = solve(response, target, forward.phase[i - 1], forward.phase[i]);
-    correction.push_back((phase - target) / two_pi);
+    out.correction.push_back((phase - target) / two_pi), out.amplitude.push_back(response.at(phase).amplitude);
   }
-  return correction;
+  return out;
 }
 
 }  // namespace tofray::camera

@@ -40,15 +40,19 @@ class PhaseResponse {
   double offset_ = 0;               ///< [rad] phase of the first harmonic: what the error swings about
 };
 
-/// Table that takes a measured phase back to the true one: φ = φ̂ + correction(φ̂), in turns, ψ_1 taken out as well. [theory: eq. 4.3]
+/// What a measured phase says of a single noise-free path, at n equidistant φ̂: node j stands at j/n turns.
+struct WigglingTable {
+  std::vector<double> correction;  ///< φ − φ̂ [turns]; period one turn, without jumps (it can lie outside ±0.5 because of ψ_1)   [eq. 4.3]
+  std::vector<double> amplitude;  ///< Â = |Ẑ| of one electron of light                                                          [eq. 4.9]
+};
+
+/// Table that takes a measured phase back to the true one: φ = φ̂ + correction(φ̂), ψ_1 taken out as well, and its amplitude to the light.
 ///
 /// Every node is solved on the exact forward curve to 1e-12 turns or better.
 ///
 /// @param reference_phases_rad τ_k of the raw frames, at least 3
 /// @param nodes number n of nodes; node j stands at φ̂ = j/n turns
-/// @return correction [turns] at the nodes; period one turn, without jumps (it can lie outside ±0.5 because of ψ_1)
 /// @throws Error (bad_input) as PhaseResponse, for nodes < 2, and where the measured phase does not grow with the true one throughout
-std::vector<double> wiggling_correction(const std::vector<Harmonic>& harmonics, const std::vector<double>& reference_phases_rad,
-                                        int nodes = 1024);
+WigglingTable wiggling_table(const std::vector<Harmonic>& harmonics, const std::vector<double>& reference_phases_rad, int nodes = 1024);
 
 }  // namespace tofray::camera

@@ -55,16 +55,29 @@ TOFRAY_FN Estimate<F> estimate(const camera::DecoderView& s, const camera::Decod
   return {real, imaginary, num::select(positive >= F(1.0f), F(0.0f), positive), num::sqrt(num::fma(real, real, imaginary * imaginary))};
 }
 
+/// A table's value at φ̂, on a straight line from node to node, and the step between these.
+template <class F>
+TOFRAY_FN F at_phase(const camera::DecoderView& s, const float* table, F turns, F& step) {
+  const F place = turns * F(static_cast<float>(s.wiggling_nodes));
+  const F node = num::min(num::floor(place), F(static_cast<float>(s.wiggling_nodes - 1)));
+  F value;
+  num::gather_pair(table, num::to_int(node), value, step);
+  return num::fma(place - node, step, value);
+}
 /// φ̂ → φ by the wiggling table; `slope` is dφ/dφ̂.                                                         [eq. 4.3]
 template <class F>
 TOFRAY_FN F unwiggle(const camera::DecoderView& s, const camera::DecodeModulation& m, F turns, F& slope) {
-  const F place = turns * F(static_cast<float>(s.wiggling_nodes));
-  const F node = num::min(num::floor(place), F(static_cast<float>(s.wiggling_nodes - 1)));
-  const num::Int<F> at = num::to_int(node);
-  F value, step;
-  num::gather_pair(m.wiggling, at, value, step);
+  F step;
+  const F correction = at_phase(s, m.wiggling, turns, step);
   slope = num::fma(step, F(static_cast<float>(s.wiggling_nodes)), F(1.0f));
-  return turns + num::fma(place - node, step, value);
+  return turns + correction;
+}
+/// Electrons of light for each one of Â: harmonics bend the amplitude as they bend the phase.              [eq. 4.9]
+template <class F>
+TOFRAY_FN F light_per_amplitude(const camera::DecoderView& s, const camera::DecodeModulation& m, F turns) {
+  if (m.light == nullptr) return F(m.per_contrast);
+  F step;
+  return at_phase(s, m.light, turns, step);
 }
 
 /// Electrons of ambient light in the unlit raw frames together, at least 0: their A−B, or the charge of which this is read: all of the light is in
@@ -134,6 +147,7 @@ TOFRAY_FN F variance_as_read(const camera::DecoderView& s, const camera::DecodeM
                              F known) {
   constexpr int turns = 6;
   const F both_full = F(2 * s.read.most);
+  const F per_amplitude = light_per_amplitude(s, m, e.turns);
   F collected = num::min(known, both_full), slope = F(1.0f), per_slope = F(1.0f);
   for (int turn = 0; turn < turns; ++turn) {
     const F before = slope;
@@ -141,21 +155,21 @@ TOFRAY_FN F variance_as_read(const camera::DecoderView& s, const camera::DecodeM
     slope = num::max(slope, F(1e-12f));                // a spline may fall between two samples that rise
     if (turn > 0 && num::all(slope == before)) break;  // it is of straight lines: all that follows would stay
     per_slope = F(1.0f) / slope;
-    collected = num::min(num::fma(e.amplitude * per_slope, F(m.per_contrast), known), both_full);
+    collected = num::min(num::fma(e.amplitude * per_slope, per_amplitude, known), both_full);
   }
   F variance = collected + F(s.noise_floor - s.output_floor);
   if (s.suppression_threshold > 0) variance = variance + suppression_variance(s, m, difference, e, collected, per_slope);
   return num::fma(slope * slope, variance, F(s.output_floor));
 }
 
-/// V̂ = Â/C + B̂ + dark + 2σ_r² + s²/12, and what suppression adds.                                      [eq. 4.9]
+/// V̂ = Â·S/Â(φ̂) + B̂ + dark + 2σ_r² + s²/12, and what suppression adds.                                      [eq. 4.9]
 /// \tparam plain  as of decode
 template <bool plain = false, class F>
 TOFRAY_FN F variance_of(const camera::DecoderView& s, const camera::DecodeModulation& m, const F* difference, const Estimate<F>& e,
                         F ambient) {
   const float dark = s.dark_rate_both * m.integration_time;
   if (!plain && s.read.cell != nullptr) return variance_as_read(s, m, difference, e, ambient + F(dark));
-  const F electrons = num::fma(e.amplitude, F(m.per_contrast), ambient);
+  const F electrons = num::fma(e.amplitude, light_per_amplitude(s, m, e.turns), ambient);
   const F variance = electrons + F(s.noise_floor + dark);
   if (plain || !(s.suppression_threshold > 0)) return variance;
   return variance + suppression_variance(s, m, difference, e, electrons + F(dark), F(1.0f));

@@ -29,9 +29,9 @@ constexpr std::uint32_t of_transport = 0x70617468u;
 /// A surface on the way, as the one before it sees it.
 template <class F>
 struct Vertex {
-  flow::Surface<F> at;      ///< its range is that of the path so far
-  flow::Direction<F> way;   ///< unit vector of the ray that came here
-  F step;                   ///< its length [m]
+  flow::Surface<F> at;     ///< its range is that of the path so far
+  flow::Direction<F> way;  ///< unit vector of the ray that came here
+  F step;                  ///< its length [m]
   num::Int<F> facet;
   num::Mask<F> escaped;  ///< the ray went on without end
 };

@@ -96,12 +96,8 @@ struct GivenShadows {
 
   TOFRAY_FN const float* sun_direction() const { return s.power.sun_direction; }
 
-  TOFRAY_FN num::Mask<F> of_light(int l) const {
-    return given_mask<F>(in.shadow, s, p, moment * s.scene.lights + l);
-  }
-  TOFRAY_FN num::Mask<F> of_sun() const {
-    return given_mask<F>(in.sun_shadow, s, p, moment);
-  }
+  TOFRAY_FN num::Mask<F> of_light(int l) const { return given_mask<F>(in.shadow, s, p, moment * s.scene.lights + l); }
+  TOFRAY_FN num::Mask<F> of_sun() const { return given_mask<F>(in.sun_shadow, s, p, moment); }
 };
 
 /// The light that each pixel receives over paths of their own lengths.

@@ -177,8 +177,8 @@ TOFRAY_FN bool light_of_scene(const Setup& s, const Job& job, Near& near, const 
   undisturbed = calm;
   flow::Radiometry<F> radiometry{F(0.0f), F(0.0f), F(0.0f)};
   if (s.last_stage >= Stage::power) {
-    light_up(s, wanted(s, now, calm), ShadowRays<F, Near>{s, near, now.index, true, moves && !calm, before}, ray, surface, vignetting, light,
-             radiometry);
+    light_up(s, wanted(s, now, calm), ShadowRays<F, Near>{s, near, now.index, true, moves && !calm, before}, ray, surface, vignetting,
+             light, radiometry);
     // Where rays say how much of the sky a surface sees, it does not see all of it.
     if (bounces(s, Stage::trace) && s.power.ambient == camera::AmbientLight::uniform) light.ambient_rate = F(0.0f);
   }

@@ -76,11 +76,23 @@ TOFRAY_FN void store_overflow(const Setup& s, const Job& job, const Pixels& p, c
   if (s.sensor.blooms != 0) num::store(overflow_in(s, job) + p.index, exposure.overflow, p.count);
 }
 
+/// Pixels that are computed for the light and charge that come from them alone.
+template <class F>
+TOFRAY_FN num::Mask<F> beside_region(const Setup& s, const Pixels& p) {
+  using Int = num::Int<F>;
+  const Region& r = s.region;
+  if (r.width == 0) return F(1.0f) < F(0.0f);
+  const int y = p.index / s.lens.width;
+  if (y < r.top || y >= r.top + r.height) return F(0.0f) < F(1.0f);
+  const Int x = Int(p.index % s.lens.width) + num::lane_index<F>();
+  return (Int(r.left) > x) | (x > Int(r.left + r.width - 1));
+}
+
 /// Stage 4.
 template <class F>
 TOFRAY_FN void find_depth(const Setup& s, const Job& job, const Pixels& p, const flow::Ray<F>& ray, const F* difference,
                           num::Mask<F> clipped, F vignetting) {
-  const auto outside = !(vignetting > F(0.0f));
+  const auto outside = (!(vignetting > F(0.0f))) | beside_region<F>(s, p);
   const flow::Depth<F> found = depth::decode<F>(s.decoder, difference, clipped, outside, ray, p);
   store(job.out.amplitude_e, p, found.amplitude);
   store(job.out.ambient_e, p, found.ambient);

@@ -72,6 +72,8 @@ TOFRAY_FN void store_path_noise(const Setup& s, const flow::LightImage& image, i
   const Guide<F> here = guide_near<F>(image, at, 0, 0);
   pooled_errors(s, image, at, here, pooled);
   const num::Int<F> paths = paths_known<F>(s, image, round, p);
+  // What a pixel stopped by is what is said of it: with neighbours that went on it would be another guess, which nobody asked for.
+  const num::Mask<F> goes_on = takes_part<F>(s, image, round, p);
   const auto ambient = [&](const float* values) __attribute__((always_inline)) {
     return num::load<F>(values + light_place(s, p, image.times, image.times / 2, 1), p.count);
   };
@@ -84,7 +86,8 @@ TOFRAY_FN void store_path_noise(const Setup& s, const flow::LightImage& image, i
     (void)depth::unwiggle(s.decoder, m, e.turns, slope);
     weight = weight + depth::inverse_variance(m, e, depth::variance_of(s.decoder, m, all, e, ambient_rate * F(m.integration_time)), slope);
     const F variance = pooled[j] * (here.reflectivity * here.reflectivity) / num::to_float(paths);
-    num::store(image.noise + std::int64_t{j} * s.lens.width * s.lens.height + p.index, variance, p.count);
+    float* const known = image.noise + std::int64_t{j} * s.lens.width * s.lens.height + p.index;
+    num::store(known, round == 0 ? variance : num::select(goes_on, variance, num::load<F>(known, p.count)), p.count);
     const F error = half_path_error(m, slope, e.amplitude, variance);
     worst = num::max(worst, error * error);
   }
@@ -92,7 +95,7 @@ TOFRAY_FN void store_path_noise(const Setup& s, const flow::LightImage& image, i
   num::Int<F> goal = round == 0 ? paths : num::load_int<F>(image.goal + p.index, p.count);
   if (round + 1 < s.bounces.rounds) {
     const F enough = s.bounces.noise > 0 ? F(s.bounces.noise * s.bounces.noise) : F(share_of_depth_noise * share_of_depth_noise) / weight;
-    goal = num::select(takes_part<F>(s, image, round, p) & (worst > enough), num::Int<F>(paths_after(s, round + 1)), goal);
+    goal = num::select(goes_on & (worst > enough), num::Int<F>(paths_after(s, round + 1)), goal);
   }
   num::store(image.goal + p.index, goal, p.count);
 }

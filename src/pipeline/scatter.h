@@ -3,8 +3,8 @@
 #pragma once
 #include "pipeline/gather.h"
 
-/// Light that lens and filter scatter over the sensor, as a pass over the light image.                      [theory: eq. 7.4]
-///
+/// Light that lens and filter scatter over the sensor, and what neighbours then collect of it, as passes over the light image.
+///                                                                                                     [theory: eq. 7.4, 3.27]
 /// Each value is a sum in the order of its sources' rows and columns, whatever the machine. Nothing comes in from beyond the edges, and what
 /// goes there is lost.
 namespace tofray::pipeline {
@@ -39,8 +39,9 @@ TOFRAY_FN void scatter_column(const camera::ScatterView& s, int item, int width,
   const camera::ScatterTerm& term = s.term[item];
   const int at = p.y * width + p.x, radius = term.radius;
   const int first = p.y - radius > 0 ? p.y - radius : 0, last = p.y + radius < height ? p.y + radius : height - 1;
-  F sum = item == 0 ? num::load<F>(from + at, p.count) * F(s.kept) : num::load<F>(to + at, p.count);
-  if (s.separable != 0) {
+  F sum = F(0.0f);
+  if (!s.is_sharing(item)) sum = item == 0 ? num::load<F>(from + at, p.count) * F(s.kept) : num::load<F>(to + at, p.count);
+  if (s.has_rows(item)) {
     for (int y = first; y <= last; ++y)
       sum = num::fma(num::load<F>(rows + y * width + p.x, p.count), F(term.column[radius + p.y - y]), sum);
   } else {
@@ -62,7 +63,8 @@ TOFRAY_FN void scatter(const Setup& s, const Job& job, Pass pass, int item, cons
   const std::int64_t pixels = std::int64_t{width} * height;
   const int planes = job.light.times * light_planes(s, job.light.times);
   for (int i = 0; i < planes; ++i) {
-    const float* const from = job.light.values + i * pixels;
+    const bool anew = item > 0 && s.scatter.is_sharing(item);
+    const float* const from = (anew ? job.light.scattered : job.light.values) + i * pixels;
     float *const rows = job.light.rows + i * pixels, *const to = job.light.scattered + i * pixels;
     if (pass == Pass::scatter_rows) {
       scatter_row<F>(s.scatter.term[item], width, p, from, rows);

@@ -28,6 +28,12 @@ struct TransientView {
   bool operator==(const TransientView&) const = default;
 };
 
+/// The part of an image that is read, where what is computed is more: the rest is there for what comes from it, and has no depth.
+struct Region {
+  std::int32_t left, top, width, height;  ///< width 0: all of it
+  bool operator==(const Region&) const = default;
+};
+
 /// Everything that a frame needs, frozen: plain numbers and pointers that any machine can read.
 struct Setup {
   camera::LensView lens;
@@ -41,6 +47,7 @@ struct Setup {
   camera::DecoderView decoder;
   BounceView bounces;
   TransientView transient;
+  Region region;
   Stage last_stage;      ///< nothing is done after it
   std::int32_t culling;  ///< 0: every pixel tests every form
   bool operator==(const Setup&) const = default;

@@ -136,7 +136,7 @@ void each_step(const Setup& s, const Job& job, Stage entry, bool known, const Ru
     for (int i = 0; i < samples && makes; ++i) run(Step{begin, Part::light, i, i % 2, 0});
     const int turned = bouncing ? each_bounce_step(s, job, !makes, swapped, run) : 0;
     for (int i = 0; i < s.scatter.terms && collects && makes; ++i) {
-      if (s.scatter.separable != 0) run(Step{Pass::scatter_rows, Part::light, i, swapped, turned});
+      if (s.scatter.has_rows(i)) run(Step{Pass::scatter_rows, Part::light, i, swapped, turned});
       run(Step{Pass::scatter_columns, Part::light, i, swapped, turned});
     }
     if (collects || wants_mixed(s, job.out)) run(Step{Pass::input, Part::collect, 0, swapped, turned});

@@ -80,7 +80,8 @@ TOFRAY_FN void add_bounced(const Setup& s, const flow::LightImage& image, const 
   const F each = F(share * static_cast<float>(s.subpixel.count)) / num::to_float(paths_known<F>(s, image, rounds - 1, to.p));
   const auto meet = [&](int, const Vertex<F>& v, F weight) __attribute__((always_inline)) {
     each_light<F>(
-        s, moment, v.at, ray_to(v), v.step, weight, [&](int, const flow::Path<F>& path) __attribute__((always_inline)) { add_light<F>(to, path.rate * each, path.length); });
+        s, moment, v.at, ray_to(v), v.step,
+        weight, [&](int, const flow::Path<F>& path) __attribute__((always_inline)) { add_light<F>(to, path.rate * each, path.length); });
   };
   for (int round = 0; round < rounds; ++round) {
     const PathsOfStep paths = paths_of_step(s, round * s.subpixel.count + sample);

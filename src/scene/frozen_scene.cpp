@@ -302,7 +302,8 @@ void FrozenScene::derive() {
   const Derive what = still_known_ ? Derive::moving : Derive::all;
   const int units = unit_count(view_, what);
   for (int i = 0; i < units; ++i) scene::derive(view_, what, i);
-  view_.roughness = num::single(position_error * (farthest(lights_) + std::fmax(largest_mesh(view_.still, 1), largest_mesh(view_.moving, view_.moments))));
+  view_.roughness = num::single(position_error *
+                                (farthest(lights_) + std::fmax(largest_mesh(view_.still, 1), largest_mesh(view_.moving, view_.moments))));
   if (!still_known_) still_clusters_.update(view_, view_.still);
   moving_clusters_.update(view_, view_.moving);
   still_known_ = moving_known_ = true;

@@ -122,13 +122,28 @@ void Simulator::Impl::frames_over_time(std::uint64_t count, const Request& reque
   for (std::uint64_t i = 0; i < count; ++i) check_over_time(request(i));
   for (std::uint64_t i = 0; i < count; ++i) {
     const std::uint64_t index = request(i).index;
-    frame({index, {}, {}}, nullptr, scratch);
+    frame_uncut({index, {}, {}}, nullptr, scratch);
     if (stopped()) return;  // the frame is no frame
     take(simulator::arrays_of(simulator::view_of(scratch, options.last_stage), camera, setup.transient.bins, index, -1));
   }
 }
 
 void Simulator::Impl::frames(std::uint64_t count, const Request& request, const Take& take) {
+  if (!border.any()) {
+    frames_uncut(count, request, take);
+    return;
+  }
+  frames_uncut(count, request, [&](const FrameArrays& from) {
+    flow::FrameView view{};
+#define TOFRAY_SHOWN(name, part, member, element, ...) view.name = const_cast<element*>(from.name);  // only read
+    TOFRAY_IMAGE_ARRAYS(TOFRAY_SHOWN)
+#undef TOFRAY_SHOWN
+    cut(view, whole);
+    take(simulator::arrays_of(simulator::view_of(whole, options.last_stage), region_camera, setup.transient.bins, from.index, -1));
+  });
+}
+
+void Simulator::Impl::frames_uncut(std::uint64_t count, const Request& request, const Take& take) {
   if (needs_earlier() != nullptr) {
     frames_over_time(count, request, take);
     return;
@@ -151,6 +166,10 @@ void Simulator::Impl::frames(std::uint64_t count, const Request& request, const 
 void Simulator::Impl::frames_on_device(std::uint64_t count, const Request& request, DeviceFrames::Impl& into) {
   if (const char* const why = needs_earlier(); why != nullptr)
     throw Error(ErrorKind::bad_input, "error: " + std::string(why) + ", and frames that stay on the GPU are computed side by side");
+  if (border.any())
+    throw Error(ErrorKind::bad_input,
+                "error: frames that stay on the GPU are not cut\n  a region (readout.region) gets scattered light, shared "
+                "charge and what wells spill from pixels that are not read; read the whole sensor, or take the frames on the host");
   const auto& gpus = engines.gpus();
   const std::string reason = engines.ran_on().fallback_reason;
   if (gpus.empty()) throw backend::gpu::Fault(reason.empty() ? "the processor computes" : reason, false);

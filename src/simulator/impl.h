@@ -7,6 +7,7 @@
 
 #include "camera/frozen_camera.h"
 #include "scene/frozen_scene.h"
+#include "simulator/border.h"
 #include "simulator/engines.h"
 #include "simulator/exposure.h"
 #include "simulator/temporal.h"
@@ -20,7 +21,9 @@ struct Simulator::Impl {
   using Take = std::function<void(const FrameArrays&)>;
 
   Scene scene;
-  Camera camera;
+  simulator::Border border;  ///< what is computed beside the region that is read
+  Camera profile, camera;    ///< as it was given; whose pixels are those that are computed, with the border
+  Camera region_camera;      ///< whose pixels are those of frames
   SimulatorOptions options;
   camera::FrozenCamera frozen_camera;
   scene::FrozenScene frozen_scene;
@@ -30,11 +33,17 @@ struct Simulator::Impl {
   Frame scratch;  ///< of a batch on the processor, and the model of one on a GPU
   simulator::Temporal temporal;
   simulator::Exposure exposure;
-  Frame earlier;  ///< one that a later one needs
+  Frame earlier;                    ///< one that a later one needs
+  Frame whole, metered;             ///< with the border, before it is cut; the region alone, of one that an exposure follows
+  std::unique_ptr<Impl> of_region;  ///< the same without a border, for arrays of one's own: of the region alone
   simulator::Engines engines;
   const float* written_before = nullptr;  ///< Raw::tap_a of the frame before; nobody looks at what lies there
 
-  Impl(const Scene& scene, const Camera& profile, const SimulatorOptions& wanted);
+  /// @param with_border  false: nothing beside the region that is read
+  Impl(const Scene& scene, const Camera& profile, const SimulatorOptions& wanted, bool with_border = true);
+
+  /// What arrays of one's own are for.
+  Impl& for_own_arrays();
 
   /// @param input  null: from the scene on
   void frame(const FrameRequest& request, const pipeline::Input* input, Frame& into);
@@ -53,6 +62,11 @@ struct Simulator::Impl {
   void set_sensor(const FrameRequest& request);
 
  private:
+  /// As frame and frames, with the border.
+  void frame_uncut(const FrameRequest& request, const pipeline::Input* input, Frame& into);
+  void frames_uncut(std::uint64_t count, const Request& request, const Take& take);
+  /// Gives `into` its sizes, and the region of the arrays.
+  void cut(const flow::FrameView& from, Frame& into) const;
   /// A frame by itself.
   void compute(const FrameRequest& request, const pipeline::Input* input, const SimulatorOptions& with, const Transport& transport,
                Frame& into);

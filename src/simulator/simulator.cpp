@@ -47,13 +47,14 @@ Frame new_frame(Simulator& simulator, std::uint64_t index, const From&... from) 
 }
 
 /// The scene, once all are seen to be good.
-const Scene& checked(const Scene& scene, const Camera& camera, const SimulatorOptions& options) {
+const Scene& checked(const Scene& scene, const Camera& camera, const SimulatorOptions& options, bool with_border) {
   simulator::check(options);
   simulator::check(scene);
   simulator::check(camera);
   simulator::check_moving_views(scene, camera::with_emitters(camera), options);
   simulator::check_changing_triangles(scene, camera, options);
-  const Camera image = base::as_read_out(camera);
+  const simulator::Border border = with_border ? simulator::border_of(camera) : simulator::Border{};
+  const Camera image = base::as_read_out(simulator::with_border(camera, border));
   simulator::check_light_image(scene, image, options);
   simulator::check_transient(scene, image);
   return scene;
@@ -67,9 +68,12 @@ SimulatorOptions with_last_stage(const SimulatorOptions& wanted, const Camera& c
 
 }  // namespace
 
-Simulator::Impl::Impl(const Scene& all, const Camera& profile, const SimulatorOptions& wanted)
-    : scene(checked(all, profile, wanted)),
+Simulator::Impl::Impl(const Scene& all, const Camera& given, const SimulatorOptions& wanted, bool with_border)
+    : scene(checked(all, given, wanted, with_border)),
+      border(with_border ? simulator::border_of(given) : simulator::Border{}),
+      profile(simulator::with_border(given, border)),
       camera(camera::with_emitters(base::as_read_out(profile))),
+      region_camera(base::as_read_out(simulator::without_border(profile, border))),
       options(with_last_stage(wanted, camera, scene)),
       frozen_camera(profile, wanted.noise != Noise::off, wanted.seed, wanted.subpixel),
       frozen_scene(scene, positions(camera), static_cast<int>(camera.mode.sequence.size()) * options.exposure_samples,
@@ -95,6 +99,7 @@ pipeline::Setup Simulator::Impl::fixed_setup() {
   out.decoder = frozen_camera.decoder();
   out.last_stage = options.last_stage;
   out.culling = options.culling;
+  out.region = simulator::region_of(camera, border);
   const Transport& transport = scene.transport;
   out.bounces = {transport.bounces,
                  transport.samples,
@@ -140,6 +145,32 @@ void Simulator::Impl::set_sensor(const FrameRequest& request) {
 }
 
 void Simulator::Impl::frame(const FrameRequest& request, const pipeline::Input* input, Frame& into) {
+  if (!border.any()) {
+    frame_uncut(request, input, into);
+    return;
+  }
+  frame_uncut(request, nullptr, whole);
+  cut(simulator::view_of(whole, options.last_stage), into);
+  into.index = whole.index, into.raw.start_time_s = whole.raw.start_time_s, into.truth.time_s = whole.truth.time_s;
+  into.raw.integration_time_s = whole.raw.integration_time_s;
+}
+
+void Simulator::Impl::cut(const flow::FrameView& from, Frame& into) const {
+  simulator::prepare(into, region_camera, options, scene.transport);
+  flow::FrameView to = simulator::view_of(into, options.last_stage);
+  simulator::cut(from,
+                 {std::int64_t{camera.sensor.width} * camera.sensor.height, static_cast<std::int64_t>(camera.mode.sequence.size()),
+                  setup.transient.bins},
+                 camera.sensor.width, setup.region, to);
+}
+
+Simulator::Impl& Simulator::Impl::for_own_arrays() {
+  if (!border.any()) return *this;
+  if (of_region == nullptr) of_region = std::make_unique<Impl>(scene, simulator::without_border(profile, border), options, false);
+  return *of_region;
+}
+
+void Simulator::Impl::frame_uncut(const FrameRequest& request, const pipeline::Input* input, Frame& into) {
   const Transport& transport = input == nullptr ? scene.transport : no_transport;
   if (const char* const why = needs_earlier(); why != nullptr && input != nullptr)
     throw Error(ErrorKind::bad_input, "error: " + std::string(why) + ", and arrays of one's own are one frame");
@@ -218,8 +249,11 @@ void Simulator::Impl::compute(const FrameRequest& request, const pipeline::Input
     if (!engine.derives()) frozen_scene.derive();
     engine.run(setup, job, input);
   });
-  if (exposure.on() && exposure.known() == request.index + 1 && !stopped())
-    exposure.follow(setup.sensor, job.out, static_cast<std::size_t>(setup.lens.width) * static_cast<std::size_t>(setup.lens.height));
+  if (!exposure.on() || exposure.known() != request.index + 1 || stopped()) return;
+  const Sensor& read = region_camera.sensor;
+  if (border.any()) cut(job.out, metered);
+  const flow::FrameView seen = border.any() ? simulator::view_of(metered, options.last_stage) : job.out;
+  exposure.follow(setup.sensor, seen, static_cast<std::size_t>(read.width) * static_cast<std::size_t>(read.height));
 }
 
 Simulator::Simulator(const Scene& scene, const Camera& camera, const SimulatorOptions& options)
@@ -234,16 +268,19 @@ void Simulator::frame(const FrameRequest& request, Frame& into) {
   impl_->frame(request, nullptr, into);
 }
 void Simulator::frame(std::uint64_t index, const Geometry& seen, Frame& into) {
-  const simulator::OwnInput own = simulator::input_of(seen, impl_->camera);
-  impl_->frame({index, {}, {}}, &own.input, into);
+  Impl& impl = impl_->for_own_arrays();
+  const simulator::OwnInput own = simulator::input_of(seen, impl.camera);
+  impl.frame({index, {}, {}}, &own.input, into);
 }
 void Simulator::frame(std::uint64_t index, const PixelLight& light, Frame& into) {
-  const simulator::OwnInput own = simulator::input_of(light, impl_->camera);
-  impl_->frame({index, {}, {}}, &own.input, into);
+  Impl& impl = impl_->for_own_arrays();
+  const simulator::OwnInput own = simulator::input_of(light, impl.camera);
+  impl.frame({index, {}, {}}, &own.input, into);
 }
 void Simulator::frame(std::uint64_t index, const Transient& light, Frame& into) {
-  const simulator::OwnInput own = simulator::input_of(light, impl_->camera, impl_->setup);
-  impl_->frame({index, {}, {}}, &own.input, into);
+  Impl& impl = impl_->for_own_arrays();
+  const simulator::OwnInput own = simulator::input_of(light, impl.camera, impl.setup);
+  impl.frame({index, {}, {}}, &own.input, into);
 }
 Frame Simulator::frame(std::uint64_t index) { return new_frame(*this, index); }
 Frame Simulator::frame(std::uint64_t index, const Geometry& seen) { return new_frame(*this, index, seen); }

@@ -14,7 +14,7 @@
 
 using tofray::camera::Harmonic;
 using tofray::camera::PhaseResponse;
-using tofray::camera::wiggling_correction;
+using tofray::camera::wiggling_table;
 using tofray::test::pi;
 
 namespace {
@@ -179,7 +179,7 @@ TEST(wiggling_correction, takes_every_node_back_to_the_true_phase) {
   for (const int n : {3, 4, 5, 8})
     for (const auto& harmonics : {skewed(), triangle(4), std::vector<Harmonic>{{1, 1, 3.0}, {3, 0.1, 0}, {5, -0.06, 2}}}) {
       const auto tau = equal_phases(n);
-      const auto table = wiggling_correction(harmonics, tau);
+      const auto table = wiggling_table(harmonics, tau).correction;
       ASSERT_EQ(table.size(), 1024u);
       for (int j = 0; j < 1024; ++j) {
         const double measured = j / 1024.0;
@@ -193,7 +193,7 @@ TEST(wiggling_correction, takes_every_node_back_to_the_true_phase) {
 // Four phases, closed form with third and fifth harmonic: the node's true phase put in gives the correction back.
 TEST(wiggling_correction, inverts_the_closed_form) {
   const double r3 = 0.1, r5 = 0.04;
-  const auto table = wiggling_correction({{1, 1, 0}, {3, r3, 0}, {5, r5, 0}}, equal_phases(4), 360);
+  const auto table = wiggling_table({{1, 1, 0}, {3, r3, 0}, {5, r5, 0}}, equal_phases(4), 360).correction;
   for (std::size_t j = 0; j < 360; ++j) {
     const double phi = 2 * pi * (static_cast<double>(j) / 360 + table[j]);
     const double error = std::atan2((r5 - r3) * std::sin(4 * phi), 1 + (r3 + r5) * std::cos(4 * phi));
@@ -204,7 +204,7 @@ TEST(wiggling_correction, inverts_the_closed_form) {
 // Five phases: the fifth harmonic does not leak, the ninth does by its Q: ε = atan2(−r_9 sin 10φ, 1 + r_9 cos 10φ).
 TEST(wiggling_correction, inverts_the_closed_form_for_five_phases) {
   const double r9 = 0.03;
-  const auto table = wiggling_correction({{1, 1, 0}, {5, 0.2, 0}, {9, r9, 0}}, equal_phases(5), 500);
+  const auto table = wiggling_table({{1, 1, 0}, {5, 0.2, 0}, {9, r9, 0}}, equal_phases(5), 500).correction;
   for (std::size_t j = 0; j < 500; ++j) {
     const double phi = 2 * pi * (static_cast<double>(j) / 500 + table[j]);
     EXPECT_NEAR(table[j], -std::atan2(-r9 * std::sin(10 * phi), 1 + r9 * std::cos(10 * phi)) / (2 * pi), 1e-12);
@@ -213,28 +213,28 @@ TEST(wiggling_correction, inverts_the_closed_form_for_five_phases) {
 
 TEST(wiggling_correction, of_a_sine_is_its_phase_alone) {
   for (const double psi : {-0.42, 3.1, -3.1})
-    for (const double value : wiggling_correction({{1, 0.6, psi}}, equal_phases(4))) EXPECT_NEAR(value, -psi / (2 * pi), 1e-15);
+    for (const double value : wiggling_table({{1, 0.6, psi}}, equal_phases(4)).correction) EXPECT_NEAR(value, -psi / (2 * pi), 1e-15);
 }
 
 TEST(wiggling_correction, has_no_jumps) {
   for (const double psi : {0.0, 1.5, 3.14, -3.14}) {
     auto harmonics = skewed();
     for (Harmonic& h : harmonics) h.phase_rad += psi * h.order;  // a delay
-    const auto table = wiggling_correction(harmonics, equal_phases(4));
+    const auto table = wiggling_table(harmonics, equal_phases(4)).correction;
     for (std::size_t j = 0; j < table.size(); ++j) EXPECT_LT(std::fabs(table[j] - table[(j + 1) % table.size()]), 0.3 / 1024) << psi;
   }
 }
 
 TEST(wiggling_correction, is_the_same_whatever_the_order_of_the_phases) {
-  const auto one = wiggling_correction(skewed(), equal_phases(4));
-  const auto other = wiggling_correction(skewed(), {pi, 0, 3 * pi / 2, pi / 2});
+  const auto one = wiggling_table(skewed(), equal_phases(4)).correction;
+  const auto other = wiggling_table(skewed(), {pi, 0, 3 * pi / 2, pi / 2}).correction;
   for (std::size_t j = 0; j < one.size(); ++j) EXPECT_NEAR(one[j], other[j], 1e-14);
 }
 
 TEST(wiggling_correction, refuses_a_curve_that_turns_back) {
   const auto refusal = [](const std::vector<Harmonic>& harmonics, const std::vector<double>& tau, int nodes) -> std::string {
     try {
-      wiggling_correction(harmonics, tau, nodes);
+      wiggling_table(harmonics, tau, nodes);
     } catch (const tofray::Error& error) {
       EXPECT_EQ(error.kind(), tofray::ErrorKind::bad_input);
       return error.what();

@@ -194,7 +194,8 @@ TEST(wiggling, is_interpolated_to_a_few_micrometres) {
     camera.pixel.contrast = {{f}, {0.75}}, camera.pixel.bandwidth_hz = 180e6;
     const Bench bench(camera);
     ASSERT_EQ(bench.decoder().wiggling_nodes, 1024);
-    const auto exact = camera::wiggling_correction(camera::correlation_harmonics(wave, camera.pixel, f), {0, pi / 2, pi, 3 * pi / 2}, 2048);
+    const auto exact =
+        camera::wiggling_table(camera::correlation_harmonics(wave, camera.pixel, f), {0, pi / 2, pi, 3 * pi / 2}, 2048).correction;
     double worst = 0;
     for (int j = 1; j < 2048; j += 2) {
       float slope;

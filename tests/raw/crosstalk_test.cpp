@@ -78,15 +78,28 @@ TEST(crosstalk, mixes_each_tap_with_those_of_the_neighbours) {
     expect_shared(frame_of_light(sharing(left_right, up_down), uneven_light()), whole, left_right, up_down, 0);
 }
 
-// What the lens scatters comes first. At the rim it may come back over the edge, which the frame to compare with has cut off.
+// What the lens scatters comes first, and what of it falls beside the sensor is gone: no pixel there shares it.
 TEST(crosstalk, acts_on_what_the_lens_scatters) {
   Scatter kernel{Scatter::Kind::kernel, 0.25};
   kernel.rows = 3, kernel.columns = 5, kernel.kernel = {1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
   for (const Scatter& scatter : {Scatter{Scatter::Kind::gaussians, 0.3, {0.7, 9}, {3, 1}}, kernel}) {
     Camera scattering = sharing(0, 0), both = sharing(0.04, 0.02);
     scattering.lens.scatter = both.lens.scatter = scatter;
-    expect_shared(frame_of_light(both, uneven_light()), frame_of_light(scattering, uneven_light()), 0.04, 0.02, 1);
+    expect_shared(frame_of_light(both, uneven_light()), frame_of_light(scattering, uneven_light()), 0.04, 0.02, 0);
   }
+}
+
+// Half of 20 % of even light goes up, half down: the top row has 0.9 of it, the next one all; then 0.78·0.9 + 0.11·1.
+TEST(crosstalk, of_an_edge_is_of_what_the_lens_has_left_there) {
+  Scatter kernel{Scatter::Kind::kernel, 0.2};
+  kernel.rows = 3, kernel.columns = 1, kernel.kernel = {1, 0, 1};
+  PixelLight light = uneven_light();
+  light.power_w.assign(shared_pixels, 1e-12f), light.path_length_m.assign(shared_pixels, 2.0f), light.ambient_e_per_s.clear();
+  Camera both = sharing(0, 0.11);
+  both.lens.scatter = kernel;
+  const Frame frame = frame_of_light(both, light), plain = frame_of_light(sharing(0, 0), light);
+  EXPECT_NEAR(static_cast<double>(frame.truth.signal_e[place(20, 0)]) / static_cast<double>(plain.truth.signal_e[place(20, 0)]), 0.812,
+              1e-6);
 }
 
 // Stripes of p pixels: the sine's mean stays, its swing is that of (3.28). Rows of the middle, columns off the edges.

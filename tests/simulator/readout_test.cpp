@@ -79,6 +79,106 @@ TEST(readout, a_region_is_a_part_of_the_whole) {
   }
 }
 
+namespace {
+
+/// Every array of a region against that part of another frame's, `left` and `top` pixels further on.
+void expect_part(const Frame& part, const Frame& all, int left, int top, const std::string& what) {
+  const auto width = static_cast<std::size_t>(part.depth.width), height = static_cast<std::size_t>(part.depth.height),
+             wide = static_cast<std::size_t>(all.depth.width), high = static_cast<std::size_t>(all.depth.height);
+  std::size_t other = 0;
+  for (std::size_t y = 0; y < height; ++y) {
+    for (std::size_t x = 0; x < width; ++x) {
+      const std::size_t here = y * width + x, there = (y + static_cast<std::size_t>(top)) * wide + x + static_cast<std::size_t>(left);
+      for (std::size_t k = 0; k < 4; ++k) other += part.raw.tap_a[k * width * height + here] != all.raw.tap_a[k * wide * high + there];
+      other += part.depth.flags[here] != all.depth.flags[there];
+      other += part.truth.object_id[here] != all.truth.object_id[there];
+      for (std::size_t axis = 0; axis < 3; ++axis) {  // rays differ by the rounding of where the image begins
+        const auto a = static_cast<double>(part.depth.points_m[3 * here + axis]),
+                   b = static_cast<double>(all.depth.points_m[3 * there + axis]);
+        other += std::isnan(a) != std::isnan(b) || std::abs(a - b) > 1e-6;
+      }
+    }
+  }
+  EXPECT_EQ(other, 0U) << what;
+}
+
+}  // namespace
+
+// Light that the lens scatters, charge that neighbours share and what wells spill come over a region's border as if all were read.
+TEST(readout, a_region_gets_what_comes_from_pixels_that_are_not_read) {
+  Camera plain = whole_sensor();
+  plain.decoding.flying_check = false;  // its edge has no neighbours
+  std::vector<std::pair<std::string, Camera>> cameras(5, {"", plain});
+  cameras[0].first = "gaussians", cameras[0].second.lens.scatter = {Scatter::Kind::gaussians, 0.2, {3, 0.5}, {1, 2}};
+  cameras[1].first = "kernel",
+  cameras[1].second.lens.scatter = {Scatter::Kind::kernel, 0.3, {}, {}, {1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15}, 5, 3};
+  cameras[2].first = "crosstalk", cameras[2].second.pixel.crosstalk_left_right = 0.04, cameras[2].second.pixel.crosstalk_up_down = 0.02;
+  cameras[3].first = "blooming", cameras[3].second.pixel.full_well_e = 4e4, cameras[3].second.pixel.blooming_share = 0.2,
+  cameras[3].second.pixel.blooming_limit_e = 100;
+  cameras[4].first = "all of it", cameras[4].second = cameras[3].second, cameras[4].second.lens.scatter = cameras[0].second.lens.scatter,
+  cameras[4].second.pixel.crosstalk_left_right = 0.04;
+  for (const auto& [name, camera] : cameras) {
+    for (const int n : {1, 2}) {
+      const Frame all = without_noise_of(steps(), read_by(camera, {n, 0, 0, 0, 0}));
+      for (const auto& [left, top, width, height] :
+           {std::array{20, 16, 24, 10}, {0, 0, 14, 12}, {52, 30, 14, 14}, {0, 20, 66, 8}, {30, 0, 6, 44}}) {
+        const Camera region = read_by(camera, {n, left, top, width, height});
+        const std::string what = name + ", " + std::to_string(n) + ": " + std::to_string(left) + ", " + std::to_string(top);
+        const Frame part = without_noise_of(steps(), region);
+        ASSERT_EQ(part.depth.width, width / n);
+        expect_part(part, all, left / n, top / n, what);
+        if (n == 1) continue;
+        // … one of a batch, too.
+        Simulator many(steps(), region, {.noise = Noise::off, .threads = 1});
+        many.frames(0, 2, [&](const FrameArrays& one) {
+          ASSERT_EQ(one.width, width / n);
+          EXPECT_TRUE(std::equal(part.raw.tap_a.begin(), part.raw.tap_a.end(), one.tap_a)) << what;
+        });
+      }
+    }
+  }
+}
+
+// Even light stays even to the region's rim; a mean over frames and an exposure that follows the light see the region alone.
+TEST(readout, a_region_of_even_light_is_even) {
+  Camera camera = whole_sensor();
+  camera.pixel.dark_current_e_per_s = 0, camera.pixel.tap_offset_mismatch_e = 0;
+  camera.lens.scatter = {Scatter::Kind::gaussians, 0.2, {3}, {}};
+  PixelLight light;
+  light.width = whole_width, light.height = whole_height;
+  light.power_w.assign(std::size_t{whole_width} * whole_height, 1e-12f), light.path_length_m.assign(light.power_w.size(), 2.0f);
+  const SimulatorOptions options{.noise = Noise::off, .threads = 1};
+  Camera sharp = camera;
+  sharp.lens.scatter = {};
+  const double one = static_cast<double>(Simulator({}, sharp, options).frame(0, light).truth.signal_e[0]);
+  // Light of one's own is of the region alone, and dark beside it.
+  Camera part = read_by(camera, {1, 25, 20, 20, 16});
+  light.width = 20, light.height = 16, light.power_w.resize(320), light.path_length_m.resize(320);
+  EXPECT_NEAR(static_cast<double>(Simulator({}, part, options).frame(0, light).truth.signal_e[0]) / one, 0.85, 0.03);
+  // What is seen goes on beside it.
+  Scene scene = wall(1, 0.5);
+  scene.ambient = {Ambient::Spectrum::sun_am15, Ambient::Quantity::level, 0.01, {}, {}, {}};
+  part.illumination.clear(), part.mode.sequence = {{false, 0, 0, 1e-3}};
+  part.lens.vignetting = Lens::Vignetting::off;
+  const Frame even = Simulator(scene, part, options).frame(0);
+  // (Nine rows further down the sensor ends, and with it what its light is worth: 0.2·1.5e-3/2.)
+  for (const float charge : even.raw.tap_a) ASSERT_NEAR(charge, even.raw.tap_a[160], 2e-4F * even.raw.tap_a[160]);
+  for (const bool follows : {false, true}) {
+    Camera over = read_by(camera, {1, 25, 20, 20, 16});
+    if (follows)
+      over.auto_exposure = {1, 0.3, 0.9, 0, 0};
+    else
+      over.decoding.temporal_frames = 3;
+    Simulator simulator(steps(), over, options);
+    const Frame third = simulator.frame(2);
+    EXPECT_EQ(third.depth.width, 20);
+    int found = 0;
+    for (const float z : third.depth.z_m) found += z > 0.5F && z < 1.5F ? 1 : 0;
+    EXPECT_EQ(found, 320) << follows;
+    EXPECT_EQ(third.raw.integration_time_s[0] != camera.mode.sequence[0].integration_time_s, follows);
+  }
+}
+
 // A region with no width reaches to the sensor's edge.
 TEST(readout, a_region_reaches_to_the_edge_unless_it_says_how_far) {
   const ImageSize size = image_size(read_by(whole_sensor(), {2, 9, 5, 0, 0}));

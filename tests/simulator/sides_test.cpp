@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "support/bounces.h"
 #include "scene/motion.h"
+#include "support/bounces.h"
 #include "support/meshes.h"
 #include "support/pixels.h"
 #include "support/sanitizers.h"

@@ -32,8 +32,7 @@ bool dark(const scene::FrozenScene& frozen, std::size_t light, const Vec3& at, c
 bool dark_of_sun(const scene::FrozenScene& frozen, const flow::Surface<float>& s) {
   const Vec3& toward = frozen.toward_sun();
   const float sun[3] = {static_cast<float>(toward[0]), static_cast<float>(toward[1]), static_cast<float>(toward[2])};
-  return trace::blocked_parallel(trace::Uncut{frozen.view().sun_still()}, sun,
-                                 trace::a_little_before(frozen.view(), s, ray(place_of(s))));
+  return trace::blocked_parallel(trace::Uncut{frozen.view().sun_still()}, sun, trace::a_little_before(frozen.view(), s, ray(place_of(s))));
 }
 
 enum class Answer { lit, dark, unsure };

@@ -91,7 +91,7 @@ void pack_scatter(Packer& packer, const camera::ScatterView& from, camera::Scatt
   std::vector<camera::ScatterTerm> terms(from.term, from.term + from.terms);
   for (camera::ScatterTerm& term : terms) {
     const std::size_t side = 2 * count_of(term.radius) + 1, stride = side + 2 * camera::ScatterTerm::pad;
-    term.weights = packer.put(term.weights, from.separable != 0 ? stride : stride * side);
+    term.weights = packer.put(term.weights, term.column != nullptr ? stride : stride * side);
     term.column = packer.put(term.column, side);
   }
   to.term = packer.put(static_cast<const camera::ScatterTerm*>(terms.data()), terms.size());
@@ -116,6 +116,7 @@ std::vector<camera::DecodeModulation> pack_decoder(Packer& packer, const pipelin
   for (camera::DecodeModulation& m : modulations) {
     m.raw_frame = packer.put(m.raw_frame, count_of(m.count)), m.pair = packer.put(m.pair, 2 * count_of(m.pairs));
     m.wiggling = packer.put(m.wiggling, 2 * count_of(from.wiggling_nodes));
+    m.light = packer.put(m.light, 2 * count_of(from.wiggling_nodes));
   }
   to.modulation = packer.put(static_cast<const camera::DecodeModulation*>(modulations.data()), modulations.size());
   to.frame = packer.put(from.frame, count_of(setup.sensor.raw_frames)),
