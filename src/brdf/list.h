@@ -68,6 +68,25 @@ TOFRAY_FN void evaluate_each(num::List<T...>, const Finish<F>& of, const Cosines
   (evaluate<T>(of, cosine, directions, f_r), ...);
 }
 
+/// What of light from everywhere a surface sends on to the camera: of those that say it, as they are seen; else the reflectivity.
+template <class... T, class F>
+TOFRAY_FN void albedo_of_each(num::List<T...>, const Finish<F>& of, F cosine, F& albedo) {
+  const auto one = [&]<class One>(num::List<One>) __attribute__((always_inline)) {
+    if constexpr (requires { One::albedo(of, cosine); }) {
+      const auto its = of.brdf == num::Int<F>(num::place_in<One>(Brdfs{}));
+      if (num::any(its)) albedo = num::select(its, One::albedo(of, cosine), albedo);
+    }
+  };
+  (one(num::List<T>{}), ...);
+}
+/// @param cosine  of the angle at which it is seen
+template <class F>
+TOFRAY_FN F albedo(const Finish<F>& of, F cosine) {
+  F out = of.reflectivity;
+  if (num::any(of.brdf > num::Int<F>(0))) albedo_of_each(Brdfs{}, of, cosine, out);
+  return out;
+}
+
 /// f_r [1/sr]: how a surface sends light on.                                                [theory: eq. 2.3, 2.4, 2.14, 2.16–2.18]
 /// @param directions  a function that gives Directions<F>: called where they are needed
 template <class F, class Toward>

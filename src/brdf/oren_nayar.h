@@ -27,6 +27,18 @@ struct OrenNayar {
     const F larger = num::max(num::max(cosine.light, cosine.view), F(1e-6f));
     return num::fma(of.number[1], across / larger, of.number[0]) * F(per_pi);
   }
+  /// ∫ f_r·cos θ_i dω over the half space, of a surface that is seen at θ: ρ·(A + B·h(θ)),
+  ///
+  ///     h = (2/π)·(½·sin θ·(θ − sin θ·cos θ) + ⅓·tan θ·(1 − sin³ θ)).                                  [theory: eq. 2.30]
+  template <class F>
+  TOFRAY_FN static F albedo(const Finish<F>& of, F cosine) {
+    const F c = num::min(num::max(cosine, F(0.0f)), F(1.0f)), s = num::sqrt(num::fnma(c, c, F(1.0f)));
+    const F theta = num::atan2_turns(s, c) * F(6.28318531f);
+    // tan θ·(1 − sin³ θ) without the pole: sin θ·cos θ·(1 + sin θ + sin² θ)/(1 + sin θ)
+    const F beyond = s * c * num::fma(s, s + F(1.0f), F(1.0f)) / (F(3.0f) * (s + F(1.0f)));
+    const F h = F(2 * per_pi) * num::fma(F(0.5f) * s, num::fnma(s, c, theta), beyond);
+    return num::fma(of.number[1], h, of.number[0]);
+  }
 };
 
 }  // namespace tofray::brdf

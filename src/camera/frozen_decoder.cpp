@@ -164,6 +164,9 @@ void FrozenCamera::freeze_decoder(bool noise) {
   const bool after_filter = decoding.filter.kind == ImageFilter::Kind::adaptive;
   d.noise_threshold = d.filtered_noise_threshold = std::numeric_limits<float>::max();
   if (noise) (after_filter ? d.filtered_noise_threshold : d.noise_threshold) = single(decoding.noise_threshold_m);
+  // … but not such as are on a wrong cycle: others that are wrong by as much agree with them, and no noise says so.
+  constexpr double likely = 0.9;
+  d.least_trust = after_filter && noise ? single(likely) : 0.0f;
   d.per_confidence_noise = single(1 / decoding.noise_threshold_m);
   d.amplitude_threshold = single(decoding.amplitude_threshold_e);
   d.asymmetry_square = single(decoding.asymmetry_limit_e * decoding.asymmetry_limit_e);

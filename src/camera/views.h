@@ -255,6 +255,7 @@ struct DecoderView {
   float common_range, per_common_range;  ///< R_0 [m], 1/R_0
   std::int32_t wiggling_nodes;
   float light[3], light_square;                     ///< mean position of the lights and mean |L|², weighted by their power
+  float least_trust;                                ///< what is less likely on the right cycle is no depth; 0: all are
   float noise_floor;                                ///< 2σ_r² + s²/12 + what lines add [e²]
   float output_floor;                               ///< the same without 2σ_r²
   float suppression_threshold, suppression_budget;  ///< [e⁻] of a tap; threshold 0: no suppression

@@ -243,9 +243,9 @@ TOFRAY_FN Depth<F> decode(const camera::DecoderView& s, const F* difference, Mas
   out.range = inverse.range;
   out.amplitude = amplitude * per_count;
   out.ambient = ambient * per_count;
-  out.noise = sigma;
+  out.noise = sigma, out.trust = half.trust;
   const auto nothing = (weakest < F(1.0f)) | (!(path_length * path_length > F(s.light_square)));
-  const auto weak = (sigma > F(s.noise_threshold)) | (out.amplitude < F(s.amplitude_threshold));
+  const auto weak = (sigma > F(s.noise_threshold)) | (out.amplitude < F(s.amplitude_threshold)) | (half.trust < F(s.least_trust));
   out.flags = bit<F>(clipped, saturated) | bit<F>(weak, low_signal) | bit<F>(nothing, no_return) | bit<F>(outside, outside_lens) |
               bit<F>(moved, inconsistent_phases) | bit<F>(half.inconsistent, inconsistent_frequencies);
   if (s.rejected != 0) out.flags = out.flags | rejected_bit<F>(s, out.flags);

@@ -133,6 +133,7 @@ struct Taps {
 template <class F>
 struct Depth {
   F range, amplitude, ambient, noise;
+  F trust;  ///< how likely the range is on the right cycle, 0…1
   num::Int<F> flags;
 };
 

@@ -96,7 +96,8 @@ TOFRAY_FN void find_depth(const Setup& s, const Job& job, const Pixels& p, const
   const flow::Depth<F> found = depth::decode<F>(s.decoder, difference, clipped, outside, ray, p);
   store(job.out.amplitude_e, p, found.amplitude);
   store(job.out.ambient_e, p, found.ambient);
-  store_range(s, job.out, p, ray, found.range, found.noise, found.flags);
+  store_range(job.out, p, ray, found.range, confidence(s.decoder, found.noise, found.trust), found.flags);
+  if (job.filter != Filter::none) num::store(trust_in(s, job) + p.index, found.trust, p.count);
   store(job.out.noise_m, p, num::select((found.flags & num::Int<F>(depth::no_return)) == num::Int<F>(0), found.noise, nan<F>()));
 }
 

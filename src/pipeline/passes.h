@@ -22,7 +22,7 @@ TOFRAY_FN void bloom_pixel(const Setup& s, const Job& job, int x, int y) {
   if (!(spilled * s.sensor.blooming_share > s.sensor.blooming_limit)) return;
   const Pixels p{at, 1};
   const std::int32_t flags = job.out.flags[at] | depth::saturated;
-  store_range<float>(s, job.out, p, camera::ray<float>(s.lens, p), 0.0f, 0.0f, flags);
+  store_range<float>(job.out, p, camera::ray<float>(s.lens, p), 0.0f, 0, flags);
 }
 TOFRAY_FN void bloom_row(const Setup& s, const Job& job, int y) {
   for (int x = 0; x < s.lens.width; ++x) bloom_pixel(s, job, x, y);
@@ -97,26 +97,36 @@ TOFRAY_FN bool any_flying(const std::uint16_t* flags, int count) {
 }
 
 /// The flags that a filter leaves: of what is too noisy still, and of a range that is no longer the pixel's own.
-TOFRAY_FN std::int32_t flags_of_filter(const Setup& s, const Job& job, std::int32_t at) {
-  const float range = job.scratch[at], noise = job.scratch[at + s.lens.width * s.lens.height];
+TOFRAY_FN std::int32_t flags_of_filter(const Setup& s, const Job& job, std::int32_t at, float range, float noise) {
   if (noise > s.decoder.filtered_noise_threshold) return depth::low_signal;
   return range < job.out.range_m[at] || range > job.out.range_m[at] ? depth::filtered : 0;
 }
+TOFRAY_FN std::int32_t filter_flags_at(const Setup& s, const Job& job, std::int32_t at) {
+  return flags_of_filter(s, job, at, job.scratch[at], job.scratch[at + s.lens.width * s.lens.height]);
+}
 
 /// Range of some pixels → z, point, confidence; flying pixels become invalid.
-/// @param item  of_filter: the range that the filter left, and its noise; else that of `out`, which changes where pixels fly
+/// @param item  of_filter: the range that the filter left, and its noise; else that of `out`, which goes where pixels fly
 template <class F>
 TOFRAY_FN void settle(const Setup& s, const Job& job, const Pixels& p, std::int32_t item) {
   if (item != of_filter && !any_flying(job.out.flags + p.index, p.count)) return;
   std::int32_t flags[num::lanes<F>] = {};
   for (int i = 0; i < p.count; ++i) {
     flags[i] = job.out.flags[p.index + i];
-    if (item == of_filter) flags[i] |= flags_of_filter(s, job, p.index + i);
+    if (item == of_filter) flags[i] |= filter_flags_at(s, job, p.index + i);
   }
   const float* const range = item == of_filter ? job.scratch : job.out.range_m;
   const float* const noise_of = item == of_filter ? job.scratch + s.lens.width * s.lens.height : job.out.noise_m;
   const F noise = num::load<F>(noise_of + p.index, p.count);
-  store_range(s, job.out, p, camera::ray<F>(s.lens, p), num::load<F>(range + p.index, p.count), noise, num::load_int<F>(flags, p.count));
+  num::Int<F> sure(0);
+  if (item == of_filter) {
+    sure = confidence(s.decoder, noise, num::load<F>(trust_in(s, job) + p.index, p.count));
+  } else if (job.out.confidence != nullptr) {
+    std::int32_t before[num::lanes<F>] = {};
+    for (int i = 0; i < p.count; ++i) before[i] = job.out.confidence[p.index + i];
+    sure = num::load_int<F>(before, p.count);
+  }
+  store_range(job.out, p, camera::ray<F>(s.lens, p), num::load<F>(range + p.index, p.count), sure, num::load_int<F>(flags, p.count));
   if (item == of_filter) num::store(job.out.noise_m + p.index, noise, p.count);
 }
 template <class F>

@@ -79,7 +79,9 @@ struct Job {
   flow::LightImage light;
   Gather gather;
   std::uint32_t index_low, index_high;
-  float* scratch;  ///< images [height][width]: filtered range, its noise, what wells had no room for; then the draws of noisy lines
+  /// Images [height][width]: filtered range, its noise, what wells had no room for, how likely ranges are on the right cycle, as far as somebody
+  /// asks; then the draws of noisy lines.
+  float* scratch;
   Filter filter;
   std::int32_t filter_radius;
   float filter_weights[33];  ///< Gaussian, [0] the middle
@@ -96,7 +98,14 @@ using flow::tile_width;
 /// What the wells of each pixel had no room for [e⁻].
 TOFRAY_FN float* overflow_in(const Setup& s, const Job& job) { return job.scratch + 2 * s.lens.width * s.lens.height; }
 /// How many images `scratch` has room for, …
-TOFRAY_FN int scratch_images(const Setup& s, Filter filter) { return s.sensor.blooms != 0 ? 3 : filter != Filter::none ? 2 : 0; }
+TOFRAY_FN int scratch_images(const Setup& s, Filter filter) {
+  const int before = s.sensor.blooms != 0 ? 3 : filter != Filter::none ? 2 : 0;
+  return before + (filter != Filter::none ? 1 : 0);
+}
+/// How likely ranges are on the right cycle, for the filter that is on: the last image.
+TOFRAY_FN float* trust_in(const Setup& s, const Job& job) {
+  return job.scratch + (scratch_images(s, job.filter) - 1) * s.lens.width * s.lens.height;
+}
 /// … and how many numbers in all.
 TOFRAY_FN std::int64_t scratch_floats(const Setup& s, Filter filter) {
   return std::int64_t{scratch_images(s, filter)} * s.lens.width * s.lens.height + raw::line_draws(s.sensor);

@@ -83,15 +83,16 @@ TOFRAY_FN void store_truth(const flow::FrameView& out, const Pixels& p, const fl
   store(out.gt_power_w, p, r.power);
 }
 
-/// Confidence 255·max(0, 1 − σ̂/0.07 m), rounded.                                                     [theory: eq. 4.10]
+/// Confidence 255·p·max(0, 1 − σ̂/0.07 m), rounded.                                                   [theory: eq. 4.10]
+/// @param trust  p, how likely the range is on the right cycle
 template <class F>
-TOFRAY_FN num::Int<F> confidence(const camera::DecoderView& s, F noise) {
-  return num::to_int(num::round_even(F(255.0f) * num::max(num::fnma(noise, F(s.per_confidence_noise), F(1.0f)), F(0.0f))));
+TOFRAY_FN num::Int<F> confidence(const camera::DecoderView& s, F noise, F trust) {
+  return num::to_int(num::round_even(F(255.0f) * trust * num::max(num::fnma(noise, F(s.per_confidence_noise), F(1.0f)), F(0.0f))));
 }
 
 /// Point, z and confidence of a valid range; NaN and 0 elsewhere.
 template <class F>
-TOFRAY_FN void store_range(const Setup& s, const flow::FrameView& out, const Pixels& p, const flow::Ray<F>& ray, F range, F noise,
+TOFRAY_FN void store_range(const flow::FrameView& out, const Pixels& p, const flow::Ray<F>& ray, F range, num::Int<F> confidence,
                            num::Int<F> flags) {
   const auto valid = (flags & num::Int<F>(depth::invalid)) == num::Int<F>(0);
   const F z = num::select(valid, range * ray.inverse_length, nan<F>());
@@ -99,7 +100,7 @@ TOFRAY_FN void store_range(const Setup& s, const flow::FrameView& out, const Pix
   store(out.range_m, p, num::select(valid, range, nan<F>()));
   store3(out.points_m, p, num::select(valid, ray.x * z, nan<F>()), num::select(valid, ray.y * z, nan<F>()), z);
   if (out.confidence != nullptr) {
-    num::store(out.confidence + p.index, num::select(valid, confidence(s.decoder, noise), num::Int<F>(0)), p.count);
+    num::store(out.confidence + p.index, num::select(valid, confidence, num::Int<F>(0)), p.count);
   }
   if (out.flags != nullptr) num::store(out.flags + p.index, flags, p.count);
 }

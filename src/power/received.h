@@ -57,12 +57,14 @@ TOFRAY_FN Path<F> received(const camera::PowerView& s, const camera::LightView& 
   return {watts * F(light.electrons_per_joule), num::select(p.found, distance + p.range, F(0.0f))};
 }
 
-/// Electrons per second from ambient light, both taps together: ρ·E_B/π, through lens and pixel. [theory: eq. 2.10]
+/// Electrons per second from ambient light, both taps together: ρ·E_B/π, through lens and pixel; of light from everywhere ρ is the albedo at
+/// the view.                                                                                                   [theory: eq. 2.10]
 /// @param sun  unit vector toward it
 template <class F>
 TOFRAY_FN F ambient_rate(const camera::PowerView& s, const float* sun, const Surface<F>& p, Mask<F> dark, F vignetting) {
-  F rate = F(s.ambient_rate) * p.finish.reflectivity * vignetting;
-  if (s.ambient == camera::AmbientLight::directional) {
+  const bool directional = s.ambient == camera::AmbientLight::directional;
+  F rate = F(s.ambient_rate) * (directional ? p.finish.reflectivity : brdf::albedo(p.finish, p.cos_view)) * vignetting;
+  if (directional) {
     const F cosine = num::fma(p.nx, F(sun[0]), num::fma(p.ny, F(sun[1]), p.nz * F(sun[2])));
     const auto lit = (!dark) & before_facet(p, F(sun[0]), F(sun[1]), F(sun[2]));
     rate = num::select(lit, rate * num::max(cosine, F(0.0f)), F(0.0f));

@@ -30,6 +30,18 @@ TOFRAY_FN void unlike_gains(const camera::SensorView& s, Exposure<F>& e) {
   e.gain_b = num::fnma(e.gain_b, F(s.half_gain_mismatch), e.gain_b);
 }
 
+/// PRNU is of light alone: dark charge comes as if there were none.                                          [theory: eq. 3.6]
+template <class F>
+TOFRAY_FN Means<F> dark_less_in_gain(const camera::SensorView& s, const camera::RawFrameView& frame, const Exposure<F>& e) {
+  const F half = F(s.half_gain_mismatch), dark = F(frame.dark);
+  return {dark * ((F(1.0f) + half) - e.gain_a), dark * ((F(1.0f) - half) - e.gain_b)};
+}
+template <class F>
+TOFRAY_FN void keep_dark_charge(const camera::SensorView& s, const camera::RawFrameView& frame, const Exposure<F>& e, Means<F>& charge) {
+  const Means<F> less = dark_less_in_gain(s, frame, e);
+  charge.a = num::max(charge.a + less.a, F(0.0f)), charge.b = num::max(charge.b + less.b, F(0.0f));
+}
+
 /// @param line_normals  as line_noise.h draws them, where it does
 template <class F>
 TOFRAY_FN Exposure<F> start(const camera::SensorView& s, const flow::Pixels& p, const float* line_normals) {
@@ -80,11 +92,15 @@ TOFRAY_FN F known_difference(const camera::SensorView& s, const camera::RawFrame
     const F of_rate = F(0.5f * frame.integration_time) * rate * (e.gain_a + e.gain_b);
     const F each = num::fma(common, F(0.5f * frame.integration_time), F(frame.dark));
     difference = num::fma(each, e.gain_a - e.gain_b, of_rate) + F(2 * s.half_offset_mismatch);
+    if (s.gain != nullptr) {
+      const Means<F> less = dark_less_in_gain(s, frame, e);
+      difference = difference + (less.a - less.b);
+    }
   }
   return num::select(whole, difference, otherwise);
 }
 
-/// Mean electrons × (1 + PRNU) × (1 ± g/2) → Poisson → reset and read noise → tap offsets → background suppression → full well →
+/// (Light × (1 + PRNU) + dark charge) × (1 ± g/2) → Poisson → reset and read noise → tap offsets → background suppression → full well →
 /// non-linearity → A, B, A−B → column and row noise → ADC.
 /// @param light  as this pixel sees it, its own delay included
 /// @param orders of the light's phasors
@@ -96,6 +112,7 @@ TOFRAY_FN Taps<F> expose(const camera::SensorView& s, int k, const Light<F>& lig
   if (!plain && frame.other != nullptr) add_other_camera(frame, orders, light, ambient_rate, rate);
   Means<F> charge = tap_means(frame, light.signal_rate, ambient_rate, rate);
   charge.a = charge.a * e.gain_a, charge.b = charge.b * e.gain_b;
+  if (s.gain != nullptr) keep_dark_charge(s, frame, e, charge);
   if (s.noise == Noise::merged) {
     charge = expose_merged(s, charge, e.pixel, k, index, e.merged_words);
   } else if (s.noise == Noise::apart) {

@@ -16,7 +16,6 @@ Temporal::Temporal(const Camera& camera, Stage last)
   const std::size_t pixels = static_cast<std::size_t>(camera.sensor.width) * static_cast<std::size_t>(camera.sensor.height);
   kept_.resize(window_ + 1);
   for (Kept& one : kept_) one.range.resize(pixels), one.noise.resize(pixels);
-  mean_.resize(2 * pixels);
 }
 
 std::uint64_t Temporal::missing_from(std::uint64_t index) {
@@ -42,13 +41,18 @@ void Temporal::settle(std::uint64_t index, const pipeline::Setup& setup, const p
   const Kept& own = place_of(index);
   const depth::RangeImage image{own.range.data(), own.noise.data(), job.out.flags, setup.lens.width, setup.lens.height};
   const std::size_t pixels = own.range.size();
-  pipeline::Job settled = job;
-  settled.scratch = mean_.data();
+  const float per_noise = setup.decoder.per_confidence_noise;
   for (std::size_t i = 0; i < pixels; ++i) {
     const auto at = static_cast<std::int32_t>(i);
+    const pipeline::Pixels p{at, 1};
     const depth::Filtered value = depth::mean_over_time(image, past.data(), static_cast<int>(past.size()), at, factor_);
-    mean_[i] = value.range, mean_[i + pixels] = value.noise;
-    pipeline::settle<float>(setup, settled, pipeline::Pixels{at, 1}, pipeline::of_filter);
+    // How likely its own cycle is, out of what was made of it: a byte's steps of that.
+    const float own_share = 1.0f - own.noise[i] * per_noise, before = job.out.confidence != nullptr ? job.out.confidence[i] : 0.0f;
+    const float trust = own_share > 0 ? std::min(before / (255.0f * own_share), 1.0f) : 0.0f;
+    const std::int32_t flags = job.out.flags[i] | pipeline::flags_of_filter(setup, job, at, value.range, value.noise);
+    pipeline::store_range<float>(job.out, p, camera::ray<float>(setup.lens, p), value.range,
+                                 pipeline::confidence(setup.decoder, value.noise, trust), flags);
+    job.out.noise_m[i] = value.noise;
   }
 }
 

@@ -34,7 +34,6 @@ class Temporal {
   std::uint64_t first_ = 0, end_ = 0;  // kept, without the last
   float factor_;
   std::vector<Kept> kept_;
-  std::vector<float> mean_;  // [2][height][width] range and noise
 };
 
 }  // namespace tofray::simulator

@@ -103,7 +103,9 @@ TEST(temporal, is_the_mean_over_the_frames_that_are_near_enough) {
       const double share = static_cast<double>(seen.depth.range_m[at] / frames[i].depth.range_m[at]);
       EXPECT_NEAR(static_cast<double>(seen.depth.z_m[at] / frames[i].depth.z_m[at]), share, 4e-7);
       EXPECT_NEAR(static_cast<double>(seen.depth.points_m[3 * at + 2] / frames[i].depth.points_m[3 * at + 2]), share, 4e-7);
-      EXPECT_NEAR(static_cast<double>(seen.depth.confidence[at]), 255 * std::max(0.0, 1 - expected.noise / threshold), 0.51);
+      const double all = 255 * std::max(0.0, 1 - expected.noise / threshold);  // but for the chance of another cycle
+      EXPECT_LE(static_cast<double>(seen.depth.confidence[at]), all + 0.51);
+      EXPECT_GE(static_cast<double>(seen.depth.confidence[at]), 0.95 * all - 1);
     }
   }
   EXPECT_GT(fewer, 100);  // where something moved, or was invalid
