@@ -15,6 +15,7 @@ import math
 import re
 import subprocess
 import sys
+import tempfile
 
 from one_pixel import ROOT, Pixel, modes_of, program
 
@@ -41,20 +42,32 @@ def cell(camera, mode, distance, reflectivity, repeats):
     return f"{pixel.sigma_mm:.2g}" if pixel.sigma_mm < 9.95 else f"{pixel.sigma_mm:.0f}" if pixel.sigma_mm <= limit_mm(camera) else "–"
 
 
+def shares(camera, mode):
+    """Of the pixels of the built-in scene room: how many are valid, and how many of these on a wrong cycle."""
+    with tempfile.TemporaryDirectory() as folder:
+        command = [program(), "render", "room", "--json", "--emit", "ply", "-o", folder + "/out"]
+        command += ["--set", f"camera.profile={camera}", "--set", f"camera.mode={mode}"]
+        said = json.loads(subprocess.run(command, check=True, capture_output=True, text=True).stdout)
+    wrong = 100 * said["valid_on_wrong_cycle"] / max(said["valid_pixels"], 1)
+    return [f"{said['valid_pixels'] / said['pixels']:.0%}", f"{wrong:.1f}%"]
+
+
 def table(camera):
-    head = "| mode | repeats after | " + " | ".join(f"{r:.0%}, {d:g} m" for r in REFLECTIVITIES for d in DISTANCES) + " |\n"
+    noise = " | ".join(f"{r:.0%}, {d:g} m" for r in REFLECTIVITIES for d in DISTANCES)
+    head = f"| mode | repeats after | {noise} | `room` valid | wrong cycle |\n"
     rows, seen = [], {}
     for mode in modes_of(camera)["modes"]:
         hertz = [round(f) for f in mode["modulation_frequency_hz"]]
         repeats = SPEED_OF_LIGHT / (2 * math.gcd(*hertz))
         cells = [f"{repeats:.2f} m"] + [cell(camera, mode["name"], d, r, repeats) for r in REFLECTIVITIES for d in DISTANCES]
+        cells += shares(camera, mode["name"])
         if tuple(cells) in seen:  # another frame rate, and nothing else
             seen[tuple(cells)].append(mode["name"])
         else:
             seen[tuple(cells)] = [mode["name"]]
             rows.append((seen[tuple(cells)], cells))
     lines = ["| " + ", ".join(f"`{name}`" for name in names) + " | " + " | ".join(cells) + " |" for names, cells in rows]
-    return head + "|---" * (2 + len(REFLECTIVITIES) * len(DISTANCES)) + "|\n" + "\n".join(lines) + "\n"
+    return head + "|---" * (4 + len(REFLECTIVITIES) * len(DISTANCES)) + "|\n" + "\n".join(lines) + "\n"
 
 
 def view(camera, times):
