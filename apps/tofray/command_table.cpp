@@ -9,6 +9,7 @@ int run_demo(const Options& options);
 int run_render(const Options& options);
 int run_process(const Options& options);
 int run_inspect(const Options& options);
+int run_preview(const Options& options);
 int run_diff(const Options& options);
 int run_check(const Options& options);
 int run_list(const Options& options);
@@ -105,6 +106,25 @@ std::vector<Command> make() {
        .least_words = 1,
        .most_words = 1,
        .run = run_inspect,
+       .completes = "<scenes> <files>"},
+      {.name = "preview",
+       .usage = "FILE [options]",
+       .summary = "a frame as a picture, also as SVG or PDF for slides and papers; without -o in the terminal",
+       .examples = "tofray preview out -o slide.svg                  # of out/frame.npz: letters and scale bars stay sharp at any size\n"
+                   "tofray preview out/frame_0003.npz -o paper.pdf --theme light\n"
+                   "tofray preview out/frame.npz -o poster.png --scale 4\n"
+                   "tofray preview out -o raw.svg --raw              # the raw frames\n"
+                   "tofray preview room -o room.pdf                  # a scene, simulated now\n"
+                   "tofray preview out                               # z, in the terminal\n",
+       .more =
+           "FILE is a .npz file, a folder with frame.npz, a scene file or the name of a built-in scene. The end of the picture's name says "
+           "what it becomes. In SVG and PDF letters, scale bars and legend are vectors, and the images are within as pixels of the "
+           "sensor; letters of an SVG are text, which can be changed.\n",
+       .options = {"--output", "--raw", "--theme", "--scale", "--set", "--mode", "--seed", "--noise", "--exposure-samples", "--subpixel",
+                   "--bounces", "--samples", "--fps", "--root", "--threads", "--backend", "--device", "--json", "--quiet"},
+       .least_words = 1,
+       .most_words = 1,
+       .run = run_preview,
        .completes = "<scenes> <files>"},
       {.name = "diff",
        .usage = "A B [options]",

@@ -117,16 +117,16 @@ void refuse_folder(const std::string& path, const char* command) {
                                          scenes.empty() ? "room" : base::printable((fs::path(path) / scenes[0]).native())));
 }
 
-std::string frame_in(const std::string& path) {
+std::string frame_in(const std::string& path, const char* command) {
   if (!is_folder(path)) return path;
   const fs::path frame = fs::path(path) / "frame.npz";
   std::error_code ignored;
   if (fs::exists(frame, ignored)) return frame.native();
   const std::vector<std::string> all = names_in(path, {".npz", ".npy"}, enough_names);
-  refuse(
-      path, "a folder without frame.npz",
-      held(all, "it holds no .npz or .npy file") +
-          (all.empty() ? "" : fmt::format("; name one, as in `tofray inspect {}`", base::printable((fs::path(path) / all[0]).native()))));
+  refuse(path, "a folder without frame.npz",
+         held(all, "it holds no .npz or .npy file") +
+             (all.empty() ? ""
+                          : fmt::format("; name one, as in `tofray {} {}`", command, base::printable((fs::path(path) / all[0]).native()))));
 }
 
 }  // namespace tofray::app

@@ -42,8 +42,9 @@ bool is_folder(const std::string& path);
 /// Names in a folder that end so, in order; no more than `most` files are looked at.
 std::vector<std::string> names_in(const std::string& folder, const std::vector<std::string>& endings, std::size_t most);
 
-/// The file that `inspect` means by a folder: frame.npz in it. The path itself where it is no folder.
+/// The file that `inspect` and others mean by a folder: frame.npz in it. The path itself where it is no folder.
+/// @param command  for the message
 /// @throws Error (bad_input) that lists what there is instead
-std::string frame_in(const std::string& path);
+std::string frame_in(const std::string& path, const char* command);
 
 }  // namespace tofray::app

@@ -23,15 +23,14 @@ namespace {
 /// Bytes that are not UTF-8 replaced as JSON replaces them: a scene that comes from a manifest has the same caption.
 std::string as_utf8(const std::string& name) { return *files::parse_json(files::json_text(files::Json(name)), "name").string(); }
 
-/// @param numbered  whether the frame is one of a series
-std::string caption(const Frame& frame, const Inputs& inputs, bool numbered) {
-  std::string text = fmt::format("{} seen by {}", as_utf8(inputs.scene.name), inputs.camera.name);
-  if (!inputs.camera.mode.name.empty()) text += " " + inputs.camera.mode.name;
-  if (numbered || frame.index > 0) text += fmt::format(", frame {}", frame.index);
+}  // namespace
+
+std::string caption_of(const std::string& scene, const std::string& camera, const std::string& mode, std::uint64_t frame, bool numbered) {
+  std::string text = fmt::format("{} seen by {}", as_utf8(scene), camera);
+  if (!mode.empty()) text += " " + mode;
+  if (numbered || frame > 0) text += fmt::format(", frame {}", frame);
   return text;
 }
-
-}  // namespace
 
 std::string gpu_of(const RanOn& machine) { return machine.backend == "cuda" ? machine.device : ""; }
 
@@ -205,8 +204,8 @@ std::vector<files::FileRecord> write_frame(const files::OutputFolder& folder, co
       put("depth", ".png", pictures::depth_png(frame.depth));
       put("amplitude", ".png", pictures::amplitude_png(frame.depth));
       put("raw", ".png", pictures::raw_png(frame.raw, what.theme, what.scale));
-      put("preview", ".png",
-          pictures::preview_png(frame.depth, frame.truth, frame.raw, caption(frame, in, !suffix.empty()), what.theme, what.scale));
+      const std::string caption = caption_of(in.scene.name, in.camera.name, in.camera.mode.name, frame.index, !suffix.empty());
+      put("preview", ".png", pictures::preview_png(frame.depth, frame.truth, frame.raw, caption, what.theme, what.scale));
     } else {
       put("cloud", ".ply", results::cloud_ply(frame.depth));
     }
