@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "load/builtin.h"
+#include "tofray/load.h"
 
 /// Files given to a command that takes others: what they are, and which command fits.
 namespace tofray::app {
@@ -25,14 +25,6 @@ void refuse_folder(const std::string& path, const char* command);
 /// A camera profile is told from a scene by what it has to have.
 bool looks_like_a_profile(const std::string& text, const std::string& name);
 
-/// A scene or profile by the name of one that is built in, and a file of that name here, with or without .yaml or .yml: the file wins.
-struct Chosen {
-  std::string name;  ///< the file, or what was typed
-  std::string note;  ///< one that says so; nothing where there is no choice
-};
-/// @param what  "scene", "camera"
-Chosen file_before_builtin(const std::string& typed, const std::vector<load::Builtin>& builtins, const char* what);
-
 /// Refuses a file that is not there, and says which of its kind lie beside the place.
 /// @throws Error (io)
 void refuse_missing(const std::string& path);
@@ -46,5 +38,11 @@ std::vector<std::string> names_in(const std::string& folder, const std::vector<s
 /// @param command  for the message
 /// @throws Error (bad_input) that lists what there is instead
 std::string frame_in(const std::string& path, const char* command);
+
+/// The same, or a scene: a folder, and a file, count more than a built-in scene of their name. The note says so.
+NameChoice frame_or_scene(const std::string& typed, const char* command);
+
+/// A note of choose_scene() and others as it is said; nothing where there is none.
+std::string note_of(const NameChoice& choice);
 
 }  // namespace tofray::app

@@ -13,9 +13,19 @@
 /// tofray::tofray along. All other headers need tofray::tofray alone.
 namespace tofray {
 
-/// Reads a scene file (YAML 1.2 or JSON), or a built-in scene by name.
+/// Reads a scene file (YAML 1.2 or JSON), or a built-in scene by name, whatever files of that name there are: see choose_scene().
 /// @throws Error with every fault of the file at once.
 Scene load_scene(const std::string& file_or_name);
+
+/// What a user means by a word that is both a built-in name and, with or without .yaml or .yml, a file of the working directory.
+struct NameChoice {
+  std::string name;  ///< for load_scene() or load_camera(): the file, or what was typed
+  std::string note;  ///< for the user: that the file is taken, and not what is built in; empty where there is no choice
+};
+/// The file counts more than a built-in scene of its name: so the command line and Python take what is typed.
+NameChoice choose_scene(const std::string& typed);
+/// The same for cameras.
+NameChoice choose_camera(const std::string& typed);
 
 /// Which mode of a profile, and what to change in it.
 struct CameraOptions {
@@ -26,7 +36,7 @@ struct CameraOptions {
   std::string root = {};
 };
 
-/// Reads a camera profile: a built-in name such as "pico-flexx", or a YAML file.
+/// Reads a camera profile: a built-in name such as "pico-flexx" (see choose_camera()), or a YAML file.
 /// @throws Error with every fault of the file at once.
 Camera load_camera(const std::string& file_or_name, const CameraOptions& options = {});
 

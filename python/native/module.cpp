@@ -80,6 +80,15 @@ void bind_files(py::module_& module) {
     const std::string name = from_text(file, {nullptr, "file"});
     return to_python(freely([&] { return load_scene(name); }));
   });
+  // What is meant by a word, and a note where it is a file of a built-in name.
+  module.def("choose_scene", [](const py::object& file) {
+    const NameChoice chosen = choose_scene(from_text(file, {nullptr, "file"}));
+    return py::make_tuple(chosen.name, chosen.note);
+  });
+  module.def("choose_camera", [](const py::object& file) {
+    const NameChoice chosen = choose_camera(from_text(file, {nullptr, "file"}));
+    return py::make_tuple(chosen.name, chosen.note);
+  });
   module.def("load_scene_text", [](const py::object& text, const py::object& source) {
     const std::string all = from_text(text, {nullptr, "text"}), name = from_text(source, {nullptr, "source"});
     return to_python(freely([&] { return load_scene_text(all, name); }));

@@ -23,7 +23,8 @@ def load_scene(file: str | os.PathLike[str]) -> Scene:
     Parameters
     ----------
     file : path or name
-        ``"room.yaml"``, or a name that ``tofray list scenes`` has: ``"demo"``.
+        ``"room.yaml"``, or a name that ``tofray list scenes`` has: ``"demo"``. A file of the working directory that is called so, with or
+        without ``.yaml``, counts more, and a ``UserWarning`` says so.
 
     Returns
     -------
@@ -34,8 +35,18 @@ def load_scene(file: str | os.PathLike[str]) -> Scene:
     Error
         With every fault of the file at once, by line and column.
     """
-    scene: Scene = _native.load_scene(os.fspath(file))
+    scene: Scene = _native.load_scene(_chosen(_native.choose_scene(os.fspath(file))))
     return scene
+
+
+def _chosen(choice: tuple[str, str]) -> str:
+    """The file or name that is meant; whoever called the public function hears of it where there was a choice."""
+    name, note = choice
+    if note:
+        import warnings
+
+        warnings.warn(note, stacklevel=3)
+    return name
 
 
 def load_camera(camera: str | os.PathLike[str] | Scene, mode: str = "", *, set: Mapping[str, Any] | None = None,
@@ -45,7 +56,8 @@ def load_camera(camera: str | os.PathLike[str] | Scene, mode: str = "", *, set: 
     Parameters
     ----------
     camera : path, name or Scene
-        ``"camera.yaml"``, or a name that ``tofray list cameras`` has, or what the scene's own ``camera`` asks for.
+        ``"camera.yaml"``, or a name that ``tofray list cameras`` has (files count more, as for ``load_scene``), or what the scene's own
+        ``camera`` asks for.
     mode : str
         One of the profile's modes; empty: its first.
     set : mapping
@@ -66,7 +78,7 @@ def load_camera(camera: str | os.PathLike[str] | Scene, mode: str = "", *, set: 
     if isinstance(camera, Scene):
         out: Camera = _native.load_camera_of(camera, mode, words, os.fspath(root))
     else:
-        out = _native.load_camera(os.fspath(camera), mode, words, os.fspath(root))
+        out = _native.load_camera(_chosen(_native.choose_camera(os.fspath(camera))), mode, words, os.fspath(root))
     return out
 
 

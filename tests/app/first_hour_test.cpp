@@ -77,6 +77,41 @@ TEST_F(first_hour, a_file_here_is_taken_before_what_is_built_in) {
   EXPECT_TRUE(has(tool({"check", "pico-flexx"}).err, "note: pico-flexx.yaml of this folder is taken, not the built-in camera pico-flexx"));
 }
 
+TEST_F(first_hour, a_file_here_is_taken_by_bench_list_and_process_too) {
+  save("card.yaml", "materials: {mine: {reflectivity: 0.3}}\nobjects: [sphere: {center: [0, 0, 1], radius: 20 cm, material: mine}]\n");
+  const std::string note = "note: card.yaml of this folder is taken, not the built-in scene card";
+  for (const Arguments& more :
+       {Arguments{}, Arguments{"--compare"}, Arguments{"--batch", "2"}, Arguments{"--stage", "trace", "--backend", "cpu"}}) {
+    Arguments arguments = with_small_sensor({"bench", "card", "--frames", "1", "--warmup", "0"});
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const Result result = tool(arguments);
+    EXPECT_EQ(result.code, 0) << result.err;
+    EXPECT_TRUE(has(result.err, note)) << result.err;
+    EXPECT_EQ(result.err.find(note), result.err.rfind(note)) << "once";
+  }
+  const Result list = tool({"list", "materials", "card"});
+  EXPECT_TRUE(has(list.err, note)) << list.err;
+  EXPECT_TRUE(has(list.out, "mine")) << list.out;
+  ASSERT_EQ(tool({"render", "card", "-o", "out", "--emit", "npz"}).code, 0);
+  EXPECT_FALSE(has(tool({"process", "out/frame.npz", "--camera", "pico-flexx", "--mode", "MODE_9_5FPS_2000", "-o", "depth"}).err, "note"));
+  save("pico-flexx.yaml", lone_ball);
+  const Result process =
+      tool({"process", "out/frame.npz", "--camera", "pico-flexx", "--mode", "MODE_9_5FPS_2000", "-o", "depth", "--json"});
+  EXPECT_EQ(process.code, 2) << "it is no profile";
+  EXPECT_TRUE(has(process.err, "note: pico-flexx.yaml of this folder is taken, not the built-in camera pico-flexx")) << process.err;
+  EXPECT_TRUE(has(process.err, "pico-flexx.yaml:")) << process.err;
+}
+
+TEST_F(first_hour, a_folder_here_is_inspected_before_what_is_built_in) {
+  ASSERT_EQ(tool(with_small_sensor({"render", "card", "--emit", "npz"})).code, 0);
+  const std::string note = "note: card/frame.npz is taken, not the built-in scene card";
+  const Result inspected = tool({"inspect", "card"}), shown = tool({"preview", "card"});
+  EXPECT_TRUE(has(inspected.err, note)) << inspected.err;
+  EXPECT_TRUE(has(inspected.out, "(22, 28)")) << inspected.out;
+  EXPECT_TRUE(has(shown.err, note)) << shown.err;
+  EXPECT_FALSE(has(tool({"inspect", "card/frame.npz"}).err, "note"));
+}
+
 TEST_F(first_hour, keys_of_a_profile_may_begin_with_camera) {
   const auto noise_of = [&](const Arguments& more) {
     Arguments arguments{"check", "pico-flexx", "--json"};

@@ -155,9 +155,8 @@ Report check(const std::string& name, const Options& options) {
 
 int run_check(const Options& options) {
   Remarks remarks;
-  const Chosen scene = file_before_builtin(options.words[0], load::builtin_scenes(), "scene"),
-               chosen = scene.note.empty() ? file_before_builtin(options.words[0], load::builtin_profiles(), "camera") : scene;
-  remarks.tell(chosen.note);
+  const NameChoice scene = choose_scene(options.words[0]), chosen = scene.note.empty() ? choose_camera(options.words[0]) : scene;
+  remarks.tell(note_of(chosen));
   Report report = check(chosen.name, options);
   remarks.tell(report.warnings), remarks.tell(report.odd, true);
   if (options.json)

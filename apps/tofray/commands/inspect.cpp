@@ -195,9 +195,9 @@ struct Inspected {
 };
 
 Inspected inspected(const Options& options) {
-  const Chosen chosen = file_before_builtin(frame_in(options.words[0], "inspect"), load::builtin_scenes(), "scene");
+  const NameChoice chosen = frame_or_scene(options.words[0], "inspect");
   const std::string& path = chosen.name;
-  say(chosen.note);
+  say(note_of(chosen));
   if (holds_arrays(path)) {
     refuse_missing(path);
     if (!options.set.empty() || options.seed || options.noise || !options.mode.empty())

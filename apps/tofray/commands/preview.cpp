@@ -117,7 +117,7 @@ std::string caption_of_file(const Arrays& arrays) {
   double index = 0;
   const files::Json* frame = meta.find("frame");
   if (frame == nullptr || !frame->number(index) || !(index >= 0 && index < 1e15)) index = 0;
-  return caption_of(scene, name, text_in(camera->find("mode"), "name"), static_cast<std::uint64_t>(index), stem != "frame");
+  return caption_of(scene, name, text_in(camera->find("mode"), "name"), static_cast<std::uint64_t>(index), stem.starts_with("frame_"));
 }
 
 Shown shown_of_file(const std::string& path, const Options& options) {
@@ -172,8 +172,8 @@ void show_in_terminal(const Shown& shown) {
 
 int run_preview(const Options& options) {
   if (options.output.empty()) refuse_of_files(options);
-  const Chosen chosen = file_before_builtin(frame_in(options.words[0], "preview"), load::builtin_scenes(), "scene");
-  say(chosen.note);
+  const NameChoice chosen = frame_or_scene(options.words[0], "preview");
+  say(note_of(chosen));
   const Shown shown = holds_arrays(chosen.name) ? shown_of_file(chosen.name, options) : shown_of_scene(chosen.name, options);
   if (options.output.empty()) return show_in_terminal(shown), 0;
   const pictures::Style style{options.theme, options.scale, *pictures::format_of(options.output)};
