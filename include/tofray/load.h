@@ -14,8 +14,9 @@
 namespace tofray {
 
 /// Reads a scene file (YAML 1.2 or JSON), or a built-in scene by name, whatever files of that name there are: see choose_scene().
+/// @param root  files that the scene names have to lie in or below its own folder, or in or below this one where it is not empty
 /// @throws Error with every fault of the file at once.
-Scene load_scene(const std::string& file_or_name);
+Scene load_scene(const std::string& file_or_name, const std::string& root = {});
 
 /// What a user means by a word that is both a built-in name and, with or without .yaml or .yml, a file of the working directory.
 struct NameChoice {
@@ -44,7 +45,7 @@ Camera load_camera(const std::string& file_or_name, const CameraOptions& options
 Camera load_camera(const Scene& scene, const CameraOptions& options = {});
 
 /// The same from texts. `source` stands for the file: messages name it, and what the text names is looked for beside it.
-Scene load_scene_text(const std::string& text, const std::string& source);
+Scene load_scene_text(const std::string& text, const std::string& source, const std::string& root = {});
 /// As load_camera(), likewise.
 Camera load_camera_text(const std::string& text, const std::string& source, const CameraOptions& options = {});
 

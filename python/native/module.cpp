@@ -76,9 +76,9 @@ auto freely(const Call& call) {
 }
 
 void bind_files(py::module_& module) {
-  module.def("load_scene", [](const py::object& file) {
-    const std::string name = from_text(file, {nullptr, "file"});
-    return to_python(freely([&] { return load_scene(name); }));
+  module.def("load_scene", [](const py::object& file, const py::object& root) {
+    const std::string name = from_text(file, {nullptr, "file"}), folder = from_text(root, {nullptr, "root"});
+    return to_python(freely([&] { return load_scene(name, folder); }));
   });
   // What is meant by a word, and a note where it is a file of a built-in name.
   module.def("choose_scene", [](const py::object& file) {
@@ -89,9 +89,10 @@ void bind_files(py::module_& module) {
     const NameChoice chosen = choose_camera(from_text(file, {nullptr, "file"}));
     return py::make_tuple(chosen.name, chosen.note);
   });
-  module.def("load_scene_text", [](const py::object& text, const py::object& source) {
+  module.def("load_scene_text", [](const py::object& text, const py::object& source, const py::object& root) {
     const std::string all = from_text(text, {nullptr, "text"}), name = from_text(source, {nullptr, "source"});
-    return to_python(freely([&] { return load_scene_text(all, name); }));
+    const std::string folder = from_text(root, {nullptr, "root"});
+    return to_python(freely([&] { return load_scene_text(all, name, folder); }));
   });
   module.def("load_camera", [](const py::object& file, const py::object& mode, const py::dict& set, const py::object& root) {
     const std::string name = from_text(file, {nullptr, "file"});

@@ -432,8 +432,10 @@ Scene load_scene(const std::string& file_or_name, const Settings& settings, cons
 
 namespace tofray {
 
-Scene load_scene(const std::string& file_or_name) { return load::load_scene(file_or_name, {}); }
+Scene load_scene(const std::string& file_or_name, const std::string& root) { return load::load_scene(file_or_name, {}, {root, {}}); }
 
-Scene load_scene_text(const std::string& text, const std::string& source) { return load::scene_from_text(text, source); }
+Scene load_scene_text(const std::string& text, const std::string& source, const std::string& root) {
+  return load::scene_from_text(text, source, {}, {root, {}});
+}
 
 }  // namespace tofray

@@ -112,6 +112,74 @@ TEST_F(first_hour, a_folder_here_is_inspected_before_what_is_built_in) {
   EXPECT_FALSE(has(tool({"inspect", "card/frame.npz"}).err, "note"));
 }
 
+/// What the first line of a refusal says to add, as words of a command line.
+Arguments root_said_in(const std::string& err) {
+  const std::string line = err.substr(0, err.find('\n')), before = "if this one is yours, add ";
+  const std::size_t at = line.find(before);
+  if (at == std::string::npos) return {};
+  const std::string option = line.substr(at + before.size());
+  const std::size_t blank = option.find(' ');
+  std::string folder = option.substr(blank + 1);
+  if (folder.size() > 2 && folder.front() == '"' && folder.back() == '"') folder = folder.substr(1, folder.size() - 2);
+  return {option.substr(0, blank), folder};
+}
+
+TEST_F(first_hour, a_file_outside_of_the_scenes_folder_is_refused_with_the_option_that_lets_it) {
+  const std::string corner = "v -1 -1 2\nv 1 -1 2\nv 0 1 2\nf 1 2 3\n";
+  for (const char* folder : {"scenes", "robot", "my robot", "robot/parts", "deep/in/it"}) fs::create_directories(folder_ / folder);
+  for (const char* file : {"robot/a.obj", "my robot/a.obj", "robot/parts/a.obj", "deep/in/it/a.obj", "deep/in/a.obj"}) save(file, corner);
+  for (const std::string& file :
+       Arguments{"../robot/a.obj", "../my robot/a.obj", "../robot/parts/../a.obj", "../deep/in/it/a.obj", folder_ / "robot/parts/a.obj"}) {
+    save("scenes/s.yaml", "objects: [mesh: {file: \"" + file + "\", reflectivity: 0.5, up: none}]\n");
+    const Result refused = tool({"check", "scenes/s.yaml"});
+    EXPECT_EQ(refused.code, 2);
+    EXPECT_TRUE(has(refused.err, "scenes/s.yaml:1:24: error: \"")) << refused.err;
+    EXPECT_TRUE(has(refused.err.substr(0, refused.err.find('\n')),
+                    "\" leads out of the folder of this file, and a stranger's scene shall not read your files: if this one is yours, add "
+                    "--root "))
+        << refused.err;
+    if (has(file, "my robot")) EXPECT_TRUE(has(refused.err, "add --root \"my robot\"\n")) << refused.err;
+    const Arguments root = root_said_in(refused.err);
+    ASSERT_EQ(root.size(), 2U);
+    EXPECT_EQ(root[0], "--root");
+    EXPECT_TRUE(fs::exists(folder_.path() / root[1] / "a.obj")) << root[1] << ": the file's own folder, and no more";
+    const Result taken = tool({"check", "scenes/s.yaml", root[0], root[1]});
+    EXPECT_EQ(taken.code, 0) << taken.err;
+  }
+  // Two of them: the second refusal says the folder that holds both.
+  save("scenes/s.yaml",
+       "objects:\n  - mesh: {file: ../robot/a.obj, reflectivity: 0.5, up: none}\n"
+       "  - mesh: {file: ../deep/in/a.obj, reflectivity: 0.5, up: none}\n");
+  const Arguments first = root_said_in(tool({"check", "scenes/s.yaml"}).err);
+  EXPECT_EQ(first, (Arguments{"--root", "robot"}));
+  const Result again = tool({"check", "scenes/s.yaml", "--root", "robot"});
+  EXPECT_TRUE(has(again.err, "leads out of the folder of this file and of that of --root, and a stranger's")) << again.err;
+  EXPECT_EQ(root_said_in(again.err), (Arguments{"--root", "."})) << again.err;
+  EXPECT_EQ(tool({"check", "scenes/s.yaml", "--root", "."}).code, 0);
+}
+
+TEST_F(first_hour, a_link_out_of_the_scenes_folder_is_refused_with_what_to_name) {
+  fs::create_directories(folder_ / "scenes");
+  save("a.obj", "v -1 -1 2\nv 1 -1 2\nv 0 1 2\nf 1 2 3\n");
+  fs::create_symlink(folder_ / "a.obj", folder_ / "scenes/link.obj");
+  save("scenes/s.yaml", "objects: [mesh: {file: link.obj, reflectivity: 0.5, up: none}]\n");
+  const Result refused = tool({"check", "scenes/s.yaml", "--root", "."});
+  EXPECT_EQ(refused.code, 2);
+  EXPECT_TRUE(has(refused.err, "s.yaml:1:24: error: \"link.obj\" leads out of the folder by a link, and a stranger's scene"))
+      << refused.err;
+  EXPECT_TRUE(has(refused.err, "/a.obj\", and add --root .\n")) << refused.err;
+  save("scenes/s.yaml", "objects: [mesh: {file: \"" + fs::canonical(folder_ / "a.obj").string() + "\", reflectivity: 0.5, up: none}]\n");
+  EXPECT_EQ(tool({"check", "scenes/s.yaml", "--root", "."}).code, 0);
+}
+
+TEST_F(first_hour, no_refusal_says_to_open_all_of_the_disk) {
+  save("s.yaml", "objects: [mesh: {file: /a.obj, reflectivity: 0.5}]\n");
+  EXPECT_FALSE(has(tool({"check", "s.yaml"}).err, "add --root /")) << tool({"check", "s.yaml"}).err;
+  save("s.yaml", "objects: [mesh: {file: /usr/a.obj, reflectivity: 0.5}]\n");
+  EXPECT_TRUE(has(tool({"check", "s.yaml"}).err, "add --root /usr\n")) << tool({"check", "s.yaml"}).err;
+  EXPECT_FALSE(has(tool({"check", "s.yaml", "--root", "/etc"}).err, "add --root")) << "of /etc and /usr there is nothing but all";
+}
+
 TEST_F(first_hour, keys_of_a_profile_may_begin_with_camera) {
   const auto noise_of = [&](const Arguments& more) {
     Arguments arguments{"check", "pico-flexx", "--json"};
