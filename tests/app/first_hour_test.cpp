@@ -138,7 +138,7 @@ TEST_F(first_hour, a_file_outside_of_the_scenes_folder_is_refused_with_the_optio
                     "\" leads out of the folder of this file, and a stranger's scene shall not read your files: if this one is yours, add "
                     "--root "))
         << refused.err;
-    if (has(file, "my robot")) EXPECT_TRUE(has(refused.err, "add --root \"my robot\"\n")) << refused.err;
+    EXPECT_EQ(has(file, "my robot"), has(refused.err, "add --root \"my robot\"\n")) << refused.err;
     const Arguments root = root_said_in(refused.err);
     ASSERT_EQ(root.size(), 2U);
     EXPECT_EQ(root[0], "--root");
