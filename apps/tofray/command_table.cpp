@@ -56,9 +56,11 @@ std::vector<Command> make() {
                    "tofray render room --subpixel 3                          # edges mix near and far, as in a real pixel\n"
                    "tofray render scene.yaml -o out --clean                  # what an earlier run left in out goes\n"
                    "tofray render --from out/manifest.json -o again          # the same bytes again\n",
-       .more = "SCENE is a YAML or JSON file, a name out of `tofray list scenes`, or a mesh (OBJ, PLY, STL), which is put on a floor.\n"
-               "Without -o the folder is called like the scene.\n"
-               "Same version, scene, options and seed: the same bytes, for any number of threads.\n",
+       .more =
+           "SCENE is a YAML or JSON file, - for one that comes on stdin, a name out of `tofray list scenes`, or a mesh (OBJ, PLY, STL), "
+           "which is put on a floor.\n"
+           "Without -o the folder is called like the scene.\n"
+           "Same version, scene, options and seed: the same bytes, for any number of threads.\n",
        .options = simulation_and({"--frames", "--first-frame", "--from", "--json", "--quiet"}),
        .least_words = 1,
        .most_words = 1,
@@ -143,6 +145,7 @@ std::vector<Command> make() {
        .usage = "FILE [options]",
        .summary = "read a scene or a camera profile and report every fault with its place",
        .examples = "tofray check scene.yaml\n"
+                   "make_scene.py | tofray check -                   # a scene that comes on stdin\n"
                    "tofray check mycam.yaml --sources                # names each number that does not say where it comes from\n"
                    "tofray check scene.yaml --set ambient.level=\"5 %\"\n"
                    "tofray check pico-flexx --at 0.3m..4m --reflectivity 10%,80% --ambient none,50klx    # noise and wrong cycles there\n",

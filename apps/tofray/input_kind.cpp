@@ -9,7 +9,9 @@
 #include <vector>
 
 #include "base/text.h"
+#include "files/text_file.h"
 #include "load/builtin.h"
+#include "load/convert.h"
 #include "tofray/error.h"
 #include "yaml/tree.h"
 
@@ -33,6 +35,12 @@ std::string held(const std::vector<std::string>& names, const char* none) {
 }
 
 }  // namespace
+
+NamedText text_of(const std::string& name) {
+  if (name != "-") return {load::read_named("scene", name, load::builtin_scenes()), name};
+  static const std::string typed = files::read_standard_input();
+  return {typed, "<stdin>"};
+}
 
 void refuse_missing(const std::string& path) {
   std::error_code ignored;

@@ -25,6 +25,15 @@ void refuse_folder(const std::string& path, const char* command);
 /// A camera profile is told from a scene by what it has to have.
 bool looks_like_a_profile(const std::string& text, const std::string& name);
 
+/// The text of a scene or profile that was named: of a file, or of stdin where the name is "-".
+struct NamedText {
+  std::string text;
+  std::string name;  ///< for messages and manifest.json: the file, or "<stdin>"
+};
+/// Stdin is read once, however often it is asked for.
+/// @throws Error, with what is built in where there is no such file
+NamedText text_of(const std::string& name);
+
 /// Refuses a file that is not there, and says which of its kind lie beside the place.
 /// @throws Error (io)
 void refuse_missing(const std::string& path);

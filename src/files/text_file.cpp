@@ -125,6 +125,8 @@ std::string read_text(const std::string& path) {
   return read_all(file.number(), place, path, base::limit::file_bytes);
 }
 
+std::string read_standard_input() { return read_all(STDIN_FILENO, base::whole("<stdin>"), "<stdin>", base::limit::file_bytes); }
+
 std::string read_reference(const std::string& reference, const std::string& folder, const std::string& root, const Place& place,
                            std::string& found, const base::Limit& most) {
   if (reference.find('\0') != std::string::npos) base::fail(place, "a file's name holds no NUL", "got " + in_quotes(reference));

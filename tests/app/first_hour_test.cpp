@@ -112,6 +112,33 @@ TEST_F(first_hour, a_folder_here_is_inspected_before_what_is_built_in) {
   EXPECT_FALSE(has(tool({"inspect", "card/frame.npz"}).err, "note"));
 }
 
+TEST_F(first_hour, a_scene_may_come_on_stdin) {
+  save("ball.yaml", lone_ball);
+  fs::create_directories(folder_ / "elsewhere");
+  const auto piped = [&](const char* file, const Arguments& arguments) {
+    return run(arguments, [this, file] {
+      ::dup2(::open((folder_ / file).c_str(), O_RDONLY), 0);
+      if (::chdir((folder_ / "elsewhere").c_str()) != 0) ::_exit(126);
+    });
+  };
+  const Result checked = piped("ball.yaml", {"check", "-"});
+  EXPECT_EQ(checked.code, 0) << checked.err;
+  EXPECT_TRUE(checked.out.starts_with("<stdin>: good: scene with 1 object,")) << checked.out;
+  ASSERT_EQ(piped("ball.yaml", {"render", "-", "--emit", "npz", "--seed", "2"}).code, 0);
+  ASSERT_TRUE(fs::exists(folder_ / "elsewhere/stdin/frame.npz")) << "called after where it comes from";
+  ASSERT_EQ(tool({"render", "ball.yaml", "-o", "file", "--emit", "npz", "--seed", "2"}).code, 0);
+  EXPECT_EQ(numbers_of(folder_ / "elsewhere/stdin/frame.npz", "raw"), numbers_of(folder_ / "file/frame.npz", "raw"));
+  EXPECT_EQ(tool({"render", "--from", "elsewhere/stdin/manifest.json", "-o", "again"}).code, 0) << "the manifest has it";
+  EXPECT_EQ(content(folder_ / "again/frame.npz"), content(folder_ / "elsewhere/stdin/frame.npz"));
+  save("bad.yaml", "objects:\n  - sphere: {center: [0, 0, 1], radius: 25 kg, reflectivity: 0.5}\n");
+  const Result bad = piped("bad.yaml", {"render", "-"});
+  EXPECT_EQ(bad.code, 2);
+  EXPECT_TRUE(bad.err.starts_with("<stdin>:2:41: error: radius")) << bad.err;
+  fs::copy_file(fs::path(TOFRAY_SOURCE_DIR) / "profiles/imx556.yaml", folder_ / "camera.yaml");
+  EXPECT_TRUE(has(piped("camera.yaml", {"check", "-"}).out, "<stdin>: good: camera imx556")) << "a profile, too";
+  EXPECT_EQ(tool({"check", "-"}).code, 2) << "nothing came";
+}
+
 /// What the first line of a refusal says to add, as words of a command line.
 Arguments root_said_in(const std::string& err) {
   const std::string line = err.substr(0, err.find('\n')), before = "if this one is yours, add ";

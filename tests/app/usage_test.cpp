@@ -38,7 +38,7 @@ TEST(usage, nothing_said_is_bad_usage) {
 }
 
 TEST(usage, version_and_limits) {
-  EXPECT_EQ(run({"--version"}).out, "tofray 0.2.0\n");
+  for (const char* word : {"--version", "version", "-V"}) EXPECT_EQ(run({word}).out, "tofray 0.2.0\n") << word;
   EXPECT_TRUE(has(run({"--limits"}).out, "\nsensor_pixels"));
   EXPECT_EQ(files::parse_json(run({"--version", "--json"}).out, "stdout").find("tofray")->string()->substr(0, 4), "0.2.");
   EXPECT_NE(files::parse_json(run({"--limits", "--json"}).out, "stdout").find("raw_samples"), nullptr);
@@ -264,7 +264,7 @@ TEST(completion, offers_what_the_tables_hold) {
 
 // Whatever is added to the tables is completed in all shells: their scripts only ask.
 TEST(completion, offers_every_command_and_option_that_help_names) {
-  std::vector<std::string> known = {"help", "--help", "--version", "--limits"};
+  std::vector<std::string> known = {"help", "version", "--help", "--version", "--limits"};
   known.insert(known.begin(), commands.begin(), commands.end());
   EXPECT_EQ(offered({""}), known);
   for (const std::string& command : commands) {
