@@ -148,7 +148,7 @@ std::vector<Command> make() {
                    "make_scene.py | tofray check -                   # a scene that comes on stdin\n"
                    "tofray check mycam.yaml --sources                # names each number that does not say where it comes from\n"
                    "tofray check scene.yaml --set ambient.level=\"5 %\"\n"
-                   "tofray check pico-flexx --at 0.3m..4m --reflectivity 10%,80% --ambient none,50klx    # noise and wrong cycles there\n",
+                   "tofray check pico-flexx --at 0.3m..4m --reflectivity 10% --ambient none,50klx    # noise and wrong cycles there\n",
        .options = {"--set", "--mode", "--at", "--reflectivity", "--ambient", "--sources", "--root", "--json", "--quiet"},
        .least_words = 1,
        .most_words = 1,

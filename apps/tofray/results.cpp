@@ -91,10 +91,12 @@ double median_noise(const Frame& frame) {
   return static_cast<double>(*middle);
 }
 
+bool has_light(const Camera& camera) {
+  return std::any_of(camera.illumination.begin(), camera.illumination.end(), [](const Illumination& one) { return one.power_w > 0; });
+}
+
 std::string more_light(const Frame& frame, const Camera& camera) {
-  const auto shines = [](const Illumination& one) { return one.power_w > 0; };
-  if (std::none_of(camera.illumination.begin(), camera.illumination.end(), shines))
-    return "the camera has no light: see camera.illumination";
+  if (!has_light(camera)) return "the camera has no light: see camera.illumination";
   const double noise = median_noise(frame);
   return (std::isnan(noise) ? "" : fmt::format("noise {:.2g} m at the median; ", noise)) +
          fmt::format("more light, a longer integration time, or a higher camera.decoding.noise_threshold (now {})",
@@ -142,7 +144,7 @@ Validity validity(const Frame& frame, const Camera& camera, bool wrong_cycles) {
     if (count > out.pixels.count(most)) most = reason;
   }
   const std::int64_t wrong = out.pixels.valid_on_wrong_cycle;
-  if (100 * wrong > out.pixels.valid)
+  if (100 * wrong > out.pixels.valid && has_light(camera))  // without light there is no right one
     out.advice = fmt::format("{:.0f} % of the pixels that have a depth are whole cycles off, and noise_m does not know: {}",
                              100 * static_cast<double>(wrong) / static_cast<double>(out.pixels.valid), whole_cycles(out.pixels));
   if (!out.few()) return out;

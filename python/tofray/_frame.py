@@ -397,6 +397,8 @@ def load(file: str | os.PathLike[str]) -> Frame:
     try:
         with np.load(file, allow_pickle=False) as archive:
             arrays = {one: archive[one] for one in archive.files}
+    except FileNotFoundError as fault:
+        raise IoError(f"{name}: error: there is no such file{_others_beside(name)}") from fault
     except OSError as fault:
         raise IoError(f"{name}: error: cannot be read: {fault}") from fault
     except MemoryError as fault:
@@ -413,6 +415,17 @@ def load(file: str | os.PathLike[str]) -> Frame:
     time_s = _as_told(f"{name}: gt_time_s", arrays["gt_time_s"], "float64", "[]", extents) if "gt_time_s" in arrays else 0.0
     raw, depth, truth = Raw(**parts["raw"]), Depth(**parts["depth"]), Truth(time_s=float(time_s), **parts["truth"])
     return Frame(index=meta.get("frame", 0), raw=raw, depth=depth, truth=truth, meta=meta)
+
+
+def _others_beside(name: str) -> str:
+    """A line on the npz files that are there; nothing where the folder is not."""
+    folder = os.path.dirname(name) or "."
+    try:
+        found = sorted(one for one in os.listdir(folder) if one.endswith(".npz"))
+    except OSError:
+        return ""
+    shown = found if len(found) < 3 else [found[0], "…", f"{found[-1]} ({len(found)} files)"]
+    return f"\n  the folder {folder!r} holds {' '.join(shown) or 'no .npz file'}"
 
 
 def _as_told(where: str, array: Any, dtype: str, shape: str, extents: dict[str, int]) -> Any:

@@ -294,12 +294,14 @@ TEST_F(first_hour, help_is_as_wide_as_the_terminal_and_in_groups) {
       in_folder(folder_.path())();
       ::setenv("COLUMNS", std::to_string(columns).c_str(), 1);
     };
-    for (const char* command : {"demo", "render", "process", "inspect", "diff", "check", "list", "schema", "doctor", "bench", ""}) {
+    for (const char* command :
+         {"demo", "render", "process", "inspect", "preview", "diff", "check", "list", "schema", "doctor", "bench", "completion", ""}) {
       const Result help = run(*command == '\0' ? Arguments{"--help"} : Arguments{command, "--help"}, narrow);
       std::istringstream lines(help.out);
       for (std::string line; std::getline(lines, line);)
-        // A command that is longer stands as it is typed.
-        EXPECT_TRUE(line.size() <= static_cast<std::size_t>(columns) + 4 || line.starts_with("  tofray ")) << columns << ": " << line;
+        // A command that is longer stands as it is typed; none is longer than an ordinary terminal.
+        EXPECT_TRUE(line.size() <= static_cast<std::size_t>(columns) + 4 || (columns < 80 && line.starts_with("  tofray ")))
+            << columns << ": " << line;
     }
   }
   const std::string help = tool({"render", "--help"}).out;

@@ -286,3 +286,27 @@ def test_frames_of_chosen_arrays_have_the_bytes_of_whole_ones_and_nothing_else(t
     for wrong, said in (("raw", "a list of str"), (["raws"], "did you mean \"raw\""), ([3], r"arrays\[0\]"), (["raw", ""], r"arrays\[1\]")):
         with pytest.raises(tofray.Error, match=said):
             tofray.Simulator(scene, arrays=wrong)
+
+
+def test_arrays_that_some_frames_have_say_what_they_come_with() -> None:
+    for name, what in {"multipath_m": "scene.transport.bounces", "transient_e_per_s": "scene.transport.transient.bins",
+                       "object_share": "subpixel=2"}.items():
+        with pytest.raises(AttributeError, match=f"no truth.{name} .*it comes with .*{what}"):
+            getattr(FRAME.truth, name)
+    scene = tofray.load_scene("card")
+    scene.transport.bounces, scene.transport.transient.bins, scene.transport.transient.width_m = 1, 4, 1
+    frame = tofray.Simulator(scene, subpixel=2).frame(0)
+    assert {"direct_e", "indirect_e", "multipath_m", "path_noise_m", "path_count", "transient_e_per_s", "transient_lost_e_per_s", "mixed",
+            "object_share"} <= set(frame.truth.names)
+
+
+def test_a_file_that_is_not_there_is_told_with_those_that_are(tmp_path: pathlib.Path) -> None:
+    with pytest.raises(tofray.Error, match="no such file\n  the folder '.*' holds no .npz file"):
+        tofray.load(tmp_path / "frame.npz")
+    for k in range(3):
+        np.savez(tmp_path / f"frame_{k:04}.npz")
+    with pytest.raises(tofray.Error, match="holds frame_0000.npz … frame_0002.npz \\(3 files\\)") as told:
+        tofray.load(tmp_path / "frame.npz")
+    assert isinstance(told.value, OSError)
+    with pytest.raises(tofray.Error, match="no such file$"):
+        tofray.load(tmp_path / "nowhere/frame.npz")
