@@ -36,7 +36,7 @@ std::string held(const std::vector<std::string>& names, const char* none) {
 
 }  // namespace
 
-NamedText text_of(const std::string& name) {
+NamedText named_text(const std::string& name) {
   if (name != "-") return {load::read_named("scene", name, load::builtin_scenes()), name};
   static const std::string typed = files::read_standard_input();
   return {typed, "<stdin>"};

@@ -32,7 +32,7 @@ struct NamedText {
 };
 /// Stdin is read once, however often it is asked for.
 /// @throws Error, with what is built in where there is no such file
-NamedText text_of(const std::string& name);
+NamedText named_text(const std::string& name);
 
 /// Refuses a file that is not there, and says which of its kind lie beside the place.
 /// @throws Error (io)

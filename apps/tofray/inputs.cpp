@@ -183,7 +183,7 @@ Inputs load_inputs(const std::string& scene, const Options& options) {
   } else {
     // Read once, so that a pipe is good, too, and the manifest holds what was simulated.
     refuse_folder(scene, "render");
-    const NamedText read = text_of(scene);
+    const NamedText read = named_text(scene);
     refuse_data(read.text, read.name);
     in.scene = scene_of_text(read.text, read.name, options);
     in.files.push_back({"scene", read.name, read.text});

@@ -147,7 +147,7 @@ Report check(const std::string& name, const Options& options) {
     return check_profile(std::string(profile->text), name, options);
   refuse_folder(name, "check");
   if (is_called_like_a_mesh(name)) return check_scene(name, options);
-  const NamedText read = text_of(name);
+  const NamedText read = named_text(name);
   refuse_data(read.text, read.name);
   return looks_like_a_profile(read.text, read.name) ? check_profile(read.text, read.name, options) : check_scene(name, options);
 }
