@@ -75,7 +75,7 @@ std::string CanvasPainter::finished() { return png_rgb8(canvas_.width(), canvas_
 SvgPainter::SvgPainter(int width, int height, Rgb background, int scale) {
   text_ = fmt::format(
       "<svg xmlns=\"http://www.w3.org/2000/svg\" xmlns:xlink=\"http://www.w3.org/1999/xlink\" width=\"{}\" height=\"{}\" "
-      "viewBox=\"0 0 {} {}\" font-family=\"sans-serif\">\n",
+      "viewBox=\"0 0 {} {}\" font-family=\"sans-serif\" xml:space=\"preserve\">\n",
       scale * width, scale * height, width, height);
   fill(0, 0, width, height, background);
 }

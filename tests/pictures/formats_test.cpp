@@ -165,6 +165,7 @@ TEST(raw_sheet, is_svg_and_pdf_too) {
   const Frame frame = out_test::sample_frame(30, 20);
   const std::string svg = raw_picture(frame.raw, {Theme::dark, 1, Format::svg});
   EXPECT_EQ(images_of(svg).size(), static_cast<std::size_t>(frame.raw.phases));
+  EXPECT_NE(svg.find("xml:space=\"preserve\""), std::string::npos) << "two blanks between the parts of a label stay two";
   EXPECT_TRUE(raw_picture(frame.raw, {Theme::dark, 1, Format::pdf}).starts_with("%PDF-"));
 }
 
