@@ -9,6 +9,7 @@ int run_demo(const Options& options);
 int run_render(const Options& options);
 int run_process(const Options& options);
 int run_inspect(const Options& options);
+int run_preview(const Options& options);
 int run_diff(const Options& options);
 int run_check(const Options& options);
 int run_list(const Options& options);
@@ -55,9 +56,11 @@ std::vector<Command> make() {
                    "tofray render room --subpixel 3                          # edges mix near and far, as in a real pixel\n"
                    "tofray render scene.yaml -o out --clean                  # what an earlier run left in out goes\n"
                    "tofray render --from out/manifest.json -o again          # the same bytes again\n",
-       .more = "SCENE is a YAML or JSON file, a name out of `tofray list scenes`, or a mesh (OBJ, PLY, STL), which is put on a floor.\n"
-               "Without -o the folder is called like the scene.\n"
-               "Same version, scene, options and seed: the same bytes, for any number of threads.\n",
+       .more =
+           "SCENE is a YAML or JSON file, - for one that comes on stdin, a name out of `tofray list scenes`, or a mesh (OBJ, PLY, STL), "
+           "which is put on a floor.\n"
+           "Without -o the folder is called like the scene.\n"
+           "Same version, scene, options and seed: the same bytes, for any number of threads.\n",
        .options = simulation_and({"--frames", "--first-frame", "--from", "--json", "--quiet"}),
        .least_words = 1,
        .most_words = 1,
@@ -106,6 +109,25 @@ std::vector<Command> make() {
        .most_words = 1,
        .run = run_inspect,
        .completes = "<scenes> <files>"},
+      {.name = "preview",
+       .usage = "FILE [options]",
+       .summary = "a frame as a picture, also as SVG or PDF for slides and papers; without -o in the terminal",
+       .examples = "tofray preview out -o slide.svg                  # of out/frame.npz: letters and scale bars stay sharp at any size\n"
+                   "tofray preview out/frame_0003.npz -o paper.pdf --theme light\n"
+                   "tofray preview out/frame.npz -o poster.png --scale 4\n"
+                   "tofray preview out -o raw.svg --raw              # the raw frames\n"
+                   "tofray preview room -o room.pdf                  # a scene, simulated now\n"
+                   "tofray preview out                               # z, in the terminal\n",
+       .more =
+           "FILE is a .npz file, a folder with frame.npz, a scene file or the name of a built-in scene. The end of the picture's name says "
+           "what it becomes. In SVG and PDF letters, scale bars and legend are vectors, and the images are within as pixels of the "
+           "sensor; letters of an SVG are text, which can be changed.\n",
+       .options = {"--output", "--raw", "--theme", "--scale", "--set", "--mode", "--seed", "--noise", "--exposure-samples", "--subpixel",
+                   "--bounces", "--samples", "--fps", "--root", "--threads", "--backend", "--device", "--json", "--quiet"},
+       .least_words = 1,
+       .most_words = 1,
+       .run = run_preview,
+       .completes = "<scenes> <files>"},
       {.name = "diff",
        .usage = "A B [options]",
        .summary = "compare the arrays of two files or of two folders: same, or how many values differ and by how much",
@@ -123,9 +145,10 @@ std::vector<Command> make() {
        .usage = "FILE [options]",
        .summary = "read a scene or a camera profile and report every fault with its place",
        .examples = "tofray check scene.yaml\n"
+                   "make_scene.py | tofray check -                   # a scene that comes on stdin\n"
                    "tofray check mycam.yaml --sources                # names each number that does not say where it comes from\n"
                    "tofray check scene.yaml --set ambient.level=\"5 %\"\n"
-                   "tofray check pico-flexx --at 0.3m..4m --reflectivity 10%,80% --ambient none,50klx    # noise and wrong cycles there\n",
+                   "tofray check pico-flexx --at 0.3m..4m --reflectivity 10% --ambient none,50klx    # noise and wrong cycles there\n",
        .options = {"--set", "--mode", "--at", "--reflectivity", "--ambient", "--sources", "--root", "--json", "--quiet"},
        .least_words = 1,
        .most_words = 1,

@@ -20,6 +20,7 @@ struct OptionSpec {
   void (*take)(Options& options, const std::string& value);
   const char* completes = "";  ///< what a value can be, see Command::completes
   bool list = false;           ///< several of them with "," between
+  const char* of = "";         ///< the one command that has it where others have one of the same name; empty: all others
 };
 
 struct Command {
@@ -41,7 +42,8 @@ const std::vector<OptionSpec>& all_options();
 const std::vector<Command>& all_commands();
 /// The one of that name, or none.
 const Command* find_command(std::string_view name);
-const OptionSpec& option(std::string_view name);
+/// @param command  where that one has its own of the name
+const OptionSpec& option(std::string_view name, std::string_view command = "");
 /// What help puts an option below: "Output", …
 const char* group_of(const OptionSpec& one);
 /// The options that a command has, by groups.

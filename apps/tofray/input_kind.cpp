@@ -9,6 +9,9 @@
 #include <vector>
 
 #include "base/text.h"
+#include "files/text_file.h"
+#include "load/builtin.h"
+#include "load/convert.h"
 #include "tofray/error.h"
 #include "yaml/tree.h"
 
@@ -33,20 +36,10 @@ std::string held(const std::vector<std::string>& names, const char* none) {
 
 }  // namespace
 
-Chosen file_before_builtin(const std::string& typed, const std::vector<load::Builtin>& builtins, const char* what) {
-  if (load::find_builtin(builtins, typed) == nullptr) return {typed, {}};
-  for (const char* suffix : {"", ".yaml", ".yml"}) {
-    const std::string file = typed + suffix;
-    std::error_code ignored;
-    if (!fs::is_regular_file(file, ignored)) continue;
-    // "./" keeps a name without a suffix from being that of a built-in one again.
-    const std::string name = *suffix == '\0' ? "./" + file : file;
-    return {name,
-            fmt::format(
-                "note: {} of this folder is taken, not the built-in {} {}\n  the built-in one is taken where the folder has no such file\n",
-                name, what, typed)};
-  }
-  return {typed, {}};
+NamedText named_text(const std::string& name) {
+  if (name != "-") return {load::read_named("scene", name, load::builtin_scenes()), name};
+  static const std::string typed = files::read_standard_input();
+  return {typed, "<stdin>"};
 }
 
 void refuse_missing(const std::string& path) {
@@ -117,16 +110,26 @@ void refuse_folder(const std::string& path, const char* command) {
                                          scenes.empty() ? "room" : base::printable((fs::path(path) / scenes[0]).native())));
 }
 
-std::string frame_in(const std::string& path) {
+std::string frame_in(const std::string& path, const char* command) {
   if (!is_folder(path)) return path;
   const fs::path frame = fs::path(path) / "frame.npz";
   std::error_code ignored;
   if (fs::exists(frame, ignored)) return frame.native();
   const std::vector<std::string> all = names_in(path, {".npz", ".npy"}, enough_names);
-  refuse(
-      path, "a folder without frame.npz",
-      held(all, "it holds no .npz or .npy file") +
-          (all.empty() ? "" : fmt::format("; name one, as in `tofray inspect {}`", base::printable((fs::path(path) / all[0]).native()))));
+  refuse(path, "a folder without frame.npz",
+         held(all, "it holds no .npz or .npy file") +
+             (all.empty() ? ""
+                          : fmt::format("; name one, as in `tofray {} {}`", command, base::printable((fs::path(path) / all[0]).native()))));
 }
+
+NameChoice frame_or_scene(const std::string& typed, const char* command) {
+  if (!is_folder(typed)) return choose_scene(typed);
+  const std::string file = frame_in(typed, command);
+  if (load::find_builtin(load::builtin_scenes(), typed) == nullptr) return {file, {}};
+  return {file, fmt::format("{} is taken, not the built-in scene {}\n  the built-in one is taken where there is no folder of its name",
+                            file, typed)};
+}
+
+std::string note_of(const NameChoice& choice) { return choice.note.empty() ? "" : "note: " + choice.note + "\n"; }
 
 }  // namespace tofray::app

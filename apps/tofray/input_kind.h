@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "load/builtin.h"
+#include "tofray/load.h"
 
 /// Files given to a command that takes others: what they are, and which command fits.
 namespace tofray::app {
@@ -25,13 +25,14 @@ void refuse_folder(const std::string& path, const char* command);
 /// A camera profile is told from a scene by what it has to have.
 bool looks_like_a_profile(const std::string& text, const std::string& name);
 
-/// A scene or profile by the name of one that is built in, and a file of that name here, with or without .yaml or .yml: the file wins.
-struct Chosen {
-  std::string name;  ///< the file, or what was typed
-  std::string note;  ///< one that says so; nothing where there is no choice
+/// The text of a scene or profile that was named: of a file, or of stdin where the name is "-".
+struct NamedText {
+  std::string text;
+  std::string name;  ///< for messages and manifest.json: the file, or "<stdin>"
 };
-/// @param what  "scene", "camera"
-Chosen file_before_builtin(const std::string& typed, const std::vector<load::Builtin>& builtins, const char* what);
+/// Stdin is read once, however often it is asked for.
+/// @throws Error, with what is built in where there is no such file
+NamedText named_text(const std::string& name);
 
 /// Refuses a file that is not there, and says which of its kind lie beside the place.
 /// @throws Error (io)
@@ -42,8 +43,15 @@ bool is_folder(const std::string& path);
 /// Names in a folder that end so, in order; no more than `most` files are looked at.
 std::vector<std::string> names_in(const std::string& folder, const std::vector<std::string>& endings, std::size_t most);
 
-/// The file that `inspect` means by a folder: frame.npz in it. The path itself where it is no folder.
+/// The file that `inspect` and others mean by a folder: frame.npz in it. The path itself where it is no folder.
+/// @param command  for the message
 /// @throws Error (bad_input) that lists what there is instead
-std::string frame_in(const std::string& path);
+std::string frame_in(const std::string& path, const char* command);
+
+/// The same, or a scene: a folder, and a file, count more than a built-in scene of their name. The note says so.
+NameChoice frame_or_scene(const std::string& typed, const char* command);
+
+/// A note of choose_scene() and others as it is said; nothing where there is none.
+std::string note_of(const NameChoice& choice);
 
 }  // namespace tofray::app

@@ -14,7 +14,6 @@
 #include "files/text_file.h"
 #include "input_kind.h"
 #include "load/builtin.h"
-#include "load/convert.h"
 #include "load/load.h"
 #include "load/obj_load.h"
 #include "mesh_scene.h"
@@ -184,10 +183,10 @@ Inputs load_inputs(const std::string& scene, const Options& options) {
   } else {
     // Read once, so that a pipe is good, too, and the manifest holds what was simulated.
     refuse_folder(scene, "render");
-    const std::string text = load::read_named("scene", scene, load::builtin_scenes());
-    refuse_data(text, scene);
-    in.scene = scene_of_text(text, scene, options);
-    in.files.push_back({"scene", scene, text});
+    const NamedText read = named_text(scene);
+    refuse_data(read.text, read.name);
+    in.scene = scene_of_text(read.text, read.name, options);
+    in.files.push_back({"scene", read.name, read.text});
   }
   in.idle_transport = idle_transport(in.scene, options);
   add_files(in.scene, in.files);

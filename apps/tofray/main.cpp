@@ -75,7 +75,7 @@ int run(const std::vector<std::string>& arguments) {
   const std::string& word = arguments[1];
   const std::vector<std::string> rest(arguments.begin() + 2, arguments.end());
   if (word == "--help" || word == "-h" || word == "help") return help(rest);
-  if (word == "--version") return print_version(has(rest, "--json")), 0;
+  if (word == "--version" || word == "-V" || word == "version") return print_version(has(rest, "--json")), 0;
   if (word == "--limits") return print_limits(has(rest, "--json")), 0;
   const Command* command = find_command(word);
   if (command == nullptr) unknown_command(word);

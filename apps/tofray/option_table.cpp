@@ -174,6 +174,10 @@ void take_theme(Options& o, const std::string& value) {
   o.theme = value == "light" ? pictures::Theme::light : pictures::Theme::dark;
 }
 
+void take_scale(Options& o, const std::string& value) {
+  o.scale = static_cast<int>(whole("--scale", value, 1, 8, "a whole number of 1 to 8"));
+}
+
 constexpr auto most_threads = static_cast<std::uint64_t>(base::limit::threads.value);
 constexpr int most_block = 1024;  // CUDA's threads per block; they go together in warps of 32
 constexpr const char* block_sizes_expected =
@@ -235,6 +239,23 @@ std::vector<OptionSpec> machine_specs() {
       {"--backend", 0, "NAME", "what to compute on; the results are the same (auto: a GPU if there is one)", take_backend, "auto cpu cuda"},
       {"--device", 0, "N", "which GPU, from 0 on (`tofray doctor` names them)",
        [](Options& o, const std::string& v) { o.device = static_cast<int>(whole("--device", v, 0, 1023, "a whole number of 0 to 1023")); }},
+  };
+}
+
+void take_picture(Options& o, const std::string& value) {
+  if (!pictures::format_of(value))
+    refuse("-o", value, "a picture's name that ends in .png, .svg or .pdf, as in -o slide.svg (SVG and PDF for slides and papers)");
+  o.output = value;
+}
+
+/// Of `tofray preview`.
+std::vector<OptionSpec> preview_specs() {
+  return {
+      {"--output", 'o', "FILE", "picture to write: .png, .svg or .pdf; without it the terminal shows z", take_picture, "<files>", false,
+       "preview"},
+      {"--raw", 0, nullptr, "the raw frames, in place of z, amplitude and error", [](Options& o, const std::string&) { o.raw = true; }},
+      {"--theme", 0, "NAME", "look of the picture: dark, or light for papers (dark)", take_theme, "dark light", false, "preview"},
+      {"--scale", 0, "N", "N times as many pixels along each side; of SVG and PDF N times the size (1)", take_scale, "", false, "preview"},
   };
 }
 
@@ -301,8 +322,7 @@ std::vector<OptionSpec> specs() {
        }},
       {"--emit", 0, "KINDS", "what to write, out of npz,png,ply (all for one frame, npz for many)", take_emit, "npz png ply", true},
       {"--theme", 0, "NAME", "look of preview.png and raw.png: dark, or light for papers (dark)", take_theme, "dark light"},
-      {"--scale", 0, "N", "preview.png and raw.png with N times as many pixels along each side, for slides (1)",
-       [](Options& o, const std::string& v) { o.scale = static_cast<int>(whole("--scale", v, 1, 8, "a whole number of 1 to 8")); }},
+      {"--scale", 0, "N", "preview.png and raw.png with N times as many pixels along each side, for slides (1)", take_scale},
       {"--arrays", 0, "LIST", "arrays that npz files get, as in raw,z_m,gt_* (all; `tofray list arrays` names them)",
        [](Options& o, const std::string& v) {
          (void)results::ArrayChoice(v);
@@ -327,17 +347,17 @@ std::vector<OptionSpec> specs() {
 const std::vector<OptionSpec>& all_options() {
   static const std::vector<OptionSpec> all = [] {
     std::vector<OptionSpec> joined = specs();
-    for (const std::vector<OptionSpec>& more : {machine_specs(), bench_specs(), transient_specs()})
+    for (const std::vector<OptionSpec>& more : {machine_specs(), bench_specs(), transient_specs(), preview_specs()})
       joined.insert(joined.end(), more.begin(), more.end());
     return joined;
   }();
   return all;
 }
 
-const OptionSpec& option(std::string_view name) {
-  for (const OptionSpec& one : all_options()) {
-    if (name == one.name) return one;
-  }
+const OptionSpec& option(std::string_view name, std::string_view command) {
+  for (const std::string_view of : {command, std::string_view()})
+    for (const OptionSpec& one : all_options())
+      if (name == one.name && of == one.of) return one;
   throw Error(ErrorKind::bug, fmt::format("error: no option is called {}", name));
 }
 
@@ -356,7 +376,7 @@ const std::vector<Group>& groups() {
       {"Simulation", {"--seed", "--noise", "--exposure-samples", "--subpixel", "--bounces", "--samples"}},
       {"Measuring", {"--warmup", "--compare", "--batch", "--stage", "--block-size"}},
       {"Frames", {"--frames", "--first-frame", "--from", "--pixel"}},
-      {"Output", {"--output", "--clean", "--emit", "--arrays", "--compress", "--theme", "--scale", "--json", "--quiet"}},
+      {"Output", {"--output", "--clean", "--emit", "--arrays", "--compress", "--raw", "--theme", "--scale", "--json", "--quiet"}},
       {"Machine", {"--threads", "--backend", "--device"}}};
   return all;
 }
@@ -374,7 +394,7 @@ const char* group_of(const OptionSpec& one) { return groups()[group_number(one)]
 
 std::vector<const OptionSpec*> options_of(const Command& command) {
   std::vector<const OptionSpec*> own;
-  for (const char* name : command.options) own.push_back(&option(name));
+  for (const char* name : command.options) own.push_back(&option(name, command.name));
   std::stable_sort(own.begin(), own.end(), [](const auto* a, const auto* b) { return group_number(*a) < group_number(*b); });
   return own;
 }

@@ -42,7 +42,7 @@ struct Options {
   std::vector<AmbientCase> ambients;                   ///< --ambient
   std::string transient;                               ///< --transient: a file
   std::optional<double> first_m, width_m, per_factor;  ///< --first, --width, --factor: what that file does not say
-  bool json = false, quiet = false, compare = false, clean = false, sources = false;
+  bool json = false, quiet = false, compare = false, clean = false, sources = false, raw = false;
 };
 
 }  // namespace tofray::app

@@ -23,15 +23,14 @@ namespace {
 /// Bytes that are not UTF-8 replaced as JSON replaces them: a scene that comes from a manifest has the same caption.
 std::string as_utf8(const std::string& name) { return *files::parse_json(files::json_text(files::Json(name)), "name").string(); }
 
-/// @param numbered  whether the frame is one of a series
-std::string caption(const Frame& frame, const Inputs& inputs, bool numbered) {
-  std::string text = fmt::format("{} seen by {}", as_utf8(inputs.scene.name), inputs.camera.name);
-  if (!inputs.camera.mode.name.empty()) text += " " + inputs.camera.mode.name;
-  if (numbered || frame.index > 0) text += fmt::format(", frame {}", frame.index);
+}  // namespace
+
+std::string caption_of(const std::string& scene, const std::string& camera, const std::string& mode, std::uint64_t frame, bool numbered) {
+  std::string text = fmt::format("{} seen by {}", as_utf8(scene), camera);
+  if (!mode.empty()) text += " " + mode;
+  if (numbered || frame > 0) text += fmt::format(", frame {}", frame);
   return text;
 }
-
-}  // namespace
 
 std::string gpu_of(const RanOn& machine) { return machine.backend == "cuda" ? machine.device : ""; }
 
@@ -92,10 +91,12 @@ double median_noise(const Frame& frame) {
   return static_cast<double>(*middle);
 }
 
+bool has_light(const Camera& camera) {
+  return std::any_of(camera.illumination.begin(), camera.illumination.end(), [](const Illumination& one) { return one.power_w > 0; });
+}
+
 std::string more_light(const Frame& frame, const Camera& camera) {
-  const auto shines = [](const Illumination& one) { return one.power_w > 0; };
-  if (std::none_of(camera.illumination.begin(), camera.illumination.end(), shines))
-    return "the camera has no light: see camera.illumination";
+  if (!has_light(camera)) return "the camera has no light: see camera.illumination";
   const double noise = median_noise(frame);
   return (std::isnan(noise) ? "" : fmt::format("noise {:.2g} m at the median; ", noise)) +
          fmt::format("more light, a longer integration time, or a higher camera.decoding.noise_threshold (now {})",
@@ -143,7 +144,7 @@ Validity validity(const Frame& frame, const Camera& camera, bool wrong_cycles) {
     if (count > out.pixels.count(most)) most = reason;
   }
   const std::int64_t wrong = out.pixels.valid_on_wrong_cycle;
-  if (100 * wrong > out.pixels.valid)
+  if (100 * wrong > out.pixels.valid && has_light(camera))  // without light there is no right one
     out.advice = fmt::format("{:.0f} % of the pixels that have a depth are whole cycles off, and noise_m does not know: {}",
                              100 * static_cast<double>(wrong) / static_cast<double>(out.pixels.valid), whole_cycles(out.pixels));
   if (!out.few()) return out;
@@ -205,8 +206,8 @@ std::vector<files::FileRecord> write_frame(const files::OutputFolder& folder, co
       put("depth", ".png", pictures::depth_png(frame.depth));
       put("amplitude", ".png", pictures::amplitude_png(frame.depth));
       put("raw", ".png", pictures::raw_png(frame.raw, what.theme, what.scale));
-      put("preview", ".png",
-          pictures::preview_png(frame.depth, frame.truth, frame.raw, caption(frame, in, !suffix.empty()), what.theme, what.scale));
+      const std::string caption = caption_of(in.scene.name, in.camera.name, in.camera.mode.name, frame.index, !suffix.empty());
+      put("preview", ".png", pictures::preview_png(frame.depth, frame.truth, frame.raw, caption, what.theme, what.scale));
     } else {
       put("cloud", ".ply", results::cloud_ply(frame.depth));
     }

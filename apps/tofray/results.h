@@ -78,6 +78,10 @@ std::vector<files::FileRecord> write_frame(const files::OutputFolder& folder, co
 /// The same for a single frame; the folder knows its files then.
 void write_frame(files::OutputFolder& folder, const FrameFiles& what, const Frame& frame);
 
+/// The line above a picture: "room seen by pico-flexx MODE_9_5FPS_2000, frame 3".
+/// @param numbered  whether the frame is one of a series
+std::string caption_of(const std::string& scene, const std::string& camera, const std::string& mode, std::uint64_t frame, bool numbered);
+
 /// The GPU's name; empty where the processor computed.
 std::string gpu_of(const RanOn& machine);
 /// "avx512 on 2 threads", "NVIDIA H200".

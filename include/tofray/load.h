@@ -13,9 +13,20 @@
 /// tofray::tofray along. All other headers need tofray::tofray alone.
 namespace tofray {
 
-/// Reads a scene file (YAML 1.2 or JSON), or a built-in scene by name.
+/// Reads a scene file (YAML 1.2 or JSON), or a built-in scene by name, whatever files of that name there are: see choose_scene().
+/// @param root  files that the scene names have to lie in or below its own folder, or in or below this one where it is not empty
 /// @throws Error with every fault of the file at once.
-Scene load_scene(const std::string& file_or_name);
+Scene load_scene(const std::string& file_or_name, const std::string& root = {});
+
+/// What a user means by a word that is both a built-in name and, with or without .yaml or .yml, a file of the working directory.
+struct NameChoice {
+  std::string name;  ///< for load_scene() or load_camera(): the file, or what was typed
+  std::string note;  ///< for the user: that the file is taken, and not what is built in; empty where there is no choice
+};
+/// The file counts more than a built-in scene of its name: so the command line and Python take what is typed.
+NameChoice choose_scene(const std::string& typed);
+/// The same for cameras.
+NameChoice choose_camera(const std::string& typed);
 
 /// Which mode of a profile, and what to change in it.
 struct CameraOptions {
@@ -26,7 +37,7 @@ struct CameraOptions {
   std::string root = {};
 };
 
-/// Reads a camera profile: a built-in name such as "pico-flexx", or a YAML file.
+/// Reads a camera profile: a built-in name such as "pico-flexx" (see choose_camera()), or a YAML file.
 /// @throws Error with every fault of the file at once.
 Camera load_camera(const std::string& file_or_name, const CameraOptions& options = {});
 
@@ -34,7 +45,7 @@ Camera load_camera(const std::string& file_or_name, const CameraOptions& options
 Camera load_camera(const Scene& scene, const CameraOptions& options = {});
 
 /// The same from texts. `source` stands for the file: messages name it, and what the text names is looked for beside it.
-Scene load_scene_text(const std::string& text, const std::string& source);
+Scene load_scene_text(const std::string& text, const std::string& source, const std::string& root = {});
 /// As load_camera(), likewise.
 Camera load_camera_text(const std::string& text, const std::string& source, const CameraOptions& options = {});
 

@@ -3,7 +3,10 @@
 // tofray._native: what the Python files of the package stand on.
 #include <pybind11/pybind11.h>
 
+#include <optional>
+
 #include "arrays.h"
+#include "base/text.h"
 #include "convert.h"
 #include "device_frames.h"
 #include "frames.h"
@@ -73,13 +76,23 @@ auto freely(const Call& call) {
 }
 
 void bind_files(py::module_& module) {
-  module.def("load_scene", [](const py::object& file) {
-    const std::string name = from_text(file, {nullptr, "file"});
-    return to_python(freely([&] { return load_scene(name); }));
+  module.def("load_scene", [](const py::object& file, const py::object& root) {
+    const std::string name = from_text(file, {nullptr, "file"}), folder = from_text(root, {nullptr, "root"});
+    return to_python(freely([&] { return load_scene(name, folder); }));
   });
-  module.def("load_scene_text", [](const py::object& text, const py::object& source) {
+  // What is meant by a word, and a note where it is a file of a built-in name.
+  module.def("choose_scene", [](const py::object& file) {
+    const NameChoice chosen = choose_scene(from_text(file, {nullptr, "file"}));
+    return py::make_tuple(chosen.name, chosen.note);
+  });
+  module.def("choose_camera", [](const py::object& file) {
+    const NameChoice chosen = choose_camera(from_text(file, {nullptr, "file"}));
+    return py::make_tuple(chosen.name, chosen.note);
+  });
+  module.def("load_scene_text", [](const py::object& text, const py::object& source, const py::object& root) {
     const std::string all = from_text(text, {nullptr, "text"}), name = from_text(source, {nullptr, "source"});
-    return to_python(freely([&] { return load_scene_text(all, name); }));
+    const std::string folder = from_text(root, {nullptr, "root"});
+    return to_python(freely([&] { return load_scene_text(all, name, folder); }));
   });
   module.def("load_camera", [](const py::object& file, const py::object& mode, const py::dict& set, const py::object& root) {
     const std::string name = from_text(file, {nullptr, "file"});
@@ -151,23 +164,32 @@ std::vector<std::string> lacking(const Frame& frame, const std::string& what) {
   return out;
 }
 
-std::string picture_bytes(const Frame& frame, const std::string& what, const std::string& caption, pictures::Theme look) {
-  if (what == "preview") return pictures::preview_png(frame.depth, frame.truth, frame.raw, caption, look);
-  if (what == "raw") return pictures::raw_png(frame.raw, look);
+std::string picture_bytes(const Frame& frame, const std::string& what, const std::string& caption, const pictures::Style& style) {
+  if (what == "preview") return pictures::preview_picture(frame.depth, frame.truth, frame.raw, caption, style);
+  if (what == "raw") return pictures::raw_picture(frame.raw, style);
   return what == "depth" ? pictures::depth_png(frame.depth) : pictures::amplitude_png(frame.depth);
 }
 
+/// @param file    a name that ends as the format does; of pictures for programs always ".png"
 /// @param needed  whether it is an error that an array is not there; else there is None then
-py::object picture(const py::object& frame, const std::string& what, const std::string& caption, const std::string& theme, bool needed) {
+py::object picture(const py::object& frame, const std::string& what, const std::string& caption, const std::string& theme,
+                   const py::object& scale, const std::string& file, bool needed) {
   const std::shared_ptr<Frame> one = frame_from_python(frame);
-  const pictures::Theme look = theme_of(theme);
+  pictures::Style style{theme_of(theme), 1, pictures::Format::png};
+  from_python(scale, style.scale, {nullptr, "scale"});
+  if (style.scale < 1 || style.scale > 8)
+    throw Error(ErrorKind::bad_input, "scale: error: got " + std::to_string(style.scale) + "\n  expected a whole number of 1 to 8");
+  const std::optional<pictures::Format> format = pictures::format_of(file);
+  if (!format)
+    throw Error(ErrorKind::bad_input, "file: error: got " + base::in_quotes(file) + "\n  expected a name that ends in .png, .svg or .pdf");
+  style.format = *format;
   const std::vector<std::string> missing = lacking(*one, what);
   if (!missing.empty() && !needed) return py::none();
   std::string names;
   for (const std::string& name : missing) names += (names.empty() ? "" : ", ") + name;
   if (!missing.empty())
     throw Error(ErrorKind::bad_input, "frame: error: has no " + names + "\n  expected what the picture \"" + what + "\" is made of");
-  return py::bytes(freely([&] { return picture_bytes(*one, what, caption, look); }));
+  return py::bytes(freely([&] { return picture_bytes(*one, what, caption, style); }));
 }
 
 /// Name, members with type and value of a fresh one, for each struct: tofray._model is written from it.

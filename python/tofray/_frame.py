@@ -171,13 +171,17 @@ class Frame:
         kept: NDArray[np.float32] = points[valid]
         return kept
 
-    def preview(self, theme: str = "dark") -> bytes:
+    def preview(self, theme: str = "dark", *, scale: int = 1, what: str = "preview") -> bytes:
         """The picture that the command line writes as ``preview.png``: z, amplitude and error, each on its scale.
 
         Parameters
         ----------
         theme : {"dark", "light"}
             Light writing on a dark ground, or dark on white.
+        scale : int
+            1 to 8: times as many pixels along either side, letters drawn as finely. 2 is for slides.
+        what : {"preview", "raw"}
+            "raw": the raw frames, as ``raw.png``.
 
         Returns
         -------
@@ -187,9 +191,43 @@ class Frame:
         Raises
         ------
         Error
-            Where the frame lacks an array of it, by name.
+            Where the frame lacks an array of it, by name; for another word or scale.
         """
-        picture = _native.picture(self, "preview", self._caption(), theme, True)
+        return self._picture(what, theme, scale, ".png")
+
+    def save_preview(self, file: str | os.PathLike[str], theme: str = "dark", *, scale: int = 1, what: str = "preview") -> str:
+        """Writes the picture of ``preview()`` into a file, which becomes what its name ends in: PNG, SVG or PDF.
+
+        In SVG and PDF letters, scale bars and legend are vectors, and the images are within as pixels of the sensor.
+
+        Parameters
+        ----------
+        file : path
+            ``"slide.svg"``, ``"paper.pdf"``, ``"preview.png"``. A file of this name is replaced.
+        theme, scale, what
+            As of ``preview``; an SVG or PDF is ``scale`` times as large.
+
+        Returns
+        -------
+        str
+            The file.
+
+        Raises
+        ------
+        Error
+            As ``preview``; for another ending; of kind "io" where the file cannot be written.
+        """
+        name = os.fspath(file)
+        picture = self._picture(what, theme, scale, name)
+        try:
+            return _write(name, picture)
+        except OSError as fault:
+            raise IoError(f"{name}: error: {fault.strerror}") from fault
+
+    def _picture(self, what: str, theme: str, scale: int, file: str) -> bytes:
+        if what not in ("preview", "raw"):
+            raise BadInput(f"what: error: got {what!r}\n  expected preview or raw")
+        picture = _native.picture(self, what, self._caption(), theme, scale, file, True)
         assert picture is not None
         return picture
 
@@ -197,7 +235,7 @@ class Frame:
         """Of a frame out of a file: what the file says."""
         return self._options or {name: self.meta[name] for name in ("seed", "noise", "exposure_samples", "subpixel") if name in self.meta}
 
-    def save(self, folder: str | os.PathLike[str], *, compress: bool = False) -> list[str]:
+    def save(self, folder: str | os.PathLike[str], *, compress: bool = False, theme: str = "dark", scale: int = 1) -> list[str]:
         """Writes ``frame.npz``, and the pictures that it has the arrays for, into a folder, which is made if need be.
 
         ``frame.npz`` has the same bytes as the command line's for the same scene, camera, options and seed. That of a frame out of a
@@ -209,6 +247,8 @@ class Frame:
             Files of the same names in it are replaced.
         compress : bool
             Smaller and slower: deflated arrays.
+        theme, scale
+            Of ``preview.png`` and ``raw.png``, as of ``preview``.
 
         Returns
         -------
@@ -228,7 +268,7 @@ class Frame:
             self._own()
         files = {"frame.npz": _native.frame_npz(self, self._scene, self._camera, self._own_options(), compress)}
         for what in ("preview", "depth", "amplitude", "raw"):
-            picture = _native.picture(self, what, self._caption(), "dark", False)
+            picture = _native.picture(self, what, self._caption(), theme, scale, ".png", False)
             if picture is not None:
                 files[what + ".png"] = picture
         try:
@@ -296,7 +336,7 @@ class Frame:
 
     def _repr_png_(self) -> bytes | None:
         try:
-            return _native.picture(self, "preview", self._caption(), "dark", False)
+            return _native.picture(self, "preview", self._caption(), "dark", 1, ".png", False)
         except BadInput:  # arrays that do not fit together: a notebook shows the rest
             return None
 
@@ -357,6 +397,8 @@ def load(file: str | os.PathLike[str]) -> Frame:
     try:
         with np.load(file, allow_pickle=False) as archive:
             arrays = {one: archive[one] for one in archive.files}
+    except FileNotFoundError as fault:
+        raise IoError(f"{name}: error: there is no such file{_others_beside(name)}") from fault
     except OSError as fault:
         raise IoError(f"{name}: error: cannot be read: {fault}") from fault
     except MemoryError as fault:
@@ -373,6 +415,17 @@ def load(file: str | os.PathLike[str]) -> Frame:
     time_s = _as_told(f"{name}: gt_time_s", arrays["gt_time_s"], "float64", "[]", extents) if "gt_time_s" in arrays else 0.0
     raw, depth, truth = Raw(**parts["raw"]), Depth(**parts["depth"]), Truth(time_s=float(time_s), **parts["truth"])
     return Frame(index=meta.get("frame", 0), raw=raw, depth=depth, truth=truth, meta=meta)
+
+
+def _others_beside(name: str) -> str:
+    """A line on the npz files that are there; nothing where the folder is not."""
+    folder = os.path.dirname(name) or "."
+    try:
+        found = sorted(one for one in os.listdir(folder) if one.endswith(".npz"))
+    except OSError:
+        return ""
+    shown = found if len(found) < 3 else [found[0], "…", f"{found[-1]} ({len(found)} files)"]
+    return f"\n  the folder {folder!r} holds {' '.join(shown) or 'no .npz file'}"
 
 
 def _as_told(where: str, array: Any, dtype: str, shape: str, extents: dict[str, int]) -> Any:

@@ -17,13 +17,16 @@ if TYPE_CHECKING:
     from ._model import Camera
 
 
-def load_scene(file: str | os.PathLike[str]) -> Scene:
+def load_scene(file: str | os.PathLike[str], *, root: str | os.PathLike[str] = "") -> Scene:
     """Reads a scene file (YAML 1.2 or JSON), or a built-in scene by name.
 
     Parameters
     ----------
     file : path or name
-        ``"room.yaml"``, or a name that ``tofray list scenes`` has: ``"demo"``.
+        ``"room.yaml"``, or a name that ``tofray list scenes`` has: ``"demo"``. A file of the working directory that is called so, with or
+        without ``.yaml``, counts more, and a ``UserWarning`` says so.
+    root : path
+        Files that the scene names have to lie in or below its own folder, or this one: a scene may be a stranger's.
 
     Returns
     -------
@@ -34,8 +37,30 @@ def load_scene(file: str | os.PathLike[str]) -> Scene:
     Error
         With every fault of the file at once, by line and column.
     """
-    scene: Scene = _native.load_scene(os.fspath(file))
+    name = _chosen(_native.choose_scene(os.fspath(file)))
+    scene: Scene = _in_words_of_python(lambda: _native.load_scene(name, os.fspath(root)))
     return scene
+
+
+def _in_words_of_python(read: Any) -> Any:
+    """What an error says of the command line's options is said of the parameters that stand for them."""
+    try:
+        return read()
+    except Error as fault:
+        text = re.sub(r'--root ("[^"\n]*"|\S+)', lambda found: "root=" + (found[1] if found[1] == "DIR" else json.dumps(found[1].strip('"'))),
+                      str(fault))
+        text = re.sub(r"^--(mode|set)\b", r"\1", text, flags=re.M).replace("of --root", "of root")
+        raise error_of(fault.kind, text) from None
+
+
+def _chosen(choice: tuple[str, str]) -> str:
+    """The file or name that is meant; whoever called the public function hears of it where there was a choice."""
+    name, note = choice
+    if note:
+        import warnings
+
+        warnings.warn(note, stacklevel=3)
+    return name
 
 
 def load_camera(camera: str | os.PathLike[str] | Scene, mode: str = "", *, set: Mapping[str, Any] | None = None,
@@ -45,7 +70,8 @@ def load_camera(camera: str | os.PathLike[str] | Scene, mode: str = "", *, set: 
     Parameters
     ----------
     camera : path, name or Scene
-        ``"camera.yaml"``, or a name that ``tofray list cameras`` has, or what the scene's own ``camera`` asks for.
+        ``"camera.yaml"``, or a name that ``tofray list cameras`` has (files count more, as for ``load_scene``), or what the scene's own
+        ``camera`` asks for.
     mode : str
         One of the profile's modes; empty: its first.
     set : mapping
@@ -64,13 +90,16 @@ def load_camera(camera: str | os.PathLike[str] | Scene, mode: str = "", *, set: 
     """
     words = {key: value if isinstance(value, str) else _Text().text_of(value, key) for key, value in dict(set or {}).items()}
     if isinstance(camera, Scene):
-        out: Camera = _native.load_camera_of(camera, mode, words, os.fspath(root))
+        seen = camera
+        out: Camera = _in_words_of_python(lambda: _native.load_camera_of(seen, mode, words, os.fspath(root)))
     else:
-        out = _native.load_camera(os.fspath(camera), mode, words, os.fspath(root))
+        name = _chosen(_native.choose_camera(os.fspath(camera)))
+        out = _in_words_of_python(lambda: _native.load_camera(name, mode, words, os.fspath(root)))
     return out
 
 
-def scene(description: Mapping[str, Any], *, name: str = "scene", folder: str | os.PathLike[str] = ".") -> Scene:
+def scene(description: Mapping[str, Any], *, name: str = "scene", folder: str | os.PathLike[str] = ".",
+          root: str | os.PathLike[str] = "") -> Scene:
     """A scene out of a dict, exactly as in YAML: units in strings, the same keys, the same checks.
 
     Parameters
@@ -81,6 +110,8 @@ def scene(description: Mapping[str, Any], *, name: str = "scene", folder: str | 
         What pictures and files call it.
     folder : path
         Where meshes and profiles that it names lie.
+    root : path
+        They have to lie in or below that folder, or this one.
 
     Returns
     -------
@@ -91,7 +122,8 @@ def scene(description: Mapping[str, Any], *, name: str = "scene", folder: str | 
     Error
         With every fault at once; each names its member: ``objects[0].sphere.radius: error: …``
     """
-    out: Scene = _from_dict(description, os.path.join(os.fspath(folder), name + ".yaml"), _native.load_scene_text)
+    out: Scene = _from_dict(description, os.path.join(os.fspath(folder), name + ".yaml"),
+                            lambda text, source: _in_words_of_python(lambda: _native.load_scene_text(text, source, os.fspath(root))))
     for one in out.objects:
         one.where = ""  # a place in a text that nobody has seen: `key` says which it is
     return out

@@ -18,6 +18,14 @@ _SIZES = ("width", "height", "phases", "bins", "time_s")
 _EXTENTS = {"phase": "phases", "height": "height", "width": "width", "bin": "bins"}
 
 
+# Arrays that only some frames have, and what of the scene or simulator makes them; sub-pixel samples and bounces are off unless asked for.
+_COMES_WITH = {
+    **dict.fromkeys(("direct_e", "indirect_e", "multipath_m", "path_noise_m", "path_count"), "it comes with scene.transport.bounces above 0"),
+    **dict.fromkeys(("transient_e_per_s", "transient_lost_e_per_s"), "it comes with scene.transport.transient.bins above 0"),
+    **dict.fromkeys(("mixed", "object_share"), "it comes with Simulator(…, subpixel=2) or more"),
+}
+
+
 class Part:
     """A part of a frame: numpy arrays that are views of the frame's memory, and keep it alive.
 
@@ -112,9 +120,9 @@ class Part:
             raise AttributeError(f"{type(self).__name__} has no array {name!r}; it may have {', '.join(self._rows)}")
         array = self.get(name)
         if array is None:
-            raise AttributeError(
-                f"this frame has no {self._part}.{name} ({self._rows[name][0]}): it was not asked for, or a stage before it was the last\n"
-                f"  it has {', '.join(self.names) or 'none'}")
+            why = _COMES_WITH.get(name, "it was not asked for, or a stage before it was the last")
+            raise AttributeError(f"this frame has no {self._part}.{name} ({self._rows[name][0]}): {why}\n"
+                                 f"  it has {', '.join(self.names) or 'none'}")
         return array
 
     def __setattr__(self, name: str, value: Any) -> None:

@@ -69,10 +69,45 @@ int open_beneath(const std::string& folder, const std::string& relative) {
   return ::open(real.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY | O_NOFOLLOW);
 }
 
-[[noreturn]] void refuse(const Place& place, const std::string& reference) {
-  base::fail(place, in_quotes(reference) + " leads out of the folder of this file",
-             "expected a path in or below that folder, without \"..\": what a stranger's scene names shall not be any file of yours\n"
-             "--root DIR lets a scene name files in or below DIR, too, by their paths from there");
+/// What stands before both.
+fs::path common_folder(const fs::path& a, const fs::path& b) {
+  fs::path out;
+  for (auto in_a = a.begin(), in_b = b.begin(); in_a != a.end() && in_b != b.end() && *in_a == *in_b; ++in_a, ++in_b) out /= *in_a;
+  return out;
+}
+
+/// As it is typed here: from the working directory on where that is shorter, in quotes where it has to be.
+std::string as_typed(const fs::path& folder) {
+  std::error_code ignored;
+  const std::string far = folder.string(), near = folder.lexically_relative(fs::current_path(ignored)).string();
+  const std::string shown = base::printable(near.empty() || near.size() > far.size() ? far : near);
+  return shown.find_first_of(" \t'$`*?&;|<>()[]{}#~!\\") == std::string::npos ? shown : '"' + shown + '"';
+}
+
+/// The folder that --root has to name for this file: its own, or the one that holds it and what --root names already.
+/// @return as it is typed; empty where that would be all there is
+std::string wanted_root(const std::string& folder, const std::string& reference, const std::string& root) {
+  std::error_code ignored;
+  fs::path wanted = fs::weakly_canonical(fs::path(folder) / reference, ignored).parent_path();
+  if (!root.empty()) wanted = common_folder(fs::weakly_canonical(root, ignored), wanted);
+  return wanted.empty() || wanted == wanted.root_path() ? "" : as_typed(wanted);
+}
+
+[[noreturn]] void refuse(const Place& place, const std::string& reference, const std::string& folder, const std::string& root) {
+  const std::string wanted = wanted_root(folder, reference, root);
+  const std::string what = in_quotes(reference) + " leads out of the folder of this file" + (root.empty() ? "" : " and of that of --root") +
+                           ", and a stranger's scene shall not read your files";
+  base::fail(place, what + (wanted.empty() ? "" : ": if this one is yours, add --root " + wanted),
+             "expected a path in or below that folder, without \"..\"; with --root DIR in or below DIR, too");
+}
+
+/// A link is followed within the folder alone, whatever --root says: what it is cannot be seen in the scene.
+[[noreturn]] void refuse_link(const Place& place, const std::string& reference, const std::string& found) {
+  std::error_code ignored;
+  const fs::path target = fs::weakly_canonical(found, ignored);
+  base::fail(place, in_quotes(reference) + " leads out of the folder by a link, and a stranger's scene shall not read your files",
+             "expected a plain file; where this is yours, name what the link leads to, " + in_quotes(target.string(), 200) +
+                 ", and add --root " + as_typed(target.parent_path()));
 }
 
 }  // namespace
@@ -90,22 +125,24 @@ std::string read_text(const std::string& path) {
   return read_all(file.number(), place, path, base::limit::file_bytes);
 }
 
+std::string read_standard_input() { return read_all(STDIN_FILENO, base::whole("<stdin>"), "<stdin>", base::limit::file_bytes); }
+
 std::string read_reference(const std::string& reference, const std::string& folder, const std::string& root, const Place& place,
                            std::string& found, const base::Limit& most) {
   if (reference.find('\0') != std::string::npos) base::fail(place, "a file's name holds no NUL", "got " + in_quotes(reference));
   std::string from = folder.empty() ? "." : folder;
   fs::path relative(reference);
   if (leads_out(relative)) {
-    if (root.empty()) refuse(place, reference);
+    if (root.empty()) refuse(place, reference, from, root);
     std::error_code ignored;
     relative = fs::weakly_canonical(fs::path(from) / reference, ignored).lexically_relative(fs::weakly_canonical(root, ignored));
+    if (relative.empty() || leads_out(relative)) refuse(place, reference, from, root);
     from = root;
-    if (relative.empty() || leads_out(relative)) refuse(place, reference);
   }
   const Descriptor file(open_beneath(from, relative.string()));
   found = (fs::path(from) / relative).lexically_normal().string();
   if (file.number() < 0) {
-    if (errno == EXDEV || errno == ELOOP) refuse(place, reference);
+    if (errno == EXDEV || errno == ELOOP) refuse_link(place, reference, found);
     base::fail(place, "cannot open " + in_quotes(found, 200) + ": " + std::strerror(errno), {}, ErrorKind::io);
   }
   struct stat status {};

@@ -13,6 +13,9 @@ namespace tofray::files {
 /// @throws Error (io) where it cannot be read, (limit) where it is longer than limit::file_bytes
 std::string read_text(const std::string& path);
 
+/// What comes on stdin, to its end. @throws Error as read_text
+std::string read_standard_input();
+
 /// What a file may point to: `reference` relative to `folder`, and in or below it; with a `root`, in or below that.
 /// Absolute paths, "..", links that lead out, and anything but a plain file are refused and never read.
 /// @param place    who points there, for messages

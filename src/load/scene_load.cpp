@@ -413,7 +413,8 @@ Scene scene_from_text(const std::string& text, const std::string& source, const 
   apply(root, settings);
   Scene scene = interpret(root, source, meshes);
   scene.source = source;
-  const std::string stem = std::filesystem::path(source).stem().string();
+  std::string stem = std::filesystem::path(source).stem().string();
+  if (stem.starts_with("<") && stem.ends_with(">")) stem = stem.substr(1, stem.size() - 2);  // of no file: <stdin>
   // The name becomes a folder's: "." and ".." are folders that have one.
   scene.name = stem.empty() || stem == "." || stem == ".." ? "scene" : stem;
   return scene;
@@ -432,8 +433,10 @@ Scene load_scene(const std::string& file_or_name, const Settings& settings, cons
 
 namespace tofray {
 
-Scene load_scene(const std::string& file_or_name) { return load::load_scene(file_or_name, {}); }
+Scene load_scene(const std::string& file_or_name, const std::string& root) { return load::load_scene(file_or_name, {}, {root, {}}); }
 
-Scene load_scene_text(const std::string& text, const std::string& source) { return load::scene_from_text(text, source); }
+Scene load_scene_text(const std::string& text, const std::string& source, const std::string& root) {
+  return load::scene_from_text(text, source, {}, {root, {}});
+}
 
 }  // namespace tofray

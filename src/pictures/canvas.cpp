@@ -11,22 +11,21 @@
 #include "base/constants.h"
 #include "base/text.h"
 #include "pictures/carried_font.h"
+#include "pictures/letters.h"
 #include "tofray/error.h"
 
 namespace tofray::pictures {
-namespace {
 
-void check(cairo_t* context) {
+void refuse_failure(cairo_t* context) {
   if (const cairo_status_t status = cairo_status(context); status != CAIRO_STATUS_SUCCESS)
     throw Error(ErrorKind::limit, std::string("error: a picture could not be drawn: ") + cairo_status_to_string(status));
 }
 
 /// Letters keep their shapes and places whatever the screen is like: no hints, no colours at their edges.
 void set_font(cairo_t* context, double size) {
-  constexpr double capital = 0.72;  // of what fonts call their size
   use_carried_font();
   cairo_select_font_face(context, "sans-serif", CAIRO_FONT_SLANT_NORMAL, CAIRO_FONT_WEIGHT_NORMAL);
-  cairo_set_font_size(context, size / capital);
+  cairo_set_font_size(context, size / capital_height);
   cairo_font_options_t* options = cairo_font_options_create();
   cairo_font_options_set_antialias(options, CAIRO_ANTIALIAS_GRAY);
   cairo_font_options_set_hint_style(options, CAIRO_HINT_STYLE_NONE);
@@ -34,8 +33,6 @@ void set_font(cairo_t* context, double size) {
   cairo_set_font_options(context, options);
   cairo_font_options_destroy(options);
 }
-
-}  // namespace
 
 /// A part of a canvas that cairo draws on, in the canvas's coordinates: how much of each pixel is covered.
 class Canvas::Mask {
@@ -60,7 +57,7 @@ class Canvas::Mask {
   /// To be called when all is drawn. @throws Error (limit): cairo fails where memory does
   void finish() const {
     cairo_surface_flush(surface_.get());
-    check(context());
+    refuse_failure(context());
   }
 
   const int left, top, width, height;

@@ -6,11 +6,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 
 #include "num/setup_math.h"
-#include "pictures/chart_painter.h"
 #include "pictures/figure.h"
-#include "pictures/png_file.h"
+#include "pictures/painter.h"
 
 namespace tofray::pictures {
 
@@ -165,16 +165,18 @@ Rgb curve_color(std::size_t number) {
   return colors[number % std::size(colors)];
 }
 
-std::string chart_png(const Chart& chart) {
-  CanvasPainter painter(chart_width, chart_height, figure::background);
-  Drawing(chart, painter).draw();
-  return png_rgb8(chart_width, chart_height, painter.canvas().pixels());
+namespace {
+
+std::string chart_file(const Chart& chart, Format format) {
+  const std::unique_ptr<Painter> painter = painter_of(format, chart_width, chart_height, figure::background);
+  Drawing(chart, *painter).draw();
+  return painter->finished();
 }
 
-std::string chart_svg(const Chart& chart) {
-  SvgPainter painter(chart_width, chart_height, figure::background);
-  Drawing(chart, painter).draw();
-  return painter.finished();
-}
+}  // namespace
+
+std::string chart_png(const Chart& chart) { return chart_file(chart, Format::png); }
+
+std::string chart_svg(const Chart& chart) { return chart_file(chart, Format::svg); }
 
 }  // namespace tofray::pictures

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace tofray::pictures {
 
@@ -36,14 +37,18 @@ int width_with_labels(const PictureScale& scale) {
   return figure::bar_width + std::max(figure::label_width, figure::label_gap + static_cast<int>(std::ceil(label)) + figure::bar_gap);
 }
 
-void draw_scale_bar(Canvas& canvas, int x, int y, int height, const ValueColors& colors, const Look& look) {
-  canvas.fill(x - 1, y - 1, figure::bar_width + 2, height + 2, look.faint_ink);  // so that neither end runs into the ground
+void draw_scale_bar(Painter& painter, int x, int y, int height, const ValueColors& colors, const Look& look) {
+  painter.fill(x - 1, y - 1, figure::bar_width + 2, height + 2, look.faint_ink);  // so that neither end runs into the ground
   // the colour of each line: the value whose place is there, found by halving (places rise with values)
+  std::optional<Rgb> last_color;
   for (int line = 0; line < height; ++line) {
     const double place = 1 - (line + 0.5) / height;
     double low = colors.scale.low, high = colors.scale.high;
     for (int i = 0; i < 30; ++i) (colors.place(0.5 * (low + high)) < place ? low : high) = 0.5 * (low + high);
-    canvas.fill(x, y + line, figure::bar_width, 1, colors.color(0.5 * (low + high)));
+    const Rgb color = colors.color(0.5 * (low + high));
+    // down to the end, so that no ground shines through between two lines of a picture that is no grid of pixels
+    if (last_color != color) painter.fill(x, y + line, figure::bar_width, height - line, color);
+    last_color = color;
   }
   double last = 1e9;
   for (const double tick : colors.scale.ticks()) {
@@ -51,9 +56,9 @@ void draw_scale_bar(Canvas& canvas, int x, int y, int height, const ValueColors&
     if (last - line < 2.2 * figure::label_size) continue;  // on a curved bar ticks may crowd
     last = line;
     const int at = std::clamp(static_cast<int>(line), y, y + height - 1);
-    canvas.fill(x + figure::bar_width, at, 5, 1, look.faint_ink);
-    canvas.text(x + figure::bar_width + figure::label_gap, line + 0.5 * figure::label_size, figure::label_size, look.ink,
-                colors.scale.label(tick));
+    painter.fill(x + figure::bar_width, at, 5, 1, look.faint_ink);
+    painter.text({static_cast<double>(x + figure::bar_width + figure::label_gap), line + 0.5 * figure::label_size}, figure::label_size,
+                 look.ink, Align::left, colors.scale.label(tick));
   }
 }
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "pictures/canvas.h"
+#include "pictures/painter.h"
 #include "pictures/picture_scale.h"
 #include "pictures/pictures.h"
 
@@ -42,7 +42,7 @@ std::vector<Rgb> colored(const std::vector<double>& values, const ValueColors& c
 int width_with_labels(const PictureScale& scale);
 
 /// A vertical bar with ticks and labels to its right.
-void draw_scale_bar(Canvas& canvas, int x, int y, int height, const ValueColors& colors, const Look& look);
+void draw_scale_bar(Painter& painter, int x, int y, int height, const ValueColors& colors, const Look& look);
 
 /// By how much an image of this width is enlarged to be about `wanted` pixels wide: 1…8.
 int enlargement(int width, int wanted);

@@ -33,6 +33,21 @@ const char* flag_name(int bit) {
   return names[bit];
 }
 
+std::optional<Format> format_of(std::string_view file) {
+  std::string ending(file.substr(file.size() < 4 ? 0 : file.size() - 4));
+  for (char& one : ending) one = one >= 'A' && one <= 'Z' ? static_cast<char>(one - 'A' + 'a') : one;
+  if (ending == ".png") return Format::png;
+  if (ending == ".svg") return Format::svg;
+  if (ending == ".pdf") return Format::pdf;
+  return {};
+}
+
+std::string raw_png(const Raw& raw, Theme theme, int scale) { return raw_picture(raw, {theme, scale, Format::png}); }
+
+std::string preview_png(const Depth& depth, const Truth& truth, const Raw& raw, const std::string& caption, Theme theme, int scale) {
+  return preview_picture(depth, truth, raw, caption, {theme, scale, Format::png});
+}
+
 std::string depth_png(const Depth& depth) {
   std::vector<std::uint16_t> millimetres;
   millimetres.reserve(depth.z_m.size());

@@ -2,16 +2,30 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include <cstdint>
+#include <optional>
 #include <string>
+#include <string_view>
 
 #include "tofray/frame.h"
 
-/// Pictures of a frame as PNG files in memory. The same frame gives the same bytes on every machine, but for the letters of raw.png and
+/// Pictures of a frame as files in memory, those for people also as SVG and PDF. The same frame gives the same bytes on every machine, but for the letters of raw.png and
 /// preview.png, which are those of the machine's font.
 namespace tofray::pictures {
 
 /// Light writing on a dark ground for screens, or dark on white for papers. Colours of values are the same in both.
 enum class Theme : std::uint8_t { dark, light };
+
+/// What file a picture becomes: SVG and PDF have letters, lines and scale bars as such, and each image as a PNG or the like within.
+enum class Format : std::uint8_t { png, svg, pdf };
+/// By the ending of a file's name, in small or capital letters: .png, .svg, .pdf; none for others.
+std::optional<Format> format_of(std::string_view file);
+
+/// How a picture looks.
+struct Style {
+  Theme theme = Theme::dark;
+  int scale = 1;  ///< times as many pixels along either side (SVG and PDF: as large), letters drawn as finely: 2 for slides
+  Format format = Format::png;
+};
 
 /// Which bit of Depth::flags explains best why a pixel is invalid: outside the lens, saturated, no return, low signal, flying, in this
 /// order, then the warnings for which it was rejected; for a pixel that got nothing back is also weak and noisy. −1: it is valid.
@@ -29,7 +43,7 @@ std::string amplitude_png(const Depth& depth);
 /// raw.png: the raw frames as a labelled contact sheet, one row per modulation frequency. One scale of codes, from the 0.5th to the 99.5th
 /// percentile of the lit raw frames; an unlit one of which more than 2 % lie beyond it, as in the sun, has a scale of its own beside
 /// its label. Without `raw` it shows tap A − tap B in electrons.
-/// @param scale  times as many pixels along either side, letters drawn as finely: 2 for slides
+std::string raw_picture(const Raw& raw, const Style& style);
 std::string raw_png(const Raw& raw, Theme theme = Theme::dark, int scale = 1);
 
 /// preview.png, for people: z in colours (scale: 1st to 99th percentile; where truth is known, of pixels that are no cycle off), amplitude (0 to 99.5th), and the error z − gt_z (± the 98th
@@ -39,7 +53,7 @@ std::string raw_png(const Raw& raw, Theme theme = Theme::dark, int scale = 1);
 /// invalid_reason(), which a legend names with its share.
 /// @param raw      says which raw frames are lit, and at which modulation frequency
 /// @param caption  one line above, UTF-8; may be empty
-/// @param scale    as of raw_png()
+std::string preview_picture(const Depth& depth, const Truth& truth, const Raw& raw, const std::string& caption, const Style& style);
 std::string preview_png(const Depth& depth, const Truth& truth, const Raw& raw, const std::string& caption, Theme theme = Theme::dark,
                         int scale = 1);
 

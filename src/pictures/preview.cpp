@@ -5,12 +5,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <memory>
 
 #include "base/constants.h"
 #include "base/text.h"
 #include "pictures/figure.h"
 #include "pictures/pictures.h"
-#include "pictures/png_file.h"
 
 namespace tofray::pictures {
 namespace {
@@ -170,21 +170,24 @@ std::vector<LegendEntry> legend_of(const Depth& depth, const Look& look) {
 
 constexpr int legend_square = 11, legend_line = 22;
 
-/// From left to right, in as many lines as it takes. @return the lines; nothing is drawn without a canvas
-int draw_legend(Canvas* canvas, int top, int width, const std::vector<LegendEntry>& legend, const Look& look) {
+/// From left to right, in as many lines as it takes. @return the lines; nothing is drawn without a painter
+int draw_legend(Painter* painter, int top, int width, const std::vector<LegendEntry>& legend, const Look& look) {
   const std::string title = "invalid in z:";
   const int start = figure::margin + static_cast<int>(Canvas::text_width(figure::note_size, title)) + 14;
   if (legend.empty()) return 0;
-  if (canvas != nullptr) canvas->text(figure::margin, top + legend_square - 1, figure::note_size, look.faint_ink, title);
+  const auto text = [&](double left, double line, Rgb color, const std::string& words) {
+    painter->text({left, line}, figure::note_size, color, Align::left, words);
+  };
+  if (painter != nullptr) text(figure::margin, top + legend_square - 1, look.faint_ink, title);
   int x = start, lines = 1;
   for (const LegendEntry& entry : legend) {
     const int needed = legend_square + 7 + static_cast<int>(Canvas::text_width(figure::note_size, entry.text)) + 22;
     if (x > start && x + needed > width) x = start, ++lines;
     const int y = top + (lines - 1) * legend_line;
-    if (canvas != nullptr) {
-      canvas->fill(x - 1, y - 1, legend_square + 2, legend_square + 2, look.faint_ink);
-      canvas->fill(x, y, legend_square, legend_square, entry.color);
-      canvas->text(x + legend_square + 7, y + legend_square - 1, figure::note_size, look.ink, entry.text);
+    if (painter != nullptr) {
+      painter->fill(x - 1, y - 1, legend_square + 2, legend_square + 2, look.faint_ink);
+      painter->fill(x, y, legend_square, legend_square, entry.color);
+      text(x + legend_square + 7, y + legend_square - 1, look.ink, entry.text);
     }
     x += needed;
   }
@@ -225,31 +228,34 @@ Layout layout_of(const Depth& depth, const std::vector<Panel>& panels, const std
 
 }  // namespace
 
-std::string preview_png(const Depth& depth, const Truth& truth, const Raw& raw, const std::string& caption, Theme theme, int scale) {
+std::string preview_picture(const Depth& depth, const Truth& truth, const Raw& raw, const std::string& caption, const Style& style) {
   const bool with_truth = truth.z_m.size() == depth.z_m.size();
-  const Look& look = look_of(theme);
+  const Look& look = look_of(style.theme);
   std::vector<Panel> panels = {depth_panel(depth, truth, raw), amplitude_panel(depth),
                                with_truth ? error_panel(depth, truth) : noise_panel(depth)};
   if (!truth.multipath_m.empty() && truth.multipath_m.size() == raw.lit.size() * depth.z_m.size())
     panels.push_back(multipath_panel(depth, truth, raw));
   const std::vector<LegendEntry> legend = legend_of(depth, look);
   const Layout at = layout_of(depth, panels, caption, legend, look);
-  Canvas canvas(at.width, at.height, look.background, scale);
+  const std::unique_ptr<Painter> painter = painter_of(style.format, at.width, at.height, look.background, style.scale);
+  const auto text = [&](int x, int line, double size, Rgb color, const std::string& words) {
+    painter->text({static_cast<double>(x), static_cast<double>(line)}, size, color, Align::left, words);
+  };
 
-  if (!caption.empty()) canvas.text(figure::margin, figure::margin + 14, figure::title_size, look.ink, at.title);
+  if (!caption.empty()) text(figure::margin, figure::margin + 14, figure::title_size, look.ink, at.title);
   int x = figure::margin;
   for (const Panel& panel : panels) {
     std::vector<Rgb> image = colored(panel.values, panel.colors, look.invalid);
     if (&panel == &panels[0]) color_invalid(image, depth, look);
-    canvas.text(x, at.title_line, 0.9 * figure::title_size, look.ink, panel.title);
-    canvas.draw(x, at.image_top, depth.width, depth.height, at.scale, image);
-    draw_scale_bar(canvas, x + at.image_width + figure::bar_gap, at.image_top, std::max(at.image_height, least_bar), panel.colors, look);
-    canvas.text(x, at.note_line, figure::note_size, look.faint_ink, panel.note);
-    canvas.text(x, at.note_line + 16, figure::note_size, look.faint_ink, panel.scale_note);
+    text(x, at.title_line, 0.9 * figure::title_size, look.ink, panel.title);
+    painter->image(x, at.image_top, depth.width, depth.height, at.scale, image);
+    draw_scale_bar(*painter, x + at.image_width + figure::bar_gap, at.image_top, std::max(at.image_height, least_bar), panel.colors, look);
+    text(x, at.note_line, figure::note_size, look.faint_ink, panel.note);
+    text(x, at.note_line + 16, figure::note_size, look.faint_ink, panel.scale_note);
     x += at.panel_width;
   }
-  draw_legend(&canvas, at.legend_top, at.width, legend, look);
-  return png_rgb8(canvas.width(), canvas.height(), canvas.pixels());
+  draw_legend(painter.get(), at.legend_top, at.width, legend, look);
+  return painter->finished();
 }
 
 }  // namespace tofray::pictures

@@ -4,10 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 
 #include "pictures/figure.h"
 #include "pictures/pictures.h"
-#include "pictures/png_file.h"
 
 namespace tofray::pictures {
 namespace {
@@ -109,8 +109,8 @@ std::vector<Cell> cells_of(const Raw& raw, const ValueColors& common) {
 
 }  // namespace
 
-std::string raw_png(const Raw& raw, Theme theme, int picture_scale) {
-  const Look& look = look_of(theme);
+std::string raw_picture(const Raw& raw, const Style& style) {
+  const Look& look = look_of(style.theme);
   const ValueColors colors = common_colors(raw);
   const std::vector<Cell> cells = cells_of(raw, colors);
   Place last;
@@ -128,17 +128,21 @@ std::string raw_png(const Raw& raw, Theme theme, int picture_scale) {
   const int note_line = figure::margin + 16 + bar_height + 24;
   const int width =
       std::max(bar_x + width_with_labels(colors.scale), figure::margin + static_cast<int>(Canvas::text_width(figure::note_size, note)));
-  Canvas canvas(width + figure::margin, note_line + figure::margin - 8, look.background, picture_scale);
+  const std::unique_ptr<Painter> painter =
+      painter_of(style.format, width + figure::margin, note_line + figure::margin - 8, look.background, style.scale);
+  const auto text = [&](int x, int line, double size, Rgb color, const std::string& words) {
+    painter->text({static_cast<double>(x), static_cast<double>(line)}, size, color, Align::left, words);
+  };
   for (const Cell& cell : cells) {
     const int x = figure::margin + cell.place.column * step_x, y = figure::margin + cell.place.row * step_y;
-    canvas.text(x, y + 6, figure::label_size, look.ink, cell.label);
-    canvas.draw(x, y + 16, raw.width, raw.height, scale, colored(cell.values, cell.colors, look.invalid));
+    text(x, y + 6, figure::label_size, look.ink, cell.label);
+    painter->image(x, y + 16, raw.width, raw.height, scale, colored(cell.values, cell.colors, look.invalid));
   }
-  canvas.text(bar_x, figure::margin + 6, figure::label_size, look.ink,
-              fmt::format("{} [{}]", raw.raw.empty() ? "A \xE2\x88\x92 B" : "raw", unit_of(raw)));
-  draw_scale_bar(canvas, bar_x, figure::margin + 16, bar_height, colors, look);
-  canvas.text(figure::margin, note_line, figure::note_size, look.faint_ink, note);
-  return png_rgb8(canvas.width(), canvas.height(), canvas.pixels());
+  text(bar_x, figure::margin + 6, figure::label_size, look.ink,
+       fmt::format("{} [{}]", raw.raw.empty() ? "A \xE2\x88\x92 B" : "raw", unit_of(raw)));
+  draw_scale_bar(*painter, bar_x, figure::margin + 16, bar_height, colors, look);
+  text(figure::margin, note_line, figure::note_size, look.faint_ink, note);
+  return painter->finished();
 }
 
 }  // namespace tofray::pictures

@@ -77,6 +77,136 @@ TEST_F(first_hour, a_file_here_is_taken_before_what_is_built_in) {
   EXPECT_TRUE(has(tool({"check", "pico-flexx"}).err, "note: pico-flexx.yaml of this folder is taken, not the built-in camera pico-flexx"));
 }
 
+TEST_F(first_hour, a_file_here_is_taken_by_bench_list_and_process_too) {
+  save("card.yaml", "materials: {mine: {reflectivity: 0.3}}\nobjects: [sphere: {center: [0, 0, 1], radius: 20 cm, material: mine}]\n");
+  const std::string note = "note: card.yaml of this folder is taken, not the built-in scene card";
+  for (const Arguments& more :
+       {Arguments{}, Arguments{"--compare"}, Arguments{"--batch", "2"}, Arguments{"--stage", "trace", "--backend", "cpu"}}) {
+    Arguments arguments = with_small_sensor({"bench", "card", "--frames", "1", "--warmup", "0"});
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const Result result = tool(arguments);
+    EXPECT_EQ(result.code, 0) << result.err;
+    EXPECT_TRUE(has(result.err, note)) << result.err;
+    EXPECT_EQ(result.err.find(note), result.err.rfind(note)) << "once";
+  }
+  const Result list = tool({"list", "materials", "card"});
+  EXPECT_TRUE(has(list.err, note)) << list.err;
+  EXPECT_TRUE(has(list.out, "mine")) << list.out;
+  ASSERT_EQ(tool({"render", "card", "-o", "out", "--emit", "npz"}).code, 0);
+  EXPECT_FALSE(has(tool({"process", "out/frame.npz", "--camera", "pico-flexx", "--mode", "MODE_9_5FPS_2000", "-o", "depth"}).err, "note"));
+  save("pico-flexx.yaml", lone_ball);
+  const Result process =
+      tool({"process", "out/frame.npz", "--camera", "pico-flexx", "--mode", "MODE_9_5FPS_2000", "-o", "depth", "--json"});
+  EXPECT_EQ(process.code, 2) << "it is no profile";
+  EXPECT_TRUE(has(process.err, "note: pico-flexx.yaml of this folder is taken, not the built-in camera pico-flexx")) << process.err;
+  EXPECT_TRUE(has(process.err, "pico-flexx.yaml:")) << process.err;
+}
+
+TEST_F(first_hour, a_folder_here_is_inspected_before_what_is_built_in) {
+  ASSERT_EQ(tool(with_small_sensor({"render", "card", "--emit", "npz"})).code, 0);
+  const std::string note = "note: card/frame.npz is taken, not the built-in scene card";
+  const Result inspected = tool({"inspect", "card"}), shown = tool({"preview", "card"});
+  EXPECT_TRUE(has(inspected.err, note)) << inspected.err;
+  EXPECT_TRUE(has(inspected.out, "(22, 28)")) << inspected.out;
+  EXPECT_TRUE(has(shown.err, note)) << shown.err;
+  EXPECT_FALSE(has(tool({"inspect", "card/frame.npz"}).err, "note"));
+}
+
+TEST_F(first_hour, a_scene_may_come_on_stdin) {
+  save("ball.yaml", lone_ball);
+  fs::create_directories(folder_ / "elsewhere");
+  const auto piped = [&](const char* file, const Arguments& arguments) {
+    return run(arguments, [this, file] {
+      ::dup2(::open((folder_ / file).c_str(), O_RDONLY), 0);
+      if (::chdir((folder_ / "elsewhere").c_str()) != 0) ::_exit(126);
+    });
+  };
+  const Result checked = piped("ball.yaml", {"check", "-"});
+  EXPECT_EQ(checked.code, 0) << checked.err;
+  EXPECT_TRUE(checked.out.starts_with("<stdin>: good: scene with 1 object,")) << checked.out;
+  ASSERT_EQ(piped("ball.yaml", {"render", "-", "--emit", "npz", "--seed", "2"}).code, 0);
+  ASSERT_TRUE(fs::exists(folder_ / "elsewhere/stdin/frame.npz")) << "called after where it comes from";
+  ASSERT_EQ(tool({"render", "ball.yaml", "-o", "file", "--emit", "npz", "--seed", "2"}).code, 0);
+  EXPECT_EQ(numbers_of(folder_ / "elsewhere/stdin/frame.npz", "raw"), numbers_of(folder_ / "file/frame.npz", "raw"));
+  EXPECT_EQ(tool({"render", "--from", "elsewhere/stdin/manifest.json", "-o", "again"}).code, 0) << "the manifest has it";
+  EXPECT_EQ(content(folder_ / "again/frame.npz"), content(folder_ / "elsewhere/stdin/frame.npz"));
+  save("bad.yaml", "objects:\n  - sphere: {center: [0, 0, 1], radius: 25 kg, reflectivity: 0.5}\n");
+  const Result bad = piped("bad.yaml", {"render", "-"});
+  EXPECT_EQ(bad.code, 2);
+  EXPECT_TRUE(bad.err.starts_with("<stdin>:2:41: error: radius")) << bad.err;
+  fs::copy_file(fs::path(TOFRAY_SOURCE_DIR) / "profiles/imx556.yaml", folder_ / "camera.yaml");
+  EXPECT_TRUE(has(piped("camera.yaml", {"check", "-"}).out, "<stdin>: good: camera imx556")) << "a profile, too";
+  EXPECT_EQ(tool({"check", "-"}).code, 2) << "nothing came";
+}
+
+/// What the first line of a refusal says to add, as words of a command line.
+Arguments root_said_in(const std::string& err) {
+  const std::string line = err.substr(0, err.find('\n')), before = "if this one is yours, add ";
+  const std::size_t at = line.find(before);
+  if (at == std::string::npos) return {};
+  const std::string option = line.substr(at + before.size());
+  const std::size_t blank = option.find(' ');
+  std::string folder = option.substr(blank + 1);
+  if (folder.size() > 2 && folder.front() == '"' && folder.back() == '"') folder = folder.substr(1, folder.size() - 2);
+  return {option.substr(0, blank), folder};
+}
+
+TEST_F(first_hour, a_file_outside_of_the_scenes_folder_is_refused_with_the_option_that_lets_it) {
+  const std::string corner = "v -1 -1 2\nv 1 -1 2\nv 0 1 2\nf 1 2 3\n";
+  for (const char* folder : {"scenes", "robot", "my robot", "robot/parts", "deep/in/it"}) fs::create_directories(folder_ / folder);
+  for (const char* file : {"robot/a.obj", "my robot/a.obj", "robot/parts/a.obj", "deep/in/it/a.obj", "deep/in/a.obj"}) save(file, corner);
+  for (const std::string& file :
+       Arguments{"../robot/a.obj", "../my robot/a.obj", "../robot/parts/../a.obj", "../deep/in/it/a.obj", folder_ / "robot/parts/a.obj"}) {
+    save("scenes/s.yaml", "objects: [mesh: {file: \"" + file + "\", reflectivity: 0.5, up: none}]\n");
+    const Result refused = tool({"check", "scenes/s.yaml"});
+    EXPECT_EQ(refused.code, 2);
+    EXPECT_TRUE(has(refused.err, "scenes/s.yaml:1:24: error: \"")) << refused.err;
+    EXPECT_TRUE(has(refused.err.substr(0, refused.err.find('\n')),
+                    "\" leads out of the folder of this file, and a stranger's scene shall not read your files: if this one is yours, add "
+                    "--root "))
+        << refused.err;
+    EXPECT_EQ(has(file, "my robot"), has(refused.err, "add --root \"my robot\"\n")) << refused.err;
+    const Arguments root = root_said_in(refused.err);
+    ASSERT_EQ(root.size(), 2U);
+    EXPECT_EQ(root[0], "--root");
+    EXPECT_TRUE(fs::exists(folder_.path() / root[1] / "a.obj")) << root[1] << ": the file's own folder, and no more";
+    const Result taken = tool({"check", "scenes/s.yaml", root[0], root[1]});
+    EXPECT_EQ(taken.code, 0) << taken.err;
+  }
+  // Two of them: the second refusal says the folder that holds both.
+  save("scenes/s.yaml",
+       "objects:\n  - mesh: {file: ../robot/a.obj, reflectivity: 0.5, up: none}\n"
+       "  - mesh: {file: ../deep/in/a.obj, reflectivity: 0.5, up: none}\n");
+  const Arguments first = root_said_in(tool({"check", "scenes/s.yaml"}).err);
+  EXPECT_EQ(first, (Arguments{"--root", "robot"}));
+  const Result again = tool({"check", "scenes/s.yaml", "--root", "robot"});
+  EXPECT_TRUE(has(again.err, "leads out of the folder of this file and of that of --root, and a stranger's")) << again.err;
+  EXPECT_EQ(root_said_in(again.err), (Arguments{"--root", "."})) << again.err;
+  EXPECT_EQ(tool({"check", "scenes/s.yaml", "--root", "."}).code, 0);
+}
+
+TEST_F(first_hour, a_link_out_of_the_scenes_folder_is_refused_with_what_to_name) {
+  fs::create_directories(folder_ / "scenes");
+  save("a.obj", "v -1 -1 2\nv 1 -1 2\nv 0 1 2\nf 1 2 3\n");
+  fs::create_symlink(folder_ / "a.obj", folder_ / "scenes/link.obj");
+  save("scenes/s.yaml", "objects: [mesh: {file: link.obj, reflectivity: 0.5, up: none}]\n");
+  const Result refused = tool({"check", "scenes/s.yaml", "--root", "."});
+  EXPECT_EQ(refused.code, 2);
+  EXPECT_TRUE(has(refused.err, "s.yaml:1:24: error: \"link.obj\" leads out of the folder by a link, and a stranger's scene"))
+      << refused.err;
+  EXPECT_TRUE(has(refused.err, "/a.obj\", and add --root .\n")) << refused.err;
+  save("scenes/s.yaml", "objects: [mesh: {file: \"" + fs::canonical(folder_ / "a.obj").string() + "\", reflectivity: 0.5, up: none}]\n");
+  EXPECT_EQ(tool({"check", "scenes/s.yaml", "--root", "."}).code, 0);
+}
+
+TEST_F(first_hour, no_refusal_says_to_open_all_of_the_disk) {
+  save("s.yaml", "objects: [mesh: {file: /a.obj, reflectivity: 0.5}]\n");
+  EXPECT_FALSE(has(tool({"check", "s.yaml"}).err, "add --root /")) << tool({"check", "s.yaml"}).err;
+  save("s.yaml", "objects: [mesh: {file: /usr/a.obj, reflectivity: 0.5}]\n");
+  EXPECT_TRUE(has(tool({"check", "s.yaml"}).err, "add --root /usr\n")) << tool({"check", "s.yaml"}).err;
+  EXPECT_FALSE(has(tool({"check", "s.yaml", "--root", "/etc"}).err, "add --root")) << "of /etc and /usr there is nothing but all";
+}
+
 TEST_F(first_hour, keys_of_a_profile_may_begin_with_camera) {
   const auto noise_of = [&](const Arguments& more) {
     Arguments arguments{"check", "pico-flexx", "--json"};
@@ -164,12 +294,14 @@ TEST_F(first_hour, help_is_as_wide_as_the_terminal_and_in_groups) {
       in_folder(folder_.path())();
       ::setenv("COLUMNS", std::to_string(columns).c_str(), 1);
     };
-    for (const char* command : {"demo", "render", "process", "inspect", "diff", "check", "list", "schema", "doctor", "bench", ""}) {
+    for (const char* command :
+         {"demo", "render", "process", "inspect", "preview", "diff", "check", "list", "schema", "doctor", "bench", "completion", ""}) {
       const Result help = run(*command == '\0' ? Arguments{"--help"} : Arguments{command, "--help"}, narrow);
       std::istringstream lines(help.out);
       for (std::string line; std::getline(lines, line);)
-        // A command that is longer stands as it is typed.
-        EXPECT_TRUE(line.size() <= static_cast<std::size_t>(columns) + 4 || line.starts_with("  tofray ")) << columns << ": " << line;
+        // A command that is longer stands as it is typed; none is longer than an ordinary terminal.
+        EXPECT_TRUE(line.size() <= static_cast<std::size_t>(columns) + 4 || (columns < 80 && line.starts_with("  tofray ")))
+            << columns << ": " << line;
     }
   }
   const std::string help = tool({"render", "--help"}).out;

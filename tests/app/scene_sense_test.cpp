@@ -181,6 +181,8 @@ TEST_F(newcomer, switches_the_light_off) {
   const Result render = tool({"render", "scene.yaml", "-o", "out", "--emit", "npz"});
   EXPECT_FALSE(has(render.err, "every depth")) << render.err;
   EXPECT_TRUE(has(render.err, "% dark: the camera has no light")) << render.err;
+  EXPECT_FALSE(has(render.err, "more light")) << render.err;
+  EXPECT_FALSE(has(render.err, "whole cycles off")) << "of what is noise alone";
 }
 
 TEST_F(newcomer, renders_an_empty_scene) {

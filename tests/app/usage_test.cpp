@@ -10,8 +10,8 @@
 namespace tofray::test {
 namespace {
 
-const std::vector<std::string> commands = {"demo", "render", "process", "inspect", "diff",      "check",
-                                           "list", "schema", "doctor",  "bench",   "completion"};
+const std::vector<std::string> commands = {"demo",  "render", "process", "inspect", "preview", "diff",
+                                           "check", "list",   "schema",  "doctor",  "bench",   "completion"};
 
 TEST(help, comes_on_stdout_with_examples_first) {
   for (const Arguments& asked : {Arguments{"--help"}, Arguments{"help"}, Arguments{"-h"}}) {
@@ -38,7 +38,7 @@ TEST(usage, nothing_said_is_bad_usage) {
 }
 
 TEST(usage, version_and_limits) {
-  EXPECT_EQ(run({"--version"}).out, "tofray 0.2.0\n");
+  for (const char* word : {"--version", "version", "-V"}) EXPECT_EQ(run({word}).out, "tofray 0.2.0\n") << word;
   EXPECT_TRUE(has(run({"--limits"}).out, "\nsensor_pixels"));
   EXPECT_EQ(files::parse_json(run({"--version", "--json"}).out, "stdout").find("tofray")->string()->substr(0, 4), "0.2.");
   EXPECT_NE(files::parse_json(run({"--limits", "--json"}).out, "stdout").find("raw_samples"), nullptr);
@@ -80,7 +80,13 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{{"render", "./none.yaml"}, 3, "none.yaml"}, Mistake{{"render", "card", "--frames", "0"}, 2, "1 to"},
         Mistake{{"render", "card", "--mode", "MODE_9_5FPS_200"}, 2, "MODE_9_5FPS_2000"},
         Mistake{{"render", "card", "--from", "x.json"}, 3, "x.json"}, Mistake{{"process", "none.npz"}, 3, "none.npz"},
-        Mistake{{"inspect", "none.npz"}, 3, "none.npz"}, Mistake{{"inspect", "card", "--pixel", "3"}, 2, "column,row"},
+        Mistake{{"inspect", "none.npz"}, 3, "none.npz"}, Mistake{{"preview", "none.npz"}, 3, "none.npz"},
+        Mistake{{"preview", "card", "-o", "card.jpg"}, 2, ".png, .svg or .pdf"},
+        Mistake{{"preview", "card", "-o", "card"}, 2, ".png, .svg or .pdf"},
+        Mistake{{"preview", "card", "-o", ".svg.gz"}, 2, ".png, .svg or .pdf"},
+        Mistake{{"preview", "card", "--scale", "2"}, 2, "--scale is of a picture in a file"},
+        Mistake{{"preview", "card", "--raw"}, 2, "expected -o with it"}, Mistake{{"preview", "card", "-o="}, 2, "expected -o FILE"},
+        Mistake{{"render", "card", "-o="}, 2, "expected -o DIR"}, Mistake{{"inspect", "card", "--pixel", "3"}, 2, "column,row"},
         Mistake{{"inspect", "card", "--pixel", "224,0"}, 2, "column of 0 to 223"},
         Mistake{{"list", "scene"}, 2, "did you mean \"scenes\"?"}, Mistake{{"list", "scenes", "card"}, 2, "unexpected"},
         Mistake{{"schema", "scenes"}, 2, "scene"}, Mistake{{"completion", "bsh"}, 2, "did you mean \"bash\"?"},
@@ -147,6 +153,7 @@ TEST(json, is_one_object_on_stdout) {
                                       {"process", "card/frame.npz"},
                                       {"inspect", "card/frame.npz"},
                                       {"inspect", "card/frame.npz", "--pixel", "3,4"},
+                                      {"preview", "card/frame.npz", "-o", "card.svg"},
                                       {"check", "card"},
                                       {"check", "pico-flexx"},
                                       {"list", "scenes"},
@@ -257,7 +264,7 @@ TEST(completion, offers_what_the_tables_hold) {
 
 // Whatever is added to the tables is completed in all shells: their scripts only ask.
 TEST(completion, offers_every_command_and_option_that_help_names) {
-  std::vector<std::string> known = {"help", "--help", "--version", "--limits"};
+  std::vector<std::string> known = {"help", "version", "--help", "--version", "--limits"};
   known.insert(known.begin(), commands.begin(), commands.end());
   EXPECT_EQ(offered({""}), known);
   for (const std::string& command : commands) {

@@ -85,6 +85,16 @@ SHELLS = {
 }
 
 
+def has_terminals():
+    """Whether the machine gives out pseudo-terminals: zsh completes on one."""
+    try:
+        for side in pty.openpty():
+            os.close(side)
+    except OSError:
+        return False
+    return True
+
+
 def main():
     os.environ["PATH"] = f"{pathlib.Path(sys.argv[1]).resolve().parent}:{os.environ['PATH']}"
     faults = 0
@@ -99,6 +109,9 @@ def main():
         for shell, (ask, ways) in SHELLS.items():
             if shutil.which(shell) is None:
                 print(f"{shell} is not installed: not asked")
+                continue
+            if shell == "zsh" and not has_terminals():
+                print("zsh needs a pseudo-terminal, and this machine has none: not asked")
                 continue
             for load in ways:
                 for line, wanted in CASES:

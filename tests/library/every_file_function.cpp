@@ -35,6 +35,8 @@ void all() {
   expect(tofray::frame_npz(frame, scene, camera).starts_with("PK"), "frame_npz");
   expect(tofray::load_scene_text("objects: [{sphere: {center: [0, 0, 1], radius: 10 cm, reflectivity: 0.5}}]", "here").objects.size() == 1,
          "load_scene_text");
+  expect(tofray::choose_scene("card").name == "card" && tofray::choose_scene("card").note.empty(), "choose_scene");
+  expect(tofray::choose_camera("mine.yaml").name == "mine.yaml", "choose_camera");
   using tofray::ErrorKind;
   expect(kind_of([] { (void)tofray::load_scene("no such scene"); }) == ErrorKind::io, "a scene that is not there");
   const tofray::CameraOptions wrong{.set = {{"lens.f_number", "far"}}};

@@ -7,8 +7,8 @@
 #include <sstream>
 
 #include "pictures/chart.h"
-#include "pictures/chart_painter.h"
 #include "pictures/figure.h"
+#include "pictures/painter.h"
 #include "support/samples.h"
 
 using namespace tofray::pictures;

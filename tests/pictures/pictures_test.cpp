@@ -140,8 +140,9 @@ TEST(scale_bar, has_a_mark_and_a_label_at_each_tick) {
   const Look& look = look_of(Theme::dark);
   const PictureScale scale = round_scale(1.0, 2.0, 0.1);
   const ValueColors colors{scale, [&](double z) { return depth_color(scale.at(z)); }, [&](double z) { return scale.at(z); }};
-  Canvas canvas(150, 340, look.background);
-  draw_scale_bar(canvas, 20, 20, 300, colors, look);
+  CanvasPainter painter(150, 340, look.background);
+  draw_scale_bar(painter, 20, 20, 300, colors, look);
+  const Canvas& canvas = painter.canvas();
   const auto color = [&](int x, int y) {
     const std::size_t at = 3 * static_cast<std::size_t>(150 * y + x);
     return Rgb{canvas.pixels()[at], canvas.pixels()[at + 1], canvas.pixels()[at + 2]};

@@ -27,6 +27,7 @@ LEFT_OUT = {
     "Array": "a numpy array", "AlignedMemory": "a numpy array",
     "Flag": "tofray.flags",
     "NoDepth": "members of InvalidPixels", "no_depth_name": "members of InvalidPixels",
+    "NameChoice": "load_scene and load_camera warn", "choose_scene": "load_scene warns", "choose_camera": "load_camera warns",
     "load_scene_text": "tofray.scene", "load_camera_text": "tofray.camera",
     "frame_npz": "Frame.save",
     "version": "tofray.__version__",

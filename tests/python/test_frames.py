@@ -30,6 +30,39 @@ def test_a_picture_that_lacks_an_array_names_it() -> None:
         tofray.Frame(depth=tofray.Depth(z_m=FRAME.depth.z_m)).preview()
 
 
+def size_of(png: bytes) -> tuple[int, int]:
+    return int.from_bytes(png[16:20], "big"), int.from_bytes(png[20:24], "big")
+
+
+def test_pictures_have_the_scale_and_look_that_are_asked_for(tmp_path: pathlib.Path) -> None:
+    width, height = size_of(FRAME.preview())
+    assert size_of(FRAME.preview(scale=2)) == (2 * width, 2 * height)
+    assert FRAME.preview(what="raw") != FRAME.preview()
+    FRAME.save(tmp_path / "large", scale=2, theme="light")
+    assert (tmp_path / "large/preview.png").read_bytes() == FRAME.preview("light", scale=2)
+    assert (tmp_path / "large/raw.png").read_bytes() == FRAME.preview("light", scale=2, what="raw")
+    FRAME.save(tmp_path / "plain")
+    assert (tmp_path / "plain/preview.png").read_bytes() == FRAME.preview()
+    assert (tmp_path / "plain/raw.png").read_bytes() == FRAME.preview(what="raw")
+
+
+def test_a_saved_preview_becomes_what_its_name_ends_in(tmp_path: pathlib.Path) -> None:
+    assert FRAME.save_preview(tmp_path / "slide.svg", "light") == str(tmp_path / "slide.svg")
+    svg = (tmp_path / "slide.svg").read_text(encoding="utf-8")
+    width, height = size_of(FRAME.preview())
+    assert svg.startswith("<svg ") and f'width="{width}" height="{height}"' in svg and '"#ffffff"' in svg
+    assert ">demo seen by pico-flexx MODE_9_5FPS_2000</text>" in svg
+    FRAME.save_preview(tmp_path / "two.svg", scale=2)
+    assert f'width="{2 * width}" height="{2 * height}" viewBox="0 0 {width} {height}"' in (tmp_path / "two.svg").read_text(encoding="utf-8")
+    FRAME.save_preview(tmp_path / "raw.PDF", what="raw")
+    assert (tmp_path / "raw.PDF").read_bytes().startswith(b"%PDF-")
+    FRAME.save_preview(tmp_path / "p.png", scale=2)
+    assert (tmp_path / "p.png").read_bytes() == FRAME.preview(scale=2)
+    with pytest.raises(tofray.Error, match="expected a name that ends in .png, .svg or .pdf"):
+        FRAME.save_preview(tmp_path / "slide.jpg")
+    assert not (tmp_path / "slide.jpg").exists()
+
+
 def test_open3d_gets_the_valid_points(monkeypatch: pytest.MonkeyPatch) -> None:
     # A stand-in that says what it got: Open3D itself is large, and not among what tests install.
     def kept(points: Any) -> int:
@@ -253,3 +286,27 @@ def test_frames_of_chosen_arrays_have_the_bytes_of_whole_ones_and_nothing_else(t
     for wrong, said in (("raw", "a list of str"), (["raws"], "did you mean \"raw\""), ([3], r"arrays\[0\]"), (["raw", ""], r"arrays\[1\]")):
         with pytest.raises(tofray.Error, match=said):
             tofray.Simulator(scene, arrays=wrong)
+
+
+def test_arrays_that_some_frames_have_say_what_they_come_with() -> None:
+    for name, what in {"multipath_m": "scene.transport.bounces", "transient_e_per_s": "scene.transport.transient.bins",
+                       "object_share": "subpixel=2"}.items():
+        with pytest.raises(AttributeError, match=f"no truth.{name} .*it comes with .*{what}"):
+            getattr(FRAME.truth, name)
+    scene = tofray.load_scene("card")
+    scene.transport.bounces, scene.transport.transient.bins, scene.transport.transient.width_m = 1, 4, 1
+    frame = tofray.Simulator(scene, subpixel=2).frame(0)
+    assert {"direct_e", "indirect_e", "multipath_m", "path_noise_m", "path_count", "transient_e_per_s", "transient_lost_e_per_s", "mixed",
+            "object_share"} <= set(frame.truth.names)
+
+
+def test_a_file_that_is_not_there_is_told_with_those_that_are(tmp_path: pathlib.Path) -> None:
+    with pytest.raises(tofray.Error, match="no such file\n  the folder '.*' holds no .npz file"):
+        tofray.load(tmp_path / "frame.npz")
+    for k in range(3):
+        np.savez(tmp_path / f"frame_{k:04}.npz")
+    with pytest.raises(tofray.Error, match="holds frame_0000.npz … frame_0002.npz \\(3 files\\)") as told:
+        tofray.load(tmp_path / "frame.npz")
+    assert isinstance(told.value, OSError)
+    with pytest.raises(tofray.Error, match="no such file$"):
+        tofray.load(tmp_path / "nowhere/frame.npz")

@@ -7,6 +7,7 @@ from __future__ import annotations
 import base64
 import copy
 import gc
+import json
 import os
 import pathlib
 import pickle
@@ -15,6 +16,7 @@ import subprocess
 import sys
 import threading
 import time
+import warnings
 from typing import Any
 
 import numpy as np
@@ -445,3 +447,45 @@ def test_the_module_is_the_command_line_too() -> None:
     done = subprocess.run([sys.executable, "-m", "tofray", "list", "scenes"], check=True, capture_output=True, text=True)
     assert "bench-primitives" in done.stdout
     assert subprocess.run([sys.executable, "-m", "tofray", "render"], capture_output=True).returncode == 2
+
+
+def test_a_file_here_is_taken_before_what_is_built_in(tmp_path: pathlib.Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "room.yaml").write_text("objects: [{sphere: {center: [0, 0, 1], radius: 20 cm, reflectivity: 0.5}}]\n", encoding="utf-8")
+    profile = pathlib.Path(__file__).resolve().parents[2] / "profiles/pico-flexx.yaml"
+    (tmp_path / "pico-flexx").write_text(profile.read_text(encoding="utf-8").replace("width: 224", "width: 222"), encoding="utf-8")
+    with pytest.warns(UserWarning, match="^room.yaml of this folder is taken, not the built-in scene room\n") as told:
+        assert len(tofray.load_scene("room").objects) == 1
+    assert told[0].filename == __file__, "at the line that asked"
+    with pytest.warns(UserWarning, match="^./pico-flexx of this folder is taken, not the built-in camera pico-flexx\n") as told:
+        assert tofray.load_camera("pico-flexx").sensor.width == 222
+    assert told[0].filename == __file__
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        assert len(tofray.load_scene("room.yaml").objects) == 1
+        assert tofray.load_camera(tofray.load_scene("demo")).sensor.width == 224
+
+
+def test_a_file_outside_of_the_scenes_folder_is_refused_with_the_root_that_lets_it(tmp_path: pathlib.Path,
+                                                                                 monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    for folder in ("scenes", "my robot"):
+        (tmp_path / folder).mkdir()
+    (tmp_path / "my robot/a.obj").write_text("v -1 -1 2\nv 1 -1 2\nv 0 1 2\nf 1 2 3\n", encoding="utf-8")
+    mesh = {"mesh": {"file": "../my robot/a.obj", "reflectivity": 0.5, "up": "none"}}
+    (tmp_path / "scenes/s.yaml").write_text(json.dumps({"objects": [mesh]}), encoding="utf-8")
+
+    def of_file(root: str = "") -> tofray.Scene:
+        return tofray.load_scene("scenes/s.yaml", root=root)
+
+    def of_dict(root: str = "") -> tofray.Scene:
+        return tofray.scene({"objects": [mesh]}, folder="scenes", root=root)
+
+    for read in (of_file, of_dict):
+        with pytest.raises(tofray.Error, match='leads out of the folder .*: if this one is yours, add root="my robot"\n'):
+            read()
+        with pytest.raises(tofray.Error, match="of this folder and of that of root|of this file and of that of root"):
+            read(root="scenes")
+        assert len(read(root="my robot").objects) == 1
+    with pytest.raises(tofray.Error, match="^mode: error: "):
+        tofray.load_camera("pico-flexx", "FAST")

@@ -24,8 +24,8 @@ def stem_of(path: pathlib.Path) -> str:
     return path.stem
 
 
-def test_there_are_three() -> None:
-    assert {path.stem for path in ALL} == {"first_frame", "why_raw_phases", "multipath"}
+def test_there_are_five() -> None:
+    assert {path.stem for path in ALL} == {"first_frame", "why_raw_phases", "wiggling", "unwrapping", "multipath"}
 
 
 @pytest.mark.parametrize("path", ALL, ids=stem_of)

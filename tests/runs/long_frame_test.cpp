@@ -3,7 +3,9 @@
 // Within a frame that takes minutes: how far it is, and its end by a signal.
 #include <gtest/gtest.h>
 
+#include <cerrno>
 #include <chrono>
+#include <cstring>
 
 #include "support/sanitizers.h"
 #include "support/tool.h"
@@ -40,11 +42,17 @@ std::size_t results_in(const Folder& folder) {
   return static_cast<std::size_t>(std::distance(begin(all), end(all)));
 }
 
-/// The other side of a terminal whose screen is a file.
+/// The other side of a terminal whose screen is a file; where the machine has no such terminals it is not open().
 class Terminal {
  public:
   explicit Terminal(const fs::path& screen) : master_(::posix_openpt(O_RDWR | O_NOCTTY)) {
-    if (::grantpt(master_) == 0 && ::unlockpt(master_) == 0) name_ = ::ptsname(master_);
+    const bool made = master_ >= 0 && ::grantpt(master_) == 0 && ::unlockpt(master_) == 0;
+    const char* const name = made ? ::ptsname(master_) : nullptr;
+    if (name == nullptr || ::access(name, R_OK | W_OK) != 0) {
+      reason_ = std::strerror(errno);
+      return;
+    }
+    name_ = name;
     reader_ = std::thread([this, screen] {
       std::ofstream out(screen, std::ios::binary);
       char bytes[4096];
@@ -52,11 +60,13 @@ class Terminal {
     });
   }
   ~Terminal() {
-    reader_.join();  // ends with the program, the only one that has the terminal open
-    ::close(master_);
+    if (reader_.joinable()) reader_.join();  // ends with the program, the only one that has the terminal open
+    if (master_ >= 0) ::close(master_);
   }
   Terminal(const Terminal&) = delete;
   Terminal& operator=(const Terminal&) = delete;
+  [[nodiscard]] bool open() const { return !name_.empty(); }
+  [[nodiscard]] const std::string& reason() const { return reason_; }  ///< why it is not
   /// stderr of a child.
   [[nodiscard]] Prepare as_stderr(const fs::path& folder) const {
     return [name = name_, folder] {
@@ -67,7 +77,7 @@ class Terminal {
 
  private:
   int master_;
-  std::string name_;
+  std::string name_, reason_;
   std::thread reader_;
 };
 
@@ -109,6 +119,7 @@ TEST(long_frame, says_how_far_it_is_in_plain_lines_unless_it_is_to_be_quiet) {
 TEST(long_frame, has_a_bar_that_moves_on_a_terminal) {
   const Folder folder;
   const Terminal terminal(folder / "screen");
+  if (!terminal.open()) GTEST_SKIP() << "this machine has no pseudo-terminals (/dev/pts): " << terminal.reason();
   Running child(start(endless({}), folder / "stdout", folder / "stderr", terminal.as_stderr(folder.path())));
   EXPECT_TRUE(comes(folder / "screen", " left"));
   EXPECT_TRUE(comes(folder / "screen", "] 1 %  ")) << content(folder / "screen");

@@ -19,6 +19,7 @@
 #include "commands.h"
 #include "console.h"
 #include "files/sha256.h"
+#include "input_kind.h"
 #include "progress.h"
 #include "results.h"
 #include "results/meta.h"
@@ -216,7 +217,22 @@ SimulatorOptions bench_options(const Options& options) {
   return out;
 }
 
-int run_bench(const Options& options) {
+namespace {
+
+/// With the file that a word means where it is also the name of a built-in scene.
+Options with_chosen_scenes(Options options) {
+  for (std::string& word : options.words) {
+    const NameChoice chosen = choose_scene(word);
+    say(note_of(chosen));
+    word = chosen.name;
+  }
+  return options;
+}
+
+}  // namespace
+
+int run_bench(const Options& typed) {
+  const Options options = with_chosen_scenes(typed);
   const bool experiment = !options.stages.empty() || !options.block_sizes.empty();
   if (options.compare && (experiment || options.backend == Backend::cuda))
     throw Error(ErrorKind::bad_input,

@@ -13,7 +13,6 @@
 #include "input_kind.h"
 #include "inputs.h"
 #include "load/builtin.h"
-#include "load/convert.h"
 #include "load/load.h"
 #include "load/provenance.h"
 #include "mesh_scene.h"
@@ -114,8 +113,10 @@ std::size_t mesh_triangles(const Scene& scene) {
   return count;
 }
 
-Report check_scene(const std::string& name, const Options& options) {
-  const Inputs in = load_inputs(name, options);
+/// @param file  as load_inputs() takes it
+Report check_scene(const std::string& file, const Options& options) {
+  const Inputs in = load_inputs(file, options);
+  const std::string& name = in.files[0].name;
   Simulator(in.scene, in.camera, on_processor(options));
   Report report;
   report.warnings = warnings(in);
@@ -146,18 +147,17 @@ Report check(const std::string& name, const Options& options) {
     return check_profile(std::string(profile->text), name, options);
   refuse_folder(name, "check");
   if (is_called_like_a_mesh(name)) return check_scene(name, options);
-  const std::string text = load::read_named("scene", name, load::builtin_scenes());
-  refuse_data(text, name);
-  return looks_like_a_profile(text, name) ? check_profile(text, name, options) : check_scene(name, options);
+  const NamedText read = named_text(name);
+  refuse_data(read.text, read.name);
+  return looks_like_a_profile(read.text, read.name) ? check_profile(read.text, read.name, options) : check_scene(name, options);
 }
 
 }  // namespace
 
 int run_check(const Options& options) {
   Remarks remarks;
-  const Chosen scene = file_before_builtin(options.words[0], load::builtin_scenes(), "scene"),
-               chosen = scene.note.empty() ? file_before_builtin(options.words[0], load::builtin_profiles(), "camera") : scene;
-  remarks.tell(chosen.note);
+  const NameChoice scene = choose_scene(options.words[0]), chosen = scene.note.empty() ? choose_camera(options.words[0]) : scene;
+  remarks.tell(note_of(chosen));
   Report report = check(chosen.name, options);
   remarks.tell(report.warnings), remarks.tell(report.odd, true);
   if (options.json)

@@ -136,7 +136,7 @@ Offers offers_of(const Command& command, const std::vector<std::string>& words, 
 Offers offers_at(const std::vector<std::string>& words, bool equals_before) {
   if (words.size() == 1) {
     Offers out = commands();
-    for (const char* option : {"help", "--help", "--version", "--limits"}) out.push_back({option, ""});
+    for (const char* option : {"help", "version", "--help", "--version", "--limits"}) out.push_back({option, ""});
     return out;
   }
   if (words[0] == "help") return commands();

@@ -112,7 +112,7 @@ Diff diff_of_folders(const std::string& a, const std::string& b) {
 
 Diff diff_of(const std::string& a, const std::string& b) {
   if (is_folder(a) && is_folder(b)) return diff_of_folders(a, b);
-  return {{diff_of_files(frame_in(a), frame_in(b))}, {}, {}};
+  return {{diff_of_files(frame_in(a, "diff"), frame_in(b, "diff"))}, {}, {}};
 }
 
 std::string text_of(const ArrayDiff& one) {

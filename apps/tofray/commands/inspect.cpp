@@ -13,10 +13,10 @@
 #include "commands.h"
 #include "console.h"
 #include "files/npy.h"
+#include "first_frame.h"
 #include "input_kind.h"
 #include "pixel_chain.h"
 #include "pixel_report.h"
-#include "progress.h"
 #include "results.h"
 #include "results/array_table.h"
 #include "results/meta.h"
@@ -188,13 +188,6 @@ std::string origin(const Arrays& arrays) {
                      word(meta, "frame"), word(meta, "seed"), word(meta, "noise"));
 }
 
-Frame first_frame(const Inputs& in, SimulatorOptions wanted) {
-  FrameProgress now;
-  wanted.progress = &now;
-  const Progress progress(1, "frame", false, &now);
-  return Simulator(in.scene, in.camera, wanted).frame(0);
-}
-
 /// A file's arrays; those of a scene are simulated now.
 struct Inspected {
   Arrays arrays;
@@ -202,9 +195,9 @@ struct Inspected {
 };
 
 Inspected inspected(const Options& options) {
-  const Chosen chosen = file_before_builtin(frame_in(options.words[0]), load::builtin_scenes(), "scene");
+  const NameChoice chosen = frame_or_scene(options.words[0], "inspect");
   const std::string& path = chosen.name;
-  say(chosen.note);
+  say(note_of(chosen));
   if (holds_arrays(path)) {
     refuse_missing(path);
     if (!options.set.empty() || options.seed || options.noise || !options.mode.empty())

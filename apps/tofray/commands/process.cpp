@@ -33,8 +33,12 @@ std::string meta_of(std::string_view bytes, const std::string& path) {
 }
 
 /// The profile that was named, or else the camera that the file itself describes.
-Camera camera_for(const Options& options, const std::string& meta, const std::string& path) {
-  if (!options.camera.empty()) return load_camera(options.camera, {options.mode, camera_settings(options), {}});
+Camera camera_for(const Options& options, const std::string& meta, const std::string& path, Remarks& remarks) {
+  if (!options.camera.empty()) {
+    const NameChoice chosen = choose_camera(options.camera);
+    remarks.tell(note_of(chosen));
+    return load_camera(chosen.name, {options.mode, camera_settings(options), {}});
+  }
   if (meta.empty())
     throw Error(ErrorKind::bad_input,
                 path + ": error: the file does not say which camera made it\n  name its profile, as in --camera mycam.yaml");
@@ -95,7 +99,7 @@ struct Source {
 Inputs inputs_of(const Options& options, const Source& from, const char* role, Remarks& remarks) {
   Inputs in;
   in.scene.name = std::filesystem::path(from.path).stem().native();
-  in.camera = camera_for(options, from.meta, from.path);
+  in.camera = camera_for(options, from.meta, from.path, remarks);
   in.files.push_back({role, from.path, {}});
   if (!options.camera.empty() && !in.camera.source.starts_with("<"))
     in.files.push_back({"profile", in.camera.source, files::read_text(in.camera.source)});

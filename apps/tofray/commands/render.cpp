@@ -160,8 +160,8 @@ int run_render(const Options& typed) {
     say_other_version(before, remarks);
   }
   const Options options = typed.from.empty() ? typed : recalled(typed, before);
-  const Chosen chosen = typed.from.empty() ? file_before_builtin(options.words[0], load::builtin_scenes(), "scene") : Chosen();
-  remarks.tell(chosen.note);
+  const NameChoice chosen = typed.from.empty() ? choose_scene(options.words[0]) : NameChoice();
+  remarks.tell(note_of(chosen));
   const Inputs in = typed.from.empty() ? load_inputs(chosen.name, options) : inputs_of(before, options);
   remarks.tell(warnings(in));
   const std::uint64_t frames = options.frames.value_or(1);
