@@ -59,7 +59,7 @@ enum class ArrayShape {
   row(amplitude_e, depth, amplitude_e, float,         image,   depth, "e", "mean of the modulation frequencies' amplitudes") \
   row(ambient_e,   depth, ambient_e,   float,         image,   depth, "e", "of both taps, per lit (if none: mean) exposure") \
   row(noise_m,     depth, noise_m,     float,         image,   depth, "m", "the camera's estimate of the range's noise, 1 sigma; without wrong cycles, and too low of weak signals (theory 4.4)") \
-  row(confidence,  depth, confidence,  std::uint8_t,  image,   depth, "1", "0 to 255") \
+  row(confidence,  depth, confidence,  std::uint8_t,  image,   depth, "1", "0 to 255: by the noise, and how sure the cycle is") \
   row(flags,       depth, flags,       std::uint16_t, image,   depth, "1", "bits of Flag: why a depth is invalid, and warnings")
 
 /// Ground truth at the middle of the middle raw frame, and the power of the camera's own light.
