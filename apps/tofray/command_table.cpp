@@ -13,6 +13,7 @@ int run_diff(const Options& options);
 int run_check(const Options& options);
 int run_list(const Options& options);
 int run_schema(const Options& options);
+int run_calibration(const Options& options);
 int run_doctor(const Options& options);
 int run_bench(const Options& options);
 int run_completion(const Options& options);
@@ -157,6 +158,23 @@ std::vector<Command> make() {
        .most_words = 1,
        .run = run_schema,
        .completes = "scene camera"},
+      {.name = "calibration",
+       .usage = "FILE [--camera PROFILE]",
+       .summary = "a calibration of OpenCV, ROS or an Azure Kinect as a profile's lens",
+       .examples = "tofray calibration camera_info.yaml                               # the block `lens`\n"
+                   "tofray calibration camera.yml --camera mycam.yaml > calibrated.yaml  # the profile with that lens\n"
+                   "tofray calibration kinect.json --camera azure-kinect-nfov > mykinect.yaml\n",
+       .more = "FILE is what OpenCV's FileStorage writes as YAML or JSON (camera_matrix, distortion_coefficients), what ROS's\n"
+               "camera_calibration writes or `ros2 topic echo --once` prints of camera_info, or the raw calibration (JSON) of an Azure "
+               "Kinect,\n"
+               "of whose cameras the depth camera is taken. Models: 4, 5 or 8 coefficients (plumb_bob, rational_polynomial), and fisheye\n"
+               "(equidistant; of OpenCV, where the file says fisheye_model: 1). A thin prism and a tilted sensor are refused.\n"
+               "With --camera, the images have to be of the size of its sensor; what else the profile says stays, but for comments.\n",
+       .options = {"--camera"},
+       .least_words = 1,
+       .most_words = 1,
+       .run = run_calibration,
+       .completes = "<files>"},
       {.name = "doctor",
        .usage = "[options]",
        .summary = "check this machine: processor, threads, memory, a self-test; what is missing",
