@@ -147,7 +147,7 @@ TOFRAY_FIELDS(Rectangle, &Rectangle::center, &Rectangle::size)
 TOFRAY_FIELDS(Disk, &Disk::center, &Disk::normal, &Disk::radius)
 TOFRAY_FIELDS(Capsule, &Capsule::start, &Capsule::end, &Capsule::radius)
 TOFRAY_FIELDS(Cone, &Cone::base, &Cone::axis, &Cone::radius, &Cone::height)
-TOFRAY_FIELDS(Mesh, &Mesh::file, &Mesh::scale, &Mesh::up, &Mesh::time_s, &Mesh::play, &Mesh::sha256, &Mesh::left_out, &Mesh::guessed,
+TOFRAY_FIELDS(Mesh, &Mesh::file, &Mesh::scale, &Mesh::up, &Mesh::animation, &Mesh::time_s, &Mesh::play, &Mesh::sha256, &Mesh::left_out, &Mesh::guessed,
               &Mesh::notices, &Mesh::triangles, &Mesh::motion)
 TOFRAY_FIELDS(Rotation, &Rotation::axis, &Rotation::angle_rad, &Rotation::quaternion)
 TOFRAY_FIELDS(Keyframe, &Keyframe::time_s, &Keyframe::position, &Keyframe::rotation)
