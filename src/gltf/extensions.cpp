@@ -21,12 +21,13 @@ struct LeftOut {
   std::string_view name;
   const char* sentence;
 };
-constexpr LeftOut left_out[] = {{"KHR_lights_punctual", "lights (KHR_lights_punctual) are left out"},
-                                {"EXT_lights_image_based", "lights (EXT_lights_image_based) are left out"},
-                                {"EXT_lights_ies", "lights (EXT_lights_ies) are left out"},
-                                {"KHR_xmp", "metadata (KHR_xmp) are left out"},
-                                {"KHR_xmp_json_ld", "metadata (KHR_xmp_json_ld) are left out"},
-                                {"KHR_materials_variants", "the variants of KHR_materials_variants are left out: materials are the file's own"}};
+constexpr LeftOut left_out[] = {
+    {"KHR_lights_punctual", "lights (KHR_lights_punctual) are left out"},
+    {"EXT_lights_image_based", "lights (EXT_lights_image_based) are left out"},
+    {"EXT_lights_ies", "lights (EXT_lights_ies) are left out"},
+    {"KHR_xmp", "metadata (KHR_xmp) are left out"},
+    {"KHR_xmp_json_ld", "metadata (KHR_xmp_json_ld) are left out"},
+    {"KHR_materials_variants", "the variants of KHR_materials_variants are left out: materials are the file's own"}};
 
 /// What says how a material looks, and by its name nothing else.
 bool is_of_looks(std::string_view name) { return name.find("_materials_") != std::string_view::npos; }
@@ -37,12 +38,9 @@ struct WayOut {
   const char* text;
 };
 constexpr WayOut ways_out[] = {
-    {"KHR_draco_mesh_compression", "export without Draco compression"},
-    {"EXT_meshopt_compression", "export without meshopt compression"},
-    {"KHR_meshopt_compression", "export without meshopt compression"},
-    {"KHR_texture_basisu", "export with textures as PNG or JPEG"},
-    {"EXT_texture_webp", "export with textures as PNG or JPEG"},
-    {"EXT_texture_avif", "export with textures as PNG or JPEG"},
+    {"KHR_draco_mesh_compression", "export without Draco compression"}, {"EXT_meshopt_compression", "export without meshopt compression"},
+    {"KHR_meshopt_compression", "export without meshopt compression"},  {"KHR_texture_basisu", "export with textures as PNG or JPEG"},
+    {"EXT_texture_webp", "export with textures as PNG or JPEG"},        {"EXT_texture_avif", "export with textures as PNG or JPEG"},
     {"MSFT_texture_dds", "export with textures as PNG or JPEG"},
 };
 

@@ -55,7 +55,8 @@ Quaternion rotation_of(const Item& attributes, const std::vector<float>& all, st
   const Quaternion q{all[4 * i], all[4 * i + 1], all[4 * i + 2], all[4 * i + 3]};
   const double size = length(q);
   if (!(size > 1e-6 && size < 1e6))
-    attributes.fail_at("ROTATION", "is no rotation", fmt::format("got a quaternion of length {} of instance {}", base::number_text(size), i));
+    attributes.fail_at("ROTATION", "is no rotation",
+                       fmt::format("got a quaternion of length {} of instance {}", base::number_text(size), i));
   return normalized(q);
 }
 
@@ -65,7 +66,8 @@ void read_instances(Reading& reading, const Item& item, Node& node) {
   const auto extension = extensions ? extensions->object("EXT_mesh_gpu_instancing") : std::nullopt;
   if (!extension) return;
   const auto attributes = extension->object("attributes");
-  if (!attributes || node.mesh == none) return reading.notices.add("instances without attributes, or of nodes without a mesh, are left out");
+  if (!attributes || node.mesh == none)
+    return reading.notices.add("instances without attributes, or of nodes without a mesh, are left out");
   if (node.skin != none) return reading.notices.add("instances of meshes with a skin are left out: one of each is shown");
   std::optional<std::uint64_t> count;
   const auto values = [&](const char* name, const Wanted& wanted) -> Floats {
@@ -85,8 +87,8 @@ void read_instances(Reading& reading, const Item& item, Node& node) {
   };
   node.instances.emplace();
   for (std::size_t i = 0; i < *count; ++i)
-    node.instances->push_back(transform(vector(translation, i, 0), rotation ? rotation_of(*attributes, *rotation, i) : Quaternion{0, 0, 0, 1},
-                                        vector(scale, i, 1)));
+    node.instances->push_back(transform(vector(translation, i, 0),
+                                        rotation ? rotation_of(*attributes, *rotation, i) : Quaternion{0, 0, 0, 1}, vector(scale, i, 1)));
 }
 
 Node read_node(Reading& reading, const Item& item, std::size_t nodes) {

@@ -117,8 +117,9 @@ int animation_of(gltf::Model& model, const std::string& wanted, const base::Plac
   const auto [end, fault] = std::from_chars(wanted.data(), wanted.data() + wanted.size(), number);
   if (fault == std::errc() && end == wanted.data() + wanted.size() && number < all.size()) return static_cast<int>(number);
   base::fail(place, "there is no animation " + base::in_quotes(wanted),
-             all.empty() ? "the file has none"
-                         : "expected a name, a number from 0 to " + std::to_string(all.size() - 1) + ", or all; the file has " + names_of(all));
+             all.empty()
+                 ? "the file has none"
+                 : "expected a name, a number from 0 to " + std::to_string(all.size() - 1) + ", or all; the file has " + names_of(all));
 }
 
 gltf::Pose pose_at(const gltf::Model& model, int animation, const std::optional<double>& time_s) {

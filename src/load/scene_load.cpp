@@ -228,8 +228,7 @@ class SceneReader {
     else if (!has_material && !may_have_colors)
       faults_.add(value.place(), "mesh lacks a key", lacks_material);
     if (out.time_s) faults_.add(value["time"].place(), "time is for glTF files", "an OBJ, PLY or STL file stands still");
-    if (!out.animation.empty())
-      faults_.add(value["animation"].place(), "animation is for glTF files", "an OBJ, PLY or STL file has none");
+    if (!out.animation.empty()) faults_.add(value["animation"].place(), "animation is for glTF files", "an OBJ, PLY or STL file has none");
     if (out.play != Mesh::Play::still)
       faults_.add(value["play"].place(), "play is for glTF files", "an OBJ, PLY or STL file has no animation");
   }
