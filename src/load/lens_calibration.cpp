@@ -82,13 +82,16 @@ const Node* first_of(const Node& root, std::initializer_list<const char*> names)
   return nullptr;
 }
 
+int pixels_of(const Node& node, double value) {
+  if (value != std::rint(value) || value < 1 || value > 65536)
+    fail(node.place, "this is no size of an image", "got " + base::number_text(value) + ", expected a whole number from 1 to 65536");
+  return static_cast<int>(value);
+}
+
 std::optional<int> whole_of(const Node& root, std::initializer_list<const char*> names) {
   const Node* node = first_of(root, names);
   if (node == nullptr) return {};
-  const double value = number_of(*node);
-  if (value != std::rint(value) || value < 1 || value > 65536)
-    fail(node->place, "this is no size of an image", "got " + yaml::describe(*node) + ", expected 1 to 65536");
-  return static_cast<int>(value);
+  return pixels_of(*node, number_of(*node));
 }
 
 std::optional<PixelGrid> size_of(const Node& root) {
@@ -99,7 +102,7 @@ std::optional<PixelGrid> size_of(const Node& root) {
   if (both == nullptr) return {};
   const std::vector<double> numbers = numbers_of(*both);
   if (numbers.size() != 2) fail(both->place, "this is no size of an image", "got " + yaml::describe(*both) + ", expected [width, height]");
-  return PixelGrid{static_cast<int>(numbers[0]), static_cast<int>(numbers[1])};
+  return PixelGrid{pixels_of(*both, numbers[0]), pixels_of(*both, numbers[1])};
 }
 
 std::string size_text(const PixelGrid& size) { return std::to_string(size.width) + " x " + std::to_string(size.height); }

@@ -166,6 +166,7 @@ TEST(calibration_file, that_does_not_fit_is_refused_by_name) {
   EXPECT_TRUE(
       has(refusal("K: [200, 0, 900, 0, 200, 80, 0, 0, 1]\nD: []\n", PixelGrid{224, 172}), "lies beside the image of 224 x 172 pixels"));
   EXPECT_TRUE(has(refusal("K: [200, 0, 100, 0, 200, 80, 0, 0, 1]\n"), "cal.yaml: error: no distortion\n  expected"));
+  EXPECT_TRUE(has(refusal("image_size: [1e99, 2]\nK: [200, 0, 100, 0, 200, 80, 0, 0, 1]\nD: []\n"), "this is no size of an image"));
   EXPECT_TRUE(has(refusal("width: 3\n"), "cal.yaml: error: no camera matrix\n  expected"));
   EXPECT_TRUE(has(refusal("<?xml version=\"1.0\"?>\n<opencv_storage>"), "this is XML\n  expected YAML or JSON"));
   EXPECT_TRUE(has(refusal("K: [200, 0, 100, 0, 200, 80, 0, 0, 1]\nD: []\nbinning_x: 2\n"), "these images are binned"));
