@@ -47,9 +47,9 @@ void check_skin(const Reading& reading, const Item& item, const Node& node) {
                  fmt::format("meshes[{}] names joint {}, and there are {}, of which the first is 0", node.mesh, mesh.most_joint, joints));
 }
 
-constexpr unsigned real_or_normalized = written::real | written::normalized_unsigned | written::normalized_signed;
-constexpr Wanted wanted_vectors{"VEC3", nullptr, written::real, "VEC3 of floats"};
-constexpr Wanted wanted_rotations{"VEC4", nullptr, real_or_normalized, "VEC4 of floats or normalized numbers"};
+constexpr unsigned normalized_too = written::real | written::normalized_unsigned | written::normalized_signed;
+constexpr Wanted instance_vectors{"VEC3", nullptr, written::real, "VEC3 of floats"};
+constexpr Wanted instance_rotations{"VEC4", nullptr, normalized_too, "VEC4 of floats or normalized numbers"};
 
 Quaternion rotation_of(const Item& attributes, const std::vector<float>& all, std::size_t i) {
   const Quaternion q{all[4 * i], all[4 * i + 1], all[4 * i + 2], all[4 * i + 3]};
@@ -79,8 +79,8 @@ void read_instances(Reading& reading, const Item& item, Node& node) {
     count = its;
     return reading.accessors.finite_floats(accessor, wanted, *attributes);
   };
-  const Floats translation = values("TRANSLATION", wanted_vectors), rotation = values("ROTATION", wanted_rotations),
-               scale = values("SCALE", wanted_vectors);
+  const Floats translation = values("TRANSLATION", instance_vectors), rotation = values("ROTATION", instance_rotations),
+               scale = values("SCALE", instance_vectors);
   if (!count) return reading.notices.add("instances without TRANSLATION, ROTATION and SCALE are left out: one of each is shown");
   const auto vector = [](const Floats& all, std::size_t i, double otherwise) {
     return all ? Vec3{(*all)[3 * i], (*all)[3 * i + 1], (*all)[3 * i + 2]} : Vec3{otherwise, otherwise, otherwise};
