@@ -342,7 +342,7 @@ def test_a_frame_outlives_its_simulator() -> None:
 def test_recordings_of_other_programs_are_told_at_their_array() -> None:
     assert K == 9
     f, tau, times, lit = (FRAME.raw[name] for name in ("modulation_frequency_hz", "reference_phase_rad", "integration_time_s", "lit"))
-    lists = {"modulation_frequency_hz": f, "reference_phase_rad": tau, "integration_time_s": times, "lit": lit}
+    lists: dict[str, Any] = {"modulation_frequency_hz": f, "reference_phase_rad": tau, "integration_time_s": times, "lit": lit}
     codes = FRAME.raw.raw
     expected: list[tuple[dict[str, Any], str]] = [
         ({**lists, "raw": np.ascontiguousarray(np.moveaxis(codes, 0, -1))},
