@@ -14,6 +14,7 @@ int run_diff(const Options& options);
 int run_check(const Options& options);
 int run_list(const Options& options);
 int run_schema(const Options& options);
+int run_calibration(const Options& options);
 int run_doctor(const Options& options);
 int run_bench(const Options& options);
 int run_completion(const Options& options);
@@ -76,7 +77,8 @@ std::vector<Command> make() {
            "RAW.npz holds raw [phase, height, width] (codes), or tap_a and tap_b (electrons), and by phase modulation_frequency_hz,\n"
            "reference_phase_rad, integration_time_s, lit and, if it is known, start_time_s (otherwise each exposure begins when the one\n"
            "before has been read out). Without --camera it is the camera that the file says it was made with.\n"
-           "Its other arrays, such as gt_* and camera_pose, are written again as they are.\n\n"
+           "Its other arrays, such as gt_* and camera_pose, are written again as they are.\n"
+           "A recording that shows all surfaces too far: --set camera.calibration.range_offset=\"35 mm\" takes that off.\n\n"
            "With --transient FILE it begins earlier, with histograms of light by path length, and simulates raw frames and depth:\n"
            "transient_e_per_s of a frame.npz, or an array [bin, height, width] or [height, width, bin], with or without a last axis of "
            "one\n"
@@ -179,6 +181,23 @@ std::vector<Command> make() {
        .most_words = 1,
        .run = run_schema,
        .completes = "scene camera"},
+      {.name = "calibration",
+       .usage = "FILE [--camera PROFILE]",
+       .summary = "a calibration of OpenCV, ROS or an Azure Kinect as a profile's lens",
+       .examples = "tofray calibration camera_info.yaml                               # the block `lens`\n"
+                   "tofray calibration camera.yml --camera mycam.yaml > calibrated.yaml  # the profile with that lens\n"
+                   "tofray calibration kinect.json --camera azure-kinect-nfov > mykinect.yaml\n",
+       .more = "FILE is what OpenCV's FileStorage writes as YAML or JSON (camera_matrix, distortion_coefficients), what ROS's\n"
+               "camera_calibration writes or `ros2 topic echo --once` prints of camera_info, or the raw calibration (JSON) of an Azure "
+               "Kinect,\n"
+               "of whose cameras the depth camera is taken. Models: 4, 5 or 8 coefficients (plumb_bob, rational_polynomial), and fisheye\n"
+               "(equidistant; of OpenCV, where the file says fisheye_model: 1). A thin prism and a tilted sensor are refused.\n"
+               "With --camera, the images have to be of the size of its sensor; what else the profile says stays, but for comments.\n",
+       .options = {"--camera"},
+       .least_words = 1,
+       .most_words = 1,
+       .run = run_calibration,
+       .completes = "<files>"},
       {.name = "doctor",
        .usage = "[options]",
        .summary = "check this machine: processor, threads, memory, a self-test; what is missing",

@@ -4,6 +4,8 @@
 
 #include <fcntl.h>
 #include <sys/ioctl.h>
+#include <sys/stat.h>
+#include <sys/statvfs.h>
 #include <unistd.h>
 
 #include <atomic>
@@ -21,15 +23,15 @@ namespace tofray::app {
 
 namespace {
 
-/// All bytes, over interruptions and short writes; false with errno set.
-bool write_all(int file, std::string_view bytes) {
+/// All bytes, over interruptions and short writes. @return how many could not be written, with errno set
+std::size_t write_all(int file, std::string_view bytes) {
   while (!bytes.empty()) {
     const ssize_t written = ::write(file, bytes.data(), bytes.size());
     if (written < 0 && errno == EINTR) continue;
-    if (written <= 0) return false;
+    if (written <= 0) return bytes.size();
     bytes.remove_prefix(static_cast<std::size_t>(written));
   }
-  return true;
+  return 0;
 }
 
 std::atomic<bool> ending{false};
@@ -47,7 +49,7 @@ extern "C" void end_on_signal(int signal) {
   if (noting && signal != SIGPIPE && noted.compare_exchange_strong(none, signal)) {
     const int error = errno;  // of a call that the signal came into
     *to_stop.load() = true;
-    if (signal == SIGINT && ::isatty(STDERR_FILENO) != 0) write_all(STDERR_FILENO, "\r\x1b[Kstopping; once more ends at once\n");
+    if (::isatty(STDERR_FILENO) != 0) write_all(STDERR_FILENO, "\r\x1b[Kstopping; once more ends at once\n");
     errno = error;
     return;
   }
@@ -56,7 +58,7 @@ extern "C" void end_on_signal(int signal) {
     for (;;) ::pause();
   }
   files::end_writing();
-  if (signal == SIGINT && ::isatty(STDERR_FILENO) != 0) write_all(STDERR_FILENO, "\ninterrupted\n");
+  if (signal != SIGPIPE && ::isatty(STDERR_FILENO) != 0) write_all(STDERR_FILENO, "\ninterrupted\n");
   ::_exit(128 + signal);
 }
 
@@ -78,8 +80,17 @@ void secure_standard_files() {
 void print(std::string_view text) { print_picture(base::printable_lines(text)); }
 
 void print_picture(std::string_view text) {
-  if (!write_all(STDOUT_FILENO, text))
-    throw Error(ErrorKind::io, "error: cannot write to standard output: " + std::generic_category().message(errno));
+  const std::size_t left = write_all(STDOUT_FILENO, text);
+  if (left == 0) return;
+  const int error = errno;
+  std::string more;
+  struct statvfs room {};
+  struct stat file {};
+  const bool full = (error == ENOSPC || error == EDQUOT) && ::fstat(STDOUT_FILENO, &file) == 0 && S_ISREG(file.st_mode);
+  if (full && ::fstatvfs(STDOUT_FILENO, &room) == 0)
+    more = "\n  needed " + std::to_string(left) + " bytes, free " +
+           std::to_string(static_cast<unsigned long long>(room.f_bavail) * room.f_frsize) + " bytes";
+  throw Error(ErrorKind::io, "error: cannot write to standard output: " + std::generic_category().message(error) + more);
 }
 
 void say(std::string_view text) { redraw(base::printable_lines(text)); }

@@ -14,6 +14,7 @@
 #include "fault_json.h"
 #include "files/json.h"
 #include "tofray/error.h"
+#include "without_memory.h"
 
 namespace tofray::app {
 
@@ -109,10 +110,7 @@ int guarded(const std::vector<std::string>& arguments) {
     yield_to_signal();
     return failed(arguments, error.what(), error.kind());
   } catch (const std::bad_alloc&) {
-    return failed(arguments,
-                  "error: out of memory\n  a smaller sensor, fewer raw frames or fewer threads need less; `tofray --limits` lists what is "
-                  "allowed at all",
-                  ErrorKind::limit);
+    return failed(arguments, std::string(out_of_memory, sizeof out_of_memory - 2), ErrorKind::limit);  // without the line's end
   } catch (const std::exception& error) {
     return failed(arguments, fmt::format("error: unexpected: {}", error.what()), ErrorKind::bug);
   } catch (...) {
@@ -126,6 +124,5 @@ int guarded(const std::vector<std::string>& arguments) {
 
 int main(int argc, char** argv) {
   tofray::app::secure_standard_files();
-  tofray::app::end_cleanly_on_signals();
   return tofray::app::guarded(std::vector<std::string>(argv, argv + argc));
 }

@@ -63,6 +63,9 @@ Box box_round(const Scene& scene, const std::array<Vec3, 3>& axes = {{{1, 0, 0},
 /// −0 becomes 0.
 std::string point(const Vec3& p) { return fmt::format("[{:.6g}, {:.6g}, {:.6g}]", p[0] + 0.0, p[1] + 0.0, p[2] + 0.0); }
 
+/// The same with all of its digits: what stands far away looks past all else where it is rounded.
+std::string exact(const Vec3& p) { return fmt::format("[{}, {}, {}]", p[0] + 0.0, p[1] + 0.0, p[2] + 0.0); }
+
 /// The camera that looks at a mesh alone: what --set makes of the one that scenes have.
 Camera camera_of(const std::string& source, const Options& options) {
   load::Settings of_camera;
@@ -147,8 +150,8 @@ std::string scene_of_mesh(const std::string& path, const std::string& source, co
   // A file with a camera is a scene of its own: a second floor would lie in the first.
   if (own)
     return text_of(path, own_materials,
-                   fmt::format("camera: {{pose: {{position: {}, look_at: {}, up: {}}}}}\n", point(own->position), point(own->look_at),
-                               point(own->up)));
+                   fmt::format("camera: {{pose: {{position: {}, look_at: {}, up: {}}}}}\n", exact(own->position), exact(own->look_at),
+                               exact(own->up)));
   const Pose pose = pose_before(alone, view_of(camera_of(source, options)));
   const Vec3 up = in_world({0, -1, 0}, alone.world_up);
   Vec3 below = 0.5 * (box.low + box.high);

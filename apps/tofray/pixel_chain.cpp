@@ -6,6 +6,7 @@
 
 #include <cmath>
 
+#include "base/calibration.h"
 #include "base/constants.h"
 #include "base/readout.h"
 #include "base/text.h"
@@ -189,7 +190,7 @@ PixelChain pixel_chain(const Arrays& arrays, int u, int v) {
                     arrays.height(), chain.raw_frames.size()));
   try {
     if (!known) simulator::check(profile);  // its raw frames come from arrays that anybody can write
-    const camera::FrozenCamera frozen(profile, true, 0);
+    const camera::FrozenCamera frozen(base::with_offsets(profile), true, 0);
     estimate_phases(frozen.decoder(), chain);
     if (known) calibrate(frozen.decoder(), pixel, chain);
   } catch (const Error&) {

@@ -154,6 +154,15 @@ Validity validity(const Frame& frame, const Camera& camera, bool wrong_cycles) {
   return out;
 }
 
+std::string depth_text(const Validity& of, const char* which) {
+  const InvalidPixels& pixels = of.pixels;
+  const std::int64_t off = pixels.valid_on_wrong_cycle + pixels.wrapped;
+  const std::string invalid = of.reasons.empty() ? "" : "; invalid: " + of.reasons;
+  if (off == 0) return fmt::format("{} of {} pixels {}have a depth{}\n", pixels.valid, pixels.pixels, which, invalid);
+  return fmt::format("{} of {} pixels {}have a depth that is right, {} one that is whole cycles off{}\n", pixels.valid - off, pixels.pixels,
+                     which, off, invalid);
+}
+
 FrameFiles::FrameFiles(const Options& options, const std::vector<std::string>& otherwise, const Inputs& from,
                        const SimulatorOptions& wanted)
     : emit(options.emit.value_or(otherwise)),

@@ -48,6 +48,9 @@ struct Validity {
 };
 /// @param wrong_cycles  whether they are told from flying pixels, which takes as long as to decode the frame
 Validity validity(const Frame& frame, const Camera& camera, bool wrong_cycles = true);
+/// "600 of 616 pixels have a depth; invalid: 16 dark", a line; those that the truth knows to be whole cycles off are none of them.
+/// @param which  behind "pixels ": "of the last frame ", or nothing
+std::string depth_text(const Validity& of, const char* which);
 /// Name of each bit of Depth::flags, from bit 0.
 const std::vector<std::string>& flag_names();
 

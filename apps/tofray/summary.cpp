@@ -126,8 +126,7 @@ std::string summary_text(const files::OutputFolder& folder, const Validity& last
   double bytes = 0;
   for (const files::FileRecord& file : folder.files()) bytes += static_cast<double>(file.bytes);
   std::string text = fmt::format("{} files, {}, in {}\n", folder.files().size(), size_text(bytes), folder.path().native());
-  text += fmt::format("{} of {} pixels {}have a depth{}{}\n", last.pixels.valid, last.pixels.pixels, frames > 1 ? "of the last frame " : "",
-                      last.reasons.empty() ? "" : "; invalid: ", last.reasons);
+  text += depth_text(last, frames > 1 ? "of the last frame " : "");
   if (!last.advice.empty()) text += fmt::format("  {}\n", last.advice);
   const Rates rates = rates_of(frames, stopwatch);
   if (frames > 1)

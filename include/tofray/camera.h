@@ -241,6 +241,14 @@ struct Interference {
   std::optional<double> phase_rad = {};
 };
 
+/// What raw data are off by, the same in all pixels: delays of cables, drivers and gates. Simulated raw frames have it, too, and decoding
+/// takes it off again (theory 4.10).
+struct Calibration {
+  double range_offset_m = 0;  ///< raw data show surfaces too far by this
+  /// Modulation frequency [Hz] → how much too large its phase is in raw data [rad], besides; one sample: a constant; none: 0.
+  Curve phase_offset = {};
+};
+
 /// Modulation frequencies that are swept evenly over a band within each exposure, so that they disturb radios less (theory 3.9).
 struct SpreadSpectrum {
   enum class Kind { center, down };
@@ -281,6 +289,7 @@ struct Camera {
   Decoding decoding;
   Temperature temperature;
   Interference interference;
+  Calibration calibration;
   SpreadSpectrum spread_spectrum;
   Readout readout;
   AutoExposure auto_exposure;

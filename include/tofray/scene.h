@@ -134,7 +134,8 @@ struct Mesh {
   double scale = 1;              ///< of the file's numbers, to metres
   Up up = Up::automatic;         ///< the file's axis that is up, turned to Scene::world_up; automatic: y in OBJ and glTF, z in PLY and STL;
                                  ///< none: the file's axes are the world's
-  std::optional<double> time_s;  ///< of a glTF file's first animation; none: as its nodes stand
+  std::string animation;         ///< of a glTF file: a name, a number from 0 on, or "all" at once; empty: the first
+  std::optional<double> time_s;  ///< of that animation; none: as its nodes stand
   Play play = Play::still;       ///< whether that animation goes on, from `time_s` (or its start) at t = 0
   std::string sha256;  ///< of the file's bytes and those of the files that it names, as hexadecimal digits; empty if built in code
   int left_out = 0;    ///< triangles of the file with a corner that is no finite number, or beyond 1e5 m

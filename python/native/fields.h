@@ -124,13 +124,14 @@ TOFRAY_FIELDS(Decoding, &Decoding::wiggling_correction, &Decoding::noise_thresho
               &Decoding::temporal_sigmas, &Decoding::filter)
 TOFRAY_FIELDS(Temperature, &Temperature::celsius, &Temperature::reference_celsius, &Temperature::drift_m_per_kelvin,
               &Temperature::warm_up_m, &Temperature::warm_up_time_s, &Temperature::since_start_s)
+TOFRAY_FIELDS(Calibration, &Calibration::range_offset_m, &Calibration::phase_offset)
 TOFRAY_FIELDS(Interference, &Interference::share, &Interference::frequency_difference_hz, &Interference::active, &Interference::phase_rad)
 TOFRAY_FIELDS(SpreadSpectrum, &SpreadSpectrum::width, &SpreadSpectrum::kind)
 TOFRAY_FIELDS(Readout, &Readout::binning, &Readout::left, &Readout::top, &Readout::width, &Readout::height)
 TOFRAY_FIELDS(AutoExposure, &AutoExposure::speed, &AutoExposure::aim, &AutoExposure::bright, &AutoExposure::shortest_s,
               &AutoExposure::longest_s)
 TOFRAY_FIELDS(Camera, &Camera::name, &Camera::source, &Camera::sensor, &Camera::lens, &Camera::filter, &Camera::illumination,
-              &Camera::pixel, &Camera::adc, &Camera::decoding, &Camera::temperature, &Camera::interference, &Camera::spread_spectrum,
+              &Camera::pixel, &Camera::adc, &Camera::decoding, &Camera::temperature, &Camera::interference, &Camera::calibration, &Camera::spread_spectrum,
               &Camera::readout, &Camera::auto_exposure, &Camera::refractive_index, &Camera::readout_time_s,
               &Camera::min_integration_time_s, &Camera::power_model, &Camera::mode, &Camera::mode_names)
 
@@ -146,7 +147,7 @@ TOFRAY_FIELDS(Rectangle, &Rectangle::center, &Rectangle::size)
 TOFRAY_FIELDS(Disk, &Disk::center, &Disk::normal, &Disk::radius)
 TOFRAY_FIELDS(Capsule, &Capsule::start, &Capsule::end, &Capsule::radius)
 TOFRAY_FIELDS(Cone, &Cone::base, &Cone::axis, &Cone::radius, &Cone::height)
-TOFRAY_FIELDS(Mesh, &Mesh::file, &Mesh::scale, &Mesh::up, &Mesh::time_s, &Mesh::play, &Mesh::sha256, &Mesh::left_out, &Mesh::guessed,
+TOFRAY_FIELDS(Mesh, &Mesh::file, &Mesh::scale, &Mesh::up, &Mesh::animation, &Mesh::time_s, &Mesh::play, &Mesh::sha256, &Mesh::left_out, &Mesh::guessed,
               &Mesh::notices, &Mesh::triangles, &Mesh::motion)
 TOFRAY_FIELDS(Rotation, &Rotation::axis, &Rotation::angle_rad, &Rotation::quaternion)
 TOFRAY_FIELDS(Keyframe, &Keyframe::time_s, &Keyframe::position, &Keyframe::rotation)
@@ -198,12 +199,12 @@ TOFRAY_FIELDS(SimulatorOptions, &SimulatorOptions::seed, &SimulatorOptions::nois
 template <class Call>
 void each_record(const Call& call) {
   const auto all = [&]<class... T>(std::tuple<T...>*) { (call(static_cast<T*>(nullptr)), ...); };
-  using Records =
-      std::tuple<Curve, PixelMask, Sensor, Scatter, Lens, Filter, Pattern, Waveform, Area, Illumination, Pixel, Adc, RawFrame, Mode,
-                 ImageFilter, Decoding, Temperature, Interference, SpreadSpectrum, Readout, AutoExposure, Camera, Material, Plane, Sphere,
-                 Box, Triangle, Cylinder, Rectangle, Disk, Capsule, Cone, Mesh, Rotation, Keyframe, Object, Ambient, TransientBins,
-                 Transport, Pose, CameraKeyframe, Override, CameraChoice, SceneFile, Scene, RanOn, FrameRequest, ObjectInView, SceneFinding,
-                 SceneReport, InvalidPixels, AmbientCase, CameraQuestion, NoiseAt, NoiseAtDistances, CameraReport>;
+  using Records = std::tuple<Curve, PixelMask, Sensor, Scatter, Lens, Filter, Pattern, Waveform, Area, Illumination, Pixel, Adc, RawFrame,
+                             Mode, ImageFilter, Decoding, Temperature, Interference, Calibration, SpreadSpectrum, Readout, AutoExposure,
+                             Camera, Material, Plane, Sphere, Box, Triangle, Cylinder, Rectangle, Disk, Capsule, Cone, Mesh, Rotation,
+                             Keyframe, Object, Ambient, TransientBins, Transport, Pose, CameraKeyframe, Override, CameraChoice, SceneFile,
+                             Scene, RanOn, FrameRequest, ObjectInView, SceneFinding, SceneReport, InvalidPixels, AmbientCase,
+                             CameraQuestion, NoiseAt, NoiseAtDistances, CameraReport>;
   all(static_cast<Records*>(nullptr));
 }
 

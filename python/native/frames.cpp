@@ -90,7 +90,44 @@ int whole_of(py::handle part, const char* name) {
   if (const py::object array = held(from, #member))          \
     into.member = take<element>(array, extents(ArrayShape::shape, sizes), Place{nullptr, #part "." #member});
 
+/// How many raw frames all arrays agree on that have one value for each; 0 where they do not, or there are none.
+py::ssize_t agreed_phases(py::handle raw) {
+  py::ssize_t count = 0;
+  for (const char* name : {"modulation_frequency_hz", "reference_phase_rad", "integration_time_s", "lit"}) {
+    const py::object value = held(raw, name);
+    if (!value) continue;
+    const bool flat = py::isinstance<py::array>(value) && py::reinterpret_borrow<py::array>(value).ndim() == 1;
+    const py::ssize_t size = flat ? py::reinterpret_borrow<py::array>(value).shape(0) : 0;
+    if (size == 0 || (count != 0 && size != count)) return 0;
+    count = size;
+  }
+  return count;
+}
+
+/// Raw frames along another axis than the first, and differences A−B in the place of codes: what recordings of other programs often have.
+void refuse_other_recordings(py::handle raw) {
+  const py::ssize_t phases = agreed_phases(raw);
+  for (const char* name : {"raw", "tap_a", "tap_b"}) {
+    const py::object value = held(raw, name);
+    if (!value || !py::isinstance<py::array>(value)) continue;
+    const auto array = py::reinterpret_borrow<py::array>(value);
+    if (phases > 0 && array.ndim() == 3 && array.shape(0) != phases && (array.shape(1) == phases || array.shape(2) == phases)) {
+      const bool last = array.shape(2) == phases;
+      throw Error(ErrorKind::bad_input, std::string("raw.") + name + ": error: got " + shown(value) + "; its " +
+                                            (last ? "last" : "middle") + " axis are the " + std::to_string(phases) +
+                                            " raw frames: np.ascontiguousarray(np.moveaxis(" + name + ", " + (last ? "-1" : "1") +
+                                            ", 0))\n  expected [phase, height, width]");
+    }
+    if (std::string_view(name) == "raw" && (array.dtype().kind() == 'i' || array.dtype().kind() == 'f'))
+      throw Error(ErrorKind::bad_input,
+                  "raw.raw: error: got " + shown(value) +
+                      ", expected uint16 codes of the ADC\n  differences A-B of the taps? Add mid_code (camera.adc.mid_code) and write "
+                      "uint16, or give tap_a and tap_b");
+  }
+}
+
 void take_raw(py::handle from, Raw& into) {
+  refuse_other_recordings(from);
   into.width = whole_of(from, "width"), into.height = whole_of(from, "height"), into.phases = whole_of(from, "phases");
   const Sizes sizes{into.phases, 0, into.height, into.width};
   TOFRAY_RAW_ARRAYS(TOFRAY_TAKE)

@@ -41,6 +41,7 @@ if TYPE_CHECKING:
         Area as Area,
         AutoExposure as AutoExposure,
         Box as Box,
+        Calibration as Calibration,
         Camera as Camera,
         CameraChoice as CameraChoice,
         CameraKeyframe as CameraKeyframe,
@@ -129,7 +130,7 @@ _HOME = {
     "_frame": ("Frame", "load"),
     "_load": ("camera", "load_camera", "load_scene", "scene"),
     "_model": (
-        "Adc", "Ambient", "AmbientCase", "Area", "AutoExposure", "Box", "Camera", "CameraChoice", "CameraKeyframe", "CameraQuestion", "CameraReport", "Capsule", "Cone", "Curve", "Cylinder", "Decoding",
+        "Adc", "Ambient", "AmbientCase", "Area", "AutoExposure", "Box", "Calibration", "Camera", "CameraChoice", "CameraKeyframe", "CameraQuestion", "CameraReport", "Capsule", "Cone", "Curve", "Cylinder", "Decoding",
         "Disk", "Filter", "FrameRequest", "Illumination", "ImageFilter", "Interference", "InvalidPixels", "Keyframe", "Lens", "Material", "Mesh", "Mode",
         "NoiseAt", "NoiseAtDistances", "Object", "ObjectInView", "Override", "Pattern", "Pixel", "PixelMask", "Plane", "Pose", "RanOn", "RawFrame", "Readout", "Rectangle", "Rotation", "Scatter", "Scene", "SceneFile", "SceneFinding", "SceneReport",
         "Sensor", "Sphere", "SpreadSpectrum", "Temperature", "TransientBins", "Transport", "Triangle", "Waveform",

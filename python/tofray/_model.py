@@ -1019,6 +1019,32 @@ class Interference(Record):
         self.phase_rad = phase_rad
 
 
+class Calibration(Record):
+    """What raw data are off by, the same in all pixels: delays of cables, drivers and gates. Simulated
+    raw frames have it, too, and decoding takes it off again (theory 4.10).
+
+    Attributes
+    ----------
+    range_offset_m : float, m
+        Raw data show surfaces too far by this.
+    phase_offset : Curve
+        Modulation frequency [Hz] → how much too large its phase is in raw data [rad], besides; one
+        sample: a constant; none: 0.
+    """
+    __slots__ = ("range_offset_m", "phase_offset")
+    range_offset_m: float
+    phase_offset: Curve
+
+    def __init__(
+        self,
+        *,
+        range_offset_m: float = 0.0,
+        phase_offset: Curve | None = None,
+    ) -> None:
+        self.range_offset_m = range_offset_m
+        self.phase_offset = Curve() if phase_offset is None else phase_offset
+
+
 class SpreadSpectrum(Record):
     """Modulation frequencies that are swept evenly over a band within each exposure, so that they
     disturb radios less (theory 3.9).
@@ -1141,6 +1167,7 @@ class Camera(Record):
     decoding : Decoding
     temperature : Temperature
     interference : Interference
+    calibration : Calibration
     spread_spectrum : SpreadSpectrum
     readout : Readout
     auto_exposure : AutoExposure
@@ -1155,7 +1182,7 @@ class Camera(Record):
         All that the profile has.
     """
     __slots__ = ("name", "source", "sensor", "lens", "filter", "illumination", "pixel", "adc", "decoding", "temperature",
-                 "interference", "spread_spectrum", "readout", "auto_exposure", "refractive_index", "readout_time_s",
+                 "interference", "calibration", "spread_spectrum", "readout", "auto_exposure", "refractive_index", "readout_time_s",
                  "min_integration_time_s", "power_model", "mode", "mode_names")
     name: str
     source: str
@@ -1168,6 +1195,7 @@ class Camera(Record):
     decoding: Decoding
     temperature: Temperature
     interference: Interference
+    calibration: Calibration
     spread_spectrum: SpreadSpectrum
     readout: Readout
     auto_exposure: AutoExposure
@@ -1192,6 +1220,7 @@ class Camera(Record):
         decoding: Decoding | None = None,
         temperature: Temperature | None = None,
         interference: Interference | None = None,
+        calibration: Calibration | None = None,
         spread_spectrum: SpreadSpectrum | None = None,
         readout: Readout | None = None,
         auto_exposure: AutoExposure | None = None,
@@ -1213,6 +1242,7 @@ class Camera(Record):
         self.decoding = Decoding() if decoding is None else decoding
         self.temperature = Temperature() if temperature is None else temperature
         self.interference = Interference() if interference is None else interference
+        self.calibration = Calibration() if calibration is None else calibration
         self.spread_spectrum = SpreadSpectrum() if spread_spectrum is None else spread_spectrum
         self.readout = Readout() if readout is None else readout
         self.auto_exposure = AutoExposure() if auto_exposure is None else auto_exposure
@@ -1540,9 +1570,11 @@ class Mesh(Record):
     up : Literal["automatic", "y", "z", "minus_y", "none"]
         The file's axis that is up, turned to Scene::world_up; automatic: y in OBJ and glTF, z in
         PLY and STL;.
+    animation : str
+        < none: the file's axes are the world's of a glTF file: a name, a number from 0 on, or "all"
+        at once; empty: the first.
     time_s : float | None, s
-        < none: the file's axes are the world's of a glTF file's first animation; none: as its nodes
-        stand.
+        Of that animation; none: as its nodes stand.
     play : Literal["still", "once", "loop"]
         Whether that animation goes on, from `time_s` (or its start) at t = 0.
     sha256 : str
@@ -1559,10 +1591,12 @@ class Mesh(Record):
     motion : MeshMotion | None
         How it changes its shape; none: it does not.
     """
-    __slots__ = ("file", "scale", "up", "time_s", "play", "sha256", "left_out", "guessed", "notices", "triangles", "motion")
+    __slots__ = ("file", "scale", "up", "animation", "time_s", "play", "sha256", "left_out", "guessed", "notices", "triangles",
+                 "motion")
     file: str
     scale: float
     up: Literal["automatic", "y", "z", "minus_y", "none"]
+    animation: str
     time_s: float | None
     play: Literal["still", "once", "loop"]
     sha256: str
@@ -1578,6 +1612,7 @@ class Mesh(Record):
         file: str = '',
         scale: float = 1.0,
         up: Literal["automatic", "y", "z", "minus_y", "none"] = 'automatic',
+        animation: str = '',
         time_s: float | None = None,
         play: Literal["still", "once", "loop"] = 'still',
         sha256: str = '',
@@ -1590,6 +1625,7 @@ class Mesh(Record):
         self.file = file
         self.scale = scale
         self.up = up
+        self.animation = animation
         self.time_s = time_s
         self.play = play
         self.sha256 = sha256
@@ -2644,10 +2680,10 @@ class CameraReport(Record):
 __all__ = [
     "Curve", "PixelMask", "Sensor", "Scatter", "Lens", "Filter", "Pattern", "Waveform", "Area",
     "Illumination", "Pixel", "Adc", "RawFrame", "Mode", "ImageFilter", "Decoding", "Temperature",
-    "Interference", "SpreadSpectrum", "Readout", "AutoExposure", "Camera", "Material", "Plane",
-    "Sphere", "Box", "Triangle", "Cylinder", "Rectangle", "Disk", "Capsule", "Cone", "Mesh",
-    "Rotation", "Keyframe", "Object", "Ambient", "TransientBins", "Transport", "Pose",
-    "CameraKeyframe", "Override", "CameraChoice", "SceneFile", "Scene", "RanOn", "FrameRequest",
-    "ObjectInView", "SceneFinding", "SceneReport", "InvalidPixels", "AmbientCase", "CameraQuestion",
-    "NoiseAt", "NoiseAtDistances", "CameraReport",
+    "Interference", "Calibration", "SpreadSpectrum", "Readout", "AutoExposure", "Camera",
+    "Material", "Plane", "Sphere", "Box", "Triangle", "Cylinder", "Rectangle", "Disk", "Capsule",
+    "Cone", "Mesh", "Rotation", "Keyframe", "Object", "Ambient", "TransientBins", "Transport",
+    "Pose", "CameraKeyframe", "Override", "CameraChoice", "SceneFile", "Scene", "RanOn",
+    "FrameRequest", "ObjectInView", "SceneFinding", "SceneReport", "InvalidPixels", "AmbientCase",
+    "CameraQuestion", "NoiseAt", "NoiseAtDistances", "CameraReport",
 ]

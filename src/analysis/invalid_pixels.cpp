@@ -22,15 +22,16 @@ NoDepth reason_by_flags(std::uint16_t flags) {
   return (flags & flag_inconsistent_phases) != 0 ? NoDepth::inconsistent_phases : NoDepth::inconsistent_frequencies;
 }
 
-/// A frame's truth, pixel by pixel, where it is there.
+/// A frame's truth, pixel by pixel, where it is there. Where nobody wrote which object it is, a range says that there is a surface.
 class PixelTruth {
  public:
   PixelTruth(const Frame& frame, double reach_m)
       : truth_(frame.truth),
         reach_m_(reach_m),
-        known_(truth_.object_id.size() == frame.depth.flags.size() && truth_.range_m.size() == frame.depth.flags.size()) {}
+        known_(truth_.range_m.size() == frame.depth.flags.size()),
+        named_(truth_.object_id.size() == frame.depth.flags.size()) {}
   [[nodiscard]] bool beyond(std::size_t i) const {
-    return known_ && reach_m_ > 0 && truth_.object_id[i] >= 0 && static_cast<double>(truth_.range_m[i]) > reach_m_;
+    return known_ && reach_m_ > 0 && is_surface(i) && static_cast<double>(truth_.range_m[i]) > reach_m_;
   }
   /// How far a range is from the true one; NaN where that is not known.
   [[nodiscard]] double error(std::size_t i, float range_m) const {
@@ -38,15 +39,17 @@ class PixelTruth {
   }
   [[nodiscard]] NoDepth reason(std::size_t i, NoDepth by_flags) const {
     if (!known_ || by_flags == NoDepth::outside_lens || by_flags == NoDepth::saturated) return by_flags;
-    if (truth_.object_id[i] < 0) return NoDepth::no_surface;
+    if (!is_surface(i)) return NoDepth::no_surface;
     if (beyond(i)) return NoDepth::beyond_reach;
     return by_flags == NoDepth::low_signal || by_flags == NoDepth::no_return ? NoDepth::dark : by_flags;
   }
 
  private:
+  [[nodiscard]] bool is_surface(std::size_t i) const { return named_ ? truth_.object_id[i] >= 0 : std::isfinite(truth_.range_m[i]); }
+
   const Truth& truth_;
   double reach_m_;
-  bool known_;
+  bool known_, named_;
 };
 
 /// The frame's depth as it is where nobody looks for flying pixels; empty where its raw data are not there.
@@ -130,9 +133,9 @@ InvalidPixels invalid_pixels(const Frame& frame, const Camera& camera, bool wron
   const std::vector<std::uint16_t>& flags = frame.depth.flags;
   out.pixels = static_cast<std::int64_t>(flags.size());
   const PixelTruth seen(frame, reach.ambiguity_range_m);
-  // (Of one modulation frequency alone no cycle can be mistaken for another.)
-  const double half_a_cycle = reach.ranges_m.size() > 1 ? 0.5 * *std::min_element(reach.ranges_m.begin(), reach.ranges_m.end())
-                                                        : std::numeric_limits<double>::infinity();
+  // (Of one modulation frequency alone, what is near either end of its range.)
+  const double half_a_cycle = reach.ranges_m.empty() ? std::numeric_limits<double>::infinity()
+                                                     : 0.5 * *std::min_element(reach.ranges_m.begin(), reach.ranges_m.end());
   std::vector<std::size_t> flying;
   for (std::size_t i = 0; i < flags.size(); ++i) {
     if ((flags[i] & flags_invalid) == 0) {

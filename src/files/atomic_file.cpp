@@ -85,15 +85,20 @@ class LiveTemporary {
 
 // --- failures -----------------------------------------------------------------------------------------------------------------
 
+/// "12345 bytes", and that no file more can be made where that is so.
+std::string room_text(const struct statvfs& room) {
+  return fmt::format("{} bytes{}", static_cast<unsigned long long>(room.f_bavail) * room.f_frsize,
+                     room.f_files > 0 && room.f_favail == 0 ? " and no place for one more file" : "");
+}
+
 /// Throws what the user reads: path, step, reason, and the room that is left where that is the reason.
 [[noreturn]] void fail(const std::filesystem::path& path, const char* step, int code, std::size_t needed, int folder) {
   std::string text = fmt::format("{}: error: cannot {}: {}", path.native(), step, std::generic_category().message(code));
   if (code == ENOSPC || code == EDQUOT) {
     struct statvfs room {};
     if (folder >= 0 && fstatvfs(folder, &room) == 0)
-      text +=
-          fmt::format("\n  needed {} bytes, free {} bytes in {}", needed, static_cast<unsigned long long>(room.f_bavail) * room.f_frsize,
-                      path.has_parent_path() ? path.parent_path().native() : ".");
+      text += fmt::format("\n  needed {} bytes, free {} in {}", needed, room_text(room),
+                          path.has_parent_path() ? path.parent_path().native() : ".");
     else
       text += fmt::format("\n  needed {} bytes", needed);
   } else if (code == ENAMETOOLONG) {
@@ -224,6 +229,15 @@ const FileCalls& system_file_calls() {
   static const FileCalls calls{[](int folder, const char* name, int flags, mode_t mode) { return ::openat(folder, name, flags, mode); },
                                ::write, ::fsync, ::close, ::renameat};
   return calls;
+}
+
+std::string free_room(std::filesystem::path path) {
+  struct statvfs room {};
+  while (::statvfs(path.empty() ? "." : path.c_str(), &room) != 0) {
+    if (path.empty() || path == path.parent_path()) return "nobody knows how much";
+    path = path.parent_path();
+  }
+  return room_text(room) + " in " + (path.empty() ? "." : path.native());
 }
 
 void write_file_atomically(const std::filesystem::path& path, std::string_view bytes, const FileCalls& calls) {

@@ -4,6 +4,7 @@
 #include <sys/types.h>
 
 #include <filesystem>
+#include <string>
 #include <string_view>
 
 /// Files that are complete or absent, whatever happens while they are written.
@@ -28,6 +29,9 @@ const FileCalls& system_file_calls();
 ///
 /// @throws Error (io) with path, what failed and why; with the bytes needed and free where the disk is full. The temporary is gone then.
 void write_file_atomically(const std::filesystem::path& path, std::string_view bytes, const FileCalls& calls = system_file_calls());
+
+/// How much is free where a path lies, or will lie: "12345 bytes in FOLDER".
+std::string free_room(std::filesystem::path path);
 
 /// Removes what a write that was killed left in a folder: files under the names of our temporaries, of this user, whose maker is dead.
 /// The maker of a live one holds a lock (flock) on it; where the file system knows no locks, nothing is removed.

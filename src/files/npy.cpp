@@ -179,14 +179,26 @@ std::string utf32_of(std::string_view utf8) {
   return result;
 }
 
+namespace {
+
+void check_size(const NpyHeader& header, std::size_t size, const std::string& where) {
+  const std::size_t data = size - header.length;
+  if (data == header.data_bytes) return;
+  throw Error(ErrorKind::bad_input, fmt::format("{}: error: the array is {}\n  got {} bytes of data, expected {} for {} of shape {}", where,
+                                                data < header.data_bytes ? "cut short" : "followed by bytes that are not its own", data,
+                                                header.data_bytes, header.type.name(), shape_text(header.shape)));
+}
+
+}  // namespace
+
+void check_npy_size(std::string_view first, std::size_t size, const std::string& where) {
+  check_size(parse_npy_header(first, where), size, where);
+}
+
 NpyArray parse_npy(std::string_view file, const std::string& where) {
   const NpyHeader header = parse_npy_header(file, where);
+  check_size(header, file.size(), where);
   const std::string_view data = file.substr(header.length);
-  if (data.size() != header.data_bytes)
-    throw Error(ErrorKind::bad_input,
-                fmt::format("{}: error: the array is {}\n  got {} bytes of data, expected {} for {} of shape {}", where,
-                            data.size() < header.data_bytes ? "cut short" : "followed by bytes that are not its own", data.size(),
-                            header.data_bytes, header.type.name(), shape_text(header.shape)));
   NpyArray array{header.type, header.shape, std::string(data)};
   if (header.big_endian) swap_byte_order(array);
   if (header.fortran_order) to_c_order(array);

@@ -57,6 +57,10 @@ std::string npy_header(const NpyType& type, const NpyShape& shape);
 /// UTF-8 → the bytes of a 'U' array's element (UTF-32, little endian). Bytes that are not UTF-8 become U+FFFD.
 std::string utf32_of(std::string_view utf8);
 
+/// Whether a file of so many bytes is as long as its header says. @param first  its first bytes, the header among them
+/// @throws Error as parse_npy
+void check_npy_size(std::string_view first, std::size_t size, const std::string& where);
+
 /// Reads one .npy file that is in memory.
 /// @param where   path (and entry) for messages
 /// @throws Error (bad_input): truncated, lying or unknown header, data of another size than the header says; (limit): too many dimensions

@@ -67,26 +67,41 @@ Entry checked_entry(zip_t* archive, zip_uint64_t index, std::size_t file_bytes, 
           static_cast<std::size_t>(status.comp_size)};
 }
 
-/// Unpacks one entry; libzip compares its CRC.
+/// Reads until the bytes are full or the entry ends. @return whether they are full
+bool fill(zip_file_t* file, std::string& bytes, std::size_t& have, const std::string& here) {
+  while (have < bytes.size()) {
+    const zip_int64_t got = zip_fread(file, bytes.data() + have, bytes.size() - have);
+    if (got < 0) refuse(here, fmt::format("the entry is damaged ({})", zip_error_strerror(zip_file_get_error(file))));
+    if (got == 0) return false;
+    have += static_cast<std::size_t>(got);
+  }
+  return true;
+}
+
+/// Unpacks one entry; libzip compares its CRC. Memory is asked for as bytes come, not for what the entry promises, and only where the
+/// array's own header promises as much.
 std::string unpacked(zip_t* archive, const Entry& entry, const std::string& here) {
   const EntryFile file(zip_fopen_index(archive, entry.index, 0));
   if (!file) refuse(here, "the entry is damaged");
-  std::string bytes(entry.size, '\0');
+  std::string bytes(std::min<std::size_t>(entry.size, 1 << 20), '\0');
   std::size_t have = 0;
-  for (;;) {
-    char beyond = 0;
-    const bool full = have == bytes.size();
-    const zip_int64_t got = zip_fread(file.get(), full ? &beyond : bytes.data() + have, full ? 1 : bytes.size() - have);
-    if (got < 0) refuse(here, fmt::format("the entry is damaged ({})", zip_error_strerror(zip_file_get_error(file.get()))));
-    if (got == 0) break;
-    if (full) refuse(here, "the entry unpacks to more than its declared size");
-    have += static_cast<std::size_t>(got);
+  bool full = fill(file.get(), bytes, have, here);
+  if (full) check_npy_size(bytes, entry.size, here);
+  while (full && have < entry.size) {
+    bytes.resize(std::min(entry.size, 2 * have));
+    full = fill(file.get(), bytes, have, here);
   }
-  if (have != bytes.size()) refuse(here, "the entry is cut short");
+  if (!full) refuse(here, "the entry is cut short");
+  char beyond = 0;
+  const zip_int64_t more = zip_fread(file.get(), &beyond, 1);  // at the end the CRC is compared
+  if (more < 0) refuse(here, fmt::format("the entry is damaged ({})", zip_error_strerror(zip_file_get_error(file.get()))));
+  if (more > 0) refuse(here, "the entry unpacks to more than its declared size");
   return bytes;
 }
 
 Archive open_archive(std::string_view file, const std::string& where) {
+  if (file.empty())
+    refuse(where, "the file is empty\n  expected a zip of .npy arrays, as numpy.savez writes");  // libzip takes that for a zip
   zip_error_t error;
   zip_error_init(&error);
   const auto refuse_zip = [&] {

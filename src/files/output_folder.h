@@ -3,10 +3,13 @@
 #pragma once
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <unordered_set>
 #include <vector>
+
+#include "files/descriptor.h"
 
 namespace tofray::files {
 
@@ -18,10 +21,11 @@ struct FileRecord {
 };
 
 /// The folder that results go to: made with its parents where it is missing. Files of the same name are replaced, others left alone (but
-/// temporaries that a killed run left are removed), and each is complete or absent.
+/// temporaries that a killed run left are removed), and each is complete or absent. While one lives no other process has one of the same
+/// folder: who ends, however it ends, leaves no lock behind. (A file system that has no locks gives none.)
 class OutputFolder {
  public:
-  /// @throws Error (io) where the folder cannot be made, or a file is in its place
+  /// @throws Error (io) where the folder cannot be made, a file is in its place, or somebody else writes into it
   explicit OutputFolder(std::filesystem::path path);
 
   /// Writes one file. Several threads may do so at once. @throws Error (io)
@@ -37,6 +41,7 @@ class OutputFolder {
 
  private:
   std::filesystem::path path_;
+  std::optional<Descriptor> lock_;
   std::vector<FileRecord> files_;
   std::unordered_set<std::string> names_;  ///< of the files: a run of many frames does not search the list for each
 };

@@ -5,8 +5,7 @@
 #include <openssl/evp.h>
 
 #include <memory>
-
-#include "tofray/error.h"
+#include <new>
 
 namespace tofray::files {
 
@@ -17,7 +16,7 @@ std::string sha256_hex(std::span<const std::string_view> parts) {
   bool good = context != nullptr && EVP_DigestInit_ex(context.get(), EVP_sha256(), nullptr) == 1;
   for (const std::string_view part : parts) good = good && EVP_DigestUpdate(context.get(), part.data(), part.size()) == 1;
   if (!good || EVP_DigestFinal_ex(context.get(), digest, &length) != 1)
-    throw Error(ErrorKind::bug, "error: OpenSSL cannot compute SHA-256");
+    throw std::bad_alloc();  // nothing else can fail here: OpenSSL fetches its own memory
   constexpr const char* digits = "0123456789abcdef";
   std::string text;
   text.reserve(2 * length);

@@ -96,9 +96,15 @@ const char* name_of(const Accessor& accessor) {
 
 }  // namespace
 
-Accessors::Accessors(const Item& root, const Buffers& buffers) : buffers_(buffers) {
-  for (const Item& item : root.objects("accessors")) accessors_.push_back(read_accessor(item, buffers));
-  taken_.resize(accessors_.size());
+Accessors::Accessors(const Item& root, const Buffers& buffers) : buffers_(buffers), items_(root.objects("accessors")) {
+  accessors_.resize(items_.size());
+  taken_.resize(items_.size());
+}
+
+const Accessor& Accessors::operator[](int i) const {
+  auto& accessor = accessors_[static_cast<std::size_t>(i)];
+  if (!accessor) accessor = read_accessor(items_[static_cast<std::size_t>(i)], buffers_);
+  return *accessor;
 }
 
 void Accessors::check(const Accessor& accessor, const Wanted& wanted, const Item& user) const {

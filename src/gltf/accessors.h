@@ -55,7 +55,8 @@ class Accessors {
   Accessors(const Item& root, const Buffers& buffers);
 
   [[nodiscard]] std::size_t size() const { return accessors_.size(); }
-  [[nodiscard]] const Accessor& operator[](int i) const { return accessors_[static_cast<std::size_t>(i)]; }
+  /// @throws Error where it is not what an accessor may be, or does not lie within its views
+  [[nodiscard]] const Accessor& operator[](int i) const;
 
   /// Numbers as they are meant: those that are normalized lie in [0, 1] or [−1, 1].
   /// @param user  who asks, for messages
@@ -84,7 +85,9 @@ class Accessors {
   std::vector<Out> decode(const Accessor& accessor) const;
 
   const Buffers& buffers_;
-  std::vector<Accessor> accessors_;
+  /// Read when one is used first: what nobody uses may be anything.
+  mutable std::vector<std::optional<Accessor>> accessors_;
+  std::vector<Item> items_;
   std::vector<Taken> taken_;
   std::uint64_t bytes_ = 0;
 };

@@ -28,8 +28,10 @@ void read_far(const Item& item, Camera& camera) {
                  "got " + base::number_text(*camera.zfar_m) + ", and znear is " + base::number_text(camera.znear_m));
 }
 
-void read_perspective(const Item& item, Camera& camera) {
-  camera.yfov_rad = positive(item, "yfov", pi);
+void read_perspective(const Item& item, Camera& camera, Notices& notices) {
+  camera.yfov_rad = positive(item, "yfov");
+  if (camera.yfov_rad >= pi)
+    notices.add("cameras whose yfov is half a turn or more (in degrees?) are taken for where they stand: the lens is that of the sensor");
   if (item.has("aspectRatio")) camera.aspect_ratio = positive(item, "aspectRatio");
   camera.znear_m = positive(item, "znear");
   read_far(item, camera);
@@ -87,7 +89,7 @@ void read_cameras(Reading& reading) {
     if (!camera.perspective && type != "orthographic")
       item.fail_at("type", "is none of a camera", "got " + base::in_quotes(type) + ", expected perspective or orthographic");
     if (camera.perspective)
-      read_perspective(item.required_object("perspective"), camera);
+      read_perspective(item.required_object("perspective"), camera, reading.notices);
     else
       read_orthographic(item.required_object("orthographic"), camera);
   }

@@ -122,9 +122,23 @@ void read_specular(Reading& reading, const Item& item, Material& material) {
     reading.notices.add("colours and textures of KHR_materials_specular are left out");
 }
 
+/// The older way to say metal and roughness: what is diffuse becomes the base colour of what is no metal.
+void read_specular_glossiness(Reading& reading, const Item& item, Material& material) {
+  item.numbers("diffuseFactor", material.base_color);
+  for (const double part : material.base_color)
+    if (!(part >= 0 && part <= 1))
+      item.fail_at("diffuseFactor", "is out of range", "got " + base::number_text(part) + ", expected 0 to 1 each");
+  material.has_metallic_roughness = true;
+  material.metallic = 0, material.roughness = 1 - item.number_within("glossinessFactor", 0, 1, 1);
+  material.base_color_texture = texture_use(reading, item, "diffuseTexture");
+  reading.notices.add("diffuse colours of KHR_materials_pbrSpecularGlossiness are taken for base colours, its specular ones are left out");
+}
+
 void read_extensions(Reading& reading, const Item& item, Material& material) {
   const auto extensions = item.object("extensions");
   if (!extensions) return;
+  if (const auto older = extensions->object("KHR_materials_pbrSpecularGlossiness"); older && !material.has_metallic_roughness)
+    read_specular_glossiness(reading, *older, material);
   material.unlit = extensions->has("KHR_materials_unlit");
   if (const auto specular = extensions->object("KHR_materials_specular")) read_specular(reading, *specular, material);
   const auto refraction = extensions->object("KHR_materials_ior");
@@ -142,6 +156,9 @@ Material read_material(Reading& reading, const Item& item) {
   if (const auto normal = item.object("normalTexture")) material.normal_scale = normal->number_or("scale", 1);
   leave_out_emission(reading, item);
   material.alpha = alpha_of(item);
+  if (material.alpha == Material::Alpha::mask)
+    reading.notices.add("materials that are cut out by alpha (alphaMode MASK) are opaque, with all of their triangles");
+  if (material.alpha == Material::Alpha::blend) reading.notices.add("materials that let light through (alphaMode BLEND) are opaque");
   material.alpha_cutoff = item.number_within("alphaCutoff", 0, infinity, 0.5);
   material.double_sided = item.flag_or("doubleSided", false);
   read_extensions(reading, item, material);

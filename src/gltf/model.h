@@ -116,6 +116,10 @@ struct Node {
   Vec3 translation{0, 0, 0}, scale{1, 1, 1};
   Quaternion rotation{0, 0, 0, 1};  ///< of unit length
   std::vector<double> weights;      ///< one for each morph target of its mesh, or none: those of the mesh
+  /// EXT_mesh_gpu_instancing: where its mesh stands, each in the node's own frame; none: once, in that frame.
+  std::optional<std::vector<Matrix>> instances;
+
+  [[nodiscard]] std::size_t shown() const { return instances ? instances->size() : 1; }  ///< how often it shows its mesh
 };
 
 /// Values at keyframes; of a cubic spline three for each: in-tangent, value, out-tangent.

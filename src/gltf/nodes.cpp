@@ -47,6 +47,50 @@ void check_skin(const Reading& reading, const Item& item, const Node& node) {
                  fmt::format("meshes[{}] names joint {}, and there are {}, of which the first is 0", node.mesh, mesh.most_joint, joints));
 }
 
+constexpr unsigned normalized_too = written::real | written::normalized_unsigned | written::normalized_signed;
+constexpr Wanted instance_vectors{"VEC3", nullptr, written::real, "VEC3 of floats"};
+constexpr Wanted instance_rotations{"VEC4", nullptr, normalized_too, "VEC4 of floats or normalized numbers"};
+
+Quaternion rotation_of(const Item& attributes, const std::vector<float>& all, std::size_t i) {
+  const Quaternion q{all[4 * i], all[4 * i + 1], all[4 * i + 2], all[4 * i + 3]};
+  const double size = length(q);
+  if (!(size > 1e-6 && size < 1e6))
+    attributes.fail_at("ROTATION", "is no rotation",
+                       fmt::format("got a quaternion of length {} of instance {}", base::number_text(size), i));
+  return normalized(q);
+}
+
+/// Where a node's mesh stands, each place in the node's own frame.
+void read_instances(Reading& reading, const Item& item, Node& node) {
+  const auto extensions = item.object("extensions");
+  const auto extension = extensions ? extensions->object("EXT_mesh_gpu_instancing") : std::nullopt;
+  if (!extension) return;
+  const auto attributes = extension->object("attributes");
+  if (!attributes || node.mesh == none)
+    return reading.notices.add("instances without attributes, or of nodes without a mesh, are left out");
+  if (node.skin != none) return reading.notices.add("instances of meshes with a skin are left out: one of each is shown");
+  std::optional<std::uint64_t> count;
+  const auto values = [&](const char* name, const Wanted& wanted) -> Floats {
+    const int accessor = attributes->index(name, reading.accessors.size(), "accessors");
+    if (accessor == none) return nullptr;
+    const std::uint64_t its = reading.accessors[accessor].count;
+    if (count && *count != its)
+      attributes->fail_at(name, "has another number of instances", fmt::format("got {}, and another attribute has {}", its, *count));
+    count = its;
+    return reading.accessors.finite_floats(accessor, wanted, *attributes);
+  };
+  const Floats translation = values("TRANSLATION", instance_vectors), rotation = values("ROTATION", instance_rotations),
+               scale = values("SCALE", instance_vectors);
+  if (!count) return reading.notices.add("instances without TRANSLATION, ROTATION and SCALE are left out: one of each is shown");
+  const auto vector = [](const Floats& all, std::size_t i, double otherwise) {
+    return all ? Vec3{(*all)[3 * i], (*all)[3 * i + 1], (*all)[3 * i + 2]} : Vec3{otherwise, otherwise, otherwise};
+  };
+  node.instances.emplace();
+  for (std::size_t i = 0; i < *count; ++i)
+    node.instances->push_back(transform(vector(translation, i, 0),
+                                        rotation ? rotation_of(*attributes, *rotation, i) : Quaternion{0, 0, 0, 1}, vector(scale, i, 1)));
+}
+
 Node read_node(Reading& reading, const Item& item, std::size_t nodes) {
   Node node;
   const Model& model = reading.model;
@@ -56,6 +100,7 @@ Node read_node(Reading& reading, const Item& item, std::size_t nodes) {
   node.skin = item.index("skin", model.skins.size(), "skins");
   node.camera = item.index("camera", model.cameras.size(), "cameras");
   if (node.skin != none) check_skin(reading, item, node);
+  read_instances(reading, item, node);
   node.matrix = read_matrix(item);
   item.numbers("translation", node.translation);
   item.numbers("scale", node.scale);

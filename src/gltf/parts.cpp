@@ -111,10 +111,11 @@ class PartMaker {
  public:
   PartMaker(const Model& model, const Pose& pose) : model_(model), pose_(pose), skins_(model.skins.size()) {}
 
-  void add(int node, const Primitive& primitive, std::vector<Part>& parts) {
+  /// @param world  of the node, or of one of its instances
+  void add(int node, const Matrix& world, const Primitive& primitive, std::vector<Part>& parts) {
     const auto i = static_cast<std::size_t>(node);
     const int skin = model_.nodes[i].skin;
-    const Placer placer(primitive, pose_.weights[i], pose_.world[i], skin == none ? nullptr : &matrices(skin));
+    const Placer placer(primitive, pose_.weights[i], world, skin == none ? nullptr : &matrices(skin));
     Part& part = parts.emplace_back();
     part.node = node, part.material = primitive.material;
     number_vertices(primitive, placer, part);
@@ -194,10 +195,15 @@ class PartMaker {
 std::vector<Part> parts(const Model& model, const Pose& pose) {
   std::vector<Part> out;
   PartMaker maker(model, pose);
-  for (std::size_t i = 0; i < model.nodes.size(); ++i)
-    if (const int mesh = model.nodes[i].mesh; mesh != none && pose.in_scene[i] != 0)
-      for (const Primitive& primitive : model.meshes[static_cast<std::size_t>(mesh)].primitives)
-        maker.add(static_cast<int>(i), primitive, out);
+  for (std::size_t i = 0; i < model.nodes.size(); ++i) {
+    const Node& node = model.nodes[i];
+    if (node.mesh == none || pose.in_scene[i] == 0) continue;
+    for (std::size_t k = 0; k < node.shown(); ++k) {
+      const Matrix world = node.instances ? product(pose.world[i], (*node.instances)[k]) : pose.world[i];
+      for (const Primitive& primitive : model.meshes[static_cast<std::size_t>(node.mesh)].primitives)
+        maker.add(static_cast<int>(i), world, primitive, out);
+    }
+  }
   return out;
 }
 

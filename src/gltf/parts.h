@@ -10,7 +10,7 @@
 
 namespace tofray::gltf {
 
-/// One primitive of one node, in the world: y up, metres.
+/// One primitive of one node, or of one of its instances, in the world: y up, metres.
 ///
 /// Vertices are those that triangles use, in the order in which they use them: the same at each time. Triangles are counterclockwise as
 /// seen from their front. Left out are those with a vertex twice, and, counted, those with a corner beyond the range of float.

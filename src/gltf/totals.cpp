@@ -50,13 +50,14 @@ void check_totals(const Reading& reading) {
   for (const Node& node : reading.model.nodes) {
     if (node.mesh == none) continue;
     const Mesh& mesh = reading.model.meshes[static_cast<std::size_t>(node.mesh)];
+    const std::uint64_t times = node.shown();  // below 2^28
     morphs.add(reading.root, mesh.weights.size());
     for (const Primitive& primitive : mesh.primitives) {
       const std::uint64_t used = std::min(primitive.vertices(), 3 * primitive.triangles());
-      parts.add(reading.root, 1);
-      triangles.add(reading.root, primitive.triangles());
-      vertices.add(reading.root, used);
-      morphs.add(reading.root, used * primitive.targets.size());
+      parts.add(reading.root, times);
+      triangles.add(reading.root, times * primitive.triangles());
+      vertices.add(reading.root, times * used);
+      morphs.add(reading.root, times * (used * primitive.targets.size()));
     }
   }
 }

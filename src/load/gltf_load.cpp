@@ -2,9 +2,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "load/gltf_load.h"
 
+#include <algorithm>
+#include <charconv>
 #include <map>
+#include <utility>
 
 #include "base/limits.h"
+#include "base/text.h"
 #include "base/vec.h"
 #include "files/sha256.h"
 #include "files/text_file.h"
@@ -67,8 +71,59 @@ GltfFile read_gltf(std::string_view bytes, const std::string& path, const std::s
   return out;
 }
 
-gltf::Pose pose_at(const gltf::Model& model, const std::optional<double>& time_s) {
-  return gltf::at(model, time_s ? 0 : gltf::none, time_s.value_or(0));
+namespace {
+
+/// All channels; of two that move the same thing, the last.
+gltf::Animation all_at_once(const gltf::Model& model) {
+  gltf::Animation out;
+  out.name = "all";
+  std::map<std::pair<int, gltf::Channel::Path>, std::size_t> found;
+  for (const gltf::Animation& one : model.animations)
+    for (const gltf::Channel& channel : one.channels) {
+      const auto [at, is_new] = found.emplace(std::pair{channel.node, channel.path}, out.channels.size());
+      if (is_new)
+        out.channels.push_back(channel);
+      else
+        out.channels[at->second] = channel;
+    }
+  for (const gltf::Channel& channel : out.channels) {
+    const bool first = &channel == &out.channels.front();
+    out.start_s = first ? channel.times_s->front() : std::min<double>(out.start_s, channel.times_s->front());
+    out.end_s = first ? channel.times_s->back() : std::max<double>(out.end_s, channel.times_s->back());
+  }
+  return out;
+}
+
+std::string names_of(const std::vector<gltf::Animation>& animations) {
+  constexpr std::size_t most = 20;
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < animations.size() && i < most; ++i) names.push_back(base::in_quotes(animations[i].name));
+  if (animations.size() > most) names.push_back(std::to_string(animations.size() - most) + " more");
+  return base::listed(names, "and");
+}
+
+}  // namespace
+
+int animation_of(gltf::Model& model, const std::string& wanted, const base::Place& place) {
+  const std::vector<gltf::Animation>& all = model.animations;
+  if (wanted.empty()) return all.empty() ? gltf::none : 0;
+  for (std::size_t i = 0; i < all.size(); ++i)
+    if (all[i].name == wanted) return static_cast<int>(i);
+  if (wanted == "all" && !all.empty()) {
+    model.animations.push_back(all_at_once(model));
+    return static_cast<int>(all.size()) - 1;
+  }
+  std::size_t number = 0;
+  const auto [end, fault] = std::from_chars(wanted.data(), wanted.data() + wanted.size(), number);
+  if (fault == std::errc() && end == wanted.data() + wanted.size() && number < all.size()) return static_cast<int>(number);
+  base::fail(place, "there is no animation " + base::in_quotes(wanted),
+             all.empty()
+                 ? "the file has none"
+                 : "expected a name, a number from 0 to " + std::to_string(all.size() - 1) + ", or all; the file has " + names_of(all));
+}
+
+gltf::Pose pose_at(const gltf::Model& model, int animation, const std::optional<double>& time_s) {
+  return gltf::at(model, time_s ? animation : gltf::none, time_s.value_or(0));
 }
 
 std::vector<MeshPiece> pieces_of(const gltf::Model& model, const gltf::Pose& pose, bool by_material, const std::string& path,

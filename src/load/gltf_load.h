@@ -25,8 +25,14 @@ struct GltfFile {
 /// @throws Error as gltf::read and files::read_reference
 GltfFile read_gltf(std::string_view bytes, const std::string& path, const std::string& root);
 
-/// As the nodes stand, or at a time of the first animation, which there is then.
-gltf::Pose pose_at(const gltf::Model& model, const std::optional<double>& time_s);
+/// Which animation is meant: by its name, by its number from 0 on, or "all" of them, which become one more at the end of the list, where
+/// the last of two channels of one thing counts; the first where nothing is said, and `none` where there is none.
+/// @param place  who says it, for messages
+/// @throws Error (bad_input) for one that the file does not have
+int animation_of(gltf::Model& model, const std::string& wanted, const base::Place& place);
+
+/// As the nodes stand, or at a time of an animation, which there is then.
+gltf::Pose pose_at(const gltf::Model& model, int animation, const std::optional<double>& time_s);
 
 /// What the pose's scene shows, y up, in metres: a piece for each material, those without one first; or all of it as one piece.
 /// @param by_material  whether materials are wanted apart, and their maps

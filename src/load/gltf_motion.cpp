@@ -18,7 +18,8 @@ namespace {
 /// A model whose animation goes on. Its pieces ask for the same times one after the other.
 class Film {
  public:
-  Film(gltf::Model model, double start_s, bool loop) : model_(std::move(model)), start_s_(start_s), loop_(loop) {}
+  Film(gltf::Model model, int animation, double start_s, bool loop)
+      : model_(std::move(model)), animation_(animation), start_s_(start_s), loop_(loop) {}
 
   /// Calls take(part) for all parts at a time.
   template <class Take>
@@ -26,7 +27,7 @@ class Film {
     const std::lock_guard lock(mutex_);
     if (!known_ || time_s != time_s_) {
       known_ = false;
-      parts_ = gltf::parts(model_, pose_at(model_, in_animation(time_s)));
+      parts_ = gltf::parts(model_, pose_at(model_, animation_, in_animation(time_s)));
       time_s_ = time_s, known_ = true;
     }
     for (const gltf::Part& part : parts_) take(part);
@@ -34,11 +35,12 @@ class Film {
 
  private:
   [[nodiscard]] double in_animation(double time_s) const {
-    const double time = start_s_ + time_s, end = model_.animations[0].end_s;
+    const double time = start_s_ + time_s, end = model_.animations[static_cast<std::size_t>(animation_)].end_s;
     return loop_ && end > 0 ? time - end * std::floor(time / end) : time;
   }
 
   const gltf::Model model_;
+  const int animation_;
   const double start_s_;
   const bool loop_;
   std::mutex mutex_;
@@ -81,8 +83,8 @@ class PieceMotion : public MeshMotion {
 
 }  // namespace
 
-void play(gltf::Model model, double start_s, bool loop, std::vector<MeshPiece>& pieces) {
-  const auto film = std::make_shared<Film>(std::move(model), start_s, loop);
+void play(gltf::Model model, int animation, double start_s, bool loop, std::vector<MeshPiece>& pieces) {
+  const auto film = std::make_shared<Film>(std::move(model), animation, start_s, loop);
   for (MeshPiece& piece : pieces) piece.motion = std::make_shared<PieceMotion>(film, piece.by_material, piece.number, piece.left_out);
 }
 

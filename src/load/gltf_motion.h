@@ -10,9 +10,10 @@
 namespace tofray::load {
 
 /// Gives the pieces of a model their motion.
-/// @param model    of which they were made at `start_s`; it has an animation
-/// @param start_s  of the animation, at t = 0
+/// @param model      of which they were made at `start_s` of one of its animations
+/// @param animation  which that is
+/// @param start_s    of the animation, at t = 0
 /// @param loop     again and again, from 0 to its last keyframe; else it ends there
-void play(gltf::Model model, double start_s, bool loop, std::vector<MeshPiece>& pieces);
+void play(gltf::Model model, int animation, double start_s, bool loop, std::vector<MeshPiece>& pieces);
 
 }  // namespace tofray::load

@@ -88,6 +88,16 @@ class PlacedMotion : public MeshMotion {
   Axes up_;
 };
 
+/// Of a file with several animations: which one it is.
+std::string which_plays(const gltf::Model& model, int animation, std::size_t count, bool by_default) {
+  const std::string& name = model.animations[static_cast<std::size_t>(animation)].name;
+  const auto number = static_cast<std::size_t>(animation);
+  const std::string which = number == count ? "all of its " + std::to_string(count) + " animations play"
+                                            : "of its " + std::to_string(count) + " animations number " + std::to_string(number) +
+                                                  (name.empty() ? "" : ", " + base::in_quotes(name) + ",") + " plays";
+  return by_default ? which + ", the others do not; animation: all, a name or a number chooses" : which;
+}
+
 bool is_in_world(const Corner& p) {
   return std::all_of(p.begin(), p.end(), [](float a) { return std::abs(a) <= base::farthest_m; });  // NaN: no
 }
@@ -126,7 +136,7 @@ void MeshReader::Known::show(std::size_t piece, Mesh& mesh, bool shaded) const {
 MeshReader::MeshReader(const std::string& source, const MeshFiles& files) : folder_(folder_beside(source)), files_(files) {}
 
 const MeshReader::Known& MeshReader::read(const Places& places, const Mesh& mesh, bool by_material) {
-  const std::tuple key{mesh.file, mesh.scale, mesh.up, mesh.time_s, mesh.play, by_material};
+  const std::tuple key{mesh.file, mesh.scale, mesh.up, mesh.animation, mesh.time_s, mesh.play, by_material};
   auto known = known_.find(key);
   if (known == known_.end()) known = known_.emplace(key, from_file(places, mesh, by_material)).first;
   return known->second;
@@ -190,14 +200,20 @@ std::vector<MeshPiece> MeshReader::from_gltf(const Places& places, const Mesh& w
   GltfFile file = read_gltf(bytes, path, files_.root);
   check_expected(places.file, wanted.file, path, file.sha256);
   if (wanted.time_s && file.model.animations.empty())
-    base::fail(places.time, base::in_quotes(path, 200) + " has no animation", "time is one of its first animation; leave it away");
+    base::fail(places.time, base::in_quotes(path, 200) + " has no animation", "time is one of its animation; leave it away");
   if (wanted.play != Mesh::Play::still && file.model.animations.empty())
     base::fail(places.play, base::in_quotes(path, 200) + " has no animation", "there is nothing to play; leave it away");
   known.sha256 = std::move(file.sha256), known.notices = std::move(file.model.notices);
   for (std::size_t i = 0; i < file.model.materials.size(); ++i) known.materials.push_back(name_of(file.model, static_cast<int>(i)));
+  const bool plays = wanted.time_s || wanted.play != Mesh::Play::still;
+  if (!plays && !wanted.animation.empty())
+    base::fail(places.animation, "animation says which one plays, and nothing plays", "add play: loop, or time: 0 s for one moment");
+  const std::size_t animations = file.model.animations.size();
+  const int animation = animation_of(file.model, wanted.animation, places.animation);
+  if (plays && animations > 1) known.notices.push_back(which_plays(file.model, animation, animations, wanted.animation.empty()));
   const std::optional<double> start_s = wanted.play == Mesh::Play::still ? wanted.time_s : wanted.time_s.value_or(0);
-  std::vector<MeshPiece> pieces = pieces_of(file.model, pose_at(file.model, start_s), by_material, path, places.file);
-  if (wanted.play != Mesh::Play::still) play(std::move(file.model), *start_s, wanted.play == Mesh::Play::loop, pieces);
+  std::vector<MeshPiece> pieces = pieces_of(file.model, pose_at(file.model, animation, start_s), by_material, path, places.file);
+  if (wanted.play != Mesh::Play::still) play(std::move(file.model), animation, *start_s, wanted.play == Mesh::Play::loop, pieces);
   return pieces;
 }
 
@@ -258,8 +274,9 @@ std::optional<Pose> camera_in(const Mesh& mesh, const std::string& source, const
   std::string path;
   const std::string bytes =
       files::read_reference(mesh.file, folder_beside(source), root, base::whole(source), path, base::limit::mesh_bytes);
-  const GltfFile file = read_gltf(bytes, path, root);
-  std::optional<Pose> pose = camera_of(file.model, pose_at(file.model, mesh.time_s));
+  GltfFile file = read_gltf(bytes, path, root);
+  const int animation = animation_of(file.model, mesh.animation, base::whole(source));
+  std::optional<Pose> pose = camera_of(file.model, pose_at(file.model, animation, mesh.time_s));
   if (!pose) return pose;
   const Axes up = axes_of(mesh, world_up);
   pose->position = mesh.scale * turned(pose->position, up), pose->look_at = mesh.scale * turned(pose->look_at, up);

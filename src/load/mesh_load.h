@@ -34,7 +34,7 @@ class MeshReader {
  public:
   /// Where the scene names what a mesh is made of.
   struct Places {
-    base::Place file, time, play;
+    base::Place file, time, play, animation;
   };
   /// What the file shows; of a glTF or OBJ file one for each material, where that is asked for. Shades are those of a material of the file.
   struct Piece {
@@ -85,7 +85,7 @@ class MeshReader {
   Scene::Up world_up_ = Scene::Up::minus_y;
   std::set<std::string> with_materials_;
   std::size_t vertices_ = 0, triangles_ = 0, texels_ = 0;
-  std::map<std::tuple<std::string, double, Mesh::Up, std::optional<double>, Mesh::Play, bool>, Known> known_;
+  std::map<std::tuple<std::string, double, Mesh::Up, std::string, std::optional<double>, Mesh::Play, bool>, Known> known_;
 };
 
 /// Where the first perspective camera of a glTF file stands in the world; nothing where there is none, or the file is of another kind.

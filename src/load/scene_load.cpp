@@ -228,6 +228,7 @@ class SceneReader {
     else if (!has_material && !may_have_colors)
       faults_.add(value.place(), "mesh lacks a key", lacks_material);
     if (out.time_s) faults_.add(value["time"].place(), "time is for glTF files", "an OBJ, PLY or STL file stands still");
+    if (!out.animation.empty()) faults_.add(value["animation"].place(), "animation is for glTF files", "an OBJ, PLY or STL file has none");
     if (out.play != Mesh::Play::still)
       faults_.add(value["play"].place(), "play is for glTF files", "an OBJ, PLY or STL file has no animation");
   }
@@ -285,7 +286,7 @@ class SceneReader {
           const Value& said = (*one.value)[key];
           return (said ? said : *one.value).place();
         };
-        one.known = &meshes_.read({place("file"), place("time"), place("play")}, mesh, one.by_material);
+        one.known = &meshes_.read({place("file"), place("time"), place("play"), place("animation")}, mesh, one.by_material);
         one.known->show(0, mesh);
         mesh.notices = one.known->notices;
         if (one.by_material && one.own.empty() && !one.known->lacks.empty())

@@ -302,6 +302,18 @@ const Table& table_of<Interference>() {
 }
 
 template <>
+const Table& table_of<Calibration>() {
+  static const Table rows =
+      table<Calibration>(number<&Calibration::range_offset_m>("range_offset", {length, {-1e4, 1e4}, "35 mm"},
+                                                              "raw data show surfaces too far by this; decoding takes it off"),
+                         curve<&Calibration::phase_offset>(
+                             "phase_offset", {"modulation_frequency", modulation_frequency}, {"value", {angle, {-100, 100}, "0.2 rad"}},
+                             "phases of raw data are too large by this, besides; decoding takes it off; 0 unless given", allowed)
+                             .absent());
+  return rows;
+}
+
+template <>
 const Table& table_of<SpreadSpectrum>() {
   static const Table rows = table<SpreadSpectrum>(
       number<&SpreadSpectrum::width>("width", {fraction, {0, 0.5}, "1 %"}, "of the band over the modulation frequency; 0: none"),
@@ -383,6 +395,7 @@ const Table& table_of<Camera>() {
                     record<&Camera::decoding>("decoding", "from raw frames to depth"),
                     record<&Camera::temperature>("temperature", "drift of the range"),
                     record<&Camera::interference>("interference", "light of another camera of the same kind, at the same place"),
+                    record<&Camera::calibration>("calibration", "what raw data are off by, the same in all pixels"),
                     record<&Camera::spread_spectrum>("spread_spectrum", "modulation frequencies swept over a band within each exposure"),
                     record<&Camera::readout>("readout", "which pixels of the sensor are read, and how many together"),
                     record<&Camera::auto_exposure>("auto_exposure", "integration times that follow the light, from frame to frame"),

@@ -161,11 +161,13 @@ const Table& table_of<Mesh>() {
           choice<&Mesh::up>("up", {"automatic", "y", "z", "-y", "none"},
                             "the file's axis that is up, turned to `world_up`; automatic: y of an OBJ or glTF, z of a PLY or STL file; "
                             "none: the file's axes are the world's"),
-          number<&Mesh::time_s>("time", {time, {0, 1e6}, "1.5 s"},
-                                "of a glTF file's first animation; as the file stands still unless given")
+          words<&Mesh::animation>("animation", "a name, a number or all", "all",
+                                  "which of a glTF file's animations `time` and `play` are of: its name, its number from 0 on, or all at "
+                                  "once; the first unless given"),
+          number<&Mesh::time_s>("time", {time, {0, 1e6}, "1.5 s"}, "of a glTF file's animation; as the file stands still unless given")
               .absent(),
           choice<&Mesh::play>("play", {"still", "once", "loop"},
-                              "whether a glTF file's first animation goes on, from `time` (or its start) on: once, or again and again"),
+                              "whether a glTF file's animation goes on, from `time` (or its start) on: once, or again and again"),
           words<&Mesh::sha256>("", "", "", ""),  // the reader's
           no_row<&Mesh::left_out, &Mesh::guessed, &Mesh::notices, &Mesh::triangles, &Mesh::motion>("what the file holds"))
           .check_with(meshes_have_triangles);

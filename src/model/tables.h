@@ -56,6 +56,8 @@ const Table& table_of<Temperature>();
 template <>
 const Table& table_of<Interference>();
 template <>
+const Table& table_of<Calibration>();
+template <>
 const Table& table_of<SpreadSpectrum>();
 template <>
 const Table& table_of<Readout>();

@@ -9,6 +9,7 @@
 #include <cstring>
 
 #include "base/faults.h"
+#include "base/recording.h"
 #include "files/data_limits.h"
 #include "files/npz.h"
 #include "files/read_bytes.h"
@@ -29,6 +30,9 @@ using files::shape_text;
 namespace {
 
 constexpr const char* stack_shape = "(phase, height, width)";
+/// What recordings of signed or floating numbers often are, and what turns them into codes.
+constexpr const char* differences_help =
+    "differences A-B of the taps? Add mid_code (adc.mid_code of the camera) and write uint16, or give tap_a and tap_b";
 
 /// Takes arrays out of a file and collects what is wrong with them, so that all faults are reported at once.
 class RawReader {
@@ -67,7 +71,7 @@ class RawReader {
   void fault(const std::string& what, const std::string& more) { faults_.add(base::whole(path_), what, more); }
 
   /// The array, if it is there and has one of the kinds wanted.
-  const NpyArray* wanted(const char* name, const char* kinds, const char* expected) {
+  const NpyArray* wanted(const char* name, const char* kinds, const std::string& expected) {
     const NpyArray* array = find(name);
     if (array == nullptr) {
       fault(fmt::format("array \"{}\" is missing", name), fmt::format("expected {}", expected));
@@ -78,12 +82,13 @@ class RawReader {
     return array;
   }
 
-  /// How many raw frames all arrays with one value for each agree on; 0 where they do not.
+  /// How many raw frames all arrays with one value for each agree on; 0 where they do not, or there are none.
   [[nodiscard]] std::size_t agreed_phases() const {
     std::size_t count = 0;
     for (const char* name : {"modulation_frequency_hz", "reference_phase_rad", "integration_time_s", "lit"}) {
       const NpyArray* array = find(name);
-      if (array == nullptr || array->shape.size() != 1 || (count != 0 && array->shape[0] != count)) return 0;
+      if (array == nullptr) continue;
+      if (array->shape.size() != 1 || (count != 0 && array->shape[0] != count)) return 0;
       count = array->shape[0];
     }
     return count;
@@ -94,11 +99,11 @@ class RawReader {
     const std::size_t phases = agreed_phases();
     if (phases == 0 || shape.size() != 3 || shape[0] == phases) return false;
     if (shape[1] != phases && shape[2] != phases) return false;
-    const std::size_t axis = shape[2] == phases ? 2 : 1;
-    const NpyShape turned = axis == 2 ? NpyShape{phases, shape[0], shape[1]} : NpyShape{phases, shape[0], shape[2]};
-    fault(fmt::format("array \"{}\" has its raw frames on axis {}, not on axis 0", name, axis),
-          fmt::format("got {}, expected {}: all arrays by raw frame have {} values\nnp.moveaxis({}, {}, 0) turns it", shape_text(shape),
-                      shape_text(turned), phases, name, axis));
+    const bool last = shape[2] == phases;
+    fault(fmt::format("array \"{}\": got {}; its {} axis are the {} raw frames: np.moveaxis({}, {}, 0)", name, shape_text(shape),
+                      last ? "last" : "middle", phases, name, last ? "-1" : "1"),
+          fmt::format("expected {}; the arrays by raw frame have {} values each",
+                      shape_text(last ? NpyShape{phases, shape[0], shape[1]} : NpyShape{phases, shape[0], shape[2]}), phases));
     return true;
   }
 
@@ -128,7 +133,7 @@ class RawReader {
   }
 
   void read_codes(Raw& raw) {
-    const NpyArray* array = wanted("raw", "iu", "uint16 codes of the ADC, (phase, height, width)");
+    const NpyArray* array = wanted("raw", "iu", fmt::format("uint16 codes of the ADC, (phase, height, width)\n{}", differences_help));
     if (array == nullptr || !fits_stack("raw", *array, raw)) return;
     raw.raw.resize(array->count());
     if (array->type == npy_type_of<std::uint16_t>()) {
@@ -138,7 +143,8 @@ class RawReader {
     for (std::size_t i = 0; i < raw.raw.size(); ++i) {
       const double code = array->number(i);
       if (code < 0 || code > 65535)
-        return fault("array \"raw\" has a code that is no uint16", fmt::format("got {}, expected 0 to 65535", code));
+        return fault("array \"raw\" has a code that is no uint16",
+                     fmt::format("got {}, expected 0 to 65535{}{}", code, code < 0 ? "\n" : "", code < 0 ? differences_help : ""));
       raw.raw[i] = static_cast<std::uint16_t>(code);
     }
   }
@@ -174,27 +180,8 @@ class RawReader {
     }
   }
 
-  /// A lit raw frame has a modulation frequency, and each one collects light for some time.
   void check_exposures(const Raw& raw) {
-    check_hertz(raw);
-    for (std::size_t k = 0; k < raw.lit.size(); ++k) {
-      if (raw.lit[k] != 0 && raw.modulation_frequency_hz[k] == 0)
-        fault(fmt::format("raw frame {} is lit and has no modulation frequency", k),
-              "expected modulation_frequency_hz above 0 where lit is true");
-      if (raw.integration_time_s[k] == 0)
-        fault(fmt::format("raw frame {} has no integration time", k), "expected integration_time_s above 0");
-    }
-  }
-
-  /// Told once: who writes megahertz writes all of them so.
-  void check_hertz(const Raw& raw) {
-    constexpr double lowest_hz = 1e3;  // that a camera may have
-    for (std::size_t k = 0; k < raw.lit.size(); ++k) {
-      const double value = raw.modulation_frequency_hz[k];
-      if (raw.lit[k] == 0 || !(value > 0 && value < lowest_hz)) continue;
-      return fault(fmt::format("array \"modulation_frequency_hz\" has {} Hz for raw frame {}", value, k),
-                   fmt::format("expected hertz, {} or more; are these megahertz? Then multiply them by 1e6", lowest_hz));
-    }
+    for (const base::RecordingFault& one : base::faults_of_recording(raw)) fault(one.what, one.more);
   }
 
   std::vector<NamedArray> arrays_;

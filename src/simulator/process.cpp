@@ -1,6 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The tofray authors
 // SPDX-License-Identifier: Apache-2.0
+#include "base/calibration.h"
 #include "base/readout.h"
+#include "base/recording.h"
 #include "camera/frozen_camera.h"
 #include "num/setup_math.h"
 #include "simulator/check.h"
@@ -35,6 +37,7 @@ Camera camera_of(const Raw& raw, const Camera& profile) {
       raw.lit.size() != phases) {
     complain("raw data needs modulation_frequency_hz, reference_phase_rad, integration_time_s and lit, one value for each raw frame");
   }
+  for (const base::RecordingFault& one : base::faults_of_recording(raw)) complain(one.what + "\n  " + one.more);
   Camera camera = profile;
   camera.auto_exposure = {};  // integration times are known
   camera.mode.sequence.clear();
@@ -51,7 +54,7 @@ Depth process(const Raw& raw, const Camera& profile, const SimulatorOptions& opt
   const Camera camera = camera_of(raw, profile);
   simulator::check(options);
   simulator::check(camera);
-  camera::FrozenCamera frozen(camera, options.noise != Noise::off, options.seed);
+  camera::FrozenCamera frozen(base::with_offsets(camera), options.noise != Noise::off, options.seed);
   pipeline::Setup setup{};
   setup.last_stage = Stage::depth;
   setup.lens = frozen.lens();

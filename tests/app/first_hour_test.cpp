@@ -294,8 +294,8 @@ TEST_F(first_hour, help_is_as_wide_as_the_terminal_and_in_groups) {
       in_folder(folder_.path())();
       ::setenv("COLUMNS", std::to_string(columns).c_str(), 1);
     };
-    for (const char* command :
-         {"demo", "render", "process", "inspect", "preview", "diff", "check", "list", "schema", "doctor", "bench", "completion", ""}) {
+    for (const char* command : {"demo", "render", "process", "inspect", "preview", "diff", "check", "list", "schema", "calibration",
+                                "doctor", "bench", "completion", ""}) {
       const Result help = run(*command == '\0' ? Arguments{"--help"} : Arguments{command, "--help"}, narrow);
       std::istringstream lines(help.out);
       for (std::string line; std::getline(lines, line);)

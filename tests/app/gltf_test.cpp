@@ -3,6 +3,7 @@
 // glTF files on the command line: alone, in a scene, made again from a manifest, and broken.
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <limits>
 
 #include "gltf/gltf_files.h"
@@ -80,6 +81,26 @@ TEST_F(gltf_tool, takes_a_scene_s_material_by_its_name_without_a_warning) {
   const Result set = as_typed({"check", "screens.glb", "--set", "objects.0.mesh.materials.paint=skin"});
   EXPECT_EQ(count(set.err, "warning:"), 0U) << set.err;
   EXPECT_TRUE(has(set.out, "good: scene with 3 objects")) << set.out << set.err;
+}
+
+// The camera stands 15 km from a square of 100 m and looks at it: six digits of place and look_at would look 0.95 degrees past it.
+TEST_F(gltf_tool, looks_from_far_away_where_the_file_looks) {
+  File seen;
+  seen.mesh({{"POSITION", seen.floats({-50, -50, 0, 50, -50, 0, 50, 50, 0}, "VEC3")}});
+  seen.node({{"mesh", 0}, {"translation", {10000.123, 0.25, 0}}});
+  seen.add("cameras", {{"type", "perspective"}, {"perspective", {{"yfov", 1}, {"znear", 0.1}}}});
+  // A turn about y by a, so that −z looks along (−sin a, 0, −cos a): from (15000.123 + …) back to the middle.
+  const double dx = 15000, dz = 0.5, turn = std::atan2(dx, dz);
+  seen.node({{"camera", 0}, {"translation", {10000.123 + dx, 0.25, dz}}, {"rotation", {0, std::sin(turn / 2), 0, std::cos(turn / 2)}}});
+  write("far.glb", seen.glb());
+  const Result made = tool({"render", "far.glb", "-o", "out", "--noise", "off", "--emit", "npz"});
+  ASSERT_EQ(made.code, 0) << made.err;
+  const std::vector<double> pose = numbers_of(folder_ / "out" / "frame.npz", "camera_pose");  // columns: right, down, forward, place
+  const double size = std::hypot(dx, dz);
+  EXPECT_NEAR(pose[2], -dx / size, 1e-9);
+  EXPECT_NEAR(pose[6], 0, 1e-9);
+  EXPECT_NEAR(pose[10], dz / size, 1e-9);  // the file's z is the world's −z
+  EXPECT_NEAR(pose[3], 25000.123, 1e-6);
 }
 
 TEST_F(gltf_tool, looks_from_the_files_own_camera) {

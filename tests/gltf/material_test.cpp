@@ -210,8 +210,8 @@ TEST(extension, that_is_required_and_not_read_is_refused_with_the_way_out) {
 }
 
 TEST(extension, that_is_read_may_be_required) {
-  for (const char* name :
-       {"KHR_texture_transform", "KHR_mesh_quantization", "KHR_materials_unlit", "KHR_materials_ior", "KHR_materials_specular"}) {
+  for (const char* name : {"KHR_texture_transform", "KHR_mesh_quantization", "KHR_materials_unlit", "KHR_materials_ior",
+                           "KHR_materials_specular", "EXT_mesh_gpu_instancing", "KHR_materials_pbrSpecularGlossiness"}) {
     File file = triangle_file();
     file.json["extensionsRequired"] = file.json["extensionsUsed"] = {name};
     EXPECT_TRUE(model_of(file).notices.empty());
@@ -222,8 +222,55 @@ TEST(extension, that_is_used_and_not_read_is_named_once) {
   File file = triangle_file();
   file.json["extensionsUsed"] = {"KHR_lights_punctual", "KHR_materials_variants", "KHR_texture_transform"};
   file.json["extensionsRequired"] = {"KHR_lights_punctual"};
-  EXPECT_EQ(model_of(file).notices, (std::vector<std::string>{"lights (KHR_lights_punctual) are left out",
-                                                              "the extension \"KHR_materials_variants\" is left out"}));
+  EXPECT_EQ(model_of(file).notices,
+            (std::vector<std::string>{"lights (KHR_lights_punctual) are left out",
+                                      "the variants of KHR_materials_variants are left out: materials are the file's own"}));
+}
+
+// What is required, and changes how a surface looks and no place of it, lets the file through and is told.
+TEST(extension, that_changes_looks_alone_may_be_required) {
+  for (const char* name :
+       {"KHR_materials_variants", "KHR_materials_transmission", "KHR_materials_emissive_strength", "KHR_materials_clearcoat",
+        "KHR_materials_sheen", "KHR_materials_volume", "KHR_materials_iridescence", "KHR_materials_anisotropy", "KHR_materials_dispersion",
+        "KHR_materials_diffuse_transmission", "EXT_lights_image_based", "KHR_xmp_json_ld"}) {
+    File file = triangle_file();
+    file.json["extensionsRequired"] = {name};
+    for (const bool used : {true, false}) {
+      if (used) file.json["extensionsUsed"] = {name};
+      if (!used) file.json.erase("extensionsUsed");
+      const Model model = model_of(file);
+      EXPECT_EQ(model.notices.size(), 1U) << name;
+      EXPECT_TRUE(has_notice(model, name)) << name;
+      EXPECT_EQ(parts_at_rest(model).size(), 1U);
+    }
+  }
+}
+
+// diffuse (0.2, 0.4, 0.6) and glossiness 0.75: base colour, and roughness 0.25 of what is no metal.
+TEST(extension, of_specular_and_glossiness_gives_base_colour_and_roughness) {
+  File file = triangle_file();
+  file.json["materials"] = {
+      {{"extensions", {{"KHR_materials_pbrSpecularGlossiness", {{"diffuseFactor", {0.2, 0.4, 0.6, 1}}, {"glossinessFactor", 0.75}}}}}}};
+  const Model model = model_of(file);
+  EXPECT_EQ(model.materials[0].base_color, (std::array<double, 4>{0.2, 0.4, 0.6, 1}));
+  EXPECT_EQ(model.materials[0].metallic, 0);
+  EXPECT_EQ(model.materials[0].roughness, 0.25);
+  EXPECT_TRUE(has_notice(model, "KHR_materials_pbrSpecularGlossiness are taken for base colours"));
+  // Where both are there, the newer one counts, as the extension says of readers that know it not.
+  file.json["materials"][0]["pbrMetallicRoughness"] = {{"baseColorFactor", {0.5, 0.5, 0.5, 1}}};
+  EXPECT_EQ(model_of(file).materials[0].base_color[0], 0.5);
+}
+
+TEST(material, that_is_cut_out_or_lets_light_through_is_told_to_be_opaque) {
+  for (const char* mode : {"MASK", "BLEND", "OPAQUE"}) {
+    File file = triangle_file();
+    file.json["materials"] = {{{"alphaMode", mode}}, {{"alphaMode", mode}}};
+    const Model model = model_of(file);
+    if (std::string(mode) == "OPAQUE")
+      EXPECT_TRUE(model.notices.empty());
+    else
+      EXPECT_TRUE(has_notice(model, std::string("alphaMode ") + mode)) << mode;
+  }
 }
 
 TEST(extension, that_packs_what_a_primitive_needs_is_refused) {

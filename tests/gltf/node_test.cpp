@@ -1,6 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The tofray authors
 // SPDX-License-Identifier: Apache-2.0
 // Nodes, scenes, cameras: where things stand.
+#include <functional>
+
 #include "gltf_files.h"
 #include "support/pi.h"
 
@@ -204,6 +206,80 @@ TEST(pose, of_what_is_not_there_is_refused) {
   EXPECT_TRUE(test::has(message(-1, 0, 1), "scene 1 is none of the file's"));
   EXPECT_TRUE(test::has(message(-1, 0, -7), "scene -7 is none"));
   EXPECT_TRUE(test::has(message(-1, std::nan(""), 0), "not a finite number"));
+}
+
+// The node's own frame moves by (0, 0, 10) and is scaled by 2; its instances stand in it: p = N·T·R·S·v, from the extension's text.
+TEST(instances, stand_in_the_frame_of_their_node) {
+  File file = with_nodes({{{"mesh", 0}, {"translation", {0, 0, 10}}, {"scale", {2, 2, 2}}}});
+  const auto root = static_cast<float>(half_root);
+  file.json["nodes"][0]["extensions"]["EXT_mesh_gpu_instancing"]["attributes"] = {
+      {"TRANSLATION", file.floats({1, 0, 0, 0, 5, 0}, "VEC3")},
+      {"ROTATION", file.floats({0, 0, 0, 1, 0, 0, root, root}, "VEC4")},  // none; a quarter turn about z
+      {"SCALE", file.floats({1, 1, 1, 3, 3, 3}, "VEC3")},
+      {"_ID", file.floats({0, 1}, "SCALAR")}};
+  const Model model = model_of(file);
+  EXPECT_TRUE(model.notices.empty());
+  const auto parts = parts_at_rest(model);
+  ASSERT_EQ(parts.size(), 2U);
+  expect_near(parts[0].mesh.vertices[0], {2, 0, 10}, 1e-6);
+  expect_near(parts[0].mesh.vertices[1], {4, 0, 10}, 1e-6);
+  expect_near(parts[1].mesh.vertices[0], {0, 10, 10}, 1e-6);
+  expect_near(parts[1].mesh.vertices[1], {0, 16, 10}, 1e-5);  // x to y, 3 times, 2 times
+  expect_near(parts[1].mesh.vertices[2], {-6, 10, 10}, 1e-5);
+  // Normalized bytes for turns; what is missing is no turn, scale 1, the middle.
+  File turned = with_nodes({{{"mesh", 0}}});
+  turned.json["nodes"][0]["extensions"]["EXT_mesh_gpu_instancing"]["attributes"] = {
+      {"ROTATION", turned.accessor<std::int8_t>({0, 0, 127, 0}, "VEC4", true)}};  // half a turn about z
+  expect_near(parts_at_rest(model_of(turned)).at(0).mesh.vertices[1], {-1, 0, 0}, 1e-6);
+  turned.json["nodes"][0]["extensions"]["EXT_mesh_gpu_instancing"]["attributes"] = Document::object();
+  EXPECT_EQ(parts_at_rest(model_of(turned)).size(), 1U);
+  EXPECT_TRUE(has_notice(model_of(turned), "one of each is shown"));
+}
+
+TEST(instances, that_make_no_sense_are_refused) {
+  const auto with = [](const Document& attributes, const std::function<void(File&)>& more = {}) {
+    File file = with_nodes({{{"mesh", 0}}});
+    file.floats({1, 0, 0, 0, 5, 0}, "VEC3"), file.floats({0, 0, 0, 1}, "VEC4"), file.floats({0, 0, 0, 0, 0, 0, 0, 1}, "VEC4");  // 2, 3, 4
+    file.json["nodes"][0]["extensions"]["EXT_mesh_gpu_instancing"]["attributes"] = attributes;
+    if (more) more(file);
+    return file.glb();
+  };
+  expect_fault(with({{"TRANSLATION", 2}, {"ROTATION", 3}}), "has another number of instances\n  got 1, and another attribute has 2");
+  expect_fault(with({{"ROTATION", 4}}), "got a quaternion of length 0 of instance 0");
+  expect_fault(with({{"TRANSLATION", 3}}), "expected VEC3 of floats");
+  expect_fault(with({{"TRANSLATION", 9}}), "attributes.TRANSLATION");
+  // Instances count as what nodes show: zeros need no bytes, and would be 10⁹ triangles.
+  expect_fault(with({{"TRANSLATION", 2}},
+                    [](File& file) {
+                      file.json["accessors"][2].erase("bufferView"), file.json["accessors"][2].erase("byteOffset");
+                      file.json["accessors"][2]["count"] = 1'000'000'000;
+                    }),
+               "too many", ErrorKind::limit);
+  expect_fault(with({{"TRANSLATION", 2}},
+                    [](File& file) {
+                      file.json["accessors"][2].erase("bufferView"), file.json["accessors"][2].erase("byteOffset");
+                      file.json["accessors"][2]["count"] = 1'000'000;
+                    }),
+               "the nodes show too many primitives", ErrorKind::limit);
+}
+
+// What nobody uses may be anything: a type that is none, elements beyond its view.
+TEST(accessor, that_nobody_uses_may_be_anything) {
+  File file = triangle_file();
+  file.add("accessors", {{"bufferView", 0}, {"componentType", 5126}, {"type", "MAT2"}, {"count", 900}});
+  file.add("accessors", {{"bufferView", 0}, {"componentType", 5130}, {"type", "VEC9"}, {"count", 1}});
+  file.add("accessors", {{"componentType", 5126}});
+  EXPECT_EQ(parts_at_rest(model_of(file)).size(), 1U);
+  file.primitive(0)["attributes"]["NORMAL"] = 2;
+  expect_fault(file.glb(), "accessors[2].type is none of an accessor");
+}
+
+// 60 written for 60 degrees: where it stands is good all the same.
+TEST(camera, of_half_a_turn_or_more_is_told_and_stands_where_it_stands) {
+  File file = with_nodes({{{"mesh", 0}}, {{"camera", 0}, {"translation", {0, 0, 5}}}});
+  file.json["cameras"] = {{{"type", "perspective"}, {"perspective", {{"yfov", 60}, {"znear", 0.1}}}}};
+  EXPECT_TRUE(has_notice(model_of(file), "cameras whose yfov is half a turn or more"));
+  EXPECT_EQ(model_of(file).cameras[0].yfov_rad, 60);
 }
 
 TEST(camera, has_an_angle_or_a_size) {

@@ -260,6 +260,55 @@ TEST_F(gltf_in_scene, moves_by_its_first_animation) {
   EXPECT_EQ(first("file: moves.glb, time: 9 s"), (V{3, 0, 0}));
 }
 
+/// A clip for each object, as Blender exports them: node 0 goes to (3, 0, 0) in 2 s, node 1 to (0, 0, 4) in 1 s, which has a name.
+File with_two_animations() {
+  File file = gltf_test::animated_file();
+  file.node({{"mesh", 0}});
+  const int clock = file.floats({0, 1}, "SCALAR"), to = file.floats({0, 0, 0, 0, 0, 4}, "VEC3");
+  file.add("animations", {{"name", "jump"},
+                          {"samplers", {{{"input", clock}, {"output", to}}}},
+                          {"channels", {{{"sampler", 0}, {"target", {{"node", 1}, {"path", "translation"}}}}}}});
+  return file;
+}
+
+// Vertex 0 is that of node 0, vertex 3 that of node 1; the file's (x, y, z) is the world's (x, −y, −z).
+TEST_F(gltf_in_scene, plays_the_animation_that_is_chosen_or_all) {
+  file("in/moves.glb", with_two_animations().glb());
+  const auto at = [&](const std::string& keys) {
+    const Mesh one = mesh("file: moves.glb, reflectivity: 0.5, " + keys);
+    EXPECT_EQ(one.notices.size(), 1U) << keys;
+    return std::pair{std::pair{one.triangles->vertices.at(0), one.triangles->vertices.at(3)}, one.notices.at(0)};
+  };
+  const V still{0, 0, 0}, first_goes{1.5F, 0, 0}, second_goes{0, 0, -4};
+  const auto by_default = at("time: 1 s");
+  EXPECT_EQ(by_default.first, (std::pair{first_goes, still}));
+  EXPECT_EQ(by_default.second, "of its 2 animations number 0 plays, the others do not; animation: all, a name or a number chooses");
+  EXPECT_EQ(at("time: 1 s, animation: 0").first, (std::pair{first_goes, still}));
+  const auto chosen = at("time: 1 s, animation: jump");
+  EXPECT_EQ(chosen.first, (std::pair{still, second_goes}));
+  EXPECT_EQ(chosen.second, "of its 2 animations number 1, \"jump\", plays");
+  EXPECT_EQ(at("time: 1 s, animation: 1").first, (std::pair{still, second_goes}));
+  const auto all = at("time: 1 s, animation: all");
+  EXPECT_EQ(all.first, (std::pair{first_goes, second_goes}));
+  EXPECT_EQ(all.second, "all of its 2 animations play");
+  // A film of all goes on to the last keyframe of any, 2 s, and begins again.
+  std::vector<V> vertices, normals;
+  mesh("file: moves.glb, play: loop, animation: all").motion->at(3, vertices, normals);
+  EXPECT_EQ(vertices.at(0), first_goes);
+  EXPECT_EQ(vertices.at(3), second_goes);
+  EXPECT_TRUE(mesh("file: moves.glb, reflectivity: 0.5").notices.empty()) << "nothing plays";
+}
+
+TEST_F(gltf_in_scene, names_the_animations_that_there_are) {
+  file("in/moves.glb", with_two_animations().glb());
+  EXPECT_TRUE(has(refusal("file: moves.glb, time: 1 s, animation: run"),
+                  "there is no animation \"run\"\n  expected a name, a number from 0 to 1, or all; the file has \"\" and \"jump\""))
+      << refusal("file: moves.glb, time: 1 s, animation: run");
+  EXPECT_TRUE(has(refusal("file: moves.glb, time: 1 s, animation: 2"), "there is no animation \"2\""));
+  EXPECT_TRUE(has(refusal("file: moves.glb, animation: jump"),
+                  "animation says which one plays, and nothing plays\n  add play: loop, or time: 0 s"));
+}
+
 // From the file's (x, y, z) to the world's 2·(x, −y, −z); two seconds long.
 TEST_F(gltf_in_scene, plays_its_first_animation) {
   file("in/moves.glb", gltf_test::animated_file().glb());

@@ -342,3 +342,35 @@ def test_a_scene_that_is_gone_is_missed_by_nobody() -> None:
 def test_a_frame_outlives_its_simulator() -> None:
     frame = tofray.Simulator(SCENE).frame(0)  # type: ignore[arg-type]
     assert frame.depth.z_m.tobytes() == FRAME.depth.z_m.tobytes()
+
+
+def test_recordings_of_other_programs_are_told_at_their_array() -> None:
+    assert K == 9
+    f, tau, times, lit = (FRAME.raw[name] for name in ("modulation_frequency_hz", "reference_phase_rad", "integration_time_s", "lit"))
+    lists: dict[str, Any] = {"modulation_frequency_hz": f, "reference_phase_rad": tau, "integration_time_s": times, "lit": lit}
+    codes = FRAME.raw.raw
+    expected: list[tuple[dict[str, Any], str]] = [
+        ({**lists, "raw": np.ascontiguousarray(np.moveaxis(codes, 0, -1))},
+         r"raw\.raw: error: got .*\(172, 224, 9\).*; its last axis are the 9 raw frames: np\.ascontiguousarray\(np\.moveaxis\(raw, -1, 0\)\)"),
+        ({**lists, "raw": codes.astype(np.int16) - np.int16(2048)},
+         r"raw\.raw: error: got .*int16.*, expected uint16 codes of the ADC\n  differences A-B of the taps\? Add mid_code"),
+        ({**lists, "raw": codes, "reference_phase_rad": np.rint(np.rad2deg(tau))},
+         r"array \"reference_phase_rad\" has 90 rad for raw frame 2\n  expected radians; are these degrees\? np\.deg2rad"),
+        ({**lists, "raw": codes, "modulation_frequency_hz": f * 1e-6},
+         r"array \"modulation_frequency_hz\" has 80\.32 Hz for raw frame 1\n  expected hertz, 1000 or more; are these megahertz\?"),
+    ]
+    tofray.process(tofray.Raw(**lists, raw=codes), CAMERA)
+    for words, said in expected:
+        with pytest.raises(tofray.Error, match=said):
+            tofray.process(tofray.Raw(**words), CAMERA)
+
+
+def test_a_calibration_takes_an_offset_off() -> None:
+    camera = copy.deepcopy(CAMERA)
+    camera.decoding.filter = tofray.ImageFilter()
+    before = tofray.process(FRAME.raw, camera).range_m
+    camera.calibration.range_offset_m = 0.25
+    after = tofray.process(FRAME.raw, camera).range_m
+    both = np.isfinite(before) & np.isfinite(after)
+    assert both.sum() > 10000
+    assert abs(float(np.median(before[both] - after[both])) - 0.25) < 1e-4

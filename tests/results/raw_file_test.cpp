@@ -152,9 +152,49 @@ TEST(raw_file, of_megahertz_or_of_turned_axes_says_so) {
             "x.npz: error: array \"modulation_frequency_hz\" has 80.32 Hz for raw frame 1\n"
             "  expected hertz, 1000 or more; are these megahertz? Then multiply them by 1e6");
   EXPECT_EQ(said({3, 4, 2}, 80.32e6),
-            "x.npz: error: array \"raw\" has its raw frames on axis 2, not on axis 0\n"
-            "  got (3, 4, 2), expected (2, 3, 4): all arrays by raw frame have 2 values\n  np.moveaxis(raw, 2, 0) turns it");
-  EXPECT_NE(said({3, 2, 4}, 80.32e6).find("on axis 1, not on axis 0\n  got (3, 2, 4), expected (2, 3, 4)"), std::string::npos);
+            "x.npz: error: array \"raw\": got (3, 4, 2); its last axis are the 2 raw frames: np.moveaxis(raw, -1, 0)\n"
+            "  expected (2, 3, 4); the arrays by raw frame have 2 values each");
+  EXPECT_NE(said({3, 2, 4}, 80.32e6).find("got (3, 2, 4); its middle axis are the 2 raw frames: np.moveaxis(raw, 1, 0)"),
+            std::string::npos);
+}
+
+// One fault, at the array that is wrong: those by raw frame are right, whichever of them are there.
+TEST(raw_file, with_raw_frames_last_has_one_fault_besides_what_is_missing) {
+  const std::vector<std::uint16_t> raw(24 * 32 * 4, 2048);
+  const std::vector<double> f(4, 80e6), tau = {0, 1.57, 3.14, 4.71}, times(4, 1e-3);
+  const std::string said = fault_of({npy_view("raw", {24, 32, 4}, raw), npy_view("modulation_frequency_hz", {4}, f),
+                                     npy_view("reference_phase_rad", {4}, tau), npy_view("integration_time_s", {4}, times)});
+  EXPECT_NE(said.find("got (24, 32, 4); its last axis are the 4 raw frames: np.moveaxis(raw, -1, 0)"), std::string::npos) << said;
+  EXPECT_NE(said.find("array \"lit\" is missing"), std::string::npos) << said;
+  EXPECT_EQ(said.find("modulation_frequency_hz\""), std::string::npos) << said;
+}
+
+TEST(raw_file, of_differences_says_how_they_become_codes_or_taps) {
+  const std::vector<double> f(2, 80e6), tau = {0, 1.57}, times(2, 1e-3);
+  const std::vector<std::uint8_t> lit = {1, 1};
+  const auto said = [&](const NpyView& raw) {
+    return fault_of({raw, npy_view("modulation_frequency_hz", {2}, f), npy_view("reference_phase_rad", {2}, tau),
+                     npy_view("integration_time_s", {2}, times), npy_view("lit", {2}, lit)});
+  };
+  const std::string help =
+      "\n  differences A-B of the taps? Add mid_code (adc.mid_code of the camera) and write uint16, or give tap_a and tap_b";
+  const std::vector<std::int16_t> whole = {5, -3};
+  EXPECT_EQ(said(npy_view("raw", {2, 1, 1}, whole)),
+            "x.npz: error: array \"raw\" has a code that is no uint16\n  got -3, expected 0 to 65535" + help);
+  const std::vector<float> floating = {5, 3};
+  EXPECT_EQ(
+      said(npy_view("raw", {2, 1, 1}, floating)),
+      "x.npz: error: array \"raw\" has the wrong type\n  got float32, expected uint16 codes of the ADC, (phase, height, width)" + help);
+}
+
+TEST(raw_file, of_degrees_is_told_at_the_phases) {
+  const std::vector<std::uint16_t> raw(4, 2048);
+  const std::vector<double> f(4, 80e6), tau = {0, 90, 180, 270}, times(4, 1e-3);
+  const std::vector<std::uint8_t> lit(4, 1);
+  EXPECT_EQ(fault_of({npy_view("raw", {4, 1, 1}, raw), npy_view("modulation_frequency_hz", {4}, f),
+                      npy_view("reference_phase_rad", {4}, tau), npy_view("integration_time_s", {4}, times), npy_view("lit", {4}, lit)}),
+            "x.npz: error: array \"reference_phase_rad\" has 90 rad for raw frame 1\n"
+            "  expected radians; are these degrees? np.deg2rad(reference_phase_rad) turns them into radians");
 }
 
 TEST(raw_file, of_a_shape_or_with_numbers_that_make_no_sense_says_so) {

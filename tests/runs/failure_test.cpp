@@ -200,12 +200,71 @@ TEST(memory, that_does_not_suffice_leaves_whole_files) {
   EXPECT_GT(failed, 5);
 }
 
+// In steps of a megabyte, from what the program needs to begin to 80 MB: wherever memory ends, in a thread, before main() or on the stack.
+TEST(memory, of_up_to_80_megabytes_never_ends_in_a_signal) {
+  SKIP_WHERE_SANITIZERS_NEED_THE_ADDRESS_SPACE();
+  const Folder folder;
+  ASSERT_EQ(run(with_small_sensor({"render", "card", "-o", "recorded", "--emit", "npz"}), in_folder(folder.path())).code, 0);
+  const std::vector<Arguments> all = {{"process", "recorded/frame.npz", "-o", "depth"},
+                                      with_small_sensor({"render", "card", "-o", "film", "--frames", "4"}),
+                                      {"schema", "scene"},
+                                      {"inspect", "recorded/frame.npz"}};
+  int ended = 0;
+  const auto least = static_cast<rlim_t>(fs::file_size(TOFRAY_TOOL) / 1'000'000 + 15);
+  for (const Arguments& arguments : all) {
+    for (rlim_t megabytes = least; megabytes <= 80; ++megabytes) {
+      const Result result = run(arguments, with_address_space(folder.path(), megabytes << 20));
+      if (result.code == 0 || (result.code == 127 && has(result.err, "shared librar"))) continue;
+      EXPECT_EQ(result.code, 4) << arguments[0] << " with " << megabytes << " MB: " << result.err;
+      EXPECT_TRUE(has(result.err, "out of memory\n") || has(result.err, "error: the system refuses "))
+          << arguments[0] << " with " << megabytes << " MB: " << result.err;
+      EXPECT_EQ(temporaries(folder.path()), std::vector<std::string>());
+      ++ended;
+    }
+  }
+  EXPECT_GT(ended, 50);
+}
+
 /// A .npy file whose header promises more than there is.
 std::string promising(const std::string& shape) {
   std::string header = "{'descr': '<f4', 'fortran_order': False, 'shape': " + shape + ", }";
   header.resize(117, ' ');
   header += '\n';
   return std::string("\x93NUMPY\x01\x00", 8) + static_cast<char>(header.size()) + '\0' + header + "0123456789abcdef";
+}
+
+/// Both headers of a zip's entry say how long it is, unpacked.
+std::string with_entry_size(std::string zip, std::uint32_t is, std::uint32_t said) {
+  const std::string before(reinterpret_cast<const char*>(&is), 4);
+  for (std::size_t at = zip.find(before); at != std::string::npos; at = zip.find(before, at + 4))
+    zip.replace(at, 4, reinterpret_cast<const char*>(&said), 4);
+  return zip;
+}
+
+// An array of 80 kB whose header, and whose entry in the zip, promise 60 MB: memory is asked for what comes. Where zip and array
+// contradict each other, none is.
+TEST(memory, is_asked_for_what_an_npz_holds_not_for_what_it_promises) {
+  SKIP_WHERE_SANITIZERS_NEED_THE_ADDRESS_SPACE();
+  const Folder folder;
+  std::string noise(80'000, 'x');
+  std::uint32_t state = 1;
+  for (char& one : noise) one = static_cast<char>((state = state * 1664525 + 1013904223) >> 24);
+  const auto written = [&](const files::NpyShape& shape, std::uint32_t said) {
+    const std::vector<files::NpyView> views = {{"a", {'f', 4}, shape, noise}};
+    const std::string zip = files::npz_bytes(views, files::Packing::deflated), lies = with_entry_size(zip, 80'128, said);
+    EXPECT_NE(zip, lies);
+    std::ofstream(folder / "a.npz", std::ios::binary) << lies;
+    return run({"inspect", "a.npz"}, with_address_space(folder.path(), rlim_t{70} << 20));
+  };
+  const Result promising = written({15'000'000}, 60'000'128);
+  EXPECT_EQ(promising.code, 2) << promising.err;
+  EXPECT_TRUE(has(promising.err, "a.npz[a]: error: the entry is cut short")) << promising.err;
+  const Result contradicting = written({20'000}, 60'000'128);
+  EXPECT_EQ(contradicting.code, 2) << contradicting.err;
+  std::ofstream(folder / "empty.npz");
+  const Result empty = run({"inspect", "empty.npz"}, in_folder(folder.path()));
+  EXPECT_EQ(empty.code, 2);
+  EXPECT_TRUE(has(empty.err, "empty.npz: error: the file is empty\n")) << empty.err;
 }
 
 // Counts are compared with their limits before memory is asked for: the address space given here holds the program and little else.
@@ -306,6 +365,40 @@ TEST(interrupted, run_goes_on_as_it_says_and_leaves_what_an_undisturbed_one_leav
   ASSERT_EQ(run(into("out", {"--first-frame", number_at(first + 14), "--frames", number_at(count + 9)}), here).code, 0);
   ASSERT_EQ(run(into("whole", {}), here).code, 0);
   EXPECT_EQ(files_of(folder / "out"), files_of(folder / "whole"));
+}
+
+// Before main(), and before any library is initialised.
+TEST(interrupted, politely_before_it_began_ends_with_143) {
+  if (with_sanitizers) GTEST_SKIP() << "a sanitizer has to be first itself";
+  const Folder folder;
+  const Result result = run({"render", "card"}, [&] {
+    in_folder(folder.path())();
+    ::setenv("LD_PRELOAD", TOFRAY_SIGNAL_EARLY, 1);
+  });
+  EXPECT_EQ(result.code, 143);
+}
+
+// Two at once into one folder would leave a manifest that is not that of the files. Who is killed leaves no lock.
+TEST(two_runs, into_one_folder_are_not_let_in_at_once) {
+  const Folder folder;
+  const Prepare here = in_folder(folder.path());
+  Running first(
+      start(with_small_sensor({"render", "flying-ball", "-o", "out", "--frames", "20000"}), folder / "stdout", folder / "stderr", here));
+  for (int i = 0; i < 10'000 && !fs::exists(folder / "out" / "frame_00001.npz"); ++i)
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  for (const Arguments& arguments :
+       {Arguments{"render", "card", "-o", "out"}, Arguments{"demo", "-o", "out"}, Arguments{"render", "card", "-o", "./out/"}}) {
+    const Result second = run(with_small_sensor(arguments), here);
+    EXPECT_EQ(second.code, 3) << second.err;
+    EXPECT_TRUE(
+        has(second.err, "error: another tofray is writing into this folder\n  wait until it is done, or choose another folder with -o"))
+        << second.err;
+  }
+  EXPECT_FALSE(fs::exists(folder / "out" / "frame.npz"));
+  EXPECT_EQ(run(with_small_sensor({"render", "card", "-o", "other"}), here).code, 0);
+  first.send(SIGKILL);
+  EXPECT_EQ(first.finish(), 1000 + SIGKILL);
+  EXPECT_EQ(run(with_small_sensor({"render", "card", "-o", "out"}), here).code, 0);
 }
 
 TEST(interrupted, by_ctrl_c_ends_with_130_and_whole_files) { interrupt(SIGINT, 130, false); }

@@ -19,8 +19,7 @@ std::string told(const Validity& pixels, const Inputs& in, const Simulator& simu
   const Sensor sensor = base::as_read_out(in.camera).sensor;
   std::string text = fmt::format("{} in mode {}: {} x {} pixels, {} raw frames, {} objects, depth as colour\n", in.camera.name,
                                  in.camera.mode.name, sensor.width, sensor.height, in.camera.mode.sequence.size(), in.scene.objects.size());
-  text += fmt::format("{} of {} pixels have a depth{}{}\n", pixels.pixels.valid, pixels.pixels.pixels,
-                      pixels.reasons.empty() ? "" : "; invalid: ", pixels.reasons);
+  text += depth_text(pixels, "");
   text += fmt::format("{} files in {}, {:.2f} s with {}\n", folder.files().size(), folder.path().native(), stopwatch.total(),
                       machine_text(simulator.ran_on()));
   const std::string npz = (folder.path() / "frame.npz").native();

@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <cstring>
 #include <filesystem>
 #include <optional>
 
@@ -80,14 +81,27 @@ std::optional<results::PoseMatrix> pose_of(const std::vector<files::NamedArray>&
   return pose;
 }
 
-/// True z, for the error map of preview.png; the whole ground truth is among the arrays that are kept.
-std::vector<float> true_z(const std::vector<files::NamedArray>& arrays, const Depth& depth) {
-  const files::NpyArray* array = find(arrays, "gt_z_m");
+/// Values of one of the file's arrays that is an image of the depth's size; none where there is no such array of one of the kinds.
+template <class T>
+std::vector<T> image_of(const std::vector<files::NamedArray>& arrays, const char* name, const char* kinds, const Depth& depth) {
+  const files::NpyArray* array = find(arrays, name);
   const files::NpyShape image = {static_cast<std::size_t>(depth.height), static_cast<std::size_t>(depth.width)};
-  std::vector<float> z;
-  if (array == nullptr || array->shape != image || array->type.kind != 'f') return z;
-  for (std::size_t i = 0; i < array->count(); ++i) z.push_back(static_cast<float>(array->number(i)));
-  return z;
+  std::vector<T> values;
+  if (array == nullptr || array->shape != image || std::strchr(kinds, array->type.kind) == nullptr) return values;
+  for (std::size_t i = 0; i < array->count(); ++i) values.push_back(static_cast<T>(array->number(i)));
+  return values;
+}
+
+/// What the file knows of the truth: z, for the error map of preview.png; range and object, which say which depths are whole cycles off.
+/// The whole ground truth is among the arrays that are kept.
+Truth truth_of(const std::vector<files::NamedArray>& arrays, const Depth& depth) {
+  Truth truth;
+  truth.z_m = image_of<float>(arrays, "gt_z_m", "f", depth);
+  truth.range_m = image_of<float>(arrays, "gt_range_m", "f", depth);
+  truth.object_id = image_of<std::int32_t>(arrays, "gt_object_id", "iu", depth);
+  if (!truth.range_m.empty() || truth.z_m.empty()) return truth;
+  for (std::size_t i = 0; i < truth.z_m.size(); ++i) truth.range_m.push_back(truth.z_m[i] * (depth.range_m[i] / depth.z_m[i]));  // one ray
+  return truth;
 }
 
 /// The file that is processed, and what it says of its camera.
@@ -162,7 +176,7 @@ int process_raw(const Options& options) {
   stopwatch.lap("prepare");
   RanOn machine;
   frame.depth = process(frame.raw, in.camera, wanted, &machine);
-  frame.truth.z_m = true_z(in.kept, frame.depth);
+  frame.truth = truth_of(in.kept, frame.depth);
   return write_results(options, in, what, frame, machine, stopwatch, remarks);
 }
 
@@ -186,7 +200,7 @@ int process_transient(const Options& options) {
   Simulator simulator({}, in.camera, wanted);
   stopwatch.lap("prepare");
   Frame frame = simulator.frame(0, light);
-  frame.truth.z_m = true_z(in.kept, frame.depth);
+  frame.truth = truth_of(in.kept, frame.depth);
   return write_results(options, in, what, frame, simulator.ran_on(), stopwatch, remarks);
 }
 
