@@ -36,6 +36,12 @@ void CornerList::add(const Corners& corners, std::size_t triangles) {
   corners_.push_back(corners);
 }
 
+void CornerList::replace(std::size_t first, std::size_t corners, const std::vector<Corners>& triangles) {
+  if (first >= corners_.size()) return;
+  corners_.resize(std::max(corners_.size(), first + triangles.size()), {-1, -1, -1});
+  replace_fan(corners_, first, corners, triangles);
+}
+
 void CornerList::check(std::size_t count, const Words& words) const {
   if (count == 0) return;
   if (!fault_.empty()) words.fail(fault_mark_, fault_, more_);

@@ -17,6 +17,7 @@
 #include "mesh/formats.h"
 #include "mesh/mesh_builder.h"
 #include "mesh/numbers.h"
+#include "mesh/polygons.h"
 #include "mesh/words.h"
 
 namespace tofray::mesh {
@@ -99,6 +100,7 @@ class ObjReader {
       beyond(largest_mark_, fmt::format("got {}, the file has {} vertices", largest_, mesh_.vertices()));
     of_normals_.check(normals_.size(), words_);
     of_texcoords_.check(texcoords_.size(), words_);
+    polygons_.divide(mesh_.so_far().mesh, {&of_normals_, &of_texcoords_}, mesh_.so_far().notices);
     give_details(normals_, of_normals_, texcoords_, of_texcoords_, mesh_);
     mesh_.so_far().libraries = std::move(libraries_.all);
     return mesh_.finish();
@@ -194,6 +196,7 @@ class ObjReader {
       if (count >= 2) add_triangle(first, before, corner);
       before = corner;
     }
+    polygons_.add(count, mesh_.so_far().mesh.triangles.size());
     if (count < 3) words_.fail(start, "a face has fewer than 3 corners", fmt::format("got {}, expected 3 or more", count));
   }
 
@@ -248,6 +251,7 @@ class ObjReader {
   std::map<std::string, std::int32_t> materials_;
   std::vector<std::array<float, 3>> normals_;
   std::vector<std::array<float, 2>> texcoords_;
+  Polygons polygons_;
   CornerList of_normals_{"a normal"}, of_texcoords_{"a texture coordinate"};
   std::int64_t largest_ = 0;
   Mark largest_mark_;

@@ -13,6 +13,7 @@
 #include "mesh/formats.h"
 #include "mesh/mesh_builder.h"
 #include "mesh/numbers.h"
+#include "mesh/polygons.h"
 #include "mesh/ply_body.h"
 #include "mesh/ply_header.h"
 
@@ -49,6 +50,7 @@ class PlyReader {
         read_past(element);
     }
     body_.finish();
+    polygons_.divide(mesh_.so_far().mesh, {}, mesh_.so_far().notices);
     return mesh_.finish();
   }
 
@@ -196,6 +198,7 @@ class PlyReader {
       mesh_.triangle(first, before, corner);
       before = corner;
     }
+    polygons_.add(length, mesh_.so_far().mesh.triangles.size());
   }
 
   void read_strips(const PlyElement& element) {
@@ -225,6 +228,7 @@ class PlyReader {
   const std::string& name_;
   Body body_;
   MeshBuilder mesh_;
+  Polygons polygons_;
   std::uint64_t vertices_ = 0;
   bool has_normals_ = false, has_texcoords_ = false, has_colors_ = false;
 };
