@@ -41,14 +41,8 @@ void EarClipping::begin() {
   }
   is_hollow_.assign(left_, false), is_in_grid_.assign(left_, false);
   for (std::size_t i = 0; i < left_; ++i) is_hollow_[i] = turn(static_cast<std::int32_t>(i)) < 0;
-  wanted_ = Wanted::clear;
-  want_all();
-}
-
-void EarClipping::want_all() {
   candidates_.clear();
-  for (std::size_t i = 0; i < next_.size(); ++i)
-    if (next_[i] >= 0) look_again(static_cast<std::int32_t>(i));
+  for (std::size_t i = 0; i < left_; ++i) look_again(static_cast<std::int32_t>(i));
 }
 
 // What has no inside goes before all ears: beside it nobody could tell on which side the polygon lies.
@@ -63,11 +57,7 @@ void EarClipping::look_again(std::int32_t corner) {
 bool EarClipping::cut_all(std::int64_t& work, std::vector<Corners>& triangles) {
   std::int32_t last = 0;
   while (left_ > 3) {
-    if (candidates_.empty()) {
-      if (wanted_ == Wanted::anything) return false;
-      wanted_ = static_cast<Wanted>(static_cast<int>(wanted_) + 1);
-      want_all();
-    }
+    if (candidates_.empty()) return false;
     const Candidate one = candidates_.front();
     candidates_.pop_front();
     if (!is_left(one.corner) || changes_[static_cast<std::size_t>(one.corner)] != one.changes) continue;
@@ -111,17 +101,18 @@ bool EarClipping::is_idle(std::int32_t corner) const {
   return b == c || (orientation(a, b, c) == 0 && turns_back(a, b, c));
 }
 
+/// Whether a corner lies on the line between two others.
+bool EarClipping::is_between(std::int32_t a, std::int32_t corner, std::int32_t c) const {
+  const Point& b = at(corner);
+  return b != at(a) && b != at(c) && orientation(at(a), b, at(c)) == 0 && !turns_back(at(a), b, at(c));
+}
+
 bool EarClipping::may_be_cut(std::int32_t corner, std::int64_t& work) const {
   if (is_idle(corner)) return true;
   const Corners ear{before(corner), corner, next(corner)};
-  const int turn = orientation(at(ear[0]), at(ear[1]), at(ear[2]));
-  if (turn <= 0) return turn == 0 && wanted_ >= Wanted::flat;
-  if (wanted_ == Wanted::anything) return true;
-  // What runs on along the diagonal would be left without an inside.
-  const auto is_on_diagonal = [&](const Point& p) {
-    return orientation(at(ear[0]), at(ear[2]), p) == 0 && turns_back(at(ear[0]), p, at(ear[2])) == false && p != at(ear[0]) && p != at(ear[2]);
-  };
-  if (wanted_ == Wanted::clear && (is_on_diagonal(at(before(ear[0]))) || is_on_diagonal(at(next(ear[2]))))) return false;
+  if (turn(corner) <= 0) return false;
+  // What lies on the diagonal would be left without an inside.
+  if (is_between(ear[0], before(ear[0]), ear[2]) || is_between(ear[0], next(ear[2]), ear[2])) return false;
   return !is_blocked(ear, work);
 }
 
@@ -144,23 +135,12 @@ bool EarClipping::is_blocked(const Corners& ear, std::int64_t& work) const {
   return false;
 }
 
-// A corner in the triangle or on its rim blocks it if one of its edges leads into it. What only touches it, and what runs along it, does
-// not: the other side of a slit, a corner that stands twice.
+/// Whether a corner lies in the triangle or on its rim.
 bool EarClipping::blocks(std::int32_t corner, const Corners& ear) const {
   if (std::find(ear.begin(), ear.end(), corner) != ear.end()) return false;
-  const Point& p = at(corner);
-  std::array<int, 3> side{};
-  for (std::size_t k = 0; k < 3; ++k) {
-    side[k] = orientation(at(ear[k]), at(ear[(k + 1) % 3]), p);
-    if (side[k] < 0) return false;
-  }
-  if (wanted_ == Wanted::clear && side[2] == 0 && p != at(ear[0]) && p != at(ear[2])) return true;
-  const auto leads_into = [&](const Point& q) {
-    for (std::size_t k = 0; k < 3; ++k)
-      if (side[k] == 0 && orientation(at(ear[k]), at(ear[(k + 1) % 3]), q) <= 0) return false;
-    return true;
-  };
-  return leads_into(at(next(corner))) || leads_into(at(before(corner)));
+  for (std::size_t k = 0; k < 3; ++k)
+    if (orientation(at(ear[k]), at(ear[(k + 1) % 3]), at(corner)) < 0) return false;
+  return true;
 }
 
 void EarClipping::fill_grid(std::int64_t& work) {

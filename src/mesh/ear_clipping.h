@@ -32,13 +32,6 @@ class EarClipping {
   Outcome divide(const std::vector<Point>& polygon, std::int64_t& work, std::vector<Corners>& triangles);
 
  private:
-  /// What may be cut off when nothing better is left.
-  enum class Wanted {
-    clear,     ///< ears on whose diagonal no other corner lies
-    ears,      ///< also others
-    flat,      ///< also what has no area
-    anything,  ///< what turns to the left, whatever is in it
-  };
   struct Candidate {
     std::int32_t corner;
     std::uint32_t changes;  ///< of its neighbours, until then
@@ -54,12 +47,12 @@ class EarClipping {
   };
 
   void begin();
-  void want_all();
   bool cut_all(std::int64_t& work, std::vector<Corners>& triangles);
   void cut(std::int32_t corner, std::vector<Corners>& triangles);
   void look_again(std::int32_t corner);
   [[nodiscard]] int turn(std::int32_t corner) const { return orientation(at(before(corner)), at(corner), at(next(corner))); }
   [[nodiscard]] bool is_idle(std::int32_t corner) const;
+  [[nodiscard]] bool is_between(std::int32_t a, std::int32_t corner, std::int32_t c) const;
   [[nodiscard]] bool may_be_cut(std::int32_t corner, std::int64_t& work) const;
   [[nodiscard]] bool is_blocked(const Corners& ear, std::int64_t& work) const;
   [[nodiscard]] bool blocks(std::int32_t corner, const Corners& ear) const;
@@ -81,7 +74,6 @@ class EarClipping {
   std::vector<bool> is_hollow_, is_in_grid_;
   std::deque<Candidate> candidates_;
   std::size_t left_ = 0;
-  Wanted wanted_ = Wanted::clear;
   Grid grid_;
   bool grid_lacks_some_ = false;
 };

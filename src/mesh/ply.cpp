@@ -13,9 +13,9 @@
 #include "mesh/formats.h"
 #include "mesh/mesh_builder.h"
 #include "mesh/numbers.h"
-#include "mesh/polygons.h"
 #include "mesh/ply_body.h"
 #include "mesh/ply_header.h"
+#include "mesh/polygons.h"
 
 namespace tofray::mesh {
 namespace {
