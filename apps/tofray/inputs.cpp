@@ -169,7 +169,51 @@ std::string idle_transport(const Scene& scene, const Options& options) {
   return {};
 }
 
+/// Says the mesh where a message says a place in the text that stands for its scene: that is nowhere.
+std::string without_places_in(const std::string& text, const std::string& name, const std::string& mesh) {
+  std::string out;
+  for (std::size_t from = 0; from < text.size();) {
+    std::size_t end = std::min(text.find('\n', from), text.size() - 1) + 1;
+    std::string_view line = std::string_view(text).substr(from, end - from);
+    from = end;
+    if (line.starts_with(name + ":")) {
+      line.remove_prefix(name.size());
+      const std::size_t behind = std::min(line.find_first_not_of(":0123456789"), line.size());
+      out += mesh + ":";
+      line.remove_prefix(std::max<std::size_t>(behind, 1));
+    }
+    out += line;
+  }
+  return out;
+}
+
+/// A mesh that is given in place of a scene.
+Inputs mesh_alone(const std::string& file, const Options& options) {
+  const std::string name = scene_name_of_mesh(file);
+  try {
+    Inputs in;
+    MeshScene of_mesh = scene_of_mesh(file, name, options);
+    in.scene = load::scene_from_text(of_mesh.text, name, options.set, {options.root, {}});
+    for (Object& object : in.scene.objects) object.where = file;
+    in.mesh_alone = std::move(of_mesh.warnings), in.told_size = of_mesh.told_size;
+    in.files.push_back({"scene", name, std::move(of_mesh.text)});
+    return in;
+  } catch (const Error& error) {
+    throw Error(error.kind(), without_places_in(error.what(), name, file));
+  }
+}
+
 }  // namespace
+
+std::vector<SceneFinding> findings_of(SceneReport report, const Inputs& in) {
+  using Kind = SceneFinding::Kind;
+  constexpr Kind about_size[] = {Kind::mesh_size, Kind::millimetres, Kind::nothing_in_view, Kind::beyond_reach};
+  if (in.told_size)
+    std::erase_if(report.findings, [&](const SceneFinding& one) {
+      return std::find(std::begin(about_size), std::end(about_size), one.kind) != std::end(about_size);
+    });
+  return std::move(report.findings);
+}
 
 Inputs load_inputs(const std::string& scene, const Options& options) {
   Inputs in;
@@ -177,10 +221,7 @@ Inputs load_inputs(const std::string& scene, const Options& options) {
     in.scene = load::load_scene(scene, options.set);
     in.files.push_back({"scene", scene, {}});
   } else if (is_called_like_a_mesh(scene)) {
-    const std::string name = scene_name_of_mesh(scene), text = scene_of_mesh(scene, name, options, in.mesh_alone);
-    in.scene = load::scene_from_text(text, name, options.set, {options.root, {}});
-    for (Object& object : in.scene.objects) object.where = scene;  // its text lies nowhere
-    in.files.push_back({"scene", name, text});
+    in = mesh_alone(scene, options);
   } else {
     // Read once, so that a pipe is good, too, and the manifest holds what was simulated.
     refuse_folder(scene, "render");

@@ -135,7 +135,7 @@ Report check_scene(const std::string& name, const Options& options) {
   const SceneReport seen = scene_report(in.scene, in.camera);
   report.json.set("camera_report", report_json(can)).set("scene_report", scene_report_json(seen));
   report.text += report_text(can) + scene_report_text(seen);
-  report.odd = seen.findings;
+  report.odd = findings_of(seen, in);
   return report;
 }
 

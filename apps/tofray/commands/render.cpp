@@ -112,7 +112,7 @@ void render_frames(Simulator& simulator, const Options& options, const FrameFile
     // Of the last frame alone it is worth the time to know wrong cycles.
     out.last = validity(frame, what.inputs.camera, i + 1 == first + frames);
     if (out.last.pixels.valid == 0) ++out.all_invalid;
-    if (i == first) out.odd = scene_report(what.inputs.scene, what.inputs.camera, frame.truth).findings;
+    if (i == first) out.odd = findings_of(scene_report(what.inputs.scene, what.inputs.camera, frame.truth), what.inputs);
     add_lost(frame.truth, out);
     writer.write(numbered ? suffix_of(i, first + frames - 1) : "");
     ++out.frames;
