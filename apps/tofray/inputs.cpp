@@ -15,7 +15,9 @@
 #include "input_kind.h"
 #include "load/builtin.h"
 #include "load/convert.h"
+#include "load/gltf_load.h"
 #include "load/load.h"
+#include "load/mesh_piece.h"
 #include "load/obj_load.h"
 #include "mesh_scene.h"
 #include "profile_tables.h"
@@ -118,23 +120,40 @@ std::string notices_of(const Mesh& mesh) {
   return text;
 }
 
-std::string guesses_of(const Mesh& mesh) {
+/// Where a file could say how much infrared light its materials reflect: only where it has any.
+/// @param has_materials  besides colours of vertices
+std::string where_to_say(const std::string& file, bool has_materials) {
+  const bool is_obj = load::is_obj(file);
+  if (!has_materials || (!is_obj && !load::is_gltf(file))) return "reflectivity or material at the object says it";
+  return (is_obj ? "a line #!nir_reflectivity 0.6 below newmtl" : "nir_reflectivity in a material's extras") +
+         std::string(" says it, or materials or reflectivity at the object");
+}
+
+std::string guesses_of(const Mesh& mesh, bool has_materials) {
   if (mesh.guessed == 0) return {};
-  return fmt::format(
-      "warning: {} of {} reflect{} as much infrared as visible light: a guess from the base colour\n  {} says it, or materials or "
-      "reflectivity at the object\n",
-      mesh.guessed == 1 ? "1 material" : fmt::format("{} materials", mesh.guessed), base::in_quotes(mesh.file),
-      mesh.guessed == 1 ? "s" : "",
-      load::is_obj(mesh.file) ? "a line #!nir_reflectivity 0.6 below newmtl" : "nir_reflectivity in a material's extras");
+  return fmt::format("warning: {} of {} reflect{} as much infrared as visible light: a guess from the base colour\n  {}\n",
+                     mesh.guessed == 1 ? "1 material" : fmt::format("{} materials", mesh.guessed), base::in_quotes(mesh.file),
+                     mesh.guessed == 1 ? "s" : "", where_to_say(mesh.file, has_materials));
+}
+
+/// Files of which an object shows a material of theirs, not what has none.
+std::set<std::string> files_with_materials(const Scene& scene) {
+  std::set<std::string> out;
+  for (const Object& object : scene.objects)
+    if (const auto* mesh = std::get_if<Mesh>(&object.shape);
+        mesh != nullptr && !object.name.ends_with(std::string("/") + load::no_material))
+      out.insert(mesh->file);
+  return out;
 }
 
 /// Each warning once, though several objects may show a file.
 std::string mesh_warnings(const Scene& scene) {
   std::string text = left_out_of(scene);
   std::set<std::string> said;
+  const std::set<std::string> with_materials = files_with_materials(scene);
   for (const Object& object : scene.objects)
     if (const auto* mesh = std::get_if<Mesh>(&object.shape))
-      for (const std::string& one : {guesses_of(*mesh), notices_of(*mesh)})
+      for (const std::string& one : {guesses_of(*mesh, with_materials.contains(mesh->file)), notices_of(*mesh)})
         if (said.insert(one).second) text += one;
   return text;
 }
@@ -225,6 +244,7 @@ Inputs load_inputs(const std::string& scene, const Options& options) {
   } else {
     // Read once, so that a pipe is good, too, and the manifest holds what was simulated.
     refuse_folder(scene, "render");
+    refuse_other_mesh(scene);
     const std::string text = load::read_named("scene", scene, load::builtin_scenes());
     refuse_data(text, scene);
     in.scene = scene_of_text(text, scene, options);

@@ -139,9 +139,13 @@ bool looks_like_text(std::string_view bytes) {
 
 }  // namespace
 
+bool is_binary_stl(std::string_view bytes) {
+  return bytes.size() >= stl_start && bytes.size() == stl_start + stl_record * facets_of_header(bytes);
+}
+
 ReadMesh parse_stl(std::string_view bytes, const std::string& name) {
   // The size decides: many binary files begin with "solid", too. A text has no such bytes where the count stands.
-  if (bytes.size() >= stl_start && bytes.size() == stl_start + stl_record * facets_of_header(bytes)) return read_binary_stl(bytes, name);
+  if (is_binary_stl(bytes)) return read_binary_stl(bytes, name);
   if (!looks_like_text(bytes)) refuse_size(bytes, name);
   return StlText(bytes, name).read();
 }

@@ -179,7 +179,10 @@ TEST(mesh_file, is_of_the_format_that_its_suffix_says) {
     return std::string(error.what());
   };
   EXPECT_EQ(message("a.fbx"),
-            "a.fbx: error: \"a.fbx\" is no mesh that can be read\n  got the suffix \".fbx\", expected .obj, .ply, .stl, .glb or .gltf");
+            "a.fbx: error: \"a.fbx\" is no mesh that can be read\n  got an FBX file (.fbx), expected .obj, .ply, .stl, .glb or .gltf; "
+            "Blender imports it and exports glTF (.glb)");
+  EXPECT_EQ(message("a.doc"),
+            "a.doc: error: \"a.doc\" is no mesh that can be read\n  got the suffix \".doc\", expected .obj, .ply, .stl, .glb or .gltf");
   EXPECT_EQ(
       message("a.ply/mesh"),
       "a.ply/mesh: error: \"mesh\" is no mesh that can be read\n  got a name without suffix, expected .obj, .ply, .stl, .glb or .gltf");

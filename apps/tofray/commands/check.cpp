@@ -146,6 +146,7 @@ Report check(const std::string& name, const Options& options) {
     return check_profile(std::string(profile->text), name, options);
   refuse_folder(name, "check");
   if (is_called_like_a_mesh(name)) return check_scene(name, options);
+  refuse_other_mesh(name);
   const std::string text = load::read_named("scene", name, load::builtin_scenes());
   refuse_data(text, name);
   return looks_like_a_profile(text, name) ? check_profile(text, name, options) : check_scene(name, options);
