@@ -40,6 +40,17 @@ Camera camera_of(const std::string& source, const Options& options) {
   return load_camera(scene, {options.mode, {}, options.root});
 }
 
+/// A scene is text in UTF-8, and so is a mesh's name in it.
+void refuse_name(const std::string& path) {
+  for (std::size_t i = 0; i < path.size();) {
+    const std::size_t length = base::utf8_length(path, i);
+    if (length == 0)
+      throw Error(ErrorKind::bad_input,
+                  base::printable(path) + ": error: the file's name is not UTF-8\n  a scene could not name it: call it otherwise");
+    i += length;
+  }
+}
+
 /// Whether --set says where the camera stands.
 bool sets_pose(const Options& options) {
   return std::any_of(options.set.begin(), options.set.end(),
@@ -65,6 +76,7 @@ std::string scene_name_of_mesh(const std::string& path) { return std::filesystem
 
 MeshScene scene_of_mesh(const std::string& path, const std::string& source, const Options& options) {
   MeshScene out;
+  refuse_name(path);
   // What --set makes of the mesh, so that its scale and its axes count; the rest of the scene is not there yet.
   load::Settings of_mesh;
   for (const auto& one : options.set)

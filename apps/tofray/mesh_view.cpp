@@ -103,15 +103,15 @@ struct Reach {
   double near_m = 0, far_m = infinity, reflectivity = 1;
 };
 
-/// Of the brightest material where it faces the camera, and where it is half as bright, slanted or towards the image's rim.
+/// Of the brightest material where it faces the camera, and where it is six tenths as bright, slanted or towards the image's rim.
 Reach reach_of(const Scene& scene, const Camera& camera) {
   double brightest = 0;
   for (const Object& object : scene.objects)
     brightest = std::max(brightest, scene.materials[static_cast<std::size_t>(object.material)].diffuse);
   const double diffuse = std::clamp(brightest, 0.01, 1.0);
   CameraQuestion question;
-  for (double z = 0.125; z < 130; z *= std::sqrt(2)) question.distances_m.push_back(z);
-  question.reflectivities = {diffuse, 0.5 * diffuse};
+  for (double z = 0.125; z < 130; z *= 1.1) question.distances_m.push_back(z);
+  question.reflectivities = {diffuse, 0.6 * diffuse};
   question.ambients = {AmbientCase()};
   const CameraReport report = camera_report(camera, question);
   if (report.noise.size() != 2) return {};  // no light: all else says so

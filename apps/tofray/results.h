@@ -78,6 +78,9 @@ std::vector<files::FileRecord> write_frame(const files::OutputFolder& folder, co
 /// The same for a single frame; the folder knows its files then.
 void write_frame(files::OutputFolder& folder, const FrameFiles& what, const Frame& frame);
 
+/// Warns where depth.png is written and cannot hold all that has a depth. @param pixels  how many, of all frames
+void warn_of_depth_png(const FrameFiles& what, std::size_t pixels, Remarks& remarks);
+
 /// The GPU's name; empty where the processor computed.
 std::string gpu_of(const RanOn& machine);
 /// "avx512 on 2 threads", "NVIDIA H200".

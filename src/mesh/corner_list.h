@@ -51,4 +51,8 @@ class CornerList {
 void give_details(const std::vector<std::array<float, 3>>& normals, const CornerList& of_normals,
                   const std::vector<std::array<float, 2>>& texcoords, const CornerList& of_texcoords, MeshBuilder& mesh);
 
+/// Gives each triangle its shade. A vertex whose triangles have different ones becomes several, as above.
+/// @param shades  by triangle; those behind have 1. None where it is empty
+void give_shades(const std::vector<float>& shades, MeshBuilder& mesh);
+
 }  // namespace tofray::mesh

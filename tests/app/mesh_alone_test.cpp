@@ -131,7 +131,7 @@ TEST_F(mesh_alone, that_has_a_flat_ground_of_its_own_shows_it) {
 TEST_F(mesh_alone, of_any_unit_is_seen_or_told_with_the_scale_that_helps) {
   int seen_at_once = 0, told = 0;
   for (const auto& [name, shape] : shapes)
-    for (const double unit : {1e-6, 1e-4, 1e-3, 0.01, 0.1, 0.3, 1.0, 3.0, 10.0, 100.0, 1000.0}) {
+    for (const double unit : {1e-6, 1e-4, 1e-3, 0.01, 0.1, 0.3, 1.0, 1.5, 2.0, 3.0, 10.0, 100.0, 1000.0}) {
       SCOPED_TRACE(std::string(name) + " of " + base::number_text(unit) + " m");
       save("shape.obj", shape.obj(unit));
       Result result;
@@ -183,6 +183,15 @@ TEST_F(mesh_alone, beyond_the_world_is_told_with_the_scale_that_helps) {
   EXPECT_EQ(tool({"check", "cube.obj", "--set", "objects.0.mesh.scale=0.000001"}).code, 0);
 }
 
+TEST_F(mesh_alone, of_a_name_that_is_no_utf8_is_told_so) {
+  save("caf\xE9.obj", brick(1, 1, 1).obj());
+  const Result result = tool({"render", "caf\xE9.obj"});
+  EXPECT_EQ(result.code, 2);
+  EXPECT_EQ(result.err.rfind("caf\\xe9.obj: error: the file's name is not UTF-8\n", 0), 0U) << result.err;
+  save("caf\xC3\xA9.obj", brick(1, 1, 1).obj());
+  EXPECT_EQ(tool({"check", "caf\xC3\xA9.obj"}).code, 0);
+}
+
 TEST_F(mesh_alone, whose_triangles_have_no_area_is_an_error) {
   save("line.obj", "v 0 0 0\nv 0.1 0.1 0.1\nv 0.3 0.3 0.3\nv 0.1 0.1 0.1\nf 1 2 3\nf 2 4 2\n");
   const Result result = tool({"render", "line.obj"});
@@ -192,6 +201,28 @@ TEST_F(mesh_alone, whose_triangles_have_no_area_is_an_error) {
   EXPECT_TRUE(has(tool({"check", "scene.yaml"}).err, "scene.yaml:2:18: error: no triangle of \"line.obj\" has an area"));
   save("thin.obj", "v 0 0 0\nv 1 0 0\nv 1 1e-5 0\nf 1 2 3\n");
   EXPECT_EQ(tool({"check", "thin.obj"}).code, 0);
+}
+
+TEST(depth_png, says_where_it_cannot_hold_a_depth) {
+  const Folder folder;
+  // One slow modulation frequency (0.5 MHz, 300 m), much light: a wall at 70 m has a depth.
+  const auto err_of = [&](const char* z) {
+    write(folder / "wall.yaml", std::string("camera: {profile: pico-flexx}\nobjects:\n  - plane: {point: [0, 0, ") + z +
+                                    "], normal: [0, 0, -1], reflectivity: 1}\n");
+    const Result made =
+        run(with_small_sensor(
+                {"render", "wall.yaml", "-o", "out", "--noise", "off", "--set", "camera.illumination.0.power=50 W", "--set",
+                 "camera.modes.MODE_9_5FPS_2000.sequence=[{modulation_frequency: 500 kHz, reference_phase: 0 deg, integration_time: 1 ms}, "
+                 "{modulation_frequency: 500 kHz, reference_phase: 90 deg, integration_time: 1 ms}, "
+                 "{modulation_frequency: 500 kHz, reference_phase: 180 deg, integration_time: 1 ms}, "
+                 "{modulation_frequency: 500 kHz, reference_phase: 270 deg, integration_time: 1 ms}]"}),
+            in_folder(folder.path()));
+    EXPECT_EQ(made.code, 0) << made.err;
+    return made.err;
+  };
+  const std::string far = err_of("70");
+  EXPECT_TRUE(has(far, "warning: depth.png is 0 in 616 pixels whose z is beyond 65.535 m")) << far;
+  EXPECT_FALSE(has(err_of("60"), "depth.png is 0 in"));
 }
 
 }  // namespace tofray::test

@@ -28,7 +28,7 @@ std::vector<Sample> samples() {
   add(Format::ply, text, text.size() - 1);
   for (const auto encoding : {PlyWriter::Encoding::little, PlyWriter::Encoding::big})
     for (const std::string& file : {plain_ply(encoding), full_ply(encoding)}) add(Format::ply, file, file.size());
-  add(Format::stl, text_of_stl, text_of_stl.find("endsolid") + 8);
+  add(Format::stl, text_of_stl, text_of_stl.find("endsolid") + 3);
   add(Format::stl, binary_stl(), binary_stl().size());
   add(Format::stl, binary_stl("solid"), binary_stl().size());
   return all;
