@@ -104,7 +104,8 @@ std::string left_out_of(const Scene& scene) {
   for (const auto& [key, file] : files)
     if (file.left_out > 0)
       text += fmt::format(
-          "warning: {} of the {} triangles of {} are left out\n  they have a corner that is no finite number, or beyond 1e5 m\n",
+          "warning: {} of the {} triangles of {} are left out\n  they have a corner that is no finite number, or beyond 1e5 m; "
+          "gt_triangle_id counts the others\n",
           file.left_out, file.all, base::in_quotes(std::get<0>(key)));
   return text;
 }

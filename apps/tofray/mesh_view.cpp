@@ -139,24 +139,44 @@ double rounded(double value, int digits) {
 
 std::string scaled_size(const MeshBox& box, double by) { return analysis::size_text(by * box.low, by * box.high); }
 
-/// @param from, to  by which factors the mesh's size fits: from where it saturates no more, to where it has depth
-std::string advice(const MeshBox& box, double scale, double from, double to) {
-  const auto say = [&](double factor, const std::string& before) {
-    return fmt::format("{}? --set objects.0.mesh.scale={} makes it {}", before, base::number_text(rounded(scale * factor, 3)),
-                       scaled_size(box, factor));
+constexpr double least_pixels = 60;  // of an estimate that may be twice what is seen: fewer show nothing of a shape
+
+/// A mesh of another size: where the camera stands, and how many pixels it covers at most.
+struct Scaled {
+  double distance_m, pixels;
+};
+Scaled scaled(const Sight& sight, const View& view, const Reach& reach, double by) {
+  constexpr double least_m = 2e-3;  // of any scene
+  const double distance = std::max({least_m, by * sight.whole_m, reach.near_m + by * sight.front_m});
+  return {distance, view.pixels * sight.area_m2 * (by / distance) * (by / distance)};
+}
+
+/// What unit the numbers may have, and a scale at which all of the mesh has depth.
+std::string advice(const Sight& sight, const View& view, const Reach& reach, const MeshBox& box, double scale) {
+  const auto set = [&](double factor) { return "--set objects.0.mesh.scale=" + base::number_text(rounded(scale * factor, 3)); };
+  const auto fits = [&](double factor) {
+    const Scaled it = scaled(sight, view, reach, factor);
+    return it.distance_m <= reach.far_m && it.pixels >= 2 * least_pixels;
   };
-  // Smaller ones are seen from where the camera does not saturate, in fewer pixels.
-  if (scale == 1)
-    for (const Unit& unit : units)
-      if (unit.metres >= 0.25 * from && unit.metres <= to) return say(unit.metres, fmt::format("are its numbers {}", unit.name));
-  return say(rounded(std::sqrt(from * to), 1), "is another scale meant");
+  const auto units_that = [&](const auto& do_it) {
+    return scale == 1 ? std::find_if(std::begin(units), std::end(units), [&](const Unit& unit) { return do_it(unit.metres); })
+                      : std::end(units);
+  };
+  if (const Unit* const unit = units_that(fits); unit != std::end(units))
+    return fmt::format("are its numbers {}? {} makes it {}", unit->name, set(unit->metres), scaled_size(box, unit->metres));
+  const double nearest = reach.near_m / std::max(sight.whole_m - sight.front_m, 1e-3 * sight.whole_m),
+               farthest = reach.far_m / sight.whole_m;
+  const double wanted = rounded(std::sqrt(nearest * farthest), 1);
+  const Unit* const likely = units_that([&](double factor) { return factor * box.largest() >= 0.02 && factor * box.largest() <= 20; });
+  if (likely != std::end(units))
+    return fmt::format("are its numbers {}, which make it {}? What fits this camera: {} makes it {}", likely->name,
+                       scaled_size(box, likely->metres), set(wanted), scaled_size(box, wanted));
+  return fmt::format("what fits this camera: {} makes it {}", set(wanted), scaled_size(box, wanted));
 }
 
 std::string metres(double m) {
   return m < 0.1 ? fmt::format("{:.3g} mm", 1e3 * m) : fmt::format("{:.{}f} m", m, m < 1 ? 2 : m < 10 ? 1 : 0);
 }
-
-constexpr double least_pixels = 60;  // fewer show nothing of a shape
 
 }  // namespace
 
@@ -174,21 +194,18 @@ MeshView view_of_meshes(const Scene& scene, const Camera& camera, const std::str
   const View view = view_of(camera);
   const Sight sight = sight_of(scene, view);
   const Reach reach = reach_of(scene, camera);
-  constexpr double least_m = 2e-3;  // of any scene
-  const double distance = std::max({least_m, sight.whole_m, reach.near_m + sight.front_m});
+  const auto [distance, pixels] = scaled(sight, view, reach, 1);
   MeshView out{{sight.middle + distance * sight.aside, sight.middle}, ""};
-  const double pixels = view.pixels * sight.area_m2 / (distance * distance);
   const bool small = pixels < least_pixels && distance > sight.whole_m, large = distance > reach.far_m;
   if (!small && !large) return out;
   const MeshBox box = box_round(scene);
-  const double from = reach.near_m / std::max(sight.whole_m - sight.front_m, 1e-3 * sight.whole_m), to = reach.far_m / sight.whole_m;
   out.warning = fmt::format(
       "{}: warning: it measures {}, {}\n  {}\n", path, analysis::size_text(box.low, box.high),
       small ? fmt::format("and covers {}: nearer than {} this camera saturates",
                           pixels < 1 ? "less than a pixel" : fmt::format("{:.0f} pixels at most", std::ceil(pixels)), metres(reach.near_m))
             : fmt::format("and is seen whole from {} away: of reflectivity {:.2g} this camera has depth to some {}", metres(distance),
                           reach.reflectivity, metres(reach.far_m)),
-      advice(box, std::get<Mesh>(scene.objects[0].shape).scale, from, to));
+      advice(sight, view, reach, box, std::get<Mesh>(scene.objects[0].shape).scale));
   return out;
 }
 
