@@ -208,11 +208,16 @@ void MeshReader::check_seen(const Places& places, const Mesh& wanted, const std:
                "the corners of each lie on a line or in one point: there is nothing to see");
   if (all.empty()) base::fail(places.file, "no triangle of " + file + " is in the world", "the file's scene shows none");
   if (lost == 0) base::fail(places.file, "no triangle of " + file + " is in the world", "each has a corner that is not a finite number");
-  const std::string scale = base::number_text(wanted.scale * fitting_scale(farthest_m));
+  const std::string corners = "all have a corner beyond " + base::number_text(base::farthest_m) + " m, up to " +
+                              base::number_text(farthest_m < 1e9 ? std::round(farthest_m) : farthest_m) + " m";
+  constexpr double least_scale = 1e-9;
+  const double scale = wanted.scale * fitting_scale(farthest_m);
+  if (!(scale >= least_scale))
+    base::fail(places.file, "no triangle of " + file + " is in the world", corners + ": no scale makes a thing of these");
+  const std::string said = base::number_text(scale);
   base::fail(places.file, "no triangle of " + file + " is in the world",
-             "all have a corner beyond " + base::number_text(base::farthest_m) + " m, up to " + base::number_text(std::round(farthest_m)) +
-                 " m; is another scale meant? Such as scale: " + scale +
-                 (places.key.empty() ? "" : " (--set " + places.key + ".mesh.scale=" + scale + ")"));
+             corners + "; is another scale meant? Such as scale: " + said +
+                 (places.key.empty() ? "" : " (--set " + places.key + ".mesh.scale=" + said + ")"));
 }
 
 std::vector<MeshPiece> MeshReader::from_code(const base::Place& place, const std::string& file) {

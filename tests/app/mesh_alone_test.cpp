@@ -193,7 +193,7 @@ TEST_F(mesh_alone, of_a_name_that_is_no_utf8_is_told_so) {
 }
 
 TEST_F(mesh_alone, whose_triangles_have_no_area_is_an_error) {
-  save("line.obj", "v 0 0 0\nv 0.1 0.1 0.1\nv 0.3 0.3 0.3\nv 0.1 0.1 0.1\nf 1 2 3\nf 2 4 2\n");
+  save("line.obj", "v 0 0 0\nv 0.1 0.2 0.3\nv 0.3 0.6 0.9\nv 0.1 0.2 0.3\nf 1 2 3\nf 2 4 2\n");
   const Result result = tool({"render", "line.obj"});
   EXPECT_EQ(result.code, 2);
   EXPECT_EQ(result.err.rfind("line.obj: error: no triangle of \"line.obj\" has an area\n", 0), 0U) << result.err;
