@@ -128,7 +128,8 @@ struct Unit {
   const char* name;
   double metres;
 };
-constexpr Unit units[] = {{"millimetres", 1e-3}, {"centimetres", 1e-2}, {"inches", 0.0254}, {"micrometres", 1e-6}, {"kilometres", 1e3}};
+constexpr Unit likely_units[] = {
+    {"millimetres", 1e-3}, {"centimetres", 1e-2}, {"inches", 0.0254}, {"micrometres", 1e-6}, {"kilometres", 1e3}};
 
 /// To so many digits.
 double rounded(double value, int digits) {
@@ -159,22 +160,22 @@ std::string advice(const Sight& sight, const View& view, const Reach& reach, con
     return it.distance_m <= reach.far_m && it.pixels >= 2 * least_pixels;
   };
   const auto units_that = [&](const auto& do_it) {
-    return scale == 1 ? std::find_if(std::begin(units), std::end(units), [&](const Unit& unit) { return do_it(unit.metres); })
-                      : std::end(units);
+    return scale == 1 ? std::find_if(std::begin(likely_units), std::end(likely_units), [&](const Unit& unit) { return do_it(unit.metres); })
+                      : std::end(likely_units);
   };
-  if (const Unit* const unit = units_that(fits); unit != std::end(units))
+  if (const Unit* const unit = units_that(fits); unit != std::end(likely_units))
     return fmt::format("are its numbers {}? {} makes it {}", unit->name, set(unit->metres), scaled_size(box, unit->metres));
   const double nearest = reach.near_m / std::max(sight.whole_m - sight.front_m, 1e-3 * sight.whole_m),
                farthest = reach.far_m / sight.whole_m;
   const double wanted = rounded(std::sqrt(nearest * farthest), 1);
   const Unit* const likely = units_that([&](double factor) { return factor * box.largest() >= 0.02 && factor * box.largest() <= 20; });
-  if (likely != std::end(units))
+  if (likely != std::end(likely_units))
     return fmt::format("are its numbers {}, which make it {}? What fits this camera: {} makes it {}", likely->name,
                        scaled_size(box, likely->metres), set(wanted), scaled_size(box, wanted));
   return fmt::format("what fits this camera: {} makes it {}", set(wanted), scaled_size(box, wanted));
 }
 
-std::string metres(double m) {
+std::string metres_text(double m) {
   return m < 0.1 ? fmt::format("{:.3g} mm", 1e3 * m) : fmt::format("{:.{}f} m", m, m < 1 ? 2 : m < 10 ? 1 : 0);
 }
 
@@ -199,13 +200,13 @@ MeshView view_of_meshes(const Scene& scene, const Camera& camera, const std::str
   const bool small = pixels < least_pixels && distance > sight.whole_m, large = distance > reach.far_m;
   if (!small && !large) return out;
   const MeshBox box = box_round(scene);
-  out.warning = fmt::format(
-      "{}: warning: it measures {}, {}\n  {}\n", path, analysis::size_text(box.low, box.high),
-      small ? fmt::format("and covers {}: nearer than {} this camera saturates",
-                          pixels < 1 ? "less than a pixel" : fmt::format("{:.0f} pixels at most", std::ceil(pixels)), metres(reach.near_m))
-            : fmt::format("and is seen whole from {} away: of reflectivity {:.2g} this camera has depth to some {}", metres(distance),
-                          reach.reflectivity, metres(reach.far_m)),
-      advice(sight, view, reach, box, std::get<Mesh>(scene.objects[0].shape).scale));
+  out.warning = fmt::format("{}: warning: it measures {}, {}\n  {}\n", path, analysis::size_text(box.low, box.high),
+                            small ? fmt::format("and covers {}: nearer than {} this camera saturates",
+                                                pixels < 1 ? "less than a pixel" : fmt::format("{:.0f} pixels at most", std::ceil(pixels)),
+                                                metres_text(reach.near_m))
+                                  : fmt::format("and is seen whole from {} away: of reflectivity {:.2g} this camera has depth to some {}",
+                                                metres_text(distance), reach.reflectivity, metres_text(reach.far_m)),
+                            advice(sight, view, reach, box, std::get<Mesh>(scene.objects[0].shape).scale));
   return out;
 }
 
