@@ -161,8 +161,8 @@ void give_shades(const std::vector<float>& shades, MeshBuilder& builder) {
         number = keys.add(key_of(corner, shade), key_of_number);
         origin.push_back(corner);
         mesh.shades.push_back(shade);
-        if (!mesh.normals.empty()) mesh.normals.push_back(Normal(mesh.normals[at]));
-        if (!mesh.texcoords.empty()) mesh.texcoords.push_back(Texcoord(mesh.texcoords[at]));
+        if (!mesh.normals.empty()) mesh.normals.emplace_back(mesh.normals[at]);
+        if (!mesh.texcoords.empty()) mesh.texcoords.emplace_back(mesh.texcoords[at]);
       }
       corner = static_cast<std::int32_t>(own) + number;
     }

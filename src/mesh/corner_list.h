@@ -53,6 +53,6 @@ void give_details(const std::vector<std::array<float, 3>>& normals, const Corner
 
 /// Gives each triangle its shade. A vertex whose triangles have different ones becomes several, as above.
 /// @param shades  by triangle; those behind have 1. None where it is empty
-void give_shades(const std::vector<float>& shades, MeshBuilder& mesh);
+void give_shades(const std::vector<float>& shades, MeshBuilder& builder);
 
 }  // namespace tofray::mesh
