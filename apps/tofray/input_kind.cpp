@@ -12,6 +12,7 @@
 #include "files/text_file.h"
 #include "load/builtin.h"
 #include "load/convert.h"
+#include "mesh/other_formats.h"
 #include "tofray/error.h"
 #include "yaml/tree.h"
 
@@ -23,6 +24,13 @@ namespace fs = std::filesystem;
 
 [[noreturn]] void refuse(const std::string& path, const std::string& what, const std::string& fitting) {
   throw Error(ErrorKind::bad_input, fmt::format("{}: error: this is {}\n  {}", base::printable(path), what, fitting));
+}
+
+/// Whether the first line that is no comment is one of an OBJ file's.
+bool looks_like_obj(std::string_view bytes) {
+  while (bytes.starts_with('#') || bytes.starts_with('\n') || bytes.starts_with('\r'))
+    bytes.remove_prefix(std::min(bytes.find('\n'), bytes.size() - 1) + 1);
+  return bytes.starts_with("v ") || bytes.starts_with("mtllib ");
 }
 
 constexpr std::size_t enough_names = 10'000;  // for a message
@@ -71,6 +79,13 @@ std::vector<std::string> names_in(const std::string& folder, const std::vector<s
   return names;
 }
 
+void refuse_other_mesh(const std::string& path) {
+  const auto other = mesh::other_format_of(path);
+  std::error_code ignored;
+  if (!other || !fs::is_regular_file(path, ignored)) return;
+  refuse(path, other->what + ", which is not read", fmt::format("expected a mesh, {}, or a scene: {}", mesh::formats_read, other->way));
+}
+
 void refuse_data(std::string_view bytes, const std::string& path) {
   const std::string file = base::printable(path);
   if (bytes.starts_with("PK\x03\x04"))
@@ -82,6 +97,13 @@ void refuse_data(std::string_view bytes, const std::string& path) {
     refuse(path, "a picture (PNG), not a scene", "it cannot be simulated again; the manifest.json beside it can: `tofray render --from`");
   if (bytes.starts_with("glTF"))
     refuse(path, "a binary glTF file, not a scene", "expected a scene, a YAML or JSON file; a mesh is read where its name ends in .glb");
+  if (bytes.starts_with("solid ") || bytes.starts_with("solid\n"))
+    refuse(path, "an STL file, not a scene", "expected a scene, a YAML or JSON file; a mesh is read where its name ends in .stl");
+  if (const auto other = mesh::other_format_in(bytes))
+    refuse(path, other->what + ", not a scene",
+           fmt::format("expected a scene, a YAML or JSON file, or a mesh, {}: {}", mesh::formats_read, other->way));
+  if (looks_like_obj(bytes))
+    refuse(path, "an OBJ file, not a scene", "expected a scene, a YAML or JSON file; a mesh is read where its name ends in .obj");
   if (bytes.starts_with("ply\n"))
     refuse(path, "a PLY file, not a scene", "expected a scene, a YAML or JSON file; a mesh is read where its name ends in .ply");
 }

@@ -11,6 +11,10 @@
 /// Files given to a command that takes others: what they are, and which command fits.
 namespace tofray::app {
 
+/// Refuses a file that is called like a mesh or a cloud of points of a format that is not read.
+/// @throws Error (bad_input) that says what it is, which formats are read, and what makes one of them of it
+void refuse_other_mesh(const std::string& path);
+
 /// Refuses what is no text: archives of arrays, pictures, point clouds.
 /// @throws Error (bad_input) that names the file's kind and the command that takes it
 void refuse_data(std::string_view bytes, const std::string& path);

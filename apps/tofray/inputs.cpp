@@ -14,7 +14,9 @@
 #include "files/text_file.h"
 #include "input_kind.h"
 #include "load/builtin.h"
+#include "load/gltf_load.h"
 #include "load/load.h"
+#include "load/mesh_piece.h"
 #include "load/obj_load.h"
 #include "mesh_scene.h"
 #include "profile_tables.h"
@@ -101,7 +103,8 @@ std::string left_out_of(const Scene& scene) {
   for (const auto& [key, file] : files)
     if (file.left_out > 0)
       text += fmt::format(
-          "warning: {} of the {} triangles of {} are left out\n  they have a corner that is no finite number, or beyond 1e5 m\n",
+          "warning: {} of the {} triangles of {} are left out\n  they have a corner that is no finite number, or beyond 1e5 m; "
+          "gt_triangle_id counts the others\n",
           file.left_out, file.all, base::in_quotes(std::get<0>(key)));
   return text;
 }
@@ -117,23 +120,40 @@ std::string notices_of(const Mesh& mesh) {
   return text;
 }
 
-std::string guesses_of(const Mesh& mesh) {
+/// Where a file could say how much infrared light its materials reflect: only where it has any.
+/// @param has_materials  besides colours of vertices
+std::string where_to_say(const std::string& file, bool has_materials) {
+  const bool is_obj = load::is_obj(file);
+  if (!has_materials || (!is_obj && !load::is_gltf(file))) return "reflectivity or material at the object says it";
+  return (is_obj ? "a line #!nir_reflectivity 0.6 below newmtl" : "nir_reflectivity in a material's extras") +
+         std::string(" says it, or materials or reflectivity at the object");
+}
+
+std::string guesses_of(const Mesh& mesh, bool has_materials) {
   if (mesh.guessed == 0) return {};
-  return fmt::format(
-      "warning: {} of {} reflect{} as much infrared as visible light: a guess from the base colour\n  {} says it, or materials or "
-      "reflectivity at the object\n",
-      mesh.guessed == 1 ? "1 material" : fmt::format("{} materials", mesh.guessed), base::in_quotes(mesh.file),
-      mesh.guessed == 1 ? "s" : "",
-      load::is_obj(mesh.file) ? "a line #!nir_reflectivity 0.6 below newmtl" : "nir_reflectivity in a material's extras");
+  return fmt::format("warning: {} of {} reflect{} as much infrared as visible light: a guess from the base colour\n  {}\n",
+                     mesh.guessed == 1 ? "1 material" : fmt::format("{} materials", mesh.guessed), base::in_quotes(mesh.file),
+                     mesh.guessed == 1 ? "s" : "", where_to_say(mesh.file, has_materials));
+}
+
+/// Files of which an object shows a material of theirs, not what has none.
+std::set<std::string> files_with_materials(const Scene& scene) {
+  std::set<std::string> out;
+  for (const Object& object : scene.objects)
+    if (const auto* mesh = std::get_if<Mesh>(&object.shape);
+        mesh != nullptr && !object.name.ends_with(std::string("/") + load::no_material))
+      out.insert(mesh->file);
+  return out;
 }
 
 /// Each warning once, though several objects may show a file.
 std::string mesh_warnings(const Scene& scene) {
   std::string text = left_out_of(scene);
   std::set<std::string> said;
+  const std::set<std::string> with_materials = files_with_materials(scene);
   for (const Object& object : scene.objects)
     if (const auto* mesh = std::get_if<Mesh>(&object.shape))
-      for (const std::string& one : {guesses_of(*mesh), notices_of(*mesh)})
+      for (const std::string& one : {guesses_of(*mesh, with_materials.contains(mesh->file)), notices_of(*mesh)})
         if (said.insert(one).second) text += one;
   return text;
 }
@@ -168,7 +188,51 @@ std::string idle_transport(const Scene& scene, const Options& options) {
   return {};
 }
 
+/// Says the mesh where a message says a place in the text that stands for its scene: that is nowhere.
+std::string without_places_in(const std::string& text, const std::string& name, const std::string& mesh) {
+  std::string out;
+  for (std::size_t from = 0; from < text.size();) {
+    std::size_t end = std::min(text.find('\n', from), text.size() - 1) + 1;
+    std::string_view line = std::string_view(text).substr(from, end - from);
+    from = end;
+    if (line.starts_with(name + ":")) {
+      line.remove_prefix(name.size());
+      const std::size_t behind = std::min(line.find_first_not_of(":0123456789"), line.size());
+      out += mesh + ":";
+      line.remove_prefix(std::max<std::size_t>(behind, 1));
+    }
+    out += line;
+  }
+  return out;
+}
+
+/// A mesh that is given in place of a scene.
+Inputs mesh_alone(const std::string& file, const Options& options) {
+  const std::string name = scene_name_of_mesh(file);
+  try {
+    Inputs in;
+    MeshScene of_mesh = scene_of_mesh(file, name, options);
+    in.scene = load::scene_from_text(of_mesh.text, name, options.set, {options.root, {}});
+    for (Object& object : in.scene.objects) object.where = file;
+    in.mesh_alone = std::move(of_mesh.warnings), in.told_size = of_mesh.told_size;
+    in.files.push_back({"scene", name, std::move(of_mesh.text)});
+    return in;
+  } catch (const Error& error) {
+    throw Error(error.kind(), without_places_in(error.what(), name, file));
+  }
+}
+
 }  // namespace
+
+std::vector<SceneFinding> findings_of(SceneReport report, const Inputs& in) {
+  using Kind = SceneFinding::Kind;
+  constexpr Kind about_size[] = {Kind::mesh_size, Kind::millimetres, Kind::nothing_in_view, Kind::beyond_reach};
+  if (in.told_size)
+    std::erase_if(report.findings, [&](const SceneFinding& one) {
+      return std::find(std::begin(about_size), std::end(about_size), one.kind) != std::end(about_size);
+    });
+  return std::move(report.findings);
+}
 
 Inputs load_inputs(const std::string& scene, const Options& options) {
   Inputs in;
@@ -176,13 +240,11 @@ Inputs load_inputs(const std::string& scene, const Options& options) {
     in.scene = load::load_scene(scene, options.set);
     in.files.push_back({"scene", scene, {}});
   } else if (is_called_like_a_mesh(scene)) {
-    const std::string name = scene_name_of_mesh(scene), text = scene_of_mesh(scene, name, options, in.mesh_alone);
-    in.scene = load::scene_from_text(text, name, options.set, {options.root, {}});
-    for (Object& object : in.scene.objects) object.where = scene;  // its text lies nowhere
-    in.files.push_back({"scene", name, text});
+    in = mesh_alone(scene, options);
   } else {
     // Read once, so that a pipe is good, too, and the manifest holds what was simulated.
     refuse_folder(scene, "render");
+    refuse_other_mesh(scene);
     const NamedText read = named_text(scene);
     refuse_data(read.text, read.name);
     in.scene = scene_of_text(read.text, read.name, options);

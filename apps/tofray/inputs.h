@@ -10,6 +10,7 @@
 #include "options.h"
 #include "results/frame_file.h"
 #include "results/manifest.h"
+#include "tofray/analysis.h"
 #include "tofray/camera.h"
 #include "tofray/scene.h"
 
@@ -22,6 +23,7 @@ struct Inputs {
   std::vector<results::InputFile> files;    ///< for manifest.json: the scene, a profile of one's own and its tables
   std::vector<files::NamedArray> kept;      ///< of a recording: arrays that are written again as they are
   std::string mesh_alone;                   ///< warnings of a mesh's file that stands alone
+  bool told_size = false;                   ///< among them that it is too large or too small for the camera
   std::string idle_transport;               ///< a warning where the scene's file asks for ways of light that nothing follows
   double mode_integration_time_s = 0;       ///< longest lit exposure of the mode itself where camera.integration_time sets another; else 0
   std::optional<results::PoseMatrix> pose;  ///< of a recording; otherwise the scene says it
@@ -39,6 +41,8 @@ Inputs inputs_of(const results::Manifest& manifest, const Options& options);
 /// file has and is not used, ways of light without bounces. One or two lines each, or nothing; each names the key and its value,
 /// or the file.
 std::string warnings(const Inputs& in);
+/// What a report of the scene finds, but for what warnings() says of a mesh alone.
+std::vector<SceneFinding> findings_of(SceneReport report, const Inputs& in);
 /// … and with a camera alone: no light source, no lit raw frame.
 /// @param before  what stands before the camera's keys: "camera." or nothing
 std::string warnings(const Camera& camera, const std::string& before);

@@ -199,6 +199,14 @@ bool FrameFiles::need_transient() const {
   return std::find(emit.begin(), emit.end(), "npz") != emit.end() && (shown("transient_e_per_s") || shown("transient_lost_e_per_s"));
 }
 
+void warn_of_depth_png(const FrameFiles& what, std::size_t pixels, Remarks& remarks) {
+  if (pixels == 0 || std::find(what.emit.begin(), what.emit.end(), "png") == what.emit.end()) return;
+  remarks.tell(
+      fmt::format("warning: depth.png is 0 in {} pixel{} whose z is beyond 65.535 m, the farthest that 16 bits of mm hold\n"
+                  "  z_m in frame.npz has {}\n",
+                  pixels, pixels == 1 ? "" : "s", pixels == 1 ? "it" : "them"));
+}
+
 std::vector<files::FileRecord> write_frame(const files::OutputFolder& folder, const FrameFiles& what, const std::string& suffix,
                                            const Frame& frame, std::string& memory) {
   std::vector<files::FileRecord> files;

@@ -85,6 +85,9 @@ void write_frame(files::OutputFolder& folder, const FrameFiles& what, const Fram
 /// @param numbered  whether the frame is one of a series
 std::string caption_of(const std::string& scene, const std::string& camera, const std::string& mode, std::uint64_t frame, bool numbered);
 
+/// Warns where depth.png is written and cannot hold all that has a depth. @param pixels  how many, of all frames
+void warn_of_depth_png(const FrameFiles& what, std::size_t pixels, Remarks& remarks);
+
 /// The GPU's name; empty where the processor computed.
 std::string gpu_of(const RanOn& machine);
 /// "avx512 on 2 threads", "NVIDIA H200".

@@ -279,12 +279,12 @@ void find_beyond(const Seen& seen, SceneReport& report) {
 
 std::string size_text(const Vec3& low, const Vec3& high) {
   const double most = std::max({high[0] - low[0], high[1] - low[1], high[2] - low[2]});
-  const bool small = most < 0.1;
+  const double unit = most < 1e-4 ? 1e6 : most < 0.1 ? 1e3 : 1;
   const auto one = [&](std::size_t k) {
-    const double size = (high[k] - low[k]) * (small ? 1e3 : 1);
+    const double size = (high[k] - low[k]) * unit;
     return fmt::format("{:.{}f}", size, size >= 100 ? 0 : size >= 10 ? 1 : 2);
   };
-  return fmt::format("{} x {} x {} {}", one(0), one(1), one(2), small ? "mm" : "m");
+  return fmt::format("{} x {} x {} {}", one(0), one(1), one(2), most < 1e-4 ? "um" : most < 0.1 ? "mm" : "m");
 }
 
 std::string name_of(const Scene& scene, int object) {

@@ -103,16 +103,41 @@ bool is_in_world(const Corner& p) {
 }
 
 /// Leaves out the triangles that have a corner beyond the world. @return how many
-std::size_t keep_in_world(TriangleMesh& mesh) {
+/// @param farthest_m  out: the largest coordinate of those corners, if it is larger
+std::size_t keep_in_world(TriangleMesh& mesh, double& farthest_m) {
   std::vector<bool> good;
   good.reserve(mesh.vertices.size());
   for (Corner& p : mesh.vertices) {
     good.push_back(is_in_world(p));
-    if (!good.back()) p = {0, 0, 0};
+    if (good.back()) continue;
+    for (const float a : p) farthest_m = std::max(farthest_m, static_cast<double>(std::abs(a)));
+    p = {0, 0, 0};
   }
   return std::erase_if(mesh.triangles, [&](const auto& triangle) {
     return !std::all_of(triangle.begin(), triangle.end(), [&](std::int32_t i) { return good[static_cast<std::size_t>(i)]; });
   });
+}
+
+/// Whether a triangle is higher over its longest side than rounding makes of three points on a line.
+bool has_area(const TriangleMesh& mesh) {
+  constexpr double least_height = 1e-7;  // of the longest side
+  using base::operator-;
+  const auto at = [&](std::int32_t i) {
+    const Corner& p = mesh.vertices[static_cast<std::size_t>(i)];
+    return Vec3{static_cast<double>(p[0]), static_cast<double>(p[1]), static_cast<double>(p[2])};
+  };
+  return std::any_of(mesh.triangles.begin(), mesh.triangles.end(), [&](const auto& triangle) {
+    const Vec3 a = at(triangle[1]) - at(triangle[0]), b = at(triangle[2]) - at(triangle[0]);
+    const double longest = std::max({base::length(a), base::length(b), base::length(a - b)});
+    return base::length(base::cross(a, b)) > least_height * longest * longest;
+  });
+}
+
+/// The scale that makes a size of centimetres to metres, by the units that files have instead of metres.
+double fitting_scale(double size_m) {
+  for (const double unit : {1e-3, 1e-2, 1e-6, 1e-9})
+    if (unit * size_m >= 0.02 && unit * size_m <= 20) return unit;
+  return std::pow(10, -std::round(std::log10(size_m)));
 }
 
 }  // namespace
@@ -163,12 +188,15 @@ MeshReader::Known MeshReader::from_file(const Places& places, const Mesh& wanted
   Known known;
   std::vector<MeshPiece> pieces = this->pieces(places, wanted, by_material, path, known);
   const Axes up = axes_of(wanted, world_up_);
+  std::size_t lost = 0;
+  double farthest_m = 0;
   for (MeshPiece& piece : pieces) {
     count(places.file, piece.mesh);
     for (Corner& p : piece.mesh.vertices) p = in_world(p, wanted.scale, up);
     for (Corner& n : piece.mesh.normals) n = turned(n, up);
     count_pictures(piece.of.material, places.file, texels_);
-    piece.left_out += keep_in_world(piece.mesh);
+    const std::size_t beyond = keep_in_world(piece.mesh, farthest_m);
+    piece.left_out += beyond, lost += beyond;
     if (piece.mesh.triangles.empty()) continue;
     if (by_material && piece.of.name == no_material) known.materials.emplace_back(no_material);
     std::shared_ptr<const MeshMotion> motion;
@@ -176,11 +204,30 @@ MeshReader::Known MeshReader::from_file(const Places& places, const Mesh& wanted
     known.pieces.push_back({std::make_shared<const TriangleMesh>(std::move(piece.mesh)), std::move(motion),
                             static_cast<int>(piece.left_out), std::move(piece.of)});
   }
-  if (known.pieces.empty())
-    base::fail(places.file, "no triangle of " + base::in_quotes(path, 200) + " is in the world",
-               pieces.empty() ? "the file's scene shows none"
-                              : "all have a corner beyond " + base::number_text(base::farthest_m) + " m; is its scale right?");
+  check_seen(places, wanted, path, known, pieces, lost, farthest_m);
   return known;
+}
+
+void MeshReader::check_seen(const Places& places, const Mesh& wanted, const std::string& path, const Known& known,
+                            const std::vector<MeshPiece>& all, std::size_t lost, double farthest_m) {
+  const std::string file = base::in_quotes(path, 200);
+  const auto seen = [](const Piece& piece) { return piece.motion != nullptr || has_area(*piece.triangles); };
+  if (std::any_of(known.pieces.begin(), known.pieces.end(), seen)) return;
+  if (!known.pieces.empty())
+    base::fail(places.file, "no triangle of " + file + " has an area",
+               "the corners of each lie on a line or in one point: there is nothing to see");
+  if (all.empty()) base::fail(places.file, "no triangle of " + file + " is in the world", "the file's scene shows none");
+  if (lost == 0) base::fail(places.file, "no triangle of " + file + " is in the world", "each has a corner that is not a finite number");
+  const std::string corners = "all have a corner beyond " + base::number_text(base::farthest_m) + " m, up to " +
+                              base::number_text(farthest_m < 1e9 ? std::round(farthest_m) : farthest_m) + " m";
+  constexpr double least_scale = 1e-9;
+  const double scale = wanted.scale * fitting_scale(farthest_m);
+  if (!(scale >= least_scale))
+    base::fail(places.file, "no triangle of " + file + " is in the world", corners + ": no scale makes a thing of these");
+  const std::string said = base::number_text(scale);
+  base::fail(places.file, "no triangle of " + file + " is in the world",
+             corners + "; is another scale meant? Such as scale: " + said +
+                 (places.key.empty() ? "" : " (--set " + places.key + ".mesh.scale=" + said + ")"));
 }
 
 std::vector<MeshPiece> MeshReader::from_code(const base::Place& place, const std::string& file) {

@@ -35,6 +35,7 @@ class MeshReader {
   /// Where the scene names what a mesh is made of.
   struct Places {
     base::Place file, time, play, animation;
+    std::string key = {};  ///< the object's: objects.0
   };
   /// What the file shows; of a glTF or OBJ file one for each material, where that is asked for. Shades are those of a material of the file.
   struct Piece {
@@ -64,7 +65,7 @@ class MeshReader {
   /// What `mesh` shows by its file, scale, up, time and play.
   /// @param by_material  whether a glTF or OBJ file's materials are wanted apart
   /// @throws Error as files::read_reference, mesh::parse and gltf::read, and (bad_input) where the file is not the one that is expected,
-  /// has no animation though there is a time, or where no triangle is in the world
+  /// has no animation though there is a time, or where no triangle is in the world or has an area
   const Known& read(const Places& places, const Mesh& mesh, bool by_material);
 
  private:
@@ -76,6 +77,9 @@ class MeshReader {
                                    bool by_material, Known& known) const;
   std::vector<MeshPiece> from_obj(const Places& places, const Mesh& wanted, const std::string& path, std::string bytes, bool by_material,
                                   Known& known) const;
+  /// What is left of a file is seen. @param lost  triangles beyond the world
+  static void check_seen(const Places& places, const Mesh& wanted, const std::string& path, const Known& known,
+                         const std::vector<MeshPiece>& all, std::size_t lost, double farthest_m);
   void check_expected(const base::Place& place, const std::string& file, const std::string& path, const std::string& sha256) const;
   /// The limits of one mesh are those of all meshes of a scene: of many it may take no more memory.
   void count(const base::Place& place, const TriangleMesh& mesh);

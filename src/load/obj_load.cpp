@@ -7,12 +7,14 @@
 #include <cstdint>
 #include <iterator>
 #include <map>
+#include <optional>
 #include <utility>
 
 #include "base/limits.h"
 #include "base/text.h"
 #include "files/text_file.h"
 #include "image/read_image.h"
+#include "load/beside.h"
 #include "load/picture_map.h"
 
 namespace tofray::load {
@@ -34,11 +36,9 @@ auto with_way_out(const Read& read) {
   }
 }
 
-/// A file of a kind of which all together may have so many bytes.
-std::string read_beside(const mesh::Reference& reference, const std::string& folder, const std::string& root, const base::Limit& all,
-                        std::size_t before, std::string& found) {
-  const base::Limit rest{all.name, all.value - static_cast<std::int64_t>(before), all.what};
-  return files::read_reference(reference.file, folder, root, reference.place, found, rest);
+/// What is left of a limit that holds for all files of a kind together.
+base::Limit rest_of(const base::Limit& all, std::size_t before) {
+  return {all.name, all.value - static_cast<std::int64_t>(before), all.what};
 }
 
 std::string joined(const std::vector<std::string>& words) {
@@ -106,20 +106,17 @@ std::array<float, 2> placed(const mesh::MtlPicture& picture, const std::array<fl
 bool is_obj(const std::string& path) { return mesh::suffix_of(path) == ".obj"; }
 
 bool has_materials(std::string_view bytes, const std::string& path, const std::string& root, std::string& unread) {
-  std::string reading;
   try {
     if (!is_obj(path)) return !mesh::parse(mesh::format_of(path, base::whole(path)), bytes, path).mesh.shades.empty();
-    const std::vector<mesh::Reference> files = mesh::libraries_of_obj(bytes, path);
-    std::string found;
-    for (const mesh::Reference& file : files) {
-      reading = file.file;
-      (void)read_beside(file, files::folder_of(path), root, base::limit::mtl_bytes, 0, found);
+    for (const mesh::Reference& file : mesh::libraries_of_obj(bytes, path)) {
+      if (read_beside(file, files::folder_of(path), root, base::limit::mtl_bytes)) return true;
+      if (unread.empty()) unread = file.file;
     }
-    reading.clear();
-    return !files.empty() || !mesh::parse(mesh::Format::obj, bytes, path).mesh.shades.empty();
+    if (mesh::parse(mesh::Format::obj, bytes, path).mesh.shades.empty()) return false;
+    unread.clear();
+    return true;
   } catch (const Error&) {
-    unread = reading;
-    return false;
+    return false;  // whoever reads the mesh tells
   }
 }
 
@@ -127,6 +124,7 @@ ObjMaterials::ObjMaterials(const mesh::ReadMesh& mesh, const std::string& path, 
   with_way_out([&] { read_libraries(mesh, path, root); });
   std::map<std::string_view, int> places;
   for (std::size_t i = 0; i < all_.size(); ++i) twice_ += places.emplace(all_[i].name, static_cast<int>(i)).second ? 0U : 1U;
+  if (const auto nameless = places.find(""); nameless != places.end()) nameless_ = nameless->second;
   for (const std::string& name : mesh.materials) {
     const auto found = places.find(name);
     known_.push_back(found == places.end() ? -1 : found->second);
@@ -142,10 +140,15 @@ ObjMaterials::ObjMaterials(const mesh::ReadMesh& mesh, const std::string& path, 
 
 void ObjMaterials::read_libraries(const mesh::ReadMesh& mesh, const std::string& path, const std::string& root) {
   for (const mesh::Reference& library : mesh.libraries) {
-    std::string found;
-    const std::string text = read_beside(library, files::folder_of(path), root, base::limit::mtl_bytes, bytes_.size(), found);
-    mesh::Mtl more = mesh::parse_mtl(text, found, static_cast<std::size_t>(base::limit::mtl_materials.value) - all_.size());
-    bytes_ += text;
+    std::optional<Beside> file = read_beside(library, files::folder_of(path), root, rest_of(base::limit::mtl_bytes, bytes_.size()));
+    if (!file) {
+      lost_files_.push_back(base::in_quotes(library.file));
+      continue;
+    }
+    if (!file->notice.empty()) notices_.push_back(file->notice);
+    const std::string found = file->found;
+    mesh::Mtl more = mesh::parse_mtl(file->bytes, found, static_cast<std::size_t>(base::limit::mtl_materials.value) - all_.size());
+    bytes_ += file->bytes;
     all_.insert(all_.end(), std::make_move_iterator(more.materials.begin()), std::make_move_iterator(more.materials.end()));
     folder_of_.resize(all_.size(), files::folder_of(found));
     for (std::string& one : more.left_out)
@@ -155,7 +158,7 @@ void ObjMaterials::read_libraries(const mesh::ReadMesh& mesh, const std::string&
 }
 
 const mesh::MtlMaterial* ObjMaterials::material(int used) const {
-  const int known = used < 0 ? -1 : known_[static_cast<std::size_t>(used)];
+  const int known = used < 0 ? nameless_ : known_[static_cast<std::size_t>(used)];
   return known < 0 ? nullptr : &all_[static_cast<std::size_t>(known)];
 }
 
@@ -164,13 +167,20 @@ void ObjMaterials::read_picture(std::size_t used, const std::string& root) {
   if (of == nullptr || of->nir_reflectivity || !of->picture) return;
   const std::string& folder = folder_of_[static_cast<std::size_t>(known_[used])];
   const auto [known, is_new] = picture_at_.try_emplace(folder + "/" + of->picture->reference.file, static_cast<int>(pictures_.size()));
+  if (is_new) {
+    const std::optional<Beside> file =
+        read_beside(of->picture->reference, folder, root, rest_of(base::limit::mtl_image_bytes, picture_bytes_));
+    if (!file) {
+      known->second = -1;
+      lost_files_.push_back(base::in_quotes(of->picture->reference.file));
+    } else {
+      if (!file->notice.empty()) notices_.push_back(file->notice);
+      pictures_.push_back({file->found, bytes_.size(), file->bytes.size()});
+      picture_bytes_ += file->bytes.size();
+      bytes_ += file->bytes;
+    }
+  }
   picture_of_[used] = known->second;
-  if (!is_new) return;
-  std::string found;
-  const std::string bytes = read_beside(of->picture->reference, folder, root, base::limit::mtl_image_bytes, picture_bytes_, found);
-  pictures_.push_back({found, bytes_.size(), bytes.size()});
-  picture_bytes_ += bytes.size();
-  bytes_ += bytes;
 }
 
 std::vector<MeshPiece> ObjMaterials::pieces(mesh::ReadMesh mesh, const base::Place& place, std::vector<std::string>& notices) const {
@@ -213,6 +223,10 @@ void ObjMaterials::wear(std::vector<MeshPiece>& pieces, const std::vector<int>& 
     piece.material.diffuse = of->nir_reflectivity.value_or(luminance(color[0], color[1], color[2]));
     if (!of->nir_reflectivity && of->picture) piece.material.diffuse *= 0.5;  // until the picture is read
   }
+  notices.insert(notices.end(), notices_.begin(), notices_.end());
+  if (!lost_files_.empty())
+    notices.push_back("cannot be read and " + std::string(lost_files_.size() == 1 ? "is" : "are") + " left out: " + joined(lost_files_) +
+                      "; files lie beside the one that names them or below (--root DIR widens that)");
   if (twice_ > 0)
     notices.push_back("materials that come twice in its MTL files (" + std::to_string(twice_) + "): the first of each counts");
   if (!left_out_.empty()) notices.push_back("of its materials is left out: " + joined(left_out_));

@@ -17,17 +17,18 @@ namespace tofray::load {
 /// By the file name's suffix, in any case.
 bool is_obj(const std::string& path);
 
-/// Whether an OBJ file names files of materials, all of which can be read.
+/// Whether an OBJ file names files of materials that can be read, or its vertices have colours; of a PLY file whether they have.
 /// @param path    where it lies
-/// @param unread  out: the first of them that cannot be read
+/// @param unread  out: the first of those that it names, where none can be read
 bool has_materials(std::string_view bytes, const std::string& path, const std::string& root, std::string& unread);
 
 /// The materials of one OBJ file.
 class ObjMaterials {
  public:
-  /// Reads the MTL files that the mesh names and the pictures that its triangles wear. They lie beside the file that names them or below.
+  /// Reads the MTL files that the mesh names and the pictures that its triangles wear, by read_beside(); those that are not there are left
+  /// out, and told.
   /// @param path  where the OBJ file lies
-  /// @throws Error as files::read_reference and mesh::parse_mtl; it says that a material of the object's own is a way out
+  /// @throws Error as mesh::parse_mtl, and (limit) as read_beside(); it says that a material of the object's own is a way out
   ObjMaterials(const mesh::ReadMesh& mesh, const std::string& path, const std::string& root);
 
   /// Those of the MTL files, as mtllib names them, and of the pictures, as usemtl first names their materials; each once.
@@ -46,7 +47,7 @@ class ObjMaterials {
     std::size_t from, size;  ///< in bytes_
   };
   void read_libraries(const mesh::ReadMesh& mesh, const std::string& path, const std::string& root);
-  // A material that is used: its place among the names that the mesh uses, -1: none.
+  // A material that is used: its place among the names that the mesh uses, -1: the one without a name.
   void read_picture(std::size_t used, const std::string& root);
   void wear(std::vector<MeshPiece>& pieces, const std::vector<int>& used, std::vector<std::string>& notices) const;
   void wear_pictures(std::vector<MeshPiece>& pieces, const std::vector<int>& used, const base::Place& place) const;
@@ -60,7 +61,8 @@ class ObjMaterials {
   std::vector<Picture> pictures_;
   std::map<std::string, int> picture_at_;  ///< by name
   std::size_t picture_bytes_ = 0;
-  std::vector<std::string> left_out_;
+  int nameless_ = -1;  ///< in all_: the material whose name is empty
+  std::vector<std::string> left_out_, lost_files_, notices_;
   std::size_t twice_ = 0;
 };
 

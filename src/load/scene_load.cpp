@@ -286,7 +286,8 @@ class SceneReader {
           const Value& said = (*one.value)[key];
           return (said ? said : *one.value).place();
         };
-        one.known = &meshes_.read({place("file"), place("time"), place("play"), place("animation")}, mesh, one.by_material);
+        one.known = &meshes_.read({place("file"), place("time"), place("play"), place("animation"), scene.objects[one.object].key}, mesh,
+                                  one.by_material);
         one.known->show(0, mesh);
         mesh.notices = one.known->notices;
         if (one.by_material && one.own.empty() && !one.known->lacks.empty())

@@ -36,6 +36,12 @@ void CornerList::add(const Corners& corners, std::size_t triangles) {
   corners_.push_back(corners);
 }
 
+void CornerList::replace(std::size_t first, std::size_t corners, const std::vector<Corners>& triangles) {
+  if (first >= corners_.size()) return;
+  corners_.resize(std::max(corners_.size(), first + triangles.size()), {-1, -1, -1});
+  replace_fan(corners_, first, corners, triangles);
+}
+
 void CornerList::check(std::size_t count, const Words& words) const {
   if (count == 0) return;
   if (!fault_.empty()) words.fail(fault_mark_, fault_, more_);
@@ -127,6 +133,40 @@ void give_details(const std::vector<Normal>& normals, const CornerList& of_norma
   for (std::size_t i = 0; i < triangles.size(); ++i)
     for (std::size_t k = 0; k < 3; ++k)
       triangles[i][k] = splitter.vertex_of(triangles[i][k], row_of(normals, of_normals, i, k), row_of(texcoords, of_texcoords, i, k));
+}
+
+void give_shades(const std::vector<float>& shades, MeshBuilder& builder) {
+  if (shades.empty()) return;
+  TriangleMesh& mesh = builder.so_far().mesh;
+  const std::size_t own = mesh.vertices.size();
+  mesh.shades.assign(own, -1);  // of no triangle yet
+  std::vector<std::int32_t> origin;
+  SharedKeys<2> keys;
+  const auto key_of = [](std::int32_t vertex, float shade) {
+    return SharedKeys<2>::Key{static_cast<std::uint32_t>(vertex), std::bit_cast<std::uint32_t>(shade)};
+  };
+  const auto key_of_number = [&](std::int32_t i) {
+    return key_of(origin[static_cast<std::size_t>(i)], mesh.shades[own + static_cast<std::size_t>(i)]);
+  };
+  for (std::size_t i = 0; i < mesh.triangles.size(); ++i)
+    for (std::int32_t& corner : mesh.triangles[i]) {
+      const float shade = i < shades.size() ? shades[i] : 1;
+      const auto at = static_cast<std::size_t>(corner);
+      if (mesh.shades[at] < 0) mesh.shades[at] = shade;
+      if (std::bit_cast<std::uint32_t>(mesh.shades[at]) == std::bit_cast<std::uint32_t>(shade)) continue;
+      std::int32_t number = keys.find(key_of(corner, shade), key_of_number);
+      if (number < 0) {
+        const std::array<float, 3> position = mesh.vertices[at];
+        builder.vertex(position);
+        number = keys.add(key_of(corner, shade), key_of_number);
+        origin.push_back(corner);
+        mesh.shades.push_back(shade);
+        if (!mesh.normals.empty()) mesh.normals.emplace_back(mesh.normals[at]);
+        if (!mesh.texcoords.empty()) mesh.texcoords.emplace_back(mesh.texcoords[at]);
+      }
+      corner = static_cast<std::int32_t>(own) + number;
+    }
+  for (float& shade : mesh.shades) shade = std::max(shade, 0.F);
 }
 
 }  // namespace tofray::mesh

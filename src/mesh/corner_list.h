@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "mesh/fan.h"
 #include "mesh/mesh_builder.h"
 #include "mesh/words.h"
 
@@ -16,8 +17,6 @@ namespace tofray::mesh {
 /// programs write the indices, but not what they are of.
 class CornerList {
  public:
-  using Corners = std::array<std::int32_t, 3>;
-
   /// @param what  "a normal" or "a texture coordinate", for messages
   explicit CornerList(const char* what) : what_(what) {}
 
@@ -27,6 +26,9 @@ class CornerList {
   std::int32_t place_of(std::int64_t index, std::size_t so_far, const Words& words);
   /// Of the triangle that came last. @param triangles  how many there are, with it
   void add(const Corners& corners, std::size_t triangles);
+
+  /// Divides a face anew whose triangles are a fan. @param triangles  of its corners, as many as the fan has
+  void replace(std::size_t first, std::size_t corners, const std::vector<Corners>& triangles);
 
   /// @throws Error where the file has some, but not all that are named
   void check(std::size_t count, const Words& words) const;
@@ -48,5 +50,9 @@ class CornerList {
 /// @param texcoords  likewise
 void give_details(const std::vector<std::array<float, 3>>& normals, const CornerList& of_normals,
                   const std::vector<std::array<float, 2>>& texcoords, const CornerList& of_texcoords, MeshBuilder& mesh);
+
+/// Gives each triangle its shade. A vertex whose triangles have different ones becomes several, as above.
+/// @param shades  by triangle; those behind have 1. None where it is empty
+void give_shades(const std::vector<float>& shades, MeshBuilder& builder);
 
 }  // namespace tofray::mesh

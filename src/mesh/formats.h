@@ -12,5 +12,7 @@ namespace tofray::mesh {
 ReadMesh parse_obj(std::string_view bytes, const std::string& name);
 ReadMesh parse_ply(std::string_view bytes, const std::string& name);
 ReadMesh parse_stl(std::string_view bytes, const std::string& name);
+/// Whether the number of triangles in the header fits the size.
+bool is_binary_stl(std::string_view bytes);
 
 }  // namespace tofray::mesh

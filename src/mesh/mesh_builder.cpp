@@ -76,7 +76,7 @@ std::array<float, 2> MeshBuilder::place_in_picture(float u, float v) {
   return {0, 0};
 }
 
-void MeshBuilder::color(const std::array<double, 3>& red_green_blue) {
+float MeshBuilder::shade_of(const std::array<double, 3>& red_green_blue) {
   std::array<double, 3> linear{};
   bool good = true;
   for (std::size_t k = 0; k < 3; ++k) {
@@ -84,9 +84,13 @@ void MeshBuilder::color(const std::array<double, 3>& red_green_blue) {
     linear[k] = base::linear_of_srgb(red_green_blue[k] > 0 ? std::min(red_green_blue[k], 1.0) : 0.0);
   }
   if (!good) ++mended_colors_;
+  return static_cast<float>(base::luminance(linear[0], linear[1], linear[2]));
+}
+
+void MeshBuilder::color(const std::array<double, 3>& red_green_blue) {
   std::vector<float>& shades = read_.mesh.shades;
   shades.resize(read_.mesh.vertices.size() - 1, 1);
-  shades.push_back(static_cast<float>(base::luminance(linear[0], linear[1], linear[2])));
+  shades.push_back(shade_of(red_green_blue));
 }
 
 void MeshBuilder::drop_not_finite() {
@@ -117,7 +121,7 @@ void MeshBuilder::tell_of_mended() {
   if (mended_normals_ > 0) read_.notices.push_back(fmt::format("normals that are not finite ({}) become 0: flat", mended_normals_));
   if (mended_texcoords_ > 0)
     read_.notices.push_back(fmt::format("texture coordinates that are not finite, or beyond 1e6 ({}), become 0", mended_texcoords_));
-  if (mended_colors_ > 0) read_.notices.push_back(fmt::format("colours of vertices beyond 0 to 1 ({}) are held there", mended_colors_));
+  if (mended_colors_ > 0) read_.notices.push_back(fmt::format("colours beyond 0 to 1 ({}) are held there", mended_colors_));
 }
 
 ReadMesh MeshBuilder::finish() {

@@ -38,6 +38,8 @@ class MeshBuilder {
   /// Its colour, 0…1 as programs show it (sRGB): how bright it is. Vertices before the first one with a colour, and others without, are
   /// white.
   void color(const std::array<double, 3>& red_green_blue);
+  /// Its luminance; counted where it is beyond 0…1.
+  float shade_of(const std::array<double, 3>& red_green_blue);
 
   /// The direction in unit length; 0 where there is none, and counted where it is not finite.
   std::array<float, 3> unit_normal(const std::array<float, 3>& direction);

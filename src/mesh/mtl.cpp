@@ -42,7 +42,7 @@ class MtlReader {
       if (!words_.in_line(keyword)) continue;
       if (keyword.starts_with("#!"))
         read_own(keyword);
-      else if (keyword == "newmtl")
+      else if (is(keyword, "newmtl"))
         begin_material();
       else
         read_statement(keyword);
@@ -51,6 +51,8 @@ class MtlReader {
   }
 
  private:
+  static bool is(std::string_view keyword, std::string_view small) { return equals_in_any_case(keyword, small); }
+
   MtlMaterial& material() {
     if (read_.materials.empty())
       words_.fail("a statement stands before the first newmtl", "expected an MTL file, whose materials begin with newmtl and a name");
@@ -60,7 +62,6 @@ class MtlReader {
   void begin_material() {
     const Mark start = words_.mark();
     std::string name = words_.rest_of_line();
-    if (name.empty()) words_.fail(start, "a material has no name", "expected newmtl and a name");
     if (read_.materials.size() == most_)
       words_.fail(start, fmt::format("there are more than {} materials", most_), "(`tofray --limits`)", ErrorKind::limit);
     read_.materials.emplace_back().name = std::move(name);
@@ -81,9 +82,9 @@ class MtlReader {
 
   void read_statement(std::string_view keyword) {
     MtlMaterial& of = material();
-    if (keyword == "Kd")
+    if (is(keyword, "kd"))
       read_color(of);
-    else if (keyword == "map_Kd")
+    else if (is(keyword, "map_kd"))
       read_picture(of);
     else
       leave_out(std::string(keyword));
@@ -141,14 +142,13 @@ class MtlReader {
     std::string_view text = word("the name of a picture");
     while (text.starts_with('-')) {
       const auto* const option = std::find_if(std::begin(options), std::end(options), [&](const Option& one) { return one.name == text; });
-      if (option == std::end(options))
-        words_.fail("unknown option " + in_quotes(text) + " of map_Kd", "expected options such as -s, -o and -clamp, and a file's name");
-      text = read_option(*option, picture);
+      text = read_option(option == std::end(options) ? Option{text, 1, false} : *option, picture);
     }
     const Mark start = words_.mark();
     std::string file(text);
     if (const std::string more = words_.rest_of_line(); !more.empty()) file += " " + more;
     std::replace(file.begin(), file.end(), '\\', '/');
+    if (file.size() > 2 && file.front() == '"' && file.back() == '"') file = file.substr(1, file.size() - 2);
     picture.reference = {std::move(file), Words::place(start, name_)};
     of.picture = std::move(picture);
   }
@@ -161,7 +161,7 @@ class MtlReader {
         if (value != "on" && value != "off") words_.fail("-clamp is neither on nor off", "got " + in_quotes(value));
         picture.clamp = value == "on";
       } else {
-        leave_out(fmt::format("{} of map_Kd", option.name));
+        leave_out(fmt::format("{} of map_Kd", option.name));  // also what nobody knows
       }
       return word("the name of a picture");
     }

@@ -21,7 +21,7 @@ struct MtlPicture {
 };
 
 struct MtlMaterial {
-  std::string name;
+  std::string name;                            ///< may be empty: that of triangles whose material has no name
   std::optional<double> nir_reflectivity;      ///< at the illumination wavelength, 0…1
   std::optional<std::array<double, 3>> color;  ///< Kd: linear red, green, blue, 0…1 each
   std::optional<MtlPicture> picture;
@@ -35,7 +35,8 @@ struct Mtl {
 /// Reads an MTL file in linear time. Takes a few hundred bytes for each material beside the file's own.
 ///
 /// Of a statement that comes twice the last one counts. Beside newmtl, Kd and map_Kd there is one of our own, which is a comment for all
-/// other programs: a line `#!nir_reflectivity 0.6`. All other statements are read past.
+/// other programs: a line `#!nir_reflectivity 0.6`. All other statements are read past, and so are options of map_Kd that nobody knows,
+/// with one word behind them. Keywords may be in any case.
 /// @param bytes  the whole file; who reads it sees that it has at most limit::mtl_bytes
 /// @param most   materials
 /// @throws Error (bad_input) for the first fault; (limit) beyond `most`

@@ -17,6 +17,7 @@
 #include "mesh/formats.h"
 #include "mesh/mesh_builder.h"
 #include "mesh/numbers.h"
+#include "mesh/polygons.h"
 #include "mesh/words.h"
 
 namespace tofray::mesh {
@@ -36,6 +37,17 @@ bool is_one_of(const std::string_view (&words)[n], std::string_view word) {
   return std::find(std::begin(words), std::end(words), word) != std::end(words);
 }
 
+/// What stands in quotation marks.
+std::vector<std::string> in_quotation_marks(const std::string& text) {
+  std::vector<std::string> out;
+  for (std::size_t from = text.find('"'); from != std::string::npos;) {
+    const std::size_t end = std::min(text.find('"', from + 1), text.size());
+    if (end > from + 1) out.push_back(text.substr(from + 1, end - from - 1));
+    from = end < text.size() ? text.find('"', end + 1) : std::string::npos;
+  }
+  return out;
+}
+
 /// The files that lines "mtllib" name. A name may have blanks: it goes on until it ends in .mtl, or the line ends.
 class Libraries {
  public:
@@ -45,6 +57,12 @@ class Libraries {
   void read_line(Words& words) {
     Mark mark;
     std::string file;
+    Words ahead = words;
+    if (std::string_view first; ahead.in_line(first) && first.starts_with('"')) {
+      mark = ahead.mark();
+      for (const std::string& one : in_quotation_marks(words.rest_of_line())) add(one, mark, words);
+      return;
+    }
     for (std::string_view word; words.in_line(word);) {
       if (file.empty()) mark = words.mark();
       file += (file.empty() ? "" : " ") + std::string(word);
@@ -93,34 +111,46 @@ class ObjReader {
       else if (keyword == "usemtl")
         read_material();
       else if (!is_one_of(read_past, keyword))
-        refuse_keyword(keyword);
+        pass_unknown(keyword);
     } while (words_.next_line());
+    if (unknown_ > 0) tell_of_unknown();
     if (largest_ > static_cast<std::int64_t>(mesh_.vertices()))
       beyond(largest_mark_, fmt::format("got {}, the file has {} vertices", largest_, mesh_.vertices()));
     of_normals_.check(normals_.size(), words_);
     of_texcoords_.check(texcoords_.size(), words_);
+    polygons_.divide(mesh_.so_far().mesh, {&of_normals_, &of_texcoords_}, mesh_.so_far().notices);
     give_details(normals_, of_normals_, texcoords_, of_texcoords_, mesh_);
     mesh_.so_far().libraries = std::move(libraries_.all);
     return mesh_.finish();
   }
 
  private:
-  [[noreturn]] void refuse_keyword(std::string_view keyword) const {
+  void pass_unknown(std::string_view keyword) {
     if (is_one_of(free_form, keyword))
       words_.fail("curves and surfaces of free form are not read: " + in_quotes(keyword),
                   "expected polygons (v, f): have the program that wrote the file divide its surfaces into them");
     if (is_one_of(from_elsewhere, keyword))
       words_.fail("what other files or programs give is not read: " + in_quotes(keyword), "expected one file that holds the whole mesh");
+    if (unknown_++ == 0) unknown_word_ = keyword.substr(0, 100), unknown_mark_ = words_.mark();
+  }
+
+  /// Programs write words of their own; where there is no mesh besides it is another kind of file.
+  void tell_of_unknown() {
     std::vector<std::string> known(std::begin(read_past), std::end(read_past));
     known.insert(known.begin(), {"v", "f", "vn", "vt", "mtllib", "usemtl"});
-    words_.fail("unknown keyword " + in_quotes(keyword) + base::did_you_mean(keyword, known),
-                "expected an OBJ file, whose lines begin with v, f, vt, vn, g, usemtl, …");
+    const std::string meant = base::did_you_mean(unknown_word_, known);
+    if (mesh_.so_far().mesh.triangles.empty())
+      words_.fail(unknown_mark_, "unknown keyword " + in_quotes(unknown_word_) + meant,
+                  "expected an OBJ file, whose lines begin with v, f, vt, vn, g, usemtl, …");
+    mesh_.so_far().notices.push_back(fmt::format("{} read past that begin{} with a word unknown in OBJ files: {} in line {}{}",
+                                                 unknown_ == 1 ? "1 line is" : fmt::format("{} lines are", unknown_),
+                                                 unknown_ == 1 ? "s" : "", in_quotes(unknown_word_), unknown_mark_.line, meant));
   }
 
   void read_vertex() {
     const Mark start = words_.mark();
     std::array<float, 3> position{};
-    std::array<double, 7> numbers{};
+    std::array<double, 6> numbers{};
     std::size_t count = 0;
     for (std::string_view word; words_.in_line(word); ++count) {
       double value = 0;
@@ -129,13 +159,13 @@ class ObjReader {
       if (count < 3) position[count] = to_float(value);
       if (count < numbers.size()) numbers[count] = value;
     }
-    // Beside x y z there may be a weight, which polygons do not use, or a colour, or both.
+    // Beside x y z there may be a weight, which polygons do not use, or a colour, or a colour and its opacity.
     if (count != 3 && count != 4 && count != 6 && count != 7)
       words_.fail(
           start, "a vertex does not have three coordinates",
           fmt::format("got {} number{}, expected x y z, and behind them a weight or a colour at most", count, count == 1 ? "" : "s"));
     mesh_.vertex(position);
-    if (count >= 6) mesh_.color({numbers[count - 3], numbers[count - 2], numbers[count - 1]});
+    if (count >= 6) mesh_.color({numbers[3], numbers[4], numbers[5]});
   }
 
   /// The numbers of a line, NaN where one is none.
@@ -194,6 +224,7 @@ class ObjReader {
       if (count >= 2) add_triangle(first, before, corner);
       before = corner;
     }
+    polygons_.add(count, mesh_.so_far().mesh.triangles.size());
     if (count < 3) words_.fail(start, "a face has fewer than 3 corners", fmt::format("got {}, expected 3 or more", count));
   }
 
@@ -248,9 +279,12 @@ class ObjReader {
   std::map<std::string, std::int32_t> materials_;
   std::vector<std::array<float, 3>> normals_;
   std::vector<std::array<float, 2>> texcoords_;
+  Polygons polygons_;
   CornerList of_normals_{"a normal"}, of_texcoords_{"a texture coordinate"};
   std::int64_t largest_ = 0;
-  Mark largest_mark_;
+  std::size_t unknown_ = 0;   ///< lines
+  std::string unknown_word_;  ///< of the first of them
+  Mark largest_mark_, unknown_mark_;
 };
 
 }  // namespace

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The tofray authors
 // SPDX-License-Identifier: Apache-2.0
 // PLY: x, y, z of the element vertex, its normal (nx, ny, nz) and texture coordinates (s, t; u, v; texture_u, texture_v), and lists of
-// vertices: polygons in the element face, strips in tristrips; and colours of vertices (red, green, blue). All else is read past.
+// vertices: polygons in the element face, strips in tristrips; and colours of vertices or faces (red, green, blue; diffuse_red, …; r, g, b).
+// All else is read past.
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -10,11 +11,13 @@
 
 #include "base/faults.h"
 #include "base/text.h"
+#include "mesh/corner_list.h"
 #include "mesh/formats.h"
 #include "mesh/mesh_builder.h"
 #include "mesh/numbers.h"
 #include "mesh/ply_body.h"
 #include "mesh/ply_header.h"
+#include "mesh/polygons.h"
 
 namespace tofray::mesh {
 namespace {
@@ -49,13 +52,21 @@ class PlyReader {
         read_past(element);
     }
     body_.finish();
+    polygons_.divide(mesh_.so_far().mesh, {}, mesh_.so_far().notices);
+    // Colours of vertices say more: they vary across a face.
+    if (!has_colors_) give_shades(shades_, mesh_);
+    if (has_texcoords_ && !header_.pictures.empty())
+      mesh_.so_far().notices.push_back("the picture that it wears is left out: " + in_quotes(header_.pictures.front()) +
+                                       "; as OBJ with an MTL file, or as glTF, it is read");
     return mesh_.finish();
   }
 
  private:
+  [[noreturn]] void fail_at(const Mark& mark, const std::string& what, const std::string& more) const {
+    base::fail({std::make_shared<const std::string>(name_), static_cast<int>(mark.line), static_cast<int>(mark.column)}, what, more);
+  }
   [[noreturn]] void fail_at(const PlyElement& element, const std::string& what, const std::string& more) const {
-    base::fail({std::make_shared<const std::string>(name_), static_cast<int>(element.mark.line), static_cast<int>(element.mark.column)},
-               what, more);
+    fail_at(element.mark, what, more);
   }
 
   void check_room(const PlyElement& element, const PlyProperty* polygons = nullptr) const {
@@ -81,14 +92,18 @@ class PlyReader {
   /// 10 of its colour; else -1.
   using Columns = std::vector<int>;
 
-  static std::size_t find(const PlyElement& element, std::string_view name) {
-    const auto at = std::find_if(element.properties.begin(), element.properties.end(),
-                                 [&](const PlyProperty& property) { return property.name == name && !property.list; });
+  /// @throws Error where it comes twice
+  std::size_t find(const PlyElement& element, std::string_view name) const {
+    const auto is_it = [&](const PlyProperty& property) { return property.name == name && !property.list; };
+    const auto at = std::find_if(element.properties.begin(), element.properties.end(), is_it);
+    if (at == element.properties.end()) return element.properties.size();
+    if (const auto again = std::find_if(at + 1, element.properties.end(), is_it); again != element.properties.end())
+      fail_at(again->mark, "property " + in_quotes(name) + " comes twice", "expected one of this name, which is read");
     return static_cast<std::size_t>(at - element.properties.begin());
   }
 
   /// Takes the columns of these names, if all are there.
-  static bool take(const PlyElement& element, std::initializer_list<std::string_view> names, int first, Columns& columns) {
+  bool take(const PlyElement& element, std::initializer_list<std::string_view> names, int first, Columns& columns) const {
     const auto is_there = [&](std::string_view name) { return find(element, name) < element.properties.size(); };
     if (!std::all_of(names.begin(), names.end(), is_there)) return false;
     for (const std::string_view name : names) columns[find(element, name)] = first++;
@@ -100,10 +115,18 @@ class PlyReader {
     if (type == PlyType::uint8) return 255;
     return type == PlyType::uint16 ? 65535 : is_integer(type) ? 0 : 1;
   }
-  static bool colors_are_shares(const PlyElement& element) {
-    return std::all_of(element.properties.begin(), element.properties.end(), [](const PlyProperty& property) {
-      return (property.name != "red" && property.name != "green" && property.name != "blue") || full(property.type) > 0;
-    });
+  /// Takes the columns of a colour, by whichever name, if their types have a number that stands for full colour.
+  bool take_color(const PlyElement& element, int first, Columns& columns) const {
+    constexpr std::array<std::string_view, 3> sets[] = {
+        {"red", "green", "blue"}, {"diffuse_red", "diffuse_green", "diffuse_blue"}, {"r", "g", "b"}};
+    for (const auto& [red, green, blue] : sets) {
+      const auto is_share = [&](std::string_view name) {
+        const std::size_t at = find(element, name);
+        return at < element.properties.size() && full(element.properties[at].type) > 0;
+      };
+      if (is_share(red) && is_share(green) && is_share(blue)) return take(element, {red, green, blue}, first, columns);
+    }
+    return false;
   }
 
   Columns columns_of(const PlyElement& element) {
@@ -116,7 +139,7 @@ class PlyReader {
     has_normals_ = take(element, {"nx", "ny", "nz"}, 3, columns);
     has_texcoords_ = take(element, {"s", "t"}, 6, columns) || take(element, {"u", "v"}, 6, columns) ||
                      take(element, {"texture_u", "texture_v"}, 6, columns);
-    has_colors_ = colors_are_shares(element) && take(element, {"red", "green", "blue"}, 8, columns);
+    has_colors_ = take_color(element, 8, columns);
     return columns;
   }
 
@@ -134,7 +157,7 @@ class PlyReader {
         else if (columns[i] < 8)
           number[static_cast<std::size_t>(columns[i])] = to_float(body_.number(element.properties[i].type));
         else
-          color[static_cast<std::size_t>(columns[i] - 8)] = body_.number(element.properties[i].type) / full(element.properties[i].type);
+          color[static_cast<std::size_t>(columns[i] - 8)] = share(element.properties[i]);
       }
       mesh_.vertex({number[0], number[1], number[2]});
       if (has_normals_) mesh_.normal({number[3], number[4], number[5]});
@@ -150,6 +173,8 @@ class PlyReader {
       if (!property.list || !is_integer(property.type))
         fail_at(element, fmt::format("{} of {} is no list of whole numbers", property.name, in_quotes(element.name)),
                 "expected property list uchar int vertex_indices");
+      if (found != nullptr && found->name == property.name)
+        fail_at(property.mark, "property " + in_quotes(property.name) + " comes twice", "expected one of this name, which is read");
       if (found != nullptr) fail_at(element, in_quotes(element.name) + " has both vertex_indices and vertex_index", "expected one of them");
       found = &property;
     }
@@ -166,17 +191,26 @@ class PlyReader {
     return static_cast<std::int32_t>(index);
   }
 
+  double share(const PlyProperty& property) { return body_.number(property.type) / full(property.type); }
+
   /// A row whose lists of vertices `read_list` takes.
+  /// @param columns  0 to 2: of the row's colour; else -1
   template <class ReadList>
-  void read_rows(const PlyElement& element, const PlyProperty& indices, const ReadList& read_list) {
+  void read_rows(const PlyElement& element, const PlyProperty& indices, const Columns& columns, const ReadList& read_list) {
+    const bool colored = std::find(columns.begin(), columns.end(), 0) != columns.end();
     for (std::uint64_t row = 0; row < element.count; ++row) {
       body_.row(element.name, row);
-      for (const PlyProperty& property : element.properties) {
+      std::array<double, 3> color{};
+      for (std::size_t i = 0; i < element.properties.size(); ++i) {
+        const PlyProperty& property = element.properties[i];
         if (&property == &indices)
           read_list(body_.length(property.count, property.type), property.type);
+        else if (columns[i] >= 0)
+          color[static_cast<std::size_t>(columns[i])] = share(property);
         else
           pass(property);
       }
+      if (colored) shades_.resize(mesh_.so_far().mesh.triangles.size(), mesh_.shade_of(color));
     }
   }
 
@@ -184,7 +218,9 @@ class PlyReader {
     const PlyProperty& indices = indices_of(element);
     check_room(element, &indices);
     mesh_.expect_triangles(element.count);
-    read_rows(element, indices, [this](std::uint64_t length, PlyType type) { read_polygon(length, type); });
+    Columns columns(element.properties.size(), -1);
+    take_color(element, 0, columns);
+    read_rows(element, indices, columns, [this](std::uint64_t length, PlyType type) { read_polygon(length, type); });
   }
 
   void read_polygon(std::uint64_t length, PlyType type) {
@@ -196,12 +232,14 @@ class PlyReader {
       mesh_.triangle(first, before, corner);
       before = corner;
     }
+    polygons_.add(length, mesh_.so_far().mesh.triangles.size());
   }
 
   void read_strips(const PlyElement& element) {
     const PlyProperty& indices = indices_of(element);
     check_room(element);
-    read_rows(element, indices, [this](std::uint64_t length, PlyType type) { read_strip(length, type); });
+    const Columns none(element.properties.size(), -1);
+    read_rows(element, indices, none, [this](std::uint64_t length, PlyType type) { read_strip(length, type); });
   }
 
   /// Each three that follow each other are a triangle, every other one turned round; -1 begins anew. Where two of the three are the same
@@ -225,6 +263,8 @@ class PlyReader {
   const std::string& name_;
   Body body_;
   MeshBuilder mesh_;
+  Polygons polygons_;
+  std::vector<float> shades_;  ///< of each triangle, where faces have colours
   std::uint64_t vertices_ = 0;
   bool has_normals_ = false, has_texcoords_ = false, has_colors_ = false;
 };

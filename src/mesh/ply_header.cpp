@@ -51,7 +51,12 @@ class PlyHeaderReader {
       words_.fail(fmt::format("the header is longer than {} bytes", max_ply_header_bytes), "expected end_header before", ErrorKind::limit);
     if (!more) words_.fail("the header has no end", "expected end_header");
     std::string_view keyword;
-    if (!words_.in_line(keyword) || keyword == "comment" || keyword == "obj_info") return true;
+    if (!words_.in_line(keyword) || keyword == "obj_info") return true;
+    if (keyword == "comment") {
+      std::string_view what;
+      if (words_.in_line(what) && what == "TextureFile") header_.pictures.push_back(words_.rest_of_line());
+      return true;
+    }
     if (keyword == "end_header") {
       end_line();
       return false;
@@ -129,10 +134,8 @@ class PlyHeaderReader {
     }
     property.type = type_of(type);
     property.name = word("the property's name");
-    std::vector<PlyProperty>& properties = header_.elements.back().properties;
-    if (std::any_of(properties.begin(), properties.end(), [&](const PlyProperty& other) { return other.name == property.name; }))
-      words_.fail("property " + in_quotes(property.name) + " comes twice", {});
-    properties.push_back(std::move(property));
+    property.mark = words_.mark();
+    header_.elements.back().properties.push_back(std::move(property));
   }
 
   [[nodiscard]] std::size_t end_of_line_bytes() const {

@@ -25,6 +25,7 @@ struct PlyProperty {
   PlyType type = PlyType::float32;
   bool list = false;
   PlyType count = PlyType::uint8;  ///< of a list: the type of its length, which is an integer
+  Mark mark = {};                  ///< of its name
 };
 
 struct PlyElement {
@@ -41,6 +42,7 @@ struct PlyHeader {
   std::vector<PlyElement> elements;
   std::size_t length = 0;  ///< bytes: the data start here
   std::size_t lines = 0;
+  std::vector<std::string> pictures;  ///< that comments name: comment TextureFile wood.png
 
   [[nodiscard]] const PlyElement* find(std::string_view element) const;
 };

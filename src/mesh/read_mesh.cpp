@@ -4,6 +4,7 @@
 
 #include "base/text.h"
 #include "mesh/formats.h"
+#include "mesh/other_formats.h"
 
 namespace tofray::mesh {
 
@@ -21,12 +22,20 @@ Format format_of(const std::string& path, const base::Place& place) {
   if (suffix == ".obj") return Format::obj;
   if (suffix == ".ply") return Format::ply;
   if (suffix == ".stl") return Format::stl;
+  const std::optional<OtherFormat> other = other_format_of(path);
   base::fail(place, base::in_quotes(file) + " is no mesh that can be read",
-             "got " + (suffix.empty() ? "a name without suffix" : "the suffix " + base::in_quotes(suffix)) +
-                 ", expected .obj, .ply, .stl, .glb or .gltf");
+             "got " +
+                 (suffix.empty() ? "a name without suffix"
+                  : other        ? other->what + " (" + suffix + ")"
+                                 : "the suffix " + base::in_quotes(suffix)) +
+                 ", expected " + formats_read + (other ? "; " + other->way : std::string()));
 }
 
 ReadMesh parse(Format format, std::string_view bytes, const std::string& name) {
+  constexpr const char* names[] = {"OBJ", "PLY", "STL"};
+  // A binary STL file may begin with anything.
+  if (const auto other = other_format_in(bytes); other && !(format == Format::stl && is_binary_stl(bytes)))
+    base::fail(base::whole(name), std::string("this is no ") + names[static_cast<int>(format)] + " file, but " + other->what, other->way);
   switch (format) {
     case Format::obj: return parse_obj(bytes, name);
     case Format::ply: return parse_ply(bytes, name);

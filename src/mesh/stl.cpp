@@ -52,23 +52,39 @@ class StlText {
 
   ReadMesh read() {
     std::string_view word;
-    while (words_.next(word)) {
-      if (!is(word, "solid")) expected("solid", word);
+    for (bool first = true; words_.next(word); first = false) {
+      // Some programs write a line of their own behind the last solid.
+      if (!is(word, "solid") && (first || is(word, "facet"))) expected("solid", word);
+      if (!is(word, "solid")) ++left_over_;
       words_.next_line();  // the rest is its name
-      read_solid();
+      if (is(word, "solid")) read_solid();
     }
+    if (left_over_ > 0)
+      mesh_.so_far().notices.push_back(
+          fmt::format("{} read past behind the last solid", left_over_ == 1 ? "1 line is" : fmt::format("{} lines are", left_over_)));
     return mesh_.finish();
   }
 
  private:
-  static bool is(std::string_view word, std::string_view keyword) {
-    return std::equal(word.begin(), word.end(), keyword.begin(), keyword.end(),
-                      [](char a, char b) { return (a >= 'A' && a <= 'Z' ? static_cast<char>(a - 'A' + 'a') : a) == b; });
-  }
+  static bool is(std::string_view word, std::string_view keyword) { return equals_in_any_case(word, keyword); }
 
   [[noreturn]] void expected(std::string_view what, std::string_view got) const {
     if (got.empty()) words_.fail("the file is cut short", fmt::format("expected {}", what));
     words_.fail(fmt::format("{} is missing", what), "got " + base::in_quotes(got));
+  }
+
+  /// "endloop", or "end loop".
+  void expect_end(std::string_view keyword) {
+    std::string_view word;
+    words_.next(word);
+    std::string_view what = word;
+    if (is(word, "end")) {
+      words_.next(word);
+      what = word;
+    } else {
+      what.remove_prefix(is(word.substr(0, 3), "end") ? 3 : word.size());
+    }
+    if (!is(what, keyword)) expected("end" + std::string(keyword), word);
   }
 
   void expect(std::string_view keyword) {
@@ -89,7 +105,7 @@ class StlText {
   void read_solid() {
     for (std::string_view word;;) {
       words_.next(word);
-      if (is(word, "endsolid")) break;
+      if (is(word, "endsolid") || is(word, "end")) break;
       if (!is(word, "facet")) expected("facet or endsolid", word);
       read_facet();
     }
@@ -106,14 +122,15 @@ class StlText {
       expect("vertex");
       for (float& coordinate : corner) coordinate = to_float(number());
     }
-    expect("endloop");
-    expect("endfacet");
+    expect_end("loop");
+    expect_end("facet");
     add_facet(corners, shared_, mesh_);
   }
 
   Words words_;
   MeshBuilder mesh_;
   SharedCorners shared_;
+  std::size_t left_over_ = 0;  ///< lines
 };
 
 /// Whether text is meant: "solid", and no byte 0, which the count of a binary file's triangles has and a text has not.
@@ -139,9 +156,13 @@ bool looks_like_text(std::string_view bytes) {
 
 }  // namespace
 
+bool is_binary_stl(std::string_view bytes) {
+  return bytes.size() >= stl_start && bytes.size() == stl_start + stl_record * facets_of_header(bytes);
+}
+
 ReadMesh parse_stl(std::string_view bytes, const std::string& name) {
   // The size decides: many binary files begin with "solid", too. A text has no such bytes where the count stands.
-  if (bytes.size() >= stl_start && bytes.size() == stl_start + stl_record * facets_of_header(bytes)) return read_binary_stl(bytes, name);
+  if (is_binary_stl(bytes)) return read_binary_stl(bytes, name);
   if (!looks_like_text(bytes)) refuse_size(bytes, name);
   return StlText(bytes, name).read();
 }

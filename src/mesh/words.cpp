@@ -16,6 +16,11 @@ int to_place(std::size_t number) { return static_cast<int>(std::min<std::size_t>
 
 }  // namespace
 
+bool equals_in_any_case(std::string_view word, std::string_view small) {
+  return std::equal(word.begin(), word.end(), small.begin(), small.end(),
+                    [](char a, char b) { return (a >= 'A' && a <= 'Z' ? static_cast<char>(a - 'A' + 'a') : a) == b; });
+}
+
 Words::Words(std::string_view text, const std::string& name, Style style, std::size_t from, std::size_t line)
     : text_(text), name_(name), obj_(style != Style::plain), mtl_(style == Style::mtl), at_(from), line_(line), line_start_(from) {
   if (from == 0 && text.starts_with("\xEF\xBB\xBF")) at_ = line_start_ = 3;

@@ -10,6 +10,9 @@
 
 namespace tofray::mesh {
 
+/// Whether a word is a keyword but for the case of its letters. @param small  the keyword in small letters
+bool equals_in_any_case(std::string_view word, std::string_view small);
+
 /// Where a word stands; both count from 1.
 struct Mark {
   std::size_t line = 1, column = 1;

@@ -48,12 +48,24 @@ std::string preview_png(const Depth& depth, const Truth& truth, const Raw& raw, 
   return preview_picture(depth, truth, raw, caption, {theme, scale, Format::png});
 }
 
+namespace {
+
+constexpr double most_millimetres = 65535;
+double rounded_millimetres(float z) { return std::floor(1000.0 * static_cast<double>(z) + 0.5); }
+
+}  // namespace
+
+std::size_t beyond_depth_png(const Depth& depth) {
+  return static_cast<std::size_t>(
+      std::count_if(depth.z_m.begin(), depth.z_m.end(), [](float z) { return rounded_millimetres(z) > most_millimetres; }));
+}
+
 std::string depth_png(const Depth& depth) {
   std::vector<std::uint16_t> millimetres;
   millimetres.reserve(depth.z_m.size());
   for (const float z : depth.z_m) {
-    const double mm = std::floor(1000.0 * static_cast<double>(z) + 0.5);
-    millimetres.push_back(mm >= 1 && mm <= 65535 ? static_cast<std::uint16_t>(mm) : std::uint16_t{0});
+    const double mm = rounded_millimetres(z);
+    millimetres.push_back(mm >= 1 && mm <= most_millimetres ? static_cast<std::uint16_t>(mm) : std::uint16_t{0});
   }
   return png_grey16(depth.width, depth.height, millimetres);
 }

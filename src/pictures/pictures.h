@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The tofray authors
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -36,6 +37,8 @@ constexpr int flag_count = 9, invalid_flag_count = 7;
 
 /// depth.png: uint16, z in mm, rounded. 0 where invalid, and where z does not fit (nearer than 0.5 mm, farther than 65.535 m).
 std::string depth_png(const Depth& depth);
+/// Pixels that have a depth, but one farther than depth.png holds.
+std::size_t beyond_depth_png(const Depth& depth);
 
 /// amplitude.png: 8-bit grey, 255 · sqrt(amplitude / its 99.5th percentile), so that the far and dark is seen beside the near and bright.
 std::string amplitude_png(const Depth& depth);

@@ -1,8 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The tofray authors
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <sstream>
 #include <unordered_map>
 #include <unordered_set>
+#include <vector>
 
 #include <yaml-cpp/anchor.h>
 #include <yaml-cpp/eventhandler.h>
@@ -12,6 +14,7 @@
 
 #include "base/limits.h"
 #include "base/text.h"
+#include "yaml/json_text.h"
 #include "yaml/tree.h"
 
 namespace tofray::yaml {
@@ -24,7 +27,9 @@ using base::Place;
 // What yaml-cpp lets pass: builds the tree from its events, and refuses.
 class Builder : public YAML::EventHandler {
  public:
-  Builder(std::string_view text, const Place& start) : text_(text), start_(start) {}
+  /// @param joined  where surrogate pairs end that were joined
+  Builder(std::string_view text, const Place& start, const std::vector<std::size_t>& joined)
+      : text_(text), start_(start), joined_(joined) {}
 
   Node take(bool& any) {
     any = documents_ > 0;
@@ -81,7 +86,16 @@ class Builder : public YAML::EventHandler {
   static bool starts_character(char c) { return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U; }
 
   // yaml-cpp counts bytes. From the last place asked for in the line, so that a file of one long line costs no square.
-  int column(const YAML::Mark& mark) const {
+  int column(const YAML::Mark& mark) const { return column_in_text(mark) + longer_before(mark); }
+
+  /// What surrogate pairs of this line were longer before they were joined.
+  int longer_before(const YAML::Mark& mark) const {
+    if (joined_.empty() || mark.pos < mark.column) return 0;
+    const auto end = std::upper_bound(joined_.begin(), joined_.end(), static_cast<std::size_t>(mark.pos));
+    return 2 * static_cast<int>(end - std::upper_bound(joined_.begin(), end, static_cast<std::size_t>(mark.pos - mark.column)));
+  }
+
+  int column_in_text(const YAML::Mark& mark) const {
     const auto position = static_cast<std::size_t>(mark.pos);
     if (ascii_only_ || mark.pos < mark.column || position > text_.size()) return mark.column + 1;
     if (mark.line != last_.line) last_ = {mark.line, position - static_cast<std::size_t>(mark.column), 1};
@@ -202,6 +216,7 @@ class Builder : public YAML::EventHandler {
  private:
   std::string_view text_;
   Place start_;
+  const std::vector<std::size_t>& joined_;
   struct Last {
     int line = -1;
     std::size_t position = 0;
@@ -217,6 +232,8 @@ class Builder : public YAML::EventHandler {
 
 /// @return whether all of it is ASCII
 bool check_bytes(std::string_view text, const Place& start) {
+  const bool json = looks_like_json(text);
+  bool in_quotes = false, escaped = false;  // of JSON, whose strings may hold the byte 127
   Place here = start;
   const bool counted = start.line > 0;
   bool ascii = true;
@@ -225,8 +242,10 @@ bool check_bytes(std::string_view text, const Place& start) {
     const std::size_t length = base::utf8_length(text, i);
     if (length == 0) fail(here, "this is not UTF-8 text", "got the byte " + std::to_string(byte) + "; save the file as UTF-8");
     if (byte == 0) fail(here, "a NUL byte stands here", "expected text; a file in UTF-16 has to be saved as UTF-8");
-    if ((byte < 0x20 && byte != '\t' && byte != '\n' && byte != '\r') || byte == 0x7F)
+    if ((byte < 0x20 && byte != '\t' && byte != '\n' && byte != '\r') || (byte == 0x7F && !in_quotes))
       fail(here, "a control character stands here", "got the byte " + std::to_string(byte) + "; take it out");
+    if (json && byte == '"' && !escaped) in_quotes = !in_quotes;
+    escaped = in_quotes && byte == '\\' && !escaped;
     ascii = ascii && length == 1;
     if (counted) {
       here.column += 1;
@@ -261,7 +280,12 @@ Node parse(std::string_view text, const Place& start) {
          "got " + std::to_string(text.size()) + " bytes, at most " + std::to_string(base::limit::file_bytes.value), ErrorKind::limit);
   const bool ascii = check_bytes(text, start);
   if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);  // byte order mark
-  Builder builder(text, start);
+  JoinedSurrogates joined;
+  if (looks_like_json(text)) {
+    joined = join_surrogates(text);
+    text = joined.text;
+  }
+  Builder builder(text, start, joined.behind);
   builder.ascii_only_ = ascii;
   try {
     std::istringstream stream{std::string(text)};

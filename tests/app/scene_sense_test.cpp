@@ -68,7 +68,7 @@ TEST_F(newcomer, has_a_mesh_in_millimetres) {
   expect_told_of_scene("objects:\n  - mesh: {file: cube.obj, position: [0, 0, 1.5], reflectivity: 0.5}\n",
                        "scene.yaml:2:5: warning: objects.0 (cube.obj) measures 400 x 400 x 400 m",
                        "is its file in millimetres? Then say scale: 0.001");
-  expect_told("cube.obj", "cube.obj: warning: objects.0 (cube.obj) measures 400 x 400 x 400 m", "--set objects.0.mesh.scale=0.001");
+  expect_told("cube.obj", "cube.obj: warning: it measures 400 x 400 x 400 m", "--set objects.0.mesh.scale=0.001");
 }
 
 TEST_F(newcomer, scales_a_mesh_twice) {

@@ -83,7 +83,7 @@ void check(const tofray::mesh::ReadMesh& read) {
 void check(const tofray::mesh::Mtl& read) {
   const auto is_share = [](double a) { return a >= 0 && a <= 1; };
   for (const tofray::mesh::MtlMaterial& one : read.materials) {
-    if (one.name.empty() || !is_share(one.nir_reflectivity.value_or(0))) std::abort();
+    if (!is_share(one.nir_reflectivity.value_or(0))) std::abort();
     for (const double a : one.color.value_or(std::array<double, 3>{}))
       if (!is_share(a)) std::abort();
     if (one.picture && (one.picture->reference.file.empty() || !std::isfinite(one.picture->scale[0] + one.picture->offset[1])))

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <map>
 
+#include "gltf/gltf_files.h"
 #include "load/load.h"
 #include "support/samples.h"
 
@@ -148,6 +149,24 @@ TEST_F(mesh_files, lose_triangles_that_are_nowhere) {
   EXPECT_TRUE(tells(refusal("file: corner.obj, scale: 1e9"), "no triangle of")) << refusal("file: corner.obj, scale: 1e9");
   file("in/far.obj", "v 100000 0 0\nv 0 -100000 0\nv 0 0 100000\nv 100001 0 0\nf 1 2 3\nf 4 2 3\n");  // the world's end, and a metre beyond
   EXPECT_EQ(mesh("file: far.obj").left_out, 1);
+}
+
+TEST_F(mesh_files, of_which_nothing_is_in_the_world_are_blamed_on_what_it_is) {
+  const auto says = [&](const std::string& keys, const std::string& what) {
+    const std::string said = refusal(keys);
+    EXPECT_TRUE(tells(said, "scene.yaml:2:18: error: no triangle of ") && tells(said, what)) << said;
+  };
+  says("file: corner.obj, scale: 1e6",
+       "beyond 100000 m, up to 7000000 m; is another scale meant? Such as scale: 1 (--set objects.0.mesh.scale=1)");
+  file("in/huge.obj", "v 1e38 0 0\nv 3e38 0 0\nv 0 3e38 2e38\nf 1 2 3\n");
+  says("file: huge.obj", "no scale makes a thing of these");
+  says("file: huge.obj, scale: 1e9", "no scale makes a thing of these");
+  const float infinity = std::numeric_limits<float>::infinity();
+  gltf_test::File file_of_gltf;
+  file_of_gltf.mesh({{"POSITION", file_of_gltf.floats({0, 0, 0, 1, 0, 0, 0, infinity, 0}, "VEC3")}});
+  file_of_gltf.node({{"mesh", 0}});
+  file("in/infinite.glb", file_of_gltf.glb());
+  says("file: infinite.glb", "each has a corner that is not a finite number");
 }
 
 // Closed: each edge is that of two triangles, once each way. Radii as their header says.

@@ -70,7 +70,7 @@ TEST_F(vertex_colors, beyond_their_range_are_held_there) {
   const Scene got = scene("file: a.ply");
   expect_shades(got, {0.2126, 0, 0.7152 + 0.0722});
   ASSERT_EQ(mesh(got).notices.size(), 1U);
-  EXPECT_EQ(mesh(got).notices[0], "colours of vertices beyond 0 to 1 (3) are held there");
+  EXPECT_EQ(mesh(got).notices[0], "colours beyond 0 to 1 (3) are held there");
 }
 
 TEST_F(vertex_colors, are_needed_where_nothing_says_a_material) {
@@ -85,7 +85,7 @@ TEST_F(vertex_colors, are_needed_where_nothing_says_a_material) {
 
 // A weight may stand before them. Vertices without are white, also those that come before; those that become several keep theirs.
 TEST_F(vertex_colors, of_an_obj_file_follow_its_vertices) {
-  save("a.obj", "v 0 0 0\nv 1 0 0 0.5 0 1 0\nv 0 1 0 0 0 1\nv nan 0 0 1 1 1\nvt 0 0\nvt 1 1\nf 1/1 2/1 3/1\nf 1/1 2/2 3/2\n");
+  save("a.obj", "v 0 0 0\nv 1 0 0 0 1 0 0.5\nv 0 1 0 0 0 1\nv nan 0 0 1 1 1\nvt 0 0\nvt 1 1\nf 1/1 2/1 3/1\nf 1/1 2/2 3/2\n");
   const Scene got = scene("file: a.obj");
   EXPECT_EQ(got.objects.at(0).name, "a/no material");
   EXPECT_EQ(got.materials.at(0).diffuse, 1);

@@ -28,7 +28,7 @@ std::vector<Sample> samples() {
   add(Format::ply, text, text.size() - 1);
   for (const auto encoding : {PlyWriter::Encoding::little, PlyWriter::Encoding::big})
     for (const std::string& file : {plain_ply(encoding), full_ply(encoding)}) add(Format::ply, file, file.size());
-  add(Format::stl, text_of_stl, text_of_stl.find("endsolid") + 8);
+  add(Format::stl, text_of_stl, text_of_stl.find("endsolid") + 3);
   add(Format::stl, binary_stl(), binary_stl().size());
   add(Format::stl, binary_stl("solid"), binary_stl().size());
   return all;
@@ -179,7 +179,10 @@ TEST(mesh_file, is_of_the_format_that_its_suffix_says) {
     return std::string(error.what());
   };
   EXPECT_EQ(message("a.fbx"),
-            "a.fbx: error: \"a.fbx\" is no mesh that can be read\n  got the suffix \".fbx\", expected .obj, .ply, .stl, .glb or .gltf");
+            "a.fbx: error: \"a.fbx\" is no mesh that can be read\n  got an FBX file (.fbx), expected .obj, .ply, .stl, .glb or .gltf; "
+            "Blender imports it and exports glTF (.glb)");
+  EXPECT_EQ(message("a.doc"),
+            "a.doc: error: \"a.doc\" is no mesh that can be read\n  got the suffix \".doc\", expected .obj, .ply, .stl, .glb or .gltf");
   EXPECT_EQ(
       message("a.ply/mesh"),
       "a.ply/mesh: error: \"mesh\" is no mesh that can be read\n  got a name without suffix, expected .obj, .ply, .stl, .glb or .gltf");

@@ -69,6 +69,35 @@ TEST(obj, takes_vertices_with_a_weight_or_a_colour) {
   expect_corner(obj("v 0 0 0 1\nv 1 0 0 0.5 0.5 0.5\nv 0 2 0 1 0.5 0.5 0.5\nv 0 0 0.5 nan\n" + faces));
 }
 
+TEST(obj, has_the_colour_behind_the_place_with_or_without_opacity) {
+  // 0.2126 R + 0.7152 G + 0.0722 B of what sRGB decodes: 0.1 is 0.010023, 0.2 is 0.033105, 0.3 is 0.073239.
+  const ReadMesh read = obj("v 0 0 0 0.1 0.2 0.3\nv 1 0 0 0.1 0.2 0.3 1\nv 0 1 0 0.1 0.2 0.3 0.5\nf 1 2 3\n");
+  ASSERT_EQ(read.mesh.shades.size(), 3U);
+  for (const float shade : read.mesh.shades) EXPECT_NEAR(shade, 0.2126 * 0.010023 + 0.7152 * 0.033105 + 0.0722 * 0.073239, 1e-6);
+}
+
+TEST(obj, tells_of_lines_that_begin_with_unknown_words) {
+  expect_corner(obj("t 1 2\nvw 3\n" + corner_obj + "-colorspace sRGB\n"));
+  EXPECT_EQ(
+      obj("# a\nt 1 2\nvw 3\n" + corner_obj).notices,
+      std::vector<std::string>{"2 lines are read past that begin with a word unknown in OBJ files: \"t\" in line 2; did you mean \"vt\"?"});
+  EXPECT_EQ(obj(corner_obj + "usemlt a\n").notices,
+            std::vector<std::string>{"1 line is read past that begins with a word unknown in OBJ files: "
+                                     "\"usemlt\" in line 10; did you mean \"usemtl\"?"});
+}
+
+TEST(obj, names_files_of_materials_in_quotation_marks) {
+  const auto libraries = [](const std::string& line) {
+    std::vector<std::string> out;
+    for (const mesh::Reference& one : obj(line + "\n" + corner_obj).libraries) out.push_back(one.file);
+    return out;
+  };
+  EXPECT_EQ(libraries("mtllib \"my wood.mtl\""), std::vector<std::string>{"my wood.mtl"});
+  EXPECT_EQ(libraries("mtllib \"a.mtl\" \"b c.mtl\""), (std::vector<std::string>{"a.mtl", "b c.mtl"}));
+  EXPECT_EQ(libraries("mtllib \"a.mtl"), std::vector<std::string>{"a.mtl"});
+  EXPECT_EQ(libraries("mtllib \"\""), std::vector<std::string>{});
+}
+
 TEST(obj, reads_numbers_of_all_forms) {
   const ReadMesh read =
       obj("v +1 -2.5 .5\nv 1. 1e2 +1E-2\nv 1e-400 -0 0.1\nv 3.4028234e38 0." + std::string(400, '0') + "1e401 0e999999999999\nf 1 2 3 4\n");

@@ -1,5 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The tofray authors
 // SPDX-License-Identifier: Apache-2.0
+#include <sstream>
+
 #include "mesh_files.h"
 
 using namespace tofray;
@@ -80,6 +82,76 @@ TEST(ply, is_read_past_other_elements_and_properties) {
     file.put<std::int32_t>(0).put<std::int32_t>(77);
     expect_corner(ply(file.bytes));
   }
+}
+
+TEST(ply, may_say_twice_what_is_not_read) {
+  const std::string text = "ply\nformat ascii 1.0\n" + vertex_4 + "property uchar flags\nproperty uchar flags\nelement face 1\n" +
+                           face_list +
+                           "property int group\nproperty int group\nend_header\n0 0 0 7 7 1 0 0 7 7 0 2 0 7 7 0 0 0.5 7 7 3 0 1 2 5 5";
+  expect_mesh(ply(text), corner_vertices, {{0, 1, 2}});
+}
+
+namespace {
+
+/// Luminance of grey as programs show it: IEC 61966-2-1.
+double linear_of(double grey) { return grey <= 0.04045 ? grey / 12.92 : std::pow((grey + 0.055) / 1.055, 2.4); }
+
+}  // namespace
+
+TEST(ply, has_colours_by_each_name_that_programs_give_them) {
+  for (const char* name : {"", "diffuse_"})
+    for (const char* const letters : {"red green blue", "r g b"}) {
+      if (*name != '\0' && letters[1] == ' ') continue;
+      std::string properties, word;
+      for (std::istringstream words(letters); words >> word;) properties += std::string("property uchar ") + name + word + "\n";
+      SCOPED_TRACE(properties);
+      const ReadMesh read =
+          ply("ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n" + properties +
+              "element face 1\n" + face_list + "end_header\n0 0 0 51 51 51 1 0 0 102 102 102 0 1 0 255 255 255 3 0 1 2");
+      ASSERT_EQ(read.mesh.shades.size(), 3U);
+      for (std::size_t i = 0; i < 3; ++i) EXPECT_NEAR(read.mesh.shades[i], linear_of(i == 0 ? 0.2 : i == 1 ? 0.4 : 1), 1e-6);
+    }
+}
+
+TEST(ply, has_colours_of_faces) {
+  // Two triangles and a square that share vertices; those between faces of different colours become several.
+  for (const Encoding encoding : every_encoding) {
+    PlyWriter file(
+        encoding,
+        "element vertex 5\nproperty float x\nproperty float y\nproperty float z\nelement face 3\nproperty list uchar int vertex_indices\n"
+        "property uchar red\nproperty uchar green\nproperty uchar blue\nproperty uchar alpha\n");
+    for (const auto& [x, y] : {std::pair{0, 0}, {1, 0}, {1, 1}, {0, 1}, {2, 0}}) file.put<float>(x).put<float>(y).put<float>(0);
+    const auto face = [&](const std::vector<int>& corners, double grey) {
+      file.put<std::uint8_t>(static_cast<double>(corners.size()));
+      for (const int one : corners) file.put<std::int32_t>(one);
+      for (int k = 0; k < 3; ++k) file.put<std::uint8_t>(grey);
+      file.put<std::uint8_t>(255);
+    };
+    face({0, 1, 2, 3}, 51), face({1, 4, 2}, 102), face({4, 1, 0}, 51);
+    const ReadMesh read = ply(file.bytes);
+    ASSERT_EQ(read.mesh.triangles.size(), 4U);
+    ASSERT_EQ(read.mesh.shades.size(), read.mesh.vertices.size());
+    const double greys[] = {0.2, 0.2, 0.4, 0.2};
+    for (std::size_t i = 0; i < 4; ++i)
+      for (const std::int32_t corner : read.mesh.triangles[i])
+        EXPECT_NEAR(read.mesh.shades[static_cast<std::size_t>(corner)], linear_of(greys[i]), 1e-6) << i;
+    // Where corners are: the file's square, its first triangle.
+    EXPECT_EQ(read.mesh.vertices[static_cast<std::size_t>(read.mesh.triangles[2][1])], (std::array<float, 3>{2, 0, 0}));
+    EXPECT_EQ(read.mesh.vertices.size(), 5U + 3U);  // 1 and 2 in the second colour, 4 in the first
+  }
+}
+
+TEST(ply, tells_of_the_picture_that_it_wears) {
+  const auto notices = [&](const std::string& comment) {
+    return ply("ply\nformat ascii 1.0\n" + comment +
+               "element vertex 3\nproperty float x\nproperty float y\nproperty float z\nproperty float s\nproperty float t\nelement face "
+               "1\n" +
+               face_list + "end_header\n0 0 0 0 0 1 0 0 0 0 0 1 0 0 0 3 0 1 2")
+        .notices;
+  };
+  EXPECT_TRUE(notices("comment made by MeshLab\n").empty());
+  ASSERT_EQ(notices("comment TextureFile my wood.png\n").size(), 1U);
+  EXPECT_TRUE(test::has(notices("comment TextureFile my wood.png\n")[0], "the picture that it wears is left out: \"my wood.png\""));
 }
 
 TEST(ply, may_have_faces_before_its_vertices) {
@@ -174,7 +246,9 @@ TEST(ply, with_faults_in_its_header_says_where_and_what) {
        {begin + "element vertex 4 4\n", "m:3:18: error: the line goes on"},
        {begin + vertex_4 + "element vertex 4\n", "m:7:9: error: element \"vertex\" comes twice"},
        {begin + "property float x\n", "m:3:1: error: a property stands before the first element"},
-       {begin + vertex_4 + "property float x\n", "m:7:16: error: property \"x\" comes twice"},
+       {header(vertex_4 + "property float x\n") + "0 0 0 0", "m:7:16: error: property \"x\" comes twice"},
+       {header(vertex_4 + "element face 1\n" + face_list + face_list) + "0 0 0 0 0 0 0 0 0 0 0 0 3 0 1 2",
+        "m:9:25: error: property \"vertex_indices\" comes twice"},
        {begin + vertex_4 + "property\n", "m:7:9: error: the property's type is missing"},
        {begin + vertex_4 + "property float\n", "m:7:15: error: the property's name is missing"},
        {begin + vertex_4 + "property half w\n", "m:7:10: error: unknown type \"half\"\n  expected char, uchar"},

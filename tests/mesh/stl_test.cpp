@@ -93,7 +93,8 @@ TEST(stl, as_text_with_faults_says_where_and_what) {
                               {"solid\nendsolid", "m: error: the mesh is empty"},
                               {"solidify\n", "m:1:1: error: solid is missing\n  got \"solidify\""},
                               {"solid\n" + facet + "endsolid\nfacet", "m:10:1: error: solid is missing\n  got \"facet\""},
-                              {"solid\n" + facet + "end", "m:9:1: error: facet or endsolid is missing\n  got \"end\""},
+                              {"solid\n" + facet + "stop", "m:9:1: error: facet or endsolid is missing\n  got \"stop\""},
+                              {with("endloop", "end"), "m:8:1: error: endloop is missing\n  got \"endfacet\""},
                               {"solid\n" + facet + "solid\n", "facet or endsolid is missing\n  got \"solid\""},
                               {with("normal", "n"), "m:2:7: error: normal is missing\n  got \"n\""},
                               {with("normal 0 0 1", "normal 0 0"), "m:3:1: error: a coordinate is no number\n  got \"outer\""},
@@ -132,4 +133,19 @@ TEST(stl, as_binary_with_faults_says_what) {
        {binary_stl("solid") + "x", "1 bytes are left over"},
        {"v 0 0 0\nf 1 1 1\n", "m: error: this is no STL file\n  got 16 bytes"},
        {corner_obj, "the file is cut short, or no STL file"}});
+}
+
+TEST(stl, as_text_may_end_as_other_programs_end_it) {
+  const Vertices corners = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+  const std::pair<const char*, std::size_t> ends[] = {
+      {"endsolid", 0},           {"end solid part", 0},   {"END", 0},
+      {"EndSolid a b c\r\n", 0}, {"endsolid\r\n\x1A", 1}, {"endsolid\nexported by a program\n", 1}};
+  for (const auto& [end, notices] : ends) {
+    SCOPED_TRACE(end);
+    const ReadMesh read = stl("solid\n" + facet + end);
+    expect_mesh(read, corners, {{0, 1, 2}});
+    EXPECT_EQ(read.notices.size(), notices);
+  }
+  expect_mesh(stl("solid\n" + replaced(replaced(facet, "endloop", "end loop"), "endfacet", "End Facet") + "endsolid\n"), corners,
+              {{0, 1, 2}});
 }

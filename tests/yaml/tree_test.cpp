@@ -272,3 +272,27 @@ TEST(flow_text, reads_back_to_the_same_tree) {
 }
 
 }  // namespace
+
+TEST(json, may_escape_characters_as_surrogate_pairs_and_hold_delete) {
+  // What Python's json.dumps writes: RFC 8259, section 7.
+  const Node root = yaml::parse_tree(R"({"a": "\ud83d\ude00 \uD834\udd1e \u00e9 \\ud83d\\ude00", "b": "x)"
+                                     "\x7F"
+                                     R"("})",
+                                     "f.json");
+  EXPECT_EQ(root.find("a")->text, "\xF0\x9F\x98\x80 \xF0\x9D\x84\x9E \xC3\xA9 \\ud83d\\ude00");
+  EXPECT_EQ(root.find("b")->text, "x\x7F");
+  EXPECT_EQ(yaml::parse_value(R"("\udbff\udfff")", base::whole("--set")).text, "\xF4\x8F\xBF\xBF");
+  for (const char* const alone :
+       {R"({"a": "\ud83d"})", R"({"a": "\ude00"})", R"({"a": "\ud83d\u0041"})", R"({"a": "\ud83d\ud83d"})", R"({"a": "\ud83d)"})
+    EXPECT_NE(refusal(alone), "") << alone;
+  // Only JSON has them: elsewhere a backslash may be one.
+  EXPECT_EQ(yaml::parse_tree("a: '\\ud83d\\ude00'\n", "f.yaml").find("a")->text, "\\ud83d\\ude00");
+  EXPECT_NE(refusal("a: x\x7F\n"), "");
+}
+
+TEST(json, with_surrogate_pairs_has_faults_in_their_own_columns) {
+  const std::string text = R"({"a": "\ud83d\ude00\ud83d\ude00", "b": 1,)"
+                           "\n"
+                           R"( "c": "\ud83d\ude00", "c": 2})";
+  EXPECT_EQ(refusal(text).rfind("f.yaml:2:23: error: the key \"c\" stands twice", 0), 0U) << refusal(text);
+}

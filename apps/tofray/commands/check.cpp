@@ -136,7 +136,7 @@ Report check_scene(const std::string& file, const Options& options) {
   const SceneReport seen = scene_report(in.scene, in.camera);
   report.json.set("camera_report", report_json(can)).set("scene_report", scene_report_json(seen));
   report.text += report_text(can) + scene_report_text(seen);
-  report.odd = seen.findings;
+  report.odd = findings_of(seen, in);
   return report;
 }
 
@@ -147,6 +147,7 @@ Report check(const std::string& name, const Options& options) {
     return check_profile(std::string(profile->text), name, options);
   refuse_folder(name, "check");
   if (is_called_like_a_mesh(name)) return check_scene(name, options);
+  refuse_other_mesh(name);
   const NamedText read = named_text(name);
   refuse_data(read.text, read.name);
   return looks_like_a_profile(read.text, read.name) ? check_profile(read.text, read.name, options) : check_scene(name, options);

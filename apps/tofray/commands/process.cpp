@@ -144,6 +144,7 @@ int write_results(const Options& options, const Inputs& in, const FrameFiles& wh
   stopwatch.lap("write");
   write_manifest(folder, options, in.files, machine, stopwatch, left, remarks);
   const Validity pixels = validity(frame, in.camera);
+  warn_of_depth_png(what, pictures::beyond_depth_png(frame.depth), remarks);
   if (pixels.pixels.valid == 0) remarks.tell(fmt::format("warning: no pixel has a valid depth: {}\n", pixels.reasons));
   if (options.json)
     print(files::json_text(summary_json(folder, pixels, 1, machine, stopwatch, remarks), 2) + "\n");

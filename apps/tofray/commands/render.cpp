@@ -77,6 +77,7 @@ struct Rendered {
   std::uint64_t frames = 0;       ///< how many are complete
   std::uint64_t all_invalid = 0;  ///< frames without any valid pixel
   std::vector<SceneFinding> odd;  ///< about the scene in the first frame
+  std::size_t beyond_png = 0;     ///< pixels whose z depth.png cannot hold
   double light = 0, lost = 0;     ///< of all histograms by path length, and what lies beyond their bins
 };
 
@@ -112,8 +113,9 @@ void render_frames(Simulator& simulator, const Options& options, const FrameFile
     // Of the last frame alone it is worth the time to know wrong cycles.
     out.last = validity(frame, what.inputs.camera, i + 1 == first + frames);
     if (out.last.pixels.valid == 0) ++out.all_invalid;
-    if (i == first) out.odd = scene_report(what.inputs.scene, what.inputs.camera, frame.truth).findings;
+    if (i == first) out.odd = findings_of(scene_report(what.inputs.scene, what.inputs.camera, frame.truth), what.inputs);
     add_lost(frame.truth, out);
+    out.beyond_png += pictures::beyond_depth_png(frame.depth);
     writer.write(numbered ? suffix_of(i, first + frames - 1) : "");
     ++out.frames;
     progress.step();
@@ -190,6 +192,7 @@ int run_render(const Options& typed) {
   remarks.tell(out.odd, out.last.few());
   warn_of_invalid(out, remarks);
   warn_of_lost(out, remarks);
+  warn_of_depth_png(what, out.beyond_png, remarks);
   if (interrupted) say_interrupted(options, folder, out.frames);
   const bool stopped = stop && stop->signal() != 0;
   const bool same = typed.from.empty() || stopped || made_again(typed, before, folder, remarks);
