@@ -135,7 +135,7 @@ std::string help_against(NoDepth reason, const InvalidPixels& pixels, const Fram
 }  // namespace
 
 Validity validity(const Frame& frame, const Camera& camera, bool wrong_cycles) {
-  Validity out{invalid_pixels(frame, camera, wrong_cycles), {}, {}};
+  Validity out{invalid_pixels(frame, camera, wrong_cycles), {}, {}, has_light(camera)};
   NoDepth most{};
   for (std::size_t i = 0; i < no_depth_count; ++i) {
     const auto reason = static_cast<NoDepth>(i);
@@ -144,7 +144,7 @@ Validity validity(const Frame& frame, const Camera& camera, bool wrong_cycles) {
     if (count > out.pixels.count(most)) most = reason;
   }
   const std::int64_t wrong = out.pixels.valid_on_wrong_cycle;
-  if (100 * wrong > out.pixels.valid && has_light(camera))  // without light there is no right one
+  if (100 * wrong > out.pixels.valid && out.has_light)  // without light there is no right one
     out.advice = fmt::format("{:.0f} % of the pixels that have a depth are whole cycles off, and noise_m does not know: {}",
                              100 * static_cast<double>(wrong) / static_cast<double>(out.pixels.valid), whole_cycles(out.pixels));
   if (!out.few()) return out;
@@ -158,6 +158,8 @@ std::string depth_text(const Validity& of, const char* which) {
   const InvalidPixels& pixels = of.pixels;
   const std::int64_t off = pixels.valid_on_wrong_cycle + pixels.wrapped;
   const std::string invalid = of.reasons.empty() ? "" : "; invalid: " + of.reasons;
+  if (!of.has_light && pixels.valid > 0)
+    return fmt::format("{} of {} pixels {}have a depth, of noise alone{}\n", pixels.valid, pixels.pixels, which, invalid);
   if (off == 0) return fmt::format("{} of {} pixels {}have a depth{}\n", pixels.valid, pixels.pixels, which, invalid);
   return fmt::format("{} of {} pixels {}have a depth that is right, {} one that is whole cycles off{}\n", pixels.valid - off, pixels.pixels,
                      which, off, invalid);

@@ -44,6 +44,7 @@ struct Validity {
   std::string reasons;
   /// Where fewer than half are valid, the reason of most, and what helps: "71 % dark: noise 0.11 m at the median; more light …"
   std::string advice;
+  bool has_light = true;  ///< the camera's own has any power
   [[nodiscard]] bool few() const { return 2 * pixels.valid < pixels.pixels; }
 };
 /// @param wrong_cycles  whether they are told from flying pixels, which takes as long as to decode the frame

@@ -81,7 +81,7 @@ class Depth(Part):
     noise_m : float32 array [height, width], m
         The camera's estimate of the range's noise, 1 sigma; without wrong cycles, and too low of weak signals (theory 4.4).
     confidence : uint8 array [height, width], 1
-        0 to 255.
+        0 to 255: by the noise, and how sure the cycle is.
     flags : uint16 array [height, width], 1
         Bits of Flag: why a depth is invalid, and warnings.
     """
@@ -133,7 +133,7 @@ class Truth(Part):
     triangle_id : int32 array [height, width], 1
         Face: index in mesh triangles, or -1.
     texcoord : float32 array [height, width, 2], 1
-        U, v of TriangleMesh::texcoords, or NaN.
+        U, v of TriangleMesh::texcoords, v down the picture, or NaN.
     velocity_m_per_s : float32 array [height, width, 3], m/s
         Scene flow: of the point, camera frame.
     flow_px : float32 array [height, width, 2], px

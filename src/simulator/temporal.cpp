@@ -46,9 +46,9 @@ void Temporal::settle(std::uint64_t index, const pipeline::Setup& setup, const p
     const auto at = static_cast<std::int32_t>(i);
     const pipeline::Pixels p{at, 1};
     const depth::Filtered value = depth::mean_over_time(image, past.data(), static_cast<int>(past.size()), at, factor_);
-    // How likely its own cycle is, out of what was made of it: a byte's steps of that.
+    // How likely its own cycle is, at most, out of the byte that was made of it.
     const float own_share = 1.0f - own.noise[i] * per_noise, before = job.out.confidence != nullptr ? job.out.confidence[i] : 0.0f;
-    const float trust = own_share > 0 ? std::min(before / (255.0f * own_share), 1.0f) : 0.0f;
+    const float trust = own_share > 0 ? std::min((before + 0.5f) / (255.0f * own_share), 1.0f) : 0.0f;
     const std::int32_t flags = job.out.flags[i] | pipeline::flags_of_filter(setup, job, at, value.range, value.noise);
     pipeline::store_range<float>(job.out, p, camera::ray<float>(setup.lens, p), value.range,
                                  pipeline::confidence(setup.decoder, value.noise, trust), flags);
