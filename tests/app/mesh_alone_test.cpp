@@ -50,7 +50,7 @@ Shape sheet(std::size_t across) {
   return out;
 }
 
-Shape ball() {
+Shape round_shape() {
   constexpr std::size_t rows = 16, columns = 32;
   Shape out;
   for (std::size_t i = 0; i <= rows; ++i)
@@ -66,7 +66,7 @@ Shape ball() {
   return out;
 }
 
-const std::pair<const char*, Shape> shapes[] = {{"cube", brick(1, 1, 1)},     {"rod", brick(1, 0.02, 0.02)}, {"ball", ball()},
+const std::pair<const char*, Shape> shapes[] = {{"cube", brick(1, 1, 1)},     {"rod", brick(1, 0.02, 0.02)}, {"ball", round_shape()},
                                                 {"sheet across x", sheet(0)}, {"sheet across y", sheet(1)},  {"sheet across z", sheet(2)}};
 
 struct Seen {

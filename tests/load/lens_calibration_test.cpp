@@ -59,7 +59,7 @@ void expect_rays_meet_their_pixels(const std::string& text, const std::string& p
   EXPECT_GT(seen, camera.sensor.width * camera.sensor.height / 2);
 }
 
-std::string refusal(const std::string& text, std::optional<PixelGrid> wanted = {}) {
+std::string calibration_refusal(const std::string& text, std::optional<PixelGrid> wanted = {}) {
   try {
     (void)lens_calibration(text, "cal.yaml", wanted);
   } catch (const Error& error) {
@@ -144,37 +144,39 @@ TEST(calibration_file, of_an_azure_kinect_gives_the_rays_of_its_depth_camera) {
   };
   expect("azure-kinect-nfov", 1024, 192, 180);
   expect("azure-kinect-nfov-binned", 512, 96, 90);
-  EXPECT_TRUE(has(refusal(kinect), "an Azure Kinect's depth camera has images of several sizes\n  expected --camera"));
-  EXPECT_TRUE(has(refusal(kinect, PixelGrid{224, 172}), "has no images of 224 x 172 pixels"));
+  EXPECT_TRUE(has(calibration_refusal(kinect), "an Azure Kinect's depth camera has images of several sizes\n  expected --camera"));
+  EXPECT_TRUE(has(calibration_refusal(kinect, PixelGrid{224, 172}), "has no images of 224 x 172 pixels"));
 }
 
 TEST(calibration_file, that_does_not_fit_is_refused_by_name) {
   const std::string five = "-2.5e-01, 1.0e-01, 1.5e-03, -7.5e-04, 2.0e-02";
-  EXPECT_EQ(refusal(file_storage(five, 5), PixelGrid{640, 576}),
+  EXPECT_EQ(calibration_refusal(file_storage(five, 5), PixelGrid{640, 576}),
             "cal.yaml: error: the calibration is of images of 224 x 172 pixels, the camera's sensor has 640 x 576\n"
             "  expected one size: calibrate with images of the sensor's size, or change sensor.width and sensor.height of the profile");
-  EXPECT_TRUE(has(refusal(file_storage("0., 0., 0., 0., 0., 0., 0., 0., 1.e-3, 0., 0., 0.", 12)), "has no thin prism (s1, s2, s3, s4)"));
-  EXPECT_TRUE(
-      has(refusal(file_storage("0., 0., 0., 0., 0., 0., 0., 0., 0., 0., 0., 0., 0., 1.e-3", 14)), "has no tilted sensor (tau_x, tau_y)"));
-  EXPECT_TRUE(
-      has(refusal(file_storage("0., 0., 0.", 3)), "cal.yaml:13:4: error: no model of OpenCV has so many coefficients of distortion"))
-      << refusal(file_storage("0., 0., 0.", 3));
-  EXPECT_TRUE(has(refusal(camera_info("double_sphere", "0.1, 0.2", 2)),
+  EXPECT_TRUE(has(calibration_refusal(file_storage("0., 0., 0., 0., 0., 0., 0., 0., 1.e-3, 0., 0., 0.", 12)),
+                  "has no thin prism (s1, s2, s3, s4)"));
+  EXPECT_TRUE(has(calibration_refusal(file_storage("0., 0., 0., 0., 0., 0., 0., 0., 0., 0., 0., 0., 0., 1.e-3", 14)),
+                  "has no tilted sensor (tau_x, tau_y)"));
+  EXPECT_TRUE(has(calibration_refusal(file_storage("0., 0., 0.", 3)),
+                  "cal.yaml:13:4: error: no model of OpenCV has so many coefficients of distortion"))
+      << calibration_refusal(file_storage("0., 0., 0.", 3));
+  EXPECT_TRUE(has(calibration_refusal(camera_info("double_sphere", "0.1, 0.2", 2)),
                   "no distortion model \"double_sphere\"\n  expected plumb_bob, rational_polynomial or equidistant"));
-  EXPECT_TRUE(has(refusal(camera_info("plumb_bob", "0.1, .nan, 0, 0, 0", 5)), "this is no number"));
-  EXPECT_TRUE(has(refusal("K: [200, 3, 100, 0, 200, 80, 0, 0, 1]\nD: []\n"), "has a skew of 3 px"));
+  EXPECT_TRUE(has(calibration_refusal(camera_info("plumb_bob", "0.1, .nan, 0, 0, 0", 5)), "this is no number"));
+  EXPECT_TRUE(has(calibration_refusal("K: [200, 3, 100, 0, 200, 80, 0, 0, 1]\nD: []\n"), "has a skew of 3 px"));
+  EXPECT_TRUE(has(calibration_refusal("K: [200, 0, 900, 0, 200, 80, 0, 0, 1]\nD: []\n", PixelGrid{224, 172}),
+                  "lies beside the image of 224 x 172 pixels"));
+  EXPECT_TRUE(has(calibration_refusal("K: [200, 0, 100, 0, 200, 80, 0, 0, 1]\n"), "cal.yaml: error: no distortion\n  expected"));
   EXPECT_TRUE(
-      has(refusal("K: [200, 0, 900, 0, 200, 80, 0, 0, 1]\nD: []\n", PixelGrid{224, 172}), "lies beside the image of 224 x 172 pixels"));
-  EXPECT_TRUE(has(refusal("K: [200, 0, 100, 0, 200, 80, 0, 0, 1]\n"), "cal.yaml: error: no distortion\n  expected"));
-  EXPECT_TRUE(has(refusal("image_size: [1e99, 2]\nK: [200, 0, 100, 0, 200, 80, 0, 0, 1]\nD: []\n"), "this is no size of an image"));
-  EXPECT_TRUE(has(refusal("width: 3\n"), "cal.yaml: error: no camera matrix\n  expected"));
-  EXPECT_TRUE(has(refusal("<?xml version=\"1.0\"?>\n<opencv_storage>"), "this is XML\n  expected YAML or JSON"));
-  EXPECT_TRUE(has(refusal("K: [200, 0, 100, 0, 200, 80, 0, 0, 1]\nD: []\nbinning_x: 2\n"), "these images are binned"));
-  EXPECT_TRUE(
-      has(refusal("M1: [200, 0, 100, 0, 200, 80, 0, 0, 1]\nD1: []\nM2: [200, 0, 100, 0, 200, 80, 0, 0, 1]\nD2: []\n"), "two cameras"));
+      has(calibration_refusal("image_size: [1e99, 2]\nK: [200, 0, 100, 0, 200, 80, 0, 0, 1]\nD: []\n"), "this is no size of an image"));
+  EXPECT_TRUE(has(calibration_refusal("width: 3\n"), "cal.yaml: error: no camera matrix\n  expected"));
+  EXPECT_TRUE(has(calibration_refusal("<?xml version=\"1.0\"?>\n<opencv_storage>"), "this is XML\n  expected YAML or JSON"));
+  EXPECT_TRUE(has(calibration_refusal("K: [200, 0, 100, 0, 200, 80, 0, 0, 1]\nD: []\nbinning_x: 2\n"), "these images are binned"));
+  EXPECT_TRUE(has(calibration_refusal("M1: [200, 0, 100, 0, 200, 80, 0, 0, 1]\nD1: []\nM2: [200, 0, 100, 0, 200, 80, 0, 0, 1]\nD2: []\n"),
+                  "two cameras"));
   std::string other = kinect;
   other.replace(other.rfind("BrownConrady"), 12, "Rational6KT");
-  EXPECT_TRUE(has(refusal(other, PixelGrid{640, 576}), "no distortion model \"CALIBRATION_LensDistortionModelRational6KT\""));
+  EXPECT_TRUE(has(calibration_refusal(other, PixelGrid{640, 576}), "no distortion model \"CALIBRATION_LensDistortionModelRational6KT\""));
 }
 
 // Cut anywhere, a file is read or refused, and nothing else.
@@ -182,7 +184,7 @@ TEST(calibration_file, that_is_cut_is_refused_or_read) {
   for (const std::string& text :
        {kinect, file_storage("-2.5e-01, 1.0e-01, 1.5e-03, -7.5e-04", 4), camera_info("plumb_bob", "0, 0, 0, 0, 0", 5)})
     for (std::size_t size = 0; size < text.size(); ++size)
-      EXPECT_NO_FATAL_FAILURE((void)refusal(text.substr(0, size), PixelGrid{640, 576}));
+      EXPECT_NO_FATAL_FAILURE((void)calibration_refusal(text.substr(0, size), PixelGrid{640, 576}));
 }
 
 TEST(calibration_file, keeps_what_else_a_profile_says) {

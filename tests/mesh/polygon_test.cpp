@@ -213,12 +213,12 @@ Outline maze(out_test::Random& random, std::int64_t size) {
   return out;
 }
 
-ReadMesh obj(const std::string& text) { return mesh::parse(Format::obj, text, "m.obj"); }
+ReadMesh obj_of_text(const std::string& text) { return mesh::parse(Format::obj, text, "m.obj"); }
 
 double seconds_of(const Outline& outline) {
   const std::string text = obj_of(outline);
   const auto start = std::chrono::steady_clock::now();
-  expect_divided(obj(text), outline);
+  expect_divided(obj_of_text(text), outline);
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
@@ -229,16 +229,16 @@ TEST(polygon, of_six_corners_of_an_l_has_three_quarters_of_the_square_whichever_
   ASSERT_EQ(shoelace(l), 2 * 12);
   for (std::size_t first = 0; first < l.size(); ++first) {
     const Outline from_there = turned(l, first);
-    expect_divided(obj(obj_of(from_there)), from_there);
+    expect_divided(obj_of_text(obj_of(from_there)), from_there);
     const Outline other_way(from_there.rbegin(), from_there.rend());
-    expect_divided(obj(obj_of(other_way)), other_way);
+    expect_divided(obj_of_text(obj_of(other_way)), other_way);
     expect_divided(mesh::parse(Format::ply, ply_of(from_there, in_xy), "m.ply"), from_there);
   }
 }
 
 TEST(polygon, of_four_corners_with_a_dent_is_divided_there) {
   const Outline dart = {{0, 0}, {4, 4}, {0, 2}, {-4, 4}};
-  for (std::size_t first = 0; first < 4; ++first) expect_divided(obj(obj_of(turned(dart, first))), turned(dart, first));
+  for (std::size_t first = 0; first < 4; ++first) expect_divided(obj_of_text(obj_of(turned(dart, first))), turned(dart, first));
 }
 
 TEST(polygon, with_holes_joined_by_slits_leaves_them_open) {
@@ -248,7 +248,7 @@ TEST(polygon, with_holes_joined_by_slits_leaves_them_open) {
     ASSERT_EQ(shoelace(outline), 2 * (100 - 16) * holes);
     for (std::size_t first = 0; first < outline.size(); ++first) {
       const Outline from_there = turned(outline, first);
-      const ReadMesh read = obj(obj_of(from_there, random_plane(random)));
+      const ReadMesh read = obj_of_text(obj_of(from_there, random_plane(random)));
       expect_divided(read, from_there);
       expect_covers_what_is_inside(read, from_there, random, static_cast<std::uint64_t>(10 * holes));
     }
@@ -278,7 +278,7 @@ TEST(polygon, may_have_corners_twice_on_its_edges_and_back_to_back) {
   for (const Outline& outline : outlines)
     for (std::size_t first = 0; first < outline.size(); ++first) {
       SCOPED_TRACE(obj_of(turned(outline, first)));
-      expect_divided(obj(obj_of(turned(outline, first))), turned(outline, first));
+      expect_divided(obj_of_text(obj_of(turned(outline, first))), turned(outline, first));
     }
 }
 
@@ -292,7 +292,7 @@ TEST(polygon, like_a_star_has_the_area_of_the_shoelace_formula) {
         const double far = i % 2 == 0 ? 1000 : 100 + static_cast<double>(random.below(800));
         star.push_back({std::lround(far * std::cos(angle)), std::lround(far * std::sin(angle))});
       }
-      expect_divided(obj(obj_of(star, random_plane(random))), star);
+      expect_divided(obj_of_text(obj_of(star, random_plane(random))), star);
     }
 }
 
@@ -303,7 +303,7 @@ TEST(polygon, of_any_simple_shape_on_any_plane_is_covered_once_and_nothing_besid
       const Outline outline = random_simple(random, corners, size);
       const Placed plane = random_plane(random);
       SCOPED_TRACE(obj_of(outline, plane));
-      const ReadMesh read = obj(obj_of(outline, plane));
+      const ReadMesh read = obj_of_text(obj_of(outline, plane));
       expect_divided(read, outline);
       if (trial % 10 == 0) expect_covers_what_is_inside(read, outline, random, size);
       expect_divided(mesh::parse(Format::ply, ply_of(outline, plane), "m.ply"), outline);
@@ -317,7 +317,7 @@ TEST(polygon, like_a_maze_of_walls_without_thickness_is_covered_once) {
     const Outline outline = turned(maze(random, size), random.below(1000));
     ASSERT_EQ(shoelace(outline), 2 * size * size);
     SCOPED_TRACE(obj_of(outline));
-    expect_divided(obj(obj_of(outline, random_plane(random))), outline);
+    expect_divided(obj_of_text(obj_of(outline, random_plane(random))), outline);
   }
 }
 
@@ -332,7 +332,7 @@ TEST(polygon, takes_its_normals_and_texture_coordinates_along) {
     face += "/" + std::to_string(1 + static_cast<std::size_t>(&x - &l[0][0]) / 2) + "/" +
             std::to_string(1 + static_cast<std::size_t>(&x - &l[0][0]) / 2);
   }
-  const ReadMesh read = obj(text + face + "\n");
+  const ReadMesh read = obj_of_text(text + face + "\n");
   ASSERT_EQ(read.mesh.vertices.size(), 9U);
   for (std::size_t i = 3; i < 9; ++i) {
     const auto& [x, y, z] = read.mesh.vertices[i];
@@ -356,7 +356,7 @@ TEST(polygon, that_is_convex_stays_the_fan_of_its_first_corner) {
             base::number_text(3 + u) + "\n";
     face += " " + std::to_string(i + 1);
   }
-  const ReadMesh read = obj(text + face);
+  const ReadMesh read = obj_of_text(text + face);
   for (std::int32_t i = 0; i < 58; ++i)
     EXPECT_EQ(read.mesh.triangles[static_cast<std::size_t>(i)], (std::array<std::int32_t, 3>{0, i + 1, i + 2}));
 }
@@ -381,7 +381,7 @@ TEST(polygon, with_corners_on_a_straight_edge_has_a_triangle_at_each_of_them) {
 }
 
 TEST(polygon, that_crosses_itself_stays_a_fan_and_is_told) {
-  const ReadMesh read = obj("v 0 0 0\nv 4 4 0\nv 4 0 0\nv 0 3 0\nf 1 2 3 4\nf 4 3 2 1\n");
+  const ReadMesh read = obj_of_text("v 0 0 0\nv 4 4 0\nv 4 0 0\nv 0 3 0\nf 1 2 3 4\nf 4 3 2 1\n");
   EXPECT_EQ(read.mesh.triangles, (Triangles{{0, 1, 2}, {0, 2, 3}, {3, 2, 1}, {3, 1, 0}}));
   EXPECT_EQ(read.notices, std::vector<std::string>{"2 faces cross themselves: what lies inside is a guess"});
 }

@@ -13,7 +13,7 @@ using namespace tofray::test;
 
 namespace {
 
-constexpr double speed_of_light = 299792458, signal_e = 20000, contrast = 0.7;
+constexpr double vacuum_speed = 299792458, signal_e = 20000, contrast = 0.7;
 
 /// Taps of one pixel whose phase at modulation frequency f is φ(f): A, B = S/2·(1 ± C·cos(φ + τ)).
 template <class Phase>
@@ -31,7 +31,7 @@ Raw recorded(const Camera& camera, const Phase& phi) {
 }
 
 /// Phase of light that went there and back.
-double phase_of(double range_m, double f, double n) { return 4 * std::acos(-1.0) * f * range_m * n / speed_of_light; }
+double phase_of(double range_m, double f, double n) { return 4 * std::acos(-1.0) * f * range_m * n / vacuum_speed; }
 
 double range_of(const Raw& raw, Camera camera) {
   camera.decoding.flying_check = false, camera.decoding.noise_threshold_m = 10;

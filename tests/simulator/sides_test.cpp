@@ -22,7 +22,7 @@ using base::operator+;
 
 namespace {
 
-Ambient sun_from(const Vec3& way) { return {Ambient::Spectrum::sun_am15, Ambient::Quantity::level, 1, {}, {}, way}; }
+Ambient sun_along(const Vec3& way) { return {Ambient::Spectrum::sun_am15, Ambient::Quantity::level, 1, {}, {}, way}; }
 
 int lit(const std::vector<float>& values) {
   int out = 0;
@@ -93,14 +93,14 @@ TEST(light_from_behind, reaches_no_facet_whatever_normals_say) {
   Camera camera = lit_camera(1, 1);
   put_lamp(camera, {5, 0, 2});
   Scene scene = sheet(lean);
-  scene.ambient = sun_from({-5, 0, -1});
+  scene.ambient = sun_along({-5, 0, -1});
   const Frame behind = expected_frame(scene, camera);
   EXPECT_EQ(behind.truth.object_id[0], 0);
   EXPECT_EQ(behind.truth.irradiance_w_m2[0], 0.0F);
   EXPECT_EQ(behind.truth.ambient_e_per_s[0], 0.0F);
   // From the other side E = I·(n·l)/r² with the normal of the corners.
   put_lamp(camera, {5, 0, 0}, 4 * pi);
-  scene.ambient = sun_from({-5, 0, 1});
+  scene.ambient = sun_along({-5, 0, 1});
   const Frame before = expected_frame(scene, camera);
   const double r2 = 26, cosine = dot(lean, Vec3{5, 0, -1}) / std::sqrt(r2);
   EXPECT_NEAR(before.truth.irradiance_w_m2[0], cosine / r2, 1e-6 * cosine / r2);
@@ -121,7 +121,7 @@ TEST(light_from_behind, reaches_no_facet_whatever_a_picture_of_normals_says) {
     Camera camera = lit_camera(16, 16, 20);
     for (const double x : {5.0, -5.0}) {
       put_lamp(camera, {x, 0, 2});
-      scene.ambient = sun_from({-x, 0, -1});
+      scene.ambient = sun_along({-x, 0, -1});
       const Frame frame = expected_frame(scene, camera);
       EXPECT_EQ(lit(frame.truth.irradiance_w_m2), 0) << side << " " << x;
       EXPECT_EQ(lit(frame.truth.ambient_e_per_s), 0) << side << " " << x;
@@ -135,7 +135,7 @@ TEST(closed_mesh, is_dark_inside_whatever_stands_outside) {
     for (int cuts = 0; cuts <= (with_sanitizers ? 2 : 5); ++cuts) {
       Scene scene = within(ball(cuts, smooth));
       for (const Vec3& way : {Vec3{0.3, 0.5, 0.8}, Vec3{-1, 0.1, 0.02}, Vec3{0.2, -0.9, -0.4}}) {
-        scene.ambient = sun_from(way);
+        scene.ambient = sun_along(way);
         for (const double far : {0.1, 1.0, 5.0, 40.0, 97.0}) {
           Camera camera = lit_camera(with_sanitizers ? 32 : 160, with_sanitizers ? 24 : 120, with_sanitizers ? 16 : 80);
           put_lamp(camera, scene.objects[0].position + (1 + far) * normalized(-1.0 * way), 100);
@@ -153,7 +153,7 @@ TEST(closed_room, is_dark_inside_whatever_stands_outside) {
   for (const Vec3& into : {Vec3{0.8, 0.9, 1.5}, Vec3{-1, 0.9, 1.5}, Vec3{0.8, -0.7, -0.5}}) {
     scene.camera.pose = {{0, 0, 0}, into, {0, -1, 0}};
     for (const Vec3& way : {Vec3{0.3, 0.5, 0.8}, Vec3{-1, 0.3, 0.2}, Vec3{0.2, -0.9, -0.4}, Vec3{1, 1, 1}}) {
-      scene.ambient = sun_from(way);
+      scene.ambient = sun_along(way);
       for (const double far : {3.0, 10.0, 60.0, 100.0}) {
         Camera camera = lit_camera(with_sanitizers ? 32 : 320, with_sanitizers ? 24 : 240, with_sanitizers ? 16 : 160);
         // The lamp stands where the camera's axes put it.
@@ -172,7 +172,7 @@ TEST(closed_mesh, keeps_light_that_bounces) {
     Scene scene = within(ball(cuts, false));
     const Camera camera = lit_camera(with_sanitizers ? 16 : 64, with_sanitizers ? 16 : 64, with_sanitizers ? 12 : 48);
     for (const bool parallel : {false, true}) {
-      scene.ambient = sun_from({0.3, 0.5, 0.8});
+      scene.ambient = sun_along({0.3, 0.5, 0.8});
       if (!parallel) scene.ambient.direction = {};
       int leaks = 0;
       for (unsigned long long seed = 0; seed < (with_sanitizers ? 1 : 3); ++seed)

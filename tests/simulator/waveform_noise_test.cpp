@@ -17,11 +17,11 @@ using namespace tofray::test;
 
 namespace {
 
-constexpr int side = 32;
+constexpr int middle_side = 32;
 
 /// 32 × 32 pixels about the middle, and all that they measure.
 Camera of_the_middle(Camera camera) {
-  camera.readout = {1, camera.sensor.width / 2 - side / 2, camera.sensor.height / 2 - side / 2, side, side};
+  camera.readout = {1, camera.sensor.width / 2 - middle_side / 2, camera.sensor.height / 2 - middle_side / 2, middle_side, middle_side};
   camera.lens.scatter = {}, camera.pixel.crosstalk_left_right = camera.pixel.crosstalk_up_down = 0, camera.interference = {};
   camera.auto_exposure = {};
   Decoding& d = camera.decoding;
@@ -40,19 +40,19 @@ double scatter_over_said(const Camera& camera, double z) {
   double said = 0;
   for (std::size_t i = 0; i < expected.noise_m.size(); ++i) {
     if ((expected.flags[i] & flags_invalid) != 0) return 0;
-    said += std::pow(static_cast<double>(expected.noise_m[i]), 2) / (side * side);
+    said += std::pow(static_cast<double>(expected.noise_m[i]), 2) / (middle_side * middle_side);
   }
   if (std::sqrt(said) > 0.03 * z || std::sqrt(said) > 0.05) return 0;
   Simulator noisy(scene, camera, {.seed = 5, .truth = false});
   const int frames = with_sanitizers ? 3 : 8;
-  std::vector<Moments> range(side * side, Moments(z));
+  std::vector<Moments> range(middle_side * middle_side, Moments(z));
   Frame frame;
   for (int n = 0; n < frames; ++n) {
     noisy.frame(static_cast<std::uint64_t>(n), frame);
     for (std::size_t i = 0; i < range.size(); ++i) range[i].add(static_cast<double>(frame.depth.range_m[i]));
   }
   double variance = 0;
-  for (const Moments& one : range) variance += one.variance() / (side * side);
+  for (const Moments& one : range) variance += one.variance() / (middle_side * middle_side);
   return std::sqrt(variance / said);
 }
 
