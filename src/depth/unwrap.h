@@ -43,6 +43,43 @@ TOFRAY_FN F nearest_half_path(const camera::DecodeModulation& m, F turns, F targ
   return F(m.half_wave) * (num::round_even(num::fma(target, F(m.per_half_wave), -turns)) + turns);
 }
 
+/// χ² of the cycle that the half path d of the reference stands for: Σ w·off² − (Σ w·off)²/Σ w.                            [eq. 4.31]
+template <class F>
+TOFRAY_FN F square_of_cycle(const camera::DecoderView& s, const F* turns, const F* weight, F per_weights, F d) {
+  F first = F(0.0f), second = F(0.0f);
+  for (int i = 0; i < s.modulations; ++i) {
+    if (i == s.reference) continue;
+    const F off = nearest_half_path(s.modulation[i], turns[i], d) - d;
+    first = num::fma(weight[i], off, first), second = num::fma(weight[i] * off, off, second);
+  }
+  return num::min(num::max(num::fnma(first * per_weights, first, second), F(0.0f)), F(1e30f));
+}
+template <class F>
+TOFRAY_APART F share_of_cycle(const camera::DecoderView& s, const F* turns, const F* weight, const F& per_weights, const F& best) {
+  const camera::DecodeModulation& reference = s.modulation[s.reference];
+  Odds<F> odds;
+  for (int n = 0; n < static_cast<int>(reference.cycles); ++n)
+    odds.add(square_of_cycle(s, turns, weight, per_weights, F(reference.half_wave) * (turns[s.reference] + F(static_cast<float>(n)))));
+  return odds.of(square_of_cycle(s, turns, weight, per_weights, best));
+}
+/// How likely the best cycle is. Mostly the next one is so far off that no float tells it from sure: with the misfits m = Σ off²,
+/// χ² ≥ m·w_ref·min w/Σ w of the others, and at most m·max w of the best.
+/// @param least, next  misfits of the best and of the next one
+template <class F>
+TOFRAY_FN F trust_in_cycle(const camera::DecoderView& s, const F* turns, const F* weight, F weights, F best, F least, F next) {
+  constexpr float sure = 40;  // e^−20 of all
+  F low = F(3e38f), high = F(0.0f);
+  for (int i = 0; i < s.modulations; ++i) {
+    if (i != s.reference) low = num::min(low, weight[i]), high = num::max(high, weight[i]);
+  }
+  const F per_weights = F(1.0f) / weights;
+  const Mask<F> is_sure = num::fnma(least, high, next * (low * (weight[s.reference] * per_weights))) > F(sure);
+  if (num::all(is_sure)) return F(1.0f);
+  F turns_copy[flow::max_modulation_frequencies], weight_copy[flow::max_modulation_frequencies];
+  for (int i = 0; i < s.modulations; ++i) turns_copy[i] = turns[i], weight_copy[i] = weight[i];
+  return num::select(is_sure, F(1.0f), share_of_cycle<F>(s, turns_copy, weight_copy, per_weights, best));
+}
+
 /// Each cycle of the modulation with the fewest is tried: the others' nearest half paths say how well it fits; the best fit wins. For two
 /// modulation frequencies of ratio M : N it is the rule k = round(N·p_2 − M·p_1) of the Chinese remainder theorem, for more the closest point.
 /// @param turns  p_i = φ_i/2π in [0, 1)
@@ -50,24 +87,17 @@ TOFRAY_FN F nearest_half_path(const camera::DecodeModulation& m, F turns, F targ
 template <class F>
 TOFRAY_FN HalfPath<F> unwrap(const camera::DecoderView& s, const F* turns, const F* weight) {
   const camera::DecodeModulation& reference = s.modulation[s.reference];
-  F best = F(0.0f), least = F(3e38f), square_of_best = F(0.0f);
-  Odds<F> odds;
-  F all_weights = F(0.0f);
-  for (int i = 0; i < s.modulations; ++i) all_weights = all_weights + weight[i];
-  const F per_weights = F(1.0f) / all_weights;
+  F best = F(0.0f), least = F(3e38f), next = F(3e38f);  // next: of the misfits, after the least
   const int cycles = static_cast<int>(reference.cycles);
   for (int n = 0; n < cycles; ++n) {
     const F d = F(reference.half_wave) * (turns[s.reference] + F(static_cast<float>(n)));
-    F misfit = F(0.0f), first = F(0.0f), second = F(0.0f);  // second: of the squares, weighted; χ² = Σ w·off² − (Σ w·off)²/Σ w
+    F misfit = F(0.0f);
     for (int i = 0; i < s.modulations; ++i) {
       if (i == s.reference) continue;
       const F off = nearest_half_path(s.modulation[i], turns[i], d) - d;
       misfit = num::fma(off, off, misfit);
-      first = num::fma(weight[i], off, first), second = num::fma(weight[i] * off, off, second);
     }
-    const F square = num::max(num::fnma(first * per_weights, first, second), F(0.0f));
-    if (cycles > 1) odds.add(num::min(square, F(1e30f)));
-    square_of_best = num::select(misfit < least, square, square_of_best);
+    next = num::min(next, num::max(misfit, least));
     best = num::select(misfit < least, d, best);
     least = num::min(misfit, least);
   }
@@ -89,7 +119,7 @@ TOFRAY_FN HalfPath<F> unwrap(const camera::DecoderView& s, const F* turns, const
   mean = num::fnma(num::floor(mean * F(s.per_common_range)), F(s.common_range), mean);
   mean = num::select(mean < F(0.0f), mean + F(s.common_range), mean);
   mean = num::select(mean >= F(s.common_range), mean - F(s.common_range), mean);
-  return {mean, variance, cycles > 1 ? odds.of(num::min(square_of_best, F(1e30f))) : F(1.0f), inconsistent};
+  return {mean, variance, cycles > 1 ? trust_in_cycle(s, turns, weight, weights, best, least, next) : F(1.0f), inconsistent};
 }
 
 }  // namespace tofray::depth

@@ -77,17 +77,24 @@ struct Finish {
   num::Int<F> brdf;  ///< its place in the list; 0, Lambert, needs no numbers
 };
 
-/// Where the light lands: position and normal in the camera frame, lengths, material.
+/// A point of a surface, as shadow rays know it.
 template <class F>
-struct Surface {
-  F x, y, z;     ///< position [m]
-  F nx, ny, nz;  ///< unit normal, toward the camera
-  F fx, fy, fz;  ///< that of the facet itself, whatever normals of corners or pictures say: on its side light can arrive
-  F range;       ///< [m]
-  F cos_view;    ///< of the angle between normal and the way back to the camera
-  Finish<F> finish;
+struct Place {
+  F x, y, z;  ///< position in the camera frame [m]
+  F range;    ///< [m]
   num::Int<F> object;
   num::Mask<F> found;
+};
+
+/// Where the light lands: position and normal in the camera frame, lengths, material.
+template <class F>
+struct Surface : Place<F> {
+  F nx, ny, nz;  ///< unit normal, toward the camera
+  /// Where corners or pictures have normals of their own, that of the facet itself, on whose side light can arrive. Else the same, and not set.
+  Direction<F> flat;
+  bool leans;
+  F cos_view;  ///< of the angle between normal and the way back to the camera
+  Finish<F> finish;
 };
 
 /// Light over one path from a source to the pixel.

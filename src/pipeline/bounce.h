@@ -88,7 +88,7 @@ TOFRAY_FN Choice<F> choose(const BounceView& s, const Pixels& p, int bounce, int
 
 /// Where shadow rays end. [as trace::a_little_before]
 template <class F>
-TOFRAY_FN flow::Surface<F> a_little_before(const Setup& s, const flow::Surface<F>& p, const flow::Ray<F>& way, F step) {
+TOFRAY_FN flow::Place<F> a_little_before(const Setup& s, const flow::Place<F>& p, const flow::Ray<F>& way, F step) {
   return trace::a_little_before(s.scene, p, way, num::sqrt(flow::square_of(p.x, p.y, p.z)), step);
 }
 
@@ -98,7 +98,7 @@ TOFRAY_FN flow::Surface<F> a_little_before(const Setup& s, const flow::Surface<F
 template <class F>
 TOFRAY_APART flow::Path<F> path_by(const Setup& s, int moment, int l, const flow::Surface<F>& p, const flow::Ray<F>& ray, const F& step,
                                    const F& weight) {
-  const flow::Surface<F> before = a_little_before(s, p, ray, step);
+  const flow::Place<F> before = a_little_before(s, p, ray, step);
   const flow::Ray<F> from_light = power::light_ray(s.lights[l], p), to_shade = power::light_ray(s.lights[l], before);
   const float* const at = s.lights[l].position;
   num::Mask<F> dark = trace::blocked_anywhere(s.scene.still, 0, s.scene.light_still(l), at, to_shade, before);
@@ -129,7 +129,7 @@ TOFRAY_FN void light_vertex(const Setup& s, int moment, const power::Wanted& wan
       });
   if (s.power.ambient != camera::AmbientLight::directional) return;
   const float* const sun = s.scene.sun(moment);
-  const flow::Surface<F> p = a_little_before(s, v.at, ray_to(v), v.step);
+  const flow::Place<F> p = a_little_before(s, v.at, ray_to(v), v.step);
   num::Mask<F> dark = trace::blocked_parallel_anywhere(s.scene.still, 0, s.scene.sun_still(), sun, p);
   if (s.scene.moments > 0) dark = dark | trace::blocked_parallel_anywhere(s.scene.moving, moment, s.scene.sun_moving(moment), sun, p);
   light.ambient_rate = light.ambient_rate + power::ambient_rate<F>(s.power, sun, v.at, dark, weight);
@@ -148,7 +148,8 @@ TOFRAY_FN Onward<F> leave(const Choice<F>& choice, bool roulette, const Vertex<F
   const flow::Surface<F>& p = v.at;
   const brdf::Sampled<F> sampled = brdf::sample<F>(p.finish, {p.nx, p.ny, p.nz}, {-v.way.x, -v.way.y, -v.way.z}, choice.u, choice.v);
   const flow::Direction<F>& d = sampled.light;
-  const F along = num::fma(d.x, p.fx, num::fma(d.y, p.fy, d.z * p.fz));
+  const flow::Direction<F> flat = p.leans ? p.flat : flow::Direction<F>{p.nx, p.ny, p.nz};
+  const F along = num::fma(d.x, flat.x, num::fma(d.y, flat.y, d.z * flat.z));
   num::Mask<F> goes_on = p.found & (sampled.weight > F(0.0f)) & (along > F(0.0f));
   weight = weight * sampled.weight;
   if (roulette) {
@@ -160,7 +161,7 @@ TOFRAY_FN Onward<F> leave(const Choice<F>& choice, bool roulette, const Vertex<F
   // itself is, but where a ray has just been there is room.
   const F away = num::sqrt(flow::square_of(p.x, p.y, p.z)), back = num::min(F(trace::way_back) * (away + v.step), F(0.5f) * v.step);
   const shape::FreeRay<F> ray{num::fnma(back, v.way.x, p.x), num::fnma(back, v.way.y, p.y), num::fnma(back, v.way.z, p.z), d.x, d.y, d.z};
-  return {ray, {v.facet, p.fx, p.fy, p.fz, away, goes_on}, weight};
+  return {ray, {v.facet, flat.x, flat.y, flat.z, away, goes_on}, weight};
 }
 
 /// Calls meet(b, surface, weight) for what one path of each pixel meets beyond the first surface, b = 1 … most.

@@ -75,11 +75,11 @@ TOFRAY_FN flow::Surface<F> surface_seen(const Setup& s, const camera::LensView& 
 
 /// Where something that moves stands between a light and the surface, or the sun and it: asked in two places.
 template <class F, class Culled>
-TOFRAY_APART num::Mask<F> blocked_by_what_moves(const Culled& culled, const flow::Ray<F>& from_light, const flow::Surface<F>& p) {
+TOFRAY_APART num::Mask<F> blocked_by_what_moves(const Culled& culled, const flow::Ray<F>& from_light, const flow::Place<F>& p) {
   return trace::blocked(culled, from_light, p);
 }
 template <class F, class Culled>
-TOFRAY_APART num::Mask<F> blocked_by_what_moves(const Culled& culled, const float* sun, const flow::Surface<F>& p) {
+TOFRAY_APART num::Mask<F> blocked_by_what_moves(const Culled& culled, const float* sun, const flow::Place<F>& p) {
   return trace::blocked_parallel(culled, sun, p);
 }
 
@@ -90,7 +90,7 @@ struct ShadowRays {
   Near& near;
   int moment;
   bool still, moving;
-  flow::Surface<F> p;  ///< a little before the surface
+  flow::Place<F> p;  ///< a little before the surface
 
   TOFRAY_FN const float* sun_direction() const { return s.scene.sun(moment); }
   TOFRAY_FN num::Mask<F> of_light(int l) {
@@ -143,7 +143,7 @@ TOFRAY_FN void light_up(const Setup& s, const power::Wanted& wanted, Shadows&& s
 /// Whether something that moves keeps a light off any of the pixels.
 /// @param p  a little before the surface
 template <class F, class Near>
-TOFRAY_FN num::Mask<F> in_moving_shadow(const Setup& s, Near& near, int moment, const flow::Surface<F>& p) {
+TOFRAY_FN num::Mask<F> in_moving_shadow(const Setup& s, Near& near, int moment, const flow::Place<F>& p) {
   ShadowRays<F, Near> shadows{s, near, moment, false, true, p};
   num::Mask<F> dark = F(1.0f) < F(0.0f);
   for (int l = 0; l < s.scene.lights; ++l) {
@@ -171,7 +171,7 @@ TOFRAY_FN bool light_of_scene(const Setup& s, const Job& job, Near& near, const 
   const bool open = !moves || s.last_stage < Stage::power || !near.can_be_shaded(s);  // nothing that moves can come between
   if (same && open && undisturbed && !now.truth) return false;
   const flow::Surface<F> surface = surface_seen(s, s.lens, ray, hit, vignetting);
-  const flow::Surface<F> before = trace::a_little_before(s.scene, surface, ray);
+  const flow::Place<F> before = trace::a_little_before(s.scene, surface, ray);
   const bool calm = same && (open || !near.any(in_moving_shadow(s, near, now.index, before)));
   if (calm && undisturbed && !now.truth) return false;
   undisturbed = calm;

@@ -18,7 +18,7 @@ TOFRAY_APART const trace::Culled& narrow_to(const flow::Ray<F>& ray, const num::
 }
 
 template <class F>
-TOFRAY_APART void narrow_to(const shape::Vec& toward_sun, const flow::Surface<F>& p, const scene::Alongs& alongs,
+TOFRAY_APART void narrow_to(const shape::Vec& toward_sun, const flow::Place<F>& p, const scene::Alongs& alongs,
                             const trace::CulledAlong& from, trace::CulledAlong& to) {
   trace::narrow<F>(alongs, from, OnScreen<F>(toward_sun).at(p.x, p.y, p.z, p.found), to);
 }
@@ -81,7 +81,7 @@ struct Near {
     if constexpr (can_move) moving.look(light_moving[light], ray, use);
   }
   template <class F>
-  TOFRAY_FN void look_along(const Setup& s, int moment, const flow::Surface<F>& p) {
+  TOFRAY_FN void look_along(const Setup& s, int moment, const flow::Place<F>& p) {
     look_along(s.scene.toward_sun[moment], sun_still, s.scene.sun_still(), p, along_still);
     if constexpr (can_move) look_along(s.scene.toward_sun[moment], sun_moving, s.scene.sun_moving(moment), p, along_moving);
   }
@@ -109,10 +109,10 @@ struct Near {
  private:
   template <class F>
   TOFRAY_FN static void look_along(const shape::Vec& toward_sun, const trace::CulledAlong& all, const scene::Alongs& alongs,
-                                   const flow::Surface<F>& p, OfPack<trace::PickedAlongs>& out) {
+                                   const flow::Place<F>& p, OfPack<trace::PickedAlongs>& out) {
     out.now = &all;
     if (!all.many) return;
-    const flow::Surface<F> copy = p;
+    const flow::Place<F> copy = p;
     narrow_to<F>(toward_sun, copy, alongs, all, out.narrowed);
     out.now = &out.narrowed;
   }

@@ -39,7 +39,7 @@ template <class F, class Tile>
 TOFRAY_APART void put_points(const Setup& s, const Tile& tile, const flow::Hit<F>* hits, TilePoints& points) {
   for (int at = 0, q = 0; at < trace::TileRays::count; at += num::lanes<F>, ++q) {
     const Pixels p = tile.pixels(q);
-    flow::Surface<F> surface{};
+    flow::Place<F> surface{};
     num::Mask<F> found = F(1.0f) < F(0.0f);
     if (p.count > 0) {
       const flow::Ray<F> ray = camera::ray<F>(s.lens, p);
@@ -100,7 +100,7 @@ TOFRAY_APART void find_shades(const Setup& s, const trace::Culled* from_light, c
   const float* changed = known != nullptr ? known->changed : nullptr;
   for (int l = 0; l < s.scene.lights; ++l) {
     const auto put_ray = [&](F x, F y, F z, F, num::Mask<F> wanted, int at) __attribute__((always_inline)) {
-      flow::Surface<F> surface;
+      flow::Place<F> surface;
       surface.x = x, surface.y = y, surface.z = z;
       const flow::Ray<F> ray = power::light_ray(s.lights[l], surface);
       trace::put(ray.x, ray.y, ray.z, at, rays);

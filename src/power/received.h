@@ -16,14 +16,15 @@ using num::Mask;
 
 /// The ray from a light to the surface point, d = P − L.
 template <class F>
-TOFRAY_FN Ray<F> light_ray(const camera::LightView& light, const Surface<F>& p) {
+TOFRAY_FN Ray<F> light_ray(const camera::LightView& light, const flow::Place<F>& p) {
   return flow::make_ray(p.x - F(light.position[0]), p.y - F(light.position[1]), p.z - F(light.position[2]));
 }
 
 /// Whether light from there arrives on the side of the facet that is seen: no normal of a corner or of a picture lets light through it.
 template <class F>
 TOFRAY_FN Mask<F> before_facet(const Surface<F>& p, F x, F y, F z) {
-  return num::fma(p.fx, x, num::fma(p.fy, y, p.fz * z)) > F(0.0f);
+  if (!p.leans) return F(0.0f) < F(1.0f);  // as the cosine says
+  return num::fma(p.flat.x, x, num::fma(p.flat.y, y, p.flat.z * z)) > F(0.0f);
 }
 
 /// One light source: E_s = I·max(0, n·l)·V/r_L²  [eq. 2.2], L = f_r·E_s, S/t = L·(π T pitch² FF/4N²)·vignetting·λQE/(hc)  [eq. 2.5–2.7],

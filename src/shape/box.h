@@ -134,7 +134,7 @@ TOFRAY_FN BoxAlong seen_along(const Box& b, const Vec& s) {
 }
 
 template <class F>
-TOFRAY_FN Mask<F> blocks(const BoxAlong& box, const Surface<F>& p, const float*, F margin) {
+TOFRAY_FN Mask<F> blocks(const BoxAlong& box, const Place<F>& p, const float*, F margin) {
   F enter = F(0.0f), leave = F(3e38f);
   for (int k = 0; k < 3; ++k) {
     const F place = affine(p, box.axis[k], box.offset[k]);

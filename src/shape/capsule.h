@@ -132,7 +132,7 @@ TOFRAY_FN CapsuleAlong seen_along(const Capsule& c, const Vec& s) {
 }
 
 template <class F>
-TOFRAY_FN Mask<F> blocks(const CapsuleAlong& c, const Surface<F>& p, const float* s, F margin) {
+TOFRAY_FN Mask<F> blocks(const CapsuleAlong& c, const Place<F>& p, const float* s, F margin) {
   return blocks(c.side, p, s, margin) | blocks(c.end[0], p, s, margin) | blocks(c.end[1], p, s, margin);
 }
 

@@ -15,8 +15,8 @@ namespace tofray::shape {
 /// Rectangle that holds every direction in which a shape can be hit; infinite where it reaches z <= 0.
 using flow::Bounds;
 using flow::Direction;
+using flow::Place;
 using flow::Ray;
-using flow::Surface;
 using num::Int;
 using num::Mask;
 using num::single;
@@ -120,7 +120,7 @@ TOFRAY_FN bool can_shade(const Along& form, const Bounds& r) {
 
 /// P·m + offset in the camera frame.
 template <class F>
-TOFRAY_FN F affine(const Surface<F>& p, const float* m, float offset) {
+TOFRAY_FN F affine(const Place<F>& p, const float* m, float offset) {
   return num::fma(p.x, F(m[0]), num::fma(p.y, F(m[1]), num::fma(p.z, F(m[2]), F(offset))));
 }
 

@@ -182,7 +182,7 @@ TOFRAY_FN ConeAlong seen_along(const Cone& c, const Vec& s) {
 }
 
 template <class F>
-TOFRAY_FN Mask<F> blocks(const ConeAlong& c, const Surface<F>& p, const float*, F margin) {
+TOFRAY_FN Mask<F> blocks(const ConeAlong& c, const Place<F>& p, const float*, F margin) {
   const F u = affine(p, c.u, c.offset[0]), v = affine(p, c.v, c.offset[1]), a = affine(p, c.a, c.offset[2]);
   const F k = affine(p, c.back, c.offset[3]), light_u = F(c.light_u), light_a = F(c.light_a);
   const F e = num::fnma(a, light_u, u * light_a), rest = num::fnma(F(c.curve) * v, v, e * e);

@@ -170,7 +170,7 @@ TOFRAY_FN CylinderAlong seen_along(const Cylinder& c, const Vec& s) {
 }
 
 template <class F>
-TOFRAY_FN Mask<F> blocks(const CylinderAlong& c, const Surface<F>& p, const float*, F margin) {
+TOFRAY_FN Mask<F> blocks(const CylinderAlong& c, const Place<F>& p, const float*, F margin) {
   const F u = affine(p, c.u, c.offset[0]), v = affine(p, c.v, c.offset[1]), a = affine(p, c.a, c.offset[2]);
   const F rest = num::fnma(v, v, F(c.radius_squared)), chord = num::sqrt(num::max(rest, F(0.0f)));
   const F one = (-chord - u) * F(c.inverse_u), other = (chord - u) * F(c.inverse_u);

@@ -97,7 +97,7 @@ TOFRAY_FN DiskAlong seen_along(const Disk& d, const Vec& s) {
 }
 
 template <class F>
-TOFRAY_FN Mask<F> blocks(const DiskAlong& disk, const Surface<F>& p, const float*, F margin) {
+TOFRAY_FN Mask<F> blocks(const DiskAlong& disk, const Place<F>& p, const float*, F margin) {
   const F x = affine(p, disk.x, disk.offset[0]), y = affine(p, disk.y, disk.offset[1]);
   return (num::fma(x, x, y * y) <= F(disk.radius_squared)) & (affine(p, disk.m, disk.c) > margin);
 }

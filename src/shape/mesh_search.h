@@ -157,7 +157,7 @@ TOFRAY_FN Mask<F> stands_before(const MeshForm& form, const Ray<F>& ray, F far, 
 
 /// Whether a triangle stands beyond the margin on the way to the light.
 template <class F>
-TOFRAY_FN Mask<F> blocks(const MeshAlong& form, const Surface<F>& p, const float*, F margin) {
+TOFRAY_FN Mask<F> blocks(const MeshAlong& form, const Place<F>& p, const float*, F margin) {
   const MeshRay<F> ray = in_mesh(form, {p.x, p.y, p.z});
   MeshHit<F> found{F(3e38f), Int<F>(0), Int<F>(-1)};
   search_mesh<true>(form.nodes, form.triangles, ray, margin, p.found, found);

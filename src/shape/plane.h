@@ -80,7 +80,7 @@ TOFRAY_FN PlaneAlong seen_along(const Plane& p, const Vec& s) {
 }
 
 template <class F>
-TOFRAY_FN Mask<F> blocks(const PlaneAlong& plane, const Surface<F>& p, const float*, F margin) {
+TOFRAY_FN Mask<F> blocks(const PlaneAlong& plane, const Place<F>& p, const float*, F margin) {
   return affine(p, plane.m, plane.c) > margin;
 }
 

@@ -143,7 +143,7 @@ TOFRAY_FN PolygonAlong<N> polygon_seen_along(const Vec (&v)[N], const Vec& s) {
 }
 
 template <int N, class F>
-TOFRAY_FN Mask<F> blocks(const PolygonAlong<N>& polygon, const Surface<F>& p, const float*, F margin) {
+TOFRAY_FN Mask<F> blocks(const PolygonAlong<N>& polygon, const Place<F>& p, const float*, F margin) {
   const F least = least_of<N>([&](int i) __attribute__((always_inline)) { return affine(p, polygon.edge[i], polygon.edge_offset[i]); });
   return (least >= F(0.0f)) & (affine(p, polygon.m, polygon.c) > margin);
 }

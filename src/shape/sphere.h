@@ -127,7 +127,7 @@ TOFRAY_FN SphereAlong seen_along(const Sphere& sphere, const Vec&) {
 }
 
 template <class F>
-TOFRAY_FN Mask<F> blocks(const SphereAlong& sphere, const Surface<F>& p, const float* s, F margin) {
+TOFRAY_FN Mask<F> blocks(const SphereAlong& sphere, const Place<F>& p, const float* s, F margin) {
   const F x = F(sphere.c[0]) - p.x, y = F(sphere.c[1]) - p.y, z = F(sphere.c[2]) - p.z;
   const F b = num::fma(x, F(s[0]), num::fma(y, F(s[1]), z * F(s[2])));
   const F lx = num::fnma(b, F(s[0]), x), ly = num::fnma(b, F(s[1]), y), lz = num::fnma(b, F(s[2]), z);

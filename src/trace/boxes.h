@@ -103,13 +103,13 @@ struct Asking {
 /// Points whose way to a light, or to the sun, something is in.
 template <class T, class F>
 TOFRAY_APART void block_in_boxes(const scene::FormsOf<T>& forms, const scene::Boxes& boxes, const RaysApart<F>& rays, const Ray<F>& ray,
-                                 const Surface<F>& p, Mask<F>& dark) {
+                                 const Place<F>& p, Mask<F>& dark) {
   each_in_reach<F>(
       boxes, rays, [&](int body) __attribute__((always_inline)) { dark = blocked_by_one<T>(forms.at[body], ray, p, dark); });
 }
 template <class T, class F>
 TOFRAY_APART void block_in_boxes(const scene::AlongsOf<T>& forms, const scene::Boxes& boxes, const RaysApart<F>& rays, const float* sun,
-                                 const Surface<F>& p, Mask<F>& dark) {
+                                 const Place<F>& p, Mask<F>& dark) {
   const F margin = F(shadow_margin) * p.range;
   each_in_reach<F>(
       boxes, rays, [&](int body) __attribute__((always_inline)) { dark = blocked_along_one<T>(forms.at[body], sun, p, margin, dark); });
@@ -117,13 +117,13 @@ TOFRAY_APART void block_in_boxes(const scene::AlongsOf<T>& forms, const scene::B
 
 /// @param light  the ray from it, or the direction to the sun
 template <class T, class F, class Views, class Light>
-TOFRAY_FN void block_by(const Views& views, Asking<F>& asking, const Light& light, const Surface<F>& p, Mask<F>& dark) {
+TOFRAY_FN void block_by(const Views& views, Asking<F>& asking, const Light& light, const Place<F>& p, Mask<F>& dark) {
   if constexpr (has_boxes<T, F>) {
     const scene::Boxes boxes = asking.template boxes<T>();
     if (boxes.count > 0) {
       // What is handed to a function lies in memory; the originals need not.
       const Light light_copy = light;
-      const Surface<F> copy = p;
+      const Place<F> copy = p;
       Mask<F> dark_copy = dark;
       block_in_boxes<T, F>(views.template of<T>(), boxes, asking.rays, light_copy, copy, dark_copy);
       dark = dark_copy;
@@ -137,7 +137,7 @@ TOFRAY_FN void block_by(const Views& views, Asking<F>& asking, const Light& ligh
   }
 }
 template <class... T, class F, class Views, class Light>
-TOFRAY_FN Mask<F> block_by_each(shape::List<T...>, const Views& views, Asking<F> asking, const Light& light, const Surface<F>& p) {
+TOFRAY_FN Mask<F> block_by_each(shape::List<T...>, const Views& views, Asking<F> asking, const Light& light, const Place<F>& p) {
   Mask<F> dark = F(1.0f) < F(0.0f);
   (block_by<T>(views, asking, light, p, dark), ...);
   return dark;
@@ -147,7 +147,7 @@ TOFRAY_FN Mask<F> block_by_each(shape::List<T...>, const Views& views, Asking<F>
 /// @param at  the light's position
 template <class F>
 TOFRAY_APART Mask<F> blocked_anywhere(const scene::Group& group, int moment, const scene::Forms& forms, const float* at, const Ray<F>& ray,
-                                      const Surface<F>& p) {
+                                      const Place<F>& p) {
   RaysApart<F> rays;
   const Asking<F> asking{group, moment, {F(at[0]), F(at[1]), F(at[2]), ray.x, ray.y, ray.z}, F(1.0f), p.found, rays};
   return block_by_each(shape::Shapes{}, forms, asking, ray, p);
@@ -155,7 +155,7 @@ TOFRAY_APART Mask<F> blocked_anywhere(const scene::Group& group, int moment, con
 /// … and from the sun. [as blocked_parallel]
 template <class F>
 TOFRAY_APART Mask<F> blocked_parallel_anywhere(const scene::Group& group, int moment, const scene::Alongs& forms, const float* sun,
-                                               const Surface<F>& p) {
+                                               const Place<F>& p) {
   RaysApart<F> rays;
   const Asking<F> asking{group, moment, {p.x, p.y, p.z, F(sun[0]), F(sun[1]), F(sun[2])}, F(shape::never), p.found, rays};
   return block_by_each(shape::Shapes{}, forms, asking, sun, p);

@@ -70,6 +70,7 @@ template <class F>
 TOFRAY_APART void add_details(const scene::SceneView& s, F across, const Ray<F>& ray, const Hit<F>& hit, Surface<F>& out) {
   // What a pixel sees of the surface, by the triangle's own normal: a mean of several would let it see more than there is.
   const F seen = across / num::max(out.cos_view, F(1e-3f));
+  out.flat = {out.nx, out.ny, out.nz}, out.leans = true;
   shape::for_each_facet<F>(
       s.facets, hit.facet, out.found, [&](const shape::Facet& one, Mask<F> its) __attribute__((always_inline)) {
         if (one.details == nullptr) return;

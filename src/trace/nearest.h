@@ -7,6 +7,7 @@
 namespace tofray::trace {
 
 using flow::Hit;
+using flow::Place;
 using flow::Ray;
 using flow::Surface;
 using num::Int;
@@ -63,14 +64,14 @@ TOFRAY_FN Hit<F> nearest(const Culled& culled, const Ray<F>& ray, Hit<F> hit) {
 
 /// Puts a surface at P = t·d.
 template <class F>
-TOFRAY_FN void put_at(const Ray<F>& ray, F t, Surface<F>& out) {
+TOFRAY_FN void put_at(const Ray<F>& ray, F t, Place<F>& out) {
   out.x = ray.x * t, out.y = ray.y * t, out.z = ray.z * t;
   out.range = ray.square * ray.inverse_length * t;
 }
 
 /// Puts a surface where the ray hits. @return the lanes that hit something
 template <class F>
-TOFRAY_FN Mask<F> place(const Ray<F>& ray, const Hit<F>& hit, Surface<F>& out) {
+TOFRAY_FN Mask<F> place(const Ray<F>& ray, const Hit<F>& hit, Place<F>& out) {
   const auto found = hit.w > F(0.0f);
   put_at(ray, F(1.0f) / num::select(found, hit.w, F(1.0f)), out);
   return found;
@@ -81,7 +82,7 @@ template <class F>
 TOFRAY_FN void face_camera(F nx, F ny, F nz, const Ray<F>& ray, Surface<F>& out) {
   const F along = num::fma(nx, ray.x, num::fma(ny, ray.y, nz * ray.z));
   const F sign = num::select(along > F(0.0f), F(-1.0f), F(1.0f));
-  out.nx = out.fx = nx * sign, out.ny = out.fy = ny * sign, out.nz = out.fz = nz * sign;
+  out.nx = nx * sign, out.ny = ny * sign, out.nz = nz * sign, out.leans = false;
   out.cos_view = num::abs(along) * ray.inverse_length;
 }
 

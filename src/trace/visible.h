@@ -20,16 +20,16 @@ TOFRAY_FN F room_before(const scene::SceneView& s, F away, F step) {
 /// @param away  how far the surface is from the camera [m]
 /// @param step  length of the way [m]
 template <class F>
-TOFRAY_FN Surface<F> a_little_before(const scene::SceneView& s, const Surface<F>& p, const Ray<F>& way, F away, F step) {
+TOFRAY_FN Place<F> a_little_before(const scene::SceneView& s, const Place<F>& p, const Ray<F>& way, F away, F step) {
   const F back = room_before(s, away, step) * way.inverse_length;
-  Surface<F> out = p;
+  Place<F> out = p;
   out.x = num::fnma(back, way.x, p.x), out.y = num::fnma(back, way.y, p.y), out.z = num::fnma(back, way.z, p.z);
   out.range = away;
   return out;
 }
 /// … of a surface that the camera sees.
 template <class F>
-TOFRAY_FN Surface<F> a_little_before(const scene::SceneView& s, const Surface<F>& p, const Ray<F>& way) {
+TOFRAY_FN Place<F> a_little_before(const scene::SceneView& s, const Place<F>& p, const Ray<F>& way) {
   return a_little_before(s, p, way, p.range, p.range);
 }
 
@@ -52,7 +52,7 @@ TOFRAY_FN Mask<F> shaded(const Form& form, Mask<F> hits, Int<F> own) {
 
 /// What one form keeps from a light, and what was in the dark before.
 template <class T, class F>
-TOFRAY_FN Mask<F> blocked_by_one(const typename T::Form& form, const Ray<F>& ray, const Surface<F>& p, Mask<F> dark) {
+TOFRAY_FN Mask<F> blocked_by_one(const typename T::Form& form, const Ray<F>& ray, const Place<F>& p, Mask<F> dark) {
   if constexpr (shape::many_of<T>) {
     return dark | stands_before(form, ray, F(before_surface), p.found & (!dark));
   } else {
@@ -61,14 +61,14 @@ TOFRAY_FN Mask<F> blocked_by_one(const typename T::Form& form, const Ray<F>& ray
   }
 }
 template <class T, class F, class Culled>
-TOFRAY_FN Mask<F> blocked_by(const Culled& culled, const Ray<F>& ray, const Surface<F>& p, Mask<F> dark) {
+TOFRAY_FN Mask<F> blocked_by(const Culled& culled, const Ray<F>& ray, const Place<F>& p, Mask<F> dark) {
   if constexpr (by_tile<T, F, Culled>) return dark;
   for (auto i = culled.template walk<T>(); i.more(); i.next()) dark = blocked_by_one<T>(i.form(), ray, p, dark);
   return dark;
 }
 
 template <class... T, class F, class Culled>
-TOFRAY_FN Mask<F> blocked_by_each(shape::List<T...>, const Culled& culled, const Ray<F>& ray, const Surface<F>& p) {
+TOFRAY_FN Mask<F> blocked_by_each(shape::List<T...>, const Culled& culled, const Ray<F>& ray, const Place<F>& p) {
   Mask<F> dark = F(1.0f) < F(0.0f);
   ((dark = blocked_by<T>(culled, ray, p, dark)), ...);
   return dark;
@@ -76,12 +76,12 @@ TOFRAY_FN Mask<F> blocked_by_each(shape::List<T...>, const Culled& culled, const
 
 /// True where a form stands between the light and the surface.
 template <class F, class Culled>
-TOFRAY_FN Mask<F> blocked(const Culled& culled, const Ray<F>& ray, const Surface<F>& p) {
+TOFRAY_FN Mask<F> blocked(const Culled& culled, const Ray<F>& ray, const Place<F>& p) {
   return blocked_by_each(shape::Shapes{}, culled, ray, p);
 }
 
 template <class T, class F>
-TOFRAY_FN Mask<F> blocked_along_one(const typename T::Along& form, const float* s, const Surface<F>& p, F margin, Mask<F> dark) {
+TOFRAY_FN Mask<F> blocked_along_one(const typename T::Along& form, const float* s, const Place<F>& p, F margin, Mask<F> dark) {
   const Mask<F> hits = blocks(form, p, s, margin);
   if constexpr (shape::many_of<T>) {
     return dark | hits;
@@ -90,7 +90,7 @@ TOFRAY_FN Mask<F> blocked_along_one(const typename T::Along& form, const float* 
   }
 }
 template <class T, class F, class Culled>
-TOFRAY_FN Mask<F> blocked_along(const Culled& culled, const float* s, const Surface<F>& p, Mask<F> dark) {
+TOFRAY_FN Mask<F> blocked_along(const Culled& culled, const float* s, const Place<F>& p, Mask<F> dark) {
   if constexpr (by_tile<T, F, Culled>) return dark;
   const F margin = F(shadow_margin) * p.range;
   for (auto i = culled.template walk<T>(); i.more(); i.next()) dark = blocked_along_one<T>(i.form(), s, p, margin, dark);
@@ -98,7 +98,7 @@ TOFRAY_FN Mask<F> blocked_along(const Culled& culled, const float* s, const Surf
 }
 
 template <class... T, class F, class Culled>
-TOFRAY_FN Mask<F> blocked_along_each(shape::List<T...>, const Culled& culled, const float* s, const Surface<F>& p) {
+TOFRAY_FN Mask<F> blocked_along_each(shape::List<T...>, const Culled& culled, const float* s, const Place<F>& p) {
   Mask<F> dark = F(1.0f) < F(0.0f);
   ((dark = blocked_along<T>(culled, s, p, dark)), ...);
   return dark;
@@ -106,7 +106,7 @@ TOFRAY_FN Mask<F> blocked_along_each(shape::List<T...>, const Culled& culled, co
 
 /// The same for parallel light that comes from the unit direction s.
 template <class F, class Culled>
-TOFRAY_FN Mask<F> blocked_parallel(const Culled& culled, const float* s, const Surface<F>& p) {
+TOFRAY_FN Mask<F> blocked_parallel(const Culled& culled, const float* s, const Place<F>& p) {
   return blocked_along_each(shape::Shapes{}, culled, s, p);
 }
 

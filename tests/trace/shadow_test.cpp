@@ -20,12 +20,12 @@ flow::Surface<float> surface_seen(const scene::FrozenScene& frozen, const Ray& r
   return trace::surface(view, ray, trace::nearest(everything(view.camera_still()), ray, flow::no_hit<float>()));
 }
 
-Vec3 place_of(const flow::Surface<float>& s) { return {static_cast<double>(s.x), static_cast<double>(s.y), static_cast<double>(s.z)}; }
+Vec3 place_of(const flow::Place<float>& s) { return {static_cast<double>(s.x), static_cast<double>(s.y), static_cast<double>(s.z)}; }
 Vec3 normal_of(const flow::Surface<float>& s) { return {static_cast<double>(s.nx), static_cast<double>(s.ny), static_cast<double>(s.nz)}; }
 
 bool dark(const scene::FrozenScene& frozen, std::size_t light, const Vec3& at, const flow::Surface<float>& s) {
   const scene::Forms forms = frozen.view().light_still(static_cast<int>(light));
-  const flow::Surface<float> before = trace::a_little_before(frozen.view(), s, ray(place_of(s)));
+  const flow::Place<float> before = trace::a_little_before(frozen.view(), s, ray(place_of(s)));
   return trace::blocked(everything(forms), ray(place_of(before) - at), before);
 }
 

@@ -107,7 +107,7 @@ struct WarpNear {
     return {warp, seen_by_light(), s.scene.light_moving(moment, light)};
   }
   /// The sun's rays have no common origin: each looks at everything.
-  TOFRAY_FN void look_along(const Setup&, int, const flow::Surface<float>&) const {}
+  TOFRAY_FN void look_along(const Setup&, int, const flow::Place<float>&) const {}
   TOFRAY_FN trace::Uncut<scene::Alongs> still_along(const Setup& s) const { return {s.scene.sun_still()}; }
   TOFRAY_FN trace::Uncut<scene::Alongs> moving_along(const Setup& s, int moment) const { return {s.scene.sun_moving(moment)}; }
   /// Each ray looks at meshes by itself.
