@@ -63,7 +63,7 @@ TOFRAY_FN bool seen_by_light(const Setup& s, const Tile& tile, const flow::Hit<F
     const flow::Ray<F> ray = camera::ray<F>(s.lens, p);
     const F share = num::min(num::fma(F(s.scene.roughness) * hits[q].w, ray.inverse_length, F(2 * trace::way_back)), F(0.5f));
     F w = num::fma(hits[q].w, share, hits[q].w);
-    if (num::any(share > F(1e-3f))) w = hits[q].w / (F(1.0f) - share);
+    if (num::any(share > F(1e-4f))) w = hits[q].w / (F(1.0f) - share);
     seen.add(num::fnma(w, F(at[0]), ray.x), num::fnma(w, F(at[1]), ray.y), num::fnma(w, F(at[2]), ray.z), in_use<F>(p) & (w > F(0.0f)));
   }
   bounds = seen.bounds();
@@ -98,7 +98,7 @@ TOFRAY_FN flow::Bounds seen_by_sun(const Setup& s, int moment, const Tile& tile,
   for (int q = 0; q < max_packs<F>; ++q) {
     const Pixels p = pack_at<F>(s.lens, tile, q);
     if (p.count == 0) continue;
-    flow::Place<F> at;
+    flow::Place<F> at{};
     const flow::Ray<F> ray = camera::ray<F>(s.lens, p);
     const auto found = trace::place(ray, hits[q], at);
     at = trace::a_little_before(s.scene, at, ray);

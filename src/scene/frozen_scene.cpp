@@ -103,6 +103,9 @@ FrozenScene::FrozenScene(const Scene& scene, const std::vector<Vec3>& lights, in
   look({}, {std::vector<double>(static_cast<std::size_t>(moments), 0.0)});
   still_clusters_.build(view_, view_.still, 1);
   moving_clusters_.build(view_, view_.moving, view_.moments);
+  // Of meshes as they are at the beginning, also where they change their shape: each frame is the same whatever was computed before it.
+  view_.roughness = num::single(position_error *
+                                (farthest(lights_) + std::fmax(largest_mesh(view_.still, 1), largest_mesh(view_.moving, view_.moments))));
   derive();
 }
 
@@ -302,8 +305,6 @@ void FrozenScene::derive() {
   const Derive what = still_known_ ? Derive::moving : Derive::all;
   const int units = unit_count(view_, what);
   for (int i = 0; i < units; ++i) scene::derive(view_, what, i);
-  view_.roughness = num::single(position_error *
-                                (farthest(lights_) + std::fmax(largest_mesh(view_.still, 1), largest_mesh(view_.moving, view_.moments))));
   if (!still_known_) still_clusters_.update(view_, view_.still);
   moving_clusters_.update(view_, view_.moving);
   still_known_ = moving_known_ = true;

@@ -69,6 +69,18 @@ TEST(oren_nayar, sends_back_all_light_at_most) {
 }
 
 // A rough surface is brighter toward the light than away from it, and flatter than a matt one toward the rim of a full moon.
+// Reciprocal: what a surface seen at θ sends on of light from everywhere is what it sends everywhere of light at θ.
+TEST(oren_nayar, albedo_at_the_view_is_the_integral) {
+  for (const double sigma : {0.1, 0.5, 1.2})
+    for (const double angle : {0.0, 0.3, 0.8, 1.3, 1.5}) {
+      const double said =
+          static_cast<double>(brdf::albedo<float>(brdf_test::finish_of(rough(0.6, sigma)), static_cast<float>(std::cos(angle))));
+      EXPECT_NEAR(said, albedo(0.6, sigma, angle), 3e-5) << sigma << " " << angle;
+    }
+  // Of the others it is their reflectivity.
+  EXPECT_EQ(brdf::albedo<float>(brdf_test::finish_of({"matt", Material::Brdf::lambert, 0.6, 0, 1}), 0.3F), 0.6F);
+}
+
 TEST(oren_nayar, is_brighter_toward_the_light) {
   EXPECT_GT(f_r(0.8, 0.5, at_angle(1.2, 0), at_angle(1.2, 0)), 1.5 * f_r(0.8, 0.5, at_angle(1.2, 0), at_angle(1.2, pi)));
   EXPECT_NEAR(f_r(0.8, 0.5, at_angle(1.2, 0), at_angle(1.2, pi)), f_r(0.8, 0.5, {0, 0, 1}, {0, 0, 1}), 1e-7);

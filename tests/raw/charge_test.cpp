@@ -119,6 +119,33 @@ TEST(fixed_pattern, belongs_to_the_specimen_not_to_the_run) {
   EXPECT_EQ(equal, 0);
 }
 
+// PRNU scales light, ambient light with it, and no dark charge: A = (light/2·(1 + PRNU) + dark)·(1 + g/2), and A − B follows in full.
+TEST(fixed_pattern, of_gains_is_of_light_alone) {
+  Camera even = patterned(64);
+  even.pixel.delay_s = 0, even.pixel.dsnu_dn = 0, even.pixel.prnu = 0.3;
+  even.pixel.dark_current_e_per_s = 2e6, even.pixel.full_well_e = 1e9;
+  for (const double mismatch : {0.0, 0.1}) {
+    Camera camera = even, flat = even;
+    camera.pixel.tap_gain_mismatch = mismatch, flat.pixel.prnu = 0, flat.pixel.tap_gain_mismatch = 0;
+    const Bench bench(camera), plain(flat);
+    for (int i = 0; i < 64; ++i) {
+      const double gain = static_cast<double>(bench.sensor().gain[i]);
+      const flow::Taps<float> dark = bench.expose({0, 1.0, 0}, i)[1], seen = bench.expose({20000, 1.0, 3000}, i)[1];
+      const flow::Taps<float> none = plain.expose({0, 1.0, 0}, i)[1], all = plain.expose({20000, 1.0, 3000}, i)[1];
+      const auto expected = [&](float light, float without, double sign) {
+        const double charge = static_cast<double>(without);
+        return ((static_cast<double>(light) - charge) * gain + charge) * (1 + sign * mismatch / 2);
+      };
+      ASSERT_GT(none.a, 100.0F);
+      EXPECT_NEAR(static_cast<double>(dark.a), static_cast<double>(none.a) * (1 + mismatch / 2), 1e-6 * static_cast<double>(none.a));
+      const double a = expected(all.a, none.a, 1), b = expected(all.b, none.b, -1);
+      EXPECT_NEAR(static_cast<double>(seen.a), a, 1e-6 * a) << i;
+      EXPECT_NEAR(static_cast<double>(seen.b), b, 1e-6 * a) << i;
+      EXPECT_NEAR(static_cast<double>(seen.difference), a - b, 2e-6 * a) << i;
+    }
+  }
+}
+
 // The mean of n frames: what changes from frame to frame falls as 1/√n, the pattern stays. 4000 pixels.
 TEST(fixed_pattern, stays_where_the_noise_averages_out) {
   constexpr int width = 4000;

@@ -300,14 +300,19 @@ TEST(readout, patterns_of_binned_pixels_are_means_of_the_specimens) {
   Camera camera = whole_sensor(), uneven = camera;
   uneven.pixel.prnu = 0.1;
   const auto gains = [&](const Readout& readout) {
-    const Frame with = without_noise_of(Scene(), read_by(uneven, readout)), flat = without_noise_of(Scene(), read_by(camera, readout));
+    const Scene lit = wall(1);
+    const Frame with = without_noise_of(lit, read_by(uneven, readout)), flat = without_noise_of(lit, read_by(camera, readout));
     std::vector<double> out;
     const std::size_t pixels = static_cast<std::size_t>(with.raw.width) * static_cast<std::size_t>(with.raw.height);
     for (std::size_t i = 0; i < pixels; ++i) out.push_back(static_cast<double>(with.raw.tap_b[i]) / static_cast<double>(flat.raw.tap_b[i]));
     return out;
   };
   camera.pixel.tap_offset_mismatch_e = uneven.pixel.tap_offset_mismatch_e = 0;
+  camera.pixel.dark_current_e_per_s = uneven.pixel.dark_current_e_per_s = 0;  // dark charge has no PRNU
   const std::vector<double> one = gains({}), binned = gains({2, 3, 1, 0, 0});
+  Moments spread(1);
+  for (const double gain : one) spread.add(gain);
+  EXPECT_NEAR(spread.deviation(), 0.1, 0.01);
   const int width = (whole_width - 3) / 2;
   for (int y = 0; y < (whole_height - 1) / 2; ++y) {
     for (int x = 0; x < width; ++x) {

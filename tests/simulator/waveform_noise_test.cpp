@@ -74,7 +74,7 @@ TEST(noise_m, is_how_ranges_scatter_whatever_the_waveform) {
   EXPECT_GT(compared, 30);
 }
 
-// A square wave of one frequency: |g| swings from 1.17 to 0.87, and what is said of the noise would with it.
+// A square wave of one frequency, of four harmonics: |g| swings from 1.17 to 0.87, and what is said of the noise would with it.
 TEST(noise_m, of_a_square_wave_is_as_large_as_ranges_scatter) {
   CameraOptions mode;
   mode.mode = "MODE_5_35FPS_600";
