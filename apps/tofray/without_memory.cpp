@@ -58,7 +58,6 @@ constexpr int exit_code = static_cast<int>(ErrorKind::limit);
 }
 
 std::uintptr_t stack_top = 0, stack_bytes = 0;  ///< of the first thread, which alone has a stack that grows
-alignas(16) char handler_stack[65536];
 
 #if defined(__x86_64__)
 std::uintptr_t stack_pointer(const ucontext_t& at) { return static_cast<std::uintptr_t>(at.uc_mcontext.gregs[REG_RSP]); }
@@ -88,6 +87,7 @@ void be_ready() {
   if (limit.rlim_cur <= 2 * margin) return;
   stack_top = reinterpret_cast<std::uintptr_t>(__builtin_frame_address(0));
   stack_bytes = static_cast<std::uintptr_t>(limit.rlim_cur < most ? limit.rlim_cur - margin : most);
+  alignas(16) static char handler_stack[65536];
   stack_t stack{};
   stack.ss_sp = handler_stack, stack.ss_size = sizeof handler_stack;
   struct sigaction action {};
