@@ -52,7 +52,7 @@ std::vector<std::string> names_in(const std::string& folder, const std::vector<s
 /// @throws Error (bad_input) that lists what there is instead
 std::string frame_in(const std::string& path, const char* command);
 
-/// The same, or a scene: a folder, and a file, count more than a built-in scene of their name. The note says so.
+/// What a word names that may be a folder or file of frames, or a scene: these count more than a built-in scene of their name. The note says so.
 NameChoice frame_or_scene(const std::string& typed, const char* command);
 
 /// A note of choose_scene() and others as it is said; nothing where there is none.

@@ -25,7 +25,7 @@ struct NameChoice {
 };
 /// The file counts more than a built-in scene of its name: so the command line and Python take what is typed.
 NameChoice choose_scene(const std::string& typed);
-/// The same for cameras.
+/// Which camera a name means: a file of the folder before a built-in profile of that name.
 NameChoice choose_camera(const std::string& typed);
 
 /// Which mode of a profile, and what to change in it.

@@ -164,7 +164,7 @@ void FrozenCamera::freeze_decoder(bool noise) {
   const bool after_filter = decoding.filter.kind == ImageFilter::Kind::adaptive;
   d.noise_threshold = d.filtered_noise_threshold = std::numeric_limits<float>::max();
   if (noise) (after_filter ? d.filtered_noise_threshold : d.noise_threshold) = single(decoding.noise_threshold_m);
-  // … but not such as are on a wrong cycle: others that are wrong by as much agree with them, and no noise says so.
+  // An adaptive filter takes no pixels that are likely on a wrong cycle: others that are wrong by as much agree with them, and no noise says so.
   constexpr double likely = 0.9;
   d.least_trust = after_filter && noise ? single(likely) : 0.0f;
   d.per_confidence_noise = single(1 / decoding.noise_threshold_m);

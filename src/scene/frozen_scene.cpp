@@ -69,9 +69,6 @@ TriangleMesh shape_at(const TriangleMesh& mesh, const MeshMotion& motion, double
   return out;
 }
 
-/// Share of its distance by which a position may be elsewhere: some 32 roundings in single precision.
-constexpr double position_error = 2e-6;
-
 double farthest(const std::vector<shape::Vec>& points) {
   double out = 0;
   for (const shape::Vec& point : points) out = std::fmax(out, shape::length(point));

@@ -91,6 +91,9 @@ struct MotionView {
 };
 constexpr int motion_numbers = sizeof(MotionView) / sizeof(float);
 
+/// Share of its distance by which a position may be elsewhere: some 32 roundings in single precision.
+constexpr double position_error = 2e-6;
+
 /// The frozen scene of one frame.
 struct SceneView {
   Group still, moving;

@@ -37,20 +37,7 @@ void cut_array(const T* from, T* to, ArrayShape shape, const flow::FrameSize& wi
   }
 }
 
-}  // namespace
-
-Border border_of(const Camera& profile) {
-  const Readout& r = profile.readout;
-  const Camera image = base::as_read_out(profile);
-  const int wanted = reach(image), n = r.binning;
-  if (wanted == 0) return {};
-  const int right = profile.sensor.width - r.left - image.sensor.width * n,
-            bottom = profile.sensor.height - r.top - image.sensor.height * n;
-  return {room(r.left, n, wanted), room(r.top, n, wanted), room(right, n, wanted), room(bottom, n, wanted)};
-}
-
-namespace {
-
+/// The camera that reads a border, too.
 /// @param sign  −1: the border is taken away
 Camera moved_by(const Camera& profile, const Border& border, int sign) {
   if (!border.any()) return profile;
@@ -64,6 +51,16 @@ Camera moved_by(const Camera& profile, const Border& border, int sign) {
 }
 
 }  // namespace
+
+Border border_of(const Camera& profile) {
+  const Readout& r = profile.readout;
+  const Camera image = base::as_read_out(profile);
+  const int wanted = reach(image), n = r.binning;
+  if (wanted == 0) return {};
+  const int right = profile.sensor.width - r.left - image.sensor.width * n,
+            bottom = profile.sensor.height - r.top - image.sensor.height * n;
+  return {room(r.left, n, wanted), room(r.top, n, wanted), room(right, n, wanted), room(bottom, n, wanted)};
+}
 
 Camera with_border(const Camera& profile, const Border& border) { return moved_by(profile, border, 1); }
 Camera without_border(const Camera& profile, const Border& border) { return moved_by(profile, border, -1); }

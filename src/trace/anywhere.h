@@ -35,7 +35,7 @@ struct Leaving {
 };
 
 /// How far before a mesh its rays begin, in units of the distances from which coordinates come.
-constexpr float before_mesh = 2e-6f;
+constexpr float before_mesh = static_cast<float>(scene::position_error);
 
 template <class T, class F>
 TOFRAY_FN Mask<F> leaves(const typename T::Free& form, const Leaving<F>& from) {

@@ -9,13 +9,14 @@ namespace tofray::trace {
 /// Shadow rays end a little before the surface, on the way from which it is seen. Where that way has come there is room: so they do not end
 /// beyond another wall that meets it, however far the light, and no light passes a corner. It is this share of the distances from which the
 /// point is known, and SceneView::roughness.
-constexpr float way_back = 2e-6f;
-/// … as much of it as keeps the way's beginning out.
+constexpr float way_back = static_cast<float>(scene::position_error);
+/// How far before the surface shadow rays end [m]: at most half of the way, so that its beginning stays out.
 template <class F>
 TOFRAY_FN F room_before(const scene::SceneView& s, F away, F step) {
   return num::min(num::fma(F(2 * way_back), away, F(s.roughness)), F(0.5f) * step);
 }
 
+/// A point a little before a surface, on the way that leads to it.
 /// @param way   the ray that leads to the surface, of any length
 /// @param away  how far the surface is from the camera [m]
 /// @param step  length of the way [m]
@@ -27,7 +28,7 @@ TOFRAY_FN Place<F> a_little_before(const scene::SceneView& s, const Place<F>& p,
   out.range = away;
   return out;
 }
-/// … of a surface that the camera sees.
+/// A point a little before a surface that the camera sees: the way begins at the camera.
 template <class F>
 TOFRAY_FN Place<F> a_little_before(const scene::SceneView& s, const Place<F>& p, const Ray<F>& way) {
   return a_little_before(s, p, way, p.range, p.range);
