@@ -1,0 +1,50 @@
+// SPDX-FileCopyrightText: 2026 The tofray authors
+// SPDX-License-Identifier: Apache-2.0
+import { reading } from "./keys";
+import { Help } from "./help";
+import { Pane } from "./pane";
+import { PixelPanel } from "./pixel_panel";
+import { Command, Status, Troubles } from "./status";
+import { cursor, hello, help_open, link, shown, size, spoken, title_of } from "./store";
+import { TimeLine } from "./time_line";
+
+/** What every pane shows at the cursor, at once. */
+function ReadOut() {
+  const at = cursor.value;
+  if (at === undefined) return null;
+  const arrays = [...new Set([...shown.value, ...(hello.value?.panes.some((pane) => pane.array === "flags") ? ["flags"] : [])])];
+  return (
+    <dl class="read-out" aria-label="Read-out">
+      <div><dt>pixel</dt><dd>{at.u}, {at.v}</dd></div>
+      {arrays.map((array) => <div key={array}><dt>{title_of(array)}</dt><dd data-reading={array}>{reading(array)}</dd></div>)}
+    </dl>
+  );
+}
+
+export function App() {
+  const of = hello.value;
+  const { width, height } = size.value;
+  return (
+    <>
+      <header>
+        <img src="icon.svg" alt="" width="28" height="28" />
+        <h1><span class="unseen">tofray view: </span><bdi>{of?.scene ?? "tofray view"}</bdi></h1>
+        {of !== undefined && <p class="faint camera"><bdi>{of.camera}</bdi>{of.mode === "" ? "" : " · "}<bdi>{of.mode}</bdi> · {width} × {height}</p>}
+        <Status />
+        <button type="button" class="quiet" onClick={() => (help_open.value = true)} aria-label="Help: keys" title="keys (?)">?</button>
+      </header>
+      <Troubles />
+      <main class={link.value === "open" ? "" : "stale"}>
+        {shown.value.map((_, i) => <Pane key={i} pane={i} />)}
+        <PixelPanel />
+      </main>
+      <footer>
+        <ReadOut />
+        <TimeLine />
+        <Command />
+      </footer>
+      <div class="unseen" role="log" aria-live="polite" aria-label="Pixel cursor" id="spoken">{spoken.value}</div>
+      <Help />
+    </>
+  );
+}

@@ -1,0 +1,96 @@
+// SPDX-FileCopyrightText: 2026 The tofray authors
+// SPDX-License-Identifier: Apache-2.0
+// The line to the server: opened with the key, opened again when it breaks, and given up only where another server answers.
+
+import type { ClientMessage, ServerMessage } from "./protocol";
+import { take_key } from "./key";
+import { link } from "./store";
+
+const first_wait_ms = 300;
+const longest_wait_ms = 5000;
+
+export interface Receiver {
+  opened(): void;
+  text(message: ServerMessage): void;
+  binary(message: ArrayBuffer): void;
+}
+
+let socket: WebSocket | undefined;
+let receiver: Receiver | undefined;
+let key: string | undefined;
+let wait_ms = first_wait_ms;
+let timer: number | undefined;
+
+export function send(message: ClientMessage): void {
+  if (socket?.readyState === WebSocket.OPEN) socket.send(JSON.stringify(message));
+}
+
+export function connect(to: Receiver): void {
+  receiver = to;
+  addEventListener("hashchange", () => {
+    if (location.hash !== "") begin();
+  });
+  addEventListener("online", retry_now);
+  begin();
+}
+
+/** With the key of the address, or that of this tab. */
+function begin(): void {
+  key = take_key();
+  if (key === undefined) link.value = "keyless";
+  else if (link.value !== "open") link.value = "connecting";
+  retry_now();
+}
+
+export function retry_now(): void {
+  wait_ms = first_wait_ms;
+  open();
+}
+
+function open(): void {
+  clearTimeout(timer);
+  const old = socket;
+  socket = undefined;
+  old?.close();
+  if (key === undefined) return;
+  const address = new URL("ws", location.href);
+  address.protocol = address.protocol === "https:" ? "wss:" : "ws:";
+  const fresh = new WebSocket(address, ["tofray.v1", `t.${key}`]);
+  fresh.binaryType = "arraybuffer";
+  socket = fresh;
+  let was_open = false;
+  fresh.onopen = () => {
+    was_open = true;
+    wait_ms = first_wait_ms;
+    link.value = "open";
+    receiver?.opened();
+  };
+  fresh.onmessage = (event: MessageEvent<string | ArrayBuffer>) => {
+    if (socket !== fresh) return;
+    if (typeof event.data === "string") receiver?.text(JSON.parse(event.data) as ServerMessage);
+    else receiver?.binary(event.data);
+  };
+  fresh.onclose = () => {
+    if (socket !== fresh) return;
+    socket = undefined;
+    void broken(was_open);
+  };
+}
+
+/** A page is not told why its socket was refused. So it asks for itself: who answers that, but does not take the key, is another server. */
+async function broken(was_open: boolean): Promise<void> {
+  if (was_open) {
+    link.value = "lost";
+  } else {
+    const answers = await fetch("./", { method: "HEAD", cache: "no-store" }).then(() => true, () => false);
+    if (socket !== undefined) return;
+    if (answers && link.value !== "open") {
+      link.value = "other";
+      return;
+    }
+    link.value = "gone";
+  }
+  clearTimeout(timer);
+  timer = setTimeout(open, wait_ms);
+  wait_ms = Math.min(longest_wait_ms, 2 * wait_ms);
+}

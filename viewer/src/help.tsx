@@ -1,0 +1,41 @@
+// SPDX-FileCopyrightText: 2026 The tofray authors
+// SPDX-License-Identifier: Apache-2.0
+import { useEffect, useRef } from "preact/hooks";
+import { keys } from "./keys";
+import { hello, help_open, letter_keys, set_letter_keys } from "./store";
+
+export function Help() {
+  const dialog = useRef<HTMLDialogElement>(null);
+  const open = help_open.value;
+  useEffect(() => {
+    if (open && dialog.current?.open === false) dialog.current.showModal();
+    if (!open) dialog.current?.close();
+  }, [open]);
+  return (
+    <dialog ref={dialog} aria-labelledby="help-title" onClose={() => (help_open.value = false)}
+      onClick={(event) => event.target === dialog.current && (help_open.value = false)}>
+      <div class="help">
+        <h2 id="help-title">Keys</h2>
+        <dl>
+          {keys.map((key) => (
+            <div key={key.said}><dt><kbd>{key.said}</kbd></dt><dd>{key.does}</dd></div>
+          ))}
+        </dl>
+        <h2>Mouse</h2>
+        <dl>
+          <div><dt>move</dt><dd>the pixel cursor, in all panes</dd></div>
+          <div><dt>wheel</dt><dd>zoom; far in, pixels show letters and numbers</dd></div>
+          <div><dt>drag</dt><dd>move the picture</dd></div>
+        </dl>
+        <label class="check">
+          <input type="checkbox" checked={letter_keys.value} onChange={(event) => set_letter_keys(event.currentTarget.checked)} />
+          Keys of one letter, digit or sign act
+        </label>
+        <p class="faint">
+          tofray {hello.value?.version ?? ""}. <a href="THIRD-PARTY.txt">Software of others in this page</a>.
+        </p>
+        <button type="button" onClick={() => (help_open.value = false)}>Close</button>
+      </div>
+    </dialog>
+  );
+}

@@ -1,0 +1,93 @@
+// SPDX-FileCopyrightText: 2026 The tofray authors
+// SPDX-License-Identifier: Apache-2.0
+// All that the server knows of the pixel under the cursor: numbers of the library, the same as those of `tofray inspect --pixel`.
+
+import { number_text, value_text, with_unit } from "./numbers";
+import type { ArrayInfo, NamedValue, Pixel, RawFrameReport } from "./protocol";
+import { cursor, frame, hello, pixel } from "./store";
+
+function is_truth(value: NamedValue): boolean {
+  return value.name.startsWith("gt_");
+}
+
+function Values({ title, values }: { title: string; values: readonly NamedValue[] }) {
+  if (values.length === 0) return null;
+  const about = (name: string): ArrayInfo | undefined => hello.value?.arrays.find((array) => array.name === name);
+  return (
+    <table>
+      <caption>{title}</caption>
+      <tbody>
+        {values.map(({ name, unit, value }) => (
+          <tr key={name} title={about(name)?.what ?? ""}>
+            <th scope="row">{name}</th>
+            <td data-value={name}>{with_unit(value_text(value), Array.isArray(value) ? "" : unit)}</td>
+          </tr>
+        ))}
+      </tbody>
+    </table>
+  );
+}
+
+function RawFrames({ frames }: { frames: readonly RawFrameReport[] }) {
+  const cell = (value: number | null, factor = 1): string => (value === null ? "–" : number_text(Number((value * factor).toPrecision(6))));
+  if (frames.length === 0) return null;
+  return (
+    <details>
+      <summary>Raw frames ({frames.length})</summary>
+      <div class="wide" tabIndex={0} role="region" aria-label="Raw frames">
+        <table class="raw">
+          <thead>
+            <tr><th scope="col">MHz</th><th scope="col">τ deg</th><th scope="col">A e</th><th scope="col">B e</th><th scope="col">code DN</th></tr>
+          </thead>
+          <tbody>
+            {frames.map((one, i) => (
+              <tr key={i}>
+                <th scope="row">{one.lit ? cell(one.modulation_frequency_hz, 1e-6) : "unlit"}</th>
+                <td>{one.lit ? cell(one.reference_phase_rad, 180 / Math.PI) : ""}</td>
+                <td>{cell(one.tap_a_e)}</td>
+                <td>{cell(one.tap_b_e)}</td>
+                <td>{cell(one.raw_dn)}</td>
+              </tr>
+            ))}
+          </tbody>
+        </table>
+      </div>
+    </details>
+  );
+}
+
+function Answer({ of }: { of: Pixel }) {
+  const images = of.values.filter((one) => hello.value?.arrays.find((array) => array.name === one.name)?.shape !== "stack");
+  const object = of.report.truth?.object ?? "";
+  const reason = hello.value?.invalid.find((one) => one.name === of.why);
+  return (
+    <>
+      {object !== "" && <p class="object"><span class="faint">sees</span> <bdi>{object}</bdi></p>}
+      {of.why !== "" && <p class="why"><strong>No depth: {of.why}.</strong> {reason?.advice ?? ""}</p>}
+      <Values title="Measured" values={images.filter((one) => !is_truth(one))} />
+      <Values title="Ground truth" values={images.filter(is_truth)} />
+      <RawFrames frames={of.report.raw_frames ?? []} />
+    </>
+  );
+}
+
+export function PixelPanel() {
+  const at = cursor.value;
+  const answer = pixel.value;
+  const late = answer !== undefined && (answer.u !== at?.u || answer.v !== at.v);
+  return (
+    <aside class="panel" aria-label="Pixel">
+      <h2>
+        {at === undefined ? "Pixel" : `Pixel ${at.u}, ${at.v}`}
+        {answer !== undefined && <span class="faint of-frame"> frame {answer.frame}</span>}
+      </h2>
+      {at === undefined && <p class="faint">Point at a picture, or press Tab until one has the focus and use the arrow keys.</p>}
+      {at !== undefined && answer !== undefined && (
+        <div class={late ? "answer late" : "answer"} data-pixel={`${answer.u},${answer.v}`} data-frame={answer.frame}>
+          <Answer of={answer} />
+        </div>
+      )}
+      {at !== undefined && answer === undefined && frame.value !== undefined && <p class="faint">asked …</p>}
+    </aside>
+  );
+}

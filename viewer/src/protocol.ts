@@ -1,0 +1,224 @@
+// SPDX-FileCopyrightText: 2026 The tofray authors
+// SPDX-License-Identifier: Apache-2.0
+// What the server says and what it is told: JSON texts, and a binary message for each frame. All of it is little-endian, 8-byte aligned.
+
+export type Rgb = readonly [number, number, number];
+
+export interface Tick {
+  at: number;
+  label: string;
+}
+
+/** Which values have which colours. `low`, `high` and ticks are in the array's own unit; what people read is value · factor, in `unit`. */
+export interface Scale {
+  low: number;
+  high: number;
+  palette: "depth" | "grey" | "error";
+  curve: "linear" | "sqrt";
+  reverse?: boolean;
+  factor?: number;
+  unit: string;
+  ticks: Tick[];
+}
+
+export interface ArrayInfo {
+  name: string;
+  unit: string;
+  what: string;
+  dtype: string;
+  shape: string;
+}
+
+/** What a pane can show. Without a scale the array holds bits, each with its colour and letter in `Hello.invalid`. */
+export interface PaneInfo {
+  array: string;
+  title: string;
+  scale?: Scale | null;
+}
+
+export interface Reason {
+  bit: number;
+  name: string;
+  letter: string;
+  color: Rgb;
+  advice: string;
+}
+
+export interface Palettes {
+  depth: Rgb[];
+  grey: Rgb[];
+  error_near: Rgb[];
+  error_far: Rgb[];
+}
+
+export interface Hello {
+  type: "hello";
+  protocol: number;
+  version: string;
+  build: string;
+  scene: string;
+  camera: string;
+  mode: string;
+  width: number;
+  height: number;
+  phases: number;
+  frame_rate_hz: number;
+  arrays: ArrayInfo[];
+  panes: PaneInfo[];
+  palettes: Palettes;
+  invalid: Reason[];
+  invalid_color: Rgb;
+  command: string;
+  test_hooks?: boolean;
+}
+
+export interface State {
+  type: "state";
+  generation: number;
+  playing: boolean;
+  frame: number;
+  seed: number;
+  command: string;
+  width?: number;
+  height?: number;
+  phases?: number;
+}
+
+export type Value = number | string | boolean | null | Value[];
+
+export interface NamedValue {
+  name: string;
+  unit: string;
+  value: Value;
+}
+
+export interface RawFrameReport {
+  lit: boolean;
+  modulation_frequency_hz: number | null;
+  reference_phase_rad: number | null;
+  integration_time_s: number | null;
+  tap_a_e: number | null;
+  tap_b_e: number | null;
+  difference_e: number | null;
+  raw_dn: number | null;
+}
+
+/** What `tofray inspect FILE --pixel u,v --json` prints, as far as the page reads it. */
+export interface PixelReport {
+  truth?: { object?: string | null } | null;
+  raw_frames?: RawFrameReport[];
+}
+
+export interface Pixel {
+  type: "pixel";
+  id: number;
+  u: number;
+  v: number;
+  generation: number;
+  frame: number;
+  report: PixelReport;
+  values: NamedValue[];
+  why: string;
+}
+
+export interface Fault {
+  type: "fault";
+  id: number | null;
+  text: string;
+  more?: string;
+}
+
+export interface Stats {
+  type: "stats";
+  computed: number;
+  sent: number;
+  dropped: number;
+  compute_ms: number;
+  fps: number;
+}
+
+export interface ScaleMessage {
+  type: "scale";
+  array: string;
+  scale: Scale;
+}
+
+export type ServerMessage = Hello | State | ScaleMessage | Pixel | Fault | Stats;
+
+export type ClientMessage =
+  | { type: "want"; arrays: string[]; rate: "own" | "max" }
+  | { type: "visible"; visible: boolean }
+  | { type: "ack"; sequence: number }
+  | { type: "play" }
+  | { type: "pause" }
+  | { type: "seek"; frame: number }
+  | { type: "pixel"; id: number; u: number; v: number }
+  | { type: "fit"; array: string };
+
+export type Numbers = Uint8Array | Uint16Array | Int16Array | Uint32Array | Int32Array | Float32Array | Float64Array;
+
+export interface FrameArray {
+  id: number;
+  dims: number[];
+  values: Numbers;
+}
+
+export interface Frame {
+  generation: number;
+  sequence: number;
+  frame: number;
+  time_s: number;
+  width: number;
+  height: number;
+  draft: boolean;
+  compute_ms: number;
+  arrays: Map<number, FrameArray>;
+}
+
+const types = [Uint8Array, Uint16Array, Int16Array, Uint32Array, Float32Array, Int32Array, Float64Array] as const;
+const header_bytes = 64;
+const entry_bytes = 32;
+
+function need(condition: boolean, what: string): asserts condition {
+  if (!condition) throw new RangeError(`a frame that cannot be read: ${what}`);
+}
+
+/** The arrays are views of the message: nothing is copied.
+ *  @throws RangeError where the message is not a whole frame */
+export function read_frame(message: ArrayBuffer): Frame {
+  need(message.byteLength >= header_bytes, `${message.byteLength} bytes`);
+  const view = new DataView(message);
+  const u16 = (at: number): number => view.getUint16(at, true);
+  const u32 = (at: number): number => view.getUint32(at, true);
+  need(u32(0) === 0x31564654, "it does not begin with TFV1");
+  const header = u16(4);
+  const count = u16(44);
+  need(header >= header_bytes && header + count * entry_bytes <= message.byteLength, `${count} arrays do not fit in`);
+  const arrays = new Map<number, FrameArray>();
+  for (let i = 0; i < count; ++i) {
+    const at = header + i * entry_bytes;
+    const id = u16(at);
+    const type = types[view.getUint8(at + 2) - 1];
+    const rank = view.getUint8(at + 3);
+    const place = u32(at + 4);
+    const bytes = u32(at + 8);
+    need(type !== undefined, `array ${id} is of an unknown type`);
+    need(rank <= 3, `array ${id} has ${rank} dimensions`);
+    need(place % 8 === 0 && place + bytes <= message.byteLength, `array ${id} ends behind it`);
+    const dims = [u32(at + 12), u32(at + 16), u32(at + 20)].slice(0, rank);
+    const elements = dims.reduce((product, dim) => product * dim, 1);
+    need(elements * type.BYTES_PER_ELEMENT === bytes, `array ${id} has ${bytes} bytes, its shape is ${dims.join(" × ")}`);
+    arrays.set(id, { id, dims, values: new type(message, place, elements) });
+  }
+  return {
+    generation: u32(8),
+    sequence: u32(12),
+    frame: Number(view.getBigUint64(16, true)),
+    time_s: view.getFloat64(24, true),
+    width: u32(32),
+    height: u32(36),
+    draft: (view.getUint8(7) & 1) !== 0,
+    compute_ms: view.getFloat32(48, true),
+    arrays,
+  };
+}
