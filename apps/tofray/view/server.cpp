@@ -48,13 +48,13 @@ class Connection : public std::enable_shared_from_this<Connection> {
     http::async_read_header(stream_, buffer_, *parser_, [self = shared_from_this()](error_code error, std::size_t) { self->took(error); });
   }
 
-  void refuse_for_want_of_room() { answer(false, 11, {503, "64 connections are open: close one"}, false); }
+  void refuse_for_want_of_room() { answer(false, {503, "64 connections are open: close one"}, false); }
 
  private:
   void took(error_code error) {
-    if (error == http::error::header_limit) return answer(false, 11, {431, "the headers are too long"}, false);
+    if (error == http::error::header_limit) return answer(false, {431, "the headers are too long"}, false);
     if (error && error.category() == make_error_code(http::error::bad_value).category() && error != http::error::end_of_stream)
-      return answer(false, 11, {400, "this is no request of HTTP/1.1"}, false);
+      return answer(false, {400, "this is no request of HTTP/1.1"}, false);
     if (error) return;  // gone, or too slow
     const auto& request = parser_->get();
     std::vector<Header> headers;
@@ -66,16 +66,16 @@ class Connection : public std::enable_shared_from_this<Connection> {
       return;
     }
     const bool goes_on = verdict.status == 200 && request.keep_alive();
-    answer(request.method() == http::verb::head, request.version(), verdict, goes_on, std::string(seen.target));
+    answer(request.method() == http::verb::head, verdict, goes_on, std::string(seen.target));
   }
 
-  void answer(bool head, unsigned version, const Verdict& verdict, bool goes_on, const std::string& target = {}) {
+  void answer(bool head, const Verdict& verdict, bool goes_on, const std::string& target = {}) {
     const Asset* file = verdict.status == 200 ? find_asset(target) : nullptr;
     const bool is_empty_page = verdict.status == 200 && file == nullptr;
     const std::string text = std::string(verdict.why) + "\n";
     const std::string_view body = file != nullptr ? file->bytes : is_empty_page ? no_page : std::string_view(text);
     auto response = std::make_shared<http::response<http::string_body>>();
-    response->version(version >= 11 ? 11 : version);
+    response->version(11);
     response->result(static_cast<unsigned>(verdict.status));
     response->keep_alive(goes_on);
     set_headers(*response, verdict.status);
