@@ -199,12 +199,12 @@ TEST(server, is_not_started_for_what_cannot_be_simulated) {
 
 TEST(server, of_a_profile_shows_the_demo_by_that_camera) {
   NEEDS_THE_VIEWER;
-  const Viewer viewer({"kinect-v2"}, false);
+  const Viewer viewer({"pico-monstar"}, false);
   Page page(viewer);
   const auto hello = page.text("hello");
   ASSERT_TRUE(hello);
   EXPECT_EQ(*hello->find("scene")->string(), "demo");
-  EXPECT_EQ(*hello->find("camera")->string(), "kinect-v2");
+  EXPECT_EQ(*hello->find("camera")->string(), "pico-monstar");
 }
 
 /// One text message, in frames; what it is answered with.

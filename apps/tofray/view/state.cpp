@@ -7,6 +7,7 @@
 #include "base/readout.h"
 #include "load/builtin.h"
 #include "results/meta.h"
+#include "tofray/load.h"
 
 namespace tofray::view {
 
@@ -34,7 +35,9 @@ State first_state(const app::Options& options) {
   if (state.options.words.empty()) state.options.words.emplace_back("demo");
   std::string& scene = state.options.words[0];
   if (load::find_builtin(load::builtin_scenes(), scene) == nullptr && load::find_builtin(load::builtin_profiles(), scene) != nullptr) {
-    state.options.set.insert(state.options.set.begin(), {"camera.profile", scene});
+    // The mode that the scene names is of another camera.
+    const Camera camera = load_camera(scene);
+    state.options.set.insert(state.options.set.begin(), {{"camera.profile", scene}, {"camera.mode", camera.mode.name}});
     scene = "demo";
   }
   state.in = app::load_inputs(scene, state.options);
