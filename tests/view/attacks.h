@@ -17,7 +17,8 @@ struct Attack {
 
 inline std::vector<Attack> attacks() {
   using Headers = std::vector<std::string>;
-  const Headers upgrade = {"Host: HOST", "Upgrade: websocket", "Connection: Upgrade", "Sec-WebSocket-Version: 13", "Sec-WebSocket-Key: KEY"};
+  const Headers upgrade = {"Host: HOST", "Upgrade: websocket", "Connection: Upgrade", "Sec-WebSocket-Version: 13",
+                           "Sec-WebSocket-Key: KEY"};
   const auto socket = [&upgrade](Headers more) {
     Headers all = upgrade;
     all.insert(all.end(), more.begin(), more.end());
@@ -145,9 +146,14 @@ inline std::vector<Attack> attacks() {
 
 /// With what the words stand for.
 inline std::string filled(std::string text, int port, const std::string& token, const std::string& key) {
-  const std::pair<std::string, std::string> words[] = {{"HOST", "127.0.0.1:PORT"}, {"PORT", std::to_string(port)}, {"TOKEN", token}, {"PREFIX", token.substr(0, token.size() - 1)}, {"KEY", key}};
+  const std::pair<std::string, std::string> words[] = {{"HOST", "127.0.0.1:PORT"},
+                                                       {"PORT", std::to_string(port)},
+                                                       {"TOKEN", token},
+                                                       {"PREFIX", token.substr(0, token.size() - 1)},
+                                                       {"KEY", key}};
   for (const auto& [word, value] : words)
-    for (std::size_t at = text.find(word); at != std::string::npos; at = text.find(word, at + value.size())) text.replace(at, word.size(), value);
+    for (std::size_t at = text.find(word); at != std::string::npos; at = text.find(word, at + value.size()))
+      text.replace(at, word.size(), value);
   return text;
 }
 

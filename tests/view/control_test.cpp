@@ -71,7 +71,8 @@ TEST(control, that_is_wrong_is_answered_with_its_id_and_what_is_wrong) {
                            Wrong{R"({"type":"pause","type":"play"})", "twice"}}) {
     const Control read = parse_control(one.message);
     ASSERT_TRUE(std::holds_alternative<Refused>(read)) << one.message;
-    EXPECT_TRUE(has(std::get<Refused>(read).text + std::get<Refused>(read).more, one.says)) << one.message << ": " << std::get<Refused>(read).text;
+    EXPECT_TRUE(has(std::get<Refused>(read).text + std::get<Refused>(read).more, one.says))
+        << one.message << ": " << std::get<Refused>(read).text;
   }
   EXPECT_EQ(std::get<Refused>(parse_control(R"({"type":"set","id":17})")).id, 17u);
   EXPECT_FALSE(std::get<Refused>(parse_control(R"({"type":"set","id":"17"})")).id.has_value());
@@ -95,7 +96,8 @@ TEST(meter, counts_pieces_and_frames_however_the_bytes_come) {
   };
   const std::string mask(4, 'm');
   const std::string small = "\x81\x83" + mask + "abc", large = std::string("\x81\xfe\x01\x00", 4) + mask + std::string(256, 'x');
-  const std::string piece = std::string("\x00\x80", 2) + mask, last = std::string("\x80\x80", 2) + mask, ping = std::string("\x89\x80", 2) + mask;
+  const std::string piece = std::string("\x00\x80", 2) + mask, last = std::string("\x80\x80", 2) + mask,
+                    ping = std::string("\x89\x80", 2) + mask;
   std::string pieces, good;
   for (int i = 0; i < 63; ++i) pieces += piece + ping;
   for (int i = 0; i < 300; ++i) good += small + large + ping;

@@ -25,7 +25,8 @@ TEST(stream, has_the_arrays_of_render_bit_by_bit_of_any_frame) {
   one.page.send(R"({"type":"pause"})");
   one.page.text("state");
   std::string all;
-  for (const files::Json& array : *one.hello.find("arrays")->items()) all += (all.empty() ? "\"" : ",\"") + *array.find("name")->string() + "\"";
+  for (const files::Json& array : *one.hello.find("arrays")->items())
+    all += (all.empty() ? "\"" : ",\"") + *array.find("name")->string() + "\"";
   one.page.want(all);
   std::set<std::uint32_t> sequences;
   for (const int index : {0, 3, 1, 0}) {
@@ -53,13 +54,16 @@ TEST(stream, pixel_is_what_inspect_says) {
   NEEDS_THE_VIEWER;
   const Viewer viewer({"room", "--seed", "2", "--bounces", "2", "--samples", "4"});
   const Prepare here = in_folder(viewer.folder().path());
-  ASSERT_EQ(run(with_small_sensor({"render", "room", "--seed", "2", "--bounces", "2", "--samples", "4", "-o", "r", "--emit", "npz"}), here).code, 0);
+  ASSERT_EQ(
+      run(with_small_sensor({"render", "room", "--seed", "2", "--bounces", "2", "--samples", "4", "-o", "r", "--emit", "npz"}), here).code,
+      0);
   Greeted one(viewer);
   one.page.send(R"({"type":"pause"})");
   one.page.text("state");
   int id = 0;
   for (const auto& [u, v] : {std::pair{0, 0}, {27, 0}, {0, 21}, {27, 21}, {13, 10}, {5, 17}}) {
-    one.page.send(R"({"type":"pixel","id":)" + std::to_string(++id) + R"(,"u":)" + std::to_string(u) + R"(,"v":)" + std::to_string(v) + "}");
+    one.page.send(R"({"type":"pixel","id":)" + std::to_string(++id) + R"(,"u":)" + std::to_string(u) + R"(,"v":)" + std::to_string(v) +
+                  "}");
     const auto answer = one.page.text("pixel");
     ASSERT_TRUE(answer);
     EXPECT_EQ(number_in(*answer, "id"), id);
@@ -184,7 +188,11 @@ TEST(state, is_changed_by_set_and_told_to_all_pages) {
   } while (frame->frame != 2 || frame->generation != 3);
   // What a shell makes of the copied command has the same bytes.
   const std::string folder = viewer.folder().path().native();
-  ASSERT_EQ(std::system(("cd " + folder + " && PATH=" + fs::path(TOFRAY_TOOL).parent_path().native() + ":$PATH " + command + " -o c --emit npz -q").c_str()), 0) << command;
+  ASSERT_EQ(std::system(
+                ("cd " + folder + " && PATH=" + fs::path(TOFRAY_TOOL).parent_path().native() + ":$PATH " + command + " -o c --emit npz -q")
+                    .c_str()),
+            0)
+      << command;
   const auto arrays = files::read_npz(viewer.folder() / "c/frame_0002.npz", {"raw"});
   EXPECT_TRUE(frame->arrays.at(number_of(one.hello, "raw")) == arrays.at(0).array.bytes);
 }
@@ -200,8 +208,10 @@ TEST(state, stays_where_a_set_is_wrong_and_says_it_in_the_command_lines_words) {
   const Result said = run({"render", "demo", "--set", "camera.lens.f_nmber=1.8"}, in_folder(viewer.folder().path()));
   EXPECT_TRUE(said.err.starts_with(*fault->find("text")->string() + "\n")) << said.err << *fault->find("text")->string();
   // Good by itself, and it does not go with the rest.
-  for (const char* wrong : {R"({"type":"set","id":10,"key":"camera.sensor.width","text":"99999"})", R"({"type":"set","id":11,"key":"camera.lens.f_number","text":"banana"})",
-                            R"({"type":"set","id":12,"key":"objects.99.sphere.radius","text":"1 m"})", R"({"type":"set","id":13,"key":"camera.profile","text":"/etc/passwd"})"}) {
+  for (const char* wrong : {R"({"type":"set","id":10,"key":"camera.sensor.width","text":"99999"})",
+                            R"({"type":"set","id":11,"key":"camera.lens.f_number","text":"banana"})",
+                            R"({"type":"set","id":12,"key":"objects.99.sphere.radius","text":"1 m"})",
+                            R"({"type":"set","id":13,"key":"camera.profile","text":"/etc/passwd"})"}) {
     one.page.send(wrong);
     EXPECT_TRUE(one.page.text("fault")) << wrong;
   }
@@ -241,7 +251,8 @@ TEST(state, of_a_hundred_quick_changes_ends_with_the_last) {
   Greeted one(viewer);
   one.page.want("\"z_m\"");
   for (int i = 0; i < 100; ++i)
-    one.page.send(R"({"type":"set","id":)" + std::to_string(i) + R"(,"key":"camera.lens.f_number","text":")" + std::to_string(1 + 0.01 * (i + 1)) + "\"}");
+    one.page.send(R"({"type":"set","id":)" + std::to_string(i) + R"(,"key":"camera.lens.f_number","text":")" +
+                  std::to_string(1 + 0.01 * (i + 1)) + "\"}");
   std::uint32_t generation = 0, newest = 0;
   bool last = false;
   const Clock::time_point end = Clock::now() + std::chrono::seconds(20);
@@ -309,14 +320,16 @@ TEST(load, of_200_slow_connections_leaves_a_good_page_its_frames) {
   for (int i = 0; i < 150; ++i) {
     lines.emplace_back(viewer.port);
     lines.back().send(handshake(viewer.host(), viewer.token));
-    const char* const says[] = {R"({"type":"want","arrays":["z_m","raw"],"rate":"max"})", R"({"type":"want","arrays":["z_m","flags"],"rate":"max"})", R"({"type":"visible","visible":false})"};
+    const char* const says[] = {R"({"type":"want","arrays":["z_m","raw"],"rate":"max"})",
+                                R"({"type":"want","arrays":["z_m","flags"],"rate":"max"})", R"({"type":"visible","visible":false})"};
     std::this_thread::sleep_for(milliseconds(1));
     lines.back().send(ws_frame(1, says[i % 3]));  // none of them reads
   }
   const int among = frames_in(milliseconds(3000));
   EXPECT_GT(alone, 100);
   EXPECT_GE(among, alone * 9 / 10) << alone;
-  std::istringstream status(content("/proc/" + std::to_string(static_cast<int>(number_in(files::parse_json(viewer.out(), "stdout"), "pid"))) + "/status"));
+  std::istringstream status(
+      content("/proc/" + std::to_string(static_cast<int>(number_in(files::parse_json(viewer.out(), "stdout"), "pid"))) + "/status"));
   std::string line;
   while (std::getline(status, line))
     if (line.starts_with("VmRSS:")) {

@@ -42,7 +42,8 @@ class Viewer {
     child_.emplace(start(all, folder_ / "out", folder_ / "err", in_folder(folder_.path())));
     const Clock::time_point end = Clock::now() + std::chrono::seconds(60);
     while (Clock::now() < end && content(folder_ / "out").find('\n') == std::string::npos) std::this_thread::sleep_for(milliseconds(5));
-    const files::Json said = files::parse_json(content(folder_ / "out") + (content(folder_ / "out").empty() ? "{\"port\":0,\"url\":\"\"}" : ""), "stdout of the viewer");
+    const files::Json said = files::parse_json(
+        content(folder_ / "out") + (content(folder_ / "out").empty() ? "{\"port\":0,\"url\":\"\"}" : ""), "stdout of the viewer");
     EXPECT_FALSE(content(folder_ / "out").empty()) << err();
     double number = 0;
     said.find("port")->number(number);
@@ -74,7 +75,8 @@ class Line {
     to.sin_family = AF_INET, to.sin_port = htons(static_cast<std::uint16_t>(port)), to.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
     sockaddr_in6 to6{};
     to6.sin6_family = AF_INET6, to6.sin6_port = to.sin_port, to6.sin6_addr = in6addr_loopback;
-    open_ = (v6 ? ::connect(file_, reinterpret_cast<sockaddr*>(&to6), sizeof to6) : ::connect(file_, reinterpret_cast<sockaddr*>(&to), sizeof to)) == 0;
+    open_ = (v6 ? ::connect(file_, reinterpret_cast<sockaddr*>(&to6), sizeof to6)
+                : ::connect(file_, reinterpret_cast<sockaddr*>(&to), sizeof to)) == 0;
   }
   ~Line() { close(); }
   Line(Line&& other) noexcept : file_(std::exchange(other.file_, -1)), open_(other.open_), read_(std::move(other.read_)) {}
@@ -131,7 +133,9 @@ class Line {
 };
 
 /// The status of an answer; 0 where none came.
-inline int status_of(const std::string& answer) { return answer.starts_with("HTTP/1.1 ") && answer.size() > 12 ? std::atoi(answer.c_str() + 9) : 0; }
+inline int status_of(const std::string& answer) {
+  return answer.starts_with("HTTP/1.1 ") && answer.size() > 12 ? std::atoi(answer.c_str() + 9) : 0;
+}
 
 /// Sends a request on a connection of its own and takes the head of the answer.
 inline std::string asked(int port, const std::string& request) {
@@ -144,7 +148,8 @@ inline std::string asked(int port, const std::string& request) {
 constexpr const char* a_key = "dGhlIHNhbXBsZSBub25jZQ==";
 
 inline std::string handshake(const std::string& host, const std::string& token, const std::string& more = {}) {
-  return "GET /ws HTTP/1.1\r\nHost: " + host + "\r\nUpgrade: websocket\r\nConnection: Upgrade\r\nSec-WebSocket-Version: 13\r\nSec-WebSocket-Key: " + a_key +
+  return "GET /ws HTTP/1.1\r\nHost: " + host +
+         "\r\nUpgrade: websocket\r\nConnection: Upgrade\r\nSec-WebSocket-Version: 13\r\nSec-WebSocket-Key: " + a_key +
          "\r\nSec-WebSocket-Protocol: tofray.v1, t." + token + "\r\n" + more + "\r\n";
 }
 

@@ -79,7 +79,8 @@ TEST(wire, error_is_what_is_measured_less_what_is_true) {
   EXPECT_TRUE(std::isnan(little<float>(read.arrays.at(error), 4)));
   EXPECT_EQ(little<float>(read.arrays.at(error), 8), 0.0f);
   EXPECT_EQ(view::pixel_values(frame, error, 0), std::vector<double>{0.25});
-  EXPECT_EQ(view::sources_of(std::vector<std::uint16_t>{error, *view::find_wire_array("z_m")}), (std::vector<std::string>{"z_m", "gt_z_m"}));
+  EXPECT_EQ(view::sources_of(std::vector<std::uint16_t>{error, *view::find_wire_array("z_m")}),
+            (std::vector<std::string>{"z_m", "gt_z_m"}));
 }
 
 TEST(wire, pixel_has_all_its_values) {

@@ -13,8 +13,9 @@ namespace tofray::view {
 class FrameMeter {
  public:
   using Clock = std::chrono::steady_clock;
-  static constexpr int most_pieces = 64;                ///< of one message
-  static constexpr int most_frames_per_second = 20'000;  ///< of all kinds; small frames are drawn and acknowledged thousands of times a second
+  static constexpr int most_pieces = 64;  ///< of one message
+  static constexpr int most_frames_per_second =
+      20'000;  ///< of all kinds; small frames are drawn and acknowledged thousands of times a second
 
   /// Takes the next bytes of the stream. @return false once there is too much of anything
   bool take(const void* bytes, std::size_t count, Clock::time_point now) {
