@@ -112,10 +112,9 @@ TEST(palettes, are_those_of_the_pictures) {
     const double t = i / 1000.0;
     EXPECT_EQ(of_stops(*all.find("depth"), t), pictures::depth_color(t)) << t;
     EXPECT_EQ(of_stops(*all.find("grey"), t), pictures::grey_color(t)) << t;
+    if (t < 0) continue;
     EXPECT_EQ(of_stops(*all.find("error_far"), t), pictures::error_color(t)) << t;
-    if (t > 0) {
-      EXPECT_EQ(of_stops(*all.find("error_near"), t), pictures::error_color(-t)) << t;
-    }
+    EXPECT_EQ(of_stops(*all.find("error_near"), t), pictures::error_color(-t)) << t;
   }
 }
 
