@@ -88,6 +88,23 @@ TEST(stream, pixel_is_what_inspect_says) {
   EXPECT_EQ(number_in(*fault, "id"), 99);
 }
 
+TEST(stream, pixel_after_a_change_is_of_the_new_state) {
+  NEEDS_THE_VIEWER;
+  const Viewer viewer;
+  Greeted one(viewer);
+  one.page.send(R"({"type":"pause"})");
+  one.page.send(R"({"type":"pixel","id":1,"u":13,"v":10})");
+  ASSERT_TRUE(one.page.text("pixel"));
+  one.page.send(R"({"type":"set","id":2,"key":"camera.lens.f_number","text":"1.8"})");
+  ASSERT_TRUE(one.page.text("state"));
+  one.page.send(R"({"type":"pixel","id":3,"u":13,"v":10})");
+  const auto answer = one.page.text("pixel");
+  ASSERT_TRUE(answer);
+  const Result said = run(with_small_sensor({"inspect", "demo", "--set", "camera.lens.f_number=1.8", "--pixel", "13,10", "--json"}));
+  EXPECT_EQ(files::json_text(*answer->find("report")->find("raw_frames")),
+            files::json_text(*files::parse_json(said.out, "inspect").find("raw_frames")));
+}
+
 TEST(stream, sends_no_third_frame_before_one_was_drawn_and_then_the_newest) {
   NEEDS_THE_VIEWER;
   const Viewer viewer;
