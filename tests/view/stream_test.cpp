@@ -92,7 +92,11 @@ TEST(stream, pixel_after_a_change_is_of_the_new_state) {
   NEEDS_THE_VIEWER;
   const Viewer viewer;
   Greeted one(viewer);
+  one.page.want("\"z_m\"");
   one.page.send(R"({"type":"pause"})");
+  one.page.text("state");
+  one.page.send(R"({"type":"seek","frame":0})");
+  one.page.text("state");
   one.page.send(R"({"type":"pixel","id":1,"u":13,"v":10})");
   ASSERT_TRUE(one.page.text("pixel"));
   one.page.send(R"({"type":"set","id":2,"key":"camera.lens.f_number","text":"1.8"})");
