@@ -10,6 +10,7 @@ int run_render(const Options& options);
 int run_process(const Options& options);
 int run_inspect(const Options& options);
 int run_preview(const Options& options);
+int run_view(const Options& options);
 int run_diff(const Options& options);
 int run_check(const Options& options);
 int run_list(const Options& options);
@@ -130,6 +131,26 @@ std::vector<Command> make() {
        .most_words = 1,
        .run = run_preview,
        .completes = "<scenes> <files>"},
+      {.name = "view",
+       .usage = "[SCENE|PROFILE] [options]",
+       .summary = "see in a browser what the camera sees, live: depth, amplitude, every value of a pixel",
+       .examples = "tofray view --open                               # the demo, in your browser\n"
+                   "tofray view room --bounces 2                     # prints the address to open\n"
+                   "tofray view azure-kinect-nfov --rate max         # the demo seen by another camera, as fast as it is drawn\n"
+                   "tofray view scene.yaml --port 0 --json           # for programs: one line with url, port and pid\n",
+       .more = "The address that it prints has a key behind #: whoever has it sees and changes this view, nobody else does. It listens on "
+               "this\n"
+               "machine alone. Over ssh: ssh -L 7170:127.0.0.1:7170 HOST, then the same address in your own browser. Ctrl-C ends it.\n"
+               "Frames are computed while somebody looks, and have the bytes that `tofray render` gives them.\n",
+       .options = {"--set",        "--mode",    "--seed",    "--noise", "--exposure-samples",
+                   "--subpixel",   "--bounces", "--samples", "--fps",   "--root",
+                   "--threads",    "--backend", "--device",  "--port",  "--host",
+                   "--allow-host", "--open",    "--embed",   "--rate",  "--test-hooks",
+                   "--json",       "--quiet"},
+       .least_words = 0,
+       .most_words = 1,
+       .run = run_view,
+       .completes = "<scenes> <profiles> <files>"},
       {.name = "diff",
        .usage = "A B [options]",
        .summary = "compare the arrays of two files or of two folders: same, or how many values differ and by how much",

@@ -94,6 +94,7 @@ std::string options_text(const Command& command) {
   const bool in_groups = all.size() > 8;
   std::string text = in_groups ? "" : "\nOptions:\n", last;
   for (const OptionSpec* one : all) {
+    if (one->hidden) continue;
     if (const std::string group = group_of(*one); in_groups && group != last) text += fmt::format("\n{}:\n", last = group);
     text += option_lines(*one);
   }

@@ -252,10 +252,11 @@ void take_picture(Options& o, const std::string& value) {
 std::vector<OptionSpec> preview_specs() {
   return {
       {"--output", 'o', "FILE", "picture to write: .png, .svg or .pdf; without it the terminal shows z", take_picture, "<files>", false,
-       "preview"},
+       false, "preview"},
       {"--raw", 0, nullptr, "the raw frames, in place of z, amplitude and error", [](Options& o, const std::string&) { o.raw = true; }},
-      {"--theme", 0, "NAME", "look of the picture: dark, or light for papers (dark)", take_theme, "dark light", false, "preview"},
-      {"--scale", 0, "N", "N times as many pixels along each side; of SVG and PDF N times the size (1)", take_scale, "", false, "preview"},
+      {"--theme", 0, "NAME", "look of the picture: dark, or light for papers (dark)", take_theme, "dark light", false, false, "preview"},
+      {"--scale", 0, "N", "N times as many pixels along each side; of SVG and PDF N times the size (1)", take_scale, "", false, false,
+       "preview"},
   };
 }
 
@@ -272,6 +273,45 @@ std::vector<OptionSpec> bench_specs() {
       {"--stage", 0, "LIST", "time the way to the end of these stages, against sequential code: trace, power, raw, all", take_stage,
        "all trace power raw", true},
       {"--compare", 0, nullptr, "run variants in turn and print ratios", [](Options& o, const std::string&) { o.compare = true; }},
+  };
+}
+
+/// Names of hosts as a browser sends them.
+void take_allowed_host(Options& o, const std::string& value) {
+  const auto good = [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
+           std::string_view(".-_:[]").find(c) != std::string_view::npos;
+  };
+  if (value.empty() || value.size() > 255 || !std::all_of(value.begin(), value.end(), good))
+    refuse("--allow-host", value, "a host's name, with or without a port, as in --allow-host lab7 or --allow-host lab7:8080");
+  o.view.allowed_hosts.push_back(value);
+}
+
+void take_rate(Options& o, const std::string& value) {
+  double number = 0;
+  const char* const end = value.data() + value.size();
+  const auto read = std::from_chars(value.data(), end, number);
+  if (value != "own" && value != "max" && (read.ec != std::errc() || read.ptr != end || !(number >= 0.01 && number <= 1000)))
+    refuse("--rate", value, "own (as many frames a second as the camera), max, or a number of 0.01 to 1000");
+  o.view.rate = value;
+}
+
+/// Of `tofray view`.
+std::vector<OptionSpec> view_specs() {
+  return {
+      {"--port", 0, "N", "port to listen on; 0: any that is free (7170, or one of the next 20)",
+       [](Options& o, const std::string& v) {
+         o.view.port = static_cast<int>(whole("--port", v, 0, 65535, "a whole number of 0 to 65535"));
+       }},
+      {"--host", 0, "ADDRESS", "listen there in place of this machine's own 127.0.0.1 and ::1: other machines may reach it then",
+       [](Options& o, const std::string& v) { o.view.host = v; }},
+      {"--allow-host", 0, "NAME", "a further name by which browsers reach the viewer; as often as you like", take_allowed_host},
+      {"--open", 0, nullptr, "open it in the browser", [](Options& o, const std::string&) { o.view.open = true; }},
+      {"--embed", 0, nullptr, "pages of this machine may hold the viewer in a frame",
+       [](Options& o, const std::string&) { o.view.embed = true; }},
+      {"--rate", 0, "RATE", "frames a second: own (the camera's), max, or a number (own)", take_rate, "own max"},
+      {"--test-hooks", 0, nullptr, "the page tells tests what it draws", [](Options& o, const std::string&) { o.view.test_hooks = true; },
+       "", false, true},
   };
 }
 
@@ -347,7 +387,7 @@ std::vector<OptionSpec> specs() {
 const std::vector<OptionSpec>& all_options() {
   static const std::vector<OptionSpec> all = [] {
     std::vector<OptionSpec> joined = specs();
-    for (const std::vector<OptionSpec>& more : {machine_specs(), bench_specs(), transient_specs(), preview_specs()})
+    for (const std::vector<OptionSpec>& more : {machine_specs(), bench_specs(), transient_specs(), preview_specs(), view_specs()})
       joined.insert(joined.end(), more.begin(), more.end());
     return joined;
   }();
@@ -377,6 +417,7 @@ const std::vector<Group>& groups() {
       {"Measuring", {"--warmup", "--compare", "--batch", "--stage", "--block-size"}},
       {"Frames", {"--frames", "--first-frame", "--from", "--pixel"}},
       {"Output", {"--output", "--clean", "--emit", "--arrays", "--compress", "--raw", "--theme", "--scale", "--json", "--quiet"}},
+      {"Viewer", {"--port", "--host", "--allow-host", "--open", "--embed", "--rate", "--test-hooks"}},
       {"Machine", {"--threads", "--backend", "--device"}}};
   return all;
 }

@@ -42,6 +42,12 @@ struct Options {
   std::vector<AmbientCase> ambients;                   ///< --ambient
   std::string transient;                               ///< --transient: a file
   std::optional<double> first_m, width_m, per_factor;  ///< --first, --width, --factor: what that file does not say
+  struct View {
+    std::optional<int> port;
+    std::string host, rate = "own";
+    std::vector<std::string> allowed_hosts;
+    bool open = false, embed = false, test_hooks = false;
+  } view;  ///< of `tofray view`
   bool json = false, quiet = false, compare = false, clean = false, sources = false, raw = false;
 };
 

@@ -21,7 +21,8 @@ namespace {
 
 void refuse_unknown(const Command& command, const std::string& word) {
   std::vector<std::string> names;
-  for (const OptionSpec* one : options_of(command)) names.emplace_back(one->name);
+  for (const OptionSpec* one : options_of(command))
+    if (!one->hidden) names.emplace_back(one->name);
   names.emplace_back("--help");
   const std::string name = word.substr(0, word.find('='));
   for (const OptionSpec& one : all_options()) {

@@ -16,6 +16,7 @@ constexpr Rgb near_table[] = {{239, 239, 239}, {201, 221, 248}, {167, 203, 249},
                               {79, 139, 215},  {56, 115, 196},  {36, 90, 175},   {20, 64, 151}};
 constexpr Rgb far_table[] = {{239, 239, 239}, {249, 212, 192}, {251, 186, 150}, {246, 160, 111}, {233, 136, 77},
                              {217, 112, 49},  {200, 85, 27},   {181, 56, 17},   {158, 22, 20}};
+constexpr Rgb grey_table[] = {{12, 12, 14}, {255, 255, 255}};
 
 template <std::size_t count>
 Rgb of_table(const Rgb (&table)[count], double t) {
@@ -37,9 +38,11 @@ Rgb depth_color(double t) { return of_table(depth_table, t); }
 
 Rgb error_color(double t) { return t < 0 ? of_table(near_table, -t) : of_table(far_table, t); }
 
-Rgb grey_color(double t) {
-  constexpr Rgb ends[] = {{12, 12, 14}, {255, 255, 255}};
-  return of_table(ends, t);
-}
+Rgb grey_color(double t) { return of_table(grey_table, t); }
+
+std::span<const Rgb> depth_stops() { return depth_table; }
+std::span<const Rgb> near_stops() { return near_table; }
+std::span<const Rgb> far_stops() { return far_table; }
+std::span<const Rgb> grey_stops() { return grey_table; }
 
 }  // namespace tofray::pictures

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include <cstdint>
+#include <span>
 
 namespace tofray::pictures {
 
@@ -21,6 +22,12 @@ Rgb error_color(double t);
 
 /// Dark (0) to white (1), neutral. Clamped to 0…1.
 Rgb grey_color(double t);
+
+/// The colours that these maps are made of, evenly spaced from 0 to 1; between two of them lies mixed(). Of errors: what is too near, and what is too far.
+std::span<const Rgb> depth_stops();
+std::span<const Rgb> near_stops();
+std::span<const Rgb> far_stops();
+std::span<const Rgb> grey_stops();
 
 /// Between two colours, t = 0…1.
 Rgb mixed(Rgb a, Rgb b, double t);

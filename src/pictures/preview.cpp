@@ -7,10 +7,10 @@
 #include <cmath>
 #include <memory>
 
-#include "base/constants.h"
 #include "base/text.h"
 #include "pictures/figure.h"
 #include "pictures/pictures.h"
+#include "pictures/value_scale.h"
 
 namespace tofray::pictures {
 namespace {
@@ -36,27 +36,12 @@ std::string plain_number(double value) {
   return grouped(fmt::format("{:.0f}", value));
 }
 
-/// The values of z that are not a cycle off, as far as truth says it; all where none is right.
-std::vector<double> right_z(const Depth& depth, const Truth& truth, const Raw& raw) {
-  const std::vector<double> all(depth.z_m.begin(), depth.z_m.end());
-  double highest_hz = 0;
-  for (std::size_t k = 0; k < std::min(raw.lit.size(), raw.modulation_frequency_hz.size()); ++k)
-    if (raw.lit[k] != 0) highest_hz = std::max(highest_hz, raw.modulation_frequency_hz[k]);
-  if (!(highest_hz > 0) || truth.z_m.size() != all.size()) return all;
-  const double half_cycle = base::speed_of_light / (4 * highest_hz);
-  std::vector<double> right;
-  for (std::size_t i = 0; i < all.size(); ++i)
-    if (std::abs(all[i] - static_cast<double>(truth.z_m[i])) < half_cycle) right.push_back(all[i]);
-  return right.empty() ? all : right;
-}
-
 Panel depth_panel(const Depth& depth, const Truth& truth, const Raw& raw) {
   Panel panel{"z [m]", "no valid pixel", "scale: 1st to 99th percentile", {depth.z_m.begin(), depth.z_m.end()}, {}};
   const std::size_t valid = finite_count(panel.values);
   const std::vector<double> right = right_z(depth, truth, raw);
   if (finite_count(right) < valid) panel.scale_note += ", without wrong cycles";
-  const double low = percentile(right, 0.01, 0), high = percentile(right, 0.99, 1);
-  const PictureScale scale = round_scale(low, high, 0.1);
+  const PictureScale scale = length_scale(right);
   const auto place = [scale](double z) { return scale.at(z); };
   panel.colors = {scale, [place](double z) { return depth_color(place(z)); }, place};
   if (valid > 0)
@@ -68,7 +53,7 @@ Panel depth_panel(const Depth& depth, const Truth& truth, const Raw& raw) {
 Panel amplitude_panel(const Depth& depth) {
   Panel panel{
       "amplitude [e]", "", "scale: 0 to the 99.5th percentile, square root", {depth.amplitude_e.begin(), depth.amplitude_e.end()}, {}};
-  const PictureScale scale = round_scale(0, percentile(panel.values, 0.995, 1), 1e-3);
+  const PictureScale scale = strength_scale(panel.values);
   const auto place = [scale](double a) { return a > 0 ? std::sqrt(std::min(1.0, scale.at(a))) : 0.0; };
   panel.colors = {scale, [place](double a) { return grey_color(place(a)); }, place};
   panel.note = fmt::format("median {} e", plain_number(percentile(panel.values, 0.5, 0)));
@@ -80,15 +65,12 @@ Panel signed_panel(const char* title, const char* of_what, const std::vector<dou
   Panel panel{title, "no pixel to compare", "", values_mm, {}};
   std::vector<double> magnitudes;
   for (const double value : values_mm) magnitudes.push_back(std::abs(value));
-  // One wrong cycle is metres: where more than 2 % are wrong, the 98th percentile shows them alone.
-  const double most = percentile(magnitudes, 0.98, 1), usual = 3 * percentile(magnitudes, 0.68, 1);
-  const double bound = std::min(most, usual);
-  PictureScale scale = round_scale(-bound, bound, 0.2);
-  scale.low = -scale.high;
-  const auto place = [scale](double e) { return scale.at(e); };
+  const auto [scale, of_most] = error_scale(values_mm);
+  const auto place = [scale = scale](double e) { return scale.at(e); };
   panel.colors = {scale, [place](double e) { return error_color(2 * place(e) - 1); }, place};
-  const auto beyond = static_cast<double>(std::count_if(magnitudes.begin(), magnitudes.end(), [&](double e) { return e > scale.high; }));
-  panel.scale_note = fmt::format("scale: {} percentile of |{}|, {:.1f} % beyond", most <= usual ? "98th" : "3 * 68th", of_what,
+  const auto beyond =
+      static_cast<double>(std::count_if(magnitudes.begin(), magnitudes.end(), [high = scale.high](double e) { return e > high; }));
+  panel.scale_note = fmt::format("scale: {} percentile of |{}|, {:.1f} % beyond", of_most ? "98th" : "3 * 68th", of_what,
                                  100 * beyond / std::max(1.0, static_cast<double>(finite_count(magnitudes))));
   const double median = percentile(panel.values, 0.5, 0);
   for (std::size_t i = 0; i < magnitudes.size(); ++i) magnitudes[i] = std::abs(panel.values[i] - median);
@@ -119,7 +101,7 @@ Panel multipath_panel(const Depth& depth, const Truth& truth, const Raw& raw) {
 Panel noise_panel(const Depth& depth) {
   Panel panel{"noise [mm]", "", "scale: 0 to the 98th percentile", {}, {}};
   for (const float noise : depth.noise_m) panel.values.push_back(1000.0 * static_cast<double>(noise));
-  const PictureScale scale = round_scale(0, percentile(panel.values, 0.98, 1), 0.1);
+  const PictureScale scale = noise_scale(panel.values);
   const auto place = [scale](double noise) { return scale.at(noise); };
   panel.colors = {scale, [place](double noise) { return depth_color(1 - place(noise)); }, place};
   panel.note = fmt::format("median {:.2f} mm, 1 \xCF\x83", percentile(panel.values, 0.5, 0));

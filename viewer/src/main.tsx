@@ -14,6 +14,8 @@ import { offer_to_tests } from "./test_hooks";
 function greeted(by: Hello): void {
   batch(() => {
     hello.value = by;
+    const { generation, playing, frame: at, seed, command } = by;
+    state.value = { type: "state", generation, playing, frame: at, seed, command };
     fitted.value = new Map();
     frame.value = undefined;
     pixel.value = undefined;

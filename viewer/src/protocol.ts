@@ -69,6 +69,10 @@ export interface Hello {
   invalid: Reason[];
   invalid_color: Rgb;
   command: string;
+  generation: number;
+  playing: boolean;
+  frame: number;
+  seed: number;
   test_hooks?: boolean;
 }
 

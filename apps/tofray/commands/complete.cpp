@@ -33,7 +33,8 @@ Offers commands() {
 
 Offers options_as_offers(const Command& command) {
   Offers out;
-  for (const OptionSpec* one : options_of(command)) out.push_back({one->name, one->help});
+  for (const OptionSpec* one : options_of(command))
+    if (!one->hidden) out.push_back({one->name, one->help});
   out.push_back({"--help", "examples and options"});
   return out;
 }

@@ -1,0 +1,149 @@
+// SPDX-FileCopyrightText: 2026 The tofray authors
+// SPDX-License-Identifier: Apache-2.0
+#include "view/control.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+
+#include "base/text.h"
+#include "files/json.h"
+#include "tofray/error.h"
+#include "view/wire.h"
+
+namespace tofray::view {
+
+namespace {
+
+using files::Json;
+
+constexpr std::size_t most_values = 1000, most_key = 1000;
+constexpr std::uint64_t most_frame = 1'000'000'000;
+constexpr double least_rate = 0.01, most_rate = 1000;
+
+struct Fault {
+  std::string text, more;
+};
+
+const Json& member(const Json& message, const char* name) {
+  const Json* found = message.find(name);
+  if (found == nullptr) throw Fault{std::string("the message has no ") + base::in_quotes(name), ""};
+  return *found;
+}
+
+std::string text_of(const Json& message, const char* name) {
+  const Json& found = member(message, name);
+  if (!found.is_string()) throw Fault{base::in_quotes(name) + " is no text", ""};
+  return *found.string();
+}
+
+std::uint64_t whole(const Json& message, const char* name, std::uint64_t most) {
+  std::uint64_t number = 0;
+  if (!member(message, name).unsigned_integer(number) || number > most)
+    throw Fault{base::in_quotes(name) + " is no whole number of 0 to " + std::to_string(most), ""};
+  return number;
+}
+
+bool truth_of(const Json& message, const char* name) {
+  const bool* found = member(message, name).boolean();
+  if (found == nullptr) throw Fault{base::in_quotes(name) + " is neither true nor false", ""};
+  return *found;
+}
+
+std::uint16_t array_of(const Json& name) {
+  if (!name.is_string()) throw Fault{"the name of an array is no text", ""};
+  if (const auto found = find_wire_array(*name.string())) return *found;
+  std::vector<std::string> known;
+  for (const WireArray& one : wire_arrays()) known.emplace_back(one.name);
+  throw Fault{"no array is called " + base::in_quotes(*name.string()) + base::did_you_mean(*name.string(), known),
+              "`tofray list arrays` names them"};
+}
+
+Rate rate_of(const Json& json) {
+  Rate out{Rate::Kind::number, 0};
+  if (json.is_string()) {
+    if (const auto named = parse_rate(*json.string())) return *named;
+  } else if (json.number(out.hz) && out.hz >= least_rate && out.hz <= most_rate) {
+    return out;
+  }
+  throw Fault{"\"rate\" is none of own, max, or a number of 0.01 to 1000", ""};
+}
+
+Want want_of(const Json& message) {
+  Want out;
+  const Json& arrays = member(message, "arrays");
+  if (!arrays.is_array()) throw Fault{"\"arrays\" is no list", ""};
+  for (const Json& one : *arrays.items()) out.arrays.push_back(array_of(one));
+  std::sort(out.arrays.begin(), out.arrays.end());
+  out.arrays.erase(std::unique(out.arrays.begin(), out.arrays.end()), out.arrays.end());
+  if (const Json* rate = message.find("rate")) out.rate = rate_of(*rate);
+  return out;
+}
+
+Edit edit_of(const Json& message, bool with_text) {
+  Edit out;
+  out.id = whole(message, "id", UINT64_MAX);
+  out.key = text_of(message, "key");
+  if (out.key.empty() || out.key.size() > most_key || out.key.find('=') != std::string::npos)
+    throw Fault{base::in_quotes(out.key) + " is no key", "expected a key of --set, as in camera.lens.f_number"};
+  if (with_text) out.text = text_of(message, "text");
+  return out;
+}
+
+Edit seed_of(const Json& message) {
+  Edit out;
+  out.id = whole(message, "id", UINT64_MAX), out.seed = whole(message, "seed", UINT64_MAX);
+  return out;
+}
+
+PixelQuestion pixel_of(const Json& message) {
+  constexpr std::uint64_t most = 16384;
+  return {whole(message, "id", UINT64_MAX), static_cast<int>(whole(message, "u", most)), static_cast<int>(whole(message, "v", most))};
+}
+
+Control control_of(const Json& message) {
+  const std::string type = text_of(message, "type");
+  if (type == "want") return want_of(message);
+  if (type == "visible") return Visible{truth_of(message, "visible")};
+  if (type == "ack") return Acknowledge{static_cast<std::uint32_t>(whole(message, "sequence", UINT32_MAX))};
+  if (type == "play" || type == "pause") return Play{type == "play"};
+  if (type == "seek") return Seek{whole(message, "frame", most_frame)};
+  if (type == "pixel") return pixel_of(message);
+  if (type == "fit") return Fit{text_of(message, "array")};
+  if (type == "set" || type == "unset") return edit_of(message, type == "set");
+  if (type == "seed") return seed_of(message);
+  throw Fault{"no message is of the type " + base::in_quotes(type),
+              "expected ack, fit, pause, pixel, play, seed, seek, set, unset, visible or want"};
+}
+
+}  // namespace
+
+std::optional<Rate> parse_rate(std::string_view text) {
+  if (text == "own") return Rate{Rate::Kind::own, 0};
+  if (text == "max") return Rate{Rate::Kind::most, 0};
+  Rate out{Rate::Kind::number, 0};
+  const auto read = std::from_chars(text.data(), text.data() + text.size(), out.hz);
+  if (read.ec != std::errc() || read.ptr != text.data() + text.size() || !(out.hz >= least_rate && out.hz <= most_rate)) return {};
+  return out;
+}
+
+Control parse_control(std::string_view text) {
+  Refused refused;
+  try {
+    const Json message = files::parse_json(text, "message", most_values);
+    if (!message.is_object()) return Refused{{}, "the message is no JSON object", ""};
+    std::uint64_t id = 0;
+    if (const Json* named = message.find("id"); named != nullptr && named->unsigned_integer(id)) refused.id = id;
+    return control_of(message);
+  } catch (const Fault& fault) {
+    refused.text = fault.text, refused.more = fault.more;
+  } catch (const Error& error) {
+    const std::string all = error.what();
+    const std::size_t end = std::min(all.find('\n'), all.size());
+    refused.text = all.substr(0, end);
+    if (const std::size_t more = all.find_first_not_of(" \n", end); more != std::string::npos) refused.more = all.substr(more);
+  }
+  return refused;
+}
+
+}  // namespace tofray::view

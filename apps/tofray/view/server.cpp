@@ -1,0 +1,276 @@
+// SPDX-FileCopyrightText: 2026 The tofray authors
+// SPDX-License-Identifier: Apache-2.0
+#include "view/server.h"
+
+#include <fmt/core.h>
+
+#include <csignal>
+#include <cstdlib>
+#include <memory>
+
+#include "console.h"
+#include "tofray/error.h"
+#include "view/assets.h"
+#include "view/beast.h"
+#include "view/client.h"
+#include "view/hub.h"
+#include "view/secret.h"
+
+namespace tofray::view {
+
+namespace {
+
+constexpr int usual_port = 7170, ports_behind = 20;
+constexpr std::uint32_t most_head = 16384;
+constexpr auto head_time = std::chrono::seconds(5), answer_time = std::chrono::seconds(30);
+
+constexpr std::string_view no_page =
+    "<!doctype html><meta charset=utf-8><title>tofray</title><p>This build has no page: ./dev view makes it.";
+
+bool is_file(std::string_view target) { return target == "/" || find_asset(target) != nullptr; }
+
+Request request_of(const http::request<http::empty_body>& from, std::vector<Header>& headers) {
+  const auto view = [](beast::string_view text) { return std::string_view(text.data(), text.size()); };
+  for (const auto& one : from) headers.push_back({view(one.name_string()), view(one.value())});
+  return {view(from.method_string()), view(from.target()), static_cast<int>(from.version()), headers};
+}
+
+/// A connection that speaks HTTP: answers requests, one after the other, until one of them opens a WebSocket.
+class Connection : public std::enable_shared_from_this<Connection> {
+ public:
+  Connection(tcp::socket&& socket, Counted counted) : stream_(std::move(socket)), counted_(std::move(counted)) {}
+
+  void read() {
+    parser_.emplace();
+    parser_->header_limit(most_head);
+    parser_->body_limit(0);
+    stream_.expires_after(head_time);
+    http::async_read_header(stream_, buffer_, *parser_, [self = shared_from_this()](error_code error, std::size_t) { self->took(error); });
+  }
+
+  void refuse_for_want_of_room() { answer(false, {503, "64 connections are open: close one"}, false); }
+
+ private:
+  void took(error_code error) {
+    if (error == http::error::header_limit) return answer(false, {431, "the headers are too long"}, false);
+    if (error && error.category() == make_error_code(http::error::bad_value).category() && error != http::error::end_of_stream)
+      return answer(false, {400, "this is no request of HTTP/1.1"}, false);
+    if (error) return;  // gone, or too slow
+    const auto& request = parser_->get();
+    std::vector<Header> headers;
+    const Request seen = request_of(request, headers);
+    Verdict verdict = judged(seen, counted_.hub().admission(), is_file);
+    if (verdict.status == 101 && buffer_.size() > 0) verdict = {400, "nothing is sent before the WebSocket is open"};
+    if (verdict.status == 101) {
+      std::make_shared<Client>(std::move(stream_), std::move(counted_))->accept(parser_->release());
+      return;
+    }
+    const bool goes_on = verdict.status == 200 && request.keep_alive();
+    answer(request.method() == http::verb::head, verdict, goes_on, std::string(seen.target));
+  }
+
+  void answer(bool head, const Verdict& verdict, bool goes_on, const std::string& target = {}) {
+    const Asset* file = verdict.status == 200 ? find_asset(target) : nullptr;
+    const bool is_empty_page = verdict.status == 200 && file == nullptr;
+    const std::string text = std::string(verdict.why) + "\n";
+    const std::string_view body = file != nullptr ? file->bytes : is_empty_page ? no_page : std::string_view(text);
+    auto response = std::make_shared<http::response<http::string_body>>();
+    response->version(11);
+    response->result(static_cast<unsigned>(verdict.status));
+    response->keep_alive(goes_on);
+    set_headers(*response, verdict.status);
+    response->set(http::field::content_type, file != nullptr ? std::string(file->type)
+                                             : is_empty_page ? "text/html; charset=utf-8"
+                                                             : "text/plain; charset=utf-8");
+    response->content_length(body.size());
+    if (!head) response->body() = body;
+    stream_.expires_after(answer_time);
+    auto serializer = std::make_shared<http::response_serializer<http::string_body>>(*response);
+    const auto then = [self = shared_from_this(), response, serializer, goes_on](error_code error, std::size_t) {
+      if (error) return;
+      if (goes_on) return self->read();
+      error_code ignored;
+      self->stream_.socket().shutdown(tcp::socket::shutdown_send, ignored);
+    };
+    if (head)
+      http::async_write_header(stream_, *serializer, then);
+    else
+      http::async_write(stream_, *serializer, then);
+  }
+
+  void set_headers(http::response<http::string_body>& response, int status) const {
+    // The hub is gone to the WebSocket where there is one; nothing is answered then.
+    const Admission& admission = counted_.hub().admission();
+    response.set(http::field::server, "tofray");
+    response.set(http::field::cache_control, "no-store");
+    response.set("Content-Security-Policy", content_policy(admission.hosts, admission.embed));
+    response.set("X-Content-Type-Options", "nosniff");
+    response.set("Referrer-Policy", "no-referrer");
+    response.set("Cross-Origin-Opener-Policy", "same-origin");
+    response.set("Cross-Origin-Resource-Policy", "same-origin");
+    if (!admission.embed) response.set("X-Frame-Options", "DENY");
+    if (status == 405) response.set(http::field::allow, "GET, HEAD");
+    if (status == 426) response.set(http::field::sec_websocket_version, "13"), response.set(http::field::upgrade, "websocket");
+  }
+
+  beast::tcp_stream stream_;
+  Counted counted_;
+  beast::flat_buffer buffer_{2 * most_head};
+  std::optional<http::request_parser<http::empty_body>> parser_;
+};
+
+/// Takes connections at one address.
+class Listener : public std::enable_shared_from_this<Listener> {
+ public:
+  Listener(net::io_context& io, std::shared_ptr<Hub> hub) : acceptor_(io), again_(io), hub_(std::move(hub)) {}
+
+  error_code open(const tcp::endpoint& at) {
+    error_code error;
+    acceptor_.open(at.protocol(), error);
+    if (!error) acceptor_.set_option(net::socket_base::reuse_address(true), error);
+    if (!error && at.address().is_v6()) acceptor_.set_option(net::ip::v6_only(true), error);
+    if (!error) acceptor_.bind(at, error);
+    if (!error) acceptor_.listen(net::socket_base::max_listen_connections, error);
+    if (error) close();
+    return error;
+  }
+
+  void accept() {
+    acceptor_.async_accept([self = shared_from_this()](error_code error, tcp::socket socket) {
+      if (error == net::error::operation_aborted) return;
+      if (error) return self->wait();
+      error_code ignored;
+      socket.set_option(tcp::no_delay(true), ignored);
+      const bool full = self->hub_->connections >= Hub::most_connections;
+      const auto connection = std::make_shared<Connection>(std::move(socket), Counted(self->hub_));
+      if (full)
+        connection->refuse_for_want_of_room();
+      else
+        connection->read();
+      self->accept();
+    });
+  }
+
+  [[nodiscard]] int port() const { return acceptor_.local_endpoint().port(); }
+  void set_hub(std::shared_ptr<Hub> hub) { hub_ = std::move(hub); }
+  void close() {
+    error_code ignored;
+    acceptor_.close(ignored);
+    again_.cancel();
+  }
+
+ private:
+  /// Where the process has no more files, a moment later it may.
+  void wait() {
+    again_.expires_after(std::chrono::milliseconds(100));
+    again_.async_wait([self = shared_from_this()](error_code error) {
+      if (!error) self->accept();
+    });
+  }
+
+  tcp::acceptor acceptor_;
+  net::steady_timer again_;
+  std::shared_ptr<Hub> hub_;
+};
+
+using Listeners = std::vector<std::shared_ptr<Listener>>;
+
+/// Listens at these addresses, on the same port. @return nothing where the first one cannot be had
+Listeners opened(net::io_context& io, const std::vector<net::ip::address>& addresses, int port, error_code& error) {
+  Listeners out;
+  for (const net::ip::address& address : addresses) {
+    auto one = std::make_shared<Listener>(io, nullptr);
+    const int at = out.empty() ? port : out.front()->port();
+    const error_code failed = one->open({address, static_cast<std::uint16_t>(at)});
+    if (failed && out.empty()) {
+      error = failed;
+      return {};
+    }
+    if (failed)
+      app::say(fmt::format("warning: the viewer is not reached at {}: {}\n", address.to_string(), failed.message()));
+    else
+      out.push_back(std::move(one));
+  }
+  return out;
+}
+
+Listeners listening(net::io_context& io, const ServerOptions& options) {
+  std::vector<net::ip::address> addresses = {net::ip::address_v4::loopback(), net::ip::address_v6::loopback()};
+  error_code error;
+  if (!options.host.empty()) {
+    const std::string host = options.host == "localhost" ? "127.0.0.1" : options.host;
+    addresses = {net::ip::make_address(host, error)};
+    if (error)
+      throw Error(ErrorKind::bad_input,
+                  fmt::format("error: --host {} is no address\n  expected one of this machine's, as in --host 0.0.0.0 or --host ::1",
+                              options.host));
+  }
+  const int first = options.port.value_or(usual_port), last = options.port ? first : usual_port + ports_behind;
+  for (int port = first; port <= last; ++port) {
+    Listeners out = opened(io, addresses, port, error);
+    if (!out.empty()) return out;
+  }
+  throw Error(
+      ErrorKind::io,
+      fmt::format("error: the viewer cannot listen on {} port {}: {}\n  expected a port that is free; without --port one is looked for",
+                  addresses.front().to_string(), first, error.message()));
+}
+
+/// The same for what the shell told to be ignored, as nohup does.
+void add_signal(net::signal_set& signals, int signal) {
+  struct sigaction now {};
+  if (::sigaction(signal, nullptr, &now) == 0 && now.sa_handler == SIG_IGN) return;
+  signals.add(signal);
+}
+
+/// Handlers may throw for a lack of memory: the connection that it happened to is gone then, and no other.
+void run(net::io_context& io) {
+  for (;;) {
+    try {
+      io.run();
+      return;
+    } catch (const std::exception& error) {
+      app::say(fmt::format("warning: a connection is lost: {}\n", error.what()));
+    }
+  }
+}
+
+}  // namespace
+
+void serve(const ServerOptions& options, Session& session, const std::function<void(const Address&)>& told) {
+  net::io_context io(1);
+  const Listeners listeners = listening(io, options);
+  const int port = listeners.front()->port();
+  Admission admission;
+  std::vector<std::string> further = options.allowed_hosts;
+  admission.hosts = hosts_of(port, further), admission.token = new_token(), admission.embed = options.embed;
+  const std::string token = admission.token;
+  const auto hub = std::make_shared<Hub>(io, session, options.rate, std::move(admission));
+  for (const auto& one : listeners) one->set_hub(hub), one->accept();
+
+  net::steady_timer last_moment(io);
+  net::signal_set signals(io);
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) add_signal(signals, signal);
+  signals.async_wait([&](error_code error, int) {
+    if (error) return;
+    session.stop();
+    for (const auto& one : listeners) one->close();
+    hub->close_all();
+    // Pages have a moment to take their leave.
+    last_moment.expires_after(std::chrono::milliseconds(300));
+    last_moment.async_wait([&](error_code) { io.stop(); });
+  });
+
+  session.start(*hub);
+  const bool local =
+      net::ip::address(net::ip::make_address(options.host.empty() || options.host == "localhost" ? "127.0.0.1" : options.host))
+          .is_loopback();
+  const std::string name =
+      options.allowed_hosts.empty() || local ? fmt::format("127.0.0.1:{}", port) : hosts_of(port, {options.allowed_hosts.front()}).back();
+  told({fmt::format("http://{}/#t={}", name, token), port, !local});
+  run(io);
+  session.stop();
+  if (!session.ended(std::chrono::milliseconds(500))) std::_Exit(0);  // it reads a large file: nothing is lost
+}
+
+}  // namespace tofray::view
