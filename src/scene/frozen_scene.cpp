@@ -139,10 +139,10 @@ void FrozenScene::add_materials(const std::vector<Material>& materials) {
 template <class T, class Said>
 T FrozenScene::placed(const Said& said, const shape::Placement& at) {
   if constexpr (shape::many_of<T>) {
-    const auto [known, fresh] = hierarchies_.try_emplace(said.triangles);
-    if (fresh) known->second = build_hierarchy(*said.triangles);
-    if (!known->second.details.empty()) view_.any_details = 1;
-    return T::placed(known->second, at);
+    std::shared_ptr<const Hierarchy>& hierarchy = hierarchies_[said.triangles];
+    if (hierarchy == nullptr) hierarchy = shared_hierarchy(*said.triangles);
+    if (!hierarchy->details.empty()) view_.any_details = 1;
+    return T::placed(*hierarchy, at);
   } else {
     return T::placed(said, at);
   }
@@ -186,7 +186,7 @@ void FrozenScene::add_changing(std::size_t object) {
   while (which < changing_.size() && (changing_[which].motion != mesh->motion.get() || changing_[which].mesh != mesh->triangles.get()))
     ++which;
   if (which == changing_.size())
-    changing_.push_back({mesh->triangles.get(), mesh->motion.get(), &hierarchies_.at(mesh->triangles), {}, {}});
+    changing_.push_back({mesh->triangles.get(), mesh->motion.get(), hierarchies_.at(mesh->triangles).get(), {}, {}});
   changing_bodies_.push_back({moving_.of<shape::Mesh>().bodies.size() - 1, object, which});
 }
 

@@ -92,8 +92,9 @@ class FrozenScene {
   bool moves_ = false;
   std::vector<Mover> movers_;
   BodyLists still_, moving_;
-  std::map<std::shared_ptr<const TriangleMesh>, Hierarchy> hierarchies_;  ///< one for all objects that share the triangles
-  std::map<const void*, int> map_numbers_;                                ///< one for all materials that share a picture
+  std::map<std::shared_ptr<const TriangleMesh>, std::shared_ptr<const Hierarchy>>
+      hierarchies_;                         ///< one for all objects that share the triangles
+  std::map<const void*, int> map_numbers_;  ///< one for all materials that share a picture
   Levels map_levels_;
   std::vector<brdf::MapView> maps_;
   std::vector<shape::Vec> lights_;

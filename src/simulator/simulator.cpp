@@ -76,7 +76,7 @@ Simulator::Impl::Impl(const Scene& all, const Camera& given, const SimulatorOpti
       camera(camera::with_emitters(base::as_read_out(profile))),
       region_camera(base::as_read_out(simulator::without_border(profile, border))),
       options(with_last_stage(wanted, camera, scene)),
-      frozen_camera(base::with_offsets(profile), wanted.noise != Noise::off, wanted.seed, wanted.subpixel),
+      frozen_camera(base::with_offsets(profile), wanted.noise != Noise::off, wanted.seed, wanted.subpixel, wanted.threads),
       frozen_scene(scene, positions(camera), static_cast<int>(camera.mode.sequence.size()) * options.exposure_samples,
                    scene.transport.bounces > 0),
       setup(fixed_setup()),
