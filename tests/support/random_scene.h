@@ -71,6 +71,14 @@ inline void add_vector_maps(Material& leaning, Material& metal) {
   metal.finish = map(6, 9, [&] { return std::array{number(0, 1), number(0, 1), number(0.1, 1)}; });
 }
 
+/// A picture that cuts out a third of a mesh that has texture coordinates; by a chance of its own.
+inline std::shared_ptr<const ReflectivityMap> random_opacity() {
+  Random random(98);
+  auto map = std::make_shared<ReflectivityMap>(*random_map(random));
+  for (float& a : map->values) a = random.uniform() < 0.3 ? 0.0F : 1.0F;
+  return map;
+}
+
 /// Some of everything before a slanted wall; half of it turned, and moving if asked for.
 inline Scene random_scene(Random& random, int objects, bool moving) {
   Scene scene;
@@ -82,6 +90,7 @@ inline Scene random_scene(Random& random, int objects, bool moving) {
   for (Material& one : scene.materials) one.map = random_map(random);
   scene.materials[3].alpha = 0.2;
   add_vector_maps(scene.materials[1], scene.materials[3]);
+  scene.materials[0].opacity = scene.materials[3].opacity = random_opacity();
   scene.materials[4].retro = 0.3, scene.materials[4].spread_rad = 0.03;
   const double back = random.between(3, 6);
   const Vec3 slant = random.point(0.4);
