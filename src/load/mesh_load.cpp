@@ -216,7 +216,8 @@ MeshReader::Known MeshReader::from_file(const Places& places, const Mesh& wanted
     piece.left_out += beyond, lost += beyond;
     if (piece.mesh.triangles.empty()) continue;
     if (piece.of.nowhere) {
-      known.notices.push_back("material " + base::in_quotes(piece.of.name) + " is cut out everywhere by its alpha: its triangles are left out");
+      known.notices.push_back("material " + base::in_quotes(piece.of.name) +
+                              " is cut out everywhere by its alpha: its triangles are left out");
       continue;
     }
     if (by_material && piece.of.name == no_material) known.materials.emplace_back(no_material);
@@ -238,8 +239,9 @@ void MeshReader::check_seen(const Places& places, const Mesh& wanted, const std:
     base::fail(places.file, "no triangle of " + file + " has an area",
                "the corners of each lie on a line or in one point: there is nothing to see");
   if (std::any_of(all.begin(), all.end(), [](const MeshPiece& piece) { return piece.of.nowhere && !piece.mesh.triangles.empty(); }))
-    base::fail(places.file, "all of " + file + " is cut out by alpha",
-               "no material's alpha comes up to its cut-off (alphaMode MASK, or 0.5 of BLEND); a reflectivity of the object makes it opaque");
+    base::fail(
+        places.file, "all of " + file + " is cut out by alpha",
+        "no material's alpha comes up to its cut-off (alphaMode MASK, or 0.5 of BLEND); a reflectivity of the object makes it opaque");
   if (all.empty()) base::fail(places.file, "no triangle of " + file + " is in the world", "the file's scene shows none");
   if (lost == 0) base::fail(places.file, "no triangle of " + file + " is in the world", "each has a corner that is not a finite number");
   const std::string corners = "all have a corner beyond " + base::number_text(base::farthest_m) + " m, up to " +
@@ -276,7 +278,8 @@ std::vector<MeshPiece> MeshReader::from_gltf(const Places& places, const Mesh& w
     base::fail(places.play, base::in_quotes(path, 200) + " has no animation", "there is nothing to play; leave it away");
   known.sha256 = std::move(file.sha256), known.notices = std::move(file.model.notices);
   for (std::size_t i = 0; i < file.model.materials.size(); ++i) known.materials.push_back(name_of(file.model, static_cast<int>(i)));
-  if (!by_material && std::any_of(file.model.materials.begin(), file.model.materials.end(), [](const gltf::Material& one) { return cutoff_of(one) > 0; }))
+  if (!by_material &&
+      std::any_of(file.model.materials.begin(), file.model.materials.end(), [](const gltf::Material& one) { return cutoff_of(one) > 0; }))
     known.notices.emplace_back("what its materials cut out by alpha is opaque, since the object's own material stands for all of them");
   const bool plays = wanted.time_s || wanted.play != Mesh::Play::still;
   if (!plays && !wanted.animation.empty())

@@ -20,7 +20,8 @@ class ObjMaterials;
 
 /// Of an object that has no material, and whose file has none.
 inline constexpr const char* lacks_material =
-    "expected one of \"reflectivity\" or \"material\"; glTF files, OBJ files that name an mtllib, PLY files that wear a picture, and vertices "
+    "expected one of \"reflectivity\" or \"material\"; glTF files, OBJ files that name an mtllib, PLY files that wear a picture, and "
+    "vertices "
     "with colours have their own";
 
 /// Where the files that a scene names lie.

@@ -54,8 +54,9 @@ std::vector<std::string> notices_of(const std::vector<const FileMaterial*>& mate
     out.push_back("the picture of normals of material " + and_more(normals) +
                   " is left out: it is grey, or lies elsewhere on the triangles than the first picture");
   if (!through.empty())
-    out.push_back("material " + and_more(through) +
-                  " lets light through in part (alphaMode BLEND): it is a surface where its alpha is 0.5 or more, and nothing where it is less");
+    out.push_back(
+        "material " + and_more(through) +
+        " lets light through in part (alphaMode BLEND): it is a surface where its alpha is 0.5 or more, and nothing where it is less");
   if (!alphas.empty())
     out.push_back("material " + and_more(alphas) +
                   " is cut out by alphas of vertices, or by a picture without texture coordinates: they are left out");

@@ -146,13 +146,15 @@ class ObjReader {
   void tell_of_free_form() {
     std::vector<std::string> parts;
     for (const auto& [word, times] : free_form_)
-      if (word == "curv" || word == "curv2" || word == "surf") parts.push_back(in_quotes(word) + (times > 1 ? fmt::format(" ({} times)", times) : ""));
+      if (word == "curv" || word == "curv2" || word == "surf")
+        parts.push_back(in_quotes(word) + (times > 1 ? fmt::format(" ({} times)", times) : ""));
     if (parts.empty()) parts.push_back(in_quotes(free_form_.front().first));
     if (mesh_.so_far().mesh.triangles.empty())
       words_.fail(free_form_mark_, "curves and surfaces of free form are not read: " + base::listed(parts, "and"),
                   "expected polygons (v, f): have the program that wrote the file divide its surfaces into them");
-    mesh_.so_far().notices.push_back(fmt::format("curves and surfaces of free form are left out: {}, from line {} on; polygons alone are seen",
-                                                 base::listed(parts, "and"), free_form_mark_.line));
+    mesh_.so_far().notices.push_back(
+        fmt::format("curves and surfaces of free form are left out: {}, from line {} on; polygons alone are seen",
+                    base::listed(parts, "and"), free_form_mark_.line));
   }
 
   /// Programs write words of their own; where there is no mesh besides it is another kind of file.

@@ -211,7 +211,8 @@ class PlyReader {
     if (place_of.empty()) return;
     numbers_.resize(mesh.mesh.triangles.size(), 0);
     for (const std::int64_t number : numbers_)
-      mesh.material_of.push_back(number >= 0 && number < static_cast<std::int64_t>(place_of.size()) ? place_of[static_cast<std::size_t>(number)] : -1);
+      mesh.material_of.push_back(
+          number >= 0 && number < static_cast<std::int64_t>(place_of.size()) ? place_of[static_cast<std::size_t>(number)] : -1);
   }
 
   double share(const PlyProperty& property) { return body_.number(property.type) / full(property.type); }
@@ -248,9 +249,11 @@ class PlyReader {
   /// u, v of each corner.
   void read_texcoords(const PlyProperty& property) {
     const std::uint64_t length = body_.length(property.count, property.type);
-    if (length % 2 != 0) body_.fail("the texture coordinates of a face are an odd number", fmt::format("got {}, expected u, v of each corner", length));
+    if (length % 2 != 0)
+      body_.fail("the texture coordinates of a face are an odd number", fmt::format("got {}, expected u, v of each corner", length));
     if (texcoords_.size() + length / 2 > MeshBuilder::most_vertices)
-      body_.fail(fmt::format("the file has more than {} texture coordinates", MeshBuilder::most_vertices), "(`tofray --limits`)", ErrorKind::limit);
+      base::fail(base::whole(name_), fmt::format("the file has more than {} texture coordinates", MeshBuilder::most_vertices),
+                 "(`tofray --limits`)", ErrorKind::limit);
     for (std::uint64_t i = 0; i < length; i += 2) {
       const float u = to_float(body_.number(property.type));
       texcoords_.push_back(mesh_.place_in_picture(u, to_float(body_.number(property.type))));
@@ -323,7 +326,7 @@ class PlyReader {
   Body body_;
   MeshBuilder mesh_;
   Polygons polygons_;
-  std::vector<float> shades_;  ///< of each triangle, where faces have colours
+  std::vector<float> shades_;                    ///< of each triangle, where faces have colours
   std::vector<std::array<float, 2>> texcoords_;  ///< of corners, where faces have lists of them
   CornerList of_texcoords_{"a texture coordinate"};
   std::vector<std::int64_t> numbers_;  ///< of each triangle, the picture that its face names; those behind have 0

@@ -29,7 +29,8 @@ std::vector<float> covered_by(const ReflectivityMap& opacity, int width, int hei
   const auto at = [](int i, int size, int of) { return static_cast<int>((2 * std::int64_t{i} + 1) * of / (2 * std::int64_t{size})); };
   for (int y = 0; y < height; ++y)
     for (int x = 0; x < width; ++x)
-      out.push_back(opacity.values[index_of(at(y, height, opacity.height), opacity.width, at(x, width, opacity.width))] >= 0.5F ? 1.0F : 0.0F);
+      out.push_back(opacity.values[index_of(at(y, height, opacity.height), opacity.width, at(x, width, opacity.width))] >= 0.5F ? 1.0F
+                                                                                                                                : 0.0F);
   return out;
 }
 

@@ -101,9 +101,9 @@ struct Mesh : MeshTree {
   static constexpr int facets = 2;  ///< hits name the first; the second has what is left (facet_of)
   static constexpr bool closed = false, curved = true, many = true;
 
-  Mat axes;          ///< rows: those of the mesh's frame
-  Vec origin;        ///< where its zero is
-  Vec center, half;  ///< of its box, in its own frame
+  Mat axes;                ///< rows: those of the mesh's frame
+  Vec origin;              ///< where its zero is
+  Vec center, half;        ///< of its box, in its own frame
   const MeshSteps* steps;  ///< null: it keeps its shape, or nobody asks
   std::int32_t node_count, block_count;
   std::int32_t has_texcoords, has_shades;

@@ -25,9 +25,7 @@ class gltf_cut_out : public testing::Test {
   [[nodiscard]] Scene scene(const std::string& keys = "", const std::string& before = "") const {
     return load::scene_from_text(before + "objects:\n  - mesh: {file: a.glb" + keys + "}\n", (folder_.path() / "in/s.yaml").string());
   }
-  [[nodiscard]] Sentences notices(const std::string& keys = "") const {
-    return std::get<Mesh>(scene(keys).objects.at(0).shape).notices;
-  }
+  [[nodiscard]] Sentences notices(const std::string& keys = "") const { return std::get<Mesh>(scene(keys).objects.at(0).shape).notices; }
 
   /// One triangle, with coordinates in a picture of 4 × 1: red of alpha 255, white of alpha 127, green of 128, white of 0.
   [[nodiscard]] static File leaf(const std::string& mode, const Doc& more = Doc::object(), double factor = 1, bool has_texcoords = true) {
@@ -37,10 +35,10 @@ class gltf_cut_out : public testing::Test {
     const int mesh = file.mesh(attributes);
     file.primitive(mesh)["material"] = 0;
     file.node({{"mesh", mesh}});
-    Doc material = {{"name", "leaf"},
-                    {"alphaMode", mode},
-                    {"pbrMetallicRoughness",
-                     {{"baseColorFactor", {1, 1, 1, factor}}, {"baseColorTexture", {{"index", 0}}}, {"metallicFactor", 0}}}};
+    Doc material = {
+        {"name", "leaf"},
+        {"alphaMode", mode},
+        {"pbrMetallicRoughness", {{"baseColorFactor", {1, 1, 1, factor}}, {"baseColorTexture", {{"index", 0}}}, {"metallicFactor", 0}}}};
     material.update(more);
     file.add("materials", material);
     const std::string row("\0\xFF\0\0\xFF\xFF\xFF\xFF\x7F\0\xFF\0\x80\xFF\xFF\xFF\0", 17);

@@ -90,7 +90,6 @@ inline Scene random_scene(Random& random, int objects, bool moving) {
   for (Material& one : scene.materials) one.map = random_map(random);
   scene.materials[3].alpha = 0.2;
   add_vector_maps(scene.materials[1], scene.materials[3]);
-  scene.materials[0].opacity = scene.materials[3].opacity = random_opacity();
   scene.materials[4].retro = 0.3, scene.materials[4].spread_rad = 0.03;
   const double back = random.between(3, 6);
   const Vec3 slant = random.point(0.4);
@@ -131,6 +130,9 @@ inline Scene random_scene(Random& random, int objects, bool moving) {
   }
   return scene;
 }
+
+/// Cuts holes into those of a random scene's meshes that have texture coordinates and one of two materials.
+inline void cut_out(Scene& scene) { scene.materials[0].opacity = scene.materials[3].opacity = random_opacity(); }
 
 /// Sets some of a scene's things in motion while the first frames of a camera are taken: they turn, or follow keyframes; its camera does,
 /// if asked for, about where it stands.
