@@ -6,8 +6,10 @@
 #include "gltf/gltf_files.h"
 #include "image/image_files.h"
 #include "load/load.h"
+#include "support/pixels.h"
 #include "support/samples.h"
 #include "support/text.h"
+#include "tofray/tofray.h"
 
 using namespace tofray;
 using gltf_test::File;
@@ -148,4 +150,25 @@ TEST_F(gltf_cut_out, stays_where_the_scene_says_what_a_material_is) {
   File file = leaf("MASK", {{"extras", {{"nir_reflectivity", 0.9}}}});
   save(file);
   expect_there(scene(), {true, false, true, false});
+}
+
+// Out of the file into the picture: the middles of the four texels of a square metre, seen at 1 m before a wall.
+TEST_F(gltf_cut_out, is_seen_through) {
+  File file = leaf("MASK");
+  file.json["nodes"].clear();
+  const int corners = file.floats({-0.5, -0.5, -1, 0.5, -0.5, -1, 0.5, 0.5, -1, -0.5, 0.5, -1}, "VEC3");
+  const int square = file.mesh({{"POSITION", corners}, {"TEXCOORD_0", file.floats({0, 1, 1, 1, 1, 0, 0, 0}, "VEC2")}},
+                               file.accessor<std::uint16_t>({0, 1, 2, 0, 2, 3}, "SCALAR"));
+  file.primitive(square)["material"] = 0;
+  file.node({{"mesh", square}});
+  save(file);
+  const Scene got =
+      load::scene_from_text("objects:\n  - plane: {point: [0, 0, 2], normal: [0, 0, -1], reflectivity: 0.5}\n  - mesh: {file: a.glb}\n",
+                            (folder_.path() / "in/s.yaml").string());
+  const Frame frame = Simulator(got, test::lit_camera(64, 3, 64), {.noise = Noise::off, .truth = true}).frame(0);
+  const std::int32_t expected[] = {1, 0, 1, 0};
+  for (std::size_t i = 0; i < 4; ++i) {
+    EXPECT_EQ(frame.truth.object_id[64 + 8 + 16 * i], expected[i]) << i;
+    EXPECT_NEAR(frame.truth.z_m[64 + 8 + 16 * i], expected[i] == 1 ? 1.0F : 2.0F, 1e-5F) << i;
+  }
 }
