@@ -165,10 +165,10 @@ TEST_F(gltf_cut_out, is_seen_through) {
   const Scene got =
       load::scene_from_text("objects:\n  - plane: {point: [0, 0, 2], normal: [0, 0, -1], reflectivity: 0.5}\n  - mesh: {file: a.glb}\n",
                             (folder_.path() / "in/s.yaml").string());
-  const Frame frame = Simulator(got, test::lit_camera(64, 3, 64), {.noise = Noise::off, .truth = true}).frame(0);
+  const Frame frame = Simulator(got, test::lit_camera(65, 3, 64), {.noise = Noise::off, .truth = true}).frame(0);
   const std::int32_t expected[] = {1, 0, 1, 0};
   for (std::size_t i = 0; i < 4; ++i) {
-    EXPECT_EQ(frame.truth.object_id[64 + 8 + 16 * i], expected[i]) << i;
-    EXPECT_NEAR(frame.truth.z_m[64 + 8 + 16 * i], expected[i] == 1 ? 1.0F : 2.0F, 1e-5F) << i;
+    EXPECT_EQ(frame.truth.object_id[65 + 8 + 16 * i], expected[i]) << i;
+    EXPECT_NEAR(frame.truth.z_m[65 + 8 + 16 * i], expected[i] == 1 ? 1.0F : 2.0F, 1e-5F) << i;
   }
 }
