@@ -386,6 +386,16 @@ TEST(polygon, that_crosses_itself_stays_a_fan_and_is_told) {
   EXPECT_EQ(read.notices, std::vector<std::string>{"2 faces cross themselves: what lies inside is a guess"});
 }
 
+// Found by chance: 10³⁰ cells away is no whole number (the sanitizers' build tells).
+TEST(polygon, whose_ears_are_far_outside_of_all_hollow_corners_is_divided) {
+  const ReadMesh got =
+      mesh::parse(Format::obj,
+                  "v 0 0 0\nv 3 0 0\nv 4888888888888888888888888888888 3 0\nv 8 7 0\nv 7 7 0\nv 7 4 0\nv 10 0 0\nv 10 10 0\nv 0 "
+                  "1888888888888888888888888888888 3\nf 1 2 3 4 2 6 3 2 7 9\n",
+                  "m");
+  EXPECT_EQ(got.mesh.triangles.size(), 8U);
+}
+
 TEST(polygon, of_a_hundred_thousand_corners_takes_seconds) {
   constexpr std::int64_t n = 50'000;
   Outline comb{{-1, 0}}, spiral, back, star;
