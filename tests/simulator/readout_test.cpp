@@ -179,6 +179,24 @@ TEST(readout, a_region_of_even_light_is_even) {
   }
 }
 
+// What lies beside a region is computed for the lens that scatters, and brighter: the next time follows from the region's codes alone (4.28).
+TEST(readout, an_exposure_meters_its_region_alone) {
+  Camera camera = whole_sensor();
+  camera.lens.scatter = {Scatter::Kind::gaussians, 0.2, {3}, {}};
+  camera.auto_exposure = {1, 0.5, 1, 0, 1e-2};
+  for (const auto& [left, top] : {std::array{25, 20}, {4, 4}, {45, 24}}) {
+    const Camera part = read_by(camera, {1, left, top, 8, 8});
+    Simulator simulator(steps(), part, {.noise = Noise::off, .threads = 1});
+    const Frame first = simulator.frame(0);
+    const double reach = std::min(part.adc.mid_code - part.adc.valid_min, part.adc.valid_max - part.adc.mid_code);
+    double most = 0;
+    for (std::size_t i = 0; i < first.raw.raw.size(); ++i)
+      if (part.mode.sequence[i / 64].lit) most = std::max(most, std::abs(first.raw.raw[i] - part.adc.mid_code) / reach);
+    const double before = first.raw.integration_time_s[0], after = simulator.frame(1).raw.integration_time_s[0];
+    EXPECT_NEAR(after / before, std::clamp(0.5 / most, 0.25, 4.0), 1e-6) << left << " " << top;  // a share in float
+  }
+}
+
 // A region with no width reaches to the sensor's edge.
 TEST(readout, a_region_reaches_to_the_edge_unless_it_says_how_far) {
   const ImageSize size = image_size(read_by(whole_sensor(), {2, 9, 5, 0, 0}));
