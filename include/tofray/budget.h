@@ -65,18 +65,18 @@ struct BudgetRow {
   double contrast = 0;                 ///< mean of the modulation frequencies
   double amplitude_e = 0;              ///< mean of the modulation frequencies, as Depth::amplitude_e
   double tap_filling = 0;              ///< of the fuller tap of a lit raw frame, over the full well; may be above 1
-  double adc_filling = 0;              ///< how far the code is from the middle, over the way to the nearer end of the valid codes; may be above 1
-  double sigma_m = 0;                  ///< of the range, 1 sigma, before filters and means over frames; NaN: there is no range
-  double sigma_z_m = 0;                ///< the same of z
-  double noise_estimate_m = 0;         ///< what the camera says of the same by itself (Depth::noise_m); NaN likewise
-  VarianceShares share;                ///< of sigma_m squared
-  double exponent = 0;                 ///< σ grows with the distance to this power: 1 where signal shot noise rules, 2 where all else does
-  double wrong_cycle = 0;              ///< probability that the range is whole cycles off; NaN: no range   [theory: eq. 4.29, 4.30]
-  double bias_m = 0;                   ///< range without noise less the true one: drift, wiggling, whole ambiguity ranges; NaN: no range
-  bool saturated = false;              ///< a lit tap or code is at its end
-  bool low_signal = false;             ///< σ is above the decoding's noise threshold, or the amplitude below its own
-  bool no_return = false;              ///< nothing comes back
-  bool beyond_ambiguity = false;       ///< the wall is farther than the ambiguity range: its range comes out too short
+  double adc_filling = 0;       ///< how far the code is from the middle, over the way to the nearer end of the valid codes; may be above 1
+  double sigma_m = 0;           ///< of the range, 1 sigma, before filters and means over frames; NaN: there is no range
+  double sigma_z_m = 0;         ///< the same of z
+  double noise_estimate_m = 0;  ///< what the camera says of the same by itself (Depth::noise_m); NaN likewise
+  VarianceShares share;         ///< of sigma_m squared
+  double exponent = 0;          ///< σ grows with the distance to this power: 1 where signal shot noise rules, 2 where all else does
+  double wrong_cycle = 0;       ///< probability that the range is whole cycles off; NaN: no range   [theory: eq. 4.29, 4.30]
+  double bias_m = 0;            ///< range without noise less the true one: drift, wiggling, whole ambiguity ranges; NaN: no range
+  bool saturated = false;       ///< a lit tap or code is at its end
+  bool low_signal = false;      ///< σ is above the decoding's noise threshold, or the amplitude below its own
+  bool no_return = false;       ///< nothing comes back
+  bool beyond_ambiguity = false;             ///< the wall is farther than the ambiguity range: its range comes out too short
   std::vector<BudgetFrequency> frequencies;  ///< in the order in which the sequence first has them
 };
 
@@ -99,15 +99,15 @@ struct BudgetReach {
 /// What does not hang on the distance.
 struct BudgetSummary {
   double ambiguity_range_m = 0;
-  double low_signal_m = 0;              ///< the decoding's noise threshold
-  std::vector<BudgetReach> reach;       ///< ambient by ambient, in each by reflectivity
-  double energy_per_frame_j = 0;        ///< optical, of all lit raw frames
-  double mean_power_w = 0;              ///< that times the frame rate
-  double radiant_intensity_w_sr = 0;    ///< toward what the pixel sees, mean of a lit raw frame, from 10 m
-  double noise_at_1_m_m = 0;            ///< noise-equivalent distance: σ of a white wall (100 %) at 1 m in the dark; NaN: no range there
-  double correlated_e_per_j = 0;        ///< amplitude for each joule of own light on the pixel, mean of the modulation frequencies
-  double uncorrelated_e_per_j = 0;      ///< how much the taps' difference is off for each joule of light of that wavelength without modulation
-  std::optional<double> rejection;      ///< background-light rejection ratio: the one over the other; none: nothing is off
+  double low_signal_m = 0;            ///< the decoding's noise threshold
+  std::vector<BudgetReach> reach;     ///< ambient by ambient, in each by reflectivity
+  double energy_per_frame_j = 0;      ///< optical, of all lit raw frames
+  double mean_power_w = 0;            ///< that times the frame rate
+  double radiant_intensity_w_sr = 0;  ///< toward what the pixel sees, mean of a lit raw frame, from 10 m
+  double noise_at_1_m_m = 0;          ///< noise-equivalent distance: σ of a white wall (100 %) at 1 m in the dark; NaN: no range there
+  double correlated_e_per_j = 0;      ///< amplitude for each joule of own light on the pixel, mean of the modulation frequencies
+  double uncorrelated_e_per_j = 0;  ///< how much the taps' difference is off for each joule of light of that wavelength without modulation
+  std::optional<double> rejection;  ///< background-light rejection ratio: the one over the other; none: nothing is off
 };
 
 /// @throws Error as budget() does

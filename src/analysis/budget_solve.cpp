@@ -44,19 +44,31 @@ class Search {
   }
   [[nodiscard]] bool enough(const Tried& one) const { return one.row.sigma_m <= need_.sigma_m; }
 
-  /// Between a number with which σ is enough and one with which it is not.
+  /// Between a number with which σ is enough and one with which it is not: the secant of ln σ over the number's logarithm, which is straight
+  /// for most numbers, in turn with halving.
   [[nodiscard]] Tried between(Tried good, Tried bad) const {
-    for (int i = 0; i < 200; ++i) {
-      const double middle = halfway(good.value, bad.value);
-      if (middle == good.value || middle == bad.value || std::fabs(good.value - bad.value) <= 1e-13 * std::fabs(good.value)) break;
+    constexpr int most = 100;
+    for (int i = 0; i < most && std::fabs(excess(good)) > 1e-8; ++i) {
+      double middle = halfway(good.value, bad.value);
+      if (i % 3 != 2 && good.value > 0 && bad.value > 0 && bad.has_sigma()) {
+        const double part = excess(good) / (excess(good) - excess(bad));
+        middle = good.value * std::pow(bad.value / good.value, std::clamp(part, 0.0, 1.0) + (i % 3 == 1 ? 1e-7 : 0));
+      }
+      if (middle == good.value || middle == bad.value || std::fabs(good.value - bad.value) <= 1e-14 * std::fabs(good.value)) break;
       const Tried one = at(middle);
       (one.has_sigma() && enough(one) ? good : bad) = one;
     }
     return good;
   }
-  [[nodiscard]] double need() const { return need_.sigma_m; }
+  /// With its wrong cycles.
+  [[nodiscard]] BudgetSolution solution(const Tried& found) const {
+    return {found.value, analysis::BudgetCamera(camera_of_(found.value), request_).at(0, need_.z_m, need_.reflectivity, true)};
+  }
 
  private:
+  /// ln σ over what is needed.
+  [[nodiscard]] double excess(const Tried& one) const { return std::log(one.row.sigma_m / need_.sigma_m); }
+
   const std::function<Camera(double)>& camera_of_;
   BudgetNeed need_;
   BudgetRequest request_;
@@ -64,7 +76,7 @@ class Search {
 
 /// Powers of two about the guess, and the ends of the range, ascending.
 std::vector<double> places(double guess, double low, double high) {
-  constexpr int halvings = 30;
+  constexpr int halvings = 20;
   std::vector<double> out = {low, high};
   for (int i = -halvings; i <= halvings; ++i) {
     const double value = std::ldexp(guess, i);
@@ -77,7 +89,7 @@ std::vector<double> places(double guess, double low, double high) {
 
 /// All of them, and the last numbers that have a range noise before those that have none: σ may cross the need just before the pixel saturates.
 std::vector<Tried> with_edges(const Search& search, double guess, double low, double high) {
-  constexpr int halvings = 40;
+  constexpr int halvings = 26;
   std::vector<Tried> out;
   for (const double value : places(guess, low, high)) {
     Tried here = search.at(value);
@@ -106,11 +118,12 @@ std::string why_not(const std::vector<Tried>& tried, double need_m) {
         return one.row.saturated ? fmt::format("the pixel saturates with each of them (at {:g}: tap {:.0f} %, ADC {:.0f} %)", one.value,
                                                100 * one.row.tap_filling, 100 * one.row.adc_filling)
                                  : std::string("nothing comes back from the wall");
-    return "no camera can be with any of them: " + (tried.empty() ? std::string() : tried.front().fault.substr(0, tried.front().fault.find('\n')));
+    return "no camera can be with any of them: " +
+           (tried.empty() ? std::string() : tried.front().fault.substr(0, tried.front().fault.find('\n')));
   }
   for (const Tried& one : tried) most = most || (one.has_sigma() && one.row.sigma_m < need_m);
-  std::string out = fmt::format("range noise goes {} {:.4g} mm, with {:g}", most ? "no higher than" : "down to", 1e3 * least->row.sigma_m,
-                                least->value);
+  std::string out =
+      fmt::format("range noise goes {} {:.4g} mm, with {:g}", most ? "no higher than" : "down to", 1e3 * least->row.sigma_m, least->value);
   const auto at = static_cast<std::size_t>(least - tried.data());
   for (const std::size_t beside : {at + 1, at - 1}) {
     if (beside >= tried.size() || !tried[beside].fault.empty() || !tried[beside].row.saturated) continue;
@@ -126,9 +139,10 @@ std::string why_not(const std::vector<Tried>& tried, double need_m) {
 BudgetSolution solve_budget(const std::function<Camera(double)>& camera_of, double guess, double low, double high, const BudgetNeed& need,
                             const BudgetRequest& request) {
   if (!(need.sigma_m > 0) || !(low <= high) || !(guess > 0))
-    throw Error(ErrorKind::bad_input, fmt::format("error: a number of {:g} to {:g} about {:g} for a range noise of {:g} m cannot be looked for\n"
-                                                  "  expected a noise and a guess above 0, and a range that is not empty",
-                                                  low, high, guess, need.sigma_m));
+    throw Error(ErrorKind::bad_input,
+                fmt::format("error: a number of {:g} to {:g} about {:g} for a range noise of {:g} m cannot be looked for\n"
+                            "  expected a noise and a guess above 0, and a range that is not empty",
+                            low, high, guess, need.sigma_m));
   const Search search(camera_of, need, request);
   const std::vector<Tried> tried = with_edges(search, guess, low, high);
   // Of all steps from enough to not enough, the one nearest to the guess.
@@ -139,11 +153,11 @@ BudgetSolution solve_budget(const std::function<Camera(double)>& camera_of, doub
     if (!step || away(i) < away(*step)) step = i;
   }
   if (!step)
-    throw Error(ErrorKind::bad_input,
-                fmt::format("error: cannot be reached: {:.4g} mm at {:g} m\n  {}", 1e3 * need.sigma_m, need.z_m, why_not(tried, need.sigma_m)));
+    throw Error(ErrorKind::bad_input, fmt::format("error: cannot be reached: {:.4g} mm at {:g} m\n  {}", 1e3 * need.sigma_m, need.z_m,
+                                                  why_not(tried, need.sigma_m)));
   const Tried &one = tried[*step], &other = tried[*step + 1];
   const Tried found = search.enough(one) ? search.between(one, other) : search.between(other, one);
-  return {found.value, found.row};
+  return search.solution(found);
 }
 
 }  // namespace tofray

@@ -59,7 +59,9 @@ Camera coarser(Camera camera) {
 
 /// What of a wall at 1 m the light source reaches.
 void report_light(const Camera& camera, CameraReport& out) {
-  const Truth seen = Simulator(Scene(), camera, analysis::expected_values(Stage::power)).frame(0, analysis::wall_at(camera.sensor.width, camera.sensor.height, 1, 1)).truth;
+  const Truth seen = Simulator(Scene(), camera, analysis::expected_values(Stage::power))
+                         .frame(0, analysis::wall_at(camera.sensor.width, camera.sensor.height, 1, 1))
+                         .truth;
   const float most = *std::max_element(seen.power_w.begin(), seen.power_w.end());
   float least = most;
   const double one = 1 / static_cast<double>(seen.power_w.size());

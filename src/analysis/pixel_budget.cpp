@@ -59,7 +59,7 @@ std::vector<ReadFrame> PixelBudget::read_frames() const {
       continue;
     }
     out.push_back(read_frame(sensor_, {static_cast<double>(own_frame_.raw.tap_a[k]), static_cast<double>(own_frame_.raw.tap_b[k]),
-                                      ambient_rate * static_cast<double>(frame.integration_time), static_cast<double>(frame.dark)}));
+                                       ambient_rate * static_cast<double>(frame.integration_time), static_cast<double>(frame.dark)}));
   }
   return out;
 }
@@ -100,7 +100,8 @@ void PixelBudget::add_noise(const std::vector<ReadFrame>& frames, BudgetRow& row
   const camera::DecoderView& decoder = frozen_.decoder();
   const camera::LensView& lens = frozen_.lens();
   const double inverse_length = static_cast<double>(lens.inverse_length[0]);
-  const double u[3] = {static_cast<double>(lens.ray_x[0]) * inverse_length, static_cast<double>(lens.ray_y[0]) * inverse_length, inverse_length};
+  const double u[3] = {static_cast<double>(lens.ray_x[0]) * inverse_length, static_cast<double>(lens.ray_y[0]) * inverse_length,
+                       inverse_length};
   const double apart = static_cast<double>(decoder.light_square);
   double along = 0;
   for (std::size_t i = 0; i < 3; ++i) along += u[i] * static_cast<double>(decoder.light[i]);

@@ -46,15 +46,16 @@ ReadFrame read_frame(const camera::SensorView& sensor, const Collected& light) {
   // While suppression holds the smaller tap at its threshold, all of the noise of both is in the larger one.
   const bool held = removed > 0 && excess < budget;
   const double larger = a > b ? read_a.slope : read_b.slope;
-  const double square_a = held ? larger * larger : read_a.slope * read_a.slope, square_b = held ? larger * larger : read_b.slope * read_b.slope;
+  const double square_a = held ? larger * larger : read_a.slope * read_a.slope,
+               square_b = held ? larger * larger : read_b.slope * read_b.slope;
   ReadFrame out;
   out.charge = std::max(a, b);
   out.difference = sensor.read.cell == nullptr ? difference : read_a.value - read_b.value;
   for (const Cause cause : {signal_shot, ambient_shot, dark_shot})
     out.variance[cause] = square_a * shot_a[cause] + square_b * shot_b[cause];
   out.variance[read_noise] = (square_a + square_b) * of(sensor.read_variance);
-  out.variance[suppression_noise] = of(sensor.suppression_noise) * of(sensor.suppression_noise) * removed *
-                                    (read_a.slope * read_a.slope + read_b.slope * read_b.slope);
+  out.variance[suppression_noise] =
+      of(sensor.suppression_noise) * of(sensor.suppression_noise) * removed * (read_a.slope * read_a.slope + read_b.slope * read_b.slope);
   const double step = of(sensor.step), column = of(sensor.column_noise), row = of(sensor.row_noise);
   out.variance[adc_rounding] = step * step / 12;
   out.variance[line_noise] = step * step * (column * column + row * row);
@@ -78,8 +79,8 @@ PhaseNoise phase_noise(const camera::DecoderView& decoder, std::size_t modulatio
   double square = 0;
   for (int j = 0; j < m.count; ++j) {
     const camera::DecodeRawFrame& weight = decoder.frame[m.raw_frame[j]];
-    const double across = (imaginary * static_cast<double>(weight.cosine) + real * static_cast<double>(weight.sine)) /
-                          (out.amplitude * out.amplitude);
+    const double across =
+        (imaginary * static_cast<double>(weight.cosine) + real * static_cast<double>(weight.sine)) / (out.amplitude * out.amplitude);
     const Terms& variance = frames[static_cast<std::size_t>(m.raw_frame[j])].variance;
     for (std::size_t cause = 0; cause < causes; ++cause) out.variance_m2[cause] += across * across * variance[cause] * per_rad * per_rad;
     square += across * across * sum_of(variance);

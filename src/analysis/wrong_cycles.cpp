@@ -37,6 +37,10 @@ class PhaseErrors {
     for (std::size_t i = 0; i <= steps; ++i) above_[i] /= sum, below_[i] /= sum;
     for (std::size_t i = 0; i <= steps; ++i) weight_.push_back(density[i] * step * (i == 0 || i == steps ? 0.5 : 1) / sum);
   }
+  /// Makes at_share() quick.
+  void index_shares() {
+    for (int j = 0; j <= shares; ++j) begin_.push_back(first_below(static_cast<double>(j) / shares, 0, above_.size()));
+  }
 
   [[nodiscard]] static constexpr std::size_t count() { return steps + 1; }
   [[nodiscard]] double place(std::size_t i) const { return place_[i]; }
@@ -45,22 +49,29 @@ class PhaseErrors {
   /// P(θ > x), P(θ < x).
   [[nodiscard]] double above(double x) const { return x <= place_.front() ? 1 : x >= place_.back() ? 0 : at(above_, x); }
   [[nodiscard]] double below(double x) const { return x <= place_.front() ? 0 : x >= place_.back() ? 1 : at(below_, x); }
-  /// The error that a share u of all are above.
+  /// The error that a share u of all are above; after index_shares().
   [[nodiscard]] double at_share(double u) const {
-    const auto found = std::lower_bound(above_.begin(), above_.end(), u, [](double one, double than) { return one > than; });
-    const auto i = static_cast<std::size_t>(std::clamp<std::ptrdiff_t>(found - above_.begin(), 1, steps));
+    const auto j = static_cast<std::size_t>(u * shares);
+    const auto found = static_cast<std::ptrdiff_t>(first_below(u, begin_[j + 1], std::min(begin_[j] + 1, above_.size())));
+    const auto i = static_cast<std::size_t>(std::clamp<std::ptrdiff_t>(found, 1, steps));
     const double upper = above_[i - 1], lower = above_[i], part = upper > lower ? (u - lower) / (upper - lower) : 0.0;
     return part * place_[i - 1] + (1 - part) * place_[i];
   }
 
  private:
+  /// The first of a part of the grid that no more than a share u are above.
+  [[nodiscard]] std::size_t first_below(double u, std::size_t from, std::size_t to) const {
+    const auto begin = above_.begin() + static_cast<std::ptrdiff_t>(from), end = above_.begin() + static_cast<std::ptrdiff_t>(to);
+    return static_cast<std::size_t>(std::lower_bound(begin, end, u, [](double one, double than) { return one > than; }) - above_.begin());
+  }
   [[nodiscard]] double at(const std::vector<double>& tail, double x) const {
     const auto next = static_cast<std::size_t>(std::upper_bound(place_.begin(), place_.end(), x) - place_.begin());
     const double part = (x - place_[next - 1]) / (place_[next] - place_[next - 1]);
     return (1 - part) * tail[next - 1] + part * tail[next];
   }
 
-  static constexpr int steps = 4096;
+  static constexpr int steps = 4096, shares = 512;
+  std::vector<std::size_t> begin_;  // where shares of j/512 begin
   std::vector<double> place_, weight_, above_, below_;
 };
 
@@ -174,7 +185,9 @@ double wrong_cycle_probability(const std::vector<NoisyPhase>& phases, const std:
   std::vector<PhaseErrors> errors;
   errors.reserve(phases.size());
   for (const NoisyPhase& one : phases) errors.emplace_back(one);
-  return cycles.size() == 2 ? of_two(errors[0], errors[1], cycles[0], cycles[1]) : of_many(errors, cycles);
+  if (cycles.size() == 2) return of_two(errors[0], errors[1], cycles[0], cycles[1]);
+  for (PhaseErrors& one : errors) one.index_shares();
+  return of_many(errors, cycles);
 }
 
 }  // namespace tofray::analysis

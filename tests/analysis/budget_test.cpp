@@ -5,9 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include <chrono>
 #include <cmath>
-#include <numbers>
 
 #include "support/pi.h"
 #include "tofray/error.h"
@@ -20,9 +18,18 @@ using test::pi;
 
 namespace {
 
-const std::vector<std::string> cameras = {"adtf3175",        "azure-kinect-nfov-binned", "azure-kinect-nfov", "azure-kinect-wfov",
-                                          "custom",          "flexx2",                   "imx556",            "kinect-v2",
-                                          "o3d303-binned",   "o3d303",                   "opt8241",           "pico-flexx",
+const std::vector<std::string> cameras = {"adtf3175",
+                                          "azure-kinect-nfov-binned",
+                                          "azure-kinect-nfov",
+                                          "azure-kinect-wfov",
+                                          "custom",
+                                          "flexx2",
+                                          "imx556",
+                                          "kinect-v2",
+                                          "o3d303-binned",
+                                          "o3d303",
+                                          "opt8241",
+                                          "pico-flexx",
                                           "pico-monstar"};
 
 AmbientCase sun_of(double lux) {
@@ -48,7 +55,8 @@ Spread spread_of(const std::vector<double>& values) {
 }
 
 /// Ranges of one pixel in many frames, on the axis before a wall.
-std::vector<double> simulated_ranges(Camera camera, double z, double reflectivity, const AmbientCase& light, int frames, double angle_rad = 0) {
+std::vector<double> simulated_ranges(Camera camera, double z, double reflectivity, const AmbientCase& light, int frames,
+                                     double angle_rad = 0) {
   camera.lens.cx_px = camera.lens.cy_px = 0, camera.sensor.width = camera.sensor.height = 1;
   camera.readout = {};
   camera.lens.scatter = {}, camera.interference = {}, camera.auto_exposure = {}, camera.decoding.filter = {};
@@ -105,7 +113,8 @@ TEST_P(of_camera, sigma_is_that_of_simulated_frames) {
     const BudgetRow row = row_of(camera, at.z, at.reflectivity, sun_of(at.lux));
     if (!is_linear(row)) continue;
     const Spread simulated = spread_of(simulated_ranges(camera, at.z, at.reflectivity, sun_of(at.lux), frames));
-    EXPECT_NEAR(row.sigma_m / simulated.sigma, 1, 4 / std::sqrt(2.0 * frames) + 0.005) << at.z << " m, " << at.reflectivity << ", " << at.lux;
+    EXPECT_NEAR(row.sigma_m / simulated.sigma, 1, 4 / std::sqrt(2.0 * frames) + 0.005)
+        << at.z << " m, " << at.reflectivity << ", " << at.lux;
     ++compared;
   }
   EXPECT_GE(compared, 3);
@@ -117,19 +126,330 @@ INSTANTIATE_TEST_SUITE_P(all, of_camera, testing::ValuesIn(cameras), [](const au
   return name;
 });
 
-TEST(speed, fifty_distances) {
+/// A camera in which every cause has a share that counts.
+Camera with_all_causes() {
+  Camera camera = load_camera("pico-flexx");
+  Pixel& pixel = camera.pixel;
+  pixel.read_noise_e = 60, pixel.reset_noise_e = 30, pixel.column_noise_e = 60, pixel.row_noise_e = 65;
+  pixel.dark_current_e_per_s = 1e6, pixel.dark_current_doubling_k = 8;
+  pixel.full_well_e = 1e6, pixel.suppression_threshold_e = 3000, pixel.suppression_budget_e = 2000, pixel.suppression_noise_factor = 1.6;
+  pixel.tap_gain_mismatch = 0.03, pixel.tap_offset_mismatch_e = 40;
+  camera.temperature.celsius = 33, camera.temperature.reference_celsius = 25;
+  camera.adc = {12, 300, 2048, 1, 4094};
+  return camera;
+}
+
+struct Removal {
+  const char* name;
+  double VarianceShares::*share;
+  void (*remove)(Camera& camera, AmbientCase& light);
+};
+
+class cause : public testing::TestWithParam<Removal> {};
+
+// Of 4,000 frames: the variance has a standard error of √(2/4000) = 2.2 %.
+TEST_P(cause, takes_its_share_with_it) {
+  constexpr int frames = 4000;
+  Camera camera = with_all_causes();
+  AmbientCase light = sun_of(800);
+  const BudgetRow row = row_of(camera, 0.9, 0.6, light);
+  const double share = row.share.*(GetParam().share);
+  EXPECT_GT(share, 0.05);
+  GetParam().remove(camera, light);
+  const double left = spread_of(simulated_ranges(camera, 0.9, 0.6, light, frames)).sigma / row.sigma_m;
+  EXPECT_NEAR(left * left / (1 - share), 1, 4 * std::sqrt(2.0 / frames)) << share;
+}
+
+INSTANTIATE_TEST_SUITE_P(each, cause,
+                         testing::Values(Removal{"read", &VarianceShares::read,
+                                                 [](Camera& c, AmbientCase&) { c.pixel.read_noise_e = c.pixel.reset_noise_e = 0; }},
+                                         Removal{"adc", &VarianceShares::adc,
+                                                 [](Camera& c, AmbientCase&) {
+                                                   c.adc = {16, 18.75, 32768, 16, 65504};
+                                                 }},
+                                         Removal{"suppression", &VarianceShares::suppression,
+                                                 [](Camera& c, AmbientCase&) { c.pixel.suppression_noise_factor = 0; }},
+                                         Removal{"lines", &VarianceShares::lines,
+                                                 [](Camera& c, AmbientCase&) { c.pixel.column_noise_e = c.pixel.row_noise_e = 0; }}),
+                         [](const auto& one) { return std::string(one.param.name); });
+
+// Ambient light and dark charge set off suppression, too: without it their shot noise goes alone.
+TEST(share, of_ambient_light_and_of_dark_charge_go_with_them) {
+  Camera camera = with_all_causes();
+  camera.pixel.suppression_threshold_e = 0;
+  const AmbientCase light = sun_of(1500);
+  const BudgetRow row = row_of(camera, 0.9, 0.6, light);
+  EXPECT_GT(row.share.ambient_shot, 0.1);
+  EXPECT_GT(row.share.dark_shot, 0.1);
+  const double in_the_dark = spread_of(simulated_ranges(camera, 0.9, 0.6, {}, 4000)).sigma / row.sigma_m;
+  EXPECT_NEAR(in_the_dark * in_the_dark / (1 - row.share.ambient_shot), 1, 4 * std::sqrt(2.0 / 4000));
+  camera.pixel.dark_current_e_per_s = 0;
+  const double cold = spread_of(simulated_ranges(camera, 0.9, 0.6, light, 4000)).sigma / row.sigma_m;
+  EXPECT_NEAR(cold * cold / (1 - row.share.dark_shot), 1, 4 * std::sqrt(2.0 / 4000));
+}
+
+TEST(share, of_the_cameras_own_light_is_what_it_has_alone) {
+  Camera camera = with_all_causes();
+  camera.pixel.suppression_threshold_e = 0;
+  const BudgetRow row = row_of(camera, 0.9, 0.6, sun_of(800));
+  EXPECT_GT(row.share.signal_shot, 0.1);
+  Pixel& pixel = camera.pixel;
+  pixel.read_noise_e = pixel.reset_noise_e = pixel.column_noise_e = pixel.row_noise_e = pixel.dark_current_e_per_s = 0;
+  camera.adc = {16, 18.75, 32768, 16, 65504};
+  const double alone = spread_of(simulated_ranges(camera, 0.9, 0.6, sun_of(0), 4000)).sigma / row.sigma_m;
+  EXPECT_NEAR(alone * alone / row.share.signal_shot, 1, 4 * std::sqrt(2.0 / 4000) + 0.004);  // (the finer step: 0.4 %)
+}
+
+TEST(share, sums_to_one) {
   for (const std::string& name : cameras) {
-    const Camera camera = load_camera(name);
-    BudgetRequest request;
-    request.reflectivities = {0.5};
-    for (int i = 0; i < 50; ++i) request.distances_m.push_back(0.3 + 0.1 * i);
-    const auto start = std::chrono::steady_clock::now();
-    (void)budget(camera, request);
-    const double ms = 1e3 * std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    const auto again = std::chrono::steady_clock::now();
-    (void)budget_summary(camera, request);
-    std::printf("%s %.1f ms, summary %.1f ms\n", name.c_str(), ms, 1e3 * std::chrono::duration<double>(std::chrono::steady_clock::now() - again).count());
+    const VarianceShares s = row_of(load_camera(name), 1.2, 0.5, sun_of(5000)).share;
+    EXPECT_NEAR(s.signal_shot + s.ambient_shot + s.dark_shot + s.read + s.adc + s.suppression + s.lines, 1, 1e-12) << name;
   }
+}
+
+// h of 3.18, suppression that is at its budget or not, taps that differ, gains: where the law is not 3.9 alone.
+TEST(sigma, is_that_of_simulated_frames_with_each_effect_of_the_pixel) {
+  constexpr int frames = 4000;
+  Camera bent = load_camera("pico-flexx");
+  bent.pixel.nonlinearity = {{0, 20000, 40000, 60000, 80000}, {0, 19000, 35000, 47000, 55000}};
+  bent.pixel.full_well_e = 80000;
+  Camera held = bent;
+  held.pixel.suppression_threshold_e = 8000, held.pixel.suppression_budget_e = 1e6, held.pixel.suppression_noise_factor = 1;
+  Camera spent = held;
+  spent.pixel.suppression_threshold_e = 2000, spent.pixel.suppression_budget_e = 3000;
+  Camera twice = load_camera("pico-flexx");
+  twice.pixel.cancels_reset_noise = true, twice.pixel.reset_noise_e = 300;
+  Camera shifted = load_camera("flexx2");
+  shifted.calibration.range_offset_m = 0.1, shifted.spread_spectrum.width = 0.01;
+  int number = 0;
+  for (const Camera& camera : {with_all_causes(), bent, held, spent, twice, shifted}) {
+    const BudgetRow row = row_of(camera, 0.6, 0.8, sun_of(3000), 0.4);
+    ASSERT_TRUE(is_linear(row)) << number;
+    const double simulated = spread_of(simulated_ranges(camera, 0.6, 0.8, sun_of(3000), frames, 0.4)).sigma;
+    EXPECT_NEAR(row.sigma_m / simulated, 1, 4 / std::sqrt(2.0 * frames) + 0.005) << number;
+    ++number;
+  }
+}
+
+/// A sine has no harmonics: nothing but light and noise hangs on the distance. Its one light is at the pupil.
+Camera plain_camera() {
+  Camera camera = load_camera("pico-flexx");
+  camera.illumination.resize(1), camera.illumination[0].position = {0, 0, 0}, camera.illumination[0].waveform = {};
+  camera.illumination[0].waveform.kind = Waveform::Kind::sine, camera.illumination[0].waveform.harmonics = 1;
+  camera.pixel.read_noise_e = camera.pixel.dark_current_e_per_s = camera.pixel.suppression_threshold_e = 0;
+  camera.adc = {16, 2, 32768, 1, 65534}, camera.pixel.full_well_e = 1e30;
+  return camera;
+}
+
+// 3.9: σ_d = c/(4πf)·√(2V/N)/(S·C), fused by 4.7, with what the row itself says of S, B and C.
+TEST(sigma, is_the_closed_form_of_its_own_electrons) {
+  Camera camera = plain_camera();
+  camera.pixel.read_noise_e = 30, camera.adc = {12, 20, 2048, 1, 4094};
+  const BudgetRow row = row_of(camera, 1, 0.5, sun_of(10000));
+  double weights = 0;
+  for (const BudgetFrequency& one : row.frequencies) {
+    const double variance = one.signal_e + one.ambient_e + one.dark_e + 2 * 30 * 30 + 20.0 * 20 / 12;
+    const double sigma = 299792458.0 / (4 * pi * one.modulation_frequency_hz) * std::sqrt(2 * variance / 4) / (one.signal_e * one.contrast);
+    EXPECT_NEAR(one.sigma_m / sigma, 1, 1e-5) << one.modulation_frequency_hz;
+    weights += 1 / (sigma * sigma);
+  }
+  EXPECT_NEAR(row.sigma_m * std::sqrt(weights), 1, 1e-5);
+  EXPECT_NEAR(row.ambient_irradiance_w_m2 * 0.5 / pi / (row.ambient_power_w / row.power_w), row.irradiance_w_m2 * 0.5 / pi,
+              1e-5 * row.irradiance_w_m2);  // the same lens sees both of one matt surface
+}
+
+TEST(exponent, is_one_of_shot_noise_alone_and_two_of_read_noise_alone) {
+  Camera camera = plain_camera();
+  camera.pixel.read_noise_e = 0;
+  const auto growth = [&](double z) { return std::log2(row_of(camera, 2 * z, 0.5, {}).sigma_m / row_of(camera, z, 0.5, {}).sigma_m); };
+  EXPECT_NEAR(growth(0.5), 1, 1e-3);
+  EXPECT_NEAR(row_of(camera, 1, 0.5, {}).exponent, 1, 1e-3);
+  camera.pixel.read_noise_e = 3000;
+  EXPECT_NEAR(growth(2), 2, 2e-2);
+  EXPECT_NEAR(row_of(camera, 4, 0.5, {}).exponent, 2, 2e-3);
+  camera.pixel.read_noise_e = 60;
+  const double before = row_of(camera, 1 / 1.01, 0.5, {}).sigma_m, behind = row_of(camera, 1.01, 0.5, {}).sigma_m;
+  EXPECT_NEAR(row_of(camera, 1, 0.5, {}).exponent, std::log(behind / before) / (2 * std::log(1.01)), 1e-3);
+}
+
+TEST(row, has_the_light_of_the_scene_that_a_frame_sees) {
+  const Camera camera = load_camera("pico-flexx");
+  BudgetRequest request;
+  request.distances_m = {1.3}, request.reflectivities = {0.4}, request.ambients = {sun_of(30000)}, request.pixel = {{10, 20}};
+  request.angle_rad = 0.3;
+  const BudgetRow row = budget(camera, request).at(0);
+  Geometry wall;
+  wall.width = camera.sensor.width, wall.height = camera.sensor.height;
+  const auto pixels = static_cast<std::size_t>(wall.width) * static_cast<std::size_t>(wall.height), at = 20UL * camera.sensor.width + 10;
+  wall.z_m.assign(pixels, 1.3F), wall.diffuse.assign(pixels, 0.4F), wall.normal.assign(3 * pixels, 0.0F);
+  for (std::size_t i = 0; i < pixels; ++i)
+    wall.normal[3 * i] = static_cast<float>(std::sin(0.3)), wall.normal[3 * i + 2] = static_cast<float>(-std::cos(0.3));
+  SimulatorOptions options;
+  options.noise = Noise::off, options.backend = Backend::cpu;
+  Scene scene;
+  scene.ambient = sun_of(30000).ambient;
+  Camera alone = camera;  // light of neighbours left out
+  alone.lens.scatter = {}, alone.pixel.crosstalk_left_right = alone.pixel.crosstalk_up_down = 0;
+  const Frame frame = Simulator(scene, alone, options).frame(0, wall);
+  EXPECT_NEAR(row.range_m, static_cast<double>(frame.truth.range_m[at]), 1e-6);
+  EXPECT_NEAR(row.power_w / static_cast<double>(frame.truth.power_w[at]), 1, 1e-5);
+  EXPECT_NEAR(row.irradiance_w_m2 / static_cast<double>(frame.truth.irradiance_w_m2[at]), 1, 1e-5);
+  EXPECT_NEAR(row.amplitude_e / static_cast<double>(frame.depth.amplitude_e[at]), 1, 1e-3);  // (patterns)
+  EXPECT_NEAR(row.sigma_m / static_cast<double>(frame.depth.noise_m[at]), 1, 2e-2);
+  EXPECT_NEAR(row.sigma_z_m / row.sigma_m, 1.3 / row.range_m, 1e-6);
+}
+
+TEST(row, has_the_drift_of_its_temperature) {
+  Camera camera = load_camera("pico-flexx");
+  camera.temperature.drift_m_per_kelvin = 2e-4, camera.temperature.warm_up_m = 0, camera.temperature.reference_celsius = 25;
+  camera.pixel.dark_current_e_per_s = 1e5, camera.pixel.dark_current_doubling_k = 7;
+  BudgetRequest request;
+  request.distances_m = {1}, request.reflectivities = {0.5}, request.temperature_celsius = 60;
+  const BudgetRow hot = budget(camera, request).at(0), cool = row_of(camera, 1, 0.5, {});
+  EXPECT_NEAR(hot.bias_m - cool.bias_m, 35 * 2e-4, 2e-5);
+  EXPECT_NEAR(hot.dark_e / (2 * 1e5 * hot.frequencies[0].integration_time_s), std::exp2(35.0 / 7), 1e-3);
+}
+
+TEST(row, says_when_the_wall_is_too_near_or_too_far) {
+  Camera camera = load_camera("pico-flexx");
+  const BudgetRow near = row_of(camera, 0.02, 0.9, {}), far = row_of(camera, 9, 0.9, {});
+  EXPECT_TRUE(near.saturated && std::isnan(near.sigma_m) && std::isnan(near.wrong_cycle) && std::isnan(near.share.read));
+  EXPECT_GT(std::max(near.tap_filling, near.adc_filling), 1);
+  EXPECT_TRUE(far.beyond_ambiguity && !row_of(camera, 7, 0.9, {}).beyond_ambiguity);
+  EXPECT_NEAR(far.bias_m, -7.464952, 1e-3);
+  EXPECT_TRUE(far.low_signal);
+  camera.illumination[0].power_w = 0;
+  const BudgetRow dark = row_of(camera, 1, 0.5, {});
+  EXPECT_TRUE(dark.no_return && std::isnan(dark.sigma_m));
+}
+
+// u = aim of 4.27 where the law's limits allow it.
+TEST(auto_exposure, leaves_what_its_law_aims_at) {
+  Camera camera = load_camera("pico-flexx");
+  camera.auto_exposure.aim = 0.6, camera.min_integration_time_s = 0, camera.auto_exposure.shortest_s = 1e-7;
+  BudgetRequest request;
+  request.distances_m = {0.1, 0.3, 3}, request.reflectivities = {0.8}, request.auto_exposure = true;
+  const std::vector<BudgetRow> rows = budget(camera, request);
+  for (const std::size_t i : {std::size_t{0}, std::size_t{1}}) {
+    EXPECT_NEAR(std::max(rows[i].tap_filling, rows[i].adc_filling), 0.6, 2e-3) << i;
+    EXPECT_LT(rows[i].exposure, 1);
+    EXPECT_FALSE(rows[i].saturated);
+  }
+  EXPECT_EQ(rows[2].exposure, 1);  // no longer than the mode's
+}
+
+TEST(summary, says_what_rows_say) {
+  const Camera camera = load_camera("pico-flexx");
+  BudgetRequest request;
+  request.reflectivities = {0.2, 0.8}, request.ambients = {sun_of(0), sun_of(10000)};
+  const BudgetSummary summary = budget_summary(camera, request);
+  EXPECT_NEAR(summary.ambiguity_range_m, 7.464952, 1e-6);
+  ASSERT_EQ(summary.reach.size(), 4U);
+  bool saturates = false;
+  for (std::size_t i = 0; i < 4; ++i) {
+    const BudgetReach& one = summary.reach[i];
+    const AmbientCase light = sun_of(i < 2 ? 0 : 10000);
+    EXPECT_LE(row_of(camera, one.reach_m, one.reflectivity, light).sigma_m, summary.low_signal_m);
+    for (const double z : {1.001, 1.01, 1.1, 1.5, 4.0})
+      EXPECT_GT(row_of(camera, one.reach_m * z, one.reflectivity, light).sigma_m, summary.low_signal_m) << z;
+    EXPECT_FALSE(row_of(camera, std::max(one.nearest_m, 0.01) * 1.001, one.reflectivity, light).saturated);
+    if (one.nearest_m > 0) {
+      EXPECT_TRUE(row_of(camera, one.nearest_m * 0.999, one.reflectivity, light).saturated);
+    }
+    saturates = saturates || one.nearest_m > 0;
+  }
+  EXPECT_TRUE(saturates);
+  EXPECT_EQ(summary.noise_at_1_m_m, row_of(camera, 1, 1, {}).sigma_m);
+  double power = 0, time = 0;
+  for (const Illumination& one : camera.illumination) power += one.power_w;
+  for (const RawFrame& one : camera.mode.sequence) time += one.lit ? one.integration_time_s : 0;
+  EXPECT_NEAR(summary.energy_per_frame_j, power * time, 1e-15);
+  EXPECT_NEAR(summary.mean_power_w, power * time * camera.mode.frame_rate_hz, 1e-12);
+}
+
+TEST(summary, has_figures_of_merit_of_the_pixel) {
+  Camera camera = plain_camera();
+  camera.pixel.tap_gain_mismatch = 0.02;
+  camera.pixel.quantum_efficiency = {{850e-9}, {0.3}}, camera.pixel.contrast = {{0}, {0.5}}, camera.pixel.bandwidth_hz = 0;
+  camera.illumination[0].illumination_wavelength_m = 850e-9, camera.illumination[0].waveform.bandwidth_hz = 0;
+  camera.illumination[0].pattern = {}, camera.illumination[0].pattern.kind = Pattern::Kind::lambertian;
+  const BudgetSummary summary = budget_summary(camera);
+  const double per_joule = 0.3 * 850e-9 / (6.62607015e-34 * 299792458.0);
+  EXPECT_NEAR(summary.correlated_e_per_j / (per_joule * 0.5 * 2 / pi), 1, 1e-4);
+  EXPECT_NEAR(summary.uncorrelated_e_per_j / (per_joule * 0.01), 1, 1e-4);
+  EXPECT_NEAR(*summary.rejection, (1 / pi) / 0.01, 1e-2);
+  EXPECT_NEAR(summary.radiant_intensity_w_sr, camera.illumination[0].power_w / pi, 1e-4 * camera.illumination[0].power_w);
+  camera.pixel.tap_gain_mismatch = 0;
+  EXPECT_FALSE(budget_summary(camera).rejection.has_value());
+}
+
+TEST(solver, finds_the_number_with_which_sigma_is_what_is_asked) {
+  const Camera camera = load_camera("pico-flexx");
+  const BudgetNeed need{0.01, 2, 0.3, sun_of(10000)};
+  const auto with_power = [&](double power) {
+    Camera out = camera;
+    for (Illumination& one : out.illumination) one.power_w = power;
+    return out;
+  };
+  const BudgetSolution found = solve_budget(with_power, 1, 0, 1e3, need);
+  EXPECT_NEAR(found.row.sigma_m / 0.01, 1, 1e-6);
+  EXPECT_NEAR(row_of(with_power(found.value), 2, 0.3, sun_of(10000)).sigma_m / 0.01, 1, 1e-6);
+  EXPECT_EQ(found.row.wrong_cycle, row_of(with_power(found.value), 2, 0.3, sun_of(10000)).wrong_cycle);
+  const auto with_read_noise = [&](double noise) {
+    Camera out = with_power(2 * found.value);
+    out.pixel.read_noise_e = noise;
+    return out;
+  };
+  EXPECT_NEAR(solve_budget(with_read_noise, 50, 0, 1e6, need).row.sigma_m / 0.01, 1, 1e-6);
+}
+
+TEST(solver, says_with_figures_why_nothing_will_do) {
+  const Camera camera = load_camera("pico-flexx");
+  const auto with_power = [&](double power) {
+    Camera out = camera;
+    for (Illumination& one : out.illumination) one.power_w = power;
+    return out;
+  };
+  const auto message = [&](double low, double high, double sigma) {
+    try {
+      (void)solve_budget(with_power, std::sqrt(low * high), low, high, {sigma, 1, 0.5, {}});
+    } catch (const Error& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  EXPECT_EQ(message(1e-3, 1e3, 1e-5).find("error: cannot be reached: 0.01 mm at 1 m\n  range noise goes down to "), 0U);
+  EXPECT_NE(message(1e-3, 1e3, 1e-5).find("the pixel is saturated (tap "), std::string::npos) << message(1e-3, 1e3, 1e-5);
+  EXPECT_NE(message(0.2, 0.3, 1).find("no higher than"), std::string::npos) << message(0.2, 0.3, 1);
+}
+
+TEST(budget, refuses_what_cannot_be) {
+  const Camera camera = load_camera("pico-flexx");
+  const auto refused = [&](const auto& change) {
+    BudgetRequest request;
+    change(request);
+    EXPECT_THROW((void)budget(camera, request), Error);
+  };
+  refused([](BudgetRequest& r) { r.distances_m = {0}; });
+  refused([](BudgetRequest& r) { r.reflectivities = {1.1}; });
+  refused([](BudgetRequest& r) { r.angle_rad = pi / 2; });
+  refused([](BudgetRequest& r) { r.angle_rad = 20; });  // degrees
+  refused([](BudgetRequest& r) { r.pixel = {{224, 0}}; });
+  refused([](BudgetRequest& r) { r.temperature_celsius = 1e6; });
+  Camera unlit = camera;
+  for (RawFrame& one : unlit.mode.sequence) one.lit = false, one.modulation_frequency_hz = one.reference_phase_rad = 0;
+  EXPECT_THROW((void)budget(unlit), Error);
+}
+
+TEST(budget, goes_by_light_then_reflectivity_then_distance) {
+  BudgetRequest request;
+  request.distances_m = {2, 1}, request.reflectivities = {0.5, 0.1}, request.ambients = {sun_of(1000), sun_of(0)};
+  const std::vector<BudgetRow> rows = budget(load_camera("pico-flexx"), request);
+  ASSERT_EQ(rows.size(), 8U);
+  EXPECT_EQ(rows[0].ambient, "in light");
+  EXPECT_EQ(rows[4].ambient, "in the dark");
+  EXPECT_EQ(rows[2].reflectivity, 0.1);
+  EXPECT_EQ(rows[1].z_m, 1);
 }
 
 }  // namespace
