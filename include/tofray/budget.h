@@ -123,8 +123,10 @@ struct BudgetNeed {
 
 /// The number that was looked for.
 struct BudgetSolution {
-  double value = 0;
-  BudgetRow row;  ///< with that number
+  bool reached = false;  ///< false: none of the numbers makes σ what is needed
+  double value = 0;      ///< not reached: the one that comes nearest, if any has a range noise
+  BudgetRow row;         ///< with that number
+  std::string why;       ///< not reached: what σ comes to, and what stands in the way, with figures
 };
 
 /// Finds a number of the camera with which σ is what is needed: by powers of two about a first guess, then by halving.
@@ -132,7 +134,7 @@ struct BudgetSolution {
 /// @param guess      where to begin, not 0
 /// @param low, high  of the number, both included
 /// @param request    its angle, temperature, pixel and auto_exposure hold; distances, reflectivities and light are the need's
-/// @throws Error (bad_input), beginning with "error: cannot be reached", with the least σ that was found and what stands in the way
+/// @throws Error (bad_input) for a need, a guess or a range that cannot be, and as budget() does
 BudgetSolution solve_budget(const std::function<Camera(double)>& camera_of, double guess, double low, double high, const BudgetNeed& need,
                             const BudgetRequest& request = {});
 

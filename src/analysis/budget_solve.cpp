@@ -62,7 +62,7 @@ class Search {
   }
   /// With its wrong cycles.
   [[nodiscard]] BudgetSolution solution(const Tried& found) const {
-    return {found.value, analysis::BudgetCamera(camera_of_(found.value), request_).at(0, need_.z_m, need_.reflectivity, true)};
+    return {true, found.value, analysis::BudgetCamera(camera_of_(found.value), request_).at(0, need_.z_m, need_.reflectivity, true), {}};
   }
 
  private:
@@ -106,29 +106,31 @@ std::vector<Tried> with_edges(const Search& search, double guess, double low, do
   return out;
 }
 
-/// Why none of them will do, with figures.
-std::string why_not(const std::vector<Tried>& tried, double need_m) {
-  const Tried* least = nullptr;
-  bool most = false;
+std::string fillings(const Tried& one) {
+  return fmt::format("(tap {:.0f} %, ADC {:.0f} %)", 100 * one.row.tap_filling, 100 * one.row.adc_filling);
+}
+
+/// None of them will do: the one that comes nearest, and why, with figures.
+BudgetSolution not_reached(const std::vector<Tried>& tried, double need_m) {
+  const auto off = [&](const Tried& one) { return std::fabs(std::log(one.row.sigma_m / need_m)); };
+  const Tried* nearest = nullptr;
   for (const Tried& one : tried)
-    if (one.has_sigma() && (least == nullptr || one.row.sigma_m < least->row.sigma_m)) least = &one;
-  if (least == nullptr) {
-    for (const Tried& one : tried)
-      if (one.fault.empty())
-        return one.row.saturated ? fmt::format("the pixel saturates with each of them (at {:g}: tap {:.0f} %, ADC {:.0f} %)", one.value,
-                                               100 * one.row.tap_filling, 100 * one.row.adc_filling)
-                                 : std::string("nothing comes back from the wall");
-    return "no camera can be with any of them: " +
-           (tried.empty() ? std::string() : tried.front().fault.substr(0, tried.front().fault.find('\n')));
+    if (one.has_sigma() && (nearest == nullptr || off(one) < off(*nearest))) nearest = &one;
+  BudgetSolution out;
+  if (nearest == nullptr) {
+    const auto some = std::find_if(tried.begin(), tried.end(), [](const Tried& one) { return one.fault.empty(); });
+    if (some == tried.end())
+      out.why = "there is no camera with any of them: " + tried.front().fault.substr(0, tried.front().fault.find('\n'));
+    else
+      out.why = some->row.saturated ? fmt::format("the pixel is saturated with each of them {}", fillings(*some)) : "nothing comes back from the wall";
+    return out;
   }
-  for (const Tried& one : tried) most = most || (one.has_sigma() && one.row.sigma_m < need_m);
-  std::string out =
-      fmt::format("range noise goes {} {:.4g} mm, with {:g}", most ? "no higher than" : "down to", 1e3 * least->row.sigma_m, least->value);
-  const auto at = static_cast<std::size_t>(least - tried.data());
-  for (const std::size_t beside : {at + 1, at - 1}) {
-    if (beside >= tried.size() || !tried[beside].fault.empty() || !tried[beside].row.saturated) continue;
-    out += fmt::format("; at {:g} the pixel is saturated (tap {:.0f} %, ADC {:.0f} %)", tried[beside].value,
-                       100 * tried[beside].row.tap_filling, 100 * tried[beside].row.adc_filling);
+  out.value = nearest->value, out.row = nearest->row;
+  out.why = fmt::format("range noise goes {} {:.4g} mm", nearest->row.sigma_m < need_m ? "no higher than" : "down to", 1e3 * nearest->row.sigma_m);
+  const std::ptrdiff_t at = nearest - tried.data(), count = static_cast<std::ptrdiff_t>(tried.size());
+  for (const std::ptrdiff_t beside : {at + 1, at - 1}) {
+    if (beside < 0 || beside >= count || !tried[static_cast<std::size_t>(beside)].row.saturated) continue;
+    out.why += fmt::format("; beyond, the pixel is saturated {}", fillings(tried[static_cast<std::size_t>(beside)]));
     break;
   }
   return out;
@@ -152,9 +154,7 @@ BudgetSolution solve_budget(const std::function<Camera(double)>& camera_of, doub
     if (!tried[i].has_sigma() || !tried[i + 1].has_sigma() || search.enough(tried[i]) == search.enough(tried[i + 1])) continue;
     if (!step || away(i) < away(*step)) step = i;
   }
-  if (!step)
-    throw Error(ErrorKind::bad_input, fmt::format("error: cannot be reached: {:.4g} mm at {:g} m\n  {}", 1e3 * need.sigma_m, need.z_m,
-                                                  why_not(tried, need.sigma_m)));
+  if (!step) return not_reached(tried, need.sigma_m);
   const Tried &one = tried[*step], &other = tried[*step + 1];
   const Tried found = search.enough(one) ? search.between(one, other) : search.between(other, one);
   return search.solution(found);

@@ -392,6 +392,7 @@ TEST(solver, finds_the_number_with_which_sigma_is_what_is_asked) {
     return out;
   };
   const BudgetSolution found = solve_budget(with_power, 1, 0, 1e3, need);
+  ASSERT_TRUE(found.reached);
   EXPECT_NEAR(found.row.sigma_m / 0.01, 1, 1e-6);
   EXPECT_NEAR(row_of(with_power(found.value), 2, 0.3, sun_of(10000)).sigma_m / 0.01, 1, 1e-6);
   EXPECT_EQ(found.row.wrong_cycle, row_of(with_power(found.value), 2, 0.3, sun_of(10000)).wrong_cycle);
@@ -410,17 +411,17 @@ TEST(solver, says_with_figures_why_nothing_will_do) {
     for (Illumination& one : out.illumination) one.power_w = power;
     return out;
   };
-  const auto message = [&](double low, double high, double sigma) {
-    try {
-      (void)solve_budget(with_power, std::sqrt(low * high), low, high, {sigma, 1, 0.5, {}});
-    } catch (const Error& error) {
-      return std::string(error.what());
-    }
-    return std::string();
+  const auto answer = [&](double low, double high, double sigma) {
+    return solve_budget(with_power, std::sqrt(low * high), low, high, {sigma, 1, 0.5, {}});
   };
-  EXPECT_EQ(message(1e-3, 1e3, 1e-5).find("error: cannot be reached: 0.01 mm at 1 m\n  range noise goes down to "), 0U);
-  EXPECT_NE(message(1e-3, 1e3, 1e-5).find("the pixel is saturated (tap "), std::string::npos) << message(1e-3, 1e3, 1e-5);
-  EXPECT_NE(message(0.2, 0.3, 1).find("no higher than"), std::string::npos) << message(0.2, 0.3, 1);
+  const BudgetSolution bright = answer(1e-3, 1e3, 1e-5), weak = answer(0.2, 0.3, 1), dim = answer(1e-3, 1e-2, 1e-3);
+  EXPECT_FALSE(bright.reached || weak.reached || dim.reached);
+  EXPECT_TRUE(bright.why.starts_with("range noise goes down to ")) << bright.why;
+  EXPECT_NE(bright.why.find("; beyond, the pixel is saturated (tap "), std::string::npos) << bright.why;
+  EXPECT_TRUE(weak.why.starts_with("range noise goes no higher than ")) << weak.why;
+  EXPECT_EQ(dim.value, 1e-2);
+  EXPECT_EQ(dim.row.sigma_m, row_of(with_power(1e-2), 1, 0.5, {}).sigma_m);
+  EXPECT_EQ(answer(900, 1e3, 1e-3).why.find("the pixel is saturated with each of them (tap "), 0U);
 }
 
 TEST(budget, refuses_what_cannot_be) {
