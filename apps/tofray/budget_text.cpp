@@ -27,7 +27,8 @@ std::string with_prefix(double value, const char* unit) {
 std::string three_digits(double value) {
   if (std::isnan(value)) return "-";
   const double size = std::fabs(value);
-  return size >= 1e6 ? fmt::format("{:.2e}", value) : fmt::format("{:.{}f}", value, size >= 99.95 || size == 0 ? 0 : size >= 9.995 ? 1 : 2);
+  if (size >= 1e6 || (size > 0 && size < 1e-3)) return fmt::format("{:.2e}", value);
+  return size < 0.9995 ? fmt::format("{:.3g}", value) : fmt::format("{:.{}f}", value, size >= 99.95 ? 0 : size >= 9.995 ? 1 : 2);
 }
 
 /// A share in percent: "<0.1" where it is less.
@@ -81,7 +82,7 @@ std::string reach_text(const BudgetReach& one, double low_signal_m) {
 }
 
 std::string summary_lines(const Camera& camera, const std::vector<BudgetRow>& rows, const BudgetSummary& summary) {
-  const auto line = [](const char* what, const std::string& value) { return fmt::format("  {:<24}{}\n", what, value); };
+  const auto line = [](const char* what, const std::string& value) { return fmt::format("  {:<27}{}\n", what, value); };
   std::vector<std::string> frequencies;
   for (const BudgetFrequency& one : rows.front().frequencies)
     frequencies.push_back(base::quantity_text(one.modulation_frequency_hz, "1 MHz"));
@@ -128,7 +129,8 @@ std::string budget_text(const Camera& camera, const std::vector<BudgetRow>& rows
     text += fmt::format("\na wall of {:g} % {}: {}\n", 100 * reach.reflectivity, reach.ambient, reach_text(reach, summary.low_signal_m));
     text += budget_line("z", "on wall", "on pixel", "signal", "ambient", "dark", "contr.", "tap", "ADC", "sigma", "wrong", "signal", "amb.", "dark",
                         "read", "ADC", "suppr.", "lines");
-    text += budget_line("m", "W/m2", "pW", "e", "e", "e", "%", "%", "%", "mm", "%", "%", "of the", "vari-", "ance", "", "", "");
+    text += fmt::format("  {:>6} {:>9} {:>9} {:>9} {:>9} {:>8} {:>6} {:>6} {:>6} {:>10} {:>7} |  shares of the variance, %\n", "m", "W/m2", "pW", "e", "e",
+                        "e", "%", "%", "%", "mm", "%");
     for (std::size_t row = i * each; row < (i + 1) * each; ++row) text += row_text(rows[row], marks);
   }
   if (marks.low) text += fmt::format("* low signal: range noise above {}\n", base::quantity_text(summary.low_signal_m, "1 mm"));

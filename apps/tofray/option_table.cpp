@@ -319,7 +319,7 @@ std::vector<OptionSpec> budget_specs() {
       {"--need", 0, "TEXT", "with --solve: the range noise that is needed, \"sigma 10mm at 3m, 10%, 50klx\"",
        [](Options& o, const std::string& v) { o.need = v; }},
       {"--solve", 0, "KEY", "with --need: the key of the profile whose number is looked for, such as illumination.0.power",
-       [](Options& o, const std::string& v) { o.solve = v; }, "<keys>"},
+       [](Options& o, const std::string& v) { o.solve = v; }, "<numbers>"},
       {"--csv", 0, nullptr, "a line of CSV for each row on stdout", [](Options& o, const std::string&) { o.csv = true; }},
       {"--output", 'o', "FILE", "file to write: .csv or .json; without it a table on stdout", take_budget_file, "<files>", false, "budget"},
   };

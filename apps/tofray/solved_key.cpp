@@ -74,6 +74,8 @@ double need_length(const std::string& part, const std::string& text) {
 
 std::string SolvedKey::text(double value) const { return base::quantity_text(value, example); }
 
+bool is_number_key(const std::string& key) { return number_at(model::camera_form().root, key) != nullptr; }
+
 SolvedKey solved_key(const std::string& typed) {
   const std::string key = typed.starts_with("camera.") ? typed.substr(7) : typed;
   const Form* const form = number_at(model::camera_form().root, key);

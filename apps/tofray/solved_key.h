@@ -16,7 +16,9 @@ struct SolvedKey {
   /// A value as --set takes it.
   [[nodiscard]] std::string text(double value) const;
 };
-/// @throws Error (bad_input) for a key that no profile has or that is no number
+/// Whether a profile may have it, and its value is one number.
+bool is_number_key(const std::string& key);
+/// @throws Error (bad_input) for a key of which that is not so
 SolvedKey solved_key(const std::string& key);
 
 /// "sigma 10mm at 3m, 10%, 50klx": the light may be left out.

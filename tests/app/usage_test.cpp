@@ -10,7 +10,7 @@
 namespace tofray::test {
 namespace {
 
-const std::vector<std::string> commands = {"demo", "render", "process",     "inspect", "preview", "diff",      "check",
+const std::vector<std::string> commands = {"demo", "render", "process",     "inspect", "preview", "diff",      "check",   "budget",
                                            "list", "schema", "calibration", "doctor",  "bench",   "completion"};
 
 TEST(help, comes_on_stdout_with_examples_first) {
