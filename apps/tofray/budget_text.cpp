@@ -54,7 +54,8 @@ std::string sigma_text(const BudgetRow& row, BudgetMarks& marks) {
   return three_digits(1e3 * row.sigma_m) + (row.low_signal ? "*" : "") + (row.beyond_ambiguity ? "!" : "");
 }
 
-constexpr const char* heading_format = "  {:>6} {:>9} {:>9} {:>9} {:>9} {:>8} {:>6} {:>6} {:>6} {:>10} {:>7} |{:>7}{:>7}{:>7}{:>7}{:>7}{:>7}{:>7}\n";
+constexpr const char* heading_format =
+    "  {:>6} {:>9} {:>9} {:>9} {:>9} {:>8} {:>6} {:>6} {:>6} {:>10} {:>7} |{:>7}{:>7}{:>7}{:>7}{:>7}{:>7}{:>7}\n";
 
 template <class... Cell>
 std::string budget_line(const Cell&... cell) {
@@ -64,10 +65,11 @@ std::string budget_line(const Cell&... cell) {
 std::string row_text(const BudgetRow& row, BudgetMarks& marks) {
   const VarianceShares& s = row.share;
   return budget_line(fmt::format("{:.3g}", row.z_m), three_digits(row.irradiance_w_m2), three_digits(1e12 * row.power_w),
-                     three_digits(row.signal_e), three_digits(row.ambient_e), three_digits(row.dark_e), fmt::format("{:.1f}", 100 * row.contrast),
-                     fmt::format("{:.0f}", 100 * row.tap_filling), fmt::format("{:.0f}", 100 * row.adc_filling), sigma_text(row, marks),
-                     chance_text(row.wrong_cycle), share_text(s.signal_shot), share_text(s.ambient_shot), share_text(s.dark_shot),
-                     share_text(s.read), share_text(s.adc), share_text(s.suppression), share_text(s.lines));
+                     three_digits(row.signal_e), three_digits(row.ambient_e), three_digits(row.dark_e),
+                     fmt::format("{:.1f}", 100 * row.contrast), fmt::format("{:.0f}", 100 * row.tap_filling),
+                     fmt::format("{:.0f}", 100 * row.adc_filling), sigma_text(row, marks), chance_text(row.wrong_cycle),
+                     share_text(s.signal_shot), share_text(s.ambient_shot), share_text(s.dark_shot), share_text(s.read), share_text(s.adc),
+                     share_text(s.suppression), share_text(s.lines));
 }
 
 std::string reach_text(const BudgetReach& one, double low_signal_m) {
@@ -91,11 +93,11 @@ std::string summary_lines(const Camera& camera, const std::vector<BudgetRow>& ro
   text += line("own light", fmt::format("{} a frame, {} on the mean; {} toward the pixel's wall, while a raw frame is lit",
                                         with_prefix(summary.energy_per_frame_j, "J"), with_prefix(summary.mean_power_w, "W"),
                                         with_prefix(summary.radiant_intensity_w_sr, "W/sr")));
-  text += line("noise-equivalent distance", std::isnan(summary.noise_at_1_m_m)
-                                                ? "none: a white wall at 1 m saturates"
-                                                : with_prefix(summary.noise_at_1_m_m, "m") + ": range noise of a white wall at 1 m in the dark");
-  return text + line("responsivity", fmt::format("{:.3g} e/J of own light in the amplitude, {:.3g} e/J of ambient light{}", summary.correlated_e_per_j,
-                                                 summary.uncorrelated_e_per_j,
+  text += line("noise-equivalent distance", std::isnan(summary.noise_at_1_m_m) ? "none: a white wall at 1 m saturates"
+                                                                               : with_prefix(summary.noise_at_1_m_m, "m") +
+                                                                                     ": range noise of a white wall at 1 m in the dark");
+  return text + line("responsivity", fmt::format("{:.3g} e/J of own light in the amplitude, {:.3g} e/J of ambient light{}",
+                                                 summary.correlated_e_per_j, summary.uncorrelated_e_per_j,
                                                  summary.rejection ? fmt::format(": rejected {:.3g} to 1", *summary.rejection) : ""));
 }
 
@@ -127,10 +129,10 @@ std::string budget_text(const Camera& camera, const std::vector<BudgetRow>& rows
   for (std::size_t i = 0; i < tables; ++i) {
     const BudgetReach& reach = summary.reach[i];
     text += fmt::format("\na wall of {:g} % {}: {}\n", 100 * reach.reflectivity, reach.ambient, reach_text(reach, summary.low_signal_m));
-    text += budget_line("z", "on wall", "on pixel", "signal", "ambient", "dark", "contr.", "tap", "ADC", "sigma", "wrong", "signal", "amb.", "dark",
-                        "read", "ADC", "suppr.", "lines");
-    text += fmt::format("  {:>6} {:>9} {:>9} {:>9} {:>9} {:>8} {:>6} {:>6} {:>6} {:>10} {:>7} |  shares of the variance, %\n", "m", "W/m2", "pW", "e", "e",
-                        "e", "%", "%", "%", "mm", "%");
+    text += budget_line("z", "on wall", "on pixel", "signal", "ambient", "dark", "contr.", "tap", "ADC", "sigma", "wrong", "signal", "amb.",
+                        "dark", "read", "ADC", "suppr.", "lines");
+    text += fmt::format("  {:>6} {:>9} {:>9} {:>9} {:>9} {:>8} {:>6} {:>6} {:>6} {:>10} {:>7} |  shares of the variance, %\n", "m", "W/m2",
+                        "pW", "e", "e", "e", "%", "%", "%", "mm", "%");
     for (std::size_t row = i * each; row < (i + 1) * each; ++row) text += row_text(rows[row], marks);
   }
   if (marks.low) text += fmt::format("* low signal: range noise above {}\n", base::quantity_text(summary.low_signal_m, "1 mm"));
@@ -167,14 +169,16 @@ std::string budget_csv(const std::vector<BudgetRow>& rows) {
   for (const analysis::BudgetColumn& column : analysis::budget_columns()) text += fmt::format(",{}", column.name);
   for (const analysis::BudgetFlag& flag : analysis::budget_flags()) text += fmt::format(",{}", flag.name);
   for (std::size_t i = 0; i < rows.front().frequencies.size(); ++i)
-    for (const analysis::BudgetFrequencyColumn& column : analysis::budget_frequency_columns()) text += fmt::format(",f{}_{}", i + 1, column.name);
+    for (const analysis::BudgetFrequencyColumn& column : analysis::budget_frequency_columns())
+      text += fmt::format(",f{}_{}", i + 1, column.name);
   text += "\n";
   for (const BudgetRow& row : rows) {
     text += row.ambient;
     for (const analysis::BudgetColumn& column : analysis::budget_columns()) text += "," + csv_cell(column.of(row));
     for (const analysis::BudgetFlag& flag : analysis::budget_flags()) text += row.*(flag.member) ? ",1" : ",0";
     for (const BudgetFrequency& one : row.frequencies)
-      for (const analysis::BudgetFrequencyColumn& column : analysis::budget_frequency_columns()) text += "," + csv_cell(one.*(column.member));
+      for (const analysis::BudgetFrequencyColumn& column : analysis::budget_frequency_columns())
+        text += "," + csv_cell(one.*(column.member));
     text += "\n";
   }
   return text;

@@ -120,10 +120,10 @@ void add_distances(const char* name, Options& o, const std::string& value) {
       continue;
     }
     const std::size_t behind = between + (between == dots ? 2 : 1), colon = part.find(':', behind);
-    const std::uint64_t count = colon == std::string::npos
-                                    ? 8
-                                    : whole(name, part.substr(colon + 1), 2, most,
-                                            fmt::format("a number of distances of 2 to 1000, as in {} 0.3m..4m:50", name));
+    const std::uint64_t count =
+        colon == std::string::npos
+            ? 8
+            : whole(name, part.substr(colon + 1), 2, most, fmt::format("a number of distances of 2 to 1000, as in {} 0.3m..4m:50", name));
     const double first = length_of(name, part.substr(0, between), 0.01, 1000, like.c_str());
     const double last = length_of(name, part.substr(behind, colon == std::string::npos ? colon : colon - behind), 0.01, 1000, like.c_str());
     for (std::uint64_t i = 0; i < count; ++i)
@@ -309,8 +309,8 @@ std::vector<OptionSpec> budget_specs() {
       {"--distance", 0, "LENGTHS", "distances of the wall: 2m, 0.5m,1m or 0.3m:5m:50 (50 of them) (0.5m,1m,2m,4m)",
        [](Options& o, const std::string& v) { add_distances("--distance", o, v); }},
       {"--reflectivity", 0, "SHARES", "reflectivities of the wall: 10%,80% (20%,80%)", take_reflectivity, "", false, "budget"},
-      {"--ambient", 0, "LIGHTS", "light of the sun's spectrum on the wall: none,50klx,100% (of the standard sun) (none)", take_ambient, "", false,
-       "budget"},
+      {"--ambient", 0, "LIGHTS", "light of the sun's spectrum on the wall: none,50klx,100% (of the standard sun) (none)", take_ambient, "",
+       false, "budget"},
       {"--angle", 0, "ANGLE", "the wall is turned by this about the camera's y (0deg: it faces the camera)", take_angle},
       {"--temperature", 0, "T", "temperature of the camera, in the place of the profile's: 60C", take_temperature},
       {"--pixel", 0, "U,V", "the pixel at column U, row V of the image (that on the optical axis)", take_pixel, "", false, "budget"},

@@ -53,9 +53,10 @@ const Form* number_at(const Form& form, const std::string& path) {
 }
 
 [[noreturn]] void refuse_need(const std::string& text) {
-  throw Error(ErrorKind::bad_input, fmt::format("error: --need cannot be {}\n  expected \"sigma 10mm at 3m, 10%, 50klx\": a range noise, a distance, the "
-                                                "wall's reflectivity, and the light if it is not dark",
-                                                base::in_quotes(text)));
+  throw Error(ErrorKind::bad_input,
+              fmt::format("error: --need cannot be {}\n  expected \"sigma 10mm at 3m, 10%, 50klx\": a range noise, a distance, the "
+                          "wall's reflectivity, and the light if it is not dark",
+                          base::in_quotes(text)));
 }
 
 std::string trimmed(std::string text) {

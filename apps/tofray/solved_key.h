@@ -10,8 +10,8 @@ namespace tofray::app {
 
 /// A number of a profile, by its key.
 struct SolvedKey {
-  std::string key;      ///< without "camera."
-  std::string example;  ///< as people write it: its unit is that of texts
+  std::string key;                      ///< without "camera."
+  std::string example;                  ///< as people write it: its unit is that of texts
   double guess = 0, low = 0, high = 0;  ///< SI
   /// A value as --set takes it.
   [[nodiscard]] std::string text(double value) const;

@@ -122,11 +122,13 @@ BudgetSolution not_reached(const std::vector<Tried>& tried, double need_m) {
     if (some == tried.end())
       out.why = "there is no camera with any of them: " + tried.front().fault.substr(0, tried.front().fault.find('\n'));
     else
-      out.why = some->row.saturated ? fmt::format("the pixel is saturated with each of them {}", fillings(*some)) : "nothing comes back from the wall";
+      out.why = some->row.saturated ? fmt::format("the pixel is saturated with each of them {}", fillings(*some))
+                                    : "nothing comes back from the wall";
     return out;
   }
   out.value = nearest->value, out.row = nearest->row;
-  out.why = fmt::format("range noise goes {} {:.4g} mm", nearest->row.sigma_m < need_m ? "no higher than" : "down to", 1e3 * nearest->row.sigma_m);
+  out.why = fmt::format("range noise goes {} {:.4g} mm", nearest->row.sigma_m < need_m ? "no higher than" : "down to",
+                        1e3 * nearest->row.sigma_m);
   const std::ptrdiff_t at = nearest - tried.data(), count = static_cast<std::ptrdiff_t>(tried.size());
   for (const std::ptrdiff_t beside : {at + 1, at - 1}) {
     if (beside < 0 || beside >= count || !tried[static_cast<std::size_t>(beside)].row.saturated) continue;

@@ -35,8 +35,9 @@ BudgetRow asked_row() {
 
 // Every option reaches the library, in its unit.
 TEST(budget_command, says_the_row_that_its_options_ask_for) {
-  const Result result = run({"budget", "flexx2", "--mode", "MODE_9_30FPS", "--set", "lens.f_number=1.5", "--distance", "1.5m", "--reflectivity", "30%",
-                             "--ambient", "5klx", "--angle", "20deg", "--temperature", "60C", "--pixel", "5,7", "--json"});
+  const Result result =
+      run({"budget", "flexx2", "--mode", "MODE_9_30FPS", "--set", "lens.f_number=1.5", "--distance", "1.5m", "--reflectivity", "30%",
+           "--ambient", "5klx", "--angle", "20deg", "--temperature", "60C", "--pixel", "5,7", "--json"});
   ASSERT_EQ(result.code, 0) << result.err;
   const files::Json json = files::parse_json(result.out, "budget");
   const files::Json& row = json.find("rows")->items()->at(0);
@@ -96,7 +97,8 @@ TEST(budget_command, finds_a_number_and_sets_it) {
 TEST(budget_command, ends_with_1_where_no_number_will_do) {
   const Result result = run({"budget", "pico-flexx", "--need", "sigma 0.1mm at 1m, 50%", "--solve", "pixel.read_noise", "--json"});
   EXPECT_EQ(result.code, 1);
-  EXPECT_TRUE(result.err.starts_with("cannot be reached: 0.1 mm at 1 m, 50 %, in the dark by pixel.read_noise\n  range noise goes down to 3."))
+  EXPECT_TRUE(
+      result.err.starts_with("cannot be reached: 0.1 mm at 1 m, 50 %, in the dark by pixel.read_noise\n  range noise goes down to 3."))
       << result.err;
   EXPECT_FALSE(*files::parse_json(result.out, "budget").find("solution")->find("reached")->boolean());
 }
@@ -117,19 +119,16 @@ struct BadBudget {
   std::string says;
 };
 TEST(budget_command, refuses_what_makes_no_sense) {
-  for (const BadBudget& bad : {BadBudget{{"--angle", "20"}, "--angle cannot be \"20\""},
-                               BadBudget{{"--angle", "90deg"}, "-89 to 89 deg"},
-                               BadBudget{{"--temperature", "warm"}, "--temperature 60C"},
-                               BadBudget{{"--distance", "1m:2m:1"}, "2 to 1000"},
-                               BadBudget{{"--distance", "0m"}, "0.01 to 1000 m"},
-                               BadBudget{{"--pixel", "224,0"}, "the pixel's column is out of range"},
-                               BadBudget{{"-o", "budget.png"}, ".csv or .json"},
-                               BadBudget{{"--need", "sigma 10mm at 3m, 10%"}, "--need needs --solve"},
-                               BadBudget{{"--solve", "lens.f_number"}, "--solve needs --need"},
-                               BadBudget{{"--need", "10mm at 3m", "--solve", "lens.f_number"}, "--need cannot be"},
-                               BadBudget{{"--need", "sigma 10mm at 3m, 10", "--solve", "lens.f_number"}, "--need cannot be"},
-                               BadBudget{{"--need", "sigma 10mm at 3m, 10%", "--solve", "lens.f_numbr"}, "did you mean \"lens.f_number\"?"},
-                               BadBudget{{"--need", "sigma 10mm at 3m, 10%", "--solve", "name"}, "whose value is one number"}}) {
+  for (const BadBudget& bad :
+       {BadBudget{{"--angle", "20"}, "--angle cannot be \"20\""}, BadBudget{{"--angle", "90deg"}, "-89 to 89 deg"},
+        BadBudget{{"--temperature", "warm"}, "--temperature 60C"}, BadBudget{{"--distance", "1m:2m:1"}, "2 to 1000"},
+        BadBudget{{"--distance", "0m"}, "0.01 to 1000 m"}, BadBudget{{"--pixel", "224,0"}, "the pixel's column is out of range"},
+        BadBudget{{"-o", "budget.png"}, ".csv or .json"}, BadBudget{{"--need", "sigma 10mm at 3m, 10%"}, "--need needs --solve"},
+        BadBudget{{"--solve", "lens.f_number"}, "--solve needs --need"},
+        BadBudget{{"--need", "10mm at 3m", "--solve", "lens.f_number"}, "--need cannot be"},
+        BadBudget{{"--need", "sigma 10mm at 3m, 10", "--solve", "lens.f_number"}, "--need cannot be"},
+        BadBudget{{"--need", "sigma 10mm at 3m, 10%", "--solve", "lens.f_numbr"}, "did you mean \"lens.f_number\"?"},
+        BadBudget{{"--need", "sigma 10mm at 3m, 10%", "--solve", "name"}, "whose value is one number"}}) {
     Arguments all = {"budget", "pico-flexx"};
     all.insert(all.end(), bad.more.begin(), bad.more.end());
     const Result result = run(all);

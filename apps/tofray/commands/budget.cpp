@@ -30,15 +30,17 @@ struct Profile {
 Profile profile_of(const std::string& name) {
   if (const load::Builtin* builtin = load::find_builtin(load::builtin_profiles(), name)) return {std::string(builtin->text), name, ""};
   if (load::find_builtin(load::builtin_scenes(), name) != nullptr)
-    throw Error(ErrorKind::bad_input,
-                fmt::format("error: {} is a scene\n  expected a camera profile, as in `tofray budget pico-flexx`; `tofray check {}` says what its "
-                            "camera can do",
-                            name, name));
+    throw Error(
+        ErrorKind::bad_input,
+        fmt::format("error: {} is a scene\n  expected a camera profile, as in `tofray budget pico-flexx`; `tofray check {}` says what its "
+                    "camera can do",
+                    name, name));
   refuse_folder(name, "budget");
   const NamedText read = named_text(name);
   refuse_data(read.text, read.name);
   if (!looks_like_a_profile(read.text, read.name))
-    throw Error(ErrorKind::bad_input, fmt::format("{}: error: this is no camera profile\n  expected one, as in `tofray budget pico-flexx`", read.name));
+    throw Error(ErrorKind::bad_input,
+                fmt::format("{}: error: this is no camera profile\n  expected one, as in `tofray budget pico-flexx`", read.name));
   return {read.text, read.name, files::folder_of(read.name)};
 }
 
@@ -54,8 +56,8 @@ struct Answer {
   Camera camera;
   std::vector<BudgetRow> rows;
   BudgetSummary summary;
-  std::string found;       ///< what --solve found, or that it found nothing; else empty
-  files::Json solution;    ///< the same
+  std::string found;     ///< what --solve found, or that it found nothing; else empty
+  files::Json solution;  ///< the same
   bool reached = true;
 };
 
@@ -81,23 +83,25 @@ Answer solved(const Profile& profile, const Options& options, const CameraOption
   out.reached = solution.reached;
   out.solution = files::Json::object().set("key", key.key).set("reached", solution.reached);
   if (!solution.reached) {
-    out.found = fmt::format("cannot be reached: {:.4g} mm at {} by {}\n  {}, with {} = {}; its range is {} to {}\n", 1e3 * need.sigma_m, wall, key.key,
-                            solution.why, key.key, shown(key, solution.value), shown(key, key.low), shown(key, key.high));
+    out.found = fmt::format("cannot be reached: {:.4g} mm at {} by {}\n  {}, with {} = {}; its range is {} to {}\n", 1e3 * need.sigma_m,
+                            wall, key.key, solution.why, key.key, shown(key, solution.value), shown(key, key.low), shown(key, key.high));
     out.solution.set("why", solution.why);
     return out;
   }
   request.distances_m = {need.z_m}, request.reflectivities = {need.reflectivity}, request.ambients = {need.ambient};
   out.camera = with(solution.value), out.rows = {solution.row}, out.summary = budget_summary(out.camera, request);
-  out.found = fmt::format("{} = {} makes the range noise {:.4g} mm at {}\n\n", key.key, shown(key, solution.value), 1e3 * solution.row.sigma_m, wall);
+  out.found = fmt::format("{} = {} makes the range noise {:.4g} mm at {}\n\n", key.key, shown(key, solution.value),
+                          1e3 * solution.row.sigma_m, wall);
   out.solution.set("value", solution.value).set("text", key.text(solution.value));
   return out;
 }
 
 Answer answer_of(const Options& options, const std::string& name) {
   if (options.need.empty() != options.solve.empty())
-    throw Error(ErrorKind::bad_input, fmt::format("error: {} needs {}\n  expected both, as in --need \"sigma 10mm at 3m, 10%, 50klx\" --solve "
-                                                  "illumination.0.power",
-                                                  options.need.empty() ? "--solve" : "--need", options.need.empty() ? "--need" : "--solve"));
+    throw Error(ErrorKind::bad_input,
+                fmt::format("error: {} needs {}\n  expected both, as in --need \"sigma 10mm at 3m, 10%, 50klx\" --solve "
+                            "illumination.0.power",
+                            options.need.empty() ? "--solve" : "--need", options.need.empty() ? "--need" : "--solve"));
   const Profile profile = profile_of(name);
   const CameraOptions wanted{options.mode, camera_settings(options), {}};
   const BudgetRequest request = request_of(options);
