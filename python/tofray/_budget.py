@@ -19,7 +19,14 @@ if TYPE_CHECKING:
 class Budget(Dict[str, Any]):
     """Arrays by name, each [ambient, reflectivity, distance]; those of modulation frequencies have one more axis.
 
-    ``summary`` holds what does not hang on the distance.
+    Parameters
+    ----------
+    arrays : dict
+        The arrays.
+    summary : dict
+        What does not hang on the distance: ``ambiguity_range_m``, ``reach_m`` [ambient, reflectivity], ``mean_power_w`` and others.
+    ambients : list of str
+        Names of the ambient lights.
     """
 
     def __init__(self, arrays: dict[str, Any], summary: dict[str, Any], ambients: list[str]) -> None:
