@@ -214,9 +214,9 @@ TEST(sigma, is_that_of_simulated_frames_with_each_effect_of_the_pixel) {
   bent.pixel.nonlinearity = {{0, 20000, 40000, 60000, 80000}, {0, 19000, 35000, 47000, 55000}};
   bent.pixel.full_well_e = 80000;
   Camera held = bent;
-  held.pixel.suppression_threshold_e = 8000, held.pixel.suppression_budget_e = 1e6, held.pixel.suppression_noise_factor = 1;
+  held.pixel.suppression_threshold_e = 2000, held.pixel.suppression_budget_e = 1e6, held.pixel.suppression_noise_factor = 1;
   Camera spent = held;
-  spent.pixel.suppression_threshold_e = 2000, spent.pixel.suppression_budget_e = 3000;
+  spent.pixel.suppression_threshold_e = 1000, spent.pixel.suppression_budget_e = 800;
   Camera twice = load_camera("pico-flexx");
   twice.pixel.cancels_reset_noise = true, twice.pixel.reset_noise_e = 300;
   Camera shifted = load_camera("flexx2");
@@ -239,6 +239,21 @@ Camera plain_camera() {
   camera.pixel.read_noise_e = camera.pixel.dark_current_e_per_s = camera.pixel.suppression_threshold_e = 0;
   camera.adc = {16, 2, 32768, 1, 65534}, camera.pixel.full_well_e = 1e30;
   return camera;
+}
+
+// 4.33: of fused ranges each frequency's share counts by its weight.
+TEST(share, is_that_of_each_frequency_by_its_weight) {
+  Camera camera = plain_camera();
+  camera.pixel.read_noise_e = 60;
+  for (RawFrame& one : camera.mode.sequence)
+    if (one.modulation_frequency_hz == 60.24e6) one.integration_time_s /= 8;
+  const BudgetRow row = row_of(camera, 1, 0.8, {});
+  double shot = 0, weights = 0;
+  for (const BudgetFrequency& one : row.frequencies) {
+    const double weight = 1 / (one.sigma_m * one.sigma_m);
+    shot += weight * one.signal_e / (one.signal_e + 2 * 60 * 60 + 2.0 * 2 / 12), weights += weight;
+  }
+  EXPECT_NEAR(row.share.signal_shot, shot / weights, 1e-5);
 }
 
 // 3.9: σ_d = c/(4πf)·√(2V/N)/(S·C), fused by 4.7, with what the row itself says of S, B and C.
