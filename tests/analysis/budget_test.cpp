@@ -214,7 +214,8 @@ TEST(sigma, is_that_of_simulated_frames_with_each_effect_of_the_pixel) {
   bent.pixel.nonlinearity = {{0, 20000, 40000, 60000, 80000}, {0, 19000, 35000, 47000, 55000}};
   bent.pixel.full_well_e = 80000;
   Camera held = bent;
-  held.pixel.suppression_threshold_e = 2000, held.pixel.suppression_budget_e = 1e6, held.pixel.suppression_noise_factor = 1;
+  held.pixel.nonlinearity = {{0, 1000, 4000, 20000, 80000}, {0, 1000, 3500, 13000, 25000}};
+  held.pixel.suppression_threshold_e = 500, held.pixel.suppression_budget_e = 1e6, held.pixel.suppression_noise_factor = 1;
   Camera spent = held;
   spent.pixel.suppression_threshold_e = 1000, spent.pixel.suppression_budget_e = 800;
   Camera twice = load_camera("pico-flexx");
