@@ -7,6 +7,7 @@
 
 #include "arrays.h"
 #include "base/text.h"
+#include "budget.h"
 #include "convert.h"
 #include "device_frames.h"
 #include "frames.h"
@@ -263,6 +264,7 @@ PYBIND11_MODULE(_native, module) {
   bind_device_frames(module);
   bind_meshes(module);
   bind_simulator(module);
+  bind_budget(module);
   bind_files(module);
   module.def("picture", &picture);
   module.def("structs", &structs);
