@@ -3,6 +3,7 @@
 // tofray._native: what the Python files of the package stand on.
 #include <pybind11/pybind11.h>
 
+#include <algorithm>
 #include <optional>
 
 #include "arrays.h"

@@ -62,7 +62,7 @@ Camera exposed_for(const Camera& pixel, const AutoExposure& law, const AmbientCa
     flow::FrameView view{};
     view.raw = const_cast<std::uint16_t*>(frame.raw.raw.data());
     view.tap_a = const_cast<float*>(frame.raw.tap_a.data()), view.tap_b = const_cast<float*>(frame.raw.tap_b.data());
-    exposure.follow(frozen.sensor(0), view, 1);
+    exposure.follow(frozen.sensor(0), view, {1, 1, {0, 0, 1, 1}});
   }
   return camera;
 }

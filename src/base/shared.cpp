@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "base/shared.h"
 
+#include <algorithm>
 #include <list>
 
 namespace tofray::base {

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The tofray authors
 // SPDX-License-Identifier: Apache-2.0
 // Faces that are not convex: their triangles have the area of the shoelace formula, and none lies beside them.
+#include <algorithm>
 #include <chrono>
 #include <cstdlib>
 #include <numbers>

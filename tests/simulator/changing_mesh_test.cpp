@@ -3,6 +3,7 @@
 // Meshes that change their shape: each raw frame sees the shape of its time; the truth says how it moves.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <limits>

@@ -18,7 +18,7 @@ using namespace tofray::test;
 
 namespace {
 
-std::shared_ptr<ReflectivityMap> picture(int width, int height, const std::function<double(int, int)>& value) {
+std::shared_ptr<ReflectivityMap> opacity_picture(int width, int height, const std::function<double(int, int)>& value) {
   auto out = std::make_shared<ReflectivityMap>();
   out->width = width, out->height = height, out->wrap_u = out->wrap_v = ReflectivityMap::Wrap::clamp;
   for (int y = 0; y < height; ++y)
@@ -29,7 +29,7 @@ std::shared_ptr<ReflectivityMap> picture(int width, int height, const std::funct
 /// 8 × 8 squares. Bilinear between four texels of which two are 1 it is ½ on the squares' edges: xy + (1 − x)(1 − y) = ½ where x or y is.
 constexpr int squares = 8;
 std::shared_ptr<ReflectivityMap> checks() {
-  return picture(squares, squares, [](int x, int y) { return (x + y) % 2; });
+  return opacity_picture(squares, squares, [](int x, int y) { return (x + y) % 2; });
 }
 /// Whether the card of checks has a surface at x, y of it, −1…1; and how far the nearest edge is.
 bool is_checked(double x, double y) {
@@ -141,7 +141,7 @@ Scene striped(bool by_picture, bool moving) {
   scene.materials.push_back({"stripes", Material::Brdf::lambert, 0.7});
   TriangleMesh mesh = sheet(0);
   if (by_picture) {
-    scene.materials[1].opacity = picture(4, 1, [](int x, int) { return x % 2; });
+    scene.materials[1].opacity = opacity_picture(4, 1, [](int x, int) { return x % 2; });
   } else {
     mesh = {};
     for (const float x : {-0.5F, 0.5F}) {
@@ -245,8 +245,8 @@ TEST(cut_out, is_nothing_without_texture_coordinates) {
 
 // 0.2 and 0.4 are there, 0.9 is not: neither their mean nor what lies between them and a hole knows it.
 TEST(map_levels, leave_out_what_is_cut_out) {
-  const auto map = picture(4, 2, [](int x, int y) { return x >= 2 || y == 1 ? 0.9 : x == 0 ? 0.2 : 0.4; });
-  const auto there = picture(4, 2, [](int x, int y) { return x < 2 && y == 0 ? 0.5 : 0.49; });
+  const auto map = opacity_picture(4, 2, [](int x, int y) { return x >= 2 || y == 1 ? 0.9 : x == 0 ? 0.2 : 0.4; });
+  const auto there = opacity_picture(4, 2, [](int x, int y) { return x < 2 && y == 0 ? 0.5 : 0.49; });
   const scene::MapLevels levels(*map, there.get());
   ASSERT_EQ(levels.view.levels, 3);
   const auto texel = [&](int level, int x, int y) {
@@ -264,8 +264,8 @@ TEST(map_levels, leave_out_what_is_cut_out) {
 
 // Of four texels a quarter is there, of the four beside them all: the mean of both counts the quarter a quarter as much.
 TEST(map_levels, weigh_texels_by_how_much_of_them_is_there) {
-  const auto map = picture(4, 2, [](int x, int y) { return x >= 2 ? 0.5 : x == 0 && y == 0 ? 1.0 : 0.0; });
-  const auto there = picture(4, 2, [](int x, int y) { return x >= 2 || (x == 0 && y == 0) ? 1 : 0; });
+  const auto map = opacity_picture(4, 2, [](int x, int y) { return x >= 2 ? 0.5 : x == 0 && y == 0 ? 1.0 : 0.0; });
+  const auto there = opacity_picture(4, 2, [](int x, int y) { return x >= 2 || (x == 0 && y == 0) ? 1 : 0; });
   const scene::MapLevels levels(*map, there.get());
   EXPECT_NEAR(levels.texels[static_cast<std::size_t>(levels.view.start[1])], 1.0F, 1e-7F);
   EXPECT_NEAR(levels.texels[static_cast<std::size_t>(levels.view.start[2])], (1 + 4 * 0.5F) / 5, 1e-7F);
@@ -277,7 +277,7 @@ TEST(map_levels, weigh_texels_by_how_much_of_them_is_there) {
 }
 
 TEST(cut_out, by_values_that_are_no_opacity_is_refused) {
-  Scene scene = card_before_wall(picture(2, 1, [](int x, int) { return x == 0 ? 1 : -0.5; }));
+  Scene scene = card_before_wall(opacity_picture(2, 1, [](int x, int) { return x == 0 ? 1 : -0.5; }));
   try {
     const Simulator simulator(scene, lit_camera(8, 8, 60), {});
     ADD_FAILURE() << "nothing is wrong with it";

@@ -3,6 +3,7 @@
 // Regions of the sensor, and pixels that are read together.                                          [theory: eq. 4.24 to 4.26]
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 #include <vector>

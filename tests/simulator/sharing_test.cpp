@@ -3,6 +3,7 @@
 // Simulators of one process share rays, tables and hierarchies: none may get what another one's numbers make.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <memory>
 
 #include "base/shared.h"

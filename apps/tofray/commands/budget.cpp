@@ -4,6 +4,8 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
+
 #include "budget_text.h"
 #include "commands.h"
 #include "console.h"
