@@ -105,7 +105,7 @@ void search_one_by_one(const shape::MeshForm& form, const Image& from, Image& wo
       shape::MeshRay<float> ray{
           {form.origin[0], form.origin[1], form.origin[2]}, {tile.given[0][r], tile.given[1][r], tile.given[2][r]}, form.slack};
       shape::MeshHit<float> hit{tile.far[r], 0x7fffffff, -1};
-      shape::search_mesh<any>(form.nodes, form.triangles, ray, any ? 0.0f : shape::nearest_mesh, true, hit);
+      shape::search_mesh<any>(form, ray, any ? 0.0f : shape::nearest_mesh, true, hit);
       work.tiles[i].t[r] = hit.t, std::memcpy(&work.tiles[i].triangle[r], &hit.triangle, 4);
     }
   }

@@ -13,6 +13,7 @@ int run_preview(const Options& options);
 int run_view(const Options& options);
 int run_diff(const Options& options);
 int run_check(const Options& options);
+int run_budget(const Options& options);
 int run_list(const Options& options);
 int run_schema(const Options& options);
 int run_calibration(const Options& options);
@@ -177,6 +178,28 @@ std::vector<Command> make() {
        .most_words = 1,
        .run = run_check,
        .completes = "<scenes> <profiles> <files>"},
+      {.name = "budget",
+       .usage = "PROFILE [options]",
+       .summary = "where a camera's light goes, and what its range noise is made of; which number it needs for a range noise",
+       .examples = "tofray budget pico-flexx\n"
+                   "tofray budget pico-flexx --distance 0.3m:5m:50 --reflectivity 10%,80% --ambient none,20klx -o budget.csv\n"
+                   "tofray budget flexx2 --distance 1m --angle 20deg --temperature 60C --pixel 5,5 --json\n"
+                   "tofray budget pico-flexx --need \"sigma 10mm at 2m, 50%, 5klx\" --solve illumination.0.power\n",
+       .more =
+           "One pixel looks at a matt wall: expected light, electrons, filling of taps and ADC, range noise of a single frame before "
+           "filters, and\n"
+           "its variance by cause: shot noise of own light, of ambient light, of dark charge; reset and read noise, rounding by the ADC,\n"
+           "background suppression, columns and rows. `wrong` is the chance that the range is whole cycles off.\n"
+           "Not in it: multipath, scattered light, crosstalk, patterns of the specimen, other cameras. Radiant intensity is no verdict "
+           "about\n"
+           "eye safety: IEC 60825-1 asks for the source's size and pulses, too.\n"
+           "Exit code 1 where no number makes the noise that --need asks for.\n",
+       .options = {"--distance", "--reflectivity", "--ambient", "--angle", "--temperature", "--pixel", "--mode", "--set", "--auto-exposure",
+                   "--need", "--solve", "--output", "--csv", "--json"},
+       .least_words = 1,
+       .most_words = 1,
+       .run = run_budget,
+       .completes = "<profiles> <files>"},
       {.name = "list",
        .usage = "cameras|scenes|materials|keys|arrays",
        .summary = "what is built in: scenes, cameras, materials; those of a scene; every key that files and --set take, and every array of "

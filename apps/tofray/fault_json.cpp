@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "fault_json.h"
 
+#include <algorithm>
 #include <charconv>
 #include <vector>
 

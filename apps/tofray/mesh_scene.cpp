@@ -85,9 +85,10 @@ MeshScene scene_of_mesh(const std::string& path, const std::string& source, cons
   const bool own_materials = load::has_own_materials(std::filesystem::path(path).filename().string(), source, options.root, &unread);
   if (!unread.empty())
     out.warnings += fmt::format(
-        "{}: warning: its file of materials (mtllib) cannot be read: {}; the mesh is grey, of reflectivity 0.5\n"
+        "{}: warning: {} cannot be read: {}; the mesh is grey, of reflectivity 0.5\n"
         "  put the file beside the mesh, or say another reflectivity: --set objects.0.mesh.reflectivity=0.3\n",
-        path, base::in_quotes(unread));
+        path, mesh::suffix_of(path) == ".ply" ? "its picture (comment TextureFile)" : "its file of materials (mtllib)",
+        base::in_quotes(unread));
   const Scene alone = load::scene_from_text(text_of(path, own_materials, ""), source, of_mesh, {options.root});
   const std::optional<Pose> own = load::camera_in(std::get<Mesh>(alone.objects[0].shape), source, options.root, alone.world_up);
   // A file with a camera is a scene of its own: a second floor would lie in the first.

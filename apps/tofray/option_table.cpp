@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 
+#include "base/constants.h"
 #include "base/limits.h"
 #include "base/text.h"
 #include "base/units.h"
@@ -106,27 +108,31 @@ std::vector<std::string> split(const std::string& text, char at) {
   return parts;
 }
 
-/// `2m`, `0.5m,1m` or `0.3m..4m`, which is eight distances, as many metres apart, or as many as `0.3m..4m:50` says.
-void take_at(Options& o, const std::string& value) {
+/// `2m`, `0.5m,1m` or `0.3m..4m`, which is eight distances, as many metres apart, or as many as `0.3m..4m:50` says; `0.3m:4m:50` is the same.
+void add_distances(const char* name, Options& o, const std::string& value) {
   constexpr std::size_t most = 1000;
+  const std::string like = "0.5m,1m or 0.3m..4m";
   for (const std::string& part : split(value, ',')) {
-    const std::size_t dots = part.find("..");
-    if (dots == std::string::npos) {
-      o.at_m.push_back(length_of("--at", part, 0.01, 1000, "0.5m,1m or 0.3m..4m"));
+    const std::size_t dots = part.find(".."), first_colon = part.find(':');
+    const std::size_t between = std::min(dots, first_colon);
+    if (between == std::string::npos) {
+      o.at_m.push_back(length_of(name, part, 0.01, 1000, like.c_str()));
       continue;
     }
-    const std::size_t colon = part.find(':', dots);
-    const std::uint64_t count = colon == std::string::npos ? 8
-                                                           : whole("--at", part.substr(colon + 1), 2, most,
-                                                                   "a number of distances of 2 to 1000, as in --at 0.3m..4m:50");
-    const double first = length_of("--at", part.substr(0, dots), 0.01, 1000, "0.3m..4m");
-    const double last =
-        length_of("--at", part.substr(dots + 2, colon == std::string::npos ? colon : colon - dots - 2), 0.01, 1000, "0.3m..4m");
+    const std::size_t behind = between + (between == dots ? 2 : 1), colon = part.find(':', behind);
+    const std::uint64_t count =
+        colon == std::string::npos
+            ? 8
+            : whole(name, part.substr(colon + 1), 2, most, fmt::format("a number of distances of 2 to 1000, as in {} 0.3m..4m:50", name));
+    const double first = length_of(name, part.substr(0, between), 0.01, 1000, like.c_str());
+    const double last = length_of(name, part.substr(behind, colon == std::string::npos ? colon : colon - behind), 0.01, 1000, like.c_str());
     for (std::uint64_t i = 0; i < count; ++i)
       o.at_m.push_back(first + (last - first) * static_cast<double>(i) / static_cast<double>(count - 1));
   }
-  if (o.at_m.size() > most) refuse("--at", value, "1000 distances at most");
+  if (o.at_m.size() > most) refuse(name, value, "1000 distances at most");
 }
+
+void take_at(Options& o, const std::string& value) { add_distances("--at", o, value); }
 
 void take_reflectivity(Options& o, const std::string& value) {
   for (const std::string& part : split(value, ',')) {
@@ -315,6 +321,50 @@ std::vector<OptionSpec> view_specs() {
   };
 }
 
+void take_angle(Options& o, const std::string& value) {
+  const base::Quantity angle = base::parse_quantity(value, base::Dimension::angle);
+  constexpr double steepest = 89.0 / 180 * base::pi;
+  if (angle.status != base::Quantity::Status::good || !(std::fabs(angle.value) <= steepest))
+    refuse("--angle", value, "an angle of -89 to 89 deg, as in --angle 20deg");
+  o.angle_rad = angle.value;
+}
+
+void take_temperature(Options& o, const std::string& value) {
+  std::string text = value;
+  if (text.ends_with("C") && !text.ends_with("degC") && !text.ends_with("\u00b0C")) text.insert(text.size() - 1, "deg");  // 60C
+  const base::Quantity celsius = base::parse_quantity(text, base::Dimension::celsius);
+  if (celsius.status != base::Quantity::Status::good || !(celsius.value >= -100 && celsius.value <= 200))
+    refuse("--temperature", value, "a temperature of -100 to 200 degC, as in --temperature 60C");
+  o.temperature_celsius = celsius.value;
+}
+
+void take_budget_file(Options& o, const std::string& value) {
+  if (!value.ends_with(".csv") && !value.ends_with(".json")) refuse("-o", value, "a name that ends in .csv or .json, as in -o budget.csv");
+  o.output = value;
+}
+
+/// Of `tofray budget`.
+std::vector<OptionSpec> budget_specs() {
+  return {
+      {"--distance", 0, "LENGTHS", "distances of the wall: 2m, 0.5m,1m or 0.3m:5m:50 (50 of them) (0.5m,1m,2m,4m)",
+       [](Options& o, const std::string& v) { add_distances("--distance", o, v); }},
+      {"--reflectivity", 0, "SHARES", "reflectivities of the wall: 10%,80% (20%,80%)", take_reflectivity, "", false, "budget"},
+      {"--ambient", 0, "LIGHTS", "light of the sun's spectrum on the wall: none,50klx,100% (of the standard sun) (none)", take_ambient, "",
+       false, "budget"},
+      {"--angle", 0, "ANGLE", "the wall is turned by this about the camera's y (0deg: it faces the camera)", take_angle},
+      {"--temperature", 0, "T", "temperature of the camera, in the place of the profile's: 60C", take_temperature},
+      {"--pixel", 0, "U,V", "the pixel at column U, row V of the image (that on the optical axis)", take_pixel, "", false, "budget"},
+      {"--auto-exposure", 0, nullptr, "integration times as the profile's auto_exposure leaves them of each wall",
+       [](Options& o, const std::string&) { o.auto_exposure = true; }},
+      {"--need", 0, "TEXT", "with --solve: the range noise that is needed, \"sigma 10mm at 3m, 10%, 50klx\"",
+       [](Options& o, const std::string& v) { o.need = v; }},
+      {"--solve", 0, "KEY", "with --need: the key of the profile whose number is looked for, such as illumination.0.power",
+       [](Options& o, const std::string& v) { o.solve = v; }, "<numbers>"},
+      {"--csv", 0, nullptr, "a line of CSV for each row on stdout", [](Options& o, const std::string&) { o.csv = true; }},
+      {"--output", 'o', "FILE", "file to write: .csv or .json; without it a table on stdout", take_budget_file, "<files>", false, "budget"},
+  };
+}
+
 std::vector<OptionSpec> specs() {
   return {
       {"--output", 'o', "DIR", "folder to write to", [](Options& o, const std::string& v) { o.output = v; }, "<files>"},
@@ -387,7 +437,8 @@ std::vector<OptionSpec> specs() {
 const std::vector<OptionSpec>& all_options() {
   static const std::vector<OptionSpec> all = [] {
     std::vector<OptionSpec> joined = specs();
-    for (const std::vector<OptionSpec>& more : {machine_specs(), bench_specs(), transient_specs(), preview_specs(), view_specs()})
+    for (const std::vector<OptionSpec>& more :
+         {machine_specs(), bench_specs(), transient_specs(), preview_specs(), view_specs(), budget_specs()})
       joined.insert(joined.end(), more.begin(), more.end());
     return joined;
   }();
@@ -411,12 +462,12 @@ struct Group {
 const std::vector<Group>& groups() {
   static const std::vector<Group> all = {
       {"Scene and camera",
-       {"--set", "--mode", "--camera", "--fps", "--transient", "--first", "--width", "--factor", "--at", "--reflectivity", "--ambient",
-        "--sources", "--root"}},
+       {"--set", "--mode", "--camera", "--fps", "--transient", "--first", "--width", "--factor", "--at", "--distance", "--reflectivity",
+        "--ambient", "--angle", "--temperature", "--auto-exposure", "--need", "--solve", "--sources", "--root"}},
       {"Simulation", {"--seed", "--noise", "--exposure-samples", "--subpixel", "--bounces", "--samples"}},
       {"Measuring", {"--warmup", "--compare", "--batch", "--stage", "--block-size"}},
       {"Frames", {"--frames", "--first-frame", "--from", "--pixel"}},
-      {"Output", {"--output", "--clean", "--emit", "--arrays", "--compress", "--raw", "--theme", "--scale", "--json", "--quiet"}},
+      {"Output", {"--output", "--clean", "--emit", "--arrays", "--compress", "--raw", "--theme", "--scale", "--csv", "--json", "--quiet"}},
       {"Viewer", {"--port", "--host", "--allow-host", "--open", "--embed", "--rate", "--test-hooks"}},
       {"Machine", {"--threads", "--backend", "--device"}}};
   return all;

@@ -37,9 +37,12 @@ struct Options {
   pictures::Theme theme = pictures::Theme::dark;
   int scale = 1;  ///< of preview.png and raw.png
   std::string mode, camera, root, from, output;
-  std::vector<double> at_m;                            ///< --at: distances
+  std::vector<double> at_m;                            ///< --at, --distance
   std::vector<double> reflectivities;                  ///< --reflectivity
   std::vector<AmbientCase> ambients;                   ///< --ambient
+  double angle_rad = 0;                                ///< --angle
+  std::optional<double> temperature_celsius;           ///< --temperature
+  std::string need, solve;                             ///< --need, --solve, as typed
   std::string transient;                               ///< --transient: a file
   std::optional<double> first_m, width_m, per_factor;  ///< --first, --width, --factor: what that file does not say
   struct View {
@@ -48,7 +51,7 @@ struct Options {
     std::vector<std::string> allowed_hosts;
     bool open = false, embed = false, test_hooks = false;
   } view;  ///< of `tofray view`
-  bool json = false, quiet = false, compare = false, clean = false, sources = false, raw = false;
+  bool json = false, quiet = false, compare = false, clean = false, sources = false, raw = false, csv = false, auto_exposure = false;
 };
 
 }  // namespace tofray::app

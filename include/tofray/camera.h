@@ -14,6 +14,7 @@ namespace tofray {
 struct Curve {
   std::vector<double> x;  ///< ascending
   std::vector<double> y;
+  bool operator==(const Curve&) const = default;
 };
 
 /// Where within a pixel light is collected, for samples within it (SimulatorOptions::subpixel).
@@ -43,6 +44,7 @@ struct Scatter {
   /// kernel: how much goes where, rows from above on, columns from the left on; odd numbers of both, any unit. The middle is the pixel itself.
   std::vector<double> kernel = {};
   int columns = 0, rows = 0;
+  bool operator==(const Scatter&) const = default;
 };
 
 /// Pinhole with distortion, OpenCV's conventions (theory 1); pixel (0,0)'s centre is at (0.0, 0.0).
@@ -59,6 +61,7 @@ struct Lens {
   Vignetting vignetting = Vignetting::cos4;
   Curve vignetting_table;  ///< angle to the optical axis [rad] → factor
   Scatter scatter = {};
+  bool operator==(const Lens&) const = default;
 };
 
 /// Optical filter before the sensor, seen by ambient light only (the camera's own light has Lens::transmission).
@@ -85,6 +88,7 @@ struct Pattern {
   double half_range_x_rad = 0;
   double half_range_y_rad = 0;  ///< the same across its rows; 0: the height
   std::vector<double> samples;  ///< [rows][columns], any unit
+  bool operator==(const Pattern&) const = default;
 };
 
 /// Light modulation over one period (theory 3).

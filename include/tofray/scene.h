@@ -56,6 +56,9 @@ struct Material {
   /// GGX, of a mesh: k_d, F_0 and α from place to place, in place of `diffuse`, `specular` and `alpha`, which then are a mean for those
   /// who look; `map` scales k_d, too. None: they are the same everywhere.
   std::shared_ptr<const VectorMap> finish = {};
+  /// Where a mesh has a surface at all: where this is ½ or more, between texels bilinear; light and camera look through the rest. Texels of the
+  /// other pictures that lie where it is less count in no mean. None: everywhere.
+  std::shared_ptr<const ReflectivityMap> opacity = {};
 };
 
 struct Plane {

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include "tofray/analysis.h"
+#include "tofray/budget.h"
 #include "tofray/camera.h"
 #include "tofray/camera_report.h"
 #include "tofray/error.h"

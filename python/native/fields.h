@@ -137,7 +137,7 @@ TOFRAY_FIELDS(Camera, &Camera::name, &Camera::source, &Camera::sensor, &Camera::
 
 TOFRAY_FIELDS(Material, &Material::name, &Material::brdf, &Material::diffuse, &Material::specular, &Material::exponent,
               &Material::roughness_rad, &Material::alpha, &Material::retro, &Material::spread_rad, &Material::map, &Material::normals,
-              &Material::finish)
+              &Material::finish, &Material::opacity)
 TOFRAY_FIELDS(Plane, &Plane::point, &Plane::normal)
 TOFRAY_FIELDS(Sphere, &Sphere::center, &Sphere::radius)
 TOFRAY_FIELDS(Box, &Box::min, &Box::max)

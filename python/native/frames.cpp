@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "frames.h"
 
+#include <algorithm>
+
 #include "arrays.h"
 
 namespace tofray::python {

@@ -3,10 +3,12 @@
 // tofray._native: what the Python files of the package stand on.
 #include <pybind11/pybind11.h>
 
+#include <algorithm>
 #include <optional>
 
 #include "arrays.h"
 #include "base/text.h"
+#include "budget.h"
 #include "convert.h"
 #include "device_frames.h"
 #include "frames.h"
@@ -263,6 +265,7 @@ PYBIND11_MODULE(_native, module) {
   bind_device_frames(module);
   bind_meshes(module);
   bind_simulator(module);
+  bind_budget(module);
   bind_files(module);
   module.def("picture", &picture);
   module.def("structs", &structs);

@@ -21,6 +21,10 @@ if TYPE_CHECKING:
         Raw as Raw,
         Truth as Truth,
     )
+    from ._budget import (
+        Budget as Budget,
+        budget as budget,
+    )
     from ._errors import (
         Error as Error,
     )
@@ -126,6 +130,7 @@ if TYPE_CHECKING:
 # loaded before they are used.
 _HOME = {
     "_arrays": ("Depth", "Raw", "Truth"),
+    "_budget": ("Budget", "budget"),
     "_errors": ("Error",),
     "_frame": ("Frame", "load"),
     "_load": ("camera", "load_camera", "load_scene", "scene"),

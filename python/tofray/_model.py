@@ -1289,9 +1289,13 @@ class Material(Record):
         GGX, of a mesh: k_d, F_0 and α from place to place, in place of `diffuse`, `specular` and
         `alpha`, which then are a mean for those who look; `map` scales k_d, too. None: they are the
         same everywhere.
+    opacity : ReflectivityMap | None
+        Where a mesh has a surface at all: where this is ½ or more, between texels bilinear; light
+        and camera look through the rest. Texels of the other pictures that lie where it is less
+        count in no mean. None: everywhere.
     """
     __slots__ = ("name", "brdf", "diffuse", "specular", "exponent", "roughness_rad", "alpha", "retro", "spread_rad", "map", "normals",
-                 "finish")
+                 "finish", "opacity")
     name: str
     brdf: Literal["lambert", "phong", "oren_nayar", "ggx", "retro"]
     diffuse: float
@@ -1304,6 +1308,7 @@ class Material(Record):
     map: ReflectivityMap | None
     normals: VectorMap | None
     finish: VectorMap | None
+    opacity: ReflectivityMap | None
 
     def __init__(
         self,
@@ -1320,6 +1325,7 @@ class Material(Record):
         map: ReflectivityMap | None = None,
         normals: VectorMap | None = None,
         finish: VectorMap | None = None,
+        opacity: ReflectivityMap | None = None,
     ) -> None:
         self.name = name
         self.brdf = brdf
@@ -1333,6 +1339,7 @@ class Material(Record):
         self.map = map
         self.normals = normals
         self.finish = finish
+        self.opacity = opacity
 
 
 class Plane(Record):

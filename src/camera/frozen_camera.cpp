@@ -11,6 +11,7 @@
 #include "base/faults.h"
 #include "base/limits.h"
 #include "base/readout.h"
+#include "base/shared.h"
 #include "camera/emitters.h"
 #include "camera/other_camera.h"
 #include "camera/read_curve.h"
@@ -29,7 +30,7 @@ static_assert(flow::max_lights == limit::lights.value);
 
 constexpr double ln_2 = 0.69314718055994530942;
 
-FrozenCamera::FrozenCamera(const Camera& camera, bool noise, std::uint64_t seed, int subpixel)
+FrozenCamera::FrozenCamera(const Camera& camera, bool noise, std::uint64_t seed, int subpixel, int threads)
     : sensor_pixels_(camera.sensor),
       one_pixel_(camera.pixel),
       readout_(camera.readout),
@@ -37,7 +38,7 @@ FrozenCamera::FrozenCamera(const Camera& camera, bool noise, std::uint64_t seed,
       modulations_(modulations_of(camera.mode)),
       scatter_(camera_.lens.scatter, camera_.sensor, camera_.pixel) {
   if (camera.mode.sequence.size() > flow::max_raw_frames) throw Error(ErrorKind::limit, "error: more than 64 raw frames in one sequence");
-  freeze_lens(subpixel);
+  freeze_lens(subpixel, threads);
   const ClampedCurve efficiency(camera.pixel.quantum_efficiency, "quantum_efficiency");
   for (const Illumination& light : camera_.illumination) {
     lights_.push_back(freeze_light(light, efficiency.evaluate(light.illumination_wavelength_m)));
@@ -59,14 +60,15 @@ FrozenCamera::FrozenCamera(const Camera& camera, bool noise, std::uint64_t seed,
   freeze_decoder(noise);
 }
 
-void FrozenCamera::freeze_lens(int subpixel) {
+void FrozenCamera::freeze_lens(int subpixel, int threads) {
   const Sensor& sensor = camera_.sensor;
-  middle_ = FrozenLens(camera_.lens, sensor, {0, 0}, 1);
+  middle_ = FrozenLens::shared({camera_.lens, sensor.width, sensor.height, {0, 0}, 1}, threads);
   subpixel_.count = 1;
   if (subpixel > 1) {
     for (const SubpixelSample& sample : subpixel_samples(sensor, subpixel)) {
-      samples_.emplace_back(camera_.lens, sensor, sample.offset_px, 1.0 / (subpixel * subpixel));
-      sample_views_.push_back(samples_.back().view());
+      samples_.push_back(
+          FrozenLens::shared({camera_.lens, sensor.width, sensor.height, sample.offset_px, 1.0 / (subpixel * subpixel)}, threads));
+      sample_views_.push_back(samples_.back()->view());
       shares_.push_back(single(sample.share));
     }
     subpixel_ = {static_cast<std::int32_t>(samples_.size()), sample_views_.data(), shares_.data()};
@@ -254,55 +256,79 @@ void FrozenCamera::freeze_read_curve() {
   s.full_read = read_charge(s.read, s.full_well).value;
 }
 
-/// A pattern over the image: of pixels of the specimen, each one its own draw from a stream of the sensor's seed; the mean over those that are
-/// read together.                                                                                               [theory: eq. 4.26]
-std::vector<float> FrozenCamera::pattern(double sigma, double mean, double least, std::uint32_t stream) const {
-  const auto keys =
-      num::round_keys(static_cast<std::uint32_t>(one_pixel_.pattern_seed), static_cast<std::uint32_t>(one_pixel_.pattern_seed >> 32));
+namespace {
+
+/// What a pattern over the image depends on.
+struct PatternKey {
+  double sigma, mean, least;
+  std::uint32_t stream;
+  std::uint64_t seed;
+  int sensor_width, left, top, binning;
+  int width, height;  ///< of the image
+  bool operator==(const PatternKey&) const = default;
+};
+
+/// Of pixels of the specimen, each one its own draw from a stream of the sensor's seed; the mean over those that are read together.
+///                                                                                                              [theory: eq. 4.26]
+std::vector<float> pattern(const PatternKey& of) {
+  const auto keys = num::round_keys(static_cast<std::uint32_t>(of.seed), static_cast<std::uint32_t>(of.seed >> 32));
   const auto of_pixel = [&](int x, int y) {
-    const auto words = num::philox<float>(static_cast<std::uint32_t>(y * sensor_pixels_.width + x), stream, 0, 0, keys);
+    const auto words = num::philox<float>(static_cast<std::uint32_t>(y * of.sensor_width + x), of.stream, 0, 0, keys);
     float z, other;
     num::normal_pair<float>(words.w[0], words.w[1], z, other);
-    return std::max(mean + sigma * static_cast<double>(z), least);
+    return std::max(of.mean + of.sigma * static_cast<double>(z), of.least);
   };
-  const int n = readout_.binning;
+  const int n = of.binning;
   std::vector<float> map;
-  for (int y = 0; y < camera_.sensor.height; ++y) {
-    for (int x = 0; x < camera_.sensor.width; ++x) {
+  for (int y = 0; y < of.height; ++y) {
+    for (int x = 0; x < of.width; ++x) {
       double sum = 0;
-      for (int i = 0; i < n * n; ++i) sum += of_pixel(readout_.left + x * n + i % n, readout_.top + y * n + i / n);
+      for (int i = 0; i < n * n; ++i) sum += of_pixel(of.left + x * n + i % n, of.top + y * n + i / n);
       map.push_back(single(sum / (n * n)));
     }
   }
   return map;
 }
 
+}  // namespace
+
+FrozenCamera::Map FrozenCamera::drawn(double sigma, double mean, double least, std::uint32_t stream) const {
+  if (sigma == 0) return nullptr;
+  const PatternKey key{sigma,
+                       mean,
+                       least,
+                       stream,
+                       one_pixel_.pattern_seed,
+                       sensor_pixels_.width,
+                       readout_.left,
+                       readout_.top,
+                       readout_.binning,
+                       camera_.sensor.width,
+                       camera_.sensor.height};
+  return base::shared<PatternKey, std::vector<float>>().get(
+      key, [&] { return pattern(key); }, [](const std::vector<float>& map) { return map.size() * sizeof(float); });
+}
+
 void FrozenCamera::freeze_patterns() {
   const Pixel& pixel = one_pixel_;
   const std::size_t pixels = static_cast<std::size_t>(camera_.sensor.width) * static_cast<std::size_t>(camera_.sensor.height);
   constexpr double infinite = std::numeric_limits<double>::infinity();
-  const auto draw = [&](double sigma, double mean, double least, std::uint32_t stream, std::vector<float>& map) -> const float* {
-    if (sigma == 0) return nullptr;
-    map = pattern(sigma, mean, least, stream);
-    return map.data();
-  };
+  const auto data = [](const Map& map) { return map == nullptr ? nullptr : map->data(); };
   const int together = readout_.binning * readout_.binning;
-  sensor_.gain = draw(pixel.prnu, 1, 0, 0x50524e55, gain_);
-  sensor_.offset = draw(pixel.dsnu_dn * together, 0, -infinite, 0x44534e55, offset_);  // offsets are charge, which adds
-  sensor_.delay = draw(pixel.delay_s, 0, -infinite, 0x44454c41, delay_);
+  gain_ = drawn(pixel.prnu, 1, 0, 0x50524e55);
+  offset_ = drawn(pixel.dsnu_dn * together, 0, -infinite, 0x44534e55);  // offsets are charge, which adds
+  delay_ = drawn(pixel.delay_s, 0, -infinite, 0x44454c41);
+  sensor_.gain = data(gain_), sensor_.offset = data(offset_), sensor_.delay = data(delay_);
   if (pixel.phase_offset_rad == 0 || modulations_.frequency_hz.empty()) return;
   // A phase at one modulation frequency is a delay there.                                                  [theory: eq. 3.17]
-  std::vector<float> late;
   for (std::size_t j = 0; j < modulations_.frequency_hz.size(); ++j) {
-    std::vector<float> phase;
-    draw(pixel.phase_offset_rad, 0, -infinite, 0x50480000u + static_cast<std::uint32_t>(j), phase);
+    const Map phase = drawn(pixel.phase_offset_rad, 0, -infinite, 0x50480000u + static_cast<std::uint32_t>(j));
     for (std::size_t i = 0; i < pixels; ++i) {
-      const double delay = delay_.empty() ? 0.0 : static_cast<double>(delay_[i]);
-      late.push_back(single(delay + static_cast<double>(phase[i]) / (2 * pi * modulations_.frequency_hz[j])));
+      const double delay = delay_ == nullptr ? 0.0 : static_cast<double>((*delay_)[i]);
+      late_.push_back(single(delay + static_cast<double>((*phase)[i]) / (2 * pi * modulations_.frequency_hz[j])));
     }
   }
-  delay_ = std::move(late);
-  sensor_.delay = delay_.data(), sensor_.delay_stride = static_cast<std::int32_t>(pixels);
+  sensor_.delay = late_.data(), sensor_.delay_stride = static_cast<std::int32_t>(pixels);
 }
 
 double FrozenCamera::drift_m(double time_s) const {

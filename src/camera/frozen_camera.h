@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The tofray authors
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -40,12 +41,13 @@ class FrozenCamera {
  public:
   /// @param noise     false: expected values
   /// @param subpixel  samples of each pixel along a row and along a column
+  /// @param threads   that find the lens's rays; 0: one per core
   /// @throws Error (bad_input) where the profile makes no sense as a whole
-  FrozenCamera(const Camera& camera, bool noise, std::uint64_t seed, int subpixel = 1);
+  FrozenCamera(const Camera& camera, bool noise, std::uint64_t seed, int subpixel = 1, int threads = 0);
   FrozenCamera(const FrozenCamera&) = delete;
   FrozenCamera& operator=(const FrozenCamera&) = delete;
 
-  [[nodiscard]] const LensView& lens() const { return middle_.view(); }
+  [[nodiscard]] const LensView& lens() const { return middle_->view(); }
   [[nodiscard]] const SubpixelView& subpixel() const { return subpixel_; }
   [[nodiscard]] const ScatterView& scatter() const { return scatter_.view(); }
   [[nodiscard]] const std::vector<LightView>& lights() const { return light_views_; }
@@ -62,7 +64,7 @@ class FrozenCamera {
   [[nodiscard]] const std::vector<double>& raw_frame_start_s() const { return start_; }
 
  private:
-  void freeze_lens(int subpixel);
+  void freeze_lens(int subpixel, int threads);
   void freeze_sequence(std::uint64_t seed, bool noise);
   void freeze_phasors();
   [[nodiscard]] double first_phase(std::size_t modulation) const;
@@ -72,7 +74,9 @@ class FrozenCamera {
   void freeze_other_camera(double time_s, std::uint64_t index);
   [[nodiscard]] double drift_m(double time_s) const;
   void freeze_patterns();
-  [[nodiscard]] std::vector<float> pattern(double sigma, double mean, double least, std::uint32_t stream) const;
+  using Map = std::shared_ptr<const std::vector<float>>;
+  /// A pattern over the image; null where sigma is 0.
+  [[nodiscard]] Map drawn(double sigma, double mean, double least, std::uint32_t stream) const;
   void freeze_read_curve();
   [[nodiscard]] double dark_current() const;
   void freeze_decoder(bool noise);
@@ -84,8 +88,8 @@ class FrozenCamera {
   Readout readout_;
   Camera camera_;  // as it is read out
   Modulations modulations_;
-  FrozenLens middle_;
-  std::vector<FrozenLens> samples_;  // within the pixel
+  std::shared_ptr<const FrozenLens> middle_;
+  std::vector<std::shared_ptr<const FrozenLens>> samples_;  // within the pixel
   std::vector<LensView> sample_views_;
   std::vector<float> shares_;
   FrozenScatter scatter_;
@@ -105,7 +109,8 @@ class FrozenCamera {
   std::vector<DecodeModulation> decode_modulations_;
   std::vector<std::int32_t> grey_frames_;
   std::vector<std::vector<std::int32_t>> grouped_, pairs_;  // [modulation]
-  std::vector<float> gain_, offset_, delay_, read_;
+  Map gain_, offset_, delay_;
+  std::vector<float> late_, read_;  // delay_ with the pixels' phases in it, [modulation][height][width]
   std::vector<std::vector<float>> wiggling_, light_;
   std::vector<double> start_;
 };

@@ -196,7 +196,8 @@ void FrozenCamera::freeze_modulations(double grey_time) {
              number_text(1e-6 * frequency) + " MHz; mind the pixel's contrast, bandwidths, rise time, jitter and modulation depth");
     }
     if (!camera_.decoding.wiggling_correction) harmonics.resize(1);
-    const WigglingTable table = wiggling_table(harmonics, group.tau, wiggling_nodes);
+    const auto shared_table = shared_wiggling_table(harmonics, group.tau, wiggling_nodes);
+    const WigglingTable& table = *shared_table;
     wiggling_.push_back(with_steps(table.correction));
     std::vector<double> per_amplitude;
     for (const double one : table.amplitude) per_amplitude.push_back(1 / one);

@@ -1,6 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The tofray authors
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include <cstddef>
+#include <memory>
 #include <vector>
 
 #include "camera/lens.h"
@@ -8,20 +10,30 @@
 
 namespace tofray::camera {
 
+/// What the rays of all pixels depend on.
+struct LensKey {
+  Lens lens;          ///< but for f-number, transmission and scatter, which bend no ray
+  int width, height;  ///< of the image
+  Point2 offset_px;   ///< of each ray's place in its pixel, from the pixel's middle
+  double area;        ///< that the ray stands for, of a pixel's
+  bool operator==(const LensKey&) const = default;
+};
+
 /// Rays of all pixels through one place of each; owns the arrays that the view points to.
 class FrozenLens {
  public:
-  FrozenLens() = default;
   FrozenLens(const FrozenLens&) = delete;
   FrozenLens& operator=(const FrozenLens&) = delete;
   FrozenLens(FrozenLens&&) noexcept = default;
   FrozenLens& operator=(FrozenLens&&) noexcept = default;
   ~FrozenLens() = default;
-  /// @param offset_px  of the place, from the pixel's middle
-  /// @param area       that the ray stands for, of a pixel's
-  FrozenLens(const Lens& lens, const Sensor& sensor, const Point2& offset_px, double area);
+  /// @param threads  that find them; 0: one per core
+  explicit FrozenLens(const LensKey& of, int threads = 0);
+  /// The one for all cameras of such rays.
+  static std::shared_ptr<const FrozenLens> shared(const LensKey& of, int threads);
 
   [[nodiscard]] const LensView& view() const { return view_; }
+  [[nodiscard]] std::size_t bytes() const;
 
  private:
   void freeze_tiles();

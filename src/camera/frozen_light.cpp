@@ -5,6 +5,7 @@
 
 #include "base/constants.h"
 #include "base/faults.h"
+#include "base/shared.h"
 #include "base/vec.h"
 #include "camera/emitters.h"
 #include "camera/frozen_camera.h"
@@ -19,19 +20,22 @@ using num::single;
 
 namespace {
 
+/// A pattern as samples, and how much light one of them makes.
 struct Table {
   int columns, rows;
   double half_x, half_y;
   std::vector<double> samples;
+  double integral;  ///< [sr] of what kernels make of it
 };
 
-/// The table that a flat top stands for: half its peak at the edges of width × height.
+/// What a flat top stands for: half its peak at the edges of width × height.
 Table flat_top(const Pattern& p) {
   Table t{p.columns > 0 ? p.columns : 172,
           p.rows > 0 ? p.rows : 168,
           p.half_range_x_rad > 0 ? p.half_range_x_rad : p.width_rad,
           p.half_range_y_rad > 0 ? p.half_range_y_rad : p.height_rad,
-          {}};
+          {},
+          0};
   // by axis: a table of all cells takes the product of two shares
   const auto shares = [](int cells, double half_range, double width) {
     std::vector<double> out;
@@ -42,28 +46,39 @@ Table flat_top(const Pattern& p) {
   for (const double y : down) {
     for (const double x : across) t.samples.push_back(y * x);
   }
+  t.integral = flat_top_integral(p.width_rad, p.height_rad, t.half_x, t.half_y);
   return t;
 }
 
-/// @param scale  [W/sr] of a sample of 1
-void freeze_table(const Table& t, double scale, FrozenLight& out) {
-  for (const double sample : t.samples) out.table.push_back(single(scale * sample));
+/// Samples in any unit, as shares of the largest: however large or small they are, their integral is of the size of their solid angle.
+Table measured(const Pattern& p) {
+  Table t{p.columns, p.rows, p.half_range_x_rad, p.half_range_y_rad, p.samples, 0};
+  const double largest = *std::max_element(t.samples.begin(), t.samples.end());
+  for (double& sample : t.samples) sample /= largest;
+  t.integral = table_integral(t.samples, t.columns, t.rows, t.half_x, t.half_y);
+  if (!(t.integral > 0)) refuse("a light's pattern is dark\n  got samples above 0 only where the angle to the axis is beyond 180 deg");
+  return t;
+}
+
+std::shared_ptr<const Table> table_of(const Pattern& p) {
+  return base::shared<Pattern, Table>().get(
+      p, [&] { return p.kind == Pattern::Kind::flat_top ? flat_top(p) : measured(p); },
+      [](const Table& made) { return made.samples.size() * sizeof(double); });
+}
+
+/// @return the radiant intensity of a sample of 1 [W/sr]
+double freeze_table(const Pattern& p, double power, FrozenLight& out) {
+  const auto shared = table_of(p);
+  const Table& t = *shared;
+  const double peak = power / t.integral;
+  for (const double sample : t.samples) out.table.push_back(single(peak * sample));
   PatternView& view = out.view.pattern;
   view.kind = PatternView::table;
   view.samples = out.table.data();
   view.columns = t.columns, view.rows = t.rows;
   view.per_rad_x = single(t.columns / (2 * t.half_x)), view.per_rad_y = single(t.rows / (2 * t.half_y));
   view.half_range_x = single(t.half_x), view.half_range_y = single(t.half_y);
-}
-
-/// Samples in any unit, as shares of the largest: however large or small they are, their integral is of the size of their solid angle.
-void freeze_measured(const Pattern& p, double power, FrozenLight& out) {
-  Table t{p.columns, p.rows, p.half_range_x_rad, p.half_range_y_rad, p.samples};
-  const double largest = *std::max_element(t.samples.begin(), t.samples.end());
-  for (double& sample : t.samples) sample /= largest;
-  const double integral = table_integral(t.samples, t.columns, t.rows, t.half_x, t.half_y);
-  if (!(integral > 0)) refuse("a light's pattern is dark\n  got samples above 0 only where the angle to the axis is beyond 180 deg");
-  freeze_table(t, power / integral, out);
+  return peak;
 }
 
 void freeze_pattern(const Pattern& p, double power, FrozenLight& out) {
@@ -82,15 +97,12 @@ void freeze_pattern(const Pattern& p, double power, FrozenLight& out) {
       view.peak = single(power * (static_cast<double>(view.exponent) + 1) / (2 * pi));
       break;
     case Pattern::Kind::flat_top: {
-      const Table t = flat_top(p);
-      const double peak = power / flat_top_integral(p.width_rad, p.height_rad, t.half_x, t.half_y);
-      freeze_table(t, peak, out);  // the paper's printed formula reads the table; all else takes the formula
+      view.peak = single(freeze_table(p, power, out));  // the paper's printed formula reads the table; all else takes the formula
       view.kind = PatternView::flat_top;
-      view.peak = single(peak);
       view.per_half_width = single(2 / p.width_rad), view.per_half_height = single(2 / p.height_rad);
       break;
     }
-    case Pattern::Kind::table: freeze_measured(p, power, out); break;
+    case Pattern::Kind::table: freeze_table(p, power, out); break;
   }
 }
 

@@ -75,13 +75,18 @@ struct Jacobian {
   double xx, xy, yx, yy;
 };
 
-/// Of Brown–Conrady.
-Jacobian jacobian(const Lens& l, const Point2& p) {
-  const Radial g = brown_conrady(l, p.x * p.x + p.y * p.y);
+/// Of Brown–Conrady. @param g  its radial part there
+Jacobian jacobian(const Lens& l, const Radial& g, const Point2& p) {
   const double slope = 2 * g.slope, p1 = l.p1, p2 = l.p2;
   const double mixed = slope * p.x * p.y + 2 * p1 * p.x + 2 * p2 * p.y;
   return {g.factor + slope * p.x * p.x + 2 * p1 * p.y + 6 * p2 * p.x, mixed, mixed,
           g.factor + slope * p.y * p.y + 6 * p1 * p.y + 2 * p2 * p.x};
+}
+
+/// @param g   the radial part
+/// @param r2  r² of p
+Point2 bent(double g, double p1, double p2, double r2, const Point2& p) {
+  return {p.x * g + 2 * p1 * p.x * p.y + p2 * (r2 + 2 * p.x * p.x), p.y * g + p1 * (r2 + 2 * p.y * p.y) + 2 * p2 * p.x * p.y};
 }
 
 /// A fisheye's radius grows with the angle alone, up to where the model ends: Newton's method, held between two angles.
@@ -106,10 +111,9 @@ bool undistort_fisheye(const Lens& lens, double limit, const Point2& target, Poi
 }  // namespace
 
 Point2 distort(const Lens& l, const Point2& p) {
-  const double r2 = p.x * p.x + p.y * p.y, g = radial(l, r2).factor;
+  const double r2 = p.x * p.x + p.y * p.y;
   const bool fish = l.distortion == Lens::Distortion::fisheye;
-  const double p1 = fish ? 0 : l.p1, p2 = fish ? 0 : l.p2;
-  return {p.x * g + 2 * p1 * p.x * p.y + p2 * (r2 + 2 * p.x * p.x), p.y * g + p1 * (r2 + 2 * p.y * p.y) + 2 * p2 * p.x * p.y};
+  return bent(radial(l, r2).factor, fish ? 0 : l.p1, fish ? 0 : l.p2, r2, p);
 }
 
 bool undistort(const Lens& lens, double limit, const Point2& target, Point2& out) {
@@ -124,11 +128,17 @@ bool undistort(const Lens& lens, double limit, const Point2& target, Point2& out
     const double shrink = std::sqrt(0.9 * limit / distorted);
     p = {p.x * shrink, p.y * shrink};
   }
-  for (int i = 0; i < 60; ++i) {
-    const Point2 at = distort(lens, p);
+  Radial g{};
+  Point2 at{};
+  const auto look = [&] {
+    const double r2 = p.x * p.x + p.y * p.y;
+    g = brown_conrady(lens, r2), at = bent(g.factor, lens.p1, lens.p2, r2, p);
+  };
+  look();
+  for (int i = 0; i < 60; ++i, look()) {
     const double ex = target.x - at.x, ey = target.y - at.y;
     if (std::abs(ex) + std::abs(ey) <= 4e-16 * (1 + std::abs(target.x) + std::abs(target.y))) break;
-    const Jacobian j = jacobian(lens, p);
+    const Jacobian j = jacobian(lens, g, p);
     const double det = j.xx * j.yy - j.xy * j.yx;
     double dx = (j.yy * ex - j.xy * ey) / det, dy = (j.xx * ey - j.yx * ex) / det;
     // A step never leaves the branch: it is shortened to stay within the largest radius.
@@ -139,8 +149,7 @@ bool undistort(const Lens& lens, double limit, const Point2& target, Point2& out
     }
     p = {p.x + dx, p.y + dy};
   }
-  const Point2 at = distort(lens, p);
-  const Jacobian j = jacobian(lens, p);
+  const Jacobian j = jacobian(lens, g, p);
   out = p;
   const double error = std::abs(target.x - at.x) + std::abs(target.y - at.y);
   return error < 1e-12 && p.x * p.x + p.y * p.y < limit && j.xx * j.yy - j.xy * j.yx > 0;

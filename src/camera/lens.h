@@ -10,6 +10,7 @@ namespace tofray::camera {
 
 struct Point2 {
   double x, y;
+  bool operator==(const Point2&) const = default;
 };
 
 /// Undistorted (x, y) = (X/Z, Y/Z) → distorted, r² = x² + y².                                          [theory: eq. 1.7, 1.8]

@@ -12,6 +12,7 @@ struct Harmonic {
   int order = 1;         ///< m
   double amplitude = 0;  ///< a_m, may be negative
   double phase_rad = 0;  ///< ψ_m
+  bool operator==(const Harmonic&) const = default;
 };
 
 /// The correlation's harmonics at one modulation frequency.

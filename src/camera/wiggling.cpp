@@ -8,6 +8,7 @@
 
 #include "base/constants.h"
 #include "base/faults.h"
+#include "base/shared.h"
 #include "num/setup_math.h"
 #include "tofray/error.h"
 
@@ -112,6 +113,24 @@ WigglingTable wiggling_table(const std::vector<Harmonic>& harmonics, const std::
     out.correction.push_back((phase - target) / two_pi), out.amplitude.push_back(response.at(phase).amplitude);
   }
   return out;
+}
+
+namespace {
+
+struct WigglingKey {
+  std::vector<Harmonic> harmonics;
+  std::vector<double> reference_phases_rad;
+  int nodes;
+  bool operator==(const WigglingKey&) const = default;
+};
+
+}  // namespace
+
+std::shared_ptr<const WigglingTable> shared_wiggling_table(const std::vector<Harmonic>& harmonics,
+                                                           const std::vector<double>& reference_phases_rad, int nodes) {
+  return base::shared<WigglingKey, WigglingTable>().get(
+      {harmonics, reference_phases_rad, nodes}, [&] { return wiggling_table(harmonics, reference_phases_rad, nodes); },
+      [](const WigglingTable& made) { return (made.correction.size() + made.amplitude.size()) * sizeof(double); });
 }
 
 }  // namespace tofray::camera

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include <complex>
+#include <memory>
 #include <vector>
 
 #include "camera/waveform.h"
@@ -54,5 +55,8 @@ struct WigglingTable {
 /// @param nodes number n of nodes; node j stands at φ̂ = j/n turns
 /// @throws Error (bad_input) as PhaseResponse, for nodes < 2, and where the measured phase does not grow with the true one throughout
 WigglingTable wiggling_table(const std::vector<Harmonic>& harmonics, const std::vector<double>& reference_phases_rad, int nodes = 1024);
+/// The one for all that ask for the same. @throws Error likewise
+std::shared_ptr<const WigglingTable> shared_wiggling_table(const std::vector<Harmonic>& harmonics,
+                                                           const std::vector<double>& reference_phases_rad, int nodes);
 
 }  // namespace tofray::camera

@@ -156,9 +156,6 @@ Material read_material(Reading& reading, const Item& item) {
   if (const auto normal = item.object("normalTexture")) material.normal_scale = normal->number_or("scale", 1);
   leave_out_emission(reading, item);
   material.alpha = alpha_of(item);
-  if (material.alpha == Material::Alpha::mask)
-    reading.notices.add("materials that are cut out by alpha (alphaMode MASK) are opaque, with all of their triangles");
-  if (material.alpha == Material::Alpha::blend) reading.notices.add("materials that let light through (alphaMode BLEND) are opaque");
   material.alpha_cutoff = item.number_within("alphaCutoff", 0, infinity, 0.5);
   material.double_sided = item.flag_or("doubleSided", false);
   read_extensions(reading, item, material);

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "load/convert.h"
 
+#include <algorithm>
 #include <filesystem>
 
 #include "base/text.h"

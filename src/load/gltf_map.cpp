@@ -128,9 +128,35 @@ std::shared_ptr<VectorMap> finish_of(const gltf::Model& model, const gltf::Mater
   return map;
 }
 
-PictureMap map_of(const gltf::Model& model, const gltf::Material& material, const std::array<double, 3>& color, const std::string& path) {
+double cutoff_of(const gltf::Material& material) {
+  if (material.alpha == gltf::Material::Alpha::opaque) return 0;
+  return material.alpha == gltf::Material::Alpha::blend ? 0.5 : material.alpha_cutoff;
+}
+
+std::shared_ptr<ReflectivityMap> opacity_of(const gltf::Model& model, const gltf::Material& material, const std::string& path) {
+  const image::Image picture = read_picture_of(model, material.base_color_texture, path);
+  if (picture.channels != 2 && picture.channels != 4) return nullptr;
   const gltf::Texture& texture = texture_of(model, material.base_color_texture);
-  PictureMap out = map_of_picture(read_picture_of(model, material.base_color_texture, path), color);
+  auto map = std::make_shared<ReflectivityMap>();
+  map->width = picture.width, map->height = picture.height;
+  map->wrap_u = wrap_of(texture.wrap_s), map->wrap_v = wrap_of(texture.wrap_t);
+  map->values.reserve(static_cast<std::size_t>(picture.width) * static_cast<std::size_t>(picture.height));
+  const float below = std::nextafter(0.5F, 0.0F);
+  const double factor = material.base_color[3], cutoff = cutoff_of(material);
+  for (int y = 0; y < picture.height; ++y)
+    for (int x = 0; x < picture.width; ++x) {
+      const double alpha = static_cast<double>(picture.at(x, y, picture.channels - 1)) / 65535;
+      const double beyond = std::max(factor * alpha - cutoff, -1.0);
+      const auto opacity = static_cast<float>(0.5 + 0.5 * beyond);
+      map->values.push_back(beyond < 0 ? std::min(opacity, below) : opacity);
+    }
+  return map;
+}
+
+PictureMap map_of(const gltf::Model& model, const gltf::Material& material, const std::array<double, 3>& color,
+                  const ReflectivityMap* opacity, const std::string& path) {
+  const gltf::Texture& texture = texture_of(model, material.base_color_texture);
+  PictureMap out = map_of_picture(read_picture_of(model, material.base_color_texture, path), color, opacity);
   out.map->wrap_u = wrap_of(texture.wrap_s), out.map->wrap_v = wrap_of(texture.wrap_t);
   return out;
 }

@@ -15,9 +15,18 @@ namespace tofray::load {
 inline constexpr double least_alpha = 1e-3;
 
 /// A material's picture of its base colour, times a colour.
-/// @param path  the glTF file's, for messages
+/// @param opacity  as of map_of_picture()
+/// @param path     the glTF file's, for messages
 /// @throws Error as image::read
-PictureMap map_of(const gltf::Model& model, const gltf::Material& material, const std::array<double, 3>& color, const std::string& path);
+PictureMap map_of(const gltf::Model& model, const gltf::Material& material, const std::array<double, 3>& color,
+                  const ReflectivityMap* opacity, const std::string& path);
+
+/// Alpha from which on a material is a surface; 0: it is one everywhere.
+double cutoff_of(const gltf::Material& material);
+/// A material's picture of its alpha a, times its factor f, as an opacity: ½ + ½(f·a − cut-off), below ½ where it is cut out.
+/// @return null where the picture has no alpha
+/// @throws Error as image::read
+std::shared_ptr<ReflectivityMap> opacity_of(const gltf::Model& model, const gltf::Material& material, const std::string& path);
 
 /// Whose coordinates a material's triangles have: its first picture's, of base colour, of metal and roughness, of normals. Null: none.
 const gltf::TextureUse* coordinates_of(const gltf::Material& material);

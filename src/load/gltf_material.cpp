@@ -56,6 +56,7 @@ void VertexColors::add(const gltf::Part& part) {
       for (std::size_t k = 0; k < 3; ++k) color[k] = std::clamp(static_cast<double>(part.colors[vertex][k]), 0.0, 1.0);
     return color;
   };
+  for (const auto& color : part.colors) let_through_ = let_through_ || color[3] < 1;
   for (std::size_t i = 0; i < part.mesh.vertices.size(); ++i) {
     const Color color = color_of(i);
     all_.push_back({static_cast<float>(color[0]), static_cast<float>(color[1]), static_cast<float>(color[2])});
@@ -115,7 +116,7 @@ std::size_t GltfMaterials::most_texels() const {
 }
 
 void GltfMaterials::guess(const gltf::Material& of, const std::array<double, 3>& color, const std::array<double, 3>& mean_color,
-                          bool has_texcoords, FileMaterial& out) {
+                          bool has_texcoords, const ReflectivityMap* opacity, FileMaterial& out) {
   const gltf::TextureUse &base = of.base_color_texture, &of_finish = of.metallic_roughness_texture;
   const bool has_base = base.texture != gltf::none, has_finish = of_finish.texture != gltf::none && !of.unlit;
   double metal = of.metallic, roughness = of.roughness;
@@ -128,7 +129,7 @@ void GltfMaterials::guess(const gltf::Material& of, const std::array<double, 3>&
   if (has_base && !has_texcoords) {
     brightest *= 0.5, mean *= 0.5;  // nobody knows where on the picture its triangles are
   } else if (has_base) {
-    picture = map_of(model_, of, color, path_);
+    picture = map_of(model_, of, color, opacity, path_);
     count_texels(picture.map->width, picture.map->height, place_, texels_);
     mean *= brightest > 0 ? picture.mean / brightest : 1;
     brightest = picture.brightest;
@@ -151,6 +152,26 @@ void GltfMaterials::lean(const gltf::Material& of, bool has_texcoords, FileMater
   out.material.normals = std::move(map);
 }
 
+std::shared_ptr<ReflectivityMap> GltfMaterials::cut_out(const gltf::Material& of, const VertexColors& colors, bool has_texcoords,
+                                                        FileMaterial& out) {
+  const double cutoff = cutoff_of(of);
+  if (!(cutoff > 0)) return nullptr;
+  const bool has_picture = of.base_color_texture.texture != gltf::none;
+  out.lost_alpha = colors.let_through() || (has_picture && !has_texcoords);
+  std::shared_ptr<ReflectivityMap> map;
+  if (has_picture && has_texcoords) map = opacity_of(model_, of, path_);
+  if (map == nullptr) {
+    out.nowhere = of.base_color[3] < cutoff;
+    out.lets_through = of.alpha == gltf::Material::Alpha::blend && of.base_color[3] < 1;
+    return nullptr;
+  }
+  count_texels(map->width, map->height, place_, texels_);
+  const auto [least, most] = std::minmax_element(map->values.begin(), map->values.end());
+  out.nowhere = *most < 0.5F;
+  out.lets_through = of.alpha == gltf::Material::Alpha::blend && *least < 0.75F;  // where an alpha is below 1
+  return *least < 0.5F && !out.nowhere ? map : nullptr;
+}
+
 FileMaterial GltfMaterials::worn(int index, const VertexColors& colors, bool has_texcoords) {
   FileMaterial out;
   out.name = name_of(model_, index);
@@ -163,6 +184,7 @@ FileMaterial GltfMaterials::worn(int index, const VertexColors& colors, bool has
   }
   const gltf::Material& of = model_.materials[static_cast<std::size_t>(index)];
   out.from = FileMaterial::From::file;
+  std::shared_ptr<ReflectivityMap> opacity = cut_out(of, colors, has_texcoords, out);
   if (of.nir_material) {
     out.material = named(static_cast<std::size_t>(index));
   } else if (of.nir_reflectivity) {
@@ -170,10 +192,11 @@ FileMaterial GltfMaterials::worn(int index, const VertexColors& colors, bool has
   } else {
     out.from = FileMaterial::From::visible_colour, out.varying_color = colors.vary();
     const std::array<double, 3> color = rgb(of.base_color), all = product(color, mean);
-    guess(of, colors.vary() ? color : all, all, has_texcoords, out);
+    guess(of, colors.vary() ? color : all, all, has_texcoords, opacity.get(), out);
     out.mean_color = colors.vary() && out.material.brdf == Material::Brdf::ggx && of.metallic > 0;
   }
   lean(of, has_texcoords, out);
+  out.material.opacity = std::move(opacity);
   return out;
 }
 

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -24,6 +25,8 @@ class VertexColors {
   /// Whether any vertex says a colour.
   [[nodiscard]] bool any() const { return any_; }
   [[nodiscard]] bool vary() const { return vary_; }
+  /// Whether the alpha of any vertex is below 1.
+  [[nodiscard]] bool let_through() const { return let_through_; }
   /// White where none says one.
   [[nodiscard]] Color mean() const;
   /// Of each vertex of all parts, one part after the other.
@@ -36,7 +39,7 @@ class VertexColors {
   Color sum_{};
   double area_ = 0;
   std::vector<std::array<float, 3>> all_;
-  bool any_ = false, vary_ = false;
+  bool any_ = false, vary_ = false, let_through_ = false;
 };
 
 /// The materials of one file.
@@ -67,9 +70,12 @@ class GltfMaterials {
   Means means(const gltf::TextureUse& use);
   /// @param color  of the base
   /// @param mean   that, times the mean of its vertices' colours
+  /// @param opacity  as of map_of()
   void guess(const gltf::Material& of, const std::array<double, 3>& color, const std::array<double, 3>& mean, bool has_texcoords,
-             FileMaterial& out);
+             const ReflectivityMap* opacity, FileMaterial& out);
   void lean(const gltf::Material& of, bool has_texcoords, FileMaterial& out);
+  /// Where it is a surface, as its alphas say; null: everywhere, or nowhere.
+  std::shared_ptr<ReflectivityMap> cut_out(const gltf::Material& of, const VertexColors& colors, bool has_texcoords, FileMaterial& out);
   /// So many texels each picture of normals and of metal and roughness may have, so that those of all materials take no more memory than
   /// other pictures may.
   [[nodiscard]] std::size_t most_texels() const;

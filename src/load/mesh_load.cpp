@@ -13,6 +13,7 @@
 #include "files/text_file.h"
 #include "load/builtin_mesh.h"
 #include "load/gltf_load.h"
+#include "load/gltf_map.h"
 #include "load/gltf_material.h"
 #include "load/gltf_motion.h"
 #include "load/obj_load.h"
@@ -64,7 +65,7 @@ std::vector<MeshPiece> whole(mesh::ReadMesh read, bool by_material, MeshReader::
   } else {
     out[0].of.name = no_material;
     if (out[0].mesh.shades.empty())
-      known.lacks = "has no colours of vertices";
+      known.lacks = "has neither colours of vertices nor a picture that can be read";
     else
       out[0].of.from = FileMaterial::From::visible_colour, out[0].of.material.diffuse = 1;
   }
@@ -178,9 +179,25 @@ std::vector<MeshPiece> MeshReader::pieces(const Places& places, const Mesh& want
   const mesh::Format format = mesh::format_of(wanted.file, places.file);
   std::string bytes = read();
   if (with_materials_.contains(wanted.file)) return from_obj(places, wanted, path, std::move(bytes), by_material, known);
-  known.sha256 = files::sha256_hex(bytes);
+  mesh::ReadMesh mesh = mesh::parse(format, bytes, path);
+  if (mesh.pictures.empty() || !with_pictures_.contains(wanted.file)) {
+    known.sha256 = files::sha256_hex(bytes);
+    check_expected(places.file, wanted.file, path, known.sha256);
+    return whole(std::move(mesh), by_material, known);
+  }
+  const ObjMaterials pictures(mesh, path, files_.root);
+  known.sha256 = files::sha256_hex(bytes + pictures.bytes());
   check_expected(places.file, wanted.file, path, known.sha256);
-  return whole(mesh::parse(format, bytes, path), by_material, known);
+  if (by_material && pictures.has_pictures()) return wearing(std::move(mesh), pictures, places, known);
+  std::vector<MeshPiece> out = whole(std::move(mesh), by_material, known);
+  if (by_material) pictures.tell_of_files(known.notices);
+  return out;
+}
+
+std::vector<MeshPiece> MeshReader::wearing(mesh::ReadMesh mesh, const ObjMaterials& materials, const Places& places, Known& known) {
+  known.notices = std::move(mesh.notices);
+  for (const std::string& name : mesh.materials) known.materials.push_back(shown_name(name));
+  return materials.pieces(std::move(mesh), places.file, known.notices);
 }
 
 MeshReader::Known MeshReader::from_file(const Places& places, const Mesh& wanted, bool by_material) {
@@ -198,6 +215,11 @@ MeshReader::Known MeshReader::from_file(const Places& places, const Mesh& wanted
     const std::size_t beyond = keep_in_world(piece.mesh, farthest_m);
     piece.left_out += beyond, lost += beyond;
     if (piece.mesh.triangles.empty()) continue;
+    if (piece.of.nowhere) {
+      known.notices.push_back("material " + base::in_quotes(piece.of.name) +
+                              " is cut out everywhere by its alpha: its triangles are left out");
+      continue;
+    }
     if (by_material && piece.of.name == no_material) known.materials.emplace_back(no_material);
     std::shared_ptr<const MeshMotion> motion;
     if (piece.motion != nullptr) motion = std::make_shared<PlacedMotion>(std::move(piece.motion), wanted.scale, up);
@@ -216,6 +238,10 @@ void MeshReader::check_seen(const Places& places, const Mesh& wanted, const std:
   if (!known.pieces.empty())
     base::fail(places.file, "no triangle of " + file + " has an area",
                "the corners of each lie on a line or in one point: there is nothing to see");
+  if (std::any_of(all.begin(), all.end(), [](const MeshPiece& piece) { return piece.of.nowhere && !piece.mesh.triangles.empty(); }))
+    base::fail(
+        places.file, "all of " + file + " is cut out by alpha",
+        "no material's alpha comes up to its cut-off (alphaMode MASK, or 0.5 of BLEND); a reflectivity of the object makes it opaque");
   if (all.empty()) base::fail(places.file, "no triangle of " + file + " is in the world", "the file's scene shows none");
   if (lost == 0) base::fail(places.file, "no triangle of " + file + " is in the world", "each has a corner that is not a finite number");
   const std::string corners = "all have a corner beyond " + base::number_text(base::farthest_m) + " m, up to " +
@@ -252,6 +278,9 @@ std::vector<MeshPiece> MeshReader::from_gltf(const Places& places, const Mesh& w
     base::fail(places.play, base::in_quotes(path, 200) + " has no animation", "there is nothing to play; leave it away");
   known.sha256 = std::move(file.sha256), known.notices = std::move(file.model.notices);
   for (std::size_t i = 0; i < file.model.materials.size(); ++i) known.materials.push_back(name_of(file.model, static_cast<int>(i)));
+  if (!by_material &&
+      std::any_of(file.model.materials.begin(), file.model.materials.end(), [](const gltf::Material& one) { return cutoff_of(one) > 0; }))
+    known.notices.emplace_back("what its materials cut out by alpha is opaque, since the object's own material stands for all of them");
   const bool plays = wanted.time_s || wanted.play != Mesh::Play::still;
   if (!plays && !wanted.animation.empty())
     base::fail(places.animation, "animation says which one plays, and nothing plays", "add play: loop, or time: 0 s for one moment");
@@ -272,10 +301,8 @@ std::vector<MeshPiece> MeshReader::from_obj(const Places& places, const Mesh& wa
   known.sha256 = files::sha256_hex(bytes);
   check_expected(places.file, wanted.file, path, known.sha256);
   if (!by_material) return whole(std::move(mesh), false, known);
-  known.notices = mesh.notices;
   if (mesh.libraries.empty() && mesh.mesh.shades.empty()) known.lacks = "names no mtllib";
-  for (const std::string& name : mesh.materials) known.materials.push_back(shown_name(name));
-  return materials.pieces(std::move(mesh), places.file, known.notices);
+  return wearing(std::move(mesh), materials, places, known);
 }
 
 void MeshReader::check_expected(const base::Place& place, const std::string& file, const std::string& path,

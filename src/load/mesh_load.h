@@ -12,12 +12,17 @@
 #include "base/faults.h"
 #include "load/load.h"
 #include "load/mesh_piece.h"
+#include "mesh/read_mesh.h"
 
 namespace tofray::load {
 
+class ObjMaterials;
+
 /// Of an object that has no material, and whose file has none.
 inline constexpr const char* lacks_material =
-    "expected one of \"reflectivity\" or \"material\"; glTF files, OBJ files that name an mtllib, and vertices with colours have their own";
+    "expected one of \"reflectivity\" or \"material\"; glTF files, OBJ files that name an mtllib, PLY files that wear a picture, and "
+    "vertices "
+    "with colours have their own";
 
 /// Where the files that a scene names lie.
 /// @param source  the scene's file, or <NAME> of a built-in one
@@ -62,6 +67,8 @@ class MeshReader {
   void set_world_up(Scene::Up up) { world_up_ = up; }
   /// Says that read() will want this file's materials: its SHA-256 then is that of all that it names, for all objects.
   void want_materials(const std::string& file) { with_materials_.insert(file); }
+  /// … the pictures that this PLY file wears.
+  void want_pictures(const std::string& file) { with_pictures_.insert(file); }
   /// What `mesh` shows by its file, scale, up, time and play.
   /// @param by_material  whether a glTF or OBJ file's materials are wanted apart
   /// @throws Error as files::read_reference, mesh::parse and gltf::read, and (bad_input) where the file is not the one that is expected,
@@ -77,6 +84,7 @@ class MeshReader {
                                    bool by_material, Known& known) const;
   std::vector<MeshPiece> from_obj(const Places& places, const Mesh& wanted, const std::string& path, std::string bytes, bool by_material,
                                   Known& known) const;
+  static std::vector<MeshPiece> wearing(mesh::ReadMesh mesh, const ObjMaterials& materials, const Places& places, Known& known);
   /// What is left of a file is seen. @param lost  triangles beyond the world
   static void check_seen(const Places& places, const Mesh& wanted, const std::string& path, const Known& known,
                          const std::vector<MeshPiece>& all, std::size_t lost, double farthest_m);
@@ -87,7 +95,7 @@ class MeshReader {
   std::string folder_;
   const MeshFiles& files_;
   Scene::Up world_up_ = Scene::Up::minus_y;
-  std::set<std::string> with_materials_;
+  std::set<std::string> with_materials_, with_pictures_;
   std::size_t vertices_ = 0, triangles_ = 0, texels_ = 0;
   std::map<std::tuple<std::string, double, Mesh::Up, std::string, std::optional<double>, Mesh::Play, bool>, Known> known_;
 };

@@ -30,12 +30,12 @@ void count_pictures(const Material& material, const base::Place& place, std::siz
   const auto count = [&](const auto& map) {
     if (map != nullptr) count_texels(map->width, map->height, place, texels);
   };
-  count(material.map), count(material.normals), count(material.finish);
+  count(material.map), count(material.normals), count(material.finish), count(material.opacity);
 }
 
 std::vector<std::string> notices_of(const std::vector<const FileMaterial*>& materials) {
   using From = FileMaterial::From;
-  std::vector<std::string> out, colourless, finishes, colors, normals;
+  std::vector<std::string> out, colourless, finishes, colors, normals, through, alphas;
   bool without = false;
   for (const FileMaterial* one : materials) {
     without = without || one->from == From::nothing;
@@ -43,6 +43,8 @@ std::vector<std::string> notices_of(const std::vector<const FileMaterial*>& mate
     if (one->mean_finish) finishes.push_back(one->name);
     if (one->mean_color) colors.push_back(one->name);
     if (one->lost_normals) normals.push_back(one->name);
+    if (one->lets_through) through.push_back(one->name);
+    if (one->lost_alpha) alphas.push_back(one->name);
   }
   if (without) out.emplace_back("triangles without a material get a reflectivity of 0.5");
   if (!colourless.empty()) out.push_back("no MTL file says a colour of material " + and_more(colourless) + ": a reflectivity of 0.5");
@@ -51,6 +53,13 @@ std::vector<std::string> notices_of(const std::vector<const FileMaterial*>& mate
   if (!normals.empty())
     out.push_back("the picture of normals of material " + and_more(normals) +
                   " is left out: it is grey, or lies elsewhere on the triangles than the first picture");
+  if (!through.empty())
+    out.push_back(
+        "material " + and_more(through) +
+        " lets light through in part (alphaMode BLEND): it is a surface where its alpha is 0.5 or more, and nothing where it is less");
+  if (!alphas.empty())
+    out.push_back("material " + and_more(alphas) +
+                  " is cut out by alphas of vertices, or by a picture without texture coordinates: they are left out");
   return out;
 }
 

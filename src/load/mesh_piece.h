@@ -28,6 +28,9 @@ struct FileMaterial {
   bool varying_color = false;  ///< its vertices have several colours, which its mesh has as shades
   bool mean_color = false;     ///< … but of what is metal their mean is used
   bool lost_normals = false;   ///< it has a picture of normals that cannot be used
+  bool lets_through = false;   ///< it would let light through in part, and is a surface or none
+  bool lost_alpha = false;     ///< it would be cut out by what cannot be used: alphas of vertices, or a picture that lies nowhere
+  bool nowhere = false;        ///< it is cut out everywhere
 };
 
 /// Sentences: what is guessed of these materials, each once.

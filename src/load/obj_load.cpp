@@ -107,7 +107,15 @@ bool is_obj(const std::string& path) { return mesh::suffix_of(path) == ".obj"; }
 
 bool has_materials(std::string_view bytes, const std::string& path, const std::string& root, std::string& unread) {
   try {
-    if (!is_obj(path)) return !mesh::parse(mesh::format_of(path, base::whole(path)), bytes, path).mesh.shades.empty();
+    if (!is_obj(path)) {
+      const mesh::ReadMesh mesh = mesh::parse(mesh::format_of(path, base::whole(path)), bytes, path);
+      for (const mesh::Reference& picture : mesh.pictures) {
+        if (read_beside(picture, files::folder_of(path), root, base::limit::mtl_image_bytes)) return true;
+        if (unread.empty()) unread = picture.file;
+      }
+      if (!mesh.mesh.shades.empty()) unread.clear();
+      return !mesh.mesh.shades.empty();
+    }
     for (const mesh::Reference& file : mesh::libraries_of_obj(bytes, path)) {
       if (read_beside(file, files::folder_of(path), root, base::limit::mtl_bytes)) return true;
       if (unread.empty()) unread = file.file;
@@ -122,6 +130,10 @@ bool has_materials(std::string_view bytes, const std::string& path, const std::s
 
 ObjMaterials::ObjMaterials(const mesh::ReadMesh& mesh, const std::string& path, const std::string& root) {
   with_way_out([&] { read_libraries(mesh, path, root); });
+  for (const mesh::Reference& picture : mesh.pictures) {
+    all_.push_back({picture.file, std::nullopt, std::nullopt, mesh::MtlPicture{picture}});
+    folder_of_.push_back(files::folder_of(path));
+  }
   std::map<std::string_view, int> places;
   for (std::size_t i = 0; i < all_.size(); ++i) twice_ += places.emplace(all_[i].name, static_cast<int>(i)).second ? 0U : 1U;
   if (const auto nameless = places.find(""); nameless != places.end()) nameless_ = nameless->second;
@@ -223,13 +235,17 @@ void ObjMaterials::wear(std::vector<MeshPiece>& pieces, const std::vector<int>& 
     piece.material.diffuse = of->nir_reflectivity.value_or(luminance(color[0], color[1], color[2]));
     if (!of->nir_reflectivity && of->picture) piece.material.diffuse *= 0.5;  // until the picture is read
   }
+  tell_of_files(notices);
+  if (twice_ > 0)
+    notices.push_back("materials that come twice in its MTL files (" + std::to_string(twice_) + "): the first of each counts");
+  if (!left_out_.empty()) notices.push_back("of its materials is left out: " + joined(left_out_));
+}
+
+void ObjMaterials::tell_of_files(std::vector<std::string>& notices) const {
   notices.insert(notices.end(), notices_.begin(), notices_.end());
   if (!lost_files_.empty())
     notices.push_back("cannot be read and " + std::string(lost_files_.size() == 1 ? "is" : "are") + " left out: " + joined(lost_files_) +
                       "; files lie beside the one that names them or below (--root DIR widens that)");
-  if (twice_ > 0)
-    notices.push_back("materials that come twice in its MTL files (" + std::to_string(twice_) + "): the first of each counts");
-  if (!left_out_.empty()) notices.push_back("of its materials is left out: " + joined(left_out_));
 }
 
 void ObjMaterials::wear_pictures(std::vector<MeshPiece>& pieces, const std::vector<int>& used, const base::Place& place) const {

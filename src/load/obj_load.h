@@ -11,18 +11,19 @@
 #include "mesh/mtl.h"
 #include "mesh/read_mesh.h"
 
-/// OBJ files of a scene: with the files of materials and pictures that they name, taken apart by material.
+/// OBJ files of a scene: with the files of materials and pictures that they name, taken apart by material; and PLY files with pictures.
 namespace tofray::load {
 
 /// By the file name's suffix, in any case.
 bool is_obj(const std::string& path);
 
-/// Whether an OBJ file names files of materials that can be read, or its vertices have colours; of a PLY file whether they have.
+/// Whether an OBJ file names files of materials that can be read, or its vertices have colours; of a PLY file whether it wears a picture that
+/// can be read, or they have.
 /// @param path    where it lies
 /// @param unread  out: the first of those that it names, where none can be read
 bool has_materials(std::string_view bytes, const std::string& path, const std::string& root, std::string& unread);
 
-/// The materials of one OBJ file.
+/// The materials of one OBJ file, or the pictures of a PLY file.
 class ObjMaterials {
  public:
   /// Reads the MTL files that the mesh names and the pictures that its triangles wear, by read_beside(); those that are not there are left
@@ -33,6 +34,10 @@ class ObjMaterials {
 
   /// Those of the MTL files, as mtllib names them, and of the pictures, as usemtl first names their materials; each once.
   [[nodiscard]] const std::string& bytes() const { return bytes_; }
+  /// Whether there is a picture that it wears.
+  [[nodiscard]] bool has_pictures() const { return !pictures_.empty(); }
+  /// Those that are not there, and which were found elsewhere.
+  void tell_of_files(std::vector<std::string>& notices) const;
 
   /// A piece for each material that has triangles: those without one first, then as usemtl first names them.
   /// @param mesh     the one of the constructor

@@ -31,21 +31,23 @@ double luminance_at(const image::Image& picture, int x, int y, const std::array<
   return luminance(color[0] * sample(0), color[1] * sample(1), color[2] * sample(2));
 }
 
-PictureMap map_of_picture(const image::Image& picture, const std::array<double, 3>& color) {
+PictureMap map_of_picture(const image::Image& picture, const std::array<double, 3>& color, const ReflectivityMap* opacity) {
   const auto map = std::make_shared<ReflectivityMap>();
   map->width = picture.width, map->height = picture.height;
   map->values.reserve(static_cast<std::size_t>(picture.width) * static_cast<std::size_t>(picture.height));
   float brightest = 0;
   double sum = 0;
+  std::size_t seen = 0;
   for (int y = 0; y < picture.height; ++y)
     for (int x = 0; x < picture.width; ++x) {
       const auto value = static_cast<float>(luminance_at(picture, x, y, color));
-      brightest = std::max(brightest, value), sum += static_cast<double>(value);
+      if (opacity == nullptr || opacity->values[map->values.size()] >= 0.5F)
+        brightest = std::max(brightest, value), sum += static_cast<double>(value), ++seen;
       map->values.push_back(value);
     }
   if (brightest > 0)
     for (float& value : map->values) value = std::min(value / brightest, 1.0F);
-  return {map, static_cast<double>(brightest), sum / static_cast<double>(map->values.size())};
+  return {map, static_cast<double>(brightest), sum / static_cast<double>(std::max<std::size_t>(seen, 1))};
 }
 
 }  // namespace tofray::load

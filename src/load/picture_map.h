@@ -18,10 +18,11 @@ double luminance_at(const image::Image& picture, int x, int y, const std::array<
 
 /// A picture of colours as one of reflectivities: the luminance of each texel, decoded from sRGB, times a linear colour, over the brightest
 /// one.
+/// @param opacity  of its size: texels below ½ are not asked which is brightest, nor for the mean. Null: there are none
 struct PictureMap {
   std::shared_ptr<ReflectivityMap> map;
   double brightest = 0, mean = 0;  ///< of the texels
 };
-PictureMap map_of_picture(const image::Image& picture, const std::array<double, 3>& color);
+PictureMap map_of_picture(const image::Image& picture, const std::array<double, 3>& color, const ReflectivityMap* opacity = nullptr);
 
 }  // namespace tofray::load

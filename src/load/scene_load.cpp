@@ -220,6 +220,7 @@ class SceneReader {
       if (own.items[i].good) one.own[own.names[i]] = &material_in_place(own.items[i], scene);
     if (!value["file"].good || is_gltf(out.file)) return;
     const bool may_have_colors = is_obj(out.file) || mesh::suffix_of(out.file) == ".ply";
+    if (!has_material && mesh::suffix_of(out.file) == ".ply") meshes_.want_pictures(out.file);
     if (!has_material && is_obj(out.file))
       meshes_.want_materials(out.file);
     else if (own)
@@ -359,6 +360,7 @@ class SceneReader {
       materials[static_cast<std::size_t>(one.material)] = own != of.own.end() ? *own->second : in_file.material;
       if (own != of.own.end()) {
         materials[static_cast<std::size_t>(one.material)].normals = in_file.material.normals;  // its shape, not what it is made of
+        materials[static_cast<std::size_t>(one.material)].opacity = in_file.material.opacity;
         continue;
       }
       taken.push_back(&in_file);

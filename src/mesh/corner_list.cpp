@@ -129,10 +129,15 @@ void give_details(const std::vector<Normal>& normals, const CornerList& of_norma
   const bool has_normals = !normals.empty() && !of_normals.all().empty(), has_texcoords = !texcoords.empty() && !of_texcoords.all().empty();
   if (!has_normals && !has_texcoords) return;
   Splitter splitter(mesh, has_normals, has_texcoords);
-  auto& triangles = mesh.so_far().mesh.triangles;
-  for (std::size_t i = 0; i < triangles.size(); ++i)
-    for (std::size_t k = 0; k < 3; ++k)
-      triangles[i][k] = splitter.vertex_of(triangles[i][k], row_of(normals, of_normals, i, k), row_of(texcoords, of_texcoords, i, k));
+  TriangleMesh& out = mesh.so_far().mesh;
+  for (std::size_t i = 0; i < out.triangles.size(); ++i)
+    for (std::size_t k = 0; k < 3; ++k) {
+      std::int32_t& corner = out.triangles[i][k];
+      // (A vertex that has its own normal already keeps it.)
+      const bool own = !has_normals && !out.normals.empty();
+      const Normal normal = own ? out.normals[static_cast<std::size_t>(corner)] : row_of(normals, of_normals, i, k);
+      corner = splitter.vertex_of(corner, normal, row_of(texcoords, of_texcoords, i, k));
+    }
 }
 
 void give_shades(const std::vector<float>& shades, MeshBuilder& builder) {

@@ -46,7 +46,7 @@ class CornerList {
 
 /// Gives each vertex what its corners name. One whose corners name different things becomes several: the first corner's is in its place,
 /// the others follow behind all vertices of the file.
-/// @param normals    of unit length; none where it is empty
+/// @param normals    of unit length; none where it is empty: then vertices keep what they have
 /// @param texcoords  likewise
 void give_details(const std::vector<std::array<float, 3>>& normals, const CornerList& of_normals,
                   const std::vector<std::array<float, 2>>& texcoords, const CornerList& of_texcoords, MeshBuilder& mesh);

@@ -19,7 +19,9 @@ bool turns_back(const Point& a, const Point& b, const Point& c) {
 
 std::size_t EarClipping::Grid::cell(double x, std::size_t axis) const {
   const double place = (x - low[axis]) * per_length[axis];
-  return place > 0 ? std::min(static_cast<std::size_t>(place), cells[axis] - 1) : 0;
+  const std::size_t last = cells[axis] - 1;  // (Ears may be far outside: no whole number holds that.)
+  if (!(place > 0)) return 0;
+  return place < static_cast<double>(last) ? static_cast<std::size_t>(place) : last;
 }
 
 EarClipping::Outcome EarClipping::divide(const std::vector<Point>& polygon, std::int64_t& work, std::vector<Corners>& triangles) {

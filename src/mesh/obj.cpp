@@ -10,6 +10,7 @@
 #include <limits>
 #include <map>
 #include <memory>
+#include <utility>
 
 #include "base/limits.h"
 #include "base/text.h"
@@ -113,6 +114,7 @@ class ObjReader {
       else if (!is_one_of(read_past, keyword))
         pass_unknown(keyword);
     } while (words_.next_line());
+    if (!free_form_.empty()) tell_of_free_form();
     if (unknown_ > 0) tell_of_unknown();
     if (largest_ > static_cast<std::int64_t>(mesh_.vertices()))
       beyond(largest_mark_, fmt::format("got {}, the file has {} vertices", largest_, mesh_.vertices()));
@@ -126,12 +128,33 @@ class ObjReader {
 
  private:
   void pass_unknown(std::string_view keyword) {
-    if (is_one_of(free_form, keyword))
-      words_.fail("curves and surfaces of free form are not read: " + in_quotes(keyword),
-                  "expected polygons (v, f): have the program that wrote the file divide its surfaces into them");
+    if (is_one_of(free_form, keyword)) {
+      if (free_form_.empty()) free_form_mark_ = words_.mark();
+      const auto known = std::find_if(free_form_.begin(), free_form_.end(), [&](const auto& one) { return one.first == keyword; });
+      if (known == free_form_.end())
+        free_form_.emplace_back(keyword, 1);
+      else
+        ++known->second;
+      return;
+    }
     if (is_one_of(from_elsewhere, keyword))
       words_.fail("what other files or programs give is not read: " + in_quotes(keyword), "expected one file that holds the whole mesh");
     if (unknown_++ == 0) unknown_word_ = keyword.substr(0, 100), unknown_mark_ = words_.mark();
+  }
+
+  /// What of a file is curves and surfaces is left out, where there are polygons besides: trim curves of a CAD program beside its mesh.
+  void tell_of_free_form() {
+    std::vector<std::string> parts;
+    for (const auto& [word, times] : free_form_)
+      if (word == "curv" || word == "curv2" || word == "surf")
+        parts.push_back(in_quotes(word) + (times > 1 ? fmt::format(" ({} times)", times) : ""));
+    if (parts.empty()) parts.push_back(in_quotes(free_form_.front().first));
+    if (mesh_.so_far().mesh.triangles.empty())
+      words_.fail(free_form_mark_, "curves and surfaces of free form are not read: " + base::listed(parts, "and"),
+                  "expected polygons (v, f): have the program that wrote the file divide its surfaces into them");
+    mesh_.so_far().notices.push_back(
+        fmt::format("curves and surfaces of free form are left out: {}, from line {} on; polygons alone are seen",
+                    base::listed(parts, "and"), free_form_mark_.line));
   }
 
   /// Programs write words of their own; where there is no mesh besides it is another kind of file.
@@ -284,7 +307,8 @@ class ObjReader {
   std::int64_t largest_ = 0;
   std::size_t unknown_ = 0;   ///< lines
   std::string unknown_word_;  ///< of the first of them
-  Mark largest_mark_, unknown_mark_;
+  Mark largest_mark_, unknown_mark_, free_form_mark_;
+  std::vector<std::pair<std::string, std::size_t>> free_form_;  ///< words of curves and surfaces, and in how many lines
 };
 
 }  // namespace

@@ -2,12 +2,15 @@
 // SPDX-License-Identifier: Apache-2.0
 // PLY: x, y, z of the element vertex, its normal (nx, ny, nz) and texture coordinates (s, t; u, v; texture_u, texture_v), and lists of
 // vertices: polygons in the element face, strips in tristrips; and colours of vertices or faces (red, green, blue; diffuse_red, …; r, g, b).
-// All else is read past.
+// Of faces also the corners' texture coordinates (list texcoord), and which picture they wear (texnumber). All else is read past.
 #include <fmt/core.h>
 
 #include <algorithm>
 #include <array>
+#include <cstdint>
 #include <initializer_list>
+#include <map>
+#include <memory>
 
 #include "base/faults.h"
 #include "base/text.h"
@@ -52,12 +55,12 @@ class PlyReader {
         read_past(element);
     }
     body_.finish();
-    polygons_.divide(mesh_.so_far().mesh, {}, mesh_.so_far().notices);
+    polygons_.divide(mesh_.so_far().mesh, {&of_texcoords_}, mesh_.so_far().notices);
+    // Those of corners say more: a seam has two.
+    give_details({}, CornerList("a normal"), texcoords_, of_texcoords_, mesh_);
     // Colours of vertices say more: they vary across a face.
     if (!has_colors_) give_shades(shades_, mesh_);
-    if (has_texcoords_ && !header_.pictures.empty())
-      mesh_.so_far().notices.push_back("the picture that it wears is left out: " + in_quotes(header_.pictures.front()) +
-                                       "; as OBJ with an MTL file, or as glTF, it is read");
+    if (has_texcoords_ || !texcoords_.empty()) wear_pictures();
     return mesh_.finish();
   }
 
@@ -191,26 +194,80 @@ class PlyReader {
     return static_cast<std::int32_t>(index);
   }
 
+  /// A material for each picture, by the name of its file.
+  void wear_pictures() {
+    ReadMesh& mesh = mesh_.so_far();
+    const auto file = std::make_shared<const std::string>(name_);
+    std::map<std::string, std::int32_t> places;
+    std::vector<std::int32_t> place_of;
+    for (const PlyHeader::Picture& picture : header_.pictures) {
+      const auto [place, is_new] = places.try_emplace(picture.file, static_cast<std::int32_t>(mesh.materials.size()));
+      if (is_new) {
+        mesh.materials.push_back(picture.file);
+        mesh.pictures.push_back({picture.file, {file, static_cast<int>(picture.mark.line), static_cast<int>(picture.mark.column)}});
+      }
+      place_of.push_back(place->second);
+    }
+    if (place_of.empty()) return;
+    numbers_.resize(mesh.mesh.triangles.size(), 0);
+    for (const std::int64_t number : numbers_)
+      mesh.material_of.push_back(
+          number >= 0 && number < static_cast<std::int64_t>(place_of.size()) ? place_of[static_cast<std::size_t>(number)] : -1);
+  }
+
   double share(const PlyProperty& property) { return body_.number(property.type) / full(property.type); }
 
   /// A row whose lists of vertices `read_list` takes.
-  /// @param columns  0 to 2: of the row's colour; else -1
+  /// @param columns  0 to 2: of the row's colour; 3: its corners' texture coordinates; 4: the number of its picture; else -1
   template <class ReadList>
   void read_rows(const PlyElement& element, const PlyProperty& indices, const Columns& columns, const ReadList& read_list) {
     const bool colored = std::find(columns.begin(), columns.end(), 0) != columns.end();
     for (std::uint64_t row = 0; row < element.count; ++row) {
       body_.row(element.name, row);
       std::array<double, 3> color{};
+      const std::size_t first = mesh_.so_far().mesh.triangles.size(), first_texcoord = texcoords_.size();
+      std::int64_t number = 0;
       for (std::size_t i = 0; i < element.properties.size(); ++i) {
         const PlyProperty& property = element.properties[i];
         if (&property == &indices)
           read_list(body_.length(property.count, property.type), property.type);
+        else if (columns[i] == 3)
+          read_texcoords(property);
+        else if (columns[i] == 4)
+          number = body_.integer(property.type);
         else if (columns[i] >= 0)
           color[static_cast<std::size_t>(columns[i])] = share(property);
         else
           pass(property);
       }
       if (colored) shades_.resize(mesh_.so_far().mesh.triangles.size(), mesh_.shade_of(color));
+      if (texcoords_.size() > first_texcoord) give_texcoords(first, first_texcoord);
+      if (number != 0) numbers_.resize(first, 0), numbers_.resize(mesh_.so_far().mesh.triangles.size(), number);
+    }
+  }
+
+  /// u, v of each corner.
+  void read_texcoords(const PlyProperty& property) {
+    const std::uint64_t length = body_.length(property.count, property.type);
+    if (length % 2 != 0)
+      body_.fail("the texture coordinates of a face are an odd number", fmt::format("got {}, expected u, v of each corner", length));
+    if (texcoords_.size() + length / 2 > MeshBuilder::most_vertices)
+      base::fail(base::whole(name_), fmt::format("the file has more than {} texture coordinates", MeshBuilder::most_vertices),
+                 "(`tofray --limits`)", ErrorKind::limit);
+    for (std::uint64_t i = 0; i < length; i += 2) {
+      const float u = to_float(body_.number(property.type));
+      texcoords_.push_back(mesh_.place_in_picture(u, to_float(body_.number(property.type))));
+    }
+  }
+  /// To the fan of a face's triangles.
+  void give_texcoords(std::size_t first, std::size_t first_texcoord) {
+    const std::size_t triangles = mesh_.so_far().mesh.triangles.size() - first, corners = texcoords_.size() - first_texcoord;
+    if (corners != triangles + 2)
+      body_.fail("a face has not as many texture coordinates as corners", fmt::format("got {} of {}", corners, triangles + 2));
+    const auto at = static_cast<std::int32_t>(first_texcoord);
+    for (std::size_t i = 0; i < triangles; ++i) {
+      const auto corner = at + static_cast<std::int32_t>(i);
+      of_texcoords_.add({at, corner + 1, corner + 2}, first + i + 1);
     }
   }
 
@@ -220,6 +277,11 @@ class PlyReader {
     mesh_.expect_triangles(element.count);
     Columns columns(element.properties.size(), -1);
     take_color(element, 0, columns);
+    for (std::size_t i = 0; i < element.properties.size(); ++i) {
+      const PlyProperty& property = element.properties[i];
+      if (property.list && property.name == "texcoord" && !is_integer(property.type)) columns[i] = 3;
+      if (!property.list && property.name == "texnumber" && is_integer(property.type)) columns[i] = 4;
+    }
     read_rows(element, indices, columns, [this](std::uint64_t length, PlyType type) { read_polygon(length, type); });
   }
 
@@ -264,7 +326,10 @@ class PlyReader {
   Body body_;
   MeshBuilder mesh_;
   Polygons polygons_;
-  std::vector<float> shades_;  ///< of each triangle, where faces have colours
+  std::vector<float> shades_;                    ///< of each triangle, where faces have colours
+  std::vector<std::array<float, 2>> texcoords_;  ///< of corners, where faces have lists of them
+  CornerList of_texcoords_{"a texture coordinate"};
+  std::vector<std::int64_t> numbers_;  ///< of each triangle, the picture that its face names; those behind have 0
   std::uint64_t vertices_ = 0;
   bool has_normals_ = false, has_texcoords_ = false, has_colors_ = false;
 };

@@ -54,7 +54,10 @@ class PlyHeaderReader {
     if (!words_.in_line(keyword) || keyword == "obj_info") return true;
     if (keyword == "comment") {
       std::string_view what;
-      if (words_.in_line(what) && what == "TextureFile") header_.pictures.push_back(words_.rest_of_line());
+      if (!words_.in_line(what) || what != "TextureFile") return true;
+      const Mark mark = words_.mark();
+      std::string file = words_.rest_of_line();
+      if (!file.empty()) header_.pictures.push_back({std::move(file), mark});
       return true;
     }
     if (keyword == "end_header") {

@@ -42,7 +42,11 @@ struct PlyHeader {
   std::vector<PlyElement> elements;
   std::size_t length = 0;  ///< bytes: the data start here
   std::size_t lines = 0;
-  std::vector<std::string> pictures;  ///< that comments name: comment TextureFile wood.png
+  struct Picture {
+    std::string file;
+    Mark mark;
+  };
+  std::vector<Picture> pictures;  ///< that comments name: comment TextureFile wood.png
 
   [[nodiscard]] const PlyElement* find(std::string_view element) const;
 };

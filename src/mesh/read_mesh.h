@@ -27,7 +27,8 @@ struct ReadMesh {
   std::size_t not_finite = 0;             ///< triangles dropped because a corner is not a finite number (NaN, inf, or beyond float)
   std::vector<std::string> notices;       ///< sentences: what was mended
   std::vector<Reference> libraries;       ///< OBJ: the files of materials (mtllib), each once, in their order
-  std::vector<std::string> materials;     ///< OBJ: the names that usemtl says, each once, in their order
+  std::vector<Reference> pictures;        ///< PLY: what its triangles wear (comment TextureFile), where they have texture coordinates
+  std::vector<std::string> materials;     ///< OBJ: the names that usemtl says, each once, in their order; PLY: those of the pictures
   std::vector<std::int32_t> material_of;  ///< index in `materials` of each triangle's, -1: it has none. Empty: none has any
 };
 

@@ -30,11 +30,11 @@ bool has_its_size(const Map& map, const std::string& name, const Complain& compl
 }
 
 template <class Complain>
-void check_map(const ReflectivityMap& map, const Complain& complain) {
-  if (!has_its_size(map, "reflectivity map", complain)) return;
+void check_map(const ReflectivityMap& map, const std::string& name, const Complain& complain) {
+  if (!has_its_size(map, name, complain)) return;
   const auto bad = std::find_if(map.values.begin(), map.values.end(), [](float a) { return !(a >= 0 && a <= 1); });
   if (bad != map.values.end())
-    complain("value " + std::to_string(bad - map.values.begin()) + " of the reflectivity map is out of range",
+    complain("value " + std::to_string(bad - map.values.begin()) + " of the " + name + " is out of range",
              "got " + number_text(static_cast<double>(*bad)) + ", expected 0 to 1");
 }
 
@@ -74,7 +74,8 @@ void check_finish(const Material& material, const Complain& complain) {
 
 void materials_send_back_no_more_than_they_get(const Material& material, Complaints& complaints) {
   const auto complain = [&](const std::string& what, const std::string& more) { complaints.add(material, nullptr, what, more); };
-  if (material.map != nullptr) check_map(*material.map, complain);
+  if (material.map != nullptr) check_map(*material.map, "reflectivity map", complain);
+  if (material.opacity != nullptr) check_map(*material.opacity, "map of opacity", complain);
   if (material.normals != nullptr) check_normals(*material.normals, complain);
   if (material.finish != nullptr) check_finish(material, complain);
   const auto together = [&](const char* which, double lobe) {

@@ -63,7 +63,7 @@ const Table& table_of<Material>() {
               .when<brdf>(retro)
               .required(),
           no_row<&Material::map>("a picture out of a mesh's file"), no_row<&Material::normals>("likewise"),
-          no_row<&Material::finish>("likewise"))
+          no_row<&Material::finish>("likewise"), no_row<&Material::opacity>("likewise"))
           .check_with(materials_send_back_no_more_than_they_get)
           .kind_may_be_missing();
   return rows;

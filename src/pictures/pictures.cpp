@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "pictures/pictures.h"
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 

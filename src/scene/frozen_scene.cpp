@@ -107,8 +107,8 @@ FrozenScene::FrozenScene(const Scene& scene, const std::vector<Vec3>& lights, in
 }
 
 template <class Make>
-int FrozenScene::number_of_maps(const void* map, const Make& make) {
-  const auto [known, fresh] = map_numbers_.try_emplace(map, static_cast<int>(maps_.size()));
+int FrozenScene::number_of_maps(const void* map, const ReflectivityMap* opacity, const Make& make) {
+  const auto [known, fresh] = map_numbers_.try_emplace({map, opacity}, static_cast<int>(maps_.size()));
   if (!fresh) return known->second;
   for (auto& levels : make()) {
     maps_.push_back(levels->view);
@@ -118,31 +118,52 @@ int FrozenScene::number_of_maps(const void* map, const Make& make) {
 }
 
 void FrozenScene::add_materials(const std::vector<Material>& materials) {
+  std::vector<int> cut_out_by;
   for (const Material& material : materials) {
     brdf::MaterialView& view = materials_.emplace_back(brdf::view_of(material));
+    const ReflectivityMap* const opacity = material.opacity.get();
+    const auto one = [](auto levels) {
+      Levels out;
+      out.push_back(std::move(levels));
+      return out;
+    };
     if (material.map != nullptr)
-      view.map = number_of_maps(material.map.get(), [&] {
-        Levels one;
-        one.push_back(std::make_unique<MapLevels>(*material.map));
-        return one;
-      });
+      view.map = number_of_maps(material.map.get(), opacity, [&] { return one(std::make_unique<MapLevels>(*material.map, opacity)); });
     if (material.normals != nullptr)
-      view.normals = number_of_maps(material.normals.get(), [&] { return levels_of_normals(*material.normals); });
-    if (material.finish != nullptr) view.finish = number_of_maps(material.finish.get(), [&] { return levels_of_finish(*material.finish); });
+      view.normals = number_of_maps(material.normals.get(), opacity, [&] { return levels_of_normals(*material.normals, opacity); });
+    if (material.finish != nullptr)
+      view.finish = number_of_maps(material.finish.get(), opacity, [&] { return levels_of_finish(*material.finish, opacity); });
+    cut_out_by.push_back(-1);
+    if (opacity != nullptr)
+      cut_out_by.back() = number_of_maps(nullptr, opacity, [&] {
+        const ReflectivityMap& of = *opacity;
+        return one(std::make_unique<MapLevels>(of.values, of.width, of.height, of.wrap_u, of.wrap_v, nullptr, 1));
+      });
   }
   // Facet 0 has a material even where there is nothing to be seen.
   if (materials_.empty()) materials_.emplace_back();
   view_.materials = materials_.data(), view_.material_count = static_cast<std::int32_t>(materials_.size());
   view_.maps = maps_.data(), view_.map_count = static_cast<std::int32_t>(maps_.size());
+  cut_out(cut_out_by);
+}
+
+/// Tells meshes which picture says where their surface is.
+/// @param map_of_material  its number; −1: none
+void FrozenScene::cut_out(const std::vector<int>& map_of_material) {
+  for (BodyLists* group : {&still_, &moving_})
+    for (Body<shape::Mesh>& body : group->of<shape::Mesh>().bodies) {
+      const int map = map_of_material.empty() ? -1 : map_of_material[static_cast<std::size_t>(body.material)];
+      if (map >= 0 && body.shape.has_texcoords != 0) body.shape.cut = maps_.data() + map;
+    }
 }
 
 template <class T, class Said>
 T FrozenScene::placed(const Said& said, const shape::Placement& at) {
   if constexpr (shape::many_of<T>) {
-    const auto [known, fresh] = hierarchies_.try_emplace(said.triangles);
-    if (fresh) known->second = build_hierarchy(*said.triangles);
-    if (!known->second.details.empty()) view_.any_details = 1;
-    return T::placed(known->second, at);
+    std::shared_ptr<const Hierarchy>& hierarchy = hierarchies_[said.triangles];
+    if (hierarchy == nullptr) hierarchy = shared_hierarchy(*said.triangles);
+    if (!hierarchy->details.empty()) view_.any_details = 1;
+    return T::placed(*hierarchy, at);
   } else {
     return T::placed(said, at);
   }
@@ -186,7 +207,7 @@ void FrozenScene::add_changing(std::size_t object) {
   while (which < changing_.size() && (changing_[which].motion != mesh->motion.get() || changing_[which].mesh != mesh->triangles.get()))
     ++which;
   if (which == changing_.size())
-    changing_.push_back({mesh->triangles.get(), mesh->motion.get(), &hierarchies_.at(mesh->triangles), {}, {}});
+    changing_.push_back({mesh->triangles.get(), mesh->motion.get(), hierarchies_.at(mesh->triangles).get(), {}, {}});
   changing_bodies_.push_back({moving_.of<shape::Mesh>().bodies.size() - 1, object, which});
 }
 
@@ -266,7 +287,9 @@ void FrozenScene::change_shapes() {
     for (const ChangingBody& one : changing_bodies_) {
       const Changing& changing = changing_[one.which];
       shape::Mesh& mesh = meshes[k * count + one.body].shape;
+      const brdf::MapView* const cut = mesh.cut;
       mesh = shape::Mesh::placed(changing.at[k], placement_of(scene_.objects[one.object]));
+      mesh.cut = cut;
       mesh.steps = k == times_.truth ? changing.steps.data() : nullptr;
     }
   }

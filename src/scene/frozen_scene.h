@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <map>
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include "scene/clustering.h"
@@ -72,9 +73,10 @@ class FrozenScene {
   void add_bodies(int moments);
   void add_changing(std::size_t object);
   void add_materials(const std::vector<Material>& materials);
-  /// The first of what make() makes of a picture, once for all materials that share it.
+  /// The first of what make() makes of a picture, once for all materials that share it and what of it is cut out.
   template <class Make>
-  int number_of_maps(const void* map, const Make& make);
+  int number_of_maps(const void* map, const ReflectivityMap* opacity, const Make& make);
+  void cut_out(const std::vector<int>& map_of_material);
   /// The shape in the world.
   template <class T, class Said>
   T placed(const Said& said, const shape::Placement& at);
@@ -92,8 +94,9 @@ class FrozenScene {
   bool moves_ = false;
   std::vector<Mover> movers_;
   BodyLists still_, moving_;
-  std::map<std::shared_ptr<const TriangleMesh>, Hierarchy> hierarchies_;  ///< one for all objects that share the triangles
-  std::map<const void*, int> map_numbers_;                                ///< one for all materials that share a picture
+  /// One for all objects that share the triangles.
+  std::map<std::shared_ptr<const TriangleMesh>, std::shared_ptr<const Hierarchy>> hierarchies_;
+  std::map<std::pair<const void*, const void*>, int> map_numbers_;  ///< one for all materials that share a picture
   Levels map_levels_;
   std::vector<brdf::MapView> maps_;
   std::vector<shape::Vec> lights_;

@@ -6,6 +6,9 @@
 #include <array>
 #include <limits>
 
+#include "base/content.h"
+#include "base/shared.h"
+
 namespace tofray::scene {
 
 namespace {
@@ -242,6 +245,18 @@ Hierarchy build_hierarchy(const TriangleMesh& mesh) {
   Builder(mesh, out).build();
   out.has_texcoords = !mesh.texcoords.empty(), out.has_shades = !mesh.shades.empty();
   return out;
+}
+
+std::shared_ptr<const Hierarchy> shared_hierarchy(const TriangleMesh& mesh) {
+  base::Content content;
+  content.add(mesh.vertices), content.add(mesh.triangles), content.add(mesh.normals);
+  content.add(mesh.texcoords), content.add(mesh.shades);
+  return base::shared<base::Content, Hierarchy>().get(
+      content, [&] { return build_hierarchy(mesh); },
+      [](const Hierarchy& made) {
+        return made.nodes.size() * sizeof made.nodes[0] + made.triangles.size() * sizeof made.triangles[0] +
+               made.details.size() * sizeof made.details[0];
+      });
 }
 
 void refit(const Hierarchy& from, const TriangleMesh& mesh, Hierarchy& out) {

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include <array>
+#include <memory>
 #include <vector>
 
 #include "shape/mesh.h"
@@ -25,6 +26,9 @@ struct Hierarchy {
 ///
 /// Time grows as n·log n, the depth is below shape::most_mesh_levels whatever the triangles.
 Hierarchy build_hierarchy(const TriangleMesh& mesh);
+
+/// The one for all meshes with the same contents
+std::shared_ptr<const Hierarchy> shared_hierarchy(const TriangleMesh& mesh);
 
 /// The same boxes round the same triangles, whose vertices are elsewhere now.
 /// @param from  was built of the same triangles

@@ -36,7 +36,7 @@ class Lobes {
 
 /// Pictures of `count` numbers, which numbers_of(texel) has of each texel.
 template <std::size_t count, class NumbersOf>
-Levels taken_apart(const VectorMap& map, const NumbersOf& numbers_of) {
+Levels taken_apart(const VectorMap& map, const ReflectivityMap* opacity, const NumbersOf& numbers_of) {
   std::array<std::vector<float>, count> planes;
   for (auto& plane : planes) plane.reserve(map.values.size());
   for (const auto& texel : map.values) {
@@ -45,23 +45,23 @@ Levels taken_apart(const VectorMap& map, const NumbersOf& numbers_of) {
   }
   Levels out;
   for (auto& plane : planes)
-    out.push_back(std::make_unique<const MapLevels>(std::move(plane), map.width, map.height, map.wrap_u, map.wrap_v));
+    out.push_back(std::make_unique<const MapLevels>(std::move(plane), map.width, map.height, map.wrap_u, map.wrap_v, opacity));
   return out;
 }
 
 }  // namespace
 
-Levels levels_of_normals(const VectorMap& normals) {
-  return taken_apart<3>(normals, [](std::array<float, 3> n) {
+Levels levels_of_normals(const VectorMap& normals, const ReflectivityMap* opacity) {
+  return taken_apart<3>(normals, opacity, [](std::array<float, 3> n) {
     const double x = static_cast<double>(n[0]), y = static_cast<double>(n[1]), z = static_cast<double>(n[2]);
     const double length = std::sqrt(x * x + y * y + z * z);
     return std::array<float, 3>{static_cast<float>(x / length), static_cast<float>(y / length), static_cast<float>(z / length)};
   });
 }
 
-Levels levels_of_finish(const VectorMap& finish) {
+Levels levels_of_finish(const VectorMap& finish, const ReflectivityMap* opacity) {
   static const Lobes lobes;
-  return taken_apart<5>(finish, [](const std::array<float, 3>& texel) {
+  return taken_apart<5>(finish, opacity, [](const std::array<float, 3>& texel) {
     const double f0 = static_cast<double>(texel[1]), alpha = static_cast<double>(texel[2]);
     const brdf::MaterialView view = brdf::Ggx::view(static_cast<double>(texel[0]), f0, alpha, lobes.at(alpha, f0));
     return std::array<float, 5>{view.number[0], view.number[1], view.number[2], view.reflectivity, view.matt};

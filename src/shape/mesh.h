@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The tofray authors
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include "brdf/reflectivity_map.h"
 #include "shape/box.h"
 
 /// Many triangles, found through boxes within boxes. Both sides reflect.
@@ -42,22 +43,26 @@ TOFRAY_FN std::int32_t leaf_of(std::int32_t block, std::int32_t count) { return 
 TOFRAY_FN std::int32_t block_of(std::int32_t leaf) { return ~leaf / 32; }
 TOFRAY_FN std::int32_t count_of(std::int32_t leaf) { return ~leaf % 32; }
 
-/// Mesh frame: turn·P, and the origin that is common to the rays.
-struct MeshForm {
-  float turn[3][3], origin[3];
-  float slack;
+/// A mesh's triangles, and where they are none.
+struct MeshTree {
   const MeshNode* nodes;
   const MeshTriangles* triangles;
+  const MeshDetails* details;  ///< null: no corner has any
+  const brdf::MapView* cut;    ///< a surface is where this picture is ½ or more (mesh_cut.h); null: everywhere
+};
+
+/// Mesh frame: turn·P, and the origin that is common to the rays.
+struct MeshForm : MeshTree {
+  float turn[3][3], origin[3];
+  float slack;
   std::int32_t facet, object;
   Bounds bounds;
 };
 
 /// Mesh frame: turn·P + offset, and the way to the light.
-struct MeshAlong {
+struct MeshAlong : MeshTree {
   float turn[3][3], offset[3], direction[3];
   float extent;  ///< largest coordinate of the mesh
-  const MeshNode* nodes;
-  const MeshTriangles* triangles;
   std::int32_t object;
   Bounds bounds;  ///< on the light's screen
 };
@@ -83,28 +88,23 @@ struct MeshSteps {
 constexpr int mesh_steps_words = sizeof(MeshSteps) / sizeof(float);
 
 /// For rays from anywhere: mesh frame turn·P + offset.
-struct MeshFree {
+struct MeshFree : MeshTree {
   float turn[3][3], offset[3];
   float extent;  ///< largest coordinate of the mesh
-  const MeshNode* nodes;
-  const MeshTriangles* triangles;
   std::int32_t facet, object;
 };
 
-struct Mesh {
+struct Mesh : MeshTree {
   using Form = MeshForm;
   using Along = MeshAlong;
   using Free = MeshFree;
   static constexpr int facets = 2;  ///< hits name the first; the second has what is left (facet_of)
   static constexpr bool closed = false, curved = true, many = true;
 
-  Mat axes;          ///< rows: those of the mesh's frame
-  Vec origin;        ///< where its zero is
-  Vec center, half;  ///< of its box, in its own frame
-  const MeshNode* nodes;
-  const MeshTriangles* triangles;
-  const MeshDetails* details;  ///< null: no corner has any
-  const MeshSteps* steps;      ///< null: it keeps its shape, or nobody asks
+  Mat axes;                ///< rows: those of the mesh's frame
+  Vec origin;              ///< where its zero is
+  Vec center, half;        ///< of its box, in its own frame
+  const MeshSteps* steps;  ///< null: it keeps its shape, or nobody asks
   std::int32_t node_count, block_count;
   std::int32_t has_texcoords, has_shades;
 
@@ -118,13 +118,11 @@ struct Mesh {
   static Mesh placed(const Built& built, const Placement& at) {
     const Mat& m = at.turn;
     const Mat axes{{{m.row[0].x, m.row[1].x, m.row[2].x}, {m.row[0].y, m.row[1].y, m.row[2].y}, {m.row[0].z, m.row[1].z, m.row[2].z}}};
-    return {axes,
+    return {{built.nodes.data(), built.triangles.data(), built.details.empty() ? nullptr : built.details.data(), nullptr},
+            axes,
             at.shift,
             built.center,
             built.half,
-            built.nodes.data(),
-            built.triangles.data(),
-            built.details.empty() ? nullptr : built.details.data(),
             nullptr,
             static_cast<std::int32_t>(built.nodes.size()),
             static_cast<std::int32_t>(built.triangles.size()),
@@ -187,7 +185,7 @@ TOFRAY_FN MeshForm seen_from(const Mesh& mesh, const Vec& origin) {
   const Vec from = mesh.axes * (origin - mesh.origin);
   copy(from, form.origin);
   form.slack = mesh_slack(single(reach(mesh, from)), single(length(from)));
-  form.nodes = mesh.nodes, form.triangles = mesh.triangles;
+  static_cast<MeshTree&>(form) = mesh;
   Vec corners[8] = {};
   for (int i = 0; i < 8; ++i) {
     const Vec at{(i & 1 ? 1 : -1) * mesh.half.x, (i & 2 ? 1 : -1) * mesh.half.y, (i & 4 ? 1 : -1) * mesh.half.z};
@@ -205,7 +203,7 @@ TOFRAY_FN MeshAlong seen_along(const Mesh& mesh, const Vec& s) {
   copy(mesh.axes * (-1.0 * mesh.origin), form.offset);
   copy(mesh.axes * s, form.direction);
   form.extent = single(reach(mesh, {0, 0, 0}));
-  form.nodes = mesh.nodes, form.triangles = mesh.triangles;
+  static_cast<MeshTree&>(form) = mesh;
   return form;
 }
 
@@ -227,11 +225,18 @@ TOFRAY_FN Sheared<F> sheared(const F (&direction)[3], int z) {
   return {x, y, z, direction[x] / length, direction[y] / length, length};
 }
 
+/// The parts of a triangle that a point in it divides it into, each opposite a corner, and their sum: all of one sign.
+template <class F>
+struct MeshParts {
+  F first, second, third, all;
+};
+
 /// Where the rays meet the triangle's plane; a mask of those that meet the triangle.
 /// @param corner  (corner, coordinate): where it is from the rays' origin
+/// @param parts   out: where in the triangle that is
 /// \tparam look_first  whether t is left out where no ray meets it: a division less, but a branch that nobody can foresee
 template <bool look_first, class F, class Corner>
-TOFRAY_FN Mask<F> meet(const Corner& corner, const Sheared<F>& ray, F& t) {
+TOFRAY_FN Mask<F> meet(const Corner& corner, const Sheared<F>& ray, F& t, MeshParts<F>& parts) {
   F x[3], y[3], z[3];
   for (int i = 0; i < 3; ++i) {
     z[i] = corner(i, ray.z);
@@ -245,7 +250,13 @@ TOFRAY_FN Mask<F> meet(const Corner& corner, const Sheared<F>& ray, F& t) {
   const auto inside = ((num::min(u, num::min(v, w)) >= zero) | (num::max(u, num::max(v, w)) <= zero)) & (num::abs(area) > F(1e-30f));
   if (!look_first || num::any(inside))
     t = num::fma(u, z[0], num::fma(v, z[1], w * z[2])) / (num::select(inside, area, F(1.0f)) * ray.length);
+  parts = {u, v, w, area};
   return inside;
+}
+template <bool look_first, class F, class Corner>
+TOFRAY_FN Mask<F> meet(const Corner& corner, const Sheared<F>& ray, F& t) {
+  MeshParts<F> parts;
+  return meet<look_first>(corner, ray, t, parts);
 }
 
 /// The nearer of what was hit so far and the triangles that are met at t. @return a mask of the rays that it is nearer for
@@ -316,7 +327,7 @@ TOFRAY_FN MeshFree free_of(const Mesh& mesh) {
   for (int k = 0; k < 3; ++k) copy(mesh.axes.row[k], form.turn[k]);
   copy(mesh.axes * (-1.0 * mesh.origin), form.offset);
   form.extent = single(reach(mesh, {0, 0, 0}));
-  form.nodes = mesh.nodes, form.triangles = mesh.triangles;
+  static_cast<MeshTree&>(form) = mesh;
   return form;
 }
 

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include "num/twin.h"
-#include "shape/mesh.h"
+#include "shape/mesh_cut.h"
 
 /// Which triangle of a mesh a ray from anywhere meets, on any machine.
 namespace tofray::shape {
@@ -16,15 +16,14 @@ constexpr int most_mesh_stack = most_mesh_levels * (mesh_width - 1) + mesh_width
 
 /// What of a mesh some rays meet that have the same longest coordinate.
 /// \tparam any  the first triangle that is met will do, and closes the ray
-template <bool any, class F>
+/// \tparam cut  the mesh may have a picture that says where a surface is
+template <bool any, bool cut, class F>
 class MeshSearch {
  public:
   /// @param shortest  t must be above it
   /// @param wanted    the rays of which z is the longest coordinate
-  TOFRAY_FN MeshSearch(const MeshNode* nodes, const MeshTriangles* triangles, const MeshRay<F>& ray, int z, F shortest, Mask<F> wanted,
-                       MeshHit<F>& hit)
-      : nodes_(nodes),
-        triangles_(triangles),
+  TOFRAY_FN MeshSearch(const MeshTree& mesh, const MeshRay<F>& ray, int z, F shortest, Mask<F> wanted, MeshHit<F>& hit)
+      : mesh_(mesh),
         along_(sheared(ray.direction, z)),
         origin_{ray.origin[0], ray.origin[1], ray.origin[2]},
         shortest_(shortest),
@@ -37,12 +36,12 @@ class MeshSearch {
   }
 
   TOFRAY_FN void run() {
-    open_node(nodes_[0]);
+    open_node(mesh_.nodes[0]);
     while (waiting_ > 0) {
       const MeshEntry next = stack_[--waiting_];
       if (!num::any(open_ & (hit_.t >= F(next.near)))) continue;
       if (next.child >= 0) {
-        open_node(nodes_[next.child]);
+        open_node(mesh_.nodes[next.child]);
       } else {
         test(next.child);
         if (any && !num::any(open_)) return;
@@ -70,19 +69,21 @@ class MeshSearch {
   }
 
   TOFRAY_FN void test(std::int32_t leaf) {
-    const MeshTriangles& block = triangles_[block_of(leaf)];
+    const MeshTriangles& block = mesh_.triangles[block_of(leaf)];
     for (int i = 0, count = count_of(leaf); i < count; ++i) {
       F t = F(0.0f);
       const auto corner = [&](int c, int k) __attribute__((always_inline)) { return F(block.corner[c][k][i]) - origin_[k]; };
-      const auto inside = open_ & meet<true>(corner, along_, t);
+      MeshParts<F> parts;
+      auto inside = open_ & meet<true>(corner, along_, t, parts);
       if (!num::any(inside)) continue;
-      const auto nearer = take_nearer(inside, t, block.number[i], block_of(leaf) * block_width + i, shortest_, hit_);
+      const std::int32_t triangle = block_of(leaf) * block_width + i;
+      if (cut && mesh_.cut != nullptr) inside = not_cut_out(mesh_, triangle, parts, inside);
+      const auto nearer = take_nearer(inside, t, block.number[i], triangle, shortest_, hit_);
       if (any) open_ = open_ & (!nearer);
     }
   }
 
-  const MeshNode* nodes_;
-  const MeshTriangles* triangles_;
+  const MeshTree& mesh_;
   Sheared<F> along_;
   F origin_[3];
   F from_low_[3], from_high_[3], inverse_[3];
@@ -93,22 +94,30 @@ class MeshSearch {
   MeshEntry stack_[most_mesh_stack];
 };
 
-/// Looks for a triangle nearer than hit.t, which stays as it is where there is none.
-template <bool any, class F>
-TOFRAY_APART void search_mesh(const MeshNode* nodes, const MeshTriangles* triangles, const MeshRay<F>& ray, F shortest, Mask<F> wanted,
-                              MeshHit<F>& hit) {
+template <bool any, bool cut, class F>
+TOFRAY_APART void search_tree(const MeshTree& mesh, const MeshRay<F>& ray, F shortest, Mask<F> wanted, MeshHit<F>& hit) {
   const Int<F> longest = longest_of(ray.direction);
   for (int k = 0; k < 3; ++k) {
     const auto these = wanted & (longest == Int<F>(k));
     if (!num::any(these)) continue;
-    MeshSearch<any, F>(nodes, triangles, ray, k, shortest, these, hit).run();
+    MeshSearch<any, cut, F>(mesh, ray, k, shortest, these, hit).run();
+  }
+}
+/// Looks for a triangle nearer than hit.t, which stays as it is where there is none.
+template <bool any, class F>
+TOFRAY_FN void search_mesh(const MeshTree& mesh, const MeshRay<F>& ray, F shortest, Mask<F> wanted, MeshHit<F>& hit) {
+  // (A ray by itself seldom asks; one search for all meshes is less code for a GPU.)
+  if (num::lanes<F> == 1 || mesh.cut != nullptr) {
+    search_tree<any, true, F>(mesh, ray, shortest, wanted, hit);
+  } else {
+    search_tree<any, false, F>(mesh, ray, shortest, wanted, hit);
   }
 }
 
 /// Two packs one after the other: the fewer rays go together, the fewer of them look at a triangle in vain.
 template <bool any, class H>
-TOFRAY_FN void search_mesh(const MeshNode* nodes, const MeshTriangles* triangles, const MeshRay<num::Twin<H>>& ray, num::Twin<H> shortest,
-                           num::TwinMask<H> wanted, MeshHit<num::Twin<H>>& hit) {
+TOFRAY_FN void search_mesh(const MeshTree& mesh, const MeshRay<num::Twin<H>>& ray, num::Twin<H> shortest, num::TwinMask<H> wanted,
+                           MeshHit<num::Twin<H>>& hit) {
   MeshRay<H> a, b;
   for (int k = 0; k < 3; ++k) {
     a.origin[k] = ray.origin[k].a, a.direction[k] = ray.direction[k].a;
@@ -116,8 +125,8 @@ TOFRAY_FN void search_mesh(const MeshNode* nodes, const MeshTriangles* triangles
   }
   a.slack = ray.slack.a, b.slack = ray.slack.b;
   MeshHit<H> of_a{hit.t.a, hit.number.a, hit.triangle.a}, of_b{hit.t.b, hit.number.b, hit.triangle.b};
-  search_mesh<any, H>(nodes, triangles, a, shortest.a, wanted.a, of_a);
-  search_mesh<any, H>(nodes, triangles, b, shortest.b, wanted.b, of_b);
+  search_mesh<any, H>(mesh, a, shortest.a, wanted.a, of_a);
+  search_mesh<any, H>(mesh, b, shortest.b, wanted.b, of_b);
   hit = {{of_a.t, of_b.t}, {of_a.number, of_b.number}, {of_a.triangle, of_b.triangle}};
 }
 
@@ -143,7 +152,7 @@ TOFRAY_FN void take(const MeshForm& form, F t, Int<F> triangle, flow::Hit<F>& hi
 template <class F>
 TOFRAY_FN void nearest_in(const MeshForm& form, const Ray<F>& ray, flow::Hit<F>& hit) {
   MeshHit<F> found{far_of(hit), Int<F>(0x7fffffff), Int<F>(-1)};
-  search_mesh<false>(form.nodes, form.triangles, in_mesh(form, {ray.x, ray.y, ray.z}), F(nearest_mesh), F(0.0f) <= F(0.0f), found);
+  search_mesh<false>(form, in_mesh(form, {ray.x, ray.y, ray.z}), F(nearest_mesh), F(0.0f) <= F(0.0f), found);
   take(form, found.t, found.triangle, hit);
 }
 
@@ -151,7 +160,7 @@ TOFRAY_FN void nearest_in(const MeshForm& form, const Ray<F>& ray, flow::Hit<F>&
 template <class F>
 TOFRAY_FN Mask<F> stands_before(const MeshForm& form, const Ray<F>& ray, F far, Mask<F> wanted) {
   MeshHit<F> found{far, Int<F>(0), Int<F>(-1)};
-  search_mesh<true>(form.nodes, form.triangles, in_mesh(form, {ray.x, ray.y, ray.z}), F(0.0f), wanted, found);
+  search_mesh<true>(form, in_mesh(form, {ray.x, ray.y, ray.z}), F(0.0f), wanted, found);
   return found.triangle > Int<F>(-1);
 }
 
@@ -160,7 +169,7 @@ template <class F>
 TOFRAY_FN Mask<F> blocks(const MeshAlong& form, const Place<F>& p, const float*, F margin) {
   const MeshRay<F> ray = in_mesh(form, {p.x, p.y, p.z});
   MeshHit<F> found{F(3e38f), Int<F>(0), Int<F>(-1)};
-  search_mesh<true>(form.nodes, form.triangles, ray, margin, p.found, found);
+  search_mesh<true>(form, ray, margin, p.found, found);
   return found.triangle > Int<F>(-1);
 }
 
@@ -169,7 +178,7 @@ TOFRAY_FN Mask<F> blocks(const MeshAlong& form, const Place<F>& p, const float*,
 template <class F>
 TOFRAY_FN F distance_to(const MeshFree& form, const FreeRay<F>& ray, F least, F far, Mask<F> wanted, Int<F>& triangle) {
   MeshHit<F> found{far, Int<F>(0x7fffffff), Int<F>(-1)};
-  search_mesh<false>(form.nodes, form.triangles, in_mesh(form, ray), least, wanted, found);
+  search_mesh<false>(form, in_mesh(form, ray), least, wanted, found);
   triangle = found.triangle;
   return num::select(triangle > Int<F>(-1), found.t, F(never));
 }

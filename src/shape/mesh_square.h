@@ -7,7 +7,8 @@ namespace tofray::shape {
 
 /// Sixteen rays of a tile side by side, on their way through a mesh.
 /// \tparam any  the first triangle that is met will do, and closes the ray
-template <bool any, class F>
+/// \tparam cut  the mesh has a picture that says where a surface is
+template <bool any, bool cut, class F>
 class MeshSquare {
  public:
   /// @param of_tile  the axis is that of the tile's beam
@@ -131,11 +132,16 @@ class MeshSquare {
     see_how_far();
   }
 
-  /// @return the rays that it is nearer for. (No branch: it is met as often as not, and the next triangle need not wait for it.)
+  /// @return the rays that it is nearer for. (No branch where nothing is cut out: it is met as often as not, and the next triangle need not wait for it.)
   template <class Corner>
   TOFRAY_FN Mask<F> test(const Corner& corner, const Sheared<F>& along, Mask<F> its, std::int32_t number, std::int32_t triangle) {
     F t = F(0.0f);
-    const auto inside = open_ & its & meet<false>(corner, along, t);
+    MeshParts<F> parts;
+    auto inside = open_ & its & meet<false>(corner, along, t, parts);
+    if (cut) {
+      if (!num::any(inside)) return inside;
+      inside = not_cut_out(form_, triangle, parts, inside);
+    }
     return take_nearer(inside, t, number, triangle, shortest_, hit_);
   }
 
@@ -153,7 +159,7 @@ class MeshSquare {
 };
 
 /// Four rays in each of four rows, from ray number `at` on.
-template <bool any, class F>
+template <bool any, bool cut, class F>
 TOFRAY_APART void search_square(const MeshForm& form, const Beam& beam, const TileEntries& entries, TileRays& rays, int at) {
   MeshHit<F> hit{num::load_square<F>(rays.far + at, TileRays::row), Int<F>(0x7fffffff), Int<F>(-1)};
   const auto wanted = hit.t > F(0.0f);
@@ -161,7 +167,7 @@ TOFRAY_APART void search_square(const MeshForm& form, const Beam& beam, const Ti
     F direction[3], slope[2];
     TileRays::load_square(rays.direction, 3, at, direction), TileRays::load_square(rays.slope, 2, at, slope);
     const F shortest = num::load_square<F>(rays.shortest + at, TileRays::row);
-    MeshSquare<any, F>(form, beam, direction, slope, shortest, wanted, hit).run(entries);
+    MeshSquare<any, cut, F>(form, beam, direction, slope, shortest, wanted, hit).run(entries);
   }
   num::store_square(rays.t + at, TileRays::row, hit.t);
   num::store_square(rays.triangle + at, TileRays::row, num::from_bits(num::to_uint(hit.triangle)));
@@ -221,7 +227,7 @@ TOFRAY_APART void search_square_alone(const Form& form, TileRays& rays, int at) 
   MeshHit<F> hit{num::load_square<F>(rays.far + at, TileRays::row), Int<F>(0x7fffffff), Int<F>(-1)};
   const auto wanted = hit.t > F(0.0f);
   const F shortest = num::load_square<F>(rays.shortest + at, TileRays::row);
-  if (num::any(wanted)) search_mesh<any>(form.nodes, form.triangles, in_mesh(form, given), shortest, wanted, hit);
+  if (num::any(wanted)) search_mesh<any>(form, in_mesh(form, given), shortest, wanted, hit);
   num::store_square(rays.t + at, TileRays::row, hit.t);
   num::store_square(rays.triangle + at, TileRays::row, num::from_bits(num::to_uint(hit.triangle)));
 }
@@ -241,7 +247,11 @@ TOFRAY_FN void search_tile(const MeshForm& form, TileRays& rays) {
   if (make_beam<F>(form, rays, beam, far)) {
     TileEntries entries;
     find_entries<Square>(form.nodes, beam, far, entries);
-    each_square([&](int at) __attribute__((always_inline)) { search_square<any, Square>(form, beam, entries, rays, at); });
+    if (form.cut == nullptr) {
+      each_square([&](int at) __attribute__((always_inline)) { search_square<any, false, Square>(form, beam, entries, rays, at); });
+    } else {
+      each_square([&](int at) __attribute__((always_inline)) { search_square<any, true, Square>(form, beam, entries, rays, at); });
+    }
   } else {
     each_square([&](int at) __attribute__((always_inline)) { search_square_alone<any, Square>(form, rays, at); });
   }

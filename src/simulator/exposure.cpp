@@ -48,28 +48,31 @@ std::vector<double> Exposure::times_of(std::uint64_t index) const {
   return out;
 }
 
-void Exposure::follow(const camera::SensorView& sensor, const flow::FrameView& frame, std::size_t pixels) {
+void Exposure::follow(const camera::SensorView& sensor, const flow::FrameView& frame, const Metered& pixels) {
   const double bright = brightness(sensor, frame, pixels, law_.bright);
   const double step = std::clamp(law_.aim / std::max(bright, 1e-9), 1 / most_change, most_change);
   longest_.push_back(std::clamp(longest_.back() * num::setup::pow(step, law_.speed), law_.shortest_s, law_.longest_s));
 }
 
-double brightness(const camera::SensorView& sensor, const flow::FrameView& frame, std::size_t pixels, double bright) {
-  std::vector<float> used(pixels, 0.0f);
+double brightness(const camera::SensorView& sensor, const flow::FrameView& frame, const Metered& pixels, double bright) {
+  const pipeline::Region all{0, 0, pixels.width, pixels.height}, region = pixels.region.width > 0 ? pixels.region : all;
+  const auto size = [](std::int32_t a) { return static_cast<std::size_t>(a); };
+  std::vector<float> used(size(region.width) * size(region.height), 0.0f);
   const float lower = sensor.valid_middle - sensor.valid_half, upper = sensor.valid_middle + sensor.valid_half;
   const float reach = std::min(sensor.mid_code - lower, upper - sensor.mid_code);
   for (int k = 0; k < sensor.raw_frames; ++k) {
     if (sensor.frame[k].lit == 0) continue;
-    const std::size_t first = static_cast<std::size_t>(k) * pixels;
-    for (std::size_t i = 0; i < pixels; ++i) {
-      const float code = static_cast<float>(frame.raw[first + i]);
-      const float fill = std::max(frame.tap_a[first + i], frame.tap_b[first + i]) / sensor.full_read;
+    const std::size_t first = (size(k) * size(pixels.height) + size(region.top)) * size(pixels.width) + size(region.left);
+    for (std::size_t i = 0; i < used.size(); ++i) {
+      const std::size_t at = first + i / size(region.width) * size(pixels.width) + i % size(region.width);
+      const float code = static_cast<float>(frame.raw[at]);
+      const float fill = std::max(frame.tap_a[at], frame.tap_b[at]) / sensor.full_read;
       const bool beyond = code < lower || code > upper || code <= 0 || code >= sensor.max_code;
       const float share = std::max(std::abs(code - sensor.mid_code) / reach, fill);
       used[i] = std::max(used[i], fill >= 1 || beyond || !(reach > 0) ? saturates : share);
     }
   }
-  const auto at = static_cast<std::ptrdiff_t>(std::floor(bright * static_cast<double>(pixels - 1)));
+  const auto at = static_cast<std::ptrdiff_t>(std::floor(bright * static_cast<double>(used.size() - 1)));
   std::nth_element(used.begin(), used.begin() + at, used.end());
   return static_cast<double>(used[static_cast<std::size_t>(at)]);
 }

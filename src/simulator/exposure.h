@@ -6,10 +6,17 @@
 
 #include "camera/views.h"
 #include "flow/frame_view.h"
+#include "pipeline/setup.h"
 #include "tofray/camera.h"
 #include "tofray/simulator.h"
 
 namespace tofray::simulator {
+
+/// Pixels that count: a region of the arrays', which are of this size.
+struct Metered {
+  std::int32_t width, height;
+  pipeline::Region region;  ///< as Setup::region
+};
 
 /// Integration times that follow the light: those of frame i come of the raw frames of frame i − 1, from frame 0 on.
 /// [theory: eq. 4.27, 4.28]
@@ -28,7 +35,7 @@ class Exposure {
   /// Of each raw frame of a frame whose times are known [s].
   [[nodiscard]] std::vector<double> times_of(std::uint64_t index) const;
   /// Takes the raw frames of the last frame whose times are known, and so knows those of the next.
-  void follow(const camera::SensorView& sensor, const flow::FrameView& frame, std::size_t pixels);
+  void follow(const camera::SensorView& sensor, const flow::FrameView& frame, const Metered& pixels);
 
  private:
   AutoExposure law_;
@@ -39,6 +46,6 @@ class Exposure {
 
 /// Bright pixels of raw frames: how much of the valid codes they use, 1 and more where they saturate.               [theory: eq. 4.27]
 /// @param bright  quantile
-double brightness(const camera::SensorView& sensor, const flow::FrameView& frame, std::size_t pixels, double bright);
+double brightness(const camera::SensorView& sensor, const flow::FrameView& frame, const Metered& pixels, double bright);
 
 }  // namespace tofray::simulator

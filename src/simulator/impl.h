@@ -34,7 +34,7 @@ struct Simulator::Impl {
   simulator::Temporal temporal;
   simulator::Exposure exposure;
   Frame earlier;                    ///< one that a later one needs
-  Frame whole, metered;             ///< with the border, before it is cut; the region alone, of one that an exposure follows
+  Frame whole;                      ///< with the border, before it is cut
   std::unique_ptr<Impl> of_region;  ///< the same without a border, for arrays of one's own: of the region alone
   simulator::Engines engines;
   const float* written_before = nullptr;  ///< Raw::tap_a of the frame before; nobody looks at what lies there

@@ -54,7 +54,7 @@ Depth process(const Raw& raw, const Camera& profile, const SimulatorOptions& opt
   const Camera camera = camera_of(raw, profile);
   simulator::check(options);
   simulator::check(camera);
-  camera::FrozenCamera frozen(base::with_offsets(camera), options.noise != Noise::off, options.seed);
+  camera::FrozenCamera frozen(base::with_offsets(camera), options.noise != Noise::off, options.seed, 1, options.threads);
   pipeline::Setup setup{};
   setup.last_stage = Stage::depth;
   setup.lens = frozen.lens();

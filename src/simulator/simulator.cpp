@@ -76,7 +76,7 @@ Simulator::Impl::Impl(const Scene& all, const Camera& given, const SimulatorOpti
       camera(camera::with_emitters(base::as_read_out(profile))),
       region_camera(base::as_read_out(simulator::without_border(profile, border))),
       options(with_last_stage(wanted, camera, scene)),
-      frozen_camera(base::with_offsets(profile), wanted.noise != Noise::off, wanted.seed, wanted.subpixel),
+      frozen_camera(base::with_offsets(profile), wanted.noise != Noise::off, wanted.seed, wanted.subpixel, wanted.threads),
       frozen_scene(scene, positions(camera), static_cast<int>(camera.mode.sequence.size()) * options.exposure_samples,
                    scene.transport.bounces > 0),
       setup(fixed_setup()),
@@ -251,10 +251,7 @@ void Simulator::Impl::compute(const FrameRequest& request, const pipeline::Input
     engine.run(setup, job, input);
   });
   if (!exposure.on() || exposure.known() != request.index + 1 || stopped()) return;
-  const Sensor& read = region_camera.sensor;
-  if (border.any()) cut(job.out, metered);
-  const flow::FrameView seen = border.any() ? simulator::view_of(metered, options.last_stage) : job.out;
-  exposure.follow(setup.sensor, seen, static_cast<std::size_t>(read.width) * static_cast<std::size_t>(read.height));
+  exposure.follow(setup.sensor, job.out, {camera.sensor.width, camera.sensor.height, setup.region});
 }
 
 Simulator::Simulator(const Scene& scene, const Camera& camera, const SimulatorOptions& options)

@@ -39,6 +39,7 @@ class CudaBytes : public testing::TestWithParam<std::string> {
 Scene scene_in_motion(int number) {
   Random random(static_cast<std::uint64_t>(number) + 90);
   Scene scene = random_scene(random, 4 + 4 * number, number % 2 == 1);
+  cut_out(scene);
   scene.name = "in motion " + std::to_string(number);
   scene.camera.pose = random_pose(random);
   set_in_motion(random, scene, number % 2 == 0);

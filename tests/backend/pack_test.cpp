@@ -28,6 +28,7 @@ TEST(packed_scene, points_into_its_own_memory) {
   Scene scene = wall(2);
   TriangleMesh detailed = single(icosphere(2));
   detailed.normals = detailed.vertices;
+  detailed.texcoords.resize(detailed.vertices.size());
   const Mesh ball = shared(std::move(detailed));
   scene.materials[0].map = std::make_shared<ReflectivityMap>(ReflectivityMap{1, 2, {0.5F, 1}});
   const auto vectors = [](std::vector<std::array<float, 3>> values) {
@@ -35,6 +36,7 @@ TEST(packed_scene, points_into_its_own_memory) {
   };
   scene.materials[0].brdf = Material::Brdf::ggx;
   scene.materials[0].normals = vectors({{0, 0, 1}}), scene.materials[0].finish = vectors({{0, 1, 1}, {0, 1, 1}});
+  scene.materials[0].opacity = std::make_shared<ReflectivityMap>(ReflectivityMap{1, 2, {0, 1}});
   scene.objects.push_back(object(ball));
   scene.objects.push_back(object(ball));
   scene.objects.push_back(object(shared(single(icosphere(1)))));
@@ -60,8 +62,10 @@ TEST(packed_scene, points_into_its_own_memory) {
       EXPECT_TRUE(device.holds(bodies->first[i].shape.triangles));
       if (bodies == &moving || i < 2) {
         EXPECT_TRUE(device.holds(bodies->first[i].shape.details));
+        EXPECT_TRUE(device.holds(bodies->first[i].shape.cut));
       } else {
         EXPECT_EQ(bodies->first[i].shape.details, nullptr);
+        EXPECT_EQ(bodies->first[i].shape.cut, nullptr);
       }
     }
   }
@@ -73,6 +77,8 @@ TEST(packed_scene, points_into_its_own_memory) {
     for (int i = 0; i < forms.count; ++i) {
       EXPECT_EQ(forms.at[i].nodes, still.first[i].shape.nodes);
       EXPECT_EQ(forms.at[i].triangles, still.first[i].shape.triangles);
+      EXPECT_EQ(forms.at[i].details, still.first[i].shape.details);
+      EXPECT_EQ(forms.at[i].cut, still.first[i].shape.cut);
     }
   }
   const auto along = packed.still.seen_along(0).of<shape::Mesh>();
@@ -81,7 +87,7 @@ TEST(packed_scene, points_into_its_own_memory) {
     EXPECT_EQ(packed.facets[still.first[i].facet].triangles, still.first[i].shape.triangles);
     EXPECT_EQ(packed.facets[still.first[i].facet].details, still.first[i].shape.details);
   }
-  ASSERT_EQ(packed.map_count, 1 + 3 + 5);
+  ASSERT_EQ(packed.map_count, 1 + 3 + 5 + 1);
   ASSERT_TRUE(device.holds(packed.maps));
   for (int i = 0; i < packed.map_count; ++i) EXPECT_TRUE(device.holds(packed.maps[i].texels));
   EXPECT_EQ(packed.maps[0].texel_count, 3);

@@ -28,6 +28,7 @@ Case random_case(int number) {
   Random random(static_cast<std::uint64_t>(number) + 1);
   const int* size = sizes[number % 10];
   Case c{random_scene(random, 3 + number, number % 3 == 1 && number != 19), load_camera("pico-flexx")};
+  if (number % 2 == 0) cut_out(c.scene);
   c.scene.camera.pose = random_pose(random);
   c.camera.sensor.width = number == 19 ? 640 : size[0], c.camera.sensor.height = number == 19 ? 480 : size[1];
   Lens& lens = c.camera.lens;
@@ -153,6 +154,7 @@ INSTANTIATE_TEST_SUITE_P(quarter, RandomScenes, testing::Range(0, 4));
 /// A few things before a few pixels, with one or two lights.
 Case tiny_case(Random& random, const Camera& camera) {
   Case c{random_scene(random, random.below(4), random.below(3) == 0), camera};
+  cut_out(c.scene);
   c.scene.camera.pose = random_pose(random);
   c.camera.sensor.width = 1 + random.below(10), c.camera.sensor.height = 1 + random.below(4);
   Lens& lens = c.camera.lens;

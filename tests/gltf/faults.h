@@ -3,6 +3,8 @@
 #pragma once
 #include "everything.h"
 
+#include <algorithm>
+
 namespace tofray::gltf_test {
 
 /// What is changed where (nothing: it is taken out), and the error's first line behind "m: error: ".

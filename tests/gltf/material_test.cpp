@@ -261,18 +261,6 @@ TEST(extension, of_specular_and_glossiness_gives_base_colour_and_roughness) {
   EXPECT_EQ(model_of(file).materials[0].base_color[0], 0.5);
 }
 
-TEST(material, that_is_cut_out_or_lets_light_through_is_told_to_be_opaque) {
-  for (const char* mode : {"MASK", "BLEND", "OPAQUE"}) {
-    File file = triangle_file();
-    file.json["materials"] = {{{"alphaMode", mode}}, {{"alphaMode", mode}}};
-    const Model model = model_of(file);
-    if (std::string(mode) == "OPAQUE")
-      EXPECT_TRUE(model.notices.empty());
-    else
-      EXPECT_TRUE(has_notice(model, std::string("alphaMode ") + mode)) << mode;
-  }
-}
-
 TEST(extension, that_packs_what_a_primitive_needs_is_refused) {
   File file = triangle_file();
   file.primitive(0)["extensions"]["KHR_draco_mesh_compression"] = Document::object();

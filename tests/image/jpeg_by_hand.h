@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // A JPEG file by hand (ITU-T T.81): one block of each component, of which only the mean is there.
 #pragma once
+#include <algorithm>
 #include <string>
 #include <vector>
 

@@ -71,6 +71,17 @@ tofray::Camera small_camera() {
   return camera;
 }
 
+void budgets(const tofray::Camera& camera) {
+  expect(tofray::budget(camera).size() == 8, "budget");
+  expect(tofray::budget_summary(camera).ambiguity_range_m > 2, "budget_summary");
+  const auto with_power = [&](double power) {
+    tofray::Camera out = camera;
+    out.illumination[0].power_w = power;
+    return out;
+  };
+  expect(tofray::solve_budget(with_power, 1, 1e-3, 1e3, {0.01, 1, 0.5, {}}).value > 0, "solve_budget");
+}
+
 void refusal() {
   try {
     const tofray::Simulator simulator({}, tofray::Camera());
@@ -104,6 +115,7 @@ void all() {
   expect(tofray::version()[0] != 0, "version");
   on_device(simulator);
   own_arrays(simulator, camera, frame);
+  budgets(camera);
   refusal();
 }
 

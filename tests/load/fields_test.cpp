@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "load/fields_finite.h"
 
+#include <algorithm>
 #include <set>
 
 #include <gtest/gtest.h>

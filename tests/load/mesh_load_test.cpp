@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 
@@ -104,7 +105,7 @@ TEST_F(mesh_files, are_read_once_for_all_objects_that_want_them_alike) {
 
 TEST_F(mesh_files, are_known_by_their_sha256) {
   EXPECT_EQ(mesh("file: corner.obj").sha256.size(), 64U);
-  const load::MeshFiles same{{}, {{{"corner.obj", mesh("file: corner.obj").sha256}}}}, none{{}, {{}}};
+  const load::MeshFiles same{{}, {{{"corner.obj", mesh("file: corner.obj").sha256}}}}, none{{}, std::map<std::string, std::string>{}};
   EXPECT_EQ(mesh("file: corner.obj", same).triangles->triangles.size(), 1U);
   EXPECT_TRUE(tells(refusal("file: corner.obj", ErrorKind::bad_input, none), "is not the mesh that it was"));
   file("in/corner.obj", std::string(corner) + "# changed\n");

@@ -139,7 +139,8 @@ TEST_F(obj_in_scene, is_one_object_where_that_has_a_material) {
 TEST_F(obj_in_scene, without_material_needs_an_mtllib) {
   EXPECT_TRUE(has(refusal("file: corner.obj"),
                   "scene.yaml:2:11: error: mesh lacks a key\n  expected one of \"reflectivity\" or "
-                  "\"material\"; glTF files, OBJ files that name an mtllib, and vertices with colours have their own; "));
+                  "\"material\"; glTF files, OBJ files that name an mtllib, PLY files that wear a picture, and vertices with "
+                  "colours have their own; "));
   EXPECT_TRUE(has(refusal("file: corner.obj"), "corner.obj\" names no mtllib"));
   file("in/one.mtl", ""), file("in/one.obj", "mtllib one.mtl\n" + out_test::read_file(folder_.path() / "in/corner.obj"));
   const Scene got = scene("file: one.obj");
@@ -395,4 +396,43 @@ TEST_F(obj_in_scene, has_materials_of_its_own_if_one_of_its_files_can_be_read) {
   EXPECT_FALSE(own("out.obj"));
   file("in/OTHER.OBJ", "mtllib card.mtl\n" + square);
   EXPECT_TRUE(own("OTHER.OBJ"));
+}
+
+// The card of OBJ files as a PLY file has it: of vertices, and of corners as MeshLab writes them.
+TEST_F(obj_in_scene, wears_the_same_as_a_ply_file) {
+  const std::string body = "-1 -1 -2 0 0\n1 -1 -2 1 0\n1 1 -2 1 1\n-1 1 -2 0 1\n4 0 1 2 3";
+  const std::string header =
+      "ply\nformat ascii 1.0\ncomment TextureFile C:\\scans\\card.png\nelement vertex 4\nproperty float x\nproperty float "
+      "y\nproperty float z\nproperty float s\nproperty float t\nelement face 1\nproperty list uchar int vertex_indices\n";
+  file("in/vertices.ply", header + "end_header\n" + body + "\n");
+  file("in/corners.ply", header + "property list uchar float texcoord\nend_header\n" +
+                             "-1 -1 -2 5 5\n1 -1 -2 5 5\n1 1 -2 5 5\n-1 1 -2 5 5\n4 0 1 2 3 8 0 0 1 0 1 1 0 1\n");
+  for (const char* const name : {"vertices.ply", "corners.ply"}) {
+    const Scene got = scene(std::string("up: y, file: ") + name);
+    expect_seen(got, {1, grey, red, 0});
+    ASSERT_EQ(got.objects.size(), 1U);
+    EXPECT_TRUE(has(got.objects[0].name, "card.png")) << got.objects[0].name;
+    EXPECT_EQ(std::get<Mesh>(got.objects[0].shape).guessed, 1);
+    EXPECT_EQ(notices(got), Notices{"there is no \"C:/scans/card.png\": \"card.png\" is read"});
+    EXPECT_EQ(std::get<Mesh>(got.objects[0].shape).sha256,
+              files::sha256_hex(out_test::read_file(folder_.path() / "in" / name) + out_test::read_file(folder_.path() / "in/card.png")));
+    EXPECT_EQ(material(scene(std::string("reflectivity: 0.4, file: ") + name), 0).map, nullptr);
+  }
+}
+
+TEST_F(obj_in_scene, whose_ply_file_lacks_its_picture_has_the_colours_of_its_vertices) {
+  const auto save = [&](const std::string& color, const std::string& value) {
+    file("in/lost.ply",
+         "ply\nformat ascii 1.0\ncomment TextureFile lost.png\nelement vertex 3\nproperty float x\nproperty float y\nproperty "
+         "float z\nproperty float s\nproperty float t\n" +
+             color + "element face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0 0 0" + value + "1 0 0 1 0" + value +
+             "0 1 0 0 1" + value + "3 0 1 2\n");
+  };
+  save("property uchar red\nproperty uchar green\nproperty uchar blue\n", " 255 255 255\n");
+  const Scene got = scene("file: lost.ply");
+  EXPECT_EQ(material(got, 0).diffuse, 1);
+  ASSERT_EQ(notices(got).size(), 1U);
+  EXPECT_TRUE(has(notices(got)[0], "cannot be read and is left out: \"lost.png\""));
+  save("", "\n");
+  EXPECT_TRUE(has(refusal("file: lost.ply"), "\"lost.ply\" has neither colours of vertices nor a picture that can be read"));
 }

@@ -4,7 +4,9 @@
 #include "load/trajectory.h"
 
 #include <gtest/gtest.h>
+
 #include <sys/stat.h>
+#include <map>
 
 #include <cmath>
 
@@ -282,7 +284,8 @@ TEST_F(keyframe_files, lie_beside_the_scene_or_below_and_are_known_by_their_sha2
   EXPECT_TRUE(has(refusal("keyframes: {file: none.csv}", ErrorKind::io), "cannot open"));
   ASSERT_EQ(::mkfifo(folder_.file("in/pipe.csv").c_str(), 0600), 0);
   EXPECT_TRUE(has(refusal("keyframes: {file: pipe.csv}", ErrorKind::io), "is not a plain file"));
-  const load::MeshFiles same{{}, {{{"c.csv", scene("keyframes: {file: c.csv}").files.at(0).sha256}}}}, none{{}, {{}}};
+  const load::MeshFiles same{{}, {{{"c.csv", scene("keyframes: {file: c.csv}").files.at(0).sha256}}}},
+      none{{}, std::map<std::string, std::string>{}};
   EXPECT_EQ(scene("keyframes: {file: c.csv}", "", same).camera.keyframes.size(), 1U);
   EXPECT_TRUE(has(refusal("keyframes: {file: c.csv}", ErrorKind::bad_input, none), "does not hold the keyframes that it did"));
   file("in/c.csv", text + "\n");

@@ -76,7 +76,7 @@ TEST_F(vertex_colors, beyond_their_range_are_held_there) {
 TEST_F(vertex_colors, are_needed_where_nothing_says_a_material) {
   save("a.ply", ply("int", "0 1 0 1 1 0\n1 1 0 1 1 0\n0 1 1 1 1 0\n"));  // of how many?
   EXPECT_TRUE(has(refused("file: a.ply"), "s.yaml:2:11: error: mesh lacks a key\n  expected one of")) << refused("file: a.ply");
-  EXPECT_TRUE(has(refused("file: a.ply"), "\"a.ply\" has no colours of vertices"));
+  EXPECT_TRUE(has(refused("file: a.ply"), "\"a.ply\" has neither colours of vertices nor a picture that can be read"));
   EXPECT_TRUE(has(refused("file: a.stl"), "mesh lacks a key"));
   EXPECT_FALSE(load::has_own_materials("a.ply", (folder_.path() / "s.yaml").string(), ""));
   save("a.ply", ply("uchar", "0 1 0 1 1 0\n1 1 0 1 1 0\n0 1 1 1 1 0\n"));

@@ -193,3 +193,13 @@ TEST(obj, with_faults_says_where_and_what) {
                  {"\r\r\nf 1", "m:3:1: error: a face has fewer"},
                  {"v 0 0 \\\r\n0 \\\n\\\rx", "m:4:1: error: a coordinate is no number"}});
 }
+
+// As CAD programs write it: the mesh of a part, and beside it the curves that trim its surfaces.
+TEST(obj, leaves_out_curves_and_surfaces_beside_polygons) {
+  const mesh::ReadMesh got =
+      obj("v 0 0 0\nv 1 0 0\nv 0 2 0\nv 0 0 0.5\nf 1 2 3\ncstype rat bspline\ndeg 3\ncurv 0 1 1 2 3 4\nparm u 0 0 1 1\nend\n"
+          "curv 0 1 4 3 2 1\nend\ndeg 1 1\nsurf 0 1 0 1 1 2 3 4\nend\nf 1 3 4\n");
+  EXPECT_EQ(got.mesh.triangles.size(), 2U);
+  EXPECT_EQ(got.notices, std::vector<std::string>{"curves and surfaces of free form are left out: \"curv\" (2 times) and \"surf\", from "
+                                                  "line 6 on; polygons alone are seen"});
+}

@@ -141,17 +141,52 @@ TEST(ply, has_colours_of_faces) {
   }
 }
 
-TEST(ply, tells_of_the_picture_that_it_wears) {
-  const auto notices = [&](const std::string& comment) {
+TEST(ply, names_the_picture_that_it_wears) {
+  const auto read = [&](const std::string& comment) {
     return ply("ply\nformat ascii 1.0\n" + comment +
                "element vertex 3\nproperty float x\nproperty float y\nproperty float z\nproperty float s\nproperty float t\nelement face "
                "1\n" +
-               face_list + "end_header\n0 0 0 0 0 1 0 0 0 0 0 1 0 0 0 3 0 1 2")
-        .notices;
+               face_list + "end_header\n0 0 0 0 0 1 0 0 0 0 0 1 0 0 0 3 0 1 2");
   };
-  EXPECT_TRUE(notices("comment made by MeshLab\n").empty());
-  ASSERT_EQ(notices("comment TextureFile my wood.png\n").size(), 1U);
-  EXPECT_TRUE(test::has(notices("comment TextureFile my wood.png\n")[0], "the picture that it wears is left out: \"my wood.png\""));
+  EXPECT_TRUE(read("comment made by MeshLab\n").pictures.empty());
+  EXPECT_TRUE(read("comment TextureFile\n").pictures.empty());
+  const ReadMesh got = read("comment TextureFile my wood.png\n");
+  ASSERT_EQ(got.pictures.size(), 1U);
+  EXPECT_EQ(got.pictures[0].file, "my wood.png");
+  EXPECT_EQ(got.pictures[0].place.line, 3);
+  EXPECT_EQ(got.material_of, std::vector<std::int32_t>{0});
+  EXPECT_TRUE(got.notices.empty());
+}
+
+// A square of two colours at a seam, as MeshLab writes it: lists of u, v, and which picture, behind each face's corners.
+TEST(ply, gives_corners_the_texture_coordinates_of_their_faces) {
+  const std::string header =
+      "ply\nformat ascii 1.0\ncomment TextureFile a.png\ncomment TextureFile b.png\nelement vertex 5\nproperty float x\nproperty float "
+      "y\nproperty float z\nproperty float nx\nproperty float ny\nproperty float nz\nelement face 3\n" +
+      face_list + "property list uchar float texcoord\nproperty int texnumber\nend_header\n";
+  const std::string vertices = "0 0 0 0 0 1\n1 0 0 0 1 0\n1 1 0 1 0 0\n0 1 0 0 0 1\n2 0 0 0 0 1\n";
+  const ReadMesh got = ply(header + vertices + "4 0 1 2 3 8 0 0 1 0 1 1 0 1 1\n3 1 4 2 6 0.25 0 0.5 0 1 1 0\n3 0 3 4 0 -1\n");
+  ASSERT_EQ(got.mesh.triangles.size(), 4U);
+  EXPECT_EQ(got.materials, (std::vector<std::string>{"a.png", "b.png"}));
+  EXPECT_EQ(got.material_of, (std::vector<std::int32_t>{1, 1, 0, -1}));
+  const auto texcoord = [&](std::size_t triangle, std::size_t k) {
+    return got.mesh.texcoords.at(static_cast<std::size_t>(got.mesh.triangles[triangle][k]));
+  };
+  using Texcoord = std::array<float, 2>;
+  EXPECT_EQ(texcoord(0, 0), (Texcoord{0, 1}));  // v downward
+  EXPECT_EQ(texcoord(0, 1), (Texcoord{1, 1}));
+  EXPECT_EQ(texcoord(1, 2), (Texcoord{0, 0}));
+  EXPECT_EQ(texcoord(2, 0), (Texcoord{0.25F, 1}));  // the same vertex as of triangle 0, corner 1
+  EXPECT_EQ(texcoord(2, 2), (Texcoord{1, 0}));
+  EXPECT_EQ(texcoord(3, 1), (Texcoord{0, 0}));
+  EXPECT_EQ(got.mesh.normals.at(static_cast<std::size_t>(got.mesh.triangles[0][1])), (std::array<float, 3>{0, 1, 0}));
+  EXPECT_EQ(got.mesh.normals.at(static_cast<std::size_t>(got.mesh.triangles[2][0])), (std::array<float, 3>{0, 1, 0}));
+  EXPECT_NE(got.mesh.triangles[0][1], got.mesh.triangles[2][0]);
+  const std::string file = header + vertices;
+  expect_faults(Format::ply, {{file + "3 0 1 2 6 0 0 1 0 1 1 0\n4 0 1 2 3 6 0 0 1 0 1 1 0\n3 0 1 2 0 0\n",
+                               "a face has not as many texture coordinates as corners\n  got 3 of 4"},
+                              {file + "3 0 1 2 5 0 0 1 0 1 0\n3 0 1 2 0 0\n3 0 1 2 0 0\n",
+                               "the texture coordinates of a face are an odd number\n  got 5"}});
 }
 
 TEST(ply, may_have_faces_before_its_vertices) {

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The tofray authors
 // SPDX-License-Identifier: Apache-2.0
 // Faces that are not convex: their triangles have the area of the shoelace formula, and none lies beside them.
+#include <algorithm>
 #include <chrono>
 #include <cstdlib>
 #include <numbers>
@@ -384,6 +385,16 @@ TEST(polygon, that_crosses_itself_stays_a_fan_and_is_told) {
   const ReadMesh read = obj_of_text("v 0 0 0\nv 4 4 0\nv 4 0 0\nv 0 3 0\nf 1 2 3 4\nf 4 3 2 1\n");
   EXPECT_EQ(read.mesh.triangles, (Triangles{{0, 1, 2}, {0, 2, 3}, {3, 2, 1}, {3, 1, 0}}));
   EXPECT_EQ(read.notices, std::vector<std::string>{"2 faces cross themselves: what lies inside is a guess"});
+}
+
+// Found by chance: 10³⁰ cells away is no whole number (the sanitizers' build tells).
+TEST(polygon, whose_ears_are_far_outside_of_all_hollow_corners_is_divided) {
+  const ReadMesh got =
+      mesh::parse(Format::obj,
+                  "v 0 0 0\nv 3 0 0\nv 4888888888888888888888888888888 3 0\nv 8 7 0\nv 7 7 0\nv 7 4 0\nv 10 0 0\nv 10 10 0\nv 0 "
+                  "1888888888888888888888888888888 3\nf 1 2 3 4 2 6 3 2 7 9\n",
+                  "m");
+  EXPECT_EQ(got.mesh.triangles.size(), 8U);
 }
 
 TEST(polygon, of_a_hundred_thousand_corners_takes_seconds) {

@@ -3,6 +3,8 @@
 // How light sources spread their power. Section 2.1's numbers.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "camera/frozen_camera.h"
 #include "power/light_source.h"
 #include "support/pixels.h"

@@ -28,7 +28,7 @@ def public() -> list[tuple[str, Any]]:
             out += [(name, one)]
             out += [(f"{name}.{member}", what) for member, what in inspect.getmembers(one)
                     if not member.startswith("_") and member not in SAY_NOTHING and not inspect.ismemberdescriptor(what)
-                    and (callable(what) or isinstance(what, property))]
+                    and (callable(what) or isinstance(what, property)) and what is not getattr(dict, member, None)]
         elif callable(one):
             out.append((name, one))
     return out

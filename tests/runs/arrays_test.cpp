@@ -2,7 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Which arrays are written, how, and while what.
 #include <gtest/gtest.h>
+
 #include <sys/resource.h>
+#include <algorithm>
 
 #include "files/json.h"
 #include "files/npz.h"

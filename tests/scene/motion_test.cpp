@@ -5,6 +5,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "base/rotation.h"
 #include "shape/list.h"
 #include "support/pi.h"

@@ -3,6 +3,7 @@
 // Depth against ground truth without noise, on every scene that comes with tofray.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "support/files.h"

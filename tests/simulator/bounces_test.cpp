@@ -3,6 +3,7 @@
 // Light that goes from surface to surface, against closed forms: the integrating sphere in time, and a corner by quadrature in double precision.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <complex>
 #include <tuple>

@@ -3,11 +3,13 @@
 // Meshes that change their shape: each raw frame sees the shape of its time; the truth says how it moves.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <limits>
 
 #include "backend/cpu/cpu.h"
+#include "scene/frozen_scene.h"
 #include "support/pixels.h"
 #include "support/random_scene.h"
 #include "support/same_frame.h"
@@ -189,6 +191,24 @@ TEST(changing_mesh, has_the_same_bytes_by_all_kinds_of_code) {
         EXPECT_EQ(first_difference(frame(isa, culling, 2), reference), "") << number;
       }
   }
+}
+
+// How well positions are known follows from the mesh as it is at the beginning: three times as large as its triangles in the file, 0.4 m. That
+// it is 30 m large in another frame changes nothing: each frame is the same whatever was computed before it.
+TEST(changing_mesh, has_positions_as_well_known_in_all_frames) {
+  const Scene scene = ball_scene(changing(ball(), [](double time_s, Corners& vertices, Corners&) {
+    for (auto& v : vertices)
+      for (float& x : v) x *= static_cast<float>(3 + 200 * time_s);
+  }));
+  scene::FrozenScene frozen(scene, {{0.3, 0, 0.4}}, 2);
+  double reach = 0;
+  for (const auto& v : std::get<Mesh>(scene.objects[1].shape).triangles->vertices)
+    for (const float x : v) reach = std::fmax(reach, 3 * std::abs(static_cast<double>(x)));
+  const float expected = frozen.view().roughness;
+  EXPECT_NEAR(static_cast<double>(expected), scene::position_error * (0.5 + reach), 1e-12);
+  frozen.look({}, {{0.1, 0.2}, 0, 0.1});
+  frozen.derive();
+  EXPECT_EQ(frozen.view().roughness, expected);
 }
 
 TEST(changing_mesh, that_gives_what_it_may_not_is_refused) {

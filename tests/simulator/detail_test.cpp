@@ -3,6 +3,7 @@
 // What a mesh's corners say besides their place: smooth normals, and pictures of the reflectivity.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <functional>
 
 #include "brdf/list.h"

@@ -3,6 +3,7 @@
 // Pictures of normals, of metal and roughness, and what a mesh's vertices say of their reflectivity.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <functional>
 
 #include "support/meshes.h"

@@ -3,6 +3,8 @@
 // A mesh is seen, lit and shaded as its triangles are one by one, standing or moving; a ball of many triangles as a ball.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "support/random_scene.h"
 
 using namespace tofray;

@@ -3,6 +3,7 @@
 // What moves is seen by each raw frame at its own mid-exposure: depth against an explicit mix of the four phases, in double.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 

@@ -3,6 +3,7 @@
 // Electrons and codes are written past the caches where nobody will find them there: the rule, what it needs of memory, and the same bytes.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <numeric>
 
 #include "backend/cpu/cpu.h"

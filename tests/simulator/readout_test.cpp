@@ -3,6 +3,7 @@
 // Regions of the sensor, and pixels that are read together.                                          [theory: eq. 4.24 to 4.26]
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 #include <vector>
@@ -176,6 +177,24 @@ TEST(readout, a_region_of_even_light_is_even) {
     for (const float z : third.depth.z_m) found += z > 0.5F && z < 1.5F ? 1 : 0;
     EXPECT_GT(found, 280) << follows;  // of 320; the rest is at edges
     EXPECT_EQ(third.raw.integration_time_s[0] != camera.mode.sequence[0].integration_time_s, follows);
+  }
+}
+
+// What lies beside a region is computed for the lens that scatters, and brighter: the next time follows from the region's codes alone (4.28).
+TEST(readout, an_exposure_meters_its_region_alone) {
+  Camera camera = whole_sensor();
+  camera.lens.scatter = {Scatter::Kind::gaussians, 0.2, {3}, {}};
+  camera.auto_exposure = {1, 0.5, 1, 0, 1e-2};
+  for (const auto& [left, top] : {std::array{25, 20}, {4, 4}, {45, 24}}) {
+    const Camera part = read_by(camera, {1, left, top, 8, 8});
+    Simulator simulator(steps(), part, {.noise = Noise::off, .threads = 1});
+    const Frame first = simulator.frame(0);
+    const double reach = std::min(part.adc.mid_code - part.adc.valid_min, part.adc.valid_max - part.adc.mid_code);
+    double most = 0;
+    for (std::size_t i = 0; i < first.raw.raw.size(); ++i)
+      if (part.mode.sequence[i / 64].lit) most = std::max(most, std::abs(first.raw.raw[i] - part.adc.mid_code) / reach);
+    const double before = first.raw.integration_time_s[0], after = simulator.frame(1).raw.integration_time_s[0];
+    EXPECT_NEAR(after / before, std::clamp(0.5 / most, 0.25, 4.0), 1e-6) << left << " " << top;  // a share in float
   }
 }
 

@@ -3,6 +3,7 @@
 // 3, 4, 5, 6 and 8 reference phases through the whole simulator: what harmonics do to the range of a square light.  [theory: eq. 3.5, 4.3]
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <complex>
 #include <vector>

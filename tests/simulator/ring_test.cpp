@@ -3,6 +3,7 @@
 // Lights that are rings of LEDs.                                                                           [theory: eq. 2.15]
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "base/vec.h"

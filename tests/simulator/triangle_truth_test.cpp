@@ -3,6 +3,8 @@
 // Ground truth of meshes: which triangle a pixel sees, and which texture coordinates are there, against the user's own triangles in double.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "support/meshes.h"
 #include "support/random.h"
 #include "support/random_scene.h"

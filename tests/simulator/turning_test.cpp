@@ -3,6 +3,7 @@
 // Things that turn or follow keyframes, and a camera that does: what each raw frame sees is a still scene, posed by hand at its time.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <numeric>
 
 #include "support/random_scene.h"

@@ -3,6 +3,7 @@
 // Light that comes by two ways: P11.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 

@@ -71,6 +71,14 @@ inline void add_vector_maps(Material& leaning, Material& metal) {
   metal.finish = map(6, 9, [&] { return std::array{number(0, 1), number(0, 1), number(0.1, 1)}; });
 }
 
+/// A picture that cuts out a third of a mesh that has texture coordinates; by a chance of its own.
+inline std::shared_ptr<const ReflectivityMap> random_opacity() {
+  Random random(98);
+  auto map = std::make_shared<ReflectivityMap>(*random_map(random));
+  for (float& a : map->values) a = random.uniform() < 0.3 ? 0.0F : 1.0F;
+  return map;
+}
+
 /// Some of everything before a slanted wall; half of it turned, and moving if asked for.
 inline Scene random_scene(Random& random, int objects, bool moving) {
   Scene scene;
@@ -122,6 +130,9 @@ inline Scene random_scene(Random& random, int objects, bool moving) {
   }
   return scene;
 }
+
+/// Cuts holes into those of a random scene's meshes that have texture coordinates and one of two materials.
+inline void cut_out(Scene& scene) { scene.materials[0].opacity = scene.materials[3].opacity = random_opacity(); }
 
 /// Sets some of a scene's things in motion while the first frames of a camera are taken: they turn, or follow keyframes; its camera does,
 /// if asked for, about where it stands.

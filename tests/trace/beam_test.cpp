@@ -7,6 +7,7 @@
 
 #include "backend/cpu/cpu.h"
 #include "scene/hierarchy.h"
+#include "scene/map_levels.h"
 #include "support/meshes.h"
 #include "support/random.h"
 #include "support/random_scene.h"
@@ -44,10 +45,16 @@ const Set* widest() {
 struct Placed {
   scene::Hierarchy built;
   shape::Mesh mesh;
+  scene::MapLevels opacity;
 
-  Placed(const TriangleMesh& triangles, const base::Mat3& turn, const Vec3& shift) : built(scene::build_hierarchy(triangles)) {
+  /// @param cut  a third of it is cut out
+  Placed(TriangleMesh triangles, const base::Mat3& turn, const Vec3& shift, bool cut) : opacity(*random_opacity()) {
+    Random random(97);
+    if (cut) add_details(random, triangles);
+    built = scene::build_hierarchy(triangles);
     const shape::Placement at{{{vec(turn[0]), vec(turn[1]), vec(turn[2])}}, vec(shift)};
     mesh = shape::Mesh::placed(built, at);
+    if (cut) mesh.cut = &opacity.view;
   }
 };
 
@@ -164,7 +171,7 @@ TEST_P(Beams, meet_what_each_ray_meets) {
   const double away = GetParam() % 7 == 6 ? 1.5e5 : GetParam() % 7 == 5 ? 1e3 : 0;
   const Vec3 shift = away * Vec3{1, -0.7, 0.4};
   const Placed placed(some_mesh(random, GetParam()),
-                      GetParam() % 2 == 0 ? random.rotation() : base::Mat3{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}}, shift);
+                      GetParam() % 2 == 0 ? random.rotation() : base::Mat3{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}}, shift, GetParam() % 3 == 1);
   static TileRays rays;
   int met = 0, tiles = 0;
   const double size = 2 * std::fmax(placed.mesh.half.x, std::fmax(placed.mesh.half.y, placed.mesh.half.z));
@@ -199,7 +206,7 @@ TEST_P(Beams, meet_what_a_look_at_every_triangle_meets) {
   const Vec3 shift = (GetParam() % 7 == 6 ? 1.5e5 : 0) * Vec3{1, -0.7, 0.4};
   const int kind = GetParam() % 5;
   const Placed placed(kind == 4 ? single(stone(random, 4, random.scale(1e-3, 1e3), random.point(1))) : some_mesh(random, GetParam()),
-                      GetParam() % 2 == 0 ? random.rotation() : base::Mat3{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}}, shift);
+                      GetParam() % 2 == 0 ? random.rotation() : base::Mat3{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}}, shift, GetParam() % 3 == 1);
   ASSERT_LE(placed.built.triangles.size() * shape::block_width, 30'000U);
   static TileRays rays, by_all, one, packed, portable;
   int met = 0;

@@ -39,7 +39,7 @@ void search(const Form& form, TileRays& rays) {
     for (int i = 0; i < TileRays::count; ++i) {
       shape::MeshHit<F> hit{rays.far[i], 0x7fffffff, -1};
       const F given[3] = {rays.given[0][i], rays.given[1][i], rays.given[2][i]};
-      if (rays.far[i] > 0) shape::search_mesh<any>(form.nodes, form.triangles, shape::in_mesh(form, given), rays.shortest[i], true, hit);
+      if (rays.far[i] > 0) shape::search_mesh<any>(form, shape::in_mesh(form, given), rays.shortest[i], true, hit);
       rays.t[i] = hit.t, rays.triangle[i] = num::from_bits(num::to_uint(hit.triangle));
     }
   }
@@ -72,7 +72,9 @@ void look_at_all(const shape::MeshForm& form, int blocks, TileRays& rays) {
           if (i > 0 && block.number[i] == block.number[i - 1]) break;
           F t = F(0.0f);
           const auto corner = [&](int c, int x) __attribute__((always_inline)) { return F(block.corner[c][x][i]) - ray.origin[x]; };
-          const auto inside = these & shape::meet<true>(corner, along, t);
+          shape::MeshParts<F> parts;
+          auto inside = these & shape::meet<true>(corner, along, t, parts);
+          if (num::any(inside) && form.cut != nullptr) inside = shape::not_cut_out(form, b * shape::block_width + i, parts, inside);
           if (num::any(inside)) (void)shape::take_nearer(inside, t, block.number[i], b * shape::block_width + i, shortest, hit);
         }
       }

@@ -3,6 +3,8 @@
 // From inside a closed mesh every ray hits, however close to a vertex or an edge, and however far the mesh is from zero.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "support/meshes.h"
 #include "support/random.h"
 #include "support/rays.h"

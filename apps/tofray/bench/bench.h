@@ -40,6 +40,9 @@ class Contender {
   [[nodiscard]] files::Json stage_ms();
   /// The same frames again, each written to another place.
   [[nodiscard]] files::Json other_places();
+  /// Median time until a simulator can compute [ms]: of another lens, whose rays
+  /// nobody has yet, and of another sensor behind the same lens; its lights and meshes are those of this one.
+  [[nodiscard]] files::Json set_up_ms() const;
   void step_into(Frame& place, bool timed);
 
   Inputs in_;

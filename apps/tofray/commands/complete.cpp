@@ -8,6 +8,7 @@
 #include "load/builtin.h"
 #include "model/lines.h"
 #include "results/array_table.h"
+#include "solved_key.h"
 #include "tofray/load.h"
 
 /// What can stand at the cursor of a command line: the scripts of `tofray completion` ask here. All of it comes from the tables of commands,
@@ -52,6 +53,14 @@ Offers keys() {
   return out;
 }
 
+/// Keys of a profile that are numbers.
+Offers numbers() {
+  Offers out;
+  for (const model::Line& one : model::lines_of(model::camera_form()))
+    if (is_number_key(one.key)) out.push_back({one.key, one.doc});
+  return out;
+}
+
 Offers arrays() {
   Offers out = {{"gt_*", "all of the ground truth"}};
   for (const results::ArrayRow& one : results::array_table()) out.push_back({one.name, one.what});
@@ -72,6 +81,7 @@ Offers offers_of(const std::string& word) {
   if (word == "<scenes>") return builtins(load::builtin_scenes());
   if (word == "<profiles>") return builtins(load::builtin_profiles());
   if (word == "<keys>") return keys();
+  if (word == "<numbers>") return numbers();
   if (word == "<arrays>") return arrays();
   if (word == "<modes>") return modes();
   return {{word == "<files>" ? files : word, ""}};

@@ -18,7 +18,8 @@ std::size_t count_of(std::int32_t number) { return static_cast<std::size_t>(numb
 /// Hierarchies of meshes: each is put there once, and all that points to it is told where.
 class Meshes {
  public:
-  explicit Meshes(Packer& packer) : packer_(packer) {}
+  /// @param here, there  the pictures of the scene, and as the device has them
+  Meshes(Packer& packer, const brdf::MapView* here, const brdf::MapView* there) : packer_(packer), maps_here_(here), maps_there_(there) {}
 
   /// Puts the hierarchies of these meshes.
   void put(const scene::BodiesOf<shape::Mesh>& bodies, std::int32_t rows) {
@@ -41,6 +42,8 @@ class Meshes {
                     one.nodes;
                   })
       one.steps = there(&Place::steps, one.steps);
+    if constexpr (requires { one.cut; })
+      if (one.cut != nullptr) one.cut = maps_there_ + (one.cut - maps_here_);
     if constexpr (requires { one.shape; }) move(one.shape);
   }
   /// Puts an array that may point to them.
@@ -77,6 +80,7 @@ class Meshes {
   }
 
   Packer& packer_;
+  const brdf::MapView *maps_here_, *maps_there_;
   std::vector<Place> places_;
 };
 
@@ -198,7 +202,7 @@ void pack_motion(Packer& packer, const scene::SceneView& from, scene::SceneView&
   to.motions = packer.put(from.motions, 1 + count_of(from.movers));
   to.frames = packer.put(from.frames, moments * count_of(from.movers));
   if (const auto& changing = from.moving.bodies.of<shape::Mesh>(); changing.per_moment > 0) {
-    Meshes meshes(packer);
+    Meshes meshes(packer, from.maps, to.maps);
     const std::int32_t rows = changing.per_moment * from.moments;
     meshes.put(changing, rows);
     to.moving.bodies.of<shape::Mesh>().first = meshes.put(changing.first, count_of(rows));
@@ -207,15 +211,15 @@ void pack_motion(Packer& packer, const scene::SceneView& from, scene::SceneView&
 }
 
 void pack_scene(Packer& packer, const scene::SceneView& from, scene::SceneView& to) {
-  Meshes meshes(packer);
+  std::vector<brdf::MapView> maps(from.maps, from.maps + from.map_count);
+  for (brdf::MapView& map : maps) map.texels = packer.put(map.texels, count_of(map.texel_count));
+  to.maps = packer.put(static_cast<const brdf::MapView*>(maps.data()), maps.size());
+  Meshes meshes(packer, from.maps, to.maps);
   for (const scene::Group* group : {&from.still, &from.moving})
     if (const auto& bodies = group->bodies.of<shape::Mesh>(); bodies.per_moment == 0) meshes.put(bodies, bodies.count);
   pack_bodies(shape::Shapes{}, meshes, from.still, to.still);
   pack_bodies(shape::Shapes{}, meshes, from.moving, to.moving);
   to.materials = packer.put(from.materials, count_of(from.material_count));
-  std::vector<brdf::MapView> maps(from.maps, from.maps + from.map_count);
-  for (brdf::MapView& map : maps) map.texels = packer.put(map.texels, count_of(map.texel_count));
-  to.maps = packer.put(static_cast<const brdf::MapView*>(maps.data()), maps.size());
   pack_motion(packer, from, to);
   to.motion_of = packer.put(from.motion_of, count_of(from.object_count));
   to.light_positions = packer.put(from.light_positions, count_of(from.lights));

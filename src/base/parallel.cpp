@@ -1,0 +1,28 @@
+// SPDX-FileCopyrightText: 2026 The tofray authors
+// SPDX-License-Identifier: Apache-2.0
+#include "base/parallel.h"
+
+#include <algorithm>
+#include <atomic>
+#include <system_error>
+#include <thread>
+#include <vector>
+
+namespace tofray::base {
+
+void in_parallel(int count, int threads, const std::function<void(int)>& unit) {
+  const int wanted = std::min(count, threads > 0 ? threads : static_cast<int>(std::max(1U, std::thread::hardware_concurrency())));
+  std::atomic<int> next = 0;
+  const auto work = [&] {
+    for (int i = next++; i < count; i = next++) unit(i);
+  };
+  std::vector<std::jthread> others;
+  try {
+    for (int i = 1; i < wanted; ++i) others.emplace_back(work);
+  } catch (const std::system_error&) {
+    // fewer will do
+  }
+  work();
+}
+
+}  // namespace tofray::base
