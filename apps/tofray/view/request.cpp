@@ -149,7 +149,8 @@ Verdict judged(const Request& request, const Admission& admission, bool (*is_fil
 
 std::string content_policy(const std::vector<std::string>& hosts, bool embed) {
   std::string sockets;
-  for (const std::string& host : hosts) sockets += " ws://" + host;
+  for (const std::string& host : hosts)
+    if (!host.starts_with('[')) sockets += " ws://" + host;  // a policy's grammar has no such hosts; 'self' covers them
   return "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' blob: data:; connect-src 'self'" + sockets +
          "; worker-src 'self'; base-uri 'none'; form-action 'none'; frame-ancestors " +
          (embed ? "http://localhost:* http://127.0.0.1:*" : "'none'");
