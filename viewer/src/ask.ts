@@ -7,9 +7,10 @@ import { send } from "./connection";
 import type { Fault, Pixel } from "./protocol";
 import { cursor, frame, link, pixel, rate, shown, state } from "./store";
 
-const rest_ms = 40;       // the cursor stands still
-const pause_ms = 200;     // from one question to the next while frames pass by
-const patience_ms = 2000; // an answer is not waited for longer
+const rest_ms = 40;             // the cursor stands still
+const pause_ms = 200;           // from one question to the next
+const playing_pause_ms = 500;   // the same while frames pass by: each question takes a frame with all its arrays
+const patience_ms = 2000;       // an answer is not waited for longer
 
 let last_id = 0;
 let asked: { id: number; at: number } | undefined;
@@ -27,13 +28,19 @@ function ask(): void {
   send({ type: "pixel", id: last_id, u: at.u, v: at.v });
 }
 
-function ask_soon(): void {
-  timer ??= setTimeout(ask, Math.max(rest_ms, last_asked_ms + pause_ms - performance.now()));
+function is_playing(): boolean {
+  return state.value?.playing === true;
 }
 
+function ask_soon(): void {
+  timer ??= setTimeout(ask, Math.max(rest_ms, last_asked_ms + (is_playing() ? playing_pause_ms : pause_ms) - performance.now()));
+}
+
+/** While frames pass by, an answer stays until the cursor moves; it says of which frame it is. */
 function is_old(answer: Pixel): boolean {
   const now = frame.value;
-  return answer.u !== cursor.value?.u || answer.v !== cursor.value.v || answer.frame !== now?.frame || answer.generation !== now.generation;
+  if (answer.u !== cursor.value?.u || answer.v !== cursor.value.v || answer.generation !== now?.generation) return true;
+  return !is_playing() && answer.frame !== now.frame;
 }
 
 export function pixel_arrived(answer: Pixel): void {
@@ -65,6 +72,7 @@ export function start_asking(): void {
   effect(() => {
     const at = cursor.value;
     const now = frame.value;
+    void state.value;
     const answer = pixel.peek();
     if (at !== undefined && now !== undefined && (answer === undefined || is_old(answer))) ask_soon();
   });
@@ -75,7 +83,7 @@ let sought: number | undefined;
 
 export function toggle_play(): void {
   sought = undefined;
-  send({ type: state.value?.playing === true ? "pause" : "play" });
+  send({ type: is_playing() ? "pause" : "play" });
 }
 
 export function seek(to: number): void {
@@ -86,9 +94,9 @@ export function seek(to: number): void {
 
 /** From the frame that was asked for last, if that has not come yet: ten quick steps are ten frames. */
 export function step(by: number): void {
-  if (state.value?.playing === true) send({ type: "pause" });
+  if (is_playing()) send({ type: "pause" });
   const now = frame.value?.frame ?? 0;
-  if (sought === now || state.value?.playing === true) sought = undefined;
+  if (sought === now || is_playing()) sought = undefined;
   seek(Math.max(0, (sought ?? now) + by));
 }
 

@@ -1,0 +1,185 @@
+// SPDX-FileCopyrightText: 2026 The tofray authors
+// SPDX-License-Identifier: Apache-2.0
+// The viewer in a browser: the real program on a port that is free, its page in Chromium without a GPU. Nothing here is of the page's own code.
+
+import { execFileSync, spawn } from "node:child_process";
+import { accessSync, constants, mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
+import { createRequire } from "node:module";
+import { connect, createServer } from "node:net";
+import { tmpdir } from "node:os";
+import { delimiter, join } from "node:path";
+import { createInterface } from "node:readline";
+import { after } from "node:test";
+import { read_npz } from "./npz.mjs";
+
+/** Ends this program as a test that was left out. */
+function skip(sentence) {
+  console.log(`SKIPPED: ${sentence}`);
+  process.exit(77);
+}
+
+function is_program(path) {
+  try {
+    accessSync(path, constants.X_OK);
+    return true;
+  } catch {
+    return false;
+  }
+}
+
+/** The tofray under test, and the folder whose node_modules came with its page. */
+const { TOFRAY: tofray, TOFRAY_PAGE_PACKAGES: packages } = process.env;
+if (tofray === undefined || packages === undefined) throw new Error("TOFRAY and TOFRAY_PAGE_PACKAGES say what is tested: ctest -L browser sets both");
+const chromium = (process.env.PATH ?? "").split(delimiter).flatMap((folder) => ["chromium", "chromium-browser"].map((name) => join(folder, name))).find(is_program);
+if (chromium === undefined) skip("there is no chromium here, in which the viewer's page is looked at (Debian: chromium)");
+const require = createRequire(join(packages, "package.json"));
+export const axe_source = readFileSync(require.resolve("axe-core/axe.min.js"), "utf8");
+
+const folder = mkdtempSync(join(tmpdir(), "tofray-browser-"));
+const running = new Set();
+const browser = await require("playwright-core").chromium.launch({
+  executablePath: chromium,
+  args: ["--no-sandbox", "--disable-gpu", "--disable-dev-shm-usage", "--force-device-scale-factor=1"],
+});
+after(async () => {
+  await browser.close();
+  for (const one of running) one.kill("SIGKILL");
+  rmSync(folder, { recursive: true, force: true });
+});
+
+/** A file for a test. @return its path */
+export function written(name, text) {
+  const path = join(folder, name);
+  writeFileSync(path, text);
+  return path;
+}
+
+/** What the command makes of the same words: the arrays of a frame, and the file that `inspect` reads. */
+export function rendered(words, frame = 0) {
+  const out = mkdtempSync(join(folder, "frame-"));
+  execFileSync(tofray, ["render", ...words, "--first-frame", String(frame), "--emit", "npz", "--quiet", "-o", out]);
+  const path = join(out, frame === 0 ? "frame.npz" : `frame_${String(frame).padStart(4, "0")}.npz`);
+  return { path, ...read_npz(path) };
+}
+
+export function inspected(path, u, v) {
+  return JSON.parse(execFileSync(tofray, ["inspect", path, "--pixel", `${u},${v}`, "--json"], { encoding: "utf8" }));
+}
+
+/** `tofray view`, until the tests end. @param port  0: any */
+export async function view(words, port = 0) {
+  const child = spawn(tofray, ["view", ...words, "--port", String(port), "--json", "--test-hooks"], { stdio: ["ignore", "pipe", "inherit"] });
+  running.add(child);
+  const gone = new Promise((resolve) => child.on("exit", resolve));
+  for await (const line of createInterface({ input: child.stdout })) {
+    return { ...JSON.parse(line), kill: async () => (child.kill("SIGKILL"), await gone) };
+  }
+  throw new Error("tofray view said no address");
+}
+
+/** What goes through it is passed on, and kept: what the page's side has sent. @return {port, sent, cut} */
+export async function proxy() {
+  const lines = new Set();
+  const sent = [];
+  let target = 0;
+  const server = createServer((near) => {
+    const far = connect(target, "127.0.0.1");
+    for (const one of [near, far]) {
+      lines.add(one);
+      one.on("error", () => undefined);
+      one.on("close", () => (near.destroy(), far.destroy(), lines.delete(one)));
+    }
+    near.on("data", (bytes) => sent.push(bytes.toString("latin1")));
+    near.pipe(far).pipe(near);
+  });
+  await new Promise((resolve) => server.listen(0, "127.0.0.1", resolve));
+  server.unref();
+  return {
+    port: server.address().port,
+    sent,
+    lead_to: (port) => (target = port),
+    cut: () => lines.forEach((one) => one.destroy()),
+  };
+}
+
+/** A tab of its own, without an earlier one's storage. @param before  what to do with the page first
+ *  @return  the page, and what has happened in it so far */
+export async function open(url, { before, ...options } = {}) {
+  const context = await browser.newContext({ viewport: { width: 1280, height: 900 }, ...options });
+  const page = await context.newPage();
+  await before?.(page);
+  const seen = { page, texts: [], asked: [], troubles: [], sockets: 0, requests: [], loads: 0 };
+  page.on("console", (message) => ["error", "warning"].includes(message.type()) && seen.troubles.push(message.text()));
+  page.on("pageerror", (error) => seen.troubles.push(String(error)));
+  page.on("request", (request) => seen.requests.push(request.url()));
+  page.on("load", () => ++seen.loads);
+  page.on("websocket", (socket) => {
+    ++seen.sockets;
+    socket.on("framereceived", ({ payload }) => typeof payload === "string" && seen.texts.push(JSON.parse(payload)));
+    socket.on("framesent", ({ payload }) => typeof payload === "string" && seen.asked.push(JSON.parse(payload)));
+  });
+  await page.addInitScript(() => {
+    window.violations = [];
+    document.addEventListener("securitypolicyviolation", (event) => window.violations.push(`${event.violatedDirective}: ${event.blockedURI}`));
+  });
+  await page.goto(url);
+  seen.hello = () => seen.texts.findLast((one) => one.type === "hello");
+  return seen;
+}
+
+/** A tab with a picture in it. */
+export async function shown(url, options) {
+  const tab = await open(url, options);
+  await tab.page.waitForFunction(() => window.tofray?.counters.drawn > 0);
+  return tab;
+}
+
+export async function pause({ page }) {
+  if (await page.evaluate(() => window.tofray.playing)) await page.getByRole("button", { name: "Pause" }).click();
+  await page.waitForFunction(() => window.tofray.playing === false);
+}
+
+/** Stands still at a frame, drawn. */
+export async function stand_at(tab, frame) {
+  await pause(tab);
+  await tab.page.locator("#frame").fill(String(frame));
+  await tab.page.locator("#frame").press("Enter");
+  await tab.page.waitForFunction((to) => window.tofray.last?.frame === to, frame);
+}
+
+/** A pane as coloured: {array, width, height, pixels: RGBA}. */
+export function pane({ page }, i) {
+  return page.evaluate((at) => {
+    const one = window.tofray.pane(at);
+    return { ...one, pixels: [...one.pixels] };
+  }, i);
+}
+
+/** The middle of each of a picture's pixels, read from the canvas on the screen: RGBA. */
+export function canvas_pixels({ page }, i) {
+  return page.evaluate((at) => {
+    const { left, top, scale } = window.tofray.placement(at);
+    const { width, height } = window.tofray.pane(at);
+    const canvas = document.querySelectorAll(".stage canvas.front")[at];
+    const all = canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height);
+    const out = [];
+    for (let v = 0; v < height; ++v)
+      for (let u = 0; u < width; ++u) {
+        const place = 4 * (Math.floor(top + (v + 0.5) * scale) * canvas.width + Math.floor(left + (u + 0.5) * scale));
+        out.push(...all.data.slice(place, place + 4));
+      }
+    return out;
+  }, i);
+}
+
+/** Puts the pointer into a pixel of the first pane. */
+export async function point_at({ page }, u, v) {
+  const { left, top, scale } = await page.evaluate(() => window.tofray.placement(0));
+  const box = await page.locator(".stage").first().boundingBox();
+  await page.mouse.move(box.x + left + (u + 0.5) * scale, box.y + top + (v + 0.5) * scale);
+}
+
+export async function choose(tab, i, array) {
+  await tab.page.locator(".pane select").nth(i).selectOption(array);
+  await tab.page.waitForFunction(([at, name]) => window.tofray.pane(at)?.array === name, [i, array]);
+}
