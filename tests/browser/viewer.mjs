@@ -120,6 +120,9 @@ export async function open(url, { before, ...options } = {}) {
   });
   await page.addInitScript(() => {
     window.violations = [];
+    window.alerts = [];   // their titles, in turn, however short they were to be seen
+    new MutationObserver((changes) => changes.flatMap((one) => [...one.addedNodes])
+      .forEach((one) => one.role === "alert" && window.alerts.push(one.querySelector("strong").textContent))).observe(document, { childList: true, subtree: true });
     document.addEventListener("securitypolicyviolation", (event) => window.violations.push(`${event.violatedDirective}: ${event.blockedURI}`));
   });
   await page.goto(url);

@@ -39,6 +39,7 @@ export function TimeLine() {
   const off = link.value !== "open";
   const own = hello.value?.frame_rate_hz ?? 0;
   const zoom = view.value.zoom;
+  const times = `${zoom < 10 ? zoom.toFixed(1) : zoom.toFixed(0)} ×`;
   return (
     <div class="time-line" role="group" aria-label="Time and zoom">
       <div class="buttons">
@@ -59,8 +60,8 @@ export function TimeLine() {
       </label>
       <div class="buttons zoom">
         <button type="button" onClick={() => zoom_at_cursor(1 / 1.5)} disabled={zoom <= 1} aria-label="Zoom out" title="zoom out (−)">−</button>
-        <button type="button" class="figure" onClick={() => (view.value = whole)} disabled={zoom <= 1} aria-label="Whole picture" title="the whole picture (0)">
-          {zoom < 10 ? zoom.toFixed(1) : zoom.toFixed(0)} ×
+        <button type="button" class="figure" onClick={() => (view.value = whole)} disabled={zoom <= 1} aria-label={`Zoom ${times}, to the whole picture`} title="the whole picture (0)">
+          {times}
         </button>
         <button type="button" onClick={() => zoom_at_cursor(1.5)} aria-label="Zoom in" title="zoom in (+)">+</button>
       </div>

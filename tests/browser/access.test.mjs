@@ -1,0 +1,92 @@
+// SPDX-FileCopyrightText: 2026 The tofray authors
+// SPDX-License-Identifier: Apache-2.0
+// Who does not see the picture, or uses no pointer: axe-core's rules, and the way of the focus.
+
+import assert from "node:assert/strict";
+import { test } from "node:test";
+import { axe_source, choose, point_at, shown, stand_at, view } from "./viewer.mjs";
+
+async function violations({ page }) {
+  await page.evaluate(axe_source);
+  const { violations: found, passes } = await page.evaluate(() => window.axe.run(document));
+  assert.ok(passes.length >= 15, `only ${passes.length} rules had something to look at`);
+  return found.map((one) => `${one.id}: ${one.nodes.map((node) => node.html).join(" | ")}`);
+}
+
+for (const colorScheme of ["dark", "light"]) {
+  test(`axe-core finds nothing in the ${colorScheme} page: live, with a pixel, with the keys, without a server`, async () => {
+    const viewer = await view(["demo", "--seed", "5"]);
+    const tab = await shown(viewer.url, { colorScheme, reducedMotion: "reduce" });
+    const { page } = tab;
+    assert.deepEqual(await violations(tab), []);
+    await stand_at(tab, 0);
+    await point_at(tab, 112, 86);
+    await page.locator('.answer[data-pixel="112,86"]').waitFor();
+    await page.getByText("Raw frames").click();
+    await choose(tab, 1, "flags");
+    assert.deepEqual(await violations(tab), []);
+    await page.keyboard.press("?");
+    await page.getByRole("dialog").waitFor();
+    assert.deepEqual(await violations(tab), []);
+    await page.keyboard.press("Escape");
+    await page.getByRole("dialog").waitFor({ state: "hidden" });
+    await viewer.kill();
+    await page.getByText("The server is gone.").waitFor();
+    assert.deepEqual(await violations(tab), []);
+  });
+}
+
+test("the help lists the keys, leaves the focus where it was, and keys do nothing in a field", async () => {
+  const { url } = await view(["demo", "--seed", "5"]);
+  const tab = await shown(url);
+  const { page } = tab;
+  await stand_at(tab, 0);
+  await page.locator(".stage").first().focus();
+  await page.keyboard.press("?");
+  await page.getByRole("dialog").waitFor();
+  const said = await page.getByRole("dialog").locator("kbd").allTextContents();
+  assert.deepEqual(said, ["← ↑ → ↓", "Space", ",", ".", "f", "1 … 9", "+", "−", "0", "?"]);
+  await page.keyboard.press(".");
+  await page.keyboard.press("Escape");
+  await page.getByRole("dialog").waitFor({ state: "hidden" });
+  assert.equal(await page.evaluate(() => document.activeElement.className), "stage");
+  await page.locator("#frame").focus();
+  await page.keyboard.press(".");
+  await page.locator(".stage").first().focus();
+  await page.keyboard.press("2");   // the second array of the list
+  await page.waitForFunction(() => window.tofray.pane(0).array === "amplitude_e");
+  assert.equal(await page.evaluate(() => window.tofray.last.frame), 0);
+  assert.deepEqual(tab.asked.filter((one) => one.type === "seek").map((one) => one.frame), [0]);
+});
+
+test("Tab goes through every control, each with a focus that is seen", async () => {
+  const { url } = await view(["demo", "--seed", "5"]);
+  const tab = await shown(url);
+  const { page } = tab;
+  await stand_at(tab, 0);
+  const expected = await page.evaluate(() => [...document.querySelectorAll("button, select, input, a, summary, [tabindex]")].filter((one) => !one.disabled && one.checkVisibility()).length);
+  await page.evaluate(() => document.activeElement.blur());
+  await page.locator("body").click({ position: { x: 2, y: 2 } });
+  const seen = [];
+  for (let i = 0; i < expected; ++i) {
+    await page.keyboard.press("Tab");
+    seen.push(await page.evaluate(() => {
+      const one = document.activeElement;
+      one.dataset.visited = "yes";
+      const style = getComputedStyle(one);
+      return { tag: one.tagName, outline: style.outlineStyle !== "none" && Number.parseFloat(style.outlineWidth) >= 2 };
+    }));
+  }
+  assert.equal(await page.locator("[data-visited]").count(), expected, JSON.stringify(seen));
+  for (const one of seen) assert.ok(one.outline, `${one.tag} shows no focus`);
+});
+
+test("320 CSS pixels wide, no control is lost, and nothing has to be scrolled sideways", async () => {
+  const { url } = await view(["demo", "--seed", "5"]);
+  const tab = await shown(url, { viewport: { width: 320, height: 640 } });
+  assert.equal(await tab.page.evaluate(() => document.documentElement.scrollWidth), 320);
+  const outside = await tab.page.evaluate(() => [...document.querySelectorAll("button, select, input, .stage")]
+    .filter((one) => one.checkVisibility())
+    .filter((one) => one.getBoundingClientRect().right > 320 || one.getBoundingClientRect().left < 0).map((one) => one.outerHTML));
+  assert.deepEqual(outside, []);
+});
