@@ -20,8 +20,8 @@ struct OptionSpec {
   void (*take)(Options& options, const std::string& value);
   const char* completes = "";  ///< what a value can be, see Command::completes
   bool list = false;           ///< several of them with "," between
-  bool hidden = false;         ///< for tests: no help and no completion names it
   const char* of = "";         ///< the one command that has it where others have one of the same name; empty: all others
+  bool hidden = false;         ///< for tests: no help and no completion names it
 };
 
 struct Command {

@@ -258,11 +258,10 @@ void take_picture(Options& o, const std::string& value) {
 std::vector<OptionSpec> preview_specs() {
   return {
       {"--output", 'o', "FILE", "picture to write: .png, .svg or .pdf; without it the terminal shows z", take_picture, "<files>", false,
-       false, "preview"},
-      {"--raw", 0, nullptr, "the raw frames, in place of z, amplitude and error", [](Options& o, const std::string&) { o.raw = true; }},
-      {"--theme", 0, "NAME", "look of the picture: dark, or light for papers (dark)", take_theme, "dark light", false, false, "preview"},
-      {"--scale", 0, "N", "N times as many pixels along each side; of SVG and PDF N times the size (1)", take_scale, "", false, false,
        "preview"},
+      {"--raw", 0, nullptr, "the raw frames, in place of z, amplitude and error", [](Options& o, const std::string&) { o.raw = true; }},
+      {"--theme", 0, "NAME", "look of the picture: dark, or light for papers (dark)", take_theme, "dark light", false, "preview"},
+      {"--scale", 0, "N", "N times as many pixels along each side; of SVG and PDF N times the size (1)", take_scale, "", false, "preview"},
   };
 }
 
@@ -317,7 +316,7 @@ std::vector<OptionSpec> view_specs() {
        [](Options& o, const std::string&) { o.view.embed = true; }},
       {"--rate", 0, "RATE", "frames a second: own (the camera's), max, or a number (own)", take_rate, "own max"},
       {"--test-hooks", 0, nullptr, "the page tells tests what it draws", [](Options& o, const std::string&) { o.view.test_hooks = true; },
-       "", false, true},
+       "", false, "", true},
   };
 }
 
