@@ -347,12 +347,12 @@ std::vector<OptionSpec> budget_specs() {
   return {
       {"--distance", 0, "LENGTHS", "distances of the wall: 2m, 0.5m,1m or 0.3m:5m:50 (50 of them) (0.5m,1m,2m,4m)",
        [](Options& o, const std::string& v) { add_distances("--distance", o, v); }},
-      {"--reflectivity", 0, "SHARES", "reflectivities of the wall: 10%,80% (20%,80%)", take_reflectivity, "", false, false, "budget"},
+      {"--reflectivity", 0, "SHARES", "reflectivities of the wall: 10%,80% (20%,80%)", take_reflectivity, "", false, "budget"},
       {"--ambient", 0, "LIGHTS", "light of the sun's spectrum on the wall: none,50klx,100% (of the standard sun) (none)", take_ambient, "",
-       false, false, "budget"},
+       false, "budget"},
       {"--angle", 0, "ANGLE", "the wall is turned by this about the camera's y (0deg: it faces the camera)", take_angle},
       {"--temperature", 0, "T", "temperature of the camera, in the place of the profile's: 60C", take_temperature},
-      {"--pixel", 0, "U,V", "the pixel at column U, row V of the image (that on the optical axis)", take_pixel, "", false, false, "budget"},
+      {"--pixel", 0, "U,V", "the pixel at column U, row V of the image (that on the optical axis)", take_pixel, "", false, "budget"},
       {"--auto-exposure", 0, nullptr, "integration times as the profile's auto_exposure leaves them of each wall",
        [](Options& o, const std::string&) { o.auto_exposure = true; }},
       {"--need", 0, "TEXT", "with --solve: the range noise that is needed, \"sigma 10mm at 3m, 10%, 50klx\"",
@@ -360,8 +360,7 @@ std::vector<OptionSpec> budget_specs() {
       {"--solve", 0, "KEY", "with --need: the key of the profile whose number is looked for, such as illumination.0.power",
        [](Options& o, const std::string& v) { o.solve = v; }, "<numbers>"},
       {"--csv", 0, nullptr, "a line of CSV for each row on stdout", [](Options& o, const std::string&) { o.csv = true; }},
-      {"--output", 'o', "FILE", "file to write: .csv or .json; without it a table on stdout", take_budget_file, "<files>", false, false,
-       "budget"},
+      {"--output", 'o', "FILE", "file to write: .csv or .json; without it a table on stdout", take_budget_file, "<files>", false, "budget"},
   };
 }
 
