@@ -7,7 +7,7 @@ import { accessSync, constants, mkdtempSync, readFileSync, rmSync, writeFileSync
 import { createRequire } from "node:module";
 import { connect, createServer } from "node:net";
 import { tmpdir } from "node:os";
-import { delimiter, join } from "node:path";
+import { delimiter, join, resolve } from "node:path";
 import { createInterface } from "node:readline";
 import { after } from "node:test";
 import { read_npz } from "./npz.mjs";
@@ -32,7 +32,7 @@ const { TOFRAY: tofray, TOFRAY_PAGE_PACKAGES: packages } = process.env;
 if (tofray === undefined || packages === undefined) throw new Error("TOFRAY and TOFRAY_PAGE_PACKAGES say what is tested: ctest -L browser sets both");
 const chromium = (process.env.PATH ?? "").split(delimiter).flatMap((folder) => ["chromium", "chromium-browser"].map((name) => join(folder, name))).find(is_program);
 if (chromium === undefined) skip("there is no chromium here, in which the viewer's page is looked at (Debian: chromium)");
-const require = createRequire(join(packages, "package.json"));
+const require = createRequire(resolve(packages, "package.json"));
 export const axe_source = readFileSync(require.resolve("axe-core/axe.min.js"), "utf8");
 
 const folder = mkdtempSync(join(tmpdir(), "tofray-browser-"));
