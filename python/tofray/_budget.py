@@ -11,7 +11,7 @@ from ._errors import BadInput
 from ._model import Ambient, AmbientCase
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Iterable
 
     from ._model import Camera
 
@@ -79,8 +79,8 @@ def _case(ambient: Any) -> AmbientCase:
     return AmbientCase(name=f"{ambient:g} lx", ambient=Ambient(spectrum="sun_am15", quantity="illuminance_lx", amount=float(ambient)))
 
 
-def budget(camera: Camera, distance_m: Sequence[float] = (0.5, 1.0, 2.0, 4.0), reflectivity: Sequence[float] = (0.2, 0.8),
-           ambient: Sequence[float | AmbientCase] = (0.0,), *, angle_rad: float = 0.0, temperature_celsius: float | None = None,
+def budget(camera: Camera, distance_m: Iterable[float] = (0.5, 1.0, 2.0, 4.0), reflectivity: Iterable[float] = (0.2, 0.8),
+           ambient: Iterable[float | AmbientCase] = (0.0,), *, angle_rad: float = 0.0, temperature_celsius: float | None = None,
            pixel: tuple[float, float] | None = None, auto_exposure: bool = False) -> Budget:
     """Expected light, charge and range noise of one pixel before a matt wall, and the noise's variance by cause.
 

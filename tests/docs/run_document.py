@@ -43,7 +43,7 @@ PROFILE_KEYS = ["{}={}", "illumination.0.{}={}", "lens.{}={}"]
 def words_of(source):
     """Every name that the source knows."""
     found = set()
-    for top in "include src apps python cmake packaging scenes profiles tools examples tests CMakeLists.txt CMakePresets.json .ci dev".split():
+    for top in "include src apps python cmake packaging scenes profiles tools examples tests viewer CMakeLists.txt CMakePresets.json .ci dev".split():
         for path in [source / top] if (source / top).is_file() else (source / top).rglob("*"):
             if path.is_file() and path.parent != source / "tests/docs":
                 found |= set(re.findall(r"[A-Za-z_]\w*", str(path.relative_to(source)) + path.read_text(errors="replace")))

@@ -13,7 +13,7 @@ import exceptions
 
 CHECKOUT = (
     ".ci CHANGELOG.md CMakeLists.txt CMakePresets.json CONTRIBUTING.md LICENSE README.md apps benches cmake docs examples include profiles "
-    "pyproject.toml python scenes src tests"
+    "pyproject.toml python scenes src tests viewer"
 ).split()
 LONGEST_S = 300
 
