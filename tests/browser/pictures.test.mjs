@@ -69,6 +69,8 @@ test("every pane of numbers has the colours of its own scale", async () => {
   for (const array of offered) {
     await choose(tab, 1, array);
     same((await pane(tab, 1)).pixels, expected(hello, scale_of(hello, array), [...arrays[array].values], arrays.flags.values), array);
+    const [bar, unit] = await Promise.all([".ramp", ".unit"].map((part) => tab.page.locator(".pane").nth(1).locator(part).boundingBox()));
+    assert.ok(bar.x + bar.width < unit.x && bar.width > 250, `${array}: the bar to ${bar.x + bar.width}, its unit from ${unit.x}`);
   }
 });
 

@@ -102,20 +102,31 @@ export async function proxy() {
   };
 }
 
+/** Waits for something that this program has seen, as the page's own functions wait. */
+export async function until(come, what) {
+  for (const end = performance.now() + 30_000; !come();) {
+    if (performance.now() > end) throw new Error(`waited 30 s for ${what}`);
+    await new Promise((again) => setTimeout(again, 20));
+  }
+}
+
 /** A tab of its own, without an earlier one's storage. @param before  what to do with the page first
  *  @return  the page, and what has happened in it so far */
 export async function open(url, { before, ...options } = {}) {
   const context = await browser.newContext({ viewport: { width: 1280, height: 900 }, ...options });
   const page = await context.newPage();
   await before?.(page);
-  const seen = { page, texts: [], asked: [], troubles: [], sockets: 0, requests: [], loads: 0 };
+  const seen = { page, texts: [], frames: [], asked: [], troubles: [], sockets: 0, requests: [], loads: 0 };
   page.on("console", (message) => ["error", "warning"].includes(message.type()) && seen.troubles.push(message.text()));
   page.on("pageerror", (error) => seen.troubles.push(String(error)));
   page.on("request", (request) => seen.requests.push(request.url()));
   page.on("load", () => ++seen.loads);
   page.on("websocket", (socket) => {
     ++seen.sockets;
-    socket.on("framereceived", ({ payload }) => typeof payload === "string" && seen.texts.push(JSON.parse(payload)));
+    socket.on("framereceived", ({ payload }) => {
+      if (typeof payload === "string") seen.texts.push(JSON.parse(payload));
+      else seen.frames.push(Number(payload.readBigUInt64LE(16)));
+    });
     socket.on("framesent", ({ payload }) => typeof payload === "string" && seen.asked.push(JSON.parse(payload)));
   });
   await page.addInitScript(() => {

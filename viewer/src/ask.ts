@@ -53,9 +53,9 @@ export function fault_arrived(of: Fault): void {
   if (of.id !== null && of.id === asked?.id) asked = undefined;
 }
 
+/** What is shown was chosen by the greeting, and so is asked for already. */
 export function opened_anew(): void {
   asked = undefined;
-  want();
   send({ type: "visible", visible: !document.hidden });
 }
 
