@@ -44,6 +44,9 @@ CUDA_LAUNCH = (r"<<<.*?>>>", "")
 # Measuring is cut short: the words are all read, fewer frames are timed.
 FEW_FRAMES = "--frames 2"
 
+# A viewer serves until somebody ends it: Ctrl-C after some seconds, which is a good end. One without its page says so (exit code 5).
+VIEW = "{{ timeout --preserve-status -s INT 3 {} || [[ $? == 5 ]]; }}"
+
 # Names in backticks that nothing in the source knows.
 UNKNOWN_NAMES = {
     "raduis": "misspelled on purpose",

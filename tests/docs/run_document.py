@@ -126,6 +126,8 @@ class Document:
         for line in text.split("\n"):
             if line.startswith("tofray bench") and "--frames" not in line:
                 line = line.replace("tofray bench", f"tofray bench {exceptions.FEW_FRAMES}", 1)
+            if re.match(r"tofray view( |$)", line):
+                line = exceptions.VIEW.format(line if "--port" in line else line + " --port 0")
             lines.append(line)
         return "\n".join(lines)
 

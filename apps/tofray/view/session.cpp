@@ -166,9 +166,8 @@ class Session::Impl {
   Frame frame_;
   std::vector<std::pair<std::string, Json>> scales_;  ///< by array, locked since the first frame or the last fit
   std::vector<Pane> panes_;
-  bool shown_ = false;    ///< the frame of the state has been published
-  bool at_once_ = true;   ///< the next one answers a change
-  bool ticking_ = false;  ///< it is the next one in time
+  bool shown_ = false;   ///< the frame of the state has been published
+  bool at_once_ = true;  ///< the next one answers a change
   Clock::time_point next_ = Clock::now();
   std::uint32_t sequence_ = 0;
   SessionCounts counts_;
