@@ -16,7 +16,7 @@
 #include "commands.h"
 #include "console.h"
 #include "files/json.h"
-#include "inputs.h"
+#include "requests.h"
 #include "load/load.h"
 #include "results/manifest.h"
 #include "tofray/error.h"

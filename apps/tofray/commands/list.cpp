@@ -9,7 +9,7 @@
 #include "commands.h"
 #include "console.h"
 #include "files/json.h"
-#include "input_kind.h"
+#include "run/input_kind.h"
 #include "load/builtin.h"
 #include "load/load.h"
 #include "load/material_library.h"
@@ -106,7 +106,7 @@ files::Json list_library(std::string& text) {
 files::Json list_materials_of(const std::string& scene_name, std::string& text) {
   files::Json json = files::Json::array();
   const NameChoice chosen = choose_scene(scene_name);
-  say(note_of(chosen));
+  say(run::note_of(chosen));
   for (const Material& one : load_scene(chosen.name).materials) {
     if (one.name.empty()) continue;
     text += fmt::format("{:<14} {}\n", one.name, load::numbers_of(one));

@@ -7,12 +7,13 @@
 #include <limits>
 #include <new>
 
-#include "arrays.h"
+#include "remarks.h"
+#include "requests.h"
+#include "results/file_arrays.h"
 #include "base/text.h"
 #include "base/version.h"
 #include "pictures/pictures.h"
-#include "pixel_bounces.h"
-#include "pixel_chain.h"
+#include "run/file_pixel.h"
 #include "pixel_report.h"
 #include "results/frame_file.h"
 #include "results/meta.h"
@@ -33,7 +34,7 @@ struct Whole {
   std::uint32_t generation = 0;
   std::uint64_t index = 0;
   Frame frame;
-  std::optional<app::Arrays> arrays;
+  std::optional<results::Arrays> arrays;
 };
 
 /// A simulator and the arrays that it computes.
@@ -116,7 +117,7 @@ class Session::Impl {
     mail_.stop = true, progress_.stop = true;
     changed_.notify_all();
   }
-  [[nodiscard]] std::string warnings() const { return app::warnings(state_.in); }
+  [[nodiscard]] std::string warnings() const { return app::texts(state_.in.remarks); }
 
   std::thread thread;
 
@@ -133,7 +134,7 @@ class Session::Impl {
   Simulator& simulator_of(Simulating& of, const std::vector<std::uint16_t>& arrays);
   bool computed(Simulating& of, const std::vector<std::uint16_t>& arrays, std::uint64_t index, Frame& into);
   const Whole* whole(std::uint64_t index);
-  const app::Arrays& arrays_of_whole();
+  const results::Arrays& arrays_of_whole();
   bool ready_to_greet();
   void greet(const std::vector<std::uint64_t>& clients);
   std::string hello() const;
@@ -323,10 +324,10 @@ const Whole* Session::Impl::whole(std::uint64_t index) {
   return &last_.emplace(std::move(fresh));
 }
 
-const app::Arrays& Session::Impl::arrays_of_whole() {
+const results::Arrays& Session::Impl::arrays_of_whole() {
   Whole& of = *last_;
   if (!of.arrays) {
-    const app::Inputs& in = state_.in;
+    const run::Loaded& in = state_.in;
     const std::string meta = results::frame_meta(in.scene, in.camera, app::simulator_options(state_.options), of.index);
     const std::string& name = state_.options.words[0];
     of.arrays.emplace(
@@ -375,10 +376,10 @@ void Session::Impl::answer(const Question& question) {
     const Whole* of = whole(index);
     if (of == nullptr)  // it comes again, unless a newer one does
       return post([&](Mail& later, Demand&) { return later.questions.emplace(question.client, question), false; });
-    const app::Arrays& arrays = arrays_of_whole();
-    app::refuse_outside(arrays, asked.u, asked.v);
-    app::FrameOrigin origin;
-    origin.in = state_.in, origin.wanted = app::simulator_options(state_.options);
+    const results::Arrays& arrays = arrays_of_whole();
+    const PixelChain chain = run::pixel_chain(arrays, asked.u, asked.v);
+    run::FrameOrigin origin;
+    origin.in = state_.in, origin.simulated = app::simulator_options(state_.options);
     const std::size_t pixel = static_cast<std::size_t>(asked.v) * arrays.width() + static_cast<std::size_t>(asked.u);
     Json values = Json::array();
     for (std::uint16_t i = 0; i < wire_arrays().size(); ++i) {
@@ -392,7 +393,7 @@ void Session::Impl::answer(const Question& question) {
     Json json = Json::object();
     json.set("type", "pixel").set("id", asked.id).set("u", asked.u).set("v", asked.v);
     json.set("generation", state_.generation).set("frame", index);
-    json.set("report", app::pixel_json(arrays, app::pixel_bounces(arrays, origin, asked.u, asked.v), asked.u, asked.v));
+    json.set("report", app::pixel_json(arrays, chain, run::pixel_bounces(arrays, origin, asked.u, asked.v)));
     json.set("values", std::move(values)).set("why", reason < 0 ? "" : pictures::flag_name(reason));
     out_->tell(question.client, files::json_text(json));
   });

@@ -6,6 +6,7 @@
 
 #include "base/readout.h"
 #include "load/builtin.h"
+#include "requests.h"
 #include "results/meta.h"
 #include "tofray/load.h"
 
@@ -40,7 +41,7 @@ State first_state(const app::Options& options) {
     state.options.set.insert(state.options.set.begin(), {{"camera.profile", scene}, {"camera.mode", camera.mode.name}});
     scene = "demo";
   }
-  state.in = app::load_inputs(scene, state.options);
+  state.in = run::load(app::input_request(scene, state.options));
   return state;
 }
 
@@ -61,7 +62,7 @@ State changed(const State& before, const Edit& edit) {
     else
       set.emplace_back(edit.key, *edit.text);
   }
-  state.in = app::load_inputs(state.options.words[0], state.options);
+  state.in = run::load(app::input_request(state.options.words[0], state.options));
   return state;
 }
 

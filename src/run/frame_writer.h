@@ -12,9 +12,9 @@
 #include <thread>
 #include <vector>
 
-#include "results.h"
+#include "run/frame_files.h"
 
-namespace tofray::app {
+namespace tofray::run {
 
 /// Writes the frames of a sequence while the next ones are computed, several at once. Frames and files lie in memory that goes round: there
 /// is no more of it than a few frames, and none for a frame that is too large to have several of.
@@ -59,9 +59,9 @@ class FrameWriter {
   // guarded by it:
   std::vector<Frame*> free_;
   std::deque<Task> waiting_;
-  std::map<std::uint64_t, std::vector<files::FileRecord>> written_;  ///< by frame
+  std::map<std::uint64_t, std::vector<FileRecord>> written_;  ///< by frame
   std::map<std::uint64_t, std::exception_ptr> failed_;
   bool stopping_ = false;
 };
 
-}  // namespace tofray::app
+}  // namespace tofray::run

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The tofray authors
 // SPDX-License-Identifier: Apache-2.0
-#include "mesh_view.h"
+#include "run/mesh_view.h"
 
 #include <fmt/core.h>
 
@@ -11,12 +11,12 @@
 #include <limits>
 #include <optional>
 
-#include "analysis/findings.h"
 #include "base/readout.h"
 #include "base/text.h"
+#include "base/units.h"
 #include "tofray/camera_report.h"
 
-namespace tofray::app {
+namespace tofray::run {
 
 namespace {
 
@@ -138,7 +138,7 @@ double rounded(double value, int digits) {
   return value;
 }
 
-std::string scaled_size(const MeshBox& box, double by) { return analysis::size_text(by * box.low, by * box.high); }
+std::string scaled_size(const MeshBox& box, double by) { return base::size_text(by * box.low, by * box.high); }
 
 constexpr double least_pixels = 60;  // of an estimate that may be twice what is seen: fewer show nothing of a shape
 
@@ -196,18 +196,19 @@ MeshView view_of_meshes(const Scene& scene, const Camera& camera, const std::str
   const Sight sight = sight_of(scene, view);
   const Reach reach = reach_of(scene, camera);
   const auto [distance, pixels] = scaled(sight, view, reach, 1);
-  MeshView out{{sight.middle + distance * sight.aside, sight.middle}, ""};
+  MeshView out{{sight.middle + distance * sight.aside, sight.middle}, {}};
   const bool small = pixels < least_pixels && distance > sight.whole_m, large = distance > reach.far_m;
   if (!small && !large) return out;
   const MeshBox box = box_round(scene);
-  out.warning = fmt::format("{}: warning: it measures {}, {}\n  {}\n", path, analysis::size_text(box.low, box.high),
-                            small ? fmt::format("and covers {}: nearer than {} this camera saturates",
-                                                pixels < 1 ? "less than a pixel" : fmt::format("{:.0f} pixels at most", std::ceil(pixels)),
-                                                metres_text(reach.near_m))
-                                  : fmt::format("and is seen whole from {} away: of reflectivity {:.2g} this camera has depth to some {}",
-                                                metres_text(distance), reach.reflectivity, metres_text(reach.far_m)),
-                            advice(sight, view, reach, box, std::get<Mesh>(scene.objects[0].shape).scale));
+  Remark remark{true, path, "", advice(sight, view, reach, box, std::get<Mesh>(scene.objects[0].shape).scale)};
+  remark.what = fmt::format(
+      "it measures {}, {}", base::size_text(box.low, box.high),
+      small ? fmt::format("and covers {}: nearer than {} this camera saturates",
+                          pixels < 1 ? "less than a pixel" : fmt::format("{:.0f} pixels at most", std::ceil(pixels)), metres_text(reach.near_m))
+            : fmt::format("and is seen whole from {} away: of reflectivity {:.2g} this camera has depth to some {}", metres_text(distance),
+                          reach.reflectivity, metres_text(reach.far_m)));
+  out.odd_size = std::move(remark);
   return out;
 }
 
-}  // namespace tofray::app
+}  // namespace tofray::run

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The tofray authors
 // SPDX-License-Identifier: Apache-2.0
-#include "mesh_scene.h"
+#include "run/mesh_scene.h"
 
 #include <fmt/core.h>
 
@@ -15,10 +15,10 @@
 #include "load/gltf_load.h"
 #include "load/mesh_load.h"
 #include "mesh/read_mesh.h"
-#include "mesh_view.h"
+#include "run/mesh_view.h"
 #include "tofray/load.h"
 
-namespace tofray::app {
+namespace tofray::run {
 
 namespace {
 
@@ -31,13 +31,13 @@ std::string point(const Vec3& p) {
 }
 
 /// The camera that looks at a mesh alone: what --set makes of the one that scenes have.
-Camera camera_of(const std::string& source, const Options& options) {
+Camera camera_of(const std::string& source, const InputRequest& request) {
   load::Settings of_camera;
-  for (const auto& one : options.set)
+  for (const auto& one : request.set)
     if (one.first.starts_with("camera.") && !one.first.starts_with("camera.pose") && !one.first.starts_with("camera.keyframes"))
       of_camera.push_back(one);
-  const Scene scene = load::scene_from_text("objects: []\n", source, of_camera, {options.root});
-  return load_camera(scene, {options.mode, {}, options.root});
+  const Scene scene = load::scene_from_text("objects: []\n", source, of_camera, {request.root});
+  return load_camera(scene, {request.mode, {}, request.root});
 }
 
 /// A scene is text in UTF-8, and so is a mesh's name in it.
@@ -52,8 +52,8 @@ void refuse_name(const std::string& path) {
 }
 
 /// Whether --set says where the camera stands.
-bool sets_pose(const Options& options) {
-  return std::any_of(options.set.begin(), options.set.end(),
+bool sets_pose(const InputRequest& request) {
+  return std::any_of(request.set.begin(), request.set.end(),
                      [](const auto& one) { return one.first.starts_with("camera.pose") || one.first.starts_with("camera.keyframes"); });
 }
 
@@ -74,23 +74,23 @@ bool is_called_like_a_mesh(const std::string& path) {
 
 std::string scene_name_of_mesh(const std::string& path) { return std::filesystem::path(path).replace_extension(".yaml").string(); }
 
-MeshScene scene_of_mesh(const std::string& path, const std::string& source, const Options& options) {
+MeshScene scene_of_mesh(const std::string& path, const std::string& source, const InputRequest& request) {
   MeshScene out;
   refuse_name(path);
   // What --set makes of the mesh, so that its scale and its axes count; the rest of the scene is not there yet.
   load::Settings of_mesh;
-  for (const auto& one : options.set)
+  for (const auto& one : request.set)
     if (one.first.starts_with("objects.0.mesh.") || one.first == "world_up") of_mesh.push_back(one);
   std::string unread;
-  const bool own_materials = load::has_own_materials(std::filesystem::path(path).filename().string(), source, options.root, &unread);
+  const bool own_materials = load::has_own_materials(std::filesystem::path(path).filename().string(), source, request.root, &unread);
   if (!unread.empty())
-    out.warnings += fmt::format(
-        "{}: warning: {} cannot be read: {}; the mesh is grey, of reflectivity 0.5\n"
-        "  put the file beside the mesh, or say another reflectivity: --set objects.0.mesh.reflectivity=0.3\n",
-        path, mesh::suffix_of(path) == ".ply" ? "its picture (comment TextureFile)" : "its file of materials (mtllib)",
-        base::in_quotes(unread));
-  const Scene alone = load::scene_from_text(text_of(path, own_materials, ""), source, of_mesh, {options.root});
-  const std::optional<Pose> own = load::camera_in(std::get<Mesh>(alone.objects[0].shape), source, options.root, alone.world_up);
+    out.remarks.push_back({true, path,
+                           fmt::format("{} cannot be read: {}; the mesh is grey, of reflectivity 0.5",
+                                       mesh::suffix_of(path) == ".ply" ? "its picture (comment TextureFile)" : "its file of materials (mtllib)",
+                                       base::in_quotes(unread)),
+                           "put the file beside the mesh, or say another reflectivity: --set objects.0.mesh.reflectivity=0.3"});
+  const Scene alone = load::scene_from_text(text_of(path, own_materials, ""), source, of_mesh, {request.root});
+  const std::optional<Pose> own = load::camera_in(std::get<Mesh>(alone.objects[0].shape), source, request.root, alone.world_up);
   // A file with a camera is a scene of its own: a second floor would lie in the first.
   if (own) {
     out.text = text_of(path, own_materials,
@@ -99,9 +99,9 @@ MeshScene scene_of_mesh(const std::string& path, const std::string& source, cons
     return out;
   }
   const MeshBox box = box_round(alone);
-  const MeshView view = view_of_meshes(alone, camera_of(source, options), path);
-  out.told_size = !view.warning.empty() && !sets_pose(options);
-  if (out.told_size) out.warnings += view.warning;
+  const MeshView view = view_of_meshes(alone, camera_of(source, request), path);
+  out.told_size = view.odd_size && !sets_pose(request);
+  if (out.told_size) out.remarks.push_back(*view.odd_size);
   // A little below the mesh: what of it is flat and lies lowest would lie in the floor.
   constexpr double gap = 1e-3;
   const Vec3 up = in_world({0, -1, 0}, alone.world_up);
@@ -115,4 +115,4 @@ MeshScene scene_of_mesh(const std::string& path, const std::string& source, cons
   return out;
 }
 
-}  // namespace tofray::app
+}  // namespace tofray::run

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The tofray authors
 // SPDX-License-Identifier: Apache-2.0
-#include "arrays.h"
+#include "results/file_arrays.h"
 
 #include <fmt/core.h>
 
@@ -11,7 +11,7 @@
 #include "results/array_table.h"
 #include "tofray/error.h"
 
-namespace tofray::app {
+namespace tofray::results {
 
 Arrays::Arrays(std::vector<files::NamedArray> arrays, std::string where) : where_(std::move(where)), arrays_(std::move(arrays)) {
   if (const files::NpyArray* meta = find("meta"); meta != nullptr && meta->type.kind == 'U') {
@@ -21,7 +21,7 @@ Arrays::Arrays(std::vector<files::NamedArray> arrays, std::string where) : where
   if (const files::NpyArray* flags = find("flags"); flags != nullptr && flags->type.kind != 'u' && flags->type.kind != 'i')
     throw Error(ErrorKind::bad_input, fmt::format("{}: error: array \"flags\" has the wrong type\n  got {}, expected uint16",
                                                   base::printable(where_), flags->type.name()));
-  for (const results::ArrayRow& row : results::array_table()) {
+  for (const ArrayRow& row : array_table()) {
     const files::NpyArray* array = row.is_image() ? find(row.name) : nullptr;
     if (array == nullptr || array->shape.size() != static_cast<std::size_t>(1 + std::count(row.shape.begin(), row.shape.end(), ',')))
       continue;
@@ -59,8 +59,8 @@ std::string Arrays::unit(const std::string& name) const {
   const files::Json* units = meta_.find("units");
   const files::Json* found = units == nullptr ? nullptr : units->find(name);
   if (found != nullptr && found->is_string()) return *found->string();
-  const results::ArrayRow* known = results::find_array(name);
+  const ArrayRow* known = find_array(name);
   return known == nullptr ? "" : known->unit;
 }
 
-}  // namespace tofray::app
+}  // namespace tofray::results

@@ -6,10 +6,10 @@
 #include <vector>
 
 #include "files/output_folder.h"
-#include "remarks.h"
 #include "results/manifest.h"
+#include "tofray/run.h"
 
-namespace tofray::app {
+namespace tofray::run {
 
 /// Files that earlier runs wrote into a folder, as the manifest.json that lies there says: they would be read together with this run's.
 class EarlierFiles {
@@ -20,10 +20,10 @@ class EarlierFiles {
   /// Once this run has written all but its manifest: tells of those that it has not replaced, or removes them. Those that stay go into
   /// the manifest, for the next run. Parts of one run (--first-frame) belong together: nothing is told of them.
   /// @param clean  whether they are removed: only what is a plain file of the size that is known, and not after an interruption
-  void settle(const files::OutputFolder& folder, bool clean, results::Manifest& now, Remarks& remarks);
+  std::vector<Remark> settle(const files::OutputFolder& folder, bool clean, results::Manifest& now) const;
 
  private:
   std::optional<results::Manifest> before_;
 };
 
-}  // namespace tofray::app
+}  // namespace tofray::run

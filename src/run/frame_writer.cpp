@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: 2026 The tofray authors
 // SPDX-License-Identifier: Apache-2.0
-#include "frame_writer.h"
+#include "run/frame_writer.h"
 
 #include <algorithm>
 #include <system_error>
 
-namespace tofray::app {
+namespace tofray::run {
 
 namespace {
 
@@ -70,7 +70,7 @@ void FrameWriter::write(const std::string& suffix) {
 
 /// Writes a frame and gives its memory back.
 void FrameWriter::done(const Task& task, std::string& file) {
-  std::vector<files::FileRecord> records;
+  std::vector<FileRecord> records;
   std::exception_ptr failure;
   try {
     records = write_frame(folder_, what_, task.suffix, *task.frame, file);
@@ -113,10 +113,10 @@ void FrameWriter::stop() {
 void FrameWriter::finish() {
   stop();
   for (const auto& [frame, records] : written_) {
-    for (const files::FileRecord& record : records) folder_.add(record);
+    for (const FileRecord& record : records) folder_.add(record);
   }
   written_.clear();
   if (!failed_.empty()) std::rethrow_exception(failed_.begin()->second);
 }
 
-}  // namespace tofray::app
+}  // namespace tofray::run

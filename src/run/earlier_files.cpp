@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The tofray authors
 // SPDX-License-Identifier: Apache-2.0
-#include "earlier_files.h"
+#include "run/earlier_files.h"
 
 #include <fmt/core.h>
 
@@ -11,12 +11,11 @@
 #include "base/text.h"
 #include "tofray/error.h"
 
-namespace tofray::app {
+namespace tofray::run {
 
 namespace {
 
 namespace fs = std::filesystem;
-using files::FileRecord;
 
 constexpr const char* manifest_name = "manifest.json";
 
@@ -69,8 +68,8 @@ EarlierFiles::EarlierFiles(const fs::path& folder) {
   }
 }
 
-void EarlierFiles::settle(const files::OutputFolder& folder, bool clean, results::Manifest& now, Remarks& remarks) {
-  if (!before_) return;
+std::vector<Remark> EarlierFiles::settle(const files::OutputFolder& folder, bool clean, results::Manifest& now) const {
+  if (!before_) return {};
   std::set<std::string> known;
   for (const FileRecord& file : folder.files()) known.insert(file.name);
   std::vector<FileRecord> left, removed, changed;
@@ -91,15 +90,19 @@ void EarlierFiles::settle(const files::OutputFolder& folder, bool clean, results
   now.earlier_files = left;
   now.earlier_files.insert(now.earlier_files.end(), changed.begin(), changed.end());
   const std::string where = folder.path().native();
+  std::vector<Remark> out;
   if (!removed.empty())
-    remarks.tell(fmt::format("note: {} of an earlier run removed from {}: {}\n", count_of(removed.size()), where, names_of(removed)));
+    out.push_back({false, "", fmt::format("{} of an earlier run removed from {}: {}", count_of(removed.size()), where, names_of(removed)), ""});
   if (!changed.empty())
-    remarks.tell(fmt::format("warning: {} of an earlier run stay{} in {}: {}\n  --clean removes what is as that run wrote it\n",
-                             count_of(changed.size()), changed.size() == 1 ? "s" : "", where, names_of(changed)));
+    out.push_back({true, "",
+                   fmt::format("{} of an earlier run stay{} in {}: {}", count_of(changed.size()), changed.size() == 1 ? "s" : "", where,
+                               names_of(changed)),
+                   "--clean removes what is as that run wrote it"});
   if (!left.empty() && !parts_of_one_run(*before_, now))
-    remarks.tell(
-        fmt::format("warning: {} of an earlier run lie{} in {}: {}\n  who reads the whole folder mixes two runs; --clean removes them\n",
-                    count_of(left.size()), left.size() == 1 ? "s" : "", where, names_of(left)));
+    out.push_back({true, "",
+                   fmt::format("{} of an earlier run lie{} in {}: {}", count_of(left.size()), left.size() == 1 ? "s" : "", where, names_of(left)),
+                   "who reads the whole folder mixes two runs; --clean removes them"});
+  return out;
 }
 
-}  // namespace tofray::app
+}  // namespace tofray::run

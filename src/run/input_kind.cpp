@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The tofray authors
 // SPDX-License-Identifier: Apache-2.0
-#include "input_kind.h"
+#include "run/input_kind.h"
 
 #include <fmt/core.h>
 
@@ -16,7 +16,7 @@
 #include "tofray/error.h"
 #include "yaml/tree.h"
 
-namespace tofray::app {
+namespace tofray::run {
 
 namespace {
 
@@ -154,4 +154,4 @@ NameChoice frame_or_scene(const std::string& typed, const char* command) {
 
 std::string note_of(const NameChoice& choice) { return choice.note.empty() ? "" : "note: " + choice.note + "\n"; }
 
-}  // namespace tofray::app
+}  // namespace tofray::run

@@ -7,7 +7,7 @@
 #include "files/json.h"
 #include "files/npz.h"
 
-namespace tofray::app {
+namespace tofray::results {
 
 /// The arrays of one file, by name, and what `meta` says about them.
 class Arrays {
@@ -45,4 +45,4 @@ Arrays read_arrays(const std::string& path);
 /// A pixel's flags out of the number that a file holds; 0 where it holds none.
 unsigned flag_bits(double number);
 
-}  // namespace tofray::app
+}  // namespace tofray::results

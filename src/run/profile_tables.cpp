@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The tofray authors
 // SPDX-License-Identifier: Apache-2.0
-#include "profile_tables.h"
+#include "run/profile_tables.h"
 
 #include <algorithm>
 #include <string_view>
@@ -14,13 +14,13 @@
 #include "yaml/settings.h"
 #include "yaml/tree.h"
 
-namespace tofray::app {
+namespace tofray::run {
 
 namespace {
 
 using yaml::Node;
 
-Node changed_profile(const results::InputFile& profile, const std::vector<Override>& overrides) {
+Node changed_profile(const InputFile& profile, const std::vector<Override>& overrides) {
   Node root = yaml::parse_tree(profile.text, profile.name);
   for (const Override& one : overrides) {
     const base::Place place = base::whole(one.where.empty() ? "camera." + one.key : one.where);
@@ -57,9 +57,9 @@ std::string rows_text(const std::string& text) {
 
 }  // namespace
 
-std::vector<results::InputFile> profile_tables(const results::InputFile& profile, const std::string& folder,
+std::vector<InputFile> profile_tables(const InputFile& profile, const std::string& folder,
                                                const std::vector<Override>& overrides) {
-  std::vector<results::InputFile> tables;
+  std::vector<InputFile> tables;
   Node root = changed_profile(profile, overrides);
   for_each_table(root, "", [&](const Node& map, const std::string&) {
     const std::string& name = map.find("file")->text;
@@ -69,10 +69,10 @@ std::vector<results::InputFile> profile_tables(const results::InputFile& profile
   return tables;
 }
 
-std::string profile_with_tables(const results::InputFile& profile, const std::vector<Override>& overrides,
-                                const std::vector<results::InputFile>& tables) {
-  std::unordered_map<std::string_view, const results::InputFile*> known;
-  for (const results::InputFile& one : tables)
+std::string profile_with_tables(const InputFile& profile, const std::vector<Override>& overrides,
+                                const std::vector<InputFile>& tables) {
+  std::unordered_map<std::string_view, const InputFile*> known;
+  for (const InputFile& one : tables)
     if (one.role == "table") known.emplace(one.name, &one);
   std::size_t bytes = 0;
   Node root = changed_profile(profile, overrides);
@@ -99,4 +99,4 @@ std::string profile_with_tables(const results::InputFile& profile, const std::ve
   return yaml::flow_text(root);
 }
 
-}  // namespace tofray::app
+}  // namespace tofray::run

@@ -9,7 +9,7 @@
 #include "tofray/load.h"
 
 /// Files given to a command that takes others: what they are, and which command fits.
-namespace tofray::app {
+namespace tofray::run {
 
 /// Refuses a file that is called like a mesh or a cloud of points of a format that is not read.
 /// @throws Error (bad_input) that says what it is, which formats are read, and what makes one of them of it
@@ -58,4 +58,4 @@ NameChoice frame_or_scene(const std::string& typed, const char* command);
 /// A note of choose_scene() and others as it is said; nothing where there is none.
 std::string note_of(const NameChoice& choice);
 
-}  // namespace tofray::app
+}  // namespace tofray::run

@@ -1,48 +1,32 @@
 // SPDX-FileCopyrightText: 2026 The tofray authors
 // SPDX-License-Identifier: Apache-2.0
-#include "pixel_chain.h"
-
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <cmath>
 
+#include "analysis/pixel_arrays.h"
 #include "base/calibration.h"
 #include "base/constants.h"
 #include "base/readout.h"
 #include "base/text.h"
 #include "camera/frozen_camera.h"
 #include "depth/decode.h"
-#include "results.h"
-#include "results/meta.h"
-#include "results/meta_camera.h"
 #include "simulator/check.h"
 #include "tofray/error.h"
-#include "tofray/load.h"
+#include "tofray/pixel.h"
 
-namespace tofray::app {
+namespace tofray {
 
 namespace {
 
-std::array<double, 3> triple(const Arrays& arrays, const char* name, std::size_t pixel) {
+std::array<double, 3> triple(const PixelArrays& arrays, const char* name, std::size_t pixel) {
   return {arrays.at(name, 3 * pixel), arrays.at(name, 3 * pixel + 1), arrays.at(name, 3 * pixel + 2)};
 }
 
-/// What the scene in `meta` calls object number `index`.
-std::string name_of_object(const Arrays& arrays, long index) {
-  const files::Json* scene = arrays.meta().find("scene");
-  const files::Json* objects = scene == nullptr ? nullptr : scene->find("objects");
-  if (objects == nullptr || !objects->is_array() || index < 0 || static_cast<std::size_t>(index) >= objects->items()->size()) return {};
-  for (const char* key : {"name", "shape"}) {
-    const files::Json* found = (*objects->items())[static_cast<std::size_t>(index)].find(key);
-    if (found != nullptr && found->is_string() && !found->string()->empty()) return *found->string();
-  }
-  return {};
-}
-
-void read_truth(const Arrays& arrays, std::size_t pixel, PixelChain& out) {
+void read_truth(const PixelArrays& arrays, std::size_t pixel, PixelChain& out) {
   const double object = arrays.at("gt_object_id", pixel);
-  out.object = std::abs(object) < 1e9 ? std::lround(object) : -1;
-  out.object_name = name_of_object(arrays, out.object);
+  out.object = std::abs(object) < 1e9 ? std::llround(object) : -1;
   out.true_range_m = arrays.at("gt_range_m", pixel), out.true_z_m = arrays.at("gt_z_m", pixel);
   out.reflectivity = arrays.at("gt_reflectivity", pixel);
   out.object_share = arrays.at("gt_object_share", pixel), out.mixed = arrays.at("gt_mixed", pixel);
@@ -55,21 +39,13 @@ void read_truth(const Arrays& arrays, std::size_t pixel, PixelChain& out) {
   out.power_w = arrays.at("gt_power_w", pixel);
 }
 
-double meta_number(const Arrays& arrays, const char* section, const char* key, double otherwise) {
-  const files::Json* camera = arrays.meta().find("camera");
-  const files::Json* group = camera == nullptr ? nullptr : camera->find(section);
-  const files::Json* found = group == nullptr ? nullptr : group->find(key);
-  double value = otherwise;
-  if (found != nullptr) found->number(value);
-  return value;
-}
-
-void read_raw_frames(const Arrays& arrays, std::size_t pixel, PixelChain& out) {
-  const std::size_t pixels = arrays.width() * arrays.height();
-  const double step = meta_number(arrays, "adc", "step_e_per_dn", std::nan("")) / meta_number(arrays, "mode", "gain", 1),
-               mid = meta_number(arrays, "adc", "mid_code", std::nan(""));
-  const double most = step * (std::exp2(meta_number(arrays, "adc", "bits", std::nan(""))) - 1 - mid);
-  for (std::size_t k = 0; k < arrays.phases(); ++k) {
+/// @param camera  none: nobody knows what a code amounts to
+void read_raw_frames(const PixelArrays& arrays, const Camera* camera, bool noise_free, std::size_t pixel, PixelChain& out) {
+  const std::size_t pixels = static_cast<std::size_t>(arrays.width) * static_cast<std::size_t>(arrays.height);
+  const double step = camera == nullptr ? std::nan("") : camera->adc.step_e_per_dn / camera->mode.gain,
+               mid = camera == nullptr ? std::nan("") : camera->adc.mid_code;
+  const double most = camera == nullptr ? std::nan("") : step * (std::exp2(camera->adc.bits) - 1 - mid);
+  for (std::size_t k = 0; k < static_cast<std::size_t>(arrays.phases); ++k) {
     const std::size_t at = k * pixels + pixel;
     ChainRawFrame one;
     one.lit = arrays.at("lit", k) != 0;
@@ -81,19 +57,17 @@ void read_raw_frames(const Arrays& arrays, std::size_t pixel, PixelChain& out) {
     one.tap_a_e = arrays.at("tap_a", at), one.tap_b_e = arrays.at("tap_b", at), one.code_dn = arrays.at("raw", at);
     one.difference_e = step * (one.code_dn - mid);
     // Without codes, or without noise, depth takes the taps without rounding, as far as codes would reach. (fmin and fmax pass over NaN.)
-    if (!std::isfinite(one.difference_e) || results::is_noise_free(arrays.meta())) {
+    if (!std::isfinite(one.difference_e) || noise_free) {
       one.difference_e = std::fmax(std::fmin(one.tap_a_e - one.tap_b_e, most), -step * mid);
     }
     out.raw_frames.push_back(one);
   }
 }
 
-/// What decodes the arrays: the camera in `meta`; where there is none, any with their raw frames, whose phases it can estimate, too.
-Camera camera_of(const Arrays& arrays, const PixelChain& chain) {
-  if (arrays.meta().find("camera") != nullptr) return results::camera_of_meta(arrays.meta_text(), arrays.where());
-  Camera any = load_camera("pico-flexx");
-  any.sensor.width = static_cast<int>(arrays.width()), any.sensor.height = static_cast<int>(arrays.height());
-  any.mode.sequence.clear();
+/// What decodes arrays of which nobody knows the camera: any with their raw frames, whose phases it can estimate, too.
+Camera any_camera(const PixelArrays& arrays, const PixelChain& chain) {
+  Camera any;
+  any.sensor.width = arrays.width, any.sensor.height = arrays.height;
   for (const ChainRawFrame& k : chain.raw_frames)
     any.mode.sequence.push_back({k.lit, k.modulation_frequency_hz, k.reference_phase_rad, k.integration_time_s});
   return any;
@@ -141,62 +115,79 @@ void calibrate(const camera::DecoderView& d, std::size_t pixel, PixelChain& chai
   }
 }
 
-void read_depth(const Arrays& arrays, std::size_t pixel, PixelChain& out) {
+void read_depth(const PixelArrays& arrays, const Camera* camera, std::size_t pixel, PixelChain& out) {
   out.range_m = arrays.at("range_m", pixel), out.z_m = arrays.at("z_m", pixel), out.noise_m = arrays.at("noise_m", pixel);
   out.amplitude_e = arrays.at("amplitude_e", pixel), out.ambient_e = arrays.at("ambient_e", pixel),
   out.confidence = arrays.at("confidence", pixel);
-  out.noise_threshold_m = meta_number(arrays, "decoding", "noise_threshold_m", std::nan(""));
+  out.noise_threshold_m = camera == nullptr ? std::nan("") : camera->decoding.noise_threshold_m;
   out.point_m = triple(arrays, "points_m", pixel);
   const double flags = arrays.at("flags", pixel);
-  const unsigned bits = flag_bits(flags);
-  for (std::size_t bit = 0; bit < flag_names().size(); ++bit) {
-    if ((bits >> bit & 1u) != 0) out.flags.push_back(flag_names()[bit]);
-  }
+  out.flags = flags >= 0 && flags <= 65535 ? static_cast<unsigned>(flags) : 0u;
+}
+
+/// One array of a frame; NaN beyond its end.
+template <class Values>
+double element(const Values& values, std::size_t i) {
+  return i < values.size() ? static_cast<double>(values[i]) : std::nan("");
 }
 
 }  // namespace
 
-void refuse_outside(const Arrays& arrays, int u, int v) {
-  if (arrays.width() == 0)
-    throw Error(
-        ErrorKind::bad_input,
-        arrays.where() +
-            ": error: there is no image in this file\n  expected raw, z_m or another array with pixels; `tofray list arrays` has them all");
-  if (static_cast<std::size_t>(u) >= arrays.width() || static_cast<std::size_t>(v) >= arrays.height())
-    throw Error(ErrorKind::bad_input,
-                fmt::format("error: pixel {},{} is outside the image\n  expected a column of 0 to {} and a row of 0 to {}", u, v,
-                            arrays.width() - 1, arrays.height() - 1));
+PixelArrays pixel_arrays(const Frame& frame) {
+  PixelArrays out;
+  out.width = frame.depth.width > 0 ? frame.depth.width : frame.raw.width > 0 ? frame.raw.width : frame.truth.width;
+  out.height = frame.depth.width > 0 ? frame.depth.height : frame.raw.width > 0 ? frame.raw.height : frame.truth.height;
+  out.phases = static_cast<int>(frame.raw.lit.size());
+  out.at = [&frame](std::string_view name, std::size_t i) -> double {
+#define TOFRAY_ELEMENT(row, part, member, ...) \
+  if (name == #row) return element(frame.part.member, i);
+    TOFRAY_FRAME_ARRAYS(TOFRAY_ELEMENT)
+#undef TOFRAY_ELEMENT
+    return std::nan("");
+  };
+  return out;
 }
 
-PixelChain pixel_chain(const Arrays& arrays, int u, int v) {
-  refuse_outside(arrays, u, v);
-  const std::size_t pixel = static_cast<std::size_t>(v) * arrays.width() + static_cast<std::size_t>(u);
+std::size_t analysis::pixel_index(const PixelArrays& arrays, int u, int v, const std::string& where) {
+  if (arrays.width <= 0 || arrays.height <= 0)
+    throw Error(ErrorKind::bad_input, where + ": error: there is no image in it\n  expected raw, z_m or another array with pixels; "
+                                              "`tofray list arrays` has them all");
+  if (u < 0 || v < 0 || u >= arrays.width || v >= arrays.height)
+    throw Error(ErrorKind::bad_input,
+                fmt::format("error: pixel {},{} is outside the image\n  expected a column of 0 to {} and a row of 0 to {}", u, v,
+                            arrays.width - 1, arrays.height - 1));
+  return static_cast<std::size_t>(v) * static_cast<std::size_t>(arrays.width) + static_cast<std::size_t>(u);
+}
+
+PixelChain pixel_chain(const PixelArrays& arrays, const Camera* camera, bool noise_free, int u, int v, const std::string& where) {
+  const std::size_t pixel = analysis::pixel_index(arrays, u, v, where);
   PixelChain chain;
   chain.u = u, chain.v = v;
   read_truth(arrays, pixel, chain);
-  read_raw_frames(arrays, pixel, chain);
-  read_depth(arrays, pixel, chain);
+  read_raw_frames(arrays, camera, noise_free, pixel, chain);
+  read_depth(arrays, camera, pixel, chain);
   if (chain.raw_frames.empty()) return chain;
-  const bool known = arrays.meta().find("camera") != nullptr;
-  const Camera profile = camera_of(arrays, chain);
+  const Camera profile = camera == nullptr ? any_camera(arrays, chain) : *camera;
   const Sensor image = base::as_read_out(profile).sensor;
-  if (static_cast<std::size_t>(image.width) != arrays.width() || static_cast<std::size_t>(image.height) != arrays.height() ||
-      profile.mode.sequence.size() != chain.raw_frames.size())
-    throw Error(
-        ErrorKind::bad_input,
-        fmt::format("{}: error: the camera in meta is not the one of the arrays\n  got an image of {} x {} pixels with {} raw frames, "
-                    "and arrays of {} x {} pixels with {}",
-                    base::printable(arrays.where()), image.width, image.height, profile.mode.sequence.size(), arrays.width(),
-                    arrays.height(), chain.raw_frames.size()));
+  if (image.width != arrays.width || image.height != arrays.height || profile.mode.sequence.size() != chain.raw_frames.size())
+    throw Error(ErrorKind::bad_input,
+                fmt::format("{}: error: the camera is not the one of the arrays\n  got an image of {} x {} pixels with {} raw frames, "
+                            "and arrays of {} x {} pixels with {}",
+                            base::printable(where), image.width, image.height, profile.mode.sequence.size(), arrays.width, arrays.height,
+                            chain.raw_frames.size()));
   try {
-    if (!known) simulator::check(profile);  // its raw frames come from arrays that anybody can write
+    if (camera == nullptr) simulator::check(profile);  // its raw frames come from arrays that anybody can write
     const camera::FrozenCamera frozen(base::with_offsets(profile), true, 0);
     estimate_phases(frozen.decoder(), chain);
-    if (known) calibrate(frozen.decoder(), pixel, chain);
+    if (camera != nullptr) calibrate(frozen.decoder(), pixel, chain);
   } catch (const Error&) {
-    if (known) throw;  // without a camera: raw frames of which nobody can tell phases
+    if (camera != nullptr) throw;  // without a camera: raw frames of which nobody can tell phases
   }
   return chain;
 }
 
-}  // namespace tofray::app
+PixelChain pixel_chain(const Frame& frame, const Camera& camera, int u, int v, Noise noise) {
+  return pixel_chain(pixel_arrays(frame), &camera, noise == Noise::off, u, v);
+}
+
+}  // namespace tofray
