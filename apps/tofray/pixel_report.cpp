@@ -78,13 +78,13 @@ std::string bounce_name(const BounceShare& one) {
 /// What each bounce brings; an element of `bounces` may be several.
 std::string bounces_text(const PixelChain& p, const PixelBounces& bounces) {
   if (!bounces.unknown.empty()) return fmt::format("bounces     one by one unknown: {}\n", bounces.unknown);
-  if (bounces.list.empty()) return {};
+  if (bounces.shares.empty()) return {};
   const std::vector<std::size_t> frequencies = first_of_each_frequency(p);
   std::string text = fmt::format("bounces   {:>10}", "light %");
   for (const std::size_t k : frequencies)
     text += fmt::format(" {:>16}", fmt::format("mm at {:.6g} MHz", 1e-6 * p.raw_frames[k].modulation_frequency_hz));
   text += "\n";
-  for (const BounceShare& one : bounces.list) {
+  for (const BounceShare& one : bounces.shares) {
     text += fmt::format("{:>9} {:>10.3f}", bounce_name(one), 100 * one.share);
     if (one.last > 0)
       for (const std::size_t k : frequencies) text += fmt::format(" {:>16}", shown("{:+.2f}", 1e3 * one.multipath_m[k]));
@@ -123,7 +123,7 @@ std::string phase_text(const PixelChain& p) {
 
 std::string depth_text(const PixelChain& p, const results::Arrays& arrays) {
   std::string flags;
-  for (const std::string& one : names_of_flags(p.flags)) flags += (flags.empty() ? "" : ", ") + one;
+  for (const std::string& one : names_of_flags(static_cast<unsigned>(p.flags))) flags += (flags.empty() ? "" : ", ") + one;
   const bool none = std::isnan(p.range_m) && arrays.find("range_m") != nullptr;
   std::string text = fmt::format("depth       none{}{}\n", flags.empty() ? "" : ": ", flags);
   if (none && std::isfinite(p.noise_m)) {
@@ -198,7 +198,7 @@ files::Json phases_json(const PixelChain& p) {
 files::Json bounces_json(const PixelBounces& bounces) {
   if (!bounces.unknown.empty()) return {};
   files::Json list = files::Json::array();
-  for (const BounceShare& one : bounces.list) {
+  for (const BounceShare& one : bounces.shares) {
     files::Json json = files::Json::object();
     json.set("first", one.first).set("last", one.last).set("share", one.share);
     list.push(std::move(json.set("electrons_e", files::Json::list(one.electrons)).set("multipath_m", files::Json::list(one.multipath_m))));
@@ -230,7 +230,7 @@ files::Json pixel_json(const results::Arrays& arrays, const PixelChain& p, const
   depth.set("amplitude_e", p.amplitude_e)
       .set("ambient_e", p.ambient_e)
       .set("confidence", p.confidence)
-      .set("flags", files::Json::list(names_of_flags(p.flags)));
+      .set("flags", files::Json::list(names_of_flags(static_cast<unsigned>(p.flags))));
   files::Json json = files::Json::object();
   json.set("file", arrays.where()).set("pixel", files::Json::list(std::array{p.u, p.v})).set("truth", std::move(truth));
   json.set("raw_frames", raw_json(p)).set("bounces", bounces_json(bounces));

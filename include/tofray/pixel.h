@@ -63,7 +63,7 @@ struct PixelChain {
   std::vector<ChainPhase> phases;  ///< one for each modulation frequency
   double range_m = 0, z_m = 0, noise_m = 0, noise_threshold_m = 0, amplitude_e = 0, ambient_e = 0, confidence = 0;
   std::array<double, 3> point_m{};
-  unsigned flags = 0;  ///< bits of Flag
+  int flags = 0;  ///< bits of Flag
 };
 
 /// @param camera      that made the frame; none: phases are estimated without its calibration, and nothing is unwrapped
@@ -85,7 +85,7 @@ struct BounceShare {
 /// One pixel's light, bounce by bounce. Light paths are chosen by pixel, bounce and sample alone, so that frames with fewer bounces follow
 /// the beginnings of the same paths: what a bounce adds is the difference of two frames, without error of chance between them.
 struct PixelBounces {
-  std::vector<BounceShare> list;  ///< direct light first; together gt_direct_e + gt_indirect_e and gt_multipath_m; may be empty
+  std::vector<BounceShare> shares;  ///< direct light first; together gt_direct_e + gt_indirect_e and gt_multipath_m; may be empty
   std::string unknown;            ///< why it is empty although light bounced
 };
 

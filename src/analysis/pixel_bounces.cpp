@@ -68,17 +68,17 @@ PixelBounces pixel_bounces(const PixelArrays& arrays, std::uint64_t index, const
   const auto add = [&](int first, int last, const Light& upto, const Light& before) {
     BounceShare one{first, last, 0, difference(upto.indirect_e, before.indirect_e), difference(upto.multipath_m, before.multipath_m)};
     one.share = sum(one.electrons) / total;
-    out.list.push_back(one);
+    out.shares.push_back(one);
   };
   Light before{all.direct_e, std::vector<double>(all.direct_e.size(), 0), no_multipath(all)};
-  out.list.push_back({0, 0, sum(all.direct_e) / total, before.direct_e, before.multipath_m});
+  out.shares.push_back({0, 0, sum(all.direct_e) / total, before.direct_e, before.multipath_m});
   Scene scene = of;
   scene.transport.transient = {};
   const int most = scene.transport.bounces;
   // Where pixels had ways until they were enough, those of other bounces would be others: this pixel's number for all of them.
   const bool goes_on = scene.transport.max_samples > 0;
   const double ways = arrays.at("gt_path_count", pixel);
-  if (goes_on && !(ways >= 1)) return {{}, "nothing says how many paths its light took: gt_path_count is not there"};
+  if (goes_on && !(ways >= 1)) return {{}, "the frame does not say how many paths its light took: it lacks gt_path_count"};
   if (goes_on) {
     scene.transport.samples = static_cast<int>(std::min(ways, 65536.0));
     scene.transport.max_samples = 0, scene.transport.path_noise_m = 0;
@@ -96,7 +96,7 @@ PixelBounces pixel_bounces(const PixelArrays& arrays, std::uint64_t index, const
     before = upto;
     if (each_done) each_done();
   }
-  add(out.list.back().last + 1, most, goes_on ? with_bounces(most) : all, before);
+  add(out.shares.back().last + 1, most, goes_on ? with_bounces(most) : all, before);
   return out;
 }
 

@@ -67,7 +67,10 @@ void read_raw_frames(const PixelArrays& arrays, const Camera* camera, bool noise
 /// What decodes arrays of which nobody knows the camera: any with their raw frames, whose phases it can estimate, too.
 Camera any_camera(const PixelArrays& arrays, const PixelChain& chain) {
   Camera any;
-  any.sensor.width = arrays.width, any.sensor.height = arrays.height;
+  any.sensor.width = arrays.width, any.sensor.height = arrays.height, any.sensor.pixel_pitch_m = 1e-5;
+  any.lens.fx_px = any.lens.fy_px = arrays.width, any.lens.cx_px = 0.5 * (arrays.width - 1), any.lens.cy_px = 0.5 * (arrays.height - 1);
+  any.pixel.quantum_efficiency = {{850e-9}, {0.5}}, any.pixel.contrast = {{0}, {1}};
+  any.mode.frame_rate_hz = 1;
   for (const ChainRawFrame& k : chain.raw_frames)
     any.mode.sequence.push_back({k.lit, k.modulation_frequency_hz, k.reference_phase_rad, k.integration_time_s});
   return any;
@@ -122,7 +125,7 @@ void read_depth(const PixelArrays& arrays, const Camera* camera, std::size_t pix
   out.noise_threshold_m = camera == nullptr ? std::nan("") : camera->decoding.noise_threshold_m;
   out.point_m = triple(arrays, "points_m", pixel);
   const double flags = arrays.at("flags", pixel);
-  out.flags = flags >= 0 && flags <= 65535 ? static_cast<unsigned>(flags) : 0u;
+  out.flags = flags >= 0 && flags <= 65535 ? static_cast<int>(flags) : 0;
 }
 
 /// One array of a frame; NaN beyond its end.
