@@ -4,7 +4,9 @@
 
 namespace tofray::app {
 
-InputRequest input_request(const std::string& scene, const Options& options) { return {scene, options.set, options.mode, options.root, {}}; }
+InputRequest input_request(const std::string& scene, const Options& options) {
+  return {scene, options.set, options.mode, options.root, {}};
+}
 
 SimulatorOptions simulator_options(const Options& options) {
   SimulatorOptions out;

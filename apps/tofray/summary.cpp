@@ -61,7 +61,10 @@ files::Json summary_json(const RunResult& result, const Remarks& remarks) {
     std::replace(name.begin(), name.end(), ' ', '_');
     invalid.set(name, result.last.pixels.count(reason));
   }
-  json.set("folder", result.folder.native()).set("frames", result.frames).set("pixels", result.last.pixels.pixels).set("valid_pixels", result.last.pixels.valid);
+  json.set("folder", result.folder.native())
+      .set("frames", result.frames)
+      .set("pixels", result.last.pixels.pixels)
+      .set("valid_pixels", result.last.pixels.valid);
   json.set("invalid_pixels", std::move(invalid))
       .set("valid_beyond_ambiguity_range", result.last.pixels.wrapped)
       .set("valid_on_wrong_cycle", result.last.pixels.valid_on_wrong_cycle)
@@ -95,8 +98,8 @@ std::string summary_text(const RunResult& result) {
   if (!result.last.advice.empty()) text += fmt::format("  {}\n", result.last.advice);
   const Rates rates = rates_of(result);
   if (result.frames > 1)
-    text += fmt::format("{} frames in {:.2f} s: {:.1f} frames/s computed, {:.1f} written", result.frames, total_time(result), rates.computed,
-                        rates.written);
+    text += fmt::format("{} frames in {:.2f} s: {:.1f} frames/s computed, {:.1f} written", result.frames, total_time(result),
+                        rates.computed, rates.written);
   else
     text += fmt::format("{:.2f} s", total_time(result));
   return text + fmt::format(" with {}\n", machine_text(result.ran_on)) + picture_to_open(result);

@@ -70,7 +70,8 @@ struct PixelChain {
 /// @param noise_free  whether the frame has expected values (Noise::off): depth comes from the unrounded taps then
 /// @param where       what messages call the arrays: a file
 /// @throws Error (bad_input) where the pixel is outside the image, there is no image, or the camera is of another size or sequence
-PixelChain pixel_chain(const PixelArrays& arrays, const Camera* camera, bool noise_free, int u, int v, const std::string& where = "the frame");
+PixelChain pixel_chain(const PixelArrays& arrays, const Camera* camera, bool noise_free, int u, int v,
+                       const std::string& where = "the frame");
 /// The same of a frame that a camera made.
 PixelChain pixel_chain(const Frame& frame, const Camera& camera, int u, int v, Noise noise = Noise::exact);
 
@@ -86,7 +87,7 @@ struct BounceShare {
 /// the beginnings of the same paths: what a bounce adds is the difference of two frames, without error of chance between them.
 struct PixelBounces {
   std::vector<BounceShare> shares;  ///< direct light first; together gt_direct_e + gt_indirect_e and gt_multipath_m; may be empty
-  std::string unknown;            ///< why it is empty although light bounced
+  std::string unknown;              ///< why it is empty although light bounced
 };
 
 /// Simulates with one bounce, two, …, until less than 1/1000 of the pixel's light is left; the last element has the rest. Frame number b

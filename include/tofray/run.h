@@ -80,11 +80,11 @@ struct RunRequest {
 /// How a run went.
 struct RunResult {
   std::filesystem::path folder;
-  std::vector<FileRecord> files;    ///< manifest.json last
-  std::uint64_t frames = 0;         ///< how many are complete
-  bool interrupted = false;         ///< fewer than were asked for
-  std::vector<Remark> remarks;      ///< of the inputs, the scene as the camera sees it, the frames, the folder
-  Validity last;                    ///< of the last frame's depth
+  std::vector<FileRecord> files;  ///< manifest.json last
+  std::uint64_t frames = 0;       ///< how many are complete
+  bool interrupted = false;       ///< fewer than were asked for
+  std::vector<Remark> remarks;    ///< of the inputs, the scene as the camera sees it, the frames, the folder
+  Validity last;                  ///< of the last frame's depth
   RanOn ran_on;
   std::vector<std::pair<std::string, double>> timings_s;  ///< by stage: prepare, simulate, write
 };
@@ -92,8 +92,8 @@ struct RunResult {
 /// Whoever watches a run. All of it may be left empty.
 struct RunWatch {
   FrameProgress* progress = nullptr;               ///< of the frame under way; its `stop` ends the run with the last whole frame
-  std::function<void(const Remark&)> remark = {};      ///< told each as soon as it is known
-  std::function<void(const RanOn&)> started = {};      ///< told what computes, before the first frame
+  std::function<void(const Remark&)> remark = {};  ///< told each as soon as it is known
+  std::function<void(const RanOn&)> started = {};  ///< told what computes, before the first frame
   /// Shown each frame when it is done (good until this returns), and told how many are.
   std::function<void(const Frame&, std::uint64_t)> frame_done = {};
 };

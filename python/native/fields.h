@@ -215,7 +215,8 @@ void each_record(const Call& call) {
                              Camera, Material, Plane, Sphere, Box, Triangle, Cylinder, Rectangle, Disk, Capsule, Cone, Mesh, Rotation,
                              Keyframe, Object, Ambient, TransientBins, Transport, Pose, CameraKeyframe, Override, CameraChoice, SceneFile,
                              Scene, RanOn, FrameRequest, ObjectInView, SceneFinding, SceneReport, InvalidPixels, AmbientCase,
-                             CameraQuestion, NoiseAt, NoiseAtDistances, CameraReport, ChainRawFrame, ChainPhase, PixelChain, BounceShare, PixelBounces, Validity, InputFile, FileRecord, Remark, Inputs, RunResult>;
+                             CameraQuestion, NoiseAt, NoiseAtDistances, CameraReport, ChainRawFrame, ChainPhase, PixelChain, BounceShare,
+                             PixelBounces, Validity, InputFile, FileRecord, Remark, Inputs, RunResult>;
   all(static_cast<Records*>(nullptr));
 }
 

@@ -35,7 +35,8 @@ RunRequest run_request(const py::dict& words, const py::dict& options) {
   if (inputs.manifest.empty()) {
     out.inputs = inputs, out.simulator = simulator;
     take_word(words, "frames", out.frames), take_word(words, "first_frame", out.first_frame);
-    take_word(words, "emit", out.files.emit), take_word(words, "arrays", out.files.arrays), take_word(words, "compress", out.files.compress);
+    take_word(words, "emit", out.files.emit), take_word(words, "arrays", out.files.arrays),
+        take_word(words, "compress", out.files.compress);
     take_word(words, "light_theme", out.files.light_theme), take_word(words, "scale", out.files.scale);
   } else {
     out = request_of_manifest(inputs.manifest);

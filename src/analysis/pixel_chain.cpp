@@ -153,8 +153,9 @@ PixelArrays pixel_arrays(const Frame& frame) {
 
 std::size_t analysis::pixel_index(const PixelArrays& arrays, int u, int v, const std::string& where) {
   if (arrays.width <= 0 || arrays.height <= 0)
-    throw Error(ErrorKind::bad_input, where + ": error: there is no image in it\n  expected raw, z_m or another array with pixels; "
-                                              "`tofray list arrays` has them all");
+    throw Error(ErrorKind::bad_input, where +
+                                          ": error: there is no image in it\n  expected raw, z_m or another array with pixels; "
+                                          "`tofray list arrays` has them all");
   if (u < 0 || v < 0 || u >= arrays.width || v >= arrays.height)
     throw Error(ErrorKind::bad_input,
                 fmt::format("error: pixel {},{} is outside the image\n  expected a column of 0 to {} and a row of 0 to {}", u, v,

@@ -28,7 +28,7 @@ struct Manifest {
   std::string isa;  ///< RanOn::isa
   int threads = 0;
   std::vector<std::pair<std::string, double>> timings_s;  ///< by stage
-  std::vector<FileRecord> files;                   ///< every other file of the folder that this run wrote
+  std::vector<FileRecord> files;                          ///< every other file of the folder that this run wrote
   /// Files of earlier runs that lie in the folder besides, as far as they are known.
   std::vector<FileRecord> earlier_files;
   /// Frames that were complete when the run was interrupted, all of them in `files`; none where it came to its end. For people and

@@ -92,16 +92,18 @@ std::vector<Remark> EarlierFiles::settle(const files::OutputFolder& folder, bool
   const std::string where = folder.path().native();
   std::vector<Remark> out;
   if (!removed.empty())
-    out.push_back({false, "", fmt::format("{} of an earlier run removed from {}: {}", count_of(removed.size()), where, names_of(removed)), ""});
+    out.push_back(
+        {false, "", fmt::format("{} of an earlier run removed from {}: {}", count_of(removed.size()), where, names_of(removed)), ""});
   if (!changed.empty())
     out.push_back({true, "",
                    fmt::format("{} of an earlier run stay{} in {}: {}", count_of(changed.size()), changed.size() == 1 ? "s" : "", where,
                                names_of(changed)),
                    "--clean removes what is as that run wrote it"});
   if (!left.empty() && !parts_of_one_run(*before_, now))
-    out.push_back({true, "",
-                   fmt::format("{} of an earlier run lie{} in {}: {}", count_of(left.size()), left.size() == 1 ? "s" : "", where, names_of(left)),
-                   "who reads the whole folder mixes two runs; --clean removes them"});
+    out.push_back(
+        {true, "",
+         fmt::format("{} of an earlier run lie{} in {}: {}", count_of(left.size()), left.size() == 1 ? "s" : "", where, names_of(left)),
+         "who reads the whole folder mixes two runs; --clean removes them"});
   return out;
 }
 

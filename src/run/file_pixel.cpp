@@ -60,7 +60,8 @@ PixelArrays pixel_arrays(const results::Arrays& arrays) {
 
 PixelChain pixel_chain(const results::Arrays& arrays, int u, int v) {
   const std::optional<Camera> camera = camera_in(arrays);
-  return tofray::pixel_chain(pixel_arrays(arrays), camera ? &*camera : nullptr, results::is_noise_free(arrays.meta()), u, v, arrays.where());
+  return tofray::pixel_chain(pixel_arrays(arrays), camera ? &*camera : nullptr, results::is_noise_free(arrays.meta()), u, v,
+                             arrays.where());
 }
 
 std::string object_name(const results::Arrays& arrays, std::int64_t object) {

@@ -34,6 +34,7 @@ struct FrameOrigin {
 FrameOrigin origin_of_file(const std::string& path, const std::string& root, const SimulatorOptions& simulated);
 
 /// As the function of that name in tofray/pixel.h; where nobody knows the origin, it says why.
-PixelBounces pixel_bounces(const results::Arrays& arrays, const FrameOrigin& origin, int u, int v, const std::function<void()>& each_done = {});
+PixelBounces pixel_bounces(const results::Arrays& arrays, const FrameOrigin& origin, int u, int v,
+                           const std::function<void()>& each_done = {});
 
 }  // namespace tofray::run

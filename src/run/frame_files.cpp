@@ -23,7 +23,8 @@ std::string as_utf8(const std::string& name) { return *files::parse_json(files::
 void refuse_kinds(const std::vector<std::string>& emit) {
   for (const std::string& kind : emit)
     if (kind != "npz" && kind != "png" && kind != "ply")
-      throw Error(ErrorKind::bad_input, fmt::format("error: {} is no kind of file that a frame gets\n  expected npz, png or ply", base::in_quotes(kind)));
+      throw Error(ErrorKind::bad_input,
+                  fmt::format("error: {} is no kind of file that a frame gets\n  expected npz, png or ply", base::in_quotes(kind)));
 }
 
 }  // namespace
@@ -43,7 +44,8 @@ FrameFiles::FrameFiles(const FrameFileRequest& request, const std::vector<std::s
       theme(request.light_theme ? pictures::Theme::light : pictures::Theme::dark),
       scale(request.scale) {
   refuse_kinds(emit);
-  if (scale < 1 || scale > 8) throw Error(ErrorKind::bad_input, fmt::format("error: scale cannot be {}\n  expected a whole number of 1 to 8", scale));
+  if (scale < 1 || scale > 8)
+    throw Error(ErrorKind::bad_input, fmt::format("error: scale cannot be {}\n  expected a whole number of 1 to 8", scale));
   if (!request.arrays.empty()) npz.arrays = results::ArrayChoice(request.arrays);
   npz.kept = from.kept;
   npz.packing = request.compress ? files::Packing::deflated : files::Packing::stored;
@@ -82,7 +84,7 @@ std::vector<Remark> depth_png_remarks(const FrameFiles& what, std::size_t pixels
 }
 
 std::vector<FileRecord> write_frame(const files::OutputFolder& folder, const FrameFiles& what, const std::string& suffix,
-                                           const Frame& frame, std::string& memory) {
+                                    const Frame& frame, std::string& memory) {
   std::vector<FileRecord> files;
   const auto put = [&](const char* stem, const char* extension, std::string_view bytes) {
     files.push_back(folder.put(stem + suffix + extension, bytes));

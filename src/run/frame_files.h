@@ -41,7 +41,7 @@ struct FrameFiles {
 /// @param memory  used again by the next frame
 /// @return what was written, to be added to the folder
 std::vector<FileRecord> write_frame(const files::OutputFolder& folder, const FrameFiles& what, const std::string& suffix,
-                                           const Frame& frame, std::string& memory);
+                                    const Frame& frame, std::string& memory);
 /// The same for a single frame; the folder knows its files then.
 void write_frame(files::OutputFolder& folder, const FrameFiles& what, const Frame& frame);
 

@@ -11,11 +11,11 @@
 #include <tuple>
 #include <variant>
 
+#include "assets/gltf_load.h"
+#include "assets/mesh_piece.h"
+#include "assets/obj_load.h"
 #include "base/text.h"
 #include "base/units.h"
-#include "load/gltf_load.h"
-#include "load/mesh_piece.h"
-#include "load/obj_load.h"
 #include "tofray/error.h"
 
 namespace tofray::run {
@@ -53,15 +53,16 @@ std::vector<Remark> notices_of(const Mesh& mesh) {
   std::vector<Remark> out;
   for (std::size_t i = 0; i < std::min(mesh.notices.size(), most_notices); ++i)
     out.push_back({true, "", fmt::format("{}: {}", file, base::printable(mesh.notices[i])), ""});
-  if (mesh.notices.size() > most_notices) out.push_back({true, "", fmt::format("{}: and {} more", file, mesh.notices.size() - most_notices), ""});
+  if (mesh.notices.size() > most_notices)
+    out.push_back({true, "", fmt::format("{}: and {} more", file, mesh.notices.size() - most_notices), ""});
   return out;
 }
 
 /// Where a file could say how much infrared light its materials reflect: only where it has any.
 /// @param has_materials  besides colours of vertices
 std::string where_to_say(const std::string& file, bool has_materials) {
-  const bool is_obj = load::is_obj(file);
-  if (!has_materials || (!is_obj && !load::is_gltf(file))) return "reflectivity or material at the object says it";
+  const bool is_obj = assets::is_obj(file);
+  if (!has_materials || (!is_obj && !assets::is_gltf(file))) return "reflectivity or material at the object says it";
   return (is_obj ? "a line #!nir_reflectivity 0.6 below newmtl" : "nir_reflectivity in a material's extras") +
          std::string(" says it, or materials or reflectivity at the object");
 }
@@ -80,7 +81,7 @@ std::set<std::string> files_with_materials(const Scene& scene) {
   std::set<std::string> out;
   for (const Object& object : scene.objects)
     if (const auto* mesh = std::get_if<Mesh>(&object.shape);
-        mesh != nullptr && !object.name.ends_with(std::string("/") + load::no_material))
+        mesh != nullptr && !object.name.ends_with(std::string("/") + assets::no_material))
       out.insert(mesh->file);
   return out;
 }
@@ -160,9 +161,10 @@ std::vector<Remark> camera_remarks(const Camera& camera, const std::string& befo
     out.push_back({true, "", "the camera's light sources have no power: " + base::listed(powers, "and"), effect});
   }
   if (std::none_of(sequence.begin(), sequence.end(), [](const RawFrame& one) { return one.lit; }))
-    out.push_back({true, "",
-                   fmt::format("the mode {0} has no lit raw frame: {1}modes.{0}.sequence says lit: false throughout", camera.mode.name, before),
-                   effect});
+    out.push_back(
+        {true, "",
+         fmt::format("the mode {0} has no lit raw frame: {1}modes.{0}.sequence says lit: false throughout", camera.mode.name, before),
+         effect});
   return out;
 }
 

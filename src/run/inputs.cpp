@@ -26,8 +26,7 @@ namespace {
 bool is_builtin_source(const std::string& source) { return source.starts_with("<"); }
 
 /// The camera that the scene asks for, out of the texts of its profile and of the profile's tables.
-Camera camera_of_texts(const Scene& scene, const InputFile& profile, const std::vector<InputFile>& files,
-                       const std::string& mode) {
+Camera camera_of_texts(const Scene& scene, const InputFile& profile, const std::vector<InputFile>& files, const std::string& mode) {
   CameraOptions wanted;
   wanted.mode = mode.empty() ? scene.camera.mode : mode;
   return load::camera_from_text(profile_with_tables(profile, scene.camera.overrides, files), profile.name, "", wanted);
@@ -55,8 +54,8 @@ void add_files(const Scene& scene, std::vector<InputFile>& files) {
 }
 
 /// The files that --from takes for meshes and keyframes: those of the manifest, unchanged.
-load::MeshFiles files_of(const results::Manifest& manifest, const std::string& root) {
-  load::MeshFiles out{root, std::map<std::string, std::string>{}};
+assets::MeshFiles files_of(const results::Manifest& manifest, const std::string& root) {
+  assets::MeshFiles out{root, std::map<std::string, std::string>{}};
   for (const InputFile& file : manifest.inputs)
     if (file.role == "mesh" || file.role == "keyframes") (*out.expected)[file.name] = file.sha256;
   return out;
@@ -200,7 +199,8 @@ namespace tofray {
 Inputs load_inputs(const InputRequest& request) { return run::load(request); }
 
 std::string Remark::text() const {
-  return fmt::format("{}{}: {}\n{}", where.empty() ? "" : where + ": ", warning ? "warning" : "note", what, more.empty() ? "" : "  " + more + "\n");
+  return fmt::format("{}{}: {}\n{}", where.empty() ? "" : where + ": ", warning ? "warning" : "note", what,
+                     more.empty() ? "" : "  " + more + "\n");
 }
 
 }  // namespace tofray

@@ -10,10 +10,10 @@
 
 #include <nlohmann/json.hpp>
 
+#include "assets/gltf_load.h"
+#include "assets/mesh_load.h"
 #include "base/text.h"
 #include "base/vec.h"
-#include "load/gltf_load.h"
-#include "load/mesh_load.h"
 #include "mesh/read_mesh.h"
 #include "run/mesh_view.h"
 #include "tofray/load.h"
@@ -69,7 +69,7 @@ std::string text_of(const std::string& path, bool own_materials, const std::stri
 
 bool is_called_like_a_mesh(const std::string& path) {
   const std::string suffix = mesh::suffix_of(path);
-  return suffix == ".obj" || suffix == ".ply" || suffix == ".stl" || load::is_gltf(path);
+  return suffix == ".obj" || suffix == ".ply" || suffix == ".stl" || assets::is_gltf(path);
 }
 
 std::string scene_name_of_mesh(const std::string& path) { return std::filesystem::path(path).replace_extension(".yaml").string(); }
@@ -82,15 +82,16 @@ MeshScene scene_of_mesh(const std::string& path, const std::string& source, cons
   for (const auto& one : request.set)
     if (one.first.starts_with("objects.0.mesh.") || one.first == "world_up") of_mesh.push_back(one);
   std::string unread;
-  const bool own_materials = load::has_own_materials(std::filesystem::path(path).filename().string(), source, request.root, &unread);
+  const bool own_materials = assets::has_own_materials(std::filesystem::path(path).filename().string(), source, request.root, &unread);
   if (!unread.empty())
-    out.remarks.push_back({true, path,
-                           fmt::format("{} cannot be read: {}; the mesh is grey, of reflectivity 0.5",
-                                       mesh::suffix_of(path) == ".ply" ? "its picture (comment TextureFile)" : "its file of materials (mtllib)",
-                                       base::in_quotes(unread)),
-                           "put the file beside the mesh, or say another reflectivity: --set objects.0.mesh.reflectivity=0.3"});
+    out.remarks.push_back(
+        {true, path,
+         fmt::format("{} cannot be read: {}; the mesh is grey, of reflectivity 0.5",
+                     mesh::suffix_of(path) == ".ply" ? "its picture (comment TextureFile)" : "its file of materials (mtllib)",
+                     base::in_quotes(unread)),
+         "put the file beside the mesh, or say another reflectivity: --set objects.0.mesh.reflectivity=0.3"});
   const Scene alone = load::scene_from_text(text_of(path, own_materials, ""), source, of_mesh, {request.root});
-  const std::optional<Pose> own = load::camera_in(std::get<Mesh>(alone.objects[0].shape), source, request.root, alone.world_up);
+  const std::optional<Pose> own = assets::camera_in(std::get<Mesh>(alone.objects[0].shape), source, request.root, alone.world_up);
   // A file with a camera is a scene of its own: a second floor would lie in the first.
   if (own) {
     out.text = text_of(path, own_materials,

@@ -201,12 +201,12 @@ MeshView view_of_meshes(const Scene& scene, const Camera& camera, const std::str
   if (!small && !large) return out;
   const MeshBox box = box_round(scene);
   Remark remark{true, path, "", advice(sight, view, reach, box, std::get<Mesh>(scene.objects[0].shape).scale)};
-  remark.what = fmt::format(
-      "it measures {}, {}", base::size_text(box.low, box.high),
-      small ? fmt::format("and covers {}: nearer than {} this camera saturates",
-                          pixels < 1 ? "less than a pixel" : fmt::format("{:.0f} pixels at most", std::ceil(pixels)), metres_text(reach.near_m))
-            : fmt::format("and is seen whole from {} away: of reflectivity {:.2g} this camera has depth to some {}", metres_text(distance),
-                          reach.reflectivity, metres_text(reach.far_m)));
+  remark.what = fmt::format("it measures {}, {}", base::size_text(box.low, box.high),
+                            small ? fmt::format("and covers {}: nearer than {} this camera saturates",
+                                                pixels < 1 ? "less than a pixel" : fmt::format("{:.0f} pixels at most", std::ceil(pixels)),
+                                                metres_text(reach.near_m))
+                                  : fmt::format("and is seen whole from {} away: of reflectivity {:.2g} this camera has depth to some {}",
+                                                metres_text(distance), reach.reflectivity, metres_text(reach.far_m)));
   out.odd_size = std::move(remark);
   return out;
 }

@@ -57,8 +57,7 @@ std::string rows_text(const std::string& text) {
 
 }  // namespace
 
-std::vector<InputFile> profile_tables(const InputFile& profile, const std::string& folder,
-                                               const std::vector<Override>& overrides) {
+std::vector<InputFile> profile_tables(const InputFile& profile, const std::string& folder, const std::vector<Override>& overrides) {
   std::vector<InputFile> tables;
   Node root = changed_profile(profile, overrides);
   for_each_table(root, "", [&](const Node& map, const std::string&) {
@@ -69,8 +68,7 @@ std::vector<InputFile> profile_tables(const InputFile& profile, const std::strin
   return tables;
 }
 
-std::string profile_with_tables(const InputFile& profile, const std::vector<Override>& overrides,
-                                const std::vector<InputFile>& tables) {
+std::string profile_with_tables(const InputFile& profile, const std::vector<Override>& overrides, const std::vector<InputFile>& tables) {
   std::unordered_map<std::string_view, const InputFile*> known;
   for (const InputFile& one : tables)
     if (one.role == "table") known.emplace(one.name, &one);

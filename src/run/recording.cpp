@@ -101,8 +101,8 @@ Loaded load_recording(const Recording& from, const char* role, const RecordingCa
   in.pose = pose_of(in.kept);
   if (const auto bins = results::transient_of_meta(from.meta, from.path)) in.scene.transport.transient = *bins;  // of what is kept
   if (in.camera.illumination.empty())
-    in.remarks.push_back({true, "", "the camera has no light source: camera.illumination is []",
-                          "no light comes back: what depth there is, is noise"});
+    in.remarks.push_back(
+        {true, "", "the camera has no light source: camera.illumination is []", "no light comes back: what depth there is, is noise"});
   return in;
 }
 

@@ -46,7 +46,8 @@ Scene needed(const Scene& scene, const FrameFiles& what) {
 std::vector<Remark> lost_remarks(const Counts& of) {
   if (!(of.lost > 0)) return {};
   return {{true, "",
-           fmt::format("{:.3g} % of the light took paths that are shorter or longer than all bins of transient_e_per_s", 100 * of.lost / of.light),
+           fmt::format("{:.3g} % of the light took paths that are shorter or longer than all bins of transient_e_per_s",
+                       100 * of.lost / of.light),
            "transient_lost_e_per_s has it; transport.transient.first, bins and width say which lengths there are"}};
 }
 

@@ -40,7 +40,8 @@ void all() {
          "load_scene_text");
   expect(tofray::choose_scene("card").name == "card" && tofray::choose_scene("card").note.empty(), "choose_scene");
   expect(tofray::choose_camera("mine.yaml").name == "mine.yaml", "choose_camera");
-  const tofray::Inputs inputs = tofray::load_inputs({.scene = "card", .set = {{"camera.sensor.width", "8"}, {"camera.sensor.height", "6"}}});
+  const tofray::Inputs inputs =
+      tofray::load_inputs({.scene = "card", .set = {{"camera.sensor.width", "8"}, {"camera.sensor.height", "6"}}});
   expect(inputs.camera.sensor.width == 8 && inputs.remarks.empty() && inputs.files.size() == 1, "load_inputs");
   expect(tofray::Remark{true, "a.yaml", "odd", "mend it"}.text() == "a.yaml: warning: odd\n  mend it\n", "Remark::text");
   const std::filesystem::path folder = std::filesystem::temp_directory_path() / ("tofray_library_" + std::to_string(getpid()));

@@ -19,12 +19,12 @@
 #include "commands.h"
 #include "console.h"
 #include "files/sha256.h"
+#include "progress.h"
 #include "remarks.h"
 #include "requests.h"
-#include "run/input_kind.h"
-#include "progress.h"
 #include "results.h"
 #include "results/meta.h"
+#include "run/input_kind.h"
 #include "tofray/error.h"
 
 namespace tofray::app {

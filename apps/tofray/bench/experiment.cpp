@@ -180,7 +180,8 @@ int run_experiment(const Options& typed) {
   Options options = typed;
   if (options.stages.empty()) options.stages = {"all"};
   std::vector<run::Loaded> scenes;
-  for (const std::string& name : options.words.empty() ? shape_scenes : options.words) scenes.push_back(run::load(input_request(name, options)));
+  for (const std::string& name : options.words.empty() ? shape_scenes : options.words)
+    scenes.push_back(run::load(input_request(name, options)));
   for (const run::Loaded& in : scenes) say(texts(in.remarks));
   const bool gpu = takes_gpu(options, scenes[0]);
 

@@ -11,11 +11,11 @@
 #include "console.h"
 #include "files/atomic_file.h"
 #include "files/text_file.h"
-#include "run/input_kind.h"
-#include "requests.h"
 #include "load/builtin.h"
 #include "load/load.h"
 #include "remarks.h"
+#include "requests.h"
+#include "run/input_kind.h"
 #include "solved_key.h"
 #include "tofray/error.h"
 

@@ -3,8 +3,8 @@
 #include "commands.h"
 #include "console.h"
 #include "files/text_file.h"
-#include "run/input_kind.h"
 #include "load/lens_calibration.h"
+#include "run/input_kind.h"
 
 namespace tofray::app {
 

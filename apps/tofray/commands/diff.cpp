@@ -8,11 +8,11 @@
 #include <limits>
 #include <set>
 
-#include "results/file_arrays.h"
 #include "base/text.h"
 #include "console.h"
-#include "run/input_kind.h"
 #include "options.h"
+#include "results/file_arrays.h"
+#include "run/input_kind.h"
 #include "tofray/error.h"
 
 namespace tofray::app {

@@ -8,20 +8,20 @@
 #include <cstring>
 #include <type_traits>
 
-#include "results/file_arrays.h"
 #include "base/constants.h"
 #include "commands.h"
 #include "console.h"
 #include "files/npy.h"
 #include "first_frame.h"
+#include "pixel_report.h"
 #include "progress.h"
 #include "requests.h"
-#include "run/input_kind.h"
-#include "run/file_pixel.h"
-#include "pixel_report.h"
 #include "results.h"
 #include "results/array_table.h"
+#include "results/file_arrays.h"
 #include "results/meta.h"
+#include "run/file_pixel.h"
+#include "run/input_kind.h"
 #include "tofray/error.h"
 
 namespace tofray::app {
@@ -224,7 +224,8 @@ Inspected inspected(const Options& options) {
   const SimulatorOptions& wanted = origin.simulated = simulator_options(options);
   const Frame frame = first_frame(in, wanted);
   const std::string meta = results::frame_meta(in.scene, in.camera, wanted, 0);
-  results::Arrays arrays(files::parse_npz(results::frame_npz_bytes(frame, in.camera, camera_pose(in.scene, frame.truth.time_s), meta), path), path);
+  results::Arrays arrays(
+      files::parse_npz(results::frame_npz_bytes(frame, in.camera, camera_pose(in.scene, frame.truth.time_s), meta), path), path);
   return {std::move(arrays), std::move(origin)};
 }
 

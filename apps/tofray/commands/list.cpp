@@ -4,19 +4,19 @@
 
 #include <algorithm>
 
+#include "assets/material_library.h"
 #include "base/readout.h"
 #include "base/text.h"
 #include "commands.h"
 #include "console.h"
 #include "files/json.h"
-#include "run/input_kind.h"
 #include "load/builtin.h"
 #include "load/load.h"
-#include "load/material_library.h"
 #include "load/reference.h"
 #include "model/lines.h"
 #include "model/tables.h"
 #include "results/array_table.h"
+#include "run/input_kind.h"
 #include "tofray/error.h"
 
 namespace tofray::app {
@@ -96,9 +96,9 @@ files::Json material_json(const Material& material) {
 }
 
 files::Json list_library(std::string& text) {
-  text = load::material_page();
+  text = assets::material_page();
   files::Json json = files::Json::array();
-  for (const load::LibraryMaterial& one : load::material_library())
+  for (const assets::LibraryMaterial& one : assets::material_library())
     json.push(material_json(one.material).set("what", one.what).set("source", one.source));
   return json;
 }
@@ -109,7 +109,7 @@ files::Json list_materials_of(const std::string& scene_name, std::string& text) 
   say(run::note_of(chosen));
   for (const Material& one : load_scene(chosen.name).materials) {
     if (one.name.empty()) continue;
-    text += fmt::format("{:<14} {}\n", one.name, load::numbers_of(one));
+    text += fmt::format("{:<14} {}\n", one.name, assets::numbers_of(one));
     json.push(material_json(one));
   }
   return json;

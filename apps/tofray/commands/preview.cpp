@@ -7,19 +7,19 @@
 #include <type_traits>
 #include <utility>
 
-#include "remarks.h"
-#include "requests.h"
-#include "results/file_arrays.h"
 #include "base/text.h"
 #include "commands.h"
 #include "console.h"
 #include "files/atomic_file.h"
 #include "files/data_limits.h"
 #include "first_frame.h"
+#include "pictures/terminal_picture.h"
+#include "remarks.h"
+#include "requests.h"
+#include "results/file_arrays.h"
+#include "results/raw_file.h"
 #include "run/frame_files.h"
 #include "run/input_kind.h"
-#include "pictures/terminal_picture.h"
-#include "results/raw_file.h"
 #include "tofray/error.h"
 
 namespace tofray::app {

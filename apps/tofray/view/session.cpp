@@ -7,16 +7,16 @@
 #include <limits>
 #include <new>
 
-#include "remarks.h"
-#include "requests.h"
-#include "results/file_arrays.h"
 #include "base/text.h"
 #include "base/version.h"
 #include "pictures/pictures.h"
-#include "run/file_pixel.h"
 #include "pixel_report.h"
+#include "remarks.h"
+#include "requests.h"
+#include "results/file_arrays.h"
 #include "results/frame_file.h"
 #include "results/meta.h"
+#include "run/file_pixel.h"
 #include "tofray/error.h"
 #include "view/scales.h"
 #include "view/state.h"

@@ -6,12 +6,12 @@
 #include <string_view>
 #include <vector>
 
+#include "assets/mesh_piece.h"
 #include "gltf/model.h"
 #include "gltf/pose.h"
-#include "load/mesh_piece.h"
 
 /// glTF files of a scene: with the files that they name, taken apart by material.
-namespace tofray::load {
+namespace tofray::assets {
 
 /// By the file name's suffix, in any case.
 bool is_gltf(const std::string& path);
@@ -44,4 +44,4 @@ std::vector<MeshPiece> pieces_of(const gltf::Model& model, const gltf::Pose& pos
 /// The first perspective camera of the scene, in the file's axes; up is of unit length, look_at 1 m before it.
 std::optional<Pose> camera_of(const gltf::Model& model, const gltf::Pose& pose);
 
-}  // namespace tofray::load
+}  // namespace tofray::assets

@@ -9,7 +9,7 @@
 #include "tofray/scene.h"
 
 /// Visible colours as reflectivities, out of glTF and MTL files.
-namespace tofray::load {
+namespace tofray::assets {
 
 using base::luminance;
 
@@ -25,4 +25,4 @@ struct PictureMap {
 };
 PictureMap map_of_picture(const image::Image& picture, const std::array<double, 3>& color, const ReflectivityMap* opacity = nullptr);
 
-}  // namespace tofray::load
+}  // namespace tofray::assets

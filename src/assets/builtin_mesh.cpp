@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The tofray authors
 // SPDX-License-Identifier: Apache-2.0
-#include "load/builtin_mesh.h"
+#include "assets/builtin_mesh.h"
 
 #include <algorithm>
 #include <cmath>
@@ -9,7 +9,7 @@
 
 #include "base/vec.h"
 
-namespace tofray::load {
+namespace tofray::assets {
 
 namespace {
 
@@ -105,4 +105,4 @@ std::optional<TriangleMesh> builtin_mesh(std::string_view name) {
   return std::nullopt;
 }
 
-}  // namespace tofray::load
+}  // namespace tofray::assets

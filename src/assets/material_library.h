@@ -7,7 +7,7 @@
 #include "tofray/scene.h"
 
 /// Materials that a scene may name without describing them: near-infrared reflectivities that somebody measured.
-namespace tofray::load {
+namespace tofray::assets {
 
 struct LibraryMaterial {
   Material material;
@@ -26,4 +26,4 @@ std::string numbers_of(const Material& material);
 /// The page docs/reference/materials.md.
 std::string material_page();
 
-}  // namespace tofray::load
+}  // namespace tofray::assets

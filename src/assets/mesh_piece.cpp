@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The tofray authors
 // SPDX-License-Identifier: Apache-2.0
-#include "load/mesh_piece.h"
+#include "assets/mesh_piece.h"
 
 #include <algorithm>
 #include <string_view>
@@ -8,7 +8,7 @@
 #include "base/limits.h"
 #include "base/text.h"
 
-namespace tofray::load {
+namespace tofray::assets {
 
 namespace {
 constexpr std::size_t longest_material_name = 200;
@@ -69,4 +69,4 @@ std::string shown_name(const std::string& name) {
   return base::printable(std::string_view(name).substr(0, end));
 }
 
-}  // namespace tofray::load
+}  // namespace tofray::assets

@@ -9,7 +9,7 @@
 #include "tofray/scene.h"
 
 /// Meshes that need no file: a scene names them `tofray:NAME`. They are the same bits on every machine.
-namespace tofray::load {
+namespace tofray::assets {
 
 constexpr std::string_view builtin_mesh_prefix = "tofray:";
 inline bool is_builtin_mesh(std::string_view file) { return file.starts_with(builtin_mesh_prefix); }
@@ -23,4 +23,4 @@ TriangleMesh wavy_floor(int cells);
 std::optional<TriangleMesh> builtin_mesh(std::string_view name);
 std::vector<std::string> builtin_mesh_names();
 
-}  // namespace tofray::load
+}  // namespace tofray::assets

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The tofray authors
 // SPDX-License-Identifier: Apache-2.0
-#include "load/material_library.h"
+#include "assets/material_library.h"
 
 #include <algorithm>
 
@@ -8,7 +8,7 @@
 #include "base/units.h"
 #include "model/tables.h"
 
-namespace tofray::load {
+namespace tofray::assets {
 
 namespace {
 
@@ -119,4 +119,4 @@ std::string material_page() {
   return text;
 }
 
-}  // namespace tofray::load
+}  // namespace tofray::assets

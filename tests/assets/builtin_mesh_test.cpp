@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The tofray authors
 // SPDX-License-Identifier: Apache-2.0
 // Meshes that need no file.
-#include "load/builtin_mesh.h"
+#include "assets/builtin_mesh.h"
 
 #include <gtest/gtest.h>
 
@@ -38,7 +38,7 @@ std::size_t edges_once_each_way(const TriangleMesh& mesh) {
 }  // namespace
 
 TEST(bumpy_ball, is_an_icosahedron_before_it_is_cut) {
-  const TriangleMesh ball = load::bumpy_ball(0);
+  const TriangleMesh ball = assets::bumpy_ball(0);
   ASSERT_EQ(ball.vertices.size(), 12U);
   ASSERT_EQ(ball.triangles.size(), 20U);
   for (const auto& t : ball.triangles)
@@ -50,7 +50,7 @@ TEST(bumpy_ball, is_an_icosahedron_before_it_is_cut) {
 }
 
 TEST(bumpy_ball, is_closed_round_and_bumpy) {
-  const TriangleMesh ball = load::bumpy_ball(4);
+  const TriangleMesh ball = assets::bumpy_ball(4);
   ASSERT_EQ(ball.triangles.size(), 20U * 256);
   ASSERT_EQ(ball.vertices.size(), 10U * 256 + 2);
   EXPECT_EQ(edges_once_each_way(ball), 60U * 256);
@@ -69,7 +69,7 @@ TEST(bumpy_ball, is_closed_round_and_bumpy) {
 }
 
 TEST(wavy_floor, is_flat_but_for_its_waves) {
-  const TriangleMesh floor = load::wavy_floor(40);
+  const TriangleMesh floor = assets::wavy_floor(40);
   ASSERT_EQ(floor.vertices.size(), 41U * 41);
   ASSERT_EQ(floor.triangles.size(), 2U * 1600);
   const auto wave = [](double x) { return std::cos(5 * std::acos(x)); };  // Chebyshev's polynomial of degree 5

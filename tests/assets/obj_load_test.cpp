@@ -3,12 +3,12 @@
 // OBJ files that a scene names: their materials and pictures, and the files that those lie in.
 #include <gtest/gtest.h>
 
+#include "assets/mesh_load.h"
+#include "assets/obj_load.h"
 #include "files/sha256.h"
 #include "gltf/gltf_files.h"
 #include "image/image_files.h"
 #include "load/load.h"
-#include "load/mesh_load.h"
-#include "load/obj_load.h"
 #include "support/pixels.h"
 #include "support/samples.h"
 #include "support/text.h"
@@ -53,14 +53,14 @@ class obj_in_scene : public testing::Test {
   void file(const std::string& name, const std::string& bytes) const { write_file(folder_.path() / name, bytes); }
   void card(const std::string& mtl) const { file("in/card.mtl", "newmtl card\n" + mtl); }
   [[nodiscard]] std::string source() const { return (folder_.path() / "in/scene.yaml").string(); }
-  [[nodiscard]] Scene scene(const std::string& keys, const load::MeshFiles& files = {}) const {
+  [[nodiscard]] Scene scene(const std::string& keys, const assets::MeshFiles& files = {}) const {
     return load::scene_from_text("objects:\n  - mesh: {" + keys + "}\n", source(), {}, files);
   }
-  [[nodiscard]] Mesh mesh(const std::string& keys, const load::MeshFiles& files = {}) const {
+  [[nodiscard]] Mesh mesh(const std::string& keys, const assets::MeshFiles& files = {}) const {
     return std::get<Mesh>(scene(keys, files).objects.at(0).shape);
   }
   [[nodiscard]] std::string refusal(const std::string& keys, ErrorKind kind = ErrorKind::bad_input,
-                                    const load::MeshFiles& files = {}) const {
+                                    const assets::MeshFiles& files = {}) const {
     const Error error = out_test::error_of([&] { (void)scene(keys, files); });
     EXPECT_EQ(error.kind(), kind) << error.what();
     return error.what();
@@ -309,7 +309,7 @@ TEST_F(obj_in_scene, is_known_by_the_sha256_of_all_its_files) {
   const std::string all = bytes("three.obj") + bytes("card.mtl") + bytes("two.mtl") + bytes("other.png") + bytes("card.png");
   const std::string known = mesh("file: three.obj").sha256;
   EXPECT_EQ(known, files::sha256_hex(all));
-  const load::MeshFiles same{{}, {{{"three.obj", known}}}};
+  const assets::MeshFiles same{{}, {{{"three.obj", known}}}};
   EXPECT_EQ(scene("file: three.obj", same).objects.size(), 3U);
   for (const char* const changed : {"in/card.mtl", "in/two.mtl", "in/card.png", "in/three.obj"}) {
     const std::string before = out_test::read_file(folder_.path() / changed);
@@ -385,7 +385,7 @@ TEST_F(obj_in_scene, has_names_that_may_be_shown) {
 }
 
 TEST_F(obj_in_scene, has_materials_of_its_own_if_one_of_its_files_can_be_read) {
-  const auto own = [&](const std::string& name) { return load::has_own_materials(name, source(), {}); };
+  const auto own = [&](const std::string& name) { return assets::has_own_materials(name, source(), {}); };
   EXPECT_TRUE(own("card.obj"));
   EXPECT_TRUE(own("any.glb"));
   EXPECT_FALSE(own("corner.obj"));

@@ -6,10 +6,10 @@
 #include <memory>
 #include <string>
 
+#include "assets/picture_map.h"
 #include "gltf/model.h"
-#include "load/picture_map.h"
 
-namespace tofray::load {
+namespace tofray::assets {
 
 /// GGX has no narrower mirrors.
 inline constexpr double least_alpha = 1e-3;
@@ -52,4 +52,4 @@ std::shared_ptr<VectorMap> finish_of(const gltf::Model& model, const gltf::Mater
 /// Texture coordinates as the material's picture takes them (KHR_texture_transform).
 std::array<float, 2> placed(const gltf::TextureUse& use, const std::array<float, 2>& texcoord);
 
-}  // namespace tofray::load
+}  // namespace tofray::assets

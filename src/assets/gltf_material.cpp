@@ -1,17 +1,17 @@
 // SPDX-FileCopyrightText: 2026 The tofray authors
 // SPDX-License-Identifier: Apache-2.0
-#include "load/gltf_material.h"
+#include "assets/gltf_material.h"
 
 #include <algorithm>
 
+#include "assets/gltf_map.h"
+#include "assets/material_library.h"
 #include "base/limits.h"
 #include "base/text.h"
 #include "base/vec.h"
 #include "image/read_image.h"
-#include "load/gltf_map.h"
-#include "load/material_library.h"
 
-namespace tofray::load {
+namespace tofray::assets {
 
 namespace {
 
@@ -219,4 +219,4 @@ std::string name_of(const gltf::Model& model, int index) {
   return name.empty() ? "material " + std::to_string(index) : shown_name(name);
 }
 
-}  // namespace tofray::load
+}  // namespace tofray::assets

@@ -1,12 +1,15 @@
 // SPDX-FileCopyrightText: 2026 The tofray authors
 // SPDX-License-Identifier: Apache-2.0
-#include "load/gltf_load.h"
+#include "assets/gltf_load.h"
 
 #include <algorithm>
 #include <charconv>
 #include <map>
 #include <utility>
 
+#include "assets/beside.h"
+#include "assets/gltf_map.h"
+#include "assets/gltf_material.h"
 #include "base/limits.h"
 #include "base/text.h"
 #include "base/vec.h"
@@ -14,11 +17,9 @@
 #include "files/text_file.h"
 #include "gltf/parts.h"
 #include "gltf/read.h"
-#include "load/gltf_map.h"
-#include "load/gltf_material.h"
 #include "mesh/read_mesh.h"
 
-namespace tofray::load {
+namespace tofray::assets {
 
 namespace {
 
@@ -62,6 +63,7 @@ GltfFile read_gltf(std::string_view bytes, const std::string& path, const std::s
     const base::Limit limit{base::limit::mesh_bytes.name, static_cast<std::int64_t>(most), ""};
     std::string found;
     std::string more = files::read_reference(name, files::folder_of(path), root, base::whole(path), found, limit);
+    NamedReads::note(false, name, files::folder_of(path), root, limit, &more, found);
     if (all.empty()) all = bytes;
     all += more;
     return more;
@@ -163,4 +165,4 @@ std::optional<Pose> camera_of(const gltf::Model& model, const gltf::Pose& pose) 
   return std::nullopt;
 }
 
-}  // namespace tofray::load
+}  // namespace tofray::assets

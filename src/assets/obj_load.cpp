@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The tofray authors
 // SPDX-License-Identifier: Apache-2.0
-#include "load/obj_load.h"
+#include "assets/obj_load.h"
 
 #include <algorithm>
 #include <cmath>
@@ -10,14 +10,14 @@
 #include <optional>
 #include <utility>
 
+#include "assets/beside.h"
+#include "assets/picture_map.h"
 #include "base/limits.h"
 #include "base/text.h"
 #include "files/text_file.h"
 #include "image/read_image.h"
-#include "load/beside.h"
-#include "load/picture_map.h"
 
-namespace tofray::load {
+namespace tofray::assets {
 
 namespace {
 
@@ -269,4 +269,4 @@ void ObjMaterials::wear_pictures(std::vector<MeshPiece>& pieces, const std::vect
   }
 }
 
-}  // namespace tofray::load
+}  // namespace tofray::assets

@@ -1,15 +1,16 @@
 // SPDX-FileCopyrightText: 2026 The tofray authors
 // SPDX-License-Identifier: Apache-2.0
-#include "load/beside.h"
+#include "assets/beside.h"
 
 #include <algorithm>
 #include <filesystem>
+#include <utility>
 #include <vector>
 
 #include "base/text.h"
 #include "files/text_file.h"
 
-namespace tofray::load {
+namespace tofray::assets {
 
 namespace {
 
@@ -54,8 +55,10 @@ std::string last_part(const std::string& path) { return path.substr(path.find_la
 
 }  // namespace
 
-std::optional<Beside> read_beside(const mesh::Reference& reference, const std::string& folder, const std::string& root,
-                                  const base::Limit& most) {
+namespace {
+
+std::optional<Beside> looked_for(const mesh::Reference& reference, const std::string& folder, const std::string& root,
+                                 const base::Limit& most) {
   std::string said = reference.file;
   std::replace(said.begin(), said.end(), '\\', '/');
   std::vector<std::string> names{said, last_part(said)};
@@ -75,4 +78,46 @@ std::optional<Beside> read_beside(const mesh::Reference& reference, const std::s
   return std::nullopt;
 }
 
-}  // namespace tofray::load
+base::Content content_of(const std::string& bytes) {
+  base::Content out;
+  out.add(std::string_view(bytes));
+  return out;
+}
+
+thread_local NamedReads* noting = nullptr;
+
+}  // namespace
+
+std::optional<Beside> read_beside(const mesh::Reference& reference, const std::string& folder, const std::string& root,
+                                  const base::Limit& most) {
+  std::optional<Beside> out = looked_for(reference, folder, root, most);
+  NamedReads::note(true, reference.file, folder, root, most, out ? &out->bytes : nullptr, out ? out->found : "");
+  return out;
+}
+
+bool NamedRead::is_unchanged() const {
+  try {
+    std::string now, where;
+    if (beside) {
+      const std::optional<Beside> read = looked_for({name, base::whole(name)}, folder, root, most);
+      if (!read) return !bytes;
+      now = read->bytes, where = read->found;
+    } else {
+      now = files::read_reference(name, folder, root, base::whole(name), where, most);
+    }
+    return bytes == content_of(now) && found == where;
+  } catch (const Error&) {
+    return false;
+  }
+}
+
+NamedReads::NamedReads() : outer_(std::exchange(noting, this)) {}
+NamedReads::~NamedReads() { noting = outer_; }
+
+void NamedReads::note(bool beside, const std::string& name, const std::string& folder, const std::string& root, const base::Limit& most,
+                      const std::string* bytes, const std::string& found) {
+  if (noting == nullptr) return;
+  noting->reads_.push_back({beside, name, folder, root, most, bytes == nullptr ? std::nullopt : std::optional(content_of(*bytes)), found});
+}
+
+}  // namespace tofray::assets

@@ -9,14 +9,20 @@
 #include <tuple>
 #include <vector>
 
+#include "assets/mesh_cache.h"
+#include "assets/mesh_piece.h"
 #include "base/faults.h"
-#include "load/load.h"
-#include "load/mesh_piece.h"
 #include "mesh/read_mesh.h"
 
-namespace tofray::load {
+namespace tofray::assets {
 
 class ObjMaterials;
+
+/// Which files a scene may take: those of meshes and of keyframes.
+struct MeshFiles {
+  std::string root = {};  ///< they lie in or below the scene's folder, or in or below this one where it is not empty
+  std::optional<std::map<std::string, std::string>> expected = {};  ///< SHA-256 by name as the scene has it: these files and no others
+};
 
 /// Of an object that has no material, and whose file has none.
 inline constexpr const char* lacks_material =
@@ -43,19 +49,9 @@ class MeshReader {
     std::string key = {};  ///< the object's: objects.0
   };
   /// What the file shows; of a glTF or OBJ file one for each material, where that is asked for. Shades are those of a material of the file.
-  struct Piece {
-    std::shared_ptr<const TriangleMesh> triangles;
-    std::shared_ptr<const MeshMotion> motion;
-    int left_out;
-    FileMaterial of;
-    mutable std::shared_ptr<const TriangleMesh> without_shades = {};  ///< once somebody asked for them
-  };
-  struct Known {
-    std::vector<Piece> pieces;  ///< at least one; each has triangles
-    std::string sha256;
-    std::vector<std::string> notices;    ///< of all of the file
-    std::vector<std::string> materials;  ///< names of all that the file has, where they were asked for
-    std::string lacks;                   ///< what of an OBJ or PLY file would be its material, if it has none
+  using Piece = LoadedMesh::Piece;
+  struct Known : LoadedMesh {
+    mutable std::vector<std::shared_ptr<const TriangleMesh>> without_shades = {};  ///< of each piece, once somebody asked for them
 
     /// Fills `mesh` by one piece.
     /// @param shaded  whether it is of the file's material
@@ -76,21 +72,25 @@ class MeshReader {
   const Known& read(const Places& places, const Mesh& mesh, bool by_material);
 
  private:
-  Known from_file(const Places& places, const Mesh& wanted, bool by_material);
-  /// As they are in the file. @param path  out: for messages
-  std::vector<MeshPiece> pieces(const Places& places, const Mesh& wanted, bool by_material, std::string& path, Known& known) const;
+  /// Of this or an earlier scene.
+  Known loaded(const Places& places, const Mesh& wanted, bool by_material);
+  /// @param path  where it lies  @param bytes  of the file
+  LoadedMesh from_file(const Places& places, const Mesh& wanted, const std::string& path, std::string bytes, bool by_material);
+  /// As they are in the file.
+  std::vector<MeshPiece> pieces(const Places& places, const Mesh& wanted, const std::string& path, std::string bytes, bool by_material,
+                                LoadedMesh& known) const;
   static std::vector<MeshPiece> from_code(const base::Place& place, const std::string& file);
   std::vector<MeshPiece> from_gltf(const Places& places, const Mesh& wanted, const std::string& path, const std::string& bytes,
-                                   bool by_material, Known& known) const;
+                                   bool by_material, LoadedMesh& known) const;
   std::vector<MeshPiece> from_obj(const Places& places, const Mesh& wanted, const std::string& path, std::string bytes, bool by_material,
-                                  Known& known) const;
-  static std::vector<MeshPiece> wearing(mesh::ReadMesh mesh, const ObjMaterials& materials, const Places& places, Known& known);
+                                  LoadedMesh& known) const;
+  static std::vector<MeshPiece> wearing(mesh::ReadMesh mesh, const ObjMaterials& materials, const Places& places, LoadedMesh& known);
   /// What is left of a file is seen. @param lost  triangles beyond the world
-  static void check_seen(const Places& places, const Mesh& wanted, const std::string& path, const Known& known,
+  static void check_seen(const Places& places, const Mesh& wanted, const std::string& path, const LoadedMesh& known,
                          const std::vector<MeshPiece>& all, std::size_t lost, double farthest_m);
   void check_expected(const base::Place& place, const std::string& file, const std::string& path, const std::string& sha256) const;
   /// The limits of one mesh are those of all meshes of a scene: of many it may take no more memory.
-  void count(const base::Place& place, const TriangleMesh& mesh);
+  void count(const base::Place& place, std::size_t vertices, std::size_t triangles);
 
   std::string folder_;
   const MeshFiles& files_;
@@ -114,4 +114,4 @@ std::optional<Pose> camera_in(const Mesh& mesh, const std::string& source, const
 /// @param unread  out: the first file of materials that the mesh's file names and that cannot be read
 bool has_own_materials(const std::string& file, const std::string& source, const std::string& root, std::string* unread = nullptr);
 
-}  // namespace tofray::load
+}  // namespace tofray::assets

@@ -1,13 +1,13 @@
 // SPDX-FileCopyrightText: 2026 The tofray authors
 // SPDX-License-Identifier: Apache-2.0
-#include "load/picture_map.h"
+#include "assets/picture_map.h"
 
 #include <algorithm>
 #include <vector>
 
 #include "base/srgb.h"
 
-namespace tofray::load {
+namespace tofray::assets {
 
 namespace {
 
@@ -50,4 +50,4 @@ PictureMap map_of_picture(const image::Image& picture, const std::array<double, 
   return {map, static_cast<double>(brightest), sum / static_cast<double>(std::max<std::size_t>(seen, 1))};
 }
 
-}  // namespace tofray::load
+}  // namespace tofray::assets

@@ -33,16 +33,16 @@ class mesh_files : public testing::Test {
     file("in/corner.obj", corner), file("in/side/corner.ply", corner_ply), file("out.obj", corner);
   }
   void file(const std::string& name, const std::string& bytes) const { write_file(folder_.path() / name, bytes); }
-  [[nodiscard]] Scene scene(const std::string& keys, const load::MeshFiles& files = {}) const {
+  [[nodiscard]] Scene scene(const std::string& keys, const assets::MeshFiles& files = {}) const {
     const std::string text = "objects:\n  - mesh: {" + keys + ", reflectivity: 0.5}\n";
     return load::scene_from_text(text, (folder_.path() / "in/scene.yaml").string(), {}, files);
   }
-  [[nodiscard]] Mesh mesh(const std::string& keys, const load::MeshFiles& files = {}) const {
+  [[nodiscard]] Mesh mesh(const std::string& keys, const assets::MeshFiles& files = {}) const {
     return std::get<Mesh>(scene(keys, files).objects.at(0).shape);
   }
   [[nodiscard]] std::array<float, 3> first(const std::string& keys) const { return mesh(keys).triangles->vertices.at(0); }
   [[nodiscard]] std::string refusal(const std::string& keys, ErrorKind kind = ErrorKind::bad_input,
-                                    const load::MeshFiles& files = {}) const {
+                                    const assets::MeshFiles& files = {}) const {
     try {
       (void)scene(keys, files);
     } catch (const Error& error) {
@@ -105,7 +105,7 @@ TEST_F(mesh_files, are_read_once_for_all_objects_that_want_them_alike) {
 
 TEST_F(mesh_files, are_known_by_their_sha256) {
   EXPECT_EQ(mesh("file: corner.obj").sha256.size(), 64U);
-  const load::MeshFiles same{{}, {{{"corner.obj", mesh("file: corner.obj").sha256}}}}, none{{}, std::map<std::string, std::string>{}};
+  const assets::MeshFiles same{{}, {{{"corner.obj", mesh("file: corner.obj").sha256}}}}, none{{}, std::map<std::string, std::string>{}};
   EXPECT_EQ(mesh("file: corner.obj", same).triangles->triangles.size(), 1U);
   EXPECT_TRUE(tells(refusal("file: corner.obj", ErrorKind::bad_input, none), "is not the mesh that it was"));
   file("in/corner.obj", std::string(corner) + "# changed\n");

@@ -9,13 +9,13 @@
 #include <string>
 #include <vector>
 
+#include "assets/mesh_piece.h"
 #include "base/faults.h"
 #include "gltf/model.h"
 #include "gltf/parts.h"
-#include "load/mesh_piece.h"
 
 /// Materials of glTF files as a near-infrared camera sees them.
-namespace tofray::load {
+namespace tofray::assets {
 
 /// What the vertices of one material's triangles say of its colour, linear: each of them, white where it says none, and their mean by area.
 class VertexColors {
@@ -91,4 +91,4 @@ class GltfMaterials {
 /// A material's name as listings and scenes have it, or its place among the file's.
 std::string name_of(const gltf::Model& model, int index);
 
-}  // namespace tofray::load
+}  // namespace tofray::assets

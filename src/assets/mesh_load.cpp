@@ -1,25 +1,25 @@
 // SPDX-FileCopyrightText: 2026 The tofray authors
 // SPDX-License-Identifier: Apache-2.0
-#include "load/mesh_load.h"
+#include "assets/mesh_load.h"
 
 #include <algorithm>
 #include <cmath>
 
+#include "assets/builtin_mesh.h"
+#include "assets/gltf_load.h"
+#include "assets/gltf_map.h"
+#include "assets/gltf_material.h"
+#include "assets/gltf_motion.h"
+#include "assets/obj_load.h"
 #include "base/limits.h"
 #include "base/range.h"
 #include "base/text.h"
 #include "base/vec.h"
 #include "files/sha256.h"
 #include "files/text_file.h"
-#include "load/builtin_mesh.h"
-#include "load/gltf_load.h"
-#include "load/gltf_map.h"
-#include "load/gltf_material.h"
-#include "load/gltf_motion.h"
-#include "load/obj_load.h"
 #include "mesh/read_mesh.h"
 
-namespace tofray::load {
+namespace tofray::assets {
 
 namespace {
 
@@ -56,7 +56,7 @@ Axes axes_of(const Mesh& mesh, Scene::Up world) {
 
 /// All of a file as one piece.
 /// @param by_material  whether the colours of its vertices are its material
-std::vector<MeshPiece> whole(mesh::ReadMesh read, bool by_material, MeshReader::Known& known) {
+std::vector<MeshPiece> whole(mesh::ReadMesh read, bool by_material, LoadedMesh& known) {
   known.notices = std::move(read.notices);
   std::vector<MeshPiece> out;
   out.push_back({std::move(read.mesh), read.not_finite, {}});
@@ -149,12 +149,13 @@ void MeshReader::Known::show(std::size_t piece, Mesh& mesh, bool shaded) const {
   const Piece& of = pieces[piece];
   mesh.triangles = of.triangles, mesh.motion = of.motion;
   if (!shaded && !of.triangles->shades.empty()) {
-    if (of.without_shades == nullptr) {
+    without_shades.resize(pieces.size());
+    if (without_shades[piece] == nullptr) {
       auto plain = std::make_shared<TriangleMesh>(*of.triangles);
       plain->shades.clear();
-      of.without_shades = std::move(plain);
+      without_shades[piece] = std::move(plain);
     }
-    mesh.triangles = of.without_shades;
+    mesh.triangles = without_shades[piece];
   }
   mesh.sha256 = sha256, mesh.left_out = pieces[piece].left_out;
 }
@@ -164,20 +165,48 @@ MeshReader::MeshReader(const std::string& source, const MeshFiles& files) : fold
 const MeshReader::Known& MeshReader::read(const Places& places, const Mesh& mesh, bool by_material) {
   const std::tuple key{mesh.file, mesh.scale, mesh.up, mesh.animation, mesh.time_s, mesh.play, by_material};
   auto known = known_.find(key);
-  if (known == known_.end()) known = known_.emplace(key, from_file(places, mesh, by_material)).first;
+  if (known == known_.end()) known = known_.emplace(key, loaded(places, mesh, by_material)).first;
   return known->second;
 }
 
-std::vector<MeshPiece> MeshReader::pieces(const Places& places, const Mesh& wanted, bool by_material, std::string& path,
-                                          Known& known) const {
-  if (is_builtin_mesh(wanted.file)) {
-    path = wanted.file;
-    return from_code(places.file, wanted.file);
+MeshReader::Known MeshReader::loaded(const Places& places, const Mesh& wanted, bool by_material) {
+  std::string path = wanted.file, bytes;
+  if (!is_builtin_mesh(wanted.file)) {
+    if (!is_gltf(wanted.file)) (void)mesh::format_of(wanted.file, places.file);
+    bytes = files::read_reference(wanted.file, folder_, files_.root, places.file, path, base::limit::mesh_bytes);
   }
-  const auto read = [&] { return files::read_reference(wanted.file, folder_, files_.root, places.file, path, base::limit::mesh_bytes); };
-  if (is_gltf(wanted.file)) return from_gltf(places, wanted, path, read(), by_material, known);
+  MeshKey key{{},
+              path,
+              files_.root,
+              wanted.file,
+              wanted.animation,
+              wanted.scale,
+              wanted.up,
+              wanted.play,
+              wanted.time_s,
+              world_up_,
+              by_material,
+              with_materials_.contains(wanted.file),
+              with_pictures_.contains(wanted.file)};
+  key.bytes.add(std::string_view(bytes));
+  bool is_new = false;
+  const auto make = [&] { return is_new = true, from_file(places, wanted, path, std::move(bytes), by_material); };
+  const std::shared_ptr<const LoadedMesh> mesh = cached_mesh(key, make);
+  if (!is_new) {
+    if (!mesh->sha256.empty()) check_expected(places.file, wanted.file, path, mesh->sha256);
+    count(places.file, mesh->vertices, mesh->all_triangles);
+    for (const Piece& piece : mesh->pieces) count_pictures(piece.of.material, places.file, texels_);
+  }
+  Known known{*mesh, {}};
+  for (Piece& piece : known.pieces) piece.triangles = {mesh, piece.triangles.get()};  // whoever has a piece keeps the mesh
+  return known;
+}
+
+std::vector<MeshPiece> MeshReader::pieces(const Places& places, const Mesh& wanted, const std::string& path, std::string bytes,
+                                          bool by_material, LoadedMesh& known) const {
+  if (is_builtin_mesh(wanted.file)) return from_code(places.file, wanted.file);
+  if (is_gltf(wanted.file)) return from_gltf(places, wanted, path, bytes, by_material, known);
   const mesh::Format format = mesh::format_of(wanted.file, places.file);
-  std::string bytes = read();
   if (with_materials_.contains(wanted.file)) return from_obj(places, wanted, path, std::move(bytes), by_material, known);
   mesh::ReadMesh mesh = mesh::parse(format, bytes, path);
   if (mesh.pictures.empty() || !with_pictures_.contains(wanted.file)) {
@@ -194,21 +223,21 @@ std::vector<MeshPiece> MeshReader::pieces(const Places& places, const Mesh& want
   return out;
 }
 
-std::vector<MeshPiece> MeshReader::wearing(mesh::ReadMesh mesh, const ObjMaterials& materials, const Places& places, Known& known) {
+std::vector<MeshPiece> MeshReader::wearing(mesh::ReadMesh mesh, const ObjMaterials& materials, const Places& places, LoadedMesh& known) {
   known.notices = std::move(mesh.notices);
   for (const std::string& name : mesh.materials) known.materials.push_back(shown_name(name));
   return materials.pieces(std::move(mesh), places.file, known.notices);
 }
 
-MeshReader::Known MeshReader::from_file(const Places& places, const Mesh& wanted, bool by_material) {
-  std::string path;
-  Known known;
-  std::vector<MeshPiece> pieces = this->pieces(places, wanted, by_material, path, known);
+LoadedMesh MeshReader::from_file(const Places& places, const Mesh& wanted, const std::string& path, std::string bytes, bool by_material) {
+  LoadedMesh known;
+  std::vector<MeshPiece> pieces = this->pieces(places, wanted, path, std::move(bytes), by_material, known);
   const Axes up = axes_of(wanted, world_up_);
   std::size_t lost = 0;
   double farthest_m = 0;
   for (MeshPiece& piece : pieces) {
-    count(places.file, piece.mesh);
+    count(places.file, piece.mesh.vertices.size(), piece.mesh.triangles.size());
+    known.vertices += piece.mesh.vertices.size(), known.all_triangles += piece.mesh.triangles.size();
     for (Corner& p : piece.mesh.vertices) p = in_world(p, wanted.scale, up);
     for (Corner& n : piece.mesh.normals) n = turned(n, up);
     count_pictures(piece.of.material, places.file, texels_);
@@ -230,7 +259,7 @@ MeshReader::Known MeshReader::from_file(const Places& places, const Mesh& wanted
   return known;
 }
 
-void MeshReader::check_seen(const Places& places, const Mesh& wanted, const std::string& path, const Known& known,
+void MeshReader::check_seen(const Places& places, const Mesh& wanted, const std::string& path, const LoadedMesh& known,
                             const std::vector<MeshPiece>& all, std::size_t lost, double farthest_m) {
   const std::string file = base::in_quotes(path, 200);
   const auto seen = [](const Piece& piece) { return piece.motion != nullptr || has_area(*piece.triangles); };
@@ -269,7 +298,7 @@ std::vector<MeshPiece> MeshReader::from_code(const base::Place& place, const std
 }
 
 std::vector<MeshPiece> MeshReader::from_gltf(const Places& places, const Mesh& wanted, const std::string& path, const std::string& bytes,
-                                             bool by_material, Known& known) const {
+                                             bool by_material, LoadedMesh& known) const {
   GltfFile file = read_gltf(bytes, path, files_.root);
   check_expected(places.file, wanted.file, path, file.sha256);
   if (wanted.time_s && file.model.animations.empty())
@@ -294,7 +323,7 @@ std::vector<MeshPiece> MeshReader::from_gltf(const Places& places, const Mesh& w
 }
 
 std::vector<MeshPiece> MeshReader::from_obj(const Places& places, const Mesh& wanted, const std::string& path, std::string bytes,
-                                            bool by_material, Known& known) const {
+                                            bool by_material, LoadedMesh& known) const {
   mesh::ReadMesh mesh = mesh::parse(mesh::Format::obj, bytes, path);
   const ObjMaterials materials(mesh, path, files_.root);
   bytes += materials.bytes();
@@ -314,8 +343,8 @@ void MeshReader::check_expected(const base::Place& place, const std::string& fil
                "its SHA-256 is not the one that the manifest has; expected the same file in the same place");
 }
 
-void MeshReader::count(const base::Place& place, const TriangleMesh& mesh) {
-  vertices_ += mesh.vertices.size(), triangles_ += mesh.triangles.size();
+void MeshReader::count(const base::Place& place, std::size_t vertices, std::size_t triangles) {
+  vertices_ += vertices, triangles_ += triangles;
   const auto check = [&](std::size_t got, const base::Limit& limit, const char* what) {
     if (got > static_cast<std::size_t>(limit.value))
       base::fail(
@@ -358,4 +387,4 @@ std::optional<Pose> camera_in(const Mesh& mesh, const std::string& source, const
   return pose;
 }
 
-}  // namespace tofray::load
+}  // namespace tofray::assets

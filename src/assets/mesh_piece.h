@@ -8,7 +8,7 @@
 #include "base/faults.h"
 #include "tofray/scene.h"
 
-namespace tofray::load {
+namespace tofray::assets {
 
 /// What triangles without a material are called.
 inline constexpr const char* no_material = "no material";
@@ -55,4 +55,4 @@ void count_texels(int width, int height, const base::Place& place, std::size_t& 
 /// What a listing may show of a material's name, which a stranger gave.
 std::string shown_name(const std::string& name);
 
-}  // namespace tofray::load
+}  // namespace tofray::assets

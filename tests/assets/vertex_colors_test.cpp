@@ -5,8 +5,8 @@
 
 #include <cmath>
 
+#include "assets/mesh_load.h"
 #include "load/load.h"
-#include "load/mesh_load.h"
 #include "support/samples.h"
 #include "support/text.h"
 
@@ -78,9 +78,9 @@ TEST_F(vertex_colors, are_needed_where_nothing_says_a_material) {
   EXPECT_TRUE(has(refused("file: a.ply"), "s.yaml:2:11: error: mesh lacks a key\n  expected one of")) << refused("file: a.ply");
   EXPECT_TRUE(has(refused("file: a.ply"), "\"a.ply\" has neither colours of vertices nor a picture that can be read"));
   EXPECT_TRUE(has(refused("file: a.stl"), "mesh lacks a key"));
-  EXPECT_FALSE(load::has_own_materials("a.ply", (folder_.path() / "s.yaml").string(), ""));
+  EXPECT_FALSE(assets::has_own_materials("a.ply", (folder_.path() / "s.yaml").string(), ""));
   save("a.ply", ply("uchar", "0 1 0 1 1 0\n1 1 0 1 1 0\n0 1 1 1 1 0\n"));
-  EXPECT_TRUE(load::has_own_materials("a.ply", (folder_.path() / "s.yaml").string(), ""));
+  EXPECT_TRUE(assets::has_own_materials("a.ply", (folder_.path() / "s.yaml").string(), ""));
 }
 
 // A weight may stand before them. Vertices without are white, also those that come before; those that become several keep theirs.
@@ -90,7 +90,7 @@ TEST_F(vertex_colors, of_an_obj_file_follow_its_vertices) {
   EXPECT_EQ(got.objects.at(0).name, "a/no material");
   EXPECT_EQ(got.materials.at(0).diffuse, 1);
   expect_shades(got, {1, 0.7152, 0.0722, 0.7152, 0.0722});
-  EXPECT_TRUE(load::has_own_materials("a.obj", (folder_.path() / "s.yaml").string(), ""));
+  EXPECT_TRUE(assets::has_own_materials("a.obj", (folder_.path() / "s.yaml").string(), ""));
 }
 
 // Materials say more than colours, where they say anything.

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The tofray authors
 // SPDX-License-Identifier: Apache-2.0
-#include "load/gltf_map.h"
+#include "assets/gltf_map.h"
 
 #include <algorithm>
 #include <cmath>
@@ -9,7 +9,7 @@
 #include "base/vec.h"
 #include "image/read_image.h"
 
-namespace tofray::load {
+namespace tofray::assets {
 
 namespace {
 
@@ -167,4 +167,4 @@ std::array<float, 2> placed(const gltf::TextureUse& use, const std::array<float,
   return {static_cast<float>(use.offset[0] + c * u + s * v), static_cast<float>(use.offset[1] - s * u + c * v)};
 }
 
-}  // namespace tofray::load
+}  // namespace tofray::assets

@@ -7,12 +7,12 @@
 #include <string_view>
 #include <vector>
 
-#include "load/mesh_piece.h"
+#include "assets/mesh_piece.h"
 #include "mesh/mtl.h"
 #include "mesh/read_mesh.h"
 
 /// OBJ files of a scene: with the files of materials and pictures that they name, taken apart by material; and PLY files with pictures.
-namespace tofray::load {
+namespace tofray::assets {
 
 /// By the file name's suffix, in any case.
 bool is_obj(const std::string& path);
@@ -71,4 +71,4 @@ class ObjMaterials {
   std::size_t twice_ = 0;
 };
 
-}  // namespace tofray::load
+}  // namespace tofray::assets

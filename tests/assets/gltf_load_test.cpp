@@ -3,11 +3,11 @@
 // glTF files that a scene names: materials, animations, cameras, the files that they name in turn.
 #include <gtest/gtest.h>
 
+#include "assets/mesh_load.h"
 #include "files/sha256.h"
 #include "gltf/gltf_files.h"
 #include "image/image_files.h"
 #include "load/load.h"
-#include "load/mesh_load.h"
 #include "support/samples.h"
 #include "support/text.h"
 
@@ -66,15 +66,15 @@ class gltf_in_scene : public testing::Test {
   }
   void file(const std::string& name, const std::string& bytes) const { write_file(folder_.path() / name, bytes); }
   [[nodiscard]] std::string source() const { return (folder_.path() / "in/scene.yaml").string(); }
-  [[nodiscard]] Scene scene(const std::string& keys, const load::MeshFiles& files = {}) const {
+  [[nodiscard]] Scene scene(const std::string& keys, const assets::MeshFiles& files = {}) const {
     return load::scene_from_text("objects:\n  - mesh: {" + keys + "}\n", source(), {}, files);
   }
-  [[nodiscard]] Mesh mesh(const std::string& keys, const load::MeshFiles& files = {}) const {
+  [[nodiscard]] Mesh mesh(const std::string& keys, const assets::MeshFiles& files = {}) const {
     return std::get<Mesh>(scene(keys, files).objects.at(0).shape);
   }
   [[nodiscard]] V first(const std::string& keys) const { return mesh(keys).triangles->vertices.at(0); }
   [[nodiscard]] std::string refusal(const std::string& keys, ErrorKind kind = ErrorKind::bad_input,
-                                    const load::MeshFiles& files = {}) const {
+                                    const assets::MeshFiles& files = {}) const {
     const Error error = out_test::error_of([&] { (void)scene(keys, files); });
     EXPECT_EQ(error.kind(), kind) << error.what();
     return error.what();
@@ -395,7 +395,7 @@ TEST_F(gltf_in_scene, is_known_by_the_sha256_of_all_its_files) {
   const std::string known = mesh("file: corner.gltf").sha256;
   EXPECT_EQ(known, files::sha256_hex(inside.text_beside("corner.bin") + inside.binary));
   EXPECT_EQ(mesh("file: two.glb").sha256, files::sha256_hex(two_materials().glb()));
-  const load::MeshFiles same{{}, {{{"corner.gltf", known}}}};
+  const assets::MeshFiles same{{}, {{{"corner.gltf", known}}}};
   EXPECT_EQ(mesh("file: corner.gltf", same).triangles->triangles.size(), 1U);
   std::string changed = inside.binary;
   changed[3] = '\x40';  // the sign and exponent of the first coordinate: 2 in place of 0
@@ -449,12 +449,12 @@ TEST_F(gltf_in_scene, says_where_its_first_perspective_camera_stands) {
   // Turned to the left about y by 90 degrees it looks along −x.
   seen.node({{"camera", 1}, {"translation", {1, 2, 3}}, {"rotation", {0, gltf_test::half_root, 0, gltf_test::half_root}}});
   file("in/seen.glb", seen.glb());
-  const auto pose = load::camera_in(mesh("file: seen.glb, scale: 2"), source(), {});
+  const auto pose = assets::camera_in(mesh("file: seen.glb, scale: 2"), source(), {});
   ASSERT_TRUE(pose);
   // The world is (x, −y, −z) of the file; rounding of a quaternion and its product
   const Vec3 expected[] = {{2, -4, -6}, {0, -4, -6}, {0, -1, 0}}, got[] = {pose->position, pose->look_at, pose->up};
   for (std::size_t i = 0; i < 3; ++i)
     for (std::size_t k = 0; k < 3; ++k) EXPECT_NEAR(got[i][k], expected[i][k], 1e-12);
-  EXPECT_FALSE(load::camera_in(mesh("file: two.glb"), source(), {}));
-  EXPECT_FALSE(load::camera_in(mesh("file: corner.obj, reflectivity: 0.5"), source(), {}));
+  EXPECT_FALSE(assets::camera_in(mesh("file: two.glb"), source(), {}));
+  EXPECT_FALSE(assets::camera_in(mesh("file: corner.obj, reflectivity: 0.5"), source(), {}));
 }

@@ -3,11 +3,11 @@
 #pragma once
 #include <vector>
 
+#include "assets/mesh_piece.h"
 #include "gltf/model.h"
-#include "load/mesh_piece.h"
 
 /// glTF files of a scene whose first animation goes on: nodes, skins and morph targets.
-namespace tofray::load {
+namespace tofray::assets {
 
 /// Gives the pieces of a model their motion.
 /// @param model      of which they were made at `start_s` of one of its animations
@@ -16,4 +16,4 @@ namespace tofray::load {
 /// @param loop     again and again, from 0 to its last keyframe; else it ends there
 void play(gltf::Model model, int animation, double start_s, bool loop, std::vector<MeshPiece>& pieces);
 
-}  // namespace tofray::load
+}  // namespace tofray::assets

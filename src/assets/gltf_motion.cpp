@@ -1,17 +1,17 @@
 // SPDX-FileCopyrightText: 2026 The tofray authors
 // SPDX-License-Identifier: Apache-2.0
-#include "load/gltf_motion.h"
+#include "assets/gltf_motion.h"
 
 #include <cmath>
 #include <mutex>
 #include <utility>
 
+#include "assets/gltf_load.h"
 #include "base/text.h"
 #include "gltf/parts.h"
-#include "load/gltf_load.h"
 #include "tofray/error.h"
 
-namespace tofray::load {
+namespace tofray::assets {
 
 namespace {
 
@@ -88,4 +88,4 @@ void play(gltf::Model model, int animation, double start_s, bool loop, std::vect
   for (MeshPiece& piece : pieces) piece.motion = std::make_shared<PieceMotion>(film, piece.by_material, piece.number, piece.left_out);
 }
 
-}  // namespace tofray::load
+}  // namespace tofray::assets
