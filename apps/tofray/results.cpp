@@ -26,7 +26,7 @@ void say_fallback(const Options& options, const RanOn& machine, Remarks& remarks
 const std::vector<std::string>& flag_names() {
   static const std::vector<std::string> names = [] {
     std::vector<std::string> all;
-    for (int bit = 0; bit < pictures::flag_count; ++bit) all.emplace_back(pictures::flag_name(bit));
+    for (int bit = 0; const pictures::FlagRow* const row = pictures::flag_of_bit(bit); ++bit) all.emplace_back(row->words);
     return all;
   }();
   return names;

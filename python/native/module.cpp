@@ -234,16 +234,9 @@ py::object round_trip(const py::object& value) {
 
 py::dict flags() {
   py::dict out;
-  const std::pair<const char*, Flag> all[] = {{"saturated", flag_saturated},
-                                              {"low_signal", flag_low_signal},
-                                              {"flying_pixel", flag_flying_pixel},
-                                              {"no_return", flag_no_return},
-                                              {"outside_lens", flag_outside_lens},
-                                              {"inconsistent_phases", flag_inconsistent_phases},
-                                              {"inconsistent_frequencies", flag_inconsistent_frequencies},
-                                              {"rejected", flag_rejected},
-                                              {"filtered", flag_filtered}};
-  for (const auto& [name, bit] : all) out[name] = static_cast<int>(bit);
+#define TOFRAY_FLAG_OF(name, bit, ...) out[#name] = bit;
+  TOFRAY_FLAGS(TOFRAY_FLAG_OF)
+#undef TOFRAY_FLAG_OF
   out["invalid"] = static_cast<int>(flags_invalid);
   return out;
 }

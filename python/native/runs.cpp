@@ -15,14 +15,14 @@ namespace tofray::python {
 namespace {
 
 template <class T>
-void take_word(const py::dict& words, const char* name, T& into) {
+void take_key(const py::dict& words, const char* name, T& into) {
   if (words.contains(name)) from_python(words[name], into, {nullptr, name});
 }
 
 InputRequest input_request(const py::dict& words) {
   InputRequest out;
-  take_word(words, "scene", out.scene), take_word(words, "set", out.set), take_word(words, "mode", out.mode);
-  take_word(words, "root", out.root), take_word(words, "manifest", out.manifest);
+  take_key(words, "scene", out.scene), take_key(words, "set", out.set), take_key(words, "mode", out.mode);
+  take_key(words, "root", out.root), take_key(words, "manifest", out.manifest);
   return out;
 }
 
@@ -34,16 +34,15 @@ RunRequest run_request(const py::dict& words, const py::dict& options) {
   const SimulatorOptions simulator = options_from_python(options);
   if (inputs.manifest.empty()) {
     out.inputs = inputs, out.simulator = simulator;
-    take_word(words, "frames", out.frames), take_word(words, "first_frame", out.first_frame);
-    take_word(words, "emit", out.files.emit), take_word(words, "arrays", out.files.arrays),
-        take_word(words, "compress", out.files.compress);
-    take_word(words, "light_theme", out.files.light_theme), take_word(words, "scale", out.files.scale);
+    take_key(words, "frames", out.frames), take_key(words, "first_frame", out.first_frame);
+    take_key(words, "emit", out.files.emit), take_key(words, "arrays", out.files.arrays), take_key(words, "compress", out.files.compress);
+    take_key(words, "light_theme", out.files.light_theme), take_key(words, "scale", out.files.scale);
   } else {
     out = request_of_manifest(inputs.manifest);
     out.inputs.root = inputs.root;
     out.simulator.threads = simulator.threads, out.simulator.backend = simulator.backend, out.simulator.device = simulator.device;
   }
-  take_word(words, "folder", out.folder), take_word(words, "clean", out.clean), take_word(words, "command", out.command);
+  take_key(words, "folder", out.folder), take_key(words, "clean", out.clean), take_key(words, "command", out.command);
   return out;
 }
 

@@ -47,7 +47,7 @@ def declared(code: str) -> list[str]:
 def comments() -> dict[str, dict[str, str]]:
     """The comment of each struct ('' is its key) and of each of its members."""
     out: dict[str, dict[str, str]] = {}
-    for header in ("scene.h", "camera.h", "simulator.h", "analysis.h", "camera_report.h", "pixel.h", "file_record.h", "run.h"):
+    for header in ("scene.h", "camera.h", "simulator.h", "options.h", "analysis.h", "camera_report.h", "pixel.h", "file_record.h", "run.h"):
         before: list[str] = []
         struct, members = "", [""]
         behind = False

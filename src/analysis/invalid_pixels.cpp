@@ -12,12 +12,11 @@
 namespace tofray {
 
 NoDepth analysis::reason_by_flags(std::uint16_t flags) {
-  if ((flags & flag_outside_lens) != 0) return NoDepth::outside_lens;
-  if ((flags & flag_saturated) != 0) return NoDepth::saturated;
-  if ((flags & flag_no_return) != 0) return NoDepth::no_return;
-  if ((flags & flag_low_signal) != 0) return NoDepth::low_signal;
-  if ((flags & flag_flying_pixel) != 0) return NoDepth::flying_pixel;
-  return (flags & flag_inconsistent_phases) != 0 ? NoDepth::inconsistent_phases : NoDepth::inconsistent_frequencies;
+#define TOFRAY_REASON(name, bit, ...) \
+  if ((flags & (bit)) != 0) return NoDepth::name;
+  TOFRAY_REASONS(TOFRAY_REASON)
+#undef TOFRAY_REASON
+  return NoDepth::inconsistent_frequencies;
 }
 
 namespace {

@@ -52,7 +52,6 @@ std::string whole_cycles(const InvalidPixels& pixels) {
 /// What helps against a reason why pixels are invalid.
 std::string help_against(NoDepth reason, const InvalidPixels& pixels, const Frame& frame, const Camera& camera) {
   switch (reason) {
-    case NoDepth::saturated: return "less light, a shorter integration time, or more distance";
     case NoDepth::no_surface:
       return "the rays of these pixels hit nothing: more light does not help; see camera.pose, or add a wall or a floor";
     case NoDepth::beyond_reach:
@@ -60,14 +59,13 @@ std::string help_against(NoDepth reason, const InvalidPixels& pixels, const Fram
                          pixels.ambiguity_range_m);
     case NoDepth::dark:
     case NoDepth::low_signal: return more_light(frame, camera);
-    case NoDepth::no_return: return "no light comes back: nothing is there, it is dark, or out of the light's reach";
     case NoDepth::wrong_cycle: return whole_cycles(pixels);
-    case NoDepth::flying_pixel:
-      return "surfaces that are seen at a glancing angle, or thinner than a few pixels; camera.decoding says what is one";
-    case NoDepth::outside_lens: return "the lens model has no rays there: see camera.lens.distortion";
-    case NoDepth::inconsistent_phases: return "something moves, or camera.decoding.asymmetry rejects too much";
-    case NoDepth::inconsistent_frequencies: return "light on several ways, a wrong cycle, or camera.decoding.multipath rejects too much";
+    default: break;
   }
+#define TOFRAY_ADVICE(name, bit, invalid, letter, dark, light, words, what, advice) \
+  if (reason == NoDepth::name) return advice;
+  TOFRAY_REASONS(TOFRAY_ADVICE)
+#undef TOFRAY_ADVICE
   return "see flags";
 }
 

@@ -24,7 +24,7 @@ namespace fs = std::filesystem;
 
 const std::string grey_pixel = image_test::hand_png(1, 1, 8, image_test::rgb, std::string("\0\xBC\xBC\xBC", 4));
 const std::string white_pixel = image_test::hand_png(1, 1, 8, image_test::rgb, std::string("\0\xFF\xFF\xFF", 4));
-const std::string card =
+const std::string painted_card =
     "mtllib card.mtl\nusemtl paint\nv -1 -1 -2\nv 1 -1 -2\nv 1 1 -2\nv -1 1 -2\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nf 1/1 2/2 3/3 4/4\n";
 
 class cached_mesh : public testing::Test {
@@ -33,7 +33,7 @@ class cached_mesh : public testing::Test {
     base::forget_kept();
     fs::create_directories(folder_.path() / "other");
     for (const char* where : {"", "other/"}) {
-      file(std::string(where) + "card.obj", card);
+      file(std::string(where) + "card.obj", painted_card);
       file(std::string(where) + "card.mtl", "newmtl paint\nmap_Kd card.png\n");
       file(std::string(where) + "card.png", grey_pixel);
     }
@@ -73,7 +73,7 @@ TEST_F(cached_mesh, is_another_one_where_it_is_read_otherwise) {
 TEST_F(cached_mesh, is_made_anew_where_a_file_of_it_changed) {
   const Scene before = scene("file: card.obj");
   const std::pair<const char*, std::string> changes[] = {
-      {"card.obj", card + "# of the same shape\n"},
+      {"card.obj", painted_card + "# of the same shape\n"},
       {"card.mtl", "newmtl paint\nmap_Kd card.png\nKd 0.5 0.5 0.5\n"},
       {"card.png", white_pixel},
   };
@@ -87,7 +87,7 @@ TEST_F(cached_mesh, is_made_anew_where_a_file_of_it_changed) {
     last = all.back().get();
   }
   EXPECT_GT(diffuse(*all[2]), 1.5 * diffuse(*all[1])) << "the new picture is white";
-  file("card.obj", card), file("card.mtl", "newmtl paint\nmap_Kd card.png\n"), file("card.png", grey_pixel);
+  file("card.obj", painted_card), file("card.mtl", "newmtl paint\nmap_Kd card.png\n"), file("card.png", grey_pixel);
   EXPECT_EQ(triangles(before), triangles(scene("file: card.obj"))) << "all as it was at first";
 }
 

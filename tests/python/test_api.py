@@ -102,10 +102,10 @@ def test_own_arrays_have_the_members_of_their_structs() -> None:
 
 
 def test_flags_are_those_of_the_header() -> None:
-    of_header = {name: int(value) for name, value in re.findall(r"flag_(\w+) = (\d+)", TEXT["frame.h"])}
-    invalid = re.search(r"flags_invalid = ([\d +]+);", TEXT["frame.h"])
-    assert invalid is not None
-    assert {**of_header, "invalid": sum(int(one) for one in invalid[1].split("+"))} == tofray.flags
+    rows = re.findall(r"row\((\w+), +(\d+), ([01]), '[A-Z]'", TEXT["flags.h"])
+    assert len(rows) == 9
+    invalid = sum(int(bit) for _, bit, ends in rows if ends == "1")
+    assert {**{name: int(bit) for name, bit, _ in rows}, "invalid": invalid} == tofray.flags
 
 
 def test_a_simulators_words_are_the_options() -> None:

@@ -389,12 +389,12 @@ void Session::Impl::answer(const Question& question) {
       Json value = array.shape == ArrayShape::image ? Json(numbers[0]) : Json::list(numbers);
       values.push(Json::object().set("name", array.name).set("unit", array.unit).set("value", std::move(value)));
     }
-    const int reason = pictures::invalid_reason(of->frame.depth.flags[pixel]);
+    const pictures::FlagRow* const reason = pictures::invalid_reason(of->frame.depth.flags[pixel]);
     Json json = Json::object();
     json.set("type", "pixel").set("id", asked.id).set("u", asked.u).set("v", asked.v);
     json.set("generation", state_.generation).set("frame", index);
     json.set("report", app::pixel_json(arrays, chain, run::pixel_bounces(arrays, origin, asked.u, asked.v)));
-    json.set("values", std::move(values)).set("why", reason < 0 ? "" : pictures::flag_name(reason));
+    json.set("values", std::move(values)).set("why", reason == nullptr ? "" : reason->words);
     out_->tell(question.client, files::json_text(json));
   });
   if (fault) out_->tell(question.client, fault_text(asked.id, *fault));
