@@ -164,7 +164,7 @@ TEST(check, notes_a_closed_object_around_the_camera) {
           "camera: {profile: pico-flexx, pose: {position: [1, 0, 0], look_at: [1, 0, 1]}}\nobjects:\n"
           "  - plane: {point: [0, 0, 2], normal: [0, 0, -1], reflectivity: 0.5}\n  - " +
               object + "\n");
-    const Result result = run({"check", "scene.yaml"}, in_folder(folder.path()));
+    const Result result = test::run({"check", "scene.yaml"}, in_folder(folder.path()));
     EXPECT_EQ(result.code, 0) << result.err;
     return has(result.err, ": the camera stands inside objects.1");
   };
@@ -190,7 +190,7 @@ TEST(render, says_why_few_pixels_are_valid_and_what_helps) {
   const Folder folder;
   const auto where = in_folder(folder.path());
   const auto said = [&](const char* set, const char* value) {
-    return run({"render", "card", "-o", "out", "--emit", "npz", "--set", std::string(set) + "=" + value}, where).err;
+    return test::run({"render", "card", "-o", "out", "--emit", "npz", "--set", std::string(set) + "=" + value}, where).err;
   };
   const std::string dark = said("camera.integration_time", "30 us");
   EXPECT_TRUE(has(dark, " % dark: noise 0.")) << dark;

@@ -180,7 +180,7 @@ TEST_F(references, that_lead_elsewhere_open_nothing_there) {
   const Folder logs;
   const auto opened = [&](const std::string& scene) {
     const std::string log = (logs / "log").string();
-    (void)run({}, [&] {
+    (void)test::run({}, [&] {
       in_folder(in())();
       ::execlp("strace", "strace", "-f", "-y", "-qqq", "-o", log.c_str(), "-e", "trace=open,openat,openat2,connect", TOFRAY_TOOL, "check",
                scene.c_str(), nullptr);
