@@ -62,9 +62,10 @@ const Table& table_of<PixelMask>() {
 template <>
 const Table& table_of<Sensor>() {
   static const Table rows = table<Sensor>(
-      number<&Sensor::width>("width", sensor_side, "pixels").required(),
-      number<&Sensor::height>("height", sensor_side, "pixels").required(),
-      number<&Sensor::pixel_pitch_m>("pixel_pitch", {length, {0.5e-6, 1e-3}, "12 um"}, "from pixel to pixel").required(),
+      number<&Sensor::width>("width", sensor_side, "columns of pixels").required(),
+      number<&Sensor::height>("height", sensor_side, "rows of pixels").required(),
+      number<&Sensor::pixel_pitch_m>("pixel_pitch", {length, {0.5e-6, 1e-3}, "12 um"}, "from one pixel's middle to the next one's")
+          .required(),
       number<&Sensor::fill_factor>("fill_factor", {fraction, {1e-3, 1}, "0.8"}, "share of the pixel's area that collects light"),
       record<&Sensor::mask>("mask", "where within a pixel it is collected, for samples within it"));
   return rows;
@@ -103,22 +104,24 @@ const Table& table_of<Lens>() {
   constexpr auto brown_conrady = Lens::Distortion::brown_conrady;
   static const Table rows = table<Lens>(
       number<&Lens::fx_px>("fx", focal_length, "focal length over pixel pitch, along a row").required(),
-      number<&Lens::fy_px>("fy", focal_length, "the same along a column").required(),
-      number<&Lens::cx_px>("cx", principal_point, "principal point; the centre of pixel (0, 0) is at (0, 0)").required(),
-      number<&Lens::cy_px>("cy", {pixel, principal_point.range, "85.5 px"}, "principal point").required(),
+      number<&Lens::fy_px>("fy", focal_length, "focal length over pixel pitch, along a column").required(),
+      number<&Lens::cx_px>("cx", principal_point, "principal point, its column; the middle of pixel (0, 0) is at (0, 0)").required(),
+      number<&Lens::cy_px>("cy", {pixel, principal_point.range, "85.5 px"},
+                           "principal point, its row; the middle of pixel (0, 0) is at (0, 0)")
+          .required(),
       group("distortion", "as in OpenCV",
             choice<&Lens::distortion>(
                 "model", {"brown_conrady", "fisheye"},
                 "brown_conrady: k1 to k6, p1 and p2, rational from k4 on; fisheye: k1 to k4 over the angle to the axis"),
             number<&Lens::k1>("k1", distortion, "radial, r^2; fisheye: angle^2"),
             number<&Lens::k2>("k2", distortion, "radial, r^4; fisheye: angle^4"),
-            number<&Lens::p1>("p1", distortion, "tangential").when<&Lens::distortion>(brown_conrady),
-            number<&Lens::p2>("p2", distortion, "tangential").when<&Lens::distortion>(brown_conrady),
+            number<&Lens::p1>("p1", distortion, "tangential distortion, first").when<&Lens::distortion>(brown_conrady),
+            number<&Lens::p2>("p2", distortion, "tangential distortion, second").when<&Lens::distortion>(brown_conrady),
             number<&Lens::k3>("k3", distortion, "radial, r^6; fisheye: angle^6"),
             number<&Lens::k4>("k4", distortion, "radial, r^2 below the line; fisheye: angle^8"),
             number<&Lens::k5>("k5", distortion, "radial, r^4 below the line").when<&Lens::distortion>(brown_conrady),
             number<&Lens::k6>("k6", distortion, "radial, r^6 below the line").when<&Lens::distortion>(brown_conrady)),
-      number<&Lens::f_number>("f_number", {none, {0.3, 100}, "1.6"}, "N").required(),
+      number<&Lens::f_number>("f_number", {none, {0.3, 100}, "1.6"}, "N: focal length over the diameter of the entrance pupil").required(),
       number<&Lens::transmission>("transmission", {fraction, {0, 1}, "0.85"}, "of lens and filter at the illumination wavelength"),
       choice<&Lens::vignetting>("vignetting", {"cos4", "off", "table"},
                                 "fall-off toward the corners: cos4, off, or a table over the angle to the axis"),
@@ -133,7 +136,7 @@ const Table& table_of<Filter>() {
   static const Table rows = table<Filter>(
       number<&Filter::center_m>("center", wavelength, "the illumination wavelength of the first light unless given").absent(),
       number<&Filter::half_width_m>("half_width", {length, {0.1e-9, 10e-6}, "15 nm"}, "passes center - half_width to center + half_width"),
-      number<&Filter::peak>("peak", {fraction, {0, 1}, "0.9"}, "transmission inside"),
+      number<&Filter::peak>("peak", {fraction, {0, 1}, "0.9"}, "transmission of the filter in its pass band"),
       curve<&Filter::table>("", {"wavelength", wavelength}, {"transmission", {fraction, {0, 1}, "0.9"}},
                             "a table in place of center, half_width and peak")
           .absent());
@@ -144,8 +147,8 @@ template <>
 const Table& table_of<Pixel>() {
   static const Table rows =
       table<Pixel>(
-          curve<&Pixel::quantum_efficiency>("quantum_efficiency", {"wavelength", wavelength}, {"value", efficiency}, "electrons per photon",
-                                            allowed)
+          curve<&Pixel::quantum_efficiency>("quantum_efficiency", {"wavelength", wavelength}, {"value", efficiency},
+                                            "electrons per photon, by wavelength", allowed)
               .required(),
           curve<&Pixel::contrast>("contrast", {"modulation_frequency", modulation_frequency}, {"value", contrast},
                                   "demodulation contrast of the pixel itself; 1 unless given", allowed)
@@ -155,7 +158,7 @@ const Table& table_of<Pixel>() {
               "on the contrast, at the wavelength of each light; 1 unless given; not of a measured waveform, which has it in it")
               .absent(),
           number<&Pixel::bandwidth_hz>("bandwidth", {frequency, {0, 1e12}, "180 MHz"}, "single pole of the gate; 0: none"),
-          number<&Pixel::full_well_e>("full_well", {charge, {1, 1e30}, "100000 e"}, "per tap"),
+          number<&Pixel::full_well_e>("full_well", {charge, {1, 1e30}, "100000 e"}, "charge that a tap holds"),
           number<&Pixel::read_noise_e>("read_noise", {charge, {0, 1e6}, "50 e"},
                                        "per tap, reset and read, 1 sigma; reset noise has a key of its own, too"),
           group("reset_noise", "charge that the reset leaves in a tap by chance",
@@ -164,7 +167,7 @@ const Table& table_of<Pixel>() {
                 flag<&Pixel::cancels_reset_noise>("cancelled", "by correlated double sampling: none is left, but taps are read twice")),
           number<&Pixel::column_noise_e>("column_noise", {charge, {0, 1e6}, "10 e"},
                                          "of A-B, shared by a column, anew in each raw frame, 1 sigma"),
-          number<&Pixel::row_noise_e>("row_noise", {charge, {0, 1e6}, "10 e"}, "the same, shared by a row"),
+          number<&Pixel::row_noise_e>("row_noise", {charge, {0, 1e6}, "10 e"}, "noise that all pixels of a row share"),
           number<&Pixel::dark_current_e_per_s>("dark_current", dark_current, "per tap, at the camera's reference temperature"),
           number<&Pixel::dark_current_doubling_k>("dark_current_doubling", {temperature_difference, {0, 1e3}, "8 K"},
                                                   "it doubles with every so many kelvin; 0: the same at all temperatures"),
@@ -176,7 +179,8 @@ const Table& table_of<Pixel>() {
           group("crosstalk", "charge that neighbours collect",
                 number<&Pixel::crosstalk_left_right>("left_right", {fraction, {0, 0.25}, "1 %"},
                                                      "share of its charge that the left neighbour gets, and the right one as much"),
-                number<&Pixel::crosstalk_up_down>("up_down", {fraction, {0, 0.25}, "1 %"}, "the same of those above and below")),
+                number<&Pixel::crosstalk_up_down>("up_down", {fraction, {0, 0.25}, "1 %"},
+                                                  "share of the charge that goes to each of the pixels above and below")),
           group("blooming", "charge beyond a full well, which spills",
                 number<&Pixel::blooming_share>("share", {fraction, {0, 0.25}, "5 %"}, "of it that each of the four neighbours gets"),
                 number<&Pixel::blooming_limit_e>("limit", {charge, electrons.range, "1000 e"},
@@ -255,19 +259,21 @@ const Table& table_of<Decoding>() {
               "flying_pixel", "limits of the flying pixel flag",
               number<&Decoding::flying_near_z_m>("near_z", flying_z, "the limit on |dz| grows linearly from here"),
               number<&Decoding::flying_near_limit_m>("near_limit", flying_limit, "limit at near_z and before"),
-              number<&Decoding::flying_far_z_m>("far_z", {length, flying_z.range, "4.5 m"}, "… to here"),
+              number<&Decoding::flying_far_z_m>("far_z", {length, flying_z.range, "4.5 m"}, "... to here, where far_limit holds"),
               number<&Decoding::flying_far_limit_m>("far_limit", flying_limit, "limit at far_z and beyond"),
               number<&Decoding::flying_sigmas>("sigmas", sigmas, "|dz| has to be more than this times its noise, too; 0: the limit alone"),
               flag<&Decoding::flying_check>("check", "whether flying pixels are looked for")),
           group("asymmetry", "raw frames whose reference phases are half a turn apart add up to nothing, unless something moves",
-                number<&Decoding::asymmetry_limit_e>("limit", {charge, {0, 1e12}, "200 e"}, "their sum may be this"),
-                number<&Decoding::asymmetry_sigmas>("sigmas", sigmas, "... and this times its noise; beyond both the pixel is flagged"),
+                number<&Decoding::asymmetry_limit_e>("limit", {charge, {0, 1e12}, "200 e"},
+                                                     "largest |D_k + D_k+2| before a pixel is flagged"),
+                number<&Decoding::asymmetry_sigmas>("sigmas", sigmas, "the sum has to be more than this times its noise, too"),
                 flag<&Decoding::asymmetry_reject>("reject", "whether the depth is invalid then")),
           group("multipath", "two modulation frequencies say the same, unless light took several paths",
-                number<&Decoding::multipath_limit_m>("limit", {length, {0, 1e4}, "0.1 m"}, "they may differ by this"),
-                number<&Decoding::multipath_sigmas>("sigmas", sigmas, "... and by this times the noise; beyond both the pixel is flagged"),
+                number<&Decoding::multipath_limit_m>("limit", {length, {0, 1e4}, "0.1 m"},
+                                                     "largest difference of the ranges before a pixel is flagged"),
+                number<&Decoding::multipath_sigmas>("sigmas", sigmas, "the difference has to be more than this times its noise, too"),
                 flag<&Decoding::multipath_reject>("reject", "whether the depth is invalid then")),
-          record<&Decoding::filter>("filter", "over the range image"),
+          record<&Decoding::filter>("filter", "filter over the range image"),
           group("temporal", "mean over frames that follow each other, pixel by pixel",
                 number<&Decoding::temporal_frames>("frames", {none, {1, temporal_frames}, "4"},
                                                    "the last one and those before it; 1: each frame stands by itself"),
@@ -279,11 +285,11 @@ const Table& table_of<Decoding>() {
 template <>
 const Table& table_of<Temperature>() {
   static const Table rows = table<Temperature>(
-      number<&Temperature::celsius>("actual", degrees, "of the camera"),
+      number<&Temperature::celsius>("actual", degrees, "temperature of the camera"),
       number<&Temperature::reference_celsius>("reference", degrees, "at which the range has no drift"),
       number<&Temperature::drift_m_per_kelvin>("drift", {drift, {-1, 1}, "0.2 mm/K"}, "range per kelvin off the reference"),
       number<&Temperature::warm_up_m>("warm_up", {length, {-1, 1}, "5 mm"}, "range drifts by this while the camera warms up, first order"),
-      number<&Temperature::warm_up_time_s>("warm_up_time", {time, {1e-3, 1e6}, "600 s"}, "its time constant"),
+      number<&Temperature::warm_up_time_s>("warm_up_time", {time, {1e-3, 1e6}, "600 s"}, "time constant of the warm-up"),
       number<&Temperature::since_start_s>("since_start", {time, {0, 1e12}, "600 s"}, "how long the camera has run at frame 0"));
   return rows;
 }
@@ -328,8 +334,8 @@ const Table& table_of<Readout>() {
   static const Table rows = table<Readout>(
       number<&Readout::binning>("binning", {none, {1, binning}, "2"}, "n: charge of n x n pixels is added before it is read"),
       group("region", "the rectangle of the sensor that is read, in pixels of the sensor",
-            number<&Readout::left>("left", {none, side_or_all.range, "2"}, "its first column"),
-            number<&Readout::top>("top", {none, side_or_all.range, "2"}, "its first row"),
+            number<&Readout::left>("left", {none, side_or_all.range, "2"}, "first column that is read"),
+            number<&Readout::top>("top", {none, side_or_all.range, "2"}, "first row that is read"),
             number<&Readout::width>("width", side_or_all, "columns; 0: as far as the sensor goes"),
             number<&Readout::height>("height", side_or_all, "rows; 0: as far as the sensor goes")));
   return rows;
@@ -353,14 +359,15 @@ const Table& table_of<RawFrame>() {
   static const Table rows =
       table<RawFrame>(
           flag<&RawFrame::lit>("lit", "whether the camera's light is on"),
-          number<&RawFrame::modulation_frequency_hz>("modulation_frequency", modulation_frequency, "of lit raw frames")
+          number<&RawFrame::modulation_frequency_hz>("modulation_frequency", modulation_frequency,
+                                                     "modulation frequency of a lit raw frame")
               .when<&RawFrame::lit>(true)
               .absent(),
           number_or_list<&RawFrame::reference_phase_rad>("reference_phase", {angle, {-100, 100}, "90 deg"}, raw_frames,
                                                          "of lit raw frames; a list makes one raw frame of each")
               .when<&RawFrame::lit>(true)
               .absent(),
-          number<&RawFrame::integration_time_s>("integration_time", integration_time, "of each raw frame").required(),
+          number<&RawFrame::integration_time_s>("integration_time", integration_time, "how long the raw frame collects light").required(),
           number_or_list<&RawFrame::reference_delay_s>("reference_delay", {time, {-1e-3, 1e-3}, "4.15 ns"}, raw_frames,
                                                        "in place of reference_phase: the light is later by this, as a path may be")
               .when<&RawFrame::lit>(true)
@@ -382,7 +389,7 @@ const Table& table_of<Mode>() {
 template <>
 const Table& table_of<Camera>() {
   static const Table rows =
-      table<Camera>(words<&Camera::name>("name", "a name", "mycam", "of the camera").required(),
+      table<Camera>(words<&Camera::name>("name", "a name", "mycam", "name of the camera").required(),
                     no_row<&Camera::source>("a file's place is no part of what it says"),
                     record<&Camera::sensor>("sensor", "the grid of pixels").required(),
                     record<&Camera::lens>("lens", "from directions to pixels").required(),
@@ -399,7 +406,8 @@ const Table& table_of<Camera>() {
                     record<&Camera::spread_spectrum>("spread_spectrum", "modulation frequencies swept over a band within each exposure"),
                     record<&Camera::readout>("readout", "which pixels of the sensor are read, and how many together"),
                     record<&Camera::auto_exposure>("auto_exposure", "integration times that follow the light, from frame to frame"),
-                    number<&Camera::refractive_index>("refractive_index", {none, {1, 3}, "1.0003"}, "of the medium"),
+                    number<&Camera::refractive_index>("refractive_index", {none, {1, 3}, "1.0003"},
+                                                      "refractive index of the medium that light travels in"),
                     group("timing", "of the readout",
                           number<&Camera::readout_time_s>("readout_time", pause, "from the end of one exposure to the start of the next"),
                           number<&Camera::min_integration_time_s>("min_integration_time", {time, pause.range, "27 us"},

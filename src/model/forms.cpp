@@ -110,7 +110,7 @@ class Keys {
     const bool free = row.tag == nullptr || !table_.tag.empty();  // else the row holds for some kinds that a value says
     keys.push_back(key_of(name, row, table_, row.presence == Presence::required && free && row.file.empty()));
     if (row.file.empty()) return;
-    keys.push_back(absent("file", text("a file", row.file), "the same as text, one row a line, beside the profile or below"));
+    keys.push_back(absent("file", text("a file", row.file), "a text file of these numbers, one row a line, beside the profile or below"));
     keys.back().member = row.member;
   }
 

@@ -37,7 +37,7 @@ const Table& table_of<Pattern>() {
               .required(),
           number<&Pattern::exponent>("exponent", {none, {0, 1e4}, "4"}, "n of cos^n").when<kind_of>(Kind::cosine_lobe).required(),
           number<&Pattern::width_rad>("width", width, "full width across x at half the peak").when<kind_of>(Kind::flat_top).required(),
-          number<&Pattern::height_rad>("height", width, "the same across y").when<kind_of>(Kind::flat_top).required(),
+          number<&Pattern::height_rad>("height", width, "full width across y at half the peak").when<kind_of>(Kind::flat_top).required(),
           number<&Pattern::columns>("columns", cells, "cells of the table it stands for").when<kind_of>(Kind::flat_top).absent(),
           number<&Pattern::rows>("rows", cells, "cells of the table it stands for").when<kind_of>(Kind::flat_top).absent(),
           number<&Pattern::half_range_x_rad>("half_range_x", half_range, "zero beyond +- this; the width unless given")
@@ -79,7 +79,7 @@ const Table& table_of<Waveform>() {
               .when<kind_of>(sine),
           number<&Waveform::bandwidth_hz>("bandwidth", {frequency, {0, 1e12}, "200 MHz"}, "single pole of the light source; 0: none")
               .when<kind_of>(rectangular, sine, trapezoid, gaussian, emission),
-          number<&Waveform::jitter_s>("jitter", {time, {0, 1e-6}, "50 ps"}, "Gaussian, 1 sigma")
+          number<&Waveform::jitter_s>("jitter", {time, {0, 1e-6}, "50 ps"}, "Gaussian jitter of the light's edges, 1 sigma")
               .when<kind_of>(rectangular, sine, trapezoid, gaussian, emission),
           numbers<&Waveform::correlation>("correlation", {none, {-10, 10}, "0.5"}, 4, curve_points,
                                           "(A-B)/(A+B) at reference phases over one period, light and pixel at no distance")
@@ -116,18 +116,20 @@ const Table& table_of<Area>() {
 template <>
 const Table& table_of<Illumination>() {
   static const Table rows = table<Illumination>(
-      number<&Illumination::position>("position", {length, {-100, 100}, "15.47 mm"}, "in the camera's frame"),
-      number<&Illumination::axis>("axis", {none, {-1e6, 1e6}, "1"}, "in the camera's frame").direction(),
-      number<&Illumination::illumination_wavelength_m>("illumination_wavelength", {length, {300e-9, 2e-6}, "850 nm"}, "of the light source")
+      number<&Illumination::position>("position", {length, {-100, 100}, "15.47 mm"},
+                                      "where the light source stands, in the camera's frame"),
+      number<&Illumination::axis>("axis", {none, {-1e6, 1e6}, "1"}, "which way it shines, in the camera's frame").direction(),
+      number<&Illumination::illumination_wavelength_m>("illumination_wavelength", {length, {300e-9, 2e-6}, "850 nm"},
+                                                       "wavelength of the light source")
           .required(),
       number<&Illumination::power_w>("power", {power, {0, 1e4}, "0.2 W"}, "optical, of a lit raw frame, mean over the modulation period")
           .required(),
       number<&Illumination::ring_leds>("ring_leds", {none, {1, most_lights}, "4"},
                                        "so many sources on a circle about the position, across the axis"),
-      number<&Illumination::ring_radius_m>("ring_radius", {length, {0, 10}, "20 mm"}, "of that circle"),
+      number<&Illumination::ring_radius_m>("ring_radius", {length, {0, 10}, "20 mm"}, "radius of the circle that ring_leds stand on"),
       record<&Illumination::area>("area", "a disk or rectangle across the axis, which shines evenly, in place of a point"),
       record<&Illumination::pattern>("pattern", "how the light is spread over directions").required(),
-      record<&Illumination::waveform>("waveform", "how it is modulated").required());
+      record<&Illumination::waveform>("waveform", "how the light is modulated").required());
   return rows;
 }
 

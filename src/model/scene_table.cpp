@@ -79,8 +79,9 @@ const Table& table_of<Plane>() {
 
 template <>
 const Table& table_of<Sphere>() {
-  static const Table rows = table<Sphere>(number<&Sphere::center>("center", coordinate, "[m]").required(),
-                                          number<&Sphere::radius>("radius", {length, {base::shortest_m, 1e5}, "25 cm"}, "[m]").required());
+  static const Table rows =
+      table<Sphere>(number<&Sphere::center>("center", coordinate, "its centre [m]").required(),
+                    number<&Sphere::radius>("radius", {length, {base::shortest_m, 1e5}, "25 cm"}, "its radius [m]").required());
   return rows;
 }
 
@@ -105,7 +106,7 @@ const Table& table_of<Cylinder>() {
   static const Table rows =
       table<Cylinder>(number<&Cylinder::center>("center", coordinate, "halfway between its caps [m]").required(),
                       number<&Cylinder::axis>("axis", component, "from cap to cap; any length but zero").required().direction(),
-                      number<&Cylinder::radius>("radius", {length, {base::shortest_m, 1e5}, "5 cm"}, "[m]").required(),
+                      number<&Cylinder::radius>("radius", {length, {base::shortest_m, 1e5}, "5 cm"}, "its radius [m]").required(),
                       number<&Cylinder::height>("height", {length, {base::shortest_m, 1e5}, "20 cm"}, "from cap to cap [m]").required());
   return rows;
 }
@@ -113,7 +114,7 @@ const Table& table_of<Cylinder>() {
 template <>
 const Table& table_of<Rectangle>() {
   static const Table rows =
-      table<Rectangle>(number<&Rectangle::center>("center", coordinate, "[m]").required(),
+      table<Rectangle>(number<&Rectangle::center>("center", coordinate, "its centre [m]").required(),
                        number<&Rectangle::size>("size", {length, {base::shortest_m, 1e5}, "40 cm", true},
                                                 "its width and height, along x and y before the rotation; both sides reflect [m]")
                            .required());
@@ -123,9 +124,9 @@ const Table& table_of<Rectangle>() {
 template <>
 const Table& table_of<Disk>() {
   static const Table rows =
-      table<Disk>(number<&Disk::center>("center", coordinate, "[m]").required(),
+      table<Disk>(number<&Disk::center>("center", coordinate, "its centre [m]").required(),
                   number<&Disk::normal>("normal", component, "any length but zero; both sides reflect").required().direction(),
-                  number<&Disk::radius>("radius", {length, {base::shortest_m, 1e5}, "15 cm"}, "[m]").required());
+                  number<&Disk::radius>("radius", {length, {base::shortest_m, 1e5}, "15 cm"}, "its radius [m]").required());
   return rows;
 }
 
@@ -134,7 +135,7 @@ const Table& table_of<Capsule>() {
   static const Table rows =
       table<Capsule>(number<&Capsule::start>("start", coordinate, "the middle of one of its round ends [m]").required(),
                      number<&Capsule::end>("end", coordinate, "that of the other one, which is another point [m]").required(),
-                     number<&Capsule::radius>("radius", {length, {base::shortest_m, 1e5}, "5 cm"}, "[m]").required())
+                     number<&Capsule::radius>("radius", {length, {base::shortest_m, 1e5}, "5 cm"}, "its radius [m]").required())
           .check_with(capsules_have_a_length);
   return rows;
 }
@@ -226,7 +227,7 @@ const Table& table_of<Rotation>() {
   static const Table rows =
       table<Rotation>(
           number<&Rotation::axis>("axis", component, "the axis, by the right-hand rule; any length but zero").absent(),
-          number<&Rotation::angle_rad>("angle", {angle, {-100, 100}, "30 deg"}, "how far, with axis").absent(),
+          number<&Rotation::angle_rad>("angle", {angle, {-100, 100}, "30 deg"}, "by how much it turns about axis").absent(),
           number<&Rotation::quaternion>("quaternion", component, "x, y, z, w, of length 1").absent().in_place_of({"axis", "angle_rad"}))
           .and_keys(matrix_and_euler(3, "three rows of three: its columns are where x, y and z turn to"))
           .with_exactly_one({"axis", "quaternion", "matrix", "euler"})
@@ -243,7 +244,7 @@ constexpr auto most_keyframes = static_cast<int>(base::limit::keyframes.value);
 template <>
 const Table& table_of<Keyframe>() {
   static const Table rows = table<Keyframe>(number<&Keyframe::time_s>("time", moment, "when; frame i starts at i / frame rate").required(),
-                                            number<&Keyframe::position>("position", coordinate, "a shift [m]"),
+                                            number<&Keyframe::position>("position", coordinate, "by how much it is shifted [m]"),
                                             record<&Keyframe::rotation>("rotation", "a turn about the object's own centre"));
   return rows;
 }
@@ -256,9 +257,9 @@ const Table& table_of<Object>() {
           // the key of the file's entry
           one_of<&Object::shape>({"plane", "sphere", "box", "triangle", "cylinder", "rectangle", "disk", "capsule", "cone", "mesh"}),
           number<&Object::material>("", {none, {0, 2.0 * most_objects}, "0"}, ""),  // a name, or a material of its own
-          number<&Object::position>("position", coordinate, "a shift [m]"),
+          number<&Object::position>("position", coordinate, "by how much it is shifted [m]"),
           record<&Object::rotation>("rotation", "a turn about the object's own centre (of a plane: about its point)"),
-          number<&Object::velocity_m_per_s>("velocity", {speed, {-1e4, 1e4}, "1 m/s", true}, "[m/s]"),
+          number<&Object::velocity_m_per_s>("velocity", {speed, {-1e4, 1e4}, "1 m/s", true}, "how fast it moves [m/s]"),
           number<&Object::angular_velocity_rad_per_s>("angular_velocity", {angular_speed, {-1e4, 1e4}, "90 deg/s"},
                                                       "the axis of a steady turn about the object's own centre, times how fast it turns"),
           records<&Object::keyframes>(
@@ -383,7 +384,7 @@ const Table& table_of<TransientBins>() {
   static const Table rows = table<TransientBins>(
       number<&TransientBins::bins>("bins", {none, {0, 1e6}, "2000"}, "how many; 0: there are no histograms").required(),
       number<&TransientBins::first_m>("first", {length, {0, 1e6}, "2 m"}, "where the first bin begins: whole length from light to camera"),
-      number<&TransientBins::width_m>("width", {length, {1e-6, 1e6}, "1 mm"}, "of a bin"));
+      number<&TransientBins::width_m>("width", {length, {1e-6, 1e6}, "1 mm"}, "how long a path a bin holds"));
   return rows;
 }
 
