@@ -196,17 +196,17 @@ TEST(state, is_changed_by_set_and_told_to_all_pages) {
   ASSERT_TRUE(one.page.text("state"));
   one.page.send(R"({"type":"pause"})");
   ASSERT_TRUE(one.page.text("state"));
-  one.page.send(R"({"type":"seek","frame":2})");
+  one.page.send(R"({"type":"seek","frame":900})");
   const auto state = one.page.text("state");
   ASSERT_TRUE(state);
   const std::string command = *state->find("command")->string();
-  EXPECT_TRUE(has(command, "--seed 77") && has(command, "--first-frame 2")) << command;
+  EXPECT_TRUE(has(command, "--seed 77") && has(command, "--first-frame 900")) << command;
   std::optional<WireFrame> frame;
   do {
     frame = one.page.frame();
     ASSERT_TRUE(frame);
     one.page.acknowledge(frame->sequence);
-  } while (frame->frame != 2 || frame->generation != 3);
+  } while (frame->frame != 900 || frame->generation != 3);
   // What a shell makes of the copied command has the same bytes.
   const std::string folder = viewer.folder().path().native();
   ASSERT_EQ(std::system(
@@ -214,7 +214,7 @@ TEST(state, is_changed_by_set_and_told_to_all_pages) {
                     .c_str()),
             0)
       << command;
-  const auto arrays = files::read_npz(viewer.folder() / "c/frame_0002.npz", {"raw"});
+  const auto arrays = files::read_npz(viewer.folder() / "c/frame_0900.npz", {"raw"});
   EXPECT_TRUE(frame->arrays.at(number_of(one.hello, "raw")) == arrays.at(0).array.bytes);
 }
 
