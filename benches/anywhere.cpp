@@ -17,7 +17,7 @@
 #include <random>
 #include <vector>
 
-#include "load/builtin_mesh.h"
+#include "assets/builtin_mesh.h"
 #include "scene/hierarchy.h"
 #include "shape/mesh_search.h"
 
@@ -36,7 +36,7 @@ struct OneRay {
 
 /// The ball and the floor of bench-mesh as one mesh, before a camera at zero that looks along +z.
 TriangleMesh world() {
-  TriangleMesh out = load::bumpy_ball(6), floor = load::wavy_floor(100);
+  TriangleMesh out = assets::bumpy_ball(6), floor = assets::wavy_floor(100);
   for (auto& v : out.vertices) v[2] += 1.2f;
   const auto first = static_cast<std::int32_t>(out.vertices.size());
   for (auto& v : floor.vertices) out.vertices.push_back({v[0], v[1] + 0.5f, v[2] + 1.2f});

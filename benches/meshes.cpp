@@ -20,7 +20,7 @@
 #include <cstring>
 #include <memory>
 
-#include "load/builtin_mesh.h"
+#include "assets/builtin_mesh.h"
 #include "scene/hierarchy.h"
 #include "shape/mesh_square.h"
 
@@ -58,7 +58,7 @@ double median_of(const Run& run) {
 TriangleMesh world(double triangles) {
   const int cuts = std::max(0, static_cast<int>(std::lround(std::log(0.8 * triangles / 20) / std::log(4.0))));
   const int cells = std::max(1, static_cast<int>(std::lround(std::sqrt(0.1 * triangles))));
-  TriangleMesh out = load::bumpy_ball(cuts), floor = load::wavy_floor(cells);
+  TriangleMesh out = assets::bumpy_ball(cuts), floor = assets::wavy_floor(cells);
   for (auto& v : out.vertices) v[2] += 1.2f;
   const auto first = static_cast<std::int32_t>(out.vertices.size());
   for (auto& v : floor.vertices) out.vertices.push_back({v[0], v[1] + 0.5f, v[2] + 1.2f});

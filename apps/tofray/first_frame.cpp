@@ -7,7 +7,7 @@
 
 namespace tofray::app {
 
-Frame first_frame(const Inputs& in, SimulatorOptions wanted) {
+Frame first_frame(const run::Loaded& in, SimulatorOptions wanted) {
   FrameProgress now;
   wanted.progress = &now;
   const Progress progress(1, "frame", false, &now);

@@ -1,12 +1,12 @@
 // SPDX-FileCopyrightText: 2026 The tofray authors
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-#include "inputs.h"
+#include "run/inputs.h"
 #include "tofray/frame.h"
 
 namespace tofray::app {
 
 /// Frame 0 of a scene, with progress as it is computed.
-Frame first_frame(const Inputs& in, SimulatorOptions wanted);
+Frame first_frame(const run::Loaded& in, SimulatorOptions wanted);
 
 }  // namespace tofray::app

@@ -8,8 +8,9 @@
 #include <cmath>
 
 #include "base/constants.h"
-#include "pixel_chain.h"
+#include "results.h"
 #include "results/array_table.h"
+#include "run/file_pixel.h"
 
 namespace tofray::app {
 
@@ -31,10 +32,10 @@ std::string share_text(const PixelChain& p) {
                      p.object < 0 ? "nothing" : "it", p.mixed > 0 ? ": a mixed pixel" : "");
 }
 
-std::string surface_text(const PixelChain& p, bool knows_object) {
+std::string surface_text(const PixelChain& p, const std::string& object_name, bool knows_object) {
   if (knows_object && p.object < 0) return "surface     nothing is seen here\n" + share_text(p);
   std::string text = fmt::format("surface     object {}{}, reflectivity {}\n", knows_object ? std::to_string(p.object) : "-",
-                                 p.object_name.empty() ? "" : " (" + p.object_name + ")", shown("{:.4g}", p.reflectivity));
+                                 object_name.empty() ? "" : " (" + object_name + ")", shown("{:.4g}", p.reflectivity));
   text += fmt::format("            range {} m, z {} m, at {} m\n", shown("{:.6f}", p.true_range_m), shown("{:.6f}", p.true_z_m),
                       triple(p.position_m));
   text += fmt::format("            normal {}, seen at {} deg to it\n", triple(p.normal), shown("{:.1f}", p.incidence_rad * degrees));
@@ -77,13 +78,13 @@ std::string bounce_name(const BounceShare& one) {
 /// What each bounce brings; an element of `bounces` may be several.
 std::string bounces_text(const PixelChain& p, const PixelBounces& bounces) {
   if (!bounces.unknown.empty()) return fmt::format("bounces     one by one unknown: {}\n", bounces.unknown);
-  if (bounces.list.empty()) return {};
+  if (bounces.shares.empty()) return {};
   const std::vector<std::size_t> frequencies = first_of_each_frequency(p);
   std::string text = fmt::format("bounces   {:>10}", "light %");
   for (const std::size_t k : frequencies)
     text += fmt::format(" {:>16}", fmt::format("mm at {:.6g} MHz", 1e-6 * p.raw_frames[k].modulation_frequency_hz));
   text += "\n";
-  for (const BounceShare& one : bounces.list) {
+  for (const BounceShare& one : bounces.shares) {
     text += fmt::format("{:>9} {:>10.3f}", bounce_name(one), 100 * one.share);
     if (one.last > 0)
       for (const std::size_t k : frequencies) text += fmt::format(" {:>16}", shown("{:+.2f}", 1e3 * one.multipath_m[k]));
@@ -120,9 +121,9 @@ std::string phase_text(const PixelChain& p) {
   return text;
 }
 
-std::string depth_text(const PixelChain& p, const Arrays& arrays) {
+std::string depth_text(const PixelChain& p, const results::Arrays& arrays) {
   std::string flags;
-  for (const std::string& one : p.flags) flags += (flags.empty() ? "" : ", ") + one;
+  for (const std::string& one : names_of_flags(static_cast<unsigned>(p.flags))) flags += (flags.empty() ? "" : ", ") + one;
   const bool none = std::isnan(p.range_m) && arrays.find("range_m") != nullptr;
   std::string text = fmt::format("depth       none{}{}\n", flags.empty() ? "" : ": ", flags);
   if (none && std::isfinite(p.noise_m)) {
@@ -144,7 +145,7 @@ std::string depth_text(const PixelChain& p, const Arrays& arrays) {
 }
 
 /// What a dash can come from.
-std::string missing_text(const Arrays& arrays) {
+std::string missing_text(const results::Arrays& arrays) {
   std::string names;
   for (const results::ArrayRow& row : results::array_table()) {
     // Of these no dash comes: where they are not known nothing is said.
@@ -157,7 +158,7 @@ std::string missing_text(const Arrays& arrays) {
 }
 
 /// Whether the file has any array of these stages.
-bool has_any(const Arrays& arrays, bool truth) {
+bool has_any(const results::Arrays& arrays, bool truth) {
   return std::any_of(results::array_table().begin(), results::array_table().end(), [&](const results::ArrayRow& row) {
     return (truth ? row.is_truth() && row.is_image() : row.from == "depth") && arrays.find(row.name) != nullptr;
   });
@@ -197,7 +198,7 @@ files::Json phases_json(const PixelChain& p) {
 files::Json bounces_json(const PixelBounces& bounces) {
   if (!bounces.unknown.empty()) return {};
   files::Json list = files::Json::array();
-  for (const BounceShare& one : bounces.list) {
+  for (const BounceShare& one : bounces.shares) {
     files::Json json = files::Json::object();
     json.set("first", one.first).set("last", one.last).set("share", one.share);
     list.push(std::move(json.set("electrons_e", files::Json::list(one.electrons)).set("multipath_m", files::Json::list(one.multipath_m))));
@@ -207,20 +208,18 @@ files::Json bounces_json(const PixelBounces& bounces) {
 
 }  // namespace
 
-std::string pixel_text(const Arrays& arrays, const PixelBounces& bounces, int u, int v) {
-  const PixelChain p = pixel_chain(arrays, u, v);
-  std::string text = fmt::format("{}: pixel {}, {} of {} x {}\n\n", arrays.where(), u, v, arrays.width(), arrays.height());
-  if (has_any(arrays, true)) text += surface_text(p, arrays.find("gt_object_id") != nullptr) + "\n";
+std::string pixel_text(const results::Arrays& arrays, const PixelChain& p, const PixelBounces& bounces) {
+  std::string text = fmt::format("{}: pixel {}, {} of {} x {}\n\n", arrays.where(), p.u, p.v, arrays.width(), arrays.height());
+  if (has_any(arrays, true)) text += surface_text(p, run::object_name(arrays, p.object), arrays.find("gt_object_id") != nullptr) + "\n";
   text += raw_text(p) + "\n" + multipath_text(p, bounces) + phase_text(p);
   if (has_any(arrays, false)) text += "\n" + depth_text(p, arrays);
   return text + missing_text(arrays);
 }
 
-files::Json pixel_json(const Arrays& arrays, const PixelBounces& bounces, int u, int v) {
-  const PixelChain p = pixel_chain(arrays, u, v);
+files::Json pixel_json(const results::Arrays& arrays, const PixelChain& p, const PixelBounces& bounces) {
   files::Json truth = files::Json::object(), depth = files::Json::object();
   truth.set("object_id", p.object)
-      .set("object", p.object_name)
+      .set("object", run::object_name(arrays, p.object))
       .set("reflectivity", p.reflectivity)
       .set("range_m", p.true_range_m)
       .set("z_m", p.true_z_m);
@@ -231,9 +230,9 @@ files::Json pixel_json(const Arrays& arrays, const PixelBounces& bounces, int u,
   depth.set("amplitude_e", p.amplitude_e)
       .set("ambient_e", p.ambient_e)
       .set("confidence", p.confidence)
-      .set("flags", files::Json::list(p.flags));
+      .set("flags", files::Json::list(names_of_flags(static_cast<unsigned>(p.flags))));
   files::Json json = files::Json::object();
-  json.set("file", arrays.where()).set("pixel", files::Json::list(std::array{u, v})).set("truth", std::move(truth));
+  json.set("file", arrays.where()).set("pixel", files::Json::list(std::array{p.u, p.v})).set("truth", std::move(truth));
   json.set("raw_frames", raw_json(p)).set("bounces", bounces_json(bounces));
   if (!bounces.unknown.empty()) json.set("bounces_unknown", bounces.unknown);
   return json.set("phases", phases_json(p)).set("depth", std::move(depth));

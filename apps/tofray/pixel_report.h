@@ -3,14 +3,14 @@
 #pragma once
 #include <string>
 
-#include "pixel_bounces.h"
+#include "files/json.h"
+#include "results/file_arrays.h"
+#include "tofray/pixel.h"
 
 namespace tofray::app {
 
-/// A report on one pixel, for people or as JSON: surface, light, every raw frame, what bounced, phases, depth.
-/// @param bounces  of this pixel
-/// @throws Error (bad_input) where the pixel is outside the image
-std::string pixel_text(const Arrays& arrays, const PixelBounces& bounces, int u, int v);
-files::Json pixel_json(const Arrays& arrays, const PixelBounces& bounces, int u, int v);
+/// A report on one pixel of a file, for people or as JSON: surface, light, every raw frame, what bounced, phases, depth.
+std::string pixel_text(const results::Arrays& arrays, const PixelChain& chain, const PixelBounces& bounces);
+files::Json pixel_json(const results::Arrays& arrays, const PixelChain& chain, const PixelBounces& bounces);
 
 }  // namespace tofray::app

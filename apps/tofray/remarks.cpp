@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "remarks.h"
 
-#include <fmt/core.h>
-
 #include <algorithm>
 
 #include "console.h"
@@ -37,11 +35,12 @@ void Remarks::tell(const std::string& text) {
   }
 }
 
-void Remarks::tell(const std::vector<SceneFinding>& findings, bool notes) {
-  for (const SceneFinding& one : findings) {
-    if (one.kind == SceneFinding::Kind::no_objects || (!one.warning && !notes)) continue;
-    tell(fmt::format("{}{}: {}\n  {}\n", one.where.empty() ? "" : one.where + ": ", one.warning ? "warning" : "note", one.what, one.more));
-  }
+void Remarks::tell(const std::vector<Remark>& remarks) { tell(texts(remarks)); }
+
+std::string texts(const std::vector<Remark>& remarks) {
+  std::string out;
+  for (const Remark& one : remarks) out += one.text();
+  return out;
 }
 
 files::Json& Remarks::put(files::Json& json) const {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "files/json.h"
-#include "tofray/analysis.h"
+#include "tofray/run.h"
 
 namespace tofray::app {
 
@@ -16,14 +16,15 @@ class Remarks {
   /// Says a text of none, one or several remarks: "warning: …", "note: …", or one of these after a file's place; lines that begin with a
   /// blank go on with the one before.
   void tell(const std::string& text);
-  /// What is odd about a scene. An empty scene is left out: warnings(Inputs) has it.
-  /// @param notes  whether what may well be meant is told, too
-  void tell(const std::vector<SceneFinding>& findings, bool notes);
+  void tell(const std::vector<Remark>& remarks);
   /// Adds `warnings` and `notes`, lists of texts, to a command's JSON.
   files::Json& put(files::Json& json) const;
 
  private:
   std::vector<std::string> warnings_, notes_;
 };
+
+/// Remarks as they are said.
+std::string texts(const std::vector<Remark>& remarks);
 
 }  // namespace tofray::app

@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "analysis/findings.h"
+#include "base/units.h"
 
 namespace tofray::app {
 
@@ -24,7 +24,7 @@ std::string row(const char* what, const std::string& value) { return fmt::format
 
 std::string metres(double m) { return m >= 1e5 ? "> 100 km" : fmt::format("{:.{}f} m", m, m < 1000 ? 2 : 0); }
 
-std::string size_of(const ObjectInView& one) { return one.endless ? "endless" : analysis::size_text(one.low, one.high); }
+std::string size_of(const ObjectInView& one) { return one.endless ? "endless" : base::size_text(one.low, one.high); }
 
 /// Letters of UTF-8.
 std::size_t letters(const std::string& text) {

@@ -118,4 +118,18 @@ struct InvalidPixels {
 /// @throws Error as process() does
 InvalidPixels invalid_pixels(const Frame& frame, const Camera& camera, bool wrong_cycles = true);
 
+/// The same in words, and what helps.
+struct Validity {
+  InvalidPixels pixels;
+  std::string reasons;  ///< "12 dark, 3 no surface"; empty where all are valid
+  /// Where fewer than half are valid, the reason of most, and what helps: "71 % dark: noise 0.11 m at the median; more light …"; likewise
+  /// where many have a depth that is whole cycles off. Lines behind the first are indented.
+  std::string advice;
+  bool has_light = true;  ///< the camera's own has any power
+  /// Whether fewer than half of the pixels have a depth.
+  [[nodiscard]] bool few() const { return 2 * pixels.valid < pixels.pixels; }
+};
+/// @throws Error as invalid_pixels()
+Validity validity(const Frame& frame, const Camera& camera, bool wrong_cycles = true);
+
 }  // namespace tofray

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "tofray/array.h"
+#include "tofray/flags.h"
 #include "tofray/frame_arrays.h"
 
 /// What a simulated camera delivers: plain contiguous arrays, row-major, [height][width] or [phase][height][width].
@@ -21,21 +22,6 @@ struct Raw {
   TOFRAY_RAW_ARRAYS(TOFRAY_ALIGNED)      // Array<float> tap_a; …
   TOFRAY_EXPOSURE_ARRAYS(TOFRAY_VECTOR)  // std::vector<double> modulation_frequency_hz; …
 };
-
-/// Bits of Depth::flags. The first five make the depth invalid, the next two warn, the one after them says that the camera was
-/// told to reject what they warn of, and the last one that a filter, or a mean over frames, changed the range.
-enum Flag : std::uint16_t {
-  flag_saturated = 1,
-  flag_low_signal = 2,
-  flag_flying_pixel = 4,
-  flag_no_return = 8,
-  flag_outside_lens = 16,
-  flag_inconsistent_phases = 32,
-  flag_inconsistent_frequencies = 64,
-  flag_rejected = 128,
-  flag_filtered = 256,
-};
-inline constexpr std::uint16_t flags_invalid = 31 + 128;
 
 /// Depth frame, camera frame (x right, y down, z forward).
 struct Depth {

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include <array>
-#include <atomic>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -12,65 +11,12 @@
 
 #include "tofray/camera.h"
 #include "tofray/frame.h"
+#include "tofray/options.h"
 #include "tofray/scene.h"
 #include "tofray/stages.h"
+#include "tofray/version.h"
 
 namespace tofray {
-
-/// Whether frames are drawn by chance.
-enum class Noise {
-  off,    ///< expected values: no draw; wells and codes still clip, depth comes from the unrounded A−B
-  exact,  ///< Poisson counts with read noise, each tap its own (the default)
-};
-
-/// Which machine code runs. All give the same bytes.
-enum class Isa { best, scalar, scalar_fma, avx2, avx512, neon };
-
-/// What computes the frames. Both give the same bytes.
-enum class Backend {
-  automatic,  ///< a GPU if there is one that can be used, else the processor
-  cpu,
-  cuda,  ///< a GPU, or an error that says why not
-};
-
-/// How far the processor is with a frame, for whoever waits for it: read and written from any thread.
-struct FrameProgress {
-  std::atomic<std::int64_t> done{0}, total{0};  ///< in rays, roughly; 0 of 0 before the first frame, and where a GPU computes
-  std::atomic<bool> stop{false};                ///< set: the frame under way ends soon, and what it holds means nothing
-};
-
-/// How a Simulator computes: seed and noise, where it runs, and how much of the pipeline.
-struct SimulatorOptions {
-  std::uint64_t seed = 0;
-  Noise noise = Noise::exact;
-  int threads = 0;  ///< at most 1024; 0: as many as the machine has cores
-  Backend backend = Backend::automatic;
-  int device = -1;     ///< which GPU, from 0 on; −1: the first one that can be used
-  int block_size = 0;  ///< CUDA threads per block, a multiple of 32 up to 1024; 0: chosen
-  std::size_t batch_bytes =
-      64'000'000;       ///< host memory of one batch on its way from a GPU (or to it); there are three of them for each GPU
-  Isa isa = Isa::best;  ///< best: the environment's TOFRAY_ISA, else what the CPU can do
-  bool truth = true;    ///< fill Frame::truth
-  /// Fill these arrays alone, by their names in files: {"raw", "gt_z_m"}. The others stay empty, but for those that these are made of, and
-  /// no stage is run that none of them comes from. Left empty: all of them.
-  std::vector<std::string> arrays = {};
-  Stage last_stage = Stage::depth;    ///< stop after this stage: arrays of later ones are left as they are (zero in a new frame)
-  int exposure_samples = 1;           ///< 1…1000: times within each exposure at which what moves is seen, evenly spread: motion blur
-  int subpixel = 1;                   ///< 1…16: samples of each pixel along its rows and columns; 1: its middle alone sees the scene
-  bool culling = true;                ///< off: every pixel tests every object (slower, same bytes; for tests)
-  FrameProgress* progress = nullptr;  ///< where not null: told how far a frame is; it must live as long as the simulator
-};
-
-/// What frames or depth were computed on.
-struct RanOn {
-  std::string backend;          ///< "cpu" or "cuda"
-  std::string device;           ///< its name: of the GPU, or of the processor's instruction set
-  std::string isa;              ///< of the processor, which is there in any case: "scalar", "scalar_fma", "avx2", "avx512" or "neon"
-  int threads = 0;              ///< of the processor
-  int block_size = 0;           ///< threads per block of the kernel from ray to depth; 0 where the processor computed
-  double occupancy = 0;         ///< how full that kernel makes the GPU, 0 … 1
-  std::string fallback_reason;  ///< why Backend::automatic took no GPU; empty where it did, or where the processor was asked for
-};
 
 /// Which frame. What is not set is the simulator's.
 struct FrameRequest {
@@ -162,9 +108,6 @@ std::array<double, 16> pose_matrix(const Pose& pose);
 /// The pose, by its quaternion, that has such a matrix: of a camera's optical frame, x right, y down, z forward.
 /// @throws Error (bad_input) where the upper left 3 x 3 is no rotation to 1e-3, or the last row is not 0 0 0 1
 Pose pose_from_matrix(const std::array<double, 16>& camera_to_world);
-
-/// This library's version, "major.minor.patch".
-const char* version();
 
 /// Decodes raw data, simulated or measured, into depth (theory 4). Needs `raw`, or `tap_a` and `tap_b`, and the arrays by
 /// phase; the camera says the rest. Taps, where present, are taken unrounded only if `raw` is empty; a tap that holds no

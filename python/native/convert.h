@@ -4,10 +4,12 @@
 #include <pybind11/pybind11.h>
 
 #include <cstdint>
+#include <filesystem>
 #include <limits>
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -124,6 +126,22 @@ struct As<std::string> {
   static std::string type() { return "str"; }
   static py::object out(const std::string& value);
   static void in(py::handle value, std::string& into, const Place& place) { into = from_text(value, place); }
+};
+
+template <>
+struct As<std::filesystem::path> {
+  static std::string type() { return "str"; }
+  static py::object out(const std::filesystem::path& value) { return to_python(value.native()); }
+  static void in(py::handle value, std::filesystem::path& into, const Place& place) { into = from_text(value, place); }
+};
+template <class A, class B>
+struct As<std::pair<A, B>> {
+  static std::string type() { return "tuple[" + As<A>::type() + ", " + As<B>::type() + "]"; }
+  static py::object out(const std::pair<A, B>& value) { return py::make_tuple(to_python(value.first), to_python(value.second)); }
+  static void in(py::handle value, std::pair<A, B>& into, const Place& place) {
+    const std::vector<py::object> items = items_of(value, place, "2 values", 2);
+    from_python(items[0], into.first, Place{&place, "[0]"}), from_python(items[1], into.second, Place{&place, "[1]"});
+  }
 };
 
 template <class T>

@@ -187,6 +187,17 @@ TOFRAY_FIELDS(CameraReport, &CameraReport::width, &CameraReport::height, &Camera
               &CameraReport::modulation_frequency_hz, &CameraReport::cycles, &CameraReport::ambiguity_range_m, &CameraReport::low_signal_m,
               &CameraReport::knows_ambient, &CameraReport::noise, &CameraReport::warnings)
 TOFRAY_FIELDS(FrameRequest, &FrameRequest::index, &FrameRequest::seed, &FrameRequest::pose)
+TOFRAY_FIELDS(ChainRawFrame, &ChainRawFrame::lit, &ChainRawFrame::modulation_frequency_hz, &ChainRawFrame::reference_phase_rad, &ChainRawFrame::integration_time_s, &ChainRawFrame::signal_e, &ChainRawFrame::direct_e, &ChainRawFrame::indirect_e, &ChainRawFrame::multipath_m, &ChainRawFrame::path_noise_m, &ChainRawFrame::tap_a_e, &ChainRawFrame::tap_b_e, &ChainRawFrame::code_dn, &ChainRawFrame::difference_e)
+TOFRAY_FIELDS(ChainPhase, &ChainPhase::modulation_frequency_hz, &ChainPhase::amplitude_e, &ChainPhase::measured_turns, &ChainPhase::calibrated_turns, &ChainPhase::half_wave_m, &ChainPhase::cycles, &ChainPhase::half_path_m)
+TOFRAY_FIELDS(PixelChain, &PixelChain::u, &PixelChain::v, &PixelChain::object, &PixelChain::true_range_m, &PixelChain::true_z_m, &PixelChain::reflectivity, &PixelChain::incidence_rad, &PixelChain::object_share, &PixelChain::mixed, &PixelChain::position_m, &PixelChain::normal, &PixelChain::irradiance_w_m2, &PixelChain::radiance_w_m2_sr, &PixelChain::power_w, &PixelChain::raw_frames, &PixelChain::phases, &PixelChain::range_m, &PixelChain::z_m, &PixelChain::noise_m, &PixelChain::noise_threshold_m, &PixelChain::amplitude_e, &PixelChain::ambient_e, &PixelChain::confidence, &PixelChain::point_m, &PixelChain::flags)
+TOFRAY_FIELDS(BounceShare, &BounceShare::first, &BounceShare::last, &BounceShare::share, &BounceShare::electrons, &BounceShare::multipath_m)
+TOFRAY_FIELDS(PixelBounces, &PixelBounces::shares, &PixelBounces::unknown)
+TOFRAY_FIELDS(Validity, &Validity::pixels, &Validity::reasons, &Validity::advice, &Validity::has_light)
+TOFRAY_FIELDS(InputFile, &InputFile::role, &InputFile::name, &InputFile::text, &InputFile::sha256)
+TOFRAY_FIELDS(FileRecord, &FileRecord::name, &FileRecord::bytes, &FileRecord::sha256)
+TOFRAY_FIELDS(Remark, &Remark::warning, &Remark::where, &Remark::what, &Remark::more)
+TOFRAY_FIELDS(Inputs, &Inputs::scene, &Inputs::camera, &Inputs::files, &Inputs::remarks)
+TOFRAY_FIELDS(RunResult, &RunResult::folder, &RunResult::files, &RunResult::frames, &RunResult::interrupted, &RunResult::remarks, &RunResult::last, &RunResult::ran_on, &RunResult::timings_s)
 // What Simulator() takes as words; `progress` is Simulator.progress in Python.
 TOFRAY_FIELDS(SimulatorOptions, &SimulatorOptions::seed, &SimulatorOptions::noise, &SimulatorOptions::threads, &SimulatorOptions::backend,
               &SimulatorOptions::device, &SimulatorOptions::block_size, &SimulatorOptions::batch_bytes, &SimulatorOptions::isa,
@@ -204,7 +215,8 @@ void each_record(const Call& call) {
                              Camera, Material, Plane, Sphere, Box, Triangle, Cylinder, Rectangle, Disk, Capsule, Cone, Mesh, Rotation,
                              Keyframe, Object, Ambient, TransientBins, Transport, Pose, CameraKeyframe, Override, CameraChoice, SceneFile,
                              Scene, RanOn, FrameRequest, ObjectInView, SceneFinding, SceneReport, InvalidPixels, AmbientCase,
-                             CameraQuestion, NoiseAt, NoiseAtDistances, CameraReport>;
+                             CameraQuestion, NoiseAt, NoiseAtDistances, CameraReport, ChainRawFrame, ChainPhase, PixelChain, BounceShare,
+                             PixelBounces, Validity, InputFile, FileRecord, Remark, Inputs, RunResult>;
   all(static_cast<Records*>(nullptr));
 }
 

@@ -14,6 +14,7 @@
 #include "frames.h"
 #include "meshes.h"
 #include "pictures/pictures.h"
+#include "runs.h"
 #include "simulator.h"
 #include "tofray/tofray.h"
 
@@ -233,16 +234,9 @@ py::object round_trip(const py::object& value) {
 
 py::dict flags() {
   py::dict out;
-  const std::pair<const char*, Flag> all[] = {{"saturated", flag_saturated},
-                                              {"low_signal", flag_low_signal},
-                                              {"flying_pixel", flag_flying_pixel},
-                                              {"no_return", flag_no_return},
-                                              {"outside_lens", flag_outside_lens},
-                                              {"inconsistent_phases", flag_inconsistent_phases},
-                                              {"inconsistent_frequencies", flag_inconsistent_frequencies},
-                                              {"rejected", flag_rejected},
-                                              {"filtered", flag_filtered}};
-  for (const auto& [name, bit] : all) out[name] = static_cast<int>(bit);
+#define TOFRAY_FLAG_OF(name, bit, ...) out[#name] = bit;
+  TOFRAY_FLAGS(TOFRAY_FLAG_OF)
+#undef TOFRAY_FLAG_OF
   out["invalid"] = static_cast<int>(flags_invalid);
   return out;
 }
@@ -266,6 +260,7 @@ PYBIND11_MODULE(_native, module) {
   bind_meshes(module);
   bind_simulator(module);
   bind_budget(module);
+  bind_runs(module);
   bind_files(module);
   module.def("picture", &picture);
   module.def("structs", &structs);

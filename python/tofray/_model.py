@@ -2684,6 +2684,526 @@ class CameraReport(Record):
         self.warnings = list(warnings)
 
 
+class ChainRawFrame(Record):
+    """One pixel in one raw frame.
+
+    Attributes
+    ----------
+    lit : bool
+    modulation_frequency_hz : float, Hz
+    reference_phase_rad : float, rad
+    integration_time_s : float, s
+    signal_e : float, e
+        Ground truth S, both taps.
+    direct_e : float, e
+        By one surface and by several, before the lens scatters them.
+    indirect_e : float, e
+        By one surface and by several, before the lens scatters them.
+    multipath_m : float, m
+        What that does to the half path [theory: eq. 7.8].
+    path_noise_m : float, m
+        The standard error of that [theory: eq. 7.13].
+    tap_a_e : float, e
+    tap_b_e : float, e
+    code_dn : float, DN
+    difference_e : float, e
+        D_k that depth comes from: out of the code, or unrounded where noise is off.
+    """
+    __slots__ = ("lit", "modulation_frequency_hz", "reference_phase_rad", "integration_time_s", "signal_e", "direct_e", "indirect_e",
+                 "multipath_m", "path_noise_m", "tap_a_e", "tap_b_e", "code_dn", "difference_e")
+    lit: bool
+    modulation_frequency_hz: float
+    reference_phase_rad: float
+    integration_time_s: float
+    signal_e: float
+    direct_e: float
+    indirect_e: float
+    multipath_m: float
+    path_noise_m: float
+    tap_a_e: float
+    tap_b_e: float
+    code_dn: float
+    difference_e: float
+
+    def __init__(
+        self,
+        *,
+        lit: bool = False,
+        modulation_frequency_hz: float = 0.0,
+        reference_phase_rad: float = 0.0,
+        integration_time_s: float = 0.0,
+        signal_e: float = 0.0,
+        direct_e: float = 0.0,
+        indirect_e: float = 0.0,
+        multipath_m: float = 0.0,
+        path_noise_m: float = 0.0,
+        tap_a_e: float = 0.0,
+        tap_b_e: float = 0.0,
+        code_dn: float = 0.0,
+        difference_e: float = 0.0,
+    ) -> None:
+        self.lit = lit
+        self.modulation_frequency_hz = modulation_frequency_hz
+        self.reference_phase_rad = reference_phase_rad
+        self.integration_time_s = integration_time_s
+        self.signal_e = signal_e
+        self.direct_e = direct_e
+        self.indirect_e = indirect_e
+        self.multipath_m = multipath_m
+        self.path_noise_m = path_noise_m
+        self.tap_a_e = tap_a_e
+        self.tap_b_e = tap_b_e
+        self.code_dn = code_dn
+        self.difference_e = difference_e
+
+
+class ChainPhase(Record):
+    """One pixel's phase at one modulation frequency.
+
+    Attributes
+    ----------
+    modulation_frequency_hz : float, Hz
+    amplitude_e : float, e
+        |Z| [theory: eq. 4.2].
+    measured_turns : float, turns
+        Arg Z / 2 pi, with the wiggling in it.
+    calibrated_turns : float, turns
+        With the wiggling and the pixel's delay taken out [eq. 4.3].
+    half_wave_m : float, m
+        R, the unambiguous half path [eq. 4.4].
+    cycles : float, 1
+        Whole cycles that unwrapping added.
+    half_path_m : float, m
+        R (cycles + turns).
+    """
+    __slots__ = ("modulation_frequency_hz", "amplitude_e", "measured_turns", "calibrated_turns", "half_wave_m", "cycles", "half_path_m")
+    modulation_frequency_hz: float
+    amplitude_e: float
+    measured_turns: float
+    calibrated_turns: float
+    half_wave_m: float
+    cycles: float
+    half_path_m: float
+
+    def __init__(
+        self,
+        *,
+        modulation_frequency_hz: float = 0.0,
+        amplitude_e: float = 0.0,
+        measured_turns: float = 0.0,
+        calibrated_turns: float = 0.0,
+        half_wave_m: float = 0.0,
+        cycles: float = 0.0,
+        half_path_m: float = 0.0,
+    ) -> None:
+        self.modulation_frequency_hz = modulation_frequency_hz
+        self.amplitude_e = amplitude_e
+        self.measured_turns = measured_turns
+        self.calibrated_turns = calibrated_turns
+        self.half_wave_m = half_wave_m
+        self.cycles = cycles
+        self.half_path_m = half_path_m
+
+
+class PixelChain(Record):
+    """One pixel's way from light to depth. What the arrays do not have is NaN or empty.
+
+    Attributes
+    ----------
+    u : int
+    v : int
+    object : int
+    true_range_m : float, m
+    true_z_m : float, m
+    reflectivity : float, 1
+    incidence_rad : float, rad
+    object_share : float, 1
+        Of samples within the pixel.
+    mixed : float, 1
+        Of samples within the pixel.
+    position_m : tuple[float, float, float], m
+    normal : tuple[float, float, float], 1
+    irradiance_w_m2 : float, W/m²
+    radiance_w_m2_sr : float, W/(m² sr)
+    power_w : float, W
+    raw_frames : list[ChainRawFrame]
+    phases : list[ChainPhase]
+        One for each modulation frequency.
+    range_m : float, m
+    z_m : float, m
+    noise_m : float, m
+    noise_threshold_m : float, m
+    amplitude_e : float, e
+    ambient_e : float, e
+    confidence : float, 1
+    point_m : tuple[float, float, float], m
+    flags : int
+        Bits of Flag.
+    """
+    __slots__ = ("u", "v", "object", "true_range_m", "true_z_m", "reflectivity", "incidence_rad", "object_share", "mixed", "position_m",
+                 "normal", "irradiance_w_m2", "radiance_w_m2_sr", "power_w", "raw_frames", "phases", "range_m", "z_m", "noise_m",
+                 "noise_threshold_m", "amplitude_e", "ambient_e", "confidence", "point_m", "flags")
+    u: int
+    v: int
+    object: int
+    true_range_m: float
+    true_z_m: float
+    reflectivity: float
+    incidence_rad: float
+    object_share: float
+    mixed: float
+    position_m: tuple[float, float, float]
+    normal: tuple[float, float, float]
+    irradiance_w_m2: float
+    radiance_w_m2_sr: float
+    power_w: float
+    raw_frames: list[ChainRawFrame]
+    phases: list[ChainPhase]
+    range_m: float
+    z_m: float
+    noise_m: float
+    noise_threshold_m: float
+    amplitude_e: float
+    ambient_e: float
+    confidence: float
+    point_m: tuple[float, float, float]
+    flags: int
+
+    def __init__(
+        self,
+        *,
+        u: int = 0,
+        v: int = 0,
+        object: int = -1,
+        true_range_m: float = 0.0,
+        true_z_m: float = 0.0,
+        reflectivity: float = 0.0,
+        incidence_rad: float = 0.0,
+        object_share: float = 0.0,
+        mixed: float = 0.0,
+        position_m: tuple[float, float, float] = (0.0, 0.0, 0.0),
+        normal: tuple[float, float, float] = (0.0, 0.0, 0.0),
+        irradiance_w_m2: float = 0.0,
+        radiance_w_m2_sr: float = 0.0,
+        power_w: float = 0.0,
+        raw_frames: Sequence[ChainRawFrame] = (),
+        phases: Sequence[ChainPhase] = (),
+        range_m: float = 0.0,
+        z_m: float = 0.0,
+        noise_m: float = 0.0,
+        noise_threshold_m: float = 0.0,
+        amplitude_e: float = 0.0,
+        ambient_e: float = 0.0,
+        confidence: float = 0.0,
+        point_m: tuple[float, float, float] = (0.0, 0.0, 0.0),
+        flags: int = 0,
+    ) -> None:
+        self.u = u
+        self.v = v
+        self.object = object
+        self.true_range_m = true_range_m
+        self.true_z_m = true_z_m
+        self.reflectivity = reflectivity
+        self.incidence_rad = incidence_rad
+        self.object_share = object_share
+        self.mixed = mixed
+        self.position_m = position_m
+        self.normal = normal
+        self.irradiance_w_m2 = irradiance_w_m2
+        self.radiance_w_m2_sr = radiance_w_m2_sr
+        self.power_w = power_w
+        self.raw_frames = list(raw_frames)
+        self.phases = list(phases)
+        self.range_m = range_m
+        self.z_m = z_m
+        self.noise_m = noise_m
+        self.noise_threshold_m = noise_threshold_m
+        self.amplitude_e = amplitude_e
+        self.ambient_e = ambient_e
+        self.confidence = confidence
+        self.point_m = point_m
+        self.flags = flags
+
+
+class BounceShare(Record):
+    """Light that came by way of 1 + b surfaces, b = first … last.
+
+    Attributes
+    ----------
+    first : int
+    last : int
+    share : float, 1
+        Of the electrons of all lit raw frames, 0 … 1.
+    electrons : list[float], e
+        By raw frame, before the lens scatters them [e].
+    multipath_m : list[float], m
+        By raw frame: what it adds to the half path once all before it are there [m] [theory: eq.
+        7.8].
+    """
+    __slots__ = ("first", "last", "share", "electrons", "multipath_m")
+    first: int
+    last: int
+    share: float
+    electrons: list[float]
+    multipath_m: list[float]
+
+    def __init__(
+        self,
+        *,
+        first: int = 0,
+        last: int = 0,
+        share: float = 0.0,
+        electrons: Sequence[float] = (),
+        multipath_m: Sequence[float] = (),
+    ) -> None:
+        self.first = first
+        self.last = last
+        self.share = share
+        self.electrons = list(electrons)
+        self.multipath_m = list(multipath_m)
+
+
+class PixelBounces(Record):
+    """One pixel's light, bounce by bounce. Light paths are chosen by pixel, bounce and sample alone,
+    so that frames with fewer bounces follow the beginnings of the same paths: what a bounce adds is
+    the difference of two frames, without error of chance between them.
+
+    Attributes
+    ----------
+    shares : list[BounceShare]
+        Direct light first; together gt_direct_e + gt_indirect_e and gt_multipath_m; may be empty.
+    unknown : str
+        Why it is empty although light bounced.
+    """
+    __slots__ = ("shares", "unknown")
+    shares: list[BounceShare]
+    unknown: str
+
+    def __init__(
+        self,
+        *,
+        shares: Sequence[BounceShare] = (),
+        unknown: str = '',
+    ) -> None:
+        self.shares = list(shares)
+        self.unknown = unknown
+
+
+class Validity(Record):
+    """The same in words, and what helps.
+
+    Attributes
+    ----------
+    pixels : InvalidPixels
+    reasons : str
+        "12 dark, 3 no surface"; empty where all are valid.
+    advice : str
+        Where fewer than half are valid, the reason of most, and what helps: "71 % dark: noise 0.11
+        m at the median; more light …"; likewise where many have a depth that is whole cycles off.
+        Lines behind the first are indented.
+    has_light : bool
+        The camera's own has any power.
+    """
+    __slots__ = ("pixels", "reasons", "advice", "has_light")
+    pixels: InvalidPixels
+    reasons: str
+    advice: str
+    has_light: bool
+
+    def __init__(
+        self,
+        *,
+        pixels: InvalidPixels | None = None,
+        reasons: str = '',
+        advice: str = '',
+        has_light: bool = True,
+    ) -> None:
+        self.pixels = InvalidPixels() if pixels is None else pixels
+        self.reasons = reasons
+        self.advice = advice
+        self.has_light = has_light
+
+
+class InputFile(Record):
+    """A file that a run starts from, as manifest.json lists it.
+
+    Attributes
+    ----------
+    role : str
+        "scene", "profile", "table", "mesh", "keyframes", ….
+    name : str
+        As the caller or the scene names it; a built-in name where `text` is empty.
+    text : str
+        The whole file, UTF-8; empty for what is built in, and for meshes and keyframes.
+    sha256 : str
+        Of a mesh and of keyframes, which may be too long to be here.
+    """
+    __slots__ = ("role", "name", "text", "sha256")
+    role: str
+    name: str
+    text: str
+    sha256: str
+
+    def __init__(
+        self,
+        *,
+        role: str = '',
+        name: str = '',
+        text: str = '',
+        sha256: str = '',
+    ) -> None:
+        self.role = role
+        self.name = name
+        self.text = text
+        self.sha256 = sha256
+
+
+class FileRecord(Record):
+    """A file that a run has written.
+
+    Attributes
+    ----------
+    name : str
+        Within the folder.
+    bytes : int
+    sha256 : str
+        64 hexadecimal digits.
+    """
+    __slots__ = ("name", "bytes", "sha256")
+    name: str
+    bytes: int
+    sha256: str
+
+    def __init__(
+        self,
+        *,
+        name: str = '',
+        bytes: int = 0,
+        sha256: str = '',
+    ) -> None:
+        self.name = name
+        self.bytes = bytes
+        self.sha256 = sha256
+
+
+class Remark(Record):
+    """Something worth telling of what goes on all the same.
+
+    Attributes
+    ----------
+    warning : bool
+        False: a note.
+    where : str
+        The file it is about, or nothing.
+    what : str
+        One line, complete in itself.
+    more : str
+        What it means and how to mend it, one line; may be empty.
+    """
+    __slots__ = ("warning", "where", "what", "more")
+    warning: bool
+    where: str
+    what: str
+    more: str
+
+    def __init__(
+        self,
+        *,
+        warning: bool = True,
+        where: str = '',
+        what: str = '',
+        more: str = '',
+    ) -> None:
+        self.warning = warning
+        self.where = where
+        self.what = what
+        self.more = more
+
+
+class Inputs(Record):
+    """Scene and camera, ready for a Simulator.
+
+    Attributes
+    ----------
+    scene : Scene
+    camera : Camera
+    files : list[InputFile]
+        The scene first.
+    remarks : list[Remark]
+        What is odd about them and can be simulated all the same.
+    """
+    __slots__ = ("scene", "camera", "files", "remarks")
+    scene: Scene
+    camera: Camera
+    files: list[InputFile]
+    remarks: list[Remark]
+
+    def __init__(
+        self,
+        *,
+        scene: Scene | None = None,
+        camera: Camera | None = None,
+        files: Sequence[InputFile] = (),
+        remarks: Sequence[Remark] = (),
+    ) -> None:
+        self.scene = Scene() if scene is None else scene
+        self.camera = Camera() if camera is None else camera
+        self.files = list(files)
+        self.remarks = list(remarks)
+
+
+class RunResult(Record):
+    """How a run went.
+
+    Attributes
+    ----------
+    folder : str
+    files : list[FileRecord]
+        Manifest.json last.
+    frames : int
+        How many are complete.
+    interrupted : bool
+        Fewer than were asked for.
+    remarks : list[Remark]
+        Of the inputs, the scene as the camera sees it, the frames, the folder.
+    last : Validity
+        Of the last frame's depth.
+    ran_on : RanOn
+    timings_s : list[tuple[str, float]], s
+        By stage: prepare, simulate, write.
+    """
+    __slots__ = ("folder", "files", "frames", "interrupted", "remarks", "last", "ran_on", "timings_s")
+    folder: str
+    files: list[FileRecord]
+    frames: int
+    interrupted: bool
+    remarks: list[Remark]
+    last: Validity
+    ran_on: RanOn
+    timings_s: list[tuple[str, float]]
+
+    def __init__(
+        self,
+        *,
+        folder: str = '',
+        files: Sequence[FileRecord] = (),
+        frames: int = 0,
+        interrupted: bool = False,
+        remarks: Sequence[Remark] = (),
+        last: Validity | None = None,
+        ran_on: RanOn | None = None,
+        timings_s: Sequence[tuple[str, float]] = (),
+    ) -> None:
+        self.folder = folder
+        self.files = list(files)
+        self.frames = frames
+        self.interrupted = interrupted
+        self.remarks = list(remarks)
+        self.last = Validity() if last is None else last
+        self.ran_on = RanOn() if ran_on is None else ran_on
+        self.timings_s = list(timings_s)
+
+
 __all__ = [
     "Curve", "PixelMask", "Sensor", "Scatter", "Lens", "Filter", "Pattern", "Waveform", "Area",
     "Illumination", "Pixel", "Adc", "RawFrame", "Mode", "ImageFilter", "Decoding", "Temperature",
@@ -2692,5 +3212,7 @@ __all__ = [
     "Cone", "Mesh", "Rotation", "Keyframe", "Object", "Ambient", "TransientBins", "Transport",
     "Pose", "CameraKeyframe", "Override", "CameraChoice", "SceneFile", "Scene", "RanOn",
     "FrameRequest", "ObjectInView", "SceneFinding", "SceneReport", "InvalidPixels", "AmbientCase",
-    "CameraQuestion", "NoiseAt", "NoiseAtDistances", "CameraReport",
+    "CameraQuestion", "NoiseAt", "NoiseAtDistances", "CameraReport", "ChainRawFrame", "ChainPhase",
+    "PixelChain", "BounceShare", "PixelBounces", "Validity", "InputFile", "FileRecord", "Remark",
+    "Inputs", "RunResult",
 ]

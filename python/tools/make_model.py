@@ -47,7 +47,7 @@ def declared(code: str) -> list[str]:
 def comments() -> dict[str, dict[str, str]]:
     """The comment of each struct ('' is its key) and of each of its members."""
     out: dict[str, dict[str, str]] = {}
-    for header in ("scene.h", "camera.h", "simulator.h", "analysis.h", "camera_report.h"):
+    for header in ("scene.h", "camera.h", "simulator.h", "options.h", "analysis.h", "camera_report.h", "pixel.h", "file_record.h", "run.h"):
         before: list[str] = []
         struct, members = "", [""]
         behind = False
@@ -102,16 +102,17 @@ BASES = {"Pose": "PoseMethods"}
 
 # Units that a number's name ends in …
 ENDS = {"m": "m", "deg": "°", "px": "px", "rad": "rad", "s": "s", "hz": "Hz", "w": "W", "e": "e", "k": "K", "dn": "DN", "celsius": "°C",
-        "e_per_s": "e/s", "e_per_dn": "e/DN", "m_per_s": "m/s", "m_per_kelvin": "m/K", "rad_per_s": "rad/s", "w_per_m3": "W/m³"}
+        "e_per_s": "e/s", "e_per_dn": "e/DN", "m_per_s": "m/s", "m_per_kelvin": "m/K", "rad_per_s": "rad/s", "w_per_m3": "W/m³", "turns": "turns", "w_m2": "W/m²", "w_m2_sr": "W/(m² sr)"}
 # … and of those that end in none: scene.h says metres, where it is not a direction or a ratio.
 METRES = {"position", "point", "center", "radius", "min", "max", "vertices", "height", "size", "start", "end", "base", "look_at", "low", "high"}
 RATIOS = {"fill_factor", "share", "weights", "kernel", "k1", "k2", "k3", "k4", "k5", "k6", "p1", "p2", "f_number", "transmission", "peak",
           "exponent", "duty", "modulation_depth", "correlation", "emission", "axis", "normal", "direction", "up", "samples", "scale", "active",
           "tap_gain_mismatch", "crosstalk_left_right", "crosstalk_up_down", "prnu", "suppression_noise_factor", "sigmas", "flying_sigmas",
           "asymmetry_sigmas", "multipath_sigmas", "temporal_sigmas", "quaternion", "refractive_index", "diffuse", "specular", "alpha", "retro", "occupancy",
-          "blooming_share", "reflectivities", "reflectivity", "wrong_cycle", "outside", "unlit", "darkest", "gain", "gains", "speed", "aim", "bright"}
+          "blooming_share", "reflectivities", "reflectivity", "wrong_cycle", "outside", "unlit", "darkest", "gain", "gains", "speed", "aim", "bright",
+          "object_share", "mixed", "cycles", "confidence"}
 OTHERS = {"mid_code": "DN", "celsius": "°C", "Ambient.amount": "by its quantity", "Curve.x": "any unit", "Curve.y": "any unit",
-          "SpreadSpectrum.width": "1"}
+          "SpreadSpectrum.width": "1", "BounceShare.electrons": "e", "RunResult.timings_s": "s"}
 
 
 def unit(struct: str, member: str, type_name: str) -> str:

@@ -13,6 +13,7 @@
 
 #include "base/constants.h"
 #include "base/text.h"
+#include "base/units.h"
 
 namespace tofray::analysis {
 
@@ -163,7 +164,7 @@ bool find_mesh_sizes(const Seen& seen, SceneReport& report) {
                             : fmt::format("is its file in metres? Then take scale: {} out of its mesh", base::number_text(scale));
     add(seen, report, Kind::mesh_size, true, file.objects,
         fmt::format("{} measures {}", name_of(seen.scene, file.objects[0]),
-                    size_text({file.all.low.x, file.all.low.y, file.all.low.z}, {file.all.high.x, file.all.high.y, file.all.high.z})),
+                    base::size_text({file.all.low.x, file.all.low.y, file.all.low.z}, {file.all.high.x, file.all.high.y, file.all.high.z})),
         more);
     said = true;
   }
@@ -276,16 +277,6 @@ void find_beyond(const Seen& seen, SceneReport& report) {
 }
 
 }  // namespace
-
-std::string size_text(const Vec3& low, const Vec3& high) {
-  const double most = std::max({high[0] - low[0], high[1] - low[1], high[2] - low[2]});
-  const double unit = most < 1e-4 ? 1e6 : most < 0.1 ? 1e3 : 1;
-  const auto one = [&](std::size_t k) {
-    const double size = (high[k] - low[k]) * unit;
-    return fmt::format("{:.{}f}", size, size >= 100 ? 0 : size >= 10 ? 1 : 2);
-  };
-  return fmt::format("{} x {} x {} {}", one(0), one(1), one(2), most < 1e-4 ? "um" : most < 0.1 ? "mm" : "m");
-}
 
 std::string name_of(const Scene& scene, int object) {
   const Object& one = scene.objects[static_cast<std::size_t>(object)];

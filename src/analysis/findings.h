@@ -29,8 +29,6 @@ void find_overlaps(const Seen& seen, SceneReport& report);
 void add(const Seen& seen, SceneReport& report, SceneFinding::Kind kind, bool warning, const std::vector<int>& objects,
          const std::string& what, const std::string& more);
 
-/// "0.40 x 0.40 x 0.40 m", in mm or um where it is small.
-std::string size_text(const Vec3& low, const Vec3& high);
 /// "objects.2 (ball)"; of a file's parts one for all of them.
 std::string name_of(const Scene& scene, int object);
 /// "objects.2 (ball), objects.3 (box) and 4 more".

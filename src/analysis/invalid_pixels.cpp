@@ -5,22 +5,21 @@
 #include <limits>
 
 #include "analysis/reach.h"
+#include "analysis/reasons.h"
 #include "tofray/analysis.h"
 #include "tofray/simulator.h"
 
 namespace tofray {
 
-namespace {
-
-/// Which bit of the flags explains best why a pixel is invalid; for one that got nothing back is also weak and noisy.
-NoDepth reason_by_flags(std::uint16_t flags) {
-  if ((flags & flag_outside_lens) != 0) return NoDepth::outside_lens;
-  if ((flags & flag_saturated) != 0) return NoDepth::saturated;
-  if ((flags & flag_no_return) != 0) return NoDepth::no_return;
-  if ((flags & flag_low_signal) != 0) return NoDepth::low_signal;
-  if ((flags & flag_flying_pixel) != 0) return NoDepth::flying_pixel;
-  return (flags & flag_inconsistent_phases) != 0 ? NoDepth::inconsistent_phases : NoDepth::inconsistent_frequencies;
+NoDepth analysis::reason_by_flags(std::uint16_t flags) {
+#define TOFRAY_REASON(name, bit, ...) \
+  if ((flags & (bit)) != 0) return NoDepth::name;
+  TOFRAY_REASONS(TOFRAY_REASON)
+#undef TOFRAY_REASON
+  return NoDepth::inconsistent_frequencies;
 }
+
+namespace {
 
 /// A frame's truth, pixel by pixel, where it is there. Where nobody wrote which object it is, a range says that there is a surface.
 class PixelTruth {
@@ -145,7 +144,7 @@ InvalidPixels invalid_pixels(const Frame& frame, const Camera& camera, bool wron
         ++out.valid_on_wrong_cycle;
       continue;
     }
-    const NoDepth reason = seen.reason(i, reason_by_flags(flags[i]));
+    const NoDepth reason = seen.reason(i, analysis::reason_by_flags(flags[i]));
     ++count_of(out, reason);
     if (reason == NoDepth::flying_pixel) flying.push_back(i);
   }

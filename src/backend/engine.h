@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include "pipeline/setup.h"
-#include "tofray/simulator.h"
+#include "tofray/options.h"
 
 namespace tofray::pipeline {
 struct Input;

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <string_view>
 #include <type_traits>
 #include <vector>
 
@@ -18,6 +19,7 @@ class Content {
     static_assert(std::is_trivially_copyable_v<T>);  // numbers, or arrays of them: without gaps
     add(array.data(), array.size() * sizeof(T));
   }
+  void add(std::string_view bytes) { add(bytes.data(), bytes.size()); }
   bool operator==(const Content&) const = default;
 
  private:

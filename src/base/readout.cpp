@@ -79,4 +79,14 @@ Camera as_read_out(const Camera& camera) {
   return out;
 }
 
+std::vector<double> raw_frame_starts_s(const std::vector<double>& integration_time_s, double readout_time_s) {
+  std::vector<double> out;
+  double start = 0;
+  for (const double time : integration_time_s) {
+    out.push_back(start);
+    start += time + readout_time_s;
+  }
+  return out;
+}
+
 }  // namespace tofray::base

@@ -10,4 +10,7 @@ namespace tofray::base {
 /// @param camera  was seen to be good
 Camera as_read_out(const Camera& camera);
 
+/// Start of each raw frame after the start of its frame [s]: an exposure begins when the one before has been read out.
+std::vector<double> raw_frame_starts_s(const std::vector<double>& integration_time_s, double readout_time_s);
+
 }  // namespace tofray::base

@@ -2,6 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "base/units.h"
 
+#include <fmt/core.h>
+
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <limits>
@@ -202,6 +205,16 @@ std::string quantity_text(double value, std::string_view example) {
   const std::string shifted = number_text(number);
   scaled(shifted, -unit->exponent, number);
   return number_text(number) + " " + unit->name;
+}
+
+std::string size_text(const Vec3& low, const Vec3& high) {
+  const double most = std::max({high[0] - low[0], high[1] - low[1], high[2] - low[2]});
+  const double unit = most < 1e-4 ? 1e6 : most < 0.1 ? 1e3 : 1;
+  const auto one = [&](std::size_t k) {
+    const double size = (high[k] - low[k]) * unit;
+    return fmt::format("{:.{}f}", size, size >= 100 ? 0 : size >= 10 ? 1 : 2);
+  };
+  return fmt::format("{} x {} x {} {}", one(0), one(1), one(2), most < 1e-4 ? "um" : most < 0.1 ? "mm" : "m");
 }
 
 }  // namespace tofray::base

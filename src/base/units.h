@@ -5,6 +5,8 @@
 #include <string_view>
 #include <vector>
 
+#include "tofray/scene.h"
+
 /// Quantities as people write them ("2000 us", "5 %") and their SI values.
 namespace tofray::base {
 
@@ -72,5 +74,8 @@ Quantity parse_quantity(std::string_view text, Dimension dimension);
 
 /// An SI value in the unit that `example` carries, e.g. "0.5 um", for messages.
 std::string quantity_text(double value, std::string_view example);
+
+/// The size of a box: "0.40 x 0.40 x 0.40 m", in mm or um where it is small.
+std::string size_text(const Vec3& low, const Vec3& high);
 
 }  // namespace tofray::base

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "base/version.h"
 
-#include "tofray/simulator.h"
+#include "tofray/version.h"
 
 namespace tofray::base {
 

@@ -156,7 +156,7 @@ void FrozenCamera::freeze_sequence(std::uint64_t seed, bool noise) {
   }
   s.frame = raw_frames_.data();
   s.drifts = camera_.temperature.warm_up_m != 0 || another || camera_.auto_exposure.speed > 0;
-  start_ = raw_frame_starts_s(integration_time_s, camera_.readout_time_s);
+  start_ = base::raw_frame_starts_s(integration_time_s, camera_.readout_time_s);
   freeze_gates(drift_m(0));
 }
 
@@ -167,7 +167,7 @@ void FrozenCamera::set_integration_times(const std::vector<double>& seconds) {
     raw_frames_[k].integration_time = single(seconds[k]), raw_frames_[k].dark = single(dark_current() * seconds[k]);
     if (raw_frames_[k].lit == 0) grey_time += seconds[k];
   }
-  start_ = raw_frame_starts_s(seconds, camera_.readout_time_s);
+  start_ = base::raw_frame_starts_s(seconds, camera_.readout_time_s);
   for (std::size_t i = 0; i < grouped_.size(); ++i) {
     const double exposed = seconds[static_cast<std::size_t>(grouped_[i].front())];
     decode_modulations_[i].integration_time = single(exposed);
@@ -220,16 +220,6 @@ void FrozenCamera::freeze_other_camera(double time_s, std::uint64_t index) {
     float* const gate = &other_gates_[k * 2 * static_cast<std::size_t>(phasors_.orders)];
     write_other_gate(light, other.frequency_difference_hz * exposure, gate_phase(k), phasors_.orders, gate);
   }
-}
-
-std::vector<double> raw_frame_starts_s(const std::vector<double>& integration_time_s, double readout_time_s) {
-  std::vector<double> out;
-  double start = 0;
-  for (const double time : integration_time_s) {
-    out.push_back(start);
-    start += time + readout_time_s;
-  }
-  return out;
 }
 
 /// Twice as much with every `dark_current_doubling_k` kelvin.                                                 [theory: eq. 3.19]

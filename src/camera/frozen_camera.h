@@ -33,9 +33,6 @@ Modulations modulations_of(const Mode& mode);
 /// τ, of its phase and its delay together [rad]; 0 where unlit.
 double reference_phase_of(const RawFrame& frame);
 
-/// Start of each raw frame after the start of its frame [s]: an exposure begins when the one before has been read out.
-std::vector<double> raw_frame_starts_s(const std::vector<double>& integration_time_s, double readout_time_s);
-
 /// Camera profile → views. Owns all arrays the views point to; not copied.
 class FrozenCamera {
  public:

@@ -4,23 +4,19 @@
 #include "camera/late.h"
 #include "camera/read_curve.h"
 #include "depth/unwrap.h"
+#include "tofray/flags.h"
 
 /// Stage 4: from raw frames to range.                                                                   [theory: chapter 4]
 namespace tofray::depth {
 
 using flow::Depth;
 
+/// As tofray::Flag.
 enum Bits : std::int32_t {
-  saturated = 1,
-  low_signal = 2,
-  flying_pixel = 4,
-  no_return = 8,
-  outside_lens = 16,
-  inconsistent_phases = 32,
-  inconsistent_frequencies = 64,
-  rejected = 128,
-  filtered = 256,
-  invalid = 31 + 128,
+#define TOFRAY_BIT(name, bit, ...) name = bit,
+  TOFRAY_FLAGS(TOFRAY_BIT)
+#undef TOFRAY_BIT
+      invalid = flags_invalid,
 };
 
 /// Ẑ = (2/N)Σ D_k e^{−iτ_k} of one modulation frequency.                                                  [eq. 4.2]

@@ -10,15 +10,9 @@
 #include <vector>
 
 #include "files/descriptor.h"
+#include "tofray/file_record.h"
 
 namespace tofray::files {
-
-/// A file that was written.
-struct FileRecord {
-  std::string name;  ///< within the folder
-  std::uint64_t bytes = 0;
-  std::string sha256;  ///< 64 hexadecimal digits
-};
 
 /// The folder that results go to: made with its parents where it is missing. Files of the same name are replaced, others left alone (but
 /// temporaries that a killed run left are removed), and each is complete or absent. While one lives no other process has one of the same

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "assets/mesh_load.h"
 #include "tofray/load.h"
 
 /// Scenes and camera profiles from files, from texts, and with keys changed from the command line.
@@ -16,18 +17,13 @@ namespace tofray::load {
 /// Dotted key and value as written in the file, e.g. {"ambient.level", "5 %"} or {"objects.1.sphere.radius", "20 cm"}.
 using Settings = std::vector<std::pair<std::string, std::string>>;
 
-/// Which files a scene may take: those of meshes and of keyframes.
-struct MeshFiles {
-  std::string root = {};  ///< they lie in or below the scene's folder, or in or below this one where it is not empty
-  std::optional<std::map<std::string, std::string>> expected = {};  ///< SHA-256 by name as the scene has it: these files and no others
-};
-
 /// Reads a scene after setting keys in it; keys under "camera." go to the camera that the scene asks for.
 /// @throws Error with every fault at once
-Scene load_scene(const std::string& file_or_name, const Settings& settings, const MeshFiles& meshes = {});
+Scene load_scene(const std::string& file_or_name, const Settings& settings, const assets::MeshFiles& meshes = {});
 
 /// The same from a text. `source` is the file's name for messages and where profiles and meshes beside the scene are looked for.
-Scene scene_from_text(const std::string& text, const std::string& source, const Settings& settings = {}, const MeshFiles& meshes = {});
+Scene scene_from_text(const std::string& text, const std::string& source, const Settings& settings = {},
+                      const assets::MeshFiles& meshes = {});
 
 using SeeCamera = std::function<void(const Camera&)>;
 

@@ -6,6 +6,10 @@
 #include <map>
 #include <set>
 
+#include "assets/gltf_load.h"
+#include "assets/material_library.h"
+#include "assets/mesh_load.h"
+#include "assets/obj_load.h"
 #include "base/limits.h"
 #include "base/rotation.h"
 #include "base/text.h"
@@ -15,11 +19,7 @@
 #include "load/builtin.h"
 #include "load/convert.h"
 #include "load/fill.h"
-#include "load/gltf_load.h"
 #include "load/load.h"
-#include "load/material_library.h"
-#include "load/mesh_load.h"
-#include "load/obj_load.h"
 #include "load/rotation_load.h"
 #include "load/trajectory.h"
 #include "load/trees.h"
@@ -46,13 +46,13 @@ struct MeshOfScene {
   std::size_t object;
   const Value* value;
   bool by_material;
-  const MeshReader::Known* known;
+  const assets::MeshReader::Known* known;
   std::map<std::string, const Material*> own = {};  ///< what the scene says of the file's materials, by their names
 };
 
 class SceneReader {
  public:
-  SceneReader(const std::string& source, const MeshFiles& meshes, Faults& faults)
+  SceneReader(const std::string& source, const assets::MeshFiles& meshes, Faults& faults)
       : faults_(faults), filler_("", faults), source_(source), files_(meshes), meshes_(source, meshes) {}
 
   Scene scene(const Value& root) {
@@ -159,7 +159,7 @@ class SceneReader {
 
   int named_material(const Value& chosen, Scene& scene) {
     if (const int known = index_of(chosen.text, scene); known >= 0) return known;
-    if (const LibraryMaterial* known = find_library_material(chosen.text)) {
+    if (const assets::LibraryMaterial* known = assets::find_library_material(chosen.text)) {
       index_.emplace(chosen.text, static_cast<int>(scene.materials.size()));
       scene.materials.push_back(known->material);
     } else {
@@ -176,7 +176,7 @@ class SceneReader {
       filler_.fill(chosen, out);
     } else if (const int index = index_of(chosen.text, scene); index >= 0) {
       out = scene.materials[static_cast<std::size_t>(index)];
-    } else if (const LibraryMaterial* known = find_library_material(chosen.text)) {
+    } else if (const assets::LibraryMaterial* known = assets::find_library_material(chosen.text)) {
       out = known->material;
     } else {
       refuse_name(chosen);
@@ -189,7 +189,7 @@ class SceneReader {
     for (const auto& [name, i] : index_) names.push_back(name);
     const bool none = names.empty(), many = names.size() > 20;
     std::vector<std::string> near = names;
-    for (const LibraryMaterial& one : material_library()) near.push_back(one.material.name);
+    for (const assets::LibraryMaterial& one : assets::material_library()) near.push_back(one.material.name);
     faults_.add(chosen.place(), "no material " + in_quotes(chosen.text) + base::did_you_mean(chosen.text, near),
                 (none   ? "the scene has no materials: section"
                  : many ? "expected one out of the scene's materials: section"
@@ -219,16 +219,16 @@ class SceneReader {
     const Value& own = value["materials"];
     for (std::size_t i = 0; i < own.items.size(); ++i)
       if (own.items[i].good) one.own[own.names[i]] = &material_in_place(own.items[i], scene);
-    if (!value["file"].good || is_gltf(out.file)) return;
-    const bool may_have_colors = is_obj(out.file) || mesh::suffix_of(out.file) == ".ply";
+    if (!value["file"].good || assets::is_gltf(out.file)) return;
+    const bool may_have_colors = assets::is_obj(out.file) || mesh::suffix_of(out.file) == ".ply";
     if (!has_material && mesh::suffix_of(out.file) == ".ply") meshes_.want_pictures(out.file);
-    if (!has_material && is_obj(out.file))
+    if (!has_material && assets::is_obj(out.file))
       meshes_.want_materials(out.file);
     else if (own)
       faults_.add(own.place(), "materials are those of glTF and OBJ files",
                   "PLY and STL files have none; expected reflectivity or material");
     else if (!has_material && !may_have_colors)
-      faults_.add(value.place(), "mesh lacks a key", lacks_material);
+      faults_.add(value.place(), "mesh lacks a key", assets::lacks_material);
     if (out.time_s) faults_.add(value["time"].place(), "time is for glTF files", "an OBJ, PLY or STL file stands still");
     if (!out.animation.empty()) faults_.add(value["animation"].place(), "animation is for glTF files", "an OBJ, PLY or STL file has none");
     if (out.play != Mesh::Play::still)
@@ -264,7 +264,7 @@ class SceneReader {
   std::vector<TimedPose> timed_poses(const Value& map, Scene& scene) {
     const Value &name = map["file"], &zero = map["time_zero"];
     std::string path;
-    const std::string text = files::read_reference(name.text, folder_beside(source_), files_.root, name.place(), path);
+    const std::string text = files::read_reference(name.text, assets::folder_beside(source_), files_.root, name.place(), path);
     const std::string sha256 = files::sha256_hex(text);
     if (files_.expected) {
       const auto expected = files_.expected->find(name.text);
@@ -294,7 +294,7 @@ class SceneReader {
         mesh.notices = one.known->notices;
         if (one.by_material && one.own.empty() && !one.known->lacks.empty())
           base::fail(one.value->place(), "mesh lacks a key",
-                     std::string(lacks_material) + "; " + in_quotes(mesh.file, 200) + " " + one.known->lacks);
+                     std::string(assets::lacks_material) + "; " + in_quotes(mesh.file, 200) + " " + one.known->lacks);
       } else {
         mesh.triangles = std::make_shared<const TriangleMesh>();  // what is wrong is told already
       }
@@ -339,7 +339,7 @@ class SceneReader {
   static void add_pieces(const MeshOfScene& of, const Object& whole, std::size_t behind, std::vector<Material>& materials,
                          std::vector<Object>& objects) {
     constexpr auto most = static_cast<std::size_t>(base::limit::objects.value);
-    const std::vector<MeshReader::Piece>& pieces = of.known->pieces;
+    const std::vector<assets::MeshReader::Piece>& pieces = of.known->pieces;
     if (objects.size() + pieces.size() + behind > most)
       base::fail((*of.value)["file"].place(), "the scene has too many objects",
                  "at most " + std::to_string(most) +
@@ -348,11 +348,11 @@ class SceneReader {
     const std::string& file = std::get<Mesh>(whole.shape).file;
     const std::string name = whole.name.empty() ? std::filesystem::path(file).stem().string() : whole.name;
     const std::size_t first = objects.size();
-    std::vector<const FileMaterial*> taken;  // out of the file
+    std::vector<const assets::FileMaterial*> taken;  // out of the file
     int guessed = 0;
     for (std::size_t k = 0; k < pieces.size(); ++k) {
       Object& one = objects.emplace_back(whole);
-      const FileMaterial& in_file = pieces[k].of;
+      const assets::FileMaterial& in_file = pieces[k].of;
       const auto own = of.own.find(in_file.name);
       one.name = name + "/" + in_file.name;
       of.known->show(k, std::get<Mesh>(one.shape), own == of.own.end());
@@ -365,7 +365,7 @@ class SceneReader {
         continue;
       }
       taken.push_back(&in_file);
-      guessed += in_file.from == FileMaterial::From::visible_colour ? 1 : 0;
+      guessed += in_file.from == assets::FileMaterial::From::visible_colour ? 1 : 0;
     }
     Mesh& told = std::get<Mesh>(objects[first].shape);
     told.guessed = guessed, told.notices = notices_of(taken);
@@ -386,16 +386,16 @@ class SceneReader {
   Faults& faults_;
   Filler filler_;
   const std::string& source_;
-  const MeshFiles& files_;
+  const assets::MeshFiles& files_;
   std::vector<std::pair<const Value*, std::size_t>> keyframes_of_objects_;  ///< out of files, and their objects
   std::optional<Stamp> clock_;                                              ///< where the times of such files begin
   std::map<std::string, int> index_;
   std::deque<Material> of_files_;  ///< what objects say in place of their files' materials
-  MeshReader meshes_;
+  assets::MeshReader meshes_;
   std::vector<MeshOfScene> meshes_of_scene_;
 };
 
-Scene interpret(const Node& root, const std::string& source, const MeshFiles& meshes) {
+Scene interpret(const Node& root, const std::string& source, const assets::MeshFiles& meshes) {
   Faults faults;
   const Value value = read(model::scene_form(), root, faults);
   Scene out = SceneReader(source, meshes, faults).scene(value);
@@ -419,7 +419,7 @@ Node scene_tree(std::string_view text, const std::string& source, const Settings
   return root;
 }
 
-Scene scene_from_text(const std::string& text, const std::string& source, const Settings& settings, const MeshFiles& meshes) {
+Scene scene_from_text(const std::string& text, const std::string& source, const Settings& settings, const assets::MeshFiles& meshes) {
   const Node root = scene_tree(text, source, settings);
   Scene scene = interpret(root, source, meshes);
   scene.source = source;
@@ -430,7 +430,7 @@ Scene scene_from_text(const std::string& text, const std::string& source, const 
   return scene;
 }
 
-Scene load_scene(const std::string& file_or_name, const Settings& settings, const MeshFiles& meshes) {
+Scene load_scene(const std::string& file_or_name, const Settings& settings, const assets::MeshFiles& meshes) {
   if (const Builtin* builtin = find_builtin(builtin_scenes(), file_or_name)) {
     Scene scene = scene_from_text(std::string(builtin->text), "<" + builtin->name + ">", settings, meshes);
     scene.name = builtin->name;

@@ -9,19 +9,14 @@
 namespace tofray::pictures {
 
 const Look& look_of(Theme theme) {
-  static const Look dark{
-      figure::background,
-      figure::ink,
-      figure::faint_ink,
-      invalid_color,
-      {{{70, 225, 205}, {124, 128, 137}, {62, 175, 84}, invalid_color, {212, 215, 221}, {190, 60, 190}, {120, 60, 130}}}};
-  static const Look light{
-      {255, 255, 255},
-      {24, 26, 30},
-      {84, 88, 96},
-      {192, 195, 201},
-      {{{0, 165, 150}, {118, 122, 131}, {62, 175, 84}, {192, 195, 201}, {235, 237, 240}, {190, 60, 190}, {120, 60, 130}}}};
+  static const Look dark{figure::background, figure::ink, figure::faint_ink, invalid_color};
+  static const Look light{{255, 255, 255}, {24, 26, 30}, {84, 88, 96}, {192, 195, 201}};
   return theme == Theme::light ? light : dark;
+}
+
+Rgb color_of_reason(const FlagRow& reason, Theme theme) {
+  const std::uint32_t rgb = theme == Theme::light ? reason.light : reason.dark;
+  return {static_cast<std::uint8_t>(rgb >> 16), static_cast<std::uint8_t>(rgb >> 8), static_cast<std::uint8_t>(rgb)};
 }
 
 std::vector<Rgb> colored(const std::vector<double>& values, const ValueColors& colors, Rgb invalid) {

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The tofray authors
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-#include <array>
 #include <functional>
 #include <string>
 #include <vector>
@@ -23,10 +22,11 @@ inline constexpr int bar_gap = 12, bar_width = 14, label_width = 58, label_gap =
 /// Colours of a figure's writing and of its invalid pixels.
 struct Look {
   Rgb background, ink, faint_ink;
-  Rgb invalid;                                  ///< of no particular reason
-  std::array<Rgb, invalid_flag_count> reasons;  ///< by invalid_reason(): none of them looks like a depth
+  Rgb invalid;  ///< of no particular reason
 };
 const Look& look_of(Theme theme);
+/// Of pixels that are invalid for a reason: none looks like a depth.
+Rgb color_of_reason(const FlagRow& reason, Theme theme);
 
 /// How values of one quantity become colours.
 struct ValueColors {

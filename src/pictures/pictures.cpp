@@ -11,27 +11,25 @@
 
 namespace tofray::pictures {
 
-int invalid_reason(std::uint16_t flags) {
-  if ((flags & flags_invalid) == 0) return -1;
-  if ((flags & flag_outside_lens) != 0) return 4;
-  if ((flags & flag_saturated) != 0) return 0;
-  if ((flags & flag_no_return) != 0) return 3;
-  if ((flags & flag_low_signal) != 0) return 1;
-  if ((flags & flag_flying_pixel) != 0) return 2;
-  return (flags & flag_inconsistent_phases) != 0 ? 5 : 6;
+const std::vector<FlagRow>& flag_table() {
+#define TOFRAY_ROW(name, bit, invalid, letter, dark, light, words, what, advice) \
+  {#name, bit, (invalid) != 0, letter, dark, light, words, what, advice},
+  static const std::vector<FlagRow> rows = {TOFRAY_FLAGS(TOFRAY_ROW)};
+#undef TOFRAY_ROW
+  return rows;
 }
 
-const char* flag_name(int bit) {
-  constexpr const char* names[flag_count] = {"saturated",
-                                             "low signal",
-                                             "flying pixel",
-                                             "no return",
-                                             "outside the lens model",
-                                             "inconsistent phases",
-                                             "inconsistent frequencies",
-                                             "rejected for these",
-                                             "filtered"};
-  return names[bit];
+const FlagRow* flag_of_bit(int bit) {
+  for (const FlagRow& one : flag_table())
+    if (one.bit == 1u << bit) return &one;
+  return nullptr;
+}
+
+const FlagRow* invalid_reason(std::uint16_t flags) {
+  if ((flags & flags_invalid) == 0) return nullptr;
+  for (const FlagRow& one : flag_table())
+    if ((flags & one.bit) != 0) return &one;
+  return nullptr;
 }
 
 std::optional<Format> format_of(std::string_view file) {

@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "tofray/frame.h"
 
@@ -28,12 +29,21 @@ struct Style {
   Format format = Format::png;
 };
 
-/// Which bit of Depth::flags explains best why a pixel is invalid: outside the lens, saturated, no return, low signal, flying, in this
-/// order, then the warnings for which it was rejected; for a pixel that got nothing back is also weak and noisy. −1: it is valid.
-int invalid_reason(std::uint16_t flags);
-/// What messages and legends call a bit of Depth::flags.
-const char* flag_name(int bit);
-constexpr int flag_count = 9, invalid_flag_count = 7;
+/// A row of TOFRAY_FLAGS.
+struct FlagRow {
+  const char* name;
+  std::uint16_t bit;
+  bool invalid;
+  char letter;
+  std::uint32_t dark, light;
+  const char *words, *what, *advice;
+};
+/// Reasons first, in the order in which the first one that is set explains an invalid pixel.
+const std::vector<FlagRow>& flag_table();
+/// The row of bit number 0, 1, …; null where there is none.
+const FlagRow* flag_of_bit(int bit);
+/// Why a pixel is invalid; null where it is valid.
+const FlagRow* invalid_reason(std::uint16_t flags);
 
 /// depth.png: uint16, z in mm, rounded. 0 where invalid, and where z does not fit (nearer than 0.5 mm, farther than 65.535 m).
 std::string depth_png(const Depth& depth);

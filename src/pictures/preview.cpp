@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 #include <memory>
+#include <utility>
 
 #include "base/text.h"
 #include "pictures/figure.h"
@@ -123,10 +125,10 @@ std::string fitting(const std::string& caption, int width) {
 }
 
 /// Invalid pixels of z in the colours of their reasons.
-void color_invalid(std::vector<Rgb>& image, const Depth& depth, const Look& look) {
+void color_invalid(std::vector<Rgb>& image, const Depth& depth, Theme theme) {
   for (std::size_t i = 0; i < image.size() && i < depth.flags.size(); ++i) {
-    const int reason = invalid_reason(depth.flags[i]);
-    if (!std::isfinite(depth.z_m[i]) && reason >= 0) image[i] = look.reasons[static_cast<std::size_t>(reason)];
+    const FlagRow* const reason = invalid_reason(depth.flags[i]);
+    if (!std::isfinite(depth.z_m[i]) && reason != nullptr) image[i] = color_of_reason(*reason, theme);
   }
 }
 
@@ -136,16 +138,18 @@ struct LegendEntry {
 };
 
 /// Why pixels are invalid, as far as it occurs.
-std::vector<LegendEntry> legend_of(const Depth& depth, const Look& look) {
-  std::array<std::size_t, invalid_flag_count> counts{};
+std::vector<LegendEntry> legend_of(const Depth& depth, Theme theme) {
+  std::map<std::uint16_t, std::pair<const FlagRow*, std::size_t>> counts;  // by bit
   for (const std::uint16_t flags : depth.flags) {
-    if (const int reason = invalid_reason(flags); reason >= 0) ++counts[static_cast<std::size_t>(reason)];
+    const FlagRow* const reason = invalid_reason(flags);
+    if (reason != nullptr) counts.try_emplace(reason->bit, reason, 0).first->second.second += 1;
   }
   std::vector<LegendEntry> legend;
-  for (std::size_t i = 0; i < counts.size(); ++i) {
-    const double share = 100.0 * static_cast<double>(counts[i]) / static_cast<double>(std::max<std::size_t>(1, depth.flags.size()));
+  for (const auto& [bit, counted] : counts) {
+    const auto& [reason, count] = counted;
+    const double share = 100.0 * static_cast<double>(count) / static_cast<double>(depth.flags.size());
     const std::string number = share < 0.1 ? "< 0.1" : fmt::format("{:.1f}", share);
-    if (counts[i] > 0) legend.push_back({look.reasons[i], fmt::format("{} {} %", flag_name(static_cast<int>(i)), number)});
+    legend.push_back({color_of_reason(*reason, theme), fmt::format("{} {} %", reason->words, number)});
   }
   return legend;
 }
@@ -217,7 +221,7 @@ std::string preview_picture(const Depth& depth, const Truth& truth, const Raw& r
                                with_truth ? error_panel(depth, truth) : noise_panel(depth)};
   if (!truth.multipath_m.empty() && truth.multipath_m.size() == raw.lit.size() * depth.z_m.size())
     panels.push_back(multipath_panel(depth, truth, raw));
-  const std::vector<LegendEntry> legend = legend_of(depth, look);
+  const std::vector<LegendEntry> legend = legend_of(depth, style.theme);
   const Layout at = layout_of(depth, panels, caption, legend, look);
   const std::unique_ptr<Painter> painter = painter_of(style.format, at.width, at.height, look.background, style.scale);
   const auto text = [&](int x, int line, double size, Rgb color, const std::string& words) {
@@ -228,7 +232,7 @@ std::string preview_picture(const Depth& depth, const Truth& truth, const Raw& r
   int x = figure::margin;
   for (const Panel& panel : panels) {
     std::vector<Rgb> image = colored(panel.values, panel.colors, look.invalid);
-    if (&panel == &panels[0]) color_invalid(image, depth, look);
+    if (&panel == &panels[0]) color_invalid(image, depth, style.theme);
     text(x, at.title_line, 0.9 * figure::title_size, look.ink, panel.title);
     painter->image(x, at.image_top, depth.width, depth.height, at.scale, image);
     draw_scale_bar(*painter, x + at.image_width + figure::bar_gap, at.image_top, std::max(at.image_height, least_bar), panel.colors, look);

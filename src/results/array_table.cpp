@@ -8,6 +8,7 @@
 
 #include "base/text.h"
 #include "tofray/error.h"
+#include "tofray/flags.h"
 #include "tofray/frame_arrays.h"
 
 namespace tofray::results {
@@ -110,6 +111,22 @@ bool ArrayChoice::has_truth() const {
   return all_ || std::any_of(names_.begin(), names_.end(), [](const std::string& name) { return find_array(name)->is_truth(); });
 }
 
+namespace {
+
+std::string flag_reference() {
+  std::string text =
+      "\n## Bits of flags\n\nThe first reason in this order that is set explains why a pixel has no depth; `inspect`, legends and the "
+      "viewer call it by its words.\n\n"
+      "| bit | name | words | depth | what has happened | what helps |\n|---|---|---|---|---|---|\n";
+#define TOFRAY_LINE(name, bit, invalid, letter, dark, light, words, what, advice) \
+  text += fmt::format("| {} | `{}` | {} | {} | {} | {} |\n", bit, #name, words, (invalid) != 0 ? "none" : "stays", what, advice);
+  TOFRAY_FLAGS(TOFRAY_LINE)
+#undef TOFRAY_LINE
+  return text;
+}
+
+}  // namespace
+
 std::string array_reference() {
   std::string text =
       "<!-- SPDX-FileCopyrightText: 2026 The tofray authors -->\n"
@@ -125,7 +142,7 @@ std::string array_reference() {
       "| array | type | shape | unit | from | what it is |\n|---|---|---|---|---|---|\n";
   for (const ArrayRow& row : array_table())
     text += fmt::format("| `{}` | {} | {} | {} | {} | {} |\n", row.name, row.type.name(), row.shape, row.unit, row.from, row.what);
-  return text;
+  return text + flag_reference();
 }
 
 }  // namespace tofray::results

@@ -16,7 +16,6 @@
 
 namespace tofray::results {
 
-using files::FileRecord;
 using files::Json;
 using files::json_text;
 using files::max_manifest_bytes;

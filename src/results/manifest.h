@@ -8,18 +8,10 @@
 #include <utility>
 #include <vector>
 
-#include "files/output_folder.h"
+#include "tofray/file_record.h"
 
 /// manifest.json: what made the files of a folder, and all it takes to make the same bytes again.
 namespace tofray::results {
-
-/// A file that went in: the scene, a camera profile of one's own, a mesh.
-struct InputFile {
-  std::string role;         ///< "scene", "profile", "mesh"
-  std::string name;         ///< as the command line or the scene names it; a built-in name where `text` is empty
-  std::string text;         ///< the whole file, UTF-8; empty for what is built in, and for meshes
-  std::string sha256 = {};  ///< of a mesh, which may be too long to be here
-};
 
 struct Manifest {
   std::string tofray_version;        ///< version() of the writer
@@ -36,9 +28,9 @@ struct Manifest {
   std::string isa;  ///< RanOn::isa
   int threads = 0;
   std::vector<std::pair<std::string, double>> timings_s;  ///< by stage
-  std::vector<files::FileRecord> files;                   ///< every other file of the folder that this run wrote
+  std::vector<FileRecord> files;                          ///< every other file of the folder that this run wrote
   /// Files of earlier runs that lie in the folder besides, as far as they are known.
-  std::vector<files::FileRecord> earlier_files;
+  std::vector<FileRecord> earlier_files;
   /// Frames that were complete when the run was interrupted, all of them in `files`; none where it came to its end. For people and
   /// scripts: `--from` makes the whole run.
   std::optional<std::uint64_t> interrupted_after_frames;

@@ -3,9 +3,8 @@
 # The tests drive the real program.
 add_dependencies(test_app tofray)
 target_compile_definitions(test_app PRIVATE TOFRAY_TOOL="$<TARGET_FILE:tofray>")
-# … but for measuring: there tests make numbers up, and put a stand-in for CUDA in the GPU's place.
-foreach(name bench/bench bench/bench_batch bench/bench_compare bench/bench_energy bench/experiment bench/experiment_report console earlier_files input_kind inputs mesh_scene mesh_view
-    profile_tables progress remarks results)
+# Those of measuring do not: there tests make numbers up, and put a stand-in for CUDA in the GPU's place.
+foreach(name bench/bench bench/bench_batch bench/bench_compare bench/bench_energy bench/experiment bench/experiment_report console progress remarks requests results)
   target_sources(test_app PRIVATE ${CMAKE_SOURCE_DIR}/apps/tofray/${name}.cpp)
 endforeach()
 target_include_directories(test_app PRIVATE ${CMAKE_SOURCE_DIR}/apps/tofray)

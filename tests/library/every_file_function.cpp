@@ -1,10 +1,13 @@
 // SPDX-FileCopyrightText: 2026 The tofray authors
 // SPDX-License-Identifier: Apache-2.0
-// Linked to libtofray_files, as a user's program is: the functions of load.h must be there (cmake/tofray_files.map shows them), those of
+// Linked to libtofray_files, as a user's program is: the functions of load.h, save.h and run.h must be there (cmake/tofray_files.map shows them), those of
 // libtofray come along, and what either of them throws is one type.
 #include <tofray/tofray.h>
 
+#include <unistd.h>
+
 #include <cstdio>
+#include <filesystem>
 #include <stdexcept>
 #include <string>
 
@@ -37,6 +40,20 @@ void all() {
          "load_scene_text");
   expect(tofray::choose_scene("card").name == "card" && tofray::choose_scene("card").note.empty(), "choose_scene");
   expect(tofray::choose_camera("mine.yaml").name == "mine.yaml", "choose_camera");
+  const tofray::Inputs inputs =
+      tofray::load_inputs({.scene = "card", .set = {{"camera.sensor.width", "8"}, {"camera.sensor.height", "6"}}});
+  expect(inputs.camera.sensor.width == 8 && inputs.remarks.empty() && inputs.files.size() == 1, "load_inputs");
+  expect(tofray::Remark{true, "a.yaml", "odd", "mend it"}.text() == "a.yaml: warning: odd\n  mend it\n", "Remark::text");
+  const std::filesystem::path folder = std::filesystem::temp_directory_path() / ("tofray_library_" + std::to_string(getpid()));
+  tofray::RunRequest request;
+  request.inputs = {.scene = "card", .set = {{"camera.sensor.width", "8"}, {"camera.sensor.height", "6"}}};
+  request.folder = folder / "one";
+  const tofray::RunResult one = tofray::render(request);
+  expect(one.frames == 1 && one.files.back().name == "manifest.json" && one.last.pixels.pixels == 48, "render");
+  tofray::RunRequest again = tofray::request_of_manifest((folder / "one/manifest.json").native());
+  again.folder = folder / "two";
+  expect(tofray::render(again).files.front().sha256 == one.files.front().sha256, "request_of_manifest");
+  std::filesystem::remove_all(folder);
   using tofray::ErrorKind;
   expect(kind_of([] { (void)tofray::load_scene("no such scene"); }) == ErrorKind::io, "a scene that is not there");
   const tofray::CameraOptions wrong{.set = {{"lens.f_number", "far"}}};

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The tofray authors
 // SPDX-License-Identifier: Apache-2.0
-// Linked to libtofray alone, as a user's program is that reads no files: every function of the public headers but load.h must be there
+// Linked to libtofray alone, as a user's program is that reads no files: every function of the public headers but load.h, save.h and run.h must be there
 // (cmake/tofray.map shows them).
 #include <tofray/tofray.h>
 
@@ -82,6 +82,15 @@ void budgets(const tofray::Camera& camera) {
   expect(tofray::solve_budget(with_power, 1, 1e-3, 1e3, {0.01, 1, 0.5, {}}).value > 0, "solve_budget");
 }
 
+void pixels(const tofray::Frame& frame, const tofray::Scene& scene, const tofray::Camera& camera) {
+  const tofray::PixelArrays arrays = tofray::pixel_arrays(frame);
+  expect(arrays.width == 32 && arrays.phases == 4, "pixel_arrays");
+  expect(tofray::pixel_chain(frame, camera, 3, 4).range_m == tofray::pixel_chain(arrays, &camera, false, 3, 4).range_m, "pixel_chain");
+  expect(!tofray::has_bounces(arrays, 3, 4), "has_bounces");
+  expect(tofray::pixel_bounces(arrays, frame.index, scene, camera, {}, 3, 4).shares.empty(), "pixel_bounces");
+  expect(tofray::validity(frame, camera).pixels.pixels == tofray::invalid_pixels(frame, camera).pixels, "validity, invalid_pixels");
+}
+
 void refusal() {
   try {
     const tofray::Simulator simulator({}, tofray::Camera());
@@ -116,6 +125,7 @@ void all() {
   on_device(simulator);
   own_arrays(simulator, camera, frame);
   budgets(camera);
+  pixels(frame, scene, camera);
   refusal();
 }
 

@@ -10,11 +10,11 @@
 
 #include <gtest/gtest.h>
 
+#include "assets/material_library.h"
 #include "base/constants.h"
 #include "load/builtin.h"
 #include "load/fields_finite.h"
 #include "load/load.h"
-#include "load/material_library.h"
 #include "load/provenance.h"
 #include "support/text.h"
 #include "tofray/tofray.h"
@@ -219,10 +219,10 @@ TEST(scene, names_materials_of_the_library) {
 }
 
 TEST(material_library, is_in_order_and_sound) {
-  const auto& library = load::material_library();
+  const auto& library = assets::material_library();
   ASSERT_GT(library.size(), 20U);
   for (std::size_t i = 0; i < library.size(); ++i) {
-    const load::LibraryMaterial& one = library[i];
+    const assets::LibraryMaterial& one = library[i];
     if (i > 0) {
       EXPECT_LT(library[i - 1].material.name, one.material.name);
     }
@@ -232,13 +232,13 @@ TEST(material_library, is_in_order_and_sound) {
   }
   std::ostringstream committed;
   committed << std::ifstream(TOFRAY_SOURCE_DIR "/docs/reference/materials.md").rdbuf();
-  EXPECT_EQ(committed.str(), load::material_page()) << "write it anew: tofray list materials > docs/reference/materials.md";
+  EXPECT_EQ(committed.str(), assets::material_page()) << "write it anew: tofray list materials > docs/reference/materials.md";
 }
 
 // The sheets send back what the standard asks for at both angles: R_A = f_r·cosθ_l·cosθ_v, perpendicularly.
 TEST(material_library, sheets_have_their_coefficients) {
   const auto coefficient = [](const char* name, double degrees) {
-    const Material& one = load::find_library_material(name)->material;
+    const Material& one = assets::find_library_material(name)->material;
     const auto squared = [](double angle) { return 4 * std::pow(std::sin(angle / 2), 2); };
     const double width = squared(one.spread_rad) / (std::sqrt(2.0) - 1), fall = 1 + squared(degrees * base::pi / 180) / width;
     return one.retro / (base::pi * width * fall * fall);

@@ -52,14 +52,14 @@ class keyframe_files : public testing::Test {
  protected:
   void SetUp() override { std::filesystem::create_directory(folder_.path() / "in"); }
   void file(const std::string& name, const std::string& text) const { write_file(folder_.path() / name, text); }
-  [[nodiscard]] Scene scene(const std::string& camera, const std::string& ball = "", const load::MeshFiles& files = {},
+  [[nodiscard]] Scene scene(const std::string& camera, const std::string& ball = "", const assets::MeshFiles& files = {},
                             const std::string& before = "") const {
     return load::scene_from_text(
         before + "camera: {" + camera + "}\nobjects:\n  - sphere: {center: [0, 0, 2], radius: 20 cm, reflectivity: 0.5" + ball + "}\n",
         folder_.file("in/s.yaml"), {}, files);
   }
   [[nodiscard]] std::string refusal(const std::string& camera, ErrorKind kind = ErrorKind::bad_input,
-                                    const load::MeshFiles& files = {}) const {
+                                    const assets::MeshFiles& files = {}) const {
     const Error error = out_test::error_of([&] { (void)scene(camera, "", files); });
     EXPECT_EQ(error.kind(), kind) << error.what();
     return error.what();
@@ -284,7 +284,7 @@ TEST_F(keyframe_files, lie_beside_the_scene_or_below_and_are_known_by_their_sha2
   EXPECT_TRUE(has(refusal("keyframes: {file: none.csv}", ErrorKind::io), "cannot open"));
   ASSERT_EQ(::mkfifo(folder_.file("in/pipe.csv").c_str(), 0600), 0);
   EXPECT_TRUE(has(refusal("keyframes: {file: pipe.csv}", ErrorKind::io), "is not a plain file"));
-  const load::MeshFiles same{{}, {{{"c.csv", scene("keyframes: {file: c.csv}").files.at(0).sha256}}}},
+  const assets::MeshFiles same{{}, {{{"c.csv", scene("keyframes: {file: c.csv}").files.at(0).sha256}}}},
       none{{}, std::map<std::string, std::string>{}};
   EXPECT_EQ(scene("keyframes: {file: c.csv}", "", same).camera.keyframes.size(), 1U);
   EXPECT_TRUE(has(refusal("keyframes: {file: c.csv}", ErrorKind::bad_input, none), "does not hold the keyframes that it did"));

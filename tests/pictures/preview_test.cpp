@@ -131,11 +131,19 @@ TEST(preview, no_two_reasons_look_alike) {
   // Differences summed over the channels. 163 and 120 between the greys of "low signal" and "no return" were too little for a reader.
   const auto apart = [](Rgb a, Rgb b) { return std::abs(a.red - b.red) + std::abs(a.green - b.green) + std::abs(a.blue - b.blue); };
   for (const Theme theme : {Theme::dark, Theme::light}) {
-    const auto& reasons = look_of(theme).reasons;
-    for (std::size_t i = 0; i < reasons.size(); ++i)
-      for (std::size_t k = 0; k < i; ++k) EXPECT_GE(apart(reasons[i], reasons[k]), 60) << i << " " << k;
-    EXPECT_GE(apart(reasons[1], reasons[3]), 200);
-    EXPECT_GE(apart(reasons[3], reasons[4]), 120);
+    const auto color = [&](std::uint16_t flag) { return color_of_reason(*invalid_reason(flag | flag_rejected), theme); };
+    const std::uint16_t reasons[] = {flag_saturated,
+                                     flag_low_signal,
+                                     flag_flying_pixel,
+                                     flag_no_return,
+                                     flag_outside_lens,
+                                     flag_inconsistent_phases,
+                                     flag_inconsistent_frequencies};
+    for (const std::uint16_t a : reasons)
+      for (const std::uint16_t b : reasons)
+        if (a != b) EXPECT_GE(apart(color(a), color(b)), 60) << a << " " << b;
+    EXPECT_GE(apart(color(flag_low_signal), color(flag_no_return)), 200);
+    EXPECT_GE(apart(color(flag_no_return), color(flag_outside_lens)), 120);
   }
 }
 
@@ -176,10 +184,11 @@ TEST(preview, invalid_pixels_have_the_colour_of_their_reason) {
   frame.depth.noise_m.assign(frame.depth.noise_m.size(), 0.001F);
   for (const Theme theme : {Theme::dark, Theme::light}) {
     std::string legend = preview_png(frame.depth, frame.truth, frame.raw, "", theme);
-    const Look& look = look_of(theme);
     // 100 pixels of each reason, 5 times enlarged, and the legend's square of 11 x 11 with what letters' edges add
-    for (const Rgb reason : look.reasons)
+    for (const std::uint16_t one : flags) {
+      const Rgb reason = color_of_reason(*invalid_reason(one), theme);
       EXPECT_NEAR(static_cast<double>(count_of(legend, reason)), 100 * 25 + 121, 60) << static_cast<int>(reason.red);
+    }
     Depth valid = frame.depth;
     std::fill(valid.flags.begin(), valid.flags.end(), std::uint16_t{0});
     EXPECT_LT(read_back(preview_png(valid, {}, {}, "", theme)).height, read_back(legend).height);  // no legend where nothing is to tell

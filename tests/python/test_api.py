@@ -34,6 +34,9 @@ LEFT_OUT = {
     "budget_summary": "Budget.summary",
     "solve_budget": "any root finder on budget()", "BudgetNeed": "likewise", "BudgetSolution": "likewise",
     "frame_npz": "Frame.save",
+    "InputRequest": "load_inputs' own words", "FrameFileRequest": "render's own words", "RunRequest": "render's own words",
+    "RunWatch": "render's own words", "request_of_manifest": "render_again",
+    "PixelArrays": "a frame", "pixel_arrays": "a frame", "has_bounces": "pixel_bounces gives none",
     "version": "tofray.__version__",
     "pose_matrix": "Pose.matrix", "pose_from_matrix": "Pose.from_matrix",
     "ImageSize": "the shape of pixel_rays", "image_size": "the shape of pixel_rays",
@@ -99,10 +102,10 @@ def test_own_arrays_have_the_members_of_their_structs() -> None:
 
 
 def test_flags_are_those_of_the_header() -> None:
-    of_header = {name: int(value) for name, value in re.findall(r"flag_(\w+) = (\d+)", TEXT["frame.h"])}
-    invalid = re.search(r"flags_invalid = ([\d +]+);", TEXT["frame.h"])
-    assert invalid is not None
-    assert {**of_header, "invalid": sum(int(one) for one in invalid[1].split("+"))} == tofray.flags
+    rows = re.findall(r"row\((\w+), +(\d+), ([01]), '[A-Z]'", TEXT["flags.h"])
+    assert len(rows) == 9
+    invalid = sum(int(bit) for _, bit, ends in rows if ends == "1")
+    assert {**{name: int(bit) for name, bit, _ in rows}, "invalid": invalid} == tofray.flags
 
 
 def test_a_simulators_words_are_the_options() -> None:

@@ -19,10 +19,12 @@
 #include "commands.h"
 #include "console.h"
 #include "files/sha256.h"
-#include "input_kind.h"
 #include "progress.h"
+#include "remarks.h"
+#include "requests.h"
 #include "results.h"
 #include "results/meta.h"
+#include "run/input_kind.h"
 #include "tofray/error.h"
 
 namespace tofray::app {
@@ -92,7 +94,7 @@ double pixels_of(const Sensor& image) { return static_cast<double>(image.width) 
 
 }  // namespace
 
-Contender::Contender(const Inputs& in, const SimulatorOptions& options, Places places)
+Contender::Contender(const run::Loaded& in, const SimulatorOptions& options, Places places)
     : in_(in),
       scene_(in.scene.name),
       options_(options),
@@ -247,7 +249,7 @@ namespace {
 Options with_chosen_scenes(Options options) {
   for (std::string& word : options.words) {
     const NameChoice chosen = choose_scene(word);
-    say(note_of(chosen));
+    say(run::note_of(chosen));
     word = chosen.name;
   }
   return options;
@@ -272,8 +274,8 @@ int run_bench(const Options& typed) {
   if (options.compare) {
     ratios = compare(options, scene, results);
   } else {
-    const Inputs in = load_inputs(scene, options);
-    say(warnings(in));
+    const run::Loaded in = run::load(input_request(scene, options));
+    say(texts(in.remarks));
     Contender one(in, bench_options(options));
     Remarks remarks;
     say_fallback(options, one.simulator().ran_on(), remarks);

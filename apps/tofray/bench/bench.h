@@ -7,7 +7,8 @@
 
 #include "bench/bench_energy.h"
 #include "files/json.h"
-#include "inputs.h"
+#include "options.h"
+#include "run/inputs.h"
 #include "tofray/frame.h"
 
 namespace tofray::app {
@@ -19,7 +20,7 @@ enum class Places { same, others };
 /// One way to simulate a scene, and how long its frames took.
 class Contender {
  public:
-  Contender(const Inputs& in, const SimulatorOptions& options, Places places = Places::same);
+  Contender(const run::Loaded& in, const SimulatorOptions& options, Places places = Places::same);
   /// Simulates the next frame; `timed`: into the record.
   void step(bool timed);
   /// The given share of frames took no longer than this [ms].
@@ -45,7 +46,7 @@ class Contender {
   [[nodiscard]] files::Json set_up_ms() const;
   void step_into(Frame& place, bool timed);
 
-  Inputs in_;
+  run::Loaded in_;
   std::string scene_;
   SimulatorOptions options_;
   double pixels_;

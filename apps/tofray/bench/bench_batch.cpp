@@ -9,9 +9,10 @@
 #include "bench/bench.h"
 #include "console.h"
 #include "progress.h"
+#include "remarks.h"
+#include "requests.h"
 #include "results.h"
 #include "results/meta.h"
-#include "scene/motion.h"
 
 namespace tofray::app {
 
@@ -39,13 +40,13 @@ double seconds_of(const Call& call) {
 }
 
 /// Frames that follow each other ("index"); first frames of other seeds; these with a camera that stands up to 3 cm aside ("poses").
-std::vector<FrameRequest> requests_of(const Inputs& in, std::uint64_t count, std::uint64_t seed, std::string_view differing) {
+std::vector<FrameRequest> requests_of(const run::Loaded& in, std::uint64_t count, std::uint64_t seed, std::string_view differing) {
   std::vector<FrameRequest> requests(count);
   for (std::uint64_t i = 0; i < count; ++i) {
     requests[i].index = differing == "index" ? i : 0;
     if (differing != "index") requests[i].seed = seed + i;
     if (differing != "poses") continue;
-    Pose pose = scene::pose_at(in.scene.camera, 0);
+    Pose pose = pose_from_matrix(camera_pose(in.scene, 0));
     const double x = 0.01 * (static_cast<double>(i % 7) - 3), y = 0.01 * (static_cast<double>(i / 7 % 5) - 2);
     pose.position[0] += x, pose.position[1] += y;
     if (!pose.quaternion) pose.look_at[0] += x, pose.look_at[1] += y;
@@ -71,7 +72,7 @@ Times measure(Simulator& simulator, const std::vector<FrameRequest>& requests, s
   return times;
 }
 
-files::Json row_of(const Inputs& in, Simulator& simulator, const SimulatorOptions& options, const char* differing,
+files::Json row_of(const run::Loaded& in, Simulator& simulator, const SimulatorOptions& options, const char* differing,
                    const std::vector<FrameRequest>& requests, std::uint64_t repeats) {
   const Times times = measure(simulator, requests, repeats);
   const auto count = static_cast<double>(requests.size());
@@ -108,8 +109,8 @@ std::string text_of(const files::Json& row) {
 }  // namespace
 
 int run_batch_bench(const Options& options) {
-  const Inputs in = load_inputs(options.words.empty() ? "bench-primitives" : options.words[0], options);
-  say(warnings(in));
+  const run::Loaded in = run::load(input_request(options.words.empty() ? "bench-primitives" : options.words[0], options));
+  say(texts(in.remarks));
   SimulatorOptions wanted = bench_options(options);
   if (wanted.device < 0) wanted.device = 0;  // one GPU, also where frames would be spread over several: its energy is measured
   Simulator simulator(in.scene, in.camera, wanted);

@@ -9,6 +9,7 @@
 #include "base/readout.h"
 #include "bench/bench.h"
 #include "progress.h"
+#include "requests.h"
 
 namespace tofray::app {
 
@@ -17,14 +18,14 @@ namespace {
 /// A pair that differs in one thing.
 struct Pair {
   std::string name;
-  Inputs a_in, b_in;
+  run::Loaded a_in, b_in;
   SimulatorOptions a, b;
   bool rate = false;  ///< ratio of pixel rates, not of times
   Places a_places = Places::same, b_places = Places::same;
 };
 
 /// The scene with its first object that is no plane on the move: what moves is traced anew for each raw frame.
-Inputs moving(Inputs in) {
+run::Loaded moving(run::Loaded in) {
   for (Object& object : in.scene.objects) {
     if (std::holds_alternative<Plane>(object.shape)) continue;
     object.velocity_m_per_s = {0.1, 0, -0.5};
@@ -35,7 +36,7 @@ Inputs moving(Inputs in) {
 }
 
 /// The same view on 640 x 480 pixels.
-Inputs enlarged(Inputs in) {
+run::Loaded enlarged(run::Loaded in) {
   in.camera = base::as_read_out(in.camera);
   Sensor& sensor = in.camera.sensor;
   Lens& lens = in.camera.lens;
@@ -53,7 +54,7 @@ SimulatorOptions with(SimulatorOptions base, Isa isa, int threads, Noise noise) 
   return base;
 }
 
-std::vector<Pair> pairs_of(const Options& options, const Inputs& in) {
+std::vector<Pair> pairs_of(const Options& options, const run::Loaded& in) {
   SimulatorOptions base = bench_options(options);
   base.backend = Backend::cpu;
   const Isa best = backend::choose_isa(Isa::best);
@@ -79,7 +80,7 @@ std::vector<Pair> pairs_of(const Options& options, const Inputs& in) {
 }  // namespace
 
 std::vector<Ratio> compare(const Options& options, const std::string& scene, files::Json& results) {
-  const Inputs in = load_inputs(scene, options);
+  const run::Loaded in = run::load(input_request(scene, options));
   const std::uint64_t frames = options.frames.value_or(30);
   const std::vector<Pair> pairs = pairs_of(options, in);
   std::vector<Ratio> ratios;

@@ -15,6 +15,8 @@
 #include "console.h"
 #include "files/output_folder.h"
 #include "progress.h"
+#include "remarks.h"
+#include "requests.h"
 #include "results.h"
 #include "results/manifest.h"
 #include "results/meta.h"
@@ -65,7 +67,7 @@ struct Entry {
   std::unique_ptr<Contender> contender;
 };
 
-Entry enter(const Inputs& in, const SimulatorOptions& options) {
+Entry enter(const run::Loaded& in, const SimulatorOptions& options) {
   Entry entry;
   const bool gpu = options.backend == Backend::cuda;
   entry.run.block_size = gpu ? options.block_size : 0;
@@ -105,7 +107,7 @@ void measure(std::vector<Entry>& entries, std::uint64_t frames, std::uint64_t wa
   }
 }
 
-Group group_of(const Inputs& in, const std::string& stage, const std::vector<SimulatorOptions>& all, std::uint64_t frames,
+Group group_of(const run::Loaded& in, const std::string& stage, const std::vector<SimulatorOptions>& all, std::uint64_t frames,
                std::uint64_t warmup, Progress& progress) {
   std::vector<Entry> entries;
   for (SimulatorOptions options : all) {
@@ -126,7 +128,7 @@ Group group_of(const Inputs& in, const std::string& stage, const std::vector<Sim
 }
 
 /// Whether a GPU is what is measured. @throws Error (bad_input) for options that do not go together, (device) where a GPU is needed
-bool takes_gpu(Options& options, const Inputs& in) {
+bool takes_gpu(Options& options, const run::Loaded& in) {
   const bool sizes = !options.block_sizes.empty();
   if (sizes && options.backend == Backend::cpu)
     throw Error(ErrorKind::bad_input, "error: --block-size is a GPU's\n  it goes with --backend cuda, or auto");
@@ -140,7 +142,7 @@ bool takes_gpu(Options& options, const Inputs& in) {
   return true;
 }
 
-Experiment described(const Options& options, const Inputs& in, bool gpu) {
+Experiment described(const Options& options, const run::Loaded& in, bool gpu) {
   Experiment out;
   out.backend = gpu ? "cuda" : "cpu";
   out.cpu = results::cpu_model();
@@ -177,16 +179,17 @@ int report(const Experiment& experiment, const Options& options) {
 int run_experiment(const Options& typed) {
   Options options = typed;
   if (options.stages.empty()) options.stages = {"all"};
-  std::vector<Inputs> scenes;
-  for (const std::string& name : options.words.empty() ? shape_scenes : options.words) scenes.push_back(load_inputs(name, options));
-  for (const Inputs& in : scenes) say(warnings(in));
+  std::vector<run::Loaded> scenes;
+  for (const std::string& name : options.words.empty() ? shape_scenes : options.words)
+    scenes.push_back(run::load(input_request(name, options)));
+  for (const run::Loaded& in : scenes) say(texts(in.remarks));
   const bool gpu = takes_gpu(options, scenes[0]);
 
   Experiment experiment = described(options, scenes[0], gpu);
   const std::vector<SimulatorOptions> all = variants(options, gpu);
   const std::uint64_t turns = 1 + (experiment.frames + burst - 1) / burst;
   Progress progress(scenes.size() * options.stages.size() * turns * all.size(), "turns", options.json);
-  for (const Inputs& in : scenes) {
+  for (const run::Loaded& in : scenes) {
     for (const std::string& stage : options.stages)
       experiment.groups.push_back(group_of(in, stage, all, experiment.frames, options.warmup, progress));
   }

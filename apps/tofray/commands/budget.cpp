@@ -11,11 +11,11 @@
 #include "console.h"
 #include "files/atomic_file.h"
 #include "files/text_file.h"
-#include "input_kind.h"
-#include "inputs.h"
 #include "load/builtin.h"
 #include "load/load.h"
 #include "remarks.h"
+#include "requests.h"
+#include "run/input_kind.h"
 #include "solved_key.h"
 #include "tofray/error.h"
 
@@ -37,10 +37,10 @@ Profile profile_of(const std::string& name) {
         fmt::format("error: {} is a scene\n  expected a camera profile, as in `tofray budget pico-flexx`; `tofray check {}` says what its "
                     "camera can do",
                     name, name));
-  refuse_folder(name, "budget");
-  const NamedText read = named_text(name);
-  refuse_data(read.text, read.name);
-  if (!looks_like_a_profile(read.text, read.name))
+  run::refuse_folder(name, "budget");
+  const run::NamedText read = run::named_text(name);
+  run::refuse_data(read.text, read.name);
+  if (!run::looks_like_a_profile(read.text, read.name))
     throw Error(ErrorKind::bad_input,
                 fmt::format("{}: error: this is no camera profile\n  expected one, as in `tofray budget pico-flexx`", read.name));
   return {read.text, read.name, files::folder_of(read.name)};
@@ -126,7 +126,7 @@ std::string json_of(const Answer& answer) {
 int run_budget(const Options& options) {
   Remarks remarks;
   const NameChoice chosen = choose_camera(options.words[0]);
-  remarks.tell(note_of(chosen));
+  remarks.tell(run::note_of(chosen));
   const Answer answer = answer_of(options, chosen.name);
   if (!answer.reached) {
     say(answer.found);

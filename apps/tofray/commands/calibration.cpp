@@ -3,14 +3,14 @@
 #include "commands.h"
 #include "console.h"
 #include "files/text_file.h"
-#include "input_kind.h"
 #include "load/lens_calibration.h"
+#include "run/input_kind.h"
 
 namespace tofray::app {
 
 int run_calibration(const Options& options) {
   const std::string& file = options.words[0];
-  refuse_missing(file);
+  run::refuse_missing(file);
   const std::string text = files::read_text(file);
   if (options.camera.empty()) {
     const load::LensCalibration lens = load::lens_calibration(text, file, {});

@@ -10,14 +10,14 @@
 #include "console.h"
 #include "files/json.h"
 #include "files/text_file.h"
-#include "input_kind.h"
-#include "inputs.h"
 #include "load/builtin.h"
 #include "load/load.h"
 #include "load/provenance.h"
-#include "mesh_scene.h"
 #include "remarks.h"
-#include "scene/motion.h"
+#include "requests.h"
+#include "run/input_kind.h"
+#include "run/input_remarks.h"
+#include "run/mesh_scene.h"
 #include "scene_text.h"
 #include "tofray/error.h"
 #include "yaml/tree.h"
@@ -42,7 +42,7 @@ CameraQuestion question_of(const Options& options, const Scene* scene) {
   if (!out.ambients.empty() || scene == nullptr || scene->ambient.spectrum == Ambient::Spectrum::none || !(scene->ambient.amount > 0))
     return out;
   AmbientCase own;
-  own.name = "in scene's light", own.ambient = scene->ambient, own.pose = scene::pose_at(scene->camera, 0);
+  own.name = "in scene's light", own.ambient = scene->ambient, own.pose = pose_from_matrix(camera_pose(*scene, 0));
   out.ambients = {AmbientCase(), own, full_sun()};
   return out;
 }
@@ -57,7 +57,7 @@ std::string design_warnings(const CameraReport& report, const std::string& name)
 struct Report {
   files::Json json = files::Json::object();
   std::string text, warnings;
-  std::vector<SceneFinding> odd;
+  std::vector<Remark> odd;
 };
 
 /// Numbers that do not say where they come from: how many there are, or each.
@@ -84,7 +84,7 @@ Report check_profile(const std::string& text, const std::string& name, const Opt
     if (tables_seen) camera.sensor.width = camera.sensor.height = 1;
     tables_seen = true;
     Simulator(Scene(), camera, on_processor(options));
-    const std::string more = warnings(in_mode, "");
+    const std::string more = texts(run::camera_remarks(in_mode, ""));
     if (report.warnings.find(more) == std::string::npos) report.warnings += more;
   };
   const Camera camera =
@@ -113,13 +113,13 @@ std::size_t mesh_triangles(const Scene& scene) {
   return count;
 }
 
-/// @param file  as load_inputs() takes it
+/// @param file  as run::load() takes it
 Report check_scene(const std::string& file, const Options& options) {
-  const Inputs in = load_inputs(file, options);
+  const run::Loaded in = run::load(input_request(file, options));
   const std::string& name = in.files[0].name;
   Simulator(in.scene, in.camera, on_processor(options));
   Report report;
-  report.warnings = warnings(in);
+  report.warnings = texts(in.remarks);
   report.json.set("kind", "scene")
       .set("name", in.scene.name)
       .set("objects", in.scene.objects.size())
@@ -136,7 +136,7 @@ Report check_scene(const std::string& file, const Options& options) {
   const SceneReport seen = scene_report(in.scene, in.camera);
   report.json.set("camera_report", report_json(can)).set("scene_report", scene_report_json(seen));
   report.text += report_text(can) + scene_report_text(seen);
-  report.odd = findings_of(seen, in);
+  report.odd = run::findings_of(seen, in.told_size, true);
   return report;
 }
 
@@ -145,12 +145,12 @@ Report check(const std::string& name, const Options& options) {
   if (load::find_builtin(load::builtin_scenes(), name) != nullptr) return check_scene(name, options);
   if (const load::Builtin* profile = load::find_builtin(load::builtin_profiles(), name))
     return check_profile(std::string(profile->text), name, options);
-  refuse_folder(name, "check");
-  if (is_called_like_a_mesh(name)) return check_scene(name, options);
-  refuse_other_mesh(name);
-  const NamedText read = named_text(name);
-  refuse_data(read.text, read.name);
-  return looks_like_a_profile(read.text, read.name) ? check_profile(read.text, read.name, options) : check_scene(name, options);
+  run::refuse_folder(name, "check");
+  if (run::is_called_like_a_mesh(name)) return check_scene(name, options);
+  run::refuse_other_mesh(name);
+  const run::NamedText read = run::named_text(name);
+  run::refuse_data(read.text, read.name);
+  return run::looks_like_a_profile(read.text, read.name) ? check_profile(read.text, read.name, options) : check_scene(name, options);
 }
 
 }  // namespace
@@ -158,9 +158,9 @@ Report check(const std::string& name, const Options& options) {
 int run_check(const Options& options) {
   Remarks remarks;
   const NameChoice scene = choose_scene(options.words[0]), chosen = scene.note.empty() ? choose_camera(options.words[0]) : scene;
-  remarks.tell(note_of(chosen));
+  remarks.tell(run::note_of(chosen));
   Report report = check(chosen.name, options);
-  remarks.tell(report.warnings), remarks.tell(report.odd, true);
+  remarks.tell(report.warnings), remarks.tell(report.odd);
   if (options.json)
     print(files::json_text(remarks.put(report.json.set("good", true)), 2) + "\n");
   else if (!options.quiet)

@@ -4,62 +4,54 @@
 
 #include <algorithm>
 
-#include "base/readout.h"
 #include "commands.h"
 #include "console.h"
 #include "pictures/terminal_picture.h"
+#include "requests.h"
 #include "results.h"
+#include "run/run.h"
+#include "tofray/stages.h"
 
 namespace tofray::app {
 
 namespace {
 
-std::string told(const Validity& pixels, const Inputs& in, const Simulator& simulator, const files::OutputFolder& folder,
-                 const Stopwatch& stopwatch) {
-  const Sensor sensor = base::as_read_out(in.camera).sensor;
+std::string told(const RunResult& result, const run::Loaded& in) {
+  const auto [width, height] = image_size(in.camera);
   std::string text = fmt::format("{} in mode {}: {} x {} pixels, {} raw frames, {} objects, depth as colour\n", in.camera.name,
-                                 in.camera.mode.name, sensor.width, sensor.height, in.camera.mode.sequence.size(), in.scene.objects.size());
-  text += depth_text(pixels, "");
-  text += fmt::format("{} files in {}, {:.2f} s with {}\n", folder.files().size(), folder.path().native(), stopwatch.total(),
-                      machine_text(simulator.ran_on()));
-  const std::string npz = (folder.path() / "frame.npz").native();
+                                 in.camera.mode.name, width, height, in.camera.mode.sequence.size(), in.scene.objects.size());
+  text += depth_text(result.last, "");
+  text += fmt::format("{} files in {}, {:.2f} s with {}\n", result.files.size(), result.folder.native(), total_time(result),
+                      machine_text(result.ran_on));
+  const std::string npz = (result.folder / "frame.npz").native();
   text += "\nNext:\n";
-  if (std::any_of(folder.files().begin(), folder.files().end(), [](const files::FileRecord& file) { return file.name == "frame.npz"; }))
+  if (std::any_of(result.files.begin(), result.files.end(), [](const FileRecord& file) { return file.name == "frame.npz"; }))
     text += fmt::format("  tofray inspect {} --pixel 112,86      # how one pixel gets its depth\n", npz);
   text += "  tofray demo --set camera.illumination.0.power=\"0.02 W\"   # a tenth of the light\n";
   text += "  tofray list scenes                                       # more scenes; `tofray render` takes your own\n";
-  return text + picture_to_open(folder);
+  return text + picture_to_open(result);
 }
 
 }  // namespace
 
 int run_demo(const Options& options) {
-  Stopwatch stopwatch;
-  Inputs in = load_inputs("demo", options);
+  run::Stopwatch stopwatch;
+  RunRequest request = run_request("demo", options);
+  if (request.folder.empty()) request.folder = "tofray-demo";
+  const run::Loaded in = run::load(request.inputs);
   Remarks remarks;
-  remarks.tell(warnings(in));
-  SimulatorOptions wanted = simulator_options(options);
-  const FrameFiles what(options, {"npz", "png", "ply"}, in, wanted);
-  wanted.arrays = what.needed_arrays();
-  Simulator simulator(in.scene, in.camera, wanted);
-  say_fallback(options, simulator.ran_on(), remarks);
-  files::OutputFolder folder(options.output.empty() ? "tofray-demo" : options.output);
-  EarlierFiles left(folder.path());
-  stopwatch.lap("prepare");
-  const Frame frame = simulator.frame(0);
-  stopwatch.lap("simulate");
-  write_frame(folder, what, frame);
-  stopwatch.lap("write");
-  const RanOn machine = simulator.ran_on();
-  write_manifest(folder, options, in.files, machine, stopwatch, left, remarks);
-  const Validity pixels = validity(frame, in.camera);
-  remarks.tell(scene_report(in.scene, in.camera, frame.truth).findings, pixels.few());
+  Depth depth;
+  RunWatch watch;
+  watch.remark = [&](const Remark& one) { remarks.tell({one}); };
+  watch.started = [&](const RanOn& machine) { say_fallback(options, machine, remarks); };
+  watch.frame_done = [&](const Frame& frame, std::uint64_t) { depth = frame.depth; };
+  const RunResult result = run::perform(request, in, watch, stopwatch);
   if (options.json) {
-    print(files::json_text(summary_json(folder, pixels, 1, machine, stopwatch, remarks), 2) + "\n");
+    print(files::json_text(summary_json(result, remarks), 2) + "\n");
   } else {
     const auto colors = stdout_has_colors() ? pictures::TerminalColors::full : pictures::TerminalColors::none;
-    if (!options.quiet) print_picture(pictures::terminal_picture(frame.depth, std::min(terminal_columns(), 100), colors) + "\n");
-    if (!options.quiet) print(told(pixels, in, simulator, folder, stopwatch));
+    if (!options.quiet) print_picture(pictures::terminal_picture(depth, std::min(terminal_columns(), 100), colors) + "\n");
+    if (!options.quiet) print(told(result, in));
   }
   return 0;
 }

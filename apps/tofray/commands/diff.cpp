@@ -8,11 +8,11 @@
 #include <limits>
 #include <set>
 
-#include "arrays.h"
 #include "base/text.h"
 #include "console.h"
-#include "input_kind.h"
 #include "options.h"
+#include "results/file_arrays.h"
+#include "run/input_kind.h"
 #include "tofray/error.h"
 
 namespace tofray::app {
@@ -78,7 +78,7 @@ ArrayDiff diff_of(const std::string& name, const files::NpyArray& a, const files
 }
 
 FileDiff diff_of_files(const std::string& a, const std::string& b) {
-  const Arrays before = read_arrays(a), after = read_arrays(b);
+  const results::Arrays before = results::read_arrays(a), after = results::read_arrays(b);
   FileDiff diff{a, b, {}};
   for (const files::NamedArray& one : before.all()) {
     const files::NpyArray* there = after.find(one.name);
@@ -95,7 +95,7 @@ FileDiff diff_of_files(const std::string& a, const std::string& b) {
 /// Files of arrays by name, one after the other.
 Diff diff_of_folders(const std::string& a, const std::string& b) {
   constexpr std::size_t all = std::numeric_limits<std::size_t>::max();
-  const std::vector<std::string> here = names_in(a, {".npz", ".npy"}, all), there = names_in(b, {".npz", ".npy"}, all);
+  const std::vector<std::string> here = run::names_in(a, {".npz", ".npy"}, all), there = run::names_in(b, {".npz", ".npy"}, all);
   if (here.empty() && there.empty())
     throw Error(ErrorKind::bad_input,
                 fmt::format("{}: error: there are no arrays in this folder, and none in {}\n  expected .npz or .npy files",
@@ -111,8 +111,8 @@ Diff diff_of_folders(const std::string& a, const std::string& b) {
 }
 
 Diff diff_of(const std::string& a, const std::string& b) {
-  if (is_folder(a) && is_folder(b)) return diff_of_folders(a, b);
-  return {{diff_of_files(frame_in(a, "diff"), frame_in(b, "diff"))}, {}, {}};
+  if (run::is_folder(a) && run::is_folder(b)) return diff_of_folders(a, b);
+  return {{diff_of_files(run::frame_in(a, "diff"), run::frame_in(b, "diff"))}, {}, {}};
 }
 
 std::string text_of(const ArrayDiff& one) {

@@ -16,8 +16,8 @@
 #include "commands.h"
 #include "console.h"
 #include "files/json.h"
-#include "inputs.h"
 #include "load/load.h"
+#include "requests.h"
 #include "results/manifest.h"
 #include "tofray/error.h"
 

@@ -8,18 +8,20 @@
 #include <cstring>
 #include <type_traits>
 
-#include "arrays.h"
 #include "base/constants.h"
 #include "commands.h"
 #include "console.h"
 #include "files/npy.h"
 #include "first_frame.h"
-#include "input_kind.h"
-#include "pixel_chain.h"
 #include "pixel_report.h"
+#include "progress.h"
+#include "requests.h"
 #include "results.h"
 #include "results/array_table.h"
+#include "results/file_arrays.h"
 #include "results/meta.h"
+#include "run/file_pixel.h"
+#include "run/input_kind.h"
 #include "tofray/error.h"
 
 namespace tofray::app {
@@ -71,7 +73,7 @@ Statistics statistics_of(const files::NpyArray& array) {
   }
 }
 
-std::string array_table(const Arrays& arrays) {
+std::string array_table(const results::Arrays& arrays) {
   std::string text = fmt::format("{:<24} {:<8} {:<16} {:<10} {:>11} {:>11} {:>11} {:>9}\n", "array", "type", "shape", "unit", "min",
                                  "median", "max", "invalid");
   for (const files::NamedArray& one : arrays.all()) {
@@ -87,7 +89,7 @@ std::string array_table(const Arrays& arrays) {
   return text;
 }
 
-files::Json array_json(const Arrays& arrays) {
+files::Json array_json(const results::Arrays& arrays) {
   files::Json list = files::Json::array();
   for (const files::NamedArray& one : arrays.all()) {
     const files::NpyArray& array = one.array;
@@ -106,7 +108,7 @@ files::Json array_json(const Arrays& arrays) {
   return list;
 }
 
-std::string phase_table(const Arrays& arrays) {
+std::string phase_table(const results::Arrays& arrays) {
   if (arrays.phases() == 0 || arrays.find("lit") == nullptr) return {};
   std::string text = fmt::format("\n{:<10} {:>4} {:>15} {:>14} {:>12} {:>10}\n", "raw frame", "lit", "modulation MHz", "reference deg",
                                  "exposure us", "start ms");
@@ -118,7 +120,7 @@ std::string phase_table(const Arrays& arrays) {
   return text;
 }
 
-files::Json phase_json(const Arrays& arrays) {
+files::Json phase_json(const results::Arrays& arrays) {
   files::Json list = files::Json::array();
   for (std::size_t k = 0; k < arrays.phases(); ++k) {
     files::Json json = files::Json::object();
@@ -131,19 +133,19 @@ files::Json phase_json(const Arrays& arrays) {
 }
 
 /// How many pixels have each flag; a pixel can have several.
-std::vector<std::size_t> flag_counts(const Arrays& arrays, std::size_t& valid) {
+std::vector<std::size_t> flag_counts(const results::Arrays& arrays, std::size_t& valid) {
   std::vector<std::size_t> counts(flag_names().size());
   const files::NpyArray* flags = arrays.find("flags");
   valid = 0;
   for (std::size_t i = 0; flags != nullptr && i < flags->count(); ++i) {
-    const auto bits = flag_bits(flags->number(i));
+    const auto bits = results::flag_bits(flags->number(i));
     if ((bits & flags_invalid) == 0) ++valid;
     for (std::size_t bit = 0; bit < counts.size(); ++bit) counts[bit] += bits >> bit & 1u;
   }
   return counts;
 }
 
-std::string flag_table(const Arrays& arrays) {
+std::string flag_table(const results::Arrays& arrays) {
   const files::NpyArray* flags = arrays.find("flags");
   if (flags == nullptr) return {};
   std::size_t valid = 0;
@@ -160,7 +162,7 @@ std::string flag_table(const Arrays& arrays) {
   return text;
 }
 
-files::Json flag_json(const Arrays& arrays) {
+files::Json flag_json(const results::Arrays& arrays) {
   std::size_t valid = 0;
   const std::vector<std::size_t> counts = flag_counts(arrays, valid);
   files::Json json = files::Json::object().set("valid", valid);
@@ -179,7 +181,7 @@ std::string word(const files::Json& from, const char* key, const char* inner = n
 }
 
 /// One line out of `meta`: what made the file.
-std::string origin(const Arrays& arrays) {
+std::string origin(const results::Arrays& arrays) {
   const files::Json& meta = arrays.meta();
   if (!meta.is_object()) return arrays.where() + "\n\n";
   const files::Json* camera = meta.find("camera");
@@ -188,49 +190,60 @@ std::string origin(const Arrays& arrays) {
                      word(meta, "frame"), word(meta, "seed"), word(meta, "noise"));
 }
 
+/// Frames with fewer bounces take their time.
+PixelBounces bounces_with_progress(const results::Arrays& arrays, run::FrameOrigin& origin, int u, int v) {
+  if (!origin.in || !has_bounces(run::pixel_arrays(arrays), u, v)) return run::pixel_bounces(arrays, origin, u, v);
+  FrameProgress now;
+  origin.simulated.progress = &now;
+  Progress progress(static_cast<std::uint64_t>(origin.in->scene.transport.bounces), "bounces", false, &now);
+  return run::pixel_bounces(arrays, origin, u, v, [&] { progress.step(); });
+}
+
 /// A file's arrays; those of a scene are simulated now.
 struct Inspected {
-  Arrays arrays;
-  FrameOrigin origin;  ///< only of a pixel is it asked for
+  results::Arrays arrays;
+  run::FrameOrigin origin;  ///< only of a pixel is it asked for
 };
 
 Inspected inspected(const Options& options) {
-  const NameChoice chosen = frame_or_scene(options.words[0], "inspect");
+  const NameChoice chosen = run::frame_or_scene(options.words[0], "inspect");
   const std::string& path = chosen.name;
-  say(note_of(chosen));
-  if (holds_arrays(path)) {
-    refuse_missing(path);
+  say(run::note_of(chosen));
+  if (results::holds_arrays(path)) {
+    run::refuse_missing(path);
     if (!options.set.empty() || options.seed || options.noise || !options.mode.empty())
       throw Error(
           ErrorKind::bad_input,
           path +
               ": error: this file is finished, its settings cannot be changed\n  expected a scene with --set, --mode, --seed and --noise");
-    return {read_arrays(path), {}};
+    return {results::read_arrays(path), {}};
   }
-  FrameOrigin origin;
-  const Inputs& in = origin.in.emplace(load_inputs(path, options));
-  say(warnings(in));
-  const SimulatorOptions& wanted = origin.wanted = simulator_options(options);
+  run::FrameOrigin origin;
+  const run::Loaded& in = origin.in.emplace(run::load(input_request(path, options)));
+  say(texts(in.remarks));
+  const SimulatorOptions& wanted = origin.simulated = simulator_options(options);
   const Frame frame = first_frame(in, wanted);
   const std::string meta = results::frame_meta(in.scene, in.camera, wanted, 0);
-  Arrays arrays(files::parse_npz(results::frame_npz_bytes(frame, in.camera, camera_pose(in.scene, frame.truth.time_s), meta), path), path);
+  results::Arrays arrays(
+      files::parse_npz(results::frame_npz_bytes(frame, in.camera, camera_pose(in.scene, frame.truth.time_s), meta), path), path);
   return {std::move(arrays), std::move(origin)};
 }
 
 void inspect_pixel(const Inspected& of, const Options& options) {
   const auto [u, v] = *options.pixel;
-  const Arrays& arrays = of.arrays;
-  refuse_outside(arrays, u, v);
+  const results::Arrays& arrays = of.arrays;
+  const PixelChain chain = run::pixel_chain(arrays, u, v);
   const bool knows = of.origin.in.has_value() || arrays.find("gt_indirect_e") == nullptr;
-  const PixelBounces bounces = pixel_bounces(arrays, knows ? of.origin : origin_of_file(arrays.where(), options), u, v);
-  print(options.json ? files::json_text(pixel_json(arrays, bounces, u, v), 2) + "\n" : pixel_text(arrays, bounces, u, v));
+  run::FrameOrigin origin = knows ? of.origin : run::origin_of_file(arrays.where(), options.root, simulator_options(options));
+  const PixelBounces bounces = bounces_with_progress(arrays, origin, u, v);
+  print(options.json ? files::json_text(pixel_json(arrays, chain, bounces), 2) + "\n" : pixel_text(arrays, chain, bounces));
 }
 
 }  // namespace
 
 int run_inspect(const Options& options) {
   const Inspected of = inspected(options);
-  const Arrays& arrays = of.arrays;
+  const results::Arrays& arrays = of.arrays;
   if (options.pixel) return inspect_pixel(of, options), 0;
   if (options.json) {
     files::Json json = files::Json::object();

@@ -4,21 +4,21 @@
 
 #include <algorithm>
 
+#include "assets/material_library.h"
 #include "base/readout.h"
 #include "base/text.h"
 #include "commands.h"
 #include "console.h"
 #include "files/json.h"
-#include "input_kind.h"
-#include "inputs.h"
 #include "load/builtin.h"
 #include "load/controls.h"
 #include "load/load.h"
-#include "load/material_library.h"
 #include "load/reference.h"
 #include "model/lines.h"
 #include "model/tables.h"
+#include "requests.h"
 #include "results/array_table.h"
+#include "run/input_kind.h"
 #include "tofray/error.h"
 
 namespace tofray::app {
@@ -98,9 +98,9 @@ files::Json material_json(const Material& material) {
 }
 
 files::Json list_library(std::string& text) {
-  text = load::material_page();
+  text = assets::material_page();
   files::Json json = files::Json::array();
-  for (const load::LibraryMaterial& one : load::material_library())
+  for (const assets::LibraryMaterial& one : assets::material_library())
     json.push(material_json(one.material).set("what", one.what).set("source", one.source));
   return json;
 }
@@ -108,10 +108,10 @@ files::Json list_library(std::string& text) {
 files::Json list_materials_of(const std::string& scene_name, std::string& text) {
   files::Json json = files::Json::array();
   const NameChoice chosen = choose_scene(scene_name);
-  say(note_of(chosen));
+  say(run::note_of(chosen));
   for (const Material& one : load_scene(chosen.name).materials) {
     if (one.name.empty()) continue;
-    text += fmt::format("{:<14} {}\n", one.name, load::numbers_of(one));
+    text += fmt::format("{:<14} {}\n", one.name, assets::numbers_of(one));
     json.push(material_json(one));
   }
   return json;
@@ -164,8 +164,8 @@ files::Json list_controls(const std::string& name, const Options& options, std::
     wanted.set = {{"camera.profile", name}, {"camera.mode", load_camera(name).mode.name}};
     scene = {"demo", {}};
   }
-  say(note_of(scene));
-  const Inputs in = load_inputs(scene.name, wanted);
+  say(run::note_of(scene));
+  const run::Loaded in = run::load(input_request(scene.name, wanted));
   const std::string& kept = in.files[0].text;
   files::Json json = files::Json::array();
   for (const load::Control& one : load::controls_of(in.scene, kept.empty() ? load::builtin_scene_text(in.files[0].name) : kept, wanted.set,

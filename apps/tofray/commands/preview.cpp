@@ -7,17 +7,19 @@
 #include <type_traits>
 #include <utility>
 
-#include "arrays.h"
 #include "base/text.h"
 #include "commands.h"
 #include "console.h"
 #include "files/atomic_file.h"
 #include "files/data_limits.h"
 #include "first_frame.h"
-#include "input_kind.h"
 #include "pictures/terminal_picture.h"
-#include "results.h"
+#include "remarks.h"
+#include "requests.h"
+#include "results/file_arrays.h"
 #include "results/raw_file.h"
+#include "run/frame_files.h"
+#include "run/input_kind.h"
 #include "tofray/error.h"
 
 namespace tofray::app {
@@ -33,7 +35,7 @@ struct Shown {
 /// Takes the arrays of a picture out of a file.
 class ShownReader {
  public:
-  explicit ShownReader(const Arrays& arrays) : arrays_(arrays) {}
+  explicit ShownReader(const results::Arrays& arrays) : arrays_(arrays) {}
 
   /// z, amplitude and error.
   Frame depth() {
@@ -72,7 +74,7 @@ class ShownReader {
     values.resize(array->count());
     for (std::size_t i = 0; i < values.size(); ++i) {
       if constexpr (std::is_integral_v<T>)
-        values[i] = static_cast<T>(flag_bits(array->number(i)));  // the flags, of any size
+        values[i] = static_cast<T>(results::flag_bits(array->number(i)));  // the flags, of any size
       else
         values[i] = static_cast<T>(array->number(i));
     }
@@ -97,7 +99,7 @@ class ShownReader {
                             base::printable(arrays_.where()), base::listed(missing_, "and")));
   }
 
-  const Arrays& arrays_;
+  const results::Arrays& arrays_;
   std::vector<std::string> missing_;
   std::size_t width_ = 0, height_ = 0;
 };
@@ -108,7 +110,7 @@ std::string text_in(const files::Json* from, const char* key) {
 }
 
 /// The caption that `render` gave the frame; the file's name where `meta` says nothing.
-std::string caption_of_file(const Arrays& arrays) {
+std::string caption_of_file(const results::Arrays& arrays) {
   const std::string stem = std::filesystem::path(arrays.where()).stem().native();
   const files::Json& meta = arrays.meta();
   const files::Json* camera = meta.find("camera");
@@ -117,11 +119,11 @@ std::string caption_of_file(const Arrays& arrays) {
   double index = 0;
   const files::Json* frame = meta.find("frame");
   if (frame == nullptr || !frame->number(index) || !(index >= 0 && index < 1e15)) index = 0;
-  return caption_of(scene, name, text_in(camera->find("mode"), "name"), static_cast<std::uint64_t>(index), stem.starts_with("frame_"));
+  return run::caption_of(scene, name, text_in(camera->find("mode"), "name"), static_cast<std::uint64_t>(index), stem.starts_with("frame_"));
 }
 
 Shown shown_of_file(const std::string& path, const Options& options) {
-  refuse_missing(path);
+  run::refuse_missing(path);
   if (path.ends_with(".npy"))
     throw Error(ErrorKind::bad_input,
                 base::printable(path) + ": error: a single array is no frame\n  expected a .npz file, such as frame.npz");
@@ -130,7 +132,7 @@ Shown shown_of_file(const std::string& path, const Options& options) {
         ErrorKind::bad_input,
         base::printable(path) +
             ": error: this file is finished, its settings cannot be changed\n  expected a scene with --set, --mode, --seed and --noise");
-  const Arrays arrays = read_arrays(path);
+  const results::Arrays arrays = results::read_arrays(path);
   Shown out{{}, caption_of_file(arrays)};
   if (options.raw)
     out.frame.raw = results::read_raw_npz(path);
@@ -140,14 +142,14 @@ Shown shown_of_file(const std::string& path, const Options& options) {
 }
 
 Shown shown_of_scene(const std::string& scene, const Options& options) {
-  const Inputs in = load_inputs(scene, options);
-  say(warnings(in));
+  const run::Loaded in = run::load(input_request(scene, options));
+  say(texts(in.remarks));
   SimulatorOptions wanted = simulator_options(options);
   if (options.raw)
     wanted.arrays = {"raw"};
   else
     wanted.arrays = {"z_m", "amplitude_e", "noise_m", "flags", "gt_z_m", "gt_multipath_m"};
-  return {first_frame(in, wanted), caption_of(in.scene.name, in.camera.name, in.camera.mode.name, 0, false)};
+  return {first_frame(in, wanted), run::caption_of(in.scene.name, in.camera.name, in.camera.mode.name, 0, false)};
 }
 
 /// Without -o the terminal shows z: what is of a picture in a file has no use there.
@@ -172,9 +174,9 @@ void show_in_terminal(const Shown& shown) {
 
 int run_preview(const Options& options) {
   if (options.output.empty()) refuse_of_files(options);
-  const NameChoice chosen = frame_or_scene(options.words[0], "preview");
-  say(note_of(chosen));
-  const Shown shown = holds_arrays(chosen.name) ? shown_of_file(chosen.name, options) : shown_of_scene(chosen.name, options);
+  const NameChoice chosen = run::frame_or_scene(options.words[0], "preview");
+  say(run::note_of(chosen));
+  const Shown shown = results::holds_arrays(chosen.name) ? shown_of_file(chosen.name, options) : shown_of_scene(chosen.name, options);
   if (options.output.empty()) return show_in_terminal(shown), 0;
   const pictures::Style style{options.theme, options.scale, *pictures::format_of(options.output)};
   const Frame& frame = shown.frame;

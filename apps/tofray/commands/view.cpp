@@ -17,7 +17,7 @@
 
 #include "console.h"
 #include "files/json.h"
-#include "input_kind.h"
+#include "run/input_kind.h"
 #include "view/assets.h"
 #include "view/server.h"
 #include "view/session.h"
@@ -104,7 +104,7 @@ int run_view(const Options& typed) {
   Options options = typed;
   if (!options.words.empty()) {
     const NameChoice chosen = choose_scene(options.words[0]);
-    say(note_of(chosen));
+    say(run::note_of(chosen));
     options.words[0] = chosen.name;
   }
   view::ServerOptions wanted;

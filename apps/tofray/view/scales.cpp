@@ -3,6 +3,7 @@
 #include "view/scales.h"
 
 #include <array>
+#include <bit>
 #include <cmath>
 #include <span>
 
@@ -120,25 +121,12 @@ Json palettes_json() {
 }
 
 Json invalid_json() {
-  struct Reason {
-    int bit;
-    const char *letter, *advice;
-  };
-  // In the order of pictures::invalid_reason().
-  constexpr Reason reasons[] = {
-      {4, "O", "the lens model has no rays there: see camera.lens.distortion"},
-      {0, "S", "less light, a shorter integration time, or more distance"},
-      {3, "N", "no light comes back: nothing is there, it is dark, or out of the light's reach"},
-      {1, "L", "more light, a longer integration time, or a higher camera.decoding.noise_threshold"},
-      {2, "F", "an edge, a surface seen at a glancing angle, or one thinner than a few pixels; camera.decoding says what is one"},
-      {5, "P", "something moves, or camera.decoding.asymmetry rejects too much"},
-      {6, "M", "light on several ways, a wrong cycle, or camera.decoding.multipath rejects too much"}};
-  const pictures::Look& look = pictures::look_of(pictures::Theme::dark);
   Json out = Json::array();
-  for (const Reason& one : reasons) {
+  for (const pictures::FlagRow& one : pictures::flag_table()) {
+    if (one.bit == flag_rejected || one.bit == flag_filtered) continue;  // no reasons
     Json json = Json::object();
-    json.set("bit", one.bit).set("name", pictures::flag_name(one.bit)).set("letter", one.letter);
-    out.push(std::move(json.set("color", color_json(look.reasons[static_cast<std::size_t>(one.bit)])).set("advice", one.advice)));
+    json.set("bit", std::countr_zero(one.bit)).set("name", one.words).set("letter", std::string(1, one.letter));
+    out.push(std::move(json.set("color", color_json(pictures::color_of_reason(one, pictures::Theme::dark))).set("advice", one.advice)));
   }
   return out;
 }

@@ -7,15 +7,16 @@
 #include <limits>
 #include <new>
 
-#include "arrays.h"
 #include "base/text.h"
 #include "base/version.h"
 #include "pictures/pictures.h"
-#include "pixel_bounces.h"
-#include "pixel_chain.h"
 #include "pixel_report.h"
+#include "remarks.h"
+#include "requests.h"
+#include "results/file_arrays.h"
 #include "results/frame_file.h"
 #include "results/meta.h"
+#include "run/file_pixel.h"
 #include "tofray/error.h"
 #include "view/scales.h"
 #include "view/state.h"
@@ -33,7 +34,7 @@ struct Whole {
   std::uint32_t generation = 0;
   std::uint64_t index = 0;
   Frame frame;
-  std::optional<app::Arrays> arrays;
+  std::optional<results::Arrays> arrays;
 };
 
 /// A simulator and the arrays that it computes.
@@ -160,7 +161,7 @@ class Session::Impl {
     mail_.stop = true, progress_.stop = true;
     changed_.notify_all();
   }
-  [[nodiscard]] std::string warnings() const { return app::warnings(a_.state.in); }
+  [[nodiscard]] std::string warnings() const { return app::texts(a_.state.in.remarks); }
 
   std::thread thread;
 
@@ -200,7 +201,7 @@ class Session::Impl {
   bool computed(Simulating& of, const State& state, const std::vector<std::uint16_t>& arrays, Frame& into, double& took_ms,
                 std::uint64_t index, bool draft = false);
   const Whole* whole(SideOfSession& of, std::uint64_t index);
-  const app::Arrays& arrays_of_whole(SideOfSession& of);
+  const results::Arrays& arrays_of_whole(SideOfSession& of);
   bool ready_to_greet();
   void greet(const std::vector<std::uint64_t>& clients);
   std::string hello() const;
@@ -490,10 +491,10 @@ const Whole* Session::Impl::whole(SideOfSession& of, std::uint64_t index) {
   return &of.last.emplace(std::move(fresh));
 }
 
-const app::Arrays& Session::Impl::arrays_of_whole(SideOfSession& side) {
+const results::Arrays& Session::Impl::arrays_of_whole(SideOfSession& side) {
   Whole& of = *side.last;
   if (!of.arrays) {
-    const app::Inputs& in = side.state.in;
+    const run::Loaded& in = side.state.in;
     const std::string meta = results::frame_meta(in.scene, in.camera, app::simulator_options(side.state.options), of.index);
     const std::string& name = side.state.options.words[0];
     of.arrays.emplace(
@@ -550,10 +551,10 @@ void Session::Impl::answer(const Question& question) {
     const Whole* of = whole(on, index);
     if (of == nullptr)  // it comes again, unless a newer one does
       return post([&](Mail& later, Demand&) { return later.questions.emplace(question.client, question), false; });
-    const app::Arrays& arrays = arrays_of_whole(on);
-    app::refuse_outside(arrays, asked.u, asked.v);
-    app::FrameOrigin origin;
-    origin.in = state.in, origin.wanted = app::simulator_options(state.options);
+    const results::Arrays& arrays = arrays_of_whole(on);
+    const PixelChain chain = run::pixel_chain(arrays, asked.u, asked.v);
+    run::FrameOrigin origin;
+    origin.in = state.in, origin.simulated = app::simulator_options(state.options);
     const std::size_t pixel = static_cast<std::size_t>(asked.v) * arrays.width() + static_cast<std::size_t>(asked.u);
     Json values = Json::array();
     for (std::uint16_t i = 0; i < wire_arrays().size(); ++i) {
@@ -563,12 +564,12 @@ void Session::Impl::answer(const Question& question) {
       Json value = array.shape == ArrayShape::image ? Json(numbers[0]) : Json::list(numbers);
       values.push(Json::object().set("name", array.name).set("unit", array.unit).set("value", std::move(value)));
     }
-    const int reason = pictures::invalid_reason(of->frame.depth.flags[pixel]);
+    const pictures::FlagRow* const reason = pictures::invalid_reason(of->frame.depth.flags[pixel]);
     Json json = Json::object();
     json.set("type", "pixel").set("id", asked.id).set("u", asked.u).set("v", asked.v);
     json.set("side", name_of(asked.side)).set("generation", state.generation).set("frame", index);
-    json.set("report", app::pixel_json(arrays, app::pixel_bounces(arrays, origin, asked.u, asked.v), asked.u, asked.v));
-    json.set("values", std::move(values)).set("why", reason < 0 ? "" : pictures::flag_name(reason));
+    json.set("report", app::pixel_json(arrays, chain, run::pixel_bounces(arrays, origin, asked.u, asked.v)));
+    json.set("values", std::move(values)).set("why", reason == nullptr ? "" : reason->words);
     out_->tell(question.client, files::json_text(json));
   });
   if (fault) out_->tell(question.client, fault_text(asked.id, *fault));

@@ -19,10 +19,6 @@
 #include "view/control.h"
 #include "view/outbox.h"
 
-namespace tofray::app {
-struct Inputs;
-}
-
 namespace tofray::view {
 
 /// What pages want of a session, all of them together.

@@ -8,6 +8,7 @@
 #include "base/text.h"
 #include "load/builtin.h"
 #include "load/controls.h"
+#include "requests.h"
 #include "results/meta.h"
 #include "tofray/error.h"
 #include "tofray/load.h"
@@ -39,7 +40,7 @@ bool is_scene(const std::string& name) { return load::find_builtin(load::builtin
 bool is_profile(const std::string& name) { return load::find_builtin(load::builtin_profiles(), name) != nullptr; }
 
 std::string_view scene_text(const State& state) {
-  const results::InputFile& file = state.in.files.at(0);
+  const auto& file = state.in.files.at(0);
   return file.text.empty() ? load::builtin_scene_text(file.name) : std::string_view(file.text);
 }
 
@@ -92,7 +93,7 @@ State first_state(const app::Options& options) {
   }
   // One list says all: a key that is set later then counts more than --mode.
   if (!state.options.mode.empty()) state.options.set.emplace_back("camera.mode", std::exchange(state.options.mode, {}));
-  state.in = app::load_inputs(scene, state.options);
+  state.in = run::load(app::input_request(scene, state.options));
   return state;
 }
 
@@ -116,7 +117,7 @@ State changed(const State& before, const Edit& edit) {
     default:
       if (edit.seed) state.options.seed = edit.seed;
   }
-  state.in = app::load_inputs(state.options.words[0], state.options);
+  state.in = run::load(app::input_request(state.options.words[0], state.options));
   return state;
 }
 
@@ -138,7 +139,7 @@ State opened(const State& like, const Edit& edit, std::uint32_t generation) {
                 "error: no built-in scene or camera is called " + base::in_quotes(edit.scene) + base::did_you_mean(edit.scene, known) +
                     "\n  `tofray list scenes` and `tofray list cameras` name them; a file cannot be opened from here");
   }
-  state.in = app::load_inputs(state.options.words[0], state.options);
+  state.in = run::load(app::input_request(state.options.words[0], state.options));
   return state;
 }
 

@@ -6,8 +6,8 @@
 #include <string>
 
 #include "files/json.h"
-#include "inputs.h"
 #include "options.h"
+#include "run/inputs.h"
 #include "view/control.h"
 
 namespace tofray::view {
@@ -15,7 +15,7 @@ namespace tofray::view {
 /// Scene + list of --set + seed + frame: all there is to know of what pages see.
 struct State {
   app::Options options;  ///< its list of --set is the state's, the first word the scene
-  app::Inputs in;
+  run::Loaded in;
   std::uint32_t generation = 1;
   std::uint64_t frame = 0;
   bool playing = true;

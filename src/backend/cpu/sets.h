@@ -4,7 +4,7 @@
 #include <array>
 #include <span>
 
-#include "tofray/simulator.h"
+#include "tofray/options.h"
 
 /// The instruction sets that there is code for on the processor that this is compiled for, beside plain scalar code
 /// (cmake/TofrayKernels.cmake has them, with their options).

@@ -1,0 +1,102 @@
+// SPDX-FileCopyrightText: 2026 The tofray authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "tofray/camera.h"
+#include "tofray/frame.h"
+#include "tofray/scene.h"
+#include "tofray/simulator.h"
+
+/// One pixel of a frame: its way from light to depth, number by number, and which light bounced how often.
+namespace tofray {
+
+/// A frame's arrays, wherever they lie. They must stay there as long as this is used.
+struct PixelArrays {
+  int width = 0, height = 0, phases = 0;
+  /// An array by its name in files, and an element of it in row-major order → its value; NaN where there is no such array or element.
+  std::function<double(std::string_view name, std::size_t element)> at;
+};
+PixelArrays pixel_arrays(const Frame& frame);
+
+/// One pixel in one raw frame.
+struct ChainRawFrame {
+  bool lit = false;
+  double modulation_frequency_hz = 0, reference_phase_rad = 0, integration_time_s = 0;
+  double signal_e = 0;                  ///< ground truth S, both taps
+  double direct_e = 0, indirect_e = 0;  ///< by one surface and by several, before the lens scatters them
+  double multipath_m = 0;               ///< what that does to the half path                    [theory: eq. 7.8]
+  double path_noise_m = 0;              ///< the standard error of that                         [theory: eq. 7.13]
+  double tap_a_e = 0, tap_b_e = 0;
+  double code_dn = 0;
+  double difference_e = 0;  ///< D_k that depth comes from: out of the code, or unrounded where noise is off
+};
+
+/// One pixel's phase at one modulation frequency.
+struct ChainPhase {
+  double modulation_frequency_hz = 0;
+  double amplitude_e = 0;       ///< |Z|                                                  [theory: eq. 4.2]
+  double measured_turns = 0;    ///< arg Z / 2 pi, with the wiggling in it
+  double calibrated_turns = 0;  ///< with the wiggling and the pixel's delay taken out    [eq. 4.3]
+  double half_wave_m = 0;       ///< R, the unambiguous half path                         [eq. 4.4]
+  double cycles = 0;            ///< whole cycles that unwrapping added
+  double half_path_m = 0;       ///< R (cycles + turns)
+};
+
+/// One pixel's way from light to depth. What the arrays do not have is NaN or empty.
+struct PixelChain {
+  int u = 0, v = 0;
+  // ground truth
+  std::int64_t object = -1;
+  double true_range_m = 0, true_z_m = 0, reflectivity = 0, incidence_rad = 0;
+  double object_share = 0, mixed = 0;  ///< of samples within the pixel
+  std::array<double, 3> position_m{}, normal{};
+  double irradiance_w_m2 = 0, radiance_w_m2_sr = 0, power_w = 0;
+  // measured
+  std::vector<ChainRawFrame> raw_frames;
+  std::vector<ChainPhase> phases;  ///< one for each modulation frequency
+  double range_m = 0, z_m = 0, noise_m = 0, noise_threshold_m = 0, amplitude_e = 0, ambient_e = 0, confidence = 0;
+  std::array<double, 3> point_m{};
+  int flags = 0;  ///< bits of Flag
+};
+
+/// @param camera      that made the frame; none: phases are estimated without its calibration, and nothing is unwrapped
+/// @param noise_free  whether the frame has expected values (Noise::off): depth comes from the unrounded taps then
+/// @param where       what messages call the arrays: a file
+/// @throws Error (bad_input) where the pixel is outside the image, there is no image, or the camera is of another size or sequence
+PixelChain pixel_chain(const PixelArrays& arrays, const Camera* camera, bool noise_free, int u, int v,
+                       const std::string& where = "the frame");
+/// The same of a frame that a camera made.
+PixelChain pixel_chain(const Frame& frame, const Camera& camera, int u, int v, Noise noise = Noise::exact);
+
+/// Light that came by way of 1 + b surfaces, b = first … last.
+struct BounceShare {
+  int first = 0, last = 0;
+  double share = 0;                 ///< of the electrons of all lit raw frames, 0 … 1
+  std::vector<double> electrons;    ///< by raw frame, before the lens scatters them [e]
+  std::vector<double> multipath_m;  ///< by raw frame: what it adds to the half path once all before it are there [m]  [theory: eq. 7.8]
+};
+
+/// One pixel's light, bounce by bounce. Light paths are chosen by pixel, bounce and sample alone, so that frames with fewer bounces follow
+/// the beginnings of the same paths: what a bounce adds is the difference of two frames, without error of chance between them.
+struct PixelBounces {
+  std::vector<BounceShare> shares;  ///< direct light first; together gt_direct_e + gt_indirect_e and gt_multipath_m; may be empty
+  std::string unknown;              ///< why it is empty although light bounced
+};
+
+/// Simulates with one bounce, two, …, until less than 1/1000 of the pixel's light is left; the last element has the rest. Frame number b
+/// takes b/B of the time that the frame with its B bounces took. Empty where no light bounced, or where the arrays do not have it.
+/// @param index      of the frame, of `scene` by `camera` with `simulated`
+/// @param each_done  where not empty: called after each frame
+PixelBounces pixel_bounces(const PixelArrays& arrays, std::uint64_t index, const Scene& scene, const Camera& camera,
+                           const SimulatorOptions& simulated, int u, int v, const std::function<void()>& each_done = {});
+/// Whether any light of the pixel bounced, and the arrays know how it bends the half path.
+bool has_bounces(const PixelArrays& arrays, int u, int v);
+
+}  // namespace tofray
