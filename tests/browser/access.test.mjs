@@ -5,7 +5,7 @@
 import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
 import { test } from "node:test";
-import { axe_source, choose, point_at, shown, stand_at, view } from "./viewer.mjs";
+import { axe_source, beside, choose, point_at, shown, stand_at, view } from "./viewer.mjs";
 
 async function violations({ page }) {
   await page.evaluate(axe_source);
@@ -21,6 +21,7 @@ for (const colorScheme of ["dark", "light"]) {
     const { page } = tab;
     assert.deepEqual(await violations(tab), []);
     await stand_at(tab, 0);
+    await beside(tab, "Pixel");
     await point_at(tab, 112, 86);
     await page.locator('.answer[data-pixel="112,86"]').waitFor();
     await page.getByText("Raw frames").click();
@@ -41,7 +42,7 @@ for (const colorScheme of ["dark", "light"]) {
 function table(word) {
   const text = readFileSync(new URL("../../docs/viewer.md", import.meta.url), "utf8");
   const [, rows] = new RegExp(`^\\| ${word} \\|.*\\n\\|[-|]+\\|\\n((?:\\|.*\\n)+)`, "m").exec(text);
-  return rows.trim().split("\n").map((row) => row.slice(2, -2).split(" | "));
+  return rows.trim().split("\n").map((row) => row.slice(2, -2).split(/ (?<!\\)\| /).map((cell) => cell.replaceAll("\\|", "|")));
 }
 
 test("a pane offers what docs/viewer.md lists, in that order", async () => {
@@ -79,7 +80,7 @@ test("Tab goes through every control, each with a focus that is seen", async () 
   const tab = await shown(url);
   const { page } = tab;
   await stand_at(tab, 0);
-  const expected = await page.evaluate(() => [...document.querySelectorAll("button, select, input, a, summary, [tabindex]")].filter((one) => !one.disabled && one.checkVisibility()).length);
+  const expected = await page.evaluate(() => [...document.querySelectorAll("button, select, input, a, summary, [tabindex]")].filter((one) => !one.disabled && one.tabIndex >= 0 && one.checkVisibility()).length);
   await page.evaluate(() => document.activeElement.blur());
   await page.locator("body").click({ position: { x: 2, y: 2 } });
   const seen = [];

@@ -193,6 +193,12 @@ export async function point_at({ page }, u, v) {
   await page.mouse.move(box.x + left + (u + 0.5) * scale, box.y + top + (v + 0.5) * scale);
 }
 
+/** What stands beside the pictures: Controls, Pixel or A | B. */
+export async function beside({ page }, name) {
+  await page.getByRole("tab", { name, exact: true }).click();
+  await page.locator(`[role=tab][aria-selected=true]`).getByText(name, { exact: true }).waitFor();
+}
+
 export async function choose(tab, i, array) {
   await tab.page.locator(".pane select").nth(i).selectOption(array);
   await tab.page.waitForFunction(([at, name]) => window.tofray.pane(at)?.array === name, [i, array]);

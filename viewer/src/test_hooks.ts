@@ -2,8 +2,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // What tests may read, where the server was started for them: numbers and pixels as drawn, no more.
 
+import { unanswered } from "./edit";
+import { future, past } from "./history";
 import { counters, pictures } from "./loop";
-import { frame, state, stats } from "./store";
+import type { Side } from "./protocol";
+import { frame, frame_b, other, state, stats } from "./store";
 
 interface ForTests {
   readonly generation: number | undefined;
@@ -11,8 +14,13 @@ interface ForTests {
   readonly stats: unknown;
   readonly counters: { received: number; drawn: number };
   readonly last: { frame: number; generation: number } | undefined;
-  pane(i: number): { array: string; width: number; height: number; pixels: Uint8ClampedArray } | undefined;
-  placement(i: number): { left: number; top: number; scale: number } | undefined;
+  readonly last_b: { frame: number; generation: number } | undefined;
+  readonly overrides: unknown;
+  readonly overrides_b: unknown;
+  readonly steps: { past: number; future: number };
+  readonly unanswered: number;
+  pane(i: number, side?: Side): { array: string; width: number; height: number; pixels: Uint8ClampedArray } | undefined;
+  placement(i: number, side?: Side): { left: number; top: number; scale: number } | undefined;
 }
 
 declare global {
@@ -31,11 +39,19 @@ export function offer_to_tests(): void {
       const now = frame.peek();
       return now && { frame: now.frame, generation: now.generation };
     },
-    pane(i) {
-      const picture = pictures.get(i);
+    get last_b() {
+      const now = frame_b.peek();
+      return now && { frame: now.frame, generation: now.generation };
+    },
+    get overrides() { return state.peek()?.overrides; },
+    get overrides_b() { return other.peek()?.overrides; },
+    get steps() { return { past: past.peek().length, future: future.peek().length }; },
+    get unanswered() { return unanswered.peek(); },
+    pane(i, side = "a") {
+      const picture = pictures.get(`${i}${side}`);
       const image = picture?.image;
       return picture && image && { array: picture.array, width: image.width, height: image.height, pixels: image.data.slice() };
     },
-    placement: (i) => pictures.get(i)?.where(),
+    placement: (i, side = "a") => pictures.get(`${i}${side}`)?.where(),
   });
 }

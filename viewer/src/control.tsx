@@ -1,0 +1,158 @@
+// SPDX-FileCopyrightText: 2026 The tofray authors
+// SPDX-License-Identifier: Apache-2.0
+// One key: its value in force, to be typed with a unit, dragged, chosen or switched. Ranges, units and sentences are the row's.
+
+import { useSignal } from "@preact/signals";
+import { drag_key, fault_place, forget_fault, set_key, text_now, unanswered, unset_key } from "./edit";
+import { begin_gesture, end_gesture } from "./history";
+import { number_text } from "./numbers";
+import type { Fault, Row, Side } from "./protocol";
+import { edited, key_faults, link, other, state } from "./store";
+import { number_in, place_of_value, places, text_at, with_unit_of, type Ends } from "./slider";
+
+/** The ends of sliders as they were first shown: they do not run away under the hand. */
+const kept_ends = new Map<string, Ends>();
+
+function ends_of(row: Row, place: string, value: number): Ends | undefined {
+  if (row.slider === undefined || !(row.slider[1] > row.slider[0])) return undefined;
+  const kept = kept_ends.get(place);
+  const [low, high] = row.slider;
+  // At an end, and beyond, those of the value that is in force now.
+  if (kept !== undefined && value > kept[0] && value < kept[1]) return kept;
+  kept_ends.set(place, [low, high]);
+  return [low, high];
+}
+
+const opposites: Readonly<Record<string, string>> = { true: "false", false: "true", on: "off", off: "on", yes: "no", no: "yes" };
+
+export function is_changed(row: Row, side: Side): boolean {
+  return ((side === "a" ? state.value : other.value)?.overrides ?? []).some((one) => one.key === row.key);
+}
+
+/** What may be typed: the range, and the units. */
+function range_of(row: Row): string {
+  const { low, high, kind } = row;
+  const others = (row.units ?? []).filter((unit) => unit !== row.unit && unit !== "");
+  const number = (value: number): string => with_unit_of(row, number_text(Number(value.toPrecision(6))));
+  const range = kind !== "number" && kind !== "integer" && kind !== "vector" ? ""
+    : low !== undefined && high !== undefined ? `${row.low_open === true ? "above " : ""}${number(low)} to ${row.high_open === true ? "below " : ""}${number(high)}`
+    : low !== undefined ? `${row.low_open === true ? "above" : "from"} ${number(low)}`
+    : high !== undefined ? `${row.high_open === true ? "below" : "up to"} ${number(high)}` : "";
+  return [range, others.length === 0 ? "" : `also ${others.join(", ")}`].filter((one) => one !== "").join("; ");
+}
+
+function Slider({ row, side, value, off, said }: { row: Row; side: Side; value: number; off: boolean; said: (text: string | undefined) => void }) {
+  const held = useSignal<number | undefined>(undefined);
+  const ends = ends_of(row, fault_place(side, row.key), value);
+  if (ends === undefined) return null;
+  const begin = (): void => {
+    if (held.value !== undefined) return;
+    held.value = place_of_value(value, ends, row.log === true);
+    begin_gesture();
+  };
+  const end = (): void => {
+    if (held.value === undefined) return;
+    held.value = undefined;
+    end_gesture();
+    said(undefined);
+  };
+  const at = held.value ?? place_of_value(value, ends, row.log === true);
+  return (
+    <input type="range" min={0} max={places} value={at} disabled={off} aria-label={`${row.key}, slider`} aria-valuetext={text_at(at, ends, row)}
+      onPointerDown={begin} onPointerUp={end} onPointerCancel={end} onKeyUp={end} onBlur={end}
+      onInput={(event) => {
+        begin();
+        held.value = event.currentTarget.valueAsNumber;
+        const text = text_at(held.value, ends, row);
+        said(text);
+        drag_key(side, row.key, text);
+      }} />
+  );
+}
+
+/** Text that is sent with Enter, or when another field is gone to; Escape takes it back. */
+function Field({ row, side, text, fault, id, off, described, range }: { row: Row; side: Side; text: string; fault: Fault | undefined; id: string; off: boolean; described: string; range: string }) {
+  const typed = useSignal<string | undefined>(undefined);
+  const sent = useSignal<string | undefined>(undefined);
+  const refused = fault === undefined ? undefined : sent.value;
+  const asked = unanswered.value > 0 ? sent.value : undefined;
+  const send = (now: string): void => {
+    if (now === (refused ?? text) || now.trim() === "") return void (typed.value = undefined);
+    sent.value = now;
+    typed.value = undefined;
+    set_key(side, row.key, now.trim());
+  };
+  return (
+    <input id={id} type="text" value={typed.value ?? refused ?? asked ?? text} disabled={off} title={range} autoComplete="off" spellcheck={false} aria-invalid={fault !== undefined} aria-describedby={described}
+      onInput={(event) => (typed.value = event.currentTarget.value)}
+      onChange={(event) => send(event.currentTarget.value)}
+      onKeyDown={(event) => {
+        if (event.key !== "Escape") return;
+        typed.value = sent.value = undefined;
+        forget_fault(side, row.key);
+        event.currentTarget.value = text;
+      }} />
+  );
+}
+
+function Choice({ row, side, text, id, off, described }: { row: Row; side: Side; text: string; id: string; off: boolean; described: string }) {
+  const choices = row.choices ?? [];
+  return (
+    <select id={id} value={text} disabled={off} aria-describedby={described} onChange={(event) => set_key(side, row.key, event.currentTarget.value)}>
+      {!choices.includes(text) && <option value={text}>{text === "" ? "–" : text}</option>}
+      {choices.map((one) => <option key={one} value={one}>{one}</option>)}
+    </select>
+  );
+}
+
+/** A key, which may be broken behind its dots. */
+export function Key({ of }: { of: string }) {
+  const words = of.split(".");
+  const last = words.pop() ?? "";
+  return <>{words.map((word, i) => <span key={i} class="faint">{word}.<wbr /></span>)}{last.split("_").map((word, i) => <span key={i}>{i > 0 && <>_<wbr /></>}{word}</span>)}</>;
+}
+
+/** @param label  the key as it is called where it stands: all of it, or behind its group */
+export function Control({ row, label }: { row: Row; label: string }) {
+  const side = edited.value;
+  const said = useSignal<string | undefined>(undefined);
+  const place = fault_place(side, row.key);
+  const fault = key_faults.value.get(place);
+  const text = text_now(row, side);
+  const off = link.value !== "open" || row.settable === false;
+  const changed = is_changed(row, side);
+  const id = `key-${row.key}`;
+  const [what, wrong] = [`${id}-what`, `${id}-wrong`];
+  const value = number_in(text, row) ?? (typeof row.value === "number" ? row.value : undefined);
+  const own = typeof row.value === "number" && text === (row.text ?? "") ? row.value : value;
+  const described = fault === undefined ? what : `${wrong} ${what}`;
+  const is_field = row.kind !== "choice" && row.kind !== "switch";
+  const range = range_of(row);
+  return (
+    <div class={`control${changed ? " changed" : ""}`} data-key={row.key} data-kind={row.kind}>
+      <div class="control-head">
+        <label for={id} title={row.key}><Key of={label} /></label>
+        {changed && <button type="button" class="quiet reset" disabled={link.value !== "open"} onClick={() => unset_key(side, row.key)} aria-label={`Reset ${row.key}`} title="as it was">↺</button>}
+        {row.kind === "switch" && (
+          <input id={id} type="checkbox" checked={text === "true" || text === "on" || text === "yes"} disabled={off} aria-describedby={described}
+            onChange={() => set_key(side, row.key, opposites[text] ?? "true")} />
+        )}
+        {row.kind === "choice" && <Choice row={row} side={side} text={text} id={id} off={off} described={described} />}
+        {is_field && <Field row={row} side={side} text={said.value ?? text} fault={fault} id={id} off={off} described={described} range={range} />}
+      </div>
+      {own !== undefined && (row.kind === "number" || row.kind === "integer") && row.settable !== false && (
+        <Slider row={row} side={side} value={own} off={off} said={(to) => (said.value = to)} />
+      )}
+      {fault !== undefined && (
+        <p class="wrong" id={wrong} role="alert">
+          <strong>{fault.text}</strong> {fault.more !== undefined && fault.more !== "" && <span>{fault.more}</span>}
+          <button type="button" class="quiet" onClick={() => forget_fault(side, row.key)}>Keep {text === "" ? "it as it was" : text}</button>
+        </p>
+      )}
+      <p class="what" id={what}>
+        {row.source !== undefined && row.source !== "" && <span class={`source ${row.source}`}>{row.source}</span>} {row.what ?? ""}
+        {range !== "" && <span class="unseen"> {range}</span>}
+      </p>
+    </div>
+  );
+}
