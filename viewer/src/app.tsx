@@ -19,7 +19,7 @@ function ReadOut() {
   return (
     <dl class="read-out" aria-label="Read-out">
       <div><dt>pixel</dt><dd>{at.u}, {at.v}</dd></div>
-      {arrays.map((array) => <div key={array}><dt>{title_of(array)}</dt><dd data-reading={array}>{reading(array)}</dd></div>)}
+      {arrays.map((array) => <div key={array}><dt>{title_of(array)}{other.value === undefined ? "" : " of A"}</dt><dd data-reading={array}>{reading(array)}</dd></div>)}
     </dl>
   );
 }

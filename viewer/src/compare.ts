@@ -74,16 +74,20 @@ function round_up(value: number): number {
   return power * ([1, 2, 5, 10].find((one) => one * power >= value * (1 - 1e-9)) ?? 10);
 }
 
-/** Differences of a pane have the colours of errors, to either side as far as all but one in a hundred reach. */
+/** In what differences are read: those of lengths as errors are. */
+export function difference_unit(own: Scale): { unit: string; factor: number } {
+  const error = hello.value?.panes.find((one) => one.array === "z_error_m")?.scale;
+  const { unit, factor } = own.unit === "m" && error != null ? error : own;
+  return { unit, factor: factor ?? 1 };
+}
+
+/** Differences of a pane have the colours of errors, to either side as far as all but one in twenty reach. */
 export function fitted_difference(name: string, values: Numbers): Scale | undefined {
   const own = scale_of(name);
   if (own === undefined) return undefined;
-  const error = hello.value?.panes.find((one) => one.array === "z_error_m")?.scale;
-  const like_error = own.unit === "m" && error != null;
-  const unit = like_error ? error.unit : own.unit;
-  const factor = (like_error ? error.factor : own.factor) ?? 1;
+  const { unit, factor } = difference_unit(own);
   const sizes = Array.from(values, Math.abs).filter((one) => one > 0 && Number.isFinite(one)).sort((x, y) => x - y);
-  const most = sizes[Math.floor(0.99 * (sizes.length - 1))];
+  const most = sizes[Math.floor(0.95 * (sizes.length - 1))];
   const high = (most === undefined ? round_up((factor * (own.high - own.low)) / 100) : round_up(factor * most)) / factor;
   const ticks: Tick[] = [-1, -0.5, 0, 0.5, 1].map((share) => {
     const shown = Number((share * high * factor).toPrecision(3));

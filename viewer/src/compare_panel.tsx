@@ -8,7 +8,7 @@ import { has_difference } from "./compare";
 import { Key } from "./control";
 import { open_other, set_state, text_now } from "./edit";
 import type { Override, Side } from "./protocol";
-import { comparing, controls, edited, flipped, link, other, state, type Comparing } from "./store";
+import { comparing, controls, flipped, link, other, state, type Comparing } from "./store";
 
 const ways: readonly { way: Comparing; said: string; title: string }[] = [
   { way: "beside", said: "Side by side", title: "A and B beside each other" },
@@ -105,7 +105,7 @@ function OtherScene() {
       if (name.value.trim() !== "") open_other([], state.value?.seed ?? 0, name.value.trim());
     }}>
       <label for="other-scene">B: another scene or camera that comes with tofray</label>
-      <div><input id="other-scene" type="text" autoComplete="off" spellcheck={false} placeholder="azure-kinect" value={name.value} onInput={(event) => (name.value = event.currentTarget.value)} />{" "}
+      <div><input id="other-scene" type="text" autoComplete="off" spellcheck={false} placeholder="azure-kinect-nfov" value={name.value} onInput={(event) => (name.value = event.currentTarget.value)} />{" "}
       <button type="submit" disabled={off}>Open</button></div>
     </form>
   );
@@ -138,7 +138,6 @@ export function ComparePanel() {
         <button type="button" onClick={toggle_other} disabled={off}>Close B</button>
       </div>
       <OtherScene />
-      <p class="faint">Controls change {edited.value.toUpperCase()}.</p>
     </>
   );
 }

@@ -59,16 +59,16 @@ function draw(canvas: HTMLCanvasElement, greeting: Hello, scale: Scale, of: Tall
     context.fillRect(edge(i), top(count), edge(i + 1) - edge(i), canvas.height - top(count));
   });
   outline(of.counts, style.getPropertyValue("--edge"), 1);
-  if (beside !== undefined) outline(beside.counts, style.getPropertyValue("--accent"), 2);
+  if (beside !== undefined) outline(beside.counts, style.getPropertyValue("--ink"), 1.5);
 }
 
 function Line({ name, of }: { name: string; of: Tally }) {
-  const pixels = of.below + of.above + of.invalid + of.counts.reduce((sum, one) => sum + one, 0);
-  const apart = [["below", of.below], ["above", of.above], ["invalid", of.invalid]] as const;
+  const shown = of.counts.reduce((sum, one) => sum + one, 0);
+  const apart = [["shown", shown], ["below", of.below], ["above", of.above], ["invalid", of.invalid]] as const;
   return (
-    <li>
-      {name !== "" && <strong>{name} </strong>}{pixels - of.invalid} of {pixels} pixels have a value
-      {apart.filter(([, count]) => count > 0).map(([word, count]) => <span key={word}>{" · "}{word === "invalid" ? "" : `${word} the bar `}<span data-apart={word}>{count}</span>{word === "invalid" ? " invalid" : ""}</span>)}
+    <li data-of={name}>
+      {name !== "" && <strong>{name} </strong>}
+      {apart.filter(([word, count]) => count > 0 || word === "shown" || word === "invalid").map(([word, count], i) => <span key={word}>{i > 0 ? " · " : ""}<span data-apart={word}>{count}</span> {word}</span>)}
     </li>
   );
 }

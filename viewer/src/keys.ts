@@ -5,7 +5,7 @@
 import { copy_command, find_control, toggle_other } from "./actions";
 import { fit_pane, step, toggle_play } from "./ask";
 import { reason_of } from "./colors";
-import { difference_at, difference_scale } from "./compare";
+import { difference_at, difference_unit } from "./compare";
 import { save } from "./edit";
 import { redo, undo } from "./history";
 import { number_text, with_unit } from "./numbers";
@@ -138,7 +138,7 @@ export function difference_reading(array: string): string {
   const own = scale_of(array);
   const value = difference_at(array, cursor.value);
   if (own === undefined || value === undefined || !Number.isFinite(value)) return "";
-  const scale = difference_scale(array) ?? own;
+  const scale = difference_unit(own);
   return with_unit(`${value > 0 ? "+" : ""}${number_text(value * (scale.factor ?? 1))}`, scale.unit);
 }
 

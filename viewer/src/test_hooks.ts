@@ -10,6 +10,7 @@ import { frame, frame_b, other, state, stats } from "./store";
 
 interface ForTests {
   readonly generation: number | undefined;
+  readonly generation_b: number | undefined;
   readonly playing: boolean | undefined;
   readonly stats: unknown;
   readonly counters: { received: number; drawn: number };
@@ -19,7 +20,7 @@ interface ForTests {
   readonly overrides_b: unknown;
   readonly steps: { past: number; future: number };
   readonly unanswered: number;
-  pane(i: number, side?: Side): { array: string; width: number; height: number; pixels: Uint8ClampedArray } | undefined;
+  pane(i: number, side?: Side): { array: string; shows: string; width: number; height: number; pixels: Uint8ClampedArray } | undefined;
   placement(i: number, side?: Side): { left: number; top: number; scale: number } | undefined;
 }
 
@@ -32,6 +33,7 @@ declare global {
 export function offer_to_tests(): void {
   window.tofray = Object.freeze<ForTests>({
     get generation() { return state.peek()?.generation; },
+    get generation_b() { return other.peek()?.generation; },
     get playing() { return state.peek()?.playing; },
     get stats() { return stats.peek(); },
     get counters() { return { ...counters }; },
@@ -50,7 +52,7 @@ export function offer_to_tests(): void {
     pane(i, side = "a") {
       const picture = pictures.get(`${i}${side}`);
       const image = picture?.image;
-      return picture && image && { array: picture.array, width: image.width, height: image.height, pixels: image.data.slice() };
+      return picture && image && { array: picture.array, shows: picture.shows.peek(), width: image.width, height: image.height, pixels: image.data.slice() };
     },
     placement: (i, side = "a") => pictures.get(`${i}${side}`)?.where(),
   });
