@@ -48,7 +48,7 @@ for (const colorScheme of ["dark", "light"]) {
     await page.waitForFunction(() => window.tofray.pane(2) !== undefined);
     await choose(tab, 2, "flags");
     for (let i = 0; i < 3; ++i) await page.getByRole("button", { name: "Histogram" }).nth(i).click();
-    for (const name of ["lens", "light"]) await page.locator(".group > summary").filter({ hasText: name }).first().click();
+    for (const i of [0, 2]) await page.locator(".group > summary").nth(i).click();
     await page.locator(".control").first().waitFor();
     assert.deepEqual(await violations(tab), []);
     await set(tab, "camera.lens.f_number", "2.8");
@@ -140,7 +140,7 @@ for (const [what, viewport] of [["320 CSS pixels wide", { width: 320, height: 64
       assert.deepEqual(outside, [], state);
     };
     await check("at first");
-    for (const name of ["lens", "light"]) await page.locator(".group > summary").filter({ hasText: name }).first().click();
+    for (const i of [0, 2]) await page.locator(".group > summary").nth(i).click();
     await set(tab, "camera.lens.f_number", "2.8");
     await type(tab, "camera.lens.f_number", "banana");
     await (await find(tab, "camera.lens.f_number")).getByRole("alert").waitFor();

@@ -48,7 +48,7 @@ test("every key of scene and camera has a control, which is made when its group 
     controls: one.querySelectorAll("input:not([type=range]), select").length,
     slider: one.querySelector("input[type=range]") !== null,
     what: one.querySelector(".what").textContent,
-    assumed: one.querySelector(".source.assumed") !== null,
+    assumed: one.querySelector(".assumed") !== null,
   })));
   assert.deepEqual(said.map((one) => one.key).sort(), rows.map((one) => one.key).sort());
   for (const one of said) {
@@ -56,7 +56,7 @@ test("every key of scene and camera has a control, which is made when its group 
     assert.equal(one.controls, 1, one.key);
     assert.equal(one.slider, row.slider !== undefined && row.settable !== false, one.key);
     assert.ok(one.what.includes(row.what ?? ""), one.key);
-    assert.equal(one.assumed, row.source === "assumed", one.key);
+    assert.equal(one.assumed, row.assumed === true, one.key);
   }
   assert.ok(said.some((one) => one.assumed), "nothing is marked as assumed");
   assert.deepEqual(troubles, []);

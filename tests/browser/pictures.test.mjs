@@ -187,6 +187,7 @@ test("one to four panes, each with its picture; cursor and zoom are those of all
   const hello = tab.hello();
   same((await pane(tab, 1)).pixels, expected(hello, scale_of(hello, "amplitude_e"), amplitude_e.values, flags.values), "amplitude");
   same((await pane(tab, 2)).pixels, expected(hello, scale_of(hello, "z_error_m"), z_m.values.map((z, i) => z - arrays.gt_z_m.values[i]), flags.values), "error");
+  await page.locator(".stage").first().focus();
   await page.keyboard.press("+");
   await page.keyboard.press("+");
   await page.waitForFunction(() => window.tofray.placement(0).scale > 3);

@@ -223,7 +223,7 @@ export async function beside({ page }, name) {
 export async function settled({ page }) {
   await page.waitForFunction(() => {
     const { unanswered, generation, generation_b, last, last_b } = window.tofray;
-    return unanswered === 0 && last?.generation === generation && last_b?.generation === generation_b;
+    return unanswered === 0 && last?.generation === generation && last_b?.generation === generation_b && !last.draft && last_b?.draft !== true;
   });
 }
 

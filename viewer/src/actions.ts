@@ -30,6 +30,6 @@ export function toggle_other(): void {
   flipped.value = false;
   if (other.value !== undefined) return close_other();
   if (of === undefined) return;
-  open_other(of.overrides ?? [], of.seed);
+  open_other(of.overrides, of.seed);
   edited.value = "b";   // what is changed next makes the difference
 }

@@ -67,7 +67,7 @@ function Differences() {
   const [a, b] = [state.value, other.value];
   const all = useSignal(false);
   if (a === undefined || b === undefined) return null;
-  const lists = { a: a.overrides ?? [], b: b.overrides };
+  const lists = { a: a.overrides, b: b.overrides };
   const keys = [...new Set([...lists.a, ...lists.b].map((one) => one.key))];
   const of_keys = (of: readonly string[]): Differing[] =>
     of.map((key) => ({ key, a: text_of(key, "a", lists.a), b: text_of(key, "b", lists.b) })).filter((one) => one.a !== one.b);
@@ -126,7 +126,7 @@ export function ComparePanel() {
   const same_scene = b.scene === undefined || b.scene === a.scene;
   const swap = (): void => {
     set_state("a", b.overrides, b.seed);
-    set_state("b", a.overrides ?? [], a.seed);
+    set_state("b", a.overrides, a.seed);
   };
   return (
     <>
@@ -134,7 +134,7 @@ export function ComparePanel() {
       <div class="compare-actions">
         <button type="button" onClick={swap} disabled={off || !same_scene}>Swap A and B</button>
         <button type="button" onClick={() => set_state("a", b.overrides, b.seed)} disabled={off || !same_scene}>A as B</button>
-        <button type="button" onClick={() => (same_scene ? set_state("b", a.overrides ?? [], a.seed) : open_other(a.overrides ?? [], a.seed))} disabled={off}>B as A</button>
+        <button type="button" onClick={() => (same_scene ? set_state("b", a.overrides, a.seed) : open_other(a.overrides, a.seed))} disabled={off}>B as A</button>
         <button type="button" onClick={toggle_other} disabled={off}>Close B</button>
       </div>
       <OtherScene />

@@ -29,16 +29,18 @@ export function is_changed(row: Row, side: Side): boolean {
   return ((side === "a" ? state.value : other.value)?.overrides ?? []).some((one) => one.key === row.key);
 }
 
-/** What may be typed: the range, and the units. */
+/** What may be typed: the range, the units, and what holds unless it is. */
 function range_of(row: Row): string {
   const { low, high, kind } = row;
   const others = (row.units ?? []).filter((unit) => unit !== row.unit && unit !== "");
   const number = (value: number): string => with_unit_of(row, number_text(Number(value.toPrecision(6))));
-  const range = kind !== "number" && kind !== "integer" && kind !== "vector" ? ""
-    : low !== undefined && high !== undefined ? `${row.low_open === true ? "above " : ""}${number(low)} to ${row.high_open === true ? "below " : ""}${number(high)}`
-    : low !== undefined ? `${row.low_open === true ? "above" : "from"} ${number(low)}`
-    : high !== undefined ? `${row.high_open === true ? "below" : "up to"} ${number(high)}` : "";
-  return [range, others.length === 0 ? "" : `also ${others.join(", ")}`].filter((one) => one !== "").join("; ");
+  const is_number = kind === "number" || kind === "integer" || kind === "vector";
+  const range = !is_number ? ""
+    : low !== undefined && high !== undefined ? `${number(low)} to ${number(high)}`
+    : low !== undefined ? `from ${number(low)}`
+    : high !== undefined ? `up to ${number(high)}` : "";
+  const unless = row.default === undefined || row.default === "" ? "" : `unless given ${row.default}`;
+  return [range, others.length === 0 ? "" : `also ${others.join(", ")}`, unless, row.settable === false ? "not with what is in force" : ""].filter((one) => one !== "").join("; ");
 }
 
 function Slider({ row, side, value, off, said }: { row: Row; side: Side; value: number; off: boolean; said: (text: string | undefined) => void }) {
@@ -129,7 +131,7 @@ export function Control({ row, label }: { row: Row; label: string }) {
   const is_field = row.kind !== "choice" && row.kind !== "switch";
   const range = range_of(row);
   return (
-    <div class={`control${changed ? " changed" : ""}`} data-key={row.key} data-kind={row.kind}>
+    <div class={`control${changed ? " changed" : ""}${row.settable === false ? " excluded" : ""}`} data-key={row.key} data-kind={row.kind}>
       <div class="control-head">
         <label for={id} title={row.key}><Key of={label} /></label>
         {changed && <button type="button" class="quiet reset" disabled={link.value !== "open"} onClick={() => unset_key(side, row.key)} aria-label={`Reset ${row.key}`} title="as it was">↺</button>}
@@ -150,7 +152,8 @@ export function Control({ row, label }: { row: Row; label: string }) {
         </p>
       )}
       <p class="what" id={what}>
-        {row.source !== undefined && row.source !== "" && <span class={`source ${row.source}`}>{row.source}</span>} {row.what ?? ""}
+        {row.assumed === true && <span class="assumed" title={row.source ?? ""}>assumed</span>} {row.what ?? ""}
+        {row.source !== undefined && row.source !== "" && <span class="source"> · {row.source}</span>}
         {range !== "" && <span class="unseen"> {range}</span>}
       </p>
     </div>

@@ -150,7 +150,8 @@ export function UndoRedo() {
 
 export function ControlsPanel() {
   const side = edited.value;
-  const rows = controls[side].value?.rows;
+  const keys = controls[side].value;
+  const rows = keys?.rows;
   return (
     <div class="controls">
       <div class="controls-head">
@@ -162,6 +163,7 @@ export function ControlsPanel() {
       {rows === undefined ? <p class="faint">asked …</p> : search.value.trim() !== "" ? <Found rows={rows} side={side} /> : (
         <>
           <Tree rows={rows} side={side} />
+          {(keys?.left_out ?? 0) > 0 && <p class="faint">{keys?.left_out} more keys of objects are not listed; <code>--set</code> takes them.</p>}
           <Seed side={side} />
         </>
       )}

@@ -19,6 +19,7 @@ interface Sent {
 
 const patience_ms = 5000;   // an answer is not waited for longer
 const outstanding = new Map<number, Sent>();
+const answered = new Set<number>();
 const held_back = new Map<string, string>();   // by side and key: what a drag wants since
 export const unanswered = signal(0);
 export const refused_restoring = signal(0);
@@ -93,6 +94,11 @@ export function is_waiting(): boolean {
   return held_back.size > 0 || [...outstanding.values()].some((one) => now - one.at < patience_ms);
 }
 
+function settle(id: number): void {
+  outstanding.delete(id);
+  answered.add(id);
+}
+
 function next_of_drag(sent: Sent): void {
   if (sent.key === undefined) return;
   const place = fault_place(sent.side, sent.key);
@@ -105,7 +111,7 @@ export function done_arrived(of: Done): void {
   const sent = outstanding.get(of.id);
   if (sent === undefined) return;
   accepted[sent.side] = Math.max(accepted[sent.side], of.generation);
-  for (const [id, one] of [...outstanding]) if (id <= of.id && one.side === sent.side) outstanding.delete(id);
+  for (const [id, one] of [...outstanding]) if (id <= of.id && one.side === sent.side) settle(id);
   unanswered.value = outstanding.size;
   if (sent.key !== undefined) forget_fault(sent.side, sent.key);
   next_of_drag(sent);
@@ -114,8 +120,8 @@ export function done_arrived(of: Done): void {
 /** @return  whether it is told beside a control, or not told at all */
 export function change_refused(of: Fault): boolean {
   const sent = of.id === null ? undefined : outstanding.get(of.id);
-  if (sent === undefined || of.id === null) return false;
-  outstanding.delete(of.id);
+  if (of.id === null || sent === undefined) return of.id !== null && answered.has(of.id);
+  settle(of.id);
   unanswered.value = outstanding.size;
   if (sent.restoring) ++refused_restoring.value;
   if (other.peek() === undefined) edited.value = "a";
@@ -145,7 +151,7 @@ export function controls_arrived(of: Controls): void {
     const old = before?.get(row.key);
     return old !== undefined && JSON.stringify(old) === JSON.stringify(row) ? old : row;
   });
-  controls[side].value = { generation: of.generation, rows, by_key: new Map(rows.map((row) => [row.key, row])) };
+  controls[side].value = { generation: of.generation, rows, left_out: of.left_out ?? 0, by_key: new Map(rows.map((row) => [row.key, row])) };
 }
 
 function ask_controls(side: Side): void {

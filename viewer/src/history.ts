@@ -35,7 +35,7 @@ function snapshot(): Snapshot | undefined {
   const b = other.peek();
   if (a === undefined) return undefined;
   return {
-    a: { overrides: a.overrides ?? [], seed: a.seed },
+    a: { overrides: a.overrides, seed: a.seed },
     b: b === undefined ? undefined : { overrides: b.overrides, seed: b.seed, scene: b.scene },
   };
 }

@@ -9,18 +9,9 @@ import { change_refused, controls_arrived, done_arrived, forget_unanswered, save
 import { history_goes_on, history_of_greeting, start_history } from "./history";
 import { start_keys } from "./keys";
 import { forget_b, frame_arrived, start_loop } from "./loop";
-import { read_frame, type Hello, type Other, type Override, type ServerMessage, type State } from "./protocol";
+import { read_frame, type Hello, type ServerMessage, type State } from "./protocol";
 import { choose_arrays, controls, difference_scales, fault, fitted, frame, hello, key_faults, other, pixel, pixel_b, state, stats } from "./store";
 import { offer_to_tests } from "./test_hooks";
-
-/** Version 1 sent pairs. */
-function overrides_of(from: unknown): Override[] {
-  return Array.isArray(from) ? from.map((one: Override | [string, string]) => (Array.isArray(one) ? { key: one[0], text: one[1] } : one)) : [];
-}
-
-function other_of(from: Other | null | undefined): Other | undefined {
-  return from == null ? undefined : { ...from, overrides: overrides_of(from.overrides) };
-}
 
 let server = 0;
 
@@ -29,8 +20,8 @@ function greeted(by: Hello): void {
   batch(() => {
     hello.value = by;
     const { generation, playing, frame: at, seed, command, scene } = by;
-    state.value = { type: "state", generation, playing, frame: at, seed, command, scene, overrides: overrides_of(by.overrides) };
-    other.value = other_of(by.other);
+    state.value = { type: "state", generation, playing, frame: at, seed, command, scene, overrides: by.overrides, other: by.other };
+    other.value = by.other ?? undefined;
     fitted.value = difference_scales.value = new Map();
     key_faults.value = new Map();
     frame.value = undefined;
@@ -51,16 +42,12 @@ function greeted(by: Hello): void {
 function changed(to: State): void {
   const now = hello.peek();
   batch(() => {
-    if (to.side === "b") {
-      other.value = other_of({ ...to, overrides: overrides_of(to.overrides) });
-    } else {
-      state.value = { ...to, overrides: overrides_of(to.overrides) };
-      if (to.other !== undefined) other.value = other_of(to.other);
-      if (now !== undefined) {
-        const { width = now.width, height = now.height, phases = now.phases, camera = now.camera, mode = now.mode, frame_rate_hz = now.frame_rate_hz } = to;
-        const same = width === now.width && height === now.height && phases === now.phases && camera === now.camera && mode === now.mode && frame_rate_hz === now.frame_rate_hz;
-        if (!same) hello.value = { ...now, width, height, phases, camera, mode, frame_rate_hz };
-      }
+    state.value = to;
+    other.value = to.other ?? undefined;
+    if (now !== undefined) {
+      const { width = now.width, height = now.height, phases = now.phases, camera = now.camera, mode = now.mode, frame_rate_hz = now.frame_rate_hz } = to;
+      const same = width === now.width && height === now.height && phases === now.phases && camera === now.camera && mode === now.mode && frame_rate_hz === now.frame_rate_hz;
+      if (!same) hello.value = { ...now, width, height, phases, camera, mode, frame_rate_hz };
     }
     if (other.value === undefined) forget_b();
   });

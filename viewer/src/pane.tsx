@@ -12,7 +12,7 @@ import { Picture } from "./picture";
 import type { Side } from "./protocol";
 import { ScaleBar } from "./scale_bar";
 import {
-  comparing, cursor, extent, focused, hello, histograms, other, point_at, scale_of, show, shown, size, tab, title_of, toggle_histogram, view, wipe,
+  comparing, cursor, extent, focused, frame_of, hello, histograms, other, point_at, scale_of, show, shown, size, tab, title_of, toggle_histogram, view, wipe,
 } from "./store";
 import { fitting_scale, held, zoomed } from "./view_port";
 
@@ -144,6 +144,7 @@ function Stage({ pane, side, title, kept }: { pane: number; side: Side; title: s
       <canvas class="front" />
       <canvas class="over" />
       {other.value !== undefined && <span class={`badge ${shows}`} aria-hidden="true">{badges[shows]}</span>}
+      {frame_of(shows === "b" ? "b" : "a")?.draft === true && <span class="badge draft">draft</span>}
       {shows === "wipe" && <span class="badge b" aria-hidden="true">B</span>}
       {shows === "wipe" && <Wipe />}
     </div>

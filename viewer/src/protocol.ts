@@ -95,8 +95,8 @@ export interface Hello {
   playing: boolean;
   frame: number;
   seed: number;
-  overrides?: Override[];
-  other?: Other | null;
+  overrides: Override[];
+  other: Other | null;
   test_hooks?: boolean;
 }
 
@@ -107,9 +107,8 @@ export interface State {
   frame: number;
   seed: number;
   command: string;
-  side?: Side;
-  overrides?: Override[];
-  other?: Other | null;
+  overrides: Override[];
+  other: Other | null;
   scene?: string;
   camera?: string;
   mode?: string;
@@ -127,22 +126,23 @@ export interface Row {
   name: string;
   kind: "number" | "integer" | "switch" | "choice" | "text" | "vector" | "list" | "part";
   unit?: string;
-  dimension?: string;
   units?: string[];
   low?: number;
   high?: number;
-  low_open?: boolean;
-  high_open?: boolean;
   choices?: string[];
   what?: string;
+  /** As `--set` takes it; none where there is no value in force that can be typed. */
   text?: string;
+  /** In the row's unit. */
   value?: number | number[];
   default?: string;
+  /** The profile's own words of where the number is from. */
   source?: string;
+  assumed?: boolean;
   log?: boolean;
   slider?: [number, number];
+  /** false: what is in force excludes it. */
   settable?: boolean;
-  changed?: boolean;
 }
 
 export interface Controls {
@@ -151,6 +151,7 @@ export interface Controls {
   generation: number;
   side?: Side;
   controls: Row[];
+  left_out?: number;
 }
 
 /** A change was accepted. */

@@ -40,7 +40,7 @@ export function Side() {
         ))}
       </div>
       <div id="tab-panel" role="tabpanel" aria-labelledby={`tab-${now}`} tabIndex={0}>
-        {now === "controls" ? <ControlsPanel /> : now === "pixel" ? <PixelPanel /> : <ComparePanel />}
+        {now === "controls" ? <><h2 class="unseen">Controls</h2><ControlsPanel /></> : now === "pixel" ? <PixelPanel /> : <><h2 class="unseen">A | B</h2><ComparePanel /></>}
       </div>
     </aside>
   );

@@ -32,6 +32,7 @@ export const drawn_rate = signal(0);
 export interface Keys {
   generation: number;
   rows: readonly Row[];
+  left_out: number;
   by_key: ReadonlyMap<string, Row>;
 }
 

@@ -14,8 +14,8 @@ interface ForTests {
   readonly playing: boolean | undefined;
   readonly stats: unknown;
   readonly counters: { received: number; drawn: number };
-  readonly last: { frame: number; generation: number } | undefined;
-  readonly last_b: { frame: number; generation: number } | undefined;
+  readonly last: { frame: number; generation: number; draft: boolean } | undefined;
+  readonly last_b: { frame: number; generation: number; draft: boolean } | undefined;
   readonly overrides: unknown;
   readonly overrides_b: unknown;
   readonly steps: { past: number; future: number };
@@ -39,11 +39,11 @@ export function offer_to_tests(): void {
     get counters() { return { ...counters }; },
     get last() {
       const now = frame.peek();
-      return now && { frame: now.frame, generation: now.generation };
+      return now && { frame: now.frame, generation: now.generation, draft: now.draft };
     },
     get last_b() {
       const now = frame_b.peek();
-      return now && { frame: now.frame, generation: now.generation };
+      return now && { frame: now.frame, generation: now.generation, draft: now.draft };
     },
     get overrides() { return state.peek()?.overrides; },
     get overrides_b() { return other.peek()?.overrides; },
