@@ -14,7 +14,7 @@ import { TimeLine } from "./time_line";
 /** What every pane shows at the cursor, at once. */
 function ReadOut() {
   const at = cursor.value;
-  if (at === undefined) return null;
+  if (at === undefined) return <p class="read-out faint">Point at a picture to read its values; click for all there is to know of a pixel.</p>;
   const arrays = [...new Set([...shown.value, ...(hello.value?.panes.some((pane) => pane.array === "flags") ? ["flags"] : [])])];
   return (
     <dl class="read-out" aria-label="Read-out">

@@ -160,7 +160,7 @@ function Reading({ array }: { array: string }) {
     <span class="reading both">
       <span><abbr title="the first state">A</abbr> <span data-array={array}>{reading(array)}</span></span>{" "}
       <span><abbr title="the second state">B</abbr> <span data-array-b={array}>{reading(array, "b")}</span></span>{" "}
-      {difference !== "" && <span class="faint">B − A <span data-difference={array}>{difference}</span></span>}
+      <span class="faint">{difference === "" ? "" : "B − A "}<span data-difference={array}>{difference}</span></span>
     </span>
   );
 }
@@ -201,8 +201,8 @@ export function Pane({ pane }: { pane: number }) {
       {scale !== undefined && <ScaleBar scale={scale} array={array} shows={shows}>{has_histogram && <Histogram array={array} scale={scale} shows={shows} />}</ScaleBar>}
       {scale === undefined && has_histogram && <Histogram array={array} scale={undefined} shows={shows} />}
       <div class="stages">
-        <Legend shares={a.value?.shares ?? []} bits={own === undefined} shows={shows} />
-        {beside && <Legend shares={b.value?.shares ?? []} bits={own === undefined} shows="b" />}
+        <Legend shares={a.value?.shares ?? []} bits={own === undefined} shows={shows} name={beside ? "A" : ""} />
+        {beside && <Legend shares={b.value?.shares ?? []} bits={own === undefined} shows="b" name="B" />}
       </div>
     </section>
   );
