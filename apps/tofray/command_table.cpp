@@ -201,20 +201,21 @@ std::vector<Command> make() {
        .run = run_budget,
        .completes = "<profiles> <files>"},
       {.name = "list",
-       .usage = "cameras|scenes|materials|keys|arrays",
-       .summary = "what is built in: scenes, cameras, materials; those of a scene; every key that files and --set take, and every array of "
-                  "frame.npz",
+       .usage = "cameras|scenes|materials|keys|controls|arrays",
+       .summary = "what is built in: scenes, cameras, materials; those of a scene; every key that files and --set take, those of a scene "
+                  "with their values, and every array of frame.npz",
        .examples = "tofray list scenes\n"
                    "tofray list cameras                              # with their modes\n"
                    "tofray list materials                            # measured ones that every scene may name, with their sources\n"
                    "tofray list materials demo                       # those of a scene\n"
                    "tofray list keys                                 # of camera profiles and scenes, with range, default and meaning\n"
+                   "tofray list controls room                        # all keys of a scene or a camera, with the values in force\n"
                    "tofray list arrays                               # with type, shape, unit and meaning\n",
        .options = {"--json"},
        .least_words = 1,
        .most_words = 2,
        .run = run_list,
-       .completes = "cameras scenes materials keys arrays"},
+       .completes = "cameras scenes materials keys controls arrays"},
       {.name = "schema",
        .usage = "scene|camera",
        .summary = "JSON Schema of a file kind, for editors that complete and check",

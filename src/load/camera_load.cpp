@@ -9,6 +9,7 @@
 #include "load/convert.h"
 #include "load/fill.h"
 #include "load/load.h"
+#include "load/trees.h"
 #include "yaml/settings.h"
 
 namespace tofray::load {
@@ -62,15 +63,28 @@ void set_keys_of_modes(Node& root, const Change& change) {
     if (mode.find(section) != nullptr) set_key(mode, change.key, parse_value(change.text, change.place), change.place);
 }
 
-Camera interpret(const Profile& profile, const std::string& mode, const base::Place& mode_place, const std::vector<Change>& changes,
-                 const SeeCamera& see_each_mode = {}) {
-  refuse_too_many(changes.size(), base::whole(profile.source));
-  Node root = parse_tree(profile.text, profile.source);
-  if (!mode.empty()) set_key(root, "mode", mode_node(mode, mode_place), mode_place);
-  for (const auto& change : changes) {
+/// What a camera is read from.
+struct Choice {
+  Profile profile;
+  std::string mode;  ///< empty: as the profile says
+  base::Place mode_place;
+  std::vector<Change> changes;
+};
+
+Node tree_of(const Choice& choice) {
+  refuse_too_many(choice.changes.size(), base::whole(choice.profile.source));
+  Node root = parse_tree(choice.profile.text, choice.profile.source);
+  if (!choice.mode.empty()) set_key(root, "mode", mode_node(choice.mode, choice.mode_place), choice.mode_place);
+  for (const auto& change : choice.changes) {
     set_key(root, change.key, parse_value(change.text, change.place), change.place);
     set_keys_of_modes(root, change);
   }
+  return root;
+}
+
+Camera interpret(const Choice& choice, const SeeCamera& see_each_mode = {}) {
+  const Profile& profile = choice.profile;
+  const Node root = tree_of(choice);
   base::Faults faults;
   const Value value = read(model::camera_form(), root, faults);
   Camera camera;
@@ -119,11 +133,28 @@ Profile profile_of(const Scene& scene, const std::string& root) {
   return out;
 }
 
+Choice choice_of(const Scene& scene, const CameraOptions& options) {
+  std::vector<Change> changes;
+  for (const auto& one : scene.camera.overrides)
+    changes.push_back({one.key, one.value, base::whole(one.where.empty() ? "camera." + one.key : one.where)});
+  const bool ours = !options.mode.empty();
+  const std::string& where = scene.camera.mode_where;
+  const base::Place mode_place = base::whole(ours ? "--mode" : where.empty() ? "camera.mode" : where);
+  for (auto& change : changes_of(options)) changes.push_back(std::move(change));
+  return {profile_of(scene, options.root), ours ? options.mode : scene.camera.mode, mode_place, std::move(changes)};
+}
+
 }  // namespace
 
 Camera camera_from_text(const std::string& text, const std::string& source, const std::string& folder, const CameraOptions& options,
                         const SeeCamera& see_each_mode) {
-  return interpret({text, source, folder}, options.mode, base::whole("--mode"), changes_of(options), see_each_mode);
+  return interpret({{text, source, folder}, options.mode, base::whole("--mode"), changes_of(options)}, see_each_mode);
+}
+
+Node camera_tree(const Scene& scene, const CameraOptions& options, std::string& source) {
+  const Choice choice = choice_of(scene, options);
+  source = choice.profile.source;
+  return tree_of(choice);
 }
 
 }  // namespace tofray::load
@@ -131,22 +162,13 @@ Camera camera_from_text(const std::string& text, const std::string& source, cons
 namespace tofray {
 
 Camera load_camera(const std::string& file_or_name, const CameraOptions& options) {
-  return load::interpret(load::named_profile(file_or_name), options.mode, base::whole("--mode"), load::changes_of(options));
+  return load::interpret({load::named_profile(file_or_name), options.mode, base::whole("--mode"), load::changes_of(options)});
 }
 
 Camera load_camera_text(const std::string& text, const std::string& source, const CameraOptions& options) {
   return load::camera_from_text(text, source, files::folder_of(source), options);
 }
 
-Camera load_camera(const Scene& scene, const CameraOptions& options) {
-  std::vector<load::Change> changes;
-  for (const auto& one : scene.camera.overrides)
-    changes.push_back({one.key, one.value, base::whole(one.where.empty() ? "camera." + one.key : one.where)});
-  const bool ours = !options.mode.empty();
-  const std::string& where = scene.camera.mode_where;
-  const base::Place mode_place = base::whole(ours ? "--mode" : where.empty() ? "camera.mode" : where);
-  for (auto& change : load::changes_of(options)) changes.push_back(std::move(change));
-  return load::interpret(load::profile_of(scene, options.root), ours ? options.mode : scene.camera.mode, mode_place, changes);
-}
+Camera load_camera(const Scene& scene, const CameraOptions& options) { return load::interpret(load::choice_of(scene, options)); }
 
 }  // namespace tofray

@@ -22,6 +22,7 @@
 #include "load/obj_load.h"
 #include "load/rotation_load.h"
 #include "load/trajectory.h"
+#include "load/trees.h"
 #include "yaml/settings.h"
 
 namespace tofray::load {
@@ -412,9 +413,14 @@ void apply(Node& root, const Settings& settings) {
 
 }  // namespace
 
-Scene scene_from_text(const std::string& text, const std::string& source, const Settings& settings, const MeshFiles& meshes) {
+Node scene_tree(std::string_view text, const std::string& source, const Settings& settings) {
   Node root = parse_tree(text, source);
   apply(root, settings);
+  return root;
+}
+
+Scene scene_from_text(const std::string& text, const std::string& source, const Settings& settings, const MeshFiles& meshes) {
+  const Node root = scene_tree(text, source, settings);
   Scene scene = interpret(root, source, meshes);
   scene.source = source;
   std::string stem = std::filesystem::path(source).stem().string();

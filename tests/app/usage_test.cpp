@@ -159,6 +159,7 @@ TEST(json, is_one_object_on_stdout) {
                                       {"list", "scenes"},
                                       {"list", "cameras"},
                                       {"list", "materials"},
+                                      {"list", "controls", "imx556"},
                                       {"doctor"},
                                       with_small_sensor({"bench", "--frames", "2"})};
   for (Arguments arguments : all) {
@@ -169,6 +170,18 @@ TEST(json, is_one_object_on_stdout) {
     EXPECT_FALSE(has(result.err, "error"));
   }
   for (const char* kind : {"scene", "camera"}) EXPECT_NE(files::parse_json(run({"schema", kind}).out, kind).find("$schema"), nullptr);
+}
+
+TEST(list, of_controls_has_what_is_in_force_of_a_scene_or_a_camera) {
+  const files::Json json = files::parse_json(run({"list", "controls", "room", "--json"}).out, "list");
+  std::map<std::string, std::string> texts;
+  for (const files::Json& one : *json.find("controls")->items())
+    if (const files::Json* text = one.find("text")) texts[*one.find("key")->string()] = *text->string();
+  EXPECT_EQ(texts["camera.profile"], "pico-flexx");
+  EXPECT_EQ(texts["camera.pixel.full_well"], "100000 e");
+  EXPECT_TRUE(has(run({"list", "controls", "imx556"}).out, "camera.profile                                       imx556"));
+  EXPECT_TRUE(has(run({"list", "controls"}).out, "objects.2.sphere.radius"));  // of the demo
+  EXPECT_EQ(run({"list", "controls", "no-such-scene"}).code, 3);
 }
 
 TEST(json, of_a_fault_is_one_object_that_names_its_place) {

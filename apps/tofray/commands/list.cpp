@@ -10,7 +10,9 @@
 #include "console.h"
 #include "files/json.h"
 #include "input_kind.h"
+#include "inputs.h"
 #include "load/builtin.h"
+#include "load/controls.h"
 #include "load/load.h"
 #include "load/material_library.h"
 #include "load/reference.h"
@@ -145,12 +147,41 @@ files::Json list_arrays(std::string& text) {
   return json;
 }
 
+/// One line a key: its value, or what it may be, and what it is.
+std::string control_line(const load::Control& one) {
+  std::string value = one.text.value_or(one.settable ? "–" : "not with other keys");
+  constexpr std::size_t longest = 40;
+  if (value.size() > longest) value = base::printable(value.substr(0, longest - 3)) + "...";
+  return fmt::format("{:<52} {:<22} {}{}{}\n", one.key, base::printable(value), one.changed ? "(changed) " : "", one.what,
+                     one.assumed ? "; assumed" : "");
+}
+
+/// @param name  of a scene, a file or a camera, which then looks at the demo
+files::Json list_controls(const std::string& name, const Options& options, std::string& text) {
+  Options wanted = options;
+  NameChoice scene = choose_scene(name);
+  if (load::find_builtin(load::builtin_scenes(), name) == nullptr && load::find_builtin(load::builtin_profiles(), name) != nullptr) {
+    wanted.set = {{"camera.profile", name}, {"camera.mode", load_camera(name).mode.name}};
+    scene = {"demo", {}};
+  }
+  say(note_of(scene));
+  const Inputs in = load_inputs(scene.name, wanted);
+  const std::string& kept = in.files[0].text;
+  files::Json json = files::Json::array();
+  for (const load::Control& one : load::controls_of(in.scene, kept.empty() ? load::builtin_scene_text(in.files[0].name) : kept, wanted.set,
+                                                    {wanted.mode, {}, wanted.root})) {
+    json.push(json_of(one));
+    text += control_line(one);
+  }
+  return json;
+}
+
 }  // namespace
 
 int run_list(const Options& options) {
   const std::string& what = options.words[0];
-  const std::vector<std::string> kinds = {"cameras", "scenes", "materials", "keys", "arrays"};
-  if (options.words.size() == 2 && what != "materials")
+  const std::vector<std::string> kinds = {"cameras", "scenes", "materials", "keys", "controls", "arrays"};
+  if (options.words.size() == 2 && what != "materials" && what != "controls")
     throw Error(ErrorKind::bad_input,
                 fmt::format("error: unexpected {}\n  expected tofray list {}", base::in_quotes(options.words[1]), what));
   std::string text;
@@ -161,6 +192,8 @@ int run_list(const Options& options) {
     json = list_cameras(text);
   } else if (what == "keys") {
     json = list_keys(text);
+  } else if (what == "controls") {
+    json = list_controls(options.words.size() == 2 ? options.words[1] : "demo", options, text);
   } else if (what == "materials") {
     json = options.words.size() == 2 ? list_materials_of(options.words[1], text) : list_library(text);
   } else if (what == "arrays") {

@@ -1,0 +1,21 @@
+// SPDX-FileCopyrightText: 2026 The tofray authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include <string>
+#include <string_view>
+
+#include "load/load.h"
+#include "yaml/tree.h"
+
+/// Files as trees with all changes in them, before they are read by their tables.
+namespace tofray::load {
+
+/// A scene's text after the settings.
+yaml::Node scene_tree(std::string_view text, const std::string& source, const Settings& settings);
+
+/// The profile of the camera that a scene asks for, with the scene's changes and its mode. Numbers that the profile says have its
+/// name as their place's source.
+/// @param source  becomes that name
+yaml::Node camera_tree(const Scene& scene, const CameraOptions& options, std::string& source);
+
+}  // namespace tofray::load
