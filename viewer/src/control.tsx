@@ -43,9 +43,13 @@ function range_of(row: Row): string {
   return [range, others.length === 0 ? "" : `also ${others.join(", ")}`, unless, row.settable === false ? "not with what is in force" : ""].filter((one) => one !== "").join("; ");
 }
 
-function Slider({ row, side, value, off, said }: { row: Row; side: Side; value: number; off: boolean; said: (text: string | undefined) => void }) {
+/** @param part   what of the key it moves, in words; empty: all of it
+ *  @param whole  the key's text with this number in it */
+function Slider({ row, side, part, value, off, whole, said }: {
+  row: Row; side: Side; part: string; value: number; off: boolean; whole: (number: string) => string; said: (text: string | undefined) => void;
+}) {
   const held = useSignal<number | undefined>(undefined);
-  const ends = ends_of(row, fault_place(side, row.key), value);
+  const ends = ends_of(row, `${fault_place(side, row.key)} ${part}`, value);
   if (ends === undefined) return null;
   const begin = (): void => {
     if (held.value !== undefined) return;
@@ -60,15 +64,36 @@ function Slider({ row, side, value, off, said }: { row: Row; side: Side; value: 
   };
   const at = held.value ?? place_of_value(value, ends, row.log === true);
   return (
-    <input type="range" min={0} max={places} value={at} disabled={off} aria-label={`${row.key}, slider`} aria-valuetext={text_at(at, ends, row)}
+    <input type="range" min={0} max={places} value={at} disabled={off} aria-label={`${row.key}${part === "" ? "" : ` ${part}`}, slider`} aria-valuetext={text_at(at, ends, row)}
       onPointerDown={begin} onPointerUp={end} onPointerCancel={end} onKeyUp={end} onBlur={end}
       onInput={(event) => {
         begin();
         held.value = event.currentTarget.valueAsNumber;
-        const text = text_at(held.value, ends, row);
+        const text = whole(text_at(held.value, ends, row));
         said(text);
         drag_key(side, row.key, text);
       }} />
+  );
+}
+
+const axes = ["x", "y", "z", "w"];
+
+/** A slider for each number of a vector. */
+function Sliders({ row, side, text, off, said }: { row: Row; side: Side; text: string; off: boolean; said: (text: string | undefined) => void }) {
+  const words = /^\[(.*)\]$/.exec(text.trim())?.[1]?.split(",").map((one) => one.trim());
+  const typed = words?.map((word) => number_in(word, row));
+  const values = typed !== undefined && typed.every((one) => one !== undefined) ? typed as number[] : Array.isArray(row.value) && text === row.text ? row.value : undefined;
+  if (values === undefined || values.length > axes.length) return null;
+  const texts = words?.length === values.length ? words : values.map((one) => with_unit_of(row, String(one)));
+  return (
+    <div class="axes">
+      {values.map((value, i) => (
+        <div key={i}>
+          <span aria-hidden="true">{axes[i]}</span>
+          <Slider row={row} side={side} part={axes[i]!} value={value} off={off} said={said} whole={(number) => `[${texts.map((one, at) => (at === i ? number : one)).join(", ")}]`} />
+        </div>
+      ))}
+    </div>
   );
 }
 
@@ -143,8 +168,9 @@ export function Control({ row, label }: { row: Row; label: string }) {
         {is_field && <Field row={row} side={side} text={said.value ?? text} fault={fault} id={id} off={off} described={described} range={range} />}
       </div>
       {own !== undefined && (row.kind === "number" || row.kind === "integer") && row.settable !== false && (
-        <Slider row={row} side={side} value={own} off={off} said={(to) => (said.value = to)} />
+        <Slider row={row} side={side} part="" value={own} off={off} whole={(number) => number} said={(to) => (said.value = to)} />
       )}
+      {row.kind === "vector" && row.slider !== undefined && row.settable !== false && <Sliders row={row} side={side} text={said.value ?? text} off={off} said={(to) => (said.value = to)} />}
       {fault !== undefined && (
         <p class="wrong" id={wrong} role="alert">
           <strong>{fault.text}</strong> {fault.more !== undefined && fault.more !== "" && <span>{fault.more}</span>}
@@ -152,8 +178,9 @@ export function Control({ row, label }: { row: Row; label: string }) {
         </p>
       )}
       <p class="what" id={what}>
-        {row.assumed === true && <span class="assumed" title={row.source ?? ""}>assumed</span>} {row.what ?? ""}
-        {row.source !== undefined && row.source !== "" && <span class="source"> · {row.source}</span>}
+        {row.assumed === true && <span class="assumed" title={row.source ?? ""}>assumed</span>}{" "}
+        <span title={row.source === undefined ? "" : `source: ${row.source}`}>{row.what ?? ""}</span>
+        {row.source !== undefined && <span class="unseen"> Source: {row.source}.</span>}
         {range !== "" && <span class="unseen"> {range}</span>}
       </p>
     </div>

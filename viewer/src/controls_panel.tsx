@@ -78,6 +78,13 @@ function Changed({ side }: { side: Side }) {
   );
 }
 
+/** An object is called by its name, too. */
+function title_of(part: string, { name, rows }: Group): string {
+  if (name === "") return part === "camera" ? "general" : part;
+  const called = /^\d+$/.test(name) ? rows.find((row) => row.name === "name" || /^[a-z_]+\.name$/.test(row.name))?.text : undefined;
+  return called === undefined || called === "" ? name : `${name} · ${called}`;
+}
+
 function GroupOf({ part, group, side }: { part: string; group: Group; side: Side }) {
   const place = `${part} ${group.name}`;
   const open = open_groups.value.has(place);
@@ -92,7 +99,7 @@ function GroupOf({ part, group, side }: { part: string; group: Group; side: Side
   return (
     <details class="group" open={open} onToggle={(event) => toggle(event.currentTarget.open)}>
       <summary>
-        {group.name === "" ? part : group.name} <span class="faint count">{group.rows.length}</span>
+        {title_of(part, group)} <span class="faint count">{group.rows.length}</span>
         {changed > 0 && <span class="count-changed">{changed} changed</span>}
       </summary>
       {open && group.rows.map((row) => <Control key={`${side} ${row.key}`} row={row} label={row.name} />)}
