@@ -81,8 +81,8 @@ function Changed({ side }: { side: Side }) {
 /** An object is called by its name, too. */
 function title_of(part: string, { name, rows }: Group): string {
   if (name === "") return part === "camera" ? "general" : part;
-  const called = /^\d+$/.test(name) ? rows.find((row) => row.name === "name" || /^[a-z_]+\.name$/.test(row.name))?.text : undefined;
-  return called === undefined || called === "" ? name : `${name} · ${called}`;
+  const called = rows.find((row) => row.label !== undefined)?.label ?? "";
+  return called === "" ? name : `${name} · ${called}`;
 }
 
 function GroupOf({ part, group, side }: { part: string; group: Group; side: Side }) {

@@ -124,6 +124,8 @@ export interface Row {
   part: string;
   group: string;
   name: string;
+  /** What the group is called: an object's name. */
+  label?: string;
   kind: "number" | "integer" | "switch" | "choice" | "text" | "vector" | "list" | "part";
   unit?: string;
   units?: string[];

@@ -25,7 +25,7 @@ export function found(rows: readonly Row[], text: string): Row[] {
   const graded: { row: Row; mark: number }[] = [];
   for (const row of rows) {
     const key_words = words_of(row.key);
-    const said = words_of(row.what ?? "");
+    const said = words_of(`${row.label ?? ""} ${row.what ?? ""}`);
     let mark = key_words.length / 100;   // of two that are alike, the one that is nearer to the root
     for (const word of wanted) mark += grade(word, key_words, said) ?? Infinity;
     if (mark < Infinity) graded.push({ row, mark });
