@@ -50,6 +50,15 @@ test("another aperture in B: A stays as it is, B has the picture of its command,
   same((await pane(tab, 0, "b")).pixels, colored(b), "B");
   same(await canvas_pixels(tab, 0, "b"), colored(b), "B on the screen");
 
+  // A pixel's values, of both.
+  await beside(tab, "Pixel");
+  await point_at(tab, 112, 86);
+  await page.locator('.answer[data-pixel="112,86"]').waitFor();
+  for (const [attribute, { z_m }] of [["data-value", a], ["data-value-b", b]]) {
+    const wanted = String(Number(z_m.values[86 * 224 + 112].toPrecision(6)));
+    await page.locator(`td[${attribute}="z_m"]`).getByText(new RegExp(`^${wanted.replace(".", "\\.")}0*\u00a0m$`)).waitFor();
+  }
+
   await way(tab, "Difference");
   await drawn(tab, "difference");
   const { low, high } = await page.locator(".scale").first().evaluate((one) => ({ low: Number(one.dataset.low), high: Number(one.dataset.high) }));
