@@ -57,6 +57,9 @@ std::string name_of(base::Dimension dimension) {
   return std::string(both.substr(both.find(' ') + 1));
 }
 
+/// Refused by the command line where no light bounces.
+const std::vector<std::string> of_bounces = {"transport.samples", "transport.max_samples", "transport.path_noise", "transport.smooth"};
+
 /// What holds for a key and all below it.
 struct Scope {
   std::string path;
@@ -428,6 +431,9 @@ std::vector<Control> controls_of(const Scene& scene, std::string_view text, cons
     if (key.name == "camera") continue;
     rows.value(key, key.form, root.find(key.name), {key.name, {}, false, true, true});
   }
+  if (scene.transport.bounces == 0)
+    for (Control& one : out)
+      if (contains(of_bounces, one.key)) one.settable = false, one.text.reset();
   return out;
 }
 

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <random>
 
 #include "support/text.h"
@@ -31,10 +32,97 @@ TEST(control, is_read_of_every_type) {
   EXPECT_EQ(pixel.v, 5);
   EXPECT_EQ(std::get<Fit>(parse_control(R"({"type":"fit","array":"z_m"})")).array, "z_m");
   const auto set = std::get<Edit>(parse_control(R"({"type":"set","id":1,"key":"a.b","text":""})"));
+  EXPECT_EQ(set.kind, Edit::Kind::set);
   EXPECT_EQ(set.key, "a.b");
   EXPECT_EQ(set.text, "");
-  EXPECT_FALSE(std::get<Edit>(parse_control(R"({"type":"unset","id":1,"key":"a.b"})")).text.has_value());
+  EXPECT_EQ(set.side, Side::a);
+  EXPECT_EQ(std::get<Edit>(parse_control(R"({"type":"unset","id":1,"key":"a.b","side":"b"})")).kind, Edit::Kind::unset);
+  EXPECT_EQ(std::get<Edit>(parse_control(R"({"type":"unset","id":1,"key":"a.b","side":"b"})")).side, Side::b);
   EXPECT_EQ(std::get<Edit>(parse_control(R"({"type":"seed","id":1,"seed":18446744073709551615})")).seed, UINT64_MAX);
+  const auto state =
+      std::get<Edit>(parse_control(R"({"type":"state","id":4,"overrides":[{"key":"a","text":"1"},{"key":"b","text":"2"}],"seed":7})"));
+  EXPECT_EQ(state.kind, Edit::Kind::state);
+  EXPECT_EQ(state.overrides, (Overrides{{"a", "1"}, {"b", "2"}}));
+  EXPECT_EQ(state.seed, 7u);
+  EXPECT_FALSE(std::get<Edit>(parse_control(R"({"type":"state","id":4,"overrides":[]})")).seed);
+  const auto other = std::get<Edit>(parse_control(R"({"type":"other","id":5,"overrides":[],"scene":"room"})"));
+  EXPECT_EQ(other.kind, Edit::Kind::open);
+  EXPECT_EQ(other.side, Side::b);
+  EXPECT_EQ(other.scene, "room");
+  EXPECT_EQ(std::get<Edit>(parse_control(R"({"type":"other","id":5,"overrides":null})")).kind, Edit::Kind::close);
+  EXPECT_EQ(std::get<Query>(parse_control(R"({"type":"controls","id":6,"side":"b"})")).side, Side::b);
+  EXPECT_EQ(std::get<Query>(parse_control(R"({"type":"save","id":7})")).kind, Query::Kind::save);
+  EXPECT_EQ(std::get<Acknowledge>(parse_control(R"({"type":"ack","sequence":1,"channel":1})")).side, Side::b);
+  EXPECT_EQ(std::get<PixelQuestion>(parse_control(R"({"type":"pixel","id":3,"u":4,"v":5,"side":"b"})")).side, Side::b);
+}
+
+// Each member of each message is left out, and stands as something else.
+TEST(control, of_every_type_is_refused_where_a_member_is_not_what_it_has_to_be) {
+  struct Message {
+    const char* type;
+    std::vector<std::pair<std::string, std::string>> members;  ///< name and a good value
+    std::vector<std::string> optional;
+  };
+  const std::vector<Message> all = {
+      {"want", {{"arrays", R"(["z_m"])"}, {"rate", "5"}}, {"rate"}},
+      {"visible", {{"visible", "true"}}, {}},
+      {"ack", {{"sequence", "1"}, {"channel", "1"}}, {"channel"}},
+      {"seek", {{"frame", "1"}}, {}},
+      {"pixel", {{"id", "1"}, {"u", "1"}, {"v", "1"}, {"side", R"("b")"}}, {"side"}},
+      {"fit", {{"array", R"("z_m")"}}, {}},
+      {"set", {{"id", "1"}, {"key", R"("a.b")"}, {"text", R"("1")"}, {"side", R"("b")"}}, {"side"}},
+      {"unset", {{"id", "1"}, {"key", R"("a.b")"}, {"side", R"("b")"}}, {"side"}},
+      {"seed", {{"id", "1"}, {"seed", "1"}, {"side", R"("b")"}}, {"side"}},
+      {"state", {{"id", "1"}, {"overrides", R"([{"key":"a","text":"1"}])"}, {"seed", "1"}, {"side", R"("b")"}}, {"seed", "side"}},
+      {"other", {{"id", "1"}, {"overrides", R"([{"key":"a","text":"1"}])"}, {"seed", "1"}, {"scene", R"("room")"}}, {"seed", "scene"}},
+      {"controls", {{"id", "1"}, {"side", R"("b")"}}, {"side"}},
+      {"save", {{"id", "1"}, {"side", R"("b")"}}, {"side"}}};
+  const char* const others[] = {"-1",
+                                "1.5",
+                                "1e30",
+                                "18446744073709551616",
+                                "{}",
+                                "[[]]",
+                                "[1]",
+                                R"([{"key":"a"}])",
+                                R"([{"text":"a"}])",
+                                R"([{"key":1,"text":"a"}])",
+                                R"([{"key":"a","text":1}])",
+                                R"([{"key":"a=b","text":"1"}])",
+                                R"([{"key":"","text":"1"}])",
+                                R"([null])",
+                                R"(["a=1"])",
+                                R"({"a":"1"})",
+                                "\"\"",
+                                "\"c\"",
+                                "\"\\ud800\"",
+                                "nul"};
+  int refused = 0;
+  for (const Message& message : all) {
+    const auto text_of = [&](const std::string& left_out, const std::string& changed, const std::string& to) {
+      std::string text = std::string(R"({"type":")") + message.type + '"';
+      for (const auto& [name, value] : message.members)
+        if (name != left_out) text += ",\"" + name + "\":" + (name == changed ? to : value);
+      return text + "}";
+    };
+    EXPECT_FALSE(std::holds_alternative<Refused>(parse_control(text_of({}, {}, {})))) << message.type;
+    for (const auto& [name, value] : message.members) {
+      const bool may_lack = std::find(message.optional.begin(), message.optional.end(), name) != message.optional.end();
+      EXPECT_EQ(std::holds_alternative<Refused>(parse_control(text_of(name, {}, {}))), !may_lack) << message.type << " without " << name;
+      for (const char* other : others) {
+        const bool is_text = name == "text" || name == "array", names_all = name == "scene" || name == "key";
+        const std::string to = other;
+        if (is_text && to.starts_with('"') && to != "\"\\ud800\"") continue;  // any text is good
+        if (names_all && to == "\"c\"") continue;
+        if (name == "rate" && to == "1.5") continue;
+        EXPECT_TRUE(std::holds_alternative<Refused>(parse_control(text_of({}, name, to)))) << text_of({}, name, to);
+        ++refused;
+      }
+      if (name == "overrides" && std::string(message.type) == "other") continue;  // it closes side B
+      EXPECT_TRUE(std::holds_alternative<Refused>(parse_control(text_of({}, name, "null")))) << text_of({}, name, "null");
+    }
+  }
+  EXPECT_GT(refused, 20 * 13);
 }
 
 TEST(control, that_is_wrong_is_answered_with_its_id_and_what_is_wrong) {

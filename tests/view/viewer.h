@@ -186,6 +186,8 @@ struct WsMessage {
 struct WireFrame {
   std::uint32_t generation = 0, sequence = 0, width = 0, height = 0;
   std::uint64_t frame = 0;
+  int channel = 0;  ///< 0: side A
+  bool draft = false;
   std::map<int, std::string> arrays;  ///< bytes, by number
 };
 
@@ -199,6 +201,7 @@ T little(const std::string& bytes, std::size_t at) {
 inline WireFrame wire_frame(const std::string& bytes) {
   WireFrame out;
   EXPECT_EQ(bytes.substr(0, 4), "TFV1");
+  out.channel = static_cast<unsigned char>(bytes[6]), out.draft = (bytes[7] & 1) != 0;
   out.generation = little<std::uint32_t>(bytes, 8), out.sequence = little<std::uint32_t>(bytes, 12);
   out.frame = little<std::uint64_t>(bytes, 16), out.width = little<std::uint32_t>(bytes, 32), out.height = little<std::uint32_t>(bytes, 36);
   for (int i = 0; i < little<std::uint16_t>(bytes, 44); ++i) {
@@ -223,7 +226,10 @@ class Page {
   void want(const std::string& arrays, const std::string& rate = "\"max\"") {
     send(R"({"type":"want","arrays":[)" + arrays + R"(],"rate":)" + rate + "}");
   }
-  void acknowledge(std::uint32_t sequence) { send(R"({"type":"ack","sequence":)" + std::to_string(sequence) + "}"); }
+  void acknowledge(std::uint32_t sequence, int channel = 0) {
+    send(R"({"type":"ack","sequence":)" + std::to_string(sequence) + R"(,"channel":)" + std::to_string(channel) + "}");
+  }
+  void acknowledge(const WireFrame& frame) { acknowledge(frame.sequence, frame.channel); }
 
   WsMessage next(milliseconds within = milliseconds(10'000)) {
     WsMessage out;
@@ -248,7 +254,7 @@ class Page {
     const Clock::time_point end = Clock::now() + within;
     while (Clock::now() < end) {
       const WsMessage one = next(std::chrono::duration_cast<milliseconds>(end - Clock::now()));
-      if (one.opcode == 2) acknowledge(wire_frame(one.payload).sequence);
+      if (one.opcode == 2) acknowledge(wire_frame(one.payload));
       if (one.opcode == 1 && *one.json().find("type")->string() == type) return one.json();
       if (one.opcode < 0) return {};
     }
@@ -263,6 +269,33 @@ class Page {
       if (one.opcode < 0) return {};
     }
     return {};
+  }
+  /// The next frame for which this holds; others on the way are acknowledged, and it, too.
+  std::optional<WireFrame> frame_with(const std::function<bool(const WireFrame&)>& holds) {
+    const Clock::time_point end = Clock::now() + milliseconds(20'000);
+    while (Clock::now() < end) {
+      const auto one = frame();
+      if (!one) return {};
+      acknowledge(*one);
+      if (holds(*one)) return one;
+    }
+    return {};
+  }
+  /// Sends a message and takes what answers it: `done`, `fault` or of that type.
+  files::Json answer(const std::string& json, const std::string& type = "done") {
+    send(json);
+    const Clock::time_point end = Clock::now() + milliseconds(20'000);
+    while (Clock::now() < end) {
+      const WsMessage one = next();
+      if (one.opcode < 0) break;
+      if (one.opcode == 2) acknowledge(wire_frame(one.payload));
+      if (one.opcode != 1) continue;
+      const files::Json read = one.json();
+      const std::string& is = *read.find("type")->string();
+      if (is == type || is == "fault") return read;
+    }
+    ADD_FAILURE() << "no answer to " << json;
+    return files::Json::object().set("type", "none");
   }
   Line& line() { return line_; }
 

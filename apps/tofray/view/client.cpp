@@ -74,29 +74,37 @@ void Client::tell(std::shared_ptr<const std::string> text) {
 
 void Client::offer(const std::shared_ptr<const Published>& frame) {
   if (!looks()) return;
-  if (pending_) ++dropped_;
-  pending_ = frame;
+  Channel& channel = channels_[static_cast<std::size_t>(frame->side)];
+  if (channel.pending) ++dropped_;
+  channel.pending = frame, channel.since = ++offered_;
   pump();
 }
+
+void Client::drop_pending() {
+  for (Channel& one : channels_) one.pending.reset();
+}
+
+void Client::forget_other() { channels_[1] = Channel(); }
 
 void Client::want(Want want) {
   const bool again = want.arrays != arrays_;
   arrays_ = std::move(want.arrays);
   if (want.rate) rate_ = *want.rate;
-  if (again) pending_.reset();
-  next_ = {};
+  if (again) drop_pending();
+  for (Channel& one : channels_) one.next = {};
   hub_.wanted(again);
 }
 
 void Client::show(bool visible) {
   const bool again = visible && !visible_;
   visible_ = visible;
-  if (!visible) pending_.reset();
+  if (!visible) drop_pending();
   hub_.wanted(again);
 }
 
-void Client::acknowledge(std::uint32_t sequence) {
-  while (!unacknowledged_.empty() && unacknowledged_.front() <= sequence) unacknowledged_.pop_front();
+void Client::acknowledge(const Acknowledge& drawn) {
+  auto& waiting = channels_[static_cast<std::size_t>(drawn.side)].unacknowledged;
+  while (!waiting.empty() && waiting.front() <= drawn.sequence) waiting.pop_front();
   pump();
   hub_.wanted(false);
 }
@@ -109,28 +117,37 @@ void Client::pump() {
     texts_.pop_front();
     return write(std::move(text), true);
   }
-  if (!pending_ || !looks() || unacknowledged_.size() >= most_unacknowledged) return;
+  // The two sides' frames of a number come after each other.
+  const std::size_t first = channels_[1].pending && channels_[1].since < channels_[0].since ? 1 : 0;
+  if (!pump(channels_[first])) pump(channels_[1 - first]);
+}
+
+bool Client::pump(Channel& channel) {
+  if (!channel.pending || !looks() || channel.unacknowledged.size() >= most_unacknowledged) return false;
   const Clock::time_point now = Clock::now();
   const double rate = hz();
   // A frame that comes a little early is of a clock that ticks as fast.
   const auto period = std::isfinite(rate) && rate > 0 ? std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(1 / rate))
                                                       : Clock::duration::zero();
-  if (!pending_->at_once && now + period / 10 < next_) {
-    later_.expires_at(next_ - period / 10);
+  if (!channel.pending->at_once && now + period / 10 < channel.next) {
+    later_.expires_at(channel.next - period / 10);
     later_.async_wait([weak = weak_from_this()](error_code error) {
       if (const auto self = weak.lock(); self && !error) self->pump();
     });
-    return;
+    return false;
   }
-  const auto frame = std::exchange(pending_, nullptr);
+  const auto frame = std::exchange(channel.pending, nullptr);
+  bool sends = false;
   for (const auto& [arrays, bytes] : frame->messages) {
     if (arrays != arrays_) continue;
-    next_ = std::max(next_ + period, now), unacknowledged_.push_back(frame->sequence), ++sent_;
-    seen_generation = frame->generation, seen_frame = frame->frame;
+    channel.next = std::max(channel.next + period, now), channel.unacknowledged.push_back(frame->sequence), ++sent_;
+    channel.seen = {frame->generation, frame->frame};
     write(bytes, false);
+    sends = true;
     break;
   }
   hub_.wanted(false);
+  return sends;
 }
 
 void Client::write(std::shared_ptr<const std::string> bytes, bool text) {
@@ -147,7 +164,7 @@ void Client::write(std::shared_ptr<const std::string> bytes, bool text) {
 
 void Client::close(websocket::close_code code) {
   if (std::exchange(closing_, true)) return;
-  texts_.clear(), pending_.reset(), later_.cancel();
+  texts_.clear(), drop_pending(), later_.cancel();
   socket_.async_close(code, [self = shared_from_this()](error_code) {});
   hub_.wanted(false);
 }

@@ -31,22 +31,40 @@ class Client : public std::enable_shared_from_this<Client> {
 
   void want(Want want);
   void show(bool visible);
-  void acknowledge(std::uint32_t sequence);
+  void acknowledge(const Acknowledge& drawn);
+  /// What of side B waits or was sent counts no longer.
+  void forget_other();
 
   [[nodiscard]] std::uint64_t number() const { return number_; }
   /// Whether it looks at anything.
   [[nodiscard]] bool looks() const { return greeted_ && visible_ && !arrays_.empty() && !closing_; }
   /// … and would get another frame at once.
-  [[nodiscard]] bool has_room() const { return looks() && !pending_ && unacknowledged_.size() < most_unacknowledged; }
+  [[nodiscard]] bool has_room() const { return looks() && channels_[0].has_room() && (!hub_.has_other() || channels_[1].has_room()); }
   [[nodiscard]] const std::vector<std::uint16_t>& arrays() const { return arrays_; }
   [[nodiscard]] double hz() const { return hub_.hz_of(rate_); }
   [[nodiscard]] std::uint64_t sent() const { return sent_; }
   [[nodiscard]] std::uint64_t dropped() const { return dropped_; }
-  std::uint32_t seen_generation = 0;  ///< of the frame that it got last
-  std::uint64_t seen_frame = 0;
+  /// The frame that it got last.
+  struct Seen {
+    std::uint32_t generation = 0;
+    std::uint64_t frame = 0;
+  };
+  [[nodiscard]] const Seen& seen(Side side) const { return channels_[static_cast<std::size_t>(side)].seen; }
 
  private:
   static constexpr std::size_t most_unacknowledged = 2, most_waiting_bytes = 1'000'000;
+  /// The frames of a side.
+  struct Channel {
+    std::shared_ptr<const Published> pending;
+    std::uint64_t since = 0;  ///< which frame it was of all that were offered
+    std::deque<std::uint32_t> unacknowledged;
+    Clock::time_point next{};
+    Seen seen;
+    [[nodiscard]] bool has_room() const { return !pending && unacknowledged.size() < most_unacknowledged; }
+  };
+  void drop_pending();
+  /// @return whether it sends something
+  bool pump(Channel& channel);
   void read();
   void pump();
   void write(std::shared_ptr<const std::string> bytes, bool text);
@@ -62,10 +80,8 @@ class Client : public std::enable_shared_from_this<Client> {
   bool visible_ = true, greeted_ = false, writing_ = false, closing_ = false;
   std::deque<std::shared_ptr<const std::string>> texts_;
   std::size_t waiting_bytes_ = 0;
-  std::shared_ptr<const Published> pending_;
-  std::deque<std::uint32_t> unacknowledged_;
-  Clock::time_point next_{};
-  std::uint64_t sent_ = 0, dropped_ = 0;
+  Channel channels_[2];
+  std::uint64_t offered_ = 0, sent_ = 0, dropped_ = 0;
 };
 
 }  // namespace tofray::view

@@ -17,7 +17,7 @@ namespace {
 
 using files::Json;
 
-constexpr std::size_t most_values = 1000, most_key = 1000;
+constexpr std::size_t most_values = 10'000, most_key = 1000;
 constexpr std::uint64_t most_frame = 1'000'000'000;
 constexpr double least_rate = 0.01, most_rate = 1000;
 
@@ -80,40 +80,93 @@ Want want_of(const Json& message) {
   return out;
 }
 
-Edit edit_of(const Json& message, bool with_text) {
+std::uint64_t id_of(const Json& message) { return whole(message, "id", UINT64_MAX); }
+
+Side side_of(const Json& message) {
+  const Json* found = message.find("side");
+  if (found == nullptr) return Side::a;
+  if (found->is_string() && *found->string() == "a") return Side::a;
+  if (found->is_string() && *found->string() == "b") return Side::b;
+  throw Fault{"\"side\" is neither a nor b", ""};
+}
+
+std::string key_of(const Json& message) {
+  std::string key = text_of(message, "key");
+  if (key.empty() || key.size() > most_key || key.find('=') != std::string::npos)
+    throw Fault{base::in_quotes(key) + " is no key", "expected a key of --set, as in camera.lens.f_number"};
+  return key;
+}
+
+Edit edit_of(const Json& message, Edit::Kind kind) {
   Edit out;
-  out.id = whole(message, "id", UINT64_MAX);
-  out.key = text_of(message, "key");
-  if (out.key.empty() || out.key.size() > most_key || out.key.find('=') != std::string::npos)
-    throw Fault{base::in_quotes(out.key) + " is no key", "expected a key of --set, as in camera.lens.f_number"};
-  if (with_text) out.text = text_of(message, "text");
+  out.kind = kind, out.id = id_of(message), out.side = side_of(message);
+  out.key = key_of(message);
+  if (kind == Edit::Kind::set) out.text = text_of(message, "text");
   return out;
 }
 
 Edit seed_of(const Json& message) {
   Edit out;
-  out.id = whole(message, "id", UINT64_MAX), out.seed = whole(message, "seed", UINT64_MAX);
+  out.kind = Edit::Kind::seed, out.id = id_of(message), out.side = side_of(message), out.seed = whole(message, "seed", UINT64_MAX);
+  return out;
+}
+
+/// What sets a state as a whole: each key once.
+Edit state_of(const Json& message, Edit::Kind kind) {
+  Edit out;
+  out.kind = kind, out.id = id_of(message);
+  out.side = kind == Edit::Kind::open ? Side::b : side_of(message);
+  if (message.find("seed") != nullptr) out.seed = whole(message, "seed", UINT64_MAX);
+  const Json& overrides = member(message, "overrides");
+  if (!overrides.is_array()) throw Fault{"\"overrides\" is no list", ""};
+  for (const Json& one : *overrides.items()) {
+    if (!one.is_object()) throw Fault{"one of \"overrides\" is no JSON object", R"(expected {"key": …, "text": …})"};
+    out.overrides.emplace_back(key_of(one), text_of(one, "text"));
+  }
+  return out;
+}
+
+Edit other_of(const Json& message) {
+  if (member(message, "overrides").is_null()) {
+    Edit out;
+    out.kind = Edit::Kind::close, out.id = id_of(message), out.side = Side::b;
+    return out;
+  }
+  Edit out = state_of(message, Edit::Kind::open);
+  if (message.find("scene") == nullptr) return out;
+  out.scene = text_of(message, "scene");
+  if (out.scene.empty() || out.scene.size() > most_key) throw Fault{base::in_quotes(out.scene) + " is no scene's name", ""};
+  return out;
+}
+
+Acknowledge acknowledge_of(const Json& message) {
+  Acknowledge out{static_cast<std::uint32_t>(whole(message, "sequence", UINT32_MAX)), Side::a};
+  if (message.find("channel") != nullptr) out.side = whole(message, "channel", 1) == 1 ? Side::b : Side::a;
   return out;
 }
 
 PixelQuestion pixel_of(const Json& message) {
   constexpr std::uint64_t most = 16384;
-  return {whole(message, "id", UINT64_MAX), static_cast<int>(whole(message, "u", most)), static_cast<int>(whole(message, "v", most))};
+  return {id_of(message), static_cast<int>(whole(message, "u", most)), static_cast<int>(whole(message, "v", most)), side_of(message)};
 }
 
 Control control_of(const Json& message) {
   const std::string type = text_of(message, "type");
   if (type == "want") return want_of(message);
   if (type == "visible") return Visible{truth_of(message, "visible")};
-  if (type == "ack") return Acknowledge{static_cast<std::uint32_t>(whole(message, "sequence", UINT32_MAX))};
+  if (type == "ack") return acknowledge_of(message);
   if (type == "play" || type == "pause") return Play{type == "play"};
   if (type == "seek") return Seek{whole(message, "frame", most_frame)};
   if (type == "pixel") return pixel_of(message);
   if (type == "fit") return Fit{text_of(message, "array")};
-  if (type == "set" || type == "unset") return edit_of(message, type == "set");
+  if (type == "set" || type == "unset") return edit_of(message, type == "set" ? Edit::Kind::set : Edit::Kind::unset);
   if (type == "seed") return seed_of(message);
+  if (type == "state") return state_of(message, Edit::Kind::state);
+  if (type == "other") return other_of(message);
+  if (type == "controls" || type == "save")
+    return Query{type == "save" ? Query::Kind::save : Query::Kind::controls, id_of(message), side_of(message)};
   throw Fault{"no message is of the type " + base::in_quotes(type),
-              "expected ack, fit, pause, pixel, play, seed, seek, set, unset, visible or want"};
+              "expected ack, controls, fit, other, pause, pixel, play, save, seed, seek, set, state, unset, visible or want"};
 }
 
 }  // namespace

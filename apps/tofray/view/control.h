@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -18,6 +19,9 @@ struct Rate {
   bool operator==(const Rate&) const = default;
 };
 
+/// Two states may be looked at beside each other.
+enum class Side : std::uint8_t { a, b };
+
 struct Want {
   std::vector<std::uint16_t> arrays;  ///< each once, in order
   std::optional<Rate> rate;
@@ -27,6 +31,7 @@ struct Visible {
 };
 struct Acknowledge {
   std::uint32_t sequence = 0;
+  Side side = Side::a;
 };
 struct Play {
   bool playing = true;
@@ -37,16 +42,35 @@ struct Seek {
 struct PixelQuestion {
   std::uint64_t id = 0;
   int u = 0, v = 0;
+  Side side = Side::a;
 };
 struct Fit {
   std::string array;
 };
-/// A change of the state. What has no text takes the key out of the list of --set.
+/// Key and value as of --set.
+using Overrides = std::vector<std::pair<std::string, std::string>>;
+/// A change of a side's state.
 struct Edit {
+  enum class Kind : std::uint8_t {
+    set,
+    unset,  ///< takes the key out of the list of --set
+    seed,
+    state,  ///< list and seed at once
+    open,   ///< side B, with this list
+    close,
+  } kind = Kind::set;
   std::uint64_t id = 0;
-  std::string key;  ///< empty: the seed
-  std::optional<std::string> text;
-  std::uint64_t seed = 0;
+  Side side = Side::a;
+  std::string key, text;
+  std::optional<std::uint64_t> seed;
+  Overrides overrides;
+  std::string scene;  ///< of `open`: a built-in scene's or profile's name; empty: side A's scene
+};
+/// What is told once, to who asks.
+struct Query {
+  enum class Kind : std::uint8_t { controls, save } kind = Kind::controls;
+  std::uint64_t id = 0;
+  Side side = Side::a;
 };
 /// A message that is none of these: what to answer.
 struct Refused {
@@ -54,7 +78,7 @@ struct Refused {
   std::string text, more;
 };
 
-using Control = std::variant<Refused, Want, Visible, Acknowledge, Play, Seek, PixelQuestion, Fit, Edit>;
+using Control = std::variant<Refused, Want, Visible, Acknowledge, Play, Seek, PixelQuestion, Fit, Edit, Query>;
 
 /// Reads one message. Throws nothing but for a lack of memory.
 Control parse_control(std::string_view text);

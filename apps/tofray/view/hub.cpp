@@ -51,6 +51,15 @@ void Hub::own_rate(double hz) {
   });
 }
 
+void Hub::other(bool open) {
+  net::post(io_, [this, open] {
+    has_other_ = open;
+    const auto clients = clients_;
+    for (const auto& [number, client] : clients) client->forget_other();
+    wanted(false);
+  });
+}
+
 std::uint64_t Hub::join(Client& client) {
   clients_.emplace(next_, &client);
   session_.join(next_);
@@ -84,15 +93,19 @@ void Hub::took(Client& client, const std::string& message) {
     Hub& hub;
     Client& client;
     void operator()(Refused& refused) const {
-      client.tell(std::make_shared<const std::string>(fault_text(refused.id, refused.text, refused.more)));
+      client.tell(std::make_shared<const std::string>(fault_lines(refused.id, refused.text, refused.more)));
     }
     void operator()(Want& want) const { client.want(std::move(want)); }
     void operator()(const Visible& one) const { client.show(one.visible); }
-    void operator()(const Acknowledge& one) const { client.acknowledge(one.sequence); }
+    void operator()(const Acknowledge& one) const { client.acknowledge(one); }
     void operator()(const Play& one) const { hub.session_.play(one.playing); }
     void operator()(const Seek& one) const { hub.session_.seek(one.frame); }
-    void operator()(const PixelQuestion& one) const { hub.session_.ask({client.number(), one, client.seen_generation, client.seen_frame}); }
+    void operator()(const PixelQuestion& one) const {
+      const Client::Seen& seen = client.seen(one.side);
+      hub.session_.ask({client.number(), one, seen.generation, seen.frame});
+    }
     void operator()(Fit& one) const { hub.session_.fit(client.number(), std::move(one.array)); }
+    void operator()(const Query& one) const { hub.session_.query(client.number(), one); }
     void operator()(Edit& one) const { hub.session_.edit(client.number(), std::move(one)); }
   };
   Control control = parse_control(message);

@@ -27,6 +27,7 @@ class Hub : public Outbox {
   void tell(std::uint64_t client, std::string text) override;
   void tell_all(std::string text) override;
   void own_rate(double hz) override;
+  void other(bool open) override;
 
   std::uint64_t join(Client& client);
   void leave(std::uint64_t client);
@@ -34,6 +35,8 @@ class Hub : public Outbox {
   /// Tells the session what is wanted now. @param again  see Session::demand
   void wanted(bool again);
   [[nodiscard]] double hz_of(const Rate& rate) const;
+  /// Whether there is a side B.
+  [[nodiscard]] bool has_other() const { return has_other_; }
   [[nodiscard]] const Rate& usual_rate() const { return rate_; }
   [[nodiscard]] const Admission& admission() const { return admission_; }
   void close_all();
@@ -51,6 +54,7 @@ class Hub : public Outbox {
   std::map<std::uint64_t, Client*> clients_;
   std::uint64_t next_ = 1;
   double own_hz_ = 0;
+  bool has_other_ = false;
   SessionCounts counts_;
   std::uint64_t told_computed_ = 0;
   std::chrono::steady_clock::time_point told_at_{};

@@ -7,10 +7,13 @@
 #include <utility>
 #include <vector>
 
+#include "view/control.h"
+
 namespace tofray::view {
 
 /// A frame on its way to pages: each set of arrays that is wanted encoded once, and shared by all who want it.
 struct Published {
+  Side side = Side::a;
   std::uint32_t generation = 0, sequence = 0;
   std::uint64_t frame = 0;
   bool at_once = false;  ///< the answer to a change: no page's own rate holds it up
@@ -32,6 +35,8 @@ class Outbox {
   virtual void tell(std::uint64_t client, std::string text) = 0;
   virtual void tell_all(std::string text) = 0;
   virtual void own_rate(double hz) = 0;
+  /// Side B is there from now on, anew where it was there before, or no longer.
+  virtual void other(bool open) = 0;
 };
 
 }  // namespace tofray::view

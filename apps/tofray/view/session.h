@@ -39,8 +39,9 @@ struct Question {
   std::uint64_t frame = 0;  ///< of the frame that the page got last
 };
 
-/// The one state that pages look at, scene + list of --set + seed + frame, and the thread that computes it. What it is told waits in a mailbox
-/// where the newest wins: of several changes of a key, several questions of a page, several places in time, the last one counts.
+/// What all pages look at, one state or two beside each other, each a scene + list of --set + seed, at one frame, and the thread that
+/// computes them. What it is told waits in a mailbox
+/// where the newest wins: of several changes of a key by one page, several questions of it, several places in time, the last one counts.
 class Session {
  public:
   /// @throws Error where the scene cannot be simulated
@@ -64,6 +65,7 @@ class Session {
   void seek(std::uint64_t frame);
   void ask(const Question& question);
   void fit(std::uint64_t client, std::string array);
+  void query(std::uint64_t client, const Query& query);
 
   /// What the command says of scene and camera that is odd, for stderr.
   [[nodiscard]] std::string warnings() const;

@@ -5,8 +5,11 @@
 #include <algorithm>
 
 #include "base/readout.h"
+#include "base/text.h"
 #include "load/builtin.h"
+#include "load/controls.h"
 #include "results/meta.h"
+#include "tofray/error.h"
 #include "tofray/load.h"
 
 namespace tofray::view {
@@ -16,7 +19,7 @@ namespace {
 using files::Json;
 
 /// A word as a shell takes it.
-std::string quoted(const std::string& word) {
+std::string shell_word(const std::string& word) {
   const auto plain = [](char c) {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
            std::string_view("_-./=:,+@%").find(c) != std::string_view::npos;
@@ -27,19 +30,68 @@ std::string quoted(const std::string& word) {
   return out + "'";
 }
 
+/// Camera and mode of that name in place of the scene's: the mode that the scene names is of another camera.
+void use_camera(Overrides& set, const std::string& name) {
+  set.insert(set.begin(), {{"camera.profile", name}, {"camera.mode", load_camera(name).mode.name}});
+}
+
+bool is_scene(const std::string& name) { return load::find_builtin(load::builtin_scenes(), name) != nullptr; }
+bool is_profile(const std::string& name) { return load::find_builtin(load::builtin_profiles(), name) != nullptr; }
+
+std::string_view scene_text(const State& state) {
+  const results::InputFile& file = state.in.files.at(0);
+  return file.text.empty() ? load::builtin_scene_text(file.name) : std::string_view(file.text);
+}
+
+/// Of render: what is no key. @param scene  as a shell takes it
+std::string command_with(const State& state, const std::string& scene) {
+  const app::Options& o = state.options;
+  std::string out = "tofray render " + scene;
+  if (!o.root.empty()) out += " --root " + shell_word(o.root);
+  if (o.seed) out += " --seed " + std::to_string(*o.seed);
+  if (o.noise) out += std::string(" --noise ") + results::noise_name(*o.noise);
+  if (o.exposure_samples) out += " --exposure-samples " + std::to_string(*o.exposure_samples);
+  if (o.subpixel) out += " --subpixel " + std::to_string(*o.subpixel);
+  return out;
+}
+
+std::string time_of(const State& state) {
+  return !state.playing && state.frame > 0 ? " --first-frame " + std::to_string(state.frame) : std::string();
+}
+
+/// width, height, phases, frame_rate_hz, camera and mode of the camera.
+void put_camera(Json& json, const State& state) {
+  const Camera& camera = state.in.camera;
+  const Sensor sensor = base::as_read_out(camera).sensor;
+  json.set("scene", state.in.scene.name).set("camera", camera.name).set("mode", camera.mode.name);
+  json.set("width", sensor.width).set("height", sensor.height).set("phases", camera.mode.sequence.size());
+  json.set("frame_rate_hz", camera.mode.frame_rate_hz);
+}
+
+/// What each side has for itself.
+void put_side(Json& json, const State& state) {
+  Json overrides = Json::array();
+  for (const auto& [key, text] : state.options.set) overrides.push(Json::object().set("key", key).set("text", text));
+  json.set("overrides", std::move(overrides)).set("seed", state.options.seed.value_or(0)).set("command", command_of(state));
+  json.set("generation", state.generation);
+  put_camera(json, state);
+}
+
 }  // namespace
+
+const char* name_of(Side side) { return side == Side::a ? "a" : "b"; }
 
 State first_state(const app::Options& options) {
   State state;
   state.options = options;
   if (state.options.words.empty()) state.options.words.emplace_back("demo");
   std::string& scene = state.options.words[0];
-  if (load::find_builtin(load::builtin_scenes(), scene) == nullptr && load::find_builtin(load::builtin_profiles(), scene) != nullptr) {
-    // The mode that the scene names is of another camera.
-    const Camera camera = load_camera(scene);
-    state.options.set.insert(state.options.set.begin(), {{"camera.profile", scene}, {"camera.mode", camera.mode.name}});
+  if (!is_scene(scene) && is_profile(scene)) {
+    use_camera(state.options.set, scene);
     scene = "demo";
   }
+  // One list says all: a key that is set later then counts more than --mode.
+  if (!state.options.mode.empty()) state.options.set.emplace_back("camera.mode", std::exchange(state.options.mode, {}));
   state.in = app::load_inputs(scene, state.options);
   return state;
 }
@@ -49,66 +101,114 @@ State changed(const State& before, const Edit& edit) {
   state.options = before.options;
   state.generation = before.generation + 1, state.frame = before.frame, state.playing = before.playing;
   auto& set = state.options.set;
-  if (edit.key.empty()) {
-    state.options.seed = edit.seed;
-  } else {
-    const auto same = [&](const auto& one) { return one.first == edit.key; };
-    const auto found = std::find_if(set.rbegin(), set.rend(), same);
-    if (!edit.text)
-      std::erase_if(set, same);
-    else if (found != set.rend())
-      found->second = *edit.text;
-    else
-      set.emplace_back(edit.key, *edit.text);
+  const auto same = [&](const auto& one) { return one.first == edit.key; };
+  switch (edit.kind) {
+    case Edit::Kind::set: {
+      const auto found = std::find_if(set.rbegin(), set.rend(), same);
+      if (found != set.rend())
+        found->second = edit.text;
+      else
+        set.emplace_back(edit.key, edit.text);
+      break;
+    }
+    case Edit::Kind::unset: std::erase_if(set, same); break;
+    case Edit::Kind::state: set = edit.overrides; [[fallthrough]];
+    default:
+      if (edit.seed) state.options.seed = edit.seed;
+  }
+  state.in = app::load_inputs(state.options.words[0], state.options);
+  return state;
+}
+
+State opened(const State& like, const Edit& edit, std::uint32_t generation) {
+  State state;
+  state.options = like.options;
+  state.generation = generation, state.frame = like.frame, state.playing = like.playing;
+  state.options.set = edit.overrides;
+  if (edit.seed) state.options.seed = edit.seed;
+  if (is_scene(edit.scene)) {
+    state.options.words[0] = edit.scene;
+  } else if (is_profile(edit.scene)) {
+    use_camera(state.options.set, edit.scene);
+  } else if (!edit.scene.empty()) {
+    std::vector<std::string> known;
+    for (const auto* all : {&load::builtin_scenes(), &load::builtin_profiles()})
+      for (const load::Builtin& one : *all) known.push_back(one.name);
+    throw Error(ErrorKind::bad_input,
+                "error: no built-in scene or camera is called " + base::in_quotes(edit.scene) + base::did_you_mean(edit.scene, known) +
+                    "\n  `tofray list scenes` and `tofray list cameras` name them; a file cannot be opened from here");
   }
   state.in = app::load_inputs(state.options.words[0], state.options);
   return state;
 }
 
 std::string command_of(const State& state) {
-  const app::Options& o = state.options;
-  std::string out = "tofray render " + quoted(o.words[0]);
-  if (!o.root.empty()) out += " --root " + quoted(o.root);
-  if (!o.mode.empty()) out += " --mode " + quoted(o.mode);
-  if (o.seed) out += " --seed " + std::to_string(*o.seed);
-  if (o.noise) out += std::string(" --noise ") + results::noise_name(*o.noise);
-  if (o.exposure_samples) out += " --exposure-samples " + std::to_string(*o.exposure_samples);
-  if (o.subpixel) out += " --subpixel " + std::to_string(*o.subpixel);
-  for (const auto& [key, value] : o.set) out += " --set " + quoted(key + "=" + value);
-  if (!state.playing && state.frame > 0) out += " --first-frame " + std::to_string(state.frame);
+  std::string out = command_with(state, shell_word(state.options.words[0]));
+  for (const auto& [key, value] : state.options.set) out += " --set " + shell_word(key + "=" + value);
+  return out + time_of(state);
+}
+
+Saved saved(const State& state) {
+  Saved out;
+  out.name = state.in.scene.name + ".yaml";
+  out.command = command_with(state, shell_word(out.name)) + time_of(state);
+  out.text = "# saved by tofray view: " + base::printable(command_of(state)) + "\n" +
+             load::scene_yaml(scene_text(state), state.in.scene.source, state.options.set);
   return out;
 }
 
-void put_camera(Json& json, const State& state) {
-  const Camera& camera = state.in.camera;
-  const Sensor sensor = base::as_read_out(camera).sensor;
-  json.set("scene", state.in.scene.name).set("camera", camera.name).set("mode", camera.mode.name);
-  json.set("width", sensor.width).set("height", sensor.height).set("phases", camera.mode.sequence.size());
-  json.set("frame_rate_hz", camera.mode.frame_rate_hz);
+void put_state(Json& json, const State& state, const State* other) {
+  json.set("side", name_of(Side::a)).set("playing", state.playing).set("frame", state.frame);
+  put_side(json, state);
+  if (other == nullptr) {
+    json.set("other", nullptr);
+  } else {
+    Json of_other = Json::object();
+    put_side(of_other, *other);
+    json.set("other", std::move(of_other));
+  }
 }
 
-std::string state_text(const State& state) {
-  Json overrides = Json::array();
-  for (const auto& [key, value] : state.options.set) overrides.push(Json::array().push(key).push(value));
+std::string state_text(const State& state, const State* other) {
   Json json = Json::object();
-  json.set("type", "state").set("generation", state.generation).set("playing", state.playing).set("frame", state.frame);
-  json.set("overrides", std::move(overrides)).set("seed", state.options.seed.value_or(0)).set("command", command_of(state));
-  put_camera(json, state);
+  json.set("type", "state");
+  put_state(json, state, other);
   return files::json_text(json);
 }
 
-std::string fault_text(std::optional<std::uint64_t> id, const std::string& text) {
-  const std::size_t end = std::min(text.find('\n'), text.size()), more = text.find_first_not_of(" \n", end);
-  return fault_text(id, text.substr(0, end), more == std::string::npos ? "" : text.substr(more));
+std::string controls_text(const State& state, const Query& query) {
+  constexpr std::size_t most_bytes = 800'000;  // a page that takes 1 MB too slowly is let go
+  std::string rows;
+  std::size_t left_out = 0;
+  for (const load::Control& one :
+       load::controls_of(state.in.scene, scene_text(state), state.options.set, {state.options.mode, {}, state.options.root})) {
+    const std::string row = left_out > 0 ? std::string() : files::json_text(load::json_of(one));
+    if (left_out > 0 || rows.size() + row.size() > most_bytes)
+      ++left_out;
+    else
+      rows += (rows.empty() ? "" : ",") + row;
+  }
+  Json json = Json::object();
+  json.set("type", "controls").set("id", query.id).set("generation", state.generation).set("side", name_of(query.side));
+  if (left_out > 0) json.set("left_out", left_out);
+  std::string out = files::json_text(json);
+  out.back() = ',';
+  return out + "\"controls\":[" + rows + "]}";
 }
 
-std::string fault_text(std::optional<std::uint64_t> id, const std::string& text, const std::string& more) {
+std::string fault_text(std::optional<std::uint64_t> id, const std::string& text, const std::string& key) {
+  const std::size_t end = std::min(text.find('\n'), text.size()), more = text.find_first_not_of(" \n", end);
+  return fault_lines(id, text.substr(0, end), more == std::string::npos ? "" : text.substr(more), key);
+}
+
+std::string fault_lines(std::optional<std::uint64_t> id, const std::string& text, const std::string& more, const std::string& key) {
   Json json = Json::object();
   json.set("type", "fault");
   if (id)
     json.set("id", *id);
   else
     json.set("id", nullptr);
+  if (!key.empty()) json.set("key", key);
   json.set("text", text);
   return files::json_text(json.set("more", more));
 }

@@ -24,19 +24,33 @@ struct State {
 /// The state of a command line. @throws Error
 State first_state(const app::Options& options);
 
-/// The same with a change. @throws Error in the command line's own words
+/// The same with a change, of the next generation. @throws Error in the command line's own words
 State changed(const State& before, const Edit& edit);
+/// What side B begins with. @param like  side A  @throws Error
+State opened(const State& like, const Edit& edit, std::uint32_t generation);
 
 /// The command that makes the frame's files: where time stands still, with its number.
 std::string command_of(const State& state);
 
-/// width, height, phases, frame_rate_hz, camera and mode of the camera.
-void put_camera(files::Json& json, const State& state);
+/// The scene's file with all that --set and --mode changed, and the command that makes the frame's files out of it.
+struct Saved {
+  std::string name, text, command;
+};
+Saved saved(const State& state);
+
+/// Adds to a document what `hello` and `state` have of both sides. @param other  side B, or none
+void put_state(files::Json& json, const State& state, const State* other);
 /// The message `state`.
-std::string state_text(const State& state);
+std::string state_text(const State& state, const State* other);
+/// The message `controls`.
+std::string controls_text(const State& state, const Query& query);
 
 /// A message `fault` out of an error's text. @param id  of the message that it answers; none where it answers nothing
-std::string fault_text(std::optional<std::uint64_t> id, const std::string& text);
-std::string fault_text(std::optional<std::uint64_t> id, const std::string& text, const std::string& more);
+/// @param key  at fault; empty: none in particular
+std::string fault_text(std::optional<std::uint64_t> id, const std::string& text, const std::string& key = {});
+/// The same of a first line and what follows.
+std::string fault_lines(std::optional<std::uint64_t> id, const std::string& text, const std::string& more, const std::string& key = {});
+
+const char* name_of(Side side);
 
 }  // namespace tofray::view
