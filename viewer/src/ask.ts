@@ -6,14 +6,15 @@ import { effect } from "@preact/signals";
 import { fit_difference, shown_by } from "./compare";
 import { next_id, send } from "./connection";
 import type { Fault, Pixel, Side } from "./protocol";
-import { cursor, frame, frame_of, link, of_b, pixel, pixel_b, rate, shown, state, tab_shown } from "./store";
+import { cursor, frame, frame_of, link, of_b, pixel, pixel_b, rate, shown, state, tab_shown, type Cursor } from "./store";
 
 const rest_ms = 40;             // the cursor stands still
 const pause_ms = 200;           // from one question to the next
 const playing_pause_ms = 500;   // the same while frames pass by: each question takes a frame with all its arrays
 const patience_ms = 2000;       // an answer is not waited for longer
 
-const asked: Partial<Record<Side, { id: number; at: number }>> = {};
+// Of a page's questions the newest counts: so one at a time, of A and B in turn.
+let asked: { id: number; at: number } | undefined;
 let timer: number | undefined;
 let last_asked_ms = -Infinity;
 
@@ -33,15 +34,17 @@ function ask(): void {
   const at = cursor.value;
   if (at === undefined || link.value !== "open" || frame.value === undefined || !is_read()) return;
   const now = performance.now();
-  for (const side of sides) {
-    const before = asked[side];
-    if (!is_wanted(side) || (before !== undefined && now - before.at < patience_ms)) continue;   // its answer asks again
-    const id = next_id();
-    asked[side] = { id, at: now };
-    last_asked_ms = now;
-    const place = side === "a" ? at : of_b(at);
-    send({ type: "pixel", id, u: place.u, v: place.v, ...(side === "b" ? { side } : {}) });
-  }
+  if (asked !== undefined && now - asked.at < patience_ms) return;   // its answer asks again
+  const side = sides.find(is_wanted);
+  if (side !== undefined) ask_of(side, at, now);
+}
+
+function ask_of(side: Side, at: Cursor, now: number): void {
+  const id = next_id();
+  asked = { id, at: now };
+  if (side === "a") last_asked_ms = now;
+  const place = side === "a" ? at : of_b(at);
+  send({ type: "pixel", id, u: place.u, v: place.v, ...(side === "b" ? { side } : {}) });
 }
 
 function is_playing(): boolean {
@@ -66,18 +69,21 @@ function is_wanted(side: Side): boolean {
 
 export function pixel_arrived(answer: Pixel): void {
   const side = answer.side ?? "a";
-  if (asked[side]?.id === answer.id) delete asked[side];
+  if (asked?.id === answer.id) asked = undefined;
   (side === "a" ? pixel : pixel_b).value = answer;
-  if (is_read() && is_wanted(side)) ask_soon();
+  const at = cursor.value;
+  if (!is_read() || at === undefined) return;
+  if (side === "a" && asked === undefined && is_wanted("b")) ask_of("b", at, performance.now());
+  else if (sides.some(is_wanted)) ask_soon();
 }
 
 export function fault_arrived(of: Fault): void {
-  for (const side of sides) if (of.id !== null && of.id === asked[side]?.id) delete asked[side];
+  if (of.id !== null && of.id === asked?.id) asked = undefined;
 }
 
 /** What is shown was chosen by the greeting, and so is asked for already. */
 export function opened_anew(): void {
-  for (const side of sides) delete asked[side];
+  asked = undefined;
   send({ type: "visible", visible: !document.hidden });
 }
 
