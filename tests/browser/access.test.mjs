@@ -127,7 +127,7 @@ test("Tab goes through every control, each with a focus that is seen", async () 
 });
 
 // (At 200 % a window of 1280 × 900 has 640 × 450 CSS pixels.)
-for (const [what, viewport] of [["320 CSS pixels wide", { width: 320, height: 640 }], ["zoomed to 200 %", { width: 640, height: 450 }]]) {
+for (const [what, viewport] of [["320 CSS pixels wide", { width: 320, height: 640 }], ["zoomed to 200 %", { width: 640, height: 450 }], ["in a usual window", { width: 1280, height: 760 }]]) {
   test(`${what}, no control is lost, and nothing has to be scrolled sideways, neither with controls nor with two states`, async () => {
     const { url } = await view(["demo", "--seed", "5"]);
     const tab = await shown(url, { viewport });
@@ -138,6 +138,10 @@ for (const [what, viewport] of [["320 CSS pixels wide", { width: 320, height: 64
         .filter((one) => one.checkVisibility())
         .filter((one) => one.getBoundingClientRect().right > width || one.getBoundingClientRect().left < 0).map((one) => one.outerHTML), viewport.width);
       assert.deepEqual(outside, [], state);
+      const cut = await page.evaluate(() => [...document.querySelectorAll(".panel table, .panel p, .panel li")]
+        .filter((one) => one.checkVisibility() && one.closest(".wide, .unseen") === null)
+        .filter((one) => one.getBoundingClientRect().right > one.closest(".panel").getBoundingClientRect().right + 0.5).map((one) => one.outerHTML.slice(0, 200)));
+      assert.deepEqual(cut, [], state);
     };
     await check("at first");
     for (const i of [0, 2]) await page.locator(".group > summary").nth(i).click();
@@ -147,8 +151,15 @@ for (const [what, viewport] of [["320 CSS pixels wide", { width: 320, height: 64
     await check("controls");
     await page.getByRole("button", { name: "A | B", exact: true }).click();
     await page.locator(".compare-bar").waitFor();
+    await set(tab, "camera.lens.f_number", "4");
     await beside(tab, "A | B");
+    await page.locator("tr[data-differs]").waitFor();
     await check("two states");
+    await beside(tab, "Pixel");
+    await page.locator(".stage").first().focus();
+    await page.keyboard.press("ArrowRight");
+    await page.locator("td[data-value-b=z_m]").waitFor();
+    await check("a pixel of both");
     await page.locator(".compare-bar").getByRole("button", { name: "Wipe" }).click();
     await drawn(tab, "wipe");
     await check("wipe");
