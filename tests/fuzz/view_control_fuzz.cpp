@@ -20,7 +20,13 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
       if (one >= wire_arrays().size()) std::abort();
     if (want->rate && want->rate->kind == Rate::Kind::number && !(want->rate->hz >= 0.01 && want->rate->hz <= 1000)) std::abort();
   } else if (const auto* edit = std::get_if<Edit>(&read)) {
-    if (edit->key.size() > 1000 || edit->key.find('=') != std::string::npos) std::abort();
+    const auto is_key = [](const std::string& key) { return key.size() <= 1000 && key.find('=') == std::string::npos; };
+    if (!is_key(edit->key)) std::abort();
+    for (const auto& [key, text] : edit->overrides)
+      if (key.empty() || !is_key(key)) std::abort();
+    const bool of_b = edit->kind == Edit::Kind::open || edit->kind == Edit::Kind::close;
+    if (of_b && edit->side != Side::b) std::abort();
+    if (!edit->scene.empty() && edit->kind != Edit::Kind::open) std::abort();
   } else if (const auto* pixel = std::get_if<PixelQuestion>(&read)) {
     if (pixel->u < 0 || pixel->v < 0) std::abort();
   }

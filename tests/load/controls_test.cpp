@@ -216,5 +216,33 @@ TEST(controls, have_every_key_of_the_tables) {
   EXPECT_EQ(missing, "");
 }
 
+TEST(scene_yaml, keeps_every_text_and_number_however_it_is_written) {
+  const std::string text =
+      "camera: {profile: pico-flexx, 'lens.f_number': 1.8}\n"
+      "materials:\n"
+      "  \"a: b # c\": {reflectivity: 0.5}\n"
+      "  'it''s': {reflectivity: 40 %}\n"
+      "  \"true\": {brdf: \"lambert\", reflectivity: .25}\n"
+      "  näher: {reflectivity: 1e-1}\n"
+      "objects:\n"
+      "  - sphere: {name: \"- \\\"x\\\" [y], {z}\\tand a text that is longer than a line of the file, so that the list of its keys is "
+      "broken, "
+      "too\", center: [0, 0, 1], radius: 10 cm, material: \"a: b # c\"}\n"
+      "  - sphere: {name: \"12\", center: [0.5, 0, 1], radius: 10 cm, material: \"it's\"}\n"
+      "  - sphere: {name: \" blank \", center: [0, 0.5, 1], radius: 10 cm, material: \"true\"}\n"
+      "  - sphere: {name: \"null\", center: [0, 0.5, 2], radius: 10 cm, material: näher}\n";
+  const auto numbers_of = [](const Scene& scene) {
+    std::string out = results::frame_meta(scene, load_camera(scene), {}, 0);
+    for (const Material& one : scene.materials) out += "|" + one.name;
+    for (const Object& one : scene.objects) out += "|" + one.name;
+    return out;
+  };
+  const Settings set = {{"objects.0.sphere.radius", "11 cm"}, {"camera.modes.MODE_9_5FPS_2000.sequence.0.integration_time", "100 us"}};
+  const std::string saved = load::scene_yaml(text, "x.yaml", set);
+  EXPECT_EQ(numbers_of(load::scene_from_text(saved, "x.yaml")), numbers_of(load::scene_from_text(text, "x.yaml", set)));
+  EXPECT_NE(numbers_of(load::scene_from_text(saved, "x.yaml")), numbers_of(load::scene_from_text(text, "x.yaml")));
+  EXPECT_EQ(load::scene_yaml(saved, "x.yaml", {}), saved);
+}
+
 }  // namespace
 }  // namespace tofray::test
