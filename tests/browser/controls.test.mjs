@@ -294,3 +294,20 @@ test("what another page has changed is shown, and can be undone here", async () 
   await two.page.getByText("Nothing is changed.").waitFor();
   assert.deepEqual(await overrides(two), []);
 });
+
+test("of a frame that takes long a draft comes first, marked as one; what stays has the bytes of the command", async () => {
+  const slow = ["room", "--seed", "5", "--bounces", "7", "--subpixel", "3"];
+  const { url } = await view(slow);
+  const tab = await shown(url);
+  const { page } = tab;
+  await stand_at(tab, 0);
+  await page.evaluate(() => {
+    window.badges = new Set();
+    new MutationObserver(() => document.querySelectorAll(".badge.draft").forEach((one) => window.badges.add(one.textContent))).observe(document.body, { childList: true, subtree: true });
+  });
+  await set(tab, f_number, "2.8");
+  assert.deepEqual(await page.evaluate(() => [...window.badges]), ["draft"]);
+  assert.equal(await page.locator(".badge.draft").count(), 0);
+  const file = rendered([...slow, "--set", `${f_number}=2.8`]);
+  for (const name of ["z_m", "amplitude_e"]) assert.ok(arrived(tab)[name].equals(bytes_of(file[name])), name);
+});

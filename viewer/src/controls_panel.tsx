@@ -54,7 +54,7 @@ function Seed({ side }: { side: Side }) {
   );
 }
 
-/** All that differs from the scene as it was opened, in the order of the command. */
+/** Every `--set`, those of the command line, too, in order. */
 function Changed({ side }: { side: Side }) {
   const overrides = overrides_of(side);
   const off = link.value !== "open";
