@@ -1,20 +1,45 @@
 // SPDX-FileCopyrightText: 2026 The tofray authors
 // SPDX-License-Identifier: Apache-2.0
-// The picture of docs/viewer.md, from the viewer itself:
-//   TOFRAY=build/release/apps/tofray/tofray TOFRAY_PAGE_PACKAGES=build/release/viewer node tools/viewer_picture.mjs docs/images/viewer.png
+// The pictures of docs/viewer.md, from the viewer itself, viewer.png and viewer_ab.png:
+//   TOFRAY=build/release/apps/tofray/tofray TOFRAY_PAGE_PACKAGES=build/release/viewer node tools/viewer_picture.mjs docs/images
 
 import { test } from "node:test";
-import { point_at, shown, stand_at, view } from "../tests/browser/viewer.mjs";
+import { join } from "node:path";
+import { beside, drawn, point_at, set, settled, shown, stand_at, view } from "../tests/browser/viewer.mjs";
 
 const [out] = process.argv.slice(2);
-if (out === undefined) throw new Error("node tools/viewer_picture.mjs FILE.png");
+if (out === undefined) throw new Error("node tools/viewer_picture.mjs FOLDER");
 
-test(`writes ${out}`, async () => {
+async function start(colorScheme) {
   const { url } = await view(["demo", "--seed", "1"]);
-  const tab = await shown(url, { viewport: { width: 1280, height: 720 }, colorScheme: "dark", reducedMotion: "reduce" });
+  const tab = await shown(url, { viewport: { width: 1280, height: 760 }, colorScheme, reducedMotion: "reduce" });
   await stand_at(tab, 0);
+  return tab;
+}
+
+async function take({ page }, name) {
+  await page.evaluate(() => document.activeElement.blur());
+  await page.waitForTimeout(500);   // scroll bars and outlines have gone
+  await page.screenshot({ path: join(out, name) });
+}
+
+test("controls, a histogram and a pixel's values", async () => {
+  const tab = await start("dark");
+  await set(tab, "camera.lens.f_number", "2.4");
+  await tab.page.getByRole("searchbox").fill("lens f");
+  await tab.page.getByRole("button", { name: "Histogram" }).first().click();
   await point_at(tab, 176, 133);
-  await tab.page.locator('.answer[data-pixel="176,133"]').waitFor();
-  await tab.page.evaluate(() => document.activeElement.blur());
-  await tab.page.screenshot({ path: out });
+  await take(tab, "viewer.png");
+});
+
+test("two apertures, by a wipe", async () => {
+  const tab = await start("light");
+  await tab.page.getByRole("button", { name: "A | B", exact: true }).click();
+  await settled(tab);
+  await set(tab, "camera.lens.f_number", "3.2");
+  await tab.page.locator(".compare-bar").getByRole("button", { name: "Wipe" }).click();
+  await drawn(tab, "wipe");
+  await beside(tab, "A | B");
+  await point_at(tab, 60, 40);
+  await take(tab, "viewer_ab.png");
 });

@@ -5,7 +5,7 @@
 import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
 import { test } from "node:test";
-import { axe_source, choose, point_at, shown, stand_at, view } from "./viewer.mjs";
+import { axe_source, beside, choose, drawn, find, point_at, set, shown, stand_at, type, view } from "./viewer.mjs";
 
 async function violations({ page }) {
   await page.evaluate(axe_source);
@@ -21,6 +21,7 @@ for (const colorScheme of ["dark", "light"]) {
     const { page } = tab;
     assert.deepEqual(await violations(tab), []);
     await stand_at(tab, 0);
+    await beside(tab, "Pixel");
     await point_at(tab, 112, 86);
     await page.locator('.answer[data-pixel="112,86"]').waitFor();
     await page.getByText("Raw frames").click();
@@ -37,11 +38,40 @@ for (const colorScheme of ["dark", "light"]) {
   });
 }
 
+for (const colorScheme of ["dark", "light"]) {
+  test(`axe-core finds nothing in the ${colorScheme} page with controls, a fault, histograms, and two states in each way to look at them`, async () => {
+    const { url } = await view(["demo", "--seed", "5"]);
+    const tab = await shown(url, { colorScheme, reducedMotion: "reduce" });
+    const { page } = tab;
+    await stand_at(tab, 0);
+    await page.getByRole("combobox", { name: "Number of panes" }).selectOption("3");
+    await page.waitForFunction(() => window.tofray.pane(2) !== undefined);
+    await choose(tab, 2, "flags");
+    for (let i = 0; i < 3; ++i) await page.getByRole("button", { name: "Histogram" }).nth(i).click();
+    for (const i of [0, 2]) await page.locator(".group > summary").nth(i).click();
+    await page.locator(".control").first().waitFor();
+    assert.deepEqual(await violations(tab), []);
+    await set(tab, "camera.lens.f_number", "2.8");
+    await type(tab, "camera.lens.f_number", "banana");
+    await (await find(tab, "camera.lens.f_number")).getByRole("alert").waitFor();
+    assert.deepEqual(await violations(tab), []);
+    await page.getByRole("button", { name: "A | B", exact: true }).click();
+    await drawn(tab, "a");
+    await set(tab, "camera.lens.f_number", "3");
+    await beside(tab, "A | B");
+    for (const [name, shows] of [["Side by side", "a"], ["Wipe", "wipe"], ["Flip", "a"], ["Difference", "difference"]]) {
+      await page.locator(".compare-bar").getByRole("button", { name, exact: true }).click();
+      await drawn(tab, shows);
+      assert.deepEqual(await violations(tab), [], name);
+    }
+  });
+}
+
 /** The rows of a table of docs/viewer.md, by the word over its first column. */
 function table(word) {
   const text = readFileSync(new URL("../../docs/viewer.md", import.meta.url), "utf8");
   const [, rows] = new RegExp(`^\\| ${word} \\|.*\\n\\|[-|]+\\|\\n((?:\\|.*\\n)+)`, "m").exec(text);
-  return rows.trim().split("\n").map((row) => row.slice(2, -2).split(" | "));
+  return rows.trim().split("\n").map((row) => row.slice(2, -2).split(" | ").map((cell) => cell.replaceAll("\\|", "|")));
 }
 
 test("a pane offers what docs/viewer.md lists, in that order", async () => {
@@ -79,7 +109,7 @@ test("Tab goes through every control, each with a focus that is seen", async () 
   const tab = await shown(url);
   const { page } = tab;
   await stand_at(tab, 0);
-  const expected = await page.evaluate(() => [...document.querySelectorAll("button, select, input, a, summary, [tabindex]")].filter((one) => !one.disabled && one.checkVisibility()).length);
+  const expected = await page.evaluate(() => [...document.querySelectorAll("button, select, input, a, summary, [tabindex]")].filter((one) => !one.disabled && one.tabIndex >= 0 && one.checkVisibility()).length);
   await page.evaluate(() => document.activeElement.blur());
   await page.locator("body").click({ position: { x: 2, y: 2 } });
   const seen = [];
@@ -96,12 +126,54 @@ test("Tab goes through every control, each with a focus that is seen", async () 
   for (const one of seen) assert.ok(one.outline, `${one.tag} shows no focus`);
 });
 
-test("320 CSS pixels wide, no control is lost, and nothing has to be scrolled sideways", async () => {
+// (At 200 % a window of 1280 × 900 has 640 × 450 CSS pixels.)
+for (const [what, viewport] of [["320 CSS pixels wide", { width: 320, height: 640 }], ["zoomed to 200 %", { width: 640, height: 450 }], ["in a usual window", { width: 1280, height: 760 }]]) {
+  test(`${what}, no control is lost, and nothing has to be scrolled sideways, neither with controls nor with two states`, async () => {
+    const { url } = await view(["demo", "--seed", "5"]);
+    const tab = await shown(url, { viewport });
+    const { page } = tab;
+    const check = async (state) => {
+      assert.equal(await page.evaluate(() => document.documentElement.scrollWidth), viewport.width, state);
+      const outside = await page.evaluate((width) => [...document.querySelectorAll("button, select, input, .stage, summary")]
+        .filter((one) => one.checkVisibility())
+        .filter((one) => one.getBoundingClientRect().right > width || one.getBoundingClientRect().left < 0).map((one) => one.outerHTML), viewport.width);
+      assert.deepEqual(outside, [], state);
+      const cut = await page.evaluate(() => [...document.querySelectorAll(".panel table, .panel p, .panel li")]
+        .filter((one) => one.checkVisibility() && one.closest(".wide, .unseen") === null)
+        .filter((one) => one.getBoundingClientRect().right > one.closest(".panel").getBoundingClientRect().right + 0.5).map((one) => one.outerHTML.slice(0, 200)));
+      assert.deepEqual(cut, [], state);
+    };
+    await check("at first");
+    for (const i of [0, 2]) await page.locator(".group > summary").nth(i).click();
+    await set(tab, "camera.lens.f_number", "2.8");
+    await type(tab, "camera.lens.f_number", "banana");
+    await (await find(tab, "camera.lens.f_number")).getByRole("alert").waitFor();
+    await check("controls");
+    await page.getByRole("button", { name: "A | B", exact: true }).click();
+    await page.locator(".compare-bar").waitFor();
+    await set(tab, "camera.lens.f_number", "4");
+    await beside(tab, "A | B");
+    await page.locator("tr[data-differs]").waitFor();
+    await check("two states");
+    await beside(tab, "Pixel");
+    await page.locator(".stage").first().focus();
+    await page.keyboard.press("ArrowRight");
+    await page.locator("td[data-value-b=z_m]").waitFor();
+    await check("a pixel of both");
+    await page.locator(".compare-bar").getByRole("button", { name: "Wipe" }).click();
+    await drawn(tab, "wipe");
+    await check("wipe");
+  });
+}
+
+test("in forced colours it is still seen what is chosen", async () => {
   const { url } = await view(["demo", "--seed", "5"]);
-  const tab = await shown(url, { viewport: { width: 320, height: 640 } });
-  assert.equal(await tab.page.evaluate(() => document.documentElement.scrollWidth), 320);
-  const outside = await tab.page.evaluate(() => [...document.querySelectorAll("button, select, input, .stage")]
-    .filter((one) => one.checkVisibility())
-    .filter((one) => one.getBoundingClientRect().right > 320 || one.getBoundingClientRect().left < 0).map((one) => one.outerHTML));
-  assert.deepEqual(outside, []);
+  const tab = await shown(url, { forcedColors: "active" });
+  const { page } = tab;
+  await page.getByRole("button", { name: "Histogram" }).first().click();
+  const border = (locator) => locator.evaluate((one) => getComputedStyle(one).borderBottomColor);
+  const histogram = page.getByRole("button", { name: "Histogram" });
+  assert.notEqual(await border(histogram.first()), await border(histogram.nth(1)));
+  assert.notEqual(await border(page.getByRole("tab", { selected: true })), await border(page.getByRole("tab", { selected: false }).first()));
+  assert.notEqual(await border(page.locator(".pane").first()), await border(page.locator(".pane").nth(1)));
 });

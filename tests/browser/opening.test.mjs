@@ -4,7 +4,7 @@
 
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { open, point_at, proxy, shown, stand_at, view, written } from "./viewer.mjs";
+import { beside, open, point_at, proxy, shown, stand_at, view, written } from "./viewer.mjs";
 
 test("the address that the command prints opens the page with its first picture, and nothing is reported", async () => {
   const { url } = await view(["demo", "--seed", "5"]);
@@ -42,12 +42,12 @@ test("a tab without the key is told what it lacks, and opens no socket", async (
   assert.equal(tab.sockets, 0);
 });
 
-/** What the server says, with other words in its greeting. */
+/** What the server says, with other words in its greetings and states. */
 const greeting = (words) => (page) => page.routeWebSocket(/\/ws$/, (near) => {
   const far = near.connectToServer();
   far.onMessage((message) => {
-    const is_hello = typeof message === "string" && message.startsWith('{"type":"hello"');
-    near.send(is_hello ? JSON.stringify({ ...JSON.parse(message), ...words }) : message);
+    const has_names = typeof message === "string" && /^\{"type":"(hello|state)"/.test(message);
+    near.send(has_names ? JSON.stringify({ ...JSON.parse(message), ...words }) : message);
   });
 });
 
@@ -66,6 +66,7 @@ test("names of a scene and of objects are shown as text, whatever is in them", a
   const { url } = await view([scene, "--seed", "5"]);
   const tab = await shown(url, { before: greeting({ scene: markup, camera: backward + markup, mode: markup }) });   // (the server has cleaned these)
   await stand_at(tab, 0);
+  await beside(tab, "Pixel");
   assert.equal(await tab.page.locator("h1 bdi").textContent(), markup);
   assert.deepEqual(await tab.page.locator(".camera bdi").allTextContents(), [backward + markup, markup]);
   assert.equal(await tab.page.title(), `${markup} – tofray view`);

@@ -5,44 +5,10 @@
 
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { canvas_pixels, choose, pane, rendered, shown, stand_at, view, written } from "./viewer.mjs";
+import { expected, reason, scale_of } from "./colors.mjs";
+import { canvas_pixels, choose, pane, rendered, same, shown, stand_at, until, view, written } from "./viewer.mjs";
 
 const words = ["demo", "--seed", "5"];
-
-function mixed(stops, t) {
-  const at = Math.min(1, Math.max(0, t)) * (stops.length - 1);
-  const i = Math.min(stops.length - 2, Math.floor(at));
-  return stops[i].map((x, channel) => Math.floor(x + (at - i) * (stops[i + 1][channel] - x) + 0.5));
-}
-
-function color(hello, scale, value) {
-  if (scale.palette === "error") {
-    const s = value / scale.high;
-    return s < 0 ? mixed(hello.palettes.error_near, -s) : mixed(hello.palettes.error_far, s);
-  }
-  let t = Math.min(1, Math.max(0, (value - scale.low) / (scale.high - scale.low)));
-  if (scale.curve === "sqrt") t = Math.sqrt(t);
-  return mixed(hello.palettes[scale.palette], scale.reverse ? 1 - t : t);
-}
-
-const reason = (hello, flags) => hello.invalid.find(({ bit }) => (flags >> bit) & 1);
-
-function expected(hello, scale, values, flags) {
-  const out = [];
-  values.forEach((value, i) => out.push(...(Number.isFinite(value) ? color(hello, scale, value) : reason(hello, flags[i])?.color ?? hello.invalid_color), 255));
-  return out;
-}
-
-const scale_of = (hello, array) => hello.panes.find((one) => one.array === array).scale;
-
-/** The first pixel of two pictures that differs: an assertion over 150,000 numbers says nothing that could be read. */
-function same(got, wanted, what) {
-  assert.equal(got.length, wanted.length, what);
-  for (let at = 0; at < got.length; at += 4) {
-    const [a, b] = [got.slice(at, at + 4), wanted.slice(at, at + 4)];
-    if (String(a) !== String(b)) assert.fail(`${what}: pixel ${at / 4} is ${a}, expected ${b}`);
-  }
-}
 
 test("depth has the colours of the arrays that the command writes, each of its pixels, on the screen, too", async () => {
   const { url } = await view(words);
@@ -162,4 +128,97 @@ test("a frame that was left has the same picture when it comes again", async () 
     await tab.page.waitForFunction((to) => window.tofray.last.frame === to, frame);
   }
   same((await pane(tab, 0)).pixels, pictures[0], "frame 1 by keys");
+});
+
+test("a histogram counts each pixel once: where it stands on the bar, below it, above it, or without a value", async () => {
+  const { url } = await view(words);
+  const tab = await shown(url);
+  const { page } = tab;
+  await stand_at(tab, 0);
+  await page.locator(".stage").first().focus();
+  await page.keyboard.press("h");
+  await page.getByRole("button", { name: "Histogram" }).nth(1).click();
+  const arrays = rendered(words);
+  for (const [i, name] of [[0, "z_m"], [1, "amplitude_e"], [0, "noise_m"]]) {
+    await choose(tab, i, name);
+    const { low, high, curve } = scale_of(tab.hello(), name);
+    const bins = new Array(128).fill(0);
+    const apart = { shown: 0, below: 0, above: 0, invalid: 0 };
+    for (const value of arrays[name].values) {
+      if (!Number.isFinite(value)) ++apart.invalid;
+      else if (value < low) ++apart.below;
+      else if (value > high) ++apart.above;
+      else {
+        const t = (value - low) / (high - low);
+        ++bins[Math.min(127, Math.floor((curve === "sqrt" ? Math.sqrt(t) : t) * 128))];
+        ++apart.shown;
+      }
+    }
+    const pane_of = page.locator(".pane").nth(i);
+    await page.waitForFunction(([at, counts]) => document.querySelectorAll(".pane")[at].querySelector(".histogram").dataset.counts === counts, [i, bins.join(" ")]);
+    for (const [word, count] of Object.entries(apart)) {
+      const said = await pane_of.locator(`[data-apart=${word}]`).allTextContents();
+      assert.deepEqual(said, count > 0 || word === "shown" || word === "invalid" ? [String(count)] : [], `${name}: ${word}`);
+    }
+    assert.ok(apart.shown > 10_000 && new Set(bins).size > 20, name);
+    const [bar, histogram] = await Promise.all([".ramp", ".histogram"].map((part) => pane_of.locator(part).boundingBox()));
+    assert.deepEqual([histogram.x, histogram.width], [bar.x, bar.width], `${name}: not over its bar`);
+  }
+  await choose(tab, 1, "flags");
+  const rows = await page.locator(".bits tr").evaluateAll((all) => all.map((row) => [row.querySelector("th").textContent, Number(row.children[2].textContent)]));
+  const wanted = tab.hello().invalid.map(({ name, bit }) => [name, arrays.flags.values.filter((bits) => (bits >> bit) & 1).length]);
+  assert.deepEqual(rows.slice(0, -1), wanted);
+  assert.ok(wanted.some(([, count]) => count > 0));
+});
+
+test("one to four panes, each with its picture; cursor and zoom are those of all", async () => {
+  const { url } = await view(words);
+  const tab = await shown(url);
+  const { page } = tab;
+  await stand_at(tab, 0);
+  const arrays = rendered(words);
+  await page.locator(".stage").first().focus();
+  await page.keyboard.press("]");
+  await page.getByRole("combobox", { name: "Number of panes" }).selectOption("4");
+  await page.waitForFunction(() => window.tofray.pane(3)?.array === "flags");
+  const names = [0, 1, 2, 3].map((i) => page.evaluate((at) => window.tofray.pane(at).array, i));
+  assert.deepEqual(await Promise.all(names), ["z_m", "amplitude_e", "z_error_m", "flags"]);
+  const { z_m, amplitude_e, flags } = arrays;
+  const hello = tab.hello();
+  same((await pane(tab, 1)).pixels, expected(hello, scale_of(hello, "amplitude_e"), amplitude_e.values, flags.values), "amplitude");
+  same((await pane(tab, 2)).pixels, expected(hello, scale_of(hello, "z_error_m"), z_m.values.map((z, i) => z - arrays.gt_z_m.values[i]), flags.values), "error");
+  await page.locator(".stage").first().focus();
+  await page.keyboard.press("+");
+  await page.keyboard.press("+");
+  await page.waitForFunction(() => window.tofray.placement(0).scale > 3);
+  const placements = await page.evaluate(() => [0, 1, 2, 3].map((i) => window.tofray.placement(i)));
+  for (const one of placements) assert.deepEqual(one, placements[0]);
+  await page.keyboard.press("ArrowRight");
+  await page.waitForFunction(() => [...document.querySelectorAll(".pane .reading")].every((one) => one.textContent !== ""));
+  for (let i = 0; i < 5; ++i) await page.keyboard.press("[");
+  await page.waitForFunction(() => document.querySelectorAll(".pane").length === 1);
+  await page.waitForFunction(() => window.tofray.placement(0).scale > 3);
+  assert.equal((await pane(tab, 0)).array, "z_m");
+});
+
+test("time passes by at the camera's rate, as fast as it goes, or at a number that is typed; another word leaves it", async () => {
+  const { url } = await view(words);
+  const tab = await shown(url);
+  const { page } = tab;
+  const rates = () => tab.asked.filter((one) => one.type === "want").map((one) => one.rate);
+  assert.equal(rates().at(-1), "own");
+  await page.getByRole("combobox", { name: "Frames per second" }).selectOption("number");
+  const field = page.getByRole("textbox", { name: "Frames per second, a number" });
+  for (const text of ["40", "banana", "0", "2.5"]) {
+    await field.fill(text);
+    await field.press("Enter");
+  }
+  assert.equal(await field.inputValue(), "2.5");
+  await page.getByRole("combobox", { name: "Frames per second" }).selectOption("max");
+  await page.getByRole("combobox", { name: "Frames per second" }).selectOption("own");
+  await until(() => rates().at(-1) === "own", "the camera's rate");
+  assert.deepEqual([...new Set(rates())].slice(-5), ["own", 1, 40, 2.5, "max"]);
+  const drawn = await page.evaluate(() => window.tofray.counters.drawn);
+  await page.waitForFunction((from) => window.tofray.counters.drawn > from + 2, drawn);
+  assert.equal(await page.getByRole("alert").count(), 0);
 });

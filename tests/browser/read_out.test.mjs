@@ -4,7 +4,7 @@
 
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { inspected, point_at, rendered, shown, stand_at, view } from "./viewer.mjs";
+import { beside, inspected, point_at, rendered, shown, stand_at, view } from "./viewer.mjs";
 
 const words = ["demo", "--seed", "5"];
 const width = 224, height = 172;
@@ -74,6 +74,7 @@ async function compare_panel({ page, hello }, report) {
 test("the pointer over twenty pixels reads what inspect prints of them", async () => {
   const { url } = await view(words);
   const tab = await shown(url);
+  await beside(tab, "Pixel");
   await stand_at(tab, 0);
   const frame = rendered(words);
   for (const [u, v] of pixels_of(frame)) {
@@ -87,6 +88,7 @@ test("the pointer over twenty pixels reads what inspect prints of them", async (
 test("arrow keys go to the same pixels, and a live region says what inspect prints", async () => {
   const { url } = await view(words);
   const tab = await shown(url);
+  await beside(tab, "Pixel");
   const { page } = tab;
   await stand_at(tab, 0);
   const frame = rendered(words);
@@ -123,6 +125,7 @@ test("arrow keys go to the same pixels, and a live region says what inspect prin
 test("while frames pass by, a pixel is asked for when the cursor moves, at most twice a second, and again when they stand still", async () => {
   const { url } = await view(words);
   const tab = await shown(url);
+  await beside(tab, "Pixel");
   const { page } = tab;
   const questions = () => tab.asked.filter((one) => one.type === "pixel").length;
   const more_frames = async (count) => {

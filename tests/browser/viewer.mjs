@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The viewer in a browser: the real program on a port that is free, its page in Chromium without a GPU. Nothing here is of the page's own code.
 
+import assert from "node:assert/strict";
 import { execFileSync, spawn } from "node:child_process";
 import { accessSync, constants, mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { createRequire } from "node:module";
@@ -62,6 +63,13 @@ export function rendered(words, frame = 0) {
   return { path, ...read_npz(path) };
 }
 
+/** Runs the command itself. @return  what it writes to its output */
+export function told(words, options = {}) {
+  return execFileSync(tofray, words, { encoding: "utf8", ...options });
+}
+
+export { folder };
+
 export function inspected(path, u, v) {
   return JSON.parse(execFileSync(tofray, ["inspect", path, "--pixel", `${u},${v}`, "--json"], { encoding: "utf8" }));
 }
@@ -116,7 +124,7 @@ export async function open(url, { before, ...options } = {}) {
   const context = await browser.newContext({ viewport: { width: 1280, height: 900 }, ...options });
   const page = await context.newPage();
   await before?.(page);
-  const seen = { page, texts: [], frames: [], asked: [], troubles: [], sockets: 0, requests: [], loads: 0 };
+  const seen = { page, texts: [], frames: [], last: {}, generations: { a: [], b: [] }, asked: [], troubles: [], sockets: 0, requests: [], loads: 0 };
   page.on("console", (message) => ["error", "warning"].includes(message.type()) && seen.troubles.push(message.text()));
   page.on("pageerror", (error) => seen.troubles.push(String(error)));
   page.on("request", (request) => seen.requests.push(request.url()));
@@ -124,8 +132,11 @@ export async function open(url, { before, ...options } = {}) {
   page.on("websocket", (socket) => {
     ++seen.sockets;
     socket.on("framereceived", ({ payload }) => {
-      if (typeof payload === "string") seen.texts.push(JSON.parse(payload));
-      else seen.frames.push(Number(payload.readBigUInt64LE(16)));
+      if (typeof payload === "string") return void seen.texts.push(JSON.parse(payload));
+      const side = payload[6] === 1 ? "b" : "a";
+      seen.last[side] = payload;
+      seen.generations[side].push(payload.readUInt32LE(8));
+      if (side === "a") seen.frames.push(Number(payload.readBigUInt64LE(16)));
     });
     socket.on("framesent", ({ payload }) => typeof payload === "string" && seen.asked.push(JSON.parse(payload)));
   });
@@ -161,20 +172,20 @@ export async function stand_at(tab, frame) {
   await tab.page.waitForFunction((to) => window.tofray.last?.frame === to, frame);
 }
 
-/** A pane as coloured: {array, width, height, pixels: RGBA}. */
-export function pane({ page }, i) {
-  return page.evaluate((at) => {
-    const one = window.tofray.pane(at);
+/** A pane as coloured: {array, width, height, pixels: RGBA}. @param side  b: the picture of B beside that of A */
+export function pane({ page }, i, side = "a") {
+  return page.evaluate(([at, of]) => {
+    const one = window.tofray.pane(at, of);
     return { ...one, pixels: [...one.pixels] };
-  }, i);
+  }, [i, side]);
 }
 
 /** The middle of each of a picture's pixels, read from the canvas on the screen: RGBA. */
-export function canvas_pixels({ page }, i) {
-  return page.evaluate((at) => {
-    const { left, top, scale } = window.tofray.placement(at);
-    const { width, height } = window.tofray.pane(at);
-    const canvas = document.querySelectorAll(".stage canvas.front")[at];
+export function canvas_pixels({ page }, i, side = "a") {
+  return page.evaluate(([at, of]) => {
+    const { left, top, scale } = window.tofray.placement(at, of);
+    const { width, height } = window.tofray.pane(at, of);
+    const canvas = document.querySelectorAll(".pane")[at].querySelectorAll(".stage canvas.front")[of === "a" ? 0 : 1];
     const all = canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height);
     const out = [];
     for (let v = 0; v < height; ++v)
@@ -183,7 +194,16 @@ export function canvas_pixels({ page }, i) {
         out.push(...all.data.slice(place, place + 4));
       }
     return out;
-  }, i);
+  }, [i, side]);
+}
+
+/** The first pixel of two pictures that differs: an assertion over 150,000 numbers says nothing that could be read. */
+export function same(got, wanted, what) {
+  assert.equal(got.length, wanted.length, what);
+  for (let at = 0; at < got.length; at += 4) {
+    const [a, b] = [got.slice(at, at + 4), wanted.slice(at, at + 4)];
+    if (String(a) !== String(b)) assert.fail(`${what}: pixel ${at / 4} is ${a}, expected ${b}`);
+  }
 }
 
 /** Puts the pointer into a pixel of the first pane. */
@@ -191,6 +211,64 @@ export async function point_at({ page }, u, v) {
   const { left, top, scale } = await page.evaluate(() => window.tofray.placement(0));
   const box = await page.locator(".stage").first().boundingBox();
   await page.mouse.move(box.x + left + (u + 0.5) * scale, box.y + top + (v + 0.5) * scale);
+}
+
+/** What stands beside the pictures: Controls, Pixel or A | B. */
+export async function beside({ page }, name) {
+  await page.getByRole("tab", { name, exact: true }).click();
+  await page.locator(`[role=tab][aria-selected=true]`).getByText(name, { exact: true }).waitFor();
+}
+
+/** All changes are answered, and what is drawn is of the last one. */
+export async function settled({ page }) {
+  await page.waitForFunction(() => {
+    const { unanswered, generation, generation_b, last, last_b } = window.tofray;
+    return unanswered === 0 && last?.generation === generation && last_b?.generation === generation_b && !last.draft && last_b?.draft !== true;
+  });
+}
+
+/** The bytes of the arrays of the frame that came last, by name. */
+export function arrived({ last, hello }, side = "a") {
+  const message = last[side];
+  return Object.fromEntries(Array.from({ length: message.readUInt16LE(44) }, (_, i) => {
+    const at = message.readUInt16LE(4) + 32 * i;
+    const place = message.readUInt32LE(at + 4);
+    return [hello().arrays[message.readUInt16LE(at)].name, message.subarray(place, place + message.readUInt32LE(at + 8))];
+  }));
+}
+
+/** Of arrays as a file has them. */
+export function bytes_of({ values }) {
+  return Buffer.from(values.buffer, values.byteOffset, values.byteLength);
+}
+
+/** What has changed on the page is drawn. @param shows  what the first picture is of: a, b, wipe or difference */
+export async function drawn({ page }, shows) {
+  await page.waitForFunction((of) => window.tofray.pane(0).shows === of, shows);
+  await page.evaluate(() => new Promise((then) => requestAnimationFrame(() => requestAnimationFrame(then))));
+}
+
+/** The control of a key, by the search. */
+export async function find({ page }, key) {
+  await page.getByRole("searchbox", { name: "Search the controls" }).fill(key);
+  const control = page.locator(`.control[data-key="${key}"]`);
+  await control.waitFor();
+  return control;
+}
+
+/** Types a value into a key's field. */
+export async function type(tab, key, text) {
+  const field = (await find(tab, key)).getByRole("textbox");
+  await field.fill(text);
+  await field.press("Enter");
+  return field;
+}
+
+/** The same, until it is drawn. */
+export async function set(tab, key, text) {
+  await type(tab, key, text);
+  await tab.page.locator(`[data-changed="${key}"] .now`).getByText(text, { exact: true }).waitFor();
+  await settled(tab);
 }
 
 export async function choose(tab, i, array) {

@@ -1,22 +1,25 @@
 // SPDX-FileCopyrightText: 2026 The tofray authors
 // SPDX-License-Identifier: Apache-2.0
-import { reading } from "./keys";
+import { toggle_other } from "./actions";
+import { CompareBar } from "./compare_panel";
+import { UndoRedo } from "./controls_panel";
 import { Help } from "./help";
+import { reading } from "./keys";
 import { Pane } from "./pane";
-import { PixelPanel } from "./pixel_panel";
-import { Command, Status, Troubles } from "./status";
-import { cursor, hello, help_open, link, shown, size, spoken, title_of } from "./store";
+import { ControlsColumn, Side } from "./side";
+import { Command, Restored, Status, Troubles } from "./status";
+import { comparing, cursor, hello, help_open, link, other, shown, size, spoken, title_of } from "./store";
 import { TimeLine } from "./time_line";
 
 /** What every pane shows at the cursor, at once. */
 function ReadOut() {
   const at = cursor.value;
-  if (at === undefined) return null;
+  if (at === undefined) return <p class="read-out faint">Point at a picture to read its values; click for all there is to know of a pixel.</p>;
   const arrays = [...new Set([...shown.value, ...(hello.value?.panes.some((pane) => pane.array === "flags") ? ["flags"] : [])])];
   return (
     <dl class="read-out" aria-label="Read-out">
       <div><dt>pixel</dt><dd>{at.u}, {at.v}</dd></div>
-      {arrays.map((array) => <div key={array}><dt>{title_of(array)}</dt><dd data-reading={array}>{reading(array)}</dd></div>)}
+      {arrays.map((array) => <div key={array}><dt>{title_of(array)}{other.value === undefined ? "" : " of A"}</dt><dd data-reading={array}>{reading(array)}</dd></div>)}
     </dl>
   );
 }
@@ -30,13 +33,20 @@ export function App() {
         <img src="icon.svg" alt="" width="28" height="28" />
         <h1><span class="unseen">tofray view: </span><bdi>{of?.scene ?? "tofray view"}</bdi></h1>
         {of !== undefined && <p class="faint camera"><bdi>{of.camera}</bdi>{of.mode === "" ? "" : " · "}<bdi>{of.mode}</bdi> · {width} × {height}</p>}
+        <UndoRedo />
+        <button type="button" class="quiet" aria-pressed={other.value !== undefined} onClick={toggle_other} disabled={link.value !== "open"} title="two states, looked at together (a)">A | B</button>
         <Status />
         <button type="button" class="quiet" onClick={() => (help_open.value = true)} aria-label="Help: keys" title="keys (?)">?</button>
       </header>
       <Troubles />
+      <Restored />
       <main class={link.value === "open" ? "" : "stale"}>
-        {shown.value.map((_, i) => <Pane key={i} pane={i} />)}
-        <PixelPanel />
+        <ControlsColumn />
+        <div class={`middle panes-${shown.value.length}${other.value !== undefined && comparing.value === "beside" ? " double" : ""}`}>
+          <CompareBar />
+          {shown.value.map((_, i) => <Pane key={i} pane={i} />)}
+        </div>
+        <Side />
       </main>
       <footer>
         <ReadOut />

@@ -3,29 +3,48 @@
 // What the page asks for: arrays of the panes, the pixel under the cursor, frames.
 
 import { effect } from "@preact/signals";
-import { send } from "./connection";
-import type { Fault, Pixel } from "./protocol";
-import { cursor, frame, link, pixel, rate, shown, state } from "./store";
+import { fit_difference, shown_by } from "./compare";
+import { next_id, send } from "./connection";
+import type { Fault, Pixel, Side } from "./protocol";
+import { cursor, frame, frame_of, link, of_b, pixel, pixel_b, rate, shown, state, tab_shown, type Cursor } from "./store";
 
 const rest_ms = 40;             // the cursor stands still
 const pause_ms = 200;           // from one question to the next
 const playing_pause_ms = 500;   // the same while frames pass by: each question takes a frame with all its arrays
 const patience_ms = 2000;       // an answer is not waited for longer
 
-let last_id = 0;
+// Of a page's questions the newest counts: so one at a time, of A and B in turn.
 let asked: { id: number; at: number } | undefined;
 let timer: number | undefined;
 let last_asked_ms = -Infinity;
 
+const sides: readonly Side[] = ["a", "b"];
+
+function answer_of(side: Side): Pixel | undefined {
+  return (side === "a" ? pixel : pixel_b).peek();
+}
+
+/** Whether somebody reads it. */
+function is_read(): boolean {
+  return tab_shown.value === "pixel";
+}
+
 function ask(): void {
   timer = undefined;
   const at = cursor.value;
-  if (at === undefined || link.value !== "open" || frame.value === undefined) return;
+  if (at === undefined || link.value !== "open" || frame.value === undefined || !is_read()) return;
   const now = performance.now();
   if (asked !== undefined && now - asked.at < patience_ms) return;   // its answer asks again
-  asked = { id: ++last_id, at: now };
-  last_asked_ms = now;
-  send({ type: "pixel", id: last_id, u: at.u, v: at.v });
+  const side = sides.find(is_wanted);
+  if (side !== undefined) ask_of(side, at, now);
+}
+
+function ask_of(side: Side, at: Cursor, now: number): void {
+  const id = next_id();
+  asked = { id, at: now };
+  if (side === "a") last_asked_ms = now;
+  const place = side === "a" ? at : of_b(at);
+  send({ type: "pixel", id, u: place.u, v: place.v, ...(side === "b" ? { side } : {}) });
 }
 
 function is_playing(): boolean {
@@ -37,16 +56,25 @@ function ask_soon(): void {
 }
 
 /** While frames pass by, an answer stays until the cursor moves; it says of which frame it is. */
-function is_old(answer: Pixel): boolean {
-  const now = frame.value;
-  if (answer.u !== cursor.value?.u || answer.v !== cursor.value.v || answer.generation !== now?.generation) return true;
+function is_wanted(side: Side): boolean {
+  const now = frame_of(side);
+  const here = cursor.value;
+  if (now === undefined || here === undefined) return false;
+  const answer = answer_of(side);
+  if (answer === undefined) return true;
+  const at = side === "a" ? here : of_b(here);
+  if (answer.u !== at.u || answer.v !== at.v || answer.generation !== now.generation) return true;
   return !is_playing() && answer.frame !== now.frame;
 }
 
 export function pixel_arrived(answer: Pixel): void {
+  const side = answer.side ?? "a";
   if (asked?.id === answer.id) asked = undefined;
-  pixel.value = answer;
-  if (is_old(answer)) ask_soon();
+  (side === "a" ? pixel : pixel_b).value = answer;
+  const at = cursor.value;
+  if (!is_read() || at === undefined) return;
+  if (side === "a" && asked === undefined && is_wanted("b")) ask_of("b", at, performance.now());
+  else if (sides.some(is_wanted)) ask_soon();
 }
 
 export function fault_arrived(of: Fault): void {
@@ -70,11 +98,8 @@ export function start_asking(): void {
     want();
   });
   effect(() => {
-    const at = cursor.value;
-    const now = frame.value;
     void state.value;
-    const answer = pixel.peek();
-    if (at !== undefined && now !== undefined && (answer === undefined || is_old(answer))) ask_soon();
+    if (is_read() && sides.some(is_wanted)) ask_soon();
   });
   document.addEventListener("visibilitychange", () => send({ type: "visible", visible: !document.hidden }));
 }
@@ -100,6 +125,10 @@ export function step(by: number): void {
   seek(Math.max(0, (sought ?? now) + by));
 }
 
-export function fit(array: string | undefined): void {
-  if (array !== undefined) send({ type: "fit", array });
+/** The colours of a pane, for what it shows now. */
+export function fit_pane(pane: number): void {
+  const array = shown.value[pane];
+  if (array === undefined) return;
+  if (shown_by("a") === "difference") fit_difference(array);
+  else send({ type: "fit", array });
 }

@@ -20,6 +20,15 @@ let receiver: Receiver | undefined;
 let key: string | undefined;
 let wait_ms = first_wait_ms;
 let timer: number | undefined;
+let last_id = 0;
+
+/** How many keys there were so far: each is of another server. */
+export let server_count = 0;
+
+/** For a message that is answered. */
+export function next_id(): number {
+  return ++last_id;
+}
 
 export function send(message: ClientMessage): void {
   if (socket?.readyState === WebSocket.OPEN) socket.send(JSON.stringify(message));
@@ -36,7 +45,9 @@ export function connect(to: Receiver): void {
 
 /** With the key of the address, or that of this tab. */
 function begin(): void {
+  const before = key;
   key = take_key();
+  if (key !== before) ++server_count;
   if (key === undefined) link.value = "keyless";
   else if (link.value !== "open") link.value = "connecting";
   retry_now();

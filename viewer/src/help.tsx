@@ -15,8 +15,11 @@ export function Help() {
     <dialog ref={dialog} aria-labelledby="help-title" onClose={() => (help_open.value = false)}
       onClick={(event) => event.target === dialog.current && (help_open.value = false)}>
       <div class="help">
-        <h2 id="help-title">Keys</h2>
-        <dl>
+        <div class="help-head">
+          <h2 id="help-title">Keys</h2>
+          <button type="button" onClick={() => (help_open.value = false)}>Close</button>
+        </div>
+        <dl class="keys">
           {keys.map((key) => (
             <div key={key.said}><dt><kbd>{key.said}</kbd></dt><dd>{key.does}</dd></div>
           ))}
@@ -25,7 +28,8 @@ export function Help() {
         <dl>
           <div><dt>move</dt><dd>the pixel cursor, in all panes</dd></div>
           <div><dt>wheel</dt><dd>zoom; far in, pixels show letters and numbers</dd></div>
-          <div><dt>drag</dt><dd>move the picture</dd></div>
+          <div><dt>drag</dt><dd>move the picture, or the line between A and B</dd></div>
+          <div><dt>click</dt><dd>all there is to know of a pixel</dd></div>
         </dl>
         <label class="check">
           <input type="checkbox" checked={letter_keys.value} onChange={(event) => set_letter_keys(event.currentTarget.checked)} />
@@ -34,7 +38,6 @@ export function Help() {
         <p class="faint">
           tofray {hello.value?.version ?? ""}. <a href="THIRD-PARTY.txt">Software of others in this page</a>.
         </p>
-        <button type="button" onClick={() => (help_open.value = false)}>Close</button>
       </div>
     </dialog>
   );

@@ -1,12 +1,18 @@
 // SPDX-FileCopyrightText: 2026 The tofray authors
 // SPDX-License-Identifier: Apache-2.0
-// The keyboard: one table, which the help shows, too. No key acts in a field, none with Ctrl, Alt or Meta; single letters can be switched off.
+// The keyboard: one table, which the help shows, too. No key acts in a field, none with Alt; single letters can be switched off.
 
-import { fit, step, toggle_play } from "./ask";
+import { copy_command, find_control, toggle_other } from "./actions";
+import { fit_pane, step, toggle_play } from "./ask";
 import { reason_of } from "./colors";
+import { difference_at, difference_unit } from "./compare";
+import { save } from "./edit";
+import { redo, undo } from "./history";
 import { number_text, with_unit } from "./numbers";
+import type { Side } from "./protocol";
 import {
-  cursor, extent, focused, hello, help_open, letter_keys, point_at, scale_of, show, shown, size, spoken, title_of, value_at, view,
+  comparing, cursor, edited, extent, flipped, focused, hello, help_open, letter_keys, other, point_at, scale_of, set_panes, show, shown, size, spoken, title_of,
+  toggle_histogram, value_at, view, type Comparing,
 } from "./store";
 import { whole, zoomed } from "./view_port";
 
@@ -16,6 +22,8 @@ interface Key {
   does: string;
   /** Only while a picture has the focus. */
   in_picture?: boolean;
+  /** With Ctrl, or the Mac's Command. */
+  ctrl?: boolean;
   act(event: KeyboardEvent): void;
 }
 
@@ -46,21 +54,58 @@ function choose_array(event: KeyboardEvent): void {
   if (pane !== undefined) show(focused.value, pane.array);
 }
 
+export const ways: readonly Comparing[] = ["beside", "wipe", "flip", "difference"];
+
+function next_way(): void {
+  if (other.value !== undefined) comparing.value = ways[(ways.indexOf(comparing.value) + 1) % ways.length]!;
+}
+
+/** B in the place of A, until the key comes up. */
+function flip_while_held(event: KeyboardEvent): void {
+  if (other.value === undefined || event.repeat) return;
+  flipped.value = true;
+  const back = (up: KeyboardEvent | FocusEvent): void => {
+    if (up instanceof KeyboardEvent && up.key !== event.key) return;
+    flipped.value = false;
+    removeEventListener("keyup", back);
+    removeEventListener("blur", back);
+  };
+  addEventListener("keyup", back);
+  addEventListener("blur", back);
+}
+
 export const keys: readonly Key[] = [
   { keys: Object.keys(moves), said: "← ↑ → ↓", does: "move the pixel cursor, by 10 with Shift; a picture has the focus", in_picture: true, act: move_cursor },
   { keys: [" "], said: "Space", does: "play or pause", act: toggle_play },
   { keys: [","], said: ",", does: "one frame back", act: () => step(-1) },
   { keys: ["."], said: ".", does: "one frame on", act: () => step(1) },
-  { keys: ["f"], said: "f", does: "fit the colours of this pane to the frame, once", act: () => fit(shown.value[focused.value]) },
+  { keys: ["f"], said: "f", does: "fit the colours of this pane to the frame, once", act: () => fit_pane(focused.value) },
   { keys: [..."123456789"], said: "1 … 9", does: "what this pane shows, in the order of its list", act: choose_array },
+  { keys: ["h"], said: "h", does: "histogram of this pane", act: () => toggle_histogram(focused.value) },
+  { keys: ["["], said: "[", does: "one pane less", act: () => set_panes(shown.value.length - 1) },
+  { keys: ["]"], said: "]", does: "one pane more, up to four", act: () => set_panes(shown.value.length + 1) },
   { keys: ["+", "="], said: "+", does: "zoom in at the cursor", act: () => zoom_at_cursor(1.5) },
   { keys: ["-"], said: "−", does: "zoom out", act: () => zoom_at_cursor(1 / 1.5) },
   { keys: ["0"], said: "0", does: "the whole picture", act: () => void (view.value = whole) },
+  { keys: ["/"], said: "/", does: "search the controls", act: find_control },
+  { keys: ["z"], said: "Ctrl+Z", does: "undo; in a field, what was typed", ctrl: true, act: (event) => (event.shiftKey ? redo() : undo()) },
+  { keys: ["y"], said: "Ctrl+Y", does: "redo; also Ctrl+Shift+Z", ctrl: true, act: redo },
+  { keys: ["a"], said: "a", does: "A | B: opens the second state, or closes it", act: toggle_other },
+  { keys: ["v"], said: "v", does: "A | B: beside each other, wipe, flip, difference", act: next_way },
+  { keys: ["b"], said: "b", does: "A | B: shows B while it is held down", act: flip_while_held },
+  { keys: ["c"], said: "c", does: "copy the command", act: () => void copy_command() },
+  { keys: ["s"], said: "s", does: "save the scene as YAML", act: () => save(edited.value) },
   { keys: ["?"], said: "?", does: "this list", act: () => void (help_open.value = !help_open.value) },
 ];
 
+/** Letters are theirs. */
 function is_field(target: Element | null): boolean {
-  return target?.closest("input:not([type=checkbox]), textarea, select, [contenteditable]") != null;
+  return target?.closest("input:not([type=checkbox], [type=range], [type=radio]), textarea, select, [contenteditable]") != null;
+}
+
+/** What was typed is theirs to undo. */
+function is_text(target: Element | null): boolean {
+  return target?.closest("input:not([type=checkbox], [type=range], [type=radio]), textarea, [contenteditable]") != null;
 }
 
 /** Space and arrows are theirs. */
@@ -69,15 +114,16 @@ function is_control(target: Element | null): boolean {
 }
 
 function on_key(event: KeyboardEvent): void {
-  if (event.ctrlKey || event.altKey || event.metaKey || event.isComposing || event.defaultPrevented) return;
+  if (event.altKey || event.isComposing || event.defaultPrevented) return;
+  const ctrl = event.ctrlKey || event.metaKey;
   const target = event.target instanceof Element ? event.target : null;
-  if (is_field(target)) return;
-  const key = keys.find((one) => one.keys.includes(event.key));
+  if (ctrl ? is_text(target) : is_field(target)) return;
+  const key = keys.find((one) => one.keys.includes(ctrl ? event.key.toLowerCase() : event.key) && (one.ctrl === true) === ctrl);
   if (key === undefined) return;
   const in_picture = target?.closest(".stage") != null;
   if (key.in_picture === true && !in_picture) return;
   if (event.key === " " && is_control(target)) return;
-  if (event.key.length === 1 && event.key !== " " && !letter_keys.value) return;
+  if (!ctrl && event.key.length === 1 && event.key !== " " && !letter_keys.value) return;
   if (help_open.value && event.key !== "?") return;
   event.preventDefault();
   key.act(event);
@@ -87,9 +133,18 @@ export function start_keys(): void {
   addEventListener("keydown", on_key);
 }
 
+/** B − A at the cursor, with its sign; empty where one of them has no value, or it is of bits. */
+export function difference_reading(array: string): string {
+  const own = scale_of(array);
+  const value = difference_at(array, cursor.value);
+  if (own === undefined || value === undefined || !Number.isFinite(value)) return "";
+  const scale = difference_unit(own);
+  return with_unit(`${value > 0 ? "+" : ""}${number_text(value * (scale.factor ?? 1))}`, scale.unit);
+}
+
 /** What one pane shows at the cursor, in words: its value, or why there is none. */
-export function reading(array: string): string {
-  const value = value_at(array, cursor.value);
+export function reading(array: string, side: Side = "a"): string {
+  const value = value_at(array, cursor.value, side);
   const greeting = hello.value;
   if (value === undefined || greeting === undefined) return "";
   const scale = scale_of(array);
@@ -98,7 +153,7 @@ export function reading(array: string): string {
     return names.length === 0 ? "none" : names.join(", ");
   }
   if (Number.isFinite(value)) return with_unit(number_text(value * (scale.factor ?? 1)), scale.unit);
-  const why = reason_of(greeting, value_at("flags", cursor.value) ?? 0);
+  const why = reason_of(greeting, value_at("flags", cursor.value, side) ?? 0);
   return why === undefined ? "invalid" : `invalid: ${why.name}`;
 }
 
@@ -110,7 +165,8 @@ function say_pixel_soon(): void {
   timer = setTimeout(() => {
     const at = cursor.value;
     if (at === undefined) return;
-    const readings = [...new Set(shown.value)].map((array) => `${title_of(array)} ${reading(array)}`);
+    const b = other.value !== undefined;
+    const readings = [...new Set(shown.value)].map((array) => `${title_of(array)} ${b ? `A ${reading(array)}, B ${reading(array, "b")}` : reading(array)}`);
     spoken.value = [`Pixel ${at.u}, ${at.v}`, ...readings].join(". ");
   }, 150);
 }

@@ -4,26 +4,38 @@ import { batch } from "@preact/signals";
 import { render } from "preact";
 import { App } from "./app";
 import { fault_arrived, opened_anew, pixel_arrived, start_asking } from "./ask";
-import { connect } from "./connection";
+import { connect, server_count } from "./connection";
+import { change_refused, controls_arrived, done_arrived, forget_unanswered, saved_arrived, start_editing } from "./edit";
+import { history_goes_on, history_of_greeting, start_history } from "./history";
 import { start_keys } from "./keys";
-import { frame_arrived, start_loop } from "./loop";
+import { forget_b, frame_arrived, start_loop } from "./loop";
 import { read_frame, type Hello, type ServerMessage, type State } from "./protocol";
-import { choose_arrays, fault, fitted, frame, hello, pixel, state, stats } from "./store";
+import { choose_arrays, controls, difference_scales, fault, fitted, frame, hello, key_faults, other, pixel, pixel_b, state, stats } from "./store";
 import { offer_to_tests } from "./test_hooks";
 
+let server = 0;
+
 function greeted(by: Hello): void {
+  const before = hello.peek();
   batch(() => {
     hello.value = by;
-    const { generation, playing, frame: at, seed, command } = by;
-    state.value = { type: "state", generation, playing, frame: at, seed, command };
-    fitted.value = new Map();
+    const { generation, playing, frame: at, seed, command, scene } = by;
+    state.value = { type: "state", generation, playing, frame: at, seed, command, scene, overrides: by.overrides, other: by.other };
+    other.value = by.other ?? undefined;
+    fitted.value = difference_scales.value = new Map();
+    key_faults.value = new Map();
     frame.value = undefined;
-    pixel.value = undefined;
+    pixel.value = pixel_b.value = undefined;
+    controls.a.value = controls.b.value = undefined;
+    forget_b();
+    forget_unanswered();
     choose_arrays(by);
   });
   document.title = `${by.scene} – tofray view`;
   if (by.test_hooks === true) offer_to_tests();
   opened_anew();
+  history_of_greeting(by, before, server !== 0 && server !== server_count);
+  server = server_count;
 }
 
 /** A state may bring other numbers of the camera: the greeting's follow. */
@@ -31,10 +43,15 @@ function changed(to: State): void {
   const now = hello.peek();
   batch(() => {
     state.value = to;
-    if (now !== undefined && to.width !== undefined && to.height !== undefined && (to.width !== now.width || to.height !== now.height)) {
-      hello.value = { ...now, width: to.width, height: to.height, phases: to.phases ?? now.phases };
+    other.value = to.other ?? undefined;
+    if (now !== undefined) {
+      const { width = now.width, height = now.height, phases = now.phases, camera = now.camera, mode = now.mode, frame_rate_hz = now.frame_rate_hz } = to;
+      const same = width === now.width && height === now.height && phases === now.phases && camera === now.camera && mode === now.mode && frame_rate_hz === now.frame_rate_hz;
+      if (!same) hello.value = { ...now, width, height, phases, camera, mode, frame_rate_hz };
     }
+    if (other.value === undefined) forget_b();
   });
+  history_goes_on();
 }
 
 function text_arrived(message: ServerMessage): void {
@@ -44,9 +61,12 @@ function text_arrived(message: ServerMessage): void {
     case "scale": return void (fitted.value = new Map(fitted.peek()).set(message.array, message.scale));
     case "pixel": return pixel_arrived(message);
     case "stats": return void (stats.value = message);
+    case "controls": return controls_arrived(message);
+    case "done": return done_arrived(message);
+    case "saved": return saved_arrived(message);
     case "fault":
       fault_arrived(message);
-      fault.value = message;
+      if (!change_refused(message)) fault.value = message;
   }
 }
 
@@ -54,5 +74,7 @@ const root = document.getElementById("page");
 if (root !== null) render(<App />, root);
 start_loop();
 start_asking();
+start_editing();
+start_history();
 start_keys();
 connect({ opened: () => undefined, text: text_arrived, binary: (message) => frame_arrived(read_frame(message)) });

@@ -4,7 +4,7 @@
 
 import type { Value } from "./protocol";
 
-const minus = "\u2212";
+export const minus = "\u2212";
 
 /** Six significant digits (a float has seven), whole numbers whole, a true minus sign. */
 export function number_text(value: number): string {

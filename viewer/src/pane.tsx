@@ -2,13 +2,18 @@
 // SPDX-License-Identifier: Apache-2.0
 import { effect, useSignal, type Signal } from "@preact/signals";
 import { useEffect, useRef } from "preact/hooks";
-import { fit } from "./ask";
-import { reading } from "./keys";
+import { fit_pane } from "./ask";
+import { difference_scale, shown_by } from "./compare";
+import { Histogram } from "./histogram";
+import { difference_reading, reading } from "./keys";
 import { Legend } from "./legend";
 import { draw_soon, pictures } from "./loop";
 import { Picture } from "./picture";
+import type { Side } from "./protocol";
 import { ScaleBar } from "./scale_bar";
-import { cursor, extent, focused, hello, point_at, scale_of, show, shown, size, title_of, view } from "./store";
+import {
+  comparing, cursor, extent, focused, frame_of, hello, histograms, other, point_at, scale_of, show, shown, size, tab, title_of, toggle_histogram, view, wipe,
+} from "./store";
 import { fitting_scale, held, zoomed } from "./view_port";
 
 const still_px = 3;   // a press that moves less is no drag
@@ -23,7 +28,7 @@ function listen(stage: HTMLElement, picture: Picture): () => void {
   };
   const listeners: { [K in "pointerdown" | "pointermove" | "pointerup" | "pointercancel"]: (event: PointerEvent) => void } = {
     pointerdown: (event) => {
-      if (event.button !== 0) return;
+      if (event.button !== 0 || (event.target instanceof Element && event.target.closest(".wipe") !== null)) return;
       drag = { x: event.clientX, y: event.clientY, from: view.value, moved: false };
       stage.setPointerCapture(event.pointerId);
       point(event);
@@ -35,12 +40,15 @@ function listen(stage: HTMLElement, picture: Picture): () => void {
       const dy = event.clientY - drag.y;
       drag.moved ||= Math.hypot(dx, dy) > still_px;
       if (!drag.moved) return;
-      const { width, height } = size.value;
+      const { width, height } = picture.image ?? size.value;
       const pixel = at.scale / devicePixelRatio;
       const to = { zoom: view.value.zoom, x: drag.from.x - dx / (pixel * width), y: drag.from.y - dy / (pixel * height) };
       view.value = held(to, extent.value);
     },
-    pointerup: () => (drag = undefined),
+    pointerup: () => {
+      if (drag?.moved === false) tab.value = "pixel";
+      drag = undefined;
+    },
     pointercancel: () => (drag = undefined),
   };
   const wheel = (event: WheelEvent): void => {
@@ -60,7 +68,7 @@ function listen(stage: HTMLElement, picture: Picture): () => void {
 }
 
 const least_height = 220;     // [CSS px] of a picture
-const other_height = 330;     // what stands above and below it, for both to be seen without scrolling
+const other_height = 300;     // what stands above and below it, for both to be seen without scrolling
 
 /** As high as the image in it, at the largest scale that there is room for. */
 function fit_stage(stage: HTMLElement): void {
@@ -72,10 +80,11 @@ function fit_stage(stage: HTMLElement): void {
 }
 
 /** Mounts a picture on two canvases that are as large as their stage, in device pixels. */
-function mount(pane: number, stage: HTMLElement, kept: Signal<Picture | undefined>): () => void {
+function mount(pane: number, side: Side, stage: HTMLElement, kept: Signal<Picture | undefined>): () => void {
   const [front, over] = stage.querySelectorAll("canvas");
-  const picture = new Picture(pane, front!, over!);
-  pictures.set(pane, picture);
+  const picture = new Picture(pane, side, front!, over!);
+  const place = `${pane}${side}`;
+  pictures.set(place, picture);
   kept.value = picture;
   const fit_in = (): void => fit_stage(stage);
   const observer = new ResizeObserver(() => {
@@ -95,20 +104,80 @@ function mount(pane: number, stage: HTMLElement, kept: Signal<Picture | undefine
     removeEventListener("resize", fit_in);
     silent();
     deaf();
-    pictures.delete(pane);
+    pictures.delete(place);
+    kept.value = undefined;
   };
 }
 
-export function Pane({ pane }: { pane: number }) {
+/** The line between A and B, which a pointer or the arrow keys move. */
+function Wipe() {
+  const move = (event: PointerEvent): void => {
+    const line = event.currentTarget as HTMLElement;
+    const box = line.parentElement?.getBoundingClientRect();
+    if (box === undefined || !line.hasPointerCapture(event.pointerId)) return;
+    wipe.value = Math.min(1, Math.max(0, (event.clientX - box.left) / box.width));
+  };
+  const step: Readonly<Record<string, number>> = { ArrowLeft: -0.02, ArrowRight: 0.02, ArrowDown: -0.02, ArrowUp: 0.02, Home: -1, End: 1 };
+  return (
+    <div class="wipe" role="slider" tabIndex={0} aria-label="Line between A and B" aria-valuemin={0} aria-valuemax={100} aria-valuenow={Math.round(100 * wipe.value)}
+      aria-valuetext={`${Math.round(100 * wipe.value)} % A`} style={{ left: `${100 * wipe.value}%` }}
+      onPointerDown={(event) => event.currentTarget.setPointerCapture(event.pointerId)} onPointerMove={move}
+      onKeyDown={(event) => {
+        const by = step[event.key];
+        if (by === undefined) return;
+        event.preventDefault();
+        wipe.value = Math.min(1, Math.max(0, wipe.value + by));
+      }} />
+  );
+}
+
+const badges = { a: "A", b: "B", wipe: "A", difference: "B − A" };
+
+function Stage({ pane, side, title, kept }: { pane: number; side: Side; title: string; kept: Signal<Picture | undefined> }) {
   const stage = useRef<HTMLDivElement>(null);
-  const picture = useSignal<Picture | undefined>(undefined);
-  useEffect(() => (stage.current === null ? undefined : mount(pane, stage.current, picture)), []);
+  useEffect(() => (stage.current === null ? undefined : mount(pane, side, stage.current, kept)), []);
+  const shows = shown_by(side);
+  const which = other.value === undefined ? "" : ` of ${badges[shows]}${shows === "wipe" ? " and B" : ""}`;
+  return (
+    <div ref={stage} class="stage" tabIndex={0} role="application" aria-label={`${title}${which}: picture. Arrow keys move the pixel cursor.`}
+      style={{ touchAction: view.value.zoom > 1 ? "none" : "pan-y pinch-zoom" }}>
+      <canvas class="front" />
+      <canvas class="over" />
+      {other.value !== undefined && <span class={`badge ${shows}`} aria-hidden="true">{badges[shows]}</span>}
+      {frame_of(shows === "b" ? "b" : "a")?.draft === true && <span class="badge draft">draft</span>}
+      {shows === "wipe" && <span class="badge b" aria-hidden="true">B</span>}
+      {shows === "wipe" && <Wipe />}
+    </div>
+  );
+}
+
+/** What this pane shows at the cursor, of A and B where both are there. */
+function Reading({ array }: { array: string }) {
+  if (cursor.value === undefined) return <span class="reading" data-array={array} />;
+  if (other.value === undefined) return <span class="reading" data-array={array}>{reading(array)}</span>;
+  const difference = difference_reading(array);
+  return (
+    <span class="reading both">
+      <span><abbr title="the first state">A</abbr> <span data-array={array}>{reading(array)}</span></span>{" "}
+      <span><abbr title="the second state">B</abbr> <span data-array-b={array}>{reading(array, "b")}</span></span>{" "}
+      <span class="faint">{difference === "" ? "" : "B − A "}<span data-difference={array}>{difference}</span></span>
+    </span>
+  );
+}
+
+export function Pane({ pane }: { pane: number }) {
+  const a = useSignal<Picture | undefined>(undefined);
+  const b = useSignal<Picture | undefined>(undefined);
   const array = shown.value[pane] ?? "";
   const title = title_of(array);
-  const scale = scale_of(array);
-  const text = reading(array);
+  const beside = other.value !== undefined && comparing.value === "beside";
+  const shows = shown_by("a");
+  const own = scale_of(array);
+  const scale = own !== undefined && shows === "difference" ? difference_scale(array) : own;
+  const has_histogram = histograms.value.has(pane);
   return (
-    <section class={`pane${focused.value === pane ? " focused" : ""}`} aria-label={`Pane ${pane + 1}: ${title}`} onFocusIn={() => (focused.value = pane)} onPointerDown={() => (focused.value = pane)}>
+    <section class={`pane${focused.value === pane ? " focused" : ""}${beside ? " double" : ""}`} aria-label={`Pane ${pane + 1}: ${title}`}
+      onFocusIn={() => (focused.value = pane)} onPointerDown={() => (focused.value = pane)}>
       <div class="pane-head">
         <label>
           <span class="unseen">Pane {pane + 1} shows</span>
@@ -116,18 +185,25 @@ export function Pane({ pane }: { pane: number }) {
             {(hello.value?.panes ?? []).map((one) => <option key={one.array} value={one.array}>{one.title}</option>)}
           </select>
         </label>
-        <span class="reading" data-array={array}>{cursor.value === undefined ? "" : text}</span>
-        <button type="button" class="quiet" onClick={() => fit(array)} disabled={scale === undefined}
-          aria-label="Fit colours" title="the colours as this frame needs them, once (f); else they stay">Fit</button>
+        <Reading array={array} />
+        <div class="buttons">
+          <button type="button" class="quiet" aria-pressed={has_histogram} onClick={() => toggle_histogram(pane)} aria-label="Histogram" title="how many pixels have which value (h)">
+            <svg viewBox="0 0 16 16" width="16" height="16" aria-hidden="true"><path d="M1 14h14v1.2H1zM2 9h2v4H2zM5 4h2v9H5zM8 1.5h2V13H8zM11 7h2v6h-2z" fill="currentColor" /></svg>
+          </button>
+          <button type="button" class="quiet" onClick={() => fit_pane(pane)} disabled={own === undefined}
+            aria-label="Fit colours" title="the colours as this frame needs them, once (f); else they stay">Fit</button>
+        </div>
       </div>
-      <div ref={stage} class="stage" tabIndex={0} role="application" aria-label={`${title}: picture. Arrow keys move the pixel cursor.`}
-        style={{ touchAction: view.value.zoom > 1 ? "none" : "pan-y pinch-zoom" }}>
-        <canvas class="front" />
-        <canvas class="over" />
+      <div class="stages">
+        <Stage pane={pane} side="a" title={title} kept={a} />
+        {beside && <Stage pane={pane} side="b" title={title} kept={b} />}
       </div>
-      {scale !== undefined && <ScaleBar scale={scale} array={array} />}
-      <Legend shares={picture.value?.shares.value ?? []} bits={scale === undefined} />
+      {scale !== undefined && <ScaleBar scale={scale} array={array} shows={shows}>{has_histogram && <Histogram array={array} scale={scale} shows={shows} />}</ScaleBar>}
+      {scale === undefined && has_histogram && <Histogram array={array} scale={undefined} shows={shows} />}
+      <div class="stages">
+        <Legend shares={a.value?.shares ?? []} bits={own === undefined} shows={shows} name={beside ? "A" : ""} />
+        {beside && <Legend shares={b.value?.shares ?? []} bits={own === undefined} shows="b" name="B" />}
+      </div>
     </section>
   );
 }
-

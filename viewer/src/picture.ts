@@ -4,10 +4,13 @@
 
 import { signal } from "@preact/signals";
 import { css, ink_on, paint } from "./colors";
+import { difference_of, difference_scale, fit_difference, image_of, shown_by, type Shows, type Values } from "./compare";
 import { digits_for, fixed_text } from "./numbers";
-import type { Frame, Hello, Reason, Rgb, Scale } from "./protocol";
-import { array_of, canvas_size, cursor, hello, scale_of, shown, view, type Cursor } from "./store";
+import type { Hello, Reason, Rgb, Scale, Side } from "./protocol";
+import { array_of, canvas_size, cursor, frame_of, hello, of_b, scale_of, shown, size, view, wipe, type Cursor } from "./store";
 import { placement, type Placement } from "./view_port";
+
+const sides: readonly Side[] = ["a", "b"];
 
 /** How wide a pixel has to be, in CSS pixels, for a letter or a number to be read in it. */
 const letter_room = 11;
@@ -24,22 +27,54 @@ function context_of(canvas: HTMLCanvasElement): CanvasRenderingContext2D {
   return context;
 }
 
-export class Picture {
+/** An image with its colours, made again where something has changed. */
+class Coat {
   /** Why pixels have no value, and how many: each reason that has occurred, so that the legend does not jump. */
   readonly shares = signal<readonly Share[]>([]);
-  /** The image as coloured. */
   image: ImageData | undefined;
+  values: Values | undefined;
+  readonly buffer = document.createElement("canvas");
+  private readonly seen = new Set<Reason | undefined>();
+  private made: { of: readonly unknown[]; array: string; generation: string } | undefined;
+
+  /** @param of  what the image is made of: the same is not coloured again */
+  color(greeting: Hello, of: readonly unknown[], array: string, generation: string, values: () => Values | undefined, scale: Scale | undefined): void {
+    const before = this.made;
+    const all = [...of, scale, array];
+    if (before !== undefined && all.every((one, i) => one === before.of[i])) return;
+    const fresh = values();
+    if (fresh === undefined) return;
+    const { width, height } = fresh;
+    if (this.image?.width !== width || this.image.height !== height) {
+      this.image = new ImageData(width, height);
+      this.buffer.width = width;
+      this.buffer.height = height;
+    }
+    if (before?.array !== array || before.generation !== generation) this.seen.clear();
+    const counts = paint(this.image.data, greeting, fresh.values, fresh.flags, scale);
+    context_of(this.buffer).putImageData(this.image, 0, 0);
+    this.values = fresh;
+    this.made = { of: all, array, generation };
+    for (const reason of counts.keys()) this.seen.add(reason);
+    this.shares.value = [...greeting.invalid, undefined]
+      .filter((reason) => this.seen.has(reason))
+      .map((reason) => ({ reason, share: (counts.get(reason) ?? 0) / fresh.values.length }));
+  }
+}
+
+export class Picture {
   array = "";
+  /** What it shows now: to be read by who shows its legend. */
+  readonly shows = signal<Shows>("a");
 
   private readonly front: HTMLCanvasElement;
   private readonly over: HTMLCanvasElement;
-  private readonly buffer = document.createElement("canvas");
-  private readonly seen = new Set<Reason | undefined>();
-  private painted: { frame: Frame; scale: Scale | undefined; array: string } | undefined;
+  private readonly coats = { a: new Coat(), b: new Coat(), difference: new Coat() };
 
-  constructor(readonly pane: number, front: HTMLCanvasElement, over: HTMLCanvasElement) {
+  constructor(readonly pane: number, readonly side: Side, front: HTMLCanvasElement, over: HTMLCanvasElement) {
     this.front = front;
     this.over = over;
+    this.shows.value = side;
   }
 
   resize(width: number, height: number): void {
@@ -47,7 +82,31 @@ export class Picture {
       canvas.width = Math.max(1, width);
       canvas.height = Math.max(1, height);
     }
-    canvas_size.value = { width, height };
+    if (this.side === "a") canvas_size.value = { width, height };
+  }
+
+  private get coat(): Coat {
+    const shows = this.shows.peek();
+    return this.coats[shows === "wipe" ? "a" : shows];
+  }
+
+  /** The image as coloured. */
+  get image(): ImageData | undefined {
+    return this.coat.image;
+  }
+
+  get values(): Values | undefined {
+    return this.coat.values;
+  }
+
+  get shares(): readonly Share[] {
+    const shows = this.shows.value;
+    return this.coats[shows === "wipe" ? "a" : shows].shares.value;
+  }
+
+  /** The scale of what it shows. */
+  get scale(): Scale | undefined {
+    return this.shows.value === "difference" ? difference_scale(this.array) : scale_of(this.array);
   }
 
   where(): Placement | undefined {
@@ -56,75 +115,86 @@ export class Picture {
     return placement(view.value, { width, height, canvas_width: this.front.width, canvas_height: this.front.height });
   }
 
-  /** The point of the image at a place on the screen [pixels], also beyond its edges: pixel (0, 0) is 0 … 1. */
+  /** The point at a place on the screen [pixels of A's image], also beyond its edges: pixel (0, 0) is 0 … 1. */
   point_at(client_x: number, client_y: number): Cursor | undefined {
     const at = this.where();
     const box = this.front.getBoundingClientRect();
     if (at === undefined || box.width === 0) return undefined;
     const ratio = this.front.width / box.width;
+    const of_a = size.value;
     return {
-      u: ((client_x - box.left) * ratio - at.left) / at.scale,
-      v: ((client_y - box.top) * ratio - at.top) / at.scale,
+      u: (((client_x - box.left) * ratio - at.left) / at.scale) * (of_a.width / (this.image?.width ?? of_a.width)),
+      v: (((client_y - box.top) * ratio - at.top) / at.scale) * (of_a.height / (this.image?.height ?? of_a.height)),
     };
   }
 
-  /** Colours the frame where that is not done yet, and draws it. */
-  draw(frame: Frame | undefined): void {
+  /** Colours what is to be seen, where that is not done yet, and draws it. */
+  draw(): void {
     const greeting = hello.value;
     const array = shown.value[this.pane];
     if (greeting === undefined || array === undefined) return;
-    if (frame !== undefined) this.color(greeting, frame, array);
+    const shows = shown_by(this.side);
+    if (array_of(frame_of(this.side), array) !== undefined) {
+      this.array = array;
+      this.shows.value = shows;
+      if (shows === "difference") this.color_difference(greeting, array);
+      else for (const side of shows === "wipe" ? sides : [shows]) this.color(greeting, array, side);
+    }
     const front = context_of(this.front);
     front.clearRect(0, 0, this.front.width, this.front.height);
-    const at = this.where();
-    if (at !== undefined && this.image !== undefined) {
-      front.imageSmoothingEnabled = false;
-      front.drawImage(this.buffer, at.left, at.top, at.scale * this.image.width, at.scale * this.image.height);
+    if (this.shows.peek() === "wipe") {
+      const at = Math.round(wipe.value * this.front.width);
+      this.draw_image(front, this.coats.a, 0, at);
+      this.draw_image(front, this.coats.b, at, this.front.width);
+    } else {
+      this.draw_image(front, this.coat, 0, this.front.width);
     }
-    this.draw_over(greeting, frame);
+    this.draw_over(greeting);
   }
 
-  private color(greeting: Hello, frame: Frame, name: string): void {
-    const scale = scale_of(name);
-    const before = this.painted;
-    if (before?.frame === frame && before.scale === scale && before.array === name) return;
-    const array = array_of(frame, name);
-    const [height, width] = array?.dims ?? [];
-    if (array === undefined || array.dims.length !== 2 || height === undefined || width === undefined || width * height === 0) return;
-    if (this.image?.width !== width || this.image.height !== height) {
-      this.image = new ImageData(width, height);
-      this.buffer.width = width;
-      this.buffer.height = height;
-    }
-    if (before?.array !== name || before.frame.generation !== frame.generation) this.seen.clear();
-    const counts = paint(this.image.data, greeting, array.values, array_of(frame, "flags")?.values, scale);
-    context_of(this.buffer).putImageData(this.image, 0, 0);
-    this.array = name;
-    this.painted = { frame, scale, array: name };
-    for (const reason of counts.keys()) this.seen.add(reason);
-    this.shares.value = [...greeting.invalid, undefined]
-      .filter((reason) => this.seen.has(reason))
-      .map((reason) => ({ reason, share: (counts.get(reason) ?? 0) / array.values.length }));
+  private draw_image(front: CanvasRenderingContext2D, coat: Coat, from: number, to: number): void {
+    if (coat.image === undefined || to <= from) return;
+    const { width, height } = coat.image;
+    const at = placement(view.value, { width, height, canvas_width: this.front.width, canvas_height: this.front.height });
+    front.save();
+    front.beginPath();
+    front.rect(from, 0, to - from, this.front.height);
+    front.clip();
+    front.imageSmoothingEnabled = false;
+    front.drawImage(coat.buffer, at.left, at.top, at.scale * width, at.scale * height);
+    front.restore();
+  }
+
+  private color(greeting: Hello, array: string, side: Side): void {
+    const frame = frame_of(side);
+    if (frame === undefined) return;
+    this.coats[side].color(greeting, [frame], array, String(frame.generation), () => image_of(frame, array), scale_of(array));
+  }
+
+  private color_difference(greeting: Hello, array: string): void {
+    const [a, b] = [frame_of("a"), frame_of("b")];
+    if (a === undefined || b === undefined) return;
+    if (scale_of(array) !== undefined && difference_scale(array) === undefined) fit_difference(array);
+    this.coats.difference.color(greeting, [a, b], array, `${a.generation} ${b.generation}`, () => difference_of(a, b, array), difference_scale(array));
   }
 
   /** The cursor alone, without the image again. */
-  private draw_over(greeting: Hello, frame: Frame | undefined): void {
+  private draw_over(greeting: Hello): void {
     const over = context_of(this.over);
     over.clearRect(0, 0, this.over.width, this.over.height);
     const at = this.where();
     if (at === undefined || this.image === undefined) return;
     const ratio = devicePixelRatio;
-    if (frame !== undefined && at.scale >= letter_room * ratio) this.draw_letters(over, greeting, frame, at, ratio);
-    const point = cursor.value;
+    if (at.scale >= letter_room * ratio) this.draw_letters(over, greeting, at, ratio);
+    const point = cursor.value && (this.side === "b" ? of_b(cursor.value) : cursor.value);
     if (point !== undefined) this.draw_cursor(over, at, point, ratio);
   }
 
-  private draw_letters(over: CanvasRenderingContext2D, greeting: Hello, frame: Frame, at: Placement, ratio: number): void {
-    const array = array_of(frame, this.array);
-    const image = this.image;
-    if (array === undefined || image === undefined) return;
-    const flags = array_of(frame, "flags")?.values;
-    const scale = scale_of(this.array);
+  private draw_letters(over: CanvasRenderingContext2D, greeting: Hello, at: Placement, ratio: number): void {
+    const { image, values: array } = this.coat;
+    if (array === undefined || image === undefined || this.shows.peek() === "wipe") return;
+    const flags = array.flags;
+    const scale = this.scale;
     const factor = scale?.factor ?? 1;
     const numbers = scale !== undefined && at.scale >= number_room * ratio;
     const digits = scale === undefined ? 0 : digits_for(factor * (scale.high - scale.low));

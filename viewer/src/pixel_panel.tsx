@@ -4,28 +4,35 @@
 
 import { number_text, value_text, with_unit } from "./numbers";
 import type { ArrayInfo, NamedValue, Pixel, RawFrameReport } from "./protocol";
-import { cursor, frame, hello, pixel } from "./store";
+import { cursor, frame, hello, other, pixel, pixel_b } from "./store";
 
 function is_truth(value: NamedValue): boolean {
   return value.name.startsWith("gt_");
 }
 
-function Values({ title, values }: { title: string; values: readonly NamedValue[] }) {
+/** @param beside  B's values of the same names */
+function Values({ title, values, beside }: { title: string; values: readonly NamedValue[]; beside: readonly NamedValue[] | undefined }) {
   if (values.length === 0) return null;
   const about = (name: string): ArrayInfo | undefined => hello.value?.arrays.find((array) => array.name === name);
   return (
     <table>
       <caption>{title}</caption>
+      {beside !== undefined && <thead><tr><td /><th scope="col">A</th><th scope="col">B</th></tr></thead>}
       <tbody>
         {values.map(({ name, unit, value }) => (
           <tr key={name} title={about(name)?.what ?? ""}>
             <th scope="row">{name}</th>
-            <td data-value={name}>{with_unit(value_text(value), Array.isArray(value) ? "" : unit)}</td>
+            <td data-value={name}>{text_of({ name, unit, value })}</td>
+            {beside !== undefined && <td data-value-b={name}>{text_of(beside.find((one) => one.name === name))}</td>}
           </tr>
         ))}
       </tbody>
     </table>
   );
+}
+
+function text_of(of: NamedValue | undefined): string {
+  return of === undefined ? "" : with_unit(value_text(of.value), Array.isArray(of.value) ? "" : of.unit);
 }
 
 function RawFrames({ frames }: { frames: readonly RawFrameReport[] }) {
@@ -56,7 +63,7 @@ function RawFrames({ frames }: { frames: readonly RawFrameReport[] }) {
   );
 }
 
-function Answer({ of }: { of: Pixel }) {
+function Answer({ of, beside }: { of: Pixel; beside: Pixel | undefined }) {
   const images = of.values.filter((one) => hello.value?.arrays.find((array) => array.name === one.name)?.shape !== "stack");
   const object = of.report.truth?.object ?? "";
   const reason = hello.value?.invalid.find((one) => one.name === of.why);
@@ -64,8 +71,8 @@ function Answer({ of }: { of: Pixel }) {
     <>
       {object !== "" && <p class="object"><span class="faint">sees</span> <bdi>{object}</bdi></p>}
       {of.why !== "" && <p class="why"><strong>No depth: {of.why}.</strong> {reason?.advice ?? ""}</p>}
-      <Values title="Measured" values={images.filter((one) => !is_truth(one))} />
-      <Values title="Ground truth" values={images.filter(is_truth)} />
+      <Values title="Measured" values={images.filter((one) => !is_truth(one))} beside={beside?.values} />
+      <Values title="Ground truth" values={images.filter(is_truth)} beside={beside?.values} />
       <RawFrames frames={of.report.raw_frames ?? []} />
     </>
   );
@@ -76,7 +83,7 @@ export function PixelPanel() {
   const answer = pixel.value;
   const late = answer !== undefined && (answer.u !== at?.u || answer.v !== at.v);
   return (
-    <aside class="panel" aria-label="Pixel">
+    <>
       <h2>
         {at === undefined ? "Pixel" : `Pixel ${at.u}, ${at.v}`}
         {answer !== undefined && <span class="faint of-frame"> frame {answer.frame}</span>}
@@ -84,10 +91,10 @@ export function PixelPanel() {
       {at === undefined && <p class="faint">Point at a picture, or press Tab until one has the focus and use the arrow keys.</p>}
       {at !== undefined && answer !== undefined && (
         <div class={late ? "answer late" : "answer"} data-pixel={`${answer.u},${answer.v}`} data-frame={answer.frame}>
-          <Answer of={answer} />
+          <Answer of={answer} beside={other.value === undefined ? undefined : pixel_b.value} />
         </div>
       )}
       {at !== undefined && answer === undefined && frame.value !== undefined && <p class="faint">asked …</p>}
-    </aside>
+    </>
   );
 }

@@ -51,6 +51,28 @@ export interface Palettes {
   error_far: Rgb[];
 }
 
+export type Side = "a" | "b";
+
+/** One `--set KEY=TEXT`. */
+export interface Override {
+  key: string;
+  text: string;
+}
+
+/** The second state, where one is open. */
+export interface Other {
+  generation: number;
+  overrides: Override[];
+  seed: number;
+  command: string;
+  scene?: string;
+  camera?: string;
+  mode?: string;
+  width?: number;
+  height?: number;
+  phases?: number;
+}
+
 export interface Hello {
   type: "hello";
   protocol: number;
@@ -73,6 +95,8 @@ export interface Hello {
   playing: boolean;
   frame: number;
   seed: number;
+  overrides: Override[];
+  other: Other | null;
   test_hooks?: boolean;
 }
 
@@ -83,9 +107,67 @@ export interface State {
   frame: number;
   seed: number;
   command: string;
+  overrides: Override[];
+  other: Other | null;
+  scene?: string;
+  camera?: string;
+  mode?: string;
   width?: number;
   height?: number;
   phases?: number;
+  frame_rate_hz?: number;
+}
+
+/** A key of scene or camera, its value in force, and how it can be changed. */
+export interface Row {
+  key: string;
+  part: string;
+  group: string;
+  name: string;
+  /** What the group is called: an object's name. */
+  label?: string;
+  kind: "number" | "integer" | "switch" | "choice" | "text" | "vector" | "list" | "part";
+  unit?: string;
+  units?: string[];
+  low?: number;
+  high?: number;
+  choices?: string[];
+  what?: string;
+  /** As `--set` takes it; none where there is no value in force that can be typed. */
+  text?: string;
+  /** In the row's unit. */
+  value?: number | number[];
+  default?: string;
+  /** The profile's own words of where the number is from. */
+  source?: string;
+  assumed?: boolean;
+  log?: boolean;
+  slider?: [number, number];
+  /** false: what is in force excludes it. */
+  settable?: boolean;
+}
+
+export interface Controls {
+  type: "controls";
+  id: number;
+  generation: number;
+  side?: Side;
+  controls: Row[];
+  left_out?: number;
+}
+
+/** A change was accepted. */
+export interface Done {
+  type: "done";
+  id: number;
+  generation: number;
+}
+
+export interface Saved {
+  type: "saved";
+  id: number;
+  name: string;
+  text: string;
 }
 
 export type Value = number | string | boolean | null | Value[];
@@ -116,6 +198,7 @@ export interface PixelReport {
 export interface Pixel {
   type: "pixel";
   id: number;
+  side?: Side;
   u: number;
   v: number;
   generation: number;
@@ -130,6 +213,7 @@ export interface Fault {
   id: number | null;
   text: string;
   more?: string;
+  key?: string;
 }
 
 export interface Stats {
@@ -147,17 +231,27 @@ export interface ScaleMessage {
   scale: Scale;
 }
 
-export type ServerMessage = Hello | State | ScaleMessage | Pixel | Fault | Stats;
+export type ServerMessage = Hello | State | ScaleMessage | Pixel | Fault | Stats | Controls | Done | Saved;
+
+/** Frames a second: the camera's own, as many as there can be, or a number. */
+export type Rate = "own" | "max" | number;
 
 export type ClientMessage =
-  | { type: "want"; arrays: string[]; rate: "own" | "max" }
+  | { type: "want"; arrays: string[]; rate: Rate }
   | { type: "visible"; visible: boolean }
-  | { type: "ack"; sequence: number }
+  | { type: "ack"; sequence: number; channel?: 1 }
   | { type: "play" }
   | { type: "pause" }
   | { type: "seek"; frame: number }
-  | { type: "pixel"; id: number; u: number; v: number }
-  | { type: "fit"; array: string };
+  | { type: "pixel"; id: number; u: number; v: number; side?: Side }
+  | { type: "fit"; array: string }
+  | { type: "set"; id: number; side: Side; key: string; text: string }
+  | { type: "unset"; id: number; side: Side; key: string }
+  | { type: "seed"; id: number; side: Side; seed: number }
+  | { type: "state"; id: number; side: Side; overrides: readonly Override[]; seed: number }
+  | { type: "other"; id: number; overrides: readonly Override[] | null; seed?: number; scene?: string }
+  | { type: "controls"; id: number; side: Side }
+  | { type: "save"; id: number; side: Side };
 
 export type Numbers = Uint8Array | Uint16Array | Int16Array | Uint32Array | Int32Array | Float32Array | Float64Array;
 
@@ -168,6 +262,7 @@ export interface FrameArray {
 }
 
 export interface Frame {
+  side: Side;
   generation: number;
   sequence: number;
   frame: number;
@@ -215,6 +310,7 @@ export function read_frame(message: ArrayBuffer): Frame {
     arrays.set(id, { id, dims, values: new type(message, place, elements) });
   }
   return {
+    side: view.getUint8(6) === 1 ? "b" : "a",
     generation: u32(8),
     sequence: u32(12),
     frame: Number(view.getBigUint64(16, true)),

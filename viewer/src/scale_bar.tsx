@@ -1,14 +1,16 @@
 // SPDX-FileCopyrightText: 2026 The tofray authors
 // SPDX-License-Identifier: Apache-2.0
+import type { ComponentChildren } from "preact";
 import { useEffect, useRef } from "preact/hooks";
 import { color_of, place_of } from "./colors";
+import { difference_at, type Shows } from "./compare";
 import type { Scale, Tick } from "./protocol";
 import { cursor, hello, value_at } from "./store";
 
 const steps = 512;
 
 /** The value that stands at a place of the bar, 0 … 1. */
-function value_of(place: number, scale: Scale): number {
+export function value_of(place: number, scale: Scale): number {
   const share = scale.curve === "sqrt" ? place * place : place;
   return scale.low + share * (scale.high - scale.low);
 }
@@ -36,16 +38,18 @@ function roomy(scale: Scale): Tick[] {
   return kept;
 }
 
-export function ScaleBar({ scale, array }: { scale: Scale; array: string }) {
+/** @param children  what stands above it, as wide as the bar */
+export function ScaleBar({ scale, array, shows, children }: { scale: Scale; array: string; shows: Shows; children?: ComponentChildren }) {
   const canvas = useRef<HTMLCanvasElement>(null);
   useEffect(() => {
     if (canvas.current !== null) draw(canvas.current, scale);
   }, [scale, hello.value]);
-  const value = value_at(array, cursor.value);
+  const value = shows === "difference" ? difference_at(array, cursor.value) : value_at(array, cursor.value, shows === "b" ? "b" : "a");
   const left = (place: number) => ({ left: `${100 * place}%` });
   const unit = scale.unit === "1" ? "" : scale.unit;
   return (
     <div class="scale" data-low={scale.low} data-high={scale.high}>
+      {children}
       <div class="ramp">
         <canvas ref={canvas} width={steps} height={1} role="img"
           aria-label={`Colours from ${scale.ticks[0]?.label ?? scale.low} to ${scale.ticks[scale.ticks.length - 1]?.label ?? scale.high} ${unit}`} />

@@ -1,8 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The tofray authors
 // SPDX-License-Identifier: Apache-2.0
-import { useSignal } from "@preact/signals";
+import { command, copied, copy_command } from "./actions";
 import { retry_now } from "./connection";
-import { drawn_rate, fault, frame, hello, link, state, stats, type Link } from "./store";
+import { save } from "./edit";
+import { restored, undo } from "./history";
+import { drawn_rate, edited, fault, frame, hello, link, other, state, stats, type Link } from "./store";
 
 function word(of: Link): string {
   if (of === "open") return hello.value === undefined ? "connecting" : state.value?.playing === true ? "live" : "paused";
@@ -61,19 +63,28 @@ export function Troubles() {
   );
 }
 
+/** What was set again on a new server. */
+export function Restored() {
+  const count = restored.value;
+  if (count === undefined) return null;
+  return (
+    <div class="notice" role="status">
+      The server was started anew; {count === 1 ? "the change" : `the ${count} changes`} of before {count === 1 ? "was" : "were"} set again.{" "}
+      <button type="button" onClick={undo}>Undo</button> <button type="button" onClick={() => (restored.value = undefined)}>Keep</button>
+    </div>
+  );
+}
+
 export function Command() {
-  const copied = useSignal(false);
-  const text = state.value?.command ?? hello.value?.command ?? "";
-  const copy = async (): Promise<void> => {
-    await navigator.clipboard.writeText(text);
-    copied.value = true;
-    setTimeout(() => (copied.value = false), 2000);
-  };
+  const text = command.value;
+  const off = link.value !== "open";
   if (text === "") return null;
   return (
     <div class="command" role="group" aria-label="The same as a command">
+      {other.value !== undefined && <strong>{edited.value.toUpperCase()}</strong>}
       <code tabIndex={0} role="region" aria-label="Command">{text}</code>
-      <button type="button" class="quiet" onClick={() => void copy()}>{copied.value ? "Copied" : "Copy"}</button>
+      <button type="button" class="quiet" onClick={() => void copy_command()} title="what makes these very files (c)">{copied.value ? "Copied" : "Copy"}</button>
+      <button type="button" class="quiet" onClick={() => save(edited.value)} disabled={off} title="the scene with all changes, as a file (s)">Save YAML</button>
       <span class="unseen" role="status">{copied.value ? "The command is copied." : ""}</span>
     </div>
   );

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // What the page knows: one place, read by all that is drawn.
 
-import { computed, signal } from "@preact/signals";
-import type { Fault, Frame, FrameArray, Hello, Pixel, Scale, State, Stats } from "./protocol";
+import { computed, signal, type Signal } from "@preact/signals";
+import type { Fault, Frame, FrameArray, Hello, Other, Pixel, Rate, Row, Scale, Side, State, Stats } from "./protocol";
 import { showing, whole, type Extent, type ViewPort } from "./view_port";
 
 /** `keyless`: this tab was opened without the address's key. `lost`: tried again; `gone`: nobody answers, still tried;
@@ -18,14 +18,42 @@ export interface Cursor {
 export const link = signal<Link>("connecting");
 export const hello = signal<Hello | undefined>(undefined);
 export const state = signal<State | undefined>(undefined);
+export const other = signal<Other | undefined>(undefined);              // the second state, where one is open
 export const stats = signal<Stats | undefined>(undefined);
 export const fault = signal<Fault | undefined>(undefined);
 export const fitted = signal<ReadonlyMap<string, Scale>>(new Map());   // scales since the greeting, by array
 export const frame = signal<Frame | undefined>(undefined);             // the one that is drawn
+export const frame_b = signal<Frame | undefined>(undefined);           // the second state's
 export const pixel = signal<Pixel | undefined>(undefined);
+export const pixel_b = signal<Pixel | undefined>(undefined);
 export const drawn_rate = signal(0);
 
-export const rate = signal<"own" | "max">("own");
+/** The keys and their values in force, of the state of this generation. */
+export interface Keys {
+  generation: number;
+  rows: readonly Row[];
+  left_out: number;
+  by_key: ReadonlyMap<string, Row>;
+}
+
+export const controls: Readonly<Record<Side, Signal<Keys | undefined>>> = { a: signal(undefined), b: signal(undefined) };
+export const key_faults = signal<ReadonlyMap<string, Fault>>(new Map()); // beside the control at fault, by side and key
+export const edited = signal<Side>("a");                               // the state that controls change
+export const search = signal("");
+export const open_groups = signal<ReadonlySet<string>>(new Set());
+
+export type Tab = "controls" | "pixel" | "compare";
+export const tab = signal<Tab>("controls");
+
+/** How two states are looked at. */
+export type Comparing = "beside" | "wipe" | "flip" | "difference";
+export const comparing = signal<Comparing>("beside");
+export const wipe = signal(0.5);                                       // A up to here, B behind it, in shares of a pane's width
+export const flipped = signal(false);                                  // B in the place of A
+export const difference_scales = signal<ReadonlyMap<string, Scale>>(new Map());
+
+export const histograms = signal<ReadonlySet<number>>(new Set());      // the panes that have one below
+export const rate = signal<Rate>("own");
 export const shown = signal<readonly string[]>([]);                    // each pane's array
 export const focused = signal(0);                                      // the pane that keys act on
 export const view = signal<ViewPort>(whole);
@@ -38,6 +66,15 @@ export const size = computed(() => {
   const of = frame.value ?? hello.value;
   return of === undefined ? { width: 4, height: 3 } : { width: of.width, height: of.height };
 });
+
+/** Whether there is room for the controls beside everything else: then they are no tab. */
+const room = matchMedia("(min-width: 112rem)");
+export const wide = signal(room.matches);
+room.addEventListener("change", () => (wide.value = room.matches));
+
+export const controls_open = computed(() => wide.value || tab.value === "controls");
+/** What is looked at beside the pictures. */
+export const tab_shown = computed<Tab>(() => (wide.value && tab.value === "controls" ? "pixel" : tab.value));
 
 /** How large a pane's canvas is [device px]: all panes have the same. */
 export const canvas_size = signal({ width: 1, height: 1 });
@@ -66,9 +103,22 @@ export function array_of(of: Frame | undefined, name: string): FrameArray | unde
   return id < 0 ? undefined : of?.arrays.get(id);
 }
 
-/** The value of an image at the cursor; undefined where there is none. */
-export function value_at(name: string, at: Cursor | undefined): number | undefined {
-  const array = array_of(frame.value, name);
+export function frame_of(side: Side): Frame | undefined {
+  return side === "a" ? frame.value : frame_b.value;
+}
+
+/** The pixel of B at the same place: the same one where both have as many. */
+export function of_b(at: Cursor): Cursor {
+  const b = frame_b.value;
+  const a = size.value;
+  if (b === undefined || (b.width === a.width && b.height === a.height)) return at;
+  return { u: Math.floor(((at.u + 0.5) * b.width) / a.width), v: Math.floor(((at.v + 0.5) * b.height) / a.height) };
+}
+
+/** The value of an image at the cursor, which is one of A; undefined where there is none. */
+export function value_at(name: string, where: Cursor | undefined, side: Side = "a"): number | undefined {
+  const array = array_of(frame_of(side), name);
+  const at = where !== undefined && side === "b" ? of_b(where) : where;
   const [height, width] = array?.dims ?? [];
   if (array === undefined || at === undefined || height === undefined || width === undefined) return undefined;
   return at.u < width && at.v < height ? array.values[at.v * width + at.u] : undefined;
@@ -83,14 +133,36 @@ export function point_at(u: number, v: number, keep_in_view: boolean): void {
   if (keep_in_view) view.value = showing(view.value, to.u, to.v, extent.value);
 }
 
-/** What the panes show: kept where the new server has it, else depth and amplitude, or what comes first. */
+export const most_panes = 4;
+
+/** What panes show that nobody has chosen for: depth, amplitude, error and flags, or what comes first. */
+function usual(of: Hello, pane: number): string | undefined {
+  const offered = of.panes.map((one) => one.array);
+  const wanted = ["z_m", "amplitude_e", "z_error_m", "flags"][pane];
+  return wanted !== undefined && offered.includes(wanted) ? wanted : offered[pane] ?? offered[0];
+}
+
+function is_array(name: string | undefined): name is string {
+  return name !== undefined;
+}
+
+/** What the panes show: kept where the new server has it. */
 export function choose_arrays(of: Hello): void {
-  const offered = of.panes.map((pane) => pane.array);
-  const usual = [offered.includes("z_m") ? "z_m" : offered[0], offered.includes("amplitude_e") ? "amplitude_e" : offered[1] ?? offered[0]];
-  shown.value = usual.map((array, i) => {
-    const kept = shown.value[i];
-    return kept !== undefined && offered.includes(kept) ? kept : array;
-  }).filter((array): array is string => array !== undefined);
+  const before = shown.value.length === 0 ? [undefined, undefined] : shown.value;
+  shown.value = before.map((kept, i) => (kept !== undefined && of.panes.some((one) => one.array === kept) ? kept : usual(of, i))).filter(is_array);
+}
+
+export function set_panes(count: number): void {
+  const of = hello.value;
+  if (of === undefined || count < 1 || count > most_panes) return;
+  shown.value = Array.from({ length: count }, (_, i) => shown.value[i] ?? usual(of, i)).filter(is_array);
+  focused.value = Math.min(focused.value, count - 1);
+}
+
+export function toggle_histogram(pane: number): void {
+  const open = new Set(histograms.value);
+  if (!open.delete(pane)) open.add(pane);
+  histograms.value = open;
 }
 
 export function show(pane: number, array: string): void {

@@ -2,17 +2,26 @@
 // SPDX-License-Identifier: Apache-2.0
 // What tests may read, where the server was started for them: numbers and pixels as drawn, no more.
 
+import { unanswered } from "./edit";
+import { future, past } from "./history";
 import { counters, pictures } from "./loop";
-import { frame, state, stats } from "./store";
+import type { Side } from "./protocol";
+import { frame, frame_b, other, state, stats } from "./store";
 
 interface ForTests {
   readonly generation: number | undefined;
+  readonly generation_b: number | undefined;
   readonly playing: boolean | undefined;
   readonly stats: unknown;
   readonly counters: { received: number; drawn: number };
-  readonly last: { frame: number; generation: number } | undefined;
-  pane(i: number): { array: string; width: number; height: number; pixels: Uint8ClampedArray } | undefined;
-  placement(i: number): { left: number; top: number; scale: number } | undefined;
+  readonly last: { frame: number; generation: number; draft: boolean } | undefined;
+  readonly last_b: { frame: number; generation: number; draft: boolean } | undefined;
+  readonly overrides: unknown;
+  readonly overrides_b: unknown;
+  readonly steps: { past: number; future: number };
+  readonly unanswered: number;
+  pane(i: number, side?: Side): { array: string; shows: string; width: number; height: number; pixels: Uint8ClampedArray } | undefined;
+  placement(i: number, side?: Side): { left: number; top: number; scale: number } | undefined;
 }
 
 declare global {
@@ -24,18 +33,27 @@ declare global {
 export function offer_to_tests(): void {
   window.tofray = Object.freeze<ForTests>({
     get generation() { return state.peek()?.generation; },
+    get generation_b() { return other.peek()?.generation; },
     get playing() { return state.peek()?.playing; },
     get stats() { return stats.peek(); },
     get counters() { return { ...counters }; },
     get last() {
       const now = frame.peek();
-      return now && { frame: now.frame, generation: now.generation };
+      return now && { frame: now.frame, generation: now.generation, draft: now.draft };
     },
-    pane(i) {
-      const picture = pictures.get(i);
+    get last_b() {
+      const now = frame_b.peek();
+      return now && { frame: now.frame, generation: now.generation, draft: now.draft };
+    },
+    get overrides() { return state.peek()?.overrides; },
+    get overrides_b() { return other.peek()?.overrides; },
+    get steps() { return { past: past.peek().length, future: future.peek().length }; },
+    get unanswered() { return unanswered.peek(); },
+    pane(i, side = "a") {
+      const picture = pictures.get(`${i}${side}`);
       const image = picture?.image;
-      return picture && image && { array: picture.array, width: image.width, height: image.height, pixels: image.data.slice() };
+      return picture && image && { array: picture.array, shows: picture.shows.peek(), width: image.width, height: image.height, pixels: image.data.slice() };
     },
-    placement: (i) => pictures.get(i)?.where(),
+    placement: (i, side = "a") => pictures.get(`${i}${side}`)?.where(),
   });
 }

@@ -3,8 +3,10 @@
 import { useSignal } from "@preact/signals";
 import { seek, step, toggle_play } from "./ask";
 import { zoom_at_cursor } from "./keys";
-import { frame, hello, link, rate, state, view } from "./store";
+import { frame, hello, link, most_panes, rate, set_panes, shown, state, view } from "./store";
 import { whole } from "./view_port";
+
+const least_hz = 0.01, most_hz = 1000;   // as the server has them
 
 const outlines = {
   back: "M11 3 5 8l6 5zM3.2 3h1.6v10H3.2z",
@@ -34,10 +36,38 @@ function FrameField() {
   );
 }
 
+/** How many frames pass by in a second: the camera's own number, all there can be, or one that is typed. */
+function Rates() {
+  const own = hello.value?.frame_rate_hz ?? 0;
+  const is_number = typeof rate.value === "number";
+  const choose = (to: string): void => void (rate.value = to === "own" || to === "max" ? to : 1);
+  const type = (text: string): void => {
+    const hz = Number(text);
+    if (text.trim() !== "" && hz >= least_hz && hz <= most_hz) rate.value = hz;
+  };
+  return (
+    <div class="rate">
+      <label>
+        <span class="unseen">Frames per second</span>
+        <select value={is_number ? "number" : String(rate.value)} onChange={(event) => choose(event.currentTarget.value)}>
+          <option value="own">camera's rate{own > 0 ? `, ${Number(own.toPrecision(3))}/s` : ""}</option>
+          <option value="max">as fast as it goes</option>
+          <option value="number">a number</option>
+        </select>
+      </label>
+      {is_number && (
+        <label>
+          <input type="text" inputMode="decimal" autoComplete="off" value={String(rate.value)} aria-label="Frames per second, a number"
+            onChange={(event) => (type(event.currentTarget.value), (event.currentTarget.value = String(rate.value)))} /> /s
+        </label>
+      )}
+    </div>
+  );
+}
+
 export function TimeLine() {
   const playing = state.value?.playing === true;
   const off = link.value !== "open";
-  const own = hello.value?.frame_rate_hz ?? 0;
   const zoom = view.value.zoom;
   const times = `${zoom < 10 ? zoom.toFixed(1) : zoom.toFixed(0)} ×`;
   return (
@@ -51,14 +81,14 @@ export function TimeLine() {
       </div>
       <FrameField />
       <span class="faint time">{frame.value === undefined ? "" : `${frame.value.time_s.toFixed(3)} s`}</span>
-      <label class="rate">
-        <span class="unseen">Frames per second</span>
-        <select value={rate.value} onChange={(event) => (rate.value = event.currentTarget.value === "max" ? "max" : "own")}>
-          <option value="own">camera's rate{own > 0 ? `, ${Number(own.toPrecision(3))}/s` : ""}</option>
-          <option value="max">as fast as it goes</option>
+      <Rates />
+      <label class="panes zoom">
+        <span class="unseen">Number of panes</span>
+        <select value={shown.value.length} onChange={(event) => set_panes(Number(event.currentTarget.value))} title="how many panes ([ and ])">
+          {Array.from({ length: most_panes }, (_, i) => <option key={i} value={i + 1}>{i + 1} {i === 0 ? "pane" : "panes"}</option>)}
         </select>
       </label>
-      <div class="buttons zoom">
+      <div class="buttons">
         <button type="button" onClick={() => zoom_at_cursor(1 / 1.5)} disabled={zoom <= 1} aria-label="Zoom out" title="zoom out (−)">−</button>
         <button type="button" class="figure" onClick={() => (view.value = whole)} disabled={zoom <= 1} aria-label={`Zoom ${times}, to the whole picture`} title="the whole picture (0)">
           {times}
