@@ -45,6 +45,7 @@ Camera coarse(Camera camera) {
   lens.fx_px /= 8, lens.fy_px /= 8;
   lens.cx_px = (lens.cx_px + 0.5) / 8 - 0.5, lens.cy_px = (lens.cy_px + 0.5) / 8 - 0.5;
   camera.decoding.flying_near_limit_m = camera.decoding.flying_far_limit_m = 1e3;
+  camera.decoding.filter = {};  // over pixels this wide the range of a flat wall bends
   return camera;
 }
 
