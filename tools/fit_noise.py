@@ -36,16 +36,10 @@ def published(camera, mode, reflectivity, noise):
 # [cai2024], a white wall: table of the axial noise. The reflectivity, 80 %, is assumed, and so is the mode.
 FLEXX2 = [(2, 3.29), (3, 6.02)]
 FLEXX2_NEAR = [(0.5, 2.03), (1, 2.07)]
-# ArturSchuetz/Time-Fo-Flight-Sensor-Simulation (MIT licence, 2018 Artur Schuetz), docs/graphs/distance_noise_o3d303.dat, commit 174d211:
-# medians of ten rows each. Reflectivity (80 %), mode and exposure (the mode's 1 ms) are assumed.
-O3D303 = [(0.663, 5.0), (0.879, 6.1), (1.082, 7.5), (1.268, 8.7), (1.465, 13.5), (1.73, 21.2), (2.034, 22.6), (2.288, 20.8),
-          (2.538, 28.9), (2.829, 38.8), (3.1, 50.2), (3.351, 46.7), (3.591, 56.3), (3.82, 59.3)]
 
 CASES = {
     "flexx2": Case("noise in [cai2024]", published("flexx2", "MODE_9_5FPS", 0.8, FLEXX2), 1,
                    beyond=published("flexx2", "MODE_9_5FPS", 0.8, FLEXX2_NEAR)),
-    "o3d303": Case("deviations in docs/graphs of Time-Fo-Flight-Sensor-Simulation",
-                   published("o3d303", "upto30m_low", 0.8, O3D303), 1, 100),
     "azure-kinect-nfov": Case("the maker's 17 mm at 15 % at the end of the range",
                               published("azure-kinect-nfov", "DEPTH_30FPS", 0.15, [(3.86, 17)])
                               + published("azure-kinect-nfov-binned", "DEPTH_30FPS", 0.15, [(5.46, 17)]), 16),
