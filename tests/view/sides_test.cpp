@@ -285,7 +285,10 @@ TEST(sides, are_changed_apart_and_each_is_what_its_command_renders) {
   one.page.answer(R"({"type":"pause"})", "state");
   one.page.want("\"raw\"");
   one.page.answer(R"({"type":"other","id":1,"seed":3,"overrides":)" + list_with({{"camera.lens.f_number", "2"}}) + "}");
-  one.page.answer(R"({"type":"set","id":2,"side":"b","key":"ambient.level","text":"2 %"})");
+  ASSERT_TRUE(one.page.frame_with([](const WireFrame& is) { return is.channel == 1; }));
+  const Json done = one.page.answer(R"({"type":"set","id":2,"side":"b","key":"ambient.level","text":"2 %"})");
+  const double generation = number_in(done, "generation");
+  EXPECT_TRUE(one.page.frame_with([&](const WireFrame& is) { return is.channel == 1 && is.generation == generation; }));
   one.page.send(R"({"type":"seek","frame":2})");
   std::map<int, std::string> shown;
   while (shown.size() < 2) {

@@ -76,7 +76,7 @@ void Client::offer(const std::shared_ptr<const Published>& frame) {
   if (!looks()) return;
   Channel& channel = channels_[static_cast<std::size_t>(frame->side)];
   if (channel.pending) ++dropped_;
-  channel.pending = frame, channel.since = ++offered_;
+  channel.pending = frame;
   pump();
 }
 
@@ -118,8 +118,7 @@ void Client::pump() {
     return write(std::move(text), true);
   }
   // The two sides' frames of a number come after each other.
-  const std::size_t first = channels_[1].pending && channels_[1].since < channels_[0].since ? 1 : 0;
-  if (!pump(channels_[first])) pump(channels_[1 - first]);
+  if (!pump(channels_[0])) pump(channels_[1]);
 }
 
 bool Client::pump(Channel& channel) {

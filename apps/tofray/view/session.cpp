@@ -166,8 +166,8 @@ class Session::Impl {
   std::thread thread;
 
  private:
-  /// A frame is given up for a newer one, but not two in a row, unless a draft was seen: who drags a slider sees some of it on the way.
-  [[nodiscard]] bool may_give_up() const { return !interrupted_before_ || after_draft_; }
+  /// A frame is given up for a newer one, but not two in a row, drafts counted: who drags a slider sees some of it on the way.
+  [[nodiscard]] bool may_give_up() const { return !interrupted_before_; }
   void interrupt() {
     if (computing_ && may_give_up()) progress_.stop = true;
   }
@@ -221,7 +221,7 @@ class Session::Impl {
   // guarded by it:
   Mail mail_;
   Demand demand_;
-  bool computing_ = false, interrupted_before_ = false, after_draft_ = false, ended_ = false;
+  bool computing_ = false, interrupted_before_ = false, ended_ = false;
 
   FrameProgress progress_;
   // of the thread alone:
@@ -436,21 +436,14 @@ void Session::Impl::show() {
 bool Session::Impl::show(SideOfSession& of) {
   constexpr double long_ms = 50;
   const std::vector<std::uint16_t> arrays = joined(demand_now_.wants);
-  const auto set_after_draft = [this](bool after) {
-    const std::lock_guard lock(mutex_);
-    after_draft_ = after;
-  };
-  const bool draft_first = at_once_ && of.frame_ms > long_ms && can_be_drafted(of.state);
-  if (draft_first && !of.drafted) {
+  if (at_once_ && of.frame_ms > long_ms && can_be_drafted(of.state) && !of.drafted) {
     double took = 0;
     if (!computed(of.draft, of.state, arrays, of.draft_frame, took, of.state.frame, true)) return false;
     publish(of, of.draft_frame, true);
     of.drafted = true;
   }
-  set_after_draft(draft_first);
   double took = 0;
   const bool whole = computed(of.live, of.state, arrays, of.frame, took, of.state.frame);
-  set_after_draft(false);
   of.frame_ms = whole ? took : std::max(of.frame_ms, took);
   if (!whole) return false;
   publish(of, of.frame, false);
