@@ -15,12 +15,6 @@ namespace {
 
 using files::Json;
 
-struct Greeted {
-  explicit Greeted(const Viewer& viewer) : page(viewer), hello(page.text("hello").value_or(Json())) {}
-  Page page;
-  Json hello;
-};
-
 std::string text_in(const Json& json, const char* name) {
   const Json* found = json.find(name);
   return found == nullptr || !found->is_string() ? "(none)" : *found->string();

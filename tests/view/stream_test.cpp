@@ -9,13 +9,6 @@
 namespace tofray::test {
 namespace {
 
-/// A page that has its hello.
-struct Greeted {
-  explicit Greeted(const Viewer& viewer) : page(viewer), hello(page.text("hello").value_or(files::Json())) {}
-  Page page;
-  files::Json hello;
-};
-
 TEST(stream, has_the_arrays_of_render_bit_by_bit_of_any_frame) {
   NEEDS_THE_VIEWER;
   const Viewer viewer({"demo", "--seed", "5"});

@@ -318,4 +318,11 @@ inline int number_of(const files::Json& hello, const std::string& array) {
   return -1;
 }
 
+/// A page and what it was greeted with.
+struct Greeted {
+  explicit Greeted(const Viewer& viewer) : page(viewer), hello(page.text("hello").value_or(files::Json())) {}
+  Page page;
+  files::Json hello;
+};
+
 }  // namespace tofray::test
