@@ -20,6 +20,14 @@ if TYPE_CHECKING:
     from ._model import Camera
 
 
+def _typed(scene: str | os.PathLike[str]) -> str:
+    """What was said for a scene's file or name."""
+    if not isinstance(scene, (str, os.PathLike)):
+        raise TypeError(f"scene: got {type(scene).__name__}, expected a scene's file or name\n"
+                        "  a Scene of one's own: Simulator(scene).frame(0).save(folder)")
+    return os.fspath(scene)
+
+
 def _settings(changes: Mapping[str, Any] | None) -> list[tuple[str, str]]:
     return [(key, value if isinstance(value, str) else _Text().text_of(value, key)) for key, value in dict(changes or {}).items()]
 
@@ -49,7 +57,7 @@ def load_inputs(scene: str | os.PathLike[str], *, set: Mapping[str, Any] | None 
     Error
         With every fault of a file at once, by line and column.
     """
-    words = {"scene": _chosen(_native.choose_scene(os.fspath(scene))), "set": _settings(set), "mode": mode, "root": os.fspath(root)}
+    words = {"scene": _chosen(_native.choose_scene(_typed(scene))), "set": _settings(set), "mode": mode, "root": os.fspath(root)}
     out: Inputs = _in_words_of_python(lambda: _native.load_inputs(words))
     return out
 
@@ -122,7 +130,7 @@ def render(
     """
     if theme not in ("dark", "light"):
         raise BadInput(f"theme: error: got {theme!r}\n  expected dark or light")
-    words = {"scene": _chosen(_native.choose_scene(os.fspath(scene))), "set": _settings(set), "mode": mode, "root": os.fspath(root),
+    words = {"scene": _chosen(_native.choose_scene(_typed(scene))), "set": _settings(set), "mode": mode, "root": os.fspath(root),
              "frames": frames, "first_frame": first_frame, "emit": None if emit is None else list(emit), "arrays": ",".join(arrays),
              "compress": compress, "light_theme": theme == "light", "scale": scale, "folder": os.fspath(folder), "clean": clean,
              "command": [os.path.basename(one) for one in sys.argv[:1]]}

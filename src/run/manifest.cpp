@@ -61,8 +61,6 @@ struct Option {
   }
 };
 
-constexpr std::uint64_t most_frames = 1'000'000'000'000;
-
 /// Whether the option is known.
 bool take(const Option& option, RunRequest& out) {
   const std::string& key = option.key;

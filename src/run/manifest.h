@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The tofray authors
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -9,6 +10,9 @@
 
 /// A request as manifest.json keeps it, and back.
 namespace tofray::run {
+
+/// Frames of a run, and the largest number of its first one.
+inline constexpr std::uint64_t most_frames = 1'000'000'000'000;
 
 /// What a manifest says of what was asked for. Inputs, files, machine and times are not yet in it.
 results::Manifest manifest_of(const RunRequest& request);

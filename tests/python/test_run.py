@@ -90,13 +90,16 @@ def test_inputs_are_what_a_simulator_takes() -> None:
 
 def test_wrong_requests_say_what_is_wrong(tmp_path: pathlib.Path) -> None:
     for words, said in (({"emit": ["tiff"]}, "expected npz, png or ply"), ({"scale": 9}, "1 to 8"), ({"arrays": ["nothing"]}, "nothing"),
-                        ({"frames": 0}, "0 frames"), ({"mode": "NONE"}, "NONE"), ({"set": {"camera.lens.f_numer": 1}}, "f_number"),
+                        ({"frames": 0}, "a run of 0 frames"), ({"frames": 2, "first_frame": 2**64 - 1}, "from 0 to"), ({"frames": 2**63}, "1 to 1000000000000"), ({"mode": "NONE"}, "NONE"), ({"set": {"camera.lens.f_numer": 1}}, "f_number"),
                         ({"theme": "pink"}, "dark or light"), ({"emit": ["png"], "compress": True}, "npz")):
         with pytest.raises(tofray.Error, match=said):
             tofray.render("card", tmp_path / "out", **words)  # type: ignore[arg-type]
         assert not (tmp_path / "out").exists() or not hashes(tmp_path / "out")
     with pytest.raises(tofray.Error):
         tofray.render_again(tmp_path / "manifest.json", tmp_path / "out")
+    for call in (lambda scene: tofray.render(scene, tmp_path / "out"), tofray.load_inputs):
+        with pytest.raises(TypeError, match="Simulator\\(scene\\)"):
+            call(tofray.load_scene("card"))
 
 
 def test_a_pixels_chain_is_what_inspect_prints(tmp_path: pathlib.Path) -> None:
