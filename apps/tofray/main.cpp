@@ -9,12 +9,12 @@
 #include "base/limits.h"
 #include "base/text.h"
 #include "base/version.h"
-#include "commands.h"
-#include "console.h"
-#include "fault_json.h"
+#include "cli/commands.h"
+#include "cli/console.h"
+#include "cli/fault_json.h"
 #include "files/json.h"
 #include "tofray/error.h"
-#include "without_memory.h"
+#include "cli/without_memory.h"
 
 namespace tofray::app {
 

@@ -7,7 +7,7 @@
 
 #include "bench/bench.h"
 #include "bench/experiment.h"
-#include "commands.h"
+#include "cli/commands.h"
 #include "files/json.h"
 #include "rows.h"
 #include "support/stand_in_cuda.h"

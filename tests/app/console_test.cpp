@@ -5,7 +5,7 @@
 #include <numeric>
 
 #include "bench/bench.h"
-#include "progress.h"
+#include "cli/progress.h"
 
 namespace tofray::app {
 namespace {

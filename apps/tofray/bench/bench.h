@@ -7,7 +7,7 @@
 
 #include "bench/bench_energy.h"
 #include "files/json.h"
-#include "options.h"
+#include "cli/options.h"
 #include "run/inputs.h"
 #include "tofray/frame.h"
 

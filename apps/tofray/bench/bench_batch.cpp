@@ -7,11 +7,11 @@
 #include <cmath>
 
 #include "bench/bench.h"
-#include "console.h"
-#include "progress.h"
-#include "remarks.h"
-#include "requests.h"
-#include "results.h"
+#include "cli/console.h"
+#include "cli/progress.h"
+#include "cli/remarks.h"
+#include "cli/requests.h"
+#include "commands/results.h"
 #include "results/meta.h"
 
 namespace tofray::app {

@@ -8,8 +8,8 @@
 #include "backend/cpu/cpu.h"
 #include "base/readout.h"
 #include "bench/bench.h"
-#include "progress.h"
-#include "requests.h"
+#include "cli/progress.h"
+#include "cli/requests.h"
 
 namespace tofray::app {
 

@@ -6,17 +6,17 @@
 
 #include <algorithm>
 
-#include "budget_text.h"
-#include "commands.h"
-#include "console.h"
+#include "commands/budget_text.h"
+#include "cli/commands.h"
+#include "cli/console.h"
 #include "files/atomic_file.h"
 #include "files/text_file.h"
 #include "load/builtin.h"
 #include "load/load.h"
-#include "remarks.h"
-#include "requests.h"
+#include "cli/remarks.h"
+#include "cli/requests.h"
 #include "run/input_kind.h"
-#include "solved_key.h"
+#include "commands/solved_key.h"
 #include "tofray/error.h"
 
 namespace tofray::app {

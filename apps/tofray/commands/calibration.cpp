@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The tofray authors
 // SPDX-License-Identifier: Apache-2.0
-#include "commands.h"
-#include "console.h"
+#include "cli/commands.h"
+#include "cli/console.h"
 #include "files/text_file.h"
 #include "load/lens_calibration.h"
 #include "run/input_kind.h"

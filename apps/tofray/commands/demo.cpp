@@ -4,11 +4,11 @@
 
 #include <algorithm>
 
-#include "commands.h"
-#include "console.h"
+#include "cli/commands.h"
+#include "cli/console.h"
 #include "pictures/terminal_picture.h"
-#include "requests.h"
-#include "results.h"
+#include "cli/requests.h"
+#include "commands/results.h"
 #include "run/run.h"
 #include "tofray/stages.h"
 

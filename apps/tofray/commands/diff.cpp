@@ -9,8 +9,8 @@
 #include <set>
 
 #include "base/text.h"
-#include "console.h"
-#include "options.h"
+#include "cli/console.h"
+#include "cli/options.h"
 #include "results/file_arrays.h"
 #include "run/input_kind.h"
 #include "tofray/error.h"

@@ -3,10 +3,10 @@
 #include <fmt/core.h>
 
 #include "base/text.h"
-#include "commands.h"
-#include "console.h"
-#include "requests.h"
-#include "results.h"
+#include "cli/commands.h"
+#include "cli/console.h"
+#include "cli/requests.h"
+#include "commands/results.h"
 #include "results/transient_file.h"
 #include "run/frame_files.h"
 #include "run/input_kind.h"

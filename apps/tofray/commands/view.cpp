@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The tofray authors
 // SPDX-License-Identifier: Apache-2.0
-#include "commands.h"
+#include "cli/commands.h"
 #include "tofray/error.h"
 
 #if defined(TOFRAY_HAS_VIEW)
@@ -15,7 +15,7 @@
 #include <filesystem>
 #include <thread>
 
-#include "console.h"
+#include "cli/console.h"
 #include "files/json.h"
 #include "run/input_kind.h"
 #include "view/assets.h"

@@ -8,7 +8,7 @@
 #include <cstdlib>
 #include <memory>
 
-#include "console.h"
+#include "cli/console.h"
 #include "tofray/error.h"
 #include "view/assets.h"
 #include "view/beast.h"

@@ -14,7 +14,7 @@
 #include <utility>
 #include <vector>
 
-#include "options.h"
+#include "cli/options.h"
 #include "tofray/simulator.h"
 #include "view/control.h"
 #include "view/outbox.h"

@@ -8,7 +8,7 @@
 #include "base/text.h"
 #include "load/builtin.h"
 #include "load/controls.h"
-#include "requests.h"
+#include "cli/requests.h"
 #include "results/meta.h"
 #include "tofray/error.h"
 #include "tofray/load.h"

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "files/json.h"
-#include "options.h"
+#include "cli/options.h"
 #include "run/inputs.h"
 #include "view/control.h"
 

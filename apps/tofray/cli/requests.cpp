@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The tofray authors
 // SPDX-License-Identifier: Apache-2.0
-#include "requests.h"
+#include "cli/requests.h"
 
 namespace tofray::app {
 

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "files/json.h"
-#include "options.h"
-#include "remarks.h"
+#include "cli/options.h"
+#include "cli/remarks.h"
 #include "tofray/analysis.h"
 #include "tofray/run.h"
 

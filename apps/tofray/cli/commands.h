@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "options.h"
+#include "cli/options.h"
 
 /// What the command line knows. Parsing, help, suggestions and shell completion all come from these tables.
 namespace tofray::app {

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The tofray authors
 // SPDX-License-Identifier: Apache-2.0
-#include "scene_text.h"
+#include "commands/scene_text.h"
 
 #include <fmt/core.h>
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The tofray authors
 // SPDX-License-Identifier: Apache-2.0
-#include "pixel_report.h"
+#include "commands/pixel_report.h"
 
 #include <fmt/core.h>
 
@@ -8,7 +8,7 @@
 #include <cmath>
 
 #include "base/constants.h"
-#include "results.h"
+#include "commands/results.h"
 #include "results/array_table.h"
 #include "run/file_pixel.h"
 

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The tofray authors
 // SPDX-License-Identifier: Apache-2.0
-#include "first_frame.h"
+#include "commands/first_frame.h"
 
-#include "progress.h"
+#include "cli/progress.h"
 #include "tofray/simulator.h"
 
 namespace tofray::app {

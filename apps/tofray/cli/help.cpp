@@ -5,8 +5,8 @@
 #include <algorithm>
 
 #include "base/version.h"
-#include "commands.h"
-#include "console.h"
+#include "cli/commands.h"
+#include "cli/console.h"
 
 namespace tofray::app {
 

@@ -7,7 +7,7 @@
 
 #include "base/text.h"
 #include "base/units.h"
-#include "commands.h"
+#include "cli/commands.h"
 #include "tofray/error.h"
 
 namespace tofray::app {

@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The tofray authors
 // SPDX-License-Identifier: Apache-2.0
-#include "remarks.h"
+#include "cli/remarks.h"
 
 #include <algorithm>
 
-#include "console.h"
+#include "cli/console.h"
 
 namespace tofray::app {
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The tofray authors
 // SPDX-License-Identifier: Apache-2.0
-#include "without_memory.h"
+#include "cli/without_memory.h"
 
 #include <sys/resource.h>
 #include <ucontext.h>
@@ -15,7 +15,7 @@
 #include <string_view>
 #include <system_error>
 
-#include "console.h"
+#include "cli/console.h"
 #include "files/atomic_file.h"
 #include "tofray/error.h"
 

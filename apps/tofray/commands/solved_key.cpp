@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The tofray authors
 // SPDX-License-Identifier: Apache-2.0
-#include "solved_key.h"
+#include "commands/solved_key.h"
 
 #include <fmt/core.h>
 
@@ -10,7 +10,7 @@
 
 #include "base/text.h"
 #include "base/units.h"
-#include "commands.h"
+#include "cli/commands.h"
 #include "model/form.h"
 #include "model/lines.h"
 #include "tofray/error.h"

@@ -10,7 +10,7 @@
 #include "base/limits.h"
 #include "base/text.h"
 #include "base/units.h"
-#include "commands.h"
+#include "cli/commands.h"
 #include "results/array_table.h"
 #include "tofray/error.h"
 

@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: 2026 The tofray authors
 // SPDX-License-Identifier: Apache-2.0
-#include "results.h"
+#include "commands/results.h"
 
 #include <fmt/core.h>
 
 #include "backend/cuda/cuda.h"
-#include "console.h"
+#include "cli/console.h"
 #include "pictures/pictures.h"
 
 namespace tofray::app {

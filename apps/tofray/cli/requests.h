@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "options.h"
+#include "cli/options.h"
 #include "run/inputs.h"
 #include "tofray/run.h"
 

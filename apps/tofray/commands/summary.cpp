@@ -6,7 +6,7 @@
 
 #include "base/text.h"
 #include "files/json.h"
-#include "results.h"
+#include "commands/results.h"
 
 namespace tofray::app {
 
