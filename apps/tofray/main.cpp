@@ -12,9 +12,9 @@
 #include "cli/commands.h"
 #include "cli/console.h"
 #include "cli/fault_json.h"
+#include "cli/without_memory.h"
 #include "files/json.h"
 #include "tofray/error.h"
-#include "cli/without_memory.h"
 
 namespace tofray::app {
 

@@ -123,8 +123,9 @@ RunResult perform(const RunRequest& request, const Loaded& in, const RunWatch& w
   add(in.remarks, watch, result);
   const std::uint64_t frames = request.frames.value_or(1);
   if (frames < 1 || frames > most_frames || request.first_frame > most_frames)
-    throw Error(ErrorKind::bad_input, fmt::format("error: a run of {} frames from number {} on was asked for\n  expected 1 to {} frames, from 0 to {} on",
-                                                  frames, request.first_frame, most_frames, most_frames));
+    throw Error(ErrorKind::bad_input,
+                fmt::format("error: a run of {} frames from number {} on was asked for\n  expected 1 to {} frames, from 0 to {} on", frames,
+                            request.first_frame, most_frames, most_frames));
   SimulatorOptions wanted = request.simulator;
   const FrameFiles what(request.files, kinds_of(request.files, frames), in, wanted);
   wanted.arrays = what.needed_arrays();

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "bench/bench_energy.h"
-#include "files/json.h"
 #include "cli/options.h"
+#include "files/json.h"
 #include "run/inputs.h"
 #include "tofray/frame.h"
 

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "bench/bench_energy.h"
-#include "files/json.h"
 #include "cli/options.h"
+#include "files/json.h"
 #include "pictures/chart.h"
 
 /// The block-size experiment: how much faster than one thread of sequential code a GPU is, over its threads per block; without a GPU the

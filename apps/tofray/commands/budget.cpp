@@ -6,17 +6,17 @@
 
 #include <algorithm>
 
-#include "commands/budget_text.h"
 #include "cli/commands.h"
 #include "cli/console.h"
+#include "cli/remarks.h"
+#include "cli/requests.h"
+#include "commands/budget_text.h"
+#include "commands/solved_key.h"
 #include "files/atomic_file.h"
 #include "files/text_file.h"
 #include "load/builtin.h"
 #include "load/load.h"
-#include "cli/remarks.h"
-#include "cli/requests.h"
 #include "run/input_kind.h"
-#include "commands/solved_key.h"
 #include "tofray/error.h"
 
 namespace tofray::app {

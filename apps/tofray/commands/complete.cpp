@@ -5,10 +5,10 @@
 
 #include "cli/commands.h"
 #include "cli/console.h"
+#include "commands/solved_key.h"
 #include "load/builtin.h"
 #include "model/lines.h"
 #include "results/array_table.h"
-#include "commands/solved_key.h"
 #include "tofray/load.h"
 
 /// What can stand at the cursor of a command line: the scripts of `tofray completion` ask here. All of it comes from the tables of commands,

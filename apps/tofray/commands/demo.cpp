@@ -6,9 +6,9 @@
 
 #include "cli/commands.h"
 #include "cli/console.h"
-#include "pictures/terminal_picture.h"
 #include "cli/requests.h"
 #include "commands/results.h"
+#include "pictures/terminal_picture.h"
 #include "run/run.h"
 #include "tofray/stages.h"
 

@@ -15,9 +15,9 @@
 #include "base/version.h"
 #include "cli/commands.h"
 #include "cli/console.h"
+#include "cli/requests.h"
 #include "files/json.h"
 #include "load/load.h"
-#include "cli/requests.h"
 #include "results/manifest.h"
 #include "tofray/error.h"
 

@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "files/json.h"
 #include "cli/options.h"
 #include "cli/remarks.h"
+#include "files/json.h"
 #include "tofray/analysis.h"
 #include "tofray/run.h"
 

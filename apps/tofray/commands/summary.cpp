@@ -5,8 +5,8 @@
 #include <algorithm>
 
 #include "base/text.h"
-#include "files/json.h"
 #include "commands/results.h"
+#include "files/json.h"
 
 namespace tofray::app {
 

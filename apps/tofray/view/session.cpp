@@ -9,10 +9,10 @@
 
 #include "base/text.h"
 #include "base/version.h"
-#include "pictures/pictures.h"
-#include "commands/pixel_report.h"
 #include "cli/remarks.h"
 #include "cli/requests.h"
+#include "commands/pixel_report.h"
+#include "pictures/pictures.h"
 #include "results/file_arrays.h"
 #include "results/frame_file.h"
 #include "results/meta.h"

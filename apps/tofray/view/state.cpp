@@ -6,9 +6,9 @@
 
 #include "base/readout.h"
 #include "base/text.h"
+#include "cli/requests.h"
 #include "load/builtin.h"
 #include "load/controls.h"
-#include "cli/requests.h"
 #include "results/meta.h"
 #include "tofray/error.h"
 #include "tofray/load.h"

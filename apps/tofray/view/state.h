@@ -5,8 +5,8 @@
 #include <optional>
 #include <string>
 
-#include "files/json.h"
 #include "cli/options.h"
+#include "files/json.h"
 #include "run/inputs.h"
 #include "view/control.h"
 
