@@ -23,6 +23,7 @@ struct PixelArrays {
   /// An array by its name in files, and an element of it in row-major order → its value; NaN where there is no such array or element.
   std::function<double(std::string_view name, std::size_t element)> at;
 };
+/// Those of a frame in memory.
 PixelArrays pixel_arrays(const Frame& frame);
 
 /// One pixel in one raw frame.
