@@ -46,32 +46,37 @@ def read(archive, name):
     return array.array(kind, data[10 + length :])
 
 
+def wall(camera, mode, distance, reflectivity, side, names, words, sets=()):
+    """Arrays by name of a frame of a wall before the middle side x side pixels of a camera. `words`: of the command line."""
+    with tempfile.TemporaryDirectory() as folder:
+        command = [program(), "render", "card", "--quiet", *words, "--emit", "npz", "--arrays", ",".join(names), "-o", folder + "/out"]
+        changes = {
+            "camera.profile": camera,
+            "camera.mode": mode,
+            "objects.0.plane.point": f"[0, 0, {distance:.9g}]",
+            "objects.0.plane.reflectivity": f"{reflectivity:.9g}",
+            "camera.sensor.width": side,
+            "camera.sensor.height": side,
+            "camera.lens.cx": f"{0.5 * (side - 1)} px",
+            "camera.lens.cy": f"{0.5 * (side - 1)} px",
+            **dict(sets),
+        }
+        for key, value in changes.items():
+            command += ["--set", f"{key}={value}"]
+        done = subprocess.run(command, capture_output=True, text=True)
+        if done.returncode != 0:
+            raise SystemExit(f"{' '.join(command)}\n{done.stderr}")
+        with zipfile.ZipFile(folder + "/out/frame.npz") as archive:
+            return {name: read(archive, name) for name in names}
+
+
 class Pixel:
     """What one pixel on the axis says: sigma of its range [mm], its error without noise [mm], flags, amplitude [e]."""
 
     def __init__(self, camera, mode, distance, reflectivity, sets=()):
-        with tempfile.TemporaryDirectory() as folder:
-            command = [program(), "render", "card", "--quiet", "--noise", "off", "--emit", "npz", "-o", folder + "/out"]
-            command += ["--arrays", "noise_m,range_m,gt_range_m,flags,amplitude_e"]
-            side = binning_of(camera)
-            changes = {
-                "camera.profile": camera,
-                "camera.mode": mode,
-                "objects.0.plane.point": f"[0, 0, {distance:.9g}]",
-                "objects.0.plane.reflectivity": f"{reflectivity:.9g}",
-                "camera.sensor.width": side,
-                "camera.sensor.height": side,
-                "camera.lens.cx": f"{0.5 * (side - 1)} px",
-                "camera.lens.cy": f"{0.5 * (side - 1)} px",
-                **dict(sets),
-            }
-            for key, value in changes.items():
-                command += ["--set", f"{key}={value}"]
-            done = subprocess.run(command, capture_output=True, text=True)
-            if done.returncode != 0:
-                raise SystemExit(f"{' '.join(command)}\n{done.stderr}")
-            with zipfile.ZipFile(folder + "/out/frame.npz") as archive:
-                value = {name: read(archive, name)[0] for name in ("noise_m", "range_m", "gt_range_m", "flags", "amplitude_e")}
+        names = ("noise_m", "range_m", "gt_range_m", "flags", "amplitude_e")
+        arrays = wall(camera, mode, distance, reflectivity, binning_of(camera), names, ["--noise", "off"], sets)
+        value = {name: array[0] for name, array in arrays.items()}
         self.sigma_mm = 1e3 * value["noise_m"]
         self.error_mm = 1e3 * (value["range_m"] - value["gt_range_m"])
         self.flags = value["flags"]

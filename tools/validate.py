@@ -17,10 +17,8 @@ import math
 import statistics
 import subprocess
 import sys
-import tempfile
-import zipfile
 
-from one_pixel import ROOT, program, read
+from one_pixel import ROOT, program, wall
 
 LIGHT_M_S = 299792458.0
 
@@ -100,26 +98,8 @@ def o3d303():
 def filtered(camera, mode, reflectivity, distance, sets=()):
     """Deviation of the range [mm] over 48 x 48 simulated pixels of a wall, after the profile's filter."""
     side = 48
-    with tempfile.TemporaryDirectory() as folder:
-        command = [program(), "render", "card", "--quiet", "--seed", "5", "--emit", "npz", "--arrays", "range_m,gt_range_m", "-o", folder + "/out"]
-        changes = {
-            "camera.profile": camera,
-            "camera.mode": mode,
-            "objects.0.plane.point": f"[0, 0, {distance:.9g}]",
-            "objects.0.plane.reflectivity": f"{reflectivity:.9g}",
-            "camera.sensor.width": side,
-            "camera.sensor.height": side,
-            "camera.lens.cx": f"{0.5 * (side - 1)} px",
-            "camera.lens.cy": f"{0.5 * (side - 1)} px",
-            **dict(sets),
-        }
-        for key, value in changes.items():
-            command += ["--set", f"{key}={value}"]
-        done = subprocess.run(command, capture_output=True, text=True)
-        if done.returncode != 0:
-            raise SystemExit(f"{' '.join(command)}\n{done.stderr}")
-        with zipfile.ZipFile(folder + "/out/frame.npz") as archive:
-            ranges, truth = read(archive, "range_m"), read(archive, "gt_range_m")
+    arrays = wall(camera, mode, distance, reflectivity, side, ("range_m", "gt_range_m"), ["--seed", "5"], sets)
+    ranges, truth = arrays["range_m"], arrays["gt_range_m"]
     errors = [1e3 * (a - b) for a, b in zip(ranges, truth) if a > 0]
     if 2 * len(errors) < side * side:
         raise SystemExit(f"error: {camera} sees {len(errors)} of {side * side} pixels of a wall at {distance:g} m")

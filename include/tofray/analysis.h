@@ -118,7 +118,7 @@ struct InvalidPixels {
 /// @throws Error as process() does
 InvalidPixels invalid_pixels(const Frame& frame, const Camera& camera, bool wrong_cycles = true);
 
-/// The same in words, and what helps.
+/// Why pixels have no depth, in words, and what helps.
 struct Validity {
   InvalidPixels pixels;
   std::string reasons;  ///< "12 dark, 3 no surface"; empty where all are valid

@@ -73,7 +73,7 @@ struct PixelChain {
 /// @throws Error (bad_input) where the pixel is outside the image, there is no image, or the camera is of another size or sequence
 PixelChain pixel_chain(const PixelArrays& arrays, const Camera* camera, bool noise_free, int u, int v,
                        const std::string& where = "the frame");
-/// The same of a frame that a camera made.
+/// One pixel of a frame that a camera made.
 PixelChain pixel_chain(const Frame& frame, const Camera& camera, int u, int v, Noise noise = Noise::exact);
 
 /// Light that came by way of 1 + b surfaces, b = first … last.

@@ -2990,7 +2990,7 @@ class PixelBounces(Record):
 
 
 class Validity(Record):
-    """The same in words, and what helps.
+    """Why pixels have no depth, in words, and what helps.
 
     Attributes
     ----------

@@ -42,7 +42,7 @@ struct FrameFiles {
 /// @return what was written, to be added to the folder
 std::vector<FileRecord> write_frame(const files::OutputFolder& folder, const FrameFiles& what, const std::string& suffix,
                                     const Frame& frame, std::string& memory);
-/// The same for a single frame; the folder knows its files then.
+/// Writes the files of a single frame, and tells the folder of them.
 void write_frame(files::OutputFolder& folder, const FrameFiles& what, const Frame& frame);
 
 /// The line above a picture: "room seen by pico-flexx MODE_9_5FPS_2000, frame 3".

@@ -24,7 +24,7 @@ struct State {
 /// The state of a command line. @throws Error
 State first_state(const app::Options& options);
 
-/// The same with a change, of the next generation. @throws Error in the command line's own words
+/// A state with a change, of the next generation. @throws Error in the command line's own words
 State changed(const State& before, const Edit& edit);
 /// What side B begins with. @param like  side A  @throws Error
 State opened(const State& like, const Edit& edit, std::uint32_t generation);
@@ -48,7 +48,7 @@ std::string controls_text(const State& state, const Query& query);
 /// A message `fault` out of an error's text. @param id  of the message that it answers; none where it answers nothing
 /// @param key  at fault; empty: none in particular
 std::string fault_text(std::optional<std::uint64_t> id, const std::string& text, const std::string& key = {});
-/// The same of a first line and what follows.
+/// A message `fault` of a first line and what follows it.
 std::string fault_lines(std::optional<std::uint64_t> id, const std::string& text, const std::string& more, const std::string& key = {});
 
 const char* name_of(Side side);
