@@ -76,7 +76,7 @@ void Client::offer(const std::shared_ptr<const Published>& frame) {
   if (!looks()) return;
   Channel& channel = channels_[static_cast<std::size_t>(frame->side)];
   if (channel.pending) ++dropped_;
-  channel.pending = frame;
+  channel.pending = frame, channel.offered = ++offered_;
   pump();
 }
 
@@ -109,7 +109,8 @@ void Client::acknowledge(const Acknowledge& drawn) {
   hub_.wanted(false);
 }
 
-/// Sends what may be sent: texts first, then the newest frame, if not more than two wait to be drawn and its time has come.
+/// Sends what may be sent: texts first, then the newest frames, if not more than two wait to be drawn and their time has come; of the two sides'
+/// frames the one that was offered first, so that none comes behind a later one of the other side.
 void Client::pump() {
   if (writing_ || closing_ || number_ == 0) return;
   if (!texts_.empty()) {
@@ -117,8 +118,10 @@ void Client::pump() {
     texts_.pop_front();
     return write(std::move(text), true);
   }
-  // The two sides' frames of a number come after each other.
-  if (!pump(channels_[0])) pump(channels_[1]);
+  Channel* first = &channels_[0];
+  Channel* second = &channels_[1];
+  if (second->pending && second->offered < first->offered) std::swap(first, second);
+  if (!pump(*first) && !first->pending) pump(*second);
 }
 
 bool Client::pump(Channel& channel) {

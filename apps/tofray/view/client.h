@@ -56,6 +56,7 @@ class Client : public std::enable_shared_from_this<Client> {
   /// The frames of a side.
   struct Channel {
     std::shared_ptr<const Published> pending;
+    std::uint64_t offered = 0;  ///< when that was offered, of all that were
     std::deque<std::uint32_t> unacknowledged;
     Clock::time_point next{};
     Seen seen;
@@ -80,7 +81,7 @@ class Client : public std::enable_shared_from_this<Client> {
   std::deque<std::shared_ptr<const std::string>> texts_;
   std::size_t waiting_bytes_ = 0;
   Channel channels_[2];
-  std::uint64_t sent_ = 0, dropped_ = 0;
+  std::uint64_t offered_ = 0, sent_ = 0, dropped_ = 0;
 };
 
 }  // namespace tofray::view
