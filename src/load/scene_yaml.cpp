@@ -49,10 +49,14 @@ void write(const Node& node, std::size_t indent, bool started, std::string& out)
 
 }  // namespace
 
-std::string scene_yaml(std::string_view text, const std::string& source, const Settings& settings) {
+std::string block_yaml(const yaml::Node& root) {
   std::string out;
-  write(scene_tree(text, source, settings), 0, false, out);
+  write(root, 0, false, out);
   return out;
+}
+
+std::string scene_yaml(std::string_view text, const std::string& source, const Settings& settings) {
+  return block_yaml(scene_tree(text, source, settings));
 }
 
 }  // namespace tofray::load

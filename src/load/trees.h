@@ -13,6 +13,9 @@ namespace tofray::load {
 /// A scene's text after the settings.
 yaml::Node scene_tree(std::string_view text, const std::string& source, const Settings& settings);
 
+/// A tree as YAML of several lines, which parse_tree() reads back.
+std::string block_yaml(const yaml::Node& root);
+
 /// The profile of the camera that a scene asks for, with the scene's changes and its mode. Numbers that the profile says have its
 /// name as their place's source.
 /// @param source  becomes that name

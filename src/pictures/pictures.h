@@ -70,4 +70,13 @@ std::string preview_picture(const Depth& depth, const Truth& truth, const Raw& r
 std::string preview_png(const Depth& depth, const Truth& truth, const Raw& raw, const std::string& caption, Theme theme = Theme::dark,
                         int scale = 1);
 
+/// One of several frames side by side.
+struct SheetImage {
+  std::string label;
+  Depth depth;  ///< z_m, flags, width, height
+};
+/// The depth of several frames in rows and columns, all on one scale from the 1st to the 99th percentile; invalid pixels have the colours of
+/// their reasons.
+std::string contact_sheet(const std::vector<SheetImage>& images, const std::string& caption, const Style& style);
+
 }  // namespace tofray::pictures

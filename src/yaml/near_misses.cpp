@@ -65,4 +65,17 @@ bool keys_stand_beside(const Form& form, const Node& map, base::Faults& faults) 
   return true;
 }
 
+bool is_form_of_a_set(const Node& node, const std::string& label, base::Faults& faults) {
+  static const std::vector<std::string> forms{"uniform", "log_uniform", "normal", "integer", "chance",
+                                              "choice",  "grid",        "even",   "files",   "cap"};
+  const bool expression = node.kind == Node::Kind::scalar && node.text.starts_with('=');
+  const bool form =
+      node.kind == Node::Kind::map && !node.keys.empty() && std::find(forms.begin(), forms.end(), node.keys[0].text) != forms.end();
+  if (!expression && !form) return false;
+  faults.add(node.place, label + " is drawn by chance, which a plain scene does not do",
+             "got " + (expression ? in_quotes(node.text) : "the form " + in_quotes(node.keys[0].text)) +
+                 ", expected a value; in the file of a data set it is good: see `tofray dataset --help`");
+  return true;
+}
+
 }  // namespace tofray::yaml

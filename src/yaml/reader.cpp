@@ -121,6 +121,7 @@ class Reader {
 
  private:
   void wrong(const Form& form, const Node& node, const std::string& label, const std::string& why = {}) {
+    if (is_form_of_a_set(node, label, faults_)) return;
     const std::string what =
         why.empty() ? (node.kind == Node::Kind::null ? label + " has no value" : label + " is not what belongs here") : why;
     faults_.add(node.place, what, "got " + describe(node) + ", expected " + expected(form));

@@ -1,6 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The tofray authors
 // SPDX-License-Identifier: Apache-2.0
 // One fault each, and what the error says of it.
+#include <png.h>
+
 #include <functional>
 #include <memory>
 
@@ -166,8 +168,6 @@ TEST(image_fault, of_a_png_s_chunks_is_told) {
       {png_of({header, three, with_wrong_crc(chunk("tRNS", "ab")), indices, iend}), "the PNG file is broken: tRNS: CRC error"},
       {png_of({header_2, chunk("ABCD", "x"), pixels_2, iend}), "the PNG file is broken: ABCD: unhandled critical chunk"},
       {png_of({header_2, chunk("a1cd", "x"), pixels_2, iend}), "the PNG file is broken: "},
-      {png_of({header_2, chunk("abCd", std::string(8'000'001, 'x')), pixels_2, iend}),
-       "the PNG file is broken: abCd: chunk data is too large"},
       {png_of({header, indices, iend}), "the PNG file is broken: IDAT: Missing PLTE before IDAT"},
       {png_of({header, indices, three, iend}), "the PNG file is broken: IDAT: Missing PLTE before IDAT"},
       {png_of({header, three, three, indices, iend}), "the PNG file is broken: PLTE: duplicate"},
@@ -184,6 +184,15 @@ TEST(image_fault, of_a_png_s_chunks_is_told) {
       {png_of({header_2, pixels_2, chunk("tEXt", "abc"), pixels_2, iend}),
        "the PNG file has pixels in two places\n  there is another chunk before that at byte "},
   });
+}
+
+TEST(image_fault, of_a_png_s_chunk_that_nobody_knows_and_is_huge_is_told_where_libpng_reads_it) {
+  const std::string file = png_of({header_2, chunk("abCd", std::string(8'000'001, 'x')), pixels_2, iend});
+  // libpng 1.6.48 (Debian 13) goes past it without a look, 1.6.39 (Debian 12) would hold it in memory.
+  if (png_access_version_number() < 10640)
+    expect_faults({{file, "the PNG file is broken: abCd: chunk data is too large"}});
+  else
+    EXPECT_EQ(image::read(file, "m").width, 2);
 }
 
 TEST(image_fault, of_a_png_s_pixels_is_told) {

@@ -4,6 +4,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 import pytest
 
@@ -42,9 +44,10 @@ def test_each_word_reaches_the_budget() -> None:
 
 def test_what_cannot_be_is_refused() -> None:
     camera = tofray.load_camera("pico-flexx")
-    for wrong in ({"distance_m": []}, {"distance_m": [0]}, {"reflectivity": [2]}, {"ambient": ["sun"]}, {"angle_rad": 20}, {"pixel": (999, 0)}):
+    wrongs: list[dict[str, Any]] = [{"distance_m": []}, {"distance_m": [0]}, {"reflectivity": [2]}, {"ambient": ["sun"]}, {"angle_rad": 20}, {"pixel": (999, 0)}]
+    for wrong in wrongs:
         with pytest.raises(tofray.Error):
-            tofray.budget(camera, **wrong)  # type: ignore[arg-type]
+            tofray.budget(camera, **wrong)
 
 
 def test_a_figure_shows_noise_and_shares() -> None:

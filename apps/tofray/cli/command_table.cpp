@@ -14,6 +14,7 @@ int run_view(const Options& options);
 int run_diff(const Options& options);
 int run_check(const Options& options);
 int run_budget(const Options& options);
+int run_dataset(const Options& options);
 int run_list(const Options& options);
 int run_schema(const Options& options);
 int run_calibration(const Options& options);
@@ -200,6 +201,23 @@ std::vector<Command> make() {
        .most_words = 1,
        .run = run_budget,
        .completes = "<profiles> <files>"},
+      {.name = "dataset",
+       .usage = "check|scene|preview SET.yaml [SAMPLE] [options]",
+       .summary = "a set of scenes in which values are drawn: what is drawn, one of its scenes, pictures of the first ones",
+       .examples = "tofray dataset check corners.yaml                # what varies, by what law, from where to where\n"
+                   "tofray dataset scene corners.yaml 12 > twelve.yaml    # the scene of sample 12, to render or to look at\n"
+                   "tofray dataset scene corners.yaml 12-3           # its view 3, where a sample has several\n"
+                   "tofray dataset preview corners.yaml -o corners.png    # the first 16 samples\n",
+       .more = "SET.yaml has the keys name, samples, seed and scene, a scene in which any value may be a form: {uniform: [1 m, 3 m]},\n"
+               "{choice: [a, b]}, \"= wall - 0.5 m\". What is drawn depends on the seed, the sample and the key's path alone: sample 12 is "
+               "the same\n"
+               "on every machine, and another key or object changes no other draw.\n"
+               "docs/datasets.md has all forms.\n",
+       .options = {"--output", "--theme", "--scale", "--threads", "--json", "--quiet"},
+       .least_words = 2,
+       .most_words = 3,
+       .run = run_dataset,
+       .completes = "check scene preview <files>"},
       {.name = "list",
        .usage = "cameras|scenes|materials|keys|controls|arrays",
        .summary = "what is built in: scenes, cameras, materials; those of a scene; every key that files and --set take, those of a scene "

@@ -1,0 +1,91 @@
+// SPDX-FileCopyrightText: 2026 The tofray authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include <cstdint>
+#include <map>
+#include <set>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "dataset/draw.h"
+#include "dataset/expression.h"
+#include "dataset/set_file.h"
+#include "tofray/dataset.h"
+#include "yaml/tree.h"
+
+/// Forms: maps such as {uniform: [1 m, 3 m]} that stand for a value by chance, and their values for one sample.
+namespace tofray::dataset {
+
+/// Keys of a form: uniform, log_uniform, normal, integer, chance, choice, grid, even, files, table, cap.
+const std::vector<std::string>& form_names();
+
+/// What a form is drawn anew for.
+enum class Per : std::uint8_t { set, device, scene, view };
+
+/// What is the same for all samples of a set: combinations of its grids, rows of its tables, files of its patterns.
+struct Fixed {
+  struct Grid {
+    std::uint64_t size = 0;
+    std::uint64_t below = 1;  ///< combinations of those that stand behind it
+  };
+  std::map<const yaml::Node*, Grid> grids;
+  std::map<const yaml::Node*, std::vector<std::vector<std::string>>> tables;  ///< the names of the columns first
+  std::map<const yaml::Node*, std::vector<std::string>> files;                ///< by SHA-256 of their bytes
+  std::uint64_t combinations = 1;
+};
+
+/// Looks at all forms of a set. It points into the set, which has to stay. @throws Error with line and column: tables and files that cannot be read, a grid in a choice
+Fixed fixed_of(const SetFile& set);
+
+/// A sample's values.
+class Sample {
+ public:
+  Sample(const SetFile& set, const Fixed& fixed, std::uint64_t sample, std::uint64_t view);
+
+  /// The scene without forms; each value stands where its form stands in the set's file.
+  yaml::Node scene();
+  /// Keys and values as --set takes them.
+  std::vector<std::pair<std::string, std::string>> settings();
+  /// All that was drawn for it, in the order of the file.
+  [[nodiscard]] const std::vector<Drawn>& drawn() const { return drawn_; }
+  /// A seed derived for it: 53 bits.
+  [[nodiscard]] std::uint64_t seed(Per per, std::string_view path) const;
+
+ private:
+  struct Index {
+    std::uint64_t at, count;  ///< which one of how many
+  };
+  struct Form;
+  [[nodiscard]] Address address(Per per) const;
+  [[nodiscard]] Index index(Per per) const;
+  [[nodiscard]] std::uint64_t bits(Per per, const std::string& path) const;
+  void claim(const std::string& path, const base::Place& place);
+
+  /// @return false where the key is left out
+  bool resolve(const yaml::Node& node, const std::string& path, yaml::Node& into);
+  bool resolve_form(const Form& form, const std::string& path, yaml::Node& into);
+  void resolve_items(const yaml::Node& node, const std::string& path, yaml::Node& into);
+  Amount amount(const yaml::Node& node, const std::string& path);
+  std::vector<Amount> amounts(const yaml::Node& list, std::size_t count, const std::string& path);
+  std::vector<double> weights(const Form& form, std::size_t count) const;
+  yaml::Node drawn_number(const Form& form, const yaml::Node& ends, const std::string& path);
+  bool one_of(const Form& form, std::size_t chosen, const std::string& path, yaml::Node& into);
+  bool draw_choice(const Form& form, const std::string& path, yaml::Node& into);
+  bool draw_grid(const Form& form, const std::string& path, yaml::Node& into);
+  void draw_cap(const Form& form, const std::string& path, yaml::Node& into);
+  void draw_rotation(const yaml::Node& node, const std::string& path, yaml::Node& into);
+  Named named(std::string_view name, const base::Place& place);
+  void note(const Form& form, const std::string& path, std::string text, double value);
+
+  const SetFile& set_;
+  const Fixed& fixed_;
+  std::uint64_t sample_, view_;
+  std::set<std::string> claimed_;
+  std::map<std::string, Named, std::less<>> known_;
+  std::map<std::string, std::map<std::string, std::string>, std::less<>> rows_;  ///< of tables, by name
+  std::vector<std::string> asked_;                                               ///< names under way
+  std::vector<Drawn> drawn_;
+};
+
+}  // namespace tofray::dataset

@@ -1,0 +1,69 @@
+// SPDX-FileCopyrightText: 2026 The tofray authors
+// SPDX-License-Identifier: Apache-2.0
+#include "dataset/set_file.h"
+
+#include "files/text_file.h"
+#include "yaml/reader.h"
+
+namespace tofray::dataset {
+
+namespace {
+
+constexpr double most_samples = 1e12, most_views = 256, most_devices = 1e9, most_seed = 9007199254740991.0;
+
+const model::FileForm& set_form() {
+  using namespace model;
+  static const FileForm form{
+      .kind = "set",
+      .title = "a data set of tofray",
+      .root = map({
+          required("name", text("a name", "corners-1"), "what the set is called"),
+          absent("license", text("a licence by its SPDX name", "CC-BY-4.0"), "what others may do with it"),
+          required("samples", integer({1, most_samples}, "1000"), "how many scenes are drawn"),
+          absent("seed", integer({0, most_seed}, "7"), "another one: other draws throughout"),
+          absent("views", integer({1, most_views}, "4"), "poses of the camera for each scene"),
+          absent("devices", integer({1, most_devices}, "16"), "specimens of the camera that take turns"),
+          absent("let", Form{}, "numbers by name, for expressions"),
+          required("scene", Form{}, "a scene in which any value may be a form"),
+          absent("set", Form{}, "keys and values as --set takes them; of the camera, too"),
+      }),
+  };
+  return form;
+}
+
+void need_map(const yaml::Node& node, const char* key, base::Faults& faults) {
+  if (node.kind != yaml::Node::Kind::map && node.kind != yaml::Node::Kind::null)
+    faults.add(node.place, std::string(key) + " is not what belongs here", "got " + yaml::describe(node) + ", expected a map");
+}
+
+}  // namespace
+
+bool looks_like_a_set(const yaml::Node& root) { return root.find("scene") != nullptr && root.find("samples") != nullptr; }
+
+SetFile parse_set(std::string_view text, const std::string& source) {
+  const yaml::Node root = yaml::parse_tree(text, source);
+  if (root.kind == yaml::Node::Kind::map && root.find("scene") == nullptr && root.find("objects") != nullptr)
+    base::fail(
+        root.place, "this is a scene, not a data set",
+        "expected name, samples, and the scene below the key `scene`, in which any value may be a form such as {uniform: [1 m, 3 m]}");
+  base::Faults faults;
+  const yaml::Value value = yaml::read(set_form(), root, faults);
+  SetFile out;
+  out.source = source, out.folder = files::folder_of(source);
+  out.name = value["name"].text, out.license = value["license"].text;
+  const auto whole = [&](const char* key, std::uint64_t& into) {
+    if (value[key] && value[key].good) into = static_cast<std::uint64_t>(value[key].number);
+  };
+  whole("samples", out.samples), whole("seed", out.seed), whole("views", out.views), whole("devices", out.devices);
+  if (const yaml::Node* let = root.find("let")) out.let = *let;
+  if (const yaml::Node* scene = root.find("scene")) out.scene = *scene;
+  if (const yaml::Node* set = root.find("set")) out.set = *set;
+  need_map(out.let, "let", faults), need_map(out.set, "set", faults);
+  if (root.find("scene") != nullptr && out.scene.kind != yaml::Node::Kind::map)
+    faults.add(out.scene.place, "scene is not what belongs here",
+               "got " + yaml::describe(out.scene) + ", expected a map with the keys of a scene");
+  faults.raise();
+  return out;
+}
+
+}  // namespace tofray::dataset

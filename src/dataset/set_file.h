@@ -1,0 +1,26 @@
+// SPDX-FileCopyrightText: 2026 The tofray authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include <cstdint>
+#include <string>
+
+#include "yaml/tree.h"
+
+/// A set's file as it is written: how many samples of which scene.
+namespace tofray::dataset {
+
+struct SetFile {
+  std::string source;  ///< the file's name
+  std::string folder;  ///< where tables and files beside it are looked for
+  std::string name, license;
+  std::uint64_t samples = 0, seed = 0, views = 1, devices = 1;
+  yaml::Node let, scene, set;  ///< forms in them, not yet drawn
+};
+
+/// @throws Error with every fault of these keys; what stands in let, scene and set is looked at when it is drawn
+SetFile parse_set(std::string_view text, const std::string& source);
+
+/// Whether a text is a set's file and no scene: it has the keys `samples` and `scene`.
+bool looks_like_a_set(const yaml::Node& root);
+
+}  // namespace tofray::dataset
