@@ -9,6 +9,8 @@
 #include <filesystem>
 #include <system_error>
 
+#include "base/address_space.h"
+
 namespace tofray::pictures {
 namespace {
 
@@ -24,6 +26,7 @@ std::filesystem::path font_beside(const void* function) {
 }
 
 bool take_font() {
+  base::require_address_space(base::library_bytes);  // fontconfig 2.15 (Debian 13) crashes where its configuration finds no memory
   if (std::getenv("FONTCONFIG_FILE") != nullptr || std::getenv("FONTCONFIG_PATH") != nullptr) return false;
   const std::filesystem::path font = font_beside(reinterpret_cast<const void*>(&FcInit));
   if (font.empty()) return false;

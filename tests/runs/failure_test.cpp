@@ -211,8 +211,14 @@ TEST(memory, of_up_to_80_megabytes_never_ends_in_a_signal) {
                                       {"inspect", "recorded/frame.npz"}};
   int ended = 0;
   const auto least = static_cast<rlim_t>(fs::file_size(TOFRAY_TOOL) / 1'000'000 + 15);
+  // oneTBB 2022 (Debian 13) crashes while it is loaded, before there is a program, in some of the first ones.
+  std::set<rlim_t> not_begun;
+  for (rlim_t megabytes = least; megabytes <= 80; ++megabytes)
+    if (run({"--version"}, with_address_space(folder.path(), megabytes << 20)).code > 128) not_begun.insert(megabytes);
+  EXPECT_LE(not_begun.size(), 4U);
   for (const Arguments& arguments : all) {
     for (rlim_t megabytes = least; megabytes <= 80; ++megabytes) {
+      if (not_begun.contains(megabytes)) continue;
       const Result result = run(arguments, with_address_space(folder.path(), megabytes << 20));
       if (result.code == 0 || (result.code == 127 && has(result.err, "shared librar"))) continue;
       EXPECT_EQ(result.code, 4) << arguments[0] << " with " << megabytes << " MB: " << result.err;

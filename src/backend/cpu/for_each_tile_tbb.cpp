@@ -11,6 +11,7 @@
 #include "backend/cpu/for_each_tile.h"
 #include "backend/cpu/scratch.h"
 #include "backend/cpu/thread_check.h"
+#include "base/address_space.h"
 
 namespace tofray::backend {
 
@@ -25,6 +26,8 @@ struct TileRunner::Impl {
 namespace {
 
 int granted(int threads) {
+  // oneTBB 2022 (Debian 13) waits for itself for ever where it finds no memory to begin with.
+  if (threads > 1) base::require_address_space(base::library_bytes);
   require_threads(threads, tbb::global_control::active_value(tbb::global_control::thread_stack_size));
   return threads;
 }
@@ -38,6 +41,7 @@ TileRunner::TileRunner(int threads, std::size_t scratch_bytes)
                                                   tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism))),
                      tbb::task_arena(threads),
                      {}}) {
+  if (threads > 1) impl_->arena.initialize();  // at once, where the memory for it was seen
   for (int i = 0; i < threads; ++i) impl_->scratch.emplace_back(scratch_bytes);
 }
 
