@@ -10,6 +10,7 @@
 #include "base/text.h"
 #include "budget.h"
 #include "convert.h"
+#include "datasets.h"
 #include "device_frames.h"
 #include "frames.h"
 #include "meshes.h"
@@ -260,6 +261,7 @@ PYBIND11_MODULE(_native, module) {
   bind_meshes(module);
   bind_simulator(module);
   bind_budget(module);
+  bind_datasets(module);
   bind_runs(module);
   bind_files(module);
   module.def("picture", &picture);

@@ -25,6 +25,10 @@ if TYPE_CHECKING:
         Budget as Budget,
         budget as budget,
     )
+    from ._dataset import (
+        Dataset as Dataset,
+        Drawn as Drawn,
+    )
     from ._errors import (
         Error as Error,
     )
@@ -150,6 +154,7 @@ if TYPE_CHECKING:
 _HOME = {
     "_arrays": ("Depth", "Raw", "Truth"),
     "_budget": ("Budget", "budget"),
+    "_dataset": ("Dataset", "Drawn"),
     "_errors": ("Error",),
     "_frame": ("Frame", "load"),
     "_load": ("camera", "load_camera", "load_scene", "scene"),

@@ -33,7 +33,7 @@ std::string contact_sheet(const std::vector<SheetImage>& images, const std::stri
   const int width =
       std::max(bar_x + width_with_labels(scale), figure::margin + static_cast<int>(Canvas::text_width(figure::title_size, caption)));
   const std::unique_ptr<Painter> painter =
-      painter_of(style.format, width + figure::margin, top + 16 + bar_height + figure::margin, look.background, style.scale);
+      painter_of(style.format, width + figure::margin, top + 16 + bar_height + 22 + figure::margin, look.background, style.scale);
   painter->text({figure::margin, figure::margin + 8}, figure::title_size, look.ink, Align::left, caption);
   for (std::size_t i = 0; i < images.size(); ++i) {
     const SheetImage& one = images[i];
@@ -45,6 +45,21 @@ std::string contact_sheet(const std::vector<SheetImage>& images, const std::stri
       if (!std::isfinite(one.depth.z_m[k]) && reason != nullptr) image[k] = color_of_reason(*reason, style.theme);
     }
     painter->image(x, y + 14, one.depth.width, one.depth.height, larger, image);
+  }
+  // Why pixels are invalid, by colour, below.
+  double x = figure::margin;
+  const int line = top + 16 + bar_height + 14;
+  for (const FlagRow& row : flag_table()) {
+    const auto has = [&](const SheetImage& one) {
+      return std::any_of(one.depth.flags.begin(), one.depth.flags.end(),
+                         [&](std::uint16_t flags) { return invalid_reason(flags) == &row; });
+    };
+    if (!row.invalid || std::none_of(images.begin(), images.end(), has)) continue;
+    constexpr int square = 11;
+    painter->fill(static_cast<int>(x) - 1, line - 1, square + 2, square + 2, look.faint_ink);
+    painter->fill(static_cast<int>(x), line, square, square, color_of_reason(row, style.theme));
+    painter->text({std::floor(x) + square + 7, line + square - 1.0}, figure::note_size, look.ink, Align::left, row.words);
+    x += square + 7 + Canvas::text_width(figure::note_size, row.words) + 22;
   }
   painter->text({static_cast<double>(bar_x), top + 6.0}, figure::label_size, look.ink, Align::left, "z [m]");
   draw_scale_bar(*painter, bar_x, top + 14, bar_height, colors, look);

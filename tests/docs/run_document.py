@@ -36,6 +36,14 @@ SCENES = [
     "objects: [mesh: {{file: a-chair.obj, reflectivity: 0.5, {}}}]\n",
     "objects: [box: {{min: [-1, -1, 2], max: [1, 1, 3], reflectivity: 0.5, {}}}]\n",
 ]
+# Where a form, or a key of a data set, may belong.
+FORM = re.compile(r"\{(uniform|log_uniform|normal|integer|even|choice|grid|chance|cap|files|table): ")
+SETS = [
+    "name: a\nsamples: 2\n{}\nscene: {{objects: []}}\n",
+    "name: a\nsamples: 2\nscene: {{objects: [box: {{min: [-1, -1, 2], max: [1, 1, 3], reflectivity: 0.5, {}}}]}}\n",
+    "name: a\nsamples: 2\nscene: {{objects: []}}\nset: {{{}}}\n",
+]
+FORMS = ["let: {{a: {}}}", "set: {{transport.smooth: {}}}", "set: {{objects.0.box.position: {}}}", "set: {{ambient.illuminance: 1 klx, ambient.direction: {}}}"]
 PROFILE_KEYS = ["{}={}", "illumination.0.{}={}", "lens.{}={}"]
 
 
@@ -144,7 +152,8 @@ class Document:
 
     def check_files(self):
         for name in sorted(self.changed):
-            self.place.must(["tofray", "check", name])
+            is_set = re.search("^samples:", (self.place.path / name).read_text(), re.M)
+            self.place.must(["tofray", "dataset", "check", name] if is_set else ["tofray", "check", name])
         self.changed.clear()
 
     def inline(self, code):
@@ -154,10 +163,26 @@ class Document:
             self.shell(shell, code)
         elif re.fullmatch(r"(find_package|target_link_libraries)\(.*\)", code):
             self.cmake += code + "\n"
-        elif re.match(r"[a-z_]+: \S", code):
+        elif FORM.match(code):
+            self.form(code)
+        elif re.match(r"[a-z_]+(\.[a-z_]+)*: \S", code):
             self.yaml_of_a_line(code)
         else:
             self.names(code)
+
+    def form(self, code):
+        (self.place.path / "lamps.csv").write_text("power\n1 W\n2 W\n")
+        (self.place.path / "parts").mkdir(exist_ok=True)
+        shutil.copy(self.place.path / "examples/chair/chair.obj", self.place.path / "parts/chair.obj")
+        box = "scene: {objects: [box: {min: [-1, -1, 2], max: [1, 1, 3], reflectivity: 0.5}]}\n"
+        said = []
+        for place in FORMS:
+            (self.place.path / "a-set.yaml").write_text("name: a\nsamples: 2\n" + box + place.format(code) + "\n")
+            status, out = self.place.run(["tofray", "dataset", "check", "a-set.yaml"])
+            if status == 0:
+                return
+            said.append(out)
+        raise ValueError(f"no set may say {code}\n" + "".join(said))
 
     def yaml_of_a_line(self, code):
         shutil.copy(self.place.path / "examples/chair/chair.obj", self.place.path / "a-chair.obj")
@@ -166,6 +191,10 @@ class Document:
         for scene in SCENES:
             (self.place.path / "a-line.yaml").write_text(scene.format(code))
             if self.is_good(["tofray", "check", "a-line.yaml"], key, known):
+                return
+        for text in SETS:
+            (self.place.path / "a-set.yaml").write_text(text.format(code))
+            if self.is_good(["tofray", "dataset", "check", "a-set.yaml"], key, known):
                 return
         for setting in PROFILE_KEYS:
             if self.is_good(["tofray", "check", "pico-flexx", "--set", setting.format(key, value)], key, known):

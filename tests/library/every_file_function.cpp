@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The tofray authors
 // SPDX-License-Identifier: Apache-2.0
-// Linked to libtofray_files, as a user's program is: the functions of load.h, save.h and run.h must be there (cmake/tofray_files.map shows them), those of
+// Linked to libtofray_files, as a user's program is: the functions of load.h, save.h, run.h and dataset.h must be there (cmake/tofray_files.map shows them), those of
 // libtofray come along, and what either of them throws is one type.
 #include <tofray/tofray.h>
 
@@ -8,6 +8,7 @@
 
 #include <cstdio>
 #include <filesystem>
+#include <fstream>
 #include <stdexcept>
 #include <string>
 
@@ -53,6 +54,12 @@ void all() {
   tofray::RunRequest again = tofray::request_of_manifest((folder / "one/manifest.json").native());
   again.folder = folder / "two";
   expect(tofray::render(again).files.front().sha256 == one.files.front().sha256, "request_of_manifest");
+  std::ofstream(folder / "set.yaml") << "{name: t, samples: 3, scene: {objects: [{sphere: {name: b, center: [0, 0, 1], "
+                                        "radius: {uniform: [1 cm, 9 cm]}, reflectivity: 0.5}}]}}";
+  const tofray::Dataset set((folder / "set.yaml").native());
+  expect(set.name() == "t" && set.samples() == 3 && set.views() == 1 && set.combinations() == 1, "Dataset");
+  expect(set.scene_yaml(1).find("radius: " + set.drawn(1).at(0).text) != std::string::npos, "Dataset::scene_yaml, drawn");
+  expect(set.scene(1).objects.size() == 1 && set.noise_seed(1) != set.noise_seed(2), "Dataset::scene, noise_seed");
   std::filesystem::remove_all(folder);
   using tofray::ErrorKind;
   expect(kind_of([] { (void)tofray::load_scene("no such scene"); }) == ErrorKind::io, "a scene that is not there");
