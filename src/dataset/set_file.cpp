@@ -19,13 +19,13 @@ const model::FileForm& set_form() {
       .root = map({
           required("name", text("a name", "corners-1"), "what the set is called"),
           absent("license", text("a licence by its SPDX name", "CC-BY-4.0"), "what others may do with it"),
-          required("samples", integer({1, most_samples}, "1000"), "how many scenes are drawn"),
-          absent("seed", integer({0, most_seed}, "7"), "another one: other draws throughout"),
-          absent("views", integer({1, most_views}, "4"), "poses of the camera for each scene"),
-          absent("devices", integer({1, most_devices}, "16"), "specimens of the camera that take turns"),
-          absent("let", Form{}, "numbers by name, for expressions"),
-          required("scene", Form{}, "a scene in which any value may be a form"),
-          absent("set", Form{}, "keys and values as --set takes them; of the camera, too"),
+          required("samples", model::integer({1, most_samples}, "1000"), "how many scenes are drawn"),
+          absent("seed", model::integer({0, most_seed}, "7"), "another one: other draws throughout"),
+          absent("views", model::integer({1, most_views}, "4"), "poses of the camera for each scene"),
+          absent("devices", model::integer({1, most_devices}, "16"), "specimens of the camera that take turns"),
+          absent("let", model::Form{}, "numbers by name, for expressions"),
+          required("scene", model::Form{}, "a scene in which any value may be a form"),
+          absent("set", model::Form{}, "keys and values as --set takes them; of the camera, too"),
       }),
   };
   return form;
