@@ -6,8 +6,10 @@
 #include <cmath>
 #include <cstdint>
 
+#include "base/constants.h"
 #include "base/vec.h"
 #include "image/read_image.h"
+#include "num/setup_math.h"
 
 namespace tofray::assets {
 
@@ -162,7 +164,8 @@ PictureMap map_of(const gltf::Model& model, const gltf::Material& material, cons
 }
 
 std::array<float, 2> placed(const gltf::TextureUse& use, const std::array<float, 2>& texcoord) {
-  const double c = std::cos(use.rotation_rad), s = std::sin(use.rotation_rad);
+  const double turn = std::remainder(use.rotation_rad, base::two_pi);  // exact
+  const double c = num::setup::cos(turn), s = num::setup::sin(turn);
   const double u = use.scale[0] * static_cast<double>(texcoord[0]), v = use.scale[1] * static_cast<double>(texcoord[1]);
   return {static_cast<float>(use.offset[0] + c * u + s * v), static_cast<float>(use.offset[1] - s * u + c * v)};
 }
