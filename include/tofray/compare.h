@@ -66,6 +66,7 @@ struct Comparison {
   double chi2 = 0;
   double chi2_error = 0;             ///< one standard error of it
   std::int64_t chi2_pixels = 0;      ///< that it was made of
+  std::int64_t chi2_outliers = 0;    ///< flat pixels left out of it: more than six sigmas off, as on a wrong cycle
   double amplitude_correlation = 0;  ///< Pearson's r of amplitude_e; NaN: one has none
   /// A − B of the region's pixels [height][width]; NaN: not in both.
   std::vector<float> map_m;

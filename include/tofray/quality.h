@@ -54,6 +54,7 @@ struct Quality {
   double total_noise_m = 0;     ///< √(temporal² + spatial²); of one frame its spread about its plane
   double noise_chi2 = 0;        ///< variance of the range over the frames, over the mean of noise_m²: 1 where noise_m is honest
   double noise_chi2_error = 0;  ///< one standard error of it: √(2/((n − 1) · pixels))
+  double outliers_percent = 0;  ///< pixels left out of it: in a frame more than six noise_m from their median, as on a wrong cycle
 
   double bias_m = 0;         ///< mean of z − true z, of all valid pixels of all frames
   double bias_median_m = 0;  ///< their median

@@ -14,6 +14,7 @@
 #include "frames.h"
 #include "meshes.h"
 #include "pictures/pictures.h"
+#include "quality.h"
 #include "runs.h"
 #include "simulator.h"
 #include "tofray/tofray.h"
@@ -260,6 +261,7 @@ PYBIND11_MODULE(_native, module) {
   bind_meshes(module);
   bind_simulator(module);
   bind_budget(module);
+  bind_quality(module);
   bind_runs(module);
   bind_files(module);
   module.def("picture", &picture);

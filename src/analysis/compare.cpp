@@ -91,7 +91,14 @@ void take_chi2(const Depth& a, const Depth& b, const std::vector<std::size_t>& p
   if (differences.size() < 2) return;
   const double shift = fit_shift ? median_of(differences) : 0;
   std::vector<double> ratios;
-  for (std::size_t i = 0; i < differences.size(); ++i) ratios.push_back(std::pow(differences[i] - shift, 2) / variances[i]);
+  for (std::size_t i = 0; i < differences.size(); ++i) {
+    const double ratio = std::pow(differences[i] - shift, 2) / variances[i];
+    if (ratio > outlier_sigmas * outlier_sigmas)
+      ++out.chi2_outliers;
+    else
+      ratios.push_back(ratio);
+  }
+  if (ratios.size() < 2) return;
   const auto n = static_cast<double>(ratios.size());
   out.chi2 = mean_of(ratios), out.chi2_error = std::sqrt(squares_about(ratios, out.chi2) / (n - 1) / n);
   out.chi2_pixels = static_cast<std::int64_t>(ratios.size());

@@ -170,11 +170,32 @@ double temporal_noise_percent(const std::vector<Depth>& frames, const std::vecto
   return 100 * median_of(std::move(shares));
 }
 
+/// One pixel's range over the frames, in all of which it is valid, against its noise_m.
+struct ClaimedNoise {
+  bool known = false;    ///< range and noise are there
+  bool outlier = false;  ///< a frame is farther from the median than noise of that size ever is: on a wrong cycle
+  double variance = 0, claimed = 0;
+};
+
+ClaimedNoise claimed_noise(const std::vector<Depth>& frames, std::size_t pixel) {
+  const std::vector<double> range = over_frames(frames, &Depth::range_m, pixel), noise = over_frames(frames, &Depth::noise_m, pixel);
+  const auto n = static_cast<double>(frames.size());
+  ClaimedNoise out;
+  out.known = range.size() == frames.size() && noise.size() == frames.size() &&
+              std::all_of(noise.begin(), noise.end(), [](double one) { return std::isfinite(one) && one > 0; });
+  if (!out.known) return out;
+  out.variance = squares_about(range, mean_of(range)) / (n - 1), out.claimed = squares_about(noise, 0) / n;
+  const double middle = median_of(range), most = outlier_sigmas * std::sqrt(out.claimed);
+  out.outlier = std::any_of(range.begin(), range.end(), [&](double one) { return std::fabs(one - middle) > most; });
+  return out;
+}
+
 /// Noise over the frames and from pixel to pixel, of the pixels that are valid in all frames.
 void take_noise(const std::vector<Depth>& frames, const std::vector<std::size_t>& pixels, Quality& out) {
-  out.temporal_noise_m = out.spatial_noise_m = out.total_noise_m = out.noise_chi2 = out.noise_chi2_error = unknown;
+  out.temporal_noise_m = out.spatial_noise_m = out.total_noise_m = out.noise_chi2 = out.noise_chi2_error = out.outliers_percent = unknown;
   const auto n = static_cast<double>(frames.size());
-  std::vector<double> variances, range_variances, claimed;
+  std::vector<double> variances, ratios;
+  std::size_t claims = 0, outliers = 0;
   std::vector<Point> means;
   for (const std::size_t pixel : pixels) {
     const std::vector<double> z = over_frames(frames, &Depth::z_m, pixel);
@@ -186,18 +207,16 @@ void take_noise(const std::vector<Depth>& frames, const std::vector<std::size_t>
         for (std::size_t i = 0; i < 3; ++i) mean[i] += depth.points_m[3 * pixel + i] / n;
       means.push_back(mean);
     }
-    const std::vector<double> range = over_frames(frames, &Depth::range_m, pixel), noise = over_frames(frames, &Depth::noise_m, pixel);
-    const bool finite = std::all_of(noise.begin(), noise.end(), [](double one) { return std::isfinite(one) && one > 0; });
-    if (range.size() != frames.size() || noise.size() != frames.size() || !finite || frames.size() < 2) continue;
-    range_variances.push_back(squares_about(range, mean_of(range)) / (n - 1)), claimed.push_back(squares_about(noise, 0) / n);
+    if (frames.size() < 2) continue;
+    const ClaimedNoise noise = claimed_noise(frames, pixel);
+    claims += noise.known ? 1 : 0, outliers += noise.outlier ? 1 : 0;
+    if (noise.known && !noise.outlier) ratios.push_back(noise.variance / noise.claimed);
   }
   const double temporal2 = mean_of(variances);  // NaN of one frame
   out.temporal_noise_m = std::sqrt(temporal2);
-  if (!claimed.empty()) {
-    std::vector<double> ratios;
-    for (std::size_t i = 0; i < claimed.size(); ++i) ratios.push_back(range_variances[i] / claimed[i]);
-    out.noise_chi2 = mean_of(ratios), out.noise_chi2_error = std::sqrt(2 / ((n - 1) * static_cast<double>(claimed.size())));
-  }
+  if (claims > 0) out.outliers_percent = 100 * static_cast<double>(outliers) / static_cast<double>(claims);
+  out.noise_chi2 = mean_of(ratios);
+  if (!ratios.empty()) out.noise_chi2_error = std::sqrt(2 / ((n - 1) * static_cast<double>(ratios.size())));
   const std::optional<FittedPlane> plane = means.size() > 3 ? fitted_plane(means) : std::nullopt;
   if (!plane) return;
   double squares = 0;

@@ -39,6 +39,8 @@ inline const std::vector<QualityMetric>& quality_metrics() {
       {"noise_chi2", &Quality::noise_chi2, false, "variance of the range over noise_m squared: 1 is honest",
        "two frames or more with range_m and noise_m"},
       {"noise_chi2_error", &Quality::noise_chi2_error, false, "its standard error", "two frames or more with range_m and noise_m"},
+      {"outliers_percent", &Quality::outliers_percent, false, "pixels not in it: six noise_m off in a frame, as on a wrong cycle",
+       "two frames or more with range_m and noise_m"},
       {"bias_m", &Quality::bias_m, false, "mean of z less the truth", truth},
       {"bias_median_m", &Quality::bias_median_m, false, "its median", truth},
       {"rmse_m", &Quality::rmse_m, false, "root mean square of z less the truth", truth},

@@ -16,6 +16,9 @@ namespace tofray::analysis {
 
 inline constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
+/// What is farther off than so many sigmas of its claimed noise is no noise: a wrong cycle, another surface.
+inline constexpr double outlier_sigmas = 6;
+
 /// The number that the share q (0…1) lies below, between two of them in proportion; NaN of none.
 inline double quantile(std::vector<double> values, double q) {
   if (values.empty()) return unknown;

@@ -108,8 +108,9 @@ std::string text_of(const Compared& of) {
     if (one.only_in_a + one.only_in_b > 0)
       text += fmt::format("  {:<26} only in A {}, only in B {}\n", one.flag, one.only_in_a, one.only_in_b);
   if (!std::isnan(c.chi2))
-    text += fmt::format("\nchi2 of noise_m {:.3f} +- {:.3f}, {} flat pixels: 1 where noise_m is the noise and there is no bias\n", c.chi2,
-                        c.chi2_error, c.chi2_pixels);
+    text += fmt::format(
+        "\nchi2 of noise_m {:.3f} +- {:.3f}, {} flat pixels without {} outliers: 1 where noise_m is the noise and there is no bias\n",
+        c.chi2, c.chi2_error, c.chi2_pixels, c.chi2_outliers);
   if (!std::isnan(c.amplitude_correlation)) text += fmt::format("correlation of the amplitudes {:.4f}\n", c.amplitude_correlation);
   return text;
 }
@@ -147,6 +148,7 @@ std::string json_of(const Compared& of) {
       .set("chi2", number_or_null(c.chi2))
       .set("chi2_error", number_or_null(c.chi2_error))
       .set("chi2_pixels", c.chi2_pixels)
+      .set("chi2_outliers", c.chi2_outliers)
       .set("amplitude_correlation", number_or_null(c.amplitude_correlation))
       .set("histogram", files::Json::object()
                             .set("low_m", c.histogram_low_m)
