@@ -42,7 +42,15 @@ class Comparison(Dict[str, Any]):
     """Of A - B: ``all``, ``flats``, ``edges`` (dicts of ``pixels``, ``bias_m``, ``median_m``, ``sigma_m``, ``spread_m``, ``rmse_m``, ``p50_m``,
     ``p95_m``, ``p99_m``), lists of such ``by_distance`` and ``by_flag``, counts ``both``, ``only_a``, ``only_b``, ``neither``, ``chi2`` of the
     noise, ``map_m`` (float32 [height, width], NaN: not in both) and ``histogram``.
+
+    Parameters
+    ----------
+    numbers : dict
+        These.
     """
+
+    def __init__(self, numbers: dict[str, Any]) -> None:
+        super().__init__(numbers)
 
     def plot(self) -> Any:
         """The map of A - B, and its histogram.
