@@ -15,6 +15,7 @@
 #include "frames.h"
 #include "meshes.h"
 #include "pictures/pictures.h"
+#include "quality.h"
 #include "runs.h"
 #include "simulator.h"
 #include "tofray/tofray.h"
@@ -262,6 +263,7 @@ PYBIND11_MODULE(_native, module) {
   bind_simulator(module);
   bind_budget(module);
   bind_datasets(module);
+  bind_quality(module);
   bind_runs(module);
   bind_files(module);
   module.def("picture", &picture);

@@ -125,6 +125,13 @@ if TYPE_CHECKING:
         PixelLight as PixelLight,
         Transient as Transient,
     )
+    from ._quality import (
+        Comparison as Comparison,
+        Quality as Quality,
+        compare as compare,
+        load_depth as load_depth,
+        quality as quality,
+    )
     from ._run import (
         load_inputs as load_inputs,
         pixel_bounces as pixel_bounces,
@@ -167,6 +174,7 @@ _HOME = {
     ),
     "_native": ("DeviceArray", "DeviceFrames", "MeshMotion", "ReflectivityMap", "TriangleMesh", "VectorMap"),
     "_own": ("Geometry", "PixelLight", "Transient"),
+    "_quality": ("Comparison", "Quality", "compare", "load_depth", "quality"),
     "_run": ("load_inputs", "pixel_bounces", "pixel_chain", "render", "render_again", "validity"),
     "_simulator": ("Simulator", "camera_pose", "camera_report", "demo", "full_sun", "invalid_pixels", "pixel_rays", "process", "scene_report"),
 }

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The tofray authors
 // SPDX-License-Identifier: Apache-2.0
-// Linked to libtofray_files, as a user's program is: the functions of load.h, save.h, run.h and dataset.h must be there (cmake/tofray_files.map shows them), those of
+// Linked to libtofray_files, as a user's program is: the functions of dataset.h, depth_file.h, load.h, save.h and run.h must be there (cmake/tofray_files.map shows them), those of
 // libtofray come along, and what either of them throws is one type.
 #include <tofray/tofray.h>
 
@@ -51,6 +51,8 @@ void all() {
   request.folder = folder / "one";
   const tofray::RunResult one = tofray::render(request);
   expect(one.frames == 1 && one.files.back().name == "manifest.json" && one.last.pixels.pixels == 48, "render");
+  expect(tofray::load_depth((folder / "one/frame.npz").native()).depth.z_m.size() == 48, "load_depth");
+  expect(tofray::load_depths((folder / "one").native()).size() == 1, "load_depths");
   tofray::RunRequest again = tofray::request_of_manifest((folder / "one/manifest.json").native());
   again.folder = folder / "two";
   expect(tofray::render(again).files.front().sha256 == one.files.front().sha256, "request_of_manifest");

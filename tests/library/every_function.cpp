@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The tofray authors
 // SPDX-License-Identifier: Apache-2.0
-// Linked to libtofray alone, as a user's program is that reads no files: every function of the public headers but load.h, save.h and run.h must be there
+// Linked to libtofray alone, as a user's program is that reads no files: every function of the public headers but depth_file.h, load.h, save.h and run.h must be there
 // (cmake/tofray.map shows them).
 #include <tofray/tofray.h>
 
@@ -91,6 +91,13 @@ void pixels(const tofray::Frame& frame, const tofray::Scene& scene, const tofray
   expect(tofray::validity(frame, camera).pixels.pixels == tofray::invalid_pixels(frame, camera).pixels, "validity, invalid_pixels");
 }
 
+void measured(const tofray::Frame& frame) {
+  const tofray::Depth truth = tofray::depth_of(frame.truth);
+  expect(tofray::quality({frame.depth}, {}, &truth).fill_rate_percent > 90, "quality, depth_of");
+  expect(tofray::quality_presets().front().name == "realsense", "quality_presets");
+  expect(tofray::compare(frame.depth, truth).all.pixels > 700, "compare");
+}
+
 void refusal() {
   try {
     const tofray::Simulator simulator({}, tofray::Camera());
@@ -126,6 +133,7 @@ void all() {
   own_arrays(simulator, camera, frame);
   budgets(camera);
   pixels(frame, scene, camera);
+  measured(frame);
   refusal();
 }
 

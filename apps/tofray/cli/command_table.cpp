@@ -15,6 +15,8 @@ int run_diff(const Options& options);
 int run_check(const Options& options);
 int run_budget(const Options& options);
 int run_dataset(const Options& options);
+int run_quality(const Options& options);
+int run_compare(const Options& options);
 int run_list(const Options& options);
 int run_schema(const Options& options);
 int run_calibration(const Options& options);
@@ -218,6 +220,44 @@ std::vector<Command> make() {
        .most_words = 3,
        .run = run_dataset,
        .completes = "check scene preview <files>"},
+      {.name = "quality",
+       .usage = "FRAMES... [options]",
+       .summary = "how good depth is in the words of makers: fill rate, plane fit, Z accuracy, noise over frames and pixels, edges",
+       .examples = "tofray quality out                               # all frames of a folder\n"
+                   "tofray quality out --as basler                   # the middle 40 x 40 pixels\n"
+                   "tofray quality out/frame_0000.npz --region 92,66,40,40 --truth 1.5m\n"
+                   "tofray quality depth.png --intrinsics 211.5,212.25,112.75,84.5\n"
+                   "tofray quality out --limit fill_rate=95%,temporal_noise=5mm    # exit code 1 where one does not hold\n",
+       .more =
+           "FRAMES are files of one camera before a still scene, or folders of them: .npz, .npy or .csv with z, or .png of 16 bits. Not\n"
+           "read: clouds of points (.ply, .pcd), .bag, .mcap. Fill rate, plane-fit RMS, Z accuracy and temporal noise in % are "
+           "RealSense's,\n"
+           "of its Depth Quality Tool. Names in limits are those of the table, with or without the unit at their end.\n",
+       .options = {"--region", "--as", "--truth", "--unit", "--intrinsics", "--limit", "--output", "--csv", "--json"},
+       .least_words = 1,
+       .most_words = 100'000,
+       .run = run_quality,
+       .completes = "<files>"},
+      {.name = "compare",
+       .usage = "A [B] [options]",
+       .summary =
+           "depth of A against that of B, or against A's own ground truth: bias, spread, by distance, flag and edge; is noise_m honest",
+       .examples = "tofray compare out                               # out/frame.npz against its truth\n"
+                   "tofray compare out recording.png -o map.png      # 16 bits, mm; the map and histogram of A - B\n"
+                   "tofray compare a.npz b.npz:truth --quantity range --shift fit\n"
+                   "tofray compare out --limit bias=5mm,flat_p95=2cm # exit code 1 where one does not hold\n",
+       .more = "A and B are .npz, .npy or .csv with z, .png of 16 bits, or folders with frame.npz, of the same pixels; FILE:truth is its "
+               "ground\n"
+               "truth. Not read: clouds of points (.ply, .pcd), .bag, .mcap. chi2 is the mean of (A - B)^2 over noise_m^2 of flat pixels.\n"
+               "Limits are of bias, median, sigma, spread, rmse, p50, p95, p99, of these with flat_ or edge_ before, and of chi2, both, "
+               "only_a,\n"
+               "only_b, shift, amplitude_correlation.\n",
+       .options = {"--region", "--quantity", "--shift", "--distance", "--unit", "--intrinsics", "--limit", "--output", "--theme", "--scale",
+                   "--csv", "--json"},
+       .least_words = 1,
+       .most_words = 2,
+       .run = run_compare,
+       .completes = "<files>"},
       {.name = "list",
        .usage = "cameras|scenes|materials|keys|controls|arrays",
        .summary = "what is built in: scenes, cameras, materials; those of a scene; every key that files and --set take, those of a scene "

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The tofray authors
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -9,6 +10,7 @@
 
 #include "pictures/pictures.h"
 #include "tofray/camera_report.h"
+#include "tofray/quality.h"
 #include "tofray/simulator.h"
 
 namespace tofray::app {
@@ -37,14 +39,22 @@ struct Options {
   pictures::Theme theme = pictures::Theme::dark;
   int scale = 1;  ///< of preview.png and raw.png
   std::string mode, camera, root, from, output;
-  std::vector<double> at_m;                            ///< --at, --distance
-  std::vector<double> reflectivities;                  ///< --reflectivity
-  std::vector<AmbientCase> ambients;                   ///< --ambient
-  double angle_rad = 0;                                ///< --angle
-  std::optional<double> temperature_celsius;           ///< --temperature
-  std::string need, solve;                             ///< --need, --solve, as typed
-  std::string transient;                               ///< --transient: a file
-  std::optional<double> first_m, width_m, per_factor;  ///< --first, --width, --factor: what that file does not say
+  std::vector<double> at_m;                                 ///< --at, --distance
+  std::vector<double> reflectivities;                       ///< --reflectivity
+  std::vector<AmbientCase> ambients;                        ///< --ambient
+  double angle_rad = 0;                                     ///< --angle
+  std::optional<double> temperature_celsius;                ///< --temperature
+  std::string need, solve;                                  ///< --need, --solve, as typed
+  ImageRegion region;                                       ///< --region
+  std::string like;                                         ///< --as: whose conditions
+  double truth_m = 0;                                       ///< --truth; 0: not given
+  double unit_m = 0;                                        ///< --unit; 0: not given
+  std::optional<std::array<double, 4>> intrinsics;          ///< --intrinsics: fx, fy, cx, cy in pixels
+  std::string quantity = "z";                               ///< --quantity: z or range
+  bool fit_shift = false;                                   ///< --shift fit
+  std::vector<std::pair<std::string, std::string>> limits;  ///< --limit, in order
+  std::string transient;                                    ///< --transient: a file
+  std::optional<double> first_m, width_m, per_factor;       ///< --first, --width, --factor: what that file does not say
   struct View {
     std::optional<int> port;
     std::string host, rate = "own";
