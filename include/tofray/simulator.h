@@ -8,6 +8,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "tofray/camera.h"
 #include "tofray/frame.h"
@@ -18,11 +19,31 @@
 
 namespace tofray {
 
+/// Where an object is: by how much it is shifted and turned, as its position and rotation say it.
+struct Placement {
+  Vec3 position{0, 0, 0};  ///< shift [m], as Object::position
+  Rotation rotation{};     ///< about the object's own centre, as Object::rotation
+};
+
+/// An object of the scene that is placed from outside, in one frame: in place of its position, rotation, velocities and keyframes. What else
+/// it does, as a mesh that changes its shape, goes on.
+struct PlacedObject {
+  /// Object::name, or its place in the scene as listings say it: "objects.2". A mesh whose file has several materials is one.
+  std::string name;
+  Placement start = {};                  ///< at the frame's start
+  std::optional<Placement> end = {};     ///< where the next frame starts: it goes there evenly, and on as far again; none: it stands still
+  std::vector<Keyframe> keyframes = {};  ///< in place of both, by the scene's time, ascending
+};
+
 /// Which frame. What is not set is the simulator's.
 struct FrameRequest {
-  std::uint64_t index = 0;  ///< starts at index / frame_rate
+  std::uint64_t index = 0;  ///< chooses the noise; starts at index / frame_rate
   std::optional<std::uint64_t> seed = {};
-  std::optional<Pose> pose = {};  ///< of the camera
+  std::optional<Pose> pose = {};      ///< of the camera, at the frame's start
+  std::optional<Pose> pose_end = {};  ///< where the next frame starts: it goes there evenly, and on as far again; none: it stands still
+  std::vector<CameraKeyframe> camera = {};  ///< in place of both poses, by the scene's time, ascending
+  std::vector<PlacedObject> objects = {};   ///< those that are placed from outside; the others move as the scene says
+  std::optional<double> start_time_s = {};  ///< -1e6…1e6: when it starts, in place of index / frame_rate
 };
 
 /// Frames that stay in a GPU's memory.
@@ -61,8 +82,11 @@ class Simulator {
   [[nodiscard]] Frame frame(std::uint64_t index);
   /// The same into memory that the caller keeps: arrays of the right size are not allocated anew.
   void frame(std::uint64_t index, Frame& into);
-  /// The same of a frame with a seed or a pose of its own.
-  /// @throws Error (bad_input) for a pose that cannot be
+  /// The same of a frame with a seed of its own, or whose camera and objects are placed from outside: the bytes are those of placed_scene,
+  /// at the request's time. The first request that places other objects than those before takes as long as a new simulator, and as much
+  /// memory; the last four such sets stay. Then nothing is built anew: neither a mesh's hierarchy nor the camera.
+  /// @throws Error (bad_input) for a pose that cannot be, an object that is not there or that two share the name of, and keyframes that do not
+  /// rise in time; (limit) for too many keyframes
   void frame(const FrameRequest& request, Frame& into);
 
   /// Stages 2 to 4 of what another renderer saw. Of the scene only its ambient light counts, and the camera's pose for where the sun is.
@@ -83,11 +107,12 @@ class Simulator {
   /// bounded memory; all GPUs take part unless SimulatorOptions::device names one.
   /// Ends with the last whole frame once FrameProgress::stop is set.
   /// @param take  is given each frame when it is done; the arrays are good until it returns
-  /// @throws Error (bad_input) for a request with a pose that cannot be: before the first frame
+  /// @throws Error for a request that cannot be, as frame: before the first frame
   void frames(std::uint64_t first, std::uint64_t count, const std::function<void(const FrameArrays&)>& take);
   void frames(std::span<const FrameRequest> requests, const std::function<void(const FrameArrays&)>& take);
   /// The same, left in the GPU's memory, which `into` holds and uses again where it is large enough.
-  /// @throws Error (device) where the processor computes, or where the memory is too small for them; (bad_input) as above
+  /// @throws Error (device) where the processor computes, or where the memory is too small for them; (bad_input) as above, and for requests
+  /// that do not all place the same objects
   void frames_on_device(std::uint64_t first, std::uint64_t count, DeviceFrames& into);
   void frames_on_device(std::span<const FrameRequest> requests, DeviceFrames& into);
 
@@ -100,6 +125,15 @@ class Simulator {
   std::unique_ptr<Impl> impl_;
 };
 
+/// The scene whose file would say what a request says of it: keyframes in place of what it places.
+/// @param camera  whose frame rate says when frames start
+/// @throws Error as Simulator::frame does for the request
+Scene placed_scene(const Scene& scene, const Camera& camera, const FrameRequest& request);
+/// When a frame looks at what moves: the middle of each raw frame's exposure [s], by which a renderer or a physics engine can be asked. With
+/// SimulatorOptions::exposure_samples more than 1 it looks at other times, too; with auto_exposure the times are those of the mode.
+/// @param start_s  when the frame starts: index / frame_rate, or FrameRequest::start_time_s
+/// @throws Error as a Simulator's constructor does for this camera
+std::vector<double> exposure_times(const Camera& camera, double start_s = 0);
 /// Where the camera is at a time: camera to world, [4][4] row-major, last row 0 0 0 1.
 std::array<double, 16> camera_pose(const Scene& scene, double time_s);
 /// A pose as a matrix: camera to world, row by row.

@@ -223,6 +223,21 @@ py::object frame_of(HeldSimulator& self, const py::object& index, const py::obje
   return memory_of(std::move(into));
 }
 
+/// A request as it was when its frame was computed.
+struct HeldRequest {
+  FrameRequest request;
+};
+
+/// @return the frame, and the request
+py::tuple frame_of_request(HeldSimulator& self, const py::object& wanted) {
+  HeldRequest held;
+  from_python(wanted, held.request, {nullptr, "request"});
+  const std::shared_ptr<Frame> into = self.new_frame();
+  self.run([&](Simulator& simulator) { simulator.frame(held.request, *into); });
+  leave_out_after(self.last_stage(), *into);
+  return py::make_tuple(memory_of(into), py::cast(std::move(held)));
+}
+
 /// Frames with seeds and poses of their own; of a GPU several are on their way at once.
 py::list frames_of(HeldSimulator& self, const py::object& wanted) {
   std::vector<FrameRequest> requests;
@@ -244,7 +259,7 @@ py::list frames_of(HeldSimulator& self, const py::object& wanted) {
     frames.clear();
     simulator.frames(requests, [&](const FrameArrays& arrays) {
       std::shared_ptr<Frame> one = copied(arrays, first.raw);
-      const double start = static_cast<double>(arrays.index) / rate;
+      const double start = requests[frames.size()].start_time_s.value_or(static_cast<double>(arrays.index) / rate);
       for (double& time : one->raw.start_time_s) time += start;
       one->truth.time_s = one->truth.width > 0 ? first.truth.time_s + start : 0;
       frames.push_back(std::move(one));
@@ -300,6 +315,26 @@ py::object process_raw(const py::object& raw, const py::object& camera, const py
     if (PyErr_CheckSignals() != 0) throw py::error_already_set();
   } while (progress.stop.load());
   return py::make_tuple(memory_of(std::move(out)), to_python(ran_on));
+}
+
+py::object placed_scene_of(const py::object& scene, const py::object& camera, const py::object& request) {
+  Scene one;
+  Camera by;
+  FrameRequest wanted;
+  if (py::isinstance<HeldRequest>(request))
+    wanted = request.cast<const HeldRequest&>().request;
+  else
+    from_python(request, wanted, {nullptr, "request"});
+  from_python(scene, one, {nullptr, "scene"});
+  from_python(camera, by, {nullptr, "camera"});
+  return to_python(placed_scene(one, by, wanted));
+}
+
+py::array exposure_times_of(const py::object& camera, double start_s) {
+  Camera one;
+  from_python(camera, one, {nullptr, "camera"});
+  const std::vector<double> times = exposure_times(one, start_s);
+  return py::array_t<double>(static_cast<py::ssize_t>(times.size()), times.data());
 }
 
 py::array pixel_rays_of(const py::object& camera) {
@@ -373,15 +408,19 @@ SimulatorOptions options_from_python(const py::dict& words) {
 }
 
 void bind_simulator(py::module_& module) {
+  py::class_<HeldRequest>(module, "HeldRequest");
   py::class_<HeldSimulator>(module, "Simulator")
       .def(py::init(&make_simulator))
       .def("frame", &frame_of)
+      .def("frame_of_request", &frame_of_request)
       .def("frames", &frames_of)
       .def("frames_on_device", &frames_on_device_of)
       .def("stop", &HeldSimulator::stop)
       .def("progress", &HeldSimulator::progress)
       .def("ran_on", [](const HeldSimulator& self) { return to_python(self.ran_on()); });
   module.def("process", &process_raw);
+  module.def("placed_scene", &placed_scene_of);
+  module.def("exposure_times", &exposure_times_of);
   module.def("pixel_rays", &pixel_rays_of);
   module.def("camera_report", &camera_report_of);
   module.def("full_sun", [] { return to_python(full_sun()); });

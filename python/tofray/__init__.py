@@ -88,6 +88,8 @@ if TYPE_CHECKING:
         PixelBounces as PixelBounces,
         PixelChain as PixelChain,
         PixelMask as PixelMask,
+        PlacedObject as PlacedObject,
+        Placement as Placement,
         Plane as Plane,
         Pose as Pose,
         RanOn as RanOn,
@@ -145,9 +147,11 @@ if TYPE_CHECKING:
         camera_pose as camera_pose,
         camera_report as camera_report,
         demo as demo,
+        exposure_times as exposure_times,
         full_sun as full_sun,
         invalid_pixels as invalid_pixels,
         pixel_rays as pixel_rays,
+        placed_scene as placed_scene,
         process as process,
         scene_report as scene_report,
     )
@@ -169,14 +173,14 @@ _HOME = {
         "Adc", "Ambient", "AmbientCase", "Area", "AutoExposure", "BounceShare", "Box", "Calibration", "Camera", "CameraChoice", "CameraKeyframe", "CameraQuestion", "CameraReport", "Capsule",
         "ChainPhase", "ChainRawFrame", "Cone", "Curve", "Cylinder", "Decoding", "Disk", "FileRecord", "Filter", "FrameRequest", "Illumination", "ImageFilter", "InputFile", "Inputs", "Interference",
         "InvalidPixels", "Keyframe", "Lens", "Material", "Mesh", "Mode", "NoiseAt", "NoiseAtDistances", "Object", "ObjectInView", "Override", "Pattern", "Pixel", "PixelBounces", "PixelChain",
-        "PixelMask", "Plane", "Pose", "RanOn", "RawFrame", "Readout", "Rectangle", "Remark", "Rotation", "RunResult", "Scatter", "Scene", "SceneFile", "SceneFinding", "SceneReport", "Sensor",
+        "PixelMask", "PlacedObject", "Placement", "Plane", "Pose", "RanOn", "RawFrame", "Readout", "Rectangle", "Remark", "Rotation", "RunResult", "Scatter", "Scene", "SceneFile", "SceneFinding", "SceneReport", "Sensor",
         "Sphere", "SpreadSpectrum", "Temperature", "TransientBins", "Transport", "Triangle", "Validity", "Waveform",
     ),
     "_native": ("DeviceArray", "DeviceFrames", "MeshMotion", "ReflectivityMap", "TriangleMesh", "VectorMap"),
     "_own": ("Geometry", "PixelLight", "Transient"),
     "_quality": ("Comparison", "Quality", "compare", "load_depth", "quality"),
     "_run": ("load_inputs", "pixel_bounces", "pixel_chain", "render", "render_again", "validity"),
-    "_simulator": ("Simulator", "camera_pose", "camera_report", "demo", "full_sun", "invalid_pixels", "pixel_rays", "process", "scene_report"),
+    "_simulator": ("Simulator", "camera_pose", "camera_report", "demo", "exposure_times", "full_sun", "invalid_pixels", "pixel_rays", "placed_scene", "process", "scene_report"),
 }
 
 __all__ = sorted(name for names in _HOME.values() for name in names) + ["arrays", "flags"]

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
 
-    from ._model import Camera, Pose, Scene
+    from ._model import Camera, Scene
 
 PARTS = {"raw": Raw, "depth": Depth, "truth": Truth}
 
@@ -39,7 +39,7 @@ class Frame:
         Of a frame out of a file: what ``frame.npz`` says of it.
     """
 
-    __slots__ = ("_camera", "_depth", "_index", "_memory", "_options", "_pose", "_raw", "_scene", "_shared", "_truth", "meta")
+    __slots__ = ("_camera", "_depth", "_index", "_memory", "_options", "_raw", "_request", "_scene", "_shared", "_truth", "meta")
 
     def __init__(self, *, index: int = 0, raw: Raw | None = None, depth: Depth | None = None, truth: Truth | None = None,
                  scene: Scene | None = None, camera: Camera | None = None, meta: dict[str, Any] | None = None) -> None:
@@ -48,29 +48,31 @@ class Frame:
         self._depth = Depth() if depth is None else depth
         self._truth = Truth() if truth is None else truth
         self._scene, self._camera, self._shared = scene, camera, False
-        self._pose: Pose | None = None
+        self._request: Any = None
         self.meta: dict[str, Any] = {} if meta is None else meta
         self._memory: Any = None
         self._options: dict[str, Any] = {}
 
     @classmethod
     def _of(cls, memory: _native.FrameMemory, scene: Scene | None, camera: Camera | None, options: dict[str, Any],
-            pose: Pose | None = None) -> Frame:
+            request: Any = None) -> Frame:
         self = cls.__new__(cls)
         sizes = memory.sizes()
         self._index = memory.index
         self._raw, self._depth, self._truth = (part._of(memory, sizes) for part in (Raw, Depth, Truth))
         # The simulator's own, which nobody changes: copied when they are first asked for.
-        self._scene, self._camera, self._shared, self._pose = scene, camera, True, pose
+        self._scene, self._camera, self._shared, self._request = scene, camera, True, request
         self.meta = {}
         self._memory, self._options = memory, options
         return self
 
     def _own(self) -> None:
         if self._shared:
-            self._scene, self._camera, self._shared = copy.deepcopy(self._scene), copy.deepcopy(self._camera), False
-            if self._pose is not None and self._scene is not None:
-                self._scene.camera.pose, self._scene.camera.keyframes = self._pose, []
+            if self._request is None or self._scene is None:
+                self._scene = copy.deepcopy(self._scene)
+            else:
+                self._scene = _native.placed_scene(self._scene, self._camera, self._request)
+            self._camera, self._shared = copy.deepcopy(self._camera), False
 
     @property
     def scene(self) -> Scene | None:
@@ -264,7 +266,7 @@ class Frame:
         if self._scene is None or self._camera is None:
             raise BadInput("frame.save: error: the frame does not know its scene and camera\n"
                            "  expected a simulated frame, or frame.scene = … and frame.camera = …")
-        if self._pose is not None:
+        if self._request is not None:
             self._own()
         files = {"frame.npz": _native.frame_npz(self, self._scene, self._camera, self._own_options(), compress)}
         for what in ("preview", "depth", "amplitude", "raw"):

@@ -2151,21 +2151,96 @@ class RanOn(Record):
         self.fallback_reason = fallback_reason
 
 
+class Placement(Record):
+    """Where an object is: by how much it is shifted and turned, as its position and rotation say it.
+
+    Attributes
+    ----------
+    position : tuple[float, float, float], m
+        Shift [m], as Object::position.
+    rotation : Rotation
+        About the object's own centre, as Object::rotation.
+    """
+    __slots__ = ("position", "rotation")
+    position: tuple[float, float, float]
+    rotation: Rotation
+
+    def __init__(
+        self,
+        *,
+        position: tuple[float, float, float] = (0.0, 0.0, 0.0),
+        rotation: Rotation | None = None,
+    ) -> None:
+        self.position = position
+        self.rotation = Rotation() if rotation is None else rotation
+
+
+class PlacedObject(Record):
+    """An object of the scene that is placed from outside, in one frame: in place of its position,
+    rotation, velocities and keyframes. What else it does, as a mesh that changes its shape, goes
+    on.
+
+    Attributes
+    ----------
+    name : str
+        Object::name, or its place in the scene as listings say it: "objects.2". A mesh whose file
+        has several materials is one.
+    start : Placement
+        At the frame's start.
+    end : Placement | None
+        Where the next frame starts: it goes there evenly, and on as far again; none: it stands
+        still.
+    keyframes : list[Keyframe]
+        In place of both, by the scene's time, ascending.
+    """
+    __slots__ = ("name", "start", "end", "keyframes")
+    name: str
+    start: Placement
+    end: Placement | None
+    keyframes: list[Keyframe]
+
+    def __init__(
+        self,
+        *,
+        name: str = '',
+        start: Placement | None = None,
+        end: Placement | None = None,
+        keyframes: Sequence[Keyframe] = (),
+    ) -> None:
+        self.name = name
+        self.start = Placement() if start is None else start
+        self.end = end
+        self.keyframes = list(keyframes)
+
+
 class FrameRequest(Record):
     """Which frame. What is not set is the simulator's.
 
     Attributes
     ----------
     index : int
-        Starts at index / frame_rate.
+        Chooses the noise; starts at index / frame_rate.
     seed : int | None
     pose : Pose | None
-        Of the camera.
+        Of the camera, at the frame's start.
+    pose_end : Pose | None
+        Where the next frame starts: it goes there evenly, and on as far again; none: it stands
+        still.
+    camera : list[CameraKeyframe]
+        In place of both poses, by the scene's time, ascending.
+    objects : list[PlacedObject]
+        Those that are placed from outside; the others move as the scene says.
+    start_time_s : float | None, s
+        -1e6…1e6: when it starts, in place of index / frame_rate.
     """
-    __slots__ = ("index", "seed", "pose")
+    __slots__ = ("index", "seed", "pose", "pose_end", "camera", "objects", "start_time_s")
     index: int
     seed: int | None
     pose: Pose | None
+    pose_end: Pose | None
+    camera: list[CameraKeyframe]
+    objects: list[PlacedObject]
+    start_time_s: float | None
 
     def __init__(
         self,
@@ -2173,10 +2248,18 @@ class FrameRequest(Record):
         index: int = 0,
         seed: int | None = None,
         pose: Pose | None = None,
+        pose_end: Pose | None = None,
+        camera: Sequence[CameraKeyframe] = (),
+        objects: Sequence[PlacedObject] = (),
+        start_time_s: float | None = None,
     ) -> None:
         self.index = index
         self.seed = seed
         self.pose = pose
+        self.pose_end = pose_end
+        self.camera = list(camera)
+        self.objects = list(objects)
+        self.start_time_s = start_time_s
 
 
 class ObjectInView(Record):
@@ -3211,8 +3294,8 @@ __all__ = [
     "Material", "Plane", "Sphere", "Box", "Triangle", "Cylinder", "Rectangle", "Disk", "Capsule",
     "Cone", "Mesh", "Rotation", "Keyframe", "Object", "Ambient", "TransientBins", "Transport",
     "Pose", "CameraKeyframe", "Override", "CameraChoice", "SceneFile", "Scene", "RanOn",
-    "FrameRequest", "ObjectInView", "SceneFinding", "SceneReport", "InvalidPixels", "AmbientCase",
-    "CameraQuestion", "NoiseAt", "NoiseAtDistances", "CameraReport", "ChainRawFrame", "ChainPhase",
-    "PixelChain", "BounceShare", "PixelBounces", "Validity", "InputFile", "FileRecord", "Remark",
-    "Inputs", "RunResult",
+    "Placement", "PlacedObject", "FrameRequest", "ObjectInView", "SceneFinding", "SceneReport",
+    "InvalidPixels", "AmbientCase", "CameraQuestion", "NoiseAt", "NoiseAtDistances", "CameraReport",
+    "ChainRawFrame", "ChainPhase", "PixelChain", "BounceShare", "PixelBounces", "Validity",
+    "InputFile", "FileRecord", "Remark", "Inputs", "RunResult",
 ]

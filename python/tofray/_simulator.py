@@ -6,14 +6,17 @@ from __future__ import annotations
 
 import copy
 import functools
-from typing import TYPE_CHECKING, Any, Callable, Iterable, Iterator, Sequence
+from typing import TYPE_CHECKING, Any, Callable, Iterable, Iterator, Mapping, Sequence
 
 from . import _native
 from ._arrays import Depth, Raw
 from ._errors import error_of
 from ._frame import Frame
 from ._load import load_camera, load_scene
-from ._model import AmbientCase, Camera, CameraQuestion, CameraReport, FrameRequest, InvalidPixels, RanOn, Scene, SceneReport
+from ._model import (
+    AmbientCase, Camera, CameraKeyframe, CameraQuestion, CameraReport, FrameRequest, InvalidPixels, Keyframe, PlacedObject, Placement, Pose,
+    RanOn, Scene, SceneReport,
+)
 from ._own import Geometry, PixelLight, Transient
 
 if TYPE_CHECKING:
@@ -148,7 +151,16 @@ class Simulator:
         camera: Camera = copy.deepcopy(self._camera)
         return camera
 
-    def frame(self, index: int = 0, own: Geometry | PixelLight | Transient | None = None) -> Frame:
+    def frame(
+        self,
+        index: int = 0,
+        own: Geometry | PixelLight | Transient | None = None,
+        *,
+        camera: Pose | tuple[Pose, Pose] | Sequence[CameraKeyframe] | None = None,
+        objects: Mapping[str, Placement | tuple[Placement, Placement] | Sequence[Keyframe]] | None = None,
+        time_s: float | None = None,
+        seed: int | None = None,
+    ) -> Frame:
         """Computes one frame, which starts at index / frame_rate.
 
         Parameters
@@ -157,6 +169,17 @@ class Simulator:
             0 or more.
         own : Geometry, PixelLight or Transient, optional
             Arrays of one's own in the place of what the scene's objects give.
+        camera : Pose, pair of Pose, or sequence of CameraKeyframe, optional
+            Where the camera stands in this frame; or where it is at the frame's start and where the next frame starts: it goes there
+            evenly; or keyframes, by the scene's time.
+        objects : mapping of str to Placement, pair of Placement, or sequence of Keyframe, optional
+            Likewise of objects, by their names (or as "objects.2"), in place of their own motion. Others move as the scene says.
+            The bytes are those of a scene with the same keyframes. The first frame that places other objects than those before takes as
+            long as a new simulator; then no hierarchy is built anew.
+        time_s : float, optional, s
+            When the frame starts, in place of index / frame_rate. ``exposure_times`` says when its raw frames are exposed.
+        seed : int, optional
+            In place of the simulator's.
 
         Returns
         -------
@@ -166,11 +189,24 @@ class Simulator:
         Raises
         ------
         Error
-            Of kind "stopped" where ``stop`` ended it; of kind "bad_input" for an index below 0, and for arrays that do not fit the camera.
+            Of kind "stopped" where ``stop`` ended it; of kind "bad_input" for an index below 0, for arrays that do not fit the camera, and
+            for names that the scene has not, poses that cannot be, and keyframes that do not rise in time.
         KeyboardInterrupt
             By Ctrl-C.
         """
-        return Frame._of(self._native.frame(index, own), self._scene, self._camera, self._options)
+        if camera is None and objects is None and time_s is None and seed is None:
+            return Frame._of(self._native.frame(index, own), self._scene, self._camera, self._options)
+        if own is not None:
+            raise error_of("bad_input", "frame: error: arrays of one's own and a camera, objects, a time or a seed\n"
+                                        "  expected the arrays alone: they say what is seen; seed is an option of Simulator")
+        request = _request(index, camera, objects, time_s, seed)
+        memory, as_it_was = self._native.frame_of_request(request)
+        return self._frame_of(request, memory, as_it_was)
+
+    def _frame_of(self, request: FrameRequest, memory: Any, as_it_was: Any) -> Frame:
+        options = self._options if request.seed is None else {**self._options, "seed": request.seed}
+        places = request.pose is not None or request.camera or request.objects
+        return Frame._of(memory, self._scene, self._camera, options, as_it_was if places else None)
 
     def frames(self, first: int = 0, count: int | None = None, *, requests: Iterable[FrameRequest] | None = None) -> Iterator[Frame]:
         """Frames one after the other; without a count they do not end.
@@ -180,9 +216,9 @@ class Simulator:
         first, count : int
             From which frame on, and how many.
         requests : iterable of FrameRequest, optional
-            In place of them: each frame's index and, where they differ from the simulator's, its seed and the camera's pose.
-            Requests are copied when they are taken.
-            A request with a seed or a pose is remembered by its number alone in what ``save`` writes.
+            In place of them: each frame's index and, where they differ from the simulator's, its seed, its time, the camera's pose and
+            where objects are. Requests are copied when they are taken.
+            A request with a seed, a time or a pose is remembered by its number alone in what ``save`` writes.
 
         Yields
         ------
@@ -192,7 +228,7 @@ class Simulator:
         Raises
         ------
         Error
-            As ``frame``, and for a request whose pose cannot be.
+            As ``frame``.
         """
         if requests is None:
             index = first
@@ -213,10 +249,7 @@ class Simulator:
 
     def _batch(self, requests: list[FrameRequest]) -> Iterator[Frame]:
         for request, memory in zip(requests, self._native.frames(requests)):
-            options = self._options
-            if request.seed is not None:
-                options = {**options, "seed": request.seed}
-            yield Frame._of(memory, self._scene, self._camera, options, request.pose)
+            yield self._frame_of(request, memory, request)
 
     def frames_on_device(
         self, first: int = 0, count: int = 1, *, requests: Iterable[FrameRequest] | None = None
@@ -240,7 +273,8 @@ class Simulator:
         Raises
         ------
         Error
-            Of kind "device" where the processor computes, or where the GPU's memory is too small for them.
+            Of kind "device" where the processor computes, or where the GPU's memory is too small for them; of kind "bad_input" for
+            requests that do not all place the same objects.
         """
         if requests is None:
             _check_count(first, count)
@@ -271,6 +305,41 @@ class Simulator:
 
     def __dir__(self) -> list[str]:
         return ["camera", "frame", "frames", "frames_on_device", "progress", "ran_on", "scene", "stop"]
+
+
+def _request(index: int, camera: Any, objects: Any, time_s: float | None, seed: int | None) -> FrameRequest:
+    """What frame() is asked for."""
+    def is_pair(value: Any, of: type) -> bool:
+        return isinstance(value, (tuple, list)) and len(value) == 2 and all(isinstance(one, of) for one in value)
+
+    def refuse(name: str, value: Any, one: str, key: str) -> Any:
+        kind = type(value).__name__
+        return error_of("bad_input", f"frame: error: {name}: got {kind}\n  expected a tofray.{one}, (start, end) of two, or a list of {key}s")
+
+    out = FrameRequest(index=index, seed=seed, start_time_s=time_s)
+    if isinstance(camera, Pose):
+        out.pose = camera
+    elif is_pair(camera, Pose):
+        out.pose, out.pose_end = camera
+    elif isinstance(camera, (tuple, list)) and camera and all(isinstance(one, CameraKeyframe) for one in camera):
+        out.camera = list(camera)
+    elif camera is not None:
+        raise refuse("camera", camera, "Pose", "CameraKeyframe")
+    if objects is not None and not isinstance(objects, Mapping):
+        raise error_of("bad_input", f"frame: error: objects: got {type(objects).__name__}\n"
+                                    '  expected names and placements, such as {"ball": (start, end)}')
+    for name, where in ({} if objects is None else objects).items():
+        one = PlacedObject(name=name)
+        if isinstance(where, Placement):
+            one.start = where
+        elif is_pair(where, Placement):
+            one.start, one.end = where
+        elif isinstance(where, (tuple, list)) and where and all(isinstance(key, Keyframe) for key in where):
+            one.keyframes = list(where)
+        else:
+            raise refuse(f"objects[{name!r:.80}]", where, "Placement", "Keyframe")
+        out.objects.append(one)
+    return out
 
 
 def _check_count(first: object, count: object) -> None:
@@ -322,6 +391,55 @@ def process(
     memory, _ = _native.process(raw, camera, options)
     depth: Depth = Depth._of(memory, memory.sizes())
     return depth
+
+
+def placed_scene(scene: Scene, camera: Camera, request: FrameRequest) -> Scene:
+    """The scene whose file would say what a request says of it.
+
+    Parameters
+    ----------
+    scene : Scene
+        What the request is of.
+    camera : Camera
+        Its frame rate says when frames start.
+    request : FrameRequest
+        What is placed from outside.
+
+    Returns
+    -------
+    Scene
+        With keyframes in place of what the request places.
+
+    Raises
+    ------
+    Error
+        As ``Simulator.frame`` for such a request.
+    """
+    placed: Scene = _native.placed_scene(scene, camera, request)
+    return placed
+
+
+def exposure_times(camera: Camera, start_s: float = 0.0) -> NDArray[np.float64]:
+    """When a frame looks at what moves: the middle of each raw frame's exposure.
+
+    Parameters
+    ----------
+    camera : Camera
+        Its mode says how long each raw frame takes; with ``auto_exposure`` the times are those of the mode.
+    start_s : float, s
+        When the frame starts.
+
+    Returns
+    -------
+    float64 array [phase], s
+        By which a renderer or a physics engine can be asked. With ``exposure_samples`` more than 1 a frame looks at other times, too.
+
+    Raises
+    ------
+    Error
+        For a camera that cannot be, and a time that is not within -1e6 to 1e6 s.
+    """
+    return _native.exposure_times(camera, start_s)
 
 
 def pixel_rays(camera: Camera) -> NDArray[np.float32]:

@@ -46,6 +46,8 @@ class FrozenScene {
   /// Where all things are at the times of a frame. Derives nothing.
   /// @param pose  the camera stands there; none: where the scene has it at each time
   void look(const std::optional<Pose>& pose, const Times& times);
+  /// Forgets what moves: the scene's keyframes have changed, and what has any still has.
+  void forget_motion() { moving_known_ = false; }
   /// Forms and facets for the last look(), as far as they are not known.
   void derive();
   [[nodiscard]] const SceneView& view() const { return view_; }

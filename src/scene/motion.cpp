@@ -156,6 +156,30 @@ Quaternion quaternion_of(const Pose& pose) {
 Turn turn_between(const Pose& from, const Pose& to) { return turn_of(base::product(quaternion_of(to), inverse(quaternion_of(from)))); }
 }  // namespace
 
+Keyframe going_on(const Keyframe& from, const Keyframe& to) {
+  const Turn turn = turn_between(from.rotation, to.rotation);
+  Keyframe out{2 * to.time_s - from.time_s, 2.0 * to.position - from.position, to.rotation};
+  if (turn.angle == 0) return out;
+  if (!from.rotation.quaternion && !to.rotation.quaternion) {
+    const Turn last = turn_of(to.rotation);
+    if (last.angle == 0 || length(cross(last.axis, turn.axis)) < 1e-14) {
+      const double angle = last.angle == 0 ? 0 : dot(last.axis, turn.axis) > 0 ? last.angle : -last.angle;
+      out.rotation = {turn.axis, angle + turn.angle};
+      return out;
+    }
+  }
+  const Quaternion again = quaternion_of(Rotation{turn.axis, turn.angle});
+  out.rotation = {{0, 0, 1}, 0, base::product(again, quaternion_of(to.rotation))};
+  return out;
+}
+
+CameraKeyframe going_on(const CameraKeyframe& from, const CameraKeyframe& to) {
+  const Turn turn = turn_between(from.pose, to.pose);
+  const Quaternion again = quaternion_of(Rotation{turn.axis, turn.angle});
+  return {2 * to.time_s - from.time_s,
+          {2.0 * to.pose.position - from.pose.position, {0, 0, 1}, {0, -1, 0}, base::product(again, quaternion_of(to.pose))}};
+}
+
 Pose pose_at(const CameraChoice& camera, double time_s) {
   if (camera.keyframes.empty()) return camera.pose;
   const auto keys = between(camera.keyframes, time_s);

@@ -33,6 +33,10 @@ bool moves(const Object& object);
 /// @param center  what the object turns about, where the scene puts it before it moves
 Motion motion_at(const Object& object, const Vec& center, double time_s);
 
+/// Where it is as long after `to` as that is after `from`, if it goes on as it went: turns about one axis keep all their angle.
+Keyframe going_on(const Keyframe& from, const Keyframe& to);
+CameraKeyframe going_on(const CameraKeyframe& from, const CameraKeyframe& to);
+
 /// Rows: camera x, y, z axes in the world. camera = rotation · (world − position).
 struct CameraFrame {
   base::Mat3 rotation;

@@ -47,8 +47,8 @@ Own Simulator::Impl::own_of(std::uint64_t from, std::uint64_t count, const Reque
   Own own = frozen_scene.moves() || setup.sensor.drifts != 0 ? Own::moving : Own::number;
   for (std::uint64_t i = from; i < from + count; ++i) {
     const FrameRequest wanted = request(i);
-    if (wanted.pose) return Own::scene;
-    if (wanted.seed) own = Own::moving;
+    if (wanted.pose && !placed.camera) return Own::scene;
+    if (wanted.seed || wanted.start_time_s) own = Own::moving;
   }
   return own;
 }

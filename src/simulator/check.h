@@ -1,8 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The tofray authors
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-#include <span>
-
 #include "tofray/camera.h"
 #include "tofray/scene.h"
 #include "tofray/simulator.h"
@@ -17,8 +15,6 @@ namespace tofray::simulator {
 /// @throws Error (bad_input; limit for counts) naming the member
 void check(const Camera& camera);
 void check(const Scene& scene);
-void check(const FrameRequest& request);
-void check(std::span<const FrameRequest> requests);
 void check(const SimulatorOptions& options);
 /// … and for all of them together: what is derived of things that move has to fit into memory.
 /// @param camera  rings and areas of light taken apart

@@ -50,16 +50,6 @@ void check(const Camera& camera) { model::check_in_code(camera); }
 
 void check(const Scene& scene) { model::check_in_code(scene); }
 
-void check(const FrameRequest& request) {
-  if (request.pose) model::check_in_code(*request.pose, "request.pose");
-}
-
-void check(std::span<const FrameRequest> requests) {
-  for (std::size_t i = 0; i < requests.size(); ++i) {
-    if (requests[i].pose) model::check_in_code(*requests[i].pose, "requests[" + std::to_string(i) + "].pose");
-  }
-}
-
 void check(const SimulatorOptions& options) {
   const std::int64_t most = base::limit::threads.value;
   if (options.threads > most)

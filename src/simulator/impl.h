@@ -10,6 +10,7 @@
 #include "simulator/border.h"
 #include "simulator/engines.h"
 #include "simulator/exposure.h"
+#include "simulator/placed.h"
 #include "simulator/temporal.h"
 #include "tofray/simulator.h"
 
@@ -33,15 +34,26 @@ struct Simulator::Impl {
   Frame scratch;  ///< of a batch on the processor, and the model of one on a GPU
   simulator::Temporal temporal;
   simulator::Exposure exposure;
-  Frame earlier;                    ///< one that a later one needs
-  Frame whole;                      ///< with the border, before it is cut
-  std::unique_ptr<Impl> of_region;  ///< the same without a border, for arrays of one's own: of the region alone
+  Frame earlier;                                 ///< one that a later one needs
+  Frame whole;                                   ///< with the border, before it is cut
+  std::unique_ptr<Impl> of_region;               ///< the same without a border, for arrays of one's own: of the region alone
+  std::unique_ptr<simulator::Handles> handles;   ///< of the scene's objects, once a request asks
+  simulator::Placed placed;                      ///< what moves in `scene` as each request says
+  std::vector<std::unique_ptr<Impl>> of_placed;  ///< those for requests that place objects or move the camera; the last one asked is first
   simulator::Engines engines;
   const float* written_before = nullptr;  ///< Raw::tap_a of the frame before; nobody looks at what lies there
 
   /// @param with_border  false: nothing beside the region that is read
   Impl(const Scene& scene, const Camera& profile, const SimulatorOptions& wanted, bool with_border = true);
 
+  /// What requests place, of which all are good.
+  /// @param name  of the request, in messages
+  simulator::Placed placed_by(const FrameRequest& request, const std::string& name);
+  /// What computes a request that places this.
+  Impl& for_placed(const simulator::Placed& what, const FrameRequest& first);
+  /// Calls use(impl, requests) for each run of requests that place the same.
+  template <class Use>
+  void each_placed(std::span<const FrameRequest> requests, const Use& use);
   /// What arrays of one's own are for.
   Impl& for_own_arrays();
 
@@ -51,7 +63,9 @@ struct Simulator::Impl {
   void frames_on_device(std::uint64_t count, const Request& request, DeviceFrames::Impl& into);
 
   /// Times of a frame's raw frames: start of each, and the middle of its exposure [s].
-  [[nodiscard]] double start_of(std::uint64_t index) const { return static_cast<double>(index) / camera.mode.frame_rate_hz; }
+  [[nodiscard]] double start_of(const FrameRequest& request) const {
+    return simulator::span_of(request, camera.mode.frame_rate_hz).start_s;
+  }
   /// Puts the scene as it was looked at last into a setup.
   void set_scene(pipeline::Setup& to) const;
   /// Why a frame hangs on earlier ones; null: it stands by itself.
@@ -73,7 +87,7 @@ struct Simulator::Impl {
   /// Computes the frames before, as far as the exposures of this one are not known without them.
   void find_exposures(std::uint64_t index);
   void set_exposures(std::uint64_t index);
-  /// @throws Error (bad_input) where a frame hangs on earlier ones, and the request has another seed or pose than they
+  /// @throws Error (bad_input) where a frame hangs on earlier ones, and the request says another seed, pose or time than they
   void check_over_time(const FrameRequest& request) const;
   [[nodiscard]] bool stopped() const { return options.progress != nullptr && options.progress->stop; }
   void frame_by_batch(const FrameRequest& request, Frame& into);

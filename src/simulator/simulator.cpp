@@ -135,13 +135,19 @@ void Simulator::Impl::set_scene(pipeline::Setup& to) const {
 }
 
 void Simulator::Impl::set_frame(const FrameRequest& request) {
-  frozen_scene.look(request.pose, times_from(start_of(request.index)));
+  if (placed.any()) {
+    const simulator::FrameSpan span = simulator::span_of(request, camera.mode.frame_rate_hz);
+    simulator::place_objects(request, *handles, span, scene);
+    if (placed.camera) simulator::place_camera(request, span, scene.camera);
+    frozen_scene.forget_motion();
+  }
+  frozen_scene.look(placed.camera ? std::nullopt : request.pose, times_from(start_of(request)));
   set_scene(setup);
   set_sensor(request);
 }
 
 void Simulator::Impl::set_sensor(const FrameRequest& request) {
-  setup.sensor = frozen_camera.sensor(start_of(request.index), request.index, request.seed);
+  setup.sensor = frozen_camera.sensor(start_of(request), request.index, request.seed);
   job.index_low = static_cast<std::uint32_t>(request.index), job.index_high = static_cast<std::uint32_t>(request.index >> 32);
 }
 
@@ -163,6 +169,42 @@ void Simulator::Impl::cut(const flow::FrameView& from, Frame& into) const {
                  {std::int64_t{camera.sensor.width} * camera.sensor.height, static_cast<std::int64_t>(camera.mode.sequence.size()),
                   setup.transient.bins},
                  camera.sensor.width, setup.region, to);
+}
+
+simulator::Placed Simulator::Impl::placed_by(const FrameRequest& request, const std::string& name) {
+  simulator::check(request, name);
+  if (request.objects.empty() && request.camera.empty() && !request.pose_end) return {};
+  if (handles == nullptr) handles = std::make_unique<simulator::Handles>(scene);
+  return simulator::placed_by(request, *handles, name);
+}
+
+Simulator::Impl& Simulator::Impl::for_placed(const simulator::Placed& what, const FrameRequest& first) {
+  if (!what.any()) return *this;
+  const auto known = std::find_if(of_placed.begin(), of_placed.end(), [&](const auto& one) { return one->placed == what; });
+  if (known != of_placed.end()) {
+    std::rotate(of_placed.begin(), known, known + 1);
+    return *of_placed.front();
+  }
+  constexpr std::size_t most = 4;
+  Scene moved = scene;
+  const simulator::FrameSpan span = simulator::span_of(first, camera.mode.frame_rate_hz);
+  simulator::place_objects(first, *handles, span, moved);
+  if (what.camera) simulator::place_camera(first, span, moved.camera);
+  auto fresh = std::make_unique<Impl>(moved, simulator::without_border(profile, border), options);
+  fresh->handles = std::make_unique<simulator::Handles>(*handles), fresh->placed = what;
+  if (of_placed.size() == most) of_placed.pop_back();
+  of_placed.insert(of_placed.begin(), std::move(fresh));
+  return *of_placed.front();
+}
+
+template <class Use>
+void Simulator::Impl::each_placed(std::span<const FrameRequest> requests, const Use& use) {
+  std::vector<simulator::Placed> what;
+  for (std::size_t i = 0; i < requests.size(); ++i) what.push_back(placed_by(requests[i], "requests[" + std::to_string(i) + "]"));
+  for (std::size_t i = 0, end = 0; i < requests.size() && !(i > 0 && stopped()); i = end) {
+    while (end < requests.size() && what[end] == what[i]) ++end;
+    use(for_placed(what[i], requests[i]), requests.subspan(i, end - i));
+  }
 }
 
 Simulator::Impl& Simulator::Impl::for_own_arrays() {
@@ -220,8 +262,12 @@ void Simulator::Impl::set_exposures(std::uint64_t index) {
 
 void Simulator::Impl::check_over_time(const FrameRequest& request) const {
   const char* const why = needs_earlier();
-  if (why != nullptr && (request.seed || request.pose))
-    throw Error(ErrorKind::bad_input, "error: " + std::string(why) + ", which a request of another seed or pose does not have");
+  if (why != nullptr && (request.seed || request.pose || request.start_time_s || placed.any()))
+    throw Error(
+        ErrorKind::bad_input,
+        "error: " + std::string(why) +
+            ", which a request of another seed, pose or time does not have\n  in the camera: "
+            "decoding.temporal.frames 0 or 1, auto_exposure.speed 0; or the motion in the scene's keyframes, and frames by their index");
 }
 
 void Simulator::Impl::compute(const FrameRequest& request, const pipeline::Input* input, const SimulatorOptions& with,
@@ -229,7 +275,7 @@ void Simulator::Impl::compute(const FrameRequest& request, const pipeline::Input
   if (exposure.on()) set_exposures(request.index);
   into.index = request.index;
   simulator::prepare(into, camera, with, transport);
-  const double start = start_of(request.index);
+  const double start = start_of(request);
   into.raw.start_time_s.clear();
   for (const double after : frozen_camera.raw_frame_start_s()) into.raw.start_time_s.push_back(start + after);
   into.truth.time_s = times_from(start).truth_s();
@@ -243,7 +289,7 @@ void Simulator::Impl::compute(const FrameRequest& request, const pipeline::Input
   job.tap_stores = simulator::tap_stores(job.out, written_before, camera.sensor.width, {pixels, phases, 0});
   written_before = job.out.tap_a;
   engines.run([&](backend::Engine& engine) {
-    if ((request.seed || request.pose) && !engines.gpus().empty()) {
+    if ((request.seed || (request.pose && !placed.camera)) && !engines.gpus().empty()) {
       frame_by_batch(request, into);
       return;
     }
@@ -262,8 +308,7 @@ Simulator& Simulator::operator=(Simulator&&) noexcept = default;
 
 void Simulator::frame(std::uint64_t index, Frame& into) { impl_->frame({index, {}, {}}, nullptr, into); }
 void Simulator::frame(const FrameRequest& request, Frame& into) {
-  simulator::check(request);
-  impl_->frame(request, nullptr, into);
+  impl_->for_placed(impl_->placed_by(request, "request"), request).frame(request, nullptr, into);
 }
 void Simulator::frame(std::uint64_t index, const Geometry& seen, Frame& into) {
   Impl& impl = impl_->for_own_arrays();
@@ -294,9 +339,10 @@ void Simulator::frames(std::uint64_t first, std::uint64_t count, const std::func
       take);
 }
 void Simulator::frames(std::span<const FrameRequest> requests, const std::function<void(const FrameArrays&)>& take) {
-  simulator::check(requests);
-  impl_->frames(
-      requests.size(), [requests](std::uint64_t i) { return requests[i]; }, take);
+  impl_->each_placed(requests, [&](Impl& impl, std::span<const FrameRequest> same) {
+    impl.frames(
+        same.size(), [same](std::uint64_t i) { return same[i]; }, take);
+  });
 }
 void Simulator::frames_on_device(std::uint64_t first, std::uint64_t count, DeviceFrames& into) {
   impl_->frames_on_device(
@@ -307,8 +353,16 @@ void Simulator::frames_on_device(std::uint64_t first, std::uint64_t count, Devic
       *into.impl_);
 }
 void Simulator::frames_on_device(std::span<const FrameRequest> requests, DeviceFrames& into) {
-  simulator::check(requests);
-  impl_->frames_on_device(
+  Impl* impl = impl_.get();
+  impl_->each_placed(requests, [&](Impl& one, std::span<const FrameRequest> same) {
+    if (same.size() != requests.size())
+      throw Error(
+          ErrorKind::bad_input,
+          "error: not all requests place the same objects, and frames that stay on the GPU are computed side by side\n  expected the "
+          "same objects in each, and the camera's motion in all or in none; or ask for them apart");
+    impl = &one;
+  });
+  impl->frames_on_device(
       requests.size(), [requests](std::uint64_t i) { return requests[i]; }, *into.impl_);
 }
 

@@ -5,12 +5,15 @@
 
 #include "support/cuda_cases.h"
 #include "support/files.h"
+#include "support/placed_scene.h"
 #include "support/random_scene.h"
+#include "support/samples.h"
 #include "support/stand_in_cuda.h"
 #include "tofray/tofray.h"
 
 using namespace tofray;
 using namespace tofray::test;
+using out_test::error_of;
 
 namespace {
 
@@ -194,4 +197,32 @@ TEST(cuda_host, frames_can_stay_on_the_device) {
   EXPECT_EQ(first_difference(copy_of(frames[0]), alone(scene, camera, {.truth = false}, {3, {}, {}})), "");
   Simulator cpu(scene, camera, on(Backend::cpu));
   EXPECT_THROW(cpu.frames_on_device(0, 1, frames), Error);
+}
+
+// Each frame takes along where things are: on the device as by a scene whose keyframes say the same.
+TEST(cuda_host, objects_and_cameras_are_placed_from_outside) {
+  const WithStandIn here;
+  const Camera camera = small(placed_camera());
+  const Scene rest = placed_scene_at_rest(), moving = scene_on_a_path(rest, camera, 8, true);
+  std::vector<FrameRequest> requests;
+  for (const std::uint64_t i : {3, 1, 1, 5}) requests.push_back(request_on_the_path(moving, i));
+  requests[2].seed = 9, requests[3].start_time_s = 0.5;
+  Simulator cpu(rest, camera, on(Backend::cpu)), cuda(rest, camera, on(Backend::cuda));
+  std::vector<Frame> expected(requests.size());
+  for (std::size_t i = 0; i < requests.size(); ++i) {
+    cpu.frame(requests[i], expected[i]);
+    Frame one;
+    cuda.frame(requests[i], one);
+    EXPECT_EQ(first_difference(one, expected[i]), "") << i;
+  }
+  std::size_t next = 0;
+  cuda.frames(requests,
+              [&](const FrameArrays& got) { EXPECT_EQ(first_difference(copy_of(got), arrays_only(expected[next++])), "") << next; });
+  EXPECT_EQ(next, requests.size());
+  DeviceFrames stay;
+  cuda.frames_on_device(requests, stay);
+  for (std::size_t i = 0; i < requests.size(); ++i) EXPECT_EQ(first_difference(copy_of(stay[i]), arrays_only(expected[i])), "") << i;
+  requests[1].objects.pop_back();
+  const std::string told = error_of([&] { cuda.frames_on_device(requests, stay); }).what();
+  EXPECT_NE(told.find("not all requests place the same objects"), std::string::npos) << told;
 }

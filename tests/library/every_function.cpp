@@ -121,6 +121,10 @@ void all() {
   simulator.frames(requests, take);
   simulator.frame(requests[0], frame);
   expect(frame.index == 3, "frame of a request");
+  tofray::FrameRequest placed;
+  placed.objects.push_back({"objects.0", {{0, 0, 0.1}, {}}, {}, {}});
+  expect(tofray::placed_scene(scene, camera, placed).objects[0].keyframes.size() == 1, "placed_scene");
+  expect(tofray::exposure_times(camera, 2)[0] == 2 + 0.5e-3, "exposure_times");
   expect(taken == 3, "frames");
   expect(tofray::process(frame.raw, camera).z_m.size() == frame.depth.z_m.size(), "process");
   const tofray::RanOn machine = simulator.ran_on();
