@@ -114,8 +114,8 @@ struct ErrorCauses::Impl {
   }
   void add(std::string_view cause, double error_m) { split.causes.push_back({std::string(cause), error_m}); }
   void end() {
-    std::stable_sort(split.causes.begin(), split.causes.end(),
-                     [](const ErrorCause& a, const ErrorCause& b) { return std::abs(a.error_m) > std::abs(b.error_m); });
+    const auto size = [](const ErrorCause& one) { return std::isfinite(one.error_m) ? std::abs(one.error_m) : -1; };
+    std::stable_sort(split.causes.begin(), split.causes.end(), [&](const ErrorCause& a, const ErrorCause& b) { return size(a) > size(b); });
     split.rest_m = split.error_m;
     for (const ErrorCause& one : split.causes)
       if (std::isfinite(one.error_m)) split.rest_m -= one.error_m;

@@ -22,6 +22,7 @@ Camera sampling(const std::vector<double>& phases_rad) {
   camera.illumination[0].waveform = {};
   camera.illumination[0].waveform.kind = Waveform::Kind::rectangular;
   camera.illumination[0].waveform.duty = 0.4;
+  camera.pixel.contrast = {{60e6}, {0.7}};  // of all of it, four harmonics would overshoot what a tap holds
   camera.mode.sequence.clear();
   for (const double phase : phases_rad) camera.mode.sequence.push_back({true, 60e6, phase, 1e-3});
   return camera;

@@ -113,6 +113,7 @@ TEST(error_causes, wiggling_of_a_third_harmonic_is_its_closed_form) {
   light.duty = 0.5, light.harmonics = 2;
   camera.sensor.width = camera.sensor.height = 1, camera.lens.cx_px = camera.lens.cy_px = 0;
   for (const double z : {0.2, 0.3, 0.6}) {
+    camera.illumination[0].power_w = 0.01 * z * z;
     const ErrorSplit split = error_causes(wall(z, 0.5), camera, quiet(), 0, {0, 0, 0, 0});
     expect_first(split, "wiggling");
     // Of four samples the third harmonic falls onto the first as its conjugate: Z = a1 e^{i phi} + a3 e^{-3 i phi}, of equation 3.3 with
@@ -139,7 +140,7 @@ TEST(error_causes, a_wrong_cycle_is_whole_cycles_whatever_led_to_it) {
 
 TEST(error_causes, weak_light_makes_wrong_cycles_and_what_is_left_is_noise_within_one) {
   Camera camera = camera_of_two();
-  camera.illumination[0].power_w = 2e-4;
+  camera.illumination[0].power_w = 4e-3, camera.pixel.read_noise_e = 4;
   const Scene scene = wall(3.1, 0.5);
   const Frame frame = Simulator(scene, camera, quiet(Noise::exact)).frame(0);
   int wrong = 0;
@@ -220,7 +221,7 @@ TEST(error_causes, light_that_the_lens_scatters_off_a_near_wall_pulls_the_far_on
   scene.objects.push_back(object(Rectangle{{-0.3, 0, 0.6}, {0.5, 2}}));
   Camera camera = camera_of_two();
   camera.lens.scatter.kind = Scatter::Kind::gaussians;
-  camera.lens.scatter.share = 0.05, camera.lens.scatter.sigma_px = {8};
+  camera.lens.scatter.share = 0.15, camera.lens.scatter.sigma_px = {8};
   const ErrorSplit split = error_causes(scene, camera, quiet(), 0, {14, 2, 16, 10});
   expect_first(split, "scatter");
   EXPECT_LT(share_of(split, "scatter"), -0.01);
@@ -241,7 +242,7 @@ TEST(error_causes, crosstalk_filter_interference_and_drift_are_found_too) {
   without(camera, camera_of_two(), "crosstalk", whole_image);
   camera = camera_of_two(), camera.decoding.filter.kind = ImageFilter::Kind::gaussian;
   without(camera, camera_of_two(), "filter", {0, 0, 16, 12});
-  camera = camera_of_two(), camera.interference.share = 0.3;
+  camera = camera_of_two(), camera.interference.share = 0.3, camera.interference.phase_rad = 1;
   without(camera, camera_of_two(), "interference", {12, 0, 16, 12});
   camera = camera_of_two(), camera.temperature.celsius = 45, camera.temperature.drift_m_per_kelvin = 1e-3;
   without(camera, camera_of_two(), "drift", {12, 0, 16, 12});

@@ -37,7 +37,7 @@ double number(const Json& json) {
 
 TEST(pixel, flows_through_all_stages_with_the_report_s_numbers) {
   NEEDS_THE_VIEWER;
-  const Viewer viewer({"demo", "--seed", "2"});
+  const Viewer viewer({"card", "--seed", "2"});
   Greeted one(viewer);
   const Json pixel = pixel_of(one, R"("u":13,"v":10)");
   ASSERT_NE(pixel.find("flow"), nullptr);
@@ -66,10 +66,10 @@ TEST(pixel, flows_through_all_stages_with_the_report_s_numbers) {
 
 TEST(pixel, has_phasors_whose_truth_is_the_frame_without_noise) {
   NEEDS_THE_VIEWER;
-  const Viewer viewer({"demo", "--seed", "2"});
+  const Viewer viewer({"card", "--seed", "2"});
   Greeted one(viewer);
   const Json pixel = pixel_of(one, R"("u":13,"v":10)");
-  const Result said = run(with_small_sensor({"inspect", "demo", "--noise", "off", "--pixel", "13,10", "--json"}));
+  const Result said = run(with_small_sensor({"inspect", "card", "--noise", "off", "--pixel", "13,10", "--json"}));
   const Json expected = files::parse_json(said.out, "inspect");
   ASSERT_EQ(pixel.find("phasors")->items()->size(), 2u);
   for (std::size_t k = 0; k < 2; ++k) {
@@ -89,7 +89,7 @@ TEST(pixel, has_phasors_whose_truth_is_the_frame_without_noise) {
 
 TEST(pixel, has_curves_that_go_through_its_samples_where_nothing_is_noise) {
   NEEDS_THE_VIEWER;
-  const Viewer viewer({"demo", "--noise", "off"});
+  const Viewer viewer({"card", "--noise", "off"});
   Greeted one(viewer);
   const Json pixel = pixel_of(one, R"("u":13,"v":10)");
   ASSERT_EQ(pixel.find("curve")->items()->size(), 2u);
