@@ -11,6 +11,9 @@ namespace {
 
 using files::Json;
 
+/// The large pixels of the small sensor would be saturated.
+const std::string weak = "camera.lens.f_number=6";
+
 Json pixel_of(Greeted& one, const std::string& what) {
   one.page.send(R"({"type":"pixel","id":1,)" + what + "}");
   const auto answer = one.page.text("pixel");
@@ -37,7 +40,7 @@ double number(const Json& json) {
 
 TEST(pixel, flows_through_all_stages_with_the_report_s_numbers) {
   NEEDS_THE_VIEWER;
-  const Viewer viewer({"card", "--seed", "2"});
+  const Viewer viewer({"card", "--seed", "2", "--set", weak});
   Greeted one(viewer);
   const Json pixel = pixel_of(one, R"("u":13,"v":10)");
   ASSERT_NE(pixel.find("flow"), nullptr);
@@ -66,10 +69,10 @@ TEST(pixel, flows_through_all_stages_with_the_report_s_numbers) {
 
 TEST(pixel, has_phasors_whose_truth_is_the_frame_without_noise) {
   NEEDS_THE_VIEWER;
-  const Viewer viewer({"card", "--seed", "2"});
+  const Viewer viewer({"card", "--seed", "2", "--set", weak});
   Greeted one(viewer);
   const Json pixel = pixel_of(one, R"("u":13,"v":10)");
-  const Result said = run(with_small_sensor({"inspect", "card", "--noise", "off", "--pixel", "13,10", "--json"}));
+  const Result said = run(with_small_sensor({"inspect", "card", "--set", weak, "--noise", "off", "--pixel", "13,10", "--json"}));
   const Json expected = files::parse_json(said.out, "inspect");
   ASSERT_EQ(pixel.find("phasors")->items()->size(), 2u);
   for (std::size_t k = 0; k < 2; ++k) {
@@ -89,7 +92,7 @@ TEST(pixel, has_phasors_whose_truth_is_the_frame_without_noise) {
 
 TEST(pixel, has_curves_that_go_through_its_samples_where_nothing_is_noise) {
   NEEDS_THE_VIEWER;
-  const Viewer viewer({"card", "--noise", "off"});
+  const Viewer viewer({"card", "--noise", "off", "--set", weak});
   Greeted one(viewer);
   const Json pixel = pixel_of(one, R"("u":13,"v":10)");
   ASSERT_EQ(pixel.find("curve")->items()->size(), 2u);
@@ -112,7 +115,7 @@ double sum_of(const Json& why) {
 
 TEST(why, names_the_noise_of_a_pixel_in_millimetres) {
   NEEDS_THE_VIEWER;
-  const Viewer viewer({"card", "--seed", "4"});
+  const Viewer viewer({"card", "--seed", "4", "--set", weak});
   Greeted one(viewer);
   one.page.send(R"({"type":"why","id":9,"u":13,"v":10})");
   const auto why = one.page.text("why");
@@ -123,7 +126,8 @@ TEST(why, names_the_noise_of_a_pixel_in_millimetres) {
   EXPECT_EQ(number_in(*why, "pixels"), 1);
   EXPECT_EQ(number_in(*why, "count"), 1);
   const auto z_of = [&](const char* noise) {
-    const Result said = run(with_small_sensor({"inspect", "card", "--seed", "4", "--noise", noise, "--pixel", "13,10", "--json"}));
+    const Result said =
+        run(with_small_sensor({"inspect", "card", "--set", weak, "--seed", "4", "--noise", noise, "--pixel", "13,10", "--json"}));
     const Json json = files::parse_json(said.out, "inspect");
     return std::pair{number_in(*json.find("depth"), "z_m"), number_in(*json.find("truth"), "z_m")};
   };
@@ -175,7 +179,7 @@ TEST(why, beyond_the_image_or_of_no_side_is_a_fault_that_says_so) {
 
 TEST(why, of_a_state_that_changes_meanwhile_is_not_answered_for_the_old_one) {
   NEEDS_THE_VIEWER;
-  const Viewer viewer({"room", "--bounces", "2", "--samples", "64"});
+  const Viewer viewer({"room", "--bounces", "2", "--samples", "512"});
   Greeted one(viewer);
   one.page.send(R"({"type":"why","id":5,"u":13,"v":10})");
   one.page.send(R"({"type":"set","id":6,"key":"camera.lens.f_number","text":"1.8"})");
