@@ -14,7 +14,7 @@
 /// Why a depth is wrong: each cause by switching it off.
 namespace tofray {
 
-/// What one cause does to the error: the error with it minus the error without it, all others as they are.
+/// What one cause does to the error: the error with it minus the error without it.
 struct ErrorCause {
   /// noise, multipath, wiggling, wrong_cycle, mixed_pixel, motion, scatter, crosstalk, filter, interference or drift
   std::string cause;
@@ -42,7 +42,8 @@ struct PixelRegion {
 /// harmonic of each light's correlation alone; mixed_pixel: one sample in the pixel's middle; motion: all stands where it is at the time of
 /// the truth (but meshes that change their shape); scatter: no light scattered in the lens; crosstalk: no charge collected by neighbours;
 /// filter: no filter over image or frames; interference: no other camera; drift: none with temperature. wrong_cycle takes no frame of its
-/// own: each depth is compared with the one by the cycles nearest to the truth, from which the other causes are counted, too.
+/// own: each depth is compared with the one by the cycles nearest to the truth, from which the other causes are counted, too. All causes but
+/// noise are counted in expected values: with other light chance would draw other counts.
 class ErrorCauses {
  public:
   /// @throws Error (bad_input) where the region is beyond the image or turned over, and as Simulator

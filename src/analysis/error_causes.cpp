@@ -88,6 +88,7 @@ struct ErrorCauses::Impl {
   PixelRegion region;
   std::size_t next = 0;  ///< cause to switch off
   std::optional<Errors> all;
+  Errors base;        ///< what causes are counted from: without noise once that has been switched off
   double time_s = 0;  ///< of the truth
   ErrorSplit split;
 
@@ -99,7 +100,7 @@ struct ErrorCauses::Impl {
     return errors_of(frame, of.camera, of.options.noise == Noise::off, region);
   }
   void begin(Errors&& errors) {
-    all = std::move(errors);
+    all = std::move(errors), base = *all;
     const std::size_t count = all->measured.size();
     split.pixels = static_cast<int>(count);
     split.valid =
@@ -148,10 +149,12 @@ bool ErrorCauses::step() {
   for (; of.next < causes.size(); ++of.next) {
     const auto off = analysis::without(causes[of.next], of.in, of.time_s);
     if (!off) continue;
-    const auto without = of.simulated(*off);
+    auto without = of.simulated(*off);
     if (!without) return true;
-    of.add(causes[of.next++],
-           mean_of_numbers(of.all->nearest.size(), [&](std::size_t i) { return of.all->nearest[i] - without->nearest[i]; }));
+    of.add(causes[of.next],
+           mean_of_numbers(of.base.nearest.size(), [&](std::size_t i) { return of.base.nearest[i] - without->nearest[i]; }));
+    // Another cause off is other light, of which chance draws other counts: noise once, all else of expected values.
+    if (causes[of.next++] == "noise") of.in = *off, of.base = std::move(*without);
     return true;
   }
   return of.end(), false;

@@ -3,8 +3,8 @@
 // Each cause of a wrong depth, made large in a scene of its own: it is named first, with what closed forms or two frames say.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
-#include <map>
 
 #include "support/pi.h"
 #include "support/pixels.h"
@@ -123,6 +123,21 @@ TEST(error_causes, wiggling_of_a_third_harmonic_is_its_closed_form) {
     EXPECT_NEAR(share_of(split, "wiggling"), std::remainder(measured - phi, 2 * pi) / (2 * pi) * wave, 2e-4) << z;
     EXPECT_GT(std::abs(share_of(split, "wiggling")), 1e-3) << z;
   }
+}
+
+TEST(error_causes, noise_is_not_counted_again_by_other_causes) {
+  Camera camera = camera_of_two();  // corrects its harmonics: they leave nothing
+  camera.pixel.contrast = {{60e6}, {0.7}};
+  camera.illumination[0].waveform = {};
+  double most = 0;
+  for (const int u : {2, 8, 15}) {
+    const ErrorSplit split = error_causes(wall(1.2, 0.5), camera, quiet(Noise::exact), 1, {u, 6, u, 6});
+    expect_first(split, "noise");
+    most = std::max(most, std::abs(share_of(split, "noise")));
+    EXPECT_NEAR(share_of(split, "wiggling"), 0, 5e-5) << u;
+    EXPECT_NEAR(split.rest_m, 0, 5e-5) << u;
+  }
+  EXPECT_GT(most, 1e-3) << "hardly any noise: the test tries nothing";
 }
 
 TEST(error_causes, a_wrong_cycle_is_whole_cycles_whatever_led_to_it) {

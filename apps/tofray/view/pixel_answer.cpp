@@ -2,7 +2,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "view/pixel_answer.h"
 
+#include <array>
 #include <cmath>
+#include <cstdint>
+#include <utility>
+#include <vector>
 
 #include "base/constants.h"
 #include "commands/pixel_report.h"
