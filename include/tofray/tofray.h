@@ -5,6 +5,7 @@
 #include "tofray/budget.h"
 #include "tofray/camera.h"
 #include "tofray/camera_report.h"
+#include "tofray/causes.h"
 #include "tofray/compare.h"
 #include "tofray/dataset.h"
 #include "tofray/depth_file.h"

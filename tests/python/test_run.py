@@ -116,8 +116,12 @@ def test_a_pixels_chain_is_what_inspect_prints(tmp_path: pathlib.Path) -> None:
         assert [one.half_path_m if np.isfinite(one.half_path_m) else None for one in chain.phases] == [one["half_path_m"] for one in said["phases"]]
         assert chain.object == said["truth"]["object_id"] and (chain.z_m if chain.flags == 0 else None) == said["depth"]["z_m"]
         assert 2 * np.pi * chain.phases[0].measured_turns == said["phases"][0]["measured_phase_rad"]
+        assert [(one.cycles, one.range_m, one.cost_m2, one.chosen) for one in chain.candidates] == [
+            (one["cycles"], one["range_m"], one["cost"], one["chosen"]) for one in said["unwrapping"]["candidates"]]
+        assert [one.noise_e for one in chain.phases] == [one["noise_e"] for one in said["phases"]]
     uncalibrated = tofray.pixel_chain(tofray.load(tmp_path / "frame.npz"), 12, 10)
     assert [one.modulation_frequency_hz for one in uncalibrated.phases] == [80.32e6, 60.24e6]
+    assert not uncalibrated.candidates
     assert np.isnan(uncalibrated.phases[0].calibrated_turns) and np.isfinite(uncalibrated.phases[0].measured_turns)
     with pytest.raises(tofray.Error, match="outside the image"):
         tofray.pixel_chain(frame, 24, 0)
