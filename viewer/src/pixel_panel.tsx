@@ -2,9 +2,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // All that the server knows of the pixel under the cursor: numbers of the library, the same as those of `tofray inspect --pixel`.
 
+import { Curves, Flow, Phasors, UnwrappingTable } from "./chain";
 import { number_text, value_text, with_unit } from "./numbers";
 import type { ArrayInfo, NamedValue, Pixel, RawFrameReport } from "./protocol";
 import { cursor, frame, hello, other, pixel, pixel_b } from "./store";
+import { PinButton } from "./watch_panel";
+import { WhyButtons, WhyPanel } from "./why_panel";
 
 function is_truth(value: NamedValue): boolean {
   return value.name.startsWith("gt_");
@@ -72,6 +75,10 @@ function Answer({ of, beside }: { of: Pixel; beside: Pixel | undefined }) {
       {object !== "" && <p class="object"><span class="faint">sees</span> <bdi>{object}</bdi></p>}
       {of.why !== "" && <p class="why"><strong>No depth: {of.why}.</strong> {reason?.advice ?? ""}</p>}
       <Values title="Measured" values={images.filter((one) => !is_truth(one))} beside={beside?.values} />
+      <UnwrappingTable of={of.report.unwrapping} truth_m={of.report.truth?.range_m ?? undefined} />
+      <Phasors of={of.phasors ?? []} />
+      <Curves of={of.curve ?? []} />
+      <Flow of={of.flow ?? []} frequencies={(of.phasors ?? []).map((one) => one.frequency_hz)} />
       <Values title="Ground truth" values={images.filter(is_truth)} beside={beside?.values} />
       <RawFrames frames={of.report.raw_frames ?? []} />
     </>
@@ -88,6 +95,8 @@ export function PixelPanel() {
         {at === undefined ? "Pixel" : `Pixel ${at.u}, ${at.v}`}
         {answer !== undefined && <span class="faint of-frame"> frame {answer.frame}</span>}
       </h2>
+      <div class="pixel-actions"><PinButton /><WhyButtons /></div>
+      <WhyPanel />
       {at === undefined && <p class="faint">Point at a picture, or press Tab until one has the focus and use the arrow keys.</p>}
       {at !== undefined && answer !== undefined && (
         <div class={late ? "answer late" : "answer"} data-pixel={`${answer.u},${answer.v}`} data-frame={answer.frame}>
