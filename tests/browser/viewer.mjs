@@ -121,7 +121,7 @@ export async function until(come, what) {
 /** A tab of its own, without an earlier one's storage. @param before  what to do with the page first
  *  @return  the page, and what has happened in it so far */
 export async function open(url, { before, ...options } = {}) {
-  const context = await browser.newContext({ viewport: { width: 1280, height: 900 }, ...options });
+  const context = await browser.newContext({ viewport: { width: 1280, height: 900 }, permissions: ["clipboard-read", "clipboard-write"], ...options });
   const page = await context.newPage();
   await before?.(page);
   const seen = { page, texts: [], frames: [], last: {}, generations: { a: [], b: [] }, asked: [], troubles: [], sockets: 0, requests: [], loads: 0 };
@@ -172,12 +172,14 @@ export async function stand_at(tab, frame) {
   await tab.page.waitForFunction((to) => window.tofray.last?.frame === to, frame);
 }
 
-/** A pane as coloured: {array, width, height, pixels: RGBA}. @param side  b: the picture of B beside that of A */
-export function pane({ page }, i, side = "a") {
-  return page.evaluate(([at, of]) => {
-    const one = window.tofray.pane(at, of);
+/** A pane as coloured: {array, width, height, pixels: RGBA}.
+ *  @param side       b: the picture of B beside that of A
+ *  @param raw_frame  of a sheet of raw frames the one of this number */
+export function pane({ page }, i, side = "a", raw_frame = undefined) {
+  return page.evaluate(([at, of, number]) => {
+    const one = window.tofray.pane(at, of, number);
     return { ...one, pixels: [...one.pixels] };
-  }, [i, side]);
+  }, [i, side, raw_frame]);
 }
 
 /** The middle of each of a picture's pixels, read from the canvas on the screen: RGBA. */
@@ -272,6 +274,6 @@ export async function set(tab, key, text) {
 }
 
 export async function choose(tab, i, array) {
-  await tab.page.locator(".pane select").nth(i).selectOption(array);
+  await tab.page.locator(".pane select.shows").nth(i).selectOption(array);
   await tab.page.waitForFunction(([at, name]) => window.tofray.pane(at)?.array === name, [i, array]);
 }

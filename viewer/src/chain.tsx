@@ -33,7 +33,7 @@ export function mhz(hz: number): string {
 }
 
 function short(value: number): string {
-  return number_text(Number(value.toPrecision(4)));
+  return String(Number(value.toPrecision(4))).replace("-", minus);
 }
 
 function said(value: Value, unit: string): string {
@@ -293,7 +293,7 @@ export function UnwrappingTable({ of, truth_m }: { of: Unwrapping | null | undef
           {of.candidates.map((one, i) => (
             <tr key={i} class={one.chosen === true ? "chosen" : ""} data-candidate={one.cycles.join(",")} data-cost={one.cost} data-chosen={one.chosen === true}>
               <th scope="row">{one.cycles.join(", ")}{one.chosen === true && <span class="tick"> ✓ chosen</span>}</th>
-              <td>{with_unit(number_text(Number(one.range_m.toPrecision(5))), "m")}</td>
+              <td>{with_unit(one.range_m.toFixed(3), "m")}</td>
               <td>{short(one.cost)}</td>
               <td class="bar"><span aria-hidden="true" style={{ width: `${Math.max(1, (100 * one.cost) / most)}%` }} /></td>
             </tr>

@@ -9,6 +9,7 @@ import { difference_at, difference_unit } from "./compare";
 import { save } from "./edit";
 import { redo, undo } from "./history";
 import { number_text, with_unit } from "./numbers";
+import { is_sheet } from "./raw";
 import { toggle_sheet } from "./sheet_state";
 import { toggle_pin } from "./watch";
 import { ask_pixel, drop_region, region_key } from "./why";
@@ -174,7 +175,7 @@ function say_pixel_soon(): void {
     const at = cursor.value;
     if (at === undefined) return;
     const b = other.value !== undefined;
-    const readings = [...new Set(shown.value)].map((array) => `${title_of(array)} ${b ? `A ${reading(array)}, B ${reading(array, "b")}` : reading(array)}`);
+    const readings = [...new Set(shown.value)].filter((array) => !is_sheet(array)).map((array) => `${title_of(array)} ${b ? `A ${reading(array)}, B ${reading(array, "b")}` : reading(array)}`);
     spoken.value = [`Pixel ${at.u}, ${at.v}`, ...readings].join(". ");
   }, 150);
 }

@@ -121,7 +121,7 @@ export function Pane({ pane }: { pane: number }) {
       <div class="pane-head">
         <label>
           <span class="unseen">Pane {pane + 1} shows</span>
-          <select class="shows" value={raw === undefined ? array : raw_frames} onChange={(event) => choose(event.currentTarget.value)}>
+          <select class={`shows${raw === undefined ? "" : " raw"}`} value={raw === undefined ? array : raw_frames} onChange={(event) => choose(event.currentTarget.value)}>
             {(hello.value?.panes ?? []).map((one) => <option key={one.array} value={one.array}>{one.title}</option>)}
             <option value={raw_frames}>Raw frames</option>
           </select>

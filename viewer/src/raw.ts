@@ -42,6 +42,12 @@ export function raw_view(name: string): RawView | undefined {
   return parts === null ? undefined : { kind: parts[1] as RawKind, number: parts[2] === undefined ? undefined : Number(parts[2]) };
 }
 
+/** Whether it is the name of all raw frames of a kind. */
+export function is_sheet(name: string): boolean {
+  const view = raw_view(name);
+  return view !== undefined && view.number === undefined;
+}
+
 export function kind_info(kind: RawKind): KindInfo {
   return raw_kinds.find((one) => one.kind === kind)!;
 }

@@ -109,6 +109,7 @@ export function mount({ place, name, side, stage, kept, clicked, tile = false }:
   if (kept !== undefined) kept.value = picture;
   const fit_in = (): void => fit_stage(stage, tile);
   const observer = new ResizeObserver(() => {
+    if (stage.clientWidth === 0) return;   // it is being taken off the page
     fit_in();
     picture.resize(Math.round(stage.clientWidth * devicePixelRatio), Math.round(stage.clientHeight * devicePixelRatio));
     draw_soon();

@@ -5,7 +5,7 @@
 
 import { signal } from "@preact/signals";
 import type { Frame } from "./protocol";
-import { array_of, cursor, hello, size, spoken } from "./store";
+import { array_of, cursor, frame, hello, size, spoken } from "./store";
 
 export const most_pins = 8;
 
@@ -160,6 +160,8 @@ export function toggle_pin(): void {
   while (pins.value.some((one) => one.number === number)) ++number;
   pins.value = [...pins.value, { number, u: at.u, v: at.v }].sort((a, b) => a.number - b.number);
   spoken.value = `Pixel ${at.u}, ${at.v} is pin ${number}`;
+  const drawn = frame.peek();
+  if (drawn !== undefined) count(drawn);   // if it has what is watched; else it comes again, with that
 }
 
 /** Another array than before begins to be counted. */

@@ -10,12 +10,12 @@ import {
 } from "./watch";
 
 /** Lengths of noise are read in millimetres. */
-function small(array: string): { unit: string; factor: number } {
+function fine(array: string): { unit: string; factor: number } {
   const { unit = "", factor = 1 } = scale_of(array) ?? {};
   return unit === "m" ? { unit: "mm", factor: 1000 } : { unit, factor };
 }
 
-function text(value: number, factor: number, unit: string): string {
+function text(value: number, { factor, unit }: { factor: number; unit: string }): string {
   return Number.isFinite(value) ? with_unit(number_text(Number((value * factor).toPrecision(6))), unit) : "–";
 }
 
@@ -28,26 +28,52 @@ export function PinButton() {
   );
 }
 
-function Row({ pin, array, of }: { pin: Pin; array: string; of: Moments | undefined }) {
+interface Line {
+  stat: string;
+  said: string;
+  about?: string;
+  text(of: Moments, array: string): string;
+}
+
+/** What numbers are read in. */
+function coarse(array: string): { unit: string; factor: number } {
   const { unit = "", factor = 1 } = scale_of(array) ?? {};
-  const fine = small(array);
-  const cell = (name: string, said: string) => <td data-stat={name}>{said}</td>;
+  return { unit, factor };
+}
+
+const lines: readonly Line[] = [
+  { stat: "mean", said: "mean", text: (of, array) => text(of.n === 0 ? NaN : of.mean, coarse(array)) },
+  { stat: "sigma", said: "σ", about: "standard deviation from frame to frame", text: (of, array) => text(sigma_of(of), fine(array)) },
+  { stat: "predicted", said: "σ̂", about: "σ that the camera predicts", text: (of, array) => text(predicted_of(of), fine(array)) },
+  { stat: "min", said: "min", text: (of, array) => text(of.low, coarse(array)) },
+  { stat: "max", said: "max", text: (of, array) => text(of.high, coarse(array)) },
+  { stat: "n", said: "n", about: "frames with a value", text: (of) => (of.n === of.frames ? String(of.n) : `${of.n} of ${of.frames}`) },
+];
+
+function Statistics({ pin }: { pin: Pin }) {
+  void counted.value;
+  const arrays = watched_arrays();
+  const first = moments_of(pin, "z_m");
   return (
-    <tr data-pin={pin.number} data-array={array}>
-      <th scope="row">{title_of(array)}</th>
-      {cell("mean", of === undefined || of.n === 0 ? "–" : text(of.mean, factor, unit))}
-      {cell("sigma", of === undefined ? "–" : text(sigma_of(of), fine.factor, fine.unit))}
-      {cell("predicted", of === undefined ? "–" : text(predicted_of(of), fine.factor, fine.unit))}
-      {cell("min", of === undefined ? "–" : text(of.low, factor, unit))}
-      {cell("max", of === undefined ? "–" : text(of.high, factor, unit))}
-      {cell("n", of === undefined ? "0" : of.n === of.frames ? String(of.n) : `${of.n} of ${of.frames}`)}
-    </tr>
+    <table class="statistics">
+      <caption>{first === undefined ? "Waits for a frame." : `Since frame ${first.since}: ${first.frames} ${first.frames === 1 ? "frame" : "frames"}`}</caption>
+      <thead><tr><td />{arrays.map((array) => <th key={array} scope="col">{title_of(array)}</th>)}</tr></thead>
+      <tbody>
+        {lines.map((line) => (
+          <tr key={line.stat}>
+            <th scope="row" title={line.about ?? ""}>{line.said}</th>
+            {arrays.map((array) => {
+              const of = moments_of(pin, array);
+              return <td key={array} data-stat={`${line.stat} ${array}`}>{of === undefined ? "–" : line.text(of, array)}</td>;
+            })}
+          </tr>
+        ))}
+      </tbody>
+    </table>
   );
 }
 
 function Pinned({ pin }: { pin: Pin }) {
-  void counted.value;
-  const first = moments_of(pin, "z_m");
   return (
     <section class="pinned" aria-label={`Pin ${pin.number}`} data-pinned={pin.number}>
       <div class="pinned-head">
@@ -55,15 +81,7 @@ function Pinned({ pin }: { pin: Pin }) {
         <button type="button" class="quiet" disabled={is_outside(pin)} onClick={() => point_at(pin.u, pin.v, true)} aria-label={`Cursor to pin ${pin.number}`} title="the cursor goes there">Go to</button>
         <button type="button" class="quiet" onClick={() => unpin(pin)} aria-label={`Remove pin ${pin.number}`} title="off the list">✕</button>
       </div>
-      {is_outside(pin) ? <p class="faint">Outside the picture, which is smaller now.</p> : (
-        <div class="wide" tabIndex={0} role="region" aria-label={`Statistics of pin ${pin.number}`}>
-          <table class="statistics">
-            <caption>{first === undefined ? "Waits for a frame." : `Frames since ${first.since}: ${first.frames}`}</caption>
-            <thead><tr><td /><th scope="col">mean</th><th scope="col">σ</th><th scope="col"><abbr title="σ that the camera predicts">σ̂</abbr></th><th scope="col">min</th><th scope="col">max</th><th scope="col">n</th></tr></thead>
-            <tbody>{watched_arrays().map((array) => <Row key={array} pin={pin} array={array} of={moments_of(pin, array)} />)}</tbody>
-          </table>
-        </div>
-      )}
+      {is_outside(pin) ? <p class="faint">Outside the picture, which is smaller now.</p> : <Statistics pin={pin} />}
     </section>
   );
 }
@@ -77,7 +95,7 @@ export function WatchPanel() {
   };
   return (
     <div class="watch">
-      <p class="what">Pinned pixels, over the frames that come. σ is how much a value changes from frame to frame, σ̂ what the camera predicts of it. A changed camera or scene begins anew.</p>
+      <p class="what about">Pinned pixels, over the frames that come. σ is how much a value changes from frame to frame, σ̂ what the camera predicts of it. A changed camera or scene begins anew.</p>
       <div class="watch-actions">
         <PinButton />
         <button type="button" onClick={anew} disabled={none}>Begin anew</button>

@@ -85,7 +85,7 @@ function Answer({ of }: { of: Why }) {
       <p class="why-sum">
         <strong data-why="error">{mm_text(error_mm)}</strong> {error_mm < 0 ? "too near" : "too far"}
         {sigma_mm !== null && <>; predicted σ̂ <span data-why="sigma">{mm_text(sigma_mm).replace("+", "")}</span></>}.
-        {first !== undefined && first.mm !== null && Math.abs(first.mm) > 0 && <> Most of it or against it: {word(first.cause).toLowerCase()}, {mm_text(first.mm)}.</>}
+        {first !== undefined && first.mm !== null && Math.abs(first.mm) > 0 && <> The largest cause: {word(first.cause).toLowerCase()}, {mm_text(first.mm)}.</>}
       </p>
       <Bars bars={bars} sigma_mm={sigma_mm} />
       <p class="what">A bar is the error with its cause less the error without it: the frame was computed again with that one switched off. What makes no difference here is left out.</p>
