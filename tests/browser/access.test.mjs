@@ -77,7 +77,7 @@ function table(word) {
 test("a pane offers what docs/viewer.md lists, in that order", async () => {
   const { url } = await view(["demo", "--seed", "5"]);
   const { page } = await shown(url);
-  assert.deepEqual(await page.locator(".pane select").first().locator("option").allTextContents(), table("pane").map(([title]) => title));
+  assert.deepEqual(await page.locator(".pane select.shows").first().locator("option").allTextContents(), table("pane").map(([title]) => title));
 });
 
 test("the help lists the keys as docs/viewer.md does, leaves the focus where it was, and keys do nothing in a field", async () => {

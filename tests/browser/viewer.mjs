@@ -152,6 +152,25 @@ export async function open(url, { before, ...options } = {}) {
   return seen;
 }
 
+/** For `before`: what comes between the page and its server. @param asked  by type: answers a question in the server's place; undefined: the
+ *  server does. @param told  by type: changes what the server says */
+export function between({ asked = {}, told: said = {} }) {
+  return (page) => page.routeWebSocket(/./, (near) => {
+    const far = near.connectToServer();
+    near.onMessage((text) => {
+      const message = JSON.parse(text);
+      const answer = asked[message.type]?.(message);
+      if (answer === undefined) return far.send(text);
+      for (const one of [answer].flat()) near.send(JSON.stringify(one));
+    });
+    far.onMessage((text) => {
+      if (typeof text !== "string") return near.send(text);
+      const message = JSON.parse(text);
+      near.send(said[message.type] === undefined ? text : JSON.stringify(said[message.type](message)));
+    });
+  });
+}
+
 /** A tab with a picture in it. */
 export async function shown(url, options) {
   const tab = await open(url, options);

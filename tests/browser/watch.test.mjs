@@ -55,6 +55,7 @@ test("mean, σ, σ̂, least, greatest and n of pinned pixels are those of the fr
   const tab = await shown(url);
   const { page } = tab;
   await stand_at(tab, 0);
+  await page.locator(".stage").first().focus();
   const frames = Array.from({ length: 9 }, (_, i) => rendered(words, i));
   const places = [[112, 86], [10, 150], flickering(frames)];
   for (const [u, v] of places) {
@@ -102,6 +103,7 @@ test("a changed state begins anew, so does the button, and so does another array
   const tab = await shown(url);
   const { page } = tab;
   await stand_at(tab, 0);
+  await page.locator(".stage").first().focus();
   await point_at(tab, 112, 86);
   await page.keyboard.press("p");
   await page.locator(".stage").first().focus();
@@ -130,6 +132,7 @@ test("up to eight pins, each with the least number that is free, marked in every
   const tab = await shown(url);
   const { page } = tab;
   await stand_at(tab, 0);
+  await page.locator(".stage").first().focus();
   const wants = () => tab.asked.filter((one) => one.type === "want").at(-1).arrays;
   assert.ok(!wants().includes("noise_m"));
   /** Pixels of the canvas above a picture that are a mark's white, about a pixel. */

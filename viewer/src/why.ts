@@ -46,7 +46,7 @@ export function region_between(from: Cursor, to: Cursor): Region {
 }
 
 function ask(): void {
-  timer = undefined;
+  clearTimeout(timer);
   const now = question.peek();
   if (now === undefined || link.peek() !== "open") return;
   const { side, of } = now;
@@ -109,7 +109,7 @@ export function drop_region(): boolean {
 
 export function close_why(): void {
   clearTimeout(timer);
-  timer = asked = undefined;
+  asked = undefined;
   question.value = why.value = why_fault.value = region.value = region_from.value = undefined;
   why_waiting.value = false;
 }
@@ -117,7 +117,7 @@ export function close_why(): void {
 /** Another server knows of no question. */
 export function forget_why(): void {
   clearTimeout(timer);
-  timer = asked = undefined;
+  asked = undefined;
   why.value = why_fault.value = undefined;
   why_waiting.value = false;
 }
@@ -149,9 +149,8 @@ export function start_why(): void {
     const generation = (now.side === "a" ? state.value : other.value)?.generation;
     if (drawn === undefined || drawn.generation !== generation) return;
     const same = asked !== undefined && asked.generation === generation && (playing || asked.frame === drawn.frame);
-    if (same) return;
     clearTimeout(timer);
-    timer = setTimeout(ask, rest_ms);
+    if (!same) timer = setTimeout(ask, rest_ms);
   });
   // While the keyboard looks for the second corner, the region follows the cursor.
   effect(() => {
