@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The tofray authors
 // SPDX-License-Identifier: Apache-2.0
-// The pictures of docs/viewer.md, from the viewer itself, viewer.png and viewer_ab.png:
+// The pictures of docs/viewer.md, from the viewer itself, viewer.png, viewer_ab.png and viewer_why.png:
 //   TOFRAY=build/release/apps/tofray/tofray TOFRAY_PAGE_PACKAGES=build/release/viewer node tools/viewer_picture.mjs docs/images
 
 import { test } from "node:test";
@@ -42,4 +42,19 @@ test("two apertures, by a wipe", async () => {
   await beside(tab, "A | B");
   await point_at(tab, 60, 40);
   await take(tab, "viewer_ab.png");
+});
+
+test("a pixel's error by cause, beside depth and all raw frames", async () => {
+  const tab = await start("dark");
+  const { page } = tab;
+  await page.locator(".pane select.shows").nth(1).selectOption("raw frames");
+  await page.waitForFunction(() => window.tofray.pane(1, "a", 8) !== undefined);
+  await page.locator(".stage").first().focus();
+  await point_at(tab, 60, 150);
+  await page.keyboard.press("p");
+  await point_at(tab, 112, 120);
+  await page.keyboard.press("p");
+  await page.keyboard.press("w");
+  await page.locator("[data-why-of]").waitFor();
+  await take(tab, "viewer_why.png");
 });

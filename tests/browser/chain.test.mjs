@@ -4,37 +4,15 @@
 
 import assert from "node:assert/strict";
 import { test } from "node:test";
+import { curve, phasors, with_chain } from "./answers.mjs";
 import { beside, between, point_at, shown, stand_at, view } from "./viewer.mjs";
 
 const words = ["demo", "--seed", "5"];
 const turn = 2 * Math.PI;
 
-/** A pixel that this file makes up: what its charts have to show is known. */
-const f = [(t) => 100 + 9000 * Math.cos(t + 1) + 500 * Math.cos(3 * t), (t) => 6000 * Math.cos(t - 2)];
-const phasors = [
-  { frequency_hz: 80e6, unit: "e", i: 3000, q: 4000, sigma_i: 120, sigma_q: 90, covariance: 4000, amplitude: 5000, phase_rad: Math.atan2(4, 3), truth_i: 3300, truth_q: 3900 },
-  { frequency_hz: 60e6, unit: "e", i: -2000, q: -1000, sigma_i: 50, sigma_q: 100, covariance: 0, amplitude: Math.hypot(2000, 1000), phase_rad: Math.atan2(-1, -2), truth_i: null, truth_q: null },
-];
-const curve = f.map((of, k) => ({
-  frequency_hz: phasors[k].frequency_hz, unit: "e", points: Array.from({ length: 64 }, (_, i) => of((turn * i) / 64)),
-  samples: [0, 1, 2, 3].map((j) => [(turn * j) / 4, of((turn * j) / 4) + 100 * (j - 1.5)]),
-}));
-const unwrapping = {
-  candidates: [{ cycles: [0, 0], range_m: 0.6231, cost: 0.5, chosen: true }, { cycles: [3, 2], range_m: 5.6, cost: 20 }, { cycles: [1, 1], range_m: 2.8, cost: 50 }],
-  runner_up_ratio: 40,
-};
-const flow = [
-  { stage: "light", values: [{ name: "object", value: "<i>ball</i>", unit: "" }, { name: "reflectivity", value: 0.85, unit: "1" }] },
-  { stage: "taps", values: [{ name: "tap_a", value: [1.5, 2.25, 1234567.8, null], unit: "e" }] },
-  { stage: "phase", values: [{ name: "measured", value: 0.25, unit: "turns", phase: 0 }, { name: "measured", value: 0.125, unit: "turns", phase: 1 }] },
-  { stage: "sorcery", values: [{ name: "unheard_of", value: null, unit: "m" }] },
-  { stage: "z", values: [{ name: "z", value: 0.623, unit: "m" }] },
-];
-
 async function made_up(options = {}) {
-  const pixel = (message) => ({ ...message, report: { ...message.report, unwrapping }, phasors, curve, flow });
   const { url } = await view(words);
-  const tab = await shown(url, { before: between({ told: { pixel } }), ...options });
+  const tab = await shown(url, { before: between({ told: { pixel: with_chain } }), ...options });
   await stand_at(tab, 0);
   await beside(tab, "Pixel");
   await point_at(tab, 112, 86);

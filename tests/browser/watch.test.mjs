@@ -165,7 +165,7 @@ test("up to eight pins, each with the least number that is free, marked in every
   assert.equal(await page.locator('[data-pinned="3"] h3').textContent(), "3Pin 3: pixel 175, 60");
   await page.keyboard.press("p");
   await page.locator('[data-pinned="3"]').waitFor({ state: "detached" });
-  await page.getByRole("button", { name: "Cursor to pin 8" }).click();
+  await page.getByRole("button", { name: "Go to pin 8" }).click();
   assert.equal(await page.locator(".read-out dd").first().textContent(), "145, 60");
   assert.ok(wants().includes("noise_m") && wants().includes("range_m"));
   await page.getByRole("button", { name: "Remove all" }).click();

@@ -4,14 +4,10 @@
 
 import assert from "node:assert/strict";
 import { test } from "node:test";
+import { split } from "./answers.mjs";
 import { between, point_at, set, shown, stand_at, until, view } from "./viewer.mjs";
 
 const words = ["demo", "--seed", "5"];
-
-const split = {
-  error_m: -0.0089, sigma_m: 0.0018, rest_mm: 0.39,
-  causes: [{ cause: "noise", mm: -1.2 }, { cause: "multipath", mm: 4.21 }, { cause: "wiggling", mm: -12 }, { cause: "mixed_pixel", mm: 0.2 }, { cause: "<b>gamma</b> rays", mm: -0.5 }],
-};
 
 /** A tab whose questions are answered here. @return  the questions, too */
 async function asking(answer = () => ({}), options = {}) {

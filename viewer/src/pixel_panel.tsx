@@ -5,7 +5,7 @@
 import { Curves, Flow, Phasors, UnwrappingTable } from "./chain";
 import { number_text, value_text, with_unit } from "./numbers";
 import type { ArrayInfo, NamedValue, Pixel, RawFrameReport } from "./protocol";
-import { cursor, frame, hello, other, pixel, pixel_b } from "./store";
+import { cursor, edited, frame, hello, other, pixel, pixel_b } from "./store";
 import { PinButton } from "./watch_panel";
 import { WhyButtons, WhyPanel } from "./why_panel";
 
@@ -69,16 +69,18 @@ function RawFrames({ frames }: { frames: readonly RawFrameReport[] }) {
 function Answer({ of, beside }: { of: Pixel; beside: Pixel | undefined }) {
   const images = of.values.filter((one) => hello.value?.arrays.find((array) => array.name === one.name)?.shape !== "stack");
   const object = of.report.truth?.object ?? "";
+  const chain = edited.value === "b" && beside !== undefined ? beside : of;   // of the state that controls change
   const reason = hello.value?.invalid.find((one) => one.name === of.why);
   return (
     <>
       {object !== "" && <p class="object"><span class="faint">sees</span> <bdi>{object}</bdi></p>}
       {of.why !== "" && <p class="why"><strong>No depth: {of.why}.</strong> {reason?.advice ?? ""}</p>}
       <Values title="Measured" values={images.filter((one) => !is_truth(one))} beside={beside?.values} />
-      <UnwrappingTable of={of.report.unwrapping} truth_m={of.report.truth?.range_m ?? undefined} />
-      <Phasors of={of.phasors ?? []} />
-      <Curves of={of.curve ?? []} />
-      <Flow of={of.flow ?? []} frequencies={(of.phasors ?? []).map((one) => one.frequency_hz)} />
+      {beside !== undefined && <p class="what">What follows is {chain === beside ? "B" : "A"}, the state that controls change.</p>}
+      <UnwrappingTable of={chain.report.unwrapping} truth_m={chain.report.truth?.range_m ?? undefined} />
+      <Phasors of={chain.phasors ?? []} />
+      <Curves of={chain.curve ?? []} />
+      <Flow of={chain.flow ?? []} frequencies={(chain.phasors ?? []).map((one) => one.frequency_hz)} />
       <Values title="Ground truth" values={images.filter(is_truth)} beside={beside?.values} />
       <RawFrames frames={of.report.raw_frames ?? []} />
     </>

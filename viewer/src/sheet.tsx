@@ -7,7 +7,7 @@ import { reading } from "./keys";
 import { shown_by } from "./compare";
 import type { Side } from "./protocol";
 import { exposure_text, kind_info, raw_name, type Exposure, type RawKind } from "./raw";
-import { show_raw } from "./sheet_state";
+import { enlarge } from "./sheet_state";
 import { mount } from "./stage";
 import { cursor, exposures, focused, frame_of, other, view } from "./store";
 
@@ -15,14 +15,12 @@ function Tile({ pane, side, kind, of }: { pane: number; side: Side; kind: RawKin
   const stage = useRef<HTMLDivElement>(null);
   const name = useRef("");
   name.current = raw_name(kind, of.number);
-  const enlarge = (): void => {
+  const enlarged = (): void => {
     focused.value = pane;
-    show_raw(pane, kind, of.number);
-    // The tile is gone: the focus goes to what came in its place.
-    requestAnimationFrame(() => document.querySelectorAll<HTMLElement>(".pane")[pane]?.querySelector<HTMLElement>(".stage")?.focus());
+    enlarge(pane, kind, of.number);
   };
-  const click = useRef(enlarge);
-  click.current = enlarge;
+  const click = useRef(enlarged);
+  click.current = enlarged;
   useEffect(() => {
     if (stage.current === null) return undefined;
     return mount({ place: `${pane}${side} ${of.number}`, name: () => name.current, side, stage: stage.current, clicked: () => click.current(), tile: true });
@@ -37,7 +35,7 @@ function Tile({ pane, side, kind, of }: { pane: number; side: Side; kind: RawKin
         onKeyDown={(event) => {
           if (event.key !== "Enter" && event.key !== " ") return;
           event.preventDefault();
-          enlarge();
+          enlarged();
         }}>
         <canvas class="front" />
         <canvas class="over" />

@@ -15,9 +15,21 @@ export function show_raw(pane: number, kind: RawKind, number?: number): void {
   show(pane, raw_name(kind, number));
 }
 
+/** The picture that had the focus is gone: what came in its place gets it. */
+function keep_focus(pane: number): void {
+  if (document.activeElement?.closest(".stage") === null) return;
+  requestAnimationFrame(() => requestAnimationFrame(() => document.querySelectorAll(".pane")[pane]?.querySelector<HTMLElement>(".stage")?.focus()));
+}
+
+export function enlarge(pane: number, kind: RawKind, number: number): void {
+  keep_focus(pane);
+  show_raw(pane, kind, number);
+}
+
 /** All raw frames; from one of them back to all, from all to what was there. */
 export function toggle_sheet(pane: number): void {
   const now = raw_view(shown.peek()[pane] ?? "");
+  keep_focus(pane);
   if (now === undefined) return show_raw(pane, last_kind);
   if (now.number !== undefined) return show_raw(pane, now.kind);
   show(pane, before.get(pane) ?? "z_m");

@@ -78,7 +78,7 @@ function Pinned({ pin }: { pin: Pin }) {
     <section class="pinned" aria-label={`Pin ${pin.number}`} data-pinned={pin.number}>
       <div class="pinned-head">
         <h3><span class="pin" aria-hidden="true">{pin.number}</span><span class="unseen">Pin {pin.number}: </span>pixel {pin.u}, {pin.v}</h3>
-        <button type="button" class="quiet" disabled={is_outside(pin)} onClick={() => point_at(pin.u, pin.v, true)} aria-label={`Cursor to pin ${pin.number}`} title="the cursor goes there">Go to</button>
+        <button type="button" class="quiet" disabled={is_outside(pin)} onClick={() => point_at(pin.u, pin.v, true)} aria-label={`Go to pin ${pin.number}`} title="the cursor goes there">Go to</button>
         <button type="button" class="quiet" onClick={() => unpin(pin)} aria-label={`Remove pin ${pin.number}`} title="off the list">✕</button>
       </div>
       {is_outside(pin) ? <p class="faint">Outside the picture, which is smaller now.</p> : <Statistics pin={pin} />}
