@@ -15,14 +15,14 @@ export const curve = f.map((of, k) => ({
   samples: [0, 1, 2, 3].map((j) => [(turn * j) / 4, of((turn * j) / 4) + 100 * (j - 1.5)]),
 }));
 export const unwrapping = {
-  candidates: [{ cycles: [0, 0], range_m: 0.6231, cost: 0.5, chosen: true }, { cycles: [3, 2], range_m: 5.6, cost: 20 }, { cycles: [1, 1], range_m: 2.8, cost: 50 }],
+  candidates: [{ cycles: [0, 0], range_m: 0.6231, cost: 4e-6, chosen: true }, { cycles: [3, 2], range_m: 5.6, cost: 1.6e-4 }, { cycles: [1, 1], range_m: 2.8, cost: 0.04 }],
   runner_up_ratio: 40,
 };
 export const flow = [
-  { stage: "light", values: [{ name: "object", value: "<i>ball</i>", unit: "" }, { name: "reflectivity", value: 0.85, unit: "1" }] },
+  { stage: "light", values: [{ name: "object", value: 3, unit: "1" }, { name: "reflectivity", value: 0.85, unit: "1" }] },
   { stage: "taps", values: [{ name: "tap_a", value: [1.5, 2.25, 1234567.8, null], unit: "e" }] },
   { stage: "phase", values: [{ name: "measured", value: 0.25, unit: "turns", phase: 0 }, { name: "measured", value: 0.125, unit: "turns", phase: 1 }] },
-  { stage: "sorcery", values: [{ name: "unheard_of", value: null, unit: "m" }] },
+  { stage: "sorcery", values: [{ name: "unheard_of", value: null, unit: "m" }, { name: "<i>word</i>", value: "<i>text</i>" }, { name: "nothing", value: [null, null], unit: "e" }] },
   { stage: "z", values: [{ name: "z", value: 0.623, unit: "m" }] },
 ];
 

@@ -16,7 +16,7 @@ async function asking(answer = () => ({}), options = {}) {
     questions.push(of);
     const { id, u, v, region } = of;
     const own = answer(of);
-    return own === null ? [] : { type: "why", id, u, v, region, pixels: 1, count: 1, ...split, ...own };
+    return own === null ? [] : [own].flat().map((one) => ({ type: "why", id, u, v, region, pixels: 1, count: 1, ...split, ...one }));
   };
   const { url } = await view(words);
   const tab = await shown(url, { before: between({ asked: { why } }), ...options });
@@ -94,6 +94,7 @@ test("a region: by Alt and a drag, by the button and a drag, and by e at two cor
   await page.getByRole("button", { name: "Region" }).click();
   await drag([100, 20], [220, 150]);
   assert.deepEqual(await last(2), [100, 20, 163, 83]);
+  assert.match(await page.locator(".why-panel .of-frame").first().textContent(), /pixels 100 … 163, 20 … 83/);
   // Once: the next drag moves the picture, or nothing where all of it is seen.
   await drag([100, 20], [120, 40]);
 
@@ -166,12 +167,14 @@ test("the question stays: it is asked anew when the state changes or another fra
   assert.equal(questions.length, 4);
 });
 
-test("an answer to an older question is not shown", async () => {
-  let kept;
+test("an answer to an older question that comes late is not shown", async () => {
+  let first;
   const tab = await asking((of) => {
-    if (kept !== undefined) return { error_m: 0.002, causes: [], rest_mm: 2 };
-    kept = of;
-    return null;   // not answered yet
+    if (first === undefined) {
+      first = of;
+      return null;   // not answered yet
+    }
+    return [{ error_m: 0.002, causes: [], rest_mm: 2 }, { id: first.id, error_m: 0.007, causes: [], rest_mm: 7 }];
   });
   const { page, questions } = tab;
   await point_at(tab, 60, 40);
@@ -180,6 +183,7 @@ test("an answer to an older question is not shown", async () => {
   await point_at(tab, 70, 40);
   await page.keyboard.press("w");
   await answered(tab);
+  await page.waitForTimeout(200);
   assert.equal(questions.length, 2);
   assert.equal(await page.locator("[data-why-of]").getAttribute("data-why-of"), String(questions[1].id));
   assert.equal(await page.locator('[data-why="error"]').textContent(), "+2.00\u00a0mm");

@@ -25,7 +25,7 @@ const words: Readonly<Record<string, string>> = {
   radiance: "light toward the camera", power: "light on the pixel", signal: "signal", direct: "direct light", indirect: "indirect light",
   ambient: "ambient light", tap_a: "tap A", tap_b: "tap B", code: "code", difference: "A − B", i: "I", q: "Q", amplitude: "amplitude", measured: "measured",
   calibrated: "calibrated", half_wave: "unambiguous range", cycles: "whole cycles", half_path: "half path", range: "range", noise: "noise σ̂", z: "z", x: "x", y: "y",
-  confidence: "confidence", flags: "flags",
+  confidence: "confidence", flags: "flags", temporal_frames: "frames averaged", sigma: "sigma", radius: "radius",
 };
 
 export function mhz(hz: number): string {
@@ -48,8 +48,8 @@ function rows_of(values: readonly FlowValue[]): FlowValue[][] {
   return [...rows.values()];
 }
 
-function StageNumbers({ of, frequencies }: { of: Stage; frequencies: readonly number[] }) {
-  const rows = rows_of(of.values);
+function StageNumbers({ of, frequencies, object }: { of: Stage; frequencies: readonly number[]; object: string }) {
+  const rows = rows_of(of.values.filter(({ value }) => !(Array.isArray(value) && value.every((one) => one === null))));
   const several = rows.some((row) => row.length > 1);
   const columns = several ? Math.max(...rows.map((row) => row.length)) : 1;
   return (
@@ -66,7 +66,7 @@ function StageNumbers({ of, frequencies }: { of: Stage; frequencies: readonly nu
               <th scope="row">{words[name] ?? name.replaceAll("_", " ")}</th>
               {row.map((one, k) => (
                 <td key={k} colSpan={row.length === 1 ? columns : 1} data-flow={`${of.stage}.${name}${one.phase === undefined ? "" : `.${one.phase}`}`} data-number={JSON.stringify(one.value)}>
-                  {said(one.value, one.unit ?? "")}
+                  {name === "object" && object !== "" ? <bdi>{object}</bdi> : said(one.value, one.unit ?? "")}
                 </td>
               ))}
             </tr>
@@ -77,7 +77,8 @@ function StageNumbers({ of, frequencies }: { of: Stage; frequencies: readonly nu
   );
 }
 
-export function Flow({ of, frequencies }: { of: readonly Stage[]; frequencies: readonly number[] }) {
+/** @param object  the name of what the pixel sees, whose number is in the chain */
+export function Flow({ of, frequencies, object }: { of: readonly Stage[]; frequencies: readonly number[]; object: string }) {
   if (of.length === 0) return null;
   return (
     <details class="section" open>
@@ -87,7 +88,7 @@ export function Flow({ of, frequencies }: { of: readonly Stage[]; frequencies: r
           <li key={one.stage} data-stage={one.stage}>
             <h4>{stages[one.stage]?.said ?? one.stage}</h4>
             <p class="what">{stages[one.stage]?.means ?? ""}</p>
-            <StageNumbers of={one} frequencies={frequencies} />
+            <StageNumbers of={one} frequencies={frequencies} object={object} />
           </li>
         ))}
       </ol>
@@ -278,6 +279,12 @@ function Ranges({ of, truth_m }: { of: readonly Candidate[]; truth_m: number | u
   );
 }
 
+/** @param cost  [m²] */
+function apart_text(cost: number): string {
+  const mm = 1000 * Math.sqrt(cost);
+  return with_unit(mm < 1 ? short(Number(mm.toPrecision(2))) : mm < 100 ? mm.toFixed(1) : mm.toFixed(0), "mm");
+}
+
 export function UnwrappingTable({ of, truth_m }: { of: Unwrapping | null | undefined; truth_m: number | undefined }) {
   if (of == null || of.candidates.length === 0) return null;
   const most = Math.max(...of.candidates.map((one) => one.cost).filter(Number.isFinite), 1e-300);
@@ -285,22 +292,22 @@ export function UnwrappingTable({ of, truth_m }: { of: Unwrapping | null | undef
   return (
     <details class="section" open>
       <summary>Unwrapping</summary>
-      <p class="what">A phase repeats with distance. Each way to add whole cycles gives a range; the one on which the frequencies agree best, at the lowest cost, is chosen.{truth_m === undefined ? "" : " The stroke is the true range."}</p>
+      <p class="what">A phase repeats with distance. Each way to add whole cycles gives a range; the one on which the frequencies agree best is chosen. Cost: the sum of the squares of how far their half paths are apart; its root is shown.{truth_m === undefined ? "" : " The stroke is the true range."}</p>
       <Ranges of={of.candidates} truth_m={truth_m} />
       <table class="candidates">
-        <thead><tr><th scope="col">cycles</th><th scope="col">range</th><th scope="col">cost</th><td /></tr></thead>
+        <thead><tr><th scope="col">cycles</th><th scope="col">range</th><th scope="col">apart</th><td /></tr></thead>
         <tbody>
           {of.candidates.map((one, i) => (
             <tr key={i} class={one.chosen === true ? "chosen" : ""} data-candidate={one.cycles.join(",")} data-cost={one.cost} data-chosen={one.chosen === true}>
               <th scope="row">{one.cycles.join(", ")}{one.chosen === true && <span class="tick"> ✓ chosen</span>}</th>
               <td>{with_unit(one.range_m.toFixed(3), "m")}</td>
-              <td>{short(one.cost)}</td>
-              <td class="bar"><span aria-hidden="true" style={{ width: `${Math.max(1, (100 * one.cost) / most)}%` }} /></td>
+              <td>{apart_text(one.cost)}</td>
+              <td class="bar"><span aria-hidden="true" style={{ width: `${Math.max(1, 100 * Math.sqrt(one.cost / most))}%` }} /></td>
             </tr>
           ))}
         </tbody>
       </table>
-      {ratio != null && Number.isFinite(ratio) && <p class="what" data-ratio={ratio}>The runner-up costs {short(ratio)} times as much as the one that is chosen.</p>}
+      {ratio != null && Number.isFinite(ratio) && <p class="what" data-ratio={ratio}>The runner-up's cost is {short(ratio)} times that of the one chosen.</p>}
     </details>
   );
 }

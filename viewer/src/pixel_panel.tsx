@@ -80,7 +80,7 @@ function Answer({ of, beside }: { of: Pixel; beside: Pixel | undefined }) {
       <UnwrappingTable of={chain.report.unwrapping} truth_m={chain.report.truth?.range_m ?? undefined} />
       <Phasors of={chain.phasors ?? []} />
       <Curves of={chain.curve ?? []} />
-      <Flow of={chain.flow ?? []} frequencies={(chain.phasors ?? []).map((one) => one.frequency_hz)} />
+      <Flow of={chain.flow ?? []} frequencies={(chain.phasors ?? []).map((one) => one.frequency_hz)} object={chain.report.truth?.object ?? ""} />
       <Values title="Ground truth" values={images.filter(is_truth)} beside={beside?.values} />
       <RawFrames frames={of.report.raw_frames ?? []} />
     </>

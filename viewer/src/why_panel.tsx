@@ -17,6 +17,8 @@ const causes: Readonly<Record<string, { said: string; means: string }>> = {
   motion: { said: "Motion", means: "something moved while the raw frames were taken" },
   scatter: { said: "Scatter", means: "the lens spreads light of bright places over others" },
   crosstalk: { said: "Crosstalk", means: "charge or light of neighbouring pixels" },
+  interference: { said: "Interference", means: "light of another camera" },
+  drift: { said: "Drift", means: "what temperature does to phase and distance" },
   filter: { said: "Filter", means: "smoothing mixes neighbours in" },
 };
 
