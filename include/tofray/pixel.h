@@ -48,6 +48,15 @@ struct ChainPhase {
   double half_wave_m = 0;       ///< R, the unambiguous half path                         [eq. 4.4]
   double cycles = 0;            ///< whole cycles that unwrapping added
   double half_path_m = 0;       ///< R (cycles + turns)
+  double noise_e = 0;           ///< 1 sigma of each part of Z, as the camera estimates it       [eq. 4.9]
+};
+
+/// One way to unwrap: a cycle of the modulation frequency with the fewest, and of each other one the half path nearest to it.
+struct UnwrapCandidate {
+  std::vector<double> cycles;  ///< whole cycles of each of the chain's phases
+  double range_m = 0;          ///< that they mean                                         [theory: eq. 4.7, 4.8]
+  double cost_m2 = 0;          ///< sum of the squares of how far the other half paths are off [eq. 4.6]
+  bool chosen = false;         ///< its cost is the least: what unwrapping takes
 };
 
 /// One pixel's way from light to depth. What the arrays do not have is NaN or empty.
@@ -62,6 +71,8 @@ struct PixelChain {
   // measured
   std::vector<ChainRawFrame> raw_frames;
   std::vector<ChainPhase> phases;  ///< one for each modulation frequency
+  /// Of all cycles, by cost, the one chosen first; empty where there is one modulation frequency, no phase or no camera.
+  std::vector<UnwrapCandidate> candidates;
   double range_m = 0, z_m = 0, noise_m = 0, noise_threshold_m = 0, amplitude_e = 0, ambient_e = 0, confidence = 0;
   std::array<double, 3> point_m{};
   int flags = 0;  ///< bits of Flag
@@ -75,6 +86,17 @@ PixelChain pixel_chain(const PixelArrays& arrays, const Camera* camera, bool noi
                        const std::string& where = "the frame");
 /// One pixel of a frame that a camera made.
 PixelChain pixel_chain(const Frame& frame, const Camera& camera, int u, int v, Noise noise = Noise::exact);
+
+/// What the samples of a pixel lie on: A−B over the reference phase τ, at each of the chain's modulation frequencies,
+///
+///     D(τ) = o + S Σ_m a_m cos(m (τ + φ) + ψ_m)                                                  [theory: eq. 3.2]
+///
+/// with the camera's harmonics (a_m, ψ_m), S and φ such that it has the phasor that was measured (eq. 4.2), and o the mean of what the
+/// samples are off. Light of several paths, a bent read-out and wells that are full have other curves; this is the nearest to theirs.
+/// @param points  evenly spaced over a turn, from 0 on
+/// @return [phase][point] e; NaN where there is no phase
+/// @throws Error (bad_input) where the camera has another sequence
+std::vector<std::vector<double>> correlation_curves(const PixelChain& chain, const Camera& camera, int points = 64);
 
 /// Light that came by way of 1 + b surfaces, b = first … last.
 struct BounceShare {

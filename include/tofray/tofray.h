@@ -5,6 +5,7 @@
 #include "tofray/budget.h"
 #include "tofray/camera.h"
 #include "tofray/camera_report.h"
+#include "tofray/causes.h"
 #include "tofray/error.h"
 #include "tofray/file_record.h"
 #include "tofray/flags.h"

@@ -188,8 +188,9 @@ TOFRAY_FIELDS(CameraReport, &CameraReport::width, &CameraReport::height, &Camera
               &CameraReport::knows_ambient, &CameraReport::noise, &CameraReport::warnings)
 TOFRAY_FIELDS(FrameRequest, &FrameRequest::index, &FrameRequest::seed, &FrameRequest::pose)
 TOFRAY_FIELDS(ChainRawFrame, &ChainRawFrame::lit, &ChainRawFrame::modulation_frequency_hz, &ChainRawFrame::reference_phase_rad, &ChainRawFrame::integration_time_s, &ChainRawFrame::signal_e, &ChainRawFrame::direct_e, &ChainRawFrame::indirect_e, &ChainRawFrame::multipath_m, &ChainRawFrame::path_noise_m, &ChainRawFrame::tap_a_e, &ChainRawFrame::tap_b_e, &ChainRawFrame::code_dn, &ChainRawFrame::difference_e)
-TOFRAY_FIELDS(ChainPhase, &ChainPhase::modulation_frequency_hz, &ChainPhase::amplitude_e, &ChainPhase::measured_turns, &ChainPhase::calibrated_turns, &ChainPhase::half_wave_m, &ChainPhase::cycles, &ChainPhase::half_path_m)
-TOFRAY_FIELDS(PixelChain, &PixelChain::u, &PixelChain::v, &PixelChain::object, &PixelChain::true_range_m, &PixelChain::true_z_m, &PixelChain::reflectivity, &PixelChain::incidence_rad, &PixelChain::object_share, &PixelChain::mixed, &PixelChain::position_m, &PixelChain::normal, &PixelChain::irradiance_w_m2, &PixelChain::radiance_w_m2_sr, &PixelChain::power_w, &PixelChain::raw_frames, &PixelChain::phases, &PixelChain::range_m, &PixelChain::z_m, &PixelChain::noise_m, &PixelChain::noise_threshold_m, &PixelChain::amplitude_e, &PixelChain::ambient_e, &PixelChain::confidence, &PixelChain::point_m, &PixelChain::flags)
+TOFRAY_FIELDS(ChainPhase, &ChainPhase::modulation_frequency_hz, &ChainPhase::amplitude_e, &ChainPhase::measured_turns, &ChainPhase::calibrated_turns, &ChainPhase::half_wave_m, &ChainPhase::cycles, &ChainPhase::half_path_m, &ChainPhase::noise_e)
+TOFRAY_FIELDS(UnwrapCandidate, &UnwrapCandidate::cycles, &UnwrapCandidate::range_m, &UnwrapCandidate::cost_m2, &UnwrapCandidate::chosen)
+TOFRAY_FIELDS(PixelChain, &PixelChain::u, &PixelChain::v, &PixelChain::object, &PixelChain::true_range_m, &PixelChain::true_z_m, &PixelChain::reflectivity, &PixelChain::incidence_rad, &PixelChain::object_share, &PixelChain::mixed, &PixelChain::position_m, &PixelChain::normal, &PixelChain::irradiance_w_m2, &PixelChain::radiance_w_m2_sr, &PixelChain::power_w, &PixelChain::raw_frames, &PixelChain::phases, &PixelChain::candidates, &PixelChain::range_m, &PixelChain::z_m, &PixelChain::noise_m, &PixelChain::noise_threshold_m, &PixelChain::amplitude_e, &PixelChain::ambient_e, &PixelChain::confidence, &PixelChain::point_m, &PixelChain::flags)
 TOFRAY_FIELDS(BounceShare, &BounceShare::first, &BounceShare::last, &BounceShare::share, &BounceShare::electrons, &BounceShare::multipath_m)
 TOFRAY_FIELDS(PixelBounces, &PixelBounces::shares, &PixelBounces::unknown)
 TOFRAY_FIELDS(Validity, &Validity::pixels, &Validity::reasons, &Validity::advice, &Validity::has_light)
@@ -215,7 +216,8 @@ void each_record(const Call& call) {
                              Camera, Material, Plane, Sphere, Box, Triangle, Cylinder, Rectangle, Disk, Capsule, Cone, Mesh, Rotation,
                              Keyframe, Object, Ambient, TransientBins, Transport, Pose, CameraKeyframe, Override, CameraChoice, SceneFile,
                              Scene, RanOn, FrameRequest, ObjectInView, SceneFinding, SceneReport, InvalidPixels, AmbientCase,
-                             CameraQuestion, NoiseAt, NoiseAtDistances, CameraReport, ChainRawFrame, ChainPhase, PixelChain, BounceShare,
+                             CameraQuestion, NoiseAt, NoiseAtDistances, CameraReport, ChainRawFrame, ChainPhase, UnwrapCandidate,
+                             PixelChain, BounceShare,
                              PixelBounces, Validity, InputFile, FileRecord, Remark, Inputs, RunResult>;
   all(static_cast<Records*>(nullptr));
 }

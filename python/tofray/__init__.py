@@ -105,6 +105,7 @@ if TYPE_CHECKING:
         TransientBins as TransientBins,
         Transport as Transport,
         Triangle as Triangle,
+        UnwrapCandidate as UnwrapCandidate,
         Validity as Validity,
         Waveform as Waveform,
     )
@@ -158,7 +159,7 @@ _HOME = {
         "ChainPhase", "ChainRawFrame", "Cone", "Curve", "Cylinder", "Decoding", "Disk", "FileRecord", "Filter", "FrameRequest", "Illumination", "ImageFilter", "InputFile", "Inputs", "Interference",
         "InvalidPixels", "Keyframe", "Lens", "Material", "Mesh", "Mode", "NoiseAt", "NoiseAtDistances", "Object", "ObjectInView", "Override", "Pattern", "Pixel", "PixelBounces", "PixelChain",
         "PixelMask", "Plane", "Pose", "RanOn", "RawFrame", "Readout", "Rectangle", "Remark", "Rotation", "RunResult", "Scatter", "Scene", "SceneFile", "SceneFinding", "SceneReport", "Sensor",
-        "Sphere", "SpreadSpectrum", "Temperature", "TransientBins", "Transport", "Triangle", "Validity", "Waveform",
+        "Sphere", "SpreadSpectrum", "Temperature", "TransientBins", "Transport", "Triangle", "UnwrapCandidate", "Validity", "Waveform",
     ),
     "_native": ("DeviceArray", "DeviceFrames", "MeshMotion", "ReflectivityMap", "TriangleMesh", "VectorMap"),
     "_own": ("Geometry", "PixelLight", "Transient"),

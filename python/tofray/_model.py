@@ -2775,8 +2775,11 @@ class ChainPhase(Record):
         Whole cycles that unwrapping added.
     half_path_m : float, m
         R (cycles + turns).
+    noise_e : float, e
+        1 sigma of each part of Z, as the camera estimates it [eq. 4.9].
     """
-    __slots__ = ("modulation_frequency_hz", "amplitude_e", "measured_turns", "calibrated_turns", "half_wave_m", "cycles", "half_path_m")
+    __slots__ = ("modulation_frequency_hz", "amplitude_e", "measured_turns", "calibrated_turns", "half_wave_m", "cycles", "half_path_m",
+                 "noise_e")
     modulation_frequency_hz: float
     amplitude_e: float
     measured_turns: float
@@ -2784,6 +2787,7 @@ class ChainPhase(Record):
     half_wave_m: float
     cycles: float
     half_path_m: float
+    noise_e: float
 
     def __init__(
         self,
@@ -2795,6 +2799,7 @@ class ChainPhase(Record):
         half_wave_m: float = 0.0,
         cycles: float = 0.0,
         half_path_m: float = 0.0,
+        noise_e: float = 0.0,
     ) -> None:
         self.modulation_frequency_hz = modulation_frequency_hz
         self.amplitude_e = amplitude_e
@@ -2803,6 +2808,42 @@ class ChainPhase(Record):
         self.half_wave_m = half_wave_m
         self.cycles = cycles
         self.half_path_m = half_path_m
+        self.noise_e = noise_e
+
+
+class UnwrapCandidate(Record):
+    """One way to unwrap: a cycle of the modulation frequency with the fewest, and of each other one
+    the half path nearest to it.
+
+    Attributes
+    ----------
+    cycles : list[float], 1
+        Whole cycles of each of the chain's phases.
+    range_m : float, m
+        That they mean [theory: eq. 4.7, 4.8].
+    cost_m2 : float, m²
+        Sum of the squares of how far the other half paths are off [eq. 4.6].
+    chosen : bool
+        Its cost is the least: what unwrapping takes.
+    """
+    __slots__ = ("cycles", "range_m", "cost_m2", "chosen")
+    cycles: list[float]
+    range_m: float
+    cost_m2: float
+    chosen: bool
+
+    def __init__(
+        self,
+        *,
+        cycles: Sequence[float] = (),
+        range_m: float = 0.0,
+        cost_m2: float = 0.0,
+        chosen: bool = False,
+    ) -> None:
+        self.cycles = list(cycles)
+        self.range_m = range_m
+        self.cost_m2 = cost_m2
+        self.chosen = chosen
 
 
 class PixelChain(Record):
@@ -2829,6 +2870,9 @@ class PixelChain(Record):
     raw_frames : list[ChainRawFrame]
     phases : list[ChainPhase]
         One for each modulation frequency.
+    candidates : list[UnwrapCandidate]
+        Of all cycles, by cost, the one chosen first; empty where there is one modulation frequency,
+        no phase or no camera.
     range_m : float, m
     z_m : float, m
     noise_m : float, m
@@ -2841,8 +2885,8 @@ class PixelChain(Record):
         Bits of Flag.
     """
     __slots__ = ("u", "v", "object", "true_range_m", "true_z_m", "reflectivity", "incidence_rad", "object_share", "mixed", "position_m",
-                 "normal", "irradiance_w_m2", "radiance_w_m2_sr", "power_w", "raw_frames", "phases", "range_m", "z_m", "noise_m",
-                 "noise_threshold_m", "amplitude_e", "ambient_e", "confidence", "point_m", "flags")
+                 "normal", "irradiance_w_m2", "radiance_w_m2_sr", "power_w", "raw_frames", "phases", "candidates", "range_m", "z_m",
+                 "noise_m", "noise_threshold_m", "amplitude_e", "ambient_e", "confidence", "point_m", "flags")
     u: int
     v: int
     object: int
@@ -2859,6 +2903,7 @@ class PixelChain(Record):
     power_w: float
     raw_frames: list[ChainRawFrame]
     phases: list[ChainPhase]
+    candidates: list[UnwrapCandidate]
     range_m: float
     z_m: float
     noise_m: float
@@ -2888,6 +2933,7 @@ class PixelChain(Record):
         power_w: float = 0.0,
         raw_frames: Sequence[ChainRawFrame] = (),
         phases: Sequence[ChainPhase] = (),
+        candidates: Sequence[UnwrapCandidate] = (),
         range_m: float = 0.0,
         z_m: float = 0.0,
         noise_m: float = 0.0,
@@ -2914,6 +2960,7 @@ class PixelChain(Record):
         self.power_w = power_w
         self.raw_frames = list(raw_frames)
         self.phases = list(phases)
+        self.candidates = list(candidates)
         self.range_m = range_m
         self.z_m = z_m
         self.noise_m = noise_m
@@ -3213,6 +3260,6 @@ __all__ = [
     "Pose", "CameraKeyframe", "Override", "CameraChoice", "SceneFile", "Scene", "RanOn",
     "FrameRequest", "ObjectInView", "SceneFinding", "SceneReport", "InvalidPixels", "AmbientCase",
     "CameraQuestion", "NoiseAt", "NoiseAtDistances", "CameraReport", "ChainRawFrame", "ChainPhase",
-    "PixelChain", "BounceShare", "PixelBounces", "Validity", "InputFile", "FileRecord", "Remark",
-    "Inputs", "RunResult",
+    "UnwrapCandidate", "PixelChain", "BounceShare", "PixelBounces", "Validity", "InputFile",
+    "FileRecord", "Remark", "Inputs", "RunResult",
 ]

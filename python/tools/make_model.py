@@ -101,7 +101,7 @@ def wrapped(text: str, indent: int) -> str:
 BASES = {"Pose": "PoseMethods"}
 
 # Units that a number's name ends in …
-ENDS = {"m": "m", "deg": "°", "px": "px", "rad": "rad", "s": "s", "hz": "Hz", "w": "W", "e": "e", "k": "K", "dn": "DN", "celsius": "°C",
+ENDS = {"m": "m", "m2": "m²", "deg": "°", "px": "px", "rad": "rad", "s": "s", "hz": "Hz", "w": "W", "e": "e", "k": "K", "dn": "DN", "celsius": "°C",
         "e_per_s": "e/s", "e_per_dn": "e/DN", "m_per_s": "m/s", "m_per_kelvin": "m/K", "rad_per_s": "rad/s", "w_per_m3": "W/m³", "turns": "turns", "w_m2": "W/m²", "w_m2_sr": "W/(m² sr)"}
 # … and of those that end in none: scene.h says metres, where it is not a direction or a ratio.
 METRES = {"position", "point", "center", "radius", "min", "max", "vertices", "height", "size", "start", "end", "base", "look_at", "low", "high"}

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "analysis/pixel_arrays.h"
+#include "analysis/unwrap_candidates.h"
 #include "base/calibration.h"
 #include "base/constants.h"
 #include "base/readout.h"
@@ -87,7 +88,7 @@ void estimate_phases(const camera::DecoderView& d, PixelChain& out) {
     phase.modulation_frequency_hz = out.raw_frames[static_cast<std::size_t>(m.raw_frame[0])].modulation_frequency_hz;
     phase.amplitude_e = static_cast<double>(e.amplitude);
     phase.measured_turns = std::isfinite(e.amplitude) ? static_cast<double>(e.turns) : std::nan("");
-    phase.calibrated_turns = phase.half_wave_m = phase.cycles = phase.half_path_m = std::nan("");
+    phase.calibrated_turns = phase.half_wave_m = phase.cycles = phase.half_path_m = phase.noise_e = std::nan("");
     out.phases.push_back(phase);
   }
 }
@@ -102,8 +103,11 @@ double half_path(const PixelChain& chain, const camera::DecoderView& d) {
   return 0.5 * (std::sqrt(out) + std::sqrt(from_light));
 }
 
-/// Wiggling and delay taken out, and the cycles that go with the range that was found.
-void calibrate(const camera::DecoderView& d, std::size_t pixel, PixelChain& chain) {
+/// Wiggling and delay taken out, the cycles that go with the range that was found, and those that might have been.
+void calibrate(const camera::DecoderView& d, const camera::LensView& lens, std::size_t pixel, PixelChain& chain) {
+  std::vector<float> difference, turns, weight;
+  for (const ChainRawFrame& k : chain.raw_frames) difference.push_back(static_cast<float>(k.difference_e));
+  const float grey = depth::grey_sum<false>(d, difference.data());
   for (std::size_t i = 0; i < chain.phases.size() && i < static_cast<std::size_t>(d.modulations); ++i) {
     ChainPhase& phase = chain.phases[i];
     const camera::DecodeModulation& m = d.modulation[i];
@@ -115,7 +119,12 @@ void calibrate(const camera::DecoderView& d, std::size_t pixel, PixelChain& chai
     phase.half_wave_m = static_cast<double>(m.half_wave);
     phase.cycles = std::round(half_path(chain, d) / phase.half_wave_m - phase.calibrated_turns) + 0.0;  // no -0
     phase.half_path_m = phase.half_wave_m * (phase.cycles + phase.calibrated_turns);
+    const depth::Estimate<float> e = depth::estimate(d, m, difference.data());
+    const float variance = depth::variance_of(d, m, difference.data(), e, grey * m.ambient_scale);
+    phase.noise_e = std::sqrt(2 * static_cast<double>(variance) / m.count);
+    turns.push_back(static_cast<float>(phase.calibrated_turns)), weight.push_back(depth::inverse_variance(m, e, variance, slope));
   }
+  chain.candidates = analysis::unwrap_candidates(d, lens, pixel, turns, weight);
 }
 
 void read_depth(const PixelArrays& arrays, const Camera* camera, std::size_t pixel, PixelChain& out) {
@@ -183,10 +192,22 @@ PixelChain pixel_chain(const PixelArrays& arrays, const Camera* camera, bool noi
     if (camera == nullptr) simulator::check(profile);  // its raw frames come from arrays that anybody can write
     const camera::FrozenCamera frozen(base::with_offsets(profile), true, 0);
     estimate_phases(frozen.decoder(), chain);
-    if (camera != nullptr) calibrate(frozen.decoder(), pixel, chain);
+    if (camera != nullptr) calibrate(frozen.decoder(), frozen.lens(), pixel, chain);
   } catch (const Error&) {
     if (camera != nullptr) throw;  // without a camera: raw frames of which nobody can tell phases
   }
+  return chain;
+}
+
+PixelChain analysis::chain_of(const PixelArrays& arrays, const Camera& camera, const camera::FrozenCamera& frozen, bool noise_free, int u,
+                              int v) {
+  const std::size_t pixel = pixel_index(arrays, u, v);
+  PixelChain chain;
+  chain.u = u, chain.v = v;
+  read_raw_frames(arrays, &camera, noise_free, pixel, chain);
+  read_depth(arrays, &camera, pixel, chain);
+  estimate_phases(frozen.decoder(), chain);
+  calibrate(frozen.decoder(), frozen.lens(), pixel, chain);
   return chain;
 }
 

@@ -8,6 +8,7 @@
 #include "camera/frozen_lens.h"
 #include "camera/frozen_scatter.h"
 #include "camera/views.h"
+#include "camera/waveform.h"
 #include "tofray/camera.h"
 
 namespace tofray::camera {
@@ -51,6 +52,8 @@ class FrozenCamera {
   [[nodiscard]] const PhasorView& phasors() const { return phasors_; }
   [[nodiscard]] const PowerView& power() const { return power_; }
   [[nodiscard]] const DecoderView& decoder() const { return decoder_; }
+  /// The correlation's harmonics as depth takes them: those of the mean of all lights, whatever of them is corrected.      [theory: eq. 4.15]
+  [[nodiscard]] std::vector<Harmonic> mean_harmonics(std::size_t modulation) const;
   /// The sensor in a frame that starts at time t [s]: temperature drift and another camera's light depend on that, and on the frame's number
   /// and seed what is drawn of the latter. Where either is there, a view is good until the next call.
   /// @param seed  of this frame, in place of the camera's

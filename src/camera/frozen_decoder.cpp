@@ -88,7 +88,7 @@ std::vector<Share> shares_of(const std::vector<Illumination>& lights, const std:
 
 /// Harmonics of light that comes from all sources by their shares: Σ_l w_l·a_m,l·e^{iψ_m,l}.                 [theory: eq. 4.15]
 /// Where there is no light source, a sine stands for it.
-std::vector<Harmonic> mean_harmonics(const std::vector<Share>& shares, const Pixel& pixel, double frequency) {
+std::vector<Harmonic> harmonics_of(const std::vector<Share>& shares, const Pixel& pixel, double frequency) {
   if (shares.empty()) return {{1, 1, 0}};
   std::vector<std::complex<double>> phasors;
   for (const Share& share : shares) {
@@ -119,6 +119,10 @@ bool is_even(const std::vector<double>& values) {
 }
 
 }  // namespace
+
+std::vector<Harmonic> FrozenCamera::mean_harmonics(std::size_t modulation) const {
+  return harmonics_of(shares_of(camera_.illumination, lights_), camera_.pixel, modulations_.frequency_hz[modulation]);
+}
 
 void FrozenCamera::freeze_decoder(bool noise) {
   DecoderView& d = decoder_;
@@ -189,7 +193,7 @@ void FrozenCamera::freeze_modulations(double grey_time) {
     const std::size_t at = static_cast<std::size_t>(i);
     const Group group = group_of(camera_.mode, modulations_, i);
     const double count = static_cast<double>(group.tau.size()), frequency = modulations_.frequency_hz[at];
-    auto harmonics = mean_harmonics(shares, camera_.pixel, frequency);
+    auto harmonics = harmonics_of(shares, camera_.pixel, frequency);
     const double contrast = harmonics.front().amplitude;
     if (!(contrast >= least_contrast)) {
       refuse("next to nothing is left of the modulation\n  got a contrast of " + number_text(contrast) + " at " +

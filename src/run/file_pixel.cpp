@@ -64,8 +64,8 @@ PixelChain pixel_chain(const results::Arrays& arrays, int u, int v) {
                              arrays.where());
 }
 
-std::string object_name(const results::Arrays& arrays, std::int64_t object) {
-  const files::Json* scene = arrays.meta().find("scene");
+std::string object_name(const files::Json& meta, std::int64_t object) {
+  const files::Json* scene = meta.find("scene");
   const files::Json* objects = scene == nullptr ? nullptr : scene->find("objects");
   if (objects == nullptr || !objects->is_array() || object < 0 || static_cast<std::size_t>(object) >= objects->items()->size()) return {};
   for (const char* key : {"name", "shape"}) {

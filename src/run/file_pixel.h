@@ -19,7 +19,7 @@ PixelArrays pixel_arrays(const results::Arrays& arrays);
 PixelChain pixel_chain(const results::Arrays& arrays, int u, int v);
 
 /// What the scene in `meta` calls an object: its name, or its shape; empty where it says nothing.
-std::string object_name(const results::Arrays& arrays, std::int64_t object);
+std::string object_name(const files::Json& meta, std::int64_t object);
 
 /// What a file's frame was simulated from.
 struct FrameOrigin {

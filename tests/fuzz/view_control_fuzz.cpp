@@ -29,6 +29,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     if (!edit->scene.empty() && edit->kind != Edit::Kind::open) std::abort();
   } else if (const auto* pixel = std::get_if<PixelQuestion>(&read)) {
     if (pixel->u < 0 || pixel->v < 0) std::abort();
+  } else if (const auto* why = std::get_if<WhyQuestion>(&read)) {
+    if (why->u0 < 0 || why->v0 < 0 || why->u1 < why->u0 || why->v1 < why->v0) std::abort();
+    if (why->u1 - why->u0 >= 64 || why->v1 - why->v0 >= 64) std::abort();
   }
   // However the bytes of a stream are cut, its frames are the same.
   FrameMeter whole, cut;

@@ -86,6 +86,11 @@ void pixels(const tofray::Frame& frame, const tofray::Scene& scene, const tofray
   const tofray::PixelArrays arrays = tofray::pixel_arrays(frame);
   expect(arrays.width == 32 && arrays.phases == 4, "pixel_arrays");
   expect(tofray::pixel_chain(frame, camera, 3, 4).range_m == tofray::pixel_chain(arrays, &camera, false, 3, 4).range_m, "pixel_chain");
+  expect(tofray::correlation_curves(tofray::pixel_chain(frame, camera, 3, 4), camera, 8)[0].size() == 8, "correlation_curves");
+  expect(tofray::error_causes(scene, camera, {}, frame.index, {3, 4, 3, 4}).causes[0].cause == "noise", "error_causes");
+  tofray::ErrorCauses first(scene, camera, {}, frame.index, {3, 4, 4, 4}), causes(std::move(first));
+  while (causes.step()) {}
+  expect(causes.result().valid == 2, "ErrorCauses");
   expect(!tofray::has_bounces(arrays, 3, 4), "has_bounces");
   expect(tofray::pixel_bounces(arrays, frame.index, scene, camera, {}, 3, 4).shares.empty(), "pixel_bounces");
   expect(tofray::validity(frame, camera).pixels.pixels == tofray::invalid_pixels(frame, camera).pixels, "validity, invalid_pixels");

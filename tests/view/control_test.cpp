@@ -54,6 +54,8 @@ TEST(control, is_read_of_every_type) {
   EXPECT_EQ(std::get<Query>(parse_control(R"({"type":"save","id":7})")).kind, Query::Kind::save);
   EXPECT_EQ(std::get<Acknowledge>(parse_control(R"({"type":"ack","sequence":1,"channel":1})")).side, Side::b);
   EXPECT_EQ(std::get<PixelQuestion>(parse_control(R"({"type":"pixel","id":3,"u":4,"v":5,"side":"b"})")).side, Side::b);
+  const auto why = std::get<WhyQuestion>(parse_control(R"({"type":"why","id":3,"side":"b","region":[1,2,64,65]})"));
+  EXPECT_TRUE(why.region && why.u0 == 1 && why.v0 == 2 && why.u1 == 64 && why.v1 == 65 && why.side == Side::b && why.id == 3);
 }
 
 // Each member of each message is left out, and stands as something else.
@@ -69,6 +71,8 @@ TEST(control, of_every_type_is_refused_where_a_member_is_not_what_it_has_to_be) 
       {"ack", {{"sequence", "1"}, {"channel", "1"}}, {"channel"}},
       {"seek", {{"frame", "1"}}, {}},
       {"pixel", {{"id", "1"}, {"u", "1"}, {"v", "1"}, {"side", R"("b")"}}, {"side"}},
+      {"why", {{"id", "1"}, {"u", "1"}, {"v", "1"}, {"side", R"("b")"}}, {"side"}},
+      {"why", {{"id", "1"}, {"region", "[1,2,3,4]"}, {"side", R"("b")"}}, {"side"}},
       {"fit", {{"array", R"("z_m")"}}, {}},
       {"set", {{"id", "1"}, {"key", R"("a.b")"}, {"text", R"("1")"}, {"side", R"("b")"}}, {"side"}},
       {"unset", {{"id", "1"}, {"key", R"("a.b")"}, {"side", R"("b")"}}, {"side"}},
@@ -151,6 +155,15 @@ TEST(control, that_is_wrong_is_answered_with_its_id_and_what_is_wrong) {
                            Wrong{R"({"type":"pixel","id":1,"u":-1,"v":0})", "whole number"},
                            Wrong{R"({"type":"pixel","id":1,"u":1e9,"v":0})", "whole number"},
                            Wrong{R"({"type":"pixel","u":1,"v":0})", "has no \"id\""},
+                           Wrong{R"({"type":"why","u":1,"v":0})", "has no \"id\""},
+                           Wrong{R"({"type":"why","id":1,"u":1})", "has no \"v\""},
+                           Wrong{R"({"type":"why","id":1,"u":1,"v":1,"region":[0,0,1,1]})", "a pixel and a region"},
+                           Wrong{R"({"type":"why","id":1,"region":[0,0,1]})", "two corners"},
+                           Wrong{R"({"type":"why","id":1,"region":[2,0,1,1]})", "two corners"},
+                           Wrong{R"({"type":"why","id":1,"region":[0,2,1,1]})", "two corners"},
+                           Wrong{R"({"type":"why","id":1,"region":[0,0,1,16385]})", "two corners"},
+                           Wrong{R"({"type":"why","id":1,"region":[0,0,64,1]})", "64 x 64"},
+                           Wrong{R"({"type":"why","id":1,"region":[0,0,1,64]})", "64 x 64"},
                            Wrong{R"({"type":"set","id":1,"key":"","text":"1"})", "no key"},
                            Wrong{R"({"type":"set","id":1,"key":"a=b","text":"1"})", "no key"},
                            Wrong{R"({"type":"set","id":1,"key":"a"})", "has no \"text\""},

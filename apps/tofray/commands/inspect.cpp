@@ -236,7 +236,8 @@ void inspect_pixel(const Inspected& of, const Options& options) {
   const bool knows = of.origin.in.has_value() || arrays.find("gt_indirect_e") == nullptr;
   run::FrameOrigin origin = knows ? of.origin : run::origin_of_file(arrays.where(), options.root, simulator_options(options));
   const PixelBounces bounces = bounces_with_progress(arrays, origin, u, v);
-  print(options.json ? files::json_text(pixel_json(arrays, chain, bounces), 2) + "\n" : pixel_text(arrays, chain, bounces));
+  print(options.json ? files::json_text(pixel_json(arrays.where(), arrays.meta(), chain, bounces), 2) + "\n"
+                     : pixel_text(arrays, chain, bounces));
 }
 
 }  // namespace

@@ -121,6 +121,20 @@ std::string phase_text(const PixelChain& p) {
   return text;
 }
 
+/// What unwrapping chose from: the best few.
+std::string unwrapping_text(const PixelChain& p) {
+  constexpr std::size_t most = 3;
+  std::string text;
+  for (std::size_t i = 0; i < std::min(most, p.candidates.size()); ++i) {
+    const UnwrapCandidate& one = p.candidates[i];
+    std::string cycles;
+    for (const double n : one.cycles) cycles += fmt::format("{}{:.0f}", cycles.empty() ? "" : " + ", n);
+    text += fmt::format("{:<12}cycles {}: range {} m, half paths {} mm apart{}\n", i == 0 ? "unwrapping" : "", cycles,
+                        shown("{:.4f}", one.range_m), shown("{:.2f}", 1e3 * std::sqrt(one.cost_m2)), one.chosen ? ": chosen" : "");
+  }
+  return text;
+}
+
 std::string depth_text(const PixelChain& p, const results::Arrays& arrays) {
   std::string flags;
   for (const std::string& one : names_of_flags(static_cast<unsigned>(p.flags))) flags += (flags.empty() ? "" : ", ") + one;
@@ -188,11 +202,24 @@ files::Json phases_json(const PixelChain& p) {
   files::Json list = files::Json::array();
   for (const ChainPhase& one : p.phases) {
     files::Json json = files::Json::object();
-    json.set("modulation_frequency_hz", one.modulation_frequency_hz).set("amplitude_e", one.amplitude_e);
+    json.set("modulation_frequency_hz", one.modulation_frequency_hz).set("amplitude_e", one.amplitude_e).set("noise_e", one.noise_e);
     json.set("measured_phase_rad", one.measured_turns * base::two_pi).set("calibrated_phase_rad", one.calibrated_turns * base::two_pi);
     list.push(std::move(json.set("half_wave_m", one.half_wave_m).set("cycles", one.cycles).set("half_path_m", one.half_path_m)));
   }
   return list;
+}
+
+files::Json unwrapping_json(const PixelChain& p) {
+  constexpr std::size_t most = 8;
+  files::Json list = files::Json::array();
+  for (std::size_t i = 0; i < std::min(most, p.candidates.size()); ++i) {
+    const UnwrapCandidate& one = p.candidates[i];
+    files::Json json = files::Json::object();
+    json.set("cycles", files::Json::list(one.cycles)).set("range_m", one.range_m);
+    list.push(std::move(json.set("cost", one.cost_m2).set("chosen", one.chosen)));
+  }
+  const double ratio = p.candidates.size() < 2 ? std::nan("") : p.candidates[1].cost_m2 / p.candidates[0].cost_m2;
+  return files::Json::object().set("candidates", std::move(list)).set("runner_up_ratio", ratio);
 }
 
 files::Json bounces_json(const PixelBounces& bounces) {
@@ -210,16 +237,17 @@ files::Json bounces_json(const PixelBounces& bounces) {
 
 std::string pixel_text(const results::Arrays& arrays, const PixelChain& p, const PixelBounces& bounces) {
   std::string text = fmt::format("{}: pixel {}, {} of {} x {}\n\n", arrays.where(), p.u, p.v, arrays.width(), arrays.height());
-  if (has_any(arrays, true)) text += surface_text(p, run::object_name(arrays, p.object), arrays.find("gt_object_id") != nullptr) + "\n";
-  text += raw_text(p) + "\n" + multipath_text(p, bounces) + phase_text(p);
+  if (has_any(arrays, true))
+    text += surface_text(p, run::object_name(arrays.meta(), p.object), arrays.find("gt_object_id") != nullptr) + "\n";
+  text += raw_text(p) + "\n" + multipath_text(p, bounces) + phase_text(p) + unwrapping_text(p);
   if (has_any(arrays, false)) text += "\n" + depth_text(p, arrays);
   return text + missing_text(arrays);
 }
 
-files::Json pixel_json(const results::Arrays& arrays, const PixelChain& p, const PixelBounces& bounces) {
+files::Json pixel_json(const std::string& file, const files::Json& meta, const PixelChain& p, const PixelBounces& bounces) {
   files::Json truth = files::Json::object(), depth = files::Json::object();
   truth.set("object_id", p.object)
-      .set("object", run::object_name(arrays, p.object))
+      .set("object", run::object_name(meta, p.object))
       .set("reflectivity", p.reflectivity)
       .set("range_m", p.true_range_m)
       .set("z_m", p.true_z_m);
@@ -232,10 +260,12 @@ files::Json pixel_json(const results::Arrays& arrays, const PixelChain& p, const
       .set("confidence", p.confidence)
       .set("flags", files::Json::list(names_of_flags(static_cast<unsigned>(p.flags))));
   files::Json json = files::Json::object();
-  json.set("file", arrays.where()).set("pixel", files::Json::list(std::array{p.u, p.v})).set("truth", std::move(truth));
+  json.set("file", file).set("pixel", files::Json::list(std::array{p.u, p.v})).set("truth", std::move(truth));
   json.set("raw_frames", raw_json(p)).set("bounces", bounces_json(bounces));
   if (!bounces.unknown.empty()) json.set("bounces_unknown", bounces.unknown);
-  return json.set("phases", phases_json(p)).set("depth", std::move(depth));
+  json.set("phases", phases_json(p));
+  if (!p.candidates.empty()) json.set("unwrapping", unwrapping_json(p));
+  return json.set("depth", std::move(depth));
 }
 
 }  // namespace tofray::app

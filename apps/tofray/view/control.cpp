@@ -18,7 +18,7 @@ namespace {
 using files::Json;
 
 constexpr std::size_t most_values = 10'000, most_key = 1000;
-constexpr std::uint64_t most_frame = 1'000'000'000;
+constexpr std::uint64_t most_frame = 1'000'000'000, most_pixel = 16384;
 constexpr double least_rate = 0.01, most_rate = 1000;
 
 struct Fault {
@@ -146,8 +146,35 @@ Acknowledge acknowledge_of(const Json& message) {
 }
 
 PixelQuestion pixel_of(const Json& message) {
-  constexpr std::uint64_t most = 16384;
-  return {id_of(message), static_cast<int>(whole(message, "u", most)), static_cast<int>(whole(message, "v", most)), side_of(message)};
+  return {id_of(message), static_cast<int>(whole(message, "u", most_pixel)), static_cast<int>(whole(message, "v", most_pixel)),
+          side_of(message)};
+}
+
+WhyQuestion why_of(const Json& message) {
+  constexpr int most_side = 64;
+  WhyQuestion out;
+  const Json* region = message.find("region");
+  out.id = id_of(message), out.side = side_of(message), out.region = region != nullptr;
+  if (region == nullptr) {
+    const PixelQuestion pixel = pixel_of(message);
+    out.u0 = out.u1 = pixel.u, out.v0 = out.v1 = pixel.v;
+    return out;
+  }
+  const Fault wrong{"\"region\" is no list of two corners",
+                    "expected [u0, v0, u1, v1], whole numbers of 0 to 16384, the smaller one first"};
+  if (message.find("u") != nullptr || message.find("v") != nullptr)
+    throw Fault{"the message has a pixel and a region", "expected one of them"};
+  if (!region->is_array() || region->items()->size() != 4) throw wrong;
+  int* const into[] = {&out.u0, &out.v0, &out.u1, &out.v1};
+  for (std::size_t i = 0; i < 4; ++i) {
+    std::uint64_t number = 0;
+    if (!(*region->items())[i].unsigned_integer(number) || number > most_pixel) throw wrong;
+    *into[i] = static_cast<int>(number);
+  }
+  if (out.u1 < out.u0 || out.v1 < out.v0) throw wrong;
+  if (out.u1 - out.u0 >= most_side || out.v1 - out.v0 >= most_side)
+    throw Fault{"\"region\" is of more than 64 x 64 pixels", "expected a smaller one"};
+  return out;
 }
 
 Control control_of(const Json& message) {
@@ -158,6 +185,7 @@ Control control_of(const Json& message) {
   if (type == "play" || type == "pause") return Play{type == "play"};
   if (type == "seek") return Seek{whole(message, "frame", most_frame)};
   if (type == "pixel") return pixel_of(message);
+  if (type == "why") return why_of(message);
   if (type == "fit") return Fit{text_of(message, "array")};
   if (type == "set" || type == "unset") return edit_of(message, type == "set" ? Edit::Kind::set : Edit::Kind::unset);
   if (type == "seed") return seed_of(message);
@@ -166,7 +194,7 @@ Control control_of(const Json& message) {
   if (type == "controls" || type == "save")
     return Query{type == "save" ? Query::Kind::save : Query::Kind::controls, id_of(message), side_of(message)};
   throw Fault{"no message is of the type " + base::in_quotes(type),
-              "expected ack, controls, fit, other, pause, pixel, play, save, seed, seek, set, state, unset, visible or want"};
+              "expected ack, controls, fit, other, pause, pixel, play, save, seed, seek, set, state, unset, visible, want or why"};
 }
 
 }  // namespace

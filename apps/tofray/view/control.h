@@ -44,6 +44,13 @@ struct PixelQuestion {
   int u = 0, v = 0;
   Side side = Side::a;
 };
+/// Why are these pixels wrong, both corners included.
+struct WhyQuestion {
+  std::uint64_t id = 0;
+  int u0 = 0, v0 = 0, u1 = 0, v1 = 0;
+  bool region = false;  ///< asked for as one
+  Side side = Side::a;
+};
 struct Fit {
   std::string array;
 };
@@ -78,7 +85,7 @@ struct Refused {
   std::string text, more;
 };
 
-using Control = std::variant<Refused, Want, Visible, Acknowledge, Play, Seek, PixelQuestion, Fit, Edit, Query>;
+using Control = std::variant<Refused, Want, Visible, Acknowledge, Play, Seek, PixelQuestion, WhyQuestion, Fit, Edit, Query>;
 
 /// Reads one message. Throws nothing but for a lack of memory.
 Control parse_control(std::string_view text);

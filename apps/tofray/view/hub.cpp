@@ -104,6 +104,10 @@ void Hub::took(Client& client, const std::string& message) {
       const Client::Seen& seen = client.seen(one.side);
       hub.session_.ask({client.number(), one, seen.generation, seen.frame});
     }
+    void operator()(const WhyQuestion& one) const {
+      const Client::Seen& seen = client.seen(one.side);
+      hub.session_.why({client.number(), one, seen.generation, seen.frame});
+    }
     void operator()(Fit& one) const { hub.session_.fit(client.number(), std::move(one.array)); }
     void operator()(const Query& one) const { hub.session_.query(client.number(), one); }
     void operator()(Edit& one) const { hub.session_.edit(client.number(), std::move(one)); }

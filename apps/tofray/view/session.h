@@ -35,6 +35,13 @@ struct Question {
   std::uint64_t frame = 0;  ///< of the frame that the page got last
 };
 
+struct Why {
+  std::uint64_t client = 0;
+  WhyQuestion asked;
+  std::uint32_t generation = 0;
+  std::uint64_t frame = 0;  ///< of the frame that the page got last
+};
+
 /// What all pages look at, one state or two beside each other, each a scene + list of --set + seed, at one frame, and the thread that
 /// computes them. What it is told waits in a mailbox
 /// where the newest wins: of several changes of a key by one page, several questions of it, several places in time, the last one counts.
@@ -60,6 +67,7 @@ class Session {
   void play(bool playing);
   void seek(std::uint64_t frame);
   void ask(const Question& question);
+  void why(const Why& question);
   void fit(std::uint64_t client, std::string array);
   void query(std::uint64_t client, const Query& query);
 

@@ -1,0 +1,167 @@
+// SPDX-FileCopyrightText: 2026 The tofray authors
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "base/text.h"
+#include "base/version.h"
+#include "cli/requests.h"
+#include "view/pixel_answer.h"
+#include "view/session_impl.h"
+#include "view/wire.h"
+
+namespace tofray::view {
+
+/// The ranges of colours are those of the first frame that anybody saw. @return whether it came to its end
+bool Session::Impl::ready_to_greet() {
+  if (!panes_.empty()) return true;
+  const auto lock_scales = [this](const Frame& first) {
+    panes_ = panes_of(first);
+    for (const Pane& one : panes_) scales_.emplace_back(one.array, *scale_json(first, one.array));
+  };
+  if (can_be_drafted(a_.state)) {  // who comes does not wait for a long frame
+    Simulating draft;
+    Frame frame;
+    double took = 0;
+    if (!computed(draft, a_.state, {}, frame, took, a_.state.frame, Manner::draft)) return false;
+    lock_scales(frame);
+    return true;
+  }
+  const Whole* first = whole(a_, a_.state.frame);
+  if (first == nullptr) return false;
+  lock_scales(first->frame);
+  return true;
+}
+
+std::string Session::Impl::hello() const {
+  Json arrays = Json::array(), panes = Json::array();
+  for (const WireArray& one : wire_arrays()) {
+    Json json = Json::object();
+    json.set("name", one.name).set("unit", one.unit).set("what", one.what).set("dtype", one.type);
+    arrays.push(std::move(json.set("shape", shape_name(one.shape))));
+  }
+  for (std::size_t i = 0; i < panes_.size(); ++i)
+    panes.push(Json::object().set("array", panes_[i].array).set("title", panes_[i].title).set("scale", scales_[i].second));
+  Json json = Json::object();
+  json.set("type", "hello").set("protocol", 2).set("version", base::version()).set("build", build_);
+  json.set("arrays", std::move(arrays)).set("panes", std::move(panes)).set("palettes", palettes_json());
+  json.set("invalid", invalid_json()).set("invalid_color", invalid_color_json());
+  put_state(json, a_.state, b_ ? &b_->state : nullptr);
+  if (test_hooks_) json.set("test_hooks", true);
+  return files::json_text(json);
+}
+
+void Session::Impl::answer(const Question& question) {
+  const PixelQuestion& asked = question.pixel;
+  const auto fault = fault_of([&] {
+    SideOfSession& on = side(asked.side);
+    const State& state = on.state;
+    const std::uint64_t index = question.generation == state.generation ? question.frame : state.frame;
+    const Whole* of = whole(on, index);
+    // What was given up comes again, unless a newer one does.
+    const auto again = [&] { post([&](Mail& later, Demand&) { return later.questions.emplace(question.client, question), false; }); };
+    if (of == nullptr) return again();
+    const Whole* direct = expected(on, index);
+    if (direct == nullptr) return again();
+    const SimulatorOptions simulated = app::simulator_options(state.options);
+    PixelInState pixel{state.options.words[0], state.in.scene, state.in.camera, simulated, of->frame, direct->frame};
+    Json json = Json::object();
+    json.set("type", "pixel").set("id", asked.id).set("u", asked.u).set("v", asked.v);
+    json.set("side", name_of(asked.side)).set("generation", state.generation).set("frame", index);
+    put_pixel(json, pixel, asked.u, asked.v);
+    out_->tell(question.client, files::json_text(json));
+  });
+  if (fault) out_->tell(question.client, fault_text(asked.id, *fault));
+}
+
+/// In place of what the page asked before.
+void Session::Impl::begin_split(const Why& question) {
+  splits_.erase(question.client);
+  const WhyQuestion& asked = question.asked;
+  const auto fault = fault_of([&] {
+    const State& state = side(asked.side).state;
+    const std::uint64_t index = question.generation == state.generation ? question.frame : state.frame;
+    SimulatorOptions simulated = app::simulator_options(state.options);
+    simulated.progress = &progress_;
+    const PixelRegion region{asked.u0, asked.v0, asked.u1, asked.v1};
+    splits_.emplace(question.client, Split{question, state.generation, index, {state.in.scene, state.in.camera, simulated, index, region}});
+  });
+  if (fault) out_->tell(question.client, fault_text(asked.id, *fault));
+}
+
+/// One frame of the page that has waited longest; what comes in meanwhile, and frames that are due, go first.
+void Session::Impl::go_on_with_split() {
+  if (splits_.empty()) return;
+  auto one = splits_.upper_bound(last_split_);
+  if (one == splits_.end()) one = splits_.begin();
+  last_split_ = one->first;
+  Split& split = one->second;
+  const WhyQuestion& asked = split.question.asked;
+  bool more = true;
+  const auto fault = fault_of([&] {
+    if (side(asked.side).state.generation != split.generation)
+      throw Error(ErrorKind::bad_input, "error: the state has changed while the causes were sought\n  the question is to be asked again");
+    {
+      const std::lock_guard lock(mutex_);
+      if (!mail_.empty()) return;
+      computing_ = true, progress_.stop = false;
+    }
+    const auto failed = fault_of([&] { more = split.causes.step(); });
+    const std::lock_guard lock(mutex_);
+    computing_ = false;
+    if (failed) throw Error(ErrorKind::bad_input, *failed);
+  });
+  if (fault) out_->tell(split.question.client, fault_text(asked.id, *fault));
+  if (!fault && !more) tell_split(split);
+  if (fault || !more) splits_.erase(one);
+}
+
+void Session::Impl::tell_split(const Split& split) {
+  const WhyQuestion& asked = split.question.asked;
+  const ErrorSplit result = split.causes.result();
+  Json causes = Json::array();
+  for (const ErrorCause& one : result.causes)
+    causes.push(Json::object().set("cause", one.cause).set("mm", 1e3 * one.error_m).set("changes", !(std::abs(one.error_m) <= 0)));
+  Json json = Json::object();
+  json.set("type", "why").set("id", asked.id).set("side", name_of(asked.side));
+  json.set("generation", split.generation).set("frame", split.frame);
+  if (asked.region)
+    json.set("region", Json::list(std::array{asked.u0, asked.v0, asked.u1, asked.v1}));
+  else
+    json.set("u", asked.u0).set("v", asked.v0);
+  json.set("pixels", result.valid).set("count", result.pixels).set("error_m", result.error_m).set("sigma_m", result.sigma_m);
+  out_->tell(split.question.client, files::json_text(json.set("causes", std::move(causes)).set("rest_mm", 1e3 * result.rest_m)));
+}
+
+void Session::Impl::answer(const Mail::Asked& asked) {
+  const auto fault = fault_of([&] {
+    const State& state = side(asked.query.side).state;
+    if (asked.query.kind == Query::Kind::controls) return out_->tell(asked.client, controls_text(state, asked.query));
+    constexpr std::size_t most_bytes = 900'000;  // a page that takes 1 MB too slowly is let go
+    const Saved file = saved(state);
+    Json json = Json::object();
+    json.set("type", "saved").set("id", asked.query.id).set("side", name_of(asked.query.side));
+    const std::string text = files::json_text(json.set("name", file.name).set("text", file.text).set("command", file.command));
+    if (text.size() > most_bytes)
+      throw Error(ErrorKind::limit,
+                  "error: the scene's file is too long to be sent\n  the command makes the same frames: " + command_of(state));
+    out_->tell(asked.client, text);
+  });
+  if (fault) out_->tell(asked.client, fault_text(asked.query.id, *fault));
+}
+
+void Session::Impl::fit(std::uint64_t client, const std::string& array) {
+  const auto fault = fault_of([&] {
+    const auto found = std::find_if(scales_.begin(), scales_.end(), [&](const auto& one) { return one.first == array; });
+    const Whole* of = found == scales_.end() ? nullptr : whole(a_, a_.state.frame);
+    if (found == scales_.end() || found->second.is_null())
+      throw Error(ErrorKind::bad_input, "error: no pane has a range of colours for " + base::in_quotes(array));
+    if (of == nullptr) return;
+    found->second = *scale_json(of->frame, array);
+    out_->tell_all(files::json_text(Json::object().set("type", "scale").set("array", array).set("scale", found->second)));
+  });
+  if (fault) out_->tell(client, fault_text({}, *fault));
+}
+
+}  // namespace tofray::view

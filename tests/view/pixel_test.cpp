@@ -1,0 +1,190 @@
+// SPDX-FileCopyrightText: 2026 The tofray authors
+// SPDX-License-Identifier: Apache-2.0
+// What the viewer says of a pixel beyond `inspect`: flow, phasors, curves; and why its depth is wrong.
+#include <cmath>
+
+#include "support/pi.h"
+#include "view/viewer.h"
+
+namespace tofray::test {
+namespace {
+
+using files::Json;
+
+Json pixel_of(Greeted& one, const std::string& what) {
+  one.page.send(R"({"type":"pixel","id":1,)" + what + "}");
+  const auto answer = one.page.text("pixel");
+  return answer ? *answer : Json::object();
+}
+
+/// A value of the flow; of one modulation frequency where `phase` is not negative.
+const Json* flow_value(const Json& pixel, const std::string& stage, const std::string& name, int phase = -1) {
+  for (const Json& one : *pixel.find("flow")->items()) {
+    if (*one.find("stage")->string() != stage) continue;
+    for (const Json& value : *one.find("values")->items()) {
+      const bool this_phase = value.find("phase") == nullptr ? phase < 0 : number_in(value, "phase") == phase;
+      if (*value.find("name")->string() == name && this_phase) return value.find("value");
+    }
+  }
+  return nullptr;
+}
+
+double number(const Json& json) {
+  double out = std::nan("");
+  json.number(out);
+  return out;
+}
+
+TEST(pixel, flows_through_all_stages_with_the_report_s_numbers) {
+  NEEDS_THE_VIEWER;
+  const Viewer viewer({"demo", "--seed", "2"});
+  Greeted one(viewer);
+  const Json pixel = pixel_of(one, R"("u":13,"v":10)");
+  ASSERT_NE(pixel.find("flow"), nullptr);
+  std::string stages;
+  for (const Json& stage : *pixel.find("flow")->items()) stages += *stage.find("stage")->string() + " ";
+  EXPECT_EQ(stages, "light electrons taps adc correlation phase unwrapping range z ");
+  const Json& report = *pixel.find("report");
+  EXPECT_EQ(number(*flow_value(pixel, "z", "z")), number_in(*report.find("depth"), "z_m"));
+  EXPECT_EQ(number(*flow_value(pixel, "light", "true_range")), number_in(*report.find("truth"), "range_m"));
+  const std::vector<Json>& raw = *report.find("raw_frames")->items();
+  ASSERT_EQ(flow_value(pixel, "taps", "tap_a")->items()->size(), raw.size());
+  for (std::size_t k = 0; k < raw.size(); ++k) {
+    EXPECT_EQ(number((*flow_value(pixel, "taps", "tap_a")->items())[k]), number_in(raw[k], "tap_a_e"));
+    EXPECT_EQ(number((*flow_value(pixel, "adc", "code")->items())[k]), number_in(raw[k], "raw_dn"));
+  }
+  for (int k = 0; k < 2; ++k) {
+    const Json& phase = (*report.find("phases")->items())[static_cast<std::size_t>(k)];
+    EXPECT_NEAR(std::hypot(number(*flow_value(pixel, "correlation", "i", k)), number(*flow_value(pixel, "correlation", "q", k))),
+                number_in(phase, "amplitude_e"), 1e-6 * number_in(phase, "amplitude_e"));
+    EXPECT_EQ(number(*flow_value(pixel, "unwrapping", "cycles", k)), number_in(phase, "cycles"));
+    EXPECT_EQ(number((*(*report.find("unwrapping")->find("candidates")->items())[0].find("cycles")->items())[static_cast<std::size_t>(k)]),
+              number_in(phase, "cycles"));
+  }
+  EXPECT_GT(number_in(*report.find("unwrapping"), "runner_up_ratio"), 1);
+}
+
+TEST(pixel, has_phasors_whose_truth_is_the_frame_without_noise) {
+  NEEDS_THE_VIEWER;
+  const Viewer viewer({"demo", "--seed", "2"});
+  Greeted one(viewer);
+  const Json pixel = pixel_of(one, R"("u":13,"v":10)");
+  const Result said = run(with_small_sensor({"inspect", "demo", "--noise", "off", "--pixel", "13,10", "--json"}));
+  const Json expected = files::parse_json(said.out, "inspect");
+  ASSERT_EQ(pixel.find("phasors")->items()->size(), 2u);
+  for (std::size_t k = 0; k < 2; ++k) {
+    const Json &phasor = (*pixel.find("phasors")->items())[k], &phase = (*expected.find("phases")->items())[k];
+    const double i = number_in(phasor, "i"), q = number_in(phasor, "q"), amplitude = number_in(phase, "amplitude_e");
+    EXPECT_NEAR(std::atan2(q, i), std::remainder(number_in(phasor, "phase_rad"), 2 * pi), 1e-9);
+    EXPECT_NEAR(number_in(phasor, "truth_i"), amplitude * std::cos(number_in(phase, "measured_phase_rad")), 1e-3 * amplitude);
+    EXPECT_NEAR(number_in(phasor, "truth_q"), amplitude * std::sin(number_in(phase, "measured_phase_rad")), 1e-3 * amplitude);
+    const double sigma = number_in(phasor, "sigma_i");
+    EXPECT_NEAR(sigma, number_in((*pixel.find("report")->find("phases")->items())[k], "noise_e"), 1e-6 * sigma);
+    EXPECT_NEAR(number_in(phasor, "sigma_q"), sigma, 1e-6 * sigma);
+    EXPECT_NEAR(number_in(phasor, "covariance"), 0, 1e-6 * sigma * sigma);
+    EXPECT_GT(std::hypot(i - number_in(phasor, "truth_i"), q - number_in(phasor, "truth_q")), 0);
+    EXPECT_LT(std::hypot(i - number_in(phasor, "truth_i"), q - number_in(phasor, "truth_q")), 5 * sigma);
+  }
+}
+
+TEST(pixel, has_curves_that_go_through_its_samples_where_nothing_is_noise) {
+  NEEDS_THE_VIEWER;
+  const Viewer viewer({"demo", "--noise", "off"});
+  Greeted one(viewer);
+  const Json pixel = pixel_of(one, R"("u":13,"v":10)");
+  ASSERT_EQ(pixel.find("curve")->items()->size(), 2u);
+  for (const Json& curve : *pixel.find("curve")->items()) {
+    const std::vector<Json>& points = *curve.find("points")->items();
+    ASSERT_EQ(points.size(), 64u);
+    ASSERT_EQ(curve.find("samples")->items()->size(), 4u);
+    for (const Json& sample : *curve.find("samples")->items()) {
+      const double phase = number((*sample.items())[0]), value = number((*sample.items())[1]);
+      EXPECT_NEAR(number(points[static_cast<std::size_t>(std::lround(phase / (2 * pi) * 64))]), value, 1e-3 * std::abs(value) + 1);
+    }
+  }
+}
+
+double sum_of(const Json& why) {
+  double out = number_in(why, "rest_mm");
+  for (const Json& one : *why.find("causes")->items()) out += number_in(one, "mm");
+  return out;
+}
+
+TEST(why, names_the_noise_of_a_pixel_in_millimetres) {
+  NEEDS_THE_VIEWER;
+  const Viewer viewer({"card", "--seed", "4"});
+  Greeted one(viewer);
+  one.page.send(R"({"type":"why","id":9,"u":13,"v":10})");
+  const auto why = one.page.text("why");
+  ASSERT_TRUE(why);
+  EXPECT_EQ(number_in(*why, "id"), 9);
+  EXPECT_EQ(number_in(*why, "u"), 13);
+  EXPECT_EQ(number_in(*why, "v"), 10);
+  EXPECT_EQ(number_in(*why, "pixels"), 1);
+  EXPECT_EQ(number_in(*why, "count"), 1);
+  const auto z_of = [&](const char* noise) {
+    const Result said = run(with_small_sensor({"inspect", "card", "--seed", "4", "--noise", noise, "--pixel", "13,10", "--json"}));
+    const Json json = files::parse_json(said.out, "inspect");
+    return std::pair{number_in(*json.find("depth"), "z_m"), number_in(*json.find("truth"), "z_m")};
+  };
+  const auto [z, truth] = z_of("exact");
+  EXPECT_NEAR(number_in(*why, "error_m"), z - truth, 1e-9);
+  const std::vector<Json>& causes = *why->find("causes")->items();
+  ASSERT_FALSE(causes.empty());
+  EXPECT_EQ(*causes[0].find("cause")->string(), "noise");
+  EXPECT_NEAR(number_in(causes[0], "mm"), 1e3 * (z - z_of("off").first), 1e-4);
+  EXPECT_NEAR(sum_of(*why), 1e3 * number_in(*why, "error_m"), 1e-6);
+  EXPECT_GT(number_in(*why, "sigma_m"), 0);
+}
+
+TEST(why, of_a_region_is_a_mean_and_goes_on_beside_frames) {
+  NEEDS_THE_VIEWER;
+  const Viewer viewer({"room", "--bounces", "1", "--samples", "4"});
+  Greeted one(viewer);
+  one.page.want("\"z_m\"", "\"max\"");
+  one.page.frame();
+  one.page.send(R"({"type":"why","id":1,"region":[3,4,12,9]})");
+  const auto why = one.page.text("why");
+  ASSERT_TRUE(why);
+  EXPECT_EQ(number_in(*why, "count"), 60);
+  EXPECT_LE(number_in(*why, "pixels"), 60);
+  EXPECT_GT(number_in(*why, "pixels"), 0);
+  EXPECT_EQ(why->find("region")->items()->size(), 4u);
+  EXPECT_EQ(why->find("u"), nullptr);
+  std::string names;
+  for (const Json& cause : *why->find("causes")->items()) names += *cause.find("cause")->string() + " ";
+  EXPECT_TRUE(has(names, "noise ")) << names;
+  EXPECT_TRUE(has(names, "multipath ")) << names;
+  EXPECT_NEAR(sum_of(*why), 1e3 * number_in(*why, "error_m"), 1e-6);
+}
+
+TEST(why, beyond_the_image_or_of_no_side_is_a_fault_that_says_so) {
+  NEEDS_THE_VIEWER;
+  const Viewer viewer;
+  Greeted one(viewer);
+  for (const char* wrong :
+       {R"("u":28,"v":0)", R"("u":0,"v":22)", R"("region":[0,0,28,0])", R"("region":[0,0,0,22])", R"("u":1,"v":1,"side":"b")"}) {
+    one.page.send(std::string(R"({"type":"why","id":7,)") + wrong + "}");
+    const auto fault = one.page.text("fault");
+    ASSERT_TRUE(fault) << wrong;
+    EXPECT_EQ(number_in(*fault, "id"), 7) << wrong;
+  }
+  one.page.send(R"({"type":"why","id":8,"u":27,"v":21})");
+  ASSERT_TRUE(one.page.text("why")) << "the session goes on";
+}
+
+TEST(why, of_a_state_that_changes_meanwhile_is_not_answered_for_the_old_one) {
+  NEEDS_THE_VIEWER;
+  const Viewer viewer({"room", "--bounces", "2", "--samples", "64"});
+  Greeted one(viewer);
+  one.page.send(R"({"type":"why","id":5,"u":13,"v":10})");
+  one.page.send(R"({"type":"set","id":6,"key":"camera.lens.f_number","text":"1.8"})");
+  one.page.send(R"({"type":"why","id":7,"u":13,"v":10})");
+  const auto why = one.page.text("why");
+  ASSERT_TRUE(why);
+  EXPECT_EQ(number_in(*why, "id"), 7) << "the newest question counts";
+  EXPECT_EQ(number_in(*why, "generation"), 2);
+}
+
+}  // namespace
+}  // namespace tofray::test
