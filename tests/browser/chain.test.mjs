@@ -5,7 +5,7 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { curve, phasors, with_chain } from "./answers.mjs";
-import { beside, between, point_at, shown, stand_at, view } from "./viewer.mjs";
+import { beside, between, inspected, point_at, rendered, shown, stand_at, view } from "./viewer.mjs";
 
 const words = ["demo", "--seed", "5"];
 const turn = 2 * Math.PI;
@@ -123,4 +123,43 @@ test("the chain's stages stand in order, with the numbers as answered; a stage o
   });
   assert.equal(await page.locator(".flow i").count(), 0);
   assert.deepEqual(await page.locator("[data-stage=phase] thead th").allTextContents(), ["80\u00a0MHz", "60\u00a0MHz"]);
+});
+
+test("of a real pixel the charts have the numbers of the answer, which are those of inspect", async () => {
+  const { url } = await view(words);
+  const tab = await shown(url);
+  const { page } = tab;
+  await stand_at(tab, 0);
+  await beside(tab, "Pixel");
+  const frame = rendered(words);
+  for (const [u, v] of [[112, 86], [10, 150], [60, 40]]) {
+    await point_at(tab, u, v);
+    await page.locator(`.answer[data-pixel="${u},${v}"][data-frame="0"]`).waitFor();
+    const report = inspected(frame.path, u, v);
+    const what = `pixel ${u}, ${v}`;
+    const rows = await page.locator("[data-candidate]").evaluateAll((all) => all.map((one) => [one.dataset.candidate, Number(one.dataset.cost), one.dataset.chosen === "true"]));
+    assert.ok(rows.length >= 2, what);
+    assert.deepEqual(rows, report.unwrapping.candidates.map((one) => [one.cycles.join(","), one.cost, one.chosen === true]), what);
+    assert.deepEqual(rows.map(([, cost]) => cost), rows.map(([, cost]) => cost).sort((a, b) => a - b), what);
+    assert.equal(rows.find(([, , chosen]) => chosen)[0], report.phases.map((one) => one.cycles).join(","), what);
+    const shown_numbers = Object.fromEntries(await page.locator("[data-flow]").evaluateAll((all) => all.map((one) => [one.dataset.flow, JSON.parse(one.dataset.number)])));
+    assert.equal(await page.locator('[data-flow="light.object"]').textContent(), report.truth.object, what);
+    assert.deepEqual(shown_numbers["taps.tap_a"], report.raw_frames.map((one) => one.tap_a_e), what);
+    assert.deepEqual(shown_numbers["adc.code"], report.raw_frames.map((one) => one.raw_dn), what);
+    report.phases.forEach((one, k) => {
+      assert.equal(shown_numbers[`correlation.amplitude.${k}`], one.amplitude_e, what);
+      assert.equal(shown_numbers[`unwrapping.half_path.${k}`], one.half_path_m, what);
+    });
+    assert.equal(shown_numbers["range.range"], report.depth.range_m, what);
+    assert.equal(shown_numbers["z.z"], report.depth.z_m, what);
+    const phasor = await page.locator("[data-phasor]").evaluateAll((all) => all.map((one) => Object.fromEntries([...one.querySelectorAll("[data-phasor-value]")].map((cell) => [cell.dataset.phasorValue, Number(cell.dataset.number)]))));
+    assert.equal(phasor.length, report.phases.length, what);
+    phasor.forEach((one, k) => {
+      const { amplitude_e, measured_phase_rad } = report.phases[k];
+      assert.ok(Math.abs(one.i - amplitude_e * Math.cos(measured_phase_rad)) < 1e-6 * amplitude_e && Math.abs(one.q - amplitude_e * Math.sin(measured_phase_rad)) < 1e-6 * amplitude_e, what);
+    });
+    const samples = await page.locator("[data-curve]").evaluateAll((all) => all.map((one) => [...one.querySelectorAll("[data-sample]")].map((sample) => sample.dataset.sample.split(" ").map(Number))));
+    assert.deepEqual(samples, report.phases.map(({ modulation_frequency_hz }) => report.raw_frames.filter((one) => one.lit && one.modulation_frequency_hz === modulation_frequency_hz)
+      .map((one) => [one.reference_phase_rad, one.difference_e])), what);
+  }
 });

@@ -5,7 +5,7 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { split } from "./answers.mjs";
-import { between, point_at, set, shown, stand_at, until, view } from "./viewer.mjs";
+import { between, point_at, rendered, set, shown, stand_at, until, view } from "./viewer.mjs";
 
 const words = ["demo", "--seed", "5"];
 
@@ -206,4 +206,55 @@ test("no depth, no σ̂, and a fault are said in words", async () => {
   await page.keyboard.press("w");
   assert.equal(await page.locator(".why-panel .wrong").textContent(), "no truth in a recording simulate it");
   assert.equal(await page.getByRole("alert").count(), 0);
+});
+
+/** Of a real split: what the page shows of each cause, the error and the rest [mm]. */
+async function shown_split({ page }) {
+  await page.waitForFunction(() => document.querySelector(".why-panel")?.ariaBusy === "false" && document.querySelector("[data-why-of]") !== null);
+  return Object.fromEntries(await page.locator(".causes tr").evaluateAll((all) => all.map((one) => [one.dataset.cause, Number(one.querySelector(".mm").dataset.mm)])));
+}
+
+test("a real error is that of the arrays rendered, its causes and the rest sum to it, and noise is what --noise off takes away", async () => {
+  const { url } = await view(words);
+  const tab = await shown(url);
+  const { page } = tab;
+  await stand_at(tab, 0);
+  await page.locator(".stage").first().focus();
+  const frame = rendered(words);
+  const quiet = rendered([...words, "--noise", "off"]);
+  for (const [u, v] of [[112, 86], [60, 40], [150, 150]]) {
+    await point_at(tab, u, v);
+    await page.keyboard.press("w");
+    const split = await shown_split(tab);
+    const at = v * 224 + u;
+    const error = 1000 * (frame.z_m.values[at] - frame.gt_z_m.values[at]);
+    assert.ok(Math.abs(split.error - error) < 1e-3, `${u}, ${v}: ${split.error}, expected ${error}`);
+    const sum = Object.entries(split).filter(([name]) => name !== "error").reduce((all, [, mm]) => all + mm, 0);
+    assert.ok(Math.abs(sum - error) < 1e-3, `${u}, ${v}: ${JSON.stringify(split)}`);
+    const noise = 1000 * (frame.z_m.values[at] - quiet.z_m.values[at]);
+    assert.ok(Math.abs(split.noise - noise) < 1e-3, `${u}, ${v}: noise ${split.noise}, expected ${noise}`);
+    await page.getByRole("button", { name: "Close: why is it wrong?" }).click();
+  }
+});
+
+test("a region's real error is the mean over its pixels that have a depth", async () => {
+  const { url } = await view(words);
+  const tab = await shown(url);
+  const { page } = tab;
+  await stand_at(tab, 0);
+  await page.locator(".stage").first().focus();
+  await point_at(tab, 0, 0);
+  await page.keyboard.press("e");
+  await point_at(tab, 30, 20);
+  await page.keyboard.press("e");
+  const split = await shown_split(tab);
+  const frame = rendered(words);
+  const errors = [];
+  for (let v = 0; v <= 20; ++v)
+    for (let u = 0; u <= 30; ++u) errors.push(1000 * (frame.z_m.values[v * 224 + u] - frame.gt_z_m.values[v * 224 + u]));
+  const valid = errors.filter(Number.isFinite);
+  assert.ok(valid.length < errors.length);
+  const mean = valid.reduce((sum, one) => sum + one, 0) / valid.length;
+  assert.ok(Math.abs(split.error - mean) < 1e-3, `${split.error}, expected ${mean}`);
+  assert.equal(await page.locator('[data-why="pixels"]').textContent(), String(valid.length));
 });
