@@ -10,8 +10,8 @@ import { beside, drawn, point_at, set, settled, shown, stand_at, view } from "..
 const [out] = process.argv.slice(2);
 if (out === undefined) throw new Error("node tools/viewer_picture.mjs FOLDER");
 
-async function start(colorScheme) {
-  const { url } = await view(["demo", "--seed", "1"]);
+async function start(colorScheme, words = ["demo"]) {
+  const { url } = await view([...words, "--seed", "1"]);
   const tab = await shown(url, { viewport: { width: 1280, height: 760 }, colorScheme, reducedMotion: "reduce" });
   await stand_at(tab, 0);
   return tab;
@@ -44,17 +44,20 @@ test("two apertures, by a wipe", async () => {
   await take(tab, "viewer_ab.png");
 });
 
-test("a pixel's error by cause, beside depth and all raw frames", async () => {
-  const tab = await start("dark");
+test("a region's error by cause, beside depth and all raw frames", async () => {
+  const tab = await start("dark", ["corner", "--bounces", "3"]);
   const { page } = tab;
   await page.locator(".pane select.shows").nth(1).selectOption("raw frames");
   await page.waitForFunction(() => window.tofray.pane(1, "a", 8) !== undefined);
   await page.locator(".stage").first().focus();
   await point_at(tab, 60, 150);
   await page.keyboard.press("p");
-  await point_at(tab, 112, 120);
+  await point_at(tab, 150, 40);
   await page.keyboard.press("p");
-  await page.keyboard.press("w");
+  await point_at(tab, 96, 70);
+  await page.keyboard.press("e");
+  await point_at(tab, 127, 101);
+  await page.keyboard.press("e");
   await page.locator("[data-why-of]").waitFor();
   await take(tab, "viewer_why.png");
 });

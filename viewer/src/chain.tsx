@@ -270,11 +270,11 @@ function Ranges({ of, truth_m }: { of: readonly Candidate[]; truth_m: number | u
   return (
     <Chart frame={frame} label={label}>
       <line class="grid" x1={frame.left} x2={frame.width - frame.right} y1={y} y2={y} />
-      <text x={frame.left} y={frame.height - 4}>0</text>
+      {(chosen === undefined || x(chosen.range_m) > 60) && <text x={frame.left} y={frame.height - 4}>0</text>}
       <text x={frame.width - frame.right} y={frame.height - 4} text-anchor="end">{short(most)} m</text>
       {of.map((one, i) => <circle key={i} class={one.chosen === true ? "sample" : "other"} cx={x(one.range_m)} cy={y} r={one.chosen === true ? 5 : 4} />)}
       {truth_m !== undefined && <g class="truth"><path d={`M${x(truth_m)} ${y - 14}v28`} /></g>}
-      {chosen !== undefined && <text x={Math.min(frame.width - 40, Math.max(40, x(chosen.range_m)))} y={frame.height - 4} text-anchor="middle">{short(chosen.range_m)} m</text>}
+      {chosen !== undefined && <text x={Math.min(frame.width - 80, Math.max(frame.left + 24, x(chosen.range_m)))} y={frame.height - 4} text-anchor="middle">{short(chosen.range_m)} m</text>}
     </Chart>
   );
 }
@@ -299,7 +299,7 @@ export function UnwrappingTable({ of, truth_m }: { of: Unwrapping | null | undef
         <tbody>
           {of.candidates.map((one, i) => (
             <tr key={i} class={one.chosen === true ? "chosen" : ""} data-candidate={one.cycles.join(",")} data-cost={one.cost} data-chosen={one.chosen === true}>
-              <th scope="row">{one.cycles.join(", ")}{one.chosen === true && <span class="tick"> ✓ chosen</span>}</th>
+              <th scope="row"><span class="cycles">{one.cycles.join(", ")}</span>{one.chosen === true && <span class="tick"> ✓ chosen</span>}</th>
               <td>{with_unit(one.range_m.toFixed(3), "m")}</td>
               <td>{apart_text(one.cost)}</td>
               <td class="bar"><span aria-hidden="true" style={{ width: `${Math.max(1, 100 * Math.sqrt(one.cost / most))}%` }} /></td>
