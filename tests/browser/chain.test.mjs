@@ -113,7 +113,7 @@ test("ways to unwrap stand by cost, the chosen one marked by a word, too, bars a
 
 test("the chain's stages stand in order, with the numbers as answered; a stage or a name that is not known is shown as it is, text as text", async () => {
   const { page } = await made_up();
-  assert.deepEqual(await page.locator("[data-stage]").evaluateAll((all) => all.map((one) => [one.dataset.stage, one.querySelector("h4").textContent])),
+  assert.deepEqual(await page.locator("[data-stage]").evaluateAll((all) => all.map((one) => [one.dataset.stage, one.querySelector("h3").textContent])),
     [["light", "Light"], ["taps", "Taps"], ["phase", "Phase"], ["sorcery", "sorcery"], ["z", "Depth"]]);
   const object = await page.locator(".object bdi").textContent();
   const cells = Object.fromEntries(await page.locator("[data-flow]").evaluateAll((all) => all.map((one) => [one.dataset.flow, [one.textContent, one.dataset.number]])));

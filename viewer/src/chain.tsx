@@ -86,7 +86,7 @@ export function Flow({ of, frequencies, object }: { of: readonly Stage[]; freque
       <ol class="flow">
         {of.map((one) => (
           <li key={one.stage} data-stage={one.stage}>
-            <h4>{stages[one.stage]?.said ?? one.stage}</h4>
+            <h3>{stages[one.stage]?.said ?? one.stage}</h3>
             <p class="what">{stages[one.stage]?.means ?? ""}</p>
             <StageNumbers of={one} frequencies={frequencies} object={object} />
           </li>
