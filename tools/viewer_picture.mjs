@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The tofray authors
 // SPDX-License-Identifier: Apache-2.0
-// The pictures of docs/viewer.md, from the viewer itself, viewer.png and viewer_ab.png:
+// The pictures of docs/viewer.md, from the viewer itself, viewer.png, viewer_ab.png and viewer_why.png:
 //   TOFRAY=build/release/apps/tofray/tofray TOFRAY_PAGE_PACKAGES=build/release/viewer node tools/viewer_picture.mjs docs/images
 
 import { test } from "node:test";
@@ -10,8 +10,8 @@ import { beside, drawn, point_at, set, settled, shown, stand_at, view } from "..
 const [out] = process.argv.slice(2);
 if (out === undefined) throw new Error("node tools/viewer_picture.mjs FOLDER");
 
-async function start(colorScheme) {
-  const { url } = await view(["demo", "--seed", "1"]);
+async function start(colorScheme, words = ["demo"]) {
+  const { url } = await view([...words, "--seed", "1"]);
   const tab = await shown(url, { viewport: { width: 1280, height: 760 }, colorScheme, reducedMotion: "reduce" });
   await stand_at(tab, 0);
   return tab;
@@ -42,4 +42,22 @@ test("two apertures, by a wipe", async () => {
   await beside(tab, "A | B");
   await point_at(tab, 60, 40);
   await take(tab, "viewer_ab.png");
+});
+
+test("a region's error by cause, beside depth and all raw frames", async () => {
+  const tab = await start("dark", ["corner", "--bounces", "3"]);
+  const { page } = tab;
+  await page.locator(".pane select.shows").nth(1).selectOption("raw frames");
+  await page.waitForFunction(() => window.tofray.pane(1, "a", 8) !== undefined);
+  await page.locator(".stage").first().focus();
+  await point_at(tab, 60, 150);
+  await page.keyboard.press("p");
+  await point_at(tab, 150, 40);
+  await page.keyboard.press("p");
+  await point_at(tab, 96, 70);
+  await page.keyboard.press("e");
+  await point_at(tab, 127, 101);
+  await page.keyboard.press("e");
+  await page.locator("[data-why-of]").waitFor();
+  await take(tab, "viewer_why.png");
 });

@@ -5,7 +5,8 @@
 import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
 import { test } from "node:test";
-import { axe_source, beside, choose, drawn, find, point_at, set, shown, stand_at, type, view } from "./viewer.mjs";
+import { split, with_chain } from "./answers.mjs";
+import { axe_source, beside, between, choose, drawn, find, point_at, set, shown, stand_at, type, view } from "./viewer.mjs";
 
 async function violations({ page }) {
   await page.evaluate(axe_source);
@@ -24,7 +25,7 @@ for (const colorScheme of ["dark", "light"]) {
     await beside(tab, "Pixel");
     await point_at(tab, 112, 86);
     await page.locator('.answer[data-pixel="112,86"]').waitFor();
-    await page.getByText("Raw frames").click();
+    await page.locator("summary", { hasText: "Raw frames" }).click();
     await choose(tab, 1, "flags");
     assert.deepEqual(await violations(tab), []);
     await page.keyboard.press("?");
@@ -67,6 +68,48 @@ for (const colorScheme of ["dark", "light"]) {
   });
 }
 
+/** A page that has a pixel's charts, an error's split, the sheet of raw frames and two pins. */
+const before = between({ asked: { why: ({ id, u, v }) => ({ type: "why", id, u, v, pixels: 1, count: 1, ...split }) }, told: { pixel: with_chain } });
+
+async function open_all(tab) {
+  const { page } = tab;
+  await stand_at(tab, 0);
+  await page.locator(".pane select.shows").nth(1).selectOption("raw frames");
+  await page.waitForFunction(() => window.tofray.pane(1, "a", 8) !== undefined);
+  await page.locator(".stage").first().focus();
+  await page.keyboard.press("ArrowRight");
+  await page.keyboard.press("p");
+  await page.keyboard.press("Shift+ArrowDown");
+  await page.keyboard.press("p");
+  await page.keyboard.press("w");
+  await page.locator("[data-why-of]").waitFor();
+  await page.locator("[data-candidate]").first().waitFor();
+}
+
+for (const colorScheme of ["dark", "light"]) {
+  test(`axe-core finds nothing in the ${colorScheme} page with raw frames, a pixel's charts, why it is wrong, and the watch list`, async () => {
+    const { url } = await view(["demo", "--seed", "5"]);
+    const tab = await shown(url, { colorScheme, reducedMotion: "reduce", before });
+    const { page } = tab;
+    await open_all(tab);
+    assert.deepEqual(await violations(tab), []);
+    await page.keyboard.press("e");
+    await page.getByRole("button", { name: "Region: ends here" }).waitFor();
+    assert.deepEqual(await violations(tab), [], "a region");
+    await beside(tab, "Watch");
+    await page.locator("[data-pinned]").nth(1).waitFor();
+    await page.locator('.tile[data-raw="3"] .stage').focus();
+    await page.keyboard.press("Enter");
+    assert.deepEqual(await violations(tab), [], "the watch list, a raw frame enlarged");
+    await page.getByRole("button", { name: "A | B", exact: true }).click();
+    await drawn(tab, "a");
+    await page.locator(".stage").first().focus();
+    await page.locator(".pane select.raw-number").selectOption("all");
+    await page.waitForFunction(() => window.tofray.pane(1, "b", 8) !== undefined);
+    assert.deepEqual(await violations(tab), [], "two states' raw frames");
+  });
+}
+
 /** The rows of a table of docs/viewer.md, by the word over its first column. */
 function table(word) {
   const text = readFileSync(new URL("../../docs/viewer.md", import.meta.url), "utf8");
@@ -77,7 +120,7 @@ function table(word) {
 test("a pane offers what docs/viewer.md lists, in that order", async () => {
   const { url } = await view(["demo", "--seed", "5"]);
   const { page } = await shown(url);
-  assert.deepEqual(await page.locator(".pane select").first().locator("option").allTextContents(), table("pane").map(([title]) => title));
+  assert.deepEqual(await page.locator(".pane select.shows").first().locator("option").allTextContents(), table("pane").map(([title]) => title));
 });
 
 test("the help lists the keys as docs/viewer.md does, leaves the focus where it was, and keys do nothing in a field", async () => {
@@ -165,6 +208,62 @@ for (const [what, viewport] of [["320 CSS pixels wide", { width: 320, height: 64
     await check("wipe");
   });
 }
+
+for (const [what, viewport] of [["320 CSS pixels wide", { width: 320, height: 640 }], ["zoomed to 200 %", { width: 640, height: 450 }], ["in a usual window", { width: 1280, height: 760 }]]) {
+  test(`${what}, raw frames, charts, bars and the watch list are not cut, and nothing has to be scrolled sideways`, async () => {
+    const { url } = await view(["demo", "--seed", "5"]);
+    const tab = await shown(url, { viewport, before });
+    const { page } = tab;
+    const check = async (state) => {
+      assert.equal(await page.evaluate(() => document.documentElement.scrollWidth), viewport.width, state);
+      const outside = await page.evaluate(() => [...document.querySelectorAll("button, select, input, .stage, summary, svg, figcaption, table, th, td, .mm, .bar-of")]
+        .filter((one) => one.checkVisibility() && one.closest(".wide, .unseen, dialog") === null)
+        .filter((one) => {
+          const [box, within] = [one, one.closest(".panel, .pane, header, footer, .compare-bar")].map((of) => of.getBoundingClientRect());
+          return box.width > 0 && (box.right > within.right + 0.5 || box.left < within.left - 0.5);
+        }).map((one) => one.outerHTML.slice(0, 200)));
+      assert.deepEqual(outside, [], state);
+      const folded = await page.evaluate(() => [...document.querySelectorAll(".panel td, .panel button, .mm")].filter((one) => one.checkVisibility() && one.closest(".wide, .unseen") === null && one.scrollWidth > one.clientWidth + 1 && one.clientWidth > 0)
+        .map((one) => one.outerHTML.slice(0, 200)));
+      assert.deepEqual(folded, [], `${state}: wider than its place`);
+    };
+    await open_all(tab);
+    await check("a pixel");
+    await beside(tab, "Watch");
+    await page.locator("[data-pinned]").nth(1).waitFor();
+    await check("the watch list");
+    await page.locator('.tile[data-raw="3"] .stage').focus();
+    await page.keyboard.press("Enter");
+    await page.waitForFunction(() => window.tofray.pane(1)?.array === "raw[3]");
+    await check("one raw frame");
+  });
+}
+
+test("all of it is done by keys: raw frames, one of them, pins, the watch list, why a pixel and a region are wrong", async () => {
+  const { url } = await view(["demo", "--seed", "5"]);
+  const tab = await shown(url, { before });
+  const { page } = tab;
+  await stand_at(tab, 0);
+  const keys = async (...all) => {
+    for (const key of all) await page.keyboard.press(key);
+  };
+  await page.locator(".stage").first().focus();
+  await keys("r");
+  await page.locator(".sheet").waitFor();
+  await page.waitForFunction(() => window.tofray.pane(0, "a", 8) !== undefined);
+  await page.waitForFunction(() => document.activeElement.closest(".tile")?.dataset.raw === "0");
+  await keys("Tab", "Enter");
+  await page.waitForFunction(() => window.tofray.pane(0)?.array === "raw[1]");
+  await keys("ArrowRight", "p");
+  await keys("Shift+ArrowRight", "p", "w");
+  await page.locator("[data-why-of]").waitFor();
+  await keys("e", "Shift+ArrowRight", "Shift+ArrowDown", "e");
+  await page.getByText(/^pixels \d+ … \d+, /).waitFor();
+  for (let i = 0; i < 60 && !(await page.evaluate(() => document.activeElement.id === "tab-pixel")); ++i) await keys("Tab");
+  await keys("ArrowRight");
+  await page.locator("[data-pinned]").nth(1).waitFor();
+  assert.equal(await page.evaluate(() => document.activeElement.id), "tab-watch");
+});
 
 test("in forced colours it is still seen what is chosen", async () => {
   const { url } = await view(["demo", "--seed", "5"]);

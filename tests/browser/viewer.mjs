@@ -121,7 +121,7 @@ export async function until(come, what) {
 /** A tab of its own, without an earlier one's storage. @param before  what to do with the page first
  *  @return  the page, and what has happened in it so far */
 export async function open(url, { before, ...options } = {}) {
-  const context = await browser.newContext({ viewport: { width: 1280, height: 900 }, ...options });
+  const context = await browser.newContext({ viewport: { width: 1280, height: 900 }, permissions: ["clipboard-read", "clipboard-write"], ...options });
   const page = await context.newPage();
   await before?.(page);
   const seen = { page, texts: [], frames: [], last: {}, generations: { a: [], b: [] }, asked: [], troubles: [], sockets: 0, requests: [], loads: 0 };
@@ -152,6 +152,25 @@ export async function open(url, { before, ...options } = {}) {
   return seen;
 }
 
+/** For `before`: what comes between the page and its server. @param asked  by type: answers a question in the server's place; undefined: the
+ *  server does. @param told  by type: changes what the server says */
+export function between({ asked = {}, told: said = {} }) {
+  return (page) => page.routeWebSocket(/./, (near) => {
+    const far = near.connectToServer();
+    near.onMessage((text) => {
+      const message = JSON.parse(text);
+      const answer = asked[message.type]?.(message);
+      if (answer === undefined) return far.send(text);
+      for (const one of [answer].flat()) near.send(JSON.stringify(one));
+    });
+    far.onMessage((text) => {
+      if (typeof text !== "string") return near.send(text);
+      const message = JSON.parse(text);
+      near.send(said[message.type] === undefined ? text : JSON.stringify(said[message.type](message)));
+    });
+  });
+}
+
 /** A tab with a picture in it. */
 export async function shown(url, options) {
   const tab = await open(url, options);
@@ -172,12 +191,14 @@ export async function stand_at(tab, frame) {
   await tab.page.waitForFunction((to) => window.tofray.last?.frame === to, frame);
 }
 
-/** A pane as coloured: {array, width, height, pixels: RGBA}. @param side  b: the picture of B beside that of A */
-export function pane({ page }, i, side = "a") {
-  return page.evaluate(([at, of]) => {
-    const one = window.tofray.pane(at, of);
+/** A pane as coloured: {array, width, height, pixels: RGBA}.
+ *  @param side       b: the picture of B beside that of A
+ *  @param raw_frame  of a sheet of raw frames the one of this number */
+export function pane({ page }, i, side = "a", raw_frame = undefined) {
+  return page.evaluate(([at, of, number]) => {
+    const one = window.tofray.pane(at, of, number);
     return { ...one, pixels: [...one.pixels] };
-  }, [i, side]);
+  }, [i, side, raw_frame]);
 }
 
 /** The middle of each of a picture's pixels, read from the canvas on the screen: RGBA. */
@@ -272,6 +293,6 @@ export async function set(tab, key, text) {
 }
 
 export async function choose(tab, i, array) {
-  await tab.page.locator(".pane select").nth(i).selectOption(array);
+  await tab.page.locator(".pane select.shows").nth(i).selectOption(array);
   await tab.page.waitForFunction(([at, name]) => window.tofray.pane(at)?.array === name, [i, array]);
 }

@@ -6,6 +6,7 @@ import { UndoRedo } from "./controls_panel";
 import { Help } from "./help";
 import { reading } from "./keys";
 import { Pane } from "./pane";
+import { is_sheet } from "./raw";
 import { ControlsColumn, Side } from "./side";
 import { Command, Restored, Status, Troubles } from "./status";
 import { comparing, cursor, hello, help_open, link, other, shown, size, spoken, title_of } from "./store";
@@ -15,7 +16,7 @@ import { TimeLine } from "./time_line";
 function ReadOut() {
   const at = cursor.value;
   if (at === undefined) return <p class="read-out faint">Point at a picture to read its values; click for all there is to know of a pixel.</p>;
-  const arrays = [...new Set([...shown.value, ...(hello.value?.panes.some((pane) => pane.array === "flags") ? ["flags"] : [])])];
+  const arrays = [...new Set([...shown.value.filter((array) => !is_sheet(array)), ...(hello.value?.panes.some((pane) => pane.array === "flags") ? ["flags"] : [])])];
   return (
     <dl class="read-out" aria-label="Read-out">
       <div><dt>pixel</dt><dd>{at.u}, {at.v}</dd></div>

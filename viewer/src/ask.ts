@@ -6,7 +6,9 @@ import { effect } from "@preact/signals";
 import { fit_difference, shown_by } from "./compare";
 import { next_id, send } from "./connection";
 import type { Fault, Pixel, Side } from "./protocol";
-import { cursor, frame, frame_of, link, of_b, pixel, pixel_b, rate, shown, state, tab_shown, type Cursor } from "./store";
+import { arrays_for, raw_view } from "./raw";
+import { cursor, fit_raw, frame, frame_of, link, of_b, pixel, pixel_b, rate, shown, state, tab_shown, type Cursor } from "./store";
+import { arrays_to_watch } from "./watch";
 
 const rest_ms = 40;             // the cursor stands still
 const pause_ms = 200;           // from one question to the next
@@ -88,13 +90,13 @@ export function opened_anew(): void {
 }
 
 function want(): void {
-  const arrays = [...new Set([...shown.value, "flags"])];
-  if (shown.value.length > 0) send({ type: "want", arrays, rate: rate.value });
+  const arrays = [...new Set([...shown.value.flatMap(arrays_for), "flags", ...arrays_to_watch()])];
+  const at = rate.value;
+  if (shown.value.length > 0) send({ type: "want", arrays, rate: at });
 }
 
 export function start_asking(): void {
   effect(() => {
-    void [shown.value, rate.value];
     want();
   });
   effect(() => {
@@ -129,6 +131,8 @@ export function step(by: number): void {
 export function fit_pane(pane: number): void {
   const array = shown.value[pane];
   if (array === undefined) return;
+  const raw = raw_view(array);
   if (shown_by("a") === "difference") fit_difference(array);
+  else if (raw !== undefined) fit_raw(raw.kind);
   else send({ type: "fit", array });
 }

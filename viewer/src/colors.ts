@@ -50,6 +50,31 @@ export function reason_of(hello: Hello, flags: number): Reason | undefined {
   return hello.invalid.find((reason) => ((flags >>> reason.bit) & 1) !== 0);
 }
 
+const whole_numbers = new WeakMap<Scale, Map<Hello["palettes"], Uint8Array>>();
+
+/** The colours of 0 … 65535, each worked out when it is needed first: RGB and whether it is known. */
+function table_of(hello: Hello, scale: Scale): Uint8Array {
+  const of_scale = whole_numbers.get(scale) ?? new Map<Hello["palettes"], Uint8Array>();
+  whole_numbers.set(scale, of_scale);
+  const table = of_scale.get(hello.palettes) ?? new Uint8Array(4 * 65536);
+  of_scale.set(hello.palettes, table);
+  return table;
+}
+
+function paint_whole_numbers(pixels: Uint8ClampedArray, hello: Hello, values: Uint8Array | Uint16Array, scale: Scale): void {
+  const table = table_of(hello, scale);
+  const color = color_of(hello, scale);
+  for (let i = 0; i < values.length; ++i) {
+    const from = 4 * values[i]!;
+    if (table[from + 3] === 0) table.set([...color(values[i]!), 255], from);
+    const at = 4 * i;
+    pixels[at] = table[from]!;
+    pixels[at + 1] = table[from + 1]!;
+    pixels[at + 2] = table[from + 2]!;
+    pixels[at + 3] = 255;
+  }
+}
+
 /** Colours all pixels.
  *  @param pixels  RGBA, as ImageData has them
  *  @param scale   undefined: the values are bits
@@ -62,6 +87,10 @@ export function paint(
   scale: Scale | undefined,
 ): Map<Reason | undefined, number> {
   const counts = new Map<Reason | undefined, number>();
+  if (scale !== undefined && (values instanceof Uint16Array || values instanceof Uint8Array)) {
+    paint_whole_numbers(pixels, hello, values, scale);
+    return counts;
+  }
   const color = scale === undefined ? undefined : color_of(hello, scale);
   for (let i = 0; i < values.length; ++i) {
     const value = values[i]!;

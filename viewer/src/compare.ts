@@ -4,7 +4,8 @@
 
 import { minus } from "./numbers";
 import type { Frame, Numbers, Scale, Side, Tick } from "./protocol";
-import { array_of, comparing, difference_scales, flipped, frame, frame_b, hello, other, scale_of, value_at, type Cursor } from "./store";
+import { raw_view } from "./raw";
+import { array_of, comparing, difference_scales, flipped, frame, frame_b, hello, is_bits, other, scale_of, value_at, type Cursor } from "./store";
 
 export interface Values {
   values: Numbers;
@@ -47,7 +48,7 @@ export function difference_of(a: Frame | undefined, b: Frame | undefined, name: 
   if (from === undefined || to === undefined || from.width !== to.width || from.height !== to.height) return undefined;
   const { width, height } = from;
   const count = width * height;
-  if (scale_of(name) === undefined) {
+  if (is_bits(name)) {
     const bits = new Uint32Array(count);
     for (let i = 0; i < count; ++i) bits[i] = from.values[i]! ^ to.values[i]!;
     return { values: bits, flags: undefined, width, height };
@@ -96,13 +97,26 @@ export function fitted_difference(name: string, values: Numbers): Scale | undefi
   return { low: -high, high, palette: "error", curve: "linear", factor, unit, ticks };
 }
 
+/** Raw frames of a kind have one scale. */
+function kind_of(name: string): string {
+  return raw_view(name)?.kind ?? name;
+}
+
 /** The scale of a pane's differences: once chosen, it stays. */
 export function difference_scale(name: string): Scale | undefined {
-  return difference_scales.value.get(name);
+  return difference_scales.value.get(kind_of(name));
+}
+
+/** Of raw frames those of all of them. */
+function all_differences(name: string): Numbers | undefined {
+  const raw = raw_view(name);
+  if (raw === undefined) return difference_of(frame.peek(), frame_b.peek(), name)?.values;
+  const [a, b] = [array_of(frame.peek(), raw.kind)?.values, array_of(frame_b.peek(), raw.kind)?.values];
+  return a === undefined || b === undefined || a.length !== b.length ? undefined : Float64Array.from(a, (one, i) => b[i]! - one);
 }
 
 export function fit_difference(name: string): void {
-  const values = difference_of(frame.peek(), frame_b.peek(), name)?.values;
+  const values = all_differences(name);
   const scale = values && fitted_difference(name, values);
-  if (scale !== undefined) difference_scales.value = new Map(difference_scales.peek()).set(name, scale);
+  if (scale !== undefined) difference_scales.value = new Map(difference_scales.peek()).set(kind_of(name), scale);
 }

@@ -29,7 +29,8 @@ export function Help() {
           <div><dt>move</dt><dd>the pixel cursor, in all panes</dd></div>
           <div><dt>wheel</dt><dd>zoom; far in, pixels show letters and numbers</dd></div>
           <div><dt>drag</dt><dd>move the picture, or the line between A and B</dd></div>
-          <div><dt>click</dt><dd>all there is to know of a pixel</dd></div>
+          <div><dt>Alt and drag</dt><dd>a region: why is it wrong?</dd></div>
+          <div><dt>click</dt><dd>all there is to know of a pixel; a raw frame of the sheet is enlarged</dd></div>
         </dl>
         <label class="check">
           <input type="checkbox" checked={letter_keys.value} onChange={(event) => set_letter_keys(event.currentTarget.checked)} />

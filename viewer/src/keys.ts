@@ -9,9 +9,13 @@ import { difference_at, difference_unit } from "./compare";
 import { save } from "./edit";
 import { redo, undo } from "./history";
 import { number_text, with_unit } from "./numbers";
+import { is_sheet } from "./raw";
+import { toggle_sheet } from "./sheet_state";
+import { toggle_pin } from "./watch";
+import { ask_pixel, drop_region, region_key } from "./why";
 import type { Side } from "./protocol";
 import {
-  comparing, cursor, edited, extent, flipped, focused, hello, help_open, letter_keys, other, point_at, scale_of, set_panes, show, shown, size, spoken, title_of,
+  comparing, cursor, edited, extent, flipped, focused, hello, help_open, is_bits, letter_keys, other, point_at, scale_of, set_panes, show, shown, size, spoken, title_of,
   toggle_histogram, value_at, view, type Comparing,
 } from "./store";
 import { whole, zoomed } from "./view_port";
@@ -82,11 +86,15 @@ export const keys: readonly Key[] = [
   { keys: ["f"], said: "f", does: "fit the colours of this pane to the frame, once", act: () => fit_pane(focused.value) },
   { keys: [..."123456789"], said: "1 … 9", does: "what this pane shows, in the order of its list", act: choose_array },
   { keys: ["h"], said: "h", does: "histogram of this pane", act: () => toggle_histogram(focused.value) },
+  { keys: ["r"], said: "r", does: "all raw frames in this pane, or back; Enter on one enlarges it", act: () => toggle_sheet(focused.value) },
   { keys: ["["], said: "[", does: "one pane less", act: () => set_panes(shown.value.length - 1) },
   { keys: ["]"], said: "]", does: "one pane more, up to four", act: () => set_panes(shown.value.length + 1) },
   { keys: ["+", "="], said: "+", does: "zoom in at the cursor", act: () => zoom_at_cursor(1.5) },
   { keys: ["-"], said: "−", does: "zoom out", act: () => zoom_at_cursor(1 / 1.5) },
   { keys: ["0"], said: "0", does: "the whole picture", act: () => void (view.value = whole) },
+  { keys: ["p"], said: "p", does: "pin this pixel to the watch list, or take its pin away", act: toggle_pin },
+  { keys: ["w"], said: "w", does: "why is this pixel wrong?", act: ask_pixel },
+  { keys: ["e"], said: "e", does: "the same of a region: one corner, then the other one; Escape drops it", act: region_key },
   { keys: ["/"], said: "/", does: "search the controls", act: find_control },
   { keys: ["z"], said: "Ctrl+Z", does: "undo; in a field, what was typed", ctrl: true, act: (event) => (event.shiftKey ? redo() : undo()) },
   { keys: ["y"], said: "Ctrl+Y", does: "redo; also Ctrl+Shift+Z", ctrl: true, act: redo },
@@ -118,6 +126,7 @@ function on_key(event: KeyboardEvent): void {
   const ctrl = event.ctrlKey || event.metaKey;
   const target = event.target instanceof Element ? event.target : null;
   if (ctrl ? is_text(target) : is_field(target)) return;
+  if (event.key === "Escape" && !ctrl && !help_open.value && drop_region()) return event.preventDefault();
   const key = keys.find((one) => one.keys.includes(ctrl ? event.key.toLowerCase() : event.key) && (one.ctrl === true) === ctrl);
   if (key === undefined) return;
   const in_picture = target?.closest(".stage") != null;
@@ -148,11 +157,11 @@ export function reading(array: string, side: Side = "a"): string {
   const greeting = hello.value;
   if (value === undefined || greeting === undefined) return "";
   const scale = scale_of(array);
-  if (scale === undefined) {
+  if (is_bits(array)) {
     const names = greeting.invalid.filter((reason) => ((value >>> reason.bit) & 1) !== 0).map((reason) => reason.name);
     return names.length === 0 ? "none" : names.join(", ");
   }
-  if (Number.isFinite(value)) return with_unit(number_text(value * (scale.factor ?? 1)), scale.unit);
+  if (Number.isFinite(value)) return with_unit(number_text(value * (scale?.factor ?? 1)), scale?.unit ?? "");
   const why = reason_of(greeting, value_at("flags", cursor.value, side) ?? 0);
   return why === undefined ? "invalid" : `invalid: ${why.name}`;
 }
@@ -166,7 +175,7 @@ function say_pixel_soon(): void {
     const at = cursor.value;
     if (at === undefined) return;
     const b = other.value !== undefined;
-    const readings = [...new Set(shown.value)].map((array) => `${title_of(array)} ${b ? `A ${reading(array)}, B ${reading(array, "b")}` : reading(array)}`);
+    const readings = [...new Set(shown.value)].filter((array) => !is_sheet(array)).map((array) => `${title_of(array)} ${b ? `A ${reading(array)}, B ${reading(array, "b")}` : reading(array)}`);
     spoken.value = [`Pixel ${at.u}, ${at.v}`, ...readings].join(". ");
   }, 150);
 }

@@ -8,11 +8,12 @@ import { send } from "./connection";
 import type { Picture } from "./picture";
 import type { Frame } from "./protocol";
 import {
-  comparing, cursor, difference_scales, drawn_rate, fitted, flipped, frame, frame_b, hello, other, shown, view, wipe,
+  comparing, cursor, difference_scales, drawn_rate, fitted, flipped, frame, frame_b, hello, other, raw_scales, region, shown, view, wipe,
 } from "./store";
+import { pins } from "./watch";
 
 export const counters = { received: 0, drawn: 0 };
-/** By pane and side. */
+/** By pane and side; of a sheet also by raw frame. */
 export const pictures = new Map<string, Picture>();
 
 const patience_ms = 500;   // one of two states is not waited for longer
@@ -74,7 +75,7 @@ export function forget_b(): void {
 
 export function start_loop(): void {
   effect(() => {
-    void [view.value, cursor.value, shown.value, fitted.value, hello.value, other.value, comparing.value, flipped.value, wipe.value, difference_scales.value];
+    void [view.value, cursor.value, shown.value, fitted.value, hello.value, other.value, comparing.value, flipped.value, wipe.value, difference_scales.value, raw_scales.value, region.value, pins.value];
     draw_soon();
   });
   let before = 0;

@@ -10,8 +10,10 @@ import { history_goes_on, history_of_greeting, start_history } from "./history";
 import { start_keys } from "./keys";
 import { forget_b, frame_arrived, start_loop } from "./loop";
 import { read_frame, type Hello, type ServerMessage, type State } from "./protocol";
-import { choose_arrays, controls, difference_scales, fault, fitted, frame, hello, key_faults, other, pixel, pixel_b, state, stats } from "./store";
+import { choose_arrays, controls, difference_scales, fault, fitted, frame, hello, key_faults, other, pixel, pixel_b, raw_scales, state, stats } from "./store";
 import { offer_to_tests } from "./test_hooks";
+import { count, start_watching, statistics_anew } from "./watch";
+import { forget_why, start_why, why_arrived, why_refused } from "./why";
 
 let server = 0;
 
@@ -23,12 +25,15 @@ function greeted(by: Hello): void {
     state.value = { type: "state", generation, playing, frame: at, seed, command, scene, overrides: by.overrides, other: by.other };
     other.value = by.other ?? undefined;
     fitted.value = difference_scales.value = new Map();
+    raw_scales.value = new Map();
     key_faults.value = new Map();
     frame.value = undefined;
     pixel.value = pixel_b.value = undefined;
     controls.a.value = controls.b.value = undefined;
     forget_b();
     forget_unanswered();
+    forget_why();
+    statistics_anew();
     choose_arrays(by);
   });
   document.title = `${by.scene} – tofray view`;
@@ -60,14 +65,21 @@ function text_arrived(message: ServerMessage): void {
     case "state": return changed(message);
     case "scale": return void (fitted.value = new Map(fitted.peek()).set(message.array, message.scale));
     case "pixel": return pixel_arrived(message);
+    case "why": return why_arrived(message);
     case "stats": return void (stats.value = message);
     case "controls": return controls_arrived(message);
     case "done": return done_arrived(message);
     case "saved": return saved_arrived(message);
     case "fault":
       fault_arrived(message);
-      if (!change_refused(message)) fault.value = message;
+      if (!why_refused(message) && !change_refused(message)) fault.value = message;
   }
+}
+
+function frame_received(message: ArrayBuffer): void {
+  const fresh = read_frame(message);
+  count(fresh);
+  frame_arrived(fresh);
 }
 
 const root = document.getElementById("page");
@@ -76,5 +88,7 @@ start_loop();
 start_asking();
 start_editing();
 start_history();
+start_watching();
+start_why();
 start_keys();
-connect({ opened: () => undefined, text: text_arrived, binary: (message) => frame_arrived(read_frame(message)) });
+connect({ opened: () => undefined, text: text_arrived, binary: frame_received });

@@ -7,7 +7,9 @@ import { css, ink_on, paint } from "./colors";
 import { difference_of, difference_scale, fit_difference, image_of, shown_by, type Shows, type Values } from "./compare";
 import { digits_for, fixed_text } from "./numbers";
 import type { Hello, Reason, Rgb, Scale, Side } from "./protocol";
-import { array_of, canvas_size, cursor, frame_of, hello, of_b, scale_of, shown, size, view, wipe, type Cursor } from "./store";
+import { raw_view } from "./raw";
+import { array_of, canvas_size, cursor, fit_raw, frame_of, hello, of_b, region, scale_of, size, view, wipe, type Cursor } from "./store";
+import { pins } from "./watch";
 import { placement, type Placement } from "./view_port";
 
 const sides: readonly Side[] = ["a", "b"];
@@ -71,7 +73,9 @@ export class Picture {
   private readonly over: HTMLCanvasElement;
   private readonly coats = { a: new Coat(), b: new Coat(), difference: new Coat() };
 
-  constructor(readonly pane: number, readonly side: Side, front: HTMLCanvasElement, over: HTMLCanvasElement) {
+  /** @param name  the array that is to be shown
+   *  @param tile  one of many in a pane: its size is not that of panes */
+  constructor(private readonly name: () => string | undefined, readonly side: Side, front: HTMLCanvasElement, over: HTMLCanvasElement, private readonly tile = false) {
     this.front = front;
     this.over = over;
     this.shows.value = side;
@@ -82,7 +86,7 @@ export class Picture {
       canvas.width = Math.max(1, width);
       canvas.height = Math.max(1, height);
     }
-    if (this.side === "a") canvas_size.value = { width, height };
+    if (this.side === "a" && !this.tile) canvas_size.value = { width, height };
   }
 
   private get coat(): Coat {
@@ -131,7 +135,7 @@ export class Picture {
   /** Colours what is to be seen, where that is not done yet, and draws it. */
   draw(): void {
     const greeting = hello.value;
-    const array = shown.value[this.pane];
+    const array = this.name();
     if (greeting === undefined || array === undefined) return;
     const shows = shown_by(this.side);
     if (array_of(frame_of(this.side), array) !== undefined) {
@@ -168,12 +172,17 @@ export class Picture {
   private color(greeting: Hello, array: string, side: Side): void {
     const frame = frame_of(side);
     if (frame === undefined) return;
+    const raw = raw_view(array);
+    if (raw !== undefined && scale_of(array) === undefined) fit_raw(raw.kind);
+    if (raw !== undefined && scale_of(array) === undefined) return;
     this.coats[side].color(greeting, [frame], array, String(frame.generation), () => image_of(frame, array), scale_of(array));
   }
 
   private color_difference(greeting: Hello, array: string): void {
     const [a, b] = [frame_of("a"), frame_of("b")];
     if (a === undefined || b === undefined) return;
+    const raw = raw_view(array);
+    if (raw !== undefined && scale_of(array) === undefined) fit_raw(raw.kind);
     if (scale_of(array) !== undefined && difference_scale(array) === undefined) fit_difference(array);
     this.coats.difference.color(greeting, [a, b], array, `${a.generation} ${b.generation}`, () => difference_of(a, b, array), difference_scale(array));
   }
@@ -186,8 +195,63 @@ export class Picture {
     if (at === undefined || this.image === undefined) return;
     const ratio = devicePixelRatio;
     if (at.scale >= letter_room * ratio) this.draw_letters(over, greeting, at, ratio);
+    this.draw_region(over, at, ratio);
+    this.draw_pins(over, at, ratio);
     const point = cursor.value && (this.side === "b" ? of_b(cursor.value) : cursor.value);
     if (point !== undefined) this.draw_cursor(over, at, point, ratio);
+  }
+
+  /** A frame around pixels, white in black, which are those of A. */
+  private draw_region(over: CanvasRenderingContext2D, at: Placement, ratio: number): void {
+    const of = region.value;
+    if (of === undefined) return;
+    const there = (u: number, v: number): Cursor => (this.side === "b" ? of_b({ u, v }) : { u, v });
+    const first = there(of.u0, of.v0);
+    const last = there(of.u1, of.v1);
+    const [x, y] = [at.left + first.u * at.scale, at.top + first.v * at.scale];
+    const [width, height] = [(last.u - first.u + 1) * at.scale, (last.v - first.v + 1) * at.scale];
+    over.setLineDash([]);
+    over.lineWidth = 3 * ratio;
+    over.strokeStyle = "#000";
+    over.strokeRect(x, y, width, height);
+    over.lineWidth = 1.25 * ratio;
+    over.strokeStyle = "#fff";
+    over.setLineDash([5 * ratio, 3 * ratio]);
+    over.strokeRect(x, y, width, height);
+    over.setLineDash([]);
+  }
+
+  /** A flag with the pin's number, whose foot is in the pixel's middle. */
+  private draw_pins(over: CanvasRenderingContext2D, at: Placement, ratio: number): void {
+    const radius = (this.tile ? 6 : 9) * ratio;
+    over.font = `650 ${Math.round(1.35 * radius)}px system-ui, sans-serif`;
+    over.textAlign = "center";
+    over.textBaseline = "middle";
+    for (const pin of pins.value) {
+      const of = this.side === "b" ? of_b(pin) : pin;
+      const x = at.left + (of.u + 0.5) * at.scale;
+      const y = at.top + (of.v + 0.5) * at.scale;
+      const below = y - 2.6 * radius < 0;   // there is no room above
+      const middle = below ? y + 1.8 * radius : y - 1.8 * radius;
+      over.beginPath();
+      over.moveTo(x, y);
+      over.lineTo(x, middle);
+      over.lineWidth = 3 * ratio;
+      over.strokeStyle = "#000";
+      over.stroke();
+      over.lineWidth = 1.25 * ratio;
+      over.strokeStyle = "#fff";
+      over.stroke();
+      over.beginPath();
+      over.arc(x, middle, radius, 0, 2 * Math.PI);
+      over.fillStyle = "#fff";
+      over.fill();
+      over.lineWidth = 1.5 * ratio;
+      over.strokeStyle = "#000";
+      over.stroke();
+      over.fillStyle = "#000";
+      over.fillText(String(pin.number), x, middle + 0.06 * radius);
+    }
   }
 
   private draw_letters(over: CanvasRenderingContext2D, greeting: Hello, at: Placement, ratio: number): void {

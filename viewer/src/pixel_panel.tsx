@@ -2,9 +2,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // All that the server knows of the pixel under the cursor: numbers of the library, the same as those of `tofray inspect --pixel`.
 
+import { Curves, Flow, Phasors, UnwrappingTable } from "./chain";
 import { number_text, value_text, with_unit } from "./numbers";
 import type { ArrayInfo, NamedValue, Pixel, RawFrameReport } from "./protocol";
-import { cursor, frame, hello, other, pixel, pixel_b } from "./store";
+import { cursor, edited, frame, hello, other, pixel, pixel_b } from "./store";
+import { PinButton } from "./watch_panel";
+import { WhyButtons, WhyPanel } from "./why_panel";
 
 function is_truth(value: NamedValue): boolean {
   return value.name.startsWith("gt_");
@@ -66,12 +69,18 @@ function RawFrames({ frames }: { frames: readonly RawFrameReport[] }) {
 function Answer({ of, beside }: { of: Pixel; beside: Pixel | undefined }) {
   const images = of.values.filter((one) => hello.value?.arrays.find((array) => array.name === one.name)?.shape !== "stack");
   const object = of.report.truth?.object ?? "";
+  const chain = edited.value === "b" && beside !== undefined ? beside : of;   // of the state that controls change
   const reason = hello.value?.invalid.find((one) => one.name === of.why);
   return (
     <>
       {object !== "" && <p class="object"><span class="faint">sees</span> <bdi>{object}</bdi></p>}
       {of.why !== "" && <p class="why"><strong>No depth: {of.why}.</strong> {reason?.advice ?? ""}</p>}
       <Values title="Measured" values={images.filter((one) => !is_truth(one))} beside={beside?.values} />
+      {beside !== undefined && <p class="what">What follows is {chain === beside ? "B" : "A"}, the state that controls change.</p>}
+      <UnwrappingTable of={chain.report.unwrapping} truth_m={chain.report.truth?.range_m ?? undefined} />
+      <Phasors of={chain.phasors ?? []} />
+      <Curves of={chain.curve ?? []} />
+      <Flow of={chain.flow ?? []} frequencies={(chain.phasors ?? []).map((one) => one.frequency_hz)} object={chain.report.truth?.object ?? ""} />
       <Values title="Ground truth" values={images.filter(is_truth)} beside={beside?.values} />
       <RawFrames frames={of.report.raw_frames ?? []} />
     </>
@@ -88,6 +97,8 @@ export function PixelPanel() {
         {at === undefined ? "Pixel" : `Pixel ${at.u}, ${at.v}`}
         {answer !== undefined && <span class="faint of-frame"> frame {answer.frame}</span>}
       </h2>
+      <div class="pixel-actions"><PinButton /><WhyButtons /></div>
+      <WhyPanel />
       {at === undefined && <p class="faint">Point at a picture, or press Tab until one has the focus and use the arrow keys.</p>}
       {at !== undefined && answer !== undefined && (
         <div class={late ? "answer late" : "answer"} data-pixel={`${answer.u},${answer.v}`} data-frame={answer.frame}>

@@ -189,10 +189,63 @@ export interface RawFrameReport {
   raw_dn: number | null;
 }
 
+/** A way to unwrap the phases: how many whole cycles of each frequency. */
+export interface Candidate {
+  cycles: number[];
+  range_m: number;
+  /** What the decoder minimises. */
+  cost: number;
+  chosen?: boolean;
+}
+
+export interface Unwrapping {
+  candidates: Candidate[];
+  runner_up_ratio?: number | null;
+}
+
 /** What `tofray inspect FILE --pixel u,v --json` prints, as far as the page reads it. */
 export interface PixelReport {
-  truth?: { object?: string | null } | null;
+  truth?: { object?: string | null; range_m?: number | null } | null;
   raw_frames?: RawFrameReport[];
+  depth?: { z_m?: number | null; range_m?: number | null; noise_m?: number | null } | null;
+  unwrapping?: Unwrapping | null;
+}
+
+/** A number of a stage; `phase`: of which modulation frequency. */
+export interface FlowValue {
+  name: string;
+  value: Value;
+  unit?: string;
+  phase?: number;
+}
+
+/** A stage of the way from light to depth. */
+export interface Stage {
+  stage: string;
+  values: FlowValue[];
+}
+
+/** What one modulation frequency measured, as a complex number, and what direct light alone would have been. */
+export interface Phasor {
+  frequency_hz: number;
+  unit?: string;
+  i: number | null;
+  q: number | null;
+  sigma_i?: number | null;
+  sigma_q?: number | null;
+  covariance?: number | null;
+  amplitude?: number | null;
+  phase_rad?: number | null;
+  truth_i?: number | null;
+  truth_q?: number | null;
+}
+
+/** The correlation function over a period, at evenly spaced phases from 0 on, and what the raw frames measured of it. */
+export interface Curve {
+  frequency_hz: number;
+  unit?: string;
+  points: (number | null)[];
+  samples: [number, number | null][];
 }
 
 export interface Pixel {
@@ -206,6 +259,34 @@ export interface Pixel {
   report: PixelReport;
   values: NamedValue[];
   why: string;
+  flow?: Stage[];
+  phasors?: Phasor[];
+  curve?: Curve[];
+}
+
+export interface Cause {
+  cause: string;
+  mm: number | null;
+  changes?: boolean;
+}
+
+/** An error split by what makes it: each is the error with it less the error without it. */
+export interface Why {
+  type: "why";
+  id: number;
+  side?: Side;
+  u?: number;
+  v?: number;
+  region?: [number, number, number, number];
+  generation?: number;
+  frame?: number;
+  /** With a depth, and of all: what the means are of. */
+  pixels?: number;
+  count?: number;
+  error_m: number | null;
+  sigma_m: number | null;
+  causes: Cause[];
+  rest_mm: number | null;
 }
 
 export interface Fault {
@@ -231,7 +312,7 @@ export interface ScaleMessage {
   scale: Scale;
 }
 
-export type ServerMessage = Hello | State | ScaleMessage | Pixel | Fault | Stats | Controls | Done | Saved;
+export type ServerMessage = Hello | State | ScaleMessage | Pixel | Fault | Stats | Controls | Done | Saved | Why;
 
 /** Frames a second: the camera's own, as many as there can be, or a number. */
 export type Rate = "own" | "max" | number;
@@ -244,6 +325,8 @@ export type ClientMessage =
   | { type: "pause" }
   | { type: "seek"; frame: number }
   | { type: "pixel"; id: number; u: number; v: number; side?: Side }
+  | { type: "why"; id: number; side?: Side; u: number; v: number }
+  | { type: "why"; id: number; side?: Side; region: readonly [number, number, number, number] }
   | { type: "fit"; array: string }
   | { type: "set"; id: number; side: Side; key: string; text: string }
   | { type: "unset"; id: number; side: Side; key: string }

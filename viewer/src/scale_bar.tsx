@@ -38,8 +38,9 @@ function roomy(scale: Scale): Tick[] {
   return kept;
 }
 
-/** @param children  what stands above it, as wide as the bar */
-export function ScaleBar({ scale, array, shows, children }: { scale: Scale; array: string; shows: Shows; children?: ComponentChildren }) {
+/** @param marked    whether the value under the cursor stands on it
+ *  @param children  what stands above it, as wide as the bar */
+export function ScaleBar({ scale, array, shows, marked = true, children }: { scale: Scale; array: string; shows: Shows; marked?: boolean; children?: ComponentChildren }) {
   const canvas = useRef<HTMLCanvasElement>(null);
   useEffect(() => {
     if (canvas.current !== null) draw(canvas.current, scale);
@@ -53,7 +54,7 @@ export function ScaleBar({ scale, array, shows, children }: { scale: Scale; arra
       <div class="ramp">
         <canvas ref={canvas} width={steps} height={1} role="img"
           aria-label={`Colours from ${scale.ticks[0]?.label ?? scale.low} to ${scale.ticks[scale.ticks.length - 1]?.label ?? scale.high} ${unit}`} />
-        {value !== undefined && Number.isFinite(value) && <span class="marker" style={left(place_of(value, scale))} />}
+        {marked && value !== undefined && Number.isFinite(value) && <span class="marker" style={left(place_of(value, scale))} />}
       </div>
       <div class="ticks" aria-hidden="true">
         {roomy(scale).map((tick) => <span key={tick.at} style={left(place_of(tick.at, scale))}>{tick.label}</span>)}

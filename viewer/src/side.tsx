@@ -1,15 +1,17 @@
 // SPDX-FileCopyrightText: 2026 The tofray authors
 // SPDX-License-Identifier: Apache-2.0
-// Beside the pictures: controls, the pixel, two states. One at a time, or, where there is room, the controls beside the others.
+// Beside the pictures: controls, the pixel, pinned pixels, two states. One at a time, or, where there is room, the controls beside the others.
 
 import { ComparePanel } from "./compare_panel";
 import { ControlsPanel } from "./controls_panel";
 import { PixelPanel } from "./pixel_panel";
 import { tab, tab_shown, wide, type Tab } from "./store";
+import { WatchPanel } from "./watch_panel";
 
 const tabs: readonly { tab: Tab; said: string }[] = [
   { tab: "controls", said: "Controls" },
   { tab: "pixel", said: "Pixel" },
+  { tab: "watch", said: "Watch" },
   { tab: "compare", said: "A | B" },
 ];
 
@@ -40,7 +42,7 @@ export function Side() {
         ))}
       </div>
       <div id="tab-panel" role="tabpanel" aria-labelledby={`tab-${now}`} tabIndex={0}>
-        {now === "controls" ? <><h2 class="unseen">Controls</h2><ControlsPanel /></> : now === "pixel" ? <PixelPanel /> : <><h2 class="unseen">A | B</h2><ComparePanel /></>}
+        {now === "controls" ? <><h2 class="unseen">Controls</h2><ControlsPanel /></> : now === "pixel" ? <PixelPanel /> : now === "watch" ? <><h2>Watch list</h2><WatchPanel /></> : <><h2 class="unseen">A | B</h2><ComparePanel /></>}
       </div>
     </aside>
   );

@@ -20,7 +20,7 @@ export function Status() {
       <span role="status">{word(link.value)}</span>
       {link.value === "open" && figures !== undefined && (
         <span class="faint figures" title={`${figures.computed} frames computed, ${figures.sent} sent, ${figures.dropped} passed over`}>
-          {figures.fps.toFixed(figures.fps < 10 ? 1 : 0)} computed/s · {drawn_rate.value} drawn/s · {ms.toPrecision(2)} ms
+          {figures.fps.toFixed(figures.fps < 10 ? 1 : 0)} computed/s · {drawn_rate.value} drawn/s · {ms < 100 ? ms.toPrecision(2) : ms.toFixed(0)} ms
         </span>
       )}
     </div>

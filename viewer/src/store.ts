@@ -3,7 +3,8 @@
 // What the page knows: one place, read by all that is drawn.
 
 import { computed, signal, type Signal } from "@preact/signals";
-import type { Fault, Frame, FrameArray, Hello, Other, Pixel, Rate, Row, Scale, Side, State, Stats } from "./protocol";
+import type { Fault, Frame, FrameArray, Hello, Other, Pixel, Rate, Row, Scale, Side, State, Stats, Why } from "./protocol";
+import { exposure_text, exposures_of, kind_info, raw_array, raw_scale, raw_view, type Exposure, type RawKind } from "./raw";
 import { showing, whole, type Extent, type ViewPort } from "./view_port";
 
 /** `keyless`: this tab was opened without the address's key. `lost`: tried again; `gone`: nobody answers, still tried;
@@ -26,6 +27,8 @@ export const frame = signal<Frame | undefined>(undefined);             // the on
 export const frame_b = signal<Frame | undefined>(undefined);           // the second state's
 export const pixel = signal<Pixel | undefined>(undefined);
 export const pixel_b = signal<Pixel | undefined>(undefined);
+export const why = signal<Why | undefined>(undefined);                 // the split of an error that came last
+export const why_fault = signal<Fault | undefined>(undefined);
 export const drawn_rate = signal(0);
 
 /** The keys and their values in force, of the state of this generation. */
@@ -42,7 +45,7 @@ export const edited = signal<Side>("a");                               // the st
 export const search = signal("");
 export const open_groups = signal<ReadonlySet<string>>(new Set());
 
-export type Tab = "controls" | "pixel" | "compare";
+export type Tab = "controls" | "pixel" | "watch" | "compare";
 export const tab = signal<Tab>("controls");
 
 /** How two states are looked at. */
@@ -51,6 +54,19 @@ export const comparing = signal<Comparing>("beside");
 export const wipe = signal(0.5);                                       // A up to here, B behind it, in shares of a pane's width
 export const flipped = signal(false);                                  // B in the place of A
 export const difference_scales = signal<ReadonlyMap<string, Scale>>(new Map());
+
+export const raw_scales = signal<ReadonlyMap<RawKind, Scale>>(new Map());   // one for all raw frames of a kind; once chosen, it stays
+
+/** Pixels u0 … u1, v0 … v1 of A. */
+export interface Region {
+  u0: number;
+  v0: number;
+  u1: number;
+  v1: number;
+}
+
+export const region = signal<Region | undefined>(undefined);           // drawn on the panes
+export const region_from = signal<Cursor | undefined>(undefined);      // its first corner, while the keyboard looks for the other one
 
 export const histograms = signal<ReadonlySet<number>>(new Set());      // the panes that have one below
 export const rate = signal<Rate>("own");
@@ -90,21 +106,54 @@ export function set_letter_keys(on: boolean): void {
 
 /** The scale of an array now; undefined where it holds bits. */
 export function scale_of(array: string): Scale | undefined {
+  const raw = raw_view(array);
+  if (raw !== undefined) return raw_scales.value.get(raw.kind);
   return fitted.value.get(array) ?? hello.value?.panes.find((pane) => pane.array === array)?.scale ?? undefined;
 }
 
+export function is_bits(array: string): boolean {
+  return raw_view(array) === undefined && scale_of(array) === undefined;
+}
+
 export function title_of(array: string): string {
+  const raw = raw_view(array);
+  if (raw !== undefined) {
+    const title = kind_info(raw.kind).title;
+    if (raw.number === undefined) return `${title}, all raw frames`;
+    return [title, `raw frame ${raw.number}`, exposure_text(exposures("a")[raw.number])].filter((one) => one !== "").join(", ");
+  }
   return hello.value?.panes.find((pane) => pane.array === array)?.title ?? array;
 }
 
 /** This array of the frame that is drawn, where it came along. */
 export function array_of(of: Frame | undefined, name: string): FrameArray | undefined {
+  const raw = raw_view(name);
+  if (raw !== undefined) return of && raw_array(of, raw, (one) => wire_array(of, one));
+  return wire_array(of, name);
+}
+
+function wire_array(of: Frame | undefined, name: string): FrameArray | undefined {
   const id = hello.value?.arrays.findIndex((array) => array.name === name) ?? -1;
   return id < 0 ? undefined : of?.arrays.get(id);
 }
 
 export function frame_of(side: Side): Frame | undefined {
   return side === "a" ? frame.value : frame_b.value;
+}
+
+/** The raw frames of what is drawn. */
+export function exposures(side: Side): Exposure[] {
+  const of = frame_of(side);
+  const count = wire_array(of, "lit")?.values.length ?? hello.value?.phases ?? 0;
+  return exposures_of(count, (name) => wire_array(of, name));
+}
+
+/** One scale for all raw frames of a kind, as the frame that is drawn needs it. */
+export function fit_raw(kind: RawKind): void {
+  const of = frame.peek();
+  const all = array_of(of, kind);
+  const scale = all && raw_scale(kind, all, exposures_of(all.dims[0] ?? 0, (name) => wire_array(of, name)));
+  if (scale !== undefined) raw_scales.value = new Map(raw_scales.peek()).set(kind, scale);
 }
 
 /** The pixel of B at the same place: the same one where both have as many. */
@@ -149,7 +198,8 @@ function is_array(name: string | undefined): name is string {
 /** What the panes show: kept where the new server has it. */
 export function choose_arrays(of: Hello): void {
   const before = shown.value.length === 0 ? [undefined, undefined] : shown.value;
-  shown.value = before.map((kept, i) => (kept !== undefined && of.panes.some((one) => one.array === kept) ? kept : usual(of, i))).filter(is_array);
+  const offered = (name: string): boolean => raw_view(name) !== undefined || of.panes.some((one) => one.array === name);
+  shown.value = before.map((kept, i) => (kept !== undefined && offered(kept) ? kept : usual(of, i))).filter(is_array);
 }
 
 export function set_panes(count: number): void {

@@ -20,7 +20,7 @@ interface ForTests {
   readonly overrides_b: unknown;
   readonly steps: { past: number; future: number };
   readonly unanswered: number;
-  pane(i: number, side?: Side): { array: string; shows: string; width: number; height: number; pixels: Uint8ClampedArray } | undefined;
+  pane(i: number, side?: Side, raw_frame?: number): { array: string; shows: string; width: number; height: number; pixels: Uint8ClampedArray } | undefined;
   placement(i: number, side?: Side): { left: number; top: number; scale: number } | undefined;
 }
 
@@ -49,8 +49,8 @@ export function offer_to_tests(): void {
     get overrides_b() { return other.peek()?.overrides; },
     get steps() { return { past: past.peek().length, future: future.peek().length }; },
     get unanswered() { return unanswered.peek(); },
-    pane(i, side = "a") {
-      const picture = pictures.get(`${i}${side}`);
+    pane(i, side = "a", raw_frame) {
+      const picture = pictures.get(raw_frame === undefined ? `${i}${side}` : `${i}${side} ${raw_frame}`);
       const image = picture?.image;
       return picture && image && { array: picture.array, shows: picture.shows.peek(), width: image.width, height: image.height, pixels: image.data.slice() };
     },
