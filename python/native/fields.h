@@ -213,13 +213,14 @@ TOFRAY_FIELDS(SimulatorOptions, &SimulatorOptions::seed, &SimulatorOptions::nois
 template <class Call>
 void each_record(const Call& call) {
   const auto all = [&]<class... T>(std::tuple<T...>*) { (call(static_cast<T*>(nullptr)), ...); };
-  using Records = std::tuple<Curve, PixelMask, Sensor, Scatter, Lens, Filter, Pattern, Waveform, Area, Illumination, Pixel, Adc, RawFrame,
-                             Mode, ImageFilter, Decoding, Temperature, Interference, Calibration, SpreadSpectrum, Readout, AutoExposure,
-                             Camera, Material, Plane, Sphere, Box, Triangle, Cylinder, Rectangle, Disk, Capsule, Cone, Mesh, Rotation,
-                             Keyframe, Object, Ambient, TransientBins, Transport, Pose, CameraKeyframe, Override, CameraChoice, SceneFile,
-                             Scene, RanOn, Placement, PlacedObject, FrameRequest, ObjectInView, SceneFinding, SceneReport, InvalidPixels,
-                             AmbientCase, CameraQuestion, NoiseAt, NoiseAtDistances, CameraReport, ChainRawFrame, ChainPhase, UnwrapCandidate, PixelChain,
-                             BounceShare, PixelBounces, Validity, InputFile, FileRecord, Remark, Inputs, RunResult>;
+  using Records =
+      std::tuple<Curve, PixelMask, Sensor, Scatter, Lens, Filter, Pattern, Waveform, Area, Illumination, Pixel, Adc, RawFrame, Mode,
+                 ImageFilter, Decoding, Temperature, Interference, Calibration, SpreadSpectrum, Readout, AutoExposure, Camera, Material,
+                 Plane, Sphere, Box, Triangle, Cylinder, Rectangle, Disk, Capsule, Cone, Mesh, Rotation, Keyframe, Object, Ambient,
+                 TransientBins, Transport, Pose, CameraKeyframe, Override, CameraChoice, SceneFile, Scene, RanOn, Placement, PlacedObject,
+                 FrameRequest, ObjectInView, SceneFinding, SceneReport, InvalidPixels, AmbientCase, CameraQuestion, NoiseAt,
+                 NoiseAtDistances, CameraReport, ChainRawFrame, ChainPhase, UnwrapCandidate, PixelChain, BounceShare, PixelBounces,
+                 Validity, InputFile, FileRecord, Remark, Inputs, RunResult>;
   all(static_cast<Records*>(nullptr));
 }
 
