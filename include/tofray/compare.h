@@ -11,6 +11,7 @@
 /// Two images of depth against each other: a simulation, a truth (depth_of()), a recording.
 namespace tofray {
 
+/// What is compared, and how pixels are parted.
 struct CompareRequest {
   ImageRegion region;
   bool range = false;      ///< compare range_m; false: z_m
@@ -49,6 +50,7 @@ struct DifferencesOfFlag {
   Differences of;              ///< those that have a depth in both
 };
 
+/// A − B: of all pixels and of parts of them.
 struct Comparison {
   ImageRegion region;
   bool range = false;

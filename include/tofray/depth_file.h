@@ -11,6 +11,7 @@
 /// Images of depth out of files, of this simulator and of others. As load.h, of libtofray_files.
 namespace tofray {
 
+/// What a file does not say of itself.
 struct DepthFileOptions {
   double unit_m = 0;  ///< length of a file's 1; 0: 1 mm of a picture, 1 m of others
   /// fx, fy, cx, cy in pixels of a lens without distortion, for points of an image of z alone; none: what the file says, if anything.

@@ -25,15 +25,17 @@ struct QualityPreset {
   std::string target;  ///< what the camera looks at, and in which light
   std::string stated;  ///< what the maker says of its camera; empty: nothing that could be cited
 };
+/// Those that have a name.
 const std::vector<QualityPreset>& quality_presets();
 
+/// What is measured, and against what.
 struct QualityRequest {
   ImageRegion region;
   std::string preset;  ///< of quality_presets(): its region, where `region` is empty, and notes; empty: none
   double truth_m = 0;  ///< true z of the wall on the optical axis; 0: what the truth says, where it is given
 };
 
-/// Numbers of the frames of one region; NaN: unknown, see quality_metrics of the command line and of Python for what each needs.
+/// Numbers of the frames of one region; NaN: unknown, `tofray quality` says what each needs.
 /// A pixel is valid in a frame where z is finite and above 0, and no flag says that it is not. Those of RealSense are defined as in its
 /// Depth Quality Tool (rs-depth-quality), with each frame's own plane, and are the mean of the frames.
 struct Quality {

@@ -64,15 +64,15 @@ TEST(compare, says_what_is_between_two_images) {
 }
 
 TEST(compare, drops_no_pixel_without_saying_so) {
-  Depth a = z_image(5, 1, [](int, int) { return 1.0; });
+  Depth a = z_image(6, 1, [](int, int) { return 1.0; });
   Depth b = a;
   a.z_m[0] = nothing_there, a.flags[0] = flag_saturated;
-  b.z_m[1] = 0;
+  b.z_m[1] = b.z_m[5] = 0;
   a.z_m[2] = b.z_m[2] = nothing_there;
   const Comparison found = compare(a, b);
-  EXPECT_EQ(found.pixels, 5);
+  EXPECT_EQ(found.pixels, 6);
   EXPECT_EQ(found.both, 2);
-  EXPECT_EQ(found.only_a, 1);
+  EXPECT_EQ(found.only_a, 2);
   EXPECT_EQ(found.only_b, 1);
   EXPECT_EQ(found.neither, 1);
   EXPECT_TRUE(std::isnan(found.map_m[0]) && !std::isnan(found.map_m[3]));

@@ -114,6 +114,7 @@ TEST(quality, noise_is_split_into_what_changes_and_what_stays) {
   EXPECT_NEAR(found.total_noise_m, std::hypot(0.002, 0.003), 2e-4);
   // noise_m is of the range, which is noisier than z by 1/cos.
   EXPECT_NEAR(found.noise_chi2, 1.16, 0.05);
+  EXPECT_NEAR(quality({frames[0], frames[1]}).spatial_noise_m, 0.003, 4 * 0.003 / std::sqrt(2.0 * width * height));
   const Quality one = quality({frames[0]});
   EXPECT_NEAR(one.total_noise_m, std::hypot(0.002, 0.003), 2e-4);
   EXPECT_TRUE(std::isnan(one.temporal_noise_m) && std::isnan(one.temporal_noise_percent) && std::isnan(one.spatial_noise_m));

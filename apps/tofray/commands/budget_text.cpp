@@ -96,8 +96,10 @@ std::string summary_lines(const Camera& camera, const std::vector<BudgetRow>& ro
   text += line("noise-equivalent distance", std::isnan(summary.noise_at_1_m_m) ? "none: a white wall at 1 m saturates"
                                                                                : with_prefix(summary.noise_at_1_m_m, "m") +
                                                                                      ": range noise of a white wall at 1 m in the dark");
-  return text + line("responsivity", fmt::format("{:.3g} e/J of own light in the amplitude, {:.3g} e/J of ambient light{}",
-                                                 summary.correlated_e_per_j, summary.uncorrelated_e_per_j,
+  const std::string ambient = summary.uncorrelated_e_per_j == 0
+                                  ? "; ambient light adds nothing to it"
+                                  : fmt::format(", {:.3g} e/J of ambient light", summary.uncorrelated_e_per_j);
+  return text + line("responsivity", fmt::format("{:.3g} e/J of own light in the amplitude{}{}", summary.correlated_e_per_j, ambient,
                                                  summary.rejection ? fmt::format(": rejected {:.3g} to 1", *summary.rejection) : ""));
 }
 
