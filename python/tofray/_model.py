@@ -3343,6 +3343,6 @@ __all__ = [
     "Pose", "CameraKeyframe", "Override", "CameraChoice", "SceneFile", "Scene", "RanOn",
     "Placement", "PlacedObject", "FrameRequest", "ObjectInView", "SceneFinding", "SceneReport",
     "InvalidPixels", "AmbientCase", "CameraQuestion", "NoiseAt", "NoiseAtDistances", "CameraReport",
-    "ChainRawFrame", "ChainPhase", "UnwrapCandidate", "PixelChain", "BounceShare", "PixelBounces", "Validity",
-    "InputFile", "FileRecord", "Remark", "Inputs", "RunResult",
+    "ChainRawFrame", "ChainPhase", "UnwrapCandidate", "PixelChain", "BounceShare", "PixelBounces",
+    "Validity", "InputFile", "FileRecord", "Remark", "Inputs", "RunResult",
 ]

@@ -15,7 +15,7 @@
 namespace tofray::test {
 namespace {
 
-double number_of(const files::Json& json, const char* key) {
+double figure_of(const files::Json& json, const char* key) {
   double out = std::nan("");
   EXPECT_TRUE(json.find(key) != nullptr && json.find(key)->number(out)) << key;
   return out;
@@ -49,11 +49,11 @@ TEST(quality_command, says_what_the_library_says_of_all_frames_of_a_folder) {
   const Depth truth = depth_of(found[0].truth);
   const Quality expected = quality(depths, {{92, 66, 40, 41}, "", 1.001}, &truth);
   const files::Json& metrics = *json.find("metrics");
-  EXPECT_EQ(number_of(metrics, "temporal_noise_percent"), expected.temporal_noise_percent);
-  EXPECT_EQ(number_of(metrics, "z_accuracy_percent"), expected.z_accuracy_percent);
-  EXPECT_EQ(number_of(metrics, "bias_m"), expected.bias_m);
-  EXPECT_EQ(number_of(metrics, "noise_chi2"), expected.noise_chi2);
-  EXPECT_EQ(number_of(json, "frames"), 3);
+  EXPECT_EQ(figure_of(metrics, "temporal_noise_percent"), expected.temporal_noise_percent);
+  EXPECT_EQ(figure_of(metrics, "z_accuracy_percent"), expected.z_accuracy_percent);
+  EXPECT_EQ(figure_of(metrics, "bias_m"), expected.bias_m);
+  EXPECT_EQ(figure_of(metrics, "noise_chi2"), expected.noise_chi2);
+  EXPECT_EQ(figure_of(json, "frames"), 3);
   EXPECT_TRUE(has(result.out, "\"edge_step_m\": null")) << result.out;
 }
 
@@ -110,9 +110,9 @@ TEST(quality_command, reads_pictures_matrices_and_arrays_of_z) {
   const Result picture = run({"compare", "a.png", "a.csv", "--json"}, in_folder(folder.path()));
   ASSERT_EQ(picture.code, 0) << picture.err;
   const files::Json json = files::parse_json(picture.out, "compare");
-  EXPECT_EQ(number_of(json, "both"), 5);
-  EXPECT_EQ(number_of(json, "neither"), 1);
-  EXPECT_LT(number_of(*json.find("all"), "rmse_m"), 1e-6);
+  EXPECT_EQ(figure_of(json, "both"), 5);
+  EXPECT_EQ(figure_of(json, "neither"), 1);
+  EXPECT_LT(figure_of(*json.find("all"), "rmse_m"), 1e-6);
   const DepthFile spaces = load_depth((folder / "spaces.csv").native(), {1e-3, {{50, 60, 1, 0.5}}});
   EXPECT_NEAR(spaces.depth.z_m[5], 1.004, 1e-6);
   EXPECT_NEAR(spaces.depth.points_m[15], 1.004 * (2 - 1) / 50, 1e-6);
@@ -163,9 +163,9 @@ TEST(compare_command, compares_a_frame_with_its_truth_or_with_another) {
   const DepthFile step = load_depth((frames() / "step/frame.npz").native());
   const Comparison expected = compare(step.depth, depth_of(step.truth));
   const files::Json json = files::parse_json(own.out, "compare");
-  EXPECT_EQ(number_of(*json.find("all"), "bias_m"), expected.all.bias_m);
-  EXPECT_EQ(number_of(*json.find("edges"), "p95_m"), expected.edges.p95_m);
-  EXPECT_EQ(number_of(json, "chi2"), expected.chi2);
+  EXPECT_EQ(figure_of(*json.find("all"), "bias_m"), expected.all.bias_m);
+  EXPECT_EQ(figure_of(*json.find("edges"), "p95_m"), expected.edges.p95_m);
+  EXPECT_EQ(figure_of(json, "chi2"), expected.chi2);
   const Result pair =
       in_frames({"compare", "wall/frame_0000.npz", "wall/frame_0001.npz:truth", "--quantity", "range", "--shift", "fit", "--json"});
   ASSERT_EQ(pair.code, 0) << pair.err;
@@ -173,7 +173,7 @@ TEST(compare_command, compares_a_frame_with_its_truth_or_with_another) {
   request.range = request.fit_shift = true;
   const Comparison shifted = compare(load_depth((frames() / "wall/frame_0000.npz").native()).depth,
                                      depth_of(load_depth((frames() / "wall/frame_0001.npz").native()).truth), request);
-  EXPECT_EQ(number_of(files::parse_json(pair.out, "compare"), "shift_m"), shifted.shift_m);
+  EXPECT_EQ(figure_of(files::parse_json(pair.out, "compare"), "shift_m"), shifted.shift_m);
 }
 
 TEST(compare_command, shows_tables_and_writes_the_map) {

@@ -44,7 +44,7 @@ def main():
             found += 1
         for name, command in entries:
             folder = place.path / re.search(r" -o (\S+)", command)[1]
-            made = sorted(folder.glob("preview*.png"))
+            made = [folder] if folder.is_file() else sorted(folder.glob("preview*.png"))
             share = share_of_other_pixels(source / f"docs/images/{name}.png", made[0]) if made else 1.0
             print(f"docs/images/{name}.png: {share:.2%} of its pixels are others")
             found += share > MOST_OTHER

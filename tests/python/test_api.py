@@ -40,6 +40,8 @@ LEFT_OUT = {
     "InputRequest": "load_inputs' own words", "FrameFileRequest": "render's own words", "RunRequest": "render's own words",
     "RunWatch": "render's own words", "request_of_manifest": "render_again",
     "PixelArrays": "a frame", "pixel_arrays": "a frame", "has_bounces": "pixel_bounces gives none",
+    "correlation_curves": "what the viewer draws", "error_causes": "what the viewer's question `why` answers", "ErrorCauses": "likewise",
+    "ErrorCause": "likewise", "ErrorSplit": "likewise", "PixelRegion": "likewise",
     "version": "tofray.__version__",
     "pose_matrix": "Pose.matrix", "pose_from_matrix": "Pose.from_matrix",
     "ImageSize": "the shape of pixel_rays", "image_size": "the shape of pixel_rays",
