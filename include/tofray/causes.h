@@ -18,7 +18,7 @@ namespace tofray {
 struct ErrorCause {
   /// noise, multipath, wiggling, wrong_cycle, mixed_pixel, motion, scatter, crosstalk, filter, interference or drift
   std::string cause;
-  double error_m = 0;  ///< NaN where no pixel has a depth without the cause
+  double error_m = 0;  ///< mean over the pixels that have a depth with the cause and without it; NaN where none has
 };
 
 /// The error of z, split by cause. Means over the pixels that have a depth and a truth; NaN where there is none.
