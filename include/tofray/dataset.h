@@ -31,6 +31,7 @@ class Dataset {
   explicit Dataset(const std::string& file);
 
   [[nodiscard]] const std::string& name() const;
+  [[nodiscard]] const std::string& license() const;  ///< by its SPDX name; empty where the file says none
   [[nodiscard]] std::uint64_t samples() const;
   [[nodiscard]] std::uint64_t views() const;  ///< of each sample
   /// Combinations of the set's grids; 1 where it has none. Sample i has the combination i modulo this.

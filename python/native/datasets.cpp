@@ -14,6 +14,7 @@ void bind_datasets(py::module_& module) {
         return Dataset(file);
       }))
       .def_property_readonly("name", &Dataset::name)
+      .def_property_readonly("license", &Dataset::license)
       .def_property_readonly("samples", &Dataset::samples)
       .def_property_readonly("views", &Dataset::views)
       .def_property_readonly("combinations", &Dataset::combinations)

@@ -73,6 +73,11 @@ class Dataset:
         return self._set.name
 
     @property
+    def license(self) -> str:
+        """The licence by its SPDX name; empty where the file says none."""
+        return self._set.license
+
+    @property
     def views(self) -> int:
         """Poses of the camera for each sample."""
         return self._set.views

@@ -19,7 +19,7 @@ struct FrameInputs {
 
 /// Causes that can be switched off by what goes in.
 const std::vector<std::string_view>& causes_of_inputs();
-/// The same without a cause; none where it has none of it.
+/// A frame's inputs with a cause switched off; nothing where they do not have the cause.
 /// @param time_s  of the truth, where what moves stands still
 std::optional<FrameInputs> without(std::string_view cause, const FrameInputs& in, double time_s);
 

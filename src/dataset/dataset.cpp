@@ -47,6 +47,7 @@ struct Dataset::Impl {
 Dataset::Dataset(const std::string& file) : impl_(std::make_shared<const Impl>(file)) {}
 
 const std::string& Dataset::name() const { return impl_->set.name; }
+const std::string& Dataset::license() const { return impl_->set.license; }
 std::uint64_t Dataset::samples() const { return impl_->set.samples; }
 std::uint64_t Dataset::views() const { return impl_->set.views; }
 std::uint64_t Dataset::combinations() const { return impl_->fixed.combinations; }

@@ -8,6 +8,7 @@
 
 #include "base/text.h"
 #include "num/setup_math.h"
+#include "yaml/near_misses.h"
 
 namespace tofray::dataset {
 
@@ -53,12 +54,6 @@ void join(Amount& a, Amount& b, const base::Place& place) {
 
 }  // namespace
 
-const std::vector<std::string>& form_names() {
-  static const std::vector<std::string> names{"uniform", "log_uniform", "normal", "integer", "chance", "choice",
-                                              "grid",    "even",        "files",  "table",   "cap"};
-  return names;
-}
-
 /// A map that is a form, taken apart.
 struct Sample::Form {
   const Node* node = nullptr;
@@ -84,7 +79,7 @@ std::size_t form_key(const Node& node) {
   static const std::vector<std::string> beside{"within", "per", "weights"};
   std::size_t found = std::string::npos;
   for (std::size_t i = 0; i < node.keys.size(); ++i) {
-    if (!is_one_of(node.keys[i].text, form_names())) continue;
+    if (!is_one_of(node.keys[i].text, yaml::forms_of_sets())) continue;
     if (found != std::string::npos && node.keys[i].text != "normal" && node.keys[found].text != "normal")
       base::fail(node.keys[i].place, "two forms stand in one map: " + node.keys[found].text + " and " + node.keys[i].text,
                  "expected one of them");
@@ -110,8 +105,7 @@ Sample::Sample(const SetFile& set, const Fixed& fixed, std::uint64_t sample, std
     if (!is_name(set_.let.keys[i].text))
       base::fail(set_.let.keys[i].place, in_quotes(set_.let.keys[i].text) + " is no name for an expression",
                  "expected letters, digits and _, beginning with a letter; not min, max or sqrt");
-    if (!known_.contains(set_.let.keys[i].text) && !rows_.contains(set_.let.keys[i].text))
-      named(set_.let.keys[i].text, set_.let.keys[i].place);
+    know(set_.let.keys[i].text, set_.let.keys[i].place);
   }
 }
 
@@ -149,59 +143,62 @@ void Sample::note(const Form& form, const std::string& path, std::string text, d
   drawn_.push_back({path, form.name, std::move(text), value});
 }
 
-Named Sample::named(std::string_view name, const base::Place& place) {
-  const std::size_t dot = name.find('.');
-  const std::string own(name.substr(0, dot)), column = dot == std::string_view::npos ? "" : std::string(name.substr(dot + 1));
-  if (const auto found = known_.find(own); found != known_.end() && column.empty()) return found->second;
-  if (!rows_.contains(own) && !known_.contains(own)) {
-    const Node* node = set_.let.find(own);
-    if (node == nullptr) {
-      std::vector<std::string> names;
-      for (const auto& key : set_.let.keys) names.push_back(key.text);
-      base::fail(place, in_quotes(own) + " is no name of `let`" + base::did_you_mean(own, names),
-                 names.empty() ? "the set has no `let`" : "it has " + base::listed(names, "and"));
-    }
-    if (is_one_of(own, asked_))
-      base::fail(node->place, in_quotes(own) + " of `let` is made of itself", "expected names that do not go in a circle");
-    asked_.push_back(own);
-    if (const Node* table = node->kind == Node::Kind::map ? node->find("table") : nullptr) {
-      const auto read = fixed_.tables.find(table);
-      if (read == fixed_.tables.end() || node->keys.size() > 2)
-        wrong(*node, "table", "a CSV file's name, as in {table: lamps.csv}, and per alone beside it");
-      const Node* per = node->find("per");
-      if (node->keys.size() == 2 && per == nullptr) wrong(*node, "table", "per alone beside it");
-      const std::string path = "let/" + own;
-      claim(path, node->place);
-      const auto row = static_cast<std::size_t>(
-          integer(1, static_cast<std::int64_t>(read->second.size()) - 1, bits(per == nullptr ? Per::scene : per_of(*per), path)));
-      for (std::size_t i = 0; i < read->second[0].size(); ++i) rows_[own][read->second[0][i]] = read->second[row][i];
-      drawn_.push_back({path, "table", base::listed(read->second[row], "and"), static_cast<double>(row - 1)});
-      rows_[own];
-    } else {
-      Node value;
-      if (!resolve(*node, "let/" + own, value) || value.kind != Node::Kind::scalar)
-        base::fail(node->place, in_quotes(own) + " of `let` is no single value",
-                   "got " + yaml::describe(value) + ", expected a number, a word, or a form that makes one");
-      std::string why;
-      const auto amount = value.quoted ? std::nullopt : parse_amount(value.text, why);
-      known_.emplace(own, amount ? Named(*amount) : Named(value.text));
-    }
-    asked_.pop_back();
+void Sample::draw_row(const Node& node, const Node& table, const std::string& name) {
+  const auto read = fixed_.tables.find(&table);
+  const Node* per = node.find("per");
+  if (read == fixed_.tables.end() || node.keys.size() != (per == nullptr ? 1U : 2U))
+    wrong(node, "table", "a CSV file's name, as in {table: lamps.csv}, and per alone beside it");
+  const std::string path = "let/" + name;
+  claim(path, node.place);
+  const auto row = static_cast<std::size_t>(
+      integer(1, static_cast<std::int64_t>(read->second.size()) - 1, bits(per == nullptr ? Per::scene : per_of(*per), path)));
+  for (std::size_t i = 0; i < read->second[0].size(); ++i) rows_[name][read->second[0][i]] = read->second[row][i];
+  drawn_.push_back({path, "table", base::listed(read->second[row], "and"), static_cast<double>(row - 1)});
+}
+
+void Sample::know(const std::string& name, const base::Place& place) {
+  if (known_.contains(name) || rows_.contains(name)) return;
+  const Node* node = set_.let.find(name);
+  if (node == nullptr) {
+    std::vector<std::string> names;
+    for (const auto& key : set_.let.keys) names.push_back(key.text);
+    base::fail(place, in_quotes(name) + " is no name of `let`" + base::did_you_mean(name, names),
+               names.empty() ? "the set has no `let`" : "it has " + base::listed(names, "and"));
   }
-  const auto row = rows_.find(own);
+  if (is_one_of(name, asked_))
+    base::fail(node->place, in_quotes(name) + " of `let` is made of itself", "expected names that do not go in a circle");
+  asked_.push_back(name);
+  if (const Node* table = node->kind == Node::Kind::map ? node->find("table") : nullptr) {
+    draw_row(*node, *table, name);
+  } else {
+    Node value;
+    if (!resolve(*node, "let/" + name, value) || value.kind != Node::Kind::scalar)
+      base::fail(node->place, in_quotes(name) + " of `let` is no single value",
+                 "got " + yaml::describe(value) + ", expected a number, a word, or a form that makes one");
+    std::string why;
+    const auto amount = value.quoted ? std::nullopt : parse_amount(value.text, why);
+    known_.emplace(name, amount ? Named(*amount) : Named(value.text));
+  }
+  asked_.pop_back();
+}
+
+Named Sample::named(std::string_view written, const base::Place& place) {
+  const std::size_t dot = written.find('.');
+  const std::string name(written.substr(0, dot)), column = dot == std::string_view::npos ? "" : std::string(written.substr(dot + 1));
+  know(name, place);
+  const auto row = rows_.find(name);
   if (row == rows_.end()) {
-    if (!column.empty()) base::fail(place, in_quotes(own) + " of `let` is no table and has no columns", "expected its name alone");
-    return known_.find(own)->second;
+    if (!column.empty()) base::fail(place, in_quotes(name) + " of `let` is no table and has no columns", "expected its name alone");
+    return known_.find(name)->second;
   }
-  std::vector<std::string> columns;
-  for (const auto& [one, text] : row->second) columns.push_back(one);
   const auto cell = row->second.find(column);
   if (cell == row->second.end()) {
-    if (column.empty() && place.line == set_.let.place.line) return std::string();
+    std::vector<std::string> columns;
+    for (const auto& [one, text] : row->second) columns.push_back(one);
     base::fail(place,
-               column.empty() ? in_quotes(own) + " of `let` is a row of a table"
-                              : in_quotes(own) + " has no column " + in_quotes(column) + base::did_you_mean(column, columns),
-               "expected " + own + "." + base::listed(columns));
+               column.empty() ? in_quotes(name) + " of `let` is a row of a table"
+                              : in_quotes(name) + " has no column " + in_quotes(column) + base::did_you_mean(column, columns),
+               "expected " + name + "." + base::listed(columns));
   }
   std::string why;
   if (const auto amount = parse_amount(cell->second, why)) return *amount;

@@ -17,9 +17,6 @@
 /// Forms: maps such as {uniform: [1 m, 3 m]} that stand for a value by chance, and their values for one sample.
 namespace tofray::dataset {
 
-/// Keys of a form: uniform, log_uniform, normal, integer, chance, choice, grid, even, files, table, cap.
-const std::vector<std::string>& form_names();
-
 /// What a form is drawn anew for.
 enum class Per : std::uint8_t { set, device, scene, view };
 
@@ -66,8 +63,8 @@ class Sample {
   bool resolve(const yaml::Node& node, const std::string& path, yaml::Node& into);
   bool resolve_form(const Form& form, const std::string& path, yaml::Node& into);
   void resolve_items(const yaml::Node& node, const std::string& path, yaml::Node& into);
-  Amount amount(const yaml::Node& node, const std::string& path);
-  std::vector<Amount> amounts(const yaml::Node& list, std::size_t count, const std::string& path);
+  Amount amount(const yaml::Node& node, const std::string& form);
+  std::vector<Amount> amounts(const yaml::Node& list, std::size_t count, const std::string& form);
   std::vector<double> weights(const Form& form, std::size_t count) const;
   yaml::Node drawn_number(const Form& form, const yaml::Node& ends, const std::string& path);
   bool one_of(const Form& form, std::size_t chosen, const std::string& path, yaml::Node& into);
@@ -75,7 +72,11 @@ class Sample {
   bool draw_grid(const Form& form, const std::string& path, yaml::Node& into);
   void draw_cap(const Form& form, const std::string& path, yaml::Node& into);
   void draw_rotation(const yaml::Node& node, const std::string& path, yaml::Node& into);
-  Named named(std::string_view name, const base::Place& place);
+  void draw_row(const yaml::Node& node, const yaml::Node& table, const std::string& name);
+  /// Draws what stands under a name of `let`, unless it was drawn before.
+  void know(const std::string& name, const base::Place& place);
+  /// @param written  a name of `let`, or with "." a column of its row
+  Named named(std::string_view written, const base::Place& place);
   void note(const Form& form, const std::string& path, std::string text, double value);
 
   const SetFile& set_;

@@ -38,8 +38,6 @@ void need_map(const yaml::Node& node, const char* key, base::Faults& faults) {
 
 }  // namespace
 
-bool looks_like_a_set(const yaml::Node& root) { return root.find("scene") != nullptr && root.find("samples") != nullptr; }
-
 SetFile parse_set(std::string_view text, const std::string& source) {
   const yaml::Node root = yaml::parse_tree(text, source);
   if (root.kind == yaml::Node::Kind::map && root.find("scene") == nullptr && root.find("objects") != nullptr)

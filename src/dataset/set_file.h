@@ -20,7 +20,4 @@ struct SetFile {
 /// @throws Error with every fault of these keys; what stands in let, scene and set is looked at when it is drawn
 SetFile parse_set(std::string_view text, const std::string& source);
 
-/// Whether a text is a set's file and no scene: it has the keys `samples` and `scene`.
-bool looks_like_a_set(const yaml::Node& root);
-
 }  // namespace tofray::dataset

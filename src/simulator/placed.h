@@ -47,7 +47,7 @@ FrameSpan span_of(const FrameRequest& request, double frame_rate_hz);
 /// @param name  of the request, in messages
 /// @throws Error (bad_input; limit for counts) naming the member
 void check(const FrameRequest& request, const std::string& name);
-/// … and its objects.
+/// Which objects a request places, and whether it moves the camera. @throws Error (bad_input) for a name that is no object of the scene, that several have, or that is placed twice
 Placed placed_by(const FrameRequest& request, const Handles& handles, const std::string& name);
 
 /// Puts keyframes into the scene in place of what a good request says of objects, and of the camera.

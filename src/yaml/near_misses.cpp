@@ -65,12 +65,16 @@ bool keys_stand_beside(const Form& form, const Node& map, base::Faults& faults) 
   return true;
 }
 
+const std::vector<std::string>& forms_of_sets() {
+  static const std::vector<std::string> names{"uniform", "log_uniform", "normal", "integer", "chance", "choice",
+                                              "grid",    "even",        "files",  "table",   "cap"};
+  return names;
+}
+
 bool is_form_of_a_set(const Node& node, const std::string& label, base::Faults& faults) {
-  static const std::vector<std::string> forms{"uniform", "log_uniform", "normal", "integer", "chance",
-                                              "choice",  "grid",        "even",   "files",   "cap"};
   const bool expression = node.kind == Node::Kind::scalar && node.text.starts_with('=');
-  const bool form =
-      node.kind == Node::Kind::map && !node.keys.empty() && std::find(forms.begin(), forms.end(), node.keys[0].text) != forms.end();
+  const bool form = node.kind == Node::Kind::map && !node.keys.empty() &&
+                    std::find(forms_of_sets().begin(), forms_of_sets().end(), node.keys[0].text) != forms_of_sets().end();
   if (!expression && !form) return false;
   faults.add(node.place, label + " is drawn by chance, which a plain scene does not do",
              "got " + (expression ? in_quotes(node.text) : "the form " + in_quotes(node.keys[0].text)) +

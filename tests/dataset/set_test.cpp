@@ -143,7 +143,7 @@ TEST(set, draws_rows_of_a_table_and_files) {
   const Written file(
       set_of("    - sphere: {name: a, center: [0, 0, 2 m], radius: \"= thing.radius\", material: \"= thing.material\"}\n    - mesh: {name: "
              "m, file: {files: \"parts/*.obj\"}, reflectivity: 0.5}\n",
-             "let: {thing: {table: things.csv}}\n"));
+             "let:\n  wall: {uniform: [1 m, 2 m]}\n  thing: {table: things.csv}\n"));
   write_file(file.folder().file("things.csv"), "radius, material\n5 cm, wood\n20 cm, paper\n# a remark\n");
   std::filesystem::create_directory(file.folder().file("parts"));
   write_file(file.folder().file("parts/b.obj"), "v 0 0 1\nv 1 0 1\nv 0 1 1\nf 1 2 3\n");

@@ -59,7 +59,7 @@ void all() {
   std::ofstream(folder / "set.yaml") << "{name: t, samples: 3, scene: {objects: [{sphere: {name: b, center: [0, 0, 1], "
                                         "radius: {uniform: [1 cm, 9 cm]}, reflectivity: 0.5}}]}}";
   const tofray::Dataset set((folder / "set.yaml").native());
-  expect(set.name() == "t" && set.samples() == 3 && set.views() == 1 && set.combinations() == 1, "Dataset");
+  expect(set.license().empty() && set.name() == "t" && set.samples() == 3 && set.views() == 1 && set.combinations() == 1, "Dataset");
   expect(set.scene_yaml(1).find("radius: " + set.drawn(1).at(0).text) != std::string::npos, "Dataset::scene_yaml, drawn");
   expect(set.scene(1).objects.size() == 1 && set.noise_seed(1) != set.noise_seed(2), "Dataset::scene, noise_seed");
   std::filesystem::remove_all(folder);

@@ -15,6 +15,7 @@ import tofray
 
 TEXT = """
 name: trial
+license: CC0-1.0
 samples: 300
 seed: 1099511627777
 views: 2
@@ -76,6 +77,7 @@ def test_a_sample_is_what_render_makes_of_its_scene(dataset: tofray.Dataset, tmp
 
 
 def test_it_is_a_sequence_of_frames(dataset: tofray.Dataset) -> None:
+    assert dataset.license == "CC0-1.0"
     assert (dataset.name, len(dataset), dataset.views, dataset.combinations) == ("trial", 300, 2, 1)
     np.testing.assert_array_equal(dataset[-1].raw.raw, dataset[299].raw.raw)
     assert (dataset[0].raw.raw != dataset[1].raw.raw).mean() > 0.5

@@ -160,6 +160,7 @@ int run_check_of_set(const Dataset& set, const Options& options) {
     files::Json json = files::Json::object();
     json.set("good", true)
         .set("name", set.name())
+        .set("license", set.license())
         .set("samples", set.samples())
         .set("views", set.views())
         .set("combinations", set.combinations());
@@ -168,6 +169,7 @@ int run_check_of_set(const Dataset& set, const Options& options) {
   }
   std::string text = fmt::format("{}: {} samples", base::printable(set.name()), set.samples());
   if (set.views() > 1) text += fmt::format(" of {} views", set.views());
+  if (!set.license().empty()) text += ", " + base::printable(set.license());
   if (set.combinations() > 1) text += fmt::format(", {} combinations of its grids", set.combinations());
   text += fmt::format("; good in {} that were drawn\n", drawn);
   std::size_t widest = 4, form = 4;
