@@ -37,7 +37,7 @@ class Frames:
         """The scene's own, shifted by up to shift_m along each axis; it looks at a point that is shifted likewise."""
         own = self.scene.camera.pose
         shifts = np.random.default_rng([self.seed, index]).uniform(-self.shift_m, self.shift_m, (2, 3))
-        (x, y, z), (u, v, w) = (np.array([own.position, own.look_at]) + shifts).tolist()
+        x, y, z, u, v, w = (float(number) for number in (np.array([own.position, own.look_at]) + shifts).flat)
         return tofray.Pose(position=(x, y, z), look_at=(u, v, w), up=own.up)
 
     def batch(self, indices: Sequence[int]) -> tuple[NDArray[np.int16], NDArray[np.float32]]:

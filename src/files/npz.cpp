@@ -67,11 +67,18 @@ Entry checked_entry(zip_t* archive, zip_uint64_t index, std::size_t file_bytes, 
           static_cast<std::size_t>(status.comp_size)};
 }
 
+/// What libzip says of an entry that it cannot read.
+[[noreturn]] void refuse_entry(const std::string& here, zip_file_t* file) {
+  zip_error_t* error = zip_file_get_error(file);
+  if (zip_error_code_zip(error) == ZIP_ER_MEMORY) throw std::bad_alloc();
+  refuse(here, fmt::format("the entry is damaged ({})", zip_error_strerror(error)));
+}
+
 /// Reads until the bytes are full or the entry ends. @return whether they are full
 bool fill(zip_file_t* file, std::string& bytes, std::size_t& have, const std::string& here) {
   while (have < bytes.size()) {
     const zip_int64_t got = zip_fread(file, bytes.data() + have, bytes.size() - have);
-    if (got < 0) refuse(here, fmt::format("the entry is damaged ({})", zip_error_strerror(zip_file_get_error(file))));
+    if (got < 0) refuse_entry(here, file);
     if (got == 0) return false;
     have += static_cast<std::size_t>(got);
   }
@@ -94,7 +101,7 @@ std::string unpacked(zip_t* archive, const Entry& entry, const std::string& here
   if (!full) refuse(here, "the entry is cut short");
   char beyond = 0;
   const zip_int64_t more = zip_fread(file.get(), &beyond, 1);  // at the end the CRC is compared
-  if (more < 0) refuse(here, fmt::format("the entry is damaged ({})", zip_error_strerror(zip_file_get_error(file.get()))));
+  if (more < 0) refuse_entry(here, file.get());
   if (more > 0) refuse(here, "the entry unpacks to more than its declared size");
   return bytes;
 }
@@ -105,6 +112,7 @@ Archive open_archive(std::string_view file, const std::string& where) {
   zip_error_t error;
   zip_error_init(&error);
   const auto refuse_zip = [&] {
+    if (zip_error_code_zip(&error) == ZIP_ER_MEMORY) throw std::bad_alloc();
     const std::string why = zip_error_strerror(&error);
     zip_error_fini(&error);
     refuse(where, fmt::format("this is not a whole .npz file ({})\n  expected a zip of .npy arrays, as numpy.savez writes", why));
