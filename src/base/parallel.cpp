@@ -10,8 +10,10 @@
 
 namespace tofray::base {
 
+int threads_of(int wanted) { return wanted > 0 ? wanted : static_cast<int>(std::max(1U, std::thread::hardware_concurrency())); }
+
 void in_parallel(int count, int threads, const std::function<void(int)>& unit) {
-  const int wanted = std::min(count, threads > 0 ? threads : static_cast<int>(std::max(1U, std::thread::hardware_concurrency())));
+  const int wanted = std::min(count, threads_of(threads));
   std::atomic<int> next = 0;
   const auto work = [&] {
     for (int i = next++; i < count; i = next++) unit(i);

@@ -5,6 +5,9 @@
 
 namespace tofray::base {
 
+/// How many threads a number means: itself, or one per core for 0.
+int threads_of(int wanted);
+
 /// Calls unit(0) … unit(count − 1), each once, in any order, on several threads at once.
 /// @param threads  at most; 0: one per core
 void in_parallel(int count, int threads, const std::function<void(int)>& unit);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <map>
 
 #include "base/text.h"
 #include "dataset/forms.h"
@@ -32,9 +33,17 @@ std::vector<std::string> cells_of(std::string_view line) {
   return cells;
 }
 
-std::vector<std::vector<std::string>> table_of(const Node& name, const std::string& folder) {
+/// Of all files that were read, by name.
+using Inputs = std::map<std::string, FileRecord>;
+
+void remember(Inputs& inputs, const std::string& name, const std::string& bytes) {
+  inputs.insert_or_assign(name, FileRecord{name, bytes.size(), files::sha256_hex(bytes)});
+}
+
+std::vector<std::vector<std::string>> table_of(const Node& name, const std::string& folder, Inputs& inputs) {
   std::string found;
   const std::string text = files::read_reference(name.text, folder, "", name.place, found);
+  remember(inputs, name.text, text);
   std::vector<std::vector<std::string>> rows;
   for (std::size_t begin = 0, line = 1; begin < text.size(); ++line) {
     const std::size_t end = std::min(text.find('\n', begin), text.size());
@@ -74,7 +83,7 @@ void match(const fs::path& folder, const std::string& prefix, std::string_view p
   }
 }
 
-std::vector<std::string> files_of(const Node& pattern, const std::string& folder) {
+std::vector<std::string> files_of(const Node& pattern, const std::string& folder, Inputs& inputs) {
   if (pattern.text.starts_with('/') || ("/" + pattern.text + "/").find("/../") != std::string::npos)
     base::fail(pattern.place, "files lie beside the set's file or below: " + base::in_quotes(pattern.text),
                "expected a pattern such as \"assets/*.glb\"");
@@ -86,8 +95,8 @@ std::vector<std::string> files_of(const Node& pattern, const std::string& folder
   std::vector<std::pair<std::string, std::string>> by_content;
   for (const std::string& name : names) {
     std::string found;
-    by_content.emplace_back(files::sha256_hex(files::read_reference(name, folder, "", pattern.place, found, base::limit::mesh_bytes)),
-                            name);
+    remember(inputs, name, files::read_reference(name, folder, "", pattern.place, found, base::limit::mesh_bytes));
+    by_content.emplace_back(inputs[name].sha256, name);
   }
   std::sort(by_content.begin(), by_content.end());
   names.clear();
@@ -106,11 +115,17 @@ class Finder {
       const Node& item = node.items[i];
       const std::string_view key = form ? std::string_view(node.keys[i].text) : std::string_view();
       if (key == "grid") grid(item, node.keys[i].place, in_choice);
-      if (key == "table" && item.kind == Node::Kind::scalar) fixed_.tables.emplace(&item, table_of(item, set_.folder));
-      if (key == "files" && item.kind == Node::Kind::scalar) fixed_.files.emplace(&item, files_of(item, set_.folder));
+      if (key == "table" && item.kind == Node::Kind::scalar) fixed_.tables.emplace(&item, table_of(item, set_.folder, inputs_));
+      if (key == "files" && item.kind == Node::Kind::scalar) fixed_.files.emplace(&item, files_of(item, set_.folder, inputs_));
       walk(item, in_choice || key == "choice" || key == "grid");
     }
   }
+  void finish() {
+    multiply();
+    for (auto& [name, record] : inputs_) fixed_.inputs.push_back(std::move(record));
+  }
+
+ private:
   void multiply() {
     for (auto one = order_.rbegin(); one != order_.rend(); ++one) {
       Fixed::Grid& grid = fixed_.grids[*one];
@@ -122,8 +137,6 @@ class Finder {
       fixed_.combinations *= grid.size;
     }
   }
-
- private:
   void grid(const Node& item, const base::Place& place, bool in_choice) {
     if (in_choice)
       base::fail(place, "a grid stands in a choice or in another grid",
@@ -149,6 +162,7 @@ class Finder {
   const SetFile& set_;
   Fixed& fixed_;
   std::vector<const Node*> order_;
+  Inputs inputs_;
 };
 
 }  // namespace
@@ -157,7 +171,7 @@ Fixed fixed_of(const SetFile& set) {
   Fixed fixed;
   Finder finder(set, fixed);
   for (const Node* part : {&set.let, &set.scene, &set.set}) finder.walk(*part, false);
-  finder.multiply();
+  finder.finish();
   return fixed;
 }
 

@@ -12,6 +12,7 @@
 #include "dataset/expression.h"
 #include "dataset/set_file.h"
 #include "tofray/dataset.h"
+#include "tofray/file_record.h"
 #include "yaml/tree.h"
 
 /// Forms: maps such as {uniform: [1 m, 3 m]} that stand for a value by chance, and their values for one sample.
@@ -29,6 +30,7 @@ struct Fixed {
   std::map<const yaml::Node*, Grid> grids;
   std::map<const yaml::Node*, std::vector<std::vector<std::string>>> tables;  ///< the names of the columns first
   std::map<const yaml::Node*, std::vector<std::string>> files;                ///< by SHA-256 of their bytes
+  std::vector<FileRecord> inputs;                                             ///< all tables and files, by name, each once
   std::uint64_t combinations = 1;
 };
 

@@ -24,6 +24,8 @@ const model::FileForm& set_form() {
           absent("views", model::integer({1, most_views}, "4"), "poses of the camera for each scene"),
           absent("devices", model::integer({1, most_devices}, "16"), "specimens of the camera that take turns"),
           absent("let", model::Form{}, "numbers by name, for expressions"),
+          absent("arrays", model::list(model::text("the name of an array, or a pattern", "gt_*"), 1, 64), "what is stored of each sample"),
+          absent("holes", model::number(base::Dimension::fraction, {0, 1}, "0.1 %"), "the share of samples that may fail"),
           required("scene", model::Form{}, "a scene in which any value may be a form"),
           absent("set", model::Form{}, "keys and values as --set takes them; of the camera, too"),
       }),
@@ -53,6 +55,9 @@ SetFile parse_set(std::string_view text, const std::string& source) {
     if (value[key] && value[key].good) into = static_cast<std::uint64_t>(value[key].number);
   };
   whole("samples", out.samples), whole("seed", out.seed), whole("views", out.views), whole("devices", out.devices);
+  if (value["arrays"])
+    for (const yaml::Value& one : value["arrays"].items) out.arrays.push_back(one.text);
+  if (value["holes"] && value["holes"].good) out.holes = value["holes"].number;
   if (const yaml::Node* let = root.find("let")) out.let = *let;
   if (const yaml::Node* scene = root.find("scene")) out.scene = *scene;
   if (const yaml::Node* set = root.find("set")) out.set = *set;
@@ -61,6 +66,11 @@ SetFile parse_set(std::string_view text, const std::string& source) {
     faults.add(out.scene.place, "scene is not what belongs here",
                "got " + yaml::describe(out.scene) + ", expected a map with the keys of a scene");
   faults.raise();
+  out.text = text;
+  yaml::Node laws = root;
+  const auto samples = static_cast<std::ptrdiff_t>(root.find("samples") - root.items.data());
+  laws.keys.erase(laws.keys.begin() + samples), laws.items.erase(laws.items.begin() + samples);
+  out.laws = yaml::flow_text(laws);
   return out;
 }
 

@@ -3,6 +3,7 @@
 #pragma once
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include "yaml/tree.h"
 
@@ -14,7 +15,12 @@ struct SetFile {
   std::string folder;  ///< where tables and files beside it are looked for
   std::string name, license;
   std::uint64_t samples = 0, seed = 0, views = 1, devices = 1;
-  yaml::Node let, scene, set;  ///< forms in them, not yet drawn
+  std::vector<std::string> arrays;  ///< names and patterns of what is stored; empty: the usual ones
+  double holes = 0;                 ///< the share of samples that may fail
+  yaml::Node let, scene, set;       ///< forms in them, not yet drawn
+  std::string text;                 ///< the whole file
+  /// All of it that the samples are made of, in one form whatever comments and blanks the file has: without `samples`.
+  std::string laws;
 };
 
 /// @throws Error with every fault of these keys; what stands in let, scene and set is looked at when it is drawn

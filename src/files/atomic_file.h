@@ -17,6 +17,7 @@ struct FileCalls {
   int (*sync)(int file);
   int (*close)(int file);
   int (*rename_at)(int from_folder, const char* from, int to_folder, const char* to);
+  int (*link_at)(int from_folder, const char* from, int to_folder, const char* to);
 };
 
 /// The real ones.

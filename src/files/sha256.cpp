@@ -4,27 +4,43 @@
 
 #include <openssl/evp.h>
 
-#include <memory>
 #include <new>
 
 namespace tofray::files {
 
-std::string sha256_hex(std::span<const std::string_view> parts) {
-  const std::unique_ptr<EVP_MD_CTX, decltype(&EVP_MD_CTX_free)> context(EVP_MD_CTX_new(), &EVP_MD_CTX_free);
+struct Sha256::State {
+  std::unique_ptr<EVP_MD_CTX, decltype(&EVP_MD_CTX_free)> context{EVP_MD_CTX_new(), &EVP_MD_CTX_free};
+  /// Nothing can fail here but that OpenSSL fetches its own memory.
+  void need(bool good) const {
+    if (!good) throw std::bad_alloc();
+  }
+};
+
+Sha256::Sha256() : state_(std::make_unique<State>()) {
+  state_->need(state_->context != nullptr && EVP_DigestInit_ex(state_->context.get(), EVP_sha256(), nullptr) == 1);
+}
+Sha256::~Sha256() = default;
+
+void Sha256::add(std::string_view bytes) { state_->need(EVP_DigestUpdate(state_->context.get(), bytes.data(), bytes.size()) == 1); }
+
+std::string Sha256::hex() {
   unsigned char digest[EVP_MAX_MD_SIZE];
   unsigned int length = 0;
-  bool good = context != nullptr && EVP_DigestInit_ex(context.get(), EVP_sha256(), nullptr) == 1;
-  for (const std::string_view part : parts) good = good && EVP_DigestUpdate(context.get(), part.data(), part.size()) == 1;
-  if (!good || EVP_DigestFinal_ex(context.get(), digest, &length) != 1)
-    throw std::bad_alloc();  // nothing else can fail here: OpenSSL fetches its own memory
+  state_->need(EVP_DigestFinal_ex(state_->context.get(), digest, &length) == 1);
   constexpr const char* digits = "0123456789abcdef";
   std::string text;
-  text.reserve(2 * length);
+  text.reserve(std::size_t{2} * length);
   for (unsigned int i = 0; i < length; ++i) {
     text += digits[digest[i] >> 4];
     text += digits[digest[i] & 15];
   }
   return text;
+}
+
+std::string sha256_hex(std::span<const std::string_view> parts) {
+  Sha256 sum;
+  for (const std::string_view part : parts) sum.add(part);
+  return sum.hex();
 }
 
 std::string sha256_hex(std::string_view bytes) { return sha256_hex({&bytes, 1}); }

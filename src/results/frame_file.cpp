@@ -44,23 +44,18 @@ std::vector<double> distortion_of(const Lens& lens) {
   return out;
 }
 
-/// What a file has beside the frame's own arrays; it must live as long as the views.
-struct Beside {
-  std::vector<double> time, matrix, distortion, pose;
+std::vector<double> matrix_of(const Lens& lens) { return {lens.fx_px, 0, lens.cx_px, 0, lens.fy_px, lens.cy_px, 0, 0, 1}; }
 
-  Beside(const Frame& frame, const Lens& lens, const PoseMatrix& camera_pose)
-      : time{frame.truth.time_s},
-        matrix{lens.fx_px, 0, lens.cx_px, 0, lens.fy_px, lens.cy_px, 0, 0, 1},
-        distortion(distortion_of(lens)),
-        pose(camera_pose.begin(), camera_pose.end()) {}
-};
+}  // namespace
 
-/// Views of the arrays that are there and wanted, in the table's order. Empty ones (ground truth that was not asked for) are left out.
-std::vector<NpyView> views_of(const Frame& frame, const Beside& beside, const ArrayChoice& choice) {
-  std::vector<NpyView> views;
+FrameArrays::FrameArrays(const Frame& frame, const Camera& camera, const PoseMatrix& camera_pose, const ArrayChoice& choice)
+    : time_{frame.truth.time_s},
+      matrix_(matrix_of(base::as_read_out(camera).lens)),
+      distortion_(distortion_of(base::as_read_out(camera).lens)),
+      pose_(camera_pose.begin(), camera_pose.end()) {
   const auto add = [&](const char* name, const NpyShape& shape, const auto& data, bool there = true) {
     const ArrayRow& row = *find_array(name);
-    if (there && !data.empty() && choice.has(row)) views.push_back(npy_view(name, shape, data, row.type));
+    if (there && !data.empty() && choice.has(row)) views_.push_back(npy_view(name, shape, data, row.type));
   };
 #define TOFRAY_ADD(name, part, member, element, shape, ...)                                                                          \
   add(#name, extents(ArrayShape::shape, frame.raw.phases, frame.truth.bins, frame.part.height, frame.part.width), frame.part.member, \
@@ -68,21 +63,18 @@ std::vector<NpyView> views_of(const Frame& frame, const Beside& beside, const Ar
   TOFRAY_RAW_ARRAYS(TOFRAY_ADD)
   TOFRAY_EXPOSURE_ARRAYS(TOFRAY_ADD)
   TOFRAY_DEPTH_ARRAYS(TOFRAY_ADD)
-  add("gt_time_s", {}, beside.time, frame.truth.width > 0);
+  add("gt_time_s", {}, time_, frame.truth.width > 0);
   TOFRAY_TRUTH_ARRAYS(TOFRAY_ADD)
 #undef TOFRAY_ADD
-  add("camera_matrix", {3, 3}, beside.matrix);
-  add("distortion", {beside.distortion.size()}, beside.distortion);
-  add("camera_pose", {4, 4}, beside.pose);
-  return views;
+  add("camera_matrix", {3, 3}, matrix_);
+  add("distortion", {distortion_.size()}, distortion_);
+  add("camera_pose", {4, 4}, pose_);
 }
-
-}  // namespace
 
 void frame_npz_bytes(const Frame& frame, const Camera& camera, const PoseMatrix& camera_pose, const std::string& meta,
                      const FrameFileOptions& options, std::string& file) {
-  const Beside beside(frame, base::as_read_out(camera).lens, camera_pose);
-  std::vector<NpyView> views = views_of(frame, beside, options.arrays);
+  const FrameArrays arrays(frame, camera, camera_pose, options.arrays);
+  std::vector<NpyView> views = arrays.views();
   // a 0-d string; numpy has no strings of length 0
   const std::string meta_bytes = utf32_of(meta.empty() ? "{}" : meta);
   for (const NamedArray& one : options.kept) {

@@ -25,6 +25,21 @@ struct FrameFileOptions {
   std::span<const files::NamedArray> kept = {};
 };
 
+/// Views of a frame's arrays that are there and wanted, and of the few numbers of the camera that go with them, in the table's order. Empty arrays (ground truth that was
+/// not asked for) are left out.
+class FrameArrays {
+ public:
+  /// @param frame  has to live as long as this
+  FrameArrays(const Frame& frame, const Camera& camera, const PoseMatrix& camera_pose, const ArrayChoice& choice);
+  FrameArrays(const FrameArrays&) = delete;
+  FrameArrays& operator=(const FrameArrays&) = delete;
+  [[nodiscard]] const std::vector<files::NpyView>& views() const { return views_; }
+
+ private:
+  std::vector<double> time_, matrix_, distortion_, pose_;
+  std::vector<files::NpyView> views_;
+};
+
 /// The bytes of frame.npz: raw data, depth, ground truth (where the frame has it), camera and `meta`, a JSON string (see meta.h).
 /// The same arguments give the same bytes.
 std::string frame_npz_bytes(const Frame& frame, const Camera& camera, const PoseMatrix& camera_pose, const std::string& meta,

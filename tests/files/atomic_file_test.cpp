@@ -51,7 +51,8 @@ const FileCalls faulty_calls{
       if (struck) errno = code;
       return struck ? -1 : result;
     },
-    [](int from, const char* a, int to, const char* b) { return strikes("rename") ? -1 : ::renameat(from, a, to, b); }};
+    [](int from, const char* a, int to, const char* b) { return strikes("rename") ? -1 : ::renameat(from, a, to, b); },
+    [](int from, const char* a, int to, const char* b) { return ::linkat(from, a, to, b, 0); }};
 
 /// Somebody who may not write everywhere, even where the tests run as root.
 class AsNobody {

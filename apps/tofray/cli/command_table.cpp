@@ -204,22 +204,33 @@ std::vector<Command> make() {
        .run = run_budget,
        .completes = "<profiles> <files>"},
       {.name = "dataset",
-       .usage = "check|scene|preview SET.yaml [SAMPLE] [options]",
-       .summary = "a set of scenes in which values are drawn: what is drawn, one of its scenes, pictures of the first ones",
+       .usage = "check|scene|preview|plan SET.yaml [SAMPLE] [options], or run|status|verify|merge FOLDER [options]",
+       .summary = "sets of scenes in which values are drawn: look at one, make it on any number of machines, check what is there",
        .examples = "tofray dataset check corners.yaml                # what varies, by what law, from where to where\n"
                    "tofray dataset scene corners.yaml 12 > twelve.yaml    # the scene of sample 12, to render or to look at\n"
                    "tofray dataset scene corners.yaml 12-3           # its view 3, where a sample has several\n"
-                   "tofray dataset preview corners.yaml -o corners.png    # the first 16 samples\n",
+                   "tofray dataset preview corners.yaml -o corners.png    # the first 16 samples\n"
+                   "tofray dataset plan corners.yaml -o corners      # how large and how slow it is; writes corners/plan.json\n"
+                   "tofray dataset run corners                       # all shards that are missing; go on with the same command\n"
+                   "tofray dataset run corners --part 3/200          # part 3 of 200, from 0 on: for jobs on a cluster\n"
+                   "tofray dataset status corners\n"
+                   "tofray dataset verify corners --recompute 1%     # read all, compute one in a hundred again\n"
+                   "tofray dataset merge corners                     # index, statistics, SHA256SUMS\n",
        .more = "SET.yaml has the keys name, samples, seed and scene, a scene in which any value may be a form: {uniform: [1 m, 3 m]},\n"
                "{choice: [a, b]}, \"= wall - 0.5 m\". What is drawn depends on the seed, the sample and the key's path alone: sample 12 is "
                "the same\n"
                "on every machine, and another key or object changes no other draw.\n"
-               "docs/datasets.md has all forms.\n",
-       .options = {"--output", "--theme", "--scale", "--threads", "--json", "--quiet"},
+               "Shards are tars of .npy and .json files. Whoever is killed, or makes a shard that another one makes, too, leaves the same\n"
+               "bytes: run the same command again. Exit code 1: run had more holes than the set allows, status or verify found something "
+               "missing or\n"
+               "damaged.\n"
+               "docs/datasets.md has all forms, and what lies in a shard.\n",
+       .options = {"--output", "--pilot", "--shard-samples", "--part", "--shards", "--recompute", "--partial", "--theme", "--scale",
+                   "--threads", "--json", "--quiet"},
        .least_words = 2,
        .most_words = 3,
        .run = run_dataset,
-       .completes = "check scene preview <files>"},
+       .completes = "check scene preview plan run status verify merge <files>"},
       {.name = "quality",
        .usage = "FRAMES... [options]",
        .summary = "how good depth is in the words of makers: fill rate, plane fit, Z accuracy, noise over frames and pixels, edges",

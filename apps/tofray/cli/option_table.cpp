@@ -448,6 +448,57 @@ std::vector<OptionSpec> measuring_specs() {
   };
 }
 
+void take_part(Options& o, const std::string& value) {
+  const std::size_t slash = value.find('/');
+  const std::string expected = "which part of how many, as in 0/4, the first, to 3/4, the last";
+  if (slash == std::string::npos) refuse("--part", value, expected);
+  constexpr std::uint64_t most = 1'000'000'000;
+  o.shards.parts = whole("--part", value.substr(slash + 1), 1, most, expected);
+  o.shards.part =
+      whole("--part", value.substr(0, slash), 0, o.shards.parts - 1, fmt::format("0 to {} of {}", o.shards.parts - 1, o.shards.parts));
+}
+
+void take_shards(Options& o, const std::string& value) {
+  constexpr std::uint64_t most = 1'000'000'000, most_of_range = 1'000'000;
+  const std::string expected = "numbers and ranges between commas, as in 3,7-9";
+  for (std::size_t from = 0; from <= value.size();) {
+    const std::size_t end = std::min(value.find(',', from), value.size());
+    const std::string word = value.substr(from, end - from);
+    const std::size_t dash = word.find('-');
+    const std::uint64_t first = whole("--shards", word.substr(0, dash), 0, most, expected);
+    const std::uint64_t last =
+        dash == std::string::npos ? first : whole("--shards", word.substr(dash + 1), first, first + most_of_range, expected);
+    for (std::uint64_t shard = first; shard <= last; ++shard) o.shards.list.push_back(shard);
+    from = end + 1;
+  }
+}
+
+void take_share(Options& o, const std::string& value) {
+  const base::Quantity share = base::parse_quantity(value, base::Dimension::fraction);
+  const bool number = share.status == base::Quantity::Status::good || share.status == base::Quantity::Status::bare;
+  if (!number || !(share.value >= 0 && share.value <= 1)) refuse("--recompute", value, "a share of the samples, as in 1% or 0.01");
+  o.shards.recompute = share.value;
+}
+
+/// Of `tofray dataset`.
+std::vector<OptionSpec> dataset_specs() {
+  constexpr std::uint64_t most = 1'000'000'000;
+  return {
+      {"--output", 'o', "PATH", "plan: folder for the set; scene: file; preview: .png, .svg or .pdf",
+       [](Options& o, const std::string& v) { o.output = v; }, "<files>", false, "dataset"},
+      {"--pilot", 0, "N", "plan: samples that are computed, to see how large and how slow they are (8)",
+       [](Options& o, const std::string& v) { o.shards.pilot = whole("--pilot", v, 1, most, "a whole number of 1 to 1000000000"); }},
+      {"--shard-samples", 0, "N", "plan: samples in a shard (64 MiB to 1 GiB of them, and no more than 10 minutes of a core)",
+       [](Options& o, const std::string& v) {
+         o.shards.samples = whole("--shard-samples", v, 1, most, "a whole number of 1 to 1000000000");
+       }},
+      {"--part", 0, "K/N", "run, verify: part K of N, from 0 on: the shards whose number divided by N leaves K (0/1)", take_part},
+      {"--shards", 0, "LIST", "run, verify: these shards alone: 3,7-9", take_shards},
+      {"--recompute", 0, "SHARE", "verify: compute so many of the samples again and compare: 0.1% (none)", take_share},
+      {"--partial", 0, nullptr, "merge: of the shards that are there", [](Options& o, const std::string&) { o.shards.partial = true; }},
+  };
+}
+
 std::vector<OptionSpec> specs() {
   return {
       {"--output", 'o', "DIR", "folder to write to", [](Options& o, const std::string& v) { o.output = v; }, "<files>"},
@@ -520,8 +571,8 @@ std::vector<OptionSpec> specs() {
 const std::vector<OptionSpec>& all_options() {
   static const std::vector<OptionSpec> all = [] {
     std::vector<OptionSpec> joined = specs();
-    for (const std::vector<OptionSpec>& more :
-         {machine_specs(), bench_specs(), transient_specs(), preview_specs(), view_specs(), budget_specs(), measuring_specs()})
+    for (const std::vector<OptionSpec>& more : {machine_specs(), bench_specs(), transient_specs(), preview_specs(), view_specs(),
+                                                budget_specs(), measuring_specs(), dataset_specs()})
       joined.insert(joined.end(), more.begin(), more.end());
     return joined;
   }();
@@ -552,6 +603,7 @@ const std::vector<Group>& groups() {
       {"Measuring", {"--warmup", "--compare", "--batch", "--stage", "--block-size"}},
       {"Frames", {"--frames", "--first-frame", "--from", "--pixel"}},
       {"Output", {"--output", "--clean", "--emit", "--arrays", "--compress", "--raw", "--theme", "--scale", "--csv", "--json", "--quiet"}},
+      {"Shards", {"--pilot", "--shard-samples", "--part", "--shards", "--recompute", "--partial"}},
       {"Viewer", {"--port", "--host", "--allow-host", "--open", "--embed", "--rate", "--test-hooks"}},
       {"Machine", {"--threads", "--backend", "--device"}}};
   return all;

@@ -61,6 +61,13 @@ struct Options {
     std::vector<std::string> allowed_hosts;
     bool open = false, embed = false, test_hooks = false;
   } view;  ///< of `tofray view`
+  struct Shards {
+    std::uint64_t part = 0, parts = 1;
+    std::vector<std::uint64_t> list;
+    std::uint64_t pilot = 8, samples = 0;
+    double recompute = 0;
+    bool partial = false;
+  } shards;  ///< of `tofray dataset`
   bool json = false, quiet = false, compare = false, clean = false, sources = false, raw = false, csv = false, auto_exposure = false;
 };
 

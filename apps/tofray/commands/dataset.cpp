@@ -14,6 +14,7 @@
 #include "cli/console.h"
 #include "cli/progress.h"
 #include "cli/remarks.h"
+#include "commands/shards.h"
 #include "files/atomic_file.h"
 #include "files/json.h"
 #include "pictures/pictures.h"
@@ -231,17 +232,61 @@ int run_preview_of_set(const Dataset& set, const Options& options) {
 
 }  // namespace
 
+namespace {
+
+/// The part of a command line behind `dataset`.
+struct Verb {
+  const char* name;
+  int (*of_set)(const Dataset&, const Options&);  ///< or
+  int (*of_shards)(const Options&);
+  std::vector<std::string_view> options;  ///< besides --json, --quiet and --threads
+};
+
+const std::vector<Verb>& verbs() {
+  static const std::vector<Verb> all = {
+      {"check", run_check_of_set, nullptr, {}},
+      {"scene", run_scene, nullptr, {"--output"}},
+      {"preview", run_preview_of_set, nullptr, {"--output", "--theme", "--scale"}},
+      {"plan", nullptr, run_dataset_plan, {"--output", "--pilot", "--shard-samples"}},
+      {"run", nullptr, run_dataset_run, {"--part", "--shards"}},
+      {"status", nullptr, run_dataset_status, {}},
+      {"verify", nullptr, run_dataset_verify, {"--part", "--shards", "--recompute"}},
+      {"merge", nullptr, run_dataset_merge, {"--partial"}},
+  };
+  return all;
+}
+
+/// An option that means nothing to the verb is a mistake.
+void refuse_other_options(const Verb& verb, const Options& options) {
+  for (const char* option :
+       {"--output", "--pilot", "--shard-samples", "--part", "--shards", "--recompute", "--partial", "--theme", "--scale"}) {
+    const bool typed = std::any_of(options.typed.begin(), options.typed.end(), [&](const std::string& word) {
+      return word == option || word.starts_with(std::string(option) + "=") ||
+             (option == std::string_view("--output") && word.starts_with("-o"));
+    });
+    if (typed && std::find(verb.options.begin(), verb.options.end(), option) == verb.options.end())
+      throw Error(ErrorKind::bad_input,
+                  fmt::format("error: dataset {} takes no {}\n  `tofray help dataset` says what each option is of", verb.name, option));
+  }
+}
+
+}  // namespace
+
 int run_dataset(const Options& options) {
   const std::string& what = options.words[0];
-  if (what != "check" && what != "scene" && what != "preview")
-    throw Error(ErrorKind::bad_input, fmt::format("error: {} is nothing that dataset does{}\n  expected check, scene or preview",
-                                                  base::in_quotes(what), base::did_you_mean(what, {"check", "scene", "preview"})));
+  const auto verb = std::find_if(verbs().begin(), verbs().end(), [&](const Verb& one) { return what == one.name; });
+  if (verb == verbs().end()) {
+    std::vector<std::string> names;
+    for (const Verb& one : verbs()) names.emplace_back(one.name);
+    throw Error(ErrorKind::bad_input, fmt::format("error: {} is nothing that dataset does{}\n  expected {}", base::in_quotes(what),
+                                                  base::did_you_mean(what, names), base::listed(names)));
+  }
   if (what != "scene" && options.words.size() > 2)
     throw Error(ErrorKind::bad_input,
-                fmt::format("error: dataset {} takes a set alone\n  got {} behind it", what, base::in_quotes(options.words[2])));
-  const Dataset set(options.words[1]);
-  if (what == "scene") return run_scene(set, options);
-  return what == "check" ? run_check_of_set(set, options) : run_preview_of_set(set, options);
+                fmt::format("error: dataset {} takes a {} alone\n  got {} behind it", what,
+                            verb->of_set != nullptr || what == "plan" ? "set" : "folder", base::in_quotes(options.words[2])));
+  refuse_other_options(*verb, options);
+  return verb->of_set != nullptr ? verb->of_set(Dataset(options.words[1]), options) : verb->of_shards(options);
 }
 
 }  // namespace tofray::app

@@ -1,0 +1,57 @@
+// SPDX-FileCopyrightText: 2026 The tofray authors
+// SPDX-License-Identifier: Apache-2.0
+#include "dataset/scenes.h"
+
+#include "base/faults.h"
+#include "load/controls.h"
+#include "load/load.h"
+#include "load/trees.h"
+#include "model/form.h"
+#include "tofray/error.h"
+#include "yaml/reader.h"
+
+namespace tofray::dataset {
+
+Scenes::Scenes(std::string_view text, const std::string& source) : set_(parse_set(text, source)), fixed_(fixed_of(set_)) {}
+
+Sample Scenes::at(std::uint64_t sample, std::uint64_t view) const {
+  if (sample >= set_.samples)
+    throw Error(ErrorKind::bad_input, "error: there is no sample " + std::to_string(sample) + "\n  " + set_.source + " has " +
+                                          std::to_string(set_.samples) + ", numbered from 0");
+  if (view >= set_.views)
+    throw Error(ErrorKind::bad_input, "error: there is no view " + std::to_string(view) + "\n  " + set_.source + " has " +
+                                          std::to_string(set_.views) + " of each sample, numbered from 0");
+  return {set_, fixed_, sample, view};
+}
+
+std::string Scenes::source(std::uint64_t sample, std::uint64_t view) const {
+  return set_.source + " (sample " + std::to_string(sample) + (set_.views > 1 ? ", view " + std::to_string(view) : "") + ")";
+}
+
+Scenes::Written Scenes::write(std::uint64_t sample, std::uint64_t view) const {
+  Sample drawing = at(sample, view);
+  const yaml::Node scene = drawing.scene();
+  const auto settings = drawing.settings();
+  // Faults are told where they stand in the set's file.
+  base::Faults faults;
+  yaml::read(model::scene_form(), scene, faults);
+  faults.raise();
+  return {load::scene_yaml(load::block_yaml(scene), source(sample, view), settings), drawing.drawn()};
+}
+
+std::string Scenes::yaml(std::uint64_t sample, std::uint64_t view) const { return write(sample, view).yaml; }
+
+Scene Scenes::scene(std::uint64_t sample, std::uint64_t view) const {
+  return load::scene_from_text(yaml(sample, view), source(sample, view));
+}
+
+std::vector<Drawn> Scenes::drawn(std::uint64_t sample, std::uint64_t view) const {
+  Sample drawing = at(sample, view);
+  drawing.scene();
+  drawing.settings();
+  return drawing.drawn();
+}
+
+std::uint64_t Scenes::noise_seed(std::uint64_t sample, std::uint64_t view) const { return at(sample, view).seed(Per::view, "noise"); }
+
+}  // namespace tofray::dataset

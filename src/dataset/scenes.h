@@ -1,0 +1,47 @@
+// SPDX-FileCopyrightText: 2026 The tofray authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "dataset/forms.h"
+#include "dataset/set_file.h"
+#include "tofray/dataset.h"
+#include "tofray/scene.h"
+
+namespace tofray::dataset {
+
+/// A set, and the scenes of its samples.
+class Scenes {
+ public:
+  /// @param source  the set's file, which messages name and beside which other files are looked for
+  /// @throws Error with line and column
+  Scenes(std::string_view text, const std::string& source);
+  Scenes(const Scenes&) = delete;
+  Scenes& operator=(const Scenes&) = delete;
+
+  [[nodiscard]] const SetFile& set() const { return set_; }
+  [[nodiscard]] const Fixed& fixed() const { return fixed_; }
+  // As Dataset's.
+  [[nodiscard]] std::string yaml(std::uint64_t sample, std::uint64_t view) const;
+  [[nodiscard]] Scene scene(std::uint64_t sample, std::uint64_t view) const;
+  [[nodiscard]] std::vector<Drawn> drawn(std::uint64_t sample, std::uint64_t view) const;
+  [[nodiscard]] std::uint64_t noise_seed(std::uint64_t sample, std::uint64_t view) const;
+
+  /// A sample's scene as YAML, and what was drawn for it.
+  struct Written {
+    std::string yaml;
+    std::vector<Drawn> drawn;
+  };
+  [[nodiscard]] Written write(std::uint64_t sample, std::uint64_t view) const;
+  /// What messages call a sample's scene; its folder is the set's.
+  [[nodiscard]] std::string source(std::uint64_t sample, std::uint64_t view) const;
+
+ private:
+  [[nodiscard]] Sample at(std::uint64_t sample, std::uint64_t view) const;
+  SetFile set_;
+  Fixed fixed_;  ///< points into the set
+};
+
+}  // namespace tofray::dataset

@@ -1,0 +1,153 @@
+// SPDX-FileCopyrightText: 2026 The tofray authors
+// SPDX-License-Identifier: Apache-2.0
+#include "shards/sample.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+
+#include "base/text.h"
+#include "base/version.h"
+#include "files/json.h"
+#include "files/sha256.h"
+#include "files/tar.h"
+#include "files/text_file.h"
+#include "load/load.h"
+#include "results/frame_file.h"
+#include "run/profile_tables.h"
+#include "tofray/error.h"
+#include "tofray/load.h"
+#include "tofray/simulator.h"
+
+namespace tofray::shards {
+
+namespace {
+
+using files::Json;
+
+/// What a set has that asks for nothing.
+constexpr const char* usual_arrays = "raw,z_m,flags,gt_z_m,gt_object_id";
+constexpr std::string_view npy = ".npy";
+
+std::string joined(const std::vector<std::string>& words) {
+  std::string out;
+  for (const std::string& word : words) out += (out.empty() ? "" : ",") + word;
+  return out;
+}
+
+Json numbers(const files::NpyView& view) {
+  const files::NpyArray array{view.type, view.shape, std::string(view.bytes)};
+  if (view.shape.empty()) return array.number(0);
+  Json out = Json::array();
+  for (std::size_t i = 0; i < array.count(); ++i) view.type.kind == 'b' ? out.push(array.number(i) != 0) : out.push(array.number(i));
+  return out;
+}
+
+/// What was drawn: numbers in the unit of the set's file, all else as it stands in the scene.
+Json drawn_json(const std::vector<Drawn>& drawn) {
+  Json out = Json::object();
+  for (const Drawn& one : drawn) {
+    const bool number = one.form != "choice" && one.form != "grid" && one.form != "files" && one.form != "table" && one.form != "chance";
+    out.set(one.path, Json::object().set("form", one.form).set("text", one.text).set(number ? "value" : "which", one.value));
+  }
+  return out;
+}
+
+}  // namespace
+
+SampleMaker::SampleMaker(const dataset::Scenes& scenes, std::vector<std::string> arrays, FrameProgress* progress)
+    : scenes_(scenes), arrays_(std::move(arrays)), progress_(progress) {
+  const std::vector<std::string>& asked = arrays_.empty() ? scenes.set().arrays : arrays_;
+  choice_ = results::ArrayChoice(asked.empty() ? usual_arrays : joined(asked));
+  for (const results::ArrayRow& row : results::array_table())
+    if (row.is_image() && (choice_.has(row) || row.name == "z_m" || row.name == "flags" || row.name == "gt_z_m"))
+      wanted_.push_back(row.name);
+}
+
+std::string SampleMaker::name_of(const std::string& path) const {
+  const std::string folder = scenes_.set().folder + "/";
+  if (path.starts_with(folder)) return path.substr(folder.size());
+  return path.starts_with("./") ? path.substr(2) : path;
+}
+
+std::string SampleMaker::without_folder(const std::string& text) const {
+  const std::string folder = scenes_.set().folder + "/";
+  std::string out = text;
+  for (std::size_t at = out.find(folder); at != std::string::npos; at = out.find(folder, at)) out.erase(at, folder.size());
+  return out;
+}
+
+void SampleMaker::add_inputs(const Scene& scene, const Camera& camera, std::map<std::string, std::string>& inputs) const {
+  for (const Object& object : scene.objects)
+    if (const auto* mesh = std::get_if<Mesh>(&object.shape); mesh != nullptr && !mesh->sha256.empty())
+      inputs[name_of(mesh->file)] = mesh->sha256;
+  for (const SceneFile& one : scene.files) inputs[name_of(one.file)] = one.sha256;
+  if (camera.source.starts_with("<")) return;  // a built-in profile
+  const InputFile profile{"profile", camera.source, files::read_text(camera.source)};
+  inputs[name_of(profile.name)] = files::sha256_hex(profile.text);
+  for (const InputFile& table : run::profile_tables(profile, files::folder_of(profile.name), scene.camera.overrides))
+    inputs[table.name] = files::sha256_hex(table.text);
+}
+
+MadeSample SampleMaker::make(std::uint64_t sample, std::uint64_t view) const {
+  const dataset::Scenes::Written written = scenes_.write(sample, view);
+  const Scene scene = load::scene_from_text(written.yaml, scenes_.source(sample, view));
+  const Camera camera = load_camera(scene);
+  SimulatorOptions options;
+  options.seed = scenes_.noise_seed(sample, view), options.threads = 1, options.arrays = wanted_, options.progress = progress_;
+  options.backend = Backend::cpu;
+  const Frame frame = Simulator(scene, camera, options).frame(0);
+  if (progress_ != nullptr && progress_->stop) throw Error(ErrorKind::io, "error: interrupted");
+
+  MadeSample out;
+  out.view = view;
+  out.statistics.add(frame);
+  add_inputs(scene, camera, out.inputs);
+  const results::FrameArrays all(frame, camera, camera_pose(scene, frame.truth.time_s), choice_);
+  Json arrays = Json::object(), small = Json::object();
+  for (const files::NpyView& one : all.views()) {
+    const results::ArrayRow& row = *results::find_array(one.name);
+    if (!row.is_image()) {
+      small.set(one.name, numbers(one));
+      continue;
+    }
+    arrays.set(one.name, Json::object().set("unit", row.unit).set("dtype", one.type.name()).set("shape", Json::list(one.shape)));
+    std::string bytes = files::npy_header(one.type, one.shape);
+    bytes.append(one.bytes);
+    out.members.push_back({one.name + std::string(npy), std::move(bytes)});
+  }
+  if (const std::vector<std::string> has = arrays_of(out); !arrays_.empty() && has != arrays_)
+    throw Error(ErrorKind::bad_input, fmt::format("{}: error: it has other arrays than the set's\n  got {}; expected {}",
+                                                  scenes_.source(sample, view), base::listed(has, "and"), base::listed(arrays_, "and")));
+
+  Json objects = Json::array(), materials = Json::array();
+  for (const Object& object : scene.objects) objects.push(object.name);
+  for (const Material& material : scene.materials) materials.push(material.name);
+  Json json = Json::object();
+  json.set("sample", sample).set("view", view).set("set", scenes_.set().name).set("tofray", base::version()).set("seed", options.seed);
+  json.set("camera", Json::object()
+                         .set("profile", camera.name)
+                         .set("mode", camera.mode.name)
+                         .set("width", frame.depth.width)
+                         .set("height", frame.depth.height));
+  json.set("numbers", std::move(small)).set("arrays", std::move(arrays));
+  json.set("objects", std::move(objects)).set("materials", std::move(materials));
+  json.set("drawn", drawn_json(written.drawn)).set("scene", written.yaml);
+  out.members.push_back({"json", files::json_text(json) + "\n"});
+  return out;
+}
+
+std::uint64_t tar_bytes(const MadeSample& sample) {
+  std::uint64_t out = 0;
+  for (const MadeSample::Member& one : sample.members) out += files::tar_block + one.bytes.size() + files::tar_padding(one.bytes.size());
+  return out;
+}
+
+std::vector<std::string> arrays_of(const MadeSample& sample) {
+  std::vector<std::string> out;
+  for (const MadeSample::Member& one : sample.members)
+    if (one.name.ends_with(npy)) out.push_back(one.name.substr(0, one.name.size() - npy.size()));
+  return out;
+}
+
+}  // namespace tofray::shards
