@@ -161,6 +161,7 @@ ShardRunResult run(const ShardRunRequest& request, const ShardWatch& watch) {
   const std::size_t all = wanted.size();
   std::erase_if(wanted, [&](std::uint64_t shard) { return is_complete(request.folder, plan, shard); });
   out.there = all - wanted.size();
+  remove_dead_workers(request.folder);
   if (wanted.empty()) return out;
   refuse_other_bytes(plan);
   std::uint64_t total = 0;

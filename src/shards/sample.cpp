@@ -77,6 +77,20 @@ std::string SampleMaker::without_folder(const std::string& text) const {
   return out;
 }
 
+std::shared_ptr<const Camera> SampleMaker::camera_of(const Scene& scene) const {
+  std::string key = scene.camera.profile + "\n" + scene.camera.mode;
+  for (const Override& one : scene.camera.overrides) key += "\n" + one.key + "=" + one.value;
+  {
+    const std::lock_guard lock(mutex_);
+    if (const auto known = cameras_.find(key); known != cameras_.end()) return known->second;
+  }
+  auto made = std::make_shared<const Camera>(load_camera(scene));
+  constexpr std::size_t most = 16;
+  const std::lock_guard lock(mutex_);
+  if (cameras_.size() >= most) cameras_.clear();
+  return cameras_.emplace(std::move(key), std::move(made)).first->second;
+}
+
 void SampleMaker::add_inputs(const Scene& scene, const Camera& camera, std::map<std::string, std::string>& inputs) const {
   for (const Object& object : scene.objects)
     if (const auto* mesh = std::get_if<Mesh>(&object.shape); mesh != nullptr && !mesh->sha256.empty())
@@ -92,7 +106,8 @@ void SampleMaker::add_inputs(const Scene& scene, const Camera& camera, std::map<
 MadeSample SampleMaker::make(std::uint64_t sample, std::uint64_t view) const {
   const dataset::Scenes::Written written = scenes_.write(sample, view);
   const Scene scene = load::scene_from_text(written.yaml, scenes_.source(sample, view));
-  const Camera camera = load_camera(scene);
+  const std::shared_ptr<const Camera> of_scene = camera_of(scene);
+  const Camera& camera = *of_scene;
   SimulatorOptions options;
   options.seed = scenes_.noise_seed(sample, view), options.threads = 1, options.arrays = wanted_, options.progress = progress_;
   options.backend = Backend::cpu;

@@ -3,6 +3,8 @@
 #pragma once
 #include <cstdint>
 #include <map>
+#include <memory>
+#include <mutex>
 #include <string>
 #include <vector>
 
@@ -36,6 +38,8 @@ class SampleMaker {
   [[nodiscard]] std::string without_folder(const std::string& text) const;
 
  private:
+  /// The camera that a scene asks for; those of the samples before are kept, since most samples have one of a few.
+  [[nodiscard]] std::shared_ptr<const Camera> camera_of(const Scene& scene) const;
   [[nodiscard]] std::string name_of(const std::string& path) const;
   void add_inputs(const Scene& scene, const Camera& camera, std::map<std::string, std::string>& inputs) const;
 
@@ -43,6 +47,8 @@ class SampleMaker {
   std::vector<std::string> arrays_, wanted_;  ///< as they were given; that are computed
   results::ArrayChoice choice_;
   FrameProgress* progress_;
+  mutable std::mutex mutex_;
+  mutable std::map<std::string, std::shared_ptr<const Camera>> cameras_;  ///< by what the scene says of them; guarded by the mutex
 };
 
 /// What it takes of a tar.

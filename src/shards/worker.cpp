@@ -51,8 +51,10 @@ void make_folder(const fs::path& path) {
   if (fault) fail_to_make(path, fault.message());
 }
 
-/// Removes what a dead process of this machine left: its name says the machine, and nobody holds its lock. On a file system without locks it stays.
-void remove_dead(const fs::path& work) {
+}  // namespace
+
+void remove_dead_workers(const fs::path& set_folder) {
+  const fs::path work = set_folder / "work";
   const std::string ours = host() + "-";
   std::error_code fault;
   for (const fs::directory_entry& entry : fs::directory_iterator(work, fault)) {
@@ -62,18 +64,16 @@ void remove_dead(const fs::path& work) {
       continue;
     if (process <= 0 || ::kill(process, 0) == 0 || errno != ESRCH) continue;
     const files::Descriptor lock(::open((entry.path() / "lock").c_str(), O_RDONLY | O_CLOEXEC));
-    if (lock.number() < 0 || ::flock(lock.number(), LOCK_EX | LOCK_NB) != 0) continue;
+    if (lock.number() >= 0 && ::flock(lock.number(), LOCK_EX | LOCK_NB) != 0) continue;
     std::error_code left;
     fs::remove_all(entry.path(), left);
   }
 }
 
-}  // namespace
-
 Worker::Worker(const fs::path& set_folder) {
   const std::string name = new_name();
   make_folder(set_folder / "work"), make_folder(set_folder / "log");
-  remove_dead(set_folder / "work");
+  remove_dead_workers(set_folder);
   folder_ = set_folder / "work" / name;
   make_folder(folder_);
   lock_.emplace(::open((folder_ / "lock").c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666));

@@ -14,7 +14,7 @@ namespace tofray::shards {
 /// A process that makes shards: a folder of its own below work/ for what is under way, and a log below log/ of the samples that it begins and ends.
 class Worker {
  public:
-  /// Removes folders that dead processes of this machine left. @throws Error (io)
+  /// @throws Error (io)
   explicit Worker(const std::filesystem::path& set_folder);
   Worker(const Worker&) = delete;
   Worker& operator=(const Worker&) = delete;
@@ -30,6 +30,10 @@ class Worker {
   std::filesystem::path folder_;
   std::optional<files::Descriptor> lock_, log_;
 };
+
+/// Removes what dead processes of this machine left below work/: the folder's name says the machine and the process, and nobody holds its lock. Where the file system
+/// has no locks, it stays.
+void remove_dead_workers(const std::filesystem::path& set_folder);
 
 /// Samples that at least so many processes were computing when they ended without a word, by the logs.
 std::vector<std::uint64_t> deadly_samples(const std::filesystem::path& set_folder, int deaths);

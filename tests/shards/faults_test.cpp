@@ -1,0 +1,239 @@
+// SPDX-FileCopyrightText: 2026 The tofray authors
+// SPDX-License-Identifier: Apache-2.0
+// Sets whose makers are killed, stopped, doubled and without room: nothing is lost, nothing is there twice, the same bytes after it.
+#include <fcntl.h>
+#include <gtest/gtest.h>
+#include <sys/mount.h>
+
+#include <chrono>
+#include <set>
+#include <thread>
+
+#include "shards/layout.h"
+#include "small_set.h"
+#include "support/samples.h"
+#include "support/sanitizers.h"
+
+namespace {
+
+using namespace tofray;
+using namespace tofray::test;
+using namespace std::chrono_literals;
+
+// More of them by TOFRAY_LONG=1, as .ci/long has it.
+const bool at_length = std::getenv("TOFRAY_LONG") != nullptr;
+const int kills = at_length ? 200 : with_sanitizers ? 5 : 25;
+
+const std::map<std::string, std::string>& undisturbed() {
+  static const std::map<std::string, std::string> files = [] {
+    const SmallSet set;
+    set.run();
+    merge_shards(set.out());
+    return published(set.out());
+  }();
+  return files;
+}
+
+Running run_of(const SmallSet& set, Arguments more = {}) {
+  Arguments all{"dataset", "run", set.out().native(), "--threads", "2"};
+  all.insert(all.end(), more.begin(), more.end());
+  return Running(start(all, set.folder / "stdout", set.folder / "stderr"));
+}
+
+/// How long an undisturbed run takes.
+std::chrono::microseconds time_of_a_run() {
+  const SmallSet set;
+  const auto begin = std::chrono::steady_clock::now();
+  EXPECT_EQ(run_of(set).finish(), 0);
+  return std::chrono::duration_cast<std::chrono::microseconds>(std::chrono::steady_clock::now() - begin);
+}
+
+/// Whatever happened: a run makes what is missing, and then all is as if nothing had been.
+void expect_whole_after_a_run(const SmallSet& set, const std::string& what) {
+  for (const auto& [name, bytes] : published(set.out())) {
+    // A tar without its record may be there; a record never without its tar.
+    if (name.starts_with("shards/") && name.ends_with(".json")) {
+      EXPECT_EQ(bytes, undisturbed().at(name)) << what;
+      EXPECT_EQ(content(set.out() / (name.substr(0, name.size() - 5) + ".tar")), undisturbed().at(name.substr(0, name.size() - 5) + ".tar"))
+          << what;
+    }
+  }
+  const Result result = run({"dataset", "run", set.out().native(), "--threads", "2"});
+  EXPECT_EQ(result.code, 0) << result.err;
+  EXPECT_EQ(run({"dataset", "merge", set.out().native()}).code, 0);
+  EXPECT_EQ(published(set.out()), undisturbed()) << what;
+  EXPECT_EQ(under_way(set.out()), 0U) << what << ": what a dead process left is removed";
+}
+
+TEST(killed, at_any_time_and_run_again_leaves_what_an_undisturbed_run_leaves) {
+  const auto whole = time_of_a_run();
+  out_test::Random random(7);
+  const SmallSet set;
+  int killed = 0;
+  for (int i = 0; i < kills; ++i) {
+    // One after the other until all is there, then from the beginning.
+    if (dataset_status(set.out()).complete == 8) {
+      expect_whole_after_a_run(set, "kill " + std::to_string(i));
+      fs::remove_all(set.out() / "shards");
+      for (const char* file : {"SHA256SUMS", "statistics.json", "wids.json"}) fs::remove(set.out() / file);
+      fs::remove_all(set.out() / "index");
+    }
+    Running process = run_of(set);
+    std::this_thread::sleep_for(std::chrono::microseconds(random.below(static_cast<std::size_t>(whole.count()))));
+    process.send(SIGKILL);
+    killed += process.finish() == 1000 + SIGKILL ? 1 : 0;
+  }
+  EXPECT_GT(killed, kills / 3);
+  expect_whole_after_a_run(set, "at last");
+}
+
+TEST(killed, before_any_call_that_changes_a_file_and_run_again_leaves_what_an_undisturbed_run_leaves) {
+  if (with_sanitizers) GTEST_SKIP() << "sanitizers have to be loaded first";
+  const SmallSet set;
+  const auto with_kill = [&](long at) {
+    return [at, count = (set.folder / "count").native()] {
+      ::setenv("LD_PRELOAD", TOFRAY_KILL_AT_CALL, 1), ::setenv("KILL_COUNT", count.c_str(), 1);
+      if (at > 0) ::setenv("KILL_AT", std::to_string(at).c_str(), 1);
+    };
+  };
+  const Arguments arguments{"dataset", "run", set.out().native(), "--shards", "1,4", "--threads", "2", "--quiet"};
+  ASSERT_EQ(run(arguments, with_kill(0)).code, 0);
+  const long calls = std::stol(content(set.folder / "count"));
+  EXPECT_GT(calls, 30);
+  for (long at = 1; at <= calls; at += at_length ? 1 : 3) {
+    fs::remove_all(set.out() / "shards");
+    EXPECT_EQ(run(arguments, with_kill(at)).code, 1000 + SIGKILL) << at << " of " << calls;
+    EXPECT_EQ(run(arguments).code, 0) << at;
+    for (const std::uint64_t shard : {1, 4}) {
+      EXPECT_EQ(content(set.out() / shards::tar_name(shard)), undisturbed().at(shards::tar_name(shard))) << at;
+      EXPECT_EQ(content(set.out() / shards::record_name(shard)), undisturbed().at(shards::record_name(shard))) << at;
+    }
+    EXPECT_EQ(under_way(set.out()), 0U) << at;
+  }
+}
+
+TEST(killed, politely_ends_within_the_sample_and_leaves_no_part_of_a_file) {
+  const auto whole = time_of_a_run();
+  out_test::Random random(8);
+  for (const int signal : {SIGTERM, SIGINT}) {
+    const SmallSet set;
+    int stopped = 0;
+    for (int i = 0; i < (at_length ? 50 : 5); ++i) {
+      Running process = run_of(set);
+      std::this_thread::sleep_for(
+          std::chrono::microseconds(whole.count() / 4 + static_cast<long>(random.below(static_cast<std::size_t>(whole.count() / 4)))));
+      process.send(signal);
+      const int code = process.finish();
+      EXPECT_TRUE(code == 0 || code == 128 + signal || code == 1000 + signal) << code << content(set.folder / "stderr");
+      if (code == 128 + signal) {
+        ++stopped;
+        EXPECT_EQ(under_way(set.out()), 0U);
+      }
+      if (dataset_status(set.out()).complete == 8) fs::remove_all(set.out() / "shards");
+    }
+    EXPECT_GT(stopped, 0);
+    expect_whole_after_a_run(set, "signal " + std::to_string(signal));
+  }
+}
+
+TEST(two_processes, that_make_the_same_shards_at_once_both_end_well) {
+  for (int i = 0; i < (at_length ? 100 : 10); ++i) {
+    const SmallSet set;
+    std::vector<std::unique_ptr<Running>> both;
+    for (int k = 0; k < 2; ++k)
+      both.push_back(std::make_unique<Running>(start({"dataset", "run", set.out().native(), "--threads", "1"},
+                                                     set.folder / ("out" + std::to_string(k)), set.folder / ("err" + std::to_string(k)))));
+    for (int k = 0; k < 2; ++k)
+      EXPECT_EQ(both[static_cast<std::size_t>(k)]->finish(), 0) << content(set.folder / ("err" + std::to_string(k)));
+    merge_shards(set.out());
+    ASSERT_EQ(published(set.out()), undisturbed());
+    EXPECT_EQ(under_way(set.out()), 0U);
+  }
+}
+
+TEST(tar, without_a_record_gives_way) {
+  const SmallSet set;
+  set.run();
+  const fs::path record = set.out() / shards::record_name(4), tar = set.out() / shards::tar_name(4);
+  std::string bytes = content(tar);
+  bytes[600] = static_cast<char>(bytes[600] ^ 1);
+  fs::remove(record);
+  write(tar, bytes);
+  EXPECT_EQ(run({"dataset", "run", set.out().native()}).code, 0);
+  EXPECT_EQ(content(tar), undisturbed().at(shards::tar_name(4)));
+  EXPECT_EQ(content(record), undisturbed().at(shards::record_name(4)));
+}
+
+TEST(disk, that_is_full_is_told_with_bytes_and_the_rest_is_made_once_there_is_room) {
+  const SmallSet set;
+  const fs::path small = set.folder / "small";
+  fs::create_directory(small);
+  if (::mount("tmpfs", small.c_str(), "tmpfs", 0, "size=700k") != 0) GTEST_SKIP() << "only root may mount";
+  const auto unmount = [&] { ::umount2(small.c_str(), MNT_DETACH); };
+  const Result planned = run({"dataset", "plan", (set.folder / "set.yaml").native(), "-o", small.native(), "--shard-samples", "5"});
+  EXPECT_EQ(planned.code, 0) << planned.err;
+  const Result full = run({"dataset", "run", small.native()});
+  EXPECT_EQ(full.code, 3) << full.err;
+  EXPECT_TRUE(has(full.err, "No space left on device") && has(full.err, "needed ") && has(full.err, "free ")) << full.err;
+  const std::uint64_t complete = dataset_status(small).complete;
+  EXPECT_LT(complete, 8U);
+  EXPECT_GT(complete, 0U);
+  EXPECT_TRUE(verify_shards({small, {}, 0, 1}).faults.empty());
+  EXPECT_EQ(::mount("tmpfs", small.c_str(), "tmpfs", MS_REMOUNT, "size=20m"), 0);
+  EXPECT_EQ(run({"dataset", "run", small.native()}).code, 0);
+  EXPECT_EQ(run({"dataset", "merge", small.native()}).code, 0);
+  for (const auto& [name, bytes] : published(small)) {
+    if (name.starts_with("shards/")) {
+      EXPECT_EQ(bytes, undisturbed().at(name)) << name;
+    }
+  }
+  unmount();
+}
+
+TEST(clock, and_times_of_files_decide_nothing) {
+  const SmallSet set;
+  run_shards({set.out(), {0, 1, {0, 1, 2}}, 1});
+  for (const auto& entry : fs::recursive_directory_iterator(set.out()))
+    fs::last_write_time(entry.path(),
+                        fs::file_time_type::clock::now() + std::chrono::hours(24 * (entry.path().extension() == ".tar" ? -9000 : 9000)));
+  EXPECT_EQ(set.run().made, 5U);
+  merge_shards(set.out());
+  EXPECT_EQ(published(set.out()), undisturbed());
+}
+
+TEST(command, tells_what_it_did_and_ends_with_1_where_something_is_missing) {
+  const SmallSet set;
+  const std::string out = set.out().native();
+  const Result status = run({"dataset", "status", out});
+  EXPECT_EQ(status.code, 1);
+  EXPECT_EQ(status.out, "0 of 8 shards complete\n  missing  0-7\n");
+  const Result some = run({"dataset", "run", out, "--shards", "0,2-3", "--json", "--quiet"});
+  EXPECT_EQ(some.code, 0);
+  EXPECT_TRUE(some.out.starts_with("{\"shard\":0,\"samples\":5,\"holes\":0,\"bytes\":")) << some.out;
+  EXPECT_EQ(run({"dataset", "status", out}).out, "3 of 8 shards complete\n  missing  1, 4-7\n");
+  EXPECT_EQ(run({"dataset", "merge", out}).code, 2);
+  EXPECT_EQ(run({"dataset", "verify", out}).code, 1);
+  const Result rest = run({"dataset", "run", out, "--part", "0/1"});
+  EXPECT_EQ(rest.code, 0);
+  EXPECT_TRUE(has(rest.err, "5 shards made, 3 there before\n")) << rest.err;
+  const Result verified = run({"dataset", "verify", out, "--recompute", "100%"});
+  EXPECT_EQ(verified.out, "8 shards read, 40 samples computed again\n");
+  EXPECT_EQ(verified.code, 0);
+  const Result merged = run({"dataset", "merge", out});
+  EXPECT_TRUE(merged.out.starts_with("40 samples in 8 shards, ")) << merged.out;
+  for (const auto& [arguments, expected] :
+       std::vector<std::pair<Arguments, std::string>>{{{"dataset", "run", out, "--part", "4/4"}, "--part cannot be \"4\""},
+                                                      {{"dataset", "run", out, "--part", "3"}, "--part cannot be \"3\""},
+                                                      {{"dataset", "run", out, "--shards", "3-1"}, "--shards cannot be"},
+                                                      {{"dataset", "run", out, "--recompute", "1%"}, "dataset run takes no --recompute"},
+                                                      {{"dataset", "verify", out, "--recompute", "200%"}, "--recompute cannot be"},
+                                                      {{"dataset", "status", out, "more"}, "dataset status takes a folder alone"},
+                                                      {{"dataset", "plan", (set.folder / "set.yaml").native()}, "a plan needs a folder"},
+                                                      {{"dataset", "plans", out}, "did you mean \"plan\""}}) {
+    const Result refused = run(arguments);
+    EXPECT_EQ(refused.code, 2);
+    EXPECT_TRUE(has(refused.err, expected)) << refused.err;
+  }
+}
+
+}  // namespace
