@@ -20,6 +20,7 @@
 #include "tofray/run.h"
 #include "tofray/save.h"
 #include "tofray/scene.h"
+#include "tofray/shards.h"
 #include "tofray/simulator.h"
 #include "tofray/stages.h"
 #include "tofray/version.h"

@@ -143,6 +143,10 @@ if TYPE_CHECKING:
         render_again as render_again,
         validity as validity,
     )
+    from ._samples import (
+        Samples as Samples,
+        open_dataset as open_dataset,
+    )
     from ._simulator import (
         Simulator as Simulator,
         camera_pose as camera_pose,
@@ -181,6 +185,7 @@ _HOME = {
     "_own": ("Geometry", "PixelLight", "Transient"),
     "_quality": ("Comparison", "Quality", "compare", "load_depth", "quality"),
     "_run": ("load_inputs", "pixel_bounces", "pixel_chain", "render", "render_again", "validity"),
+    "_samples": ("Samples", "open_dataset"),
     "_simulator": ("Simulator", "camera_pose", "camera_report", "demo", "exposure_times", "full_sun", "invalid_pixels", "pixel_rays", "placed_scene", "process", "scene_report"),
 }
 

@@ -16,7 +16,7 @@ import tofray
 # In the order in which numpydoc wants them.
 SECTIONS = ["Parameters", "Attributes", "Returns", "Yields", "Raises"]
 SAY_NOTHING = {"add_note", "args", "with_traceback"}  # of Exception
-CANNOT_FAIL = {"to_dict", "get", "stop", "demo", "full_sun"}
+CANNOT_FAIL = {"order", "to_dict", "get", "stop", "demo", "full_sun"}
 
 
 def public() -> list[tuple[str, Any]]:
