@@ -204,7 +204,7 @@ std::vector<Command> make() {
        .run = run_budget,
        .completes = "<profiles> <files>"},
       {.name = "dataset",
-       .usage = "check|scene|preview|plan SET.yaml [SAMPLE] [options], or run|status|verify|merge FOLDER [options]",
+       .usage = "check|scene|preview|plan SET.yaml [SAMPLE] [options], or run|submit|status|verify|merge FOLDER [options]",
        .summary = "sets of scenes in which values are drawn: look at one, make it on any number of machines, check what is there",
        .examples = "tofray dataset check corners.yaml                # what varies, by what law, from where to where\n"
                    "tofray dataset scene corners.yaml 12 > twelve.yaml    # the scene of sample 12, to render or to look at\n"
@@ -213,6 +213,7 @@ std::vector<Command> make() {
                    "tofray dataset plan corners.yaml -o corners      # how large and how slow it is; writes corners/plan.json\n"
                    "tofray dataset run corners                       # all shards that are missing; go on with the same command\n"
                    "tofray dataset run corners --part 3/200          # part 3 of 200, from 0 on: for jobs on a cluster\n"
+                   "tofray dataset submit corners --sbatch=--time=2:00:00    # the same by Slurm, and a merge at the end\n"
                    "tofray dataset status corners\n"
                    "tofray dataset verify corners --recompute 1%     # read all, compute one in a hundred again\n"
                    "tofray dataset merge corners                     # index, statistics, SHA256SUMS\n",
@@ -225,12 +226,12 @@ std::vector<Command> make() {
                "missing or\n"
                "damaged.\n"
                "docs/datasets.md has all forms, and what lies in a shard.\n",
-       .options = {"--output", "--pilot", "--shard-samples", "--part", "--shards", "--recompute", "--partial", "--theme", "--scale",
+       .options = {"--output", "--pilot", "--shard-samples", "--part", "--shards", "--recompute", "--partial", "--tasks", "--sbatch", "--print", "--theme", "--scale",
                    "--threads", "--json", "--quiet"},
        .least_words = 2,
        .most_words = 3,
        .run = run_dataset,
-       .completes = "check scene preview plan run status verify merge <files>"},
+       .completes = "check scene preview plan run submit status verify merge <files>"},
       {.name = "quality",
        .usage = "FRAMES... [options]",
        .summary = "how good depth is in the words of makers: fill rate, plane fit, Z accuracy, noise over frames and pixels, edges",

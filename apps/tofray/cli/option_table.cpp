@@ -480,6 +480,12 @@ void take_share(Options& o, const std::string& value) {
   o.shards.recompute = share.value;
 }
 
+void take_sbatch(Options& o, const std::string& value) {
+  if (!value.starts_with("-") || std::any_of(value.begin(), value.end(), [](char c) { return static_cast<unsigned char>(c) < ' '; }))
+    refuse("--sbatch", value, "an option of sbatch in one word, as in --sbatch=--time=2:00:00");
+  o.shards.sbatch.push_back(value);
+}
+
 /// Of `tofray dataset`.
 std::vector<OptionSpec> dataset_specs() {
   constexpr std::uint64_t most = 1'000'000'000;
@@ -495,6 +501,10 @@ std::vector<OptionSpec> dataset_specs() {
       {"--part", 0, "K/N", "run, verify: part K of N, from 0 on: the shards whose number divided by N leaves K (0/1)", take_part},
       {"--shards", 0, "LIST", "run, verify: these shards alone: 3,7-9", take_shards},
       {"--recompute", 0, "SHARE", "verify: compute so many of the samples again and compare: 0.1% (none)", take_share},
+      {"--tasks", 0, "N", "submit: jobs of the array (100, or one for each shard)",
+       [](Options& o, const std::string& v) { o.shards.tasks = whole("--tasks", v, 1, most, "a whole number of 1 to 1000000000"); }},
+      {"--sbatch", 0, "OPTION", "submit: an option of sbatch, such as --time=2:00:00 or --partition=long; as often as you like", take_sbatch},
+      {"--print", 0, nullptr, "submit: print the script, submit nothing", [](Options& o, const std::string&) { o.shards.print_only = true; }},
       {"--partial", 0, nullptr, "merge: of the shards that are there", [](Options& o, const std::string&) { o.shards.partial = true; }},
   };
 }
@@ -603,7 +613,7 @@ const std::vector<Group>& groups() {
       {"Measuring", {"--warmup", "--compare", "--batch", "--stage", "--block-size"}},
       {"Frames", {"--frames", "--first-frame", "--from", "--pixel"}},
       {"Output", {"--output", "--clean", "--emit", "--arrays", "--compress", "--raw", "--theme", "--scale", "--csv", "--json", "--quiet"}},
-      {"Shards", {"--pilot", "--shard-samples", "--part", "--shards", "--recompute", "--partial"}},
+      {"Shards", {"--pilot", "--shard-samples", "--part", "--shards", "--recompute", "--partial", "--tasks", "--sbatch", "--print"}},
       {"Viewer", {"--port", "--host", "--allow-host", "--open", "--embed", "--rate", "--test-hooks"}},
       {"Machine", {"--threads", "--backend", "--device"}}};
   return all;

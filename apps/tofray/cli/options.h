@@ -66,7 +66,9 @@ struct Options {
     std::vector<std::uint64_t> list;
     std::uint64_t pilot = 8, samples = 0;
     double recompute = 0;
-    bool partial = false;
+    bool partial = false, print_only = false;
+    std::uint64_t tasks = 0;          ///< 0: chosen
+    std::vector<std::string> sbatch;  ///< options of sbatch
   } shards;  ///< of `tofray dataset`
   bool json = false, quiet = false, compare = false, clean = false, sources = false, raw = false, csv = false, auto_exposure = false;
 };

@@ -11,5 +11,6 @@ int run_dataset_run(const Options& options);
 int run_dataset_status(const Options& options);
 int run_dataset_verify(const Options& options);
 int run_dataset_merge(const Options& options);
+int run_dataset_submit(const Options& options);
 
 }  // namespace tofray::app
