@@ -244,6 +244,9 @@ void Sample::resolve_items(const Node& node, const std::string& path, Node& into
       else if (!resolve(item, below, value))
         continue;
       into.keys.push_back(node.keys[i]);
+    } else if (path == "objects" && item.kind == Node::Kind::map && item.keys.size() == 1 && item.keys[0].text == "scatter") {
+      scatter(item.items[0], path, into);
+      continue;
     } else {
       // - sphere: {name: ball, …} goes by its name.
       const bool object = item.kind == Node::Kind::map && item.keys.size() == 1 && item.items[0].kind == Node::Kind::map &&

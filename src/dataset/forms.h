@@ -10,6 +10,7 @@
 
 #include "dataset/draw.h"
 #include "dataset/expression.h"
+#include "dataset/placing.h"
 #include "dataset/set_file.h"
 #include "tofray/dataset.h"
 #include "tofray/file_record.h"
@@ -48,6 +49,10 @@ class Sample {
   std::vector<std::pair<std::string, std::string>> settings();
   /// All that was drawn for it, in the order of the file.
   [[nodiscard]] const std::vector<Drawn>& drawn() const { return drawn_; }
+  /// Objects that are to be put, after scene().
+  [[nodiscard]] const std::vector<Scatter>& scatters() const { return scatters_; }
+  /// A number of [0, 1) by chance for a path, one for each sample.
+  [[nodiscard]] double chance(const std::string& path) const { return unit_number(bits(Per::scene, path)); }
   /// A seed derived for it: 53 bits.
   [[nodiscard]] std::uint64_t seed(Per per, std::string_view path) const;
 
@@ -79,6 +84,12 @@ class Sample {
   void know(const std::string& name, const base::Place& place);
   /// @param written  a name of `let`, or with "." a column of its row
   Named named(std::string_view written, const base::Place& place);
+  // scatter.cpp
+  void scatter(const yaml::Node& map, const std::string& list_path, yaml::Node& into);
+  void where(const yaml::Node& map, Scatter& out);
+  void add_scattered(const yaml::Node& of, const std::string& path, const std::string& name, yaml::Node& into);
+  /// A number in SI units. @param expected  for messages
+  double quantity(const yaml::Node& node, const std::string& path, base::Dimension dimension, const char* expected);
   void note(const Form& form, const std::string& path, std::string text, double value);
 
   const SetFile& set_;
@@ -89,6 +100,7 @@ class Sample {
   std::map<std::string, std::map<std::string, std::string>, std::less<>> rows_;  ///< of tables, by name
   std::vector<std::string> asked_;                                               ///< names under way
   std::vector<Drawn> drawn_;
+  std::vector<Scatter> scatters_;
 };
 
 }  // namespace tofray::dataset

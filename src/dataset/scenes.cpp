@@ -30,13 +30,20 @@ std::string Scenes::source(std::uint64_t sample, std::uint64_t view) const {
 
 Scenes::Written Scenes::write(std::uint64_t sample, std::uint64_t view) const {
   Sample drawing = at(sample, view);
-  const yaml::Node scene = drawing.scene();
+  yaml::Node scene = drawing.scene();
   const auto settings = drawing.settings();
   // Faults are told where they stand in the set's file.
   base::Faults faults;
   yaml::read(model::scene_form(), scene, faults);
   faults.raise();
-  return {load::scene_yaml(load::block_yaml(scene), source(sample, view), settings), drawing.drawn()};
+  std::vector<Drawn> drawn = drawing.drawn();
+  if (!drawing.scatters().empty()) {
+    const Scene standing = load::scene_from_text(load::block_yaml(scene), source(sample, view));
+    const Chance chance = [&](const std::string& path) { return drawing.chance(path); };
+    const std::vector<Drawn> placed = place_objects(standing, drawing.scatters(), chance, scene);
+    drawn.insert(drawn.end(), placed.begin(), placed.end());
+  }
+  return {load::scene_yaml(load::block_yaml(scene), source(sample, view), settings), std::move(drawn)};
 }
 
 std::string Scenes::yaml(std::uint64_t sample, std::uint64_t view) const { return write(sample, view).yaml; }
@@ -45,12 +52,7 @@ Scene Scenes::scene(std::uint64_t sample, std::uint64_t view) const {
   return load::scene_from_text(yaml(sample, view), source(sample, view));
 }
 
-std::vector<Drawn> Scenes::drawn(std::uint64_t sample, std::uint64_t view) const {
-  Sample drawing = at(sample, view);
-  drawing.scene();
-  drawing.settings();
-  return drawing.drawn();
-}
+std::vector<Drawn> Scenes::drawn(std::uint64_t sample, std::uint64_t view) const { return write(sample, view).drawn; }
 
 std::uint64_t Scenes::noise_seed(std::uint64_t sample, std::uint64_t view) const { return at(sample, view).seed(Per::view, "noise"); }
 

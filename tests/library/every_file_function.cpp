@@ -62,10 +62,13 @@ void all() {
   expect(set.license().empty() && set.name() == "t" && set.samples() == 3 && set.views() == 1 && set.combinations() == 1, "Dataset");
   expect(set.scene_yaml(1).find("radius: " + set.drawn(1).at(0).text) != std::string::npos, "Dataset::scene_yaml, drawn");
   expect(set.scene(1).objects.size() == 1 && set.noise_seed(1) != set.noise_seed(2), "Dataset::scene, noise_seed");
-  const tofray::DatasetPlan plan = tofray::plan_dataset({.set = (folder / "set.yaml").native(), .folder = folder / "set", .pilot = 1, .shard_samples = 2});
+  const tofray::DatasetPlan plan =
+      tofray::plan_dataset({.set = (folder / "set.yaml").native(), .folder = folder / "set", .pilot = 1, .shard_samples = 2});
   expect(plan.shards == 2 && tofray::read_plan(folder / "set").id == plan.id, "plan_dataset, read_plan");
-  expect(tofray::run_shards({.folder = folder / "set"}).made == 2 && tofray::dataset_status(folder / "set").complete == 2, "run_shards, dataset_status");
-  expect(tofray::verify_shards({.folder = folder / "set"}).faults.empty() && tofray::merge_shards(folder / "set").samples == 3, "verify_shards, merge_shards");
+  expect(tofray::run_shards({.folder = folder / "set"}).made == 2 && tofray::dataset_status(folder / "set").complete == 2,
+         "run_shards, dataset_status");
+  expect(tofray::verify_shards({.folder = folder / "set"}).faults.empty() && tofray::merge_shards(folder / "set").samples == 3,
+         "verify_shards, merge_shards");
   std::filesystem::remove_all(folder);
   using tofray::ErrorKind;
   expect(kind_of([] { (void)tofray::load_scene("no such scene"); }) == ErrorKind::io, "a scene that is not there");

@@ -503,8 +503,10 @@ std::vector<OptionSpec> dataset_specs() {
       {"--recompute", 0, "SHARE", "verify: compute so many of the samples again and compare: 0.1% (none)", take_share},
       {"--tasks", 0, "N", "submit: jobs of the array (100, or one for each shard)",
        [](Options& o, const std::string& v) { o.shards.tasks = whole("--tasks", v, 1, most, "a whole number of 1 to 1000000000"); }},
-      {"--sbatch", 0, "OPTION", "submit: an option of sbatch, such as --time=2:00:00 or --partition=long; as often as you like", take_sbatch},
-      {"--print", 0, nullptr, "submit: print the script, submit nothing", [](Options& o, const std::string&) { o.shards.print_only = true; }},
+      {"--sbatch", 0, "OPTION", "submit: an option of sbatch, such as --time=2:00:00 or --partition=long; as often as you like",
+       take_sbatch},
+      {"--print", 0, nullptr, "submit: print the script, submit nothing",
+       [](Options& o, const std::string&) { o.shards.print_only = true; }},
       {"--partial", 0, nullptr, "merge: of the shards that are there", [](Options& o, const std::string&) { o.shards.partial = true; }},
   };
 }

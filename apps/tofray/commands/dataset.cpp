@@ -112,6 +112,9 @@ std::string cut(const std::string& text, std::size_t longest) {
 
 std::string range_text(const Column& of) {
   if (of.form == "cap" || of.form == "any") return "directions";
+  if (of.form == "scatter")
+    return fmt::format("{:.4g} % find room, after {:.3g} tries", 100 * (1 - static_cast<double>(of.absent) / static_cast<double>(of.count)),
+                       1 + of.sum / static_cast<double>(of.count));
   if (!of.by_word())
     return fmt::format("{} ... {}, mean {}", short_text(of.lowest, of.lowest_text), short_text(of.highest, of.highest_text),
                        short_text(of.sum / static_cast<double>(of.count), of.lowest_text));
@@ -126,6 +129,20 @@ std::string range_text(const Column& of) {
   return text;
 }
 
+/// What was drawn for objects of one scatter stands under one path: "objects/clutter[*]/of".
+std::vector<Drawn> with_scatters_joined(std::vector<Drawn> drawn) {
+  std::vector<std::string> scatters;
+  for (const Drawn& one : drawn)
+    if (one.form == "scatter") scatters.push_back(one.path.substr(0, one.path.rfind('[')) + "[");
+  for (Drawn& one : drawn)
+    for (const std::string& scatter : scatters)
+      if (one.path.starts_with(scatter)) {
+        one.path = scatter + "*" + one.path.substr(one.path.find(']'));
+        break;
+      }
+  return drawn;
+}
+
 int run_check_of_set(const Dataset& set, const Options& options) {
   constexpr std::uint64_t most_drawn = 1000, most_read = 20;
   const std::uint64_t drawn = std::min(set.samples(), most_drawn), read = std::min(set.samples(), most_read);
@@ -134,8 +151,7 @@ int run_check_of_set(const Dataset& set, const Options& options) {
   std::map<std::string, Column> columns;
   for (std::uint64_t i = 0; i < drawn; ++i) {
     const std::uint64_t sample = drawn == set.samples() ? i : i * (set.samples() / drawn), view = i % set.views();
-    (void)set.scene_yaml(sample, view);
-    for (const Drawn& one : set.drawn(sample, view)) {
+    for (const Drawn& one : with_scatters_joined(set.drawn(sample, view))) {
       if (!columns.contains(one.path)) order.push_back(one.path);
       columns[one.path].add(one);
     }
@@ -259,8 +275,8 @@ const std::vector<Verb>& verbs() {
 
 /// An option that means nothing to the verb is a mistake.
 void refuse_other_options(const Verb& verb, const Options& options) {
-  for (const char* option :
-       {"--output", "--pilot", "--shard-samples", "--part", "--shards", "--recompute", "--partial", "--tasks", "--sbatch", "--print", "--theme", "--scale"}) {
+  for (const char* option : {"--output", "--pilot", "--shard-samples", "--part", "--shards", "--recompute", "--partial", "--tasks",
+                             "--sbatch", "--print", "--theme", "--scale"}) {
     const bool typed = std::any_of(options.typed.begin(), options.typed.end(), [&](const std::string& word) {
       return word == option || word.starts_with(std::string(option) + "=") ||
              (option == std::string_view("--output") && word.starts_with("-o"));

@@ -30,10 +30,15 @@ std::string own_path() {
 std::string asked(const std::vector<std::string>& words, const std::string& input = "") {
   const Finished done = run_program(words, input);
   if (!done.found)
-    throw Error(ErrorKind::device, fmt::format("error: there is no {} here\n  expected Slurm's commands on this machine; --print shows the script, for another one", words[0]));
+    throw Error(
+        ErrorKind::device,
+        fmt::format("error: there is no {} here\n  expected Slurm's commands on this machine; --print shows the script, for another one",
+                    words[0]));
   if (done.code != 0)
-    throw Error(ErrorKind::io, fmt::format("error: {} failed with exit code {}: {}\n  nothing was submitted by it; `tofray dataset status` says what is missing", words[0],
-                                           done.code, base::printable(done.err.empty() ? done.out : done.err)));
+    throw Error(
+        ErrorKind::io,
+        fmt::format("error: {} failed with exit code {}: {}\n  nothing was submitted by it; `tofray dataset status` says what is missing",
+                    words[0], done.code, base::printable(done.err.empty() ? done.out : done.err)));
   return done.out;
 }
 
@@ -53,7 +58,8 @@ std::uint64_t largest_array() {
 std::string job_of(const std::string& said) { return said.substr(0, said.find_first_not_of("0123456789")); }
 
 std::string head(const std::string& name, const std::string& log, const Options& options) {
-  std::string out = fmt::format("#!/bin/sh\n#SBATCH --job-name={}\n#SBATCH --output={}\n#SBATCH --open-mode=append\n#SBATCH --requeue\n", shell_word(name), shell_word(log));
+  std::string out = fmt::format("#!/bin/sh\n#SBATCH --job-name={}\n#SBATCH --output={}\n#SBATCH --open-mode=append\n#SBATCH --requeue\n",
+                                shell_word(name), shell_word(log));
   if (options.threads > 0) out += fmt::format("#SBATCH --cpus-per-task={}\n", options.threads);
   for (const std::string& one : options.shards.sbatch) out += fmt::format("#SBATCH {}\n", one);
   return out;
@@ -78,16 +84,19 @@ int run_dataset_submit(const Options& options) {
   if (!options.shards.print_only) {
     const std::uint64_t most = largest_array();
     if (tasks > most)
-      throw Error(ErrorKind::bad_input, fmt::format("error: {} tasks are more than this cluster's MaxArraySize takes\n  expected at most {}", tasks, most));
+      throw Error(ErrorKind::bad_input,
+                  fmt::format("error: {} tasks are more than this cluster's MaxArraySize takes\n  expected at most {}", tasks, most));
   }
   std::string name;
-  for (const char c : plan.name) name += (c >= '0' && c <= '9') || (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') || c == '-' || c == '_' ? c : '_';
+  for (const char c : plan.name)
+    name += (c >= '0' && c <= '9') || (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') || c == '-' || c == '_' ? c : '_';
   const std::string tool = shell_word(own_path()), set = shell_word(folder.native());
   // The shell becomes srun, which hands signals on to the step: bash would keep them until its child ends.
   std::string work = head("tofray-" + name, (folder / "log/slurm-%A_%a.out").native(), options);
-  work += fmt::format("#SBATCH --array=0-{}\n#SBATCH --signal=B:TERM@60\nexec srun {} dataset run {} --part \"$SLURM_ARRAY_TASK_ID/{}\" --threads "
-                      "\"${{SLURM_CPUS_PER_TASK:-1}}\" --quiet\n",
-                      tasks - 1, tool, set, tasks);
+  work += fmt::format(
+      "#SBATCH --array=0-{}\n#SBATCH --signal=B:TERM@60\nexec srun {} dataset run {} --part \"$SLURM_ARRAY_TASK_ID/{}\" --threads "
+      "\"${{SLURM_CPUS_PER_TASK:-1}}\" --quiet\n",
+      tasks - 1, tool, set, tasks);
   std::string merge = head("tofray-merge-" + name, (folder / "log/slurm-merge-%j.out").native(), options);
   merge += fmt::format("exec srun {} dataset merge {}\n", tool, set);
   if (options.shards.print_only) {
@@ -100,11 +109,15 @@ int run_dataset_submit(const Options& options) {
   // Also where a task failed, so that what is missing is told.
   const std::string merging = job_of(asked({"sbatch", "--parsable", "--dependency=afterany:" + job}, merge));
   if (options.json)
-    print(files::json_text(files::Json::object().set("tasks", tasks).set("job", job).set("merge", merging).set("missing", status.missing.size())) + "\n");
+    print(files::json_text(
+              files::Json::object().set("tasks", tasks).set("job", job).set("merge", merging).set("missing", status.missing.size())) +
+          "\n");
   else
-    print(fmt::format("job {}: {} tasks for {} missing shards; job {} merges them\n  squeue says how far they are, tofray dataset status {} what is there; what failed is submitted "
-                      "by the same command\n",
-                      job, tasks, status.missing.size(), merging, base::printable(options.words[1])));
+    print(
+        fmt::format("job {}: {} tasks for {} missing shards; job {} merges them\n  squeue says how far they are, tofray dataset status {} "
+                    "what is there; what failed is submitted "
+                    "by the same command\n",
+                    job, tasks, status.missing.size(), merging, base::printable(options.words[1])));
   return 0;
 }
 

@@ -1,0 +1,47 @@
+// SPDX-FileCopyrightText: 2026 The tofray authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "tofray/dataset.h"
+#include "tofray/scene.h"
+#include "yaml/tree.h"
+
+/// Objects that are put where they have room: `scatter` of a set's file.
+namespace tofray::dataset {
+
+/// One `scatter`, its values drawn.
+struct Scatter {
+  enum class Unplaced : std::uint8_t { drop, fail };
+  std::string path;                  ///< "objects/clutter"
+  base::Place place;                 ///< in the set's file
+  std::size_t first = 0, count = 0;  ///< its objects in the scene's list
+  std::string surface;               ///< name of the object that they lie on; empty: they float
+  std::vector<double> box;           ///< where they float [m]: low x, y, z, high x, y, z; empty: in what the camera sees
+  double near_m = 0, far_m = 0;      ///< … from z to z of the camera
+  double within_m = 0;               ///< from the middle of the surface; 0: all of it
+  double gap_m = 0;
+  int tries = 100;
+  Unplaced unplaced = Unplaced::drop;
+  std::vector<double> turns_rad;  ///< of each object, about the surface's normal, or about what is up
+};
+
+/// A uniform number of [0, 1) for each path.
+using Chance = std::function<double(const std::string& path)>;
+
+/// Puts the objects of all scatters, in order, where they overlap nothing that stands or was put before them: position and rotation of each
+/// are written into the scene's tree, and those that find no room are taken out of it.
+///
+/// An object stands on a surface with its lowest point, exactly; what is told apart are boxes along each object's own axes, by separating
+/// axes (Gottschalk et al. 1996), so that two of them may be farther apart than they look, never nearer than `gap`. All of it is + − × ÷ √
+/// and num/setup_math.h.
+///
+/// @param scene  what `tree` says, read: scattered objects stand about their own zero in it
+/// @return what was drawn: of each object its place, or that there is none
+/// @throws Error (bad_input) where a surface is none, or an object has to be put and cannot
+std::vector<Drawn> place_objects(const Scene& scene, const std::vector<Scatter>& scatters, const Chance& chance, yaml::Node& tree);
+
+}  // namespace tofray::dataset
