@@ -99,8 +99,8 @@ std::size_t form_key(const Node& node) {
 
 }  // namespace
 
-Sample::Sample(const SetFile& set, const Fixed& fixed, std::uint64_t sample, std::uint64_t view)
-    : set_(set), fixed_(fixed), sample_(sample), view_(view) {
+Sample::Sample(const SetFile& set, const Fixed& fixed, std::uint64_t sample, std::uint64_t view, std::uint32_t attempt)
+    : set_(set), fixed_(fixed), sample_(sample), view_(view), attempt_(attempt) {
   for (std::size_t i = 0; i < set_.let.keys.size(); ++i) {
     if (!is_name(set_.let.keys[i].text))
       base::fail(set_.let.keys[i].place, in_quotes(set_.let.keys[i].text) + " is no name for an expression",
@@ -113,8 +113,8 @@ Address Sample::address(Per per) const {
   switch (per) {
     case Per::set: return {set_.seed, 0, 0, 0};
     case Per::device: return {set_.seed, sample_ % set_.devices, 0, 0};
-    case Per::scene: return {set_.seed, sample_, 0, 0};
-    case Per::view: return {set_.seed, sample_, static_cast<std::uint32_t>(view_), 0};
+    case Per::scene: return {set_.seed, sample_, 0, attempt_};
+    case Per::view: return {set_.seed, sample_, static_cast<std::uint32_t>(view_), attempt_};
   }
   return {};
 }

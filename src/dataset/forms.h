@@ -41,7 +41,8 @@ Fixed fixed_of(const SetFile& set);
 /// A sample's values.
 class Sample {
  public:
-  Sample(const SetFile& set, const Fixed& fixed, std::uint64_t sample, std::uint64_t view);
+  /// @param attempt  at a sample that the set's `accept` takes
+  Sample(const SetFile& set, const Fixed& fixed, std::uint64_t sample, std::uint64_t view, std::uint32_t attempt = 0);
 
   /// The scene without forms; each value stands where its form stands in the set's file.
   yaml::Node scene();
@@ -95,6 +96,7 @@ class Sample {
   const SetFile& set_;
   const Fixed& fixed_;
   std::uint64_t sample_, view_;
+  std::uint32_t attempt_;
   std::set<std::string> claimed_;
   std::map<std::string, Named, std::less<>> known_;
   std::map<std::string, std::map<std::string, std::string>, std::less<>> rows_;  ///< of tables, by name

@@ -93,9 +93,10 @@ class Placer {
         if (names.back() == scatter.surface) under = &scene_.objects[i];
       }
       if (under == nullptr)
-        base::fail(scatter.place,
-                   "there is no object " + base::in_quotes(scatter.surface) + " for things to lie on" + base::did_you_mean(scatter.surface, names),
-                   names.empty() ? "expected the name of one" : "the scene has " + base::listed(names, "and"));
+        base::fail(
+            scatter.place,
+            "there is no object " + base::in_quotes(scatter.surface) + " for things to lie on" + base::did_you_mean(scatter.surface, names),
+            names.empty() ? "expected the name of one" : "the scene has " + base::listed(names, "and"));
       surface = surface_of(*under, up_);
       if (!surface)
         base::fail(scatter.place, base::in_quotes(scatter.surface) + " has no flat side for things to lie on",
@@ -157,7 +158,9 @@ class Placer {
     const Vec seen{z * (u * camera_->sensor.width - 0.5 - lens.cx_px) / lens.fx_px,
                    z * (v * camera_->sensor.height - 0.5 - lens.cy_px) / lens.fy_px, z};
     const std::array<double, 16> pose = camera_pose(scene_, 0);  // camera to world
-    const auto world = [&](std::size_t row) { return pose[4 * row] * seen.x + pose[4 * row + 1] * seen.y + pose[4 * row + 2] * seen.z + pose[4 * row + 3]; };
+    const auto world = [&](std::size_t row) {
+      return pose[4 * row] * seen.x + pose[4 * row + 1] * seen.y + pose[4 * row + 2] * seen.z + pose[4 * row + 3];
+    };
     return {world(0), world(1), world(2)};
   }
 

@@ -2,7 +2,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "dataset/scenes.h"
 
+#include <algorithm>
+#include <optional>
+
 #include "base/faults.h"
+#include "dataset/accept.h"
 #include "load/controls.h"
 #include "load/load.h"
 #include "load/trees.h"
@@ -14,14 +18,14 @@ namespace tofray::dataset {
 
 Scenes::Scenes(std::string_view text, const std::string& source) : set_(parse_set(text, source)), fixed_(fixed_of(set_)) {}
 
-Sample Scenes::at(std::uint64_t sample, std::uint64_t view) const {
+Sample Scenes::at(std::uint64_t sample, std::uint64_t view, std::uint32_t attempt) const {
   if (sample >= set_.samples)
     throw Error(ErrorKind::bad_input, "error: there is no sample " + std::to_string(sample) + "\n  " + set_.source + " has " +
                                           std::to_string(set_.samples) + ", numbered from 0");
   if (view >= set_.views)
     throw Error(ErrorKind::bad_input, "error: there is no view " + std::to_string(view) + "\n  " + set_.source + " has " +
                                           std::to_string(set_.views) + " of each sample, numbered from 0");
-  return {set_, fixed_, sample, view};
+  return {set_, fixed_, sample, view, attempt};
 }
 
 std::string Scenes::source(std::uint64_t sample, std::uint64_t view) const {
@@ -29,7 +33,42 @@ std::string Scenes::source(std::uint64_t sample, std::uint64_t view) const {
 }
 
 Scenes::Written Scenes::write(std::uint64_t sample, std::uint64_t view) const {
-  Sample drawing = at(sample, view);
+  const std::uint32_t attempt = accepted(sample);
+  Written out = write_attempt(sample, view, attempt);
+  if (!set_.accept.empty()) out.drawn.push_back({"accept", "attempt", std::to_string(attempt), static_cast<double>(attempt)});
+  return out;
+}
+
+std::uint32_t Scenes::accepted(std::uint64_t sample) const {
+  if (set_.accept.empty()) return 0;
+  {
+    const std::lock_guard lock(mutex_);
+    if (const auto known = accepted_.find(sample); known != accepted_.end()) return known->second;
+  }
+  std::vector<std::uint64_t> refused(set_.accept.size(), 0);
+  for (std::uint32_t attempt = 0; attempt < set_.attempts; ++attempt) {
+    std::optional<std::size_t> broken;
+    for (std::uint64_t view = 0; view < set_.views && !broken; ++view) {
+      const Scene scene = load::scene_from_text(write_attempt(sample, view, attempt).yaml, source(sample, view));
+      broken = broken_rule(scene, noise_seed(sample, view), set_.accept);
+    }
+    if (broken) {
+      ++refused[*broken];
+      continue;
+    }
+    constexpr std::size_t most_known = 4096;
+    const std::lock_guard lock(mutex_);
+    if (accepted_.size() >= most_known) accepted_.clear();
+    return accepted_[sample] = attempt;
+  }
+  const auto worst = static_cast<std::size_t>(std::max_element(refused.begin(), refused.end()) - refused.begin());
+  base::fail(set_.accept[worst].place, "accept takes no attempt at sample " + std::to_string(sample),
+             "of " + std::to_string(set_.attempts) + ", this rule refused " + std::to_string(refused[worst]) +
+                 "; expected a weaker one, more `attempts`, or `holes`");
+}
+
+Scenes::Written Scenes::write_attempt(std::uint64_t sample, std::uint64_t view, std::uint32_t attempt) const {
+  Sample drawing = at(sample, view, attempt);
   yaml::Node scene = drawing.scene();
   const auto settings = drawing.settings();
   // Faults are told where they stand in the set's file.

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include <cstdint>
+#include <map>
+#include <mutex>
 #include <string>
 #include <vector>
 
@@ -39,9 +41,14 @@ class Scenes {
   [[nodiscard]] std::string source(std::uint64_t sample, std::uint64_t view) const;
 
  private:
-  [[nodiscard]] Sample at(std::uint64_t sample, std::uint64_t view) const;
+  [[nodiscard]] Sample at(std::uint64_t sample, std::uint64_t view, std::uint32_t attempt = 0) const;
+  [[nodiscard]] Written write_attempt(std::uint64_t sample, std::uint64_t view, std::uint32_t attempt) const;
+  /// The first attempt that the set's `accept` takes. @throws Error (bad_input) where it takes none
+  [[nodiscard]] std::uint32_t accepted(std::uint64_t sample) const;
   SetFile set_;
   Fixed fixed_;  ///< points into the set
+  mutable std::mutex mutex_;
+  mutable std::map<std::uint64_t, std::uint32_t> accepted_;  ///< of the last samples; guarded by the mutex
 };
 
 }  // namespace tofray::dataset

@@ -9,7 +9,17 @@ namespace tofray::dataset {
 
 namespace {
 
-constexpr double most_samples = 1e12, most_views = 256, most_devices = 1e9, most_seed = 9007199254740991.0;
+constexpr double most_samples = 1e12, most_views = 256, most_devices = 1e9, most_seed = 9007199254740991.0, most_attempts = 65536;
+
+model::Form rule_form() {
+  using namespace model;
+  Form rule =
+      map({absent("valid", number(base::Dimension::fraction, {0, 1}, "60 %"), "the share of the pixels that have a depth, at least"),
+           absent("seen", text("the name of an object, or of a scatter", "clutter"), "what is seen"),
+           absent("pixels", integer({1, 1e9}, "200"), "by so many pixels, at least")});
+  rule.exactly_one = {"valid", "seen"};
+  return rule;
+}
 
 const model::FileForm& set_form() {
   using namespace model;
@@ -25,6 +35,8 @@ const model::FileForm& set_form() {
           absent("devices", model::integer({1, most_devices}, "16"), "specimens of the camera that take turns"),
           absent("let", model::Form{}, "numbers by name, for expressions"),
           absent("arrays", model::list(model::text("the name of an array, or a pattern", "gt_*"), 1, 64), "what is stored of each sample"),
+          absent("accept", model::list(rule_form(), 1, 16), "what a sample has to show, or it is drawn again"),
+          absent("attempts", model::integer({1, most_attempts}, "50"), "how often a sample is drawn until accept takes it"),
           absent("holes", model::number(base::Dimension::fraction, {0, 1}, "0.1 %"), "the share of samples that may fail"),
           required("scene", model::Form{}, "a scene in which any value may be a form"),
           absent("set", model::Form{}, "keys and values as --set takes them; of the camera, too"),
@@ -57,6 +69,18 @@ SetFile parse_set(std::string_view text, const std::string& source) {
   whole("samples", out.samples), whole("seed", out.seed), whole("views", out.views), whole("devices", out.devices);
   if (value["arrays"])
     for (const yaml::Value& one : value["arrays"].items) out.arrays.push_back(one.text);
+  whole("attempts", out.attempts);
+  if (value["accept"])
+    for (const yaml::Value& one : value["accept"].items) {
+      if (!one.good) continue;
+      AcceptRule rule{one.place(), one["seen"].text, 1, one["valid"].number};
+      if (one["pixels"]) {
+        rule.pixels = static_cast<std::uint64_t>(one["pixels"].number);
+        if (rule.seen.empty())
+          faults.add(one["pixels"].place(), "`pixels` stands beside valid", "expected it beside seen: {seen: clutter, pixels: 200}");
+      }
+      out.accept.push_back(std::move(rule));
+    }
   if (value["holes"] && value["holes"].good) out.holes = value["holes"].number;
   if (const yaml::Node* let = root.find("let")) out.let = *let;
   if (const yaml::Node* scene = root.find("scene")) out.scene = *scene;

@@ -10,6 +10,14 @@
 /// A set's file as it is written: how many samples of which scene.
 namespace tofray::dataset {
 
+/// What a sample's first look has to show for it to be taken.
+struct AcceptRule {
+  base::Place place;
+  std::string seen;          ///< name of an object, or of a scatter; empty: the rule is of all pixels
+  std::uint64_t pixels = 0;  ///< that have to see it, of the whole image
+  double valid = 0;          ///< share of the pixels that have to have a depth
+};
+
 struct SetFile {
   std::string source;  ///< the file's name
   std::string folder;  ///< where tables and files beside it are looked for
@@ -17,8 +25,10 @@ struct SetFile {
   std::uint64_t samples = 0, seed = 0, views = 1, devices = 1;
   std::vector<std::string> arrays;  ///< names and patterns of what is stored; empty: the usual ones
   double holes = 0;                 ///< the share of samples that may fail
-  yaml::Node let, scene, set;       ///< forms in them, not yet drawn
-  std::string text;                 ///< the whole file
+  std::vector<AcceptRule> accept;
+  std::uint64_t attempts = 50;  ///< at a sample that these take
+  yaml::Node let, scene, set;   ///< forms in them, not yet drawn
+  std::string text;             ///< the whole file
   /// All of it that the samples are made of, in one form whatever comments and blanks the file has: without `samples`.
   std::string laws;
 };

@@ -65,7 +65,8 @@ Mat turn_about(const Vec& a, double angle) {
 }
 
 Mat matrix_of(const Rotation& rotation) {
-  if (!rotation.quaternion) return rotation.angle_rad == 0 ? Solid{}.axes : turn_about(shape::normalized(vec(rotation.axis)), rotation.angle_rad);
+  if (!rotation.quaternion)
+    return rotation.angle_rad == 0 ? Solid{}.axes : turn_about(shape::normalized(vec(rotation.axis)), rotation.angle_rad);
   const base::Mat3 rows = base::matrix_of(*rotation.quaternion);
   return {{vec(rows[0]), vec(rows[1]), vec(rows[2])}};
 }
