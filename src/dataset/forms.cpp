@@ -239,6 +239,10 @@ void Sample::resolve_items(const Node& node, const std::string& path, Node& into
     if (map) {
       const std::string& key = node.keys[i].text;
       const std::string below = path.empty() ? key : path + "/" + key;
+      if (path == "camera" && key == "pose" && item.kind == Node::Kind::map && item.find("look") != nullptr) {
+        see_look(item);
+        continue;
+      }
       if (key == "rotation" && item.kind == Node::Kind::scalar && item.text == "any")
         draw_rotation(item, below, value);
       else if (!resolve(item, below, value))

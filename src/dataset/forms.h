@@ -52,6 +52,13 @@ class Sample {
   [[nodiscard]] const std::vector<Drawn>& drawn() const { return drawn_; }
   /// Objects that are to be put, after scene().
   [[nodiscard]] const std::vector<Scatter>& scatters() const { return scatters_; }
+  /// The `look` of the camera's pose, as it is written; null where there is none.
+  [[nodiscard]] const yaml::Node* look() const { return look_; }
+  /// Its values, of one of several tries at it.
+  Look draw_look(int attempt);
+  /// How far all else has to be from the camera that looks [m], and how often a place is drawn.
+  double look_clear();
+  int look_tries();
   /// A number of [0, 1) by chance for a path, one for each sample.
   [[nodiscard]] double chance(const std::string& path) const { return unit_number(bits(Per::scene, path)); }
   /// A seed derived for it: 53 bits.
@@ -85,6 +92,9 @@ class Sample {
   void know(const std::string& name, const base::Place& place);
   /// @param written  a name of `let`, or with "." a column of its row
   Named named(std::string_view written, const base::Place& place);
+  // look.cpp
+  void see_look(const yaml::Node& pose);
+  double look_value(const char* key, int attempt, double low, double high, base::Dimension dimension);
   // scatter.cpp
   void scatter(const yaml::Node& map, const std::string& list_path, yaml::Node& into);
   void where(const yaml::Node& map, Scatter& out);
@@ -103,6 +113,7 @@ class Sample {
   std::vector<std::string> asked_;                                               ///< names under way
   std::vector<Drawn> drawn_;
   std::vector<Scatter> scatters_;
+  const yaml::Node* look_ = nullptr;
 };
 
 }  // namespace tofray::dataset

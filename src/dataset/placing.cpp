@@ -55,7 +55,7 @@ Vec up_of(const Scene& scene) {
   return {0, -1, 0};
 }
 
-/// An endless plane, and the side of it that the camera is on.
+/// An endless plane.
 struct Wall {
   const Object* object;
   Vec point, normal;
@@ -63,19 +63,19 @@ struct Wall {
 
 class Placer {
  public:
-  Placer(const Scene& scene, const std::vector<Scatter>& scatters, const Chance& chance, Node& tree)
+  Placer(const Scene& scene, const std::vector<Scatter>& scatters, const Chance& chance, bool camera_stands, Node& tree)
       : scene_(scene), chance_(chance), objects_(*tree.find("objects")), up_(up_of(scene)) {
     scattered_.assign(scene.objects.size(), false);
     for (const Scatter& one : scatters)
       for (std::size_t i = one.first; i < one.first + one.count; ++i) scattered_[i] = true;
-    const Vec eye = vec(scene.camera.keyframes.empty() ? scene.camera.pose.position : scene.camera.keyframes[0].pose.position);
+    if (camera_stands) eye_ = vec(scene.camera.keyframes.empty() ? scene.camera.pose.position : scene.camera.keyframes[0].pose.position);
     for (std::size_t i = 0; i < scene.objects.size(); ++i) {
       if (scattered_[i]) continue;
       const Object& object = scene.objects[i];
       if (const auto* plane = std::get_if<Plane>(&object.shape)) {
         const shape::Plane placed = shape::Plane::placed(*plane, shape::Placement{matrix_of(object.rotation), vec(object.position)});
         const Vec normal = shape::normalized(placed.normal);
-        walls_.push_back({&object, placed.point, shape::dot(eye - placed.point, normal) < 0 ? -1 * normal : normal});
+        walls_.push_back({&object, placed.point, normal});
       } else if (const auto box = own_box(object)) {
         standing_.push_back({&object, solid_of(object, *box)});
       }
@@ -167,8 +167,12 @@ class Placer {
   [[nodiscard]] bool has_room(const Solid& solid, const Object* under, double gap) const {
     for (const Standing& one : standing_)
       if (one.object != under && !apart(solid, one.solid, gap)) return false;
+    // The side of the camera; where that is put later, the side of the place itself.
+    const auto side = [&](const Wall& wall) {
+      return shape::dot((eye_ ? *eye_ : solid.center) - wall.point, wall.normal) < 0 ? -1 * wall.normal : wall.normal;
+    };
     return std::all_of(walls_.begin(), walls_.end(),
-                       [&](const Wall& wall) { return wall.object == under || beyond(solid, wall.point, wall.normal, gap); });
+                       [&](const Wall& wall) { return wall.object == under || beyond(solid, wall.point, side(wall), gap); });
   }
 
   void put(const Scatter& scatter, std::size_t k, const Surface* surface, const Object* under) {
@@ -222,6 +226,7 @@ class Placer {
   const Chance& chance_;
   Node& objects_;
   Vec up_;
+  std::optional<Vec> eye_;
   std::vector<bool> scattered_;  ///< by object
   std::vector<Wall> walls_;
   std::vector<Standing> standing_;
@@ -229,13 +234,93 @@ class Placer {
   std::optional<Camera> camera_;
 };
 
+/// How far a point is from a box; 0 in it.
+double distance_to(const Solid& solid, const Vec& point) {
+  const Vec from = point - solid.center;
+  double sum = 0;
+  for (int k = 0; k < 3; ++k) {
+    const double beyond = std::max(0.0, std::abs(shape::dot(from, solid.axes.row[k])) - solid.half[k]);
+    sum += beyond * beyond;
+  }
+  return std::sqrt(sum);
+}
+
+bool is_called(const std::string& object, const std::string& name) { return object == name || object.starts_with(name + "["); }
+
+/// The middle of what a look is at: of a scatter, of all its things.
+Vec aim_of(const Scene& scene, const Look& look) {
+  if (look.at_name.empty()) return {look.at_m[0], look.at_m[1], look.at_m[2]};
+  Vec sum{};
+  double count = 0;
+  std::vector<std::string> names;
+  for (const Object& one : scene.objects) {
+    if (!one.name.empty()) names.push_back(one.name);
+    if (!is_called(one.name, look.at_name)) continue;
+    const auto own = own_box(one);
+    const auto* plane = std::get_if<Plane>(&one.shape);
+    sum = sum + (own ? solid_of(one, *own).center : plane != nullptr ? vec(plane->point) + vec(one.position) : Vec{}), count += 1;
+  }
+  if (count == 0)
+    base::fail(look.place, "there is no object " + base::in_quotes(look.at_name) + " to look at" + base::did_you_mean(look.at_name, names),
+               names.empty() ? "expected the name of one, or a point" : "the scene has " + base::listed(names, "and"));
+  return (1 / count) * sum;
+}
+
+bool is_clear(const Scene& scene, const Vec& eye, const Vec& aim, double clear_m) {
+  for (const Object& one : scene.objects) {
+    if (const auto* plane = std::get_if<Plane>(&one.shape)) {
+      const shape::Plane placed = shape::Plane::placed(*plane, shape::Placement{matrix_of(one.rotation), vec(one.position)});
+      const Vec normal = shape::normalized(placed.normal);
+      const double here = shape::dot(eye - placed.point, normal), there = shape::dot(aim - placed.point, normal);
+      // On the side of what it looks at; where that is the plane itself, on either.
+      constexpr double on_it = 1e-9;
+      if (std::abs(here) < clear_m || (std::abs(there) > on_it && here * there < 0)) return false;
+    } else if (const auto own = own_box(one); own && distance_to(solid_of(one, *own), eye) < clear_m) {
+      return false;
+    }
+  }
+  return true;
+}
+
 }  // namespace
 
-std::vector<Drawn> place_objects(const Scene& scene, const std::vector<Scatter>& scatters, const Chance& chance, Node& tree) {
-  Placer placer(scene, scatters, chance, tree);
+std::vector<Drawn> place_objects(const Scene& scene, const std::vector<Scatter>& scatters, const Chance& chance, bool camera_stands,
+                                 Node& tree) {
+  Placer placer(scene, scatters, chance, camera_stands, tree);
   for (const Scatter& one : scatters) placer.place(one);
   placer.finish();
   return std::move(placer.drawn);
+}
+
+Drawn place_camera(const Scene& scene, const LookDraw& draw, double clear_m, int tries, Node& tree) {
+  const Vec up = up_of(scene), ahead = scene.world_up == Scene::Up::z ? Vec{1, 0, 0} : Vec{0, 0, 1}, aside = shape::cross(up, ahead);
+  base::Place place;
+  for (int attempt = 0; attempt < tries; ++attempt) {
+    const Look look = draw(attempt);
+    place = look.place;
+    const Vec aim = aim_of(scene, look);
+    const double level = num::setup::cos(look.elevation_rad), c = num::setup::cos(look.azimuth_rad), s = num::setup::sin(look.azimuth_rad);
+    const Vec from = level * (c * ahead + s * aside) + num::setup::sin(look.elevation_rad) * up;
+    const Vec eye = aim + look.radius_m * from;
+    if (!is_clear(scene, eye, aim, clear_m)) continue;
+    // What is up in the image, across the line of sight; straight above or below it, what is ahead.
+    Vec above = up - shape::dot(up, from) * from;
+    constexpr double upright = 1e-6;
+    if (shape::length(above) < upright) above = ahead - shape::dot(ahead, from) * from;
+    above = turn_about(from, look.roll_rad) * shape::normalized(above);
+    Node pose;
+    pose.kind = Node::Kind::map, pose.place = look.place;
+    const auto put = [&](const char* key, const Vec& v) {
+      set_key(pose, key, numbers_node(std::vector<double>{v.x, v.y, v.z}, look.place));
+    };
+    put("position", eye), put("look_at", aim), put("up", above);
+    Node* camera = tree.find("camera");
+    set_key(*camera, "pose", pose);
+    tree.height = std::max(tree.height, camera->height + 1);
+    return {"camera/pose/look", "look", yaml::flow_text(pose), static_cast<double>(attempt)};
+  }
+  base::fail(place, "the camera finds no place to look from in " + std::to_string(tries) + " tries",
+             "expected a larger radius, other elevations, or a smaller `clear`");
 }
 
 }  // namespace tofray::dataset

@@ -29,6 +29,16 @@ struct Scatter {
   std::vector<double> turns_rad;  ///< of each object, about the surface's normal, or about what is up
 };
 
+/// `look` of a camera's pose, its values drawn: where it looks at, and from where.
+struct Look {
+  base::Place place;
+  std::string at_name;       ///< an object, or a scatter; empty: a point
+  std::vector<double> at_m;  ///< the point
+  double radius_m = 0, elevation_rad = 0, azimuth_rad = 0, roll_rad = 0;
+};
+/// A try at it.
+using LookDraw = std::function<Look(int attempt)>;
+
 /// A uniform number of [0, 1) for each path.
 using Chance = std::function<double(const std::string& path)>;
 
@@ -40,8 +50,19 @@ using Chance = std::function<double(const std::string& path)>;
 /// and num/setup_math.h.
 ///
 /// @param scene  what `tree` says, read: scattered objects stand about their own zero in it
+/// @param camera_stands  whether the camera's pose is known: otherwise things are put on the side of endless planes on which their place is
 /// @return what was drawn: of each object its place, or that there is none
 /// @throws Error (bad_input) where a surface is none, or an object has to be put and cannot
-std::vector<Drawn> place_objects(const Scene& scene, const std::vector<Scatter>& scatters, const Chance& chance, yaml::Node& tree);
+std::vector<Drawn> place_objects(const Scene& scene, const std::vector<Scatter>& scatters, const Chance& chance, bool camera_stands,
+                                 yaml::Node& tree);
+
+/// Puts the camera where it looks at a thing from, with nothing within `clear_m` of it: the first of some tries that finds such a place becomes the tree's `camera.pose`.
+///
+/// The camera is `radius` away from the middle of what it looks at, `elevation` above the horizon (about what is up), and `azimuth` about what is up from the direction of the
+/// world's z axis, or of its x axis where z is up; what is up in the image is what is up in the world, turned by `roll`.
+///
+/// @param scene  what `tree` says, read, after its objects were put
+/// @throws Error (bad_input) where there is no such object, or no place
+Drawn place_camera(const Scene& scene, const LookDraw& draw, double clear_m, int tries, yaml::Node& tree);
 
 }  // namespace tofray::dataset

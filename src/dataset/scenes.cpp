@@ -76,11 +76,23 @@ Scenes::Written Scenes::write_attempt(std::uint64_t sample, std::uint64_t view, 
   yaml::read(model::scene_form(), scene, faults);
   faults.raise();
   std::vector<Drawn> drawn = drawing.drawn();
+  const bool looks = drawing.look() != nullptr;
+  for (const Scatter& one : drawing.scatters())
+    if (looks && one.far_m > 0)
+      base::fail(one.place, "things are put into the view of a camera that is put by `look` after them",
+                 "expected surface or box, or a pose without look");
   if (!drawing.scatters().empty()) {
     const Scene standing = load::scene_from_text(load::block_yaml(scene), source(sample, view));
     const Chance chance = [&](const std::string& path) { return drawing.chance(path); };
-    const std::vector<Drawn> placed = place_objects(standing, drawing.scatters(), chance, scene);
+    const std::vector<Drawn> placed = place_objects(standing, drawing.scatters(), chance, !looks, scene);
     drawn.insert(drawn.end(), placed.begin(), placed.end());
+  }
+  if (looks) {
+    const Scene standing = load::scene_from_text(load::block_yaml(scene), source(sample, view));
+    const double clear = drawing.look_clear();
+    const int tries = drawing.look_tries();
+    drawn.push_back(place_camera(
+        standing, [&](int at_try) { return drawing.draw_look(at_try); }, clear, tries, scene));
   }
   return {load::scene_yaml(load::block_yaml(scene), source(sample, view), settings), std::move(drawn)};
 }

@@ -114,6 +114,7 @@ std::string range_text(const Column& of) {
   if (of.form == "cap" || of.form == "any") return "directions";
   if (of.form == "attempt")
     return fmt::format("taken after {:.3g} attempts, {} at most", 1 + of.sum / static_cast<double>(of.count), of.highest + 1);
+  if (of.form == "look") return fmt::format("a place after {:.3g} tries", 1 + of.sum / static_cast<double>(of.count));
   if (of.form == "scatter")
     return fmt::format("{:.4g} % find room, after {:.3g} tries", 100 * (1 - static_cast<double>(of.absent) / static_cast<double>(of.count)),
                        1 + of.sum / static_cast<double>(of.count));
