@@ -60,6 +60,7 @@ std::vector<Command> make() {
                    "tofray render room --frames 500 --arrays raw,z_m,flags   # an eighth of the bytes\n"
                    "tofray render scene.yaml --frames 60 --fps 15 --exposure-samples 4  # a film, with motion blur\n"
                    "tofray render room --subpixel 3                          # edges mix near and far, as in a real pixel\n"
+                   "tofray render room -o out --frames 100 --emit mcap       # out/run.mcap, for ROS 2: topics as of a camera's driver\n"
                    "tofray render scene.yaml -o out --clean                  # what an earlier run left in out goes\n"
                    "tofray render --from out/manifest.json -o again          # the same bytes again\n",
        .more =
@@ -67,7 +68,8 @@ std::vector<Command> make() {
            "which is put on a floor.\n"
            "Without -o the folder is called like the scene.\n"
            "Same version, scene, options and seed: the same bytes, for any number of threads.\n",
-       .options = simulation_and({"--frames", "--first-frame", "--from", "--json", "--quiet"}),
+       .options = simulation_and({"--frames", "--first-frame", "--from", "--driver", "--topics", "--camera-name", "--stamp", "--epoch",
+                                  "--depth-encoding", "--amplitude-step", "--unorganized", "--mcap-compression", "--json", "--quiet"}),
        .least_words = 1,
        .most_words = 1,
        .run = run_render,

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/core.h>
 
+#include <algorithm>
+
 #include "base/text.h"
 #include "cli/commands.h"
 #include "cli/console.h"
@@ -55,6 +57,12 @@ int write_results(const Options& options, const run::Loaded& in, const run::Fram
   return 0;
 }
 
+/// Films are made by simulations.
+void refuse_film(const Options& options) {
+  if (options.emit && std::find(options.emit->begin(), options.emit->end(), "mcap") != options.emit->end())
+    throw Error(ErrorKind::bad_input, "error: --emit mcap is of `tofray render`\n  expected npz, png, ply or several of them");
+}
+
 /// Raw frames to depth.
 int process_raw(const Options& options) {
   if (options.first_m || options.width_m || options.per_factor || options.seed || options.noise)
@@ -102,6 +110,9 @@ int process_transient(const Options& options) {
 
 }  // namespace
 
-int run_process(const Options& options) { return options.transient.empty() ? process_raw(options) : process_transient(options); }
+int run_process(const Options& options) {
+  refuse_film(options);
+  return options.transient.empty() ? process_raw(options) : process_transient(options);
+}
 
 }  // namespace tofray::app
