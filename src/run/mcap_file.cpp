@@ -62,7 +62,7 @@ struct McapWriter::Impl {
     std::map<std::string, std::uint16_t> schemas;
     for (const Topic& topic : messages.topics()) {
       if (!schemas.contains(topic.type)) schemas[topic.type] = writer.add_schema(topic.type, "ros2msg", message_definition(topic.type));
-      channels.push_back(writer.add_channel(schemas[topic.type], topic.name, "cdr"));
+      channels.push_back(writer.add_channel(schemas[topic.type], topic.name, "cdr", {{"offered_qos_profiles", ""}}));
     }
   }
   void put(const std::vector<Message>& all) {

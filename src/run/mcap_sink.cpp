@@ -4,6 +4,7 @@
 
 #include <fmt/core.h>
 
+#include "load/builtin.h"
 #include "results/manifest.h"
 #include "run/manifest.h"
 #include "tofray/error.h"
@@ -17,9 +18,14 @@ std::string name_of(const RunRequest& request) {
   return request.first_frame == 0 ? "run.mcap" : fmt::format("run_{:04}.mcap", request.first_frame);
 }
 
-/// What made the file, for `render --from`: without what it ran on, how long it took and where it went, so that it has the same bytes each time.
+/// What made the file, for `render --from`: without other kinds of files, what it ran on, how long it took and where it went, so that the film
+/// has the same bytes each time.
 std::string manifest_for(const RunRequest& request, const std::vector<InputFile>& inputs) {
-  results::Manifest manifest = manifest_of(request);
+  RunRequest film = request;
+  film.files = {};
+  film.files.emit = std::vector<std::string>{"mcap"};
+  film.files.messages = request.files.messages, film.files.compression = request.files.compression;
+  results::Manifest manifest = manifest_of(film);
   manifest.command.clear();
   manifest.inputs = inputs;
   return results::manifest_text(manifest);
@@ -28,7 +34,11 @@ std::string manifest_for(const RunRequest& request, const std::vector<InputFile>
 McapOptions options_for(const FrameFiles& what, const RunRequest& request) {
   McapOptions out{what.messages, what.compression, {}};
   for (const InputFile& file : what.inputs.files)
-    if (file.role == "scene" && !file.text.empty()) out.attachments.emplace_back("scene.yaml", file.text);
+    if (file.role == "scene") {
+      const load::Builtin* builtin = load::find_builtin(load::builtin_scenes(), file.name);
+      const std::string text = file.text.empty() && builtin != nullptr ? std::string(builtin->text) : file.text;
+      if (!text.empty()) out.attachments.emplace_back("scene.yaml", text);
+    }
   out.attachments.emplace_back("manifest.json", manifest_for(request, what.inputs.files));
   return out;
 }
