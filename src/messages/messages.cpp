@@ -301,6 +301,12 @@ std::vector<Message> Messages::of(const Frame& frame, const Scene& seen) const {
 }
 
 void Messages::of(const Frame& frame, const Scene& seen, std::vector<Message>& into) const {
+  const auto of_other_size = [&](int width, int height) {
+    return width != 0 && (width != impl_->size().width || height != impl_->size().height);
+  };
+  if (of_other_size(frame.raw.width, frame.raw.height) || of_other_size(frame.depth.width, frame.depth.height))
+    refuse_option(fmt::format("the frame has {} x {} pixels", frame.depth.width, frame.depth.height),
+                  fmt::format("{} x {}, as the camera delivers", impl_->size().width, impl_->size().height));
   const Times times = times_of(frame, impl_->options.stamp);
   const std::int64_t stamp = impl_->stamp_of(times.stamp), publish = impl_->stamp_of(times.end + impl_->camera.readout_time_s);
   const Header header{stamp, impl_->frames.back()};
