@@ -82,17 +82,14 @@ void take_film_words(const py::dict& words, MessageOptions& messages, std::optio
 }
 
 void bind_films(py::module_& module) {
-  py::class_<McapWriter>(module, "McapFile")
-      .def(py::init(&writer_of))
-      .def("write", &write_frame)
-      .def("close", [](McapWriter& writer) {
-        FileRecord record;
-        {
-          const py::gil_scoped_release free;
-          record = writer.close();
-        }
-        return to_python(record);
-      });
+  py::class_<McapWriter>(module, "McapFile").def(py::init(&writer_of)).def("write", &write_frame).def("close", [](McapWriter& writer) {
+    FileRecord record;
+    {
+      const py::gil_scoped_release free;
+      record = writer.close();
+    }
+    return to_python(record);
+  });
   module.def("mcap_contents", &contents_of);
 }
 

@@ -36,9 +36,11 @@ TEST(inspect_film, lists_topics_types_counts_rates_and_sizes) {
   ASSERT_EQ(result.code, 0) << result.err;
   EXPECT_EQ(result.err, "");
   EXPECT_TRUE(has(result.out, "out/run.mcap: MCAP, profile ros2, by tofray ")) << result.out;
-  EXPECT_TRUE(has(result.out, "/camera/points                       sensor_msgs/msg/PointCloud2                    3         "))
+  EXPECT_TRUE(
+      has(result.out, "/camera/points                       sensor_msgs/msg/PointCloud2                    3        15        15.0\n"))
       << result.out;
-  EXPECT_TRUE(has(result.out, "/tf_static                           tf2_msgs/msg/TFMessage                         1         -"))
+  EXPECT_TRUE(
+      has(result.out, "/tf_static                           tf2_msgs/msg/TFMessage                         1         -         0.1\n"))
       << result.out;
   EXPECT_TRUE(has(result.out, "attached: camera.yaml (") && has(result.out, "attached: scene.yaml (")) << result.out;
   EXPECT_TRUE(has(result.out, "seed 4")) << result.out;
@@ -60,7 +62,9 @@ TEST(inspect_film, says_the_same_as_json) {
     EXPECT_TRUE(channel.find("messages")->unsigned_integer(messages) && channel.find("rate_hz")->number(rate));
     sum += messages;
     const std::string topic = *channel.find("topic")->string();
-    if (topic == "/camera/points") EXPECT_NEAR(rate, 15, 0.01) << topic;
+    if (topic == "/camera/points") {
+      EXPECT_NEAR(rate, 15, 0.01) << topic;
+    }
   }
   EXPECT_EQ(sum, total);
 }
@@ -130,9 +134,23 @@ TEST(films, given_to_other_commands_are_called_what_they_are) {
   EXPECT_TRUE(has(of_film({"inspect", "only"}).err, "as in `tofray inspect only/run.mcap`")) << of_film({"inspect", "only"}).err;
 }
 
-TEST(films, of_a_full_disk_say_so_and_leave_no_half_frames) {
-  const Result result = of_film(with_small_sensor({"render", "card", "-o", "/dev/full/x", "--emit", "mcap"}));
-  EXPECT_EQ(result.code, 3) << result.err;
+TEST(films, of_a_disk_that_fills_say_so_and_leave_what_was_written) {
+  const Folder folder;
+  const Prepare small_disk = [&folder] {
+    if (::chdir(folder.path().c_str()) != 0) ::_exit(99);
+    const rlimit limit{500'000, 500'000};  // of a file; a write beyond it fails, as on a full disk
+    ::setrlimit(RLIMIT_FSIZE, &limit);
+    std::signal(SIGXFSZ, SIG_IGN);
+  };
+  const Result result =
+      run(with_small_sensor({"render", "flying-ball", "-o", "out", "--frames", "2000", "--emit", "mcap", "--mcap-compression", "none"}),
+          small_disk);
+  EXPECT_EQ(result.code, 3);
+  EXPECT_TRUE(has(result.err, "out/run.part.mcap: error: cannot write it: File too large")) << result.err;
+  EXPECT_FALSE(fs::exists(folder / "out/run.mcap"));
+  const Result left = run({"inspect", "out/run.part.mcap"}, in_folder(folder.path()));
+  EXPECT_EQ(left.code, 0) << left.err;
+  EXPECT_TRUE(has(left.err, "ends early")) << left.err;
 }
 
 }  // namespace

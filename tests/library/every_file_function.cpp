@@ -46,7 +46,8 @@ void all() {
   expect(inputs.camera.sensor.width == 8 && inputs.remarks.empty() && inputs.files.size() == 1, "load_inputs");
   expect(tofray::Remark{true, "a.yaml", "odd", "mend it"}.text() == "a.yaml: warning: odd\n  mend it\n", "Remark::text");
   const tofray::Messages messages(scene, camera);
-  expect(messages.of(frame).size() > 5 && messages.before(frame).size() == 1 && !messages.arrays().empty() && messages.options().name == "camera",
+  expect(messages.of(frame).size() > 5 && messages.before(frame).size() == 1 && !messages.arrays().empty() &&
+             messages.options().name == "camera",
          "Messages");
   expect(tofray::message_definition(messages.topics().front().type).starts_with("std_msgs/Header header\n"), "message_definition");
   const std::filesystem::path folder = std::filesystem::temp_directory_path() / ("tofray_library_" + std::to_string(getpid()));

@@ -196,11 +196,12 @@ double number_of(const char* option, const std::string& value, double low, doubl
 /// Of MCAP files.
 std::vector<OptionSpec> message_specs() {
   return {
-      {"--driver", 0, "NAME", "with --emit mcap: whose topics and frames: plain, pmd, pico_flexx, ifm, k4a, realsense (plain)",
+      {"--driver", 0, "NAME", "whose topics and frames: plain, pmd, pico_flexx, ifm, k4a, realsense (plain)",
        [](Options& o, const std::string& v) { o.messages.driver = static_cast<Driver>(word_of("--driver", v, run::driver_words())); },
        "plain pmd pico_flexx ifm k4a realsense"},
       {"--topics", 0, "LIST",
-       "with --emit mcap: out of depth,amplitude,noise,confidence,points,raw,rectified,truth,clock (what the driver has, and raw)",
+       "out of depth, amplitude, noise, confidence, points, raw, rectified, truth, clock; with \",\" between (what the driver has, and "
+       "raw)",
        [](Options& o, const std::string& v) {
          for (const std::string& group : split(v, ',')) {
            (void)word_of("--topics", group, messages::topic_groups());
@@ -208,28 +209,28 @@ std::vector<OptionSpec> message_specs() {
          }
        },
        "depth amplitude noise confidence points raw rectified truth clock", true},
-      {"--camera-name", 0, "NAME", "with --emit mcap: first part of topics and frames (the driver's, or camera)",
+      {"--camera-name", 0, "NAME", "first part of topics and frames (the driver's, or camera)",
        [](Options& o, const std::string& v) { o.messages.name = v; }},
-      {"--stamp", 0, "WHEN", "with --emit mcap: start, middle or end of a frame's exposures (middle)",
+      {"--stamp", 0, "WHEN", "start, middle or end of a frame's exposures (middle)",
        [](Options& o, const std::string& v) { o.messages.stamp = static_cast<StampAt>(word_of("--stamp", v, run::stamp_words())); },
        "start middle end"},
-      {"--epoch", 0, "S", "with --emit mcap: seconds since 1970 at the simulation's time 0 (0)",
+      {"--epoch", 0, "S", "seconds since 1970 at the simulation's time 0 (0)",
        [](Options& o, const std::string& v) {
          o.messages.epoch_s = number_of("--epoch", v, 0, 2e9, "seconds, 0 to 2e9, as in --epoch 1.7e9");
        }},
-      {"--depth-encoding", 0, "NAME", "with --emit mcap: 32FC1 (m, NaN: invalid) or 16UC1 (mm, 0: invalid) (the driver's)",
+      {"--depth-encoding", 0, "NAME", "32FC1 (m, NaN: invalid) or 16UC1 (mm, 0: invalid) (the driver's)",
        [](Options& o, const std::string& v) {
          static const std::vector<std::string> all = {"32FC1", "16UC1"};
          o.messages.depth_encoding = all[word_of("--depth-encoding", v, all)];
        },
        "32FC1 16UC1"},
-      {"--amplitude-step", 0, "E", "with --emit mcap: electrons of 1 in mono16 (the least power of two at which nothing clips)",
+      {"--amplitude-step", 0, "E", "electrons of 1 in mono16 (the least power of two at which nothing clips)",
        [](Options& o, const std::string& v) {
          o.messages.amplitude_step_e = number_of("--amplitude-step", v, 1e-9, 1e9, "electrons, 1e-9 to 1e9, as in --amplitude-step 0.5");
        }},
-      {"--unorganized", 0, nullptr, "with --emit mcap: clouds of the valid points alone, in one row",
+      {"--unorganized", 0, nullptr, "clouds of the valid points alone, in one row",
        [](Options& o, const std::string&) { o.messages.unorganized = true; }},
-      {"--mcap-compression", 0, "NAME", "with --emit mcap: zstd, or none: larger and faster (zstd)",
+      {"--mcap-compression", 0, "NAME", "zstd, or none: larger and faster (zstd)",
        [](Options& o, const std::string& v) {
          static const std::vector<std::string> all = {"none", "zstd"};
          o.mcap_compression = word_of("--mcap-compression", v, all) == 0 ? McapCompression::none : McapCompression::zstd;
@@ -617,7 +618,7 @@ const std::vector<Group>& groups() {
       {"Measuring", {"--warmup", "--compare", "--batch", "--stage", "--block-size"}},
       {"Frames", {"--frames", "--first-frame", "--from", "--pixel"}},
       {"Output", {"--output", "--clean", "--emit", "--arrays", "--compress", "--raw", "--theme", "--scale", "--csv", "--json", "--quiet"}},
-      {"MCAP",
+      {"With --emit mcap",
        {"--driver", "--topics", "--camera-name", "--stamp", "--epoch", "--depth-encoding", "--amplitude-step", "--unorganized",
         "--mcap-compression"}},
       {"Viewer", {"--port", "--host", "--allow-host", "--open", "--embed", "--rate", "--test-hooks"}},

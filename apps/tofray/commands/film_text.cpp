@@ -40,7 +40,7 @@ std::string text_of(const McapContents& of) {
   }
   text += fmt::format("\n{} messages from {:.6f} s to {:.6f} s ({:.6f} s)\n", of.messages, seconds_of(of.first_ns), seconds_of(of.last_ns),
                       seconds_of(of.last_ns - of.first_ns));
-  text += fmt::format("{} chunks, compression {}: {:.1f} MB, unpacked {:.1f} MB\n", of.chunks,
+  text += fmt::format("{} chunk{}, compression {}: {:.1f} MB, unpacked {:.1f} MB\n", of.chunks, of.chunks == 1 ? "" : "s",
                       of.compression.empty() ? "none" : base::printable(of.compression), 1e-6 * static_cast<double>(of.packed_bytes),
                       1e-6 * static_cast<double>(of.unpacked_bytes));
   for (const auto& [name, bytes] : of.attachments) text += fmt::format("attached: {} ({} bytes)\n", base::printable(name), bytes);
