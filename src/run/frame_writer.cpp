@@ -77,7 +77,7 @@ void FrameWriter::done(const Task& task, std::string& file) {
     if (film_ != nullptr) film_->write(task.number, *task.frame);
   } catch (...) {
     failure = std::current_exception();
-    if (film_ != nullptr) film_->give_up();
+    if (film_ != nullptr) film_->give_up(task.number);
   }
   const std::lock_guard lock(mutex_);
   if (failure)

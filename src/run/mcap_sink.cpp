@@ -4,6 +4,8 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
+
 #include "load/builtin.h"
 #include "results/manifest.h"
 #include "run/manifest.h"
@@ -53,22 +55,16 @@ void McapSink::write(std::uint64_t number, const Frame& frame) {
   thread_local std::vector<Message> messages;  // memory that is used again
   writer_.messages().of(frame, what_.inputs.scene, messages);
   std::unique_lock lock(mutex_);
-  changed_.wait(lock, [&] { return gone_ || next_ == number; });
-  if (gone_) throw Error(ErrorKind::io, "error: a frame before could not be written");
-  try {
-    writer_.write(frame, messages);
-  } catch (...) {
-    gone_ = true;
-    changed_.notify_all();
-    throw;
-  }
+  changed_.wait(lock, [&] { return number > given_up_ || next_ == number; });
+  if (number > given_up_) throw Error(ErrorKind::io, "error: a frame before could not be written");
+  writer_.write(frame, messages);  // who calls gives the frame up where this fails
   ++next_;
   changed_.notify_all();
 }
 
-void McapSink::give_up() {
+void McapSink::give_up(std::uint64_t number) {
   const std::lock_guard lock(mutex_);
-  gone_ = true;
+  given_up_ = std::min(given_up_, number);
   changed_.notify_all();
 }
 

@@ -3,6 +3,7 @@
 #pragma once
 #include <condition_variable>
 #include <cstdint>
+#include <limits>
 #include <mutex>
 
 #include "run/frame_files.h"
@@ -16,10 +17,10 @@ class McapSink {
   /// @param what  must live as long. @throws Error as McapWriter
   McapSink(const files::OutputFolder& folder, const FrameFiles& what, const RunRequest& request);
   /// Waits until the frames before have been written. @param number  of the frame in the run, from 0 on
-  /// @throws Error as McapWriter::write, and after give_up()
+  /// @throws Error as McapWriter::write, and where a frame before was given up
   void write(std::uint64_t number, const Frame& frame);
-  /// A frame will not come: who waits for it waits no longer.
-  void give_up();
+  /// A frame will not come: those behind it wait no longer.
+  void give_up(std::uint64_t number);
   FileRecord finish() { return writer_.close(); }
 
  private:
@@ -29,7 +30,7 @@ class McapSink {
   std::condition_variable changed_;
   // guarded by it, as the writer is:
   std::uint64_t next_ = 0;
-  bool gone_ = false;
+  std::uint64_t given_up_ = std::numeric_limits<std::uint64_t>::max();  ///< the first of them
 };
 
 }  // namespace tofray::run
