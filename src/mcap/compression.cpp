@@ -41,6 +41,8 @@ void Packer::append(std::string_view bytes, std::string& to) {
 }
 
 bool unpack(std::string_view packed, std::size_t size, std::string& to) {
+  const unsigned long long said = ZSTD_getFrameContentSize(packed.data(), packed.size());
+  if (said == ZSTD_CONTENTSIZE_ERROR || (said != ZSTD_CONTENTSIZE_UNKNOWN && said > size)) return false;
   to.resize(size);
   const std::size_t got = ZSTD_decompress(to.data(), size, packed.data(), packed.size());
   return ZSTD_isError(got) == 0 && got == size;

@@ -240,7 +240,7 @@ TEST(mcap_reader, refuses_what_is_no_mcap_and_what_it_cannot_unpack) {
       << text;
 }
 
-TEST(mcap_reader, takes_no_memory_for_chunks_that_lie_about_their_size) {
+TEST(mcap_reader, refuses_chunks_that_are_too_long_or_lie_about_it) {
   for (const std::uint64_t size : {std::uint64_t{1} << 40, std::uint64_t{255} << 20}) {
     const std::string lie = std::string(magic) + record_of(6, bytes_of(0, 8) + bytes_of(0, 8) + bytes_of(size, 8) + bytes_of(0, 4) +
                                                                   text_of("zstd") + bytes_of(4, 8) + "\x28\xb5\x2f\xfd");
