@@ -46,7 +46,7 @@ class McapWriter {
   McapWriter(McapWriter&&) noexcept;
   McapWriter& operator=(McapWriter&&) noexcept;
 
-  [[nodiscard]] const Messages& messages() const;
+  [[nodiscard]] const Messages& messages() const;  ///< what makes its messages
   /// @throws Error (io) where the disk is full; (bad_input) as Messages::of
   void write(const Frame& frame);
   /// The same of a frame whose camera was placed from outside. @param seen  placed_scene() of its request
@@ -63,7 +63,7 @@ class McapWriter {
 
 /// What is in an MCAP file, of any writer.
 struct McapContents {
-  struct Channel {
+  struct Channel {                      ///< a topic, and what came on it
     std::string topic, type, encoding;  ///< encoding of the messages: "cdr"
     std::uint64_t messages = 0, bytes = 0;
     std::int64_t first_ns = 0, last_ns = 0;  ///< log times

@@ -61,7 +61,7 @@ class Messages {
   Messages(Messages&&) noexcept;
   Messages& operator=(Messages&&) noexcept;
 
-  [[nodiscard]] const std::vector<Topic>& topics() const;
+  [[nodiscard]] const std::vector<Topic>& topics() const;  ///< where messages go, one type each
   /// What is said once, before the first frame: /tf_static.
   [[nodiscard]] std::vector<Message> before(const Frame& first) const;
   /// All of a frame, in the order of topics. /diagnostics comes with the first frame and then each second.

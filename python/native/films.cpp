@@ -13,7 +13,7 @@ namespace tofray::python {
 namespace {
 
 template <class T>
-void take_word(const py::dict& words, const char* name, T& into) {
+void take_film_word(const py::dict& words, const char* name, T& into) {
   if (words.contains(name) && !words[name].is_none()) from_python(words[name], into, {nullptr, name});
 }
 
@@ -73,10 +73,11 @@ py::dict contents_of(const std::string& file) {
 }  // namespace
 
 void take_film_words(const py::dict& words, MessageOptions& messages, std::optional<McapCompression>& compression) {
-  take_word(words, "driver", messages.driver), take_word(words, "stamp", messages.stamp), take_word(words, "name", messages.name);
-  take_word(words, "topics", messages.topics), take_word(words, "depth_encoding", messages.depth_encoding);
-  take_word(words, "unorganized", messages.unorganized), take_word(words, "amplitude_step_e", messages.amplitude_step_e);
-  take_word(words, "epoch_s", messages.epoch_s);
+  take_film_word(words, "driver", messages.driver), take_film_word(words, "stamp", messages.stamp),
+      take_film_word(words, "name", messages.name);
+  take_film_word(words, "topics", messages.topics), take_film_word(words, "depth_encoding", messages.depth_encoding);
+  take_film_word(words, "unorganized", messages.unorganized), take_film_word(words, "amplitude_step_e", messages.amplitude_step_e);
+  take_film_word(words, "epoch_s", messages.epoch_s);
   if (words.contains("compression") && !words["compression"].is_none())
     from_python(words["compression"], compression.emplace(), {nullptr, "compression"});
 }

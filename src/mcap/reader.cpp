@@ -158,8 +158,7 @@ class Reader {
           fmt::format("{}: error: the chunk at byte {} is packed by {}, which is not read\n  {}", where_, at, base::in_quotes(compression),
                       compression == "zstd" ? "this tofray was built without libzstd (Debian: libzstd-dev)"
                                             : "expected zstd or none; `mcap compress --compression zstd` packs it anew"));
-    if (!unpack(packed, size, chunk_))
-      damaged("the chunk", at, fmt::format("its {} bytes are not zstd's for {}", packed.size(), size));
+    if (!unpack(packed, size, chunk_)) damaged("the chunk", at, fmt::format("its {} bytes are not zstd's for {}", packed.size(), size));
     return chunk_;
   }
 
