@@ -51,7 +51,7 @@ class McapWriter {
   void write(const Frame& frame);
   /// The same of a frame whose camera was placed from outside. @param seen  placed_scene() of its request
   void write(const Frame& frame, const Scene& seen);
-  /// Messages of a frame that were made already, by messages().of(). @param first  of the file: what is said once comes before it
+  /// Messages of a frame that were made already, by messages().of(frame).
   void write(const Frame& frame, const std::vector<Message>& messages);
   /// Writes the summary and gives the file its name. @throws Error (io)
   FileRecord close();
