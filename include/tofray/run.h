@@ -13,6 +13,7 @@
 #include "tofray/camera.h"
 #include "tofray/file_record.h"
 #include "tofray/frame.h"
+#include "tofray/mcap.h"
 #include "tofray/scene.h"
 #include "tofray/simulator.h"
 
@@ -56,12 +57,14 @@ Inputs load_inputs(const InputRequest& request);
 
 /// Which files each frame gets.
 struct FrameFileRequest {
-  /// Out of npz, png, ply; none: all three for one frame, npz for several.
+  /// Out of npz, png, ply, and mcap: one run.mcap of all frames (run_0120.mcap from frame 120 on); none: the first three for one frame, npz for several.
   std::optional<std::vector<std::string>> emit = {};
-  std::string arrays;        ///< of frame.npz: names, `all`, groups, with "," between, as in `--arrays`; empty: all
-  bool compress = false;     ///< frame.npz deflated
-  bool light_theme = false;  ///< preview.png and raw.png on white
-  int scale = 1;             ///< of these pictures, 1…8
+  std::string arrays;                               ///< of frame.npz: names, `all`, groups, with "," between, as in `--arrays`; empty: all
+  bool compress = false;                            ///< frame.npz deflated
+  bool light_theme = false;                         ///< preview.png and raw.png on white
+  int scale = 1;                                    ///< of these pictures, 1…8
+  MessageOptions messages = {};                     ///< of run.mcap
+  std::optional<McapCompression> compression = {};  ///< of its chunks; none: the usual one
 };
 
 /// What a run is asked for.

@@ -14,6 +14,8 @@
 #include "tofray/flags.h"
 #include "tofray/frame.h"
 #include "tofray/load.h"
+#include "tofray/mcap.h"
+#include "tofray/messages.h"
 #include "tofray/options.h"
 #include "tofray/pixel.h"
 #include "tofray/quality.h"

@@ -12,6 +12,7 @@
 #include "convert.h"
 #include "datasets.h"
 #include "device_frames.h"
+#include "films.h"
 #include "frames.h"
 #include "meshes.h"
 #include "pictures/pictures.h"
@@ -263,6 +264,7 @@ PYBIND11_MODULE(_native, module) {
   bind_simulator(module);
   bind_budget(module);
   bind_datasets(module);
+  bind_films(module);
   bind_quality(module);
   bind_runs(module);
   bind_files(module);

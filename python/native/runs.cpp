@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "convert.h"
+#include "films.h"
 #include "frames.h"
 #include "interrupt.h"
 #include "simulator.h"
@@ -37,6 +38,7 @@ RunRequest run_request(const py::dict& words, const py::dict& options) {
     take_key(words, "frames", out.frames), take_key(words, "first_frame", out.first_frame);
     take_key(words, "emit", out.files.emit), take_key(words, "arrays", out.files.arrays), take_key(words, "compress", out.files.compress);
     take_key(words, "light_theme", out.files.light_theme), take_key(words, "scale", out.files.scale);
+    if (words.contains("mcap")) take_film_words(words["mcap"].cast<py::dict>(), out.files.messages, out.files.compression);
   } else {
     out = request_of_manifest(inputs.manifest);
     out.inputs.root = inputs.root;

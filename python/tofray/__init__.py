@@ -32,6 +32,10 @@ if TYPE_CHECKING:
     from ._errors import (
         Error as Error,
     )
+    from ._film import (
+        McapWriter as McapWriter,
+        mcap_contents as mcap_contents,
+    )
     from ._frame import (
         Frame as Frame,
         load as load,
@@ -172,6 +176,7 @@ _HOME = {
     "_budget": ("Budget", "budget"),
     "_dataset": ("Dataset", "Drawn"),
     "_errors": ("Error",),
+    "_film": ("McapWriter", "mcap_contents"),
     "_frame": ("Frame", "load"),
     "_load": ("camera", "load_camera", "load_scene", "scene"),
     "_model": (

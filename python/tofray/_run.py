@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any, Callable, Mapping, Sequence
 
 from . import _native
 from ._errors import BadInput
+from ._film import film_words
 from ._load import _chosen, _in_words_of_python, _Text
 from ._model import Inputs, PixelBounces, PixelChain, RunResult, Validity
 
@@ -83,6 +84,7 @@ def render(
     compress: bool = False,
     theme: Literal["dark", "light"] = "dark",
     scale: int = 1,
+    mcap: Mapping[str, Any] | None = None,
     clean: bool = False,
     each: Callable[[int], object] | None = None,
 ) -> RunResult:
@@ -105,7 +107,7 @@ def render(
     seed, noise, exposure_samples, subpixel, threads, backend, device
         As of ``Simulator``.
     emit : sequence of str, optional
-        Out of "npz", "png", "ply". None: all three for one frame, npz for several.
+        Out of "npz", "png", "ply", and "mcap": all frames in run.mcap, for ROS 2. None: the first three for one frame, npz for several.
     arrays : sequence of str
         Of frame.npz, by name or group (``tofray list arrays``). Left empty: all.
     compress : bool
@@ -114,6 +116,8 @@ def render(
         Of preview.png and raw.png.
     scale : int
         1 to 8: times as many pixels along either side of these.
+    mcap : mapping, optional
+        Words of ``McapWriter`` for run.mcap: ``{"driver": "pico_flexx", "topics": ["depth", "points"]}``.
     clean : bool
         Remove what an earlier run left in the folder.
     each : callable, optional
@@ -132,7 +136,7 @@ def render(
         raise BadInput(f"theme: error: got {theme!r}\n  expected dark or light")
     words = {"scene": _chosen(_native.choose_scene(_typed(scene))), "set": _settings(set), "mode": mode, "root": os.fspath(root),
              "frames": frames, "first_frame": first_frame, "emit": None if emit is None else list(emit), "arrays": ",".join(arrays),
-             "compress": compress, "light_theme": theme == "light", "scale": scale, "folder": os.fspath(folder), "clean": clean,
+             "compress": compress, "light_theme": theme == "light", "scale": scale, "mcap": film_words(mcap or {}), "folder": os.fspath(folder), "clean": clean,
              "command": [os.path.basename(one) for one in sys.argv[:1]]}
     options = {"seed": seed, "noise": noise, "exposure_samples": exposure_samples, "subpixel": subpixel, "threads": threads,
                "backend": backend, "device": device}

@@ -9,65 +9,7 @@
 
 namespace tofray::camera {
 
-namespace {
-
-/// The radial part of the model: g(r²), and its derivative.
-struct Radial {
-  double factor;
-  double slope;  ///< dg/d(r²), of Brown–Conrady: a fisheye is inverted without it
-  bool grows;    ///< r·g does, with r
-};
-
-Radial brown_conrady(const Lens& l, double square) {
-  const double above = 1 + square * (l.k1 + square * (l.k2 + square * l.k3));
-  const double below = 1 + square * (l.k4 + square * (l.k5 + square * l.k6));
-  const double above_slope = l.k1 + square * (2 * l.k2 + square * 3 * l.k3), below_slope = l.k4 + square * (2 * l.k5 + square * 3 * l.k6);
-  // d(r·g)/dr·below²
-  const double growth = (1 + square * (3 * l.k1 + square * (5 * l.k2 + square * 7 * l.k3))) * below - 2 * square * above * below_slope;
-  return {above / below, (above_slope * below - above * below_slope) / (below * below), below > 0 && growth > 0};
-}
-
-/// Of a fisheye: the radius of the angle θ, and its derivative.
-struct Radius {
-  double at, growth;
-};
-Radius fisheye_radius(const Lens& l, double angle) {
-  const double a = angle * angle;
-  return {angle * (1 + a * (l.k1 + a * (l.k2 + a * (l.k3 + a * l.k4)))),
-          1 + a * (3 * l.k1 + a * (5 * l.k2 + a * (7 * l.k3 + a * 9 * l.k4)))};
-}
-
-Radial fisheye(const Lens& l, double square) {
-  // Near the axis g = 1 + (k1 − ⅓)r² + (⅕ − k1 + k2)r⁴ …, without a difference of two like numbers.
-  if (square < 1e-6) {
-    return {1 + square * (l.k1 - 1.0 / 3 + square * (0.2 - l.k1 + l.k2)), 0, true};
-  }
-  const double r = std::sqrt(square);
-  const Radius radius = fisheye_radius(l, num::setup::atan(r));
-  return {radius.at / r, 0, radius.growth > 0};
-}
-
-Radial radial(const Lens& lens, double square) {
-  return lens.distortion == Lens::Distortion::fisheye ? fisheye(lens, square) : brown_conrady(lens, square);
-}
-
-}  // namespace
-
-double growing_radius_squared(const Lens& lens) {
-  constexpr double farthest = 1e4;
-  double low = 0;
-  for (double high = 1e-3; high < farthest; high *= 1.02) {
-    if (!radial(lens, high).grows) {
-      for (int i = 0; i < 60; ++i) {
-        const double middle = 0.5 * (low + high);
-        (radial(lens, middle).grows ? low : high) = middle;
-      }
-      return low;
-    }
-    low = high;
-  }
-  return farthest;
-}
+using namespace lens_model;
 
 namespace {
 
@@ -81,12 +23,6 @@ Jacobian jacobian(const Lens& l, const Radial& g, const Point2& p) {
   const double mixed = slope * p.x * p.y + 2 * p1 * p.x + 2 * p2 * p.y;
   return {g.factor + slope * p.x * p.x + 2 * p1 * p.y + 6 * p2 * p.x, mixed, mixed,
           g.factor + slope * p.y * p.y + 6 * p1 * p.y + 2 * p2 * p.x};
-}
-
-/// @param g   the radial part
-/// @param r2  r² of p
-Point2 bent(double g, double p1, double p2, double r2, const Point2& p) {
-  return {p.x * g + 2 * p1 * p.x * p.y + p2 * (r2 + 2 * p.x * p.x), p.y * g + p1 * (r2 + 2 * p.y * p.y) + 2 * p2 * p.x * p.y};
 }
 
 /// A fisheye's radius grows with the angle alone, up to where the model ends: Newton's method, held between two angles.
@@ -109,12 +45,6 @@ bool undistort_fisheye(const Lens& lens, double limit, const Point2& target, Poi
 }
 
 }  // namespace
-
-Point2 distort(const Lens& l, const Point2& p) {
-  const double r2 = p.x * p.x + p.y * p.y;
-  const bool fish = l.distortion == Lens::Distortion::fisheye;
-  return bent(radial(l, r2).factor, fish ? 0 : l.p1, fish ? 0 : l.p2, r2, p);
-}
 
 bool undistort(const Lens& lens, double limit, const Point2& target, Point2& out) {
   if (lens.distortion == Lens::Distortion::fisheye) return undistort_fisheye(lens, limit, target, out);
@@ -153,11 +83,6 @@ bool undistort(const Lens& lens, double limit, const Point2& target, Point2& out
   out = p;
   const double error = std::abs(target.x - at.x) + std::abs(target.y - at.y);
   return error < 1e-12 && p.x * p.x + p.y * p.y < limit && j.xx * j.yy - j.xy * j.yx > 0;
-}
-
-Point2 project(const Lens& lens, const Point2& undistorted) {
-  const Point2 d = distort(lens, undistorted);
-  return {lens.fx_px * d.x + lens.cx_px, lens.fy_px * d.y + lens.cy_px};
 }
 
 bool unproject(const Lens& lens, double limit, const Point2& pixel, Point2& undistorted) {

@@ -127,24 +127,35 @@ class Writer {
 };
 
 /// The camera that `meta` tells of, as a profile with one mode.
-std::string profile_text(const SortedTree& camera) {
+std::string profile_text(const SortedTree& camera, int indent) {
   SortedTree profile = Writer(camera, model::table_of<Camera>()).file();
   const SortedTree& mode = member(camera, "mode");
   const SortedTree& name = member(mode, "name");
   profile["modes"][name.is_string() && name != "" ? name.get<std::string>() : "mode"] = Writer(mode, model::table_of<Mode>()).file();
-  return profile.dump(-1, ' ', false, SortedTree::error_handler_t::replace);
+  return profile.dump(indent, ' ', false, SortedTree::error_handler_t::replace);
 }
 
 }  // namespace
 
-Camera camera_of_meta(const std::string& meta, const std::string& where, const Settings& settings) {
-  const SortedTree document = SortedTree::parse(json_text(parse_json(meta, where + ": meta")));
-  const SortedTree& camera = member(document, "camera");
+namespace {
+
+SortedTree camera_in(const std::string& meta, const std::string& where) {
+  SortedTree document = SortedTree::parse(json_text(parse_json(meta, where + ": meta")));
+  SortedTree camera = member(document, "camera");
   if (!camera.is_object())
     throw Error(ErrorKind::bad_input, where + ": error: meta does not say which camera made it\n  name its profile with --camera");
+  return camera;
+}
+
+}  // namespace
+
+std::string profile_of_meta(const std::string& meta, const std::string& where) { return profile_text(camera_in(meta, where), 2) + "\n"; }
+
+Camera camera_of_meta(const std::string& meta, const std::string& where, const Settings& settings) {
+  const SortedTree camera = camera_in(meta, where);
   CameraOptions options;
   options.set = settings;
-  return camera_from_text(profile_text(camera), where + ": meta", "", options);
+  return camera_from_text(profile_text(camera, -1), where + ": meta", "", options);
 }
 
 }  // namespace tofray::results

@@ -207,9 +207,13 @@ DepthFile load_depth(const std::string& file, const DepthFileOptions& options) {
     run::read_matrix(out, options);
   else
     run::refuse_depth(file, "depth is not read of this kind of file",
-                      ending == ".ply" || ending == ".pcd" ? "the points of a cloud have no pixels; expected .npz, .npy, .csv, or .png of "
-                                                             "16 bits: frame.npz beside a cloud.ply has the same depth"
-                                                           : "expected .npz, .npy, .csv, or .png of 16 bits");
+                      ending == ".mcap" ? fmt::format("expected .npz, .npy, .csv, or .png of 16 bits; `tofray process {} -o out` makes "
+                                                      "out/frame_0000.npz and so on of the raw frames of a film of tofray's",
+                                                      base::printable(file))
+                      : ending == ".ply" || ending == ".pcd"
+                          ? "the points of a cloud have no pixels; expected .npz, .npy, .csv, or .png of "
+                            "16 bits: frame.npz beside a cloud.ply has the same depth"
+                          : "expected .npz, .npy, .csv, or .png of 16 bits");
   if (!out.depth.z_m.empty()) run::take_points(out.depth, options.intrinsics);
   return out;
 }

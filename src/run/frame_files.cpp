@@ -22,9 +22,9 @@ std::string as_utf8(const std::string& name) { return *files::parse_json(files::
 /// What `emit` may have.
 void refuse_kinds(const std::vector<std::string>& emit) {
   for (const std::string& kind : emit)
-    if (kind != "npz" && kind != "png" && kind != "ply")
+    if (kind != "npz" && kind != "png" && kind != "ply" && kind != "mcap")
       throw Error(ErrorKind::bad_input,
-                  fmt::format("error: {} is no kind of file that a frame gets\n  expected npz, png or ply", base::in_quotes(kind)));
+                  fmt::format("error: {} is no kind of file that a frame gets\n  expected npz, png, ply or mcap", base::in_quotes(kind)));
 }
 
 }  // namespace
@@ -42,7 +42,9 @@ FrameFiles::FrameFiles(const FrameFileRequest& request, const std::vector<std::s
       inputs(from),
       meta(from.scene, from.camera, wanted),
       theme(request.light_theme ? pictures::Theme::light : pictures::Theme::dark),
-      scale(request.scale) {
+      scale(request.scale),
+      messages(request.messages),
+      compression(request.compression.value_or(usual_mcap_compression())) {
   refuse_kinds(emit);
   if (scale < 1 || scale > 8)
     throw Error(ErrorKind::bad_input, fmt::format("error: scale cannot be {}\n  expected a whole number of 1 to 8", scale));
@@ -52,10 +54,18 @@ FrameFiles::FrameFiles(const FrameFileRequest& request, const std::vector<std::s
   if ((!request.arrays.empty() || request.compress) && std::find(emit.begin(), emit.end(), "npz") == emit.end())
     throw Error(ErrorKind::bad_input,
                 "error: --arrays and --compress are of npz files, and --emit leaves these out\n  expected npz in --emit");
+  if (!emits("mcap") && (request.messages != MessageOptions{} || request.compression))
+    throw Error(ErrorKind::bad_input,
+                "error: --driver, --topics, --stamp, --camera-name, --depth-encoding, --unorganized, --amplitude-step, --epoch and "
+                "--mcap-compression are of MCAP files\n  expected mcap in --emit");
+  if (emits("mcap")) {
+    if (compression == McapCompression::zstd && usual_mcap_compression() != compression)
+      throw Error(ErrorKind::bad_input, "error: this tofray was built without libzstd\n  expected --mcap-compression none");
+    needed_messages = Messages(from.scene, from.camera, messages).arrays();
+  }
 }
 
 std::vector<std::string> FrameFiles::needed_arrays() const {
-  const auto emits = [&](const char* kind) { return std::find(emit.begin(), emit.end(), kind) != emit.end(); };
   if (emits("npz") && npz.arrays.is_all()) return {};
   std::vector<std::string> names;
   for (const results::ArrayRow& row : results::array_table()) {
@@ -65,14 +75,17 @@ std::vector<std::string> FrameFiles::needed_arrays() const {
     const bool counted = need_transient() && row.name.starts_with("transient_");
     // Why pixels have no depth.
     const bool seen = row.name == "gt_object_id" || row.name == "gt_range_m";
-    if (row.is_image() && (filed || told || drawn || counted || seen)) names.push_back(row.name);
+    const bool sent = std::find(needed_messages.begin(), needed_messages.end(), row.name) != needed_messages.end();
+    if (row.is_image() && (filed || told || drawn || counted || seen || sent)) names.push_back(row.name);
   }
   return names;
 }
 
+bool FrameFiles::emits(std::string_view kind) const { return std::find(emit.begin(), emit.end(), kind) != emit.end(); }
+
 bool FrameFiles::need_transient() const {
   const auto shown = [&](const char* name) { return npz.arrays.has(*results::find_array(name)); };
-  return std::find(emit.begin(), emit.end(), "npz") != emit.end() && (shown("transient_e_per_s") || shown("transient_lost_e_per_s"));
+  return emits("npz") && (shown("transient_e_per_s") || shown("transient_lost_e_per_s"));
 }
 
 std::vector<Remark> depth_png_remarks(const FrameFiles& what, std::size_t pixels) {
@@ -101,7 +114,7 @@ std::vector<FileRecord> write_frame(const files::OutputFolder& folder, const Fra
       put("raw", ".png", pictures::raw_png(frame.raw, what.theme, what.scale));
       const std::string caption = caption_of(in.scene.name, in.camera.name, in.camera.mode.name, frame.index, !suffix.empty());
       put("preview", ".png", pictures::preview_png(frame.depth, frame.truth, frame.raw, caption, what.theme, what.scale));
-    } else {
+    } else if (kind == "ply") {
       put("cloud", ".ply", results::cloud_ply(frame.depth));
     }
   }

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "files/output_folder.h"
@@ -12,6 +13,7 @@
 #include "results/meta.h"
 #include "run/inputs.h"
 #include "tofray/frame.h"
+#include "tofray/mcap.h"
 #include "tofray/run.h"
 
 /// The files of a frame: frame.npz, depth.png, amplitude.png, raw.png, preview.png, cloud.ply.
@@ -19,7 +21,7 @@ namespace tofray::run {
 
 /// Which files each frame gets, and what they tell of where it comes from.
 struct FrameFiles {
-  /// @param otherwise  which kinds of files, out of npz, png, ply, where the request does not say
+  /// @param otherwise  which kinds of files, out of npz, png, ply, mcap, where the request does not say
   /// @throws Error (bad_input) where arrays or compression is of files that the request leaves out
   FrameFiles(const FrameFileRequest& request, const std::vector<std::string>& otherwise, const Loaded& inputs,
              const SimulatorOptions& simulated);
@@ -27,6 +29,7 @@ struct FrameFiles {
   [[nodiscard]] std::vector<std::string> needed_arrays() const;
   /// Whether they need histograms of light by path length.
   [[nodiscard]] bool need_transient() const;
+  [[nodiscard]] bool emits(std::string_view kind) const;
 
   std::vector<std::string> emit;
   results::FrameFileOptions npz;
@@ -34,6 +37,9 @@ struct FrameFiles {
   results::FrameMeta meta;
   pictures::Theme theme;
   int scale;  ///< of preview.png and raw.png
+  MessageOptions messages;
+  McapCompression compression;
+  std::vector<std::string> needed_messages;  ///< arrays that run.mcap is made of
 };
 
 /// Writes the files of one frame, each name with `suffix` before its extension. Arrays that the frame does not have are left out.

@@ -24,8 +24,8 @@ std::size_t bytes_of(const Frame& frame) {
 
 }  // namespace
 
-FrameWriter::FrameWriter(files::OutputFolder& folder, const FrameFiles& what, std::uint64_t frames)
-    : folder_(folder), what_(what), frames_(frames) {}
+FrameWriter::FrameWriter(files::OutputFolder& folder, const FrameFiles& what, std::uint64_t frames, McapSink* film)
+    : folder_(folder), what_(what), frames_(frames), film_(film) {}
 
 FrameWriter::~FrameWriter() { stop(); }
 
@@ -74,8 +74,10 @@ void FrameWriter::done(const Task& task, std::string& file) {
   std::exception_ptr failure;
   try {
     records = write_frame(folder_, what_, task.suffix, *task.frame, file);
+    if (film_ != nullptr) film_->write(task.number, *task.frame);
   } catch (...) {
     failure = std::current_exception();
+    if (film_ != nullptr) film_->give_up(task.number);
   }
   const std::lock_guard lock(mutex_);
   if (failure)

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "run/frame_files.h"
+#include "run/mcap_sink.h"
 
 namespace tofray::run {
 
@@ -22,7 +23,8 @@ class FrameWriter {
  public:
   /// @param what  which files, and of whom; all of it must live as long as the writer
   /// @param frames  how many there will be
-  FrameWriter(files::OutputFolder& folder, const FrameFiles& what, std::uint64_t frames);
+  /// @param film    where frames go besides, in their order; null: nowhere
+  FrameWriter(files::OutputFolder& folder, const FrameFiles& what, std::uint64_t frames, McapSink* film = nullptr);
   /// What was handed over is written, unless some of it could not be.
   ~FrameWriter();
   FrameWriter(const FrameWriter&) = delete;
@@ -49,6 +51,7 @@ class FrameWriter {
   files::OutputFolder& folder_;
   const FrameFiles& what_;
   std::uint64_t frames_, given_ = 0;
+  McapSink* film_;
   std::vector<std::thread> workers_;
   std::vector<std::unique_ptr<Frame>> memory_;
   Frame* current_ = nullptr;

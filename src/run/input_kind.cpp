@@ -93,6 +93,9 @@ void refuse_data(std::string_view bytes, const std::string& path) {
            fmt::format("`tofray inspect {0}` shows what is in it, `tofray process {0}` makes depth of its raw frames", file));
   if (bytes.starts_with("\x93NUMPY"))
     refuse(path, "an array (.npy), not a scene", fmt::format("`tofray inspect {}` shows what is in it", file));
+  if (bytes.starts_with("\x89MCAP0"))
+    refuse(path, "a film (MCAP), not a scene",
+           fmt::format("`tofray inspect {0}` shows what is in it, `tofray process {0}` makes depth of its raw frames", file));
   if (bytes.starts_with("\x89PNG"))
     refuse(path, "a picture (PNG), not a scene", "it cannot be simulated again; the manifest.json beside it can: `tofray render --from`");
   if (bytes.starts_with("glTF"))
@@ -137,9 +140,9 @@ std::string frame_in(const std::string& path, const char* command) {
   const fs::path frame = fs::path(path) / "frame.npz";
   std::error_code ignored;
   if (fs::exists(frame, ignored)) return frame.native();
-  const std::vector<std::string> all = names_in(path, {".npz", ".npy"}, enough_names);
+  const std::vector<std::string> all = names_in(path, {".npz", ".npy", ".mcap"}, enough_names);
   refuse(path, "a folder without frame.npz",
-         held(all, "it holds no .npz or .npy file") +
+         held(all, "it holds no .npz, .npy or .mcap file") +
              (all.empty() ? ""
                           : fmt::format("; name one, as in `tofray {} {}`", command, base::printable((fs::path(path) / all[0]).native()))));
 }

@@ -4,10 +4,12 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <charconv>
 
 #include "base/text.h"
 #include "base/version.h"
+#include "messages/topics.h"
 #include "results/meta.h"
 #include "tofray/error.h"
 
@@ -53,10 +55,23 @@ struct Option {
     if (value != word && value != other) refuse(fmt::format("{} or {}", word, other));
     return value == word;
   }
+  /// Which of some words.
+  [[nodiscard]] std::size_t one_of(const std::vector<std::string>& words) const {
+    const auto found = std::find(words.begin(), words.end(), value);
+    if (found == words.end()) refuse(base::listed(words));
+    return static_cast<std::size_t>(found - words.begin());
+  }
+  [[nodiscard]] double number() const {
+    double out = 0;
+    const char* const end = value.data() + value.size();
+    const auto read = std::from_chars(value.data(), end, out);
+    if (read.ec != std::errc() || read.ptr != end) refuse("a number");
+    return out;
+  }
   [[nodiscard]] std::vector<std::string> kinds() const {
     std::vector<std::string> out = words_of(value);
     for (const std::string& one : out)
-      if (one != "npz" && one != "png" && one != "ply") refuse("some of npz, png, ply, with \",\" between");
+      if (one != "npz" && one != "png" && one != "ply" && one != "mcap") refuse("some of npz, png, ply, mcap, with \",\" between");
     return out;
   }
 };
@@ -82,6 +97,24 @@ bool take(const Option& option, RunRequest& out) {
     out.files.light_theme = option.is("light", "dark");
   else if (key == "scale")
     out.files.scale = static_cast<int>(option.whole(1, 8));
+  else if (key == "driver")
+    out.files.messages.driver = static_cast<Driver>(option.one_of(driver_words()));
+  else if (key == "stamp")
+    out.files.messages.stamp = static_cast<StampAt>(option.one_of(stamp_words()));
+  else if (key == "camera-name")
+    out.files.messages.name = option.value;
+  else if (key == "topics")
+    out.files.messages.topics = words_of(option.value);
+  else if (key == "depth-encoding")
+    out.files.messages.depth_encoding = option.value;
+  else if (key == "unorganized")
+    out.files.messages.unorganized = option.is("on", "off");
+  else if (key == "amplitude-step")
+    out.files.messages.amplitude_step_e = option.number();
+  else if (key == "epoch")
+    out.files.messages.epoch_s = option.number();
+  else if (key == "mcap-compression")
+    out.files.compression = option.is("zstd", "none") ? McapCompression::zstd : McapCompression::none;
   else if (key == "frames")
     out.frames = option.whole(1, most_frames);
   else if (key == "first-frame")
@@ -92,6 +125,20 @@ bool take(const Option& option, RunRequest& out) {
 }
 
 }  // namespace
+
+const std::vector<std::string>& driver_words() {
+  static const std::vector<std::string> all = [] {
+    std::vector<std::string> words;
+    for (const messages::Profile& one : messages::profiles()) words.emplace_back(one.word);
+    return words;
+  }();
+  return all;
+}
+
+const std::vector<std::string>& stamp_words() {
+  static const std::vector<std::string> all = {"start", "middle", "end"};
+  return all;
+}
 
 results::Manifest manifest_of(const RunRequest& request) {
   const SimulatorOptions& simulator = request.simulator;
@@ -111,6 +158,16 @@ results::Manifest manifest_of(const RunRequest& request) {
   if (files.emit) add(true, "emit", joined(*files.emit));
   add(files.light_theme, "theme", "light");
   add(files.scale != 1, "scale", std::to_string(files.scale));
+  const MessageOptions& messages = files.messages;
+  add(messages.driver != Driver::plain, "driver", driver_words()[static_cast<std::size_t>(messages.driver)]);
+  add(messages.stamp != StampAt::middle, "stamp", stamp_words()[static_cast<std::size_t>(messages.stamp)]);
+  add(!messages.name.empty(), "camera-name", messages.name);
+  add(!messages.topics.empty(), "topics", joined(messages.topics));
+  add(!messages.depth_encoding.empty(), "depth-encoding", messages.depth_encoding);
+  add(messages.unorganized, "unorganized", "on");
+  add(messages.amplitude_step_e != 0, "amplitude-step", base::number_text(messages.amplitude_step_e));
+  add(messages.epoch_s != 0, "epoch", base::number_text(messages.epoch_s));
+  if (files.compression) add(true, "mcap-compression", *files.compression == McapCompression::zstd ? "zstd" : "none");
   add(!files.arrays.empty(), "arrays", files.arrays);
   add(files.compress, "compress", "on");
   if (request.frames) add(true, "frames", std::to_string(*request.frames));

@@ -14,6 +14,10 @@ namespace tofray::run {
 /// Frames of a run, and the largest number of its first one.
 inline constexpr std::uint64_t most_frames = 1'000'000'000'000;
 
+/// Words of options, in the order of Driver and of StampAt.
+const std::vector<std::string>& driver_words();
+const std::vector<std::string>& stamp_words();
+
 /// What a manifest says of what was asked for. Inputs, files, machine and times are not yet in it.
 results::Manifest manifest_of(const RunRequest& request);
 

@@ -5,10 +5,12 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <optional>
 
 #include "run/frame_files.h"
 #include "run/frame_writer.h"
 #include "run/manifest.h"
+#include "run/mcap_sink.h"
 #include "tofray/error.h"
 
 namespace tofray::run {
@@ -73,7 +75,9 @@ Counts render_frames(Simulator& simulator, const RunRequest& request, const Fram
   // One frame has no number, unless it was asked for by number.
   const bool numbered = request.frames.has_value() || first > 0;
   Counts out;
-  FrameWriter writer(folder, what, frames);
+  std::optional<McapSink> film;
+  if (what.emits("mcap")) film.emplace(folder, what, request);
+  FrameWriter writer(folder, what, frames, film ? &*film : nullptr);
   for (std::uint64_t i = first; i < first + frames; ++i) {
     Frame& frame = writer.next();
     stopwatch.lap("write");
@@ -91,6 +95,7 @@ Counts render_frames(Simulator& simulator, const RunRequest& request, const Fram
     if (watch.frame_done) watch.frame_done(frame, result.frames);
   }
   writer.finish();
+  if (film && result.frames > 0) folder.add(film->finish());
   stopwatch.lap("write");
   return out;
 }

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The tofray authors
 // SPDX-License-Identifier: Apache-2.0
-// Linked to libtofray_files, as a user's program is: the functions of dataset.h, depth_file.h, load.h, run.h, save.h and shards.h must be there (cmake/tofray_files.map shows them), those of
+// Linked to libtofray_files, as a user's program is: the functions of dataset.h, depth_file.h, load.h, mcap.h, messages.h, run.h, save.h and shards.h must be there (cmake/tofray_files.map shows them), those of
 // libtofray come along, and what either of them throws is one type.
 #include <tofray/tofray.h>
 
@@ -45,6 +45,11 @@ void all() {
       tofray::load_inputs({.scene = "card", .set = {{"camera.sensor.width", "8"}, {"camera.sensor.height", "6"}}});
   expect(inputs.camera.sensor.width == 8 && inputs.remarks.empty() && inputs.files.size() == 1, "load_inputs");
   expect(tofray::Remark{true, "a.yaml", "odd", "mend it"}.text() == "a.yaml: warning: odd\n  mend it\n", "Remark::text");
+  const tofray::Messages messages(scene, camera);
+  expect(messages.of(frame).size() > 5 && messages.before(frame).size() == 1 && !messages.arrays().empty() &&
+             messages.options().name == "camera",
+         "Messages");
+  expect(tofray::message_definition(messages.topics().front().type).starts_with("std_msgs/Header header\n"), "message_definition");
   const std::filesystem::path folder = std::filesystem::temp_directory_path() / ("tofray_library_" + std::to_string(getpid()));
   tofray::RunRequest request;
   request.inputs = {.scene = "card", .set = {{"camera.sensor.width", "8"}, {"camera.sensor.height", "6"}}};
@@ -53,6 +58,12 @@ void all() {
   expect(one.frames == 1 && one.files.back().name == "manifest.json" && one.last.pixels.pixels == 48, "render");
   expect(tofray::load_depth((folder / "one/frame.npz").native()).depth.z_m.size() == 48, "load_depth");
   expect(tofray::load_depths((folder / "one").native()).size() == 1, "load_depths");
+  {
+    tofray::McapWriter film(folder / "one.mcap", scene, camera, {.compression = tofray::usual_mcap_compression()});
+    film.write(frame), film.write(frame, scene), film.write(frame, film.messages().of(frame));
+    expect(film.close().name == "one.mcap", "McapWriter");
+  }
+  expect(tofray::mcap_contents((folder / "one.mcap").native()).complete, "mcap_contents");
   tofray::RunRequest again = tofray::request_of_manifest((folder / "one/manifest.json").native());
   again.folder = folder / "two";
   expect(tofray::render(again).files.front().sha256 == one.files.front().sha256, "request_of_manifest");

@@ -90,7 +90,7 @@ def test_inputs_are_what_a_simulator_takes() -> None:
 
 
 def test_wrong_requests_say_what_is_wrong(tmp_path: pathlib.Path) -> None:
-    for words, said in (({"emit": ["tiff"]}, "expected npz, png or ply"), ({"scale": 9}, "1 to 8"), ({"arrays": ["nothing"]}, "nothing"),
+    for words, said in (({"emit": ["tiff"]}, "expected npz, png, ply or mcap"), ({"scale": 9}, "1 to 8"), ({"arrays": ["nothing"]}, "nothing"),
                         ({"frames": 0}, "a run of 0 frames"), ({"frames": 2, "first_frame": 2**64 - 1}, "from 0 to"), ({"frames": 2**63}, "1 to 1000000000000"), ({"mode": "NONE"}, "NONE"), ({"set": {"camera.lens.f_numer": 1}}, "f_number"),
                         ({"theme": "pink"}, "dark or light"), ({"emit": ["png"], "compress": True}, "npz")):
         with pytest.raises(tofray.Error, match=said):

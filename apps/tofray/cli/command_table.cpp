@@ -60,6 +60,7 @@ std::vector<Command> make() {
                    "tofray render room --frames 500 --arrays raw,z_m,flags   # an eighth of the bytes\n"
                    "tofray render scene.yaml --frames 60 --fps 15 --exposure-samples 4  # a film, with motion blur\n"
                    "tofray render room --subpixel 3                          # edges mix near and far, as in a real pixel\n"
+                   "tofray render room -o out --frames 100 --emit mcap       # out/run.mcap, for ROS 2: topics as of a camera's driver\n"
                    "tofray render scene.yaml -o out --clean                  # what an earlier run left in out goes\n"
                    "tofray render --from out/manifest.json -o again          # the same bytes again\n",
        .more =
@@ -67,19 +68,22 @@ std::vector<Command> make() {
            "which is put on a floor.\n"
            "Without -o the folder is called like the scene.\n"
            "Same version, scene, options and seed: the same bytes, for any number of threads.\n",
-       .options = simulation_and({"--frames", "--first-frame", "--from", "--json", "--quiet"}),
+       .options = simulation_and({"--frames", "--first-frame", "--from", "--driver", "--topics", "--camera-name", "--stamp", "--epoch",
+                                  "--depth-encoding", "--amplitude-step", "--unorganized", "--mcap-compression", "--json", "--quiet"}),
        .least_words = 1,
        .most_words = 1,
        .run = run_render,
        .completes = "<scenes> <files>"},
       {.name = "process",
-       .usage = "RAW.npz [options]",
+       .usage = "RAW [options]",
        .summary = "turn raw frames, simulated or measured, into depth; or light by path length into both",
        .examples = "tofray process out/frame.npz -o again --set camera.decoding.filter.kind=median\n"
+                   "tofray process out/run.mcap -o again --frames 10        # the raw topics of an MCAP file\n"
                    "tofray process recording.npz --camera mycam.yaml -o out  # your own camera's raw frames\n"
                    "tofray process --transient light.npy --width 3mm --camera pico-flexx -o out  # another renderer's light\n",
        .more =
-           "RAW.npz holds raw [phase, height, width] (codes), or tap_a and tap_b (electrons), and by phase modulation_frequency_hz,\n"
+           "RAW is a .npz file or an MCAP file of `tofray render --emit mcap`, whose frames become frame_0000.npz and so on.\n"
+           "A .npz holds raw [phase, height, width] (codes), or tap_a and tap_b (electrons), and by phase modulation_frequency_hz,\n"
            "reference_phase_rad, integration_time_s, lit and, if it is known, start_time_s (otherwise each exposure begins when the one\n"
            "before has been read out). Without --camera it is the camera that the file says it was made with.\n"
            "Its other arrays, such as gt_* and camera_pose, are written again as they are.\n"
@@ -89,9 +93,9 @@ std::vector<Command> make() {
            "one\n"
            "channel (mitransient writes [height, width, bin, channel]; its start_opl is --first, its bin_width_opl --width). The camera's\n"
            "size tells where the bins are; where it cannot, they are last.\n",
-       .options = {"--camera",   "--output", "--clean",   "--set",       "--mode",   "--emit",  "--arrays",
-                   "--compress", "--theme",  "--scale",   "--transient", "--first",  "--width", "--factor",
-                   "--seed",     "--noise",  "--threads", "--backend",   "--device", "--json",  "--quiet"},
+       .options = {"--camera", "--output", "--clean",   "--set",         "--mode",      "--emit",  "--arrays", "--compress",
+                   "--theme",  "--scale",  "--frames",  "--first-frame", "--transient", "--first", "--width",  "--factor",
+                   "--seed",   "--noise",  "--threads", "--backend",     "--device",    "--json",  "--quiet"},
        .least_words = 1,
        .most_words = 1,
        .run = run_process,
@@ -100,11 +104,12 @@ std::vector<Command> make() {
        .usage = "FILE [options]",
        .summary = "what is in a file: arrays, units, phase table, statistics; one pixel's whole chain",
        .examples = "tofray inspect out/frame.npz                     # arrays, raw frames, how many pixels are invalid and why\n"
+                   "tofray inspect out/run.mcap                      # topics, types, counts, rates, sizes\n"
                    "tofray inspect out/frame.npz --pixel 112,86      # surface, power, electrons, every raw frame, phase, depth\n"
                    "tofray inspect scene.yaml --pixel 112,86         # the same, simulated now\n"
                    "tofray inspect corner --bounces 4 --pixel 90,86  # what each bounce brings, and what it does to the range\n",
        .more =
-           "FILE is a .npz file, a scene file or the name of a built-in scene.\n"
+           "FILE is a .npz file, an MCAP file, a scene file or the name of a built-in scene.\n"
            "Where light bounced, --pixel follows it again with one bounce, two and so on, until less than 1/1000 of the pixel's light is\n"
            "left: of up to B bounces that takes up to (B - 1)/2 times as long as a frame with its ways in all pixels. What a bounce does "
            "to the half path is "

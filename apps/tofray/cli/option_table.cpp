@@ -11,7 +11,9 @@
 #include "base/text.h"
 #include "base/units.h"
 #include "cli/commands.h"
+#include "messages/topics.h"
 #include "results/array_table.h"
+#include "run/manifest.h"
 #include "tofray/error.h"
 
 namespace tofray::app {
@@ -169,10 +171,72 @@ void take_ambient(Options& o, const std::string& value) {
 void take_emit(Options& o, const std::string& value) {
   std::vector<std::string> kinds;
   for (const std::string& kind : split(value, ',')) {
-    if (kind != "npz" && kind != "png" && kind != "ply") refuse("--emit", value, "npz, png, ply or several of them, as in --emit npz,png");
+    if (kind != "npz" && kind != "png" && kind != "ply" && kind != "mcap")
+      refuse("--emit", value, "npz, png, ply, mcap or several of them, as in --emit npz,png");
     if (std::find(kinds.begin(), kinds.end(), kind) == kinds.end()) kinds.push_back(kind);
   }
   o.emit = kinds;
+}
+
+/// Which of some words.
+std::size_t word_of(const char* option, const std::string& value, const std::vector<std::string>& words) {
+  const auto found = std::find(words.begin(), words.end(), value);
+  if (found == words.end()) refuse(option, value, base::listed(words) + base::did_you_mean(value, words));
+  return static_cast<std::size_t>(found - words.begin());
+}
+
+double number_of(const char* option, const std::string& value, double low, double high, const std::string& expected) {
+  double number = 0;
+  const char* const end = value.data() + value.size();
+  const auto read = std::from_chars(value.data(), end, number);
+  if (read.ec != std::errc() || read.ptr != end || !(number >= low && number <= high)) refuse(option, value, expected);
+  return number;
+}
+
+/// Of MCAP files.
+std::vector<OptionSpec> message_specs() {
+  return {
+      {"--driver", 0, "NAME", "whose topics and frames: plain, pmd, pico_flexx, ifm, k4a, realsense (plain)",
+       [](Options& o, const std::string& v) { o.messages.driver = static_cast<Driver>(word_of("--driver", v, run::driver_words())); },
+       "plain pmd pico_flexx ifm k4a realsense"},
+      {"--topics", 0, "LIST",
+       "out of depth, amplitude, noise, confidence, points, raw, rectified, truth, clock; with \",\" between (what the driver has, and "
+       "raw)",
+       [](Options& o, const std::string& v) {
+         for (const std::string& group : split(v, ',')) {
+           (void)word_of("--topics", group, messages::topic_groups());
+           o.messages.topics.push_back(group);
+         }
+       },
+       "depth amplitude noise confidence points raw rectified truth clock", true},
+      {"--camera-name", 0, "NAME", "first part of topics and frames (the driver's, or camera)",
+       [](Options& o, const std::string& v) { o.messages.name = v; }},
+      {"--stamp", 0, "WHEN", "start, middle or end of a frame's exposures (middle)",
+       [](Options& o, const std::string& v) { o.messages.stamp = static_cast<StampAt>(word_of("--stamp", v, run::stamp_words())); },
+       "start middle end"},
+      {"--epoch", 0, "S", "seconds since 1970 at the simulation's time 0 (0)",
+       [](Options& o, const std::string& v) {
+         o.messages.epoch_s = number_of("--epoch", v, 0, 2e9, "seconds, 0 to 2e9, as in --epoch 1.7e9");
+       }},
+      {"--depth-encoding", 0, "NAME", "32FC1 (m, NaN: invalid) or 16UC1 (mm, 0: invalid) (the driver's)",
+       [](Options& o, const std::string& v) {
+         static const std::vector<std::string> all = {"32FC1", "16UC1"};
+         o.messages.depth_encoding = all[word_of("--depth-encoding", v, all)];
+       },
+       "32FC1 16UC1"},
+      {"--amplitude-step", 0, "E", "electrons of 1 in mono16 (the least power of two at which nothing clips)",
+       [](Options& o, const std::string& v) {
+         o.messages.amplitude_step_e = number_of("--amplitude-step", v, 1e-9, 1e9, "electrons, 1e-9 to 1e9, as in --amplitude-step 0.5");
+       }},
+      {"--unorganized", 0, nullptr, "clouds of the valid points alone, in one row",
+       [](Options& o, const std::string&) { o.messages.unorganized = true; }},
+      {"--mcap-compression", 0, "NAME", "zstd, or none: larger and faster (zstd)",
+       [](Options& o, const std::string& v) {
+         static const std::vector<std::string> all = {"none", "zstd"};
+         o.mcap_compression = word_of("--mcap-compression", v, all) == 0 ? McapCompression::none : McapCompression::zstd;
+       },
+       "none zstd"},
+  };
 }
 
 void take_theme(Options& o, const std::string& value) {
@@ -556,7 +620,9 @@ std::vector<OptionSpec> specs() {
        [](Options& o, const std::string& v) {
          o.first_frame = whole("--first-frame", v, 0, most_frames, "a whole number of 0 to 1000000000");
        }},
-      {"--emit", 0, "KINDS", "what to write, out of npz,png,ply (all for one frame, npz for many)", take_emit, "npz png ply", true},
+      {"--emit", 0, "KINDS",
+       "what to write, out of npz,png,ply (all for one frame, npz for many), and mcap: all frames in run.mcap, for ROS 2", take_emit,
+       "npz png ply mcap", true},
       {"--theme", 0, "NAME", "look of preview.png and raw.png: dark, or light for papers (dark)", take_theme, "dark light"},
       {"--scale", 0, "N", "preview.png and raw.png with N times as many pixels along each side, for slides (1)", take_scale},
       {"--arrays", 0, "LIST", "arrays that npz files get, as in raw,z_m,gt_* (all; `tofray list arrays` names them)",
@@ -583,8 +649,8 @@ std::vector<OptionSpec> specs() {
 const std::vector<OptionSpec>& all_options() {
   static const std::vector<OptionSpec> all = [] {
     std::vector<OptionSpec> joined = specs();
-    for (const std::vector<OptionSpec>& more : {machine_specs(), bench_specs(), transient_specs(), preview_specs(), view_specs(),
-                                                budget_specs(), measuring_specs(), dataset_specs()})
+    for (const std::vector<OptionSpec>& more : {machine_specs(), message_specs(), bench_specs(), transient_specs(), preview_specs(),
+                                                view_specs(), budget_specs(), measuring_specs(), dataset_specs()})
       joined.insert(joined.end(), more.begin(), more.end());
     return joined;
   }();
@@ -616,6 +682,9 @@ const std::vector<Group>& groups() {
       {"Frames", {"--frames", "--first-frame", "--from", "--pixel"}},
       {"Output", {"--output", "--clean", "--emit", "--arrays", "--compress", "--raw", "--theme", "--scale", "--csv", "--json", "--quiet"}},
       {"Shards", {"--pilot", "--shard-samples", "--part", "--shards", "--recompute", "--partial", "--tasks", "--sbatch", "--print"}},
+      {"With --emit mcap",
+       {"--driver", "--topics", "--camera-name", "--stamp", "--epoch", "--depth-encoding", "--amplitude-step", "--unorganized",
+        "--mcap-compression"}},
       {"Viewer", {"--port", "--host", "--allow-host", "--open", "--embed", "--rate", "--test-hooks"}},
       {"Machine", {"--threads", "--backend", "--device"}}};
   return all;

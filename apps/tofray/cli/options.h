@@ -10,6 +10,7 @@
 
 #include "pictures/pictures.h"
 #include "tofray/camera_report.h"
+#include "tofray/mcap.h"
 #include "tofray/quality.h"
 #include "tofray/simulator.h"
 
@@ -22,9 +23,11 @@ struct Options {
   std::vector<std::pair<std::string, std::string>> set;  ///< --set, in order
   std::optional<std::uint64_t> seed;
   std::optional<Noise> noise;
-  std::optional<std::vector<std::string>> emit;  ///< out of npz, png, ply
-  std::string arrays;                            ///< of frame.npz, as typed; empty: all
-  bool compress = false;                         ///< frame.npz deflated
+  std::optional<std::vector<std::string>> emit;  ///< out of npz, png, ply, mcap
+  MessageOptions messages;                       ///< --driver, --topics and others of MCAP files
+  std::optional<McapCompression> mcap_compression;
+  std::string arrays;     ///< of frame.npz, as typed; empty: all
+  bool compress = false;  ///< frame.npz deflated
   std::optional<std::uint64_t> frames;
   std::optional<std::pair<int, int>> pixel;  ///< u, v
   std::optional<std::uint64_t> batch;        ///< --batch: frames at once

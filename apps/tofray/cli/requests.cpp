@@ -26,7 +26,8 @@ RunRequest run_request(const std::string& scene, const Options& options) {
     out.inputs = input_request(scene, options);
     out.simulator = simulator_options(options);
     out.frames = options.frames, out.first_frame = options.first_frame;
-    out.files = {options.emit, options.arrays, options.compress, options.theme == pictures::Theme::light, options.scale};
+    out.files = {options.emit,  options.arrays,   options.compress,        options.theme == pictures::Theme::light,
+                 options.scale, options.messages, options.mcap_compression};
   } else {
     out = request_of_manifest(options.from);
     out.inputs.root = options.root;

@@ -20,6 +20,7 @@
 #include "load/load.h"
 #include "results/manifest.h"
 #include "tofray/error.h"
+#include "tofray/mcap.h"
 
 namespace tofray::app {
 
@@ -112,6 +113,8 @@ std::vector<std::string> missing_things() {
   if (widest == Isa::scalar) missing.emplace_back("packs: tofray has scalar code only for this kind of processor, with the same results");
   if (widest == Isa::neon)
     missing.emplace_back("trials: on 64-bit ARM tofray has run under qemu alone so far; please report what this says");
+  if (usual_mcap_compression() == McapCompression::none)
+    missing.emplace_back("libzstd: run.mcap is written and read without compression (Debian: libzstd-dev, then build again)");
   const std::string lack = backend::why_no_cuda(-1).reason;
   if (!lack.empty()) missing.push_back("GPU: " + lack + "; the processor computes, with the same results");
   return missing;

@@ -13,6 +13,7 @@
 #include "cli/console.h"
 #include "cli/progress.h"
 #include "cli/requests.h"
+#include "commands/film_text.h"
 #include "commands/first_frame.h"
 #include "commands/pixel_report.h"
 #include "commands/results.h"
@@ -22,6 +23,7 @@
 #include "results/meta.h"
 #include "run/file_pixel.h"
 #include "run/input_kind.h"
+#include "run/mcap_recording.h"
 #include "tofray/error.h"
 
 namespace tofray::app {
@@ -243,6 +245,14 @@ void inspect_pixel(const Inspected& of, const Options& options) {
 }  // namespace
 
 int run_inspect(const Options& options) {
+  if (run::is_film(options.words[0])) {
+    if (options.pixel)
+      throw Error(
+          ErrorKind::bad_input,
+          options.words[0] +
+              ": error: --pixel is of frame.npz and of scenes\n  `tofray process` makes a frame_0000.npz of each frame's raw topics");
+    return inspect_film(options.words[0], options.json);
+  }
   const Inspected of = inspected(options);
   const results::Arrays& arrays = of.arrays;
   if (options.pixel) return inspect_pixel(of, options), 0;

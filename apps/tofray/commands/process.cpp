@@ -2,14 +2,21 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/core.h>
 
+#include <algorithm>
+#include <filesystem>
+#include <memory>
+#include <optional>
+
 #include "base/text.h"
 #include "cli/commands.h"
 #include "cli/console.h"
 #include "cli/requests.h"
+#include "commands/film_text.h"
 #include "commands/results.h"
 #include "results/transient_file.h"
 #include "run/frame_files.h"
 #include "run/input_kind.h"
+#include "run/mcap_recording.h"
 #include "run/recording.h"
 #include "run/run.h"
 #include "tofray/error.h"
@@ -55,11 +62,21 @@ int write_results(const Options& options, const run::Loaded& in, const run::Fram
   return 0;
 }
 
-/// Raw frames to depth.
-int process_raw(const Options& options) {
+/// Films are made by simulations.
+void refuse_film(const Options& options) {
+  if (options.emit && std::find(options.emit->begin(), options.emit->end(), "mcap") != options.emit->end())
+    throw Error(ErrorKind::bad_input, "error: --emit mcap is of `tofray render`\n  expected npz, png, ply or several of them");
+}
+
+void refuse_transient_options(const Options& options) {
   if (options.first_m || options.width_m || options.per_factor || options.seed || options.noise)
     throw Error(ErrorKind::bad_input,
                 "error: --first, --width, --factor, --seed and --noise go with --transient\n  raw frames have their noise already");
+}
+
+/// Raw frames to depth.
+int process_raw(const Options& options) {
+  refuse_transient_options(options);
   run::Stopwatch stopwatch;
   run::refuse_missing(options.words[0]);
   const run::Recording from = run::read_recording(options.words[0]);
@@ -74,6 +91,62 @@ int process_raw(const Options& options) {
   frame.depth = process(frame.raw, in.camera, wanted, &machine);
   frame.truth = run::truth_of(in.kept, frame.depth);
   return write_results(options, in, what, frame, machine, stopwatch, remarks);
+}
+
+/// Frames of an MCAP file, into numbered files.
+int process_film(const Options& options) {
+  refuse_transient_options(options);
+  run::Stopwatch stopwatch;
+  const std::string& path = options.words[0];
+  run::refuse_missing(path);
+  const std::unique_ptr<mcap::Source> source = mcap::open_file(path);
+  Remarks remarks;
+  const run::RecordingCamera camera = camera_for(options, remarks);
+  files::OutputFolder folder(options.output.empty() ? std::filesystem::path(path).stem().native() + "-depth" : options.output);
+  const run::EarlierFiles left(folder.path());
+  std::optional<run::Loaded> in;
+  std::optional<run::FrameFiles> what;
+  SimulatorOptions wanted = simulator_options(options);
+  RunResult result;
+  std::string memory;
+  const std::uint64_t first = options.first_frame, end = options.frames ? first + *options.frames : UINT64_MAX;
+  stopwatch.lap("prepare");
+  const run::FilmRead read = run::read_film(*source, path, [&](std::uint64_t index, const run::Recording& from) {
+    if (index < first) return true;
+    if (index >= end) return false;
+    if (!in) {
+      in = run::load_recording(from, "raw", camera);
+      in->kept.clear();  // of the first frame alone
+      remarks.tell(in->remarks);
+      (void)run::recorded_frame(from, in->camera, wanted.noise);
+      what.emplace(run_request("", options).files, std::vector<std::string>{"npz"}, *in, wanted);
+    }
+    Frame frame = run::recorded_frame(from, in->camera, wanted.noise);
+    frame.index = index;
+    frame.depth = process(frame.raw, in->camera, wanted, &result.ran_on);
+    stopwatch.lap("process");
+    for (FileRecord& file : run::write_frame(folder, *what, fmt::format("_{:04}", index), frame, memory)) folder.add(std::move(file));
+    stopwatch.lap("write");
+    ++result.frames;
+    result.last = validity(frame, in->camera);
+    return true;
+  });
+  if (!in)
+    throw Error(
+        ErrorKind::bad_input,
+        fmt::format("{}: error: there are no raw frames{} in it\n  {}", base::printable(path), read.frames > 0 ? " of these numbers" : "",
+                    read.frames > 0
+                        ? fmt::format("it has {} frames", read.frames)
+                        : "expected the topics raw/p0, … and raw/meta of `tofray render --emit mcap`, which --topics may leave out"));
+  if (!read.complete) remarks.tell(ends_early(path));
+  say_fallback(options, result.ran_on, remarks);
+  run::finish(run_request("", options), in->files, folder, left, stopwatch, result);
+  remarks.tell(result.remarks);
+  if (options.json)
+    print(files::json_text(summary_json(result, remarks), 2) + "\n");
+  else
+    Talk(options.quiet)(summary_text(result));
+  return 0;
 }
 
 /// Light by path length to raw frames and depth.
@@ -102,6 +175,12 @@ int process_transient(const Options& options) {
 
 }  // namespace
 
-int run_process(const Options& options) { return options.transient.empty() ? process_raw(options) : process_transient(options); }
+int run_process(const Options& options) {
+  refuse_film(options);
+  if (options.transient.empty() && run::is_film(options.words[0])) return process_film(options);
+  if (options.frames || options.first_frame != 0)
+    throw Error(ErrorKind::bad_input, "error: --frames and --first-frame are of MCAP files\n  expected run.mcap, or neither of them");
+  return options.transient.empty() ? process_raw(options) : process_transient(options);
+}
 
 }  // namespace tofray::app

@@ -24,7 +24,8 @@ namespace {
 
 void refuse_other_settings(const Options& now) {
   if (!now.words.empty() || !now.set.empty() || !now.mode.empty() || now.seed || now.noise || now.exposure_samples || now.subpixel ||
-      now.emit || !now.arrays.empty() || now.compress || now.scale != 1 || now.frames || now.first_frame != 0)
+      now.emit || now.mcap_compression || now.messages != MessageOptions{} || !now.arrays.empty() || now.compress || now.scale != 1 ||
+      now.frames || now.first_frame != 0)
     throw Error(ErrorKind::bad_input,
                 "error: --from makes the same bytes again and takes no other scene and no other settings\n"
                 "  with it there may be -o, --threads, --backend, --device, --json and --quiet");
