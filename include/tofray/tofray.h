@@ -13,6 +13,7 @@
 #include "tofray/file_record.h"
 #include "tofray/flags.h"
 #include "tofray/frame.h"
+#include "tofray/kept.h"
 #include "tofray/load.h"
 #include "tofray/options.h"
 #include "tofray/pixel.h"
@@ -22,4 +23,5 @@
 #include "tofray/scene.h"
 #include "tofray/simulator.h"
 #include "tofray/stages.h"
+#include "tofray/sweep.h"
 #include "tofray/version.h"
