@@ -61,7 +61,8 @@ class KeptFrames {
   /// Whether light can be kept: not where exposures follow the light or depth is a mean over frames, nor where the noise of depth says how
   /// many ways of bouncing light are followed (Transport::max_samples).
   [[nodiscard]] bool can_keep_light() const;
-  /// Whether raw frames can: not where light cannot, where light bounces, or where full wells spill into their neighbours.
+  /// Whether raw frames can: not where light cannot, where light bounces (the truth of multipath is the decoder's), where full wells spill into
+  /// their neighbours, nor without noise, where depth takes charge that no converter rounds.
   [[nodiscard]] bool can_keep_raw() const;
   /// Whether what was kept of one frame is good for all: nothing moves.
   [[nodiscard]] bool stands_still() const;

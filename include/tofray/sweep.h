@@ -69,6 +69,7 @@ struct Sweep {
   std::uint64_t traced = 0;          ///< how often frames began with rays
   std::uint64_t from_light = 0;      ///< … with light that was there
   std::uint64_t from_raw = 0;        ///< … with raw frames that were there
+  double seconds = 0;                ///< that it took
   std::vector<InputFile> files;      ///< that the first cell was made of
   RanOn ran_on;
 
@@ -93,6 +94,15 @@ struct SweepWatch {
 /// @throws Error as load_inputs() and Simulator, with the cell; (limit) for more than 100,000 cells; (bad_input) without an axis, for a key that two
 /// of them have, an unknown metric, a region that is not in the image
 Sweep sweep(const SweepRequest& request, const SweepWatch& watch = {});
+
+/// Writes sweep.csv (a line for each cell and region), sweep.npz (values of each axis under its key; of each metric an array [axis 0][axis 1]…[region])
+/// and manifest.json into a folder, each whole or not at all, the manifest last.
+/// @param request  that it was made of
+/// @param command  for people who read manifest.json: what was typed
+/// @return what was written
+/// @throws Error (io) where the folder cannot be written; (bad_input) for a sweep that was interrupted
+std::vector<FileRecord> save_sweep(const Sweep& sweep, const SweepRequest& request, const std::string& folder,
+                                   const std::vector<std::string>& command = {});
 
 /// The cells that are good: those that hold all conditions, and of them each that no other is better than in every aim (the Pareto front).
 /// @param wish  aims and conditions with "," between: "sigma, fill>95%", "rmse, illumination.0.power". An aim is a metric, or an axis of numbers,

@@ -18,6 +18,7 @@
 #include "quality.h"
 #include "runs.h"
 #include "simulator.h"
+#include "sweep.h"
 #include "tofray/tofray.h"
 
 namespace tofray::python {
@@ -264,6 +265,7 @@ PYBIND11_MODULE(_native, module) {
   bind_budget(module);
   bind_datasets(module);
   bind_quality(module);
+  bind_sweep(module);
   bind_runs(module);
   bind_files(module);
   module.def("picture", &picture);

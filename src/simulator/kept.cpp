@@ -95,7 +95,9 @@ bool KeptFrames::can_keep_light() const {
          !(pipeline::bounces(impl.setup, Stage::trace) && (impl.setup.bounces.rounds > 1 || impl.setup.sensor.drifts != 0));
 }
 bool KeptFrames::can_keep_raw() const {
-  return can_keep_light() && !pipeline::bounces(impl_->impl.setup, Stage::trace) && impl_->impl.setup.sensor.blooms == 0 && impl_->impl.options.last_stage == Stage::depth;
+  const Simulator::Impl& impl = impl_->impl;
+  return can_keep_light() && impl.options.noise != Noise::off && impl.options.last_stage == Stage::depth && impl.setup.sensor.blooms == 0 &&
+         !pipeline::bounces(impl.setup, Stage::trace);
 }
 bool KeptFrames::stands_still() const { return !impl_->impl.frozen_scene.moves(); }
 
@@ -135,9 +137,7 @@ void KeptFrames::frame_from(std::uint64_t index, const KeptRaw& raw, Frame& into
   const KeptRaw::Impl& kept = *raw.impl_;
   pipeline::Input input{};
   input.entry = Stage::depth;
-  // Without noise depth takes charge that no converter rounds.
-  if (impl.options.noise != Noise::off) input.recording.raw = kept.raw.raw.data();
-  input.recording.tap_a = kept.raw.tap_a.data(), input.recording.tap_b = kept.raw.tap_b.data();
+  input.recording = {kept.raw.raw.data(), kept.raw.tap_a.data(), kept.raw.tap_b.data()};
   impl.begin({index, {}, {}}, &input, impl.options, impl.scene.transport, to);
   to.raw.tap_a = kept.raw.tap_a, to.raw.tap_b = kept.raw.tap_b, to.raw.raw = kept.raw.raw;
   copy_truth(kept.truth, to.truth, Stage::raw);

@@ -137,7 +137,7 @@ std::vector<std::string> range_values(const std::string& key, const Form* form, 
   for (std::size_t i = 0; i < n; ++i) {
     const double share = static_cast<double>(i) / static_cast<double>(n - 1);
     const double value = log ? *from * std::pow(*to / *from, share) : *from + (*to - *from) * share;
-    const std::string number = fmt::format("{:.12g}", value / size);
+    const std::string number = fmt::format("{:.{}g}", value / size, log ? 6 : 12);
     out.push_back(i == 0 ? low : i + 1 == n ? high : unit.empty() ? number : number + " " + unit);
     if (!number_of(*form, out.back()))
       refuse(key, text, form->kind == FormKind::integer ? fmt::format("whole numbers alone, and {} is none: a list, a,b,c", number) : range_of(*form));

@@ -9,6 +9,7 @@
 
 #include "base/limits.h"
 #include "base/text.h"
+#include "load/builtin.h"
 #include "sweep/elements.h"
 #include "tofray/error.h"
 #include "tofray/load.h"
@@ -84,6 +85,16 @@ std::vector<std::vector<std::uint64_t>> Cells::alike(const std::vector<std::uint
   return out;
 }
 
+std::string Cells::first_mode(std::uint64_t cell) const {
+  if (!request_.inputs.mode.empty() || has_axis(request_, mode_key)) return "";
+  for (std::size_t axis = 0; axis < request_.axes.size(); ++axis) {
+    if (request_.axes[axis].key != profile_key) continue;
+    const std::string& name = request_.axes[axis].values[place(cell, axis)];
+    if (load::find_builtin(load::builtin_profiles(), name) != nullptr) return load_camera(name).mode_names.front();
+  }
+  return "";
+}
+
 InputRequest Cells::request_of(std::uint64_t cell) const {
   InputRequest out = request_.inputs;
   std::vector<std::pair<std::string, std::string>> open;
@@ -97,6 +108,8 @@ InputRequest Cells::request_of(std::uint64_t cell) const {
     else
       for (const std::string& key : keys_[axis]) out.set.emplace_back(key, value);
   }
+  // A scene's mode is one of its own camera.
+  if (const std::string mode = first_mode(cell); !mode.empty()) out.set.emplace_back("camera.mode", mode);
   if (open.empty()) return out;
   const Inputs of_cell = load_inputs(out);
   const InputRequest known = out;

@@ -31,6 +31,8 @@ class Cells {
 
  private:
   [[nodiscard]] InputRequest request_of(std::uint64_t cell) const;
+  /// Of a camera that varies, unless the mode is asked for; empty: what the scene says.
+  [[nodiscard]] std::string first_mode(std::uint64_t cell) const;
 
   const SweepRequest& request_;
   std::uint64_t count_ = 1;

@@ -114,17 +114,20 @@ Measuring::Measuring(const Wanted& wanted, const Camera& camera, const ImageRegi
     spread_.resize(static_cast<std::size_t>(region.width) * static_cast<std::size_t>(region.height));
 }
 
-void Measuring::add_filling(const Frame& frame, std::size_t pixel, Part& part) const {
+/// Of lit raw frames the fuller tap [e⁻], and how far the code is from its middle.
+void Measuring::find_filling(const Frame& frame) {
   const Raw& raw = frame.raw;
   const std::size_t pixels = static_cast<std::size_t>(raw.width) * static_cast<std::size_t>(raw.height);
-  float fullest = 0, farthest = 0;
+  fullest_.assign(pixels, 0), farthest_.assign(pixels, 0);
   const auto middle = static_cast<float>(mid_code_);
-  for (std::size_t k = 0, at = pixel; k < static_cast<std::size_t>(raw.phases); ++k, at += pixels) {
+  for (std::size_t k = 0; k < static_cast<std::size_t>(raw.phases); ++k) {
     if (raw.lit[k] == 0) continue;
-    if (!raw.tap_a.empty()) fullest = std::max({fullest, raw.tap_a[at], raw.tap_b[at]});
-    if (!raw.raw.empty()) farthest = std::max(farthest, std::fabs(static_cast<float>(raw.raw[at]) - middle));
+    const std::size_t at = k * pixels;
+    for (std::size_t i = 0; i < pixels && !raw.tap_a.empty(); ++i)
+      fullest_[i] = std::max(fullest_[i], std::max(raw.tap_a[at + i], raw.tap_b[at + i]));
+    for (std::size_t i = 0; i < pixels && !raw.raw.empty(); ++i)
+      farthest_[i] = std::max(farthest_[i], std::fabs(static_cast<float>(raw.raw[at + i]) - middle));
   }
-  part.taps += static_cast<double>(fullest), part.codes += static_cast<double>(farthest);
 }
 
 void Measuring::add(const Frame& frame, std::size_t pixel, Part& part) const {
@@ -132,7 +135,7 @@ void Measuring::add(const Frame& frame, std::size_t pixel, Part& part) const {
   ++part.pixels;
   const unsigned flags = depth.flags[pixel];
   for (std::size_t i = 0; flags != 0 && i < flag_count; ++i) part.flagged[i] += (flags & flag_bits[i]) != 0;
-  if (filling_) add_filling(frame, pixel, part);
+  if (filling_) part.taps += static_cast<double>(fullest_[pixel]), part.codes += static_cast<double>(farthest_[pixel]);
   if (!analysis::has_depth(depth, pixel)) return;
   ++part.valid;
   const auto z = static_cast<double>(depth.z_m[pixel]), truth = static_cast<double>(frame.truth.z_m[pixel]);
@@ -150,6 +153,7 @@ void Measuring::add(const Frame& frame, std::size_t pixel, Part& part) const {
 
 void Measuring::take(const Frame& frame) {
   const auto width = static_cast<std::size_t>(frame.depth.width);
+  if (filling_) find_filling(frame);
   std::size_t i = 0;
   for (int v = region_.v; v < region_.v + region_.height; ++v) {
     for (int u = region_.u; u < region_.u + region_.width; ++u, ++i) {

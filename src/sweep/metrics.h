@@ -48,7 +48,7 @@ class Measuring {
     std::vector<std::size_t> flagged;
   };
   void add(const Frame& frame, std::size_t pixel, Part& part) const;
-  void add_filling(const Frame& frame, std::size_t pixel, Part& part) const;
+  void find_filling(const Frame& frame);
   [[nodiscard]] double sigma(int part) const;
   [[nodiscard]] double number(const Part& part, std::size_t metric, double sigma) const;
 
@@ -59,6 +59,7 @@ class Measuring {
   bool filling_, errors_;
   double half_cycle_m_ = 0, full_well_e_ = 0, mid_code_ = 0, code_reach_ = 0;
   std::vector<Part> parts_;
+  std::vector<float> fullest_, farthest_;  ///< by pixel of the image, of one frame
   std::vector<Spread> spread_;  ///< by pixel of the region; empty: of one frame
 };
 

@@ -13,6 +13,7 @@
 #include <thread>
 
 #include "base/text.h"
+#include "run/stopwatch.h"
 #include "sweep/cells.h"
 #include "sweep/metrics.h"
 #include "tofray/error.h"
@@ -60,6 +61,7 @@ class Run {
   }
 
   Sweep result() {
+    run::Stopwatch stopwatch;
     Sweep out;
     out.axes = request_.axes, out.repeat = request_.repeat;
     for (const std::size_t metric : wanted_.metrics) out.metrics.push_back(sweep_metrics()[metric].name);
@@ -81,6 +83,7 @@ class Run {
     leave_out_unseen(out);
     out.ran_on.backend = "cpu", out.ran_on.threads = threads_;
     out.files = std::move(files_);
+    stopwatch.lap("sweep"), out.seconds = stopwatch.total();
     return out;
   }
 

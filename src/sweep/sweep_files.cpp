@@ -13,6 +13,7 @@
 #include "files/output_folder.h"
 #include "results/manifest.h"
 #include "run/manifest.h"
+#include "tofray/error.h"
 
 namespace tofray::sweeps {
 
@@ -137,11 +138,17 @@ Json json_of(const Sweep& sweep) {
       .set("cells", std::move(cells));
 }
 
-std::vector<FileRecord> write_files(const Sweep& sweep, const SweepRequest& request, const std::string& name,
-                                    const std::vector<std::string>& command, double seconds) {
+}  // namespace tofray::sweeps
+
+namespace tofray {
+
+std::vector<FileRecord> save_sweep(const Sweep& sweep, const SweepRequest& request, const std::string& name,
+                                   const std::vector<std::string>& command) {
+  if (sweep.interrupted)
+    throw Error(ErrorKind::bad_input, "error: the sweep was interrupted, and what it holds means nothing\n  expected one that came to its end");
   files::OutputFolder folder(name);
-  folder.write("sweep.csv", csv_text(sweep));
-  folder.write("sweep.npz", npz_bytes(sweep));
+  folder.write("sweep.csv", sweeps::csv_text(sweep));
+  folder.write("sweep.npz", sweeps::npz_bytes(sweep));
   RunRequest as_run;
   as_run.inputs = request.inputs, as_run.simulator = request.simulator, as_run.simulator.arrays.clear(), as_run.command = command;
   results::Manifest manifest = run::manifest_of(as_run);
@@ -157,10 +164,10 @@ std::vector<FileRecord> write_files(const Sweep& sweep, const SweepRequest& requ
   manifest.inputs = sweep.files;
   manifest.backend = sweep.ran_on.backend, manifest.threads = sweep.ran_on.threads, manifest.isa = sweep.ran_on.isa;
   manifest.cpu_model = results::cpu_model();
-  manifest.timings_s = {{"sweep", seconds}};
+  manifest.timings_s = {{"sweep", sweep.seconds}};
   manifest.files = folder.files();
   folder.write("manifest.json", results::manifest_text(manifest));
   return folder.files();
 }
 
-}  // namespace tofray::sweeps
+}  // namespace tofray

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include <string>
-#include <vector>
 
 #include "files/json.h"
 #include "tofray/sweep.h"
@@ -17,11 +16,5 @@ std::string csv_text(const Sweep& sweep);
 std::string npz_bytes(const Sweep& sweep);
 /// Axes, metrics and values, as --json prints them.
 files::Json json_of(const Sweep& sweep);
-
-/// Writes all of them into a folder, each whole or not at all, manifest.json last.
-/// @param command  what was typed
-/// @return what was written
-std::vector<FileRecord> write_files(const Sweep& sweep, const SweepRequest& request, const std::string& folder,
-                                    const std::vector<std::string>& command, double seconds);
 
 }  // namespace tofray::sweeps

@@ -15,7 +15,6 @@
 #include "cli/requests.h"
 #include "commands/limits.h"
 #include "run/input_kind.h"
-#include "run/stopwatch.h"
 #include "sweep/sweep_files.h"
 #include "tofray/error.h"
 
@@ -84,15 +83,14 @@ std::string text_of(const Sweep& sweep, const std::vector<std::uint64_t>& cells,
   return out;
 }
 
-std::string how_text(const Sweep& sweep, double seconds) {
-  return fmt::format("{} cells in {:.2f} s; frames from rays {}, from light {}, from raw frames {}\n", sweep.cells(), seconds, sweep.traced,
+std::string how_text(const Sweep& sweep) {
+  return fmt::format("{} cells in {:.2f} s; frames from rays {}, from light {}, from raw frames {}\n", sweep.cells(), sweep.seconds, sweep.traced,
                      sweep.from_light, sweep.from_raw);
 }
 
 }  // namespace
 
 int run_sweep(const Options& options) {
-  run::Stopwatch stopwatch;
   Remarks remarks;
   const NameChoice chosen = choose_scene(options.words[0]);
   remarks.tell(run::note_of(chosen));
@@ -116,9 +114,7 @@ int run_sweep(const Options& options) {
   const bool best = !options.best.empty();
   std::vector<std::uint64_t> front;
   if (best) front = best_cells(found, options.best);
-  stopwatch.lap("sweep");
-  const double seconds = stopwatch.total();
-  if (!options.output.empty()) sweeps::write_files(found, request, options.output, options.typed, seconds);
+  if (!options.output.empty()) save_sweep(found, request, options.output, options.typed);
   std::vector<std::uint64_t> all;
   for (std::uint64_t i = 0; i < found.cells() && !best; ++i) all.push_back(i);
   if (options.json) {
@@ -132,7 +128,7 @@ int run_sweep(const Options& options) {
   } else if (best || options.output.empty()) {
     print(text_of(found, best ? front : all, !options.metrics.empty()));
   }
-  Talk(options.quiet)(how_text(found, seconds) + (options.output.empty() ? "" : fmt::format("{}/sweep.csv, sweep.npz, manifest.json\n", options.output)));
+  Talk(options.quiet)(how_text(found) + (options.output.empty() ? "" : fmt::format("{}/sweep.csv, sweep.npz, manifest.json\n", options.output)));
   return best && front.empty() ? 1 : 0;
 }
 
