@@ -83,8 +83,8 @@ struct Sweep {
 
 /// Whoever watches a sweep. All of it may be left empty; no two are called at once.
 struct SweepWatch {
-  FrameProgress* progress = nullptr;               ///< its `stop` ends the sweep
-  std::function<void(const Remark&)> remark = {};  ///< told what is odd about the first cell's inputs
+  FrameProgress* progress = nullptr;                                 ///< its `stop` ends the sweep
+  std::function<void(const Remark&)> remark = {};                    ///< told what is odd about the first cell's inputs
   std::function<void(std::uint64_t, std::uint64_t)> cell_done = {};  ///< told how many cells are done, of how many
   /// Shown each frame, with the cell's number, until it returns. Cells come in any order.
   std::function<void(std::uint64_t, const Frame&)> frame = {};

@@ -26,7 +26,8 @@ constexpr const char* stage_names[] = {"trace", "power", "raw", "depth"};
 py::list axes_of(const Sweep& of) {
   py::list out;
   for (const SweepAxis& axis : of.axes)
-    out.append(py::make_tuple(axis.key, to_python(axis.values), to_python(axis.numbers), axis.unit, stage_names[static_cast<int>(axis.stage)]));
+    out.append(
+        py::make_tuple(axis.key, to_python(axis.values), to_python(axis.numbers), axis.unit, stage_names[static_cast<int>(axis.stage)]));
   return out;
 }
 
@@ -61,7 +62,8 @@ SweepRequest request_of(const py::dict& words, const py::list& vary, const py::d
 
 /// @param folder  empty: nothing is written
 /// @param each    called with the cells that are done and with all; None: nothing is
-py::tuple sweep_of(const py::dict& words, const py::list& vary, const py::dict& options, const std::string& folder, const py::object& each) {
+py::tuple sweep_of(const py::dict& words, const py::list& vary, const py::dict& options, const std::string& folder,
+                   const py::object& each) {
   const SweepRequest request = request_of(words, vary, options);
   FrameProgress progress;
   std::optional<py::error_already_set> fault;
@@ -97,7 +99,8 @@ py::tuple sweep_of(const py::dict& words, const py::list& vary, const py::dict& 
 }
 
 /// @param axes  pairs of a key, its numbers (or an empty list) and its unit, and how many values it has
-py::list best_of(const py::list& axes, const std::vector<std::string>& metrics, const py::array_t<double>& values, const std::string& wish) {
+py::list best_of(const py::list& axes, const std::vector<std::string>& metrics, const py::array_t<double>& values,
+                 const std::string& wish) {
   Sweep of;
   for (const py::handle one : axes) {
     const auto axis = one.cast<py::tuple>();

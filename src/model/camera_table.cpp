@@ -163,7 +163,8 @@ const Table& table_of<Pixel>() {
               "on the contrast, at the wavelength of each light; 1 unless given; not of a measured waveform, which has it in it")
               .absent()
               .since(Stage::power),
-          number<&Pixel::bandwidth_hz>("bandwidth", {frequency, {0, 1e12}, "180 MHz"}, "single pole of the gate; 0: none").since(Stage::power),
+          number<&Pixel::bandwidth_hz>("bandwidth", {frequency, {0, 1e12}, "180 MHz"}, "single pole of the gate; 0: none")
+              .since(Stage::power),
           number<&Pixel::full_well_e>("full_well", {charge, {1, 1e30}, "100000 e"}, "charge that a tap holds"),
           number<&Pixel::read_noise_e>("read_noise", {charge, {0, 1e6}, "50 e"},
                                        "per tap, reset and read, 1 sigma; reset noise has a key of its own, too"),
@@ -389,9 +390,7 @@ template <>
 const Table& table_of<Mode>() {
   static const Table rows =
       table<Mode>(words<&Mode::name>("", "", "", ""),
-                  number<&Mode::frame_rate_hz>("frame_rate", frame_rate, "frame i starts at i / frame_rate")
-                      .required()
-                      .since(Stage::raw),
+                  number<&Mode::frame_rate_hz>("frame_rate", frame_rate, "frame i starts at i / frame_rate").required().since(Stage::raw),
                   records<&Mode::sequence>("sequence", 1, raw_frames, "the raw frames, in order").required().since(Stage::power),
                   number<&Mode::gain>("gain", gain, "before the ADC, one of adc.gains").since(Stage::raw));
   return rows;
@@ -400,37 +399,39 @@ const Table& table_of<Mode>() {
 template <>
 const Table& table_of<Camera>() {
   static const Table rows =
-      table<Camera>(words<&Camera::name>("name", "a name", "mycam", "name of the camera").required(),
-                    no_row<&Camera::source>("a file's place is no part of what it says"),
-                    record<&Camera::sensor>("sensor", "the grid of pixels").required(),
-                    record<&Camera::lens>("lens", "from directions to pixels").required(),
-                    record<&Camera::filter>("filter", "before the sensor, for ambient light").since(Stage::power),
-                    records<&Camera::illumination>("illumination", 0, static_cast<int>(base::limit::lights.value),
-                                                   "the camera's own lights, which add up")
-                        .required()
-                        .since(Stage::power),
-                    record<&Camera::pixel>("pixel", "the two-tap pixel").required().since(Stage::raw),
-                    record<&Camera::adc>("adc", "from electrons to codes").required().since(Stage::raw),
-                    record<&Camera::decoding>("decoding", "from raw frames to depth").since(Stage::depth),
-                    record<&Camera::temperature>("temperature", "drift of the range").since(Stage::raw),
-                    record<&Camera::interference>("interference", "light of another camera of the same kind, at the same place").since(Stage::raw),
-                    record<&Camera::calibration>("calibration", "what raw data are off by, the same in all pixels").since(Stage::power),
-                    record<&Camera::spread_spectrum>("spread_spectrum", "modulation frequencies swept over a band within each exposure").since(Stage::power),
-                    record<&Camera::readout>("readout", "which pixels of the sensor are read, and how many together"),
-                    record<&Camera::auto_exposure>("auto_exposure", "integration times that follow the light, from frame to frame").since(Stage::raw),
-                    number<&Camera::refractive_index>("refractive_index", {none, {1, 3}, "1.0003"},
-                                                      "refractive index of the medium that light travels in")
-                        .since(Stage::power),
-                    group("timing", "of the readout",
-                          number<&Camera::readout_time_s>("readout_time", pause, "from the end of one exposure to the start of the next"),
-                          number<&Camera::min_integration_time_s>("min_integration_time", {time, pause.range, "27 us"},
-                                                                  "shortest exposure the camera can do"))
-                        .since(Stage::raw),
-                    choice<&Camera::power_model>("power_model", {"tofray", "paper_literal"},
-                                                 "paper_literal: the printed formula of the paper, for comparison only")
-                        .since(Stage::power),
-                    record<&Camera::mode>("", ""),  // one out of the file's `modes`
-                    no_row<&Camera::mode_names>("what else the file has is no part of the camera"))
+      table<Camera>(
+          words<&Camera::name>("name", "a name", "mycam", "name of the camera").required(),
+          no_row<&Camera::source>("a file's place is no part of what it says"),
+          record<&Camera::sensor>("sensor", "the grid of pixels").required(),
+          record<&Camera::lens>("lens", "from directions to pixels").required(),
+          record<&Camera::filter>("filter", "before the sensor, for ambient light").since(Stage::power),
+          records<&Camera::illumination>("illumination", 0, static_cast<int>(base::limit::lights.value),
+                                         "the camera's own lights, which add up")
+              .required()
+              .since(Stage::power),
+          record<&Camera::pixel>("pixel", "the two-tap pixel").required().since(Stage::raw),
+          record<&Camera::adc>("adc", "from electrons to codes").required().since(Stage::raw),
+          record<&Camera::decoding>("decoding", "from raw frames to depth").since(Stage::depth),
+          record<&Camera::temperature>("temperature", "drift of the range").since(Stage::raw),
+          record<&Camera::interference>("interference", "light of another camera of the same kind, at the same place").since(Stage::raw),
+          record<&Camera::calibration>("calibration", "what raw data are off by, the same in all pixels").since(Stage::power),
+          record<&Camera::spread_spectrum>("spread_spectrum", "modulation frequencies swept over a band within each exposure")
+              .since(Stage::power),
+          record<&Camera::readout>("readout", "which pixels of the sensor are read, and how many together"),
+          record<&Camera::auto_exposure>("auto_exposure", "integration times that follow the light, from frame to frame").since(Stage::raw),
+          number<&Camera::refractive_index>("refractive_index", {none, {1, 3}, "1.0003"},
+                                            "refractive index of the medium that light travels in")
+              .since(Stage::power),
+          group("timing", "of the readout",
+                number<&Camera::readout_time_s>("readout_time", pause, "from the end of one exposure to the start of the next"),
+                number<&Camera::min_integration_time_s>("min_integration_time", {time, pause.range, "27 us"},
+                                                        "shortest exposure the camera can do"))
+              .since(Stage::raw),
+          choice<&Camera::power_model>("power_model", {"tofray", "paper_literal"},
+                                       "paper_literal: the printed formula of the paper, for comparison only")
+              .since(Stage::power),
+          record<&Camera::mode>("", ""),  // one out of the file's `modes`
+          no_row<&Camera::mode_names>("what else the file has is no part of the camera"))
           .check_with(cameras_make_sense)
           .complete_with(filter_at_the_light);
   return rows;

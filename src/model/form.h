@@ -54,8 +54,8 @@ struct Key {
   Form form;
   std::string doc;  ///< one line
   bool required = false;
-  std::string fallback;  ///< what holds where the key is absent, as one writes it; empty: the key's line says it
-  std::string member;    ///< what it is in code, e.g. "Pixel::read_noise_e"; empty: no member of its own
+  std::string fallback;             ///< what holds where the key is absent, as one writes it; empty: the key's line says it
+  std::string member;               ///< what it is in code, e.g. "Pixel::read_noise_e"; empty: no member of its own
   std::optional<Stage> stage = {};  ///< Row::stage
 };
 

@@ -48,7 +48,7 @@ struct Row {
   bool direction = false;                ///< has to have a length
   std::string file;                      ///< the numbers may be in a text file, under the key `file`, called for instance this
   std::optional<Stage> stage;  ///< the first stage of a frame that looks at it; none: as what it is a part of, in the end the first of all
-  Form otherwise;  ///< of a list of structs: what may stand in its place, which the reader of files makes such a list of
+  Form otherwise;              ///< of a list of structs: what may stand in its place, which the reader of files makes such a list of
   // of a curve
   std::string x_key, y_key;
   Form x, y;

@@ -20,7 +20,8 @@ struct LightForm {
 
 SimulatorOptions on_processor(SimulatorOptions options) {
   if (options.backend == Backend::cuda)
-    throw Error(ErrorKind::bad_input, "error: frames that keep their light are computed by the processor\n  got Backend::cuda, expected cpu or automatic");
+    throw Error(ErrorKind::bad_input,
+                "error: frames that keep their light are computed by the processor\n  got Backend::cuda, expected cpu or automatic");
   options.backend = Backend::cpu;
   return options;
 }
@@ -70,11 +71,12 @@ struct KeptFrames::Impl {
   [[nodiscard]] LightForm form(std::uint64_t index) const {
     const pipeline::Setup& s = impl.setup;
     LightForm out;
-    out.numbers = {s.lens.width,           s.lens.height,     s.sensor.raw_frames, s.phasors.modulations, s.phasors.orders,
-                   s.phasors.sums_alone,   s.scene.lights,    s.scene.moments,     s.subpixel.count,      s.scatter.terms,
-                   s.bounces.most,         s.bounces.samples, s.bounces.rounds,    s.bounces.smooth,      s.region.left,
-                   s.region.top,           s.region.width,    s.region.height,     s.transient.bins,
-                   pipeline::wants_mixed(s, impl.job.out), impl.options.truth};
+    out.numbers = {s.lens.width,      s.lens.height,        s.sensor.raw_frames, s.phasors.modulations,
+                   s.phasors.orders,  s.phasors.sums_alone, s.scene.lights,      s.scene.moments,
+                   s.subpixel.count,  s.scatter.terms,      s.bounces.most,      s.bounces.samples,
+                   s.bounces.rounds,  s.bounces.smooth,     s.region.left,       s.region.top,
+                   s.region.width,    s.region.height,      s.transient.bins,    pipeline::wants_mixed(s, impl.job.out),
+                   impl.options.truth};
     if (!impl.frozen_scene.moves()) return out;
     const scene::Times times = impl.times_from(impl.start_of({index, {}, {}}));
     out.times_s = times.moments;

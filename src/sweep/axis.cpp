@@ -97,7 +97,8 @@ const Form* number_form(const Form* form) {
 }
 
 std::string range_of(const Form& form) {
-  return fmt::format("{} to {}, as in {}", base::quantity_text(form.low, form.example), base::quantity_text(form.high, form.example), form.example);
+  return fmt::format("{} to {}, as in {}", base::quantity_text(form.low, form.example), base::quantity_text(form.high, form.example),
+                     form.example);
 }
 
 /// SI; none: it is no number.
@@ -140,7 +141,8 @@ std::vector<std::string> range_values(const std::string& key, const Form* form, 
     const std::string number = fmt::format("{:.{}g}", value / size, log ? 6 : 12);
     out.push_back(i == 0 ? low : i + 1 == n ? high : unit.empty() ? number : number + " " + unit);
     if (!number_of(*form, out.back()))
-      refuse(key, text, form->kind == FormKind::integer ? fmt::format("whole numbers alone, and {} is none: a list, a,b,c", number) : range_of(*form));
+      refuse(key, text,
+             form->kind == FormKind::integer ? fmt::format("whole numbers alone, and {} is none: a list, a,b,c", number) : range_of(*form));
   }
   return out;
 }
@@ -179,9 +181,10 @@ SweepAxis axis_of(const Key& key, std::vector<std::string> values) {
 SweepAxis sweep_axis(const std::string& text, const InputRequest& inputs) {
   const std::size_t equals = text.find('=');
   if (equals == 0 || equals == std::string::npos || equals + 1 == text.size())
-    throw Error(ErrorKind::bad_input, fmt::format("error: --vary cannot be {}\n  expected KEY=VALUES, as in --vary illumination.0.power=0.1W,1W or "
-                                                  "=0.1W:1W:10, or mode=@all",
-                                                  base::in_quotes(text)));
+    throw Error(ErrorKind::bad_input,
+                fmt::format("error: --vary cannot be {}\n  expected KEY=VALUES, as in --vary illumination.0.power=0.1W,1W or "
+                            "=0.1W:1W:10, or mode=@all",
+                            base::in_quotes(text)));
   const Key key = key_of(text.substr(0, equals));
   const std::string values = trimmed(text.substr(equals + 1));
   if (values == "@all") return axis_of(key, all_values(key, inputs));

@@ -48,7 +48,9 @@ Quantity quantity_of(const Sweep& sweep, const std::string& name) {
   }
   for (std::size_t i = 0; i < sweep.metrics.size(); ++i) {
     const std::string& metric = sweep.metrics[i];
-    const std::string unit = metric.ends_with("_m") ? "m" : metric.ends_with("_percent") ? "%" : "e",
+    const std::string unit = metric.ends_with("_m")         ? "m"
+                             : metric.ends_with("_percent") ? "%"
+                                                            : "e",
                       plain = metric.substr(0, metric.rfind('_'));
     known.push_back(plain);
     if (metric == name || plain == name) return {i, {}, unit, sweep_metrics()[sweeps::metric_named(metric)].at_least};
@@ -112,9 +114,10 @@ std::vector<std::uint64_t> best_cells(const Sweep& sweep, const std::string& wis
     conditions.push_back({quantity, part[sign] == '>', limit_of(name, quantity, trimmed(part.substr(sign + 1)))});
   }
   if (aims.empty())
-    throw Error(ErrorKind::bad_input, fmt::format("error: --best {} has no aim\n  expected a name without < and > among the parts, as in --best "
-                                                  "\"sigma, fill>95%\"",
-                                                  base::in_quotes(wish)));
+    throw Error(ErrorKind::bad_input,
+                fmt::format("error: --best {} has no aim\n  expected a name without < and > among the parts, as in --best "
+                            "\"sigma, fill>95%\"",
+                            base::in_quotes(wish)));
   struct Candidate {
     std::uint64_t cell;
     std::vector<double> costs;

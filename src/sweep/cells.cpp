@@ -31,7 +31,8 @@ void check(const SweepRequest& request) {
     for (std::size_t j = 0; j < i; ++j)
       if (request.axes[i].key == request.axes[j].key)
         throw Error(ErrorKind::bad_input,
-                    fmt::format("error: --vary has {} twice\n  expected each key once; all values of a key stand in one list, a,b,c", request.axes[i].key));
+                    fmt::format("error: --vary has {} twice\n  expected each key once; all values of a key stand in one list, a,b,c",
+                                request.axes[i].key));
 }
 
 }  // namespace
@@ -42,9 +43,10 @@ Cells::Cells(const SweepRequest& request) : request_(request) {
   double product = 1;
   for (const SweepAxis& axis : request.axes) product *= static_cast<double>(axis.values.size());
   if (product > static_cast<double>(most))
-    throw Error(ErrorKind::limit, fmt::format("error: a sweep of {:.0f} cells is too large\n  at most {} (`tofray --limits`): fewer values, or several "
-                                              "sweeps",
-                                              product, most));
+    throw Error(ErrorKind::limit,
+                fmt::format("error: a sweep of {:.0f} cells is too large\n  at most {} (`tofray --limits`): fewer values, or several "
+                            "sweeps",
+                            product, most));
   const bool by_cell = has_axis(request, profile_key);
   for (const SweepAxis& axis : request.axes) {
     count_ *= axis.values.size();

@@ -32,7 +32,8 @@ void walk(const yaml::Node& node, const std::string& rest, const std::string& be
   };
   if (part != "*") {
     const bool number = !part.empty() && part.find_first_not_of("0123456789") == std::string::npos;
-    if (node.kind == yaml::Node::Kind::list && number && std::stoul(part) < node.items.size()) return go(&node.items[std::stoul(part)], part);
+    if (node.kind == yaml::Node::Kind::list && number && std::stoul(part) < node.items.size())
+      return go(&node.items[std::stoul(part)], part);
     if (const yaml::Node* found = node.find(part)) go(found, part);
     return;
   }
@@ -55,9 +56,10 @@ std::vector<std::string> elements_of(const std::string& key, const InputRequest&
     walk(load::scene_tree(text, loaded.scene.source, inputs.set), key, "", out);
   }
   if (out.empty())
-    throw Error(ErrorKind::bad_input, fmt::format("error: --vary {}: * means no element of this scene\n  expected a list with an element that has "
-                                                  "such a key, as in illumination.*.power",
-                                                  base::in_quotes(key)));
+    throw Error(ErrorKind::bad_input,
+                fmt::format("error: --vary {}: * means no element of this scene\n  expected a list with an element that has "
+                            "such a key, as in illumination.*.power",
+                            base::in_quotes(key)));
   return out;
 }
 

@@ -60,7 +60,7 @@ class Measuring {
   double half_cycle_m_ = 0, full_well_e_ = 0, mid_code_ = 0, code_reach_ = 0;
   std::vector<Part> parts_;
   std::vector<float> fullest_, farthest_;  ///< by pixel of the image, of one frame
-  std::vector<Spread> spread_;  ///< by pixel of the region; empty: of one frame
+  std::vector<Spread> spread_;             ///< by pixel of the region; empty: of one frame
 };
 
 }  // namespace tofray::sweeps

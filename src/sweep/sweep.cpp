@@ -51,13 +51,15 @@ class Run {
   Run(const SweepRequest& request, const SweepWatch& watch)
       : request_(request), watch_(watch), cells_(request), wanted_(wanted_metrics(request.metrics)), options_(request.simulator) {
     if (request.repeat < 1 || request.repeat > most_frames)
-      throw Error(ErrorKind::bad_input, fmt::format("error: cells of {} frames were asked for\n  expected 1 to {}", request.repeat, most_frames));
+      throw Error(ErrorKind::bad_input,
+                  fmt::format("error: cells of {} frames were asked for\n  expected 1 to {}", request.repeat, most_frames));
     options_.arrays = arrays_for(wanted_, request.by_object);
     options_.arrays.insert(options_.arrays.end(), request.simulator.arrays.begin(), request.simulator.arrays.end());
     const bool late = std::any_of(request.axes.begin(), request.axes.end(), [](const SweepAxis& one) { return one.stage == Stage::depth; });
     if (late) options_.arrays.insert(options_.arrays.end(), raw_arrays.begin(), raw_arrays.end());
     options_.progress = watch.progress, options_.backend = Backend::cpu;
-    threads_ = request.simulator.threads > 0 ? request.simulator.threads : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+    threads_ =
+        request.simulator.threads > 0 ? request.simulator.threads : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
   }
 
   Sweep result() {
@@ -147,7 +149,8 @@ class Run {
       common.raw.clear();
       if (stopped()) return;
       compute_late(same.front(), threads_, common, same.size() > 1 ? Keeps::light_and_raw : Keeps::light, frame);
-      each({same.begin() + 1, same.end()}, [&](std::uint64_t cell, int threads, Frame& own) { compute_late(cell, threads, common, Keeps::nothing, own); });
+      each({same.begin() + 1, same.end()},
+           [&](std::uint64_t cell, int threads, Frame& own) { compute_late(cell, threads, common, Keeps::nothing, own); });
     }
   }
 
@@ -176,7 +179,8 @@ class Run {
           frames.frame(i, frame), ++traced_;
         }
         if (stopped()) return;
-        if (keeps == Keeps::light_and_raw && frames.can_keep_raw() && bytes_of(frame) * request_.repeat <= most_kept_bytes) frames.keep(common.raw.emplace_back());
+        if (keeps == Keeps::light_and_raw && frames.can_keep_raw() && bytes_of(frame) * request_.repeat <= most_kept_bytes)
+          frames.keep(common.raw.emplace_back());
         measuring.take(frame);
         if (watch_.frame) {
           const std::lock_guard hold(mutex_);
@@ -197,9 +201,11 @@ class Run {
     const ImageRegion& r = request_.region;
     if (r.width == 0 && r.height == 0) return {0, 0, size.width, size.height};
     if (r.u < 0 || r.v < 0 || r.width < 1 || r.height < 1 || r.width > size.width - r.u || r.height > size.height - r.v)
-      throw Error(ErrorKind::bad_input,
-                  fmt::format("error: the region is not in the image\n  got column {}, row {}, {} x {} pixels, expected some of an image of {} x {}",
-                              r.u, r.v, r.width, r.height, size.width, size.height));
+      throw Error(
+          ErrorKind::bad_input,
+          fmt::format(
+              "error: the region is not in the image\n  got column {}, row {}, {} x {} pixels, expected some of an image of {} x {}", r.u,
+              r.v, r.width, r.height, size.width, size.height));
     return r;
   }
 

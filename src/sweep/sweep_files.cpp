@@ -49,10 +49,12 @@ struct Texts {
 std::string meta_text(const Sweep& sweep) {
   Json axes = Json::array();
   for (const SweepAxis& axis : sweep.axes)
-    axes.push(Json::object().set("key", axis.key).set("unit", axis.unit).set("values", Json::list(axis.values)).set(
-        "first_stage", stage_names[static_cast<int>(axis.stage)]));
-  return files::json_text(
-      Json::object().set("tofray", base::version()).set("axes", std::move(axes)).set("repeat", sweep.repeat), -1);
+    axes.push(Json::object()
+                  .set("key", axis.key)
+                  .set("unit", axis.unit)
+                  .set("values", Json::list(axis.values))
+                  .set("first_stage", stage_names[static_cast<int>(axis.stage)]));
+  return files::json_text(Json::object().set("tofray", base::version()).set("axes", std::move(axes)).set("repeat", sweep.repeat), -1);
 }
 
 }  // namespace
@@ -145,7 +147,8 @@ namespace tofray {
 std::vector<FileRecord> save_sweep(const Sweep& sweep, const SweepRequest& request, const std::string& name,
                                    const std::vector<std::string>& command) {
   if (sweep.interrupted)
-    throw Error(ErrorKind::bad_input, "error: the sweep was interrupted, and what it holds means nothing\n  expected one that came to its end");
+    throw Error(ErrorKind::bad_input,
+                "error: the sweep was interrupted, and what it holds means nothing\n  expected one that came to its end");
   files::OutputFolder folder(name);
   folder.write("sweep.csv", sweeps::csv_text(sweep));
   folder.write("sweep.npz", sweeps::npz_bytes(sweep));
@@ -159,7 +162,8 @@ std::vector<FileRecord> save_sweep(const Sweep& sweep, const SweepRequest& reque
   }
   manifest.options.emplace_back("repeat", std::to_string(request.repeat));
   if (request.region.width > 0)
-    manifest.options.emplace_back("region", fmt::format("{},{},{},{}", request.region.u, request.region.v, request.region.width, request.region.height));
+    manifest.options.emplace_back(
+        "region", fmt::format("{},{},{},{}", request.region.u, request.region.v, request.region.width, request.region.height));
   if (request.by_object) manifest.options.emplace_back("by-object", "on");
   manifest.inputs = sweep.files;
   manifest.backend = sweep.ran_on.backend, manifest.threads = sweep.ran_on.threads, manifest.isa = sweep.ran_on.isa;

@@ -44,7 +44,9 @@ TEST(sweep_command, makes_cells_of_the_frames_that_render_makes) {
   const Folder folder;
   const Result swept = with({"--metric", "bias,fill,rmse", "--csv", "--seed", "7"}, folder);
   ASSERT_EQ(swept.code, 0) << swept.err;
-  ASSERT_EQ(run({"render", "card", "--set", "camera.illumination.0.power=0.2W", "--seed", "7", "-o", "one", "-q"}, in_folder(folder.path())).code, 0);
+  ASSERT_EQ(
+      run({"render", "card", "--set", "camera.illumination.0.power=0.2W", "--seed", "7", "-o", "one", "-q"}, in_folder(folder.path())).code,
+      0);
   const DepthFile file = load_depth((folder / "one/frame.npz").native());
   double sum = 0, count = 0;
   for (std::size_t i = 0; i < file.depth.z_m.size(); ++i) {
@@ -94,8 +96,10 @@ TEST(sweep_command, tells_what_is_wrong_with_the_option_and_its_value) {
     return result.err;
   };
   EXPECT_TRUE(has(error_of({}, 2), "error: nothing varies\n  expected --vary KEY=VALUES"));
-  EXPECT_TRUE(has(error_of({"--vary", "lens.f_numbr=1,2"}, 2), "error: --vary has an unknown key \"lens.f_numbr\"; did you mean \"lens.f_number\"?"));
-  EXPECT_TRUE(has(error_of({"--vary", "lens.f_number=1:2:1000", "--vary", "pixel.read_noise=1e:2e:1000"}, 4), "error: a sweep of 1000000 cells is too large"));
+  EXPECT_TRUE(has(error_of({"--vary", "lens.f_numbr=1,2"}, 2),
+                  "error: --vary has an unknown key \"lens.f_numbr\"; did you mean \"lens.f_number\"?"));
+  EXPECT_TRUE(has(error_of({"--vary", "lens.f_number=1:2:1000", "--vary", "pixel.read_noise=1e:2e:1000"}, 4),
+                  "error: a sweep of 1000000 cells is too large"));
   EXPECT_TRUE(has(error_of({"--vary", "lens.f_number=1,2", "--metric", "fil"}, 2), "did you mean \"fill\"?"));
   EXPECT_TRUE(has(error_of({"--vary", "lens.f_number=1,2", "--best", "nois"}, 2), "did you mean \"noise\"?"));
   EXPECT_TRUE(has(error_of({"--vary", "mode=MODE_9_5FPS_2000,NO_MODE"}, 2), "in the cell mode=NO_MODE"));
@@ -106,7 +110,8 @@ TEST(sweep_command, that_is_interrupted_leaves_nothing_half_done) {
   Running child(start({"sweep", "room", "--vary", "illumination.0.power=0.01W:1W:90000", "-o", "out"}, folder / "stdout", folder / "stderr",
                       in_folder(folder.path())));
   // Once it counts cells, it notes signals.
-  for (int i = 0; i < 600 && !has(content(folder / "stderr"), "/90000 cells"); ++i) std::this_thread::sleep_for(std::chrono::milliseconds(100));
+  for (int i = 0; i < 600 && !has(content(folder / "stderr"), "/90000 cells"); ++i)
+    std::this_thread::sleep_for(std::chrono::milliseconds(100));
   child.send(SIGINT);
   EXPECT_EQ(child.finish(), 130);
   const std::string told = content(folder / "stderr");

@@ -135,7 +135,8 @@ void all() {
   tofray::KeptLight light;
   tofray::KeptRaw raw;
   kept.frame_to(0, light, frame), kept.keep(raw);
-  expect(light.filled() && raw.filled() && kept.can_keep_light() && kept.can_keep_raw() && kept.stands_still(), "KeptFrames, KeptLight, KeptRaw");
+  expect(light.filled() && raw.filled() && kept.can_keep_light() && kept.can_keep_raw() && kept.stands_still(),
+         "KeptFrames, KeptLight, KeptRaw");
   const std::vector<float> z = frame.depth.z_m;
   expect(kept.frame_from(0, light, frame) && frame.depth.z_m == z, "KeptFrames::frame_from light");
   kept.frame_from(0, raw, frame);

@@ -65,8 +65,9 @@ std::vector<std::string> all_arrays() {
 /// The bytes of each array of a frame, by name.
 std::map<std::string, std::pair<Stage, std::string>> bytes_of(const Frame& frame) {
   std::map<std::string, std::pair<Stage, std::string>> out;
-#define TOFRAY_BYTES(name, part, member, element, shape, stage, ...)                                                                 \
-  out[#name] = {Stage::stage, std::string(reinterpret_cast<const char*>(frame.part.member.data()), frame.part.member.size() * sizeof(element))};
+#define TOFRAY_BYTES(name, part, member, element, shape, stage, ...) \
+  out[#name] = {Stage::stage,                                        \
+                std::string(reinterpret_cast<const char*>(frame.part.member.data()), frame.part.member.size() * sizeof(element))};
   TOFRAY_IMAGE_ARRAYS(TOFRAY_BYTES)
 #undef TOFRAY_BYTES
   return out;
@@ -116,7 +117,8 @@ std::vector<Setting> settings_of(const std::string& file, const std::string& tex
     const std::optional<std::string> other = other_value(one);
     if (!other || !done.insert(one.key).second) continue;
     try {
-      const Inputs changed = load_inputs({file, {{one.key, *other}}, "", "", {}}), same = load_inputs({file, {{one.key, *one.text}}, "", "", {}});
+      const Inputs changed = load_inputs({file, {{one.key, *other}}, "", "", {}}),
+                   same = load_inputs({file, {{one.key, *one.text}}, "", "", {}});
       SimulatorOptions options;
       options.backend = Backend::cpu, options.threads = 1;
       Simulator(changed.scene, changed.camera, options), Simulator(same.scene, same.camera, options);
@@ -187,12 +189,18 @@ TEST_P(stages, are_computed_anew_for_each_cell_that_needs_it) {
   std::uint64_t traced = 0, from_light = 0, from_raw = 0;
   for (const Setting& key : settings_of(file, one.text)) {
     const std::string late = key.key == "camera.pixel.read_noise" ? "camera.adc.step" : "camera.pixel.read_noise",
-                      last = key.key == "camera.decoding.noise_threshold" ? "camera.decoding.amplitude_threshold" : "camera.decoding.noise_threshold";
+                      last = key.key == "camera.decoding.noise_threshold" ? "camera.decoding.amplitude_threshold"
+                                                                          : "camera.decoding.noise_threshold";
     SweepRequest request;
     request.inputs = inputs;
-    request.axes = {sweep_axis(key.key, {key.old_value, key.new_value}, inputs),
-                    sweep_axis(late, late.ends_with("step") ? std::vector<std::string>{"20 e/DN", "25 e/DN"} : std::vector<std::string>{"30 e", "60 e"}, inputs),
-                    sweep_axis(last, last.ends_with("amplitude_threshold") ? std::vector<std::string>{"0 e", "90 e"} : std::vector<std::string>{"70 mm", "9 mm"}, inputs)};
+    request.axes = {
+        sweep_axis(key.key, {key.old_value, key.new_value}, inputs),
+        sweep_axis(late, late.ends_with("step") ? std::vector<std::string>{"20 e/DN", "25 e/DN"} : std::vector<std::string>{"30 e", "60 e"},
+                   inputs),
+        sweep_axis(
+            last,
+            last.ends_with("amplitude_threshold") ? std::vector<std::string>{"0 e", "90 e"} : std::vector<std::string>{"70 mm", "9 mm"},
+            inputs)};
     request.simulator.noise = one.noise, request.simulator.threads = 1, request.simulator.arrays = all_arrays(), request.metrics = {"fill"};
     SweepWatch watch;
     std::set<std::uint64_t> seen;
@@ -200,7 +208,8 @@ TEST_P(stages, are_computed_anew_for_each_cell_that_needs_it) {
       EXPECT_TRUE(seen.insert(cell).second);
       load::Settings set;
       for (std::size_t axis = 0; axis < 3; ++axis)
-        set.emplace_back(request.axes[axis].key == "mode" ? "camera.mode" : request.axes[axis].key, request.axes[axis].values[cell >> (2 - axis) & 1]);
+        set.emplace_back(request.axes[axis].key == "mode" ? "camera.mode" : request.axes[axis].key,
+                         request.axes[axis].values[cell >> (2 - axis) & 1]);
       const Inputs in = load_inputs({file, set, "", "", {}});
       SimulatorOptions options = request.simulator;
       options.backend = Backend::cpu, options.arrays = {};
@@ -288,7 +297,8 @@ TEST(kept_frames, of_bounces_samples_and_motion_have_the_bytes_of_a_simulator) {
       const Inputs in = load_inputs({file, {{one.key, one.values[cell]}}, "", "", {}});
       SimulatorOptions options = request.simulator;
       options.backend = Backend::cpu, options.arrays = {};
-      EXPECT_EQ(listed(differing(got, Simulator(in.scene, in.camera, options).frame(got.index))), "") << one.key << one.more << " cell " << cell;
+      EXPECT_EQ(listed(differing(got, Simulator(in.scene, in.camera, options).frame(got.index))), "")
+          << one.key << one.more << " cell " << cell;
     };
     (void)sweep(request, watch);
   }

@@ -10,8 +10,8 @@
 #include <limits>
 
 #include "files/npz.h"
-#include "sweep/metrics.h"
 #include "support/tool.h"
+#include "sweep/metrics.h"
 #include "sweep/sweep_files.h"
 #include "tofray/error.h"
 
@@ -53,12 +53,14 @@ TEST(axes, are_lists_ranges_and_all_that_a_choice_may_be) {
 }
 
 TEST(axes, say_what_is_wrong_with_them) {
-  EXPECT_TRUE(has(fault_of("lens.f_numbr=1"), "error: --vary has an unknown key \"lens.f_numbr\"; did you mean \"lens.f_number\"?\n  expected a key"));
+  EXPECT_TRUE(has(fault_of("lens.f_numbr=1"),
+                  "error: --vary has an unknown key \"lens.f_numbr\"; did you mean \"lens.f_number\"?\n  expected a key"));
   EXPECT_TRUE(has(fault_of("illumination.*.powr=1W"), "did you mean \"illumination.0.power\"?"));
   EXPECT_TRUE(has(fault_of("lens.f_number"), "error: --vary cannot be \"lens.f_number\"\n  expected KEY=VALUES"));
   EXPECT_TRUE(has(fault_of("=1"), "expected KEY=VALUES"));
   EXPECT_TRUE(has(fault_of("lens.f_number=1.2,,2"), "expected a value between two commas"));
-  EXPECT_TRUE(has(fault_of("illumination.0.power=nan W"), "error: --vary camera.illumination.0.power cannot be \"nan W\"\n  expected 0 W to 10000 W"));
+  EXPECT_TRUE(has(fault_of("illumination.0.power=nan W"),
+                  "error: --vary camera.illumination.0.power cannot be \"nan W\"\n  expected 0 W to 10000 W"));
   EXPECT_TRUE(has(fault_of("illumination.0.power=1"), "as in 0.2 W"));
   EXPECT_TRUE(has(fault_of("illumination.0.power=0W:1W:log5"), "expected both ends of a logarithmic range above 0"));
   EXPECT_TRUE(has(fault_of("illumination.0.power=1W:2W:1"), "expected 2 to 100000 values"));
@@ -90,7 +92,8 @@ TEST(sweeps_of_cells, refuse_what_cannot_be) {
   request.metrics = {"sigmaa"};
   EXPECT_TRUE(has(fault_of(request), "error: no metric is called \"sigmaa\"; did you mean \"sigma\"?\n  expected bias, median, sigma"));
   request.metrics = {}, request.region = {220, 0, 20, 20};
-  EXPECT_TRUE(has(fault_of(request), "error: the region is not in the image") && has(fault_of(request), "in the cell camera.pixel.read_noise=1e"));
+  EXPECT_TRUE(has(fault_of(request), "error: the region is not in the image") &&
+              has(fault_of(request), "in the cell camera.pixel.read_noise=1e"));
   request.region = {}, request.repeat = 0;
   EXPECT_TRUE(has(fault_of(request), "error: cells of 0 frames"));
   request.repeat = 1, request.axes = {sweep_axis("adc.bits=8,12", card)};
@@ -173,7 +176,8 @@ Camera small_camera() {
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
 const std::vector<double> errors = {1, 2, 3, 10, none, -4, 5, 6000, 7, 8, 9, none};
 
-double number_of(const std::string& metric, const ImageRegion& region, const std::vector<std::vector<double>>& frames, std::size_t part = 0) {
+double number_of(const std::string& metric, const ImageRegion& region, const std::vector<std::vector<double>>& frames,
+                 std::size_t part = 0) {
   static const std::vector<int> parts = {1, 2};
   const sweeps::Wanted wanted = sweeps::wanted_metrics({metric});
   sweeps::Measuring measuring(wanted, small_camera(), region, parts, frames.size());
@@ -227,7 +231,7 @@ TEST(best_cells, are_those_that_nothing_beats) {
   EXPECT_EQ(best_cells(of, "sigma, fill>95%"), (Cells{2, 3}));
   EXPECT_EQ(best_cells(of, "sigma, illumination.0.power, fill > 95 %"), (Cells{2, 1}));
   EXPECT_EQ(best_cells(of, "sigma, fill"), (Cells{4, 2}));
-  EXPECT_EQ(best_cells(of, "bias"), (Cells{3}));       // nearest to 0; NaN is none
+  EXPECT_EQ(best_cells(of, "bias"), (Cells{3}));            // nearest to 0; NaN is none
   EXPECT_EQ(best_cells(of, "fill, bias<5mm"), (Cells{3}));  // either way
   EXPECT_EQ(best_cells(of, "sigma_m, illumination.0.power<2500 mW"), (Cells{1}));
   EXPECT_EQ(best_cells(of, "sigma, fill>99.5%"), (Cells{}));
@@ -251,7 +255,8 @@ TEST(files_of_a_sweep, have_the_axes_by_name) {
   of.regions = {"all", "objects.0 (ball)"}, of.metrics = {"sigma_m", "fill_percent"};
   for (int i = 0; i < 24; ++i) of.values.push_back(i == 5 ? none : i);
   const std::string csv = sweeps::csv_text(of);
-  EXPECT_TRUE(csv.starts_with("mode,camera.lens.f_number,region,sigma_m,fill_percent\nA,1,all,0,1\nA,1,objects.0 (ball),2,3\nA,2,all,4,\n")) << csv;
+  EXPECT_TRUE(csv.starts_with("mode,camera.lens.f_number,region,sigma_m,fill_percent\nA,1,all,0,1\nA,1,objects.0 (ball),2,3\nA,2,all,4,\n"))
+      << csv;
   EXPECT_TRUE(has(csv, "\"B,C\",4,all,20,21\n")) << csv;
   const auto arrays = files::parse_npz(sweeps::npz_bytes(of), "sweep.npz");
   const auto array = [&](const std::string& name) {

@@ -211,16 +211,21 @@ std::vector<Command> make() {
                    "tofray sweep room --vary mode=@all --vary lens.f_number=1.0,1.4,2.0 --metric rmse,fill --by-object\n"
                    "tofray sweep card --vary integration_time=100us:1000us:10 --region 92,66,40,40 --repeat 20 -o times\n"
                    "tofray sweep card --vary illumination.0.power=0.05W:1W:log10 --best \"sigma, illumination.0.power\"\n",
-       .more = "KEY is a key of the scene, or of its camera with or without `camera.` before it (`tofray list keys`); * in place of a number means all "
-               "elements\n"
-               "of a list, as in illumination.*.power. Metrics are of z against its ground truth: bias, median, sigma, rmse, p95, fill, wrong_cycle, "
-               "amplitude,\n"
-               "noise, tap_filling, adc_filling, and the share of each flag.\n"
-               "A cell's frames have the bytes of `tofray render` with --set of its values. What follows the light (pixel, adc, integration_time, "
-               "decoding)\n"
-               "does not trace rays again. Files are written when all cells are done, each whole; `python3 -m tofray.plot DIR` draws them.\n",
-       .options = {"--vary", "--metric", "--region", "--by-object", "--repeat", "--best", "--set", "--mode", "--seed", "--noise", "--exposure-samples",
-                   "--subpixel", "--bounces", "--samples", "--fps", "--root", "--threads", "--output", "--csv", "--json", "--quiet"},
+       .more =
+           "KEY is a key of the scene, or of its camera with or without `camera.` before it (`tofray list keys`); * in place of a number "
+           "means all "
+           "elements\n"
+           "of a list, as in illumination.*.power. Metrics are of z against its ground truth: bias, median, sigma, rmse, p95, fill, "
+           "wrong_cycle, "
+           "amplitude,\n"
+           "noise, tap_filling, adc_filling, and the share of each flag.\n"
+           "A cell's frames have the bytes of `tofray render` with --set of its values. What follows the light (pixel, adc, "
+           "integration_time, "
+           "decoding)\n"
+           "does not trace rays again. Files are written when all cells are done, each whole; `python3 -m tofray.plot DIR` draws them.\n",
+       .options = {"--vary", "--metric", "--region",  "--by-object",        "--repeat",   "--best",    "--set",
+                   "--mode", "--seed",   "--noise",   "--exposure-samples", "--subpixel", "--bounces", "--samples",
+                   "--fps",  "--root",   "--threads", "--output",           "--csv",      "--json",    "--quiet"},
        .least_words = 1,
        .most_words = 1,
        .run = run_sweep,

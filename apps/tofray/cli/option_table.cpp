@@ -452,7 +452,8 @@ std::vector<OptionSpec> measuring_specs() {
 std::vector<OptionSpec> sweep_specs() {
   return {
       {"--vary", 0, "KEY=VALUES",
-       "a key and its values: a,b,c; A:B:n, n numbers evenly; A:B:logn, in even ratios; @all of a choice, mode or profile; as often as you like: all "
+       "a key and its values: a,b,c; A:B:n, n numbers evenly; A:B:logn, in even ratios; @all of a choice, mode or profile; as often as you "
+       "like: all "
        "combinations",
        [](Options& o, const std::string& v) { o.vary.push_back(v); }, "<varied>"},
       {"--metric", 0, "LIST", "what is measured: bias,sigma,fill (all)",
@@ -542,8 +543,8 @@ std::vector<OptionSpec> specs() {
 const std::vector<OptionSpec>& all_options() {
   static const std::vector<OptionSpec> all = [] {
     std::vector<OptionSpec> joined = specs();
-    for (const std::vector<OptionSpec>& more :
-         {machine_specs(), bench_specs(), transient_specs(), preview_specs(), view_specs(), budget_specs(), measuring_specs(), sweep_specs()})
+    for (const std::vector<OptionSpec>& more : {machine_specs(), bench_specs(), transient_specs(), preview_specs(), view_specs(),
+                                                budget_specs(), measuring_specs(), sweep_specs()})
       joined.insert(joined.end(), more.begin(), more.end());
     return joined;
   }();
@@ -566,10 +567,11 @@ struct Group {
 
 const std::vector<Group>& groups() {
   static const std::vector<Group> all = {
-      {"Scene and camera",
-       {"--set", "--mode", "--camera", "--fps", "--transient", "--first", "--width", "--factor", "--at", "--distance", "--reflectivity",
-        "--ambient", "--angle", "--temperature", "--auto-exposure", "--need", "--solve", "--vary", "--sources", "--root"}},
-      {"Depth", {"--region", "--as", "--truth", "--unit", "--intrinsics", "--quantity", "--shift", "--limit", "--metric", "--by-object", "--best"}},
+      {"Scene and camera", {"--set",           "--mode", "--camera",   "--fps",          "--transient", "--first", "--width",
+                            "--factor",        "--at",   "--distance", "--reflectivity", "--ambient",   "--angle", "--temperature",
+                            "--auto-exposure", "--need", "--solve",    "--vary",         "--sources",   "--root"}},
+      {"Depth",
+       {"--region", "--as", "--truth", "--unit", "--intrinsics", "--quantity", "--shift", "--limit", "--metric", "--by-object", "--best"}},
       {"Simulation", {"--seed", "--noise", "--exposure-samples", "--subpixel", "--bounces", "--samples"}},
       {"Measuring", {"--warmup", "--compare", "--batch", "--stage", "--block-size"}},
       {"Frames", {"--frames", "--first-frame", "--repeat", "--from", "--pixel"}},

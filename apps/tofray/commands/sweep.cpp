@@ -35,8 +35,15 @@ SweepRequest request_of(const Options& options, const std::string& scene) {
 
 /// What people first want to know; a table has no room for all of them.
 std::vector<std::size_t> shown_metrics(const Sweep& sweep, bool chosen) {
-  static const std::vector<std::string> first = {"bias_m", "sigma_m", "rmse_m", "p95_m", "fill_percent", "wrong_cycle_percent", "saturated_percent",
-                                                 "amplitude_e", "tap_filling_percent"};
+  static const std::vector<std::string> first = {"bias_m",
+                                                 "sigma_m",
+                                                 "rmse_m",
+                                                 "p95_m",
+                                                 "fill_percent",
+                                                 "wrong_cycle_percent",
+                                                 "saturated_percent",
+                                                 "amplitude_e",
+                                                 "tap_filling_percent"};
   std::vector<std::size_t> out;
   for (std::size_t i = 0; i < sweep.metrics.size(); ++i)
     if (chosen || std::find(first.begin(), first.end(), sweep.metrics[i]) != first.end()) out.push_back(i);
@@ -84,8 +91,8 @@ std::string text_of(const Sweep& sweep, const std::vector<std::uint64_t>& cells,
 }
 
 std::string how_text(const Sweep& sweep) {
-  return fmt::format("{} cells in {:.2f} s; frames from rays {}, from light {}, from raw frames {}\n", sweep.cells(), sweep.seconds, sweep.traced,
-                     sweep.from_light, sweep.from_raw);
+  return fmt::format("{} cells in {:.2f} s; frames from rays {}, from light {}, from raw frames {}\n", sweep.cells(), sweep.seconds,
+                     sweep.traced, sweep.from_light, sweep.from_raw);
 }
 
 }  // namespace
@@ -128,7 +135,8 @@ int run_sweep(const Options& options) {
   } else if (best || options.output.empty()) {
     print(text_of(found, best ? front : all, !options.metrics.empty()));
   }
-  Talk(options.quiet)(how_text(found) + (options.output.empty() ? "" : fmt::format("{}/sweep.csv, sweep.npz, manifest.json\n", options.output)));
+  Talk(options.quiet)(how_text(found) +
+                      (options.output.empty() ? "" : fmt::format("{}/sweep.csv, sweep.npz, manifest.json\n", options.output)));
   return best && front.empty() ? 1 : 0;
 }
 
