@@ -36,6 +36,9 @@ SweepAxis sweep_axis(const std::string& text, const InputRequest& inputs);
 /// The same of values that are there one by one. @throws Error as above
 SweepAxis sweep_axis(const std::string& key, const std::vector<std::string>& values, const InputRequest& inputs);
 
+/// The same of numbers in SI units, of a key whose value is a number. @throws Error as above
+SweepAxis sweep_axis_of_numbers(const std::string& key, const std::vector<double>& numbers, const InputRequest& inputs);
+
 /// A number that a cell has of each region.
 struct SweepMetric {
   std::string name;       ///< its unit is its end: "bias_m", "fill_percent"

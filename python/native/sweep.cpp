@@ -15,10 +15,14 @@ namespace tofray::python {
 namespace {
 
 template <class T>
-T word_of(const py::dict& words, const char* name) {
+T taken(py::handle value, const char* name) {
   T out{};
-  from_python(words[name], out, {nullptr, name});
+  from_python(value, out, {nullptr, name});
   return out;
+}
+template <class T>
+T word_of(const py::dict& words, const char* name) {
+  return taken<T>(words[name], name);
 }
 
 constexpr const char* stage_names[] = {"trace", "power", "raw", "depth"};
@@ -40,7 +44,7 @@ ImageRegion region_of(py::handle value) {
   return out;
 }
 
-/// @param vary  pairs of a key and its values: a text as of the command line, or a list of texts
+/// @param vary  of each axis the key and its values: a text as of the command line, or a list of texts; or (key, None, list of numbers)
 SweepRequest request_of(const py::dict& words, const py::list& vary, const py::dict& options) {
   SweepRequest out;
   out.inputs.scene = word_of<std::string>(words, "scene"), out.inputs.mode = word_of<std::string>(words, "mode");
@@ -50,12 +54,14 @@ SweepRequest request_of(const py::dict& words, const py::list& vary, const py::d
   out.region = region_of(words["region"]);
   out.simulator = options_from_python(options);
   for (const py::handle one : vary) {
-    const auto pair = one.cast<py::tuple>();
-    const auto key = pair[0].cast<std::string>();
-    if (py::isinstance<py::str>(pair[1]))
-      out.axes.push_back(sweep_axis(key + "=" + pair[1].cast<std::string>(), out.inputs));
-    else
-      out.axes.push_back(sweep_axis(key, pair[1].cast<std::vector<std::string>>(), out.inputs));
+    const auto pair = py::reinterpret_borrow<py::tuple>(one);
+    const auto key = taken<std::string>(pair[0], "vary");
+    if (pair.size() == 3) {
+      out.axes.push_back(sweep_axis_of_numbers(key, taken<std::vector<double>>(pair[2], "vary"), out.inputs));
+      continue;
+    }
+    out.axes.push_back(py::isinstance<py::str>(pair[1]) ? sweep_axis(key + "=" + taken<std::string>(pair[1], "vary"), out.inputs)
+                                                        : sweep_axis(key, taken<std::vector<std::string>>(pair[1], "vary"), out.inputs));
   }
   return out;
 }
@@ -99,16 +105,15 @@ py::tuple sweep_of(const py::dict& words, const py::list& vary, const py::dict& 
 }
 
 /// @param axes  pairs of a key, its numbers (or an empty list) and its unit, and how many values it has
-py::list best_of(const py::list& axes, const std::vector<std::string>& metrics, const py::array_t<double>& values,
-                 const std::string& wish) {
+py::list best_of(const py::list& axes, const py::list& metrics, const py::array_t<double>& values, const std::string& wish) {
   Sweep of;
   for (const py::handle one : axes) {
-    const auto axis = one.cast<py::tuple>();
+    const auto axis = py::reinterpret_borrow<py::tuple>(one);
     SweepAxis& to = of.axes.emplace_back();
-    to.key = axis[0].cast<std::string>(), to.values.resize(axis[3].cast<std::size_t>());
-    to.numbers = axis[1].cast<std::vector<double>>(), to.unit = axis[2].cast<std::string>();
+    to.key = taken<std::string>(axis[0], "axis"), to.values.resize(axis[3].cast<std::size_t>());
+    to.numbers = taken<std::vector<double>>(axis[1], "axis"), to.unit = taken<std::string>(axis[2], "axis");
   }
-  of.regions = {"all"}, of.metrics = metrics;
+  of.regions = {"all"}, of.metrics = taken<std::vector<std::string>>(metrics, "metrics");
   of.values.assign(values.data(), values.data() + values.size());
   py::list out;
   for (const std::uint64_t cell : best_cells(of, wish)) {

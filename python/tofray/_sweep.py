@@ -129,7 +129,8 @@ def sweep(
         As of ``load_inputs``.
     vary : mapping
         Keys of the scene, or of its camera with or without "camera." before them, with ``*`` for all elements of a list; ``mode``, ``profile``. Values
-        are a list, or a text as of the command line: ``{"illumination.0.power": "0.1 W:1 W:log10", "adc.bits": [10, 12], "mode": "@all"}``.
+        are numbers in SI units, texts as of ``set``, or one text as of the command line: ``{"illumination.0.power": np.geomspace(0.1, 1, 10),
+        "integration_time": ["100 us", "200 us"], "lens.f_number": "1.0:2.0:5", "mode": "@all"}``.
     set, mode, root
         As of ``load_inputs``.
     metrics : sequence of str
@@ -159,10 +160,14 @@ def sweep(
     """
     if not hasattr(vary, "items"):
         raise BadInput(f"vary: error: got {type(vary).__name__}\n  expected a mapping of keys to values, as in {{'adc.bits': [10, 12]}}")
-    axes = []
+    axes: list[tuple[Any, ...]] = []
     for key, values in vary.items():
         if isinstance(values, str):
             axes.append((key, values))
+            continue
+        values = values.tolist() if hasattr(values, "tolist") else list(values)
+        if values and all(isinstance(one, (int, float)) and not isinstance(one, bool) for one in values):
+            axes.append((key, None, [float(one) for one in values]))
         else:
             axes.append((key, [text for _, text in (_settings({key: one})[0] for one in values)]))
     words = {"scene": _chosen(_native.choose_scene(_typed(scene))), "set": _settings(set), "mode": mode, "root": os.fspath(root),

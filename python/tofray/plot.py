@@ -79,7 +79,7 @@ def _even_ratios(values: list[Any]) -> bool:
     if len(values) < 3 or min(values) <= 0:
         return False
     steps = [after / before for before, after in zip(values, values[1:])]
-    return min(steps) > 1 and max(steps) / min(steps) < 1.001 and values[-1] / values[0] > 3
+    return bool(min(steps) > 1 and max(steps) / min(steps) < 1.001 and values[-1] / values[0] > 3)
 
 
 def _curves(sweep: Sweep, axes: Any, metric: str) -> None:

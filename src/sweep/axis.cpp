@@ -197,4 +197,13 @@ SweepAxis sweep_axis(const std::string& key, const std::vector<std::string>& val
   return axis_of(key_of(key), values);
 }
 
+SweepAxis sweep_axis_of_numbers(const std::string& typed, const std::vector<double>& numbers, const InputRequest& inputs) {
+  const Form* const form = number_form(key_of(typed).form);
+  if (form == nullptr) refuse(typed, numbers.empty() ? "" : base::number_text(numbers[0]), "texts: the values of this key are no numbers");
+  const std::string unit = base::si_unit(form->dimension);
+  std::vector<std::string> texts;
+  for (const double one : numbers) texts.push_back(base::number_text(one) + (unit.empty() ? "" : " " + unit));
+  return sweep_axis(typed, texts, inputs);
+}
+
 }  // namespace tofray

@@ -64,7 +64,8 @@ void all() {
   expect(set.scene(1).objects.size() == 1 && set.noise_seed(1) != set.noise_seed(2), "Dataset::scene, noise_seed");
   tofray::SweepRequest swept;
   swept.inputs = request.inputs;
-  swept.axes = {tofray::sweep_axis("pixel.read_noise=10e:60e:3", swept.inputs), tofray::sweep_axis("adc.bits", {"12"}, swept.inputs)};
+  swept.axes = {tofray::sweep_axis("pixel.read_noise=10e:60e:3", swept.inputs), tofray::sweep_axis("adc.bits", {"12"}, swept.inputs),
+                tofray::sweep_axis_of_numbers("lens.f_number", {1.5}, swept.inputs)};
   const tofray::Sweep sweep = tofray::sweep(swept);
   expect(sweep.cells() == 3 && sweep.place(2, 0) == 2 && sweep.value(0, 0, 0) == sweep.values[0], "sweep, sweep_axis, Sweep");
   expect(tofray::sweep_metrics().size() == sweep.metrics.size(), "sweep_metrics");

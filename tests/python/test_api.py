@@ -37,7 +37,7 @@ LEFT_OUT = {
     "depth_of": "compare and quality take a Truth", "DepthFile": "a Frame", "DepthFileOptions": "words of load_depth", "load_depths": "load_depth takes folders, too",
     "solve_budget": "any root finder on budget()", "BudgetNeed": "likewise", "BudgetSolution": "likewise",
     "frame_npz": "Frame.save",
-    "SweepAxis": "keys of Sweep.axes", "sweep_axis": "the mapping vary of sweep", "SweepMetric": "arrays of Sweep", "sweep_metrics": "likewise",
+    "SweepAxis": "keys of Sweep.axes", "sweep_axis": "the mapping vary of sweep", "sweep_axis_of_numbers": "likewise", "SweepMetric": "arrays of Sweep", "sweep_metrics": "likewise",
     "SweepRequest": "sweep's own words", "SweepWatch": "sweep's own words", "best_cells": "Sweep.best", "save_sweep": "the word folder of sweep",
     "KeptFrames": "what sweep stands on", "KeptLight": "likewise", "KeptRaw": "likewise",
     "InputRequest": "load_inputs' own words", "FrameFileRequest": "render's own words", "RunRequest": "render's own words",

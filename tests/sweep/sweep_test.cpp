@@ -46,6 +46,9 @@ TEST(axes, are_lists_ranges_and_all_that_a_choice_may_be) {
   EXPECT_EQ(sweep_axis("decoding.filter.kind=@all", card).values, (Words{"none", "gaussian", "median", "bilateral", "adaptive"}));
   EXPECT_EQ(sweep_axis("decoding.wiggling_correction=@all", card).values, (Words{"true", "false"}));
   EXPECT_EQ(sweep_axis("mode=@all", card).values, load_inputs(card).camera.mode_names);
+  EXPECT_EQ(sweep_axis_of_numbers("integration_time", {1e-4, 2e-4}, card).values, (Words{"1e-04 s", "2e-04 s"}));
+  EXPECT_EQ(sweep_axis_of_numbers("adc.bits", {12}, card).values, (Words{"12"}));
+  EXPECT_THROW(sweep_axis_of_numbers("mode", {12}, card), Error);
   EXPECT_EQ(sweep_axis("profile=@all", card).key, "camera.profile");
   EXPECT_EQ(sweep_axis("objects.0.rectangle.material={diffuse: 0.2},paper", card).values, (Words{"{diffuse: 0.2}", "paper"}));
   EXPECT_EQ(sweep_axis("camera.pose.position=[0, 0, 0],[0, 0, 0.1]", card).values, (Words{"[0, 0, 0]", "[0, 0, 0.1]"}));
