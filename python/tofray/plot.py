@@ -82,21 +82,47 @@ def _even_ratios(values: list[Any]) -> bool:
     return bool(min(steps) > 1 and max(steps) / min(steps) < 1.001 and values[-1] / values[0] > 3)
 
 
+def _wide(values: Any) -> bool:
+    """Whether numbers above 0 span so much that a scale of ratios shows more."""
+    import numpy as np
+
+    finite = values[np.isfinite(values)]
+    return bool(finite.size and finite.min() > 0 and finite.max() > 10 * finite.min())
+
+
+def _ticks_of_ratios() -> dict[str, Any]:
+    """Places and words of a scale of ratios: 1, 2, 5, 10 …"""
+    ticker = importlib.import_module("matplotlib.ticker")
+    return {"locator": ticker.LogLocator(subs=(1.0, 2.0, 5.0)), "formatter": ticker.FuncFormatter(lambda value, _: f"{value:g}")}
+
+
 def _curves(sweep: Sweep, axes: Any, metric: str) -> None:
     (key, values), = sweep.axes.items()
     label, scale = _label(metric)
     numbers = sweep._is_number(key)
     for i, region in enumerate(sweep.regions):
         x = values if numbers else range(len(values))
-        axes.plot(x, scale * sweep[metric][:, i], marker="o" if len(values) < 30 else None, markersize=4, label=region)
+        style: dict[str, Any] = {"color": "black", "linestyle": "--"} if i == 0 and len(sweep.regions) > 1 else {"color": f"C{(i - 1) % 10}"}
+        if i > 10:
+            style["linestyle"] = ":"
+        axes.plot(x, scale * sweep[metric][:, i], marker="o" if len(values) < 30 else None, markersize=4, label=region, **style)
     if numbers and _even_ratios(values):
         axes.set_xscale("log")
+        if len(values) <= 8:
+            axes.set_xticks(values, [f"{one:.3g}" for one in values])
+            axes.set_xticks([], minor=True)
+    if _wide(scale * sweep[metric]):
+        ticks = _ticks_of_ratios()
+        axes.set_yscale("log")
+        axes.yaxis.set_major_locator(ticks["locator"])
+        axes.yaxis.set_major_formatter(ticks["formatter"])
+        axes.yaxis.set_minor_formatter(importlib.import_module("matplotlib.ticker").NullFormatter())
     if not numbers:
         axes.set_xticks(range(len(values)), values, rotation=30, ha="right")
     axes.set(xlabel=_name(sweep, key), ylabel=label)
     axes.grid(alpha=0.3)
     if len(sweep.regions) > 1:
-        axes.legend()
+        axes.legend(loc="upper left", bbox_to_anchor=(1, 1), fontsize=8)
 
 
 def _ticks(values: list[str]) -> tuple[list[int], list[str]]:
@@ -105,9 +131,9 @@ def _ticks(values: list[str]) -> tuple[list[int], list[str]]:
     return places, [values[i] for i in places]
 
 
-def _map(sweep: Sweep, axes: Any, array: Any, keys: list[str], low: float, high: float) -> Any:
+def _map(sweep: Sweep, axes: Any, array: Any, keys: list[str], norm: Any) -> Any:
     down, across = keys
-    shown = axes.imshow(array, origin="lower", aspect="auto", interpolation="nearest", cmap="viridis", vmin=low, vmax=high)
+    shown = axes.imshow(array, origin="lower", aspect="auto", interpolation="nearest", cmap="viridis", norm=norm)
     axes.set_xticks(*_ticks([f"{one:.3g}" if isinstance(one, float) else one for one in sweep.axes[across]]), rotation=30, ha="right")
     axes.set_yticks(*_ticks([f"{one:.3g}" if isinstance(one, float) else one for one in sweep.axes[down]]))
     axes.set(xlabel=_name(sweep, across), ylabel=_name(sweep, down))
@@ -153,25 +179,29 @@ def sweep_figure(sweep: Sweep, metric: str = "sigma_m", region: int = 0) -> Any:
         raise ImportError("plot() needs the package matplotlib") from fault
     label, scale = _label(metric)
     if len(keys) == 1:
-        figure = Figure(figsize=(6.4, 4.2), layout="constrained")
+        figure = Figure(figsize=(6.4 + (2.2 if len(sweep.regions) > 1 else 0), 4.2), layout="constrained")
         _curves(sweep, figure.subplots(), metric)
         return figure
     array = scale * sweep[metric][..., region]
     finite = array[np.isfinite(array)]
     low, high = (float(finite.min()), float(finite.max())) if finite.size else (0.0, 1.0)
+    colors = importlib.import_module("matplotlib.colors")
+    norm = (colors.LogNorm if _wide(array) else colors.Normalize)(low, high)
     layers = [array] if len(keys) == 2 else list(array)
-    columns = min(len(layers), 3)
+    columns = 2 if len(layers) == 4 else min(len(layers), 3)
     rows = -(-len(layers) // columns)
     figure = Figure(figsize=(1.4 + 4.0 * columns, 0.6 + 3.4 * rows), layout="constrained")
     grid = figure.subplots(rows, columns, squeeze=False)
     for i, layer in enumerate(layers):
         axes = grid[i // columns, i % columns]
-        shown = _map(sweep, axes, layer, keys[-2:], low, high)
+        shown = _map(sweep, axes, layer, keys[-2:], norm)
         if len(keys) == 3:
             axes.set_title(f"{_name(sweep, keys[0]).split(' [')[0]} = {sweep.texts[keys[0]][i]}", fontsize=9)
     for i in range(len(layers), rows * columns):
         grid[i // columns, i % columns].set_visible(False)
-    figure.colorbar(shown, ax=grid, label=label)
+    ticks = _ticks_of_ratios() if _wide(array) else {}
+    bar = figure.colorbar(shown, ax=grid, label=label, ticks=ticks.get("locator"), format=ticks.get("formatter"))
+    bar.ax.yaxis.set_minor_formatter(importlib.import_module("matplotlib.ticker").NullFormatter())
     if len(sweep.regions) > 1:
         figure.suptitle(sweep.regions[region])
     return figure
