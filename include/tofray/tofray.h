@@ -13,6 +13,7 @@
 #include "tofray/file_record.h"
 #include "tofray/flags.h"
 #include "tofray/frame.h"
+#include "tofray/kept.h"
 #include "tofray/load.h"
 #include "tofray/mcap.h"
 #include "tofray/messages.h"
@@ -25,4 +26,5 @@
 #include "tofray/shards.h"
 #include "tofray/simulator.h"
 #include "tofray/stages.h"
+#include "tofray/sweep.h"
 #include "tofray/version.h"

@@ -19,6 +19,7 @@
 #include "quality.h"
 #include "runs.h"
 #include "simulator.h"
+#include "sweep.h"
 #include "tofray/tofray.h"
 
 namespace tofray::python {
@@ -266,6 +267,7 @@ PYBIND11_MODULE(_native, module) {
   bind_datasets(module);
   bind_films(module);
   bind_quality(module);
+  bind_sweep(module);
   bind_runs(module);
   bind_files(module);
   module.def("picture", &picture);

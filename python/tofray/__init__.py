@@ -165,6 +165,11 @@ if TYPE_CHECKING:
         scene_report as scene_report,
     )
 
+    from ._sweep import (
+        Sweep as Sweep,
+        sweep as sweep,
+    )
+
     __version__: str
     flags: dict[str, int]
     arrays: list[tuple[str, ...]]
@@ -192,6 +197,7 @@ _HOME = {
     "_run": ("load_inputs", "pixel_bounces", "pixel_chain", "render", "render_again", "validity"),
     "_samples": ("Samples", "open_dataset"),
     "_simulator": ("Simulator", "camera_pose", "camera_report", "demo", "exposure_times", "full_sun", "invalid_pixels", "pixel_rays", "placed_scene", "process", "scene_report"),
+    "_sweep": ("Sweep", "sweep"),
 }
 
 __all__ = sorted(name for names in _HOME.values() for name in names) + ["arrays", "flags"]

@@ -40,9 +40,9 @@ void place_bounces(const pipeline::Setup& setup, const flow::FrameView& wanted, 
 }  // namespace
 
 std::size_t place_light(const pipeline::Setup& setup, const flow::FrameView& wanted, const pipeline::Input* input, unsigned char* base,
-                        flow::LightImage& image) {
+                        flow::LightImage& image, bool kept) {
   image = {};
-  if (!pipeline::has_light_image(setup, entry_of(input))) return 0;
+  if (!kept && !pipeline::has_light_image(setup, entry_of(input))) return 0;
   std::size_t used = 0;
   const auto put = [&]<class T>(T*& array, std::size_t count) {
     if (base != nullptr) array = reinterpret_cast<T*>(base + used);

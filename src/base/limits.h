@@ -77,6 +77,7 @@ inline constexpr Limit image_side{"image_side", 16'384, "pixels along one side o
 inline constexpr Limit image_pixels{"image_pixels", 1 << 26, "pixels of an image file"};
 inline constexpr Limit map_pixels{"map_pixels", 1 << 26, "pixels of all pictures that a scene's meshes wear, once for each material"};
 inline constexpr Limit image_scans{"image_scans", 100, "scans of one JPEG file, each of which may go through all pixels"};
+inline constexpr Limit sweep_cells{"sweep_cells", 100'000, "cells of one sweep: the combinations of all values"};
 }  // namespace limit
 
 /// All of them, in the order in which they are printed.
@@ -135,6 +136,7 @@ inline constexpr Limit all_limits[] = {
     limit::image_pixels,
     limit::map_pixels,
     limit::image_scans,
+    limit::sweep_cells,
     limit::threads,
 };
 

@@ -121,13 +121,16 @@ const Table& table_of<Lens>() {
             number<&Lens::k4>("k4", distortion, "radial, r^2 below the line; fisheye: angle^8"),
             number<&Lens::k5>("k5", distortion, "radial, r^4 below the line").when<&Lens::distortion>(brown_conrady),
             number<&Lens::k6>("k6", distortion, "radial, r^6 below the line").when<&Lens::distortion>(brown_conrady)),
-      number<&Lens::f_number>("f_number", {none, {0.3, 100}, "1.6"}, "N: focal length over the diameter of the entrance pupil").required(),
-      number<&Lens::transmission>("transmission", {fraction, {0, 1}, "0.85"}, "of lens and filter at the illumination wavelength"),
+      number<&Lens::f_number>("f_number", {none, {0.3, 100}, "1.6"}, "N: focal length over the diameter of the entrance pupil")
+          .required()
+          .since(Stage::power),
+      number<&Lens::transmission>("transmission", {fraction, {0, 1}, "0.85"}, "of lens and filter at the illumination wavelength")
+          .since(Stage::power),
       choice<&Lens::vignetting>("vignetting", {"cos4", "off", "table"},
                                 "fall-off toward the corners: cos4, off, or a table over the angle to the axis"),
       curve<&Lens::vignetting_table>("vignetting", {"angle", {angle, {0, pi / 2}, "30 deg"}}, {"factor", {none, {0, 2}, "0.6"}}, "")
           .when<&Lens::vignetting>(Lens::Vignetting::table),
-      record<&Lens::scatter>("scatter", "light that lens and filter scatter over the sensor"));
+      record<&Lens::scatter>("scatter", "light that lens and filter scatter over the sensor").since(Stage::power));
   return rows;
 }
 
@@ -149,15 +152,19 @@ const Table& table_of<Pixel>() {
       table<Pixel>(
           curve<&Pixel::quantum_efficiency>("quantum_efficiency", {"wavelength", wavelength}, {"value", efficiency},
                                             "electrons per photon, by wavelength", allowed)
-              .required(),
+              .required()
+              .since(Stage::power),
           curve<&Pixel::contrast>("contrast", {"modulation_frequency", modulation_frequency}, {"value", contrast},
                                   "demodulation contrast of the pixel itself; 1 unless given", allowed)
-              .absent(),
+              .absent()
+              .since(Stage::power),
           curve<&Pixel::contrast_by_wavelength>(
               "contrast_by_wavelength", {"wavelength", wavelength}, {"factor", {none, {0, 10}, "0.9"}},
               "on the contrast, at the wavelength of each light; 1 unless given; not of a measured waveform, which has it in it")
-              .absent(),
-          number<&Pixel::bandwidth_hz>("bandwidth", {frequency, {0, 1e12}, "180 MHz"}, "single pole of the gate; 0: none"),
+              .absent()
+              .since(Stage::power),
+          number<&Pixel::bandwidth_hz>("bandwidth", {frequency, {0, 1e12}, "180 MHz"}, "single pole of the gate; 0: none")
+              .since(Stage::power),
           number<&Pixel::full_well_e>("full_well", {charge, {1, 1e30}, "100000 e"}, "charge that a tap holds"),
           number<&Pixel::read_noise_e>("read_noise", {charge, {0, 1e6}, "50 e"},
                                        "per tap, reset and read, 1 sigma; reset noise has a key of its own, too"),
@@ -180,7 +187,8 @@ const Table& table_of<Pixel>() {
                 number<&Pixel::crosstalk_left_right>("left_right", {fraction, {0, 0.25}, "1 %"},
                                                      "share of its charge that the left neighbour gets, and the right one as much"),
                 number<&Pixel::crosstalk_up_down>("up_down", {fraction, {0, 0.25}, "1 %"},
-                                                  "share of the charge that goes to each of the pixels above and below")),
+                                                  "share of the charge that goes to each of the pixels above and below"))
+              .since(Stage::power),
           group("blooming", "charge beyond a full well, which spills",
                 number<&Pixel::blooming_share>("share", {fraction, {0, 0.25}, "5 %"}, "of it that each of the four neighbours gets"),
                 number<&Pixel::blooming_limit_e>("limit", {charge, electrons.range, "1000 e"},
@@ -367,7 +375,9 @@ const Table& table_of<RawFrame>() {
                                                          "of lit raw frames; a list makes one raw frame of each")
               .when<&RawFrame::lit>(true)
               .absent(),
-          number<&RawFrame::integration_time_s>("integration_time", integration_time, "how long the raw frame collects light").required(),
+          number<&RawFrame::integration_time_s>("integration_time", integration_time, "how long the raw frame collects light")
+              .required()
+              .since(Stage::raw),
           number_or_list<&RawFrame::reference_delay_s>("reference_delay", {time, {-1e-3, 1e-3}, "4.15 ns"}, raw_frames,
                                                        "in place of reference_phase: the light is later by this, as a path may be")
               .when<&RawFrame::lit>(true)
@@ -380,42 +390,48 @@ template <>
 const Table& table_of<Mode>() {
   static const Table rows =
       table<Mode>(words<&Mode::name>("", "", "", ""),
-                  number<&Mode::frame_rate_hz>("frame_rate", frame_rate, "frame i starts at i / frame_rate").required(),
-                  records<&Mode::sequence>("sequence", 1, raw_frames, "the raw frames, in order").required(),
-                  number<&Mode::gain>("gain", gain, "before the ADC, one of adc.gains"));
+                  number<&Mode::frame_rate_hz>("frame_rate", frame_rate, "frame i starts at i / frame_rate").required().since(Stage::raw),
+                  records<&Mode::sequence>("sequence", 1, raw_frames, "the raw frames, in order").required().since(Stage::power),
+                  number<&Mode::gain>("gain", gain, "before the ADC, one of adc.gains").since(Stage::raw));
   return rows;
 }
 
 template <>
 const Table& table_of<Camera>() {
   static const Table rows =
-      table<Camera>(words<&Camera::name>("name", "a name", "mycam", "name of the camera").required(),
-                    no_row<&Camera::source>("a file's place is no part of what it says"),
-                    record<&Camera::sensor>("sensor", "the grid of pixels").required(),
-                    record<&Camera::lens>("lens", "from directions to pixels").required(),
-                    record<&Camera::filter>("filter", "before the sensor, for ambient light"),
-                    records<&Camera::illumination>("illumination", 0, static_cast<int>(base::limit::lights.value),
-                                                   "the camera's own lights, which add up")
-                        .required(),
-                    record<&Camera::pixel>("pixel", "the two-tap pixel").required(),
-                    record<&Camera::adc>("adc", "from electrons to codes").required(),
-                    record<&Camera::decoding>("decoding", "from raw frames to depth"),
-                    record<&Camera::temperature>("temperature", "drift of the range"),
-                    record<&Camera::interference>("interference", "light of another camera of the same kind, at the same place"),
-                    record<&Camera::calibration>("calibration", "what raw data are off by, the same in all pixels"),
-                    record<&Camera::spread_spectrum>("spread_spectrum", "modulation frequencies swept over a band within each exposure"),
-                    record<&Camera::readout>("readout", "which pixels of the sensor are read, and how many together"),
-                    record<&Camera::auto_exposure>("auto_exposure", "integration times that follow the light, from frame to frame"),
-                    number<&Camera::refractive_index>("refractive_index", {none, {1, 3}, "1.0003"},
-                                                      "refractive index of the medium that light travels in"),
-                    group("timing", "of the readout",
-                          number<&Camera::readout_time_s>("readout_time", pause, "from the end of one exposure to the start of the next"),
-                          number<&Camera::min_integration_time_s>("min_integration_time", {time, pause.range, "27 us"},
-                                                                  "shortest exposure the camera can do")),
-                    choice<&Camera::power_model>("power_model", {"tofray", "paper_literal"},
-                                                 "paper_literal: the printed formula of the paper, for comparison only"),
-                    record<&Camera::mode>("", ""),  // one out of the file's `modes`
-                    no_row<&Camera::mode_names>("what else the file has is no part of the camera"))
+      table<Camera>(
+          words<&Camera::name>("name", "a name", "mycam", "name of the camera").required(),
+          no_row<&Camera::source>("a file's place is no part of what it says"),
+          record<&Camera::sensor>("sensor", "the grid of pixels").required(),
+          record<&Camera::lens>("lens", "from directions to pixels").required(),
+          record<&Camera::filter>("filter", "before the sensor, for ambient light").since(Stage::power),
+          records<&Camera::illumination>("illumination", 0, static_cast<int>(base::limit::lights.value),
+                                         "the camera's own lights, which add up")
+              .required()
+              .since(Stage::power),
+          record<&Camera::pixel>("pixel", "the two-tap pixel").required().since(Stage::raw),
+          record<&Camera::adc>("adc", "from electrons to codes").required().since(Stage::raw),
+          record<&Camera::decoding>("decoding", "from raw frames to depth").since(Stage::depth),
+          record<&Camera::temperature>("temperature", "drift of the range").since(Stage::raw),
+          record<&Camera::interference>("interference", "light of another camera of the same kind, at the same place").since(Stage::raw),
+          record<&Camera::calibration>("calibration", "what raw data are off by, the same in all pixels").since(Stage::power),
+          record<&Camera::spread_spectrum>("spread_spectrum", "modulation frequencies swept over a band within each exposure")
+              .since(Stage::power),
+          record<&Camera::readout>("readout", "which pixels of the sensor are read, and how many together"),
+          record<&Camera::auto_exposure>("auto_exposure", "integration times that follow the light, from frame to frame").since(Stage::raw),
+          number<&Camera::refractive_index>("refractive_index", {none, {1, 3}, "1.0003"},
+                                            "refractive index of the medium that light travels in")
+              .since(Stage::power),
+          group("timing", "of the readout",
+                number<&Camera::readout_time_s>("readout_time", pause, "from the end of one exposure to the start of the next"),
+                number<&Camera::min_integration_time_s>("min_integration_time", {time, pause.range, "27 us"},
+                                                        "shortest exposure the camera can do"))
+              .since(Stage::raw),
+          choice<&Camera::power_model>("power_model", {"tofray", "paper_literal"},
+                                       "paper_literal: the printed formula of the paper, for comparison only")
+              .since(Stage::power),
+          record<&Camera::mode>("", ""),  // one out of the file's `modes`
+          no_row<&Camera::mode_names>("what else the file has is no part of the camera"))
           .check_with(cameras_make_sense)
           .complete_with(filter_at_the_light);
   return rows;

@@ -77,6 +77,11 @@ Key required(const std::string& name, Form form, const std::string& doc) { retur
 
 Key absent(const std::string& name, Form form, const std::string& doc) { return {name, std::move(form), doc, false, {}, {}}; }
 
+Key since(Stage stage, Key key) {
+  key.stage = stage;
+  return key;
+}
+
 bool is_scalar(const Form& form) {
   using enum Form::Kind;
   return form.kind == number || form.kind == integer || form.kind == boolean || form.kind == text || form.kind == choice;

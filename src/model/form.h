@@ -1,12 +1,14 @@
 // SPDX-FileCopyrightText: 2026 The tofray authors
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "base/range.h"
 #include "base/units.h"
+#include "tofray/frame_arrays.h"
 
 /// What may stand in a file: the tables as a tree of forms. Reading, messages, suggestions, JSON Schema and reference page go by it.
 namespace tofray::model {
@@ -52,8 +54,9 @@ struct Key {
   Form form;
   std::string doc;  ///< one line
   bool required = false;
-  std::string fallback;  ///< what holds where the key is absent, as one writes it; empty: the key's line says it
-  std::string member;    ///< what it is in code, e.g. "Pixel::read_noise_e"; empty: no member of its own
+  std::string fallback;             ///< what holds where the key is absent, as one writes it; empty: the key's line says it
+  std::string member;               ///< what it is in code, e.g. "Pixel::read_noise_e"; empty: no member of its own
+  std::optional<Stage> stage = {};  ///< Row::stage
 };
 
 // The forms are written in this shorthand.
@@ -69,6 +72,9 @@ Form either(std::vector<Form> forms);
 
 Key required(const std::string& name, Form form, const std::string& doc);
 Key absent(const std::string& name, Form form, const std::string& doc);
+
+/// The first stage of a frame that looks at it. @return the key
+Key since(Stage stage, Key key);
 
 /// Whether it is written as one word or number.
 bool is_scalar(const Form& form);

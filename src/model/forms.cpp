@@ -61,7 +61,7 @@ Form value_form(const Row& row, const Table& table) {
 }
 
 Key key_of(const std::string& name, const Row& row, const Table& table, bool required) {
-  return {name, value_form(row, table), row.doc, required, fallback(row, table), row.member};
+  return {name, value_form(row, table), row.doc, required, fallback(row, table), row.member, row.stage};
 }
 
 /// The keys of one map of the struct: the struct's own (before is empty), or those of a group.
@@ -99,7 +99,7 @@ class Keys {
     if (name.empty()) {  // a curve among the other keys
       keys.push_back(absent(row.x_key, list(row.x, 2, row.form.max_items), "ascending; " + row.doc));
       keys.push_back(absent(row.y_key, list(row.y, 2, row.form.max_items), "one for each " + row.x_key + " of the table"));
-      for (Key* key : {&keys[keys.size() - 2], &keys.back()}) key->member = row.member;
+      for (Key* key : {&keys[keys.size() - 2], &keys.back()}) key->member = row.member, key->stage = row.stage;
       return;
     }
     const auto other = std::find_if(keys.begin(), keys.end(), [&](const Key& key) { return key.name == name; });
@@ -111,7 +111,7 @@ class Keys {
     keys.push_back(key_of(name, row, table_, row.presence == Presence::required && free && row.file.empty()));
     if (row.file.empty()) return;
     keys.push_back(absent("file", text("a file", row.file), "a text file of these numbers, one row a line, beside the profile or below"));
-    keys.back().member = row.member;
+    keys.back().member = row.member, keys.back().stage = row.stage;
   }
 
   const Table& table_;

@@ -10,6 +10,7 @@
 
 #include "model/form.h"
 #include "model/slot.h"
+#include "tofray/frame_arrays.h"
 
 /// One row for each member of the public structs that users can set: what files call it, what it may be, what it means.
 ///
@@ -46,7 +47,8 @@ struct Row {
   std::vector<std::string> in_place_of;  ///< members that count for nothing where this one is given, and that `meta` then leaves out
   bool direction = false;                ///< has to have a length
   std::string file;                      ///< the numbers may be in a text file, under the key `file`, called for instance this
-  Form otherwise;  ///< of a list of structs: what may stand in its place, which the reader of files makes such a list of
+  std::optional<Stage> stage;  ///< the first stage of a frame that looks at it; none: as what it is a part of, in the end the first of all
+  Form otherwise;              ///< of a list of structs: what may stand in its place, which the reader of files makes such a list of
   // of a curve
   std::string x_key, y_key;
   Form x, y;
@@ -182,6 +184,12 @@ struct Rows {
   /// Its numbers may also be in a text file.
   Rows or_file(const char* example) && { return std::move(*this).with(&Row::file, std::string(example)); }
   Rows direction() && { return std::move(*this).with(&Row::direction, true); }
+  /// No stage of a frame before this one looks at it.
+  Rows since(Stage stage) && {
+    for (Row& row : rows)
+      if (!row.stage) row.stage = stage;
+    return std::move(*this);
+  }
   /// Only where the member Tag has one of these values.
   template <auto Tag, class... Kind>
   Rows when(Kind... kinds) && {

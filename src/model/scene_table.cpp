@@ -418,8 +418,9 @@ const Table& table_of<Scene>() {
                                             "says it, how meshes are turned; z in the worlds of ROS and Blender")
                        .in_meta_if_set(),
                    record<&Scene::camera>("camera", "which camera, where it stands, and what to change in its profile").not_in_meta(),
-                   record<&Scene::ambient>("ambient", "light that is not the camera's own; none unless given"),
-                   record<&Scene::transport>("transport", "light that goes on from surface to surface; straight back unless given"),
+                   record<&Scene::ambient>("ambient", "light that is not the camera's own; none unless given").since(Stage::power),
+                   record<&Scene::transport>("transport", "light that goes on from surface to surface; straight back unless given")
+                       .since(Stage::power),
                    records<&Scene::materials>("", 0, most_materials + most_objects, ""),  // by name, and those of objects
                    records<&Scene::objects>("", 0, most_objects, ""), no_row<&Scene::files>("what the reader met"))
           .check_with(objects_have_a_material);

@@ -119,15 +119,16 @@ void each_filter_step(const Run& run) {
 /// Calls run(step) for each step of a frame.
 /// @param entry  the first stage that is computed
 /// @param known  the light image is that of this frame already
+/// @param kept   light goes through the image whatever the frame, for others to begin with; once it is known, so is the truth of stages 1 and 2
 template <class Run>
-void each_step(const Setup& s, const Job& job, Stage entry, bool known, const Run& run) {
+void each_step(const Setup& s, const Job& job, Stage entry, bool known, const Run& run, bool kept = false) {
   const Pass begin = entry == Stage::trace ? Pass::pixels : Pass::input;
   const bool exposes = s.last_stage >= Stage::raw && entry != Stage::depth;
   if (exposes && raw::draws_lines(s.sensor)) run(Step{Pass::lines, Part::all, 0, 0, 0});
-  if (!has_light_image(s, entry)) {
+  if (!kept && !has_light_image(s, entry)) {
     run(Step{begin, Part::all, 0, 0, 0});
   } else {
-    if (entry == Stage::trace && wants_truth(job.out)) run(Step{begin, Part::truth, 0, 0, 0});
+    if (entry == Stage::trace && wants_truth(job.out) && !(kept && known)) run(Step{begin, Part::truth, 0, 0, 0});
     const bool collects = s.last_stage >= Stage::raw, bouncing = bounces(s, entry);
     const int samples = entry == Stage::trace ? s.subpixel.count : 1;
     // The last sample's is where `values` is; where light bounces, that is all of it in the end, and the direct light where `before` is.
@@ -142,7 +143,7 @@ void each_step(const Setup& s, const Job& job, Stage entry, bool known, const Ru
     if (collects || wants_mixed(s, job.out)) run(Step{Pass::input, Part::collect, 0, swapped, turned});
   }
   if (entry == Stage::trace && wants_transient(job.out))
-    run(Step{Pass::transient, has_light_image(s, entry) ? Part::collect : Part::all, 0, 0, 0});
+    run(Step{Pass::transient, kept || has_light_image(s, entry) ? Part::collect : Part::all, 0, 0, 0});
   if (s.last_stage < Stage::depth || job.out.z_m == nullptr || job.out.flags == nullptr) return;
   if (s.sensor.blooms != 0 && entry != Stage::depth) run(Step{Pass::bloom, Part::all, 0, 0, 0});
   const bool first = keeps_edges(job.filter), check = s.decoder.flying_check != 0;

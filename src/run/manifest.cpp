@@ -176,6 +176,12 @@ results::Manifest manifest_of(const RunRequest& request) {
 }
 
 RunRequest request_of(const results::Manifest& manifest, const std::string& file) {
+  for (const auto& [key, value] : manifest.options)
+    if (key == "vary")
+      throw Error(ErrorKind::bad_input,
+                  fmt::format("{}: error: this is the manifest of a sweep\n  expected that of a `tofray render`; its command makes the "
+                              "sweep again",
+                              base::printable(file)));
   RunRequest out;
   out.inputs.manifest = file;
   out.inputs.set = manifest.set;

@@ -33,6 +33,8 @@ class Engines {
     work(static_cast<backend::Engine&>(cpu_));
   }
 
+  /// The processor, whatever else there is.
+  [[nodiscard]] backend::Cpu& cpu() { return cpu_; }
   /// Those that compute, the one of single frames first; empty: the processor does.
   [[nodiscard]] const std::vector<std::unique_ptr<backend::Cuda>>& gpus() const { return gpus_; }
   /// Opens the others, too, unless the options name one, or they are open.

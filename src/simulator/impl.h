@@ -74,13 +74,19 @@ struct Simulator::Impl {
   void set_frame(const FrameRequest& request);
   /// Its sensor alone.
   void set_sensor(const FrameRequest& request);
+  /// Gives a frame its sizes and all that is known before it is computed, and sets `setup` and `job` for it.
+  void begin(const FrameRequest& request, const pipeline::Input* input, const SimulatorOptions& with, const Transport& transport,
+             Frame& into);
+  /// Gives `into` its sizes, and the region of the arrays.
+  void cut(const flow::FrameView& from, Frame& into) const;
+  /// The same of a whole frame.
+  void cut(Frame& from, Frame& into) const;
+  [[nodiscard]] scene::Times times_from(double start) const;
 
  private:
   /// As frame and frames, with the border.
   void frame_uncut(const FrameRequest& request, const pipeline::Input* input, Frame& into);
   void frames_uncut(std::uint64_t count, const Request& request, const Take& take);
-  /// Gives `into` its sizes, and the region of the arrays.
-  void cut(const flow::FrameView& from, Frame& into) const;
   /// A frame by itself.
   void compute(const FrameRequest& request, const pipeline::Input* input, const SimulatorOptions& with, const Transport& transport,
                Frame& into);
@@ -94,7 +100,6 @@ struct Simulator::Impl {
   void frames_over_time(std::uint64_t count, const Request& request, const Take& take);
   /// What does not change from frame to frame.
   [[nodiscard]] pipeline::Setup fixed_setup();
-  [[nodiscard]] scene::Times times_from(double start) const;
   void frames_one_by_one(backend::Engine& engine, std::uint64_t from, std::uint64_t count, const Request& request, const Take& take);
   void frames_on_gpus(std::uint64_t count, const Request& request, const Take& take, std::uint64_t& taken);
   [[nodiscard]] backend::gpu::Own own_of(std::uint64_t from, std::uint64_t count, const Request& request) const;

@@ -157,9 +157,13 @@ void Simulator::Impl::frame(const FrameRequest& request, const pipeline::Input* 
     return;
   }
   frame_uncut(request, nullptr, whole);
-  cut(simulator::view_of(whole, options.last_stage), into);
-  into.index = whole.index, into.raw.start_time_s = whole.raw.start_time_s, into.truth.time_s = whole.truth.time_s;
-  into.raw.integration_time_s = whole.raw.integration_time_s;
+  cut(whole, into);
+}
+
+void Simulator::Impl::cut(Frame& from, Frame& into) const {
+  cut(simulator::view_of(from, options.last_stage), into);
+  into.index = from.index, into.raw.start_time_s = from.raw.start_time_s, into.truth.time_s = from.truth.time_s;
+  into.raw.integration_time_s = from.raw.integration_time_s;
 }
 
 void Simulator::Impl::cut(const flow::FrameView& from, Frame& into) const {
@@ -270,8 +274,8 @@ void Simulator::Impl::check_over_time(const FrameRequest& request) const {
             "decoding.temporal.frames 0 or 1, auto_exposure.speed 0; or the motion in the scene's keyframes, and frames by their index");
 }
 
-void Simulator::Impl::compute(const FrameRequest& request, const pipeline::Input* input, const SimulatorOptions& with,
-                              const Transport& transport, Frame& into) {
+void Simulator::Impl::begin(const FrameRequest& request, const pipeline::Input* input, const SimulatorOptions& with,
+                            const Transport& transport, Frame& into) {
   if (exposure.on()) set_exposures(request.index);
   into.index = request.index;
   simulator::prepare(into, camera, with, transport);
@@ -288,6 +292,11 @@ void Simulator::Impl::compute(const FrameRequest& request, const pipeline::Input
                      phases = static_cast<std::int64_t>(camera.mode.sequence.size());
   job.tap_stores = simulator::tap_stores(job.out, written_before, camera.sensor.width, {pixels, phases, 0});
   written_before = job.out.tap_a;
+}
+
+void Simulator::Impl::compute(const FrameRequest& request, const pipeline::Input* input, const SimulatorOptions& with,
+                              const Transport& transport, Frame& into) {
+  begin(request, input, with, transport, into);
   engines.run([&](backend::Engine& engine) {
     if ((request.seed || (request.pose && !placed.camera)) && !engines.gpus().empty()) {
       frame_by_batch(request, into);

@@ -19,6 +19,10 @@ REPLACED = {
         "the machine may have no GPU; that there are such tests is asked",
     ),
     "ssh -L 7170:127.0.0.1:7170 HOST": ("true", "only the reader knows his machines"),
+    "python3 -m tofray.plot power": (
+        "/usr/bin/python3 -m tofray.plot power",
+        "another Python may be the first on the path than the one that the module is for",
+    ),
     "sudo tofray bench": ("tofray bench", "a test is never root on purpose"),
 }
 

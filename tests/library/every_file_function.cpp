@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The tofray authors
 // SPDX-License-Identifier: Apache-2.0
-// Linked to libtofray_files, as a user's program is: the functions of dataset.h, depth_file.h, load.h, mcap.h, messages.h, run.h, save.h and shards.h must be there (cmake/tofray_files.map shows them), those of
+// Linked to libtofray_files, as a user's program is: the functions of dataset.h, depth_file.h, load.h, mcap.h, messages.h, run.h, save.h, shards.h and sweep.h must be there (cmake/tofray_files.map shows them), those of
 // libtofray come along, and what either of them throws is one type.
 #include <tofray/tofray.h>
 
@@ -80,6 +80,15 @@ void all() {
          "run_shards, dataset_status");
   expect(tofray::verify_shards({.folder = folder / "set"}).faults.empty() && tofray::merge_shards(folder / "set").samples == 3,
          "verify_shards, merge_shards");
+  tofray::SweepRequest swept;
+  swept.inputs = request.inputs;
+  swept.axes = {tofray::sweep_axis("pixel.read_noise=10e:60e:3", swept.inputs), tofray::sweep_axis("adc.bits", {"12"}, swept.inputs),
+                tofray::sweep_axis_of_numbers("lens.f_number", {1.5}, swept.inputs)};
+  const tofray::Sweep sweep = tofray::sweep(swept);
+  expect(sweep.cells() == 3 && sweep.place(2, 0) == 2 && sweep.value(0, 0, 0) == sweep.values[0], "sweep, sweep_axis, Sweep");
+  expect(tofray::sweep_metrics().size() == sweep.metrics.size(), "sweep_metrics");
+  expect(tofray::save_sweep(sweep, swept, (folder / "sweep").native()).size() == 3, "save_sweep");
+  expect(tofray::best_cells(sweep, "sigma").size() == 1, "best_cells");
   std::filesystem::remove_all(folder);
   using tofray::ErrorKind;
   expect(kind_of([] { (void)tofray::load_scene("no such scene"); }) == ErrorKind::io, "a scene that is not there");

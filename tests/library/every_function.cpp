@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The tofray authors
 // SPDX-License-Identifier: Apache-2.0
-// Linked to libtofray alone, as a user's program is that reads no files: every function of the public headers but depth_file.h, load.h, save.h and run.h must be there
+// Linked to libtofray alone, as a user's program is that reads no files: every function of the public headers but depth_file.h, load.h, save.h, run.h and sweep.h must be there
 // (cmake/tofray.map shows them).
 #include <tofray/tofray.h>
 
@@ -131,6 +131,18 @@ void all() {
   expect(tofray::placed_scene(scene, camera, placed).objects[0].keyframes.size() == 1, "placed_scene");
   expect(tofray::exposure_times(camera, 2)[0] == 2 + 0.5e-3, "exposure_times");
   expect(taken == 3, "frames");
+  tofray::KeptFrames other(scene, camera), kept(std::move(other));
+  tofray::KeptLight light;
+  tofray::KeptRaw raw;
+  kept.frame_to(0, light, frame), kept.keep(raw);
+  expect(light.filled() && raw.filled() && kept.can_keep_light() && kept.can_keep_raw() && kept.stands_still(),
+         "KeptFrames, KeptLight, KeptRaw");
+  const std::vector<float> z = frame.depth.z_m;
+  expect(kept.frame_from(0, light, frame) && frame.depth.z_m == z, "KeptFrames::frame_from light");
+  kept.frame_from(0, raw, frame);
+  expect(frame.depth.z_m == z, "KeptFrames::frame_from raw");
+  kept.frame(0, frame);
+  other = tofray::KeptFrames(scene, camera);
   expect(tofray::process(frame.raw, camera).z_m.size() == frame.depth.z_m.size(), "process");
   const tofray::RanOn machine = simulator.ran_on();
   expect(!machine.backend.empty() && !machine.device.empty() && !machine.isa.empty() && machine.threads > 0, "ran_on");

@@ -15,6 +15,7 @@ int run_diff(const Options& options);
 int run_check(const Options& options);
 int run_budget(const Options& options);
 int run_dataset(const Options& options);
+int run_sweep(const Options& options);
 int run_quality(const Options& options);
 int run_compare(const Options& options);
 int run_list(const Options& options);
@@ -208,6 +209,32 @@ std::vector<Command> make() {
        .most_words = 1,
        .run = run_budget,
        .completes = "<profiles> <files>"},
+      {.name = "sweep",
+       .usage = "SCENE --vary KEY=VALUES [options]",
+       .summary = "a scene with keys that vary, in all combinations: how good its depth is with each, against ground truth",
+       .examples = "tofray sweep card --vary illumination.0.power=0.05W:1W:log10\n"
+                   "tofray sweep room --vary mode=@all --vary lens.f_number=1.0,1.4,2.0 --metric rmse,fill --by-object\n"
+                   "tofray sweep card --vary integration_time=100us:1000us:10 --region 92,66,40,40 --repeat 20 -o times\n"
+                   "tofray sweep card --vary illumination.0.power=0.05W:1W:log10 --best \"sigma, illumination.0.power\"\n",
+       .more =
+           "KEY is a key of the scene, or of its camera with or without `camera.` before it (`tofray list keys`); * in place of a number "
+           "means all "
+           "elements\n"
+           "of a list, as in illumination.*.power. Metrics are of z against its ground truth: bias, median, sigma, rmse, p95, fill, "
+           "wrong_cycle, "
+           "amplitude,\n"
+           "noise, tap_filling, adc_filling, and the share of each flag.\n"
+           "A cell's frames have the bytes of `tofray render` with --set of its values. What follows the light (pixel, adc, "
+           "integration_time, "
+           "decoding)\n"
+           "does not trace rays again. Files are written when all cells are done, each whole; `python3 -m tofray.plot DIR` draws them.\n",
+       .options = {"--vary", "--metric", "--region",  "--by-object",        "--repeat",   "--best",    "--set",
+                   "--mode", "--seed",   "--noise",   "--exposure-samples", "--subpixel", "--bounces", "--samples",
+                   "--fps",  "--root",   "--threads", "--output",           "--csv",      "--json",    "--quiet"},
+       .least_words = 1,
+       .most_words = 1,
+       .run = run_sweep,
+       .completes = "<scenes> <files>"},
       {.name = "dataset",
        .usage = "check|scene|preview|plan SET.yaml [SAMPLE] [options], or run|submit|status|verify|merge FOLDER [options]",
        .summary = "sets of scenes in which values are drawn: look at one, make it on any number of machines, check what is there",

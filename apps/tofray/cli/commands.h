@@ -33,7 +33,7 @@ struct Command {
   std::vector<const char*> options = {};  ///< names of OptionSpecs
   std::size_t least_words = 0, most_words = 0;
   int (*run)(const Options& options) = nullptr;  ///< returns the exit code
-  /// What a word can be, for completion: words, and <commands>, <scenes>, <profiles>, <modes>, <keys>, <numbers>, <arrays> or <files>.
+  /// What a word can be, for completion: words, and <commands>, <scenes>, <profiles>, <modes>, <keys>, <numbers>, <varied>, <metrics>, <arrays> or <files>.
   const char* completes = "";
   bool hidden = false;    ///< for scripts: no help and no completion names it
   bool as_typed = false;  ///< all behind "--" are its words, whatever they look like

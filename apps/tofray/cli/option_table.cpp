@@ -575,6 +575,29 @@ std::vector<OptionSpec> dataset_specs() {
   };
 }
 
+/// Of `tofray sweep`.
+std::vector<OptionSpec> sweep_specs() {
+  return {
+      {"--vary", 0, "KEY=VALUES",
+       "a key and its values: a,b,c; A:B:n, n numbers evenly; A:B:logn, in even ratios; @all of a choice, mode or profile; as often as you "
+       "like: all "
+       "combinations",
+       [](Options& o, const std::string& v) { o.vary.push_back(v); }, "<varied>"},
+      {"--metric", 0, "LIST", "what is measured: bias,sigma,fill (all)",
+       [](Options& o, const std::string& v) {
+         for (const std::string& one : split(v, ',')) o.metrics.push_back(one);
+       },
+       "<metrics>", true},
+      {"--repeat", 0, "N", "frames of each cell; from 2 on sigma is measured over them (1: what noise_m says)",
+       [](Options& o, const std::string& v) { o.repeat = whole("--repeat", v, 1, 1'000'000, "a whole number of 1 to 1000000"); }},
+      {"--by-object", 0, nullptr, "besides, each object's own pixels", [](Options& o, const std::string&) { o.by_object = true; }},
+      {"--best", 0, "AIMS", "the cells that nothing beats (Pareto front): \"sigma, fill>95%\", \"rmse, illumination.0.power\"",
+       [](Options& o, const std::string& v) { o.best = v; }},
+      {"--output", 'o', "DIR", "folder for sweep.csv, sweep.npz and manifest.json; without it a table on stdout",
+       [](Options& o, const std::string& v) { o.output = v; }, "<files>", false, "sweep"},
+  };
+}
+
 std::vector<OptionSpec> specs() {
   return {
       {"--output", 'o', "DIR", "folder to write to", [](Options& o, const std::string& v) { o.output = v; }, "<files>"},
@@ -650,7 +673,8 @@ const std::vector<OptionSpec>& all_options() {
   static const std::vector<OptionSpec> all = [] {
     std::vector<OptionSpec> joined = specs();
     for (const std::vector<OptionSpec>& more : {machine_specs(), message_specs(), bench_specs(), transient_specs(), preview_specs(),
-                                                view_specs(), budget_specs(), measuring_specs(), dataset_specs()})
+                                                view_specs(), budget_specs(), measuring_specs(), dataset_specs(),
+                                                sweep_specs()})
       joined.insert(joined.end(), more.begin(), more.end());
     return joined;
   }();
@@ -673,13 +697,14 @@ struct Group {
 
 const std::vector<Group>& groups() {
   static const std::vector<Group> all = {
-      {"Scene and camera",
-       {"--set", "--mode", "--camera", "--fps", "--transient", "--first", "--width", "--factor", "--at", "--distance", "--reflectivity",
-        "--ambient", "--angle", "--temperature", "--auto-exposure", "--need", "--solve", "--sources", "--root"}},
-      {"Depth", {"--region", "--as", "--truth", "--unit", "--intrinsics", "--quantity", "--shift", "--limit"}},
+      {"Scene and camera", {"--set",           "--mode", "--camera",   "--fps",          "--transient", "--first", "--width",
+                            "--factor",        "--at",   "--distance", "--reflectivity", "--ambient",   "--angle", "--temperature",
+                            "--auto-exposure", "--need", "--solve",    "--vary",         "--sources",   "--root"}},
+      {"Depth",
+       {"--region", "--as", "--truth", "--unit", "--intrinsics", "--quantity", "--shift", "--limit", "--metric", "--by-object", "--best"}},
       {"Simulation", {"--seed", "--noise", "--exposure-samples", "--subpixel", "--bounces", "--samples"}},
       {"Measuring", {"--warmup", "--compare", "--batch", "--stage", "--block-size"}},
-      {"Frames", {"--frames", "--first-frame", "--from", "--pixel"}},
+      {"Frames", {"--frames", "--first-frame", "--repeat", "--from", "--pixel"}},
       {"Output", {"--output", "--clean", "--emit", "--arrays", "--compress", "--raw", "--theme", "--scale", "--csv", "--json", "--quiet"}},
       {"Shards", {"--pilot", "--shard-samples", "--part", "--shards", "--recompute", "--partial", "--tasks", "--sbatch", "--print"}},
       {"With --emit mcap",

@@ -56,6 +56,11 @@ struct Options {
   std::string quantity = "z";                               ///< --quantity: z or range
   bool fit_shift = false;                                   ///< --shift fit
   std::vector<std::pair<std::string, std::string>> limits;  ///< --limit, in order
+  std::vector<std::string> vary;                            ///< --vary, in order, as typed
+  std::vector<std::string> metrics;                         ///< --metric
+  std::uint64_t repeat = 1;                                 ///< --repeat
+  std::string best;                                         ///< --best, as typed
+  bool by_object = false;                                   ///< --by-object
   std::string transient;                                    ///< --transient: a file
   std::optional<double> first_m, width_m, per_factor;       ///< --first, --width, --factor: what that file does not say
   struct View {

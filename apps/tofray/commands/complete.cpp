@@ -10,6 +10,7 @@
 #include "model/lines.h"
 #include "results/array_table.h"
 #include "tofray/load.h"
+#include "tofray/sweep.h"
 
 /// What can stand at the cursor of a command line: the scripts of `tofray completion` ask here. All of it comes from the tables of commands,
 /// options, keys, arrays, scenes and profiles.
@@ -61,6 +62,19 @@ Offers numbers() {
   return out;
 }
 
+/// What may vary in a sweep.
+Offers varied() {
+  Offers out = {{"mode=", "the camera's mode: @all, or names"}, {"profile=", "the camera: @all, or names"}};
+  for (Offer& one : keys()) out.push_back(std::move(one));
+  return out;
+}
+
+Offers metrics() {
+  Offers out;
+  for (const SweepMetric& one : sweep_metrics()) out.push_back({one.name.substr(0, one.name.rfind('_')), one.what});
+  return out;
+}
+
 Offers arrays() {
   Offers out = {{"gt_*", "all of the ground truth"}};
   for (const results::ArrayRow& one : results::array_table()) out.push_back({one.name, one.what});
@@ -84,6 +98,8 @@ Offers offers_of(const std::string& word) {
   if (word == "<numbers>") return numbers();
   if (word == "<arrays>") return arrays();
   if (word == "<modes>") return modes();
+  if (word == "<varied>") return varied();
+  if (word == "<metrics>") return metrics();
   return {{word == "<files>" ? files : word, ""}};
 }
 

@@ -161,29 +161,44 @@ void Cpu::run_samples(const std::vector<pipeline::Step>& steps, const pipeline::
 }
 
 void Cpu::run(const pipeline::Setup& setup, const pipeline::Job& job, const pipeline::Input* input) {
-  gave_up_ = false;
   flow::LightImage image;
   const std::size_t bytes = place_light(setup, job.out, input, nullptr, image);
   const LightOrigin origin = light_origin(setup, job.out, input);
   const bool known = bytes > 0 && origin.known && origin == light_of_;
-  if (bytes > 0) {
-    if (!known) light_of_ = {};
-    if (light_.size() < bytes) light_.resize(bytes);
-    place_light(setup, job.out, input, light_.data(), image);
-  }
+  if (bytes > 0 && !known) light_of_ = {};
+  if (light_.size() < bytes) light_.resize(bytes);
+  run_steps(setup, job, input, {light_.data(), known, false});
+  if (bytes > 0 && !gave_up_) light_of_ = origin;
+}
+
+void Cpu::run_kept(const pipeline::Setup& setup, const pipeline::Job& job, std::vector<unsigned char>& light) {
+  flow::LightImage image;
+  light.resize(place_light(setup, job.out, nullptr, nullptr, image, true));
+  run_steps(setup, job, nullptr, {light.data(), false, true});
+}
+
+void Cpu::run_from(const pipeline::Setup& setup, const pipeline::Job& job, const std::vector<unsigned char>& light) {
+  // Steps out of an image that is known write nothing there; its pointers are those of who makes one.
+  run_steps(setup, job, nullptr, {const_cast<unsigned char*>(light.data()), true, true});
+}
+
+void Cpu::run_steps(const pipeline::Setup& setup, const pipeline::Job& job, const pipeline::Input* input, const Light& light) {
+  gave_up_ = false;
+  flow::LightImage image;
+  place_light(setup, job.out, input, light.memory, image, light.kept);
   const pipeline::Input collected = pipeline::from_light_image(image);
   const Stage entry = input == nullptr ? Stage::trace : input->entry;
+  const auto each_step = [&](const auto& run) { pipeline::each_step(setup, job, entry, light.known, run, light.kept); };
   if (progress_ != nullptr) {
     std::int64_t all = 0;
-    pipeline::each_step(setup, job, entry, known,
-                        [&](const pipeline::Step& step) { all += rays_of(step, setup) * pieces_of(step, setup); });
+    each_step([&](const pipeline::Step& step) { all += rays_of(step, setup) * pieces_of(step, setup); });
     progress_->done = 0, progress_->total = all;
   }
   std::vector<pipeline::Step> samples;
   pipeline::Job with_image = job;
   with_image.light = image;
   const auto run_samples_so_far = [&] { run_samples(samples, setup, with_image), samples.clear(); };
-  pipeline::each_step(setup, job, entry, known, [&](const pipeline::Step& step) {
+  each_step([&](const pipeline::Step& step) {
     if (step.part == pipeline::Part::light && step.pass == Pass::pixels) return samples.push_back(step);
     run_samples_so_far();
     if (step.part == pipeline::Part::all) return run_step(step, {&setup, &job, input, step.item});
@@ -193,7 +208,6 @@ void Cpu::run(const pipeline::Setup& setup, const pipeline::Job& job, const pipe
     run_step(step, {&own_setup, &own_job, step.part == pipeline::Part::collect ? &collected : input, step.item});
   });
   run_samples_so_far();
-  if (bytes > 0 && !gave_up_) light_of_ = origin;
 }
 
 }  // namespace tofray::backend

@@ -34,6 +34,10 @@ class Cpu final : public Engine {
   /// @throws Error (limit) where the system refuses that many threads
   void load(const pipeline::Setup& setup) override;
   void run(const pipeline::Setup& setup, const pipeline::Job& job, const pipeline::Input* input = nullptr) override;
+  /// From the scene on; the light of stages 1 and 2 stays in memory of whoever asks.
+  void run_kept(const pipeline::Setup& setup, const pipeline::Job& job, std::vector<unsigned char>& light);
+  /// Out of light that stayed; the truth of these stages is in the frame already. Several may read it at once.
+  void run_from(const pipeline::Setup& setup, const pipeline::Job& job, const std::vector<unsigned char>& light);
   [[nodiscard]] bool derives() const override { return false; }
   void describe(RanOn& out) const override;
   /// Calls `piece(i)` for 0 <= i < count on its threads, in any order, and waits; once `load` has been called.
@@ -41,6 +45,11 @@ class Cpu final : public Engine {
 
  private:
   struct Threads;
+  struct Light {
+    unsigned char* memory;
+    bool known, kept;
+  };
+  void run_steps(const pipeline::Setup& setup, const pipeline::Job& job, const pipeline::Input* input, const Light& light);
   void run_step(const pipeline::Step& step, const Work& work);
   /// Steps that add samples within the pixels to the light image, tile by tile: a tile reads and writes its own pixels alone, and what it
   /// adds to, at each time of each raw frame, then stays in the caches from one sample to the next.
