@@ -11,6 +11,7 @@
 #include "base/text.h"
 #include "base/units.h"
 #include "cli/commands.h"
+#include "cli/option_values.h"
 #include "messages/topics.h"
 #include "results/array_table.h"
 #include "run/manifest.h"
@@ -19,19 +20,6 @@
 namespace tofray::app {
 
 namespace {
-
-[[noreturn]] void refuse(const char* option, const std::string& value, const std::string& expected) {
-  throw Error(ErrorKind::bad_input, fmt::format("error: {} cannot be {}\n  expected {}", option, base::in_quotes(value), expected));
-}
-
-/// A whole number of low…high.
-std::uint64_t whole(const char* option, const std::string& value, std::uint64_t low, std::uint64_t high, const std::string& expected) {
-  std::uint64_t number = 0;
-  const char* const end = value.data() + value.size();
-  const auto read = std::from_chars(value.data(), end, number);
-  if (read.ec != std::errc() || read.ptr != end || number < low || number > high) refuse(option, value, expected);
-  return number;
-}
 
 void take_set(Options& o, const std::string& value) {
   const std::size_t equals = value.find('=');
@@ -47,15 +35,6 @@ void take_frame_rate(Options& o, const std::string& value) {
   if (read.ec != std::errc() || read.ptr != end || !(number >= 1e-4 && number <= 1e5))
     refuse("--fps", value, "frames per second, a number of 0.0001 to 100000");
   o.set.emplace_back("camera.frame_rate", value + " Hz");
-}
-
-/// A length, in metres where no unit is said.
-double length_of(const char* option, const std::string& value, double low, double high, const char* example = "1.5mm") {
-  const base::Quantity length = base::parse_quantity(value, base::Dimension::length);
-  const bool number = length.status == base::Quantity::Status::good || length.status == base::Quantity::Status::bare;
-  if (!number || !(length.value >= low && length.value <= high))
-    refuse(option, value, fmt::format("a length of {} to {} m, as in {} {}", low, high, option, example));
-  return length.value;
 }
 
 void take_factor(Options& o, const std::string& value) {
@@ -100,40 +79,6 @@ void take_backend(Options& o, const std::string& value) {
     refuse("--backend", value, "auto, cpu or cuda");
 }
 
-std::vector<std::string> split(const std::string& text, char at) {
-  std::vector<std::string> parts;
-  for (std::size_t from = 0; from <= text.size();) {
-    const std::size_t end = std::min(text.find(at, from), text.size());
-    parts.push_back(text.substr(from, end - from));
-    from = end + 1;
-  }
-  return parts;
-}
-
-/// `2m`, `0.5m,1m` or `0.3m..4m`, which is eight distances, as many metres apart, or as many as `0.3m..4m:50` says; `0.3m:4m:50` is the same.
-void add_distances(const char* name, Options& o, const std::string& value) {
-  constexpr std::size_t most = 1000;
-  const std::string like = "0.5m,1m or 0.3m..4m";
-  for (const std::string& part : split(value, ',')) {
-    const std::size_t dots = part.find(".."), first_colon = part.find(':');
-    const std::size_t between = std::min(dots, first_colon);
-    if (between == std::string::npos) {
-      o.at_m.push_back(length_of(name, part, 0.01, 1000, like.c_str()));
-      continue;
-    }
-    const std::size_t behind = between + (between == dots ? 2 : 1), colon = part.find(':', behind);
-    const std::uint64_t count =
-        colon == std::string::npos
-            ? 8
-            : whole(name, part.substr(colon + 1), 2, most, fmt::format("a number of distances of 2 to 1000, as in {} 0.3m..4m:50", name));
-    const double first = length_of(name, part.substr(0, between), 0.01, 1000, like.c_str());
-    const double last = length_of(name, part.substr(behind, colon == std::string::npos ? colon : colon - behind), 0.01, 1000, like.c_str());
-    for (std::uint64_t i = 0; i < count; ++i)
-      o.at_m.push_back(first + (last - first) * static_cast<double>(i) / static_cast<double>(count - 1));
-  }
-  if (o.at_m.size() > most) refuse(name, value, "1000 distances at most");
-}
-
 void take_at(Options& o, const std::string& value) { add_distances("--at", o, value); }
 
 void take_reflectivity(Options& o, const std::string& value) {
@@ -176,67 +121,6 @@ void take_emit(Options& o, const std::string& value) {
     if (std::find(kinds.begin(), kinds.end(), kind) == kinds.end()) kinds.push_back(kind);
   }
   o.emit = kinds;
-}
-
-/// Which of some words.
-std::size_t word_of(const char* option, const std::string& value, const std::vector<std::string>& words) {
-  const auto found = std::find(words.begin(), words.end(), value);
-  if (found == words.end()) refuse(option, value, base::listed(words) + base::did_you_mean(value, words));
-  return static_cast<std::size_t>(found - words.begin());
-}
-
-double number_of(const char* option, const std::string& value, double low, double high, const std::string& expected) {
-  double number = 0;
-  const char* const end = value.data() + value.size();
-  const auto read = std::from_chars(value.data(), end, number);
-  if (read.ec != std::errc() || read.ptr != end || !(number >= low && number <= high)) refuse(option, value, expected);
-  return number;
-}
-
-/// Of MCAP files.
-std::vector<OptionSpec> message_specs() {
-  return {
-      {"--driver", 0, "NAME", "whose topics and frames: plain, pmd, pico_flexx, ifm, k4a, realsense (plain)",
-       [](Options& o, const std::string& v) { o.messages.driver = static_cast<Driver>(word_of("--driver", v, run::driver_words())); },
-       "plain pmd pico_flexx ifm k4a realsense"},
-      {"--topics", 0, "LIST",
-       "out of depth, amplitude, noise, confidence, points, raw, rectified, truth, clock; with \",\" between (what the driver has, and "
-       "raw)",
-       [](Options& o, const std::string& v) {
-         for (const std::string& group : split(v, ',')) {
-           (void)word_of("--topics", group, messages::topic_groups());
-           o.messages.topics.push_back(group);
-         }
-       },
-       "depth amplitude noise confidence points raw rectified truth clock", true},
-      {"--camera-name", 0, "NAME", "first part of topics and frames (the driver's, or camera)",
-       [](Options& o, const std::string& v) { o.messages.name = v; }},
-      {"--stamp", 0, "WHEN", "start, middle or end of a frame's exposures (middle)",
-       [](Options& o, const std::string& v) { o.messages.stamp = static_cast<StampAt>(word_of("--stamp", v, run::stamp_words())); },
-       "start middle end"},
-      {"--epoch", 0, "S", "seconds since 1970 at the simulation's time 0 (0)",
-       [](Options& o, const std::string& v) {
-         o.messages.epoch_s = number_of("--epoch", v, 0, 2e9, "seconds, 0 to 2e9, as in --epoch 1.7e9");
-       }},
-      {"--depth-encoding", 0, "NAME", "32FC1 (m, NaN: invalid) or 16UC1 (mm, 0: invalid) (the driver's)",
-       [](Options& o, const std::string& v) {
-         static const std::vector<std::string> all = {"32FC1", "16UC1"};
-         o.messages.depth_encoding = all[word_of("--depth-encoding", v, all)];
-       },
-       "32FC1 16UC1"},
-      {"--amplitude-step", 0, "E", "electrons of 1 in mono16 (the least power of two at which nothing clips)",
-       [](Options& o, const std::string& v) {
-         o.messages.amplitude_step_e = number_of("--amplitude-step", v, 1e-9, 1e9, "electrons, 1e-9 to 1e9, as in --amplitude-step 0.5");
-       }},
-      {"--unorganized", 0, nullptr, "clouds of the valid points alone, in one row",
-       [](Options& o, const std::string&) { o.messages.unorganized = true; }},
-      {"--mcap-compression", 0, "NAME", "zstd, or none: larger and faster (zstd)",
-       [](Options& o, const std::string& v) {
-         static const std::vector<std::string> all = {"none", "zstd"};
-         o.mcap_compression = word_of("--mcap-compression", v, all) == 0 ? McapCompression::none : McapCompression::zstd;
-       },
-       "none zstd"},
-  };
 }
 
 void take_theme(Options& o, const std::string& value) {
@@ -401,11 +285,6 @@ void take_temperature(Options& o, const std::string& value) {
   o.temperature_celsius = celsius.value;
 }
 
-void take_budget_file(Options& o, const std::string& value) {
-  if (!value.ends_with(".csv") && !value.ends_with(".json")) refuse("-o", value, "a name that ends in .csv or .json, as in -o budget.csv");
-  o.output = value;
-}
-
 /// Of `tofray budget`.
 std::vector<OptionSpec> budget_specs() {
   return {
@@ -425,176 +304,6 @@ std::vector<OptionSpec> budget_specs() {
        [](Options& o, const std::string& v) { o.solve = v; }, "<numbers>"},
       {"--csv", 0, nullptr, "a line of CSV for each row on stdout", [](Options& o, const std::string&) { o.csv = true; }},
       {"--output", 'o', "FILE", "file to write: .csv or .json; without it a table on stdout", take_budget_file, "<files>", false, "budget"},
-  };
-}
-
-/// Numbers with commas between, as many as `into` has.
-template <class T>
-bool numbers_of(const std::string& value, std::vector<T>& into) {
-  const std::vector<std::string> parts = split(value, ',');
-  if (parts.size() != into.size()) return false;
-  for (std::size_t i = 0; i < parts.size(); ++i) {
-    const char* const end = parts[i].data() + parts[i].size();
-    const auto read = std::from_chars(parts[i].data(), end, into[i]);
-    if (read.ec != std::errc() || read.ptr != end) return false;
-  }
-  return true;
-}
-
-void take_region(Options& o, const std::string& value) {
-  std::vector<int> numbers(4);
-  if (!numbers_of(value, numbers) || numbers[0] < 0 || numbers[1] < 0 || numbers[2] < 1 || numbers[3] < 1)
-    refuse("--region", value, "column,row,width,height in pixels counted from 0, as in --region 92,66,40,40");
-  o.region = {numbers[0], numbers[1], numbers[2], numbers[3]};
-}
-
-void take_intrinsics(Options& o, const std::string& value) {
-  std::vector<double> numbers(4);
-  if (!numbers_of(value, numbers) || !(numbers[0] > 0) || !(numbers[1] > 0) || !std::isfinite(numbers[2] + numbers[3]))
-    refuse("--intrinsics", value, "fx,fy,cx,cy in pixels, as in --intrinsics 211.5,212.25,112.75,84.5");
-  o.intrinsics = {numbers[0], numbers[1], numbers[2], numbers[3]};
-}
-
-void take_unit(Options& o, const std::string& value) { o.unit_m = length_of("--unit", value, 1e-9, 1e3, "1mm"); }
-
-void take_limit(Options& o, const std::string& value) {
-  for (const std::string& part : split(value, ',')) {
-    const std::size_t equals = part.find('=');
-    if (equals == 0 || equals == std::string::npos || equals + 1 == part.size())
-      refuse("--limit", part, "NAME=VALUE, as in --limit bias=5mm,sigma=10mm");
-    o.limits.emplace_back(part.substr(0, equals), part.substr(equals + 1));
-  }
-}
-
-void take_preset(Options& o, const std::string& value) {
-  std::vector<std::string> names;
-  for (const QualityPreset& one : quality_presets()) names.push_back(one.name);
-  if (std::find(names.begin(), names.end(), value) == names.end()) refuse("--as", value, base::listed(names));
-  o.like = value;
-}
-
-void take_quantity(Options& o, const std::string& value) {
-  if (value != "z" && value != "range") refuse("--quantity", value, "z (along the optical axis) or range (along the pixel's ray)");
-  o.quantity = value;
-}
-
-void take_shift(Options& o, const std::string& value) {
-  if (value != "none" && value != "fit") refuse("--shift", value, "none, or fit: the median difference is taken off A");
-  o.fit_shift = value == "fit";
-}
-
-void take_comparison_file(Options& o, const std::string& value) {
-  if (!value.ends_with(".csv") && !value.ends_with(".json") && !pictures::format_of(value))
-    refuse("-o", value, "a name that ends in .png, .svg, .pdf, .csv or .json, as in -o map.png");
-  o.output = value;
-}
-
-/// Of `tofray quality` and `tofray compare`.
-std::vector<OptionSpec> measuring_specs() {
-  return {
-      {"--region", 0, "U,V,W,H", "only W x H pixels from column U, row V on (the whole image)", take_region},
-      {"--as", 0, "MAKER", "region, frames and target as a maker measures: realsense, basler, vzense, azure, adtf3175", take_preset,
-       "realsense basler vzense azure adtf3175"},
-      {"--truth", 0, "LENGTH", "true z of the wall on the optical axis (what the file's ground truth says)",
-       [](Options& o, const std::string& v) { o.truth_m = length_of("--truth", v, 1e-3, 1e5); }},
-      {"--unit", 0, "LENGTH", "length of a file's 1 (1mm of .png, 1m of others)", take_unit},
-      {"--intrinsics", 0, "FX,FY,CX,CY", "pinhole in pixels, for points of an image of z alone", take_intrinsics},
-      {"--limit", 0, "NAME=VALUE", "exit code 1 where the number of that name is beyond: bias=5mm,p95=2cm; as often as you like",
-       take_limit},
-      {"--quantity", 0, "NAME", "z or range (z)", take_quantity, "z range"},
-      {"--shift", 0, "KIND", "none; fit: the median difference is taken off A first (none)", take_shift, "none fit"},
-      {"--distance", 0, "LENGTHS", "bounds of the classes by distance: 0.5m,1m,2m or 0.5m:4.5m:9 (eight classes)",
-       [](Options& o, const std::string& v) { add_distances("--distance", o, v); }, "", false, "compare"},
-      {"--output", 'o', "FILE", "file to write: .csv or .json; without it a table on stdout", take_budget_file, "<files>", false,
-       "quality"},
-      {"--output", 'o', "FILE", "file to write: map and histogram as .png, .svg or .pdf, or .csv or .json", take_comparison_file, "<files>",
-       false, "compare"},
-  };
-}
-
-void take_part(Options& o, const std::string& value) {
-  const std::size_t slash = value.find('/');
-  const std::string expected = "which part of how many, as in 0/4, the first, to 3/4, the last";
-  if (slash == std::string::npos) refuse("--part", value, expected);
-  constexpr std::uint64_t most = 1'000'000'000;
-  o.shards.parts = whole("--part", value.substr(slash + 1), 1, most, expected);
-  o.shards.part =
-      whole("--part", value.substr(0, slash), 0, o.shards.parts - 1, fmt::format("0 to {} of {}", o.shards.parts - 1, o.shards.parts));
-}
-
-void take_shards(Options& o, const std::string& value) {
-  constexpr std::uint64_t most = 1'000'000'000, most_of_range = 1'000'000;
-  const std::string expected = "numbers and ranges between commas, as in 3,7-9";
-  for (std::size_t from = 0; from <= value.size();) {
-    const std::size_t end = std::min(value.find(',', from), value.size());
-    const std::string word = value.substr(from, end - from);
-    const std::size_t dash = word.find('-');
-    const std::uint64_t first = whole("--shards", word.substr(0, dash), 0, most, expected);
-    const std::uint64_t last =
-        dash == std::string::npos ? first : whole("--shards", word.substr(dash + 1), first, first + most_of_range, expected);
-    for (std::uint64_t shard = first; shard <= last; ++shard) o.shards.list.push_back(shard);
-    from = end + 1;
-  }
-}
-
-void take_share(Options& o, const std::string& value) {
-  const base::Quantity share = base::parse_quantity(value, base::Dimension::fraction);
-  const bool number = share.status == base::Quantity::Status::good || share.status == base::Quantity::Status::bare;
-  if (!number || !(share.value >= 0 && share.value <= 1)) refuse("--recompute", value, "a share of the samples, as in 1% or 0.01");
-  o.shards.recompute = share.value;
-}
-
-void take_sbatch(Options& o, const std::string& value) {
-  if (!value.starts_with("-") || std::any_of(value.begin(), value.end(), [](char c) { return static_cast<unsigned char>(c) < ' '; }))
-    refuse("--sbatch", value, "an option of sbatch in one word, as in --sbatch=--time=2:00:00");
-  o.shards.sbatch.push_back(value);
-}
-
-/// Of `tofray dataset`.
-std::vector<OptionSpec> dataset_specs() {
-  constexpr std::uint64_t most = 1'000'000'000;
-  return {
-      {"--output", 'o', "PATH", "plan: folder for the set; scene: file; preview: .png, .svg or .pdf",
-       [](Options& o, const std::string& v) { o.output = v; }, "<files>", false, "dataset"},
-      {"--pilot", 0, "N", "plan: samples that are computed, to see how large and how slow they are (8)",
-       [](Options& o, const std::string& v) { o.shards.pilot = whole("--pilot", v, 1, most, "a whole number of 1 to 1000000000"); }},
-      {"--shard-samples", 0, "N", "plan: samples in a shard (64 MiB to 1 GiB of them, and no more than 10 minutes of a core)",
-       [](Options& o, const std::string& v) {
-         o.shards.samples = whole("--shard-samples", v, 1, most, "a whole number of 1 to 1000000000");
-       }},
-      {"--part", 0, "K/N", "run, verify: part K of N, from 0 on: the shards whose number divided by N leaves K (0/1)", take_part},
-      {"--shards", 0, "LIST", "run, verify: these shards alone: 3,7-9", take_shards},
-      {"--recompute", 0, "SHARE", "verify: compute so many of the samples again and compare: 0.1% (none)", take_share},
-      {"--tasks", 0, "N", "submit: jobs of the array (100, or one for each shard)",
-       [](Options& o, const std::string& v) { o.shards.tasks = whole("--tasks", v, 1, most, "a whole number of 1 to 1000000000"); }},
-      {"--sbatch", 0, "OPTION", "submit: an option of sbatch, such as --time=2:00:00 or --partition=long; as often as you like",
-       take_sbatch},
-      {"--print", 0, nullptr, "submit: print the script, submit nothing",
-       [](Options& o, const std::string&) { o.shards.print_only = true; }},
-      {"--partial", 0, nullptr, "merge: of the shards that are there", [](Options& o, const std::string&) { o.shards.partial = true; }},
-  };
-}
-
-/// Of `tofray sweep`.
-std::vector<OptionSpec> sweep_specs() {
-  return {
-      {"--vary", 0, "KEY=VALUES",
-       "a key and its values: a,b,c; A:B:n, n numbers evenly; A:B:logn, in even ratios; @all of a choice, mode or profile; as often as you "
-       "like: all "
-       "combinations",
-       [](Options& o, const std::string& v) { o.vary.push_back(v); }, "<varied>"},
-      {"--metric", 0, "LIST", "what is measured: bias,sigma,fill (all)",
-       [](Options& o, const std::string& v) {
-         for (const std::string& one : split(v, ',')) o.metrics.push_back(one);
-       },
-       "<metrics>", true},
-      {"--repeat", 0, "N", "frames of each cell; from 2 on sigma is measured over them (1: what noise_m says)",
-       [](Options& o, const std::string& v) { o.repeat = whole("--repeat", v, 1, 1'000'000, "a whole number of 1 to 1000000"); }},
-      {"--by-object", 0, nullptr, "besides, each object's own pixels", [](Options& o, const std::string&) { o.by_object = true; }},
-      {"--best", 0, "AIMS", "the cells that nothing beats (Pareto front): \"sigma, fill>95%\", \"rmse, illumination.0.power\"",
-       [](Options& o, const std::string& v) { o.best = v; }},
-      {"--output", 'o', "DIR", "folder for sweep.csv, sweep.npz and manifest.json; without it a table on stdout",
-       [](Options& o, const std::string& v) { o.output = v; }, "<files>", false, "sweep"},
   };
 }
 
