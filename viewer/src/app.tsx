@@ -12,7 +12,7 @@ import { ControlsColumn, Side } from "./side";
 import { Command, Restored, Status, Troubles } from "./status";
 import { comparing, cursor, hello, help_open, link, other, shown, size, spoken, title_of } from "./store";
 import { TimeLine } from "./time_line";
-import { ToolBar } from "./tool_bar";
+import { Moved, ToolBar } from "./tool_bar";
 import { tool } from "./tools";
 
 /** What every pane shows at the cursor, at once. */
@@ -52,6 +52,7 @@ export function App() {
           {shown.value.map((_, i) => <Pane key={i} pane={i} />)}
         </div>
         <Side />
+        <Moved />
       </main>
       <footer>
         <ReadOut />

@@ -18,7 +18,7 @@ export const counters = { received: 0, drawn: 0 };
 export const pictures = new Map<string, Picture>();
 
 /** The 3D panes, by pane. */
-export const spaces = new Map<number, { draw(): void; readout(): unknown }>();
+export const spaces = new Map<number, { draw(): void; readout(pixels: boolean): unknown }>();
 
 const patience_ms = 500;   // one of two states is not waited for longer
 

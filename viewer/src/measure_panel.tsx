@@ -29,7 +29,7 @@ function place_text(of: Triple | null): string {
 function End({ name, of }: { name: string; of: MeasuredPoint }) {
   return (
     <>
-      <tr><th scope="row">{name}: pixel {of.u}, {of.v}</th><td>{of.object == null || of.object === "" ? "" : <bdi>{of.object}</bdi>}</td></tr>
+      <tr><th scope="row">{name}: pixel {of.u}, {of.v}</th><td>{of.name === undefined || of.name === "" ? "" : <bdi>{of.name}</bdi>}</td></tr>
       <tr class="inner"><th scope="row">measured x, y, z</th><td data-measured={name}>{place_text(of.measured)}</td></tr>
       <tr class="inner"><th scope="row">true x, y, z</th><td data-true={name}>{place_text(of.true)}</td></tr>
     </>

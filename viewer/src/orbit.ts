@@ -116,7 +116,7 @@ export function beside_camera(position: Triple, rotation: Rotation, depth: numbe
   const forward = axis(rotation, 2);
   const level = Math.atan2(forward[0], forward[2]);
   const dip = Math.asin(Math.max(-1, Math.min(1, forward[1])));
-  return { target: plus(position, forward, 0.7 * depth), distance: 2.1 * depth, yaw: level - 0.6, pitch: Math.min(1.3, Math.max(-1.3, dip + 0.4)) };
+  return { target: plus(position, forward, 0.55 * depth), distance: 1.55 * depth, yaw: level - 0.55, pitch: Math.min(1.3, Math.max(-1.3, dip + 0.4)) };
 }
 
 /** Pixels that the pointer moved: the scene turns with it. */

@@ -105,7 +105,7 @@ function RawChoice({ pane, of }: { pane: number; of: RawView }) {
 
 // In the list of what a pane can show.
 const raw_frames = "raw frames";
-const space = "points in space";
+const space = "3D points";
 
 /** What gives points their colours. */
 function ColorChoice({ pane, color }: { pane: number; color: string }) {
@@ -142,10 +142,10 @@ export function Pane({ pane }: { pane: number }) {
       <div class="pane-head">
         <label>
           <span class="unseen">Pane {pane + 1} shows</span>
-          <select class={`shows${raw === undefined && cloud === undefined ? "" : " raw"}`} value={chosen} onChange={(event) => choose(event.currentTarget.value)}>
+          <select class={`shows${raw !== undefined ? " raw" : cloud !== undefined ? " points" : ""}`} value={chosen} onChange={(event) => choose(event.currentTarget.value)}>
             {(hello.value?.panes ?? []).map((one) => <option key={one.array} value={one.array}>{one.title}</option>)}
             <option value={raw_frames}>Raw frames</option>
-            <option value={space}>Points in space</option>
+            <option value={space}>3D points</option>
             {lasting.map(([name, title]) => <option key={name} value={name}>{title}</option>)}
           </select>
         </label>

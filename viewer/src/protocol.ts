@@ -295,7 +295,8 @@ export type Rotation = readonly [Triple, Triple, Triple];
 
 export interface Light3d {
   name: string;
-  position: Triple;
+  /** null: from far away. */
+  position: Triple | null;
   direction: Triple;
   half_angle_rad: number | null;
   /** One of the camera's own. */
@@ -348,7 +349,9 @@ export interface MeasuredPoint {
   v: number;
   measured: Triple | null;
   true: Triple | null;
-  object?: string | null;
+  object?: number | null;
+  /** The object's. */
+  name?: string;
 }
 
 export interface Measured {

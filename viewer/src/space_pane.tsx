@@ -61,8 +61,9 @@ export function SpaceStage({ pane, array }: { pane: number; array: string }) {
     const inner = stage?.querySelector<HTMLElement>(".space-inner");
     const [gpu, flat] = stage?.querySelectorAll("canvas") ?? [];
     const labels = stage?.querySelector<HTMLElement>(".space-labels");
-    if (stage == null || inner == null || labels == null || gpu === undefined || flat === undefined) return undefined;
-    const made = new SpaceView(pane, stage, inner, gpu, flat, labels);
+    const marks = stage?.querySelector<HTMLElement>(".space-marks");
+    if (stage == null || inner == null || labels == null || marks == null || gpu === undefined || flat === undefined) return undefined;
+    const made = new SpaceView(pane, stage, inner, gpu, flat, labels, marks);
     view.value = made;
     return () => made.dispose();
   }, []);
@@ -76,6 +77,7 @@ export function SpaceStage({ pane, array }: { pane: number; array: string }) {
         aria-label={`${title_of(array)}${other.value === undefined ? "" : ` of ${side.toUpperCase()}`}: points in space. Arrow keys turn the view.`}>
         <div class="space-inner"><canvas class="gpu" hidden /><canvas class="flat" hidden /></div>
         <div class="space-labels" aria-hidden="true" />
+        <div class="space-marks" aria-hidden="true" />
         {other.value !== undefined && <span class={`badge ${side}`} aria-hidden="true">{side.toUpperCase()}</span>}
         {drawing === "loading" && <p class="space-note" role="status">3D is fetched …</p>}
       </div>

@@ -15,7 +15,7 @@ import {
 import type { Frame, Rotation, Side, Triple } from "./protocol";
 import { fixed, fixed_count, gizmo, orbit, orbit_now, reach, scene_style, selected, space_side, through, view3d_of, with_axes, with_camera, with_lights, with_truth } from "./space";
 import { Splatter } from "./splatter";
-import { lines_of, object_along, pixel_near, type Cloud3d, type Drawn3d, type Stage3d } from "./stage3d";
+import { lines_of, object_along, pixel_near, point_of, type Cloud3d, type Drawn3d, type Stage3d } from "./stage3d";
 import { array_of, cursor, frame_of, hello, letter_keys, of_b, point_at, scale_of, shown, spoken } from "./store";
 import { measure_at, measure_ends, tool } from "./tools";
 
@@ -74,7 +74,7 @@ export class SpaceView {
   private camera_drag: { rotation: Rotation; position: Triple; dx: number; dy: number } | undefined;
 
   /** @param outer  has the focus and the pointers; `inner` in it is where the gizmo listens */
-  constructor(private readonly pane: number, private readonly outer: HTMLElement, private readonly inner: HTMLElement, private readonly gpu: HTMLCanvasElement, private readonly flat: HTMLCanvasElement, private readonly labels: HTMLElement) {
+  constructor(private readonly pane: number, private readonly outer: HTMLElement, private readonly inner: HTMLElement, private readonly gpu: HTMLCanvasElement, private readonly flat: HTMLCanvasElement, private readonly labels: HTMLElement, private readonly marks: HTMLElement) {
     spaces.set(pane, this);
     this.listen();
     const observer = new ResizeObserver(() => this.resize());
@@ -189,6 +189,21 @@ export class SpaceView {
     this.last = of;
     this.stage.draw(of);
     this.write_labels(of);
+    this.mark(of);
+  }
+
+  /** A ring about the cursor's point, and one about each end that is measured: above all else, so that nothing hides it. */
+  private mark(of: Drawn3d): void {
+    const rings = [...(of.cursor === undefined ? [] : [{ kind: "cursor", at: of.cursor }]), ...of.measure.map((at) => ({ kind: "end", at }))];
+    while (this.marks.children.length > rings.length) this.marks.lastElementChild?.remove();
+    rings.forEach(({ kind, at }, i) => {
+      const ring = (this.marks.children[i] ?? this.marks.appendChild(document.createElement("i"))) as HTMLElement;
+      const point = point_of(of, at.u, at.v);
+      const place = point && projected(of.eye, point, this.width, this.height);
+      ring.className = kind;
+      ring.hidden = place === undefined || place.depth <= of.eye.near;
+      if (place !== undefined) ring.style.transform = `translate(${(place.x / devicePixelRatio).toFixed(1)}px, ${(place.y / devicePixelRatio).toFixed(1)}px)`;
+    });
   }
 
   private write_labels(of: Drawn3d): void {
@@ -204,10 +219,10 @@ export class SpaceView {
   }
 
   /** For tests: what is on the screen, and from where it is seen. */
-  readout(): { drawing: Drawing; eye: Eye; width: number; height: number; pixels: Uint8ClampedArray } | undefined {
+  readout(pixels: boolean): { drawing: Drawing; eye: Eye; width: number; height: number; pixels?: Uint8ClampedArray } | undefined {
     if (this.stage === undefined) return undefined;
     const of = this.drawn();
-    return { drawing: this.drawing.peek(), eye: of.eye, ...this.stage.pixels(of) };
+    return { drawing: this.drawing.peek(), eye: of.eye, width: this.width, height: this.height, ...(pixels ? this.stage.pixels(of) : {}) };
   }
 
   // --- Pointers ---
@@ -341,19 +356,18 @@ export class SpaceView {
         selected.value = undefined;
         through.value = false;
         return true;
-      default: return this.fly(side, event.key);
+      default: return this.fly(side, event);
     }
   }
 
   /** W A S D, R and F: the camera itself moves, along its own axes. */
-  private fly(side: Side, key: string): boolean {
+  private fly(side: Side, { key, shiftKey }: KeyboardEvent): boolean {
     const ways: Readonly<Record<string, Triple>> = { w: [0, 0, 1], s: [0, 0, -1], a: [-1, 0, 0], d: [1, 0, 0], r: [0, -1, 0], f: [0, 1, 0] };
     const way = ways[key.toLowerCase()];
     const pose = pose_now(side);
     if (way === undefined) return false;
     if (pose === undefined) return true;
-    const far = (key === key.toLowerCase() ? 0.02 : 0.2);
-    move_camera(side, { rotation: pose.rotation, position: plus(pose.position, turned(pose.rotation, way), far) });
+    move_camera(side, { rotation: pose.rotation, position: plus(pose.position, turned(pose.rotation, way), shiftKey ? 0.2 : 0.02) });
     return true;
   }
 

@@ -4,7 +4,7 @@
 
 import { dot, minus_of, plus, turned, type Eye } from "./orbit";
 import type { Numbers, Rgb, Triple, View3d } from "./protocol";
-import { cross_at, in_eye, lines_of, object_color, point_of, truth_color, type Drawn3d, type Line3d, type Stage3d, type Static3d } from "./stage3d";
+import { in_eye, lines_of, object_color, truth_color, wire_opacity, type Drawn3d, type Line3d, type Stage3d, type Static3d } from "./stage3d";
 
 const most_points = 300_000;   // above, every n-th
 const most_edges = 60_000;     // of the scene, the same
@@ -44,7 +44,7 @@ export class Splatter implements Stage3d {
   }
 
   private paint(of: Drawn3d): void {
-    const { fixed, view, cloud, options, eye, cursor } = of;
+    const { fixed, view, cloud, options, eye } = of;
     this.colors.fill(packed(options.light ? [248, 248, 246] : [13, 15, 18]));
     this.depth.fill(Infinity);
     if (fixed !== undefined && view !== undefined) {
@@ -54,11 +54,7 @@ export class Splatter implements Stage3d {
       }
       if (options.scene !== "off") this.edges(fixed, view, eye);
     }
-    for (const one of lines_of(of).lines) this.line(eye, one, false);
-    const ends = of.measure.map((one) => point_of(of, one.u, one.v)).filter((one): one is Triple => one !== undefined);
-    for (const one of ends.flatMap((end) => cross_at(eye, end, this.image.height, 6))) this.line(eye, one, true);
-    const at = cursor && point_of(of, cursor.u, cursor.v);
-    if (at !== undefined) for (const one of cross_at(eye, at, this.image.height, 11)) this.line(eye, one, true);
+    for (const one of lines_of(of).lines) this.line(eye, one, 1);
   }
 
   private splat(fixed: Static3d, view: View3d, eye: Eye, z: Numbers, colors: Uint8ClampedArray | Rgb, share: number): void {
@@ -79,7 +75,7 @@ export class Splatter implements Stage3d {
       if (depth < eye.near) continue;
       const px = across * ((to[0] * x + to[1] * y + to[2] * far + to[3]) / depth - eye.left_edge);
       const py = down * ((to[4] * x + to[5] * y + to[6] * far + to[7]) / depth - eye.top_edge);
-      const size = Math.min(16, Math.max(1, Math.round((1.25 * share * far * pitch * stride * down) / depth)));
+      const size = Math.min(16, Math.max(1, Math.ceil((1.25 * share * far * pitch * stride * down) / depth)));
       const [left, top] = [Math.round(px - size / 2), Math.round(py - size / 2)];
       if (left + size <= 0 || top + size <= 0 || left >= width || top >= height) continue;
       const color = one_color ?? of_pixels![i]!;
@@ -97,17 +93,22 @@ export class Splatter implements Stage3d {
   private edges({ triangles, triangle_objects: ids }: Static3d, view: View3d, eye: Eye): void {
     const stride = Math.max(1, Math.ceil((3 * ids.length) / most_edges));
     let own: View3d["objects"][number] | undefined;
+    let opacity = 1;
     for (let i = 0; i < ids.length; i += stride) {
-      if (own?.id !== ids[i]) own = view.objects.find((one) => one.id === ids[i]);
+      if (own?.id !== ids[i]) {
+        own = view.objects.find((one) => one.id === ids[i]);
+        let count = 0;
+        while (ids[i + count] === ids[i]) ++count;
+        opacity = wire_opacity(count);
+      }
       if (own === undefined) continue;
       const { position, rotation } = own;
       const corners = [0, 3, 6].map((k) => plus(position, turned(rotation, [triangles[9 * i + k]!, triangles[9 * i + k + 1]!, triangles[9 * i + k + 2]!])));
-      corners.forEach((a, k) => this.line(eye, { a, b: corners[(k + 1) % 3]!, color: object_color(ids[i]!) }, false));
+      corners.forEach((a, k) => this.line(eye, { a, b: corners[(k + 1) % 3]!, color: object_color(ids[i]!) }, opacity));
     }
   }
 
-  /** @param on_top  also in front of what is nearer */
-  private line(eye: Eye, { a, b, color }: Line3d, on_top: boolean): void {
+  private line(eye: Eye, { a, b, color }: Line3d, opacity: number): void {
     const { width, height } = this.image;
     const seen = (of: Triple): Triple => {
       const from = minus_of(of, eye.position);
@@ -130,9 +131,9 @@ export class Splatter implements Stage3d {
       if (x < 0 || y < 0 || x >= width || y >= height) continue;
       const at = y * width + x;
       const depth = 1 / (from[2] + t * (to[2] - from[2]));
-      if (!on_top && depth > this.depth[at]! * 1.002) continue;
-      this.colors[at] = ink;
-      if (!on_top) this.depth[at] = Math.min(depth, this.depth[at]!);
+      if (depth > this.depth[at]! * 1.002) continue;
+      this.colors[at] = opacity === 1 ? ink : mixed(this.colors[at]!, ink, opacity);
+      if (opacity === 1) this.depth[at] = Math.min(depth, this.depth[at]!);
     }
   }
 }
@@ -140,6 +141,12 @@ export class Splatter implements Stage3d {
 /** RGBA in memory. */
 function packed(of: Rgb): number {
   return ((255 << 24) | (of[2] << 16) | (of[1] << 8) | of[0]) >>> 0;
+}
+
+function mixed(under: number, over: number, share: number): number {
+  let out = 255 << 24;
+  for (const shift of [0, 8, 16]) out |= Math.round(((under >>> shift) & 255) * (1 - share) + ((over >>> shift) & 255) * share) << shift;
+  return out >>> 0;
 }
 
 /** On the way from a, which is before the near plane, to b, which is not. */

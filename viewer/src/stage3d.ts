@@ -3,7 +3,7 @@
 // What draws in three dimensions, by the GPU (view3d.ts) or by the processor (splatter.ts), and what both are told. Points are z · (x, y, 1)
 // of the camera's rays; nothing else is worked out here.
 
-import { about, axis, cross, dot, length, minus_of, plus, projected, turned, turned_back, unit, type Eye } from "./orbit";
+import { about, axis, cross, dot, minus_of, plus, turned, turned_back, unit, type Eye } from "./orbit";
 import type { Numbers, Rgb, Rotation, Triple, View3d } from "./protocol";
 
 /** What stays while neither scene nor lens change. */
@@ -145,6 +145,11 @@ export function object_color(id: number): Rgb {
   return object_colors[id % object_colors.length]!;
 }
 
+/** Many wires close to each other are thin ones: what is measured is seen through them. */
+export function wire_opacity(triangles: number): number {
+  return triangles > 200 ? 0.16 : 0.5;
+}
+
 export const truth_color: Rgb = [64, 190, 170];
 export const axis_colors: readonly Rgb[] = [[240, 110, 100], [90, 190, 110], [110, 150, 255]];
 export const axis_names = ["x right", "y down", "z forward"] as const;
@@ -198,6 +203,13 @@ export function lines_of(of: Drawn3d): { lines: Line3d[]; labels: Label3d[] } {
   if (options.lights) {
     for (const one of view.lights) {
       const color: Rgb = options.light ? [150, 95, 0] : [255, 200, 90];
+      if (one.position === null) {   // parallel: an arrow to what the camera looks at
+        const end = plus(position, axis(rotation, 2), 0.5 * reach);
+        const from = plus(end, unit(one.direction), -0.5 * reach);
+        lines.push({ a: from, b: end, color }, ...cone_lines(end, plus([0, 0, 0], unit(one.direction), -1), 0.3, 0.06 * reach, color));
+        labels.push({ at: from, text: one.name });
+        continue;
+      }
       lines.push(...cone_lines(one.position, one.direction, one.half_angle_rad ?? 0.6, 0.35 * reach, color));
       labels.push({ at: one.position, text: one.name });
     }
@@ -218,12 +230,4 @@ export function lines_of(of: Drawn3d): { lines: Line3d[]; labels: Label3d[] } {
   const [a, b] = of.measure.map((one) => point_of(of, one.u, one.v));
   if (a !== undefined && b !== undefined) lines.push({ a, b, color: ink });
   return { lines, labels };
-}
-
-/** Three bars to either side of a point, as large as so many pixels of the picture. */
-export function cross_at(eye: Eye, point: Triple, height: number, half_px: number): Line3d[] {
-  const depth = projected(eye, point, 1, height).depth;
-  const half = (half_px * depth * (eye.bottom_edge - eye.top_edge)) / Math.max(1, height);
-  const near = plus(point, minus_of(eye.position, point), Math.min(0.5, (0.01 * depth) / Math.max(1e-9, length(minus_of(eye.position, point)))));   // before the points about it
-  return [eye.right, eye.down].map((way) => ({ a: plus(near, way, -half), b: plus(near, way, half), color: [255, 255, 255] as const }));
 }

@@ -78,7 +78,7 @@ export interface TemporalResult {
 export const temporal = signal<Readonly<{ a: TemporalResult | undefined; b?: TemporalResult | undefined }>>({ a: undefined });
 
 /** Panes of it, which have the colours of the noise that is estimated. */
-export const temporal_titles: Readonly<Record<string, string>> = { temporal_sigma_m: "σ over time", temporal_predicted_m: "σ̂, its mean over time" };
+export const temporal_titles: Readonly<Record<string, string>> = { temporal_sigma_m: "σ over time", temporal_predicted_m: "σ̂ over time" };
 
 /** Whether it is of the state in force. */
 export function is_current(side: Side): boolean {

@@ -55,7 +55,11 @@ declare module "three" {
     setUsage(usage: number): this;
   }
   export const DynamicDrawUsage: number;
+  export class Sphere {
+    constructor(center: Vector3, radius: number);
+  }
   export class BufferGeometry {
+    boundingSphere: Sphere | null;
     setAttribute(name: string, attribute: BufferAttribute): this;
     getAttribute(name: string): BufferAttribute;
     setDrawRange(start: number, count: number): void;
@@ -106,7 +110,6 @@ declare module "three" {
     setSize(width: number, height: number, style: boolean): void;
     setClearColor(color: number, alpha: number): void;
     render(scene: Scene, camera: PerspectiveCamera): void;
-    getContext(): WebGL2RenderingContext;
     dispose(): void;
   }
 }

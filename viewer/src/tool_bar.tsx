@@ -1,9 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The tofray authors
 // SPDX-License-Identifier: Apache-2.0
 import { what, moving } from "./hands";
-import { link, shown } from "./store";
+import { focused, link, shown } from "./store";
 import { cloud_color } from "./cloud";
-import { focused } from "./store";
 import { toggle_space } from "./space_state";
 import { choose_tool, grabbed, tool } from "./tools";
 
@@ -17,7 +16,13 @@ export function ToolBar() {
       <button type="button" class="quiet" aria-pressed={now === "drag"} disabled={off} onClick={() => choose_tool("drag")} title="drag objects in a picture: parallel to the image, with Shift along the ray, with Ctrl they turn, Alt and wheel scale (d)">Move</button>
       <button type="button" class="quiet" aria-pressed={now === "measure"} onClick={() => choose_tool("measure")} title="the distance between two points, measured and true (m)">Measure</button>
       <button type="button" class="quiet" aria-pressed={in_space} onClick={() => toggle_space(focused.value)} title="points in space in the pane that has the focus (x)">3D</button>
-      {(moving.value || grabbed.value !== undefined || (now === "drag" && what.value !== "")) && <span class="faint moved" role="status">{what.value}</span>}
     </div>
   );
+}
+
+/** What a gesture makes, while it is made: over the pictures, which keep their places. */
+export function Moved() {
+  const held = moving.value || grabbed.value !== undefined;
+  const text = held || tool.value === "drag" ? what.value : "";
+  return <div class="moved-place"><span class={text === "" ? "unseen" : "moved"} role="status">{text === "" ? "" : `${held ? "" : "moved: "}${text}`}</span></div>;
 }

@@ -9,7 +9,7 @@ import { begin_move, end_move, move, moving, what } from "./hands";
 import { ask, drop } from "./questions";
 import type { Measured, RegionStatistics, Side, Temporal } from "./protocol";
 import {
-  array_of, cursor, edited, frame_of, link, of_b, other, point_at, set_panes, show, shown, size, spoken, tab, tab_shown, temporal, type Cursor, type Region,
+  array_of, cursor, edited, frame_of, is_current, link, of_b, other, point_at, set_panes, show, shown, size, spoken, state, tab, tab_shown, temporal, temporal_titles, type Cursor, type Region,
 } from "./store";
 
 export type Tool = "look" | "drag" | "measure" | "rectangle";
@@ -255,12 +255,26 @@ export const temporal_frames = 200;
 export const temporal_progress = signal<Temporal | undefined>(undefined);
 export const temporal_fault = signal<string | undefined>(undefined);
 let temporal_id: number | undefined;
+let anew_timer: number | undefined;
+const anew_ms = 700;
 
+/** By hand: the numbers are shown, too. */
 export function ask_temporal(): void {
   tab.value = "measure";
+  ask_temporal_of(side_edited());
+}
+
+function generation_of(side: Side): number | undefined {
+  return (side === "a" ? state.value : other.value)?.generation;
+}
+
+let refused_for: number | undefined;   // the generation that was not answered
+
+function ask_temporal_of(side: Side): void {
+  const of_generation = generation_of(side);
+  clearTimeout(anew_timer);
   drop(temporal_id);
   temporal_fault.value = undefined;
-  const side = side_edited();
   temporal_progress.value = { type: "temporal", id: 0, side, frames: temporal_frames, done: 0 };
   temporal_id = ask<Temporal>({ type: "temporal", ...whose(side), frames: temporal_frames }, {
     answered: (of, arrays) => {
@@ -270,8 +284,9 @@ export function ask_temporal(): void {
       spoken.value = `${of.frames} frames are done`;
     },
     refused: (of) => {
+      refused_for = of_generation;
       temporal_progress.value = temporal_id = undefined;
-      if (of.text !== "") temporal_fault.value = [of.text, of.more ?? ""].join(" ").trim();
+      if (of.text !== "" && generation_of(side) === of_generation) temporal_fault.value = [of.text, of.more ?? ""].join(" ").trim();
     },
   });
 }
@@ -292,7 +307,18 @@ export function forget_tools(): void {
   temporal.value = { a: undefined };
 }
 
+/** While panes show what many frames say, a changed state is asked anew, once it rests. */
+function ask_anew(): void {
+  const sides = other.value === undefined ? (["a"] as const) : (["a", "b"] as const);
+  const old = sides.find((side) => temporal.value[side] !== undefined && !is_current(side));
+  clearTimeout(anew_timer);
+  const now = old === undefined ? undefined : generation_of(old);
+  if (old === undefined || now === refused_for || temporal_progress.value !== undefined || link.value !== "open" || !shown.value.some((name) => name in temporal_titles)) return;
+  anew_timer = setTimeout(() => ask_temporal_of(old), anew_ms);
+}
+
 export function start_tools(): void {
+  effect(ask_anew);
   measuring.start();
   statistics.start();
   effect(() => {

@@ -4,11 +4,11 @@
 
 import {
   BufferAttribute, BufferGeometry, ColorManagement, DirectionalLight, DoubleSide, DynamicDrawUsage, Group, HemisphereLight, LinearSRGBColorSpace, LineBasicMaterial, LineSegments,
-  Matrix4, Mesh, MeshLambertMaterial, Object3D, PerspectiveCamera, Points, Scene, ShaderMaterial, WebGLRenderer,
+  Matrix4, Mesh, MeshLambertMaterial, Object3D, PerspectiveCamera, Points, Scene, ShaderMaterial, Sphere, Vector3, WebGLRenderer,
 } from "three";
 import { TransformControls } from "three/addons/controls/TransformControls.js";
 import type { Rotation, Triple } from "./protocol";
-import { cross_at, lines_of, object_color, point_of, truth_color, type Cloud3d, type Drawn3d, type GizmoMoves, type Line3d, type Stage3d, type Static3d } from "./stage3d";
+import { lines_of, object_color, truth_color, wire_opacity, type Cloud3d, type Drawn3d, type GizmoMoves, type Line3d, type Stage3d, type Static3d } from "./stage3d";
 
 ColorManagement.enabled = false;   // colours are the page's, to the bit
 
@@ -58,6 +58,7 @@ function cloud_of(rays: Float32Array, least: number): PointCloud {
   geometry.setAttribute("z", new BufferAttribute(z, 1).setUsage(DynamicDrawUsage));
   geometry.setAttribute("rgb", new BufferAttribute(rgb, 3, true).setUsage(DynamicDrawUsage));
   geometry.setDrawRange(0, count);
+  geometry.boundingSphere = new Sphere(new Vector3(), Infinity);   // rays are no places
   const material = new ShaderMaterial({ vertexShader: point_vertex, fragmentShader: point_fragment, uniforms: { focal: { value: 1 }, pitch: { value: 0.01 }, least: { value: least } } });
   const points = new Points(geometry, material);
   points.frustumCulled = false;   // its box would be that of the rays
@@ -74,10 +75,9 @@ export function pitch_of({ width, height, rays }: Static3d): number {
 /** Lines that are made anew as they change. */
 class Lines {
   readonly drawn: LineSegments;
-  constructor(on_top: boolean) {
-    this.drawn = new LineSegments(new BufferGeometry(), new LineBasicMaterial({ vertexColors: true, ...(on_top ? { depthTest: false, depthWrite: false, transparent: true } : {}) }));
+  constructor() {
+    this.drawn = new LineSegments(new BufferGeometry(), new LineBasicMaterial({ vertexColors: true }));
     this.drawn.frustumCulled = false;
-    if (on_top) this.drawn.renderOrder = 10;
   }
   set(all: readonly Line3d[]): void {
     const at = new Float32Array(all.flatMap(({ a, b }) => [...a, ...b]));
@@ -104,7 +104,7 @@ function shape_of(id: number, triangles: Float32Array): Shape {
   const [r, g, b] = color as [number, number, number];
   const rgb = (r255: number): number => Math.round(255 * r255);
   const hex = (rgb(r) << 16) | (rgb(g) << 8) | rgb(b);
-  const wire = new LineSegments(new BufferGeometry().setAttribute("position", new BufferAttribute(edges, 3)), new LineBasicMaterial({ color: hex, transparent: true, opacity: 0.45 }));
+  const wire = new LineSegments(new BufferGeometry().setAttribute("position", new BufferAttribute(edges, 3)), new LineBasicMaterial({ color: hex, transparent: true, opacity: wire_opacity(count) }));
   const faces = new BufferGeometry().setAttribute("position", new BufferAttribute(triangles, 3));
   faces.computeVertexNormals();
   const solid = new Mesh(faces, new MeshLambertMaterial({ color: hex, side: DoubleSide, flatShading: true, transparent: true, opacity: 0.8, polygonOffset: true, polygonOffsetFactor: 2, polygonOffsetUnits: 2 }));
@@ -119,8 +119,7 @@ class GpuStage implements Stage3d {
   private readonly renderer: WebGLRenderer;
   private readonly scene = new Scene();
   private readonly camera = new PerspectiveCamera();
-  private readonly lines = new Lines(false);
-  private readonly on_top = new Lines(true);
+  private readonly lines = new Lines();
   private readonly shapes = new Group();
   private readonly controls: TransformControls;
   private readonly held = new Object3D();   // what the gizmo is at
@@ -132,14 +131,14 @@ class GpuStage implements Stage3d {
   private height = 1;
 
   /** @throws where there is no WebGL */
-  constructor(canvas: HTMLCanvasElement, pointers: HTMLElement, private readonly redraw: () => void, moves: GizmoMoves) {
+  constructor(private readonly canvas: HTMLCanvasElement, pointers: HTMLElement, private readonly redraw: () => void, moves: GizmoMoves) {
     this.renderer = new WebGLRenderer({ canvas, antialias: true, alpha: false });
     this.renderer.outputColorSpace = LinearSRGBColorSpace;
     this.renderer.setPixelRatio(1);
     this.camera.matrixAutoUpdate = false;
     const lamp = new DirectionalLight(0xffffff, 1.6);
     lamp.position.set(-0.4, -1, -0.6);
-    this.scene.add(this.lines.drawn, this.on_top.drawn, this.shapes, this.held, new HemisphereLight(0xffffff, 0x667080, 1.4), lamp);
+    this.scene.add(this.lines.drawn, this.shapes, this.held, new HemisphereLight(0xffffff, 0x667080, 1.4), lamp);
     this.controls = new TransformControls(this.camera, pointers);
     this.scene.add(this.controls.getHelper());
     this.controls.addEventListener("change", () => this.redraw());
@@ -161,18 +160,13 @@ class GpuStage implements Stage3d {
   }
 
   draw(of: Drawn3d): void {
-    const { options, view, cursor } = of;
+    const { options, view } = of;
     this.renderer.setClearColor(options.light ? 0xf8f8f6 : 0x0d0f12, 1);
     this.place_camera(of);
     this.place_cloud(of);
     this.place_shapes(of);
     this.place_gizmo(of);
     this.lines.set(lines_of(of).lines);
-    const at = cursor && point_of(of, cursor.u, cursor.v);
-    this.on_top.set([
-      ...(at === undefined ? [] : cross_at(of.eye, at, this.height, 11)),
-      ...of.measure.map((one) => point_of(of, one.u, one.v)).filter((one): one is Triple => one !== undefined).flatMap((one) => cross_at(of.eye, one, this.height, 6)),
-    ]);
     this.shapes.visible = options.scene !== "off" && view !== undefined;
     this.renderer.render(this.scene, this.camera);
   }
@@ -296,13 +290,13 @@ class GpuStage implements Stage3d {
 
   pixels(of: Drawn3d): { width: number; height: number; pixels: Uint8ClampedArray } {
     this.draw(of);
-    const gl = this.renderer.getContext();
     const { width, height } = this;
-    const upward = new Uint8Array(4 * width * height);
-    gl.readPixels(0, 0, width, height, gl.RGBA, gl.UNSIGNED_BYTE, upward);
-    const pixels = new Uint8ClampedArray(upward.length);
-    for (let row = 0; row < height; ++row) pixels.set(upward.subarray(4 * width * row, 4 * width * (row + 1)), 4 * width * (height - 1 - row));
-    return { width, height, pixels };
+    const copy = document.createElement("canvas");
+    copy.width = width;
+    copy.height = height;
+    const context = copy.getContext("2d");
+    context?.drawImage(this.canvas, 0, 0);
+    return { width, height, pixels: context?.getImageData(0, 0, width, height).data ?? new Uint8ClampedArray(0) };
   }
 
   holds_pointer(): boolean {
@@ -317,10 +311,8 @@ class GpuStage implements Stage3d {
       one?.points.geometry.dispose();
       one?.points.material.dispose();
     }
-    for (const one of [this.lines, this.on_top]) {
-      one.drawn.geometry.dispose();
-      one.drawn.material.dispose();
-    }
+    this.lines.drawn.geometry.dispose();
+    this.lines.drawn.material.dispose();
     this.renderer.dispose();
   }
 }
