@@ -357,3 +357,48 @@ test("an object is chosen by a click or by o, and handles move it: its position 
   await page.keyboard.press("Control+ArrowUp");
   await until(() => Math.abs(last_view(tab).objects[1].position[1] - 0.23) < 1e-6, "the floor, 2 cm higher");
 });
+
+test("of two states it shows the one that controls change, and B while b is held down; closed and opened again it is there again", async () => {
+  const { tab, page } = await points(false);
+  const other_button = page.getByRole("button", { name: "A | B", exact: true });
+  for (const time of ["once", "again"]) {
+    await other_button.click();
+    await page.locator(".space .badge.b").waitFor();
+    await page.waitForFunction(() => window.tofray.last_b !== undefined);
+    await until(() => last_view(tab).side === "b", `B, ${time}`);
+    await page.waitForTimeout(300);
+    assert.ok(drawn_places(await picture(tab)).length > 5000, `B is drawn, ${time}`);
+    await page.getByRole("group", { name: "Controls of" }).getByRole("button", { name: "A" }).click();
+    await page.locator(".space .badge.a").waitFor();
+    await page.locator(".stage").first().focus();
+    await page.keyboard.down("b");
+    await page.locator(".space .badge.b").waitFor();
+    await page.keyboard.up("b");
+    await page.locator(".space .badge.a").waitFor();
+    await other_button.click();
+    await page.locator(".space .badge").waitFor({ state: "detached" });
+    await page.waitForFunction(() => window.tofray.last_b === undefined);
+  }
+  assert.ok(drawn_places(await picture(tab)).length > 5000, "A is drawn");
+});
+
+test("fingers: one turns, two bring nearer and move", async () => {
+  const { page } = await points(false, { hasTouch: true });
+  const eye = () => page.evaluate(() => window.tofray.space(1, false).eye);
+  const box = await page.locator(".stage.space").boundingBox();
+  const devices = await page.context().newCDPSession(page);
+  const touch = (kind, ...places) => devices.send("Input.dispatchTouchEvent", { type: kind, touchPoints: places.map(([x, y], id) => ({ x: box.x + x, y: box.y + y, id })) });
+  const first = await eye();
+  await touch("touchStart", [100, 100]);
+  for (const x of [110, 130, 160]) await touch("touchMove", [x, 100]);
+  await touch("touchEnd");
+  const turned = await eye();
+  assert.ok(dot(turned.forward, first.forward) < 0.98);
+  await touch("touchStart", [100, 100], [140, 100]);
+  await touch("touchMove", [80, 100], [160, 100]);
+  await touch("touchMove", [60, 100], [180, 100]);
+  await touch("touchEnd");
+  const near = await eye();
+  assert.ok(near.near < 0.5 * turned.near, `${near.near}, before ${turned.near}`);
+  assert.deepEqual(near.forward, turned.forward);
+});

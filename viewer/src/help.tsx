@@ -25,7 +25,7 @@ export function Help() {
             <div key={key.said}><dt><kbd>{key.said}</kbd></dt><dd>{key.does}</dd></div>
           ))}
         </dl>
-        <h2>In a pane of points in space</h2>
+        <h2>Keys in a 3D pane</h2>
         <dl class="keys space-keys">
           {space_keys.map((key) => (
             <div key={key.said}><dt><kbd>{key.said}</kbd></dt><dd>{key.does}</dd></div>
@@ -39,6 +39,7 @@ export function Help() {
           <div><dt>Move, drag</dt><dd>an object, parallel to the image; with Shift along the ray, with Ctrl it turns; Alt and wheel scale it</dd></div>
           <div><dt>Shift and drag</dt><dd>statistics of a rectangle</dd></div>
           <div><dt>Alt and drag</dt><dd>a region: why is it wrong?</dd></div>
+          <div><dt>in 3D</dt><dd>drag: turn; right button, or Shift: move; wheel, or two fingers: nearer; click: choose an object</dd></div>
           <div><dt>click</dt><dd>all there is to know of a pixel; a raw frame of the sheet is enlarged</dd></div>
         </dl>
         <label class="check">

@@ -30,8 +30,8 @@ function End({ name, of }: { name: string; of: MeasuredPoint }) {
   return (
     <>
       <tr><th scope="row">{name}: pixel {of.u}, {of.v}</th><td>{of.name === undefined || of.name === "" ? "" : <bdi>{of.name}</bdi>}</td></tr>
-      <tr class="inner"><th scope="row">measured x, y, z</th><td data-measured={name}>{place_text(of.measured)}</td></tr>
-      <tr class="inner"><th scope="row">true x, y, z</th><td data-true={name}>{place_text(of.true)}</td></tr>
+      <tr class="inner"><th scope="row">measured</th><td data-measured={name}>{place_text(of.measured)}</td></tr>
+      <tr class="inner"><th scope="row">true</th><td data-true={name}>{place_text(of.true)}</td></tr>
     </>
   );
 }
@@ -42,7 +42,7 @@ function Distance({ of }: { of: Measured }) {
     <div data-measure={of.id}>
       <p class="figure"><strong data-measure-of="measured">{metres(of.measured_m, of.sigma_m)}</strong>{of.sigma_m !== null && <> ± <span data-measure-of="sigma">{millimetres(of.sigma_m)}</span></>}</p>
       <table>
-        <caption>Distance, frame {of.frame}; ± is one σ, of the noise that the camera estimates of both ends. Places in metres: x right, y down, z forward.</caption>
+        <caption>Distance, frame {of.frame}; ± is one σ, of the noise that the camera estimates of both ends. Places: x, y, z in metres, to the right, down and forward.</caption>
         <tbody>
           <tr><th scope="row">true</th><td data-measure-of="true">{metres(of.true_m, of.sigma_m)}</td></tr>
           <tr><th scope="row">measured − true</th><td data-measure-of="error">{error !== null && error > 0 ? "+" : ""}{millimetres(error)}</td></tr>
@@ -57,12 +57,13 @@ function Distance({ of }: { of: Measured }) {
 /** Names of `tofray quality`, for who reads them. */
 function said(name: string): string {
   const flag = /^flag_(.*)_percent$/.exec(name)?.[1];
-  return (flag ?? name.replace(/_(percent|m|deg|mm)$/, "")).replaceAll("_", " ");
+  return (flag ?? name.replace(/_(percent|m|rad)$/, "")).replaceAll("_", " ");
 }
 
 function value_of(row: StatisticsRow): string {
   if (row.value === null) return "–";
   if (row.unit === "m") return millimetres(row.value);
+  if (row.unit === "rad") return `${number_text(Number(((row.value * 180) / Math.PI).toPrecision(4))).replace(/\.?0+$/, "")}°`;
   const text = number_text(Number(row.value.toPrecision(4)));
   return with_unit(text.includes(".") ? text.replace(/\.?0+$/, "") : text, row.unit);
 }

@@ -110,7 +110,7 @@ const space = "3D points";
 /** What gives points their colours. */
 function ColorChoice({ pane, color }: { pane: number; color: string }) {
   return (
-    <label>
+    <label class="points-of">
       <span class="unseen">Points are coloured by</span>
       <select class="cloud-color" value={color} onChange={(event) => show_space(pane, event.currentTarget.value)} title="what gives points their colours">
         {(hello.value?.panes ?? []).map((one) => <option key={one.array} value={one.array}>by {one.title.toLowerCase()}</option>)}

@@ -23,7 +23,7 @@ export const orbit = signal<Orbit | undefined>(undefined);       // undefined: a
 
 export const space_shown = computed(() => shown.value.some((name) => cloud_color(name) !== undefined));
 
-/** A 3D pane shows one state: that which controls change, or the one that flipping shows. */
+/** A 3D pane shows one state: that which controls change, or the one that flipping shows; B while its key is held down. */
 export const space_side = computed<Side>(() => (other.value === undefined ? "a" : comparing.value === "flip" ? (flipped.value ? "b" : "a") : flipped.value ? "b" : edited.value));
 
 export const fixed: Record<Side, Static3d | undefined> = { a: undefined, b: undefined };

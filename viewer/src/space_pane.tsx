@@ -3,7 +3,7 @@
 import { useSignal, type Signal } from "@preact/signals";
 import { useEffect, useRef } from "preact/hooks";
 import { css } from "./colors";
-import { edited, other, title_of } from "./store";
+import { other, title_of } from "./store";
 import { gizmo, orbit, scene_style, selected, selected_object, space_side, through, view3d_fault, view3d_of, with_axes, with_camera, with_lights, with_truth } from "./space";
 import { select, SpaceView, toggle_through, type Drawing } from "./space_view";
 import { truth_color, type Gizmo, type SceneStyle } from "./stage3d";
@@ -82,7 +82,6 @@ export function SpaceStage({ pane, array }: { pane: number; array: string }) {
         {drawing === "loading" && <p class="space-note" role="status">3D is fetched …</p>}
       </div>
       <p class="space-word" role="status">{sentence}{fault === undefined ? "" : ` ${fault.text} ${fault.more ?? ""}`}</p>
-      {other.value !== undefined && side !== edited.value && <p class="faint">b held down: {side.toUpperCase()}</p>}
       <Options drawing={drawing} />
     </div>
   );

@@ -77,13 +77,16 @@ export function point_of(of: Drawn3d, u: number, v: number): Triple | undefined 
   return plus(view.camera.position, turned(view.camera.rotation, [z * fixed.rays[2 * i]!, z * fixed.rays[2 * i + 1]!, z]));
 }
 
+const most_picked = 300_000;   // points that are looked through, where the pointer is
+
 /** The pixel whose point is seen at a place of the picture, the nearest to the eye of those about it. */
 export function pixel_near(of: Drawn3d, x: number, y: number, width: number, height: number, within: number): { u: number; v: number } | undefined {
   const { fixed, cloud, view, eye } = of;
   if (fixed === undefined || cloud === undefined || view === undefined || fixed.width !== cloud.width || fixed.height !== cloud.height) return undefined;
   let best: { i: number; cost: number } | undefined;
   const to = in_eye(view, eye);
-  for (let i = 0; i < cloud.z.length; ++i) {
+  const stride = Math.max(1, Math.ceil(cloud.z.length / most_picked));
+  for (let i = 0; i < cloud.z.length; i += stride) {
     const z = cloud.z[i]!;
     if (!(z > 0) || !Number.isFinite(z)) continue;
     const [a, b] = [z * fixed.rays[2 * i]!, z * fixed.rays[2 * i + 1]!];
