@@ -82,6 +82,10 @@ TEST(measure, is_the_distance_of_the_frame_s_points_measured_and_true) {
   EXPECT_EQ(number_in(of_a, "object"), ids[a]);
   EXPECT_EQ(number_in(of_b, "object"), ids[b]);
   EXPECT_NE(ids[a], ids[b]);
+  const Json scene = one.page.answer(R"({"type":"view3d","id":5})", "view3d");
+  for (const auto& [end, pixel] : {std::pair{&of_a, a}, {&of_b, b}})
+    EXPECT_EQ(*end->find("name")->string(),
+              *(*scene.find("objects")->items())[static_cast<std::size_t>(ids[pixel])].find("name")->string());
   EXPECT_EQ(three(*of_b.find("measured"))[2], static_cast<double>(points[3 * b + 2]));
   EXPECT_EQ(three(*of_b.find("true"))[0], static_cast<double>(truth[3 * b]));
 }

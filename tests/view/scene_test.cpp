@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <fstream>
 #include <limits>
+#include <thread>
 
 #include "support/text.h"
 #include "view/viewer.h"
@@ -232,6 +233,57 @@ TEST(view3d, sends_its_arrays_once_until_a_shape_or_the_lens_changes) {
   EXPECT_NE(b.objects().size(), first.objects().size());
   EXPECT_FALSE(is_fresh(scene_of(one.page)));
   EXPECT_FALSE(is_fresh(scene_of(one.page, 5, R"(,"side":"b")")));
+}
+
+TEST(view3d, of_very_many_objects_names_those_that_a_page_can_take) {
+  NEEDS_THE_VIEWER;
+  const Folder folder;
+  std::ofstream file(folder / "many.yaml");
+  file << "camera: {profile: pico-flexx, mode: MODE_9_5FPS_2000}\nobjects:\n";
+  constexpr int count = 6000;
+  for (int i = 0; i < count; ++i)
+    file << "  - rectangle: {name: card " << i << ", center: [" << i % 100 << ", " << i / 100
+         << ", 90], size: [0.5 m, 0.5 m], reflectivity: 0.5}\n";
+  file.close();
+  const Viewer viewer({(folder / "many.yaml").native()});
+  Greeted one(viewer);
+  const Scene3d scene = scene_of(one.page);
+  ASSERT_TRUE(is_fresh(scene));
+  EXPECT_LT(files::json_text(scene.json).size(), 900'000u);
+  EXPECT_GT(number_in(scene.json, "left_out"), 0);
+  EXPECT_EQ(static_cast<double>(scene.objects().size()) + number_in(scene.json, "left_out"), count);
+  EXPECT_EQ(numbers_of<std::uint32_t>(scene.arrays.arrays.at(2)).size(), 2u * count) << "all are drawn";
+}
+
+// A page that takes nothing for a while: each text has its arrays right behind it, or a later one's come in their place.
+TEST(view3d, of_a_slow_page_keeps_texts_and_arrays_together) {
+  NEEDS_THE_VIEWER;
+  const Viewer viewer({"demo"}, false);
+  Greeted one(viewer);
+  constexpr int questions = 30;
+  for (int k = 1; k <= questions; ++k) {
+    one.page.send(R"({"type":"set","id":900,"key":"objects.26.sphere.radius","text":")" + std::to_string(4 + 0.01 * k) + " cm\"}");
+    one.page.send(R"({"type":"view3d","id":)" + std::to_string(k) + "}");
+    std::this_thread::sleep_for(milliseconds(15));
+  }
+  int texts = 0, arrays = 0, last = 0;
+  double behind = -1;  // the answer that has just come
+  while (last < questions || behind >= 0) {
+    const WsMessage message = one.page.next();
+    ASSERT_GE(message.opcode, 0);
+    if (message.opcode == 2) {
+      EXPECT_EQ(wire_frame(message.payload).sequence, behind) << "right behind their answer";
+      ++arrays, behind = -1;
+      continue;
+    }
+    behind = -1;
+    const Json json = message.json();
+    if (*json.find("type")->string() != "view3d") continue;
+    ++texts, behind = last = static_cast<int>(number_in(json, "id"));
+    EXPECT_TRUE(*json.find("static")->boolean());
+  }
+  EXPECT_GT(arrays, 0);
+  EXPECT_LT(arrays, texts) << "the page was not slow enough, or all its arrays waited";
 }
 
 }  // namespace

@@ -53,13 +53,15 @@ double distance(const std::optional<Vec3>& a, const std::optional<Vec3>& b) { re
 
 }  // namespace
 
-void put_measure(Json& json, const Frame& frame, const Measure& measure) {
+void put_measure(Json& json, const Frame& frame, const Scene& scene, const Measure& measure) {
   const End ends[] = {end_of(frame, measure.u[0], measure.v[0]), end_of(frame, measure.u[1], measure.v[1])};
   const char* const names[] = {"a", "b"};
   for (std::size_t i = 0; i < 2; ++i) {
     Json one = Json::object();
     one.set("u", measure.u[i]).set("v", measure.v[i]).set("measured", point_json(ends[i].measured)).set("true", point_json(ends[i].truth));
-    json.set(names[i], std::move(one.set("object", ends[i].object)));
+    const bool shows = ends[i].object >= 0 && static_cast<std::size_t>(ends[i].object) < scene.objects.size();
+    one.set("object", ends[i].object).set("name", shows ? scene.objects[static_cast<std::size_t>(ends[i].object)].name : std::string());
+    json.set(names[i], std::move(one));
   }
   double sigma = std::nan("");
   if (const auto& a = ends[0].measured, &b = ends[1].measured; a && b) {

@@ -3,6 +3,7 @@
 #pragma once
 #include "files/json.h"
 #include "tofray/frame.h"
+#include "tofray/scene.h"
 #include "view/control.h"
 
 namespace tofray::view {
@@ -14,6 +15,6 @@ namespace tofray::view {
 ///     σ² = (ê·r̂_a)²·σ_a² + (ê·r̂_b)²·σ_b²,   ê from the one to the other
 ///
 /// @throws Error (bad_input) where a pixel is outside the image
-void put_measure(files::Json& json, const Frame& frame, const Measure& measure);
+void put_measure(files::Json& json, const Frame& frame, const Scene& scene, const Measure& measure);
 
 }  // namespace tofray::view

@@ -100,7 +100,10 @@ const char* name_of(analysis::Drawn drawn) {
   return "none";
 }
 
-Json objects_json(const SceneAt& at, const Geometry& geometry) {
+/// Adds objects, and left_out where these would be too many for a text.
+void put_objects(Json& json, const SceneAt& at, const Geometry& geometry) {
+  constexpr std::size_t most_bytes = 800'000;  // a page that takes 1 MB too slowly is let go
+  std::size_t bytes = 0, left_out = 0;
   const std::vector<analysis::Body> bodies = analysis::bodies_at(at.scene, at.time_s);
   Json out = Json::array();
   for (std::size_t i = 0; i < at.scene.objects.size(); ++i) {
@@ -113,9 +116,16 @@ Json objects_json(const SceneAt& at, const Geometry& geometry) {
     one.set("id", i).set("name", object.name).set("key", object.key).set("kind", analysis::kind_of(object));
     one.set("position", vec_json(pose.origin)).set("rotation", std::move(rows));
     one.set("bounds", bounds_json(bodies[i])).set("movable", why.empty()).set("why", why);
-    out.push(std::move(one.set("drawn", name_of(geometry.triangles.drawn[i]))));
+    one.set("drawn", name_of(geometry.triangles.drawn[i]));
+    bytes += files::json_text(one).size() + 1;
+    if (bytes > most_bytes) {
+      left_out = at.scene.objects.size() - i;
+      break;
+    }
+    out.push(std::move(one));
   }
-  return out;
+  json.set("objects", std::move(out));
+  if (left_out > 0) json.set("left_out", left_out);
 }
 
 }  // namespace
@@ -140,7 +150,8 @@ void put_scene(Json& json, const SceneAt& at, const Geometry& geometry) {
   stands.set("position", Json::list(camera.position)).set("rotation", rows_json(camera.axes));
   stands.set("movable", why.empty()).set("why", why);
   json.set("time_s", at.time_s).set("camera", std::move(stands)).set("frustum", frustum_json(at.camera));
-  json.set("lights", lights_json(at)).set("objects", objects_json(at, geometry));
+  json.set("lights", lights_json(at));
+  put_objects(json, at, geometry);
 }
 
 }  // namespace tofray::view

@@ -95,7 +95,7 @@ void Session::Impl::answer_what(const Inquired& inquired) {
   Json json = answer_json(measures ? "measure" : "region", id_of(inquired.what), inquired.side);
   json.set("generation", on.state.generation).set("frame", index);
   if (measures)
-    put_measure(json, of->frame, std::get<Measure>(inquired.what));
+    put_measure(json, of->frame, on.state.in.scene, std::get<Measure>(inquired.what));
   else
     put_region(json, of->frame, std::get<RegionQuestion>(inquired.what));
   out_->tell(inquired.client, files::json_text(json));
