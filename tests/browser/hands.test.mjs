@@ -172,9 +172,9 @@ test("what cannot be moved says why, and nothing is changed", async () => {
 });
 
 test("an answer is set in the list's own order: keys that are there keep their place, what is to go goes", async () => {
-  const answer = { drag: ({ id, base }) => ({ type: "drag", id, base, sets: [{ key: "camera.lens.f_number", text: "2.5" }, { key: "camera.adc.bits", text: "11" }], unsets: ["scene.background.radiance"], what: "<b>moved</b>" }) };
+  const answer = { drag: ({ id, base }) => ({ type: "drag", id, base, sets: [{ key: "camera.lens.f_number", text: "2.5" }, { key: "camera.pixel.full_well", text: "90000 e" }], unsets: ["camera.lens.transmission"], what: "<b>moved</b>" }) };
   const sent = [];
-  const { url } = await view([...words, "--set", "camera.lens.f_number=2"]);
+  const { url } = await view([...words, ...["lens.f_number=2", "lens.transmission=0.8", "adc.bits=12"].flatMap((one) => ["--set", `camera.${one}`])]);
   const tab = await shown(url, { before: between({ asked: { ...answer, state: (of) => void sent.push(of) } }) });
   await stand_at(tab, 0);
   const { page } = tab;
@@ -183,7 +183,7 @@ test("an answer is set in the list's own order: keys that are there keep their p
   await page.evaluate(() => new Promise((then) => requestAnimationFrame(() => requestAnimationFrame(then))));
   await drag(tab, [66, 145], [[70, 145], [80, 145]], { hold: () => page.locator(".moved").waitFor() });
   assert.equal(await page.locator(".moved").textContent(), "moved: <b>moved</b>");
-  assert.deepEqual(sent.at(-1).overrides, [{ key: "camera.lens.f_number", text: "2.5" }, { key: "camera.adc.bits", text: "11" }]);
+  assert.deepEqual(sent.at(-1).overrides, [{ key: "camera.lens.f_number", text: "2.5" }, { key: "camera.adc.bits", text: "12" }, { key: "camera.pixel.full_well", text: "90000 e" }]);
   assert.equal(await page.locator("b").count(), 0);
 });
 

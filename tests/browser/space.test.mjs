@@ -112,6 +112,22 @@ for (const [drawing, webgl] of ways) test(`by ${drawing}`, async (t) => {
     }));
     const right = drawn.filter(({ x, y }) => known.has(coarse(rgb(of, Math.floor(y) * of.width + Math.floor(x))).join())).length / drawn.length;
     assert.ok(right > (webgl ? 0.6 : 0.9999), `${right} of the places have a colour of the depth pane`);
+    // What is nearer hides what is behind it: points with others close by on the screen and far behind.
+    const near = new Float64Array(of.width * of.height).fill(Infinity);
+    const far = new Float64Array(of.width * of.height);
+    const inside = [...z.keys()].filter((i) => Number.isFinite(z[i])).map((i) => ({ i, ...place(of, of.eye, camera, rays, z[i], i) })).filter(({ x, y }) => x > 8 && y > 8 && x < of.width - 8 && y < of.height - 8);
+    for (const { x, y, depth } of inside) {
+      for (let dy = -3; dy <= 3; ++dy) {
+        for (let dx = -3; dx <= 3; ++dx) {
+          const at = (Math.floor(y) + dy) * of.width + Math.floor(x) + dx;
+          near[at] = Math.min(near[at], depth);
+          if (Math.abs(dx) <= 1 && Math.abs(dy) <= 1) far[at] = Math.max(far[at], depth);
+        }
+      }
+    }
+    const front = inside.filter(({ x, y, depth }) => depth <= 1.001 * near[Math.floor(y) * of.width + Math.floor(x)] && far[Math.floor(y) * of.width + Math.floor(x)] > 1.25 * depth);
+    const seen_in_front = front.filter(({ i, x, y }) => rgb(of, Math.floor(y) * of.width + Math.floor(x)).every((one, k) => Math.abs(one - colors[4 * i + k]) <= 24)).length;
+    assert.ok(front.length > 25 && seen_in_front / front.length > 0.9, `${seen_in_front} of ${front.length} points in front are seen`);
   });
 
   await t.test(`through the camera it is the depth pane's picture`, async () => {
@@ -354,8 +370,11 @@ test("an object is chosen by a click or by o, and handles move it: its position 
   await page.keyboard.press("o");
   await page.keyboard.press("o");
   await page.waitForFunction(() => document.querySelector(".object-choice").value === "1");
-  await page.keyboard.press("Control+ArrowUp");
-  await until(() => Math.abs(last_view(tab).objects[1].position[1] - 0.23) < 1e-6, "the floor, 2 cm higher");
+  const past_before = await page.evaluate(() => window.tofray.steps.past);
+  for (let i = 0; i < 3; ++i) await page.keyboard.press("Control+ArrowUp");
+  await until(() => Math.abs(last_view(tab).objects[1].position[1] - 0.19) < 1e-6, "the floor, 6 cm higher");
+  await page.waitForTimeout(800);
+  assert.equal(await page.evaluate(() => window.tofray.steps.past), past_before + 1);
 });
 
 test("of two states it shows the one that controls change, and B while b is held down; closed and opened again it is there again", async () => {

@@ -73,9 +73,9 @@ function Rows({ of }: { of: RegionStatistics }) {
   return (
     <div data-region={of.id}>
       <table class="quality">
-        <caption>Pixels {u0} … {u1}, {v0} … {v1}, frame {of.frame}; as <code>tofray quality</code> defines them</caption>
+        <caption>Pixels {u0} … {u1}, {v0} … {v1}, frame {of.frame}; as <code>tofray quality</code> defines them. Flags that no pixel has are left out.</caption>
         <tbody>
-          {of.rows.map((row) => (
+          {of.rows.filter((row) => !row.name.startsWith("flag_") || row.value !== 0).map((row) => (
             <tr key={row.name} data-row={row.name}>
               <th scope="row">
                 <span>{row.name.startsWith("flag_") ? `flag: ${said(row.name)}` : said(row.name)}</span>

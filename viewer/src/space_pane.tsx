@@ -33,7 +33,7 @@ function Options({ drawing }: { drawing: Drawing }) {
       <Switch of={with_camera} title="what the camera sees: its frustum">Frustum</Switch>
       <Switch of={with_lights} title="where light goes: cones">Lights</Switch>
       <Switch of={with_axes} title="of the camera: x right, y down, z forward">Axes</Switch>
-      <button type="button" aria-pressed={through.value} onClick={toggle_through} title="as the camera sees it; then a drag turns the camera (t)">Through the camera</button>
+      <button type="button" aria-pressed={through.value} disabled={view3d_of(side)?.frustum == null} onClick={toggle_through} title="as the camera sees it; then a drag turns the camera (t)">Through the camera</button>
       <button type="button" onClick={() => ((through.value = false), (orbit.value = undefined))} title="from where it was first seen (0)">Home</button>
       <label>
         <span class="unseen">Object</span>

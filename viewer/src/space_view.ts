@@ -27,28 +27,37 @@ const key_pause_ms = 500;   // key presses that follow each other are one gestur
 
 const dark = matchMedia("(prefers-color-scheme: dark)");
 
-/** The camera, while it is moved: what was asked for last. */
-let camera_pose: { position: Triple; rotation: Rotation; side: Side } | undefined;
-let camera_timer: number | undefined;
-
-/** The camera's pose as far as it is known: where it was moved to, until the server has said so. */
-function pose_now(side: Side): { position: Triple; rotation: Rotation } | undefined {
-  const view = view3d_of(side);
-  if (view === undefined) return undefined;
-  if (camera_pose?.side === side && (camera_timer !== undefined || view.generation < accepted[side])) return camera_pose;
-  camera_pose = undefined;
-  return view.camera;
+interface Pose {
+  position: Triple;
+  rotation: Rotation;
 }
 
-function move_camera(side: Side, to: { position: Triple; rotation: Rotation }): void {
-  if (camera_timer === undefined) begin_move(side);
-  clearTimeout(camera_timer);
-  camera_timer = setTimeout(() => {
-    camera_timer = undefined;
-    end_move();
-  }, key_pause_ms);
-  camera_pose = { ...to, side };
-  move({ type: "camera", ...to });
+/** What is moved by keys, or the camera by a drag: where it was asked to be last. Steps that follow each other are one gesture. */
+let held: { what: "camera" | number; side: Side; pose: Pose; timer: number | undefined } | undefined;
+
+function release(): void {
+  if (held?.timer === undefined) return;
+  clearTimeout(held.timer);
+  held.timer = undefined;
+  end_move();
+}
+
+/** The pose of the camera, or of an object, as far as it is known: where it was moved to, until the server has said so. */
+function pose_now(side: Side, what: "camera" | number): Pose | undefined {
+  const view = view3d_of(side);
+  if (view === undefined) return undefined;
+  if (held !== undefined && held.what === what && held.side === side && (held.timer !== undefined || view.generation < accepted[side])) return held.pose;
+  return what === "camera" ? view.camera : view.objects.find((one) => one.id === what);
+}
+
+function move_held(side: Side, what: "camera" | number, pose: Pose): void {
+  if (held?.timer === undefined || held.what !== what || held.side !== side) {
+    release();
+    begin_move(side);
+  }
+  clearTimeout(held?.timer);
+  held = { what, side, pose, timer: setTimeout(release, key_pause_ms) };
+  move(what === "camera" ? { type: "camera", position: pose.position, rotation: pose.rotation } : { type: "place", object: what, position: pose.position, rotation: null });
 }
 
 /** About the vertical to the right, and about its own right-hand axis downward. */
@@ -163,7 +172,7 @@ export class SpaceView {
   eye(side: Side): Eye {
     const aspect = this.width / Math.max(1, this.height);
     const view = view3d_of(side);
-    const camera = pose_now(side);
+    const camera = pose_now(side, "camera");
     if (through.peek() && view?.frustum != null && camera !== undefined) return eye_through(camera.position, camera.rotation, view.frustum, aspect);
     return eye_of(orbit_now(side), aspect);
   }
@@ -266,7 +275,7 @@ export class SpaceView {
     this.pointers.set(event.pointerId, { x: event.clientX, y: event.clientY });
     this.outer.setPointerCapture(event.pointerId);
     this.drag = { moved: this.pointers.size > 1, pans: event.button !== 0 || event.shiftKey, x: event.clientX, y: event.clientY };
-    const pose = through.peek() ? pose_now(space_side.peek()) : undefined;
+    const pose = through.peek() ? pose_now(space_side.peek(), "camera") : undefined;
     this.camera_drag = pose && { ...pose, dx: 0, dy: 0 };
   }
 
@@ -291,12 +300,12 @@ export class SpaceView {
       const factor = distance(event.clientX, event.clientY) / distance(before.x, before.y);
       this.look(() => panned(nearer(orbit_now(side), factor), dx / 2, dy / 2, this.outer.clientHeight));
     } else if (this.camera_drag !== undefined && !this.drag.pans) {
-      const held = this.camera_drag;
-      held.dx += dx;
-      held.dy += dy;
+      const turning = this.camera_drag;
+      turning.dx += dx;
+      turning.dy += dy;
       const view = this.eye(side);
       const per_pixel = (view.bottom_edge - view.top_edge) / Math.max(1, this.outer.clientHeight);
-      move_camera(side, { position: held.position, rotation: turned_camera(held.rotation, -held.dx * per_pixel, -held.dy * per_pixel) });
+      move_held(side, "camera", { position: turning.position, rotation: turned_camera(turning.rotation, -turning.dx * per_pixel, -turning.dy * per_pixel) });
     } else {
       this.look(() => (this.drag?.pans === true ? panned(orbit_now(side), dx, dy, this.outer.clientHeight) : orbited(orbit_now(side), dx, dy)));
     }
@@ -364,21 +373,20 @@ export class SpaceView {
   private fly(side: Side, { key, shiftKey }: KeyboardEvent): boolean {
     const ways: Readonly<Record<string, Triple>> = { w: [0, 0, 1], s: [0, 0, -1], a: [-1, 0, 0], d: [1, 0, 0], r: [0, -1, 0], f: [0, 1, 0] };
     const way = ways[key.toLowerCase()];
-    const pose = pose_now(side);
+    const pose = pose_now(side, "camera");
     if (way === undefined) return false;
     if (pose === undefined) return true;
-    move_camera(side, { rotation: pose.rotation, position: plus(pose.position, turned(pose.rotation, way), shiftKey ? 0.2 : 0.02) });
+    move_held(side, "camera", { rotation: pose.rotation, position: plus(pose.position, turned(pose.rotation, way), shiftKey ? 0.2 : 0.02) });
     return true;
   }
 
   /** The chosen object, along the axes of the camera. */
   private nudge(side: Side, x: number, y: number, z: number): boolean {
     const view = view3d_of(side);
-    const object = view?.objects.find((one) => one.id === selected.peek());
-    if (view === undefined || object === undefined) return false;
-    begin_move(side);
-    move({ type: "place", object: object.id, position: plus(object.position, turned(view.camera.rotation, [x, y, z]), 0.02), rotation: null });
-    end_move();
+    const id = selected.peek();
+    const pose = id === undefined ? undefined : pose_now(side, id);
+    if (view === undefined || id === undefined || pose === undefined) return false;
+    move_held(side, id, { rotation: pose.rotation, position: plus(pose.position, turned(view.camera.rotation, [x, y, z]), 0.02) });
     return true;
   }
 

@@ -16,8 +16,8 @@ export type Tool = "look" | "drag" | "measure" | "rectangle";
 export const tool = signal<Tool>("look");
 
 export function choose_tool(of: Tool): void {
+  let_go();
   tool.value = tool.peek() === of ? "look" : of;
-  grabbed.value = undefined;
   if (tool.peek() === "measure" || tool.peek() === "rectangle") tab.value = "measure";
 }
 
@@ -111,6 +111,13 @@ export function wheel_scales(at: Cursor, lines: number, side: Side): void {
 
 const key_moves: Readonly<Record<string, readonly [number, number]>> = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1] };
 
+/** What keys hold is where it is now. */
+function let_go(): void {
+  if (grabbed.peek() === undefined) return;
+  grabbed.value = undefined;
+  end_drag();
+}
+
 /** Keys while objects are moved and a picture has the focus. @return  whether the key was one of them */
 export function drag_key(event: KeyboardEvent): boolean {
   if (tool.value !== "drag") return false;
@@ -125,8 +132,7 @@ export function drag_key(event: KeyboardEvent): boolean {
   }
   if (held === undefined) return false;
   if (event.key === "Enter" || event.key === "Escape") {
-    grabbed.value = undefined;
-    end_drag();
+    let_go();
     return true;
   }
   const by = key_moves[event.key] ?? { "+": [0, -5], "=": [0, -5], "-": [0, 5] }[event.key];
@@ -236,10 +242,8 @@ export function drop_measure(): void {
 
 /** Escape: one thing at a time, the one that is half done first. @return  whether there was one */
 export function drop_something(): boolean {
-  if (grabbed.value !== undefined) {
-    grabbed.value = undefined;
-    end_drag();
-  } else if (measure_from.value !== undefined) drop_measure();
+  if (grabbed.value !== undefined) let_go();
+  else if (measure_from.value !== undefined) drop_measure();
   else if (rectangle_from.value !== undefined) drop_rectangle();
   else if (tool.value !== "look") tool.value = "look";
   else if (measuring.question.value !== undefined) drop_measure();

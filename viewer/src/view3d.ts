@@ -20,19 +20,15 @@ uniform float focal;
 uniform float pitch;
 uniform float least;
 varying vec3 shown;
-varying float valid;
 void main() {
-  valid = z > 0.0 ? 1.0 : 0.0;
   shown = rgb;
   vec4 seen = modelViewMatrix * vec4(z * position.xy, z, 1.0);
-  gl_Position = valid > 0.5 ? projectionMatrix * seen : vec4(2.0, 2.0, 2.0, 1.0);
+  gl_Position = z > 0.0 ? projectionMatrix * seen : vec4(2.0, 2.0, 2.0, 1.0);   // outside the picture
   gl_PointSize = clamp(1.25 * z * pitch * focal / max(1e-6, -seen.z), least, 32.0);
 }`;
 const point_fragment = `
 varying vec3 shown;
-varying float valid;
 void main() {
-  if (valid < 0.5) discard;
   gl_FragColor = vec4(shown, 1.0);
 }`;
 
