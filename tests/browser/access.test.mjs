@@ -153,7 +153,7 @@ for (const colorScheme of ["dark", "light"]) {
 for (const [what, viewport] of [["320 CSS pixels wide", { width: 320, height: 640 }], ["zoomed to 200 %", { width: 640, height: 450 }], ["in a usual window", { width: 1280, height: 760 }]]) {
   test(`${what}, points in space and all that is measured are not cut, and nothing has to be scrolled sideways`, async () => {
     const { url } = await view(["demo", "--seed", "5"]);
-    const tab = await shown(url, { viewport });
+    const tab = await shown(url, { viewport, webgl: true });   // which has more buttons
     const { page } = tab;
     await measure_all(tab);
     assert.equal(await page.evaluate(() => document.documentElement.scrollWidth), viewport.width);

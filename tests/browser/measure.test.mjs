@@ -8,7 +8,7 @@ import { join } from "node:path";
 import { test } from "node:test";
 import { read_npz } from "./npz.mjs";
 import { expected, scale_of } from "./colors.mjs";
-import { answered_arrays, beside, folder, pane, point_at, rendered, same, set, settled, shown, stand_at, told, until, view } from "./viewer.mjs";
+import { answered_arrays, beside, folder, inspected, pane, point_at, rendered, same, set, settled, shown, stand_at, told, until, view } from "./viewer.mjs";
 
 const words = ["demo", "--seed", "5"];
 const width = 224, height = 172, pixels = width * height;
@@ -62,6 +62,8 @@ test("m at two pixels: the distance between the points that the command writes, 
     shown_place.forEach((one, k) => assert.ok(Math.abs(one - a.measured[k]) < 1e-4, `${what}: A is ${shown_place}`));
   };
   await check(rendered(words), "frame 0");
+  const { path } = rendered(words);
+  assert.deepEqual(await page.locator("[data-measure] bdi").allTextContents(), [p, q].map(([u, v]) => inspected(path, u, v).truth.object));
   // It stays, of each frame that comes and of a changed camera.
   await page.keyboard.press(".");
   await page.getByText("Distance, frame 1;").waitFor();

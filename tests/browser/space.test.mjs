@@ -6,7 +6,7 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { expected, scale_of } from "./colors.mjs";
-import { answered_arrays, pane, rendered, same, settled, shown, stand_at, until, view } from "./viewer.mjs";
+import { answered_arrays, pane, rendered, same, set, settled, shown, stand_at, until, view } from "./viewer.mjs";
 
 const words = ["demo", "--seed", "5"];
 const width = 224, height = 172;
@@ -137,8 +137,14 @@ for (const [drawing, webgl] of ways) test(`by ${drawing}`, async (t) => {
     await page.waitForFunction(() => window.tofray.space(1, false).eye.position.every((one) => one === 0));
     const of = await picture(tab);
     const z = frame.z_m.values;
-    const { camera } = last_view(tab);
+    const { camera, frustum } = last_view(tab);
     const { pixels } = await pane(tab, 0);
+    // All of the image, as large as there is room for, not stretched.
+    const { left_edge, right_edge, top_edge, bottom_edge } = of.eye;
+    const [xs, ys] = [0, 1].map((k) => frustum.map((one) => one[k]));
+    const shares = [(Math.max(...xs) - Math.min(...xs)) / (right_edge - left_edge), (Math.max(...ys) - Math.min(...ys)) / (bottom_edge - top_edge)];
+    assert.ok(Math.abs(Math.max(...shares) - 1) < 1e-9 && Math.min(...shares) <= 1 + 1e-9, shares.join());
+    assert.ok(Math.abs((right_edge - left_edge) / (bottom_edge - top_edge) / (of.width / of.height) - 1) < 1e-9, "stretched");
     let [count, right] = [0, 0];
     for (let v = 2; v < height - 2; v += 7) {
       for (let u = 2; u < width - 2; u += 7) {
@@ -375,6 +381,8 @@ test("an object is chosen by a click or by o, and handles move it: its position 
   await until(() => Math.abs(last_view(tab).objects[1].position[1] - 0.19) < 1e-6, "the floor, 6 cm higher");
   await page.waitForTimeout(800);
   assert.equal(await page.evaluate(() => window.tofray.steps.past), past_before + 1);
+  await set(tab, "camera.lens.f_number", "2.8");   // another step
+  assert.equal(await page.evaluate(() => window.tofray.steps.past), past_before + 2);
 });
 
 test("of two states it shows the one that controls change, and B while b is held down; closed and opened again it is there again", async () => {

@@ -130,7 +130,7 @@ export async function open(url, { before, webgl = false, ...options } = {}) {
   const context = await (webgl ? await browser_with_webgl() : browser).newContext({ viewport: { width: 1280, height: 900 }, permissions: ["clipboard-read", "clipboard-write"], ...options });
   const page = await context.newPage();
   await before?.(page);
-  const seen = { page, texts: [], arrays: [], frames: [], last: {}, generations: { a: [], b: [] }, asked: [], troubles: [], sockets: 0, requests: [], loads: 0 };
+  const seen = { page, texts: [], arrays: [], talk: [], frames: [], last: {}, generations: { a: [], b: [] }, asked: [], troubles: [], sockets: 0, requests: [], loads: 0 };
   page.on("console", (message) => ["error", "warning"].includes(message.type()) && seen.troubles.push(message.text()));
   page.on("pageerror", (error) => seen.troubles.push(String(error)));
   page.on("request", (request) => seen.requests.push(request.url()));
@@ -138,14 +138,23 @@ export async function open(url, { before, webgl = false, ...options } = {}) {
   page.on("websocket", (socket) => {
     ++seen.sockets;
     socket.on("framereceived", ({ payload }) => {
-      if (typeof payload === "string") return void seen.texts.push(JSON.parse(payload));
+      if (typeof payload === "string") {
+        const text = JSON.parse(payload);
+        seen.talk.push(`server ${text.type}`);
+        return void seen.texts.push(text);
+      }
       if (payload[6] >= 2) return void seen.arrays.push(payload);
       const side = payload[6] === 1 ? "b" : "a";
       seen.last[side] = payload;
       seen.generations[side].push(payload.readUInt32LE(8));
       if (side === "a") seen.frames.push(Number(payload.readBigUInt64LE(16)));
     });
-    socket.on("framesent", ({ payload }) => typeof payload === "string" && seen.asked.push(JSON.parse(payload)));
+    socket.on("framesent", ({ payload }) => {
+      if (typeof payload !== "string") return;
+      const text = JSON.parse(payload);
+      seen.talk.push(`page ${text.type}`);
+      seen.asked.push(text);
+    });
   });
   await page.addInitScript(() => {
     window.violations = [];
