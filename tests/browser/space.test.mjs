@@ -235,7 +235,7 @@ for (const [drawing, webgl] of ways) test(`by ${drawing}`, async (t) => {
     });
     assert.ok(truth.filter(([r, g, b]) => Math.abs(r - 64) < 12 && Math.abs(g - 190) < 12 && Math.abs(b - 170) < 12).length > 500, `${truth.length} places of the truth`);
     assert.ok((await differing(() => page.locator(".space-options select").first().selectOption("wire"))).length > 300, "wires");
-    if (webgl) assert.ok((await differing(() => page.locator(".space-options select").first().selectOption("solid"))).length > 3000, "surfaces");
+    if (webgl) assert.ok((await differing(() => page.locator(".space-options select").first().selectOption("solid"))).length > 1000, "surfaces");
     assert.ok((await differing(() => page.getByRole("button", { name: "Frustum", exact: true }).click())).length > 200, "the frustum");
     assert.ok((await differing(() => page.getByRole("button", { name: "Lights", exact: true }).click())).length > 50, "lights");
     assert.ok((await differing(() => page.getByRole("button", { name: "Axes", exact: true }).click())).length > 30, "axes");

@@ -108,20 +108,19 @@ export function in_eye(view: View3d, eye: Eye): number[] {
   return [eye.right, eye.down, eye.forward].flatMap((row) => [dot(row, axis(view.camera.rotation, 0)), dot(row, axis(view.camera.rotation, 1)), dot(row, axis(view.camera.rotation, 2)), dot(row, from)]);
 }
 
-/** The object that a ray from the eye meets first (Möller, Trumbore). Triangles are in their object's own axes, and so is the ray for each. */
+/** The object that a ray from the eye meets first (Möller, Trumbore); an endless plane, such as a room's wall, only where it meets no other. Triangles are in their object's own axes, and so is the ray for each. */
 export function object_along({ triangles: t, triangle_objects: objects }: Static3d, view: View3d, eye: Triple, way: Triple): number | undefined {
-  let nearest = Infinity;
-  let found: number | undefined;
-  let own: { id: number; from: Triple; direction: Triple } | undefined;
+  const met = { bounded: { far: Infinity, id: undefined as number | undefined }, endless: { far: Infinity, id: undefined as number | undefined } };
+  let own: { id: number; from: Triple; direction: Triple; kind: keyof typeof met } | undefined;
   const at = (k: number): Triple => [t[k]!, t[k + 1]!, t[k + 2]!];
   for (let i = 0; i < objects.length; ++i) {
     if (own?.id !== objects[i]) {
       const of = view.objects.find((one) => one.id === objects[i]);
       if (of === undefined) continue;
-      own = { id: of.id, from: turned_back(of.rotation, minus_of(eye, of.position)), direction: turned_back(of.rotation, way) };
+      own = { id: of.id, from: turned_back(of.rotation, minus_of(eye, of.position)), direction: turned_back(of.rotation, way), kind: of.bounds === null ? "endless" : "bounded" };
     }
     if (own === undefined) continue;
-    const { from, direction } = own;
+    const { from, direction, kind } = own;
     const a = at(9 * i);
     const [ab, ac] = [minus_of(at(9 * i + 3), a), minus_of(at(9 * i + 6), a)];
     const p = cross(direction, ac);
@@ -134,9 +133,9 @@ export function object_along({ triangles: t, triangle_objects: objects }: Static
     const v = dot(direction, q) / det;
     if (v < 0 || u + v > 1) continue;
     const far = dot(ac, q) / det;
-    if (far > 1e-6 && far < nearest) [nearest, found] = [far, objects[i]];
+    if (far > 1e-6 && far < met[kind].far) met[kind] = { far, id: own.id };
   }
-  return found;
+  return met.bounded.id ?? met.endless.id;
 }
 
 // --- Lines: what both draw alike ---

@@ -250,7 +250,7 @@ class GpuStage implements Stage3d {
     for (const one of this.all) {
       const at = view?.objects.find((object) => object.id === one.id);
       one.wire.visible = at !== undefined;
-      one.solid.visible = at !== undefined && options.scene === "solid";
+      one.solid.visible = at !== undefined && options.scene === "solid" && at.bounds !== null;   // endless planes would hide what is before them
       if (at === undefined) continue;
       for (const drawn of [one.wire, one.solid]) set_pose(drawn, at.position, at.rotation);
     }
