@@ -429,3 +429,14 @@ test("fingers: one turns, two bring nearer and move", async () => {
   assert.ok(near.near < 0.5 * turned.near, `${near.near}, before ${turned.near}`);
   assert.deepEqual(near.forward, turned.forward);
 });
+
+test("a file that cannot be fetched is told, and the processor draws", async () => {
+  const { url } = await view(words);
+  const tab = await shown(url, { webgl: true, before: (page) => page.route(/view3d\.js$/, (route) => route.abort()) });
+  await stand_at(tab, 0);
+  await tab.page.locator(".pane select.shows").nth(1).selectOption("3D points");
+  await tab.page.getByText("view3d.js could not be fetched: drawn by the processor").waitFor();
+  await until(() => tab.arrays.length > 0, "rays");
+  await tab.page.waitForTimeout(300);
+  assert.ok(drawn_places(await picture(tab)).length > 3000);
+});

@@ -47,10 +47,6 @@ export class Following<Q, A extends Answer> {
     this.answer.value = this.fault.value = undefined;
   }
 
-  get waits(): boolean {
-    return this.asked !== undefined;
-  }
-
   private look(): void {
     const of = this.question.value;
     if (of === undefined || link.value !== "open" || !this.read()) return;

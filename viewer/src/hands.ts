@@ -34,7 +34,7 @@ function of_side(side: Side) {
 }
 
 /** The list with what a gesture says in it: a key that is there keeps its place. */
-export function with_sets(overrides: readonly Override[], { sets, unsets = [] }: Pick<Sets, "sets" | "unsets">): Override[] {
+function with_sets(overrides: readonly Override[], { sets, unsets = [] }: Pick<Sets, "sets" | "unsets">): Override[] {
   const out = overrides.filter((one) => !unsets.includes(one.key));
   for (const { key, text } of sets) {
     const at = out.map((one) => one.key).lastIndexOf(key);

@@ -28,7 +28,7 @@ export interface Eye {
   far: number;
 }
 
-export const half_height = Math.tan((22.5 * Math.PI) / 180);   // of the picture at depth 1
+const half_height = Math.tan((22.5 * Math.PI) / 180);   // of the picture at depth 1
 const steepest = 0.49 * Math.PI;
 
 export function plus(a: Triple, b: Triple, by = 1): Triple {

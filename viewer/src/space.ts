@@ -21,7 +21,7 @@ export const selected = signal<number | undefined>(undefined);   // an object's 
 export const through = signal(false);
 export const orbit = signal<Orbit | undefined>(undefined);       // undefined: as chosen from the camera
 
-export const space_shown = computed(() => shown.value.some((name) => cloud_color(name) !== undefined));
+const space_shown = computed(() => shown.value.some((name) => cloud_color(name) !== undefined));
 
 /** A 3D pane shows one state: that which controls change, or the one that flipping shows; B while its key is held down. */
 export const space_side = computed<Side>(() => (other.value === undefined ? "a" : comparing.value === "flip" ? (flipped.value ? "b" : "a") : flipped.value ? "b" : edited.value));

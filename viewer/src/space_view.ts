@@ -112,9 +112,11 @@ export class SpaceView {
   }
 
   private async by_gpu(): Promise<void> {
+    const loaded = await import("./view3d").catch(() => undefined);
+    if (this.gone) return;
+    if (loaded === undefined) return this.by_processor("view3d.js could not be fetched: drawn by the processor");
     try {
-      const { gpu_stage } = await import("./view3d");
-      if (this.gone) return;
+      const { gpu_stage } = loaded;
       const fresh = gpu_stage(this.gpu, this.inner, draw_soon, {
         begin: () => begin_move(space_side.peek()),
         move: (position, rotation) => {
@@ -125,7 +127,7 @@ export class SpaceView {
       });
       this.use(fresh, "WebGL", "");
     } catch {
-      if (!this.gone) this.by_processor("no WebGL: drawn by the processor");
+      this.by_processor("no WebGL: drawn by the processor");
     }
   }
 

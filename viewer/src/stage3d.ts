@@ -153,8 +153,8 @@ export function wire_opacity(triangles: number): number {
 }
 
 export const truth_color: Rgb = [64, 190, 170];
-export const axis_colors: readonly Rgb[] = [[240, 110, 100], [90, 190, 110], [110, 150, 255]];
-export const axis_names = ["x right", "y down", "z forward"] as const;
+const axis_colors: readonly Rgb[] = [[240, 110, 100], [90, 190, 110], [110, 150, 255]];
+const axis_names = ["x right", "y down", "z forward"] as const;
 
 export interface Line3d {
   a: Triple;

@@ -20,9 +20,6 @@ declare module "three" {
     makePerspective(left: number, right: number, top: number, bottom: number, near: number, far: number): this;
     makeRotationFromQuaternion(of: Quaternion): this;
   }
-  export class Color {
-    setRGB(r: number, g: number, b: number): this;
-  }
   export class Object3D {
     position: Vector3;
     quaternion: Quaternion;
