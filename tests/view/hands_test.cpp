@@ -133,11 +133,18 @@ class Hands {
 /// KEY of each of `sets`, in order.
 std::string keys_of(const Json& answer) {
   std::string out;
+  if (answer.find("sets") == nullptr) return files::json_text(answer);
   for (const Json& one : *answer.find("sets")->items()) out += *one.find("key")->string() + " ";
   return out;
 }
-std::string first_text(const Json& answer) { return *(*answer.find("sets")->items())[0].find("text")->string(); }
-std::string text_of(const Json& fault) { return *fault.find("text")->string() + " " + *fault.find("more")->string(); }
+std::string first_text(const Json& answer) {
+  return answer.find("sets") == nullptr ? "" : *(*answer.find("sets")->items())[0].find("text")->string();
+}
+/// What a fault says; nothing where it is none.
+std::string text_of(const Json& fault) {
+  const Json *text = fault.find("text"), *more = fault.find("more");
+  return text == nullptr || more == nullptr ? "" : *text->string() + " " + *more->string();
+}
 
 constexpr int gift = 25, ball = 26;
 
