@@ -206,7 +206,7 @@ TEST(pixel, has_curves_through_what_is_expected_or_with_bounces_through_what_was
 
 TEST(pixel, is_one_of_the_frame_that_the_page_got_last) {
   NEEDS_THE_VIEWER;
-  const Viewer viewer({"card"});
+  const Viewer viewer({"card", "--set", weak});
   Greeted slow(viewer), quick(viewer);
   slow.page.want("\"z_m\"", "\"max\"");
   const auto first = slow.page.frame(), second = slow.page.frame();  // and no more: they are not acknowledged
@@ -215,8 +215,11 @@ TEST(pixel, is_one_of_the_frame_that_the_page_got_last) {
   ASSERT_TRUE(quick.page.frame_with([&](const WireFrame& one) { return one.frame > second->frame + 4; }));
   const Json pixel = slow.page.answer(R"({"type":"pixel","id":1,"u":13,"v":10})", "pixel");
   EXPECT_EQ(number_in(pixel, "frame"), static_cast<double>(second->frame));
-  const Json region = slow.page.answer(R"({"type":"region","id":1,"region":[1,1,5,5]})", "region");
-  EXPECT_EQ(number_in(region, "frame"), static_cast<double>(second->frame));
+  const double z = static_cast<double>(little<float>(second->arrays.at(number_of(slow.hello, "z_m")), 4 * (10 * 28 + 13)));
+  EXPECT_EQ(number_in(*pixel.find("report")->find("depth"), "z_m"), z);
+  const Json measure = slow.page.answer(R"({"type":"measure","id":1,"a":[13,10],"b":[14,10]})", "measure");
+  EXPECT_EQ(number_in(measure, "frame"), static_cast<double>(second->frame));
+  EXPECT_EQ(three(*measure.find("a")->find("measured"))[2], z);
 }
 
 double sum_of(const Json& why) {
