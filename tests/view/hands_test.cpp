@@ -133,11 +133,18 @@ class Hands {
 /// KEY of each of `sets`, in order.
 std::string keys_of(const Json& answer) {
   std::string out;
+  if (answer.find("sets") == nullptr) return files::json_text(answer);
   for (const Json& one : *answer.find("sets")->items()) out += *one.find("key")->string() + " ";
   return out;
 }
-std::string first_text(const Json& answer) { return *(*answer.find("sets")->items())[0].find("text")->string(); }
-std::string text_of(const Json& fault) { return *fault.find("text")->string() + " " + *fault.find("more")->string(); }
+std::string first_text(const Json& answer) {
+  return answer.find("sets") == nullptr ? "" : *(*answer.find("sets")->items())[0].find("text")->string();
+}
+/// What a fault says; nothing where it is none.
+std::string text_of(const Json& fault) {
+  const Json *text = fault.find("text"), *more = fault.find("more");
+  return text == nullptr || more == nullptr ? "" : *text->string() + " " + *more->string();
+}
 
 constexpr int gift = 25, ball = 26;
 
@@ -178,6 +185,7 @@ TEST(drag, goes_on_from_where_it_began_whatever_was_set_on_the_way) {
       hands.page().answer(R"({"type":"drag","id":8,"object":26,"from":[)" + std::to_string(u) + "," + std::to_string(v) + R"(],"to":[)" +
                               std::to_string(u + 24) + "," + std::to_string(v) + R"(],"how":"parallel","base":1})",
                           "drag");
+  ASSERT_EQ(*on.find("type")->string(), "drag") << files::json_text(on);
   EXPECT_EQ(files::json_text(*on.find("sets")), files::json_text(*once.find("sets")));
   hands.apply(on);
   EXPECT_EQ(hands.object(u + 24, v), ball);
@@ -282,6 +290,27 @@ TEST(drag, of_what_moves_evenly_keeps_its_velocity) {
   hands.apply(answer);
   ASSERT_EQ(hands.object(u - 25, v + 10), 1);
   EXPECT_NEAR(hands.z(u - 25, v + 10), z, 1e-5);
+}
+
+TEST(drag, of_a_piece_of_a_mesh_moves_all_of_it) {
+  NEEDS_THE_VIEWER;
+  const Folder folder;
+  std::ofstream(folder / "two.mtl") << "newmtl left\n#!nir_reflectivity 0.5\nnewmtl right\n#!nir_reflectivity 0.7\n";
+  std::ofstream(folder / "two.obj") << "mtllib two.mtl\nv -0.3 -0.2 0\nv 0 -0.2 0\nv 0 0.2 0\nv -0.3 0.2 0\nv 0.3 -0.2 0\nv 0.3 0.2 0\n"
+                                       "usemtl left\nf 1 2 3 4\nusemtl right\nf 2 5 6 3\n";
+  std::ofstream(folder / "two.yaml") << "camera: {profile: pico-flexx, mode: MODE_9_5FPS_2000}\nobjects:\n"
+                                        "  - mesh: {file: two.obj, name: card, up: none, position: [0, 0, 1]}\n";
+  Hands hands({(folder / "two.yaml").native()});
+  const auto [left_u, left_v] = hands.middle_of(0);
+  const auto [right_u, right_v] = hands.middle_of(1);
+  const int u = static_cast<int>(right_u), v = static_cast<int>(right_v);
+  ASSERT_EQ(hands.object(u, v), 1);
+  const Json answer = hands.drag(0, u, v, 10, 5, "parallel");  // taken at the other piece
+  EXPECT_EQ(keys_of(answer), "objects.0.mesh.position ");
+  hands.apply(answer);
+  EXPECT_NEAR(hands.middle_of(0).first, left_u + 10, 1);
+  EXPECT_NEAR(hands.middle_of(1).first, right_u + 10, 1);
+  EXPECT_NEAR(hands.middle_of(1).second, right_v + 5, 1);
 }
 
 TEST(place, makes_exactly_the_pose_that_was_asked_for) {

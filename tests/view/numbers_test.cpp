@@ -13,7 +13,7 @@ namespace {
 using files::Json;
 
 /// The large pixels of the small sensor would be saturated.
-const std::string weak = "camera.lens.f_number=6";
+const std::string weak_light = "camera.lens.f_number=6";
 
 /// A frame's arrays as numbers.
 class Arrays {
@@ -45,7 +45,7 @@ bool is_valid(float z, std::uint16_t flags) { return std::isfinite(z) && z > 0 &
 
 TEST(measure, is_the_distance_of_the_frame_s_points_measured_and_true) {
   NEEDS_THE_VIEWER;
-  const Viewer viewer({"demo", "--seed", "3", "--set", weak});
+  const Viewer viewer({"demo", "--seed", "3", "--set", weak_light});
   Greeted one(viewer);
   const Arrays arrays = shown(one, 2);
   const auto points = arrays.of<float>("points_m"), truth = arrays.of<float>("gt_position_m"), noise = arrays.of<float>("noise_m");
@@ -117,14 +117,14 @@ const Json* row_of(const Json& region, const std::string& name) {
 
 TEST(region, has_the_numbers_of_tofray_quality) {
   NEEDS_THE_VIEWER;
-  const Viewer viewer({"demo", "--seed", "5", "--set", weak});
+  const Viewer viewer({"demo", "--seed", "5", "--set", weak_light});
   Greeted one(viewer);
   const Arrays arrays = shown(one, 1);
   const Json region = one.page.answer(R"({"type":"region","id":4,"region":[2,3,11,17]})", "region");
   ASSERT_EQ(*region.find("type")->string(), "region") << files::json_text(region);
   const Folder folder;
-  const Result rendered = run(with_small_sensor(
-      {"render", "demo", "--seed", "5", "--set", weak, "--first-frame", "1", "-o", (folder / "out").native(), "--emit", "npz", "-q"}));
+  const Result rendered = run(with_small_sensor({"render", "demo", "--seed", "5", "--set", weak_light, "--first-frame", "1", "-o",
+                                                 (folder / "out").native(), "--emit", "npz", "-q"}));
   ASSERT_EQ(rendered.code, 0) << rendered.err;
   std::string file;
   for (const auto& entry : fs::recursive_directory_iterator(folder / "out"))
@@ -280,7 +280,7 @@ TEST(temporal, is_the_sigma_of_the_frames_one_by_one) {
 
 TEST(temporal, of_200_frames_is_as_large_as_the_camera_estimates_though_things_move) {
   NEEDS_THE_VIEWER;
-  const Viewer viewer({"flying-ball", "--set", weak});
+  const Viewer viewer({"flying-ball", "--set", weak_light});
   Greeted one(viewer);
   const Arrays arrays = shown(one, 5);
   const auto z = arrays.of<float>("gt_z_m");

@@ -112,9 +112,9 @@ TEST(pixel, has_curves_that_go_through_its_samples_where_nothing_is_noise) {
 
 TEST(pixel, flows_with_each_of_the_report_s_numbers_in_its_place) {
   NEEDS_THE_VIEWER;
-  const Viewer viewer({"card", "--seed", "2", "--set", weak});
+  const Viewer viewer({"corner", "--seed", "2", "--set", weak, "--bounces", "1", "--samples", "16"});
   Greeted one(viewer);
-  const Json pixel = pixel_of(one, R"("u":13,"v":10)");
+  const Json pixel = pixel_of(one, R"("u":16,"v":9)");
   const Json& report = *pixel.find("report");
   struct Place {
     const char *stage, *name, *of;
@@ -141,6 +141,8 @@ TEST(pixel, flows_with_each_of_the_report_s_numbers_in_its_place) {
     for (std::size_t k = 0; k < raw.size(); ++k)
       if (double value = 0; raw[k].find(one_place.of)->number(value)) near(number(list[k]), value, one_place);
   }
+  EXPECT_GT(number_in(raw[1], "indirect_e"), 0) << "light bounces";
+  EXPECT_NE(point[0], point[1]);
   const double turn = 2 * pi;
   for (int k = 0; k < 2; ++k) {
     const Json& phase = (*report.find("phases")->items())[static_cast<std::size_t>(k)];
@@ -180,11 +182,12 @@ TEST(pixel, has_curves_through_what_is_expected_or_with_bounces_through_what_was
   NEEDS_THE_VIEWER;
   std::map<std::size_t, double> truth;
   for (const bool bounces : {false, true}) {
-    Arguments words{"card", "--seed", "2", "--set", weak};
-    if (bounces) words.insert(words.end(), {"--bounces", "1", "--samples", "4"});
+    Arguments words{"corner", "--seed", "2", "--set", weak};
+    if (bounces) words.insert(words.end(), {"--bounces", "1", "--samples", "16"});
     const Viewer viewer(words);
     Greeted one(viewer);
     const Json pixel = pixel_of(one, R"("u":13,"v":10)");
+    ASSERT_EQ(pixel.find("phasors")->items()->size(), 2u);
     for (std::size_t k = 0; k < 2; ++k) {
       const Json& phasor = (*pixel.find("phasors")->items())[k];
       const auto [i, q] = phasor_of((*pixel.find("curve")->items())[k]);
@@ -203,7 +206,7 @@ TEST(pixel, has_curves_through_what_is_expected_or_with_bounces_through_what_was
 
 TEST(pixel, is_one_of_the_frame_that_the_page_got_last) {
   NEEDS_THE_VIEWER;
-  const Viewer viewer({"card"});
+  const Viewer viewer({"card", "--set", weak});
   Greeted slow(viewer), quick(viewer);
   slow.page.want("\"z_m\"", "\"max\"");
   const auto first = slow.page.frame(), second = slow.page.frame();  // and no more: they are not acknowledged
@@ -212,8 +215,11 @@ TEST(pixel, is_one_of_the_frame_that_the_page_got_last) {
   ASSERT_TRUE(quick.page.frame_with([&](const WireFrame& one) { return one.frame > second->frame + 4; }));
   const Json pixel = slow.page.answer(R"({"type":"pixel","id":1,"u":13,"v":10})", "pixel");
   EXPECT_EQ(number_in(pixel, "frame"), static_cast<double>(second->frame));
-  const Json region = slow.page.answer(R"({"type":"region","id":1,"region":[1,1,5,5]})", "region");
-  EXPECT_EQ(number_in(region, "frame"), static_cast<double>(second->frame));
+  const double z = static_cast<double>(little<float>(second->arrays.at(number_of(slow.hello, "z_m")), 4 * (10 * 28 + 13)));
+  EXPECT_EQ(number_in(*pixel.find("report")->find("depth"), "z_m"), z);
+  const Json measure = slow.page.answer(R"({"type":"measure","id":1,"a":[13,10],"b":[14,10]})", "measure");
+  EXPECT_EQ(number_in(measure, "frame"), static_cast<double>(second->frame));
+  EXPECT_EQ(three(*measure.find("a")->find("measured"))[2], z);
 }
 
 double sum_of(const Json& why) {

@@ -187,7 +187,7 @@ struct OfFrame {
   std::uint16_t phases;
 };
 
-std::string message(const WireHead& head, const OfFrame& frame, std::vector<Part> parts) {
+std::string message_of(const WireHead& head, const OfFrame& frame, std::vector<Part> parts) {
   std::size_t end = head_bytes + row_bytes * parts.size();
   for (Part& part : parts) part.place = aligned(end), end = part.place + part.view.bytes;
   if (end > most_bytes)
@@ -223,14 +223,14 @@ std::string encoded(const WireHead& head, const Frame& frame, std::span<const st
       parts.push_back({one, wire_arrays()[one].type_number, view});
   const std::uint32_t width = width_of(frame), height = width == 0 ? 0u : static_cast<std::uint32_t>(pixels_of(frame) / width);
   const int phases = std::max({frame.raw.phases, frame.truth.phases, static_cast<int>(frame.raw.lit.size())});
-  return message(head, {frame.index, width, height, static_cast<std::uint16_t>(phases)}, std::move(parts));
+  return message_of(head, {frame.index, width, height, static_cast<std::uint16_t>(phases)}, std::move(parts));
 }
 
 std::string encoded(const WireHead& head, std::uint64_t frame, std::uint32_t width, std::uint32_t height,
                     std::span<const StaticArray> arrays) {
   std::vector<Part> parts;
   for (const StaticArray& one : arrays) parts.push_back({static_cast<std::uint16_t>(parts.size()), one.type_number, one.view});
-  return message(head, {frame, width, height, 0}, std::move(parts));
+  return message_of(head, {frame, width, height, 0}, std::move(parts));
 }
 
 }  // namespace tofray::view
