@@ -440,3 +440,38 @@ test("a file that cannot be fetched is told, and the processor draws", async () 
   await tab.page.waitForTimeout(300);
   assert.ok(drawn_places(await picture(tab)).length > 3000);
 });
+
+test("handles turn a box about its centre: its rotation is set, and stays one; its position stays", async () => {
+  const { tab, page } = await points(true);
+  const chosen = last_view(tab).objects.find((one) => one.kind === "box" && one.movable);
+  await page.locator(".object-choice").selectOption(String(chosen.id));
+  await page.getByRole("button", { name: "Turn it" }).click();
+  await page.waitForTimeout(300);
+  const of = await picture(tab);
+  const box = await page.locator(".stage.space").boundingBox();
+  const at = seen(of, of.eye, chosen.position);
+  await page.mouse.move(box.x + at.x + 3, box.y + at.y + 3);
+  await page.waitForTimeout(100);
+  await page.mouse.down();
+  await page.mouse.move(box.x + at.x + 33, box.y + at.y + 3, { steps: 4 });
+  await page.mouse.up();
+  await until(() => tab.asked.some((one) => one.type === "place"), "a place");
+  const places = tab.asked.filter((one) => one.type === "place");
+  assert.ok(places.every((one) => one.position === null && one.rotation !== null && one.object === chosen.id), JSON.stringify(places.at(-1)));
+  await settled(tab);
+  const now = () => last_view(tab).objects.find((one) => one.id === chosen.id);
+  await until(() => Math.abs(now().rotation[0][2]) > 0.02, "the box turned");
+  await page.waitForTimeout(300);
+  now().position.forEach((one, k) => assert.ok(Math.abs(one - chosen.position[k]) < 1e-6, `it is at ${now().position}`));
+  const rows = now().rotation;
+  rows.forEach((a, i) => rows.forEach((b, j) => assert.ok(Math.abs(dot(a, b) - (i === j ? 1 : 0)) < 1e-6, "a rotation")));
+  // Its front went to the right, as the pointer did.
+  const front = of.eye.forward.map((one) => -0.1 * one);
+  const own = [0, 1, 2].map((k) => dot(chosen.rotation.map((row) => row[k]), front));
+  const turned = rows.map((row) => dot(row, own));
+  const [x0, x1] = [front, turned].map((offset) => seen(of, of.eye, chosen.position.map((one, k) => one + offset[k])).x);
+  assert.ok(x1 > x0 + 2, `the front went from ${x0} to ${x1}`);
+  const { overrides, past } = await page.evaluate(() => ({ overrides: window.tofray.overrides, past: window.tofray.steps.past }));
+  assert.ok(overrides.length >= 1 && overrides.every((one) => one.key.startsWith(`${chosen.key}.`)), JSON.stringify(overrides));
+  assert.equal(past, 1);
+});
