@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The tofray authors
 // SPDX-License-Identifier: Apache-2.0
-// The pictures of docs/viewer.md, from the viewer itself, viewer.png, viewer_ab.png and viewer_why.png:
+// The pictures of docs/viewer.md, from the viewer itself, viewer.png, viewer_ab.png, viewer_why.png, viewer_3d.png and
+// viewer_measure.png:
 //   TOFRAY=build/release/apps/tofray/tofray TOFRAY_PAGE_PACKAGES=build/release/viewer node tools/viewer_picture.mjs docs/images
 
 import { test } from "node:test";
@@ -10,9 +11,9 @@ import { beside, drawn, point_at, set, settled, shown, stand_at, view } from "..
 const [out] = process.argv.slice(2);
 if (out === undefined) throw new Error("node tools/viewer_picture.mjs FOLDER");
 
-async function start(colorScheme, words = ["demo"]) {
+async function start(colorScheme, words = ["demo"], webgl = false) {
   const { url } = await view([...words, "--seed", "1"]);
-  const tab = await shown(url, { viewport: { width: 1280, height: 760 }, colorScheme, reducedMotion: "reduce" });
+  const tab = await shown(url, { viewport: { width: 1280, height: 760 }, colorScheme, reducedMotion: "reduce", webgl });
   await stand_at(tab, 0);
   return tab;
 }
@@ -60,4 +61,39 @@ test("a region's error by cause, beside depth and all raw frames", async () => {
   await page.keyboard.press("e");
   await page.locator("[data-why-of]").waitFor();
   await take(tab, "viewer_why.png");
+});
+
+test("points in space", async () => {
+  const tab = await start("dark", ["demo"], true);
+  const { page } = tab;
+  await page.locator(".stage").nth(1).focus();
+  await page.keyboard.press("x");
+  await page.locator('.stage.space[data-drawing="WebGL"]').waitFor();
+  await page.locator(".pane select.cloud-color").selectOption("z_m");
+  await page.getByRole("button", { name: "Truth" }).click();
+  await page.locator(".object-choice option").nth(3).waitFor({ state: "attached" });
+  await page.locator(".object-choice").selectOption({ label: "chest" });
+  await page.getByRole("button", { name: "Move it" }).click();
+  await page.locator(".stage.space").focus();
+  for (const key of ["+", "+", "ArrowUp", "Shift+ArrowLeft"]) await page.keyboard.press(key);
+  await page.waitForTimeout(500);
+  await point_at(tab, 112, 60);
+  await take(tab, "viewer_3d.png");
+});
+
+test("a distance and a rectangle", async () => {
+  const tab = await start("light");
+  const { page } = tab;
+  await page.locator(".stage").first().focus();
+  await point_at(tab, 112, 80);
+  await page.keyboard.press("m");
+  await point_at(tab, 176, 133);
+  await page.keyboard.press("m");
+  await point_at(tab, 160, 14);
+  await page.keyboard.press("g");
+  await point_at(tab, 212, 62);
+  await page.keyboard.press("g");
+  await page.locator("[data-region]").waitFor();
+  await point_at(tab, 60, 160);
+  await take(tab, "viewer_measure.png");
 });

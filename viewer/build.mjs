@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Builds the page: node build.mjs PACKAGES OUT
 //   PACKAGES  the folder whose node_modules was made by `npm ci` out of the lock file
-//   OUT       gets index.html, main.js, main.css, icon.svg, THIRD-PARTY.txt
+//   OUT       gets index.html, main.js, view3d.js, main.css, icon.svg, THIRD-PARTY.txt
 // The same sources and packages give the same bytes, wherever they are. A file that would not change is left alone.
 
 import { existsSync, mkdirSync, readFileSync, readdirSync, writeFileSync } from "node:fs";
@@ -26,9 +26,20 @@ const from_packages = {
   },
 };
 
+// What draws by the GPU is a file of its own, which a page fetches when somebody looks at it. (Shares no state with the page: no splitting.)
+const apart = {
+  name: "apart",
+  setup(builder) {
+    builder.onResolve({ filter: /^\.\/view3d$/ }, ({ kind, importer }) => {
+      if (kind !== "dynamic-import") throw new Error(`${importer}: view3d has to be imported when it is needed`);
+      return { path: "./view3d.js", external: true };
+    });
+  },
+};
+
 const result = await build({
   absWorkingDir: source,
-  entryPoints: ["main.tsx", "main.css"],
+  entryPoints: ["main.tsx", "view3d.ts", "main.css"],
   outdir: out,
   write: false,
   bundle: true,
@@ -37,7 +48,7 @@ const result = await build({
   jsx: "automatic",
   jsxImportSource: "preact",
   tsconfigRaw: {},
-  plugins: [from_packages],
+  plugins: [apart, from_packages],
   minify: true,
   legalComments: "none",   // all of them are in THIRD-PARTY.txt
   charset: "utf8",

@@ -11,6 +11,7 @@
 #include <map>
 #include <set>
 
+#include "analysis/stand.h"
 #include "base/constants.h"
 #include "base/text.h"
 #include "base/units.h"
@@ -281,11 +282,10 @@ void find_beyond(const Seen& seen, SceneReport& report) {
 std::string name_of(const Scene& scene, int object) {
   const Object& one = scene.objects[static_cast<std::size_t>(object)];
   const std::string key = one.key.empty() ? fmt::format("objects.{}", object) : one.key;
-  static constexpr const char* kinds[] = {"plane", "sphere", "box", "triangle", "cylinder", "rectangle", "disk", "capsule", "cone", "mesh"};
   std::string name = one.name;
   if (const auto* mesh = std::get_if<Mesh>(&one.shape); mesh != nullptr && name.empty())
     name = std::filesystem::path(mesh->file).filename().string();
-  if (name.empty()) name = kinds[one.shape.index()];
+  if (name.empty()) name = kind_of(one);
   return fmt::format("{} ({})", key, base::printable(name.substr(0, 60)));
 }
 

@@ -10,6 +10,7 @@
 #include "support/pixels.h"
 #include "tofray/causes.h"
 #include "tofray/error.h"
+#include "tofray/pixel.h"
 
 using namespace tofray;
 using namespace tofray::test;
@@ -171,6 +172,41 @@ TEST(error_causes, weak_light_makes_wrong_cycles_and_what_is_left_is_noise_withi
       EXPECT_NEAR(split.rest_m, 0, 0.01);
     }
   EXPECT_GT(wrong, 0) << "the light is too strong for the test";
+}
+
+TEST(error_causes, a_wrong_cycle_counts_along_the_ray_in_corners_too) {
+  Camera camera = camera_of_two();
+  camera.lens.fx_px = camera.lens.fy_px = 9;
+  camera.illumination[0].power_w = 0.01, camera.pixel.read_noise_e = 4;
+  const Scene scene = wall(2.2, 0.5);
+  const Frame frame = Simulator(scene, camera, quiet(Noise::exact)).frame(0);
+  int wrong = 0;
+  for (int v = 0; v < 13; ++v)
+    for (int u = 0; u < 17; ++u) {
+      const PixelChain chain = pixel_chain(frame, camera, u, v);
+      const double cosine = chain.z_m / chain.range_m;
+      if (!(std::abs(chain.z_m - chain.true_z_m) > 1) || !(cosine < 0.85) || chain.candidates.empty() || wrong == 3) continue;
+      ++wrong;
+      double nearest = 1e9;
+      for (const UnwrapCandidate& one : chain.candidates)
+        if (std::abs(one.range_m - chain.true_range_m) < std::abs(nearest - chain.true_range_m)) nearest = one.range_m;
+      const ErrorSplit split = error_causes(scene, camera, quiet(Noise::exact), 0, {u, v, u, v});
+      EXPECT_NEAR(share_of(split, "wrong_cycle"), (chain.candidates.front().range_m - nearest) * cosine, 1e-4) << u << "," << v;
+    }
+  EXPECT_GT(wrong, 0) << "no pixel aside is on a wrong cycle";
+}
+
+TEST(error_causes, motion_is_off_at_the_time_of_the_truth) {
+  Scene scene;
+  scene.materials = wall(2, 0.5).materials;
+  Object ball = object(Sphere{{-1, 0, 2}, 0.3});
+  ball.velocity_m_per_s = {1, 0, -0.3};
+  scene.objects = {ball};
+  const Camera camera = camera_of_two();
+  const auto index = static_cast<std::uint64_t>(camera.mode.frame_rate_hz);  // after a second it is on the axis; before, nothing is there
+  const ErrorSplit split = error_causes(scene, camera, quiet(), index, {8, 6, 8, 6});
+  ASSERT_EQ(split.valid, 1);
+  EXPECT_TRUE(std::isfinite(share_of(split, "motion")));
 }
 
 TEST(error_causes, a_pixel_on_an_edge_is_mixed) {

@@ -110,6 +110,66 @@ for (const colorScheme of ["dark", "light"]) {
   });
 }
 
+/** Points in space, a distance, a rectangle's numbers, and 200 frames'. */
+async function measure_all(tab) {
+  const { page } = tab;
+  await stand_at(tab, 0);
+  await page.locator(".pane select.shows").nth(1).selectOption("3D points");
+  await page.locator(".stage.space:not([data-drawing=loading])").waitFor();
+  await page.locator(".object-choice option").nth(3).waitFor({ state: "attached" });
+  await page.locator(".object-choice").selectOption({ index: 3 });
+  await page.getByRole("button", { name: "Lights", exact: true }).click();
+  await page.locator(".stage").first().focus();
+  await page.keyboard.press("ArrowRight");
+  await page.keyboard.press("m");
+  await page.keyboard.press("Shift+ArrowDown");
+  await page.keyboard.press("m");
+  await page.keyboard.press("g");
+  await page.keyboard.press("Shift+ArrowDown");
+  await page.keyboard.press("Shift+ArrowRight");
+  await page.keyboard.press("g");
+  await page.keyboard.press("n");
+  await page.keyboard.press("d");
+  for (const one of ["[data-measure]", "[data-region]", "[data-temporal]"]) await page.locator(one).waitFor();
+}
+
+for (const colorScheme of ["dark", "light"]) {
+  test(`axe-core finds nothing in the ${colorScheme} page with points in space, a distance, a rectangle and the noise over time`, async () => {
+    const { url } = await view(["demo", "--seed", "5"]);
+    const tab = await shown(url, { colorScheme, reducedMotion: "reduce" });
+    const { page } = tab;
+    await measure_all(tab);
+    assert.deepEqual(await violations(tab), []);
+    await page.getByRole("button", { name: "Show σ and σ̂" }).click();
+    await page.locator(".stage").first().focus();
+    await page.keyboard.press("m");
+    await page.getByText("the other end?").waitFor();
+    await page.getByRole("button", { name: "A | B", exact: true }).click();
+    await page.locator(".compare-bar").waitFor();
+    assert.deepEqual(await violations(tab), [], "half measured, σ and σ̂, two states");
+  });
+}
+
+for (const [what, viewport] of [["320 CSS pixels wide", { width: 320, height: 640 }], ["zoomed to 200 %", { width: 640, height: 450 }], ["in a usual window", { width: 1280, height: 760 }]]) {
+  test(`${what}, points in space and all that is measured are not cut, and nothing has to be scrolled sideways`, async () => {
+    const { url } = await view(["demo", "--seed", "5"]);
+    const tab = await shown(url, { viewport, webgl: true });   // which has more buttons
+    const { page } = tab;
+    await measure_all(tab);
+    assert.equal(await page.evaluate(() => document.documentElement.scrollWidth), viewport.width);
+    const outside = await page.evaluate(() => [...document.querySelectorAll("button, select, input, .stage, table, th, td, progress, .figure")]
+      .filter((one) => one.checkVisibility() && one.closest(".wide, .unseen, dialog") === null)
+      .filter((one) => {
+        const [box, within] = [one, one.closest(".panel, .pane, header, footer, .compare-bar")].map((of) => of.getBoundingClientRect());
+        return box.width > 0 && (box.right > within.right + 0.5 || box.left < within.left - 0.5);
+      }).map((one) => one.outerHTML.slice(0, 200)));
+    assert.deepEqual(outside, []);
+    const folded = await page.evaluate(() => [...document.querySelectorAll(".panel td, .panel button, .pane button, .tool-bar button")].filter((one) => one.checkVisibility() && one.scrollWidth > one.clientWidth + 1 && one.clientWidth > 0)
+      .map((one) => one.outerHTML.slice(0, 200)));
+    assert.deepEqual(folded, [], "wider than its place");
+  });
+}
+
 /** The rows of a table of docs/viewer.md, by the word over its first column. */
 function table(word) {
   const text = readFileSync(new URL("../../docs/viewer.md", import.meta.url), "utf8");
@@ -134,6 +194,8 @@ test("the help lists the keys as docs/viewer.md does, leaves the focus where it 
   const said = await page.getByRole("dialog").locator("dl").first().locator("div").evaluateAll((rows) => rows.map((row) => [...row.children].map((one) => one.textContent)));
   assert.deepEqual(said, table("key"));
   assert.ok(said.length >= 10);
+  const in_space = await page.getByRole("dialog").locator("dl.space-keys > div").evaluateAll((rows) => rows.map((row) => [...row.children].map((one) => one.textContent)));
+  assert.deepEqual(in_space, table("key in 3D"));
   await page.keyboard.press(".");
   await page.keyboard.press("Escape");
   await page.getByRole("dialog").waitFor({ state: "hidden" });

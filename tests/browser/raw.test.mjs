@@ -5,7 +5,7 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { color } from "./colors.mjs";
-import { canvas_pixels, drawn, pane, point_at, rendered, same, set, shown, stand_at, view } from "./viewer.mjs";
+import { canvas_pixels, drawn, pane, point_at, rendered, same, set, shown, stand_at, view, written } from "./viewer.mjs";
 
 const words = ["demo", "--seed", "5"];
 const width = 224, height = 172, pixels = width * height;
@@ -134,6 +134,58 @@ test("a click or Enter enlarges one, r goes back to all and then to what was the
   await page.keyboard.press("r");
   await page.waitForFunction(() => window.tofray.pane(1)?.array === "amplitude_e");
   assert.equal(await page.locator(".sheet").count(), 0);
+});
+
+test("pixels that are saturated are struck through in every raw frame, large enough to be seen, and counted in words", async () => {
+  const scene = written("bright.yaml", [
+    "camera: {profile: pico-flexx, mode: MODE_9_5FPS_2000}", "objects:",
+    "  - box: {name: near, min: [-0.03, -0.02, 0.1], max: [-0.01, 0.01, 0.12], reflectivity: 0.9}",
+    "  - plane: {name: wall, point: [0, 0, 2], normal: [0, 0, -1], reflectivity: 0.3}", "",
+  ].join("\n"));
+  const all = [scene, "--seed", "5"];
+  const { url } = await view(all);
+  const tab = await shown(url);
+  const { page } = tab;
+  await stand_at(tab, 0);
+  const { flags } = rendered(all);
+  const saturated = tab.hello().invalid.find((one) => one.name === "saturated");
+  const full = [...flags.values].map((bits) => ((bits >> saturated.bit) & 1) === 1);
+  const count = full.filter((one) => one).length;
+  assert.ok(count > 100 && count < pixels / 2, String(count));
+  await page.locator(".pane select.shows").nth(1).selectOption("raw frames");
+  await page.waitForFunction(() => window.tofray.pane(1, "a", 8) !== undefined);
+  assert.equal(await page.locator("[data-saturated]").getAttribute("data-saturated"), String(count));
+  assert.match(await page.locator("[data-saturated]").textContent(), new RegExp(`^S ${count} pixels are saturated`));
+  /** Whether a picture's pixel has a mark of the reason's colour on it. */
+  const marked = (canvas, of, at) => page.evaluate(([selector, which, i, across, rgb]) => {
+    const over = document.querySelectorAll(".pane")[1].querySelectorAll(selector)[0];
+    const { scale, left, top } = which ?? { scale: over.width / across, left: 0, top: 0 };
+    const [x, y] = [left + ((i % across) + 0.5) * scale, top + (Math.floor(i / across) + 0.5) * scale];
+    const half = Math.max(1, scale / 2);
+    const { data } = over.getContext("2d").getImageData(Math.round(x - half), Math.round(y - half), Math.max(1, Math.round(2 * half)), Math.max(1, Math.round(2 * half)));
+    for (let k = 0; k < data.length; k += 4) if (data[k + 3] > 100 && rgb.every((one, c) => Math.abs(one - data[k + c]) < 40)) return true;
+    return false;
+  }, [canvas, of, at, width, saturated.color]);
+  const inside = (i) => [-1, 0, 1].every((dv) => [-1, 0, 1].every((du) => full[i + dv * width + du] === full[i]));
+  const [some, none] = [true, false].map((is) => full.map((one, i) => (one === is && i > 3 * width && i < pixels - 3 * width && inside(i) ? i : -1)).filter((i) => i >= 0));
+  const pick = (list) => Array.from({ length: 8 }, (_, k) => list[Math.floor(((k + 0.5) * list.length) / 8)]);
+  for (const i of pick(some)) assert.ok(await marked('.tile[data-raw="3"] canvas.over', undefined, i), `pixel ${i} is not marked`);
+  for (const i of pick(none)) assert.ok(!(await marked('.tile[data-raw="3"] canvas.over', undefined, i)), `pixel ${i} is marked`);
+  // One of them, enlarged; the colours below are as ever.
+  await page.locator('.tile[data-raw="2"] .stage').click();
+  await page.waitForFunction(() => window.tofray.pane(1)?.array === "raw[2]");
+  const of = await page.evaluate(() => window.tofray.placement(1));
+  for (const i of pick(some)) assert.ok(await marked("canvas.over", of, i), `pixel ${i} is not marked`);
+  for (const i of pick(none)) assert.ok(!(await marked("canvas.over", of, i)), `pixel ${i} is marked`);
+  // Depth is not struck through: there the reason has its own colour.
+  for (const i of pick(some)) {
+    const clear = await page.evaluate(([at, across]) => {
+      const { left, top, scale } = window.tofray.placement(0);
+      const over = document.querySelectorAll(".pane")[0].querySelector("canvas.over");
+      return over.getContext("2d").getImageData(left + ((at % across) + 0.5) * scale, top + (Math.floor(at / across) + 0.5) * scale, 1, 1).data[3] === 0;
+    }, [i, width]);
+    assert.ok(clear, `pixel ${i} of depth`);
+  }
 });
 
 test("nobody looks at raw frames, none are sent", async () => {

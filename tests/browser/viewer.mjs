@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The tofray authors
 // SPDX-License-Identifier: Apache-2.0
-// The viewer in a browser: the real program on a port that is free, its page in Chromium without a GPU. Nothing here is of the page's own code.
+// The viewer in a browser: the real program on a port that is free, its page in Chromium without a GPU, and without WebGL unless
+// a test asks for it. Nothing here is of the page's own code.
 
 import assert from "node:assert/strict";
 import { execFileSync, spawn } from "node:child_process";
@@ -38,12 +39,16 @@ export const axe_source = readFileSync(require.resolve("axe-core/axe.min.js"), "
 
 const folder = mkdtempSync(join(tmpdir(), "tofray-browser-"));
 const running = new Set();
-const browser = await require("playwright-core").chromium.launch({
+const launch = (args) => require("playwright-core").chromium.launch({
   executablePath: chromium,
-  args: ["--no-sandbox", "--disable-gpu", "--disable-dev-shm-usage", "--force-device-scale-factor=1"],
+  args: ["--no-sandbox", "--disable-dev-shm-usage", "--force-device-scale-factor=1", ...args],
 });
+const browser = await launch(["--disable-gpu", "--disable-software-rasterizer"]);
+let drawing;   // with WebGL, by the processor; launched when it is needed first
+const browser_with_webgl = () => (drawing ??= launch(["--use-angle=swiftshader", "--enable-unsafe-swiftshader"]));
 after(async () => {
   await browser.close();
+  await (await drawing)?.close();
   for (const one of running) one.kill("SIGKILL");
   rmSync(folder, { recursive: true, force: true });
 });
@@ -119,12 +124,13 @@ export async function until(come, what) {
 }
 
 /** A tab of its own, without an earlier one's storage. @param before  what to do with the page first
+ *  @param webgl   whether this browser has it
  *  @return  the page, and what has happened in it so far */
-export async function open(url, { before, ...options } = {}) {
-  const context = await browser.newContext({ viewport: { width: 1280, height: 900 }, permissions: ["clipboard-read", "clipboard-write"], ...options });
+export async function open(url, { before, webgl = false, ...options } = {}) {
+  const context = await (webgl ? await browser_with_webgl() : browser).newContext({ viewport: { width: 1280, height: 900 }, permissions: ["clipboard-read", "clipboard-write"], ...options });
   const page = await context.newPage();
   await before?.(page);
-  const seen = { page, texts: [], frames: [], last: {}, generations: { a: [], b: [] }, asked: [], troubles: [], sockets: 0, requests: [], loads: 0 };
+  const seen = { page, texts: [], arrays: [], talk: [], frames: [], last: {}, generations: { a: [], b: [] }, asked: [], troubles: [], sockets: 0, requests: [], loads: 0 };
   page.on("console", (message) => ["error", "warning"].includes(message.type()) && seen.troubles.push(message.text()));
   page.on("pageerror", (error) => seen.troubles.push(String(error)));
   page.on("request", (request) => seen.requests.push(request.url()));
@@ -132,13 +138,23 @@ export async function open(url, { before, ...options } = {}) {
   page.on("websocket", (socket) => {
     ++seen.sockets;
     socket.on("framereceived", ({ payload }) => {
-      if (typeof payload === "string") return void seen.texts.push(JSON.parse(payload));
+      if (typeof payload === "string") {
+        const text = JSON.parse(payload);
+        seen.talk.push(`server ${text.type}`);
+        return void seen.texts.push(text);
+      }
+      if (payload[6] >= 2) return void seen.arrays.push(payload);
       const side = payload[6] === 1 ? "b" : "a";
       seen.last[side] = payload;
       seen.generations[side].push(payload.readUInt32LE(8));
       if (side === "a") seen.frames.push(Number(payload.readBigUInt64LE(16)));
     });
-    socket.on("framesent", ({ payload }) => typeof payload === "string" && seen.asked.push(JSON.parse(payload)));
+    socket.on("framesent", ({ payload }) => {
+      if (typeof payload !== "string") return;
+      const text = JSON.parse(payload);
+      seen.talk.push(`page ${text.type}`);
+      seen.asked.push(text);
+    });
   });
   await page.addInitScript(() => {
     window.violations = [];
@@ -255,6 +271,19 @@ export function arrived({ last, hello }, side = "a") {
     const at = message.readUInt16LE(4) + 32 * i;
     const place = message.readUInt32LE(at + 4);
     return [hello().arrays[message.readUInt16LE(at)].name, message.subarray(place, place + message.readUInt32LE(at + 8))];
+  }));
+}
+
+/** The arrays of an answer that says it has some, by name: {shape, values}. */
+export function answered_arrays({ arrays }, { id, arrays: names }) {
+  const message = arrays.findLast((one) => one.readUInt32LE(12) === id);
+  const types = [undefined, Uint8Array, Uint16Array, Int16Array, Uint32Array, Float32Array, Int32Array, Float64Array];
+  return Object.fromEntries(names.map((name, i) => {
+    const at = message.readUInt16LE(4) + 32 * i;
+    const [place, bytes] = [message.readUInt32LE(at + 4), message.readUInt32LE(at + 8)];
+    const shape = [12, 16, 20].slice(0, message[at + 3]).map((k) => message.readUInt32LE(at + k));
+    const copy = new Uint8Array(message.subarray(place, place + bytes));
+    return [name, { shape, values: new types[message[at + 2]](copy.buffer) }];
   }));
 }
 

@@ -127,6 +127,42 @@ test("a changed state begins anew, so does the button, and so does another array
   await caption.getByText("Since frame 5: 1 frame", { exact: true }).waitFor();
 });
 
+test("of two states each has statistics of its own, those of the frames rendered", async () => {
+  const { url } = await view(words);
+  const tab = await shown(url);
+  const { page } = tab;
+  await stand_at(tab, 0);
+  await page.locator(".stage").first().focus();
+  await point_at(tab, 112, 86);
+  await page.keyboard.press("p");
+  await page.getByRole("button", { name: "A | B", exact: true }).click();
+  await page.locator(".compare-bar").waitFor();
+  await set(tab, "camera.lens.f_number", "2.8");
+  await beside(tab, "Watch");
+  await page.getByRole("button", { name: "Begin anew" }).click();
+  await page.locator(".stage").first().focus();
+  for (let frame = 1; frame <= 4; ++frame) {
+    await page.keyboard.press(".");
+    await page.waitForFunction((to) => window.tofray.last.frame === to && window.tofray.last_b.frame === to, frame);
+  }
+  for (const state of ["a", "b"]) await page.locator(`.statistics[data-state=${state}] caption`).getByText("Since frame 1: 4 frames").waitFor();
+  const rows = await csv(tab);
+  assert.deepEqual(rows.map((one) => [one.state, one.array]), [["A", "z_m"], ["B", "z_m"], ["A", "amplitude_e"], ["B", "amplitude_e"]]);
+  for (const [state, more] of [["A", []], ["B", ["--set", "camera.lens.f_number=2.8"]]]) {
+    const frames = [1, 2, 3, 4].map((i) => rendered([...words, ...more], i));
+    for (const array of ["z_m", "amplitude_e"]) {
+      const row = rows.find((one) => one.state === state && one.array === array);
+      const of = statistics(frames, array, 112, 86);
+      near(row.mean, of.mean, `${state}, ${array}: mean`);
+      near(row.sigma, of.sigma, `${state}, ${array}: sigma`);
+      if (array === "z_m") near(row.sigma_predicted, of.rms, `${state}: predicted`);
+    }
+  }
+  await page.getByRole("button", { name: "A | B", exact: true }).click();
+  await page.locator(".statistics[data-state=b]").waitFor({ state: "detached" });
+  await page.locator(".statistics[data-state=a] caption").getByText("Since frame 1: 4 frames").waitFor();
+});
+
 test("up to eight pins, each with the least number that is free, marked in every pane; p and the list take them away, and then nothing more is computed", async () => {
   const { url } = await view(words);
   const tab = await shown(url);

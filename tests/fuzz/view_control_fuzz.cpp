@@ -1,17 +1,48 @@
 // SPDX-FileCopyrightText: 2026 The tofray authors
 // SPDX-License-Identifier: Apache-2.0
 // Any text as a message of a page: a message that is in its bounds, or what is wrong with it.
+#include <cmath>
 #include <cstdint>
 #include <cstdlib>
 #include <string>
 
+#include "base/rotation.h"
 #include "base/text.h"
 #include "view/control.h"
 #include "view/meter.h"
 #include "view/wire.h"
 
+namespace {
+
+using namespace tofray::view;
+
+bool is_pixel(int u, int v) { return u >= 0 && v >= 0 && u <= 16384 && v <= 16384; }
+
+/// What is asked of a frame is in its bounds, but for the image's.
+void check(const Inquiry& inquiry) {
+  if (const auto* drag = std::get_if<Drag>(&inquiry)) {
+    if (drag->object < 0 || !is_pixel(drag->from_u, drag->from_v)) std::abort();
+    if (!(std::abs(drag->to_u) <= 16384) || !(std::abs(drag->to_v) <= 16384)) std::abort();
+  } else if (const auto* place = std::get_if<Place>(&inquiry)) {
+    if (!place->position && !place->rotation) std::abort();
+    if (place->object && *place->object < 0) std::abort();
+    if (place->position)
+      for (const double one : *place->position)
+        if (!(std::abs(one) <= 1e6)) std::abort();
+    if (place->rotation && !tofray::base::why_no_rotation(*place->rotation).what.empty()) std::abort();
+  } else if (const auto* measure = std::get_if<Measure>(&inquiry)) {
+    if (!is_pixel(measure->u[0], measure->v[0]) || !is_pixel(measure->u[1], measure->v[1])) std::abort();
+  } else if (const auto* region = std::get_if<RegionQuestion>(&inquiry)) {
+    if (!is_pixel(region->u0, region->v0) || !is_pixel(region->u1, region->v1)) std::abort();
+    if (region->u1 < region->u0 || region->v1 < region->v0) std::abort();
+  } else if (const auto* temporal = std::get_if<Temporal>(&inquiry)) {
+    if (temporal->frames < 2 || temporal->frames > 10000) std::abort();
+  }
+}
+
+}  // namespace
+
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  using namespace tofray::view;
   const Control read = parse_control({reinterpret_cast<const char*>(data), size});
   if (const auto* refused = std::get_if<Refused>(&read)) {
     if (refused->text.empty() || tofray::base::printable_lines(refused->text) != refused->text) std::abort();
@@ -32,6 +63,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   } else if (const auto* why = std::get_if<WhyQuestion>(&read)) {
     if (why->u0 < 0 || why->v0 < 0 || why->u1 < why->u0 || why->v1 < why->v0) std::abort();
     if (why->u1 - why->u0 >= 64 || why->v1 - why->v0 >= 64) std::abort();
+  } else if (const auto* inquiry = std::get_if<Inquiry>(&read)) {
+    check(*inquiry);
   }
   // However the bytes of a stream are cut, its frames are the same.
   FrameMeter whole, cut;

@@ -8,10 +8,13 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
+#include <array>
 #include <chrono>
+#include <cmath>
 #include <cstdint>
 #include <cstring>
 #include <functional>
+#include <map>
 #include <optional>
 #include <string>
 #include <utility>
@@ -229,7 +232,10 @@ class Page {
   void acknowledge(std::uint32_t sequence, int channel = 0) {
     send(R"({"type":"ack","sequence":)" + std::to_string(sequence) + R"(,"channel":)" + std::to_string(channel) + "}");
   }
-  void acknowledge(const WireFrame& frame) { acknowledge(frame.sequence, frame.channel); }
+  /// Arrays of an answer (channels 2 and 3) are not acknowledged.
+  void acknowledge(const WireFrame& frame) {
+    if (frame.channel < 2) acknowledge(frame.sequence, frame.channel);
+  }
 
   WsMessage next(milliseconds within = milliseconds(10'000)) {
     WsMessage out;
@@ -265,7 +271,7 @@ class Page {
     const Clock::time_point end = Clock::now() + within;
     while (Clock::now() < end) {
       const WsMessage one = next(std::chrono::duration_cast<milliseconds>(end - Clock::now()));
-      if (one.opcode == 2) return wire_frame(one.payload);
+      if (one.opcode == 2 && static_cast<unsigned char>(one.payload[6]) < 2) return wire_frame(one.payload);
       if (one.opcode < 0) return {};
     }
     return {};
@@ -307,6 +313,31 @@ inline double number_in(const files::Json& json, const char* name) {
   double out = -1;
   const files::Json* found = json.find(name);
   EXPECT_TRUE(found != nullptr && found->number(out)) << name;
+  return out;
+}
+
+/// The numbers of an array in a message.
+template <class T>
+std::vector<T> numbers_of(const std::string& bytes) {
+  std::vector<T> out(bytes.size() / sizeof(T));
+  if (!out.empty()) std::memcpy(out.data(), bytes.data(), out.size() * sizeof(T));
+  return out;
+}
+
+/// Three numbers of a list.
+inline std::array<double, 3> three(const files::Json& list) {
+  std::array<double, 3> out{NAN, NAN, NAN};
+  const auto* items = list.items();
+  EXPECT_TRUE(items != nullptr && items->size() == 3);
+  for (std::size_t i = 0; items != nullptr && i < 3 && i < items->size(); ++i) (*items)[i].number(out[i]);
+  return out;
+}
+/// Three rows of three.
+inline std::array<std::array<double, 3>, 3> rows_of(const files::Json& list) {
+  std::array<std::array<double, 3>, 3> out{};
+  const auto* items = list.items();
+  EXPECT_TRUE(items != nullptr && items->size() == 3);
+  for (std::size_t i = 0; items != nullptr && i < 3 && i < items->size(); ++i) out[i] = three((*items)[i]);
   return out;
 }
 

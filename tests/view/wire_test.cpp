@@ -71,6 +71,32 @@ TEST(wire, has_head_rows_and_bytes_where_the_protocol_says) {
   EXPECT_EQ(read.arrays.at(arrays[2]), std::string(reinterpret_cast<const char*>(frame.raw.raw.data()), 24));
 }
 
+TEST(wire, of_an_answer_numbers_its_arrays_from_zero) {
+  const std::vector<float> rays{1, 2, 3, 4, 5, 6}, none;
+  const std::vector<std::uint32_t> owners{7, 8, 9};
+  const view::StaticArray arrays[] = {
+      {5, {rays.data(), 24, 3, {1, 3, 2}}}, {5, {none.data(), 0, 3, {0, 3, 3}}}, {4, {owners.data(), 12, 1, {3}}}};
+  const std::string bytes = view::encoded({3, 0, 7, 9, 0.25, 0}, 11, 3, 1, arrays);
+  EXPECT_EQ(bytes[6], 3);
+  EXPECT_EQ(little<std::uint32_t>(bytes, 8), 7u);
+  EXPECT_EQ(little<std::uint32_t>(bytes, 12), 9u);
+  EXPECT_EQ(little<std::uint64_t>(bytes, 16), 11u);
+  EXPECT_EQ(little<std::uint32_t>(bytes, 32), 3u);
+  EXPECT_EQ(little<std::uint32_t>(bytes, 36), 1u);
+  EXPECT_EQ(little<std::uint16_t>(bytes, 40), 0);
+  ASSERT_EQ(little<std::uint16_t>(bytes, 44), 3);
+  for (std::uint16_t i = 0; i < 3; ++i) EXPECT_EQ(little<std::uint16_t>(bytes, 64 + 32u * i), i);
+  EXPECT_EQ(bytes[64 + 2], 5);
+  EXPECT_EQ(bytes[64 + 3], 3);
+  EXPECT_EQ(little<std::uint32_t>(bytes, 64 + 16), 3u);
+  EXPECT_EQ(bytes[64 + 64 + 2], 4);
+  EXPECT_EQ(little<std::uint32_t>(bytes, 64 + 64 + 12), 3u);
+  const WireFrame read = wire_frame(bytes);
+  EXPECT_EQ(numbers_of<float>(read.arrays.at(0)), rays);
+  EXPECT_EQ(read.arrays.at(1), "");
+  EXPECT_EQ(numbers_of<std::uint32_t>(read.arrays.at(2)), owners);
+}
+
 TEST(wire, error_is_what_is_measured_less_what_is_true) {
   const Frame frame = small_frame();
   const std::uint16_t error = *view::find_wire_array("z_error_m");

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The tofray authors
 // SPDX-License-Identifier: Apache-2.0
 import { toggle_other } from "./actions";
+import { shown_array } from "./cloud";
 import { CompareBar } from "./compare_panel";
 import { UndoRedo } from "./controls_panel";
 import { Help } from "./help";
@@ -11,12 +12,14 @@ import { ControlsColumn, Side } from "./side";
 import { Command, Restored, Status, Troubles } from "./status";
 import { comparing, cursor, hello, help_open, link, other, shown, size, spoken, title_of } from "./store";
 import { TimeLine } from "./time_line";
+import { Moved, ToolBar } from "./tool_bar";
+import { tool } from "./tools";
 
 /** What every pane shows at the cursor, at once. */
 function ReadOut() {
   const at = cursor.value;
   if (at === undefined) return <p class="read-out faint">Point at a picture to read its values; click for all there is to know of a pixel.</p>;
-  const arrays = [...new Set([...shown.value.filter((array) => !is_sheet(array)), ...(hello.value?.panes.some((pane) => pane.array === "flags") ? ["flags"] : [])])];
+  const arrays = [...new Set([...shown.value.filter((array) => !is_sheet(array)).map(shown_array), ...(hello.value?.panes.some((pane) => pane.array === "flags") ? ["flags"] : [])])];
   return (
     <dl class="read-out" aria-label="Read-out">
       <div><dt>pixel</dt><dd>{at.u}, {at.v}</dd></div>
@@ -36,18 +39,20 @@ export function App() {
         {of !== undefined && <p class="faint camera"><bdi>{of.camera}</bdi>{of.mode === "" ? "" : " · "}<bdi>{of.mode}</bdi> · {width} × {height}</p>}
         <UndoRedo />
         <button type="button" class="quiet" aria-pressed={other.value !== undefined} onClick={toggle_other} disabled={link.value !== "open"} title="two states, looked at together (a)">A | B</button>
+        <ToolBar />
         <Status />
         <button type="button" class="quiet" onClick={() => (help_open.value = true)} aria-label="Help: keys" title="keys (?)">?</button>
       </header>
       <Troubles />
       <Restored />
-      <main class={link.value === "open" ? "" : "stale"}>
+      <main class={`${link.value === "open" ? "" : "stale"}${tool.value === "drag" ? " drags" : ""}`}>
         <ControlsColumn />
         <div class={`middle panes-${shown.value.length}${other.value !== undefined && comparing.value === "beside" ? " double" : ""}`}>
           <CompareBar />
           {shown.value.map((_, i) => <Pane key={i} pane={i} />)}
         </div>
         <Side />
+        <Moved />
       </main>
       <footer>
         <ReadOut />

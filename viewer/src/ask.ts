@@ -6,8 +6,11 @@ import { effect } from "@preact/signals";
 import { fit_difference, shown_by } from "./compare";
 import { next_id, send } from "./connection";
 import type { Fault, Pixel, Side } from "./protocol";
+import { shown_array } from "./cloud";
 import { arrays_for, raw_view } from "./raw";
-import { cursor, fit_raw, frame, frame_of, link, of_b, pixel, pixel_b, rate, shown, state, tab_shown, type Cursor } from "./store";
+import { arrays_for_space } from "./space";
+import { tool } from "./tools";
+import { cursor, fit_raw, frame, frame_of, link, of_b, pixel, pixel_b, rate, shown, state, tab_shown, temporal_titles, type Cursor } from "./store";
 import { arrays_to_watch } from "./watch";
 
 const rest_ms = 40;             // the cursor stands still
@@ -90,7 +93,8 @@ export function opened_anew(): void {
 }
 
 function want(): void {
-  const arrays = [...new Set([...shown.value.flatMap(arrays_for), "flags", ...arrays_to_watch()])];
+  const of_objects = tool.value === "drag" ? ["gt_object_id"] : [];
+  const arrays = [...new Set([...shown.value.flatMap((name) => arrays_for_space(name) ?? arrays_for(name)), "flags", ...arrays_to_watch(), ...of_objects])];
   const at = rate.value;
   if (shown.value.length > 0) send({ type: "want", arrays, rate: at });
 }
@@ -132,7 +136,7 @@ export function fit_pane(pane: number): void {
   const array = shown.value[pane];
   if (array === undefined) return;
   const raw = raw_view(array);
-  if (shown_by("a") === "difference") fit_difference(array);
+  if (shown_by("a") === "difference" && shown_array(array) === array) fit_difference(array);
   else if (raw !== undefined) fit_raw(raw.kind);
-  else send({ type: "fit", array });
+  else send({ type: "fit", array: array in temporal_titles ? "noise_m" : shown_array(array) });
 }

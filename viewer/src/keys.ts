@@ -9,7 +9,10 @@ import { difference_at, difference_unit } from "./compare";
 import { save } from "./edit";
 import { redo, undo } from "./history";
 import { number_text, with_unit } from "./numbers";
+import { shown_array } from "./cloud";
 import { is_sheet } from "./raw";
+import { toggle_space } from "./space_state";
+import { ask_temporal, choose_tool, drag_key, drop_something, measure_at, rectangle_key } from "./tools";
 import { toggle_sheet } from "./sheet_state";
 import { toggle_pin } from "./watch";
 import { ask_pixel, drop_region, region_key } from "./why";
@@ -87,6 +90,7 @@ export const keys: readonly Key[] = [
   { keys: [..."123456789"], said: "1 … 9", does: "what this pane shows, in the order of its list", act: choose_array },
   { keys: ["h"], said: "h", does: "histogram of this pane", act: () => toggle_histogram(focused.value) },
   { keys: ["r"], said: "r", does: "all raw frames in this pane, or back; Enter on one enlarges it", act: () => toggle_sheet(focused.value) },
+  { keys: ["x"], said: "x", does: "points in space in this pane, or back", act: () => toggle_space(focused.value) },
   { keys: ["["], said: "[", does: "one pane less", act: () => set_panes(shown.value.length - 1) },
   { keys: ["]"], said: "]", does: "one pane more, up to four", act: () => set_panes(shown.value.length + 1) },
   { keys: ["+", "="], said: "+", does: "zoom in at the cursor", act: () => zoom_at_cursor(1.5) },
@@ -95,6 +99,10 @@ export const keys: readonly Key[] = [
   { keys: ["p"], said: "p", does: "pin this pixel to the watch list, or take its pin away", act: toggle_pin },
   { keys: ["w"], said: "w", does: "why is this pixel wrong?", act: ask_pixel },
   { keys: ["e"], said: "e", does: "the same of a region: one corner, then the other one; Escape drops it", act: region_key },
+  { keys: ["m"], said: "m", does: "measure: from here, then to here; Escape drops it", act: () => measure_at(cursor.value) },
+  { keys: ["g"], said: "g", does: "statistics of a rectangle: one corner, then the other one; Escape drops it", act: rectangle_key },
+  { keys: ["n"], said: "n", does: "200 frames now: the noise over time", act: ask_temporal },
+  { keys: ["d"], said: "d", does: "move objects, or no more: Enter takes the one under the cursor, arrow keys move it, with Shift along the ray, with Ctrl they turn it, + and − scale it, Enter lets go", act: () => choose_tool("drag") },
   { keys: ["/"], said: "/", does: "search the controls", act: find_control },
   { keys: ["z"], said: "Ctrl+Z", does: "undo; in a field, what was typed", ctrl: true, act: (event) => (event.shiftKey ? redo() : undo()) },
   { keys: ["y"], said: "Ctrl+Y", does: "redo; also Ctrl+Shift+Z", ctrl: true, act: redo },
@@ -126,7 +134,8 @@ function on_key(event: KeyboardEvent): void {
   const ctrl = event.ctrlKey || event.metaKey;
   const target = event.target instanceof Element ? event.target : null;
   if (ctrl ? is_text(target) : is_field(target)) return;
-  if (event.key === "Escape" && !ctrl && !help_open.value && drop_region()) return event.preventDefault();
+  if (event.key === "Escape" && !ctrl && !help_open.value && (drop_something() || drop_region())) return event.preventDefault();
+  if (target?.closest(".stage:not(.space)") != null && !help_open.value && drag_key(event)) return event.preventDefault();
   const key = keys.find((one) => one.keys.includes(ctrl ? event.key.toLowerCase() : event.key) && (one.ctrl === true) === ctrl);
   if (key === undefined) return;
   const in_picture = target?.closest(".stage") != null;
@@ -152,7 +161,8 @@ export function difference_reading(array: string): string {
 }
 
 /** What one pane shows at the cursor, in words: its value, or why there is none. */
-export function reading(array: string, side: Side = "a"): string {
+export function reading(shows: string, side: Side = "a"): string {
+  const array = shown_array(shows);
   const value = value_at(array, cursor.value, side);
   const greeting = hello.value;
   if (value === undefined || greeting === undefined) return "";
@@ -175,7 +185,7 @@ function say_pixel_soon(): void {
     const at = cursor.value;
     if (at === undefined) return;
     const b = other.value !== undefined;
-    const readings = [...new Set(shown.value)].filter((array) => !is_sheet(array)).map((array) => `${title_of(array)} ${b ? `A ${reading(array)}, B ${reading(array, "b")}` : reading(array)}`);
+    const readings = [...new Set(shown.value.map(shown_array))].filter((array) => !is_sheet(array)).map((array) => `${title_of(array)} ${b ? `A ${reading(array)}, B ${reading(array, "b")}` : reading(array)}`);
     spoken.value = [`Pixel ${at.u}, ${at.v}`, ...readings].join(". ");
   }, 150);
 }

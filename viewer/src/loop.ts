@@ -8,13 +8,17 @@ import { send } from "./connection";
 import type { Picture } from "./picture";
 import type { Frame } from "./protocol";
 import {
-  comparing, cursor, difference_scales, drawn_rate, fitted, flipped, frame, frame_b, hello, other, raw_scales, region, shown, view, wipe,
+  comparing, cursor, difference_scales, drawn_rate, fitted, flipped, frame, frame_b, hello, other, raw_scales, region, shown, temporal, view, wipe,
 } from "./store";
+import { measure_from, measuring, rectangle } from "./tools";
 import { pins } from "./watch";
 
 export const counters = { received: 0, drawn: 0 };
 /** By pane and side; of a sheet also by raw frame. */
 export const pictures = new Map<string, Picture>();
+
+/** The 3D panes, by pane. */
+export const spaces = new Map<number, { draw(): void; readout(pixels: boolean): unknown }>();
 
 const patience_ms = 500;   // one of two states is not waited for longer
 
@@ -62,6 +66,7 @@ function draw(): void {
     for (const one of fresh) (one.side === "a" ? frame : frame_b).value = one;
   });
   for (const picture of pictures.values()) picture.draw();
+  for (const space of spaces.values()) space.draw();
   if (fresh.length === 0) return;
   ++counters.drawn;
   for (const { side, sequence } of fresh) send(side === "a" ? { type: "ack", sequence } : { type: "ack", sequence, channel: 1 });
@@ -75,7 +80,8 @@ export function forget_b(): void {
 
 export function start_loop(): void {
   effect(() => {
-    void [view.value, cursor.value, shown.value, fitted.value, hello.value, other.value, comparing.value, flipped.value, wipe.value, difference_scales.value, raw_scales.value, region.value, pins.value];
+    void [view.value, cursor.value, shown.value, fitted.value, hello.value, other.value, comparing.value, flipped.value, wipe.value, difference_scales.value, raw_scales.value, region.value, pins.value, temporal.value];
+    void [rectangle.value, measuring.question.value, measure_from.value];
     draw_soon();
   });
   let before = 0;

@@ -9,6 +9,10 @@ import { change_refused, controls_arrived, done_arrived, forget_unanswered, save
 import { history_goes_on, history_of_greeting, start_history } from "./history";
 import { start_keys } from "./keys";
 import { forget_b, frame_arrived, start_loop } from "./loop";
+import { forget_moves, start_hands } from "./hands";
+import { answer_arrived, arrays_arrived, forget_questions, question_refused } from "./questions";
+import { forget_space, start_space } from "./space";
+import { forget_tools, start_tools } from "./tools";
 import { read_frame, type Hello, type ServerMessage, type State } from "./protocol";
 import { choose_arrays, controls, difference_scales, fault, fitted, frame, hello, key_faults, other, pixel, pixel_b, raw_scales, state, stats } from "./store";
 import { offer_to_tests } from "./test_hooks";
@@ -33,6 +37,10 @@ function greeted(by: Hello): void {
     forget_b();
     forget_unanswered();
     forget_why();
+    forget_moves();
+    forget_tools();
+    for (const side of ["a", "b"] as const) forget_space(side);
+    forget_questions();
     statistics_anew();
     choose_arrays(by);
   });
@@ -70,14 +78,23 @@ function text_arrived(message: ServerMessage): void {
     case "controls": return controls_arrived(message);
     case "done": return done_arrived(message);
     case "saved": return saved_arrived(message);
+    case "view3d": return answer_arrived(message, message.static === true ? message.arrays : []);
+    case "temporal": return answer_arrived(message, message.arrays, message.arrays === undefined);
+    case "drag":
+    case "place":
+    case "camera":
+    case "measure":
+    case "region": return answer_arrived(message);
     case "fault":
       fault_arrived(message);
+      if (question_refused(message)) return;
       if (!why_refused(message) && !change_refused(message)) fault.value = message;
   }
 }
 
 function frame_received(message: ArrayBuffer): void {
   const fresh = read_frame(message);
+  if (fresh.answers) return arrays_arrived(fresh);
   count(fresh);
   frame_arrived(fresh);
 }
@@ -90,5 +107,8 @@ start_editing();
 start_history();
 start_watching();
 start_why();
+start_hands();
+start_space();
+start_tools();
 start_keys();
 connect({ opened: () => undefined, text: text_arrived, binary: frame_received });

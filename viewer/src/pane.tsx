@@ -6,6 +6,7 @@ import { fit_pane } from "./ask";
 import { difference_scale, shown_by } from "./compare";
 import { Histogram } from "./histogram";
 import { difference_reading, reading } from "./keys";
+import { cloud_color, shown_array } from "./cloud";
 import { Legend } from "./legend";
 import type { Picture } from "./picture";
 import type { Side } from "./protocol";
@@ -13,9 +14,12 @@ import { exposure_text, raw_kinds, raw_name, raw_view, type RawKind, type RawVie
 import { ScaleBar } from "./scale_bar";
 import { Sheet } from "./sheet";
 import { last_raw_kind, show_raw } from "./sheet_state";
+import { space_side } from "./space";
+import { SpaceStage } from "./space_pane";
+import { show_space } from "./space_state";
 import { mount } from "./stage";
 import {
-  comparing, cursor, exposures, focused, frame_of, hello, histograms, is_bits, other, scale_of, show, shown, tab, title_of, toggle_histogram, view, wipe,
+  comparing, cursor, exposures, focused, frame_of, hello, histograms, is_bits, is_current, other, scale_of, show, shown, tab, temporal_titles, title_of, toggle_histogram, view, wipe,
 } from "./store";
 
 /** The line between A and B, which a pointer or the arrow keys move. */
@@ -99,7 +103,21 @@ function RawChoice({ pane, of }: { pane: number; of: RawView }) {
   );
 }
 
-const raw_frames = "raw frames";   // in the list of what a pane can show
+// In the list of what a pane can show.
+const raw_frames = "raw frames";
+const space = "3D points";
+
+/** What gives points their colours. */
+function ColorChoice({ pane, color }: { pane: number; color: string }) {
+  return (
+    <label class="points-of">
+      <span class="unseen">Points are coloured by</span>
+      <select class="cloud-color" value={color} onChange={(event) => show_space(pane, event.currentTarget.value)} title="what gives points their colours">
+        {(hello.value?.panes ?? []).map((one) => <option key={one.array} value={one.array}>by {one.title.toLowerCase()}</option>)}
+      </select>
+    </label>
+  );
+}
 
 export function Pane({ pane }: { pane: number }) {
   const a = useSignal<Picture | undefined>(undefined);
@@ -107,27 +125,33 @@ export function Pane({ pane }: { pane: number }) {
   const array = shown.value[pane] ?? "";
   const title = title_of(array);
   const beside = other.value !== undefined && comparing.value === "beside";
-  const shows = shown_by("a");
+  const cloud = cloud_color(array);
+  const shows = cloud === undefined ? shown_by("a") : space_side.value;
   const own = scale_of(array);
-  const scale = own !== undefined && shows === "difference" ? difference_scale(array) : own;
+  const scale = own !== undefined && cloud === undefined && shows === "difference" ? difference_scale(array) : own;
   const raw = raw_view(array);
   const sheet = raw !== undefined && raw.number === undefined;
   const bits = is_bits(array);
   const has_histogram = histograms.value.has(pane) && !sheet;
-  const choose = (to: string): void => (to === raw_frames ? show_raw(pane, last_raw_kind()) : show(pane, to));
+  const choose = (to: string): void => (to === raw_frames ? show_raw(pane, last_raw_kind()) : to === space ? show_space(pane) : show(pane, to));
+  const lasting = Object.entries(temporal_titles).filter(([name]) => name === array || is_current("a") || is_current("b"));
+  const chosen = raw !== undefined ? raw_frames : cloud !== undefined ? space : array;
   return (
     <section class={`pane${focused.value === pane ? " focused" : ""}${beside ? " double" : ""}`} aria-label={`Pane ${pane + 1}: ${title}`}
       onFocusIn={() => (focused.value = pane)} onPointerDown={() => (focused.value = pane)}>
       <div class="pane-head">
         <label>
           <span class="unseen">Pane {pane + 1} shows</span>
-          <select class={`shows${raw === undefined ? "" : " raw"}`} value={raw === undefined ? array : raw_frames} onChange={(event) => choose(event.currentTarget.value)}>
+          <select class={`shows${raw !== undefined ? " raw" : cloud !== undefined ? " points" : ""}`} value={chosen} onChange={(event) => choose(event.currentTarget.value)}>
             {(hello.value?.panes ?? []).map((one) => <option key={one.array} value={one.array}>{one.title}</option>)}
             <option value={raw_frames}>Raw frames</option>
+            <option value={space}>3D points</option>
+            {lasting.map(([name, title]) => <option key={name} value={name}>{title}</option>)}
           </select>
         </label>
         {raw !== undefined && <RawChoice pane={pane} of={raw} />}
-        {sheet ? <span class="reading faint" /> : <Reading array={array} />}
+        {cloud !== undefined && <ColorChoice pane={pane} color={cloud} />}
+        {sheet ? <span class="reading faint" /> : <Reading array={shown_array(array)} />}
         <div class="buttons">
           <button type="button" class="quiet" aria-pressed={has_histogram} disabled={sheet} onClick={() => toggle_histogram(pane)} aria-label="Histogram" title="how many pixels have which value (h)">
             <svg viewBox="0 0 16 16" width="16" height="16" aria-hidden="true"><path d="M1 14h14v1.2H1zM2 9h2v4H2zM5 4h2v9H5zM8 1.5h2V13H8zM11 7h2v6h-2z" fill="currentColor" /></svg>
@@ -137,12 +161,12 @@ export function Pane({ pane }: { pane: number }) {
         </div>
       </div>
       <div class="stages">
-        {sheet ? <Sheet pane={pane} side="a" kind={raw.kind} /> : <Stage pane={pane} side="a" title={title} kept={a} />}
-        {beside && (sheet ? <Sheet pane={pane} side="b" kind={raw.kind} /> : <Stage pane={pane} side="b" title={title} kept={b} />)}
+        {cloud !== undefined ? <SpaceStage pane={pane} array={array} /> : sheet ? <Sheet pane={pane} side="a" kind={raw.kind} /> : <Stage pane={pane} side="a" title={title} kept={a} />}
+        {beside && cloud === undefined && (sheet ? <Sheet pane={pane} side="b" kind={raw.kind} /> : <Stage pane={pane} side="b" title={title} kept={b} />)}
       </div>
-      {scale !== undefined && <ScaleBar scale={scale} array={sheet ? raw_name(raw.kind, 0) : array} shows={shows} marked={!sheet}>{has_histogram && <Histogram array={array} scale={scale} shows={shows} />}</ScaleBar>}
-      {bits && has_histogram && <Histogram array={array} scale={undefined} shows={shows} />}
-      {!sheet && (
+      {scale !== undefined && <ScaleBar scale={scale} array={sheet ? raw_name(raw.kind, 0) : shown_array(array)} shows={shows} marked={!sheet}>{has_histogram && <Histogram array={shown_array(array)} scale={scale} shows={shows} />}</ScaleBar>}
+      {bits && has_histogram && <Histogram array={shown_array(array)} scale={undefined} shows={shows} />}
+      {!sheet && cloud === undefined && (
         <div class="stages">
           <Legend shares={a.value?.shares ?? []} bits={bits} shows={shows} name={beside ? "A" : ""} />
           {beside && <Legend shares={b.value?.shares ?? []} bits={bits} shows="b" name="B" />}

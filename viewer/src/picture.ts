@@ -8,7 +8,8 @@ import { difference_of, difference_scale, fit_difference, image_of, shown_by, ty
 import { digits_for, fixed_text } from "./numbers";
 import type { Hello, Reason, Rgb, Scale, Side } from "./protocol";
 import { raw_view } from "./raw";
-import { array_of, canvas_size, cursor, fit_raw, frame_of, hello, of_b, region, scale_of, size, view, wipe, type Cursor } from "./store";
+import { array_of, canvas_size, cursor, fit_raw, frame_of, hello, of_b, region, scale_of, size, view, wipe, type Cursor, type Region } from "./store";
+import { measure_ends, rectangle } from "./tools";
 import { pins } from "./watch";
 import { placement, type Placement } from "./view_port";
 
@@ -195,15 +196,17 @@ export class Picture {
     if (at === undefined || this.image === undefined) return;
     const ratio = devicePixelRatio;
     if (at.scale >= letter_room * ratio) this.draw_letters(over, greeting, at, ratio);
-    this.draw_region(over, at, ratio);
+    this.draw_saturated(over, greeting, at, ratio);
+    this.draw_region(over, at, ratio, region.value, [5, 3]);
+    this.draw_region(over, at, ratio, rectangle.value, []);
+    this.draw_measure(over, at, ratio);
     this.draw_pins(over, at, ratio);
     const point = cursor.value && (this.side === "b" ? of_b(cursor.value) : cursor.value);
     if (point !== undefined) this.draw_cursor(over, at, point, ratio);
   }
 
   /** A frame around pixels, white in black, which are those of A. */
-  private draw_region(over: CanvasRenderingContext2D, at: Placement, ratio: number): void {
-    const of = region.value;
+  private draw_region(over: CanvasRenderingContext2D, at: Placement, ratio: number, of: Region | undefined, dashes: readonly number[]): void {
     if (of === undefined) return;
     const there = (u: number, v: number): Cursor => (this.side === "b" ? of_b({ u, v }) : { u, v });
     const first = there(of.u0, of.v0);
@@ -216,9 +219,51 @@ export class Picture {
     over.strokeRect(x, y, width, height);
     over.lineWidth = 1.25 * ratio;
     over.strokeStyle = "#fff";
-    over.setLineDash([5 * ratio, 3 * ratio]);
+    over.setLineDash(dashes.map((one) => one * ratio));
     over.strokeRect(x, y, width, height);
     over.setLineDash([]);
+  }
+
+  /** Of raw frames: the pixels that were full in one of them at least, by colour and stroke. */
+  private draw_saturated(over: CanvasRenderingContext2D, greeting: Hello, at: Placement, ratio: number): void {
+    const shows = this.shows.peek();
+    const flags = this.coat.values?.flags;
+    if (raw_view(this.array) === undefined || flags === undefined || this.image === undefined || shows === "wipe" || shows === "difference") return;
+    const of = saturation_of(greeting);
+    if (of === undefined) return;
+    const { width } = this.image;
+    const side = Math.max(at.scale, 2 * ratio);
+    for (let i = 0; i < flags.length; ++i) {
+      if (((flags[i]! >>> of.bit) & 1) === 0) continue;
+      const [x, y] = [at.left + ((i % width) + 0.5) * at.scale - side / 2, at.top + (Math.floor(i / width) + 0.5) * at.scale - side / 2];
+      if (x > this.over.width || y > this.over.height || x + side < 0 || y + side < 0) continue;
+      over.fillStyle = css(of.color);
+      if (side < letter_room * ratio) over.fillRect(x, y, side, side);
+      if (side < 4 * ratio) continue;
+      const line = Math.max(1, 0.12 * side);
+      over.lineWidth = line;
+      over.strokeStyle = "#000";
+      over.beginPath();
+      over.moveTo(x, y + side);
+      over.lineTo(x + side, y);
+      over.stroke();
+      over.strokeStyle = css(of.color);
+      over.strokeRect(x + line / 2, y + line / 2, side - line, side - line);
+    }
+  }
+
+  /** A line between two pixels, with a ring at each end. */
+  private draw_measure(over: CanvasRenderingContext2D, at: Placement, ratio: number): void {
+    const ends = measure_ends().map((one) => (this.side === "b" ? of_b(one) : one)).map((one) => [at.left + (one.u + 0.5) * at.scale, at.top + (one.v + 0.5) * at.scale] as const);
+    const [a, b] = ends;
+    for (const [width, style] of [[4, "#000"], [1.75, "#fff"]] as const) {
+      over.lineWidth = width * ratio;
+      over.strokeStyle = style;
+      over.beginPath();
+      if (a !== undefined && b !== undefined) over.moveTo(...a), over.lineTo(...b);
+      for (const [x, y] of ends) over.moveTo(x + 5 * ratio, y), over.arc(x, y, 5 * ratio, 0, 2 * Math.PI);
+      over.stroke();
+    }
   }
 
   /** A flag with the pin's number, whose foot is in the pixel's middle. */
@@ -321,6 +366,11 @@ export class Picture {
     frame(2 * ratio, 1.5 * ratio, "#000");
     frame(0.75 * ratio, 1.5 * ratio, "#fff");
   }
+}
+
+/** Why a pixel is full. */
+export function saturation_of(greeting: Hello): Reason | undefined {
+  return greeting.invalid.find((one) => one.name === "saturated");
 }
 
 export function reason_color(greeting: Hello, reason: Reason | undefined): string {

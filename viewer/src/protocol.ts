@@ -289,6 +289,119 @@ export interface Why {
   rest_mm: number | null;
 }
 
+/** Of three numbers; rotations are three rows, from the camera's or the object's axes to the world's. */
+export type Triple = readonly [number, number, number];
+export type Rotation = readonly [Triple, Triple, Triple];
+
+export interface Light3d {
+  name: string;
+  /** null: from far away. */
+  position: Triple | null;
+  direction: Triple;
+  half_angle_rad: number | null;
+  /** One of the camera's own. */
+  camera?: boolean;
+}
+
+export interface Object3d {
+  id: number;
+  name: string;
+  key?: string;
+  kind?: string;
+  /** Of its origin, about which it turns, in the world. */
+  position: Triple;
+  rotation: Rotation;
+  /** Least x, y, z and greatest x, y, z, in the world; null: endless. */
+  bounds: readonly number[] | null;
+  movable: boolean;
+  /** Why not. */
+  why?: string;
+}
+
+/** What stands where, at a frame's time. */
+export interface View3d {
+  type: "view3d";
+  id: number;
+  side?: Side;
+  generation: number;
+  frame: number;
+  camera: { position: Triple; rotation: Rotation; movable?: boolean; why?: string };
+  /** Rays (x, y, 1) through the image's corners, in order around it. */
+  frustum: readonly (readonly number[])[] | null;
+  lights: Light3d[];
+  objects: Object3d[];
+  /** A binary message with the same id follows; else the last one holds. */
+  static?: boolean;
+  arrays?: string[];
+}
+
+/** What a gesture writes: applied as any other change. */
+export interface Sets {
+  type: "drag" | "place" | "camera";
+  id: number;
+  unsets?: string[];
+  sets: Override[];
+  what?: string;
+}
+
+export interface MeasuredPoint {
+  u: number;
+  v: number;
+  measured: Triple | null;
+  true: Triple | null;
+  object?: number | null;
+  /** The object's. */
+  name?: string;
+}
+
+export interface Measured {
+  type: "measure";
+  id: number;
+  side?: Side;
+  generation: number;
+  frame: number;
+  a: MeasuredPoint;
+  b: MeasuredPoint;
+  measured_m: number | null;
+  true_m: number | null;
+  sigma_m: number | null;
+}
+
+export interface StatisticsRow {
+  name: string;
+  value: number | null;
+  unit: string;
+  definition?: string;
+  /** Where there is no value: what it takes. */
+  needs?: string;
+}
+
+export interface RegionStatistics {
+  type: "region";
+  id: number;
+  side?: Side;
+  generation: number;
+  frame: number;
+  region: [number, number, number, number];
+  rows: StatisticsRow[];
+}
+
+/** Progress; with `sigma_median_m` it is the end, and the arrays follow. */
+export interface Temporal {
+  type: "temporal";
+  id: number;
+  side?: Side;
+  generation?: number;
+  frame?: number;
+  frames: number;
+  done: number;
+  fill?: number | null;
+  sigma_median_m?: number | null;
+  predicted_median_m?: number | null;
+  chi2?: number | null;
+  arrays?: string[];
+}
+
 export interface Fault {
   type: "fault";
   id: number | null;
@@ -312,7 +425,7 @@ export interface ScaleMessage {
   scale: Scale;
 }
 
-export type ServerMessage = Hello | State | ScaleMessage | Pixel | Fault | Stats | Controls | Done | Saved | Why;
+export type ServerMessage = Hello | State | ScaleMessage | Pixel | Fault | Stats | Controls | Done | Saved | Why | View3d | Sets | Measured | RegionStatistics | Temporal;
 
 /** Frames a second: the camera's own, as many as there can be, or a number. */
 export type Rate = "own" | "max" | number;
@@ -328,6 +441,13 @@ export type ClientMessage =
   | { type: "why"; id: number; side?: Side; u: number; v: number }
   | { type: "why"; id: number; side?: Side; region: readonly [number, number, number, number] }
   | { type: "fit"; array: string }
+  | { type: "view3d"; id: number; side?: Side }
+  | { type: "drag"; id: number; side?: Side; object: number; from: readonly [number, number]; to: readonly [number, number]; how: "parallel" | "along" | "turn" | "scale"; base: number }
+  | { type: "place"; id: number; side?: Side; object: number; position: Triple | null; rotation: Rotation | null; base: number }
+  | { type: "camera"; id: number; side?: Side; position: Triple; rotation: Rotation; base: number }
+  | { type: "measure"; id: number; side?: Side; a: readonly [number, number]; b: readonly [number, number] }
+  | { type: "region"; id: number; side?: Side; region: readonly [number, number, number, number] }
+  | { type: "temporal"; id: number; side?: Side; frames: number }
   | { type: "set"; id: number; side: Side; key: string; text: string }
   | { type: "unset"; id: number; side: Side; key: string }
   | { type: "seed"; id: number; side: Side; seed: number }
@@ -346,6 +466,8 @@ export interface FrameArray {
 
 export interface Frame {
   side: Side;
+  /** No frame, but the arrays of the answer whose id is in `sequence`. */
+  answers: boolean;
   generation: number;
   sequence: number;
   frame: number;
@@ -375,6 +497,7 @@ export function read_frame(message: ArrayBuffer): Frame {
   need(u32(0) === 0x31564654, "it does not begin with TFV1");
   const header = u16(4);
   const count = u16(44);
+  const channel = view.getUint8(6);
   need(header >= header_bytes && header + count * entry_bytes <= message.byteLength, `${count} arrays do not fit in`);
   const arrays = new Map<number, FrameArray>();
   for (let i = 0; i < count; ++i) {
@@ -393,7 +516,8 @@ export function read_frame(message: ArrayBuffer): Frame {
     arrays.set(id, { id, dims, values: new type(message, place, elements) });
   }
   return {
-    side: view.getUint8(6) === 1 ? "b" : "a",
+    side: (channel & 1) === 1 ? "b" : "a",
+    answers: channel >= 2,
     generation: u32(8),
     sequence: u32(12),
     frame: Number(view.getBigUint64(16, true)),

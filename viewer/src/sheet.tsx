@@ -4,12 +4,14 @@
 
 import { useEffect, useRef } from "preact/hooks";
 import { reading } from "./keys";
+import { css, ink_on } from "./colors";
 import { shown_by } from "./compare";
+import { saturation_of } from "./picture";
 import type { Side } from "./protocol";
 import { exposure_text, kind_info, raw_name, type Exposure, type RawKind } from "./raw";
 import { enlarge } from "./sheet_state";
 import { mount } from "./stage";
-import { cursor, exposures, focused, frame_of, other, view } from "./store";
+import { array_of, cursor, exposures, focused, frame_of, hello, other, view } from "./store";
 
 function Tile({ pane, side, kind, of }: { pane: number; side: Side; kind: RawKind; of: Exposure }) {
   const stage = useRef<HTMLDivElement>(null);
@@ -45,6 +47,22 @@ function Tile({ pane, side, kind, of }: { pane: number; side: Side; kind: RawKin
   );
 }
 
+/** How many pixels were full in a raw frame, and how they are marked. */
+function Saturated({ side }: { side: Side }) {
+  const greeting = hello.value;
+  const of = greeting && saturation_of(greeting);
+  const flags = array_of(frame_of(side), "flags")?.values;
+  if (of === undefined || flags === undefined) return null;
+  let count = 0;
+  for (const one of flags) if (((one >>> of.bit) & 1) !== 0) ++count;
+  return (
+    <p class="of-sheet faint" data-saturated={count}>
+      <span class="swatch struck" style={{ background: css(of.color), color: ink_on(of.color) }}>{of.letter}</span>{" "}
+      {count === 0 ? "no pixel is saturated" : `${count} ${count === 1 ? "pixel is" : "pixels are"} saturated: full in one raw frame at least, struck through in all`}
+    </p>
+  );
+}
+
 export function Sheet({ pane, side, kind }: { pane: number; side: Side; kind: RawKind }) {
   const shows = shown_by(side);
   const all = exposures(shows === "b" ? "b" : "a");
@@ -52,6 +70,7 @@ export function Sheet({ pane, side, kind }: { pane: number; side: Side; kind: Ra
   return (
     <div class="sheet" role="group" aria-label={`${kind_info(kind).title}: all raw frames${whose === "" ? "" : ` of ${whose}`}`} data-kind={kind}>
       {whose !== "" && <p class="of-sheet"><strong>{whose}</strong></p>}
+      <Saturated side={shows === "b" ? "b" : "a"} />
       {frame_of(side)?.draft === true && <p class="of-sheet faint">draft</p>}
       {all.map((one) => <Tile key={one.number} pane={pane} side={side} kind={kind} of={one} />)}
     </div>

@@ -4,6 +4,7 @@
 
 import { ComparePanel } from "./compare_panel";
 import { ControlsPanel } from "./controls_panel";
+import { MeasurePanel } from "./measure_panel";
 import { PixelPanel } from "./pixel_panel";
 import { tab, tab_shown, wide, type Tab } from "./store";
 import { WatchPanel } from "./watch_panel";
@@ -12,6 +13,7 @@ const tabs: readonly { tab: Tab; said: string }[] = [
   { tab: "controls", said: "Controls" },
   { tab: "pixel", said: "Pixel" },
   { tab: "watch", said: "Watch" },
+  { tab: "measure", said: "Measure" },
   { tab: "compare", said: "A | B" },
 ];
 
@@ -42,7 +44,7 @@ export function Side() {
         ))}
       </div>
       <div id="tab-panel" role="tabpanel" aria-labelledby={`tab-${now}`} tabIndex={0}>
-        {now === "controls" ? <><h2 class="unseen">Controls</h2><ControlsPanel /></> : now === "pixel" ? <PixelPanel /> : now === "watch" ? <><h2>Watch list</h2><WatchPanel /></> : <><h2 class="unseen">A | B</h2><ComparePanel /></>}
+        {now === "controls" ? <><h2 class="unseen">Controls</h2><ControlsPanel /></> : now === "pixel" ? <PixelPanel /> : now === "watch" ? <><h2>Watch list</h2><WatchPanel /></> : now === "measure" ? <><h2 class="unseen">Measure</h2><MeasurePanel /></> : <><h2 class="unseen">A | B</h2><ComparePanel /></>}
       </div>
     </aside>
   );

@@ -6,15 +6,25 @@ import { effect, type Signal } from "@preact/signals";
 import { draw_soon, pictures } from "./loop";
 import { Picture } from "./picture";
 import type { Side } from "./protocol";
-import { extent, point_at, region, region_from, size, view, type Cursor } from "./store";
+import { extent, point_at, region, region_from, size, view, wipe, type Cursor } from "./store";
 import { fitting_scale, held, zoomed } from "./view_port";
+import { ask_rectangle, begin_drag, drag_to, end_drag, how_of, measure_at, rectangle, rectangle_between, rectangle_from, tool, wheel_scales } from "./tools";
 import { ask_region, drag_chooses, region_between } from "./why";
 
 const still_px = 3;   // a press that moves less is no drag
 
-/** Wheel zooms where the pointer is, a drag moves what all panes show, or with Alt chooses a region, and the cursor goes where the pointer is. */
+type Does = "pan" | "region" | "rectangle" | "object";
+
+/** What a press does: with Alt it chooses a region to be explained, with Shift a rectangle of statistics, else it is the tool's. */
+function does(event: PointerEvent): Does {
+  if (event.altKey || drag_chooses.value) return "region";
+  if (tool.value === "drag") return "object";
+  return event.shiftKey || tool.value === "rectangle" ? "rectangle" : "pan";
+}
+
+/** Wheel zooms where the pointer is, a drag does what the tool says, else it moves what all panes show, and the cursor goes where the pointer is. */
 function listen(stage: HTMLElement, picture: Picture, clicked: () => void): () => void {
-  let drag: { x: number; y: number; from: { x: number; y: number }; moved: boolean; corner: Cursor | undefined } | undefined;
+  let drag: { x: number; y: number; from: { x: number; y: number }; moved: boolean; does: Does; corner: Cursor | undefined } | undefined;
   const pixel_at = (event: MouseEvent): Cursor | undefined => {
     const at = picture.point_at(event.clientX, event.clientY);
     return at && { u: Math.floor(at.u), v: Math.floor(at.v) };
@@ -24,13 +34,21 @@ function listen(stage: HTMLElement, picture: Picture, clicked: () => void): () =
     const { width, height } = size.value;
     if (at !== undefined && at.u >= 0 && at.v >= 0 && at.u < width && at.v < height) point_at(at.u, at.v, false);
   };
+  /** The state whose picture is there. */
+  const side_at = (event: MouseEvent): Side => {
+    const shows = picture.shows.peek();
+    const box = stage.getBoundingClientRect();
+    return shows === "b" || (shows === "wipe" && event.clientX - box.left > wipe.value * box.width) ? "b" : "a";
+  };
   const listeners: { [K in "pointerdown" | "pointermove" | "pointerup" | "pointercancel"]: (event: PointerEvent) => void } = {
     pointerdown: (event) => {
       if (event.button !== 0 || (event.target instanceof Element && event.target.closest(".wipe") !== null)) return;
-      const chooses = event.altKey || drag_chooses.value;
-      drag = { x: event.clientX, y: event.clientY, from: view.value, moved: false, corner: chooses ? pixel_at(event) : undefined };
-      stage.setPointerCapture(event.pointerId);
       point(event);
+      const corner = pixel_at(event);
+      let how = does(event);
+      if (how === "object" && (corner === undefined || picture.shows.peek() === "difference" || !begin_drag(corner, how_of(event), side_at(event)))) how = "pan";
+      drag = { x: event.clientX, y: event.clientY, from: view.value, moved: false, does: how, corner };
+      stage.setPointerCapture(event.pointerId);
     },
     pointermove: (event) => {
       const at = picture.where();
@@ -39,10 +57,22 @@ function listen(stage: HTMLElement, picture: Picture, clicked: () => void): () =
       const dy = event.clientY - drag.y;
       drag.moved ||= Math.hypot(dx, dy) > still_px;
       if (!drag.moved) return;
-      if (drag.corner !== undefined) {
+      if (drag.does === "object") {
+        const to = picture.point_at(event.clientX, event.clientY);
+        point(event);
+        if (to !== undefined) drag_to({ u: to.u - 0.5, v: to.v - 0.5 });   // a pixel's middle
+        return;
+      }
+      if (drag.does !== "pan") {
         const to = pixel_at(event);
-        region_from.value = undefined;
-        if (to !== undefined) region.value = region_between(drag.corner, to);
+        if (to === undefined || drag.corner === undefined) return;
+        if (drag.does === "region") {
+          region_from.value = undefined;
+          region.value = region_between(drag.corner, to);
+        } else {
+          rectangle_from.value = undefined;
+          rectangle.value = rectangle_between(drag.corner, to);
+        }
         return;
       }
       const { width, height } = picture.image ?? size.value;
@@ -51,20 +81,29 @@ function listen(stage: HTMLElement, picture: Picture, clicked: () => void): () =
       view.value = held(to, extent.value);
     },
     pointerup: () => {
-      if (drag?.moved === false) clicked();
-      else if (drag?.corner !== undefined && region.value !== undefined) {
+      const ended = drag;
+      drag = undefined;
+      if (ended?.does === "object") end_drag();
+      else if (ended?.moved === false && tool.value === "measure") measure_at(ended.corner);
+      else if (ended?.moved === false) clicked();
+      else if (ended?.does === "region" && region.value !== undefined) {
         drag_chooses.value = false;
         ask_region(region.value);
+      } else if (ended?.does === "rectangle" && rectangle.value !== undefined) {
+        ask_rectangle(rectangle.value);
       }
+    },
+    pointercancel: () => {
+      if (drag?.does === "object") end_drag();
       drag = undefined;
     },
-    pointercancel: () => (drag = undefined),
   };
   const wheel = (event: WheelEvent): void => {
     const at = picture.point_at(event.clientX, event.clientY);
     if (at === undefined) return;
     event.preventDefault();
     const lines = event.deltaMode === WheelEvent.DOM_DELTA_PIXEL ? event.deltaY / 100 : event.deltaY / 3;
+    if (event.altKey && tool.value === "drag") return wheel_scales({ u: Math.floor(at.u), v: Math.floor(at.v) }, lines, side_at(event));
     view.value = zoomed(view.value, 1.25 ** -lines, at.u, at.v, extent.value);
     point(event);   // at the image's edges, which stay at the pane's, it is another one now
   };

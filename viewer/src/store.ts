@@ -3,7 +3,8 @@
 // What the page knows: one place, read by all that is drawn.
 
 import { computed, signal, type Signal } from "@preact/signals";
-import type { Fault, Frame, FrameArray, Hello, Other, Pixel, Rate, Row, Scale, Side, State, Stats, Why } from "./protocol";
+import { cloud_color, shown_array } from "./cloud";
+import type { Fault, Frame, FrameArray, Hello, Other, Pixel, Rate, Row, Scale, Side, State, Stats, Temporal, Why } from "./protocol";
 import { exposure_text, exposures_of, kind_info, raw_array, raw_scale, raw_view, type Exposure, type RawKind } from "./raw";
 import { showing, whole, type Extent, type ViewPort } from "./view_port";
 
@@ -45,7 +46,7 @@ export const edited = signal<Side>("a");                               // the st
 export const search = signal("");
 export const open_groups = signal<ReadonlySet<string>>(new Set());
 
-export type Tab = "controls" | "pixel" | "watch" | "compare";
+export type Tab = "controls" | "pixel" | "watch" | "measure" | "compare";
 export const tab = signal<Tab>("controls");
 
 /** How two states are looked at. */
@@ -67,6 +68,23 @@ export interface Region {
 
 export const region = signal<Region | undefined>(undefined);           // drawn on the panes
 export const region_from = signal<Cursor | undefined>(undefined);      // its first corner, while the keyboard looks for the other one
+
+/** What many frames of one state say of each pixel. */
+export interface TemporalResult {
+  of: Temporal;
+  arrays: ReadonlyMap<string, FrameArray>;
+}
+
+export const temporal = signal<Readonly<{ a: TemporalResult | undefined; b?: TemporalResult | undefined }>>({ a: undefined });
+
+/** Panes of it, which have the colours of the noise that is estimated. */
+export const temporal_titles: Readonly<Record<string, string>> = { temporal_sigma_m: "σ over time", temporal_predicted_m: "σ̂ over time" };
+
+/** Whether it is of the state in force. */
+export function is_current(side: Side): boolean {
+  const of = temporal.value[side]?.of;
+  return of !== undefined && of.generation === (side === "a" ? state.value : other.value)?.generation;
+}
 
 export const histograms = signal<ReadonlySet<number>>(new Set());      // the panes that have one below
 export const rate = signal<Rate>("own");
@@ -105,7 +123,8 @@ export function set_letter_keys(on: boolean): void {
 }
 
 /** The scale of an array now; undefined where it holds bits. */
-export function scale_of(array: string): Scale | undefined {
+export function scale_of(name: string): Scale | undefined {
+  const array = name in temporal_titles ? "noise_m" : shown_array(name);
   const raw = raw_view(array);
   if (raw !== undefined) return raw_scales.value.get(raw.kind);
   return fitted.value.get(array) ?? hello.value?.panes.find((pane) => pane.array === array)?.scale ?? undefined;
@@ -116,6 +135,10 @@ export function is_bits(array: string): boolean {
 }
 
 export function title_of(array: string): string {
+  const color = cloud_color(array);
+  if (color !== undefined) return `3D, coloured by ${title_of(color).toLowerCase()}`;
+  const titled = temporal_titles[array];
+  if (titled !== undefined) return titled;
   const raw = raw_view(array);
   if (raw !== undefined) {
     const title = kind_info(raw.kind).title;
@@ -126,7 +149,9 @@ export function title_of(array: string): string {
 }
 
 /** This array of the frame that is drawn, where it came along. */
-export function array_of(of: Frame | undefined, name: string): FrameArray | undefined {
+export function array_of(of: Frame | undefined, shows: string): FrameArray | undefined {
+  const name = shown_array(shows);
+  if (name in temporal_titles) return of !== undefined && is_current(of.side) ? temporal.value[of.side]?.arrays.get(name) : undefined;
   const raw = raw_view(name);
   if (raw !== undefined) return of && raw_array(of, raw, (one) => wire_array(of, one));
   return wire_array(of, name);
@@ -198,7 +223,7 @@ function is_array(name: string | undefined): name is string {
 /** What the panes show: kept where the new server has it. */
 export function choose_arrays(of: Hello): void {
   const before = shown.value.length === 0 ? [undefined, undefined] : shown.value;
-  const offered = (name: string): boolean => raw_view(name) !== undefined || of.panes.some((one) => one.array === name);
+  const offered = (name: string): boolean => raw_view(name) !== undefined || of.panes.some((one) => one.array === shown_array(name));
   shown.value = before.map((kept, i) => (kept !== undefined && offered(kept) ? kept : usual(of, i))).filter(is_array);
 }
 

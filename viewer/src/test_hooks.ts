@@ -4,7 +4,7 @@
 
 import { unanswered } from "./edit";
 import { future, past } from "./history";
-import { counters, pictures } from "./loop";
+import { counters, pictures, spaces } from "./loop";
 import type { Side } from "./protocol";
 import { frame, frame_b, other, state, stats } from "./store";
 
@@ -21,6 +21,8 @@ interface ForTests {
   readonly steps: { past: number; future: number };
   readonly unanswered: number;
   pane(i: number, side?: Side, raw_frame?: number): { array: string; shows: string; width: number; height: number; pixels: Uint8ClampedArray } | undefined;
+  /** A pane of points: what is on the screen, from where it is seen, and by which of the two it was drawn. */
+  space(i: number, pixels?: boolean): unknown;
   placement(i: number, side?: Side): { left: number; top: number; scale: number } | undefined;
 }
 
@@ -54,6 +56,7 @@ export function offer_to_tests(): void {
       const image = picture?.image;
       return picture && image && { array: picture.array, shows: picture.shows.peek(), width: image.width, height: image.height, pixels: image.data.slice() };
     },
+    space: (i, pixels = true) => spaces.get(i)?.readout(pixels),
     placement: (i, side = "a") => pictures.get(`${i}${side}`)?.where(),
   });
 }

@@ -3,9 +3,9 @@
 // Pinned pixels: mean, σ, least and greatest value of what frames bring of them, each frame once. A new state begins anew: frames of two
 // cameras have no σ.
 
-import { signal } from "@preact/signals";
-import type { Frame } from "./protocol";
-import { array_of, cursor, frame, hello, size, spoken } from "./store";
+import { effect, signal } from "@preact/signals";
+import type { Frame, Side } from "./protocol";
+import { array_of, cursor, frame, frame_b, hello, of_b, other, size, spoken } from "./store";
 
 export const most_pins = 8;
 
@@ -42,8 +42,13 @@ export interface Moments {
 const moments = new Map<string, Moments>();
 const most_seen = 200_000;   // frames that are remembered one by one; then only later ones count
 
-function place(pin: Pin, array: string): string {
-  return `${pin.number} ${array}`;
+function place(pin: Pin, array: string, side: Side): string {
+  return `${pin.number} ${side} ${array}`;
+}
+
+/** The states whose frames are counted. */
+export function watched_sides(): readonly Side[] {
+  return other.value === undefined ? ["a"] : ["a", "b"];
 }
 
 export function watched_arrays(): string[] {
@@ -55,8 +60,8 @@ export function arrays_to_watch(): string[] {
   return pins.value.length === 0 ? [] : [...watched_arrays(), "noise_m", "range_m"];
 }
 
-export function moments_of(pin: Pin, array: string): Moments | undefined {
-  return moments.get(place(pin, array));
+export function moments_of(pin: Pin, array: string, side: Side = "a"): Moments | undefined {
+  return moments.get(place(pin, array, side));
 }
 
 /** Of the values' n − 1; NaN below two. */
@@ -102,23 +107,31 @@ function say_soon(): void {
   }, 100);
 }
 
+/** The pin's pixel in a frame: the one at the same place, where B has more or fewer. */
+function at_of(pin: Pin, of: Frame): { u: number; v: number } {
+  const { width, height } = size.peek();
+  if (of.side === "a" || (of.width === width && of.height === height)) return pin;
+  return { u: Math.floor(((pin.u + 0.5) * of.width) / width), v: Math.floor(((pin.v + 0.5) * of.height) / height) };
+}
+
 /** What a frame has of the pinned pixels. Drafts are other pictures. */
 export function count(of: Frame): void {
-  if (of.side !== "a" || of.draft || pins.peek().length === 0) return;
+  if (of.draft || pins.peek().length === 0) return;
   const [z, noise, range] = ["z_m", "noise_m", "range_m"].map((name) => array_of(of, name)?.values);
   if (z === undefined || noise === undefined || range === undefined) return;
   for (const array of watched_arrays()) {
     const values = array_of(of, array)?.values;
     if (values === undefined) continue;
     for (const pin of pins.peek()) {
-      if (pin.u >= of.width || pin.v >= of.height) continue;
-      const key = place(pin, array);
+      const there = at_of(pin, of);
+      if (there.u >= of.width || there.v >= of.height) continue;
+      const key = place(pin, array, of.side);
       let to = moments.get(key);
       if (to === undefined || to.generation !== of.generation) moments.set(key, to = fresh(of));
       if (to.seen.has(of.frame) || (to.seen.size >= most_seen && of.frame <= to.newest)) continue;
       if (to.seen.size < most_seen) to.seen.add(of.frame);
       to.newest = Math.max(to.newest, of.frame);
-      const at = pin.v * of.width + pin.u;
+      const at = there.v * of.width + there.u;
       add(to, values[at]!, predicted(array, noise[at]!, z[at]!, range[at]!));
     }
   }
@@ -160,15 +173,14 @@ export function toggle_pin(): void {
   while (pins.value.some((one) => one.number === number)) ++number;
   pins.value = [...pins.value, { number, u: at.u, v: at.v }].sort((a, b) => a.number - b.number);
   spoken.value = `Pixel ${at.u}, ${at.v} is pin ${number}`;
-  const drawn = frame.peek();
-  if (drawn !== undefined) count(drawn);   // if it has what is watched; else it comes again, with that
+  for (const drawn of [frame.peek(), frame_b.peek()]) if (drawn !== undefined) count(drawn);   // if it has what is watched; else it comes again, with that
 }
 
 /** Another array than before begins to be counted. */
 export function watch_also(array: string): void {
   const before = second.peek();
   if (array === before) return;
-  for (const pin of pins.peek()) moments.delete(place(pin, before));
+  for (const pin of pins.peek()) for (const side of ["a", "b"] as const) moments.delete(place(pin, before, side));
   second.value = array;
 }
 
@@ -179,14 +191,15 @@ export function is_outside(pin: Pin): boolean {
 /** Numbers as they are, in the arrays' own units. */
 export function csv(): string {
   const number = (value: number): string => (Number.isFinite(value) ? String(value) : "");
-  const rows = pins.value.flatMap((pin) => watched_arrays().map((array) => {
-    const of = moments_of(pin, array);
+  const rows = pins.value.flatMap((pin) => watched_arrays().flatMap((array) => watched_sides().map((side) => {
+    const of = moments_of(pin, array, side);
     const unit = hello.value?.arrays.find((one) => one.name === array)?.unit ?? "";
     const numbers = of === undefined ? ["", 0, 0, "", "", "", "", ""]
       : [of.since, of.frames, of.n, ...[of.n === 0 ? NaN : of.mean, sigma_of(of), predicted_of(of), of.low, of.high].map(number)];
-    return [pin.number, pin.u, pin.v, array, unit, ...numbers].join(",");
-  }));
-  return ["pin,u,v,array,unit,first_frame,frames,n,mean,sigma,sigma_predicted,min,max", ...rows, ""].join("\n");
+    const at = side === "b" ? of_b(pin) : pin;
+    return [pin.number, side.toUpperCase(), at.u, at.v, array, unit, ...numbers].join(",");
+  })));
+  return ["pin,state,u,v,array,unit,first_frame,frames,n,mean,sigma,sigma_predicted,min,max", ...rows, ""].join("\n");
 }
 
 export const csv_copied = signal(false);
@@ -197,7 +210,15 @@ export async function copy_csv(): Promise<void> {
   setTimeout(() => (csv_copied.value = false), 2000);
 }
 
+/** Another second state than before begins anew. */
+export function forget_watched_b(): void {
+  for (const key of [...moments.keys()]) if (key.split(" ")[1] === "b") moments.delete(key);
+}
+
 export function start_watching(): void {
+  effect(() => {
+    if (other.value === undefined) forget_watched_b();
+  });
   // Where the server has no such array, what it has comes in its place.
   hello.subscribe((of) => {
     if (of === undefined || of.panes.some((one) => one.array === second.peek())) return;

@@ -3,10 +3,11 @@
 // The pinned pixels with their statistics over the frames that came since.
 
 import { number_text, with_unit } from "./numbers";
-import { cursor, frame, hello, point_at, scale_of, spoken, title_of } from "./store";
+import type { Side } from "./protocol";
+import { cursor, frame, hello, other, point_at, scale_of, spoken, title_of } from "./store";
 import {
   copy_csv, counted, csv_copied, is_outside, moments_of, most_pins, pin_at, pins, predicted_of, second, sigma_of, statistics_anew, toggle_pin, unpin, unpin_all,
-  watch_also, watched_arrays, type Moments, type Pin,
+  watch_also, watched_arrays, watched_sides, type Moments, type Pin,
 } from "./watch";
 
 /** Lengths of noise are read in millimetres. */
@@ -50,20 +51,23 @@ const lines: readonly Line[] = [
   { stat: "n", said: "n", about: "frames with a value", text: (of) => (of.n === of.frames ? String(of.n) : `${of.n} of ${of.frames}`) },
 ];
 
-function Statistics({ pin }: { pin: Pin }) {
+function Statistics({ pin, side }: { pin: Pin; side: Side }) {
   void counted.value;
   const arrays = watched_arrays();
-  const first = moments_of(pin, "z_m");
+  const first = moments_of(pin, "z_m", side);
   return (
-    <table class="statistics">
-      <caption>{first === undefined ? "Waits for a frame." : `Since frame ${first.since}: ${first.frames} ${first.frames === 1 ? "frame" : "frames"}`}</caption>
+    <table class="statistics" data-state={side}>
+      <caption>
+        {other.value !== undefined && <strong>{side.toUpperCase()} </strong>}
+        {first === undefined ? "Waits for a frame." : `Since frame ${first.since}: ${first.frames} ${first.frames === 1 ? "frame" : "frames"}`}
+      </caption>
       <thead><tr><td />{arrays.map((array) => <th key={array} scope="col">{title_of(array)}</th>)}</tr></thead>
       <tbody>
         {lines.map((line) => (
           <tr key={line.stat}>
             <th scope="row" title={line.about ?? ""}>{line.said}</th>
             {arrays.map((array) => {
-              const of = moments_of(pin, array);
+              const of = moments_of(pin, array, side);
               return <td key={array} data-stat={`${line.stat} ${array}`}>{of === undefined ? "–" : line.text(of, array)}</td>;
             })}
           </tr>
@@ -81,7 +85,7 @@ function Pinned({ pin }: { pin: Pin }) {
         <button type="button" class="quiet" disabled={is_outside(pin)} onClick={() => point_at(pin.u, pin.v, true)} aria-label={`Go to pin ${pin.number}`} title="the cursor goes there">Go to</button>
         <button type="button" class="quiet" onClick={() => unpin(pin)} aria-label={`Remove pin ${pin.number}`} title="off the list">✕</button>
       </div>
-      {is_outside(pin) ? <p class="faint">Outside the picture, which is smaller now.</p> : <Statistics pin={pin} />}
+      {is_outside(pin) ? <p class="faint">Outside the picture, which is smaller now.</p> : watched_sides().map((side) => <Statistics key={side} pin={pin} side={side} />)}
     </section>
   );
 }

@@ -67,8 +67,17 @@ void Client::greet(std::string hello) {
 void Client::tell(std::shared_ptr<const std::string> text) {
   if (closing_) return;
   waiting_bytes_ += text->size();
-  texts_.push_back(std::move(text));
+  told_.push_back({std::move(text), {}});
   if (waiting_bytes_ > most_waiting_bytes) return close(websocket::close_code::policy_error);
+  pump();
+}
+
+void Client::give(std::shared_ptr<const std::string> text, std::shared_ptr<const std::string> arrays, std::uint8_t kind) {
+  if (closing_) return;
+  std::erase_if(told_, [&](const Told& one) { return one.kind == kind; });
+  tell(std::move(text));
+  if (closing_) return;
+  told_.push_back({std::move(arrays), kind});
   pump();
 }
 
@@ -109,14 +118,14 @@ void Client::acknowledge(const Acknowledge& drawn) {
   hub_.wanted(false);
 }
 
-/// Sends what may be sent: texts first, then the newest frames, if not more than two wait to be drawn and their time has come; of the two sides'
+/// Sends what may be sent: what is told first, then the newest frames, if not more than two wait to be drawn and their time has come; of the two sides'
 /// frames the one that was offered first, so that none comes behind a later one of the other side.
 void Client::pump() {
   if (writing_ || closing_ || number_ == 0) return;
-  if (!texts_.empty()) {
-    auto text = std::move(texts_.front());
-    texts_.pop_front();
-    return write(std::move(text), true);
+  if (!told_.empty()) {
+    Told next = std::move(told_.front());
+    told_.pop_front();
+    return write(std::move(next.bytes), !next.kind);
   }
   Channel* first = &channels_[0];
   Channel* second = &channels_[1];
@@ -166,7 +175,7 @@ void Client::write(std::shared_ptr<const std::string> bytes, bool text) {
 
 void Client::close(websocket::close_code code) {
   if (std::exchange(closing_, true)) return;
-  texts_.clear(), drop_pending(), later_.cancel();
+  told_.clear(), drop_pending(), later_.cancel();
   socket_.async_close(code, [self = shared_from_this()](error_code) {});
   hub_.wanted(false);
 }

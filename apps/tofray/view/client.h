@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <deque>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -26,6 +27,8 @@ class Client : public std::enable_shared_from_this<Client> {
   void accept(http::request<http::empty_body> request);
   void greet(std::string hello);
   void tell(std::shared_ptr<const std::string> text);
+  /// A text with arrays right behind it.
+  void give(std::shared_ptr<const std::string> text, std::shared_ptr<const std::string> arrays, std::uint8_t kind);
   void offer(const std::shared_ptr<const Published>& frame);
   void close(websocket::close_code code);
 
@@ -78,7 +81,12 @@ class Client : public std::enable_shared_from_this<Client> {
   std::vector<std::uint16_t> arrays_;
   Rate rate_;
   bool visible_ = true, greeted_ = false, writing_ = false, closing_ = false;
-  std::deque<std::shared_ptr<const std::string>> texts_;
+  /// What is told, in order: a text, or arrays of a kind.
+  struct Told {
+    std::shared_ptr<const std::string> bytes;
+    std::optional<std::uint8_t> kind;  ///< none: a text
+  };
+  std::deque<Told> told_;
   std::size_t waiting_bytes_ = 0;
   Channel channels_[2];
   std::uint64_t offered_ = 0, sent_ = 0, dropped_ = 0;

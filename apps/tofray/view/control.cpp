@@ -9,6 +9,7 @@
 #include "base/text.h"
 #include "files/json.h"
 #include "tofray/error.h"
+#include "view/fields.h"
 #include "view/wire.h"
 
 namespace tofray::view {
@@ -16,39 +17,11 @@ namespace tofray::view {
 namespace {
 
 using files::Json;
+using namespace fields;
 
 constexpr std::size_t most_values = 10'000, most_key = 1000;
-constexpr std::uint64_t most_frame = 1'000'000'000, most_pixel = 16384;
+constexpr std::uint64_t most_frame = 1'000'000'000;
 constexpr double least_rate = 0.01, most_rate = 1000;
-
-struct Fault {
-  std::string text, more;
-};
-
-const Json& member(const Json& message, const char* name) {
-  const Json* found = message.find(name);
-  if (found == nullptr) throw Fault{std::string("the message has no ") + base::in_quotes(name), ""};
-  return *found;
-}
-
-std::string text_of(const Json& message, const char* name) {
-  const Json& found = member(message, name);
-  if (!found.is_string()) throw Fault{base::in_quotes(name) + " is no text", ""};
-  return *found.string();
-}
-
-std::uint64_t whole(const Json& message, const char* name, std::uint64_t most) {
-  std::uint64_t number = 0;
-  if (!member(message, name).unsigned_integer(number) || number > most)
-    throw Fault{base::in_quotes(name) + " is no whole number of 0 to " + std::to_string(most), ""};
-  return number;
-}
-
-bool truth_of(const Json& message, const char* name) {
-  const bool* found = member(message, name).boolean();
-  if (found == nullptr) throw Fault{base::in_quotes(name) + " is neither true nor false", ""};
-  return *found;
-}
 
 std::uint16_t array_of(const Json& name) {
   if (!name.is_string()) throw Fault{"the name of an array is no text", ""};
@@ -78,16 +51,6 @@ Want want_of(const Json& message) {
   out.arrays.erase(std::unique(out.arrays.begin(), out.arrays.end()), out.arrays.end());
   if (const Json* rate = message.find("rate")) out.rate = rate_of(*rate);
   return out;
-}
-
-std::uint64_t id_of(const Json& message) { return whole(message, "id", UINT64_MAX); }
-
-Side side_of(const Json& message) {
-  const Json* found = message.find("side");
-  if (found == nullptr) return Side::a;
-  if (found->is_string() && *found->string() == "a") return Side::a;
-  if (found->is_string() && *found->string() == "b") return Side::b;
-  throw Fault{"\"side\" is neither a nor b", ""};
 }
 
 std::string key_of(const Json& message) {
@@ -160,18 +123,10 @@ WhyQuestion why_of(const Json& message) {
     out.u0 = out.u1 = pixel.u, out.v0 = out.v1 = pixel.v;
     return out;
   }
-  const Fault wrong{"\"region\" is no list of two corners",
-                    "expected [u0, v0, u1, v1], whole numbers of 0 to 16384, the smaller one first"};
   if (message.find("u") != nullptr || message.find("v") != nullptr)
     throw Fault{"the message has a pixel and a region", "expected one of them"};
-  if (!region->is_array() || region->items()->size() != 4) throw wrong;
-  int* const into[] = {&out.u0, &out.v0, &out.u1, &out.v1};
-  for (std::size_t i = 0; i < 4; ++i) {
-    std::uint64_t number = 0;
-    if (!(*region->items())[i].unsigned_integer(number) || number > most_pixel) throw wrong;
-    *into[i] = static_cast<int>(number);
-  }
-  if (out.u1 < out.u0 || out.v1 < out.v0) throw wrong;
+  const std::array<int, 4> corners = corners_of(*region);
+  out.u0 = corners[0], out.v0 = corners[1], out.u1 = corners[2], out.v1 = corners[3];
   if (out.u1 - out.u0 >= most_side || out.v1 - out.v0 >= most_side)
     throw Fault{"\"region\" is of more than 64 x 64 pixels", "expected a smaller one"};
   return out;
@@ -193,8 +148,10 @@ Control control_of(const Json& message) {
   if (type == "other") return other_of(message);
   if (type == "controls" || type == "save")
     return Query{type == "save" ? Query::Kind::save : Query::Kind::controls, id_of(message), side_of(message)};
+  if (auto inquiry = inquiry_of(type, message)) return std::move(*inquiry);
   throw Fault{"no message is of the type " + base::in_quotes(type),
-              "expected ack, controls, fit, other, pause, pixel, play, save, seed, seek, set, state, unset, visible, want or why"};
+              "expected ack, camera, controls, drag, fit, measure, other, pause, pixel, place, play, region, save, seed, seek, set, state, "
+              "temporal, unset, view3d, visible, want or why"};
 }
 
 }  // namespace

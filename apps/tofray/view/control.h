@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The tofray authors
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -8,6 +9,8 @@
 #include <utility>
 #include <variant>
 #include <vector>
+
+#include "tofray/scene.h"
 
 /// What a page tells the viewer, as text messages.
 namespace tofray::view {
@@ -79,13 +82,63 @@ struct Query {
   std::uint64_t id = 0;
   Side side = Side::a;
 };
+/// The scene as it stands, in three dimensions.
+struct SceneQuestion {
+  std::uint64_t id = 0;
+  Side side = Side::a;
+};
+/// An object pulled from pixel to pixel.
+struct Drag {
+  enum class How : std::uint8_t {
+    parallel,  ///< to the image: what was under the cursor stays there
+    along,     ///< the ray of the first pixel
+    turn,
+    scale,
+  } how = How::parallel;
+  std::uint64_t id = 0;
+  Side side = Side::a;
+  int object = 0;                     ///< index in Scene::objects
+  int from_u = 0, from_v = 0;         ///< where it was taken
+  double to_u = 0, to_v = 0;          ///< the cursor; may be beside the image
+  std::optional<std::uint32_t> base;  ///< generation of the state that it was taken in; none: that in force
+};
+/// An object's place or the camera's pose in the world.
+struct Place {
+  std::uint64_t id = 0;
+  Side side = Side::a;
+  std::optional<int> object;  ///< index in Scene::objects; none: the camera
+  std::optional<Vec3> position;
+  std::optional<std::array<Vec3, 3>> rotation;  ///< rows
+  std::optional<std::uint32_t> base;
+};
+/// From pixel to pixel.
+struct Measure {
+  std::uint64_t id = 0;
+  Side side = Side::a;
+  int u[2] = {}, v[2] = {};
+};
+/// How good depth is in a region, both corners included.
+struct RegionQuestion {
+  std::uint64_t id = 0;
+  Side side = Side::a;
+  int u0 = 0, v0 = 0, u1 = 0, v1 = 0;
+};
+/// Noise over frames of a scene that stands still.
+struct Temporal {
+  std::uint64_t id = 0;
+  Side side = Side::a;
+  int frames = 200;
+};
+/// What is asked of a page's newest frame; of each kind the newest question of a page counts.
+using Inquiry = std::variant<SceneQuestion, Drag, Place, Measure, RegionQuestion, Temporal>;
+
 /// A message that is none of these: what to answer.
 struct Refused {
   std::optional<std::uint64_t> id;
   std::string text, more;
 };
 
-using Control = std::variant<Refused, Want, Visible, Acknowledge, Play, Seek, PixelQuestion, WhyQuestion, Fit, Edit, Query>;
+using Control = std::variant<Refused, Want, Visible, Acknowledge, Play, Seek, PixelQuestion, WhyQuestion, Fit, Edit, Query, Inquiry>;
 
 /// Reads one message. Throws nothing but for a lack of memory.
 Control parse_control(std::string_view text);

@@ -37,6 +37,15 @@ void Hub::tell(std::uint64_t client, std::string text) {
   });
 }
 
+void Hub::give(std::uint64_t client, std::string text, std::string arrays, std::uint8_t kind) {
+  net::post(io_, [this, client, text = std::move(text), arrays = std::move(arrays), kind]() mutable {
+    const auto found = clients_.find(client);
+    if (found == clients_.end()) return;
+    Client& page = *found->second;
+    page.give(std::make_shared<const std::string>(std::move(text)), std::make_shared<const std::string>(std::move(arrays)), kind);
+  });
+}
+
 void Hub::tell_all(std::string text) {
   net::post(io_, [this, text = std::make_shared<const std::string>(std::move(text))] {
     const auto clients = clients_;
@@ -68,6 +77,7 @@ std::uint64_t Hub::join(Client& client) {
 
 void Hub::leave(std::uint64_t client) {
   clients_.erase(client);
+  session_.leave(client);
   wanted(false);
 }
 
@@ -110,6 +120,11 @@ void Hub::took(Client& client, const std::string& message) {
     }
     void operator()(Fit& one) const { hub.session_.fit(client.number(), std::move(one.array)); }
     void operator()(const Query& one) const { hub.session_.query(client.number(), one); }
+    void operator()(Inquiry& one) const {
+      const Side side = std::visit([](const auto& asked) { return asked.side; }, one);
+      const Client::Seen& seen = client.seen(side);
+      hub.session_.inquire({client.number(), std::move(one), side, seen.generation, seen.frame});
+    }
     void operator()(Edit& one) const { hub.session_.edit(client.number(), std::move(one)); }
   };
   Control control = parse_control(message);

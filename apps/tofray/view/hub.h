@@ -25,6 +25,7 @@ class Hub : public Outbox {
   void publish(std::shared_ptr<const Published> frame, SessionCounts counts) override;
   void greet(std::uint64_t client, std::string hello) override;
   void tell(std::uint64_t client, std::string text) override;
+  void give(std::uint64_t client, std::string text, std::string arrays, std::uint8_t kind) override;
   void tell_all(std::string text) override;
   void own_rate(double hz) override;
   void other(bool open) override;

@@ -33,6 +33,9 @@ class Outbox {
   virtual void publish(std::shared_ptr<const Published> frame, SessionCounts counts) = 0;
   virtual void greet(std::uint64_t client, std::string hello) = 0;
   virtual void tell(std::uint64_t client, std::string text) = 0;
+  /// A text and the arrays that belong to it, a binary message right behind it. Of a page's arrays of one kind that still wait, the last ones
+  /// go.
+  virtual void give(std::uint64_t client, std::string text, std::string arrays, std::uint8_t kind) = 0;
   virtual void tell_all(std::string text) = 0;
   virtual void own_rate(double hz) = 0;
   /// Side B is there from now on, anew where it was there before, or no longer.

@@ -112,17 +112,10 @@ Json phasors_json(const PixelChain& chain, const PixelChain& expected) {
   Json list = Json::array();
   for (std::size_t i = 0; i < chain.phases.size(); ++i) {
     const ChainPhase& phase = chain.phases[i];
-    const std::vector<std::size_t> samples = samples_of(chain, i);
-    // Each D_k has the variance V = N/2 of that of Z's parts; I and Q weigh it by (2/N) cos and (2/N) sin of its reference phase.
-    double cosines = 0, sines = 0, mixed = 0;
-    for (const std::size_t k : samples) {
-      const double tau = chain.raw_frames[k].reference_phase_rad;
-      cosines += std::cos(tau) * std::cos(tau), sines += std::sin(tau) * std::sin(tau), mixed -= std::cos(tau) * std::sin(tau);
-    }
-    const double per = phase.noise_e * phase.noise_e * 2 / static_cast<double>(samples.size());
     Json json = Json::object();
     json.set("frequency_hz", phase.modulation_frequency_hz).set("unit", "e").set("i", in_phase(phase)).set("q", quadrature(phase));
-    json.set("sigma_i", std::sqrt(per * cosines)).set("sigma_q", std::sqrt(per * sines)).set("covariance", per * mixed);
+    // Reference phases are equally spaced, of all cameras that there can be: the noise of Z is round.
+    json.set("sigma_i", phase.noise_e).set("sigma_q", phase.noise_e).set("covariance", 0);
     json.set("amplitude", phase.amplitude_e).set("phase_rad", base::two_pi * phase.measured_turns);
     const bool known = i < expected.phases.size();
     json.set("truth_i", known ? in_phase(expected.phases[i]) : std::nan(""));

@@ -11,7 +11,7 @@ namespace tofray::view {
 Session::Mail Session::Impl::wait() {
   std::unique_lock lock(mutex_);
   for (;;) {
-    if (!mail_.empty() || !splits_.empty() || due(demand_, Clock::now())) break;
+    if (!mail_.empty() || !splits_.empty() || !series_.empty() || due(demand_, Clock::now())) break;
     const bool clocked = demand_.ready && all_shown() && playing();
     if (clocked)
       changed_.wait_until(lock, next_);
@@ -53,13 +53,16 @@ void Session::Impl::work(Mail mail) {
   }
   if (mail.again) show_again();
   if (mail.frame || mail.playing) tell_state();
+  for (const std::uint64_t client : mail.left) forget(client);
   if (!mail.joined.empty()) greet(mail.joined);
   for (const auto& [client, array] : mail.fits) fit(client, array);
   for (const auto& [client, question] : mail.questions) answer(question);
   for (const Mail::Asked& one : mail.queries) answer(one);
+  for (const auto& [of, inquired] : mail.inquiries) answer(inquired);
   for (const auto& [client, question] : mail.whys) begin_split(question);
   if (due(demand_now_, Clock::now())) show();
   go_on_with_split();
+  go_on_with_series();
 }
 
 void Session::Impl::greet(const std::vector<std::uint64_t>& clients) {
@@ -167,6 +170,17 @@ void Session::demand(Demand demand, bool again) {
 
 void Session::join(std::uint64_t client) {
   impl_->post([&](Mail& mail, Demand&) { return mail.joined.push_back(client), false; });
+}
+
+void Session::leave(std::uint64_t client) {
+  impl_->post([&](Mail& mail, Demand&) { return mail.left.push_back(client), false; });
+}
+
+void Session::inquire(Inquired inquired) {
+  impl_->post([&](Mail& mail, Demand&) {
+    mail.inquiries.insert_or_assign(std::pair{inquired.client, inquired.what.index()}, std::move(inquired));
+    return false;
+  });
 }
 
 void Session::edit(std::uint64_t client, Edit edit) {

@@ -42,6 +42,14 @@ struct Why {
   std::uint64_t frame = 0;  ///< of the frame that the page got last
 };
 
+struct Inquired {
+  std::uint64_t client = 0;
+  Inquiry what;
+  Side side = Side::a;
+  std::uint32_t generation = 0;
+  std::uint64_t frame = 0;  ///< of the frame that the page got last
+};
+
 /// What all pages look at, one state or two beside each other, each a scene + list of --set + seed, at one frame, and the thread that
 /// computes them. What it is told waits in a mailbox
 /// where the newest wins: of several changes of a key by one page, several questions of it, several places in time, the last one counts.
@@ -63,11 +71,13 @@ class Session {
   /// @param again  the frame shown is wanted once more, by who has not got it yet
   void demand(Demand demand, bool again);
   void join(std::uint64_t client);
+  void leave(std::uint64_t client);
   void edit(std::uint64_t client, Edit edit);
   void play(bool playing);
   void seek(std::uint64_t frame);
   void ask(const Question& question);
   void why(const Why& question);
+  void inquire(Inquired inquired);
   void fit(std::uint64_t client, std::string array);
   void query(std::uint64_t client, const Query& query);
 

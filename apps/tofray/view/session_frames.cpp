@@ -144,6 +144,12 @@ const Whole* Session::Impl::whole(SideOfSession& of, std::uint64_t index) {
   return frame_of(of, of.last, of.whole, index, {}, Manner::whole);
 }
 
+/// What it shows where, and when: the truth alone.
+const Whole* Session::Impl::seen(SideOfSession& of, std::uint64_t index) {
+  const std::vector<std::uint16_t> arrays{*find_wire_array("gt_object_id"), *find_wire_array("gt_z_m")};
+  return frame_of(of, of.last_seen, of.seen, index, arrays, Manner::expected);
+}
+
 /// Its raw frames as they are expected of direct light.
 const Whole* Session::Impl::expected(SideOfSession& of, std::uint64_t index) {
   const std::vector<std::uint16_t> arrays{*find_wire_array("tap_a"), *find_wire_array("tap_b")};

@@ -15,16 +15,19 @@
 #include <utility>
 #include <vector>
 
+#include "analysis/noise_over_time.h"
 #include "cli/remarks.h"
 #include "files/json.h"
 #include "tofray/causes.h"
 #include "tofray/error.h"
+#include "view/drag.h"
 #include "view/scales.h"
+#include "view/scene_3d.h"
 #include "view/session.h"
 #include "view/state.h"
 
 /// What a session is made of: its mailbox, its sides, and the thread that computes them (session.cpp: mailbox and changes; session_frames.cpp:
-/// frames and drafts; session_answers.cpp: what pages ask).
+/// frames and drafts; session_answers.cpp: what pages ask; session_inquiries.cpp: what they ask of the scene and of many frames).
 namespace tofray::view {
 
 using Clock = std::chrono::steady_clock;
@@ -83,17 +86,19 @@ struct Session::Mail {
     Query query;
   };
   std::vector<Change> edits;
-  std::vector<std::uint64_t> joined;            ///< who wants a greeting
-  std::map<std::uint64_t, Question> questions;  ///< by page
-  std::map<std::uint64_t, Why> whys;            ///< by page
+  std::vector<std::uint64_t> joined;                                    ///< who wants a greeting
+  std::vector<std::uint64_t> left;                                      ///< who is there no more
+  std::map<std::uint64_t, Question> questions;                          ///< by page
+  std::map<std::uint64_t, Why> whys;                                    ///< by page
+  std::map<std::pair<std::uint64_t, std::size_t>, Inquired> inquiries;  ///< by page and kind
   std::vector<std::pair<std::uint64_t, std::string>> fits;
   std::vector<Asked> queries;  ///< of each page and kind the last one
   std::optional<bool> playing;
   std::optional<std::uint64_t> frame;
   bool again = false, stop = false;
   [[nodiscard]] bool empty() const {
-    return edits.empty() && joined.empty() && questions.empty() && whys.empty() && fits.empty() && queries.empty() && !playing && !frame &&
-           !again && !stop;
+    return edits.empty() && joined.empty() && left.empty() && questions.empty() && whys.empty() && inquiries.empty() && fits.empty() &&
+           queries.empty() && !playing && !frame && !again && !stop;
   }
   /// Whether the frame under way is no longer the one that is wanted.
   [[nodiscard]] bool outdates() const { return !edits.empty() || frame.has_value(); }
@@ -121,12 +126,21 @@ struct Session::Mail {
   }
 };
 
+/// What pages draw of a state in 3D.
+struct Drawing {
+  std::uint32_t generation = 0;
+  double time_s = 0;
+  std::uint64_t number = 0;  ///< another one where it looks otherwise
+  Geometry geometry;
+};
+
 /// A state, what computes it, and how far that has come.
 struct SideOfSession {
   Side side;
   State state;
-  Simulating live, whole, draft, expected;
-  std::optional<Whole> last, last_expected;
+  Simulating live, whole, draft, expected, seen;
+  std::optional<Whole> last, last_expected, last_seen;
+  std::optional<Drawing> drawing;
   Frame frame, draft_frame;
   std::uint32_t sequence = 0;
   bool shown = false;    ///< the frame of the state has been published
@@ -141,6 +155,30 @@ struct Split {
   std::uint32_t generation = 0;
   std::uint64_t frame = 0;
   ErrorCauses causes;
+};
+
+/// The state in which an object was taken, as long as the page pulls at it.
+struct Held {
+  Side side = Side::a;
+  std::uint32_t generation = 0;
+  Scene scene;
+  Camera camera;
+  Overrides set;
+  double time_s = 0;
+  Truth truth;  ///< gt_object_id and gt_z_m
+  int object = -1, u = -1, v = -1;
+};
+
+/// Noise over frames of a state that stands still, found a few frames at a time.
+struct Series {
+  std::uint64_t client = 0;
+  Temporal asked;
+  std::uint32_t generation = 0;
+  std::uint64_t first = 0;
+  Simulator simulator;
+  Frame frame;
+  analysis::NoiseOverTime noise;
+  Clock::time_point told = Clock::now();
 };
 
 class Session::Impl {
@@ -209,6 +247,7 @@ class Session::Impl {
                 std::uint64_t index, Manner manner = Manner::whole);
   const Whole* whole(SideOfSession& of, std::uint64_t index);
   const Whole* expected(SideOfSession& of, std::uint64_t index);
+  const Whole* seen(SideOfSession& of, std::uint64_t index);
   const Whole* frame_of(SideOfSession& of, std::optional<Whole>& last, Simulating& simulating, std::uint64_t index,
                         const std::vector<std::uint16_t>& arrays, Manner manner);
   bool ready_to_greet();
@@ -216,6 +255,24 @@ class Session::Impl {
   std::string hello() const;
   void answer(const Question& question);
   void answer(const Mail::Asked& asked);
+  void answer(const Inquired& inquired);
+  void answer_what(const Inquired& inquired);
+  void ask_again(const Inquired& inquired);
+  /// Which frame a question is about.
+  [[nodiscard]] static std::uint64_t frame_asked(const Inquired& inquired, const State& state) {
+    return inquired.generation == state.generation ? inquired.frame : state.frame;
+  }
+  const Drawing& drawing_of(SideOfSession& on, const SceneAt& at);
+  void tell_scene(const Inquired& inquired, const SceneQuestion& asked, double time_s);
+  /// The state that a drag began in; null where its frame was given up. @throws Error where nobody knows it any more
+  const Held* held(const Inquired& inquired, std::optional<std::uint32_t> base, int object, int u, int v);
+  void tell_moved(const Inquired& inquired, const char* type, std::uint64_t id, std::uint32_t base, const Moved& moved);
+  void begin_series(const Inquired& inquired, const Temporal& asked, double time_s);
+  void go_on_with_series();
+  /// @return whether it is done
+  bool step(Series& series);
+  void tell_series(const Series& series, bool done);
+  void forget(std::uint64_t client);
   void begin_split(const Why& question);
   void go_on_with_split();
   void tell_split(const Split& split);
@@ -249,8 +306,12 @@ class Session::Impl {
   bool at_once_ = true;  ///< the next frame answers a change
   Clock::time_point next_ = Clock::now();
   SessionCounts counts_;
-  std::map<std::uint64_t, Split> splits_;  ///< by page
-  std::uint64_t last_split_ = 0;           ///< whose frame came last
+  std::map<std::uint64_t, Split> splits_;                          ///< by page
+  std::uint64_t last_split_ = 0;                                   ///< whose frame came last
+  std::map<std::uint64_t, Series> series_;                         ///< by page
+  std::map<std::uint64_t, Held> held_;                             ///< by page
+  std::map<std::pair<std::uint64_t, Side>, std::uint64_t> drawn_;  ///< the drawing that a page has, by its number
+  std::uint64_t drawings_ = 0;
 };
 
 }  // namespace tofray::view

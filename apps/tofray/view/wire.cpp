@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstring>
 #include <type_traits>
+#include <utility>
 
 #include "tofray/error.h"
 
@@ -170,43 +171,66 @@ std::vector<double> pixel_values(const Frame& frame, std::uint16_t array, std::s
   return out;
 }
 
-std::string encoded(const WireHead& head, const Frame& frame, std::span<const std::uint16_t> arrays) {
-  struct Part {
-    std::uint16_t number;
-    ArrayView view;
-    std::size_t place;
-  };
-  std::vector<Part> parts;
-  std::vector<float> made;
-  for (const std::uint16_t one : arrays)
-    if (const ArrayView view = view_of(frame, one, made); view.data != nullptr) parts.push_back({one, view, 0});
+namespace {
+
+struct Part {
+  std::uint16_t number;
+  std::uint8_t type_number;
+  ArrayView view;
+  std::size_t place = 0;
+};
+
+/// What of a message's head is of the frame.
+struct OfFrame {
+  std::uint64_t index;
+  std::uint32_t width, height;
+  std::uint16_t phases;
+};
+
+std::string message_of(const WireHead& head, const OfFrame& frame, std::vector<Part> parts) {
   std::size_t end = head_bytes + row_bytes * parts.size();
   for (Part& part : parts) part.place = aligned(end), end = part.place + part.view.bytes;
   if (end > most_bytes)
     throw Error(ErrorKind::limit, "error: these arrays together are longer than 1 GB\n  expected fewer of them in one view");
-
   std::string out;
   out.reserve(end);
   Writer writer(out);
-  const std::uint32_t width = width_of(frame);
   out += "TFV1";
   writer.put<std::uint16_t>(head_bytes).put(head.channel).put(head.flags).put(head.generation).put(head.sequence);
-  writer.put<std::uint64_t>(frame.index).put(head.time_s);
-  writer.put(width).put(width == 0 ? 0u : static_cast<std::uint32_t>(pixels_of(frame) / width));
-  writer.put(static_cast<std::uint16_t>(std::max({frame.raw.phases, frame.truth.phases, static_cast<int>(frame.raw.lit.size())})));
+  writer.put(frame.index).put(head.time_s).put(frame.width).put(frame.height).put(frame.phases);
   writer.put<std::uint16_t>(1).put(static_cast<std::uint16_t>(parts.size())).put<std::uint16_t>(0).put(head.compute_ms);
   writer.put(0.0f).put<std::uint64_t>(0);
   for (const Part& part : parts) {
     const ArrayView& view = part.view;
-    writer.put(part.number).put(wire_arrays()[part.number].type_number).put(view.rank);
+    writer.put(part.number).put(part.type_number).put(view.rank);
     writer.put(static_cast<std::uint32_t>(part.place)).put(static_cast<std::uint32_t>(view.bytes));
     writer.put(view.extents[0]).put(view.extents[1]).put(view.extents[2]).put<std::uint64_t>(0);
   }
   for (const Part& part : parts) {
     out.resize(part.place, '\0');
-    out.append(static_cast<const char*>(part.view.data), part.view.bytes);
+    if (part.view.bytes > 0) out.append(static_cast<const char*>(part.view.data), part.view.bytes);
   }
   return out;
+}
+
+}  // namespace
+
+std::string encoded(const WireHead& head, const Frame& frame, std::span<const std::uint16_t> arrays) {
+  std::vector<Part> parts;
+  std::vector<float> made;
+  for (const std::uint16_t one : arrays)
+    if (const ArrayView view = view_of(frame, one, made); view.data != nullptr)
+      parts.push_back({one, wire_arrays()[one].type_number, view});
+  const std::uint32_t width = width_of(frame), height = width == 0 ? 0u : static_cast<std::uint32_t>(pixels_of(frame) / width);
+  const int phases = std::max({frame.raw.phases, frame.truth.phases, static_cast<int>(frame.raw.lit.size())});
+  return message_of(head, {frame.index, width, height, static_cast<std::uint16_t>(phases)}, std::move(parts));
+}
+
+std::string encoded(const WireHead& head, std::uint64_t frame, std::uint32_t width, std::uint32_t height,
+                    std::span<const StaticArray> arrays) {
+  std::vector<Part> parts;
+  for (const StaticArray& one : arrays) parts.push_back({static_cast<std::uint16_t>(parts.size()), one.type_number, one.view});
+  return message_of(head, {frame, width, height, 0}, std::move(parts));
 }
 
 }  // namespace tofray::view

@@ -46,11 +46,22 @@ std::vector<std::string> sources_of(std::span<const std::uint16_t> arrays);
 std::vector<double> pixel_values(const Frame& frame, std::uint16_t array, std::size_t pixel);
 
 struct WireHead {
-  std::uint8_t channel = 0, flags = 0;
+  std::uint8_t channel = 0;  ///< 0, 1: frames of side A and B; 2, 3: answers of side A and B
+  std::uint8_t flags = 0;
   std::uint32_t generation = 0, sequence = 0;
   double time_s = 0;
   float compute_ms = 0;
 };
+
+/// An array that is no frame's.
+struct StaticArray {
+  std::uint8_t type_number = 5;  ///< as WireArray::type_number: f32
+  ArrayView view;
+};
+/// A message that answers a question: its arrays are numbered from 0 on.
+/// @throws Error (limit) where it would be longer than 1 GB
+std::string encoded(const WireHead& head, std::uint64_t frame, std::uint32_t width, std::uint32_t height,
+                    std::span<const StaticArray> arrays);
 
 /// The message of these arrays; those that the frame does not have are left out.
 /// @throws Error (limit) where it would be longer than 1 GB
