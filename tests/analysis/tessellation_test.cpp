@@ -130,7 +130,8 @@ TEST(tessellation, of_too_many_triangles_makes_boxes_of_the_largest_objects) {
     EXPECT_LE(all.corners.size(), most);
     EXPECT_EQ(all.corners.size(), all.objects.size());
     std::string out;
-    for (const Drawn one : all.drawn) out += one == Drawn::shape ? "shape " : one == Drawn::box ? "box " : "none ";
+    for (const analysis::Drawn one : all.drawn)
+      out += one == analysis::Drawn::shape ? "shape " : one == analysis::Drawn::box ? "box " : "none ";
     return out;
   };
   EXPECT_EQ(drawn(2600), "shape shape shape ");
