@@ -63,7 +63,8 @@ class McapWriter {
 
 /// What is in an MCAP file, of any writer.
 struct McapContents {
-  struct Channel {                      ///< a topic, and what came on it
+  /// A topic, and what came on it.
+  struct Channel {
     std::string topic, type, encoding;  ///< encoding of the messages: "cdr"
     std::uint64_t messages = 0, bytes = 0;
     std::int64_t first_ns = 0, last_ns = 0;  ///< log times
