@@ -21,7 +21,7 @@ T taken(py::handle value, const char* name) {
   return out;
 }
 template <class T>
-T word_of(const py::dict& words, const char* name) {
+T swept_word(const py::dict& words, const char* name) {
   return taken<T>(words[name], name);
 }
 
@@ -35,7 +35,7 @@ py::list axes_of(const Sweep& of) {
   return out;
 }
 
-ImageRegion region_of(py::handle value) {
+ImageRegion swept_region(py::handle value) {
   ImageRegion out;
   if (value.is_none()) return out;
   const std::vector<py::object> four = items_of(value, {nullptr, "region"}, "column, row, width and height in pixels", 4);
@@ -47,11 +47,11 @@ ImageRegion region_of(py::handle value) {
 /// @param vary  of each axis the key and its values: a text as of the command line, or a list of texts; or (key, None, list of numbers)
 SweepRequest request_of(const py::dict& words, const py::list& vary, const py::dict& options) {
   SweepRequest out;
-  out.inputs.scene = word_of<std::string>(words, "scene"), out.inputs.mode = word_of<std::string>(words, "mode");
-  out.inputs.root = word_of<std::string>(words, "root");
+  out.inputs.scene = swept_word<std::string>(words, "scene"), out.inputs.mode = swept_word<std::string>(words, "mode");
+  out.inputs.root = swept_word<std::string>(words, "root");
   from_python(words["set"], out.inputs.set, {nullptr, "set"}), from_python(words["metrics"], out.metrics, {nullptr, "metrics"});
-  out.repeat = word_of<std::uint64_t>(words, "repeat"), out.by_object = word_of<bool>(words, "by_object");
-  out.region = region_of(words["region"]);
+  out.repeat = swept_word<std::uint64_t>(words, "repeat"), out.by_object = swept_word<bool>(words, "by_object");
+  out.region = swept_region(words["region"]);
   out.simulator = options_from_python(options);
   for (const py::handle one : vary) {
     const auto pair = py::reinterpret_borrow<py::tuple>(one);

@@ -12,12 +12,15 @@
 #include "load/builtin.h"
 #include "model/key_stage.h"
 #include "model/lines.h"
+#include "sweep/trimmed.h"
 #include "tofray/error.h"
 #include "tofray/sweep.h"
 
 namespace tofray {
 
 namespace {
+
+using sweeps::trimmed;
 
 using model::Form;
 using FormKind = Form::Kind;
@@ -26,11 +29,6 @@ constexpr std::size_t most_values = 100'000;
 
 [[noreturn]] void refuse(const std::string& key, const std::string& value, const std::string& expected) {
   throw Error(ErrorKind::bad_input, fmt::format("error: --vary {} cannot be {}\n  expected {}", key, base::in_quotes(value), expected));
-}
-
-std::string trimmed(const std::string& text) {
-  const std::size_t first = text.find_first_not_of(' '), last = text.find_last_not_of(' ');
-  return first == std::string::npos ? "" : text.substr(first, last - first + 1);
 }
 
 /// The parts between commas that stand in no brackets and no quotes.

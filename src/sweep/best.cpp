@@ -10,16 +10,14 @@
 #include "base/text.h"
 #include "base/units.h"
 #include "sweep/metrics.h"
+#include "sweep/trimmed.h"
 #include "tofray/error.h"
 
 namespace tofray {
 
 namespace {
 
-std::string trimmed(const std::string& text) {
-  const std::size_t first = text.find_first_not_of(' '), last = text.find_last_not_of(' ');
-  return first == std::string::npos ? "" : text.substr(first, last - first + 1);
-}
+using sweeps::trimmed;
 
 /// A metric of the sweep, or an axis of numbers.
 struct Quantity {
