@@ -382,8 +382,7 @@ const std::vector<OptionSpec>& all_options() {
   static const std::vector<OptionSpec> all = [] {
     std::vector<OptionSpec> joined = specs();
     for (const std::vector<OptionSpec>& more : {machine_specs(), message_specs(), bench_specs(), transient_specs(), preview_specs(),
-                                                view_specs(), budget_specs(), measuring_specs(), dataset_specs(),
-                                                sweep_specs()})
+                                                view_specs(), budget_specs(), measuring_specs(), dataset_specs(), sweep_specs()})
       joined.insert(joined.end(), more.begin(), more.end());
     return joined;
   }();

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/option_values.h"
 
-
 namespace tofray::app {
 
 std::vector<OptionSpec> sweep_specs() {
