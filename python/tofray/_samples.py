@@ -147,9 +147,9 @@ class Samples:
                 out[name] = json.loads(bytes(member))
                 continue
             header = io.BytesIO(bytes(member[:256]))
-            version = np.lib.format.read_magic(header)
-            assert version == (1, 0)
-            shape, _, dtype = np.lib.format.read_array_header_1_0(header)
+            npy: Any = np.lib.format
+            assert npy.read_magic(header) == (1, 0)
+            shape, _, dtype = npy.read_array_header_1_0(header)
             out[name.removesuffix(".npy")] = member[header.tell():].view(dtype).reshape(shape)
         return out
 
@@ -165,7 +165,7 @@ class Samples:
 
         Returns
         -------
-        ndarray of int64
+        int64 array [row], 1
             The same with every version of numpy.
         """
         rows = self._rows
@@ -173,7 +173,8 @@ class Samples:
         key = int(_mixed(np.array([seed % 2**64], np.uint64), epoch + 1)[0])
         by_shard = _mixed((rows // (views * each)).astype(np.uint64), key)
         by_row = _mixed(rows.astype(np.uint64), key + 1)
-        return rows[np.lexsort((by_row, by_shard))]
+        ordered: NDArray[np.int64] = rows[np.lexsort((by_row, by_shard))]
+        return ordered
 
     def stream(self, batch: int, *, rank: int = 0, world: int = 1, seed: int = 0, epoch: int = 0, start: int = 0) -> Iterator[dict[str, Any]]:
         """Batches of one epoch: of all ranks together each row once. (epoch, batches that were taken) is all the state there is.

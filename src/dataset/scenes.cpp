@@ -103,7 +103,13 @@ Scene Scenes::scene(std::uint64_t sample, std::uint64_t view) const {
   return load::scene_from_text(yaml(sample, view), source(sample, view));
 }
 
-std::vector<Drawn> Scenes::drawn(std::uint64_t sample, std::uint64_t view) const { return write(sample, view).drawn; }
+std::vector<Drawn> Scenes::drawn(std::uint64_t sample, std::uint64_t view) const {
+  Sample drawing = at(sample, view);
+  drawing.scene();
+  drawing.settings();
+  const bool as_drawn = drawing.scatters().empty() && drawing.look() == nullptr && set_.accept.empty();
+  return as_drawn ? drawing.drawn() : write(sample, view).drawn;
+}
 
 std::uint64_t Scenes::noise_seed(std::uint64_t sample, std::uint64_t view) const { return at(sample, view).seed(Per::view, "noise"); }
 

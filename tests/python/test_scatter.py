@@ -6,6 +6,7 @@ from __future__ import annotations
 
 import os
 import pathlib
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -48,7 +49,8 @@ class Body:
     """A point set of its surface, whether points are in it, and how far it reaches along a direction."""
 
     def __init__(self, thing: tofray.Object) -> None:
-        self.shape, self.turn, self.at = thing.shape, matrix(np.array(thing.rotation.quaternion)), np.array(thing.position)
+        self.shape: Any = thing.shape
+        self.turn, self.at = matrix(np.array(thing.rotation.quaternion)), np.array(thing.position)
         rng = np.random.default_rng(1)
         way = rng.normal(size=(600, 3))
         way /= np.linalg.norm(way, axis=1, keepdims=True)
@@ -98,8 +100,8 @@ def test_nothing_overlaps_hovers_or_reaches_over_the_rim(tmp_path: pathlib.Path)
                 assert body.reach(np.array(way)) <= rim + 1e-9, f"sample {sample} reaches over the rim"
             for other in bodies[:i]:
                 assert not other.holds(body.points) and not body.holds(other.points), f"sample {sample}: two overlap"
-                near = np.linalg.norm(body.at - other.at)
-                touched += near < 0.25
+                near = float(np.linalg.norm(body.at - other.at))
+                touched += int(near < 0.25)
                 if isinstance(body.shape, tofray.Sphere) and isinstance(other.shape, tofray.Sphere):
                     assert near >= body.shape.radius + other.shape.radius + 0.001 - 1e-12
     assert placed > 6 * SCENES and touched > SCENES, "many, and near each other"
