@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "dataset/placing.h"
 #include "tofray/load.h"
 #include "tofray/simulator.h"
 
@@ -24,8 +25,6 @@ Camera coarse(Camera camera) {
   camera.lens.cx_px = (camera.lens.cx_px + 0.5) / step - 0.5, camera.lens.cy_px = (camera.lens.cy_px + 0.5) / step - 0.5;
   return camera;
 }
-
-bool is_called(const std::string& object, const std::string& name) { return object == name || object.starts_with(name + "["); }
 
 }  // namespace
 

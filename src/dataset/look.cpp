@@ -15,24 +15,24 @@ using base::in_quotes;
 using yaml::Node;
 
 constexpr double pi = 3.141592653589793;
-constexpr const char* example = "{look: {at: ball, radius: [0.8 m, 2 m], elevation: [-10 deg, 50 deg]}}";
+constexpr const char* look_example = "{look: {at: ball, radius: [0.8 m, 2 m], elevation: [-10 deg, 50 deg]}}";
 
 }  // namespace
 
 void Sample::see_look(const Node& pose) {
   const Node& look = *pose.find("look");
   if (pose.keys.size() != 1)
-    base::fail(pose.place, "beside look stands another key of a pose", std::string("expected it alone, as in ") + example);
+    base::fail(pose.place, "beside look stands another key of a pose", std::string("expected it alone, as in ") + look_example);
   static const std::vector<std::string> known{"at", "radius", "elevation", "azimuth", "roll", "clear", "tries"};
   if (look.kind != Node::Kind::map)
-    base::fail(look.place, "look is not what belongs here", std::string("expected a map, as in ") + example);
+    base::fail(look.place, "look is not what belongs here", std::string("expected a map, as in ") + look_example);
   for (const Node::Key& key : look.keys)
     if (std::find(known.begin(), known.end(), key.text) == known.end())
       base::fail(key.place, "unknown key " + in_quotes(key.text) + " in look" + base::did_you_mean(key.text, known),
                  "known keys: " + base::listed(known, "and"));
   for (const char* needed : {"at", "radius"})
     if (look.find(needed) == nullptr)
-      base::fail(look.place, std::string("look lacks the key ") + needed, std::string("expected something like ") + example);
+      base::fail(look.place, std::string("look lacks the key ") + needed, std::string("expected something like ") + look_example);
   look_ = &look;
 }
 

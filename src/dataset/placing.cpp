@@ -245,8 +245,6 @@ double distance_to(const Solid& solid, const Vec& point) {
   return std::sqrt(sum);
 }
 
-bool is_called(const std::string& object, const std::string& name) { return object == name || object.starts_with(name + "["); }
-
 /// The middle of what a look is at: of a scatter, of all its things.
 Vec aim_of(const Scene& scene, const Look& look) {
   if (look.at_name.empty()) return {look.at_m[0], look.at_m[1], look.at_m[2]};

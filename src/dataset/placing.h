@@ -39,6 +39,9 @@ struct Look {
 /// A try at it.
 using LookDraw = std::function<Look(int attempt)>;
 
+/// Whether an object is of that name, or one of the scatter of that name.
+inline bool is_called(const std::string& object, const std::string& name) { return object == name || object.starts_with(name + "["); }
+
 /// A uniform number of [0, 1) for each path.
 using Chance = std::function<double(const std::string& path)>;
 

@@ -14,13 +14,13 @@ namespace {
 using base::in_quotes;
 using yaml::Node;
 
-constexpr const char* example =
+constexpr const char* scatter_example =
     "{name: clutter, count: 5, of: {sphere: {center: [0, 0, 0], radius: 5 cm, reflectivity: 50 %}}, surface: table}";
 
 const Node& needed(const Node& map, const char* key) {
   const Node* found = map.find(key);
   if (found == nullptr)
-    base::fail(map.place, std::string("scatter lacks the key ") + key, std::string("expected something like ") + example);
+    base::fail(map.place, std::string("scatter lacks the key ") + key, std::string("expected something like ") + scatter_example);
   return *found;
 }
 
@@ -28,7 +28,7 @@ void refuse_unknown_keys(const Node& map) {
   static const std::vector<std::string> known{"name",   "count", "of",  "surface", "box",     "view",
                                               "within", "turn",  "gap", "tries",   "unplaced"};
   if (map.kind != Node::Kind::map)
-    base::fail(map.place, "scatter is not what belongs here", std::string("expected a map such as ") + example);
+    base::fail(map.place, "scatter is not what belongs here", std::string("expected a map such as ") + scatter_example);
   for (const Node::Key& key : map.keys)
     if (std::find(known.begin(), known.end(), key.text) == known.end())
       base::fail(key.place, "unknown key " + in_quotes(key.text) + " in scatter" + base::did_you_mean(key.text, known),

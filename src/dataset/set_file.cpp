@@ -12,11 +12,10 @@ namespace {
 constexpr double most_samples = 1e12, most_views = 256, most_devices = 1e9, most_seed = 9007199254740991.0, most_attempts = 65536;
 
 model::Form rule_form() {
-  using namespace model;
-  Form rule =
-      map({absent("valid", number(base::Dimension::fraction, {0, 1}, "60 %"), "the share of the pixels that have a depth, at least"),
-           absent("seen", text("the name of an object, or of a scatter", "clutter"), "what is seen"),
-           absent("pixels", integer({1, 1e9}, "200"), "by so many pixels, at least")});
+  model::Form rule = model::map({model::absent("valid", model::number(base::Dimension::fraction, {0, 1}, "60 %"),
+                                               "the share of the pixels that have a depth, at least"),
+                                 model::absent("seen", model::text("the name of an object, or of a scatter", "clutter"), "what is seen"),
+                                 model::absent("pixels", model::integer({1, 1e9}, "200"), "by so many pixels, at least")});
   rule.exactly_one = {"valid", "seen"};
   return rule;
 }

@@ -16,8 +16,8 @@ namespace {
 
 using files::Json;
 
-constexpr const char* form = "tofray-shard-1";
-constexpr std::size_t most_bytes = std::size_t{1} << 30;
+constexpr const char* record_form = "tofray-shard-1";
+constexpr std::size_t most_record_bytes = std::size_t{1} << 30;
 
 /// Reads members of a document, and remembers whether all of them were there.
 struct Reader {
@@ -56,7 +56,7 @@ std::string record_text(const Record& record) {
   for (const Record::Hole& one : record.holes) holes.push(Json::object().set("sample", one.sample).set("why", one.why));
   for (const auto& [name, sha256] : record.inputs) inputs.set(name, sha256);
   Json out = Json::object();
-  out.set("format", form).set("plan", record.plan).set("shard", record.shard).set("first", record.first).set("count", record.count);
+  out.set("format", record_form).set("plan", record.plan).set("shard", record.shard).set("first", record.first).set("count", record.count);
   out.set("bytes", record.bytes).set("sha256", record.sha256).set("holes", std::move(holes)).set("inputs", std::move(inputs));
   out.set("statistics", record.statistics.json())
       .set("members", "name, offset in the tar, bytes, CRC-32")
@@ -90,9 +90,9 @@ Record parse_record(std::string_view text, const std::string& where) {
     read.number(one.find("sample"), hole.sample), read.text(one.find("why"), hole.why);
   }
   for (const auto& [name, sha256] : read.map(json.find("inputs"))) read.text(&sha256, out.inputs[name]);
-  if (!read.good || format != form)
+  if (!read.good || format != record_form)
     throw Error(ErrorKind::bad_input,
-                fmt::format("{}: error: this is no record of a shard\n  expected a file of the format {}", where, form));
+                fmt::format("{}: error: this is no record of a shard\n  expected a file of the format {}", where, record_form));
   const Json* statistics = json.find("statistics");
   out.statistics = statistics_of(statistics != nullptr ? *statistics : Json::object(), where);
   return out;
@@ -102,7 +102,7 @@ std::optional<Record> read_record(const std::filesystem::path& folder, std::uint
   const std::filesystem::path path = folder / record_name(shard);
   std::error_code fault;
   if (!std::filesystem::exists(path, fault)) return {};
-  return parse_record(files::read_bytes(path.native(), most_bytes), path.native());
+  return parse_record(files::read_bytes(path.native(), most_record_bytes), path.native());
 }
 
 bool is_complete(const std::filesystem::path& folder, const Plan& plan, std::uint64_t shard) {

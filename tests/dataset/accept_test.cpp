@@ -16,9 +16,9 @@ using namespace tofray;
 using out_test::write_file;
 using test::has;
 
-class Set {
+class AcceptSet {
  public:
-  explicit Set(const std::string& more) {
+  explicit AcceptSet(const std::string& more) {
     write_file(folder_.file("set.yaml"),
                "name: trial\nsamples: 300\nseed: 3\n" + more +
                    "scene:\n  objects:\n"
@@ -45,7 +45,7 @@ double valid_share(const Frame& frame) {
 std::ptrdiff_t pixels_of_ball(const Frame& frame) { return std::count(frame.truth.object_id.begin(), frame.truth.object_id.end(), 1); }
 
 TEST(accept, takes_samples_that_show_what_they_should) {
-  const Set file("accept: [{seen: ball, pixels: 400}, {valid: 60 %}]\n"), free("");
+  const AcceptSet file("accept: [{seen: ball, pixels: 400}, {valid: 60 %}]\n"), free("");
   const Dataset set = file.get(), all = free.get();
   int refused = 0;
   for (std::uint64_t i = 0; i < 40; ++i) {
@@ -65,7 +65,7 @@ TEST(accept, takes_samples_that_show_what_they_should) {
 }
 
 TEST(accept, of_one_sample_hangs_on_no_other_one) {
-  const Set file("accept: [{valid: 60 %}]\n");
+  const AcceptSet file("accept: [{valid: 60 %}]\n");
   const std::string alone = file.get().scene_yaml(17);
   const Dataset set = file.get();
   for (std::uint64_t i = 20; i-- > 10;) (void)set.scene_yaml(i);
@@ -73,7 +73,7 @@ TEST(accept, of_one_sample_hangs_on_no_other_one) {
 }
 
 TEST(accept, that_takes_none_says_which_rule) {
-  const Set file("attempts: 4\naccept: [{valid: 1 %}, {seen: ball, pixels: 30000}]\n");
+  const AcceptSet file("attempts: 4\naccept: [{valid: 1 %}, {seen: ball, pixels: 30000}]\n");
   const Error error = out_test::error_of([&] { (void)file.get().scene_yaml(5); });
   EXPECT_TRUE(has(error.what(), "set.yaml:5:24: error: accept takes no attempt at sample 5")) << error.what();
   EXPECT_TRUE(has(error.what(), "of 4, this rule refused 4")) << error.what();
@@ -88,7 +88,7 @@ TEST(accept, that_is_no_rule_is_refused) {
                                                         {"[]", "accept"},
                                                         {"60 %", "accept"},
                                                         {"[{vaild: 60 %}]", "did you mean"}}) {
-    const Set file("accept: " + rules + "\n");
+    const AcceptSet file("accept: " + rules + "\n");
     const Error error = out_test::error_of([&] { (void)file.get(); });
     EXPECT_TRUE(has(error.what(), message) && has(error.what(), "set.yaml:4:")) << rules << "\n" << error.what();
   }

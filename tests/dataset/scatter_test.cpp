@@ -19,9 +19,9 @@ using namespace tofray;
 using out_test::write_file;
 using test::has;
 
-class Set {
+class ScatterSet {
  public:
-  explicit Set(const std::string& objects, const std::string& scene = "") {
+  explicit ScatterSet(const std::string& objects, const std::string& scene = "") {
     write_file(folder_.file("set.yaml"), "name: trial\nsamples: 1000\nseed: 3\nscene:\n" + scene + "  objects:\n" + objects);
   }
   [[nodiscard]] Dataset get() const { return Dataset(folder_.file("set.yaml")); }
@@ -49,8 +49,8 @@ double distance(const Object& a, const Object& b) {
 }
 
 TEST(scatter, puts_balls_on_the_table_apart_from_each_other_and_from_what_stands_there) {
-  const Set file(table + "    - sphere: {name: lamp, center: [0, 0, 1 m], radius: 10 cm, reflectivity: 0.9}\n" +
-                 scatter("surface: table", ", gap: 5 mm"));
+  const ScatterSet file(table + "    - sphere: {name: lamp, center: [0, 0, 1 m], radius: 10 cm, reflectivity: 0.9}\n" +
+                        scatter("surface: table", ", gap: 5 mm"));
   const Dataset set = file.get();
   std::size_t count = 0;
   for (std::uint64_t i = 0; i < 100; ++i) {
@@ -74,7 +74,8 @@ TEST(scatter, puts_balls_on_the_table_apart_from_each_other_and_from_what_stands
 }
 
 TEST(scatter, draws_its_count_and_places_evenly) {
-  const Set file(table + scatter("surface: table", ", tries: 1000", "{sphere: {center: [0, 0, 0], radius: 1 mm, reflectivity: 0.5}}"));
+  const ScatterSet file(table +
+                        scatter("surface: table", ", tries: 1000", "{sphere: {center: [0, 0, 0], radius: 1 mm, reflectivity: 0.5}}"));
   const Dataset set = file.get();
   std::map<std::size_t, int> counts;
   double left = 0, near = 0, all = 0;
@@ -92,7 +93,7 @@ TEST(scatter, draws_its_count_and_places_evenly) {
 }
 
 TEST(scatter, stands_upright_on_a_tilted_surface_and_turns_about_its_normal) {
-  const Set file(
+  const ScatterSet file(
       "    - rectangle: {name: ramp, center: [0, 0, 1 m], size: [1 m, 1 m], rotation: {axis: [1, 0, 0], angle: 60 deg}, reflectivity: "
       "0.5}\n" +
       scatter("surface: ramp", ", turn: {uniform: [-30 deg, 30 deg]}",
@@ -123,8 +124,8 @@ TEST(scatter, stands_upright_on_a_tilted_surface_and_turns_about_its_normal) {
 
 TEST(scatter, floats_in_a_box_or_in_what_the_camera_sees_on_the_cameras_side_of_walls) {
   const std::string wall = "    - plane: {name: wall, point: [0, 0, 2 m], reflectivity: 0.5}\n";
-  const Set in_box(wall + scatter("box: [[-10 cm, -20 cm, 1 m], [30 cm, 20 cm, 1.5 m]]"));
-  const Set in_view(wall + scatter("view: [0.5 m, 4 m]"));
+  const ScatterSet in_box(wall + scatter("box: [[-10 cm, -20 cm, 1 m], [30 cm, 20 cm, 1.5 m]]"));
+  const ScatterSet in_view(wall + scatter("view: [0.5 m, 4 m]"));
   const Dataset boxes = in_box.get(), views = in_view.get();
   double seen = 0, all = 0;
   for (std::uint64_t i = 0; i < 100; ++i) {
@@ -148,8 +149,9 @@ TEST(scatter, floats_in_a_box_or_in_what_the_camera_sees_on_the_cameras_side_of_
 
 TEST(scatter, of_another_name_or_count_changes_no_draw_of_others) {
   const auto others = [](const std::string& more) {
-    const Set file(table + scatter("surface: table") +
-                   "    - sphere: {name: lamp, center: [{uniform: [-1 m, 1 m]}, -1 m, 2 m], radius: 10 cm, reflectivity: 0.9}\n" + more);
+    const ScatterSet file(table + scatter("surface: table") +
+                          "    - sphere: {name: lamp, center: [{uniform: [-1 m, 1 m]}, -1 m, 2 m], radius: 10 cm, reflectivity: 0.9}\n" +
+                          more);
     std::map<std::string, std::string> out;
     for (const Drawn& one : file.get().drawn(7))
       if (!one.path.starts_with("objects/more")) out[one.path] = one.text;
@@ -159,26 +161,28 @@ TEST(scatter, of_another_name_or_count_changes_no_draw_of_others) {
       "    - scatter: {name: more, count: 4, of: {sphere: {center: [0, 0, 0], radius: 1 cm, reflectivity: 1}}, box: [[2 m, 2 m, 2 m], [3 "
       "m, 3 m, 3 m]]}\n";
   EXPECT_EQ(others(""), others(more));
-  const Set few(table +
-                "    - scatter: {name: clutter, count: 3, of: {sphere: {center: [0, 0, 0], radius: {uniform: [2 cm, 9 cm]}, reflectivity: "
-                "0.5}}, surface: table}\n");
-  const Set many(table +
-                 "    - scatter: {name: clutter, count: 6, of: {sphere: {center: [0, 0, 0], radius: {uniform: [2 cm, 9 cm]}, reflectivity: "
-                 "0.5}}, surface: table}\n");
+  const ScatterSet few(
+      table +
+      "    - scatter: {name: clutter, count: 3, of: {sphere: {center: [0, 0, 0], radius: {uniform: [2 cm, 9 cm]}, reflectivity: "
+      "0.5}}, surface: table}\n");
+  const ScatterSet many(
+      table +
+      "    - scatter: {name: clutter, count: 6, of: {sphere: {center: [0, 0, 0], radius: {uniform: [2 cm, 9 cm]}, reflectivity: "
+      "0.5}}, surface: table}\n");
   const Scene a = few.get().scene(1), b = many.get().scene(1);
   for (std::size_t k = 0; k < 3; ++k) EXPECT_EQ(scattered(a)[k]->position, scattered(b)[k]->position) << "those before come first";
 }
 
 TEST(scatter, that_finds_no_room_is_dropped_and_told_or_fails) {
   const std::string of = "{box: {min: [-20 cm, -5 cm, -20 cm], max: [20 cm, 5 cm, 20 cm], reflectivity: 0.5}}";
-  const Set dropped(table + "    - scatter: {name: clutter, count: 5, of: " + of + ", surface: table, tries: 20}\n");
+  const ScatterSet dropped(table + "    - scatter: {name: clutter, count: 5, of: " + of + ", surface: table, tries: 20}\n");
   const Scene scene = dropped.get().scene(0);
   const auto drawn = dropped.get().drawn(0);
   const auto without =
       std::count_if(drawn.begin(), drawn.end(), [](const Drawn& one) { return one.form == "scatter" && one.text.empty(); });
   EXPECT_GE(without, 3) << "no more than two of 40 x 40 cm on 100 x 60 cm";
   EXPECT_EQ(static_cast<std::ptrdiff_t>(scattered(scene).size()), 5 - without);
-  const Set failing(table + "    - scatter: {name: clutter, count: 5, of: " + of + ", surface: table, tries: 20, unplaced: fail}\n");
+  const ScatterSet failing(table + "    - scatter: {name: clutter, count: 5, of: " + of + ", surface: table, tries: 20, unplaced: fail}\n");
   const Error error = out_test::error_of([&] { (void)failing.get().scene_yaml(0); });
   EXPECT_TRUE(has(error.what(), "set.yaml:7:") && has(error.what(), "of 5 finds no room in 20 tries")) << error.what();
 }
@@ -222,7 +226,7 @@ TEST(scatter, that_makes_no_sense_is_refused_where_it_stands) {
       {"5", "scatter is not what belongs here"},
   };
   for (const auto& [what, message] : cases) {
-    const Set file(plane + "    - scatter: " + what + "\n");
+    const ScatterSet file(plane + "    - scatter: " + what + "\n");
     const Error error = out_test::error_of([&] { (void)file.get().scene_yaml(0); });
     EXPECT_TRUE(has(error.what(), message)) << what << "\n" << error.what();
     EXPECT_TRUE(has(error.what(), "set.yaml:8:")) << error.what();
@@ -230,17 +234,18 @@ TEST(scatter, that_makes_no_sense_is_refused_where_it_stands) {
 }
 
 TEST(scatter, gives_the_same_bytes_with_every_compiler_and_processor) {
-  const Set file(table +
-                 "    - rectangle: {name: ramp, center: [0, 0, 2 m], size: [1 m, 1 m], rotation: {axis: [1, 0.3, 0], angle: 60 deg}, "
-                 "reflectivity: 0.5}\n" +
-                 scatter("surface: table", ", gap: 5 mm",
-                         "{choice: [{sphere: {center: [0, 0, 0], radius: {uniform: [2 cm, 9 cm]}, reflectivity: 0.5}}, {cylinder: {center: "
-                         "[0, 0, 0], axis: [0, 1, 0.2], height: 10 cm, radius: 3 cm, "
-                         "rotation: any, reflectivity: 0.5}}]}") +
-                 "    - scatter: {name: more, count: 3, of: {cone: {base: [0, 0, 0], axis: [0, -1, 0], height: 10 cm, radius: 4 cm, "
-                 "reflectivity: 0.5}}, surface: ramp}\n"
-                 "    - scatter: {name: flying, count: 3, of: {capsule: {start: [0, 0, 0], end: [0, 5 cm, 2 cm], radius: 2 cm, "
-                 "reflectivity: 0.5}}, view: [0.5 m, 3 m]}\n");
+  const ScatterSet file(
+      table +
+      "    - rectangle: {name: ramp, center: [0, 0, 2 m], size: [1 m, 1 m], rotation: {axis: [1, 0.3, 0], angle: 60 deg}, "
+      "reflectivity: 0.5}\n" +
+      scatter("surface: table", ", gap: 5 mm",
+              "{choice: [{sphere: {center: [0, 0, 0], radius: {uniform: [2 cm, 9 cm]}, reflectivity: 0.5}}, {cylinder: {center: "
+              "[0, 0, 0], axis: [0, 1, 0.2], height: 10 cm, radius: 3 cm, "
+              "rotation: any, reflectivity: 0.5}}]}") +
+      "    - scatter: {name: more, count: 3, of: {cone: {base: [0, 0, 0], axis: [0, -1, 0], height: 10 cm, radius: 4 cm, "
+      "reflectivity: 0.5}}, surface: ramp}\n"
+      "    - scatter: {name: flying, count: 3, of: {capsule: {start: [0, 0, 0], end: [0, 5 cm, 2 cm], radius: 2 cm, "
+      "reflectivity: 0.5}}, view: [0.5 m, 3 m]}\n");
   const Dataset set = file.get();
   std::string all;
   for (std::uint64_t i = 0; i < 200; ++i) all += set.scene_yaml(i);

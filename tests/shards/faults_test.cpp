@@ -24,16 +24,6 @@ using namespace std::chrono_literals;
 const bool at_length = std::getenv("TOFRAY_LONG") != nullptr;
 const int kills = at_length ? 200 : with_sanitizers ? 5 : 25;
 
-const std::map<std::string, std::string>& undisturbed() {
-  static const std::map<std::string, std::string> files = [] {
-    const SmallSet set;
-    set.run();
-    merge_shards(set.out());
-    return published(set.out());
-  }();
-  return files;
-}
-
 Running run_of(const SmallSet& set, Arguments more = {}) {
   Arguments all{"dataset", "run", set.out().native(), "--threads", "2"};
   all.insert(all.end(), more.begin(), more.end());

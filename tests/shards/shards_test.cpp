@@ -27,17 +27,6 @@ using namespace tofray::test;
 using out_test::error_of;
 using out_test::Python;
 
-/// All of a set made by one process on one thread, and merged.
-const std::map<std::string, std::string>& undisturbed() {
-  static const std::map<std::string, std::string> files = [] {
-    const SmallSet set;
-    set.run();
-    merge_shards(set.out());
-    return published(set.out());
-  }();
-  return files;
-}
-
 TEST(shards, are_the_same_bytes_in_any_number_of_parts_and_threads) {
   EXPECT_EQ(undisturbed().size(), 8U * 2 + 8) << "tars and records; plan, sums, statistics, list, four of the index";
   for (const auto& [parts, threads] : {std::pair<std::uint64_t, int>{1, 3}, {2, 1}, {7, 2}}) {

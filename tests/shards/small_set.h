@@ -59,4 +59,15 @@ struct SmallSet {
   Folder folder;
 };
 
+/// All of a set made by one process on one thread, and merged.
+inline const std::map<std::string, std::string>& undisturbed() {
+  static const std::map<std::string, std::string> files = [] {
+    const SmallSet set;
+    set.run();
+    merge_shards(set.out());
+    return published(set.out());
+  }();
+  return files;
+}
+
 }  // namespace tofray::test

@@ -23,14 +23,14 @@ namespace {
 
 using files::Json;
 
-std::string size_text(double bytes) {
+std::string set_size_text(double bytes) {
   const char* units[] = {"bytes", "kB", "MB", "GB", "TB", "PB"};
   std::size_t unit = 0;
   while (bytes >= 1000 && unit + 1 < std::size(units)) bytes /= 1000, ++unit;
   return fmt::format("{:.3g} {}", bytes, units[unit]);
 }
 
-std::string time_text(double seconds) {
+std::string core_time_text(double seconds) {
   if (seconds < 120) return fmt::format("{:.3g} s", seconds);
   if (seconds < 7200) return fmt::format("{:.3g} minutes", seconds / 60);
   return fmt::format("{:.3g} hours", seconds / 3600);
@@ -105,12 +105,12 @@ int run_dataset_plan(const Options& options) {
   std::string text = fmt::format("{}: {}{}, {} of {}\n", base::printable(plan.name), counted(plan.samples, "sample"),
                                  plan.views > 1 ? fmt::format(" of {} views", plan.views) : "", counted(plan.shards, "shard"),
                                  counted(plan.shard_samples, "sample"));
-  text += fmt::format("  arrays   {}\n  size     {} ({} a sample)\n", base::listed(plan.arrays, "and"), size_text(bytes),
-                      size_text(static_cast<double>(plan.sample_bytes)));
+  text += fmt::format("  arrays   {}\n  size     {} ({} a sample)\n", base::listed(plan.arrays, "and"), set_size_text(bytes),
+                      set_size_text(static_cast<double>(plan.sample_bytes)));
   if (plan.found == DatasetPlan::Found::nothing)
     text +=
         fmt::format("  time     {} of one core, as this machine is now ({:.3g} ms a sample); {:.1f} % of the pilot's pixels are valid\n",
-                    time_text(core_seconds), 1000 * plan.sample_seconds, 100 * valid);
+                    core_time_text(core_seconds), 1000 * plan.sample_seconds, 100 * valid);
   if (plan.found == DatasetPlan::Found::same) text += "  the same plan was there\n";
   if (plan.found == DatasetPlan::Found::fewer_samples) text += "  the plan that was there has more samples now\n";
   print(text);
@@ -232,7 +232,7 @@ int run_dataset_merge(const Options& options) {
     return 0;
   }
   print(fmt::format("{} in {}, {}; {:.1f} % of their pixels are valid{}\n  wrote  {}\n", counted(result.samples, "sample"),
-                    counted(result.shards, "shard"), size_text(static_cast<double>(result.bytes)), 100 * valid,
+                    counted(result.shards, "shard"), set_size_text(static_cast<double>(result.bytes)), 100 * valid,
                     result.holes > 0 ? fmt::format("; {}", counted(result.holes, "hole")) : "", base::listed(result.files, "and")));
   return 0;
 }
