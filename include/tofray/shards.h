@@ -54,6 +54,7 @@ struct ShardChoice {
   std::vector<std::uint64_t> shards = {};  ///< empty: all
 };
 
+/// What a process is to make of a set.
 struct ShardRunRequest {
   std::filesystem::path folder;
   ShardChoice which = {};
@@ -67,6 +68,7 @@ struct ShardMade {
   bool by_another = false;  ///< another process published the same bytes first
 };
 
+/// What it made.
 struct ShardRunResult {
   std::uint64_t made = 0, there = 0, samples = 0,
                 holes = 0;      ///< shards that were made and that were complete before; samples in those that were made
@@ -74,6 +76,7 @@ struct ShardRunResult {
   bool interrupted = false;
 };
 
+/// Whoever watches shards being made or read. All of it may be left empty.
 struct ShardWatch {
   std::function<void(std::uint64_t done, std::uint64_t total)> samples = {};  ///< of the shards that are to be made
   std::function<void(const ShardMade&)> shard = {};
@@ -83,6 +86,7 @@ struct ShardWatch {
 /// @throws Error (bad_input) where that differs, or a file of the set is another one than at the plan; (io)
 ShardRunResult run_shards(const ShardRunRequest& request, const ShardWatch& watch = {});
 
+/// How far a set is.
 struct DatasetStatus {
   std::uint64_t shards = 0, complete = 0, samples = 0;  ///< as planned; shards that are there; samples as planned
   std::vector<std::uint64_t> missing;                   ///< shards
@@ -94,6 +98,7 @@ struct DatasetStatus {
 /// By names of files alone. @throws Error as read_plan()
 DatasetStatus dataset_status(const std::filesystem::path& folder);
 
+/// Which shards are compared with their records, and how much of them is computed again.
 struct VerifyRequest {
   std::filesystem::path folder;
   ShardChoice which = {};
@@ -109,6 +114,7 @@ struct ShardFault {
   std::vector<std::string> members;  ///< of the tar, that are damaged or differ: "000000123.raw.npy"
 };
 
+/// What was found.
 struct VerifyResult {
   std::uint64_t shards = 0, missing = 0, recomputed = 0;  ///< that were read; that are not there; samples
   std::vector<ShardFault> faults;
@@ -119,6 +125,7 @@ struct VerifyResult {
 /// @throws Error as read_plan()
 VerifyResult verify_shards(const VerifyRequest& request, const ShardWatch& watch = {});
 
+/// A set, summed up.
 struct MergeResult {
   std::uint64_t shards = 0, samples = 0, holes = 0, bytes = 0;
   std::uint64_t pixels = 0, valid = 0;
