@@ -69,12 +69,12 @@ class KeptFrames {
 
   /// As Simulator::frame.
   void frame(std::uint64_t index, Frame& into);
-  /// The same, and keeps its light.
+  /// Computes a frame as Simulator::frame does, and keeps its light.
   void frame_to(std::uint64_t index, KeptLight& light, Frame& into);
-  /// The same out of light that was kept. Several threads may read it at once, each with its own KeptFrames.
+  /// Computes a frame out of light that was kept. Several threads may read it at once, each with its own KeptFrames.
   /// @return false where it lies otherwise in memory or is of other times: nothing was done
   bool frame_from(std::uint64_t index, const KeptLight& light, Frame& into);
-  /// The same out of raw frames that were kept, likewise.
+  /// Computes a frame out of raw frames that were kept. Several threads may read them at once, each with its own KeptFrames.
   void frame_from(std::uint64_t index, const KeptRaw& raw, Frame& into);
   /// Keeps the raw frames of the frame that was computed last.
   /// @throws Error (bad_input) where SimulatorOptions::arrays leaves out tap_a, tap_b or raw

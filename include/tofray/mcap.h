@@ -49,7 +49,7 @@ class McapWriter {
   [[nodiscard]] const Messages& messages() const;  ///< what makes its messages
   /// @throws Error (io) where the disk is full; (bad_input) as Messages::of
   void write(const Frame& frame);
-  /// The same of a frame whose camera was placed from outside. @param seen  placed_scene() of its request
+  /// Writes a frame whose camera was placed from outside. @param seen  placed_scene() of its request
   void write(const Frame& frame, const Scene& seen);
   /// Messages of a frame that were made already, by messages().of(frame).
   void write(const Frame& frame, const std::vector<Message>& messages);

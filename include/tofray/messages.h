@@ -67,7 +67,7 @@ class Messages {
   /// All of a frame, in the order of topics. /diagnostics comes with the first frame and then each second.
   /// @throws Error (bad_input) where the frame lacks an array that a topic is made of, has another size, or a time that no stamp holds
   [[nodiscard]] std::vector<Message> of(const Frame& frame) const;
-  /// The same of a frame whose camera was placed from outside. @param seen  placed_scene() of its request
+  /// All of a frame whose camera was placed from outside. @param seen  placed_scene() of its request
   [[nodiscard]] std::vector<Message> of(const Frame& frame, const Scene& seen) const;
   /// The same into memory that is used again.
   void of(const Frame& frame, const Scene& seen, std::vector<Message>& into) const;

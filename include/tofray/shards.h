@@ -78,7 +78,8 @@ struct ShardRunResult {
 
 /// Whoever watches shards being made or read. All of it may be left empty.
 struct ShardWatch {
-  std::function<void(std::uint64_t done, std::uint64_t total)> samples = {};  ///< of the shards that are to be made
+  std::function<void(std::uint64_t done, std::uint64_t total)> samples =
+      {};  ///< of the shards that are to be made; of verify_shards(): shards
   std::function<void(const ShardMade&)> shard = {};
 };
 
