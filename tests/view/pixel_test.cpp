@@ -349,18 +349,17 @@ TEST(why, ends_with_a_fault_where_the_state_changes_on_the_way) {
   }
 }
 
-TEST(questions, that_wait_give_way_to_newer_ones_of_their_kind) {
-  NEEDS_THE_VIEWER;
-  const Viewer viewer({"room", "--bounces", "2", "--samples", "512", "--set", weak});
+// What came back of each type, in its order, where newer questions follow one that keeps the session busy frame by frame.
+void ask_while_busy(const std::string& samples, std::map<std::string, std::string>& order) {
+  const Viewer viewer({"room", "--bounces", "2", "--samples", samples, "--set", weak});
   Greeted one(viewer);
-  one.page.send(R"({"type":"why","id":1,"u":13,"v":10})");  // keeps the session busy, frame by frame
-  std::this_thread::sleep_for(milliseconds(100));
+  one.page.send(R"({"type":"why","id":1,"u":13,"v":10})");
+  std::this_thread::sleep_for(milliseconds(50));
   for (const char* id : {"2", "3"}) {
     one.page.send(std::string(R"({"type":"why","u":12,"v":9,"id":)") + id + "}");
     one.page.send(std::string(R"({"type":"camera","position":[0,0,0],"rotation":null,"id":)") + id + "}");
     one.page.send(std::string(R"({"type":"pixel","u":12,"v":9,"id":)") + id + "}");
   }
-  std::map<std::string, std::string> order;
   const Clock::time_point end = Clock::now() + std::chrono::seconds(60);
   while (order["why"].empty() && Clock::now() < end) {
     const WsMessage message = one.page.next(milliseconds(60'000));
@@ -368,6 +367,17 @@ TEST(questions, that_wait_give_way_to_newer_ones_of_their_kind) {
     if (message.opcode != 1) continue;
     const Json json = message.json();
     if (json.find("id") != nullptr) order[*json.find("type")->string()] += std::to_string(static_cast<int>(number_in(json, "id"))) + " ";
+  }
+}
+
+TEST(questions, that_wait_give_way_to_newer_ones_of_their_kind) {
+  NEEDS_THE_VIEWER;
+  std::map<std::string, std::string> order;
+  // A quick machine answers the first question before the others arrive: then it gets more to do.
+  for (const char* samples : {"512", "4096", "32768", "262144"}) {
+    order.clear();
+    ASSERT_NO_FATAL_FAILURE(ask_while_busy(samples, order));
+    if (order["why"] != "1 ") break;
   }
   EXPECT_EQ(order["why"], "3 ");
   EXPECT_EQ(order["camera"], "3 ");
