@@ -26,6 +26,7 @@ struct Raw {
 /// Depth frame, camera frame (x right, y down, z forward).
 struct Depth {
   int width = 0, height = 0;
+  int modulations = 0;                ///< modulation frequencies of the arrays by_frequency
   TOFRAY_DEPTH_ARRAYS(TOFRAY_VECTOR)  // std::vector<float> z_m; …
 };
 
@@ -52,7 +53,7 @@ struct Frame {
 /// Null where a stage was not reached or the truth not asked for.
 struct FrameArrays {
   std::uint64_t index = 0;
-  int width = 0, height = 0, phases = 0, bins = 0;
+  int width = 0, height = 0, phases = 0, bins = 0, modulations = 0;
   int device = -1;  ///< −1: host memory; else the pointers are for this GPU
 #define TOFRAY_POINTER(name, part, member, element, ...) const element* name = nullptr;
   TOFRAY_IMAGE_ARRAYS(TOFRAY_POINTER)  // const float* tap_a = nullptr; …

@@ -175,6 +175,7 @@ struct Object {
   Vec3 velocity_m_per_s{0, 0, 0};
   Vec3 angular_velocity_rad_per_s{0, 0, 0};  ///< its axis, in the world, times how fast it turns by the right-hand rule
   std::vector<Keyframe> keyframes = {};      ///< in place of position, rotation and both velocities; ascending in time
+  std::string class_name = {};               ///< what kind of thing it is, for Truth::class_id; empty: none
   std::string key = {};                      ///< how its file addresses it, e.g. "objects.2"; empty if built in code
   std::string where = {};                    ///< file:line:col for messages; empty if built in code
 };
@@ -269,6 +270,8 @@ struct Scene {
   /// meshes are turned. In code nothing does.
   Up world_up = Up::minus_y;
   std::vector<SceneFile> files = {};  ///< of keyframes
+  /// Classes of objects: Truth::class_id counts them. Empty: those that objects have, by the order of their letters.
+  std::vector<std::string> classes = {};
 };
 
 }  // namespace tofray

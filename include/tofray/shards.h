@@ -130,7 +130,8 @@ VerifyResult verify_shards(const VerifyRequest& request, const ShardWatch& watch
 struct MergeResult {
   std::uint64_t shards = 0, samples = 0, holes = 0, bytes = 0;
   std::uint64_t pixels = 0, valid = 0;
-  std::vector<std::string> files;  ///< that were written: SHA256SUMS, statistics.json, wids.json, index/…
+  std::vector<std::string>
+      files;  ///< that were written: SHA256SUMS, statistics.json, wids.json, card.md, croissant.json, preview.html, index/…
 };
 
 /// Sums up a set that is complete: index, statistics, SHA256SUMS and a list for the webdataset library. The same bytes whoever made the shards.

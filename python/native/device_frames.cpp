@@ -59,6 +59,8 @@ std::vector<std::int64_t> batch_shape(ArrayShape shape, std::int64_t frames, con
     case ArrayShape::pairs: return {frames, of.height, of.width, 2};
     case ArrayShape::vectors: return {frames, of.height, of.width, 3};
     case ArrayShape::stack: return {frames, of.phases, of.height, of.width};
+    case ArrayShape::moved: return {frames, of.phases, of.height, of.width, 2};
+    case ArrayShape::by_frequency: return {frames, of.modulations, of.height, of.width};
     case ArrayShape::bins: return {frames, of.bins, of.height, of.width};
     case ArrayShape::list: return {frames, of.phases};
   }

@@ -152,7 +152,7 @@ TOFRAY_FIELDS(Mesh, &Mesh::file, &Mesh::scale, &Mesh::up, &Mesh::animation, &Mes
 TOFRAY_FIELDS(Rotation, &Rotation::axis, &Rotation::angle_rad, &Rotation::quaternion)
 TOFRAY_FIELDS(Keyframe, &Keyframe::time_s, &Keyframe::position, &Keyframe::rotation)
 TOFRAY_FIELDS(Object, &Object::name, &Object::shape, &Object::material, &Object::position, &Object::rotation, &Object::velocity_m_per_s,
-              &Object::angular_velocity_rad_per_s, &Object::keyframes, &Object::key, &Object::where)
+              &Object::angular_velocity_rad_per_s, &Object::keyframes, &Object::class_name, &Object::key, &Object::where)
 TOFRAY_FIELDS(Ambient, &Ambient::spectrum, &Ambient::quantity, &Ambient::amount, &Ambient::table_wavelength_m,
               &Ambient::table_irradiance_w_per_m3, &Ambient::direction)
 TOFRAY_FIELDS(TransientBins, &TransientBins::bins, &TransientBins::first_m, &TransientBins::width_m)
@@ -165,11 +165,13 @@ TOFRAY_FIELDS(CameraChoice, &CameraChoice::profile, &CameraChoice::mode, &Camera
               &CameraChoice::overrides, &CameraChoice::profile_where, &CameraChoice::mode_where)
 TOFRAY_FIELDS(SceneFile, &SceneFile::file, &SceneFile::sha256)
 TOFRAY_FIELDS(Scene, &Scene::name, &Scene::source, &Scene::camera, &Scene::ambient, &Scene::transport, &Scene::materials, &Scene::objects,
-              &Scene::world_up, &Scene::files)
+              &Scene::world_up, &Scene::files, &Scene::classes)
 TOFRAY_FIELDS(RanOn, &RanOn::backend, &RanOn::device, &RanOn::isa, &RanOn::threads, &RanOn::block_size, &RanOn::occupancy,
               &RanOn::fallback_reason)
 TOFRAY_FIELDS(ObjectInView, &ObjectInView::object, &ObjectInView::name, &ObjectInView::pixels, &ObjectInView::nearest_m, &ObjectInView::farthest_m,
               &ObjectInView::endless, &ObjectInView::low, &ObjectInView::high, &ObjectInView::behind_camera, &ObjectInView::around_camera)
+TOFRAY_FIELDS(ObjectPlace, &ObjectPlace::name, &ObjectPlace::class_name, &ObjectPlace::position, &ObjectPlace::rotation, &ObjectPlace::endless,
+              &ObjectPlace::low, &ObjectPlace::high)
 TOFRAY_FIELDS(SceneFinding, &SceneFinding::kind, &SceneFinding::warning, &SceneFinding::objects, &SceneFinding::where, &SceneFinding::what,
               &SceneFinding::more)
 TOFRAY_FIELDS(SceneReport, &SceneReport::time_s, &SceneReport::pixels, &SceneReport::outside_lens, &SceneReport::no_surface, &SceneReport::beyond_reach,
@@ -218,7 +220,7 @@ void each_record(const Call& call) {
                  ImageFilter, Decoding, Temperature, Interference, Calibration, SpreadSpectrum, Readout, AutoExposure, Camera, Material,
                  Plane, Sphere, Box, Triangle, Cylinder, Rectangle, Disk, Capsule, Cone, Mesh, Rotation, Keyframe, Object, Ambient,
                  TransientBins, Transport, Pose, CameraKeyframe, Override, CameraChoice, SceneFile, Scene, RanOn, Placement, PlacedObject,
-                 FrameRequest, ObjectInView, SceneFinding, SceneReport, InvalidPixels, AmbientCase, CameraQuestion, NoiseAt,
+                 FrameRequest, ObjectInView, ObjectPlace, SceneFinding, SceneReport, InvalidPixels, AmbientCase, CameraQuestion, NoiseAt,
                  NoiseAtDistances, CameraReport, ChainRawFrame, ChainPhase, UnwrapCandidate, PixelChain, BounceShare, PixelBounces,
                  Validity, InputFile, FileRecord, Remark, Inputs, RunResult>;
   all(static_cast<Records*>(nullptr));

@@ -11,16 +11,19 @@ namespace tofray::python {
 namespace {
 
 struct Sizes {
-  py::ssize_t phases, bins, height, width;
+  py::ssize_t phases, bins, modulations, height, width;
 };
 
 std::vector<Extent> extents(ArrayShape shape, const Sizes& of) {
-  const Extent phases{of.phases, "phases"}, bins{of.bins, "bins"}, height{of.height, "height"}, width{of.width, "width"};
+  const Extent phases{of.phases, "phases"}, bins{of.bins, "bins"}, modulations{of.modulations, "modulations"}, height{of.height, "height"},
+      width{of.width, "width"};
   switch (shape) {
     case ArrayShape::image: return {height, width};
     case ArrayShape::pairs: return {height, width, {2, ""}};
     case ArrayShape::vectors: return {height, width, {3, ""}};
     case ArrayShape::stack: return {phases, height, width};
+    case ArrayShape::moved: return {phases, height, width, {2, ""}};
+    case ArrayShape::by_frequency: return {modulations, height, width};
     case ArrayShape::bins: return {bins, height, width};
     case ArrayShape::list: return {phases};
   }
@@ -37,7 +40,7 @@ Sizes sizes_of(const Frame& frame) {
   // Arrays of one's own leave a part empty, and its size 0.
   const int height = std::max({frame.raw.height, frame.depth.height, frame.truth.height});
   const int width = std::max({frame.raw.width, frame.depth.width, frame.truth.width});
-  return {std::max(frame.raw.phases, frame.truth.phases), frame.truth.bins, height, width};
+  return {std::max(frame.raw.phases, frame.truth.phases), frame.truth.bins, frame.depth.modulations, height, width};
 }
 
 /// The array of that name as Frame::part calls it ("depth", "z_m"); None where the frame has none.
@@ -57,10 +60,10 @@ py::object array_of(py::object self, const std::string& part_name, const std::st
 /// One row for each array: name in files, part, member, dtype, shape, stage, unit, what it is.
 py::list array_table() {
   py::list rows;
-  const char* const shapes[] = {"[height, width]",        "[height, width, 2]",   "[height, width, 3]",
-                                "[phase, height, width]", "[bin, height, width]", "[phase]"};
+  const char* const shapes[] = {"[height, width]",           "[height, width, 2]",         "[height, width, 3]",   "[phase, height, width]",
+                                "[phase, height, width, 2]", "[frequency, height, width]", "[bin, height, width]", "[phase]"};
   const char* const stages[] = {"trace", "power", "raw", "depth"};
-#define TOFRAY_ROW(name, part, member, element, shape, stage, unit, what)                      \
+#define TOFRAY_ROW(name, part, member, element, shape, stage, when, unit, what)                \
   rows.append(py::make_tuple(#name, #part, #member, py::str(dtype_of<element>().attr("name")), \
                              shapes[static_cast<int>(ArrayShape::shape)], stages[static_cast<int>(Stage::stage)], unit, what));
   TOFRAY_FRAME_ARRAYS(TOFRAY_ROW)
@@ -71,7 +74,7 @@ py::list array_table() {
 py::dict sizes_dict(const FrameMemory& self) {
   const Sizes sizes = sizes_of(*self.frame);
   return py::dict(py::arg("width") = sizes.width, py::arg("height") = sizes.height, py::arg("phases") = sizes.phases,
-                  py::arg("bins") = sizes.bins, py::arg("time_s") = self.frame->truth.time_s);
+                  py::arg("bins") = sizes.bins, py::arg("modulations") = sizes.modulations, py::arg("time_s") = self.frame->truth.time_s);
 }
 
 /// What a part of a tofray.Frame has of an array: an array or, where it has none, nothing.
@@ -131,14 +134,14 @@ void refuse_other_recordings(py::handle raw) {
 void take_raw(py::handle from, Raw& into) {
   refuse_other_recordings(from);
   into.width = whole_of(from, "width"), into.height = whole_of(from, "height"), into.phases = whole_of(from, "phases");
-  const Sizes sizes{into.phases, 0, into.height, into.width};
+  const Sizes sizes{into.phases, 0, 0, into.height, into.width};
   TOFRAY_RAW_ARRAYS(TOFRAY_TAKE)
   TOFRAY_EXPOSURE_ARRAYS(TOFRAY_TAKE)
 }
 
 void take_depth(py::handle from, Depth& into) {
-  into.width = whole_of(from, "width"), into.height = whole_of(from, "height");
-  const Sizes sizes{0, 0, into.height, into.width};
+  into.width = whole_of(from, "width"), into.height = whole_of(from, "height"), into.modulations = whole_of(from, "modulations");
+  const Sizes sizes{0, 0, into.modulations, into.height, into.width};
   TOFRAY_DEPTH_ARRAYS(TOFRAY_TAKE)
 }
 
@@ -146,7 +149,7 @@ void take_truth(py::handle from, Truth& into) {
   into.width = whole_of(from, "width"), into.height = whole_of(from, "height"), into.phases = whole_of(from, "phases");
   into.bins = whole_of(from, "bins");
   from_python(from.attr("time_s"), into.time_s, {nullptr, "truth.time_s"});
-  const Sizes sizes{into.phases, into.bins, into.height, into.width};
+  const Sizes sizes{into.phases, into.bins, 0, into.height, into.width};
   TOFRAY_TRUTH_ARRAYS(TOFRAY_TAKE)
 }
 #undef TOFRAY_TAKE

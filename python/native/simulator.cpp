@@ -177,8 +177,10 @@ std::shared_ptr<Frame> copied(const FrameArrays& from, const Raw& exposures) {
   auto out = std::make_shared<Frame>();
   out->index = from.index;
   const auto pixels = static_cast<std::size_t>(from.width) * static_cast<std::size_t>(from.height);
-  const auto phases = static_cast<std::size_t>(from.phases), bins = static_cast<std::size_t>(from.bins);
-  const std::size_t sizes[] = {pixels, 2 * pixels, 3 * pixels, phases * pixels, bins * pixels, phases};
+  const auto phases = static_cast<std::size_t>(from.phases), bins = static_cast<std::size_t>(from.bins),
+             modulations = static_cast<std::size_t>(from.modulations);
+  const std::size_t sizes[] = {pixels,        2 * pixels, 3 * pixels, phases * pixels, 2 * phases * pixels, modulations * pixels,
+                               bins * pixels, phases};
 #define TOFRAY_COPY(name, part, member, element, shape, ...) \
   if (from.name != nullptr) out->part.member.assign(from.name, from.name + sizes[static_cast<int>(ArrayShape::shape)]);
   TOFRAY_IMAGE_ARRAYS(TOFRAY_COPY)
@@ -187,9 +189,11 @@ std::shared_ptr<Frame> copied(const FrameArrays& from, const Raw& exposures) {
   TOFRAY_SIZES(raw)
   TOFRAY_SIZES(depth)
 #undef TOFRAY_SIZES
-  if (from.gt_range_m != nullptr || from.gt_signal_e != nullptr)
+#define TOFRAY_IS_THERE(name, ...) || from.name != nullptr
+  if (false TOFRAY_TRUTH_ARRAYS(TOFRAY_IS_THERE))
     out->truth.width = from.width, out->truth.height = from.height, out->truth.phases = from.phases, out->truth.bins = from.bins;
-  out->raw.phases = from.phases;
+#undef TOFRAY_IS_THERE
+  out->raw.phases = from.phases, out->depth.modulations = from.modulations;
 #define TOFRAY_EXPOSURE(name, part, member, ...) out->part.member = exposures.member;
   TOFRAY_EXPOSURE_ARRAYS(TOFRAY_EXPOSURE)
 #undef TOFRAY_EXPOSURE
@@ -361,6 +365,12 @@ py::object scene_report_of(const py::object& scene, const py::object& camera, co
   return to_python(out);
 }
 
+py::object object_places_of(const py::object& scene, double time_s) {
+  Scene of;
+  from_python(scene, of, {nullptr, "scene"});
+  return to_python(object_places(of, time_s));
+}
+
 py::object camera_report_of(const py::object& camera, const py::object& question) {
   Camera of;
   CameraQuestion asked;
@@ -425,6 +435,7 @@ void bind_simulator(py::module_& module) {
   module.def("camera_report", &camera_report_of);
   module.def("full_sun", [] { return to_python(full_sun()); });
   module.def("scene_report", &scene_report_of);
+  module.def("object_places", &object_places_of);
   module.def("invalid_pixels", &invalid_pixels_of);
 }
 

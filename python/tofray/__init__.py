@@ -86,6 +86,7 @@ if TYPE_CHECKING:
         NoiseAtDistances as NoiseAtDistances,
         Object as Object,
         ObjectInView as ObjectInView,
+        ObjectPlace as ObjectPlace,
         Override as Override,
         Pattern as Pattern,
         Pixel as Pixel,
@@ -159,6 +160,7 @@ if TYPE_CHECKING:
         exposure_times as exposure_times,
         full_sun as full_sun,
         invalid_pixels as invalid_pixels,
+        object_places as object_places,
         pixel_rays as pixel_rays,
         placed_scene as placed_scene,
         process as process,
@@ -187,7 +189,7 @@ _HOME = {
     "_model": (
         "Adc", "Ambient", "AmbientCase", "Area", "AutoExposure", "BounceShare", "Box", "Calibration", "Camera", "CameraChoice", "CameraKeyframe", "CameraQuestion", "CameraReport", "Capsule",
         "ChainPhase", "ChainRawFrame", "Cone", "Curve", "Cylinder", "Decoding", "Disk", "FileRecord", "Filter", "FrameRequest", "Illumination", "ImageFilter", "InputFile", "Inputs", "Interference",
-        "InvalidPixels", "Keyframe", "Lens", "Material", "Mesh", "Mode", "NoiseAt", "NoiseAtDistances", "Object", "ObjectInView", "Override", "Pattern", "Pixel", "PixelBounces", "PixelChain",
+        "InvalidPixels", "Keyframe", "Lens", "Material", "Mesh", "Mode", "NoiseAt", "NoiseAtDistances", "Object", "ObjectInView", "ObjectPlace", "Override", "Pattern", "Pixel", "PixelBounces", "PixelChain",
         "PixelMask", "PlacedObject", "Placement", "Plane", "Pose", "RanOn", "RawFrame", "Readout", "Rectangle", "Remark", "Rotation", "RunResult", "Scatter", "Scene", "SceneFile", "SceneFinding", "SceneReport", "Sensor",
         "Sphere", "SpreadSpectrum", "Temperature", "TransientBins", "Transport", "Triangle", "UnwrapCandidate", "Validity", "Waveform",
     ),
@@ -196,7 +198,7 @@ _HOME = {
     "_quality": ("Comparison", "Quality", "compare", "load_depth", "quality"),
     "_run": ("load_inputs", "pixel_bounces", "pixel_chain", "render", "render_again", "validity"),
     "_samples": ("Samples", "open_dataset"),
-    "_simulator": ("Simulator", "camera_pose", "camera_report", "demo", "exposure_times", "full_sun", "invalid_pixels", "pixel_rays", "placed_scene", "process", "scene_report"),
+    "_simulator": ("Simulator", "camera_pose", "camera_report", "demo", "exposure_times", "full_sun", "invalid_pixels", "object_places", "pixel_rays", "placed_scene", "process", "scene_report"),
     "_sweep": ("Sweep", "sweep"),
 }
 

@@ -14,14 +14,17 @@ if TYPE_CHECKING:
 
     from ._native import FrameMemory
 
-_SIZES = ("width", "height", "phases", "bins", "time_s")
-_EXTENTS = {"phase": "phases", "height": "height", "width": "width", "bin": "bins"}
+_SIZES = ("width", "height", "phases", "bins", "modulations", "time_s")
+_EXTENTS = {"phase": "phases", "height": "height", "width": "width", "bin": "bins", "frequency": "modulations"}
 
 
 # Arrays that only some frames have, and what of the scene or simulator makes them; sub-pixel samples and bounces are off unless asked for.
 _COMES_WITH = {
     **dict.fromkeys(("direct_e", "indirect_e", "multipath_m", "path_noise_m", "path_count"), "it comes with scene.transport.bounces above 0"),
     **dict.fromkeys(("transient_e_per_s", "transient_lost_e_per_s"), "it comes with scene.transport.transient.bins above 0"),
+    **dict.fromkeys(("raw_dn", "phase_flow_px", "class_id"), "ask for it by name: Simulator(…, arrays=[…])"),
+    "raw_direct_dn": "ask for it by name, Simulator(…, arrays=[…]), with scene.transport.bounces above 0",
+    **dict.fromkeys(("amplitude_by_frequency_e", "range_by_frequency_m", "cycle_by_frequency"), "ask for it by name: Simulator(…, arrays=[…])"),
     **dict.fromkeys(("mixed", "object_share"), "it comes with Simulator(…, subpixel=2) or more"),
 }
 
@@ -37,6 +40,8 @@ class Part:
         Raw frames of a frame.
     bins : int
         Of histograms of light by path length.
+    modulations : int
+        Modulation frequencies of arrays that have one image for each.
     time_s : float
         When the ground truth holds, in seconds from the scene as written.
     units : dict of str
@@ -45,24 +50,26 @@ class Part:
         The arrays that this frame has.
     """
 
-    __slots__ = ("_held", "_memory", "_own", "bins", "height", "phases", "time_s", "width")
+    __slots__ = ("_held", "_memory", "_own", "bins", "height", "modulations", "phases", "time_s", "width")
     _rows: dict[str, tuple[str, str, str, str, str]] = {}
 
     width: int
     height: int
     phases: int
     bins: int
+    modulations: int
     time_s: float
 
     def __init__(self, *, width: int | None = None, height: int | None = None, phases: int | None = None,
-                 bins: int | None = None, time_s: float = 0.0, **arrays: NDArray[Any]) -> None:
+                 bins: int | None = None, modulations: int | None = None, time_s: float = 0.0, **arrays: NDArray[Any]) -> None:
         self._memory: FrameMemory | None = None
         self._own = True
         self._held: dict[str, Any] = {}
-        for name, size in (("width", width), ("height", height), ("phases", phases), ("bins", bins)):
+        sizes = {"width": width, "height": height, "phases": phases, "bins": bins, "modulations": modulations}
+        for name, size in sizes.items():
             object.__setattr__(self, name, 0 if size is None else size)
         self.time_s = time_s
-        given = {name for name, size in (("width", width), ("height", height), ("phases", phases), ("bins", bins)) if size}
+        given = {name for name, size in sizes.items() if size}
         for name, array in arrays.items():
             if name not in self._rows:
                 raise BadInput(f"{type(self).__name__}: error: has no array {name!r}\n  expected some of {', '.join(self._rows)}")
@@ -163,7 +170,7 @@ class Part:
         return {name: row[4] for name, row in self._rows.items()}
 
     def __dir__(self) -> list[str]:
-        return [*self._rows, "width", "height", "phases", "bins", "time_s", "get", "names", "units"]
+        return [*self._rows, "width", "height", "phases", "bins", "modulations", "time_s", "get", "names", "units"]
 
     def __repr__(self) -> str:
         return f"<tofray.{type(self).__name__} {self.width} x {self.height}: {', '.join(self.names) or 'no arrays'}>"

@@ -14,7 +14,7 @@ from ._errors import error_of
 from ._frame import Frame
 from ._load import load_camera, load_scene
 from ._model import (
-    AmbientCase, Camera, CameraKeyframe, CameraQuestion, CameraReport, FrameRequest, InvalidPixels, Keyframe, PlacedObject, Placement, Pose,
+    AmbientCase, Camera, CameraKeyframe, CameraQuestion, CameraReport, FrameRequest, InvalidPixels, Keyframe, ObjectPlace, PlacedObject, Placement, Pose,
     RanOn, Scene, SceneReport,
 )
 from ._own import Geometry, PixelLight, Transient
@@ -520,6 +520,24 @@ def scene_report(scene: Scene, camera: Camera, frame: Frame | None = None) -> Sc
     """
     report: SceneReport = _native.scene_report(scene, camera, frame)
     return report
+
+
+def object_places(scene: Scene, time_s: float = 0.0) -> list[ObjectPlace]:
+    """Where each of the scene's objects is at one time: its pose and its box, in the world.
+
+    Parameters
+    ----------
+    scene : Scene
+    time_s : float, s, optional
+        Of the scene, as ``frame.truth.time_s`` says it.
+
+    Returns
+    -------
+    list of ObjectPlace
+        In the order of ``truth.object_id``.
+    """
+    places: list[ObjectPlace] = _native.object_places(scene, time_s)
+    return places
 
 
 def invalid_pixels(frame: Frame, camera: Camera, wrong_cycles: bool = True) -> InvalidPixels:

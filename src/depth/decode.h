@@ -204,6 +204,51 @@ TOFRAY_FN num::Int<F> rejected_bit(const camera::DecoderView& s, num::Int<F> fla
   return num::select((flags & num::Int<F>(s.rejected)) == none, none, num::Int<F>(rejected));
 }
 
+/// φ/2π in [0, 1) of one modulation frequency: what the wiggling table and the pixel's own delay say of φ̂; `slope` is dφ/dφ̂.
+/// @param i       its number
+/// \tparam plain  as of decode
+template <bool plain, class F>
+TOFRAY_FN F wrapped_turns(const camera::DecoderView& s, int i, const Estimate<F>& e, const flow::Pixels& p, F& slope) {
+  const camera::DecodeModulation& m = s.modulation[i];
+  F phi = unwiggle(s, m, e.turns, slope);
+  if (!plain && s.delay != nullptr) phi = num::fnma(camera::late_by<F>(s, i, p), F(m.frequency), phi);
+  return phi - num::floor(phi);
+}
+
+/// What one modulation frequency says.
+template <class F>
+struct OfFrequency {
+  F amplitude;        ///< Â [e⁻]
+  F range;            ///< [m] of its own half path d_i = R_i(n_i + p_i)
+  num::Int<F> cycle;  ///< n_i: that in which d_i is nearest to the half path of all; below 0 or past the last one at the ends of the range
+  Mask<F> known;      ///< it has light, and a half path longer than the way between light and lens
+};
+/// What each says alone, in the cycle that unwrapping found for all of them.                               [eq. 4.4, 4.34]
+template <class F>
+TOFRAY_FN void each_frequency(const camera::DecoderView& s, const F* difference, const flow::Ray<F>& ray, const flow::Pixels& p,
+                              OfFrequency<F>* out) {
+  F turns[flow::max_modulation_frequencies], weight[flow::max_modulation_frequencies];
+  const F grey = grey_sum<false>(s, difference);
+  for (int i = 0; i < s.modulations; ++i) {
+    const camera::DecodeModulation& m = s.modulation[i];
+    const Estimate<F> e = estimate(s, m, difference);
+    F slope;
+    turns[i] = wrapped_turns<false>(s, i, e, p, slope);
+    weight[i] = inverse_variance(m, e, variance_of<false>(s, m, difference, e, grey * F(m.ambient_scale)), slope);
+    out[i].amplitude = e.amplitude;
+  }
+  const HalfPath<F> half = unwrap(s, turns, weight);
+  const F per_length = ray.inverse_length;
+  for (int i = 0; i < s.modulations; ++i) {
+    const camera::DecodeModulation& m = s.modulation[i];
+    const F cycle = num::round_even(num::fma(half.value, F(m.per_half_wave), -turns[i]));
+    const F path_length = F(2.0f * m.half_wave) * (cycle + turns[i]);
+    out[i].range = range_from_path(s, path_length, ray.x * per_length, ray.y * per_length, ray.z * per_length).range;
+    out[i].cycle = num::to_int(cycle);
+    out[i].known = (out[i].amplitude >= F(1.0f)) & (path_length > F(0.0f)) & (path_length * path_length > F(s.light_square));
+  }
+}
+
 /// @param difference  A−B of each raw frame [e⁻]
 /// @param p           the pixels, for what is known of each
 /// \tparam plain      true: the sensor has none of the effects that depth knows of, and there is no code for them
@@ -218,9 +263,7 @@ TOFRAY_FN Depth<F> decode(const camera::DecoderView& s, const F* difference, Mas
     const camera::DecodeModulation& m = s.modulation[i];
     const Estimate<F> e = estimate(s, m, difference);
     F slope;
-    F phi = unwiggle(s, m, e.turns, slope);
-    if (!plain && s.delay != nullptr) phi = num::fnma(camera::late_by<F>(s, i, p), F(m.frequency), phi);
-    turns[i] = phi - num::floor(phi);
+    turns[i] = wrapped_turns<plain>(s, i, e, p, slope);
     const F light = grey * F(m.ambient_scale);
     const F variance = variance_of<plain>(s, m, difference, e, light);
     weight[i] = inverse_variance(m, e, variance, slope);

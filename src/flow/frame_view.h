@@ -28,14 +28,20 @@ TOFRAY_FN void each_array(View& view, const Visit& visit) {
 
 /// How large a frame's arrays are.
 struct FrameSize {
-  std::int64_t pixels, phases, bins;
+  std::int64_t pixels, phases, bins, modulations;
   bool operator==(const FrameSize&) const = default;
 };
+/// Values of each pixel in each image of an array.
+TOFRAY_FN std::int64_t values_of_pixel(ArrayShape shape) {
+  return shape == ArrayShape::vectors ? 3 : shape == ArrayShape::pairs || shape == ArrayShape::moved ? 2 : 1;
+}
 /// Values of an array; `list` lies on the host alone and is none of these.
 TOFRAY_FN std::int64_t values_of(ArrayShape shape, const FrameSize& size) {
   const std::int64_t pixels = size.pixels;
   switch (shape) {
     case ArrayShape::stack: return size.phases * pixels;
+    case ArrayShape::moved: return 2 * size.phases * pixels;
+    case ArrayShape::by_frequency: return size.modulations * pixels;
     case ArrayShape::bins: return size.bins * pixels;
     case ArrayShape::vectors: return 3 * pixels;
     case ArrayShape::pairs: return 2 * pixels;

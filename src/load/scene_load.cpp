@@ -61,6 +61,7 @@ class SceneReader {
     filler_.fill(root, out);
     camera(root["camera"], out.camera);
     ambient(root["ambient"], out.ambient);
+    for (const Value& one : root["classes"].items) out.classes.push_back(one.text);
     const Value &materials = root["materials"], &objects = root["objects"];
     // Where they are filled they stay: faults are told by their addresses.
     out.materials.reserve(materials.items.size() + objects.items.size());

@@ -345,11 +345,28 @@ void cameras_move_one_way(const CameraChoice& camera, Complaints& complaints) {
   }
 }
 
+namespace {
+
 void objects_have_a_material(const Scene& scene, Complaints& complaints) {
   for (const Object& object : scene.objects)
     if (static_cast<std::size_t>(object.material) >= scene.materials.size())
       complaints.add(object, &object.material, "the object names a material that the scene has not",
                      "got index " + std::to_string(object.material) + " of " + std::to_string(scene.materials.size()) + " materials");
+}
+
+void classes_are_listed(const Scene& scene, Complaints& complaints) {
+  if (scene.classes.empty()) return;
+  for (const Object& object : scene.objects)
+    if (!object.class_name.empty() && std::find(scene.classes.begin(), scene.classes.end(), object.class_name) == scene.classes.end())
+      complaints.add(object, &object.class_name, "the object is of a class that the scene's classes have not",
+                     "got " + object.class_name + ", expected " + base::listed(scene.classes, "or") + "; or add it there");
+}
+
+}  // namespace
+
+void objects_fit_their_scene(const Scene& scene, Complaints& complaints) {
+  objects_have_a_material(scene, complaints);
+  classes_are_listed(scene, complaints);
 }
 
 void light_is_the_suns(Ambient& ambient, const Given& given) {

@@ -37,7 +37,7 @@ void poses_look_somewhere(const Pose& pose, Complaints& complaints);
 void objects_move_one_way(const Object& object, Complaints& complaints);
 void cameras_move_one_way(const CameraChoice& camera, Complaints& complaints);
 void paths_have_an_aim(const Transport& transport, Complaints& complaints);
-void objects_have_a_material(const Scene& scene, Complaints& complaints);
+void objects_fit_their_scene(const Scene& scene, Complaints& complaints);
 
 void light_is_the_suns(Ambient& ambient, const Given& given);
 

@@ -266,6 +266,8 @@ const Table& table_of<Object>() {
               "keyframes", 0, most_keyframes,
               "where it is when, in place of `position`, `rotation` and both velocities; it moves evenly between two")
               .or_else(keyframe_file({})),
+          words<&Object::class_name>("class", "a name", "chair", "what kind of thing it is, for gt_class_id; see the scene's `classes`")
+              .in_meta_if_set(),
           no_row<&Object::key, &Object::where>("where the file says it"))
           .check_with(objects_move_one_way);
   return rows;
@@ -422,8 +424,9 @@ const Table& table_of<Scene>() {
                    record<&Scene::transport>("transport", "light that goes on from surface to surface; straight back unless given")
                        .since(Stage::power),
                    records<&Scene::materials>("", 0, most_materials + most_objects, ""),  // by name, and those of objects
-                   records<&Scene::objects>("", 0, most_objects, ""), no_row<&Scene::files>("what the reader met"))
-          .check_with(objects_have_a_material);
+                   records<&Scene::objects>("", 0, most_objects, ""), no_row<&Scene::files>("what the reader met"),
+                   no_row<&Scene::classes>("a list of words: the reader's"))
+          .check_with(objects_fit_their_scene);
   return rows;
 }
 
@@ -498,6 +501,9 @@ const FileForm& scene_form() {
     file.root.keys.push_back(absent("materials", dictionary(form_of(table_of<Material>()), 0, most_materials),
                                     "materials by name, at the illumination wavelength"));
     file.root.keys.push_back(required("objects", objects_form(), "what the camera looks at"));
+    file.root.keys.push_back(absent("classes", list(text("a name", "chair"), 1, most_objects),
+                                    "classes of objects in the order in which gt_class_id counts them; unless given, those that objects "
+                                    "have, by the order of their letters"));
     file.root.meant = words_that_people_try();
     return file;
   }();

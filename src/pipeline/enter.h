@@ -135,6 +135,24 @@ TOFRAY_FN void given_phasors(const Setup& s, const LightArrays& in, const power:
   }
 }
 
+/// Raw frames without noise of the light that has met one surface alone; ambient light is all that there is.
+template <class F>
+TOFRAY_APART void store_direct_levels(const Setup& s, float* to, const flow::LightImage& image, const Pixels& p,
+                                      const raw::Exposure<F>& exposure) {
+  flow::Light<F> light;
+  const bool by_frame = image.times > 1;
+  for (int k = 0; k < s.sensor.raw_frames; ++k) {
+    const int time = by_frame ? k : 0;
+    if (by_frame || k == 0) {
+      const power::Wanted which = wanted(s, {k, by_frame ? k + 1 : s.sensor.raw_frames, time, 0, 1, false}, !by_frame);
+      load_light(s, image.before, p, image.times, time, light);
+      light.ambient_rate = num::load<F>(image.values + light_place(s, p, image.times, time, 1), p.count);
+      if (s.sensor.delay != nullptr) power::delay_by(s.phasors, which, s.sensor, p, light);
+    }
+    store_levels<F>(s, to, p, k, k + 1, light, exposure);
+  }
+}
+
 /// Pixels with arrays from elsewhere, for stages 2 to 4, or 3 and 4.
 template <class F>
 class GivenWalk {
@@ -156,6 +174,8 @@ class GivenWalk {
       if (now.truth) {
         store_mixed<F>(s_, job_.out, job_.light, p);
         store_bounced<F>(s_, job_.out, job_.light, p, job_.light.times > 1 ? now.first : 0);
+        if (job_.out.gt_raw_direct_dn != nullptr && job_.light.indirect != nullptr)
+          store_direct_levels<F>(s_, job_.out.gt_raw_direct_dn, job_.light, p, pack.exposure);
       }
       return true;
     }
@@ -184,6 +204,7 @@ class GivenWalk {
       store_truth(
           job_.out, p, surface, radiometry, []() __attribute__((always_inline)) { return num::Int<F>(-1); });
       store_seen(job_.out, p, nothing_known<F>());
+      store_no_phase_flow<F>(s_, job_.out.gt_phase_flow_px, p);
       if (s_.last_stage >= Stage::power) store(job_.out.gt_ambient_e_per_s, p, pack.light.ambient_rate);
     }
     return true;

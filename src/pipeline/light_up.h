@@ -167,6 +167,12 @@ template <class F, class Near>
 TOFRAY_FN bool light_of_scene(const Setup& s, const Job& job, Near& near, const Moment& now, const Pixels& p, const flow::Ray<F>& ray,
                               const flow::Hit<F>& still, const flow::Hit<F>& hit, F vignetting, flow::Light<F>& light, bool& undisturbed) {
   const bool moves = near.moves(s);
+  if (job.out.gt_phase_flow_px != nullptr && now.sample == now.samples / 2) {
+    const flow::Ray<F> ray_copy = ray;
+    const flow::Hit<F> hit_copy = hit;
+    const flow::Surface<F> copy = surface_seen(s, s.lens, ray, hit, vignetting);
+    store_phase_flow<F>(s, job.out.gt_phase_flow_px, p, now.first, now.last, now.index, now.truth, ray_copy, hit_copy, copy);
+  }
   const bool same = !moves || !near.any(hit.facet != still.facet);
   const bool open = !moves || s.last_stage < Stage::power || !near.can_be_shaded(s);  // nothing that moves can come between
   if (same && open && undisturbed && !now.truth) return false;

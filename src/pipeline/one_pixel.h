@@ -35,6 +35,17 @@ struct Pack {
   F difference[flow::max_raw_frames];  ///< A−B of each raw frame [e⁻]
 };
 
+/// Raw frames as they would be without noise, before the ADC rounds.
+/// @param first, last  of them, without the last
+template <class F>
+TOFRAY_APART void store_levels(const Setup& s, float* to, const Pixels& p, int first, int last, const flow::Light<F>& light,
+                               const raw::Exposure<F>& exposure) {
+  for (int k = first; k < last; ++k) {
+    num::store(to + p.index + k * s.lens.width * s.lens.height, raw::level_without_noise(s.sensor, k, light, s.phasors.orders, exposure),
+               p.count);
+  }
+}
+
 /// Stage 3 for the raw frames of one moment: A−B as depth takes it.
 /// @param next    pixels that come after these
 /// \tparam plain  as of raw::expose
@@ -57,6 +68,7 @@ TOFRAY_FN void collect(const Setup& s, const Job& job, const Pixels& p, const Pi
   } else {
     collect<true>(s, job, p, next, now, light, pack);
   }
+  if (job.out.gt_raw_dn != nullptr) store_levels<F>(s, job.out.gt_raw_dn, p, now.first, now.last, light, pack.exposure);
   if (job.out.gt_signal_e == nullptr) return;
   for (int k = now.first; k < now.last; ++k) {
     const F signal = s.sensor.frame[k].lit != 0 ? light.signal_rate * F(s.sensor.frame[k].integration_time) : F(0.0f);
@@ -88,6 +100,25 @@ TOFRAY_FN num::Mask<F> beside_region(const Setup& s, const Pixels& p) {
   return (Int(r.left) > x) | (x > Int(r.left + r.width - 1));
 }
 
+/// Whether anybody wants to know what each modulation frequency says.
+TOFRAY_FN bool wants_frequencies(const flow::FrameView& out) {
+  return out.amplitude_by_frequency_e != nullptr || out.range_by_frequency_m != nullptr || out.cycle_by_frequency != nullptr;
+}
+/// Stores it.
+template <class F>
+TOFRAY_APART void store_frequencies(const Setup& s, const flow::FrameView& out, const Pixels& p, const flow::Ray<F>& ray,
+                                    const F* difference) {
+  depth::OfFrequency<F> found[flow::max_modulation_frequencies];
+  depth::each_frequency(s.decoder, difference, ray, p, found);
+  for (int i = 0; i < s.decoder.modulations; ++i) {
+    const Pixels at{p.index + i * s.lens.width * s.lens.height, p.count};
+    store(out.amplitude_by_frequency_e, at, found[i].amplitude);
+    store(out.range_by_frequency_m, at, num::select(found[i].known, found[i].range, nan<F>()));
+    if (out.cycle_by_frequency == nullptr) continue;
+    num::store(out.cycle_by_frequency + at.index, num::select(found[i].known, found[i].cycle, num::Int<F>(-1)), p.count);
+  }
+}
+
 /// Stage 4.
 template <class F>
 TOFRAY_FN void find_depth(const Setup& s, const Job& job, const Pixels& p, const flow::Ray<F>& ray, const F* difference,
@@ -98,6 +129,7 @@ TOFRAY_FN void find_depth(const Setup& s, const Job& job, const Pixels& p, const
   store(job.out.ambient_e, p, found.ambient);
   store_range(job.out, p, ray, found.range, confidence(s.decoder, found.noise, found.trust), found.flags);
   if (job.filter != Filter::none) num::store(trust_in(s, job) + p.index, found.trust, p.count);
+  if (wants_frequencies(job.out)) store_frequencies<F>(s, job.out, p, ray, difference);
   store(job.out.noise_m, p, num::select((found.flags & num::Int<F>(depth::no_return)) == num::Int<F>(0), found.noise, nan<F>()));
 }
 
@@ -122,8 +154,8 @@ TOFRAY_FN void run_pipeline(const Setup& s, const Job& job, Walk& walk) {
   const int moments = walk.moments();
   for (int moment = 0; moment < moments; ++moment) {
     const Moment now = moment_of(s, moment, moments);
-    if (s.last_stage < Stage::raw && !now.truth) continue;
-    const bool first = moment == 0 || s.last_stage < Stage::raw;  // that of the truth is the only one then
+    if (s.last_stage < Stage::raw && !now.truth && job.out.gt_phase_flow_px == nullptr) continue;
+    const bool first = moment == 0 || s.last_stage < Stage::raw;  // nothing is kept from one moment to the next then
     walk.go_to(now);
     for (int q = 0; q < walk.packs(); ++q) {
       const Pixels p = walk.pixels(q);

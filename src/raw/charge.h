@@ -126,12 +126,17 @@ TOFRAY_FN Means<F> with_unlike_offsets(const camera::SensorView& s, const Means<
   return {charge.a + F(s.half_offset_mismatch), charge.b - F(s.half_offset_mismatch)};
 }
 
-/// Equal charge x = min(budget, max(0, min(A, B) − threshold)) off both taps; each removal adds its own variance factor²·x. [eq. 3.7]
+/// Equal charge off both taps: x = min(budget, max(0, min(A, B) − threshold)).                              [eq. 3.7]
+template <class F>
+TOFRAY_FN F removed_by_suppression(const camera::SensorView& s, const Means<F>& charge) {
+  const F excess = num::max(num::min(charge.a, charge.b) - F(s.suppression_threshold), F(0.0f));
+  return num::min(excess, F(s.suppression_budget));
+}
+/// Takes it off; each removal adds its own variance factor²·x.                                             [eq. 3.7]
 template <class F>
 TOFRAY_FN Means<F> suppress(const camera::SensorView& s, const Means<F>& charge, num::Int<F> pixel, int k, FrameIndex frame,
                             TapWords<F>& words) {
-  const F excess = num::max(num::min(charge.a, charge.b) - F(s.suppression_threshold), F(0.0f));
-  const F removed = num::min(excess, F(s.suppression_budget));
+  const F removed = removed_by_suppression(s, charge);
   Means<F> left{charge.a - removed, charge.b - removed};
   if (s.noise != Noise::off && s.suppression_noise > 0 && num::any(removed > F(0.0f))) {
     const Means<F> normal = tap_normals<F>(s, pixel, k, frame, suppression, words);
@@ -172,6 +177,12 @@ TOFRAY_FN void offset_and_suppress(const camera::SensorView& s, num::Int<F> pixe
   if (s.suppression_threshold > 0) charge = suppress(s, charge, pixel, k, frame, words);
 }
 
+/// The ADC's level of A−B before it is rounded: (A−B)/s + mid + offset.                                     [eq. 3.8]
+template <class F>
+TOFRAY_FN F level_of(const camera::SensorView& s, F difference, F offset) {
+  return num::fma(difference, F(s.per_step), F(s.mid_code) + offset);
+}
+
 /// Full well per tap, then A−B through the ADC: DN = round((A−B)/s + mid + offset), held to the code range.   [eq. 3.8]
 /// @param charge  what is read of both taps
 /// @param reach   of the codes, offset included; asked for where noise is off
@@ -181,7 +192,7 @@ TOFRAY_FN Taps<F> read_out(const camera::SensorView& s, const Means<F>& charge, 
   Taps<F> out;
   out.a = num::min(charge.a, F(s.full_read)), out.b = num::min(charge.b, F(s.full_read));
   const F difference = out.a - out.b;
-  out.level = num::round_even(num::fma(difference, F(s.per_step), F(s.mid_code) + offset));
+  out.level = num::round_even(level_of(s, difference, offset));
   out.code = num::min(num::max(out.level, F(0.0f)), F(s.max_code));
   out.difference = s.noise == Noise::off ? held_to_codes(reach, known(difference)) : (out.code - F(s.mid_code)) * F(s.step);
   return out;

@@ -100,19 +100,49 @@ TOFRAY_FN F known_difference(const camera::SensorView& s, const camera::RawFrame
   return num::select(whole, difference, otherwise);
 }
 
-/// (Light × (1 + PRNU) + dark charge) × (1 ± g/2) → Poisson → reset and read noise → tap offsets → background suppression → full well →
-/// non-linearity → A, B, A−B → column and row noise → ADC.
+/// (Light × (1 + PRNU) + dark charge) × (1 ± g/2), as expected in both taps; and A−B per second of the light alone.
+template <class F>
+struct Expected {
+  Means<F> charge;
+  F rate, ambient_rate;
+};
 /// @param light  as this pixel sees it, its own delay included
 /// @param orders of the light's phasors
 /// \tparam plain true: the sensor has none of its effects, and there is no code for them
 template <bool plain, class F>
+TOFRAY_FN Expected<F> expected(const camera::SensorView& s, const camera::RawFrameView& frame, const Light<F>& light, int orders,
+                               const Exposure<F>& e) {
+  Expected<F> out;
+  out.rate = frame.lit != 0 ? difference_rate(frame, orders, light) : F(0.0f), out.ambient_rate = light.ambient_rate;
+  if (!plain && frame.other != nullptr) add_other_camera(frame, orders, light, out.ambient_rate, out.rate);
+  out.charge = tap_means(frame, light.signal_rate, out.ambient_rate, out.rate);
+  out.charge.a = out.charge.a * e.gain_a, out.charge.b = out.charge.b * e.gain_b;
+  if (s.gain != nullptr) keep_dark_charge(s, frame, e, out.charge);
+  return out;
+}
+
+/// What the ADC would say without noise, before it rounds: the level of the expected charge, within the codes' range.     [theory: eq. 3.35]
+template <class F>
+TOFRAY_FN F level_without_noise(const camera::SensorView& s, int k, const Light<F>& light, int orders, const Exposure<F>& e) {
+  Means<F> charge = expected<false>(s, s.frame[k], light, orders, e).charge;
+  if (s.half_offset_mismatch != 0) charge = with_unlike_offsets(s, charge);
+  if (s.suppression_threshold > 0) {
+    const F removed = removed_by_suppression(s, charge);
+    charge = {charge.a - removed, charge.b - removed};
+  }
+  if (s.read.cell != nullptr) charge = read_charges(s, charge);
+  const F difference = num::min(charge.a, F(s.full_read)) - num::min(charge.b, F(s.full_read));
+  return num::min(num::max(level_of(s, difference, e.offset), F(0.0f)), F(s.max_code));
+}
+
+/// (Light × (1 + PRNU) + dark charge) × (1 ± g/2) → Poisson → reset and read noise → tap offsets → background suppression → full well →
+/// non-linearity → A, B, A−B → column and row noise → ADC.
+/// @param light, orders  as of expected
+/// \tparam plain         likewise
+template <bool plain, class F>
 TOFRAY_FN Taps<F> expose(const camera::SensorView& s, int k, const Light<F>& light, int orders, FrameIndex index, Exposure<F>& e) {
   const camera::RawFrameView frame = s.frame[k];
-  F rate = frame.lit != 0 ? difference_rate(frame, orders, light) : F(0.0f), ambient_rate = light.ambient_rate;
-  if (!plain && frame.other != nullptr) add_other_camera(frame, orders, light, ambient_rate, rate);
-  Means<F> charge = tap_means(frame, light.signal_rate, ambient_rate, rate);
-  charge.a = charge.a * e.gain_a, charge.b = charge.b * e.gain_b;
-  if (s.gain != nullptr) keep_dark_charge(s, frame, e, charge);
+  auto [charge, rate, ambient_rate] = expected<plain>(s, frame, light, orders, e);
   if (s.noise == Noise::merged) {
     charge = expose_merged(s, charge, e.pixel, k, index, e.merged_words);
   } else if (s.noise == Noise::apart) {

@@ -24,6 +24,8 @@ const char* shape_of(ArrayShape shape) {
     case ArrayShape::pairs: return "[height, width, 2]";
     case ArrayShape::vectors: return "[height, width, 3]";
     case ArrayShape::stack: return "[phase, height, width]";
+    case ArrayShape::moved: return "[phase, height, width, 2]";
+    case ArrayShape::by_frequency: return "[frequency, height, width]";
     case ArrayShape::bins: return "[bin, height, width]";
     case ArrayShape::list: return "[phase]";
   }
@@ -43,7 +45,7 @@ const char* name_of(Stage stage) {
 std::vector<ArrayRow> make_table() {
   std::vector<ArrayRow> rows;
   const NpyType number = npy_type_of<double>();
-#define TOFRAY_ROW(name, part, member, element, shape, stage, unit, what) \
+#define TOFRAY_ROW(name, part, member, element, shape, stage, when, unit, what) \
   rows.push_back({#name, npy_type_of<element>(), shape_of(ArrayShape::shape), unit, name_of(Stage::stage), what});
   TOFRAY_RAW_ARRAYS(TOFRAY_ROW)
   TOFRAY_EXPOSURE_ARRAYS(TOFRAY_ROW)

@@ -22,14 +22,17 @@ using files::write_file_atomically;
 
 namespace {
 
-NpyShape extents(ArrayShape shape, int phases, int bins, int height, int width) {
-  const auto k = static_cast<std::size_t>(phases), b = static_cast<std::size_t>(bins), v = static_cast<std::size_t>(height),
+NpyShape extents(ArrayShape shape, const Frame& frame, int height, int width) {
+  const auto k = static_cast<std::size_t>(frame.raw.phases), b = static_cast<std::size_t>(frame.truth.bins),
+             f = static_cast<std::size_t>(frame.depth.modulations), v = static_cast<std::size_t>(height),
              u = static_cast<std::size_t>(width);
   switch (shape) {
     case ArrayShape::image: return {v, u};
     case ArrayShape::pairs: return {v, u, 2};
     case ArrayShape::vectors: return {v, u, 3};
     case ArrayShape::stack: return {k, v, u};
+    case ArrayShape::moved: return {k, v, u, 2};
+    case ArrayShape::by_frequency: return {f, v, u};
     case ArrayShape::bins: return {b, v, u};
     case ArrayShape::list: return {k};
   }
@@ -57,9 +60,8 @@ FrameArrays::FrameArrays(const Frame& frame, const Camera& camera, const PoseMat
     const ArrayRow& row = *find_array(name);
     if (there && !data.empty() && choice.has(row)) views_.push_back(npy_view(name, shape, data, row.type));
   };
-#define TOFRAY_ADD(name, part, member, element, shape, ...)                                                                          \
-  add(#name, extents(ArrayShape::shape, frame.raw.phases, frame.truth.bins, frame.part.height, frame.part.width), frame.part.member, \
-      frame.part.width > 0);
+#define TOFRAY_ADD(name, part, member, element, shape, ...) \
+  add(#name, extents(ArrayShape::shape, frame, frame.part.height, frame.part.width), frame.part.member, frame.part.width > 0);
   TOFRAY_RAW_ARRAYS(TOFRAY_ADD)
   TOFRAY_EXPOSURE_ARRAYS(TOFRAY_ADD)
   TOFRAY_DEPTH_ARRAYS(TOFRAY_ADD)

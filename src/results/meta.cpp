@@ -87,6 +87,7 @@ FrameMeta::FrameMeta(const Scene& scene, const Camera& camera, const SimulatorOp
     Tree& keyframes = what["camera_keyframes"] = Tree::array();
     for (const CameraKeyframe& key : scene.camera.keyframes) keyframes.push_back(tree_of(model::table_of<CameraKeyframe>(), &key));
   }
+  if (!scene.classes.empty()) what["classes"] = scene.classes;
   const Tree how{{"tofray", base::version()},
                  {"seed", options.seed},
                  {"noise", noise_name(options.noise)},

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scene/frozen_scene.h"
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 
@@ -169,6 +170,28 @@ T FrozenScene::placed(const Said& said, const shape::Placement& at) {
   }
 }
 
+namespace {
+
+/// Of each object the number of its class, −1: it has none; one at least.
+std::vector<std::int32_t> classes_of(const Scene& scene) {
+  std::vector<std::string> names = scene.classes;
+  if (names.empty()) {
+    for (const Object& object : scene.objects)
+      if (!object.class_name.empty()) names.push_back(object.class_name);
+    std::sort(names.begin(), names.end());
+    names.erase(std::unique(names.begin(), names.end()), names.end());
+  }
+  std::vector<std::int32_t> out;
+  for (const Object& object : scene.objects) {
+    const auto at = std::find(names.begin(), names.end(), object.class_name);
+    out.push_back(at == names.end() || object.class_name.empty() ? -1 : static_cast<std::int32_t>(at - names.begin()));
+  }
+  if (out.empty()) out.push_back(-1);
+  return out;
+}
+
+}  // namespace
+
 void FrozenScene::add_bodies(int moments) {
   const bool camera_moves = !scene_.camera.keyframes.empty();
   moves_ = camera_moves;
@@ -187,6 +210,8 @@ void FrozenScene::add_bodies(int moments) {
   motions_.resize(1 + movers_.size());
   motion_of_.resize(std::max<std::size_t>(scene_.objects.size(), 1));
   for (std::size_t m = 0; m < movers_.size(); ++m) motion_of_[movers_[m].object] = static_cast<std::int32_t>(1 + m);
+  class_of_ = classes_of(scene_);
+  view_.class_of = class_of_.data();
   view_.motions = motions_.data(), view_.motion_of = motion_of_.data();
   view_.object_count = static_cast<std::int32_t>(motion_of_.size());
   view_.movers = static_cast<std::int32_t>(movers_.size());
@@ -207,7 +232,7 @@ void FrozenScene::add_changing(std::size_t object) {
   while (which < changing_.size() && (changing_[which].motion != mesh->motion.get() || changing_[which].mesh != mesh->triangles.get()))
     ++which;
   if (which == changing_.size())
-    changing_.push_back({mesh->triangles.get(), mesh->motion.get(), hierarchies_.at(mesh->triangles).get(), {}, {}});
+    changing_.push_back({mesh->triangles.get(), mesh->motion.get(), hierarchies_.at(mesh->triangles).get(), {}, {}, {}});
   changing_bodies_.push_back({moving_.of<shape::Mesh>().bodies.size() - 1, object, which});
 }
 
@@ -240,6 +265,7 @@ void FrozenScene::look(const std::optional<Pose>& pose, const Times& times) {
   if (moved) look_for_sun(camera(times.truth_s()));
   if (!moving_known_) place_movers(), change_shapes();
   if (!moving_known_ && !movers_.empty()) look_at_motion(pose);
+  if (!moving_known_) look_to_truth(pose);
 }
 
 void FrozenScene::look_for_sun(const CameraFrame& at_truth) {
@@ -279,6 +305,12 @@ void FrozenScene::change_shapes() {
   const double truth = times_.truth_s();
   const auto now = all_at(truth), before = all_at(truth - apart_s), after = all_at(truth + apart_s),
              later = all_at(truth + times_.period_s);
+  for (Changing& one : changing_) one.to_truth.resize(times_.to_truth ? times_.moments.size() : 0);
+  for (std::size_t k = 0; k < times_.moments.size() && times_.to_truth; ++k) {
+    const auto then = all_at(times_.moments[k]);
+    for (std::size_t i = 0; i < changing_.size(); ++i)
+      changing_[i].to_truth[k] = steps_of(*changing_[i].built, *changing_[i].mesh, then[i], then[i], 1, then[i], now[i]);
+  }
   for (std::size_t i = 0; i < changing_.size(); ++i)
     changing_[i].steps = steps_of(*changing_[i].built, *changing_[i].mesh, before[i], after[i], apart_s, now[i], later[i]);
   auto& meshes = moving_.of<shape::Mesh>().bodies;
@@ -290,9 +322,41 @@ void FrozenScene::change_shapes() {
       const brdf::MapView* const cut = mesh.cut;
       mesh = shape::Mesh::placed(changing.at[k], placement_of(scene_.objects[one.object]));
       mesh.cut = cut;
-      mesh.steps = k == times_.truth ? changing.steps.data() : nullptr;
+      mesh.steps = k == times_.truth ? changing.steps.data() : times_.to_truth ? changing.to_truth[k].data() : nullptr;
     }
   }
+}
+
+namespace {
+
+/// From where an object's points are seen to where they are seen at another time. What is at X before it moves is at A·(X − o) now and at
+/// B·(X − q) then: B·Aᵀ·P + B·(o − q).                                                                     [theory: eq. 6.11]
+void put_step(const shape::Frame& here, const shape::Frame& there, MotionView& out) {
+  shape::copy(there.axes * (here.origin - there.origin), out.step);
+  for (int k = 0; k < 3; ++k) {
+    Vec row = here.axes * there.axes.row[k];
+    row[k] = row[k] - 1;
+    shape::copy(here.axes == there.axes ? Vec{0, 0, 0} : row, out.turn + 3 * k);  // else rounding would be left
+  }
+}
+
+}  // namespace
+
+/// How all moves from each moment to the time of the truth.                                                 [theory: eq. 6.15]
+void FrozenScene::look_to_truth(const std::optional<Pose>& pose) {
+  view_.to_truth = nullptr;
+  if (!times_.to_truth) return;
+  const CameraFrame camera = camera_frame(pose ? *pose : pose_at(scene_.camera, times_.truth_s()));
+  const std::size_t rows = 1 + movers_.size();
+  to_truth_.assign(rows * times_.moments.size(), {});
+  for (std::size_t k = 0; k < times_.moments.size(); ++k) {
+    for (std::size_t m = 0; m < movers_.size(); ++m) {
+      const Object& object = scene_.objects[movers_[m].object];
+      const shape::Frame there = frame_of(camera, motion_at(object, movers_[m].center, times_.truth_s()), turns(object));
+      put_step(frames_[k * movers_.size() + m], there, to_truth_[k * rows + 1 + m]);
+    }
+  }
+  view_.to_truth = to_truth_.data();
 }
 
 /// P is seen at axes·(X − position); both X and the camera move.                                              [theory: eq. 6.11]
@@ -310,13 +374,7 @@ void FrozenScene::look_at_motion(const std::optional<Pose>& pose) {
     MotionView& out = motions_[1 + m];
     shape::copy(axes * (motion.drift + cross(motion.spin, vec(camera.frame.position)) - camera.velocity), out.velocity);
     shape::copy(axes * (motion.spin - camera.spin), out.spin);
-    // What is at X before it moves is at A·(X − o) now and at B·(X − q) then: B·Aᵀ·P + B·(o − q).
-    shape::copy(there.axes * (here.origin - there.origin), out.step);
-    for (int k = 0; k < 3; ++k) {
-      Vec row = here.axes * there.axes.row[k];
-      row[k] = row[k] - 1;
-      shape::copy(here.axes == there.axes ? Vec{0, 0, 0} : row, out.turn + 3 * k);  // else rounding would be left
-    }
+    put_step(here, there, out);
   }
 }
 

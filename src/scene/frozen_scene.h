@@ -28,6 +28,7 @@ struct Times {
   std::vector<double> moments;  ///< [s]
   std::size_t truth = 0;        ///< that of the ground truth
   double period_s = 0;          ///< from a frame to the next
+  bool to_truth = false;        ///< how all moves from each moment to the truth is asked, too
   [[nodiscard]] double truth_s() const { return moments[truth]; }
   bool operator==(const Times&) const = default;
 };
@@ -66,8 +67,9 @@ class FrozenScene {
     const TriangleMesh* mesh;
     const MeshMotion* motion;
     const Hierarchy* built;
-    std::vector<Hierarchy> at;            ///< [moment]
-    std::vector<shape::MeshSteps> steps;  ///< at the time of the truth
+    std::vector<Hierarchy> at;                            ///< [moment]
+    std::vector<shape::MeshSteps> steps;                  ///< at the time of the truth
+    std::vector<std::vector<shape::MeshSteps>> to_truth;  ///< [moment] where asked
   };
   struct ChangingBody {
     std::size_t body, object, which;  ///< among the moving meshes, the scene's objects, and `changing_`
@@ -86,6 +88,7 @@ class FrozenScene {
   void look_for_sun(const CameraFrame& at_truth);
   void place_movers();
   void look_at_motion(const std::optional<Pose>& pose);
+  void look_to_truth(const std::optional<Pose>& pose);
   void change_shapes();
 
   const Scene& scene_;
@@ -104,8 +107,8 @@ class FrozenScene {
   std::vector<shape::Vec> lights_;
   std::vector<Changing> changing_;
   std::vector<ChangingBody> changing_bodies_;
-  std::vector<MotionView> motions_;
-  std::vector<std::int32_t> motion_of_;
+  std::vector<MotionView> motions_, to_truth_;
+  std::vector<std::int32_t> motion_of_, class_of_;
   std::vector<shape::Frame> frames_;
   std::vector<Vec> toward_suns_;
   std::vector<float> sun_directions_;

@@ -80,10 +80,10 @@ struct MeshHit {
   Int<F> number, triangle;  ///< in the user's list, and block_width·block + place in the hierarchy's; −1: none
 };
 
-/// How the corners of a block's triangles move at the time of the truth, in the mesh's frame, where the mesh changes its shape.
+/// How the corners of a block's triangles move, in the mesh's frame, where the mesh changes its shape.
 struct MeshSteps {
-  float velocity[3][3][block_width];  ///< [corner][coordinate] [m/s]
-  float step[3][3][block_width];      ///< until one frame later [m]
+  float velocity[3][3][block_width];  ///< [corner][coordinate] [m/s] at the time of the truth
+  float step[3][3][block_width];      ///< [m] until one frame later; at other times than that of the truth: until that
 };
 constexpr int mesh_steps_words = sizeof(MeshSteps) / sizeof(float);
 

@@ -91,6 +91,7 @@ class ShardMaker {
     for (const MadeSample& view : one.views) {
       Record::Sample& into = record.samples.emplace_back();
       into.sample = number, into.view = view.view;
+      into.pixels = view.statistics.pixels, into.valid = view.statistics.valid;
       const std::string key = sample_key(number, view.view, plan_.views);
       for (const MadeSample::Member& member : view.members) {
         tar.append(files::tar_header(key + "." + member.name, member.bytes.size()));

@@ -14,6 +14,8 @@
 #include "files/streamed_file.h"
 #include "shards/layout.h"
 #include "shards/record.h"
+#include "shards/shown_samples.h"
+#include "shards/summary.h"
 #include "shards/worker.h"
 #include "tofray/error.h"
 
@@ -57,6 +59,7 @@ class Merger {
   Merger(const fs::path& folder, const Plan& plan)
       : folder_(folder),
         plan_(plan),
+        shown_(folder, plan.samples * plan.views),
         worker_(folder),
         rows_(static_cast<std::size_t>(plan.samples * plan.views)),
         index_(make_index()),
@@ -72,7 +75,7 @@ class Merger {
     sums_ += sum_line(files::sha256_hex(text), record_name(record.shard)) + sum_line(record.sha256, tar);
     list_.push(
         Json::object().set("url", tar).set("nsamples", static_cast<std::uint64_t>(record.samples.size())).set("filesize", record.bytes));
-    for (const Record::Hole& hole : record.holes) holes_.push(Json::object().set("sample", hole.sample).set("why", hole.why));
+    for (const Record::Hole& hole : record.holes) holes_.emplace_back(hole.sample, hole.why);
     for (const auto& [name, sha256] : record.inputs) {
       const auto [before, is_new] = inputs_.emplace(name, std::pair(sha256, record.shard));
       if (!is_new && before->second.first != sha256)
@@ -87,7 +90,7 @@ class Merger {
       for (std::uint64_t view = 0; view < plan_.views; ++view) {
         const bool there = next != record.samples.end() && next->sample == record.first + i && next->view == view;
         row(there ? &*next : nullptr, record.shard);
-        if (there) ++next;
+        if (there) shown_.add(record, *next++, (record.first + i) * plan_.views + view);
       }
   }
   /// Rows of a shard that is not there.
@@ -110,23 +113,33 @@ class Merger {
                                                    .set("bytes", "of each member"),
                                                2) +
                                   "\n");
-    Json inputs = Json::object();
+    Json inputs = Json::object(), holes = Json::array();
     for (const auto& [name, one] : inputs_) inputs.set(name, one.first);
+    for (const auto& [sample, why] : holes_) holes.push(Json::object().set("sample", sample).set("why", why));
     write("statistics.json", files::json_text(Json::object()
                                                   .set("plan", plan_.id)
                                                   .set("shards", result.shards)
                                                   .set("samples", result.samples)
                                                   .set("bytes", result.bytes)
-                                                  .set("holes", std::move(holes_))
+                                                  .set("holes", std::move(holes))
                                                   .set("inputs", std::move(inputs))
                                                   .set("statistics", statistics_.json()),
                                               2) +
                                  "\n");
     Json list = Json::object().set("__kind__", "wids-shard-index-v1").set("wids_version", 1);
     write("wids.json", files::json_text(list.set("name", plan_.set_name).set("shardlist", std::move(list_)), 1) + "\n");
+    const dataset::SetFile set = dataset::parse_set(plan_.set_text, plan_.set_name);
+    Summary summary{plan_, set, result.shards, result.samples, result.bytes, statistics_, holes_, {}, shown_.spread(), shown_.worst()};
+    for (const auto& [name, one] : inputs_) summary.inputs.emplace(name, one.first);
+    write("card.md", card_text(summary));
     sums_ += sum_line(files::sha256_hex(files::read_bytes((folder_ / "plan.json").native(), std::size_t{1} << 28)), "plan.json");
     files::write_file_atomically(folder_ / "SHA256SUMS", sums_);
     result.files.emplace_back("SHA256SUMS");
+    // These two have no line in SHA256SUMS: one holds its sum, and pictures are packed by the machine's library.
+    const auto beside = [&](const char* name, const std::string& text) {
+      files::write_file_atomically(folder_ / name, text), result.files.emplace_back(name);
+    };
+    beside("croissant.json", croissant_text(summary, files::sha256_hex(sums_))), beside("preview.html", preview_page(summary));
     result.pixels = statistics_.pixels, result.valid = statistics_.valid;
   }
 
@@ -155,13 +168,15 @@ class Merger {
 
   const fs::path& folder_;
   const Plan& plan_;
+  ShownSamples shown_;
   Worker worker_;
   std::size_t rows_;
   fs::path index_;
   Column shard_, offset_, bytes_;
   Statistics statistics_;
   std::string sums_;
-  Json list_ = Json::array(), holes_ = Json::array();
+  Json list_ = Json::array();
+  std::vector<std::pair<std::uint64_t, std::string>> holes_;
   std::map<std::string, std::pair<std::string, std::uint64_t>> inputs_;
 };
 

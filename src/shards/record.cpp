@@ -51,7 +51,12 @@ std::string record_text(const Record& record) {
     Json members = Json::array();
     for (const Record::Member& member : one.members)
       members.push(Json::array().push(member.name).push(member.offset).push(member.bytes).push(std::uint64_t{member.crc}));
-    samples.push(Json::object().set("sample", one.sample).set("view", one.view).set("members", std::move(members)));
+    samples.push(Json::object()
+                     .set("sample", one.sample)
+                     .set("view", one.view)
+                     .set("pixels", one.pixels)
+                     .set("valid", one.valid)
+                     .set("members", std::move(members)));
   }
   for (const Record::Hole& one : record.holes) holes.push(Json::object().set("sample", one.sample).set("why", one.why));
   for (const auto& [name, sha256] : record.inputs) inputs.set(name, sha256);
@@ -75,6 +80,7 @@ Record parse_record(std::string_view text, const std::string& where) {
   for (const Json& one : read.list(json.find("samples"))) {
     Record::Sample& sample = out.samples.emplace_back();
     read.number(one.find("sample"), sample.sample), read.number(one.find("view"), sample.view);
+    read.number(one.find("pixels"), sample.pixels), read.number(one.find("valid"), sample.valid);
     for (const Json& member : read.list(one.find("members"))) {
       const Json::Array& parts = read.list(&member);
       read.good = read.good && parts.size() == 4;

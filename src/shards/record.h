@@ -22,6 +22,7 @@ struct Record {
   };
   struct Sample {
     std::uint64_t sample = 0, view = 0;
+    std::uint64_t pixels = 0, valid = 0;  ///< of its image, and those that have a depth
     std::vector<Member> members;
   };
   struct Hole {

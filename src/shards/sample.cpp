@@ -5,6 +5,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <array>
 
 #include "base/text.h"
 #include "base/version.h"
@@ -15,6 +16,7 @@
 #include "load/load.h"
 #include "results/frame_file.h"
 #include "run/profile_tables.h"
+#include "tofray/analysis.h"
 #include "tofray/error.h"
 #include "tofray/load.h"
 #include "tofray/simulator.h"
@@ -53,6 +55,44 @@ Json drawn_json(const std::vector<Drawn>& drawn) {
   return out;
 }
 
+/// Pixels that see an object, and the least rectangle around them: both corners inside.
+struct Seen {
+  std::uint64_t pixels = 0;
+  int left = 0, top = 0, right = 0, bottom = 0;
+  void add(int u, int v) {
+    if (pixels++ == 0) left = right = u, top = bottom = v;
+    left = std::min(left, u), right = std::max(right, u), top = std::min(top, v), bottom = std::max(bottom, v);
+  }
+};
+
+std::vector<Seen> seen_of(const Truth& truth, std::size_t objects) {
+  std::vector<Seen> out(objects);
+  for (int v = 0, i = 0; v < truth.height; ++v)
+    for (int u = 0; u < truth.width; ++u, ++i)
+      if (const std::int32_t object = truth.object_id[static_cast<std::size_t>(i)]; object >= 0)
+        out[static_cast<std::size_t>(object)].add(u, v);
+  return out;
+}
+
+/// Of each object in the order of gt_object_id: where it is in the world when the truth holds, and in the image.
+Json objects_json(const Scene& scene, const Truth& truth) {
+  const std::vector<ObjectPlace> places = object_places(scene, truth.time_s);
+  const std::vector<Seen> seen = seen_of(truth, places.size());
+  Json out = Json::array();
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    const ObjectPlace& at = places[i];
+    Json one = Json::object();
+    one.set("name", at.name).set("class", at.class_name.empty() ? Json() : Json(at.class_name));
+    one.set("position", Json::list(at.position)).set("rotation", Json::list(at.rotation));
+    one.set("low", at.endless ? Json() : Json::list(at.low)).set("high", at.endless ? Json() : Json::list(at.high));
+    one.set("pixels", seen[i].pixels);
+    const std::array<int, 4> box{seen[i].left, seen[i].top, seen[i].right, seen[i].bottom};
+    one.set("box_px", seen[i].pixels == 0 ? Json() : Json::list(box));
+    out.push(std::move(one));
+  }
+  return out;
+}
+
 }  // namespace
 
 SampleMaker::SampleMaker(const dataset::Scenes& scenes, std::vector<std::string> arrays, FrameProgress* progress)
@@ -60,7 +100,8 @@ SampleMaker::SampleMaker(const dataset::Scenes& scenes, std::vector<std::string>
   const std::vector<std::string>& asked = arrays_.empty() ? scenes.set().arrays : arrays_;
   choice_ = results::ArrayChoice(asked.empty() ? usual_arrays : joined(asked));
   for (const results::ArrayRow& row : results::array_table())
-    if (row.is_image() && (choice_.has(row) || row.name == "z_m" || row.name == "flags" || row.name == "gt_z_m"))
+    if (row.is_image() &&
+        (choice_.has(row) || row.name == "z_m" || row.name == "flags" || row.name == "gt_z_m" || row.name == "gt_object_id"))
       wanted_.push_back(row.name);
 }
 
@@ -106,6 +147,13 @@ void SampleMaker::add_inputs(const Scene& scene, const Camera& camera, std::map<
 MadeSample SampleMaker::make(std::uint64_t sample, std::uint64_t view) const {
   const dataset::Scenes::Written written = scenes_.write(sample, view);
   const Scene scene = load::scene_from_text(written.yaml, scenes_.source(sample, view));
+  const bool classed = std::any_of(scene.objects.begin(), scene.objects.end(), [](const Object& one) { return !one.class_name.empty(); });
+  if (classed && scene.classes.empty())
+    throw Error(
+        ErrorKind::bad_input,
+        fmt::format("{}: error: objects have classes, and the scene does not list them\n  expected classes: [chair, table, …] in the "
+                    "set's scene, so that gt_class_id counts them alike in all samples",
+                    scenes_.source(sample, view)));
   const std::shared_ptr<const Camera> of_scene = camera_of(scene);
   const Camera& camera = *of_scene;
   SimulatorOptions options;
@@ -135,8 +183,7 @@ MadeSample SampleMaker::make(std::uint64_t sample, std::uint64_t view) const {
     throw Error(ErrorKind::bad_input, fmt::format("{}: error: it has other arrays than the set's\n  got {}; expected {}",
                                                   scenes_.source(sample, view), base::listed(has, "and"), base::listed(arrays_, "and")));
 
-  Json objects = Json::array(), materials = Json::array();
-  for (const Object& object : scene.objects) objects.push(object.name);
+  Json materials = Json::array();
   for (const Material& material : scene.materials) materials.push(material.name);
   Json json = Json::object();
   json.set("sample", sample).set("view", view).set("set", scenes_.set().name).set("tofray", base::version()).set("seed", options.seed);
@@ -146,7 +193,7 @@ MadeSample SampleMaker::make(std::uint64_t sample, std::uint64_t view) const {
                          .set("width", frame.depth.width)
                          .set("height", frame.depth.height));
   json.set("numbers", std::move(small)).set("arrays", std::move(arrays));
-  json.set("objects", std::move(objects)).set("materials", std::move(materials));
+  json.set("objects", objects_json(scene, frame.truth)).set("classes", Json::list(scene.classes)).set("materials", std::move(materials));
   json.set("drawn", drawn_json(written.drawn)).set("scene", written.yaml);
   out.members.push_back({"json", files::json_text(json) + "\n"});
   return out;

@@ -15,6 +15,7 @@
 #include "shards/layout.h"
 #include "shards/record.h"
 #include "shards/sample.h"
+#include "shards/shard_tar.h"
 #include "tofray/error.h"
 
 /// Shards against their records, and against samples that are computed again.
@@ -24,41 +25,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A shard's file, read in pieces.
-class Tar {
- public:
-  explicit Tar(const fs::path& path) : path_(path), file_(path, std::ios::binary) {}
-  [[nodiscard]] bool is_open() const { return file_.is_open(); }
-  std::string sha256() {
-    files::Sha256 sum;
-    std::string piece(std::size_t{1} << 20, '\0');
-    file_.clear(), file_.seekg(0);
-    while (file_.read(piece.data(), static_cast<std::streamsize>(piece.size())) || file_.gcount() > 0)
-      sum.add(std::string_view(piece.data(), static_cast<std::size_t>(file_.gcount())));
-    if (file_.bad()) throw Error(ErrorKind::io, fmt::format("{}: error: cannot read it", path_.native()));
-    return sum.hex();
-  }
-  /// The bytes of a member, as many of them as there are.
-  std::string read(const Record::Member& member) {
-    std::error_code fault;
-    const std::uint64_t there = fs::file_size(path_, fault);
-    std::string out(member.offset < there ? std::min(member.bytes, there - member.offset) : 0, '\0');
-    file_.clear(), file_.seekg(static_cast<std::streamoff>(member.offset));
-    file_.read(out.data(), static_cast<std::streamsize>(out.size()));
-    return out;
-  }
-
- private:
-  fs::path path_;
-  std::ifstream file_;
-};
-
 std::string member_name(const Plan& plan, const Record::Sample& sample, const Record::Member& member) {
   return sample_key(sample.sample, sample.view, plan.views) + "." + member.name;
 }
 
 /// Which members are not those of the record.
-std::vector<std::string> damaged_members(const Plan& plan, const Record& record, Tar& tar) {
+std::vector<std::string> damaged_members(const Plan& plan, const Record& record, ShardTar& tar) {
   std::vector<std::string> out;
   for (const Record::Sample& sample : record.samples)
     for (const Record::Member& member : sample.members) {
@@ -91,7 +63,7 @@ class Verifier {
     }
     if (!record) return {};
     if (!record->fits(plan_, shard)) return ShardFault{shard, "its record is of another plan", {}};
-    Tar tar(request_.folder / tar_name(shard));
+    ShardTar tar(request_.folder / tar_name(shard));
     if (!tar.is_open()) return ShardFault{shard, "it has a record and no tar", {}};
     if (tar.sha256() != record->sha256)
       return ShardFault{shard, "its bytes are not those of its record", damaged_members(plan_, *record, tar)};
@@ -101,7 +73,7 @@ class Verifier {
   }
 
  private:
-  std::vector<std::string> recompute(const Record& record, Tar& tar, VerifyResult& into) const {
+  std::vector<std::string> recompute(const Record& record, ShardTar& tar, VerifyResult& into) const {
     std::vector<const Record::Sample*> picked;
     for (const Record::Sample& one : record.samples)
       if (is_picked(plan_, one.sample, request_.recompute)) picked.push_back(&one);

@@ -25,10 +25,7 @@ int room(int pixels, int binning, int wanted) { return std::clamp(pixels / binni
 template <class T>
 void cut_array(const T* from, T* to, ArrayShape shape, const flow::FrameSize& wide, int wide_width, const pipeline::Region& region) {
   if (from == nullptr || to == nullptr) return;
-  const std::int64_t each = shape == ArrayShape::vectors ? 3
-                            : shape == ArrayShape::pairs ? 2
-                                                         : 1,
-                     images = flow::values_of(shape, wide) / (each * wide.pixels);
+  const std::int64_t each = flow::values_of_pixel(shape), images = flow::values_of(shape, wide) / (each * wide.pixels);
   for (std::int64_t image = 0; image < images; ++image) {
     for (int y = 0; y < region.height; ++y) {
       const T* const row = from + (image * wide.pixels + std::int64_t{region.top + y} * wide_width + region.left) * each;

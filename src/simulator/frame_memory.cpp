@@ -22,28 +22,24 @@ bool among(const std::string_view (&names)[N], std::string_view name) {
   return std::find(std::begin(names), std::end(names), name) != std::end(names);
 }
 
-/// Whether frames have an array. Of samples, bounces and histograms there is one only with these.
+/// Whether frames have an array.
 class Wanted {
  public:
   Wanted(const Camera& camera, const SimulatorOptions& options, const Transport& transport)
       : camera_(camera), options_(options), transport_(transport) {}
 
-  [[nodiscard]] bool has(std::string_view name, std::string_view part) const {
-    constexpr std::string_view of_samples[] = {"gt_mixed", "gt_object_share"},
-                               of_bounces[] = {"gt_direct_e", "gt_indirect_e", "gt_multipath_m", "gt_path_noise_m", "gt_path_count"},
-                               of_bins[] = {"transient_e_per_s", "transient_lost_e_per_s"};
+  [[nodiscard]] bool has(std::string_view name, std::string_view part, ArrayWhen when) const {
     if (part == "truth" && !options_.truth) return false;
-    if (options_.subpixel == 1 && among(of_samples, name)) return false;
-    if (transport_.bounces == 0 && among(of_bounces, name)) return false;
-    if (transport_.transient.bins == 0 && among(of_bins, name)) return false;
-    return options_.arrays.empty() || asks_for(name) || is_needed(name);
+    if (when == ArrayWhen::samples && options_.subpixel == 1) return false;
+    if ((when == ArrayWhen::bounces || name == "gt_raw_direct_dn") && transport_.bounces == 0) return false;
+    if (when == ArrayWhen::transient && transport_.transient.bins == 0) return false;
+    if (options_.arrays.empty()) return when != ArrayWhen::asked;
+    return asks_for(name) || is_needed(name);
   }
 
  private:
-  [[nodiscard]] bool asks_for(std::string_view name) const {
-    return std::find(options_.arrays.begin(), options_.arrays.end(), name) != options_.arrays.end();
-  }
-  /// … by others on their way: what the passes over a depth image look at, what exposures follow, what samples are compared with.
+  [[nodiscard]] bool asks_for(std::string_view name) const { return simulator::asks_for(options_, name); }
+  /// Others need it on their way: what the passes over a depth image look at, what exposures follow, what samples are compared with.
   [[nodiscard]] bool is_needed(std::string_view name) const {
     constexpr std::string_view of_passes[] = {"z_m", "range_m", "noise_m", "flags"}, of_exposures[] = {"tap_a", "tap_b", "raw"};
 #define TOFRAY_ASKED(name, ...) || asks_for(#name)
@@ -58,6 +54,8 @@ class Wanted {
   const Transport& transport_;
 };
 
+int modulations_of(const Camera& camera) { return static_cast<int>(camera::modulations_of(camera.mode).frequency_hz.size()); }
+
 template <class Vector>
 auto* place_of(Vector& array, Stage stage, Stage last) {
   return stage <= last && !array.empty() ? array.data() : static_cast<typename Vector::value_type*>(nullptr);
@@ -65,17 +63,19 @@ auto* place_of(Vector& array, Stage stage, Stage last) {
 
 }  // namespace
 
-void prepare(Depth& depth, int width, int height) {
-  depth.width = width, depth.height = height;
-  const flow::FrameSize size{std::int64_t{width} * height, 1, 0};
-#define TOFRAY_RESIZE(name, part, member, element, shape, ...) resize(part.member, ArrayShape::shape, size, true);
+void prepare(Depth& depth, const Camera& camera, const SimulatorOptions& options) {
+  const Wanted wanted(camera, options, {});
+  depth.width = camera.sensor.width, depth.height = camera.sensor.height, depth.modulations = modulations_of(camera);
+  const flow::FrameSize size{std::int64_t{depth.width} * depth.height, 1, 0, depth.modulations};
+#define TOFRAY_RESIZE(name, part, member, element, shape, stage, when, ...) \
+  resize(part.member, ArrayShape::shape, size, ArrayWhen::when != ArrayWhen::asked || wanted.has(#name, #part, ArrayWhen::when));
   TOFRAY_DEPTH_ARRAYS(TOFRAY_RESIZE)
 #undef TOFRAY_RESIZE
 }
 
 void prepare(Frame& frame, const Camera& camera, const SimulatorOptions& options, const Transport& transport) {
   const int width = camera.sensor.width, height = camera.sensor.height, phases = static_cast<int>(camera.mode.sequence.size());
-  const flow::FrameSize size{std::int64_t{width} * height, phases, transport.transient.bins};
+  const flow::FrameSize size{std::int64_t{width} * height, phases, transport.transient.bins, modulations_of(camera)};
   const Wanted wanted(camera, options, transport);
   auto& [index, raw, depth, truth] = frame;
   raw.width = width, raw.height = height, raw.phases = phases;
@@ -86,19 +86,24 @@ void prepare(Frame& frame, const Camera& camera, const SimulatorOptions& options
     raw.integration_time_s.push_back(k.integration_time_s);
     raw.lit.push_back(k.lit);
   }
-  depth.width = width, depth.height = height;
+  depth.width = width, depth.height = height, depth.modulations = static_cast<int>(size.modulations);
   if (!options.truth) truth = {};
   if (options.truth) truth.width = width, truth.height = height, truth.phases = phases, truth.bins = transport.transient.bins;
-#define TOFRAY_RESIZE(name, part, member, element, shape, ...) resize(part.member, ArrayShape::shape, size, wanted.has(#name, #part));
+#define TOFRAY_RESIZE(name, part, member, element, shape, stage, when, ...) \
+  resize(part.member, ArrayShape::shape, size, wanted.has(#name, #part, ArrayWhen::when));
   TOFRAY_IMAGE_ARRAYS(TOFRAY_RESIZE)
 #undef TOFRAY_RESIZE
+}
+
+bool asks_for(const SimulatorOptions& options, std::string_view array) {
+  return std::find(options.arrays.begin(), options.arrays.end(), array) != options.arrays.end();
 }
 
 Stage last_stage_of(const Camera& camera, const SimulatorOptions& options, const Transport& transport) {
   const Wanted wanted(camera, options, transport);
   Stage last = Stage::trace;
-#define TOFRAY_LAST(name, part, member, element, shape, stage, ...) \
-  if (wanted.has(#name, #part)) last = std::max(last, Stage::stage);
+#define TOFRAY_LAST(name, part, member, element, shape, stage, when, ...) \
+  if (wanted.has(#name, #part, ArrayWhen::when)) last = std::max(last, Stage::stage);
   TOFRAY_IMAGE_ARRAYS(TOFRAY_LAST)
 #undef TOFRAY_LAST
   return std::min(last, options.last_stage);
@@ -139,6 +144,7 @@ pipeline::TapStores tap_stores(const flow::FrameView& out, const float* before, 
 FrameArrays arrays_of(const flow::FrameView& view, const Camera& camera, std::int64_t bins, std::uint64_t index, int device) {
   FrameArrays arrays;
   arrays.index = index, arrays.device = device;
+  arrays.modulations = modulations_of(camera);
   arrays.bins = view.transient_e_per_s != nullptr ? static_cast<int>(bins) : 0;
   arrays.width = camera.sensor.width, arrays.height = camera.sensor.height, arrays.phases = static_cast<int>(camera.mode.sequence.size());
 #define TOFRAY_SHOW(name, ...) arrays.name = view.name;

@@ -1,6 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The tofray authors
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include <string_view>
+
 #include "flow/frame_view.h"
 #include "pipeline/setup.h"
 #include "tofray/camera.h"
@@ -12,7 +14,11 @@ namespace tofray::simulator {
 /// Gives the arrays their sizes (nothing is allocated anew where they fit) and writes what is the same for all pixels.
 /// @param transport  of the scene; none (as it is fresh) where the light comes from elsewhere
 void prepare(Frame& frame, const Camera& camera, const SimulatorOptions& options, const Transport& transport);
-void prepare(Depth& depth, int width, int height);
+/// Likewise of a depth frame alone.
+/// @param camera  as it is read out
+void prepare(Depth& depth, const Camera& camera, const SimulatorOptions& options);
+/// Whether an array is asked for by its name.
+bool asks_for(const SimulatorOptions& options, std::string_view array);
 /// The last stage that any of the arrays of a frame comes from: nothing is computed that nobody sees.
 Stage last_stage_of(const Camera& camera, const SimulatorOptions& options, const Transport& transport);
 /// Where the arrays are that have a size, of the stages up to `last`.

@@ -65,7 +65,7 @@ Depth process(const Raw& raw, const Camera& profile, const SimulatorOptions& opt
   pipeline::Job job{};
   simulator::set_filter(camera.decoding.filter, job);
   Depth depth;
-  simulator::prepare(depth, raw.width, raw.height);
+  simulator::prepare(depth, base::as_read_out(camera), options);
   std::vector<float> scratch(static_cast<std::size_t>(pipeline::scratch_floats(setup, job.filter)));
   job.scratch = scratch.data();
   job.out = simulator::view_of(depth);

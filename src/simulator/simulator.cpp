@@ -126,6 +126,7 @@ scene::Times Simulator::Impl::times_from(double start) const {
   // That of the middle of the middle raw frame, as pipeline::moment_of has it.
   const auto middle = camera.mode.sequence.size() / 2 * static_cast<std::size_t>(samples) + static_cast<std::size_t>(samples / 2);
   out.truth = middle, out.period_s = 1 / camera.mode.frame_rate_hz;
+  out.to_truth = simulator::asks_for(options, "gt_phase_flow_px");
   return out;
 }
 
@@ -171,7 +172,7 @@ void Simulator::Impl::cut(const flow::FrameView& from, Frame& into) const {
   flow::FrameView to = simulator::view_of(into, options.last_stage);
   simulator::cut(from,
                  {std::int64_t{camera.sensor.width} * camera.sensor.height, static_cast<std::int64_t>(camera.mode.sequence.size()),
-                  setup.transient.bins},
+                  setup.transient.bins, setup.decoder.modulations},
                  camera.sensor.width, setup.region, to);
 }
 
@@ -290,7 +291,7 @@ void Simulator::Impl::begin(const FrameRequest& request, const pipeline::Input* 
   job.out = simulator::view_of(into, std::max(options.last_stage, given));
   const std::int64_t pixels = std::int64_t{camera.sensor.width} * camera.sensor.height,
                      phases = static_cast<std::int64_t>(camera.mode.sequence.size());
-  job.tap_stores = simulator::tap_stores(job.out, written_before, camera.sensor.width, {pixels, phases, 0});
+  job.tap_stores = simulator::tap_stores(job.out, written_before, camera.sensor.width, {pixels, phases, 0, 0});
   written_before = job.out.tap_a;
 }
 

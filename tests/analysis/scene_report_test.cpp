@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "support/pi.h"
 #include "support/pixels.h"
@@ -115,6 +116,24 @@ TEST(scene_report, follows_what_moves_to_the_time_of_the_truth) {
   EXPECT_NEAR(report.objects[0].low[2], 6.9, 1e-12);
   EXPECT_NEAR(report.objects[0].high[2], 7.1, 1e-12);
   EXPECT_EQ(report.time_s, 3);
+}
+
+TEST(object_places, say_where_each_object_is_and_how_it_is_turned) {
+  Object box = object_of(Box{{-0.1, -0.2, 0.9}, {0.1, 0.2, 1.1}});
+  box.name = "crate", box.class_name = "thing";
+  box.position = {1, 0, 0}, box.angular_velocity_rad_per_s = {0, 0, 0.5 * std::numbers::pi}, box.velocity_m_per_s = {0, 0, 2};
+  const std::vector<ObjectPlace> places = object_places(scene_of({box, object_of(Plane{{0, 0, 3}, {0, 0, -1}})}), 1);
+  ASSERT_EQ(places.size(), 2U);
+  EXPECT_EQ(places[0].name + places[0].class_name, "cratething");
+  const Vec3 at{1, 0, 3}, low{0.8, -0.1, 2.9}, high{1.2, 0.1, 3.1};  // a quarter turn about z, two metres on
+  for (std::size_t i = 0; i < 3; ++i) {
+    EXPECT_NEAR(places[0].position[i], at[i], 1e-12);
+    EXPECT_NEAR(places[0].low[i], low[i], 1e-12);
+    EXPECT_NEAR(places[0].high[i], high[i], 1e-12);
+  }
+  const Quaternion turned{0, 0, std::sqrt(0.5), std::sqrt(0.5)};
+  for (std::size_t i = 0; i < 4; ++i) EXPECT_NEAR(places[0].rotation[i], turned[i], 1e-12);
+  EXPECT_TRUE(places[1].endless && !places[0].endless);
 }
 
 TEST(scene_report, knows_a_camera_within_a_mesh_by_its_solid_angle) {

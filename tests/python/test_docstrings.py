@@ -102,7 +102,7 @@ def test_a_class_describes_what_it_is_made_of(name: str) -> None:
         stub = (pathlib.Path(tofray.__file__).parent / "_native.pyi").read_text(encoding="utf-8")
         native = kind.__module__ == "tofray._native" and re.search(rf"^class {name}:.*?def __init__\(\s*self,(.*?)\) -> None", stub, re.M | re.S)
         words = re.findall(r"(\w+):", native[1]) if native else list(inspect.signature(kind).parameters)
-        assert set(words) - {"arrays"} <= set(known) | {"width", "height", "phases", "bins", "time_s"}
+        assert set(words) - {"arrays"} <= set(known) | {"width", "height", "phases", "bins", "modulations", "time_s"}
     for member, what in known.items():
         if "float" in what or "array" in what:
             assert re.search(r"(float|\])( \| None)?, [^],[]+(, optional)?$", what), f"{member} : {what}"

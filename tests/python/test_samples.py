@@ -140,3 +140,22 @@ def test_wrong_numbers_are_refused(planned: pathlib.Path, tmp_path: pathlib.Path
             next(samples.stream(**words))
     with pytest.raises(tofray.Error, match="there is no plan"):
         tofray.open_dataset(tmp_path)
+
+
+SETS = sorted((pathlib.Path(__file__).resolve().parents[2] / "examples").glob("*/*.yaml"))
+SETS = [one for one in SETS if "\nsamples: " in one.read_text(encoding="utf-8")]
+
+
+def test_examples_have_the_sets_that_the_page_lists() -> None:
+    page = (pathlib.Path(__file__).resolve().parents[2] / "docs/datasets.md").read_text(encoding="utf-8")
+    assert len(SETS) == 6
+    assert all(f"../examples/{one.parent.name}/{one.name}" in page for one in SETS)
+
+
+@pytest.mark.parametrize("file", SETS, ids=lambda file: file.stem)
+def test_sets_of_the_examples_show_something(file: pathlib.Path) -> None:
+    a_set = tofray.Dataset(file)
+    for i in (0, len(a_set) - 1):
+        frame = a_set[i]
+        assert frame.depth.z_m is not None and np.isfinite(frame.depth.z_m).mean() > 0.02
+        assert frame.truth.object_id is not None and len(np.unique(frame.truth.object_id)) >= (1 if file.stem == "targets" else 2)

@@ -59,13 +59,16 @@ TEST(killed, at_any_time_and_run_again_leaves_what_an_undisturbed_run_leaves) {
   const auto whole = time_of_a_run();
   out_test::Random random(7);
   const SmallSet set;
+  // A run that was quicker than the one whose time was taken ends before it is killed: then once more.
+  const int wanted = kills / 2 + 1;
   int killed = 0;
-  for (int i = 0; i < kills; ++i) {
+  for (int i = 0; (i < kills || killed < wanted) && i < 20 * kills; ++i) {
     // One after the other until all is there, then from the beginning.
     if (dataset_status(set.out()).complete == 8) {
       expect_whole_after_a_run(set, "kill " + std::to_string(i));
       fs::remove_all(set.out() / "shards");
-      for (const char* file : {"SHA256SUMS", "statistics.json", "wids.json"}) fs::remove(set.out() / file);
+      for (const char* file : {"SHA256SUMS", "statistics.json", "wids.json", "card.md", "croissant.json", "preview.html"})
+        fs::remove(set.out() / file);
       fs::remove_all(set.out() / "index");
     }
     Running process = run_of(set);
@@ -73,7 +76,7 @@ TEST(killed, at_any_time_and_run_again_leaves_what_an_undisturbed_run_leaves) {
     process.send(SIGKILL);
     killed += process.finish() == 1000 + SIGKILL ? 1 : 0;
   }
-  EXPECT_GT(killed, kills / 3);
+  EXPECT_GE(killed, wanted);
   expect_whole_after_a_run(set, "at last");
 }
 
@@ -108,7 +111,7 @@ TEST(killed, politely_ends_within_the_sample_and_leaves_no_part_of_a_file) {
   for (const int signal : {SIGTERM, SIGINT}) {
     const SmallSet set;
     int stopped = 0;
-    for (int i = 0; i < (at_length ? 50 : 5); ++i) {
+    for (int i = 0; i < (at_length ? 50 : 5) || (stopped == 0 && i < 100); ++i) {
       Running process = run_of(set);
       std::this_thread::sleep_for(
           std::chrono::microseconds(whole.count() / 4 + static_cast<long>(random.below(static_cast<std::size_t>(whole.count() / 4)))));

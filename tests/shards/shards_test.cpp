@@ -28,7 +28,8 @@ using out_test::error_of;
 using out_test::Python;
 
 TEST(shards, are_the_same_bytes_in_any_number_of_parts_and_threads) {
-  EXPECT_EQ(undisturbed().size(), 8U * 2 + 8) << "tars and records; plan, sums, statistics, list, four of the index";
+  EXPECT_EQ(undisturbed().size(), 8U * 2 + 11)
+      << "tars and records; plan, sums, statistics, list, card, croissant, preview, four of the index";
   for (const auto& [parts, threads] : {std::pair<std::uint64_t, int>{1, 3}, {2, 1}, {7, 2}}) {
     const SmallSet set;
     for (std::uint64_t part = parts; part-- > 0;) set.run(part, parts, threads);
@@ -79,6 +80,115 @@ TEST(shards, hold_what_rendering_the_samples_scene_gives) {
     EXPECT_EQ(*json.find("scene")->string(), source.scene_yaml(one.sample, one.view));
     EXPECT_EQ(json.find("numbers")->find("modulation_frequency_hz")->items()->size(), static_cast<std::size_t>(frame.raw.phases));
   }
+}
+
+TEST(summary, shows_samples_and_says_how_to_make_them_again) {
+  SetText text;
+  text.objects =
+      "    - sphere: {name: lid, center: [0, 0, {choice: {10 m: 3, 0.11 m: 1}}], radius: 10 cm, reflectivity: 0.5}\n";  // now and then before the lens
+  text.more = "holes: 50 %\n";
+  const SmallSet set(text);
+  set.run();
+  merge_shards(set.out());
+  const std::string card = content(set.out() / "card.md"), page = content(set.out() / "preview.html");
+  for (const char* said : {"# small", "| licence | CC0-1.0 |", "`pico-flexx`, mode `MODE_", "| `gt_z_m` | float32 | 24 × 32 | m |",
+                           "tofray.open_dataset(", "tofray dataset plan set.yaml -o again", "## The set's file\n\n```yaml\nname: small\n"})
+    EXPECT_TRUE(has(card, said)) << said;
+  std::size_t pictures = 0;
+  for (std::size_t at = page.find("src=\"data:image/png;base64,iVBOR"); at != std::string::npos; at = page.find("src=\"data:", at + 1))
+    ++pictures;
+  EXPECT_EQ(pictures, 24U + 6U);
+  EXPECT_FALSE(has(page, "http") || has(page, "<script")) << "nothing from elsewhere";
+  // The worst sample is first of its part.
+  std::uint64_t worst = 0, fewest = UINT64_MAX;
+  for (std::uint64_t shard = 0; shard < 8; ++shard)
+    for (const auto& one : shards::read_record(set.out(), shard)->samples)
+      if (one.valid < fewest) worst = one.sample, fewest = one.valid;
+  const std::string part = page.substr(page.find("Fewest valid pixels"));
+  EXPECT_EQ(part.find("depth of sample " + std::to_string(worst) + "\""), part.find("depth of sample "));
+  EXPECT_TRUE(has(part, "tofray dataset scene set.yaml " + std::to_string(worst)));
+}
+
+TEST(summary, is_a_croissant_whose_sums_are_right) {
+  const SmallSet set;
+  set.run();
+  merge_shards(set.out());
+  const files::Json json = files::parse_json(content(set.out() / "croissant.json"), "croissant.json");
+  EXPECT_EQ(*json.find("conformsTo")->string(), "http://mlcommons.org/croissant/1.0");
+  const files::Json& first = json.find("distribution")->items()->at(0);
+  EXPECT_EQ(*first.find("sha256")->string(), files::sha256_hex(content(set.out() / "SHA256SUMS")));
+  std::set<std::string> fields;
+  for (const files::Json& one : *json.find("recordSet")->items()->at(0).find("field")->items()) fields.insert(*one.find("name")->string());
+  EXPECT_EQ(fields, (std::set<std::string>{"samples/flags.npy", "samples/gt_object_id.npy", "samples/gt_z_m.npy", "samples/json",
+                                           "samples/raw.npy", "samples/z_m.npy"}));
+}
+
+TEST(summary, escapes_what_the_set_says) {
+  SetText text;
+  text.name = "'<img src=x onerror=alert(1)>'";
+  const SmallSet set(text);
+  set.run(0, 8);
+  merge_shards(set.out(), true);
+  const std::string page = content(set.out() / "preview.html");
+  EXPECT_FALSE(has(page, "<img src=x"));
+  EXPECT_TRUE(has(page, "&lt;img src=x onerror=alert(1)&gt;"));
+}
+
+TEST(labels, are_stored_with_objects_and_their_boxes) {
+  const Python python;
+  if (!python.there()) GTEST_SKIP() << "no python3 with numpy";
+  SetText text;
+  text.samples = "6";
+  text.more = "arrays: [gt_object_id, gt_raw_dn, gt_raw_direct_dn, gt_phase_flow_px, '*_by_frequency*', gt_class_id]\n";
+  text.objects =
+      "    - box: {name: crate, class: thing, min: [-0.05, -0.02, 0.5], max: [0.01, 0.04, 0.56], reflectivity: 0.4, velocity: [0, "
+      "{uniform: [-1, "
+      "1]}, 0]}\n  transport: {bounces: 1, samples: 4}\n  classes: [wall, thing]\n";
+  const SmallSet set(text);
+  set.run();
+  const char* const script = R"(
+import io, json, pathlib, sys, tarfile
+import numpy
+seen = {}
+for shard in sorted((pathlib.Path(sys.argv[1]) / "shards").glob("*/*.tar")):
+    with tarfile.open(shard) as tar:
+        for member in tar:
+            key, name = member.name.split(".", 1)
+            data = tar.extractfile(member)
+            seen.setdefault(int(key), {})[name] = json.load(data) if name == "json" else numpy.load(io.BytesIO(data.read()))
+assert len(seen) == 6
+for sample in seen.values():
+    about = sample["json"]
+    phases, modulations = len(about["numbers"]["lit"]), len({f for f in about["numbers"]["modulation_frequency_hz"] if f})
+    assert sample["gt_raw_dn.npy"].shape == sample["gt_raw_direct_dn.npy"].shape == (phases, 24, 32)
+    assert sample["gt_phase_flow_px.npy"].shape == (phases, 24, 32, 2)
+    for name in ("range_by_frequency_m", "amplitude_by_frequency_e", "cycle_by_frequency"):
+        assert sample[name + ".npy"].shape == (modulations, 24, 32), name
+    assert about["classes"] == ["wall", "thing"]
+    wall, ball, crate = about["objects"]
+    assert [one["name"] for one in (ball, crate)] == ["ball", "crate"] and [one["class"] for one in (wall, ball, crate)] == [None, None, "thing"]
+    assert wall["low"] is None and wall["high"] is None
+    ids = sample["gt_object_id.npy"]
+    assert numpy.array_equal(sample["gt_class_id.npy"], numpy.where(ids == 2, 1, -1))
+    for i, one in enumerate(about["objects"]):
+        v, u = numpy.nonzero(ids == i)
+        assert one["pixels"] == len(u)
+        assert one["box_px"] == ([int(u.min()), int(v.min()), int(u.max()), int(v.max())] if len(u) else None)
+    middle = [(a + b) / 2 for a, b in zip(crate["low"], crate["high"])]
+    assert numpy.allclose(middle, crate["position"]) and crate["rotation"] == [0, 0, 0, 1]
+    speed = about["drawn"]["objects/crate/velocity[1]"]["value"] if "objects/crate/velocity[1]" in about["drawn"] else next(one["value"] for key, one in about["drawn"].items() if "velocity" in key)
+    assert abs(crate["position"][1] - (0.01 + speed * about["numbers"]["gt_time_s"])) < 1e-9
+    flow = sample["gt_phase_flow_px.npy"]
+    assert (flow[:, ids == 0] == 0).any() and not (flow == 0).all()
+)";
+  EXPECT_EQ(Python::run(script, set.out().native()), 0);
+}
+
+TEST(labels, want_the_classes_of_the_whole_set) {
+  SetText text;
+  text.objects = "    - box: {class: thing, min: [-0.05, -0.02, 0.5], max: [0.01, 0.04, 0.56], reflectivity: 0.4}\n";
+  const std::string said = error_of([&] { const SmallSet set(text); }).what();
+  EXPECT_TRUE(has(said, "objects have classes, and the scene does not list them")) << said;
 }
 
 TEST(shards, are_read_by_tarfile_and_numpy) {

@@ -68,7 +68,7 @@ TEST(array, stands_where_a_vector_does) {
 
 TEST(past_caches, goes_what_lies_in_another_place_than_before_or_is_too_much) {
   Memory here, there;
-  const flow::FrameSize small{std::int64_t{224} * 172, 9, 0}, large{std::int64_t{640} * 480, 9, 0};
+  const flow::FrameSize small{std::int64_t{224} * 172, 9, 0, 0}, large{std::int64_t{640} * 480, 9, 0, 0};
   EXPECT_EQ(simulator::tap_stores(here.view(), nullptr, 224, small), TapStores::past_caches) << "the first frame";
   EXPECT_EQ(simulator::tap_stores(here.view(), there.a, 224, small), TapStores::past_caches) << "another place";
   EXPECT_EQ(simulator::tap_stores(here.view(), here.a, 224, small), TapStores::all) << "the same place, which the caches hold";
@@ -77,7 +77,7 @@ TEST(past_caches, goes_what_lies_in_another_place_than_before_or_is_too_much) {
 
 TEST(past_caches, go_whole_lines_alone) {
   Memory memory;
-  const flow::FrameSize size{std::int64_t{640} * 480, 9, 0};
+  const flow::FrameSize size{std::int64_t{640} * 480, 9, 0, 0};
   for (const int width : {8, 16, 48, 200, 639})
     EXPECT_EQ(simulator::tap_stores(memory.view(), nullptr, width, size), TapStores::all) << width;
   flow::FrameView view = memory.view();

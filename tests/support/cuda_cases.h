@@ -43,7 +43,8 @@ inline Frame copy_of(const FrameArrays& a) {
   out.index = a.index;
 #define TOFRAY_COPY(name, part, member, element, shape, ...) \
   if (a.name != nullptr)                                     \
-    out.part.member.assign(a.name, a.name + flow::values_of(ArrayShape::shape, {std::int64_t{a.width} * a.height, a.phases, a.bins}));
+    out.part.member.assign(                                  \
+        a.name, a.name + flow::values_of(ArrayShape::shape, {std::int64_t{a.width} * a.height, a.phases, a.bins, a.modulations}));
   TOFRAY_IMAGE_ARRAYS(TOFRAY_COPY)
 #undef TOFRAY_COPY
   return out;

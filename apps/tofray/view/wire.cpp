@@ -80,7 +80,7 @@ std::uint32_t width_of(const Frame& frame) {
 }  // namespace
 
 const std::vector<WireArray>& wire_arrays() {
-#define TOFRAY_ROW(label, part, member, element, axes, stage, unit, what) \
+#define TOFRAY_ROW(label, part, member, element, axes, stage, when, unit, what) \
   {#label, unit, what, type_of<element>().name, type_of<element>().number, ArrayShape::axes},
   static const std::vector<WireArray> all = {
       TOFRAY_FRAME_ARRAYS(TOFRAY_ROW){"z_error_m", "m", "z_m - gt_z_m", "f32", 5, ArrayShape::image}};
@@ -100,6 +100,8 @@ const char* shape_name(ArrayShape shape) {
     case ArrayShape::pairs: return "pairs";
     case ArrayShape::vectors: return "vectors";
     case ArrayShape::stack: return "stack";
+    case ArrayShape::moved: return "moved";
+    case ArrayShape::by_frequency: return "by_frequency";
     case ArrayShape::bins: return "bins";
     case ArrayShape::list: return "list";
   }
@@ -143,7 +145,9 @@ ArrayView view_of(const Frame& frame, std::uint16_t array, std::vector<float>& m
       case ArrayShape::image: return extents(2, height, width);
       case ArrayShape::pairs: return extents(3, height, width, 2);
       case ArrayShape::vectors: return extents(3, height, width, 3);
+      case ArrayShape::moved: return extents(3, layers / 2, height, 2 * width);
       case ArrayShape::stack:
+      case ArrayShape::by_frequency:
       case ArrayShape::bins: return extents(3, layers, height, width);
       case ArrayShape::list: return extents(1, static_cast<std::uint32_t>(values.size()));
     }
@@ -165,8 +169,12 @@ std::vector<double> pixel_values(const Frame& frame, std::uint16_t array, std::s
   with_array(frame, array, [&](const auto& values, ArrayShape shape) {
     if (values.empty() || pixel >= pixels || shape == ArrayShape::list) return;
     const std::size_t count = values.size() / pixels;
-    const bool layers = shape == ArrayShape::stack || shape == ArrayShape::bins;
-    for (std::size_t k = 0; k < count; ++k) out.push_back(static_cast<double>(values[layers ? k * pixels + pixel : pixel * count + k]));
+    const bool layers = shape == ArrayShape::stack || shape == ArrayShape::bins || shape == ArrayShape::by_frequency;
+    const auto place = [&](std::size_t k) {
+      if (shape == ArrayShape::moved) return (k / 2 * pixels + pixel) * 2 + k % 2;
+      return layers ? k * pixels + pixel : pixel * count + k;
+    };
+    for (std::size_t k = 0; k < count; ++k) out.push_back(static_cast<double>(values[place(k)]));
   });
   return out;
 }

@@ -200,6 +200,7 @@ void pack_raw_frames(Packer& packer, const pipeline::Setup& from, camera::Sensor
 void pack_motion(Packer& packer, const scene::SceneView& from, scene::SceneView& to) {
   const std::size_t moments = std::max<std::size_t>(count_of(from.moments), 1);
   to.motions = packer.put(from.motions, 1 + count_of(from.movers));
+  to.to_truth = packer.put(from.to_truth, from.to_truth == nullptr ? 0 : moments * (1 + count_of(from.movers)));
   to.frames = packer.put(from.frames, moments * count_of(from.movers));
   if (const auto& changing = from.moving.bodies.of<shape::Mesh>(); changing.per_moment > 0) {
     Meshes meshes(packer, from.maps, to.maps);
@@ -222,6 +223,7 @@ void pack_scene(Packer& packer, const scene::SceneView& from, scene::SceneView& 
   to.materials = packer.put(from.materials, count_of(from.material_count));
   pack_motion(packer, from, to);
   to.motion_of = packer.put(from.motion_of, count_of(from.object_count));
+  to.class_of = packer.put(from.class_of, count_of(from.object_count));
   to.light_positions = packer.put(from.light_positions, count_of(from.lights));
   scene::SceneView still = from;
   still.moments = 0;  // what moves is derived there for each frame, and with it the facets of all

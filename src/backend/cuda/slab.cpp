@@ -13,7 +13,7 @@ std::size_t rounded(std::size_t bytes) { return (bytes + 255) / 256 * 256; }
 }  // namespace
 
 Slab::Slab(const pipeline::Setup& setup, const flow::FrameView& wanted, std::int64_t scratch)
-    : size_{std::int64_t{setup.lens.width} * setup.lens.height, setup.sensor.raw_frames, setup.transient.bins} {
+    : size_{std::int64_t{setup.lens.width} * setup.lens.height, setup.sensor.raw_frames, setup.transient.bins, setup.decoder.modulations} {
   int i = 0;
   flow::each_array(wanted, [&](const auto* array, ArrayShape shape, Stage) {
     if (array != nullptr) {
