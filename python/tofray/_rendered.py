@@ -131,12 +131,8 @@ def from_pictures(
     Returns
     -------
     Geometry
-        For ``simulator.frame(i, geometry)``.
-
-    Warns
-    -----
-    UserWarning
-        Where rays look past the pictures, colour stands for reflectivity, one moment for all raw frames, and where normals do not fit z.
+        For ``simulator.frame(i, geometry)``. A ``UserWarning`` says where rays look past the pictures, where colour stands for
+        reflectivity and one moment for all raw frames, and that normals do not fit z.
 
     Raises
     ------
