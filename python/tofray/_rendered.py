@@ -148,7 +148,7 @@ def from_pictures(
     words["normal"] = None if normal is None else _floats("normal", normal, moments, (*shape, 3), by_moments)
     words["normal_axes"] = _axes(normal_axes)
     words["labels"] = None if labels is None else _labels(labels, moments, shape, by_moments)
-    words["materials"] = [(int(label), _material(label, one)) for label, one in dict(materials or {}).items()]
+    words["materials"] = [(_number(label), _material(label, one)) for label, one in dict(materials or {}).items()]
     words.update(_albedo(albedo, moments, shape, by_moments))
     z_m, normals, diffuse, specular, exponent, object_id, notices = _native.from_pictures(camera, words, by_moments)
     for notice in notices:
@@ -219,7 +219,9 @@ def _labels(given: ArrayLike, moments: int, shape: tuple[int, ...], by_moments: 
     if array.dtype.kind not in "iub":
         raise _fault("labels", f"got {array.dtype}", "integers")
     array = _shaped("labels", array, moments, shape, by_moments)
-    if array.dtype.itemsize >= 4 and array.size and (array.max() > 2**31 - 1 or array.min() < -2**31):
+    if array.dtype.itemsize == 4:  # of unsigned ones 2**32 - 1, which says that nothing is there, becomes -1
+        return np.ascontiguousarray(array).view(np.int32)
+    if array.dtype.itemsize > 4 and array.size and (array.max() > 2**31 - 1 or array.min() < -2**31):
         raise _fault("labels", f"got {int(array.max())} and {int(array.min())}", "numbers of 32 bits")
     return np.ascontiguousarray(array, np.int32)
 
@@ -233,6 +235,11 @@ def _axes(axes: Any) -> list[float]:
     else:
         raise _fault("normal_axes", f"got {axes!r:.60}", "optical, opengl, body, or a tofray.Pose")
     return [float(one) for one in matrix.ravel()]
+
+
+def _number(label: Any) -> int:
+    number = int(label)
+    return number - 2**32 if 2**31 <= number < 2**32 else number
 
 
 def _material(label: Any, one: Any) -> Material:

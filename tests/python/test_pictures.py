@@ -139,6 +139,8 @@ def test_colour_stands_for_reflectivity_and_says_so() -> None:
         warnings.simplefilter("error")
         assert np.nanmax(np.abs(sampled(albedo=np.full(shape, 0.3)).diffuse - 0.3)) < 1e-6
         seen = sampled(labels=DRAWN.object_id.astype(np.uint8), materials={0: 0.6, 1: "skin", 2: tofray.Material(diffuse=0.1)})
+        unsigned = sampled(labels=np.where(DRAWN.object_id == 0, 2**32 - 1, DRAWN.object_id).astype(np.uint32), materials={2**32 - 1: 0.6})
+    assert (unsigned.object_id == np.where(seen.object_id == 0, -1, seen.object_id)).all() and np.allclose(unsigned.diffuse[seen.object_id == 0], 0.6)
     by_label = {0: 0.6, 1: 0.603, 2: 0.1, 3: 0.5}
     assert all(np.allclose(seen.diffuse[seen.object_id == label], share, atol=1e-6) for label, share in by_label.items())
     assert tofray.load_material("skin").diffuse == 0.603

@@ -112,9 +112,10 @@ TEST(pictures, of_a_slanted_plane_are_its_z_along_each_ray_of_the_lens) {
   const Flat plane = turned_about_y(45, 1.5);
   for (const double centre : {0.5, 0.0}) {
     Drawn drawn = draw(pinhole_for(camera, 2, 2, centre), plane);
-    add_normal(drawn, plane.n);
+    add_normal(drawn, {-plane.n[0], -plane.n[1], -plane.n[2]});  // of its other side: they are turned
     const SampledPictures sampled = from_pictures(camera, drawn.pictures());
     EXPECT_LT(worst_z(camera, sampled.geometry, plane), 1e-5) << centre;
+    EXPECT_LT(worst_angle(sampled.geometry, {plane.n}), 1e-6);
     EXPECT_EQ(sampled.outside, 0);
     EXPECT_TRUE(sampled.notices.empty());
   }
@@ -149,7 +150,7 @@ TEST(pictures, without_normals_have_those_of_their_planes) {
 // Whatever falls between a near and a far surface is a pixel that flies.
 TEST(pictures, of_a_step_have_nothing_between_near_and_far_and_normals_that_do_not_lean) {
   const Camera camera = distorted();
-  const Drawn drawn = draw(pinhole_for(camera), [](double x, double y) { return x + 0.2 * y < 0.05 ? 1.0 : 1.4; });
+  const Drawn drawn = draw(pinhole_for(camera, 2, 1), [](double x, double y) { return x + 0.2 * y < 0.05 ? 1.0 : 1.4; });
   const Geometry seen = from_pictures(camera, drawn.pictures()).geometry;
   int near = 0, far = 0;
   for (const float z : seen.z_m) {
@@ -165,7 +166,7 @@ TEST(pictures, of_two_planes_that_meet_have_normals_of_one_or_the_other) {
   const Flat left = turned_about_y(-40, 1.2), right = turned_about_y(40, 1.2);
   for (const bool ridge : {true, false}) {
     const Surface roof = [&](double x, double y) { return ridge ? std::max(left(x, y), right(x, y)) : std::min(left(x, y), right(x, y)); };
-    const Drawn drawn = draw(pinhole_for(camera), roof);
+    const Drawn drawn = draw(pinhole_for(camera, 2, 1), roof);  // so that each of its pixels is a ray's nearest
     EXPECT_LT(worst_angle(from_pictures(camera, drawn.pictures()).geometry, {left.n, right.n}), 1e-3) << ridge;
   }
 }
