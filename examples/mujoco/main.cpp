@@ -41,7 +41,7 @@ void film(const char* file, const char* camera_name) {
   if (model->nv > 0) data->qvel[0] = 2;  // rad/s: something moves
 
   Mirror mirror(model.get(), camera_name, {{"wood", tofray::load_material("wood")}});
-  const tofray::Camera camera = tofray::load_camera("pico-flexx", {.mode = "MODE_5_35FPS_600"});
+  const tofray::Camera camera = tofray::load_camera("pico-flexx", {.mode = "MODE_9_10FPS_1000"});
   tofray::Simulator simulator(mirror.scene(), camera, {.seed = 7});
   tofray::McapWriter messages("film.mcap", mirror.scene(), camera, {}, {.seed = 7});
   tofray::Frame frame;

@@ -10,7 +10,7 @@ import subprocess
 import sys
 from typing import Any
 
-MATERIALS = {1: 0.8, 2: "skin", 3: "cardboard-grey"}  # by pass index: what they send back at 850 nm, which colours do not say
+MATERIALS: dict[int, float | str] = {1: 0.8, 2: "skin", 3: "cardboard-grey"}  # by pass index: what they send back at 850 nm, which colours do not say
 
 
 def draw(pinhole: dict[str, Any], file: str) -> None:

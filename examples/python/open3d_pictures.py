@@ -16,10 +16,9 @@ def cell() -> tuple[o3d.t.geometry.RaycastingScene, dict[int, float | str]]:
     wall.rotate(wall.get_rotation_matrix_from_xyz((0, 0.4, 0)), (0, 0, 1.6))
     ball = o3d.geometry.TriangleMesh.create_sphere(0.2, resolution=60).translate((-0.25, 0.1, 1.1))
     box = o3d.geometry.TriangleMesh.create_box(0.3, 0.3, 0.3).translate((0.15, 0.05, 1.0))
-    scene, materials = o3d.t.geometry.RaycastingScene(), {}
-    for mesh, material in ((wall, 0.8), (ball, "skin"), (box, "cardboard-grey")):
-        materials[int(scene.add_triangles(o3d.t.geometry.TriangleMesh.from_legacy(mesh)))] = material
-    return scene, materials
+    scene = o3d.t.geometry.RaycastingScene()
+    meshes = [o3d.t.geometry.TriangleMesh.from_legacy(mesh) for mesh in (wall, ball, box)]
+    return scene, dict(zip([int(scene.add_triangles(mesh)) for mesh in meshes], [0.8, "skin", "cardboard-grey"]))
 
 
 def main() -> None:
