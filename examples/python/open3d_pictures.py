@@ -28,7 +28,7 @@ def main() -> None:
     rays = scene.create_rays_pinhole(o3d.core.Tensor(pinhole.matrix), o3d.core.Tensor(np.eye(4)), pinhole.width, pinhole.height)
     hit = {name: array.numpy() for name, array in scene.cast_rays(rays).items()}
     if not np.isfinite(hit["t_hit"]).any():
-        raise SystemExit("no ray of this Open3D hits anything: Debian's 0.16.1 has that fault (its mask of rays is 0); that of PyPI has not")
+        raise SystemExit("no ray of this Open3D hits anything: Debian's 0.16.1 has that fault (the mask of its rays is 0)")
     # Directions have z = 1, so that t_hit is z; it is infinite where nothing is.
     seen = tofray.from_pictures(camera, hit["t_hit"], intrinsics=pinhole, normal=hit["primitive_normals"], labels=hit["geometry_ids"],
                                 materials=materials, still=True)

@@ -67,7 +67,7 @@ struct SampledPictures {
 };
 
 /// Looks along each of the camera's rays (pixel_rays(), lens and readout and all) into the pictures: of the nearest pixel its normal, label
-/// and reflectivity, and z of the plane through it with that normal (theory 6.7). Nothing is mean of several pixels: between a near and a far
+/// and reflectivity, and z of the plane through it with that normal (theory 6.7). Nothing is a mean of several pixels: between a near and a far
 /// surface there is none. To 0.1 mm of z where surfaces are larger than pixels and normals are the surface's.
 ///
 /// Against a scene of tofray's own there are no bounces, no shadow of the camera's light beside the lens, and no pixels that an edge crosses

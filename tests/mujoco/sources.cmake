@@ -4,7 +4,7 @@
 find_path(TOFRAY_MUJOCO_INCLUDE mujoco/mujoco.h)
 find_library(TOFRAY_MUJOCO_LIBRARY mujoco)
 mark_as_advanced(TOFRAY_MUJOCO_INCLUDE TOFRAY_MUJOCO_LIBRARY)
-if(TOFRAY_MUJOCO_INCLUDE AND TOFRAY_MUJOCO_LIBRARY)
+if(TOFRAY_MUJOCO_INCLUDE AND TOFRAY_MUJOCO_LIBRARY AND NOT CMAKE_CROSSCOMPILING)
   target_sources(test_mujoco PRIVATE ${CMAKE_SOURCE_DIR}/examples/mujoco/mirror.cpp)
   target_include_directories(test_mujoco PRIVATE ${CMAKE_SOURCE_DIR}/examples/mujoco)
   target_include_directories(test_mujoco SYSTEM PRIVATE ${TOFRAY_MUJOCO_INCLUDE})

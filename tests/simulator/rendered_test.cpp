@@ -20,10 +20,10 @@ using namespace tofray;
 
 namespace {
 
-constexpr float no_number = std::numeric_limits<float>::quiet_NaN(), infinite = std::numeric_limits<float>::infinity();
+constexpr float no_number = std::numeric_limits<float>::quiet_NaN(), endless = std::numeric_limits<float>::infinity();
 
 /// z along the ray (x, y, 1).
-using Surface = std::function<double(double, double)>;
+using SurfaceZ = std::function<double(double, double)>;
 
 /// The plane n · P = d.
 struct Flat {
@@ -48,7 +48,7 @@ struct Drawn {
   [[nodiscard]] std::size_t pixel(int u, int v) const { return static_cast<std::size_t>(v * pinhole.width + u); }
 };
 
-Drawn draw(const Pinhole& through, const Surface& surface) {
+Drawn draw(const Pinhole& through, const SurfaceZ& surface) {
   Drawn out{through, {}, {}};
   for (int v = 0; v < through.height; ++v)
     for (int u = 0; u < through.width; ++u)
@@ -65,7 +65,7 @@ void add_normal(Drawn& to, const std::array<double, 3>& n) {
 Camera distorted() { return load_camera("pico-flexx"); }
 
 /// Largest error of z against a surface, over all rays that see something. [m]
-double worst_z(const Camera& camera, const Geometry& seen, const Surface& surface) {
+double worst_z(const Camera& camera, const Geometry& seen, const SurfaceZ& surface) {
   const std::vector<float> rays = pixel_rays(camera);
   double worst = 0;
   for (std::size_t i = 0; i < seen.z_m.size(); ++i) {
@@ -107,7 +107,7 @@ bool says(const SampledPictures& sampled, const std::string& what) {
 }  // namespace
 
 // Floats of up to 5 m are off by 2.4e-7 m, and the rays' directions by 6e-8.
-TEST(pictures, of_a_slanted_plane_are_its_z_along_each_ray_of_the_lens) {
+TEST(rendered_pictures, of_a_slanted_plane_are_its_z_along_each_ray_of_the_lens) {
   const Camera camera = distorted();
   const Flat plane = turned_about_y(45, 1.5);
   for (const double centre : {0.5, 0.0}) {
@@ -122,7 +122,7 @@ TEST(pictures, of_a_slanted_plane_are_its_z_along_each_ray_of_the_lens) {
 }
 
 // Half a pixel is 1/848 of x/z; z of this plane grows by 1.5 m · tan 45° with x/z at the axis: 1.8 mm.
-TEST(pictures, are_off_by_half_a_pixel_where_the_pixels_middle_is_said_wrong) {
+TEST(rendered_pictures, are_off_by_half_a_pixel_where_the_pixels_middle_is_said_wrong) {
   const Camera camera = distorted();
   const Flat plane = turned_about_y(45, 1.5);
   Drawn drawn = draw(pinhole_for(camera), plane);
@@ -135,7 +135,7 @@ TEST(pictures, are_off_by_half_a_pixel_where_the_pixels_middle_is_said_wrong) {
   EXPECT_NEAR(std::abs(static_cast<double>(sampled.geometry.z_m[middle]) - plane(x, y)), 1.5 / 848, 1e-4);
 }
 
-TEST(pictures, without_normals_have_those_of_their_planes) {
+TEST(rendered_pictures, without_normals_have_those_of_their_planes) {
   const Camera camera = distorted();
   const double length = std::sqrt(1.34);
   for (const Flat& plane : {turned_about_y(45, 1.5), turned_about_y(0, 1.0), Flat{{0.5 / length, 0.3 / length, -1 / length}, -1}}) {
@@ -148,7 +148,7 @@ TEST(pictures, without_normals_have_those_of_their_planes) {
 }
 
 // Whatever falls between a near and a far surface is a pixel that flies.
-TEST(pictures, of_a_step_have_nothing_between_near_and_far_and_normals_that_do_not_lean) {
+TEST(rendered_pictures, of_a_step_have_nothing_between_near_and_far_and_normals_that_do_not_lean) {
   const Camera camera = distorted();
   const Drawn drawn = draw(pinhole_for(camera, 2, 1), [](double x, double y) { return x + 0.2 * y < 0.05 ? 1.0 : 1.4; });
   const Geometry seen = from_pictures(camera, drawn.pictures()).geometry;
@@ -161,18 +161,18 @@ TEST(pictures, of_a_step_have_nothing_between_near_and_far_and_normals_that_do_n
   EXPECT_LT(worst_angle(seen, {{0, 0, -1}}), 1e-3);
 }
 
-TEST(pictures, of_two_planes_that_meet_have_normals_of_one_or_the_other) {
+TEST(rendered_pictures, of_two_planes_that_meet_have_normals_of_one_or_the_other) {
   const Camera camera = distorted();
   const Flat left = turned_about_y(-40, 1.2), right = turned_about_y(40, 1.2);
   for (const bool ridge : {true, false}) {
-    const Surface roof = [&](double x, double y) { return ridge ? std::max(left(x, y), right(x, y)) : std::min(left(x, y), right(x, y)); };
+    const SurfaceZ roof = [&](double x, double y) { return ridge ? std::max(left(x, y), right(x, y)) : std::min(left(x, y), right(x, y)); };
     const Drawn drawn = draw(pinhole_for(camera, 2, 1), roof);  // so that each of its pixels is a ray's nearest
     EXPECT_LT(worst_angle(from_pictures(camera, drawn.pictures()).geometry, {left.n, right.n}), 1e-3) << ridge;
   }
 }
 
 // One pixel wide, or two: no line through neighbours leads to it, or one alone.
-TEST(pictures, of_wires_face_the_camera) {
+TEST(rendered_pictures, of_wires_face_the_camera) {
   const Camera camera = distorted();
   for (const int wide : {1, 2}) {
     Drawn drawn = draw(pinhole_for(camera, 2, 1), [](double, double) { return 2.0; });
@@ -190,10 +190,10 @@ TEST(pictures, of_wires_face_the_camera) {
   }
 }
 
-TEST(pictures, show_nothing_at_the_far_plane_and_where_z_is_none) {
+TEST(rendered_pictures, show_nothing_at_the_far_plane_and_where_z_is_none) {
   const Camera camera = distorted();
   const double far = 10;
-  for (const float none : {10.0f, 9.995f, 12.0f, 0.0f, -1.0f, no_number, infinite}) {
+  for (const float none : {10.0f, 9.995f, 12.0f, 0.0f, -1.0f, no_number, endless}) {
     Drawn drawn = draw(pinhole_for(camera), [&](double x, double) { return x < 0 ? 1.0 : static_cast<double>(none); });
     RenderedPictures pictures = drawn.pictures();
     pictures.background_m = far;
@@ -205,7 +205,7 @@ TEST(pictures, show_nothing_at_the_far_plane_and_where_z_is_none) {
   }
 }
 
-TEST(pictures, may_say_the_range_in_place_of_z) {
+TEST(rendered_pictures, may_say_the_range_in_place_of_z) {
   const Camera camera = distorted();
   const Flat plane = turned_about_y(30, 1.2);
   Drawn drawn = draw(pinhole_for(camera), [&](double x, double y) { return plane(x, y) * std::sqrt(x * x + y * y + 1); });
@@ -216,7 +216,7 @@ TEST(pictures, may_say_the_range_in_place_of_z) {
   EXPECT_GT(worst_z(camera, from_pictures(camera, pictures).geometry, plane), 0.05);
 }
 
-TEST(pictures, that_are_too_small_show_nothing_beyond_and_say_how_much) {
+TEST(rendered_pictures, that_are_too_small_show_nothing_beyond_and_say_how_much) {
   const Camera camera = distorted();
   Pinhole narrow = pinhole_for(camera);
   narrow.width -= 200, narrow.cx_px -= 100;
@@ -232,7 +232,7 @@ TEST(pictures, that_are_too_small_show_nothing_beyond_and_say_how_much) {
   EXPECT_TRUE(says(sampled, "of the camera's rays look past the picture"));
 }
 
-TEST(pictures, have_normals_in_the_axes_that_are_said_and_tell_where_others_would_fit) {
+TEST(rendered_pictures, have_normals_in_the_axes_that_are_said_and_tell_where_others_would_fit) {
   const Camera camera = distorted();
   const Flat floor{{0.3, -0.4, -std::sqrt(0.75)}, -0.75};
   Drawn drawn = draw(pinhole_for(camera), floor);
@@ -248,7 +248,7 @@ TEST(pictures, have_normals_in_the_axes_that_are_said_and_tell_where_others_woul
   EXPECT_LT(worst_z(camera, right.geometry, floor), 1e-5);
 }
 
-TEST(pictures, have_reflectivities_by_label_then_by_picture_and_a_notice_of_colour) {
+TEST(rendered_pictures, have_reflectivities_by_label_then_by_picture_and_a_notice_of_colour) {
   const Camera camera = distorted();
   const Drawn drawn = draw(pinhole_for(camera), [](double, double) { return 1.0; });
   std::vector<std::int32_t> labels(drawn.z.size(), 7);
@@ -271,7 +271,7 @@ TEST(pictures, have_reflectivities_by_label_then_by_picture_and_a_notice_of_colo
   EXPECT_GT(std::count(seen.object_id.begin(), seen.object_id.end(), 7), 1000);
 }
 
-TEST(pictures, may_have_a_moment_for_each_raw_frame_and_say_what_one_alone_lacks) {
+TEST(rendered_pictures, may_have_a_moment_for_each_raw_frame_and_say_what_one_alone_lacks) {
   const Camera camera = distorted();
   const std::size_t moments = camera.mode.sequence.size();
   Drawn drawn{pinhole_for(camera), {}, {}};
@@ -292,7 +292,7 @@ TEST(pictures, may_have_a_moment_for_each_raw_frame_and_say_what_one_alone_lacks
   EXPECT_TRUE(says(from_pictures(camera, pictures), "one moment stands for all raw frames"));
 }
 
-TEST(pictures, that_cannot_be_are_refused_by_name) {
+TEST(rendered_pictures, that_cannot_be_are_refused_by_name) {
   const Camera camera = distorted();
   const Drawn drawn = draw(pinhole_for(camera), [](double, double) { return 1.0; });
   const auto told = [&](const std::function<void(RenderedPictures&)>& change) {
