@@ -132,7 +132,8 @@ def from_pictures(
     -------
     Geometry
         For ``simulator.frame(i, geometry)``. A ``UserWarning`` says where rays look past the pictures, where colour stands for
-        reflectivity and one moment for all raw frames, and that normals do not fit z.
+        reflectivity and one moment for all raw frames, that normals do not fit z, or that z is too coarse
+        to make any of.
 
     Raises
     ------

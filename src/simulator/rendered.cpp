@@ -7,6 +7,7 @@
 #include <array>
 #include <atomic>
 #include <cmath>
+#include <set>
 
 #include "base/limits.h"
 #include "base/parallel.h"
@@ -178,6 +179,7 @@ class Sampler {
   [[nodiscard]] Direction normal(const DepthPicture& depth, std::size_t at, int u, int v) const;
   void say_what_is_odd(std::size_t pixels);
   void compare_normals();
+  void look_for_steps();
 
   const RenderedPictures& given_;
   Reflectivities reflectivities_;
@@ -284,6 +286,25 @@ void Sampler::compare_normals() {
   out_.notices.push_back(text + "; expected them in the camera's axes, x right, y down, z forward, or normal_axes to say others");
 }
 
+/// Floats that were whole millimetres: a pixel's neighbours are then a millimetre farther or as far, and a slope is one or none.
+void Sampler::look_for_steps() {
+  if (!given_.normal.empty()) return;
+  const DepthPicture depth(given_, 0);
+  std::set<double> different;
+  constexpr std::size_t some = 20;
+  const std::size_t picture = static_cast<std::size_t>(given_.pinhole.width) * static_cast<std::size_t>(given_.pinhole.height);
+  for (std::size_t i = 0; i < picture; i += 97) {
+    const auto width = static_cast<std::size_t>(given_.pinhole.width);
+    if (depth.z(static_cast<int>(i % width), static_cast<int>(i / width)) == 0) continue;
+    const double millimetres = 1000 * static_cast<double>(given_.z_m[i]);
+    if (std::abs(millimetres - std::round(millimetres)) > 1e-3) return;
+    different.insert(millimetres);
+  }
+  if (different.size() >= some)
+    out_.notices.emplace_back(
+        "z is in whole millimetres, and normals are made of its differences: they are wrong; expected finer z, or normals");
+}
+
 void Sampler::say_what_is_odd(std::size_t pixels) {
   if (unknown_ != none)
     refuse(given_.labels.empty() ? std::string("pictures say nothing of reflectivity")
@@ -310,6 +331,7 @@ void Sampler::say_what_is_odd(std::size_t pixels) {
         "one moment stands for all raw frames: what motion does to depth is missing; exposure_times() says when to draw, still says that "
         "nothing moves");
   compare_normals();
+  look_for_steps();
 }
 
 }  // namespace

@@ -248,6 +248,16 @@ TEST(rendered_pictures, have_normals_in_the_axes_that_are_said_and_tell_where_ot
   EXPECT_LT(worst_z(camera, right.geometry, floor), 1e-5);
 }
 
+TEST(rendered_pictures, of_whole_millimetres_make_no_normals_and_say_so) {
+  const Camera camera = distorted();
+  Drawn drawn = draw(pinhole_for(camera), turned_about_y(30, 1.5));
+  EXPECT_TRUE(from_pictures(camera, drawn.pictures()).notices.empty());
+  for (float& z : drawn.z) z = 0.001f * std::round(1000 * z);
+  EXPECT_TRUE(says(from_pictures(camera, drawn.pictures()), "z is in whole millimetres"));
+  add_normal(drawn, turned_about_y(30, 1.5).n);
+  EXPECT_FALSE(says(from_pictures(camera, drawn.pictures()), "z is in whole millimetres")) << "it does not matter then";
+}
+
 TEST(rendered_pictures, have_reflectivities_by_label_then_by_picture_and_a_notice_of_colour) {
   const Camera camera = distorted();
   const Drawn drawn = draw(pinhole_for(camera), [](double, double) { return 1.0; });
