@@ -49,4 +49,8 @@ Scene load_scene_text(const std::string& text, const std::string& source, const 
 /// As load_camera(), likewise.
 Camera load_camera_text(const std::string& text, const std::string& source, const CameraOptions& options = {});
 
+/// A material that scenes may name without describing it, such as "skin" (docs/reference/materials.md).
+/// @throws Error (bad_input) for another name
+Material load_material(const std::string& name);
+
 }  // namespace tofray

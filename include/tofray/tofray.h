@@ -20,6 +20,7 @@
 #include "tofray/options.h"
 #include "tofray/pixel.h"
 #include "tofray/quality.h"
+#include "tofray/rendered.h"
 #include "tofray/run.h"
 #include "tofray/save.h"
 #include "tofray/scene.h"

@@ -188,6 +188,7 @@ TOFRAY_FIELDS(CameraReport, &CameraReport::width, &CameraReport::height, &Camera
               &CameraReport::pixel_width_m, &CameraReport::pixel_height_m, &CameraReport::outside, &CameraReport::unlit, &CameraReport::darkest,
               &CameraReport::modulation_frequency_hz, &CameraReport::cycles, &CameraReport::ambiguity_range_m, &CameraReport::low_signal_m,
               &CameraReport::knows_ambient, &CameraReport::noise, &CameraReport::warnings)
+TOFRAY_FIELDS(Pinhole, &Pinhole::width, &Pinhole::height, &Pinhole::fx_px, &Pinhole::fy_px, &Pinhole::cx_px, &Pinhole::cy_px, &Pinhole::pixel_centre)
 TOFRAY_FIELDS(Placement, &Placement::position, &Placement::rotation)
 TOFRAY_FIELDS(PlacedObject, &PlacedObject::name, &PlacedObject::start, &PlacedObject::end, &PlacedObject::keyframes)
 TOFRAY_FIELDS(FrameRequest, &FrameRequest::index, &FrameRequest::seed, &FrameRequest::pose, &FrameRequest::pose_end, &FrameRequest::camera, &FrameRequest::objects, &FrameRequest::start_time_s)
@@ -219,10 +220,10 @@ void each_record(const Call& call) {
       std::tuple<Curve, PixelMask, Sensor, Scatter, Lens, Filter, Pattern, Waveform, Area, Illumination, Pixel, Adc, RawFrame, Mode,
                  ImageFilter, Decoding, Temperature, Interference, Calibration, SpreadSpectrum, Readout, AutoExposure, Camera, Material,
                  Plane, Sphere, Box, Triangle, Cylinder, Rectangle, Disk, Capsule, Cone, Mesh, Rotation, Keyframe, Object, Ambient,
-                 TransientBins, Transport, Pose, CameraKeyframe, Override, CameraChoice, SceneFile, Scene, RanOn, Placement, PlacedObject,
-                 FrameRequest, ObjectInView, ObjectPlace, SceneFinding, SceneReport, InvalidPixels, AmbientCase, CameraQuestion, NoiseAt,
-                 NoiseAtDistances, CameraReport, ChainRawFrame, ChainPhase, UnwrapCandidate, PixelChain, BounceShare, PixelBounces,
-                 Validity, InputFile, FileRecord, Remark, Inputs, RunResult>;
+                 TransientBins, Transport, Pose, CameraKeyframe, Override, CameraChoice, SceneFile, Scene, RanOn, Pinhole, Placement,
+                 PlacedObject, FrameRequest, ObjectInView, ObjectPlace, SceneFinding, SceneReport, InvalidPixels, AmbientCase,
+                 CameraQuestion, NoiseAt, NoiseAtDistances, CameraReport, ChainRawFrame, ChainPhase, UnwrapCandidate, PixelChain,
+                 BounceShare, PixelBounces, Validity, InputFile, FileRecord, Remark, Inputs, RunResult>;
   all(static_cast<Records*>(nullptr));
 }
 

@@ -17,6 +17,7 @@
 #include "meshes.h"
 #include "pictures/pictures.h"
 #include "quality.h"
+#include "rendered.h"
 #include "runs.h"
 #include "simulator.h"
 #include "sweep.h"
@@ -263,6 +264,7 @@ PYBIND11_MODULE(_native, module) {
   bind_device_frames(module);
   bind_meshes(module);
   bind_simulator(module);
+  bind_rendered(module);
   bind_budget(module);
   bind_datasets(module);
   bind_films(module);

@@ -89,6 +89,7 @@ if TYPE_CHECKING:
         ObjectPlace as ObjectPlace,
         Override as Override,
         Pattern as Pattern,
+        Pinhole as Pinhole,
         Pixel as Pixel,
         PixelBounces as PixelBounces,
         PixelChain as PixelChain,
@@ -140,6 +141,11 @@ if TYPE_CHECKING:
         load_depth as load_depth,
         quality as quality,
     )
+    from ._rendered import (
+        from_pictures as from_pictures,
+        load_material as load_material,
+        pinhole_for as pinhole_for,
+    )
     from ._run import (
         load_inputs as load_inputs,
         pixel_bounces as pixel_bounces,
@@ -189,13 +195,14 @@ _HOME = {
     "_model": (
         "Adc", "Ambient", "AmbientCase", "Area", "AutoExposure", "BounceShare", "Box", "Calibration", "Camera", "CameraChoice", "CameraKeyframe", "CameraQuestion", "CameraReport", "Capsule",
         "ChainPhase", "ChainRawFrame", "Cone", "Curve", "Cylinder", "Decoding", "Disk", "FileRecord", "Filter", "FrameRequest", "Illumination", "ImageFilter", "InputFile", "Inputs", "Interference",
-        "InvalidPixels", "Keyframe", "Lens", "Material", "Mesh", "Mode", "NoiseAt", "NoiseAtDistances", "Object", "ObjectInView", "ObjectPlace", "Override", "Pattern", "Pixel", "PixelBounces", "PixelChain",
+        "InvalidPixels", "Keyframe", "Lens", "Material", "Mesh", "Mode", "NoiseAt", "NoiseAtDistances", "Object", "ObjectInView", "ObjectPlace", "Override", "Pattern", "Pinhole", "Pixel", "PixelBounces", "PixelChain",
         "PixelMask", "PlacedObject", "Placement", "Plane", "Pose", "RanOn", "RawFrame", "Readout", "Rectangle", "Remark", "Rotation", "RunResult", "Scatter", "Scene", "SceneFile", "SceneFinding", "SceneReport", "Sensor",
         "Sphere", "SpreadSpectrum", "Temperature", "TransientBins", "Transport", "Triangle", "UnwrapCandidate", "Validity", "Waveform",
     ),
     "_native": ("DeviceArray", "DeviceFrames", "MeshMotion", "ReflectivityMap", "TriangleMesh", "VectorMap"),
     "_own": ("Geometry", "PixelLight", "Transient"),
     "_quality": ("Comparison", "Quality", "compare", "load_depth", "quality"),
+    "_rendered": ("from_pictures", "load_material", "pinhole_for"),
     "_run": ("load_inputs", "pixel_bounces", "pixel_chain", "render", "render_again", "validity"),
     "_samples": ("Samples", "open_dataset"),
     "_simulator": ("Simulator", "camera_pose", "camera_report", "demo", "exposure_times", "full_sun", "invalid_pixels", "object_places", "pixel_rays", "placed_scene", "process", "scene_report"),

@@ -6,6 +6,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Sequence
 
+from ._pinhole import PinholeMethods
 from ._pose import PoseMethods
 from ._record import Record
 
@@ -2151,6 +2152,54 @@ class RanOn(Record):
         self.fallback_reason = fallback_reason
 
 
+class Pinhole(PinholeMethods):
+    """A camera without distortion, as renderers have it: what is at (x, y, z) before it is seen at
+    (fx·x/z + cx, fy·y/z + cy).
+
+    Attributes
+    ----------
+    width : int
+        Of the picture, pixels; row 0 is the topmost.
+    height : int
+        Of the picture, pixels; row 0 is the topmost.
+    fx_px : float, px
+    fy_px : float, px
+    cx_px : float, px
+    cy_px : float, px
+    pixel_centre : float, px
+        Where the middle of the first pixel is: 0.5 where numbers count from the picture's corner,
+        as OpenGL, Blender, Open3D and most simulators have it; 0 where they count from that middle,
+        as OpenCV, ROS and tofray's lenses do.
+    """
+    __slots__ = ("width", "height", "fx_px", "fy_px", "cx_px", "cy_px", "pixel_centre")
+    width: int
+    height: int
+    fx_px: float
+    fy_px: float
+    cx_px: float
+    cy_px: float
+    pixel_centre: float
+
+    def __init__(
+        self,
+        *,
+        width: int = 0,
+        height: int = 0,
+        fx_px: float = 0.0,
+        fy_px: float = 0.0,
+        cx_px: float = 0.0,
+        cy_px: float = 0.0,
+        pixel_centre: float = 0.5,
+    ) -> None:
+        self.width = width
+        self.height = height
+        self.fx_px = fx_px
+        self.fy_px = fy_px
+        self.cx_px = cx_px
+        self.cy_px = cy_px
+        self.pixel_centre = pixel_centre
+
+
 class Placement(Record):
     """Where an object is: by how much it is shifted and turned, as its position and rotation say it.
 
@@ -3340,7 +3389,7 @@ __all__ = [
     "Interference", "Calibration", "SpreadSpectrum", "Readout", "AutoExposure", "Camera",
     "Material", "Plane", "Sphere", "Box", "Triangle", "Cylinder", "Rectangle", "Disk", "Capsule",
     "Cone", "Mesh", "Rotation", "Keyframe", "Object", "Ambient", "TransientBins", "Transport",
-    "Pose", "CameraKeyframe", "Override", "CameraChoice", "SceneFile", "Scene", "RanOn",
+    "Pose", "CameraKeyframe", "Override", "CameraChoice", "SceneFile", "Scene", "RanOn", "Pinhole",
     "Placement", "PlacedObject", "FrameRequest", "ObjectInView", "SceneFinding", "SceneReport",
     "InvalidPixels", "AmbientCase", "CameraQuestion", "NoiseAt", "NoiseAtDistances", "CameraReport",
     "ChainRawFrame", "ChainPhase", "UnwrapCandidate", "PixelChain", "BounceShare", "PixelBounces",

@@ -23,6 +23,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Sequence
 
+from ._pinhole import PinholeMethods
 from ._pose import PoseMethods
 from ._record import Record
 
@@ -47,7 +48,7 @@ def declared(code: str) -> list[str]:
 def comments() -> dict[str, dict[str, str]]:
     """The comment of each struct ('' is its key) and of each of its members."""
     out: dict[str, dict[str, str]] = {}
-    for header in ("scene.h", "camera.h", "simulator.h", "options.h", "analysis.h", "camera_report.h", "pixel.h", "file_record.h", "run.h"):
+    for header in ("scene.h", "camera.h", "simulator.h", "rendered.h", "options.h", "analysis.h", "camera_report.h", "pixel.h", "file_record.h", "run.h"):
         before: list[str] = []
         struct, members = "", [""]
         behind = False
@@ -98,7 +99,7 @@ def wrapped(text: str, indent: int) -> str:
 
 
 # Classes that have more than their members.
-BASES = {"Pose": "PoseMethods"}
+BASES = {"Pinhole": "PinholeMethods", "Pose": "PoseMethods"}
 
 # Units that a number's name ends in …
 ENDS = {"m": "m", "m2": "m²", "deg": "°", "px": "px", "rad": "rad", "s": "s", "hz": "Hz", "w": "W", "e": "e", "k": "K", "dn": "DN", "celsius": "°C",
@@ -111,7 +112,7 @@ RATIOS = {"fill_factor", "share", "weights", "kernel", "k1", "k2", "k3", "k4", "
           "asymmetry_sigmas", "multipath_sigmas", "temporal_sigmas", "quaternion", "refractive_index", "diffuse", "specular", "alpha", "retro", "occupancy",
           "blooming_share", "reflectivities", "reflectivity", "wrong_cycle", "outside", "unlit", "darkest", "gain", "gains", "speed", "aim", "bright",
           "object_share", "mixed", "cycles", "confidence"}
-OTHERS = {"mid_code": "DN", "celsius": "°C", "Ambient.amount": "by its quantity", "Curve.x": "any unit", "Curve.y": "any unit",
+OTHERS = {"pixel_centre": "px", "mid_code": "DN", "celsius": "°C", "Ambient.amount": "by its quantity", "Curve.x": "any unit", "Curve.y": "any unit",
           "SpreadSpectrum.width": "1", "BounceShare.electrons": "e", "RunResult.timings_s": "s"}
 
 

@@ -450,4 +450,12 @@ Scene load_scene_text(const std::string& text, const std::string& source, const 
   return load::scene_from_text(text, source, {}, {root, {}});
 }
 
+Material load_material(const std::string& name) {
+  if (const assets::LibraryMaterial* known = assets::find_library_material(name)) return known->material;
+  std::vector<std::string> names;
+  for (const assets::LibraryMaterial& one : assets::material_library()) names.push_back(one.material.name);
+  throw Error(ErrorKind::bad_input, "error: no material " + base::in_quotes(name) + base::did_you_mean(name, names) +
+                                        "\n  `tofray list materials` names those that are built in");
+}
+
 }  // namespace tofray

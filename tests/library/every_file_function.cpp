@@ -39,6 +39,7 @@ void all() {
   expect(tofray::frame_npz(frame, scene, camera).starts_with("PK"), "frame_npz");
   expect(tofray::load_scene_text("objects: [{sphere: {center: [0, 0, 1], radius: 10 cm, reflectivity: 0.5}}]", "here").objects.size() == 1,
          "load_scene_text");
+  expect(tofray::load_material("skin").diffuse > 0.5, "load_material");
   expect(tofray::choose_scene("card").name == "card" && tofray::choose_scene("card").note.empty(), "choose_scene");
   expect(tofray::choose_camera("mine.yaml").name == "mine.yaml", "choose_camera");
   const tofray::Inputs inputs =

@@ -47,6 +47,14 @@ void own_arrays(tofray::Simulator& simulator, const tofray::Camera& camera, cons
   expect(image.width == seen.width && image.height == seen.height, "image_size");
 }
 
+void pictures(const tofray::Camera& camera) {
+  const tofray::Pinhole pinhole = tofray::pinhole_for(camera);
+  const std::vector<float> z(static_cast<std::size_t>(pinhole.width) * static_cast<std::size_t>(pinhole.height), 1.5f);
+  tofray::RenderedPictures drawn;
+  drawn.pinhole = pinhole, drawn.z_m = z, drawn.other_reflectivity = 0.5;
+  expect(tofray::from_pictures(camera, drawn).geometry.z_m.front() == 1.5f, "pinhole_for, from_pictures");
+}
+
 tofray::Scene wall() {
   tofray::Scene scene;
   tofray::Material paper;
@@ -152,6 +160,7 @@ void all() {
   expect(tofray::version()[0] != 0, "version");
   on_device(simulator);
   own_arrays(simulator, camera, frame);
+  pictures(camera);
   budgets(camera);
   pixels(frame, scene, camera);
   measured(frame);

@@ -39,6 +39,7 @@ LEFT_OUT = {
     "frame_npz": "Frame.save",
     "Driver": "a word of McapWriter", "StampAt": "likewise", "McapCompression": "likewise", "MessageOptions": "McapWriter's own words",
     "McapOptions": "McapWriter's own words", "usual_mcap_compression": "compression=None", "McapContents": "a dict of mcap_contents",
+    "RenderedPictures": "from_pictures' own words", "LabelMaterial": "likewise", "SampledPictures": "from_pictures gives its Geometry and warns",
     "Messages": "what McapWriter writes", "Message": "likewise", "Topic": "likewise", "message_definition": "a schema in the file",
     "SweepAxis": "keys of Sweep.axes", "sweep_axis": "the mapping vary of sweep", "sweep_axis_of_numbers": "likewise", "SweepMetric": "arrays of Sweep", "sweep_metrics": "likewise",
     "SweepRequest": "sweep's own words", "SweepWatch": "sweep's own words", "best_cells": "Sweep.best", "save_sweep": "the word folder of sweep",

@@ -252,7 +252,7 @@ TEST(phase_flow, goes_from_each_raw_frame_to_where_the_point_is_when_the_truth_h
         }
         const Vec3 p = vector_of(seen.position_m, i);
         const camera::Point2 from = image_of(camera, p),
-                     to = image_of(camera, p + (frame.truth.time_s - when) * scene.objects.back().velocity_m_per_s);
+                             to = image_of(camera, p + (frame.truth.time_s - when) * scene.objects.back().velocity_m_per_s);
         ASSERT_NEAR(u, to.x - from.x, 2e-3) << k << " " << i;
         ASSERT_NEAR(v, to.y - from.y, 2e-3) << k << " " << i;
         if (k != 2) {
