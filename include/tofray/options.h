@@ -47,7 +47,7 @@ struct SimulatorOptions {
   Isa isa = Isa::best;  ///< best: the environment's TOFRAY_ISA, else what the CPU can do
   bool truth = true;    ///< fill Frame::truth
   /// Fill these arrays alone, by their names in files: {"raw", "gt_z_m"}. The others stay empty, but for those that these are made of, and
-  /// no stage is run that none of them comes from. Left empty: all of them.
+  /// no stage is run that none of them comes from. Left empty: all but those of ArrayWhen::asked.
   std::vector<std::string> arrays = {};
   Stage last_stage = Stage::depth;    ///< stop after this stage: arrays of later ones are left as they are (zero in a new frame)
   int exposure_samples = 1;           ///< 1…1000: times within each exposure at which what moves is seen, evenly spread: motion blur

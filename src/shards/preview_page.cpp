@@ -97,9 +97,9 @@ std::string preview_page(const Summary& of) {
       "<title>{0}</title><style>{1}</style></head><body>\n<h1>{0}</h1>\n",
       name, style);
   out += fmt::format(
-      "<p>{} scenes of {}, {} views of each, {} frames, {:.1f} MB in {} shards; {} of all pixels have a depth. Licence: {}. Made by tofray "
+      "<p>{} scenes of {}, {} frames, {:.1f} MB in {} shards; {} of all pixels have a depth. Licence: {}. Made by tofray "
       "{}.</p>\n",
-      of.samples, plan.samples, plan.views, seen.frames, 1e-6 * static_cast<double>(of.bytes), of.shards, percent(seen.valid, seen.pixels),
+      of.samples, plan.samples, seen.frames, 1e-6 * static_cast<double>(of.bytes), of.shards, percent(seen.valid, seen.pixels),
       of.set.license.empty() ? "not said" : shown_text(of.set.license), shown_text(plan.version));
   out += "<h2>Samples</h2>\n<p>Spread evenly over the set. Each picture has its own colours, from near (pale) to far (dark).</p>\n";
   for (const ShownSample& one : of.spread) out += figure(one, plan, "");
