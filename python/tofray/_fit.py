@@ -138,7 +138,7 @@ class Fit:
         if len(frequencies) != 1:
             return math.nan
         count = len({round(one.reference_phase_rad, 6) for one in lit})
-        return 299792458.0 / (2 * count * (1 + count % 2) * frequencies.pop())
+        return 299792458.0 / (2 * count * (1 + count % 2) * float(frequencies.pop()))
 
     def camera(self, mode: str = "") -> Any:
         """The camera with what was found, in one of its modes; empty: that of the rows.
@@ -329,8 +329,14 @@ def _weigh(problem: _Problem, inner: Any, least_squares: Any) -> Any:
 
 
 def _starts(problem: _Problem, wide: bool) -> list[Any]:
-    """The value in force; of harmonics four phases beside it, for those have several hollows."""
+    """The values in force; of harmonics four phases beside it, for those have several hollows."""
+    import numpy as np
+
     first = problem.inner([one.start for one in problem.model.unknowns])
+    unit = problem.model.scale.get("intensity per electron")
+    if unit is not None:  # of nobody knows which size: what is nearest, of twelve decades
+        tries = [np.where(np.arange(len(first)) == unit, 2.302585 * power / 3, first) for power in range(-18, 19)]
+        first = min(tries, key=lambda one: float(np.abs(problem(one)).sum()))
     out = [first]
     for i, j in problem.model.pairs:
         for turn in range(4):
@@ -441,13 +447,15 @@ def _kappa(problem: _Problem, inner: Any, covariance: Any) -> tuple[float, float
     return math.exp(at(inner)), float(math.sqrt(slope @ covariance @ slope))
 
 
-def _rows_of(measured: Any, columns: Sequence[str], where: str) -> Rows:
-    if hasattr(measured, "items"):
-        return rows_of(rows_of_arrays(measured), ["data"], where)
-    files = [measured] if isinstance(measured, (str, os.PathLike)) else list(measured)
-    rows: list[dict[str, Any]] = []
-    for file in files:
+def _rows_of(measured: Any, columns: Sequence[str], where: str, profile: str, mode: str, words: dict[str, str]) -> Rows:
+    files: list[Any] = ["data"] if hasattr(measured, "items") else [measured] if isinstance(measured, (str, os.PathLike)) else list(measured)
+    rows: list[dict[str, Any]] = rows_of_arrays(measured) if hasattr(measured, "items") else []
+    for file in files if not rows else []:
         rows += read_rows(file, columns)
+    if any(row.get("recording") for row in rows):
+        from ._fit_recordings import add_recordings
+
+        add_recordings(rows, profile, mode, words)
     return rows_of(rows, [os.fspath(one) for one in files], where)
 
 
@@ -464,8 +472,9 @@ def fit(profile: str | os.PathLike[str], measured: str | os.PathLike[str] | Sequ
     profile : path or name
         As of ``load_camera``. It is not changed.
     measured : path, paths or mapping
-        Text files with the columns ``distance_m`` (or ``_mm``), ``sigma_mm``, ``bias_mm``, ``intensity``, ``reflectivity``, ``class``, ``mode``, ``ambient_lx``;
-        or arrays by these names. Of a row with an intensity and no distance the wall stands where it has that amplitude.
+        Text files with the columns ``distance_m`` (or ``_mm``), ``sigma_mm``, ``bias_mm``, ``intensity``, ``reflectivity``, ``class``, ``mode``, ``ambient_lx``,
+        ``recording`` (a folder of npz files beside the text: frames of a wall that stands still, whose noise is sigma); or arrays by these names. Of a row with an intensity and no distance the
+        wall stands where it has that amplitude, and humps of the noise over the distance are left out.
     free : sequence of str
         Keys of the profile that are numbers, ``illumination.*.power`` for all lights together; ``illumination.0.waveform.a1``, ``.r3``, ``.psi3``: amplitude of the
         correlation's first harmonic, the third's over it and its phase.
@@ -500,9 +509,10 @@ def fit(profile: str | os.PathLike[str], measured: str | os.PathLike[str] | Sequ
     least_squares = _least_squares()
     if not free:
         raise BadInput("free: error: there is nothing to look for\n  expected keys of the profile, such as illumination.0.power")
-    rows = _rows_of(measured, columns, where)
     words = {key.removeprefix("camera."): text for key, text in _settings(set)}
-    model = Model(_chosen(_native.choose_camera(os.fspath(profile))), mode, words, rows, free, scale_free, reflectivity)
+    name = _chosen(_native.choose_camera(os.fspath(profile)))
+    rows = _rows_of(measured, columns, where, name, mode, words)
+    model = Model(name, mode, words, rows, free, scale_free, reflectivity)
     problem = _Problem(model)
     starts = _starts(problem, search_frequency)
     first = problem(starts[0])

@@ -138,6 +138,10 @@ def _mode_names(rows: Rows, mode: str) -> list[str]:
     return rows.word("mode", mode)
 
 
+def _reflectivity_of(name: str) -> str:
+    return f"reflectivity of {name}" if name else "reflectivity"
+
+
 class Model:
     """All rows, as the budget of a camera with some numbers says them."""
 
@@ -192,14 +196,14 @@ class Model:
 
         rows = self.rows
         self.reflectivity = rows.number("reflectivity", reflectivity)
-        self.class_of_row = rows.word("class", "all")
+        self.class_of_row = rows.word("class")
         self.scale: dict[str, int] = {}
         for word in scale_free:
             if word == "reflectivity":
                 for name in dict.fromkeys(self.class_of_row):
                     mine = self.reflectivity[np.array([one == name for one in self.class_of_row])]
-                    self.scale["reflectivity of " + name] = len(self.unknowns)
-                    self.unknowns.append(Unknown("reflectivity of " + name, "", float(np.median(mine)), 1e-3, 1.0))
+                    self.scale[_reflectivity_of(name)] = len(self.unknowns)
+                    self.unknowns.append(Unknown(_reflectivity_of(name), "", float(np.median(mine)), 1e-3, 1.0))
             elif word == "intensity":
                 if "intensity" not in rows.numbers:
                     raise BadInput("scale_free: error: intensity is no column of the rows\n  expected one whose scale is not known")
@@ -217,9 +221,9 @@ class Model:
         """Rows that one call of the budget computes: of one mode, light and reflectivity."""
         groups: dict[tuple[str, float, str], list[int]] = {}
         modes, ambient = _mode_names(self.rows, self.mode), self.rows.number("ambient_lx", 0.0)
-        free = any(one.startswith("reflectivity of ") for one in self.scale)
+        free = any(one.startswith("reflectivity") for one in self.scale)
         for i, name in enumerate(self.class_of_row):
-            groups.setdefault((modes[i], float(ambient[i]), "reflectivity of " + name if free else repr(float(self.reflectivity[i]))), []).append(i)
+            groups.setdefault((modes[i], float(ambient[i]), _reflectivity_of(name) if free else repr(float(self.reflectivity[i]))), []).append(i)
         self.groups = groups
         self.distance = self.rows.number("distance_m")
         self.intensity = self.rows.number("intensity")
@@ -288,18 +292,24 @@ class Model:
         return out
 
     def _by_intensity(self, camera: Any, reflectivity: float, ambient: float, amplitude_e: Any) -> Any:
-        """Range noise of a wall where it has that amplitude: in between of 160 distances, by logarithms."""
+        """Range noise of a wall where it has that amplitude A, by (sigma A)^2 = c0 + c1 A + c2 A^2: read noise, shot noise, what grows with the light. Its
+        coefficients are those of 160 distances, over whose humps they go."""
         import numpy as np
 
         got = self._budget(camera, np.geomspace(0.1, 40, 160).tolist(), reflectivity, ambient)
         good = np.isfinite(got["sigma_m"]) & ~got["saturated"] & (got["amplitude_e"] > 0)
         brightest = int(np.argmax(np.where(good, got["amplitude_e"], 0)))
         good[:brightest] = False  # nearer, light leaves the pixel's view
-        if good.sum() < 2:
+        if good.sum() < 10:
             return np.full(len(amplitude_e), np.nan)
-        x, y = np.log(got["amplitude_e"][good]), np.log(got["sigma_m"][good])
-        order = np.argsort(x)
-        return np.exp(np.interp(np.log(amplitude_e), x[order], y[order], left=np.nan, right=np.nan))
+        amplitude, noise = got["amplitude_e"][good], got["sigma_m"][good]
+        law = (noise * amplitude) ** 2
+        powers = np.stack([np.ones_like(amplitude), amplitude, amplitude ** 2], axis=1) / law[:, None]
+        sizes = np.abs(powers).max(axis=0)
+        coefficients = np.linalg.lstsq(powers / sizes, np.ones_like(amplitude), rcond=None)[0] / sizes
+        squared = coefficients[0] + coefficients[1] * amplitude_e + coefficients[2] * amplitude_e ** 2
+        within = (amplitude_e <= amplitude[0]) & (amplitude_e >= amplitude[-1]) & (squared > 0)
+        return np.where(within, np.sqrt(np.where(within, squared, 1.0)) / amplitude_e, np.nan)
 
     @property
     def has_kappa(self) -> bool:

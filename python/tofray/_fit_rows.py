@@ -184,7 +184,7 @@ def _condition(text: str) -> list[tuple[str, str, str]]:
 
 def _holds(row: dict[str, Any], name: str, sign: str, text: str) -> bool:
     if name in _WORDS:
-        return (row.get(name, "") == text) == (sign == "=")
+        return bool((row.get(name, "") == text) == (sign == "="))
     kind, factor = _COLUMNS[name]
     value = row.get(kind)
     if value is None or value != value:
