@@ -307,7 +307,7 @@ def _solve(problem: _Problem, starts: list[Any], least_squares: Any) -> Any:
 
     low, high = problem.bounds()
     inside = [np.clip(one, low + 1e-9 * (1 + abs(low)), high - 1e-9 * (1 + abs(high))) for one in starts]
-    found = [least_squares(problem, one, problem.jacobian, bounds=(low, high), loss="huber", f_scale=_HUBER, x_scale="jac", xtol=1e-7, ftol=1e-9, max_nfev=60)
+    found = [least_squares(problem, one, problem.jacobian, bounds=(low, high), loss="huber", f_scale=_HUBER, x_scale="jac", xtol=1e-5, ftol=1e-6, max_nfev=60)
              for one in inside]
     return min(found, key=lambda one: float(one.cost)).x
 
@@ -323,7 +323,7 @@ def _weigh(problem: _Problem, inner: Any, least_squares: Any) -> Any:
             if good.size:
                 problem.scales[kind] = max(1.4826 * float(np.median(np.abs(good))), _LEAST[kind])
         inner = _solve(problem, [inner], least_squares)
-        if all(abs(problem.scales[kind] / before[kind] - 1) < 1e-3 for kind in before):
+        if all(abs(problem.scales[kind] / before[kind] - 1) < 0.01 for kind in before):
             break
     return inner
 
@@ -362,7 +362,8 @@ def _refuse_what_is_not_said(problem: _Problem, inner: Any, jacobian: Any) -> fl
     lengths = np.sqrt((jacobian ** 2).sum(axis=0))
     idle = [name for name, length, column in zip(names, lengths, jacobian.T) if np.abs(column).max() * max(problem.scales.values()) < 1e-4]
     if idle:
-        raise Undetermined(f"error: no row depends on {' or '.join(idle)}\n  expected rows that do, or fewer numbers to look for")
+        raise Undetermined(f"error: {' and '.join(idle)} cannot be known from these rows: none depends on {'it' if len(idle) == 1 else 'them'}\n"
+                           "  expected rows that do, or fewer numbers to look for")
     _, singular, directions = np.linalg.svd(jacobian / lengths, full_matrices=False)
     condition = float(singular[0] / max(singular[-1], 1e-300))
     if condition * _SINGULAR > 1:

@@ -6,6 +6,7 @@ from __future__ import annotations
 
 import json
 import math
+import os
 import pathlib
 import subprocess
 import sys
@@ -38,7 +39,7 @@ def test_numbers_come_back_from_rows_without_errors_of_their_own() -> None:
     found = tofray.fit("o3d303", noise_alone(simulated({POWER: "2.2 W", READ: "140 e"})), [POWER, READ], mode="under5m_low")
     assert found[POWER].value == pytest.approx(2.2, rel=2e-3) and found[READ].value == pytest.approx(140, rel=2e-3)
     assert found[POWER].start == 1.65 and found[READ].unit == "e"
-    assert found.scatter["sigma"] < 1e-3 < 0.2 < found.scatter_before["sigma"]
+    assert found.scatter["sigma"] < 1e-3 < 0.05 < found.scatter_before["sigma"]
 
 
 def test_95_percent_of_200_fits_are_within_two_standard_errors() -> None:
@@ -137,7 +138,7 @@ def test_what_rows_cannot_tell_apart_is_refused_by_name(free: list[str], scale_f
         tofray.fit("o3d303", rows, free, mode="under5m_low", scale_free=scale_free, set={"pixel.reset_noise.sigma": "40 e"})
     first = str(fault.value).split("\n")[0]
     assert all(name in first for name in names), first
-    assert "cannot be told apart" in first or "no row depends" in first
+    assert "cannot be told apart" in first or "none depends on it" in first
     assert not any(one in first for one in {POWER, READ, "pixel.quantum_efficiency"} - set(names)), first
 
 
@@ -193,7 +194,7 @@ def test_faults_of_a_file_have_line_and_column(tmp_path: pathlib.Path, monkeypat
     ({"free": []}, "nothing to look for"), ({"free": ["adc.bits"]}, "whole number"), ({"free": ["illumination.3.waveform.r3"]}, "is of light 3"),
     ({"where": "distance_m<0.1"}, "leaves no row"), ({"where": "far"}, "expected a column"), ({"scale_free": ["all"]}, "expected reflectivity"),
     ({"scale_free": ["intensity"]}, "intensity is no column"), ({"set": {WAVE: "{kind: rectangular}"}, "free": [WAVE + ".r3"]}, "its kind, rectangular"),
-    ({"set": {"integration_time": "1 s"}}, "no row has a range noise"),
+    ({"set": {POWER: "900 W"}}, "no row has a range noise"),
 ])
 def test_what_cannot_be_asked_is_refused(words: dict[str, Any], said: str) -> None:
     with pytest.raises(tofray.Error, match=said):
@@ -229,7 +230,7 @@ def test_the_diff_changes_a_profile_into_the_fitted_camera_and_leaves_its_commen
 
 
 def run(folder: pathlib.Path, *words: str) -> subprocess.CompletedProcess[str]:
-    return subprocess.run([sys.executable, "-m", "tofray", "fit", *words], cwd=folder, capture_output=True, text=True)
+    return subprocess.run([sys.executable, "-m", "tofray", "fit", *words], cwd=folder, capture_output=True, text=True, env={**os.environ, "PYTHONPATH": os.path.abspath(os.environ["PYTHONPATH"])})
 
 
 def test_the_command_writes_files_and_says_by_its_exit_code_what_happened(tmp_path: pathlib.Path) -> None:
