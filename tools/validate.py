@@ -9,12 +9,11 @@
 Rows that a profile was fitted to are marked "fitted": they say how well the model can follow, and validate nothing.
 """
 
-import math
 import re
 import sys
 
-from measured_noise import CLOSED, figures_of_cameras, kinect, laws, o3d303, published, sun
 from one_pixel import ROOT
+from validation_parts import closed, kinect, laws, o3d303, published, sun
 
 PAGE = ROOT / "docs/validation.md"
 
@@ -22,7 +21,7 @@ HEAD = """<!-- SPDX-FileCopyrightText: 2026 The tofray authors -->
 <!-- SPDX-License-Identifier: Apache-2.0 -->
 # What stands against tofray, and how it holds
 
-`python3 tools/validate.py` writes this page: closed forms, laws, published limits, and two cameras whose noise was measured by others ([data, licence, conditions](../data/measured/README.md)), beside what tofray computes. A test runs it, and holds each figure to bounds. **Rows marked "fitted" validate nothing**: they say how well the model can follow. **No camera is validated by this page**: of each that was measured, light or more was fitted first. Measurements of the same sources that tofray's makers have not seen will be held against it.
+`python3 tools/validate.py` writes this page: closed forms, laws, published limits, and two cameras whose noise was measured by others ([data, licence, conditions](../data/measured/README.md)), beside what tofray computes. A test runs it, and holds each figure to bounds. **Rows marked "fitted" validate nothing**: they say how well the model can follow. **No camera is validated by this page**: of each that was measured, light or more was fitted first. Whoever has other measurements of these cameras can hold them against it.
 """
 
 TAIL = """
@@ -46,11 +45,11 @@ def table(head, rows):
 def page():
     """The page's text, and its figures by name with their bounds."""
     parts, figures = [HEAD], {}
-    for section in (CLOSED, laws, sun, published, o3d303, kinect):
+    for section in (closed, laws, sun, published, o3d303, kinect):
         text, found = section(table)
         parts.append(text)
         figures |= found
-    return "\n".join(parts) + TAIL, figures_of_cameras(figures)
+    return "\n".join(parts) + TAIL, figures
 
 
 NUMBER = re.compile(r"[-+]?\d+(?:\.\d+)?")
