@@ -43,9 +43,9 @@ class FitParameter:
         Of the profile, or words for what is none: "reflectivity of black".
     unit : str
         Of all numbers here; empty: none.
-    value, error : float
+    value, error : float, in unit
         What was found, and its standard error.
-    start : float
+    start : float, in unit
         The value in force before.
     at_end : bool
         Whether it is at an end of its range, so that its error says little.
@@ -78,23 +78,31 @@ def _rounded(value: float, error: float) -> str:
 
 
 class Fit:
-    """What was found, how well it is known, and how well it goes with the rows. ``str()`` of it is a report.
+    """What was found, how well it is known, and how well it goes with the rows: ``str()`` of it is a report, ``fit["illumination.0.power"]`` a number.
+
+    Attributes
+    ----------
+    parameters : list of FitParameter
+    predicted, residuals : dict
+        Of each row what the fit says (``sigma_m``, ``bias_m``, ``intensity``), and ln(fitted/measured), of bias metres of difference, by kind.
+    scatter, scatter_before : dict
+        Root mean square of the residuals by kind, with what was found and with the values in force.
 
     Parameters
     ----------
     model : Model
         What was fitted.
-    values : sequence of float
+    values : sequence of numbers
         Of its unknowns.
-    errors : sequence of float
+    errors : sequence of numbers
         Their standard errors.
-    correlation : array
-        Of the errors, [number, number].
-    condition : float
+    correlation : float64 array [number, number], 1
+        Of the errors.
+    condition : float, 1
         Largest over least singular value of the derivatives of all rows, each of length 1: how near two numbers are to being one.
     robust_scatter : dict
         By kind of row ("sigma", "bias", "intensity"): 1.4826 times the median of the sizes of its residuals.
-    kappa : (float, float), optional
+    kappa : pair of numbers, optional
         Electrons of a raw frame times the distance's square over the reflectivity, in e m^2, and its relative error. All that light, lens and pixel do to the
         signal is in this one number, and no more can be known of them by a wall in the dark.
     """
@@ -141,11 +149,21 @@ class Fit:
         return 299792458.0 / (2 * count * (1 + count % 2) * float(frequencies.pop()))
 
     def camera(self, mode: str = "") -> Any:
-        """The camera with what was found, in one of its modes; empty: that of the rows.
+        """The camera with what was found.
+
+        Parameters
+        ----------
+        mode : str
+            One of the profile's; empty: that of the rows.
 
         Returns
         -------
         Camera
+
+        Raises
+        ------
+        Error
+            For a mode that the profile does not have.
         """
         return self._model.camera(self._values, mode or self._model.modes[0])
 
@@ -155,11 +173,19 @@ class Fit:
         Parameters
         ----------
         step : int
+            1 or more.
 
         Returns
         -------
         str
+
+        Raises
+        ------
+        Error
+            For a step below 1.
         """
+        if step < 1:
+            raise BadInput(f"step: error: got {step}\n  expected 1 or more")
         from ._fit_report import table
 
         return table(self, step)
@@ -170,6 +196,11 @@ class Fit:
         Returns
         -------
         str
+
+        Raises
+        ------
+        Error
+            Never of its own; of a profile that is gone since.
         """
         from ._fit_report import patch
 
@@ -181,6 +212,11 @@ class Fit:
         Returns
         -------
         str
+
+        Raises
+        ------
+        Error
+            Where the text with what was found is not read back as the fitted camera.
         """
         from ._fit_report import diff
 

@@ -198,11 +198,12 @@ def test_faults_of_a_file_have_line_and_column(tmp_path: pathlib.Path, monkeypat
 ])
 def test_what_cannot_be_asked_is_refused(words: dict[str, Any], said: str) -> None:
     with pytest.raises(tofray.Error, match=said):
-        tofray.fit("o3d303", noise_alone(simulated({})), **{"free": [POWER], "mode": "under5m_low", **words})
+        tofray.fit("o3d303", noise_alone(simulated({})), words.pop("free", [POWER]), mode="under5m_low", **words)
 
 
 def test_without_scipy_the_package_is_named(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setitem(sys.modules, "scipy.optimize", None)
+    gone: Any = None
+    monkeypatch.setitem(sys.modules, "scipy.optimize", gone)
     with pytest.raises(ImportError, match="Debian: python3-scipy"):
         tofray.fit("o3d303", noise_alone(simulated({})), [POWER])
 
