@@ -80,14 +80,6 @@ def _rounded(value: float, error: float) -> str:
 class Fit:
     """What was found, how well it is known, and how well it goes with the rows: ``str()`` of it is a report, ``fit["illumination.0.power"]`` a number.
 
-    Attributes
-    ----------
-    parameters : list of FitParameter
-    predicted, residuals : dict
-        Of each row what the fit says (``sigma_m``, ``bias_m``, ``intensity``), and ln(fitted/measured), of bias metres of difference, by kind.
-    scatter, scatter_before : dict
-        Root mean square of the residuals by kind, with what was found and with the values in force.
-
     Parameters
     ----------
     model : Model
@@ -105,6 +97,14 @@ class Fit:
     kappa : pair of numbers, optional
         Electrons of a raw frame times the distance's square over the reflectivity, in e m^2, and its relative error. All that light, lens and pixel do to the
         signal is in this one number, and no more can be known of them by a wall in the dark.
+
+    Attributes
+    ----------
+    parameters : list of FitParameter
+    predicted, residuals : dict
+        Of each row what the fit says (``sigma_m``, ``bias_m``, ``intensity``), and ln(fitted/measured), of bias metres of difference, by kind.
+    scatter, scatter_before : dict
+        Root mean square of the residuals by kind, with what was found and with the values in force.
     """
 
     def __init__(self, model: Model, values: Sequence[float], errors: Sequence[float], correlation: Any, condition: float,
