@@ -50,20 +50,29 @@ def _share(text: str) -> float:
 
 
 def parser() -> argparse.ArgumentParser:
-    out = argparse.ArgumentParser(prog="tofray fit", description="numbers of a camera profile with which `tofray budget` says what was measured of walls; their errors,"
-                                  " and what cannot be known", epilog=_HELP, formatter_class=argparse.RawDescriptionHelpFormatter)
-    out.add_argument("profile", help="a profile's file or a built-in camera; it is not changed")
-    out.add_argument("rows", nargs="+", metavar="FILE", help="measurements: text with named columns")
-    out.add_argument("--free", required=True, type=_words, metavar="KEYS", help="keys whose numbers are looked for, with commas between; illumination.0.waveform.r3 and .psi3: its third harmonic")
-    out.add_argument("--scale-free", type=_words, default=[], metavar="WORDS", help="what else is not known: reflectivity (of each class), intensity (its unit), bias (its offset)")
-    out.add_argument("--where", default="", metavar="TEXT", help='which rows count: "distance_m>2.4, sigma_mm<250"')
-    out.add_argument("--columns", type=_words, default=[], metavar="NAMES", help="names of the columns of a file whose first line has none")
-    out.add_argument("--mode", default="", metavar="NAME", help="mode of rows that name none (the profile's first)")
-    out.add_argument("--reflectivity", type=_share, default=0.8, metavar="SHARE", help="of rows that name none (80%%)")
-    out.add_argument("--set", type=_setting, action="append", default=[], metavar="KEY=VALUE", help="change a key of the profile before; as often as you like")
-    out.add_argument("-o", "--output", default="", metavar="FOLDER", help="patch.yaml, profile.diff, rows.csv, table.md and fit.json go there")
-    out.add_argument("--plot", nargs="?", const="fit.png", default="", metavar="PICTURE", help="a picture of rows and fit: .png, .svg or .pdf (fit.png; in FOLDER)")
-    out.add_argument("--json", action="store_true", help="one JSON object on stdout")
+    out = argparse.ArgumentParser(
+        prog="tofray fit", epilog=_HELP, formatter_class=argparse.RawDescriptionHelpFormatter,
+        description="numbers of a camera profile with which `tofray budget` says what was measured of walls;\ntheir errors, and what cannot be known")
+
+    def add(*names: str, help: str, **words: Any) -> None:
+        out.add_argument(*names, help=help, **words)
+
+    add("profile", metavar="PROFILE", help="a profile's file or a built-in camera; it is not changed")
+    add("rows", nargs="+", metavar="FILE", help="measurements: text with named columns")
+    add("--free", required=True, type=_words, metavar="KEYS",
+        help="keys whose numbers are looked for, with commas between; illumination.0.waveform.r3 and .psi3: its third harmonic")
+    add("--scale-free", type=_words, default=[], metavar="WORDS",
+        help="what else is not known: reflectivity (of each class), intensity (its unit), bias (its offset)")
+    add("--where", default="", metavar="TEXT", help='which rows count: "distance_m>2.4, sigma_mm<250"')
+    add("--columns", type=_words, default=[], metavar="NAMES", help="names of the columns of a file whose first line has none")
+    add("--mode", default="", metavar="NAME", help="mode of rows that name none (the profile's first)")
+    add("--reflectivity", type=_share, default=0.8, metavar="SHARE", help="of rows that name none (80%%)")
+    add("--set", type=_setting, action="append", default=[], metavar="KEY=VALUE",
+        help="change a key of the profile before; as often as you like")
+    add("-o", "--output", default="", metavar="FOLDER", help="patch.yaml, profile.diff, rows.csv, table.md and fit.json go there")
+    add("--plot", nargs="?", const="fit.png", default="", metavar="PICTURE",
+        help="a picture of rows and fit: .png, .svg or .pdf (fit.png; in FOLDER)")
+    add("--json", action="store_true", help="one JSON object on stdout")
     return out
 
 
@@ -73,24 +82,25 @@ def _finite(value: float) -> float | None:
 
 def json_of(found: Fit) -> dict[str, Any]:
     return {
-        "profile": found._model.profile, "modes": [mode or found.camera().mode.name for mode in found._model.modes], "rows": len(found.rows), "rows_read": found.rows.total,
-        "sources": found.rows.sources, "where": found.rows.where,
-        "parameters": [{"key": one.key, "unit": one.unit, "value": one.value, "standard_error": _finite(one.error), "start": one.start, "at_end": one.at_end}
-                       for one in found.parameters],
-        "scatter": {kind: _finite(value) for kind, value in found.scatter.items()}, "scatter_before": {kind: _finite(value) for kind, value in found.scatter_before.items()},
+        "profile": found._model.profile, "modes": [mode or found.camera().mode.name for mode in found._model.modes],
+        "rows": len(found.rows), "rows_read": found.rows.total, "sources": found.rows.sources, "where": found.rows.where,
+        "parameters": [{"key": one.key, "unit": one.unit, "value": one.value, "standard_error": _finite(one.error), "start": one.start,
+                        "at_end": one.at_end} for one in found.parameters],
+        "scatter": {kind: _finite(value) for kind, value in found.scatter.items()},
+        "scatter_before": {kind: _finite(value) for kind, value in found.scatter_before.items()},
         "correlation": found.correlation.tolist(), "condition": found.condition, "hump_period_m": _finite(found.hump_period_m),
         "kappa_e_m2": None if found.kappa is None else found.kappa[0],
     }
 
 
 def _rows_csv(found: Fit) -> str:
-    names = {"sigma": ("sigma_m", "sigma_m", "fitted_sigma_m"), "bias": ("bias_m", "bias_m", "fitted_bias_m"), "intensity": ("intensity", "intensity", "fitted_intensity")}
-    kinds = [names[kind] for kind in found.residuals]
-    lines = [",".join(["place", "distance_m", *(one for _, measured, fitted in kinds for one in (measured, fitted)), "residual"])]
+    columns = {"sigma": "sigma_m", "bias": "bias_m", "intensity": "intensity"}
+    kinds = [columns[kind] for kind in found.residuals]
+    lines = [",".join(["place", "distance_m", *(one for column in kinds for one in (column, "fitted_" + column)), "residual"])]
     first = next(iter(found.residuals.values()))
     for i, place in enumerate(found.rows.places):
         cells = [place, f"{found._model.distance[i]:.6g}"]
-        for column, _, _ in kinds:
+        for column in kinds:
             cells += [f"{found.rows.number(column)[i]:.6g}", f"{found.predicted[column][i]:.6g}"]
         lines.append(",".join([*cells, f"{first[i]:.6g}"]))
     return "\n".join(lines) + "\n"

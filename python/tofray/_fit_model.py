@@ -80,7 +80,8 @@ def _unknown_of_key(key: str, numbers: Mapping[str, tuple[str, float, float, flo
     if whole:
         raise BadInput(f"free: error: {key} is a whole number\n  expected a number that can have any value in its range")
     if len(units) > 1 or max(values) - min(values) > 1e-9 * abs(max(values)):
-        raise BadInput(f"free: error: {key} stands for {len(keys)} different values\n  expected the same value in all of them, which then change together")
+        raise BadInput(f"free: error: {key} stands for {len(keys)} different values\n"
+                       "  expected the same value in all of them, which then change together")
     return Unknown(key, unit, values[0], low, high, keys)
 
 
@@ -173,7 +174,8 @@ class Model:
             waveform = camera.illumination[light].waveform
             frequencies = {one.modulation_frequency_hz for mode in self.modes for one in self._camera_of(mode, self.words).mode.sequence if one.lit}
             if waveform.kind != "measured" and len(frequencies) > 1:
-                raise BadInput(f"free: error: {key} would be the same for {len(frequencies)} modulation frequencies\n  expected one, or a measured correlation")
+                raise BadInput(f"free: error: {key} would be the same for {len(frequencies)} modulation frequencies\n"
+                               "  expected one, or a measured correlation")
             contrast = float(self._budget(camera, [10.0], 0.5, 0.0)["contrast"][0])
             self.harmonics[light] = Harmonics(waveform, contrast, f"illumination.{light}.waveform")
         start = self.harmonics[lights[0]].get(name)

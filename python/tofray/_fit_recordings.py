@@ -23,7 +23,8 @@ def _files(path: str, place: str) -> list[str]:
         return [path]
     files = [os.path.join(path, name) for name in sorted(os.listdir(path)) if name.endswith(".npz")]
     if not files:
-        raise BadInput(f"{place}: error: there is no npz file in the folder {path}\n  expected frames of a wall, as `tofray render -o` writes them")
+        raise BadInput(f"{place}: error: there is no npz file in the folder {path}\n"
+                       "  expected frames of a wall, as `tofray render -o` writes them")
     return files
 
 
@@ -48,7 +49,8 @@ def sigma_of(path: str, place: str, profile: str, mode: str, words: dict[str, st
     camera = load_camera(profile, mode, set={**words, "decoding.filter": "{kind: none}"})
     stack = np.stack([_range_of(file, camera) for file in _files(path, place)]).astype(float)
     if len(stack) < 2:
-        raise BadInput(f"{place}: error: the recording {path} is one frame\n  expected a folder with several of a wall that stands still: noise is over them")
+        raise BadInput(f"{place}: error: the recording {path} is one frame\n"
+                       "  expected a folder with several of a wall that stands still: noise is over them")
     u, v = round(camera.lens.cx_px), round(camera.lens.cy_px)
     height, width = stack.shape[1:]
     half = _SIDE // 2
@@ -56,7 +58,8 @@ def sigma_of(path: str, place: str, profile: str, mode: str, words: dict[str, st
     part = part.reshape(len(stack), -1)
     part = part[:, np.isfinite(part).all(axis=0)]
     if part.shape[1] < 0.5 * min(_SIDE, height) * min(_SIDE, width):
-        raise BadInput(f"{place}: error: most pixels of the recording {path} have no range on the optical axis\n  expected a wall there, neither too dark nor too bright")
+        raise BadInput(f"{place}: error: most pixels of the recording {path} have no range on the optical axis\n"
+                       "  expected a wall there, neither too dark nor too bright")
     return float(np.sqrt(part.var(axis=0, ddof=1).mean()))
 
 

@@ -173,7 +173,8 @@ def changed_text(fit: Fit) -> str:
         camera = _native.load_camera_text(text, name, mode, {})
         here, there = (model._budget(one, [0.7, 1.3, 2.9], 0.3, 0.0)["amplitude_e"] for one in (camera, fit.camera(mode)))
         if not np.allclose(here, there, rtol=0.02, equal_nan=True):
-            raise Error(f"{model.source}: error: the profile with what was found is another camera than the fit's\n  the places to change are those of the patch")
+            raise Error(f"{model.source}: error: the profile with what was found is another camera than the fit's\n"
+                        "  the places to change are those of the patch")
     return text
 
 

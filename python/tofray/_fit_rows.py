@@ -135,7 +135,8 @@ def read_rows(file: str | os.PathLike[str], columns: Sequence[str] = ()) -> list
     except OSError as fault:
         raise IoError(f"{name}: error: it cannot be read\n  {fault.strerror}") from None
     except UnicodeDecodeError:
-        raise BadInput(f"{name}: error: this is no text\n  expected columns of numbers with their names in the first line; recordings stand in a column `recording`") from None
+        raise BadInput(f"{name}: error: this is no text\n"
+                       "  expected columns of numbers with their names in the first line; recordings stand in a column `recording`") from None
     names = [(1, one) for one in columns]
     if columns:
         _check_names("--columns", 1, names)
@@ -172,12 +173,14 @@ def _condition(text: str) -> list[tuple[str, str, str]]:
         found = re.fullmatch(r"\s*(\w+)\s*(<=|>=|<|>|=)\s*(.+?)\s*", part)
         name = found[1] if found else ""
         if found is None or (name not in _COLUMNS and name not in _WORDS):
-            raise BadInput(f"where: error: got {part.strip()!r:.60}\n  expected a column, one of < <= > >= =, and a value, as in \"distance_m>2.4, sigma_mm<250\"")
+            raise BadInput(f"where: error: got {part.strip()!r:.60}\n"
+                           "  expected a column, one of < <= > >= =, and a value, as in \"distance_m>2.4, sigma_mm<250\"")
         if name in _COLUMNS:
             try:
                 float(found[3])
             except ValueError:
-                raise BadInput(f"where: error: {name} is compared with {found[3]!r:.40}\n  expected a number in the unit that the column's name ends in") from None
+                raise BadInput(f"where: error: {name} is compared with {found[3]!r:.40}\n"
+                               "  expected a number in the unit that the column's name ends in") from None
         out.append((name, found[2], found[3]))
     return out
 
@@ -214,7 +217,8 @@ def rows_of_arrays(data: Mapping[str, Any]) -> list[dict[str, Any]]:
     _check_names("data", 1, [(1, str(one)) for one in data])
     lengths = {name: len(values) for name, values in data.items()}
     if len(set(lengths.values())) != 1 or not next(iter(lengths.values())):
-        raise BadInput(f"data: error: the columns have other lengths\n  got {', '.join(f'{name}: {count}' for name, count in lengths.items())}")
+        raise BadInput(f"data: error: the columns have other lengths\n"
+                       f"  got {', '.join(f'{name}: {count}' for name, count in lengths.items())}")
     out = []
     for i in range(next(iter(lengths.values()))):
         row: dict[str, Any] = {"file": "data", "line": 0}

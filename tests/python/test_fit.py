@@ -144,8 +144,13 @@ def test_what_rows_cannot_tell_apart_is_refused_by_name(free: list[str], scale_f
 
 def test_a_number_that_rules_no_row_is_not_known() -> None:
     near = noise_alone(simulated({READ: "2 e"}, np.linspace(0.5, 0.7, 12)), np.exp(0.1 * np.random.default_rng(5).standard_normal(12)))
-    with pytest.raises(tofray.Error, match="pixel.read_noise cannot be known from these rows"):
+    with pytest.raises(tofray.Error, match="pixel.read_noise cannot be known from these rows: none depends on it"):
         tofray.fit("o3d303", near, [READ], mode="under5m_low", set={READ: "2 e"})
+    rows = simulated({READ: "30 e"}, np.linspace(0.5, 0.9, 12))
+    for seed, free, said in ((4, [READ], "rows\n  got a standard error of a factor of"), (3, [READ, POWER], "rows beside illumination.0.power")):
+        noisy = noise_alone(rows, np.exp(0.2 * np.random.default_rng(seed).standard_normal(12)))
+        with pytest.raises(tofray.Error, match="pixel.read_noise cannot be known from these " + said):
+            tofray.fit("o3d303", noisy, free, mode="under5m_low", set={READ: "30 e"})
 
 
 def test_recordings_of_walls_are_measured(tmp_path: pathlib.Path) -> None:
