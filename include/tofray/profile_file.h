@@ -12,11 +12,11 @@ namespace tofray {
 
 /// A number that CameraOptions::set can change.
 struct ProfileNumber {
-  std::string key;   ///< as CameraOptions::set takes it, such as illumination.0.power
-  std::string unit;  ///< of `value`, `low` and `high`: the one that the profile writes; empty: none
-  double value = 0;  ///< in force
-  double low = 0;    ///< least value that the key may have
-  double high = 0;   ///< largest one
+  std::string key;       ///< as CameraOptions::set takes it, such as illumination.0.power
+  std::string unit;      ///< of `value`, `low` and `high`: the one that the profile writes; empty: none
+  double value = 0;      ///< in force
+  double low = 0;        ///< least value that the key may have
+  double high = 0;       ///< largest one
   bool whole = false;    ///< whole numbers alone
   bool assumed = false;  ///< the profile says so
 };

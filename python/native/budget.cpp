@@ -89,6 +89,8 @@ py::tuple budget_of(const py::object& camera, const py::dict& words, bool with_s
 
 }  // namespace
 
-void bind_budget(py::module_& module) { module.def("budget", &budget_of, py::arg("camera"), py::arg("request"), py::arg("with_summary") = true); }
+void bind_budget(py::module_& module) {
+  module.def("budget", &budget_of, py::arg("camera"), py::arg("request"), py::arg("with_summary") = true);
+}
 
 }  // namespace tofray::python

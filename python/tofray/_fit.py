@@ -84,8 +84,8 @@ class Fit:
     robust_scatter : dict
         By kind of row ("sigma", "bias", "intensity"): 1.4826 times the median of the sizes of its residuals.
     kappa : pair of numbers, optional
-        Electrons of a raw frame times the distance's square over the reflectivity, in e m^2, and its relative error. All that light, lens and
-        pixel do to the signal is in this one number, and no more can be known of them by a wall in the dark.
+        Electrons of a raw frame times the distance's square over the reflectivity, in e m^2, and its relative error. All that light,
+        lens and pixel do to the signal is in this one number, and no more can be known of them by a wall in the dark.
 
     Attributes
     ----------

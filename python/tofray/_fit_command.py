@@ -51,8 +51,9 @@ def _share(text: str) -> float:
 
 def parser() -> argparse.ArgumentParser:
     out = argparse.ArgumentParser(
-        prog="tofray fit", epilog=_HELP, formatter_class=argparse.RawDescriptionHelpFormatter,
-        description="numbers of a camera profile with which `tofray budget` says what was measured of walls;\ntheir errors, and what cannot be known")
+        prog="python3 -m tofray fit", epilog=_HELP, formatter_class=argparse.RawDescriptionHelpFormatter,
+        description="numbers of a camera profile with which `tofray budget` says what was measured of walls;\n"
+                    "their errors, and what cannot be known")
 
     def add(*names: str, help: str, **words: Any) -> None:
         out.add_argument(*names, help=help, **words)

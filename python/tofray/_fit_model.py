@@ -19,8 +19,8 @@ if TYPE_CHECKING:
     from ._fit_rows import Rows
 
 _HARMONIC = re.compile(r"(illumination\.(?:\d+|\*)\.waveform)\.(a1|r[3579]|psi[3579])")
-_KAPPA = re.compile(r"illumination\.[\d*]+\.(power|waveform\.a1)|lens\.(transmission|f_number)|sensor\.(fill_factor|pixel_pitch)|pixel\.quantum_efficiency"
-                    r"|integration_time|.*\.integration_time")
+_KAPPA = re.compile(r"illumination\.[\d*]+\.(power|waveform\.a1)|lens\.(transmission|f_number)|sensor\.(fill_factor|pixel_pitch)"
+                    r"|pixel\.quantum_efficiency|integration_time|.*\.integration_time")
 
 
 class Unknown:
@@ -72,8 +72,9 @@ def _unknown_of_key(key: str, numbers: Mapping[str, tuple[str, float, float, flo
         import difflib
 
         near = difflib.get_close_matches(key, [*numbers, "illumination.0.waveform.r3", "illumination.0.waveform.psi3"], 1, 0.6)
-        raise BadInput(f"free: error: {key!r:.80} is no number of this profile and mode" + (f"; did you mean {near[0]!r}?" if near else "") +
-                       "\n  expected a key whose value is one number (`tofray list keys`), or illumination.0.waveform.r3 and .psi3 of its harmonics")
+        meant = f"; did you mean {near[0]!r}?" if near else ""
+        raise BadInput(f"free: error: {key!r:.80} is no number of this profile and mode{meant}\n"
+                       "  expected a key whose value is one number (`tofray list keys`), or illumination.0.waveform.r3 and .psi3")
     units = {numbers[one][0] for one in keys}
     values = [numbers[one][1] for one in keys]
     unit, _, low, high, whole, _ = numbers[keys[0]]
@@ -146,7 +147,8 @@ def _reflectivity_of(name: str) -> str:
 class Model:
     """All rows, as the budget of a camera with some numbers says them."""
 
-    def __init__(self, profile: str, mode: str, words: dict[str, str], rows: Rows, free: Sequence[str], scale_free: Sequence[str], reflectivity: float) -> None:
+    def __init__(self, profile: str, mode: str, words: dict[str, str], rows: Rows, free: Sequence[str], scale_free: Sequence[str],
+                 reflectivity: float) -> None:
         self.profile, self.mode, self.words, self.rows = profile, mode, words, rows
         self.modes = sorted(set(_mode_names(rows, mode)))
         _, self.text, numbers, self.places = _native.profile_file(profile, self.modes[0] if len(self.modes) == 1 else mode, words)
@@ -172,7 +174,8 @@ class Model:
             if light in self.harmonics:
                 continue
             waveform = camera.illumination[light].waveform
-            frequencies = {one.modulation_frequency_hz for mode in self.modes for one in self._camera_of(mode, self.words).mode.sequence if one.lit}
+            sequences = [self._camera_of(mode, self.words).mode.sequence for mode in self.modes]
+            frequencies = {one.modulation_frequency_hz for sequence in sequences for one in sequence if one.lit}
             if waveform.kind != "measured" and len(frequencies) > 1:
                 raise BadInput(f"free: error: {key} would be the same for {len(frequencies)} modulation frequencies\n"
                                "  expected one, or a measured correlation")
@@ -225,7 +228,8 @@ class Model:
         modes, ambient = _mode_names(self.rows, self.mode), self.rows.number("ambient_lx", 0.0)
         free = any(one.startswith("reflectivity") for one in self.scale)
         for i, name in enumerate(self.class_of_row):
-            groups.setdefault((modes[i], float(ambient[i]), _reflectivity_of(name) if free else repr(float(self.reflectivity[i]))), []).append(i)
+            reflectivity = _reflectivity_of(name) if free else repr(float(self.reflectivity[i]))
+            groups.setdefault((modes[i], float(ambient[i]), reflectivity), []).append(i)
         self.groups = groups
         self.distance = self.rows.number("distance_m")
         self.intensity = self.rows.number("intensity")
@@ -261,14 +265,17 @@ class Model:
         camera = self._camera_of(mode, words)
         for light, harmonics in self.harmonics_at(values).items():
             waveform = camera.illumination[light].waveform
-            waveform.kind, waveform.correlation, waveform.sample_phases_rad, waveform.harmonics = "measured", harmonics.samples(), [], harmonics.count
+            waveform.kind, waveform.correlation, waveform.sample_phases_rad = "measured", harmonics.samples(), []
+            waveform.harmonics = harmonics.count
         return camera
 
     def nothing(self) -> dict[str, Any]:
         """Of rows of which nothing is known."""
         import numpy as np
 
-        return {"saturated": np.zeros(len(self.rows), bool), **{name: np.full(len(self.rows), np.nan) for name in ("sigma_m", "bias_m", "intensity", "kappa")}}
+        count = len(self.rows)
+        numbers = {name: np.full(count, np.nan) for name in ("sigma_m", "bias_m", "intensity", "kappa")}
+        return {"saturated": np.zeros(count, bool), **numbers}
 
     def predict(self, values: Sequence[float]) -> dict[str, Any]:
         """sigma_m, bias_m, intensity and signal of each row; NaN where there is none."""
@@ -294,8 +301,8 @@ class Model:
         return out
 
     def _by_intensity(self, camera: Any, reflectivity: float, ambient: float, amplitude_e: Any) -> Any:
-        """Range noise of a wall where it has that amplitude A, by (sigma A)^2 = c0 + c1 A + c2 A^2: read noise, shot noise, what grows with the light. Its
-        coefficients are those of 160 distances, over whose humps they go."""
+        """Range noise of a wall where it has that amplitude A, by (sigma A)^2 = c0 + c1 A + c2 A^2: read noise, shot noise, what grows with
+        the light. The coefficients are those of 160 distances, over whose humps they go."""
         import numpy as np
 
         got = self._budget(camera, np.geomspace(0.1, 40, 160).tolist(), reflectivity, ambient)

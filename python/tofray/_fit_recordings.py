@@ -54,7 +54,8 @@ def sigma_of(path: str, place: str, profile: str, mode: str, words: dict[str, st
     u, v = round(camera.lens.cx_px), round(camera.lens.cy_px)
     height, width = stack.shape[1:]
     half = _SIDE // 2
-    part = stack[:, max(0, min(v, height - 1) - half) : min(v, height - 1) + half + 1, max(0, min(u, width - 1) - half) : min(u, width - 1) + half + 1]
+    u, v = min(max(u, 0), width - 1), min(max(v, 0), height - 1)
+    part = stack[:, max(0, v - half) : v + half + 1, max(0, u - half) : u + half + 1]
     part = part.reshape(len(stack), -1)
     part = part[:, np.isfinite(part).all(axis=0)]
     if part.shape[1] < 0.5 * min(_SIDE, height) * min(_SIDE, width):

@@ -47,7 +47,8 @@ def report(fit: Fit) -> str:
     for one in fit.parameters:
         start = f"{one.start:.6g}" + (f" {one.unit}" if one.unit else "")
         lines.append([one.key, start, one.text, _error(one) + (", at an end of its range" if one.at_end else "")])
-    out = [f"{_profile_name(fit)}, {', '.join(mode or fit.camera().mode.name for mode in fit._model.modes)}: fitted to {fit.rows.said()}", "", _columns(lines), ""]
+    modes = ", ".join(mode or fit.camera().mode.name for mode in fit._model.modes)
+    out = [f"{_profile_name(fit)}, {modes}: fitted to {fit.rows.said()}", "", _columns(lines), ""]
     for kind, value in fit.scatter.items():
         before = fit.scatter_before[kind]
         out.append(f"scatter of {_KINDS[kind]}: {_scatter(kind, value)} rms, {_scatter(kind, fit.robust_scatter[kind])} by its median"
@@ -58,11 +59,13 @@ def report(fit: Fit) -> str:
     if any(_HARMONIC.fullmatch(one.key) for one in fit.parameters) and math.isfinite(fit.hump_period_m):
         out.append(f"humps by harmonics: period {fit.hump_period_m:.3f} m")
     if fit.kappa is not None:
-        out.append(f"kappa: {fit.kappa[0]:.4g} e m2 +- {100 * fit.kappa[1]:.2g} %, electrons of a raw frame times distance squared over reflectivity. All factors of the\n"
-                   "  signal (light, exposure, lens, pixel, the walls' reflectivity) are in it; the rows cannot tell them apart")
+        out.append(f"kappa: {fit.kappa[0]:.4g} e m2 +- {100 * fit.kappa[1]:.2g} %, electrons of a raw frame times distance squared over\n"
+                   "  reflectivity. All factors of the signal (light, exposure, lens, pixel, the walls' reflectivity) are in it;\n"
+                   "  the rows cannot tell them apart")
     out += ["", f"correlations (condition number {fit.condition:.3g})"]
     count = len(fit.parameters)
-    out.append(_columns([[f"{i + 1}", one.key, *(f"{fit.correlation[i, j]:+.2f}" if j <= i else "" for j in range(count))] for i, one in enumerate(fit.parameters)]))
+    out.append(_columns([[f"{i + 1}", one.key, *(f"{fit.correlation[i, j]:+.2f}" if j <= i else "" for j in range(count))]
+                         for i, one in enumerate(fit.parameters)]))
     return "\n".join(out) + "\n"
 
 
@@ -111,11 +114,13 @@ def changes(fit: Fit) -> list[tuple[str, str, str]]:
             out += [(where, one.text, _source(fit, one)) for where in _written(fit, key)]
     for light, harmonics in lights.items():
         place = f"illumination.{light}.waveform"
-        said = "; ".join(f"{key.rsplit('.', 1)[1]} {one.text}, standard error {_error(one)}" for key, one in found.items() if key.startswith(place))
+        said = "; ".join(f"{key.rsplit('.', 1)[1]} {one.text}, standard error {_error(one)}"
+                         for key, one in found.items() if key.startswith(place))
         source = f"fitted to {fit.rows.said()}: {said}"
         samples = _list(harmonics.samples())
-        kind = _native.load_camera(model.profile, model.modes[0], {}, "").illumination[light].waveform
-        if kind.kind == "measured" and kind.harmonics == harmonics.count and place not in model.words and place + ".correlation" in model.places:
+        written = _native.load_camera(model.profile, model.modes[0], {}, "").illumination[light].waveform
+        same = written.kind == "measured" and written.harmonics == harmonics.count and place not in model.words
+        if same and place + ".correlation" in model.places:
             out.append((place + ".correlation", samples, source))
         else:
             out.append((place, f"{{kind: measured, correlation: {samples}, harmonics: {harmonics.count}", source))
@@ -127,7 +132,8 @@ def _written(fit: Fit, key: str) -> list[str]:
     if key != "integration_time" or key in fit._model.places:
         return [key]
     modes = [fit.camera(mode).mode.name for mode in fit._model.modes]
-    return [one for one in fit._model.places for mode in modes if re.fullmatch(rf"modes\.{re.escape(mode)}\.sequence\.\d+\.integration_time", one)]
+    patterns = [rf"modes\.{re.escape(mode)}\.sequence\.\d+\.integration_time" for mode in modes]
+    return [one for one in fit._model.places if any(re.fullmatch(pattern, one) for pattern in patterns)]
 
 
 def _quoted(text: str) -> str:
@@ -148,11 +154,13 @@ def patch(fit: Fit) -> str:
              + ", ".join(f"{_KINDS[kind]} {_scatter(kind, value)}" for kind, value in fit.scatter.items())]
     for one in fit.parameters:
         value, error = one.text, _error(one)
-        lines.append(f"{_quoted(one.key) if ' ' in one.key or '*' in one.key else one.key}: {{value: {value}, standard_error: {error}, source: {_quoted('fitted to ' + fit.rows.said())}}}")
+        key, source = _quoted(one.key) if " " in one.key or "*" in one.key else one.key, _quoted("fitted to " + fit.rows.said())
+        lines.append(f"{key}: {{value: {value}, standard_error: {error}, source: {source}}}")
     if fit.kappa is not None:
         lines.append(f"kappa: {{value: {fit.kappa[0]:.4g}, standard_error: {fit.kappa[0] * fit.kappa[1]:.2g}, unit: e m2}}")
     for light, harmonics in fit._model.harmonics_at(fit._values).items():
-        lines.append(f"illumination.{light}.waveform: {{kind: measured, correlation: {_list(harmonics.samples())}, harmonics: {harmonics.count}}}")
+        samples = _list(harmonics.samples())
+        lines.append(f"illumination.{light}.waveform: {{kind: measured, correlation: {samples}, harmonics: {harmonics.count}}}")
     return "\n".join(lines) + "\n"
 
 
@@ -211,7 +219,8 @@ def figure(fit: Fit) -> Any:
         rows = np.flatnonzero((classes == one) & np.isfinite(fit.rows.number(column)))
         rows = rows[np.argsort(x[rows], kind="stable")]
         above.plot(x[rows], scale * fit.rows.number(column)[rows], ".", color=f"C{i}", alpha=0.6, label=one)
-        above.plot(x[rows], scale * fit.predicted[column][rows], "-", color=f"C{i}", label=f"{one}, fitted" if len(set(classes)) > 1 else "fitted")
+        label = f"{one}, fitted" if len(set(classes)) > 1 else "fitted"
+        above.plot(x[rows], scale * fit.predicted[column][rows], "-", color=f"C{i}", label=label)
         off = fit.residuals[kind][rows]
         below.plot(x[rows], 1e3 * off if kind == "bias" else 100 * np.expm1(off), ".", color=f"C{i}", alpha=0.6)
     ticker = importlib.import_module("matplotlib.ticker")
@@ -222,10 +231,14 @@ def figure(fit: Fit) -> Any:
         above.yaxis.set_minor_formatter(ticker.NullFormatter())
     if not by_distance:
         above.set_xscale("log")
+        below.xaxis.set_major_locator(ticker.LogLocator(subs=(1.0, 2.0, 5.0)))
+        below.xaxis.set_major_formatter(ticker.FuncFormatter(lambda value, _: f"{value:g}"))
+        below.xaxis.set_minor_formatter(ticker.NullFormatter())
     above.set(ylabel=_KINDS[kind] + (" [mm]" if scale > 1 else " [device units]"), title=f"{_profile_name(fit)}: {fit.rows.said()}")
     above.title.set_fontsize(10)
     below.axhline(0, color="0.5", linewidth=1)
-    below.set(xlabel="distance [m]" if by_distance else "intensity [device units]", ylabel="fitted - measured [mm]" if kind == "bias" else "fitted / measured - 1 [%]")
+    below.set(xlabel="distance [m]" if by_distance else "intensity [device units]",
+              ylabel="fitted - measured [mm]" if kind == "bias" else "fitted / measured - 1 [%]")
     for axes in (above, below):
         axes.grid(alpha=0.3)
     above.legend()

@@ -45,7 +45,8 @@ class Rows:
         The condition by which.
     """
 
-    def __init__(self, numbers: dict[str, Any], words: dict[str, list[str]], places: list[str], sources: list[str], total: int = -1, where: str = "") -> None:
+    def __init__(self, numbers: dict[str, Any], words: dict[str, list[str]], places: list[str], sources: list[str], total: int = -1,
+                 where: str = "") -> None:
         self.numbers = numbers
         self.words = words
         self.places = places
@@ -104,7 +105,8 @@ def _check_names(file: str, line: int, names: list[tuple[int, str]]) -> None:
     if not seen & {"sigma_m", "bias_m", "intensity", "recording"}:
         raise _at(file, line, 1, "nothing is measured", "expected a column sigma_mm, bias_mm, intensity or recording")
     if "distance_m" not in seen and "intensity" not in seen:
-        raise _at(file, line, 1, "the rows say neither a distance nor an intensity", "expected a column distance_m or distance_mm, or intensity beside sigma_mm")
+        raise _at(file, line, 1, "the rows say neither a distance nor an intensity",
+                  "expected a column distance_m or distance_mm, or intensity beside sigma_mm")
 
 
 def _number(file: str, line: int, column: int, name: str, text: str) -> float:
@@ -117,7 +119,8 @@ def _number(file: str, line: int, column: int, name: str, text: str) -> float:
     except ValueError:
         raise _at(file, line, column, f"{name} is no number", f"got {text!r:.40}") from None
     if value != value or abs(value) == float("inf") or (kind in _POSITIVE and not value > 0) or (kind == "ambient_lx" and value < 0):
-        raise _at(file, line, column, f"{name} cannot be {text[:40]}", "expected a finite number" + (" above 0" if kind in _POSITIVE else ""))
+        raise _at(file, line, column, f"{name} cannot be {text[:40]}",
+                  "expected a finite number" + (" above 0" if kind in _POSITIVE else ""))
     if kind == "reflectivity" and not 0 < value <= 1:
         raise _at(file, line, column, f"{name} cannot be {text[:40]}", "expected above 0 and at most 1 (100 %)")
     return value
@@ -136,7 +139,7 @@ def read_rows(file: str | os.PathLike[str], columns: Sequence[str] = ()) -> list
         raise IoError(f"{name}: error: it cannot be read\n  {fault.strerror}") from None
     except UnicodeDecodeError:
         raise BadInput(f"{name}: error: this is no text\n"
-                       "  expected columns of numbers with their names in the first line; recordings stand in a column `recording`") from None
+                       "  expected columns of numbers, their names in the first line; npz files stand in a column `recording`") from None
     names = [(1, one) for one in columns]
     if columns:
         _check_names("--columns", 1, names)
@@ -150,11 +153,13 @@ def read_rows(file: str | os.PathLike[str], columns: Sequence[str] = ()) -> list
         if not names:
             names = cells
             if re.fullmatch(r"[-+.\d].*", cells[0][1]):
-                raise _at(name, number, 1, "the columns have no names", "expected a first line such as distance_mm,sigma_mm; or the names as --columns distance_mm,sigma_mm")
+                raise _at(name, number, 1, "the columns have no names",
+                          "expected a first line such as distance_mm,sigma_mm; or the names as --columns distance_mm,sigma_mm")
             _check_names(name, number, names)
             continue
         if len(cells) != len(names):
-            raise _at(name, number, cells[-1][0], f"there are {len(cells)} columns", f"expected {len(names)}: {', '.join(one for _, one in names)}")
+            raise _at(name, number, cells[-1][0], f"there are {len(cells)} columns",
+                      f"expected {len(names)}: {', '.join(one for _, one in names)}")
         row: dict[str, Any] = {"file": name, "line": number}
         for (_, column_name), (column, text) in zip(names, cells):
             if column_name in _COLUMNS:

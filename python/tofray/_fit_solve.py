@@ -128,8 +128,8 @@ def solve(problem: Problem, starts: list[Any], least_squares: Any) -> Any:
 
     low, high = problem.bounds()
     inside = [np.clip(one, low + 1e-9 * (1 + abs(low)), high - 1e-9 * (1 + abs(high))) for one in starts]
-    found = [least_squares(problem, one, problem.jacobian, bounds=(low, high), loss="huber", f_scale=_HUBER, x_scale="jac", xtol=1e-5, ftol=1e-6, max_nfev=60)
-             for one in inside]
+    words = {"bounds": (low, high), "loss": "huber", "f_scale": _HUBER, "x_scale": "jac", "xtol": 1e-5, "ftol": 1e-6, "max_nfev": 60}
+    found = [least_squares(problem, one, problem.jacobian, **words) for one in inside]
     return min(found, key=lambda one: float(one.cost)).x
 
 
@@ -183,7 +183,8 @@ def refuse_what_is_not_said(problem: Problem, inner: Any, jacobian: Any) -> floa
     lengths = np.sqrt((jacobian ** 2).sum(axis=0))
     idle = [name for name, length, column in zip(names, lengths, jacobian.T) if np.abs(column).max() * max(problem.scales.values()) < 1e-4]
     if idle:
-        raise Undetermined(f"error: {' and '.join(idle)} cannot be known from these rows: none depends on {'it' if len(idle) == 1 else 'them'}\n"
+        them = "it" if len(idle) == 1 else "them"
+        raise Undetermined(f"error: {' and '.join(idle)} cannot be known from these rows: none depends on {them}\n"
                            "  expected rows that do, or fewer numbers to look for")
     _, singular, directions = np.linalg.svd(jacobian / lengths, full_matrices=False)
     condition = float(singular[0] / max(singular[-1], 1e-300))
@@ -193,10 +194,11 @@ def refuse_what_is_not_said(problem: Problem, inner: Any, jacobian: Any) -> floa
         together = [names[i] for i in order if shares[i] > 0.3 * shares[order[0]]] or [names[i] for i in order[:2]]
         if len(together) == 1:
             together.append(names[order[1]])
-        said = " and ".join(together) if len(together) == 2 else ", ".join(together[:-1]) + " and " + together[-1]
+        said = ", ".join(together[:-1]) + " and " + together[-1]
+        by, free = ("either", "one of them") if len(together) == 2 else ("some of them", "fewer of them")
         raise Undetermined(f"error: {said} cannot be told apart by these rows\n"
-                           f"  got the same change of all rows by {'either' if len(together) == 2 else 'some of them'}, to {1 / condition:.1g} of it; expected "
-                           f"{'one of them' if len(together) == 2 else 'fewer of them'} free, or rows that they change in different ways")
+                           f"  got the same change of all rows by {by}, to {1 / condition:.1g} of it; expected {free}\n"
+                           "  free, or rows that they change in different ways")
     return condition
 
 
@@ -246,9 +248,11 @@ def refuse_what_is_not_known(problem: Problem, covariance: Any) -> Any:
             continue
         others = np.abs(correlation[i]) - np.eye(len(errors))[i]
         beside = int(np.argmax(others)) if len(errors) > 1 else i
-        why = f"; it goes with {names[beside]}, correlation {correlation[i, beside]:.3f}" if len(errors) > 1 and others[beside] > 0.9 else ""
+        together = len(errors) > 1 and others[beside] > 0.9
+        why = f"; it goes with {names[beside]}, correlation {correlation[i, beside]:.3f}" if together else ""
         raise Undetermined(f"error: {unknown.name} cannot be known from these rows{' beside ' + names[beside] if why else ''}\n"
-                           f"  got a standard error of a factor of {math.exp(min(errors[i], 50)):.3g}{why}; expected rows that it rules (read noise: dark ones), or it as given")
+                           f"  got a standard error of a factor of {math.exp(min(errors[i], 50)):.3g}{why}\n"
+                           "  expected rows that it rules (read noise: dark ones), or it as given")
     return correlation
 
 

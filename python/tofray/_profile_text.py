@@ -78,7 +78,9 @@ def _end(text: str, start: int, is_block: bool) -> int:
     if text[start] in "\"'":
         return _Scanner._quoted_end(text, start)
     end = start
-    while end < len(text) and text[end] != "\n" and not (depth and text[end] in ",}]") and not (text[end] == "#" and text[end - 1] in " \t"):
+    while end < len(text) and text[end] != "\n" and not (depth and text[end] in ",}]"):
+        if text[end] == "#" and text[end - 1] in " \t":
+            break
         end += 1
     return start + len(text[start:end].rstrip())
 
