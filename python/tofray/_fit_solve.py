@@ -142,7 +142,8 @@ def weigh(problem: Problem, inner: Any, least_squares: Any) -> Any:
         for kind, array in problem.by_kind(inner).items():
             good = array[np.isfinite(array)]
             if good.size:
-                problem.scales[kind] = max(1.4826 * float(np.median(np.abs(good))), _LEAST[kind])
+                freedom = good.size / max(good.size - len(inner), 1)  # what was fitted is nearer than what is true
+                problem.scales[kind] = max(1.4826 * math.sqrt(freedom) * float(np.median(np.abs(good))), _LEAST[kind])
         inner = solve(problem, [inner], least_squares)
         if all(abs(problem.scales[kind] / before[kind] - 1) < 0.01 for kind in before):
             break
