@@ -38,6 +38,10 @@ void print_limits(bool json) {
 }
 
 [[noreturn]] void unknown_command(const std::string& word) {
+  if (word == "fit")
+    throw Error(ErrorKind::bad_input,
+                "error: fit is a command of the Python package\n  expected python3 -m tofray fit PROFILE FILE --free KEYS; it needs numpy "
+                "and scipy");
   std::vector<std::string> names;
   for (const Command& command : all_commands()) {
     if (!command.hidden) names.emplace_back(command.name);

@@ -19,6 +19,7 @@
 #include "tofray/messages.h"
 #include "tofray/options.h"
 #include "tofray/pixel.h"
+#include "tofray/profile_file.h"
 #include "tofray/quality.h"
 #include "tofray/rendered.h"
 #include "tofray/run.h"

@@ -16,6 +16,7 @@
 #include "frames.h"
 #include "meshes.h"
 #include "pictures/pictures.h"
+#include "profiles.h"
 #include "quality.h"
 #include "rendered.h"
 #include "runs.h"
@@ -268,6 +269,7 @@ PYBIND11_MODULE(_native, module) {
   bind_budget(module);
   bind_datasets(module);
   bind_films(module);
+  bind_profiles(module);
   bind_quality(module);
   bind_sweep(module);
   bind_runs(module);

@@ -32,6 +32,11 @@ if TYPE_CHECKING:
     from ._errors import (
         Error as Error,
     )
+    from ._fit import (
+        Fit as Fit,
+        FitParameter as FitParameter,
+        fit as fit,
+    )
     from ._film import (
         McapWriter as McapWriter,
         mcap_contents as mcap_contents,
@@ -189,6 +194,7 @@ _HOME = {
     "_budget": ("Budget", "budget"),
     "_dataset": ("Dataset", "Drawn"),
     "_errors": ("Error",),
+    "_fit": ("Fit", "FitParameter", "fit"),
     "_film": ("McapWriter", "mcap_contents"),
     "_frame": ("Frame", "load"),
     "_load": ("camera", "load_camera", "load_scene", "scene"),

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 The tofray authors
 # SPDX-License-Identifier: Apache-2.0
-"""``python -m tofray …``: the command line, with the same arguments."""
+"""``python -m tofray …``: the command line, with the same arguments; ``python -m tofray fit …`` is of Python alone."""
 
 from __future__ import annotations
 
@@ -21,6 +21,10 @@ def command() -> str | None:
 
 
 def main() -> int:
+    if sys.argv[1:2] == ["fit"]:
+        from ._fit_command import main as fit
+
+        return fit(sys.argv[2:])
     found = command()
     if found is None:
         print("error: the command tofray is neither beside this package nor on the path\n"

@@ -46,9 +46,6 @@ double size_of(const std::string& unit) {
   return found == nullptr ? 1 : std::pow(10, found->exponent) * found->factor;
 }
 
-/// In a unit, without what rounding adds.
-double in_unit(double si, const std::string& unit) { return std::strtod(fmt::format("{:.15g}", si / size_of(unit)).c_str(), nullptr); }
-
 std::string unit_of_example(const Form& form) { return base::parse_quantity(form.example, form.dimension).unit; }
 
 std::string name_of(base::Dimension dimension) {
@@ -408,6 +405,8 @@ void camera_rows(Rows& rows, const Scene& scene, const CameraOptions& options, s
 }
 
 }  // namespace
+
+double in_unit(double si, const std::string& unit) { return std::strtod(fmt::format("{:.15g}", si / size_of(unit)).c_str(), nullptr); }
 
 std::vector<Control> controls_of(const Scene& scene, std::string_view text, const Settings& settings, const CameraOptions& camera) {
   std::vector<Control> out;

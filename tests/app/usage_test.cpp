@@ -65,9 +65,10 @@ TEST_P(bad_usage, is_refused_with_a_hint_and_nothing_on_stdout) {
 INSTANTIATE_TEST_SUITE_P(
     all, bad_usage,
     testing::Values(
-        Mistake{{"rendr"}, 2, "did you mean \"render\"?"}, Mistake{{"chek", "demo"}, 2, "did you mean \"check\"?"},
-        Mistake{{"--verison"}, 2, "did you mean \"--version\"?"}, Mistake{{"--seed", "3", "demo"}, 2, "stands before the command"},
-        Mistake{{"demo", "--sede", "3"}, 2, "did you mean \"--seed\"?"}, Mistake{{"demo", "--thread=3"}, 2, "did you mean \"--threads\"?"},
+        Mistake{{"fit", "o3d303"}, 2, "expected python3 -m tofray fit PROFILE FILE"}, Mistake{{"rendr"}, 2, "did you mean \"render\"?"},
+        Mistake{{"chek", "demo"}, 2, "did you mean \"check\"?"}, Mistake{{"--verison"}, 2, "did you mean \"--version\"?"},
+        Mistake{{"--seed", "3", "demo"}, 2, "stands before the command"}, Mistake{{"demo", "--sede", "3"}, 2, "did you mean \"--seed\"?"},
+        Mistake{{"demo", "--thread=3"}, 2, "did you mean \"--threads\"?"},
         Mistake{{"list", "scenes", "--seed", "3"}, 2, "`tofray list` has no option --seed"}, Mistake{{"demo", "--seed"}, 2, "--seed"},
         Mistake{{"demo", "--seed", "-1"}, 2, "expected a whole number"},
         Mistake{{"demo", "--seed", "18446744073709551616"}, 2, "18446744073709551615"},

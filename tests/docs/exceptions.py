@@ -23,6 +23,10 @@ REPLACED = {
         "/usr/bin/python3 -m tofray.plot power",
         "another Python may be the first on the path than the one that the module is for",
     ),
+    "python3 -m tofray fit": (
+        "/usr/bin/python3 -m tofray fit",
+        "likewise",
+    ),
     "sudo tofray bench": ("tofray bench", "a test is never root on purpose"),
 }
 

@@ -63,6 +63,7 @@ def options_of(place):
     """Every option of every command."""
     commands = re.findall(r"^  ([a-z]+) ", place.must(["tofray", "--help"]).split("Commands:\n")[1].split("\n\n")[0], re.M)
     texts = [place.must(["tofray", command, "--help"]) for command in commands]
+    texts.append(place.run(["/usr/bin/python3", "-m", "tofray", "fit", "--help"])[1])  # of the Python package alone, where it is there
     return set(re.findall(r"(?<!\S)--?[a-z][a-z-]*", "".join(texts)))
 
 

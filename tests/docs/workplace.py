@@ -12,7 +12,7 @@ import threading
 import exceptions
 
 CHECKOUT = (
-    ".ci CHANGELOG.md CMakeLists.txt CMakePresets.json CONTRIBUTING.md LICENSE README.md apps benches cmake docs examples include profiles "
+    ".ci CHANGELOG.md CMakeLists.txt CMakePresets.json CONTRIBUTING.md LICENSE README.md apps benches cmake data docs examples include profiles "
     "pyproject.toml python scenes src tests viewer"
 ).split()
 LONGEST_S = 300

@@ -35,6 +35,7 @@ LEFT_OUT = {
     "QualityRequest": "quality's own words", "QualityPreset": "the word like", "quality_presets": "likewise", "ImageRegion": "a tuple",
     "CompareRequest": "compare's own words", "Differences": "dicts of Comparison", "DifferencesAt": "likewise", "DifferencesOfFlag": "likewise",
     "depth_of": "compare and quality take a Truth", "DepthFile": "a Frame", "DepthFileOptions": "words of load_depth", "load_depths": "load_depth takes folders, too",
+    "ProfileFile": "what fit stands on", "ProfileNumber": "likewise", "ProfilePlace": "likewise", "profile_file": "likewise",
     "solve_budget": "any root finder on budget()", "BudgetNeed": "likewise", "BudgetSolution": "likewise",
     "frame_npz": "Frame.save",
     "Driver": "a word of McapWriter", "StampAt": "likewise", "McapCompression": "likewise", "MessageOptions": "McapWriter's own words",
