@@ -34,7 +34,7 @@ export function App() {
   return (
     <>
       <header>
-        <img src="icon.svg" alt="" width="28" height="28" />
+        <img src={TOFRAY_ICON} alt="" width="28" height="28" />
         <h1><span class="unseen">tofray view: </span><bdi>{of?.scene ?? "tofray view"}</bdi></h1>
         {of !== undefined && <p class="faint camera"><bdi>{of.camera}</bdi>{of.mode === "" ? "" : " · "}<bdi>{of.mode}</bdi> · {width} × {height}</p>}
         <UndoRedo />

@@ -47,8 +47,9 @@ export function Help() {
           Keys of one letter, digit or sign act
         </label>
         <p class="faint">
-          tofray {hello.value?.version ?? ""}. <a href="THIRD-PARTY.txt">Software of others in this page</a>.
+          tofray {hello.value?.version ?? ""}.{!TOFRAY_IN_FILE && <> <a href="THIRD-PARTY.txt">Software of others in this page</a>.</>}
         </p>
+        {TOFRAY_IN_FILE && <details><summary>Software of others in this page</summary><pre class="licences" tabIndex={0} role="region" aria-label="Licences">{document.getElementById("tofray-licences")?.textContent ?? ""}</pre></details>}
       </div>
     </dialog>
   );

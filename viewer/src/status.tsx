@@ -7,8 +7,9 @@ import { restored, undo } from "./history";
 import { drawn_rate, edited, fault, frame, hello, link, other, state, stats, type Link } from "./store";
 
 function word(of: Link): string {
+  if (TOFRAY_IN_FILE && of === "open") return state.value?.playing === true ? "file, playing" : "file, paused";
   if (of === "open") return hello.value === undefined ? "connecting" : state.value?.playing === true ? "live" : "paused";
-  return { keyless: "no key", connecting: "connecting", lost: "lost", gone: "no server", other: "other server" }[of];
+  return { keyless: "no key", connecting: "connecting", lost: "lost", gone: "no server", other: "other server", empty: "empty" }[of];
 }
 
 export function Status() {
