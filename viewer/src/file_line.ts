@@ -62,7 +62,7 @@ export class FileLine {
     const { hello, live, saved, controls, view3d, frames } = this.of;
     const why = `This page is a file. To change and measure, run ${live}`;
     const missing = [...live_only, ...(saved == null ? ["save"] : []), ...(controls == null ? ["controls"] : []), ...(view3d === undefined ? ["view3d"] : [])];
-    this.say({ ...hello, playing: false, frame: frames[0]!, other: null, frames: frames.length, live, cannot: Object.fromEntries(missing.map((type) => [type, why])) });
+    this.say({ ...hello, playing: false, frame: frames[0]!, other: null, frames: frames.length, first: frames[0]!, live, cannot: Object.fromEntries(missing.map((type) => [type, why])) });
   }
 
   send(message: ClientMessage): void {

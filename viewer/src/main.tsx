@@ -7,6 +7,7 @@ import { fault_arrived, opened_anew, pixel_arrived, start_asking } from "./ask";
 import { connect, server_count } from "./connection";
 import { change_refused, controls_arrived, done_arrived, forget_unanswered, saved_arrived, start_editing } from "./edit";
 import { history_goes_on, history_of_greeting, start_history } from "./history";
+import { start_keeping } from "./keep";
 import { start_keys } from "./keys";
 import { forget_b, frame_arrived, start_loop } from "./loop";
 import { forget_moves, start_hands } from "./hands";
@@ -115,6 +116,7 @@ start_why();
 start_hands();
 start_space();
 start_tools();
+start_keeping();
 start_keys();
 try {
   connect({ opened: () => undefined, text: text_arrived, binary: frame_received });

@@ -107,6 +107,8 @@ export interface Hello {
   source?: Source;
   /** How many frames there are; without it there is no end. */
   frames?: number;
+  /** The first one's number. */
+  first?: number;
   /** Arrays that the source has not, which a pane could show else. */
   absent?: Absent[];
   /** By type of message: why this source has no answer to it. */
