@@ -310,7 +310,7 @@ test("all of it is done by keys: raw frames, one of them, pins, the watch list, 
     for (const key of all) await page.keyboard.press(key);
   };
   await page.locator(".stage").first().focus();
-  await keys("r");
+  await keys("t");
   await page.locator(".sheet").waitFor();
   await page.waitForFunction(() => window.tofray.pane(0, "a", 8) !== undefined);
   await page.waitForFunction(() => document.activeElement.closest(".tile")?.dataset.raw === "0");

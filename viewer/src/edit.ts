@@ -5,6 +5,7 @@
 
 import { batch, effect, signal } from "@preact/signals";
 import { next_id, send } from "./connection";
+import { offer } from "./download";
 import type { Controls, Done, Fault, Override, Row, Saved, Side } from "./protocol";
 import { controls, controls_open, edited, key_faults, link, other, state, tab_shown, type Keys } from "./store";
 
@@ -196,12 +197,7 @@ export function save(side: Side): void {
 }
 
 export function saved_arrived(of: Saved): void {
-  const address = URL.createObjectURL(new Blob([of.text], { type: "application/yaml" }));
-  const link_to = document.createElement("a");
-  link_to.href = address;
-  link_to.download = of.name;
-  link_to.click();
-  setTimeout(() => URL.revokeObjectURL(address), 10_000);
+  offer(of.name, of.text, "application/yaml");
 }
 
 /** A row's text as the state has it now: the rows come a little later. */

@@ -4,11 +4,13 @@ import { command, copied, copy_command } from "./actions";
 import { retry_now } from "./connection";
 import { save } from "./edit";
 import { restored, undo } from "./history";
-import { drawn_rate, edited, fault, frame, hello, link, other, state, stats, type Link } from "./store";
+import { keep_open } from "./keep";
+import { cannot, drawn_rate, edited, fault, frame, hello, link, other, state, stats, type Link } from "./store";
 
 function word(of: Link): string {
+  if (TOFRAY_IN_FILE && of === "open") return state.value?.playing === true ? "file, playing" : "file, paused";
   if (of === "open") return hello.value === undefined ? "connecting" : state.value?.playing === true ? "live" : "paused";
-  return { keyless: "no key", connecting: "connecting", lost: "lost", gone: "no server", other: "other server" }[of];
+  return { keyless: "no key", connecting: "connecting", lost: "lost", gone: "no server", other: "other server", empty: "empty" }[of];
 }
 
 export function Status() {
@@ -84,7 +86,8 @@ export function Command() {
       {other.value !== undefined && <strong>{edited.value.toUpperCase()}</strong>}
       <code tabIndex={0} role="region" aria-label="Command">{text}</code>
       <button type="button" class="quiet" onClick={() => void copy_command()} title="what makes these very files (c)">{copied.value ? "Copied" : "Copy"}</button>
-      <button type="button" class="quiet" onClick={() => save(edited.value)} disabled={off} title="the scene with all changes, as a file (s)">Save YAML</button>
+      <button type="button" class="quiet" onClick={() => save(edited.value)} disabled={off || cannot("save") !== undefined} title={cannot("save") ?? "the scene with all changes, as a file (s)"}>Save YAML</button>
+      <button type="button" class="quiet" onClick={() => (keep_open.value = true)} title="record frames, write a page, take a picture, make a film (r)">Take along …</button>
       <span class="unseen" role="status">{copied.value ? "The command is copied." : ""}</span>
     </div>
   );

@@ -188,6 +188,21 @@ export function is_outside(pin: Pin): boolean {
   return pin.u >= size.value.width || pin.v >= size.value.height;
 }
 
+/** Of depth, and of what is beside it. */
+export interface Watched {
+  pin: Pin;
+  side: Side;
+  array: string;
+  of: Moments;
+}
+
+export function all_watched(): Watched[] {
+  return pins.value.flatMap((pin) => watched_arrays().flatMap((array) => watched_sides().flatMap((side) => {
+    const of = moments_of(pin, array, side);
+    return of === undefined ? [] : [{ pin, side, array, of }];
+  })));
+}
+
 /** Numbers as they are, in the arrays' own units. */
 export function csv(): string {
   const number = (value: number): string => (Number.isFinite(value) ? String(value) : "");
