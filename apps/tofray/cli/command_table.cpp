@@ -152,11 +152,9 @@ std::vector<Command> make() {
                "this\n"
                "machine alone. Over ssh: ssh -L 7170:127.0.0.1:7170 HOST, then the same address in your own browser. Ctrl-C ends it.\n"
                "Frames are computed while somebody looks, and have the bytes that `tofray render` gives them.\n",
-       .options = {"--set",        "--mode",    "--seed",    "--noise", "--exposure-samples",
-                   "--subpixel",   "--bounces", "--samples", "--fps",   "--root",
-                   "--threads",    "--backend", "--device",  "--port",  "--host",
-                   "--allow-host", "--open",    "--embed",   "--rate",  "--test-hooks",
-                   "--json",       "--quiet"},
+       .options = {"--set",  "--mode",  "--seed",    "--noise",      "--exposure-samples", "--subpixel", "--bounces", "--samples",
+                   "--fps",  "--root",  "--threads", "--backend",    "--device",           "--port",     "--host",    "--allow-host",
+                   "--open", "--embed", "--rate",    "--test-hooks", "--output",           "--json",     "--quiet"},
        .least_words = 0,
        .most_words = 1,
        .run = run_view,

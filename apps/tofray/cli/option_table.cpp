@@ -262,6 +262,8 @@ std::vector<OptionSpec> view_specs() {
       {"--open", 0, nullptr, "open it in the browser", [](Options& o, const std::string&) { o.view.open = true; }},
       {"--embed", 0, nullptr, "pages of this machine may hold the viewer in a frame",
        [](Options& o, const std::string&) { o.view.embed = true; }},
+      {"--output", 'o', "DIR", "folder for what pages record and export (the working folder)",
+       [](Options& o, const std::string& v) { o.output = v; }, "<files>", false, "view"},
       {"--rate", 0, "RATE", "frames a second: own (the camera's), max, or a number (own)", take_rate, "own max"},
       {"--test-hooks", 0, nullptr, "the page tells tests what it draws", [](Options& o, const std::string&) { o.view.test_hooks = true; },
        "", false, "", true},

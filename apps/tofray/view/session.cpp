@@ -39,6 +39,13 @@ void Session::Impl::run(Outbox& outbox) {
       tell_state();
     }
   }
+  recorder_->abandon();
+  std::unique_ptr<Recorder> last;
+  {
+    const std::lock_guard lock(mutex_);
+    last = std::move(recorder_);
+  }
+  last.reset();  // waits for its thread
   const std::lock_guard lock(mutex_);
   ended_ = true;
   changed_.notify_all();
@@ -59,6 +66,7 @@ void Session::Impl::work(Mail mail) {
   for (const auto& [client, question] : mail.questions) answer(question);
   for (const Mail::Asked& one : mail.queries) answer(one);
   for (const auto& [of, inquired] : mail.inquiries) answer(inquired);
+  for (const Mail::Ordered& one : mail.orders) take(one);
   for (const auto& [client, question] : mail.whys) begin_split(question);
   if (due(demand_now_, Clock::now())) show();
   go_on_with_split();
@@ -156,6 +164,10 @@ void Session::start(Outbox& outbox) {
 }
 
 void Session::stop() { impl_->stop(); }
+
+void Session::order(std::uint64_t client, const Order& order) {
+  impl_->post([&](Mail& mail, Demand&) { return mail.orders.push_back({client, order}), false; });
+}
 
 bool Session::ended(std::chrono::milliseconds within) { return impl_->ended(within); }
 

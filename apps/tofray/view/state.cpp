@@ -3,10 +3,13 @@
 #include "view/state.h"
 
 #include <algorithm>
+#include <filesystem>
 
 #include "base/readout.h"
 #include "base/text.h"
+#include "base/version.h"
 #include "cli/requests.h"
+#include "files/sha256.h"
 #include "load/builtin.h"
 #include "load/controls.h"
 #include "results/meta.h"
@@ -44,20 +47,30 @@ std::string_view scene_text(const State& state) {
   return file.text.empty() ? load::builtin_scene_text(file.name) : std::string_view(file.text);
 }
 
-/// Of render: what is no key. @param scene  as a shell takes it
-std::string command_with(const State& state, const std::string& scene) {
+using Words = std::vector<std::string>;
+
+void append(Words& words, const Words& more) { words.insert(words.end(), more.begin(), more.end()); }
+
+/// Of render and view: what is no key.
+Words words_of(const State& state, const char* command, const std::string& scene) {
   const app::Options& o = state.options;
-  std::string out = "tofray render " + scene;
-  if (!o.root.empty()) out += " --root " + shell_word(o.root);
-  if (o.seed) out += " --seed " + std::to_string(*o.seed);
-  if (o.noise) out += std::string(" --noise ") + results::noise_name(*o.noise);
-  if (o.exposure_samples) out += " --exposure-samples " + std::to_string(*o.exposure_samples);
-  if (o.subpixel) out += " --subpixel " + std::to_string(*o.subpixel);
+  Words out{"tofray", command, scene};
+  if (!o.root.empty()) append(out, {"--root", o.root});
+  if (o.seed) append(out, {"--seed", std::to_string(*o.seed)});
+  if (o.noise) append(out, {"--noise", results::noise_name(*o.noise)});
+  if (o.exposure_samples) append(out, {"--exposure-samples", std::to_string(*o.exposure_samples)});
+  if (o.subpixel) append(out, {"--subpixel", std::to_string(*o.subpixel)});
   return out;
 }
 
-std::string time_of(const State& state) {
-  return !state.playing && state.frame > 0 ? " --first-frame " + std::to_string(state.frame) : std::string();
+Words with_set(Words words, const Overrides& set) {
+  for (const auto& [key, value] : set) append(words, {"--set", key + "=" + value});
+  return words;
+}
+
+Words with_time(Words words, const State& state) {
+  if (!state.playing && state.frame > 0) append(words, {"--first-frame", std::to_string(state.frame)});
+  return words;
 }
 
 /// width, height, phases, frame_rate_hz, camera and mode of the camera.
@@ -144,15 +157,51 @@ State opened(const State& like, const Edit& edit, std::uint32_t generation) {
 }
 
 std::string command_of(const State& state) {
-  std::string out = command_with(state, shell_word(state.options.words[0]));
-  for (const auto& [key, value] : state.options.set) out += " --set " + shell_word(key + "=" + value);
-  return out + time_of(state);
+  return shell_text(with_time(with_set(words_of(state, "render", state.options.words[0]), state.options.set), state));
+}
+
+std::vector<std::string> recording_words(const State& state, std::uint64_t first, std::uint64_t frames) {
+  Words out = with_set(words_of(state, "render", state.options.words[0]), state.options.set);
+  append(out, {"--first-frame", std::to_string(first), "--frames", std::to_string(frames)});
+  return out;
+}
+
+std::vector<std::string> live_words(const State& state) {
+  return with_set(words_of(state, "view", state.options.words[0]), state.options.set);
+}
+
+std::string shell_text(const std::vector<std::string>& words) {
+  std::string out;
+  for (const std::string& one : words) out += (out.empty() ? "" : " ") + shell_word(one);
+  return out;
+}
+
+PictureState picture_state(const State& state, std::uint64_t frame) {
+  const app::Options& o = state.options;
+  PictureState out;
+  const auto& file = state.in.files.at(0);
+  out.version = base::version();
+  out.scene = is_scene(o.words[0]) ? o.words[0] : std::filesystem::path(o.words[0]).filename().native();
+  if (!file.text.empty()) out.scene_sha256 = files::sha256_hex(file.text);
+  out.overrides = o.set, out.seed = o.seed.value_or(0), out.frame = frame;
+  out.noise = results::noise_name(o.noise.value_or(Noise::exact));
+  out.exposure_samples = o.exposure_samples.value_or(1), out.subpixel = o.subpixel.value_or(1);
+  return out;
+}
+
+std::string live_command(const PictureState& state) {
+  Words out{"tofray", "view", state.scene};
+  if (state.seed != 0) append(out, {"--seed", std::to_string(state.seed)});
+  if (state.noise != "exact") append(out, {"--noise", state.noise});
+  if (state.exposure_samples != 1) append(out, {"--exposure-samples", std::to_string(state.exposure_samples)});
+  if (state.subpixel != 1) append(out, {"--subpixel", std::to_string(state.subpixel)});
+  return shell_text(with_set(out, state.overrides));
 }
 
 Saved saved(const State& state) {
   Saved out;
   out.name = state.in.scene.name + ".yaml";
-  out.command = command_with(state, shell_word(out.name)) + time_of(state);
+  out.command = shell_text(with_time(words_of(state, "render", out.name), state));
   out.text = "# saved by tofray view: " + base::printable(command_of(state)) + "\n" +
              load::scene_yaml(scene_text(state), state.in.scene.source, state.options.set);
   return out;

@@ -4,11 +4,13 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "cli/options.h"
 #include "files/json.h"
 #include "run/inputs.h"
 #include "view/control.h"
+#include "view/picture_state.h"
 
 namespace tofray::view {
 
@@ -31,6 +33,17 @@ State opened(const State& like, const Edit& edit, std::uint32_t generation);
 
 /// The command that makes the frame's files: where time stands still, with its number.
 std::string command_of(const State& state);
+
+/// The words of the command that makes these frames' files.
+std::vector<std::string> recording_words(const State& state, std::uint64_t first, std::uint64_t frames);
+/// Those of `tofray view` that show the state.
+std::vector<std::string> live_words(const State& state);
+/// As a shell takes them.
+std::string shell_text(const std::vector<std::string>& words);
+
+/// What a picture of a frame carries, and the command that shows it live.
+PictureState picture_state(const State& state, std::uint64_t frame);
+std::string live_command(const PictureState& state);
 
 /// The scene's file with all that --set and --mode changed, and the command that makes the frame's files out of it.
 struct Saved {
