@@ -254,6 +254,8 @@ export interface Recorded {
   done: number;
   folder?: string;
   files?: RecordedFile[];
+  /** How many more there are. */
+  left_out?: number;
   /** What makes the same files. */
   command?: string;
 }

@@ -10,8 +10,7 @@ import { set_state } from "./edit";
 import { text_of_png } from "./png_text";
 import { ask, drop, type Question } from "./questions";
 import type { Exported, Fault, Recorded, Restored, Screenshot, Side } from "./protocol";
-import { cannot, edited, fault, focused, frame, other, shown, spoken } from "./store";
-import { shown_array } from "./cloud";
+import { cannot, edited, fault, frame, other, spoken } from "./store";
 
 export const keep_open = signal(false);
 /** What came with a picture's state. */
@@ -72,7 +71,7 @@ export function checksums(of: Recorded): string {
 export function take_screenshot(): void {
   const why = cannot("screenshot");
   if (why !== undefined) return void (fault.value = { type: "fault", id: null, text: "There is no picture to be taken here.", more: why });
-  ask<Screenshot>({ type: "screenshot", side: kept_side(), array: shown_array(shown.peek()[focused.peek()] ?? "z_m") }, {
+  ask<Screenshot>({ type: "screenshot", side: kept_side() }, {
     answered: ({ name }, arrays) => {
       const png = arrays?.get("png")?.values;
       if (png instanceof Uint8Array) offer(name, png.slice(), "image/png");

@@ -12,7 +12,7 @@ import { checksums, exporting, frame_now, keep_open, kept_side, record, recordin
 import type { Exported, Fault, Recorded } from "./protocol";
 import { cannot, hello, link, other } from "./store";
 
-const most_frames = 100_000;
+const most_frames = 10_000;   // as the server has it
 const most_hz = 60;
 
 /** A whole number that is typed; undefined: it is none. */
@@ -85,6 +85,7 @@ function RecordedFiles({ of }: { of: Recorded }) {
           </tbody>
         </table>
       </div>
+      {of.left_out !== undefined && of.left_out > 0 && <p class="what">{of.left_out} more are in the folder; manifest.json lists all of them.</p>}
       {of.command !== undefined && <><p class="what">The same bytes by the command line:</p><code class="command-of" tabIndex={0} role="region" aria-label="Command of these files">{of.command}</code></>}
       <div class="keep-buttons">
         {of.command !== undefined && <CopyButton text={of.command}>Copy command</CopyButton>}

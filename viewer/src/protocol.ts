@@ -256,5 +256,5 @@ export type ClientMessage =
   | { type: "record"; id: number; side: Side; first: number; frames: number }
   | { type: "export"; id: number; first: number; frames: number }
   | { type: "record_stop"; id: number }
-  | { type: "screenshot"; id: number; side: Side; array: string }
+  | { type: "screenshot"; id: number; side: Side }
   | { type: "restore"; id: number; text: string };
