@@ -1,12 +1,14 @@
 // SPDX-FileCopyrightText: 2026 The tofray authors
 // SPDX-License-Identifier: Apache-2.0
-// The pictures of docs/viewer.md, from the viewer itself, viewer.png, viewer_ab.png, viewer_why.png, viewer_3d.png and
-// viewer_measure.png:
+// The pictures of docs/viewer.md, from the viewer itself, viewer.png, viewer_ab.png, viewer_why.png, viewer_3d.png,
+// viewer_measure.png, viewer_along.png and viewer_file.png:
 //   TOFRAY=build/release/apps/tofray/tofray TOFRAY_PAGE_PACKAGES=build/release/viewer node tools/viewer_picture.mjs docs/images
 
 import { test } from "node:test";
+import { mkdtempSync } from "node:fs";
+import { tmpdir } from "node:os";
 import { join } from "node:path";
-import { beside, drawn, point_at, set, settled, shown, stand_at, view } from "../tests/browser/viewer.mjs";
+import { beside, drawn, open, point_at, set, settled, shown, stand_at, told, view } from "../tests/browser/viewer.mjs";
 
 const [out] = process.argv.slice(2);
 if (out === undefined) throw new Error("node tools/viewer_picture.mjs FOLDER");
@@ -81,6 +83,32 @@ test("points in space", async () => {
   await take(tab, "viewer_3d.png");
 });
 
+test("what is taken along", async () => {
+  const tab = await start("dark", ["demo", "-o", mkdtempSync(join(tmpdir(), "tofray-picture-"))]);
+  const { page } = tab;
+  await page.locator(".stage").first().focus();
+  await page.keyboard.press("r");
+  await page.locator("#record-count").fill("2");
+  await page.getByRole("button", { name: "Record", exact: true }).click();
+  await page.locator("[data-recorded]").waitFor();
+  // The folder of this picture is nobody's.
+  await page.locator("[data-recorded] p code").evaluate((one) => (one.textContent = "recording_0001"));
+  await take(tab, "viewer_along.png");
+});
+
+test("a page as one file", async () => {
+  const file = join(mkdtempSync(join(tmpdir(), "tofray-picture-")), "demo.html");
+  told(["view", "demo", "--seed", "1", "--frames", "3", "--export", file]);
+  const { page } = await open(`file://${file}`, { viewport: { width: 1280, height: 760 }, colorScheme: "light", reducedMotion: "reduce" });
+  await page.waitForFunction(() => [...document.querySelectorAll(".stage canvas.front")].length === 2);
+  await page.locator(".stage").nth(1).focus();
+  await page.keyboard.press("x");
+  await page.locator('.stage.space[data-drawing="processor"]').waitFor();
+  await page.locator(".stage").first().hover({ position: { x: 200, y: 200 } });
+  await page.getByRole("button", { name: "Histogram" }).first().click();
+  await take({ page }, "viewer_file.png");
+});
+
 test("a distance and a rectangle", async () => {
   const tab = await start("light");
   const { page } = tab;
@@ -89,9 +117,9 @@ test("a distance and a rectangle", async () => {
   await page.keyboard.press("m");
   await point_at(tab, 176, 133);
   await page.keyboard.press("m");
-  await point_at(tab, 160, 14);
+  await point_at(tab, 150, 14);   // the wall alone
   await page.keyboard.press("g");
-  await point_at(tab, 212, 62);
+  await point_at(tab, 206, 48);
   await page.keyboard.press("g");
   await page.locator("[data-region]").waitFor();
   await point_at(tab, 60, 160);

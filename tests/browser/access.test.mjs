@@ -3,10 +3,11 @@
 // Who does not see the picture, or uses no pointer: axe-core's rules, and the way of the focus.
 
 import assert from "node:assert/strict";
-import { readFileSync } from "node:fs";
+import { mkdtempSync, readFileSync } from "node:fs";
+import { join } from "node:path";
 import { test } from "node:test";
 import { split, with_chain } from "./answers.mjs";
-import { axe_source, beside, between, choose, drawn, find, point_at, set, shown, stand_at, type, view } from "./viewer.mjs";
+import { axe_source, beside, between, choose, drawn, find, folder, point_at, set, shown, stand_at, type, view } from "./viewer.mjs";
 
 /** Of the page as it is, on dark and on light ground. Only what is wrong comes out of the page: what is right is ten times as long. */
 async function violations({ page }) {
@@ -25,7 +26,7 @@ async function violations({ page }) {
 }
 
 test("axe-core finds nothing in the page, dark and light: live, with a pixel, with the keys, without a server", async () => {
-  const viewer = await view(["demo", "--seed", "5"]);
+  const viewer = await view(["demo", "--seed", "5", "-o", mkdtempSync(join(folder, "along-"))]);
   const tab = await shown(viewer.url, { reducedMotion: "reduce" });
   const { page } = tab;
   assert.deepEqual(await violations(tab), []);
@@ -39,6 +40,17 @@ test("axe-core finds nothing in the page, dark and light: live, with a pixel, wi
   await page.keyboard.press("?");
   await page.getByRole("dialog").waitFor();
   assert.deepEqual(await violations(tab), []);
+  await page.keyboard.press("Escape");
+  await page.getByRole("dialog").waitFor({ state: "hidden" });
+  await page.getByRole("button", { name: "Take along …" }).click();
+  await page.getByRole("dialog", { name: "Take along" }).waitFor();
+  await page.locator("#record-first").fill("x");
+  assert.deepEqual(await violations(tab), [], "the window for what is taken along");
+  await page.locator("#record-first").fill("0");
+  await page.locator("#record-count").fill("2");
+  await page.getByRole("button", { name: "Record", exact: true }).click();
+  await page.locator("[data-recorded]").waitFor();
+  assert.deepEqual(await violations(tab), [], "with what was recorded");
   await page.keyboard.press("Escape");
   await page.getByRole("dialog").waitFor({ state: "hidden" });
   await viewer.kill();
@@ -269,6 +281,12 @@ for (const [what, viewport] of [["320 CSS pixels wide", { width: 320, height: 64
     await page.locator(".compare-bar").getByRole("button", { name: "Wipe" }).click();
     await drawn(tab, "wipe");
     await check("wipe");
+    await page.getByRole("button", { name: "Take along …" }).click();
+    const dialog = page.getByRole("dialog", { name: "Take along" });
+    await dialog.waitFor();
+    assert.equal(await dialog.evaluate((one) => one.scrollWidth > one.clientWidth), false, "the window is scrolled sideways");
+    const beyond = await dialog.evaluate((one) => [...one.querySelectorAll("button, input, p, h3, .file-button span")].filter((part) => part.getBoundingClientRect().right > one.getBoundingClientRect().right || part.getBoundingClientRect().left < one.getBoundingClientRect().left).map((part) => part.outerHTML.slice(0, 200)));
+    assert.deepEqual(beyond, [], "the window for what is taken along");
   });
 }
 
