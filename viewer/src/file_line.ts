@@ -51,6 +51,7 @@ export class FileLine {
   private hidden = false;
   private wanted = false;
   private rate: "own" | "max" | number = "own";
+  private has_static = false;   // the page has the scene's arrays
   private timer: number | undefined;
 
   /** @throws Error where the file has nothing that can be read */
@@ -102,8 +103,10 @@ export class FileLine {
   }
 
   private say_state(): void {
-    const { generation, seed, command, overrides, scene } = this.of.hello;
-    this.say({ type: "state", generation, playing: this.playing, frame: this.of.frames[this.at]!, seed, command, overrides, scene, other: null });
+    const { generation, seed, overrides, scene } = this.of.hello;
+    const frame = this.of.frames[this.at]!;
+    const command = `${this.of.hello.command.replace(/ --first-frame \d+$/, "")}${frame === 0 ? "" : ` --first-frame ${frame}`}`;
+    this.say({ type: "state", generation, playing: this.playing, frame, seed, command, overrides, scene, other: null });
   }
 
   private message(at: number): Promise<ArrayBuffer> {
@@ -164,11 +167,13 @@ export class FileLine {
     const of = this.of.view3d?.[this.at] ?? this.of.view3d?.[0];
     const block = document.getElementById("tofray-static");
     if (of === undefined) return this.say({ type: "fault", id, text: "This file has no scene in 3D.", more: `Live: ${this.of.live}` });
-    const { static: _, arrays, ...text } = of;
-    if (block === null || arrays === undefined) return this.to.text({ ...text, id });
+    const { static: _, arrays: __, ...text } = of;
+    const arrays = this.of.view3d?.find((one) => one.arrays !== undefined)?.arrays;   // they are the same for all frames
+    if (block === null || arrays === undefined || this.has_static) return this.say({ ...text, id });
+    const bytes = await bytes_of(block, this.of.encoding);
     this.to.text({ ...text, id, static: true, arrays });
-    const bytes = (await bytes_of(block, this.of.encoding)).slice(0);
     new DataView(bytes).setUint32(12, id, true);   // an answer's arrays have its id
+    this.has_static = true;
     this.to.binary(bytes);
   }
 }

@@ -14,6 +14,7 @@ import { cannot, hello, link, other } from "./store";
 
 const most_frames = 10_000;   // as the server has it
 const most_hz = 60;
+const usual_count = 5;
 
 /** A whole number that is typed; undefined: it is none. */
 function whole(text: string, least: number): number | undefined {
@@ -35,7 +36,9 @@ function Frames({ id, first, count, off }: { id: string; first: Signal<string>; 
 
 function chosen(first: Signal<string>, count: Signal<string>): { first: number; frames: number } | undefined {
   const [of_first, of_count] = [whole(first.value, 0), whole(count.value, 1)];
-  return of_first === undefined || of_count === undefined || of_count > most_frames ? undefined : { first: of_first, frames: of_count };
+  if (of_first === undefined || of_count === undefined || of_count > most_frames) return undefined;
+  const { first: least = 0, frames: there = Infinity } = hello.value ?? {};
+  return of_first < least || of_first + of_count > least + there ? undefined : { first: of_first, frames: of_count };
 }
 
 function Progress({ of, stop }: { of: { done: number; frames: number }; stop: () => void }) {
@@ -187,11 +190,13 @@ function Film({ first, count }: { first: Signal<string>; count: Signal<string> }
 
 export function KeepDialog() {
   const first = useSignal("0");
-  const count = useSignal("5");
+  const count = useSignal(String(usual_count));
   const open = keep_open.value;
   useEffect(() => {
     if (!open) return;
+    const { first: least = 0, frames: there = Infinity } = hello.value ?? {};
     first.value = String(frame_now());
+    count.value = String(Math.max(1, Math.min(usual_count, least + there - frame_now())));
     requestAnimationFrame(() => document.querySelector<HTMLInputElement>("#record-first, #export-first, #film-first")?.select());
   }, [open]);
   return (
