@@ -329,5 +329,170 @@ TEST(picture, whose_text_is_a_stranger_s_does_no_harm) {
   EXPECT_EQ(names_in(viewer.folder().path()), (std::vector<std::string>{"err", "out"}));
 }
 
+// ---- a page in a file ----
+
+std::string from_base64(const std::string& digits) {
+  const std::string all = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string out;
+  std::uint32_t bits = 0;
+  int count = 0;
+  for (const char c : digits) {
+    const std::size_t digit = all.find(c);
+    if (digit == std::string::npos) break;
+    bits = bits << 6 | static_cast<std::uint32_t>(digit), count += 6;
+    if (count >= 8) count -= 8, out += static_cast<char>(bits >> count & 255U);
+  }
+  return out;
+}
+
+std::string inflated(const std::string& packed) {
+  std::string out(100'000'000, '\0');
+  uLongf size = out.size();
+  EXPECT_EQ(uncompress(reinterpret_cast<Bytef*>(out.data()), &size, reinterpret_cast<const Bytef*>(packed.data()), packed.size()), Z_OK);
+  out.resize(size);
+  return out;
+}
+
+/// What stands in elements that begin so.
+std::vector<std::string> within(const std::string& page, const std::string& begin) {
+  std::vector<std::string> out;
+  for (std::size_t at = page.find(begin); at != std::string::npos; at = page.find(begin, at)) {
+    at += begin.size();
+    out.push_back(page.substr(at, page.find("</script>", at) - at));
+  }
+  return out;
+}
+
+struct Exported {
+  explicit Exported(const std::string& page) {
+    const auto texts = within(page, R"(<script type="application/json" id="tofray-export">)");
+    EXPECT_EQ(texts.size(), 1u);
+    if (!texts.empty()) json = files::parse_json(texts[0], "page");
+    for (const std::string& one : within(page, R"(<script type="application/octet-stream" class="tofray-frame">)"))
+      frames.push_back(wire_frame(inflated(from_base64(one))));
+    for (const std::string& one : within(page, R"(<script type="application/octet-stream" id="tofray-static">)"))
+      statics.push_back(wire_frame(inflated(from_base64(one))));
+  }
+  [[nodiscard]] const Json& hello() const { return *json.find("hello"); }
+  Json json;
+  std::vector<WireFrame> frames, statics;
+};
+
+#define NEEDS_THE_PAGE                                                                                               \
+  NEEDS_THE_VIEWER;                                                                                                  \
+  if (run({"view", "demo", "--export", "/nowhere/x.html", "-q"}).err.find("npm was not there") != std::string::npos) \
+  GTEST_SKIP() << "built without npm"
+
+TEST(page_in_a_file, has_the_arrays_of_render) {
+  NEEDS_THE_PAGE;
+  const Folder folder;
+  const Arguments state = with_small_sensor({"demo", "--seed", "3", "--set", "camera.lens.f_number=2.8"});
+  const auto with = [&](Arguments words, const Arguments& more) {
+    words.insert(words.end(), state.begin(), state.end());
+    words.insert(words.end(), more.begin(), more.end());
+    return run(words, in_folder(folder.path()));
+  };
+  const Result made = with({"view"}, {"--export", "a.html", "--first-frame", "4", "--frames", "2"});
+  ASSERT_EQ(made.code, 0) << made.err;
+  EXPECT_TRUE(has(made.err, "a.html: 2 frames in a page of ")) << made.err;
+  ASSERT_EQ(with({"render"}, {"-o", "out", "--first-frame", "4", "--frames", "2", "-q"}).code, 0);
+  const Exported page(content(folder / "a.html"));
+  ASSERT_EQ(page.frames.size(), 2u);
+  for (std::size_t i = 0; i < 2; ++i) {
+    EXPECT_EQ(page.frames[i].frame, 4 + i);
+    const auto arrays = files::read_npz(folder / ("out/frame_000" + std::to_string(4 + i) + ".npz"));
+    int compared = 0;
+    for (const auto& [name, array] : arrays) {
+      const int number = number_of(page.hello(), name);
+      if (number < 0 || !page.frames[i].arrays.contains(number)) continue;
+      EXPECT_TRUE(page.frames[i].arrays.at(number) == std::string(array.bytes.begin(), array.bytes.end())) << name;
+      ++compared;
+    }
+    EXPECT_GT(compared, 10);
+    for (const char* name : {"z_m", "raw", "flags", "z_error_m", "lit"})
+      EXPECT_TRUE(page.frames[i].arrays.contains(number_of(page.hello(), name))) << name;
+  }
+  // All that the page asks a server for at first.
+  EXPECT_EQ(page.json.find("frames")->items()->size(), 2u);
+  EXPECT_EQ(number_in(page.hello(), "frame"), 4);
+  EXPECT_EQ(page.json.find("scales")->items()->size(), 2u);
+  EXPECT_EQ(page.json.find("view3d")->items()->size(), 2u);
+  EXPECT_EQ(page.statics.size(), 1u);
+  EXPECT_EQ(text_in(*page.json.find("controls"), "type"), "controls");
+  EXPECT_EQ(text_in(*page.json.find("saved"), "type"), "saved");
+  EXPECT_TRUE(text_in(page.json, "live").starts_with("tofray view demo --seed 3 --set camera.lens.f_number=2.8"));
+}
+
+TEST(page_in_a_file, asks_nobody_for_anything) {
+  NEEDS_THE_PAGE;
+  const Folder folder;
+  ASSERT_EQ(run(with_small_sensor({"view", "demo", "--export", "a.html"}), in_folder(folder.path())).code, 0);
+  const std::string page = content(folder / "a.html");
+  const std::string head = page.substr(0, page.find("</head>"));
+  EXPECT_TRUE(has(head, "default-src 'none'")) << head.substr(0, 500);
+  EXPECT_TRUE(has(head, "script-src 'sha256-")) << head.substr(0, 500);
+  EXPECT_FALSE(has(head, "unsafe-inline"));
+  EXPECT_FALSE(has(head, "connect-src"));
+  for (const char* one : {" src=\"", "href=\"http", "href=\"//", "@import"}) EXPECT_FALSE(has(head, one)) << one;
+  EXPECT_FALSE(has(page, "<!--tofray-data-->"));
+}
+
+TEST(page_in_a_file, holds_a_scene_s_words_as_words) {
+  NEEDS_THE_PAGE;
+  const Folder folder;
+  const std::string name = "</script><img src=x onerror=alert(1)><!--";
+  write(folder / "s.yaml", "camera: {profile: pico-flexx}\nobjects: [{plane: {name: \"" + name +
+                               "\", point: [0, 0, 1], normal: [0, 0, -1], reflectivity: 0.8}}]\n");
+  const Result made = run(with_small_sensor({"view", "s.yaml", "--export", "a.html"}), in_folder(folder.path()));
+  ASSERT_EQ(made.code, 0) << made.err;
+  const std::string page = content(folder / "a.html");
+  EXPECT_FALSE(has(page, "<img src=x"));
+  const Exported read(page);
+  const Json& objects = *(*read.json.find("view3d")->items())[0].find("objects");
+  EXPECT_EQ(text_in((*objects.items())[0], "name"), name);
+}
+
+TEST(page_in_a_file, that_a_page_orders_is_that_of_the_command) {
+  NEEDS_THE_PAGE;
+  const Viewer viewer({"demo", "-o", "made"});
+  Greeted one(viewer);
+  ASSERT_EQ(text_in(one.page.answer(R"({"type":"set","id":1,"key":"camera.lens.f_number","text":"2.8"})"), "type"), "done");
+  const Json answer = end_of(one.page, R"({"type":"export","id":2,"first":1,"frames":3})", "export", "file");
+  ASSERT_EQ(text_in(answer, "type"), "export") << files::json_text(answer);
+  EXPECT_EQ(text_in(answer, "file"), (viewer.folder() / "made/view_0001.html").native());
+  const std::string page = content(text_in(answer, "file"));
+  EXPECT_EQ(number_in(answer, "bytes"), static_cast<double>(page.size()));
+  EXPECT_EQ(text_in(answer, "sha256"), files::sha256_hex(page));
+  ASSERT_EQ(run_shell(viewer.folder().path(), text_in(answer, "command")), 0) << text_in(answer, "command");
+  EXPECT_TRUE(content(viewer.folder() / "view_0001.html") == page);
+  EXPECT_EQ(names_in(viewer.folder() / "made"), std::vector<std::string>{"view_0001.html"});
+}
+
+TEST(page_in_a_file, too_large_for_browsers_is_refused_with_what_would_fit) {
+  NEEDS_THE_PAGE;
+  const Folder folder;
+  const Result large = run({"view", "demo", "--export", "a.html", "--frames", "10000"}, in_folder(folder.path()));
+  EXPECT_EQ(large.code, 4) << large.err;
+  EXPECT_TRUE(has(large.err, "browsers open 200 MB well")) << large.err;
+  EXPECT_TRUE(has(large.err, "expected --frames ")) << large.err;
+  EXPECT_FALSE(fs::exists(folder / "a.html"));
+  const Result few = run({"view", "demo", "--export", "a.html", "--frames", "2", "--arrays", "z_m", "--json"}, in_folder(folder.path()));
+  ASSERT_EQ(few.code, 0) << few.err;
+  const Exported page(content(folder / "a.html"));
+  ASSERT_EQ(page.frames.size(), 2u);
+  EXPECT_FALSE(page.frames[0].arrays.contains(number_of(page.hello(), "raw")));
+  EXPECT_TRUE(page.frames[0].arrays.contains(number_of(page.hello(), "flags")));
+  const Json said = files::parse_json(few.out, "stdout");
+  EXPECT_EQ(text_in(said, "sha256"), files::sha256_hex(content(folder / "a.html")));
+}
+
+TEST(page_in_a_file, alone_has_frames_and_arrays_to_choose) {
+  NEEDS_THE_VIEWER;
+  const Result live = run({"view", "demo", "--frames", "3", "--test-hooks"});
+  EXPECT_EQ(live.code, 2) << live.err;
+  EXPECT_TRUE(has(live.err, "are of --export")) << live.err;
+  EXPECT_EQ(run({"view", "demo", "--export", "a.png"}).code, 2);
+}
+
 }  // namespace
 }  // namespace tofray::test

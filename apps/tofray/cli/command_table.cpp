@@ -147,14 +147,16 @@ std::vector<Command> make() {
        .examples = "tofray view --open                               # the demo, in your browser\n"
                    "tofray view room --bounces 2                     # prints the address to open\n"
                    "tofray view azure-kinect-nfov --rate max         # the demo seen by another camera, as fast as it is drawn\n"
-                   "tofray view scene.yaml --port 0 --json           # for programs: one line with url, port and pid\n",
+                   "tofray view scene.yaml --port 0 --json           # for programs: one line with url, port and pid\n"
+                   "tofray view demo --export demo.html --frames 5   # a page for a paper or a bug report: one file, no server\n",
        .more = "The address that it prints has a key behind #: whoever has it sees and changes this view, nobody else does. It listens on "
                "this\n"
                "machine alone. Over ssh: ssh -L 7170:127.0.0.1:7170 HOST, then the same address in your own browser. Ctrl-C ends it.\n"
                "Frames are computed while somebody looks, and have the bytes that `tofray render` gives them.\n",
-       .options = {"--set",  "--mode",  "--seed",    "--noise",      "--exposure-samples", "--subpixel", "--bounces", "--samples",
-                   "--fps",  "--root",  "--threads", "--backend",    "--device",           "--port",     "--host",    "--allow-host",
-                   "--open", "--embed", "--rate",    "--test-hooks", "--output",           "--json",     "--quiet"},
+       .options = {"--set",    "--mode",  "--seed",    "--noise",      "--exposure-samples", "--subpixel", "--bounces", "--samples",
+                   "--fps",    "--root",  "--threads", "--backend",    "--device",           "--port",     "--host",    "--allow-host",
+                   "--open",   "--embed", "--rate",    "--test-hooks", "--output",           "--export",   "--frames",  "--first-frame",
+                   "--arrays", "--json",  "--quiet"},
        .least_words = 0,
        .most_words = 1,
        .run = run_view,

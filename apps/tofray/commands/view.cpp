@@ -16,9 +16,14 @@
 #include <thread>
 
 #include "cli/console.h"
+#include "cli/progress.h"
+#include "cli/remarks.h"
+#include "files/atomic_file.h"
 #include "files/json.h"
+#include "files/sha256.h"
 #include "run/input_kind.h"
 #include "view/assets.h"
+#include "view/export.h"
 #include "view/server.h"
 #include "view/session.h"
 #endif
@@ -94,6 +99,44 @@ void say_address(const Options& options, const view::Address& at, std::optional<
   if (!door->opened()) say("warning: --open found no xdg-open here; open the address by hand\n");
 }
 
+/// The page as a file.
+int export_page(const Options& options) {
+  const view::State state = view::first_state(options);
+  say(texts(state.in.remarks));
+  view::ExportRequest request{options.first_frame, options.frames.value_or(1), options.arrays};
+  FrameProgress now;
+  const StopRequest stop(&now.stop);
+  request.progress = &now;
+  std::string page;
+  try {
+    Progress progress(request.frames, "frames", options.quiet, &now);
+    request.done = [&progress](std::uint64_t) { progress.step(); };
+    page = view::exported_page(state, request);
+  } catch (const Error&) {
+    if (stop.signal() == 0) throw;
+    say("interrupted: nothing is written\n");
+    return 128 + stop.signal();
+  }
+  const std::string& file = options.view.export_file;
+  files::write_file_atomically(file, page);
+  if (options.json) {
+    files::Json json = files::Json::object();
+    json.set("file", file).set("bytes", page.size()).set("sha256", files::sha256_hex(page)).set("frames", request.frames);
+    print(files::json_text(json) + "\n");
+  } else {
+    Talk(options.quiet)(fmt::format("{}: {} frame{} in a page of {:.1f} MB; it needs no server and no network\n", file, request.frames,
+                                    request.frames == 1 ? "" : "s", 1e-6 * static_cast<double>(page.size())));
+  }
+  return 0;
+}
+
+/// Options that only --export has.
+void refuse_frames(const Options& options) {
+  if (options.frames || options.first_frame != 0 || !options.arrays.empty())
+    throw Error(ErrorKind::bad_input,
+                "error: --frames, --first-frame and --arrays are of --export\n  without it the viewer shows every frame, from 0 on");
+}
+
 }  // namespace
 
 int run_view(const Options& typed) {
@@ -107,6 +150,8 @@ int run_view(const Options& typed) {
     say(run::note_of(chosen));
     options.words[0] = chosen.name;
   }
+  if (!options.view.export_file.empty()) return export_page(options);
+  refuse_frames(options);
   view::ServerOptions wanted;
   wanted.port = options.view.port, wanted.host = options.view.host, wanted.allowed_hosts = options.view.allowed_hosts;
   wanted.embed = options.view.embed;

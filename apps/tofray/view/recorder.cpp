@@ -10,8 +10,11 @@
 #include <utility>
 
 #include "cli/requests.h"
+#include "files/atomic_file.h"
+#include "files/sha256.h"
 #include "run/run.h"
 #include "tofray/error.h"
+#include "view/export.h"
 #include "view/fault.h"
 #include "view/new_files.h"
 
@@ -101,7 +104,7 @@ void Recorder::abandon() {
 }
 
 void Recorder::run(Job& job) {
-  const auto fault = fault_of([&] { record(job); });
+  const auto fault = fault_of([&] { job.order.kind == Order::Kind::page ? write_page(job) : record(job); });
   {
     const std::lock_guard lock(job.mutex);
     job.entry.reset();
@@ -135,6 +138,21 @@ void Recorder::record(Job& job) {
   if (left_out > 0) json.set("left_out", left_out);
   json.set("folder", fs::absolute(folder.keep()).native()).set("files", std::move(files));
   job.out.tell(job.client, files::json_text(json.set("command", shell_text(request.command))));
+}
+
+/// As `tofray view --export` does it.
+void Recorder::write_page(Job& job) {
+  const Order& order = job.order;
+  NewEntry& file = job.make("view", ".html", false);
+  const ExportRequest request{order.first, order.frames, {}, &job.progress, [&job](std::uint64_t done) { job.tell(done); }};
+  const std::string page = exported_page(job.state, request);
+  files::write_file_atomically(file.part(), page);
+  job.refuse_stopped();
+  const fs::path name = fs::absolute(file.keep());
+  Json json = job.answer(order.frames);
+  json.set("file", name.native()).set("bytes", page.size()).set("sha256", files::sha256_hex(page));
+  json.set("command", shell_text(export_words(job.state, request, name.filename().native())));
+  job.out.tell(job.client, files::json_text(json));
 }
 
 }  // namespace tofray::view

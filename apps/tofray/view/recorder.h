@@ -35,6 +35,7 @@ class Recorder {
   struct Job;
   static void run(Job& job);
   static void record(Job& job);
+  static void write_page(Job& job);
   [[nodiscard]] std::shared_ptr<Job> job();
   std::filesystem::path folder_;
   std::mutex mutex_;

@@ -27,7 +27,8 @@ constexpr auto head_time = std::chrono::seconds(5), answer_time = std::chrono::s
 constexpr std::string_view no_page =
     "<!doctype html><meta charset=utf-8><title>tofray</title><p>This build has no page: ./dev view makes it.";
 
-bool is_file(std::string_view target) { return target == "/" || find_asset(target) != nullptr; }
+/// The page for files has no frames yet.
+bool is_file(std::string_view target) { return target == "/" || (target != "/export.html" && find_asset(target) != nullptr); }
 
 Request request_of(const http::request<http::empty_body>& from, std::vector<Header>& headers) {
   const auto view = [](beast::string_view text) { return std::string_view(text.data(), text.size()); };

@@ -22,8 +22,8 @@
 #include "tofray/error.h"
 #include "view/drag.h"
 #include "view/fault.h"
+#include "view/greeting.h"
 #include "view/recorder.h"
-#include "view/scales.h"
 #include "view/scene_3d.h"
 #include "view/session.h"
 #include "view/state.h"
@@ -299,8 +299,7 @@ class Session::Impl {
   std::string build_;
   Outbox* out_ = nullptr;
   Demand demand_now_;
-  std::vector<std::pair<std::string, Json>> scales_;  ///< by array, locked since the first frame or the last fit
-  std::vector<Pane> panes_;
+  Scales scales_;        ///< locked since the first frame or the last fit
   bool at_once_ = true;  ///< the next frame answers a change
   Clock::time_point next_ = Clock::now();
   SessionCounts counts_;

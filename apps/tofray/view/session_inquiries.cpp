@@ -9,6 +9,7 @@
 #include "cli/requests.h"
 #include "pictures/pictures.h"
 #include "run/frame_files.h"
+#include "view/answer_arrays.h"
 #include "view/measure.h"
 #include "view/region.h"
 #include "view/session_impl.h"
@@ -26,26 +27,10 @@ std::uint8_t channel_of(Side side) { return static_cast<std::uint8_t>(first_answ
 enum class Kind : std::uint8_t { scene, series, picture };
 std::uint8_t number_of(Kind kind, Side side) { return static_cast<std::uint8_t>(2 * static_cast<int>(kind) + static_cast<int>(side)); }
 
-template <class T>
-StaticArray array_of(std::uint8_t type, const std::vector<T>& values, std::uint8_t rank, std::array<std::size_t, 3> extents) {
-  StaticArray out{type, {values.data(), values.size() * sizeof(T), rank, {}}};
-  for (std::size_t i = 0; i < rank; ++i) out.view.extents[i] = static_cast<std::uint32_t>(extents[i]);
-  return out;
-}
-constexpr std::uint8_t u32_type = 4, f32_type = 5;
-
 bool deforms(const Scene& scene) {
   for (const Object& one : scene.objects)
     if (const auto* mesh = std::get_if<Mesh>(&one.shape); mesh != nullptr && mesh->motion != nullptr) return true;
   return false;
-}
-
-std::string drawing_bytes(const WireHead& head, std::uint64_t frame, const Geometry& of) {
-  const std::size_t triangles = of.triangles.corners.size();
-  const StaticArray arrays[] = {array_of(f32_type, of.rays, 3, {of.height, of.width, 2}),
-                                array_of(f32_type, of.triangles.corners, 3, {triangles, 3, 3}),
-                                array_of(u32_type, of.triangles.objects, 1, {triangles, 0, 0})};
-  return encoded(head, frame, of.width, of.height, arrays);
 }
 
 Json answer_json(const char* type, std::uint64_t id, Side side) {
@@ -128,7 +113,7 @@ void Session::Impl::tell_scene(const Inquired& inquired, const SceneQuestion& as
   const bool fresh = drawn != drawing.number;
   Json json = answer_json("view3d", asked.id, inquired.side);
   json.set("generation", state.generation).set("frame", index).set("static", fresh);
-  if (fresh) json.set("arrays", Json::list(std::array{"rays", "triangles", "triangle_objects"}));
+  if (fresh) json.set("arrays", Json::list(drawing_arrays));
   put_scene(json, at, drawing.geometry);
   if (!fresh) return out_->tell(inquired.client, files::json_text(json));
   const WireHead head{channel_of(inquired.side), 0, state.generation, static_cast<std::uint32_t>(asked.id), time_s, 0};
@@ -164,7 +149,6 @@ void Session::Impl::tell_moved(const Inquired& inquired, const char* type, std::
 
 /// preview.png as `tofray render` draws it, with the state in it.
 void Session::Impl::tell_picture(const Inquired& inquired, const Whole& of) {
-  constexpr std::uint8_t u8_type = 1;
   const State& state = side(inquired.side).state;
   const Camera& camera = state.in.camera;
   const Frame& frame = of.frame;
