@@ -21,14 +21,14 @@ export function SourceNote() {
   if (of.live !== undefined) {
     const count = of.frames ?? 0;
     return (
-      <div class="notice" role="note" data-note="file">
+      <aside class="notice" aria-label="What this page is" data-note="file">
         <strong>A file with {count === 1 ? "one frame" : `${count} frames`}.</strong> Everything can be looked at; keys are shown, and not changed, for nothing computes behind it. Live: <Live command={of.live} /> {close}
-      </div>
+      </aside>
     );
   }
   if (of.source === undefined) return null;
   return (
-    <div class="notice" role="note" data-note="files">
+    <aside class="notice" aria-label="What this page is" data-note="files">
       <strong>Frames that were made before.</strong>{" "}
       {of.source.raw === true ? "Their raw frames are decoded here: keys of decoding change what is seen, those of scene and sensor cannot." : "They are shown as they are: no key changes them."}{" "}
       {absent.length > 0 && (
@@ -38,7 +38,7 @@ export function SourceNote() {
         </details>
       )}{" "}
       {close}
-    </div>
+    </aside>
   );
 }
 
