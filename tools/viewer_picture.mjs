@@ -104,7 +104,8 @@ test("a page as one file", async () => {
   await page.locator(".stage").nth(1).focus();
   await page.keyboard.press("x");
   await page.locator('.stage.space[data-drawing="processor"]').waitFor();
-  await page.locator(".stage").first().hover({ position: { x: 200, y: 200 } });
+  await page.locator(".pane select.cloud-color").selectOption("z_m");
+  await page.locator(".stage").first().hover({ position: { x: 235, y: 150 } });
   await page.getByRole("button", { name: "Histogram" }).first().click();
   await take({ page }, "viewer_file.png");
 });
