@@ -107,9 +107,11 @@ test("the watch list and the noise over time are saved: pins by their numbers, n
   await stand_at(tab, 0);
   await page.locator(".stage").first().focus();
   for (const key of ["ArrowRight", "p", "Shift+ArrowLeft", "p"]) await page.keyboard.press(key);
+  await beside(tab, "Watch");
+  await page.locator("[data-pinned]").nth(1).getByText("1 frame").first().waitFor();   // (it comes again with what is watched)
+  await page.locator(".stage").first().focus();
   await page.keyboard.press(".");
   await page.waitForFunction(() => window.tofray.last?.frame === 1);
-  await beside(tab, "Watch");
   await page.locator("[data-pinned]").nth(1).getByText("2 frames").first().waitFor();
   const watched = await csv(tab, "Watch list");
   assert.deepEqual(watched.rows.map((row) => [row[0], row[2], row[3], row[4], row[7]]), [["1", "112", "86", "z_m", "2"], ["1", "112", "86", "amplitude_e", "2"], ["2", "102", "86", "z_m", "2"], ["2", "102", "86", "amplitude_e", "2"]]);

@@ -7,7 +7,7 @@ import { set_seed, set_state, unset_key } from "./edit";
 import { future, past, redo, undo } from "./history";
 import type { Override, Row, Side } from "./protocol";
 import { found } from "./search";
-import { cannot, controls, edited, link, open_groups, other, search, state } from "./store";
+import { cannot, controls, edited, hello, link, open_groups, other, search, state } from "./store";
 
 const most_found = 40;
 
@@ -173,7 +173,7 @@ export function ControlsPanel() {
         <>
           <Tree rows={rows} side={side} />
           {(keys?.left_out ?? 0) > 0 && <p class="faint">{keys?.left_out} more keys of objects are not listed; <code>--set</code> takes them.</p>}
-          <Seed side={side} />
+          {cannot("seed") === undefined || hello.value?.source === undefined ? <Seed side={side} /> : null}
         </>
       )}
     </div>
