@@ -43,6 +43,9 @@ struct Control {
 /// @return all keys of scene and camera, but for those of kinds and modes that are not in force: the camera's first, objects last
 std::vector<Control> controls_of(const Scene& scene, std::string_view text, const Settings& settings, const CameraOptions& camera);
 
+/// The same of a camera alone. @param profile  its text  @param camera  mode and settings, without "camera." before them
+std::vector<Control> camera_controls_of(const std::string& profile, const std::string& source, const CameraOptions& camera);
+
 /// key, part, group, name, label, kind, unit, units, dimension, low, high, choices, what, text, value, default, source, assumed, log,
 /// slider, settable, changed; what says nothing is left out.
 files::Json json_of(const Control& control);

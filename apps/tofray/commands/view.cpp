@@ -10,6 +10,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cstdlib>
 #include <filesystem>
@@ -103,7 +104,8 @@ void say_address(const Options& options, const view::Address& at, std::optional<
 int export_page(const Options& options) {
   const view::State state = view::first_state(options);
   say(texts(state.in.remarks));
-  view::ExportRequest request{options.first_frame, options.frames.value_or(1), options.arrays};
+  const std::uint64_t all = state.recorded ? state.recorded->count() - std::min(options.first_frame, state.recorded->count() - 1) : 1;
+  view::ExportRequest request{options.first_frame, options.frames.value_or(all), options.arrays};
   FrameProgress now;
   const StopRequest stop(&now.stop);
   request.progress = &now;
@@ -145,7 +147,7 @@ int run_view(const Options& typed) {
                 "error: this tofray was built without the viewer's page: npm was not there\n"
                 "  ./dev view installs nodejs and npm, builds again and opens it");
   Options options = typed;
-  if (!options.words.empty()) {
+  if (!options.words.empty() && !view::names_recorded(options.words[0])) {
     const NameChoice chosen = choose_scene(options.words[0]);
     say(run::note_of(chosen));
     options.words[0] = chosen.name;

@@ -105,17 +105,19 @@ struct Contents {
 std::string text_of(const State& state, Contents contents) {
   Json json = Json::object();
   json.set("format", 1).set("hello", std::move(contents.hello)).set("frames", std::move(contents.numbers)).set("encoding", "deflate");
-  json.set("scales", std::move(contents.scales)).set("view3d", std::move(contents.drawings)).set("live", shell_text(live_words(state)));
-  const Saved file = saved(state);
+  json.set("scales", std::move(contents.scales)).set("live", shell_text(live_words(state)));
+  if (!contents.drawings.items()->empty()) json.set("view3d", std::move(contents.drawings));
+  const Saved file = state.recorded ? Saved() : saved(state);
   Json save = Json::object().set("type", "saved").set("id", 0).set("side", "a").set("name", file.name).set("text", file.text);
   save.set("command", file.command);
-  if (file.text.size() > most_text)
+  if (file.text.empty() || file.text.size() > most_text)
     json.set("saved", nullptr);
   else
     json.set("saved", std::move(save));
   std::string text = files::json_text(json);
   text.back() = ',';
-  return text + "\"controls\":" + controls_text(state, {Query::Kind::controls, 0, Side::a}) + "}";
+  const bool controlled = !state.recorded || state.recorded->live();
+  return text + "\"controls\":" + (controlled ? controls_text(state, {Query::Kind::controls, 0, Side::a}) : "null") + "}";
 }
 
 }  // namespace
@@ -126,7 +128,14 @@ std::string exported_page(const State& live, const ExportRequest& request) {
   state.generation = 1, state.playing = false, state.frame = request.first;
   SimulatorOptions wanted = app::simulator_options(state.options);
   wanted.progress = request.progress;
-  Simulator simulator(state.in.scene, state.in.camera, wanted);
+  std::optional<Simulator> simulator;
+  if (!state.recorded) simulator.emplace(state.in.scene, state.in.camera, wanted);
+  const bool drawable = why_not(state, "view3d").empty();
+  if (state.recorded && request.first + request.frames > state.recorded->count())
+    throw Error(ErrorKind::bad_input,
+                fmt::format("error: frames {} to {} were asked for, and there are files for 0 to {}\n  expected --first-frame and "
+                            "--frames within these",
+                            request.first, request.first + request.frames - 1, state.recorded->count() - 1));
   Contents contents;
   std::string blocks, drawn;
   std::vector<std::uint16_t> arrays;
@@ -134,7 +143,10 @@ std::string exported_page(const State& live, const ExportRequest& request) {
   Frame frame;
   for (std::uint64_t i = 0; i < request.frames; ++i) {
     const std::uint64_t index = request.first + i;
-    simulator.frame(index, frame);
+    if (simulator)
+      simulator->frame(index, frame);
+    else
+      frame = state.recorded->frame(index, state.in.camera, wanted);
     if (request.progress != nullptr && request.progress->stop) throw Error(ErrorKind::bad_input, "error: it was given up");
     const Scales scales = scales_of(frame);
     const SceneAt at{state.in.scene, state.in.camera, state.options.set, frame.truth.time_s};
@@ -142,20 +154,21 @@ std::string exported_page(const State& live, const ExportRequest& request) {
     if (i == 0) {
       arrays = arrays_of(scales, request.arrays);
       contents.hello = greeting(state, nullptr, scales, assets_sha256());
-      geometry = geometry_of(at);
-      drawn = block("id=\"tofray-static\"", drawing_bytes({2, 0, 1, 0, time_s, 0}, index, *geometry));
+      if (drawable) geometry = geometry_of(at);
+      if (drawable) drawn = block("id=\"tofray-static\"", drawing_bytes({2, 0, 1, 0, time_s, 0}, index, *geometry));
     }
     const std::string one =
         block("class=\"tofray-frame\"", encoded({0, 0, 1, static_cast<std::uint32_t>(i + 1), time_s, 0}, frame, arrays));
     if (i == 0) refuse_large(one.size(), request, around.bytes.size() + drawn.size());
     blocks += one;
     contents.numbers.push(index), contents.scales.push(scales_json(scales));
+    if (request.done) request.done(i + 1);
+    if (!drawable) continue;
     Json drawing = Json::object().set("type", "view3d").set("id", 0).set("side", "a").set("generation", 1).set("frame", index);
     drawing.set("static", i == 0);
     if (i == 0) drawing.set("arrays", Json::list(drawing_arrays));
     put_scene(drawing, at, *geometry);
     contents.drawings.push(std::move(drawing));
-    if (request.done) request.done(i + 1);
   }
   const std::string text = within_html(text_of(state, std::move(contents)));
   const std::size_t place = around.bytes.find(place_of_data);

@@ -4,9 +4,21 @@
 
 #include <algorithm>
 
+#include "cli/requests.h"
 #include "view/session_impl.h"
 
 namespace tofray::view {
+
+namespace {
+
+/// Frames a second; of files that do not say it, as many as can well be looked at.
+double own_rate(const State& state) {
+  constexpr double of_files_hz = 5;
+  const double hz = state.in.camera.mode.frame_rate_hz;
+  return state.recorded && !(hz > 0) ? of_files_hz : hz;
+}
+
+}  // namespace
 
 Session::Mail Session::Impl::wait() {
   std::unique_lock lock(mutex_);
@@ -29,7 +41,7 @@ bool Session::Impl::due(const Demand& demand, Clock::time_point now) const {
 
 void Session::Impl::run(Outbox& outbox) {
   out_ = &outbox;
-  outbox.own_rate(a_.state.in.camera.mode.frame_rate_hz);
+  outbox.own_rate(own_rate(a_.state));
   for (;;) {
     Mail mail = wait();
     if (mail.stop) break;
@@ -104,7 +116,10 @@ void Session::Impl::make(const Edit& edit) {
   // What is good by itself may not go together: asked before the old state goes.
   Simulating fresh;
   const std::vector<std::uint16_t> arrays = joined(demand_now_.wants);
-  simulator_of(fresh, next, arrays);
+  if (next.recorded)
+    (void)next.recorded->frame(next.frame, next.in.camera, app::simulator_options(next.options));
+  else
+    simulator_of(fresh, next, arrays);
   if (opens) {
     b_.emplace().side = Side::b;
     out_->other(true);
@@ -143,7 +158,7 @@ void Session::Impl::change(const std::vector<Mail::Change>& changes) {
     }
   }
   if (done.empty()) return;
-  out_->own_rate(a_.state.in.camera.mode.frame_rate_hz);
+  out_->own_rate(own_rate(a_.state));
   tell_state();
   for (const Done& one : done)
     out_->tell(one.client,

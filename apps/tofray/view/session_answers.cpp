@@ -44,6 +44,7 @@ void Session::Impl::answer(const Question& question) {
     // What was given up comes again, unless a newer one does.
     const auto again = [&] { post([&](Mail& later, Demand&) { return later.questions.emplace(question.client, question), false; }); };
     if (of == nullptr) return again();
+    if (state.recorded) return answer_recorded(question, on, of->frame, index);
     const Whole* direct = expected(on, index);
     if (direct == nullptr) return again();
     const SimulatorOptions simulated = app::simulator_options(state.options);
@@ -57,12 +58,23 @@ void Session::Impl::answer(const Question& question) {
   if (fault) out_->tell(question.client, fault_text(asked.id, *fault));
 }
 
+void Session::Impl::answer_recorded(const Question& question, const SideOfSession& on, const Frame& frame, std::uint64_t index) {
+  const PixelQuestion& asked = question.pixel;
+  const Recorded& files = *on.state.recorded;
+  Json json = Json::object();
+  json.set("type", "pixel").set("id", asked.id).set("u", asked.u).set("v", asked.v);
+  json.set("side", name_of(asked.side)).set("generation", on.state.generation).set("frame", index);
+  put_pixel(json, frame, files.live() ? &on.state.in.camera : nullptr, files.file(index), asked.u, asked.v);
+  out_->tell(question.client, files::json_text(json));
+}
+
 /// In place of what the page asked before.
 void Session::Impl::begin_split(const Why& question) {
   splits_.erase(question.client);
   const WhyQuestion& asked = question.asked;
   const auto fault = fault_of([&] {
     const State& state = side(asked.side).state;
+    refuse(state, "why");
     const std::uint64_t index = question.generation == state.generation ? question.frame : state.frame;
     SimulatorOptions simulated = app::simulator_options(state.options);
     simulated.progress = &progress_;
@@ -120,6 +132,7 @@ void Session::Impl::answer(const Mail::Asked& asked) {
   const auto fault = fault_of([&] {
     const State& state = side(asked.query.side).state;
     if (asked.query.kind == Query::Kind::controls) return out_->tell(asked.client, controls_text(state, asked.query));
+    refuse(state, "save");
     constexpr std::size_t most_bytes = 900'000;  // a page that takes 1 MB too slowly is let go
     const Saved file = saved(state);
     Json json = Json::object();

@@ -179,7 +179,7 @@ class Session::Impl {
     a_.side = Side::a, a_.state = first_state(options);
     recorder_ = std::make_unique<Recorder>(options.output);
     // What cannot be simulated at all is told before there is an address.
-    simulator_of(a_.whole, a_.state, {});
+    if (!a_.state.recorded) simulator_of(a_.whole, a_.state, {});
   }
 
   void run(Outbox& outbox);
@@ -229,7 +229,7 @@ class Session::Impl {
   /// @throws Error where there is no side B
   SideOfSession& side(Side which);
   void set_frame(std::uint64_t index) {
-    for (SideOfSession* one : sides()) one->state.frame = index;
+    for (SideOfSession* one : sides()) one->state.frame = frame_within(a_.state, index);
   }
   void tell_state() { out_->tell_all(state_text(a_.state, b_ ? &b_->state : nullptr)); }
   bool due(const Demand& demand, Clock::time_point now) const;
@@ -270,6 +270,7 @@ class Session::Impl {
   bool step(Series& series);
   void tell_series(const Series& series, bool done);
   void forget(std::uint64_t client);
+  void answer_recorded(const Question& question, const SideOfSession& on, const Frame& frame, std::uint64_t index);
   void begin_split(const Why& question);
   void go_on_with_split();
   void tell_split(const Split& split);

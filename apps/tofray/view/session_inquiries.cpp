@@ -37,6 +37,20 @@ Json answer_json(const char* type, std::uint64_t id, Side side) {
   return Json::object().set("type", type).set("id", id).set("side", name_of(side));
 }
 
+const char* type_of(const Inquiry& what) {
+  struct Name {
+    const char* operator()(const SceneQuestion&) const { return "view3d"; }
+    const char* operator()(const Drag&) const { return "drag"; }
+    const char* operator()(const Place& one) const { return one.object ? "place" : "camera"; }
+    const char* operator()(const Measure&) const { return "measure"; }
+    const char* operator()(const RegionQuestion&) const { return "region"; }
+    const char* operator()(const Temporal&) const { return "temporal"; }
+    const char* operator()(const Screenshot&) const { return "screenshot"; }
+    const char* operator()(const Restore&) const { return "restore"; }
+  };
+  return std::visit(Name(), what);
+}
+
 template <class Of>
 std::uint64_t id_of(const Of& inquiry) {
   return std::visit([](const auto& one) { return one.id; }, inquiry);
@@ -65,6 +79,7 @@ void Session::Impl::answer(const Inquired& inquired) {
 void Session::Impl::answer_what(const Inquired& inquired) {
   SideOfSession& on = side(inquired.side);
   const std::uint64_t index = frame_asked(inquired, on.state);
+  refuse(on.state, type_of(inquired.what));
   if (const auto* drag = std::get_if<Drag>(&inquired.what)) {
     const Held* from = held(inquired, drag->base, drag->object, drag->from_u, drag->from_v);
     if (from == nullptr) return ask_again(inquired);
@@ -191,7 +206,10 @@ void Session::Impl::tell_restored(const Inquired& inquired, const Restore& asked
 void Session::Impl::take(const Mail::Ordered& ordered) {
   const Order& order = ordered.order;
   if (order.kind == Order::Kind::stop) return recorder_->stop(ordered.client);
-  const auto fault = fault_of([&] { recorder_->take(ordered.client, order, side(order.side).state, *out_); });
+  const auto fault = fault_of([&] {
+    refuse(side(order.side).state, order.kind == Order::Kind::record ? "record" : "export");
+    recorder_->take(ordered.client, order, side(order.side).state, *out_);
+  });
   if (fault) out_->tell(ordered.client, fault_text(order.id, *fault));
 }
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <initializer_list>
 
 #include "base/readout.h"
 #include "base/text.h"
@@ -76,10 +77,14 @@ Words with_time(Words words, const State& state) {
 /// width, height, phases, frame_rate_hz, camera and mode of the camera.
 void put_camera(Json& json, const State& state) {
   const Camera& camera = state.in.camera;
-  const Sensor sensor = base::as_read_out(camera).sensor;
   json.set("scene", state.in.scene.name).set("camera", camera.name).set("mode", camera.mode.name);
-  json.set("width", sensor.width).set("height", sensor.height).set("phases", camera.mode.sequence.size());
-  json.set("frame_rate_hz", camera.mode.frame_rate_hz);
+  if (state.recorded) {
+    json.set("width", state.recorded->width()).set("height", state.recorded->height());
+  } else {
+    const Sensor sensor = base::as_read_out(camera).sensor;
+    json.set("width", sensor.width).set("height", sensor.height);
+  }
+  json.set("phases", camera.mode.sequence.size()).set("frame_rate_hz", camera.mode.frame_rate_hz);
 }
 
 /// What each side has for itself.
@@ -95,7 +100,77 @@ void put_side(Json& json, const State& state) {
 
 const char* name_of(Side side) { return side == Side::a ? "a" : "b"; }
 
+std::string why_not(const State& state, std::string_view type) {
+  if (!state.recorded) return {};
+  const Recorded& files = *state.recorded;
+  const auto is = [type](std::initializer_list<std::string_view> all) { return std::find(all.begin(), all.end(), type) != all.end(); };
+  if (is({"record", "save"})) return "These frames are files already: " + base::printable(files.path());
+  if (is({"seed", "why", "drag", "place", "camera", "temporal", "screenshot", "restore"}))
+    return "These frames lie in files: no scene is known that could be simulated";
+  if (is({"set", "unset", "state"}) && !files.live())
+    return files.has_raw() ? "The files do not say which camera made their raw frames: `tofray view --camera PROFILE` does"
+                           : "The files have no raw frames, of which depth could be computed again";
+  if (type == "view3d" && !files.has_camera()) return "The files do not say which camera made them: `tofray view --camera PROFILE` does";
+  if (is({"measure", "region"}) && !files.has_depth())
+    return "The files do not have all arrays of depth: z_m, range_m, points_m, noise_m, flags";
+  return {};
+}
+
+void refuse(const State& state, std::string_view type) {
+  std::string why = why_not(state, type);
+  if (why.empty()) return;
+  why[0] = static_cast<char>(why[0] - 'A' + 'a');  // a sentence's first letter
+  throw Error(ErrorKind::bad_input, "error: " + why + "\n  what else there is can be looked at");
+}
+
+std::vector<std::pair<const char*, std::string>> cannot(const State& state) {
+  std::vector<std::pair<const char*, std::string>> out;
+  for (const char* type : {"record", "save", "seed", "why", "drag", "place", "camera", "temporal", "screenshot", "restore", "set", "unset",
+                           "state", "view3d", "measure", "region"})
+    if (std::string why = why_not(state, type); !why.empty()) out.emplace_back(type, std::move(why));
+  return out;
+}
+
+std::uint64_t frame_within(const State& state, std::uint64_t frame) {
+  return state.recorded ? std::min(frame, state.recorded->count() - 1) : frame;
+}
+
+std::uint64_t frame_after(const State& state) {
+  const std::uint64_t next = state.frame + 1;
+  return state.recorded && next >= state.recorded->count() ? 0 : next;
+}
+
+namespace {
+
+/// With the settings in force.
+void load(State& state) {
+  if (state.recorded)
+    state.in = state.recorded->loaded(state.options.set);
+  else
+    state.in = run::load(app::input_request(state.options.words[0], state.options));
+}
+
+State recorded_state(const app::Options& options) {
+  if (options.seed || options.noise || options.exposure_samples || options.subpixel || !options.root.empty())
+    throw Error(ErrorKind::bad_input,
+                base::printable(options.words[0]) +
+                    ": error: these frames are finished: --seed, --noise, --exposure-samples, --subpixel and --root are of "
+                    "scenes\n  --set changes how depth is computed of raw frames, as in --set camera.decoding.filter=median");
+  State state;
+  state.options = options;
+  state.recorded = std::make_shared<const Recorded>(options.words[0], options.camera, options.mode, options.set);
+  load(state);
+  return state;
+}
+
+}  // namespace
+
 State first_state(const app::Options& options) {
+  if (!options.words.empty() && names_recorded(options.words[0])) return recorded_state(options);
+  if (!options.camera.empty())
+    throw Error(
+        ErrorKind::bad_input,
+        "error: --camera is of files with raw frames\n  for the camera of a scene: --set camera.profile=NAME, or `tofray view NAME`");
   State state;
   state.options = options;
   if (state.options.words.empty()) state.options.words.emplace_back("demo");
@@ -111,8 +186,11 @@ State first_state(const app::Options& options) {
 }
 
 State changed(const State& before, const Edit& edit) {
+  static constexpr const char* types[] = {"set", "unset", "seed", "state", "other", "other"};
+  refuse(before, types[static_cast<std::size_t>(edit.kind)]);
+  if (edit.seed) refuse(before, "seed");
   State state;
-  state.options = before.options;
+  state.options = before.options, state.recorded = before.recorded;
   state.generation = before.generation + 1, state.frame = before.frame, state.playing = before.playing;
   auto& set = state.options.set;
   const auto same = [&](const auto& one) { return one.first == edit.key; };
@@ -130,19 +208,19 @@ State changed(const State& before, const Edit& edit) {
     default:
       if (edit.seed) state.options.seed = edit.seed;
   }
-  state.in = run::load(app::input_request(state.options.words[0], state.options));
+  load(state);
   return state;
 }
 
 State opened(const State& like, const Edit& edit, std::uint32_t generation) {
   State state;
-  state.options = like.options;
+  state.options = like.options, state.recorded = like.recorded;
   state.generation = generation, state.frame = like.frame, state.playing = like.playing;
   state.options.set = edit.overrides;
   if (edit.seed) state.options.seed = edit.seed;
   if (is_scene(edit.scene)) {
-    state.options.words[0] = edit.scene;
-  } else if (is_profile(edit.scene)) {
+    state.options.words[0] = edit.scene, state.recorded = nullptr;
+  } else if (is_profile(edit.scene) && !state.recorded) {
     use_camera(state.options.set, edit.scene);
   } else if (!edit.scene.empty()) {
     std::vector<std::string> known;
@@ -152,11 +230,12 @@ State opened(const State& like, const Edit& edit, std::uint32_t generation) {
                 "error: no built-in scene or camera is called " + base::in_quotes(edit.scene) + base::did_you_mean(edit.scene, known) +
                     "\n  `tofray list scenes` and `tofray list cameras` name them; a file cannot be opened from here");
   }
-  state.in = run::load(app::input_request(state.options.words[0], state.options));
+  load(state);
   return state;
 }
 
 std::string command_of(const State& state) {
+  if (state.recorded) return shell_text(state.recorded->command(state.frame, state.options.set));
   return shell_text(with_time(with_set(words_of(state, "render", state.options.words[0]), state.options.set), state));
 }
 
@@ -167,6 +246,12 @@ std::vector<std::string> recording_words(const State& state, std::uint64_t first
 }
 
 std::vector<std::string> live_words(const State& state) {
+  if (state.recorded) {
+    Words out{"tofray", "view", state.options.words[0]};
+    if (!state.options.camera.empty()) append(out, {"--camera", state.options.camera});
+    if (!state.options.mode.empty()) append(out, {"--mode", state.options.mode});
+    return with_set(out, state.options.set);
+  }
   return with_set(words_of(state, "view", state.options.words[0]), state.options.set);
 }
 
@@ -230,8 +315,10 @@ std::string controls_text(const State& state, const Query& query) {
   constexpr std::size_t most_bytes = 800'000;  // a page that takes 1 MB too slowly is let go
   std::string rows;
   std::size_t left_out = 0;
-  for (const load::Control& one :
-       load::controls_of(state.in.scene, scene_text(state), state.options.set, {state.options.mode, {}, state.options.root})) {
+  const auto controls = state.recorded ? state.recorded->controls(state.options.set)
+                                       : load::controls_of(state.in.scene, scene_text(state), state.options.set,
+                                                           {state.options.mode, {}, state.options.root});
+  for (const load::Control& one : controls) {
     const std::string row = left_out > 0 ? std::string() : files::json_text(load::json_of(one));
     if (left_out > 0 || rows.size() + row.size() > most_bytes)
       ++left_out;

@@ -2,8 +2,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 #include "cli/options.h"
@@ -11,6 +14,7 @@
 #include "run/inputs.h"
 #include "view/control.h"
 #include "view/picture_state.h"
+#include "view/recorded.h"
 
 namespace tofray::view {
 
@@ -21,7 +25,18 @@ struct State {
   std::uint32_t generation = 1;
   std::uint64_t frame = 0;
   bool playing = true;
+  std::shared_ptr<const Recorded> recorded = {};  ///< where frames lie in files: nothing is simulated then, and the scene is empty
 };
+
+/// Why messages of a type cannot be answered in this state; empty where they can.
+std::string why_not(const State& state, std::string_view type);
+/// @throws Error where they cannot
+void refuse(const State& state, std::string_view type);
+/// The types for which that is so, and why.
+std::vector<std::pair<const char*, std::string>> cannot(const State& state);
+/// The frame that is shown for a number, and the one behind it: files begin anew at their end.
+std::uint64_t frame_within(const State& state, std::uint64_t frame);
+std::uint64_t frame_after(const State& state);
 
 /// The state of a command line. @throws Error
 State first_state(const app::Options& options);
