@@ -30,7 +30,7 @@ test("controls, a histogram and a pixel's values", async () => {
   const tab = await start("dark");
   await set(tab, "camera.lens.f_number", "2.4");
   await tab.page.getByRole("searchbox").fill("lens f");
-  await tab.page.getByRole("button", { name: "Histogram" }).first().click();
+  await tab.page.getByRole("button", { name: "Histogram", exact: true }).first().click();
   await point_at(tab, 176, 133);
   await take(tab, "viewer.png");
 });
@@ -106,7 +106,7 @@ test("a page as one file", async () => {
   await page.locator('.stage.space[data-drawing="processor"]').waitFor();
   await page.locator(".pane select.cloud-color").selectOption("z_m");
   await page.locator(".stage").first().hover({ position: { x: 235, y: 150 } });
-  await page.getByRole("button", { name: "Histogram" }).first().click();
+  await page.getByRole("button", { name: "Histogram", exact: true }).first().click();
   await take({ page }, "viewer_file.png");
 });
 

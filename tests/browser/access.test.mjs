@@ -66,7 +66,7 @@ test("axe-core finds nothing in the page, dark and light, with controls, a fault
   await page.getByRole("combobox", { name: "Number of panes" }).selectOption("3");
   await page.waitForFunction(() => window.tofray.pane(2) !== undefined);
   await choose(tab, 2, "flags");
-  for (let i = 0; i < 3; ++i) await page.getByRole("button", { name: "Histogram" }).nth(i).click();
+  for (let i = 0; i < 3; ++i) await page.getByRole("button", { name: "Histogram", exact: true }).nth(i).click();
   for (const i of [0, 2]) await page.locator(".group > summary").nth(i).click();
   await page.locator(".control").first().waitFor();
   assert.deepEqual(await violations(tab), []);
@@ -350,9 +350,9 @@ test("in forced colours it is still seen what is chosen", async () => {
   const { url } = await view(["demo", "--seed", "5"]);
   const tab = await shown(url, { forcedColors: "active" });
   const { page } = tab;
-  await page.getByRole("button", { name: "Histogram" }).first().click();
+  await page.getByRole("button", { name: "Histogram", exact: true }).first().click();
   const border = (locator) => locator.evaluate((one) => getComputedStyle(one).borderBottomColor);
-  const histogram = page.getByRole("button", { name: "Histogram" });
+  const histogram = page.getByRole("button", { name: "Histogram", exact: true });
   assert.notEqual(await border(histogram.first()), await border(histogram.nth(1)));
   assert.notEqual(await border(page.getByRole("tab", { selected: true })), await border(page.getByRole("tab", { selected: false }).first()));
   assert.notEqual(await border(page.locator(".pane").first()), await border(page.locator(".pane").nth(1)));

@@ -84,6 +84,7 @@ test("raw frames without depth and truth are decoded as process does it, also wi
   assert.ok(!bytes_of(after.z_m).equals(bytes_of(before.z_m)));
   assert.ok(arrived(tab).z_m.equals(bytes_of(after.z_m)));
   await page.getByRole("button", { name: "Undo" }).first().click();
+  await page.locator("[data-changed]").waitFor({ state: "detached" });
   await settled(tab);
   assert.ok(arrived(tab).z_m.equals(bytes_of(before.z_m)));
   // A pixel's chain is there, its truth is not.
