@@ -1,14 +1,14 @@
 // SPDX-FileCopyrightText: 2026 The tofray authors
 // SPDX-License-Identifier: Apache-2.0
 // The pictures of docs/viewer.md, from the viewer itself, viewer.png, viewer_ab.png, viewer_why.png, viewer_3d.png,
-// viewer_measure.png, viewer_along.png and viewer_file.png:
+// viewer_measure.png, viewer_along.png, viewer_files.png and viewer_file.png:
 //   TOFRAY=build/release/apps/tofray/tofray TOFRAY_PAGE_PACKAGES=build/release/viewer node tools/viewer_picture.mjs docs/images
 
 import { test } from "node:test";
 import { mkdtempSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
-import { beside, drawn, open, point_at, set, settled, shown, stand_at, told, view } from "../tests/browser/viewer.mjs";
+import { beside, drawn, find, open, point_at, set, settled, shown, stand_at, told, view } from "../tests/browser/viewer.mjs";
 
 const [out] = process.argv.slice(2);
 if (out === undefined) throw new Error("node tools/viewer_picture.mjs FOLDER");
@@ -94,6 +94,21 @@ test("what is taken along", async () => {
   // The folder of this picture is nobody's.
   await page.locator("[data-recorded] p code").evaluate((one) => (one.textContent = "recording_0001"));
   await take(tab, "viewer_along.png");
+});
+
+test("raw frames that were made before", async () => {
+  const out = join(mkdtempSync(join(tmpdir(), "tofray-picture-")), "recording");
+  told(["render", "demo", "--seed", "1", "--frames", "20", "--quiet", "--arrays", "raw,modulation_frequency_hz,reference_phase_rad,integration_time_s,lit", "-o", out]);
+  const { url } = await view(["recording", "--camera", "pico-flexx"], 0, { cwd: join(out, "..") });
+  const tab = await shown(url, { viewport: { width: 1280, height: 760 }, colorScheme: "dark", reducedMotion: "reduce" });
+  const { page } = tab;
+  await stand_at(tab, 7);
+  await (await find(tab, "camera.decoding.filter.kind")).getByRole("combobox").selectOption("median");
+  await page.locator('[data-changed="camera.decoding.filter.kind"]').waitFor();
+  await settled(tab);
+  await page.getByRole("searchbox").fill("filter");
+  await page.locator("[data-note=files] summary").click();
+  await take(tab, "viewer_files.png");
 });
 
 test("a page as one file", async () => {

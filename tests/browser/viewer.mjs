@@ -80,8 +80,8 @@ export function inspected(path, u, v) {
 }
 
 /** `tofray view`, until the tests end. @param port  0: any */
-export async function view(words, port = 0) {
-  const child = spawn(tofray, ["view", ...words, "--port", String(port), "--json", "--test-hooks"], { stdio: ["ignore", "pipe", "inherit"] });
+export async function view(words, port = 0, options = {}) {
+  const child = spawn(tofray, ["view", ...words, "--port", String(port), "--json", "--test-hooks"], { ...options, stdio: ["ignore", "pipe", "inherit"] });
   running.add(child);
   const gone = new Promise((resolve) => child.on("exit", resolve));
   for await (const line of createInterface({ input: child.stdout })) {

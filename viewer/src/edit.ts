@@ -7,7 +7,7 @@ import { batch, effect, signal } from "@preact/signals";
 import { next_id, send } from "./connection";
 import { offer } from "./download";
 import type { Controls, Done, Fault, Override, Row, Saved, Side } from "./protocol";
-import { controls, controls_open, edited, key_faults, link, other, state, tab_shown, type Keys } from "./store";
+import { cannot, controls, controls_open, edited, key_faults, link, other, state, tab_shown, type Keys } from "./store";
 
 interface Sent {
   side: Side;
@@ -70,14 +70,19 @@ export function set_seed(side: Side, seed: number): void {
   send({ type: "seed", id: note({ side, key: undefined, restoring: false }), side, seed });
 }
 
+/** Frames in files have none. */
+function with_seed(seed: number): { seed?: number } {
+  return cannot("seed") === undefined ? { seed } : {};
+}
+
 export function set_state(side: Side, overrides: readonly Override[], seed: number, restoring = false): void {
-  send({ type: "state", id: note({ side, key: undefined, restoring }), side, overrides, seed });
+  send({ type: "state", id: note({ side, key: undefined, restoring }), side, overrides, ...with_seed(seed) });
 }
 
 /** Opens the second state. @param scene  a built-in scene's or profile's name; the first one's unless given */
 export function open_other(overrides: readonly Override[], seed: number, scene?: string, restoring = false): void {
   const id = note({ side: "b", key: undefined, restoring });
-  send({ type: "other", id, overrides, seed, ...(scene === undefined ? {} : { scene }) });
+  send({ type: "other", id, overrides, ...with_seed(seed), ...(scene === undefined ? {} : { scene }) });
 }
 
 export function close_other(restoring = false): void {

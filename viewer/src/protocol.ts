@@ -249,7 +249,7 @@ export type ClientMessage =
   | { type: "set"; id: number; side: Side; key: string; text: string }
   | { type: "unset"; id: number; side: Side; key: string }
   | { type: "seed"; id: number; side: Side; seed: number }
-  | { type: "state"; id: number; side: Side; overrides: readonly Override[]; seed: number }
+  | { type: "state"; id: number; side: Side; overrides: readonly Override[]; seed?: number }
   | { type: "other"; id: number; overrides: readonly Override[] | null; seed?: number; scene?: string }
   | { type: "controls"; id: number; side: Side }
   | { type: "save"; id: number; side: Side }
