@@ -50,7 +50,7 @@ test("a folder of frames is played in order, each with the colours of its own ar
   for (const array of ["gt_z_m", "z_error_m", "noise_m"]) {
     const { why } = absent.find((one) => one.array === array);
     assert.ok(why.length > 10);
-    assert.ok((await page.locator(`[data-absent=${array}]`).textContent()).endsWith(why), array);
+    assert.ok((await page.locator(`[data-absent~=${array}]`).textContent()).endsWith(why), array);
     assert.deepEqual(await page.locator(`.pane select.shows option[value=${array}]`).first().evaluate((one) => one.disabled), true, array);
   }
   await page.locator("[data-fixed]").getByText(tab.hello().cannot.set).waitFor();

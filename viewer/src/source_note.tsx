@@ -4,12 +4,19 @@
 
 import { useSignal } from "@preact/signals";
 import { brought_back } from "./keep";
+import type { Absent } from "./protocol";
 import { hello } from "./store";
 
 function Live({ command }: { command: string }) {
   const copied = useSignal(false);
   const copy = (): void => void navigator.clipboard.writeText(command).then(() => (copied.value = true), () => undefined);
   return <><code>{command}</code> <button type="button" class="quiet" onClick={copy}>{copied.value ? "Copied" : "Copy"}</button></>;
+}
+
+function by_reason(absent: readonly Absent[]): [string, Absent[]][] {
+  const all = new Map<string, Absent[]>();
+  for (const one of absent) all.set(one.why, [...(all.get(one.why) ?? []), one]);
+  return [...all];
 }
 
 export function SourceNote() {
@@ -34,7 +41,7 @@ export function SourceNote() {
       {absent.length > 0 && (
         <details>
           <summary>{absent.length === 1 ? "One pane is" : `${absent.length} panes are`} not there</summary>
-          <ul>{absent.map((one) => <li key={one.array} data-absent={one.array}><strong>{one.title}</strong>: {one.why}</li>)}</ul>
+          <ul>{by_reason(absent).map(([why, all]) => <li key={why} data-absent={all.map((one) => one.array).join(" ")}><strong>{all.map((one) => one.title).join(", ")}</strong>: {why}</li>)}</ul>
         </details>
       )}{" "}
       {close}
