@@ -159,7 +159,7 @@ test("a picture that has no state in it, is cut, or is of another scene says so,
   const alert = page.getByRole("alert");
   for (const [name, bytes, said] of [
     ["plain.png", readFileSync(join(out, "preview.png")), /plain\.png brings no state back\..*it has no state of tofray in it/],
-    ["cut.png", of_room.subarray(0, 60), /cut\.png brings no state back\..*it (ends within a part|has no state)/],
+    ["cut.png", of_room.subarray(0, of_room.indexOf("iTXt") + 40), /cut\.png brings no state back\..*it ends within a part/],
     ["letter.png", Buffer.from("Dear Sir"), /letter\.png brings no state back\..*it is no PNG/],
     ["room.png", of_room, /room[\s\S]*tofray view room/],
   ]) {
