@@ -180,11 +180,6 @@ def view(
         As ``load_inputs``; of kind "device" where there is no command tofray, or one without its viewer.
     TypeError
         For a scene that is no file and no name.
-
-    Examples
-    --------
-    >>> with tofray.view("room", set={"camera.lens.f_number": 1.2}) as viewer:
-    ...     input("Enter ends it. ")
     """
     words = [_command(), "view", *_words(scene, set, mode, root, seed, noise, exposure_samples, subpixel, camera)]
     words += ["--port", str(int(port)), "--quiet", "--end-with-input"]
@@ -300,10 +295,6 @@ def explore(frames: Frame | Sequence[Frame], *, arrays: Sequence[str] = (), heig
     Error
         For no frames, for such of different sizes, of kind "limit" where the page would have more than 200 MB, and of kind "device" where
         there is no command tofray, or one without its viewer's page.
-
-    Examples
-    --------
-    >>> tofray.explore([simulator.frame(i) for i in range(5)]).save("five.html")
     """
     all_frames = [frames] if isinstance(frames, Frame) else list(frames)
     if not all_frames:
