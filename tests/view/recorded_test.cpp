@@ -108,6 +108,9 @@ TEST(recorded, raw_frames_are_decoded_by_keys_as_process_decodes_them) {
   const std::string made = files::read_npz(viewer.folder() / "made/frame.npz", {"z_m"}).at(0).array.bytes;
   EXPECT_TRUE(frame.arrays.at(number_of(one.hello, "z_m")) == made);
   EXPECT_FALSE(made == rendered.bytes(2, "z_m"));
+  // A list with the seed in force, as undo sends it; another seed would be one of a simulation.
+  EXPECT_EQ(text_of(one.page.answer(R"({"type":"state","id":4,"overrides":[],"seed":0})"), "type"), "done");
+  EXPECT_TRUE(has(text_of(one.page.answer(R"({"type":"state","id":5,"overrides":[],"seed":1})"), "text"), "no scene is known"));
   // A key that is none, in the command line's words.
   const Json wrong = one.page.answer(R"({"type":"set","id":3,"key":"camera.decoding.filtr","text":"1"})");
   EXPECT_TRUE(has(text_of(wrong, "text"), R"(unknown key "filtr" in decoding; did you mean "filter"?)")) << files::json_text(wrong);

@@ -156,10 +156,11 @@ std::vector<Command> make() {
                "Frames are computed while somebody looks, and have the bytes that `tofray render` gives them.\n"
                "Of files nothing is simulated: where they have raw frames of a camera that they or --camera name, depth is computed as\n"
                "`tofray process` does it, with its decoding under controls.\n",
-       .options = {"--set",         "--camera", "--mode",  "--seed",    "--noise",      "--exposure-samples", "--subpixel", "--bounces",
-                   "--samples",     "--fps",    "--root",  "--threads", "--backend",    "--device",           "--port",     "--host",
-                   "--allow-host",  "--open",   "--embed", "--rate",    "--test-hooks", "--output",           "--export",   "--frames",
-                   "--first-frame", "--arrays", "--json",  "--quiet"},
+       .options = {"--set",      "--camera",         "--mode",    "--seed",       "--noise",      "--exposure-samples",
+                   "--subpixel", "--bounces",        "--samples", "--fps",        "--root",       "--threads",
+                   "--backend",  "--device",         "--port",    "--host",       "--allow-host", "--open",
+                   "--embed",    "--end-with-input", "--rate",    "--test-hooks", "--output",     "--export",
+                   "--frames",   "--first-frame",    "--arrays",  "--json",       "--quiet"},
        .least_words = 0,
        .most_words = 1,
        .run = run_view,

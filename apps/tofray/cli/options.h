@@ -67,7 +67,7 @@ struct Options {
     std::optional<int> port;
     std::string host, rate = "own", export_file;
     std::vector<std::string> allowed_hosts;
-    bool open = false, embed = false, test_hooks = false;
+    bool open = false, embed = false, end_with_input = false, test_hooks = false;
   } view;  ///< of `tofray view`
   struct Shards {
     std::uint64_t part = 0, parts = 1;

@@ -156,7 +156,7 @@ int run_view(const Options& typed) {
   refuse_frames(options);
   view::ServerOptions wanted;
   wanted.port = options.view.port, wanted.host = options.view.host, wanted.allowed_hosts = options.view.allowed_hosts;
-  wanted.embed = options.view.embed;
+  wanted.embed = options.view.embed, wanted.end_with_input = options.view.end_with_input;
   wanted.rate = view::parse_rate(options.view.rate).value_or(view::Rate());
   view::Session session(options, options.view.test_hooks, view::assets_sha256());
   say(session.warnings());

@@ -187,8 +187,9 @@ State first_state(const app::Options& options) {
 
 State changed(const State& before, const Edit& edit) {
   static constexpr const char* types[] = {"set", "unset", "seed", "state", "other", "other"};
-  refuse(before, types[static_cast<std::size_t>(edit.kind)]);
-  if (edit.seed) refuse(before, "seed");
+  const bool same_seed = edit.seed && *edit.seed == before.options.seed.value_or(0);
+  if (!(same_seed && edit.kind == Edit::Kind::seed)) refuse(before, types[static_cast<std::size_t>(edit.kind)]);
+  if (edit.seed && !same_seed) refuse(before, "seed");
   State state;
   state.options = before.options, state.recorded = before.recorded;
   state.generation = before.generation + 1, state.frame = before.frame, state.playing = before.playing;
