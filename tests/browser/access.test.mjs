@@ -6,8 +6,8 @@ import assert from "node:assert/strict";
 import { mkdtempSync, readFileSync } from "node:fs";
 import { join } from "node:path";
 import { test } from "node:test";
-import { split, with_chain } from "./answers.mjs";
-import { axe_source, beside, between, choose, drawn, find, folder, point_at, set, shown, stand_at, type, view } from "./viewer.mjs";
+import { before, measure_all, open_all } from "./full_pages.mjs";
+import { axe_source, beside, choose, drawn, find, folder, point_at, set, shown, stand_at, type, view } from "./viewer.mjs";
 
 /** Of the page as it is, on dark and on light ground. Only what is wrong comes out of the page: what is right is ten times as long. */
 async function violations({ page }) {
@@ -85,24 +85,6 @@ test("axe-core finds nothing in the page, dark and light, with controls, a fault
   }
 });
 
-/** A page that has a pixel's charts, an error's split, the sheet of raw frames and two pins. */
-const before = between({ asked: { why: ({ id, u, v }) => ({ type: "why", id, u, v, pixels: 1, count: 1, ...split }) }, told: { pixel: with_chain } });
-
-async function open_all(tab) {
-  const { page } = tab;
-  await stand_at(tab, 0);
-  await page.locator(".pane select.shows").nth(1).selectOption("raw frames");
-  await page.waitForFunction(() => window.tofray.pane(1, "a", 8) !== undefined);
-  await page.locator(".stage").first().focus();
-  await page.keyboard.press("ArrowRight");
-  await page.keyboard.press("p");
-  await page.keyboard.press("Shift+ArrowDown");
-  await page.keyboard.press("p");
-  await page.keyboard.press("w");
-  await page.locator("[data-why-of]").waitFor();
-  await page.locator("[data-candidate]").first().waitFor();
-}
-
 test("axe-core finds nothing in the page, dark and light, with raw frames, a pixel's charts, why it is wrong, and the watch list", async () => {
   const { url } = await view(["demo", "--seed", "5"]);
   const tab = await shown(url, { reducedMotion: "reduce", before });
@@ -125,29 +107,6 @@ test("axe-core finds nothing in the page, dark and light, with raw frames, a pix
   assert.deepEqual(await violations(tab), [], "two states' raw frames");
 });
 
-/** Points in space, a distance, a rectangle's numbers, and 200 frames'. */
-async function measure_all(tab) {
-  const { page } = tab;
-  await stand_at(tab, 0);
-  await page.locator(".pane select.shows").nth(1).selectOption("3D points");
-  await page.locator(".stage.space:not([data-drawing=loading])").waitFor();
-  await page.locator(".object-choice option").nth(3).waitFor({ state: "attached" });
-  await page.locator(".object-choice").selectOption({ index: 3 });
-  await page.getByRole("button", { name: "Lights", exact: true }).click();
-  await page.locator(".stage").first().focus();
-  await page.keyboard.press("ArrowRight");
-  await page.keyboard.press("m");
-  await page.keyboard.press("Shift+ArrowDown");
-  await page.keyboard.press("m");
-  await page.keyboard.press("g");
-  await page.keyboard.press("Shift+ArrowDown");
-  await page.keyboard.press("Shift+ArrowRight");
-  await page.keyboard.press("g");
-  await page.keyboard.press("n");
-  await page.keyboard.press("d");
-  for (const one of ["[data-measure]", "[data-region]", "[data-temporal]"]) await page.locator(one).waitFor();
-}
-
 test("axe-core finds nothing in the page, dark and light, with points in space, a distance, a rectangle and the noise over time", async () => {
   const { url } = await view(["demo", "--seed", "5"]);
   const tab = await shown(url, { reducedMotion: "reduce" });
@@ -162,26 +121,6 @@ test("axe-core finds nothing in the page, dark and light, with points in space, 
   await page.locator(".compare-bar").waitFor();
   assert.deepEqual(await violations(tab), [], "half measured, σ and σ̂, two states");
 });
-
-for (const [what, viewport] of [["320 CSS pixels wide", { width: 320, height: 640 }], ["zoomed to 200 %", { width: 640, height: 450 }], ["in a usual window", { width: 1280, height: 760 }]]) {
-  test(`${what}, points in space and all that is measured are not cut, and nothing has to be scrolled sideways`, async () => {
-    const { url } = await view(["demo", "--seed", "5"]);
-    const tab = await shown(url, { viewport, webgl: true });   // which has more buttons
-    const { page } = tab;
-    await measure_all(tab);
-    assert.equal(await page.evaluate(() => document.documentElement.scrollWidth), viewport.width);
-    const outside = await page.evaluate(() => [...document.querySelectorAll("button, select, input, .stage, table, th, td, progress, .figure")]
-      .filter((one) => one.checkVisibility() && one.closest(".wide, .unseen, dialog") === null)
-      .filter((one) => {
-        const [box, within] = [one, one.closest(".panel, .pane, header, footer, .compare-bar")].map((of) => of.getBoundingClientRect());
-        return box.width > 0 && (box.right > within.right + 0.5 || box.left < within.left - 0.5);
-      }).map((one) => one.outerHTML.slice(0, 200)));
-    assert.deepEqual(outside, []);
-    const folded = await page.evaluate(() => [...document.querySelectorAll(".panel td, .panel button, .pane button, .tool-bar button")].filter((one) => one.checkVisibility() && one.scrollWidth > one.clientWidth + 1 && one.clientWidth > 0)
-      .map((one) => one.outerHTML.slice(0, 200)));
-    assert.deepEqual(folded, [], "wider than its place");
-  });
-}
 
 /** The rows of a table of docs/viewer.md, by the word over its first column. */
 function table(word) {
@@ -243,82 +182,6 @@ test("Tab goes through every control, each with a focus that is seen", async () 
   assert.equal(await page.locator("[data-visited]").count(), expected, JSON.stringify(seen));
   for (const one of seen) assert.ok(one.outline, `${one.tag} shows no focus`);
 });
-
-// (At 200 % a window of 1280 × 900 has 640 × 450 CSS pixels.)
-for (const [what, viewport] of [["320 CSS pixels wide", { width: 320, height: 640 }], ["zoomed to 200 %", { width: 640, height: 450 }], ["in a usual window", { width: 1280, height: 760 }]]) {
-  test(`${what}, no control is lost, and nothing has to be scrolled sideways, neither with controls nor with two states`, async () => {
-    const { url } = await view(["demo", "--seed", "5"]);
-    const tab = await shown(url, { viewport });
-    const { page } = tab;
-    const check = async (state) => {
-      assert.equal(await page.evaluate(() => document.documentElement.scrollWidth), viewport.width, state);
-      const outside = await page.evaluate((width) => [...document.querySelectorAll("button, select, input, .stage, summary")]
-        .filter((one) => one.checkVisibility())
-        .filter((one) => one.getBoundingClientRect().right > width || one.getBoundingClientRect().left < 0).map((one) => one.outerHTML), viewport.width);
-      assert.deepEqual(outside, [], state);
-      const cut = await page.evaluate(() => [...document.querySelectorAll(".panel table, .panel p, .panel li")]
-        .filter((one) => one.checkVisibility() && one.closest(".wide, .unseen") === null)
-        .filter((one) => one.getBoundingClientRect().right > one.closest(".panel").getBoundingClientRect().right + 0.5).map((one) => one.outerHTML.slice(0, 200)));
-      assert.deepEqual(cut, [], state);
-    };
-    await check("at first");
-    for (const i of [0, 2]) await page.locator(".group > summary").nth(i).click();
-    await set(tab, "camera.lens.f_number", "2.8");
-    await type(tab, "camera.lens.f_number", "banana");
-    await (await find(tab, "camera.lens.f_number")).getByRole("alert").waitFor();
-    await check("controls");
-    await page.getByRole("button", { name: "A | B", exact: true }).click();
-    await page.locator(".compare-bar").waitFor();
-    await set(tab, "camera.lens.f_number", "4");
-    await beside(tab, "A | B");
-    await page.locator("tr[data-differs]").waitFor();
-    await check("two states");
-    await beside(tab, "Pixel");
-    await page.locator(".stage").first().focus();
-    await page.keyboard.press("ArrowRight");
-    await page.locator("td[data-value-b=z_m]").waitFor();
-    await check("a pixel of both");
-    await page.locator(".compare-bar").getByRole("button", { name: "Wipe" }).click();
-    await drawn(tab, "wipe");
-    await check("wipe");
-    await page.getByRole("button", { name: "Take along …" }).click();
-    const dialog = page.getByRole("dialog", { name: "Take along" });
-    await dialog.waitFor();
-    assert.equal(await dialog.evaluate((one) => one.scrollWidth > one.clientWidth), false, "the window is scrolled sideways");
-    const beyond = await dialog.evaluate((one) => [...one.querySelectorAll("button, input, p, h3, .file-button span")].filter((part) => part.getBoundingClientRect().right > one.getBoundingClientRect().right || part.getBoundingClientRect().left < one.getBoundingClientRect().left).map((part) => part.outerHTML.slice(0, 200)));
-    assert.deepEqual(beyond, [], "the window for what is taken along");
-  });
-}
-
-for (const [what, viewport] of [["320 CSS pixels wide", { width: 320, height: 640 }], ["zoomed to 200 %", { width: 640, height: 450 }], ["in a usual window", { width: 1280, height: 760 }]]) {
-  test(`${what}, raw frames, charts, bars and the watch list are not cut, and nothing has to be scrolled sideways`, async () => {
-    const { url } = await view(["demo", "--seed", "5"]);
-    const tab = await shown(url, { viewport, before });
-    const { page } = tab;
-    const check = async (state) => {
-      assert.equal(await page.evaluate(() => document.documentElement.scrollWidth), viewport.width, state);
-      const outside = await page.evaluate(() => [...document.querySelectorAll("button, select, input, .stage, summary, svg, figcaption, table, th, td, .mm, .bar-of")]
-        .filter((one) => one.checkVisibility() && one.closest(".wide, .unseen, dialog") === null)
-        .filter((one) => {
-          const [box, within] = [one, one.closest(".panel, .pane, header, footer, .compare-bar")].map((of) => of.getBoundingClientRect());
-          return box.width > 0 && (box.right > within.right + 0.5 || box.left < within.left - 0.5);
-        }).map((one) => one.outerHTML.slice(0, 200)));
-      assert.deepEqual(outside, [], state);
-      const folded = await page.evaluate(() => [...document.querySelectorAll(".panel td, .panel button, .mm")].filter((one) => one.checkVisibility() && one.closest(".wide, .unseen") === null && one.scrollWidth > one.clientWidth + 1 && one.clientWidth > 0)
-        .map((one) => one.outerHTML.slice(0, 200)));
-      assert.deepEqual(folded, [], `${state}: wider than its place`);
-    };
-    await open_all(tab);
-    await check("a pixel");
-    await beside(tab, "Watch");
-    await page.locator("[data-pinned]").nth(1).waitFor();
-    await check("the watch list");
-    await page.locator('.tile[data-raw="3"] .stage').focus();
-    await page.keyboard.press("Enter");
-    await page.waitForFunction(() => window.tofray.pane(1)?.array === "raw[3]");
-    await check("one raw frame");
-  });
-}
 
 test("all of it is done by keys: raw frames, one of them, pins, the watch list, why a pixel and a region are wrong", async () => {
   const { url } = await view(["demo", "--seed", "5"]);

@@ -8,7 +8,7 @@ import { join } from "node:path";
 import { test } from "node:test";
 import { expected, scale_of } from "./colors.mjs";
 import { read_npz } from "./npz.mjs";
-import { arrived, axe_source, beside, bytes_of, drawn, find, folder, pane, point_at, same, settled, shown, stand_at, told, view } from "./viewer.mjs";
+import { arrived, axe_source, beside, bytes_of, drawn, find, folder, pane, point_at, rendered, same, set, settled, shown, stand_at, told, view } from "./viewer.mjs";
 
 const width = 224;
 const words = ["demo", "--seed", "5"];
@@ -99,6 +99,19 @@ test("raw frames without depth and truth are decoded as process does it, also wi
   await drawn(tab, "a");
   await settled(tab);
   assert.ok(arrived(tab, "b").z_m.equals(bytes_of(before.z_m)));
+  // And the recording beside a simulation, which has keys of its own.
+  await beside(tab, "A | B");
+  await page.locator("#other-scene").fill("demo");
+  await page.locator("#other-scene").press("Enter");
+  await page.waitForFunction(() => document.querySelector(".differences")?.textContent.includes("demo"));
+  await settled(tab);
+  const simulated = (...more) => bytes_of(rendered(["demo", ...more], 1).z_m);
+  assert.ok(arrived(tab, "b").z_m.equals(simulated()));
+  assert.ok(arrived(tab).z_m.equals(bytes_of(before.z_m)));
+  await beside(tab, "Controls");
+  await set(tab, "camera.lens.f_number", "2.8");
+  assert.ok(arrived(tab, "b").z_m.equals(simulated("--set", "camera.lens.f_number=2.8")));
+  assert.ok(arrived(tab).z_m.equals(bytes_of(before.z_m)));
   assert.deepEqual(tab.troubles, []);
 });
 

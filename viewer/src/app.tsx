@@ -40,7 +40,7 @@ export function App() {
         <h1><span class="unseen">tofray view: </span><bdi>{of?.scene ?? "tofray view"}</bdi></h1>
         {of !== undefined && <p class="faint camera"><bdi>{of.camera}</bdi>{of.mode === "" ? "" : " · "}<bdi>{of.mode}</bdi> · {width} × {height}</p>}
         <UndoRedo />
-        <button type="button" class="quiet" aria-pressed={other.value !== undefined} onClick={toggle_other} disabled={link.value !== "open" || cannot("other") !== undefined} title={cannot("other") ?? "two states, looked at together (a)"}>A | B</button>
+        <button type="button" class="quiet" aria-pressed={other.value !== undefined} onClick={toggle_other} disabled={link.value !== "open" || cannot("other", "a") !== undefined} title={cannot("other", "a") ?? "two states, looked at together (a)"}>A | B</button>
         <ToolBar />
         <Status />
         <button type="button" class="quiet" onClick={() => (help_open.value = true)} aria-label="Help: keys" title="keys (?)">?</button>

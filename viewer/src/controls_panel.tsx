@@ -173,7 +173,7 @@ export function ControlsPanel() {
         <>
           <Tree rows={rows} side={side} />
           {(keys?.left_out ?? 0) > 0 && <p class="faint">{keys?.left_out} more keys of objects are not listed; <code>--set</code> takes them.</p>}
-          {cannot("seed") === undefined || hello.value?.source === undefined ? <Seed side={side} /> : null}
+          {cannot("seed", side) === undefined || hello.value?.source === undefined ? <Seed side={side} /> : null}
         </>
       )}
     </div>

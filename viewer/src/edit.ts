@@ -71,18 +71,18 @@ export function set_seed(side: Side, seed: number): void {
 }
 
 /** Frames in files have none. */
-function with_seed(seed: number): { seed?: number } {
-  return cannot("seed") === undefined ? { seed } : {};
+function with_seed(side: Side, seed: number): { seed?: number } {
+  return cannot("seed", side) === undefined ? { seed } : {};
 }
 
 export function set_state(side: Side, overrides: readonly Override[], seed: number, restoring = false): void {
-  send({ type: "state", id: note({ side, key: undefined, restoring }), side, overrides, ...with_seed(seed) });
+  send({ type: "state", id: note({ side, key: undefined, restoring }), side, overrides, ...with_seed(side, seed) });
 }
 
 /** Opens the second state. @param scene  a built-in scene's or profile's name; the first one's unless given */
 export function open_other(overrides: readonly Override[], seed: number, scene?: string, restoring = false): void {
   const id = note({ side: "b", key: undefined, restoring });
-  send({ type: "other", id, overrides, ...with_seed(seed), ...(scene === undefined ? {} : { scene }) });
+  send({ type: "other", id, overrides, ...with_seed(scene === undefined ? "a" : "b", seed), ...(scene === undefined ? {} : { scene }) });
 }
 
 export function close_other(restoring = false): void {

@@ -149,7 +149,7 @@ export function MeasurePanel() {
   const rows = statistics.answer.value;
   const fault = measuring.fault.value;
   const rows_fault = statistics.fault.value;
-  const whys = [...new Set(["measure", "region", "temporal"].map(cannot).filter((one) => one !== undefined))];
+  const whys = [...new Set(["measure", "region", "temporal"].map((one) => cannot(one, side)).filter((one) => one !== undefined))];
   return (
     <div class="measures">
       {whys.map((one) => <p key={one} class="hint">{one}</p>)}

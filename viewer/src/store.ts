@@ -90,9 +90,11 @@ export const temporal = signal<Readonly<{ a: TemporalResult | undefined; b?: Tem
 /** Panes of it, which have the colours of the noise that is estimated. */
 export const temporal_titles: Readonly<Record<string, string>> = { temporal_sigma_m: "σ over time", temporal_predicted_m: "σ̂ over time" };
 
-/** Why this source has no answer to a message of that type; undefined: it has. */
-export function cannot(type: string): string | undefined {
-  return hello.value?.cannot?.[type];
+/** Why the source has no answer to a message of that type; undefined: it has. A scene as B beside files has all of them. */
+export function cannot(type: string, side: Side = edited.value): string | undefined {
+  const of = hello.value;
+  const is_scene = side === "b" && of?.source !== undefined && other.value?.scene !== undefined && other.value.scene !== of.scene;
+  return is_scene ? undefined : of?.cannot?.[type];
 }
 
 /** Whether it is of the state in force. */
