@@ -201,6 +201,8 @@ test("a page within a page that shuts it in works; one without frames, or with h
   const inner = holder.page.frameLocator("iframe");
   await inner.getByText("A file with 3 frames.").waitFor();
   await inner.locator(".legend li").first().waitFor();
+  await inner.getByRole("group", { name: "The same as a command" }).getByRole("button", { name: "Copy" }).click();
+  await inner.getByText("This browser does not let the page copy.").waitFor();   // not to be copied, but to be read
   assert.deepEqual(holder.troubles, []);
 
   // Frames that were not packed.

@@ -6,6 +6,7 @@ import { useSignal, type Signal } from "@preact/signals";
 import type { ComponentChildren } from "preact";
 import { useEffect } from "preact/hooks";
 import { Dialog } from "./dialog";
+import { copy } from "./download";
 import { save } from "./edit";
 import { film_fault, film_result, filming, make_film, no_film, stop_film } from "./film";
 import { checksums, exporting, frame_now, keep_open, kept_side, record, recording, restore_from, take_screenshot, write_page, type Job } from "./keep";
@@ -65,11 +66,11 @@ function Part({ title, id, why, children }: { title: string; id: string; why: st
 
 function CopyButton({ text, children }: { text: string; children: ComponentChildren }) {
   const copied = useSignal(false);
-  const copy = (): void => void navigator.clipboard.writeText(text).then(() => {
-    copied.value = true;
+  const put = (): void => void copy(text).then((done) => {
+    copied.value = done;
     setTimeout(() => (copied.value = false), 2000);
-  }, () => undefined);
-  return <button type="button" class="quiet" onClick={copy}>{copied.value ? "Copied" : children}<span class="unseen" role="status">{copied.value ? "It is copied." : ""}</span></button>;
+  });
+  return <button type="button" class="quiet" onClick={put}>{copied.value ? "Copied" : children}<span class="unseen" role="status">{copied.value ? "It is copied." : ""}</span></button>;
 }
 
 function size_text(bytes: number): string {

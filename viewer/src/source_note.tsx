@@ -3,14 +3,14 @@
 // What is another here than with a scene that is computed: frames that were made before, and a page that is a file.
 
 import { useSignal } from "@preact/signals";
+import { copy } from "./download";
 import { brought_back } from "./keep";
 import type { Absent } from "./protocol";
 import { hello } from "./store";
 
 function Live({ command }: { command: string }) {
   const copied = useSignal(false);
-  const copy = (): void => void navigator.clipboard.writeText(command).then(() => (copied.value = true), () => undefined);
-  return <><code>{command}</code> <button type="button" class="quiet" onClick={copy}>{copied.value ? "Copied" : "Copy"}</button></>;
+  return <><code>{command}</code> <button type="button" class="quiet" onClick={() => void copy(command).then((done) => (copied.value = done))}>{copied.value ? "Copied" : "Copy"}</button></>;
 }
 
 function by_reason(absent: readonly Absent[]): [string, Absent[]][] {

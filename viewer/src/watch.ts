@@ -4,6 +4,7 @@
 // cameras have no σ.
 
 import { effect, signal } from "@preact/signals";
+import { copy } from "./download";
 import type { Frame, Side } from "./protocol";
 import { array_of, cursor, frame, frame_b, hello, of_b, other, size, spoken } from "./store";
 
@@ -220,7 +221,7 @@ export function csv(): string {
 export const csv_copied = signal(false);
 
 export async function copy_csv(): Promise<void> {
-  await navigator.clipboard.writeText(csv());
+  if (!await copy(csv())) return;
   csv_copied.value = true;
   setTimeout(() => (csv_copied.value = false), 2000);
 }
