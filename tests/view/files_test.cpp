@@ -54,18 +54,20 @@ TEST(recording, has_the_names_and_bytes_of_render) {
   const Viewer viewer({"demo", "--seed", "3", "-o", "made/here"});
   Greeted one(viewer);
   ASSERT_EQ(text_in(one.page.answer(R"({"type":"set","id":1,"key":"camera.lens.f_number","text":"2.8"})"), "type"), "done");
-  for (const int frames : {1, 3}) {
-    const std::string count = std::to_string(frames);
-    const Json answer = end_of(one.page, R"({"type":"record","id":2,"first":4,"frames":)" + count + "}", "record", "folder");
+  const std::pair<int, int> all[] = {{4, 1}, {4, 3}, {0, 1}};
+  for (const auto& [first, frames] : all) {
+    const std::string count = std::to_string(frames), number = std::to_string(first);
+    const Json answer =
+        end_of(one.page, R"({"type":"record","id":2,"first":)" + number + R"(,"frames":)" + count + "}", "record", "folder");
     ASSERT_EQ(text_in(answer, "type"), "record") << files::json_text(answer);
     EXPECT_EQ(number_in(answer, "done"), frames);
     const fs::path folder = text_in(answer, "folder");
-    const fs::path by_command = viewer.folder() / ("by_command" + count);
+    const fs::path by_command = viewer.folder() / ("by_command" + number + count);
     ASSERT_EQ(run_shell(viewer.folder().path(), text_in(answer, "command") + " -o " + by_command.native()), 0)
         << text_in(answer, "command");
     EXPECT_EQ(folder.parent_path(), viewer.folder() / "made/here");
     EXPECT_TRUE(files_of(folder) == files_of(by_command)) << files::json_text(answer);
-    EXPECT_EQ(files_of(folder).count(frames == 1 ? "preview_0004.png" : "frame_0006.npz"), 1u);
+    EXPECT_EQ(files_of(folder).count(frames == 3 ? "frame_0006.npz" : "preview_000" + number + ".png"), 1u);
     // What the answer lists is what lies there.
     std::map<std::string, std::string> told, there;
     for (const Json& file : *answer.find("files")->items()) {
@@ -75,7 +77,7 @@ TEST(recording, has_the_names_and_bytes_of_render) {
     for (const std::string& name : names_in(folder)) there[name] = files::sha256_hex(content(folder / name));
     EXPECT_EQ(told, there);
   }
-  EXPECT_EQ(names_in(viewer.folder() / "made/here"), (std::vector<std::string>{"recording_0001", "recording_0002"}));
+  EXPECT_EQ(names_in(viewer.folder() / "made/here"), (std::vector<std::string>{"recording_0001", "recording_0002", "recording_0003"}));
 }
 
 TEST(recording, is_of_the_side_that_is_named_and_leaves_time_alone) {
