@@ -1,12 +1,14 @@
 // SPDX-FileCopyrightText: 2026 The tofray authors
 // SPDX-License-Identifier: Apache-2.0
-// The pictures of docs/viewer.md, from the viewer itself, viewer.png, viewer_ab.png, viewer_why.png, viewer_3d.png and
-// viewer_measure.png:
+// The pictures of docs/viewer.md, from the viewer itself, viewer.png, viewer_ab.png, viewer_why.png, viewer_3d.png,
+// viewer_measure.png, viewer_along.png, viewer_files.png and viewer_file.png:
 //   TOFRAY=build/release/apps/tofray/tofray TOFRAY_PAGE_PACKAGES=build/release/viewer node tools/viewer_picture.mjs docs/images
 
 import { test } from "node:test";
+import { mkdtempSync } from "node:fs";
+import { tmpdir } from "node:os";
 import { join } from "node:path";
-import { beside, drawn, point_at, set, settled, shown, stand_at, view } from "../tests/browser/viewer.mjs";
+import { beside, drawn, find, open, point_at, set, settled, shown, stand_at, told, view } from "../tests/browser/viewer.mjs";
 
 const [out] = process.argv.slice(2);
 if (out === undefined) throw new Error("node tools/viewer_picture.mjs FOLDER");
@@ -28,7 +30,7 @@ test("controls, a histogram and a pixel's values", async () => {
   const tab = await start("dark");
   await set(tab, "camera.lens.f_number", "2.4");
   await tab.page.getByRole("searchbox").fill("lens f");
-  await tab.page.getByRole("button", { name: "Histogram" }).first().click();
+  await tab.page.getByRole("button", { name: "Histogram", exact: true }).first().click();
   await point_at(tab, 176, 133);
   await take(tab, "viewer.png");
 });
@@ -81,6 +83,48 @@ test("points in space", async () => {
   await take(tab, "viewer_3d.png");
 });
 
+test("what is taken along", async () => {
+  const tab = await start("dark", ["demo", "-o", mkdtempSync(join(tmpdir(), "tofray-picture-"))]);
+  const { page } = tab;
+  await page.locator(".stage").first().focus();
+  await page.keyboard.press("r");
+  await page.locator("#record-count").fill("2");
+  await page.getByRole("button", { name: "Record", exact: true }).click();
+  await page.locator("[data-recorded]").waitFor();
+  // The folder of this picture is nobody's.
+  await page.locator("[data-recorded] p code").evaluate((one) => (one.textContent = "recording_0001"));
+  await take(tab, "viewer_along.png");
+});
+
+test("raw frames that were made before", async () => {
+  const out = join(mkdtempSync(join(tmpdir(), "tofray-picture-")), "recording");
+  told(["render", "demo", "--seed", "1", "--frames", "20", "--quiet", "--arrays", "raw,modulation_frequency_hz,reference_phase_rad,integration_time_s,lit", "-o", out]);
+  const { url } = await view(["recording", "--camera", "pico-flexx"], 0, { cwd: join(out, "..") });
+  const tab = await shown(url, { viewport: { width: 1280, height: 760 }, colorScheme: "dark", reducedMotion: "reduce" });
+  const { page } = tab;
+  await stand_at(tab, 7);
+  await (await find(tab, "camera.decoding.filter.kind")).getByRole("combobox").selectOption("median");
+  await page.locator('[data-changed="camera.decoding.filter.kind"]').waitFor();
+  await settled(tab);
+  await page.getByRole("searchbox").fill("filter");
+  await page.locator("[data-note=files] summary").click();
+  await take(tab, "viewer_files.png");
+});
+
+test("a page as one file", async () => {
+  const file = join(mkdtempSync(join(tmpdir(), "tofray-picture-")), "demo.html");
+  told(["view", "demo", "--seed", "1", "--frames", "3", "--export", file]);
+  const { page } = await open(`file://${file}`, { viewport: { width: 1280, height: 760 }, colorScheme: "light", reducedMotion: "reduce" });
+  await page.waitForFunction(() => [...document.querySelectorAll(".stage canvas.front")].length === 2);
+  await page.locator(".stage").nth(1).focus();
+  await page.keyboard.press("x");
+  await page.locator('.stage.space[data-drawing="processor"]').waitFor();
+  await page.locator(".pane select.cloud-color").selectOption("z_m");
+  await page.locator(".stage").first().hover({ position: { x: 235, y: 150 } });
+  await page.getByRole("button", { name: "Histogram", exact: true }).first().click();
+  await take({ page }, "viewer_file.png");
+});
+
 test("a distance and a rectangle", async () => {
   const tab = await start("light");
   const { page } = tab;
@@ -89,9 +133,9 @@ test("a distance and a rectangle", async () => {
   await page.keyboard.press("m");
   await point_at(tab, 176, 133);
   await page.keyboard.press("m");
-  await point_at(tab, 160, 14);
+  await point_at(tab, 150, 14);   // the wall alone
   await page.keyboard.press("g");
-  await point_at(tab, 212, 62);
+  await point_at(tab, 206, 48);
   await page.keyboard.press("g");
   await page.locator("[data-region]").waitFor();
   await point_at(tab, 60, 160);

@@ -182,6 +182,12 @@ if TYPE_CHECKING:
         Sweep as Sweep,
         sweep as sweep,
     )
+    from ._view import (
+        Page as Page,
+        View as View,
+        explore as explore,
+        view as view,
+    )
 
     __version__: str
     flags: dict[str, int]
@@ -213,6 +219,7 @@ _HOME = {
     "_samples": ("Samples", "open_dataset"),
     "_simulator": ("Simulator", "camera_pose", "camera_report", "demo", "exposure_times", "full_sun", "invalid_pixels", "object_places", "pixel_rays", "placed_scene", "process", "scene_report"),
     "_sweep": ("Sweep", "sweep"),
+    "_view": ("Page", "View", "explore", "view"),
 }
 
 __all__ = sorted(name for names in _HOME.values() for name in names) + ["arrays", "flags"]

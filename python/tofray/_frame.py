@@ -6,7 +6,7 @@ from __future__ import annotations
 
 import copy
 import os
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Sequence
 
 from . import _native
 from ._arrays import Depth, Raw, Truth
@@ -17,6 +17,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from ._model import Camera, Scene
+    from ._view import Page
 
 PARTS = {"raw": Raw, "depth": Depth, "truth": Truth}
 
@@ -278,6 +279,28 @@ class Frame:
             return [_write(os.path.join(os.fspath(folder), name), data) for name, data in files.items()]
         except OSError as fault:
             raise IoError(f"{os.fspath(folder)}: error: {fault.strerror}") from fault
+
+    def explore(self, *, arrays: Sequence[str] = (), height: int = 720) -> Page:
+        """The frame as a page with panes, read-out and points in space, which needs no server; ``tofray.explore`` takes several.
+
+        Parameters
+        ----------
+        arrays, height
+            As of ``tofray.explore``.
+
+        Returns
+        -------
+        Page
+            A notebook shows it in place; ``save(file)`` writes it.
+
+        Raises
+        ------
+        Error
+            As ``tofray.explore``.
+        """
+        from ._view import explore
+
+        return explore(self, arrays=arrays, height=height)
 
     def plot(self, what: str = "z") -> Any:
         """A figure of matplotlib's, where that is installed.

@@ -157,6 +157,10 @@ Node camera_tree(const Scene& scene, const CameraOptions& options, std::string& 
   return tree_of(choice);
 }
 
+Node camera_tree(const std::string& text, const std::string& source, const CameraOptions& options) {
+  return tree_of({{text, source, {}}, options.mode, base::whole("--mode"), changes_of(options)});
+}
+
 }  // namespace tofray::load
 
 namespace tofray {

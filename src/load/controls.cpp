@@ -351,10 +351,8 @@ void mode_rows(Rows& rows, const Form& form, const Node& mode, const Scope& scop
   }
 }
 
-/// The profile's keys as the camera of the scene has them.
-void camera_rows(Rows& rows, const Scene& scene, const CameraOptions& options, std::vector<Control>& out) {
-  std::string source;
-  Node root = camera_tree(scene, options, source);
+/// The profile's keys as a camera has them. @param root  the profile with all changes
+void camera_rows(Rows& rows, Node root, const std::string& source, std::vector<Control>& out) {
   rows.set_profile(source);
   Node* modes = root.find("modes");
   const Node* named = root.find("mode");
@@ -425,7 +423,9 @@ std::vector<Control> controls_of(const Scene& scene, std::string_view text, cons
     if (key.name == "profile")
       for (const Builtin& one : builtin_profiles()) out.back().choices.push_back(one.name);
   }
-  camera_rows(rows, scene, camera, out);
+  std::string source;
+  Node profile = camera_tree(scene, camera, source);
+  camera_rows(rows, std::move(profile), source, out);
   for (const Key& key : form.keys) {
     if (key.name == "camera") continue;
     rows.value(key, key.form, root.find(key.name), {key.name, {}, false, true, true});
@@ -433,6 +433,15 @@ std::vector<Control> controls_of(const Scene& scene, std::string_view text, cons
   if (scene.transport.bounces == 0)
     for (Control& one : out)
       if (contains(of_bounces, one.key)) one.settable = false, one.text.reset();
+  return out;
+}
+
+std::vector<Control> camera_controls_of(const std::string& profile, const std::string& source, const CameraOptions& camera) {
+  std::vector<Control> out;
+  Settings settings;
+  for (const auto& [key, text] : camera.set) settings.emplace_back("camera." + key, text);
+  Rows rows(settings, out);
+  camera_rows(rows, camera_tree(profile, source, camera), source, out);
   return out;
 }
 

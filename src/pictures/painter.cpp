@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cstdint>
 
+#include "base/base64.h"
 #include "base/text.h"
 #include "pictures/letters.h"
 #include "pictures/png_file.h"
@@ -29,20 +30,6 @@ std::string escaped(std::string_view text) {
       out += "&gt;";
     else
       out += static_cast<unsigned char>(c) < 0x20 ? '?' : c;
-  }
-  return out;
-}
-
-/// Digits of RFC 4648.
-std::string base64(std::string_view bytes) {
-  constexpr std::string_view digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string out;
-  out.reserve((bytes.size() + 2) / 3 * 4);
-  for (std::size_t i = 0; i < bytes.size(); i += 3) {
-    const std::size_t there = std::min<std::size_t>(3, bytes.size() - i);
-    std::uint32_t three = 0;
-    for (std::size_t k = 0; k < 3; ++k) three = three << 8 | (k < there ? static_cast<unsigned char>(bytes[i + k]) : 0U);
-    for (std::size_t k = 0; k < 4; ++k) out += k <= there ? digits[three >> (18 - 6 * k) & 63U] : '=';
   }
   return out;
 }
@@ -88,7 +75,7 @@ void SvgPainter::image(int x, int y, int width, int height, int scale, const std
   text_ += fmt::format(
       "<image x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\" preserveAspectRatio=\"none\" style=\"image-rendering:pixelated\" "
       "xlink:href=\"data:image/png;base64,{}\"/>\n",
-      x, y, scale * width, scale * height, base64(png_of(width, height, image)));
+      x, y, scale * width, scale * height, base::base64(png_of(width, height, image)));
 }
 
 void SvgPainter::curve(const std::vector<Point>& points, double width, Rgb color, bool dashed) {

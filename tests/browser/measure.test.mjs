@@ -230,7 +230,7 @@ test("200 frames now: σ over time of each pixel is that of 200 frames rendered,
   const { flags } = rendered(words);
   const scale = scale_of(tab.hello(), "noise_m");
   for (const [i, name] of [[0, "temporal_sigma_m"], [1, "temporal_predicted_m"]]) same((await pane(tab, i)).pixels, expected(tab.hello(), scale, [...of[name].values], flags.values), name);
-  await page.getByRole("button", { name: "Histogram" }).first().click();
+  await page.getByRole("button", { name: "Histogram", exact: true }).first().click();
   await page.locator("canvas.histogram").waitFor();
 
   // While they are shown, a changed camera's come by themselves.

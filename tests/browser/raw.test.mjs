@@ -76,7 +76,7 @@ test("each has its number, frequency and phase step, a row for each frequency, a
   await stand_at(tab, 0);
   const frame = rendered(words);
   await page.locator(".stage").nth(1).focus();
-  await page.keyboard.press("r");
+  await page.keyboard.press("t");
   await page.locator('.tile[data-raw="8"]').waitFor();
   await page.waitForFunction(() => window.tofray.pane(1, "a", 8) !== undefined);
   await point_at(tab, 60, 40);
@@ -100,13 +100,13 @@ test("each has its number, frequency and phase step, a row for each frequency, a
   assert.equal(await page.locator('.reading[data-array="z_m"]').textContent(), `${frame.z_m.values[v * width + u].toPrecision(6)}\u00a0m`);
 });
 
-test("a click or Enter enlarges one, r goes back to all and then to what was there; the scale stays, also in another frame", async () => {
+test("a click or Enter enlarges one, t goes back to all and then to what was there; the scale stays, also in another frame", async () => {
   const { url } = await view(words);
   const tab = await shown(url);
   const { page } = tab;
   await stand_at(tab, 0);
   await page.locator(".stage").nth(1).focus();
-  await page.keyboard.press("r");
+  await page.keyboard.press("t");
   await page.waitForFunction(() => window.tofray.pane(1, "a", 8) !== undefined);
   const range = await bar(tab, 1);
   const scale = scale_of("raw", range);
@@ -120,7 +120,7 @@ test("a click or Enter enlarges one, r goes back to all and then to what was the
   await page.waitForFunction(() => window.tofray.pane(1)?.array === "raw[2]");
   await check(0, 2);
   assert.equal(await page.locator(".pane").nth(1).locator("select.raw-number option:checked").textContent(), "2: 80.32 MHz · 90°");
-  await page.keyboard.press("r");
+  await page.keyboard.press("t");
   await page.locator('.tile[data-raw="5"] .stage').focus();
   await page.keyboard.press("Enter");
   await page.waitForFunction(() => window.tofray.pane(1)?.array === "raw[5]");
@@ -129,9 +129,9 @@ test("a click or Enter enlarges one, r goes back to all and then to what was the
   await check(3, 5);
   assert.deepEqual(await bar(tab, 1), range);
   await page.locator(".stage").nth(1).focus();
-  await page.keyboard.press("r");
+  await page.keyboard.press("t");
   await page.locator(".sheet").waitFor();
-  await page.keyboard.press("r");
+  await page.keyboard.press("t");
   await page.waitForFunction(() => window.tofray.pane(1)?.array === "amplitude_e");
   assert.equal(await page.locator(".sheet").count(), 0);
 });

@@ -6,7 +6,7 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { expected, scale_of } from "./colors.mjs";
-import { answered_arrays, pane, rendered, same, set, settled, shown, stand_at, until, view } from "./viewer.mjs";
+import { answered_arrays, between, pane, rendered, same, set, settled, shown, stand_at, until, view } from "./viewer.mjs";
 
 const words = ["demo", "--seed", "5"];
 const width = 224, height = 172;
@@ -332,6 +332,15 @@ test("a lost WebGL context: the processor goes on drawing, and WebGL comes back"
   assert.equal(after.drawing, "WebGL");
   near_box(box_of(drawn_places(after)), box_of(drawn_places(before)), 1, "drawn by WebGL again");
   assert.equal(await page.getByText("drawn by the processor").count(), 0);
+});
+
+test("how many objects and lights did not go into the list is said in words, where some did not", async () => {
+  for (const [left_out, said] of [[0, undefined], [1, "One object or light is not drawn"], [1200, "1200 objects and lights are not drawn"]]) {
+    const { page } = await points(false, { before: between({ told: { view3d: (message) => ({ ...message, left_out }) } }) });
+    const word = page.locator("[data-left-out]");
+    if (said === undefined) assert.equal(await word.count(), 0);
+    else assert.ok((await word.textContent()).startsWith(`${said}: their list would be too long to send.`), await word.textContent());
+  }
 });
 
 test("on a light page the ground is light", async () => {

@@ -54,6 +54,7 @@ FEW_FRAMES = "--frames 2"
 
 # A viewer serves until somebody ends it: Ctrl-C after some seconds, which is a good end. One without its page says so (exit code 5).
 VIEW = "{{ timeout --preserve-status -s INT 3 {} || [[ $? == 5 ]]; }}"
+VIEW_EXPORT = "{{ {} || [[ $? == 5 ]]; }}"   # ends by itself
 
 # Names in backticks that nothing in the source knows.
 UNKNOWN_NAMES = {

@@ -136,7 +136,8 @@ class Document:
             if line.startswith("tofray bench") and "--frames" not in line:
                 line = line.replace("tofray bench", f"tofray bench {exceptions.FEW_FRAMES}", 1)
             if re.match(r"tofray view( |$)", line):
-                line = exceptions.VIEW.format(line if "--port" in line else line + " --port 0")
+                ends = "--export" in line
+                line = exceptions.VIEW_EXPORT.format(line) if ends else exceptions.VIEW.format(line if "--port" in line else line + " --port 0")
             lines.append(line)
         return "\n".join(lines)
 

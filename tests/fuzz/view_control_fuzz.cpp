@@ -8,8 +8,10 @@
 
 #include "base/rotation.h"
 #include "base/text.h"
+#include "tofray/error.h"
 #include "view/control.h"
 #include "view/meter.h"
+#include "view/picture_state.h"
 #include "view/wire.h"
 
 namespace {
@@ -17,6 +19,27 @@ namespace {
 using namespace tofray::view;
 
 bool is_pixel(int u, int v) { return u >= 0 && v >= 0 && u <= 16384 && v <= 16384; }
+
+/// The text of a stranger's picture: a state that is in its bounds and comes back as it is, or what is wrong with it.
+void check_picture(std::string_view text) {
+  PictureState state;
+  try {
+    state = parse_picture_text(text);
+  } catch (const tofray::Error& error) {
+    if (error.kind() != tofray::ErrorKind::bad_input || tofray::base::printable_lines(error.what()) != error.what()) std::abort();
+    return;
+  }
+  if (state.scene.empty() || state.scene.size() > 1000 || state.frame > 1'000'000'000) std::abort();
+  for (const auto& [key, value] : state.overrides)
+    if (key.empty() || key.size() > 1000 || key.find('=') != std::string::npos) std::abort();
+  std::string again;
+  try {
+    again = picture_text(state);
+  } catch (const tofray::Error&) {
+    return;  // what was written shorter may be too long
+  }
+  if (picture_text(parse_picture_text(again)) != again) std::abort();
+}
 
 /// What is asked of a frame is in its bounds, but for the image's.
 void check(const Inquiry& inquiry) {
@@ -37,6 +60,9 @@ void check(const Inquiry& inquiry) {
     if (region->u1 < region->u0 || region->v1 < region->v0) std::abort();
   } else if (const auto* temporal = std::get_if<Temporal>(&inquiry)) {
     if (temporal->frames < 2 || temporal->frames > 10000) std::abort();
+  } else if (const auto* restore = std::get_if<Restore>(&inquiry)) {
+    if (restore->text.size() > most_picture_text) std::abort();
+    check_picture(restore->text);
   }
 }
 
@@ -65,7 +91,10 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     if (why->u1 - why->u0 >= 64 || why->v1 - why->v0 >= 64) std::abort();
   } else if (const auto* inquiry = std::get_if<Inquiry>(&read)) {
     check(*inquiry);
+  } else if (const auto* order = std::get_if<Order>(&read)) {
+    if (order->frames < 1 || order->frames > 10000 || order->first > 1'000'000'000) std::abort();
   }
+  check_picture({reinterpret_cast<const char*>(data), size});
   // However the bytes of a stream are cut, its frames are the same.
   FrameMeter whole, cut;
   const bool at_once = whole.take(data, size, {});

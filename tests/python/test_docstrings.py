@@ -16,7 +16,7 @@ import tofray
 # In the order in which numpydoc wants them.
 SECTIONS = ["Parameters", "Attributes", "Returns", "Yields", "Raises"]
 SAY_NOTHING = {"add_note", "args", "with_traceback"}  # of Exception
-CANNOT_FAIL = {"order", "to_dict", "get", "stop", "demo", "full_sun"}
+CANNOT_FAIL = {"order", "to_dict", "get", "stop", "demo", "full_sun", "View.close", "View.wait"}
 
 
 def public() -> list[tuple[str, Any]]:
@@ -88,7 +88,7 @@ def test_a_function_describes_what_goes_in_and_comes_out(name: str) -> None:
     returned = str(signature.return_annotation)
     expected = {"Yields"} if returned.startswith("Iterator") else set() if returned == "None" else {"Returns"}
     assert said.keys() & {"Returns", "Yields"} == expected, returned
-    assert ("Raises" in said) == (name.rpartition(".")[2] not in CANNOT_FAIL)
+    assert ("Raises" in said) == (not {name, name.rpartition(".")[2]} & CANNOT_FAIL)
     if "NDArray" in returned and not returned.startswith("dict"):
         assert re.match(r"(float|u?int)\d+ array \[.+\], \S+|array or None", said["Returns"][0]), said["Returns"]
 
@@ -98,7 +98,7 @@ def test_a_class_describes_what_it_is_made_of(name: str) -> None:
     kind = dict(CLASSES)[name]
     said = sections(doc_of(kind))
     known = described(said.get("Parameters", []) + said.get("Attributes", []))
-    if name not in ("Error", "DeviceArray", "DeviceFrames"):  # which nobody makes
+    if name not in ("Error", "DeviceArray", "DeviceFrames", "View"):  # which nobody makes
         stub = (pathlib.Path(tofray.__file__).parent / "_native.pyi").read_text(encoding="utf-8")
         native = kind.__module__ == "tofray._native" and re.search(rf"^class {name}:.*?def __init__\(\s*self,(.*?)\) -> None", stub, re.M | re.S)
         words = re.findall(r"(\w+):", native[1]) if native else list(inspect.signature(kind).parameters)

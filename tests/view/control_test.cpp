@@ -75,6 +75,15 @@ TEST(control, is_read_of_every_type) {
   EXPECT_TRUE(region.u0 == 1 && region.v0 == 2 && region.u1 == 300 && region.v1 == 200);
   EXPECT_EQ(std::get<Temporal>(inquiry(R"({"type":"temporal","id":15,"frames":50})")).frames, 50);
   EXPECT_EQ(std::get<Temporal>(inquiry(R"({"type":"temporal","id":15})")).frames, 200);
+  EXPECT_EQ(std::get<Screenshot>(inquiry(R"({"type":"screenshot","id":16,"side":"b"})")).side, Side::b);
+  EXPECT_EQ(std::get<Restore>(inquiry(R"({"type":"restore","id":17,"text":"{}"})")).text, "{}");
+  const auto order = [](const char* text) { return std::get<Order>(parse_control(text)); };
+  const Order record = order(R"({"type":"record","id":18,"first":3,"frames":4,"side":"b"})");
+  EXPECT_TRUE(record.kind == Order::Kind::record && record.id == 18 && record.first == 3 && record.frames == 4 && record.side == Side::b);
+  EXPECT_EQ(order(R"({"type":"export","id":19,"first":0,"frames":1})").kind, Order::Kind::page);
+  EXPECT_EQ(order(R"({"type":"record_stop","id":20})").kind, Order::Kind::stop);
+  EXPECT_TRUE(std::holds_alternative<Refused>(parse_control(R"({"type":"record","id":18,"first":3,"frames":0})")));
+  EXPECT_TRUE(std::holds_alternative<Refused>(parse_control(R"({"type":"record","id":18,"first":3,"frames":10001})")));
 }
 
 // Each member of each message is left out, and stands as something else.
@@ -117,7 +126,12 @@ TEST(control, of_every_type_is_refused_where_a_member_is_not_what_it_has_to_be) 
        {"base", "side"}},
       {"measure", {{"id", "1"}, {"a", "[1,2]"}, {"b", "[1,2]"}, {"side", R"("b")"}}, {"side"}},
       {"region", {{"id", "1"}, {"region", "[1,2,3,4]"}, {"side", R"("b")"}}, {"side"}},
-      {"temporal", {{"id", "1"}, {"frames", "5"}, {"side", R"("b")"}}, {"frames", "side"}}};
+      {"temporal", {{"id", "1"}, {"frames", "5"}, {"side", R"("b")"}}, {"frames", "side"}},
+      {"screenshot", {{"id", "1"}, {"side", R"("b")"}}, {"side"}},
+      {"restore", {{"id", "1"}, {"text", R"("{}")"}}, {}},
+      {"record", {{"id", "1"}, {"first", "1"}, {"frames", "5"}, {"side", R"("b")"}}, {"side"}},
+      {"export", {{"id", "1"}, {"first", "1"}, {"frames", "5"}, {"side", R"("b")"}}, {"side"}},
+      {"record_stop", {{"id", "1"}}, {}}};
   const char* const others[] = {"-1",
                                 "1.5",
                                 "1e30",

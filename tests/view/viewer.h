@@ -38,11 +38,14 @@ using std::chrono::milliseconds;
 /// `tofray view`, ended with the test.
 class Viewer {
  public:
-  explicit Viewer(Arguments more = {"demo"}, bool small = true) {
+  explicit Viewer(Arguments more = {"demo"}, bool small = true, const Prepare& prepare = {}) {
     Arguments all = {"view", "--port", "0", "--json", "--test-hooks"};
     all.insert(all.end(), more.begin(), more.end());
     if (small) all = with_small_sensor(all);
-    child_.emplace(start(all, folder_ / "out", folder_ / "err", in_folder(folder_.path())));
+    child_.emplace(start(all, folder_ / "out", folder_ / "err", [&] {
+      in_folder(folder_.path())();
+      if (prepare) prepare();
+    }));
     const Clock::time_point end = Clock::now() + std::chrono::seconds(60);
     while (Clock::now() < end && content(folder_ / "out").find('\n') == std::string::npos) std::this_thread::sleep_for(milliseconds(5));
     const files::Json said = files::parse_json(

@@ -3,6 +3,7 @@
 // What keys and buttons do alike.
 
 import { computed, signal } from "@preact/signals";
+import { copy } from "./download";
 import { close_other, open_other } from "./edit";
 import { edited, flipped, hello, other, state, tab } from "./store";
 
@@ -13,7 +14,7 @@ export const copied = signal(false);
 
 export async function copy_command(): Promise<void> {
   if (command.value === "") return;
-  await navigator.clipboard.writeText(command.value);
+  if (!await copy(command.value)) return;
   copied.value = true;
   setTimeout(() => (copied.value = false), 2000);
 }

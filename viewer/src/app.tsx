@@ -5,12 +5,14 @@ import { shown_array } from "./cloud";
 import { CompareBar } from "./compare_panel";
 import { UndoRedo } from "./controls_panel";
 import { Help } from "./help";
+import { KeepDialog } from "./keep_dialog";
 import { reading } from "./keys";
 import { Pane } from "./pane";
 import { is_sheet } from "./raw";
 import { ControlsColumn, Side } from "./side";
+import { BroughtBack, SourceNote } from "./source_note";
 import { Command, Restored, Status, Troubles } from "./status";
-import { comparing, cursor, hello, help_open, link, other, shown, size, spoken, title_of } from "./store";
+import { cannot, comparing, cursor, hello, help_open, link, other, shown, size, spoken, title_of } from "./store";
 import { TimeLine } from "./time_line";
 import { Moved, ToolBar } from "./tool_bar";
 import { tool } from "./tools";
@@ -34,17 +36,19 @@ export function App() {
   return (
     <>
       <header>
-        <img src="icon.svg" alt="" width="28" height="28" />
+        <img src={TOFRAY_ICON} alt="" width="28" height="28" />
         <h1><span class="unseen">tofray view: </span><bdi>{of?.scene ?? "tofray view"}</bdi></h1>
         {of !== undefined && <p class="faint camera"><bdi>{of.camera}</bdi>{of.mode === "" ? "" : " · "}<bdi>{of.mode}</bdi> · {width} × {height}</p>}
         <UndoRedo />
-        <button type="button" class="quiet" aria-pressed={other.value !== undefined} onClick={toggle_other} disabled={link.value !== "open"} title="two states, looked at together (a)">A | B</button>
+        <button type="button" class="quiet" aria-pressed={other.value !== undefined} onClick={toggle_other} disabled={link.value !== "open" || cannot("other", "a") !== undefined} title={cannot("other", "a") ?? "two states, looked at together (a)"}>A | B</button>
         <ToolBar />
         <Status />
         <button type="button" class="quiet" onClick={() => (help_open.value = true)} aria-label="Help: keys" title="keys (?)">?</button>
       </header>
       <Troubles />
       <Restored />
+      <BroughtBack />
+      <SourceNote />
       <main class={`${link.value === "open" ? "" : "stale"}${tool.value === "drag" ? " drags" : ""}`}>
         <ControlsColumn />
         <div class={`middle panes-${shown.value.length}${other.value !== undefined && comparing.value === "beside" ? " double" : ""}`}>
@@ -61,6 +65,7 @@ export function App() {
       </footer>
       <div class="unseen" role="log" aria-live="polite" aria-label="Pixel cursor" id="spoken">{spoken.value}</div>
       <Help />
+      <KeepDialog />
     </>
   );
 }

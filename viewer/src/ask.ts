@@ -123,6 +123,12 @@ export function seek(to: number): void {
   send({ type: "seek", frame: to });
 }
 
+/** Time stops at a frame. */
+export function stand_at(frame: number): void {
+  if (is_playing()) send({ type: "pause" });
+  seek(frame);
+}
+
 /** From the frame that was asked for last, if that has not come yet: ten quick steps are ten frames. */
 export function step(by: number): void {
   if (is_playing()) send({ type: "pause" });

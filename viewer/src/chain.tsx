@@ -4,6 +4,7 @@
 // unwrap. All numbers are the server's; here they are only placed.
 
 import type { ComponentChildren } from "preact";
+import { ChartFiles, csv_of, drawn_here } from "./chart_files";
 import { minus, number_text, value_text, with_unit } from "./numbers";
 import type { Candidate, Curve, FlowValue, Phasor, Stage, Unwrapping, Value } from "./protocol";
 
@@ -148,8 +149,15 @@ function Correlation({ of }: { of: Curve }) {
           </g>
         ))}
       </Chart>
+      <ChartFiles name={`Correlation function at ${mhz(of.frequency_hz)}`} csv={() => curve_csv(of)} svg={drawn_here("figure", `Correlation at ${mhz(of.frequency_hz)}: A − B [${unit}]`)} />
     </figure>
   );
+}
+
+/** The function at each phase, then what was measured of it. */
+function curve_csv(of: Curve): string {
+  const points = of.points.map((value, i) => ["function", (2 * Math.PI * i) / of.points.length, value]);
+  return csv_of(["of", "phase [rad]", `A-B [${of.unit ?? "e"}]`], [...points, ...of.samples.map(([phase, value]) => ["measured", phase, value])]);
 }
 
 export function Curves({ of }: { of: readonly Curve[] }) {
@@ -242,8 +250,18 @@ function Phasors1({ of }: { of: Phasor }) {
           <tr><th scope="row">phase</th><td data-phasor-value="phase_rad" data-number={of.phase_rad ?? ""}>{degrees(angle)}</td></tr>
         </tbody>
       </table>
+      <ChartFiles name={`Phasor at ${mhz(of.frequency_hz)}`} csv={() => phasor_csv(of)} svg={drawn_here("figure", `Phasor at ${mhz(of.frequency_hz)}, and its end enlarged [${unit}]`)} />
     </figure>
   );
+}
+
+function phasor_csv(of: Phasor): string {
+  const unit = of.unit ?? "e";
+  const rows = [
+    ["frequency", of.frequency_hz, "Hz"], ["I", of.i, unit], ["Q", of.q, unit], ["sigma_I", of.sigma_i, unit], ["sigma_Q", of.sigma_q, unit], ["covariance", of.covariance, `${unit}^2`],
+    ["amplitude", of.amplitude, unit], ["phase", of.phase_rad, "rad"], ["true_I", of.truth_i, unit], ["true_Q", of.truth_q, unit],
+  ];
+  return csv_of(["name", "value", "unit"], rows);
 }
 
 export function Phasors({ of }: { of: readonly Phasor[] }) {
@@ -307,6 +325,7 @@ export function UnwrappingTable({ of, truth_m }: { of: Unwrapping | null | undef
           ))}
         </tbody>
       </table>
+      <ChartFiles name="Ways to unwrap" csv={() => csv_of(["cycles", "range [m]", "cost [m^2]", "chosen"], of.candidates.map((one) => [one.cycles.join(" "), one.range_m, one.cost, one.chosen === true]))} svg={drawn_here("details", "Ranges that the phases allow [m]")} />
       {ratio != null && Number.isFinite(ratio) && <p class="what" data-ratio={ratio}>The runner-up's cost is {short(ratio)} times that of the one chosen.</p>}
     </details>
   );

@@ -8,7 +8,7 @@ import { has_difference } from "./compare";
 import { Key } from "./control";
 import { open_other, set_state, text_now } from "./edit";
 import type { Override, Side } from "./protocol";
-import { comparing, controls, flipped, link, other, state, type Comparing } from "./store";
+import { cannot, comparing, controls, flipped, link, other, state, type Comparing } from "./store";
 
 const ways: readonly { way: Comparing; said: string; title: string }[] = [
   { way: "beside", said: "Side by side", title: "A and B beside each other" },
@@ -98,7 +98,7 @@ function Differences() {
 
 function OtherScene() {
   const name = useSignal("");
-  const off = link.value !== "open";
+  const off = link.value !== "open" || cannot("other", "a") !== undefined;
   return (
     <form class="other-scene" onSubmit={(event) => {
       event.preventDefault();
@@ -113,10 +113,12 @@ function OtherScene() {
 
 export function ComparePanel() {
   const [a, b] = [state.value, other.value];
-  const off = link.value !== "open";
+  const why = cannot("other", "a");
+  const off = link.value !== "open" || why !== undefined;
   if (a === undefined || b === undefined) {
     return (
       <>
+        {why !== undefined && <p class="hint">{why}</p>}
         <p>Two states of the camera, looked at together. B begins as a copy of A, with the same noise: what differs then is what you change.</p>
         <p><button type="button" class="main-button" onClick={toggle_other} disabled={off}>Open B</button></p>
         <OtherScene />

@@ -3,6 +3,7 @@
 // The line to the server: opened with the key, opened again when it breaks, and given up only where another server answers.
 
 import type { ClientMessage, ServerMessage } from "./protocol";
+import { FileLine } from "./file_line";
 import { take_key } from "./key";
 import { link } from "./store";
 
@@ -15,6 +16,12 @@ export interface Receiver {
   binary(message: ArrayBuffer): void;
 }
 
+interface Line {
+  begin(): void;
+  send(message: ClientMessage): void;
+}
+
+let in_file: Line | undefined;   // in a page that is one file it answers in the server's place
 let socket: WebSocket | undefined;
 let receiver: Receiver | undefined;
 let key: string | undefined;
@@ -31,11 +38,18 @@ export function next_id(): number {
 }
 
 export function send(message: ClientMessage): void {
-  if (socket?.readyState === WebSocket.OPEN) socket.send(JSON.stringify(message));
+  if (in_file !== undefined) in_file.send(message);
+  else if (socket?.readyState === WebSocket.OPEN) socket.send(JSON.stringify(message));
 }
 
+/** @throws Error where the page is a file without frames */
 export function connect(to: Receiver): void {
   receiver = to;
+  if (TOFRAY_IN_FILE) {
+    in_file = new FileLine(to);
+    link.value = "open";
+    return in_file.begin();
+  }
   addEventListener("hashchange", () => {
     if (location.hash !== "") begin();
   });

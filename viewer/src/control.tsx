@@ -7,7 +7,7 @@ import { drag_key, fault_place, forget_fault, set_key, text_now, unanswered, uns
 import { begin_gesture, end_gesture } from "./history";
 import { number_text } from "./numbers";
 import type { Fault, Row, Side } from "./protocol";
-import { edited, key_faults, link, other, state } from "./store";
+import { cannot, edited, key_faults, link, other, state } from "./store";
 import { number_in, place_of_value, places, text_at, with_unit_of, type Ends } from "./slider";
 
 /** The ends of sliders as they were first shown: they do not run away under the hand. */
@@ -146,7 +146,7 @@ export function Control({ row, label }: { row: Row; label: string }) {
   const place = fault_place(side, row.key);
   const fault = key_faults.value.get(place);
   const text = text_now(row, side);
-  const off = link.value !== "open" || row.settable === false;
+  const off = link.value !== "open" || row.settable === false || cannot("set") !== undefined;
   const changed = is_changed(row, side);
   const id = `key-${row.key}`;
   const [what, wrong] = [`${id}-what`, `${id}-wrong`];
@@ -159,7 +159,7 @@ export function Control({ row, label }: { row: Row; label: string }) {
     <div class={`control${changed ? " changed" : ""}${row.settable === false ? " excluded" : ""}`} data-key={row.key} data-kind={row.kind}>
       <div class="control-head">
         <label for={id} title={row.key}><Key of={label} /></label>
-        {changed && <button type="button" class="quiet reset" disabled={link.value !== "open"} onClick={() => unset_key(side, row.key)} aria-label={`Reset ${row.key}`} title="as it was">↺</button>}
+        {changed && <button type="button" class="quiet reset" disabled={link.value !== "open" || cannot("set") !== undefined} onClick={() => unset_key(side, row.key)} aria-label={`Reset ${row.key}`} title="as it was">↺</button>}
         {row.kind === "switch" && (
           <input id={id} type="checkbox" checked={text === "true" || text === "on" || text === "yes"} disabled={off} aria-describedby={described}
             onChange={() => set_key(side, row.key, opposites[text] ?? "true")} />

@@ -7,7 +7,7 @@ import { set_seed, set_state, unset_key } from "./edit";
 import { future, past, redo, undo } from "./history";
 import type { Override, Row, Side } from "./protocol";
 import { found } from "./search";
-import { controls, edited, link, open_groups, other, search, state } from "./store";
+import { cannot, controls, edited, hello, link, open_groups, other, search, state } from "./store";
 
 const most_found = 40;
 
@@ -48,7 +48,7 @@ function Seed({ side }: { side: Side }) {
   return (
     <div class="seed">
       <label for="seed">seed of the noise</label>
-      <input id="seed" type="text" inputMode="numeric" autoComplete="off" value={String(seed)} disabled={link.value !== "open"}
+      <input id="seed" type="text" inputMode="numeric" autoComplete="off" value={String(seed)} disabled={link.value !== "open" || cannot("seed") !== undefined}
         onChange={(event) => send(event.currentTarget.value) || (event.currentTarget.value = String(seed))} />
     </div>
   );
@@ -57,7 +57,7 @@ function Seed({ side }: { side: Side }) {
 /** Every `--set`, those of the command line, too, in order. */
 function Changed({ side }: { side: Side }) {
   const overrides = overrides_of(side);
-  const off = link.value !== "open";
+  const off = link.value !== "open" || cannot("set") !== undefined;
   if (overrides.length === 0) return <p class="faint none-changed">Nothing is changed. Move a slider, or type a value with its unit.</p>;
   return (
     <section class="changes" aria-label="Changed">
@@ -158,6 +158,7 @@ export function UndoRedo() {
 export function ControlsPanel() {
   const side = edited.value;
   const keys = controls[side].value;
+  const fixed = cannot("set");
   const rows = keys?.rows;
   return (
     <div class="controls">
@@ -166,12 +167,13 @@ export function ControlsPanel() {
         <input id="search" type="search" value={search.value} onInput={(event) => (search.value = event.currentTarget.value)} autoComplete="off" spellcheck={false}
           aria-label="Search the controls" placeholder="Search: f num" onKeyDown={(event) => event.key === "Escape" && (search.value = "")} />
       </div>
-      <Changed side={side} />
-      {rows === undefined ? <p class="faint">asked …</p> : search.value.trim() !== "" ? <Found rows={rows} side={side} /> : (
+      {fixed !== undefined && <p class="hint" data-fixed>{fixed}</p>}
+      {(fixed === undefined || overrides_of(side).length > 0) && <Changed side={side} />}
+      {rows === undefined && cannot("controls") !== undefined ? null : rows === undefined ? <p class="faint">asked …</p> : search.value.trim() !== "" ? <Found rows={rows} side={side} /> : (
         <>
           <Tree rows={rows} side={side} />
           {(keys?.left_out ?? 0) > 0 && <p class="faint">{keys?.left_out} more keys of objects are not listed; <code>--set</code> takes them.</p>}
-          <Seed side={side} />
+          {cannot("seed", side) === undefined || hello.value?.source === undefined ? <Seed side={side} /> : null}
         </>
       )}
     </div>

@@ -5,8 +5,9 @@
 
 import { batch, effect, signal } from "@preact/signals";
 import { next_id, send } from "./connection";
+import { offer } from "./download";
 import type { Controls, Done, Fault, Override, Row, Saved, Side } from "./protocol";
-import { controls, controls_open, edited, key_faults, link, other, state, tab_shown, type Keys } from "./store";
+import { cannot, controls, controls_open, edited, key_faults, link, other, state, tab_shown, type Keys } from "./store";
 
 interface Sent {
   side: Side;
@@ -69,14 +70,19 @@ export function set_seed(side: Side, seed: number): void {
   send({ type: "seed", id: note({ side, key: undefined, restoring: false }), side, seed });
 }
 
+/** Frames in files have none. */
+function with_seed(side: Side, seed: number): { seed?: number } {
+  return cannot("seed", side) === undefined ? { seed } : {};
+}
+
 export function set_state(side: Side, overrides: readonly Override[], seed: number, restoring = false): void {
-  send({ type: "state", id: note({ side, key: undefined, restoring }), side, overrides, seed });
+  send({ type: "state", id: note({ side, key: undefined, restoring }), side, overrides, ...with_seed(side, seed) });
 }
 
 /** Opens the second state. @param scene  a built-in scene's or profile's name; the first one's unless given */
 export function open_other(overrides: readonly Override[], seed: number, scene?: string, restoring = false): void {
   const id = note({ side: "b", key: undefined, restoring });
-  send({ type: "other", id, overrides, seed, ...(scene === undefined ? {} : { scene }) });
+  send({ type: "other", id, overrides, ...with_seed(scene === undefined ? "a" : "b", seed), ...(scene === undefined ? {} : { scene }) });
 }
 
 export function close_other(restoring = false): void {
@@ -196,12 +202,7 @@ export function save(side: Side): void {
 }
 
 export function saved_arrived(of: Saved): void {
-  const address = URL.createObjectURL(new Blob([of.text], { type: "application/yaml" }));
-  const link_to = document.createElement("a");
-  link_to.href = address;
-  link_to.download = of.name;
-  link_to.click();
-  setTimeout(() => URL.revokeObjectURL(address), 10_000);
+  offer(of.name, of.text, "application/yaml");
 }
 
 /** A row's text as the state has it now: the rows come a little later. */

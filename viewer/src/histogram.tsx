@@ -4,13 +4,14 @@
 // counted apart.
 
 import { useEffect, useRef } from "preact/hooks";
+import { ChartFiles, csv_of, svg_of_bars, svg_of_rods } from "./chart_files";
 import { color_of, css, place_of, reason_of } from "./colors";
 import { difference_of, image_of, type Shows, type Values } from "./compare";
 import { percent } from "./legend";
 import { number_text } from "./numbers";
 import type { Hello, Scale } from "./protocol";
 import { value_of } from "./scale_bar";
-import { frame, frame_b, hello, other } from "./store";
+import { frame, frame_b, hello, other, title_of } from "./store";
 
 const bins = 128;
 const height = 72;
@@ -62,6 +63,31 @@ function draw(canvas: HTMLCanvasElement, greeting: Hello, scale: Scale, of: Tall
   if (beside !== undefined) outline(beside.counts, style.getPropertyValue("--ink"), 1.5);
 }
 
+interface Named {
+  name: string;
+  of: Tally;
+}
+
+/** A line for each bin, and what is counted apart; in the scale's unit. */
+function histogram_csv(scale: Scale, all: readonly Named[]): string {
+  const factor = scale.factor ?? 1;
+  const edge = (i: number): number => factor * value_of(i / bins, scale);
+  const heads = all.map(({ name }) => (name === "" ? "pixels" : `pixels_${name.replace("B − A", "difference")}`));
+  const apart = (["below", "above", "invalid"] as const).map((word) => [word, "", ...all.map(({ of }) => of[word])]);
+  const rows = Array.from({ length: bins }, (_, i) => {
+    const ends = [edge(i), edge(i + 1)].sort((a, b) => a - b);
+    return [...ends, ...all.map(({ of }) => of.counts[i])];
+  });
+  return csv_of([`from [${scale.unit}]`, `to [${scale.unit}]`, ...heads], [...rows, ...apart]);
+}
+
+function histogram_svg(greeting: Hello, scale: Scale, title: string, all: readonly Named[]): string {
+  const color = color_of(greeting, scale);
+  const colors = Array.from({ length: bins }, (_, i) => css(color(value_of((i + 0.5) / bins, scale))));
+  const ticks = scale.ticks.map(({ at, label }) => ({ place: place_of(at, scale), label })).filter(({ place }) => place >= 0 && place <= 1);
+  return svg_of_bars({ title, unit: scale.unit, low: scale.low, high: scale.high, ticks, sets: all.map(({ name, of }, i) => ({ name, counts: of.counts, ...(i === 0 ? { colors } : {}) })) });
+}
+
 function Line({ name, of }: { name: string; of: Tally }) {
   const shown = of.counts.reduce((sum, one) => sum + one, 0);
   const apart = [["shown", shown], ["below", of.below], ["above", of.above], ["invalid", of.invalid]] as const;
@@ -89,12 +115,15 @@ function Numbers({ array, scale, shows }: { array: string; scale: Scale; shows: 
   const peak = counted.counts.indexOf(Math.max(...counted.counts));
   const factor = scale.factor ?? 1;
   const [from, to] = [peak, peak + 1].map((i) => number_text(Number((factor * value_of(i / bins, scale)).toPrecision(3))));
+  const named = [{ name: shows === "difference" ? "B − A" : both ? "A" : "", of: counted }, ...(counted_b === undefined ? [] : [{ name: "B", of: counted_b }])];
+  const title = `Histogram of ${title_of(array).toLowerCase()}`;
   return (
     <>
       <canvas ref={canvas} class="histogram" role="img" aria-label={`Histogram: most pixels, ${counted.counts[peak]}, have ${from} to ${to} ${scale.unit}`} data-counts={counted.counts.join(" ")} />
       <ul class="apart">
         <Line name={shows === "difference" ? "B − A" : both ? "A" : ""} of={counted} />
         {counted_b !== undefined && <Line name="B" of={counted_b} />}
+        <li class="files"><ChartFiles name={title} csv={() => histogram_csv(scale, named)} svg={() => greeting && histogram_svg(greeting, scale, title, named)} /></li>
       </ul>
     </>
   );
@@ -113,7 +142,10 @@ function Bits({ array, shows }: { array: string; shows: Shows }) {
   };
   const counted = greeting.invalid.map((reason) => ({ reason, count: having((bits) => ((bits >>> reason.bit) & 1) !== 0) }));
   const none = having((bits) => reason_of(greeting, bits) === undefined);
+  const rows = [...counted, { reason: undefined, count: none }].map((one) => ({ name: one.reason?.name ?? "none", count: one.count }));
+  const title = `Histogram of ${title_of(array).toLowerCase()}`;
   return (
+    <>
     <table class="bits">
       <caption>{count} pixels, some with several</caption>
       <tbody>
@@ -126,6 +158,9 @@ function Bits({ array, shows }: { array: string; shows: Shows }) {
         ))}
       </tbody>
     </table>
+    <ChartFiles name={title} csv={() => csv_of(["flag", "pixels", "share"], rows.map((one) => [one.name, one.count, one.count / count]))}
+      svg={() => svg_of_rods(title, rows.map((one) => ({ name: one.name, value: one.count, text: `${one.count}, ${percent(one.count / count)}` })), { note: `of ${count} pixels` })} />
+    </>
   );
 }
 

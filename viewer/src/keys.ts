@@ -8,6 +8,7 @@ import { reason_of } from "./colors";
 import { difference_at, difference_unit } from "./compare";
 import { save } from "./edit";
 import { redo, undo } from "./history";
+import { keep_open, take_screenshot } from "./keep";
 import { number_text, with_unit } from "./numbers";
 import { shown_array } from "./cloud";
 import { is_sheet } from "./raw";
@@ -89,7 +90,7 @@ export const keys: readonly Key[] = [
   { keys: ["f"], said: "f", does: "fit the colours of this pane to the frame, once", act: () => fit_pane(focused.value) },
   { keys: [..."123456789"], said: "1 … 9", does: "what this pane shows, in the order of its list", act: choose_array },
   { keys: ["h"], said: "h", does: "histogram of this pane", act: () => toggle_histogram(focused.value) },
-  { keys: ["r"], said: "r", does: "all raw frames in this pane, or back; Enter on one enlarges it", act: () => toggle_sheet(focused.value) },
+  { keys: ["t"], said: "t", does: "all raw frames in this pane, or back; Enter on one enlarges it", act: () => toggle_sheet(focused.value) },
   { keys: ["x"], said: "x", does: "points in space in this pane, or back", act: () => toggle_space(focused.value) },
   { keys: ["["], said: "[", does: "one pane less", act: () => set_panes(shown.value.length - 1) },
   { keys: ["]"], said: "]", does: "one pane more, up to four", act: () => set_panes(shown.value.length + 1) },
@@ -111,6 +112,8 @@ export const keys: readonly Key[] = [
   { keys: ["b"], said: "b", does: "A | B: shows B while it is held down", act: flip_while_held },
   { keys: ["c"], said: "c", does: "copy the command", act: () => void copy_command() },
   { keys: ["s"], said: "s", does: "save the scene as YAML", act: () => save(edited.value) },
+  { keys: ["r"], said: "r", does: "record frames, and what else can be taken along: a page, a screenshot, a film", act: () => void (keep_open.value = true) },
+  { keys: ["i"], said: "i", does: "a screenshot of this frame, with the state in it", act: take_screenshot },
   { keys: ["?"], said: "?", does: "this list", act: () => void (help_open.value = !help_open.value) },
 ];
 
@@ -130,7 +133,7 @@ function is_control(target: Element | null): boolean {
 }
 
 function on_key(event: KeyboardEvent): void {
-  if (event.altKey || event.isComposing || event.defaultPrevented) return;
+  if (event.altKey || event.isComposing || event.defaultPrevented || keep_open.value) return;
   const ctrl = event.ctrlKey || event.metaKey;
   const target = event.target instanceof Element ? event.target : null;
   if (ctrl ? is_text(target) : is_field(target)) return;

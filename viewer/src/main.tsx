@@ -7,16 +7,18 @@ import { fault_arrived, opened_anew, pixel_arrived, start_asking } from "./ask";
 import { connect, server_count } from "./connection";
 import { change_refused, controls_arrived, done_arrived, forget_unanswered, saved_arrived, start_editing } from "./edit";
 import { history_goes_on, history_of_greeting, start_history } from "./history";
+import { start_keeping } from "./keep";
 import { start_keys } from "./keys";
 import { forget_b, frame_arrived, start_loop } from "./loop";
 import { forget_moves, start_hands } from "./hands";
 import { answer_arrived, arrays_arrived, forget_questions, question_refused } from "./questions";
 import { forget_space, start_space } from "./space";
 import { forget_tools, start_tools } from "./tools";
-import { read_frame, type Hello, type ServerMessage, type State } from "./protocol";
-import { choose_arrays, controls, difference_scales, fault, fitted, frame, hello, key_faults, other, pixel, pixel_b, raw_scales, state, stats } from "./store";
+import type { Hello, ServerMessage, State } from "./protocol";
+import { choose_arrays, controls, difference_scales, fault, fitted, frame, hello, key_faults, link, other, pixel, pixel_b, raw_scales, state, stats } from "./store";
 import { offer_to_tests } from "./test_hooks";
 import { count, start_watching, statistics_anew } from "./watch";
+import { read_frame } from "./wire";
 import { forget_why, start_why, why_arrived, why_refused } from "./why";
 
 let server = 0;
@@ -84,7 +86,11 @@ function text_arrived(message: ServerMessage): void {
     case "place":
     case "camera":
     case "measure":
-    case "region": return answer_arrived(message);
+    case "region":
+    case "restore": return answer_arrived(message);
+    case "screenshot": return answer_arrived(message, message.arrays);
+    case "record": return answer_arrived(message, [], message.files === undefined);
+    case "export": return answer_arrived(message, [], message.file === undefined);
     case "fault":
       fault_arrived(message);
       if (question_refused(message)) return;
@@ -110,5 +116,11 @@ start_why();
 start_hands();
 start_space();
 start_tools();
+start_keeping();
 start_keys();
-connect({ opened: () => undefined, text: text_arrived, binary: frame_received });
+try {
+  connect({ opened: () => undefined, text: text_arrived, binary: frame_received });
+} catch (error) {
+  link.value = "empty";
+  fault.value = { type: "fault", id: null, text: "There is nothing to be seen in this file.", more: error instanceof Error ? error.message : String(error) };
+}

@@ -2,9 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // Numbers of what was chosen on a picture: two points, a rectangle, and the noise of many frames. All of them are the server's.
 
+import { ChartFiles, csv_of, svg_of_bars } from "./chart_files";
 import { minus, number_text, with_unit } from "./numbers";
-import type { Measured, MeasuredPoint, RegionStatistics, StatisticsRow, Temporal, Triple } from "./protocol";
-import { edited, is_current, other, temporal } from "./store";
+import type { Measured, MeasuredPoint, RegionStatistics, Side, StatisticsRow, Temporal, Triple } from "./protocol";
+import { cannot, edited, is_current, other, temporal } from "./store";
 import {
   ask_temporal, choose_tool, drop_measure, drop_rectangle, measure_from, measuring, rectangle, rectangle_from, show_temporal, statistics, temporal_fault, temporal_frames,
   temporal_progress, tool,
@@ -90,6 +91,33 @@ function Rows({ of }: { of: RegionStatistics }) {
   );
 }
 
+/** Of each pixel. */
+function temporal_csv(side: Side): string {
+  const arrays = temporal.value[side]?.arrays;
+  const [sigma, mean, count, predicted] = ["temporal_sigma_m", "temporal_mean_m", "temporal_count", "temporal_predicted_m"].map((name) => arrays?.get(name));
+  const width = sigma?.dims[1] ?? 1;
+  const rows = Array.from(sigma?.values ?? [], (one, i) => [i % width, Math.floor(i / width), count?.values[i], mean?.values[i], one, predicted?.values[i]]);
+  return csv_of(["u", "v", "frames", "mean [m]", "sigma [m]", "sigma_predicted [m]"], rows);
+}
+
+const bins = 100;
+
+/** How many pixels have which σ, and which σ̂; to three times the larger median. */
+function temporal_svg(of: Temporal): string {
+  const arrays = temporal.value[of.side ?? "a"]?.arrays;
+  const high = 3000 * Math.max(of.sigma_median_m ?? 0, of.predicted_median_m ?? 0) || 1;
+  const counts = (name: string): Uint32Array => {
+    const out = new Uint32Array(bins);
+    for (const value of arrays?.get(name)?.values ?? []) {
+      const at = Math.floor((1000 * value * bins) / high);
+      if (at >= 0 && at < bins) out[at]! += 1;
+    }
+    return out;
+  };
+  const ticks = [0, 1, 2, 3].map((i) => ({ place: i / 3, label: String(Number(((high * i) / 3).toPrecision(3))) }));
+  return svg_of_bars({ title: `Noise over ${of.frames} frames`, unit: "mm", low: 0, high, ticks, sets: [{ name: "σ over time", counts: counts("temporal_sigma_m") }, { name: "σ̂ predicted", counts: counts("temporal_predicted_m") }] });
+}
+
 function TemporalNumbers({ of, old }: { of: Temporal; old: boolean }) {
   const ratio = of.sigma_median_m != null && of.predicted_median_m != null && of.predicted_median_m > 0 ? of.sigma_median_m / of.predicted_median_m : undefined;
   const chi2 = of.chi2 ?? null;
@@ -107,6 +135,7 @@ function TemporalNumbers({ of, old }: { of: Temporal; old: boolean }) {
         </tbody>
       </table>
       <div class="watch-actions"><button type="button" disabled={old} onClick={show_temporal} title="σ in the first pane, σ̂ in the second one, with one scale of colours">Show σ and σ̂</button></div>
+      <ChartFiles name="Noise over time" csv={() => temporal_csv(of.side ?? "a")} svg={() => temporal_svg(of)} />
     </div>
   );
 }
@@ -120,12 +149,14 @@ export function MeasurePanel() {
   const rows = statistics.answer.value;
   const fault = measuring.fault.value;
   const rows_fault = statistics.fault.value;
+  const whys = [...new Set(["measure", "region", "temporal"].map((one) => cannot(one, side)).filter((one) => one !== undefined))];
   return (
     <div class="measures">
+      {whys.map((one) => <p key={one} class="hint">{one}</p>)}
       <section aria-label="Two points">
         <div class="why-head">
           <h3>Two points{whose}</h3>
-          <button type="button" aria-pressed={tool.value === "measure"} onClick={() => choose_tool("measure")} title="clicks on a picture are its ends; by keys: m at both (m)">Measure</button>
+          <button type="button" aria-pressed={tool.value === "measure"} disabled={cannot("measure") !== undefined} onClick={() => choose_tool("measure")} title="clicks on a picture are its ends; by keys: m at both (m)">Measure</button>
           {measuring.question.value !== undefined && <button type="button" class="quiet" onClick={drop_measure} aria-label="Drop what is measured" title="drops it">✕</button>}
         </div>
         {measure_from.value !== undefined ? <p class="hint" role="status">From pixel {measure_from.value.u}, {measure_from.value.v}: the other end?</p>
@@ -136,7 +167,7 @@ export function MeasurePanel() {
       <section aria-label="Rectangle">
         <div class="why-head">
           <h3>Rectangle{whose}</h3>
-          <button type="button" aria-pressed={tool.value === "rectangle"} onClick={() => choose_tool("rectangle")} title="drag on a picture; without this button with Shift; by keys: g at two corners (g)">Drag one</button>
+          <button type="button" aria-pressed={tool.value === "rectangle"} disabled={cannot("region") !== undefined} onClick={() => choose_tool("rectangle")} title="drag on a picture; without this button with Shift; by keys: g at two corners (g)">Drag one</button>
           {rectangle.value !== undefined && <button type="button" class="quiet" onClick={drop_rectangle} aria-label="Drop the rectangle" title="drops it">✕</button>}
         </div>
         {rectangle_from.value !== undefined ? <p class="hint" role="status">The other corner: move the cursor, then g again. Escape drops it.</p>
@@ -147,7 +178,7 @@ export function MeasurePanel() {
       <section aria-label="Noise over time">
         <div class="why-head">
           <h3>Noise over time{whose}</h3>
-          <button type="button" disabled={progress !== undefined} onClick={ask_temporal} title="what changes from frame to frame (n)">{temporal_frames} frames now</button>
+          <button type="button" disabled={progress !== undefined || cannot("temporal") !== undefined} onClick={ask_temporal} title="what changes from frame to frame (n)">{temporal_frames} frames now</button>
         </div>
         {progress !== undefined && <label class="progress">frame {progress.done} of {progress.frames} <progress max={progress.frames} value={progress.done} /></label>}
         {progress === undefined && result === undefined && <p class="what">How much depth changes from frame to frame, beside σ̂, what the camera predicts of it.</p>}

@@ -19,7 +19,7 @@ import { SpaceStage } from "./space_pane";
 import { show_space } from "./space_state";
 import { mount } from "./stage";
 import {
-  comparing, cursor, exposures, focused, frame_of, hello, histograms, is_bits, is_current, other, scale_of, show, shown, tab, temporal_titles, title_of, toggle_histogram, view, wipe,
+  cannot, comparing, cursor, exposures, focused, frame_of, hello, histograms, is_bits, is_current, other, scale_of, show, shown, tab, temporal_titles, title_of, toggle_histogram, view, wipe,
 } from "./store";
 
 /** The line between A and B, which a pointer or the arrow keys move. */
@@ -93,7 +93,7 @@ function RawChoice({ pane, of }: { pane: number; of: RawView }) {
       </label>
       <label>
         <span class="unseen">Raw frames: which of them</span>
-        <select class="raw-number" value={of.number ?? "all"} title="all (r)"
+        <select class="raw-number" value={of.number ?? "all"} title="all (t)"
           onChange={(event) => show_raw(pane, of.kind, event.currentTarget.value === "all" ? undefined : Number(event.currentTarget.value))}>
           <option value="all">all</option>
           {exposures("a").map((one) => <option key={one.number} value={one.number}>{one.number}: {exposure_text(one)}</option>)}
@@ -145,8 +145,9 @@ export function Pane({ pane }: { pane: number }) {
           <select class={`shows${raw !== undefined ? " raw" : cloud !== undefined ? " points" : ""}`} value={chosen} onChange={(event) => choose(event.currentTarget.value)}>
             {(hello.value?.panes ?? []).map((one) => <option key={one.array} value={one.array}>{one.title}</option>)}
             <option value={raw_frames}>Raw frames</option>
-            <option value={space}>3D points</option>
+            <option value={space} disabled={cannot("view3d") !== undefined}>3D points</option>
             {lasting.map(([name, title]) => <option key={name} value={name}>{title}</option>)}
+            {(hello.value?.absent ?? []).map((one) => <option key={one.array} value={one.array} disabled title={one.why}>{one.title}: {one.why}</option>)}
           </select>
         </label>
         {raw !== undefined && <RawChoice pane={pane} of={raw} />}

@@ -83,6 +83,7 @@ function Answer({ of, beside }: { of: Pixel; beside: Pixel | undefined }) {
       <Flow of={chain.flow ?? []} frequencies={(chain.phasors ?? []).map((one) => one.frequency_hz)} object={chain.report.truth?.object ?? ""} />
       <Values title="Ground truth" values={images.filter(is_truth)} beside={beside?.values} />
       <RawFrames frames={of.report.raw_frames ?? []} />
+      {hello.value?.live !== undefined && <p class="what" data-no-chain>Its chain from light to depth takes the program: <code>{hello.value.live}</code></p>}
     </>
   );
 }

@@ -71,6 +71,7 @@ export function SpaceStage({ pane, array }: { pane: number; array: string }) {
   const sentence = view.value?.sentence.value ?? "";
   const side = space_side.value;
   const fault = view3d_fault(side);
+  const left_out = view3d_of(side)?.left_out ?? 0;
   return (
     <div class="space-of">
       <div ref={outer} class="stage space" tabIndex={0} role="application" data-drawing={drawing}
@@ -81,7 +82,7 @@ export function SpaceStage({ pane, array }: { pane: number; array: string }) {
         {other.value !== undefined && <span class={`badge ${side}`} aria-hidden="true">{side.toUpperCase()}</span>}
         {drawing === "loading" && <p class="space-note" role="status">3D is fetched …</p>}
       </div>
-      <p class="space-word" role="status">{sentence}{fault === undefined ? "" : ` ${fault.text} ${fault.more ?? ""}`}</p>
+      <p class="space-word" role="status">{sentence}{left_out > 0 && <span class="left-out" data-left-out={left_out}>{left_out === 1 ? "One object or light is" : `${left_out} objects and lights are`} not drawn: their list would be too long to send. Their points are all here.</span>}{fault === undefined ? "" : ` ${fault.text} ${fault.more ?? ""}`}</p>
       <Options drawing={drawing} />
     </div>
   );

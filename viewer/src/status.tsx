@@ -4,11 +4,13 @@ import { command, copied, copy_command } from "./actions";
 import { retry_now } from "./connection";
 import { save } from "./edit";
 import { restored, undo } from "./history";
-import { drawn_rate, edited, fault, frame, hello, link, other, state, stats, type Link } from "./store";
+import { keep_open } from "./keep";
+import { cannot, drawn_rate, edited, fault, frame, hello, link, other, state, stats, type Link } from "./store";
 
 function word(of: Link): string {
-  if (of === "open") return hello.value === undefined ? "connecting" : state.value?.playing === true ? "live" : "paused";
-  return { keyless: "no key", connecting: "connecting", lost: "lost", gone: "no server", other: "other server" }[of];
+  if (TOFRAY_IN_FILE && of === "open") return state.value?.playing === true ? "file, playing" : "file, paused";
+  if (of === "open") return hello.value === undefined ? "connecting" : state.value?.playing !== true ? "paused" : hello.value.source === undefined ? "live" : "playing";
+  return { keyless: "no key", connecting: "connecting", lost: "lost", gone: "no server", other: "other server", empty: "empty" }[of];
 }
 
 export function Status() {
@@ -78,13 +80,18 @@ export function Restored() {
 export function Command() {
   const text = command.value;
   const off = link.value !== "open";
-  if (text === "") return null;
+  if (hello.value === undefined) return null;
   return (
     <div class="command" role="group" aria-label="The same as a command">
-      {other.value !== undefined && <strong>{edited.value.toUpperCase()}</strong>}
-      <code tabIndex={0} role="region" aria-label="Command">{text}</code>
-      <button type="button" class="quiet" onClick={() => void copy_command()} title="what makes these very files (c)">{copied.value ? "Copied" : "Copy"}</button>
-      <button type="button" class="quiet" onClick={() => save(edited.value)} disabled={off} title="the scene with all changes, as a file (s)">Save YAML</button>
+      {text !== "" && (
+        <>
+          {other.value !== undefined && <strong>{edited.value.toUpperCase()}</strong>}
+          <code tabIndex={0} role="region" aria-label="Command">{text}</code>
+          <button type="button" class="quiet" onClick={() => void copy_command()} title="what makes these very files (c)">{copied.value ? "Copied" : "Copy"}</button>
+        </>
+      )}
+      <button type="button" class="quiet" onClick={() => save(edited.value)} disabled={off || cannot("save") !== undefined} title={cannot("save") ?? "the scene with all changes, as a file (s)"}>Save YAML</button>
+      <button type="button" class="quiet" onClick={() => (keep_open.value = true)} title="record frames, write a page, take a picture, make a film (r)">Take along …</button>
       <span class="unseen" role="status">{copied.value ? "The command is copied." : ""}</span>
     </div>
   );

@@ -9,12 +9,22 @@ import { exposure_text, exposures_of, kind_info, raw_array, raw_scale, raw_view,
 import { showing, whole, type Extent, type ViewPort } from "./view_port";
 
 /** `keyless`: this tab was opened without the address's key. `lost`: tried again; `gone`: nobody answers, still tried;
- *  `other`: a server that this key does not open. */
-export type Link = "keyless" | "connecting" | "open" | "lost" | "gone" | "other";
+ *  `other`: a server that this key does not open;
+ *  `empty`: a page that is a file without frames. */
+export type Link = "keyless" | "connecting" | "open" | "lost" | "gone" | "other" | "empty";
 
 export interface Cursor {
   u: number;
   v: number;
+}
+
+/** What this browser has kept; a page that is shown within another one may have no place to keep things. */
+function kept(name: string): string | null {
+  try {
+    return localStorage.getItem(name);
+  } catch {
+    return null;
+  }
 }
 
 export const link = signal<Link>("connecting");
@@ -80,6 +90,13 @@ export const temporal = signal<Readonly<{ a: TemporalResult | undefined; b?: Tem
 /** Panes of it, which have the colours of the noise that is estimated. */
 export const temporal_titles: Readonly<Record<string, string>> = { temporal_sigma_m: "σ over time", temporal_predicted_m: "σ̂ over time" };
 
+/** Why the source has no answer to a message of that type; undefined: it has. A scene as B beside files has all of them. */
+export function cannot(type: string, side: Side = edited.value): string | undefined {
+  const of = hello.value;
+  const is_scene = side === "b" && of?.source !== undefined && other.value?.scene !== undefined && other.value.scene !== of.scene;
+  return is_scene ? undefined : of?.cannot?.[type];
+}
+
 /** Whether it is of the state in force. */
 export function is_current(side: Side): boolean {
   const of = temporal.value[side]?.of;
@@ -94,7 +111,7 @@ export const view = signal<ViewPort>(whole);
 export const cursor = signal<Cursor | undefined>(undefined);
 export const spoken = signal("");                                      // said to who does not see the picture
 export const help_open = signal(false);
-export const letter_keys = signal(localStorage.getItem("tofray.letter_keys") !== "off");
+export const letter_keys = signal(kept("tofray.letter_keys") !== "off");
 
 export const size = computed(() => {
   const of = frame.value ?? hello.value;
@@ -119,7 +136,11 @@ export const extent = computed<Extent>(() => ({
 
 export function set_letter_keys(on: boolean): void {
   letter_keys.value = on;
-  localStorage.setItem("tofray.letter_keys", on ? "on" : "off");
+  try {
+    localStorage.setItem("tofray.letter_keys", on ? "on" : "off");
+  } catch {
+    // It holds until the page is closed.
+  }
 }
 
 /** The scale of an array now; undefined where it holds bits. */

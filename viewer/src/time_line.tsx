@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The tofray authors
 // SPDX-License-Identifier: Apache-2.0
 import { useSignal } from "@preact/signals";
-import { seek, step, toggle_play } from "./ask";
+import { seek, stand_at, step, toggle_play } from "./ask";
 import { zoom_at_cursor } from "./keys";
 import { frame, hello, link, most_panes, rate, set_panes, shown, state, view } from "./store";
 import { whole } from "./view_port";
@@ -65,6 +65,19 @@ function Rates() {
   );
 }
 
+/** Where there is an end: a place between the first frame and the last one. */
+function Range() {
+  const of = hello.value;
+  const count = of?.frames;
+  if (of === undefined || count === undefined || count < 2) return null;
+  const first = of.first ?? 0;
+  const at = frame.value?.frame ?? first;
+  return (
+    <input type="range" class="time-range" min={first} max={first + count - 1} step={1} value={at} disabled={link.value !== "open"} aria-label="Frame" aria-valuetext={`frame ${at}, ${at - first + 1} of ${count}`}
+      onInput={(event) => stand_at(event.currentTarget.valueAsNumber)} />
+  );
+}
+
 export function TimeLine() {
   const playing = state.value?.playing === true;
   const off = link.value !== "open";
@@ -80,6 +93,7 @@ export function TimeLine() {
         <button type="button" onClick={() => step(1)} disabled={off} aria-label="One frame on" title="one frame on (.)"><Icon of="on" /></button>
       </div>
       <FrameField />
+      <Range />
       <span class="faint time">{frame.value === undefined ? "" : `${frame.value.time_s.toFixed(3)} s`}</span>
       <Rates />
       <label class="panes zoom">

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The tofray authors
 // SPDX-License-Identifier: Apache-2.0
 import { what, moving } from "./hands";
-import { focused, link, shown } from "./store";
+import { cannot, focused, link, shown } from "./store";
 import { cloud_color } from "./cloud";
 import { toggle_space } from "./space_state";
 import { choose_tool, grabbed, tool } from "./tools";
@@ -13,9 +13,9 @@ export function ToolBar() {
   const in_space = cloud_color(shown.value[focused.value] ?? "") !== undefined;
   return (
     <div class="tool-bar" role="group" aria-label="Tools">
-      <button type="button" class="quiet" aria-pressed={now === "drag"} disabled={off} onClick={() => choose_tool("drag")} title="drag objects in a picture: parallel to the image, with Shift along the ray, with Ctrl they turn, Alt and wheel scale (d)">Move</button>
-      <button type="button" class="quiet" aria-pressed={now === "measure"} onClick={() => choose_tool("measure")} title="the distance between two points, measured and true (m)">Measure</button>
-      <button type="button" class="quiet" aria-pressed={in_space} onClick={() => toggle_space(focused.value)} title="points in space in the pane that has the focus (x)">3D</button>
+      <button type="button" class="quiet" aria-pressed={now === "drag"} disabled={off || cannot("drag") !== undefined} onClick={() => choose_tool("drag")} title={cannot("drag") ?? "drag objects in a picture: parallel to the image, with Shift along the ray, with Ctrl they turn, Alt and wheel scale (d)"}>Move</button>
+      <button type="button" class="quiet" aria-pressed={now === "measure"} disabled={cannot("measure") !== undefined} onClick={() => choose_tool("measure")} title={cannot("measure") ?? "the distance between two points, measured and true (m)"}>Measure</button>
+      <button type="button" class="quiet" aria-pressed={in_space} disabled={cannot("view3d") !== undefined} onClick={() => toggle_space(focused.value)} title={cannot("view3d") ?? "points in space in the pane that has the focus (x)"}>3D</button>
     </div>
   );
 }

@@ -4,6 +4,7 @@
 // cameras have no σ.
 
 import { effect, signal } from "@preact/signals";
+import { copy } from "./download";
 import type { Frame, Side } from "./protocol";
 import { array_of, cursor, frame, frame_b, hello, of_b, other, size, spoken } from "./store";
 
@@ -188,6 +189,21 @@ export function is_outside(pin: Pin): boolean {
   return pin.u >= size.value.width || pin.v >= size.value.height;
 }
 
+/** Of depth, and of what is beside it. */
+export interface Watched {
+  pin: Pin;
+  side: Side;
+  array: string;
+  of: Moments;
+}
+
+export function all_watched(): Watched[] {
+  return pins.value.flatMap((pin) => watched_arrays().flatMap((array) => watched_sides().flatMap((side) => {
+    const of = moments_of(pin, array, side);
+    return of === undefined ? [] : [{ pin, side, array, of }];
+  })));
+}
+
 /** Numbers as they are, in the arrays' own units. */
 export function csv(): string {
   const number = (value: number): string => (Number.isFinite(value) ? String(value) : "");
@@ -205,7 +221,7 @@ export function csv(): string {
 export const csv_copied = signal(false);
 
 export async function copy_csv(): Promise<void> {
-  await navigator.clipboard.writeText(csv());
+  if (!await copy(csv())) return;
   csv_copied.value = true;
   setTimeout(() => (csv_copied.value = false), 2000);
 }

@@ -2,11 +2,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // The pinned pixels with their statistics over the frames that came since.
 
+import { ChartFiles, svg_of_rods } from "./chart_files";
 import { number_text, with_unit } from "./numbers";
 import type { Side } from "./protocol";
 import { cursor, frame, hello, other, point_at, scale_of, spoken, title_of } from "./store";
 import {
-  copy_csv, counted, csv_copied, is_outside, moments_of, most_pins, pin_at, pins, predicted_of, second, sigma_of, statistics_anew, toggle_pin, unpin, unpin_all,
+  all_watched, copy_csv, counted, csv, csv_copied, is_outside, moments_of, most_pins, pin_at, pins, predicted_of, second, sigma_of, statistics_anew, toggle_pin, unpin, unpin_all,
   watch_also, watched_arrays, watched_sides, type Moments, type Pin,
 } from "./watch";
 
@@ -90,6 +91,17 @@ function Pinned({ pin }: { pin: Pin }) {
   );
 }
 
+/** Mean and σ of each pin's depth. */
+function watch_svg(): string {
+  const { factor, unit } = coarse("z_m");
+  const rods = all_watched().filter((one) => one.array === "z_m").map(({ pin, side, of }) => ({
+    name: `${pin.number}: pixel ${pin.u}, ${pin.v}${other.value === undefined ? "" : ` of ${side.toUpperCase()}`}`,
+    value: of.n === 0 ? null : factor * of.mean, spread: of.n < 2 ? 0 : factor * sigma_of(of),
+    text: of.n === 0 ? "no depth" : `${text(of.mean, coarse("z_m"))} ± ${text(sigma_of(of), fine("z_m"))}`,
+  }));
+  return svg_of_rods("Depth of pinned pixels: mean and σ", rods, { points: true, note: `${unit}; over the frames that came since each was pinned` });
+}
+
 export function WatchPanel() {
   const offered = (hello.value?.panes ?? []).filter((one) => one.scale != null && one.array !== "z_m");
   const none = pins.value.length === 0;
@@ -113,6 +125,7 @@ export function WatchPanel() {
         </select>
       </label>
       {none && <p class="faint">{frame.value === undefined ? "No frame yet." : "Nothing is pinned: point at a pixel and press p, or Pin above."}</p>}
+      {!none && <ChartFiles name="Watch list" csv={csv} svg={watch_svg} />}
       {pins.value.map((pin) => <Pinned key={pin.number} pin={pin} />)}
     </div>
   );

@@ -2,9 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // An error split by what makes it, as bars to either side of nothing.
 
+import { ChartFiles, csv_of, svg_of_rods } from "./chart_files";
 import { minus } from "./numbers";
 import type { Why } from "./protocol";
-import { cursor, frame_of, region, region_from, state, other, why, why_fault } from "./store";
+import { cannot, cursor, frame_of, region, region_from, state, other, why, why_fault } from "./store";
 import { ask_pixel, close_why, drag_chooses, is_region, question, region_key, why_waiting } from "./why";
 
 /** What a cause is, for who has not met it. */
@@ -90,6 +91,8 @@ function Answer({ of }: { of: Why }) {
         {first !== undefined && first.mm !== null && Math.abs(first.mm) > 0 && <> The largest cause: {word(first.cause).toLowerCase()}, {mm_text(first.mm)}.</>}
       </p>
       <Bars bars={bars} sigma_mm={sigma_mm} />
+      <ChartFiles name="Error by cause" csv={() => csv_of(["cause", "mm"], [...bars.map(({ key, mm }) => [key, mm]), ["sigma_predicted", sigma_mm]])}
+        svg={() => svg_of_rods(`${many ? "Mean error" : "Error"} by cause`, bars.map(({ said, mm }) => ({ name: said, value: mm, text: mm_text(mm) })), { band: sigma_mm ?? 0, note: sigma_mm === null ? "left: too near, right: too far" : "left: too near, right: too far; band: one σ̂ to either side" })} />
       <p class="what">A bar is the error with its cause less the error without it: the frame was computed again with that one switched off. What makes no difference here is left out.</p>
     </>
   );
@@ -99,8 +102,8 @@ export function WhyButtons() {
   const at = cursor.value;
   return (
     <>
-      <button type="button" disabled={at === undefined} onClick={ask_pixel} title="its error, split by cause (w)">Why wrong?</button>
-      <button type="button" aria-pressed={drag_chooses.value || region_from.value !== undefined} title="the same of a region: drag over a picture, with Alt without this button; by keys: e at both corners"
+      <button type="button" disabled={at === undefined || cannot("why") !== undefined} onClick={ask_pixel} title={cannot("why") ?? "its error, split by cause (w)"}>Why wrong?</button>
+      <button type="button" aria-pressed={drag_chooses.value || region_from.value !== undefined} disabled={cannot("why") !== undefined} title="the same of a region: drag over a picture, with Alt without this button; by keys: e at both corners"
         onClick={() => (region_from.value !== undefined ? region_key() : (drag_chooses.value = !drag_chooses.value))}>{region_from.value !== undefined ? "Region: ends here" : "Region"}</button>
     </>
   );

@@ -262,6 +262,24 @@ std::vector<OptionSpec> view_specs() {
       {"--open", 0, nullptr, "open it in the browser", [](Options& o, const std::string&) { o.view.open = true; }},
       {"--embed", 0, nullptr, "pages of this machine may hold the viewer in a frame",
        [](Options& o, const std::string&) { o.view.embed = true; }},
+      {"--export", 0, "FILE", "write the page with --frames frames in it, one .html file that needs no server and no network, and end",
+       [](Options& o, const std::string& v) {
+         if (!v.ends_with(".html") && !v.ends_with(".htm")) refuse("--export", v, "the name of a page, as in --export out.html");
+         o.view.export_file = v;
+       },
+       "<files>"},
+      {"--arrays", 0, "LIST", "arrays that the page of --export gets, as in z_m,flags (of all panes, and raw)",
+       [](Options& o, const std::string& v) {
+         (void)results::ArrayChoice(v);
+         o.arrays = v;
+       },
+       "<arrays>", true, "view"},
+      {"--output", 'o', "DIR", "folder for what pages record and export (the working folder)",
+       [](Options& o, const std::string& v) { o.output = v; }, "<files>", false, "view"},
+      {"--end-with-input", 0, nullptr, "end when standard input ends: with the program that started it",
+       [](Options& o, const std::string&) { o.view.end_with_input = true; }},
+      {"--beside", 0, "SCENE", "opens a scene as side B: a recording beside its simulation (--set is of side A)",
+       [](Options& o, const std::string& v) { o.view.beside = v; }, "<scenes> <files>"},
       {"--rate", 0, "RATE", "frames a second: own (the camera's), max, or a number (own)", take_rate, "own max"},
       {"--test-hooks", 0, nullptr, "the page tells tests what it draws", [](Options& o, const std::string&) { o.view.test_hooks = true; },
        "", false, "", true},
@@ -413,12 +431,14 @@ const std::vector<Group>& groups() {
       {"Simulation", {"--seed", "--noise", "--exposure-samples", "--subpixel", "--bounces", "--samples"}},
       {"Measuring", {"--warmup", "--compare", "--batch", "--stage", "--block-size"}},
       {"Frames", {"--frames", "--first-frame", "--repeat", "--from", "--pixel"}},
-      {"Output", {"--output", "--clean", "--emit", "--arrays", "--compress", "--raw", "--theme", "--scale", "--csv", "--json", "--quiet"}},
+      {"Output",
+       {"--output", "--export", "--clean", "--emit", "--arrays", "--compress", "--raw", "--theme", "--scale", "--csv", "--json",
+        "--quiet"}},
       {"Shards", {"--pilot", "--shard-samples", "--part", "--shards", "--recompute", "--partial", "--tasks", "--sbatch", "--print"}},
       {"With --emit mcap",
        {"--driver", "--topics", "--camera-name", "--stamp", "--epoch", "--depth-encoding", "--amplitude-step", "--unorganized",
         "--mcap-compression"}},
-      {"Viewer", {"--port", "--host", "--allow-host", "--open", "--embed", "--rate", "--test-hooks"}},
+      {"Viewer", {"--port", "--host", "--allow-host", "--open", "--beside", "--embed", "--end-with-input", "--rate", "--test-hooks"}},
       {"Machine", {"--threads", "--backend", "--device"}}};
   return all;
 }

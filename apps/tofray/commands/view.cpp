@@ -10,15 +10,21 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cstdlib>
 #include <filesystem>
 #include <thread>
 
 #include "cli/console.h"
+#include "cli/progress.h"
+#include "cli/remarks.h"
+#include "files/atomic_file.h"
 #include "files/json.h"
+#include "files/sha256.h"
 #include "run/input_kind.h"
 #include "view/assets.h"
+#include "view/export.h"
 #include "view/server.h"
 #include "view/session.h"
 #endif
@@ -94,6 +100,45 @@ void say_address(const Options& options, const view::Address& at, std::optional<
   if (!door->opened()) say("warning: --open found no xdg-open here; open the address by hand\n");
 }
 
+/// The page as a file.
+int export_page(const Options& options) {
+  const view::State state = view::first_state(options);
+  say(texts(state.in.remarks));
+  const std::uint64_t all = state.recorded ? state.recorded->count() - std::min(options.first_frame, state.recorded->count() - 1) : 1;
+  view::ExportRequest request{options.first_frame, options.frames.value_or(all), options.arrays};
+  FrameProgress now;
+  const StopRequest stop(&now.stop);
+  request.progress = &now;
+  std::string page;
+  try {
+    Progress progress(request.frames, "frames", options.quiet, &now);
+    request.done = [&progress](std::uint64_t) { progress.step(); };
+    page = view::exported_page(state, request);
+  } catch (const Error&) {
+    if (stop.signal() == 0) throw;
+    say("interrupted: nothing is written\n");
+    return 128 + stop.signal();
+  }
+  const std::string& file = options.view.export_file;
+  files::write_file_atomically(file, page);
+  if (options.json) {
+    files::Json json = files::Json::object();
+    json.set("file", file).set("bytes", page.size()).set("sha256", files::sha256_hex(page)).set("frames", request.frames);
+    print(files::json_text(json) + "\n");
+  } else {
+    Talk(options.quiet)(fmt::format("{}: {} frame{} in a page of {:.1f} MB; it needs no server and no network\n", file, request.frames,
+                                    request.frames == 1 ? "" : "s", 1e-6 * static_cast<double>(page.size())));
+  }
+  return 0;
+}
+
+/// Options that only --export has.
+void refuse_frames(const Options& options) {
+  if (options.frames || options.first_frame != 0 || !options.arrays.empty())
+    throw Error(ErrorKind::bad_input,
+                "error: --frames, --first-frame and --arrays are of --export\n  without it the viewer shows every frame, from 0 on");
+}
+
 }  // namespace
 
 int run_view(const Options& typed) {
@@ -102,14 +147,23 @@ int run_view(const Options& typed) {
                 "error: this tofray was built without the viewer's page: npm was not there\n"
                 "  ./dev view installs nodejs and npm, builds again and opens it");
   Options options = typed;
-  if (!options.words.empty()) {
+  if (!options.words.empty() && !view::names_recorded(options.words[0])) {
     const NameChoice chosen = choose_scene(options.words[0]);
     say(run::note_of(chosen));
     options.words[0] = chosen.name;
   }
+  if (!options.view.export_file.empty() && !options.view.beside.empty())
+    throw Error(ErrorKind::bad_input, "error: --export makes a page of one side, and --beside opens two\n  expected one of them");
+  if (!options.view.export_file.empty()) return export_page(options);
+  if (!options.view.beside.empty() && !view::names_recorded(options.view.beside)) {
+    const NameChoice chosen = choose_scene(options.view.beside);
+    say(run::note_of(chosen));
+    options.view.beside = chosen.name;
+  }
+  refuse_frames(options);
   view::ServerOptions wanted;
   wanted.port = options.view.port, wanted.host = options.view.host, wanted.allowed_hosts = options.view.allowed_hosts;
-  wanted.embed = options.view.embed;
+  wanted.embed = options.view.embed, wanted.end_with_input = options.view.end_with_input;
   wanted.rate = view::parse_rate(options.view.rate).value_or(view::Rate());
   view::Session session(options, options.view.test_hooks, view::assets_sha256());
   say(session.warnings());

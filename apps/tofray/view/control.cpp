@@ -132,6 +132,16 @@ WhyQuestion why_of(const Json& message) {
   return out;
 }
 
+Order order_of(const Json& message, Order::Kind kind) {
+  constexpr std::uint64_t most_recorded = 10'000;
+  Order out;
+  out.kind = kind, out.id = id_of(message);
+  if (kind == Order::Kind::stop) return out;
+  out.side = side_of(message), out.first = whole(message, "first", most_frame), out.frames = whole(message, "frames", most_recorded);
+  if (out.frames == 0) throw Fault{"no frame was asked for", "expected \"frames\" of 1 to 10000"};
+  return out;
+}
+
 Control control_of(const Json& message) {
   const std::string type = text_of(message, "type");
   if (type == "want") return want_of(message);
@@ -148,10 +158,13 @@ Control control_of(const Json& message) {
   if (type == "other") return other_of(message);
   if (type == "controls" || type == "save")
     return Query{type == "save" ? Query::Kind::save : Query::Kind::controls, id_of(message), side_of(message)};
+  if (type == "record") return order_of(message, Order::Kind::record);
+  if (type == "export") return order_of(message, Order::Kind::page);
+  if (type == "record_stop") return order_of(message, Order::Kind::stop);
   if (auto inquiry = inquiry_of(type, message)) return std::move(*inquiry);
   throw Fault{"no message is of the type " + base::in_quotes(type),
-              "expected ack, camera, controls, drag, fit, measure, other, pause, pixel, place, play, region, save, seed, seek, set, state, "
-              "temporal, unset, view3d, visible, want or why"};
+              "expected ack, camera, controls, drag, export, fit, measure, other, pause, pixel, place, play, record, record_stop, region, "
+              "restore, save, screenshot, seed, seek, set, state, temporal, unset, view3d, visible, want or why"};
 }
 
 }  // namespace

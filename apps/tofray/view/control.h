@@ -129,8 +129,30 @@ struct Temporal {
   Side side = Side::a;
   int frames = 200;
 };
+/// The frame as a picture, with the state in it.
+struct Screenshot {
+  std::uint64_t id = 0;
+  Side side = Side::a;
+};
+/// Which state the text of such a picture is of.
+struct Restore {
+  std::uint64_t id = 0;
+  Side side = Side::a;
+  std::string text;
+};
 /// What is asked of a page's newest frame; of each kind the newest question of a page counts.
-using Inquiry = std::variant<SceneQuestion, Drag, Place, Measure, RegionQuestion, Temporal>;
+using Inquiry = std::variant<SceneQuestion, Drag, Place, Measure, RegionQuestion, Temporal, Screenshot, Restore>;
+/// Files of frames, written while the view goes on.
+struct Order {
+  enum class Kind : std::uint8_t {
+    record,  ///< as `tofray render` writes them
+    page,    ///< a page that needs no server
+    stop,    ///< gives up what the page ordered
+  } kind = Kind::record;
+  std::uint64_t id = 0;
+  Side side = Side::a;
+  std::uint64_t first = 0, frames = 1;
+};
 
 /// A message that is none of these: what to answer.
 struct Refused {
@@ -138,7 +160,7 @@ struct Refused {
   std::string text, more;
 };
 
-using Control = std::variant<Refused, Want, Visible, Acknowledge, Play, Seek, PixelQuestion, WhyQuestion, Fit, Edit, Query, Inquiry>;
+using Control = std::variant<Refused, Want, Visible, Acknowledge, Play, Seek, PixelQuestion, WhyQuestion, Fit, Edit, Query, Inquiry, Order>;
 
 /// Reads one message. Throws nothing but for a lack of memory.
 Control parse_control(std::string_view text);

@@ -126,6 +126,7 @@ void Hub::took(Client& client, const std::string& message) {
       hub.session_.inquire({client.number(), std::move(one), side, seen.generation, seen.frame});
     }
     void operator()(Edit& one) const { hub.session_.edit(client.number(), std::move(one)); }
+    void operator()(const Order& one) const { hub.session_.order(client.number(), one); }
   };
   Control control = parse_control(message);
   std::visit(Take{*this, client}, control);

@@ -123,6 +123,14 @@ Temporal temporal_of(const Json& message) {
   return out;
 }
 
+Restore restore_of(const Json& message) {
+  constexpr std::size_t most_text = 49'152;
+  Restore out;
+  out.id = id_of(message), out.text = text_of(message, "text");
+  if (out.text.size() > most_text) throw Fault{"\"text\" is longer than 48 kB", "expected the text of a picture that `tofray view` made"};
+  return out;
+}
+
 }  // namespace
 
 std::optional<Inquiry> inquiry_of(std::string_view type, const Json& message) {
@@ -132,6 +140,8 @@ std::optional<Inquiry> inquiry_of(std::string_view type, const Json& message) {
   if (type == "measure") return measure_of(message);
   if (type == "region") return region_of(message);
   if (type == "temporal") return temporal_of(message);
+  if (type == "screenshot") return begun<Screenshot>(message);
+  if (type == "restore") return restore_of(message);
   return {};
 }
 

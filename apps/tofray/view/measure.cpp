@@ -41,8 +41,10 @@ End end_of(const Frame& frame, int u, int v) {
   const std::size_t pixel = static_cast<std::size_t>(v) * static_cast<std::size_t>(depth.width) + static_cast<std::size_t>(u);
   End out;
   if (analysis::has_depth(depth, pixel)) out.measured = at(depth.points_m, pixel), out.noise_m = depth.noise_m[pixel];
-  if (const Vec3 point = at(frame.truth.position_m, pixel); std::isfinite(point[2]) && point[2] > 0) out.truth = point;
-  out.object = frame.truth.object_id[pixel];
+  const Truth& truth = frame.truth;  // of files there may be none
+  if (!truth.position_m.empty())
+    if (const Vec3 point = at(truth.position_m, pixel); std::isfinite(point[2]) && point[2] > 0) out.truth = point;
+  if (!truth.object_id.empty()) out.object = truth.object_id[pixel];
   return out;
 }
 

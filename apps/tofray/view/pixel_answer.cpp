@@ -2,6 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "view/pixel_answer.h"
 
+#include <fmt/core.h>
+
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
@@ -13,6 +16,7 @@
 #include "pictures/pictures.h"
 #include "results/meta.h"
 #include "run/file_pixel.h"
+#include "tofray/error.h"
 #include "view/wire.h"
 
 namespace tofray::view {
@@ -152,6 +156,22 @@ Json values_json(const Frame& frame, std::size_t pixel) {
 }
 
 }  // namespace
+
+void put_pixel(Json& json, const Frame& frame, const Camera* camera, const std::string& name, int u, int v) {
+  const int width = std::max({frame.raw.width, frame.depth.width, frame.truth.width});
+  const int height = std::max({frame.raw.height, frame.depth.height, frame.truth.height});
+  if (u < 0 || v < 0 || u >= width || v >= height)
+    throw Error(ErrorKind::bad_input,
+                fmt::format("error: pixel {},{} is outside the image\n  expected columns of 0 to {} and rows of 0 to {}", u, v, width - 1,
+                            height - 1));
+  const std::size_t pixel = static_cast<std::size_t>(v) * static_cast<std::size_t>(width) + static_cast<std::size_t>(u);
+  const pictures::FlagRow* const reason = frame.depth.flags.empty() ? nullptr : pictures::invalid_reason(frame.depth.flags[pixel]);
+  json.set("values", values_json(frame, pixel)).set("why", reason == nullptr ? "" : reason->words);
+  if (camera == nullptr) return void(json.set("report", Json::object()));
+  const PixelChain chain = pixel_chain(frame, *camera, u, v, Noise::exact);
+  json.set("report", app::pixel_json(name, {}, chain, {})).set("flow", flow_json(chain, *camera));
+  json.set("phasors", phasors_json(chain, {})).set("curve", curves_json(chain, chain, *camera));
+}
 
 void put_pixel(Json& json, const PixelInState& in, int u, int v) {
   const Frame& frame = in.frame;

@@ -59,8 +59,9 @@ void put_region(Json& json, const Frame& frame, const RegionQuestion& r) {
   for (const std::size_t pixel : pixels)
     if (analysis::has_depth(depth, pixel)) ++valid, noise.push_back(depth.noise_m[pixel]);
   std::optional<Quality> measured;
-  const Depth truth = depth_of(frame.truth);
-  if (valid > 0) measured = quality({depth}, {region, {}, 0}, &truth);
+  const bool known = !frame.truth.z_m.empty() && !frame.truth.range_m.empty() && !frame.truth.position_m.empty();
+  const Depth truth = known ? depth_of(frame.truth) : Depth();
+  if (valid > 0) measured = quality({depth}, {region, {}, 0}, known ? &truth : nullptr);
   Json rows = Json::array();
   for (const analysis::QualityMetric& one : analysis::quality_metrics()) {
     const bool fills = one.member == &Quality::fill_rate_percent;

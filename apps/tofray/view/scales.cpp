@@ -97,6 +97,12 @@ Json scale_of(Kind kind, std::vector<double> values, const char* unit) {
 
 }  // namespace
 
+std::vector<Pane> all_panes() {
+  std::vector<Pane> out;
+  for (const Row& row : rows) out.push_back(row.pane);
+  return out;
+}
+
 std::vector<Pane> panes_of(const Frame& frame) {
   std::vector<Pane> out;
   for (const Row& row : rows)

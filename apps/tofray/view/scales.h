@@ -17,6 +17,7 @@ struct Pane {
   const char* array;
   const char* title;
 };
+std::vector<Pane> all_panes();
 /// Those whose arrays the frame has.
 std::vector<Pane> panes_of(const Frame& frame);
 

@@ -14,6 +14,7 @@
 #include "camera/lens.h"
 #include "tofray/simulator.h"
 #include "tofray/stages.h"
+#include "view/answer_arrays.h"
 
 namespace tofray::view {
 
@@ -152,6 +153,14 @@ void put_scene(Json& json, const SceneAt& at, const Geometry& geometry) {
   json.set("time_s", at.time_s).set("camera", std::move(stands)).set("frustum", frustum_json(at.camera));
   json.set("lights", lights_json(at));
   put_objects(json, at, geometry);
+}
+
+std::string drawing_bytes(const WireHead& head, std::uint64_t frame, const Geometry& of) {
+  const std::size_t triangles = of.triangles.corners.size();
+  const StaticArray arrays[] = {array_of(f32_type, of.rays, 3, {of.height, of.width, 2}),
+                                array_of(f32_type, of.triangles.corners, 3, {triangles, 3, 3}),
+                                array_of(u32_type, of.triangles.objects, 1, {triangles, 0, 0})};
+  return encoded(head, frame, of.width, of.height, arrays);
 }
 
 }  // namespace tofray::view

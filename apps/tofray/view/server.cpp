@@ -3,6 +3,9 @@
 #include "view/server.h"
 
 #include <fmt/core.h>
+#include <unistd.h>
+
+#include <boost/asio/posix/stream_descriptor.hpp>
 
 #include <csignal>
 #include <cstdlib>
@@ -27,7 +30,8 @@ constexpr auto head_time = std::chrono::seconds(5), answer_time = std::chrono::s
 constexpr std::string_view no_page =
     "<!doctype html><meta charset=utf-8><title>tofray</title><p>This build has no page: ./dev view makes it.";
 
-bool is_file(std::string_view target) { return target == "/" || find_asset(target) != nullptr; }
+/// The page for files has no frames yet.
+bool is_file(std::string_view target) { return target == "/" || (target != "/export.html" && find_asset(target) != nullptr); }
 
 Request request_of(const http::request<http::empty_body>& from, std::vector<Header>& headers) {
   const auto view = [](beast::string_view text) { return std::string_view(text.data(), text.size()); };
@@ -216,6 +220,27 @@ Listeners listening(net::io_context& io, const ServerOptions& options) {
                   addresses.front().to_string(), first, error.message()));
 }
 
+/// Waits until nothing more can come from standard input: whoever started the program has ended then, or closed it.
+class EndOfInput {
+ public:
+  EndOfInput(net::io_context& io, std::function<void()> then) : input_(io), then_(std::move(then)) {}
+  void wait() {
+    error_code error;
+    if (!input_.is_open()) input_.assign(::dup(STDIN_FILENO), error);
+    if (error) return then_();  // a file, which has an end
+    input_.async_read_some(net::buffer(some_), [this](error_code failed, std::size_t) {
+      if (failed == net::error::operation_aborted) return;
+      if (failed) return then_();
+      wait();
+    });
+  }
+
+ private:
+  net::posix::stream_descriptor input_;
+  std::function<void()> then_;
+  char some_[256] = {};
+};
+
 /// The same for what the shell told to be ignored, as nohup does.
 void add_signal(net::signal_set& signals, int signal) {
   struct sigaction now {};
@@ -251,15 +276,19 @@ void serve(const ServerOptions& options, Session& session, const std::function<v
   net::steady_timer last_moment(io);
   net::signal_set signals(io);
   for (const int signal : {SIGINT, SIGTERM, SIGHUP}) add_signal(signals, signal);
-  signals.async_wait([&](error_code error, int) {
-    if (error) return;
+  const auto end = [&] {
     session.stop();
     for (const auto& one : listeners) one->close();
     hub->close_all();
     // Pages have a moment to take their leave.
     last_moment.expires_after(std::chrono::milliseconds(300));
     last_moment.async_wait([&](error_code) { io.stop(); });
+  };
+  signals.async_wait([&](error_code error, int) {
+    if (!error) end();
   });
+  EndOfInput input(io, end);
+  if (options.end_with_input) input.wait();
 
   session.start(*hub);
   const bool local =

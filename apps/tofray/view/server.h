@@ -15,7 +15,7 @@ struct ServerOptions {
   std::optional<int> port;                 ///< 0: any that is free; not given: 7170 or one of the 20 behind it
   std::string host;                        ///< empty: this machine's own addresses alone
   std::vector<std::string> allowed_hosts;  ///< further names that Host may have
-  bool embed = false;
+  bool embed = false, end_with_input = false;
   Rate rate;  ///< of pages that do not say one
 };
 

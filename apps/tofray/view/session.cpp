@@ -4,9 +4,21 @@
 
 #include <algorithm>
 
+#include "cli/requests.h"
 #include "view/session_impl.h"
 
 namespace tofray::view {
+
+namespace {
+
+/// Frames a second; of files that do not say it, as many as can well be looked at.
+double own_rate(const State& state) {
+  constexpr double of_files_hz = 5;
+  const double hz = state.in.camera.mode.frame_rate_hz;
+  return state.recorded && !(hz > 0) ? of_files_hz : hz;
+}
+
+}  // namespace
 
 Session::Mail Session::Impl::wait() {
   std::unique_lock lock(mutex_);
@@ -29,7 +41,8 @@ bool Session::Impl::due(const Demand& demand, Clock::time_point now) const {
 
 void Session::Impl::run(Outbox& outbox) {
   out_ = &outbox;
-  outbox.own_rate(a_.state.in.camera.mode.frame_rate_hz);
+  outbox.own_rate(own_rate(a_.state));
+  if (b_) outbox.other(true);
   for (;;) {
     Mail mail = wait();
     if (mail.stop) break;
@@ -39,6 +52,13 @@ void Session::Impl::run(Outbox& outbox) {
       tell_state();
     }
   }
+  recorder_->abandon();
+  std::unique_ptr<Recorder> last;
+  {
+    const std::lock_guard lock(mutex_);
+    last = std::move(recorder_);
+  }
+  last.reset();  // waits for its thread
   const std::lock_guard lock(mutex_);
   ended_ = true;
   changed_.notify_all();
@@ -59,6 +79,7 @@ void Session::Impl::work(Mail mail) {
   for (const auto& [client, question] : mail.questions) answer(question);
   for (const Mail::Asked& one : mail.queries) answer(one);
   for (const auto& [of, inquired] : mail.inquiries) answer(inquired);
+  for (const Mail::Ordered& one : mail.orders) take(one);
   for (const auto& [client, question] : mail.whys) begin_split(question);
   if (due(demand_now_, Clock::now())) show();
   go_on_with_split();
@@ -96,7 +117,10 @@ void Session::Impl::make(const Edit& edit) {
   // What is good by itself may not go together: asked before the old state goes.
   Simulating fresh;
   const std::vector<std::uint16_t> arrays = joined(demand_now_.wants);
-  simulator_of(fresh, next, arrays);
+  if (next.recorded)
+    (void)next.recorded->frame(next.frame, next.in.camera, app::simulator_options(next.options));
+  else
+    simulator_of(fresh, next, arrays);
   if (opens) {
     b_.emplace().side = Side::b;
     out_->other(true);
@@ -135,7 +159,7 @@ void Session::Impl::change(const std::vector<Mail::Change>& changes) {
     }
   }
   if (done.empty()) return;
-  out_->own_rate(a_.state.in.camera.mode.frame_rate_hz);
+  out_->own_rate(own_rate(a_.state));
   tell_state();
   for (const Done& one : done)
     out_->tell(one.client,
@@ -156,6 +180,10 @@ void Session::start(Outbox& outbox) {
 }
 
 void Session::stop() { impl_->stop(); }
+
+void Session::order(std::uint64_t client, const Order& order) {
+  impl_->post([&](Mail& mail, Demand&) { return mail.orders.push_back({client, order}), false; });
+}
 
 bool Session::ended(std::chrono::milliseconds within) { return impl_->ended(within); }
 

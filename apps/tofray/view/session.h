@@ -80,6 +80,7 @@ class Session {
   void inquire(Inquired inquired);
   void fit(std::uint64_t client, std::string array);
   void query(std::uint64_t client, const Query& query);
+  void order(std::uint64_t client, const Order& order);
 
   /// What the command says of scene and camera that is odd, for stderr.
   [[nodiscard]] std::string warnings() const;

@@ -5,49 +5,31 @@
 #include <cmath>
 
 #include "base/text.h"
-#include "base/version.h"
 #include "cli/requests.h"
 #include "view/pixel_answer.h"
 #include "view/session_impl.h"
-#include "view/wire.h"
 
 namespace tofray::view {
 
 /// The ranges of colours are those of the first frame that anybody saw. @return whether it came to its end
 bool Session::Impl::ready_to_greet() {
-  if (!panes_.empty()) return true;
-  const auto lock_scales = [this](const Frame& first) {
-    panes_ = panes_of(first);
-    for (const Pane& one : panes_) scales_.emplace_back(one.array, *scale_json(first, one.array));
-  };
+  if (!scales_.panes.empty()) return true;
   if (can_be_drafted(a_.state)) {  // who comes does not wait for a long frame
     Simulating draft;
     Frame frame;
     double took = 0;
     if (!computed(draft, a_.state, {}, frame, took, a_.state.frame, Manner::draft)) return false;
-    lock_scales(frame);
+    scales_ = scales_of(frame);
     return true;
   }
   const Whole* first = whole(a_, a_.state.frame);
   if (first == nullptr) return false;
-  lock_scales(first->frame);
+  scales_ = scales_of(first->frame);
   return true;
 }
 
 std::string Session::Impl::hello() const {
-  Json arrays = Json::array(), panes = Json::array();
-  for (const WireArray& one : wire_arrays()) {
-    Json json = Json::object();
-    json.set("name", one.name).set("unit", one.unit).set("what", one.what).set("dtype", one.type);
-    arrays.push(std::move(json.set("shape", shape_name(one.shape))));
-  }
-  for (std::size_t i = 0; i < panes_.size(); ++i)
-    panes.push(Json::object().set("array", panes_[i].array).set("title", panes_[i].title).set("scale", scales_[i].second));
-  Json json = Json::object();
-  json.set("type", "hello").set("protocol", 2).set("version", base::version()).set("build", build_);
-  json.set("arrays", std::move(arrays)).set("panes", std::move(panes)).set("palettes", palettes_json());
-  json.set("invalid", invalid_json()).set("invalid_color", invalid_color_json());
-  put_state(json, a_.state, b_ ? &b_->state : nullptr);
+  Json json = greeting(a_.state, b_ ? &b_->state : nullptr, scales_, build_);
   if (test_hooks_) json.set("test_hooks", true);
   return files::json_text(json);
 }
@@ -62,6 +44,7 @@ void Session::Impl::answer(const Question& question) {
     // What was given up comes again, unless a newer one does.
     const auto again = [&] { post([&](Mail& later, Demand&) { return later.questions.emplace(question.client, question), false; }); };
     if (of == nullptr) return again();
+    if (state.recorded) return answer_recorded(question, on, of->frame, index);
     const Whole* direct = expected(on, index);
     if (direct == nullptr) return again();
     const SimulatorOptions simulated = app::simulator_options(state.options);
@@ -75,12 +58,23 @@ void Session::Impl::answer(const Question& question) {
   if (fault) out_->tell(question.client, fault_text(asked.id, *fault));
 }
 
+void Session::Impl::answer_recorded(const Question& question, const SideOfSession& on, const Frame& frame, std::uint64_t index) {
+  const PixelQuestion& asked = question.pixel;
+  const Recorded& files = *on.state.recorded;
+  Json json = Json::object();
+  json.set("type", "pixel").set("id", asked.id).set("u", asked.u).set("v", asked.v);
+  json.set("side", name_of(asked.side)).set("generation", on.state.generation).set("frame", index);
+  put_pixel(json, frame, files.live() ? &on.state.in.camera : nullptr, files.file(index), asked.u, asked.v);
+  out_->tell(question.client, files::json_text(json));
+}
+
 /// In place of what the page asked before.
 void Session::Impl::begin_split(const Why& question) {
   splits_.erase(question.client);
   const WhyQuestion& asked = question.asked;
   const auto fault = fault_of([&] {
     const State& state = side(asked.side).state;
+    refuse(state, "why");
     const std::uint64_t index = question.generation == state.generation ? question.frame : state.frame;
     SimulatorOptions simulated = app::simulator_options(state.options);
     simulated.progress = &progress_;
@@ -138,6 +132,7 @@ void Session::Impl::answer(const Mail::Asked& asked) {
   const auto fault = fault_of([&] {
     const State& state = side(asked.query.side).state;
     if (asked.query.kind == Query::Kind::controls) return out_->tell(asked.client, controls_text(state, asked.query));
+    refuse(state, "save");
     constexpr std::size_t most_bytes = 900'000;  // a page that takes 1 MB too slowly is let go
     const Saved file = saved(state);
     Json json = Json::object();
@@ -153,9 +148,9 @@ void Session::Impl::answer(const Mail::Asked& asked) {
 
 void Session::Impl::fit(std::uint64_t client, const std::string& array) {
   const auto fault = fault_of([&] {
-    const auto found = std::find_if(scales_.begin(), scales_.end(), [&](const auto& one) { return one.first == array; });
-    const Whole* of = found == scales_.end() ? nullptr : whole(a_, a_.state.frame);
-    if (found == scales_.end() || found->second.is_null())
+    const auto found = std::find_if(scales_.ranges.begin(), scales_.ranges.end(), [&](const auto& one) { return one.first == array; });
+    const Whole* of = found == scales_.ranges.end() ? nullptr : whole(a_, a_.state.frame);
+    if (found == scales_.ranges.end() || found->second.is_null())
       throw Error(ErrorKind::bad_input, "error: no pane has a range of colours for " + base::in_quotes(array));
     if (of == nullptr) return;
     found->second = *scale_json(of->frame, array);

@@ -27,6 +27,7 @@ std::vector<std::uint16_t> joined(const std::vector<std::vector<std::uint16_t>>&
 
 bool can_be_drafted(const State& state) {
   const app::Options& o = state.options;
+  if (state.recorded) return false;
   return state.in.scene.transport.bounces > 0 || o.subpixel.value_or(1) > 1 || o.exposure_samples.value_or(1) > 1;
 }
 
@@ -55,7 +56,7 @@ Simulator& Session::Impl::simulator_of(Simulating& of, const State& state, const
 /// @return whether the frame came to its end
 bool Session::Impl::computed(Simulating& of, const State& state, const std::vector<std::uint16_t>& arrays, Frame& into, double& took_ms,
                              std::uint64_t index, Manner manner) {
-  Simulator& simulator = simulator_of(of, state, arrays, manner);
+  Simulator* const simulator = state.recorded ? nullptr : &simulator_of(of, state, arrays, manner);
   {
     const std::lock_guard lock(mutex_);
     if (mail_.stop) return false;
@@ -64,7 +65,12 @@ bool Session::Impl::computed(Simulating& of, const State& state, const std::vect
     computing_ = true, progress_.stop = false;
   }
   const Clock::time_point start = Clock::now();
-  const auto fault = fault_of([&] { simulator.frame(index, into); });
+  const auto fault = fault_of([&] {
+    if (simulator != nullptr)
+      simulator->frame(index, into);
+    else
+      into = state.recorded->frame(index, state.in.camera, app::simulator_options(state.options));
+  });
   counts_.compute_ms = took_ms = std::chrono::duration<double, std::milli>(Clock::now() - start).count();
   const std::lock_guard lock(mutex_);
   computing_ = false, interrupted_before_ = progress_.stop;
@@ -77,7 +83,7 @@ bool Session::Impl::computed(Simulating& of, const State& state, const std::vect
 void Session::Impl::show() {
   const bool tick = all_shown();
   if (tick) {
-    set_frame(a_.state.frame + 1);
+    set_frame(frame_after(a_.state));
     for (SideOfSession* one : sides()) one->shown = false;
   }
   for (SideOfSession* one : sides())

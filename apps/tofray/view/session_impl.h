@@ -6,8 +6,8 @@
 #include <cstdint>
 #include <limits>
 #include <map>
+#include <memory>
 #include <mutex>
-#include <new>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -21,7 +21,9 @@
 #include "tofray/causes.h"
 #include "tofray/error.h"
 #include "view/drag.h"
-#include "view/scales.h"
+#include "view/fault.h"
+#include "view/greeting.h"
+#include "view/recorder.h"
 #include "view/scene_3d.h"
 #include "view/session.h"
 #include "view/state.h"
@@ -59,21 +61,6 @@ std::vector<std::uint16_t> joined(const std::vector<std::vector<std::uint16_t>>&
 /// What is quickly seen of a state that takes long.
 bool can_be_drafted(const State& state);
 
-/// Calls `work`; what it throws becomes a text.
-template <class Work>
-std::optional<std::string> fault_of(const Work& work) {
-  try {
-    work();
-    return {};
-  } catch (const Error& error) {
-    return error.what();
-  } catch (const std::bad_alloc&) {
-    return "error: out of memory";
-  } catch (const std::exception& error) {
-    return std::string("error: unexpected: ") + error.what();
-  }
-}
-
 /// What waits for the thread.
 struct Session::Mail {
   struct Change {
@@ -93,12 +80,17 @@ struct Session::Mail {
   std::map<std::pair<std::uint64_t, std::size_t>, Inquired> inquiries;  ///< by page and kind
   std::vector<std::pair<std::uint64_t, std::string>> fits;
   std::vector<Asked> queries;  ///< of each page and kind the last one
+  struct Ordered {
+    std::uint64_t client;
+    Order order;
+  };
+  std::vector<Ordered> orders;
   std::optional<bool> playing;
   std::optional<std::uint64_t> frame;
   bool again = false, stop = false;
   [[nodiscard]] bool empty() const {
     return edits.empty() && joined.empty() && left.empty() && questions.empty() && whys.empty() && inquiries.empty() && fits.empty() &&
-           queries.empty() && !playing && !frame && !again && !stop;
+           queries.empty() && orders.empty() && !playing && !frame && !again && !stop;
   }
   /// Whether the frame under way is no longer the one that is wanted.
   [[nodiscard]] bool outdates() const { return !edits.empty() || frame.has_value(); }
@@ -185,8 +177,14 @@ class Session::Impl {
  public:
   Impl(const app::Options& options, bool test_hooks, std::string build) : test_hooks_(test_hooks), build_(std::move(build)) {
     a_.side = Side::a, a_.state = first_state(options);
+    recorder_ = std::make_unique<Recorder>(options.output);
     // What cannot be simulated at all is told before there is an address.
-    simulator_of(a_.whole, a_.state, {});
+    if (!a_.state.recorded) simulator_of(a_.whole, a_.state, {});
+    if (std::optional<State> beside = state_beside(options)) {
+      b_.emplace().side = Side::b, b_->state = std::move(*beside);
+      if (!b_->state.recorded) simulator_of(b_->whole, b_->state, {});
+      generations_of_b_ = b_->state.generation;
+    }
   }
 
   void run(Outbox& outbox);
@@ -205,6 +203,7 @@ class Session::Impl {
     const std::lock_guard lock(mutex_);
     mail_.stop = true, progress_.stop = true;
     changed_.notify_all();
+    if (recorder_) recorder_->abandon();
   }
   [[nodiscard]] std::string warnings() const { return app::texts(a_.state.in.remarks); }
 
@@ -235,7 +234,7 @@ class Session::Impl {
   /// @throws Error where there is no side B
   SideOfSession& side(Side which);
   void set_frame(std::uint64_t index) {
-    for (SideOfSession* one : sides()) one->state.frame = index;
+    for (SideOfSession* one : sides()) one->state.frame = frame_within(a_.state, index);
   }
   void tell_state() { out_->tell_all(state_text(a_.state, b_ ? &b_->state : nullptr)); }
   bool due(const Demand& demand, Clock::time_point now) const;
@@ -255,6 +254,9 @@ class Session::Impl {
   std::string hello() const;
   void answer(const Question& question);
   void answer(const Mail::Asked& asked);
+  void take(const Mail::Ordered& ordered);
+  void tell_picture(const Inquired& inquired, const Whole& of);
+  void tell_restored(const Inquired& inquired, const Restore& asked);
   void answer(const Inquired& inquired);
   void answer_what(const Inquired& inquired);
   void ask_again(const Inquired& inquired);
@@ -273,6 +275,7 @@ class Session::Impl {
   bool step(Series& series);
   void tell_series(const Series& series, bool done);
   void forget(std::uint64_t client);
+  void answer_recorded(const Question& question, const SideOfSession& on, const Frame& frame, std::uint64_t index);
   void begin_split(const Why& question);
   void go_on_with_split();
   void tell_split(const Split& split);
@@ -293,6 +296,7 @@ class Session::Impl {
   bool computing_ = false, interrupted_before_ = false, ended_ = false;
 
   FrameProgress progress_;
+  std::unique_ptr<Recorder> recorder_;  ///< goes with the thread, under the lock
   // of the thread alone:
   SideOfSession a_;
   std::optional<SideOfSession> b_;
@@ -301,8 +305,7 @@ class Session::Impl {
   std::string build_;
   Outbox* out_ = nullptr;
   Demand demand_now_;
-  std::vector<std::pair<std::string, Json>> scales_;  ///< by array, locked since the first frame or the last fit
-  std::vector<Pane> panes_;
+  Scales scales_;        ///< locked since the first frame or the last fit
   bool at_once_ = true;  ///< the next frame answers a change
   Clock::time_point next_ = Clock::now();
   SessionCounts counts_;

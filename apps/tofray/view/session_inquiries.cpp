@@ -1,9 +1,15 @@
 // SPDX-FileCopyrightText: 2026 The tofray authors
 // SPDX-License-Identifier: Apache-2.0
+#include <fmt/core.h>
+
 #include <array>
 #include <utility>
 
+#include "base/text.h"
 #include "cli/requests.h"
+#include "pictures/pictures.h"
+#include "run/frame_files.h"
+#include "view/answer_arrays.h"
 #include "view/measure.h"
 #include "view/region.h"
 #include "view/session_impl.h"
@@ -18,16 +24,8 @@ constexpr std::uint8_t first_answer_channel = 2;
 std::uint8_t channel_of(Side side) { return static_cast<std::uint8_t>(first_answer_channel + static_cast<std::uint8_t>(side)); }
 
 /// Arrays of a page that a later answer's come in place of.
-enum class Kind : std::uint8_t { scene, series };
+enum class Kind : std::uint8_t { scene, series, picture };
 std::uint8_t number_of(Kind kind, Side side) { return static_cast<std::uint8_t>(2 * static_cast<int>(kind) + static_cast<int>(side)); }
-
-template <class T>
-StaticArray array_of(std::uint8_t type, const std::vector<T>& values, std::uint8_t rank, std::array<std::size_t, 3> extents) {
-  StaticArray out{type, {values.data(), values.size() * sizeof(T), rank, {}}};
-  for (std::size_t i = 0; i < rank; ++i) out.view.extents[i] = static_cast<std::uint32_t>(extents[i]);
-  return out;
-}
-constexpr std::uint8_t u32_type = 4, f32_type = 5;
 
 bool deforms(const Scene& scene) {
   for (const Object& one : scene.objects)
@@ -35,16 +33,22 @@ bool deforms(const Scene& scene) {
   return false;
 }
 
-std::string drawing_bytes(const WireHead& head, std::uint64_t frame, const Geometry& of) {
-  const std::size_t triangles = of.triangles.corners.size();
-  const StaticArray arrays[] = {array_of(f32_type, of.rays, 3, {of.height, of.width, 2}),
-                                array_of(f32_type, of.triangles.corners, 3, {triangles, 3, 3}),
-                                array_of(u32_type, of.triangles.objects, 1, {triangles, 0, 0})};
-  return encoded(head, frame, of.width, of.height, arrays);
-}
-
 Json answer_json(const char* type, std::uint64_t id, Side side) {
   return Json::object().set("type", type).set("id", id).set("side", name_of(side));
+}
+
+const char* type_of(const Inquiry& what) {
+  struct Name {
+    const char* operator()(const SceneQuestion&) const { return "view3d"; }
+    const char* operator()(const Drag&) const { return "drag"; }
+    const char* operator()(const Place& one) const { return one.object ? "place" : "camera"; }
+    const char* operator()(const Measure&) const { return "measure"; }
+    const char* operator()(const RegionQuestion&) const { return "region"; }
+    const char* operator()(const Temporal&) const { return "temporal"; }
+    const char* operator()(const Screenshot&) const { return "screenshot"; }
+    const char* operator()(const Restore&) const { return "restore"; }
+  };
+  return std::visit(Name(), what);
 }
 
 template <class Of>
@@ -63,6 +67,7 @@ void Session::Impl::ask_again(const Inquired& inquired) {
 
 void Session::Impl::forget(std::uint64_t client) {
   splits_.erase(client), series_.erase(client), held_.erase(client);
+  recorder_->stop(client);
   for (const Side one : {Side::a, Side::b}) drawn_.erase({client, one});
 }
 
@@ -74,6 +79,7 @@ void Session::Impl::answer(const Inquired& inquired) {
 void Session::Impl::answer_what(const Inquired& inquired) {
   SideOfSession& on = side(inquired.side);
   const std::uint64_t index = frame_asked(inquired, on.state);
+  refuse(on.state, type_of(inquired.what));
   if (const auto* drag = std::get_if<Drag>(&inquired.what)) {
     const Held* from = held(inquired, drag->base, drag->object, drag->from_u, drag->from_v);
     if (from == nullptr) return ask_again(inquired);
@@ -86,11 +92,13 @@ void Session::Impl::answer_what(const Inquired& inquired) {
     return tell_moved(inquired, place->object ? "place" : "camera", place->id, from->generation,
                       placed({from->scene, from->camera, from->set, from->time_s}, *place));
   }
+  if (const auto* restore = std::get_if<Restore>(&inquired.what)) return tell_restored(inquired, *restore);
   const bool of_truth = std::holds_alternative<SceneQuestion>(inquired.what) || std::holds_alternative<Temporal>(inquired.what);
   const Whole* of = of_truth ? seen(on, index) : whole(on, index);
   if (of == nullptr) return ask_again(inquired);
   if (const auto* scene = std::get_if<SceneQuestion>(&inquired.what)) return tell_scene(inquired, *scene, of->frame.truth.time_s);
   if (const auto* temporal = std::get_if<Temporal>(&inquired.what)) return begin_series(inquired, *temporal, of->frame.truth.time_s);
+  if (std::holds_alternative<Screenshot>(inquired.what)) return tell_picture(inquired, *of);
   const bool measures = std::holds_alternative<Measure>(inquired.what);
   Json json = answer_json(measures ? "measure" : "region", id_of(inquired.what), inquired.side);
   json.set("generation", on.state.generation).set("frame", index);
@@ -120,7 +128,7 @@ void Session::Impl::tell_scene(const Inquired& inquired, const SceneQuestion& as
   const bool fresh = drawn != drawing.number;
   Json json = answer_json("view3d", asked.id, inquired.side);
   json.set("generation", state.generation).set("frame", index).set("static", fresh);
-  if (fresh) json.set("arrays", Json::list(std::array{"rays", "triangles", "triangle_objects"}));
+  if (fresh) json.set("arrays", Json::list(drawing_arrays));
   put_scene(json, at, drawing.geometry);
   if (!fresh) return out_->tell(inquired.client, files::json_text(json));
   const WireHead head{channel_of(inquired.side), 0, state.generation, static_cast<std::uint32_t>(asked.id), time_s, 0};
@@ -152,6 +160,57 @@ void Session::Impl::tell_moved(const Inquired& inquired, const char* type, std::
   Json json = answer_json(type, id, inquired.side);
   json.set("base", base).set("sets", std::move(sets)).set("unsets", Json::list(moved.unsets));
   out_->tell(inquired.client, files::json_text(json.set("what", moved.what)));
+}
+
+/// preview.png as `tofray render` draws it, with the state in it.
+void Session::Impl::tell_picture(const Inquired& inquired, const Whole& of) {
+  const State& state = side(inquired.side).state;
+  const Camera& camera = state.in.camera;
+  const Frame& frame = of.frame;
+  const std::string caption = run::caption_of(state.in.scene.name, camera.name, camera.mode.name, of.index, true);
+  const std::string drawn = pictures::preview_png(frame.depth, frame.truth, frame.raw, caption);
+  const std::string text = png_with_text(drawn, picture_keyword, picture_text(picture_state(state, of.index)));
+  const std::vector<std::uint8_t> bytes(text.begin(), text.end());
+  const std::uint64_t id = id_of(inquired.what);
+  Json json = answer_json("screenshot", id, inquired.side);
+  json.set("generation", state.generation).set("frame", of.index).set("name", fmt::format("{}_{:04}.png", state.in.scene.name, of.index));
+  json.set("static", true).set("arrays", Json::list(std::array{"png"}));
+  const StaticArray arrays[] = {array_of(u8_type, bytes, 1, {bytes.size(), 0, 0})};
+  const WireHead head{channel_of(inquired.side), 0, state.generation, static_cast<std::uint32_t>(id), 0, 0};
+  out_->give(inquired.client, files::json_text(json), encoded(head, of.index, 0, 0, arrays), number_of(Kind::picture, inquired.side));
+}
+
+/// What a picture that may be a stranger's says, for the page to set.
+void Session::Impl::tell_restored(const Inquired& inquired, const Restore& asked) {
+  const PictureState then = parse_picture_text(asked.text), now = picture_state(a_.state, a_.state.frame);
+  const bool same_scene = then.scene == now.scene && then.scene_sha256.empty() == now.scene_sha256.empty();
+  const bool same_settings = then.noise == now.noise && then.exposure_samples == now.exposure_samples && then.subpixel == now.subpixel;
+  if (!same_scene || !same_settings)
+    throw Error(ErrorKind::bad_input,
+                fmt::format("error: the picture is of {}, and this viewer has {}\n  `{}` opens it",
+                            same_scene ? "other settings of `tofray view`" : "the scene " + base::in_quotes(then.scene),
+                            same_scene ? "--noise, --exposure-samples or --subpixel otherwise" : base::in_quotes(now.scene),
+                            base::printable(live_command(then))));
+  Json overrides = Json::array();
+  for (const auto& [key, text] : then.overrides) overrides.push(Json::object().set("key", key).set("text", text));
+  Json json = answer_json("restore", asked.id, Side::a);
+  json.set("overrides", std::move(overrides)).set("seed", then.seed).set("frame", then.frame);
+  if (then.scene_sha256 != now.scene_sha256)
+    json.set("note", fmt::format("{} has changed since the picture was taken", now.scene));
+  else if (then.version != now.version)
+    json.set("note",
+             fmt::format("tofray {} made the picture, this is {}: the bytes may differ", base::printable(then.version), now.version));
+  out_->tell(inquired.client, files::json_text(json));
+}
+
+void Session::Impl::take(const Mail::Ordered& ordered) {
+  const Order& order = ordered.order;
+  if (order.kind == Order::Kind::stop) return recorder_->stop(ordered.client);
+  const auto fault = fault_of([&] {
+    refuse(side(order.side).state, order.kind == Order::Kind::record ? "record" : "export");
+    recorder_->take(ordered.client, order, side(order.side).state, *out_);
+  });
+  if (fault) out_->tell(ordered.client, fault_text(order.id, *fault));
 }
 
 /// In place of what the page asked before.
