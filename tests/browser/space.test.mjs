@@ -45,7 +45,7 @@ async function points(webgl, { all = words, ...options } = {}) {
   await page.waitForFunction(([r, g, b]) => {
     const of = window.tofray.space(1)?.pixels;
     return of !== undefined && of.some((one, i) => i % 4 === 0 && (Math.abs(one - r) > 1 || Math.abs(of[i + 1] - g) > 1 || Math.abs(of[i + 2] - b) > 1));
-  }, ground[options.colorScheme ?? "dark"]);
+  }, ground[options.colorScheme ?? "dark"], { polling: 100 });   // (the whole picture is read each time)
   const answer = tab.texts.find((one) => one.type === "view3d" && one.static === true);
   return { ...tab, tab, rays: answered_arrays(tab, answer).rays.values, shape: answered_arrays(tab, answer).rays.shape, answer };
 }
