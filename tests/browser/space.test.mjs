@@ -4,9 +4,8 @@
 // command writes, of the rays and of the eye.
 
 import assert from "node:assert/strict";
-import { test } from "node:test";
 import { expected, scale_of } from "./colors.mjs";
-import { answered_arrays, between, pane, rendered, same, set, settled, shown, stand_at, until, view } from "./viewer.mjs";
+import { answered_arrays, between, pane, rendered, same, set, settled, shown, stand_at, test, until, view } from "./viewer.mjs";
 
 const words = ["demo", "--seed", "5"];
 const width = 224, height = 172;
