@@ -138,6 +138,35 @@ TEST(recorded, frames_stand_beside_another_decoding_and_beside_a_simulation) {
   EXPECT_EQ(of_b(R"({"type":"other","id":3,"overrides":[],"scene":"demo"})").size(), 4u * 224 * 172);
 }
 
+TEST(recorded, frames_stand_beside_their_own_scene_from_the_start) {
+  NEEDS_THE_VIEWER;
+  const Folder folder;
+  const Prepare here = in_folder(folder.path());
+  write(folder / "s.yaml",
+        "camera: {profile: pico-flexx}\nobjects: [{plane: {point: [0, 0, 1], normal: [0, 0, -1], reflectivity: 0.8}}]\n");
+  ASSERT_EQ(run({"render", "s.yaml", "-o", "out", "--frames", "2", "-q", "--emit", "npz"}, here).code, 0);
+  const Viewer viewer({"out", "--beside", "s.yaml", "--set", "camera.decoding.filter=median"}, false, here);
+  Greeted one(viewer);
+  const Json* other = one.hello.find("other");
+  ASSERT_TRUE(other != nullptr && other->is_object());
+  EXPECT_EQ(text_of(*other, "command"), "tofray render s.yaml");
+  EXPECT_EQ(other->find("overrides")->items()->size(), 0u);
+  one.page.send(R"({"type":"pause"})");
+  one.page.send(at_frame(1));
+  one.page.want("\"z_m\"");
+  const auto of_side = [&](int channel) {
+    const auto frame = one.page.frame_with([&](const WireFrame& each) { return each.frame == 1 && each.channel == channel; });
+    return frame ? frame->arrays.at(number_of(one.hello, "z_m")) : std::string();
+  };
+  const std::string of_a = of_side(0), of_b = of_side(1);
+  const std::string made = files::read_npz(folder / "out/frame_0001.npz", {"z_m"}).at(0).array.bytes;
+  EXPECT_TRUE(of_b == made);
+  EXPECT_FALSE(of_a == made) << "side A has the filter";
+  const Result wrong = run({"view", "out", "--beside", "nothing.yaml", "--test-hooks"}, here);
+  EXPECT_TRUE(has(wrong.err, "nothing.yaml")) << wrong.err;
+  EXPECT_TRUE(has(run({"view", "out", "--beside", "s.yaml", "--export", "a.html"}, here).err, "of one side")) << wrong.err;
+}
+
 TEST(recorded, pixels_have_their_way_from_raw_frames) {
   NEEDS_THE_VIEWER;
   const Rendered rendered;

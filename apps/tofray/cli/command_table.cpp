@@ -149,6 +149,7 @@ std::vector<Command> make() {
                    "tofray view azure-kinect-nfov --rate max         # the demo seen by another camera, as fast as it is drawn\n"
                    "tofray view scene.yaml --port 0 --json           # for programs: one line with url, port and pid\n"
                    "tofray view out                                  # plays the .npz files of a folder; filters of raw ones by sliders\n"
+                   "tofray view out --beside scene.yaml              # a recording beside what the simulator makes of the scene\n"
                    "tofray view demo --export demo.html --frames 5   # a page for a paper or a bug report: one file, no server\n",
        .more = "The address that it prints has a key behind #: whoever has it sees and changes this view, nobody else does. It listens on "
                "this\n"
@@ -156,11 +157,11 @@ std::vector<Command> make() {
                "Frames are computed while somebody looks, and have the bytes that `tofray render` gives them.\n"
                "Of files nothing is simulated: where they have raw frames of a camera that they or --camera name, depth is computed as\n"
                "`tofray process` does it, with its decoding under controls.\n",
-       .options = {"--set",      "--camera",         "--mode",    "--seed",       "--noise",      "--exposure-samples",
-                   "--subpixel", "--bounces",        "--samples", "--fps",        "--root",       "--threads",
-                   "--backend",  "--device",         "--port",    "--host",       "--allow-host", "--open",
-                   "--embed",    "--end-with-input", "--rate",    "--test-hooks", "--output",     "--export",
-                   "--frames",   "--first-frame",    "--arrays",  "--json",       "--quiet"},
+       .options = {"--set",      "--camera",  "--mode",           "--seed",   "--noise",      "--exposure-samples",
+                   "--subpixel", "--bounces", "--samples",        "--fps",    "--root",       "--threads",
+                   "--backend",  "--device",  "--port",           "--host",   "--allow-host", "--open",
+                   "--beside",   "--embed",   "--end-with-input", "--rate",   "--test-hooks", "--output",
+                   "--export",   "--frames",  "--first-frame",    "--arrays", "--json",       "--quiet"},
        .least_words = 0,
        .most_words = 1,
        .run = run_view,

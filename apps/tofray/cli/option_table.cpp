@@ -278,6 +278,8 @@ std::vector<OptionSpec> view_specs() {
        [](Options& o, const std::string& v) { o.output = v; }, "<files>", false, "view"},
       {"--end-with-input", 0, nullptr, "end when standard input ends: with the program that started it",
        [](Options& o, const std::string&) { o.view.end_with_input = true; }},
+      {"--beside", 0, "SCENE", "opens a scene as side B: a recording beside its simulation (--set is of side A)",
+       [](Options& o, const std::string& v) { o.view.beside = v; }, "<scenes> <files>"},
       {"--rate", 0, "RATE", "frames a second: own (the camera's), max, or a number (own)", take_rate, "own max"},
       {"--test-hooks", 0, nullptr, "the page tells tests what it draws", [](Options& o, const std::string&) { o.view.test_hooks = true; },
        "", false, "", true},
@@ -436,7 +438,7 @@ const std::vector<Group>& groups() {
       {"With --emit mcap",
        {"--driver", "--topics", "--camera-name", "--stamp", "--epoch", "--depth-encoding", "--amplitude-step", "--unorganized",
         "--mcap-compression"}},
-      {"Viewer", {"--port", "--host", "--allow-host", "--open", "--embed", "--end-with-input", "--rate", "--test-hooks"}},
+      {"Viewer", {"--port", "--host", "--allow-host", "--open", "--beside", "--embed", "--end-with-input", "--rate", "--test-hooks"}},
       {"Machine", {"--threads", "--backend", "--device"}}};
   return all;
 }

@@ -65,7 +65,7 @@ struct Options {
   std::optional<double> first_m, width_m, per_factor;       ///< --first, --width, --factor: what that file does not say
   struct View {
     std::optional<int> port;
-    std::string host, rate = "own", export_file;
+    std::string host, rate = "own", export_file, beside;
     std::vector<std::string> allowed_hosts;
     bool open = false, embed = false, end_with_input = false, test_hooks = false;
   } view;  ///< of `tofray view`

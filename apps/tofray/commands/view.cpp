@@ -152,7 +152,14 @@ int run_view(const Options& typed) {
     say(run::note_of(chosen));
     options.words[0] = chosen.name;
   }
+  if (!options.view.export_file.empty() && !options.view.beside.empty())
+    throw Error(ErrorKind::bad_input, "error: --export makes a page of one side, and --beside opens two\n  expected one of them");
   if (!options.view.export_file.empty()) return export_page(options);
+  if (!options.view.beside.empty() && !view::names_recorded(options.view.beside)) {
+    const NameChoice chosen = choose_scene(options.view.beside);
+    say(run::note_of(chosen));
+    options.view.beside = chosen.name;
+  }
   refuse_frames(options);
   view::ServerOptions wanted;
   wanted.port = options.view.port, wanted.host = options.view.host, wanted.allowed_hosts = options.view.allowed_hosts;

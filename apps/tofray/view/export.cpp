@@ -27,7 +27,7 @@ namespace {
 using files::Json;
 
 constexpr std::string_view place_of_data = "<!--tofray-data-->";
-constexpr std::size_t most_bytes = 200'000'000, most_text = 900'000;
+constexpr std::size_t most_page_bytes = 200'000'000, most_saved_text = 900'000;
 
 /// A zlib stream, as pages unpack it.
 std::string deflated(std::string_view bytes) {
@@ -80,8 +80,8 @@ std::vector<std::uint16_t> arrays_of(const Scales& scales, const std::string& wo
 }
 
 void refuse_large(std::size_t one_frame, const ExportRequest& request, std::size_t rest) {
-  if (one_frame * request.frames + rest <= most_bytes) return;
-  const std::size_t fit = rest < most_bytes ? (most_bytes - rest) / one_frame : 0;
+  if (one_frame * request.frames + rest <= most_page_bytes) return;
+  const std::size_t fit = rest < most_page_bytes ? (most_page_bytes - rest) / one_frame : 0;
   throw Error(
       ErrorKind::limit,
       fmt::format("error: {} frames of {:.1f} MB make a page of {:.0f} MB, and browsers open 200 MB well\n  expected {}fewer arrays, "
@@ -110,7 +110,7 @@ std::string text_of(const State& state, Contents contents) {
   const Saved file = state.recorded ? Saved() : saved(state);
   Json save = Json::object().set("type", "saved").set("id", 0).set("side", "a").set("name", file.name).set("text", file.text);
   save.set("command", file.command);
-  if (file.text.empty() || file.text.size() > most_text)
+  if (file.text.empty() || file.text.size() > most_saved_text)
     json.set("saved", nullptr);
   else
     json.set("saved", std::move(save));

@@ -13,12 +13,12 @@ namespace {
 
 using namespace fields;
 
-constexpr std::size_t most_key = 1000, most_values = 10'000;
-constexpr std::uint64_t most_frame = 1'000'000'000, most_samples = 65'536;
+constexpr std::size_t most_word = 1000, most_picture_values = 10'000;
+constexpr std::uint64_t most_picture_frame = 1'000'000'000, most_picture_samples = 65'536;
 
 std::string short_text(const Json& from, const char* name) {
   const std::string text = text_of(from, name);
-  if (text.size() > most_key) throw Fault{base::in_quotes(name) + " is longer than 1000 bytes", ""};
+  if (text.size() > most_word) throw Fault{base::in_quotes(name) + " is longer than 1000 bytes", ""};
   return text;
 }
 
@@ -39,10 +39,10 @@ PictureState state_of(const Json& from) {
   out.version = short_text(from, "tofray"), out.scene = short_text(from, "scene"), out.scene_sha256 = short_text(from, "scene_sha256");
   if (out.scene.empty()) throw Fault{"\"scene\" is empty", ""};
   out.overrides = overrides_of(member(from, "overrides"));
-  out.seed = whole(from, "seed", UINT64_MAX), out.frame = whole(from, "frame", most_frame);
+  out.seed = whole(from, "seed", UINT64_MAX), out.frame = whole(from, "frame", most_picture_frame);
   out.noise = short_text(from, "noise");
-  out.exposure_samples = static_cast<int>(whole(from, "exposure_samples", most_samples));
-  out.subpixel = static_cast<int>(whole(from, "subpixel", most_samples));
+  out.exposure_samples = static_cast<int>(whole(from, "exposure_samples", most_picture_samples));
+  out.subpixel = static_cast<int>(whole(from, "subpixel", most_picture_samples));
   return out;
 }
 
@@ -71,7 +71,7 @@ PictureState parse_picture_text(std::string_view text) {
       "\n  expected a picture that `tofray view` made; other programs leave out its text when they save it anew";
   if (text.size() > most_picture_text) throw Error(ErrorKind::bad_input, std::string("error: the picture's text is too long") + way_out);
   try {
-    const Json json = files::parse_json(text, "the picture's text", most_values);
+    const Json json = files::parse_json(text, "the picture's text", most_picture_values);
     if (!json.is_object()) throw Fault{"it is no JSON object", ""};
     return state_of(json);
   } catch (const Fault& fault) {

@@ -42,6 +42,7 @@ bool Session::Impl::due(const Demand& demand, Clock::time_point now) const {
 void Session::Impl::run(Outbox& outbox) {
   out_ = &outbox;
   outbox.own_rate(own_rate(a_.state));
+  if (b_) outbox.other(true);
   for (;;) {
     Mail mail = wait();
     if (mail.stop) break;

@@ -180,6 +180,11 @@ class Session::Impl {
     recorder_ = std::make_unique<Recorder>(options.output);
     // What cannot be simulated at all is told before there is an address.
     if (!a_.state.recorded) simulator_of(a_.whole, a_.state, {});
+    if (std::optional<State> beside = state_beside(options)) {
+      b_.emplace().side = Side::b, b_->state = std::move(*beside);
+      if (!b_->state.recorded) simulator_of(b_->whole, b_->state, {});
+      generations_of_b_ = b_->state.generation;
+    }
   }
 
   void run(Outbox& outbox);

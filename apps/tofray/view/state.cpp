@@ -185,6 +185,13 @@ State first_state(const app::Options& options) {
   return state;
 }
 
+std::optional<State> state_beside(const app::Options& options) {
+  if (options.view.beside.empty()) return {};
+  app::Options of_b = options;
+  of_b.words = {options.view.beside}, of_b.set.clear(), of_b.mode.clear(), of_b.camera.clear();
+  return first_state(of_b);
+}
+
 State changed(const State& before, const Edit& edit) {
   static constexpr const char* types[] = {"set", "unset", "seed", "state", "other", "other"};
   const bool same_seed = edit.seed && *edit.seed == before.options.seed.value_or(0);

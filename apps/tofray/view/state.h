@@ -41,6 +41,9 @@ std::uint64_t frame_after(const State& state);
 /// The state of a command line. @throws Error
 State first_state(const app::Options& options);
 
+/// The state of side B that --beside asks for; none where it does not. @throws Error
+std::optional<State> state_beside(const app::Options& options);
+
 /// A state with a change, of the next generation. @throws Error in the command line's own words
 State changed(const State& before, const Edit& edit);
 /// What side B begins with. @param like  side A  @throws Error
