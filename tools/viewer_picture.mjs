@@ -4,11 +4,10 @@
 // viewer_measure.png, viewer_along.png, viewer_files.png and viewer_file.png:
 //   TOFRAY=build/release/apps/tofray/tofray TOFRAY_PAGE_PACKAGES=build/release/viewer node tools/viewer_picture.mjs docs/images
 
-import { test } from "node:test";
 import { mkdtempSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
-import { beside, drawn, find, open, point_at, set, settled, shown, stand_at, told, view } from "../tests/browser/viewer.mjs";
+import { beside, drawn, find, open, point_at, set, settled, shown, stand_at, test, told, view } from "../tests/browser/viewer.mjs";
 
 const [out] = process.argv.slice(2);
 if (out === undefined) throw new Error("node tools/viewer_picture.mjs FOLDER");

@@ -5,9 +5,8 @@
 import assert from "node:assert/strict";
 import { mkdtempSync, readFileSync } from "node:fs";
 import { join } from "node:path";
-import { test } from "node:test";
 import { before, measure_all, open_all } from "./full_pages.mjs";
-import { axe_source, beside, choose, drawn, find, folder, point_at, set, shown, stand_at, type, view } from "./viewer.mjs";
+import { axe_source, beside, choose, drawn, find, folder, point_at, set, shown, stand_at, test, type, view } from "./viewer.mjs";
 
 /** Of the page as it is, on dark and on light ground. Only what is wrong comes out of the page: what is right is ten times as long. */
 async function violations({ page }) {

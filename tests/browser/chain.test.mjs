@@ -3,9 +3,8 @@
 // A pixel's charts: each point where its number is, and each number as it was answered.
 
 import assert from "node:assert/strict";
-import { test } from "node:test";
 import { curve, phasors, with_chain } from "./answers.mjs";
-import { beside, between, inspected, point_at, rendered, shown, stand_at, view } from "./viewer.mjs";
+import { beside, between, inspected, point_at, rendered, shown, stand_at, test, view } from "./viewer.mjs";
 
 const words = ["demo", "--seed", "5"];
 const turn = 2 * Math.PI;

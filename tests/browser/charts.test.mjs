@@ -5,9 +5,8 @@
 import assert from "node:assert/strict";
 import { mkdtempSync, readFileSync } from "node:fs";
 import { join } from "node:path";
-import { test } from "node:test";
 import { phasors, split, with_chain, curve, unwrapping } from "./answers.mjs";
-import { answered_arrays, beside, between, folder, open, pane, shown, stand_at, view } from "./viewer.mjs";
+import { answered_arrays, beside, between, folder, open, pane, shown, stand_at, test, view } from "./viewer.mjs";
 
 const words = ["demo", "--seed", "5"];
 

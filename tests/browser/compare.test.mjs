@@ -3,8 +3,7 @@
 // Two states of the camera: each has the pictures of its own command, and their difference is the difference of these arrays.
 
 import assert from "node:assert/strict";
-import { test } from "node:test";
-import { beside, canvas_pixels, choose, drawn, pane, point_at, rendered, same, set, settled, shown, stand_at, view } from "./viewer.mjs";
+import { beside, canvas_pixels, choose, drawn, pane, point_at, rendered, same, set, settled, shown, stand_at, test, view } from "./viewer.mjs";
 import { expected, mixed, reason, scale_of } from "./colors.mjs";
 
 const words = ["demo", "--seed", "5"];

@@ -3,8 +3,7 @@
 // A hidden page costs nothing, and a connection that breaks is told and mended where it can be.
 
 import assert from "node:assert/strict";
-import { test } from "node:test";
-import { open, proxy, shown, stand_at, until, view } from "./viewer.mjs";
+import { open, proxy, shown, stand_at, test, until, view } from "./viewer.mjs";
 
 const words = ["demo", "--seed", "5"];
 const drawn = ({ page }) => page.evaluate(() => window.tofray.counters.drawn);

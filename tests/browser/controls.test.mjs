@@ -7,9 +7,8 @@ import assert from "node:assert/strict";
 import { execFileSync } from "node:child_process";
 import { mkdtempSync, readFileSync } from "node:fs";
 import { delimiter, dirname, join } from "node:path";
-import { test } from "node:test";
 import { read_npz } from "./npz.mjs";
-import { arrived, bytes_of, find, folder, pause, rendered, set, settled, shown, stand_at, told, type, view } from "./viewer.mjs";
+import { arrived, bytes_of, find, folder, pause, rendered, set, settled, shown, stand_at, test, told, type, view } from "./viewer.mjs";
 
 const words = ["demo", "--seed", "5"];
 const f_number = "camera.lens.f_number";

@@ -6,10 +6,9 @@ import assert from "node:assert/strict";
 import { execFileSync } from "node:child_process";
 import { mkdtempSync, readdirSync, readFileSync } from "node:fs";
 import { delimiter, dirname, join } from "node:path";
-import { test } from "node:test";
 import { inflateSync } from "node:zlib";
 import { color, expected, scale_of } from "./colors.mjs";
-import { axe_source, canvas_pixels, folder, open, pane, point_at, rendered, same, shown, told, view, written } from "./viewer.mjs";
+import { axe_source, canvas_pixels, folder, open, pane, point_at, rendered, same, shown, test, told, view, written } from "./viewer.mjs";
 
 const width = 224, height = 172;
 const words = ["demo", "--seed", "5", "--set", "camera.lens.f_number=2.8"];

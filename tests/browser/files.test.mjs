@@ -5,10 +5,9 @@
 import assert from "node:assert/strict";
 import { mkdtempSync } from "node:fs";
 import { join } from "node:path";
-import { test } from "node:test";
 import { expected, scale_of } from "./colors.mjs";
 import { read_npz } from "./npz.mjs";
-import { arrived, axe_source, beside, bytes_of, drawn, find, folder, pane, point_at, rendered, same, set, settled, shown, stand_at, told, view } from "./viewer.mjs";
+import { arrived, axe_source, beside, bytes_of, drawn, find, folder, pane, point_at, rendered, same, set, settled, shown, stand_at, test, told, view } from "./viewer.mjs";
 
 const width = 224;
 const words = ["demo", "--seed", "5"];

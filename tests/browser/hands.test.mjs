@@ -3,8 +3,7 @@
 // Objects dragged in a picture, by pointer and by keys: what is asked, that it becomes a change like any other, and that the thing is there then.
 
 import assert from "node:assert/strict";
-import { test } from "node:test";
-import { between, point_at, rendered, settled, shown, stand_at, until, view, written } from "./viewer.mjs";
+import { between, point_at, rendered, settled, shown, stand_at, test, until, view, written } from "./viewer.mjs";
 
 const words = ["demo", "--seed", "5"];
 const width = 224;

@@ -7,8 +7,7 @@ import { execFileSync } from "node:child_process";
 import { createHash } from "node:crypto";
 import { mkdtempSync, readdirSync, readFileSync } from "node:fs";
 import { delimiter, dirname, join } from "node:path";
-import { test } from "node:test";
-import { arrived, bytes_of, folder, rendered, set, settled, shown, stand_at, told, view } from "./viewer.mjs";
+import { arrived, bytes_of, folder, rendered, set, settled, shown, stand_at, test, told, view } from "./viewer.mjs";
 
 const words = ["demo", "--seed", "5"];
 const f_number = "camera.lens.f_number";

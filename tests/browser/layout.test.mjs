@@ -3,9 +3,8 @@
 // Nothing is lost, cut or to be scrolled sideways, however narrow the window is.
 
 import assert from "node:assert/strict";
-import { test } from "node:test";
 import { before, measure_all, open_all } from "./full_pages.mjs";
-import { beside, drawn, find, set, shown, type, view } from "./viewer.mjs";
+import { beside, drawn, find, set, shown, test, type, view } from "./viewer.mjs";
 
 // (At 200 % a window of 1280 × 900 has 640 × 450 CSS pixels.)
 const windows = [["320 CSS pixels wide", { width: 320, height: 640 }], ["zoomed to 200 %", { width: 640, height: 450 }], ["in a usual window", { width: 1280, height: 760 }]];

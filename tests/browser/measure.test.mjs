@@ -5,10 +5,9 @@
 import assert from "node:assert/strict";
 import { mkdtempSync } from "node:fs";
 import { join } from "node:path";
-import { test } from "node:test";
 import { read_npz } from "./npz.mjs";
 import { expected, scale_of } from "./colors.mjs";
-import { answered_arrays, beside, folder, inspected, pane, point_at, rendered, same, set, settled, shown, stand_at, told, until, view } from "./viewer.mjs";
+import { answered_arrays, beside, folder, inspected, pane, point_at, rendered, same, set, settled, shown, stand_at, test, told, until, view } from "./viewer.mjs";
 
 const words = ["demo", "--seed", "5"];
 const width = 224, height = 172, pixels = width * height;

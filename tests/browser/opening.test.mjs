@@ -3,8 +3,7 @@
 // The page opens by its address alone, keeps the key to itself, and shows names of others as text. All of these tests run with --disable-gpu.
 
 import assert from "node:assert/strict";
-import { test } from "node:test";
-import { beside, open, point_at, proxy, shown, stand_at, view, written } from "./viewer.mjs";
+import { beside, open, point_at, proxy, shown, stand_at, test, view, written } from "./viewer.mjs";
 
 test("the address that the command prints opens the page with its first picture, and nothing is reported", async () => {
   const { url } = await view(["demo", "--seed", "5"]);

@@ -4,9 +4,8 @@
 // (docs/reference/viewer-protocol.md).
 
 import assert from "node:assert/strict";
-import { test } from "node:test";
 import { expected, reason, scale_of } from "./colors.mjs";
-import { canvas_pixels, choose, pane, rendered, same, shown, stand_at, until, view, written } from "./viewer.mjs";
+import { canvas_pixels, choose, pane, rendered, same, shown, stand_at, test, until, view, written } from "./viewer.mjs";
 
 const words = ["demo", "--seed", "5"];
 

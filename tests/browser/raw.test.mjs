@@ -3,9 +3,8 @@
 // The sheet of all raw frames: every pixel has the colour that this file computes of the arrays which the command writes.
 
 import assert from "node:assert/strict";
-import { test } from "node:test";
 import { color } from "./colors.mjs";
-import { canvas_pixels, drawn, pane, point_at, rendered, same, set, shown, stand_at, view, written } from "./viewer.mjs";
+import { canvas_pixels, drawn, pane, point_at, rendered, same, set, shown, stand_at, test, view, written } from "./viewer.mjs";
 
 const words = ["demo", "--seed", "5"];
 const width = 224, height = 172, pixels = width * height;

@@ -3,8 +3,7 @@
 // What the page says of a pixel is what `tofray inspect --pixel --json` says of the file that the same words write.
 
 import assert from "node:assert/strict";
-import { test } from "node:test";
-import { beside, inspected, point_at, rendered, shown, stand_at, view } from "./viewer.mjs";
+import { beside, inspected, point_at, rendered, shown, stand_at, test, view } from "./viewer.mjs";
 
 const words = ["demo", "--seed", "5"];
 const width = 224, height = 172;

@@ -4,9 +4,8 @@
 // command writes, of the rays and of the eye.
 
 import assert from "node:assert/strict";
-import { test } from "node:test";
 import { expected, scale_of } from "./colors.mjs";
-import { answered_arrays, between, pane, rendered, same, set, settled, shown, stand_at, until, view } from "./viewer.mjs";
+import { answered_arrays, between, pane, rendered, same, set, settled, shown, stand_at, test, until, view } from "./viewer.mjs";
 
 const words = ["demo", "--seed", "5"];
 const width = 224, height = 172;
@@ -45,7 +44,7 @@ async function points(webgl, { all = words, ...options } = {}) {
   await page.waitForFunction(([r, g, b]) => {
     const of = window.tofray.space(1)?.pixels;
     return of !== undefined && of.some((one, i) => i % 4 === 0 && (Math.abs(one - r) > 1 || Math.abs(of[i + 1] - g) > 1 || Math.abs(of[i + 2] - b) > 1));
-  }, ground[options.colorScheme ?? "dark"]);
+  }, ground[options.colorScheme ?? "dark"], { polling: 100 });   // (the whole picture is read each time)
   const answer = tab.texts.find((one) => one.type === "view3d" && one.static === true);
   return { ...tab, tab, rays: answered_arrays(tab, answer).rays.values, shape: answered_arrays(tab, answer).rays.shape, answer };
 }

@@ -11,7 +11,7 @@ import { connect, createServer } from "node:net";
 import { tmpdir } from "node:os";
 import { delimiter, join, resolve } from "node:path";
 import { createInterface } from "node:readline";
-import { after } from "node:test";
+import { after, test as node_test } from "node:test";
 import { read_npz } from "./npz.mjs";
 
 /** Ends this program as a test that was left out. */
@@ -53,6 +53,21 @@ after(async () => {
   rmSync(folder, { recursive: true, force: true });
 });
 
+let of_test;   // what is to be done when the test that runs has ended
+
+/** A test by node, after which its tabs and viewers are gone: they would go on playing beside the next ones. */
+export function test(name, run) {
+  return node_test(name, async (t) => {
+    of_test = [];
+    try {
+      await run(t);
+    } finally {
+      await Promise.all(of_test.map((end) => end()));
+      of_test = undefined;
+    }
+  });
+}
+
 /** A file for a test. @return its path */
 export function written(name, text) {
   const path = join(folder, name);
@@ -84,8 +99,14 @@ export async function view(words, port = 0, options = {}) {
   const child = spawn(tofray, ["view", ...words, "--port", String(port), "--json", "--test-hooks"], { ...options, stdio: ["ignore", "pipe", "inherit"] });
   running.add(child);
   const gone = new Promise((resolve) => child.on("exit", resolve));
+  const kill = async () => {
+    child.kill("SIGKILL");
+    await gone;
+    running.delete(child);
+  };
+  of_test?.push(kill);
   for await (const line of createInterface({ input: child.stdout })) {
-    return { ...JSON.parse(line), kill: async () => (child.kill("SIGKILL"), await gone) };
+    return { ...JSON.parse(line), kill };
   }
   throw new Error("tofray view said no address");
 }
@@ -128,6 +149,7 @@ export async function until(come, what) {
  *  @return  the page, and what has happened in it so far */
 export async function open(url, { before, webgl = false, ...options } = {}) {
   const context = await (webgl ? await browser_with_webgl() : browser).newContext({ viewport: { width: 1280, height: 900 }, permissions: ["clipboard-read", "clipboard-write"], ...options });
+  of_test?.push(() => context.close());
   const page = await context.newPage();
   await before?.(page);
   const seen = { page, texts: [], arrays: [], talk: [], frames: [], last: {}, generations: { a: [], b: [] }, asked: [], troubles: [], sockets: 0, requests: [], loads: 0 };

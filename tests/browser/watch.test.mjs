@@ -3,8 +3,7 @@
 // Pinned pixels: their statistics are those of the frames that the command renders.
 
 import assert from "node:assert/strict";
-import { test } from "node:test";
-import { beside, point_at, rendered, set, shown, stand_at, view } from "./viewer.mjs";
+import { beside, point_at, rendered, set, shown, stand_at, test, view } from "./viewer.mjs";
 
 const words = ["demo", "--seed", "5"];
 const width = 224;

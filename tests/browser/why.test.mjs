@@ -3,9 +3,8 @@
 // Why is it wrong: what is asked, and that the page shows what was answered, to the bar.
 
 import assert from "node:assert/strict";
-import { test } from "node:test";
 import { split } from "./answers.mjs";
-import { between, point_at, rendered, set, shown, stand_at, until, view } from "./viewer.mjs";
+import { between, point_at, rendered, set, shown, stand_at, test, until, view } from "./viewer.mjs";
 
 const words = ["demo", "--seed", "5"];
 
