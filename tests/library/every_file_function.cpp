@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The tofray authors
 // SPDX-License-Identifier: Apache-2.0
-// Linked to libtofray_files, as a user's program is: the functions of dataset.h, depth_file.h, load.h, mcap.h, messages.h, run.h, save.h, shards.h and sweep.h must be there (cmake/tofray_files.map shows them), those of
+// Linked to libtofray_files, as a user's program is: the functions of dataset.h, depth_file.h, load.h, mcap.h, messages.h, profile_file.h, run.h, save.h, shards.h and sweep.h must be there (cmake/tofray_files.map shows them), those of
 // libtofray come along, and what either of them throws is one type.
 #include <tofray/tofray.h>
 
@@ -42,6 +42,7 @@ void all() {
   expect(tofray::load_material("skin").diffuse > 0.5, "load_material");
   expect(tofray::choose_scene("card").name == "card" && tofray::choose_scene("card").note.empty(), "choose_scene");
   expect(tofray::choose_camera("mine.yaml").name == "mine.yaml", "choose_camera");
+  expect(tofray::profile_file("pico-flexx").source == "<pico-flexx>", "profile_file");
   const tofray::Inputs inputs =
       tofray::load_inputs({.scene = "card", .set = {{"camera.sensor.width", "8"}, {"camera.sensor.height", "6"}}});
   expect(inputs.camera.sensor.width == 8 && inputs.remarks.empty() && inputs.files.size() == 1, "load_inputs");
