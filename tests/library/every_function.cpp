@@ -100,6 +100,7 @@ void pixels(const tofray::Frame& frame, const tofray::Scene& scene, const tofray
   while (causes.step()) {}
   expect(causes.result().valid == 2, "ErrorCauses");
   expect(!tofray::has_bounces(arrays, 3, 4), "has_bounces");
+  expect(tofray::object_places(scene, 0).size() == scene.objects.size(), "object_places");
   expect(tofray::pixel_bounces(arrays, frame.index, scene, camera, {}, 3, 4).shares.empty(), "pixel_bounces");
   expect(tofray::validity(frame, camera).pixels.pixels == tofray::invalid_pixels(frame, camera).pixels, "validity, invalid_pixels");
 }
