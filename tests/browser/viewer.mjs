@@ -39,9 +39,15 @@ export const axe_source = readFileSync(require.resolve("axe-core/axe.min.js"), "
 
 const folder = mkdtempSync(join(tmpdir(), "tofray-browser-"));
 const running = new Set();
+// What Playwright switches off, whose list this one replaces, and the pages that Chromium makes for its address bar beside each of ours.
+const features_off = [
+  "AvoidUnnecessaryBeforeUnloadCheckSync", "BoundaryEventDispatchTracksNodeRemoval", "DestroyProfileOnBrowserClose", "DialMediaRouteProvider", "GlobalMediaControls",
+  "HttpsUpgrades", "LensOverlay", "MediaRouter", "PaintHolding", "ThirdPartyStoragePartitioning", "Translate", "AutoDeElevate", "RenderDocument", "OptimizationHints",
+  "WebUIOmniboxPopup", "WebUIOmniboxAimPopup",
+];
 const launch = (args) => require("playwright-core").chromium.launch({
   executablePath: chromium,
-  args: ["--no-sandbox", "--disable-dev-shm-usage", "--force-device-scale-factor=1", ...args],
+  args: ["--no-sandbox", "--disable-dev-shm-usage", "--force-device-scale-factor=1", `--disable-features=${features_off}`, ...args],
 });
 const browser = await launch(["--disable-gpu", "--disable-software-rasterizer"]);
 let drawing;   // with WebGL, by the processor; launched when it is needed first
