@@ -82,6 +82,12 @@ class Depth(Part):
         The camera's estimate of the range's noise, 1 sigma; without wrong cycles, and too low of weak signals (theory 4.4).
     confidence : uint8 array [height, width], 1
         0 to 255: by the noise, and how sure the cycle is.
+    amplitude_by_frequency_e : float32 array [frequency, height, width], e
+        Of each modulation frequency; asked.
+    range_by_frequency_m : float32 array [frequency, height, width], m
+        Range that each modulation frequency says alone, in the cycle below; asked.
+    cycle_by_frequency : int32 array [frequency, height, width], 1
+        Whole cycles that unwrapping added, or -1; asked.
     flags : uint16 array [height, width], 1
         Bits of Flag: why a depth is invalid, and warnings.
     """
@@ -95,6 +101,9 @@ class Depth(Part):
         "ambient_e": ("ambient_e", "float32", "[height, width]", "depth", "e"),
         "noise_m": ("noise_m", "float32", "[height, width]", "depth", "m"),
         "confidence": ("confidence", "uint8", "[height, width]", "depth", "1"),
+        "amplitude_by_frequency_e": ("amplitude_by_frequency_e", "float32", "[frequency, height, width]", "depth", "e"),
+        "range_by_frequency_m": ("range_by_frequency_m", "float32", "[frequency, height, width]", "depth", "m"),
+        "cycle_by_frequency": ("cycle_by_frequency", "int32", "[frequency, height, width]", "depth", "1"),
         "flags": ("flags", "uint16", "[height, width]", "depth", "1"),
     }
 
@@ -106,6 +115,9 @@ class Depth(Part):
         ambient_e: NDArray[np.float32]
         noise_m: NDArray[np.float32]
         confidence: NDArray[np.uint8]
+        amplitude_by_frequency_e: NDArray[np.float32]
+        range_by_frequency_m: NDArray[np.float32]
+        cycle_by_frequency: NDArray[np.int32]
         flags: NDArray[np.uint16]
 
 
@@ -129,7 +141,9 @@ class Truth(Part):
     object_id : int32 array [height, width], 1
         Instance: index in Scene::objects, or -1.
     material_id : int32 array [height, width], 1
-        Class: index in Scene::materials, or -1.
+        Index in Scene::materials, or -1.
+    class_id : int32 array [height, width], 1
+        Class of the object: index in Scene::classes, or -1; asked.
     triangle_id : int32 array [height, width], 1
         Face: index in mesh triangles, or -1.
     texcoord : float32 array [height, width, 2], 1
@@ -156,6 +170,12 @@ class Truth(Part):
         By one surface alone, before lens scatter; bounces.
     indirect_e : float32 array [phase, height, width], e
         By several surfaces, before lens scatter; bounces.
+    raw_dn : float32 array [phase, height, width], DN
+        What raw is without noise, before it is rounded; asked.
+    raw_direct_dn : float32 array [phase, height, width], DN
+        The same of light by one surface alone, before lens scatter; bounces, asked.
+    phase_flow_px : float32 array [phase, height, width, 2], px
+        U, v: optical flow from each raw frame to gt_time_s; asked.
     multipath_m : float32 array [phase, height, width], m
         Half path of all - of direct light, NaN unlit; bounces.
     path_noise_m : float32 array [phase, height, width], m
@@ -177,6 +197,7 @@ class Truth(Part):
         "normal": ("gt_normal", "float32", "[height, width, 3]", "trace", "1"),
         "object_id": ("gt_object_id", "int32", "[height, width]", "trace", "1"),
         "material_id": ("gt_material_id", "int32", "[height, width]", "trace", "1"),
+        "class_id": ("gt_class_id", "int32", "[height, width]", "trace", "1"),
         "triangle_id": ("gt_triangle_id", "int32", "[height, width]", "trace", "1"),
         "texcoord": ("gt_texcoord", "float32", "[height, width, 2]", "trace", "1"),
         "velocity_m_per_s": ("gt_velocity_m_per_s", "float32", "[height, width, 3]", "trace", "m/s"),
@@ -190,6 +211,9 @@ class Truth(Part):
         "signal_e": ("gt_signal_e", "float32", "[phase, height, width]", "raw", "e"),
         "direct_e": ("gt_direct_e", "float32", "[phase, height, width]", "raw", "e"),
         "indirect_e": ("gt_indirect_e", "float32", "[phase, height, width]", "raw", "e"),
+        "raw_dn": ("gt_raw_dn", "float32", "[phase, height, width]", "raw", "DN"),
+        "raw_direct_dn": ("gt_raw_direct_dn", "float32", "[phase, height, width]", "raw", "DN"),
+        "phase_flow_px": ("gt_phase_flow_px", "float32", "[phase, height, width, 2]", "trace", "px"),
         "multipath_m": ("gt_multipath_m", "float32", "[phase, height, width]", "raw", "m"),
         "path_noise_m": ("gt_path_noise_m", "float32", "[phase, height, width]", "raw", "m"),
         "path_count": ("gt_path_count", "int32", "[height, width]", "raw", "1"),
@@ -205,6 +229,7 @@ class Truth(Part):
         normal: NDArray[np.float32]
         object_id: NDArray[np.int32]
         material_id: NDArray[np.int32]
+        class_id: NDArray[np.int32]
         triangle_id: NDArray[np.int32]
         texcoord: NDArray[np.float32]
         velocity_m_per_s: NDArray[np.float32]
@@ -218,6 +243,9 @@ class Truth(Part):
         signal_e: NDArray[np.float32]
         direct_e: NDArray[np.float32]
         indirect_e: NDArray[np.float32]
+        raw_dn: NDArray[np.float32]
+        raw_direct_dn: NDArray[np.float32]
+        phase_flow_px: NDArray[np.float32]
         multipath_m: NDArray[np.float32]
         path_noise_m: NDArray[np.float32]
         path_count: NDArray[np.int32]

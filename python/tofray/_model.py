@@ -1721,13 +1721,15 @@ class Object(Record):
         Its axis, in the world, times how fast it turns by the right-hand rule.
     keyframes : list[Keyframe]
         In place of position, rotation and both velocities; ascending in time.
+    class_name : str
+        What kind of thing it is, for Truth::class_id; empty: none.
     key : str
         How its file addresses it, e.g. "objects.2"; empty if built in code.
     where : str
         File:line:col for messages; empty if built in code.
     """
     __slots__ = ("name", "shape", "material", "position", "rotation", "velocity_m_per_s", "angular_velocity_rad_per_s", "keyframes",
-                 "key", "where")
+                 "class_name", "key", "where")
     name: str
     shape: Plane | Sphere | Box | Triangle | Cylinder | Rectangle | Disk | Capsule | Cone | Mesh
     material: int
@@ -1736,6 +1738,7 @@ class Object(Record):
     velocity_m_per_s: tuple[float, float, float]
     angular_velocity_rad_per_s: tuple[float, float, float]
     keyframes: list[Keyframe]
+    class_name: str
     key: str
     where: str
 
@@ -1750,6 +1753,7 @@ class Object(Record):
         velocity_m_per_s: tuple[float, float, float] = (0.0, 0.0, 0.0),
         angular_velocity_rad_per_s: tuple[float, float, float] = (0.0, 0.0, 0.0),
         keyframes: Sequence[Keyframe] = (),
+        class_name: str = '',
         key: str = '',
         where: str = '',
     ) -> None:
@@ -1761,6 +1765,7 @@ class Object(Record):
         self.velocity_m_per_s = velocity_m_per_s
         self.angular_velocity_rad_per_s = angular_velocity_rad_per_s
         self.keyframes = list(keyframes)
+        self.class_name = class_name
         self.key = key
         self.where = where
 
@@ -2065,8 +2070,11 @@ class Scene(Record):
         looks, what is up in its image, how the axes of meshes are turned. In code nothing does.
     files : list[SceneFile]
         Of keyframes.
+    classes : list[str]
+        Classes of objects: Truth::class_id counts them. Empty: those that objects have, by the
+        order of their letters.
     """
-    __slots__ = ("name", "source", "camera", "ambient", "transport", "materials", "objects", "world_up", "files")
+    __slots__ = ("name", "source", "camera", "ambient", "transport", "materials", "objects", "world_up", "files", "classes")
     name: str
     source: str
     camera: CameraChoice
@@ -2076,6 +2084,7 @@ class Scene(Record):
     objects: list[Object]
     world_up: Literal["minus_y", "y", "z"]
     files: list[SceneFile]
+    classes: list[str]
 
     def __init__(
         self,
@@ -2089,6 +2098,7 @@ class Scene(Record):
         objects: Sequence[Object] = (),
         world_up: Literal["minus_y", "y", "z"] = 'minus_y',
         files: Sequence[SceneFile] = (),
+        classes: Sequence[str] = (),
     ) -> None:
         self.name = name
         self.source = source
@@ -2099,6 +2109,7 @@ class Scene(Record):
         self.objects = list(objects)
         self.world_up = world_up
         self.files = list(files)
+        self.classes = list(classes)
 
 
 class RanOn(Record):
@@ -2374,6 +2385,56 @@ class ObjectInView(Record):
         self.high = high
         self.behind_camera = behind_camera
         self.around_camera = around_camera
+
+
+class ObjectPlace(Record):
+    """Where an object is at one time. Its own frame has the world's axes before it turns, and its zero
+    is what it turns about: of a sphere its centre, of a mesh the file's zero. What is at P there is
+    at rotation·P + position in the world.
+
+    Attributes
+    ----------
+    name : str
+        Object::name.
+    class_name : str
+        Object::class_name.
+    position : tuple[float, float, float], m
+        In the world [m].
+    rotation : tuple[float, float, float, float], 1
+    endless : bool
+        A plane.
+    low : tuple[float, float, float], m
+        Its box in the world [m]; of a plane −inf and inf.
+    high : tuple[float, float, float], m
+        Its box in the world [m]; of a plane −inf and inf.
+    """
+    __slots__ = ("name", "class_name", "position", "rotation", "endless", "low", "high")
+    name: str
+    class_name: str
+    position: tuple[float, float, float]
+    rotation: tuple[float, float, float, float]
+    endless: bool
+    low: tuple[float, float, float]
+    high: tuple[float, float, float]
+
+    def __init__(
+        self,
+        *,
+        name: str = '',
+        class_name: str = '',
+        position: tuple[float, float, float] = (0.0, 0.0, 0.0),
+        rotation: tuple[float, float, float, float] = (0.0, 0.0, 0.0, 1.0),
+        endless: bool = False,
+        low: tuple[float, float, float] = (0.0, 0.0, 0.0),
+        high: tuple[float, float, float] = (0.0, 0.0, 0.0),
+    ) -> None:
+        self.name = name
+        self.class_name = class_name
+        self.position = position
+        self.rotation = rotation
+        self.endless = endless
+        self.low = low
+        self.high = high
 
 
 class SceneFinding(Record):
@@ -3390,8 +3451,8 @@ __all__ = [
     "Material", "Plane", "Sphere", "Box", "Triangle", "Cylinder", "Rectangle", "Disk", "Capsule",
     "Cone", "Mesh", "Rotation", "Keyframe", "Object", "Ambient", "TransientBins", "Transport",
     "Pose", "CameraKeyframe", "Override", "CameraChoice", "SceneFile", "Scene", "RanOn", "Pinhole",
-    "Placement", "PlacedObject", "FrameRequest", "ObjectInView", "SceneFinding", "SceneReport",
-    "InvalidPixels", "AmbientCase", "CameraQuestion", "NoiseAt", "NoiseAtDistances", "CameraReport",
-    "ChainRawFrame", "ChainPhase", "UnwrapCandidate", "PixelChain", "BounceShare", "PixelBounces",
-    "Validity", "InputFile", "FileRecord", "Remark", "Inputs", "RunResult",
+    "Placement", "PlacedObject", "FrameRequest", "ObjectInView", "ObjectPlace", "SceneFinding",
+    "SceneReport", "InvalidPixels", "AmbientCase", "CameraQuestion", "NoiseAt", "NoiseAtDistances",
+    "CameraReport", "ChainRawFrame", "ChainPhase", "UnwrapCandidate", "PixelChain", "BounceShare",
+    "PixelBounces", "Validity", "InputFile", "FileRecord", "Remark", "Inputs", "RunResult",
 ]

@@ -113,7 +113,7 @@ RATIOS = {"fill_factor", "share", "weights", "kernel", "k1", "k2", "k3", "k4", "
           "blooming_share", "reflectivities", "reflectivity", "wrong_cycle", "outside", "unlit", "darkest", "gain", "gains", "speed", "aim", "bright",
           "object_share", "mixed", "cycles", "confidence"}
 OTHERS = {"pixel_centre": "px", "mid_code": "DN", "celsius": "°C", "Ambient.amount": "by its quantity", "Curve.x": "any unit", "Curve.y": "any unit",
-          "SpreadSpectrum.width": "1", "BounceShare.electrons": "e", "RunResult.timings_s": "s"}
+          "SpreadSpectrum.width": "1", "BounceShare.electrons": "e", "ObjectPlace.rotation": "1", "RunResult.timings_s": "s"}
 
 
 def unit(struct: str, member: str, type_name: str) -> str:

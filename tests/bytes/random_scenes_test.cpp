@@ -7,6 +7,7 @@
 #include <cstring>
 
 #include "backend/cpu/cpu.h"
+#include "support/every_array.h"
 #include "support/random_scene.h"
 #include "support/same_frame.h"
 #include "support/sanitizers.h"
@@ -123,6 +124,7 @@ void same(const Frame& a, const Frame& b) {
 
 Frame render(const Case& c, Isa isa, bool culling, int threads = 1, std::uint64_t frame = 3, int samples = 1) {
   SimulatorOptions options;
+  options.arrays = every_array();
   options.seed = 7, options.isa = isa, options.culling = culling, options.threads = threads, options.exposure_samples = samples;
   return Simulator(c.scene, c.camera, options).frame(frame);
 }

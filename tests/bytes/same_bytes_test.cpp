@@ -13,6 +13,7 @@
 #include "backend/cpu/cpu.h"
 #include "files/sha256.h"
 #include "results/frame_file.h"
+#include "support/every_array.h"
 #include "support/files.h"
 #include "support/quarter.h"
 #include "support/random_scene.h"
@@ -86,6 +87,7 @@ SimulatorOptions options_of(const std::string& scene, Noise noise, int threads, 
           .noise = noise,
           .threads = threads,
           .isa = isa,
+          .arrays = every_array(),
           .exposure_samples = scene == in_motion ? 3 : 1,
           .subpixel = scene == "thin-rods" ? 3 : 1};
 }

@@ -7,6 +7,7 @@
 #include <set>
 #include <string>
 
+#include "support/every_array.h"
 #include "support/pixels.h"
 #include "tofray/tofray.h"
 
@@ -57,9 +58,7 @@ Chosen compared_with(const Frame& chosen, const Frame& whole) {
 }
 
 void expect_each_alone(const Scene& scene, const Camera& camera, SimulatorOptions options, std::uint64_t index) {
-#define TOFRAY_NAME(name, ...) #name,
-  options.arrays = {TOFRAY_IMAGE_ARRAYS(TOFRAY_NAME)};
-#undef TOFRAY_NAME
+  options.arrays = every_array();
   const Frame whole = Simulator(scene, camera, options).frame(index);
   const std::set<std::string> all = compared_with(whole, whole).there;
   ASSERT_GT(all.size(), 20U);

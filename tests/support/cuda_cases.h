@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "flow/frame_view.h"
+#include "support/every_array.h"
 #include "support/same_frame.h"
 #include "support/whole_pixel.h"
 #include "tofray/tofray.h"
@@ -28,8 +29,9 @@ inline SimulatorOptions on(Backend backend, SimulatorOptions options = {}) {
 }
 
 /// The first frames and a late one have the same bytes on both backends.
-inline void expect_same(const Scene& scene, const Camera& camera, const SimulatorOptions& options,
+inline void expect_same(const Scene& scene, const Camera& camera, SimulatorOptions options,
                         const std::vector<std::uint64_t>& indices = {0, 1, 5, (3ull << 32) + 1}) {
+  if (options.arrays.empty()) options.arrays = every_array();
   Simulator cpu(scene, camera, on(Backend::cpu, options)), cuda(scene, camera, on(Backend::cuda, options));
   ASSERT_EQ(cuda.ran_on().backend, "cuda");
   for (const std::uint64_t index : indices) {
