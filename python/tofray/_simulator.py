@@ -535,6 +535,11 @@ def object_places(scene: Scene, time_s: float = 0.0) -> list[ObjectPlace]:
     -------
     list of ObjectPlace
         In the order of ``truth.object_id``.
+
+    Raises
+    ------
+    TypeError, Error
+        Where a member of the scene is not what it has to be.
     """
     places: list[ObjectPlace] = _native.object_places(scene, time_s)
     return places

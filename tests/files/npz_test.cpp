@@ -197,10 +197,10 @@ f = np.load(path)
 p, h, w = 9, 16, 24
 expected = dict(tap_a=('f4', (p,h,w)), tap_b=('f4', (p,h,w)), raw=('u2', (p,h,w)), modulation_frequency_hz=('f8', (p,)), reference_phase_rad=('f8', (p,)),
   integration_time_s=('f8', (p,)), start_time_s=('f8', (p,)), lit=('?', (p,)), z_m=('f4', (h,w)), range_m=('f4', (h,w)), points_m=('f4', (h,w,3)),
-  amplitude_e=('f4', (h,w)), ambient_e=('f4', (h,w)), noise_m=('f4', (h,w)), confidence=('u1', (h,w)), flags=('u2', (h,w)), gt_time_s=('f8', ()),
+  amplitude_e=('f4', (h,w)), ambient_e=('f4', (h,w)), noise_m=('f4', (h,w)), confidence=('u1', (h,w)), amplitude_by_frequency_e=('f4', (1,h,w)), range_by_frequency_m=('f4', (1,h,w)), cycle_by_frequency=('i4', (1,h,w)), flags=('u2', (h,w)), gt_time_s=('f8', ()),
   gt_range_m=('f4', (h,w)), gt_z_m=('f4', (h,w)), gt_reflectivity=('f4', (h,w)), gt_position_m=('f4', (h,w,3)), gt_normal=('f4', (h,w,3)),
   gt_object_id=('i4', (h,w)), gt_material_id=('i4', (h,w)),
-  gt_triangle_id=('i4', (h,w)), gt_texcoord=('f4', (h,w,2)), gt_velocity_m_per_s=('f4', (h,w,3)), gt_flow_px=('f4', (h,w,2)), gt_mixed=('u1', (h,w)), gt_object_share=('f4', (h,w)), gt_irradiance_w_m2=('f4', (h,w)), gt_radiance_w_m2_sr=('f4', (h,w)), gt_power_w=('f4', (h,w)), gt_ambient_e_per_s=('f4', (h,w)), gt_signal_e=('f4', (p,h,w)), gt_direct_e=('f4', (p,h,w)), gt_indirect_e=('f4', (p,h,w)), gt_multipath_m=('f4', (p,h,w)), gt_path_noise_m=('f4', (p,h,w)), gt_path_count=('i4', (h,w)), transient_e_per_s=('f4', (2,h,w)), transient_lost_e_per_s=('f4', (h,w)),
+  gt_class_id=('i4', (h,w)), gt_triangle_id=('i4', (h,w)), gt_texcoord=('f4', (h,w,2)), gt_velocity_m_per_s=('f4', (h,w,3)), gt_flow_px=('f4', (h,w,2)), gt_mixed=('u1', (h,w)), gt_object_share=('f4', (h,w)), gt_irradiance_w_m2=('f4', (h,w)), gt_radiance_w_m2_sr=('f4', (h,w)), gt_power_w=('f4', (h,w)), gt_ambient_e_per_s=('f4', (h,w)), gt_signal_e=('f4', (p,h,w)), gt_direct_e=('f4', (p,h,w)), gt_indirect_e=('f4', (p,h,w)), gt_raw_dn=('f4', (p,h,w)), gt_raw_direct_dn=('f4', (p,h,w)), gt_phase_flow_px=('f4', (p,h,w,2)), gt_multipath_m=('f4', (p,h,w)), gt_path_noise_m=('f4', (p,h,w)), gt_path_count=('i4', (h,w)), transient_e_per_s=('f4', (2,h,w)), transient_lost_e_per_s=('f4', (h,w)),
   camera_matrix=('f8', (3,3)), distortion=('f8', (5,)), camera_pose=('f8', (4,4)))
 assert set(f.files) == set(expected) | {'meta'}, set(f.files) ^ set(expected)
 for name, (dtype, shape) in expected.items():

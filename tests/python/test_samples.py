@@ -152,7 +152,7 @@ def test_examples_have_the_sets_that_the_page_lists() -> None:
     assert all(f"../examples/{one.parent.name}/{one.name}" in page for one in SETS)
 
 
-@pytest.mark.parametrize("file", SETS, ids=lambda file: file.stem)
+@pytest.mark.parametrize("file", SETS, ids=[one.stem for one in SETS])
 def test_sets_of_the_examples_show_something(file: pathlib.Path) -> None:
     a_set = tofray.Dataset(file)
     for i in (0, len(a_set) - 1):

@@ -183,6 +183,7 @@ inline tofray::Frame sample_frame(int width, int height) {
     for (const double v : {0.0, 0.0, -1.0}) truth.normal.push_back(true_value(v));
     truth.object_id.push_back(none ? -1 : ball ? 1 : 0);
     truth.material_id.push_back(none ? -1 : 1 - truth.object_id.back());
+    truth.class_id.push_back(none ? -1 : 0);
     truth.triangle_id.push_back(none || ball ? -1 : x > y);
     for (const double v : {x, y}) truth.texcoord.push_back(none || ball ? nan_f : static_cast<float>(v));
     for (const double v : {ball ? 0.5 : 0.0, 0.0, 0.0}) truth.velocity_m_per_s.push_back(true_value(v));
@@ -203,10 +204,16 @@ inline tofray::Frame sample_frame(int width, int height) {
       raw.raw.push_back(static_cast<std::uint16_t>(2048 + (raw.tap_a.back() - raw.tap_b.back()) / 10 + random.normal()));
       truth.signal_e.push_back(static_cast<float>(s));
       truth.direct_e.push_back(static_cast<float>(0.75 * s)), truth.indirect_e.push_back(static_cast<float>(0.25 * s));
+      truth.raw_dn.push_back(static_cast<float>(2048 + (raw.tap_a.back() - raw.tap_b.back()) / 10));
+      truth.raw_direct_dn.push_back(truth.raw_dn.back() - 1.5F);
+      for (const double v : {-0.5, 0.25}) truth.phase_flow_px.push_back(static_cast<float>(v));
       truth.multipath_m.push_back(raw.lit[k] != 0 ? 0.02F : std::nanf(""));
       truth.path_noise_m.push_back(raw.lit[k] != 0 ? 0.002F : std::nanf(""));
     }
   }
+  depth.modulations = 1;
+  depth.amplitude_by_frequency_e = depth.amplitude_e, depth.range_by_frequency_m = depth.range_m;
+  depth.cycle_by_frequency.assign(pixels, 0);
   truth.path_count.assign(pixels, 16);
   truth.bins = 2;
   truth.transient_e_per_s.assign(2 * pixels, 3e6F), truth.transient_lost_e_per_s.assign(pixels, 1e3F);

@@ -212,7 +212,7 @@ TEST_P(stages, are_computed_anew_for_each_cell_that_needs_it) {
                          request.axes[axis].values[cell >> (2 - axis) & 1]);
       const Inputs in = load_inputs({file, set, "", "", {}});
       SimulatorOptions options = request.simulator;
-      options.backend = Backend::cpu, options.arrays = {};
+      options.backend = Backend::cpu, options.arrays = all_arrays();
       EXPECT_EQ(listed(differing(got, Simulator(in.scene, in.camera, options).frame(0))), "") << key.key << ", cell " << cell;
     };
     const Sweep found = sweep(request, watch);
@@ -296,7 +296,7 @@ TEST(kept_frames, of_bounces_samples_and_motion_have_the_bytes_of_a_simulator) {
     watch.frame = [&](std::uint64_t cell, const Frame& got) {
       const Inputs in = load_inputs({file, {{one.key, one.values[cell]}}, "", "", {}});
       SimulatorOptions options = request.simulator;
-      options.backend = Backend::cpu, options.arrays = {};
+      options.backend = Backend::cpu, options.arrays = all_arrays();
       EXPECT_EQ(listed(differing(got, Simulator(in.scene, in.camera, options).frame(got.index))), "")
           << one.key << one.more << " cell " << cell;
     };
