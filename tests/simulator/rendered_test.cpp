@@ -37,7 +37,7 @@ Flat turned_about_y(double degrees, double at_z) {
   return {{std::sin(angle), 0, -std::cos(angle)}, -std::cos(angle) * at_z};
 }
 
-struct Drawn {
+struct DrawnPictures {
   Pinhole pinhole;
   std::vector<float> z, normal;
   [[nodiscard]] RenderedPictures pictures() const {
@@ -48,8 +48,8 @@ struct Drawn {
   [[nodiscard]] std::size_t pixel(int u, int v) const { return static_cast<std::size_t>(v * pinhole.width + u); }
 };
 
-Drawn draw(const Pinhole& through, const SurfaceZ& surface) {
-  Drawn out{through, {}, {}};
+DrawnPictures draw(const Pinhole& through, const SurfaceZ& surface) {
+  DrawnPictures out{through, {}, {}};
   for (int v = 0; v < through.height; ++v)
     for (int u = 0; u < through.width; ++u)
       out.z.push_back(static_cast<float>(
@@ -57,7 +57,7 @@ Drawn draw(const Pinhole& through, const SurfaceZ& surface) {
   return out;
 }
 
-void add_normal(Drawn& to, const std::array<double, 3>& n) {
+void add_normal(DrawnPictures& to, const std::array<double, 3>& n) {
   for (std::size_t i = 0; i < to.z.size(); ++i)
     for (const double one : n) to.normal.push_back(static_cast<float>(one));
 }
@@ -111,7 +111,7 @@ TEST(rendered_pictures, of_a_slanted_plane_are_its_z_along_each_ray_of_the_lens)
   const Camera camera = distorted();
   const Flat plane = turned_about_y(45, 1.5);
   for (const double centre : {0.5, 0.0}) {
-    Drawn drawn = draw(pinhole_for(camera, 2, 2, centre), plane);
+    DrawnPictures drawn = draw(pinhole_for(camera, 2, 2, centre), plane);
     add_normal(drawn, {-plane.n[0], -plane.n[1], -plane.n[2]});  // of its other side: they are turned
     const SampledPictures sampled = from_pictures(camera, drawn.pictures());
     EXPECT_LT(worst_z(camera, sampled.geometry, plane), 1e-5) << centre;
@@ -125,7 +125,7 @@ TEST(rendered_pictures, of_a_slanted_plane_are_its_z_along_each_ray_of_the_lens)
 TEST(rendered_pictures, are_off_by_half_a_pixel_where_the_pixels_middle_is_said_wrong) {
   const Camera camera = distorted();
   const Flat plane = turned_about_y(45, 1.5);
-  Drawn drawn = draw(pinhole_for(camera), plane);
+  DrawnPictures drawn = draw(pinhole_for(camera), plane);
   add_normal(drawn, plane.n);
   drawn.pinhole.pixel_centre = 0;
   const SampledPictures sampled = from_pictures(camera, drawn.pictures());
@@ -139,7 +139,7 @@ TEST(rendered_pictures, without_normals_have_those_of_their_planes) {
   const Camera camera = distorted();
   const double length = std::sqrt(1.34);
   for (const Flat& plane : {turned_about_y(45, 1.5), turned_about_y(0, 1.0), Flat{{0.5 / length, 0.3 / length, -1 / length}, -1}}) {
-    const Drawn drawn = draw(pinhole_for(camera), plane);
+    const DrawnPictures drawn = draw(pinhole_for(camera), plane);
     const SampledPictures sampled = from_pictures(camera, drawn.pictures());
     // Two z's of 3 m at most, each off by 1.2e-7 m, over the 2.4 mm per metre of a pixel.
     EXPECT_LT(worst_angle(sampled.geometry, {plane.n}), 1e-3);
@@ -150,7 +150,7 @@ TEST(rendered_pictures, without_normals_have_those_of_their_planes) {
 // Whatever falls between a near and a far surface is a pixel that flies.
 TEST(rendered_pictures, of_a_step_have_nothing_between_near_and_far_and_normals_that_do_not_lean) {
   const Camera camera = distorted();
-  const Drawn drawn = draw(pinhole_for(camera, 2, 1), [](double x, double y) { return x + 0.2 * y < 0.05 ? 1.0 : 1.4; });
+  const DrawnPictures drawn = draw(pinhole_for(camera, 2, 1), [](double x, double y) { return x + 0.2 * y < 0.05 ? 1.0 : 1.4; });
   const Geometry seen = from_pictures(camera, drawn.pictures()).geometry;
   int near = 0, far = 0;
   for (const float z : seen.z_m) {
@@ -166,7 +166,7 @@ TEST(rendered_pictures, of_two_planes_that_meet_have_normals_of_one_or_the_other
   const Flat left = turned_about_y(-40, 1.2), right = turned_about_y(40, 1.2);
   for (const bool ridge : {true, false}) {
     const SurfaceZ roof = [&](double x, double y) { return ridge ? std::max(left(x, y), right(x, y)) : std::min(left(x, y), right(x, y)); };
-    const Drawn drawn = draw(pinhole_for(camera, 2, 1), roof);  // so that each of its pixels is a ray's nearest
+    const DrawnPictures drawn = draw(pinhole_for(camera, 2, 1), roof);  // so that each of its pixels is a ray's nearest
     EXPECT_LT(worst_angle(from_pictures(camera, drawn.pictures()).geometry, {left.n, right.n}), 1e-3) << ridge;
   }
 }
@@ -175,7 +175,7 @@ TEST(rendered_pictures, of_two_planes_that_meet_have_normals_of_one_or_the_other
 TEST(rendered_pictures, of_wires_face_the_camera) {
   const Camera camera = distorted();
   for (const int wide : {1, 2}) {
-    Drawn drawn = draw(pinhole_for(camera, 2, 1), [](double, double) { return 2.0; });
+    DrawnPictures drawn = draw(pinhole_for(camera, 2, 1), [](double, double) { return 2.0; });
     const int column = drawn.pinhole.width / 2 + 20;
     for (int v = 0; v < drawn.pinhole.height; ++v)
       for (int u = column; u < column + wide; ++u) drawn.z[drawn.pixel(u, v)] = 1.0f;
@@ -194,7 +194,7 @@ TEST(rendered_pictures, show_nothing_at_the_far_plane_and_where_z_is_none) {
   const Camera camera = distorted();
   const double far = 10;
   for (const float none : {10.0f, 9.995f, 12.0f, 0.0f, -1.0f, no_number, endless}) {
-    Drawn drawn = draw(pinhole_for(camera), [&](double x, double) { return x < 0 ? 1.0 : static_cast<double>(none); });
+    DrawnPictures drawn = draw(pinhole_for(camera), [&](double x, double) { return x < 0 ? 1.0 : static_cast<double>(none); });
     RenderedPictures pictures = drawn.pictures();
     pictures.background_m = far;
     const Geometry seen = from_pictures(camera, pictures).geometry;
@@ -208,7 +208,7 @@ TEST(rendered_pictures, show_nothing_at_the_far_plane_and_where_z_is_none) {
 TEST(rendered_pictures, may_say_the_range_in_place_of_z) {
   const Camera camera = distorted();
   const Flat plane = turned_about_y(30, 1.2);
-  Drawn drawn = draw(pinhole_for(camera), [&](double x, double y) { return plane(x, y) * std::sqrt(x * x + y * y + 1); });
+  DrawnPictures drawn = draw(pinhole_for(camera), [&](double x, double y) { return plane(x, y) * std::sqrt(x * x + y * y + 1); });
   RenderedPictures pictures = drawn.pictures();
   pictures.along_ray = true;
   EXPECT_LT(worst_z(camera, from_pictures(camera, pictures).geometry, plane), 1e-5);
@@ -220,7 +220,7 @@ TEST(rendered_pictures, that_are_too_small_show_nothing_beyond_and_say_how_much)
   const Camera camera = distorted();
   Pinhole narrow = pinhole_for(camera);
   narrow.width -= 200, narrow.cx_px -= 100;
-  const Drawn drawn = draw(narrow, [](double, double) { return 1.0; });
+  const DrawnPictures drawn = draw(narrow, [](double, double) { return 1.0; });
   const SampledPictures sampled = from_pictures(camera, drawn.pictures());
   const std::vector<float> rays = pixel_rays(camera);
   const float edge = static_cast<float>(0.5 * narrow.width / narrow.fx_px);
@@ -235,7 +235,7 @@ TEST(rendered_pictures, that_are_too_small_show_nothing_beyond_and_say_how_much)
 TEST(rendered_pictures, have_normals_in_the_axes_that_are_said_and_tell_where_others_would_fit) {
   const Camera camera = distorted();
   const Flat floor{{0.3, -0.4, -std::sqrt(0.75)}, -0.75};
-  Drawn drawn = draw(pinhole_for(camera), floor);
+  DrawnPictures drawn = draw(pinhole_for(camera), floor);
   add_normal(drawn, {floor.n[0], -floor.n[1], -floor.n[2]});  // OpenGL's: y up, z backward
   RenderedPictures pictures = drawn.pictures();
   const SampledPictures wrong = from_pictures(camera, pictures);
@@ -250,7 +250,7 @@ TEST(rendered_pictures, have_normals_in_the_axes_that_are_said_and_tell_where_ot
 
 TEST(rendered_pictures, of_whole_millimetres_make_no_normals_and_say_so) {
   const Camera camera = distorted();
-  Drawn drawn = draw(pinhole_for(camera), turned_about_y(30, 1.5));
+  DrawnPictures drawn = draw(pinhole_for(camera), turned_about_y(30, 1.5));
   EXPECT_TRUE(from_pictures(camera, drawn.pictures()).notices.empty());
   for (float& z : drawn.z) z = 0.001f * std::round(1000 * z);
   EXPECT_TRUE(says(from_pictures(camera, drawn.pictures()), "z is in whole millimetres"));
@@ -260,7 +260,7 @@ TEST(rendered_pictures, of_whole_millimetres_make_no_normals_and_say_so) {
 
 TEST(rendered_pictures, have_reflectivities_by_label_then_by_picture_and_a_notice_of_colour) {
   const Camera camera = distorted();
-  const Drawn drawn = draw(pinhole_for(camera), [](double, double) { return 1.0; });
+  const DrawnPictures drawn = draw(pinhole_for(camera), [](double, double) { return 1.0; });
   std::vector<std::int32_t> labels(drawn.z.size(), 7);
   for (std::size_t i = 0; i < labels.size(); i += 2) labels[i] = i % 4 == 0 ? 3 : 9;
   const std::vector<std::uint8_t> colour(3 * drawn.z.size(), 188);
@@ -284,9 +284,9 @@ TEST(rendered_pictures, have_reflectivities_by_label_then_by_picture_and_a_notic
 TEST(rendered_pictures, may_have_a_moment_for_each_raw_frame_and_say_what_one_alone_lacks) {
   const Camera camera = distorted();
   const std::size_t moments = camera.mode.sequence.size();
-  Drawn drawn{pinhole_for(camera), {}, {}};
+  DrawnPictures drawn{pinhole_for(camera), {}, {}};
   for (std::size_t k = 0; k < moments; ++k) {
-    const Drawn one = draw(drawn.pinhole, [&](double, double) { return 1.0 + 0.01 * static_cast<double>(k); });
+    const DrawnPictures one = draw(drawn.pinhole, [&](double, double) { return 1.0 + 0.01 * static_cast<double>(k); });
     drawn.z.insert(drawn.z.end(), one.z.begin(), one.z.end());
   }
   RenderedPictures pictures = drawn.pictures();
@@ -297,14 +297,14 @@ TEST(rendered_pictures, may_have_a_moment_for_each_raw_frame_and_say_what_one_al
   EXPECT_TRUE(sampled.notices.empty());
   const Frame frame = Simulator({}, camera, {.noise = Noise::off}).frame(0, sampled.geometry);
   EXPECT_GT(frame.truth.z_m[999], 1.01f);
-  const Drawn once = draw(drawn.pinhole, [](double, double) { return 1.0; });
+  const DrawnPictures once = draw(drawn.pinhole, [](double, double) { return 1.0; });
   pictures.moments = 1, pictures.z_m = once.z;
   EXPECT_TRUE(says(from_pictures(camera, pictures), "one moment stands for all raw frames"));
 }
 
 TEST(rendered_pictures, that_cannot_be_are_refused_by_name) {
   const Camera camera = distorted();
-  const Drawn drawn = draw(pinhole_for(camera), [](double, double) { return 1.0; });
+  const DrawnPictures drawn = draw(pinhole_for(camera), [](double, double) { return 1.0; });
   const auto told = [&](const std::function<void(RenderedPictures&)>& change) {
     RenderedPictures pictures = drawn.pictures();
     change(pictures);
