@@ -13,7 +13,7 @@ namespace {
 
 using files::Json;
 
-const std::string& text_in(const Json& json, const char* name) {
+const std::string& told_in(const Json& json, const char* name) {
   static const std::string none;
   const Json* found = json.find(name);
   return found != nullptr && found->is_string() ? *found->string() : none;
@@ -22,7 +22,7 @@ const std::string& text_in(const Json& json, const char* name) {
 /// What answers an order in the end, past its progress.
 Json end_of(Page& page, const std::string& json, const std::string& type, const char* last) {
   Json answer = page.answer(json, type);
-  while (text_in(answer, "type") == type && answer.find(last) == nullptr) {
+  while (told_in(answer, "type") == type && answer.find(last) == nullptr) {
     EXPECT_LE(number_in(answer, "done"), number_in(answer, "frames"));
     const auto next = page.text(type, milliseconds(30'000));
     if (!next) return answer;
@@ -53,26 +53,26 @@ TEST(recording, has_the_names_and_bytes_of_render) {
   NEEDS_THE_VIEWER;
   const Viewer viewer({"demo", "--seed", "3", "-o", "made/here"});
   Greeted one(viewer);
-  ASSERT_EQ(text_in(one.page.answer(R"({"type":"set","id":1,"key":"camera.lens.f_number","text":"2.8"})"), "type"), "done");
+  ASSERT_EQ(told_in(one.page.answer(R"({"type":"set","id":1,"key":"camera.lens.f_number","text":"2.8"})"), "type"), "done");
   const std::pair<int, int> all[] = {{4, 1}, {4, 3}, {0, 1}};
   for (const auto& [first, frames] : all) {
     const std::string count = std::to_string(frames), number = std::to_string(first);
     const Json answer =
         end_of(one.page, R"({"type":"record","id":2,"first":)" + number + R"(,"frames":)" + count + "}", "record", "folder");
-    ASSERT_EQ(text_in(answer, "type"), "record") << files::json_text(answer);
+    ASSERT_EQ(told_in(answer, "type"), "record") << files::json_text(answer);
     EXPECT_EQ(number_in(answer, "done"), frames);
-    const fs::path folder = text_in(answer, "folder");
+    const fs::path folder = told_in(answer, "folder");
     const fs::path by_command = viewer.folder() / ("by_command" + number + count);
-    ASSERT_EQ(run_shell(viewer.folder().path(), text_in(answer, "command") + " -o " + by_command.native()), 0)
-        << text_in(answer, "command");
+    ASSERT_EQ(run_shell(viewer.folder().path(), told_in(answer, "command") + " -o " + by_command.native()), 0)
+        << told_in(answer, "command");
     EXPECT_EQ(folder.parent_path(), viewer.folder() / "made/here");
     EXPECT_TRUE(files_of(folder) == files_of(by_command)) << files::json_text(answer);
     EXPECT_EQ(files_of(folder).count(frames == 3 ? "frame_0006.npz" : "preview_000" + number + ".png"), 1u);
     // What the answer lists is what lies there.
     std::map<std::string, std::string> told, there;
     for (const Json& file : *answer.find("files")->items()) {
-      told[text_in(file, "name")] = text_in(file, "sha256");
-      EXPECT_EQ(number_in(file, "bytes"), static_cast<double>(fs::file_size(folder / text_in(file, "name"))));
+      told[told_in(file, "name")] = told_in(file, "sha256");
+      EXPECT_EQ(number_in(file, "bytes"), static_cast<double>(fs::file_size(folder / told_in(file, "name"))));
     }
     for (const std::string& name : names_in(folder)) there[name] = files::sha256_hex(content(folder / name));
     EXPECT_EQ(told, there);
@@ -85,16 +85,16 @@ TEST(recording, is_of_the_side_that_is_named_and_leaves_time_alone) {
   const Viewer viewer({"demo", "-o", "."});
   Greeted one(viewer);
   one.page.send(R"({"type":"pause"})");
-  ASSERT_EQ(text_in(one.page.answer(
+  ASSERT_EQ(told_in(one.page.answer(
                         R"({"type":"other","id":1,"overrides":)" +
                         files::json_text(*one.hello.find("overrides")).insert(1, R"({"key":"camera.lens.f_number","text":"4"},)") + "}"),
                     "type"),
             "done");
   const Json a = end_of(one.page, R"({"type":"record","id":2,"first":0,"frames":1})", "record", "folder");
   const Json b = end_of(one.page, R"({"type":"record","id":3,"first":0,"frames":1,"side":"b"})", "record", "folder");
-  EXPECT_TRUE(has(text_in(b, "command"), "f_number=4")) << text_in(b, "command");
-  EXPECT_FALSE(has(text_in(a, "command"), "f_number=4"));
-  EXPECT_NE(files_of(text_in(a, "folder"))["frame_0000.npz"], files_of(text_in(b, "folder"))["frame_0000.npz"]);
+  EXPECT_TRUE(has(told_in(b, "command"), "f_number=4")) << told_in(b, "command");
+  EXPECT_FALSE(has(told_in(a, "command"), "f_number=4"));
+  EXPECT_NE(files_of(told_in(a, "folder"))["frame_0000.npz"], files_of(told_in(b, "folder"))["frame_0000.npz"]);
   EXPECT_EQ(number_in(Greeted(viewer).hello, "frame"), number_in(one.hello, "frame"));
 }
 
@@ -108,7 +108,7 @@ TEST(recording, overwrites_nothing_that_is_there) {
   fs::create_directory(viewer.folder() / "recording_0004.part");
   Greeted one(viewer);
   const Json answer = end_of(one.page, R"({"type":"record","id":2,"first":0,"frames":2})", "record", "folder");
-  EXPECT_EQ(text_in(answer, "folder"), (viewer.folder() / "recording_0005").native());
+  EXPECT_EQ(told_in(answer, "folder"), (viewer.folder() / "recording_0005").native());
   EXPECT_EQ(names_in(viewer.folder() / "recording_0001"), std::vector<std::string>{"mine"});
   EXPECT_EQ(content(viewer.folder() / "recording_0002"), "a file");
 }
@@ -123,12 +123,12 @@ TEST(recording, that_is_given_up_leaves_nothing) {
     EXPECT_EQ(names_in(viewer.folder() / "made"), std::vector<std::string>{"recording_0001.part"});
     Greeted two(viewer);
     const Json busy = two.page.answer(R"({"type":"record","id":1,"first":0,"frames":1})", "record");
-    EXPECT_TRUE(has(text_in(busy, "text"), "another page's frames are being written")) << files::json_text(busy);
+    EXPECT_TRUE(has(told_in(busy, "text"), "another page's frames are being written")) << files::json_text(busy);
     one.page.send(R"({"type":"record_stop","id":3})");
     const auto stopped = one.page.text("fault");
     ASSERT_TRUE(stopped);
     EXPECT_EQ(number_in(*stopped, "id"), 2);
-    EXPECT_TRUE(has(text_in(*stopped, "text"), "it was given up"));
+    EXPECT_TRUE(has(told_in(*stopped, "text"), "it was given up"));
     EXPECT_EQ(names_in(viewer.folder() / "made"), std::vector<std::string>{});
     // Another order comes in the place of the first one.
     one.page.send(R"({"type":"record","id":4,"first":0,"frames":10000})");
@@ -167,9 +167,9 @@ TEST(recording, on_a_disk_that_fills_says_so_and_leaves_nothing) {
   });
   Greeted one(viewer);
   const Json answer = end_of(one.page, R"({"type":"record","id":2,"first":0,"frames":2})", "record", "folder");
-  EXPECT_EQ(text_in(answer, "type"), "fault");
-  EXPECT_TRUE(has(text_in(answer, "text"), "cannot write")) << files::json_text(answer);
-  EXPECT_TRUE(has(text_in(answer, "text"), "File too large")) << files::json_text(answer);
+  EXPECT_EQ(told_in(answer, "type"), "fault");
+  EXPECT_TRUE(has(told_in(answer, "text"), "cannot write")) << files::json_text(answer);
+  EXPECT_TRUE(has(told_in(answer, "text"), "File too large")) << files::json_text(answer);
   EXPECT_EQ(names_in(viewer.folder() / "made"), std::vector<std::string>{});
   // The view goes on.
   one.page.want("\"z_m\"");
@@ -182,8 +182,8 @@ TEST(recording, where_no_folder_can_be_made_says_the_way_out) {
   write(viewer.folder() / "taken", "a file");
   Greeted one(viewer);
   const Json answer = end_of(one.page, R"({"type":"record","id":2,"first":0,"frames":2})", "record", "folder");
-  EXPECT_TRUE(has(text_in(answer, "text"), "taken/here cannot be made: Not a directory")) << files::json_text(answer);
-  EXPECT_TRUE(has(text_in(answer, "more"), "-o FOLDER")) << files::json_text(answer);
+  EXPECT_TRUE(has(told_in(answer, "text"), "taken/here cannot be made: Not a directory")) << files::json_text(answer);
+  EXPECT_TRUE(has(told_in(answer, "more"), "-o FOLDER")) << files::json_text(answer);
 }
 
 // ---- pictures ----
@@ -238,15 +238,15 @@ TEST(picture, is_the_preview_of_render_with_the_state_in_it) {
   NEEDS_THE_VIEWER;
   const Viewer viewer({"demo", "--seed", "3"});
   Greeted one(viewer);
-  ASSERT_EQ(text_in(one.page.answer(R"({"type":"set","id":1,"key":"camera.lens.f_number","text":"2.8"})"), "type"), "done");
+  ASSERT_EQ(told_in(one.page.answer(R"({"type":"set","id":1,"key":"camera.lens.f_number","text":"2.8"})"), "type"), "done");
   one.page.send(R"({"type":"pause"})");
   one.page.send(R"({"type":"seek","frame":5})");
   one.page.want("\"z_m\"");
   ASSERT_TRUE(one.page.frame_with([](const WireFrame& each) { return each.frame == 5; }));
   const Picture picture = taken(one.page);
-  ASSERT_EQ(text_in(picture.answer, "type"), "screenshot") << files::json_text(picture.answer);
-  EXPECT_EQ(text_in(picture.answer, "name"), "demo_0005.png");
-  const std::string command = text_in(Greeted(viewer).hello, "command");
+  ASSERT_EQ(told_in(picture.answer, "type"), "screenshot") << files::json_text(picture.answer);
+  EXPECT_EQ(told_in(picture.answer, "name"), "demo_0005.png");
+  const std::string command = told_in(Greeted(viewer).hello, "command");
   ASSERT_EQ(run_shell(viewer.folder().path(), command + " -o rendered"), 0) << command;
   const auto [rest, text] = taken_apart(picture.png);
   EXPECT_TRUE(rest == content(viewer.folder() / "rendered/preview_0005.png"));
@@ -254,13 +254,13 @@ TEST(picture, is_the_preview_of_render_with_the_state_in_it) {
   const Viewer other({"demo"}, false);
   Greeted two(other);
   const Json answer = two.page.answer(restored(text), "restore");
-  ASSERT_EQ(text_in(answer, "type"), "restore") << files::json_text(answer);
+  ASSERT_EQ(told_in(answer, "type"), "restore") << files::json_text(answer);
   EXPECT_EQ(number_in(answer, "frame"), 5);
   EXPECT_EQ(number_in(answer, "seed"), 3);
   EXPECT_EQ(answer.find("note"), nullptr);
   const std::string state = files::json_text(
       Json::object().set("type", "state").set("id", 2).set("overrides", *answer.find("overrides")).set("seed", *answer.find("seed")));
-  ASSERT_EQ(text_in(two.page.answer(state), "type"), "done");
+  ASSERT_EQ(told_in(two.page.answer(state), "type"), "done");
   two.page.send(R"({"type":"pause"})");
   two.page.send(R"({"type":"seek","frame":5})");
   two.page.want("\"z_m\"");
@@ -275,12 +275,12 @@ TEST(picture, of_another_scene_or_other_settings_says_which_command_opens_it) {
   const std::string before = R"({"tofray":"1","scene":"room","scene_sha256":"","overrides":[{"key":"transport.bounces","text":"1"}],)"
                              R"("seed":7,"frame":3,"noise":"exact","exposure_samples":1,"subpixel":1})";
   const Json other = one.page.answer(restored(before), "restore");
-  EXPECT_TRUE(has(text_in(other, "text"), R"(the picture is of the scene "room", and this viewer has "demo")")) << files::json_text(other);
-  EXPECT_TRUE(has(text_in(other, "more"), "`tofray view room --seed 7 --set transport.bounces=1` opens it")) << files::json_text(other);
+  EXPECT_TRUE(has(told_in(other, "text"), R"(the picture is of the scene "room", and this viewer has "demo")")) << files::json_text(other);
+  EXPECT_TRUE(has(told_in(other, "more"), "`tofray view room --seed 7 --set transport.bounces=1` opens it")) << files::json_text(other);
   std::string quiet = before;
   quiet.replace(quiet.find("room"), 4, "demo").replace(quiet.find("exact"), 5, "off");
   const Json settings = one.page.answer(restored(quiet), "restore");
-  EXPECT_TRUE(has(text_in(settings, "more"), "`tofray view demo --seed 7 --noise off --set")) << files::json_text(settings);
+  EXPECT_TRUE(has(told_in(settings, "more"), "`tofray view demo --seed 7 --noise off --set")) << files::json_text(settings);
 }
 
 TEST(picture, of_a_file_that_has_changed_since_says_so) {
@@ -301,8 +301,8 @@ TEST(picture, of_a_file_that_has_changed_since_says_so) {
       EXPECT_FALSE(has(text, folder.path().native())) << "the place of a file is nobody's business";
     }
     const Json answer = one.page.answer(restored(text), "restore");
-    ASSERT_EQ(text_in(answer, "type"), "restore") << files::json_text(answer);
-    EXPECT_EQ(text_in(answer, "note"), *more == 0 ? "" : "my scene.yaml has changed since the picture was taken");
+    ASSERT_EQ(told_in(answer, "type"), "restore") << files::json_text(answer);
+    EXPECT_EQ(told_in(answer, "note"), *more == 0 ? "" : "my scene.yaml has changed since the picture was taken");
   }
 }
 
@@ -312,7 +312,7 @@ TEST(picture, whose_text_is_a_stranger_s_does_no_harm) {
   Greeted one(viewer);
   const std::string good =
       R"({"tofray":"1","scene":"demo","scene_sha256":"","overrides":[],"seed":7,"frame":3,"noise":"exact","exposure_samples":1,"subpixel":1})";
-  ASSERT_EQ(text_in(one.page.answer(restored(good), "restore"), "type"), "restore");
+  ASSERT_EQ(told_in(one.page.answer(restored(good), "restore"), "type"), "restore");
   const auto with = [&](const std::string& what, const std::string& by) {
     return std::string(good).replace(good.find(what), what.size(), by);
   };
@@ -322,12 +322,12 @@ TEST(picture, whose_text_is_a_stranger_s_does_no_harm) {
         with("[]", R"([{"key":"","text":"1"}])"), with("[]", R"([{"key":"a"}])"), with("7", "-1"), with("7", "1e30"),
         with("3", "1000000001"), with("\"exact\"", "null"), with("1,\"sub", "-1,\"sub")}) {
     const Json answer = one.page.answer(restored(text), "restore");
-    EXPECT_EQ(text_in(answer, "type"), "fault") << text.substr(0, 200);
-    EXPECT_FALSE(text_in(answer, "text").empty());
+    EXPECT_EQ(told_in(answer, "type"), "fault") << text.substr(0, 200);
+    EXPECT_FALSE(told_in(answer, "text").empty());
   }
   // A scene's name is shown as text, whatever it is.
   const Json odd = one.page.answer(restored(with("demo", "../../etc/passwd\\u001b[31m$(touch x)")), "restore");
-  EXPECT_TRUE(has(text_in(odd, "more"), "`tofray view '../../etc/passwd\\x1b[31m$(touch x)' --seed 7` opens it")) << files::json_text(odd);
+  EXPECT_TRUE(has(told_in(odd, "more"), "`tofray view '../../etc/passwd\\x1b[31m$(touch x)' --seed 7` opens it")) << files::json_text(odd);
   EXPECT_EQ(names_in(viewer.folder().path()), (std::vector<std::string>{"err", "out"}));
 }
 
@@ -420,9 +420,9 @@ TEST(page_in_a_file, has_the_arrays_of_render) {
   EXPECT_EQ(page.json.find("scales")->items()->size(), 2u);
   EXPECT_EQ(page.json.find("view3d")->items()->size(), 2u);
   EXPECT_EQ(page.statics.size(), 1u);
-  EXPECT_EQ(text_in(*page.json.find("controls"), "type"), "controls");
-  EXPECT_EQ(text_in(*page.json.find("saved"), "type"), "saved");
-  EXPECT_TRUE(text_in(page.json, "live").starts_with("tofray view demo --seed 3 --set camera.lens.f_number=2.8"));
+  EXPECT_EQ(told_in(*page.json.find("controls"), "type"), "controls");
+  EXPECT_EQ(told_in(*page.json.find("saved"), "type"), "saved");
+  EXPECT_TRUE(told_in(page.json, "live").starts_with("tofray view demo --seed 3 --set camera.lens.f_number=2.8"));
 }
 
 TEST(page_in_a_file, asks_nobody_for_anything) {
@@ -451,21 +451,21 @@ TEST(page_in_a_file, holds_a_scene_s_words_as_words) {
   EXPECT_FALSE(has(page, "<img src=x"));
   const Exported read(page);
   const Json& objects = *(*read.json.find("view3d")->items())[0].find("objects");
-  EXPECT_EQ(text_in((*objects.items())[0], "name"), name);
+  EXPECT_EQ(told_in((*objects.items())[0], "name"), name);
 }
 
 TEST(page_in_a_file, that_a_page_orders_is_that_of_the_command) {
   NEEDS_THE_PAGE;
   const Viewer viewer({"demo", "-o", "made"});
   Greeted one(viewer);
-  ASSERT_EQ(text_in(one.page.answer(R"({"type":"set","id":1,"key":"camera.lens.f_number","text":"2.8"})"), "type"), "done");
+  ASSERT_EQ(told_in(one.page.answer(R"({"type":"set","id":1,"key":"camera.lens.f_number","text":"2.8"})"), "type"), "done");
   const Json answer = end_of(one.page, R"({"type":"export","id":2,"first":1,"frames":3})", "export", "file");
-  ASSERT_EQ(text_in(answer, "type"), "export") << files::json_text(answer);
-  EXPECT_EQ(text_in(answer, "file"), (viewer.folder() / "made/view_0001.html").native());
-  const std::string page = content(text_in(answer, "file"));
+  ASSERT_EQ(told_in(answer, "type"), "export") << files::json_text(answer);
+  EXPECT_EQ(told_in(answer, "file"), (viewer.folder() / "made/view_0001.html").native());
+  const std::string page = content(told_in(answer, "file"));
   EXPECT_EQ(number_in(answer, "bytes"), static_cast<double>(page.size()));
-  EXPECT_EQ(text_in(answer, "sha256"), files::sha256_hex(page));
-  ASSERT_EQ(run_shell(viewer.folder().path(), text_in(answer, "command")), 0) << text_in(answer, "command");
+  EXPECT_EQ(told_in(answer, "sha256"), files::sha256_hex(page));
+  ASSERT_EQ(run_shell(viewer.folder().path(), told_in(answer, "command")), 0) << told_in(answer, "command");
   EXPECT_TRUE(content(viewer.folder() / "view_0001.html") == page);
   EXPECT_EQ(names_in(viewer.folder() / "made"), std::vector<std::string>{"view_0001.html"});
 }
@@ -485,7 +485,7 @@ TEST(page_in_a_file, too_large_for_browsers_is_refused_with_what_would_fit) {
   EXPECT_FALSE(page.frames[0].arrays.contains(number_of(page.hello(), "raw")));
   EXPECT_TRUE(page.frames[0].arrays.contains(number_of(page.hello(), "flags")));
   const Json said = files::parse_json(few.out, "stdout");
-  EXPECT_EQ(text_in(said, "sha256"), files::sha256_hex(content(folder / "a.html")));
+  EXPECT_EQ(told_in(said, "sha256"), files::sha256_hex(content(folder / "a.html")));
 }
 
 TEST(page_in_a_file, alone_has_frames_and_arrays_to_choose) {
