@@ -142,7 +142,9 @@ TOFRAY_FN F level_without_noise(const camera::SensorView& s, int k, const Light<
 template <bool plain, class F>
 TOFRAY_FN Taps<F> expose(const camera::SensorView& s, int k, const Light<F>& light, int orders, FrameIndex index, Exposure<F>& e) {
   const camera::RawFrameView frame = s.frame[k];
-  auto [charge, rate, ambient_rate] = expected<plain>(s, frame, light, orders, e);
+  const Expected<F> mean = expected<plain>(s, frame, light, orders, e);
+  const F rate = mean.rate, ambient_rate = mean.ambient_rate;
+  Means<F> charge = mean.charge;
   if (s.noise == Noise::merged) {
     charge = expose_merged(s, charge, e.pixel, k, index, e.merged_words);
   } else if (s.noise == Noise::apart) {
