@@ -27,6 +27,7 @@ nitpicky = True
 nitpick_ignore_regex = [
     ("cpp:identifier", r"(std|uint\d+_t|int\d+_t|size_t)(::.*)?"),
     ("cpp:identifier", r"tofray|Impl"),
+    ("py:class", r"Model"),   # of a Fit, which nobody makes by hand
 ]
 
 breathe_projects = {"tofray": os.environ["TOFRAY_SITE_DOXYGEN"]}

@@ -28,8 +28,9 @@ struct ProfilePlace {
   int column = 0;
 };
 
+/// A profile as it is written, and the numbers in it.
 struct ProfileFile {
-  std::string source;  ///< the file's name; of a built-in profile <name>
+  std::string source;  ///< the file's name; that of a built-in profile stands in angle brackets
   std::string text;
   std::vector<ProfileNumber> numbers;  ///< those in force of one mode
   std::vector<ProfilePlace> places;    ///< of all values, maps and lists that are written, of all modes
