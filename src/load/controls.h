@@ -45,7 +45,7 @@ std::vector<Control> controls_of(const Scene& scene, std::string_view text, cons
 
 /// A number in a unit, without what rounding adds.
 double in_unit(double si, const std::string& unit);
-/// The same of a camera alone. @param profile  its text  @param camera  mode and settings, without "camera." before them
+/// All keys of a camera alone, but for those of kinds and modes that are not in force. @param profile  its text  @param camera  mode and settings, without "camera." before them
 std::vector<Control> camera_controls_of(const std::string& profile, const std::string& source, const CameraOptions& camera);
 
 /// key, part, group, name, label, kind, unit, units, dimension, low, high, choices, what, text, value, default, source, assumed, log,

@@ -20,7 +20,7 @@ std::string block_yaml(const yaml::Node& root);
 /// name as their place's source.
 /// @param source  becomes that name
 yaml::Node camera_tree(const Scene& scene, const CameraOptions& options, std::string& source);
-/// The same of a profile's text.
+/// The tree of a profile's text.
 yaml::Node camera_tree(const std::string& text, const std::string& source, const CameraOptions& options);
 
 }  // namespace tofray::load

@@ -6,7 +6,7 @@
 #include <array>
 #include <string_view>
 
-#include "shards/layout.h"
+#include "base/base64.h"
 #include "shards/summary.h"
 
 namespace tofray::shards {
@@ -26,18 +26,6 @@ std::string shown_text(std::string_view text) {
   return out;
 }
 
-std::string base64_of(std::string_view bytes) {
-  constexpr std::string_view letters = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string out;
-  out.reserve((bytes.size() + 2) / 3 * 4);
-  for (std::size_t i = 0; i < bytes.size(); i += 3) {
-    std::uint32_t word = 0;
-    for (std::size_t k = 0; k < 3; ++k) word = word << 8 | (i + k < bytes.size() ? static_cast<unsigned char>(bytes[i + k]) : 0U);
-    for (std::size_t k = 0; k < 4; ++k) out += k <= bytes.size() - i ? letters[word >> (18 - 6 * k) & 63] : '=';
-  }
-  return out;
-}
-
 std::string percent(std::uint64_t part, std::uint64_t all) {
   return all == 0 ? "–" : fmt::format("{:.1f} %", 100 * static_cast<double>(part) / static_cast<double>(all));
 }
@@ -51,7 +39,7 @@ std::string figure(const ShownSample& one, const Plan& plan, const std::string& 
   const std::string number = number_of(one, plan);
   std::string out = "<figure>";
   if (!one.png.empty())
-    out += fmt::format("<img alt=\"depth of sample {0}\" src=\"data:image/png;base64,{1}\">", number, base64_of(one.png));
+    out += fmt::format("<img alt=\"depth of sample {0}\" src=\"data:image/png;base64,{1}\">", number, base::base64(one.png));
   return out + fmt::format("<figcaption>{} · {} valid{}</figcaption></figure>\n", number, percent(one.valid, one.pixels), more);
 }
 

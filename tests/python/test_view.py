@@ -149,7 +149,7 @@ def test_frames_become_a_page_that_is_that_of_the_command(tmp_path: pathlib.Path
     assert found["frames"] == [0, 1]
     assert page.text.count('class="tofray-frame"') >= 2
     assert found["live"] == "tofray view ./card"
-    # The same frames out of the command's files: the blocks of arrays are the same digits.
+    # Frames of these numbers out of the command's files: the blocks of arrays are the same digits.
     for i, frame in enumerate(frames):
         frame.save(tmp_path / "saved")
         os.makedirs("card", exist_ok=True)

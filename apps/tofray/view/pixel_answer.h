@@ -18,7 +18,7 @@ struct PixelInState {
   const Frame& expected;  ///< taps without noise, of direct light
 };
 
-/// The same of a frame that lies in a file: what there is of it. @param camera  that made its raw frames; null: the report is empty, and flow,
+/// The answer for a pixel of a frame that lies in a file: what there is of it. @param camera  that made its raw frames; null: the report is empty, and flow,
 /// phasors and curve are left out  @param name  of the file
 void put_pixel(files::Json& json, const Frame& frame, const Camera* camera, const std::string& name, int u, int v);
 
