@@ -46,6 +46,15 @@ struct FrameRequest {
   std::optional<double> start_time_s = {};  ///< -1e6…1e6: when it starts, in place of index / frame_rate
 };
 
+/// One step of how a frame is computed: a pass over all of its pixels, before the next one begins.
+struct PlanStep {
+  std::string pass;         ///< "from_rays", "bounces", "range_filter" …
+  std::string does;         ///< what it does, in a few words
+  std::string part;         ///< "ground truth", "sample 2 of 9", "paths, step 1": what of it, where it is done in parts
+  std::string over;         ///< "tiles", "bands of rows" or "raw frames": what a worker of the processor takes at once
+  std::int64_t pieces = 0;  ///< how many of these there are
+};
+
 /// Frames that stay in a GPU's memory.
 class DeviceFrames {
  public:
@@ -118,6 +127,8 @@ class Simulator {
 
   /// What computes the frames.
   [[nodiscard]] RanOn ran_on() const;
+  /// How the first frame of this scene is computed, step by step. (Of what stands still later ones keep the light.)
+  [[nodiscard]] std::vector<PlanStep> plan();
 
   struct Impl;
 

@@ -168,6 +168,7 @@ TOFRAY_FIELDS(Scene, &Scene::name, &Scene::source, &Scene::camera, &Scene::ambie
               &Scene::world_up, &Scene::files, &Scene::classes)
 TOFRAY_FIELDS(RanOn, &RanOn::backend, &RanOn::device, &RanOn::isa, &RanOn::threads, &RanOn::block_size, &RanOn::occupancy,
               &RanOn::fallback_reason)
+TOFRAY_FIELDS(PlanStep, &PlanStep::pass, &PlanStep::does, &PlanStep::part, &PlanStep::over, &PlanStep::pieces)
 TOFRAY_FIELDS(ObjectInView, &ObjectInView::object, &ObjectInView::name, &ObjectInView::pixels, &ObjectInView::nearest_m, &ObjectInView::farthest_m,
               &ObjectInView::endless, &ObjectInView::low, &ObjectInView::high, &ObjectInView::behind_camera, &ObjectInView::around_camera)
 TOFRAY_FIELDS(ObjectPlace, &ObjectPlace::name, &ObjectPlace::class_name, &ObjectPlace::position, &ObjectPlace::rotation, &ObjectPlace::endless,
@@ -220,8 +221,8 @@ void each_record(const Call& call) {
       std::tuple<Curve, PixelMask, Sensor, Scatter, Lens, Filter, Pattern, Waveform, Area, Illumination, Pixel, Adc, RawFrame, Mode,
                  ImageFilter, Decoding, Temperature, Interference, Calibration, SpreadSpectrum, Readout, AutoExposure, Camera, Material,
                  Plane, Sphere, Box, Triangle, Cylinder, Rectangle, Disk, Capsule, Cone, Mesh, Rotation, Keyframe, Object, Ambient,
-                 TransientBins, Transport, Pose, CameraKeyframe, Override, CameraChoice, SceneFile, Scene, RanOn, Pinhole, Placement,
-                 PlacedObject, FrameRequest, ObjectInView, ObjectPlace, SceneFinding, SceneReport, InvalidPixels, AmbientCase,
+                 TransientBins, Transport, Pose, CameraKeyframe, Override, CameraChoice, SceneFile, Scene, RanOn, PlanStep, Pinhole,
+                 Placement, PlacedObject, FrameRequest, ObjectInView, ObjectPlace, SceneFinding, SceneReport, InvalidPixels, AmbientCase,
                  CameraQuestion, NoiseAt, NoiseAtDistances, CameraReport, ChainRawFrame, ChainPhase, UnwrapCandidate, PixelChain,
                  BounceShare, PixelBounces, Validity, InputFile, FileRecord, Remark, Inputs, RunResult>;
   all(static_cast<Records*>(nullptr));

@@ -117,6 +117,11 @@ class HeldSimulator {
 
   [[nodiscard]] py::tuple progress() const { return py::make_tuple(progress_.done.load(), progress_.total.load()); }
   [[nodiscard]] RanOn ran_on() const { return simulator_->ran_on(); }
+  [[nodiscard]] std::vector<PlanStep> plan() {
+    std::vector<PlanStep> steps;
+    run([&](Simulator& simulator) { steps = simulator.plan(); });
+    return steps;
+  }
   [[nodiscard]] double frame_rate() const { return frame_rate_; }
   [[nodiscard]] Stage last_stage() const { return last_stage_; }
 
@@ -427,7 +432,8 @@ void bind_simulator(py::module_& module) {
       .def("frames_on_device", &frames_on_device_of)
       .def("stop", &HeldSimulator::stop)
       .def("progress", &HeldSimulator::progress)
-      .def("ran_on", [](const HeldSimulator& self) { return to_python(self.ran_on()); });
+      .def("ran_on", [](const HeldSimulator& self) { return to_python(self.ran_on()); })
+      .def("plan", [](HeldSimulator& self) { return to_python(self.plan()); });
   module.def("process", &process_raw);
   module.def("placed_scene", &placed_scene_of);
   module.def("exposure_times", &exposure_times_of);

@@ -15,7 +15,7 @@ from ._frame import Frame
 from ._load import load_camera, load_scene
 from ._model import (
     AmbientCase, Camera, CameraKeyframe, CameraQuestion, CameraReport, FrameRequest, InvalidPixels, Keyframe, ObjectPlace, PlacedObject, Placement, Pose,
-    RanOn, Scene, SceneReport,
+    PlanStep, RanOn, Scene, SceneReport,
 )
 from ._own import Geometry, PixelLight, Transient
 
@@ -296,6 +296,24 @@ class Simulator:
         ran_on: RanOn = self._native.ran_on()
         return ran_on
 
+    def plan(self) -> list[PlanStep]:
+        """How the first frame is computed: passes over all of its pixels, one before the next begins.
+
+        Of what stands still later frames keep the light, and take fewer.
+
+        Returns
+        -------
+        list[PlanStep]
+            Pass, what it does, which part of its work, and how many pieces it has.
+
+        Raises
+        ------
+        Error
+            ``bad_input``: the scene cannot be looked at at the first frame's time.
+        """
+        steps: list[PlanStep] = self._native.plan()
+        return steps
+
     def __reduce__(self) -> tuple[Any, ...]:
         return _simulator_of, (self._scene, self._camera, self._options)
 
@@ -304,7 +322,7 @@ class Simulator:
         return f"<tofray.Simulator of {self._scene.name or 'a scene'} on {ran_on.backend}, {ran_on.isa}, {ran_on.threads} threads>"
 
     def __dir__(self) -> list[str]:
-        return ["camera", "frame", "frames", "frames_on_device", "progress", "ran_on", "scene", "stop"]
+        return ["camera", "frame", "frames", "frames_on_device", "plan", "progress", "ran_on", "scene", "stop"]
 
 
 def _request(index: int, camera: Any, objects: Any, time_s: float | None, seed: int | None) -> FrameRequest:

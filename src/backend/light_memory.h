@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The tofray authors
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-#include "pipeline/steps.h"
+#include "pipeline/plan.h"
 
 namespace tofray::backend {
 

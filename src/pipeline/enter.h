@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include "pipeline/multipath.h"
-#include "pipeline/one_pixel.h"
+#include "pipeline/run.h"
 
 /// Entering the pipeline at a later stage, with arrays from elsewhere in the place of what the earlier stages find.
 namespace tofray::pipeline {
@@ -247,7 +247,7 @@ TOFRAY_FN void decode_pixels(const Setup& s, const Job& job, const Recording& in
     over = over | (num::abs(level - F(sensor.valid_middle)) > F(sensor.valid_half));
     if (sensor.frame[k].lit != 0) clipped = clipped | over;
   }
-  find_depth_once<F>(s, job, p, camera::ray<F>(s.lens, p), difference, clipped, camera::vignetting<F>(s.lens, p));
+  find_depth_noinline<F>(s, job, p, camera::ray<F>(s.lens, p), difference, clipped, camera::vignetting<F>(s.lens, p));
 }
 
 template <class F>

@@ -115,32 +115,7 @@ TOFRAY_FN float* line_normals_in(const Setup& s, const Job& job) {
   return job.scratch + scratch_images(s, job.filter) * s.lens.width * s.lens.height;
 }
 
-constexpr std::int32_t of_filter = 1;  ///< `item` of a pass `settle` that takes what the filter left
-
 constexpr int rows_per_band = 8;  ///< of an image, for one worker at a time in the passes that follow the pixels
-
-/// What is done to a frame, one after the other, each over all its pixels before the next begins.
-enum class Pass : std::int32_t {
-  derive,           ///< forms and facets out of the scene's shapes, where the backend does that itself, before all else
-  lines,            ///< noise of the sensor's columns and rows
-  pixels,           ///< rays to depth
-  input,            ///< what came from elsewhere, or is in the light image, to depth
-  bounces,          ///< light from surface to surface, into the light image
-  path_error,       ///< how far the two halves of its paths are apart
-  path_noise,       ///< … of many pixels together: its standard error, and who needs more paths
-  smooth,           ///< its mean over like neighbours
-  sum,              ///< all light of the image
-  transient,        ///< histograms of light by the length of its path
-  scatter_rows,     ///< the light image along rows
-  scatter_columns,  ///< … and along columns; a kernel that is not separable: both at once
-  bloom,            ///< flags of pixels into which full wells spill
-  flying,           ///< flags of flying pixels
-  filter,           ///< the image filter
-  settle,           ///< the range that is left, to z, point and confidence
-};
-
-/// Whether it goes over the image by tiles, not by rows.
-TOFRAY_FN bool goes_by_tiles(Pass pass) { return pass >= Pass::pixels && pass <= Pass::transient; }
 
 /// Whether light is followed from surface to surface.
 /// @param entry  the first stage that is computed

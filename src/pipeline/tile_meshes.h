@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The tofray authors
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-#include "pipeline/one_pixel.h"
+#include "pipeline/run.h"
 #include "trace/mesh_tile.h"
 
 /// Meshes, which all pixels of a tile look at at once: what they see of them, and in whose shade they are. Functions apart: what has

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tofray/kept.h"
 
-#include "pipeline/steps.h"
+#include "pipeline/plan.h"
 #include "simulator/frame_memory.h"
 #include "simulator/impl.h"
 #include "tofray/error.h"

@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "depth/temporal.h"
-#include "pipeline/passes.h"
+#include "pipeline/pass/write_depth.h"
 
 namespace tofray::simulator {
 

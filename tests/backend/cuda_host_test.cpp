@@ -66,10 +66,10 @@ TEST(cuda_host, says_the_occupancy_of_the_kernel_that_takes_the_time) {
   Scene scene = load_scene("card");
   const Camera camera = small(load_camera(scene));
   (void)Simulator(scene, camera, on(Backend::cuda)).frame(0);
-  EXPECT_EQ(here.cuda.occupancy_of, pipeline::Pass::pixels);
+  EXPECT_EQ(here.cuda.occupancy_of, pipeline::pass<pipeline::FromRays>);
   scene.transport.bounces = 1;
   (void)Simulator(scene, camera, on(Backend::cuda)).frame(0);
-  EXPECT_EQ(here.cuda.occupancy_of, pipeline::Pass::bounces);
+  EXPECT_EQ(here.cuda.occupancy_of, pipeline::pass<pipeline::Bounces>);
 }
 
 TEST(cuda_host, any_block_size_gives_the_same_bytes) {

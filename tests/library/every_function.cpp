@@ -126,6 +126,7 @@ void all() {
   const tofray::Camera camera = small_camera();
   tofray::Simulator first(scene, camera), simulator(std::move(first));
   first = tofray::Simulator(scene, camera);
+  expect(!simulator.plan().empty(), "a frame has a plan");
   tofray::Frame frame = simulator.frame(0);
   simulator.frame(1, frame);
   int taken = 0;

@@ -81,7 +81,7 @@ class StandInCuda final : public backend::gpu::Runtime {
   }
   Status launch(const backend::gpu::Launch& what, void* stream) override {
     if (fails() || !here(stream) || !within(what.batch.numbers, 1) || !reaches_output(what)) return failed;
-    frames_by_device[device_] += what.pass == pipeline::Pass::pixels ? what.batch.frames : 0;
+    frames_by_device[device_] += what.pass == pipeline::pass<pipeline::FromRays> ? what.batch.frames : 0;
     ++launches_by_block_size[what.block_size];
     const backend::gpu::FrameArguments common = *what.common;
     return later([what, common] { run_on_host(what, common); });

@@ -59,6 +59,16 @@ struct HostWarp {
   static int lowest_bit(std::uint32_t word) { return __builtin_ctz(word); }
 };
 
+/// All threads of a pass over images, and some more than it has units.
+void run_image_pass(const backend::gpu::Launch& what, const pipeline::PassWork& work) {
+  pipeline::with_pass(what.pass, [&](auto pass) {
+    using P = decltype(pass);
+    if constexpr (P::over != pipeline::Over::scene && !num::same<P, pipeline::FromRays>) {
+      for (int i = 0; i < backend::gpu::units_of<P>(work.s) + 7; ++i) backend::gpu::run_unit<P>(work, i);
+    }
+  });
+}
+
 }  // namespace
 
 void run_on_host(const backend::gpu::Launch& what, const backend::gpu::FrameArguments& common) {
@@ -67,14 +77,14 @@ void run_on_host(const backend::gpu::Launch& what, const backend::gpu::FrameArgu
     const FrameNumber number = what.batch.numbers[frame];
     const bool owns = what.batch.own != nullptr;
     FrameArguments a = owns ? what.batch.own[frame] : common;
-    if (what.pass == Pass::derive) {
+    if (what.pass == pipeline::pass<pipeline::DeriveScene>) {
       for (int i = 0; i < scene::unit_count(common.setup.scene, what.batch.derive) + 7; ++i) run_derive(a.setup, what.batch.derive, i);
       continue;
     }
-    if (what.pass != Pass::pixels) {
+    if (what.pass != pipeline::pass<pipeline::FromRays>) {
       if (owns) pipeline::take_image_step(what.batch.step, a.job);
       for (int i = 0; i <= flow::array_count; ++i) take_frame(number, owns ? 0 : frame * what.batch.stride, i, a.job);
-      for (int i = 0; i < units_of(what.pass, a.setup) + 7; ++i) run_pass(what.pass, what.batch.step.item, a.setup, a.job, what.input, i);
+      run_image_pass(what, {a.setup, a.job, &what.input, what.batch.step.item});
       continue;
     }
     if (owns) pipeline::take_step(what.batch.step, a.setup, a.job);

@@ -108,7 +108,8 @@ std::vector<Command> make() {
                    "tofray inspect out/run.mcap                      # topics, types, counts, rates, sizes\n"
                    "tofray inspect out/frame.npz --pixel 112,86      # surface, power, electrons, every raw frame, phase, depth\n"
                    "tofray inspect scene.yaml --pixel 112,86         # the same, simulated now\n"
-                   "tofray inspect corner --bounces 4 --pixel 90,86  # what each bounce brings, and what it does to the range\n",
+                   "tofray inspect corner --bounces 4 --pixel 90,86  # what each bounce brings, and what it does to the range\n"
+                   "tofray inspect room --subpixel 2 --plan          # the passes over the image that make a frame, in their order\n",
        .more =
            "FILE is a .npz file, an MCAP file, a scene file or the name of a built-in scene.\n"
            "Where light bounced, --pixel follows it again with one bounce, two and so on, until less than 1/1000 of the pixel's light is\n"
@@ -116,8 +117,8 @@ std::vector<Command> make() {
            "to the half path is "
            "what\n"
            "it adds once all before it are there. For a file the scene comes from manifest.json, which has to lie beside it.\n",
-       .options = {"--pixel", "--set", "--mode", "--seed", "--noise", "--exposure-samples", "--subpixel", "--bounces", "--samples", "--fps",
-                   "--root", "--threads", "--backend", "--device", "--json"},
+       .options = {"--pixel", "--plan", "--set", "--mode", "--seed", "--noise", "--exposure-samples", "--subpixel", "--bounces",
+                   "--samples", "--fps", "--root", "--threads", "--backend", "--device", "--json"},
        .least_words = 1,
        .most_words = 1,
        .run = run_inspect,

@@ -78,7 +78,8 @@ struct Options {
     std::uint64_t tasks = 0;          ///< 0: chosen
     std::vector<std::string> sbatch;  ///< options of sbatch
   } shards;                           ///< of `tofray dataset`
-  bool json = false, quiet = false, compare = false, clean = false, sources = false, raw = false, csv = false, auto_exposure = false;
+  bool json = false, quiet = false, compare = false, clean = false, sources = false, raw = false, csv = false, auto_exposure = false,
+       plan = false;
 };
 
 }  // namespace tofray::app

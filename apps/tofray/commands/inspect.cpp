@@ -242,9 +242,44 @@ void inspect_pixel(const Inspected& of, const Options& options) {
                      : pixel_text(arrays, chain, bounces));
 }
 
+/// The steps of a scene's frame, one a line.
+std::string plan_text(const std::vector<PlanStep>& steps) {
+  std::string text = fmt::format("{:>3} {:<16} {:<26} {:<58} {}\n", "#", "pass", "part", "what it does", "over");
+  int number = 0;
+  for (const PlanStep& one : steps)
+    text += fmt::format("{:>3} {:<16} {:<26} {:<58} {} {}\n", ++number, one.pass, one.part, one.does, one.pieces, one.over);
+  return text;
+}
+files::Json plan_json(const std::vector<PlanStep>& steps) {
+  files::Json all = files::Json::array();
+  for (const PlanStep& one : steps) {
+    all.push(files::Json::object()
+                 .set("pass", one.pass)
+                 .set("part", one.part)
+                 .set("does", one.does)
+                 .set("over", one.over)
+                 .set("pieces", one.pieces));
+  }
+  return files::Json::object().set("plan", all);
+}
+
+int inspect_plan(const Options& options) {
+  const std::string& path = options.words[0];
+  if (run::is_film(path) || results::holds_arrays(path))
+    throw Error(ErrorKind::bad_input, path + ": error: --plan is of scenes: this file is finished");
+  if (options.pixel)
+    throw Error(ErrorKind::bad_input, "error: --plan computes nothing, and --pixel asks for a frame\n  take one of them out");
+  const run::Loaded in = run::load(input_request(path, options));
+  say(texts(in.remarks));
+  const std::vector<PlanStep> steps = Simulator(in.scene, in.camera, simulator_options(options)).plan();
+  print(options.json ? files::json_text(plan_json(steps), 2) + "\n" : plan_text(steps));
+  return 0;
+}
+
 }  // namespace
 
 int run_inspect(const Options& options) {
+  if (options.plan) return inspect_plan(options);
   if (run::is_film(options.words[0])) {
     if (options.pixel)
       throw Error(

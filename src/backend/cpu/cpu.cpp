@@ -7,6 +7,7 @@
 #include <thread>
 
 #include "backend/cpu/for_each_tile.h"
+#include "pipeline/pass/list.h"
 #include "tofray/error.h"
 
 namespace tofray::backend {
@@ -40,19 +41,7 @@ Isa best_isa() {
   return best;
 }
 
-/// Tiles of pixels, bands of rows, or raw frames.
-int pieces_of(const pipeline::Step& step, const pipeline::Setup& setup) {
-  const camera::LensView& lens = setup.lens;
-  if (step.pass == Pass::lines) return setup.sensor.raw_frames;
-  return pipeline::goes_by_tiles(step.pass) ? pipeline::tile_count(lens)
-                                            : (lens.height + pipeline::rows_per_band - 1) / pipeline::rows_per_band;
-}
-
-/// About how many rays each pixel of a piece sends.
-std::int64_t rays_of(const pipeline::Step& step, const pipeline::Setup& s) {
-  if (step.pass == Pass::transient) return 1 + std::int64_t{pipeline::paths_after(s, s.bounces.rounds - 1)} * s.bounces.most;
-  return step.pass == Pass::bounces ? 1 + 2 * std::int64_t{pipeline::paths_of_step(s, step.item).count} * s.bounces.most : 1;
-}
+std::int64_t rays_of(const pipeline::Step& step, const pipeline::Setup& s) { return pipeline::rays_of(step.pass, s, step.item); }
 
 }  // namespace
 
@@ -76,6 +65,17 @@ bool processor_has(Isa isa) {
 /// Nothing to ask: every 64-bit ARM has NEON, and elsewhere there is scalar code only.
 bool processor_has(Isa isa) { return isa == Isa::best || std::find(isas_here.begin(), isas_here.end(), isa) != isas_here.end(); }
 #endif
+
+int pieces_of(const pipeline::Step& step, const pipeline::Setup& setup) {
+  const camera::LensView& lens = setup.lens;
+  switch (pipeline::over_of(step.pass)) {
+    case pipeline::Over::raw_frames: return setup.sensor.raw_frames;
+    case pipeline::Over::tiles: return pipeline::tile_count(lens);
+    case pipeline::Over::rows: return (lens.height + pipeline::rows_per_band - 1) / pipeline::rows_per_band;
+    case pipeline::Over::scene: break;
+  }
+  return 0;
+}
 
 bool can_run(Isa isa) { return isa == Isa::best || (kernel_of(isa) != nullptr && processor_has(isa)); }
 
@@ -127,7 +127,7 @@ Cpu::~Cpu() = default;
 void Cpu::load(const pipeline::Setup& setup) {
   light_of_ = {};
   const Work work{&setup, nullptr, nullptr, 0};
-  pool_ = std::make_unique<Threads>(Threads{TileRunner(threads_, kernel_(&work, Pass::pixels, 0, nullptr))});
+  pool_ = std::make_unique<Threads>(Threads{TileRunner(threads_, kernel_(&work, {}, 0, nullptr))});
 }
 
 void Cpu::describe(RanOn& out) const { out.backend = "cpu", out.device = out.isa = isa_name(isa_), out.threads = threads_; }
@@ -199,7 +199,7 @@ void Cpu::run_steps(const pipeline::Setup& setup, const pipeline::Job& job, cons
   with_image.light = image;
   const auto run_samples_so_far = [&] { run_samples(samples, setup, with_image), samples.clear(); };
   each_step([&](const pipeline::Step& step) {
-    if (step.part == pipeline::Part::light && step.pass == Pass::pixels) return samples.push_back(step);
+    if (step.part == pipeline::Part::light && step.pass == pipeline::pass<pipeline::FromRays>) return samples.push_back(step);
     run_samples_so_far();
     if (step.part == pipeline::Part::all) return run_step(step, {&setup, &job, input, step.item});
     pipeline::Setup own_setup = setup;

@@ -24,6 +24,9 @@ bool processor_has(Isa isa);
 /// The processor has it, and this build has its kernel.
 bool can_run(Isa isa);
 
+/// How many pieces a step has: tiles of pixels, bands of rows, or raw frames.
+int pieces_of(const pipeline::Step& step, const pipeline::Setup& setup);
+
 class Cpu final : public Engine {
  public:
   /// @param threads   0: one per core

@@ -26,13 +26,8 @@ using F = float;
 #endif
 
 #include "backend/cpu/kernel.h"
-#include "pipeline/bounce.h"
-#include "pipeline/passes.h"
-#include "pipeline/path_noise.h"
-#include "pipeline/scatter.h"
-#include "pipeline/smooth.h"
+#include "pipeline/pass/list.h"
 #include "pipeline/tile.h"
-#include "pipeline/transient.h"
 
 namespace tofray::backend {
 
@@ -51,100 +46,63 @@ TOFRAY_APART void run_tile(const Work& work, int index, void* scratch) {
   one_tile<F, can_move>(*work.setup, *work.job, index, scratch);
   finish(work);
 }
+void run_tile(const Work& work, int index, void* scratch) {
+  if (work.setup->scene.moments > 0) {
+    run_tile<true>(work, index, scratch);
+  } else {
+    run_tile<false>(work, index, scratch);
+  }
+}
 
-template <class Run>
-TOFRAY_FN void each_pack(const Work& work, int index, const Run& run) {
-  const Tile tile = tile_at(work.setup->lens, index);
+/// The pixels of a tile, pack by pack.
+template <class P>
+TOFRAY_FN void each_pack_of_tile(const PassWork& work, int index) {
+  const Tile tile = tile_at(work.s.lens, index);
   for (int q = 0; q < max_packs<F>; ++q) {
-    const Pixels p = pack_at<F>(work.setup->lens, tile, q);
-    if (p.count > 0) run(p);
+    const Pixels p = pack_at<F>(work.s.lens, tile, q);
+    if (p.count > 0) P::template pixels<F>(work, p);
   }
 }
 
-void run_input(const Work& work, int index) {
-  each_pack(
-      work, index, [&](const Pixels& p) __attribute__((always_inline)) { enter<F>(*work.setup, *work.job, *work.input, p); });
-  finish(work);
-}
-void run_bounces(const Work& work, int index) {
-  each_pack(
-      work, index, [&](const Pixels& p) __attribute__((always_inline)) { bounce_pixels<F>(*work.setup, *work.job, work.item, p); });
-}
-void run_path_error(const Work& work, int index) {
-  each_pack(
-      work,
-      index, [&](const Pixels& p) __attribute__((always_inline)) { store_path_error<F>(*work.setup, work.job->light, work.item, p); });
-}
-void run_path_noise(const Work& work, int index) {
-  each_pack(
-      work,
-      index, [&](const Pixels& p) __attribute__((always_inline)) { store_path_noise<F>(*work.setup, work.job->light, work.item, p); });
-}
-void run_smooth(const Work& work, int index) {
-  each_pack(
-      work, index, [&](const Pixels& p) __attribute__((always_inline)) { smooth_light<F>(*work.setup, work.job->light, p); });
-}
-void run_sum(const Work& work, int index) {
-  each_pack(
-      work, index, [&](const Pixels& p) __attribute__((always_inline)) { sum_light<F>(*work.setup, work.job->light, p); });
-}
-
-void run_transient(const Work& work, int index) {
-  each_pack(
-      work, index, [&](const Pixels& p) __attribute__((always_inline)) { find_transient<F>(*work.setup, *work.job, p); });
-}
-
-void run_lines(const Work& work, int k) {
-  const camera::SensorView& sensor = work.setup->sensor;
-  const raw::FrameIndex index{work.job->index_low, work.job->index_high};
-  float* const normals = line_normals_in(*work.setup, *work.job);
-  raw::draw_all_lines<F>(sensor, k, index, camera::of_column, sensor.width, normals);
-  raw::draw_all_lines<F>(sensor, k, index, camera::of_row, sensor.height, normals);
-}
-
-void run_rows(const Work& work, Pass pass, int band) {
-  const int height = work.setup->lens.height, first = band * rows_per_band;
-  for (int y = first; y < first + rows_per_band && y < height; ++y) {
-    if (pass == Pass::bloom) bloom_row(*work.setup, *work.job, y);
-    if (pass == Pass::flying) flag_flying_row<F>(*work.setup, *work.job, y);
-    if (pass == Pass::filter) filter_row(*work.setup, *work.job, y);
-    if (pass == Pass::settle) settle_row<F>(*work.setup, *work.job, y, work.item);
-    if (pass == Pass::scatter_rows || pass == Pass::scatter_columns) scatter_rows<F>(*work.setup, *work.job, pass, work.item, y);
+/// Row y of the image, by the pass's own function or pack by pack.
+template <class P>
+TOFRAY_FN void row_of(const PassWork& work, int y) {
+  const int width = work.s.lens.width, lanes = num::lanes<F>;
+  if constexpr (requires { P::template row<F>(work, y); }) {
+    P::template row<F>(work, y);
+  } else {
+    for (int x = 0; x < width; x += lanes) P::template pixels<F>(work, Pixels{y * width + x, width - x < lanes ? width - x : lanes});
   }
+}
+
+/// Piece number `index` of a pass.
+template <class P>
+void run_piece(const Work& work, int index, void* scratch) {
+  const PassWork what{*work.setup, *work.job, work.input, work.item};
+  if constexpr (num::same<P, FromRays>) {
+    run_tile(work, index, scratch);
+  } else if constexpr (P::over == Over::tiles) {
+    each_pack_of_tile<P>(what, index);
+    finish(work);
+  } else if constexpr (P::over == Over::rows) {
+    const int height = work.setup->lens.height, first = index * rows_per_band;
+    for (int y = first; y < first + rows_per_band && y < height; ++y) row_of<P>(what, y);
+  } else if constexpr (P::over == Over::raw_frames) {
+    P::template raw_frame<F>(what, index);
+  }  // else the host has done it
+}
+
+/// Bytes that a worker needs for the work's scene.
+std::size_t scratch_bytes(const scene::SceneView& scene) {
+  return scene.moments > 0 ? sizeof(Scratch<F, true>) + Near<true>::room_of(scene)
+                           : sizeof(Scratch<F, false>) + Near<false>::room_of(scene);
 }
 
 }  // namespace
 
-extern "C" std::size_t TOFRAY_KERNEL(const Work* work, Pass pass, int index, void* scratch) {
-  const scene::SceneView& scene = work->setup->scene;
-  if (scratch == nullptr) {
-    return scene.moments > 0 ? sizeof(Scratch<F, true>) + Near<true>::room_of(scene)
-                             : sizeof(Scratch<F, false>) + Near<false>::room_of(scene);
-  }
-  switch (pass) {
-    case Pass::pixels:
-      if (scene.moments > 0) {
-        run_tile<true>(*work, index, scratch);
-      } else {
-        run_tile<false>(*work, index, scratch);
-      }
-      break;
-    case Pass::derive: break;  // the host has done it
-    case Pass::lines: run_lines(*work, index); break;
-    case Pass::input: run_input(*work, index); break;
-    case Pass::bounces: run_bounces(*work, index); break;
-    case Pass::path_error: run_path_error(*work, index); break;
-    case Pass::path_noise: run_path_noise(*work, index); break;
-    case Pass::smooth: run_smooth(*work, index); break;
-    case Pass::sum: run_sum(*work, index); break;
-    case Pass::transient: run_transient(*work, index); break;
-    case Pass::bloom:
-    case Pass::flying:
-    case Pass::filter:
-    case Pass::settle:
-    case Pass::scatter_rows:
-    case Pass::scatter_columns: run_rows(*work, pass, index); break;
-  }
+extern "C" std::size_t TOFRAY_KERNEL(const Work* work, Pass number, int index, void* scratch) {
+  if (scratch == nullptr) return scratch_bytes(work->setup->scene);
+  with_pass(number, [&](auto pass) { run_piece<decltype(pass)>(*work, index, scratch); });
   return 0;
 }
 

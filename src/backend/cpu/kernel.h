@@ -4,7 +4,7 @@
 #include <cstddef>
 
 #include "pipeline/enter.h"
-#include "pipeline/setup.h"
+#include "pipeline/pass/list.h"
 
 /// What one instruction set's object exports: the pipeline over a piece of a frame.
 namespace tofray::backend {

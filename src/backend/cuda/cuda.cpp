@@ -72,7 +72,8 @@ void Cuda::load(const pipeline::Setup& setup) {
   device_.check(device_.runtime().copy(resident_.memory.get(), staged.get(), packer.used(), gpu::Way::to_device, stream.get()),
                 "copying the scene to the GPU");
   device_.check(device_.runtime().synchronize(stream.get()), "copying the scene to the GPU");
-  const pipeline::Pass longest = pipeline::bounces(setup, Stage::trace) ? pipeline::Pass::bounces : pipeline::Pass::pixels;
+  const pipeline::Pass longest =
+      pipeline::bounces(setup, Stage::trace) ? pipeline::pass<pipeline::Bounces> : pipeline::pass<pipeline::FromRays>;
   int threads = 0;
   device_.check(device_.runtime().occupancy(longest, block_size_, threads), "asking for the occupancy");
   occupancy_ = static_cast<double>(threads) / device_.info().threads_per_processor;

@@ -3,10 +3,14 @@
 #include "backend/cuda/kernels.h"
 
 #include <cstddef>
+#include <functional>
 
 #include "backend/cuda/pixel.h"
 
 namespace tofray::backend::gpu {
+
+using pipeline::DeriveScene;
+using pipeline::FromRays;
 
 namespace {
 
@@ -88,13 +92,9 @@ __global__ void __launch_bounds__(threads) tofray_pixels_own(const Batch batch) 
   run_pixel<true>(mine.setup, mine.job, warp, patch, warp.lane);
 }
 
-/// The largest block of a kernel.
-template <Pass pass>
-constexpr int most_threads = most_threads_of(pass);
-
 /// A pass over the images of all frames. (Written out once, for arguments in shared memory, wherever they came from.)
-template <Pass pass>
-__global__ void __launch_bounds__(most_threads<pass>)
+template <class P>
+__global__ void __launch_bounds__(P::most_threads)
     tofray_pass(const __grid_constant__ FrameArguments common, const Batch batch, const pipeline::Input input) {
   __shared__ FrameArguments mine;
   const bool owns = batch.own != nullptr;
@@ -103,21 +103,28 @@ __global__ void __launch_bounds__(most_threads<pass>)
   if (owns && threadIdx.x == 0) pipeline::take_image_step(batch.step, mine.job);
   __syncthreads();
   take_frame_of_block(batch.numbers[frame], owns ? 0 : frame * batch.stride, mine.job);
-  run_pass(pass, batch.step.item, mine.setup, mine.job, input, index);
+  run_unit<P>({mine.setup, mine.job, &input, batch.step.item}, index);
 }
 
 /// Forms and facets of each frame.
-__global__ void __launch_bounds__(most_threads<Pass::derive>) tofray_derive(const Batch batch) {
+__global__ void __launch_bounds__(DeriveScene::most_threads) tofray_derive(const Batch batch) {
   run_derive(batch.own[blockIdx.y].setup, batch.derive, static_cast<int>(blockIdx.x * blockDim.x + threadIdx.x));
 }
 
 /// Registers for all threads of a block: a kernel that may take more of them serves the smaller blocks.
 constexpr int few_threads = 256;
 
+/// Threads of a kernel's blocks where `block_size` is asked for.
+template <class P>
+unsigned threads_of_block(int block_size) {
+  return static_cast<unsigned>(block_size < P::most_threads ? block_size : P::most_threads);
+}
+
 template <int threads>
-cudaError_t launch_pixels(const Launch& what, int patches, cudaStream_t stream) {
-  const auto warps = static_cast<unsigned>(what.block_size / warp_size);
-  const dim3 grid((static_cast<unsigned>(patches) + warps - 1) / warps, static_cast<unsigned>(what.batch.frames));
+cudaError_t launch_pixels(const Launch& what, cudaStream_t stream) {
+  const auto warps = static_cast<unsigned>(what.block_size / warp_size),
+             patches = static_cast<unsigned>(patch_count(what.common->setup.lens));
+  const dim3 grid((patches + warps - 1) / warps, static_cast<unsigned>(what.batch.frames));
   if (what.batch.own != nullptr) {
     tofray_pixels_own<threads><<<grid, what.block_size, 0, stream>>>(what.batch);
   } else {
@@ -126,89 +133,65 @@ cudaError_t launch_pixels(const Launch& what, int patches, cudaStream_t stream) 
   return cudaGetLastError();
 }
 
-cudaError_t launch_derive(const Launch& what, cudaStream_t stream) {
-  const auto block = static_cast<unsigned>(threads_of_block(Pass::derive, what.block_size)),
-             units = static_cast<unsigned>(scene::unit_count(what.common->setup.scene, what.batch.derive));
+cudaError_t launch(FromRays, const Launch& what, cudaStream_t stream) {
+  return what.block_size <= few_threads ? launch_pixels<few_threads>(what, stream) : launch_pixels<max_block_size>(what, stream);
+}
+cudaError_t launch(DeriveScene, const Launch& what, cudaStream_t stream) {
+  const unsigned block = threads_of_block<DeriveScene>(what.block_size),
+                 units = static_cast<unsigned>(scene::unit_count(what.common->setup.scene, what.batch.derive));
   tofray_derive<<<dim3((units + block - 1) / block, static_cast<unsigned>(what.batch.frames)), block, 0, stream>>>(what.batch);
   return cudaGetLastError();
 }
-
-template <Pass pass>
-cudaError_t launch_pass(const Launch& what, cudaStream_t stream) {
-  const auto block = static_cast<unsigned>(threads_of_block(pass, what.block_size));
-  const auto units = static_cast<unsigned>(units_of(pass, what.common->setup));
+template <class P>
+cudaError_t launch(P, const Launch& what, cudaStream_t stream) {
+  const unsigned block = threads_of_block<P>(what.block_size), units = static_cast<unsigned>(units_of<P>(what.common->setup));
   const dim3 grid((units + block - 1) / block, static_cast<unsigned>(what.batch.frames));
-  tofray_pass<pass><<<grid, block, 0, stream>>>(*what.common, what.batch, what.input);
+  tofray_pass<P><<<grid, block, 0, stream>>>(*what.common, what.batch, what.input);
   return cudaGetLastError();
+}
+
+/// The function that a launch of this block size runs.
+const void* function_of(FromRays, int block_size) {
+  return block_size <= few_threads ? reinterpret_cast<const void*>(&tofray_pixels<few_threads>)
+                                   : reinterpret_cast<const void*>(&tofray_pixels<max_block_size>);
+}
+const void* function_of(DeriveScene, int) { return reinterpret_cast<const void*>(&tofray_derive); }
+template <class P>
+const void* function_of(P, int) {
+  return reinterpret_cast<const void*>(&tofray_pass<P>);
+}
+
+template <class... P>
+void each_function(const std::function<void(const void*)>& call, num::List<P...>) {
+  (call(function_of(P{}, max_block_size)), ...);
+  call(function_of(FromRays{}, few_threads));
+  call(reinterpret_cast<const void*>(&tofray_pixels_own<few_threads>)),
+      call(reinterpret_cast<const void*>(&tofray_pixels_own<max_block_size>));
 }
 
 }  // namespace
 
 cudaError_t launch_kernel(const Launch& what, cudaStream_t stream) {
-  const camera::LensView& lens = what.common->setup.lens;
-  switch (what.pass) {
-    case Pass::derive: return launch_derive(what, stream);
-    case Pass::pixels:
-      return what.block_size <= few_threads ? launch_pixels<few_threads>(what, patch_count(lens), stream)
-                                            : launch_pixels<max_block_size>(what, patch_count(lens), stream);
-    case Pass::lines: return launch_pass<Pass::lines>(what, stream);
-    case Pass::input: return launch_pass<Pass::input>(what, stream);
-    case Pass::bloom: return launch_pass<Pass::bloom>(what, stream);
-    case Pass::flying: return launch_pass<Pass::flying>(what, stream);
-    case Pass::filter: return launch_pass<Pass::filter>(what, stream);
-    case Pass::settle: return launch_pass<Pass::settle>(what, stream);
-    case Pass::bounces: return launch_pass<Pass::bounces>(what, stream);
-    case Pass::path_error: return launch_pass<Pass::path_error>(what, stream);
-    case Pass::path_noise: return launch_pass<Pass::path_noise>(what, stream);
-    case Pass::smooth: return launch_pass<Pass::smooth>(what, stream);
-    case Pass::sum: return launch_pass<Pass::sum>(what, stream);
-    case Pass::transient: return launch_pass<Pass::transient>(what, stream);
-    case Pass::scatter_rows: return launch_pass<Pass::scatter_rows>(what, stream);
-    case Pass::scatter_columns: return launch_pass<Pass::scatter_columns>(what, stream);
-  }
-  return cudaErrorInvalidValue;
+  cudaError_t status = cudaErrorInvalidValue;
+  pipeline::with_pass(what.pass, [&](auto pass) { status = launch(pass, what, stream); });
+  return status;
 }
 
 cudaError_t find_kernels() {
   cudaError_t status = cudaSuccess;
-  const auto find = [&](auto* kernel) {
-    cudaFuncAttributes attributes;
-    if (status == cudaSuccess) status = cudaFuncGetAttributes(&attributes, reinterpret_cast<const void*>(kernel));
-  };
-  find(&tofray_pixels<few_threads>), find(&tofray_pixels<max_block_size>);
-  find(&tofray_pixels_own<few_threads>), find(&tofray_pixels_own<max_block_size>);
-  find(&tofray_derive);
-  find(&tofray_pass<Pass::lines>), find(&tofray_pass<Pass::input>), find(&tofray_pass<Pass::bloom>), find(&tofray_pass<Pass::flying>);
-  find(&tofray_pass<Pass::filter>), find(&tofray_pass<Pass::settle>);
-  find(&tofray_pass<Pass::bounces>), find(&tofray_pass<Pass::sum>);
-  find(&tofray_pass<Pass::path_error>), find(&tofray_pass<Pass::path_noise>), find(&tofray_pass<Pass::smooth>);
-  find(&tofray_pass<Pass::transient>);
-  find(&tofray_pass<Pass::scatter_rows>), find(&tofray_pass<Pass::scatter_columns>);
+  each_function(
+      [&](const void* kernel) {
+        cudaFuncAttributes attributes;
+        if (status == cudaSuccess) status = cudaFuncGetAttributes(&attributes, kernel);
+      },
+      pipeline::Passes{});
   return status;
 }
 
-const void* kernel_function(Pass pass, int block_size) {
-  switch (pass) {
-    case Pass::derive: return reinterpret_cast<const void*>(&tofray_derive);
-    case Pass::pixels:
-      return block_size <= few_threads ? reinterpret_cast<const void*>(&tofray_pixels<few_threads>)
-                                       : reinterpret_cast<const void*>(&tofray_pixels<max_block_size>);
-    case Pass::lines: return reinterpret_cast<const void*>(&tofray_pass<Pass::lines>);
-    case Pass::input: return reinterpret_cast<const void*>(&tofray_pass<Pass::input>);
-    case Pass::bloom: return reinterpret_cast<const void*>(&tofray_pass<Pass::bloom>);
-    case Pass::flying: return reinterpret_cast<const void*>(&tofray_pass<Pass::flying>);
-    case Pass::filter: return reinterpret_cast<const void*>(&tofray_pass<Pass::filter>);
-    case Pass::bounces: return reinterpret_cast<const void*>(&tofray_pass<Pass::bounces>);
-    case Pass::path_error: return reinterpret_cast<const void*>(&tofray_pass<Pass::path_error>);
-    case Pass::path_noise: return reinterpret_cast<const void*>(&tofray_pass<Pass::path_noise>);
-    case Pass::smooth: return reinterpret_cast<const void*>(&tofray_pass<Pass::smooth>);
-    case Pass::sum: return reinterpret_cast<const void*>(&tofray_pass<Pass::sum>);
-    case Pass::transient: return reinterpret_cast<const void*>(&tofray_pass<Pass::transient>);
-    case Pass::scatter_rows: return reinterpret_cast<const void*>(&tofray_pass<Pass::scatter_rows>);
-    case Pass::scatter_columns: return reinterpret_cast<const void*>(&tofray_pass<Pass::scatter_columns>);
-    case Pass::settle: break;
-  }
-  return reinterpret_cast<const void*>(&tofray_pass<Pass::settle>);
+const void* kernel_function(Pass number, int block_size) {
+  const void* kernel = nullptr;
+  pipeline::with_pass(number, [&](auto pass) { kernel = function_of(pass, block_size); });
+  return kernel;
 }
 
 }  // namespace tofray::backend::gpu

@@ -6,33 +6,13 @@
 #include <cstring>
 #include <type_traits>
 
+#include "pipeline/pass/list.h"
+
 namespace tofray::backend::gpu {
 
 namespace {
 
 constexpr std::size_t align(std::size_t bytes) { return (bytes + 255) / 256 * 256; }
-
-const char* starting(Pass pass) {
-  switch (pass) {
-    case Pass::derive: return "starting the kernel derive";
-    case Pass::lines: return "starting the kernel lines";
-    case Pass::pixels: return "starting the kernel pixels";
-    case Pass::input: return "starting the kernel input";
-    case Pass::bloom: return "starting the kernel bloom";
-    case Pass::flying: return "starting the kernel flying";
-    case Pass::filter: return "starting the kernel filter";
-    case Pass::bounces: return "starting the kernel bounces";
-    case Pass::path_error: return "starting the kernel path_error";
-    case Pass::path_noise: return "starting the kernel path_noise";
-    case Pass::smooth: return "starting the kernel smooth";
-    case Pass::sum: return "starting the kernel sum";
-    case Pass::transient: return "starting the kernel transient";
-    case Pass::scatter_rows: return "starting the kernel scatter_rows";
-    case Pass::scatter_columns: return "starting the kernel scatter_columns";
-    case Pass::settle: break;
-  }
-  return "starting the kernel settle";
-}
 
 /// The input's arrays, packed.
 pipeline::Input packed(Packer& packer, const pipeline::Setup& setup, const pipeline::Input& from) {
@@ -205,10 +185,15 @@ bool Lane::add(const pipeline::Setup& setup, std::uint64_t index) {
   return true;
 }
 
+void Lane::start(const Launch& launch) const {
+  const Status status = device_.runtime().launch(launch, stream_.get());
+  if (status != 0) device_.check(status, (std::string("starting the kernel ") + pipeline::name_of(launch.pass)).c_str());
+}
+
 /// Copies in, runs the kernels.
 void Lane::launch_all() {
   Runtime& runtime = device_.runtime();
-  Launch launch{Pass::pixels, block_size_, &common_, {}, given_};
+  Launch launch{pipeline::pass<pipeline::FromRays>, block_size_, &common_, {}, given_};
   launch.batch.numbers = reinterpret_cast<const FrameNumber*>(input_memory());
   launch.batch.own = own_ != Own::number ? reinterpret_cast<const FrameArguments*>(input_memory() + arguments_at_) : nullptr;
   launch.batch.stride = static_cast<std::int64_t>(slab_.bytes());
@@ -216,8 +201,8 @@ void Lane::launch_all() {
   launch.batch.derive = derive_for(own_);
   device_.check(runtime.copy(input_memory(), staged(), used_, Way::to_device, stream_.get()), "copying a frame's settings to the GPU");
   if (derives_ && given_.entry == Stage::trace) {
-    launch.pass = Pass::derive;
-    device_.check(runtime.launch(launch, stream_.get()), starting(Pass::derive));
+    launch.pass = pipeline::pass<pipeline::DeriveScene>;
+    start(launch);
   }
   const bool known = light_is_known();
   if (!known) light_of_ = {};  // until all of it is there
@@ -229,7 +214,7 @@ void Lane::launch_all() {
     launch.input = step.part == pipeline::Part::collect ? collected : given_;
     // Frames that differ by their number alone share their light.
     launch.batch.frames = pipeline::gathers(step.part) && own_ == Own::number ? 1 : frames();
-    device_.check(runtime.launch(launch, stream_.get()), starting(step.pass));
+    start(launch);
   });
 }
 

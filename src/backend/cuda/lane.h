@@ -68,6 +68,7 @@ class Lane {
   void reserve_light(std::size_t bytes);
   void reserve_output();
   void take_step(const pipeline::Step& step, FrameArguments& arguments) const;
+  void start(const Launch& launch) const;
   [[nodiscard]] bool light_is_known() const { return light_of_.known && light_of_ == light_origin_; }
   void write_arguments(const pipeline::Setup& setup, FrameArguments& out) const;
   void place(void* base);

@@ -2,14 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include "backend/cuda/arguments.h"
-#include "pipeline/bounce.h"
-#include "pipeline/passes.h"
-#include "pipeline/path_noise.h"
-#include "pipeline/scatter.h"
-#include "pipeline/smooth.h"
-#include "pipeline/steps.h"
+#include "pipeline/pass/list.h"
+#include "pipeline/plan.h"
 #include "pipeline/tile.h"
-#include "pipeline/transient.h"
 
 /// What one thread of the GPU does: the pipeline's own functions for one pixel, on plain floats. Compiled for the host, too, where a
 /// stand-in for the CUDA runtime runs it (tests/backend).
@@ -184,28 +179,20 @@ TOFRAY_FN void run_derive(const Setup& s, scene::Derive what, int unit) {
 }
 
 /// How much there is to do in a pass over images: its pixels; or the sensor's lines in all raw frames.
-TOFRAY_FN int units_of(Pass pass, const Setup& s) { return pass == Pass::lines ? raw::line_draws(s.sensor) : s.lens.width * s.lens.height; }
+template <class P>
+TOFRAY_FN int units_of(const Setup& s) {
+  return P::over == pipeline::Over::raw_frames ? raw::line_draws(s.sensor) : s.lens.width * s.lens.height;
+}
 
-/// What came from elsewhere to depth, and the passes over images: unit number `index` of one.
-/// @param item  which kernel of the lens, which sample within the pixels
-TOFRAY_FN void run_pass(Pass pass, int item, const Setup& s, const Job& job, const pipeline::Input& input, int index) {
-  if (index >= units_of(pass, s)) return;
-  if (pass == Pass::lines)
-    return raw::draw_line(s.sensor, raw::FrameIndex{job.index_low, job.index_high}, index, pipeline::line_normals_in(s, job));
-  const Pixels p{index, 1};
-  const int x = index % s.lens.width, y = index / s.lens.width;
-  if (pass == Pass::input) pipeline::enter<float>(s, job, input, p);
-  if (pass == Pass::bounces) pipeline::bounce_pixels<float>(s, job, item, p);
-  if (pass == Pass::path_error) pipeline::store_path_error<float>(s, job.light, item, p);
-  if (pass == Pass::path_noise) pipeline::store_path_noise<float>(s, job.light, item, p);
-  if (pass == Pass::smooth) pipeline::smooth_light<float>(s, job.light, p);
-  if (pass == Pass::sum) pipeline::sum_light<float>(s, job.light, p);
-  if (pass == Pass::transient) pipeline::find_transient<float>(s, job, p);
-  if (pass == Pass::bloom) pipeline::bloom_pixel(s, job, x, y);
-  if (pass == Pass::flying) pipeline::flag_flying_pixel(s, job, x, y);
-  if (pass == Pass::filter) pipeline::filter_pixel(s, job, x, y);
-  if (pass == Pass::settle) pipeline::settle<float>(s, job, p, item);
-  if (pass == Pass::scatter_rows || pass == Pass::scatter_columns) pipeline::scatter<float>(s, job, pass, item, {x, y, 1});
+/// Unit number `index` of a pass over images.
+template <class P>
+TOFRAY_FN void run_unit(const pipeline::PassWork& work, int index) {
+  if (index >= units_of<P>(work.s)) return;
+  if constexpr (P::over == pipeline::Over::raw_frames) {
+    P::line(work, index);
+  } else {
+    P::template pixels<float>(work, Pixels{index, 1});
+  }
 }
 
 /// The same array of a frame `bytes` further on.

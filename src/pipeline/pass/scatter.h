@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include "pipeline/gather.h"
+#include "pipeline/pass/pass.h"
 
 /// Light that lens and filter scatter over the sensor, and what neighbours then collect of it, as passes over the light image.
 ///                                                                                                     [theory: eq. 7.4, 3.27]
@@ -55,31 +56,49 @@ TOFRAY_FN void scatter_column(const camera::ScatterView& s, int item, int width,
   num::store(to + at, sum, p.count);
 }
 
-/// Part of a row, of all planes of the image.
-/// @param item  which of the lens's kernels
-template <class F>
-TOFRAY_FN void scatter(const Setup& s, const Job& job, Pass pass, int item, const RowPart& p) {
-  const int width = s.lens.width, height = s.lens.height;
-  const std::int64_t pixels = std::int64_t{width} * height;
-  const int planes = job.light.times * light_planes(s, job.light.times);
-  for (int i = 0; i < planes; ++i) {
-    const bool anew = item > 0 && s.scatter.is_sharing(item);
-    const float* const from = (anew ? job.light.scattered : job.light.values) + i * pixels;
-    float *const rows = job.light.rows + i * pixels, *const to = job.light.scattered + i * pixels;
-    if (pass == Pass::scatter_rows) {
-      scatter_row<F>(s.scatter.term[item], width, p, from, rows);
-    } else {
-      scatter_column<F>(s.scatter, item, width, height, p, from, rows, to);
-    }
-  }
+/// Calls plane(from, rows, to) for each plane of the image, with what is scattered, what is scattered along rows alone, and all of it.
+template <class Plane>
+TOFRAY_FN void each_scattered_plane(const PassWork& w, const Plane& plane) {
+  const flow::LightImage& image = w.job.light;
+  const std::int64_t pixels = std::int64_t{w.s.lens.width} * w.s.lens.height;
+  const int planes = image.times * light_planes(w.s, image.times);
+  const bool anew = w.item > 0 && w.s.scatter.is_sharing(w.item);
+  for (int i = 0; i < planes; ++i)
+    plane((anew ? image.scattered : image.values) + i * pixels, image.rows + i * pixels, image.scattered + i * pixels);
 }
 
-/// … and of a band of rows.
-template <class F>
-TOFRAY_FN void scatter_rows(const Setup& s, const Job& job, Pass pass, int item, int y) {
-  for (int x = 0; x < s.lens.width; x += num::lanes<F>) {
-    scatter<F>(s, job, pass, item, {x, y, s.lens.width - x < num::lanes<F> ? s.lens.width - x : num::lanes<F>});
+/// The light image along rows.
+struct ScatterRows {
+  static constexpr const char* name = "scatter_rows";
+  static constexpr const char* does = "scattered light along rows";
+  static constexpr Over over = Over::rows;
+  static constexpr int most_threads = most_block_threads;
+
+  template <class F>
+  TOFRAY_FN static void pixels(const PassWork& w, const Pixels& p) {
+    const int width = w.s.lens.width;
+    const RowPart part{p.index % width, p.index / width, p.count};
+    each_scattered_plane(
+        w, [&](const float* from, float* rows, float*)
+               __attribute__((always_inline)) { scatter_row<F>(w.s.scatter.term[w.item], width, part, from, rows); });
   }
-}
+};
+
+/// … and along columns; a kernel that is not separable: both at once.
+struct ScatterColumns {
+  static constexpr const char* name = "scatter_columns";
+  static constexpr const char* does = "scattered light along columns, or both at once";
+  static constexpr Over over = Over::rows;
+  static constexpr int most_threads = most_block_threads;
+
+  template <class F>
+  TOFRAY_FN static void pixels(const PassWork& w, const Pixels& p) {
+    const int width = w.s.lens.width;
+    const RowPart part{p.index % width, p.index / width, p.count};
+    each_scattered_plane(
+        w, [&](const float* from, float* rows, float* to)
+               __attribute__((always_inline)) { scatter_column<F>(w.s.scatter, w.item, width, w.s.lens.height, part, from, rows, to); });
+  }
+};
 
 }  // namespace tofray::pipeline

@@ -3,6 +3,7 @@
 #pragma once
 #include "pipeline/alike.h"
 #include "pipeline/gather.h"
+#include "pipeline/pass/pass.h"
 
 /// Light that bounces, smoothed over neighbours that see the same surface. Direct light never is.          [theory: eq. 7.15]
 namespace tofray::pipeline {
@@ -61,5 +62,17 @@ TOFRAY_FN void smooth_light(const Setup& s, const flow::LightImage& image, const
   for (int j = 0; j < s.decoder.modulations; ++j)
     num::store(image.smoothed_noise + j * pixels + p.index, weighted_sum(image.noise + j * pixels, at, weight, true), p.count);
 }
+
+struct Smooth {
+  static constexpr const char* name = "smooth";
+  static constexpr const char* does = "bounced light smoothed over neighbours alike";
+  static constexpr Over over = Over::tiles;
+  static constexpr int most_threads = most_block_threads;
+
+  template <class F>
+  TOFRAY_FN static void pixels(const PassWork& w, const Pixels& p) {
+    smooth_light<F>(w.s, w.job.light, p);
+  }
+};
 
 }  // namespace tofray::pipeline

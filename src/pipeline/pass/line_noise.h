@@ -1,0 +1,31 @@
+// SPDX-FileCopyrightText: 2026 The tofray authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "pipeline/pass/pass.h"
+#include "raw/line_noise.h"
+
+namespace tofray::pipeline {
+
+/// Draws of the sensor's columns and rows, for all pixels of each.                                      [theory: eq. 3.15]
+struct LineNoise {
+  static constexpr const char* name = "line_noise";
+  static constexpr const char* does = "noise of the sensor's columns and rows";
+  static constexpr Over over = Over::raw_frames;
+  static constexpr int most_threads = most_block_threads;
+
+  TOFRAY_FN static raw::FrameIndex frame_of(const PassWork& w) { return {w.job.index_low, w.job.index_high}; }
+  /// All lines of raw frame k.
+  template <class F>
+  TOFRAY_FN static void raw_frame(const PassWork& w, int k) {
+    const camera::SensorView& sensor = w.s.sensor;
+    float* const normals = line_normals_in(w.s, w.job);
+    raw::draw_all_lines<F>(sensor, k, frame_of(w), camera::of_column, sensor.width, normals);
+    raw::draw_all_lines<F>(sensor, k, frame_of(w), camera::of_row, sensor.height, normals);
+  }
+  /// One line of one raw frame.
+  TOFRAY_FN static void line(const PassWork& w, int number) {
+    raw::draw_line(w.s.sensor, frame_of(w), number, line_normals_in(w.s, w.job));
+  }
+};
+
+}  // namespace tofray::pipeline

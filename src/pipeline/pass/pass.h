@@ -1,0 +1,43 @@
+// SPDX-FileCopyrightText: 2026 The tofray authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "pipeline/setup.h"
+
+/// What can be done to a frame, one after the other, each over all its pixels before the next begins. A pass is a type in one
+/// file of this folder, which list.h names:
+///
+///     P::name            as plans, profilers and errors of a GPU say it
+///     P::does            … and what it does, for people
+///     P::over            what a worker of the processor takes at once
+///     P::most_threads    of a block of a GPU: fewer where the kernel takes more registers than a block of the largest size has for each
+///     P::pixels<F>(w, p) the pass for some pixels side by side, on any machine
+///     P::row<F>(w, y)    … for a row of the image, where packs side by side are not all that there is to it
+///     P::rays(s, item)   rays that each pixel sends, for the progress of a frame, where it is not one
+///
+/// The order in which a frame takes them is plan.h.
+namespace tofray::pipeline {
+
+struct Input;
+
+/// What a worker of the processor takes at once.
+enum class Over {
+  scene,       ///< (a GPU alone has this pass)
+  tiles,       ///< of the image, in packs of pixels side by side
+  rows,        ///< a band of the image's rows
+  raw_frames,  ///< one of them
+};
+
+constexpr int most_block_threads = 1024;  ///< of any block of a GPU
+constexpr int heavy_block_threads = 256;  ///< … of a kernel that takes more registers than such a block has for each
+
+constexpr std::int32_t of_filter = 1;  ///< `item` of the pass WriteDepth: it takes what the filter left
+
+/// What a pass does, and with what.
+struct PassWork {
+  const Setup& s;
+  const Job& job;
+  const Input* input;  ///< what came from elsewhere, or is in the light image
+  std::int32_t item;   ///< which sample of the pixel, which kernel of the lens, which round of paths, whether the range is a filter's
+};
+
+}  // namespace tofray::pipeline

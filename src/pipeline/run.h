@@ -1,0 +1,116 @@
+// SPDX-FileCopyrightText: 2026 The tofray authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "camera/ray.h"
+#include "pipeline/collect.h"
+#include "pipeline/find_depth.h"
+#include "pipeline/gather.h"
+
+/// The order in which a pixel's stages are computed:
+///
+///     ray → nearest surface → light that reaches it → raw frames → depth
+///
+/// or, where a pixel's light is a sum, up to the light image and on from there: which passes a frame takes is plan.h.
+///
+/// It is the same for scenes that stand still and scenes that move, for a tile of pixels and for one, on every machine, and for who enters
+/// later with arrays of their own. What differs is a `Walk`, which knows which pixels there are and finds their light:
+///
+///     moments()                     times at which the scene is looked at: 1, or as many for each raw frame
+///     go_to(now)                    what can be seen, and what can throw a shadow, at one of them
+///     packs(), pixels(q)            the pixels, in packs that are computed at once
+///     ahead(q)                      those that come after pack q, whose memory may be fetched meanwhile; count 0: none
+///     pack(q)                       what a pack keeps from one moment to the next
+///     blurs, mean(q)                whether an exposure may see the scene at several times, and where the mean of their light is kept
+///     written_out                   whether stages 3 and 4 are to be a part of the walk's own code, as fast as can be, or shared with others
+///     find_light(now, q, …)         stages 1 and 2 for one pack; false: the light of the moment before is still good
+namespace tofray::pipeline {
+
+/// Some pixels, and how the camera looks at them.
+template <class F>
+struct View {
+  Pixels p;
+  flow::Ray<F> ray;
+  F vignetting;
+};
+
+/// Whether the light of a moment is asked for: without raw frames, that of the ground truth alone.
+TOFRAY_FN bool is_wanted(const Setup& s, const Job& job, const Moment& now) {
+  return s.last_stage >= Stage::raw || now.truth || job.out.gt_phase_flow_px != nullptr;
+}
+
+/// Whether the light of a raw frame is the mean of several moments', of which this is one.
+template <class Walk>
+TOFRAY_FN bool is_averaged(const Moment& now) {
+  return Walk::blurs && now.samples > 1;
+}
+
+/// Stages 1 and 2, the pixels' own delay, and the mean over an exposure.
+/// @return whether raw frames are asked for, and their light is complete
+template <class F, class Walk>
+TOFRAY_FN bool find_light(const Setup& s, const Job& job, Walk& walk, const Moment& now, int q, const View<F>& view, Pack<F>& pack) {
+  const bool anew = walk.find_light(now, q, view.p, view.ray, view.vignetting, pack);
+  if (now.truth && job.gather.middle != nullptr)
+    compare_sample<F>(s, job.light, job.gather.middle, view.p, job.gather.share, job.gather.first != 0);
+  if (s.last_stage < Stage::raw) return false;
+  if (anew && s.sensor.delay != nullptr && job.gather.on == 0)
+    power::delay_by(s.phasors, wanted(s, now, pack.undisturbed), s.sensor, view.p, pack.light);
+  if (!is_averaged<Walk>(now)) return true;
+  power::blend(s.phasors, wanted(s, now, false), pack.light, now.sample, now.samples, walk.mean(q));
+  return now.sample + 1 == now.samples;
+}
+
+/// What a sample within the pixels adds to the light image, or all of them at once.
+template <class F>
+TOFRAY_FN void gather(const Setup& s, const Job& job, int time, const Pixels& p, const flow::Light<F>& light) {
+  const num::Mask<F> every = F(0.0f) < F(1.0f);
+  gather_light<F>(s, {job.light.before, job.light.values}, p, job.light.times, time, light,
+                  {job.gather.share, job.gather.first != 0, 1.0f, every});
+}
+
+/// Stages 3 and 4: raw frames of the moment, and depth after the last of them.
+template <class F, class Walk>
+TOFRAY_FN void expose(const Setup& s, const Job& job, Walk& walk, const Moment& now, int q, const View<F>& view,
+                      const flow::Light<F>& light, Pack<F>& pack) {
+  const Pixels next = walk.ahead(q);
+  if constexpr (Walk::written_out) {
+    collect(s, job, view.p, next, now, light, pack);
+  } else {
+    collect_noinline(s, job, view.p, next, now, light, pack);
+  }
+  if (now.last < s.sensor.raw_frames || s.last_stage < Stage::depth) return;
+  fetch_depth<F>(job.out, next);
+  store_overflow(s, job, view.p, pack.exposure);
+  const num::Mask<F> clipped = raw::saturated(s.sensor, pack.exposure);
+  if constexpr (Walk::written_out) {
+    find_depth<F>(s, job, view.p, view.ray, pack.difference, clipped, view.vignetting);
+  } else {
+    find_depth_noinline<F>(s, job, view.p, view.ray, pack.difference, clipped, view.vignetting);
+  }
+}
+
+/// From rays to depth.
+template <class F, class Walk>
+TOFRAY_FN void run_pipeline(const Setup& s, const Job& job, Walk& walk) {
+  const int moments = walk.moments();
+  for (int moment = 0; moment < moments; ++moment) {
+    const Moment now = moment_of(s, moment, moments);
+    if (!is_wanted(s, job, now)) continue;
+    walk.go_to(now);
+    for (int q = 0; q < walk.packs(); ++q) {
+      const Pixels p = walk.pixels(q);
+      if (p.count == 0) continue;
+      Pack<F>& pack = walk.pack(q);
+      const View<F> view{p, camera::ray<F>(s.lens, p), camera::vignetting<F>(s.lens, p)};
+      if (moment == 0 || s.last_stage < Stage::raw) begin(s, job, p, pack);
+      if (!find_light(s, job, walk, now, q, view, pack)) continue;  // stages 1 and 2
+      const flow::Light<F>& light = is_averaged<Walk>(now) ? walk.mean(q) : pack.light;
+      if (job.gather.on != 0) {
+        gather<F>(s, job, moments == 1 ? 0 : now.first, p, light);
+      } else {
+        expose(s, job, walk, now, q, view, light, pack);  // stages 3 and 4
+      }
+    }
+  }
+}
+
+}  // namespace tofray::pipeline
