@@ -101,9 +101,11 @@ TEST(summary, shows_samples_and_says_how_to_make_them_again) {
   EXPECT_FALSE(has(page, "://") || has(page, "<script")) << "nothing from elsewhere";
   // The worst sample is first of its part.
   std::uint64_t worst = 0, fewest = UINT64_MAX;
-  for (std::uint64_t shard = 0; shard < 8; ++shard)
-    for (const auto& one : shards::read_record(set.out(), shard)->samples)
+  for (std::uint64_t shard = 0; shard < 8; ++shard) {
+    const auto record = shards::read_record(set.out(), shard);
+    for (const auto& one : record->samples)
       if (one.valid < fewest) worst = one.sample, fewest = one.valid;
+  }
   const std::string part = page.substr(page.find("Fewest valid pixels"));
   EXPECT_EQ(part.find("depth of sample " + std::to_string(worst) + "\""), part.find("depth of sample "));
   EXPECT_TRUE(has(part, "tofray dataset scene set.yaml " + std::to_string(worst)));
