@@ -1,12 +1,15 @@
 // SPDX-FileCopyrightText: 2026 The tofray authors
 // SPDX-License-Identifier: Apache-2.0
 // The pictures of docs/viewer.md, from the viewer itself, viewer.png, viewer_ab.png, viewer_why.png, viewer_3d.png,
-// viewer_measure.png, viewer_along.png, viewer_files.png and viewer_file.png:
+// viewer_measure.png, viewer_along.png, viewer_files.png and viewer_file.png, and those of docs/bent-corner.md, bent_….png, by its own steps:
 //   TOFRAY=build/release/apps/tofray/tofray TOFRAY_PAGE_PACKAGES=build/release/viewer node tools/viewer_picture.mjs docs/images
+// (One of them alone: node --test-name-pattern=tutorial tools/viewer_picture.mjs docs/images)
 
 import { mkdtempSync } from "node:fs";
 import { tmpdir } from "node:os";
-import { join } from "node:path";
+import { dirname, join } from "node:path";
+import { fileURLToPath } from "node:url";
+import { follow } from "../tests/browser/tutorial.mjs";
 import { beside, drawn, find, open, point_at, set, settled, shown, stand_at, test, told, view } from "../tests/browser/viewer.mjs";
 
 const [out] = process.argv.slice(2);
@@ -139,4 +142,9 @@ test("a distance and a rectangle", async () => {
   await page.locator("[data-region]").waitFor();
   await point_at(tab, 60, 160);
   await take(tab, "viewer_measure.png");
+});
+
+test("the tutorial on a corner that bends", async () => {
+  const page = join(dirname(fileURLToPath(import.meta.url)), "../docs/bent-corner.md");
+  await follow(page, { picture: take, viewport: { width: 1280, height: 760 }, colorScheme: "light", reducedMotion: "reduce" });
 });

@@ -65,6 +65,11 @@ class Reader {
     return std::move(out_);
   }
 
+  void read(const Part& part) {
+    out_.channels = part.channels, out_.bytes = part.first;
+    while (out_.bytes <= part.last && next_record()) {}
+  }
+
  private:
   [[noreturn]] void damaged(const std::string& what, std::uint64_t at, const std::string& more) const {
     throw Error(ErrorKind::bad_input, fmt::format("{}: error: {} at byte {} is damaged\n  {}", where_, what, at, more));
@@ -119,7 +124,7 @@ class Reader {
       if (!from.good()) return;
       const auto channel = out_.channels.find(id);
       if (channel == out_.channels.end()) damaged("a message", at, fmt::format("it is of channel {}, which was not told before", id));
-      if (reading_.message) reading_.message({channel->second, sequence, log_ns, publish_ns, from.rest()});
+      if (reading_.message) reading_.message({channel->second, sequence, log_ns, publish_ns, from.rest(), at});
     }
     // message indexes, and records of newer versions
   }
@@ -210,5 +215,9 @@ class Reader {
 std::unique_ptr<Source> open_file(const std::string& path) { return std::make_unique<FileSource>(path); }
 
 Ended read(Source& file, const std::string& where, const Reading& reading) { return Reader(file, where, reading).read(); }
+
+void read_part(Source& file, const std::string& where, const Reading& reading, const Part& part) {
+  Reader(file, where, reading).read(part);
+}
 
 }  // namespace tofray::mcap

@@ -52,6 +52,7 @@ struct SeenMessage {
   std::uint32_t sequence;
   std::uint64_t log_ns, publish_ns;
   std::string_view data;
+  std::uint64_t at;  ///< where its record, or the chunk that has it, begins in the file
 };
 
 /// Whoever wants to know what is in the file; good until the call returns. All may be left empty.
@@ -74,5 +75,13 @@ struct Ended {
 /// @param where  the file, for messages
 /// @throws Error (bad_input) where it is no MCAP file, where a sum shows damage, where a chunk is packed by what is not read; (limit)
 Ended read(Source& file, const std::string& where, const Reading& reading);
+
+/// The records that begin from `first` to `last`, both places that a message of that file said it is `at`.
+struct Part {
+  std::uint64_t first, last;
+  const std::map<std::uint16_t, Channel>& channels;  ///< of the whole file
+};
+/// @throws Error as read()
+void read_part(Source& file, const std::string& where, const Reading& reading, const Part& part);
 
 }  // namespace tofray::mcap

@@ -63,25 +63,35 @@ struct RawImage {
 struct RawFrameSet {
   std::map<std::string, RawImage> images;  ///< by topic
   std::optional<files::Json> meta;
+  std::uint64_t first = 0;  ///< where the first of them is in the file
 };
+
+/// Is told of each frame that is whole. @return whether more are wanted
+using TakePlace = std::function<bool(const Film::Place&, const std::function<Recording()>& recording)>;
 
 class FilmReader {
  public:
-  FilmReader(std::string where, const std::function<bool(std::uint64_t, const Recording&)>& take)
-      : where_(std::move(where)), shown_(base::printable(where_)), take_(take) {}
-
-  FilmRead read(mcap::Source& source) {
-    mcap::Reading reading;
-    reading.metadata = [&](std::string_view name, const mcap::Pairs& pairs) {
+  /// @param meta  of the film, where it was read before
+  FilmReader(std::string where, TakePlace take, std::string meta = {})
+      : where_(std::move(where)), shown_(base::printable(where_)), meta_(std::move(meta)), take_(std::move(take)) {
+    reading_.metadata = [&](std::string_view name, const mcap::Pairs& pairs) {
       for (const auto& [key, value] : pairs)
         if (name == "tofray" && key == "meta") meta_ = value;
     };
-    reading.message = [&](const mcap::SeenMessage& message) {
+    reading_.message = [&](const mcap::SeenMessage& message) {
       if (wanted_) see(message);
     };
-    out_.complete = mcap::read(source, where_, reading).complete;
+  }
+
+  FilmRead read(mcap::Source& source) {
+    mcap::Ended ended = mcap::read(source, where_, reading_);
+    out_.complete = ended.complete, channels_ = std::move(ended.channels);
     return out_;
   }
+  void read(mcap::Source& source, const mcap::Part& part) { mcap::read_part(source, where_, reading_, part); }
+
+  [[nodiscard]] const std::string& meta() const { return meta_; }
+  [[nodiscard]] const std::map<std::uint16_t, mcap::Channel>& channels() const { return channels_; }
 
  private:
   [[noreturn]] void refuse(const std::string& topic, const std::string& what, const std::string& expected) const {
@@ -98,9 +108,9 @@ class FilmReader {
       CdrTake from(message.data);
       const std::string_view text = from.text();
       if (!from.good()) refuse(topic, "is not the CDR of a std_msgs/msg/String", "plain CDR, little endian");
-      RawFrameSet& set = set_of(message.log_ns);
+      RawFrameSet& set = set_of(message);
       set.meta = files::parse_json(text, shown_ + ": " + base::printable(topic));
-      complete(message.log_ns, topic);
+      complete(message, topic);
     }
   }
 
@@ -125,19 +135,22 @@ class FilmReader {
     for (std::size_t v = 0; v < image.height; ++v) image.codes.append(data.substr(v * step, 2 * image.width));
     if (big_endian)
       for (std::size_t i = 0; i + 1 < image.codes.size(); i += 2) std::swap(image.codes[i], image.codes[i + 1]);
-    set_of(message.log_ns).images[topic] = std::move(image);
-    complete(message.log_ns, topic);
+    set_of(message).images[topic] = std::move(image);
+    complete(message, topic);
   }
 
   /// Messages of a frame have one log time.
-  RawFrameSet& set_of(std::uint64_t log_ns) {
+  RawFrameSet& set_of(const mcap::SeenMessage& message) {
     constexpr std::size_t most_open = 16;  // frames that lack something do not fill the memory
-    if (!open_.contains(log_ns) && open_.size() >= most_open) open_.erase(open_.begin());
-    return open_[log_ns];
+    const bool known = open_.contains(message.log_ns);
+    if (!known && open_.size() >= most_open) open_.erase(open_.begin());
+    RawFrameSet& set = open_[message.log_ns];
+    if (!known) set.first = message.at;
+    return set;
   }
 
-  void complete(std::uint64_t log_ns, const std::string& topic) {
-    const RawFrameSet& set = open_[log_ns];
+  void complete(const mcap::SeenMessage& message, const std::string& topic) {
+    const RawFrameSet& set = open_[message.log_ns];
     if (!set.meta) return;
     const files::Json* topics = set.meta->find("topics");
     const files::Json::Array* names = topics == nullptr ? nullptr : topics->items();
@@ -145,12 +158,11 @@ class FilmReader {
       refuse(topic, "does not say which topics have the raw frames", "\"topics\": a list of them");
     for (const files::Json& name : *names)
       if (!name.is_string() || !set.images.contains(*name.string())) return;  // it is still to come
-    const Recording recording = recording_of(set, *names, topic);
     std::uint64_t index = out_.frames;
     if (const files::Json* said = set.meta->find("frame"); said != nullptr) said->unsigned_integer(index);
-    open_.erase(log_ns);
     ++out_.frames;
-    wanted_ = take_(index, recording);
+    wanted_ = take_({index, message.log_ns, set.first, message.at}, [&] { return recording_of(set, *names, topic); });
+    open_.erase(message.log_ns);
   }
 
   /// As a file of its own; what is wrong with the numbers is said by whoever reads it.
@@ -188,7 +200,9 @@ class FilmReader {
   }
 
   std::string where_, shown_, meta_;
-  const std::function<bool(std::uint64_t, const Recording&)>& take_;
+  TakePlace take_;
+  mcap::Reading reading_;
+  std::map<std::uint16_t, mcap::Channel> channels_;
   std::map<std::uint64_t, RawFrameSet> open_;
   FilmRead out_;
   bool wanted_ = true;
@@ -199,7 +213,41 @@ class FilmReader {
 bool is_film(const std::string& path) { return path.ends_with(".mcap"); }
 
 FilmRead read_film(mcap::Source& source, const std::string& where, const std::function<bool(std::uint64_t, const Recording&)>& take) {
-  return FilmReader(where, take).read(source);
+  return FilmReader(where,
+                    [&](const Film::Place& place, const std::function<Recording()>& recording) { return take(place.index, recording()); })
+      .read(source);
+}
+
+void refuse_film_without_raw(const std::string& path) {
+  throw Error(ErrorKind::bad_input, base::printable(path) +
+                                        ": error: there are no raw frames in it\n  expected the topics raw/p0, … and raw/meta of "
+                                        "`tofray render --emit mcap`, which --topics may leave out");
+}
+
+Film::Film(std::string path, std::unique_ptr<mcap::Source> source) : path_(std::move(path)), source_(std::move(source)) {
+  FilmReader reader(path_, [&](const Place& place, const std::function<Recording()>&) {
+    places_.push_back(place);
+    return true;
+  });
+  complete_ = reader.read(*source_).complete;
+  meta_ = reader.meta(), channels_ = reader.channels();
+  if (places_.empty()) refuse_film_without_raw(path_);
+}
+
+Recording Film::frame(std::uint64_t number) const {
+  const Place& wanted = places_[number];
+  std::optional<Recording> found;
+  FilmReader reader(
+      path_,
+      [&](const Place& place, const std::function<Recording()>& recording) {
+        if (place.log_ns == wanted.log_ns) found = recording();
+        return !found;
+      },
+      meta_);
+  reader.read(*source_, {wanted.first, wanted.last, channels_});
+  if (!found)
+    throw Error(ErrorKind::bad_input, base::printable(path_) + ": error: the file has changed since it was opened\n  open it again");
+  return std::move(*found);
 }
 
 }  // namespace tofray::run

@@ -32,7 +32,7 @@ function is_program(path) {
 /** The tofray under test, and the folder whose node_modules came with its page. */
 const { TOFRAY: tofray, TOFRAY_PAGE_PACKAGES: packages } = process.env;
 if (tofray === undefined || packages === undefined) throw new Error("TOFRAY and TOFRAY_PAGE_PACKAGES say what is tested: ctest -L browser sets both");
-const chromium = (process.env.PATH ?? "").split(delimiter).flatMap((folder) => ["chromium", "chromium-browser"].map((name) => join(folder, name))).find(is_program);
+export const chromium = (process.env.PATH ?? "").split(delimiter).flatMap((folder) => ["chromium", "chromium-browser"].map((name) => join(folder, name))).find(is_program);
 if (chromium === undefined) skip("there is no chromium here, in which the viewer's page is looked at (Debian: chromium)");
 const require = createRequire(resolve(packages, "package.json"));
 export const axe_source = readFileSync(require.resolve("axe-core/axe.min.js"), "utf8");
@@ -49,12 +49,11 @@ const launch = (args) => require("playwright-core").chromium.launch({
   executablePath: chromium,
   args: ["--no-sandbox", "--disable-dev-shm-usage", "--force-device-scale-factor=1", `--disable-features=${features_off}`, ...args],
 });
-const browser = await launch(["--disable-gpu", "--disable-software-rasterizer"]);
-let drawing;   // with WebGL, by the processor; launched when it is needed first
-const browser_with_webgl = () => (drawing ??= launch(["--use-angle=swiftshader", "--enable-unsafe-swiftshader"]));
+const browsers = {};   // launched when they are needed first; with WebGL the processor draws
+const browser = () => (browsers.without ??= launch(["--disable-gpu", "--disable-software-rasterizer"]));
+const browser_with_webgl = () => (browsers.with ??= launch(["--use-angle=swiftshader", "--enable-unsafe-swiftshader"]));
 after(async () => {
-  await browser.close();
-  await (await drawing)?.close();
+  for (const one of Object.values(browsers)) await (await one).close();
   for (const one of running) one.kill("SIGKILL");
   rmSync(folder, { recursive: true, force: true });
 });
@@ -154,7 +153,7 @@ export async function until(come, what) {
  *  @param webgl   whether this browser has it
  *  @return  the page, and what has happened in it so far */
 export async function open(url, { before, webgl = false, ...options } = {}) {
-  const context = await (webgl ? await browser_with_webgl() : browser).newContext({ viewport: { width: 1280, height: 900 }, permissions: ["clipboard-read", "clipboard-write"], ...options });
+  const context = await (webgl ? await browser_with_webgl() : await browser()).newContext({ viewport: { width: 1280, height: 900 }, permissions: ["clipboard-read", "clipboard-write"], ...options });
   of_test?.push(() => context.close());
   const page = await context.newPage();
   await before?.(page);

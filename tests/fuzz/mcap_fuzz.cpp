@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <string_view>
 
@@ -56,6 +57,10 @@ void read(std::string_view file) {
       (void)tofray::run::recorded_frame(one, camera, noise);
       return true;
     });
+  });
+  try_out([&] {
+    const tofray::run::Film film("fuzz.mcap", std::make_unique<tofray::mcap::MemorySource>(file));
+    for (std::uint64_t i = 0; i < film.count() && i < 4; ++i) (void)film.frame(i);
   });
 }
 

@@ -318,7 +318,7 @@ TEST(recorded, frames_become_a_page_in_a_file) {
   ASSERT_EQ(made.code, 0) << made.err;
   EXPECT_TRUE(has(made.err, "a.html: 3 frames in a page of ")) << made.err;
   const Result beyond = run({"view", "out", "--export", "a.html", "--frames", "5"}, in_folder(rendered.folder.path()));
-  EXPECT_TRUE(has(beyond.err, "frames 0 to 4 were asked for, and there are files for 0 to 2")) << beyond.err;
+  EXPECT_TRUE(has(beyond.err, "frames 0 to 4 were asked for, and there are those from 0 to 2")) << beyond.err;
 }
 
 }  // namespace

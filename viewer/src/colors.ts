@@ -9,18 +9,33 @@ export const no_bit: Rgb = [244, 244, 241];
 
 export type Color = (value: number) => Rgb;
 
-/** Between the two stops beside t, in doubles, rounded as the server's own pictures are. */
-function of_table(table: readonly Rgb[], t: number): Rgb {
-  const last = table.length - 1;
-  if (!(t > 0)) return table[0]!;
-  if (t >= 1) return table[last]!;
-  const at = t * last;
-  const i = Math.floor(at);
-  const a = table[i]!;
-  const b = table[i + 1]!;
+/** A palette's stops, one after the other: numbers alone, so that a picture's hundred thousands of colours take no memory of their own. */
+const flat_tables = new WeakMap<readonly Rgb[], Float64Array>();
+
+function flat(table: readonly Rgb[]): Float64Array {
+  const before = flat_tables.get(table);
+  if (before !== undefined) return before;
+  const stops = Float64Array.from(table.flat());
+  flat_tables.set(table, stops);
+  return stops;
+}
+
+/** Between the two stops beside t, in doubles, rounded as the server's own pictures are. @return  0xBBGGRR */
+function mixed(stops: Float64Array, t: number): number {
+  const last = stops.length / 3 - 1;
+  const at = t > 0 ? Math.min(1, t) * last : 0;
+  const i = Math.min(last, Math.floor(at));
+  const a = 3 * i;
+  const b = 3 * Math.min(last, i + 1);
   const share = at - i;
-  const mixed = (x: number, y: number): number => Math.floor(x + share * (y - x) + 0.5);
-  return [mixed(a[0], b[0]), mixed(a[1], b[1]), mixed(a[2], b[2])];
+  const red = Math.floor(stops[a]! + share * (stops[b]! - stops[a]!) + 0.5);
+  const green = Math.floor(stops[a + 1]! + share * (stops[b + 1]! - stops[a + 1]!) + 0.5);
+  const blue = Math.floor(stops[a + 2]! + share * (stops[b + 2]! - stops[a + 2]!) + 0.5);
+  return (blue << 16) | (green << 8) | red;
+}
+
+function packed([red, green, blue]: Rgb): number {
+  return (blue << 16) | (green << 8) | red;
 }
 
 /** Where a value stands on its scale: 0 at its low end, 1 at its high one. Clamped. */
@@ -30,18 +45,28 @@ export function place_of(value: number, scale: Scale): number {
   return Math.min(1, Math.max(0, t));
 }
 
-export function color_of(hello: Hello, scale: Scale): Color {
-  const { depth, grey, error_near, error_far } = hello.palettes;
+/** @return  0xBBGGRR of a value */
+function packed_color_of(hello: Hello, scale: Scale): (value: number) => number {
   if (scale.palette === "error") {
+    const [near, far] = [flat(hello.palettes.error_near), flat(hello.palettes.error_far)];
     return (value) => {
       const s = value / scale.high;
-      return s < 0 ? of_table(error_near, -s) : of_table(error_far, s);
+      return s < 0 ? mixed(near, -s) : mixed(far, s);
     };
   }
-  const table = scale.palette === "depth" ? depth : grey;
+  const table = flat(scale.palette === "depth" ? hello.palettes.depth : hello.palettes.grey);
+  const reverse = scale.reverse === true;
   return (value) => {
     const t = place_of(value, scale);
-    return of_table(table, scale.reverse === true ? 1 - t : t);
+    return mixed(table, reverse ? 1 - t : t);
+  };
+}
+
+export function color_of(hello: Hello, scale: Scale): Color {
+  const of = packed_color_of(hello, scale);
+  return (value) => {
+    const color = of(value);
+    return [color & 255, (color >> 8) & 255, color >> 16];
   };
 }
 
@@ -50,66 +75,63 @@ export function reason_of(hello: Hello, flags: number): Reason | undefined {
   return hello.invalid.find((reason) => ((flags >>> reason.bit) & 1) !== 0);
 }
 
-const whole_numbers = new WeakMap<Scale, Map<Hello["palettes"], Uint8Array>>();
+const opaque = 255 << 24;
+const whole_numbers = new WeakMap<Scale, Map<Hello["palettes"], Int32Array>>();
 
-/** The colours of 0 … 65535, each worked out when it is needed first: RGB and whether it is known. */
-function table_of(hello: Hello, scale: Scale): Uint8Array {
-  const of_scale = whole_numbers.get(scale) ?? new Map<Hello["palettes"], Uint8Array>();
+/** The colours of 0 … 65535, each worked out when it is needed first; 0: it is not known yet. */
+function table_of(hello: Hello, scale: Scale): Int32Array {
+  const of_scale = whole_numbers.get(scale) ?? new Map<Hello["palettes"], Int32Array>();
   whole_numbers.set(scale, of_scale);
-  const table = of_scale.get(hello.palettes) ?? new Uint8Array(4 * 65536);
+  const table = of_scale.get(hello.palettes) ?? new Int32Array(65536);
   of_scale.set(hello.palettes, table);
   return table;
 }
 
-function paint_whole_numbers(pixels: Uint8ClampedArray, hello: Hello, values: Uint8Array | Uint16Array, scale: Scale): void {
+function paint_whole_numbers(pixels: Int32Array, hello: Hello, values: Uint8Array | Uint16Array, scale: Scale): void {
   const table = table_of(hello, scale);
-  const color = color_of(hello, scale);
+  const color = packed_color_of(hello, scale);
   for (let i = 0; i < values.length; ++i) {
-    const from = 4 * values[i]!;
-    if (table[from + 3] === 0) table.set([...color(values[i]!), 255], from);
-    const at = 4 * i;
-    pixels[at] = table[from]!;
-    pixels[at + 1] = table[from + 1]!;
-    pixels[at + 2] = table[from + 2]!;
-    pixels[at + 3] = 255;
+    const value = values[i]!;
+    pixels[i] = table[value]! || (table[value] = color(value) | opaque);
   }
 }
 
 /** Colours all pixels.
- *  @param pixels  RGBA, as ImageData has them
+ *  @param image   RGBA, as ImageData has them
  *  @param scale   undefined: the values are bits
  *  @return        how many pixels show each reason; without a reason: `undefined` */
 export function paint(
-  pixels: Uint8ClampedArray,
+  image: Uint8ClampedArray,
   hello: Hello,
   values: Numbers,
   flags: Numbers | undefined,
   scale: Scale | undefined,
 ): Map<Reason | undefined, number> {
-  const counts = new Map<Reason | undefined, number>();
+  const pixels = new Int32Array(image.buffer, image.byteOffset, values.length);   // (browsers are little endian)
   if (scale !== undefined && (values instanceof Uint16Array || values instanceof Uint8Array)) {
     paint_whole_numbers(pixels, hello, values, scale);
-    return counts;
+    return new Map();
   }
-  const color = scale === undefined ? undefined : color_of(hello, scale);
+  const reasons: readonly (Reason | undefined)[] = [...hello.invalid, undefined];
+  const none = hello.invalid.length;
+  const masks = hello.invalid.map((reason) => 1 << reason.bit);
+  const colors = reasons.map((reason) => packed(reason?.color ?? (scale === undefined ? no_bit : hello.invalid_color)) | opaque);
+  const counts = new Float64Array(reasons.length);
+  const color = scale === undefined ? undefined : packed_color_of(hello, scale);
   for (let i = 0; i < values.length; ++i) {
     const value = values[i]!;
-    let rgb: Rgb;
     if (color !== undefined && Number.isFinite(value)) {
-      rgb = color(value);
-    } else {
-      const bits = color === undefined ? value : (flags?.[i] ?? 0);
-      const reason = reason_of(hello, bits);
-      if (reason !== undefined || color !== undefined) counts.set(reason, (counts.get(reason) ?? 0) + 1);
-      rgb = reason !== undefined ? reason.color : color !== undefined ? hello.invalid_color : no_bit;
+      pixels[i] = color(value) | opaque;
+      continue;
     }
-    const at = 4 * i;
-    pixels[at] = rgb[0];
-    pixels[at + 1] = rgb[1];
-    pixels[at + 2] = rgb[2];
-    pixels[at + 3] = 255;
+    const bits = color === undefined ? value : (flags?.[i] ?? 0);
+    let at = 0;
+    while (at < none && (bits & masks[at]!) === 0) ++at;
+    pixels[i] = colors[at]!;
+    counts[at]! += 1;
   }
-  return counts;
+  if (scale === undefined) counts[none] = 0;   // a pixel without a bit is nothing to be explained
+  return new Map(reasons.map((reason, at) => [reason, counts[at]!] as const).filter(([, count]) => count > 0));
 }
 
 /** Black or white, whichever reads better on this colour (relative luminance, WCAG 2). */

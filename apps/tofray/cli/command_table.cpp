@@ -143,13 +143,14 @@ std::vector<Command> make() {
        .run = run_preview,
        .completes = "<scenes> <files>"},
       {.name = "view",
-       .usage = "[SCENE|PROFILE|FILE.npz|FOLDER] [options]",
+       .usage = "[SCENE|PROFILE|FILE.npz|FOLDER|RUN.mcap] [options]",
        .summary = "see in a browser what the camera sees, live: depth, amplitude, every value of a pixel",
        .examples = "tofray view --open                               # the demo, in your browser\n"
                    "tofray view room --bounces 2                     # prints the address to open\n"
                    "tofray view azure-kinect-nfov --rate max         # the demo seen by another camera, as fast as it is drawn\n"
                    "tofray view scene.yaml --port 0 --json           # for programs: one line with url, port and pid\n"
                    "tofray view out                                  # plays the .npz files of a folder; filters of raw ones by sliders\n"
+                   "tofray view film/run.mcap                        # plays the raw frames of a film, decoded as it goes\n"
                    "tofray view out --beside scene.yaml              # a recording beside what the simulator makes of the scene\n"
                    "tofray view demo --export demo.html --frames 5   # a page for a paper or a bug report: one file, no server\n",
        .more = "The address that it prints has a key behind #: whoever has it sees and changes this view, nobody else does. It listens on "

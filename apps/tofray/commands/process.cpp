@@ -131,13 +131,10 @@ int process_film(const Options& options) {
     result.last = validity(frame, in->camera);
     return true;
   });
+  if (!in && read.frames == 0) run::refuse_film_without_raw(path);
   if (!in)
-    throw Error(
-        ErrorKind::bad_input,
-        fmt::format("{}: error: there are no raw frames{} in it\n  {}", base::printable(path), read.frames > 0 ? " of these numbers" : "",
-                    read.frames > 0
-                        ? fmt::format("it has {} frames", read.frames)
-                        : "expected the topics raw/p0, … and raw/meta of `tofray render --emit mcap`, which --topics may leave out"));
+    throw Error(ErrorKind::bad_input, fmt::format("{}: error: there are no raw frames of these numbers in it\n  it has {} frames",
+                                                  base::printable(path), read.frames));
   if (!read.complete) remarks.tell(ends_early(path));
   say_fallback(options, result.ran_on, remarks);
   run::finish(run_request("", options), in->files, folder, left, stopwatch, result);

@@ -133,7 +133,7 @@ std::string exported_page(const State& live, const ExportRequest& request) {
   const bool drawable = why_not(state, "view3d").empty();
   if (state.recorded && request.first + request.frames > state.recorded->count())
     throw Error(ErrorKind::bad_input,
-                fmt::format("error: frames {} to {} were asked for, and there are files for 0 to {}\n  expected --first-frame and "
+                fmt::format("error: frames {} to {} were asked for, and there are those from 0 to {}\n  expected --first-frame and "
                             "--frames within these",
                             request.first, request.first + request.frames - 1, state.recorded->count() - 1));
   Contents contents;

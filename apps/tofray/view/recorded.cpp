@@ -39,10 +39,10 @@ std::vector<std::string> files_of(const std::string& path) {
   for (const std::string& name : run::names_in(path, {".npz"}, most_files)) out.push_back((fs::path(path) / name).native());
   if (!out.empty()) return out;
   const std::vector<std::string> films = run::names_in(path, {".mcap"}, most_files);
-  throw Error(ErrorKind::bad_input, base::printable(path) + ": error: the folder has no .npz files\n  " +
-                                        (films.empty() ? "`tofray render SCENE --frames 10` makes some"
-                                                       : fmt::format("`tofray process {} -o out` makes some of the film",
-                                                                     base::printable((fs::path(path) / films[0]).native()))));
+  throw Error(ErrorKind::bad_input,
+              base::printable(path) + ": error: the folder has no .npz files\n  " +
+                  (films.empty() ? "`tofray render SCENE --frames 10` makes some"
+                                 : fmt::format("`tofray view {}` plays the film", base::printable((fs::path(path) / films[0]).native()))));
 }
 
 /// Takes arrays out of a file into a frame; all images have one size.
@@ -108,6 +108,12 @@ bool has_raw_frames(const results::Arrays& arrays) {
   return arrays.find("raw") != nullptr || (arrays.find("tap_a") != nullptr && arrays.find("tap_b") != nullptr);
 }
 
+bool says_its_camera(const run::Recording& recording) {
+  if (recording.meta.empty()) return false;
+  const files::Json meta = files::parse_json(recording.meta, recording.path + ": meta");
+  return meta.is_object() && meta.find("camera") != nullptr;
+}
+
 Overrides of_camera(Overrides set) {
   for (auto& [key, text] : set)
     if (key.starts_with("camera.")) key.erase(0, 7);
@@ -117,16 +123,22 @@ Overrides of_camera(Overrides set) {
 }  // namespace
 
 bool names_recorded(const std::string& word) {
-  if (results::holds_arrays(word)) return true;
+  if (results::holds_arrays(word) || run::is_film(word)) return true;
   return run::is_folder(word) && load::find_builtin(load::builtin_scenes(), word) == nullptr &&
          load::find_builtin(load::builtin_profiles(), word) == nullptr;
 }
 
 Recorded::Recorded(std::string path, std::string camera, std::string mode, const Overrides& set)
-    : path_(std::move(path)), camera_(std::move(camera)), mode_(std::move(mode)), files_(files_of(path_)) {
+    : path_(std::move(path)), camera_(std::move(camera)), mode_(std::move(mode)) {
+  if (run::is_film(path_) && !run::is_folder(path_)) {
+    run::refuse_missing(path_);
+    film_ = std::make_unique<run::Film>(path_);
+  } else {
+    files_ = files_of(path_);
+  }
   const Read first = read(0);
   has_raw_ = has_raw_frames(first.arrays);
-  has_camera_ = !camera_.empty() || (first.arrays.meta().is_object() && first.arrays.meta().find("camera") != nullptr);
+  has_camera_ = !camera_.empty() || says_its_camera(first.recording);
   live_ = has_raw_ && has_camera_;
   if (!live_ && !set.empty())
     throw Error(ErrorKind::bad_input,
@@ -139,12 +151,12 @@ Recorded::Recorded(std::string path, std::string camera, std::string mode, const
   const Depth& depth = frame.depth;
   has_depth_ = !depth.z_m.empty() && !depth.range_m.empty() && !depth.points_m.empty() && !depth.noise_m.empty() && !depth.flags.empty();
   if (frame.raw.raw.empty() && frame.raw.tap_a.empty() && depth.z_m.empty() && frame.truth.z_m.empty())
-    throw Error(ErrorKind::bad_input, base::printable(files_[0]) +
+    throw Error(ErrorKind::bad_input, base::printable(file(0)) +
                                           ": error: there is nothing to show in it\n  expected z_m, raw or others of `tofray list arrays`");
 }
 
 Recorded::Read Recorded::read(std::uint64_t index) const {
-  run::Recording recording = run::read_recording(files_[index]);
+  run::Recording recording = film_ ? film_->frame(index) : run::read_recording(files_[index]);
   results::Arrays arrays(files::parse_npz(recording.bytes, recording.path), recording.path);
   return {std::move(recording), std::move(arrays)};
 }
@@ -157,8 +169,11 @@ run::Loaded Recorded::loaded(const Overrides& set) const {
     in = run::load_recording(read(0).recording, "raw", camera_with(set));
     in.kept.clear();
   } else {
-    in.files.push_back({"raw", files_[0], {}});
+    in.files.push_back({"raw", file(0), {}});
   }
+  if (film_ && !film_->complete())
+    in.remarks.push_back(
+        {true, path_, "the film ends early: its writer was stopped, or it was cut", "all up to its last whole chunk is played"});
   fs::path name = fs::path(path_).lexically_normal();
   if (!name.has_filename()) name = name.parent_path();
   in.scene.name = run::is_folder(path_) ? name.filename().native() : name.stem().native();
@@ -173,7 +188,7 @@ void Recorded::refuse_other_size(const Frame& frame, const std::string& file) co
   if (width_ > 0 && (width != width_ || height != height_))
     throw Error(ErrorKind::bad_input,
                 fmt::format("{}: error: its images have {} x {} pixels, those of {} {} x {}\n  expected frames of one camera in a folder",
-                            base::printable(file), width, height, base::printable(files_[0]), width_, height_));
+                            base::printable(file), width, height, base::printable(this->file(0)), width_, height_));
 }
 
 Frame Recorded::frame(std::uint64_t index, const Camera& camera, const SimulatorOptions& options) const {
@@ -184,7 +199,7 @@ Frame Recorded::frame(std::uint64_t index, const Camera& camera, const Simulator
   const bool computed = live_ && has_raw_frames(from.arrays);
   if (computed) frame = run::recorded_frame(from.recording, camera, wanted.noise);
   FrameReader(from.arrays, frame).read(!computed, !computed);
-  refuse_other_size(frame, files_[index]);
+  refuse_other_size(frame, file(index));
   if (computed) frame.depth = process(frame.raw, camera, wanted);
   frame.index = index;
   return frame;
@@ -198,7 +213,7 @@ std::vector<load::Control> Recorded::controls(const Overrides& set) const {
   else if (!camera_.empty())
     text = files::read_text(camera_);
   else
-    text = results::profile_of_meta(read(0).recording.meta, files_[0]), source = files_[0];
+    text = results::profile_of_meta(read(0).recording.meta, file(0)), source = file(0);
   std::vector<load::Control> out = load::camera_controls_of(text, source, {mode_, of_camera(set), {}});
   std::erase_if(out, [](const load::Control& one) { return !one.key.starts_with("camera.decoding."); });
   return out;
@@ -206,7 +221,8 @@ std::vector<load::Control> Recorded::controls(const Overrides& set) const {
 
 std::vector<std::string> Recorded::command(std::uint64_t index, const Overrides& set) const {
   if (!live_) return {};
-  std::vector<std::string> out{"tofray", "process", files_[index]};
+  std::vector<std::string> out{"tofray", "process", file(index)};
+  if (film_) out.insert(out.end(), {"--first-frame", std::to_string(film_->index_of(index)), "--frames", "1"});
   if (!camera_.empty()) out.insert(out.end(), {"--camera", camera_});
   if (!mode_.empty()) out.insert(out.end(), {"--mode", mode_});
   for (const auto& [key, text] : set) out.insert(out.end(), {"--set", key + "=" + text});

@@ -9,6 +9,7 @@
 
 #include "load/controls.h"
 #include "results/file_arrays.h"
+#include "run/mcap_recording.h"
 #include "run/recording.h"
 #include "tofray/frame.h"
 #include "view/control.h"
@@ -19,15 +20,15 @@ namespace tofray::view {
 /// computed of these as `tofray process` does it, and keys of the camera can be set.
 class Recorded {
  public:
-  /// @param path    a .npz file, or a folder of such, which are taken in the order of their names
+  /// @param path    a .npz file, a folder of such, which are taken in the order of their names, or a film
   /// @param camera  a profile that made them, and its mode; empty: what the files say
   /// @param set     of the first state, to be checked
   /// @throws Error where nothing can be shown
   Recorded(std::string path, std::string camera, std::string mode, const Overrides& set);
 
   [[nodiscard]] const std::string& path() const { return path_; }
-  [[nodiscard]] std::uint64_t count() const { return files_.size(); }
-  [[nodiscard]] const std::string& file(std::uint64_t index) const { return files_[index]; }
+  [[nodiscard]] std::uint64_t count() const { return film_ ? film_->count() : files_.size(); }
+  [[nodiscard]] const std::string& file(std::uint64_t index) const { return film_ ? path_ : files_[index]; }
   [[nodiscard]] int width() const { return width_; }
   [[nodiscard]] int height() const { return height_; }
   /// Whether depth is computed of raw frames.
@@ -58,6 +59,7 @@ class Recorded {
   [[nodiscard]] run::RecordingCamera camera_with(const Overrides& set) const;
 
   std::string path_, camera_, mode_;
+  std::unique_ptr<run::Film> film_;  ///< in the place of files
   std::vector<std::string> files_;
   int width_ = 0, height_ = 0;
   bool live_ = false, has_camera_ = false, has_raw_ = false, has_depth_ = false;
