@@ -10,7 +10,7 @@
 namespace tofray::test {
 namespace {
 
-const std::vector<std::string> commands = {"demo",   "render",      "process", "inspect", "preview",   "view",    "diff",
+const std::vector<std::string> commands = {"demo",   "render",      "process", "inspect", "preview",   "view",    "stream", "diff",
                                            "check",  "budget",      "sweep",   "dataset", "quality",   "compare", "list",
                                            "schema", "calibration", "doctor",  "bench",   "completion"};
 
