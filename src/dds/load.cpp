@@ -46,7 +46,7 @@ void* load_library(const fs::path& file) {
 std::vector<fs::path> usual_folders() {
   std::error_code failed;
   const fs::path here = fs::canonical("/proc/self/exe", failed).parent_path();
-  return {here, here / "../lib", here / "../lib" / TOFRAY_LIBRARY_ARCHITECTURE, here / "../lib64", here / "../..", here / ".."};
+  return {here, here / "../lib", here / "../lib" / TOFRAY_LIBRARY_ARCHITECTURE, here / "../lib64", here / "../.."};
 }
 
 }  // namespace

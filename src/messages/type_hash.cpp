@@ -17,10 +17,9 @@ namespace {
 // Numbers of type_description_interfaces/msg/FieldType; arrays and sequences add to them.
 constexpr int nested_id = 1, array_offset = 48, sequence_offset = 144;
 const std::map<std::string, int, std::less<>>& plain_ids() {
-  static const std::map<std::string, int, std::less<>> all = {{"int8", 2},    {"uint8", 3},    {"int16", 4},  {"uint16", 5},
-                                                              {"int32", 6},   {"uint32", 7},   {"int64", 8},  {"uint64", 9},
-                                                              {"float32", 10}, {"float64", 11}, {"bool", 15}, {"byte", 16},
-                                                              {"string", 17}};
+  static const std::map<std::string, int, std::less<>> all = {{"int8", 2},   {"uint8", 3}, {"int16", 4},  {"uint16", 5},   {"int32", 6},
+                                                              {"uint32", 7}, {"int64", 8}, {"uint64", 9}, {"float32", 10}, {"float64", 11},
+                                                              {"bool", 15},  {"byte", 16}, {"string", 17}};
   return all;
 }
 
@@ -37,9 +36,8 @@ std::string member_json(const std::string& type, const std::string& name, const 
   const bool sequence = size == "]", array = !size.empty() && !sequence;
   const auto plain = plain_ids().find(base);
   const int id = (plain != plain_ids().end() ? plain->second : nested_id) + (sequence ? sequence_offset : array ? array_offset : 0);
-  return fmt::format(
-      R"({{"name": "{}", "type": {{"type_id": {}, "capacity": {}, "string_capacity": 0, "nested_type_name": "{}"}}}})", name, id,
-      array ? std::stoi(size) : 0, plain != plain_ids().end() ? "" : full_name(base, package));
+  return fmt::format(R"({{"name": "{}", "type": {{"type_id": {}, "capacity": {}, "string_capacity": 0, "nested_type_name": "{}"}}}})", name,
+                     id, array ? std::stoi(size) : 0, plain != plain_ids().end() ? "" : full_name(base, package));
 }
 
 /// @param members  a line each: "uint8 OK=0", which is no member, or "float64 w 1"

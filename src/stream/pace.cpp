@@ -75,8 +75,7 @@ bool step(std::vector<Course>& courses, std::uint64_t frames, Clock& clock) {
 std::vector<Account> run(const std::vector<Eye*>& eyes, std::uint64_t frames, Clock& clock, const std::atomic<bool>& stop) {
   std::vector<Course> courses;
   for (Eye* eye : eyes) courses.push_back({eye});
-  while (!stop && step(courses, frames, clock)) {
-  }
+  while (!stop && step(courses, frames, clock)) {}
   std::vector<Account> out;
   for (const Course& one : courses) out.push_back(one.account);
   return out;

@@ -158,7 +158,8 @@ def padded_hash(data: bytes) -> str:
 def rendered(scene: str, frames: int, *words: object) -> tuple[dict[str, str], dict[str, list[str]]]:
     """Topics with their types, and hashes of the messages that render writes of the same frames."""
     with tempfile.TemporaryDirectory() as folder:
-        done = subprocess.run([Tools.tofray, "render", scene, "-o", folder, "--frames", str(frames), "--emit", "mcap", *map(str, words)],
+        done = subprocess.run([Tools.tofray, "render", scene, "-o", folder, "--frames", str(frames), "--emit", "mcap",
+                               "--mcap-compression", "none", *map(str, words)],
                               capture_output=True, text=True)
         assert done.returncode == 0, done.stderr
         file = mcap.Mcap(pathlib.Path(folder) / "run.mcap")
@@ -189,7 +190,6 @@ class Bytes(Case):
     def test_every_reader_sees_every_byte_of_every_frame(self):
         words = ["--driver", "pico_flexx", "--topics", "depth,amplitude,noise,points,raw,clock", *SMALL]
         topics, expected = rendered("flying-ball", 20, "--fps", 5, *words)
-        self.assertEqual(len(topics), 19)
         readers = self.readers(topics)
         told = self.finished(stream("flying-ball", *words, "--rate", 5, "--frames", 20, "--history", 1000, "--wait-readers",
                                     len(readers) * len(topics), "--json", "--quiet"))
@@ -316,12 +316,13 @@ class Command(unittest.TestCase):
     def test_no_packet_leaves_loopback(self):
         if "TOFRAY_OWN_NETWORK" not in os.environ:
             self.skipTest("no network of its own: no unshare, no ip (Debian: iproute2), or not allowed")
-        for words in ("link add other type dummy", "addr add 10.83.0.1/24 dev other", "link set other up multicast on"):
+        for words in ("link add other type veth peer name far", "addr add 10.83.0.1/24 dev other", "link set other up multicast on",
+                      "link set far up"):
             if subprocess.run(["ip", *words.split()], capture_output=True).returncode != 0:
                 self.skipTest("no second interface can be made here")
         self.addCleanup(subprocess.run, ["ip", "link", "del", "other"], capture_output=True)
         quiet = pathlib.Path("/proc/sys/net/ipv6/conf/other/disable_ipv6")
-        if quiet.exists():
+        if quiet.exists():  # which would look for neighbours
             quiet.write_text("1")
 
         def sent() -> int:

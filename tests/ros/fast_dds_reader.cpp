@@ -4,6 +4,9 @@
 // Says on stdout "ready"; then, of each writer that it finds, "writer TOPIC TYPE USER_DATA RELIABILITY DURABILITY", and, of each message,
 // "message TOPIC BYTES SHA256", of the bytes with zeros up to a multiple of 4; ends when its input ends, with "end". TOPIC and TYPE are
 // DDS's names. QOS is lasting (reliable, transient local) or sensor (best effort, volatile).
+#include <fastdds/rtps/transport/UDPv4TransportDescriptor.h>
+#include <openssl/evp.h>
+#include <unistd.h>
 #include <fastdds/dds/domain/DomainParticipant.hpp>
 #include <fastdds/dds/domain/DomainParticipantFactory.hpp>
 #include <fastdds/dds/domain/DomainParticipantListener.hpp>
@@ -12,9 +15,6 @@
 #include <fastdds/dds/subscriber/SampleInfo.hpp>
 #include <fastdds/dds/subscriber/Subscriber.hpp>
 #include <fastdds/dds/topic/TopicDataType.hpp>
-#include <fastdds/rtps/transport/UDPv4TransportDescriptor.h>
-#include <openssl/evp.h>
-#include <unistd.h>
 
 #include <cstdio>
 #include <cstdlib>
@@ -140,8 +140,7 @@ int main(int count, char** words) {
   }
   tell("ready");
   char rest[256];
-  while (::read(0, rest, sizeof rest) > 0) {
-  }
+  while (::read(0, rest, sizeof rest) > 0) {}
   participant->delete_contained_entities();
   factory->delete_participant(participant);
   tell("end");

@@ -183,11 +183,11 @@ std::vector<Command> make() {
            "place of loopback.\n"
            "--add-camera, once or more often for each name, is for several cameras of one scene: NAME is the first part of its topics, and "
            "KEY=VALUE is as of --set. Light of the others is not simulated (`interference` in the profile stands for it).\n",
-       .options = {"--to",        "--domain", "--interface",      "--qos",      "--history", "--rate",    "--latency",  "--drift",
-                   "--duration",  "--frames", "--first-frame",    "--wait-readers", "--add-camera", "--driver", "--topics",
-                   "--camera-name", "--stamp", "--epoch",         "--depth-encoding", "--amplitude-step", "--unorganized",
-                   "--set",       "--mode",   "--seed",           "--noise",    "--exposure-samples", "--subpixel", "--bounces",
-                   "--samples",   "--root",   "--threads",        "--backend",  "--device",  "--json",    "--quiet"},
+       .options = {"--to",      "--domain",      "--interface", "--qos",         "--history",          "--rate",           "--latency",
+                   "--drift",   "--duration",    "--frames",    "--first-frame", "--wait-readers",     "--add-camera",     "--driver",
+                   "--topics",  "--camera-name", "--stamp",     "--epoch",       "--depth-encoding",   "--amplitude-step", "--unorganized",
+                   "--set",     "--mode",        "--seed",      "--noise",       "--exposure-samples", "--subpixel",       "--bounces",
+                   "--samples", "--root",        "--threads",   "--backend",     "--device",           "--json",           "--quiet"},
        .least_words = 1,
        .most_words = 1,
        .run = run_stream,

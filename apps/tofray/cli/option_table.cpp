@@ -391,9 +391,9 @@ std::vector<OptionSpec> specs() {
 const std::vector<OptionSpec>& all_options() {
   static const std::vector<OptionSpec> all = [] {
     std::vector<OptionSpec> joined = specs();
-    for (const std::vector<OptionSpec>& more : {machine_specs(), message_specs(), bench_specs(), transient_specs(), preview_specs(),
-                                                view_specs(), budget_specs(), measuring_specs(), dataset_specs(), sweep_specs(),
-                                                stream_specs()})
+    for (const std::vector<OptionSpec>& more :
+         {machine_specs(), message_specs(), bench_specs(), transient_specs(), preview_specs(), view_specs(), budget_specs(),
+          measuring_specs(), dataset_specs(), sweep_specs(), stream_specs()})
       joined.insert(joined.end(), more.begin(), more.end());
     return joined;
   }();
@@ -416,8 +416,8 @@ struct Group {
 
 const std::vector<Group>& groups() {
   static const std::vector<Group> all = {
-      {"Scene and camera", {"--set",           "--mode", "--camera",   "--fps",          "--transient", "--first", "--width",
-                            "--factor",        "--at",   "--distance", "--reflectivity", "--ambient",   "--angle", "--temperature",
+      {"Scene and camera", {"--set",           "--mode", "--camera",   "--fps",          "--transient", "--first",      "--width",
+                            "--factor",        "--at",   "--distance", "--reflectivity", "--ambient",   "--angle",      "--temperature",
                             "--auto-exposure", "--need", "--solve",    "--vary",         "--sources",   "--add-camera", "--root"}},
       {"Depth",
        {"--region", "--as", "--truth", "--unit", "--intrinsics", "--quantity", "--shift", "--limit", "--metric", "--by-object", "--best"}},
@@ -428,8 +428,7 @@ const std::vector<Group>& groups() {
        {"--output", "--export", "--clean", "--emit", "--arrays", "--compress", "--raw", "--theme", "--scale", "--csv", "--json",
         "--quiet"}},
       {"Shards", {"--pilot", "--shard-samples", "--part", "--shards", "--recompute", "--partial", "--tasks", "--sbatch", "--print"}},
-      {"Stream",
-       {"--to", "--domain", "--interface", "--qos", "--history", "--latency", "--drift", "--wait-readers"}},
+      {"Stream", {"--to", "--domain", "--interface", "--qos", "--history", "--latency", "--drift", "--wait-readers"}},
       {"Messages of ROS 2 (render: with --emit mcap)",
        {"--driver", "--topics", "--camera-name", "--stamp", "--epoch", "--depth-encoding", "--amplitude-step", "--unorganized",
         "--mcap-compression"}},

@@ -12,16 +12,17 @@ namespace {
 
 double time_of(const char* option, const std::string& value, double high_s, const std::string& expected) {
   const base::Quantity time = base::parse_quantity(value, base::Dimension::time);
-  if (time.status != base::Quantity::Status::good || !(time.value >= 0 && time.value <= high_s)) refuse(option, value, expected);
+  if (time.status != base::Quantity::Status::good || !(time.value >= 0 && time.value <= high_s)) app::refuse(option, value, expected);
   return time.value;
 }
 
 void take_interface(Options& o, const std::string& value) {
   const auto good = [](char c) {
-    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || std::string_view(".:_-@").find(c) != std::string_view::npos;
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
+           std::string_view(".:_-@").find(c) != std::string_view::npos;
   };
   if (value.empty() || value.size() > 64 || !std::all_of(value.begin(), value.end(), good))
-    refuse("--interface", value, "a network interface's name or address, or auto, as in --interface eth0");
+    app::refuse("--interface", value, "a network interface's name or address, or auto, as in --interface eth0");
   o.stream.interface = value;
 }
 
@@ -34,7 +35,7 @@ void take_camera(Options& o, const std::string& value) {
   const std::size_t colon = value.find(':'), equals = value.find('=');
   const std::string name = value.substr(0, colon);
   if (name.empty() || (colon != std::string::npos && (equals == std::string::npos || equals <= colon + 1)))
-    refuse("--add-camera", value, "NAME or NAME:KEY=VALUE, as in --add-camera left:camera.pose.position=\"[-5cm,0,0]\"");
+    app::refuse("--add-camera", value, "NAME or NAME:KEY=VALUE, as in --add-camera left:camera.pose.position=\"[-5cm,0,0]\"");
   auto& all = o.stream.cameras;
   auto camera = std::find_if(all.begin(), all.end(), [&](const auto& one) { return one.first == name; });
   if (camera == all.end()) camera = all.insert(all.end(), {name, {}});
@@ -54,7 +55,9 @@ std::vector<OptionSpec> stream_specs() {
       {"--interface", 0, "NAME", "network interface, by name or address, or auto: other machines see it then (lo: this machine alone)",
        take_interface, "lo auto"},
       {"--qos", 0, "NAME", "compatible: reliable, transient local; sensor: best effort, volatile for images and clouds (compatible)",
-       [](Options& o, const std::string& v) { o.stream.sensor_qos = word_of("--qos", v, {"compatible", "sensor"}) == 1; },
+       [](Options& o, const std::string& v) {
+         o.stream.sensor_qos = word_of("--qos", v, {"compatible", "sensor"}) == 1;
+       },
        "compatible sensor"},
       {"--history", 0, "N", "messages of each topic that are kept for who is late or comes late (5; sensor: 2)",
        [](Options& o, const std::string& v) {
@@ -63,17 +66,17 @@ std::vector<OptionSpec> stream_specs() {
       {"--rate", 0, "F", "frames a second, in the place of the mode's",
        [](Options& o, const std::string& v) { take_frame_rate("--rate", o, v); }, "", false, "stream"},
       {"--latency", 0, "TIME", "how long after its readout a frame is sent (0s)",
-       [](Options& o, const std::string& v) { o.stream.latency_s = time_of("--latency", v, 60, "a time of 0 to 60 s, as in --latency 20ms"); }},
+       [](Options& o, const std::string& v) {
+         o.stream.latency_s = time_of("--latency", v, 60, "a time of 0 to 60 s, as in --latency 20ms");
+       }},
       {"--drift", 0, "PPM", "by how many millionths the camera's clock is fast, against this machine's (0)",
        [](Options& o, const std::string& v) {
          o.stream.drift = 1e-6 * number_of("--drift", v, -1e4, 1e4, "millionths, -10000 to 10000, as in --drift 75");
        }},
       {"--duration", 0, "TIME", "how long, in the camera's time (until Ctrl-C)",
-       [](Options& o, const std::string& v) {
-         o.stream.duration_s = time_of("--duration", v, 1e8, "a time, as in --duration 60s");
-       }},
-      {"--epoch", 0, "S", "seconds since 1970 at the simulation's time 0, or now: stamps are this machine's time at the start (0)", take_epoch,
-       "now", false, "stream"},
+       [](Options& o, const std::string& v) { o.stream.duration_s = time_of("--duration", v, 1e8, "a time, as in --duration 60s"); }},
+      {"--epoch", 0, "S", "seconds since 1970 at the simulation's time 0, or now: stamps are this machine's time at the start (0)",
+       take_epoch, "now", false, "stream"},
       {"--wait-readers", 0, "N", "begin once there are N subscriptions to its topics",
        [](Options& o, const std::string& v) {
          o.stream.readers = static_cast<int>(whole("--wait-readers", v, 0, 100'000, "a whole number of 0 to 100000"));

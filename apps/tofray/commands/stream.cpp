@@ -60,8 +60,8 @@ int domain_of(const Options& options) {
   int domain = -1;
   const auto read = std::from_chars(asked.data(), asked.data() + asked.size(), domain);
   if (read.ec != std::errc() || read.ptr != asked.data() + asked.size() || domain < 0 || domain > 232)
-    throw Error(ErrorKind::bad_input, fmt::format("error: ROS_DOMAIN_ID is {}\n  expected a whole number of 0 to 232, or --domain N",
-                                                  base::in_quotes(asked)));
+    throw Error(ErrorKind::bad_input,
+                fmt::format("error: ROS_DOMAIN_ID is {}\n  expected a whole number of 0 to 232, or --domain N", base::in_quotes(asked)));
   return domain;
 }
 
@@ -79,7 +79,7 @@ dds::Settings settings_of(const Options& options) {
 }
 
 std::string network_text(const dds::Settings& settings) {
-  const std::string where = !settings.config.empty()      ? "on the network of CYCLONEDDS_URI"
+  const std::string where = !settings.config.empty()     ? "on the network of CYCLONEDDS_URI"
                             : settings.interface == "lo" ? "on this machine alone"
                                                          : "on " + settings.interface + ", where other machines see it";
   return fmt::format("DDS domain {}, {}", settings.domain, where);
@@ -99,10 +99,9 @@ MessageOptions messages_of(const Options& options, const std::string& name) {
 void refuse_shared_frames(const Options& options) {
   const messages::Profile& profile = messages::profile_of(options.messages.driver);
   if (std::string_view(profile.frames.front()).find("{}") == std::string_view::npos)
-    throw Error(ErrorKind::bad_input,
-                fmt::format("error: the driver {} has one frame {} for all cameras, whatever they are called\n"
-                            "  expected another --driver with several cameras, as plain",
-                            profile.word, profile.frames.front()));
+    throw Error(ErrorKind::bad_input, fmt::format("error: the driver {} has one frame {} for all cameras, whatever they are called\n"
+                                                  "  expected another --driver with several cameras, as plain",
+                                                  profile.word, profile.frames.front()));
 }
 
 using Cameras = std::vector<std::unique_ptr<StreamedCamera>>;
@@ -120,8 +119,8 @@ Cameras load_cameras(const std::string& scene, const Options& options, FrameProg
     request.set.insert(request.set.end(), settings.begin(), settings.end());
     run::Loaded in = run::load(request);
     if (out.empty()) remarks.tell(in.remarks);
-    const Timing timing{options.first_frame, options.stream.latency_s, options.stream.drift};
-    out.push_back(std::make_unique<StreamedCamera>(std::move(in), messages_of(options, name), simulated, timing));
+    const Pacing pacing{options.first_frame, options.stream.latency_s, options.stream.drift};
+    out.push_back(std::make_unique<StreamedCamera>(std::move(in), messages_of(options, name), simulated, pacing));
   }
   return out;
 }
@@ -207,10 +206,10 @@ std::string course_text(const Course& course, const Cameras& cameras, const Outl
   std::string out;
   for (std::size_t i = 0; i < cameras.size(); ++i) {
     const stream::Account& account = course.accounts[i];
-    out += fmt::format("{}: {} frame{} in {:.1f} s, {} dropped; late by {:.1f} ms at most, by {:.1f} ms in 99 % of the frames\n",
-                       cameras[i]->options().name.empty() ? "camera" : cameras[i]->options().name, account.sent,
-                       account.sent == 1 ? "" : "s", course.seconds, account.dropped, in_ms(account.lateness.largest_s()),
-                       in_ms(account.lateness.quantile(0.99)));
+    out +=
+        fmt::format("{}: {} frame{} in {:.1f} s, {} dropped; late by {:.1f} ms at most, by {:.1f} ms in 99 % of the frames\n",
+                    cameras[i]->options().name.empty() ? "camera" : cameras[i]->options().name, account.sent, account.sent == 1 ? "" : "s",
+                    course.seconds, account.dropped, in_ms(account.lateness.largest_s()), in_ms(account.lateness.quantile(0.99)));
   }
   const double processors = course.seconds > 0 ? course.processor_s / course.seconds : 0;
   return out + fmt::format("{} messages, {:.1f} MB; {} subscription{} at the end; {:.2f} processors were busy\n", outlets.messages,
@@ -222,9 +221,10 @@ void tell_losses(const Course& course, const Outlets& outlets, Remarks& remarks)
   std::uint64_t sent = 0, dropped = 0;
   for (const stream::Account& one : course.accounts) sent += one.sent, dropped += one.dropped;
   if (dropped > 0)
-    remarks.tell(fmt::format("warning: {} of {} frames were dropped: they were not ready when the next ones were due\n  a lower --rate, "
-                             "fewer --topics or fewer pixels (camera.readout.binning) help\n",
-                             dropped, sent + dropped));
+    remarks.tell(
+        fmt::format("warning: {} of {} frames were dropped: they were not ready when the next ones were due\n  a lower --rate, "
+                    "fewer --topics or fewer pixels (camera.readout.binning) help\n",
+                    dropped, sent + dropped));
   if (outlets.refused > 0)
     remarks.tell(fmt::format("warning: {} messages were not sent: readers had not taken 64 MB before them\n", outlets.refused));
   if (!course.delivered) remarks.tell("warning: not all readers had all of the last messages when the stream ended\n");

@@ -38,11 +38,11 @@ void Outlets::send(const Topic& topic, const std::string& cdr) {
   ++messages, bytes += cdr.size();
 }
 
-StreamedCamera::StreamedCamera(run::Loaded in, const MessageOptions& messages, const SimulatorOptions& options, const Timing& timing)
+StreamedCamera::StreamedCamera(run::Loaded in, const MessageOptions& messages, const SimulatorOptions& options, const Pacing& pacing)
     : in_(std::move(in)),
       messages_(in_.scene, in_.camera, messages),
       simulator_(without_histograms(in_.scene), in_.camera, for_messages(options, messages_)),
-      timing_(timing) {}
+      pacing_(pacing) {}
 
 void StreamedCamera::offer(Outlets& outlets) {
   outlets_ = &outlets;
@@ -59,26 +59,26 @@ void StreamedCamera::simulate(std::uint64_t frame) {
 }
 
 void StreamedCamera::prepare() {
-  simulate(timing_.first_frame);
+  simulate(pacing_.first_frame);
   const Message first = messages_.of(frame_).front();
-  const double start_s = static_cast<double>(timing_.first_frame) / rate_hz();
+  const double start_s = static_cast<double>(pacing_.first_frame) / rate_hz();
   ready_s_ = 1e-9 * static_cast<double>(first.publish_ns) - messages_.options().epoch_s - start_s;
 }
 
 void StreamedCamera::begin(std::optional<double> epoch_s) {
   if (!epoch_s) return;
   MessageOptions options = messages_.options();
-  options.epoch_s = *epoch_s - static_cast<double>(timing_.first_frame) / rate_hz();
+  options.epoch_s = *epoch_s - static_cast<double>(pacing_.first_frame) / rate_hz();
   messages_ = Messages(in_.scene, in_.camera, options);
 }
 
 double StreamedCamera::due_s(std::uint64_t frame) const {
   const double by_its_clock = static_cast<double>(frame) / rate_hz() + ready_s_;
-  return by_its_clock / (1 + timing_.drift) + timing_.latency_s;
+  return by_its_clock / (1 + pacing_.drift) + pacing_.latency_s;
 }
 
 void StreamedCamera::make(std::uint64_t frame) {
-  simulate(timing_.first_frame + frame);
+  simulate(pacing_.first_frame + frame);
   messages_.of(frame_, in_.scene, made_);
 }
 

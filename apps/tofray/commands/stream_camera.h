@@ -36,7 +36,7 @@ class Outlets {
 };
 
 /// What of the camera's time becomes when.
-struct Timing {
+struct Pacing {
   std::uint64_t first_frame = 0;
   double latency_s = 0;
   double drift = 0;  ///< by how much the camera's clock is fast, as a share
@@ -46,7 +46,7 @@ struct Timing {
 class StreamedCamera : public stream::Eye {
  public:
   /// @throws Error as Simulator and Messages
-  StreamedCamera(run::Loaded in, const MessageOptions& messages, const SimulatorOptions& options, const Timing& timing);
+  StreamedCamera(run::Loaded in, const MessageOptions& messages, const SimulatorOptions& options, const Pacing& pacing);
 
   void offer(Outlets& outlets);
   /// Simulates the first frame, which may take longer than others.
@@ -69,7 +69,7 @@ class StreamedCamera : public stream::Eye {
   run::Loaded in_;
   Messages messages_;
   Simulator simulator_;
-  Timing timing_;
+  Pacing pacing_;
   Outlets* outlets_ = nullptr;
   bool owns_clock_ = true;  ///< of several cameras the first one sends /clock
   Frame frame_;

@@ -13,7 +13,7 @@ namespace {
 struct RawType : ddsi_sertype {};
 
 struct RawData : ddsi_serdata {
-  std::uint32_t size = 0;        ///< with the encapsulation, without the padding
+  std::uint32_t size = 0;         ///< with the encapsulation, without the padding
   std::unique_ptr<char[]> bytes;  ///< padded
 };
 
