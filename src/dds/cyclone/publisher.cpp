@@ -49,8 +49,8 @@ struct Qos {
   Qos& operator=(const Qos&) = delete;
 };
 
-/// Of a writer whose readers are behind. Another one than the 100 ms that are usual: Cyclone DDS tells others nothing of what is usual, and not
-/// all of them (npm's @foxglove/rtps) know what that is.
+/// Of a writer whose readers are behind. Another one than the 100 ms that are usual: Cyclone DDS tells others nothing of what is usual, and
+/// not all of them (npm's @foxglove/rtps) know what that is.
 constexpr dds_duration_t patience = DDS_MSECS(50);
 
 void set_quality(dds_qos_t* qos, bool lasting, int history) {
@@ -69,8 +69,8 @@ std::string interface_element(const std::string& name) {
   return "<NetworkInterface " + std::string(address ? "address" : "name") + "=\"" + name + "\"" + multicast + "/>";
 }
 
-/// On loopback others are found by multicast and, as ROS's nodes that stay on a machine do it, by knocking at the first ports; datagrams are
-/// as large as they can be. More than 64 MB that a reader has not taken hold a writer up.
+/// On loopback others are found by multicast and, as ROS's nodes that stay on a machine do it, by knocking at the first ports; datagrams
+/// are as large as they can be. More than 64 MB that a reader has not taken hold a writer up.
 std::string network_config(const Settings& settings) {
   if (!settings.config.empty()) return settings.config;
   const bool local = settings.interface == "lo";

@@ -7,8 +7,8 @@
 
 #include <string_view>
 
-/// Messages that are CDR already, for Cyclone DDS: a type without a key of which it knows the name alone, and whose data it hands on as they
-/// are. For writers: nothing is ever made of what comes from the network.
+/// Messages that are CDR already, for Cyclone DDS: a type without a key of which it knows the name alone, and whose data it hands on as
+/// they are. For writers: nothing is ever made of what comes from the network.
 namespace tofray::dds {
 
 /// @return owned by the topic that is made of it, or by ddsi_sertype_unref()
