@@ -27,6 +27,10 @@ set(packages tofray python)
 if(TARGET tofray_cuda)
   list(APPEND packages cuda)
 endif()
+if(TARGET tofray_dds_part)
+  list(APPEND packages dds)
+endif()
+set(name_of_dds tofray-dds)
 set(name_of_tofray tofray)
 set(name_of_python python3-tofray)
 set(name_of_cuda tofray-cuda)
@@ -61,7 +65,7 @@ endforeach()
 
 set(same_version "= ${PROJECT_VERSION}-1~${release}")
 set(CPACK_DEBIAN_TOFRAY_PACKAGE_SECTION science)
-set(CPACK_DEBIAN_TOFRAY_PACKAGE_SUGGESTS "python3-tofray, tofray-cuda, g++")
+set(CPACK_DEBIAN_TOFRAY_PACKAGE_SUGGESTS "python3-tofray, tofray-cuda, tofray-dds, g++")
 set(CPACK_DEBIAN_TOFRAY_DESCRIPTION "Simulator of indirect time-of-flight (PMD) 3D cameras
 A scene and a camera in, what the camera sees out: raw frames, depth, amplitude, confidence, and the ground truth. The command tofray,
 the C++ libraries with their headers and files for CMake and pkg-config, scenes and camera profiles.")
@@ -75,4 +79,8 @@ set(CPACK_DEBIAN_CUDA_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_CUDA_PACKAGE_DEPENDS "tofray (${same_version})")
 set(CPACK_DEBIAN_CUDA_DESCRIPTION "Simulator of indirect time-of-flight 3D cameras: code for NVIDIA GPUs
 The same frames, computed by a GPU. It takes NVIDIA's driver, and nothing else of CUDA.")
+set(CPACK_DEBIAN_DDS_PACKAGE_SECTION science)
+set(CPACK_DEBIAN_DDS_PACKAGE_DEPENDS "tofray (${same_version})")
+set(CPACK_DEBIAN_DDS_DESCRIPTION "Simulator of indirect time-of-flight 3D cameras: DDS
+With it the command tofray stream sends frames to ROS 2, by Eclipse Cyclone DDS.")
 include(CPack)

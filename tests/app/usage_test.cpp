@@ -10,9 +10,9 @@
 namespace tofray::test {
 namespace {
 
-const std::vector<std::string> commands = {"demo",   "render",      "process", "inspect", "preview",   "view",    "diff",
-                                           "check",  "budget",      "sweep",   "dataset", "quality",   "compare", "list",
-                                           "schema", "calibration", "doctor",  "bench",   "completion"};
+const std::vector<std::string> commands = {"demo", "render", "process",     "inspect", "preview", "view",      "stream",
+                                           "diff", "check",  "budget",      "sweep",   "dataset", "quality",   "compare",
+                                           "list", "schema", "calibration", "doctor",  "bench",   "completion"};
 
 TEST(help, comes_on_stdout_with_examples_first) {
   for (const Arguments& asked : {Arguments{"--help"}, Arguments{"help"}, Arguments{"-h"}}) {

@@ -56,6 +56,10 @@ FEW_FRAMES = "--frames 2"
 VIEW = "{{ timeout --preserve-status -s INT 3 {} || [[ $? == 5 ]]; }}"
 VIEW_EXPORT = "{{ {} || [[ $? == 5 ]]; }}"   # ends by itself
 
+# The same of a stream, in a build that speaks no DDS.
+STREAM = VIEW
+STREAM_BOUNDED = VIEW_EXPORT
+
 # Names in backticks that nothing in the source knows.
 UNKNOWN_NAMES = {
     "raduis": "misspelled on purpose",

@@ -138,6 +138,9 @@ class Document:
             if re.match(r"tofray view( |$)", line):
                 ends = "--export" in line
                 line = exceptions.VIEW_EXPORT.format(line) if ends else exceptions.VIEW.format(line if "--port" in line else line + " --port 0")
+            if re.match(r"tofray stream( |$)", line):
+                ends = re.search(r"--(frames|duration|help)\b", line)
+                line = (exceptions.STREAM_BOUNDED if ends else exceptions.STREAM).format(line)
             lines.append(line)
         return "\n".join(lines)
 

@@ -9,6 +9,7 @@
 #include <thread>
 
 #include "messages/parts.h"
+#include "messages/type_hash.h"
 #include "support/samples.h"
 #include "tofray/load.h"
 #include "tofray/simulator.h"
@@ -209,4 +210,29 @@ TEST(Messages, need_the_arrays_that_they_say) {
 #undef TOFRAY_KEEP
     EXPECT_NO_THROW((void)maker.of(frame)) << group;
   }
+}
+
+// As ROS 2's own packages have them from Iron on.
+TEST(type_hash, is_the_one_that_ros_has) {
+  const std::vector<std::pair<const char*, const char*>> published = {
+      {"sensor_msgs/msg/Image", "d31d41a9a4c4bc8eae9be757b0beed306564f7526c88ea6a4588fb9582527d47"},
+      {"sensor_msgs/msg/CameraInfo", "b3dfd68ff46c9d56c80fd3bd4ed22c7a4ddce8c8348f2f59c299e73118e7e275"},
+      {"sensor_msgs/msg/PointCloud2", "9198cabf7da3796ae6fe19c4cb3bdd3525492988c70522628af5daa124bae2b5"},
+      {"sensor_msgs/msg/RegionOfInterest", "ad16bcba5f9131dcdba6fbded19f726f5440e3c513b4fb586dd3027eeed8abb1"},
+      {"std_msgs/msg/Header", "f49fb3ae2cf070f793645ff749683ac6b06203e41c891e17701b1cb597ce6a01"},
+      {"std_msgs/msg/String", "df668c740482bbd48fb39d76a70dfd4bd59db1288021743503259e948f6b1a18"},
+      {"tf2_msgs/msg/TFMessage", "e369d0f05a23ae52508854b66f6aa0437f3449d652e8cbf22d5abe85d020f087"},
+      {"rosgraph_msgs/msg/Clock", "692f7a66e93a3c83e71765d033b60349ba68023a8c689a79e48078bcb5c58564"},
+      {"diagnostic_msgs/msg/DiagnosticArray", "5a8a36efb05fb25070fa0fb3810290c0e6cd4862b54a8fb975a1ee8dc55a333e"},
+  };
+  for (const auto& [type, sha256] : published) EXPECT_EQ(messages::type_hash(type), std::string("RIHS01_") + sha256) << type;
+}
+
+TEST(type_hash, is_of_a_description_that_one_can_read) {
+  EXPECT_EQ(messages::type_description_json("rosgraph_msgs/msg/Clock"),
+            R"({"type_description": {"type_name": "rosgraph_msgs/msg/Clock", "fields": [{"name": "clock", "type": )"
+            R"({"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "builtin_interfaces/msg/Time"}}]}, )"
+            R"("referenced_type_descriptions": [{"type_name": "builtin_interfaces/msg/Time", "fields": [{"name": "sec", "type": )"
+            R"({"type_id": 6, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "nanosec", "type": )"
+            R"({"type_id": 7, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}]}]})");
 }

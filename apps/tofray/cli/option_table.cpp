@@ -28,15 +28,6 @@ void take_set(Options& o, const std::string& value) {
   o.set.emplace_back(value.substr(0, equals), value.substr(equals + 1));
 }
 
-void take_frame_rate(Options& o, const std::string& value) {
-  double number = 0;
-  const char* const end = value.data() + value.size();
-  const auto read = std::from_chars(value.data(), end, number);
-  if (read.ec != std::errc() || read.ptr != end || !(number >= 1e-4 && number <= 1e5))
-    refuse("--fps", value, "frames per second, a number of 0.0001 to 100000");
-  o.set.emplace_back("camera.frame_rate", value + " Hz");
-}
-
 void take_factor(Options& o, const std::string& value) {
   double number = 0;
   const char* const end = value.data() + value.size();
@@ -363,7 +354,8 @@ std::vector<OptionSpec> specs() {
          if (goes_on) o.set.emplace_back("transport.max_samples", "1024");
        },
        "auto"},
-      {"--fps", 0, "F", "frames per second, in place of the mode's: as --set camera.frame_rate='F Hz'", take_frame_rate},
+      {"--fps", 0, "F", "frames per second, in place of the mode's: as --set camera.frame_rate='F Hz'",
+       [](Options& o, const std::string& v) { take_frame_rate("--fps", o, v); }},
       {"--frames", 0, "N", "how many frames",
        [](Options& o, const std::string& v) { o.frames = whole("--frames", v, 1, most_frames, "a whole number of 1 to 1000000000"); }},
       {"--first-frame", 0, "I", "number of the first frame: a part of a longer run (0)",
@@ -401,8 +393,9 @@ std::vector<OptionSpec> specs() {
 const std::vector<OptionSpec>& all_options() {
   static const std::vector<OptionSpec> all = [] {
     std::vector<OptionSpec> joined = specs();
-    for (const std::vector<OptionSpec>& more : {machine_specs(), message_specs(), bench_specs(), transient_specs(), preview_specs(),
-                                                view_specs(), budget_specs(), measuring_specs(), dataset_specs(), sweep_specs()})
+    for (const std::vector<OptionSpec>& more :
+         {machine_specs(), message_specs(), bench_specs(), transient_specs(), preview_specs(), view_specs(), budget_specs(),
+          measuring_specs(), dataset_specs(), sweep_specs(), stream_specs()})
       joined.insert(joined.end(), more.begin(), more.end());
     return joined;
   }();
@@ -425,19 +418,20 @@ struct Group {
 
 const std::vector<Group>& groups() {
   static const std::vector<Group> all = {
-      {"Scene and camera", {"--set",           "--mode", "--camera",   "--fps",          "--transient", "--first", "--width",
-                            "--factor",        "--at",   "--distance", "--reflectivity", "--ambient",   "--angle", "--temperature",
-                            "--auto-exposure", "--need", "--solve",    "--vary",         "--sources",   "--root"}},
+      {"Scene and camera", {"--set",           "--mode", "--camera",   "--fps",          "--transient", "--first",      "--width",
+                            "--factor",        "--at",   "--distance", "--reflectivity", "--ambient",   "--angle",      "--temperature",
+                            "--auto-exposure", "--need", "--solve",    "--vary",         "--sources",   "--add-camera", "--root"}},
       {"Depth",
        {"--region", "--as", "--truth", "--unit", "--intrinsics", "--quantity", "--shift", "--limit", "--metric", "--by-object", "--best"}},
       {"Simulation", {"--seed", "--noise", "--exposure-samples", "--subpixel", "--bounces", "--samples"}},
       {"Measuring", {"--warmup", "--compare", "--batch", "--stage", "--block-size"}},
-      {"Frames", {"--frames", "--first-frame", "--repeat", "--from", "--pixel", "--plan"}},
+      {"Frames", {"--frames", "--duration", "--first-frame", "--repeat", "--from", "--pixel", "--plan"}},
       {"Output",
        {"--output", "--export", "--clean", "--emit", "--arrays", "--compress", "--raw", "--theme", "--scale", "--csv", "--json",
         "--quiet"}},
       {"Shards", {"--pilot", "--shard-samples", "--part", "--shards", "--recompute", "--partial", "--tasks", "--sbatch", "--print"}},
-      {"With --emit mcap",
+      {"Stream", {"--to", "--domain", "--interface", "--qos", "--history", "--latency", "--drift", "--wait-readers"}},
+      {"Messages of ROS 2 (render: with --emit mcap)",
        {"--driver", "--topics", "--camera-name", "--stamp", "--epoch", "--depth-encoding", "--amplitude-step", "--unorganized",
         "--mcap-compression"}},
       {"Viewer", {"--port", "--host", "--allow-host", "--open", "--beside", "--embed", "--end-with-input", "--rate", "--test-hooks"}},

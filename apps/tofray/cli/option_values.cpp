@@ -33,6 +33,15 @@ double length_of(const char* option, const std::string& value, double low, doubl
   return length.value;
 }
 
+void take_frame_rate(const char* option, Options& o, const std::string& value) {
+  double number = 0;
+  const char* const end = value.data() + value.size();
+  const auto read = std::from_chars(value.data(), end, number);
+  if (read.ec != std::errc() || read.ptr != end || !(number >= 1e-4 && number <= 1e5))
+    refuse(option, value, "frames per second, a number of 0.0001 to 100000");
+  o.set.emplace_back("camera.frame_rate", value + " Hz");
+}
+
 std::vector<std::string> split(const std::string& text, char at) {
   std::vector<std::string> parts;
   for (std::size_t from = 0; from <= text.size();) {

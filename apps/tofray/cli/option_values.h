@@ -27,6 +27,9 @@ std::size_t word_of(const char* option, const std::string& value, const std::vec
 
 double number_of(const char* option, const std::string& value, double low, double high, const std::string& expected);
 
+/// Frames per second, 0.0001 to 100000.
+void take_frame_rate(const char* option, Options& o, const std::string& value);
+
 /// Distances as --at and --distance take them.
 void add_distances(const char* name, Options& o, const std::string& value);
 
@@ -50,5 +53,6 @@ std::vector<OptionSpec> message_specs();
 std::vector<OptionSpec> measuring_specs();
 std::vector<OptionSpec> dataset_specs();
 std::vector<OptionSpec> sweep_specs();
+std::vector<OptionSpec> stream_specs();
 
 }  // namespace tofray::app

@@ -69,6 +69,18 @@ struct Options {
     std::vector<std::string> allowed_hosts;
     bool open = false, embed = false, end_with_input = false, test_hooks = false;
   } view;  ///< of `tofray view`
+  struct Stream {
+    std::optional<int> domain;
+    std::string interface;  ///< empty: loopback
+    bool sensor_qos = false;
+    std::optional<int> history;
+    double latency_s = 0, drift = 0;  ///< drift: by how much the camera's clock is fast, as a share
+    bool epoch_now = false;
+    std::optional<double> duration_s;
+    int readers = 0;
+    /// --add-camera: names, and what is set of each, in order.
+    std::vector<std::pair<std::string, std::vector<std::pair<std::string, std::string>>>> cameras;
+  } stream;  ///< of `tofray stream`
   struct Shards {
     std::uint64_t part = 0, parts = 1;
     std::vector<std::uint64_t> list;

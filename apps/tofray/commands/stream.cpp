@@ -1,0 +1,267 @@
+// SPDX-FileCopyrightText: 2026 The tofray authors
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/core.h>
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <charconv>
+#include <chrono>
+#include <cmath>
+#include <cstdlib>
+#include <memory>
+#include <thread>
+
+#include "base/text.h"
+#include "cli/commands.h"
+#include "cli/console.h"
+#include "cli/remarks.h"
+#include "cli/requests.h"
+#include "commands/results.h"
+#include "commands/stream_camera.h"
+#include "dds/load.h"
+#include "messages/topics.h"
+#include "run/input_kind.h"
+#include "tofray/error.h"
+
+namespace tofray::app {
+
+namespace {
+
+using Steady = std::chrono::steady_clock;
+constexpr std::chrono::milliseconds moment(20);  // after which Ctrl-C is looked for
+
+class MachineClock : public stream::Clock {
+ public:
+  double now_s() override { return std::chrono::duration<double>(Steady::now() - start_).count(); }
+  void wait_until(double time_s) override {
+    const auto at = start_ + std::chrono::duration_cast<Steady::duration>(std::chrono::duration<double>(time_s));
+    std::this_thread::sleep_until(std::min(at, Steady::now() + moment));
+  }
+
+ private:
+  Steady::time_point start_ = Steady::now();
+};
+
+double processor_time_s() {
+  rusage used{};
+  ::getrusage(RUSAGE_SELF, &used);
+  const auto seconds = [](const timeval& time) { return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec); };
+  return seconds(used.ru_utime) + seconds(used.ru_stime);
+}
+
+std::string environment(const char* name) {
+  const char* value = std::getenv(name);
+  return value != nullptr ? value : "";
+}
+
+int domain_of(const Options& options) {
+  const std::string asked = environment("ROS_DOMAIN_ID");
+  if (options.stream.domain || asked.empty()) return options.stream.domain.value_or(0);
+  int domain = -1;
+  const auto read = std::from_chars(asked.data(), asked.data() + asked.size(), domain);
+  if (read.ec != std::errc() || read.ptr != asked.data() + asked.size() || domain < 0 || domain > 232)
+    throw Error(ErrorKind::bad_input,
+                fmt::format("error: ROS_DOMAIN_ID is {}\n  expected a whole number of 0 to 232, or --domain N", base::in_quotes(asked)));
+  return domain;
+}
+
+dds::Settings settings_of(const Options& options) {
+  constexpr int usual = 5, usual_of_sensors = 2;  // for who is late
+  dds::Settings out;
+  out.domain = domain_of(options);
+  if (!options.stream.interface.empty())
+    out.interface = options.stream.interface;
+  else
+    out.config = environment("CYCLONEDDS_URI");
+  const auto cameras = static_cast<int>(options.stream.cameras.size());
+  out.history = std::max(options.stream.history.value_or(options.stream.sensor_qos ? usual_of_sensors : usual), cameras);  // of /tf_static
+  return out;
+}
+
+std::string network_text(const dds::Settings& settings) {
+  const std::string where = !settings.config.empty()     ? "on the network of CYCLONEDDS_URI"
+                            : settings.interface == "lo" ? "on this machine alone"
+                                                         : "on " + settings.interface + ", where other machines see it";
+  return fmt::format("DDS domain {}, {}", settings.domain, where);
+}
+
+/// Topics unless asked: what drivers send, and the time.
+MessageOptions messages_of(const Options& options, const std::string& name) {
+  MessageOptions out = options.messages;
+  if (!name.empty()) out.name = name;
+  if (!out.topics.empty()) return out;
+  out.topics = messages::usual_groups(out.driver);
+  std::erase(out.topics, "raw");
+  out.topics.emplace_back("clock");
+  return out;
+}
+
+void refuse_shared_frames(const Options& options) {
+  const messages::Profile& profile = messages::profile_of(options.messages.driver);
+  if (std::string_view(profile.frames.front()).find("{}") == std::string_view::npos)
+    throw Error(ErrorKind::bad_input, fmt::format("error: the driver {} has one frame {} for all cameras, whatever they are called\n"
+                                                  "  expected another --driver with several cameras, as plain",
+                                                  profile.word, profile.frames.front()));
+}
+
+using Cameras = std::vector<std::unique_ptr<StreamedCamera>>;
+
+/// The scene once for each camera; what is odd about it is told once.
+Cameras load_cameras(const std::string& scene, const Options& options, FrameProgress& now, Remarks& remarks) {
+  auto wanted = options.stream.cameras;
+  if (wanted.size() > 1) refuse_shared_frames(options);
+  if (wanted.empty()) wanted.emplace_back();
+  Cameras out;
+  SimulatorOptions simulated = simulator_options(options);
+  simulated.progress = &now;
+  for (const auto& [name, settings] : wanted) {
+    InputRequest request = input_request(scene, options);
+    request.set.insert(request.set.end(), settings.begin(), settings.end());
+    run::Loaded in = run::load(request);
+    if (out.empty()) remarks.tell(in.remarks);
+    const Pacing pacing{options.first_frame, options.stream.latency_s, options.stream.drift};
+    out.push_back(std::make_unique<StreamedCamera>(std::move(in), messages_of(options, name), simulated, pacing));
+  }
+  return out;
+}
+
+/// 0: without end.
+std::uint64_t frames_of(const Options& options, const Cameras& cameras) {
+  if (!options.stream.duration_s) return options.frames.value_or(0);
+  if (options.frames) throw Error(ErrorKind::bad_input, "error: --frames and --duration both say how long\n  expected one of them");
+  const double frames = std::floor(*options.stream.duration_s * cameras.front()->rate_hz() + 1e-6);
+  return std::max<std::uint64_t>(static_cast<std::uint64_t>(frames), 1);
+}
+
+/// How a stream went.
+struct Course {
+  std::vector<stream::Account> accounts;
+  double seconds = 0, processor_s = 0;
+  bool delivered = true;
+  int readers = 0;  ///< subscriptions at the end
+};
+
+/// @return whether they came
+bool wait_for_readers(dds::Publisher& publisher, int readers, const std::atomic<bool>& stop) {
+  while (!stop && publisher.readers() < readers) std::this_thread::sleep_for(moment);
+  return !stop;
+}
+
+double host_time_s() { return std::chrono::duration<double>(std::chrono::system_clock::now().time_since_epoch()).count(); }
+
+Course stream_all(const Cameras& cameras, dds::Publisher& publisher, const Options& options, const std::atomic<bool>& stop) {
+  Course out;
+  std::vector<stream::Eye*> eyes;
+  for (const auto& camera : cameras) camera->prepare(), eyes.push_back(camera.get());
+  if (!wait_for_readers(publisher, options.stream.readers, stop)) {
+    out.accounts.resize(cameras.size());
+    return out;
+  }
+  MachineClock clock;
+  const double epoch_s = host_time_s(), before_s = processor_time_s();
+  for (const auto& camera : cameras) camera->begin(options.stream.epoch_now ? std::optional(epoch_s) : std::nullopt);
+  out.accounts = stream::run(eyes, frames_of(options, cameras), clock, stop);
+  out.seconds = clock.now_s(), out.processor_s = processor_time_s() - before_s;
+  out.readers = publisher.readers();
+  constexpr double at_most_s = 5, interrupted_s = 0.3;
+  out.delivered = publisher.delivered(stop ? interrupted_s : at_most_s);
+  return out;
+}
+
+double in_ms(double seconds) { return std::round(1e5 * seconds) / 100; }
+
+files::Json camera_json(const StreamedCamera& camera, const stream::Account& account) {
+  return files::Json::object()
+      .set("name", camera.options().name)
+      .set("camera", camera.inputs().camera.name)
+      .set("mode", camera.inputs().camera.mode.name)
+      .set("rate_hz", camera.rate_hz())
+      .set("sent", account.sent)
+      .set("dropped", account.dropped)
+      .set("late_p50_ms", in_ms(account.lateness.quantile(0.5)))
+      .set("late_p99_ms", in_ms(account.lateness.quantile(0.99)))
+      .set("late_max_ms", in_ms(account.lateness.largest_s()));
+}
+
+files::Json course_json(const Course& course, const Cameras& cameras, const Outlets& outlets, const dds::Settings& settings) {
+  files::Json all = files::Json::array(), topics = files::Json::object();
+  for (std::size_t i = 0; i < cameras.size(); ++i) all.push(camera_json(*cameras[i], course.accounts[i]));
+  for (const auto& [name, type] : outlets.types()) topics.set(name, type);
+  return files::Json::object()
+      .set("scene", cameras.front()->inputs().scene.name)
+      .set("domain", settings.domain)
+      .set("interface", settings.config.empty() ? settings.interface : "CYCLONEDDS_URI")
+      .set("cameras", std::move(all))
+      .set("topics", std::move(topics))
+      .set("messages", outlets.messages)
+      .set("bytes", outlets.bytes)
+      .set("not_sent", outlets.refused)
+      .set("readers", course.readers)
+      .set("delivered", course.delivered)
+      .set("seconds", course.seconds)
+      .set("processor_s", course.processor_s);
+}
+
+std::string course_text(const Course& course, const Cameras& cameras, const Outlets& outlets) {
+  std::string out;
+  for (std::size_t i = 0; i < cameras.size(); ++i) {
+    const stream::Account& account = course.accounts[i];
+    out +=
+        fmt::format("{}: {} frame{} in {:.1f} s, {} dropped; late by {:.1f} ms at most, by {:.1f} ms in 99 % of the frames\n",
+                    cameras[i]->options().name.empty() ? "camera" : cameras[i]->options().name, account.sent, account.sent == 1 ? "" : "s",
+                    course.seconds, account.dropped, in_ms(account.lateness.largest_s()), in_ms(account.lateness.quantile(0.99)));
+  }
+  const double processors = course.seconds > 0 ? course.processor_s / course.seconds : 0;
+  return out + fmt::format("{} messages, {:.1f} MB; {} subscription{} at the end; {:.2f} processors were busy\n", outlets.messages,
+                           1e-6 * static_cast<double>(outlets.bytes), course.readers, course.readers == 1 ? "" : "s", processors);
+}
+
+/// What did not go as it should.
+void tell_losses(const Course& course, const Outlets& outlets, Remarks& remarks) {
+  std::uint64_t sent = 0, dropped = 0;
+  for (const stream::Account& one : course.accounts) sent += one.sent, dropped += one.dropped;
+  if (dropped > 0)
+    remarks.tell(
+        fmt::format("warning: {} of {} frames were dropped: they were not ready when the next ones were due\n  a lower --rate, "
+                    "fewer --topics or fewer pixels (camera.readout.binning) help\n",
+                    dropped, sent + dropped));
+  if (outlets.refused > 0)
+    remarks.tell(fmt::format("warning: {} messages were not sent: readers had not taken 64 MB before them\n", outlets.refused));
+  if (!course.delivered) remarks.tell("warning: not all readers had all of the last messages when the stream ended\n");
+}
+
+std::string beginning_text(const Outlets& outlets, const dds::Settings& settings, const Options& options) {
+  std::string out = fmt::format("{}; {} topics:", network_text(settings), outlets.types().size());
+  for (const auto& [name, type] : outlets.types()) out += " " + name;
+  out += options.stream.readers > 0 ? fmt::format("\n  begins once there are {} subscriptions\n", options.stream.readers) : "\n";
+  return out + (options.frames || options.stream.duration_s ? "" : "  Ctrl-C ends it\n");
+}
+
+}  // namespace
+
+int run_stream(const Options& options) {
+  Remarks remarks;
+  const dds::Settings settings = settings_of(options);
+  const std::unique_ptr<dds::Publisher> publisher = dds::open_publisher(settings);
+  const NameChoice chosen = choose_scene(options.words[0]);
+  remarks.tell(run::note_of(chosen));
+  FrameProgress now;
+  const Cameras cameras = load_cameras(chosen.name, options, now, remarks);
+  say_fallback(options, cameras.front()->ran_on(), remarks);
+  const bool bounded = frames_of(options, cameras) > 0;
+  Outlets outlets(*publisher, options.stream.sensor_qos);
+  for (const auto& camera : cameras) camera->offer(outlets);
+  const Talk talk(options.quiet);
+  talk(beginning_text(outlets, settings, options));
+  const StopRequest stop(&now.stop);
+  const Course course = stream_all(cameras, *publisher, options, now.stop);
+  tell_losses(course, outlets, remarks);
+  const bool interrupted = stop.signal() != 0 && bounded;
+  if (options.json)
+    print(files::json_text(remarks.put(course_json(course, cameras, outlets, settings).set("interrupted", interrupted)), 2) + "\n");
+  else
+    talk(course_text(course, cameras, outlets));
+  return interrupted ? 128 + stop.signal() : 0;
+}
+
+}  // namespace tofray::app
